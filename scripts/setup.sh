@@ -1,0 +1,33 @@
+#!/usr/bin/env bash
+# Installs what building, testing and running mien need, from Debian's packages.
+# usage: scripts/setup.sh [build] [test] [demo] [train]     (default: build test demo)
+# As root or with sudo; does nothing when everything is there already.
+set -euo pipefail
+
+declare -A PACKAGES=(
+  [build]="g++ cmake ninja-build libcli11-dev nlohmann-json3-dev"
+  [test]="libgtest-dev libgmock-dev clang clang-format clang-tidy libclang-rt-dev python3 python3-numpy ffmpeg binutils git"
+  [demo]="ffmpeg python3"
+  [train]="python3-torch python3-torchvision python3-opencv python3-scipy python3-pil python3-matplotlib python3-tqdm espeak-ng ffmpeg"
+)
+
+wanted=("$@")
+[ $# -gt 0 ] || wanted=(build test demo)
+missing=()
+for group in "${wanted[@]}"; do
+  [ -n "${PACKAGES[$group]:-}" ] || { echo "setup.sh: unknown group '$group'" >&2; exit 2; }
+  for package in ${PACKAGES[$group]}; do
+    dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q "ok installed" || missing+=("$package")
+  done
+done
+[ ${#missing[@]} -gt 0 ] || exit 0
+
+if ! command -v apt-get >/dev/null; then
+  echo "setup.sh: no apt-get here; please install: ${missing[*]}" >&2
+  exit 1
+fi
+as_root=()
+[ "$(id -u)" -eq 0 ] || as_root=(sudo)
+echo "installing: ${missing[*]}"
+"${as_root[@]}" apt-get update -qq
+DEBIAN_FRONTEND=noninteractive "${as_root[@]}" apt-get install -y -qq --no-install-recommends "${missing[@]}"

@@ -1,0 +1,32 @@
+#!/usr/bin/env bash
+# Builds mien and passes all its tests, on a fresh Debian machine too.
+# usage: scripts/test.sh [--quick]      --quick: Release with gcc only, no sanitizers, no linters
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+quick=0
+[ "${1:-}" != "--quick" ] || quick=1
+
+scripts/setup.sh build test
+
+build_and_test() {  # preset
+  echo "== $1"
+  cmake --preset "$1" >/dev/null
+  cmake --build --preset "$1"
+  ctest --preset "$1" -j "$(nproc)"
+}
+
+scripts/check_layering.sh
+if [ $quick -eq 0 ]; then
+  scripts/check_format.sh
+  build_and_test asan-ubsan
+  echo "== clang (warnings)"
+  cmake --preset clang >/dev/null
+  cmake --build --preset clang
+fi
+build_and_test release
+scripts/check_symbols.sh build/release
+if [ $quick -eq 0 ]; then
+  scripts/check_tidy.sh build/clang
+fi
+ctest --preset release -N | tail -1
