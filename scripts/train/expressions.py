@@ -206,7 +206,8 @@ def legalise(c):
         opposites += [("eyeLookIn" + side, "eyeLookOut" + side), ("eyeLookUp" + side, "eyeLookDown" + side),
                       ("mouthSmile" + side, "mouthFrown" + side), ("eyeWide" + side, "eyeSquint" + side)]
         weaken(c, ["eyeWide" + side], 1 - get("eyeBlink" + side))
-        weaken(c, ["eyeLookDown" + side], 1 - 0.85 * get("eyeBlink" + side))  # the rig's looks down with its lid
+        # The rig closes the lid when it looks down: both at once would close it twice.
+        weaken(c, ["eyeLookDown" + side], 1 - 0.85 * get("eyeBlink" + side))
         weaken(c, ["browOuterUp" + side], 1 - 0.6 * get("browDown" + side))
     for a, b in opposites:
         common = np.minimum(get(a), get(b))
@@ -222,7 +223,8 @@ def legalise(c):
     out = np.clip(tongue / 0.1, 0, 1)
     c[..., INDEX["tongueOut"]] = tongue
     c[..., INDEX["jawOpen"]] -= out * np.maximum(get("jawOpen") - 0.9, 0)
-    weaken(c, ("mouthClose", "mouthRollLower", "mouthRollUpper", "mouthPucker", "mouthShrugLower"), 1 - 0.9 * out)
+    weaken(c, ("mouthClose", "mouthRollLower", "mouthRollUpper", "mouthPucker", "mouthShrugLower"),
+           1 - 0.9 * out)
     c[..., INDEX["mouthClose"]] = np.minimum(get("mouthClose"), get("jawOpen"))
     return np.clip(c, 0, 1).astype(np.float32)
 
@@ -287,7 +289,8 @@ def blinks(rng, frames, fps):
         lid = np.concatenate([min_jerk(rng.integers(2, 5)), np.ones(held), 1 - min_jerk(rng.integers(3, 7))])
         end = min(frames, at + len(lid))
         depth = rng.uniform(0.85, 1) if rng.random() < 0.85 else rng.uniform(0.3, 0.85)
-        gains = [(1, 0.02), (0.02, 1)][rng.integers(2)] if rng.random() < 0.12 else 1 - rng.uniform(0, 0.05, 2)
+        wink = rng.random() < 0.12
+        gains = [(1, 0.02), (0.02, 1)][rng.integers(2)] if wink else 1 - rng.uniform(0, 0.05, 2)
         for side, gain in zip(("Left", "Right"), gains):
             curve[at:end, INDEX["eyeBlink" + side]] = depth * gain * lid[:end - at]
         at = end + int(rng.uniform(0.3, 1) * fps if rng.random() < 0.2 else rng.uniform(1, 6) * fps)
@@ -295,11 +298,12 @@ def blinks(rng, frames, fps):
 
 
 def micro_motion(rng, frames):
-    """Slow tremor, standard deviation about 0.01, on every control."""
-    noise = rng.normal(size=(frames + 8, len(CONTROLS)))
-    window = np.hanning(9) / np.sqrt((np.hanning(9) ** 2).sum())
-    smooth = np.stack([np.convolve(noise[:, i], window, "valid") for i in range(noise.shape[1])], 1)
-    return (0.01 * smooth).astype(np.float32)
+    """Slow tremor, standard deviation 0.005, on every control."""
+    window = np.hanning(17)[1:-1]
+    window /= np.sqrt((window ** 2).sum())
+    noise = rng.normal(size=(frames + len(window) - 1, len(CONTROLS)))
+    smooth = [np.convolve(column, window, "valid") for column in noise.T]
+    return (0.005 * np.stack(smooth, 1)).astype(np.float32)
 
 
 @functools.lru_cache(maxsize=1)
@@ -313,7 +317,7 @@ def recorded_clips():
     names = [str(n) for n in data["blendshape_names"]]
     table = np.zeros((len(data["blendshapes"]), len(CONTROLS)), np.float32)
     for i, name in enumerate(CONTROLS):
-        if name in names and not name.startswith(("cheek", "noseSneer", "jawForward")):  # never move in the source
+        if name in names and not name.startswith(("cheek", "noseSneer", "jawForward")):  # dead in the source
             table[:, i] = data["blendshapes"][:, names.index(name)]
     for name in both("eyeSquint"):  # rests at 0.35 in the source
         table[:, INDEX[name]] = np.maximum(table[:, INDEX[name]] - 0.4, 0) / 0.6
