@@ -1,0 +1,67 @@
+#!/usr/bin/env python3
+"""The metrics of the evaluation, one definition for every script. Run as a program it tests itself.
+
+Curves are [frames, controls] of one uninterrupted stream; several streams are given as [streams, frames, controls].
+"""
+import numpy as np
+
+
+def facs_error(predicted, truth):
+    """Mean absolute difference to the truth."""
+    return float(np.abs(predicted - truth).mean())
+
+
+def jitter(curves):
+    """Sum of |first difference| where its sign differs from the previous frame's, over frames and controls."""
+    step = np.diff(curves, axis=-2)
+    turned = np.sign(step[..., 1:, :]) != np.sign(step[..., :-1, :])
+    return float((np.abs(step[..., 1:, :]) * turned).sum() / curves.size)
+
+
+def constant_errors(truth):
+    """FACS error of answering each control's mean, and its median (the best constant there is)."""
+    flat = truth.reshape(-1, truth.shape[-1])
+    return {"mean": facs_error(flat.mean(0), flat), "median": facs_error(np.median(flat, 0), flat)}
+
+
+def correlations(predicted, truth, weight=None):
+    """Pearson correlation of every control [c]; NaN where the truth or the prediction is constant."""
+    p, t = (a.reshape(-1, a.shape[-1]).astype(np.float64) for a in (predicted, truth))
+    w = np.ones_like(t) if weight is None else weight.reshape(t.shape).astype(np.float64)
+    w = w / np.maximum(w.sum(0), 1e-9)
+    p, t = p - (w * p).sum(0), t - (w * t).sum(0)
+    spread = np.sqrt((w * p * p).sum(0) * (w * t * t).sum(0))
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return np.where(spread > 1e-9, (w * p * t).sum(0) / spread, np.nan)
+
+
+def asymmetry(curves, pairs):
+    """Mean |left - right| over (left, right) index pairs; meant for symmetric expressions."""
+    left, right = np.array(pairs).T
+    return float(np.abs(curves[..., left] - curves[..., right]).mean())
+
+
+def point_error(predicted, truth, scale):
+    """Mean point distance of every frame over a length: predicted, truth [n,p,2], scale [n] -> [n]."""
+    return np.linalg.norm(predicted - truth, axis=-1).mean(-1) / scale
+
+
+def self_test():
+    still = np.zeros((1, 6, 1))
+    assert jitter(still) == 0
+    ramp = np.arange(6.0)[None, :, None]
+    assert jitter(ramp) == 0
+    zigzag = np.array([0, 1, 0, 1, 0, 1.0])[None, :, None]
+    assert abs(jitter(zigzag) - 4 / 6) < 1e-12  # five differences, four turns of size 1
+    assert abs(jitter(np.concatenate([ramp, zigzag], 2)) - 2 / 6) < 1e-12
+    rng = np.random.default_rng(0)
+    truth = rng.random((3, 50, 4))
+    assert np.allclose(correlations(2 * truth + 1, truth), 1) and np.allclose(correlations(-truth, truth), -1)
+    assert np.isnan(correlations(np.ones_like(truth), truth)).all()
+    assert constant_errors(truth)["median"] <= constant_errors(truth)["mean"]
+    assert facs_error(truth + 0.25, truth) - 0.25 < 1e-12
+    print("metrics: ok")
+
+
+if __name__ == "__main__":
+    self_test()
