@@ -1,0 +1,30 @@
+#!/usr/bin/env bash
+# Times mien's networks and the same networks in ONNX Runtime, in turns, one thread each, and writes
+# docs/results/peers.md and .json.  usage: scripts/bench_peers.sh [ROUNDS]
+# Needs the packages of `scripts/setup.sh build train` and npm (nodejs); a Release build is made if missing.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+rounds=${1:-7}
+work=${MIEN_CACHE:-$HOME/.cache/mien}/peers
+mkdir -p "$work"
+
+scripts/setup.sh build train
+command -v npm >/dev/null || { echo "bench_peers.sh: needs node and npm" >&2; exit 1; }
+cmake --preset release >/dev/null
+cmake --build --preset release --target mien_program
+
+if [ ! -d "$work/node_modules/onnxruntime-node" ]; then
+  (cd "$work" && ONNXRUNTIME_NODE_INSTALL=skip npm install --ignore-scripts --no-audit --no-fund \
+    onnxruntime-node@1.30)
+fi
+/usr/bin/python3 scripts/peers/export_onnx.py "$work"
+cp scripts/peers/onnxruntime_bench.mjs "$work/"
+
+runs=()
+for ((round = 0; round < rounds; ++round)); do
+  build/release/apps/mien/mien bench --json >"$work/mien_$round.json"
+  node "$work/onnxruntime_bench.mjs" "$work" >"$work/peer_$round.json"
+  runs+=("$round")
+done
+/usr/bin/python3 scripts/peers/report.py "$work" "${#runs[@]}" docs/results
