@@ -35,10 +35,11 @@ def correlations(predicted, truth, weight=None):
         return np.where(spread > 1e-9, (w * p * t).sum(0) / spread, np.nan)
 
 
-def asymmetry(curves, pairs):
-    """Mean |left - right| over (left, right) index pairs; meant for symmetric expressions."""
+def asymmetry(curves, truth, pairs, tolerance=0.05):
+    """Mean |left - right| over (left, right) index pairs, where the truth of a pair is symmetric."""
     left, right = np.array(pairs).T
-    return float(np.abs(curves[..., left] - curves[..., right]).mean())
+    symmetric = np.abs(truth[..., left] - truth[..., right]) < tolerance
+    return float(np.abs(curves[..., left] - curves[..., right])[symmetric].mean())
 
 
 def point_error(predicted, truth, scale):
@@ -59,6 +60,7 @@ def self_test():
     assert np.allclose(correlations(2 * truth + 1, truth), 1) and np.allclose(correlations(-truth, truth), -1)
     assert np.isnan(correlations(np.ones_like(truth), truth)).all()
     assert constant_errors(truth)["median"] <= constant_errors(truth)["mean"]
+    assert asymmetry(truth * [1, 0, 1, 1], np.ones_like(truth), [(0, 1)]) == truth[..., 0].mean()
     assert facs_error(truth + 0.25, truth) - 0.25 < 1e-12
     print("metrics: ok")
 

@@ -1,0 +1,208 @@
+#!/usr/bin/env python3
+"""Synthetic sequences, and the features the tracker would get from them.
+
+A shard is a folder of `images.npy` (uint8 [n,112,112,3], a square window around the face) and `labels.npz`.
+`track` follows every face as the tracker does: the landmarks predicted on one frame align the crop of the next.
+"""
+import argparse
+import os
+from pathlib import Path
+
+import numpy as np
+import torch
+
+import head_pose
+
+WINDOW = 112  # side of a stored image, pixels
+CROP = 65     # side of the encoder's input, pixels
+
+
+def cache_root():
+    return Path(os.environ.get("MIEN_CACHE", Path.home() / ".cache/mien"))
+
+
+class Sequences:
+    """Sequences of one length: images is a list of uint8 [frames,112,112,3], labels are tensors [s,frames,...]."""
+
+    def __init__(self, images, labels):
+        self.images, self.labels, self.frames = images, labels, len(images[0])
+
+    @classmethod
+    def load(cls, folders):
+        """All whole sequences of some shards; images stay on disk until asked for."""
+        images, tables = [], []
+        for folder in folders:
+            stored = np.load(Path(folder) / "images.npy", mmap_mode="r")
+            labels = dict(np.load(Path(folder) / "labels.npz"))
+            count = int(labels["frame"].max()) + 1
+            starts = np.flatnonzero(labels["frame"] == 0)
+            starts = [i for i in starts if np.array_equal(labels["frame"][i:i + count], np.arange(count))]
+            images += [stored[i:i + count] for i in starts]
+            rows = np.add.outer(np.array(starts, int), np.arange(count))
+            tables.append({k: v[rows] for k, v in labels.items()})
+        return cls(images, {k: torch.from_numpy(np.concatenate([t[k] for t in tables])) for k in tables[0]})
+
+    def __len__(self):
+        return len(self.images)
+
+    def frame(self, rows, t):
+        """Images uint8 [n,112,112,3] of frame t."""
+        return torch.from_numpy(np.stack([self.images[i][t] for i in rows]))
+
+    def label(self, name, rows=slice(None), t=slice(None)):
+        return self.labels[name][rows][:, t].float()
+
+
+def fit_crop(template, points):
+    """Least-squares similarity of the template [p,2] (crop coordinates) to points [n,p,2]: crop [n,4]."""
+    source = torch.view_as_complex((template - 0.5).contiguous())
+    target = torch.view_as_complex(points.contiguous())
+    source_mean, target_mean = source.mean(), target.mean(-1, keepdim=True)
+    s = source - source_mean
+    a = (s.conj() * (target - target_mean)).sum(-1) / (s.abs() ** 2).sum()
+    centre = target_mean[:, 0] - a * source_mean
+    return torch.stack([centre.real, centre.imag, a.abs(), a.angle()], -1)
+
+
+def crop_to_image(crop, points):
+    """Points [n,p,2] in crop coordinates -> image pixels."""
+    return head_pose.rotate(points - 0.5, crop[:, None, 3]) * crop[:, None, 2:3] + crop[:, None, :2]
+
+
+def to_window(crop, window):
+    """A crop [n,4] in camera pixels -> in pixels of the stored window [n,3] (cx, cy, side)."""
+    scale = WINDOW / window[:, 2:3]
+    return torch.cat([(crop[:, :2] - window[:, :2]) * scale + WINDOW / 2, crop[:, 2:3] * scale, crop[:, 3:]], 1)
+
+
+def sample_crops(images, crop):
+    """Warps crops [n,4] (pixels of images f32 [n,3,h,w]) to [n,3,65,65]; large crops average n x n taps."""
+    h, w = images.shape[-2:]
+    taps = int(np.clip(np.ceil(float(crop[:, 2].max()) / CROP / 1.5), 1, 8))
+    n = CROP * taps
+    at = (torch.arange(n) + 0.5) / n
+    grid = torch.stack(torch.meshgrid(at, at, indexing="xy"), -1).view(1, -1, 2)
+    pixels = crop_to_image(crop, grid.expand(len(crop), -1, -1))
+    grid = (2 * pixels / torch.tensor([w, h]) - 1).view(-1, n, n, 2)
+    out = torch.nn.functional.grid_sample(images, grid, padding_mode="border", align_corners=False)
+    return torch.nn.functional.avg_pool2d(out, taps) if taps > 1 else out
+
+
+def jittered(crop, spread, generator):
+    """A detector's crop: centre off by `spread` of the side, size by as much in log, no roll."""
+    noise = spread * torch.randn(len(crop), 3, generator=generator)
+    centre = crop[:, :2] + noise[:, :2] * crop[:, 2:3]
+    return torch.cat([centre, crop[:, 2:3] * torch.exp(noise[:, 2:]), torch.zeros(len(crop), 1)], 1)
+
+
+def lost(crop, truth):
+    """Whether a tracked crop has left the face."""
+    away = (crop[:, :2] - truth[:, :2]).norm(dim=1) / truth[:, 2]
+    return (away > 0.3) | ((crop[:, 2] / truth[:, 2]).log().abs() > 0.45)
+
+
+@torch.no_grad()
+def track(model, sequences, rows, photometric, seed, stride=1):
+    """Follows sequences `rows`, the encoder running on every `stride`-th frame.
+
+    model: callable f32 [n,3,65,65] (-1..1) -> (features [n,256], landmarks [n,175,2] in crop coordinates).
+    photometric: callable (f32 [n,3,h,w] in 0..1, frame number) -> same, or None.
+    Returns features [n,frames,256], crops [n,frames,4] the features come from, landmarks [n,frames,175,2] in
+    camera pixels, losses (how often a face had to be found again).
+    """
+    generator = torch.Generator().manual_seed(seed)
+    features, crops, points, losses = [], [], [], 0
+    for t in range(sequences.frames):
+        if t % stride == 0:
+            truth = sequences.label("crop", rows, t)
+            found = jittered(truth, 0.06, generator)
+            if t == 0:
+                crop = found
+            else:
+                crop = fit_crop(model.template, landmarks)
+                gone = lost(crop, truth)
+                crop = torch.where(gone[:, None], found, crop)
+                losses += int(gone.sum())
+            images = sequences.frame(rows, t).permute(0, 3, 1, 2).float() / 255
+            if photometric:
+                images = photometric(images, t)
+            inputs = sample_crops(images, to_window(crop, sequences.label("window", rows, t)))
+            feature, shape = model(inputs * 2 - 1)
+            landmarks = crop_to_image(crop, shape)
+        features.append(feature)
+        crops.append(crop)
+        points.append(landmarks)
+    return torch.stack(features, 1), torch.stack(crops, 1), torch.stack(points, 1), losses
+
+
+def pose_targets(sequences, rows, crops):
+    """What the pose decoder should answer for these crops, [n,frames,9]."""
+    label = lambda name: sequences.label(name, rows)
+    return head_pose.to_crop(label("rotation"), label("translation"), label("f_px"), label("camera_wh"), crops)
+
+
+@torch.no_grad()
+def extract(model, sequences, passes, make_photometric, seed, batch=32):
+    """Tracks every sequence `passes` times on every frame and `passes` times on alternate frames.
+
+    Returns a dict of tensors with one row per track: features fp16 [m,frames,256], pose [m,frames,9], row [m] (the
+    sequence it follows), stride [m], landmark_error [m,frames] in outer eye corner distances.
+    """
+    tracks, losses = [], 0
+    for stride in (1, 2):
+        for i in range(passes):
+            for start in range(0, len(sequences), batch):
+                rows = torch.arange(start, min(start + batch, len(sequences)))
+                key = ((seed * 2 + stride) * 1000 + i) * 100000 + start
+                photometric = make_photometric(len(rows), key) if make_photometric else None
+                features, crops, points, lost_here = track(model, sequences, rows, photometric, key, stride)
+                losses += lost_here
+                tracks.append(dict(features=features.half(), pose=pose_targets(sequences, rows, crops), row=rows,
+                                   stride=torch.full((len(rows),), stride),
+                                   landmark_error=landmark_error(points, sequences.label("landmarks", rows))))
+    out = {k: torch.cat([t[k] for t in tracks]) for k in tracks[0]}
+    print(f"tracks {len(out['row'])}, faces lost {losses}, landmark error {out['landmark_error'].mean():.4f}")
+    return out
+
+
+def landmark_error(predicted, truth, corners=None):
+    """Mean point distance over the outer eye corner distance, [n,frames]."""
+    a, b = corners or outer_eye_corners()
+    eyes = (truth[..., a, :] - truth[..., b, :]).norm(dim=-1)
+    return (predicted - truth).norm(dim=-1).mean(-1) / eyes
+
+
+def self_test():
+    """A picture whose colours are the true crop coordinates lets an exact "network" prove the geometry of tracking."""
+    torch.manual_seed(0)
+    n, frames = 6, 20
+    template = torch.rand(175, 2) * 0.8 + 0.1
+    crop = torch.tensor([[300.0, 200, 150, 0.2]]) + torch.randn(n, 4) * torch.tensor([40, 40, 20, 0.2])
+    drift = torch.randn(n, 1, 4) * torch.tensor([2, 2, 1, 0.01]) * torch.arange(frames).view(1, -1, 1)
+    crops = (crop[:, None] + drift).flatten(0, 1)
+    window = torch.cat([crops[:, :2] + 3, 1.5 * crops[:, 2:3]], 1)
+    at = (torch.arange(WINDOW) + 0.5) / WINDOW
+    pixels = torch.stack(torch.meshgrid(at, at, indexing="xy"), -1).view(1, -1, 2) - 0.5
+    camera = pixels * window[:, None, 2:3] + window[:, None, :2]
+    local = head_pose.rotate(camera - crops[:, None, :2], -crops[:, None, 3]) / crops[:, None, 2:3]
+    colours = torch.cat([0.5 + local / 2.5, torch.zeros_like(local[..., :1])], -1)
+    images = (colours * 255).round().clamp(0, 255).byte().view(n, frames, WINDOW, WINDOW, 3)
+    made = Sequences(list(images.numpy()), {"crop": crops.view(n, frames, 4), "window": window.view(n, frames, 3)})
+
+    def network(x):
+        local = ((x[:, :2, 16:49, 16:49] + 1) / 2 - 0.5) * 2.5 + 0.5
+        at = (torch.arange(16, 49) + 0.5) / CROP
+        here = torch.stack(torch.meshgrid(at, at, indexing="xy"), -1).view(-1, 2)
+        design = torch.cat([local.flatten(2).transpose(1, 2), torch.ones(len(x), len(here), 1)], 2)
+        solution = torch.linalg.lstsq(design, here.expand(len(x), -1, -1)).solution
+        return torch.zeros(len(x), 256), torch.cat([template, torch.ones(175, 1)], 1) @ solution
+
+    network.template = template
+    truth = crop_to_image(crops, template.expand(len(crops), -1, -1)).view(n, frames, 175, 2)
+    assert (fit_crop(template, truth.flatten(0, 1)) - crops).abs().max() < 1e-2
+    for stride in (1, 2):
+        _, used, points, losses = track(network, made, torch.arange(n), None, 1, stride)
+        error = (points - truth)[:, ::stride].norm(dim=-1).max()
+        assert losses == 0 and error < 0.5, f"{losses} faces lost, {error} pixels off"
+        assert (used[:, stride::stride] - made.labels["crop"][:, :-stride:stride]).abs().max() < 1.0
+    print("sequences: ok")
