@@ -6,7 +6,6 @@ taken within a clip (every clip's mean removed), because levels differ from pers
 """
 import argparse
 import json
-import os
 import subprocess
 import sys
 import tempfile
@@ -18,9 +17,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "train"))
 import curves  # noqa: E402
 import metrics  # noqa: E402
 from expressions import CONTROLS  # noqa: E402
-
-ROOT = Path(__file__).resolve().parents[2]
-DATA = Path(os.environ.get("MIEN_DATA", ROOT.parent / "shared/data"))
+from paths import ROOT, data  # noqa: E402
 
 
 def track(program, clip, folder, options):
@@ -118,7 +115,7 @@ def overall(results):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--mien", required=True, help="the built program")
-    parser.add_argument("--clips", type=Path, default=DATA / "clips")
+    parser.add_argument("--clips", type=Path, default=data() / "clips")
     parser.add_argument("--out", type=Path, default=ROOT / "docs/results")
     parser.add_argument("--keep", type=Path, help="folder for the CSV files")
     parser.add_argument("options", nargs="*", help="further options of `mien track`, after --")

@@ -22,8 +22,8 @@ import sequences as seq  # noqa: E402
 import train_decoders as phase2  # noqa: E402
 from expressions import CONTROLS  # noqa: E402
 from networks import ControlsDecoder, PoseDecoder  # noqa: E402
+from paths import ROOT  # noqa: E402
 
-ROOT = Path(__file__).resolve().parents[2]
 FPS = 30
 LONG_LOOPS = 20  # a stream this many sequences long shows whether the state drifts
 

@@ -7,10 +7,10 @@ can do. A sequence moves every region from pose to pose with minimum-jerk easing
 speech and recorded curves. All functions take a numpy Generator and are deterministic in it.
 """
 import functools
-import os
-from pathlib import Path
 
 import numpy as np
+
+from paths import data
 
 CONTROLS = """
 eyeBlinkLeft eyeLookDownLeft eyeLookInLeft eyeLookOutLeft eyeLookUpLeft eyeSquintLeft eyeWideLeft
@@ -309,19 +309,18 @@ def micro_motion(rng, frames):
 @functools.lru_cache(maxsize=1)
 def recorded_clips():
     """Recorded control curves of one speaker, a list of f32[n,52] at 25 fps; every tenth clip is held out."""
-    root = Path(os.environ.get("MIEN_DATA", Path(__file__).resolve().parents[3] / "shared/data"))
-    path = root / "av/curves.npz"
+    path = data() / "av/curves.npz"
     if not path.exists():
         return []
-    data = np.load(path, allow_pickle=True)
-    names = [str(n) for n in data["blendshape_names"]]
-    table = np.zeros((len(data["blendshapes"]), len(CONTROLS)), np.float32)
+    source = np.load(path, allow_pickle=True)
+    names = [str(n) for n in source["blendshape_names"]]
+    table = np.zeros((len(source["blendshapes"]), len(CONTROLS)), np.float32)
     for i, name in enumerate(CONTROLS):
         if name in names and not name.startswith(("cheek", "noseSneer", "jawForward")):  # dead in the source
-            table[:, i] = data["blendshapes"][:, names.index(name)]
+            table[:, i] = source["blendshapes"][:, names.index(name)]
     for name in both("eyeSquint"):  # rests at 0.35 in the source
         table[:, INDEX[name]] = np.maximum(table[:, INDEX[name]] - 0.4, 0) / 0.6
-    offset, found = data["offset"], data["found"].astype(bool)
+    offset, found = source["offset"], source["found"].astype(bool)
     spans = [slice(offset[i], offset[i + 1]) for i in range(len(offset) - 1) if i % 10]
     return [table[s] for s in spans if found[s].all() and s.stop - s.start > 30]
 

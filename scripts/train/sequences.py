@@ -5,20 +5,19 @@ A shard is a folder of `images.npy` (uint8 [n,112,112,3], a square window around
 `track` follows every face as the tracker does: the landmarks predicted on one frame align the crop of the next.
 """
 import argparse
-import os
+import json
 from pathlib import Path
 
+import cv2
 import numpy as np
 import torch
 
 import head_pose
+from networks import BaseNet
+from paths import ROOT
 
 WINDOW = 112  # side of a stored image, pixels
 CROP = 65     # side of the encoder's input, pixels
-
-
-def cache_root():
-    return Path(os.environ.get("MIEN_CACHE", Path.home() / ".cache/mien"))
 
 
 class Sequences:
@@ -45,9 +44,10 @@ class Sequences:
     def __len__(self):
         return len(self.images)
 
-    def frame(self, rows, t):
-        """Images uint8 [n,112,112,3] of frame t."""
-        return torch.from_numpy(np.stack([self.images[i][t] for i in rows]))
+    def frame(self, rows, t, looks=None):
+        """Images uint8 [n,112,112,3] of frame t, each through its own look."""
+        images = [self.images[i][t] for i in rows]
+        return torch.from_numpy(np.stack([look(i) for look, i in zip(looks, images)] if looks else images))
 
     def label(self, name, rows=slice(None), t=slice(None)):
         return self.labels[name][rows][:, t].float()
@@ -101,38 +101,77 @@ def lost(crop, truth):
     return (away > 0.3) | ((crop[:, 2] / truth[:, 2]).log().abs() > 0.45)
 
 
+class CameraLook:
+    """One camera's way of spoiling pictures: colours, blur and compression stay, noise changes with every frame."""
+
+    def __init__(self, rng):
+        self.rng = rng
+        grey = np.linspace(0, 1, 256)[:, None] ** np.exp(rng.normal(0, 0.2))
+        tinted = grey * np.exp(rng.normal(0, 0.12)) * np.exp(rng.normal(0, 0.06, 3)) + rng.normal(0, 0.03)
+        self.table = (255 * np.clip(tinted, 0, 1)).astype(np.uint8)[None]
+        self.saturation = 0.0 if rng.random() < 0.08 else np.clip(rng.normal(1, 0.2), 0.2, 1.6)
+        self.small = int(WINDOW * rng.uniform(0.5, 1)) if rng.random() < 0.4 else WINDOW
+        self.blur = rng.uniform(0.3, 1.3) if rng.random() < 0.4 else 0
+        self.noise = 255 * rng.choice([0, 0.01, 0.02, 0.04])
+        self.quality = int(rng.uniform(35, 95)) if rng.random() < 0.6 else None
+
+    def __call__(self, image):
+        """uint8 [h,w,3] -> the same."""
+        image = cv2.LUT(image, self.table)
+        grey = image.mean(2, keepdims=True)
+        image = grey + self.saturation * (image - grey)
+        if self.small < WINDOW:
+            image = cv2.resize(image, (self.small, self.small), interpolation=cv2.INTER_AREA)
+        if self.blur:
+            image = cv2.GaussianBlur(image, (0, 0), self.blur)
+        if self.noise:
+            image = image + self.rng.normal(0, self.noise, image.shape)
+        image = np.clip(image, 0, 255).astype(np.uint8)
+        if self.quality:
+            image = cv2.imdecode(cv2.imencode(".jpg", image, [cv2.IMWRITE_JPEG_QUALITY, self.quality])[1], 1)
+        return image if self.small == WINDOW else cv2.resize(image, (WINDOW, WINDOW))
+
+
+class Network:
+    """Encoder and landmark head of a BaseNet checkpoint, as `track` wants them."""
+
+    def __init__(self, checkpoint):
+        state = torch.load(checkpoint, map_location="cpu")
+        self.net = BaseNet().eval()
+        self.net.load_state_dict(state.get("model", state))
+        self.template = torch.tensor(json.loads((ROOT / "models/landmarks.json").read_text())["template"])
+
+    def __call__(self, crops):
+        out = self.net(crops)
+        return out["features"], out["landmarks"]
+
+
 @torch.no_grad()
-def track(model, sequences, rows, photometric, seed, stride=1):
+def track(model, sequences, rows, looks, generator, stride=1):
     """Follows sequences `rows`, the encoder running on every `stride`-th frame.
 
     model: callable f32 [n,3,65,65] (-1..1) -> (features [n,256], landmarks [n,175,2] in crop coordinates).
-    photometric: callable (f32 [n,3,h,w] in 0..1, frame number) -> same, or None.
+    looks: one CameraLook per row, or None.
     Returns features [n,frames,256], crops [n,frames,4] the features come from, landmarks [n,frames,175,2] in
-    camera pixels, losses (how often a face had to be found again).
+    camera pixels, and how often a face had to be found again.
     """
-    generator = torch.Generator().manual_seed(seed)
-    features, crops, points, losses = [], [], [], 0
+    history, losses = [], 0
     for t in range(sequences.frames):
         if t % stride == 0:
             truth = sequences.label("crop", rows, t)
-            found = jittered(truth, 0.06, generator)
-            if t == 0:
-                crop = found
-            else:
-                crop = fit_crop(model.template, landmarks)
+            crop = found = jittered(truth, 0.06, generator)
+            if t > 0:
+                crop = fit_crop(model.template, history[-1][2])
                 gone = lost(crop, truth)
                 crop = torch.where(gone[:, None], found, crop)
                 losses += int(gone.sum())
-            images = sequences.frame(rows, t).permute(0, 3, 1, 2).float() / 255
-            if photometric:
-                images = photometric(images, t)
+            images = sequences.frame(rows, t, looks).permute(0, 3, 1, 2).float()
             inputs = sample_crops(images, to_window(crop, sequences.label("window", rows, t)))
-            feature, shape = model(inputs * 2 - 1)
-            landmarks = crop_to_image(crop, shape)
-        features.append(feature)
-        crops.append(crop)
-        points.append(landmarks)
-    return torch.stack(features, 1), torch.stack(crops, 1), torch.stack(points, 1), losses
+            feature, shape = model(inputs / 127.5 - 1)
+            frame = feature, crop, crop_to_image(crop, shape)
+        history.append(frame)
+    features, crops, points = (torch.stack(h, 1) for h in zip(*history))
+    return features, crops, points, losses
 
 
 def pose_targets(sequences, rows, crops):
@@ -141,35 +180,55 @@ def pose_targets(sequences, rows, crops):
     return head_pose.to_crop(label("rotation"), label("translation"), label("f_px"), label("camera_wh"), crops)
 
 
-@torch.no_grad()
-def extract(model, sequences, passes, make_photometric, seed, batch=32):
-    """Tracks every sequence `passes` times on every frame and `passes` times on alternate frames.
+def landmark_error(predicted, truth):
+    """Mean point distance over the outer eye corner distance, [n,frames]."""
+    points = json.loads((ROOT / "models/landmarks.json").read_text())["points"]
+    a, b = (next(p["index"] for p in points if p["mediapipe"] == corner) for corner in (33, 263))
+    eyes = (truth[..., a, :] - truth[..., b, :]).norm(dim=-1)
+    return (predicted - truth).norm(dim=-1).mean(-1) / eyes
 
-    Returns a dict of tensors with one row per track: features fp16 [m,frames,256], pose [m,frames,9], row [m] (the
-    sequence it follows), stride [m], landmark_error [m,frames] in outer eye corner distances.
+
+def extract(model, sequences, passes, seed, plain=False, batch=32):
+    """Tracks every sequence `passes` times with the encoder on every frame, and as often on alternate frames.
+
+    Returns tensors with one row per track: features fp16 [m,frames,256], pose [m,frames,9], controls and visible
+    [m,frames,52], stride [m], landmark_error [m,frames]. `plain` leaves the pictures as they are.
     """
     tracks, losses = [], 0
     for stride in (1, 2):
-        for i in range(passes):
+        for number in range(passes):
             for start in range(0, len(sequences), batch):
                 rows = torch.arange(start, min(start + batch, len(sequences)))
-                key = ((seed * 2 + stride) * 1000 + i) * 100000 + start
-                photometric = make_photometric(len(rows), key) if make_photometric else None
-                features, crops, points, lost_here = track(model, sequences, rows, photometric, key, stride)
-                losses += lost_here
-                tracks.append(dict(features=features.half(), pose=pose_targets(sequences, rows, crops), row=rows,
-                                   stride=torch.full((len(rows),), stride),
-                                   landmark_error=landmark_error(points, sequences.label("landmarks", rows))))
+                key = [seed, stride, number, start]
+                looks = None if plain else [CameraLook(np.random.default_rng(key + [int(r)])) for r in rows]
+                generator = torch.Generator().manual_seed(hash(tuple(key)) % 2**31)
+                features, crops, points, again = track(model, sequences, rows, looks, generator, stride)
+                losses += again
+                error = landmark_error(points, sequences.label("landmarks", rows))
+                tracks.append({"features": features.half(), "pose": pose_targets(sequences, rows, crops),
+                               "controls": sequences.label("controls", rows), "visible": visible(sequences, rows),
+                               "stride": torch.full((len(rows),), stride), "landmark_error": error})
+                print(f"stride {stride} pass {number} sequence {start} error {error.mean():.4f}", flush=True)
     out = {k: torch.cat([t[k] for t in tracks]) for k in tracks[0]}
-    print(f"tracks {len(out['row'])}, faces lost {losses}, landmark error {out['landmark_error'].mean():.4f}")
+    print(f"tracks {len(out['stride'])}, faces found again {losses}")
     return out
 
 
-def landmark_error(predicted, truth, corners=None):
-    """Mean point distance over the outer eye corner distance, [n,frames]."""
-    a, b = corners or outer_eye_corners()
-    eyes = (truth[..., a, :] - truth[..., b, :]).norm(dim=-1)
-    return (predicted - truth).norm(dim=-1).mean(-1) / eyes
+def main():
+    parser = argparse.ArgumentParser(description="Features of synthetic sequences, tracked by a BaseNet checkpoint.")
+    parser.add_argument("--checkpoint", type=Path, required=True)
+    parser.add_argument("--shards", type=Path, nargs="+", required=True)
+    parser.add_argument("--out", type=Path, required=True)
+    parser.add_argument("--passes", type=int, default=2)
+    parser.add_argument("--plain", action="store_true", help="no photometric variety")
+    parser.add_argument("--threads", type=int, default=1)
+    parser.add_argument("--seed", type=int, default=0)
+    args = parser.parse_args()
+    torch.set_num_threads(args.threads)
+    cv2.setNumThreads(args.threads)
+    found = extract(Network(args.checkpoint), Sequences.load(args.shards), args.passes, args.seed, args.plain)
+    args.out.parent.mkdir(parents=True, exist_ok=True)
+    torch.save(found, args.out)
 
 
 def self_test():
@@ -201,8 +260,12 @@ def self_test():
     truth = crop_to_image(crops, template.expand(len(crops), -1, -1)).view(n, frames, 175, 2)
     assert (fit_crop(template, truth.flatten(0, 1)) - crops).abs().max() < 1e-2
     for stride in (1, 2):
-        _, used, points, losses = track(network, made, torch.arange(n), None, 1, stride)
+        _, used, points, losses = track(network, made, torch.arange(n), None, torch.Generator(), stride)
         error = (points - truth)[:, ::stride].norm(dim=-1).max()
         assert losses == 0 and error < 0.5, f"{losses} faces lost, {error} pixels off"
         assert (used[:, stride::stride] - made.labels["crop"][:, :-stride:stride]).abs().max() < 1.0
     print("sequences: ok")
+
+
+if __name__ == "__main__":
+    main()
