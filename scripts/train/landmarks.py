@@ -110,6 +110,14 @@ class RigSurface:
             way.append(previous[way[-1]])
         return way[::-1]
 
+    def contour(self, first, last):
+        """Way along the skin's edges between two iBUG points, through the waypoint between them if there is one."""
+        begin, end = self.ibug[first], self.ibug[last]
+        if (first, last) not in WAYPOINTS:
+            return self.path(begin, end)
+        middle = self.ibug[WAYPOINTS[first, last]]
+        return self.path(begin, middle) + self.path(middle, end)[1:]
+
 
 def barycentric(p, a, b, c):
     """Weights of the triangles' points closest to p (clamped to the triangle)."""
@@ -122,13 +130,15 @@ def barycentric(p, a, b, c):
 
 
 # Contours whose known corners (iBUG numbers) the rig has too: (teacher curve, {position in it: iBUG number}).
+# Four points of the outer lips are none of the teacher's: the rig's contour passes through them, no more.
+WAYPOINTS = {(48, 50): 49, (52, 54): 53, (48, 58): 59, (56, 54): 55}
 CONTOURS = [
     ([33, 246, 161, 160, 159, 158, 157, 173, 133], {0: 36, 3: 37, 5: 38, 8: 39}),
     ([33, 7, 163, 144, 145, 153, 154, 155, 133], {0: 36, 3: 41, 5: 40, 8: 39}),
     ([263, 466, 388, 387, 386, 385, 384, 398, 362], {0: 45, 3: 44, 5: 43, 8: 42}),
     ([263, 249, 390, 373, 374, 380, 381, 382, 362], {0: 45, 3: 46, 5: 47, 8: 42}),
-    (lp.LIPS_OUTER_UPPER, {0: 48, 2: 49, 4: 50, 5: 51, 6: 52, 8: 53, 10: 54}),
-    ([61] + lp.LIPS_OUTER_LOWER + [291], {0: 48, 2: 59, 4: 58, 5: 57, 6: 56, 8: 55, 10: 54}),
+    (lp.LIPS_OUTER_UPPER, {0: 48, 4: 50, 5: 51, 6: 52, 10: 54}),
+    ([61] + lp.LIPS_OUTER_LOWER + [291], {0: 48, 4: 58, 5: 57, 6: 56, 10: 54}),
     (lp.LIPS_INNER_UPPER, {0: 60, 4: 61, 5: 62, 6: 63, 10: 64}),
     ([78] + lp.LIPS_INNER_LOWER + [308], {0: 60, 4: 67, 5: 66, 6: 65, 10: 64}),
 ]
@@ -142,7 +152,7 @@ def on_contours(surface, teacher3d):
         arc = np.concatenate([[0], np.cumsum(steps)])
         stops = sorted(known)
         for first, last in zip(stops, stops[1:]):
-            way = surface.path(surface.ibug[known[first]], surface.ibug[known[last]])
+            way = surface.contour(known[first], known[last])
             points = surface.vertices[way]
             length = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
             for i in range(first, last + 1):

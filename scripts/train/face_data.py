@@ -1,0 +1,168 @@
+"""Batches for phase 1: portraits, rendered faces, and pictures without a face, as windows with labels."""
+from collections import namedtuple
+
+import numpy as np
+import torch
+from PIL import Image
+
+import head_pose
+from expressions import CONTROLS
+from faces import WINDOW_CROPS, window
+from landmark_points import MIRROR
+from paths import cache, data
+from sequences import WINDOW, crop_to_image, sample_crops
+
+# images f32 [n,3,65,65] in 0..1; landmarks [n,175,2] in crop coordinates; pose [n,9]; has_landmarks, has_controls bool [n];
+# visible [n,175]; face [n]: 1 a face well inside the crop, 0 none or misplaced
+Batch = namedtuple("Batch", "images landmarks controls pose visible has_landmarks has_controls face")
+
+CONTROL_MIRROR = [CONTROLS.index(n.replace("Left", "~").replace("Right", "Left").replace("~", "Right")) for n in CONTROLS]
+
+
+class Portraits:
+    def __init__(self, split):
+        folder = cache() / "faces" / split
+        self.images = np.load(folder / "images.npy", mmap_mode="r")
+        labels = np.load(folder / "labels.npz")
+        self.landmarks, self.crop = torch.from_numpy(labels["landmarks"]), torch.from_numpy(labels["crop"])
+
+    def __len__(self):
+        return len(self.images)
+
+    def rows(self, rng, n):
+        i = rng.integers(0, len(self), n)
+        zeros = torch.zeros(n, len(CONTROLS))
+        return (self.images[i], self.landmarks[i], self.crop[i], zeros, torch.zeros(n, 9), torch.ones(n, 175), False)
+
+
+class Rendered:
+    """All shards there are; `refresh` takes up those that came since."""
+
+    def __init__(self, *kinds):
+        self.kinds, self.shards, self.known = kinds, [], set()
+        self.refresh()
+
+    def refresh(self):
+        for kind in self.kinds:
+            for folder in sorted((cache() / "synthetic" / kind).glob("shard_*")):
+                if folder not in self.known and (folder / "labels.npz").exists():
+                    self.known.add(folder)
+                    self.shards.append((np.load(folder / "images.npy", mmap_mode="r"), dict(np.load(folder / "labels.npz"))))
+
+    def __len__(self):
+        return sum(len(images) for images, _ in self.shards)
+
+    def rows(self, rng, n):
+        parts = []
+        for images, labels in (self.shards[k] for k in rng.integers(0, len(self.shards), 4)):
+            i = np.sort(rng.integers(0, len(images), n // 4 + 1))
+            parts.append((images[i], {k: torch.from_numpy(v[i]).float() for k, v in labels.items() if len(v) == len(images)}))
+        images = np.concatenate([p[0] for p in parts])[:n]
+        labels = {k: torch.cat([p[1][k] for p in parts])[:n] for k in parts[0][1]}
+        scale = WINDOW / labels["window"][:, 2:3]
+        to_window = lambda p: (p - labels["window"][:, None, :2]) * scale[:, None] + WINDOW / 2
+        crop = torch.cat([to_window(labels["crop"][:, None, :2])[:, 0], labels["crop"][:, 2:3] * scale, labels["crop"][:, 3:]], 1)
+        self.last = labels  # what pose targets need beyond the common row
+        return images, to_window(labels["landmarks"]), crop, labels["controls"], torch.zeros(n, 9), labels["visibility"], True
+
+
+class Backgrounds:
+    """Pieces of environments and of portraits away from the face."""
+
+    def __init__(self, count=3000, seed=7):
+        rng = np.random.default_rng(seed)
+        self.images = np.empty((count, WINDOW, WINDOW, 3), np.uint8)
+        paths = sorted((data() / "environments").glob("*.jpg"))
+        pictures = [np.asarray(Image.open(p).convert("RGB")) for p in paths]
+        for k in range(count):
+            picture = pictures[rng.integers(len(pictures))]
+            side = np.exp(rng.uniform(np.log(60), np.log(400)))
+            centre = rng.uniform(0, 1, 2) * picture.shape[1::-1]
+            self.images[k] = window(picture, centre, side)
+
+    def rows(self, rng, n):
+        images = self.images[rng.integers(0, len(self.images), n)]
+        middle = torch.tensor([[WINDOW / 2, WINDOW / 2, WINDOW / WINDOW_CROPS, 0.0]]).expand(n, -1)
+        return images, torch.zeros(n, 175, 2), middle, torch.zeros(n, len(CONTROLS)), torch.zeros(n, 9), torch.zeros(n, 175), False
+
+
+def jitter(crop, generator, wide_share=0.3):
+    """Crops as the tracker meets them: mostly nearly right, sometimes as rough as a proposal."""
+    n = len(crop)
+    wide = (torch.rand(n, 1, generator=generator) < wide_share).float()
+    normal = torch.randn(n, 4, generator=generator) * torch.tensor([0.035, 0.035, 0.06, 0.08])
+    rough = (torch.rand(n, 4, generator=generator) * 2 - 1) * torch.tensor([0.14, 0.14, 0.28, 0.5])
+    d = torch.lerp(normal, rough, wide)
+    return torch.stack([crop[:, 0] + d[:, 0] * crop[:, 2], crop[:, 1] + d[:, 1] * crop[:, 2],
+                        crop[:, 2] * torch.exp(d[:, 2]), crop[:, 3] + d[:, 3]], 1)
+
+
+def misplace(crop, generator):
+    """Crops that show a face badly: shifted by half a side, or far too wide or too close."""
+    n = len(crop)
+    angle = torch.rand(n, generator=generator) * 6.2832
+    away = torch.empty(n).uniform_(0.5, 0.95, generator=generator)
+    shifted = torch.rand(n, generator=generator) < 0.6
+    scale = torch.where(torch.rand(n, generator=generator) < 0.5, 0.42, 2.3)
+    d = torch.where(shifted, away, 0.25 * away) * crop[:, 2]
+    return torch.stack([crop[:, 0] + d * torch.cos(angle), crop[:, 1] + d * torch.sin(angle),
+                        torch.where(shifted, crop[:, 2], crop[:, 2] * scale), crop[:, 3]], 1)
+
+
+def to_crop(crop, points):
+    return head_pose.rotate(points - crop[:, None, :2], -crop[:, None, 3]) / crop[:, None, 2:3] + 0.5
+
+
+def sample(images, crop):
+    return sample_crops(torch.from_numpy(np.ascontiguousarray(images)).permute(0, 3, 1, 2).float() / 255, crop)
+
+
+def mirror(batch, generator):
+    """Flips half of the pictures, with everything that has a left and a right."""
+    flip = torch.rand(len(batch.images), generator=generator) < 0.5
+    choose = lambda a, b: torch.where(flip.view(-1, *[1] * (a.dim() - 1)), a, b)
+    pose_signs = torch.tensor([1.0, -1, -1, -1, 1, 1, -1, 1, 1])
+    return batch._replace(
+        images=choose(batch.images.flip(3), batch.images),
+        landmarks=choose(torch.tensor([1.0, 0]) + batch.landmarks[:, MIRROR] * torch.tensor([-1.0, 1]), batch.landmarks),
+        controls=choose(batch.controls[:, CONTROL_MIRROR], batch.controls),
+        pose=choose(batch.pose * pose_signs, batch.pose),
+        visible=choose(batch.visible[:, MIRROR], batch.visible))
+
+
+class Mixture:
+    """Draws batches: shares of portraits, rendered faces and backgrounds; some of the faces badly placed."""
+
+    def __init__(self, portraits, rendered, backgrounds, seed, real_share=0.45, background_share=0.08):
+        self.portraits, self.rendered, self.backgrounds = portraits, rendered, backgrounds
+        self.rng, self.generator = np.random.default_rng(seed), torch.Generator().manual_seed(seed)
+        self.real_share, self.background_share = real_share, background_share
+
+    def batch(self, size, misplaced_share=0.1):
+        n_background = int(size * self.background_share)
+        n_real = size - n_background if not len(self.rendered) else int(size * self.real_share)
+        n_rendered = size - n_background - n_real
+        parts = [self.part(self.portraits.rows(self.rng, n_real), misplaced_share)]
+        if n_rendered:
+            parts.append(self.part(self.rendered.rows(self.rng, n_rendered), misplaced_share))
+        parts.append(self.part(self.backgrounds.rows(self.rng, n_background), 0, face=0))
+        whole = Batch(*(torch.cat(values) for values in zip(*parts)))
+        return mirror(whole, self.generator)
+
+    def part(self, rows, misplaced_share, face=1):
+        images, landmarks, crop, controls, pose, visible, rendered = rows
+        n = len(images)
+        bad = torch.rand(n, generator=self.generator) < misplaced_share
+        used = torch.where(bad[:, None], misplace(crop, self.generator), jitter(crop, self.generator))
+        good = ~bad & bool(face)
+        if rendered:
+            pose = self.pose_targets(used)
+        return Batch(sample(images, used), to_crop(used, landmarks), controls, pose, visible, good,
+                     good & rendered, good.float())
+
+    def pose_targets(self, crop):
+        """Pose of the rendered rows just drawn, as seen in these crops (window pixels -> camera pixels first)."""
+        labels = self.rendered.last
+        scale = labels["window"][:, 2:3] / WINDOW
+        camera = torch.cat([(crop[:, :2] - WINDOW / 2) * scale + labels["window"][:, :2], crop[:, 2:3] * scale, crop[:, 3:]], 1)
+        return head_pose.to_crop(labels["rotation"], labels["translation"], labels["f_px"], labels["camera_wh"], camera)

@@ -1,0 +1,86 @@
+#!/usr/bin/env python3
+"""The real portraits: split, boxes, and a cache of face windows like those the renderer writes.
+
+usage: faces.py      writes $MIEN_CACHE/faces/<split>/{images.npy,labels.npz}: images uint8 [n,112,112,3], a square of 1.5 crop
+sides around the crop's centre; landmarks [n,175,2] and crop [n,4] (cx, cy, side, theta) in pixels of that window.
+"""
+import hashlib
+import json
+
+import cv2
+import numpy as np
+import torch
+from tqdm import tqdm
+
+import landmark_points as lp
+from paths import ROOT, cache, data
+from sequences import WINDOW, fit_crop
+
+WINDOW_CROPS = 1.5  # side of a window, crop sides
+
+
+def split_of(name):
+    """Held out by a hash of the name: 12 % test, 5 % val."""
+    share = int(hashlib.sha256(str(name).encode()).hexdigest()[:8], 16) / 2 ** 32
+    return "test" if share < 0.12 else "val" if share < 0.17 else "train"
+
+
+def template():
+    return torch.tensor(json.loads((ROOT / "models/landmarks.json").read_text())["template"])
+
+
+class Portraits:
+    """(picture uint8 [h,w,3], box (cx, cy, side)) of one split."""
+
+    def __init__(self, split):
+        labels = np.load(data() / "faces/labels.npz")
+        chosen = [i for i, name in enumerate(labels["name"]) if split_of(name) == split]
+        self.names = labels["name"][chosen]
+        self.points = (labels["landmarks"][chosen][:, lp.TEACHER, :2] * labels["size_wh"][chosen][:, None]).astype(np.float32)
+        self.crops = fit_crop(template(), torch.from_numpy(self.points)).numpy()
+
+    def __len__(self):
+        return len(self.names)
+
+    def image(self, i):
+        return cv2.imread(str(data() / "faces/img" / str(self.names[i])))[..., ::-1]
+
+    def __getitem__(self, i):
+        if i >= len(self):
+            raise IndexError
+        return np.ascontiguousarray(self.image(i)), self.crops[i, :3]
+
+
+def portraits(split):
+    return Portraits(split)
+
+
+def window(image, centre, side):
+    """A square of the picture as [112,112,3]; the border is repeated outwards."""
+    scale = WINDOW / side
+    matrix = np.array([[scale, 0, WINDOW / 2 - scale * centre[0]], [0, scale, WINDOW / 2 - scale * centre[1]]])
+    matrix[:, 2] += scale * 0.5 - 0.5  # OpenCV puts pixel centres at whole numbers
+    if scale < 0.7:
+        image = cv2.GaussianBlur(image, (0, 0), 0.4 / scale)
+    return cv2.warpAffine(image, matrix, (WINDOW, WINDOW), flags=cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
+
+
+def main():
+    for split in ("train", "val", "test"):
+        found = portraits(split)
+        out = cache() / "faces" / split
+        out.mkdir(parents=True, exist_ok=True)
+        images = np.empty((len(found), WINDOW, WINDOW, 3), np.uint8)
+        scale = WINDOW / (WINDOW_CROPS * found.crops[:, 2])
+        for i in tqdm(range(len(found)), desc=split):
+            images[i] = window(found.image(i), found.crops[i, :2], WINDOW_CROPS * found.crops[i, 2])
+        landmarks = (found.points - found.crops[:, None, :2]) * scale[:, None, None] + WINDOW / 2
+        middle = np.full(len(found), WINDOW / 2, np.float32)
+        crop = np.stack([middle, middle, found.crops[:, 2] * scale, found.crops[:, 3]], 1)
+        np.save(out / "images.npy", images)
+        np.savez(out / "labels.npz", landmarks=landmarks.astype(np.float32), crop=crop.astype(np.float32), name=found.names)
+        print(split, len(found))
+
+
+if __name__ == "__main__":
+    main()

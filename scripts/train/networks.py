@@ -1,0 +1,181 @@
+#!/usr/bin/env python3
+"""The networks, as PyTorch modules. Encoders are MobileNetV2-like (Sandler et al. 2018) with unpadded depthwise convolutions."""
+import torch
+import torch.nn.functional as F
+from torch import nn
+
+FEATURES = 256
+LANDMARKS = 175
+CONTROLS = 52
+POSE = 9
+LEAK = 0.1  # slope of every leaky ReLU
+
+
+def conv_norm(channels_in, channels_out, kernel=1, stride=1, padding=0, groups=1, activation=True):
+    layers = [nn.Conv2d(channels_in, channels_out, kernel, stride, padding, groups=groups, bias=False),
+              nn.BatchNorm2d(channels_out)]
+    return nn.Sequential(*layers, *([nn.ReLU6(inplace=True)] if activation else []))
+
+
+class InvertedResidual(nn.Module):
+    """Expand x t, depthwise 3x3, project; the residual is the centre slice of the input where the map shrinks."""
+
+    def __init__(self, channels_in, channels_out, expansion, stride, padded):
+        super().__init__()
+        hidden = channels_in * expansion
+        self.expand = conv_norm(channels_in, hidden) if expansion > 1 else nn.Identity()
+        self.depthwise = conv_norm(hidden, hidden, 3, stride, int(padded), groups=hidden)
+        self.project = conv_norm(hidden, channels_out, activation=False)
+        self.residual = stride == 1 and channels_in == channels_out
+        self.margin = 0 if padded else 1
+
+    def forward(self, x):
+        y = self.project(self.depthwise(self.expand(x)))
+        if not self.residual:
+            return y
+        m = self.margin
+        return y + (x[..., m:-m, m:-m] if m else x)
+
+
+class Encoder(nn.Module):
+    """blocks: (expansion, stride, padded, channels). tail_kernel: the last map's size (h, w)."""
+
+    def __init__(self, blocks, tail_kernel):
+        super().__init__()
+        layers, channels = [conv_norm(3, 16, 3, 2)], 16
+        for expansion, stride, padded, out in blocks:
+            layers.append(InvertedResidual(channels, out, expansion, stride, padded))
+            channels = out
+        self.body = nn.Sequential(*layers)
+        self.tail = nn.Sequential(conv_norm(channels, channels * 6),
+                                  conv_norm(channels * 6, channels * 6, tail_kernel, groups=channels * 6),
+                                  nn.Conv2d(channels * 6, FEATURES, 1))
+
+    def forward(self, image):
+        """image [n,3,h,w] in -1..1 -> features [n,256]"""
+        return self.tail(self.body(image)).flatten(1)
+
+
+class BaseNetEncoder(Encoder):
+    """Input 65x65."""
+
+    def __init__(self):
+        super().__init__([(2, 2, False, 16), (2, 1, False, 16), (2, 1, False, 16), (3, 2, False, 40), (3, 1, True, 40),
+                          (4, 2, True, 72)] + [(4, 1, True, 72)] * 4 + [(4, 1, True, 112)], 3)
+
+
+class BaseNet(nn.Module):
+    """Encoder with its plain heads; `controls` and `pose` exist in training only, to keep expression in the features."""
+
+    def __init__(self):
+        super().__init__()
+        self.encoder = BaseNetEncoder()
+        self.landmarks = nn.Linear(FEATURES, 2 * LANDMARKS)
+        self.face = nn.Linear(FEATURES, 1)
+        self.controls = nn.Linear(FEATURES, CONTROLS)
+        self.pose = nn.Linear(FEATURES, POSE)
+
+    def forward(self, image):
+        features = self.encoder(image)
+        return {"features": features, "landmarks": self.landmarks(features).view(-1, LANDMARKS, 2),
+                "face": self.face(features)[:, 0], "controls": self.controls(features), "pose": self.pose(features)}
+
+
+class TemporalDecoder(nn.Module):
+    """Three causal convolutions over time (kernel 2), one LSTM, one fully connected layer."""
+
+    def __init__(self, widths, outputs):
+        super().__init__()
+        self.convolutions = nn.ModuleList(nn.Conv1d(a, b, 2) for a, b in zip([FEATURES] + widths, widths))
+        self.lstm = nn.LSTM(widths[-1], widths[-1], batch_first=True)
+        self.output = nn.Linear(widths[-1], outputs)
+
+    def forward(self, features, state=None):
+        """features [n,t,256] -> outputs [n,t,m] and the state that continues the stream; no state is a stream's start."""
+        x = features.transpose(1, 2)
+        previous, lstm_state = state or ([x.new_zeros(len(x), c.in_channels, 1) for c in self.convolutions], None)
+        following = []
+        for convolution, before in zip(self.convolutions, previous):
+            x = torch.cat([before, x], 2)
+            following.append(x[..., -1:])
+            x = F.leaky_relu(convolution(x), LEAK)
+        x, lstm_state = self.lstm(x.transpose(1, 2), lstm_state)
+        return self.output(x), (following, lstm_state)
+
+
+class ControlsDecoder(TemporalDecoder):
+    """Outputs are clamped to 0..1 when used, not in training."""
+
+    def __init__(self):
+        super().__init__([128, 128, 96], CONTROLS)
+
+
+class PoseDecoder(TemporalDecoder):
+    def __init__(self):
+        super().__init__([48, 48, 32], POSE)
+
+
+class PNet(nn.Module):
+    """First stage of MTCNN (Zhang et al. 2016), fully convolutional, cell 12, stride 2. Box: dx, dy, dlog."""
+
+    def __init__(self):
+        super().__init__()
+        self.body = nn.Sequential(nn.Conv2d(3, 10, 3), nn.PReLU(10), nn.MaxPool2d(2, 2, ceil_mode=True),
+                                  nn.Conv2d(10, 16, 3), nn.PReLU(16), nn.Conv2d(16, 32, 3), nn.PReLU(32))
+        self.face, self.box = nn.Conv2d(32, 1, 1), nn.Conv2d(32, 3, 1)
+
+    def forward(self, image):
+        x = self.body(image)
+        return self.face(x), self.box(x)
+
+
+class RNet(nn.Module):
+    """Second stage of MTCNN, on 24x24."""
+
+    def __init__(self):
+        super().__init__()
+        self.body = nn.Sequential(nn.Conv2d(3, 28, 3), nn.PReLU(28), nn.MaxPool2d(3, 2, ceil_mode=True),
+                                  nn.Conv2d(28, 48, 3), nn.PReLU(48), nn.MaxPool2d(3, 2, ceil_mode=True),
+                                  nn.Conv2d(48, 64, 2), nn.PReLU(64))
+        self.hidden = nn.Sequential(nn.Linear(64 * 3 * 3, 128), nn.PReLU(128))
+        self.face, self.box = nn.Linear(128, 1), nn.Linear(128, 3)
+
+    def forward(self, image):
+        x = self.hidden(self.body(image).flatten(1))
+        return self.face(x), self.box(x)
+
+
+def cost(network, *shape):
+    """Parameters after folding batch norm, and multiply-accumulates of the convolutions."""
+    macs, parameters, hooks = [0], [0], []
+
+    def count(module, _, output):
+        positions = output.shape[2] * output.shape[3]
+        macs[0] += module.weight.numel() * positions
+        parameters[0] += module.weight.numel() + module.out_channels
+
+    for module in network.modules():
+        if isinstance(module, nn.Conv2d):
+            hooks.append(module.register_forward_hook(count))
+    network.eval()(torch.zeros(1, *shape))
+    for hook in hooks:
+        hook.remove()
+    return parameters[0], macs[0]
+
+
+def self_test():
+    parameters, macs = cost(BaseNetEncoder(), 3, 65, 65)
+    assert parameters == 528656, parameters
+    assert abs(macs / 5.22e6 - 1) < 0.01, macs
+    decoder, x = ControlsDecoder().eval(), torch.randn(2, 9, FEATURES)
+    whole, state, parts = decoder(x)[0], None, []
+    for t in range(9):
+        y, state = decoder(x[:, t:t + 1], state)
+        parts.append(y)
+    assert torch.allclose(whole, torch.cat(parts, 1), atol=1e-5)
+    assert PNet()(torch.zeros(1, 3, 12, 12))[0].shape == (1, 1, 1, 1)
+    print("BaseNet encoder:", parameters, "parameters,", macs, "multiply-accumulates")
+
+
+if __name__ == "__main__":
+    self_test()
