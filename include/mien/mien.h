@@ -1,0 +1,348 @@
+/* mien: facial animation from video on a phone's CPU. The public C interface.
+ *
+ * Words
+ *   upright image  the pushed buffer turned clockwise by `rotation`. Its pixel (column, row) covers
+ *                  [column, column + 1) x [row, row + 1); its centre is at (column + 0.5, row +
+ * 0.5). A mirrored picture stays mirrored: results can be drawn on it as it is. left, right    the
+ * subject's. control        one animation weight in 0..1 with an ARKit name (mien_control_name).
+ *   camera space   right-handed: x to the right, y up, z towards the viewer; the camera looks along
+ * -z. Metres. Of the scene itself: a mirrored picture is un-mirrored for the head pose. head space
+ * x to the subject's left, y up, z out of the face; origin between the ears.
+ *
+ * Structs
+ *   `struct_size` comes first in every struct and is set by the caller to sizeof(the struct); the
+ *   *_default functions do so. A shorter struct (compiled with an older header) is read or written
+ *   as far as it reaches: the missing inputs take their defaults. Of a longer one, the unknown tail
+ *   is ignored on input and zeroed on output. Reserved fields must be zero.
+ *
+ * Threads
+ *   Functions without a tracker argument may be called from anywhere at any time. A tracker may be
+ *   used by one thread at a time; different trackers are independent. No function locks, prints,
+ *   opens files, starts threads or (except create and destroy, through the allocator) allocates.
+ *
+ * Errors
+ *   A function that returns a mien_status does nothing else when the status is not MIEN_OK, unless
+ *   it says so. Numbers are never reused.
+ */
+#ifndef MIEN_MIEN_H_
+#define MIEN_MIEN_H_
+
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(MIEN_SHARED) && defined(_WIN32)
+#ifdef MIEN_BUILDING
+#define MIEN_API __declspec(dllexport)
+#else
+#define MIEN_API __declspec(dllimport)
+#endif
+#elif defined(__GNUC__)
+#define MIEN_API __attribute__((visibility("default")))
+#else
+#define MIEN_API
+#endif
+
+#if defined(__GNUC__)
+#define MIEN_NODISCARD __attribute__((warn_unused_result))
+#else
+#define MIEN_NODISCARD
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define MIEN_API_VERSION 0x00000100 /* 0x00XXYYZZ: major, minor, patch */
+
+#define MIEN_CONTROL_COUNT 52
+#define MIEN_LANDMARK_COUNT 175
+#define MIEN_MAX_STAGES 16
+
+/* Alignment in bytes of weight files in memory and of the memory given to mien_tracker_create_in.
+ */
+#define MIEN_ALIGNMENT 64
+
+/* Status --------------------------------------------------------------------------------------- */
+
+typedef enum mien_status {
+  MIEN_OK = 0,
+  /* arguments */
+  MIEN_ERROR_NULL_ARGUMENT = -1,
+  MIEN_ERROR_STRUCT_SIZE = -2,      /* struct_size is too small to hold what is indispensable */
+  MIEN_ERROR_OUT_OF_RANGE = -3,     /* a field lies outside its documented range, or is NaN */
+  MIEN_ERROR_ALIGNMENT = -4,        /* weights or memory are not MIEN_ALIGNMENT-aligned */
+  MIEN_ERROR_MEMORY_TOO_SMALL = -5, /* less than mien_tracker_required_bytes */
+  MIEN_ERROR_OUT_OF_MEMORY = -6,    /* the allocator returned NULL */
+  MIEN_ERROR_UNSUPPORTED_LOD = -7,
+  /* weight files */
+  MIEN_ERROR_WEIGHTS_NOT_MIEN = -20,   /* not a .mien file */
+  MIEN_ERROR_WEIGHTS_VERSION = -21,    /* a version of the format that this library does not read */
+  MIEN_ERROR_WEIGHTS_TRUNCATED = -22,  /* fewer bytes than the file says */
+  MIEN_ERROR_WEIGHTS_CHECKSUM = -23,   /* damaged */
+  MIEN_ERROR_WEIGHTS_MALFORMED = -24,  /* breaks another rule of the format */
+  MIEN_ERROR_WEIGHTS_INCOMPLETE = -25, /* lacks a network or constant of the tracker */
+  MIEN_ERROR_WEIGHTS_SHAPE = -26,      /* a network or constant has another shape than needed */
+  /* engine */
+  MIEN_ERROR_UNSUPPORTED_CPU = -40,   /* the mask leaves no tier that this CPU and build can run */
+  MIEN_ERROR_UNSUPPORTED_LAYER = -41, /* no allowed tier has a kernel for a layer */
+  MIEN_ERROR_INTERNAL = -42,          /* a fault of mien itself */
+  /* stream */
+  MIEN_ERROR_IMAGE_FORMAT = -60,
+  MIEN_ERROR_IMAGE_SIZE = -61,   /* width or height outside 1..MIEN_MAX_IMAGE_SIDE */
+  MIEN_ERROR_IMAGE_STRIDE = -62, /* rows or chroma samples overlap each other */
+  MIEN_ERROR_IMAGE_PLANE = -63,  /* a plane of the format is NULL */
+  MIEN_ERROR_IMAGE_ROTATION = -64,
+  MIEN_ERROR_IMAGE_CAMERA = -65 /* focal length or principal point negative or not finite */
+} mien_status;
+
+/* One line of English, static, never NULL; "unknown status" for numbers that are none. */
+MIEN_API const char* mien_status_string(mien_status status);
+
+/* Static string "major.minor.patch" of the library. */
+MIEN_API const char* mien_version(void);
+
+/* MIEN_API_VERSION of the header that the library was built with. */
+MIEN_API uint32_t mien_version_api(void);
+
+/* CPU ------------------------------------------------------------------------------------------ */
+
+/* One bit per tier of kernels. Numbers are fixed; not every build has every tier. */
+#define MIEN_CPU_REF 0x01u /* readable scalar code, slow */
+#define MIEN_CPU_AVX2 0x02u
+#define MIEN_CPU_AVX512 0x04u
+#define MIEN_CPU_NEON 0x08u
+#define MIEN_CPU_NEON_FP16 0x10u
+#define MIEN_CPU_NEON32 0x20u
+#define MIEN_CPU_WASM 0x40u
+#define MIEN_CPU_ALL 0xFFFFFFFFu
+
+/* The tiers that this build has and this CPU can run. MIEN_CPU_REF is always among them. */
+MIEN_API uint32_t mien_cpu_tiers(void);
+
+/* Name of the tier with the single bit `tier` ("ref", "avx2", ...); NULL for anything else. */
+MIEN_API const char* mien_cpu_tier_name(uint32_t tier);
+
+/* Names ---------------------------------------------------------------------------------------- */
+
+/* ARKit name in lowerCamel of control 0..MIEN_CONTROL_COUNT-1 ("eyeBlinkLeft" .. "tongueOut"), in
+ * the order of Apple's Live Link wire format; NULL outside. Static. */
+MIEN_API const char* mien_control_name(int32_t control);
+
+/* Number of controls / landmarks that this library fills in. */
+MIEN_API int32_t mien_control_count(void);
+MIEN_API int32_t mien_landmark_count(void);
+
+/* Image ---------------------------------------------------------------------------------------- */
+
+#define MIEN_MAX_IMAGE_SIDE 16384
+
+/* YUV is BT.601, chroma subsampled 2 x 2; a chroma plane has (width + 1) / 2 samples in each of its
+ * (height + 1) / 2 rows. YV12 is I420 with planes 1 and 2 exchanged. Android's YUV_420_888 is I420
+ * with chroma_pixel_stride_bytes set to the plane's pixel stride. */
+typedef enum mien_image_format {
+  MIEN_IMAGE_GRAY8 = 0, /* 1 plane */
+  MIEN_IMAGE_RGB = 1,   /* 1 plane, 3 bytes a pixel */
+  MIEN_IMAGE_BGR = 2,
+  MIEN_IMAGE_RGBA = 3, /* 1 plane, 4 bytes a pixel; the fourth is ignored (RGBX, BGRX) */
+  MIEN_IMAGE_BGRA = 4,
+  MIEN_IMAGE_NV12 = 5, /* 2 planes: Y; U and V interleaved */
+  MIEN_IMAGE_NV21 = 6, /* 2 planes: Y; V and U interleaved */
+  MIEN_IMAGE_I420 = 7  /* 3 planes: Y; U; V */
+} mien_image_format;
+
+/* A picture in the caller's memory, which is read during the call only. Never read: bytes after the
+ * last pixel of a row. Start from mien_image_default. */
+typedef struct mien_image {
+  uint32_t struct_size;
+  int32_t format; /* mien_image_format */
+  int32_t width;  /* pixels of the buffer, before rotation; 1..MIEN_MAX_IMAGE_SIDE */
+  int32_t height;
+  const void* planes[3]; /* first byte of the top row; unused planes are ignored */
+  int32_t
+      row_stride_bytes[3]; /* from one row to the next below it; negative for bottom-up memory */
+  int32_t chroma_pixel_stride_bytes; /* I420 only: from one chroma sample to the next; 0 means 1 */
+  int32_t rotation;                  /* degrees clockwise that make it upright: 0, 90, 180, 270 */
+  int32_t mirrored;      /* not 0: the upright image is a mirror image of the scene (selfie) */
+  int32_t full_range;    /* GRAY8 and YUV: not 0: luma 0..255; 0: video range, luma 16..235 */
+  float focal_length_px; /* in pixels of the upright image; 0: not known, use the default FOV */
+  float principal_x;     /* principal point in the upright image; both 0: its centre */
+  float principal_y;
+  uint32_t reserved[8];
+} mien_image;
+
+/* Fills in *image: struct_size, full_range = 1, everything else 0. NULL is ignored. */
+MIEN_API void mien_image_default(mien_image* image);
+
+/* Tracker -------------------------------------------------------------------------------------- */
+
+typedef struct mien_tracker mien_tracker;
+
+/* Callbacks for all the memory of a tracker, called within create and destroy only. */
+typedef struct mien_allocator {
+  /* At least `size_bytes` aligned to `alignment_bytes` (a power of two), or NULL. */
+  void* (*allocate)(void* user, size_t size_bytes, size_t alignment_bytes);
+  void (*release)(void* user, void* memory);
+  void* user;
+} mien_allocator;
+
+/* Start from mien_tracker_config_default; then only the weights have to be set. */
+typedef struct mien_tracker_config {
+  uint32_t struct_size;
+  uint32_t cpu_mask; /* tiers of kernels that may be used; default MIEN_CPU_ALL */
+
+  /* Weight files in memory (models/basenet.mien, models/proposal.mien), MIEN_ALIGNMENT-aligned, for
+   * instance mapped files or arrays in flash. Owned by the caller; must outlive the tracker and
+   * stay as they are. */
+  const void* basenet;
+  size_t basenet_bytes;
+  const void* proposal;
+  size_t proposal_bytes;
+
+  mien_allocator allocator; /* default: both callbacks NULL, the C library's allocator */
+
+  /* Monotonic clock in ns, called around the stages of a frame to fill mien_result.stage_ns;
+   * default NULL: stages are not timed. */
+  uint64_t (*clock_ns)(void* user);
+  void* clock_user;
+
+  int32_t lod;          /* level of detail; 1 is the only one yet; 0 = automatic, which is 1 */
+  float horizontal_fov; /* radians, of the upright image, where focal_length_px is 0; 0.01..3.1;
+                           default 60 degrees */
+
+  /* Face probability at and above which a searched face is accepted; default 0.7. */
+  float accept_probability;
+  /* Face probability below which a tracked face counts as missing; default 0.4; must not exceed
+   * accept_probability. */
+  float lose_probability;
+  /* Consecutive judged frames with the face missing until it is lost; 1..1000; default 3. */
+  int32_t lose_after_frames;
+
+  /* Face proposal: the longer side of the image is seen at this many pixels, and the smallest
+   * face is 12 of them; 24..640; default 160, which finds faces from 7.5 % of the longer side. */
+  int32_t proposal_size;
+  float proposal_threshold; /* first stage (P-Net), 0..1; default 0.6 */
+  float refine_threshold;   /* second stage (R-Net), 0..1; default 0.7 */
+  /* Without a face, the proposal runs on every frame for the first 30 of them, then on every
+   * search_interval-th; 1..1000; default 3. */
+  int32_t search_interval;
+
+  uint32_t reserved[15];
+} mien_tracker_config;
+
+/* Fills in *config with the defaults; the weights are NULL. NULL is ignored. */
+MIEN_API void mien_tracker_config_default(mien_tracker_config* config);
+
+/* Bytes that mien_tracker_create_in needs with this configuration. Validates the configuration and
+ * the weight files completely. On error *bytes is 0. */
+MIEN_API MIEN_NODISCARD mien_status mien_tracker_required_bytes(const mien_tracker_config* config,
+                                                                size_t* bytes);
+
+/* Creates a tracker with one allocation by config->allocator. On success the caller owns *tracker
+ * and ends it with mien_tracker_destroy; on error *tracker is NULL and nothing stays allocated.
+ * The configuration is copied; the weights are not. */
+MIEN_API MIEN_NODISCARD mien_status mien_tracker_create(const mien_tracker_config* config,
+                                                        mien_tracker** tracker);
+
+/* The same in the caller's memory, MIEN_ALIGNMENT-aligned, which must outlive the tracker. The
+ * allocator is not called. On error *tracker is NULL; the memory's content is unspecified. */
+MIEN_API MIEN_NODISCARD mien_status mien_tracker_create_in(const mien_tracker_config* config,
+                                                           void* memory, size_t memory_bytes,
+                                                           mien_tracker** tracker);
+
+/* Overwrites the tracker's memory with zeros and gives it back to the allocator, or leaves it to
+ * the caller after mien_tracker_create_in. NULL is ignored. */
+MIEN_API void mien_tracker_destroy(mien_tracker* tracker);
+
+/* Forgets everything seen: from here on every result is, bit for bit, that of a fresh tracker. */
+MIEN_API MIEN_NODISCARD mien_status mien_tracker_reset(mien_tracker* tracker);
+
+/* Tracks one image. On an error status the frame counts as not pushed and the result stays.
+ *
+ * pts_ns: time of the image in nanoseconds. Any value is accepted. Expected are images 5 to 120
+ * times a second. A repeated timestamp counts as 1/30 s. A step back, or forward by more than 1 s,
+ * is taken as a cut: the temporal decoders begin anew, and a face that is not where it was is lost
+ * at once.
+ *
+ * Format, size, rotation and mirroring may change from image to image; when the upright size, the
+ * rotation or the mirroring does, the face is searched anew on that image. */
+MIEN_API MIEN_NODISCARD mien_status mien_tracker_push_video(mien_tracker* tracker,
+                                                            const mien_image* image,
+                                                            int64_t pts_ns);
+
+/* Result --------------------------------------------------------------------------------------- */
+
+typedef enum mien_face_status {
+  MIEN_FACE_SEARCHING = 0, /* no face since create or reset: box, landmarks, pose, controls are 0 */
+  MIEN_FACE_TRACKING = 1,
+  /* The face is gone: box, landmarks and pose keep their last values, the controls fade towards 0
+   * with a time constant of 0.25 s. */
+  MIEN_FACE_LOST = 2
+} mien_face_status;
+
+/* "searching", "tracking", "lost"; NULL for other numbers. Static. */
+MIEN_API const char* mien_face_status_name(int32_t status);
+
+typedef enum mien_stage {
+  MIEN_STAGE_PROPOSAL = 0, /* finding a face in the whole image */
+  MIEN_STAGE_WARP = 1,     /* image to crop */
+  MIEN_STAGE_ENCODER = 2,  /* crop to features */
+  MIEN_STAGE_HEADS = 3,    /* features to landmarks and face probability */
+  MIEN_STAGE_DECODERS = 4, /* features over time to controls and head pose */
+  MIEN_STAGE_COUNT = 5
+} mien_stage;
+
+/* "proposal", "warp", "encoder", "heads", "decoders"; NULL for other numbers. Static. */
+MIEN_API const char* mien_stage_name(int32_t stage);
+
+/* Bits of mien_result.flags: what happened on this frame. */
+#define MIEN_RESULT_PROPOSAL_RAN 0x1u
+#define MIEN_RESULT_ENCODER_RAN 0x2u /* 0 on the alternate frames of LOD 1 */
+#define MIEN_RESULT_FOUND 0x4u       /* a face was (re)found on this frame */
+#define MIEN_RESULT_CUT 0x8u         /* the timestamp told of a cut */
+
+typedef struct mien_result {
+  uint32_t struct_size;
+  int32_t status;              /* mien_face_status */
+  int64_t pts_ns;              /* of the image that this result belongs to */
+  uint64_t supported_controls; /* bit i: control i is driven at this level of detail */
+
+  float face_probability; /* 0..1, of the last judged crop */
+  float voice_activity;   /* 0..1; 0 as long as there is no audio */
+  int32_t lod;
+  uint32_t flags; /* MIEN_RESULT_* */
+
+  float box[4]; /* x, y, width, height in pixels of the upright image; around the whole face */
+
+  float rotation[4];      /* head to camera: unit quaternion x, y, z, w with w >= 0 */
+  float pitch, yaw, roll; /* radians; R = Ry(yaw) Rx(pitch) Rz(roll). Positive: looks down; turns
+                             to the subject's left; right-hand rule about z */
+  float translation[3];   /* metres: the head's origin in camera space */
+
+  float controls[MIEN_CONTROL_COUNT];      /* 0..1; 0 where not supported */
+  float landmarks[MIEN_LANDMARK_COUNT][2]; /* x, y in pixels of the upright image; may lie outside
+                                              of it. Order: models/landmarks.json */
+
+  /* Totals since create or reset. */
+  uint64_t frames;      /* images pushed */
+  uint64_t face_frames; /* of these, with status MIEN_FACE_TRACKING */
+  uint64_t proposal_runs;
+  uint64_t encoder_runs;
+
+  uint64_t stage_ns[MIEN_MAX_STAGES]; /* time in each mien_stage on this frame; 0 without a clock */
+
+  uint32_t reserved[16];
+} mien_result;
+
+/* Copies the result of the last image pushed into *result, as much as result->struct_size says;
+ * before any image: MIEN_FACE_SEARCHING and zeros. */
+MIEN_API MIEN_NODISCARD mien_status mien_tracker_get_result(const mien_tracker* tracker,
+                                                            mien_result* result);
+
+/* Fills in *result: struct_size, everything else 0. NULL is ignored. */
+MIEN_API void mien_result_default(mien_result* result);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MIEN_MIEN_H_ */
