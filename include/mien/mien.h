@@ -158,8 +158,8 @@ typedef struct mien_image {
   int32_t width;  /* pixels of the buffer, before rotation; 1..MIEN_MAX_IMAGE_SIDE */
   int32_t height;
   const void* planes[3]; /* first byte of the top row; unused planes are ignored */
-  int32_t
-      row_stride_bytes[3]; /* from one row to the next below it; negative for bottom-up memory */
+  /* From one row to the next below it; negative for bottom-up memory. */
+  int32_t row_stride_bytes[3];
   int32_t chroma_pixel_stride_bytes; /* I420 only: from one chroma sample to the next; 0 means 1 */
   int32_t rotation;                  /* degrees clockwise that make it upright: 0, 90, 180, 270 */
   int32_t mirrored;      /* not 0: the upright image is a mirror image of the scene (selfie) */
