@@ -25,8 +25,9 @@ def colour(x, g):
     x = grey + (x - grey) * saturation
     tint = torch.exp(torch.randn(n, 3, 1, 1, generator=g) * 0.08)
     x = x * (tint / tint.mean(1, keepdim=True))
-    gamma = torch.exp(torch.randn(n, 1, 1, 1, generator=g) * 0.3)
-    x = x.clamp(1e-4, 1) ** gamma
+    bend = uniform(g, n, -0.5, 0.5)  # a gamma-like curve without its cost
+    x = x.clamp(0, 1)
+    x = x + bend * x * (1 - x)
     contrast, brightness = uniform(g, n, 0.6, 1.35), uniform(g, n, -0.15, 0.15)
     return ((x - 0.5) * contrast + 0.5 + brightness).clamp(0, 1)
 

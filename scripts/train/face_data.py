@@ -114,7 +114,7 @@ def to_crop(crop, points):
 
 
 def sample(images, crop):
-    return sample_crops(torch.from_numpy(np.ascontiguousarray(images)).permute(0, 3, 1, 2).float() / 255, crop)
+    return sample_crops(torch.from_numpy(np.ascontiguousarray(images.transpose(0, 3, 1, 2))).float() / 255, crop, taps=1)
 
 
 def mirror(batch, generator):

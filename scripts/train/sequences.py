@@ -8,11 +8,12 @@ import argparse
 import json
 from pathlib import Path
 
-import cv2
 import numpy as np
 import torch
 
 import head_pose
+from augment import OfSequence
+from expressions import CONTROLS
 from networks import BaseNet
 from paths import ROOT
 
@@ -44,10 +45,10 @@ class Sequences:
     def __len__(self):
         return len(self.images)
 
-    def frame(self, rows, t, looks=None):
-        """Images uint8 [n,112,112,3] of frame t, each through its own look."""
-        images = [self.images[i][t] for i in rows]
-        return torch.from_numpy(np.stack([look(i) for look, i in zip(looks, images)] if looks else images))
+    def frame(self, rows, t):
+        """Images f32 [n,3,112,112] in 0..1 of frame t."""
+        images = torch.from_numpy(np.stack([self.images[i][t] for i in rows]))
+        return images.permute(0, 3, 1, 2).float() / 255
 
     def label(self, name, rows=slice(None), t=slice(None)):
         return self.labels[name][rows][:, t].float()
@@ -75,10 +76,10 @@ def to_window(crop, window):
     return torch.cat([(crop[:, :2] - window[:, :2]) * scale + WINDOW / 2, crop[:, 2:3] * scale, crop[:, 3:]], 1)
 
 
-def sample_crops(images, crop):
-    """Warps crops [n,4] (pixels of images f32 [n,3,h,w]) to [n,3,65,65]; large crops average n x n taps."""
+def sample_crops(images, crop, taps=None):
+    """Warps crops [n,4] (pixels of images f32 [n,3,h,w]) to [n,3,65,65]; large crops average taps x taps."""
     h, w = images.shape[-2:]
-    taps = int(np.clip(np.ceil(float(crop[:, 2].max()) / CROP / 1.5), 1, 8))
+    taps = taps or int(np.clip(np.ceil(float(crop[:, 2].max()) / CROP / 1.5), 1, 8))
     n = CROP * taps
     at = (torch.arange(n) + 0.5) / n
     grid = torch.stack(torch.meshgrid(at, at, indexing="xy"), -1).view(1, -1, 2)
@@ -101,37 +102,6 @@ def lost(crop, truth):
     return (away > 0.3) | ((crop[:, 2] / truth[:, 2]).log().abs() > 0.45)
 
 
-class CameraLook:
-    """One camera's way of spoiling pictures: colours, blur and compression stay, noise changes with every frame."""
-
-    def __init__(self, rng):
-        self.rng = rng
-        grey = np.linspace(0, 1, 256)[:, None] ** np.exp(rng.normal(0, 0.2))
-        tinted = grey * np.exp(rng.normal(0, 0.12)) * np.exp(rng.normal(0, 0.06, 3)) + rng.normal(0, 0.03)
-        self.table = (255 * np.clip(tinted, 0, 1)).astype(np.uint8)[None]
-        self.saturation = 0.0 if rng.random() < 0.08 else np.clip(rng.normal(1, 0.2), 0.2, 1.6)
-        self.small = int(WINDOW * rng.uniform(0.5, 1)) if rng.random() < 0.4 else WINDOW
-        self.blur = rng.uniform(0.3, 1.3) if rng.random() < 0.4 else 0
-        self.noise = 255 * rng.choice([0, 0.01, 0.02, 0.04])
-        self.quality = int(rng.uniform(35, 95)) if rng.random() < 0.6 else None
-
-    def __call__(self, image):
-        """uint8 [h,w,3] -> the same."""
-        image = cv2.LUT(image, self.table)
-        grey = image.mean(2, keepdims=True)
-        image = grey + self.saturation * (image - grey)
-        if self.small < WINDOW:
-            image = cv2.resize(image, (self.small, self.small), interpolation=cv2.INTER_AREA)
-        if self.blur:
-            image = cv2.GaussianBlur(image, (0, 0), self.blur)
-        if self.noise:
-            image = image + self.rng.normal(0, self.noise, image.shape)
-        image = np.clip(image, 0, 255).astype(np.uint8)
-        if self.quality:
-            image = cv2.imdecode(cv2.imencode(".jpg", image, [cv2.IMWRITE_JPEG_QUALITY, self.quality])[1], 1)
-        return image if self.small == WINDOW else cv2.resize(image, (WINDOW, WINDOW))
-
-
 class Network:
     """Encoder and landmark head of a BaseNet checkpoint, as `track` wants them."""
 
@@ -147,11 +117,11 @@ class Network:
 
 
 @torch.no_grad()
-def track(model, sequences, rows, looks, generator, stride=1):
+def track(model, sequences, rows, spoil, generator, stride=1):
     """Follows sequences `rows`, the encoder running on every `stride`-th frame.
 
     model: callable f32 [n,3,65,65] (-1..1) -> (features [n,256], landmarks [n,175,2] in crop coordinates).
-    looks: one CameraLook per row, or None.
+    spoil: callable (f32 [n,3,65,65] in 0..1, frame number) -> the same, or None.
     Returns features [n,frames,256], crops [n,frames,4] the features come from, landmarks [n,frames,175,2] in
     camera pixels, and how often a face had to be found again.
     """
@@ -165,9 +135,8 @@ def track(model, sequences, rows, looks, generator, stride=1):
                 gone = lost(crop, truth)
                 crop = torch.where(gone[:, None], found, crop)
                 losses += int(gone.sum())
-            images = sequences.frame(rows, t, looks).permute(0, 3, 1, 2).float()
-            inputs = sample_crops(images, to_window(crop, sequences.label("window", rows, t)))
-            feature, shape = model(inputs / 127.5 - 1)
+            inputs = sample_crops(sequences.frame(rows, t), to_window(crop, sequences.label("window", rows, t)))
+            feature, shape = model((spoil(inputs, t) if spoil else inputs) * 2 - 1)
             frame = feature, crop, crop_to_image(crop, shape)
         history.append(frame)
     features, crops, points = (torch.stack(h, 1) for h in zip(*history))
@@ -178,6 +147,15 @@ def pose_targets(sequences, rows, crops):
     """What the pose decoder should answer for these crops, [n,frames,9]."""
     label = lambda name: sequences.label(name, rows)
     return head_pose.to_crop(label("rotation"), label("translation"), label("f_px"), label("camera_wh"), crops)
+
+
+def visible(sequences, rows):
+    """Which controls can be seen, f32 [n,frames,52]: an eye's need the eye (bit 0 left, bit 1 right)."""
+    bits = sequences.labels["visibility"][rows].long()
+    sides = {side: (bits >> i & 1).float() for i, side in enumerate(("Left", "Right"))}
+    seen = [sides[c[-4:] if c.endswith("Left") else "Right"] if c.startswith("eye") else torch.ones_like(bits).float()
+            for c in CONTROLS]
+    return torch.stack(seen, -1)
 
 
 def landmark_error(predicted, truth):
@@ -199,10 +177,10 @@ def extract(model, sequences, passes, seed, plain=False, batch=32):
         for number in range(passes):
             for start in range(0, len(sequences), batch):
                 rows = torch.arange(start, min(start + batch, len(sequences)))
-                key = [seed, stride, number, start]
-                looks = None if plain else [CameraLook(np.random.default_rng(key + [int(r)])) for r in rows]
-                generator = torch.Generator().manual_seed(hash(tuple(key)) % 2**31)
-                features, crops, points, again = track(model, sequences, rows, looks, generator, stride)
+                key = ((seed * 2 + stride) * 100 + number) * 10000 + start
+                spoil = None if plain else OfSequence(len(rows), key)
+                generator = torch.Generator().manual_seed(key)
+                features, crops, points, again = track(model, sequences, rows, spoil, generator, stride)
                 losses += again
                 error = landmark_error(points, sequences.label("landmarks", rows))
                 tracks.append({"features": features.half(), "pose": pose_targets(sequences, rows, crops),
@@ -225,7 +203,6 @@ def main():
     parser.add_argument("--seed", type=int, default=0)
     args = parser.parse_args()
     torch.set_num_threads(args.threads)
-    cv2.setNumThreads(args.threads)
     found = extract(Network(args.checkpoint), Sequences.load(args.shards), args.passes, args.seed, args.plain)
     args.out.parent.mkdir(parents=True, exist_ok=True)
     torch.save(found, args.out)
