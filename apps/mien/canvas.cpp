@@ -58,9 +58,10 @@ void Canvas::set(int x, int y, Color color) {
   if (x < 0 || y < 0 || x >= width_ || y >= height_) {
     return;
   }
-  unsigned char* at = rgb_.data() + (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
-                                     static_cast<std::size_t>(x)) *
-                                        3;
+  unsigned char* at =
+      rgb_.data() + (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+                     static_cast<std::size_t>(x)) *
+                        3;
   at[0] = color.r;
   at[1] = color.g;
   at[2] = color.b;
@@ -112,9 +113,9 @@ void Canvas::text(int x, int y, const std::string& text, Color color) {
   };
   std::string mutable_text = text;  // the font's interface is not const
   std::vector<std::array<Vertex, 4>> quads(text.size() * 24 + 8);
-  const int count = stb_easy_font_print(static_cast<float>(x), static_cast<float>(y),
-                                        mutable_text.data(), nullptr, quads.data(),
-                                        static_cast<int>(quads.size() * sizeof quads[0]));
+  const int count =
+      stb_easy_font_print(static_cast<float>(x), static_cast<float>(y), mutable_text.data(),
+                          nullptr, quads.data(), static_cast<int>(quads.size() * sizeof quads[0]));
   for (int i = 0; i < count; ++i) {
     const auto& quad = quads[static_cast<std::size_t>(i)];
     fill(static_cast<int>(quad[0].x), static_cast<int>(quad[0].y),

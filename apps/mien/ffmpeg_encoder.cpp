@@ -11,10 +11,21 @@ namespace {
 std::vector<std::string> encode_command(const std::string& partial_path, int width, int height,
                                         double fps, const std::string& sound_from,
                                         const VideoRange& range) {
-  std::vector<std::string> command = {
-      "ffmpeg", "-hide_banner", "-loglevel", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgb24",
-      "-video_size", std::to_string(width) + "x" + std::to_string(height),
-      "-framerate", std::to_string(fps), "-i", "-"};
+  std::vector<std::string> command = {"ffmpeg",
+                                      "-hide_banner",
+                                      "-loglevel",
+                                      "error",
+                                      "-y",
+                                      "-f",
+                                      "rawvideo",
+                                      "-pix_fmt",
+                                      "rgb24",
+                                      "-video_size",
+                                      std::to_string(width) + "x" + std::to_string(height),
+                                      "-framerate",
+                                      std::to_string(fps),
+                                      "-i",
+                                      "-"};
   if (!sound_from.empty()) {
     if (range.start_s > 0.0) {
       command.insert(command.end(), {"-ss", std::to_string(range.start_s)});

@@ -89,8 +89,8 @@ VideoInfo info_from(const json& probed, const std::string& input) {
 std::string seconds_text(double seconds) { return std::to_string(seconds); }
 
 std::vector<std::string> decode_command(const std::string& input, const VideoRange& range) {
-  std::vector<std::string> command = {"ffmpeg", "-hide_banner", "-nostdin", "-nostats",
-                                      "-loglevel", "level+info"};
+  std::vector<std::string> command = {"ffmpeg",   "-hide_banner", "-nostdin",
+                                      "-nostats", "-loglevel",    "level+info"};
   if (range.start_s > 0.0) {
     command.insert(command.end(), {"-ss", seconds_text(range.start_s)});
   }
@@ -98,8 +98,9 @@ std::vector<std::string> decode_command(const std::string& input, const VideoRan
     command.insert(command.end(), {"-t", seconds_text(*range.duration_s)});
   }
   // showinfo reports each frame's own time, which a raw stream does not carry.
-  command.insert(command.end(), {"-i", input, "-map", "0:v:0", "-vsync", "passthrough", "-vf",
-                                 "showinfo=checksum=0", "-pix_fmt", "rgb24", "-f", "rawvideo", "-"});
+  command.insert(command.end(),
+                 {"-i", input, "-map", "0:v:0", "-vsync", "passthrough", "-vf",
+                  "showinfo=checksum=0", "-pix_fmt", "rgb24", "-f", "rawvideo", "-"});
   return command;
 }
 
@@ -143,7 +144,8 @@ void FfmpegSource::collect_times(bool finished) {
       double seconds = 0.0;
       const char* digits = line.data() + key + 9;
       const auto parsed = std::from_chars(digits, line.data() + line.size(), seconds);
-      times_s_.push_back(parsed.ec == std::errc() ? seconds : times_s_.size() / info_.fps);
+      times_s_.push_back(
+          parsed.ec == std::errc() ? seconds : static_cast<double>(times_s_.size()) / info_.fps);
     } else if (line.find("[error]") != std::string_view::npos ||
                line.find("[fatal]") != std::string_view::npos) {
       last_error_ = line;
@@ -169,8 +171,7 @@ bool FfmpegSource::next(mien_image& image, std::int64_t& pts_ns) {
     return false;
   }
   collect_times(false);
-  image = {};
-  image.struct_size = sizeof image;
+  mien_image_default(&image);
   image.format = MIEN_IMAGE_RGB;
   image.width = info_.width;
   image.height = info_.height;

@@ -1,0 +1,16 @@
+// `mien inspect`: what is in a weight file.
+#pragma once
+
+#include <string>
+
+namespace mien::app {
+
+struct InspectOptions {
+  std::string file;
+  bool json = false;
+};
+
+// Throws Failure.
+void inspect(const InspectOptions& options);
+
+}  // namespace mien::app

@@ -1,0 +1,83 @@
+// mien: facial animation from video. docs/cli.md describes the verbs, options and exit codes.
+#include <signal.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+
+#include "apps/mien/bench.h"
+#include "apps/mien/failure.h"
+#include "apps/mien/inspect.h"
+#include "apps/mien/track.h"
+
+namespace mien::app {
+namespace {
+
+void add_track(CLI::App& program) {
+  auto* verb = program.add_subcommand("track", "Track the face in a video and write its curves");
+  auto options = std::make_shared<TrackOptions>();
+  verb->add_option("INPUT", options->input, "video, image, .y4m, or - for Y4M on standard input")
+      ->required();
+  verb->add_option("-o", options->curves, "curves as CSV (default: standard output)");
+  verb->add_option("--landmarks", options->landmarks, "landmarks as CSV");
+  verb->add_option("--overlay", options->overlay, "video with what was tracked drawn over it");
+  verb->add_option("--stats", options->stats, "counts and stage times as JSON");
+  verb->add_option("--lod", options->lod, "level of detail (1)");
+  verb->add_option("--tier", options->tier, "kernel tier: ref, avx2");
+  verb->add_option("--models", options->models, "folder of the model files");
+  verb->add_option("--start", options->start_s, "seconds to skip")->check(CLI::NonNegativeNumber);
+  verb->add_option("--duration", options->duration_s, "seconds to track")
+      ->check(CLI::PositiveNumber);
+  verb->add_flag("--quiet", options->quiet, "no progress bar, no summary");
+  verb->callback([options] { track(*options); });
+}
+
+void add_inspect(CLI::App& program) {
+  auto* verb = program.add_subcommand("inspect", "Print what is in a weight file");
+  auto options = std::make_shared<InspectOptions>();
+  verb->add_option("FILE", options->file, "weight file (.mien)")->required();
+  verb->add_flag("--json", options->json, "as JSON");
+  verb->callback([options] { inspect(*options); });
+}
+
+void add_bench(CLI::App& program) {
+  auto* verb = program.add_subcommand("bench", "Time the networks on one core");
+  auto options = std::make_shared<BenchOptions>();
+  verb->add_option("--model", options->model, "one network only, for instance basenet_encoder");
+  verb->add_option("--tier", options->tier, "one tier only: ref, avx2");
+  verb->add_option("--models", options->models, "folder of the model files");
+  verb->add_flag("--json", options->json, "as JSON");
+  verb->callback([options] { bench(*options); });
+}
+
+int run(int argc, char** argv) {
+  CLI::App program("Facial animation from video, in real time, on a CPU", "mien");
+  program.set_version_flag("--version", mien_version());
+  program.require_subcommand(1);
+  add_track(program);
+  add_inspect(program);
+  add_bench(program);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return program.exit(error) == 0 ? kExitOk : kExitUsage;
+  }
+  return kExitOk;
+}
+
+}  // namespace
+}  // namespace mien::app
+
+int main(int argc, char** argv) {
+  // A reader that goes away shows as a failed write, with a message, not as a silent death.
+  signal(SIGPIPE, SIG_IGN);
+  try {
+    return mien::app::run(argc, argv);
+  } catch (const mien::app::Failure& failure) {
+    std::fprintf(stderr, "mien: %s\n", failure.what());
+    return failure.code();
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "mien: %s\n", error.what());
+    return mien::app::kExitInternal;
+  }
+}

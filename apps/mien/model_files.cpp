@@ -1,0 +1,48 @@
+#include "apps/mien/model_files.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "apps/mien/failure.h"
+
+namespace mien::app {
+
+namespace fs = std::filesystem;
+
+Blob::Blob(const std::string& path) {
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  if (!file) {
+    throw Failure(kExitModel, path + ": cannot be opened");
+  }
+  size_ = static_cast<std::size_t>(file.tellg());
+  words_.resize((size_ + sizeof(Line) - 1) / sizeof(Line));
+  file.seekg(0);
+  if (!file.read(reinterpret_cast<char*>(words_.data()), static_cast<std::streamsize>(size_))) {
+    throw Failure(kExitModel, path + ": cannot be read");
+  }
+}
+
+std::string models_directory(const std::string& chosen) {
+  if (!chosen.empty()) {
+    return chosen;
+  }
+  if (const char* from_environment = std::getenv("MIEN_MODELS")) {
+    return from_environment;
+  }
+  std::error_code ignored;
+  const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
+  for (fs::path folder = program.parent_path(); !folder.empty(); folder = folder.parent_path()) {
+    for (const char* place : {"models", "share/mien/models"}) {
+      if (fs::exists(folder / place / "basenet.mien", ignored)) {
+        return (folder / place).string();
+      }
+    }
+    if (folder == folder.root_path()) {
+      break;
+    }
+  }
+  throw Failure(kExitModel, "no model files found; give --models DIR or set MIEN_MODELS");
+}
+
+}  // namespace mien::app

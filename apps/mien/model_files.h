@@ -1,0 +1,28 @@
+// The weight files beside the program or the source tree.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace mien::app {
+
+// A whole file in memory, aligned as the library asks for.
+class Blob {
+ public:
+  explicit Blob(const std::string& path);  // throws Failure(kExitModel)
+  const void* data() const { return words_.data(); }
+  std::size_t size() const { return size_; }
+
+ private:
+  struct alignas(64) Line {
+    std::byte bytes[64];
+  };
+  std::vector<Line> words_;
+  std::size_t size_ = 0;
+};
+
+// `chosen` if given; else $MIEN_MODELS; else `models` beside the program, above it, or installed.
+std::string models_directory(const std::string& chosen);
+
+}  // namespace mien::app

@@ -1,0 +1,22 @@
+#include "apps/mien/stage_times.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace mien::app {
+
+void StageTimes::add(const std::string& stage, std::int64_t nanoseconds) {
+  ms_[stage].push_back(static_cast<double>(nanoseconds) * 1e-6);
+}
+
+std::map<std::string, StageTime> StageTimes::summary() const {
+  std::map<std::string, StageTime> summary;
+  for (auto [stage, times] : ms_) {
+    std::sort(times.begin(), times.end());
+    const std::size_t last = times.size() - 1;
+    summary[stage] = {times[last / 2], times[last * 95 / 100]};
+  }
+  return summary;
+}
+
+}  // namespace mien::app

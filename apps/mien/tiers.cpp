@@ -1,0 +1,26 @@
+#include "apps/mien/tiers.h"
+
+#include <mien/mien.h>
+
+#include "apps/mien/failure.h"
+
+namespace mien::app {
+
+std::uint32_t cpu_mask(const std::string& name) {
+  if (name.empty()) {
+    return MIEN_CPU_ALL;
+  }
+  for (std::uint32_t tier = 1; tier != 0; tier <<= 1) {
+    const char* known = mien_cpu_tier_name(tier);
+    if (known == nullptr || name != known) {
+      continue;
+    }
+    if ((mien_cpu_tiers() & tier) == 0) {
+      throw Failure(kExitUnsupportedTier, "tier '" + name + "': not on this CPU or in this build");
+    }
+    return tier | MIEN_CPU_REF;
+  }
+  throw Failure(kExitUsage, "tier '" + name + "': no such tier");
+}
+
+}  // namespace mien::app

@@ -1,0 +1,182 @@
+#include "apps/mien/track.h"
+
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <mien/mien.hpp>
+#include <nlohmann/json.hpp>
+
+#include "apps/mien/curves.h"
+#include "apps/mien/failure.h"
+#include "apps/mien/ffmpeg.h"
+#include "apps/mien/model_files.h"
+#include "apps/mien/output_file.h"
+#include "apps/mien/overlay.h"
+#include "apps/mien/progress.h"
+#include "apps/mien/stage_times.h"
+#include "apps/mien/tiers.h"
+#include "apps/mien/video_source.h"
+
+namespace mien::app {
+namespace {
+
+std::uint64_t now_ns(void*) {
+  return static_cast<std::uint64_t>(std::chrono::steady_clock::now().time_since_epoch() /
+                                    std::chrono::nanoseconds(1));
+}
+
+struct LoadedTracker {
+  LoadedTracker(const std::string& models, const TrackOptions& options)
+      : basenet(models + "/basenet.mien"), proposal(models + "/proposal.mien") {
+    Config config({static_cast<const std::byte*>(basenet.data()), basenet.size()},
+                  {static_cast<const std::byte*>(proposal.data()), proposal.size()});
+    config.lod = options.lod;
+    config.cpu_mask = cpu_mask(options.tier);
+    config.clock_ns = now_ns;
+    const mien_status status = tracker.create(config);
+    if (status != MIEN_OK) {
+      const bool usage = status == MIEN_ERROR_UNSUPPORTED_LOD;
+      throw Failure(usage ? kExitUsage : kExitModel,
+                    usage ? "--lod " + std::to_string(options.lod) + ": not supported yet"
+                          : models + ": " + message(status));
+    }
+  }
+
+  Blob basenet, proposal;
+  Tracker tracker;
+};
+
+// Everything that is written per frame.
+class Outputs {
+ public:
+  Outputs(const TrackOptions& options, const VideoInfo& info, const VideoRange& range);
+  void frame(std::int64_t number, const mien_image& image, const Result& result);
+  void finish();
+
+ private:
+  std::unique_ptr<OutputFile> curves_;
+  std::unique_ptr<OutputFile> landmarks_;
+  std::unique_ptr<Overlay> overlay_;
+  std::unique_ptr<VideoEncoder> encoder_;
+};
+
+Outputs::Outputs(const TrackOptions& options, const VideoInfo& info, const VideoRange& range) {
+  if (!options.curves.empty()) {
+    curves_ = std::make_unique<OutputFile>(options.curves);
+    curves_->write(curve_header());
+  } else {
+    std::fputs(curve_header().c_str(), stdout);
+  }
+  if (!options.landmarks.empty()) {
+    landmarks_ = std::make_unique<OutputFile>(options.landmarks);
+    landmarks_->write(landmark_header());
+  }
+  if (!options.overlay.empty()) {
+    overlay_ = std::make_unique<Overlay>(info.width, info.height);
+    const std::string sound_from = options.input == "-" ? "" : options.input;
+    encoder_ = std::make_unique<VideoEncoder>(options.overlay, overlay_->width(),
+                                              overlay_->height(), info.fps, sound_from, range);
+  }
+}
+
+void Outputs::frame(std::int64_t number, const mien_image& image, const Result& result) {
+  const std::string row = curve_row(number, result);
+  if (curves_) {
+    curves_->write(row);
+  } else {
+    std::fputs(row.c_str(), stdout);
+  }
+  if (landmarks_) {
+    landmarks_->write(landmark_row(number, result));
+  }
+  if (overlay_) {
+    encoder_->write(overlay_->draw(image, result).rgb());
+  }
+}
+
+void Outputs::finish() {
+  if (encoder_) {
+    encoder_->finish();
+  }
+  if (landmarks_) {
+    landmarks_->finish();
+  }
+  if (curves_) {
+    curves_->finish();
+  } else if (std::fflush(stdout) != 0) {
+    throw Failure(kExitOutput, "standard output: cannot be written");
+  }
+}
+
+void add_times(StageTimes& times, const Result& result) {
+  std::uint64_t whole = 0;
+  for (int stage = 0; stage < MIEN_STAGE_COUNT; ++stage) {
+    whole += result.stage_ns[stage];
+    if (result.stage_ns[stage] != 0) {
+      times.add(mien_stage_name(stage), static_cast<std::int64_t>(result.stage_ns[stage]));
+    }
+  }
+  times.add("frame", static_cast<std::int64_t>(whole));
+}
+
+void write_stats(const std::string& path, const Result& last, const StageTimes& times) {
+  nlohmann::ordered_json stats;
+  stats["frames"] = last.frames;
+  stats["frames_with_face"] = last.face_frames;
+  stats["proposal_runs"] = last.proposal_runs;
+  stats["encoder_runs"] = last.encoder_runs;
+  stats["stages"] = nlohmann::ordered_json::object();
+  for (const auto& [stage, time] : times.summary()) {
+    stats["stages"][stage] = {{"median_ms", time.median_ms}, {"p95_ms", time.p95_ms}};
+  }
+  OutputFile file(path);
+  file.write(stats.dump(1) + "\n");
+  file.finish();
+}
+
+void print_summary(const Result& last, const StageTimes& times) {
+  std::fprintf(stderr, "frames %llu, with a face %llu, the proposal ran %llu times\n",
+               static_cast<unsigned long long>(last.frames),
+               static_cast<unsigned long long>(last.face_frames),
+               static_cast<unsigned long long>(last.proposal_runs));
+  for (const auto& [stage, time] : times.summary()) {
+    std::fprintf(stderr, "  %-9s median %.3f ms, p95 %.3f ms\n", stage.c_str(), time.median_ms,
+                 time.p95_ms);
+  }
+}
+
+}  // namespace
+
+void track(const TrackOptions& options) {
+  const VideoRange range{options.start_s, options.duration_s};
+  LoadedTracker loaded(models_directory(options.models), options);
+  const std::unique_ptr<VideoSource> video = open_video(options.input, range);
+  Outputs outputs(options, video->info(), range);
+  StageTimes times;
+  Result result;
+  {
+    Progress progress(options.quiet, video->info().frames);
+    mien_image image;
+    std::int64_t pts_ns = 0;
+    for (std::int64_t frame = 0; video->next(image, pts_ns); ++frame) {
+      const mien_status pushed = loaded.tracker.push_video(image, pts_ns);
+      const mien_status got = loaded.tracker.get_result(result);
+      if (pushed != MIEN_OK || got != MIEN_OK) {
+        throw Failure(kExitInternal, options.input + ": frame " + std::to_string(frame) + ": " +
+                                         message(pushed != MIEN_OK ? pushed : got));
+      }
+      outputs.frame(frame, image, result);
+      add_times(times, result);
+      progress.update(frame + 1);
+    }
+  }
+  outputs.finish();
+  if (!options.stats.empty()) {
+    write_stats(options.stats, result, times);
+  }
+  if (!options.quiet) {
+    print_summary(result, times);
+  }
+}
+
+}  // namespace mien::app

@@ -1,0 +1,26 @@
+// `mien track`: a video goes in, curves come out.
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace mien::app {
+
+struct TrackOptions {
+  std::string input;
+  std::string curves;     // empty: standard output
+  std::string landmarks;  // empty: none; so for the others
+  std::string overlay;
+  std::string stats;
+  std::string tier;
+  std::string models;
+  int lod = 1;
+  double start_s = 0.0;
+  std::optional<double> duration_s;
+  bool quiet = false;
+};
+
+// Throws Failure.
+void track(const TrackOptions& options);
+
+}  // namespace mien::app

@@ -1,0 +1,15 @@
+#include "apps/mien/video_source.h"
+
+#include "apps/mien/ffmpeg.h"
+#include "apps/mien/y4m_source.h"
+
+namespace mien::app {
+
+std::unique_ptr<VideoSource> open_video(const std::string& input, const VideoRange& range) {
+  if (input == "-" || input.ends_with(".y4m")) {
+    return open_y4m(input, range);
+  }
+  return open_with_ffmpeg(input, range);
+}
+
+}  // namespace mien::app
