@@ -1,0 +1,48 @@
+// Head pose: from what the pose decoder says about the crop to rotation and translation in the
+// camera.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "tracker/crop.h"
+
+namespace mien::tracker {
+
+inline constexpr int kPoseOutputs = 9;
+
+// A pinhole camera without distortion; looks along -z, x right, y up.
+struct Camera {
+  float focal_px = 1.0f;
+  Point principal;  // pixels
+};
+
+using Vector3 = std::array<float, 3>;
+using Matrix3 = std::array<Vector3, 3>;  // rows
+
+struct HeadPose {
+  Matrix3 rotation = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  // head to camera
+  Vector3 translation = {0, 0, 0};                         // metres, the head's origin
+};
+
+struct EulerAngles {
+  float pitch, yaw, roll;  // radians; R = Ry(yaw) Rx(pitch) Rz(roll)
+};
+
+struct Quaternion {
+  float x, y, z, w;  // unit, w >= 0
+};
+
+// `prediction`: the first two columns of R_crop [6] (Zhou et al. 2019, "On the Continuity of
+// Rotation Representations in Neural Networks"; orthonormalised here), the projected head origin
+// minus 0.5 in crop coordinates [2], log(focal_px / distance * 0.2 m / crop side). With R_ray the
+// shortest rotation from the optical axis to the ray through the crop's centre,
+//   R_camera = R_ray Rz(-crop roll) R_crop.
+// False, and `pose` untouched, when the prediction is no pose: not finite, or columns in one line.
+[[nodiscard]] bool decode_head_pose(std::span<const float, kPoseOutputs> prediction,
+                                    const Crop& crop, const Camera& camera, HeadPose& pose);
+
+[[nodiscard]] EulerAngles euler_angles(const Matrix3& rotation);
+[[nodiscard]] Quaternion quaternion(const Matrix3& rotation);
+
+}  // namespace mien::tracker

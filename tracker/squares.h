@@ -1,0 +1,24 @@
+// Candidate squares for faces: overlap and non-maximum suppression.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "tracker/geometry.h"
+
+namespace mien::tracker {
+
+struct Candidate {
+  Square square;
+  float score = 0.0f;  // 0..1
+};
+
+// Common area of two squares over the area of their union, 0..1; 0 when either is empty.
+[[nodiscard]] float intersection_over_union(const Square& a, const Square& b);
+
+// Greedy non-maximum suppression: keeps the best-scored candidate, drops what overlaps it by more
+// than `threshold`, and so on. Reorders `candidates` so that the kept ones come first, best first;
+// returns how many these are.
+[[nodiscard]] std::size_t suppress_non_maxima(std::span<Candidate> candidates, float threshold);
+
+}  // namespace mien::tracker
