@@ -41,7 +41,7 @@ def load_decoders(path):
 def drift(decoder, data, supported):
     """FACS error on the first and on the last sequence of one long stream of many faces."""
     every = phase2.of_stride(data, 1)
-    rows = torch.arange(LONG_LOOPS * (len(every["row"]) // LONG_LOOPS)).view(-1, LONG_LOOPS)
+    rows = torch.arange(LONG_LOOPS * (len(every["stride"]) // LONG_LOOPS)).view(-1, LONG_LOOPS)
     with torch.no_grad():
         long = decoder(phase2.stream(every["features"], rows))[0].clamp(0, 1)
     error = (long - phase2.stream(every["controls"], rows)).abs()[..., torch.from_numpy(supported)]

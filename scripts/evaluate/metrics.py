@@ -20,7 +20,7 @@ def jitter(curves):
 
 def constant_errors(truth):
     """FACS error of answering each control's mean, and its median (the best constant there is)."""
-    flat = truth.reshape(-1, truth.shape[-1])
+    flat = truth.reshape(-1, truth.shape[-1]) if truth.size else np.full((1, 1), np.nan)
     return {"mean": facs_error(flat.mean(0), flat), "median": facs_error(np.median(flat, 0), flat)}
 
 

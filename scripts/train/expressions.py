@@ -7,6 +7,7 @@ can do. A sequence moves every region from pose to pose with minimum-jerk easing
 speech and recorded curves. All functions take a numpy Generator and are deterministic in it.
 """
 import functools
+import re
 
 import numpy as np
 
@@ -23,6 +24,8 @@ browDownLeft browDownRight browInnerUp browOuterUpLeft browOuterUpRight
 cheekPuff cheekSquintLeft cheekSquintRight noseSneerLeft noseSneerRight tongueOut
 """.split()
 INDEX = {name: i for i, name in enumerate(CONTROLS)}
+SWAPPED = {"Left": "Right", "Right": "Left"}
+MIRROR = [INDEX[re.sub("(Left|Right)$", lambda m: SWAPPED[m[0]], n)] for n in CONTROLS]  # of a mirrored face
 PAIRED = [n[:-4] for n in CONTROLS if n.endswith("Left") and n[:-4] + "Right" in INDEX]
 
 # Units are drawn by weight; a sided one (jaw, mouth) counts twice because each side gets half of its draws.

@@ -5,6 +5,7 @@ A shard is a folder of `images.npy` (uint8 [n,112,112,3], a square window around
 `track` follows every face as the tracker does: the landmarks predicted on one frame align the crop of the next.
 """
 import argparse
+import itertools
 import json
 from pathlib import Path
 
@@ -12,8 +13,9 @@ import numpy as np
 import torch
 
 import head_pose
+import landmark_points as lp
 from augment import OfSequence
-from expressions import CONTROLS
+from expressions import CONTROLS, MIRROR
 from networks import BaseNet
 from paths import ROOT
 
@@ -108,12 +110,22 @@ class Network:
     def __init__(self, checkpoint):
         state = torch.load(checkpoint, map_location="cpu")
         self.net = BaseNet().eval()
-        self.net.load_state_dict(state.get("model", state))
+        self.net.load_state_dict(state["average"])
         self.template = torch.tensor(json.loads((ROOT / "models/landmarks.json").read_text())["template"])
 
     def __call__(self, crops):
-        out = self.net(crops)
-        return out["features"], out["landmarks"]
+        features = self.net.encoder(crops)
+        return features, self.net.landmarks(features).unflatten(1, (-1, 2))
+
+
+def mirrored(model):
+    """The model as it sees mirrored faces; its landmarks are mirrored back."""
+    def seen(crops):
+        features, points = model(crops.flip(3))
+        return features, (points * torch.tensor([-1.0, 1]) + torch.tensor([1.0, 0]))[:, lp.MIRROR]
+
+    seen.template = model.template
+    return seen
 
 
 @torch.no_grad()
@@ -150,43 +162,54 @@ def pose_targets(sequences, rows, crops):
 
 
 def visible(sequences, rows):
-    """Which controls can be seen, f32 [n,frames,52]: an eye's need the eye (bit 0 left, bit 1 right)."""
-    bits = sequences.labels["visibility"][rows].long()
-    sides = {side: (bits >> i & 1).float() for i, side in enumerate(("Left", "Right"))}
-    seen = [sides[c[-4:] if c.endswith("Left") else "Right"] if c.startswith("eye") else torch.ones_like(bits).float()
-            for c in CONTROLS]
-    return torch.stack(seen, -1)
+    """Which controls can be seen, f32 [n,frames,52]: an eye's need most of its lids' landmarks."""
+    points = sequences.label("visibility", rows)
+    out = torch.ones(*points.shape[:2], len(CONTROLS))
+    for side in ("Left", "Right"):
+        lids = [i for i, (name, _) in enumerate(lp.named_points()) if name.startswith(side.lower() + "_eye_")]
+        eye = [i for i, name in enumerate(CONTROLS) if name.startswith("eye") and name.endswith(side)]
+        out[..., eye] = (points[..., lids].mean(-1, keepdim=True) > 0.5).float()
+    return out
 
 
 def landmark_error(predicted, truth):
     """Mean point distance over the outer eye corner distance, [n,frames]."""
-    points = json.loads((ROOT / "models/landmarks.json").read_text())["points"]
-    a, b = (next(p["index"] for p in points if p["mediapipe"] == corner) for corner in (33, 263))
+    a, b = lp.OUTER_EYE_CORNERS
     eyes = (truth[..., a, :] - truth[..., b, :]).norm(dim=-1)
     return (predicted - truth).norm(dim=-1).mean(-1) / eyes
+
+
+def targets(sequences, rows, crops, mirror):
+    """Labels of tracks: pose [n,frames,9], controls and visible [n,frames,52]."""
+    pose, controls = pose_targets(sequences, rows, crops), sequences.label("controls", rows)
+    seen = visible(sequences, rows)
+    if mirror:
+        pose = pose * torch.tensor([1.0, -1, -1, -1, 1, 1, -1, 1, 1])
+        controls, seen = controls[..., MIRROR], seen[..., MIRROR]
+    return {"pose": pose, "controls": controls, "visible": seen}
 
 
 def extract(model, sequences, passes, seed, plain=False, batch=32):
     """Tracks every sequence `passes` times with the encoder on every frame, and as often on alternate frames.
 
-    Returns tensors with one row per track: features fp16 [m,frames,256], pose [m,frames,9], controls and visible
-    [m,frames,52], stride [m], landmark_error [m,frames]. `plain` leaves the pictures as they are.
+    Every second pass mirrors the faces. Returns tensors with one row per track: features fp16 [m,frames,256], pose
+    [m,frames,9], controls and visible [m,frames,52], stride [m], landmark_error [m,frames]. `plain` leaves the
+    pictures as they are.
     """
     tracks, losses = [], 0
-    for stride in (1, 2):
-        for number in range(passes):
-            for start in range(0, len(sequences), batch):
-                rows = torch.arange(start, min(start + batch, len(sequences)))
-                key = ((seed * 2 + stride) * 100 + number) * 10000 + start
-                spoil = None if plain else OfSequence(len(rows), key)
-                generator = torch.Generator().manual_seed(key)
-                features, crops, points, again = track(model, sequences, rows, spoil, generator, stride)
-                losses += again
-                error = landmark_error(points, sequences.label("landmarks", rows))
-                tracks.append({"features": features.half(), "pose": pose_targets(sequences, rows, crops),
-                               "controls": sequences.label("controls", rows), "visible": visible(sequences, rows),
-                               "stride": torch.full((len(rows),), stride), "landmark_error": error})
-                print(f"stride {stride} pass {number} sequence {start} error {error.mean():.4f}", flush=True)
+    for stride, number in itertools.product((1, 2), range(passes)):
+        errors = []
+        for start in range(0, len(sequences), batch):
+            rows = torch.arange(start, min(start + batch, len(sequences)))
+            key = ((seed * 2 + stride) * 100 + number) * 10000 + start
+            spoil = None if plain else OfSequence(len(rows), key)
+            seen = mirrored(model) if number % 2 else model
+            features, crops, points, again = track(seen, sequences, rows, spoil, torch.Generator().manual_seed(key), stride)
+            losses += again
+            errors.append(landmark_error(points, sequences.label("landmarks", rows)))
+            tracks.append({"features": features.half(), "stride": torch.full((len(rows),), stride),
+                           "landmark_error": errors[-1], **targets(sequences, rows, crops, number % 2)})
+        print(f"stride {stride} pass {number} landmark error {torch.cat(errors).mean():.4f}", flush=True)
     out = {k: torch.cat([t[k] for t in tracks]) for k in tracks[0]}
     print(f"tracks {len(out['stride'])}, faces found again {losses}")
     return out

@@ -1,0 +1,262 @@
+#!/usr/bin/env python3
+"""Phase 2: the temporal decoders, on synthetic sequences, with the encoder frozen.
+
+Works on the features of sequences.py: every face followed as the tracker does, with the encoder on every frame and on
+alternate frames; the decoders learn from both. A decoder without time of the same size is trained beside them, to
+measure what time brings.
+"""
+import argparse
+import json
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import torch
+from torch import nn
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "evaluate"))
+import head_pose  # noqa: E402
+import metrics  # noqa: E402
+from expressions import CONTROLS, PAIRED  # noqa: E402
+from networks import ControlsDecoder, PoseDecoder  # noqa: E402
+
+SUPPORTED_CORRELATION = 0.5
+
+
+class FrameDecoder(nn.Module):
+    """The controls decoder without time: the same widths, every frame by itself."""
+
+    def __init__(self):
+        super().__init__()
+        widths = [256, 128, 128, 96, 96]
+        layers = []
+        for a, b in zip(widths, widths[1:]):
+            layers += [nn.Linear(a, b), nn.LeakyReLU(0.1)]
+        self.net = nn.Sequential(*layers, nn.Linear(96, len(CONTROLS)))
+
+    def forward(self, x, state=None):
+        return self.net(x), state
+
+
+def soft_clamp(x):
+    """Clamp to 0..1 that keeps a little gradient outside."""
+    inside = x.clamp(0, 1)
+    return inside + 0.05 * (x - inside)
+
+
+def steps(x):
+    return x[:, 1:] - x[:, :-1]
+
+
+def temporal_loss(predicted, target, weight, args):
+    """Weighted squared error of values and of frame differences, and a small price on second differences."""
+    w = torch.minimum(weight[:, 1:], weight[:, :-1])
+    value = (weight * (predicted - target) ** 2).mean()
+    speed = (w * (steps(predicted) - steps(target)) ** 2).mean()
+    bend = (torch.minimum(w[:, 1:], w[:, :-1]) * steps(steps(predicted)) ** 2).mean()
+    return value + args.velocity * speed + args.acceleration * bend
+
+
+class ControlsTask:
+    """Target and loss of the controls: rare ones weigh more, eyes nobody can see weigh nothing."""
+
+    def __init__(self, data, args):
+        self.target, self.visible, self.args = data["controls"], data["visible"], args
+        weight = 1 / (self.target.flatten(0, 1).std(0) + 0.05)
+        self.weight = weight / weight.mean()
+
+    def loss(self, output, rows, mask):
+        weight = self.weight * stream(self.visible, rows) * mask
+        return temporal_loss(soft_clamp(output), stream(self.target, rows), weight, self.args)
+
+
+class PoseTask:
+    """Target and loss of the head pose; rotations are compared as matrices."""
+
+    def __init__(self, data, args):
+        self.target, self.args = data["pose"], args
+
+    @staticmethod
+    def expand(pose):
+        return torch.cat([head_pose.orthonormalise(pose[..., :6]).flatten(-2), 2 * pose[..., 6:]], -1)
+
+    def loss(self, output, rows, mask):
+        target = stream(self.target, rows)
+        weight = mask.expand(*target.shape[:2], 12)
+        drift = (output[..., :6] - target[..., :6]).square().mean()  # keeps the columns near unit length
+        return temporal_loss(self.expand(output), self.expand(target), weight, self.args) + 0.05 * drift
+
+
+def stream(table, rows):
+    """Joins tracks rows [b,k] of a table [m,frames,c] to streams [b,k*frames,c], f32."""
+    return table[rows].flatten(1, 2).float()
+
+
+def stream_mask(rows, frames):
+    """Weights [1,k*frames,1]: half for the frame on which a stream begins, none where one face cuts to another."""
+    mask = torch.ones(1, rows.shape[1] * frames, 1)
+    mask[:, frames::frames] = 0
+    mask[:, :1] = 0.5
+    return mask
+
+
+def normalise_input(layer, features):
+    """Scales a fresh first layer (weight [out, 256, ...]) as if every feature had mean 0 and deviation 1."""
+    flat = features[::7].flatten(0, 1).float()
+    mean, spread = flat.mean(0), flat.std(0) + 1e-3
+    shape = (1, -1) + (1,) * (layer.weight.dim() - 2)
+    with torch.no_grad():
+        layer.weight /= spread.view(shape)
+        layer.bias -= (layer.weight * mean.view(shape)).flatten(1).sum(1)
+    return spread
+
+
+def first_layer(decoder):
+    return next(m for m in decoder.modules() if isinstance(m, (nn.Linear, nn.Conv1d)))
+
+
+def train(decoder, task, features, args, name):
+    """Fits a decoder to all tracks; two tracks in a row make one stream, so that states outlive a sequence."""
+    torch.manual_seed(args.seed)
+    spread = normalise_input(first_layer(decoder), features)
+    optimiser = torch.optim.AdamW(decoder.parameters(), lr=args.rate, weight_decay=1e-3)
+    schedule = torch.optim.lr_scheduler.OneCycleLR(optimiser, args.rate, total_steps=args.steps, pct_start=0.1)
+    decoder.train()
+    total, began = 0.0, time.time()
+    for step in range(1, args.steps + 1):
+        rows = torch.randint(len(features), (args.batch, 2))
+        x = stream(features, rows)
+        x = x + args.noise * spread * (torch.randn_like(x) * 0.5 + torch.randn(args.batch, 1, 256))
+        loss = task.loss(decoder(x)[0], rows, stream_mask(rows, features.shape[1]))
+        optimiser.zero_grad()
+        loss.backward()
+        nn.utils.clip_grad_norm_(decoder.parameters(), 1.0)
+        optimiser.step()
+        schedule.step()
+        total += loss.item()
+        if step % 100 == 0:
+            print(f"{name} step {step} loss {total / 100:.5f} {time.time() - began:.0f} s", flush=True)
+            total = 0.0
+    return decoder.eval()
+
+
+@torch.no_grad()
+def answers(decoder, features, batch=64):
+    return torch.cat([decoder(f.float())[0] for f in features.split(batch)])
+
+
+def symmetric_pairs(chosen):
+    """(left, right) indices of the paired controls that mirror each other and are chosen."""
+    mirrored = [n for n in PAIRED if n not in ("jaw", "mouth", "eyeLookIn", "eyeLookOut")]
+    pairs = [(CONTROLS.index(n + "Left"), CONTROLS.index(n + "Right")) for n in mirrored]
+    return [(a, b) for a, b in pairs if chosen[a] and chosen[b]]
+
+
+def control_scores(curves, data, chosen):
+    """Scores of controls [m,frames,52] that are already clamped; `chosen` [52] are the supported ones."""
+    truth = data["controls"].float().numpy()
+    constant, constant_chosen = metrics.constant_errors(truth), metrics.constant_errors(truth[..., chosen])
+    pairs = symmetric_pairs(chosen)
+    return {"facs_error": metrics.facs_error(curves, truth),
+            "constant_mean": constant["mean"], "constant_median": constant["median"],
+            "jitter": metrics.jitter(curves), "truth_jitter": metrics.jitter(truth),
+            "supported": int(chosen.sum()),
+            "facs_error_supported": metrics.facs_error(curves[..., chosen], truth[..., chosen]),
+            "constant_mean_supported": constant_chosen["mean"],
+            "constant_median_supported": constant_chosen["median"],
+            "jitter_supported": metrics.jitter(curves[..., chosen]),
+            "asymmetry": metrics.asymmetry(curves, truth, pairs) if pairs else float("nan"),
+            "correlation": dict(zip(CONTROLS, correlation_of(curves, data).round(3).tolist()))}
+
+
+def correlation_of(curves, data):
+    """Correlation of every control where it can be seen, [52]."""
+    return metrics.correlations(curves, data["controls"].float().numpy(), data["visible"].float().numpy())
+
+
+def pose_scores(output, target):
+    """Errors of poses [m,frames,9] relative to the crop."""
+    turn = head_pose.angle_between(head_pose.orthonormalise(output[..., :6]), head_pose.orthonormalise(target[..., :6]))
+    return {"rotation_deg": turn.rad2deg().mean().item(), "rotation_p95_deg": turn.rad2deg().quantile(0.95).item(),
+            "offset_of_side": (output[..., 6:8] - target[..., 6:8]).norm(dim=-1).mean().item(),
+            "distance_share": (output[..., 8] - target[..., 8]).abs().mean().item()}
+
+
+def check_streaming(decoder, features):
+    """Frame by frame must equal the whole."""
+    x = features[:4].float()
+    with torch.no_grad():
+        whole, state, parts = decoder(x)[0], None, []
+        for t in range(x.shape[1]):
+            y, state = decoder(x[:, t:t + 1], state)
+            parts.append(y)
+    difference = (torch.cat(parts, 1) - whole).abs().max().item()
+    assert difference < 1e-4, f"streaming differs from whole by {difference}"
+
+
+def of_stride(data, stride):
+    chosen = data["stride"] == stride
+    return {k: v[chosen] for k, v in data.items() if torch.is_tensor(v)}
+
+
+def evaluate(decoders, data, supported=None):
+    """(scores, supported): scores with the encoder on every frame and on alternate frames.
+
+    Without `supported` the controls that correlate well enough on this data, in both modes, are chosen.
+    """
+    parts = {"every frame": of_stride(data, 1), "alternate frames": of_stride(data, 2)}
+    curves = {(m, k): answers(decoders[k], part["features"]).clamp(0, 1).numpy()
+              for m, part in parts.items() for k in ("controls", "frame")}
+    if supported is None:
+        lowest = np.min([correlation_of(curves[m, "controls"], part) for m, part in parts.items()], 0)
+        supported = np.nan_to_num(lowest, nan=-1) >= SUPPORTED_CORRELATION
+    report = {}
+    for mode, part in parts.items():
+        report[mode] = {k: control_scores(curves[mode, k], part, supported) for k in ("controls", "frame")}
+        report[mode]["pose"] = pose_scores(answers(decoders["pose"], part["features"]), part["pose"])
+    return report, supported
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--train", type=Path, nargs="+", required=True, help="features to learn from")
+    parser.add_argument("--val", type=Path, required=True, help="features that choose the supported controls")
+    parser.add_argument("--out", type=Path, required=True, help="checkpoint; scores go beside it as .json")
+    parser.add_argument("--steps", type=int, default=1500)
+    parser.add_argument("--batch", type=int, default=24)
+    parser.add_argument("--rate", type=float, default=3e-3)
+    parser.add_argument("--velocity", type=float, default=4.0)
+    parser.add_argument("--acceleration", type=float, default=0.5)
+    parser.add_argument("--noise", type=float, default=0.1, help="feature noise, in deviations")
+    parser.add_argument("--threads", type=int, default=1)
+    parser.add_argument("--seed", type=int, default=0)
+    args = parser.parse_args()
+    torch.set_num_threads(args.threads)
+    data = join([torch.load(p) for p in args.train])
+    decoders = {"controls": ControlsDecoder(), "pose": PoseDecoder(), "frame": FrameDecoder()}
+    tasks = {"controls": ControlsTask(data, args), "pose": PoseTask(data, args), "frame": ControlsTask(data, args)}
+    for name, decoder in decoders.items():
+        train(decoder, tasks[name], data["features"], args, name)
+        check_streaming(decoder, data["features"])
+    report, supported = evaluate(decoders, torch.load(args.val))
+    save(args.out, decoders, supported, report)
+
+
+def join(parts):
+    return {k: torch.cat([p[k] for p in parts]) for k in parts[0]}
+
+
+def save(path, decoders, supported, report):
+    path.parent.mkdir(parents=True, exist_ok=True)
+    torch.save({"controls_decoder": decoders["controls"].state_dict(), "pose_decoder": decoders["pose"].state_dict(),
+                "frame_decoder": decoders["frame"].state_dict(),
+                "supported": torch.from_numpy(supported.astype(np.float32))}, path)
+    path.with_suffix(".json").write_text(json.dumps(report, indent=1) + "\n")
+    for mode, scores in report.items():
+        for name, values in scores.items():
+            print(mode, name, json.dumps({k: v for k, v in values.items() if k != "correlation"}))
+
+
+if __name__ == "__main__":
+    main()
