@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import torch
+from torch.fx.experimental.optimization import fuse
 
 import head_pose
 import landmark_points as lp
@@ -109,13 +110,15 @@ class Network:
 
     def __init__(self, checkpoint):
         state = torch.load(checkpoint, map_location="cpu")
-        self.net = BaseNet().eval()
-        self.net.load_state_dict(state["average"])
+        net = BaseNet().eval()
+        net.load_state_dict(state["average"])
+        self.encoder = fuse(net.encoder).to(memory_format=torch.channels_last)
+        self.landmarks = net.landmarks
         self.template = torch.tensor(json.loads((ROOT / "models/landmarks.json").read_text())["template"])
 
     def __call__(self, crops):
-        features = self.net.encoder(crops)
-        return features, self.net.landmarks(features).unflatten(1, (-1, 2))
+        features = self.encoder(crops.contiguous(memory_format=torch.channels_last))
+        return features, self.landmarks(features).unflatten(1, (-1, 2))
 
 
 def mirrored(model):
