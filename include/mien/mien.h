@@ -220,8 +220,8 @@ typedef struct mien_tracker_config {
   /* Face proposal: the longer side of the image is seen at this many pixels, and the smallest
    * face is 12 of them; 24..640; default 160, which finds faces from 7.5 % of the longer side. */
   int32_t proposal_size;
-  float proposal_threshold; /* first stage (P-Net), 0..1; default 0.6 */
-  float refine_threshold;   /* second stage (R-Net), 0..1; default 0.7 */
+  float proposal_threshold; /* first stage (P-Net), 0..1; default 0.4 */
+  float refine_threshold;   /* second stage (R-Net), 0..1; default 0.5 */
   /* Without a face, the proposal runs on every frame for the first 30 of them, then on every
    * search_interval-th; 1..1000; default 3. */
   int32_t search_interval;

@@ -1,0 +1,63 @@
+#include "tracker/squares.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <vector>
+
+namespace mien::tracker {
+namespace {
+
+TEST(IntersectionOverUnion, KnownSquares) {
+  const Square unit = {{0.5f, 0.5f}, 1.0f};
+  EXPECT_FLOAT_EQ(intersection_over_union(unit, unit), 1.0f);
+  EXPECT_FLOAT_EQ(intersection_over_union(unit, {{1.0f, 0.5f}, 1.0f}), 1.0f / 3.0f);
+  EXPECT_FLOAT_EQ(intersection_over_union(unit, {{0.5f, 0.5f}, 2.0f}), 0.25f);
+  EXPECT_EQ(intersection_over_union(unit, {{1.5f, 0.5f}, 1.0f}), 0.0f) << "touching";
+  EXPECT_EQ(intersection_over_union(unit, {{5.0f, 5.0f}, 1.0f}), 0.0f);
+  EXPECT_EQ(intersection_over_union({{1, 1}, 0}, {{1, 1}, 0}), 0.0f) << "empty";
+}
+
+std::vector<Candidate> random_candidates(std::size_t count, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> unit(0.0f, 1.0f);
+  std::vector<Candidate> candidates(count);
+  for (Candidate& c : candidates) {
+    c = {{{unit(random), unit(random)}, 0.1f + 0.3f * unit(random)}, unit(random)};
+  }
+  return candidates;
+}
+
+TEST(SuppressNonMaxima, KeepsExactlyTheUnbeaten) {
+  for (unsigned seed = 0; seed < 50; ++seed) {
+    const std::vector<Candidate> all = random_candidates(60, seed);
+    std::vector<Candidate> list = all;
+    const std::size_t kept = suppress_non_maxima(list, 0.4f);
+    ASSERT_GE(kept, 1u);
+    for (std::size_t i = 0; i < kept; ++i) {
+      for (std::size_t j = i + 1; j < kept; ++j) {
+        EXPECT_GE(list[i].score, list[j].score);
+        EXPECT_LE(intersection_over_union(list[i].square, list[j].square), 0.4f);
+      }
+    }
+    for (const Candidate& candidate : all) {  // kept, or beaten by a kept one with a better score
+      bool explained = false;
+      for (std::size_t i = 0; i < kept && !explained; ++i) {
+        const bool same = list[i].score == candidate.score;
+        explained = same || (list[i].score > candidate.score &&
+                             intersection_over_union(list[i].square, candidate.square) > 0.4f);
+      }
+      EXPECT_TRUE(explained);
+    }
+  }
+}
+
+TEST(SuppressNonMaxima, OneAndNone) {
+  std::vector<Candidate> none;
+  EXPECT_EQ(suppress_non_maxima(none, 0.5f), 0u);
+  std::vector<Candidate> twins(2, Candidate{{{1, 1}, 1}, 0.9f});
+  EXPECT_EQ(suppress_non_maxima(twins, 0.5f), 1u);
+}
+
+}  // namespace
+}  // namespace mien::tracker
