@@ -1,0 +1,60 @@
+// Uncompressed YUV4MPEG2 video, 8 bits, from a stream (format: yuv4mpeg(5) of MJPEG tools).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "formats/byte_source.h"
+
+namespace mien::formats {
+
+enum class Y4mStatus : std::uint8_t {
+  kOk = 0,
+  kEnd = 1,  // no more frames, not an error
+  kBadSignature = 2,
+  kHeaderTooLong = 3,
+  kBadSize = 4,
+  kBadRate = 5,
+  kUnsupportedColour = 6,
+  kBadFrameHeader = 7,
+  kTruncatedFrame = 8,
+  kBadParameter = 9,
+  kBufferTooSmall = 10,
+};
+inline constexpr std::uint8_t kY4mStatusCount = 11;
+
+const char* message(Y4mStatus status);
+
+enum class Y4mColour : std::uint8_t { kMono, k420, k422, k444 };
+
+inline constexpr std::uint32_t kMaxVideoSide = 16384;    // pixels
+inline constexpr std::size_t kMaxY4mHeaderBytes = 1024;  // of a stream or frame header line
+
+struct Y4mHeader {
+  std::uint32_t width = 0;     // pixels, 1..kMaxVideoSide
+  std::uint32_t height = 0;    // pixels, 1..kMaxVideoSide
+  std::uint32_t rate_num = 0;  // frames per second = rate_num / rate_den, both above zero
+  std::uint32_t rate_den = 0;
+  Y4mColour colour = Y4mColour::k420;
+  bool full_range = false;  // XCOLORRANGE=FULL; else 16..235
+
+  std::uint32_t chroma_width() const;   // 0 for kMono; odd widths round up
+  std::uint32_t chroma_height() const;  // 0 for kMono; odd heights round up
+  std::size_t frame_bytes() const;      // planes Y, U, V one behind the other, no padding
+};
+
+class Y4mReader {
+ public:
+  // Reads the stream header. On failure the reader has a header of zeros and no frames.
+  [[nodiscard]] Y4mStatus open(ByteSource source);
+  const Y4mHeader& header() const { return header_; }
+  // Reads the next frame into the first header().frame_bytes() of `frame`.
+  [[nodiscard]] Y4mStatus read_frame(std::span<std::byte> frame);
+
+ private:
+  ByteSource source_{};
+  Y4mHeader header_;
+};
+
+}  // namespace mien::formats
