@@ -1,60 +1,97 @@
-// Reads a .mien weight file where it lies: a file in memory, a mapping, an array in flash.
-// docs/format.md says what is valid.
+// Reading a weight file in place: one validating pass, no allocation, no copy.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string_view>
 
-#include "formats/file_status.h"
 #include "formats/mien_format.h"
 
 namespace mien::formats {
 
-// A validated file. Copies nothing and owns nothing: the bytes must outlive the view and must not
-// change. Records and strings handed out lie inside the file. Arguments must be records of this
-// file.
+enum class FileStatus : std::int32_t {
+  kOk = 0,
+  // the file as a whole
+  kMisaligned = 1,  // the memory is not kFileAlignment-aligned
+  kTruncated = 2,
+  kTrailingBytes = 3,
+  kBadMagic = 4,
+  kUnsupportedVersion = 5,
+  kWrongEndian = 6,
+  kBadChecksum = 7,
+  kLimitExceeded = 8,
+  kReservedNotZero = 9,
+  // sections
+  kHole = 20,
+  kPaddingNotZero = 21,
+  kBadName = 22,
+  kDuplicateName = 23,
+  kBadMetadata = 24,
+  // tensors
+  kBadType = 40,
+  kBadDims = 41,
+  kBadTensorBytes = 42,
+  kNonFinite = 43,
+  // networks and layers
+  kBadNetwork = 60,
+  kBadOp = 61,
+  kBadActivation = 62,
+  kBadReference = 63,
+  kBadShape = 64,
+  kBadKernel = 65,
+  kBadTensor = 66,  // a layer's tensor has other dimensions than its op asks for
+  kUnusedTensor = 67,
+};
+
+// One line of English, static.
+[[nodiscard]] const char* message(FileStatus status);
+
+struct Validation {
+  FileStatus status = FileStatus::kOk;
+  std::uint64_t offset = 0;  // where in the file the fault was found, bytes
+};
+
+class FileView;
+
+// Checks every rule of docs/format.md. Only on kOk is `view` set; it refers to `bytes`, which must
+// outlive it and stay as they are.
+[[nodiscard]] Validation open(std::span<const std::byte> bytes, FileView& view);
+
 class FileView {
  public:
-  FileView() = default;  // an empty file: no networks, no tensors
+  FileView() = default;
 
-  // One pass over all the bytes, without allocation. `bytes` is the whole file and starts at a
-  // multiple of 16. On failure `*view` is empty.
-  static FileError open(std::span<const std::byte> bytes, FileView* view);
+  [[nodiscard]] std::span<const NetworkRecord> networks() const { return networks_; }
+  [[nodiscard]] std::span<const LayerRecord> layers(const NetworkRecord& network) const {
+    return layers_.subspan(network.first_layer, network.layer_count);
+  }
+  [[nodiscard]] std::span<const TensorRecord> tensors() const { return tensors_; }
+  [[nodiscard]] std::span<const MetadataRecord> metadata() const { return metadata_; }
+  [[nodiscard]] std::string_view text(StringRef ref) const {
+    return strings_.substr(ref.offset, ref.bytes);
+  }
+  [[nodiscard]] std::span<const std::byte> data(const TensorRecord& tensor) const {
+    return bytes_.subspan(static_cast<std::size_t>(tensor.offset),
+                          static_cast<std::size_t>(tensor.bytes));
+  }
+  [[nodiscard]] std::size_t file_bytes() const { return bytes_.size(); }
+  [[nodiscard]] std::uint64_t checksum() const { return checksum_; }
 
-  std::span<const NetworkRecord> networks() const { return networks_; }
-  std::span<const LayerRecord> layers() const { return layers_; }
-  std::span<const LayerRecord> layers(const NetworkRecord& network) const;
-  // All tensors: those of layers in the order of the layers, then the constants.
-  std::span<const TensorRecord> tensors() const { return tensors_; }
-  std::span<const TensorRecord> constants() const { return constants_; }
-  std::span<const MetadataRecord> metadata() const { return metadata_; }
-  const std::array<std::uint8_t, 32>& sha256() const { return sha256_; }
-
-  std::string_view text(StringRef string) const;  // of any record's name, key or value
-  std::span<const std::byte> data(const TensorRecord& tensor) const;
-  std::span<const std::uint16_t> fp16(const TensorRecord& tensor) const;  // empty for another type
-  std::span<const float> fp32(const TensorRecord& tensor) const;          // empty for another type
-
-  // Null or nothing where there is none of that name.
-  const NetworkRecord* find_network(std::string_view name) const;
-  const TensorRecord* find_constant(std::string_view name) const;
-  std::optional<std::string_view> find_metadata(std::string_view key) const;
+  // nullptr where there is none of that name.
+  [[nodiscard]] const NetworkRecord* find_network(std::string_view name) const;
+  [[nodiscard]] const TensorRecord* find_constant(std::string_view name) const;
 
  private:
-  friend class FileValidator;
+  friend Validation open(std::span<const std::byte> bytes, FileView& view);
 
   std::span<const std::byte> bytes_;
   std::span<const NetworkRecord> networks_;
   std::span<const LayerRecord> layers_;
   std::span<const TensorRecord> tensors_;
-  std::span<const TensorRecord> constants_;
   std::span<const MetadataRecord> metadata_;
-  std::span<const std::byte> pool_;
-  std::array<std::uint8_t, 32> sha256_{};
+  std::string_view strings_;
+  std::uint64_t checksum_ = 0;
 };
 
 }  // namespace mien::formats

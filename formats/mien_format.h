@@ -1,158 +1,124 @@
-// The .mien weight file, byte for byte; docs/format.md is normative and explains every field.
-// All integers and floats are little-endian. Numbers of enumerators are fixed and never reused.
+// The byte layout of weight files (.mien), version 1.0. docs/format.md is the specification; this
+// header spells its tables out. All numbers are little-endian; numbers once used are never reused.
 #pragma once
 
-#include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <type_traits>
 
 namespace mien::formats {
 
-static_assert(std::endian::native == std::endian::little,
-              "files are read in place, and they are little-endian");
-
-// 0x89 and the line endings expose a transfer that stripped bit 7 or translated text.
-inline constexpr std::array<std::uint8_t, 8> kMagic = {0x89, 'M', 'I', 'E', 'N', '\r', '\n', 0x1a};
-inline constexpr std::uint16_t kVersionMajor = 1;
-inline constexpr std::uint16_t kVersionMinor = 0;
+inline constexpr std::uint8_t kMagic[8] = {0x89, 'M', 'I', 'E', 'N', 0x0D, 0x0A, 0x1A};
+inline constexpr std::uint16_t kMajorVersion = 1;
+inline constexpr std::uint16_t kMinorVersion = 0;
 inline constexpr std::uint32_t kEndianTag = 0x01020304;
 
-inline constexpr std::uint64_t kSectionAlignment = 64;  // of sections and tensors in the file
-inline constexpr std::uint64_t kBaseAlignment = 16;     // of the file's first byte in memory
+// Sections and tensors begin at multiples of this, and so does the file in memory.
+inline constexpr std::size_t kFileAlignment = 64;
 
-// Limits, all inclusive.
-inline constexpr std::uint64_t kMaxFileBytes = std::uint64_t{1} << 31;
+// Limits. They keep every sum of a valid file far from 2^63.
 inline constexpr std::uint32_t kMaxNetworks = 64;
 inline constexpr std::uint32_t kMaxLayers = 1024;
 inline constexpr std::uint32_t kMaxTensors = 4096;
 inline constexpr std::uint32_t kMaxMetadata = 256;
-inline constexpr std::uint32_t kMaxPoolBytes = 1u << 21;
 inline constexpr std::uint32_t kMaxNameBytes = 63;
-inline constexpr std::uint32_t kMaxTextBytes = 4096;
-inline constexpr std::uint32_t kMaxDim = 1u << 20;
+inline constexpr std::uint32_t kMaxKeyBytes = 63;
+inline constexpr std::uint32_t kMaxValueBytes = 4096;
 inline constexpr std::uint32_t kMaxRank = 4;
-inline constexpr std::uint32_t kMaxKernel = 32;  // kernel height, width and strides
-inline constexpr std::uint32_t kMaxOutputs = 4;  // of a network
-inline constexpr std::uint32_t kMaxInterleavedChannels = 4;
-inline constexpr std::uint64_t kMaxMapElems = std::uint64_t{1} << 28;  // of one blocked feature map
+inline constexpr std::uint32_t kMaxDim = 1u << 20;
+inline constexpr std::uint64_t kMaxFileBytes = std::uint64_t{1} << 31;
+inline constexpr std::uint32_t kMaxOutputs = 4;
+inline constexpr std::uint16_t kMaxKernel = 15;
+inline constexpr std::uint16_t kMaxStride = 4;
 
-// Values of references to layers and tensors that are not an index.
-inline constexpr std::uint32_t kNone = 0xffffffffu;          // there is none
-inline constexpr std::uint32_t kNetworkInput = 0xfffffffeu;  // the network's own input
+inline constexpr std::uint32_t kNone = 0xFFFFFFFF;  // no tensor, no second input
 
 enum class LayerOp : std::uint16_t {
   kConv2d = 1,
   kDepthwise = 2,
   kPointwise = 3,
   kFullyConnected = 4,
-  kCausalConv = 5,  // over time, kernel 2: the previous and the current input vector
+  kCausalConv = 5,
   kLstm = 6,
   kMaxPool = 7,
-  kAdd = 8,         // y = a + centre slice of b
-  kActivation = 9,  // the layer's activation and nothing else
-  kSoftmax = 10,    // over channels
+  kAdd = 8,
+  kActivation = 9,
+  kSoftmax = 10,
 };
 
-enum class Activation : std::uint16_t {
+enum class LayerActivation : std::uint16_t {
   kNone = 0,
   kRelu = 1,
   kRelu6 = 2,
-  kLeakyRelu = 3,  // slope for x < 0: `alpha`
-  kPrelu = 4,      // slope for x < 0: tensor `slope`, one per channel
+  kLeakyRelu = 3,  // slope in LayerRecord::alpha
+  kPrelu = 4,      // slopes in a tensor
   kSigmoid = 5,
   kTanh = 6,
   kClamp01 = 7,
 };
 
-enum class DataType : std::uint16_t { kFp16 = 1, kFp32 = 2 };
-
-enum class InputLayout : std::uint8_t {
-  kInterleaved = 1,  // [h][w][c], c <= 4
-  kBlocked = 2,      // [ceil(c/8)][h][w][8]
+enum class DataType : std::uint16_t {
+  kFloat16 = 1,
+  kFloat32 = 2,
 };
 
 struct FileHeader {
-  std::array<std::uint8_t, 8> magic;
-  std::uint16_t version_major;
-  std::uint16_t version_minor;
+  std::uint8_t magic[8];
+  std::uint16_t major_version;
+  std::uint16_t minor_version;
   std::uint32_t endian_tag;
-  std::uint32_t header_bytes;
+  std::uint32_t header_bytes;  // sizeof(FileHeader)
   std::uint32_t network_count;
   std::uint32_t layer_count;
   std::uint32_t tensor_count;
   std::uint32_t metadata_count;
-  std::uint32_t pool_bytes;  // names and texts, without the padding behind them
-  std::uint64_t data_bytes;  // tensors, with the padding behind each
+  std::uint32_t string_bytes;
   std::uint64_t total_bytes;
-  std::uint64_t reserved0;
-  std::array<std::uint8_t, 32> sha256;  // of the whole file with this field zero
-  std::array<std::uint8_t, 32> reserved1;
+  std::uint64_t data_offset;  // of the first tensor
+  std::uint64_t checksum;     // XXH64, seed 0, of the whole file with this field 0
 };
 
-// A string in the pool, without terminator.
 struct StringRef {
-  std::uint32_t offset;  // from the pool's start
+  std::uint32_t offset;  // into the string section
   std::uint32_t bytes;
-};
-
-struct Shape {
-  std::uint32_t height;
-  std::uint32_t width;
-  std::uint32_t channels;
-  friend bool operator==(const Shape&, const Shape&) = default;
 };
 
 struct NetworkRecord {
   StringRef name;
-  std::uint32_t first_layer;  // index into the file's layers
+  std::uint32_t input_height, input_width, input_channels;
+  std::uint32_t flags;  // kAnySize
+  std::uint32_t first_layer;
   std::uint32_t layer_count;
-  Shape input;
-  InputLayout input_layout;
-  std::uint8_t any_size;  // 1: runs on every height and width not below the declared ones
-  std::uint16_t reserved0;
   std::uint32_t output_count;
-  std::array<std::uint32_t, kMaxOutputs> outputs;  // layers, counted from first_layer; else kNone
-  std::array<std::uint8_t, 12> reserved1;
+  std::uint32_t outputs[kMaxOutputs];  // values of the network (see LayerRecord), unused ones 0
+  std::uint32_t reserved[3];
 };
+inline constexpr std::uint32_t kAnySize = 1;  // runs on any map at least as large as the declared one
 
-struct Padding {
-  std::uint8_t top;
-  std::uint8_t left;
-  std::uint8_t bottom;
-  std::uint8_t right;
-  friend bool operator==(const Padding&, const Padding&) = default;
-};
-
+// The values of a network are numbered: 0 is its input, k the output of its k-th layer.
 struct LayerRecord {
-  StringRef name;
-  LayerOp op;
-  Activation activation;
-  float alpha;  // of kLeakyRelu, else 0
-  std::array<std::uint32_t, 2>
-      inputs;  // earlier layers, counted from first_layer; kNetworkInput; kNone
-  Shape output;
-  std::uint8_t kernel_height;
-  std::uint8_t kernel_width;
-  std::uint8_t stride_y;
-  std::uint8_t stride_x;
-  Padding padding;
-  std::uint32_t weight;  // tensors of the file, kNone where the op has none
-  std::uint32_t bias;
-  std::uint32_t slope;
-  std::array<std::uint8_t, 8> reserved;
+  std::uint16_t op;
+  std::uint16_t activation;
+  std::uint32_t input;         // a value smaller than this layer's own
+  std::uint32_t second_input;  // kAdd only, else kNone
+  std::uint32_t height, width, channels;  // of the output, at the network's declared input size
+  std::uint16_t kernel_height, kernel_width;
+  std::uint16_t stride_height, stride_width;
+  std::uint16_t pad_top, pad_left, pad_bottom, pad_right;
+  std::uint16_t flags;  // kCeilMode
+  std::uint16_t reserved;
+  float alpha;
+  std::uint32_t weights, bias, slopes;  // tensors, or kNone
 };
+inline constexpr std::uint16_t kCeilMode = 1;  // pooling: a last, partly filled window counts
 
 struct TensorRecord {
-  StringRef name;  // empty for the tensors of layers
-  DataType type;
+  StringRef name;  // empty unless it is a constant
+  std::uint16_t type;
   std::uint16_t rank;
-  std::array<std::uint32_t, kMaxRank> dims;  // outermost first, 1 behind the rank
-  std::uint32_t reserved0;
-  std::uint64_t data_offset;  // from the file's start
-  std::uint64_t data_bytes;   // without the padding behind the tensor
-  std::array<std::uint8_t, 16> reserved1;
+  std::uint32_t dims[kMaxRank];  // unused ones 0
+  std::uint64_t offset;          // from the file's beginning
+  std::uint64_t bytes;
+  std::uint32_t reserved[5];
 };
 
 struct MetadataRecord {
@@ -160,12 +126,10 @@ struct MetadataRecord {
   StringRef value;
 };
 
-static_assert(sizeof(FileHeader) == 128 && std::is_trivial_v<FileHeader>);
-static_assert(sizeof(NetworkRecord) == 64 && std::is_trivial_v<NetworkRecord>);
-static_assert(sizeof(LayerRecord) == 64 && std::is_trivial_v<LayerRecord>);
-static_assert(sizeof(TensorRecord) == 64 && std::is_trivial_v<TensorRecord>);
-static_assert(sizeof(MetadataRecord) == 16 && std::is_trivial_v<MetadataRecord>);
-static_assert(offsetof(FileHeader, sha256) == 64 && offsetof(NetworkRecord, outputs) == 36 &&
-              offsetof(LayerRecord, weight) == 44 && offsetof(TensorRecord, data_offset) == 32);
+static_assert(sizeof(FileHeader) == 64);
+static_assert(sizeof(NetworkRecord) == 64);
+static_assert(sizeof(LayerRecord) == 64);
+static_assert(sizeof(TensorRecord) == 64);
+static_assert(sizeof(MetadataRecord) == 16);
 
 }  // namespace mien::formats

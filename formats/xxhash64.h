@@ -1,0 +1,13 @@
+// XXH64 (Y. Collet, "xxHash fast digest algorithm", specification 0.1.1): the checksum of weight files.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace mien::formats {
+
+// Hash with seed 0 of `bytes`, those of [hole, hole + 8) taken as zero.
+[[nodiscard]] std::uint64_t xxhash64_with_hole(std::span<const std::byte> bytes, std::size_t hole);
+
+}  // namespace mien::formats
