@@ -1,0 +1,142 @@
+#!/usr/bin/env python3
+"""Writes models/basenet.mien and models/proposal.mien from the runs' checkpoints.
+
+usage: export.py basenet ENCODER.pt DECODERS.pt     or: export.py proposal PNET.pt RNET.pt
+Batch norm is folded into the convolution before it; linear layers that follow a map take the map's blocked order.
+"""
+import argparse
+import json
+from pathlib import Path
+
+import torch
+from torch import nn
+
+import networks
+from faces import template
+from mien_file import MienFile
+from paths import ROOT
+
+
+def folded(sequence):
+    """Weight and bias of a convolution with the batch norm after it folded in."""
+    convolution, norm = sequence[0], sequence[1]
+    gain = norm.weight / torch.sqrt(norm.running_var + norm.eps)
+    return convolution.weight * gain.view(-1, 1, 1, 1), norm.bias - norm.running_mean * gain
+
+
+def plain(tensor):
+    return tensor.detach().float().contiguous().numpy()
+
+
+def add_conv_norm(net, x, sequence):
+    weight, bias = map(plain, folded(sequence))
+    convolution = sequence[0]
+    activation = "relu6" if isinstance(sequence[-1], nn.ReLU6) else "none"
+    stride, p = convolution.stride[0], convolution.padding[0]
+    padding = (p, p, p, p)
+    if convolution.groups > 1:
+        return net.depthwise(x, weight, bias, stride=stride, padding=padding, activation=activation)
+    if convolution.kernel_size == (1, 1):
+        return net.pointwise(x, weight, bias, activation=activation)
+    return net.conv2d(x, weight, bias, stride=stride, padding=padding, activation=activation)
+
+
+def add_residual_block(net, x, block):
+    y = x if isinstance(block.expand, nn.Identity) else add_conv_norm(net, x, block.expand)
+    y = add_conv_norm(net, add_conv_norm(net, y, block.depthwise), block.project)
+    return net.add(y, x) if block.residual else y
+
+
+def add_encoder(file, encoder):
+    net = file.network("encoder", input=(65, 65, 3))
+    x = add_conv_norm(net, net.input, encoder.body[0])
+    for block in encoder.body[1:]:
+        x = add_residual_block(net, x, block)
+    expand, depthwise, project = encoder.tail
+    x = add_conv_norm(net, add_conv_norm(net, x, expand), depthwise)
+    net.output(net.pointwise(x, plain(project.weight), plain(project.bias), activation="none"))
+
+
+def add_head(file, name, linear, activation="none"):
+    net = file.network(name, input=(1, 1, networks.FEATURES))
+    net.output(net.fully_connected(net.input, plain(linear.weight), plain(linear.bias), activation=activation))
+
+
+def add_decoder(file, name, decoder, activation):
+    net = file.network(name, input=(1, 1, networks.FEATURES))
+    x = net.input
+    for convolution in decoder.convolutions:
+        x = net.causal_conv(x, plain(convolution.weight), plain(convolution.bias), activation="leaky_relu", alpha=networks.LEAK)
+    lstm = decoder.lstm
+    x = net.lstm(x, plain(lstm.weight_ih_l0), plain(lstm.weight_hh_l0), plain(lstm.bias_ih_l0 + lstm.bias_hh_l0))
+    net.output(net.fully_connected(x, plain(decoder.output.weight), plain(decoder.output.bias), activation=activation))
+
+
+def export_basenet(encoder_path, decoders_path):
+    state = torch.load(encoder_path, map_location="cpu")
+    net = networks.BaseNet()
+    net.load_state_dict(state["average"])
+    decoders = torch.load(decoders_path, map_location="cpu")
+    controls, pose = networks.ControlsDecoder(), networks.PoseDecoder()
+    controls.load_state_dict(decoders["controls_decoder"])
+    pose.load_state_dict(decoders["pose_decoder"])
+
+    file = MienFile()
+    add_encoder(file, net.encoder)
+    add_head(file, "landmarks", net.landmarks)
+    add_head(file, "face_probability", net.face, "sigmoid")
+    add_decoder(file, "controls_decoder", controls, "clamp01")
+    add_decoder(file, "pose_decoder", pose, "none")
+    file.constant("landmark_template", plain(template()))
+    file.constant("control_supported", plain(torch.as_tensor(decoders["supported"]).float()))
+    file.metadata["name"] = "basenet"
+    file.metadata["licence"] = "Apache-2.0; trained on the data that models/README.md names"
+    file.metadata["encoder_samples"] = str(state["samples"])
+    file.write(ROOT / "models/basenet.mien")
+
+
+def add_small_conv(net, x, convolution, prelu):
+    return net.conv2d(x, plain(convolution.weight), plain(convolution.bias), activation="prelu", slopes=plain(prelu.weight))
+
+
+def export_proposal(pnet_path, rnet_path):
+    pnet, rnet = networks.PNet(), networks.RNet()
+    pnet.load_state_dict(torch.load(pnet_path, map_location="cpu"))
+    rnet.load_state_dict(torch.load(rnet_path, map_location="cpu"))
+    file = MienFile()
+
+    net = file.network("pnet", input=(12, 12, 3), any_size=True)
+    x = add_small_conv(net, net.input, pnet.body[0], pnet.body[1])
+    x = net.max_pool(x, kernel=2, stride=2, ceil_mode=True)
+    x = add_small_conv(net, x, pnet.body[3], pnet.body[4])
+    x = add_small_conv(net, x, pnet.body[5], pnet.body[6])
+    net.output(net.pointwise(x, plain(pnet.face.weight), plain(pnet.face.bias), activation="sigmoid"))
+    net.output(net.pointwise(x, plain(pnet.box.weight), plain(pnet.box.bias), activation="none"))
+
+    net = file.network("rnet", input=(24, 24, 3))
+    x = add_small_conv(net, net.input, rnet.body[0], rnet.body[1])
+    x = net.max_pool(x, kernel=3, stride=2, ceil_mode=True)
+    x = add_small_conv(net, x, rnet.body[3], rnet.body[4])
+    x = net.max_pool(x, kernel=3, stride=2, ceil_mode=True)
+    x = add_small_conv(net, x, rnet.body[6], rnet.body[7])
+    hidden = rnet.hidden[0]
+    x = net.fully_connected(x, plain(hidden.weight), plain(hidden.bias), activation="prelu", slopes=plain(rnet.hidden[1].weight))
+    net.output(net.fully_connected(x, plain(rnet.face.weight), plain(rnet.face.bias), activation="sigmoid"))
+    net.output(net.fully_connected(x, plain(rnet.box.weight), plain(rnet.box.bias), activation="none"))
+    file.metadata["name"] = "proposal"
+    file.metadata["licence"] = "Apache-2.0; trained on the data that models/README.md names"
+    file.write(ROOT / "models/proposal.mien")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("what", choices=["basenet", "proposal"])
+    parser.add_argument("checkpoints", type=Path, nargs=2)
+    options = parser.parse_args()
+    {"basenet": export_basenet, "proposal": export_proposal}[options.what](*options.checkpoints)
+    path = ROOT / f"models/{options.what}.mien"
+    print(json.dumps({"file": path.name, "bytes": path.stat().st_size}))
+
+
+if __name__ == "__main__":
+    main()
