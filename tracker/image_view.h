@@ -1,0 +1,34 @@
+// The caller's image as the tracker sees it: upright and un-mirrored, whatever lies in memory.
+#pragma once
+
+#include <mien/mien.h>
+
+#include "tracker/geometry.h"
+#include "tracker/head_pose.h"
+
+namespace mien::tracker {
+
+// Coordinates of the tracker are pixels of the upright scene: turned by `rotation`, and flipped
+// sideways when the picture is mirrored. No pixel is moved: `to_buffer` tells where each one lies.
+struct ImageView {
+  mien_image image = {};  // every plane, stride and dimension checked
+  float width = 0.0f;     // pixels of the upright image
+  float height = 0.0f;
+  bool mirrored = false;
+  Affine to_buffer;  // scene -> buffer
+  Camera camera;     // in the scene's coordinates
+};
+
+// Checks `given` completely. `horizontal_fov` (radians) is used where it has no focal length.
+[[nodiscard]] mien_status view_image(const mien_image* given, float horizontal_fov,
+                                     ImageView& view);
+
+// Between the scene's coordinates and those of the upright picture as the caller sees it.
+[[nodiscard]] inline Point to_picture(const ImageView& view, Point scene) {
+  return view.mirrored ? Point{view.width - scene.x, scene.y} : scene;
+}
+
+// Whether points in one view mean the same place in the other.
+[[nodiscard]] bool same_geometry(const ImageView& a, const ImageView& b);
+
+}  // namespace mien::tracker
