@@ -1,0 +1,251 @@
+#include "tests/tracker/blob_weights.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <random>
+#include <string>
+
+#include "formats/mien_writer.h"
+
+namespace mien::tests {
+namespace {
+
+using formats::Array;
+using formats::LayerIndex;
+using formats::LayerOptions;
+using formats::MienWriter;
+using formats::NetworkWriter;
+
+constexpr std::uint32_t kCrop = 65;
+constexpr std::uint32_t kCell = 5;  // pixels averaged to one cell
+constexpr std::uint32_t kStep = 4;  // pixels from cell to cell
+constexpr std::uint32_t kGrid = (kCrop - kCell) / kStep + 1;
+constexpr std::uint32_t kLandmarks = 175;
+constexpr std::uint32_t kControls = 52;
+constexpr std::uint32_t kPose = 9;
+
+// Features with a meaning; the others are random.
+enum Feature : std::uint32_t { kCentroidX, kCentroidY, kArea, kMeaningful };
+
+class Random {
+ public:
+  explicit Random(unsigned seed) : engine_(seed) {}
+  float normal(float deviation) { return deviation * normal_(engine_); }
+  std::vector<float> normals(std::size_t count, float deviation) {
+    std::vector<float> values(count);
+    for (float& value : values) {
+      value = normal(deviation);
+    }
+    return values;
+  }
+
+ private:
+  std::mt19937 engine_;
+  std::normal_distribution<float> normal_;
+};
+
+Array filled(std::vector<std::uint32_t> shape, const std::function<float(std::size_t)>& value) {
+  std::size_t count = 1;
+  for (std::uint32_t dim : shape) {
+    count *= dim;
+  }
+  Array array = {std::move(shape), std::vector<float>(count)};
+  for (std::size_t i = 0; i < count; ++i) {
+    array.values[i] = value(i);
+  }
+  return array;
+}
+
+Array random_array(std::vector<std::uint32_t> shape, float deviation, Random& random) {
+  return filled(std::move(shape), [&](std::size_t) { return random.normal(deviation); });
+}
+
+LayerOptions activated(formats::Activation activation, float alpha = 0.0f) {
+  LayerOptions options;
+  options.activation = activation;
+  options.alpha = alpha;
+  return options;
+}
+
+AlignedBytes finished(const MienWriter& writer) {
+  std::vector<std::byte> file;
+  const formats::FileError error = writer.finish(&file);
+  EXPECT_FALSE(error) << formats::message(error.status);
+  return AlignedBytes(file);
+}
+
+// Points on an ellipse-like spiral around the middle, 0.8 high: no symmetry to hide behind.
+Array landmark_template() {
+  return filled({kLandmarks, 2}, [](std::size_t i) {
+    const auto point = static_cast<float>(i / 2);
+    const float radius = 0.1f + 0.3f * point / (kLandmarks - 1);
+    const float angle = 0.37f * point;
+    return 0.5f + radius * (i % 2 == 0 ? 0.9f * std::cos(angle) : std::sin(angle));
+  });
+}
+
+// Area of the right disc, in cells.
+float nominal_area() {
+  const float radius = kDiscPerCrop / 2 * kCrop / kStep;
+  return static_cast<float>(M_PI) * radius * radius;
+}
+
+// Weights over the grid of cell brightness (0 dark, 1 bright) that measure `feature`.
+float measure(Feature feature, std::size_t cell) {
+  const auto middle = [](std::size_t i) {
+    return (static_cast<float>(kStep * i) + 0.5f * kCell) / kCrop - 0.5f;
+  };
+  switch (feature) {
+    case kCentroidX:
+      return middle(cell % kGrid) / nominal_area();
+    case kCentroidY:
+      return middle(cell / kGrid) / nominal_area();
+    default:
+      return 1.0f / nominal_area();
+  }
+}
+
+// Pixels -1..1 -> grid of brightness 0..1 in channel 0, random textures in the others -> features.
+void add_encoder(MienWriter& writer, const BlobOptions& options, Random& random) {
+  constexpr std::uint32_t kChannels = 8;
+  constexpr std::uint32_t kWindow = 3 * kCell * kCell;
+  NetworkWriter& network = writer.network("encoder", {kCrop, kCrop, 3});
+  const Array cells = filled({kChannels, 3, kCell, kCell}, [&](std::size_t i) {
+    return i < kWindow ? 0.5f / kWindow : random.normal(0.3f / std::sqrt(float{kWindow}));
+  });
+  std::vector<float> bias(kChannels, 0.0f);
+  bias[0] = 0.5f;
+  LayerOptions strided;
+  strided.stride_y = strided.stride_x = kStep;
+  const LayerIndex grid = network.conv2d(NetworkWriter::kInput, cells, bias, strided);
+  constexpr std::uint32_t kInputs = kChannels * kGrid * kGrid;
+  const Array mixing = filled({options.features, kInputs}, [&](std::size_t i) {
+    const std::size_t input = i % kInputs;
+    const std::size_t feature = i / kInputs;
+    if (feature < kMeaningful) {
+      return input < kGrid * kGrid ? measure(static_cast<Feature>(feature), input) : 0.0f;
+    }
+    return random.normal(1.0f / std::sqrt(float{kInputs}));
+  });
+  network.output(network.fully_connected(grid, mixing, std::vector<float>(options.features, 0.0f)));
+}
+
+// template moved with the centroid and scaled with the area: area 1 + 2 e is scale 1 + e.
+void add_landmarks(MienWriter& writer, const BlobOptions& options) {
+  NetworkWriter& network = writer.network("landmarks", {1, 1, options.features});
+  const Array shape = landmark_template();
+  const Array weight = filled({2 * kLandmarks, options.features}, [&](std::size_t i) {
+    const std::size_t output = i / options.features;
+    const std::size_t feature = i % options.features;
+    if (feature == kArea) {
+      return 0.5f * (shape.values[output] - 0.5f);
+    }
+    return feature == (output % 2 == 0 ? kCentroidX : kCentroidY) ? 1.0f : 0.0f;
+  });
+  std::vector<float> bias = shape.values;
+  for (float& value : bias) {
+    value -= 0.5f * (value - 0.5f);
+  }
+  network.output(network.fully_connected(NetworkWriter::kInput, weight, bias));
+}
+
+// Half an area and more is a face.
+void add_face_probability(MienWriter& writer, const BlobOptions& options) {
+  NetworkWriter& network = writer.network("face_probability", {1, 1, options.features});
+  const Array weight =
+      filled({1, options.features}, [](std::size_t i) { return i == kArea ? 20.0f : 0.0f; });
+  network.output(network.fully_connected(NetworkWriter::kInput, weight,
+                                         {-10.0f + options.face_bias},
+                                         activated(formats::Activation::kSigmoid)));
+}
+
+void add_decoder(MienWriter& writer, const std::string& name, const BlobOptions& options,
+                 const std::vector<float>& output_bias, formats::Activation activation,
+                 Random& random) {
+  constexpr std::uint32_t kWidth = 16;
+  NetworkWriter& network = writer.network(name, {1, 1, options.features});
+  LayerIndex x = network.causal_conv(
+      NetworkWriter::kInput, random_array({kWidth, options.features, 2}, 0.05f, random),
+      random.normals(kWidth, 0.1f), activated(formats::Activation::kLeakyRelu, 0.1f));
+  x = network.lstm(x, random_array({4 * kWidth, kWidth}, 0.3f, random),
+                   random_array({4 * kWidth, kWidth}, 0.3f, random),
+                   random.normals(4 * kWidth, 0.3f));
+  const auto outputs = static_cast<std::uint32_t>(output_bias.size());
+  x = network.fully_connected(x, random_array({outputs, kWidth}, 0.3f, random), output_bias,
+                              activated(activation));
+  network.output(x);
+}
+
+// Window of 12 x 12 cells of `cell` pixels: the middle 8 x 8 bright, the rest dark, is the face;
+// logit 8 for a perfect one, -8 for anything flat.
+void add_window_network(MienWriter& writer, const std::string& name, std::uint32_t cell,
+                        bool any_size) {
+  constexpr std::uint32_t kCells = 12;
+  NetworkWriter& network = writer.network(name, {kCells * cell, kCells * cell, 3}, any_size);
+  LayerOptions strided;
+  strided.stride_y = strided.stride_x = cell;
+  const float per_cell = static_cast<float>(3 * cell * cell);
+  const LayerIndex grey = network.conv2d(
+      NetworkWriter::kInput,
+      filled({8, 3, cell, cell},
+             [&](std::size_t i) { return i < 3 * cell * cell ? 1.0f / per_cell : 0.0f; }),
+      std::vector<float>(8, 0.0f), strided);
+  const auto inside = [](std::size_t at) { return at >= 2 && at < 10; };
+  LayerOptions every_other;
+  every_other.stride_y = every_other.stride_x = 2;
+  const LayerIndex contrast = network.conv2d(
+      grey,
+      filled({8, 8, kCells, kCells},
+             [&](std::size_t i) {
+               if (i >= kCells * kCells) {
+                 return 0.0f;
+               }
+               const bool bright = inside(i % kCells) && inside(i / kCells);
+               return bright ? 1.0f / 64.0f : -1.0f / 80.0f;  // sums to 2 for the perfect face
+             }),
+      std::vector<float>(8, 0.0f), every_other);
+  const Array logit = filled({1, 8}, [](std::size_t i) { return i == 0 ? 8.0f : 0.0f; });
+  network.output(
+      network.pointwise(contrast, logit, {-8.0f}, activated(formats::Activation::kSigmoid)));
+  network.output(network.pointwise(contrast, filled({3, 8}, [](std::size_t) { return 0.0f; }),
+                                   {0.0f, 0.0f, 0.0f}));
+}
+
+}  // namespace
+
+AlignedBytes::AlignedBytes(std::span<const std::byte> bytes)
+    : lines_(bytes.size() / sizeof(Line) + 1), size_(bytes.size()) {
+  std::memcpy(lines_.data(), bytes.data(), bytes.size());
+}
+
+AlignedBytes blob_basenet(const BlobOptions& options) {
+  Random random(options.seed);
+  MienWriter writer;
+  add_encoder(writer, options, random);
+  add_landmarks(writer, options);
+  add_face_probability(writer, options);
+  add_decoder(writer, "controls_decoder", options, std::vector<float>(kControls, 0.5f),
+              formats::Activation::kClamp01, random);
+  if (options.with_pose_decoder) {
+    std::vector<float> frontal(kPose, 0.0f);
+    frontal[0] = frontal[4] = 1.0f;
+    add_decoder(writer, "pose_decoder", options, frontal, formats::Activation::kNone, random);
+  }
+  writer.constant("landmark_template", landmark_template());
+  writer.constant("control_supported", filled({kControls}, [&](std::size_t i) {
+                    return static_cast<float>(options.supported_controls >> i & 1u);
+                  }));
+  return finished(writer);
+}
+
+AlignedBytes blob_proposal() {
+  MienWriter writer;
+  add_window_network(writer, "pnet", 1, true);
+  add_window_network(writer, "rnet", 2, false);
+  return finished(writer);
+}
+
+}  // namespace mien::tests

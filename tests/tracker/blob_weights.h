@@ -1,0 +1,44 @@
+// Weight files for tests, in which a bright disc on a dark ground plays the face. Their networks
+// are linear measurements by design, so that what the tracker must answer is known without
+// training: BaseNet measures the disc's centroid and area in its crop, P-Net and R-Net answer to a
+// bright middle in a dark frame. The temporal decoders, and some of the features, are random.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace mien::tests {
+
+// Bytes at a multiple of 64.
+class AlignedBytes {
+ public:
+  explicit AlignedBytes(std::span<const std::byte> bytes);
+  [[nodiscard]] std::span<const std::byte> get() const { return {lines_.data()->bytes, size_}; }
+
+ private:
+  struct alignas(64) Line {
+    std::byte bytes[64];
+  };
+  std::vector<Line> lines_;
+  std::size_t size_;
+};
+
+struct BlobOptions {
+  unsigned seed = 1;
+  // Added to the logit of the face probability, which else is that of a disc: +-100 makes
+  // everything or nothing a face.
+  float face_bias = 0.0f;
+  std::uint64_t supported_controls = 0xfffffffffffffULL;
+  std::uint32_t features = 256;  // another number than 256 makes an unusable file
+  bool with_pose_decoder = true;
+};
+
+// The disc's diameter is this share of the side of its crop, when the crop is right.
+inline constexpr float kDiscPerCrop = 0.5f;
+
+[[nodiscard]] AlignedBytes blob_basenet(const BlobOptions& options = {});
+[[nodiscard]] AlignedBytes blob_proposal();
+
+}  // namespace mien::tests
