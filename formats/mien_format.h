@@ -30,7 +30,7 @@ inline constexpr std::uint32_t kMaxOutputs = 4;
 inline constexpr std::uint16_t kMaxKernel = 15;
 inline constexpr std::uint16_t kMaxStride = 4;
 
-inline constexpr std::uint32_t kNone = 0xFFFFFFFF;  // no tensor, no second input
+inline constexpr std::uint32_t kNoIndex = 0xFFFFFFFF;  // no tensor, no second input
 
 enum class LayerOp : std::uint16_t {
   kConv2d = 1,
@@ -92,14 +92,15 @@ struct NetworkRecord {
   std::uint32_t outputs[kMaxOutputs];  // values of the network (see LayerRecord), unused ones 0
   std::uint32_t reserved[3];
 };
-inline constexpr std::uint32_t kAnySize = 1;  // runs on any map at least as large as the declared one
+inline constexpr std::uint32_t kAnySize =
+    1;  // runs on any map at least as large as the declared one
 
 // The values of a network are numbered: 0 is its input, k the output of its k-th layer.
 struct LayerRecord {
   std::uint16_t op;
   std::uint16_t activation;
-  std::uint32_t input;         // a value smaller than this layer's own
-  std::uint32_t second_input;  // kAdd only, else kNone
+  std::uint32_t input;                    // a value smaller than this layer's own
+  std::uint32_t second_input;             // kAdd only, else kNoIndex
   std::uint32_t height, width, channels;  // of the output, at the network's declared input size
   std::uint16_t kernel_height, kernel_width;
   std::uint16_t stride_height, stride_width;
@@ -107,7 +108,8 @@ struct LayerRecord {
   std::uint16_t flags;  // kCeilMode
   std::uint16_t reserved;
   float alpha;
-  std::uint32_t weights, bias, slopes;  // tensors, or kNone
+  std::uint32_t weights, bias, slopes;  // tensors, or kNoIndex
+  std::uint32_t reserved_tail;
 };
 inline constexpr std::uint16_t kCeilMode = 1;  // pooling: a last, partly filled window counts
 
@@ -115,10 +117,11 @@ struct TensorRecord {
   StringRef name;  // empty unless it is a constant
   std::uint16_t type;
   std::uint16_t rank;
+  std::uint32_t reserved;
   std::uint32_t dims[kMaxRank];  // unused ones 0
   std::uint64_t offset;          // from the file's beginning
   std::uint64_t bytes;
-  std::uint32_t reserved[5];
+  std::uint32_t reserved_tail[4];
 };
 
 struct MetadataRecord {
