@@ -11,7 +11,7 @@ namespace mien::formats {
 
 class CsvRow {
  public:
-  static constexpr std::size_t kMaxNumberBytes = 24;  // one cell of a number with its comma
+  static constexpr std::size_t kMaxNumberBytes = 25;  // one cell of a number with its comma
 
   // Writes into `buffer`, the caller's, which must outlive the row.
   explicit CsvRow(std::span<char> buffer) : buffer_(buffer) {}

@@ -14,15 +14,16 @@ enum class Y4mStatus : std::uint8_t {
   kEnd = 1,  // no more frames, not an error
   kBadSignature = 2,
   kHeaderTooLong = 3,
-  kBadSize = 4,
-  kBadRate = 5,
-  kUnsupportedColour = 6,
-  kBadFrameHeader = 7,
-  kTruncatedFrame = 8,
-  kBadParameter = 9,
-  kBufferTooSmall = 10,
+  kTruncatedHeader = 4,
+  kBadSize = 5,
+  kBadRate = 6,
+  kUnsupportedColour = 7,
+  kBadParameter = 8,
+  kBadFrameHeader = 9,
+  kTruncatedFrame = 10,
+  kBufferTooSmall = 11,
 };
-inline constexpr std::uint8_t kY4mStatusCount = 11;
+inline constexpr std::uint8_t kY4mStatusCount = 12;
 
 const char* message(Y4mStatus status);
 
