@@ -131,16 +131,12 @@ mien_status view_image(const mien_image* given, float horizontal_fov, ImageView&
   view.image = image;
   view.width = static_cast<float>(on_side ? image.height : image.width);
   view.height = static_cast<float>(on_side ? image.width : image.height);
+  view.rotation = image.rotation;
   view.mirrored = image.mirrored != 0;
   const Affine flip = {-1, 0, view.width, 0, 1, 0};
   view.to_buffer = view.mirrored ? compose(unturned(image), flip) : unturned(image);
   view.camera = camera_of(image, view, horizontal_fov);
   return MIEN_OK;
-}
-
-bool same_geometry(const ImageView& a, const ImageView& b) {
-  return a.width == b.width && a.height == b.height && a.mirrored == b.mirrored &&
-         a.image.rotation == b.image.rotation;
 }
 
 }  // namespace mien::tracker

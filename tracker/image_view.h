@@ -3,20 +3,28 @@
 
 #include <mien/mien.h>
 
+#include <cstdint>
+
 #include "tracker/geometry.h"
 #include "tracker/head_pose.h"
 
 namespace mien::tracker {
 
+// What has to be the same for a point of one image to mean the same place in another.
+struct ImageGeometry {
+  float width = 0.0f;  // pixels of the upright image
+  float height = 0.0f;
+  std::int32_t rotation = 0;
+  bool mirrored = false;
+  friend bool operator==(const ImageGeometry&, const ImageGeometry&) = default;
+};
+
 // Coordinates of the tracker are pixels of the upright scene: turned by `rotation`, and flipped
 // sideways when the picture is mirrored. No pixel is moved: `to_buffer` tells where each one lies.
-struct ImageView {
+struct ImageView : ImageGeometry {
   mien_image image = {};  // every plane, stride and dimension checked
-  float width = 0.0f;     // pixels of the upright image
-  float height = 0.0f;
-  bool mirrored = false;
-  Affine to_buffer;  // scene -> buffer
-  Camera camera;     // in the scene's coordinates
+  Affine to_buffer;       // scene -> buffer
+  Camera camera;          // in the scene's coordinates
 };
 
 // Checks `given` completely. `horizontal_fov` (radians) is used where it has no focal length.
@@ -24,11 +32,8 @@ struct ImageView {
                                      ImageView& view);
 
 // Between the scene's coordinates and those of the upright picture as the caller sees it.
-[[nodiscard]] inline Point to_picture(const ImageView& view, Point scene) {
+[[nodiscard]] inline Point to_picture(const ImageGeometry& view, Point scene) {
   return view.mirrored ? Point{view.width - scene.x, scene.y} : scene;
 }
-
-// Whether points in one view mean the same place in the other.
-[[nodiscard]] bool same_geometry(const ImageView& a, const ImageView& b);
 
 }  // namespace mien::tracker

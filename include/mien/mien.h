@@ -306,7 +306,7 @@ typedef struct mien_result {
   int64_t pts_ns;              /* of the image that this result belongs to */
   uint64_t supported_controls; /* bit i: control i is driven at this level of detail */
 
-  float face_probability; /* 0..1, of the last judged crop */
+  float face_probability; /* 0..1, of the crop judged last; 0 when there was nothing to judge */
   float voice_activity;   /* 0..1; 0 as long as there is no audio */
   int32_t lod;
   uint32_t flags; /* MIEN_RESULT_* */

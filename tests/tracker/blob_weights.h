@@ -36,7 +36,7 @@ struct BlobOptions {
 };
 
 // The disc's diameter is this share of the side of its crop, when the crop is right.
-inline constexpr float kDiscPerCrop = 0.5f;
+inline constexpr float kDiscPerCrop = 0.7f;
 
 [[nodiscard]] AlignedBytes blob_basenet(const BlobOptions& options = {});
 [[nodiscard]] AlignedBytes blob_proposal();

@@ -140,13 +140,13 @@ TEST(ImageView, ShortStructGetsDefaultsLongOneIsAccepted) {
   EXPECT_EQ(status_of(longer.image), MIEN_OK);
 }
 
-TEST(SameGeometry, DependsOnSizeRotationAndMirroringOnly) {
-  mien_image image = image_of(MIEN_IMAGE_GRAY8, 8, 4);
-  const ImageView before = viewed(image);
+TEST(ImageGeometry, DependsOnSizeRotationAndMirroringOnly) {
+  const mien_image image = image_of(MIEN_IMAGE_GRAY8, 8, 4);
+  const ImageGeometry before = viewed(image);
   const auto changed = [&](auto&& change) {
     mien_image other = image;
     change(other);
-    return !same_geometry(before, viewed(other));
+    return !(before == viewed(other));
   };
   EXPECT_FALSE(changed([](mien_image& i) { i.format = MIEN_IMAGE_RGB; }));
   EXPECT_TRUE(changed([](mien_image& i) { i.width = 9; }));

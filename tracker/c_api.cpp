@@ -1,0 +1,192 @@
+// The C interface: checks what comes in, hands on, copies out.
+#include <mien/mien.h>
+
+#include <cstdint>
+#include <new>
+
+#include "tracker/arena.h"
+#include "tracker/basenet.h"
+#include "tracker/config.h"
+#include "tracker/mtcnn_proposal.h"
+#include "tracker/tracker.h"
+#include "tracker/versioned_struct.h"
+
+struct mien_tracker {
+  explicit mien_tracker(const mien_tracker_config& config)
+      : tracker(config, basenet, proposal), allocator(config.allocator) {}
+
+  mien::tracker::BaseNet basenet;
+  mien::tracker::MtcnnProposal proposal;
+  mien::tracker::Tracker tracker;
+  mien_allocator allocator;
+  std::size_t bytes = 0;
+  bool allocated = false;  // by the allocator, not by the caller
+};
+
+namespace {
+
+using mien::tracker::Arena;
+
+static_assert(MIEN_ALIGNMENT == Arena::kAlignment);
+static_assert(MIEN_LANDMARK_COUNT == mien::tracker::kLandmarks);
+
+// Takes from `arena` all that the networks need.
+mien_status load(const mien_tracker_config& config, mien_tracker& parts, Arena& arena) {
+  const mien_status status = parts.basenet.load(config, arena);
+  return status == MIEN_OK ? parts.proposal.load(config, arena) : status;
+}
+
+mien_status measure(const mien_tracker_config& config, std::size_t& bytes) {
+  Arena arena;
+  (void)arena.take(sizeof(mien_tracker));
+  mien_tracker parts(config);
+  const mien_status status = load(config, parts, arena);
+  bytes = status == MIEN_OK ? arena.used_bytes() : 0;
+  return status;
+}
+
+mien_status build(const mien_tracker_config& config, std::span<std::byte> memory,
+                  mien_tracker** tracker) {
+  Arena arena(memory);
+  const std::span<std::byte> place = arena.take(sizeof(mien_tracker));
+  if (place.empty()) {
+    return MIEN_ERROR_MEMORY_TOO_SMALL;
+  }
+  auto* created = new (place.data()) mien_tracker(config);
+  const mien_status status = load(config, *created, arena);
+  if (status != MIEN_OK) {
+    return status;
+  }
+  created->bytes = memory.size();
+  created->tracker.reset();
+  *tracker = created;
+  return MIEN_OK;
+}
+
+void* allocate(const mien_allocator& allocator, std::size_t bytes) {
+  if (allocator.allocate != nullptr) {
+    return allocator.allocate(allocator.user, bytes, MIEN_ALIGNMENT);
+  }
+  return ::operator new(bytes, std::align_val_t(MIEN_ALIGNMENT), std::nothrow);
+}
+
+void release(const mien_allocator& allocator, void* memory) {
+  if (allocator.release != nullptr) {
+    allocator.release(allocator.user, memory);
+  } else {
+    ::operator delete(memory, std::align_val_t(MIEN_ALIGNMENT));
+  }
+}
+
+// Faces are nobody else's business. Volatile: memory about to be released is still written to.
+void wipe(void* memory, std::size_t bytes) {
+  volatile auto* byte = static_cast<volatile unsigned char*>(memory);
+  for (std::size_t i = 0; i < bytes; ++i) {
+    byte[i] = 0;
+  }
+}
+
+}  // namespace
+
+mien_status mien_tracker_required_bytes(const mien_tracker_config* config, size_t* bytes) {
+  if (bytes == nullptr) {
+    return MIEN_ERROR_NULL_ARGUMENT;
+  }
+  *bytes = 0;
+  mien_tracker_config checked;
+  const mien_status status = mien::tracker::read_config(config, checked);
+  return status == MIEN_OK ? measure(checked, *bytes) : status;
+}
+
+mien_status mien_tracker_create(const mien_tracker_config* config, mien_tracker** tracker) {
+  if (tracker == nullptr) {
+    return MIEN_ERROR_NULL_ARGUMENT;
+  }
+  *tracker = nullptr;
+  std::size_t bytes = 0;
+  mien_status status = mien_tracker_required_bytes(config, &bytes);
+  if (status != MIEN_OK) {
+    return status;
+  }
+  mien_tracker_config checked;
+  (void)mien::tracker::read_config(config, checked);
+  void* memory = allocate(checked.allocator, bytes);
+  if (memory == nullptr) {
+    return MIEN_ERROR_OUT_OF_MEMORY;
+  }
+  status = build(checked, {static_cast<std::byte*>(memory), bytes}, tracker);
+  if (status != MIEN_OK) {
+    release(checked.allocator, memory);
+    return status;
+  }
+  (*tracker)->allocated = true;
+  return MIEN_OK;
+}
+
+mien_status mien_tracker_create_in(const mien_tracker_config* config, void* memory,
+                                   size_t memory_bytes, mien_tracker** tracker) {
+  if (tracker == nullptr) {
+    return MIEN_ERROR_NULL_ARGUMENT;
+  }
+  *tracker = nullptr;
+  std::size_t bytes = 0;
+  const mien_status status = mien_tracker_required_bytes(config, &bytes);
+  if (status != MIEN_OK) {
+    return status;
+  }
+  if (memory == nullptr) {
+    return MIEN_ERROR_NULL_ARGUMENT;
+  }
+  if (reinterpret_cast<std::uintptr_t>(memory) % MIEN_ALIGNMENT != 0) {
+    return MIEN_ERROR_ALIGNMENT;
+  }
+  if (memory_bytes < bytes) {
+    return MIEN_ERROR_MEMORY_TOO_SMALL;
+  }
+  mien_tracker_config checked;
+  (void)mien::tracker::read_config(config, checked);
+  return build(checked, {static_cast<std::byte*>(memory), bytes}, tracker);
+}
+
+void mien_tracker_destroy(mien_tracker* tracker) {
+  if (tracker == nullptr) {
+    return;
+  }
+  const mien_allocator allocator = tracker->allocator;
+  const bool allocated = tracker->allocated;
+  const std::size_t bytes = tracker->bytes;
+  tracker->~mien_tracker();
+  wipe(tracker, bytes);
+  if (allocated) {
+    release(allocator, tracker);
+  }
+}
+
+mien_status mien_tracker_reset(mien_tracker* tracker) {
+  if (tracker == nullptr) {
+    return MIEN_ERROR_NULL_ARGUMENT;
+  }
+  tracker->tracker.reset();
+  return MIEN_OK;
+}
+
+mien_status mien_tracker_push_video(mien_tracker* tracker, const mien_image* image,
+                                    int64_t pts_ns) {
+  return tracker != nullptr ? tracker->tracker.push(image, pts_ns) : MIEN_ERROR_NULL_ARGUMENT;
+}
+
+mien_status mien_tracker_get_result(const mien_tracker* tracker, mien_result* result) {
+  if (tracker == nullptr || result == nullptr) {
+    return MIEN_ERROR_NULL_ARGUMENT;
+  }
+  const bool written = mien::tracker::write_struct(
+      tracker->tracker.result(), MIEN_SIZE_THROUGH(mien_result, supported_controls), result);
+  return written ? MIEN_OK : MIEN_ERROR_STRUCT_SIZE;
+}
+
+void mien_result_default(mien_result* result) {
+  if (result != nullptr) {
+    *result = {};
+    result->struct_size = sizeof *result;
+  }
+}

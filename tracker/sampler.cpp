@@ -1,0 +1,109 @@
+#include "tracker/sampler.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mien::tracker {
+namespace {
+
+constexpr float kScale = 1.0f / 127.5f;
+constexpr float kBlack = -1.0f;
+constexpr float kPixelsPerTap = 1.5f;
+constexpr float kMaxTaps = 8.0f;
+
+kernels::PixelFormat pixel_format(std::int32_t format) {
+  switch (format) {
+    case MIEN_IMAGE_GRAY8:
+      return kernels::PixelFormat::kGray8;
+    case MIEN_IMAGE_RGB:
+      return kernels::PixelFormat::kRgb;
+    case MIEN_IMAGE_BGR:
+      return kernels::PixelFormat::kBgr;
+    case MIEN_IMAGE_RGBA:
+      return kernels::PixelFormat::kRgba;
+    case MIEN_IMAGE_BGRA:
+      return kernels::PixelFormat::kBgra;
+    default:
+      return kernels::PixelFormat::kYuv420;
+  }
+}
+
+std::ptrdiff_t pixel_bytes(std::int32_t format) {
+  switch (format) {
+    case MIEN_IMAGE_RGB:
+    case MIEN_IMAGE_BGR:
+      return 3;
+    case MIEN_IMAGE_RGBA:
+    case MIEN_IMAGE_BGRA:
+      return 4;
+    default:
+      return 1;
+  }
+}
+
+kernels::Plane plane(const mien_image& image, int index, int first_byte, std::ptrdiff_t pixel) {
+  return {static_cast<const std::uint8_t*>(image.planes[index]) + first_byte,
+          image.row_stride_bytes[index], pixel};
+}
+
+void set_planes(const mien_image& image, kernels::WarpArgs& args) {
+  args.plane[0] = plane(image, 0, 0, pixel_bytes(image.format));
+  if (image.format == MIEN_IMAGE_I420) {
+    args.plane[1] = plane(image, 1, 0, image.chroma_pixel_stride_bytes);
+    args.plane[2] = plane(image, 2, 0, image.chroma_pixel_stride_bytes);
+  } else if (image.format == MIEN_IMAGE_NV12 || image.format == MIEN_IMAGE_NV21) {
+    const int u = image.format == MIEN_IMAGE_NV12 ? 0 : 1;
+    args.plane[1] = plane(image, 1, u, 2);
+    args.plane[2] = plane(image, 1, 1 - u, 2);
+  }
+}
+
+std::int32_t taps(float pixels_per_sample) {
+  const float wanted = std::ceil(pixels_per_sample / kPixelsPerTap);
+  return static_cast<std::int32_t>(std::clamp(wanted, 1.0f, kMaxTaps));
+}
+
+}  // namespace
+
+void Sampler::cut(const ImageView& view, const Crop& crop, std::int32_t samples,
+                  std::span<float> picture) const {
+  const float unit = 1.0f / static_cast<float>(samples);
+  const Affine sample_to_crop = {unit, 0, 0, 0, unit, 0};
+  const Affine m = compose(view.to_buffer, compose(crop_to_image(crop), sample_to_crop));
+  kernels::WarpArgs args = {};
+  args.format = pixel_format(view.image.format);
+  set_planes(view.image, args);
+  args.full_range = view.image.full_range != 0;
+  args.image_width = view.image.width;
+  args.image_height = view.image.height;
+  const float matrix[6] = {m.xx, m.xy, m.x0, m.yx, m.yy, m.y0};
+  std::copy(std::begin(matrix), std::end(matrix), args.matrix);
+  args.taps = taps(crop.side * unit);
+  args.y = picture.data();
+  args.width = samples;
+  args.height = samples;
+  args.scale = kScale;
+  args.offset = kBlack;
+  warp_(args);
+}
+
+void Sampler::cut_black(const ImageView& view, const Square& square, std::int32_t samples,
+                        std::span<float> picture) const {
+  cut(view, {square.center, square.side, 0.0f}, samples, picture);
+  const float pixels_per_sample = square.side / static_cast<float>(samples);
+  const auto at = [&](float center, std::int32_t index) {
+    return center - square.side / 2 + (static_cast<float>(index) + 0.5f) * pixels_per_sample;
+  };
+  const auto inside = [](float value, float end) { return value >= 0.0f && value <= end; };
+  float* pixel = picture.data();
+  for (std::int32_t i = 0; i < samples; ++i) {
+    const bool row_inside = inside(at(square.center.y, i), view.height);
+    for (std::int32_t j = 0; j < samples; ++j, pixel += 3) {
+      if (!row_inside || !inside(at(square.center.x, j), view.width)) {
+        std::fill(pixel, pixel + 3, kBlack);
+      }
+    }
+  }
+}
+
+}  // namespace mien::tracker

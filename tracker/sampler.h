@@ -1,0 +1,36 @@
+// Cuts squares out of the caller's image, straight into the pictures that networks read.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "kernels/image/warp.h"
+#include "kernels/registry.h"
+#include "tracker/crop.h"
+#include "tracker/image_view.h"
+
+namespace mien::tracker {
+
+class Sampler {
+ public:
+  // False when no tier of the mask has the kernel.
+  [[nodiscard]] bool init(std::uint32_t cpu_mask) {
+    warp_ = kernels::find<kernels::WarpArgs>(cpu_mask);
+    return warp_ != nullptr;
+  }
+
+  // The crop as [samples][samples][3] RGB, -1..1. Sample (i, j) lies at crop coordinates
+  // ((j + 0.5) / samples, (i + 0.5) / samples); where samples lie more than 1.5 pixels apart each
+  // is the mean of several. Outside the image its border repeats.
+  void cut(const ImageView& view, const Crop& crop, std::int32_t samples,
+           std::span<float> picture) const;
+
+  // An upright square, black outside the image.
+  void cut_black(const ImageView& view, const Square& square, std::int32_t samples,
+                 std::span<float> picture) const;
+
+ private:
+  kernels::Kernel<kernels::WarpArgs> warp_ = nullptr;
+};
+
+}  // namespace mien::tracker
