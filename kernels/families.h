@@ -1,0 +1,27 @@
+// The argument structs of all families, and the declarations of all kernels.
+#pragma once
+
+#include "kernels/activation/activation.h"
+#include "kernels/batch_norm/batch_norm.h"
+#include "kernels/causal_conv/causal_conv.h"
+#include "kernels/conv2d/conv2d.h"
+#include "kernels/depthwise/depthwise.h"
+#include "kernels/fully_connected/fully_connected.h"
+#include "kernels/half/half.h"
+#include "kernels/image/warp.h"
+#include "kernels/lstm/lstm.h"
+#include "kernels/max_pool/max_pool.h"
+#include "kernels/pointwise/pointwise.h"
+#include "kernels/residual_add/residual_add.h"
+#include "kernels/softmax/softmax.h"
+
+namespace mien::kernels {
+
+#define MIEN_KERNEL(family, Args, tier) \
+  namespace tier {                      \
+  void family(const Args& args);        \
+  }
+#include "kernels/kernels.inc"
+#undef MIEN_KERNEL
+
+}  // namespace mien::kernels

@@ -1,0 +1,37 @@
+#include "kernels/tier.h"
+
+namespace mien::kernels {
+
+const char* name(Tier tier) {
+  switch (tier) {
+    case Tier::kRef:
+      return "ref";
+    case Tier::kAvx2:
+      return "avx2";
+    case Tier::kAvx512:
+      return "avx512";
+    case Tier::kNeon:
+      return "neon";
+    case Tier::kNeonFp16:
+      return "neonfp16";
+    case Tier::kNeon32:
+      return "neon32";
+    case Tier::kWasm:
+      return "wasm";
+  }
+  return nullptr;
+}
+
+std::uint32_t detect_cpu() {
+  std::uint32_t mask = bit(Tier::kRef);
+#ifdef MIEN_HAVE_AVX2
+  // The built-in also asks whether the system saves the registers.
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+      __builtin_cpu_supports("f16c")) {
+    mask |= bit(Tier::kAvx2);
+  }
+#endif
+  return mask;
+}
+
+}  // namespace mien::kernels

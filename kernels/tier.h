@@ -1,0 +1,30 @@
+// Tiers: sets of kernels for one instruction set. The CPU mask has one bit per tier.
+#pragma once
+
+#include <cstdint>
+
+namespace mien::kernels {
+
+// Numbers are fixed: they are bits of the public CPU mask.
+enum class Tier : std::uint32_t {
+  kRef = 0,
+  kAvx2 = 1,
+  kAvx512 = 2,
+  kNeon = 3,
+  kNeonFp16 = 4,
+  kNeon32 = 5,
+  kWasm = 6,
+};
+inline constexpr std::uint32_t kTierCount = 7;
+
+[[nodiscard]] constexpr std::uint32_t bit(Tier tier) {
+  return 1u << static_cast<std::uint32_t>(tier);
+}
+
+// "ref", "avx2", ...
+[[nodiscard]] const char* name(Tier tier);
+
+// The tiers that this build has and this CPU can run; kRef is always among them.
+[[nodiscard]] std::uint32_t detect_cpu();
+
+}  // namespace mien::kernels
