@@ -45,6 +45,12 @@ class Sequences:
             tables.append({k: v[rows] for k, v in labels.items()})
         return cls(images, {k: torch.from_numpy(np.concatenate([t[k] for t in tables])) for k in tables[0]})
 
+    def held(self, frames):
+        """Every picture of these sequences as a face that holds still for some frames."""
+        images = [np.broadcast_to(i, (frames, *i.shape)) for sequence in self.images for i in sequence]
+        hold = lambda v: v.flatten(0, 1).unsqueeze(1).expand(-1, frames, *v.shape[2:])
+        return Sequences(images, {k: hold(v) for k, v in self.labels.items()})
+
     def __len__(self):
         return len(self.images)
 
@@ -192,7 +198,7 @@ def targets(sequences, rows, crops, mirror):
     return {"pose": pose, "controls": controls, "visible": seen}
 
 
-def extract(model, sequences, passes, seed, plain=False, batch=32):
+def extract(model, sequences, passes, seed, strides=(1, 2), plain=False, batch=32):
     """Tracks every sequence `passes` times with the encoder on every frame, and as often on alternate frames.
 
     Every second pass mirrors the faces. Returns tensors with one row per track: features fp16 [m,frames,256], pose
@@ -200,7 +206,7 @@ def extract(model, sequences, passes, seed, plain=False, batch=32):
     pictures as they are.
     """
     tracks, losses = [], 0
-    for stride, number in itertools.product((1, 2), range(passes)):
+    for stride, number in itertools.product(strides, range(passes)):
         errors = []
         for start in range(0, len(sequences), batch):
             rows = torch.arange(start, min(start + batch, len(sequences)))
@@ -224,12 +230,16 @@ def main():
     parser.add_argument("--shards", type=Path, nargs="+", required=True)
     parser.add_argument("--out", type=Path, required=True)
     parser.add_argument("--passes", type=int, default=2)
+    parser.add_argument("--hold", type=int, help="shards of stills: each held for so many frames")
     parser.add_argument("--plain", action="store_true", help="no photometric variety")
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--seed", type=int, default=0)
     args = parser.parse_args()
     torch.set_num_threads(args.threads)
-    found = extract(Network(args.checkpoint), Sequences.load(args.shards), args.passes, args.seed, args.plain)
+    sequences, strides = Sequences.load(args.shards), (1, 2)
+    if args.hold:
+        sequences, strides = sequences.held(args.hold), (1,)
+    found = extract(Network(args.checkpoint), sequences, args.passes, args.seed, strides, args.plain)
     args.out.parent.mkdir(parents=True, exist_ok=True)
     torch.save(found, args.out)
 

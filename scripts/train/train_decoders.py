@@ -6,6 +6,7 @@ alternate frames; the decoders learn from both. A decoder without time of the sa
 measure what time brings.
 """
 import argparse
+import copy
 import json
 import sys
 import time
@@ -22,6 +23,7 @@ from expressions import CONTROLS, PAIRED  # noqa: E402
 from networks import ControlsDecoder, PoseDecoder  # noqa: E402
 
 SUPPORTED_CORRELATION = 0.5
+LEARNED = ("features", "pose", "controls", "visible")
 
 
 class FrameDecoder(nn.Module):
@@ -59,33 +61,63 @@ def temporal_loss(predicted, target, weight, args):
 
 
 class ControlsTask:
-    """Target and loss of the controls: rare ones weigh more, eyes nobody can see weigh nothing."""
+    """Loss of the controls: rare ones weigh more, eyes nobody can see weigh nothing."""
 
     def __init__(self, data, args):
-        self.target, self.visible, self.args = data["controls"], data["visible"], args
-        weight = 1 / (self.target.flatten(0, 1).std(0) + 0.05)
+        self.args = args
+        weight = 1 / (data["controls"].flatten(0, 1).std(0) + 0.05)
         self.weight = weight / weight.mean()
 
-    def loss(self, output, rows, mask):
-        weight = self.weight * stream(self.visible, rows) * mask
-        return temporal_loss(soft_clamp(output), stream(self.target, rows), weight, self.args)
+    def loss(self, output, batch, mask):
+        return temporal_loss(soft_clamp(output), batch["controls"], self.weight * batch["visible"] * mask, self.args)
 
 
 class PoseTask:
-    """Target and loss of the head pose; rotations are compared as matrices."""
+    """Loss of the head pose; rotations are compared as matrices."""
 
-    def __init__(self, data, args):
-        self.target, self.args = data["pose"], args
+    def __init__(self, _, args):
+        self.args = args
 
     @staticmethod
     def expand(pose):
         return torch.cat([head_pose.orthonormalise(pose[..., :6]).flatten(-2), 2 * pose[..., 6:]], -1)
 
-    def loss(self, output, rows, mask):
-        target = stream(self.target, rows)
+    def loss(self, output, batch, mask):
+        target = batch["pose"]
         weight = mask.expand(*target.shape[:2], 12)
         drift = (output[..., :6] - target[..., :6]).square().mean()  # keeps the columns near unit length
         return temporal_loss(self.expand(output), self.expand(target), weight, self.args) + 0.05 * drift
+
+
+class Moving:
+    """Batches of streams of two tracks each, so that states outlive a track."""
+
+    def __init__(self, data, args):
+        self.data, self.size = {k: data[k] for k in LEARNED}, args.batch
+
+    def batch(self):
+        """(tensors [b,2*frames,c], weights [1,2*frames,1]): no weight where one face cuts to another."""
+        rows = torch.randint(len(self.data["features"]), (self.size, 2))
+        frames = self.data["features"].shape[1]
+        mask = torch.ones(1, 2 * frames, 1)
+        mask[:, 0], mask[:, frames] = 0.5, 0
+        return {k: stream(v, rows) for k, v in self.data.items()}, mask
+
+
+class Held:
+    """Batches of faces that hold still: streams of frames drawn from a short track; many more faces than `Moving`."""
+
+    FRAMES, ADAPTING = 10, 2
+
+    def __init__(self, data, args):
+        self.data, self.size = {k: data[k] for k in LEARNED}, 2 * args.batch
+        self.mask = torch.ones(1, self.FRAMES, 1)
+        self.mask[:, :self.ADAPTING] = 0.25
+
+    def batch(self):
+        tracks, frames = self.data["features"].shape[:2]
+        rows, at = torch.randint(tracks, (self.size, 1)), torch.randint(frames, (self.size, self.FRAMES))
+        return {k: v[rows, at].float() for k, v in self.data.items()}, self.mask
 
 
 def stream(table, rows):
@@ -93,18 +125,11 @@ def stream(table, rows):
     return table[rows].flatten(1, 2).float()
 
 
-def stream_mask(rows, frames):
-    """Weights [1,k*frames,1]: half for the frame on which a stream begins, none where one face cuts to another."""
-    mask = torch.ones(1, rows.shape[1] * frames, 1)
-    mask[:, frames::frames] = 0
-    mask[:, :1] = 0.5
-    return mask
-
-
 def normalise_input(layer, features):
     """Scales a fresh first layer (weight [out, 256, ...]) as if every feature had mean 0 and deviation 1."""
     flat = features[::7].flatten(0, 1).float()
-    mean, spread = flat.mean(0), flat.std(0) + 1e-3
+    mean, spread = flat.mean(0), flat.std(0)
+    spread = spread + 0.1 * spread.mean()  # features that hardly vary stay small
     shape = (1, -1) + (1,) * (layer.weight.dim() - 2)
     with torch.no_grad():
         layer.weight /= spread.view(shape)
@@ -116,19 +141,24 @@ def first_layer(decoder):
     return next(m for m in decoder.modules() if isinstance(m, (nn.Linear, nn.Conv1d)))
 
 
-def train(decoder, task, features, args, name):
-    """Fits a decoder to all tracks; two tracks in a row make one stream, so that states outlive a sequence."""
+def noisy(x, spread):
+    """Features with noise of their own for every stream and for every frame."""
+    return x + spread * (0.5 * torch.randn_like(x) + torch.randn(len(x), 1, x.shape[2]))
+
+
+def train(decoder, sources, task, args, name):
+    """Fits a decoder to the sources, one batch of each per step."""
     torch.manual_seed(args.seed)
-    spread = normalise_input(first_layer(decoder), features)
+    noise = args.noise * normalise_input(first_layer(decoder), sources[0].data["features"])
     optimiser = torch.optim.AdamW(decoder.parameters(), lr=args.rate, weight_decay=1e-3)
     schedule = torch.optim.lr_scheduler.OneCycleLR(optimiser, args.rate, total_steps=args.steps, pct_start=0.1)
     decoder.train()
     total, began = 0.0, time.time()
     for step in range(1, args.steps + 1):
-        rows = torch.randint(len(features), (args.batch, 2))
-        x = stream(features, rows)
-        x = x + args.noise * spread * (torch.randn_like(x) * 0.5 + torch.randn(args.batch, 1, 256))
-        loss = task.loss(decoder(x)[0], rows, stream_mask(rows, features.shape[1]))
+        loss = 0
+        for source in sources:
+            batch, mask = source.batch()
+            loss = loss + task.loss(decoder(noisy(batch["features"], noise))[0], batch, mask)
         optimiser.zero_grad()
         loss.backward()
         nn.utils.clip_grad_norm_(decoder.parameters(), 1.0)
@@ -185,14 +215,14 @@ def pose_scores(output, target):
 
 def check_streaming(decoder, features):
     """Frame by frame must equal the whole."""
-    x = features[:4].float()
+    decoder, x = copy.deepcopy(decoder).double(), features[:4].double()
     with torch.no_grad():
         whole, state, parts = decoder(x)[0], None, []
         for t in range(x.shape[1]):
             y, state = decoder(x[:, t:t + 1], state)
             parts.append(y)
     difference = (torch.cat(parts, 1) - whole).abs().max().item()
-    assert difference < 1e-4, f"streaming differs from whole by {difference}"
+    assert difference < 1e-9, f"streaming differs from whole by {difference}"
 
 
 def of_stride(data, stride):
@@ -221,24 +251,26 @@ def evaluate(decoders, data, supported=None):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--train", type=Path, nargs="+", required=True, help="features to learn from")
+    parser.add_argument("--held", type=Path, nargs="*", default=[], help="features of stills (sequences.py --hold)")
     parser.add_argument("--val", type=Path, required=True, help="features that choose the supported controls")
     parser.add_argument("--out", type=Path, required=True, help="checkpoint; scores go beside it as .json")
-    parser.add_argument("--steps", type=int, default=1500)
+    parser.add_argument("--steps", type=int, default=1200)
     parser.add_argument("--batch", type=int, default=24)
     parser.add_argument("--rate", type=float, default=3e-3)
-    parser.add_argument("--velocity", type=float, default=4.0)
-    parser.add_argument("--acceleration", type=float, default=0.5)
+    parser.add_argument("--velocity", type=float, default=20.0)
+    parser.add_argument("--acceleration", type=float, default=2.0)
     parser.add_argument("--noise", type=float, default=0.1, help="feature noise, in deviations")
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--seed", type=int, default=0)
     args = parser.parse_args()
     torch.set_num_threads(args.threads)
-    data = join([torch.load(p) for p in args.train])
+    sources = [kind(join([torch.load(p) for p in paths]), args)
+               for kind, paths in ((Moving, args.train), (Held, args.held)) if paths]
     decoders = {"controls": ControlsDecoder(), "pose": PoseDecoder(), "frame": FrameDecoder()}
-    tasks = {"controls": ControlsTask(data, args), "pose": PoseTask(data, args), "frame": ControlsTask(data, args)}
     for name, decoder in decoders.items():
-        train(decoder, tasks[name], data["features"], args, name)
-        check_streaming(decoder, data["features"])
+        task = (PoseTask if name == "pose" else ControlsTask)(sources[0].data, args)
+        train(decoder, sources, task, args, name)
+        check_streaming(decoder, sources[0].data["features"])
     report, supported = evaluate(decoders, torch.load(args.val))
     save(args.out, decoders, supported, report)
 
