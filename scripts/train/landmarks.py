@@ -17,6 +17,7 @@ import landmark_points as lp
 from paths import ROOT, data
 
 TEMPLATE_HEIGHT = 0.80
+PUPIL, LIMBUS = (0.08, 0.1), (0.36, 0.4)  # rings of vertices by their distance from the middle of the iris picture
 SMOOTHING = 1.0  # of the spline, cm: the jaw line's 68-landmark vertices are a choice of contour, not quite the same points
 
 
@@ -77,6 +78,7 @@ class RigSurface:
         rig = np.load(data() / "rig/rig.npz")
         self.vertices, self.ibug = rig["v0"].astype(float), rig["landmarks68"]
         ranges = {str(n): tuple(r) for n, r in zip(rig["mat_names"], rig["mat_range"])}
+        self.uv_vertices, self.uv = rig["gpu_pos"].astype(int), rig["gpu_uv"].astype(float)
         begin, end = ranges["M_Face"]
         self.skin = rig["f"][begin:end]
         self.regions = {str(n): tuple(r) for n, r in zip(rig["region_names"], rig["region_range"])}
@@ -84,6 +86,12 @@ class RigSurface:
         length = np.linalg.norm(self.vertices[edges[:, 0]] - self.vertices[edges[:, 1]], axis=1)
         n = len(self.vertices)
         self.graph = coo_matrix((length, edges.T), (n, n)).tocsr()
+
+    def iris(self, side):
+        """Vertices of an iris and their offsets [n,2] from the middle of its picture."""
+        begin, end = self.regions[f"iris_{side}"]
+        mine = (self.uv_vertices >= begin) & (self.uv_vertices < end)
+        return self.uv_vertices[mine], self.uv[mine] - 0.5
 
     def nearest(self, points):
         """Closest point of the outer skin: triangle vertices [n,3] and barycentric weights [n,3]."""
@@ -164,20 +172,17 @@ def on_contours(surface, teacher3d):
 
 
 def on_irises(surface):
-    """Centre and the four ends of each iris ring, as teacher points 468-477 lie."""
+    """Centre of each pupil and the four ends of its iris, as teacher points 468-477 lie."""
     placed = {}
     for side, indices in (("right", lp.IRIS[0]), ("left", lp.IRIS[1])):
-        begin, end = surface.regions[f"iris_{side}"]
-        iris = surface.vertices[begin:end]
-        centre = iris[:, :2].mean(0)
-        offset = iris[:, :2] - centre
-        rim = np.linalg.norm(offset, axis=1)
-        nasal = 1.0 if side == "right" else -1.0
-        directions = [(nasal, 0), (0, 1), (-nasal, 0), (0, -1)]
-        ring = [begin + int((offset @ np.array(d) - 0.5 * np.abs(offset @ np.array(d[::-1]))).argmax()) for d in directions]
-        middle = begin + int(rim.argmin())
-        for index, vertex in zip(indices, [middle] + ring):
-            placed[index] = ([vertex] * 3, [1.0, 0.0, 0.0])
+        vertices, offset = surface.iris(side)  # the picture's u runs to the subject's left on both eyes, v up
+        radius = np.linalg.norm(offset, axis=1)
+        nasal = 0.0 if side == "right" else np.pi
+        towards = lambda low, high, angle: vertices[np.where((radius > low) & (radius < high), offset @ [
+            np.cos(angle), np.sin(angle)], -1).argmax()]
+        placed[indices[0]] = ([towards(*PUPIL, angle) for angle in (0, 2 * np.pi / 3, 4 * np.pi / 3)], [1 / 3] * 3)
+        for index, angle in zip(indices[1:], (nasal, np.pi / 2, np.pi - nasal, -np.pi / 2)):
+            placed[index] = ([towards(*LIMBUS, angle)] * 3, [1.0, 0.0, 0.0])
     return placed
 
 

@@ -1,0 +1,164 @@
+#!/usr/bin/env python3
+"""Renders labelled synthetic faces: stills, or sequences of 90 frames at 30 frames a second.
+
+OUT/<split>_<kind>/shard_0000/images.npy is uint8 [n,112,112,3] RGB. labels.npz has per image: landmarks [n,175,2] in camera
+pixels; window [n,3] (cx, cy, side of the stored image in camera pixels); crop [n,4] (cx, cy, side, roll); controls [n,52];
+rotation [n,3,3] and translation [n,3] (metres) of the head in camera space; f_px [n]; camera_wh [n,2]; visibility [n,175];
+identity, sequence, frame [n]. A shard follows from the seed and its number alone; finished shards are kept.
+"""
+import argparse
+import os
+from multiprocessing import Pool
+from pathlib import Path
+
+import numpy as np
+from tqdm import tqdm
+
+import expressions
+from paths import cache
+from renderer import background, camera, lighting, look, motion, props
+from renderer.scene import Figure, Scene, Studio
+from rig import Rig
+
+SPLITS, KINDS = ("train", "val", "test"), ("stills", "sequences")
+STILLS_PER_SHARD, SEQUENCES_PER_SHARD, FRAMES = 2000, 22, 90
+BATCH = 16          # heads blended together
+NECK = np.array([0, -8, -3])  # the head turns about it, head frame, cm
+OCCLUDED = 0.15     # share of pictures with something in front of the face
+
+
+class Set:
+    """What stays the same while a face is filmed: camera, light, backdrop and an occluder or none."""
+
+    def __init__(self, rng, split, person):
+        environment = lighting.sample_environment(rng, split)
+        self.camera = camera.sample_camera(rng)
+        self.light = lighting.sample(rng, environment)
+        self.backdrop = background.sample(rng, environment, self.camera)
+        self.occluder = props.sample_occluder(rng, person.skin_colour()) if rng.random() < OCCLUDED else None
+        self.target, self.offset, self.lift = rng.integers(175), rng.normal(0, [4, 4, 0]), rng.uniform(2, 7)
+
+    def occluders(self, points, shift):
+        """The occluder in front of its landmark of points [175,3] (camera space, cm), moved by shift [3]."""
+        if self.occluder is None:
+            return ()
+        vertices, triangles, colour = self.occluder
+        near = points[self.target] * (1 - self.lift / np.linalg.norm(points[self.target]))
+        reach = max(vertices[:, 2].max(), 0)
+        return ((vertices + near + self.offset + shift + [0, 0, reach], triangles, colour),)
+
+
+def shoot(studio, figure, vertices, place, pose, shift=np.zeros(3)):
+    """Picture and labels of one frame; `place` is a Set, `pose` (rotation, translation in cm)."""
+    landmarks = studio.rig.landmarks(vertices)
+    points = landmarks @ pose[0].T + pose[1]
+    pixels = place.camera.project(points)
+    crop = camera.fit_crop(pixels)
+    side = camera.WINDOW_CROPS * crop[2]
+    view = place.camera.view(crop[0] - side / 2, crop[1] - side / 2, side)
+    scene = Scene(figure, vertices, *pose, landmarks, place.light, view, background.behind(place.backdrop, view),
+                  place.occluders(points, shift))
+    image, visible = studio.render(scene)
+    labels = dict(landmarks=np.float32(pixels), window=np.float32([*crop[:2], side]), crop=np.float32(crop),
+                  rotation=np.float32(pose[0]), translation=np.float32(pose[1] / 100), f_px=np.float32(place.camera.f_px),
+                  camera_wh=np.int16([place.camera.width, place.camera.height]), visibility=visible)
+    return image, labels
+
+
+def stills(studio, rng, split, first, count):
+    """Yields (image, labels) of `count` people numbered from `first`."""
+    for start in range(0, count, BATCH):
+        people = [look.sample(rng, split) for _ in range(min(BATCH, count - start))]
+        controls = np.stack([expressions.sample_still(rng) for _ in people])
+        heads = studio.rig.identity(np.stack([p.identity for p in people]))
+        faces = heads + studio.rig.expression(controls)
+        for k, person in enumerate(people):
+            place = Set(rng, split, person)
+            pose = camera.pose_at(place.camera, studio.rig.landmarks(faces[k]), camera.sample_angles(rng),
+                                  camera.sample_place(rng, place.camera))
+            image, labels = shoot(studio, Figure(studio, person, heads[k]), faces[k], place, pose)
+            number = first + start + k
+            yield image, dict(labels, controls=controls[k], identity=number, sequence=number, frame=0)
+
+
+def sequence(studio, rng, split, number):
+    """Yields (image, labels) of the frames of one person."""
+    person = look.sample(rng, split)
+    place = Set(rng, split, person)
+    head = studio.rig.identity(person.identity[None])[0]
+    figure = Figure(studio, person, head)
+    controls = expressions.sample_sequence(rng, FRAMES)
+    angles, shift, sweep = motion.head_angles(rng, FRAMES), motion.head_shift(rng, FRAMES), motion.sweep(rng, FRAMES)
+    centre, side = camera.sample_place(rng, place.camera)
+    side = min(side, 0.22 * place.camera.f_px / 0.36)  # room to move forwards
+    ahead, rest = camera.pose_at(place.camera, studio.rig.landmarks(head), (0, 0, 0), (centre, side))
+    for start in range(0, FRAMES, BATCH):
+        faces = head + studio.rig.expression(controls[start:start + BATCH])
+        for k, vertices in enumerate(faces):
+            t = start + k
+            rotation = ahead @ camera.rotation(*angles[t])
+            translation = rest + (ahead - rotation) @ NECK + shift[t]
+            image, labels = shoot(studio, figure, vertices, place, (rotation, translation), sweep[t])
+            yield image, dict(labels, controls=controls[t], identity=number, sequence=number, frame=t)
+
+
+def frames_of_shard(studio, split, kind, shard, count, seed):
+    """Yields (image, labels); `count` is of stills or sequences in this shard."""
+    rng = np.random.default_rng([seed, SPLITS.index(split), KINDS.index(kind), shard])
+    if kind == "stills":
+        yield from stills(studio, rng, split, shard * STILLS_PER_SHARD, count)
+    else:
+        for k in range(count):
+            yield from sequence(studio, rng, split, shard * SEQUENCES_PER_SHARD + k)
+
+
+def write_shard(studio, folder, split, kind, shard, count, seed, position):
+    total = count * (FRAMES if kind == "sequences" else 1)
+    source = frames_of_shard(studio, split, kind, shard, count, seed)
+    images, labels = zip(*tqdm(source, f"{folder.parent.name} {shard}", total, position=position, mininterval=5, leave=False))
+    unfinished = folder.with_name(f".{folder.name}.{os.getpid()}")
+    unfinished.mkdir(parents=True, exist_ok=True)
+    np.save(unfinished / "images.npy", np.stack(images))
+    table = {k: np.stack([row[k] for row in labels]) for k in labels[0]}
+    for name in ("identity", "sequence", "frame"):
+        table[name] = table[name].astype(np.int32)
+    np.savez(unfinished / "labels.npz", **table)
+    unfinished.rename(folder)
+
+
+def work(job):
+    """Renders the shards of one worker, `job` = (arguments, worker number)."""
+    args, worker = job
+    per_shard = STILLS_PER_SHARD if args.kind == "stills" else SEQUENCES_PER_SHARD
+    studio = None
+    for shard in range(worker, -(-args.count // per_shard), args.workers):
+        folder = args.out / f"{args.split}_{args.kind}" / f"shard_{shard:04d}"
+        if folder.exists():
+            continue
+        studio = studio or Studio(Rig())
+        count = min(per_shard, args.count - shard * per_shard)
+        write_shard(studio, folder, args.split, args.kind, shard, count, args.seed, worker)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--split", choices=SPLITS, required=True)
+    parser.add_argument("--kind", choices=KINDS, required=True)
+    parser.add_argument("--count", type=int, required=True, help="stills or sequences in all")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--out", type=Path, default=cache() / "synthetic")
+    parser.add_argument("--data", type=Path, help="data packs, instead of MIEN_DATA")
+    parser.add_argument("--workers", type=int, default=1)
+    args = parser.parse_args()
+    if args.data:
+        os.environ["MIEN_DATA"] = str(args.data.resolve())
+    jobs = [(args, worker) for worker in range(args.workers)]
+    if args.workers == 1:
+        work(jobs[0])
+    else:
+        with Pool(args.workers) as pool:
+            pool.map(work, jobs)
+
+
+if __name__ == "__main__":
+    main()

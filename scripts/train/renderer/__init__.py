@@ -1,0 +1,1 @@
+"""Pictures of synthetic heads: a small CPU rasterizer and what it draws."""

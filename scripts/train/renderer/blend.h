@@ -1,0 +1,32 @@
+// Blend shapes: many vectors as weighted sums of the same few.
+#pragma once
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+
+namespace mien::render {
+
+using Lane = float __attribute__((vector_size(64)));  // 16 floats
+
+// out [rows,n] = weights [rows,shapes] * basis [shapes,n], Rows rows at a time in registers.
+template <int Rows>
+void blend_rows(const float* weights, const float* basis, int shapes, size_t n, float* out) {
+  for (size_t at = 0; at < n; at += 16) {
+    Lane sum[Rows] = {};
+    for (int s = 0; s < shapes; ++s) {
+      Lane shape;
+      std::memcpy(&shape, basis + size_t(s) * n + at, sizeof shape);
+      for (int r = 0; r < Rows; ++r) sum[r] += shape * weights[r * shapes + s];
+    }
+    for (int r = 0; r < Rows; ++r) std::memcpy(out + size_t(r) * n + at, &sum[r], sizeof(Lane));
+  }
+}
+
+// The same for any number of rows; n is a multiple of 16.
+inline void blend_shapes(const float* weights, const float* basis, int rows, int shapes, size_t n, float* out) {
+  int r = 0;
+  for (; r + 16 <= rows; r += 16) blend_rows<16>(weights + r * shapes, basis, shapes, n, out + size_t(r) * n);
+  for (; r < rows; ++r) blend_rows<1>(weights + r * shapes, basis, shapes, n, out + size_t(r) * n);
+}
+
+}  // namespace mien::render

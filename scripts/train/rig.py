@@ -1,0 +1,51 @@
+"""The head rig: 100 identity and 58 expression shapes over 26,719 vertices, and the landmarks on it.
+
+Head frame: centimetres, x to the subject's left, y up, z out of the face, origin between the ears.
+"""
+import numpy as np
+
+from expressions import CONTROLS
+from paths import ROOT, data
+from renderer import native
+
+
+
+def padded(shapes):
+    """Shapes [k,n] as f32 with n rounded up to a multiple of 16."""
+    n = shapes.shape[1]
+    out = np.zeros((len(shapes), -(-n // 16) * 16), np.float32)
+    out[:, :n] = shapes
+    return out
+
+
+class Rig:
+    def __init__(self):
+        rig = np.load(data() / "rig/rig.npz")
+        self.neutral = rig["v0"].astype(np.float32)
+        self.identity_shapes = padded(rig["ids"].reshape(100, -1))
+        order = [[str(n) for n in rig["arkit_names"]].index(name) for name in CONTROLS]
+        shapes = rig["ex"].astype(np.float32).reshape(len(rig["ex_names"]), -1)
+        self.control_shapes = padded(rig["arkit_map"].astype(np.float32)[order] @ shapes)
+        self.corner_position = rig["gpu_pos"].astype(np.int32)[rig["gpu_f"].astype(np.int32)]
+        self.corner_uv, self.uv = rig["gpu_f"].astype(np.int32), rig["gpu_uv"].astype(np.float32)
+        self.materials = {str(n): (int(a), int(b)) for n, (a, b) in zip(rig["mat_names"], rig["mat_range"])}
+        self.ibug68 = rig["landmarks68"].astype(np.int64)
+        landmarks = np.load(ROOT / "scripts/train/rig_landmarks.npz")
+        self.landmark_vertices, self.landmark_weights = landmarks["vertices"], landmarks["weights"]
+
+    def identity(self, coefficients):
+        """Heads at rest f32 [n,26719,3] from coefficients f32 [n,100]."""
+        return self.combine(coefficients, self.identity_shapes) + self.neutral
+
+    def expression(self, controls):
+        """What controls f32 [n,52] add to a head at rest, f32 [n,26719,3]."""
+        return self.combine(controls, self.control_shapes)
+
+    def combine(self, weights, shapes):
+        whole = native.blend_shapes(weights, shapes)[:, :self.neutral.size]
+        return whole.reshape(-1, *self.neutral.shape)
+
+    def landmarks(self, vertices):
+        """Landmarks f32 [...,175,3] of vertices [...,26719,3]."""
+        corners = vertices[..., self.landmark_vertices, :]
+        return (corners * self.landmark_weights[..., None]).sum(-2)
