@@ -2,6 +2,7 @@
 
 Every function takes images f32 [n,3,h,w] in 0..1 and draws from a torch Generator.
 """
+import functools
 import math
 
 import torch
@@ -19,17 +20,14 @@ def chosen(generator, n, share):
 def colour(x, g):
     """Exposure, contrast, gamma, white balance, saturation; black-and-white and tinted pictures."""
     n = len(x)
-    grey = x.mean(1, keepdim=True)
-    saturation = uniform(g, n, 0.3, 1.5)
-    saturation = saturation * (1 - chosen(g, n, 0.2))  # black and white
-    x = grey + (x - grey) * saturation
-    tint = torch.exp(torch.randn(n, 3, 1, 1, generator=g) * 0.08)
-    x = x * (tint / tint.mean(1, keepdim=True))
-    bend = uniform(g, n, -0.5, 0.5)  # a gamma-like curve without its cost
-    x = x.clamp(0, 1)
-    x = x + bend * x * (1 - x)
+    saturation = uniform(g, n, 0.3, 1.5) * (1 - chosen(g, n, 0.2))  # some black and white
+    tint = torch.exp(torch.randn(n, 3, 1, 1, generator=g) * 0.07)
+    tint = tint / tint.mean(1, keepdim=True)
+    x = torch.lerp(x.mean(1, keepdim=True), x, saturation).mul_(tint).clamp_(0, 1)
+    bend = uniform(g, n, -0.5, 0.5)  # x + bend x (1 - x): a gamma-like curve without its cost
     contrast, brightness = uniform(g, n, 0.6, 1.35), uniform(g, n, -0.15, 0.15)
-    return ((x - 0.5) * contrast + 0.5 + brightness).clamp(0, 1)
+    curved = (1 + bend - bend * x).mul_(x)
+    return curved.mul_(contrast).add_(0.5 + brightness - 0.5 * contrast).clamp_(0, 1)
 
 
 def shade(x, g):
@@ -39,8 +37,8 @@ def shade(x, g):
     ys, xs = torch.linspace(-1, 1, h).view(1, 1, h, 1), torch.linspace(-1, 1, w).view(1, 1, 1, w)
     along = torch.cos(angle) * xs + torch.sin(angle) * ys + uniform(g, n, -0.6, 0.6)
     ramp = torch.sigmoid(along * torch.exp(uniform(g, n, 0, 2.5)))
-    depth = uniform(g, n, 0, 0.75) * chosen(g, n, 0.35)
-    return x * (1 - depth * ramp) * (1 + 0.5 * depth)
+    depth = uniform(g, n, 0, 0.75)
+    return x * ((1 - depth * ramp) * (1 + 0.5 * depth))
 
 
 def gaussian(x, sigma):
@@ -69,43 +67,54 @@ def low_resolution(x, factor):
     return F.interpolate(small, (h, w), mode="bilinear", align_corners=False)
 
 
+@functools.lru_cache
 def _dct():
+    """The 64 orthonormal 8x8 cosine patterns [64,64,1,1] and the coarseness [64,1,1] of each, higher frequencies coarser."""
     k, i = torch.arange(8.0).view(8, 1), torch.arange(8.0).view(1, 8)
     basis = torch.cos((2 * i + 1) * k * math.pi / 16) / 2
     basis[0] /= math.sqrt(2)
-    return basis
+    patterns = torch.einsum("ay,bx->abyx", basis, basis).reshape(64, 64, 1, 1)
+    return patterns, ((1 + k + k.T) / 8).reshape(64, 1, 1)
 
 
 def jpeg(x, strength):
-    """8x8 DCT quantisation, coarser for high frequencies: JPEG and intra-frame video artefacts."""
+    """8x8 DCT quantisation: JPEG and intra-frame video artefacts."""
     n, c, h, w = x.shape
-    padded = F.pad(x, (0, -w % 8, 0, -h % 8), mode="replicate")
-    blocks = padded.unfold(2, 8, 8).unfold(3, 8, 8)
-    dct = _dct()
-    step = strength * (1 + torch.arange(8.0).view(8, 1) + torch.arange(8.0).view(1, 8)) / 8
-    coefficients = torch.round(dct @ blocks @ dct.T / step) * step
-    blocks = dct.T @ coefficients @ dct
-    return blocks.permute(0, 1, 2, 4, 3, 5).reshape(padded.shape)[..., :h, :w]
+    patterns, coarseness = _dct()
+    padded = F.pad(x, (0, -w % 8, 0, -h % 8), mode="replicate").flatten(0, 1).unsqueeze(1)
+    step = strength * coarseness
+    coefficients = torch.round(F.conv2d(F.pixel_unshuffle(padded, 8), patterns) / step) * step
+    blocks = F.conv2d(coefficients, patterns.transpose(0, 1))
+    return F.pixel_shuffle(blocks, 8).view(n, c, *padded.shape[-2:])[..., :h, :w]
 
 
 def some(x, g, share, operation):
-    """Applies an operation to a random share of the pictures, in groups that share its parameters."""
+    """Applies an operation to a random share of the pictures in place, in groups that share its parameters."""
     rows = torch.nonzero(torch.rand(len(x), generator=g) < share)[:, 0]
     for group in rows.split(max(1, len(rows) // 4 + 1)):
         if len(group):
-            x = x.index_copy(0, group, operation(x[group], float(torch.rand(1, generator=g))))
+            x[group] = operation(x[group], float(torch.rand(1, generator=g)))
+    return x
+
+
+def share_of(x, g, share, operation):
+    """Applies an operation, which draws its own parameters per picture, to a random share of the pictures in place."""
+    rows = torch.nonzero(torch.rand(len(x), generator=g) < share)[:, 0]
+    if len(rows):
+        x[rows] = operation(x[rows], g)
     return x
 
 
 def noise(x, g):
+    """Sensor noise, coloured or grey, stronger where it is bright."""
     n = len(x)
-    level = uniform(g, n, 0, 0.27) ** 2
+    level = uniform(g, n, 0.02, 0.27) ** 2
     fine = torch.randn(x.shape, generator=g)
-    grey = torch.where(torch.rand(n, 1, 1, 1, generator=g) < 0.5, fine.mean(1, keepdim=True) * 1.7, fine)
-    return x + grey * level * (0.3 + x.mean(1, keepdim=True).sqrt())
+    fine = torch.where(torch.rand(n, 1, 1, 1, generator=g) < 0.5, fine[:, :1], fine)
+    return x + fine * level * (0.3 + x.mean(1, keepdim=True).sqrt())
 
 
-def occlude(x, g, share=0.2):
+def occlude(x, g):
     """Half-planes, discs and bars of one colour over part of the picture."""
     n, _, h, w = x.shape
     ys, xs = torch.linspace(-1, 1, h).view(1, 1, h, 1), torch.linspace(-1, 1, w).view(1, 1, 1, w)
@@ -115,24 +124,24 @@ def occlude(x, g, share=0.2):
     disc = (xs - cx) ** 2 + (ys - cy) ** 2 < uniform(g, n, 0.15, 0.6) ** 2
     half = torch.cos(angle) * xs + torch.sin(angle) * ys > reach
     bar = (torch.cos(angle) * (xs - cx / 2) + torch.sin(angle) * (ys - cy / 2)).abs() < uniform(g, n, 0.04, 0.15)
-    mask = torch.where(kind < 0.5, disc, torch.where(kind < 0.8, half, bar)).float() * chosen(g, n, share)
+    mask = torch.where(kind < 0.5, disc, torch.where(kind < 0.8, half, bar)).float()
     own = x.flatten(2)[..., torch.randint(h * w, (1,), generator=g)].unsqueeze(3)  # a colour of the picture itself
     paint = torch.where(torch.rand(n, 1, 1, 1, generator=g) < 0.5, own, torch.rand(n, 3, 1, 1, generator=g))
     return torch.lerp(x, paint.expand_as(x), mask)
 
 
-def lens_and_codec(x, g, share=0.3):
+def lens(x, g, share=0.2):
     x = some(x, g, share, lambda y, u: gaussian(y, 0.4 + 1.4 * u))
-    x = some(x, g, share * 0.4, lambda y, u: motion(y, 2 + 5 * u, math.pi * 7 * u))
-    x = some(x, g, share * 0.7, lambda y, u: low_resolution(y, 1.2 + 1.6 * u))
-    return x
+    x = some(x, g, share * 0.5, lambda y, u: motion(y, 2 + 5 * u, math.pi * 7 * u))
+    return some(x, g, share, lambda y, u: low_resolution(y, 1.2 + 1.6 * u))
 
 
 def photometric(x, g):
     """The whole chain, for pictures that have nothing to do with each other."""
-    x = colour(shade(occlude(x, g), g), g)
-    x = noise(lens_and_codec(x, g), g).clamp(0, 1)
-    return some(x, g, 0.25, lambda y, u: jpeg(y, 0.05 + 0.25 * u)).clamp(0, 1)
+    x = share_of(x.clone(), g, 0.2, occlude)
+    x = colour(share_of(x, g, 0.35, shade), g)
+    x = share_of(lens(x, g), g, 0.6, noise).clamp_(0, 1)
+    return some(x, g, 0.2, lambda y, u: jpeg(y, 0.05 + 0.25 * u)).clamp_(0, 1)
 
 
 class OfSequence:
@@ -143,7 +152,7 @@ class OfSequence:
 
     def __call__(self, x, frame):
         steady = torch.Generator().manual_seed(self.seed)
-        x = lens_and_codec(colour(shade(x, steady), steady), steady)
+        x = lens(colour(share_of(x.clone(), steady, 0.35, shade), steady), steady)
         fresh = torch.Generator().manual_seed(self.seed * 1009 + frame + 1)
         level = uniform(steady, self.n, 0, 0.06)
         x = (x + torch.randn(x.shape, generator=fresh) * level).clamp(0, 1)

@@ -10,7 +10,7 @@ from expressions import CONTROLS
 from faces import WINDOW_CROPS, window
 from landmark_points import MIRROR
 from paths import cache, data
-from sequences import WINDOW, crop_to_image, sample_crops
+from sequences import CROP, WINDOW, sample_crops
 
 # images f32 [n,3,65,65] in 0..1; landmarks [n,175,2] in crop coordinates; pose [n,9]; has_landmarks, has_controls bool [n];
 # visible [n,175]; face [n]: 1 a face well inside the crop, 0 none or misplaced
@@ -67,7 +67,7 @@ class Rendered:
 
 
 class Backgrounds:
-    """Pieces of environments and of portraits away from the face."""
+    """Pieces of environments, and of portraits where the crop misses the face."""
 
     def __init__(self, count=3000, seed=7):
         rng = np.random.default_rng(seed)
@@ -79,9 +79,11 @@ class Backgrounds:
             side = np.exp(rng.uniform(np.log(60), np.log(400)))
             centre = rng.uniform(0, 1, 2) * picture.shape[1::-1]
             self.images[k] = window(picture, centre, side)
+        self.misplaced = np.load(cache() / "faces/misplaced.npy", mmap_mode="r")
 
     def rows(self, rng, n):
-        images = self.images[rng.integers(0, len(self.images), n)]
+        images = np.concatenate([source[rng.integers(0, len(source), k)] for source, k in
+                                 ((self.images, n // 2), (self.misplaced, n - n // 2))])
         middle = torch.tensor([[WINDOW / 2, WINDOW / 2, WINDOW / WINDOW_CROPS, 0.0]]).expand(n, -1)
         return images, torch.zeros(n, 175, 2), middle, torch.zeros(n, len(CONTROLS)), torch.zeros(n, 9), torch.zeros(n, 175), False
 
@@ -101,7 +103,7 @@ def misplace(crop, generator):
     """Crops that show a face badly: shifted by half a side, or far too wide or too close."""
     n = len(crop)
     angle = torch.rand(n, generator=generator) * 6.2832
-    away = torch.empty(n).uniform_(0.5, 0.95, generator=generator)
+    away = torch.empty(n).uniform_(0.5, 0.75, generator=generator)
     shifted = torch.rand(n, generator=generator) < 0.6
     scale = torch.where(torch.rand(n, generator=generator) < 0.5, 0.42, 2.3)
     d = torch.where(shifted, away, 0.25 * away) * crop[:, 2]
@@ -133,12 +135,12 @@ def mirror(batch, generator):
 class Mixture:
     """Draws batches: shares of portraits, rendered faces and backgrounds; some of the faces badly placed."""
 
-    def __init__(self, portraits, rendered, backgrounds, seed, real_share=0.45, background_share=0.08):
+    def __init__(self, portraits, rendered, backgrounds, seed, real_share=0.45, background_share=0.1):
         self.portraits, self.rendered, self.backgrounds = portraits, rendered, backgrounds
         self.rng, self.generator = np.random.default_rng(seed), torch.Generator().manual_seed(seed)
         self.real_share, self.background_share = real_share, background_share
 
-    def batch(self, size, misplaced_share=0.1):
+    def batch(self, size, misplaced_share=0.04):
         n_background = int(size * self.background_share)
         n_real = size - n_background if not len(self.rendered) else int(size * self.real_share)
         n_rendered = size - n_background - n_real

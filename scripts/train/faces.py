@@ -2,7 +2,8 @@
 """The real portraits: split, boxes, and a cache of face windows like those the renderer writes.
 
 usage: faces.py      writes $MIEN_CACHE/faces/<split>/{images.npy,labels.npz}: images uint8 [n,112,112,3], a square of 1.5 crop
-sides around the crop's centre; landmarks [n,175,2] and crop [n,4] (cx, cy, side, theta) in pixels of that window.
+sides around the crop's centre; landmarks [n,175,2] and crop [n,4] (cx, cy, side, theta) in pixels of that window. And
+misplaced.npy, uint8 [2n,112,112,3]: windows of the training portraits that the tracker must not take for a face in place.
 """
 import hashlib
 import json
@@ -65,21 +66,49 @@ def window(image, centre, side):
     return cv2.warpAffine(image, matrix, (WINDOW, WINDOW), flags=cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
 
 
+def misplaced(crop, rng):
+    """Centre and side of a crop that misses its face: beside it, on the chest, a detail of it, or far too wide."""
+    kind, angle = rng.random(), rng.uniform(0, 2 * np.pi)
+    side, away = crop[2] * np.exp(rng.uniform(-0.3, 0.3)), 0.15
+    if kind < 0.45:
+        away = rng.uniform(0.5, 1.1)
+    elif kind < 0.6:
+        away, angle = rng.uniform(0.9, 1.6), np.pi / 2 + rng.normal(0, 0.4)
+    else:
+        side = crop[2] * (rng.uniform(0.2, 0.45) if kind < 0.8 else rng.uniform(2.2, 3.5))
+        away = rng.uniform(0, 0.3)
+    return crop[:2] + away * crop[2] * np.array([np.cos(angle), np.sin(angle)]), side
+
+
+def write_split(split, out):
+    found = portraits(split)
+    out.mkdir(parents=True, exist_ok=True)
+    images = np.empty((len(found), WINDOW, WINDOW, 3), np.uint8)
+    scale = WINDOW / (WINDOW_CROPS * found.crops[:, 2])
+    for i in tqdm(range(len(found)), desc=split):
+        images[i] = window(found.image(i), found.crops[i, :2], WINDOW_CROPS * found.crops[i, 2])
+    landmarks = (found.points - found.crops[:, None, :2]) * scale[:, None, None] + WINDOW / 2
+    middle = np.full(len(found), WINDOW / 2, np.float32)
+    crop = np.stack([middle, middle, found.crops[:, 2] * scale, found.crops[:, 3]], 1)
+    np.save(out / "images.npy", images)
+    np.savez(out / "labels.npz", landmarks=landmarks.astype(np.float32), crop=crop.astype(np.float32), name=found.names)
+
+
+def write_misplaced(path, each=2, seed=3):
+    found, rng = portraits("train"), np.random.default_rng(seed)
+    images = np.empty((each * len(found), WINDOW, WINDOW, 3), np.uint8)
+    for i in tqdm(range(len(found)), desc="misplaced"):
+        picture = found.image(i)
+        for k in range(each):
+            centre, side = misplaced(found.crops[i], rng)
+            images[each * i + k] = window(picture, centre, WINDOW_CROPS * side)
+    np.save(path, images)
+
+
 def main():
     for split in ("train", "val", "test"):
-        found = portraits(split)
-        out = cache() / "faces" / split
-        out.mkdir(parents=True, exist_ok=True)
-        images = np.empty((len(found), WINDOW, WINDOW, 3), np.uint8)
-        scale = WINDOW / (WINDOW_CROPS * found.crops[:, 2])
-        for i in tqdm(range(len(found)), desc=split):
-            images[i] = window(found.image(i), found.crops[i, :2], WINDOW_CROPS * found.crops[i, 2])
-        landmarks = (found.points - found.crops[:, None, :2]) * scale[:, None, None] + WINDOW / 2
-        middle = np.full(len(found), WINDOW / 2, np.float32)
-        crop = np.stack([middle, middle, found.crops[:, 2] * scale, found.crops[:, 3]], 1)
-        np.save(out / "images.npy", images)
-        np.savez(out / "labels.npz", landmarks=landmarks.astype(np.float32), crop=crop.astype(np.float32), name=found.names)
-        print(split, len(found))
+        write_split(split, cache() / "faces" / split)
+    write_misplaced(cache() / "faces/misplaced.npy")
 
 
 if __name__ == "__main__":

@@ -1,101 +1,49 @@
 #!/usr/bin/env python3
 """Phase 1: BaseNet's encoder with landmarks and face probability, on portraits and rendered faces.
 
-usage: train_encoder.py [--samples N] [--resume] [--name basenet]     runs: $MIEN_CACHE/runs/NAME/{last.pt,best.pt,curves.png}
-On several machines or GPUs: torchrun --nproc_per_node N train_encoder.py ...
-Rendered shards that appear while it runs are taken up. Two heads exist in training only, controls and pose on rendered faces:
-they keep expression in the features that phase 2 decodes.
+usage: train_encoder.py [--samples N] [--hours H] [--resume] [--name basenet]     or: train_encoder.py --evaluate CHECKPOINT
+Writes $MIEN_CACHE/runs/NAME/{last.pt,curves.png}; `average` in last.pt are the weights to use. Rendered shards that appear
+while it runs are taken up. On several machines or GPUs: torchrun --nproc_per_node N train_encoder.py ...
+Two heads exist in training only, controls and pose on rendered faces: they keep expression in the features that phase 2 decodes.
 """
 import argparse
 import copy
+import ctypes
 import json
 import math
 import os
+import time
 
 import torch
-import torch.nn.functional as F
 from tqdm import tqdm
 
 import augment
+import clips
 import face_data
 import landmark_points as lp
 from expressions import CONTROLS
 from faces import template
+from losses import Losses
 from networks import BaseNet
 from paths import cache
 
-# Pairs whose distance is an expression: lids and inner lips (teacher indices).
-OPENINGS = [(159, 145), (158, 153), (160, 144), (386, 374), (385, 380), (387, 373), (13, 14), (82, 87), (312, 317),
-            (80, 88), (310, 318), (61, 291), (105, 159), (334, 386), (107, 336)]
+CURVES = {"error, outer eye corner distances": ("loss", "real_landmarks", "rendered_landmarks", "clips_mean", "clips_worst"),
+          "correlation": ("controls_mean", "jawOpen", "eyeBlinkLeft", "mouthPucker", "browInnerUp", "clips_eyes", "clips_mouth")}
 
 
-def point_weights():
-    """Lids, lips, irises and brows carry the expression; the oval is a matter of opinion."""
-    weights = {"eye": 2.0, "iris": 1.5, "lips": 2.0, "brow": 1.5, "face": 0.6}
-    found = []
-    for name, _ in lp.named_points():
-        found.append(next((w for key, w in weights.items() if key in name.split("_")[:2]), 1.0))
-    w = torch.tensor(found)
-    return w / w.mean()
-
-
-def control_weights(rendered):
-    """Inverse spread, so that rare controls are worth learning."""
-    if not len(rendered):
-        return torch.ones(len(CONTROLS))
-    spread = torch.cat([torch.from_numpy(labels["controls"]) for _, labels in rendered.shards]).float().std(0)
-    return 1 / spread.clamp(min=0.05)
-
-
-class Losses:
-    def __init__(self, eye_distance):
-        self.points = point_weights()
-        self.unit = eye_distance
-        self.pairs = torch.tensor([[lp.POSITION[a], lp.POSITION[b]] for a, b in OPENINGS])
-        self.controls = torch.ones(len(CONTROLS))
-
-    def distance(self, predicted, truth):
-        """A rounded absolute value: like RMSE near zero, not ruled by outliers. In eye distances."""
-        d = (predicted - truth) / self.unit
-        return torch.sqrt(d.square().sum(-1) + 1e-4) - 1e-2
-
-    def landmarks(self, out, batch):
-        weights = self.points * (0.3 + 0.7 * batch.visible) * batch.has_landmarks[:, None]
-        positional = (self.distance(out, batch.landmarks) * weights).sum() / weights.sum()
-        gap = lambda p: p[:, self.pairs[:, 0]] - p[:, self.pairs[:, 1]]
-        openings = self.distance(gap(out), gap(batch.landmarks))[batch.has_landmarks]
-        return positional + 0.7 * openings.mean()
-
-    def face(self, logit, batch):
-        return F.binary_cross_entropy_with_logits(logit, batch.face)
-
-    def expression(self, out, batch):
-        """Controls and pose, rendered faces only."""
-        rows = batch.has_controls
-        if not rows.any():
-            return out["controls"].sum() * 0, out["pose"].sum() * 0
-        error = F.smooth_l1_loss(out["controls"][rows], batch.controls[rows], beta=0.1, reduction="none")
-        pose = F.smooth_l1_loss(out["pose"][rows], batch.pose[rows], beta=0.1)
-        return (error * self.controls).mean(), pose
-
-
-def consistency(network, batch, losses, generator):
-    """Landmarks must move with the picture (Honari et al. 2018): the same faces, turned and seen by another camera."""
-    rows = torch.nonzero(batch.has_landmarks)[:32, 0]
-    n = len(rows)
-    angle, scale = torch.randn(n, generator=generator) * 0.25, torch.exp(torch.randn(n, generator=generator) * 0.08)
-    crop = torch.stack([torch.full((n,), 32.5)] * 2 + [scale * 65, angle], 1)
-    moved = face_data.sample_crops(batch.images[rows], crop)
-    first = network(augment.photometric(batch.images[rows], generator) * 2 - 1)["landmarks"]
-    second = network(augment.photometric(moved, generator) * 2 - 1)["landmarks"]
-    back = face_data.to_crop(crop, first * 65)
-    return losses.distance(second, back).mean()
+def keep_memory():
+    """glibc hands large blocks back and faults them in again on every step; keeping them makes a step 1.5 times as fast."""
+    mmap_max, trim_threshold = -4, -1
+    libc = ctypes.CDLL(None)
+    if hasattr(libc, "mallopt"):
+        libc.mallopt(mmap_max, 0), libc.mallopt(trim_threshold, -1)
 
 
 @torch.no_grad()
 def validate(network, portraits, rendered, seed=11):
     """Landmark error (outer eye corner distances) on both, correlation of the training-only controls head on renders."""
     network.eval()
+    device = next(network.parameters()).device
     mixture = face_data.Mixture(portraits, rendered, None, seed)
     report = {}
     for name, source in (("real", portraits), ("rendered", rendered)):
@@ -104,7 +52,7 @@ def validate(network, portraits, rendered, seed=11):
         errors, answers, truths, faces = [], [], [], []
         for _ in range(4):
             part = mixture.part(source.rows(mixture.rng, 128), 0.0)
-            out = network(part.images * 2 - 1)
+            out = {k: v.cpu() for k, v in network((part.images * 2 - 1).to(device)).items()}
             eyes = (part.landmarks[:, lp.OUTER_EYE_CORNERS[0]] - part.landmarks[:, lp.OUTER_EYE_CORNERS[1]]).norm(dim=1)
             errors.append((out["landmarks"] - part.landmarks).norm(dim=2).mean(1) / eyes.clamp(min=0.15))
             answers.append(out["controls"])
@@ -148,112 +96,173 @@ def plot(history, path):
     import matplotlib
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
-    figure, (left, right) = plt.subplots(1, 2, figsize=(12, 4))
-    samples = [h["samples"] for h in history]
-    for key, axis in [("loss", left), ("real_landmarks", left), ("rendered_landmarks", left), ("controls_mean", right),
-                      ("jawOpen", right), ("eyeBlinkLeft", right), ("mouthPucker", right), ("browInnerUp", right)]:
-        axis.plot(samples, [h.get(key, math.nan) for h in history], label=key)
-    left.set_yscale("log"), left.legend(), right.legend(), figure.tight_layout()
+    figure, axes = plt.subplots(1, 2, figsize=(12, 4))
+    for axis, (title, keys) in zip(axes, CURVES.items()):
+        for key in keys:
+            points = [(h["samples"], h[key]) for h in history if key in h]
+            axis.plot(*zip(*points), label=key) if points else None
+        axis.set_title(title), axis.set_xlabel("faces seen"), axis.legend()
+    axes[0].set_yscale("log"), figure.tight_layout()
     figure.savefig(path)
     plt.close(figure)
 
 
-def learning_rate(options, samples):
-    """Warm-up, then cosine."""
-    share = min(1.0, samples / options.samples)
-    return options.rate * min(1.0, samples / 10000 + 0.02) * (0.5 + 0.5 * math.cos(math.pi * share)) + 1e-5
+def moved_views(images, batch, generator, share=0.12):
+    """Some faces of the batch seen again, turned and scaled: (rows, pictures, crops in the first picture's pixels)."""
+    rows = torch.nonzero(batch.has_landmarks)[:, 0]
+    rows = rows[torch.randperm(len(rows), generator=generator)[:int(share * len(images))]]
+    n = len(rows)
+    angle, scale = torch.randn(n, generator=generator) * 0.25, torch.exp(torch.randn(n, generator=generator) * 0.08)
+    crop = torch.stack([torch.full((n,), face_data.CROP / 2)] * 2 + [scale * face_data.CROP, angle], 1)
+    return rows, face_data.sample_crops(images[rows], crop, taps=1), crop
+
+
+class Trainer:
+    def __init__(self, options, device, world, rank):
+        self.options, self.device, self.world, self.rank = options, device, world, rank
+        self.network = BaseNet()
+        with torch.no_grad():
+            self.network.landmarks.bias.copy_(template().flatten())
+            self.network.landmarks.weight.mul_(0.1)
+        self.average = Average(self.network)
+        self.optimizer = torch.optim.AdamW(self.network.parameters(), options.rate, weight_decay=0.02)
+        self.samples, self.step, self.seconds, self.history = 0, 0, 0.0, []
+        self.run = cache() / "runs" / options.name
+        self.run.mkdir(parents=True, exist_ok=True)
+        self.restore()
+        self.network.to(device, memory_format=torch.channels_last)
+        self.average.network.to(device)
+        self.model = torch.nn.parallel.DistributedDataParallel(self.network) if world > 1 else self.network
+        self.load_data()
+
+    def restore(self):
+        if self.options.start_from:
+            self.load(torch.load(self.options.start_from, map_location="cpu"))
+        if self.options.resume and (self.run / "last.pt").exists():
+            state = torch.load(self.run / "last.pt", map_location="cpu")
+            self.load(state)
+            self.optimizer.load_state_dict(state["optimizer"])
+            for name in ("samples", "step", "seconds", "history"):
+                setattr(self, name, state[name])
+
+    def load(self, state):
+        self.network.load_state_dict(state["network"])
+        self.average.network.load_state_dict(state["average"])
+
+    def load_data(self):
+        seed = self.options.seed * 1000 + self.rank + 7919 * self.step
+        self.generator = torch.Generator().manual_seed(seed)
+        self.rendered = face_data.Rendered("train_stills", "train_sequences")
+        self.mixture = face_data.Mixture(face_data.Portraits("train"), self.rendered, face_data.Backgrounds(), seed,
+                                         self.options.real_share)
+        self.val_real, self.val_rendered = face_data.Portraits("val"), face_data.Rendered("val_stills")
+        self.clips = clips.load() if self.rank == 0 else []
+        eyes = template()[list(lp.OUTER_EYE_CORNERS)]
+        self.losses = Losses(float((eyes[0] - eyes[1]).norm()), self.device)
+        self.losses.learn_spread(self.rendered)
+
+    def progress(self):
+        """Share of the run that is done, by faces or by the clock."""
+        by_clock = self.seconds / (3600 * self.options.hours) if self.options.hours else 0
+        return max(self.samples / self.options.samples, by_clock)
+
+    def learning_rate(self):
+        """Warm-up, then cosine."""
+        warm = min(1.0, self.samples / 10000 + 0.02)
+        return self.options.rate * warm * (0.5 + 0.5 * math.cos(math.pi * min(1.0, self.progress()))) + 1e-5
+
+    def update(self):
+        """One step; its loss."""
+        for group in self.optimizer.param_groups:
+            group["lr"] = self.learning_rate()
+        batch = self.mixture.batch(self.options.batch)
+        rows, moved, crop = moved_views(batch.images, batch, self.generator)
+        images = augment.photometric(torch.cat([batch.images, moved]), self.generator) * 2 - 1
+        batch = face_data.Batch(*(value.to(self.device) for value in batch))
+        n = len(batch.images)
+        whole = self.model(images.to(self.device, memory_format=torch.channels_last))
+        out = {name: value[:n] for name, value in whole.items()}
+        consistency = self.losses.consistency(out["landmarks"][rows], whole["landmarks"][n:], crop.to(self.device))
+        loss = self.losses.total(out, batch) + 0.5 * consistency
+        self.optimizer.zero_grad(set_to_none=True)
+        loss.backward()
+        torch.nn.utils.clip_grad_norm_(self.network.parameters(), 5.0)
+        self.optimizer.step()
+        self.average.update(self.network, self.step)
+        self.step += 1
+        self.samples += n * self.world
+        return float(loss)
+
+    def report(self, losses, with_clips):
+        for source in (self.rendered, self.val_rendered):
+            source.refresh()
+        self.losses.learn_spread(self.rendered)
+        report = {"samples": self.samples, "rendered": len(self.rendered), "loss": sum(losses) / len(losses),
+                  **validate(self.average.network, self.val_real, self.val_rendered)}
+        if with_clips:
+            report.update({f"clips_{k}": v for k, v in clips.evaluate(self.average.network, self.clips).items()})
+        self.history.append(report)
+        tqdm.write(json.dumps({k: round(v, 4) for k, v in report.items()}))
+        save(self.run / "last.pt", {"network": self.network.state_dict(), "average": self.average.network.state_dict(),
+                                    "optimizer": self.optimizer.state_dict(), "samples": self.samples, "step": self.step,
+                                    "seconds": self.seconds, "history": self.history})
+        plot(self.history, self.run / "curves.png")
+
+    def train(self):
+        bar = tqdm(total=self.options.samples, initial=self.samples, unit="face", disable=self.rank > 0, mininterval=10)
+        losses, reports, began = [], 0, time.time() - self.seconds
+        reported = self.samples
+        while self.progress() < 1:
+            losses.append(self.update())
+            self.seconds = time.time() - began
+            bar.update(self.options.batch * self.world)
+            due = self.samples - reported >= self.options.report_every or self.progress() >= 1
+            if due and self.rank == 0:
+                reports += 1
+                self.report(losses, reports % 5 == 0 or self.progress() >= 1)
+            if due:
+                losses, reported = [], self.samples
 
 
 def parse():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--name", default="basenet")
     parser.add_argument("--samples", type=int, default=1_200_000)
+    parser.add_argument("--hours", type=float, help="ends sooner, with the schedule fitted to the clock")
     parser.add_argument("--batch", type=int, default=192)
     parser.add_argument("--rate", type=float, default=2.5e-3)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--report-every", type=int, default=20_000)
-    parser.add_argument("--real-share", type=float, default=0.42)
+    parser.add_argument("--real-share", type=float, default=0.4)
     parser.add_argument("--resume", action="store_true")
     parser.add_argument("--start-from", help="a checkpoint whose weights to begin with")
+    parser.add_argument("--evaluate", help="a checkpoint to judge, without training")
     return parser.parse_args()
+
+
+def evaluate(checkpoint):
+    state = torch.load(checkpoint, map_location="cpu")
+    network = BaseNet()
+    network.load_state_dict(state["average"])
+    report = {"samples": state["samples"], **validate(network, face_data.Portraits("val"), face_data.Rendered("val_stills")),
+              **{f"clips_{k}": v for k, v in clips.evaluate(network, clips.load()).items()}}
+    print(json.dumps(report, indent=1))
 
 
 def main():
     options = parse()
+    keep_memory()
     torch.set_num_threads(options.threads)
+    if options.evaluate:
+        return evaluate(options.evaluate)
     world, rank = int(os.environ.get("WORLD_SIZE", 1)), int(os.environ.get("RANK", 0))
-    device = torch.device("cuda", int(os.environ.get("LOCAL_RANK", 0))) if torch.cuda.is_available() else torch.device("cpu")
+    local = int(os.environ.get("LOCAL_RANK", 0))
+    device = torch.device("cuda", local) if torch.cuda.is_available() else torch.device("cpu")
     if world > 1:
         torch.distributed.init_process_group("nccl" if device.type == "cuda" else "gloo")
-    seed = options.seed * 1000 + rank
-    torch.manual_seed(seed)
-    generator = torch.Generator().manual_seed(seed)
-    run = cache() / "runs" / options.name
-    run.mkdir(parents=True, exist_ok=True)
-
-    network = BaseNet()
-    with torch.no_grad():
-        network.landmarks.bias.copy_(template().flatten())
-        network.landmarks.weight.mul_(0.1)
-    average = Average(network)
-    optimizer = torch.optim.AdamW(network.parameters(), options.rate, weight_decay=0.02)
-    samples, step, history = 0, 0, []
-    if options.start_from:
-        state = torch.load(options.start_from, map_location="cpu")
-        network.load_state_dict(state["network"])
-        average.network.load_state_dict(state["average"])
-    if options.resume and (run / "last.pt").exists():
-        state = torch.load(run / "last.pt", map_location="cpu")
-        network.load_state_dict(state["network"])
-        average.network.load_state_dict(state["average"])
-        optimizer.load_state_dict(state["optimizer"])
-        samples, step, history = state["samples"], state["step"], state["history"]
-    network.to(device, memory_format=torch.channels_last)
-    average.network.to(device)
-    model = torch.nn.parallel.DistributedDataParallel(network) if world > 1 else network
-
-    eyes = template()[list(lp.OUTER_EYE_CORNERS)]
-    losses = Losses(float((eyes[0] - eyes[1]).norm()))
-    rendered = face_data.Rendered("train_stills", "train_sequences")
-    mixture = face_data.Mixture(face_data.Portraits("train"), rendered, face_data.Backgrounds(), seed + step, options.real_share)
-    val_real, val_rendered = face_data.Portraits("val"), face_data.Rendered("val_stills")
-    losses.controls = control_weights(rendered)
-    bar = tqdm(total=options.samples, initial=samples, unit="face", disable=rank > 0, mininterval=10)
-    running, reported = [], samples
-    while samples < options.samples:
-        for group in optimizer.param_groups:
-            group["lr"] = learning_rate(options, samples)
-        batch = mixture.batch(options.batch)
-        images = augment.photometric(batch.images, generator) * 2 - 1
-        batch = face_data.Batch(*(value.to(device) for value in batch))
-        out = model(images.to(device, memory_format=torch.channels_last))
-        controls, pose = losses.expression(out, batch)
-        loss = 3 * losses.landmarks(out["landmarks"], batch) + 0.5 * losses.face(out["face"], batch) + 1.0 * controls + 1.0 * pose
-        if step % 4 == 0:
-            loss = loss + 1.0 * consistency(network, batch, losses, generator)
-        optimizer.zero_grad(set_to_none=True)
-        loss.backward()
-        torch.nn.utils.clip_grad_norm_(network.parameters(), 5.0)
-        optimizer.step()
-        average.update(network, step)
-        running.append(float(loss))
-        step += 1
-        samples += options.batch * world
-        bar.update(options.batch * world)
-        if samples - reported >= options.report_every and rank == 0:
-            reported = samples
-            rendered.refresh()
-            val_rendered.refresh()
-            losses.controls = control_weights(rendered)
-            report = {"samples": samples, "rendered": len(rendered), "loss": sum(running) / len(running),
-                      **validate(average.network, val_real, val_rendered)}
-            history.append(report)
-            running = []
-            bar.write(json.dumps({k: round(v, 4) for k, v in report.items()}))
-            save(run / "last.pt", {"network": network.state_dict(), "average": average.network.state_dict(),
-                                   "optimizer": optimizer.state_dict(), "samples": samples, "step": step, "history": history})
-            plot(history, run / "curves.png")
+    torch.manual_seed(options.seed * 1000 + rank)
+    Trainer(options, device, world, rank).train()
 
 
 if __name__ == "__main__":

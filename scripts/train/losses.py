@@ -1,0 +1,81 @@
+"""What phase 1 minimises: landmarks, their consistency, face probability, and the training-only controls and pose."""
+import torch
+import torch.nn.functional as F
+
+import face_data
+import landmark_points as lp
+from expressions import CONTROLS
+
+# Lids, lips, irises and brows carry the expression; the oval is a matter of opinion.
+POINT_WEIGHTS = {"eye": 2.0, "iris": 1.5, "lips": 2.0, "brow": 1.5, "face": 0.6}
+
+# Pairs whose distance is an expression: lids, lips, brows above eyes (teacher indices).
+OPENINGS = [(159, 145), (158, 153), (160, 144), (386, 374), (385, 380), (387, 373), (13, 14), (82, 87), (312, 317),
+            (80, 88), (310, 318), (61, 291), (105, 159), (334, 386), (107, 336)]
+
+SMALLEST_SPREAD = 0.08  # of a control, so that one that hardly moves does not rule the sum
+
+
+def point_weights():
+    found = [next((w for key, w in POINT_WEIGHTS.items() if key in name.split("_")[:2]), 1.0) for name, _ in lp.named_points()]
+    weights = torch.tensor(found)
+    return weights / weights.mean()
+
+
+def lids_of_controls():
+    """[175,52]: which landmarks must be seen for an eye's controls to be seen, as shares of one."""
+    out = torch.zeros(len(lp.TEACHER), len(CONTROLS))
+    for side in ("Left", "Right"):
+        lids = [i for i, (name, _) in enumerate(lp.named_points()) if name.startswith(side.lower() + "_eye_")]
+        for i, name in enumerate(CONTROLS):
+            if name.startswith("eye") and name.endswith(side):
+                out[lids, i] = 1 / len(lids)
+    return out
+
+
+class Losses:
+    def __init__(self, eye_distance, device):
+        self.unit = eye_distance  # in crop coordinates
+        self.points = point_weights().to(device)
+        self.pairs = torch.tensor([[lp.POSITION[a], lp.POSITION[b]] for a, b in OPENINGS], device=device)
+        self.lids = lids_of_controls().to(device)
+        self.of_eye = self.lids.sum(0) > 0
+        self.spread = torch.ones(len(CONTROLS), device=device)
+
+    def learn_spread(self, rendered):
+        """Controls count relative to their spread, so that rare ones are worth learning."""
+        if len(rendered):
+            controls = torch.cat([torch.from_numpy(labels["controls"]) for _, labels in rendered.shards]).float()
+            self.spread = controls.std(0).clamp(min=SMALLEST_SPREAD).to(self.spread)
+
+    def distance(self, predicted, truth):
+        """A rounded absolute value, in eye distances: like a squared error near zero, not ruled by outliers."""
+        d = (predicted - truth) / self.unit
+        return torch.sqrt(d.square().sum(-1) + 1e-4) - 1e-2
+
+    def landmarks(self, out, batch):
+        weights = self.points * (0.3 + 0.7 * batch.visible) * batch.has_landmarks[:, None]
+        positional = (self.distance(out, batch.landmarks) * weights).sum() / weights.sum()
+        gap = lambda p: p[:, self.pairs[:, 0]] - p[:, self.pairs[:, 1]]
+        openings = self.distance(gap(out), gap(batch.landmarks))[batch.has_landmarks]
+        return positional + 0.7 * openings.mean()
+
+    def consistency(self, first, second, crop):
+        """Landmarks must move with the picture (Honari et al. 2018): `second` was seen in `crop` of the first's picture."""
+        return self.distance(second, face_data.to_crop(crop, first * face_data.CROP)).mean()
+
+    def controls(self, out, batch):
+        """Squared where it is small, in spreads; an eye's controls only where the eye can be seen."""
+        seen = ~self.of_eye | (batch.visible @ self.lids > 0.5)
+        weights = (seen & batch.has_controls[:, None]).float()
+        error = F.smooth_l1_loss(out / self.spread, batch.controls / self.spread, beta=2.0, reduction="none")
+        return (error * weights).sum() / weights.sum().clamp(min=1)
+
+    def pose(self, out, batch):
+        weights = batch.has_controls[:, None].float()
+        error = F.smooth_l1_loss(out, batch.pose, beta=0.1, reduction="none")
+        return (error * weights).sum() / (9 * weights.sum()).clamp(min=1)
+
+    def total(self, out, batch):
+        return (3 * self.landmarks(out["landmarks"], batch) + 0.5 * F.binary_cross_entropy_with_logits(out["face"], batch.face)
+                + 0.5 * self.controls(out["controls"], batch) + 2 * self.pose(out["pose"], batch))
