@@ -1,0 +1,68 @@
+// A network made ready to run: kernels chosen, memory laid out. Running it is a flat loop over steps, without
+// allocation, lock, exception or I/O.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <new>
+#include <span>
+#include <string_view>
+
+#include "engine/model.h"
+
+namespace mien::engine {
+
+inline constexpr std::size_t kSessionAlignment = 64;
+
+struct SessionRequest {
+  const Model* model = nullptr;  // its bytes must outlive the session
+  std::string_view network;
+  Shape input;  // all zero: as the file declares it
+  std::uint32_t cpu_mask = 0xFFFFFFFF;
+};
+
+struct SessionSize {
+  std::size_t session_bytes = 0;  // steps, input, outputs, temporal state
+  std::size_t arena_bytes = 0;    // intermediate maps; may be shared by sessions that run in turns
+};
+
+Status session_size(const SessionRequest& request, SessionSize& size);
+
+class Session {
+ public:
+  // Builds a session in `memory` (session_bytes) with intermediate maps in `arena` (arena_bytes), both
+  // kSessionAlignment-aligned and the caller's. Nothing has to be destroyed.
+  static Status init(const SessionRequest& request, std::span<std::byte> memory,
+                     std::span<std::byte> arena, Session*& session);
+
+  // [h][w][c] if the shape is interleaved, else in blocks with unused lanes zero, as they are at first.
+  [[nodiscard]] std::span<float> input() const { return input_; }
+  [[nodiscard]] const Shape& input_shape() const { return input_shape_; }
+
+  void run();
+
+  // In blocks; valid until the next run of this session.
+  [[nodiscard]] std::uint32_t output_count() const { return output_count_; }
+  [[nodiscard]] std::span<const float> output(std::uint32_t i) const { return outputs_[i]; }
+  [[nodiscard]] const Shape& output_shape(std::uint32_t i) const { return output_shapes_[i]; }
+
+  // Temporal state to that of a stream's beginning.
+  void reset();
+
+ private:
+  friend class SessionBuilder;
+  struct Step;
+
+  Session() = default;
+
+  Step* steps_ = nullptr;
+  std::uint32_t step_count_ = 0;
+  std::span<float> input_;
+  Shape input_shape_;
+  std::uint32_t output_count_ = 0;
+  std::span<float> outputs_[formats::kMaxOutputs];
+  Shape output_shapes_[formats::kMaxOutputs];
+  std::span<float> state_;
+};
+
+}  // namespace mien::engine
