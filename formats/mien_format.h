@@ -26,9 +26,10 @@ inline constexpr std::uint32_t kMaxValueBytes = 4096;
 inline constexpr std::uint32_t kMaxRank = 4;
 inline constexpr std::uint32_t kMaxDim = 1u << 20;
 inline constexpr std::uint64_t kMaxFileBytes = std::uint64_t{1} << 31;
+inline constexpr std::uint64_t kMaxMapElems = std::uint64_t{1} << 28;  // of one blocked map
 inline constexpr std::uint32_t kMaxOutputs = 4;
 inline constexpr std::uint16_t kMaxKernel = 15;
-inline constexpr std::uint16_t kMaxStride = 4;
+inline constexpr std::uint16_t kMaxStride = 15;
 
 inline constexpr std::uint32_t kNoIndex = 0xFFFFFFFF;  // no tensor, no second input
 
@@ -92,8 +93,8 @@ struct NetworkRecord {
   std::uint32_t outputs[kMaxOutputs];  // values of the network (see LayerRecord), unused ones 0
   std::uint32_t reserved[3];
 };
-inline constexpr std::uint32_t kAnySize =
-    1;  // runs on any map at least as large as the declared one
+// Runs on every map at least as large as the declared one.
+inline constexpr std::uint32_t kAnySize = 1;
 
 // The values of a network are numbered: 0 is its input, k the output of its k-th layer.
 struct LayerRecord {

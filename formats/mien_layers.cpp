@@ -5,8 +5,6 @@
 namespace mien::formats {
 namespace {
 
-LayerOp op_of(const LayerRecord& layer) { return static_cast<LayerOp>(layer.op); }
-
 LayerActivation activation_of(const LayerRecord& layer) {
   return static_cast<LayerActivation>(layer.activation);
 }
@@ -15,7 +13,16 @@ bool slides(LayerOp op) {
   return op == LayerOp::kConv2d || op == LayerOp::kDepthwise || op == LayerOp::kMaxPool;
 }
 
-// Cells, sums and softmax have their own nonlinearity or none.
+// Take a vector and have no meaning for maps of another size.
+bool takes_vector(LayerOp op) { return op == LayerOp::kCausalConv || op == LayerOp::kLstm; }
+
+bool has_fixed_input(LayerOp op) { return takes_vector(op) || op == LayerOp::kFullyConnected; }
+
+bool chooses_channels(LayerOp op) {
+  return has_fixed_input(op) || op == LayerOp::kConv2d || op == LayerOp::kPointwise;
+}
+
+// Cells, sums, maxima and softmax have their own nonlinearity or none.
 bool may_activate(LayerOp op) {
   return op != LayerOp::kLstm && op != LayerOp::kMaxPool && op != LayerOp::kAdd &&
          op != LayerOp::kSoftmax;
@@ -23,41 +30,72 @@ bool may_activate(LayerOp op) {
 
 FileStatus check_activation(const LayerRecord& layer) {
   const bool known = layer.activation <= static_cast<std::uint16_t>(LayerActivation::kClamp01);
-  if (!known || (layer.activation != 0 && !may_activate(op_of(layer)))) {
+  const bool none = activation_of(layer) == LayerActivation::kNone;
+  const bool admitted = none ? op_of(layer) != LayerOp::kActivation : may_activate(op_of(layer));
+  if (!known || !admitted) {
     return FileStatus::kBadActivation;
   }
   const bool leaky = activation_of(layer) == LayerActivation::kLeakyRelu;
-  // Written so that a NaN fails; zero is compared by value, -0.0 is not admitted.
+  // Written so that a NaN fails; -0.0 is not admitted.
   const bool plain_zero = layer.alpha == 0.0f && !std::signbit(layer.alpha);
-  if (leaky ? !(layer.alpha >= 0.0f && layer.alpha <= 1.0f) : !plain_zero) {
+  if (leaky ? !(layer.alpha > 0.0f && layer.alpha < 1.0f) : !plain_zero) {
     return FileStatus::kBadActivation;
   }
   return FileStatus::kOk;
 }
 
-FileStatus check_window(const LayerRecord& layer) {
-  const auto between = [](std::uint16_t value, std::uint16_t low, std::uint16_t high) {
-    return value >= low && value <= high;
-  };
-  const std::uint16_t pads[4] = {layer.pad_top, layer.pad_left, layer.pad_bottom, layer.pad_right};
-  bool good = true;
-  if (slides(op_of(layer))) {
-    good =
-        between(layer.kernel_height, 1, kMaxKernel) && between(layer.kernel_width, 1, kMaxKernel) &&
-        between(layer.stride_height, 1, kMaxStride) && between(layer.stride_width, 1, kMaxStride);
-    for (int i = 0; i < 4; ++i) {
-      const std::uint16_t kernel = i % 2 == 0 ? layer.kernel_height : layer.kernel_width;
-      good = good && pads[i] < kernel;  // no window sees padding alone
-    }
-  } else {
-    good = layer.kernel_height == 0 && layer.kernel_width == 0 && layer.stride_height == 0 &&
-           layer.stride_width == 0;
-    for (const std::uint16_t pad : pads) {
-      good = good && pad == 0;
-    }
-  }
+// Padding is smaller than the kernel so that no window sees padding alone.
+bool window_allowed(std::uint16_t kernel, std::uint16_t stride, std::uint16_t before,
+                    std::uint16_t after) {
+  return kernel >= 1 && kernel <= kMaxKernel && stride >= 1 && stride <= kMaxStride &&
+         before < kernel && after < kernel;
+}
+
+bool no_window(const LayerRecord& layer) {
+  return (layer.kernel_height | layer.kernel_width | layer.stride_height | layer.stride_width |
+          layer.pad_top | layer.pad_left | layer.pad_bottom | layer.pad_right) == 0;
+}
+
+bool geometry_allowed(const LayerRecord& layer) {
   const std::uint16_t allowed_flags = op_of(layer) == LayerOp::kMaxPool ? kCeilMode : 0;
-  return good && layer.flags <= allowed_flags ? FileStatus::kOk : FileStatus::kBadKernel;
+  if (layer.flags > allowed_flags) {
+    return false;
+  }
+  if (!slides(op_of(layer))) {
+    return no_window(layer);
+  }
+  return window_allowed(layer.kernel_height, layer.stride_height, layer.pad_top,
+                        layer.pad_bottom) &&
+         window_allowed(layer.kernel_width, layer.stride_width, layer.pad_left, layer.pad_right);
+}
+
+// Windows of `kernel` elements every `stride` on `before + size + after`; 0 where not one fits.
+std::uint64_t window_count(std::uint64_t size, std::uint64_t kernel, std::uint64_t stride,
+                           std::uint64_t before, std::uint64_t after, bool ceil_mode) {
+  const std::uint64_t padded = before + size + after;
+  if (padded < kernel) {
+    return 0;
+  }
+  const std::uint64_t steps = (padded - kernel) / stride;
+  const bool rest = (padded - kernel) % stride != 0;
+  // PyTorch's rule: the additional window must begin on the map or on the padding before it.
+  const bool more = ceil_mode && rest && (steps + 1) * stride < before + size;
+  return steps + (more ? 2 : 1);
+}
+
+ValueShape slid_shape(const LayerRecord& layer, ValueShape input) {
+  const bool ceil_mode = layer.flags == kCeilMode;
+  return {window_count(input.height, layer.kernel_height, layer.stride_height, layer.pad_top,
+                       layer.pad_bottom, ceil_mode),
+          window_count(input.width, layer.kernel_width, layer.stride_width, layer.pad_left,
+                       layer.pad_right, ceil_mode),
+          op_of(layer) == LayerOp::kConv2d ? layer.channels : input.channels};
+}
+
+// b is at least as large as a, by an even number of rows and columns.
+bool has_centre_slice(ValueShape a, ValueShape b) {
+  return a.channels == b.channels && b.height >= a.height && b.width >= a.width &&
+         (b.height - a.height) % 2 == 0 && (b.width - a.width) % 2 == 0;
 }
 
 TensorDims vector_of(std::uint64_t n) { return {1, {n}}; }
@@ -89,9 +127,21 @@ TensorDims weights_of(const LayerRecord& layer, ValueShape input) {
 
 }  // namespace
 
-FileStatus check_layer(const LayerRecord& layer, std::uint32_t value) {
+bool shape_allowed(ValueShape shape) {
+  for (const std::uint64_t dim : {shape.height, shape.width, shape.channels}) {
+    if (dim == 0 || dim > kMaxDim) {
+      return false;
+    }
+  }
+  return shape.height * shape.width <= kMaxMapElems / padded8(shape.channels);
+}
+
+FileStatus check_layer(const LayerRecord& layer, std::uint32_t value, std::uint32_t network_flags) {
   if (layer.op < static_cast<std::uint16_t>(LayerOp::kConv2d) ||
       layer.op > static_cast<std::uint16_t>(LayerOp::kSoftmax)) {
+    return FileStatus::kBadOp;
+  }
+  if (network_flags == kAnySize && has_fixed_input(op_of(layer))) {
     return FileStatus::kBadOp;
   }
   if (layer.reserved != 0 || layer.reserved_tail != 0) {
@@ -102,28 +152,38 @@ FileStatus check_layer(const LayerRecord& layer, std::uint32_t value) {
       (adds ? layer.second_input >= value : layer.second_input != kNoIndex)) {
     return FileStatus::kBadReference;
   }
-  for (const std::uint32_t dim : {layer.height, layer.width, layer.channels}) {
-    if (dim == 0 || dim > kMaxDim) {
-      return FileStatus::kBadShape;
-    }
+  if (!geometry_allowed(layer)) {
+    return FileStatus::kBadKernel;
   }
-  const std::uint64_t plane = std::uint64_t{layer.height} * layer.width;
-  if (plane * padded8(layer.channels) > kMaxFileBytes / sizeof(float)) {
-    return FileStatus::kBadShape;
+  return check_activation(layer);
+}
+
+ValueShape output_shape(const LayerRecord& layer, ValueShape input, ValueShape second) {
+  const LayerOp op = op_of(layer);
+  const bool refused = (takes_vector(op) && (input.height != 1 || input.width != 1)) ||
+                       (op == LayerOp::kLstm && layer.channels % 8 != 0) ||
+                       (op == LayerOp::kAdd && !has_centre_slice(input, second));
+  if (refused) {
+    return {};
   }
-  const FileStatus activation = check_activation(layer);
-  return activation != FileStatus::kOk ? activation : check_window(layer);
+  if (slides(op)) {
+    return slid_shape(layer, input);
+  }
+  if (op == LayerOp::kFullyConnected) {
+    return {1, 1, layer.channels};
+  }
+  return {input.height, input.width, chooses_channels(op) ? layer.channels : input.channels};
 }
 
 LayerTensors tensors_of(const LayerRecord& layer, ValueShape input) {
   LayerTensors tensors;
-  tensors.dims[0] = weights_of(layer, input);
+  tensors.weights = weights_of(layer, input);
   const std::uint64_t out = padded8(layer.channels);
-  if (tensors.dims[0].rank != 0) {
-    tensors.dims[1] = vector_of(op_of(layer) == LayerOp::kLstm ? 4 * out : out);
+  if (tensors.weights.rank != 0) {
+    tensors.bias = vector_of(op_of(layer) == LayerOp::kLstm ? 4 * out : out);
   }
   if (activation_of(layer) == LayerActivation::kPrelu) {
-    tensors.dims[2] = vector_of(out);
+    tensors.slopes = vector_of(out);
   }
   return tensors;
 }

@@ -1,4 +1,5 @@
-// What each layer operation of a weight file may look like, and which tensors it owns.
+// What each layer operation of a weight file may look like, its output's shape, and the tensors it
+// owns.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +11,7 @@ namespace mien::formats {
 
 struct ValueShape {
   std::uint64_t height, width, channels;
+  friend bool operator==(const ValueShape&, const ValueShape&) = default;
 };
 
 struct TensorDims {
@@ -18,17 +20,31 @@ struct TensorDims {
 };
 
 struct LayerTensors {
-  TensorDims dims[3];  // weights, bias, slopes
+  TensorDims weights, bias, slopes;
 };
 
 [[nodiscard]] constexpr std::uint64_t padded8(std::uint64_t n) { return (n + 7) / 8 * 8; }
 
+[[nodiscard]] constexpr LayerOp op_of(const LayerRecord& layer) {
+  return static_cast<LayerOp>(layer.op);
+}
+
+// The declared shape of a layer's output.
 [[nodiscard]] constexpr ValueShape shape_of(const LayerRecord& layer) {
   return {layer.height, layer.width, layer.channels};
 }
 
-// Fields by themselves: op, activation, references below `value`, kernel, strides, padding, shape.
-[[nodiscard]] FileStatus check_layer(const LayerRecord& layer, std::uint32_t value);
+// All dimensions in 1..kMaxDim and the map, blocked, within kMaxMapElems.
+[[nodiscard]] bool shape_allowed(ValueShape shape);
+
+// Fields by themselves: op, activation, references below `value`, kernel, strides, padding.
+[[nodiscard]] FileStatus check_layer(const LayerRecord& layer, std::uint32_t value,
+                                     std::uint32_t network_flags);
+
+// The output of a checked layer for these inputs, its declared height and width aside; `second`
+// counts for kAdd only. Zeros where the layer cannot take such inputs.
+[[nodiscard]] ValueShape output_shape(const LayerRecord& layer, ValueShape input,
+                                      ValueShape second);
 
 // The tensors of a checked layer with this input.
 [[nodiscard]] LayerTensors tensors_of(const LayerRecord& layer, ValueShape input);

@@ -7,11 +7,12 @@
 #include <deque>
 #include <map>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "formats/file_status.h"
+#include "formats/mien_file.h"
 #include "formats/mien_format.h"
+#include "formats/mien_layers.h"
+#include "formats/weight_packing.h"
 
 namespace mien::formats {
 
@@ -21,26 +22,35 @@ struct Array {
   std::vector<float> values;
 };
 
-// A layer of the network it came from, or that network's input.
+// A value of a network: 0 is its input, k the output of its k-th layer.
 using LayerIndex = std::uint32_t;
 
+struct InputShape {
+  std::uint32_t height, width, channels;
+};
+
+struct Padding {
+  std::uint16_t top, left, bottom, right;
+};
+
 struct LayerOptions {
-  Activation activation = Activation::kNone;
+  LayerActivation activation = LayerActivation::kNone;
   float alpha = 0;            // of kLeakyRelu
   std::vector<float> slopes;  // of kPrelu, one per output channel
-  std::uint8_t stride_y = 1;
-  std::uint8_t stride_x = 1;
+  std::uint16_t stride_y = 1;
+  std::uint16_t stride_x = 1;
   Padding padding{};
-  std::string name;  // default: network/index
+  bool ceil_mode = false;  // of max_pool
 };
 
 class MienWriter;
+struct FileSections;  // the file on its way
 
-// Adds layers in order. Every function returns the new layer's index. Arguments that do not fit
+// Adds layers in order. Every function returns the new layer's value. Arguments that do not fit
 // together are reported by MienWriter::finish(). An empty bias is a bias of zeros.
 class NetworkWriter {
  public:
-  static constexpr LayerIndex kInput = kNetworkInput;
+  static constexpr LayerIndex kInput = 0;
 
   // weight [out, in, kernel_h, kernel_w], bias [out]
   LayerIndex conv2d(LayerIndex x, const Array& weight, const std::vector<float>& bias,
@@ -61,7 +71,7 @@ class NetworkWriter {
   // hidden], the sum of PyTorch's two
   LayerIndex lstm(LayerIndex x, const Array& weight_ih, const Array& weight_hh,
                   const std::vector<float>& bias, const LayerOptions& options = {});
-  LayerIndex max_pool(LayerIndex x, std::uint8_t kernel_h, std::uint8_t kernel_w,
+  LayerIndex max_pool(LayerIndex x, std::uint32_t kernel_h, std::uint32_t kernel_w,
                       const LayerOptions& options = {});
   // a + the centre slice of b
   LayerIndex add(LayerIndex a, LayerIndex b, const LayerOptions& options = {});
@@ -71,46 +81,54 @@ class NetworkWriter {
 
  private:
   friend class MienWriter;
+  struct Tensor {
+    TensorRecord record;
+    std::vector<std::byte> data;
+  };
   struct Layer {
     LayerRecord record;
-    std::string name;
-    std::vector<std::vector<std::uint16_t>> tensors;  // weight, bias, slope: those it has
+    Tensor weights, bias, slopes;  // no data: the layer has none
   };
-  NetworkWriter(std::string name, Shape input, InputLayout layout, bool any_size);
+  NetworkWriter(std::string name, InputShape input, bool any_size);
 
-  Shape shape_of(LayerIndex x);
-  LayerRecord begin(LayerOp op, LayerIndex x, const LayerOptions& options);
-  LayerIndex dense(LayerRecord record, const std::vector<float>& values, std::size_t outputs,
-                   const std::vector<std::int64_t>& reduction, const std::vector<float>& bias,
-                   const LayerOptions& options);
-  LayerIndex append(LayerRecord record, std::vector<std::vector<std::uint16_t>> tensors,
+  ValueShape shape_of_value(LayerIndex value);
+  Layer begin(LayerOp op, LayerIndex x, const LayerOptions& options);
+  static void slide(LayerRecord* record, std::uint32_t kernel_h, std::uint32_t kernel_w,
                     const LayerOptions& options);
+  LayerIndex dense(Layer layer, const Array& weight, const ReductionOrder& order,
+                   const std::vector<float>& bias, const LayerOptions& options);
+  LayerIndex append(Layer layer, const Halves& weights, std::vector<float> bias,
+                    const LayerOptions& options);
+  bool place(LayerRecord* record);
+  Tensor tensor(const TensorDims& dims, const Halves& halves);
   bool require(bool condition, FileStatus status);
+  [[nodiscard]] bool uses(LayerIndex value) const;
+  [[nodiscard]] FileStatus status() const;
 
   std::string name_;
   NetworkRecord record_{};
   std::vector<Layer> layers_;
-  FileStatus status_ = FileStatus::kOk;
+  FileStatus status_ = FileStatus::kOk;  // the first fault
 };
 
 class MienWriter {
  public:
-  // The reference stays valid until the writer is destroyed. Default layout: interleaved for up to
-  // four channels, else blocked.
-  NetworkWriter& network(std::string name, Shape input, bool any_size = false);
-  NetworkWriter& network(std::string name, Shape input, InputLayout layout, bool any_size = false);
-  void constant(std::string name, const Array& array, DataType type = DataType::kFp32);
-  void metadata(std::string key, std::string value);
+  // The reference stays valid until the writer is destroyed.
+  NetworkWriter& network(std::string name, InputShape input, bool any_size = false);
+  void constant(std::string name, const Array& array, DataType type = DataType::kFloat32);
+  void metadata(const std::string& key, std::string value);
 
-  // The whole file, or where the description is at fault. A file handed out always validates.
-  FileError finish(std::vector<std::byte>* file) const;
+  // The whole file. What is handed out with kOk validates; else `*file` is empty.
+  [[nodiscard]] Validation finish(std::vector<std::byte>* file) const;
 
  private:
   struct Constant {
     std::string name;
-    TensorRecord record;
-    std::vector<std::byte> data;
+    NetworkWriter::Tensor tensor;
   };
+
+  FileStatus add_networks(FileSections* sections) const;
+  void add_tensors(FileSections* sections) const;
 
   std::deque<NetworkWriter> networks_;
   std::vector<Constant> constants_;

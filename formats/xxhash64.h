@@ -1,4 +1,5 @@
-// XXH64 (Y. Collet, "xxHash fast digest algorithm", specification 0.1.1): the checksum of weight files.
+// XXH64 (Y. Collet, "xxHash fast digest algorithm", specification 0.1.1): the checksum of weight
+// files.
 #pragma once
 
 #include <cstddef>

@@ -63,7 +63,7 @@ Array random_array(std::vector<std::uint32_t> shape, float deviation, Random& ra
   return filled(std::move(shape), [&](std::size_t) { return random.normal(deviation); });
 }
 
-LayerOptions activated(formats::Activation activation, float alpha = 0.0f) {
+LayerOptions activated(formats::LayerActivation activation, float alpha = 0.0f) {
   LayerOptions options;
   options.activation = activation;
   options.alpha = alpha;
@@ -72,8 +72,8 @@ LayerOptions activated(formats::Activation activation, float alpha = 0.0f) {
 
 AlignedBytes finished(const MienWriter& writer) {
   std::vector<std::byte> file;
-  const formats::FileError error = writer.finish(&file);
-  EXPECT_FALSE(error) << formats::message(error.status);
+  const formats::Validation validation = writer.finish(&file);
+  EXPECT_EQ(validation.status, formats::FileStatus::kOk) << formats::message(validation.status);
   return AlignedBytes(file);
 }
 
@@ -159,17 +159,17 @@ void add_face_probability(MienWriter& writer, const BlobOptions& options) {
       filled({1, options.features}, [](std::size_t i) { return i == kArea ? 20.0f : 0.0f; });
   network.output(network.fully_connected(NetworkWriter::kInput, weight,
                                          {-10.0f + options.face_bias},
-                                         activated(formats::Activation::kSigmoid)));
+                                         activated(formats::LayerActivation::kSigmoid)));
 }
 
 void add_decoder(MienWriter& writer, const std::string& name, const BlobOptions& options,
-                 const std::vector<float>& output_bias, formats::Activation activation,
+                 const std::vector<float>& output_bias, formats::LayerActivation activation,
                  Random& random) {
   constexpr std::uint32_t kWidth = 16;
   NetworkWriter& network = writer.network(name, {1, 1, options.features});
   LayerIndex x = network.causal_conv(
       NetworkWriter::kInput, random_array({kWidth, options.features, 2}, 0.05f, random),
-      random.normals(kWidth, 0.1f), activated(formats::Activation::kLeakyRelu, 0.1f));
+      random.normals(kWidth, 0.1f), activated(formats::LayerActivation::kLeakyRelu, 0.1f));
   x = network.lstm(x, random_array({4 * kWidth, kWidth}, 0.3f, random),
                    random_array({4 * kWidth, kWidth}, 0.3f, random),
                    random.normals(4 * kWidth, 0.3f));
@@ -209,7 +209,7 @@ void add_window_network(MienWriter& writer, const std::string& name, std::uint32
       std::vector<float>(8, 0.0f), every_other);
   const Array logit = filled({1, 8}, [](std::size_t i) { return i == 0 ? 8.0f : 0.0f; });
   network.output(
-      network.pointwise(contrast, logit, {-8.0f}, activated(formats::Activation::kSigmoid)));
+      network.pointwise(contrast, logit, {-8.0f}, activated(formats::LayerActivation::kSigmoid)));
   network.output(network.pointwise(contrast, filled({3, 8}, [](std::size_t) { return 0.0f; }),
                                    {0.0f, 0.0f, 0.0f}));
 }
@@ -228,11 +228,11 @@ AlignedBytes blob_basenet(const BlobOptions& options) {
   add_landmarks(writer, options);
   add_face_probability(writer, options);
   add_decoder(writer, "controls_decoder", options, std::vector<float>(kControls, 0.5f),
-              formats::Activation::kClamp01, random);
+              formats::LayerActivation::kClamp01, random);
   if (options.with_pose_decoder) {
     std::vector<float> frontal(kPose, 0.0f);
     frontal[0] = frontal[4] = 1.0f;
-    add_decoder(writer, "pose_decoder", options, frontal, formats::Activation::kNone, random);
+    add_decoder(writer, "pose_decoder", options, frontal, formats::LayerActivation::kNone, random);
   }
   writer.constant("landmark_template", landmark_template());
   writer.constant("control_supported", filled({kControls}, [&](std::size_t i) {

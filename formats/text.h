@@ -1,0 +1,14 @@
+// What names and texts of a weight file may hold.
+#pragma once
+
+#include <string_view>
+
+namespace mien::formats {
+
+// One or more of a-z 0-9 _ . /
+[[nodiscard]] bool is_name(std::string_view text);
+
+// UTF-8 (RFC 3629) without control characters but tab and line feed.
+[[nodiscard]] bool is_text(std::string_view text);
+
+}  // namespace mien::formats
