@@ -6,6 +6,7 @@
 #include "kernels/causal_conv/causal_conv.h"
 #include "kernels/conv2d/conv2d.h"
 #include "kernels/depthwise/depthwise.h"
+#include "kernels/fma_peak/fma_peak.h"
 #include "kernels/fully_connected/fully_connected.h"
 #include "kernels/half/half.h"
 #include "kernels/image/warp.h"
