@@ -1,23 +1,17 @@
 """Simple solids: the body below the bust, and things held in front of the face."""
 import numpy as np
 
-SHOULDERS = [(1.0, 0.3), (1.12, -1.2), (1.35, -4.0), (1.5, -9.0), (1.5, -40.0)]  # scale and drop of rings from the bust's edge
+# Rings from the bust's edge down: scale around it, how much of its ups and downs is kept, drop in cm.
+SHOULDERS = [(1.0, 1.0, 0.0), (1.12, 1.0, -1.0), (1.35, 0.8, -3.5), (1.55, 0.5, -8.0), (1.6, 0.0, -45.0)]
 ROUND = 14  # corners of a circle
 
 
-def rim(corners, vertices, below, count=40):
-    """`count` vertices of the open edge under height `below`, in order around."""
-    edges = np.vstack([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]]])
-    key = np.sort(edges, 1) @ [1, 1 << 20]
-    _, first, uses = np.unique(key, return_index=True, return_counts=True)
-    open_edges = edges[first[uses == 1]]
-    open_edges = open_edges[(vertices[open_edges, 1] < below).all(1)]
-    ids = np.unique(open_edges)
-    centre = vertices[ids].mean(0)
-    around = np.arctan2(vertices[ids, 0] - centre[0], vertices[ids, 2] - centre[2])
-    wanted = 2 * np.pi * np.arange(count) / count
-    off = np.angle(np.exp(1j * (wanted[:, None] - around)))
-    return ids[np.abs(off).argmin(1)]
+def rim(corners, vertices):
+    """Vertices of the open edge of triangles [n,3], in order around the vertical."""
+    edges = np.vstack([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]]]).astype(np.int64)
+    _, first, uses = np.unique(np.sort(edges, 1) @ [1, 1 << 20], return_index=True, return_counts=True)
+    ids = np.unique(edges[first[uses == 1]])
+    return ids[np.argsort(np.arctan2(vertices[ids, 0], vertices[ids, 2]))]
 
 
 def strips(rings, around):
@@ -32,7 +26,7 @@ def strips(rings, around):
 def body(edge):
     """Shoulders under the bust's edge [n,3]: vertices."""
     centre = edge.mean(0)
-    return np.concatenate([(edge - centre) * [s, 0, s] + centre + [0, drop, 0] for s, drop in SHOULDERS]).astype(np.float32)
+    return np.concatenate([(edge - centre) * [scale, keep, scale] + centre + [0, drop, 0] for scale, keep, drop in SHOULDERS]).astype(np.float32)
 
 
 def capsule(start, end, radius, end_radius=None):

@@ -62,8 +62,16 @@ struct Bounds {
         x1(int(std::min(float(w - 1), std::floor(std::max({a.x, b.x, c.x}) - 0.5f)))),
         y0(int(std::max(0.0f, std::ceil(std::min({a.y, b.y, c.y}) - 0.5f)))),
         y1(int(std::min(float(h - 1), std::floor(std::max({a.y, b.y, c.y}) - 0.5f)))) {}
-  bool empty() const { return x1 < x0 || y1 < y0; }
 };
+
+// Whether a triangle lies before the camera, has area, faces it (if `cull`) and holds the centre of a sample of the grid.
+inline bool may_be_seen(Projected a, Projected b, Projected c, float w, float h, bool cull) {
+  const float area = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);  // y points down: front faces turn negative
+  const float x0 = std::max(0.0f, std::ceil(std::min({a.x, b.x, c.x}) - 0.5f));
+  const float y0 = std::max(0.0f, std::ceil(std::min({a.y, b.y, c.y}) - 0.5f));
+  const float x1 = std::min(w - 1, std::max({a.x, b.x, c.x}) - 0.5f), y1 = std::min(h - 1, std::max({a.y, b.y, c.y}) - 0.5f);
+  return bool(int(std::min({a.near, b.near, c.near}) > 0) & int(area != 0) & int(!cull | (area < 0)) & int(x0 <= x1) & int(y0 <= y1));
+}
 
 // Calls visit(sample index, x, y, nearness, linear weights) for every covered sample that is nearer than the grid's.
 template <class Visit>
@@ -82,16 +90,24 @@ void cover(const Edges& e, const Bounds& box, Grid& grid, Visit visit) {
 }
 
 // Calls draw(triangle of the part, edges, bounds) for triangles that may be seen on a w x h grid.
+// Most triangles are not: they are sorted out first, without branches.
 template <class Draw>
 void each_triangle(const Mesh& mesh, const Part& part, const std::vector<Projected>& screen, int w, int h, Draw draw) {
-  const int32_t* corner = mesh.corner_position + 3 * part.first;
-  for (int t = 0; t < part.count; ++t, corner += 3) {
-    const Projected a = screen[size_t(corner[0])], b = screen[size_t(corner[1])], c = screen[size_t(corner[2])];
-    if (a.near <= 0 || b.near <= 0 || c.near <= 0) continue;
-    const float area = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
-    if (area == 0 || (part.cull && area > 0)) continue;  // y points down: front faces turn negative
-    const Bounds box(a, b, c, w, h);
-    if (!box.empty()) draw(t, Edges(a, b, c), box);
+  constexpr int kBlock = 256;
+  const int32_t* corners = mesh.corner_position + 3 * part.first;
+  for (int begin = 0; begin < part.count; begin += kBlock) {
+    int kept[kBlock], count = 0;
+    for (int t = begin; t < std::min(begin + kBlock, part.count); ++t) {
+      const int32_t* corner = corners + 3 * t;
+      const Projected a = screen[size_t(corner[0])], b = screen[size_t(corner[1])], c = screen[size_t(corner[2])];
+      kept[count] = t;
+      count += may_be_seen(a, b, c, float(w), float(h), part.cull != 0);
+    }
+    for (int k = 0; k < count; ++k) {
+      const int32_t* corner = corners + 3 * kept[k];
+      const Projected a = screen[size_t(corner[0])], b = screen[size_t(corner[1])], c = screen[size_t(corner[2])];
+      draw(kept[k], Edges(a, b, c), Bounds(a, b, c, w, h));
+    }
   }
 }
 

@@ -38,8 +38,8 @@ class Studio:
 
     def __init__(self, rig):
         self.rig, self.rasterizer, self.textures = rig, native.Rasterizer(), {}
-        first, last = rig.materials["M_BackHead"]
-        self.edge = props.rim(rig.corner_position[first:last], rig.neutral, -15)
+        skin = [rig.corner_position[slice(*rig.materials[name])] for name in ("M_Face", "M_BackHead")]
+        self.edge = props.rim(np.concatenate(skin), rig.neutral)
         self.shoulder_corners = props.strips(len(props.SHOULDERS), len(self.edge))
         self.occlusion = self.vertex_occlusion()
 
