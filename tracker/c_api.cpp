@@ -36,28 +36,31 @@ mien_status load(const mien_tracker_config& config, mien_tracker& parts, Arena& 
   return status == MIEN_OK ? parts.proposal.load(config, arena) : status;
 }
 
-mien_status measure(const mien_tracker_config& config, std::size_t& bytes) {
+mien_status measure(const mien_tracker_config& config, Arena::Need& need) {
   Arena arena;
   (void)arena.take(sizeof(mien_tracker));
   mien_tracker parts(config);
   const mien_status status = load(config, parts, arena);
-  bytes = status == MIEN_OK ? arena.used_bytes() : 0;
+  need = status == MIEN_OK ? arena.need() : Arena::Need();
   return status;
 }
 
-mien_status build(const mien_tracker_config& config, std::span<std::byte> memory,
+// Checks everything and says how much memory it will take.
+mien_status prepare(const mien_tracker_config* given, mien_tracker_config& config,
+                    Arena::Need& need) {
+  const mien_status status = mien::tracker::read_config(given, config);
+  return status == MIEN_OK ? measure(config, need) : status;
+}
+
+mien_status build(const mien_tracker_config& config, void* memory, const Arena::Need& need,
                   mien_tracker** tracker) {
-  Arena arena(memory);
-  const std::span<std::byte> place = arena.take(sizeof(mien_tracker));
-  if (place.empty()) {
-    return MIEN_ERROR_MEMORY_TOO_SMALL;
-  }
-  auto* created = new (place.data()) mien_tracker(config);
+  Arena arena(static_cast<std::byte*>(memory), need);
+  auto* created = new (arena.take(sizeof(mien_tracker)).data()) mien_tracker(config);
   const mien_status status = load(config, *created, arena);
   if (status != MIEN_OK) {
     return status;
   }
-  created->bytes = memory.size();
+  created->bytes = need.total_bytes();
   created->tracker.reset();
   *tracker = created;
   return MIEN_OK;
@@ -92,10 +95,11 @@ mien_status mien_tracker_required_bytes(const mien_tracker_config* config, size_
   if (bytes == nullptr) {
     return MIEN_ERROR_NULL_ARGUMENT;
   }
-  *bytes = 0;
   mien_tracker_config checked;
-  const mien_status status = mien::tracker::read_config(config, checked);
-  return status == MIEN_OK ? measure(checked, *bytes) : status;
+  Arena::Need need;
+  const mien_status status = prepare(config, checked, need);
+  *bytes = need.total_bytes();
+  return status;
 }
 
 mien_status mien_tracker_create(const mien_tracker_config* config, mien_tracker** tracker) {
@@ -103,18 +107,17 @@ mien_status mien_tracker_create(const mien_tracker_config* config, mien_tracker*
     return MIEN_ERROR_NULL_ARGUMENT;
   }
   *tracker = nullptr;
-  std::size_t bytes = 0;
-  mien_status status = mien_tracker_required_bytes(config, &bytes);
+  mien_tracker_config checked;
+  Arena::Need need;
+  mien_status status = prepare(config, checked, need);
   if (status != MIEN_OK) {
     return status;
   }
-  mien_tracker_config checked;
-  (void)mien::tracker::read_config(config, checked);
-  void* memory = allocate(checked.allocator, bytes);
+  void* memory = allocate(checked.allocator, need.total_bytes());
   if (memory == nullptr) {
     return MIEN_ERROR_OUT_OF_MEMORY;
   }
-  status = build(checked, {static_cast<std::byte*>(memory), bytes}, tracker);
+  status = build(checked, memory, need, tracker);
   if (status != MIEN_OK) {
     release(checked.allocator, memory);
     return status;
@@ -129,23 +132,22 @@ mien_status mien_tracker_create_in(const mien_tracker_config* config, void* memo
     return MIEN_ERROR_NULL_ARGUMENT;
   }
   *tracker = nullptr;
-  std::size_t bytes = 0;
-  const mien_status status = mien_tracker_required_bytes(config, &bytes);
-  if (status != MIEN_OK) {
-    return status;
-  }
   if (memory == nullptr) {
     return MIEN_ERROR_NULL_ARGUMENT;
   }
   if (reinterpret_cast<std::uintptr_t>(memory) % MIEN_ALIGNMENT != 0) {
     return MIEN_ERROR_ALIGNMENT;
   }
-  if (memory_bytes < bytes) {
+  mien_tracker_config checked;
+  Arena::Need need;
+  const mien_status status = prepare(config, checked, need);
+  if (status != MIEN_OK) {
+    return status;
+  }
+  if (memory_bytes < need.total_bytes()) {
     return MIEN_ERROR_MEMORY_TOO_SMALL;
   }
-  mien_tracker_config checked;
-  (void)mien::tracker::read_config(config, checked);
-  return build(checked, {static_cast<std::byte*>(memory), bytes}, tracker);
+  return build(checked, memory, need, tracker);
 }
 
 void mien_tracker_destroy(mien_tracker* tracker) {

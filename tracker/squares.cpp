@@ -12,6 +12,8 @@ float shared(float center_a, float side_a, float center_b, float side_b) {
   return std::max(high - low, 0.0f);
 }
 
+bool better(const Candidate& a, const Candidate& b) { return a.score > b.score; }
+
 }  // namespace
 
 float intersection_over_union(const Square& a, const Square& b) {
@@ -39,6 +41,18 @@ std::size_t suppress_non_maxima(std::span<Candidate> candidates, float threshold
     }
   }
   return kept;
+}
+
+void BestCandidates::offer(const Candidate& candidate) {
+  if (count_ == room_.size()) {
+    if (count_ == 0 || !better(candidate, room_.front())) {
+      return;
+    }
+    std::pop_heap(room_.begin(), room_.end(), better);
+    --count_;
+  }
+  room_[count_++] = candidate;
+  std::push_heap(room_.begin(), room_.begin() + static_cast<std::ptrdiff_t>(count_), better);
 }
 
 }  // namespace mien::tracker

@@ -21,4 +21,16 @@ struct Candidate {
 // returns how many these are.
 [[nodiscard]] std::size_t suppress_non_maxima(std::span<Candidate> candidates, float threshold);
 
+// Keeps the best-scored of the candidates offered, as many as there is room for.
+class BestCandidates {
+ public:
+  explicit BestCandidates(std::span<Candidate> room) : room_(room) {}
+  void offer(const Candidate& candidate);
+  [[nodiscard]] std::span<Candidate> kept() const { return room_.first(count_); }
+
+ private:
+  std::span<Candidate> room_;  // a heap, the worst on top
+  std::size_t count_ = 0;
+};
+
 }  // namespace mien::tracker

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <functional>
 #include <random>
 #include <string>
@@ -218,7 +218,7 @@ void add_window_network(MienWriter& writer, const std::string& name, std::uint32
 
 AlignedBytes::AlignedBytes(std::span<const std::byte> bytes)
     : lines_(bytes.size() / sizeof(Line) + 1), size_(bytes.size()) {
-  std::memcpy(lines_.data(), bytes.data(), bytes.size());
+  std::copy(bytes.begin(), bytes.end(), lines_.data()->bytes);
 }
 
 AlignedBytes blob_basenet(const BlobOptions& options) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 #include <vector>
 
@@ -57,6 +58,28 @@ TEST(SuppressNonMaxima, OneAndNone) {
   EXPECT_EQ(suppress_non_maxima(none, 0.5f), 0u);
   std::vector<Candidate> twins(2, Candidate{{{1, 1}, 1}, 0.9f});
   EXPECT_EQ(suppress_non_maxima(twins, 0.5f), 1u);
+}
+
+TEST(BestCandidates, KeepsTheBestOfAnyNumber) {
+  for (std::size_t offered : {0u, 3u, 10u, 11u, 200u}) {
+    std::vector<Candidate> all = random_candidates(offered, 9);
+    std::vector<Candidate> room(10);
+    BestCandidates best(room);
+    for (const Candidate& candidate : all) {
+      best.offer(candidate);
+    }
+    const auto by_score = [](const Candidate& a, const Candidate& b) { return a.score > b.score; };
+    std::sort(all.begin(), all.end(), by_score);
+    std::vector<Candidate> kept(best.kept().begin(), best.kept().end());
+    std::sort(kept.begin(), kept.end(), by_score);
+    ASSERT_EQ(kept.size(), std::min<std::size_t>(offered, 10));
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+      EXPECT_EQ(kept[i].score, all[i].score);
+    }
+  }
+  BestCandidates none({});
+  none.offer({{}, 1.0f});
+  EXPECT_TRUE(none.kept().empty());
 }
 
 }  // namespace

@@ -1,0 +1,27 @@
+/* A C program sees all of the interface. Called by c_program_test.cpp. */
+#include <mien/mien.h>
+#include <string.h>
+
+int mien_c_program(void);
+
+int mien_c_program(void) {
+  mien_tracker_config config;
+  mien_image image;
+  mien_result result;
+  mien_tracker* tracker = (mien_tracker*)&config; /* must be overwritten */
+  size_t bytes = 1;
+  mien_tracker_config_default(&config);
+  mien_image_default(&image);
+  mien_result_default(&result);
+  if (config.struct_size != sizeof config || image.struct_size != sizeof image ||
+      result.struct_size != sizeof result) {
+    return 1;
+  }
+  if (mien_tracker_create(&config, &tracker) != MIEN_ERROR_NULL_ARGUMENT || tracker != NULL) {
+    return 2;
+  }
+  if (mien_tracker_required_bytes(&config, &bytes) != MIEN_ERROR_NULL_ARGUMENT || bytes != 0) {
+    return 3;
+  }
+  return strcmp(mien_control_name(17), "jawOpen") == 0 ? 0 : 4;
+}

@@ -1,0 +1,242 @@
+// Creating, configuring, refusing and destroying.
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+#include "tests/tracker/blob_tracker.h"
+
+namespace mien::tests {
+namespace {
+
+class Create : public testing::Test {
+ protected:
+  mien_status create() {
+    Tracker tracker;
+    return tracker.create(config_);
+  }
+  template <typename Change>
+  mien_status create_with(Change change) {
+    const Config before = config_;
+    change(config_);
+    const mien_status status = create();
+    config_ = before;
+    return status;
+  }
+
+  AlignedBytes basenet_ = blob_basenet();
+  AlignedBytes proposal_ = blob_proposal();
+  Config config_ = blob_config(basenet_, proposal_);
+};
+
+TEST_F(Create, DefaultsWork) { EXPECT_EQ(create(), MIEN_OK); }
+
+TEST_F(Create, NullArguments) {
+  mien_tracker* tracker = nullptr;
+  std::size_t bytes = 1;
+  EXPECT_EQ(mien_tracker_create(nullptr, &tracker), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_tracker_create(&config_, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_tracker_create_in(nullptr, nullptr, 0, &tracker), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_tracker_create_in(&config_, nullptr, 0, &tracker), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_tracker_create_in(&config_, &bytes, 8, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_tracker_required_bytes(nullptr, &bytes), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(bytes, 0u);
+  EXPECT_EQ(mien_tracker_required_bytes(&config_, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_tracker_reset(nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  mien_image image;
+  mien_image_default(&image);
+  EXPECT_EQ(mien_tracker_push_video(nullptr, &image, 0), MIEN_ERROR_NULL_ARGUMENT);
+  mien_result result;
+  mien_result_default(&result);
+  EXPECT_EQ(mien_tracker_get_result(nullptr, &result), MIEN_ERROR_NULL_ARGUMENT);
+  Tracker whole;
+  ASSERT_EQ(whole.create(config_), MIEN_OK);
+  EXPECT_EQ(mien_tracker_push_video(whole.get(), nullptr, 0), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_tracker_get_result(whole.get(), nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  mien_tracker_destroy(nullptr);
+  mien_tracker_config_default(nullptr);
+  mien_image_default(nullptr);
+  mien_result_default(nullptr);
+  EXPECT_EQ(create_with([](Config& c) { c.basenet = nullptr; }), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(create_with([](Config& c) { c.proposal = nullptr; }), MIEN_ERROR_NULL_ARGUMENT);
+}
+
+TEST_F(Create, ValuesOutOfRange) {
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  const auto refused = [&](auto change) { return create_with(change) == MIEN_ERROR_OUT_OF_RANGE; };
+  for (float bad : {-0.1f, 1.1f, kNan}) {
+    EXPECT_TRUE(refused([&](Config& c) { c.accept_probability = bad; })) << bad;
+    EXPECT_TRUE(refused([&](Config& c) { c.lose_probability = bad; })) << bad;
+    EXPECT_TRUE(refused([&](Config& c) { c.proposal_threshold = bad; })) << bad;
+    EXPECT_TRUE(refused([&](Config& c) { c.refine_threshold = bad; })) << bad;
+  }
+  EXPECT_TRUE(refused([](Config& c) { c.lose_probability = c.accept_probability + 0.01f; }));
+  for (float bad : {0.0f, 3.2f, kNan}) {
+    EXPECT_TRUE(refused([&](Config& c) { c.horizontal_fov = bad; })) << bad;
+  }
+  for (int bad : {0, -1, 100'000}) {
+    EXPECT_TRUE(refused([&](Config& c) { c.lose_after_frames = bad; })) << bad;
+    EXPECT_TRUE(refused([&](Config& c) { c.search_interval = bad; })) << bad;
+    EXPECT_TRUE(refused([&](Config& c) { c.proposal_size = bad; })) << bad;
+  }
+  EXPECT_TRUE(refused([](Config& c) {
+    c.allocator.allocate = [](void*, std::size_t, std::size_t) -> void* { return nullptr; };
+  })) << "half an allocator";
+  for (int lod : {-1, 2, 4}) {
+    EXPECT_EQ(create_with([&](Config& c) { c.lod = lod; }), MIEN_ERROR_UNSUPPORTED_LOD);
+  }
+  EXPECT_EQ(create_with([](Config& c) { c.lod = 0; }), MIEN_OK);
+  for (int size : {24, 640}) {
+    EXPECT_EQ(create_with([&](Config& c) { c.proposal_size = size; }), MIEN_OK) << size;
+  }
+}
+
+TEST_F(Create, CpuMask) {
+  EXPECT_EQ(create_with([](Config& c) { c.cpu_mask = 0; }), MIEN_ERROR_UNSUPPORTED_CPU);
+  EXPECT_EQ(create_with([](Config& c) { c.cpu_mask = ~mien_cpu_tiers(); }),
+            MIEN_ERROR_UNSUPPORTED_CPU);
+  EXPECT_EQ(create_with([](Config& c) { c.cpu_mask = MIEN_CPU_REF; }), MIEN_OK);
+}
+
+TEST_F(Create, WrongWeights) {
+  std::vector<std::byte> bytes(basenet_.get().begin(), basenet_.get().end());
+  const auto status_of = [&](const std::vector<std::byte>& file) {
+    const AlignedBytes aligned(file);
+    return create_with([&](Config& c) {
+      c.basenet = aligned.get().data();
+      c.basenet_bytes = file.size();
+    });
+  };
+  EXPECT_EQ(status_of(bytes), MIEN_OK);
+  EXPECT_EQ(create_with([](Config& c) {
+              std::swap(c.basenet, c.proposal);
+              std::swap(c.basenet_bytes, c.proposal_bytes);
+            }),
+            MIEN_ERROR_WEIGHTS_INCOMPLETE);
+  std::vector<std::byte> truncated(bytes.begin(), bytes.end() - 64);
+  EXPECT_EQ(status_of(truncated), MIEN_ERROR_WEIGHTS_TRUNCATED);
+  EXPECT_EQ(status_of({}), MIEN_ERROR_WEIGHTS_TRUNCATED);
+  std::vector<std::byte> flipped = bytes;
+  flipped[flipped.size() / 2] ^= std::byte{1};
+  EXPECT_EQ(status_of(flipped), MIEN_ERROR_WEIGHTS_CHECKSUM);
+  std::vector<std::byte> other = bytes;
+  other[0] = std::byte{'R'};
+  EXPECT_EQ(status_of(other), MIEN_ERROR_WEIGHTS_NOT_MIEN);
+  EXPECT_EQ(create_with([](Config& c) { c.basenet = static_cast<const char*>(c.basenet) + 4; }),
+            MIEN_ERROR_ALIGNMENT);
+}
+
+TEST_F(Create, WeightsOfAnotherShape) {
+  const auto status_of = [&](const BlobOptions& options) {
+    const AlignedBytes file = blob_basenet(options);
+    return create_with([&](Config& c) {
+      c.basenet = file.get().data();
+      c.basenet_bytes = file.get().size();
+    });
+  };
+  BlobOptions narrow;
+  narrow.features = 128;
+  EXPECT_EQ(status_of(narrow), MIEN_ERROR_WEIGHTS_SHAPE);
+  BlobOptions partial;
+  partial.with_pose_decoder = false;
+  EXPECT_EQ(status_of(partial), MIEN_ERROR_WEIGHTS_INCOMPLETE);
+}
+
+TEST_F(Create, StructSizeOfOtherVersions) {
+  EXPECT_EQ(create_with([](Config& c) { c.struct_size = 0; }), MIEN_ERROR_STRUCT_SIZE);
+  EXPECT_EQ(
+      create_with([](Config& c) { c.struct_size = offsetof(mien_tracker_config, allocator) - 1; }),
+      MIEN_ERROR_STRUCT_SIZE);
+  // What lies behind the end of an older struct is not looked at.
+  EXPECT_EQ(create_with([](Config& c) {
+              c.struct_size = offsetof(mien_tracker_config, allocator);
+              c.lod = 99;
+            }),
+            MIEN_OK);
+  struct {
+    mien_tracker_config config;
+    unsigned char future[64];
+  } longer = {config_, {1, 2, 3}};
+  longer.config.struct_size = sizeof longer;
+  mien_tracker* tracker = nullptr;
+  ASSERT_EQ(mien_tracker_create(&longer.config, &tracker), MIEN_OK);
+  mien_tracker_destroy(tracker);
+}
+
+TEST_F(Create, ResultStructsOfOtherVersions) {
+  Tracker tracker;
+  ASSERT_EQ(tracker.create(config_), MIEN_OK);
+  const Buffer disc(disc_picture(160.0f, 120.0f, 70.0f), {});
+  ASSERT_EQ(tracker.push_video(disc.image(), 5), MIEN_OK);
+  Result whole;
+  ASSERT_EQ(tracker.get_result(whole), MIEN_OK);
+
+  Result older;
+  std::memset(&older, 0x5A, sizeof older);
+  older.struct_size = offsetof(mien_result, controls);
+  ASSERT_EQ(tracker.get_result(older), MIEN_OK);
+  EXPECT_EQ(older.struct_size, offsetof(mien_result, controls));
+  EXPECT_EQ(older.translation[2], whole.translation[2]);
+  unsigned char untouched[sizeof(float)];
+  std::memset(untouched, 0x5A, sizeof untouched);
+  EXPECT_EQ(std::memcmp(&older.controls[0], untouched, sizeof untouched), 0);
+
+  struct {
+    mien_result result;
+    unsigned char future[50];
+  } newer;
+  std::memset(&newer, 0x5A, sizeof newer);
+  newer.result.struct_size = sizeof(mien_result) + 40;
+  ASSERT_EQ(mien_tracker_get_result(tracker.get(), &newer.result), MIEN_OK);
+  EXPECT_EQ(newer.result.frames, 1u);
+  EXPECT_EQ(newer.future[0], 0);
+  EXPECT_EQ(newer.future[39], 0);
+  EXPECT_EQ(newer.future[40], 0x5A);
+
+  Result tiny;
+  tiny.struct_size = 8;
+  EXPECT_EQ(tracker.get_result(tiny), MIEN_ERROR_STRUCT_SIZE);
+}
+
+TEST_F(Create, InTheCallersMemory) {
+  mien_status status = MIEN_ERROR_INTERNAL;
+  const std::size_t bytes = required_bytes(config_, status);
+  ASSERT_EQ(status, MIEN_OK);
+  std::vector<std::byte> storage(bytes + 128, std::byte{0xAA});
+  const auto address = reinterpret_cast<std::uintptr_t>(storage.data());
+  std::byte* memory = storage.data() + (64 - address % 64) % 64;
+  mien_tracker* tracker = nullptr;
+  EXPECT_EQ(mien_tracker_create_in(&config_, memory, bytes - 1, &tracker),
+            MIEN_ERROR_MEMORY_TOO_SMALL);
+  EXPECT_EQ(mien_tracker_create_in(&config_, memory + 8, bytes, &tracker), MIEN_ERROR_ALIGNMENT);
+  EXPECT_EQ(tracker, nullptr);
+
+  BlobTracker elsewhere;
+  {
+    Tracker inside;
+    ASSERT_EQ(inside.create_in(config_, {memory, bytes}), MIEN_OK);
+    for (int i = 0; i < 5; ++i) {
+      const Buffer disc(disc_picture(150.0f + static_cast<float>(i), 120.0f, 70.0f), {});
+      Result result;
+      ASSERT_EQ(inside.push_video(disc.image(), i * kFrameNs), MIEN_OK);
+      ASSERT_EQ(inside.get_result(result), MIEN_OK);
+      const Result other = elsewhere.push(disc.image(), i * kFrameNs);
+      EXPECT_EQ(std::memcmp(&result, &other, sizeof(mien_result)), 0);
+    }
+  }
+  for (std::size_t i = 0; i < bytes; ++i) {
+    ASSERT_EQ(memory[i], std::byte{0}) << "wiped at destroy";
+  }
+  EXPECT_EQ(memory[bytes], std::byte{0xAA});
+}
+
+TEST_F(Create, ManyTimes) {
+  for (int i = 0; i < 200; ++i) {
+    ASSERT_EQ(create(), MIEN_OK);
+  }
+}
+
+}  // namespace
+}  // namespace mien::tests

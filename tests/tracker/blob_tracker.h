@@ -1,0 +1,93 @@
+// A tracker for discs, and what it says about pictures.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <mien/mien.hpp>
+
+#include <cmath>
+#include <cstdint>
+
+#include "tests/tracker/blob_weights.h"
+#include "tests/tracker/picture.h"
+
+namespace mien::tests {
+
+inline constexpr std::int64_t kFrameNs = 33'333'333;
+
+inline Config blob_config(const AlignedBytes& basenet, const AlignedBytes& proposal) {
+  return Config(basenet.get(), proposal.get());
+}
+
+class BlobTracker {
+ public:
+  explicit BlobTracker(const BlobOptions& options = {})
+      : BlobTracker(options, [](mien_tracker_config&) {}) {}
+
+  template <typename Change>
+  BlobTracker(const BlobOptions& options, Change change)
+      : basenet_(blob_basenet(options)), proposal_(blob_proposal()) {
+    Config config = blob_config(basenet_, proposal_);
+    change(config);
+    EXPECT_EQ(tracker_.create(config), MIEN_OK);
+  }
+
+  // The next frame, 1/30 s after the last.
+  Result push(const mien_image& image) {
+    pts_ns_ += kFrameNs;
+    return push(image, pts_ns_);
+  }
+  Result push(const mien_image& image, std::int64_t pts_ns) {
+    pts_ns_ = pts_ns;
+    EXPECT_EQ(tracker_.push_video(image, pts_ns), MIEN_OK);
+    return result();
+  }
+  Result push(const Picture& picture, const Layout& layout = {}) {
+    return push(Buffer(picture, layout).image());
+  }
+
+  [[nodiscard]] Result result() const {
+    Result result;
+    EXPECT_EQ(tracker_.get_result(result), MIEN_OK);
+    return result;
+  }
+
+  Tracker& tracker() { return tracker_; }
+
+ private:
+  AlignedBytes basenet_;
+  AlignedBytes proposal_;
+  Tracker tracker_;
+  std::int64_t pts_ns_ = 0;
+};
+
+inline Picture disc_picture(float x, float y, float diameter, int width = 320, int height = 240) {
+  Picture picture(width, height);
+  picture.disc(x, y, diameter);
+  return picture;
+}
+
+// Every number of the result is finite and in its range.
+inline void expect_sane(const Result& result) {
+  EXPECT_GE(result.status, MIEN_FACE_SEARCHING);
+  EXPECT_LE(result.status, MIEN_FACE_LOST);
+  const auto unit = [](float value) { return value >= 0.0f && value <= 1.0f; };
+  EXPECT_TRUE(unit(result.face_probability));
+  for (float control : result.controls) {
+    EXPECT_TRUE(unit(control)) << control;
+  }
+  const float* first = result.box;
+  const float* last = result.translation + 3;
+  EXPECT_TRUE(std::all_of(first, last, [](float value) { return std::isfinite(value); }));
+  for (const auto& point : result.landmarks) {
+    EXPECT_TRUE(std::isfinite(point[0]) && std::isfinite(point[1]));
+  }
+  if (result.has_face()) {
+    float length = 0.0f;
+    for (float part : result.rotation) {
+      length += part * part;
+    }
+    EXPECT_NEAR(length, 1.0f, 1e-4f);
+  }
+}
+
+}  // namespace mien::tests

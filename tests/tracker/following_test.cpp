@@ -1,0 +1,247 @@
+// Finding, following, losing and finding again, with a disc as the face.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "tests/tracker/blob_tracker.h"
+
+namespace mien::tests {
+namespace {
+
+void expect_box_on_disc(const Result& result, float x, float y, float diameter) {
+  const float side = diameter / kDiscPerCrop;
+  EXPECT_EQ(result.status, MIEN_FACE_TRACKING);
+  EXPECT_NEAR(result.box[0] + result.box[2] / 2, x, 0.02f * side);
+  EXPECT_NEAR(result.box[1] + result.box[3] / 2, y, 0.02f * side);
+  EXPECT_NEAR(result.box[2], side, 0.06f * side);
+  EXPECT_EQ(result.box[2], result.box[3]);
+}
+
+TEST(Following, NothingBeforeTheFirstImage) {
+  BlobTracker tracker;
+  const Result result = tracker.result();
+  EXPECT_EQ(result.status, MIEN_FACE_SEARCHING);
+  EXPECT_EQ(result.frames, 0u);
+  for (float control : result.controls) {
+    EXPECT_EQ(control, 0.0f);
+  }
+}
+
+TEST(Following, FindsDiscsOfAllSizesEverywhere) {
+  for (float diameter : {20.0f, 33.0f, 60.0f, 110.0f, 160.0f}) {
+    for (float x : {0.5f, 0.35f, 0.7f}) {
+      SCOPED_TRACE(testing::Message() << diameter << " at " << x);
+      BlobTracker tracker;
+      const Result result = tracker.push(disc_picture(320 * x, 125.0f, diameter));
+      expect_box_on_disc(result, 320 * x, 125.0f, diameter);
+      EXPECT_TRUE(result.flags & MIEN_RESULT_FOUND);
+      EXPECT_TRUE(result.flags & MIEN_RESULT_PROPOSAL_RAN);
+      EXPECT_GT(result.face_probability, 0.9f);
+      expect_sane(result);
+    }
+  }
+}
+
+TEST(Following, LandmarksSurroundTheDisc) {
+  BlobTracker tracker;
+  const Result result = tracker.push(disc_picture(150.0f, 110.0f, 70.0f));
+  float x = 0.0f;
+  float lowest = 1e9f;
+  float highest = -1e9f;
+  for (const auto& point : result.landmarks) {
+    x += point[0] / MIEN_LANDMARK_COUNT;
+    lowest = std::min(lowest, point[1]);
+    highest = std::max(highest, point[1]);
+  }
+  EXPECT_NEAR(x, 150.0f, 5.0f);
+  EXPECT_NEAR((highest - lowest) / result.box[3], 0.8f, 0.03f);
+}
+
+TEST(Following, FollowsAMovingGrowingDiscWithoutProposingAgain) {
+  BlobTracker tracker;
+  Result result;
+  for (int i = 0; i < 90; ++i) {
+    const float phase = 0.07f * static_cast<float>(i);
+    const float x = 160.0f + 60.0f * std::cos(phase);
+    const float y = 120.0f + 40.0f * std::sin(phase);
+    const float diameter = 60.0f + 15.0f * std::sin(0.5f * phase);
+    result = tracker.push(disc_picture(x, y, diameter));
+    ASSERT_EQ(result.status, MIEN_FACE_TRACKING) << i;
+    EXPECT_LT(
+        std::hypot(result.box[0] + result.box[2] / 2 - x, result.box[1] + result.box[3] / 2 - y),
+        0.12f * result.box[2])
+        << i;
+    expect_sane(result);
+  }
+  EXPECT_EQ(result.proposal_runs, 1u);
+  EXPECT_EQ(result.frames, 90u);
+  EXPECT_EQ(result.face_frames, 90u);
+}
+
+TEST(Following, EncoderRestsOnAlternateFrames) {
+  BlobTracker tracker;
+  const Picture picture = disc_picture(160.0f, 120.0f, 70.0f);
+  const std::uint64_t acquiring = tracker.push(picture).encoder_runs;
+  EXPECT_GE(acquiring, 2u);
+  for (int i = 1; i <= 20; ++i) {
+    const bool runs = i % 2 == 0;
+    EXPECT_EQ((tracker.push(picture).flags & MIEN_RESULT_ENCODER_RAN) != 0, runs) << i;
+  }
+  EXPECT_EQ(tracker.result().encoder_runs, acquiring + 10);
+}
+
+TEST(Following, DecodersRunOnEveryFrame) {
+  BlobTracker tracker;
+  const Picture picture = disc_picture(160.0f, 120.0f, 70.0f);
+  Result before = tracker.push(picture);
+  for (int i = 0; i < 4; ++i) {
+    const Result after = tracker.push(picture);
+    EXPECT_FALSE(std::equal(after.controls, after.controls + MIEN_CONTROL_COUNT, before.controls))
+        << "the recurrent state must have moved";
+    before = after;
+  }
+}
+
+TEST(Following, LosesAFaceOnlyAfterSeveralMissesAndThenFades) {
+  BlobTracker tracker({}, [](mien_tracker_config& config) { config.lose_after_frames = 4; });
+  const Picture disc = disc_picture(160.0f, 120.0f, 70.0f);
+  const Picture nothing(320, 240);
+  Result shown;
+  for (int i = 0; i < 3; ++i) {
+    shown = tracker.push(disc);  // the next image is a judged one after an even number
+  }
+  int held = 0;
+  Result result = tracker.push(nothing);
+  while (result.status == MIEN_FACE_TRACKING) {
+    ++held;
+    ASSERT_LT(held, 20);
+    EXPECT_EQ(result.box[0], shown.box[0]);
+    result = tracker.push(nothing);
+  }
+  EXPECT_GE(held, 3);
+  EXPECT_LE(held, 4);
+  EXPECT_EQ(result.status, MIEN_FACE_LOST);
+  EXPECT_EQ(result.box[0], shown.box[0]) << "the last place is kept";
+  const float mass = std::accumulate(result.controls, result.controls + MIEN_CONTROL_COUNT, 0.0f);
+  ASSERT_GT(mass, 1.0f);
+  for (int i = 0; i < 30; ++i) {
+    result = tracker.push(nothing);
+  }
+  const float left = std::accumulate(result.controls, result.controls + MIEN_CONTROL_COUNT, 0.0f);
+  EXPECT_NEAR(left / mass, std::exp(-4.0f), 1e-3f) << "one second at 0.25 s";
+  expect_sane(result);
+}
+
+TEST(Following, ShortMissesGoUnnoticed) {
+  BlobTracker tracker;
+  const Picture disc = disc_picture(160.0f, 120.0f, 70.0f);
+  for (int i = 0; i < 30; ++i) {
+    const bool hidden = i % 6 == 4;
+    const Result result = tracker.push(hidden ? Picture(320, 240) : disc);
+    EXPECT_EQ(result.status, MIEN_FACE_TRACKING) << i;
+  }
+  EXPECT_EQ(tracker.result().proposal_runs, 1u);
+}
+
+TEST(Following, FindsTheFaceAgainElsewhere) {
+  BlobTracker tracker;
+  for (int i = 0; i < 5; ++i) {
+    (void)tracker.push(disc_picture(80.0f, 80.0f, 60.0f));
+  }
+  Result result;
+  for (int i = 0; i < 10; ++i) {
+    result = tracker.push(disc_picture(250.0f, 170.0f, 50.0f));
+  }
+  expect_box_on_disc(result, 250.0f, 170.0f, 50.0f);
+  EXPECT_EQ(result.proposal_runs, 2u);
+}
+
+TEST(Following, ACutLosesAndFindsOnTheSameFrame) {
+  BlobTracker tracker;
+  for (int i = 0; i < 4; ++i) {
+    (void)tracker.push(disc_picture(80.0f, 80.0f, 60.0f));
+  }
+  const Buffer elsewhere(disc_picture(250.0f, 170.0f, 50.0f), {});
+  const Result result = tracker.push(elsewhere.image(), 3'600'000'000'000);
+  EXPECT_TRUE(result.flags & MIEN_RESULT_CUT);
+  EXPECT_TRUE(result.flags & MIEN_RESULT_FOUND);
+  expect_box_on_disc(result, 250.0f, 170.0f, 50.0f);
+}
+
+TEST(Following, DecodersBeginAnewWhenAFaceIsFound) {
+  const Picture disc = disc_picture(160.0f, 120.0f, 70.0f);
+  BlobTracker fresh;
+  const Result first = fresh.push(disc);
+  BlobTracker used;
+  for (int i = 0; i < 7; ++i) {
+    (void)used.push(disc);
+  }
+  Result again;
+  for (int i = 0; i < 8; ++i) {
+    again = used.push(Picture(320, 240));
+  }
+  ASSERT_EQ(again.status, MIEN_FACE_LOST);
+  again = used.push(disc);
+  ASSERT_TRUE(again.flags & MIEN_RESULT_FOUND);
+  EXPECT_TRUE(std::equal(again.controls, again.controls + MIEN_CONTROL_COUNT, first.controls));
+}
+
+TEST(Following, SearchesLessOftenAfterAWhile) {
+  BlobTracker tracker({}, [](mien_tracker_config& config) { config.search_interval = 5; });
+  const Picture nothing(64, 48);
+  for (int i = 0; i < 30; ++i) {
+    (void)tracker.push(nothing);
+  }
+  EXPECT_EQ(tracker.result().proposal_runs, 30u);
+  for (int i = 0; i < 50; ++i) {
+    (void)tracker.push(nothing);
+  }
+  EXPECT_EQ(tracker.result().proposal_runs, 40u);
+  EXPECT_EQ(tracker.result().status, MIEN_FACE_SEARCHING);
+}
+
+TEST(Following, WhatBaseNetRefusesIsNoFace) {
+  BlobOptions never;
+  never.face_bias = -1000.0f;
+  BlobTracker tracker(never);
+  const Result result = tracker.push(disc_picture(160.0f, 120.0f, 70.0f));
+  EXPECT_EQ(result.status, MIEN_FACE_SEARCHING);
+  EXPECT_GT(result.encoder_runs, 0u) << "it was proposed and judged";
+  EXPECT_LT(result.face_probability, 0.01f);
+}
+
+TEST(Following, UnsupportedControlsStayZero) {
+  BlobOptions some;
+  some.supported_controls = 0x5;
+  BlobTracker tracker(some);
+  const Result result = tracker.push(disc_picture(160.0f, 120.0f, 70.0f));
+  EXPECT_EQ(result.supported_controls, 0x5u);
+  EXPECT_TRUE(result.supports(2));
+  EXPECT_FALSE(result.supports(1));
+  EXPECT_GT(result.controls[0], 0.0f);
+  for (int i = 0; i < MIEN_CONTROL_COUNT; ++i) {
+    EXPECT_TRUE(result.supports(i) || result.controls[i] == 0.0f) << i;
+  }
+}
+
+TEST(Following, StagesAreTimedByTheCallersClock) {
+  BlobTracker tracker({}, [](mien_tracker_config& config) {
+    static std::uint64_t now = 0;
+    config.clock_user = &now;
+    config.clock_ns = [](void* user) { return *static_cast<std::uint64_t*>(user) += 10; };
+  });
+  const Picture picture = disc_picture(160.0f, 120.0f, 70.0f);
+  Result result = tracker.push(picture);
+  for (int stage = 0; stage < MIEN_STAGE_COUNT; ++stage) {
+    EXPECT_GT(result.stage_ns[stage], 0u) << mien_stage_name(stage);
+  }
+  EXPECT_EQ(result.stage_ns[MIEN_STAGE_COUNT], 0u);
+  result = tracker.push(picture);  // the encoder rests
+  EXPECT_EQ(result.stage_ns[MIEN_STAGE_PROPOSAL], 0u);
+  EXPECT_EQ(result.stage_ns[MIEN_STAGE_ENCODER], 0u);
+  EXPECT_EQ(result.stage_ns[MIEN_STAGE_DECODERS], 10u);
+}
+
+}  // namespace
+}  // namespace mien::tests

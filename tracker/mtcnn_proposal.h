@@ -1,0 +1,44 @@
+// Face proposal by the first two stages of MTCNN: Zhang et al. 2016, "Joint Face Detection and
+// Alignment using Multitask Cascaded Convolutional Networks".
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "tracker/arena.h"
+#include "tracker/network.h"
+#include "tracker/proposal.h"
+#include "tracker/sampler.h"
+
+namespace mien::tracker {
+
+// The image, in the middle of a black square, is seen at sizes that shrink by 0.709 down to P-Net's
+// window. P-Net finds candidates on each, R-Net looks at the best of them again.
+class MtcnnProposal final : public FaceProposal {
+ public:
+  // Takes from `arena` what the networks need; only measures when the arena does.
+  [[nodiscard]] mien_status load(const mien_tracker_config& config, Arena& arena);
+
+  [[nodiscard]] std::size_t propose(const ImageView& view, std::span<Candidate> found) override;
+
+ private:
+  static constexpr std::size_t kMaxLevels = 12;  // 640 * 0.709^12 < 12
+  static constexpr std::size_t kPerLevel = 64;   // candidates kept
+  static constexpr std::size_t kRefined = 32;    // candidates shown to R-Net
+
+  [[nodiscard]] std::span<Candidate> scan(const ImageView& view, const Square& canvas);
+  void scan_level(Network& pnet, const ImageView& view, const Square& canvas, BestCandidates& best);
+  [[nodiscard]] bool refine(const ImageView& view, Candidate& candidate);
+
+  Sampler sampler_;
+  float proposal_threshold_ = 0.0f;
+  float refine_threshold_ = 0.0f;
+  std::array<Network, kMaxLevels> pnets_;  // the same weights for the sizes of the pyramid
+  std::size_t levels_ = 0;
+  Network rnet_;
+  std::array<Candidate, kMaxLevels* kPerLevel> candidates_ = {};
+};
+
+}  // namespace mien::tracker

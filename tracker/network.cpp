@@ -1,0 +1,96 @@
+#include "tracker/network.h"
+
+namespace mien::tracker {
+namespace {
+
+using formats::FileStatus;
+
+mien_status status_of(FileStatus status) {
+  switch (status) {
+    case FileStatus::kOk:
+      return MIEN_OK;
+    case FileStatus::kMisaligned:
+      return MIEN_ERROR_ALIGNMENT;
+    case FileStatus::kTruncated:
+      return MIEN_ERROR_WEIGHTS_TRUNCATED;
+    case FileStatus::kBadMagic:
+      return MIEN_ERROR_WEIGHTS_NOT_MIEN;
+    case FileStatus::kUnsupportedVersion:
+      return MIEN_ERROR_WEIGHTS_VERSION;
+    case FileStatus::kBadChecksum:
+      return MIEN_ERROR_WEIGHTS_CHECKSUM;
+    default:
+      return MIEN_ERROR_WEIGHTS_MALFORMED;
+  }
+}
+
+mien_status status_of(engine::Status status) {
+  switch (status) {
+    case engine::Status::kOk:
+      return MIEN_OK;
+    case engine::Status::kBadFile:
+    case engine::Status::kShapeMismatch:
+      return MIEN_ERROR_WEIGHTS_MALFORMED;
+    case engine::Status::kNoSuchNetwork:
+      return MIEN_ERROR_WEIGHTS_INCOMPLETE;
+    case engine::Status::kWrongInput:
+      return MIEN_ERROR_WEIGHTS_SHAPE;
+    case engine::Status::kUnsupportedLayout:
+    case engine::Status::kNoKernel:
+      return MIEN_ERROR_UNSUPPORTED_LAYER;
+    case engine::Status::kTooLarge:
+    case engine::Status::kOutOfMemory:
+      return MIEN_ERROR_OUT_OF_MEMORY;
+    default:
+      return MIEN_ERROR_INTERNAL;
+  }
+}
+
+// Whether the network, whose layers are known to fit together, has the outputs expected.
+bool outputs_fit(const engine::Model& model, const formats::NetworkRecord& network,
+                 const NetworkForm& form) {
+  engine::ShapeWalk walk(model.file().layers(network), form.input);
+  while (walk.next()) {
+  }
+  const engine::Shape& first = walk.shape_of(network.outputs[0]);
+  for (std::uint32_t i = 0; i < form.output_channels.size(); ++i) {
+    if (form.output_channels[i] == 0) {
+      continue;
+    }
+    if (i >= network.output_count) {
+      return false;
+    }
+    const engine::Shape& output = walk.shape_of(network.outputs[i]);
+    if (output.c != form.output_channels[i] || output.h != first.h || output.w != first.w) {
+      return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+mien_status open_model(const void* file, std::size_t bytes, engine::Model& model) {
+  formats::Validation fault;
+  const engine::Status status = model.open({static_cast<const std::byte*>(file), bytes}, &fault);
+  return status == engine::Status::kBadFile ? status_of(fault.status) : status_of(status);
+}
+
+mien_status Network::load(const engine::Model& model, const NetworkForm& form,
+                          std::uint32_t cpu_mask, Arena& arena) {
+  const engine::SessionRequest request = {&model, form.name, form.input, cpu_mask};
+  engine::SessionSize size;
+  const engine::Status sized = engine::session_size(request, size);
+  if (sized != engine::Status::kOk) {
+    return status_of(sized);
+  }
+  if (!outputs_fit(model, *model.network(form.name), form)) {
+    return MIEN_ERROR_WEIGHTS_SHAPE;
+  }
+  const std::span<std::byte> own = arena.take(size.session_bytes);
+  const std::span<std::byte> shared = arena.share(size.arena_bytes);
+  return arena.measuring() ? MIEN_OK
+                           : status_of(engine::Session::init(request, own, shared, session_));
+}
+
+}  // namespace mien::tracker

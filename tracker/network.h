@@ -1,0 +1,56 @@
+// One network of a weight file, ready to run in the tracker's memory.
+#pragma once
+
+#include <mien/mien.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "engine/model.h"
+#include "engine/session.h"
+#include "tracker/arena.h"
+
+namespace mien::tracker {
+
+// What the tracker expects of a network.
+struct NetworkForm {
+  std::string_view name;
+  engine::Shape input;
+  std::array<std::int32_t, 2> output_channels;  // 0: no such output; all outputs have one h and w
+};
+
+class Network {
+ public:
+  // Takes from `arena` what the network needs; only measures when the arena does. Networks of one
+  // arena share the memory of their intermediate maps, so they run in turns.
+  [[nodiscard]] mien_status load(const engine::Model& model, const NetworkForm& form,
+                                 std::uint32_t cpu_mask, Arena& arena);
+
+  // The rest is for loaded networks.
+  void reset() { session_->reset(); }
+  void run() { session_->run(); }
+  // A vector in, the first output's vector out.
+  std::span<const float> run(std::span<const float> vector) {
+    std::copy(vector.begin(), vector.end(), session_->input().begin());
+    session_->run();
+    return session_->output(0);
+  }
+
+  [[nodiscard]] std::span<float> input() { return session_->input(); }
+  [[nodiscard]] const engine::Shape& input_shape() const { return session_->input_shape(); }
+  [[nodiscard]] std::span<const float> output(std::uint32_t i) const { return session_->output(i); }
+  [[nodiscard]] const engine::Shape& output_shape(std::uint32_t i) const {
+    return session_->output_shape(i);
+  }
+
+ private:
+  engine::Session* session_ = nullptr;
+};
+
+// Validates a weight file in memory.
+[[nodiscard]] mien_status open_model(const void* file, std::size_t bytes, engine::Model& model);
+
+}  // namespace mien::tracker
