@@ -23,9 +23,11 @@ void blend_rows(const float* weights, const float* basis, int shapes, size_t n, 
 }
 
 // The same for any number of rows; n is a multiple of 16.
-inline void blend_shapes(const float* weights, const float* basis, int rows, int shapes, size_t n, float* out) {
+inline void blend_shapes(const float* weights, const float* basis, int rows, int shapes, size_t n,
+                         float* out) {
   int r = 0;
-  for (; r + 16 <= rows; r += 16) blend_rows<16>(weights + r * shapes, basis, shapes, n, out + size_t(r) * n);
+  for (; r + 16 <= rows; r += 16)
+    blend_rows<16>(weights + r * shapes, basis, shapes, n, out + size_t(r) * n);
   for (; r < rows; ++r) blend_rows<1>(weights + r * shapes, basis, shapes, n, out + size_t(r) * n);
 }
 

@@ -14,7 +14,9 @@ inline Vec3 operator+(Vec3 a, Vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}
 inline Vec3 operator-(Vec3 a, Vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 inline Vec3 operator*(Vec3 a, float s) { return {a.x * s, a.y * s, a.z * s}; }
 inline float dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline Vec3 cross(Vec3 a, Vec3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
+inline Vec3 cross(Vec3 a, Vec3 b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
 inline Vec3 unit(Vec3 a) { return a * (1 / std::sqrt(dot(a, a) + 1e-20f)); }
 inline Vec3 load(const float* p) { return {p[0], p[1], p[2]}; }
 
@@ -29,11 +31,13 @@ struct Vertices {
 };
 
 inline Vec3 transform(const float* pose, Vec3 p) {
-  return {pose[0] * p.x + pose[1] * p.y + pose[2] * p.z + pose[3], pose[4] * p.x + pose[5] * p.y + pose[6] * p.z + pose[7],
+  return {pose[0] * p.x + pose[1] * p.y + pose[2] * p.z + pose[3],
+          pose[4] * p.x + pose[5] * p.y + pose[6] * p.z + pose[7],
           pose[8] * p.x + pose[9] * p.y + pose[10] * p.z + pose[11]};
 }
 
-// Projection of camera space to samples, `samples` of them per picture pixel and axis; nearness 1/distance, 0 if behind.
+// Projection of camera space to samples, `samples` of them per picture pixel and axis; nearness
+// 1/distance, 0 if behind.
 inline Projected project(const View& view, int samples, Vec3 p) {
   if (p.z > -1) return {0, 0, 0};
   const float inverse = -1 / p.z, scale = view.scale * float(samples);
@@ -43,7 +47,8 @@ inline Projected project(const View& view, int samples, Vec3 p) {
 
 inline void place(const Mesh& mesh, Vertices& out) {
   out.camera.resize(size_t(mesh.vertices));
-  for (size_t i = 0; i < out.camera.size(); ++i) out.camera[i] = transform(mesh.pose, load(mesh.position + 3 * i));
+  for (size_t i = 0; i < out.camera.size(); ++i)
+    out.camera[i] = transform(mesh.pose, load(mesh.position + 3 * i));
 }
 
 // Adds the area-weighted normals of a part's triangles to its vertices.

@@ -1,4 +1,5 @@
-// What a picture shows, as plain structs shared with ctypes (native.py mirrors them field by field).
+// What a picture shows, as plain structs shared with ctypes (native.py mirrors them field by
+// field).
 #pragma once
 #include <cstdint>
 
@@ -11,7 +12,7 @@ struct Mesh {
   const float* uv;                 // [.,2], v up
   const int32_t* corner_position;  // [triangles,3]
   const int32_t* corner_uv;        // [triangles,3]
-  const float* pose;               // [3,4] row-major: mesh frame -> camera (x right, y up, z to the viewer), cm
+  const float* pose;  // [3,4] row-major: mesh frame -> camera (x right, y up, z to the viewer), cm
   int32_t vertices;
 };
 
@@ -42,22 +43,25 @@ struct Material {
   int32_t mode;
   int32_t texture[2];  // -1: none; the second one is mixed in for kSkin
   float mix;
-  const float* albedo;  // [3,256] linear albedo of each sRGB byte (kHair: of the luma byte), or null
-  float saturation;     // of the albedo, 1 = as it is
+  const float*
+      albedo;        // [3,256] linear albedo of each sRGB byte (kHair: of the luma byte), or null
+  float saturation;  // of the albedo, 1 = as it is
   Overlay overlay[2];
   float colour[3];  // linear
   float specular;
   int32_t gloss;   // Blinn-Phong exponent is 2^gloss
-  float param[4];  // kSkin: cloth colour, its upper edge y; kInterior: mouth gap (cm); kEye: lid height y; kLens: opacity
+  float param[4];  // kSkin: cloth colour, its upper edge y; kInterior: mouth gap (cm); kEye: lid
+                   // height y; kLens: opacity
 };
 
 struct Light {
-  float irradiance[3][10];  // per colour: coefficients of xx yy zz xy xz yz x y z 1 (Ramamoorthi, Hanrahan 2001)
+  float irradiance[3][10];  // per colour: coefficients of xx yy zz xy xz yz x y z 1 (Ramamoorthi,
+                            // Hanrahan 2001)
   int32_t lamps;
   float direction[3][3];  // to the lamp, camera space, unit
   float colour[3][3];
-  int32_t shadow;    // 1: the first lamp casts shadows
-  float centre[3];   // of the shadow map, camera space, cm
+  int32_t shadow;   // 1: the first lamp casts shadows
+  float centre[3];  // of the shadow map, camera space, cm
   float exposure;
 };
 

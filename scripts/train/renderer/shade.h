@@ -8,11 +8,11 @@ using Textures = std::vector<Texture>;
 
 struct Surface {
   const Material* material;
-  Vec3 head;      // position in the mesh's frame, cm
-  Vec3 camera;    // position in camera space, cm
-  Vec3 normal;    // camera space, unit, towards the viewer
+  Vec3 head;    // position in the mesh's frame, cm
+  Vec3 camera;  // position in camera space, cm
+  Vec3 normal;  // camera space, unit, towards the viewer
   Uv uv;
-  float lod[2];   // mip level for the material's textures
+  float lod[2];  // mip level for the material's textures
   float overlay_lod[2];
   float occlusion;
 };
@@ -42,7 +42,8 @@ inline Vec3 skin(const Surface& s, const Textures& textures) {
   for (int k = 0; k < 2; ++k) {
     const Overlay& o = m.overlay[k];
     if (o.texture < 0) continue;
-    const float u = (s.uv.u - o.rect[0]) / (o.rect[2] - o.rect[0]), v = (s.uv.v - o.rect[1]) / (o.rect[3] - o.rect[1]);
+    const float u = (s.uv.u - o.rect[0]) / (o.rect[2] - o.rect[0]),
+                v = (s.uv.v - o.rect[1]) / (o.rect[3] - o.rect[1]);
     if (u <= 0 || u >= 1 || v <= 0 || v >= 1) continue;
     const float alpha = textures[size_t(o.texture)].sample(u, v, s.overlay_lod[k]).r / 255;
     colour = mix(colour, load(o.colour), o.opacity * alpha);
@@ -76,7 +77,8 @@ inline float occlusion(const Surface& s) {
 }
 
 inline Vec3 from_environment(const Light& light, Vec3 n) {
-  const float basis[10] = {n.x * n.x, n.y * n.y, n.z * n.z, n.x * n.y, n.x * n.z, n.y * n.z, n.x, n.y, n.z, 1};
+  const float basis[10] = {n.x * n.x, n.y * n.y, n.z * n.z, n.x * n.y, n.x * n.z,
+                           n.y * n.z, n.x,       n.y,       n.z,       1};
   float sum[3] = {};
   for (int c = 0; c < 3; ++c)
     for (int k = 0; k < 10; ++k) sum[c] += light.irradiance[c][k] * basis[k];
@@ -89,7 +91,8 @@ inline float power_of_two_power(float x, int squarings) {
 }
 
 // Linear light towards the viewer.
-inline Vec3 shade(const Surface& s, const Textures& textures, const Light& light, const ShadowMap* shadow) {
+inline Vec3 shade(const Surface& s, const Textures& textures, const Light& light,
+                  const ShadowMap* shadow) {
   const Material& m = *s.material;
   const Vec3 n = s.normal, view = unit(s.camera * -1.0f);
   const float open = occlusion(s);
@@ -98,10 +101,12 @@ inline Vec3 shade(const Surface& s, const Textures& textures, const Light& light
   const Vec3 wrap = m.mode == kSkin ? Vec3{0.35f, 0.2f, 0.15f} : Vec3{0.1f, 0.1f, 0.1f};
   for (int k = 0; k < light.lamps; ++k) {
     const Vec3 to_lamp = load(light.direction[k]), colour = load(light.colour[k]);
-    const float lit = k == 0 && shadow ? shadow->light(s.camera + n * 0.3f, 0.4f) : 1.0f, cosine = dot(n, to_lamp);
+    const float lit = k == 0 && shadow ? shadow->light(s.camera + n * 0.3f, 0.4f) : 1.0f,
+                cosine = dot(n, to_lamp);
     const auto wrapped = [&](float w) { return std::max(0.0f, cosine + w) / (1 + w); };
     const float reach = lit * (0.4f + 0.6f * open);
-    diffuse = diffuse + times(colour, Vec3{wrapped(wrap.x), wrapped(wrap.y), wrapped(wrap.z)}) * reach;
+    diffuse =
+        diffuse + times(colour, Vec3{wrapped(wrap.x), wrapped(wrap.y), wrapped(wrap.z)}) * reach;
     const float half = std::max(0.0f, dot(n, unit(to_lamp + view)));
     gleam = gleam + colour * (power_of_two_power(half, m.gloss) * lit);
   }

@@ -17,7 +17,8 @@ class ShadowMap {
     grid_.clear(kSize, kSize);
   }
 
-  void draw(const Mesh& mesh, const Part& part, const Vertices& vertices, std::vector<Projected>& scratch) {
+  void draw(const Mesh& mesh, const Part& part, const Vertices& vertices,
+            std::vector<Projected>& scratch) {
     scratch.resize(vertices.camera.size());
     for (size_t i = 0; i < scratch.size(); ++i) scratch[i] = project(vertices.camera[i]);
     Part both_sides = part;
@@ -28,20 +29,23 @@ class ShadowMap {
   // Share of light 0..1 that reaches a point, over 2x2 texels.
   float light(Vec3 point, float bias) const {
     const Projected p = project(point);
-    const float fx = std::floor(p.x - 0.5f), fy = std::floor(p.y - 0.5f), ax = p.x - 0.5f - fx, ay = p.y - 0.5f - fy;
+    const float fx = std::floor(p.x - 0.5f), fy = std::floor(p.y - 0.5f), ax = p.x - 0.5f - fx,
+                ay = p.y - 0.5f - fy;
     const int x = int(fx), y = int(fy);
     if (x < 0 || y < 0 || x + 1 >= kSize || y + 1 >= kSize) return 1;
     const float reach = p.near + bias / (4 * kRadius);
     const float* row = &grid_.near[size_t(y) * kSize + x];
     const auto lit = [&](int i) { return row[i] <= reach ? 1.0f : 0.0f; };
-    return (1 - ay) * ((1 - ax) * lit(0) + ax * lit(1)) + ay * ((1 - ax) * lit(kSize) + ax * lit(kSize + 1));
+    return (1 - ay) * ((1 - ax) * lit(0) + ax * lit(1)) +
+           ay * ((1 - ax) * lit(kSize) + ax * lit(kSize + 1));
   }
 
  private:
   Projected project(Vec3 p) const {
     const Vec3 q = p - centre_;
     const float to_grid = kSize / (2 * kRadius);
-    return {(dot(q, x_) + kRadius) * to_grid, (dot(q, y_) + kRadius) * to_grid, 0.5f + dot(q, z_) / (4 * kRadius)};
+    return {(dot(q, x_) + kRadius) * to_grid, (dot(q, y_) + kRadius) * to_grid,
+            0.5f + dot(q, z_) / (4 * kRadius)};
   }
 
   Vec3 x_{}, y_{}, z_{}, centre_{};

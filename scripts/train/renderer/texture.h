@@ -14,8 +14,10 @@ struct Rgba {
 class Texture {
  public:
   Texture(const uint8_t* rgba, int width, int height, bool wrap) : wrap_(wrap) {
-    levels_.push_back({width, height, std::vector<uint8_t>(rgba, rgba + size_t(width) * height * 4)});
-    while (levels_.back().width > 1 && levels_.back().height > 1) levels_.push_back(half(levels_.back()));
+    levels_.push_back(
+        {width, height, std::vector<uint8_t>(rgba, rgba + size_t(width) * height * 4)});
+    while (levels_.back().width > 1 && levels_.back().height > 1)
+      levels_.push_back(half(levels_.back()));
   }
 
   int width() const { return levels_[0].width; }
@@ -51,8 +53,9 @@ class Texture {
       for (int x = 0; x < to.width; ++x)
         for (int c = 0; c < 4; ++c)
           to.texels[(size_t(y) * to.width + x) * 4 + c] =
-              uint8_t((from.at(2 * x, 2 * y)[c] + from.at(2 * x + 1, 2 * y)[c] + from.at(2 * x, 2 * y + 1)[c] +
-                       from.at(2 * x + 1, 2 * y + 1)[c] + 2) / 4);
+              uint8_t((from.at(2 * x, 2 * y)[c] + from.at(2 * x + 1, 2 * y)[c] +
+                       from.at(2 * x, 2 * y + 1)[c] + from.at(2 * x + 1, 2 * y + 1)[c] + 2) /
+                      4);
     return to;
   }
 
