@@ -29,8 +29,9 @@ const unsigned char* row(const mien_image& image, int plane, int y) {
 // ITU-R BT.601, limited or full range.
 Color from_yuv(const mien_image& image, int x, int y) {
   const float luma = row(image, 0, y)[x];
-  const float u = static_cast<float>(row(image, 1, y / 2)[x / 2]) - 128.0f;
-  const float v = static_cast<float>(row(image, 2, y / 2)[x / 2]) - 128.0f;
+  const int chroma_x = x / 2 * std::max(image.chroma_pixel_stride_bytes, 1);
+  const float u = static_cast<float>(row(image, 1, y / 2)[chroma_x]) - 128.0f;
+  const float v = static_cast<float>(row(image, 2, y / 2)[chroma_x]) - 128.0f;
   const float gain = image.full_range != 0 ? 1.0f : 255.0f / 219.0f;
   const float chroma = image.full_range != 0 ? 1.0f : 255.0f / 224.0f;
   const float base = image.full_range != 0 ? luma : (luma - 16.0f) * gain;
@@ -42,6 +43,10 @@ Color from_yuv(const mien_image& image, int x, int y) {
 Color pixel(const mien_image& image, int x, int y) {
   if (image.format == MIEN_IMAGE_I420) {
     return from_yuv(image, x, y);
+  }
+  if (image.format == MIEN_IMAGE_GRAY8) {
+    const unsigned char luma = row(image, 0, y)[x];
+    return {luma, luma, luma};
   }
   const unsigned char* rgb = row(image, 0, y) + static_cast<std::ptrdiff_t>(x) * 3;
   return {rgb[0], rgb[1], rgb[2]};

@@ -19,7 +19,7 @@ class Canvas {
   int height() const { return height_; }
   const std::vector<unsigned char>& rgb() const { return rgb_; }
 
-  // Copies an RGB or I420 image to the top left corner, each pixel `scale` x `scale`.
+  // Copies an RGB, I420 or grey image to the top left corner, each pixel `scale` x `scale`.
   void paste(const mien_image& image, int scale);
   void fill(int x, int y, int width, int height, Color color);
   void dot(float x, float y, float radius, Color color);

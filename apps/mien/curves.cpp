@@ -1,64 +1,77 @@
 #include "apps/mien/curves.h"
 
-#include "apps/mien/csv.h"
+#include <array>
+
+#include "formats/csv_row.h"
 
 namespace mien::app {
 namespace {
 
+using formats::CsvRow;
+
+// Room for the longest row, that of the landmarks: each cell a number or a short word.
+class Row : public CsvRow {
+ public:
+  Row() : CsvRow(room_) {}
+
+ private:
+  std::array<char, CsvRow::kMaxNumberBytes*(1 + 2 * MIEN_LANDMARK_COUNT)> room_;
+};
+
 // Box, landmarks and pose mean something as long as there is a face.
 template <class... Values>
-void numbers_if(bool present, CsvRow& row, Values... values) {
-  (..., (present ? row.number(values) : row.empty()));
+void add_if(bool present, CsvRow& row, Values... values) {
+  (..., (present ? row.add(values) : row.add_empty()));
 }
 
 }  // namespace
 
 std::string curve_header() {
-  CsvRow row;
+  Row row;
   for (const char* name : {"frame", "t_ms", "status", "face_prob", "lod", "vad", "x", "y", "w", "h",
                            "pitch_rad", "yaw_rad", "roll_rad", "tx_m", "ty_m", "tz_m"}) {
-    row.text(name);
+    row.add(std::string_view(name));
   }
   for (int i = 0; i < mien_control_count(); ++i) {
-    row.text(mien_control_name(i));
+    row.add(std::string_view(mien_control_name(i)));
   }
-  return row.finished();
+  return std::string(row.finish());
 }
 
 std::string curve_row(std::int64_t frame, const Result& result) {
-  CsvRow row;
-  row.number(frame);
-  row.number(static_cast<double>(result.pts_ns) * 1e-6);
-  row.text(mien_face_status_name(result.status));
-  row.number(result.face_probability);
-  row.number(result.lod);
-  row.number(result.voice_activity);
+  Row row;
+  row.add(frame);
+  row.add(static_cast<double>(result.pts_ns) * 1e-6);
+  row.add(std::string_view(mien_face_status_name(result.status)));
+  row.add(result.face_probability);
+  row.add(std::int64_t{result.lod});
+  row.add(result.voice_activity);
   const float* box = result.box;
-  numbers_if(result.has_face(), row, box[0], box[1], box[2], box[3], result.pitch, result.yaw,
-             result.roll, result.translation[0], result.translation[1], result.translation[2]);
+  add_if(result.has_face(), row, box[0], box[1], box[2], box[3], result.pitch, result.yaw,
+         result.roll, result.translation[0], result.translation[1], result.translation[2]);
   for (int i = 0; i < mien_control_count(); ++i) {
-    numbers_if(result.supports(i), row, result.controls[i]);
+    add_if(result.supports(i), row, result.controls[i]);
   }
-  return row.finished();
+  return std::string(row.finish());
 }
 
 std::string landmark_header() {
-  CsvRow row;
-  row.text("frame");
+  Row row;
+  row.add(std::string_view("frame"));
   for (int i = 0; i < mien_landmark_count(); ++i) {
-    row.text("x" + std::to_string(i));
-    row.text("y" + std::to_string(i));
+    row.add(std::string_view("x" + std::to_string(i)));
+    row.add(std::string_view("y" + std::to_string(i)));
   }
-  return row.finished();
+  return std::string(row.finish());
 }
 
 std::string landmark_row(std::int64_t frame, const Result& result) {
-  CsvRow row;
-  row.number(frame);
+  Row row;
+  row.add(frame);
   for (int i = 0; i < mien_landmark_count(); ++i) {
-    numbers_if(result.has_face(), row, result.landmarks[i][0], result.landmarks[i][1]);
+    add_if(result.has_face(), row, result.landmarks[i][0], result.landmarks[i][1]);
   }
-  return row.finished();
+  return std::string(row.finish());
 }
 
 }  // namespace mien::app

@@ -1,4 +1,5 @@
 // mien: facial animation from video. docs/cli.md describes the verbs, options and exit codes.
+#include <mien/mien.h>
 #include <signal.h>
 
 #include <CLI/CLI.hpp>
