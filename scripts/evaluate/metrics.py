@@ -8,11 +8,13 @@ import numpy as np
 
 def facs_error(predicted, truth):
     """Mean absolute difference to the truth."""
-    return float(np.abs(predicted - truth).mean())
+    return float(np.abs(predicted - truth).mean()) if truth.size else float("nan")
 
 
 def jitter(curves):
     """Sum of |first difference| where its sign differs from the previous frame's, over frames and controls."""
+    if not curves.size:
+        return float("nan")
     step = np.diff(curves, axis=-2)
     turned = np.sign(step[..., 1:, :]) != np.sign(step[..., :-1, :])
     return float((np.abs(step[..., 1:, :]) * turned).sum() / curves.size)
@@ -20,7 +22,9 @@ def jitter(curves):
 
 def constant_errors(truth):
     """FACS error of answering each control's mean, and its median (the best constant there is)."""
-    flat = truth.reshape(-1, truth.shape[-1]) if truth.size else np.full((1, 1), np.nan)
+    if not truth.size:
+        return {"mean": float("nan"), "median": float("nan")}
+    flat = truth.reshape(-1, truth.shape[-1])
     return {"mean": facs_error(flat.mean(0), flat), "median": facs_error(np.median(flat, 0), flat)}
 
 
