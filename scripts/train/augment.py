@@ -108,7 +108,7 @@ def share_of(x, g, share, operation):
 def noise(x, g):
     """Sensor noise, coloured or grey, stronger where it is bright."""
     n = len(x)
-    level = uniform(g, n, 0.02, 0.27) ** 2
+    level = uniform(g, n, 0.02, 0.25) ** 2
     fine = torch.randn(x.shape, generator=g)
     fine = torch.where(torch.rand(n, 1, 1, 1, generator=g) < 0.5, fine[:, :1], fine)
     return x + fine * level * (0.3 + x.mean(1, keepdim=True).sqrt())
@@ -138,9 +138,9 @@ def lens(x, g, share=0.2):
 
 def photometric(x, g):
     """The whole chain, for pictures that have nothing to do with each other."""
-    x = share_of(x.clone(), g, 0.2, occlude)
+    x = share_of(x.clone(), g, 0.15, occlude)
     x = colour(share_of(x, g, 0.35, shade), g)
-    x = share_of(lens(x, g), g, 0.6, noise).clamp_(0, 1)
+    x = share_of(lens(x, g), g, 0.5, noise).clamp_(0, 1)
     return some(x, g, 0.2, lambda y, u: jpeg(y, 0.05 + 0.25 * u)).clamp_(0, 1)
 
 

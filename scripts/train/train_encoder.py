@@ -107,7 +107,7 @@ def plot(history, path):
     plt.close(figure)
 
 
-def moved_views(images, batch, generator, share=0.12):
+def moved_views(images, batch, generator, share=0.06):
     """Some faces of the batch seen again, turned and scaled: (rows, pictures, crops in the first picture's pixels)."""
     rows = torch.nonzero(batch.has_landmarks)[:, 0]
     rows = rows[torch.randperm(len(rows), generator=generator)[:int(share * len(images))]]
@@ -155,7 +155,7 @@ class Trainer:
         self.rendered = face_data.Rendered("train_stills", "train_sequences")
         self.mixture = face_data.Mixture(face_data.Portraits("train"), self.rendered, face_data.Backgrounds(), seed,
                                          self.options.real_share)
-        self.val_real, self.val_rendered = face_data.Portraits("val"), face_data.Rendered("val_stills")
+        self.val_real, self.val_rendered = face_data.Portraits("val"), face_data.Rendered("val_stills", "val_sequences")
         self.clips = clips.load() if self.rank == 0 else []
         eyes = template()[list(lp.OUTER_EYE_CORNERS)]
         self.losses = Losses(float((eyes[0] - eyes[1]).norm()), self.device)
@@ -208,13 +208,20 @@ class Trainer:
                                     "seconds": self.seconds, "history": self.history})
         plot(self.history, self.run / "curves.png")
 
+    def elapsed(self, began):
+        """Seconds on the first machine's clock, so that all end at the same step."""
+        seconds = torch.tensor(time.time() - began, dtype=torch.float64, device=self.device)
+        if self.world > 1:
+            torch.distributed.broadcast(seconds, 0)
+        return float(seconds)
+
     def train(self):
         bar = tqdm(total=self.options.samples, initial=self.samples, unit="face", disable=self.rank > 0, mininterval=10)
         losses, reports, began = [], 0, time.time() - self.seconds
         reported = self.samples
         while self.progress() < 1:
             losses.append(self.update())
-            self.seconds = time.time() - began
+            self.seconds = self.elapsed(began)
             bar.update(self.options.batch * self.world)
             due = self.samples - reported >= self.options.report_every or self.progress() >= 1
             if due and self.rank == 0:
@@ -245,7 +252,7 @@ def evaluate(checkpoint):
     state = torch.load(checkpoint, map_location="cpu")
     network = BaseNet()
     network.load_state_dict(state["average"])
-    report = {"samples": state["samples"], **validate(network, face_data.Portraits("val"), face_data.Rendered("val_stills")),
+    report = {"samples": state["samples"], **validate(network, face_data.Portraits("val"), face_data.Rendered("val_stills", "val_sequences")),
               **{f"clips_{k}": v for k, v in clips.evaluate(network, clips.load()).items()}}
     print(json.dumps(report, indent=1))
 
