@@ -69,18 +69,16 @@ bool geometry_allowed(const LayerRecord& layer) {
          window_allowed(layer.kernel_width, layer.stride_width, layer.pad_left, layer.pad_right);
 }
 
-// Windows of `kernel` elements every `stride` on `before + size + after`; 0 where not one fits.
+// Windows of `kernel` elements every `stride` on `before + size + after`; 0 where not one fits, or
+// where the one that ceil mode adds would begin behind the map.
 std::uint64_t window_count(std::uint64_t size, std::uint64_t kernel, std::uint64_t stride,
                            std::uint64_t before, std::uint64_t after, bool ceil_mode) {
   const std::uint64_t padded = before + size + after;
   if (padded < kernel) {
     return 0;
   }
-  const std::uint64_t steps = (padded - kernel) / stride;
-  const bool rest = (padded - kernel) % stride != 0;
-  // PyTorch's rule: the additional window must begin on the map or on the padding before it.
-  const bool more = ceil_mode && rest && (steps + 1) * stride < before + size;
-  return steps + (more ? 2 : 1);
+  const std::uint64_t last = (padded - kernel + (ceil_mode ? stride - 1 : 0)) / stride;
+  return last * stride < before + size ? last + 1 : 0;
 }
 
 ValueShape slid_shape(const LayerRecord& layer, ValueShape input) {

@@ -29,7 +29,7 @@ ANY_SIZE, CEIL_MODE = 1, 1
 ALIGNMENT = 64
 HEADER_BYTES = 64
 MAX_NETWORKS, MAX_LAYERS, MAX_TENSORS, MAX_METADATA, MAX_OUTPUTS = 64, 1024, 4096, 256, 4
-MAX_TEXT_BYTES, MAX_FILE_BYTES = 4096, 1 << 31
+MAX_TEXT_BYTES, MAX_FILE_BYTES, MAX_MAP_ELEMS = 4096, 1 << 31, 1 << 28
 MAX_DIM, MAX_RANK, MAX_KERNEL, MAX_STRIDE = 1 << 20, 4, 15, 15
 NAME = re.compile(r"[a-z0-9_./]{1,63}")
 
@@ -222,7 +222,7 @@ class _Layer:
         _require(not options, f"{self.op}: no option {sorted(options)}")
         _require(self.activation in ACTIVATIONS, f"no activation {self.activation}")
         _require(self.activation == "none" or self.op not in PASSIVE, f"{self.op} with {self.activation}")
-        _require(0 <= self.alpha <= 1 if self.activation == "leaky_relu" else self.alpha == 0, f"alpha {self.alpha}")
+        _require(0 < self.alpha < 1 if self.activation == "leaky_relu" else self.alpha == 0, f"alpha {self.alpha}")
         _require((slopes is not None) == (self.activation == "prelu"), f"{self.op}: slopes belong to prelu")
         self.slopes = [_vector(slopes, self.channels)] if slopes is not None else []
 
@@ -236,7 +236,7 @@ class _Layer:
             h = self._slide(h, self.kernel[0], self.stride[0], top, bottom)
             w = self._slide(w, self.kernel[1], self.stride[1], left, right)
         _require(1 <= self.channels <= MAX_DIM and h <= MAX_DIM and w <= MAX_DIM
-                 and 4 * h * w * _round_up_8(self.channels) <= MAX_FILE_BYTES, f"{self.op}: output {(h, w, self.channels)}")
+                 and h * w * _round_up_8(self.channels) <= MAX_MAP_ELEMS, f"{self.op}: output {(h, w, self.channels)}")
         return h, w, self.channels
 
     def _slide(self, size, kernel, stride, before, after):
@@ -244,10 +244,9 @@ class _Layer:
         _require(1 <= kernel <= MAX_KERNEL and 1 <= stride <= MAX_STRIDE, f"{self.op}: kernel {kernel}, stride {stride}")
         _require(0 <= before < kernel and 0 <= after < kernel, f"{self.op}: padding {before}, {after}")
         _require(before + size + after >= kernel, f"{self.op}: kernel {kernel} on {size} elements")
-        steps, rest = divmod(before + size + after - kernel, stride)
-        # PyTorch's rule: the window that ceil_mode adds must begin on the map or its padding before it.
-        more = self.flags == CEIL_MODE and rest > 0 and (steps + 1) * stride < before + size
-        return steps + 1 + more
+        last = (before + size + after - kernel + (stride - 1 if self.flags == CEIL_MODE else 0)) // stride
+        _require(last * stride < before + size, f"{self.op}: the last window would begin behind the map")
+        return last + 1
 
     def record(self, tensors):
         """Appends the layer's tensors to those of the file."""

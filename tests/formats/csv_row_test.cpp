@@ -1,0 +1,112 @@
+#include "formats/csv_row.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <bit>
+#include <clocale>
+#include <cstdlib>
+#include <limits>
+#include <random>
+#include <string>
+
+namespace mien::formats {
+namespace {
+
+TEST(CsvRow, WritesCells) {
+  std::array<char, 200> buffer;
+  CsvRow row(buffer);
+  row.add(std::int64_t{-12});
+  row.add(0.1f);
+  row.add_empty();
+  row.add(std::string_view("tracking"));
+  row.add(0.1);
+  EXPECT_EQ(row.finish(), "-12,0.1,,tracking,0.1\n");
+  row.add_empty();
+  row.add_empty();
+  EXPECT_EQ(row.finish(), ",\n");
+  EXPECT_EQ(row.finish(), "\n");
+}
+
+TEST(CsvRow, QuotesWhatRfc4180Asks) {
+  std::array<char, 200> buffer;
+  CsvRow row(buffer);
+  row.add(std::string_view("a,b"));
+  row.add(std::string_view("say \"x\""));
+  row.add(std::string_view("two\nlines"));
+  row.add(std::string_view(""));
+  EXPECT_EQ(row.finish(), "\"a,b\",\"say \"\"x\"\"\",\"two\nlines\",\n");
+}
+
+TEST(CsvRow, NumbersThatAreNoneAreEmpty) {
+  std::array<char, 200> buffer;
+  CsvRow row(buffer);
+  row.add(std::numeric_limits<float>::quiet_NaN());
+  row.add(std::numeric_limits<float>::infinity());
+  row.add(-std::numeric_limits<double>::infinity());
+  row.add(1.0f);
+  EXPECT_EQ(row.finish(), ",,,1\n");
+}
+
+TEST(CsvRow, FloatsReadBackTheSame) {
+  std::mt19937 random(1);
+  std::array<char, CsvRow::kMaxNumberBytes + 1> buffer;
+  std::size_t longest = 0;
+  for (int i = 0; i < 200000; ++i) {
+    const auto value = std::bit_cast<float>(static_cast<std::uint32_t>(random()));
+    CsvRow row(buffer);
+    row.add(value);
+    const std::string text(row.finish());
+    ASSERT_FALSE(text.empty());
+    if (std::isfinite(value)) {
+      EXPECT_EQ(std::strtof(text.c_str(), nullptr), value) << text;
+      longest = std::max(longest, text.size() - 1);
+    }
+  }
+  EXPECT_LE(longest, 15u);  // sign, 9 digits, point, e-38
+}
+
+TEST(CsvRow, DoublesAndIntegersFitTheirCell) {
+  std::array<char, CsvRow::kMaxNumberBytes + 1> buffer;
+  for (const double value :
+       {-std::numeric_limits<double>::max(), -2.2250738585072014e-308,
+        -std::numeric_limits<double>::denorm_min(), -1.2345678901234567e-300}) {
+    CsvRow row(buffer);
+    row.add(value);
+    const std::string text(row.finish());
+    EXPECT_EQ(std::strtod(text.c_str(), nullptr), value) << text;
+  }
+  CsvRow row(buffer);
+  row.add(std::numeric_limits<std::int64_t>::min());
+  EXPECT_EQ(row.finish(), "-9223372036854775808\n");
+}
+
+TEST(CsvRow, TheLocaleDoesNotMatter) {
+  const char* changed = std::setlocale(LC_ALL, "de_DE.UTF-8");
+  std::array<char, 50> buffer;
+  CsvRow row(buffer);
+  row.add(1234.5f);
+  EXPECT_EQ(row.finish(), "1234.5\n");
+  std::setlocale(LC_ALL, "C");
+  if (changed == nullptr) {
+    GTEST_SKIP() << "no locale de_DE.UTF-8 on this machine: tried with "
+                 << std::setlocale(LC_ALL, nullptr);
+  }
+}
+
+TEST(CsvRow, TooSmallABufferGivesNothingAndNeverWritesBehindIt) {
+  const std::string whole = "-12,0.25,text\n";
+  for (std::size_t size = 0; size <= whole.size(); ++size) {
+    std::string buffer(size, '\xaa');  // the sanitizer watches its end
+    CsvRow row(buffer);
+    row.add(std::int64_t{-12});
+    row.add(0.25f);
+    row.add(std::string_view("text"));
+    EXPECT_EQ(row.finish(), size < whole.size() ? "" : whole);
+    row.add_empty();
+    EXPECT_EQ(row.finish(), size < 1 ? "" : "\n");
+  }
+}
+
+}  // namespace
+}  // namespace mien::formats

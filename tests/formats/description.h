@@ -1,0 +1,14 @@
+// Writes the file that a JSON description asks for with the C++ writer, as
+// tests/golden/format/describe.py does with the Python writer.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "formats/mien_file.h"
+
+namespace mien::formats {
+
+Validation write_described(const std::string& description_path, std::vector<std::byte>* file);
+
+}  // namespace mien::formats

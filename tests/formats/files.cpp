@@ -1,0 +1,164 @@
+#include "tests/formats/files.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <new>
+#include <sstream>
+
+#include "formats/xxhash64.h"
+
+namespace mien::formats {
+
+AlignedBytes::AlignedBytes(std::span<const std::byte> bytes)
+    : bytes_(static_cast<std::byte*>(
+          ::operator new (std::max<std::size_t>(bytes.size(), 1), std::align_val_t{64}))),
+      size_(bytes.size()) {
+  std::copy(bytes.begin(), bytes.end(), bytes_);
+}
+
+AlignedBytes::~AlignedBytes() { ::operator delete (bytes_, std::align_val_t{64}); }
+
+std::string golden_folder() { return MIEN_SOURCE_DIR "/tests/golden/format/"; }
+
+std::vector<std::byte> read_file(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  EXPECT_TRUE(in) << path;
+  const std::vector<char> text{std::istreambuf_iterator<char>(in), {}};
+  std::vector<std::byte> bytes(text.size());
+  std::transform(text.begin(), text.end(), bytes.begin(), [](char c) { return std::byte(c); });
+  return bytes;
+}
+
+std::vector<std::string> files_in(const std::string& folder, const std::string& ending) {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() == ending) {
+      names.push_back(entry.path().string());
+    }
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+void fix_checksum(std::span<std::byte> file) {
+  constexpr std::size_t kAt = offsetof(FileHeader, checksum);
+  const std::uint64_t checksum = xxhash64_with_hole(file, kAt);
+  std::memcpy(file.data() + kAt, &checksum, sizeof checksum);
+}
+
+Validation open_copy(std::span<const std::byte> file) {
+  AlignedBytes copy(file);
+  FileView view;
+  const Validation validation = open(copy.get(), view);
+  if (validation.status == FileStatus::kOk) {
+    EXPECT_FALSE(described(view).empty());
+  } else {
+    EXPECT_TRUE(view.networks().empty() && view.tensors().empty() && view.file_bytes() == 0);
+  }
+  return validation;
+}
+
+std::string status_name(FileStatus status) {
+  const std::pair<FileStatus, const char*> names[] = {
+      {FileStatus::kOk, "kOk"},
+      {FileStatus::kMisaligned, "kMisaligned"},
+      {FileStatus::kTruncated, "kTruncated"},
+      {FileStatus::kTrailingBytes, "kTrailingBytes"},
+      {FileStatus::kBadMagic, "kBadMagic"},
+      {FileStatus::kUnsupportedVersion, "kUnsupportedVersion"},
+      {FileStatus::kWrongEndian, "kWrongEndian"},
+      {FileStatus::kBadChecksum, "kBadChecksum"},
+      {FileStatus::kLimitExceeded, "kLimitExceeded"},
+      {FileStatus::kReservedNotZero, "kReservedNotZero"},
+      {FileStatus::kHole, "kHole"},
+      {FileStatus::kPaddingNotZero, "kPaddingNotZero"},
+      {FileStatus::kBadName, "kBadName"},
+      {FileStatus::kDuplicateName, "kDuplicateName"},
+      {FileStatus::kBadMetadata, "kBadMetadata"},
+      {FileStatus::kBadType, "kBadType"},
+      {FileStatus::kBadDims, "kBadDims"},
+      {FileStatus::kBadTensorBytes, "kBadTensorBytes"},
+      {FileStatus::kNonFinite, "kNonFinite"},
+      {FileStatus::kBadNetwork, "kBadNetwork"},
+      {FileStatus::kBadOp, "kBadOp"},
+      {FileStatus::kBadActivation, "kBadActivation"},
+      {FileStatus::kBadReference, "kBadReference"},
+      {FileStatus::kBadShape, "kBadShape"},
+      {FileStatus::kBadKernel, "kBadKernel"},
+      {FileStatus::kBadTensor, "kBadTensor"},
+      {FileStatus::kUnusedTensor, "kUnusedTensor"},
+  };
+  for (const auto& [known, name] : names) {
+    if (known == status) {
+      return name;
+    }
+  }
+  return "";
+}
+
+namespace {
+
+void describe_network(const FileView& view, const NetworkRecord& network, std::ostream& out) {
+  out << "network " << view.text(network.name) << ' ' << network.input_height << 'x'
+      << network.input_width << 'x' << network.input_channels << " flags " << network.flags
+      << " outputs";
+  for (std::uint32_t i = 0; i < network.output_count; ++i) {
+    out << ' ' << network.outputs[i];
+  }
+  out << '\n';
+  for (const LayerRecord& layer : view.layers(network)) {
+    out << "layer " << layer.op << " activation " << layer.activation << " inputs " << layer.input
+        << ' ' << layer.second_input << " output " << layer.height << 'x' << layer.width << 'x'
+        << layer.channels << '\n';
+    for (const std::uint32_t index : {layer.weights, layer.bias, layer.slopes}) {
+      EXPECT_TRUE(index == kNoIndex || !view.data(view.tensors()[index]).empty());
+    }
+  }
+}
+
+}  // namespace
+
+std::string described(const FileView& view) {
+  std::ostringstream out;
+  for (const NetworkRecord& network : view.networks()) {
+    EXPECT_EQ(view.find_network(view.text(network.name)), &network);
+    describe_network(view, network, out);
+  }
+  for (const TensorRecord& tensor : view.tensors()) {
+    const std::string_view name = view.text(tensor.name);
+    if (name.empty()) {
+      continue;
+    }
+    EXPECT_EQ(view.find_constant(name), &tensor);
+    EXPECT_EQ(view.data(tensor).size(), tensor.bytes);
+    const bool half = tensor.type == static_cast<std::uint16_t>(DataType::kFloat16);
+    out << "constant " << name << (half ? " fp16 " : " fp32 ");
+    for (std::uint32_t i = 0; i < tensor.rank; ++i) {
+      out << (i > 0 ? "x" : "") << tensor.dims[i];
+    }
+    out << '\n';
+  }
+  for (const MetadataRecord& record : view.metadata()) {
+    out << "metadata " << view.text(record.key) << ' ' << view.text(record.value).size() << '\n';
+  }
+  return out.str();
+}
+
+std::string output_of(const std::string& command) {
+  std::FILE* pipe = popen(command.c_str(), "r");
+  std::string output;
+  char part[4096];
+  while (const std::size_t bytes = std::fread(part, 1, sizeof part, pipe)) {
+    output.append(part, bytes);
+  }
+  EXPECT_EQ(pclose(pipe), 0) << command;
+  return output;
+}
+
+}  // namespace mien::formats

@@ -1,0 +1,158 @@
+// Files broken in every small way are refused with a status; what stays legal is consistent.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+
+#include "tests/formats/files.h"
+
+namespace mien::formats {
+namespace {
+
+std::vector<std::byte> small() { return read_file(golden_folder() + "accept/small.mien"); }
+std::vector<std::byte> every_op() { return read_file(golden_folder() + "accept/every_op.mien"); }
+
+TEST(Malformed, TruncatedAtEveryByte) {
+  for (const auto& file : {small(), every_op()}) {
+    for (std::size_t size = 0; size < file.size(); ++size) {
+      EXPECT_EQ(open_copy({file.data(), size}).status, FileStatus::kTruncated) << size;
+    }
+  }
+}
+
+TEST(Malformed, TruncatedAtEveryLineWithItsSizeMadeRight) {
+  const auto file = every_op();
+  for (std::size_t size = sizeof(FileHeader); size < file.size(); size += 4) {
+    AlignedBytes cut({file.data(), size});
+    const std::uint64_t total = size;
+    std::memcpy(cut.get().data() + offsetof(FileHeader, total_bytes), &total, sizeof total);
+    fix_checksum(cut.get());
+    EXPECT_NE(open_copy(cut.get()).status, FileStatus::kOk) << size;
+  }
+}
+
+TEST(Malformed, BytesBehindTheEnd) {
+  for (const std::size_t more : {1, 63, 64, 4096}) {
+    auto file = small();
+    file.resize(file.size() + more);
+    EXPECT_EQ(open_copy(file).status, FileStatus::kTrailingBytes);
+  }
+}
+
+TEST(Malformed, EveryBitOfTheFileFlipped) {
+  const auto file = small();
+  AlignedBytes copy(file);
+  FileView view;
+  for (std::size_t bit = 0; bit < 8 * file.size(); ++bit) {
+    const auto mask = std::byte(1 << bit % 8);
+    copy.get()[bit / 8] ^= mask;
+    const FileStatus status = open(copy.get(), view).status;
+    EXPECT_NE(status, FileStatus::kOk) << bit;
+    EXPECT_TRUE(bit / 8 < sizeof(FileHeader) || status == FileStatus::kBadChecksum) << bit;
+    copy.get()[bit / 8] ^= mask;
+  }
+}
+
+TEST(Malformed, EveryHeaderBitFlippedWithTheChecksumMadeRight) {
+  auto file = every_op();
+  constexpr std::size_t kFields = offsetof(FileHeader, checksum);
+  for (std::size_t bit = 0; bit < 8 * kFields; ++bit) {
+    const auto mask = std::byte(1 << bit % 8);
+    file[bit / 8] ^= mask;
+    fix_checksum(file);
+    EXPECT_NE(open_copy(file).status, FileStatus::kOk) << bit;
+    file[bit / 8] ^= mask;
+  }
+}
+
+// Alphas, weights and the letters of names may change and stay legal; that is all.
+TEST(Malformed, EveryBitOfTheRecordsFlippedWithTheChecksumMadeRight) {
+  auto file = small();
+  FileHeader header;
+  std::memcpy(&header, file.data(), sizeof header);
+  const std::size_t strings = header.data_offset - (header.string_bytes + 63) / 64 * 64;
+  std::size_t accepted = 0;
+  for (std::size_t bit = 8 * sizeof(FileHeader); bit < 8 * strings; ++bit) {
+    const auto mask = std::byte(1 << bit % 8);
+    file[bit / 8] ^= mask;
+    fix_checksum(file);
+    accepted += open_copy(file).status == FileStatus::kOk ? 1 : 0;
+    file[bit / 8] ^= mask;
+  }
+  EXPECT_LT(accepted, 8 * strings / 20);
+}
+
+template <class Integer>
+std::vector<Integer> boundary_values() {
+  using Limits = std::numeric_limits<Integer>;
+  std::vector<Integer> values = {0, 1, 2, 7, 8, 15, 16, 63, 64, 127, 128, 255};
+  for (int power = 8; power < std::numeric_limits<Integer>::digits; ++power) {
+    for (const int delta : {-1, 0, 1}) {
+      values.push_back(
+          static_cast<Integer>((std::uint64_t{1} << power) + static_cast<std::uint64_t>(delta)));
+    }
+  }
+  for (const unsigned below : {0, 1, 2, 3, 7, 15, 31, 63, 64}) {
+    values.push_back(static_cast<Integer>(Limits::max() - below));
+  }
+  return values;
+}
+
+// Writes each boundary value over the integer of that size at each multiple of it, whatever field
+// that is.
+template <class Integer>
+void try_boundaries(std::size_t begin, std::size_t end) {
+  const auto original = small();
+  auto file = original;
+  for (std::size_t at = begin; at < end; at += sizeof(Integer)) {
+    for (const Integer value : boundary_values<Integer>()) {
+      std::memcpy(file.data() + at, &value, sizeof value);
+      const bool same = file == original;
+      fix_checksum(file);
+      const FileStatus status = open_copy(file).status;
+      EXPECT_FALSE(status_name(status).empty());
+      EXPECT_TRUE(!same || status == FileStatus::kOk);
+      EXPECT_NE(status, FileStatus::kBadChecksum);
+      std::memcpy(file.data(), original.data(), sizeof(FileHeader));
+      std::memcpy(file.data() + at, original.data() + at, sizeof value);
+    }
+  }
+}
+
+constexpr std::size_t kRecordsEnd = 1056;  // of small.mien
+
+TEST(Malformed, BoundaryValuesInEveryByte) { try_boundaries<std::uint8_t>(0, 56); }
+TEST(Malformed, BoundaryValuesInEvery16BitField) { try_boundaries<std::uint16_t>(64, kRecordsEnd); }
+TEST(Malformed, BoundaryValuesInEvery32BitField) {
+  try_boundaries<std::uint32_t>(0, 56);
+  try_boundaries<std::uint32_t>(64, kRecordsEnd);
+}
+TEST(Malformed, BoundaryValuesInEvery64BitField) {
+  try_boundaries<std::uint64_t>(0, 56);
+  try_boundaries<std::uint64_t>(64, kRecordsEnd);
+}
+
+TEST(Malformed, MisalignedMemory) {
+  const auto file = small();
+  std::vector<std::byte> shifted(file.size() + 1);
+  AlignedBytes bytes(shifted);
+  std::memcpy(bytes.get().data() + 1, file.data(), file.size());
+  FileView view;
+  EXPECT_EQ(open(bytes.get().subspan(1), view).status, FileStatus::kMisaligned);
+}
+
+TEST(Malformed, AViewOfARefusedFileIsEmptiedEvenIfItWasInUse) {
+  const auto file = small();
+  AlignedBytes good(file);
+  FileView view;
+  ASSERT_EQ(open(good.get(), view).status, FileStatus::kOk);
+  AlignedBytes bad({file.data(), file.size() - 1});
+  ASSERT_EQ(open(bad.get(), view).status, FileStatus::kTruncated);
+  EXPECT_TRUE(view.networks().empty());
+  EXPECT_EQ(view.find_network("a"), nullptr);
+  EXPECT_EQ(view.find_constant("c"), nullptr);
+  EXPECT_EQ(view.checksum(), 0u);
+}
+
+}  // namespace
+}  // namespace mien::formats

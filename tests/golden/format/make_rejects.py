@@ -1,0 +1,181 @@
+#!/usr/bin/env python3
+"""Writes reject/: accept/small.mien with one rule broken in each, the checksum made right again, and reject/expected.txt
+with lines "file status offset"."""
+import struct
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).parent
+sys.path.insert(0, str(HERE.parents[2] / "scripts/train"))
+from mien_file import xxhash64  # noqa: E402
+
+BASE = (HERE / "accept/small.mien").read_bytes()
+NETWORKS, LAYERS, TENSORS, METADATA, STRINGS, DATA = 64, 192, 448, 1024, 1056, 1088
+CONV, FC, ADD, CAUSAL = (LAYERS + 64 * i for i in range(4))
+CONSTANT = TENSORS + 64 * 7  # "c", 3 x fp32
+CONSTANT_DATA = len(BASE) - 128
+NAN = float("nan")
+
+# name, status, offset that the reader reports (None: where the first change is), changes (format, offset, value)
+CASES = [
+    ("magic", "kBadMagic", 4, [("B", 4, 0x4F)]),
+    ("big_endian", "kWrongEndian", 12, [("I", 12, 0x04030201)]),
+    ("major_version", "kUnsupportedVersion", 8, [("H", 8, 2)]),
+    ("minor_version", "kUnsupportedVersion", 8, [("H", 10, 1)]),
+    ("header_bytes", "kUnsupportedVersion", 16, [("I", 16, 128)]),
+    ("no_network", "kLimitExceeded", 20, [("I", 20, 0)]),
+    ("networks", "kLimitExceeded", 20, [("I", 20, 65)]),
+    ("layers", "kLimitExceeded", 24, [("I", 24, 1025)]),
+    ("tensors", "kLimitExceeded", 28, [("I", 28, 4097)]),
+    ("metadata", "kLimitExceeded", 32, [("I", 32, 257)]),
+    ("total_bytes_limit", "kLimitExceeded", 40, [("Q", 40, 2**31 + 1)]),
+    ("total_bytes_more", "kTruncated", len(BASE), [("Q", 40, len(BASE) + 64)]),
+    ("total_bytes_less", "kTrailingBytes", len(BASE) - 64, [("Q", 40, len(BASE) - 64)]),
+    ("records_beyond_end", "kTruncated", len(BASE), [("I", 28, 4096)]),
+    ("strings_beyond_end", "kTruncated", len(BASE), [("I", 36, 2**32 - 1)]),
+    ("data_offset", "kHole", 48, [("Q", 48, DATA + 64)]),
+    ("string_bytes", "kHole", 36, [("I", 36, 22)]),
+    ("padding_of_strings", "kPaddingNotZero", STRINGS + 21, [("B", DATA - 1, 1)]),
+    ("string_hole", "kHole", None, [("I", NETWORKS, 1)]),
+    ("string_overlap", "kHole", None, [("I", NETWORKS + 64, 0)]),
+    ("string_too_long", "kHole", METADATA + 24, [("I", METADATA + 28, 2**32 - 1)]),
+    ("anonymous_string_offset", "kHole", None, [("I", TENSORS, 0)]),
+    ("name_empty", "kBadName", NETWORKS, [("I", NETWORKS + 4, 0), ("I", NETWORKS + 64, 0), ("I", NETWORKS + 68, 2)]),
+    ("name_upper_case", "kBadName", NETWORKS, [("B", STRINGS, ord("A"))]),
+    ("key_space", "kBadName", METADATA, [("B", STRINGS + 4, ord(" "))]),
+    ("name_nul", "kBadName", CONSTANT, [("B", STRINGS + 2, 0)]),
+    ("duplicate_network", "kDuplicateName", NETWORKS + 64, [("B", STRINGS + 1, ord("a"))]),
+    ("duplicate_constant", "kDuplicateName", CONSTANT + 64, [("B", STRINGS + 3, ord("c"))]),
+    ("duplicate_key", "kDuplicateName", METADATA + 16,
+     [("I", METADATA + 12, 10), ("I", METADATA + 16, 17), ("I", METADATA + 20, 3), ("I", METADATA + 24, 20), ("I", METADATA + 28, 1),
+      ("10s", STRINGS + 7, b"0123456789"), ("3s", STRINGS + 17, b"key")]),
+    ("text_control", "kBadMetadata", METADATA + 8, [("B", STRINGS + 7, 0)]),
+    ("text_delete", "kBadMetadata", METADATA + 8, [("B", STRINGS + 7, 0x7F)]),
+    ("text_overlong", "kBadMetadata", METADATA + 8, [("2s", STRINGS + 7, b"\xc0\x80")]),
+    ("text_surrogate", "kBadMetadata", METADATA + 8, [("3s", STRINGS + 7, b"\xed\xa0\x80")]),
+    ("text_cut_character", "kBadMetadata", METADATA + 24, [("B", STRINGS + 20, 0xC3)]),
+    ("text_beyond_unicode", "kBadMetadata", METADATA + 8, [("4s", STRINGS + 7, b"\xf4\x90\x80\x80")]),
+    ("input_zero", "kBadNetwork", None, [("I", NETWORKS + 8, 0)]),
+    ("input_limit", "kBadNetwork", NETWORKS + 8, [("I", NETWORKS + 12, 2**20 + 1)]),
+    ("input_elements", "kBadNetwork", NETWORKS + 8, [("I", NETWORKS + 8, 2**20), ("I", NETWORKS + 12, 2**20)]),
+    ("network_flags", "kBadNetwork", None, [("I", NETWORKS + 20, 2)]),
+    ("first_layer", "kBadNetwork", None, [("I", NETWORKS + 64 + 24, 2)]),
+    ("no_layers", "kBadNetwork", NETWORKS + 64 + 24, [("I", NETWORKS + 64 + 28, 0)]),
+    ("layers_beyond_file", "kBadNetwork", NETWORKS + 64 + 24, [("I", NETWORKS + 64 + 28, 2)]),
+    ("layers_left_over", "kBadNetwork", 24,
+     [("I", NETWORKS + 28, 2), ("I", NETWORKS + 36, 2), ("I", NETWORKS + 64 + 24, 2), ("64s", ADD, BASE[CAUSAL:CAUSAL + 64])]),
+    ("no_output", "kBadNetwork", None, [("I", NETWORKS + 32, 0)]),
+    ("outputs", "kBadNetwork", None, [("I", NETWORKS + 32, 5)]),
+    ("output_is_input", "kBadNetwork", None, [("I", NETWORKS + 36, 0)]),
+    ("output_beyond", "kBadNetwork", None, [("I", NETWORKS + 36, 4)]),
+    ("output_unused", "kBadNetwork", None, [("I", NETWORKS + 40, 1)]),
+    ("network_reserved", "kReservedNotZero", NETWORKS + 52, [("I", NETWORKS + 60, 1)]),
+    ("op_zero", "kBadOp", CONV, [("H", CONV, 0)]),
+    ("op_unknown", "kBadOp", CONV, [("H", CONV, 11)]),
+    ("any_size_fully_connected", "kBadOp", FC, [("I", NETWORKS + 20, 1)]),
+    ("activation_unknown", "kBadActivation", CONV, [("H", CONV + 2, 8)]),
+    ("activation_of_add", "kBadActivation", ADD, [("H", ADD + 2, 1)]),
+    ("activation_missing", "kBadActivation", ADD, [("H", ADD, 9), ("I", ADD + 8, 2**32 - 1)]),
+    ("alpha_zero", "kBadActivation", CONV, [("f", CONV + 44, 0.0)]),
+    ("alpha_one", "kBadActivation", CONV, [("f", CONV + 44, 1.0)]),
+    ("alpha_nan", "kBadActivation", CONV, [("f", CONV + 44, NAN)]),
+    ("alpha_unused", "kBadActivation", FC, [("f", FC + 44, 0.5)]),
+    ("alpha_minus_zero", "kBadActivation", FC, [("f", FC + 44, -0.0)]),
+    ("input_is_itself", "kBadReference", FC, [("I", FC + 4, 2)]),
+    ("input_beyond", "kBadReference", ADD, [("I", ADD + 4, 2**32 - 1)]),
+    ("second_input_missing", "kBadReference", ADD, [("I", ADD + 8, 2**32 - 1)]),
+    ("second_input_unused", "kBadReference", FC, [("I", FC + 8, 0)]),
+    ("kernel_zero", "kBadKernel", CONV, [("H", CONV + 24, 0)]),
+    ("kernel_limit", "kBadKernel", CONV, [("H", CONV + 26, 16)]),
+    ("stride_zero", "kBadKernel", CONV, [("H", CONV + 28, 0)]),
+    ("stride_limit", "kBadKernel", CONV, [("H", CONV + 30, 16)]),
+    ("padding_limit", "kBadKernel", CONV, [("H", CONV + 32, 3)]),
+    ("kernel_unused", "kBadKernel", FC, [("H", FC + 24, 1)]),
+    ("padding_unused", "kBadKernel", FC, [("H", FC + 38, 1)]),
+    ("layer_flags", "kBadKernel", CONV, [("H", CONV + 40, 1)]),
+    ("layer_reserved", "kReservedNotZero", CONV, [("H", CONV + 42, 1)]),
+    ("layer_reserved_tail", "kReservedNotZero", CONV, [("I", CONV + 60, 1)]),
+    ("output_height", "kBadShape", None, [("I", CONV + 12, 2)]),
+    ("output_channels", "kBadShape", ADD + 12, [("I", ADD + 20, 3)]),
+    ("kernel_larger_than_map", "kBadShape", CONV + 12, [("H", CONV + 24, 4)]),
+    ("add_of_other_channels", "kBadShape", ADD + 12, [("I", ADD + 8, 1)]),
+    ("lstm_of_three", "kBadShape", CAUSAL + 12, [("H", CAUSAL, 6)]),
+    ("causal_conv_of_map", "kBadShape", CAUSAL + 12, [("I", NETWORKS + 64 + 8, 3)]),
+    ("weights_missing", "kBadTensor", None, [("I", CONV + 48, 2**32 - 1)]),
+    ("weights_of_another", "kBadTensor", None, [("I", FC + 48, 0)]),
+    ("weights_of_add", "kBadTensor", None, [("I", ADD + 48, 5)]),
+    ("slopes_unused", "kBadTensor", None, [("I", CONV + 56, 2)]),
+    ("weights_dims", "kBadTensor", CONV + 48, [("I", TENSORS + 20, 9), ("I", TENSORS + 24, 1)]),
+    ("bias_rank", "kBadTensor", CONV + 52, [("H", TENSORS + 64 + 10, 2), ("I", TENSORS + 64 + 20, 1)]),
+    ("bias_fp32", "kBadTensor", CONV + 52, [("H", TENSORS + 64 + 8, 2), ("Q", TENSORS + 64 + 40, 32)]),
+    ("layer_tensor_with_name", "kBadTensor", CAUSAL + 52,
+     [("I", TENSORS + 64 * 6 + 4, 1), ("I", CONSTANT, 3), ("I", CONSTANT + 4, 1), ("I", CONSTANT + 64, 4), ("I", CONSTANT + 68, 1),
+      ("I", METADATA, 5), ("I", METADATA + 4, 2)]),
+    ("tensor_of_nobody", "kUnusedTensor", CONSTANT, [("I", CONSTANT + 4, 0), ("I", CONSTANT + 64, 2), ("I", CONSTANT + 68, 2)]),
+    ("type_zero", "kBadType", None, [("H", CONSTANT + 8, 0)]),
+    ("type_unknown", "kBadType", None, [("H", CONSTANT + 8, 3)]),
+    ("rank_zero", "kBadDims", None, [("H", CONSTANT + 10, 0)]),
+    ("rank_limit", "kBadDims", None, [("H", CONSTANT + 10, 5)]),
+    ("dim_zero", "kBadDims", None, [("I", CONSTANT + 16, 0)]),
+    ("dim_limit", "kBadDims", None, [("I", CONSTANT + 16, 2**20 + 1)]),
+    ("dim_unused", "kBadDims", None, [("I", CONSTANT + 20, 1)]),
+    ("dims_overflow", "kBadTensorBytes", CONSTANT + 40, [("H", CONSTANT + 10, 4), ("4I", CONSTANT + 16, (2**20,) * 4), ("Q", CONSTANT + 40, 0)]),
+    ("tensor_bytes", "kBadTensorBytes", None, [("Q", CONSTANT + 40, 6)]),
+    ("tensor_hole", "kHole", None, [("Q", CONSTANT + 32, len(BASE) - 64)]),
+    ("tensor_overlap", "kHole", None, [("Q", CONSTANT + 32, DATA)]),
+    ("tensor_offset_wraps", "kHole", None, [("Q", CONSTANT + 32, 2**64 - 64)]),
+    ("tensor_beyond_end", "kTruncated", len(BASE), [("I", CONSTANT + 64 + 16, 64), ("Q", CONSTANT + 64 + 40, 128)]),
+    ("tensor_reserved", "kReservedNotZero", None, [("I", CONSTANT + 12, 1)]),
+    ("tensor_reserved_tail", "kReservedNotZero", CONSTANT + 48, [("I", CONSTANT + 60, 1)]),
+    ("tensor_padding", "kPaddingNotZero", CONSTANT_DATA + 12, [("B", CONSTANT_DATA + 63, 1)]),
+    ("infinity_fp32", "kNonFinite", CONSTANT_DATA, [("f", CONSTANT_DATA + 8, float("-inf"))]),
+    ("nan_fp32", "kNonFinite", CONSTANT_DATA, [("f", CONSTANT_DATA, NAN)]),
+    ("infinity_fp16", "kNonFinite", DATA, [("H", DATA + 2, 0x7C00)]),
+    ("nan_fp16", "kNonFinite", DATA, [("H", DATA, 0xFE01)]),
+]
+
+
+def changed(changes):
+    data = bytearray(BASE)
+    for layout, offset, value in changes:
+        struct.pack_into("<" + layout, data, offset, *(value if isinstance(value, tuple) else (value,)))
+    return with_checksum(data)
+
+
+def with_checksum(data):
+    struct.pack_into("<Q", data, 56, 0)
+    struct.pack_into("<Q", data, 56, xxhash64(bytes(data)))
+    return bytes(data)
+
+
+def longer(extra):
+    return with_checksum(bytearray(BASE + extra))
+
+
+def whole_file_cases():
+    damaged = bytearray(BASE)
+    damaged[DATA] ^= 1
+    more = bytearray(BASE + bytes(64))
+    struct.pack_into("<Q", more, 40, len(more))
+    return [("damaged", "kBadChecksum", 56, bytes(damaged)),
+            ("empty", "kTruncated", 0, b""),
+            ("half_header", "kTruncated", 32, BASE[:32]),
+            ("truncated", "kTruncated", len(BASE) - 1, BASE[:-1]),
+            ("polyglot", "kTrailingBytes", len(BASE), longer(b"PK\x05\x06" + bytes(18))),
+            ("hidden_at_end", "kHole", len(BASE), with_checksum(more)),
+            ("text_file", "kBadMagic", 0, b"# not a weight file\n" * 4)]
+
+
+def main():
+    folder = HERE / "reject"
+    for old in folder.glob("*.mien"):
+        old.unlink()
+    cases = [(name, status, changes[0][1] if offset is None else offset, changed(changes))
+             for name, status, offset, changes in CASES] + whole_file_cases()
+    for name, _, _, data in cases:
+        (folder / f"{name}.mien").write_bytes(data)
+    (folder / "expected.txt").write_text("".join(f"{name}.mien {status} {offset}\n" for name, status, offset, _ in cases))
+
+
+if __name__ == "__main__":
+    main()
