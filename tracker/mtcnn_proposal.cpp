@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tracker/shrink.h"
+
 namespace mien::tracker {
 namespace {
 
@@ -75,23 +77,26 @@ std::size_t MtcnnProposal::propose(const ImageView& view, std::span<Candidate> f
 
 std::span<Candidate> MtcnnProposal::scan(const ImageView& view, const Square& canvas) {
   std::size_t total = 0;
-  for (Network& pnet : std::span(pnets_).first(levels_)) {
-    const std::span<Candidate> room = std::span(candidates_).subspan(total);
-    BestCandidates best(room.first(kPerLevel));
-    scan_level(pnet, view, canvas, best);
+  for (std::size_t i = 0; i < levels_; ++i) {
+    Network& pnet = pnets_[i];
+    if (i == 0) {
+      sampler_.cut_black(view, canvas, pnet.input_shape().w, pnet.input());
+    } else {
+      Network& larger = pnets_[i - 1];
+      shrink(larger.input(), larger.input_shape().w, pnet.input(), pnet.input_shape().w);
+    }
+    pnet.run();
+    BestCandidates best(std::span<Candidate>(candidates_).subspan(total, kPerLevel));
+    collect(pnet, canvas, best);
     total += suppress_non_maxima(best.kept(), kOverlapInLevel);
   }
   const std::span<Candidate> all = std::span(candidates_).first(total);
   return all.first(std::min(suppress_non_maxima(all, kOverlapOfLevels), kRefined));
 }
 
-void MtcnnProposal::scan_level(Network& pnet, const ImageView& view, const Square& canvas,
-                               BestCandidates& best) {
-  const std::int32_t side = pnet.input_shape().w;
-  sampler_.cut_black(view, canvas, side, pnet.input());
-  pnet.run();
-  const float pixels =
-      canvas.side / static_cast<float>(side);  // of the image, per pixel of the level
+// P-Net's windows that look like faces, in pixels of the image.
+void MtcnnProposal::collect(const Network& pnet, const Square& canvas, BestCandidates& best) const {
+  const float pixels = canvas.side / static_cast<float>(pnet.input_shape().w);
   const float left = canvas.center.x - canvas.side / 2;
   const float top = canvas.center.y - canvas.side / 2;
   const engine::Shape& cells = pnet.output_shape(0);

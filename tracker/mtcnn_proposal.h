@@ -29,7 +29,7 @@ class MtcnnProposal final : public FaceProposal {
   static constexpr std::size_t kRefined = 32;    // candidates shown to R-Net
 
   [[nodiscard]] std::span<Candidate> scan(const ImageView& view, const Square& canvas);
-  void scan_level(Network& pnet, const ImageView& view, const Square& canvas, BestCandidates& best);
+  void collect(const Network& pnet, const Square& canvas, BestCandidates& best) const;
   [[nodiscard]] bool refine(const ImageView& view, Candidate& candidate);
 
   Sampler sampler_;

@@ -9,7 +9,8 @@ namespace {
 constexpr float kScale = 1.0f / 127.5f;
 constexpr float kBlack = -1.0f;
 constexpr float kPixelsPerTap = 1.5f;
-constexpr float kMaxTaps = 8.0f;
+constexpr float kMaxTaps = 8.0f;  // along each axis
+constexpr float kMaxTapsOfProposal = 4.0f;
 
 kernels::PixelFormat pixel_format(std::int32_t format) {
   switch (format) {
@@ -58,15 +59,20 @@ void set_planes(const mien_image& image, kernels::WarpArgs& args) {
   }
 }
 
-std::int32_t taps(float pixels_per_sample) {
+std::int32_t taps(float pixels_per_sample, float most) {
   const float wanted = std::ceil(pixels_per_sample / kPixelsPerTap);
-  return static_cast<std::int32_t>(std::clamp(wanted, 1.0f, kMaxTaps));
+  return static_cast<std::int32_t>(std::clamp(wanted, 1.0f, most));
 }
 
 }  // namespace
 
 void Sampler::cut(const ImageView& view, const Crop& crop, std::int32_t samples,
                   std::span<float> picture) const {
+  warp(view, crop, samples, kMaxTaps, picture);
+}
+
+void Sampler::warp(const ImageView& view, const Crop& crop, std::int32_t samples, float max_taps,
+                   std::span<float> picture) const {
   const float unit = 1.0f / static_cast<float>(samples);
   const Affine sample_to_crop = {unit, 0, 0, 0, unit, 0};
   const Affine m = compose(view.to_buffer, compose(crop_to_image(crop), sample_to_crop));
@@ -78,7 +84,7 @@ void Sampler::cut(const ImageView& view, const Crop& crop, std::int32_t samples,
   args.image_height = view.image.height;
   const float matrix[6] = {m.xx, m.xy, m.x0, m.yx, m.yy, m.y0};
   std::copy(std::begin(matrix), std::end(matrix), args.matrix);
-  args.taps = taps(crop.side * unit);
+  args.taps = taps(crop.side * unit, max_taps);
   args.y = picture.data();
   args.width = samples;
   args.height = samples;
@@ -89,7 +95,7 @@ void Sampler::cut(const ImageView& view, const Crop& crop, std::int32_t samples,
 
 void Sampler::cut_black(const ImageView& view, const Square& square, std::int32_t samples,
                         std::span<float> picture) const {
-  cut(view, {square.center, square.side, 0.0f}, samples, picture);
+  warp(view, {square.center, square.side, 0.0f}, samples, kMaxTapsOfProposal, picture);
   const float pixels_per_sample = square.side / static_cast<float>(samples);
   const auto at = [&](float center, std::int32_t index) {
     return center - square.side / 2 + (static_cast<float>(index) + 0.5f) * pixels_per_sample;

@@ -25,11 +25,15 @@ class Sampler {
   void cut(const ImageView& view, const Crop& crop, std::int32_t samples,
            std::span<float> picture) const;
 
-  // An upright square, black outside the image.
+  // An upright square, black outside the image. For the proposal, which looks at much of the image
+  // and in no detail: at most 4 x 4 pixels are averaged.
   void cut_black(const ImageView& view, const Square& square, std::int32_t samples,
                  std::span<float> picture) const;
 
  private:
+  void warp(const ImageView& view, const Crop& crop, std::int32_t samples, float max_taps,
+            std::span<float> picture) const;
+
   kernels::Kernel<kernels::WarpArgs> warp_ = nullptr;
 };
 

@@ -173,7 +173,7 @@ TEST_F(Create, ResultStructsOfOtherVersions) {
   Result whole;
   ASSERT_EQ(tracker.get_result(whole), MIEN_OK);
 
-  Result older;
+  mien_result older;
   std::memset(&older, 0x5A, sizeof older);
   older.struct_size = offsetof(mien_result, controls);
   ASSERT_EQ(tracker.get_result(older), MIEN_OK);

@@ -181,7 +181,7 @@ void add_decoder(MienWriter& writer, const std::string& name, const BlobOptions&
 
 // Window of 12 x 12 cells of `cell` pixels: the middle 8 x 8 bright, the rest dark, is the face;
 // logit 8 for a perfect one, -8 for anything flat.
-void add_window_network(MienWriter& writer, const std::string& name, std::uint32_t cell,
+void add_window_network(MienWriter& writer, const std::string& name, std::uint16_t cell,
                         bool any_size) {
   constexpr std::uint32_t kCells = 12;
   NetworkWriter& network = writer.network(name, {kCells * cell, kCells * cell, 3}, any_size);

@@ -99,7 +99,7 @@ Picture::Picture(int width, int height)
     for (int x = 0; x < width; ++x) {
       const float u = static_cast<float>(x) / static_cast<float>(width);
       const float v = static_cast<float>(y) / static_cast<float>(height);
-      at(x, y)[0] = byte(12.0f + 10.0f * u);
+      at(x, y)[0] = byte(30.0f + 20.0f * u);
       at(x, y)[1] = byte(14.0f + 8.0f * std::sin(9.0f * v));
       at(x, y)[2] = byte(16.0f + 9.0f * std::cos(7.0f * (u + v)));
     }
@@ -112,9 +112,9 @@ void Picture::disc(float center_x, float center_y, float diameter) {
       const float dx = static_cast<float>(x) + 0.5f - center_x;
       const float dy = static_cast<float>(y) + 0.5f - center_y;
       const float cover = std::clamp(diameter / 2 - std::hypot(dx, dy) + 0.5f, 0.0f, 1.0f);
-      // Not one colour: its left is warm and its top a little darker.
-      const float colour[3] = {240.0f - 15.0f * dx / diameter, 235.0f + 20.0f * dy / diameter,
-                               230.0f + 25.0f * dx / diameter};
+      // Not one colour: its left is warmer and its top darker.
+      const float colour[3] = {240.0f - 15.0f * dx / diameter, 230.0f + 20.0f * dy / diameter,
+                               180.0f + 45.0f * dx / diameter};
       for (int c = 0; c < 3; ++c) {
         at(x, y)[c] = byte(static_cast<float>(at(x, y)[c]) * (1.0f - cover) + colour[c] * cover);
       }

@@ -90,7 +90,7 @@ TEST(Images, OfEverySizeInOneStream) {
     const int height = i == 0 ? 1 : 1 + static_cast<int>(random() % 200);
     Picture picture(width, height);
     if (i % 2 == 0) {
-      picture.noise(random());
+      picture.noise(static_cast<unsigned>(i));
     } else {
       picture.disc(static_cast<float>(width) / 2, static_cast<float>(height) / 2, 40.0f);
     }
