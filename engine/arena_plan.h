@@ -1,4 +1,5 @@
-// Where the intermediate maps of a network lie in one arena: maps that are never alive together may share it.
+// Where the intermediate maps of a network lie in one arena: maps that are never alive together may
+// share it.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +19,8 @@ struct Interval {
   std::size_t offset = 0;  // result
 };
 
-// Places intervals [count], ordered by `born`, at the lowest free offset each; returns the arena's bytes.
+// Places intervals [count], ordered by `born`, at the lowest free offset each; returns the arena's
+// bytes.
 std::size_t place(Interval* intervals, std::uint32_t count);
 
 }  // namespace mien::engine

@@ -16,8 +16,8 @@ class Model {
  public:
   Model() = default;
 
-  // `bytes` must outlive the model and stay as they are. On kBadFile `fault` tells which rule of the format
-  // is broken where; it may be nullptr. On error *this is left empty.
+  // `bytes` must outlive the model and stay as they are. On kBadFile `fault` tells which rule of
+  // the format is broken where; it may be nullptr. On error *this is left empty.
   Status open(std::span<const std::byte> bytes, formats::Validation* fault = nullptr);
 
   [[nodiscard]] const formats::FileView& file() const { return file_; }

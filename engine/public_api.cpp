@@ -165,9 +165,8 @@ LayerInfo WeightFile::layer(std::int32_t network, std::int32_t index) const {
   info.activation = activation_name(layer.activation);
   info.output = to_public(walk.output());
   info.input = static_cast<std::int32_t>(layer.input);
-  info.second_input = layer.second_input == formats::kNoIndex
-                          ? -1
-                          : static_cast<std::int32_t>(layer.second_input);
+  info.second_input =
+      layer.second_input == formats::kNoIndex ? -1 : static_cast<std::int32_t>(layer.second_input);
   info.kernel[0] = layer.kernel_height;
   info.kernel[1] = layer.kernel_width;
   info.stride[0] = layer.stride_height;
@@ -273,8 +272,7 @@ TensorShape NetworkRunner::output_shape(std::int32_t index) const {
 void NetworkRunner::reset() { session_in(session_).reset(); }
 
 std::int64_t run_fma_loop(std::uint32_t cpu_mask, std::int64_t rounds) {
-  const kernels::Kernel<kernels::FmaPeakArgs> loop =
-      kernels::find<kernels::FmaPeakArgs>(cpu_mask);
+  const kernels::Kernel<kernels::FmaPeakArgs> loop = kernels::find<kernels::FmaPeakArgs>(cpu_mask);
   if (loop == nullptr) {
     return 0;
   }

@@ -93,7 +93,8 @@ class SessionBuilder {
   const NetworkRecord* network_ = nullptr;
   std::span<const LayerRecord> layers_;
   Value values_[formats::kMaxLayers + 1];
-  // Layer whose addition the layer performs itself, or kNoIndex; and the layers that vanish by that.
+  // Layer whose addition the layer performs itself, or kNoIndex; and the layers that vanish by
+  // that.
   std::uint32_t fused_addition_[formats::kMaxLayers];
   bool vanished_[formats::kMaxLayers] = {};
   Interval intervals_[formats::kMaxLayers];
@@ -119,8 +120,7 @@ Status SessionBuilder::find_network() {
   const bool any_size = (network_->flags & formats::kAnySize) != 0;
   const Shape& input = request_.input;
   const bool fits = any_size ? input.c == declared.c && input.h >= declared.h &&
-                                   input.w >= declared.w && input.h <= 1 << 14 &&
-                                   input.w <= 1 << 14
+                                   input.w >= declared.w && input.h <= 1 << 14 && input.w <= 1 << 14
                              : input == declared;
   return fits ? Status::kOk : Status::kWrongInput;
 }
@@ -293,8 +293,7 @@ Status SessionBuilder::emit(const Args& args, Session& session) {
   Step& step = session.steps_[session.step_count_++];
   step.kernel = kernel;
   step.call = [](const Step& self) {
-    reinterpret_cast<kernels::Kernel<Args>>(self.kernel)(
-        *reinterpret_cast<const Args*>(self.args));
+    reinterpret_cast<kernels::Kernel<Args>>(self.kernel)(*reinterpret_cast<const Args*>(self.args));
   };
   std::memcpy(step.args, &args, sizeof args);
   return Status::kOk;

@@ -1,5 +1,5 @@
-// A network made ready to run: kernels chosen, memory laid out. Running it is a flat loop over steps, without
-// allocation, lock, exception or I/O.
+// A network made ready to run: kernels chosen, memory laid out. Running it is a flat loop over
+// steps, without allocation, lock, exception or I/O.
 #pragma once
 
 #include <cstddef>
@@ -30,12 +30,13 @@ Status session_size(const SessionRequest& request, SessionSize& size);
 
 class Session {
  public:
-  // Builds a session in `memory` (session_bytes) with intermediate maps in `arena` (arena_bytes), both
-  // kSessionAlignment-aligned and the caller's. Nothing has to be destroyed.
+  // Builds a session in `memory` (session_bytes) with intermediate maps in `arena` (arena_bytes),
+  // both kSessionAlignment-aligned and the caller's. Nothing has to be destroyed.
   static Status init(const SessionRequest& request, std::span<std::byte> memory,
                      std::span<std::byte> arena, Session*& session);
 
-  // [h][w][c] if the shape is interleaved, else in blocks with unused lanes zero, as they are at first.
+  // [h][w][c] if the shape is interleaved, else in blocks with unused lanes zero, as they are at
+  // first.
   [[nodiscard]] std::span<float> input() const { return input_; }
   [[nodiscard]] const Shape& input_shape() const { return input_shape_; }
 

@@ -25,8 +25,8 @@ struct Shape {
   return shape.pixels() * ((static_cast<std::size_t>(shape.c) + 7) / 8 * 8);
 }
 
-// Output shape of a layer. `second` is the second input of an addition. kShapeMismatch when the input does not
-// suit the operation.
+// Output shape of a layer. `second` is the second input of an addition. kShapeMismatch when the
+// input does not suit the operation.
 Status infer_shape(const formats::LayerRecord& layer, const Shape& input, const Shape& second,
                    Shape& output);
 

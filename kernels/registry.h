@@ -1,4 +1,5 @@
-// Every kernel there is. kernels.inc lists them; dispatch, conformance tests and benchmarks read it here.
+// Every kernel there is. kernels.inc lists them; dispatch, conformance tests and benchmarks read it
+// here.
 #pragma once
 
 #include <cstdint>

@@ -1,19 +1,17 @@
 // Bring your own network: load a weight file (.mien, docs/format.md) and run one of its networks.
 //
 //   mien::WeightFile file;
-//   if (file.open(bytes) != mien::EngineStatus::kOk) return;   // bytes: 64-byte aligned, must outlive all
-//   mien::NetworkRunner runner;
-//   if (runner.create(file, "encoder") != mien::EngineStatus::kOk) return;
-//   std::copy(pixels.begin(), pixels.end(), runner.input().begin());
-//   runner.run();
-//   use(runner.output(0));                                     // std::span<const float>
+//   if (file.open(bytes) != mien::EngineStatus::kOk) return;   // bytes: 64-byte aligned, must
+//   outlive all mien::NetworkRunner runner; if (runner.create(file, "encoder") !=
+//   mien::EngineStatus::kOk) return; std::copy(pixels.begin(), pixels.end(),
+//   runner.input().begin()); runner.run(); use(runner.output(0)); // std::span<const float>
 //
-// Layout: an input of up to 4 channels and more than one pixel is [h][w][c]; every other map is stored in blocks
-// of 8 channels, [ceil(c/8)][h][w][8], unused lanes zero. A vector of n values is therefore n floats, rounded up
-// to a multiple of 8.
+// Layout: an input of up to 4 channels and more than one pixel is [h][w][c]; every other map is
+// stored in blocks of 8 channels, [ceil(c/8)][h][w][8], unused lanes zero. A vector of n values is
+// therefore n floats, rounded up to a multiple of 8.
 //
-// Threads: objects of these classes may be used by one thread at a time. `run` and `reset` neither allocate nor
-// lock, and nothing here throws, prints or does I/O.
+// Threads: objects of these classes may be used by one thread at a time. `run` and `reset` neither
+// allocate nor lock, and nothing here throws, prints or does I/O.
 #pragma once
 
 #include <mien/mien.h>
@@ -26,18 +24,10 @@
 namespace mien {
 
 // Numbers are never reused.
-enum class [[nodiscard]] EngineStatus : std::int32_t {
-  kOk = 0,
-  kBadFile = 1,
-  kNoSuchNetwork = 2,
-  kShapeMismatch = 3,
-  kWrongInput = 4,
-  kUnsupportedLayout = 5,
-  kNoKernel = 6,
-  kMemoryTooSmall = 7,
-  kMisaligned = 8,
-  kTooLarge = 9,
-  kOutOfMemory = 10,
+enum class [[nodiscard]] EngineStatus : std::int32_t{
+    kOk = 0,         kBadFile = 1,           kNoSuchNetwork = 2, kShapeMismatch = 3,
+    kWrongInput = 4, kUnsupportedLayout = 5, kNoKernel = 6,      kMemoryTooSmall = 7,
+    kMisaligned = 8, kTooLarge = 9,          kOutOfMemory = 10,
 };
 
 // One line of English, static.
@@ -64,7 +54,8 @@ struct LayerInfo {
   const char* op = "";
   const char* activation = "";
   TensorShape output;
-  std::int32_t input = 0, second_input = -1;  // values: 0 the network's input, k the output of its k-th layer
+  std::int32_t input = 0,
+               second_input = -1;  // values: 0 the network's input, k the output of its k-th layer
   std::int32_t kernel[2] = {0, 0}, stride[2] = {0, 0};  // h, w
   std::int32_t padding[4] = {0, 0, 0, 0};               // top, left, bottom, right
   std::uint64_t parameters = 0;
@@ -86,8 +77,8 @@ class MIEN_API WeightFile {
  public:
   WeightFile();
 
-  // `bytes`: aligned to MIEN_ALIGNMENT; must outlive this object and everything made from it. On kBadFile,
-  // `fault` and `fault_offset` say what is wrong where in the file.
+  // `bytes`: aligned to MIEN_ALIGNMENT; must outlive this object and everything made from it. On
+  // kBadFile, `fault` and `fault_offset` say what is wrong where in the file.
   EngineStatus open(std::span<const std::byte> bytes);
   [[nodiscard]] const char* fault() const { return fault_; }
   [[nodiscard]] std::uint64_t fault_offset() const { return fault_offset_; }
@@ -117,9 +108,9 @@ class MIEN_API NetworkRunner {
   NetworkRunner& operator=(const NetworkRunner&) = delete;
 
   struct Options {
-    TensorShape input = {};                  // all zero: as declared
-    std::uint32_t cpu_mask = MIEN_CPU_ALL;   // tiers that may be used
-    mien_allocator allocator = {};           // callbacks NULL: the C library's
+    TensorShape input = {};                 // all zero: as declared
+    std::uint32_t cpu_mask = MIEN_CPU_ALL;  // tiers that may be used
+    mien_allocator allocator = {};          // callbacks NULL: the C library's
   };
   // On error the runner is left empty, and nothing stays allocated.
   EngineStatus create(const WeightFile& file, std::string_view network, const Options& options);
@@ -144,8 +135,8 @@ class MIEN_API NetworkRunner {
   mien_allocator allocator_ = {};
 };
 
-// Runs a loop of fused multiply-adds in registers, `rounds` times, on the best tier of the mask; returns how many
-// it did. A benchmark times this to know the peak.
+// Runs a loop of fused multiply-adds in registers, `rounds` times, on the best tier of the mask;
+// returns how many it did. A benchmark times this to know the peak.
 MIEN_API std::int64_t run_fma_loop(std::uint32_t cpu_mask, std::int64_t rounds);
 
 }  // namespace mien

@@ -1,8 +1,8 @@
 // Batch normalisation (Ioffe & Szegedy 2015) as it stands before folding:
 //   y = (x - mean[c]) / sqrt(variance[c] + epsilon) * gain[c] + offset[c]
 //
-// x, y: [pixels, c] in blocks of 8 channels; y may be x. Lanes >= c become 0. Weight files hold folded
-// convolutions only; this exists to test the folding.
+// x, y: [pixels, c] in blocks of 8 channels; y may be x. Lanes >= c become 0. Weight files hold
+// folded convolutions only; this exists to test the folding.
 #pragma once
 
 #include <cstdint>

@@ -8,8 +8,7 @@ void causal_conv(const CausalConvArgs& a) {
   for (std::int32_t o = 0; o < blocks_of(a.out_c) * kBlock; ++o) {
     double sum = half_to_float(a.bias[o]);
     for (std::int32_t k = 0; k < a.in_elems; ++k) {
-      sum += panel_weight(a.weights, a.out_c, reduction, o, k) *
-             static_cast<double>(a.previous[k]);
+      sum += panel_weight(a.weights, a.out_c, reduction, o, k) * static_cast<double>(a.previous[k]);
       sum += panel_weight(a.weights, a.out_c, reduction, o, a.in_elems + k) *
              static_cast<double>(a.x[k]);
     }

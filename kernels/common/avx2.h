@@ -1,5 +1,5 @@
-// What the AVX2 kernels share. Everything has internal linkage: no code compiled for AVX2 may be merged with
-// code for every CPU.
+// What the AVX2 kernels share. Everything has internal linkage: no code compiled for AVX2 may be
+// merged with code for every CPU.
 #pragma once
 
 #include <immintrin.h>
@@ -21,9 +21,7 @@ inline Vec load_half(const std::uint16_t* at) {
   return _mm256_cvtph_ps(_mm_loadu_si128(reinterpret_cast<const __m128i*>(at)));
 }
 
-[[maybe_unused]] inline std::int32_t blocks_of(std::int32_t channels) {
-  return (channels + 7) / 8;
-}
+[[maybe_unused]] inline std::int32_t blocks_of(std::int32_t channels) { return (channels + 7) / 8; }
 
 // 1 in the lanes of a block that hold channels, 0 in those beyond.
 [[maybe_unused]] inline Vec lane_mask(std::int32_t block, std::int32_t channels) {
@@ -32,8 +30,8 @@ inline Vec load_half(const std::uint16_t* at) {
                        _CMP_LT_OQ);
 }
 
-// exp(x) to 2 ulp on [-87, 88], clamped outside: 2^n e^r with r in [-ln2/2, ln2/2], a polynomial of degree 6
-// (Cephes expf by S. Moshier).
+// exp(x) to 2 ulp on [-87, 88], clamped outside: 2^n e^r with r in [-ln2/2, ln2/2], a polynomial of
+// degree 6 (Cephes expf by S. Moshier).
 [[maybe_unused]] inline Vec exp(Vec x) {
   x = _mm256_min_ps(_mm256_max_ps(x, _mm256_set1_ps(-87.0f)), _mm256_set1_ps(88.0f));
   const Vec n = _mm256_round_ps(_mm256_mul_ps(x, _mm256_set1_ps(1.44269504f)),
@@ -69,8 +67,7 @@ inline Vec load_half(const std::uint16_t* at) {
   p = _mm256_fmadd_ps(p, s, _mm256_set1_ps(-1.0f / 3.0f));
   const Vec small = _mm256_fmadd_ps(_mm256_mul_ps(p, s), x, x);
   const Vec magnitude = _mm256_andnot_ps(_mm256_set1_ps(-0.0f), x);
-  return _mm256_blendv_ps(large, small,
-                          _mm256_cmp_ps(magnitude, _mm256_set1_ps(0.2f), _CMP_LT_OQ));
+  return _mm256_blendv_ps(large, small, _mm256_cmp_ps(magnitude, _mm256_set1_ps(0.2f), _CMP_LT_OQ));
 }
 
 // The activation of one block of channels; `mask` as of lane_mask.

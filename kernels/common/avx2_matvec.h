@@ -44,8 +44,8 @@ struct TwoParts {
 
 template <int kVecs>
 inline void matvec_panel(const TwoParts& x, const std::uint16_t* weights, const std::uint16_t* bias,
-                         const ActivationSpec& activation, std::int32_t block,
-                         std::int32_t outputs, float* y) {
+                         const ActivationSpec& activation, std::int32_t block, std::int32_t outputs,
+                         float* y) {
   PanelSums<kVecs> sums;
   sums.clear();
   weights = sums.add(x.first, x.first_elems, weights);

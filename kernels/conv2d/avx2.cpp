@@ -1,5 +1,5 @@
-// Tiles of up to 6 output pixels of a row x 16 output channels where the whole windows lie inside the map;
-// pixels at the border one at a time.
+// Tiles of up to 6 output pixels of a row x 16 output channels where the whole windows lie inside
+// the map; pixels at the border one at a time.
 #include <algorithm>
 
 #include "kernels/common/avx2.h"
@@ -66,8 +66,7 @@ void tile(const Panel& panel, std::int32_t oy, std::int32_t ox, Range ys, Range 
   const std::int32_t top = oy * a.stride_h - a.pad_top, left = ox * a.stride_w - a.pad_left;
   for (std::int32_t ky = ys.first; ky < ys.last; ++ky) {
     for (std::int32_t kx = xs.first; kx < xs.last; ++kx) {
-      const float* x =
-          a.x + (std::ptrdiff_t{top + ky} * a.in_w + left + kx) * a.x_pixel_elems;
+      const float* x = a.x + (std::ptrdiff_t{top + ky} * a.in_w + left + kx) * a.x_pixel_elems;
       const std::ptrdiff_t k = std::ptrdiff_t{ky * a.kernel_w + kx} * a.in_c;
       add_channels<kPixels, kVecs>(a, x, panel.weights + k * kVecs * kLanes, sum);
     }
@@ -78,8 +77,8 @@ void tile(const Panel& panel, std::int32_t oy, std::int32_t ox, Range ys, Range 
     const Vec bias = load_half(a.bias + block * kLanes);
     float* y = a.y + (block * plane + std::ptrdiff_t{oy} * a.out_w + ox) * kLanes;
     for (int p = 0; p < kPixels; ++p) {
-      _mm256_storeu_ps(y + p * kLanes, activated(_mm256_add_ps(sum[p][v], bias), a.activation,
-                                                 block, a.out_c));
+      _mm256_storeu_ps(y + p * kLanes,
+                       activated(_mm256_add_ps(sum[p][v], bias), a.activation, block, a.out_c));
     }
   }
 }

@@ -1,11 +1,12 @@
 // Convolution in two dimensions with a small kernel, and a fused activation.
 //
-//   y[oy, ox, o] = act(bias[o] + sum over ky, kx, i of w[o, ky, kx, i] x[oy s + ky - pad, ox s + kx - pad, i])
+//   y[oy, ox, o] = act(bias[o] + sum over ky, kx, i of w[o, ky, kx, i] x[oy s + ky - pad, ox s + kx
+//   - pad, i])
 //
-// where x is zero outside the map. x: [h, w, c], either in blocks of 8 channels or interleaved (one block
-// whose pixel pitch is c). y: [out_h, out_w, out_c] in blocks; lanes >= out_c become 0. x and y do not
-// overlap. Weights: fp16 panels of 16 output channels, [panel][ky][kx][i][16]; the last panel is 8 wide
-// when ceil(out_c/8) is odd.
+// where x is zero outside the map. x: [h, w, c], either in blocks of 8 channels or interleaved (one
+// block whose pixel pitch is c). y: [out_h, out_w, out_c] in blocks; lanes >= out_c become 0. x and
+// y do not overlap. Weights: fp16 panels of 16 output channels, [panel][ky][kx][i][16]; the last
+// panel is 8 wide when ceil(out_c/8) is odd.
 #pragma once
 
 #include <cstdint>

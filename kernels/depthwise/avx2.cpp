@@ -1,5 +1,5 @@
-// One block of channels at a time, its weights in registers for 3x3; four output pixels at once inside the
-// map, one at a time where the window leaves it.
+// One block of channels at a time, its weights in registers for 3x3; four output pixels at once
+// inside the map, one at a time where the window leaves it.
 #include <algorithm>
 
 #include "kernels/common/avx2.h"
@@ -59,9 +59,9 @@ template <int kPixels>
 void whole_pixels(const Block& b, const Vec (&w)[9], std::int32_t oy, std::int32_t ox) {
   const DepthwiseArgs& a = b.a;
   const std::ptrdiff_t step = std::ptrdiff_t{a.stride_w} * kLanes;
-  const float* origin = b.x + (std::ptrdiff_t{oy * a.stride_h - a.pad_top} * a.in_w +
-                               ox * a.stride_w - a.pad_left) *
-                                  kLanes;
+  const float* origin =
+      b.x + (std::ptrdiff_t{oy * a.stride_h - a.pad_top} * a.in_w + ox * a.stride_w - a.pad_left) *
+                kLanes;
   Vec sum[kPixels];
   for (Vec& one : sum) {
     one = _mm256_setzero_ps();
@@ -122,7 +122,11 @@ void depthwise(const DepthwiseArgs& a) {
   const std::ptrdiff_t kernel = std::ptrdiff_t{a.kernel_h} * a.kernel_w * kLanes;
   const bool is_3x3 = a.kernel_h == 3 && a.kernel_w == 3;
   for (std::int32_t i = 0; i < blocks_of(a.channels); ++i) {
-    const Block block{a, i, a.x + i * in_plane, a.y + i * out_plane, a.weights + i * kernel,
+    const Block block{a,
+                      i,
+                      a.x + i * in_plane,
+                      a.y + i * out_plane,
+                      a.weights + i * kernel,
                       load_half(a.bias + i * kLanes)};
     is_3x3 ? block_3x3(block) : block_any(block);
   }

@@ -1,9 +1,10 @@
 // Depthwise convolution: each channel by itself, with a small kernel and a fused activation.
 //
-//   y[oy, ox, c] = act(bias[c] + sum over ky, kx of w[c, ky, kx] x[oy s + ky - pad, ox s + kx - pad, c])
+//   y[oy, ox, c] = act(bias[c] + sum over ky, kx of w[c, ky, kx] x[oy s + ky - pad, ox s + kx -
+//   pad, c])
 //
-// where x is zero outside the map. x: [h, w, c] and y: [out_h, out_w, c] in blocks of 8 channels, not
-// overlapping. Weights: fp16 [ceil(c/8)][ky][kx][8]. Lanes >= c of x are 0 and stay so.
+// where x is zero outside the map. x: [h, w, c] and y: [out_h, out_w, c] in blocks of 8 channels,
+// not overlapping. Weights: fp16 [ceil(c/8)][ky][kx][8]. Lanes >= c of x are 0 and stay so.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// As many fused multiply-adds as the tier can do, on registers alone: what a benchmark holds its figures
-// against. y receives sums that depend on all of them, so that none can be left out.
+// As many fused multiply-adds as the tier can do, on registers alone: what a benchmark holds its
+// figures against. y receives sums that depend on all of them, so that none can be left out.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Coordinates of 8 taps at a time; the pixels themselves are fetched one by one, since a wider load could read
-// past the last byte of an image.
+// Coordinates of 8 taps at a time; the pixels themselves are fetched one by one, since a wider load
+// could read past the last byte of an image.
 #include <algorithm>
 
 #include "kernels/common/avx2.h"
@@ -14,8 +14,8 @@ struct Axis {
   float weight[kLanes];
 };
 
-// Coordinates to neighbours, clamped to the border. Not-a-numbers count as 0 like infinities: a comparison
-// with either is false.
+// Coordinates to neighbours, clamped to the border. Not-a-numbers count as 0 like infinities: a
+// comparison with either is false.
 Axis axis_of(Vec coordinate, std::int32_t size) {
   const Vec limit = _mm256_set1_ps(3.0e38f);
   const Vec magnitude = _mm256_andnot_ps(_mm256_set1_ps(-0.0f), coordinate);
@@ -102,8 +102,7 @@ class Sampler {
 
   void add_gray(const Axis& xs, const Axis& ys, int count, Rgb* sums) const {
     for (int i = 0; i < count; ++i) {
-      const float luma =
-          clamped(full_luma(corners(a_.plane[0], xs, ys, i).mix(0), a_.full_range));
+      const float luma = clamped(full_luma(corners(a_.plane[0], xs, ys, i).mix(0), a_.full_range));
       for (float& channel : sums[i].c) {
         channel += luma;
       }
@@ -142,9 +141,8 @@ void warp_samples(const WarpArgs& a, const Sampler& sampler, std::int32_t i, std
       const float first = static_cast<float>(j) + (static_cast<float>(u) + 0.5f) * step;
       const Vec column = _mm256_add_ps(lane, _mm256_set1_ps(first));
       const auto affine = [&](const float* k) {
-        return _mm256_fmadd_ps(
-            column, _mm256_set1_ps(k[0]),
-            _mm256_fmadd_ps(row, _mm256_set1_ps(k[1]), _mm256_set1_ps(k[2])));
+        return _mm256_fmadd_ps(column, _mm256_set1_ps(k[0]),
+                               _mm256_fmadd_ps(row, _mm256_set1_ps(k[1]), _mm256_set1_ps(k[2])));
       };
       sampler.add(affine(m), affine(m + 3), count, sums);
     }

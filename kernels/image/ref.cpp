@@ -11,7 +11,8 @@ struct Rgb {
 Rgb operator+(Rgb a, Rgb b) { return {a.r + b.r, a.g + b.g, a.b + b.b}; }
 Rgb operator*(double s, Rgb a) { return {s * a.r, s * a.g, s * a.b}; }
 
-// Everything outside repeats the border, so coordinates beyond it by more than a pixel are all the same.
+// Everything outside repeats the border, so coordinates beyond it by more than a pixel are all the
+// same.
 double kept_near(double coordinate, std::int32_t size) {
   return std::isfinite(coordinate) ? std::clamp(coordinate, -1.0, size + 1.0) : 0.0;
 }
@@ -87,8 +88,9 @@ void warp(const WarpArgs& a) {
       for (std::int32_t v = 0; v < a.taps; ++v) {
         for (std::int32_t u = 0; u < a.taps; ++u) {
           const double x = j + (u + 0.5) / a.taps, y = i + (v + 0.5) / a.taps;
-          sum = sum + sample(a, static_cast<double>(a.matrix[0]) * x + a.matrix[1] * y + a.matrix[2],
-                             static_cast<double>(a.matrix[3]) * x + a.matrix[4] * y + a.matrix[5]);
+          sum =
+              sum + sample(a, static_cast<double>(a.matrix[0]) * x + a.matrix[1] * y + a.matrix[2],
+                           static_cast<double>(a.matrix[3]) * x + a.matrix[4] * y + a.matrix[5]);
         }
       }
       const Rgb mean = (1.0 / (a.taps * a.taps)) * sum;

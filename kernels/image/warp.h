@@ -1,13 +1,14 @@
 // Affine warp of a camera image straight to the float crop a network reads.
 //
-// Output sample (i, j) covers a parallelogram of the image; it is the mean of taps x taps bilinear samples at
+// Output sample (i, j) covers a parallelogram of the image; it is the mean of taps x taps bilinear
+// samples at
 //   (x, y) = matrix [j + (u + 0.5) / taps; i + (v + 0.5) / taps; 1],   u, v = 0 .. taps-1,
-// in image coordinates where pixel (column c, row r) has its centre at (c + 0.5, r + 0.5). Outside the image the
-// border pixels repeat. A coordinate that is not finite counts as 0.
-// y: [height][width][3] RGB, interleaved: value * scale + offset, value in 0..255.
+// in image coordinates where pixel (column c, row r) has its centre at (c + 0.5, r + 0.5). Outside
+// the image the border pixels repeat. A coordinate that is not finite counts as 0. y:
+// [height][width][3] RGB, interleaved: value * scale + offset, value in 0..255.
 //
-// YUV is BT.601; chroma is sampled bilinearly on its own grid, sited in the middle of its 2x2 pixels.
-// Only bytes of pixels are read: no row is assumed to be followed by padding.
+// YUV is BT.601; chroma is sampled bilinearly on its own grid, sited in the middle of its 2x2
+// pixels. Only bytes of pixels are read: no row is assumed to be followed by padding.
 #pragma once
 
 #include <cstddef>
@@ -34,11 +35,11 @@ struct Plane {
 struct WarpArgs {
   static constexpr std::string_view kFamily = "warp";
   PixelFormat format;
-  Plane plane[3];      // kYuv420: Y, U, V; else only the first
-  bool full_range;     // kGray8, kYuv420: luma 0..255; else 16..235
+  Plane plane[3];                          // kYuv420: Y, U, V; else only the first
+  bool full_range;                         // kGray8, kYuv420: luma 0..255; else 16..235
   std::int32_t image_width, image_height;  // 1..16384
-  float matrix[6];     // x = m0 j + m1 i + m2, y = m3 j + m4 i + m5
-  std::int32_t taps;   // 1..8
+  float matrix[6];                         // x = m0 j + m1 i + m2, y = m3 j + m4 i + m5
+  std::int32_t taps;                       // 1..8
   float* y;
   std::int32_t width, height;
   float scale, offset;

@@ -18,8 +18,7 @@ void lstm(const LstmArgs& a) {
     const Vec f = sigmoid(_mm256_loadu_ps(a.gates + a.hidden + j));
     const Vec g = tanh(_mm256_loadu_ps(a.gates + 2 * a.hidden + j));
     const Vec o = sigmoid(_mm256_loadu_ps(a.gates + 3 * a.hidden + j));
-    const Vec c =
-        flushed(_mm256_fmadd_ps(f, _mm256_loadu_ps(a.c + j), _mm256_mul_ps(i, g)));
+    const Vec c = flushed(_mm256_fmadd_ps(f, _mm256_loadu_ps(a.c + j), _mm256_mul_ps(i, g)));
     const Vec h = flushed(_mm256_mul_ps(o, tanh(c)));
     _mm256_storeu_ps(a.c + j, c);
     _mm256_storeu_ps(a.h + j, h);

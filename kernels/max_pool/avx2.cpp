@@ -16,7 +16,8 @@ void max_pool(const MaxPoolArgs& a) {
         const std::int32_t left = ox * a.stride_w - a.pad_left;
         Vec largest = _mm256_set1_ps(-std::numeric_limits<float>::infinity());
         for (std::int32_t iy = std::max(top, 0); iy < std::min(top + a.kernel_h, a.in_h); ++iy) {
-          for (std::int32_t ix = std::max(left, 0); ix < std::min(left + a.kernel_w, a.in_w); ++ix) {
+          for (std::int32_t ix = std::max(left, 0); ix < std::min(left + a.kernel_w, a.in_w);
+               ++ix) {
             largest = _mm256_max_ps(
                 largest, _mm256_loadu_ps(x + (std::ptrdiff_t{iy} * a.in_w + ix) * kLanes));
           }

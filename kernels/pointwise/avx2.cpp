@@ -1,4 +1,5 @@
-// Register tiles of up to 6 pixels x 16 output channels: 12 sums, two weight vectors, one broadcast.
+// Register tiles of up to 6 pixels x 16 output channels: 12 sums, two weight vectors, one
+// broadcast.
 #include "kernels/common/avx2.h"
 #include "kernels/families.h"
 

@@ -1,7 +1,7 @@
 // y = x + the slice of r that begins at (top, left).
 //
-// x, y: [h, w, c], r: [residual_h, residual_w, c], in blocks of 8 channels. y may be x, or r when both have
-// the same size.
+// x, y: [h, w, c], r: [residual_h, residual_w, c], in blocks of 8 channels. y may be x, or r when
+// both have the same size.
 #pragma once
 
 #include <cstdint>
