@@ -136,12 +136,16 @@ def lens(x, g, share=0.2):
     return some(x, g, share, lambda y, u: low_resolution(y, 1.2 + 1.6 * u))
 
 
+def degrade(x, g):
+    """Occluders, lens, sensor noise and codec."""
+    x = lens(share_of(x, g, 0.3, occlude), g, 0.35)
+    x = share_of(x, g, 0.7, noise).clamp_(0, 1)
+    return some(x, g, 0.35, lambda y, u: jpeg(y, 0.05 + 0.25 * u)).clamp_(0, 1)
+
+
 def photometric(x, g):
-    """The whole chain, for pictures that have nothing to do with each other."""
-    x = share_of(x.clone(), g, 0.15, occlude)
-    x = colour(share_of(x, g, 0.35, shade), g)
-    x = share_of(lens(x, g), g, 0.5, noise).clamp_(0, 1)
-    return some(x, g, 0.2, lambda y, u: jpeg(y, 0.05 + 0.25 * u)).clamp_(0, 1)
+    """The whole chain, for pictures that have nothing to do with each other. Half of them stay sharp, for lids and lips."""
+    return share_of(colour(share_of(x.clone(), g, 0.35, shade), g), g, 0.5, degrade)
 
 
 class OfSequence:

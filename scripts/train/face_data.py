@@ -88,7 +88,7 @@ class Backgrounds:
         return images, torch.zeros(n, 175, 2), middle, torch.zeros(n, len(CONTROLS)), torch.zeros(n, 9), torch.zeros(n, 175), False
 
 
-def jitter(crop, generator, wide_share=0.3):
+def jitter(crop, generator, wide_share=0.2):
     """Crops as the tracker meets them: mostly nearly right, sometimes as rough as a proposal."""
     n = len(crop)
     wide = (torch.rand(n, 1, generator=generator) < wide_share).float()

@@ -74,7 +74,7 @@ def validate(network, portraits, rendered, seed=11):
 class Average:
     """Exponential moving average of the weights."""
 
-    def __init__(self, network, decay=0.998):
+    def __init__(self, network, decay=0.995):
         self.network, self.decay = copy.deepcopy(network), decay
 
     @torch.no_grad()
@@ -241,7 +241,7 @@ def parse():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--report-every", type=int, default=20_000)
-    parser.add_argument("--real-share", type=float, default=0.4)
+    parser.add_argument("--real-share", type=float, default=0.25)
     parser.add_argument("--resume", action="store_true")
     parser.add_argument("--start-from", help="a checkpoint whose weights to begin with")
     parser.add_argument("--evaluate", help="a checkpoint to judge, without training")
