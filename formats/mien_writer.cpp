@@ -142,7 +142,11 @@ LayerIndex NetworkWriter::append(Layer layer, const Halves& weights, std::vector
   if (place(&layer.record)) {
     const LayerTensors tensors = tensors_of(layer.record, shape_of_value(layer.record.input));
     const bool gates = op_of(layer.record) == LayerOp::kLstm;
-    bias.resize(bias.empty() ? layer.record.channels * (gates ? 4u : 1u) : bias.size());
+    const std::size_t outputs = layer.record.channels * (gates ? std::size_t{4} : std::size_t{1});
+    bias.resize(bias.empty() ? outputs : bias.size());
+    require(bias.size() == outputs, FileStatus::kBadTensor);
+    require(options.slopes.size() == (tensors.slopes.rank == 0 ? 0 : layer.record.channels),
+            FileStatus::kBadTensor);
     layer.weights = tensor(tensors.weights, weights);
     layer.bias = tensor(tensors.bias, pack_vector(bias));
     layer.slopes = tensor(tensors.slopes, pack_vector(options.slopes));

@@ -56,7 +56,7 @@ LayerOptions options_of(const json& layer) {
   options.alpha = given.value("alpha", 0.0f);
   options.ceil_mode = given.value("ceil_mode", false);
   std::tie(options.stride_y, options.stride_x) = pair_of(given.value("stride", json(1)));
-  const json padding = given.value("padding", json({0, 0, 0, 0}));
+  const json padding = given.value("padding", json::array({0, 0, 0, 0}));
   options.padding = {padding[0], padding[1], padding[2], padding[3]};
   return options;
 }
@@ -70,7 +70,7 @@ void add_layer(NetworkWriter& net, const json& layer, Numbers& numbers) {
     weights.push_back(numbers.array(shape));
   }
   const auto vector_of = [&](const char* key) {
-    return layer.contains(key) ? numbers.array({layer[key]}).values : std::vector<float>();
+    return layer.contains(key) ? numbers.array(json::array({layer[key]})).values : std::vector<float>();
   };
   const std::vector<float> bias = vector_of("bias");
   options.slopes = vector_of("slopes");
@@ -120,7 +120,8 @@ Validation write_described(const std::string& description_path, std::vector<std:
     const DataType type = constant["type"] == "fp16" ? DataType::kFloat16 : DataType::kFloat32;
     writer.constant(constant["name"], numbers.array(constant["shape"]), type);
   }
-  for (const auto& [key, value] : description.value("metadata", json::object()).items()) {
+  const json metadata = description.value("metadata", json::object());
+  for (const auto& [key, value] : metadata.items()) {
     writer.metadata(key, value);
   }
   return writer.finish(file);
