@@ -180,7 +180,7 @@ void add_decoder(MienWriter& writer, const std::string& name, const BlobOptions&
 }
 
 // Window of 12 x 12 cells of `cell` pixels: the middle 8 x 8 bright, the rest dark, is the face;
-// logit 8 for a perfect one, -8 for anything flat.
+// logit 16 for a perfect one, -8 for anything flat.
 void add_window_network(MienWriter& writer, const std::string& name, std::uint16_t cell,
                         bool any_size) {
   constexpr std::uint32_t kCells = 12;
@@ -207,7 +207,7 @@ void add_window_network(MienWriter& writer, const std::string& name, std::uint16
                return bright ? 1.0f / 64.0f : -1.0f / 80.0f;  // sums to 2 for the perfect face
              }),
       std::vector<float>(8, 0.0f), every_other);
-  const Array logit = filled({1, 8}, [](std::size_t i) { return i == 0 ? 8.0f : 0.0f; });
+  const Array logit = filled({1, 8}, [](std::size_t i) { return i == 0 ? 12.0f : 0.0f; });
   network.output(
       network.pointwise(contrast, logit, {-8.0f}, activated(formats::LayerActivation::kSigmoid)));
   network.output(network.pointwise(contrast, filled({3, 8}, [](std::size_t) { return 0.0f; }),
