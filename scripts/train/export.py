@@ -99,12 +99,7 @@ def add_small_conv(net, x, convolution, prelu):
     return net.conv2d(x, plain(convolution.weight), plain(convolution.bias), activation="prelu", slopes=plain(prelu.weight))
 
 
-def export_proposal(pnet_path, rnet_path):
-    pnet, rnet = networks.PNet(), networks.RNet()
-    pnet.load_state_dict(torch.load(pnet_path, map_location="cpu"))
-    rnet.load_state_dict(torch.load(rnet_path, map_location="cpu"))
-    file = MienFile()
-
+def add_pnet(file, pnet):
     net = file.network("pnet", input=(12, 12, 3), any_size=True)
     x = add_small_conv(net, net.input, pnet.body[0], pnet.body[1])
     x = net.max_pool(x, kernel=2, stride=2, ceil_mode=True)
@@ -113,6 +108,8 @@ def export_proposal(pnet_path, rnet_path):
     net.output(net.pointwise(x, plain(pnet.face.weight), plain(pnet.face.bias), activation="sigmoid"))
     net.output(net.pointwise(x, plain(pnet.box.weight), plain(pnet.box.bias), activation="none"))
 
+
+def add_rnet(file, rnet):
     net = file.network("rnet", input=(24, 24, 3))
     x = add_small_conv(net, net.input, rnet.body[0], rnet.body[1])
     x = net.max_pool(x, kernel=3, stride=2, ceil_mode=True)
@@ -123,6 +120,15 @@ def export_proposal(pnet_path, rnet_path):
     x = net.fully_connected(x, plain(hidden.weight), plain(hidden.bias), activation="prelu", slopes=plain(rnet.hidden[1].weight))
     net.output(net.fully_connected(x, plain(rnet.face.weight), plain(rnet.face.bias), activation="sigmoid"))
     net.output(net.fully_connected(x, plain(rnet.box.weight), plain(rnet.box.bias), activation="none"))
+
+
+def export_proposal(pnet_path, rnet_path):
+    pnet, rnet = networks.PNet(), networks.RNet()
+    pnet.load_state_dict(torch.load(pnet_path, map_location="cpu"))
+    rnet.load_state_dict(torch.load(rnet_path, map_location="cpu"))
+    file = MienFile()
+    add_pnet(file, pnet)
+    add_rnet(file, rnet)
     file.metadata["name"] = "proposal"
     file.metadata["licence"] = "Apache-2.0; trained on the data that models/README.md names"
     file.write(ROOT / "models/proposal.mien")

@@ -1,0 +1,100 @@
+// The engine against PyTorch, on every tier this CPU has. Both see the same fp16 weights and sum in
+// fp32, in another order: the tolerance is relative to the largest answer.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernels/tier.h"
+#include "tests/engine/mini_model.h"
+
+namespace mien::tests {
+namespace {
+
+constexpr double kTolerance = 2e-5;
+
+class Golden : public testing::TestWithParam<std::uint32_t> {
+ protected:
+  void SetUp() override {
+    if ((kernels::detect_cpu() & GetParam()) == 0) {
+      GTEST_SKIP() << "this CPU lacks the tier";
+    }
+  }
+};
+
+// Blocks of 8 channels to [h][w][c].
+std::vector<float> unblocked(std::span<const float> map, const engine::Shape& shape) {
+  std::vector<float> values;
+  for (std::size_t p = 0; p < shape.pixels(); ++p) {
+    for (std::size_t c = 0; c < static_cast<std::size_t>(shape.c); ++c) {
+      values.push_back(map[(c / 8 * shape.pixels() + p) * 8 + c % 8]);
+    }
+  }
+  return values;
+}
+
+void expect_close(const std::vector<float>& got, std::span<const float> want) {
+  ASSERT_EQ(got.size(), want.size());
+  double largest = 0.0;
+  for (const float one : want) {
+    largest = std::max(largest, std::abs(static_cast<double>(one)));
+  }
+  for (std::size_t i = 0; i < want.size(); ++i) {
+    ASSERT_NEAR(got[i], want[i], kTolerance * largest) << "element " << i;
+  }
+}
+
+TEST_P(Golden, Encoder) {
+  MiniSession mini("encoder", {}, GetParam());
+  ASSERT_EQ(mini.status, engine::Status::kOk);
+  const std::vector<float> input = golden("encoder_input");
+  std::copy(input.begin(), input.end(), mini.session->input().begin());
+  mini.session->run();
+  expect_close(unblocked(mini.session->output(0), mini.session->output_shape(0)),
+               golden("encoder_output"));
+}
+
+TEST_P(Golden, FullyConvolutionalOnALargerImage) {
+  MiniSession mini("pnet", {31, 31, 3}, GetParam());
+  ASSERT_EQ(mini.status, engine::Status::kOk);
+  const std::vector<float> input = golden("pnet_input");
+  ASSERT_EQ(input.size(), mini.session->input().size());
+  std::copy(input.begin(), input.end(), mini.session->input().begin());
+  mini.session->run();
+  ASSERT_EQ(mini.session->output_count(), 2u);
+  for (std::uint32_t i = 0; i < 2; ++i) {
+    expect_close(unblocked(mini.session->output(i), mini.session->output_shape(i)),
+                 golden("pnet_output" + std::to_string(i)));
+  }
+}
+
+TEST_P(Golden, TemporalNetworkStepByStepAndAgainAfterReset) {
+  MiniSession mini("temporal", {}, GetParam());
+  ASSERT_EQ(mini.status, engine::Status::kOk);
+  const std::vector<float> inputs = golden("temporal_input"), wanted = golden("temporal_output");
+  std::vector<float> first_round;
+  for (int round = 0; round < 2; ++round) {
+    std::vector<float> answers;
+    for (std::size_t step = 0; step < inputs.size() / 12; ++step) {
+      std::copy_n(inputs.begin() + static_cast<std::ptrdiff_t>(12 * step), 12,
+                  mini.session->input().begin());
+      mini.session->run();
+      const auto output = mini.session->output(0);
+      answers.insert(answers.end(), output.begin(), output.begin() + 10);
+    }
+    expect_close(answers, wanted);
+    if (round == 0) {
+      first_round = answers;
+    } else {
+      EXPECT_EQ(answers, first_round);  // bit for bit
+    }
+    mini.session->reset();
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Tiers, Golden,
+                         testing::Values(kernels::bit(kernels::Tier::kRef),
+                                         kernels::bit(kernels::Tier::kAvx2)));
+
+}  // namespace
+}  // namespace mien::tests

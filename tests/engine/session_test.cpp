@@ -1,0 +1,91 @@
+#include "engine/session.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "engine/arena_plan.h"
+#include "tests/engine/mini_model.h"
+
+namespace mien::tests {
+namespace {
+
+using engine::Session;
+using engine::SessionRequest;
+using engine::SessionSize;
+using engine::Status;
+
+TEST(Session, TellsWhatIsWrong) {
+  EXPECT_EQ(MiniSession("nobody").status, Status::kNoSuchNetwork);
+  EXPECT_EQ(MiniSession("encoder", {26, 27, 3}).status, Status::kWrongInput);
+  EXPECT_EQ(MiniSession("pnet", {11, 31, 3}).status, Status::kWrongInput);
+  EXPECT_EQ(MiniSession("pnet", {31, 31, 4}).status, Status::kWrongInput);
+  EXPECT_EQ(MiniSession("encoder", {}, 0).status, Status::kNoKernel);
+  EXPECT_EQ(MiniSession("encoder").status, Status::kOk);
+}
+
+TEST(Session, AsksForItsMemory) {
+  AlignedBuffer file = read_file(golden_path("mini.mien"));
+  engine::Model model;
+  ASSERT_EQ(model.open(file.span()), Status::kOk);
+  const SessionRequest request{&model, "encoder", {}};
+  SessionSize size;
+  ASSERT_EQ(engine::session_size(request, size), Status::kOk);
+  AlignedBuffer memory(size.session_bytes + 64), arena(size.arena_bytes + 64);
+  Session* session = nullptr;
+  const auto part = [](AlignedBuffer& buffer, std::size_t from, std::size_t bytes) {
+    return buffer.span().subspan(from, bytes);
+  };
+  EXPECT_EQ(Session::init(request, part(memory, 0, size.session_bytes - 1),
+                          part(arena, 0, size.arena_bytes), session),
+            Status::kMemoryTooSmall);
+  EXPECT_EQ(Session::init(request, part(memory, 0, size.session_bytes),
+                          part(arena, 0, size.arena_bytes - 1), session),
+            Status::kMemoryTooSmall);
+  EXPECT_EQ(Session::init(request, part(memory, 8, size.session_bytes),
+                          part(arena, 0, size.arena_bytes), session),
+            Status::kMisaligned);
+  EXPECT_EQ(session, nullptr);
+  EXPECT_EQ(Session::init(request, part(memory, 0, size.session_bytes),
+                          part(arena, 0, size.arena_bytes), session),
+            Status::kOk);
+  EXPECT_NE(session, nullptr);
+}
+
+TEST(Model, RefusesADamagedFile) {
+  AlignedBuffer file = read_file(golden_path("mini.mien"));
+  file.span()[file.span().size() / 2] ^= std::byte{1};
+  engine::Model model;
+  formats::Validation fault;
+  EXPECT_EQ(model.open(file.span(), &fault), Status::kBadFile);
+  EXPECT_EQ(fault.status, formats::FileStatus::kBadChecksum);
+}
+
+// Maps that are alive at the same step must not overlap; the arena must hold them all.
+TEST(ArenaPlan, LiveMapsNeverOverlap) {
+  std::mt19937 random(3);
+  const auto below = [&](std::uint32_t n) { return static_cast<std::uint32_t>(random() % n); };
+  for (int round = 0; round < 300; ++round) {
+    const std::uint32_t count = 1 + below(60);
+    std::vector<engine::Interval> maps(count);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      maps[i].bytes = 1 + below(5000);
+      maps[i].born = i;
+      maps[i].dies = i + below(6);
+    }
+    const std::size_t total = engine::place(maps.data(), count);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      EXPECT_EQ(maps[i].offset % engine::kArenaAlignment, 0u);
+      EXPECT_LE(maps[i].offset + maps[i].bytes, total);
+      for (std::uint32_t k = 0; k < i; ++k) {
+        const bool together = maps[k].dies >= maps[i].born;
+        const bool apart = maps[k].offset + maps[k].bytes <= maps[i].offset ||
+                           maps[i].offset + maps[i].bytes <= maps[k].offset;
+        EXPECT_TRUE(apart || !together) << "maps " << k << " and " << i;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace mien::tests
