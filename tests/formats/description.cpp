@@ -70,7 +70,8 @@ void add_layer(NetworkWriter& net, const json& layer, Numbers& numbers) {
     weights.push_back(numbers.array(shape));
   }
   const auto vector_of = [&](const char* key) {
-    return layer.contains(key) ? numbers.array(json::array({layer[key]})).values : std::vector<float>();
+    return layer.contains(key) ? numbers.array(json::array({layer[key]})).values
+                               : std::vector<float>();
   };
   const std::vector<float> bias = vector_of("bias");
   options.slopes = vector_of("slopes");

@@ -118,6 +118,13 @@ TEST(Writers, PythonWritesTheGoldenBytes) {
   }
 }
 
+TEST(Writers, PythonWriterPassesItsOwnTests) {
+  if (!std::filesystem::exists(kPython)) {
+    GTEST_SKIP() << "no " << kPython;
+  }
+  output_of(std::string(kPython) + " " MIEN_SOURCE_DIR "/tests/formats/mien_file_test.py 2>&1");
+}
+
 TEST(FileStatus, EveryStatusHasItsOwnMessage) {
   std::set<std::string> messages;
   std::size_t count = 0;
