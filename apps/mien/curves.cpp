@@ -59,8 +59,9 @@ std::string landmark_header() {
   Row row;
   row.add(std::string_view("frame"));
   for (int i = 0; i < mien_landmark_count(); ++i) {
-    row.add(std::string_view("x" + std::to_string(i)));
-    row.add(std::string_view("y" + std::to_string(i)));
+    for (const char* axis : {"x", "y"}) {
+      row.add(std::string_view(std::string(axis).append(std::to_string(i))));
+    }
   }
   return std::string(row.finish());
 }

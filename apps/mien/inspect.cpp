@@ -82,7 +82,7 @@ ordered_json file_json(const WeightFile& file) {
 void print_layer(std::int32_t number, const LayerInfo& layer) {
   std::string reads = std::to_string(layer.input);
   if (layer.second_input >= 0) {
-    reads += "+" + std::to_string(layer.second_input);
+    reads.append("+").append(std::to_string(layer.second_input));
   }
   std::string window;
   if (layer.kernel[0] > 0) {

@@ -50,7 +50,7 @@ void Overlay::draw_face(const Result& result) {
   canvas_.line(right, y, right, bottom, kBox);
   canvas_.line(right, bottom, x, bottom, kBox);
   canvas_.line(x, bottom, x, y, kBox);
-  const float radius = std::clamp(result.box[2] * scale / 250.0f, 0.6f, 2.5f);
+  const float radius = std::clamp(result.box[2] * scale / 200.0f, 1.0f, 2.5f);
   for (const auto& point : result.landmarks) {
     canvas_.dot(point[0] * scale, point[1] * scale, radius, kPoint);
   }

@@ -36,9 +36,11 @@ struct LoadedTracker {
     const mien_status status = tracker.create(config);
     if (status != MIEN_OK) {
       const bool usage = status == MIEN_ERROR_UNSUPPORTED_LOD;
-      throw Failure(usage ? kExitUsage : kExitModel,
-                    usage ? "--lod " + std::to_string(options.lod) + ": not supported yet"
-                          : models + ": " + message(status));
+      throw Failure(usage ? kExitUsage : kExitModel, usage
+                                                         ? std::string("--lod ")
+                                                               .append(std::to_string(options.lod))
+                                                               .append(": not supported yet")
+                                                         : models + ": " + message(status));
     }
   }
 
