@@ -7,6 +7,7 @@ namespace mien::tracker {
 namespace {
 
 constexpr float kFadeSeconds = 0.25f;
+constexpr float kFaded = 1e-4f;            // a control below is 0
 constexpr int kAlignments = 2;             // of the crop to its landmarks when a face is acquired
 constexpr std::size_t kJudged = 3;         // proposals shown to BaseNet on one frame
 constexpr std::int32_t kEagerFrames = 30;  // searching on every one of them
@@ -160,7 +161,7 @@ void Tracker::animate(const ImageView& view) {
 void Tracker::fade(float seconds) {
   const float factor = std::exp(-seconds / kFadeSeconds);
   for (float& control : state_.result.controls) {
-    control *= factor;
+    control = control > kFaded ? control * factor : 0.0f;
   }
 }
 

@@ -209,9 +209,9 @@ typedef struct mien_tracker_config {
   float horizontal_fov; /* radians, of the upright image, where focal_length_px is 0; 0.01..3.1;
                            default 60 degrees */
 
-  /* Face probability at and above which a searched face is accepted; default 0.7. */
+  /* Face probability at and above which a searched face is accepted; default 0.9. */
   float accept_probability;
-  /* Face probability below which a tracked face counts as missing; default 0.4; must not exceed
+  /* Face probability below which a tracked face counts as missing; default 0.5; must not exceed
    * accept_probability. */
   float lose_probability;
   /* Consecutive judged frames with the face missing until it is lost; 1..1000; default 3. */
@@ -220,8 +220,8 @@ typedef struct mien_tracker_config {
   /* Face proposal: the longer side of the image is seen at this many pixels, and the smallest
    * face is 12 of them; 24..640; default 160, which finds faces from 7.5 % of the longer side. */
   int32_t proposal_size;
-  float proposal_threshold; /* first stage (P-Net), 0..1; default 0.4 */
-  float refine_threshold;   /* second stage (R-Net), 0..1; default 0.5 */
+  float proposal_threshold; /* first stage (P-Net), 0..1; default 0.6 */
+  float refine_threshold;   /* second stage (R-Net), 0..1; default 0.9 */
   /* Without a face, the proposal runs on every frame for the first 30 of them, then on every
    * search_interval-th; 1..1000; default 3. */
   int32_t search_interval;
@@ -296,9 +296,11 @@ MIEN_API const char* mien_stage_name(int32_t stage);
 
 /* Bits of mien_result.flags: what happened on this frame. */
 #define MIEN_RESULT_PROPOSAL_RAN 0x1u
-#define MIEN_RESULT_ENCODER_RAN 0x2u /* 0 on the alternate frames of LOD 1 */
-#define MIEN_RESULT_FOUND 0x4u       /* a face was (re)found on this frame */
-#define MIEN_RESULT_CUT 0x8u         /* the timestamp told of a cut */
+/* Not set on the alternate frames of LOD 1: box and landmarks are those of the frame before, while
+ * controls and head pose move on. */
+#define MIEN_RESULT_ENCODER_RAN 0x2u
+#define MIEN_RESULT_FOUND 0x4u /* a face was (re)found on this frame */
+#define MIEN_RESULT_CUT 0x8u   /* the timestamp told of a cut */
 
 typedef struct mien_result {
   uint32_t struct_size;
