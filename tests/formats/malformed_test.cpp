@@ -32,7 +32,7 @@ TEST(Malformed, TruncatedAtEveryLineWithItsSizeMadeRight) {
 }
 
 TEST(Malformed, BytesBehindTheEnd) {
-  for (const std::size_t more : {1, 63, 64, 4096}) {
+  for (const std::size_t more : {1u, 63u, 64u, 4096u}) {
     auto file = small();
     file.resize(file.size() + more);
     EXPECT_EQ(open_copy(file).status, FileStatus::kTrailingBytes);
@@ -92,7 +92,7 @@ std::vector<Integer> boundary_values() {
           static_cast<Integer>((std::uint64_t{1} << power) + static_cast<std::uint64_t>(delta)));
     }
   }
-  for (const unsigned below : {0, 1, 2, 3, 7, 15, 31, 63, 64}) {
+  for (const unsigned below : {0u, 1u, 2u, 3u, 7u, 15u, 31u, 63u, 64u}) {
     values.push_back(static_cast<Integer>(Limits::max() - below));
   }
   return values;
