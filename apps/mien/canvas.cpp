@@ -30,8 +30,9 @@ const unsigned char* row(const mien_image& image, int plane, int y) {
 Color from_yuv(const mien_image& image, int x, int y) {
   const float luma = row(image, 0, y)[x];
   const int chroma_x = x / 2 * std::max(image.chroma_pixel_stride_bytes, 1);
-  const float u = static_cast<float>(row(image, 1, y / 2)[chroma_x]) - 128.0f;
-  const float v = static_cast<float>(row(image, 2, y / 2)[chroma_x]) - 128.0f;
+  const int chroma_y = y / 2;
+  const float u = static_cast<float>(row(image, 1, chroma_y)[chroma_x]) - 128.0f;
+  const float v = static_cast<float>(row(image, 2, chroma_y)[chroma_x]) - 128.0f;
   const float gain = image.full_range != 0 ? 1.0f : 255.0f / 219.0f;
   const float chroma = image.full_range != 0 ? 1.0f : 255.0f / 224.0f;
   const float base = image.full_range != 0 ? luma : (luma - 16.0f) * gain;

@@ -124,7 +124,7 @@ def first_windows(rng):
     parts = []
     for image, box in pictures(rng):
         parts.append(data.windows_of_background(rng, image, 40) if box is None else data.windows_of_face(rng, image, box))
-    for image, box in rendered(rng, 20000):
+    for image, box in rendered(rng, 8000):
         parts.append(data.windows_of_face(rng, image, box, around=6, negatives=0))
     return collect(parts)
 
@@ -166,7 +166,7 @@ def second_windows(rng, pnet, most=24):
         kind = data.kinds(data.iou(windows, box))
         keep = kind >= 0
         parts.append((data.cut(image, windows[keep]), kind[keep].astype(np.int8), data.regression(windows[keep], box)))
-    for image, box in rendered(rng, 20000):
+    for image, box in rendered(rng, 8000):
         parts.append(data.windows_of_face(rng, image, box, around=6, negatives=0))
     return collect(parts)
 
