@@ -169,6 +169,27 @@ TEST(Following, ACutLosesAndFindsOnTheSameFrame) {
   expect_box_on_disc(result, 250.0f, 170.0f, 50.0f);
 }
 
+TEST(Following, DecodersBeginAnewAfterACut) {
+  const Buffer disc(disc_picture(160.0f, 120.0f, 70.0f), {});
+  const auto distance = [](const Result& a, const Result& b) {
+    float largest = 0.0f;
+    for (int i = 0; i < MIEN_CONTROL_COUNT; ++i) {
+      largest = std::max(largest, std::abs(a.controls[i] - b.controls[i]));
+    }
+    return largest;
+  };
+  BlobTracker tracker;
+  const Result first = tracker.push(disc.image());
+  Result before;
+  for (int i = 0; i < 8; ++i) {
+    before = tracker.push(disc.image());
+  }
+  const Result cut = tracker.push(disc.image(), -1);
+  EXPECT_EQ(cut.proposal_runs, 1u) << "the face is still there";
+  EXPECT_GT(distance(cut, before), 0.01f);
+  EXPECT_LT(distance(cut, first), 0.005f);
+}
+
 TEST(Following, DecodersBeginAnewWhenAFaceIsFound) {
   const Picture disc = disc_picture(160.0f, 120.0f, 70.0f);
   BlobTracker fresh;
