@@ -9,8 +9,9 @@ namespace mien::tracker {
 namespace {
 
 constexpr float kPyramidFactor = 0.709f;
-constexpr std::int32_t kWindow = 12;  // P-Net's, pixels
-constexpr float kStride = 2.0f;       // of P-Net's windows, pixels
+constexpr std::int32_t kWindow = 12;   // P-Net's, pixels
+constexpr float kStride = 2.0f;        // of P-Net's windows, pixels
+constexpr float kWindowMiddle = 6.0f;  // from its beginning, pixels
 constexpr std::int32_t kRefineSide = 24;
 constexpr float kOverlapInLevel = 0.5f;
 constexpr float kOverlapOfLevels = 0.7f;
@@ -107,8 +108,8 @@ void MtcnnProposal::collect(const Network& pnet, const Square& canvas, BestCandi
       if (!(face[0] >= proposal_threshold_)) {
         continue;
       }
-      const Square window = {{left + (kStride * static_cast<float>(x) + kWindow / 2) * pixels,
-                              top + (kStride * static_cast<float>(y) + kWindow / 2) * pixels},
+      const Square window = {{left + (kStride * static_cast<float>(x) + kWindowMiddle) * pixels,
+                              top + (kStride * static_cast<float>(y) + kWindowMiddle) * pixels},
                              kWindow * pixels};
       const Square square = regressed(window, regression);
       if (is_usable(square)) {
