@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Times mien's networks and the same networks in ONNX Runtime, in turns, one thread each, and writes
 # docs/results/peers.md and .json.  usage: scripts/bench_peers.sh [ROUNDS]
-# Needs the packages of `scripts/setup.sh build train` and npm (nodejs); a Release build is made if missing.
+# Needs npm (nodejs); makes a Release build unless MIEN_PROGRAM names a program to time.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -11,8 +11,11 @@ mkdir -p "$work"
 
 scripts/setup.sh build train
 command -v npm >/dev/null || { echo "bench_peers.sh: needs node and npm" >&2; exit 1; }
-cmake --preset release >/dev/null
-cmake --build --preset release --target mien_program
+program=${MIEN_PROGRAM:-build/release/apps/mien/mien}
+if [ -z "${MIEN_PROGRAM:-}" ]; then
+  cmake --preset release -DMIEN_BUILD_TESTS=OFF >/dev/null
+  cmake --build --preset release --target mien_program
+fi
 
 if [ ! -d "$work/node_modules/onnxruntime-node" ]; then
   (cd "$work" && ONNXRUNTIME_NODE_INSTALL=skip npm install --ignore-scripts --no-audit --no-fund \
@@ -23,7 +26,7 @@ cp scripts/peers/onnxruntime_bench.mjs "$work/"
 
 runs=()
 for ((round = 0; round < rounds; ++round)); do
-  build/release/apps/mien/mien bench --json >"$work/mien_$round.json"
+  "$program" bench --json >"$work/mien_$round.json"
   node "$work/onnxruntime_bench.mjs" "$work" >"$work/peer_$round.json"
   runs+=("$round")
 done
