@@ -143,9 +143,9 @@ def degrade(x, g):
     return some(x, g, 0.35, lambda y, u: jpeg(y, 0.05 + 0.25 * u)).clamp_(0, 1)
 
 
-def photometric(x, g):
-    """The whole chain, for pictures that have nothing to do with each other. Half of them stay sharp, for lids and lips."""
-    return share_of(colour(share_of(x.clone(), g, 0.35, shade), g), g, 0.5, degrade)
+def photometric(x, g, degraded=0.5):
+    """The whole chain, for pictures that have nothing to do with each other. A share stays sharp, for lids and lips."""
+    return share_of(colour(share_of(x.clone(), g, 0.35, shade), g), g, degraded, degrade)
 
 
 class OfSequence:

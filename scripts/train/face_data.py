@@ -88,13 +88,13 @@ class Backgrounds:
         return images, torch.zeros(n, 175, 2), middle, torch.zeros(n, len(CONTROLS)), torch.zeros(n, 9), torch.zeros(n, 175), False
 
 
-def jitter(crop, generator, wide_share=0.2):
-    """Crops as the tracker meets them: mostly nearly right, sometimes as rough as a proposal."""
+def jitter(crop, generator, roughness=1.0, wide_share=0.2):
+    """Crops as the tracker meets them: mostly nearly right, sometimes as rough as a proposal. All of it times `roughness`."""
     n = len(crop)
     wide = (torch.rand(n, 1, generator=generator) < wide_share).float()
     normal = torch.randn(n, 4, generator=generator) * torch.tensor([0.035, 0.035, 0.06, 0.08])
     rough = (torch.rand(n, 4, generator=generator) * 2 - 1) * torch.tensor([0.14, 0.14, 0.28, 0.5])
-    d = torch.lerp(normal, rough, wide)
+    d = torch.lerp(normal, rough, wide) * roughness
     return torch.stack([crop[:, 0] + d[:, 0] * crop[:, 2], crop[:, 1] + d[:, 1] * crop[:, 2],
                         crop[:, 2] * torch.exp(d[:, 2]), crop[:, 3] + d[:, 3]], 1)
 
@@ -135,10 +135,11 @@ def mirror(batch, generator):
 class Mixture:
     """Draws batches: shares of portraits, rendered faces and backgrounds; some of the faces badly placed."""
 
-    def __init__(self, portraits, rendered, backgrounds, seed, real_share=0.45, background_share=0.1):
+    def __init__(self, portraits, rendered, backgrounds, seed, real_share=0.45, background_share=0.1,
+                 roughness=1.0):
         self.portraits, self.rendered, self.backgrounds = portraits, rendered, backgrounds
         self.rng, self.generator = np.random.default_rng(seed), torch.Generator().manual_seed(seed)
-        self.real_share, self.background_share = real_share, background_share
+        self.real_share, self.background_share, self.roughness = real_share, background_share, roughness
 
     def batch(self, size, misplaced_share=0.04):
         n_background = int(size * self.background_share)
@@ -155,7 +156,7 @@ class Mixture:
         images, landmarks, crop, controls, pose, visible, rendered = rows
         n = len(images)
         bad = torch.rand(n, generator=self.generator) < misplaced_share
-        used = torch.where(bad[:, None], misplace(crop, self.generator), jitter(crop, self.generator))
+        used = torch.where(bad[:, None], misplace(crop, self.generator), jitter(crop, self.generator, self.roughness))
         good = ~bad & bool(face)
         if rendered:
             pose = self.pose_targets(used)

@@ -154,7 +154,7 @@ class Trainer:
         self.generator = torch.Generator().manual_seed(seed)
         self.rendered = face_data.Rendered("train_stills", "train_sequences")
         self.mixture = face_data.Mixture(face_data.Portraits("train"), self.rendered, face_data.Backgrounds(), seed,
-                                         self.options.real_share)
+                                         self.options.real_share, roughness=self.options.roughness)
         self.val_real, self.val_rendered = face_data.Portraits("val"), face_data.Rendered("val_stills", "val_sequences")
         self.clips = clips.load() if self.rank == 0 else []
         eyes = template()[list(lp.OUTER_EYE_CORNERS)]
@@ -177,7 +177,7 @@ class Trainer:
             group["lr"] = self.learning_rate()
         batch = self.mixture.batch(self.options.batch)
         rows, moved, crop = moved_views(batch.images, batch, self.generator)
-        images = augment.photometric(torch.cat([batch.images, moved]), self.generator) * 2 - 1
+        images = augment.photometric(torch.cat([batch.images, moved]), self.generator, self.options.degraded) * 2 - 1
         batch = face_data.Batch(*(value.to(self.device) for value in batch))
         n = len(batch.images)
         whole = self.model(images.to(self.device, memory_format=torch.channels_last))
@@ -242,6 +242,8 @@ def parse():
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--report-every", type=int, default=20_000)
     parser.add_argument("--real-share", type=float, default=0.25)
+    parser.add_argument("--degraded", type=float, default=0.5, help="share of pictures with blur, noise and JPEG")
+    parser.add_argument("--roughness", type=float, default=1.0, help="of the crops; lower lets expressions be learned sooner")
     parser.add_argument("--resume", action="store_true")
     parser.add_argument("--start-from", help="a checkpoint whose weights to begin with")
     parser.add_argument("--evaluate", help="a checkpoint to judge, without training")
