@@ -26,7 +26,4 @@ if [ $quick -eq 0 ]; then
 fi
 build_and_test release
 scripts/check_symbols.sh build/release
-if [ $quick -eq 0 ]; then
-  scripts/check_tidy.sh build/clang
-fi
 ctest --preset release -N | tail -1
