@@ -9,21 +9,22 @@ quick=0
 
 scripts/setup.sh build test
 
-build_and_test() {  # preset
+build() {  # preset
   echo "== $1"
   cmake --preset "$1" >/dev/null
   cmake --build --preset "$1"
+}
+run_tests() {  # preset
   ctest --preset "$1" -j "$(nproc)"
 }
 
 scripts/check_layering.sh
 if [ $quick -eq 0 ]; then
   scripts/check_format.sh
-  build_and_test asan-ubsan
-  echo "== clang (warnings)"
-  cmake --preset clang >/dev/null
-  cmake --build --preset clang
+  build asan-ubsan
+  run_tests asan-ubsan
+  build clang
 fi
-build_and_test release
+build release
 scripts/check_symbols.sh build/release
-ctest --preset release -N | tail -1
+run_tests release
