@@ -22,17 +22,6 @@ class Golden : public testing::TestWithParam<std::uint32_t> {
   }
 };
 
-// Blocks of 8 channels to [h][w][c].
-std::vector<float> unblocked(std::span<const float> map, const engine::Shape& shape) {
-  std::vector<float> values;
-  for (std::size_t p = 0; p < shape.pixels(); ++p) {
-    for (std::size_t c = 0; c < static_cast<std::size_t>(shape.c); ++c) {
-      values.push_back(map[(c / 8 * shape.pixels() + p) * 8 + c % 8]);
-    }
-  }
-  return values;
-}
-
 void expect_close(const std::vector<float>& got, std::span<const float> want) {
   ASSERT_EQ(got.size(), want.size());
   double largest = 0.0;

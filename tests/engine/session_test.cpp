@@ -25,7 +25,7 @@ TEST(Session, TellsWhatIsWrong) {
 }
 
 TEST(Session, AsksForItsMemory) {
-  AlignedBuffer file = read_file(golden_path("mini.mien"));
+  AlignedBuffer file = mini_file();
   engine::Model model;
   ASSERT_EQ(model.open(file.span()), Status::kOk);
   const SessionRequest request{&model, "encoder", {}};
@@ -53,7 +53,7 @@ TEST(Session, AsksForItsMemory) {
 }
 
 TEST(Model, RefusesADamagedFile) {
-  AlignedBuffer file = read_file(golden_path("mini.mien"));
+  AlignedBuffer file = mini_file();
   file.span()[file.span().size() / 2] ^= std::byte{1};
   engine::Model model;
   formats::Validation fault;

@@ -1,0 +1,166 @@
+// Every layer operation of a file, alone in a network, against plain layers in double.
+#include "tests/engine/twin_session.h"
+
+namespace mien::tests {
+namespace {
+
+using formats::InputShape;
+using formats::LayerActivation;
+using Options = TwinNetwork::Options;
+
+template <class Build>
+void expect_layer(InputShape input, const Build& build) {
+  for (const std::uint32_t tier : tiers_here()) {
+    formats::MienWriter writer;
+    TwinNetwork twin(writer.network("net", input), input, 5);
+    twin.output(build(twin));
+    ASSERT_NO_FATAL_FAILURE(expect_twins_agree(writer, "net", twin, tier))
+        << "tier mask " << tier << ", input " << input.height << "x" << input.width << "x"
+        << input.channels;
+  }
+}
+
+Options strided(std::uint16_t stride_y, std::uint16_t stride_x, formats::Padding padding = {}) {
+  Options options;
+  options.stride_y = stride_y;
+  options.stride_x = stride_x;
+  options.padding = padding;
+  return options;
+}
+
+Options activating(LayerActivation activation) {
+  Options options;
+  options.activation = activation;
+  options.alpha = activation == LayerActivation::kLeakyRelu ? 0.125f : 0.0f;
+  return options;
+}
+
+const LayerActivation kActivations[] = {LayerActivation::kRelu,      LayerActivation::kRelu6,
+                                        LayerActivation::kLeakyRelu, LayerActivation::kPrelu,
+                                        LayerActivation::kSigmoid,   LayerActivation::kTanh,
+                                        LayerActivation::kClamp01};
+
+TEST(Layers, Conv2dOnAnInterleavedImageAndOnBlocks) {
+  for (const std::uint32_t channels : {1u, 3u, 4u, 5u, 8u, 19u}) {
+    for (const Options& options :
+         {strided(1, 1), strided(2, 2), strided(2, 1, {1, 2, 0, 1}), strided(1, 3, {2, 0, 1, 1})}) {
+      expect_layer({9, 11, channels},
+                   [&](TwinNetwork& net) { return net.conv2d(0, 13, 3, 3, options); });
+    }
+  }
+}
+
+TEST(Layers, Conv2dWithKernelsOfOtherSizes) {
+  for (const auto& [h, w] : {std::pair{1u, 1u}, {1u, 4u}, {5u, 2u}, {7u, 7u}}) {
+    expect_layer({8, 9, 3}, [&](TwinNetwork& net) { return net.conv2d(0, 24, h, w); });
+  }
+}
+
+TEST(Layers, Depthwise) {
+  for (const std::uint32_t channels : {5u, 8u, 21u}) {
+    for (const Options& options :
+         {strided(1, 1), strided(2, 2), strided(1, 1, {1, 1, 1, 1}), strided(2, 1, {0, 2, 1, 0})}) {
+      for (const auto& [h, w] : {std::pair{3u, 3u}, {2u, 5u}, {3u, 2u}}) {
+        if (options.padding.left < w) {
+          expect_layer({7, 6, channels},
+                       [&](TwinNetwork& net) { return net.depthwise(0, h, w, options); });
+        }
+      }
+    }
+  }
+}
+
+TEST(Layers, Pointwise) {
+  for (const std::uint32_t outputs : {1u, 8u, 16u, 17u, 40u}) {
+    expect_layer({5, 3, 13}, [&](TwinNetwork& net) { return net.pointwise(0, outputs); });
+  }
+}
+
+TEST(Layers, PointwiseWithAResidualOfItsOwnSizeAndWithACentreSlice) {
+  expect_layer({6, 5, 12}, [](TwinNetwork& net) {
+    const auto x = net.pointwise(net.depthwise(0, 3, 3, strided(1, 1, {1, 1, 1, 1})), 12);
+    return net.add(x, 0);
+  });
+  expect_layer({9, 8, 12}, [](TwinNetwork& net) {
+    return net.add(net.pointwise(net.depthwise(0, 5, 3), 12, activating(LayerActivation::kRelu)),
+                   0);
+  });
+}
+
+TEST(Layers, AdditionsThatNoPointwiseLayerCanDo) {
+  expect_layer({7, 7, 9}, [](TwinNetwork& net) { return net.add(net.depthwise(0, 3, 3), 0); });
+  // The pointwise result is the larger map, is read again, is both summands, is an output.
+  expect_layer({7, 7, 9}, [](TwinNetwork& net) {
+    return net.add(net.depthwise(0, 3, 3), net.pointwise(0, 9));
+  });
+  expect_layer({7, 7, 9}, [](TwinNetwork& net) {
+    const auto x = net.pointwise(0, 9);
+    return net.add(net.add(x, 0), x);
+  });
+  expect_layer({7, 7, 9}, [](TwinNetwork& net) {
+    const auto x = net.pointwise(0, 9);
+    return net.add(x, x);
+  });
+  expect_layer({7, 7, 9}, [](TwinNetwork& net) {
+    const auto x = net.pointwise(0, 9);
+    net.output(x);
+    return net.add(x, 0);
+  });
+}
+
+TEST(Layers, FullyConnectedOnVectorsAndMaps) {
+  for (const InputShape input : {InputShape{1, 1, 3}, {1, 1, 8}, {1, 1, 77}}) {
+    expect_layer(input, [](TwinNetwork& net) { return net.fully_connected(0, 19); });
+  }
+  expect_layer({3, 2, 11}, [](TwinNetwork& net) { return net.fully_connected(0, 9); });
+}
+
+TEST(Layers, CausalConvolution) {
+  for (const std::uint32_t inputs : {3u, 16u, 21u}) {
+    expect_layer({1, 1, inputs}, [](TwinNetwork& net) { return net.causal_conv(0, 18); });
+  }
+}
+
+TEST(Layers, Lstm) {
+  for (const std::uint32_t inputs : {5u, 16u}) {
+    for (const std::uint32_t hidden : {8u, 24u}) {
+      expect_layer({1, 1, inputs}, [&](TwinNetwork& net) { return net.lstm(0, hidden); });
+    }
+  }
+}
+
+TEST(Layers, MaxPool) {
+  for (const bool ceil_mode : {false, true}) {
+    Options options = strided(2, 2);
+    options.ceil_mode = ceil_mode;
+    expect_layer({8, 7, 10}, [&](TwinNetwork& net) { return net.max_pool(0, 3, 3, options); });
+    options.padding = {1, 0, 0, 1};
+    expect_layer({8, 7, 10}, [&](TwinNetwork& net) { return net.max_pool(0, 2, 3, options); });
+  }
+}
+
+TEST(Layers, ActivationsAlone) {
+  for (const LayerActivation kind : kActivations) {
+    expect_layer({3, 4, 11}, [&](TwinNetwork& net) { return net.activation(0, activating(kind)); });
+  }
+}
+
+TEST(Layers, ActivationsInsideOthers) {
+  for (const LayerActivation kind : kActivations) {
+    const Options options = activating(kind);
+    expect_layer({6, 5, 3}, [&](TwinNetwork& net) { return net.conv2d(0, 11, 3, 3, options); });
+    expect_layer({6, 5, 11}, [&](TwinNetwork& net) { return net.depthwise(0, 3, 3, options); });
+    expect_layer({6, 5, 11}, [&](TwinNetwork& net) { return net.pointwise(0, 21, options); });
+    expect_layer({1, 1, 9}, [&](TwinNetwork& net) { return net.fully_connected(0, 21, options); });
+    expect_layer({1, 1, 9}, [&](TwinNetwork& net) { return net.causal_conv(0, 21, options); });
+  }
+}
+
+TEST(Layers, Softmax) {
+  for (const std::uint32_t channels : {5u, 8u, 13u}) {
+    expect_layer({3, 2, channels}, [](TwinNetwork& net) { return net.softmax(0); });
+  }
+}
+
+}  // namespace
+}  // namespace mien::tests
