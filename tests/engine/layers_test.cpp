@@ -52,7 +52,7 @@ TEST(Layers, Conv2dOnAnInterleavedImageAndOnBlocks) {
 
 TEST(Layers, Conv2dWithKernelsOfOtherSizes) {
   for (const auto& [h, w] : {std::pair{1u, 1u}, {1u, 4u}, {5u, 2u}, {7u, 7u}}) {
-    expect_layer({8, 9, 3}, [&](TwinNetwork& net) { return net.conv2d(0, 24, h, w); });
+    expect_layer({8, 9, 3}, [h = h, w = w](TwinNetwork& net) { return net.conv2d(0, 24, h, w); });
   }
 }
 
@@ -62,8 +62,9 @@ TEST(Layers, Depthwise) {
          {strided(1, 1), strided(2, 2), strided(1, 1, {1, 1, 1, 1}), strided(2, 1, {0, 2, 1, 0})}) {
       for (const auto& [h, w] : {std::pair{3u, 3u}, {2u, 5u}, {3u, 2u}}) {
         if (options.padding.left < w) {
-          expect_layer({7, 6, channels},
-                       [&](TwinNetwork& net) { return net.depthwise(0, h, w, options); });
+          expect_layer({7, 6, channels}, [&, h = h, w = w](TwinNetwork& net) {
+            return net.depthwise(0, h, w, options);
+          });
         }
       }
     }

@@ -52,7 +52,11 @@ class OwnedSession {
   }
 
   // Every float of the arena becomes a NaN: nothing in it may matter to the next run.
-  void spoil_arena() { std::memset(arena_.span().data(), 0xFF, arena_.span().size()); }
+  void spoil_arena() {
+    for (std::byte& one : arena_.span()) {
+      one = std::byte{0xFF};
+    }
+  }
 
   engine::Status status = engine::Status::kOk;
   engine::SessionSize size;

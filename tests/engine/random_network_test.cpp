@@ -21,7 +21,7 @@ class RandomNetwork {
     while (twin.last() < static_cast<Index>(layers)) {
       add_layer();
     }
-    for (std::size_t i = between(0, 2); i > 0; --i) {
+    for (auto i = between(0, 2); i > 0; --i) {
       promote(pick());
     }
     gather_loose_ends();

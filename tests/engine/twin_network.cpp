@@ -109,7 +109,7 @@ TwinNetwork::Index TwinNetwork::lstm(Index x, std::uint32_t hidden) {
   const Index index = writer_.lstm(x, ih, hh, b);
   return append(index, [=, this](const std::vector<Map>& values) {
     const std::vector<double> zeros(hidden);
-    LstmState& cell = cells_.try_emplace(index, zeros, zeros).first->second;
+    LstmState& cell = cells_.try_emplace(index, LstmState{zeros, zeros}).first->second;
     return plain_lstm(values[x], ih, hh, b, cell);
   });
 }
