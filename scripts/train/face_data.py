@@ -6,17 +6,18 @@ import torch
 from PIL import Image
 
 import head_pose
-from expressions import CONTROLS
-from faces import WINDOW_CROPS, window
+from expressions import CONTROLS, MIRROR as CONTROL_MIRROR
+from faces import WINDOW_CROPS, template, window
 from landmark_points import MIRROR
 from paths import cache, data
-from sequences import CROP, WINDOW, sample_crops
+from renderer.assets import names
+from sequences import CROP, WINDOW, crop_to_image, fit_crop, sample_crops
 
 # images f32 [n,3,65,65] in 0..1; landmarks [n,175,2] in crop coordinates; pose [n,9]; has_landmarks, has_controls bool [n];
 # visible [n,175]; face [n]: 1 a face well inside the crop, 0 none or misplaced
 Batch = namedtuple("Batch", "images landmarks controls pose visible has_landmarks has_controls face")
 
-CONTROL_MIRROR = [CONTROLS.index(n.replace("Left", "~").replace("Right", "Left").replace("~", "Right")) for n in CONTROLS]
+MIDDLE = (WINDOW / 2, WINDOW / 2, WINDOW / WINDOW_CROPS, 0.0)  # the crop of a window as it was proposed
 
 
 class Portraits:
@@ -67,25 +68,58 @@ class Rendered:
 
 
 class Backgrounds:
-    """Pieces of environments, and of portraits where the crop misses the face."""
+    """Pieces of environments, those the network took for a face, and portraits where the crop misses the face."""
 
     def __init__(self, count=3000, seed=7):
-        rng = np.random.default_rng(seed)
-        self.images = np.empty((count, WINDOW, WINDOW, 3), np.uint8)
-        paths = sorted((data() / "environments").glob("*.jpg"))
-        pictures = [np.asarray(Image.open(p).convert("RGB")) for p in paths]
-        for k in range(count):
-            picture = pictures[rng.integers(len(pictures))]
-            side = np.exp(rng.uniform(np.log(60), np.log(400)))
-            centre = rng.uniform(0, 1, 2) * picture.shape[1::-1]
-            self.images[k] = window(picture, centre, side)
+        self.rng = np.random.default_rng(seed)
+        paths = [data() / f"environments/{name}.jpg" for name in names("environments")]
+        self.pictures = [np.asarray(Image.open(p).convert("RGB")) for p in paths]
+        self.plain, middle = self.pieces(count), torch.tensor(MIDDLE).expand(count, -1)
+        self.mistaken, self.mistaken_crop, self.mistakes = self.plain.copy(), middle.clone(), 0
         self.misplaced = np.load(cache() / "faces/misplaced.npy", mmap_mode="r")
 
+    def pieces(self, count):
+        images = np.empty((count, WINDOW, WINDOW, 3), np.uint8)
+        for k in range(count):
+            picture = self.pictures[self.rng.integers(len(self.pictures))]
+            side = np.exp(self.rng.uniform(np.log(60), np.log(400)))
+            images[k] = window(picture, self.rng.uniform(0, 1, 2) * picture.shape[1::-1], side)
+        return images
+
+    @torch.no_grad()
+    def mine(self, network, count=600, alignments=2, believed=0.15):
+        """Lets the network align itself on new pieces, as the tracker does, and keeps what it then takes for a face."""
+        network.eval()
+        images = self.pieces(count)
+        crop = torch.tensor(MIDDLE).expand(count, -1)
+        for k in range(alignments + 1):
+            out = network(sample(images, crop) * 2 - 1)
+            face = torch.sigmoid(out["face"])
+            self.remember(images, crop, (face > believed) & within(crop))
+            crop = fit_crop(template(), crop_to_image(crop, out["landmarks"]))
+        network.train()
+
+    def remember(self, images, crop, chosen):
+        """The newest mistakes replace the oldest."""
+        for i in torch.nonzero(chosen)[:, 0].tolist():
+            slot = self.mistakes % len(self.mistaken)
+            self.mistaken[slot], self.mistaken_crop[slot] = images[i], crop[i]
+            self.mistakes += 1
+
     def rows(self, rng, n):
-        images = np.concatenate([source[rng.integers(0, len(source), k)] for source, k in
-                                 ((self.images, n // 2), (self.misplaced, n - n // 2))])
-        middle = torch.tensor([[WINDOW / 2, WINDOW / 2, WINDOW / WINDOW_CROPS, 0.0]]).expand(n, -1)
-        return images, torch.zeros(n, 175, 2), middle, torch.zeros(n, len(CONTROLS)), torch.zeros(n, 9), torch.zeros(n, 175), False
+        """A third each of plain pieces, mistakes and misplaced crops."""
+        a, b = rng.integers(0, len(self.plain), n // 3), rng.integers(0, max(1, min(self.mistakes, len(self.mistaken))), n // 3)
+        c = rng.integers(0, len(self.misplaced), n - 2 * (n // 3))
+        images = np.concatenate([self.plain[a], self.mistaken[b], self.misplaced[np.sort(c)]])
+        middle = lambda k: torch.tensor(MIDDLE).expand(k, -1)
+        crop = torch.cat([middle(len(a)), self.mistaken_crop[b], middle(len(c))])
+        return images, torch.zeros(n, 175, 2), crop, torch.zeros(n, len(CONTROLS)), torch.zeros(n, 9), torch.zeros(n, 175), False
+
+
+def within(crop):
+    """Whether crops still lie in the window they began in."""
+    away = (crop[:, :2] - WINDOW / 2).abs().amax(1) + crop[:, 2] / 2
+    return (away < 0.65 * WINDOW) & (crop[:, 2] > 0.3 * WINDOW)
 
 
 def jitter(crop, generator, roughness=1.0, wide_share=0.2):

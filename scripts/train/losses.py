@@ -78,4 +78,4 @@ class Losses:
 
     def total(self, out, batch):
         return (3 * self.landmarks(out["landmarks"], batch) + 0.5 * F.binary_cross_entropy_with_logits(out["face"], batch.face)
-                + 1.5 * self.controls(out["controls"], batch) + 2 * self.pose(out["pose"], batch))
+                + 4 * self.controls(out["controls"], batch) + 2 * self.pose(out["pose"], batch))

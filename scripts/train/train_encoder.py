@@ -25,10 +25,14 @@ from expressions import CONTROLS
 from faces import template
 from losses import Losses
 from networks import BaseNet
+from optimizer import Optimizer
 from paths import cache
 
 CURVES = {"error, outer eye corner distances": ("loss", "real_landmarks", "rendered_landmarks", "clips_mean", "clips_worst"),
           "correlation": ("controls_mean", "jawOpen", "eyeBlinkLeft", "mouthPucker", "browInnerUp", "clips_eyes", "clips_mouth")}
+
+GENTLE_UNTIL, FULL_FROM = 0.55, 0.8         # of the run
+GENTLE, FULL = (0.1, 0.5), (0.4, 0.9)       # share of degraded pictures, roughness of crops
 
 
 def keep_memory():
@@ -125,10 +129,10 @@ class Trainer:
             self.network.landmarks.bias.copy_(template().flatten())
             self.network.landmarks.weight.mul_(0.1)
         self.average = Average(self.network)
-        self.optimizer = torch.optim.AdamW(self.network.parameters(), options.rate, weight_decay=0.02)
         self.samples, self.step, self.seconds, self.history = 0, 0, 0.0, []
         self.run = cache() / "runs" / options.name
         self.run.mkdir(parents=True, exist_ok=True)
+        self.optimizer = Optimizer(self.network, options.rate)
         self.restore()
         self.network.to(device, memory_format=torch.channels_last)
         self.average.network.to(device)
@@ -153,8 +157,8 @@ class Trainer:
         seed = self.options.seed * 1000 + self.rank + 7919 * self.step
         self.generator = torch.Generator().manual_seed(seed)
         self.rendered = face_data.Rendered("train_stills", "train_sequences")
-        self.mixture = face_data.Mixture(face_data.Portraits("train"), self.rendered, face_data.Backgrounds(), seed,
-                                         self.options.real_share, roughness=self.options.roughness)
+        self.mixture = face_data.Mixture(face_data.Portraits("train"), self.rendered, face_data.Backgrounds(seed=seed), seed,
+                                         self.options.real_share)
         self.val_real, self.val_rendered = face_data.Portraits("val"), face_data.Rendered("val_stills", "val_sequences")
         self.clips = clips.load() if self.rank == 0 else []
         eyes = template()[list(lp.OUTER_EYE_CORNERS)]
@@ -171,20 +175,25 @@ class Trainer:
         warm = min(1.0, self.samples / 10000 + 0.02)
         return self.options.rate * warm * (0.5 + 0.5 * math.cos(math.pi * min(1.0, self.progress()))) + 1e-5
 
+    def difficulty(self):
+        """Share of degraded pictures and roughness of crops: gentle until lids and brows are learned, then as cameras are."""
+        t = min(1.0, max(0.0, (self.progress() - GENTLE_UNTIL) / (FULL_FROM - GENTLE_UNTIL)))
+        return tuple(a + (b - a) * t for a, b in zip(GENTLE, FULL))
+
     def update(self):
         """One step; its loss."""
-        for group in self.optimizer.param_groups:
-            group["lr"] = self.learning_rate()
+        self.optimizer.set_rate(self.learning_rate())
+        degraded, self.mixture.roughness = self.difficulty()
         batch = self.mixture.batch(self.options.batch)
         rows, moved, crop = moved_views(batch.images, batch, self.generator)
-        images = augment.photometric(torch.cat([batch.images, moved]), self.generator, self.options.degraded) * 2 - 1
+        images = augment.photometric(torch.cat([batch.images, moved]), self.generator, degraded) * 2 - 1
         batch = face_data.Batch(*(value.to(self.device) for value in batch))
         n = len(batch.images)
         whole = self.model(images.to(self.device, memory_format=torch.channels_last))
         out = {name: value[:n] for name, value in whole.items()}
         consistency = self.losses.consistency(out["landmarks"][rows], whole["landmarks"][n:], crop.to(self.device))
         loss = self.losses.total(out, batch) + 0.5 * consistency
-        self.optimizer.zero_grad(set_to_none=True)
+        self.optimizer.zero_grad()
         loss.backward()
         torch.nn.utils.clip_grad_norm_(self.network.parameters(), 5.0)
         self.optimizer.step()
@@ -198,7 +207,7 @@ class Trainer:
             source.refresh()
         self.losses.learn_spread(self.rendered)
         report = {"samples": self.samples, "rendered": len(self.rendered), "loss": sum(losses) / len(losses),
-                  **validate(self.average.network, self.val_real, self.val_rendered)}
+                  "mistakes": self.mixture.backgrounds.mistakes, **validate(self.average.network, self.val_real, self.val_rendered)}
         if with_clips:
             report.update({f"clips_{k}": v for k, v in clips.evaluate(self.average.network, self.clips).items()})
         self.history.append(report)
@@ -224,6 +233,8 @@ class Trainer:
             self.seconds = self.elapsed(began)
             bar.update(self.options.batch * self.world)
             due = self.samples - reported >= self.options.report_every or self.progress() >= 1
+            if due:
+                self.mixture.backgrounds.mine(self.average.network)
             if due and self.rank == 0:
                 reports += 1
                 self.report(losses, reports % 5 == 0 or self.progress() >= 1)
@@ -234,16 +245,14 @@ class Trainer:
 def parse():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--name", default="basenet")
-    parser.add_argument("--samples", type=int, default=1_200_000)
+    parser.add_argument("--samples", type=int, default=4_000_000)
     parser.add_argument("--hours", type=float, help="ends sooner, with the schedule fitted to the clock")
-    parser.add_argument("--batch", type=int, default=192)
-    parser.add_argument("--rate", type=float, default=2.5e-3)
+    parser.add_argument("--batch", type=int, default=96, help="of each process")
+    parser.add_argument("--rate", type=float, default=1.3e-3)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--threads", type=int, default=1)
-    parser.add_argument("--report-every", type=int, default=20_000)
-    parser.add_argument("--real-share", type=float, default=0.25)
-    parser.add_argument("--degraded", type=float, default=0.5, help="share of pictures with blur, noise and JPEG")
-    parser.add_argument("--roughness", type=float, default=1.0, help="of the crops; lower lets expressions be learned sooner")
+    parser.add_argument("--report-every", type=int, default=50_000)
+    parser.add_argument("--real-share", type=float, default=0.2)
     parser.add_argument("--resume", action="store_true")
     parser.add_argument("--start-from", help="a checkpoint whose weights to begin with")
     parser.add_argument("--evaluate", help="a checkpoint to judge, without training")
