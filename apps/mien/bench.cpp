@@ -10,6 +10,7 @@
 #include <random>
 #include <vector>
 
+#include "apps/mien/clip_bench.h"
 #include "apps/mien/failure.h"
 #include "apps/mien/model_files.h"
 #include "apps/mien/tiers.h"
@@ -171,6 +172,9 @@ void print_table(const std::map<std::string, double>& peaks, const std::vector<F
 }  // namespace
 
 void bench(const BenchOptions& options) {
+  if (!options.clip.empty()) {
+    return bench_clip(options);
+  }
   std::map<std::string, double> peaks;
   for (const std::string& tier : tiers_to_time(options.tier)) {
     peaks[tier] = peak_gflops(tier);

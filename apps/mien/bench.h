@@ -1,4 +1,4 @@
-// `mien bench`: time of each network on one core.
+// `mien bench`: time of each network, or of the tracker on a clip, on one core.
 #pragma once
 
 #include <string>
@@ -9,6 +9,7 @@ struct BenchOptions {
   std::string model;  // empty: all
   std::string tier;   // empty: all this CPU has
   std::string models;
+  std::string clip;  // empty: the networks
   bool json = false;
 };
 

@@ -1,6 +1,5 @@
 #include "apps/mien/track.h"
 
-#include <chrono>
 #include <cstdio>
 #include <memory>
 #include <mien/mien.hpp>
@@ -9,44 +8,15 @@
 #include "apps/mien/curves.h"
 #include "apps/mien/failure.h"
 #include "apps/mien/ffmpeg.h"
-#include "apps/mien/model_files.h"
+#include "apps/mien/loaded_tracker.h"
 #include "apps/mien/output_file.h"
 #include "apps/mien/overlay.h"
 #include "apps/mien/progress.h"
 #include "apps/mien/stage_times.h"
-#include "apps/mien/tiers.h"
 #include "apps/mien/video_source.h"
 
 namespace mien::app {
 namespace {
-
-std::uint64_t now_ns(void*) {
-  return static_cast<std::uint64_t>(std::chrono::steady_clock::now().time_since_epoch() /
-                                    std::chrono::nanoseconds(1));
-}
-
-struct LoadedTracker {
-  LoadedTracker(const std::string& models, const TrackOptions& options)
-      : basenet(models + "/basenet.mien"), proposal(models + "/proposal.mien") {
-    Config config({static_cast<const std::byte*>(basenet.data()), basenet.size()},
-                  {static_cast<const std::byte*>(proposal.data()), proposal.size()});
-    config.lod = options.lod;
-    config.cpu_mask = cpu_mask(options.tier);
-    config.clock_ns = now_ns;
-    const mien_status status = tracker.create(config);
-    if (status != MIEN_OK) {
-      const bool usage = status == MIEN_ERROR_UNSUPPORTED_LOD;
-      throw Failure(usage ? kExitUsage : kExitModel, usage
-                                                         ? std::string("--lod ")
-                                                               .append(std::to_string(options.lod))
-                                                               .append(": not supported yet")
-                                                         : models + ": " + message(status));
-    }
-  }
-
-  Blob basenet, proposal;
-  Tracker tracker;
-};
 
 // Everything that is written per frame.
 class Outputs {
@@ -151,7 +121,7 @@ void print_summary(const Result& last, const StageTimes& times) {
 
 void track(const TrackOptions& options) {
   const VideoRange range{options.start_s, options.duration_s};
-  LoadedTracker loaded(models_directory(options.models), options);
+  LoadedTracker loaded({options.models, options.tier, options.lod});
   const std::unique_ptr<VideoSource> video = open_video(options.input, range);
   Outputs outputs(options, video->info(), range);
   StageTimes times;

@@ -157,5 +157,32 @@ TEST_F(Program, Y4mNeedsNoFfmpegAndGivesTheSameFrames) {
   EXPECT_NE(done.output.find("tracking"), std::string::npos);
 }
 
+TEST_F(Program, BenchTimesNetworksAgainstThePeak) {
+  MIEN_NEEDS("trained model", have_models());
+  const Outcome done = run("bench --model basenet_pose --tier ref --json" + models());
+  ASSERT_EQ(done.code, 0) << done.errors;
+  for (const char* key : {"peak_gflops", "\"name\": \"basenet_pose\"", "\"tier\": \"ref\"", "macs",
+                          "min_ms", "median_ms", "p95_ms", "gflops", "peak_fraction"}) {
+    EXPECT_NE(done.output.find(key), std::string::npos) << key << "\n" << done.output;
+  }
+  EXPECT_EQ(run("bench --model nobody" + models()).code, 2);
+}
+
+TEST_F(Program, BenchOfAClipFollowsTheFaceAndProposesAnew) {
+  MIEN_NEEDS("trained model", have_models());
+  MIEN_NEEDS("ffmpeg", have_ffmpeg());
+  ASSERT_EQ(
+      std::system(
+          ("ffmpeg -v error -t 1 -i " + kClip + " -pix_fmt yuv420p " + path("clip.y4m")).c_str()),
+      0);
+  const Outcome done = run("bench --json --clip " + path("clip.y4m") + models());
+  ASSERT_EQ(done.code, 0) << done.errors;
+  for (const char* key : {"\"frames\": 30", "\"proposal_runs\": 1,", "\"followed\"",
+                          "\"proposed_on_every_frame\"", "\"speedup\""}) {
+    EXPECT_NE(done.output.find(key), std::string::npos) << key << "\n" << done.output;
+  }
+  EXPECT_EQ(run("bench --clip " + path("nowhere.y4m") + models()).code, 3);
+}
+
 }  // namespace
 }  // namespace mien::tests

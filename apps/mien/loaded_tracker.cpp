@@ -1,0 +1,38 @@
+#include "apps/mien/loaded_tracker.h"
+
+#include <chrono>
+
+#include "apps/mien/failure.h"
+#include "apps/mien/tiers.h"
+
+namespace mien::app {
+namespace {
+
+std::uint64_t now_ns(void*) {
+  return static_cast<std::uint64_t>(std::chrono::steady_clock::now().time_since_epoch() /
+                                    std::chrono::nanoseconds(1));
+}
+
+std::span<const std::byte> bytes(const Blob& blob) {
+  return {static_cast<const std::byte*>(blob.data()), blob.size()};
+}
+
+}  // namespace
+
+LoadedTracker::LoadedTracker(const Options& options)
+    : basenet(models_directory(options.models) + "/basenet.mien"),
+      proposal(models_directory(options.models) + "/proposal.mien") {
+  Config config(bytes(basenet), bytes(proposal));
+  config.lod = options.lod;
+  config.cpu_mask = cpu_mask(options.tier);
+  config.clock_ns = now_ns;
+  const mien_status status = tracker.create(config);
+  if (status == MIEN_ERROR_UNSUPPORTED_LOD) {
+    throw Failure(kExitUsage, "--lod " + std::to_string(options.lod) + ": not supported yet");
+  }
+  if (status != MIEN_OK) {
+    throw Failure(kExitModel, models_directory(options.models) + ": " + message(status));
+  }
+}
+
+}  // namespace mien::app

@@ -1,0 +1,25 @@
+// A tracker with the weights it runs on.
+#pragma once
+
+#include <mien/mien.hpp>
+#include <string>
+
+#include "apps/mien/model_files.h"
+
+namespace mien::app {
+
+struct LoadedTracker {
+  struct Options {
+    std::string models;  // folder; empty: see models_directory
+    std::string tier;    // empty: the best of this CPU
+    int lod = 1;
+  };
+
+  // Throws Failure.
+  explicit LoadedTracker(const Options& options);
+
+  Blob basenet, proposal;
+  Tracker tracker;
+};
+
+}  // namespace mien::app
