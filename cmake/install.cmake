@@ -1,4 +1,4 @@
-# What `cmake --install` lays down besides the program: both libraries, headers, weights, and what
+# What `cmake --install` lays down: both libraries, headers, program and weights, and what
 # find_package and pkg-config need to find them. All paths inside are relative: a prefix may move.
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
@@ -12,10 +12,11 @@ install(DIRECTORY include/mien DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(DIRECTORY models/ DESTINATION ${models_dir})
 install(EXPORT mien NAMESPACE mien:: FILE mienTargets.cmake DESTINATION ${package_dir})
 
-if(TARGET mien_program AND BUILD_SHARED_LIBS)
+if(TARGET mien_program)
   file(RELATIVE_PATH libraries_from_program
     ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
   set_target_properties(mien_program PROPERTIES INSTALL_RPATH $ORIGIN/${libraries_from_program})
+  install(TARGETS mien_program)
 endif()
 
 # Who links the static library with a C compiler has to name these.
