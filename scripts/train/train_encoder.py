@@ -31,6 +31,7 @@ from paths import cache
 CURVES = {"error, outer eye corner distances": ("loss", "real_landmarks", "rendered_landmarks", "clips_mean", "clips_worst"),
           "correlation": ("controls_mean", "jawOpen", "eyeBlinkLeft", "mouthPucker", "browInnerUp", "clips_eyes", "clips_mouth")}
 
+MEET_EVERY = 16                             # steps a process goes alone: it need not wait for a slower one each time
 GENTLE_UNTIL, FULL_FROM = 0.55, 0.8         # of the run
 GENTLE, FULL = (0.1, 0.5), (0.4, 0.9)       # share of degraded pictures, roughness of crops
 
@@ -136,7 +137,6 @@ class Trainer:
         self.restore()
         self.network.to(device, memory_format=torch.channels_last)
         self.average.network.to(device)
-        self.model = torch.nn.parallel.DistributedDataParallel(self.network) if world > 1 else self.network
         self.load_data()
 
     def restore(self):
@@ -189,7 +189,7 @@ class Trainer:
         images = augment.photometric(torch.cat([batch.images, moved]), self.generator, degraded) * 2 - 1
         batch = face_data.Batch(*(value.to(self.device) for value in batch))
         n = len(batch.images)
-        whole = self.model(images.to(self.device, memory_format=torch.channels_last))
+        whole = self.network(images.to(self.device, memory_format=torch.channels_last))
         out = {name: value[:n] for name, value in whole.items()}
         consistency = self.losses.consistency(out["landmarks"][rows], whole["landmarks"][n:], crop.to(self.device))
         loss = self.losses.total(out, batch) + 0.5 * consistency
@@ -217,12 +217,18 @@ class Trainer:
                                     "seconds": self.seconds, "history": self.history})
         plot(self.history, self.run / "curves.png")
 
-    def elapsed(self, began):
-        """Seconds on the first machine's clock, so that all end at the same step."""
+    @torch.no_grad()
+    def meet(self, began):
+        """All processes agree on one network (local SGD, Stich 2019) and on the first one's clock."""
         seconds = torch.tensor(time.time() - began, dtype=torch.float64, device=self.device)
         if self.world > 1:
             torch.distributed.broadcast(seconds, 0)
-        return float(seconds)
+            values = [v for v in self.network.state_dict().values() if v.dtype.is_floating_point]
+            mean = torch.cat([v.flatten() for v in values]) / self.world
+            torch.distributed.all_reduce(mean)
+            for value, common in zip(values, mean.split([v.numel() for v in values])):
+                value.copy_(common.view(value.shape))
+        self.seconds = float(seconds)
 
     def train(self):
         bar = tqdm(total=self.options.samples, initial=self.samples, unit="face", disable=self.rank > 0, mininterval=10)
@@ -230,7 +236,8 @@ class Trainer:
         reported = self.samples
         while self.progress() < 1:
             losses.append(self.update())
-            self.seconds = self.elapsed(began)
+            if self.step % MEET_EVERY == 0:
+                self.meet(began)
             bar.update(self.options.batch * self.world)
             due = self.samples - reported >= self.options.report_every or self.progress() >= 1
             if due:
