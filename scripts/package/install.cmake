@@ -25,7 +25,7 @@ list(REMOVE_ITEM cxx_runtime ${CMAKE_C_IMPLICIT_LINK_LIBRARIES})
 list(REMOVE_DUPLICATES cxx_runtime)
 get_target_property(default_target mien ALIASED_TARGET)
 
-configure_package_config_file(cmake/mienConfig.cmake.in mienConfig.cmake
+configure_package_config_file(scripts/package/mienConfig.cmake.in mienConfig.cmake
   INSTALL_DESTINATION ${package_dir} PATH_VARS models_dir)
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/mienConfigVersion.cmake
   COMPATIBILITY SameMajorVersion)
@@ -38,5 +38,5 @@ file(RELATIVE_PATH prefix_from_pkgconfig
 list(TRANSFORM cxx_runtime PREPEND -l OUTPUT_VARIABLE cxx_runtime_flags)
 list(JOIN cxx_runtime_flags " " cxx_runtime_flags)
 string(REGEX REPLACE "/$" "" prefix_from_pkgconfig ${prefix_from_pkgconfig})
-configure_file(cmake/mien.pc.in mien.pc @ONLY)
+configure_file(scripts/package/mien.pc.in mien.pc @ONLY)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/mien.pc DESTINATION ${pkgconfig_dir})
