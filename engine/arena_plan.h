@@ -11,16 +11,32 @@ namespace mien::engine {
 
 inline constexpr std::size_t kArenaAlignment = 64;
 
-// A map that is written at step `born` and read for the last time at step `dies` (>= born).
-struct Interval {
-  std::size_t bytes = 0;
-  std::uint32_t born = 0;
-  std::uint32_t dies = 0;
-  std::size_t offset = 0;  // result
-};
+[[nodiscard]] constexpr std::size_t aligned(std::size_t bytes) {
+  return (bytes + kArenaAlignment - 1) / kArenaAlignment * kArenaAlignment;
+}
 
-// Places intervals [count], ordered by `born`, at the lowest free offset each; returns the arena's
-// bytes.
-std::size_t place(Interval* intervals, std::uint32_t count);
+// Places one map after another, each as low as those still alive allow.
+class ArenaPlan {
+ public:
+  // The offset, a multiple of kArenaAlignment, of a map that is written at step `born` and read for
+  // the last time at step `dies` (>= born). `born` never descends; at most kMaxLayers calls.
+  std::size_t place(std::size_t bytes, std::uint32_t born, std::uint32_t dies);
+
+  // Of the arena, a multiple of kArenaAlignment.
+  [[nodiscard]] std::size_t bytes() const { return bytes_; }
+
+ private:
+  struct Map {
+    std::size_t begin, end;
+    std::uint32_t dies;
+  };
+
+  void drop_dead(std::uint32_t now);
+  [[nodiscard]] std::uint32_t lowest_gap(std::size_t bytes, std::size_t& begin) const;
+
+  Map live_[formats::kMaxLayers];  // by offset
+  std::uint32_t count_ = 0;
+  std::size_t bytes_ = 0;
+};
 
 }  // namespace mien::engine

@@ -26,7 +26,7 @@ const char* message(Status status) {
     case Status::kMisaligned:
       return "the memory given is not aligned";
     case Status::kTooLarge:
-      return "the network needs more memory than can be addressed";
+      return "the network's maps would be too large on an input of that shape";
     case Status::kOutOfMemory:
       return "out of memory";
   }

@@ -4,34 +4,29 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <new>
 #include <span>
-#include <string_view>
 
-#include "engine/model.h"
+#include "engine/plan.h"
 
 namespace mien::engine {
 
-inline constexpr std::size_t kSessionAlignment = 64;
+struct Step;
 
-struct SessionRequest {
-  const Model* model = nullptr;  // its bytes must outlive the session
-  std::string_view network;
-  Shape input;  // all zero: as the file declares it
-  std::uint32_t cpu_mask = 0xFFFFFFFF;
-};
+inline constexpr std::size_t kSessionAlignment = 64;
 
 struct SessionSize {
   std::size_t session_bytes = 0;  // steps, input, outputs, temporal state
   std::size_t arena_bytes = 0;    // intermediate maps; may be shared by sessions that run in turns
 };
 
+// Does not look for kernels: Session::init may still answer kNoKernel.
 Status session_size(const SessionRequest& request, SessionSize& size);
 
 class Session {
  public:
   // Builds a session in `memory` (session_bytes) with intermediate maps in `arena` (arena_bytes),
-  // both kSessionAlignment-aligned and the caller's. Nothing has to be destroyed.
+  // both kSessionAlignment-aligned and the caller's. Nothing has to be destroyed. On error
+  // `session` is nullptr.
   static Status init(const SessionRequest& request, std::span<std::byte> memory,
                      std::span<std::byte> arena, Session*& session);
 
@@ -52,7 +47,6 @@ class Session {
 
  private:
   friend class SessionBuilder;
-  struct Step;
 
   Session() = default;
 

@@ -39,6 +39,12 @@ bool is_centre_slice(const Shape& small, const Shape& large) {
 
 }  // namespace
 
+bool is_allowed(const Shape& shape) {
+  const auto u64 = [](std::int32_t n) { return static_cast<std::uint64_t>(n); };
+  const std::uint64_t pixels = u64(shape.h) * u64(shape.w);
+  return pixels <= formats::kMaxMapElems / ((u64(shape.c) + 7) / 8 * 8);
+}
+
 Status infer_shape(const LayerRecord& layer, const Shape& input, const Shape& second,
                    Shape& output) {
   const std::int32_t channels = static_cast<std::int32_t>(layer.channels);

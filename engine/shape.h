@@ -14,7 +14,7 @@ struct Shape {
 
   friend bool operator==(const Shape&, const Shape&) = default;
   // A camera crop: few channels, stored [h][w][c]. Everything else is in blocks of 8 channels.
-  [[nodiscard]] bool interleaved() const { return c <= 4 && h * w > 1; }
+  [[nodiscard]] bool interleaved() const { return c <= 4 && (h > 1 || w > 1); }
   [[nodiscard]] std::size_t pixels() const {
     return static_cast<std::size_t>(h) * static_cast<std::size_t>(w);
   }
@@ -24,6 +24,9 @@ struct Shape {
 [[nodiscard]] inline std::size_t blocked_elems(const Shape& shape) {
   return shape.pixels() * ((static_cast<std::size_t>(shape.c) + 7) / 8 * 8);
 }
+
+// Whether the map, blocked, is within formats::kMaxMapElems, as those that a file declares are.
+[[nodiscard]] bool is_allowed(const Shape& shape);
 
 // Output shape of a layer. `second` is the second input of an addition. kShapeMismatch when the
 // input does not suit the operation.

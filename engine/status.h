@@ -15,7 +15,7 @@ enum class [[nodiscard]] Status : std::int32_t{
     kNoKernel = 6,           // no tier of the CPU mask has a kernel for a layer
     kMemoryTooSmall = 7,
     kMisaligned = 8,
-    kTooLarge = 9,  // the network needs more memory than this machine can address
+    kTooLarge = 9,  // a map would exceed formats::kMaxMapElems, or all of them the address space
     kOutOfMemory = 10,
 };
 

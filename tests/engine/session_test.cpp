@@ -67,22 +67,23 @@ TEST(ArenaPlan, LiveMapsNeverOverlap) {
   const auto below = [&](std::uint32_t n) { return static_cast<std::uint32_t>(random() % n); };
   for (int round = 0; round < 300; ++round) {
     const std::uint32_t count = 1 + below(60);
-    std::vector<engine::Interval> maps(count);
-    for (std::uint32_t i = 0; i < count; ++i) {
-      maps[i].bytes = 1 + below(5000);
-      maps[i].born = i;
-      maps[i].dies = i + below(6);
-    }
-    const std::size_t total = engine::place(maps.data(), count);
-    for (std::uint32_t i = 0; i < count; ++i) {
-      EXPECT_EQ(maps[i].offset % engine::kArenaAlignment, 0u);
-      EXPECT_LE(maps[i].offset + maps[i].bytes, total);
-      for (std::uint32_t k = 0; k < i; ++k) {
-        const bool together = maps[k].dies >= maps[i].born;
-        const bool apart = maps[k].offset + maps[k].bytes <= maps[i].offset ||
-                           maps[i].offset + maps[i].bytes <= maps[k].offset;
-        EXPECT_TRUE(apart || !together) << "maps " << k << " and " << i;
+    struct Placed {
+      std::size_t begin, end;
+      std::uint32_t dies;
+    };
+    std::vector<Placed> maps;
+    engine::ArenaPlan arena;
+    for (std::uint32_t born = 0; born < count; ++born) {
+      const std::size_t bytes = 1 + below(5000);
+      const std::uint32_t dies = born + below(6);
+      const std::size_t begin = arena.place(bytes, born, dies);
+      EXPECT_EQ(begin % engine::kArenaAlignment, 0u);
+      EXPECT_LE(begin + bytes, arena.bytes());
+      for (const Placed& other : maps) {
+        const bool apart = other.end <= begin || begin + bytes <= other.begin;
+        EXPECT_TRUE(apart || other.dies < born) << "map " << born;
       }
+      maps.push_back({begin, begin + bytes, dies});
     }
   }
 }

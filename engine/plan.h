@@ -1,0 +1,81 @@
+// What a session needs to know before it has memory: every value's shape and lifetime, which
+// additions their predecessors perform, and where the maps in between lie in the arena.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "engine/model.h"
+
+namespace mien::engine {
+
+struct SessionRequest {
+  const Model* model = nullptr;  // its bytes must outlive the session
+  std::string_view network;
+  Shape input;  // all zero: as the file declares it
+  std::uint32_t cpu_mask = 0xFFFFFFFF;
+};
+
+// Large: a thread that makes sessions needs some 70 KB of stack.
+class Plan {
+ public:
+  // kWrongInput when the network does not run on request.input, kTooLarge when a map would exceed
+  // formats::kMaxMapElems or all of them half of the address space.
+  Status make(const SessionRequest& request);
+
+  struct Value {
+    Shape shape;
+    std::uint32_t last_use = 0;  // layer
+    std::uint32_t readers = 0;
+    bool is_output = false;
+    bool in_arena = false;
+    std::size_t arena_offset = 0;
+  };
+
+  [[nodiscard]] std::uint32_t layer_count() const {
+    return static_cast<std::uint32_t>(layers_.size());
+  }
+  [[nodiscard]] const formats::LayerRecord& layer(std::uint32_t i) const { return layers_[i]; }
+  // 0 is the network's input, k the output of its k-th layer.
+  [[nodiscard]] const Value& value(std::uint32_t i) const { return values_[i]; }
+  [[nodiscard]] std::span<const std::uint32_t> outputs() const {
+    return {network_->outputs, network_->output_count};
+  }
+
+  // The layer before performs this addition too.
+  [[nodiscard]] bool vanishes(std::uint32_t layer) const { return vanishes_[layer]; }
+  // The addition that a layer performs besides, as a layer; kNoIndex if none.
+  [[nodiscard]] std::uint32_t fused_addition(std::uint32_t layer) const;
+  [[nodiscard]] std::uint32_t step_count() const { return step_count_; }
+
+  // Floats.
+  [[nodiscard]] std::size_t input_elems() const;
+  [[nodiscard]] std::size_t state_elems(std::uint32_t layer) const;
+  [[nodiscard]] std::size_t state_elems() const { return state_elems_; }
+
+  [[nodiscard]] std::size_t arena_bytes() const { return arena_bytes_; }
+  // In the arena, for the step that runs: an LSTM's gates.
+  [[nodiscard]] std::size_t scratch_offset() const { return scratch_offset_; }
+
+ private:
+  Status find_network(const SessionRequest& request);
+  Status infer(const Shape& input);
+  void note_reads(std::uint32_t layer);
+  [[nodiscard]] Status check_size() const;
+  void fuse_additions();
+  void place_maps();
+  [[nodiscard]] std::size_t scratch_elems() const;
+
+  const formats::NetworkRecord* network_ = nullptr;
+  std::span<const formats::LayerRecord> layers_;
+  Value values_[formats::kMaxLayers + 1];
+  bool vanishes_[formats::kMaxLayers] = {};
+  std::uint32_t step_count_ = 0;
+  std::size_t state_elems_ = 0;
+  std::size_t scratch_offset_ = 0;
+  std::size_t arena_bytes_ = 0;
+};
+
+}  // namespace mien::engine

@@ -1,0 +1,229 @@
+#include "engine/step.h"
+
+#include <cstring>
+#include <type_traits>
+
+namespace mien::engine {
+
+using formats::kNoIndex;
+using formats::LayerActivation;
+using formats::LayerOp;
+using formats::LayerRecord;
+using kernels::Activation;
+
+namespace {
+
+Activation kind_of(LayerActivation activation) {
+  switch (activation) {
+    case LayerActivation::kNone:
+      return Activation::kNone;
+    case LayerActivation::kRelu:
+      return Activation::kRelu;
+    case LayerActivation::kRelu6:
+      return Activation::kRelu6;
+    case LayerActivation::kLeakyRelu:
+      return Activation::kLeakyRelu;
+    case LayerActivation::kPrelu:
+      return Activation::kPrelu;
+    case LayerActivation::kSigmoid:
+      return Activation::kSigmoid;
+    case LayerActivation::kTanh:
+      return Activation::kTanh;
+    case LayerActivation::kClamp01:
+      return Activation::kClamp01;
+  }
+  return Activation::kNone;
+}
+
+std::int32_t vector_elems(const Shape& shape) {
+  return static_cast<std::int32_t>(blocked_elems(shape));
+}
+
+std::int32_t pixels(const Shape& shape) { return static_cast<std::int32_t>(shape.pixels()); }
+
+// What conv2d, depthwise and max_pool have in common.
+template <class Args>
+void set_windows(const LayerRecord& l, const Shape& x, const Shape& y, Args& args) {
+  args.in_h = x.h;
+  args.in_w = x.w;
+  args.out_h = y.h;
+  args.out_w = y.w;
+  args.kernel_h = l.kernel_height;
+  args.kernel_w = l.kernel_width;
+  args.stride_h = l.stride_height;
+  args.stride_w = l.stride_width;
+  args.pad_top = l.pad_top;
+  args.pad_left = l.pad_left;
+}
+
+// The centre slice of `residual` as large as `y`.
+template <class Args>
+void set_residual(const Shape& residual, const Shape& y, const float* data, Args& args) {
+  args.residual = data;
+  args.residual_h = residual.h;
+  args.residual_w = residual.w;
+  args.residual_top = (residual.h - y.h) / 2;
+  args.residual_left = (residual.w - y.w) / 2;
+}
+
+}  // namespace
+
+const std::uint16_t* StepMaker::halves(std::uint32_t tensor) const {
+  return tensor == kNoIndex
+             ? nullptr
+             : reinterpret_cast<const std::uint16_t*>(file_.data(file_.tensors()[tensor]).data());
+}
+
+kernels::ActivationSpec StepMaker::activation(const LayerRecord& l) const {
+  return {kind_of(static_cast<LayerActivation>(l.activation)), l.alpha, halves(l.slopes)};
+}
+
+template <class Args>
+Status StepMaker::put(const Args& args, Step& step) const {
+  static_assert(sizeof(Args) <= Step::kArgsBytes && std::is_trivially_copyable_v<Args>);
+  step.kernel = kernels::find_any(Args::kFamily, cpu_mask_);
+  step.call = [](const Step& self) {
+    reinterpret_cast<kernels::Kernel<Args>>(self.kernel)(*reinterpret_cast<const Args*>(self.args));
+  };
+  std::memcpy(step.args, &args, sizeof args);
+  return step.kernel == nullptr ? Status::kNoKernel : Status::kOk;
+}
+
+Status StepMaker::make(std::uint32_t layer, float* state, Step& step) const {
+  const LayerRecord& l = plan_.layer(layer);
+  const Map x = map(l.input), y = map(layer + 1);
+  switch (static_cast<LayerOp>(l.op)) {
+    case LayerOp::kConv2d:
+      return put(conv2d(l, x, y), step);
+    case LayerOp::kDepthwise:
+      return put(depthwise(l, x, y), step);
+    case LayerOp::kPointwise:
+      return put(pointwise(layer, x, y), step);
+    case LayerOp::kFullyConnected:
+      return put(fully_connected(l, x, y), step);
+    case LayerOp::kCausalConv:
+      return put(causal_conv(l, x, y, state), step);
+    case LayerOp::kLstm:
+      return put(lstm(l, x, y, state), step);
+    case LayerOp::kMaxPool:
+      return put(max_pool(l, x, y), step);
+    case LayerOp::kAdd:
+      return put(add(l, x, y), step);
+    case LayerOp::kActivation:
+      return put(kernels::ActivateArgs{x.data, y.data, activation(l), pixels(y.shape), y.shape.c},
+                 step);
+    case LayerOp::kSoftmax:
+      return put(kernels::SoftmaxArgs{x.data, y.data, pixels(y.shape), y.shape.c}, step);
+  }
+  return Status::kNoKernel;
+}
+
+kernels::Conv2dArgs StepMaker::conv2d(const LayerRecord& l, Map x, Map y) const {
+  kernels::Conv2dArgs args{};
+  args.x = x.data;
+  args.weights = halves(l.weights);
+  args.bias = halves(l.bias);
+  args.y = y.data;
+  args.activation = activation(l);
+  set_windows(l, x.shape, y.shape, args);
+  args.in_c = x.shape.c;
+  args.x_pixel_elems = l.input == 0 && x.shape.interleaved() ? x.shape.c : 8;
+  args.out_c = y.shape.c;
+  return args;
+}
+
+kernels::DepthwiseArgs StepMaker::depthwise(const LayerRecord& l, Map x, Map y) const {
+  kernels::DepthwiseArgs args{};
+  args.x = x.data;
+  args.weights = halves(l.weights);
+  args.bias = halves(l.bias);
+  args.y = y.data;
+  args.activation = activation(l);
+  args.channels = y.shape.c;
+  set_windows(l, x.shape, y.shape, args);
+  return args;
+}
+
+kernels::PointwiseArgs StepMaker::pointwise(std::uint32_t layer, Map x, Map y) const {
+  const LayerRecord& l = plan_.layer(layer);
+  kernels::PointwiseArgs args{};
+  args.x = x.data;
+  args.weights = halves(l.weights);
+  args.bias = halves(l.bias);
+  args.y = y.data;
+  args.activation = activation(l);
+  args.h = y.shape.h;
+  args.w = y.shape.w;
+  args.in_c = x.shape.c;
+  args.out_c = y.shape.c;
+  const std::uint32_t sum = plan_.fused_addition(layer);
+  if (sum != kNoIndex) {
+    args.y = map(sum + 1).data;
+    const Map residual = map(plan_.layer(sum).second_input);
+    set_residual(residual.shape, y.shape, residual.data, args);
+  }
+  return args;
+}
+
+kernels::FullyConnectedArgs StepMaker::fully_connected(const LayerRecord& l, Map x, Map y) const {
+  kernels::FullyConnectedArgs args{};
+  args.x = x.data;
+  args.weights = halves(l.weights);
+  args.bias = halves(l.bias);
+  args.y = y.data;
+  args.activation = activation(l);
+  args.in_elems = vector_elems(x.shape);
+  args.out_c = y.shape.c;
+  return args;
+}
+
+kernels::CausalConvArgs StepMaker::causal_conv(const LayerRecord& l, Map x, Map y,
+                                               float* state) const {
+  kernels::CausalConvArgs args{};
+  args.x = x.data;
+  args.previous = state;
+  args.weights = halves(l.weights);
+  args.bias = halves(l.bias);
+  args.y = y.data;
+  args.activation = activation(l);
+  args.in_elems = vector_elems(x.shape);
+  args.out_c = y.shape.c;
+  return args;
+}
+
+kernels::LstmArgs StepMaker::lstm(const LayerRecord& l, Map x, Map y, float* state) const {
+  kernels::LstmArgs args{};
+  args.x = x.data;
+  args.h = state;
+  args.c = state + y.shape.c;
+  args.weights = halves(l.weights);
+  args.bias = halves(l.bias);
+  args.y = y.data;
+  args.gates = scratch_;
+  args.in_elems = vector_elems(x.shape);
+  args.hidden = y.shape.c;
+  return args;
+}
+
+kernels::MaxPoolArgs StepMaker::max_pool(const LayerRecord& l, Map x, Map y) {
+  kernels::MaxPoolArgs args{};
+  args.x = x.data;
+  args.y = y.data;
+  args.channels = y.shape.c;
+  set_windows(l, x.shape, y.shape, args);
+  return args;
+}
+
+kernels::ResidualAddArgs StepMaker::add(const LayerRecord& l, Map x, Map y) const {
+  kernels::ResidualAddArgs args{};
+  args.x = x.data;
+  args.y = y.data;
+  args.channels = y.shape.c;
+  args.h = y.shape.h;
+  args.w = y.shape.w;
+  const Map residual = map(l.second_input);
+  set_residual(residual.shape, y.shape, residual.data, args);
+  return args;
+}
+
+}  // namespace mien::engine

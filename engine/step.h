@@ -1,0 +1,71 @@
+// One kernel with its arguments: what a session runs, one after another.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "engine/plan.h"
+#include "kernels/families.h"
+#include "kernels/registry.h"
+
+namespace mien::engine {
+
+struct Step {
+  static constexpr std::size_t kArgsBytes = sizeof(kernels::PointwiseArgs) >
+                                                    sizeof(kernels::Conv2dArgs)
+                                                ? sizeof(kernels::PointwiseArgs)
+                                                : sizeof(kernels::Conv2dArgs);
+  kernels::AnyKernel kernel;
+  void (*call)(const Step&);  // knows the type of both
+  alignas(8) std::byte args[kArgsBytes];
+};
+
+// Turns layers into steps, once the maps have their places.
+class StepMaker {
+ public:
+  // `maps`: one for every value, nullptr where no step touches it. `scratch`: where the plan has
+  // it.
+  StepMaker(const Plan& plan, const formats::FileView& file, std::uint32_t cpu_mask,
+            float* const* maps, float* scratch)
+      : plan_(plan), file_(file), cpu_mask_(cpu_mask), maps_(maps), scratch_(scratch) {}
+
+  // `state`: the layer's own, Plan::state_elems floats. kNoKernel if no tier has one.
+  Status make(std::uint32_t layer, float* state, Step& step) const;
+
+ private:
+  struct Map {
+    Shape shape;
+    float* data;
+  };
+
+  [[nodiscard]] Map map(std::uint32_t value) const {
+    return {plan_.value(value).shape, maps_[value]};
+  }
+  [[nodiscard]] const std::uint16_t* halves(std::uint32_t tensor) const;
+  [[nodiscard]] kernels::ActivationSpec activation(const formats::LayerRecord& layer) const;
+
+  [[nodiscard]] kernels::Conv2dArgs conv2d(const formats::LayerRecord& layer, Map x, Map y) const;
+  [[nodiscard]] kernels::DepthwiseArgs depthwise(const formats::LayerRecord& layer, Map x,
+                                                 Map y) const;
+  [[nodiscard]] kernels::PointwiseArgs pointwise(std::uint32_t layer, Map x, Map y) const;
+  [[nodiscard]] kernels::FullyConnectedArgs fully_connected(const formats::LayerRecord& layer,
+                                                            Map x, Map y) const;
+  [[nodiscard]] kernels::CausalConvArgs causal_conv(const formats::LayerRecord& layer, Map x, Map y,
+                                                    float* state) const;
+  [[nodiscard]] kernels::LstmArgs lstm(const formats::LayerRecord& layer, Map x, Map y,
+                                       float* state) const;
+  [[nodiscard]] static kernels::MaxPoolArgs max_pool(const formats::LayerRecord& layer, Map x,
+                                                     Map y);
+  [[nodiscard]] kernels::ResidualAddArgs add(const formats::LayerRecord& layer, Map x, Map y) const;
+
+  template <class Args>
+  Status put(const Args& args, Step& step) const;
+
+  const Plan& plan_;
+  const formats::FileView& file_;
+  std::uint32_t cpu_mask_;
+  float* const* maps_;
+  float* scratch_;
+};
+
+}  // namespace mien::engine
