@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 #include <new>
+#include <type_traits>
 
 #include "engine/session.h"
 #include "kernels/families.h"
@@ -101,6 +102,12 @@ const Model& model_in(const std::byte* storage) {
   return *std::launder(reinterpret_cast<const Model*>(storage));
 }
 
+engine::SessionRequest request_of(const Model& model, std::string_view network,
+                                  const NetworkRunner::Options& options) {
+  const TensorShape& input = options.input;
+  return {&model, network, {input.height, input.width, input.channels}, options.cpu_mask};
+}
+
 Session& session_in(void* session) { return *static_cast<Session*>(session); }
 
 }  // namespace
@@ -111,6 +118,8 @@ const char* message(EngineStatus status) {
 
 WeightFile::WeightFile() {
   static_assert(sizeof(Model) <= sizeof model_ && alignof(Model) <= 8);
+  // Copying and destroying a WeightFile does the same to its bytes.
+  static_assert(std::is_trivially_copyable_v<Model> && std::is_trivially_destructible_v<Model>);
   new (model_) Model();
 }
 
@@ -211,31 +220,47 @@ ConstantInfo WeightFile::constant(std::int32_t index) const {
 
 std::size_t WeightFile::file_bytes() const { return model_in(model_).file().file_bytes(); }
 
+EngineStatus NetworkRunner::required_memory(const WeightFile& file, std::string_view network,
+                                            const Options& options, RunnerMemory& memory) {
+  engine::SessionSize size;
+  const engine::Status status =
+      engine::session_size(request_of(model_in(file.model_), network, options), size);
+  memory = {size.session_bytes, size.arena_bytes};
+  return to_public(status);
+}
+
+EngineStatus NetworkRunner::create_in(const WeightFile& file, std::string_view network,
+                                      const Options& options, std::span<std::byte> session,
+                                      std::span<std::byte> arena) {
+  release();
+  Session* made = nullptr;
+  const engine::Status status =
+      Session::init(request_of(model_in(file.model_), network, options), session, arena, made);
+  session_ = made;
+  return to_public(status);
+}
+
 EngineStatus NetworkRunner::create(const WeightFile& file, std::string_view network,
                                    const Options& options) {
   release();
-  const Model& model = model_in(file.model_);
-  const engine::Shape input{options.input.height, options.input.width, options.input.channels};
-  const engine::SessionRequest request{&model, network, input, options.cpu_mask};
-  engine::SessionSize size;
-  engine::Status status = engine::session_size(request, size);
-  if (status != engine::Status::kOk) {
-    return to_public(status);
+  RunnerMemory needed;
+  EngineStatus status = required_memory(file, network, options, needed);
+  if (status != EngineStatus::kOk) {
+    return status;
   }
-  allocator_ = options.allocator;
-  memory_ = allocate(allocator_, size.session_bytes + size.arena_bytes);
-  if (memory_ == nullptr) {
+  auto* memory =
+      static_cast<std::byte*>(allocate(options.allocator, needed.session + needed.arena));
+  if (memory == nullptr) {
     return EngineStatus::kOutOfMemory;
   }
-  auto* bytes = static_cast<std::byte*>(memory_);
-  Session* session = nullptr;
-  status = Session::init(request, {bytes, size.session_bytes},
-                         {bytes + size.session_bytes, size.arena_bytes}, session);
-  session_ = session;
-  if (status != engine::Status::kOk) {
+  status = create_in(file, network, options, {memory, needed.session},
+                     {memory + needed.session, needed.arena});
+  allocator_ = options.allocator;
+  memory_ = memory;
+  if (status != EngineStatus::kOk) {
     release();
   }
-  return to_public(status);
+  return status;
 }
 
 void NetworkRunner::release() {

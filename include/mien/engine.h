@@ -1,17 +1,31 @@
 // Bring your own network: load a weight file (.mien, docs/format.md) and run one of its networks.
 //
 //   mien::WeightFile file;
-//   if (file.open(bytes) != mien::EngineStatus::kOk) return;   // bytes: 64-byte aligned, must
-//   outlive all mien::NetworkRunner runner; if (runner.create(file, "encoder") !=
-//   mien::EngineStatus::kOk) return; std::copy(pixels.begin(), pixels.end(),
-//   runner.input().begin()); runner.run(); use(runner.output(0)); // std::span<const float>
+//   if (file.open(bytes) != mien::EngineStatus::kOk) return;  // std::span<const std::byte>
+//   mien::NetworkRunner runner;
+//   if (runner.create(file, "encoder") != mien::EngineStatus::kOk) return;
+//   for (const std::span<const float> image : images) {
+//     std::copy(image.begin(), image.end(), runner.input().begin());
+//     runner.run();
+//     use(runner.output(0));  // std::span<const float>
+//   }
+//
+// `bytes` must be MIEN_ALIGNMENT-aligned (a mapped file is) and outlive everything made from it.
 //
 // Layout: an input of up to 4 channels and more than one pixel is [h][w][c]; every other map is
 // stored in blocks of 8 channels, [ceil(c/8)][h][w][8], unused lanes zero. A vector of n values is
 // therefore n floats, rounded up to a multiple of 8.
 //
-// Threads: objects of these classes may be used by one thread at a time. `run` and `reset` neither
-// allocate nor lock, and nothing here throws, prints or does I/O.
+// Temporal layers (causal convolution, LSTM) keep what they need of earlier inputs in the runner:
+// one `run` is one step of the stream. The LSTM's state is flushed to zero below 1e-30, so that
+// silence does not end in denormal numbers, which are slow.
+//
+// Threads: objects of these classes may be used by one thread at a time; runners of one file are
+// independent of each other. `run` and `reset` neither allocate nor lock, and nothing here throws,
+// prints or does I/O.
+//
+// Stack: making a runner, required_memory and WeightFile::network take some 70 KB, opening a file
+// and WeightFile::layer some 13 KB, `run` about 1 KB.
 #pragma once
 
 #include <mien/mien.h>
@@ -25,9 +39,17 @@ namespace mien {
 
 // Numbers are never reused.
 enum class [[nodiscard]] EngineStatus : std::int32_t{
-    kOk = 0,         kBadFile = 1,           kNoSuchNetwork = 2, kShapeMismatch = 3,
-    kWrongInput = 4, kUnsupportedLayout = 5, kNoKernel = 6,      kMemoryTooSmall = 7,
-    kMisaligned = 8, kTooLarge = 9,          kOutOfMemory = 10,
+    kOk = 0,
+    kBadFile = 1,            // the weight file breaks a rule of its format
+    kNoSuchNetwork = 2,      // the file has no network of that name
+    kShapeMismatch = 3,      // a layer's declared output is not what its input gives
+    kWrongInput = 4,         // the network does not run on that input shape
+    kUnsupportedLayout = 5,  // a layer other than a convolution reads the interleaved image
+    kNoKernel = 6,           // no allowed tier has a kernel for a layer
+    kMemoryTooSmall = 7,     // the caller's memory is less than required_memory
+    kMisaligned = 8,         // the caller's memory is not MIEN_ALIGNMENT-aligned
+    kTooLarge = 9,           // a map of that input shape would be beyond 2^28 floats
+    kOutOfMemory = 10,       // the allocator returned nothing
 };
 
 // One line of English, static.
@@ -47,15 +69,15 @@ struct NetworkInfo {
   std::uint64_t parameters = 0;
   std::uint64_t macs = 0;          // multiply-accumulates of one run at the declared size
   std::uint64_t weight_bytes = 0;  // as stored
-  std::uint64_t session_bytes = 0, arena_bytes = 0;  // memory of a runner
+  std::uint64_t session_bytes = 0, arena_bytes = 0;  // memory of a runner at the declared size
 };
 
 struct LayerInfo {
   const char* op = "";
   const char* activation = "";
   TensorShape output;
-  std::int32_t input = 0,
-               second_input = -1;  // values: 0 the network's input, k the output of its k-th layer
+  std::int32_t input = 0;          // 0: the network's input, k: the output of its k-th layer
+  std::int32_t second_input = -1;  // the same; -1: none
   std::int32_t kernel[2] = {0, 0}, stride[2] = {0, 0};  // h, w
   std::int32_t padding[4] = {0, 0, 0, 0};               // top, left, bottom, right
   std::uint64_t parameters = 0;
@@ -83,6 +105,7 @@ class MIEN_API WeightFile {
   [[nodiscard]] const char* fault() const { return fault_; }
   [[nodiscard]] std::uint64_t fault_offset() const { return fault_offset_; }
 
+  // Of a file that was opened. Indices run from 0 to the count, less one.
   [[nodiscard]] std::int32_t network_count() const;
   [[nodiscard]] NetworkInfo network(std::int32_t index) const;
   [[nodiscard]] LayerInfo layer(std::int32_t network, std::int32_t index) const;
@@ -99,7 +122,13 @@ class MIEN_API WeightFile {
   alignas(8) std::byte model_[128];
 };
 
-// One network ready to run, in memory of its own.
+// What a runner needs, in bytes.
+struct RunnerMemory {
+  std::size_t session = 0;  // its input, outputs, temporal state: its own
+  std::size_t arena = 0;    // maps in between: runners that run in turns may share one
+};
+
+// One network ready to run, in memory of its own or of the caller's.
 class MIEN_API NetworkRunner {
  public:
   NetworkRunner() = default;
@@ -118,8 +147,16 @@ class MIEN_API NetworkRunner {
     return create(file, network, Options());
   }
 
+  // The same in the caller's memory, both parts MIEN_ALIGNMENT-aligned, which must outlive the
+  // runner. The allocator is not called.
+  EngineStatus create_in(const WeightFile& file, std::string_view network, const Options& options,
+                         std::span<std::byte> session, std::span<std::byte> arena);
+  // How large these must be at least.
+  static EngineStatus required_memory(const WeightFile& file, std::string_view network,
+                                      const Options& options, RunnerMemory& memory);
+
   // The following need a runner that was created.
-  [[nodiscard]] std::span<float> input();
+  [[nodiscard]] std::span<float> input();  // zeros at first
   [[nodiscard]] TensorShape input_shape() const;
   void run();
   [[nodiscard]] std::int32_t output_count() const;
@@ -131,7 +168,7 @@ class MIEN_API NetworkRunner {
   void release();
 
   void* session_ = nullptr;
-  void* memory_ = nullptr;
+  void* memory_ = nullptr;  // nullptr if it is the caller's
   mien_allocator allocator_ = {};
 };
 
