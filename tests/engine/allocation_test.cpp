@@ -1,39 +1,114 @@
-// Running and resetting a session allocates nothing: every allocation of this program is counted.
+// Running and resetting a session allocates nothing. Every way to the heap of this program and of
+// the library linked into it is counted: the linker sends calls of malloc and its kin here (--wrap)
+// and operator new is replaced.
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cstdlib>
 #include <new>
 
 #include "tests/engine/mini_model.h"
 
 namespace {
-long allocations = 0;
+// Atomic, as compilers take it that malloc and new change nothing that a program can see.
+std::atomic<long> heap_calls = 0;
+}  // namespace
+
+extern "C" {
+void* __real_malloc(std::size_t bytes);
+void* __real_calloc(std::size_t count, std::size_t bytes);
+void* __real_realloc(void* memory, std::size_t bytes);
+void* __real_aligned_alloc(std::size_t alignment, std::size_t bytes);
+void __real_free(void* memory);
+
+void* __wrap_malloc(std::size_t bytes) {
+  ++heap_calls;
+  return __real_malloc(bytes);
+}
+void* __wrap_calloc(std::size_t count, std::size_t bytes) {
+  ++heap_calls;
+  return __real_calloc(count, bytes);
+}
+void* __wrap_realloc(void* memory, std::size_t bytes) {
+  ++heap_calls;
+  return __real_realloc(memory, bytes);
+}
+void* __wrap_aligned_alloc(std::size_t alignment, std::size_t bytes) {
+  ++heap_calls;
+  return __real_aligned_alloc(alignment, bytes);
+}
+void __wrap_free(void* memory) {
+  ++heap_calls;
+  __real_free(memory);
+}
 }
 
 void* operator new(std::size_t bytes) {
-  ++allocations;
   if (void* memory = std::malloc(bytes)) {
+    return memory;
+  }
+  throw std::bad_alloc();
+}
+void* operator new(std::size_t bytes, std::align_val_t alignment) {
+  const auto step = static_cast<std::size_t>(alignment);
+  if (void* memory = std::aligned_alloc(step, (bytes + step - 1) / step * step)) {
     return memory;
   }
   throw std::bad_alloc();
 }
 void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
 
 namespace mien::tests {
 namespace {
 
-TEST(Session, RunsWithoutAllocating) {
+// Goes through a volatile pointer, or the compiler would leave the pair of calls out.
+template <class T>
+T* seen(T* pointer) {
+  T* volatile kept = pointer;
+  return kept;
+}
+
+TEST(Allocation, IsNoticedByThisTest) {
+  const long before = heap_calls;
+  std::free(seen(std::malloc(1)));
+  std::free(seen(std::calloc(1, 1)));
+  std::free(seen(std::aligned_alloc(64, 64)));
+  delete seen(new int);
+  delete seen(new CacheLine);
+  EXPECT_EQ(heap_calls.load(), before + 10);
+}
+
+TEST(Allocation, NeverHappensInRunAndReset) {
   for (const char* network : {"encoder", "pnet", "temporal"}) {
     MiniSession mini(network);
     ASSERT_EQ(mini.status, engine::Status::kOk);
-    const long before = allocations;
+    const long before = heap_calls;
     for (int i = 0; i < 10; ++i) {
       mini.session->run();
       mini.session->reset();
     }
-    EXPECT_EQ(allocations, before) << network;
+    EXPECT_EQ(heap_calls.load(), before) << network;
   }
+}
+
+TEST(Allocation, NeverHappensWhenASessionIsMadeInTheCallersMemory) {
+  AlignedBuffer file = mini_file();
+  engine::Model model;
+  ASSERT_EQ(model.open(file.span()), engine::Status::kOk);
+  const engine::SessionRequest request{&model, "encoder", {}};
+  engine::SessionSize size;
+  ASSERT_EQ(engine::session_size(request, size), engine::Status::kOk);
+  AlignedBuffer memory(size.session_bytes), arena(size.arena_bytes);
+  engine::Session* session = nullptr;
+  const long before = heap_calls;
+  const engine::Status opened = model.open(file.span());
+  const engine::Status made = engine::Session::init(request, memory.span(), arena.span(), session);
+  EXPECT_EQ(heap_calls.load(), before);
+  EXPECT_EQ(opened, engine::Status::kOk);
+  EXPECT_EQ(made, engine::Status::kOk);
 }
 
 }  // namespace
