@@ -159,10 +159,10 @@ TEST_F(Program, Y4mNeedsNoFfmpegAndGivesTheSameFrames) {
 
 TEST_F(Program, BenchTimesNetworksAgainstThePeak) {
   MIEN_NEEDS("trained model", have_models());
-  const Outcome done = run("bench --model basenet_pose --tier ref --json" + models());
+  const Outcome done = run("bench --model basenet_pose_decoder --tier ref --json" + models());
   ASSERT_EQ(done.code, 0) << done.errors;
-  for (const char* key : {"peak_gflops", "\"name\": \"basenet_pose\"", "\"tier\": \"ref\"", "macs",
-                          "min_ms", "median_ms", "p95_ms", "gflops", "peak_fraction"}) {
+  for (const char* key : {"peak_gflops", "\"name\": \"basenet_pose_decoder\"", "\"tier\": \"ref\"",
+                          "macs", "min_ms", "median_ms", "p95_ms", "gflops", "peak_fraction"}) {
     EXPECT_NE(done.output.find(key), std::string::npos) << key << "\n" << done.output;
   }
   EXPECT_EQ(run("bench --model nobody" + models()).code, 2);
