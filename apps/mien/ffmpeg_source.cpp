@@ -53,7 +53,7 @@ json probe(const std::string& input) {
                      Subprocess::Pipe::kFromChild);
   const std::string text = ffprobe.read_all();
   const int status = ffprobe.finish();
-  const json found = json::parse(text, nullptr, false);
+  json found = json::parse(text, nullptr, false);
   if (status != 0 || found.is_discarded()) {
     throw Failure(kExitNoVideo, input + ": not a video: " + last_line(ffprobe.take_errors()));
   }

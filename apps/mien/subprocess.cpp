@@ -13,8 +13,6 @@
 
 #include "apps/mien/failure.h"
 
-extern char** environ;
-
 namespace mien::app {
 namespace {
 
@@ -34,6 +32,7 @@ PipeEnds make_pipe() {
 pid_t spawn(const std::vector<std::string>& arguments, int child_stdin, int child_stdout,
             int child_stderr) {
   std::vector<char*> argv;
+  argv.reserve(arguments.size() + 1);
   for (const std::string& argument : arguments) {
     argv.push_back(const_cast<char*>(argument.c_str()));
   }
