@@ -156,7 +156,7 @@ class Trainer:
     def load_data(self):
         seed = self.options.seed * 1000 + self.rank + 7919 * self.step
         self.generator = torch.Generator().manual_seed(seed)
-        self.rendered = face_data.Rendered("train_stills", "train_sequences")
+        self.rendered = face_data.Rendered("train_stills")  # sequences are for phase 2, which needs features of unseen faces
         self.mixture = face_data.Mixture(face_data.Portraits("train"), self.rendered, face_data.Backgrounds(seed=seed), seed,
                                          self.options.real_share)
         self.val_real, self.val_rendered = face_data.Portraits("val"), face_data.Rendered("val_stills", "val_sequences")

@@ -1,0 +1,65 @@
+#!/usr/bin/env python3
+"""Random expressions and curves: within what a face can do, smooth, balanced, and the same from the same seed."""
+import functools
+import sys
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts/train"))
+import expressions as e  # noqa: E402
+
+FRAMES = 90
+
+
+@functools.lru_cache
+def stills(count=1000, seed=1):
+    rng = np.random.default_rng(seed)
+    return np.stack([e.sample_still(rng) for _ in range(count)])
+
+
+@functools.lru_cache
+def sequences(count=12, seed=2):
+    rng = np.random.default_rng(seed)
+    return np.stack([e.sample_sequence(rng, FRAMES) for _ in range(count)])
+
+
+class Expressions(unittest.TestCase):
+    def test_same_seed_same_faces(self):
+        np.testing.assert_array_equal(stills.__wrapped__(20), stills.__wrapped__(20))
+        np.testing.assert_array_equal(sequences.__wrapped__(3), sequences.__wrapped__(3))
+        self.assertFalse(np.array_equal(stills(20), stills(20, seed=9)))
+
+    def test_controls_stay_in_range_and_legal(self):
+        for c in (stills(), sequences()):
+            get = lambda name: c[..., e.INDEX[name]]
+            self.assertTrue(np.isfinite(c).all() and c.min() >= 0 and c.max() <= 1)
+            self.assertTrue((get("mouthClose") <= get("jawOpen") + 1e-6).all())
+            self.assertTrue((get("jawOpen")[get("tongueOut") > 0.01] > 0.3).all(), "a tongue needs an open mouth")
+            for a, b in (("jawLeft", "jawRight"), ("mouthLeft", "mouthRight"), ("eyeLookUpLeft", "eyeLookDownLeft")):
+                self.assertLess(np.minimum(get(a), get(b)).max(), 1e-6, (a, b))
+
+    def test_every_control_is_exercised(self):
+        strong = (stills() > 0.5).mean(0)
+        idle = [n for n, share in zip(e.CONTROLS, strong) if share < 0.01]
+        self.assertEqual(idle, [])
+
+    def test_sides_are_balanced(self):
+        mean = stills(1500).mean(0)
+        np.testing.assert_allclose(mean, mean[e.MIRROR], atol=0.04)
+
+    def test_mirror_is_its_own_inverse(self):
+        self.assertEqual([e.MIRROR[m] for m in e.MIRROR], list(range(52)))
+        self.assertEqual(e.MIRROR[e.INDEX["eyeLookInLeft"]], e.INDEX["eyeLookInRight"])
+
+    def test_curves_move_smoothly_but_for_blinks_and_saccades(self):
+        step = np.abs(np.diff(sequences(), axis=1)).max((0, 1))
+        quick = [n for n in e.CONTROLS if n.startswith("eye")]
+        slow = [e.INDEX[n] for n in e.CONTROLS if n not in quick and not n.startswith(("jaw", "mouth", "tongue"))]
+        self.assertLess(step[slow].max(), 0.75)
+        self.assertGreater(step[e.INDEX["eyeBlinkLeft"]], 0.3, "there are fast blinks")
+
+
+if __name__ == "__main__":
+    unittest.main()
