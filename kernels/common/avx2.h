@@ -10,12 +10,13 @@
 #include "kernels/activation/activation.h"
 
 namespace mien::kernels::avx2 {
+
+constexpr std::int32_t kLanes = 8;
+constexpr std::int32_t kPanel = 16;
+
 namespace {
 
 using Vec = __m256;
-
-[[maybe_unused]] constexpr std::int32_t kLanes = 8;
-[[maybe_unused]] constexpr std::int32_t kPanel = 16;
 
 inline Vec load_half(const std::uint16_t* at) {
   return _mm256_cvtph_ps(_mm_loadu_si128(reinterpret_cast<const __m128i*>(at)));
