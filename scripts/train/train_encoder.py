@@ -27,11 +27,13 @@ from losses import Losses
 from networks import BaseNet
 from optimizer import Optimizer
 from paths import cache
+from revive import Activity, revive
 
 CURVES = {"error, outer eye corner distances": ("loss", "real_landmarks", "rendered_landmarks", "clips_mean", "clips_worst"),
           "correlation": ("controls_mean", "jawOpen", "eyeBlinkLeft", "mouthPucker", "browInnerUp", "clips_eyes", "clips_mouth")}
 
 MEET_EVERY = 16                             # steps a process goes alone: it need not wait for a slower one each time
+REVIVE_EVERY, REVIVE_UNTIL = 512, 0.7       # steps; share of the run
 GENTLE_UNTIL, FULL_FROM = 0.55, 0.8         # of the run
 GENTLE, FULL = (0.1, 0.5), (0.3, 0.6)        # share of degraded pictures, roughness of crops
 
@@ -130,13 +132,14 @@ class Trainer:
             self.network.landmarks.bias.copy_(template().flatten())
             self.network.landmarks.weight.mul_(0.1)
         self.average = Average(self.network)
-        self.samples, self.step, self.seconds, self.history = 0, 0, 0.0, []
+        self.samples, self.step, self.seconds, self.history, self.revived = 0, 0, 0.0, [], 0
         self.run = cache() / "runs" / options.name
         self.run.mkdir(parents=True, exist_ok=True)
         self.optimizer = Optimizer(self.network, options.rate)
         self.restore()
         self.network.to(device, memory_format=torch.channels_last)
         self.average.network.to(device)
+        self.activity = Activity(self.network.encoder)
         self.load_data()
 
     def restore(self):
@@ -207,7 +210,7 @@ class Trainer:
             source.refresh()
         self.losses.learn_spread(self.rendered)
         report = {"samples": self.samples, "rendered": len(self.rendered), "loss": sum(losses) / len(losses),
-                  "mistakes": self.mixture.backgrounds.mistakes, **validate(self.average.network, self.val_real, self.val_rendered)}
+                  "revived": self.revived, "mistakes": self.mixture.backgrounds.mistakes, **validate(self.average.network, self.val_real, self.val_rendered)}
         if with_clips:
             report.update({f"clips_{k}": v for k, v in clips.evaluate(self.average.network, self.clips).items()})
         self.history.append(report)
@@ -224,11 +227,14 @@ class Trainer:
         if self.world > 1:
             torch.distributed.broadcast(seconds, 0)
             values = [v for v in self.network.state_dict().values() if v.dtype.is_floating_point]
+            values.append(self.activity.on)
             mean = torch.cat([v.flatten() for v in values]) / self.world
             torch.distributed.all_reduce(mean)
             for value, common in zip(values, mean.split([v.numel() for v in values])):
                 value.copy_(common.view(value.shape))
         self.seconds = float(seconds)
+        if self.step % REVIVE_EVERY == 0 and self.progress() < REVIVE_UNTIL:
+            self.revived += revive(self.network.encoder, self.activity.on, torch.Generator().manual_seed(self.step))
 
     def train(self):
         bar = tqdm(total=self.options.samples, initial=self.samples, unit="face", disable=self.rank > 0, mininterval=10)
@@ -278,6 +284,7 @@ def evaluate(checkpoint):
 def main():
     options = parse()
     keep_memory()
+    torch.set_flush_denormal(True)  # moments of units that are off decay into them, and a step takes twice as long
     torch.set_num_threads(options.threads)
     if options.evaluate:
         return evaluate(options.evaluate)
