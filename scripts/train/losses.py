@@ -13,6 +13,7 @@ POINT_WEIGHTS = {"eye": 2.0, "iris": 1.5, "lips": 2.0, "brow": 1.5, "face": 0.6}
 OPENINGS = [(159, 145), (158, 153), (160, 144), (386, 374), (385, 380), (387, 373), (13, 14), (82, 87), (312, 317),
             (80, 88), (310, 318), (61, 291), (105, 159), (334, 386), (107, 336)]
 
+IMPORTANCE = {"jawOpen": 3.0, "eyeBlinkLeft": 3.0, "eyeBlinkRight": 3.0}  # what a viewer misses first
 SMALLEST_SPREAD = 0.08  # of a control, so that one that hardly moves does not rule the sum
 
 
@@ -41,6 +42,7 @@ class Losses:
         self.lids = lids_of_controls().to(device)
         self.of_eye = self.lids.sum(0) > 0
         self.spread = torch.ones(len(CONTROLS), device=device)
+        self.importance = torch.tensor([IMPORTANCE.get(name, 1.0) for name in CONTROLS], device=device)
 
     def learn_spread(self, rendered):
         """Controls count relative to their spread, so that rare ones are worth learning."""
@@ -67,7 +69,7 @@ class Losses:
     def controls(self, out, batch):
         """Squared where it is small, in spreads; an eye's controls only where the eye can be seen."""
         seen = ~self.of_eye | (batch.visible @ self.lids > 0.5)
-        weights = (seen & batch.has_controls[:, None]).float()
+        weights = (seen & batch.has_controls[:, None]) * self.importance
         error = F.smooth_l1_loss(out / self.spread, batch.controls / self.spread, beta=2.0, reduction="none")
         return (error * weights).sum() / weights.sum().clamp(min=1)
 
