@@ -2,12 +2,15 @@
  *
  * Words
  *   upright image  the pushed buffer turned clockwise by `rotation`. Its pixel (column, row) covers
- *                  [column, column + 1) x [row, row + 1); its centre is at (column + 0.5, row +
- * 0.5). A mirrored picture stays mirrored: results can be drawn on it as it is. left, right    the
- * subject's. control        one animation weight in 0..1 with an ARKit name (mien_control_name).
- *   camera space   right-handed: x to the right, y up, z towards the viewer; the camera looks along
- * -z. Metres. Of the scene itself: a mirrored picture is un-mirrored for the head pose. head space
- * x to the subject's left, y up, z out of the face; origin between the ears.
+ *                  [column, column + 1) x [row, row + 1); its centre lies at
+ *                  (column + 0.5, row + 0.5). A mirrored picture stays mirrored: results can
+ *                  be drawn on it as it is.
+ *   left, right    the subject's.
+ *   control        one animation weight in 0..1 with an ARKit name (mien_control_name).
+ *   camera space   right-handed: x to the right, y up, z towards the viewer; the camera looks
+ *                  along -z. Metres. Of the scene itself: a mirrored picture is un-mirrored for
+ *                  the head pose.
+ *   head space     x to the subject's left, y up, z out of the face; origin between the ears.
  *
  * Structs
  *   `struct_size` comes first in every struct and is set by the caller to sizeof(the struct); the
@@ -19,6 +22,9 @@
  *   Functions without a tracker argument may be called from anywhere at any time. A tracker may be
  *   used by one thread at a time; different trackers are independent. No function locks, prints,
  *   opens files, starts threads or (except create and destroy, through the allocator) allocates.
+ *
+ * Stack
+ *   Create and required_bytes need up to 96 KiB of it, all else up to 16 KiB.
  *
  * Errors
  *   A function that returns a mien_status does nothing else when the status is not MIEN_OK, unless

@@ -1,0 +1,39 @@
+// What include/mien/mien.h says about the stack, measured.
+#include "tests/engine/painted_stack.h"
+
+#include <gtest/gtest.h>
+#include <mien/mien.hpp>
+
+#include "tests/tracker/blob_tracker.h"
+
+namespace mien::tests {
+namespace {
+
+TEST(Stack, IsAsSmallAsTheHeaderSays) {
+  const AlignedBytes basenet = blob_basenet();
+  const AlignedBytes proposal = blob_proposal();
+  const Config config = blob_config(basenet, proposal);
+  Tracker tracker;
+  mien_status status = MIEN_ERROR_OUT_OF_MEMORY;
+  const std::size_t create = stack_of([&] { status = tracker.create(config); });
+  ASSERT_EQ(status, MIEN_OK);
+  EXPECT_LT(create, 96u * 1024);
+  EXPECT_GT(create, 30u * 1024) << "nothing was measured";
+
+  const Buffer frame(disc_picture(150, 110, 80), {});
+  Result result;
+  const auto push = [&](std::int64_t pts_ns) {
+    return stack_of([&] { status = tracker.push_video(frame.image(), pts_ns); });
+  };
+  for (std::int64_t i = 0; i < 3; ++i) {  // the first searches, the others follow
+    EXPECT_LT(push(i * kFrameNs), 16u * 1024) << i;
+    ASSERT_EQ(status, MIEN_OK);
+  }
+  EXPECT_LT(stack_of([&] { status = tracker.get_result(result); }), 16u * 1024);
+  EXPECT_EQ(status, MIEN_OK);
+  EXPECT_LT(stack_of([&] { status = tracker.reset(); }), 16u * 1024);
+  EXPECT_TRUE(result.has_face());
+}
+
+}  // namespace
+}  // namespace mien::tests
