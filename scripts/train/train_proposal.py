@@ -2,8 +2,8 @@
 """Trains P-Net and R-Net (Zhang et al. 2016, the first two stages) to find the crop's square of a face.
 
 usage: train_proposal.py [--samples N] [--resume]     writes $MIEN_CACHE/runs/proposal/{pnet,rnet}.pt and curves.png
-Stage 1 trains P-Net on windows of portraits, rendered faces and environments; stage 2 lets it loose on the same pictures
-and trains R-Net on what it proposes, right or wrong.
+Stage 1 trains P-Net on windows of portraits, rendered faces and environments, lets it loose on some of these pictures and
+goes on with what it took for faces there, right or wrong. Stage 2 trains R-Net on what P-Net proposes then.
 """
 import argparse
 import json
@@ -17,7 +17,8 @@ from tqdm import tqdm
 import proposal_data as data
 from faces import portraits
 from networks import PNet, RNet
-from paths import cache, data as data_root
+from paths import cache
+from renderer.assets import environment_picture, names
 
 CANVAS = 160           # side of the square the tracker searches, pixels
 PYRAMID_FACTOR = 0.709
@@ -59,6 +60,10 @@ class Windows:
         self.kind = torch.from_numpy(kind.astype(np.int64))
         self.by_kind = [np.flatnonzero(kind == k) for k in (data.NEGATIVE, data.POSITIVE, data.PART)]
 
+    def __add__(self, other):
+        return Windows(np.concatenate([self.windows, other.windows]), torch.cat([self.kind, other.kind]).numpy(),
+                       torch.cat([self.target, other.target]).numpy())
+
     def batch(self, rng, size):
         rows = np.concatenate([rng.choice(rows, int(size * share))
                                for rows, share in zip(self.by_kind, (0.5, 0.25, 0.25)) if len(rows)])
@@ -87,7 +92,7 @@ def train(network, windows, samples, side, seed, history):
         optimizer.step()
         schedule.step()
         if step % 20 == 0:
-            history.append((step, float(loss)))
+            history.append((20 * len(history), float(loss)))
     network.eval()
 
 
@@ -98,8 +103,8 @@ def pictures(rng, portrait_limit=None):
     for i in tqdm(order, desc="pictures"):
         image, box = found[i]
         yield image, box
-    for path in sorted((data_root() / "environments").glob("*.jpg")):
-        image = np.asarray(Image.open(path).convert("RGB"))
+    for name in names("environments"):
+        image = environment_picture(name)
         for crop in range(6):
             x, y = rng.integers(0, image.shape[1] - 256), rng.integers(0, image.shape[0] - 256)
             yield image[y:y + 256, x:x + 256], None
@@ -154,9 +159,9 @@ def propose(pnet, image, threshold=PNET_THRESHOLD):
     return np.vstack(boxes)
 
 
-def second_windows(rng, pnet, most=24):
+def second_windows(rng, pnet, most=24, portrait_limit=None):
     parts = []
-    for image, box in pictures(rng):
+    for image, box in pictures(rng, portrait_limit):
         found = propose(pnet, image)
         found = found[rng.permutation(len(found))[:most]]
         if box is None:
@@ -197,6 +202,15 @@ def refine(rnet, image, boxes):
     return np.array([cx + dx * side, cy + dy * side, side * np.exp(np.clip(dlog, -1, 1))])
 
 
+def train_pnet(pnet, options, history):
+    """Twice: on windows from anywhere, then on what it took for faces as well."""
+    rng = np.random.default_rng(options.seed)
+    windows = first_windows(rng)
+    train(pnet, windows, options.samples // 2, 12, options.seed, history)
+    windows = windows + second_windows(rng, pnet, portrait_limit=1000)
+    train(pnet, windows, options.samples // 2, 12, options.seed + 7, history)
+
+
 def plot(histories, path):
     import matplotlib
     matplotlib.use("Agg")
@@ -224,7 +238,7 @@ def main():
         pnet.load_state_dict(torch.load(run / "pnet.pt"))
         pnet.eval()
     else:
-        train(pnet, first_windows(np.random.default_rng(options.seed)), options.samples, 12, options.seed, histories["P-Net"])
+        train_pnet(pnet, options, histories["P-Net"])
         torch.save(pnet.state_dict(), run / "pnet.pt")
     train(rnet, second_windows(np.random.default_rng(options.seed + 1), pnet), options.samples, 24, options.seed + 1, histories["R-Net"])
     torch.save(rnet.state_dict(), run / "rnet.pt")
