@@ -14,6 +14,7 @@ from pathlib import Path
 
 import numpy as np
 import torch
+import torch.nn.functional as F
 from torch import nn
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "evaluate"))
@@ -52,9 +53,10 @@ def steps(x):
 
 
 def temporal_loss(predicted, target, weight, args):
-    """Weighted squared error of values and of frame differences, and a small price on second differences."""
+    """Weighted error of values, squared up to `args.beta` and linear beyond; squared error of frame differences, and a small
+    price on second differences."""
     w = torch.minimum(weight[:, 1:], weight[:, :-1])
-    value = (weight * (predicted - target) ** 2).mean()
+    value = 2 * args.beta * (weight * F.smooth_l1_loss(predicted, target, beta=args.beta, reduction="none")).mean()
     speed = (w * (steps(predicted) - steps(target)) ** 2).mean()
     bend = (torch.minimum(w[:, 1:], w[:, :-1]) * steps(steps(predicted)) ** 2).mean()
     return value + args.velocity * speed + args.acceleration * bend
@@ -154,7 +156,7 @@ def train(decoder, sources, task, args, name):
     """Fits a decoder to the sources, one batch of each per step."""
     torch.manual_seed(args.seed)
     noise = args.noise * normalise_input(first_layer(decoder), sources[0].data["features"])
-    optimiser = torch.optim.AdamW(decoder.parameters(), lr=args.rate, weight_decay=1e-3)
+    optimiser = torch.optim.AdamW(decoder.parameters(), lr=args.rate, weight_decay=1e-2)
     schedule = torch.optim.lr_scheduler.OneCycleLR(optimiser, args.rate, total_steps=args.steps, pct_start=0.1)
     decoder.train()
     total, began = 0.0, time.time()
@@ -258,12 +260,13 @@ def main():
     parser.add_argument("--held", type=Path, nargs="*", default=[], help="features of stills (sequences.py --hold)")
     parser.add_argument("--val", type=Path, required=True, help="features that choose the supported controls")
     parser.add_argument("--out", type=Path, required=True, help="checkpoint; scores go beside it as .json")
-    parser.add_argument("--steps", type=int, default=1200)
+    parser.add_argument("--steps", type=int, default=800)
     parser.add_argument("--batch", type=int, default=24)
     parser.add_argument("--rate", type=float, default=3e-3)
-    parser.add_argument("--velocity", type=float, default=8.0)
-    parser.add_argument("--acceleration", type=float, default=1.0)
-    parser.add_argument("--noise", type=float, default=0.1, help="feature noise, in deviations")
+    parser.add_argument("--velocity", type=float, default=1.0)
+    parser.add_argument("--acceleration", type=float, default=0.05)
+    parser.add_argument("--beta", type=float, default=0.15, help="larger errors count linearly")
+    parser.add_argument("--noise", type=float, default=0.5, help="feature noise, in deviations")
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--seed", type=int, default=0)
     args = parser.parse_args()
