@@ -13,7 +13,7 @@ POINT_WEIGHTS = {"eye": 2.0, "iris": 1.5, "lips": 2.0, "brow": 1.5, "face": 0.6}
 OPENINGS = [(159, 145), (158, 153), (160, 144), (386, 374), (385, 380), (387, 373), (13, 14), (82, 87), (312, 317),
             (80, 88), (310, 318), (61, 291), (105, 159), (334, 386), (107, 336)]
 
-IMPORTANCE = {"jawOpen": 3.0, "eyeBlinkLeft": 3.0, "eyeBlinkRight": 3.0}  # what a viewer misses first
+IMPORTANCE = {"jawOpen": 4.0, "eyeBlinkLeft": 4.0, "eyeBlinkRight": 4.0}  # what a viewer misses first
 SMALLEST_SPREAD = 0.08  # of a control, so that one that hardly moves does not rule the sum
 
 
@@ -79,5 +79,5 @@ class Losses:
         return (error * weights).sum() / (9 * weights.sum()).clamp(min=1)
 
     def total(self, out, batch):
-        return (3 * self.landmarks(out["landmarks"], batch) + 0.5 * F.binary_cross_entropy_with_logits(out["face"], batch.face)
-                + 4 * self.controls(out["controls"], batch) + 2 * self.pose(out["pose"], batch))
+        return (2 * self.landmarks(out["landmarks"], batch) + 0.5 * F.binary_cross_entropy_with_logits(out["face"], batch.face)
+                + 8 * self.controls(out["controls"], batch) + 2 * self.pose(out["pose"], batch))
