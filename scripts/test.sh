@@ -24,7 +24,7 @@ if [ $quick -eq 0 ]; then
   build asan-ubsan
   run_tests asan-ubsan
   build clang
-  scripts/check_tidy.sh build/clang tracker engine apps
+  scripts/check_tidy.sh build/clang
 fi
 build release
 scripts/check_symbols.sh build/release
