@@ -79,6 +79,17 @@ kernels::ActivationSpec StepMaker::activation(const LayerRecord& l) const {
 }
 
 template <class Args>
+Args StepMaker::weighted(const LayerRecord& l, Map x, Map y) const {
+  Args args{};
+  args.x = x.data;
+  args.weights = halves(l.weights);
+  args.bias = halves(l.bias);
+  args.y = y.data;
+  args.activation = activation(l);
+  return args;
+}
+
+template <class Args>
 Status StepMaker::put(const Args& args, Step& step) const {
   static_assert(sizeof(Args) <= Step::kArgsBytes && std::is_trivially_copyable_v<Args>);
   step.kernel = kernels::find_any(Args::kFamily, cpu_mask_);
@@ -119,12 +130,7 @@ Status StepMaker::make(std::uint32_t layer, float* state, Step& step) const {
 }
 
 kernels::Conv2dArgs StepMaker::conv2d(const LayerRecord& l, Map x, Map y) const {
-  kernels::Conv2dArgs args{};
-  args.x = x.data;
-  args.weights = halves(l.weights);
-  args.bias = halves(l.bias);
-  args.y = y.data;
-  args.activation = activation(l);
+  auto args = weighted<kernels::Conv2dArgs>(l, x, y);
   set_windows(l, x.shape, y.shape, args);
   args.in_c = x.shape.c;
   args.x_pixel_elems = l.input == 0 && x.shape.interleaved() ? x.shape.c : 8;
@@ -133,12 +139,7 @@ kernels::Conv2dArgs StepMaker::conv2d(const LayerRecord& l, Map x, Map y) const 
 }
 
 kernels::DepthwiseArgs StepMaker::depthwise(const LayerRecord& l, Map x, Map y) const {
-  kernels::DepthwiseArgs args{};
-  args.x = x.data;
-  args.weights = halves(l.weights);
-  args.bias = halves(l.bias);
-  args.y = y.data;
-  args.activation = activation(l);
+  auto args = weighted<kernels::DepthwiseArgs>(l, x, y);
   args.channels = y.shape.c;
   set_windows(l, x.shape, y.shape, args);
   return args;
@@ -146,12 +147,7 @@ kernels::DepthwiseArgs StepMaker::depthwise(const LayerRecord& l, Map x, Map y) 
 
 kernels::PointwiseArgs StepMaker::pointwise(std::uint32_t layer, Map x, Map y) const {
   const LayerRecord& l = plan_.layer(layer);
-  kernels::PointwiseArgs args{};
-  args.x = x.data;
-  args.weights = halves(l.weights);
-  args.bias = halves(l.bias);
-  args.y = y.data;
-  args.activation = activation(l);
+  auto args = weighted<kernels::PointwiseArgs>(l, x, y);
   args.h = y.shape.h;
   args.w = y.shape.w;
   args.in_c = x.shape.c;
@@ -166,12 +162,7 @@ kernels::PointwiseArgs StepMaker::pointwise(std::uint32_t layer, Map x, Map y) c
 }
 
 kernels::FullyConnectedArgs StepMaker::fully_connected(const LayerRecord& l, Map x, Map y) const {
-  kernels::FullyConnectedArgs args{};
-  args.x = x.data;
-  args.weights = halves(l.weights);
-  args.bias = halves(l.bias);
-  args.y = y.data;
-  args.activation = activation(l);
+  auto args = weighted<kernels::FullyConnectedArgs>(l, x, y);
   args.in_elems = vector_elems(x.shape);
   args.out_c = y.shape.c;
   return args;
@@ -179,13 +170,8 @@ kernels::FullyConnectedArgs StepMaker::fully_connected(const LayerRecord& l, Map
 
 kernels::CausalConvArgs StepMaker::causal_conv(const LayerRecord& l, Map x, Map y,
                                                float* state) const {
-  kernels::CausalConvArgs args{};
-  args.x = x.data;
+  auto args = weighted<kernels::CausalConvArgs>(l, x, y);
   args.previous = state;
-  args.weights = halves(l.weights);
-  args.bias = halves(l.bias);
-  args.y = y.data;
-  args.activation = activation(l);
   args.in_elems = vector_elems(x.shape);
   args.out_c = y.shape.c;
   return args;

@@ -44,6 +44,10 @@ class StepMaker {
   [[nodiscard]] const std::uint16_t* halves(std::uint32_t tensor) const;
   [[nodiscard]] kernels::ActivationSpec activation(const formats::LayerRecord& layer) const;
 
+  // What every layer with weights and an activation has in common; the rest is zero.
+  template <class Args>
+  [[nodiscard]] Args weighted(const formats::LayerRecord& layer, Map x, Map y) const;
+
   [[nodiscard]] kernels::Conv2dArgs conv2d(const formats::LayerRecord& layer, Map x, Map y) const;
   [[nodiscard]] kernels::DepthwiseArgs depthwise(const formats::LayerRecord& layer, Map x,
                                                  Map y) const;

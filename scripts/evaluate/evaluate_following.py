@@ -21,9 +21,11 @@ def markdown(report):
     lines = ["# Following a face against searching it", "",
              "Made by `scripts/evaluate/evaluate_following.py` with `mien bench --clip`: one core, decoding not counted. The published",
              "figure is 10x.", "",
-             "| clip | frames | proposals | followed, mean ms | proposed on every frame, mean ms | times as fast |", "|---|---|---|---|---|---|"]
+             "| clip | frames | proposals | followed, mean ms | proposed on every frame, mean ms | times as fast |",
+             "|---|---|---|---|---|---|"]
     for name, r in report.items():
-        lines.append(f"| {name} | {r['frames']} | {r['proposal_runs']} | {r['followed']['mean_ms']:.3f} | {r['proposed_on_every_frame']['mean_ms']:.2f} | {r['speedup']:.1f} |")
+        lines.append(f"| {name} | {r['frames']} | {r['proposal_runs']} | {r['followed']['mean_ms']:.3f} "
+                     f"| {r['proposed_on_every_frame']['mean_ms']:.2f} | {r['speedup']:.1f} |")
     return "\n".join(lines) + "\n"
 
 

@@ -11,9 +11,8 @@ import torch
 
 import landmark_points as lp
 from expressions import CONTROLS
-from faces import template
 from paths import data
-from sequences import crop_to_image, fit_crop, landmark_error, lost, sample_crops
+from sequences import crop_to_image, fit_crop, landmark_error, lost, sample_crops, template
 
 WATCHED = ("jawOpen", "eyeBlinkLeft", "eyeBlinkRight", "mouthSmileLeft", "mouthPucker", "browInnerUp", "browDownLeft")
 

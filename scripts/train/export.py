@@ -12,9 +12,9 @@ import torch
 from torch import nn
 
 import networks
-from faces import template
 from mien_file import MienFile
 from paths import ROOT
+from sequences import template
 
 
 def folded(sequence):

@@ -7,11 +7,11 @@ from PIL import Image
 
 import head_pose
 from expressions import CONTROLS, MIRROR as CONTROL_MIRROR
-from faces import WINDOW_CROPS, template, window
+from faces import WINDOW_CROPS, window
 from landmark_points import MIRROR
 from paths import cache, data
 from renderer.assets import names
-from sequences import CROP, WINDOW, crop_to_image, fit_crop, sample_crops
+from sequences import CROP, WINDOW, crop_to_image, fit_crop, sample_crops, template
 
 # images f32 [n,3,65,65] in 0..1; landmarks [n,175,2] in crop coordinates; pose [n,9]; has_landmarks, has_controls bool [n];
 # visible [n,175]; face [n]: 1 a face well inside the crop, 0 none or misplaced

@@ -6,7 +6,6 @@ sides around the crop's centre; landmarks [n,175,2] and crop [n,4] (cx, cy, side
 misplaced.npy, uint8 [2n,112,112,3]: windows of the training portraits that the tracker must not take for a face in place.
 """
 import hashlib
-import json
 
 import cv2
 import numpy as np
@@ -15,7 +14,7 @@ from tqdm import tqdm
 
 import landmark_points as lp
 from paths import ROOT, cache, data
-from sequences import WINDOW, fit_crop
+from sequences import WINDOW, fit_crop, template
 
 WINDOW_CROPS = 1.5  # side of a window, crop sides
 
@@ -24,10 +23,6 @@ def split_of(name):
     """Held out by a hash of the name: 12 % test, 5 % val."""
     share = int(hashlib.sha256(str(name).encode()).hexdigest()[:8], 16) / 2 ** 32
     return "test" if share < 0.12 else "val" if share < 0.17 else "train"
-
-
-def template():
-    return torch.tensor(json.loads((ROOT / "models/landmarks.json").read_text())["template"])
 
 
 class Portraits:

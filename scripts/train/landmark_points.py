@@ -2,6 +2,12 @@
 
 Right and left are the subject's. A pair is listed right side first; its two lists mirror each other point by point.
 """
+import json
+from functools import lru_cache
+
+import numpy as np
+
+from paths import ROOT
 
 EYE_LOWER = ([33, 7, 163, 144, 145, 153, 154, 155, 133], [263, 249, 390, 373, 374, 380, 381, 382, 362])
 EYE_UPPER = ([246, 161, 160, 159, 158, 157, 173], [466, 388, 387, 386, 385, 384, 398])
@@ -48,6 +54,12 @@ def named_points():
     for name, curve in _curves().items():
         points += [(f"{name}_{i}", k) for i, k in enumerate(curve)]
     return points
+
+
+@lru_cache
+def template():
+    """[175,2] of the mean face in its crop, 0..1."""
+    return np.array(json.loads((ROOT / "models/landmarks.json").read_text())["template"])
 
 
 def _teacher_mirror():

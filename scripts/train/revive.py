@@ -4,7 +4,6 @@ The tail's last activation is one value per unit and picture; ReLU6 units that a
 Measured on BaseNet after 1.3 M faces: 62 % of its 672 were.
 """
 import torch
-from torch import nn
 
 DORMANT = 0.002     # share of pictures a unit is on for
 
@@ -13,7 +12,7 @@ class Activity:
     """How often each unit of the tail's last activation was on lately."""
 
     def __init__(self, encoder, decay=0.98):
-        self.encoder, self.decay = encoder, decay
+        self.decay = decay
         self.on = torch.ones_like(encoder.tail[1][1].bias, requires_grad=False)
         encoder.tail[1].register_forward_hook(self.see)
 
@@ -37,7 +36,6 @@ def revive(encoder, on, generator):
         norm = convolution.weight.flatten(1).norm(dim=1).median()
         convolution.weight[dormant] = fresh * (norm / fresh.flatten(1).norm(dim=1)).view(-1, 1, 1, 1)
     for layer in (expand[1], depthwise[1]):
-        assert isinstance(layer, nn.BatchNorm2d)
         layer.weight[dormant], layer.bias[dormant] = 1.0, 0.0
     project.weight[:, dormant] = 0.0
     on[dormant] = 1.0

@@ -6,7 +6,6 @@ A shard is a folder of `images.npy` (uint8 [n,112,112,3], a square window around
 """
 import argparse
 import itertools
-import json
 from pathlib import Path
 
 import numpy as np
@@ -18,7 +17,6 @@ import landmark_points as lp
 from augment import OfSequence
 from expressions import CONTROLS, MIRROR
 from networks import BaseNet
-from paths import ROOT
 
 WINDOW = 112  # side of a stored image, pixels
 CROP = 65     # side of the encoder's input, pixels
@@ -61,6 +59,10 @@ class Sequences:
 
     def label(self, name, rows=slice(None), t=slice(None)):
         return self.labels[name][rows][:, t].float()
+
+
+def template():
+    return torch.tensor(lp.template(), dtype=torch.float32)
 
 
 def fit_crop(template, points):
@@ -120,7 +122,7 @@ class Network:
         net.load_state_dict(state["average"])
         self.encoder = fuse(net.encoder).to(memory_format=torch.channels_last)
         self.landmarks = net.landmarks
-        self.template = torch.tensor(json.loads((ROOT / "models/landmarks.json").read_text())["template"])
+        self.template = template()
 
     def __call__(self, crops):
         features = self.encoder(crops.contiguous(memory_format=torch.channels_last))

@@ -22,12 +22,12 @@ import clips
 import face_data
 import landmark_points as lp
 from expressions import CONTROLS
-from faces import template
 from losses import Losses
 from networks import BaseNet
 from optimizer import Optimizer
 from paths import cache
 from revive import Activity, revive
+from sequences import template
 
 CURVES = {"error, outer eye corner distances": ("loss", "real_landmarks", "rendered_landmarks", "clips_mean", "clips_worst"),
           "correlation": ("controls_mean", "jawOpen", "eyeBlinkLeft", "mouthPucker", "browInnerUp", "clips_eyes", "clips_mouth")}
@@ -210,7 +210,8 @@ class Trainer:
             source.refresh()
         self.losses.learn_spread(self.rendered)
         report = {"samples": self.samples, "rendered": len(self.rendered), "loss": sum(losses) / len(losses),
-                  "revived": self.revived, "mistakes": self.mixture.backgrounds.mistakes, **validate(self.average.network, self.val_real, self.val_rendered)}
+                  "revived": self.revived, "mistakes": self.mixture.backgrounds.mistakes,
+                  **validate(self.average.network, self.val_real, self.val_rendered)}
         if with_clips:
             report.update({f"clips_{k}": v for k, v in clips.evaluate(self.average.network, self.clips).items()})
         self.history.append(report)

@@ -1,11 +1,10 @@
 """Cameras, head poses, crops and windows; camera space as in head_pose.py, but in numpy and one at a time."""
-import json
 from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 
-from paths import ROOT
+import landmark_points as lp
 from renderer import native
 
 WINDOW = 112         # side of a stored picture, pixels
@@ -73,14 +72,9 @@ def sample_place(rng, camera):
     return rng.uniform(margin, size - margin), side
 
 
-@lru_cache
-def template():
-    return np.array(json.loads((ROOT / "models/landmarks.json").read_text())["template"])
-
-
 def fit_crop(points):
     """Crop (cx, cy, side, roll) of landmarks [175,2]: least-squares similarity from the template (Umeyama 1991)."""
-    source = (template() - 0.5) @ [1, 1j]
+    source = (lp.template() - 0.5) @ [1, 1j]
     target = points @ [1, 1j]
     a = np.vdot(source - source.mean(), target - target.mean()) / (np.abs(source - source.mean()) ** 2).sum()
     centre = target.mean() - a * source.mean()
