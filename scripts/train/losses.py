@@ -13,7 +13,7 @@ POINT_WEIGHTS = {"eye": 2.0, "iris": 1.5, "lips": 2.0, "brow": 1.5, "face": 0.6}
 OPENINGS = [(159, 145), (158, 153), (160, 144), (386, 374), (385, 380), (387, 373), (13, 14), (82, 87), (312, 317),
             (80, 88), (310, 318), (61, 291), (105, 159), (334, 386), (107, 336)]
 
-IMPORTANCE = {"jawOpen": 4.0, "eyeBlinkLeft": 4.0, "eyeBlinkRight": 4.0}  # what a viewer misses first
+IMPORTANCE = {"jawOpen": 10.0, "eyeBlinkLeft": 4.0, "eyeBlinkRight": 4.0}  # what a viewer misses first
 SMALLEST_SPREAD = 0.08  # of a control, so that one that hardly moves does not rule the sum
 
 

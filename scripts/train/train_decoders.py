@@ -21,10 +21,12 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "evaluate"))
 import head_pose  # noqa: E402
 import metrics  # noqa: E402
 from expressions import CONTROLS, PAIRED  # noqa: E402
+from losses import IMPORTANCE  # noqa: E402
 from networks import ControlsDecoder, PoseDecoder  # noqa: E402
 
 SUPPORTED_CORRELATION = 0.5
 GAZE = np.array([name.startswith("eyeLook") for name in CONTROLS])  # is for the levels of detail that see the eyes closely
+SPEED_BETA = 0.015  # frame differences beyond it cost linearly
 LEARNED = ("features", "pose", "controls", "visible")
 
 
@@ -53,12 +55,13 @@ def steps(x):
     return x[:, 1:] - x[:, :-1]
 
 
-def temporal_loss(predicted, target, weight, args):
-    """Weighted error of values, squared up to `args.beta` and linear beyond; squared error of frame differences, and a small
-    price on second differences."""
+def temporal_loss(predicted, target, weight, args, importance=1.0):
+    """Weighted error of values and of frame differences, each squared up to a bound and linear beyond, and a small price on
+    second differences. The bound of differences is small, for a squared price would fall on blinks and spare the trembling.
+    `importance` counts for values alone: what matters most may move most freely."""
     w = torch.minimum(weight[:, 1:], weight[:, :-1])
-    value = 2 * args.beta * (weight * F.smooth_l1_loss(predicted, target, beta=args.beta, reduction="none")).mean()
-    speed = (w * (steps(predicted) - steps(target)) ** 2).mean()
+    value = 2 * args.beta * (importance * weight * F.smooth_l1_loss(predicted, target, beta=args.beta, reduction="none")).mean()
+    speed = (w * F.smooth_l1_loss(steps(predicted), steps(target), beta=SPEED_BETA, reduction="none")).mean()
     bend = (torch.minimum(w[:, 1:], w[:, :-1]) * steps(steps(predicted)) ** 2).mean()
     return value + args.velocity * speed + args.acceleration * bend
 
@@ -74,9 +77,11 @@ class ControlsTask:
         self.args = args
         weight = 1 / (data["controls"].flatten(0, 1).std(0) + 0.05)
         self.weight = weight / weight.mean()
+        self.importance = torch.tensor([IMPORTANCE.get(name, 1.0) for name in CONTROLS])
 
     def loss(self, output, batch, mask):
-        return temporal_loss(soft_clamp(output), batch["controls"], self.weight * batch["visible"] * mask, self.args)
+        return temporal_loss(soft_clamp(output), batch["controls"], self.weight * batch["visible"] * mask, self.args,
+                             self.importance)
 
 
 class PoseTask:
@@ -261,13 +266,13 @@ def main():
     parser.add_argument("--held", type=Path, nargs="*", default=[], help="features of stills (sequences.py --hold)")
     parser.add_argument("--val", type=Path, required=True, help="features that choose the supported controls")
     parser.add_argument("--out", type=Path, required=True, help="checkpoint; scores go beside it as .json")
-    parser.add_argument("--steps", type=int, default=700)
+    parser.add_argument("--steps", type=int, default=800)
     parser.add_argument("--batch", type=int, default=24)
     parser.add_argument("--rate", type=float, default=3e-3)
-    parser.add_argument("--velocity", type=float, default=2.0)
+    parser.add_argument("--velocity", type=float, default=0.3)
     parser.add_argument("--acceleration", type=float, default=0.1)
     parser.add_argument("--beta", type=float, default=0.15, help="larger errors count linearly")
-    parser.add_argument("--noise", type=float, default=0.5, help="feature noise, in deviations")
+    parser.add_argument("--noise", type=float, default=0.2, help="feature noise, in deviations")
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--seed", type=int, default=0)
     args = parser.parse_args()
