@@ -35,7 +35,7 @@ CURVES = {"error, outer eye corner distances": ("loss", "real_landmarks", "rende
 MEET_EVERY = 16                             # steps a process goes alone: it need not wait for a slower one each time
 REVIVE_EVERY, REVIVE_UNTIL = 512, 0.7       # steps; share of the run
 GENTLE_UNTIL, FULL_FROM = 0.55, 0.8         # of the run
-GENTLE, FULL = (0.1, 0.5), (0.3, 0.6)        # share of degraded pictures, roughness of crops
+GENTLE, FULL = (0.1, 0.5), (0.2, 0.5)        # share of degraded pictures, roughness of crops
 
 
 def keep_memory():
