@@ -13,7 +13,7 @@ import torch
 from tqdm import tqdm
 
 import landmark_points as lp
-from paths import ROOT, cache, data
+from paths import cache, data
 from sequences import WINDOW, fit_crop, template
 
 WINDOW_CROPS = 1.5  # side of a window, crop sides

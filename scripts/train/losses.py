@@ -23,6 +23,11 @@ def point_weights():
     return weights / weights.mean()
 
 
+def importance():
+    """How much every control counts, [52]."""
+    return torch.tensor([IMPORTANCE.get(name, 1.0) for name in CONTROLS])
+
+
 def lids_of_controls():
     """[175,52]: which landmarks must be seen for an eye's controls to be seen, as shares of one."""
     out = torch.zeros(len(lp.TEACHER), len(CONTROLS))
@@ -42,7 +47,7 @@ class Losses:
         self.lids = lids_of_controls().to(device)
         self.of_eye = self.lids.sum(0) > 0
         self.spread = torch.ones(len(CONTROLS), device=device)
-        self.importance = torch.tensor([IMPORTANCE.get(name, 1.0) for name in CONTROLS], device=device)
+        self.importance = importance().to(device)
 
     def learn_spread(self, rendered):
         """Controls count relative to their spread, so that rare ones are worth learning."""

@@ -21,7 +21,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "evaluate"))
 import head_pose  # noqa: E402
 import metrics  # noqa: E402
 from expressions import CONTROLS, PAIRED  # noqa: E402
-from losses import IMPORTANCE  # noqa: E402
+from losses import importance  # noqa: E402
 from networks import ControlsDecoder, PoseDecoder  # noqa: E402
 
 SUPPORTED_CORRELATION = 0.5
@@ -77,7 +77,7 @@ class ControlsTask:
         self.args = args
         weight = 1 / (data["controls"].flatten(0, 1).std(0) + 0.05)
         self.weight = weight / weight.mean()
-        self.importance = torch.tensor([IMPORTANCE.get(name, 1.0) for name in CONTROLS])
+        self.importance = importance()
 
     def loss(self, output, batch, mask):
         return temporal_loss(soft_clamp(output), batch["controls"], self.weight * batch["visible"] * mask, self.args,

@@ -1,6 +1,5 @@
 """Cameras, head poses, crops and windows; camera space as in head_pose.py, but in numpy and one at a time."""
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 

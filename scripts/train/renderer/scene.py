@@ -1,8 +1,6 @@
 """Scenes: a figure (a look on an identity) with a pose and expression, lit and seen by a camera."""
-import ctypes
 from dataclasses import dataclass
 
-import cv2
 import numpy as np
 
 from landmark_points import TEACHER
