@@ -20,7 +20,7 @@ from torch import nn
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "evaluate"))
 import head_pose  # noqa: E402
 import metrics  # noqa: E402
-from expressions import CONTROLS, PAIRED  # noqa: E402
+from expressions import CONTROLS, MIRROR, PAIRED  # noqa: E402
 from losses import importance  # noqa: E402
 from networks import ControlsDecoder, PoseDecoder  # noqa: E402
 
@@ -245,7 +245,8 @@ def of_stride(data, stride):
 def evaluate(decoders, data, supported=None):
     """(scores, supported): scores with the encoder on every frame and on alternate frames.
 
-    Without `supported` the controls that correlate well enough on this data, in both modes, are chosen.
+    Without `supported` the controls that correlate well enough on this data, in both modes and on both sides of the face, are
+    chosen.
     """
     parts = {"every frame": of_stride(data, 1), "alternate frames": of_stride(data, 2)}
     curves = {(m, k): answers(decoders[k], part["features"]).clamp(0, 1).numpy()
@@ -253,6 +254,7 @@ def evaluate(decoders, data, supported=None):
     if supported is None:
         lowest = np.min([correlation_of(curves[m, "controls"], part) for m, part in parts.items()], 0)
         supported = (np.nan_to_num(lowest, nan=-1) >= SUPPORTED_CORRELATION) & ~GAZE
+        supported &= supported[MIRROR]
     report = {}
     for mode, part in parts.items():
         report[mode] = {k: control_scores(curves[mode, k], part, supported) for k in ("controls", "frame")}
@@ -266,10 +268,10 @@ def main():
     parser.add_argument("--held", type=Path, nargs="*", default=[], help="features of stills (sequences.py --hold)")
     parser.add_argument("--val", type=Path, required=True, help="features that choose the supported controls")
     parser.add_argument("--out", type=Path, required=True, help="checkpoint; scores go beside it as .json")
-    parser.add_argument("--steps", type=int, default=800)
+    parser.add_argument("--steps", type=int, default=1300)
     parser.add_argument("--batch", type=int, default=24)
     parser.add_argument("--rate", type=float, default=3e-3)
-    parser.add_argument("--velocity", type=float, default=0.3)
+    parser.add_argument("--velocity", type=float, default=0.35)
     parser.add_argument("--acceleration", type=float, default=0.1)
     parser.add_argument("--beta", type=float, default=0.15, help="larger errors count linearly")
     parser.add_argument("--noise", type=float, default=0.2, help="feature noise, in deviations")
