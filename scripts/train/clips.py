@@ -64,7 +64,7 @@ def follow(network, clip):
         if crop is None or (clip.found[t] and lost(crop, truth)):
             losses += crop is not None
             crop = truth
-        out = {k: v.cpu() for k, v in network(sample_crops(clip.frame(t), crop).to(device) * 2 - 1).items()}
+        out = {k: v.cpu() for k, v in network(sample_crops(clip.frame(t), crop, network.framing).to(device) * 2 - 1).items()}
         points = crop_to_image(crop, out["landmarks"])
         rows.append((points[0], torch.sigmoid(out["face"])[0], out["controls"][0]))
         crop = fit_crop(shape, points)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Writes models/basenet.mien and models/proposal.mien from the runs' checkpoints.
+"""Writes models/basenet.mien, hifinet.mien and proposal.mien from the runs' checkpoints.
 
-usage: export.py basenet ENCODER.pt DECODERS.pt     or: export.py proposal PNET.pt RNET.pt
+usage: export.py basenet|hifinet ENCODER.pt DECODERS.pt     or: export.py proposal PNET.pt RNET.pt
 Batch norm is folded into the convolution before it; linear layers that follow a map take the map's blocked order.
 """
 import argparse
@@ -15,6 +15,9 @@ import networks
 from mien_file import MienFile
 from paths import ROOT
 from sequences import template
+
+
+LICENCE = "Apache-2.0; trained on the data that models/README.md names"
 
 
 def folded(sequence):
@@ -47,8 +50,8 @@ def add_residual_block(net, x, block):
     return net.add(y, x) if block.residual else y
 
 
-def add_encoder(file, encoder):
-    net = file.network("encoder", input=(65, 65, 3))
+def add_encoder(file, encoder, framing):
+    net = file.network("encoder", input=(framing.height, framing.width, 3))
     x = add_conv_norm(net, net.input, encoder.body[0])
     for block in encoder.body[1:]:
         x = add_residual_block(net, x, block)
@@ -72,27 +75,38 @@ def add_decoder(file, name, decoder, activation):
     net.output(net.fully_connected(x, plain(decoder.output.weight), plain(decoder.output.bias), activation=activation))
 
 
-def export_basenet(encoder_path, decoders_path):
-    state = torch.load(encoder_path, map_location="cpu")
-    net = networks.BaseNet()
-    net.load_state_dict(state["average"])
-    decoders = torch.load(decoders_path, map_location="cpu")
-    controls, pose = networks.ControlsDecoder(), networks.PoseDecoder()
-    controls.load_state_dict(decoders["controls_decoder"])
-    pose.load_state_dict(decoders["pose_decoder"])
+def loaded(module, state):
+    module.load_state_dict(state)
+    return module
 
+
+def start(name, encoder_path, decoders):
+    """A file with what BaseNet and HiFiNet have in common, and the network."""
+    state = torch.load(encoder_path, map_location="cpu")
+    net = loaded(networks.FACE_NETWORKS[name](), state["average"])
     file = MienFile()
-    add_encoder(file, net.encoder)
+    add_encoder(file, net.encoder, net.framing)
+    add_decoder(file, "controls_decoder", loaded(networks.ControlsDecoder(), decoders["controls_decoder"]), "clamp01")
+    file.constant("control_supported", plain(torch.as_tensor(decoders["supported"]).float()))
+    file.metadata["name"] = name
+    file.metadata["licence"] = LICENCE
+    file.metadata["encoder_samples"] = str(state["samples"])
+    return file, net
+
+
+def export_basenet(encoder_path, decoders_path):
+    decoders = torch.load(decoders_path, map_location="cpu")
+    file, net = start("basenet", encoder_path, decoders)
     add_head(file, "landmarks", net.landmarks)
     add_head(file, "face_probability", net.face, "sigmoid")
-    add_decoder(file, "controls_decoder", controls, "clamp01")
-    add_decoder(file, "pose_decoder", pose, "none")
+    add_decoder(file, "pose_decoder", loaded(networks.PoseDecoder(), decoders["pose_decoder"]), "none")
     file.constant("landmark_template", plain(template()))
-    file.constant("control_supported", plain(torch.as_tensor(decoders["supported"]).float()))
-    file.metadata["name"] = "basenet"
-    file.metadata["licence"] = "Apache-2.0; trained on the data that models/README.md names"
-    file.metadata["encoder_samples"] = str(state["samples"])
     file.write(ROOT / "models/basenet.mien")
+
+
+def export_hifinet(encoder_path, decoders_path):
+    file, _ = start("hifinet", encoder_path, torch.load(decoders_path, map_location="cpu"))
+    file.write(ROOT / "models/hifinet.mien")
 
 
 def add_small_conv(net, x, convolution, prelu):
@@ -130,16 +144,16 @@ def export_proposal(pnet_path, rnet_path):
     add_pnet(file, pnet)
     add_rnet(file, rnet)
     file.metadata["name"] = "proposal"
-    file.metadata["licence"] = "Apache-2.0; trained on the data that models/README.md names"
+    file.metadata["licence"] = LICENCE
     file.write(ROOT / "models/proposal.mien")
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("what", choices=["basenet", "proposal"])
+    parser.add_argument("what", choices=["basenet", "hifinet", "proposal"])
     parser.add_argument("checkpoints", type=Path, nargs=2)
     options = parser.parse_args()
-    {"basenet": export_basenet, "proposal": export_proposal}[options.what](*options.checkpoints)
+    {"basenet": export_basenet, "hifinet": export_hifinet, "proposal": export_proposal}[options.what](*options.checkpoints)
     path = ROOT / f"models/{options.what}.mien"
     print(json.dumps({"file": path.name, "bytes": path.stat().st_size}))
 

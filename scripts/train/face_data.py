@@ -7,22 +7,21 @@ from PIL import Image
 
 import head_pose
 from expressions import CONTROLS, MIRROR as CONTROL_MIRROR
-from faces import WINDOW_CROPS, window
+from faces import window
+from framing import BASENET
 from landmark_points import MIRROR
 from paths import cache, data
 from renderer.assets import names
-from sequences import CROP, WINDOW, crop_to_image, fit_crop, sample_crops, template
+from sequences import crop_to_image, fit_crop, sample_crops, template, to_window
 
-# images f32 [n,3,65,65] in 0..1; landmarks [n,175,2] in crop coordinates; pose [n,9]; has_landmarks, has_controls bool [n];
+# images f32 [n,3,height,width] in 0..1; landmarks [n,175,2] in crop coordinates; pose [n,9]; has_landmarks, has_controls bool [n];
 # visible [n,175]; face [n]: 1 a face well inside the crop, 0 none or misplaced
 Batch = namedtuple("Batch", "images landmarks controls pose visible has_landmarks has_controls face")
 
-MIDDLE = (WINDOW / 2, WINDOW / 2, WINDOW / WINDOW_CROPS, 0.0)  # the crop of a window as it was proposed
-
 
 class Portraits:
-    def __init__(self, split):
-        folder = cache() / "faces" / split
+    def __init__(self, split, framing=BASENET):
+        folder = cache() / "faces" / framing.folder(split)
         self.images = np.load(folder / "images.npy", mmap_mode="r")
         labels = np.load(folder / "labels.npz")
         self.landmarks, self.crop = torch.from_numpy(labels["landmarks"]), torch.from_numpy(labels["crop"])
@@ -39,8 +38,9 @@ class Portraits:
 class Rendered:
     """All shards there are; `refresh` takes up those that came since."""
 
-    def __init__(self, *kinds):
-        self.kinds, self.shards, self.known = kinds, [], set()
+    def __init__(self, *kinds, framing=BASENET):
+        self.kinds, self.window = [framing.folder(k) for k in kinds], framing.window
+        self.shards, self.known = [], set()
         self.refresh()
 
     def refresh(self):
@@ -60,26 +60,26 @@ class Rendered:
             parts.append((images[i], {k: torch.from_numpy(v[i]).float() for k, v in labels.items() if len(v) == len(images)}))
         images = np.concatenate([p[0] for p in parts])[:n]
         labels = {k: torch.cat([p[1][k] for p in parts])[:n] for k in parts[0][1]}
-        scale = WINDOW / labels["window"][:, 2:3]
-        to_window = lambda p: (p - labels["window"][:, None, :2]) * scale[:, None] + WINDOW / 2
-        crop = torch.cat([to_window(labels["crop"][:, None, :2])[:, 0], labels["crop"][:, 2:3] * scale, labels["crop"][:, 3:]], 1)
+        scale = self.window / labels["window"][:, None, 2:3]
+        landmarks = (labels["landmarks"] - labels["window"][:, None, :2]) * scale + self.window / 2
+        crop = to_window(labels["crop"], labels["window"], self.window)
         self.last = labels  # what pose targets need beyond the common row
-        return images, to_window(labels["landmarks"]), crop, labels["controls"], torch.zeros(n, 9), labels["visibility"], True
+        return images, landmarks, crop, labels["controls"], torch.zeros(n, 9), labels["visibility"], True
 
 
 class Backgrounds:
-    """Pieces of environments, those the network took for a face, and portraits where the crop misses the face."""
+    """Pieces of environments, those BaseNet took for a face, and portraits where the crop misses the face."""
 
     def __init__(self, count=3000, seed=7):
         self.rng = np.random.default_rng(seed)
         paths = [data() / f"environments/{name}.jpg" for name in names("environments")]
         self.pictures = [np.asarray(Image.open(p).convert("RGB")) for p in paths]
-        self.plain, middle = self.pieces(count), torch.tensor(MIDDLE).expand(count, -1)
+        self.plain, middle = self.pieces(count), torch.tensor(BASENET.middle).expand(count, -1)
         self.mistaken, self.mistaken_crop, self.mistakes = self.plain.copy(), middle.clone(), 0
         self.misplaced = np.load(cache() / "faces/misplaced.npy", mmap_mode="r")
 
     def pieces(self, count):
-        images = np.empty((count, WINDOW, WINDOW, 3), np.uint8)
+        images = np.empty((count, BASENET.window, BASENET.window, 3), np.uint8)
         for k in range(count):
             picture = self.pictures[self.rng.integers(len(self.pictures))]
             side = np.exp(self.rng.uniform(np.log(60), np.log(400)))
@@ -91,7 +91,7 @@ class Backgrounds:
         """Lets the network align itself on new pieces, as the tracker does, and keeps what it then takes for a face."""
         network.eval()
         images = self.pieces(count)
-        crop = torch.tensor(MIDDLE).expand(count, -1)
+        crop = torch.tensor(BASENET.middle).expand(count, -1)
         for k in range(alignments + 1):
             out = network(sample(images, crop) * 2 - 1)
             face = torch.sigmoid(out["face"])
@@ -111,15 +111,16 @@ class Backgrounds:
         a, b = rng.integers(0, len(self.plain), n // 3), rng.integers(0, max(1, min(self.mistakes, len(self.mistaken))), n // 3)
         c = rng.integers(0, len(self.misplaced), n - 2 * (n // 3))
         images = np.concatenate([self.plain[a], self.mistaken[b], self.misplaced[np.sort(c)]])
-        middle = lambda k: torch.tensor(MIDDLE).expand(k, -1)
+        middle = lambda k: torch.tensor(BASENET.middle).expand(k, -1)
         crop = torch.cat([middle(len(a)), self.mistaken_crop[b], middle(len(c))])
         return images, torch.zeros(n, 175, 2), crop, torch.zeros(n, len(CONTROLS)), torch.zeros(n, 9), torch.zeros(n, 175), False
 
 
 def within(crop):
     """Whether crops still lie in the window they began in."""
-    away = (crop[:, :2] - WINDOW / 2).abs().amax(1) + crop[:, 2] / 2
-    return (away < 0.65 * WINDOW) & (crop[:, 2] > 0.3 * WINDOW)
+    window = BASENET.window
+    away = (crop[:, :2] - window / 2).abs().amax(1) + crop[:, 2] / 2
+    return (away < 0.65 * window) & (crop[:, 2] > 0.3 * window)
 
 
 def jitter(crop, generator, roughness=1.0, wide_share=0.2):
@@ -149,8 +150,8 @@ def to_crop(crop, points):
     return head_pose.rotate(points - crop[:, None, :2], -crop[:, None, 3]) / crop[:, None, 2:3] + 0.5
 
 
-def sample(images, crop):
-    return sample_crops(torch.from_numpy(np.ascontiguousarray(images.transpose(0, 3, 1, 2))).float() / 255, crop, taps=1)
+def sample(images, crop, framing=BASENET):
+    return sample_crops(torch.from_numpy(np.ascontiguousarray(images.transpose(0, 3, 1, 2))).float() / 255, crop, framing, taps=1)
 
 
 def mirror(batch, generator):
@@ -167,22 +168,24 @@ def mirror(batch, generator):
 
 
 class Mixture:
-    """Draws batches: shares of portraits, rendered faces and backgrounds; some of the faces badly placed."""
+    """Draws batches: shares of portraits, rendered faces and, for BaseNet, backgrounds and badly placed faces."""
 
-    def __init__(self, portraits, rendered, backgrounds, seed, real_share=0.45, background_share=0.1,
-                 roughness=1.0):
+    def __init__(self, framing, portraits, rendered, backgrounds, seed, real_share=0.45, background_share=0.1, roughness=1.0):
+        self.framing = framing
         self.portraits, self.rendered, self.backgrounds = portraits, rendered, backgrounds
         self.rng, self.generator = np.random.default_rng(seed), torch.Generator().manual_seed(seed)
         self.real_share, self.background_share, self.roughness = real_share, background_share, roughness
 
     def batch(self, size, misplaced_share=0.04):
-        n_background = int(size * self.background_share)
+        n_background = int(size * self.background_share) if self.backgrounds else 0
+        misplaced_share *= self.backgrounds is not None
         n_real = size - n_background if not len(self.rendered) else int(size * self.real_share)
         n_rendered = size - n_background - n_real
         parts = [self.part(self.portraits.rows(self.rng, n_real), misplaced_share)]
         if n_rendered:
             parts.append(self.part(self.rendered.rows(self.rng, n_rendered), misplaced_share))
-        parts.append(self.part(self.backgrounds.rows(self.rng, n_background), 0, face=0))
+        if n_background:
+            parts.append(self.part(self.backgrounds.rows(self.rng, n_background), 0, face=0))
         whole = Batch(*(torch.cat(values) for values in zip(*parts)))
         return mirror(whole, self.generator)
 
@@ -190,16 +193,16 @@ class Mixture:
         images, landmarks, crop, controls, pose, visible, rendered = rows
         n = len(images)
         bad = torch.rand(n, generator=self.generator) < misplaced_share
-        used = torch.where(bad[:, None], misplace(crop, self.generator), jitter(crop, self.generator, self.roughness))
+        used = torch.where(bad[:, None], misplace(crop, self.generator), jitter(crop, self.generator, self.roughness * self.framing.looseness))
         good = ~bad & bool(face)
         if rendered:
             pose = self.pose_targets(used)
-        return Batch(sample(images, used), to_crop(used, landmarks), controls, pose, visible, good,
+        return Batch(sample(images, used, self.framing), to_crop(used, landmarks), controls, pose, visible, good,
                      good & rendered, good.float())
 
     def pose_targets(self, crop):
         """Pose of the rendered rows just drawn, as seen in these crops (window pixels -> camera pixels first)."""
         labels = self.rendered.last
-        scale = labels["window"][:, 2:3] / WINDOW
-        camera = torch.cat([(crop[:, :2] - WINDOW / 2) * scale + labels["window"][:, :2], crop[:, 2:3] * scale, crop[:, 3:]], 1)
+        scale = labels["window"][:, 2:3] / self.framing.window
+        camera = torch.cat([(crop[:, :2] - self.framing.window / 2) * scale + labels["window"][:, :2], crop[:, 2:3] * scale, crop[:, 3:]], 1)
         return head_pose.to_crop(labels["rotation"], labels["translation"], labels["f_px"], labels["camera_wh"], camera)

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """The real portraits: split, boxes, and a cache of face windows like those the renderer writes.
 
-usage: faces.py      writes $MIEN_CACHE/faces/<split>/{images.npy,labels.npz}: images uint8 [n,112,112,3], a square of 1.5 crop
-sides around the crop's centre; landmarks [n,175,2] and crop [n,4] (cx, cy, side, theta) in pixels of that window. And
-misplaced.npy, uint8 [2n,112,112,3]: windows of the training portraits that the tracker must not take for a face in place.
+usage: faces.py      writes $MIEN_CACHE/faces/<split>[_hifinet]/{images.npy,labels.npz}: images uint8 [n,window,window,3], a
+square around the crop's centre (framing.py); landmarks [n,175,2] and crop [n,4] (cx, cy, side, theta) in pixels of that window.
+And misplaced.npy, uint8 [2n,112,112,3]: windows of the training portraits that the tracker must not take for a face in place.
 """
 import hashlib
 
@@ -14,9 +14,8 @@ from tqdm import tqdm
 
 import landmark_points as lp
 from paths import cache, data
-from sequences import WINDOW, fit_crop, template
-
-WINDOW_CROPS = 1.5  # side of a window, crop sides
+from framing import BASENET, FRAMINGS
+from sequences import fit_crop, template
 
 
 def split_of(name):
@@ -51,14 +50,14 @@ def portraits(split):
     return Portraits(split)
 
 
-def window(image, centre, side):
-    """A square of the picture as [112,112,3]; the border is repeated outwards."""
-    scale = WINDOW / side
-    matrix = np.array([[scale, 0, WINDOW / 2 - scale * centre[0]], [0, scale, WINDOW / 2 - scale * centre[1]]])
+def window(image, centre, side, pixels=BASENET.window):
+    """A square of the picture as [pixels,pixels,3]; the border is repeated outwards."""
+    scale = pixels / side
+    matrix = np.array([[scale, 0, pixels / 2 - scale * centre[0]], [0, scale, pixels / 2 - scale * centre[1]]])
     matrix[:, 2] += scale * 0.5 - 0.5  # OpenCV puts pixel centres at whole numbers
     if scale < 0.7:
         image = cv2.GaussianBlur(image, (0, 0), 0.4 / scale)
-    return cv2.warpAffine(image, matrix, (WINDOW, WINDOW), flags=cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
+    return cv2.warpAffine(image, matrix, (pixels, pixels), flags=cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
 
 
 def misplaced(crop, rng):
@@ -75,15 +74,15 @@ def misplaced(crop, rng):
     return crop[:2] + away * crop[2] * np.array([np.cos(angle), np.sin(angle)]), side
 
 
-def write_split(split, out):
-    found = portraits(split)
+def write_split(split, framing, out):
+    found, pixels = portraits(split), framing.window
     out.mkdir(parents=True, exist_ok=True)
-    images = np.empty((len(found), WINDOW, WINDOW, 3), np.uint8)
-    scale = WINDOW / (WINDOW_CROPS * found.crops[:, 2])
-    for i in tqdm(range(len(found)), desc=split):
-        images[i] = window(found.image(i), found.crops[i, :2], WINDOW_CROPS * found.crops[i, 2])
-    landmarks = (found.points - found.crops[:, None, :2]) * scale[:, None, None] + WINDOW / 2
-    middle = np.full(len(found), WINDOW / 2, np.float32)
+    images = np.empty((len(found), pixels, pixels, 3), np.uint8)
+    scale = framing.pixels_per_window(found.crops[:, 2])
+    for i in tqdm(range(len(found)), desc=out.name):
+        images[i] = window(found.image(i), found.crops[i, :2], pixels / scale[i], pixels)
+    landmarks = (found.points - found.crops[:, None, :2]) * scale[:, None, None] + pixels / 2
+    middle = np.full(len(found), pixels / 2, np.float32)
     crop = np.stack([middle, middle, found.crops[:, 2] * scale, found.crops[:, 3]], 1)
     np.save(out / "images.npy", images)
     np.savez(out / "labels.npz", landmarks=landmarks.astype(np.float32), crop=crop.astype(np.float32), name=found.names)
@@ -91,18 +90,19 @@ def write_split(split, out):
 
 def write_misplaced(path, each=2, seed=3):
     found, rng = portraits("train"), np.random.default_rng(seed)
-    images = np.empty((each * len(found), WINDOW, WINDOW, 3), np.uint8)
+    images = np.empty((each * len(found), BASENET.window, BASENET.window, 3), np.uint8)
     for i in tqdm(range(len(found)), desc="misplaced"):
         picture = found.image(i)
         for k in range(each):
             centre, side = misplaced(found.crops[i], rng)
-            images[each * i + k] = window(picture, centre, WINDOW_CROPS * side)
+            images[each * i + k] = window(picture, centre, BASENET.window_crops * side)
     np.save(path, images)
 
 
 def main():
-    for split in ("train", "val", "test"):
-        write_split(split, cache() / "faces" / split)
+    for framing in FRAMINGS.values():
+        for split in ("train", "val", "test"):
+            write_split(split, framing, cache() / "faces" / framing.folder(split))
     write_misplaced(cache() / "faces/misplaced.npy")
 
 

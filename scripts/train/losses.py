@@ -2,7 +2,7 @@
 import torch
 import torch.nn.functional as F
 
-import face_data
+from face_data import to_crop
 import landmark_points as lp
 from expressions import CONTROLS
 
@@ -40,8 +40,8 @@ def lids_of_controls():
 
 
 class Losses:
-    def __init__(self, eye_distance, device):
-        self.unit = eye_distance  # in crop coordinates
+    def __init__(self, framing, eye_distance, device):
+        self.framing, self.unit = framing, eye_distance  # in crop coordinates
         self.points = point_weights().to(device)
         self.pairs = torch.tensor([[lp.POSITION[a], lp.POSITION[b]] for a, b in OPENINGS], device=device)
         self.lids = lids_of_controls().to(device)
@@ -69,7 +69,7 @@ class Losses:
 
     def consistency(self, first, second, crop):
         """Landmarks must move with the picture (Honari et al. 2018): `second` was seen in `crop` of the first's picture."""
-        return self.distance(second, face_data.to_crop(crop, first * face_data.CROP)).mean()
+        return self.distance(second, to_crop(crop, self.framing.to_pixels(first))).mean()
 
     def controls(self, out, batch):
         """Squared where it is small, in spreads; an eye's controls only where the eye can be seen."""

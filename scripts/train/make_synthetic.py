@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Renders labelled synthetic faces: stills, or sequences of 90 frames at 30 frames a second.
 
-OUT/<split>_<kind>/shard_0000/images.npy is uint8 [n,112,112,3] RGB. labels.npz has per image: landmarks [n,175,2] in camera
+OUT/<split>_<kind>/shard_0000/images.npy is uint8 [n,window,window,3] RGB, the window being that of the framing (framing.py). labels.npz has per image: landmarks [n,175,2] in camera
 pixels; window [n,3] (cx, cy, side of the stored image in camera pixels); crop [n,4] (cx, cy, side, roll); controls [n,52];
 rotation [n,3,3] and translation [n,3] (metres) of the head in camera space; f_px [n]; camera_wh [n,2]; visibility [n,175];
 identity, sequence, frame [n]. A shard follows from the seed and its number alone; finished shards are kept.
@@ -15,6 +15,7 @@ import numpy as np
 from tqdm import tqdm
 
 import expressions
+from framing import BASENET, FRAMINGS
 from paths import cache
 from renderer import background, camera, lighting, look, motion, props
 from renderer.scene import Figure, Scene, Studio
@@ -48,14 +49,14 @@ class Set:
         return ((vertices + near + self.offset + shift + [0, 0, reach], triangles, colour),)
 
 
-def shoot(studio, figure, vertices, place, pose, shift=np.zeros(3)):
+def shoot(studio, framing, figure, vertices, place, pose, shift=np.zeros(3)):
     """Picture and labels of one frame; `place` is a Set, `pose` (rotation, translation in cm)."""
     landmarks = studio.rig.landmarks(vertices)
     points = landmarks @ pose[0].T + pose[1]
     pixels = place.camera.project(points)
     crop = camera.fit_crop(pixels)
-    side = camera.WINDOW_CROPS * crop[2]
-    view = place.camera.view(crop[0] - side / 2, crop[1] - side / 2, side)
+    side = framing.window_crops * crop[2]
+    view = place.camera.view(crop[0] - side / 2, crop[1] - side / 2, side, framing.window, framing.window)
     scene = Scene(figure, vertices, *pose, landmarks, place.light, view, background.behind(place.backdrop, view),
                   place.occluders(points, shift))
     image, visible = studio.render(scene)
@@ -65,7 +66,7 @@ def shoot(studio, figure, vertices, place, pose, shift=np.zeros(3)):
     return image, labels
 
 
-def stills(studio, rng, split, first, count):
+def stills(studio, framing, rng, split, first, count):
     """Yields (image, labels) of `count` people numbered from `first`."""
     for start in range(0, count, BATCH):
         people = [look.sample(rng, split) for _ in range(min(BATCH, count - start))]
@@ -76,12 +77,12 @@ def stills(studio, rng, split, first, count):
             place = Set(rng, split, person)
             pose = camera.pose_at(place.camera, studio.rig.landmarks(faces[k]), camera.sample_angles(rng),
                                   camera.sample_place(rng, place.camera))
-            image, labels = shoot(studio, Figure(studio, person, heads[k]), faces[k], place, pose)
+            image, labels = shoot(studio, framing, Figure(studio, person, heads[k]), faces[k], place, pose)
             number = first + start + k
             yield image, dict(labels, controls=controls[k], identity=number, sequence=number, frame=0)
 
 
-def sequence(studio, rng, split, number):
+def sequence(studio, framing, rng, split, number):
     """Yields (image, labels) of the frames of one person."""
     person = look.sample(rng, split)
     place = Set(rng, split, person)
@@ -98,23 +99,23 @@ def sequence(studio, rng, split, number):
             t = start + k
             rotation = ahead @ camera.rotation(*angles[t])
             translation = rest + (ahead - rotation) @ NECK + shift[t]
-            image, labels = shoot(studio, figure, vertices, place, (rotation, translation), sweep[t])
+            image, labels = shoot(studio, framing, figure, vertices, place, (rotation, translation), sweep[t])
             yield image, dict(labels, controls=controls[t], identity=number, sequence=number, frame=t)
 
 
-def frames_of_shard(studio, split, kind, shard, count, seed):
+def frames_of_shard(studio, framing, split, kind, shard, count, seed):
     """Yields (image, labels); `count` is of stills or sequences in this shard."""
     rng = np.random.default_rng([seed, SPLITS.index(split), KINDS.index(kind), shard])
     if kind == "stills":
-        yield from stills(studio, rng, split, shard * STILLS_PER_SHARD, count)
+        yield from stills(studio, framing, rng, split, shard * STILLS_PER_SHARD, count)
     else:
         for k in range(count):
-            yield from sequence(studio, rng, split, shard * SEQUENCES_PER_SHARD + k)
+            yield from sequence(studio, framing, rng, split, shard * SEQUENCES_PER_SHARD + k)
 
 
-def write_shard(studio, folder, split, kind, shard, count, seed, position):
+def write_shard(studio, framing, folder, split, kind, shard, count, seed, position):
     total = count * (FRAMES if kind == "sequences" else 1)
-    source = frames_of_shard(studio, split, kind, shard, count, seed)
+    source = frames_of_shard(studio, framing, split, kind, shard, count, seed)
     images, labels = zip(*tqdm(source, f"{folder.parent.name} {shard}", total, position=position, mininterval=5, leave=False))
     unfinished = folder.with_name(f".{folder.name}.{os.getpid()}")
     unfinished.mkdir(parents=True, exist_ok=True)
@@ -130,14 +131,14 @@ def work(job):
     """Renders the shards of one worker, `job` = (arguments, worker number)."""
     args, worker = job
     per_shard = STILLS_PER_SHARD if args.kind == "stills" else SEQUENCES_PER_SHARD
-    studio = None
+    studio, framing = None, FRAMINGS[args.framing]
     for shard in range(worker, -(-args.count // per_shard), args.workers):
-        folder = args.out / f"{args.split}_{args.kind}" / f"shard_{shard:04d}"
+        folder = args.out / framing.folder(f"{args.split}_{args.kind}") / f"shard_{shard:04d}"
         if folder.exists():
             continue
         studio = studio or Studio(Rig())
         count = min(per_shard, args.count - shard * per_shard)
-        write_shard(studio, folder, args.split, args.kind, shard, count, args.seed, worker)
+        write_shard(studio, framing, folder, args.split, args.kind, shard, count, args.seed, worker)
 
 
 def main():
@@ -145,6 +146,7 @@ def main():
     parser.add_argument("--split", choices=SPLITS, required=True)
     parser.add_argument("--kind", choices=KINDS, required=True)
     parser.add_argument("--count", type=int, required=True, help="stills or sequences in all")
+    parser.add_argument("--framing", choices=FRAMINGS, default=BASENET.name)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--out", type=Path, default=cache() / "synthetic")
     parser.add_argument("--data", type=Path, help="data packs, instead of MIEN_DATA")

@@ -4,6 +4,8 @@ import torch
 import torch.nn.functional as F
 from torch import nn
 
+from framing import BASENET, HIFINET
+
 FEATURES = 256
 LANDMARKS = 175
 CONTROLS = 52
@@ -57,19 +59,28 @@ class Encoder(nn.Module):
 
 
 class BaseNetEncoder(Encoder):
-    """Input 65x65."""
+    """Input 65 x 65."""
 
     def __init__(self):
         super().__init__([(2, 2, False, 16), (2, 1, False, 16), (2, 1, False, 16), (3, 2, False, 40), (3, 1, True, 40),
                           (4, 2, True, 72)] + [(4, 1, True, 72)] * 4 + [(4, 1, True, 112)], 3)
 
 
-class BaseNet(nn.Module):
-    """Encoder with its plain heads; `controls` and `pose` exist in training only, to keep expression in the features."""
+class HiFiNetEncoder(Encoder):
+    """Input 129 high, 109 wide."""
 
     def __init__(self):
+        super().__init__([(1, 1, False, 16), (4, 2, False, 24), (4, 1, False, 24), (4, 2, False, 40), (4, 1, False, 40),
+                          (4, 1, False, 40), (4, 2, True, 96)] + [(4, 1, True, 96)] * 3 + [(4, 1, False, 128)]
+                         + [(4, 1, True, 128)] * 2, (3, 2))
+
+
+class FaceNetwork(nn.Module):
+    """Encoder with its plain heads; `controls` and `pose` exist in training only, to keep expression in the features."""
+
+    def __init__(self, encoder, framing):
         super().__init__()
-        self.encoder = BaseNetEncoder()
+        self.encoder, self.framing = encoder, framing
         self.landmarks = nn.Linear(FEATURES, 2 * LANDMARKS)
         self.face = nn.Linear(FEATURES, 1)
         self.controls = nn.Linear(FEATURES, CONTROLS)
@@ -79,6 +90,21 @@ class BaseNet(nn.Module):
         features = self.encoder(image)
         return {"features": features, "landmarks": self.landmarks(features).view(-1, LANDMARKS, 2),
                 "face": self.face(features)[:, 0], "controls": self.controls(features), "pose": self.pose(features)}
+
+
+class BaseNet(FaceNetwork):
+    def __init__(self):
+        super().__init__(BaseNetEncoder(), BASENET)
+
+
+class HiFiNet(FaceNetwork):
+    """Its face probability is not used."""
+
+    def __init__(self):
+        super().__init__(HiFiNetEncoder(), HIFINET)
+
+
+FACE_NETWORKS = {BASENET.name: BaseNet, HIFINET.name: HiFiNet}
 
 
 class TemporalDecoder(nn.Module):
@@ -167,6 +193,9 @@ def self_test():
     parameters, macs = cost(BaseNetEncoder(), 3, 65, 65)
     assert parameters == 528656, parameters
     assert abs(macs / 5.22e6 - 1) < 0.01, macs
+    parameters, macs = cost(HiFiNetEncoder(), 3, 129, 109)
+    assert parameters == 969400, parameters
+    assert abs(macs / 25.25e6 - 1) < 0.01, macs
     decoder, x = ControlsDecoder().eval(), torch.randn(2, 9, FEATURES)
     whole, state, parts = decoder(x)[0], None, []
     for t in range(9):
@@ -174,7 +203,7 @@ def self_test():
         parts.append(y)
     assert torch.allclose(whole, torch.cat(parts, 1), atol=1e-5)
     assert PNet()(torch.zeros(1, 3, 12, 12))[0].shape == (1, 1, 1, 1)
-    print("BaseNet encoder:", parameters, "parameters,", macs, "multiply-accumulates")
+    print("networks: ok")
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Synthetic sequences, and the features the tracker would get from them.
 
-A shard is a folder of `images.npy` (uint8 [n,112,112,3], a square window around the face) and `labels.npz`.
+A shard is a folder of `images.npy` (uint8 [n,window,window,3], a square around the face) and `labels.npz`.
 `track` follows every face as the tracker does: the landmarks predicted on one frame align the crop of the next.
 """
 import argparse
@@ -16,17 +16,16 @@ import head_pose
 import landmark_points as lp
 from augment import OfSequence
 from expressions import CONTROLS, MIRROR
-from networks import BaseNet
-
-WINDOW = 112  # side of a stored image, pixels
-CROP = 65     # side of the encoder's input, pixels
+from framing import BASENET, HIFINET
+from networks import BaseNet, HiFiNet
 
 
 class Sequences:
-    """Sequences of one length: images is a list of uint8 [frames,112,112,3], labels are tensors [s,frames,...]."""
+    """Sequences of one length: images is a list of uint8 [frames,window,window,3], labels are tensors [s,frames,...]."""
 
     def __init__(self, images, labels):
         self.images, self.labels, self.frames = images, labels, len(images[0])
+        self.window = images[0].shape[1]
 
     @classmethod
     def load(cls, folders):
@@ -53,7 +52,7 @@ class Sequences:
         return len(self.images)
 
     def frame(self, rows, t):
-        """Images f32 [n,3,112,112] in 0..1 of frame t."""
+        """Images f32 [n,3,window,window] in 0..1 of frame t."""
         images = torch.from_numpy(np.stack([self.images[i][t] for i in rows]))
         return images.permute(0, 3, 1, 2).float() / 255
 
@@ -81,21 +80,21 @@ def crop_to_image(crop, points):
     return head_pose.rotate(points - 0.5, crop[:, None, 3]) * crop[:, None, 2:3] + crop[:, None, :2]
 
 
-def to_window(crop, window):
-    """A crop [n,4] in camera pixels -> in pixels of the stored window [n,3] (cx, cy, side)."""
-    scale = WINDOW / window[:, 2:3]
-    return torch.cat([(crop[:, :2] - window[:, :2]) * scale + WINDOW / 2, crop[:, 2:3] * scale, crop[:, 3:]], 1)
+def to_window(crop, window, pixels):
+    """A crop [n,4] in camera pixels -> in pixels of the stored window [n,3] (cx, cy, side), which has `pixels` a side."""
+    scale = pixels / window[:, 2:3]
+    return torch.cat([(crop[:, :2] - window[:, :2]) * scale + pixels / 2, crop[:, 2:3] * scale, crop[:, 3:]], 1)
 
 
-def sample_crops(images, crop, taps=None):
-    """Warps crops [n,4] (pixels of images f32 [n,3,h,w]) to [n,3,65,65]; large crops average taps x taps."""
+def sample_crops(images, crop, framing=BASENET, taps=None):
+    """What a network sees in crops [n,4] (pixels of images f32 [n,3,h,w]); where they are large, means of taps x taps."""
     h, w = images.shape[-2:]
-    taps = taps or int(np.clip(np.ceil(float(crop[:, 2].max()) / CROP / 1.5), 1, 8))
-    n = CROP * taps
-    at = (torch.arange(n) + 0.5) / n
-    grid = torch.stack(torch.meshgrid(at, at, indexing="xy"), -1).view(1, -1, 2)
+    taps = taps or int(np.clip(np.ceil(float(crop[:, 2].max()) / framing.pixels_per_crop / 1.5), 1, 8))
+    rows, columns = framing.height * taps, framing.width * taps
+    along = lambda n: ((torch.arange(n) + 0.5 - n / 2) / taps) / framing.pixels_per_crop + 0.5
+    grid = torch.stack(torch.meshgrid(along(columns), along(rows), indexing="xy"), -1).view(1, -1, 2)
     pixels = crop_to_image(crop, grid.expand(len(crop), -1, -1))
-    grid = (2 * pixels / torch.tensor([w, h]) - 1).view(-1, n, n, 2)
+    grid = (2 * pixels / torch.tensor([w, h]) - 1).view(-1, rows, columns, 2)
     out = torch.nn.functional.grid_sample(images, grid, padding_mode="border", align_corners=False)
     return torch.nn.functional.avg_pool2d(out, taps) if taps > 1 else out
 
@@ -113,38 +112,63 @@ def lost(crop, truth):
     return (away > 0.3) | ((crop[:, 2] / truth[:, 2]).log().abs() > 0.45)
 
 
-class Network:
-    """Encoder and landmark head of a BaseNet checkpoint, as `track` wants them."""
+def faster(encoder):
+    return fuse(encoder).to(memory_format=torch.channels_last)
+
+
+def run(encoder, pictures):
+    return encoder((pictures * 2 - 1).contiguous(memory_format=torch.channels_last))
+
+
+class BaseNetView:
+    """What BaseNet makes of a crop, as `track` wants it."""
 
     def __init__(self, checkpoint):
-        state = torch.load(checkpoint, map_location="cpu")
-        net = BaseNet().eval()
-        net.load_state_dict(state["average"])
-        self.encoder = fuse(net.encoder).to(memory_format=torch.channels_last)
-        self.landmarks = net.landmarks
-        self.template = template()
+        net = load(checkpoint, BaseNet())
+        self.encoder, self.landmarks, self.template = faster(net.encoder), net.landmarks, template()
 
-    def __call__(self, crops):
-        features = self.encoder(crops.contiguous(memory_format=torch.channels_last))
+    def look(self, images, crop, spoil):
+        """Features [n,256] and landmarks [n,175,2] in crop coordinates."""
+        features = run(self.encoder, spoil(sample_crops(images, crop)))
         return features, self.landmarks(features).unflatten(1, (-1, 2))
 
 
-def mirrored(model):
-    """The model as it sees mirrored faces; its landmarks are mirrored back."""
-    def seen(crops):
-        features, points = model(crops.flip(3))
-        return features, (points * torch.tensor([-1.0, 1]) + torch.tensor([1.0, 0]))[:, lp.MIRROR]
+class HiFiNetView:
+    """BaseNet places HiFiNet's crop on the same frame; the features are HiFiNet's, the landmarks BaseNet's."""
 
-    seen.template = model.template
-    return seen
+    def __init__(self, basenet, checkpoint):
+        self.basenet, self.template = basenet, basenet.template
+        self.encoder = faster(load(checkpoint, HiFiNet()).encoder)
+
+    def look(self, images, crop, spoil):
+        shape = self.basenet.look(images, crop, spoil)[1]
+        close = fit_crop(self.template, crop_to_image(crop, shape))
+        return run(self.encoder, spoil(sample_crops(images, close, HIFINET))), shape
+
+
+def load(checkpoint, network):
+    network.load_state_dict(torch.load(checkpoint, map_location="cpu")["average"])
+    return network.eval()
+
+
+class Mirrored:
+    """The view of mirrored faces; its landmarks are mirrored back."""
+
+    def __init__(self, view):
+        self.view, self.template = view, view.template
+
+    def look(self, images, crop, spoil):
+        flipped = torch.cat([images.shape[3] - crop[:, :1], crop[:, 1:3], -crop[:, 3:]], 1)
+        features, points = self.view.look(images.flip(3), flipped, spoil)
+        return features, (points * torch.tensor([-1.0, 1]) + torch.tensor([1.0, 0]))[:, lp.MIRROR]
 
 
 @torch.no_grad()
-def track(model, sequences, rows, spoil, generator, stride=1):
+def track(view, sequences, rows, spoil, generator, stride=1):
     """Follows sequences `rows`, the encoder running on every `stride`-th frame.
 
-    model: callable f32 [n,3,65,65] (-1..1) -> (features [n,256], landmarks [n,175,2] in crop coordinates).
-    spoil: callable (f32 [n,3,65,65] in 0..1, frame number) -> the same, or None.
+    view: its `look` gives features and landmarks, like BaseNetView's.
+    spoil: callable (f32 [n,3,height,width] in 0..1, frame number) -> the same.
     Returns features [n,frames,256], crops [n,frames,4] the features come from, landmarks [n,frames,175,2] in
     camera pixels, and how often a face had to be found again.
     """
@@ -154,12 +178,12 @@ def track(model, sequences, rows, spoil, generator, stride=1):
             truth = sequences.label("crop", rows, t)
             crop = found = jittered(truth, 0.06, generator)
             if t > 0:
-                crop = fit_crop(model.template, history[-1][2])
+                crop = fit_crop(view.template, history[-1][2])
                 gone = lost(crop, truth)
                 crop = torch.where(gone[:, None], found, crop)
                 losses += int(gone.sum())
-            inputs = sample_crops(sequences.frame(rows, t), to_window(crop, sequences.label("window", rows, t)))
-            feature, shape = model((spoil(inputs, t) if spoil else inputs) * 2 - 1)
+            inside = to_window(crop, sequences.label("window", rows, t), sequences.window)
+            feature, shape = view.look(sequences.frame(rows, t), inside, lambda x: spoil(x, t))
             frame = feature, crop, crop_to_image(crop, shape)
         history.append(frame)
     features, crops, points = (torch.stack(h, 1) for h in zip(*history))
@@ -200,7 +224,11 @@ def targets(sequences, rows, crops, mirror):
     return {"pose": pose, "controls": controls, "visible": seen}
 
 
-def extract(model, sequences, passes, seed, strides=(1, 2), plain=False, batch=32):
+def untouched(x, frame):
+    return x
+
+
+def extract(view, sequences, passes, seed, strides=(1, 2), plain=False, batch=32):
     """Tracks every sequence `passes` times with the encoder on every frame, and as often on alternate frames.
 
     Every second pass mirrors the faces. Returns tensors with one row per track: features fp16 [m,frames,256], pose
@@ -213,8 +241,8 @@ def extract(model, sequences, passes, seed, strides=(1, 2), plain=False, batch=3
         for start in range(0, len(sequences), batch):
             rows = torch.arange(start, min(start + batch, len(sequences)))
             key = ((seed * 2 + stride) * 100 + number) * 10000 + start
-            spoil = None if plain else OfSequence(len(rows), key)
-            seen = mirrored(model) if number % 2 else model
+            spoil = untouched if plain else OfSequence(len(rows), key)
+            seen = Mirrored(view) if number % 2 else view
             features, crops, points, again = track(seen, sequences, rows, spoil, torch.Generator().manual_seed(key), stride)
             losses += again
             errors.append(landmark_error(points, sequences.label("landmarks", rows)))
@@ -228,7 +256,8 @@ def extract(model, sequences, passes, seed, strides=(1, 2), plain=False, batch=3
 
 def main():
     parser = argparse.ArgumentParser(description="Features of synthetic sequences, tracked by a BaseNet checkpoint.")
-    parser.add_argument("--checkpoint", type=Path, required=True)
+    parser.add_argument("--checkpoint", type=Path, required=True, help="of BaseNet")
+    parser.add_argument("--hifinet", type=Path, help="a checkpoint of HiFiNet, whose features are wanted then")
     parser.add_argument("--shards", type=Path, nargs="+", required=True)
     parser.add_argument("--out", type=Path, required=True)
     parser.add_argument("--passes", type=int, default=2)
@@ -241,7 +270,10 @@ def main():
     sequences, strides = Sequences.load(args.shards), (1, 2)
     if args.hold:
         sequences, strides = sequences.held(args.hold), (1,)
-    found = extract(Network(args.checkpoint), sequences, args.passes, args.seed, strides, args.plain)
+    view = BaseNetView(args.checkpoint)
+    if args.hifinet:
+        view = HiFiNetView(view, args.hifinet)
+    found = extract(view, sequences, args.passes, args.seed, strides, args.plain)
     args.out.parent.mkdir(parents=True, exist_ok=True)
     torch.save(found, args.out)
 
@@ -254,28 +286,34 @@ def self_test():
     crop = torch.tensor([[300.0, 200, 150, 0.2]]) + torch.randn(n, 4) * torch.tensor([40, 40, 20, 0.2])
     drift = torch.randn(n, 1, 4) * torch.tensor([2, 2, 1, 0.01]) * torch.arange(frames).view(1, -1, 1)
     crops = (crop[:, None] + drift).flatten(0, 1)
-    window = torch.cat([crops[:, :2] + 3, 1.5 * crops[:, 2:3]], 1)
-    at = (torch.arange(WINDOW) + 0.5) / WINDOW
-    pixels = torch.stack(torch.meshgrid(at, at, indexing="xy"), -1).view(1, -1, 2) - 0.5
-    camera = pixels * window[:, None, 2:3] + window[:, None, :2]
+    pixels = BASENET.window
+    window = torch.cat([crops[:, :2] + 3, BASENET.window_crops * crops[:, 2:3]], 1)
+    at = (torch.arange(pixels) + 0.5) / pixels
+    grid = torch.stack(torch.meshgrid(at, at, indexing="xy"), -1).view(1, -1, 2) - 0.5
+    camera = grid * window[:, None, 2:3] + window[:, None, :2]
     local = head_pose.rotate(camera - crops[:, None, :2], -crops[:, None, 3]) / crops[:, None, 2:3]
     colours = torch.cat([0.5 + local / 2.5, torch.zeros_like(local[..., :1])], -1)
-    images = (colours * 255).round().clamp(0, 255).byte().view(n, frames, WINDOW, WINDOW, 3)
+    images = (colours * 255).round().clamp(0, 255).byte().view(n, frames, pixels, pixels, 3)
     made = Sequences(list(images.numpy()), {"crop": crops.view(n, frames, 4), "window": window.view(n, frames, 3)})
 
-    def network(x):
-        local = ((x[:, :2, 16:49, 16:49] + 1) / 2 - 0.5) * 2.5 + 0.5
-        at = (torch.arange(16, 49) + 0.5) / CROP
+    def read(x):
+        local = (x[:, :2, 16:49, 16:49] - 0.5) * 2.5 + 0.5
+        at = (torch.arange(16, 49) + 0.5) / BASENET.width
         here = torch.stack(torch.meshgrid(at, at, indexing="xy"), -1).view(-1, 2)
         design = torch.cat([local.flatten(2).transpose(1, 2), torch.ones(len(x), len(here), 1)], 2)
         solution = torch.linalg.lstsq(design, here.expand(len(x), -1, -1)).solution
         return torch.zeros(len(x), 256), torch.cat([template, torch.ones(175, 1)], 1) @ solution
 
-    network.template = template
+    class View:
+        def look(self, images, crop, spoil):
+            return read(spoil(sample_crops(images, crop)))
+
+    view = View()
+    view.template = template
     truth = crop_to_image(crops, template.expand(len(crops), -1, -1)).view(n, frames, 175, 2)
     assert (fit_crop(template, truth.flatten(0, 1)) - crops).abs().max() < 1e-2
     for stride in (1, 2):
-        _, used, points, losses = track(network, made, torch.arange(n), None, torch.Generator(), stride)
+        _, used, points, losses = track(view, made, torch.arange(n), untouched, torch.Generator(), stride)
         error = (points - truth)[:, ::stride].norm(dim=-1).max()
         assert losses == 0 and error < 0.5, f"{losses} faces lost, {error} pixels off"
         assert (used[:, stride::stride] - made.labels["crop"][:, :-stride:stride]).abs().max() < 1.0

@@ -22,10 +22,10 @@ import head_pose  # noqa: E402
 import metrics  # noqa: E402
 from expressions import CONTROLS, MIRROR, PAIRED  # noqa: E402
 from losses import importance  # noqa: E402
-from networks import ControlsDecoder, PoseDecoder  # noqa: E402
+from networks import FACE_NETWORKS, ControlsDecoder, PoseDecoder  # noqa: E402
 
 SUPPORTED_CORRELATION = 0.5
-GAZE = np.array([name.startswith("eyeLook") for name in CONTROLS])  # is for the levels of detail that see the eyes closely
+GAZE = np.array([name.startswith("eyeLook") for name in CONTROLS])
 SPEED_BETA = 0.015  # frame differences beyond it cost linearly
 LEARNED = ("features", "pose", "controls", "visible")
 
@@ -242,8 +242,8 @@ def of_stride(data, stride):
     return {k: v[chosen] for k, v in data.items() if torch.is_tensor(v)}
 
 
-def evaluate(decoders, data, supported=None):
-    """(scores, supported): scores with the encoder on every frame and on alternate frames.
+def evaluate(decoders, data, supported=None, gaze=False):
+    """(scores, supported): scores with the encoder on every frame and on alternate frames. `gaze`: may be supported.
 
     Without `supported` the controls that correlate well enough on this data, in both modes and on both sides of the face, are
     chosen.
@@ -253,17 +253,20 @@ def evaluate(decoders, data, supported=None):
               for m, part in parts.items() for k in ("controls", "frame")}
     if supported is None:
         lowest = np.min([correlation_of(curves[m, "controls"], part) for m, part in parts.items()], 0)
-        supported = (np.nan_to_num(lowest, nan=-1) >= SUPPORTED_CORRELATION) & ~GAZE
+        supported = (np.nan_to_num(lowest, nan=-1) >= SUPPORTED_CORRELATION) & (~GAZE | gaze)
         supported &= supported[MIRROR]
     report = {}
     for mode, part in parts.items():
         report[mode] = {k: control_scores(curves[mode, k], part, supported) for k in ("controls", "frame")}
-        report[mode]["pose"] = pose_scores(answers(decoders["pose"], part["features"]), part["pose"])
+        if "pose" in decoders:
+            report[mode]["pose"] = pose_scores(answers(decoders["pose"], part["features"]), part["pose"])
     return report, supported
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--network", choices=FACE_NETWORKS, default="basenet", help="whose features: HiFiNet's tell of gaze, and "
+                        "nobody asks them for the head pose")
     parser.add_argument("--train", type=Path, nargs="+", required=True, help="features to learn from")
     parser.add_argument("--held", type=Path, nargs="*", default=[], help="features of stills (sequences.py --hold)")
     parser.add_argument("--val", type=Path, required=True, help="features that choose the supported controls")
@@ -281,13 +284,15 @@ def main():
     torch.set_num_threads(args.threads)
     sources = [kind(join([torch.load(p) for p in paths]), args)
                for kind, paths in ((Moving, args.train), (Held, args.held)) if paths]
-    decoders = {"controls": ControlsDecoder(), "pose": PoseDecoder(), "frame": FrameDecoder()}
+    decoders = {"controls": ControlsDecoder(), "frame": FrameDecoder()}
+    if args.network == "basenet":
+        decoders["pose"] = PoseDecoder()
     for name, decoder in decoders.items():
         own = argparse.Namespace(**{**vars(args), "velocity": 0, "acceleration": 0}) if name == "frame" else args
         task = (PoseTask if name == "pose" else ControlsTask)(sources[0].data, own)
         train(decoder, sources, task, own, name)
         check_streaming(decoder, sources[0].data["features"])
-    report, supported = evaluate(decoders, torch.load(args.val))
+    report, supported = evaluate(decoders, torch.load(args.val), gaze=args.network == "hifinet")
     save(args.out, decoders, supported, report)
 
 
@@ -297,9 +302,8 @@ def join(parts):
 
 def save(path, decoders, supported, report):
     path.parent.mkdir(parents=True, exist_ok=True)
-    torch.save({"controls_decoder": decoders["controls"].state_dict(), "pose_decoder": decoders["pose"].state_dict(),
-                "frame_decoder": decoders["frame"].state_dict(),
-                "supported": torch.from_numpy(supported.astype(np.float32))}, path)
+    states = {f"{name}_decoder": decoder.state_dict() for name, decoder in decoders.items()}
+    torch.save({**states, "supported": torch.from_numpy(supported.astype(np.float32))}, path)
     path.with_suffix(".json").write_text(json.dumps(report, indent=1) + "\n")
     for mode, scores in report.items():
         for name, values in scores.items():

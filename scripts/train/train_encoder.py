@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Phase 1: BaseNet's encoder with landmarks and face probability, on portraits and rendered faces.
+"""Phase 1: an encoder with landmarks and, BaseNet's, face probability, on portraits and rendered faces.
 
-usage: train_encoder.py [--samples N] [--hours H] [--resume] [--name basenet]     or: train_encoder.py --evaluate CHECKPOINT
+usage: train_encoder.py [--network hifinet] [--samples N] [--hours H] [--resume] [--name RUN]     or: ... --evaluate CHECKPOINT
 Writes $MIEN_CACHE/runs/NAME/{last.pt,curves.png}; `average` in last.pt are the weights to use. Rendered shards that appear
 while it runs are taken up. On several machines or GPUs: torchrun --nproc_per_node N train_encoder.py ...
 Two heads exist in training only, controls and pose on rendered faces: they keep expression in the features that phase 2 decodes.
@@ -22,12 +22,13 @@ import clips
 import face_data
 import landmark_points as lp
 from expressions import CONTROLS
+from framing import BASENET
 from losses import Losses
-from networks import BaseNet
+from networks import FACE_NETWORKS
 from optimizer import Optimizer
 from paths import cache
 from revive import Activity, revive
-from sequences import template
+from sequences import sample_crops, template
 
 CURVES = {"error, outer eye corner distances": ("loss", "real_landmarks", "rendered_landmarks", "clips_mean", "clips_worst"),
           "correlation": ("controls_mean", "jawOpen", "eyeBlinkLeft", "mouthPucker", "browInnerUp", "clips_eyes", "clips_mouth")}
@@ -51,7 +52,7 @@ def validate(network, portraits, rendered, seed=11):
     """Landmark error (outer eye corner distances) on both, correlation of the training-only controls head on renders."""
     network.eval()
     device = next(network.parameters()).device
-    mixture = face_data.Mixture(portraits, rendered, None, seed)
+    mixture = face_data.Mixture(network.framing, portraits, rendered, None, seed)
     report = {}
     for name, source in (("real", portraits), ("rendered", rendered)):
         if not len(source):
@@ -114,20 +115,22 @@ def plot(history, path):
     plt.close(figure)
 
 
-def moved_views(images, batch, generator, share=0.06):
+def moved_views(framing, images, batch, generator, share=0.06):
     """Some faces of the batch seen again, turned and scaled: (rows, pictures, crops in the first picture's pixels)."""
     rows = torch.nonzero(batch.has_landmarks)[:, 0]
     rows = rows[torch.randperm(len(rows), generator=generator)[:int(share * len(images))]]
     n = len(rows)
     angle, scale = torch.randn(n, generator=generator) * 0.25, torch.exp(torch.randn(n, generator=generator) * 0.08)
-    crop = torch.stack([torch.full((n,), face_data.CROP / 2)] * 2 + [scale * face_data.CROP, angle], 1)
-    return rows, face_data.sample_crops(images[rows], crop, taps=1), crop
+    middle = torch.tensor([framing.width / 2, framing.height / 2]).expand(n, 2)
+    crop = torch.cat([middle, scale[:, None] * framing.pixels_per_crop, angle[:, None]], 1)
+    return rows, sample_crops(images[rows], crop, framing, taps=1), crop
 
 
 class Trainer:
     def __init__(self, options, device, world, rank):
         self.options, self.device, self.world, self.rank = options, device, world, rank
-        self.network = BaseNet()
+        self.network = FACE_NETWORKS[options.network]()
+        self.framing = self.network.framing
         with torch.no_grad():
             self.network.landmarks.bias.copy_(template().flatten())
             self.network.landmarks.weight.mul_(0.1)
@@ -159,13 +162,15 @@ class Trainer:
     def load_data(self):
         seed = self.options.seed * 1000 + self.rank + 7919 * self.step
         self.generator = torch.Generator().manual_seed(seed)
-        self.rendered = face_data.Rendered("train_stills")  # sequences are for phase 2, which needs features of unseen faces
-        self.mixture = face_data.Mixture(face_data.Portraits("train"), self.rendered, face_data.Backgrounds(seed=seed), seed,
+        rendered = lambda *kinds: face_data.Rendered(*kinds, framing=self.framing)
+        self.rendered = rendered("train_stills")  # sequences are for phase 2, which needs features of unseen faces
+        backgrounds = face_data.Backgrounds(seed=seed) if self.framing is BASENET else None
+        self.mixture = face_data.Mixture(self.framing, face_data.Portraits("train", self.framing), self.rendered, backgrounds, seed,
                                          self.options.real_share)
-        self.val_real, self.val_rendered = face_data.Portraits("val"), face_data.Rendered("val_stills", "val_sequences")
+        self.val_real, self.val_rendered = face_data.Portraits("val", self.framing), rendered("val_stills", "val_sequences")
         self.clips = clips.load() if self.rank == 0 else []
         eyes = template()[list(lp.OUTER_EYE_CORNERS)]
-        self.losses = Losses(float((eyes[0] - eyes[1]).norm()), self.device)
+        self.losses = Losses(self.framing, float((eyes[0] - eyes[1]).norm()), self.device)
         self.losses.learn_spread(self.rendered)
 
     def progress(self):
@@ -188,7 +193,7 @@ class Trainer:
         self.optimizer.set_rate(self.learning_rate())
         degraded, self.mixture.roughness = self.difficulty()
         batch = self.mixture.batch(self.options.batch)
-        rows, moved, crop = moved_views(batch.images, batch, self.generator)
+        rows, moved, crop = moved_views(self.framing, batch.images, batch, self.generator)
         images = augment.photometric(torch.cat([batch.images, moved]), self.generator, degraded) * 2 - 1
         batch = face_data.Batch(*(value.to(self.device) for value in batch))
         n = len(batch.images)
@@ -210,8 +215,7 @@ class Trainer:
             source.refresh()
         self.losses.learn_spread(self.rendered)
         report = {"samples": self.samples, "rendered": len(self.rendered), "loss": sum(losses) / len(losses),
-                  "revived": self.revived, "mistakes": self.mixture.backgrounds.mistakes,
-                  **validate(self.average.network, self.val_real, self.val_rendered)}
+                  "revived": self.revived, **validate(self.average.network, self.val_real, self.val_rendered)}
         if with_clips:
             report.update({f"clips_{k}": v for k, v in clips.evaluate(self.average.network, self.clips).items()})
         self.history.append(report)
@@ -247,7 +251,7 @@ class Trainer:
                 self.meet(began)
             bar.update(self.options.batch * self.world)
             due = self.samples - reported >= self.options.report_every or self.progress() >= 1
-            if due:
+            if due and self.mixture.backgrounds:
                 self.mixture.backgrounds.mine(self.average.network)
             if due and self.rank == 0:
                 reports += 1
@@ -258,7 +262,8 @@ class Trainer:
 
 def parse():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--name", default="basenet")
+    parser.add_argument("--network", choices=FACE_NETWORKS, default=BASENET.name)
+    parser.add_argument("--name", help="of the run; default: the network's")
     parser.add_argument("--samples", type=int, default=4_000_000)
     parser.add_argument("--hours", type=float, help="ends sooner, with the schedule fitted to the clock")
     parser.add_argument("--batch", type=int, default=96, help="of each process")
@@ -270,14 +275,18 @@ def parse():
     parser.add_argument("--resume", action="store_true")
     parser.add_argument("--start-from", help="a checkpoint whose weights to begin with")
     parser.add_argument("--evaluate", help="a checkpoint to judge, without training")
-    return parser.parse_args()
+    options = parser.parse_args()
+    options.name = options.name or options.network
+    return options
 
 
-def evaluate(checkpoint):
-    state = torch.load(checkpoint, map_location="cpu")
-    network = BaseNet()
+def evaluate(options):
+    state = torch.load(options.evaluate, map_location="cpu")
+    network = FACE_NETWORKS[options.network]()
     network.load_state_dict(state["average"])
-    report = {"samples": state["samples"], **validate(network, face_data.Portraits("val"), face_data.Rendered("val_stills", "val_sequences")),
+    portraits = face_data.Portraits("val", network.framing)
+    rendered = face_data.Rendered("val_stills", "val_sequences", framing=network.framing)
+    report = {"samples": state["samples"], **validate(network, portraits, rendered),
               **{f"clips_{k}": v for k, v in clips.evaluate(network, clips.load()).items()}}
     print(json.dumps(report, indent=1))
 
@@ -288,7 +297,7 @@ def main():
     torch.set_flush_denormal(True)  # moments of units that are off decay into them, and a step takes twice as long
     torch.set_num_threads(options.threads)
     if options.evaluate:
-        return evaluate(options.evaluate)
+        return evaluate(options)
     world, rank = int(os.environ.get("WORLD_SIZE", 1)), int(os.environ.get("RANK", 0))
     local = int(os.environ.get("LOCAL_RANK", 0))
     device = torch.device("cuda", local) if torch.cuda.is_available() else torch.device("cpu")

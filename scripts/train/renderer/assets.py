@@ -1,6 +1,7 @@
-"""What looks are made of: names by split, pictures and meshes of the rig pack.
+"""What looks are made of: names by split, pictures and meshes of the rig pack, skins taken from portraits.
 
-Skins, hair styles and environments are held out: those of val and test never occur in train.
+Skins, hair styles and environments are held out: those of val and test never occur in train. Skins of portraits are for train
+only; they are called <skin of the pack>+<portrait> and go over to that skin where the photograph ends.
 """
 import functools
 import json
@@ -8,7 +9,7 @@ import json
 import numpy as np
 from PIL import Image
 
-from paths import data
+from paths import cache, data
 
 HELD_OUT = {
     "skins": {"old_light_male", "old_light_female2", "mid_dark_male", "mid_light_female2", "young_light_female3"},
@@ -24,6 +25,20 @@ def pack(*parts):
 @functools.lru_cache
 def skin_table():
     return json.loads(pack("skins/skins.json").read_text())
+
+
+@functools.lru_cache
+def portrait_skins():
+    """Names; none where portrait_skins.py has not been run."""
+    return sorted(p.stem for p in (cache() / "portrait_skins").glob("*+*.jpg"))
+
+
+def skin_file(name, tile):
+    """Picture of a skin on the tile `face` or `back`."""
+    of_pack, _, portrait = name.partition("+")
+    if portrait and tile == "face":
+        return cache() / "portrait_skins" / f"{name}.jpg"
+    return pack("skins", f"{of_pack}_{tile}.jpg")
 
 
 @functools.lru_cache

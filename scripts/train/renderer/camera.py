@@ -6,8 +6,6 @@ import numpy as np
 import landmark_points as lp
 from renderer import native
 
-WINDOW = 112         # side of a stored picture, pixels
-WINDOW_CROPS = 1.5   # its side in crop sides
 SPREAD = np.radians([25, 13, 10])  # of yaw, pitch, roll relative to the line of sight
 LIMIT = np.radians([70, 45, 50])
 
@@ -32,7 +30,7 @@ class Camera:
         x, y = (pixel - self.centre) / self.f_px
         return np.array([x, -y, -1.0])
 
-    def view(self, x0, y0, side, width=WINDOW, height=WINDOW):
+    def view(self, x0, y0, side, width, height):
         """Picture of width x height pixels whose left upper corner is (x0, y0) and whose width spans `side` camera pixels."""
         return native.View(self.f_px, *self.centre, x0, y0, width / side, width, height)
 

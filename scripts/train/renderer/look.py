@@ -3,13 +3,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from renderer.assets import names, skin_table
+from renderer.assets import names, portrait_skins, skin_table
 
 HAIR_COLOURS = np.array([[28, 22, 20], [45, 30, 22], [74, 48, 32], [104, 70, 44], [146, 104, 62], [190, 150, 96],
                          [150, 148, 146], [200, 196, 190], [112, 52, 30]]) / 255  # sRGB
 DARK, GREY = slice(0, 3), slice(6, 8)
 IDENTITY_SPREAD = 0.75  # standard deviation of identity coefficients
 LIGHT_SKIN, DARK_SKIN = np.array([0.55, 0.30, 0.21]), np.array([0.14, 0.06, 0.035])  # linear
+PHOTOGRAPHED = 0.65  # share of training faces with the skin of a portrait
 EYE_HIDING = ("bob01", "bob02", "short03")  # their fringe covers one eye
 
 
@@ -48,9 +49,11 @@ def sample_skin(look, rng, split):
     """Skins are mixed half of the time; tone, contrast and saturation spread them further."""
     choice = names("skins", split)
     plain = [n for n in choice if "suit" not in n]
+    if split == "train" and portrait_skins() and rng.random() < PHOTOGRAPHED:
+        choice = portrait_skins()
     first = choice[rng.integers(len(choice))]
     look.skins = (first, plain[rng.integers(len(plain))])
-    look.skin_mix = 0.0 if "suit" in first or rng.random() < 0.4 else rng.uniform(0.15, 0.85)
+    look.skin_mix = 0.0 if "suit" in first or "+" in first or rng.random() < 0.4 else rng.uniform(0.15, 0.85)
     lightness = np.exp(rng.normal(0.15 if "dark" in first else 0, 0.25))
     look.tone = lightness * np.exp(rng.normal(0, 0.05, 3) + rng.normal(0, 0.05) * np.array([1, 0, -1]))
     look.contrast, look.saturation = rng.uniform(0.85, 1.2), rng.uniform(0.6, 1.2)
@@ -81,10 +84,13 @@ def sample_hair(look, rng, split):
 
 
 def sample_face_hair(look, rng):
-    sex = skin_table()[look.skins[0]]["sex"]
-    if "suit" not in look.skins[0]:
+    """Brows and beards, unless they are painted on the skin."""
+    skin = look.skins[0]
+    if "+" in skin:
+        return
+    if "suit" not in skin:
         look.brow, look.brow_opacity = rng.choice(names("brows")), rng.uniform(0.45, 1)
-    if sex == "male" and rng.random() < 0.4:
+    if skin_table()[skin]["sex"] == "male" and rng.random() < 0.4:
         look.beard = rng.choice(names("beards"))
 
 

@@ -6,7 +6,7 @@ import numpy as np
 from landmark_points import TEACHER
 from paths import cache
 from renderer import native, props
-from renderer.assets import overlay_rectangle, pack, picture, skin_table, worn
+from renderer.assets import overlay_rectangle, pack, picture, skin_file, worn
 from renderer.build import library
 from renderer.lighting import sphere
 
@@ -42,9 +42,11 @@ class Studio:
         self.occlusion = self.vertex_occlusion()
 
     def texture(self, *parts, wrap=False):
-        if parts not in self.textures:
-            self.textures[parts] = self.rasterizer.add_texture(picture(pack(*parts)), wrap)
-        return self.textures[parts]
+        """Number of a picture of the rig pack, or of any file."""
+        file = pack(*parts)
+        if file not in self.textures:
+            self.textures[file] = self.rasterizer.add_texture(picture(file), wrap)
+        return self.textures[file]
 
     def vertex_occlusion(self):
         """How open each vertex of the mean head is, computed once and kept."""
@@ -157,9 +159,9 @@ class Figure:
             overlays.append((texture("brows", f"{look.brow}.png"), overlay_rectangle("brows"), hair * 0.7, look.brow_opacity))
         if look.beard:
             overlays.append((texture("beards", f"{look.beard}.png"), overlay_rectangle("beards"), hair * 0.8, 0.95))
-        collar = -100 if skin_table()[first]["painted_hair_and_suit"] else look.collar
+        collar = -100 if "suit" in first else look.collar
         made = lambda tile, over, edge: material(
-            native.SKIN, texture("skins", f"{first}_{tile}.jpg"), texture("skins", f"{second}_{tile}.jpg"), look.skin_mix,
+            native.SKIN, texture(skin_file(first, tile)), texture(skin_file(second, tile)), look.skin_mix,
             self.albedo, look.saturation, specular=look.shine, param=(*look.cloth_colour, edge), overlays=over)
         iris = texture("eyes", f"{look.iris}.jpg")
         sclera = texture("eyes", f"sclera_{look.sclera}.png")
