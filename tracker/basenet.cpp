@@ -6,26 +6,20 @@
 namespace mien::tracker {
 namespace {
 
-constexpr std::int32_t kCropSamples = 65;
+constexpr Raster kWhole = {65, 65, 1.0f};
 
 bool all_finite(std::span<const float> values) {
   return std::all_of(values.begin(), values.end(), [](float v) { return std::isfinite(v); });
 }
 
-constexpr engine::Shape kFeatureVector = {1, 1, kFeatures};
-
 }  // namespace
 
-mien_status BaseNet::load(const mien_tracker_config& config, Arena& arena) {
-  if (!sampler_.init(config.cpu_mask)) {
+mien_status BaseNet::load(const Models& models, std::uint32_t cpu_mask, Arena& arena) {
+  if (!sampler_.init(cpu_mask)) {
     return MIEN_ERROR_UNSUPPORTED_CPU;
   }
-  engine::Model model;
-  mien_status status = open_model(config.basenet, config.basenet_bytes, model);
-  if (status == MIEN_OK) {
-    status = load_networks(model, config.cpu_mask, arena);
-  }
-  return status == MIEN_OK ? load_constants(model) : status;
+  const mien_status status = load_networks(models.basenet, cpu_mask, arena);
+  return status == MIEN_OK ? load_template(models.basenet) : status;
 }
 
 mien_status BaseNet::load_networks(const engine::Model& model, std::uint32_t cpu_mask,
@@ -34,11 +28,9 @@ mien_status BaseNet::load_networks(const engine::Model& model, std::uint32_t cpu
     Network& network;
     NetworkForm form;
   } parts[] = {
-      {encoder_, {"encoder", {kCropSamples, kCropSamples, 3}, {kFeatures}}},
+      {encoder_, {"encoder", {kWhole.rows, kWhole.columns, 3}, {kFeatures}}},
       {landmarks_, {"landmarks", kFeatureVector, {2 * kLandmarks}}},
       {face_probability_, {"face_probability", kFeatureVector, {1}}},
-      {controls_decoder_, {"controls_decoder", kFeatureVector, {kControls}}},
-      {pose_decoder_, {"pose_decoder", kFeatureVector, {kPoseOutputs}}},
   };
   for (const auto& part : parts) {
     const mien_status status = part.network.load(model, part.form, cpu_mask, arena);
@@ -49,19 +41,13 @@ mien_status BaseNet::load_networks(const engine::Model& model, std::uint32_t cpu
   return MIEN_OK;
 }
 
-mien_status BaseNet::load_constants(const engine::Model& model) {
+mien_status BaseNet::load_template(const engine::Model& model) {
   std::span<const float> shape;
-  std::span<const float> supported;
-  if (model.constant("landmark_template", 2 * kLandmarks, shape) != engine::Status::kOk ||
-      model.constant("control_supported", kControls, supported) != engine::Status::kOk) {
+  if (model.constant("landmark_template", 2 * kLandmarks, shape) != engine::Status::kOk) {
     return MIEN_ERROR_WEIGHTS_INCOMPLETE;
   }
   for (std::size_t i = 0; i < kLandmarks; ++i) {
     template_[i] = {shape[2 * i], shape[2 * i + 1]};
-  }
-  supported_ = 0;
-  for (std::size_t i = 0; i < kControls; ++i) {
-    supported_ |= static_cast<std::uint64_t>(supported[i] > 0.5f) << i;
   }
   return MIEN_OK;
 }
@@ -69,7 +55,7 @@ mien_status BaseNet::load_constants(const engine::Model& model) {
 bool BaseNet::look(const ImageView& view, const Crop& crop, StageTimer& timer, Sight& sight) {
   {
     const StageTimer::Scope timed(timer, MIEN_STAGE_WARP);
-    sampler_.cut(view, crop, kCropSamples, encoder_.input());
+    sampler_.cut(view, crop, kWhole, encoder_.input());
   }
   {
     const StageTimer::Scope timed(timer, MIEN_STAGE_ENCODER);
@@ -85,24 +71,6 @@ bool BaseNet::look(const ImageView& view, const Crop& crop, StageTimer& timer, S
   }
   sight.face_probability = face_probability_.run(sight.features)[0];
   return all_finite(sight.features) && all_finite(xy) && std::isfinite(sight.face_probability);
-}
-
-void BaseNet::decode_controls(const Sight& sight, std::span<float, kControls> controls) {
-  const std::span<const float> decoded = controls_decoder_.run(sight.features);
-  for (std::size_t i = 0; i < controls.size(); ++i) {
-    const bool driven = (supported_ >> i & 1u) != 0 && std::isfinite(decoded[i]);
-    controls[i] = driven ? std::clamp(decoded[i], 0.0f, 1.0f) : 0.0f;
-  }
-}
-
-void BaseNet::decode_pose(const Sight& sight, const Camera& camera, HeadPose& pose) {
-  const std::span<const float> prediction = pose_decoder_.run(sight.features);
-  (void)decode_head_pose(prediction.first<kPoseOutputs>(), sight.crop, camera, pose);
-}
-
-void BaseNet::reset() {
-  controls_decoder_.reset();
-  pose_decoder_.reset();
 }
 
 }  // namespace mien::tracker

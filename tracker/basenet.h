@@ -1,5 +1,4 @@
-// BaseNet: one 65x65 crop to landmarks and face probability; its features, over time, to controls
-// and head pose.
+// BaseNet: one 65x65 crop to landmarks, face probability, and the features that decoders read.
 #pragma once
 
 #include <mien/mien.h>
@@ -9,17 +8,16 @@
 #include <span>
 
 #include "tracker/arena.h"
-#include "tracker/controls.h"
+#include "tracker/controls_decoder.h"
 #include "tracker/crop.h"
-#include "tracker/head_pose.h"
 #include "tracker/image_view.h"
+#include "tracker/models.h"
 #include "tracker/network.h"
 #include "tracker/sampler.h"
 #include "tracker/stage_timer.h"
 
 namespace mien::tracker {
 
-inline constexpr std::int32_t kFeatures = 256;
 inline constexpr std::size_t kLandmarks = 175;
 
 // What BaseNet sees in one crop.
@@ -27,15 +25,13 @@ struct Sight {
   Crop crop;
   float face_probability = 0.0f;                 // 0..1
   std::array<Point, kLandmarks> landmarks = {};  // pixels of the scene
-  std::array<float, kFeatures> features = {};
+  Features features = {};
 };
 
 class BaseNet {
  public:
   // Takes from `arena` what the networks need; only measures when the arena does.
-  [[nodiscard]] mien_status load(const mien_tracker_config& config, Arena& arena);
-
-  [[nodiscard]] std::uint64_t supported_controls() const { return supported_; }
+  [[nodiscard]] mien_status load(const Models& models, std::uint32_t cpu_mask, Arena& arena);
 
   // Encoder and plain heads. False when the networks' answer is not finite.
   [[nodiscard]] bool look(const ImageView& view, const Crop& crop, StageTimer& timer, Sight& sight);
@@ -45,27 +41,16 @@ class BaseNet {
     return fit_crop(template_, sight.landmarks, crop);
   }
 
-  // One step of the temporal decoders, for one frame of output. A pose that is none leaves the
-  // last.
-  void decode_controls(const Sight& sight, std::span<float, kControls> controls);
-  void decode_pose(const Sight& sight, const Camera& camera, HeadPose& pose);
-
-  // The decoders begin a new stream.
-  void reset();
-
  private:
   [[nodiscard]] mien_status load_networks(const engine::Model& model, std::uint32_t cpu_mask,
                                           Arena& arena);
-  [[nodiscard]] mien_status load_constants(const engine::Model& model);
+  [[nodiscard]] mien_status load_template(const engine::Model& model);
 
   Sampler sampler_;
   Network encoder_;
   Network landmarks_;
   Network face_probability_;
-  Network controls_decoder_;
-  Network pose_decoder_;
   std::array<Point, kLandmarks> template_ = {};  // crop coordinates
-  std::uint64_t supported_ = 0;
 };
 
 }  // namespace mien::tracker

@@ -5,17 +5,18 @@
 #include <new>
 
 #include "tracker/arena.h"
-#include "tracker/basenet.h"
 #include "tracker/config.h"
+#include "tracker/face.h"
+#include "tracker/models.h"
 #include "tracker/mtcnn_proposal.h"
 #include "tracker/tracker.h"
 #include "tracker/versioned_struct.h"
 
 struct mien_tracker {
   explicit mien_tracker(const mien_tracker_config& config)
-      : tracker(config, basenet, proposal), allocator(config.allocator) {}
+      : tracker(config, encoders, proposal), allocator(config.allocator) {}
 
-  mien::tracker::BaseNet basenet;
+  mien::tracker::Encoders encoders;
   mien::tracker::MtcnnProposal proposal;
   mien::tracker::Tracker tracker;
   mien_allocator allocator;
@@ -26,14 +27,25 @@ struct mien_tracker {
 namespace {
 
 using mien::tracker::Arena;
+using mien::tracker::Models;
 
 static_assert(MIEN_ALIGNMENT == Arena::kAlignment);
 static_assert(MIEN_LANDMARK_COUNT == mien::tracker::kLandmarks);
 
 // Takes from `arena` all that the networks need.
 mien_status load(const mien_tracker_config& config, mien_tracker& parts, Arena& arena) {
-  const mien_status status = parts.basenet.load(config, arena);
-  return status == MIEN_OK ? parts.proposal.load(config, arena) : status;
+  Models models;
+  mien_status status = mien::tracker::open_models(config, models);
+  if (status == MIEN_OK) {
+    status = parts.encoders.basenet.load(models, config.cpu_mask, arena);
+  }
+  if (status == MIEN_OK && models.has_hifinet) {
+    status = parts.encoders.hifinet.load(models, config.cpu_mask, arena);
+  }
+  if (status == MIEN_OK) {
+    status = parts.tracker.load(models, arena);
+  }
+  return status == MIEN_OK ? parts.proposal.load(config, models, arena) : status;
 }
 
 mien_status measure(const mien_tracker_config& config, Arena::Need& need) {
@@ -170,6 +182,13 @@ mien_status mien_tracker_reset(mien_tracker* tracker) {
   }
   tracker->tracker.reset();
   return MIEN_OK;
+}
+
+mien_status mien_tracker_set_lod(mien_tracker* tracker, int32_t lod) {
+  if (tracker == nullptr) {
+    return MIEN_ERROR_NULL_ARGUMENT;
+  }
+  return tracker->tracker.set_level(lod) ? MIEN_OK : MIEN_ERROR_UNSUPPORTED_LOD;
 }
 
 mien_status mien_tracker_push_video(mien_tracker* tracker, const mien_image* image,

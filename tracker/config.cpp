@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "tracker/levels.h"
 #include "tracker/versioned_struct.h"
 
 namespace mien::tracker {
@@ -20,7 +21,7 @@ bool in_range(const mien_tracker_config& c) {
          within(c.lose_probability, 0.0f, c.accept_probability) &&
          within(c.lose_after_frames, 1, 1000) && within(c.proposal_size, 24, 640) &&
          within(c.proposal_threshold, 0.0f, 1.0f) && within(c.refine_threshold, 0.0f, 1.0f) &&
-         within(c.search_interval, 1, 1000) &&
+         within(c.search_interval, 1, 1000) && within(c.budget_ms, 0.01f, 1e6f) &&
          (c.allocator.allocate == nullptr) == (c.allocator.release == nullptr);
 }
 
@@ -41,10 +42,10 @@ mien_status read_config(const mien_tracker_config* given, mien_tracker_config& c
   if (config.basenet == nullptr || config.proposal == nullptr) {
     return MIEN_ERROR_NULL_ARGUMENT;
   }
-  if (!aligned(config.basenet) || !aligned(config.proposal)) {
+  if (!aligned(config.basenet) || !aligned(config.hifinet) || !aligned(config.proposal)) {
     return MIEN_ERROR_ALIGNMENT;
   }
-  if (!within(config.lod, 0, 1)) {
+  if (!within(config.lod, 0, config.hifinet != nullptr ? kHighestLevel : kLowestLevel)) {
     return MIEN_ERROR_UNSUPPORTED_LOD;
   }
   return in_range(config) ? MIEN_OK : MIEN_ERROR_OUT_OF_RANGE;
@@ -68,4 +69,6 @@ void mien_tracker_config_default(mien_tracker_config* config) {
   config->proposal_threshold = 0.6f;
   config->refine_threshold = 0.9f;
   config->search_interval = 3;
+  config->budget_ms = 10.0f;
+  config->smoothing = 1;
 }

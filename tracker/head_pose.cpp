@@ -133,4 +133,13 @@ Quaternion quaternion(const Matrix3& r) {
   return {q.x * factor, q.y * factor, q.z * factor, q.w * factor};
 }
 
+Matrix3 matrix(const Quaternion& q) {
+  const float xx = 2 * q.x * q.x, yy = 2 * q.y * q.y, zz = 2 * q.z * q.z;
+  const float xy = 2 * q.x * q.y, yz = 2 * q.y * q.z, zx = 2 * q.z * q.x;
+  const float wx = 2 * q.w * q.x, wy = 2 * q.w * q.y, wz = 2 * q.w * q.z;
+  return {{{1 - yy - zz, xy - wz, zx + wy},
+           {xy + wz, 1 - xx - zz, yz - wx},
+           {zx - wy, yz + wx, 1 - xx - yy}}};
+}
+
 }  // namespace mien::tracker

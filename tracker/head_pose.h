@@ -44,5 +44,6 @@ struct Quaternion {
 
 [[nodiscard]] EulerAngles euler_angles(const Matrix3& rotation);
 [[nodiscard]] Quaternion quaternion(const Matrix3& rotation);
+[[nodiscard]] Matrix3 matrix(const Quaternion& unit);
 
 }  // namespace mien::tracker

@@ -36,14 +36,15 @@ Square canvas_of(const ImageView& view) {
 
 }  // namespace
 
-mien_status MtcnnProposal::load(const mien_tracker_config& config, Arena& arena) {
+mien_status MtcnnProposal::load(const mien_tracker_config& config, const Models& models,
+                                Arena& arena) {
   if (!sampler_.init(config.cpu_mask)) {
     return MIEN_ERROR_UNSUPPORTED_CPU;
   }
   proposal_threshold_ = config.proposal_threshold;
   refine_threshold_ = config.refine_threshold;
-  engine::Model model;
-  mien_status status = open_model(config.proposal, config.proposal_bytes, model);
+  const engine::Model& model = models.proposal;
+  mien_status status = MIEN_OK;
   auto size = static_cast<float>(config.proposal_size);
   for (levels_ = 0; status == MIEN_OK && levels_ < kMaxLevels; ++levels_) {
     const auto side = static_cast<std::int32_t>(std::lround(size));

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "tracker/arena.h"
+#include "tracker/models.h"
 #include "tracker/network.h"
 #include "tracker/proposal.h"
 #include "tracker/sampler.h"
@@ -19,7 +20,8 @@ namespace mien::tracker {
 class MtcnnProposal final : public FaceProposal {
  public:
   // Takes from `arena` what the networks need; only measures when the arena does.
-  [[nodiscard]] mien_status load(const mien_tracker_config& config, Arena& arena);
+  [[nodiscard]] mien_status load(const mien_tracker_config& config, const Models& models,
+                                 Arena& arena);
 
   [[nodiscard]] std::size_t propose(const ImageView& view, std::span<Candidate> found) override;
 

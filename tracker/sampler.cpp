@@ -66,15 +66,18 @@ std::int32_t taps(float pixels_per_sample, float most) {
 
 }  // namespace
 
-void Sampler::cut(const ImageView& view, const Crop& crop, std::int32_t samples,
+void Sampler::cut(const ImageView& view, const Crop& crop, const Raster& raster,
                   std::span<float> picture) const {
-  warp(view, crop, samples, kMaxTaps, picture);
+  warp(view, crop, raster, kMaxTaps, picture);
 }
 
-void Sampler::warp(const ImageView& view, const Crop& crop, std::int32_t samples, float max_taps,
+void Sampler::warp(const ImageView& view, const Crop& crop, const Raster& raster, float max_taps,
                    std::span<float> picture) const {
-  const float unit = 1.0f / static_cast<float>(samples);
-  const Affine sample_to_crop = {unit, 0, 0, 0, unit, 0};
+  const auto rows = static_cast<float>(raster.rows);
+  const auto columns = static_cast<float>(raster.columns);
+  const float unit = raster.extent / rows;
+  const Affine sample_to_crop = {unit, 0,    0.5f * (1.0f - unit * columns),
+                                 0,    unit, 0.5f * (1.0f - unit * rows)};
   const Affine m = compose(view.to_buffer, compose(crop_to_image(crop), sample_to_crop));
   kernels::WarpArgs args = {};
   args.format = pixel_format(view.image.format);
@@ -86,8 +89,8 @@ void Sampler::warp(const ImageView& view, const Crop& crop, std::int32_t samples
   std::copy(std::begin(matrix), std::end(matrix), args.matrix);
   args.taps = taps(crop.side * unit, max_taps);
   args.y = picture.data();
-  args.width = samples;
-  args.height = samples;
+  args.width = raster.columns;
+  args.height = raster.rows;
   args.scale = kScale;
   args.offset = kBlack;
   warp_(args);
@@ -95,7 +98,8 @@ void Sampler::warp(const ImageView& view, const Crop& crop, std::int32_t samples
 
 void Sampler::cut_black(const ImageView& view, const Square& square, std::int32_t samples,
                         std::span<float> picture) const {
-  warp(view, {square.center, square.side, 0.0f}, samples, kMaxTapsOfProposal, picture);
+  warp(view, {square.center, square.side, 0.0f}, {samples, samples, 1.0f}, kMaxTapsOfProposal,
+       picture);
   const float pixels_per_sample = square.side / static_cast<float>(samples);
   const auto at = [&](float center, std::int32_t index) {
     return center - square.side / 2 + (static_cast<float>(index) + 0.5f) * pixels_per_sample;

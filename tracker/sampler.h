@@ -11,6 +11,14 @@
 
 namespace mien::tracker {
 
+// What a network sees of a crop: rows x columns samples, square ones, around its middle; `extent`
+// is their height in sides of the crop.
+struct Raster {
+  std::int32_t rows;
+  std::int32_t columns;
+  float extent;
+};
+
 class Sampler {
  public:
   // False when no tier of the mask has the kernel.
@@ -19,10 +27,9 @@ class Sampler {
     return warp_ != nullptr;
   }
 
-  // The crop as [samples][samples][3] RGB, -1..1. Sample (i, j) lies at crop coordinates
-  // ((j + 0.5) / samples, (i + 0.5) / samples); where samples lie more than 1.5 pixels apart each
-  // is the mean of several. Outside the image its border repeats.
-  void cut(const ImageView& view, const Crop& crop, std::int32_t samples,
+  // The crop as [rows][columns][3] RGB, -1..1. Where samples lie more than 1.5 pixels apart each is
+  // the mean of several. Outside the image its border repeats.
+  void cut(const ImageView& view, const Crop& crop, const Raster& raster,
            std::span<float> picture) const;
 
   // An upright square, black outside the image. For the proposal, which looks at much of the image
@@ -31,7 +38,7 @@ class Sampler {
                  std::span<float> picture) const;
 
  private:
-  void warp(const ImageView& view, const Crop& crop, std::int32_t samples, float max_taps,
+  void warp(const ImageView& view, const Crop& crop, const Raster& raster, float max_taps,
             std::span<float> picture) const;
 
   kernels::Kernel<kernels::WarpArgs> warp_ = nullptr;

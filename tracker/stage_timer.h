@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <numeric>
 
 namespace mien::tracker {
 
@@ -16,6 +17,10 @@ class StageTimer {
 
   void clear() { spent_ns_ = {}; }
   [[nodiscard]] std::uint64_t spent_ns(mien_stage stage) const { return spent_ns_[stage]; }
+
+  [[nodiscard]] std::uint64_t total_ns() const {
+    return std::accumulate(spent_ns_.begin(), spent_ns_.end(), std::uint64_t{0});
+  }
 
   // Times from its making to the end of its scope.
   class Scope {

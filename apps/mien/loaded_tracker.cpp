@@ -1,6 +1,7 @@
 #include "apps/mien/loaded_tracker.h"
 
 #include <chrono>
+#include <filesystem>
 
 #include "apps/mien/failure.h"
 #include "apps/mien/tiers.h"
@@ -13,6 +14,10 @@ std::uint64_t now_ns(void*) {
                                     std::chrono::nanoseconds(1));
 }
 
+std::optional<Blob> blob_if_there(const std::string& path) {
+  return std::filesystem::exists(path) ? std::optional<Blob>(path) : std::nullopt;
+}
+
 std::span<const std::byte> bytes(const Blob& blob) {
   return {static_cast<const std::byte*>(blob.data()), blob.size()};
 }
@@ -21,14 +26,22 @@ std::span<const std::byte> bytes(const Blob& blob) {
 
 LoadedTracker::LoadedTracker(const Options& options)
     : basenet(models_directory(options.models) + "/basenet.mien"),
-      proposal(models_directory(options.models) + "/proposal.mien") {
+      proposal(models_directory(options.models) + "/proposal.mien"),
+      hifinet(blob_if_there(models_directory(options.models) + "/hifinet.mien")) {
   Config config(bytes(basenet), bytes(proposal));
+  if (hifinet) {
+    config.hifinet = hifinet->data();
+    config.hifinet_bytes = hifinet->size();
+  }
   config.lod = options.lod;
+  config.budget_ms = options.budget_ms;
+  config.smoothing = options.unfiltered ? 0 : 1;
   config.cpu_mask = cpu_mask(options.tier);
   config.clock_ns = now_ns;
   const mien_status status = tracker.create(config);
   if (status == MIEN_ERROR_UNSUPPORTED_LOD) {
-    throw Failure(kExitUsage, "--lod " + std::to_string(options.lod) + ": not supported yet");
+    throw Failure(kExitUsage, "--lod " + std::to_string(options.lod) + ": " +
+                                  models_directory(options.models) + " has no hifinet.mien");
   }
   if (status != MIEN_OK) {
     throw Failure(kExitModel, models_directory(options.models) + ": " + message(status));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <mien/mien.hpp>
+#include <optional>
 #include <string>
 
 #include "apps/mien/model_files.h"
@@ -12,13 +13,16 @@ struct LoadedTracker {
   struct Options {
     std::string models;  // folder; empty: see models_directory
     std::string tier;    // empty: the best of this CPU
-    int lod = 1;
+    int lod = 1;         // 0: automatic
+    float budget_ms = 10.0f;
+    bool unfiltered = false;
   };
 
   // Throws Failure.
   explicit LoadedTracker(const Options& options);
 
   Blob basenet, proposal;
+  std::optional<Blob> hifinet;  // where there is one
   Tracker tracker;
 };
 

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <map>
 
 #include "apps/mien/bench.h"
 #include "apps/mien/failure.h"
@@ -23,7 +24,12 @@ void add_track(CLI::App& program) {
   verb->add_option("--landmarks", options->landmarks, "landmarks as CSV");
   verb->add_option("--overlay", options->overlay, "video with what was tracked drawn over it");
   verb->add_option("--stats", options->stats, "counts and stage times as JSON");
-  verb->add_option("--lod", options->lod, "level of detail (1)");
+  verb->add_option("--lod", options->lod, "level of detail: 1 (cheapest) to 4, or auto")
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, int>{{"1", 1}, {"2", 2}, {"3", 3}, {"4", 4}, {"auto", 0}}));
+  verb->add_option("--budget-ms", options->budget_ms, "of --lod auto: time per frame on average")
+      ->check(CLI::Range(0.01, 1e6));
+  verb->add_flag("--no-filter", options->unfiltered, "curves as the networks answer");
   verb->add_option("--tier", options->tier, "kernel tier: ref, avx2");
   verb->add_option("--models", options->models, "folder of the model files");
   verb->add_option("--start", options->start_s, "seconds to skip")->check(CLI::NonNegativeNumber);

@@ -121,7 +121,8 @@ void print_summary(const Result& last, const StageTimes& times) {
 
 void track(const TrackOptions& options) {
   const VideoRange range{options.start_s, options.duration_s};
-  LoadedTracker loaded({options.models, options.tier, options.lod});
+  LoadedTracker loaded(
+      {options.models, options.tier, options.lod, options.budget_ms, options.unfiltered});
   const std::unique_ptr<VideoSource> video = open_video(options.input, range);
   Outputs outputs(options, video->info(), range);
   StageTimes times;

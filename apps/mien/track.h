@@ -14,7 +14,9 @@ struct TrackOptions {
   std::string stats;
   std::string tier;
   std::string models;
-  int lod = 1;
+  int lod = 1;  // 0: automatic
+  float budget_ms = 10.0f;
+  bool unfiltered = false;
   double start_s = 0.0;
   std::optional<double> duration_s;
   bool quiet = false;

@@ -211,7 +211,9 @@ typedef struct mien_tracker_config {
   uint64_t (*clock_ns)(void* user);
   void* clock_user;
 
-  int32_t lod;          /* level of detail; 1 is the only one yet; 0 = automatic, which is 1 */
+  /* Level of detail, 1 (cheapest) to 4; 0: automatic, by budget_ms. Levels from 2 on need
+   * `hifinet`; without it automatic is 1. Default 1. See mien_tracker_set_lod. */
+  int32_t lod;
   float horizontal_fov; /* radians, of the upright image, where focal_length_px is 0; 0.01..3.1;
                            default 60 degrees */
 
@@ -232,7 +234,20 @@ typedef struct mien_tracker_config {
    * search_interval-th; 1..1000; default 3. */
   int32_t search_interval;
 
-  uint32_t reserved[15];
+  /* Automatic level of detail: what a followed frame may take on average, ms; 0.01..1e6; default
+   * 10. Needs clock_ns; without it the level is the highest that there is. */
+  float budget_ms;
+
+  /* Weights of levels 2 to 4 (models/hifinet.mien), under the rules of `basenet`; default NULL:
+   * level 1 alone. */
+  const void* hifinet;
+  size_t hifinet_bytes;
+
+  /* Not 0: controls, landmarks and pose are smoothed where they hardly move, by a 1-euro filter
+   * (cutoff 1.5 Hz at rest); a blink passes at 95 % and more, without delay. Default 1. */
+  int32_t smoothing;
+
+  uint32_t reserved[9];
 } mien_tracker_config;
 
 /* Fills in *config with the defaults; the weights are NULL. NULL is ignored. */
@@ -261,6 +276,19 @@ MIEN_API void mien_tracker_destroy(mien_tracker* tracker);
 
 /* Forgets everything seen: from here on every result is, bit for bit, that of a fresh tracker. */
 MIEN_API MIEN_NODISCARD mien_status mien_tracker_reset(mien_tracker* tracker);
+
+/* Changes the level of detail from the next image on; 0: automatic. Nothing jumps: between level 1
+ * and the others the controls go over within 2 s, among the others at once.
+ *
+ *   level  controls from  encoders run
+ *   4      HiFiNet        both on every frame
+ *   3      HiFiNet        BaseNet on every frame, HiFiNet on alternate frames
+ *   2      HiFiNet        both on alternate frames
+ *   1      BaseNet        BaseNet on alternate frames
+ *
+ * Whatever the level, controls and head pose move on every frame. MIEN_ERROR_UNSUPPORTED_LOD when
+ * there are no weights for it. mien_tracker_reset returns to the level of the configuration. */
+MIEN_API MIEN_NODISCARD mien_status mien_tracker_set_lod(mien_tracker* tracker, int32_t lod);
 
 /* Tracks one image. On an error status the frame counts as not pushed and the result stays.
  *
@@ -302,8 +330,8 @@ MIEN_API const char* mien_stage_name(int32_t stage);
 
 /* Bits of mien_result.flags: what happened on this frame. */
 #define MIEN_RESULT_PROPOSAL_RAN 0x1u
-/* Not set on the alternate frames of LOD 1: box and landmarks are those of the frame before, while
- * controls and head pose move on. */
+/* Not set on the alternate frames of levels 1 and 2: box and landmarks are those of the frame
+ * before, while controls and head pose move on. */
 #define MIEN_RESULT_ENCODER_RAN 0x2u
 #define MIEN_RESULT_FOUND 0x4u /* a face was (re)found on this frame */
 #define MIEN_RESULT_CUT 0x8u   /* the timestamp told of a cut */
@@ -334,7 +362,7 @@ typedef struct mien_result {
   uint64_t frames;      /* images pushed */
   uint64_t face_frames; /* of these, with status MIEN_FACE_TRACKING */
   uint64_t proposal_runs;
-  uint64_t encoder_runs;
+  uint64_t encoder_runs; /* of BaseNet and HiFiNet */
 
   uint64_t stage_ns[MIEN_MAX_STAGES]; /* time in each mien_stage on this frame; 0 without a clock */
 

@@ -71,6 +71,10 @@ class Tracker {
     return mien_tracker_get_result(tracker_.get(), &result);
   }
 
+  [[nodiscard]] mien_status set_lod(std::int32_t lod) {
+    return mien_tracker_set_lod(tracker_.get(), lod);
+  }
+
   [[nodiscard]] mien_status reset() { return mien_tracker_reset(tracker_.get()); }
 
   explicit operator bool() const { return tracker_ != nullptr; }

@@ -45,6 +45,7 @@ TEST_F(Create, NullArguments) {
   EXPECT_EQ(bytes, 0u);
   EXPECT_EQ(mien_tracker_required_bytes(&config_, nullptr), MIEN_ERROR_NULL_ARGUMENT);
   EXPECT_EQ(mien_tracker_reset(nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_tracker_set_lod(nullptr, 1), MIEN_ERROR_NULL_ARGUMENT);
   mien_image image;
   mien_image_default(&image);
   EXPECT_EQ(mien_tracker_push_video(nullptr, &image, 0), MIEN_ERROR_NULL_ARGUMENT);
@@ -90,6 +91,52 @@ TEST_F(Create, ValuesOutOfRange) {
   EXPECT_EQ(create_with([](Config& c) { c.lod = 0; }), MIEN_OK);
   for (int size : {24, 640}) {
     EXPECT_EQ(create_with([&](Config& c) { c.proposal_size = size; }), MIEN_OK) << size;
+  }
+}
+
+TEST_F(Create, LevelsOfDetailByTheWeightsThereAre) {
+  const AlignedBytes hifinet = blob_hifinet();
+  const auto with_hifinet = [&](Config& c) {
+    c.hifinet = hifinet.get().data();
+    c.hifinet_bytes = hifinet.get().size();
+  };
+  for (int lod : {0, 1, 2, 3, 4}) {
+    EXPECT_EQ(create_with([&](Config& c) {
+                with_hifinet(c);
+                c.lod = lod;
+              }),
+              MIEN_OK)
+        << lod;
+  }
+  for (int lod : {-1, 5}) {
+    EXPECT_EQ(create_with([&](Config& c) {
+                with_hifinet(c);
+                c.lod = lod;
+              }),
+              MIEN_ERROR_UNSUPPORTED_LOD);
+  }
+  EXPECT_EQ(create_with([&](Config& c) {
+              with_hifinet(c);
+              c.hifinet_bytes -= 64;
+            }),
+            MIEN_ERROR_WEIGHTS_TRUNCATED);
+  EXPECT_EQ(create_with([&](Config& c) {
+              with_hifinet(c);
+              c.hifinet = static_cast<const char*>(c.hifinet) + 4;
+            }),
+            MIEN_ERROR_ALIGNMENT);
+  EXPECT_EQ(create_with([&](Config& c) {
+              c.hifinet = c.proposal;
+              c.hifinet_bytes = c.proposal_bytes;
+            }),
+            MIEN_ERROR_WEIGHTS_INCOMPLETE);
+  EXPECT_EQ(create_with([&](Config& c) {
+              c.hifinet = c.basenet;
+              c.hifinet_bytes = c.basenet_bytes;
+            }),
+            MIEN_ERROR_WEIGHTS_SHAPE);
+  for (float bad : {0.0f, -1.0f, std::numeric_limits<float>::quiet_NaN()}) {
+    EXPECT_EQ(create_with([&](Config& c) { c.budget_ms = bad; }), MIEN_ERROR_OUT_OF_RANGE);
   }
 }
 

@@ -99,6 +99,11 @@ TEST_F(Program, FfmpegMissing) {
   EXPECT_EQ(run("track " + kClip + models(), "PATH=/nowhere").code, 6);
 }
 
+TEST_F(Program, LevelsOfDetailThatAreNone) {
+  EXPECT_EQ(run("track " + kClip + " --lod 5").code, 2);
+  EXPECT_EQ(run("track " + kClip + " --lod auto --budget-ms 0").code, 2);
+}
+
 TEST_F(Program, OutputThatCannotBeWritten) {
   MIEN_NEEDS("trained model", have_models());
   MIEN_NEEDS("ffmpeg", have_ffmpeg());

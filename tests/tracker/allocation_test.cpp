@@ -61,9 +61,12 @@ struct CountingAllocator {
 
 TEST(Allocation, OneByTheCallersAllocatorAndNoneAfterCreate) {
   const AlignedBytes basenet = blob_basenet();
+  const AlignedBytes hifinet = blob_hifinet();
   const AlignedBytes proposal = blob_proposal();
   CountingAllocator allocator;
   Config config = blob_config(basenet, proposal);
+  config.hifinet = hifinet.get().data();
+  config.hifinet_bytes = hifinet.get().size();
   config.allocator = allocator.callbacks();
   const Buffer disc(disc_picture(160.0f, 120.0f, 70.0f), {.format = MIEN_IMAGE_NV12});
   const Buffer nothing(Picture(97, 55), {.rotation = 90});
@@ -79,6 +82,7 @@ TEST(Allocation, OneByTheCallersAllocatorAndNoneAfterCreate) {
     for (int i = 0; i < 60; ++i) {
       const mien_image& image = i % 20 < 12 ? disc.image() : nothing.image();
       (void)tracker.push_video(image, i * kFrameNs);
+      (void)tracker.set_lod(i % 5);
       (void)tracker.get_result(result);
     }
     EXPECT_EQ(tracker.reset(), MIEN_OK);

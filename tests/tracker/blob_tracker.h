@@ -25,8 +25,12 @@ class BlobTracker {
 
   template <typename Change>
   BlobTracker(const BlobOptions& options, Change change)
-      : basenet_(blob_basenet(options)), proposal_(blob_proposal()) {
+      : basenet_(blob_basenet(options)),
+        hifinet_(blob_hifinet(options)),
+        proposal_(blob_proposal()) {
     Config config = blob_config(basenet_, proposal_);
+    config.hifinet = hifinet_.get().data();
+    config.hifinet_bytes = hifinet_.get().size();
     change(config);
     EXPECT_EQ(tracker_.create(config), MIEN_OK);
   }
@@ -55,6 +59,7 @@ class BlobTracker {
 
  private:
   AlignedBytes basenet_;
+  AlignedBytes hifinet_;
   AlignedBytes proposal_;
   Tracker tracker_;
   std::int64_t pts_ns_ = 0;

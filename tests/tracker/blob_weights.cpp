@@ -241,6 +241,28 @@ AlignedBytes blob_basenet(const BlobOptions& options) {
   return finished(writer);
 }
 
+AlignedBytes blob_hifinet(const BlobOptions& options) {
+  constexpr std::uint32_t kRows = 129, kColumns = 109, kSide = 9, kChannels = 8;
+  constexpr std::uint32_t kCells = (kRows / kSide) * (kColumns / kSide);
+  Random random(options.seed + 1000);
+  MienWriter writer;
+  NetworkWriter& network = writer.network("encoder", {kRows, kColumns, 3});
+  LayerOptions strided;
+  strided.stride_y = strided.stride_x = kSide;
+  const LayerIndex cells = network.conv2d(NetworkWriter::kInput,
+                                          random_array({kChannels, 3, kSide, kSide}, 0.05f, random),
+                                          std::vector<float>(kChannels, 0.0f), strided);
+  network.output(network.fully_connected(
+      cells, random_array({options.features, kChannels * kCells}, 0.02f, random),
+      std::vector<float>(options.features, 0.0f)));
+  add_decoder(writer, "controls_decoder", options, std::vector<float>(kControls, 0.5f),
+              formats::LayerActivation::kClamp01, random);
+  writer.constant("control_supported", filled({kControls}, [&](std::size_t i) {
+                    return static_cast<float>(options.supported_controls >> i & 1u);
+                  }));
+  return finished(writer);
+}
+
 AlignedBytes blob_proposal() {
   MienWriter writer;
   add_window_network(writer, "pnet", 1, true);

@@ -39,6 +39,8 @@ struct BlobOptions {
 inline constexpr float kDiscPerCrop = 0.7f;
 
 [[nodiscard]] AlignedBytes blob_basenet(const BlobOptions& options = {});
+// All features random.
+[[nodiscard]] AlignedBytes blob_hifinet(const BlobOptions& options = {});
 [[nodiscard]] AlignedBytes blob_proposal();
 
 }  // namespace mien::tests

@@ -1,0 +1,181 @@
+// Levels of detail: what runs when, and that nobody sees the change.
+#include "tracker/levels.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/tracker/blob_tracker.h"
+
+namespace mien::tests {
+namespace {
+
+Picture moving_disc(int frame) {
+  const float phase = 0.11f * static_cast<float>(frame);
+  return disc_picture(160.0f + 12.0f * std::cos(phase), 120.0f + 8.0f * std::sin(phase), 70.0f);
+}
+
+float largest_step(const Result& a, const Result& b) {
+  float largest = 0.0f;
+  for (int i = 0; i < MIEN_CONTROL_COUNT; ++i) {
+    largest = std::max(largest, std::abs(a.controls[i] - b.controls[i]));
+  }
+  return largest;
+}
+
+BlobTracker tracker_at(std::int32_t lod) {
+  return BlobTracker({}, [lod](mien_tracker_config& config) { config.lod = lod; });
+}
+
+TEST(Levels, EncodersRunAsOftenAsTheTableSays) {
+  const std::uint64_t per_ten[] = {5, 10, 15, 20};  // encoder runs in ten frames
+  for (std::int32_t lod = 1; lod <= 4; ++lod) {
+    BlobTracker tracker = tracker_at(lod);
+    std::uint64_t before = 0;
+    Result result;
+    for (int frame = 0; frame < 21; ++frame) {
+      result = tracker.push(moving_disc(frame));
+      ASSERT_EQ(result.status, MIEN_FACE_TRACKING);
+      before = frame == 0 ? result.encoder_runs : before;
+    }
+    EXPECT_EQ(result.encoder_runs - before, 2 * per_ten[lod - 1]) << "level " << lod;
+    EXPECT_EQ(result.lod, lod);
+  }
+}
+
+TEST(Levels, ControlsMoveOnEveryFrame) {
+  for (std::int32_t lod = 1; lod <= 4; ++lod) {
+    BlobTracker tracker = tracker_at(lod);
+    Result before = tracker.push(moving_disc(0));
+    for (int frame = 1; frame < 6; ++frame) {
+      const Result after = tracker.push(moving_disc(frame));
+      EXPECT_GT(largest_step(before, after), 0.0f) << "level " << lod << ", frame " << frame;
+      before = after;
+    }
+  }
+}
+
+TEST(Levels, FromTwoOnControlsAreHiFiNets) {
+  BlobTracker one = tracker_at(1), two = tracker_at(2), four = tracker_at(4);
+  Result last[3];
+  for (int frame = 0; frame < 60; ++frame) {
+    const Picture still = moving_disc(0);
+    last[0] = one.push(still);
+    last[1] = two.push(still);
+    last[2] = four.push(still);
+  }
+  EXPECT_GT(largest_step(last[0], last[2]), 0.02f);
+  EXPECT_LT(largest_step(last[1], last[2]), 0.01f) << "the same picture again and again";
+}
+
+TEST(Levels, ChangingThemNeverMakesAControlJump) {
+  for (const auto& [from, to] : {std::pair{1, 4}, {4, 1}, {2, 3}, {3, 2}, {1, 2}, {4, 2}, {2, 4}}) {
+    BlobTracker tracker = tracker_at(from);
+    Result before;
+    int frame = 0;
+    for (; frame < 30; ++frame) {
+      before = tracker.push(moving_disc(frame));
+    }
+    float usual = 0.0f;
+    for (; frame < 90; ++frame) {
+      const Result after = tracker.push(moving_disc(frame));
+      usual = std::max(usual, largest_step(before, after));
+      before = after;
+    }
+    ASSERT_EQ(tracker.tracker().set_lod(to), MIEN_OK);
+    float at_switch = 0.0f, later = 0.0f;
+    for (; frame < 220; ++frame) {
+      const Result after = tracker.push(moving_disc(frame));
+      float& largest = frame < 155 ? at_switch : later;
+      largest = std::max(largest, largest_step(before, after));
+      before = after;
+    }
+    EXPECT_EQ(before.lod, to);
+    EXPECT_LE(at_switch, std::max(usual, later) + 0.012f) << from << " to " << to;
+  }
+}
+
+TEST(Levels, AfterAChangeTheTrackerIsAsOneThatAlwaysWasThere) {
+  for (const std::int32_t to : {1, 3}) {
+    BlobTracker changed = tracker_at(to == 1 ? 4 : 1), always = tracker_at(to);
+    Result a, b;
+    for (int frame = 0; frame < 200; ++frame) {
+      if (frame == 30) {
+        ASSERT_EQ(changed.tracker().set_lod(to), MIEN_OK);
+      }
+      a = changed.push(moving_disc(0));
+      b = always.push(moving_disc(0));
+    }
+    EXPECT_LT(largest_step(a, b), 0.01f);
+    EXPECT_EQ(a.supported_controls, b.supported_controls);
+  }
+}
+
+TEST(Levels, ThoseWithoutWeightsAreRefused) {
+  const auto without = [](mien_tracker_config& config) {
+    config.hifinet = nullptr;
+    config.hifinet_bytes = 0;
+  };
+  BlobTracker tracker({}, without);
+  EXPECT_EQ(tracker.tracker().set_lod(2), MIEN_ERROR_UNSUPPORTED_LOD);
+  EXPECT_EQ(tracker.tracker().set_lod(5), MIEN_ERROR_UNSUPPORTED_LOD);
+  EXPECT_EQ(tracker.tracker().set_lod(-1), MIEN_ERROR_UNSUPPORTED_LOD);
+  EXPECT_EQ(tracker.tracker().set_lod(0), MIEN_OK);
+  EXPECT_EQ(tracker.push(moving_disc(0)).lod, 1);
+}
+
+TEST(Levels, ResetReturnsToTheConfiguredOne) {
+  BlobTracker tracker = tracker_at(3);
+  (void)tracker.push(moving_disc(0));
+  ASSERT_EQ(tracker.tracker().set_lod(1), MIEN_OK);
+  EXPECT_EQ(tracker.push(moving_disc(1)).lod, 1);
+  ASSERT_EQ(tracker.tracker().reset(), MIEN_OK);
+  EXPECT_EQ(tracker.push(moving_disc(2)).lod, 3);
+}
+
+// Milliseconds of a frame on each level, as a governor would measure them.
+std::int32_t settled(tracker::LevelGovernor& governor, const float (&ms)[4], float seconds) {
+  for (float t = 0.0f; t < seconds; t += 1.0f / 30.0f) {
+    governor.account(static_cast<std::uint64_t>(ms[governor.level() - 1] * 1e6f), 1.0f / 30.0f);
+  }
+  return governor.level();
+}
+
+TEST(LevelGovernor, SettlesOnTheHighestLevelThatFits) {
+  const float ms[] = {3.0f, 15.5f, 18.0f, 30.5f};
+  const struct {
+    float budget;
+    std::int32_t level;
+  } wanted[] = {{40.0f, 4}, {22.0f, 3}, {16.5f, 2}, {10.0f, 1}, {1.0f, 1}};
+  for (const auto& [budget, level] : wanted) {
+    tracker::LevelGovernor governor(budget, 4);
+    EXPECT_EQ(settled(governor, ms, 20.0f), level) << "budget " << budget;
+    EXPECT_EQ(settled(governor, ms, 20.0f), level) << "it stays";
+  }
+}
+
+TEST(LevelGovernor, ReturnsWhenTheLoadIsGone) {
+  const float busy[] = {9.0f, 46.0f, 54.0f, 91.0f}, calm[] = {3.0f, 15.5f, 18.0f, 30.5f};
+  tracker::LevelGovernor governor(40.0f, 4);
+  EXPECT_EQ(settled(governor, busy, 20.0f), 1);
+  EXPECT_EQ(settled(governor, calm, 20.0f), 4);
+}
+
+TEST(LevelGovernor, NeverChangesTwiceWithinTwoSeconds) {
+  tracker::LevelGovernor governor(20.0f, 4);
+  float since = 100.0f;
+  std::int32_t level = governor.level();
+  for (int frame = 0; frame < 3000; ++frame) {
+    const float ms = frame / 40 % 2 == 0 ? 1.0f : 200.0f;
+    governor.account(static_cast<std::uint64_t>(ms * 1e6f), 1.0f / 30.0f);
+    since += 1.0f / 30.0f;
+    if (governor.level() != level) {
+      EXPECT_GE(since, 1.99f);
+      level = governor.level();
+      since = 0.0f;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace mien::tests

@@ -1,0 +1,116 @@
+#include "tracker/smoothing.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+namespace mien::tests {
+namespace {
+
+using namespace mien::tracker;
+
+constexpr float kFrame = 1.0f / 30.0f;
+
+std::vector<float> smoothed(const std::vector<float>& curve) {
+  std::vector<float> out;
+  float shown = curve[0];
+  for (const float seen : curve) {
+    smooth_controls({&seen, 1}, kFrame, {&shown, 1});
+    out.push_back(shown);
+  }
+  return out;
+}
+
+// Minimum-jerk closing and opening, as few frames as a fast blink takes.
+std::vector<float> blink(int closing, int held, int opening) {
+  const auto ease = [](float t) { return t * t * t * (10 - 15 * t + 6 * t * t); };
+  std::vector<float> curve(5, 0.0f);
+  for (int i = 1; i <= closing; ++i) {
+    curve.push_back(ease(static_cast<float>(i) / static_cast<float>(closing)));
+  }
+  curve.insert(curve.end(), static_cast<std::size_t>(held), 1.0f);
+  for (int i = 1; i <= opening; ++i) {
+    curve.push_back(1 - ease(static_cast<float>(i) / static_cast<float>(opening)));
+  }
+  curve.insert(curve.end(), 5, 0.0f);
+  return curve;
+}
+
+// Frames at which a curve rises through one half.
+float rise(const std::vector<float>& curve) {
+  for (std::size_t i = 1; i < curve.size(); ++i) {
+    if (curve[i] >= 0.5f) {
+      return static_cast<float>(i - 1) + (0.5f - curve[i - 1]) / (curve[i] - curve[i - 1]);
+    }
+  }
+  return 1e9f;
+}
+
+TEST(Smoothing, BlinksKeepTheirPeakAndTheirTime) {
+  for (int closing = 2; closing <= 4; ++closing) {
+    for (int held = 0; held <= 1; ++held) {
+      const std::vector<float> seen = blink(closing, held, closing + 1), shown = smoothed(seen);
+      EXPECT_GE(*std::ranges::max_element(shown), 0.95f) << closing << " frames, held " << held;
+      EXPECT_LT(rise(shown) - rise(seen), 0.5f);
+    }
+  }
+}
+
+TEST(Smoothing, CalmsTrembling) {
+  std::mt19937 random(1);
+  std::normal_distribution<float> noise(0.0f, 0.01f);
+  std::vector<float> seen(3000);
+  std::ranges::generate(seen, [&] { return 0.4f + noise(random); });
+  const std::vector<float> shown = smoothed(seen);
+  const auto travel = [](const std::vector<float>& curve) {
+    float sum = 0.0f;
+    for (std::size_t i = 1; i < curve.size(); ++i) {
+      sum += std::abs(curve[i] - curve[i - 1]);
+    }
+    return sum;
+  };
+  EXPECT_LT(travel(shown), 0.5f * travel(seen));
+  EXPECT_NEAR(shown.back(), 0.4f, 0.03f);
+}
+
+TEST(Smoothing, ArrivesAndStays) {
+  std::vector<float> seen(120, 1.0f);
+  seen[0] = 0.98f;
+  EXPECT_NEAR(smoothed(seen).back(), 1.0f, 1e-3f);
+}
+
+TEST(Smoothing, PointsInAnySizeOfPictureAlike) {
+  const Point from = {10.0f, 20.0f}, step = {0.5f, -0.25f};
+  for (const float size : {1.0f, 8.0f}) {
+    Point shown = {size * from.x, size * from.y};
+    const Point seen = {size * (from.x + step.x), size * (from.y + step.y)};
+    smooth_points({&seen, 1}, 100.0f * size, kFrame, {&shown, 1});
+    EXPECT_NEAR((shown.x / size - from.x) / step.x, (shown.y / size - from.y) / step.y, 1e-4f);
+    EXPECT_NEAR(shown.x / size, 10.3f, 0.1f);
+  }
+}
+
+TEST(Smoothing, PosesStayRotationsOnTheShorterWay) {
+  HeadPose shown, seen;
+  const float angle = 3.0f;
+  seen.rotation = matrix({0.0f, std::sin(angle / 2), 0.0f, std::cos(angle / 2)});
+  seen.translation = {0.1f, 0.0f, -0.5f};
+  for (int i = 0; i < 200; ++i) {
+    smooth_pose(seen, kFrame, shown);
+    const Quaternion q = quaternion(shown.rotation);
+    EXPECT_NEAR(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w, 1.0f, 1e-4f);
+    EXPECT_GE(q.y, 0.0f);
+  }
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t column = 0; column < 3; ++column) {
+      EXPECT_NEAR(shown.rotation[row][column], seen.rotation[row][column], 2e-3f);
+    }
+    EXPECT_NEAR(shown.translation[row], seen.translation[row], 2e-3f);
+  }
+}
+
+}  // namespace
+}  // namespace mien::tests

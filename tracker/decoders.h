@@ -1,0 +1,48 @@
+// The temporal decoders of one face: features of both encoders, over time, to controls and head
+// pose.
+#pragma once
+
+#include <mien/mien.h>
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "tracker/arena.h"
+#include "tracker/controls_decoder.h"
+#include "tracker/cross_fade.h"
+#include "tracker/head_pose.h"
+#include "tracker/levels.h"
+#include "tracker/models.h"
+#include "tracker/network.h"
+
+namespace mien::tracker {
+
+class Decoders {
+ public:
+  // Takes from `arena` what the networks need; only measures when the arena does.
+  [[nodiscard]] mien_status load(const Models& models, std::uint32_t cpu_mask, Arena& arena);
+
+  // A new stream begins, at once with the decoder that the level asks for.
+  void reset(std::int32_t level);
+
+  // One step, for one frame of output. When the level has changed between 1 and the others the
+  // controls go over from one decoder to the other within two seconds.
+  void decode_controls(const Features& basenet, const Features& hifinet, std::int32_t level,
+                       float seconds, std::span<float, kControls> controls);
+
+  // A prediction that is no pose leaves `pose` as it was.
+  void decode_pose(const Features& basenet, const Crop& crop, const Camera& camera, HeadPose& pose);
+
+  [[nodiscard]] std::uint64_t supported_controls(std::int32_t level) const {
+    return level > kLowestLevel ? hifinet_controls_.supported() : basenet_controls_.supported();
+  }
+
+ private:
+  ControlsDecoder basenet_controls_;
+  ControlsDecoder hifinet_controls_;
+  Network pose_;
+  CrossFade fade_;  // from BaseNet's to HiFiNet's controls
+};
+
+}  // namespace mien::tracker

@@ -1,0 +1,173 @@
+#include "tracker/face.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tracker/levels.h"
+#include "tracker/smoothing.h"
+
+namespace mien::tracker {
+namespace {
+
+constexpr float kFadeSeconds = 0.25f;
+constexpr float kFaded = 1e-4f;         // a control below is 0
+constexpr int kAlignments = 2;          // of the crop to its landmarks when a face is acquired
+constexpr float kSmallestFace = 0.02f;  // crop sides, in longer sides of the image
+constexpr float kLargestFace = 4.0f;
+
+// Whether a crop can still show something of a face in the image.
+bool is_plausible(const Crop& crop, const ImageView& view) {
+  const float longer = std::max(view.width, view.height);
+  const float reach = crop.side / 2;
+  const auto near = [reach](float value, float end) {
+    return value >= -reach && value <= end + reach;
+  };
+  return crop.side >= kSmallestFace * longer && crop.side <= kLargestFace * longer &&
+         near(crop.center.x, view.width) && near(crop.center.y, view.height);
+}
+
+}  // namespace
+
+void Face::reset(std::int32_t level) {
+  state_ = State();
+  decoders_.reset(level);
+}
+
+bool Face::acquire(Frame& frame, const Square& square) {
+  Crop crop = {square.center, square.side, 0.0f};
+  Sight sight;
+  for (int i = 0; i <= kAlignments; ++i) {
+    if (!is_plausible(crop, frame.view) || !look(frame, crop, sight)) {
+      return false;
+    }
+    if (!encoders_.basenet.align(sight, crop)) {
+      return false;
+    }
+  }
+  if (sight.face_probability < config_.accept_probability || !accept(frame, sight)) {
+    return false;
+  }
+  if (frame.level > kLowestLevel) {
+    look_closely(frame);
+  }
+  state_.followed = true;
+  state_.is_new = true;
+  state_.alternate = true;
+  decoders_.reset(frame.level);
+  frame.flags |= MIEN_RESULT_FOUND;
+  return true;
+}
+
+void Face::follow(Frame& frame) {
+  const bool alternate = state_.alternate && !frame.cut;
+  const EncoderWork work = encoder_work(frame.level, alternate);
+  state_.alternate = false;
+  if (!work.basenet) {
+    return;
+  }
+  Sight sight;
+  if (look(frame, state_.crop, sight) && sight.face_probability >= config_.lose_probability) {
+    state_.followed = accept(frame, sight);
+    state_.alternate = !alternate;
+    if (state_.followed && work.hifinet) {
+      look_closely(frame);
+    }
+    return;
+  }
+  // Until the face counts as lost the decoders go on with what was last seen of it.
+  ++state_.misses;
+  state_.followed = !frame.cut && state_.misses < config_.lose_after_frames;
+}
+
+bool Face::look(Frame& frame, const Crop& crop, Sight& sight) {
+  frame.flags |= MIEN_RESULT_ENCODER_RAN;
+  ++frame.encoder_runs;
+  const bool seen = encoders_.basenet.look(frame.view, crop, frame.timer, sight);
+  if (seen) {
+    frame.face_probability = sight.face_probability;
+  }
+  return seen;
+}
+
+bool Face::accept(Frame& frame, const Sight& sight) {
+  Crop next;
+  if (!encoders_.basenet.align(sight, next) || !is_plausible(next, frame.view)) {
+    return false;
+  }
+  state_.crop = next;
+  state_.sight = sight;
+  state_.misses = 0;
+  return true;
+}
+
+void Face::look_closely(Frame& frame) {
+  ++frame.encoder_runs;
+  (void)encoders_.hifinet.look(frame.view, state_.crop, frame.timer, state_.close);
+}
+
+void Face::animate(Frame& frame) {
+  if (!state_.followed) {
+    fade(frame.seconds);
+    if (state_.status == MIEN_FACE_TRACKING) {
+      state_.status = MIEN_FACE_LOST;
+    }
+    return;
+  }
+  state_.status = MIEN_FACE_TRACKING;
+  const StageTimer::Scope timed(frame.timer, MIEN_STAGE_DECODERS);
+  Appearance& seen = state_.seen;
+  decoders_.decode_controls(state_.sight.features, state_.close, frame.level, frame.seconds,
+                            seen.controls);
+  decoders_.decode_pose(state_.sight.features, state_.sight.crop, frame.view.camera, seen.pose);
+  seen.landmarks = state_.sight.landmarks;
+  state_.is_new = state_.is_new || frame.cut;
+  show(frame.seconds);
+}
+
+void Face::show(float seconds) {
+  if (config_.smoothing == 0 || state_.is_new) {
+    state_.shown = state_.seen;
+    state_.is_new = false;
+    return;
+  }
+  smooth_controls(state_.seen.controls, seconds, state_.shown.controls);
+  smooth_points(state_.seen.landmarks, state_.crop.side, seconds, state_.shown.landmarks);
+  smooth_pose(state_.seen.pose, seconds, state_.shown.pose);
+}
+
+void Face::fade(float seconds) {
+  const float factor = std::exp(-seconds / kFadeSeconds);
+  for (float& control : state_.shown.controls) {
+    control = control > kFaded ? control * factor : 0.0f;
+  }
+}
+
+void Face::publish(const ImageView& view, mien_result& result) const {
+  result.status = state_.status;
+  const Appearance& shown = state_.shown;
+  std::copy(shown.controls.begin(), shown.controls.end(), result.controls);
+  if (!state_.followed) {
+    return;
+  }
+  const Crop& crop = state_.crop;
+  const Point center = to_picture(view, crop.center);
+  result.box[0] = center.x - crop.side / 2;
+  result.box[1] = center.y - crop.side / 2;
+  result.box[2] = crop.side;
+  result.box[3] = crop.side;
+  for (std::size_t i = 0; i < shown.landmarks.size(); ++i) {
+    const Point p = to_picture(view, shown.landmarks[i]);
+    result.landmarks[i][0] = p.x;
+    result.landmarks[i][1] = p.y;
+  }
+  const Quaternion q = quaternion(shown.pose.rotation);
+  const std::array<float, 4> rotation = {q.x, q.y, q.z, q.w};
+  std::copy(rotation.begin(), rotation.end(), result.rotation);
+  const EulerAngles angles = euler_angles(shown.pose.rotation);
+  result.pitch = angles.pitch;
+  result.yaw = angles.yaw;
+  result.roll = angles.roll;
+  std::copy(shown.pose.translation.begin(), shown.pose.translation.end(), result.translation);
+}
+
+}  // namespace mien::tracker

@@ -1,0 +1,100 @@
+// One face: followed from frame to frame, animated over time.
+#pragma once
+
+#include <mien/mien.h>
+
+#include <cstdint>
+
+#include "tracker/basenet.h"
+#include "tracker/decoders.h"
+#include "tracker/hifinet.h"
+#include "tracker/image_view.h"
+#include "tracker/stage_timer.h"
+
+namespace mien::tracker {
+
+// What the faces of a tracker share.
+struct Encoders {
+  BaseNet basenet;
+  HiFiNet hifinet;  // only if there are weights for it
+};
+
+// One image, and what happens on it.
+struct Frame {
+  const ImageView& view;
+  StageTimer& timer;
+  std::int32_t level;       // of detail
+  float seconds;            // since the frame before
+  bool cut;                 // the film was cut before it
+  std::uint32_t flags = 0;  // MIEN_RESULT_*
+  std::uint64_t encoder_runs = 0;
+  float face_probability = -1.0f;  // of the crop judged last; -1: none was
+};
+
+// What is told about a face on one frame.
+struct Appearance {
+  std::array<float, kControls> controls = {};
+  std::array<Point, kLandmarks> landmarks = {};  // pixels of the scene
+  HeadPose pose;
+};
+
+class Face {
+ public:
+  // Both must outlive the face.
+  Face(const mien_tracker_config& config, Encoders& encoders)
+      : config_(config), encoders_(encoders) {}
+
+  // The temporal decoders.
+  [[nodiscard]] mien_status load(const Models& models, Arena& arena) {
+    return decoders_.load(models, config_.cpu_mask, arena);
+  }
+
+  [[nodiscard]] bool is_followed() const { return state_.followed; }
+  [[nodiscard]] const Crop& crop() const { return state_.crop; }
+  [[nodiscard]] std::uint64_t supported_controls(std::int32_t level) const {
+    return decoders_.supported_controls(level);
+  }
+
+  // Forgets everything.
+  void reset(std::int32_t level);
+  // It is followed no more.
+  void lose() { state_.followed = false; }
+  // The decoders begin anew: the film was cut.
+  void cut(std::int32_t level) { decoders_.reset(level); }
+
+  // Whether a face is in this square; if so it is followed from now on.
+  [[nodiscard]] bool acquire(Frame& frame, const Square& square);
+  // Looks for it where it was.
+  void follow(Frame& frame);
+  // One frame of output: controls move on if it is followed, and fade if not.
+  void animate(Frame& frame);
+
+  void publish(const ImageView& view, mien_result& result) const;
+
+ private:
+  struct State {
+    bool followed = false;    // `crop` and `sight` are a face
+    bool alternate = false;   // the next frame is one on which encoders may rest
+    std::int32_t misses = 0;  // judged frames in a row without the face
+    Crop crop;                // where to look next
+    Sight sight;              // the last time the face was seen
+    Features close = {};      // HiFiNet's, of the last time that it looked
+    Appearance seen;
+    Appearance shown;    // smoothed
+    bool is_new = true;  // nothing to smooth with yet
+    mien_face_status status = MIEN_FACE_SEARCHING;
+  };
+
+  [[nodiscard]] bool look(Frame& frame, const Crop& crop, Sight& sight);
+  [[nodiscard]] bool accept(Frame& frame, const Sight& sight);
+  void look_closely(Frame& frame);
+  void show(float seconds);
+  void fade(float seconds);
+
+  const mien_tracker_config& config_;
+  Encoders& encoders_;
+  Decoders decoders_;
+  State state_;
+};
+
+}  // namespace mien::tracker

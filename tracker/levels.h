@@ -1,0 +1,84 @@
+// Levels of detail (Navarro et al. 2023, table 2): which encoders look at a frame, and which level
+// a time budget allows.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace mien::tracker {
+
+inline constexpr std::int32_t kLowestLevel = 1;   // controls from BaseNet
+inline constexpr std::int32_t kHighestLevel = 4;  // from HiFiNet, both encoders on every frame
+
+struct EncoderWork {
+  bool basenet;
+  bool hifinet;  // only where BaseNet works too: it places the crop
+};
+
+// `alternate`: every other frame.
+[[nodiscard]] constexpr EncoderWork encoder_work(std::int32_t level, bool alternate) {
+  switch (level) {
+    case 1:
+      return {!alternate, false};
+    case 2:
+      return {!alternate, !alternate};
+    case 3:
+      return {true, !alternate};
+    default:
+      return {true, true};
+  }
+}
+
+// Chooses the highest level whose frames fit into a budget on average. Never changes the level
+// twice within two seconds, and goes up only when the next level is expected to fit with room to
+// spare.
+class LevelGovernor {
+ public:
+  LevelGovernor(float budget_ms, std::int32_t highest)
+      : budget_ms_(budget_ms), level_(highest), highest_(highest) {}
+
+  [[nodiscard]] std::int32_t level() const { return level_; }
+
+  // A followed frame took `spent_ns`; `seconds` lie between it and the frame before.
+  void account(std::uint64_t spent_ns, float seconds) {
+    const float spent_ms = static_cast<float>(spent_ns) * 1e-6f;
+    mean_ms_ = frames_ == 0 ? spent_ms : mean_ms_ + kWeight * (spent_ms - mean_ms_);
+    ++frames_;
+    since_change_ += seconds;
+    if (since_change_ < kSettleSeconds || frames_ < kLeastFrames) {
+      return;
+    }
+    if (mean_ms_ > budget_ms_ && level_ > kLowestLevel) {
+      change(level_ - 1);
+    } else if (level_ < highest_ && mean_ms_ * growth(level_) < kRoom * budget_ms_) {
+      change(level_ + 1);
+    }
+  }
+
+ private:
+  static constexpr float kSettleSeconds = 2.0f;
+  static constexpr float kWeight = 0.1f;  // of the newest frame in the mean
+  static constexpr std::int32_t kLeastFrames = 20;
+  static constexpr float kRoom = 0.85f;
+
+  // How much more a frame costs on the next level, from the multiply-accumulates of the encoders.
+  [[nodiscard]] static constexpr float growth(std::int32_t level) {
+    constexpr std::array<float, 3> kGrowth = {5.9f, 1.2f, 1.7f};
+    return kGrowth[static_cast<std::size_t>(level - kLowestLevel)];
+  }
+
+  void change(std::int32_t level) {
+    level_ = level;
+    since_change_ = 0.0f;
+    frames_ = 0;
+  }
+
+  float budget_ms_;
+  std::int32_t level_;
+  std::int32_t highest_;
+  float mean_ms_ = 0.0f;
+  float since_change_ = 0.0f;
+  std::int32_t frames_ = 0;  // since the last change
+};
+
+}  // namespace mien::tracker
