@@ -16,7 +16,6 @@ from mien_file import MienFile
 from paths import ROOT
 from sequences import template
 
-
 LICENCE = "Apache-2.0; trained on the data that models/README.md names"
 
 

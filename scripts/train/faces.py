@@ -29,9 +29,9 @@ class Portraits:
 
     def __init__(self, split):
         labels = np.load(data() / "faces/labels.npz")
-        chosen = [i for i, name in enumerate(labels["name"]) if split_of(name) == split]
-        self.names = labels["name"][chosen]
-        self.points = (labels["landmarks"][chosen][:, lp.TEACHER, :2] * labels["size_wh"][chosen][:, None]).astype(np.float32)
+        self.rows = [i for i, name in enumerate(labels["name"]) if split_of(name) == split]
+        self.names, self.size_wh = labels["name"][self.rows], labels["size_wh"][self.rows].astype(np.float32)
+        self.points = (labels["landmarks"][self.rows][:, lp.TEACHER, :2] * self.size_wh[:, None]).astype(np.float32)
         self.crops = fit_crop(template(), torch.from_numpy(self.points)).numpy()
 
     def __len__(self):

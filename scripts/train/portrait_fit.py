@@ -12,7 +12,8 @@ import torch
 
 import landmark_points as lp
 from expressions import CONTROLS
-from faces import split_of
+from faces import portraits
+from head_pose import orthonormalise
 from paths import cache, data
 from rig import Rig
 
@@ -21,29 +22,23 @@ IDENTITY_PRIOR, CONTROL_PRIOR = 4e-4, 2e-3
 STEPS, RATE = 500, 0.02
 
 
-def portraits(split="train"):
-    """Names, landmarks [n,175,2] in pixels, controls [n,52] of the teacher, picture sizes [n,2]."""
+def teacher_controls(rows):
+    """Blendshapes f32 [n,52] of portraits; 0 where the teacher has none."""
     labels = np.load(data() / "faces/labels.npz")
-    chosen = np.array([split_of(name) == split for name in labels["name"]])
-    size = labels["size_wh"][chosen].astype(np.float32)
-    points = labels["landmarks"][chosen][:, lp.TEACHER, :2] * size[:, None]
     theirs = [str(n) for n in labels["blendshape_names"]]
-    controls = np.zeros((int(chosen.sum()), len(CONTROLS)), np.float32)
+    controls = np.zeros((len(rows), len(CONTROLS)), np.float32)
     for i, name in enumerate(CONTROLS):
         if name in theirs:
-            controls[:, i] = labels["blendshapes"][chosen][:, theirs.index(name)]
-    return labels["name"][chosen], points.astype(np.float32), controls, size
+            controls[:, i] = labels["blendshapes"][rows, theirs.index(name)]
+    return controls
 
 
 class Model:
     """The rig's landmarks as linear functions of identity and controls."""
 
     def __init__(self, rig):
-        corners, weights = rig.landmark_vertices, rig.landmark_weights
-
         def of(shapes):
-            whole = shapes[:, :rig.neutral.size].reshape(len(shapes), -1, 3)
-            return torch.from_numpy((whole[:, corners] * weights[..., None]).sum(-2))
+            return torch.from_numpy(rig.landmarks(shapes[:, :rig.neutral.size].reshape(len(shapes), -1, 3)))
 
         self.neutral = torch.from_numpy(rig.landmarks(rig.neutral))
         self.identity, self.controls = of(rig.identity_shapes), of(rig.control_shapes)
@@ -51,12 +46,6 @@ class Model:
     def points(self, identity, controls):
         return self.neutral + torch.einsum("nk,kpc->npc", identity, self.identity) + \
             torch.einsum("nk,kpc->npc", controls, self.controls)
-
-
-def rotation_of(six):
-    a = torch.nn.functional.normalize(six[:, :3], dim=1)
-    b = torch.nn.functional.normalize(six[:, 3:] - (a * six[:, 3:]).sum(1, keepdim=True) * a, dim=1)
-    return torch.stack([a, b, torch.cross(a, b, dim=1)], 2)
 
 
 def project(points, rotation, shift, scale):
@@ -80,7 +69,7 @@ def fit(model, target, teacher):
     schedule = torch.optim.lr_scheduler.CosineAnnealingLR(optimiser, STEPS)
     middle = target.mean(1)
     for _ in range(STEPS):
-        found = project(model.points(identity, controls.clamp(0, 1)), rotation_of(six), middle + shift * eyes[:, None],
+        found = project(model.points(identity, controls.clamp(0, 1)), orthonormalise(six), middle + shift * eyes[:, None],
                         log_scale.exp())
         gap = (found - target) / eyes[:, None, None]
         data_term = torch.nn.functional.huber_loss(gap, torch.zeros_like(gap), delta=0.02, reduction="none").mean((1, 2))
@@ -90,11 +79,11 @@ def fit(model, target, teacher):
         optimiser.step()
         schedule.step()
     with torch.no_grad():
-        return dict(identity=identity, controls=controls.clamp(0, 1), rotation=rotation_of(six), scale=log_scale.exp(),
+        return dict(identity=identity, controls=controls.clamp(0, 1), rotation=orthonormalise(six), scale=log_scale.exp(),
                     shift=middle + shift * eyes[:, None], residual=gap.norm(dim=-1).mean(1))
 
 
-def camera_pose(found, size):
+def camera_pose(found):
     """Translation [n,3] and focal length [n] of the perspective that `project` stands for."""
     f_px = found["scale"] * DISTANCE
     xy = found["shift"] * torch.tensor([1.0, -1.0]) / found["scale"][:, None]
@@ -102,18 +91,19 @@ def camera_pose(found, size):
 
 
 def main():
-    names, points, teacher, size = portraits()
-    target = torch.from_numpy(points - size[:, None] / 2)
-    found = fit(Model(Rig()), target, torch.from_numpy(teacher))
-    translation, f_px = camera_pose(found, size)
+    photographs = portraits("train")
+    target = torch.from_numpy(photographs.points - photographs.size_wh[:, None] / 2)
+    teacher = torch.from_numpy(teacher_controls(photographs.rows))
+    found = fit(Model(Rig()), target, teacher)
+    translation, f_px = camera_pose(found)
     out = cache() / "portrait_skins"
     out.mkdir(parents=True, exist_ok=True)
-    np.savez(out / "fits.npz", name=names, translation=translation.numpy(), f_px=f_px.numpy(), size_wh=size,
+    np.savez(out / "fits.npz", name=photographs.names, translation=translation.numpy(), f_px=f_px.numpy(), size_wh=photographs.size_wh,
              **{k: found[k].detach().numpy() for k in ("identity", "controls", "rotation", "residual")})
     r = found["residual"]
-    print(f"{len(names)} portraits, residual median {100 * r.median():.2f} %, 95th percentile {100 * r.quantile(0.95):.2f} %")
+    print(f"{len(target)} portraits, residual median {100 * r.median():.2f} %, 95th percentile {100 * r.quantile(0.95):.2f} %")
     print("identity rms", found["identity"].square().mean().sqrt().item(),
-          "controls moved", (found["controls"] - torch.from_numpy(teacher)).abs().mean().item())
+          "controls moved", (found["controls"] - teacher).abs().mean().item())
 
 
 if __name__ == "__main__":

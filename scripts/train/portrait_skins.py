@@ -79,7 +79,7 @@ class FaceTexture:
     def oval(self, rig):
         """f32 [SIDE,SIDE]: 1 well inside the oval of the face, 0 outside."""
         corners = [lp.POSITION[k] for k in lp.FACE_OVAL]
-        at = (self.vertex_uv[rig.landmark_vertices[corners]] * rig.landmark_weights[corners][..., None]).sum(1)
+        at = rig.landmarks(self.vertex_uv)[corners]
         mask = np.zeros((SIDE, SIDE), np.uint8)
         cv2.fillPoly(mask, [np.int32(at)], 1)
         return np.clip(cv2.distanceTransform(mask, cv2.DIST_L2, 5) / (0.07 * SIDE), 0, 1)
@@ -163,7 +163,7 @@ class Baker:
         colour = photo.at(photo.pixels(photo.posed)[v][None])[0]
         inside = self.face.inside[tuple(np.clip(self.face.vertex_uv[v].astype(int), 0, SIDE - 1).T[::-1])]
         weight = seen[v] * (inside > 0.5)
-        landmarks = photo.pixels((photo.posed[self.rig.landmark_vertices] * self.rig.landmark_weights[..., None]).sum(1))
+        landmarks = photo.pixels(self.rig.landmarks(photo.posed))
         dark = is_dark(photo, landmarks)
         results = {n: light_of(colour, skin, normals[v], weight) for n, skin in self.at_vertices.items() if ("dark" in n) == dark}
         best = min(results, key=lambda n: results[n][1])
