@@ -101,6 +101,16 @@ void wipe(void* memory, std::size_t bytes) {
   }
 }
 
+const mien::tracker::Face* known_face(const mien_tracker& tracker, int32_t index) {
+  return index >= 0 ? tracker.tracker.faces().known(static_cast<std::size_t>(index)) : nullptr;
+}
+
+mien_status copy_out(const mien_result& from, mien_result* to) {
+  const bool written =
+      mien::tracker::write_struct(from, MIEN_SIZE_THROUGH(mien_result, supported_controls), to);
+  return written ? MIEN_OK : MIEN_ERROR_STRUCT_SIZE;
+}
+
 }  // namespace
 
 mien_status mien_tracker_required_bytes(const mien_tracker_config* config, size_t* bytes) {
@@ -200,9 +210,23 @@ mien_status mien_tracker_get_result(const mien_tracker* tracker, mien_result* re
   if (tracker == nullptr || result == nullptr) {
     return MIEN_ERROR_NULL_ARGUMENT;
   }
-  const bool written = mien::tracker::write_struct(
-      tracker->tracker.result(), MIEN_SIZE_THROUGH(mien_result, supported_controls), result);
-  return written ? MIEN_OK : MIEN_ERROR_STRUCT_SIZE;
+  return copy_out(tracker->tracker.result(), result);
+}
+
+int32_t mien_tracker_face_count(const mien_tracker* tracker) {
+  int32_t count = 0;
+  while (tracker != nullptr && known_face(*tracker, count) != nullptr) {
+    ++count;
+  }
+  return count;
+}
+
+mien_status mien_tracker_get_face(const mien_tracker* tracker, int32_t index, mien_result* result) {
+  if (tracker == nullptr || result == nullptr) {
+    return MIEN_ERROR_NULL_ARGUMENT;
+  }
+  const mien::tracker::Face* face = known_face(*tracker, index);
+  return face != nullptr ? copy_out(face->result(), result) : MIEN_ERROR_OUT_OF_RANGE;
 }
 
 void mien_result_default(mien_result* result) {

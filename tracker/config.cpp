@@ -22,6 +22,7 @@ bool in_range(const mien_tracker_config& c) {
          within(c.lose_after_frames, 1, 1000) && within(c.proposal_size, 24, 640) &&
          within(c.proposal_threshold, 0.0f, 1.0f) && within(c.refine_threshold, 0.0f, 1.0f) &&
          within(c.search_interval, 1, 1000) && within(c.budget_ms, 0.01f, 1e6f) &&
+         within(c.max_faces, 1, MIEN_MAX_FACES) &&
          (c.allocator.allocate == nullptr) == (c.allocator.release == nullptr);
 }
 
@@ -71,4 +72,5 @@ void mien_tracker_config_default(mien_tracker_config* config) {
   config->search_interval = 3;
   config->budget_ms = 10.0f;
   config->smoothing = 1;
+  config->max_faces = 1;
 }

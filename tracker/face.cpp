@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "tracker/levels.h"
 #include "tracker/smoothing.h"
@@ -31,11 +32,11 @@ bool is_plausible(const Crop& crop, const ImageView& view) {
 void Face::reset(std::int32_t level) {
   state_ = State();
   decoders_.reset(level);
+  mien_result_default(&result_);
 }
 
-bool Face::acquire(Frame& frame, const Square& square) {
+bool Face::find(Frame& frame, const Square& square, Sight& sight) {
   Crop crop = {square.center, square.side, 0.0f};
-  Sight sight;
   for (int i = 0; i <= kAlignments; ++i) {
     if (!is_plausible(crop, frame.view) || !look(frame, crop, sight)) {
       return false;
@@ -44,17 +45,22 @@ bool Face::acquire(Frame& frame, const Square& square) {
       return false;
     }
   }
-  if (sight.face_probability < config_.accept_probability || !accept(frame, sight)) {
+  return sight.face_probability >= config_.accept_probability;
+}
+
+bool Face::adopt(Frame& frame, const Sight& sight, std::uint32_t id) {
+  if (!accept(frame, sight)) {
     return false;
   }
   if (frame.level > kLowestLevel) {
     look_closely(frame);
   }
+  state_.id = id;
   state_.followed = true;
   state_.is_new = true;
   state_.alternate = true;
   decoders_.reset(frame.level);
-  frame.flags |= MIEN_RESULT_FOUND;
+  state_.flags |= MIEN_RESULT_FOUND;
   return true;
 }
 
@@ -80,16 +86,16 @@ void Face::follow(Frame& frame) {
 }
 
 bool Face::look(Frame& frame, const Crop& crop, Sight& sight) {
-  frame.flags |= MIEN_RESULT_ENCODER_RAN;
+  state_.flags |= MIEN_RESULT_ENCODER_RAN;
   ++frame.encoder_runs;
   const bool seen = encoders_.basenet.look(frame.view, crop, frame.timer, sight);
   if (seen) {
-    frame.face_probability = sight.face_probability;
+    state_.face_probability = sight.face_probability;
   }
   return seen;
 }
 
-bool Face::accept(Frame& frame, const Sight& sight) {
+bool Face::accept(const Frame& frame, const Sight& sight) {
   Crop next;
   if (!encoders_.basenet.align(sight, next) || !is_plausible(next, frame.view)) {
     return false;
@@ -108,12 +114,14 @@ void Face::look_closely(Frame& frame) {
 void Face::animate(Frame& frame) {
   if (!state_.followed) {
     fade(frame.seconds);
+    state_.seconds_lost += frame.seconds;
     if (state_.status == MIEN_FACE_TRACKING) {
       state_.status = MIEN_FACE_LOST;
     }
     return;
   }
   state_.status = MIEN_FACE_TRACKING;
+  state_.seconds_lost = 0.0f;
   const StageTimer::Scope timed(frame.timer, MIEN_STAGE_DECODERS);
   Appearance& seen = state_.seen;
   decoders_.decode_controls(state_.sight.features, state_.close, frame.level, frame.seconds,
@@ -142,8 +150,12 @@ void Face::fade(float seconds) {
   }
 }
 
-void Face::publish(const ImageView& view, mien_result& result) const {
+void Face::publish(const ImageView& view) {
+  mien_result& result = result_;
   result.status = state_.status;
+  result.face_id = state_.id;
+  result.flags |= std::exchange(state_.flags, 0);
+  result.face_probability = state_.face_probability;
   const Appearance& shown = state_.shown;
   std::copy(shown.controls.begin(), shown.controls.end(), result.controls);
   if (!state_.followed) {

@@ -23,12 +23,10 @@ struct Encoders {
 struct Frame {
   const ImageView& view;
   StageTimer& timer;
-  std::int32_t level;       // of detail
-  float seconds;            // since the frame before
-  bool cut;                 // the film was cut before it
-  std::uint32_t flags = 0;  // MIEN_RESULT_*
+  std::int32_t level;  // of detail
+  float seconds;       // since the frame before
+  bool cut;            // the film was cut before it
   std::uint64_t encoder_runs = 0;
-  float face_probability = -1.0f;  // of the crop judged last; -1: none was
 };
 
 // What is told about a face on one frame.
@@ -49,8 +47,14 @@ class Face {
     return decoders_.load(models, config_.cpu_mask, arena);
   }
 
+  [[nodiscard]] std::uint32_t id() const { return state_.id; }
   [[nodiscard]] bool is_followed() const { return state_.followed; }
-  [[nodiscard]] const Crop& crop() const { return state_.crop; }
+  // It is followed, or was once.
+  [[nodiscard]] bool is_known() const { return state_.status != MIEN_FACE_SEARCHING; }
+  // Since it was followed last.
+  [[nodiscard]] float seconds_lost() const { return state_.seconds_lost; }
+  // Where it is, or was last.
+  [[nodiscard]] Square square() const { return {state_.crop.center, state_.crop.side}; }
   [[nodiscard]] std::uint64_t supported_controls(std::int32_t level) const {
     return decoders_.supported_controls(level);
   }
@@ -62,17 +66,26 @@ class Face {
   // The decoders begin anew: the film was cut.
   void cut(std::int32_t level) { decoders_.reset(level); }
 
-  // Whether a face is in this square; if so it is followed from now on.
-  [[nodiscard]] bool acquire(Frame& frame, const Square& square);
+  // Whether a face is in this square; if so, what is seen of it, and where.
+  [[nodiscard]] bool find(Frame& frame, const Square& square, Sight& sight);
+  // Follows from now on the face that was found. False if it cannot be.
+  [[nodiscard]] bool adopt(Frame& frame, const Sight& sight, std::uint32_t id);
+  // Nothing in the image looks like a face.
+  void see_nothing() { state_.face_probability = 0.0f; }
+
   // Looks for it where it was.
   void follow(Frame& frame);
   // One frame of output: controls move on if it is followed, and fade if not.
   void animate(Frame& frame);
 
-  void publish(const ImageView& view, mien_result& result) const;
+  // Fills in what is the face's own. Once per frame.
+  void publish(const ImageView& view);
+  [[nodiscard]] const mien_result& result() const { return result_; }
+  [[nodiscard]] mien_result& result() { return result_; }
 
  private:
   struct State {
+    std::uint32_t id = 0;
     bool followed = false;    // `crop` and `sight` are a face
     bool alternate = false;   // the next frame is one on which encoders may rest
     std::int32_t misses = 0;  // judged frames in a row without the face
@@ -83,10 +96,13 @@ class Face {
     Appearance shown;    // smoothed
     bool is_new = true;  // nothing to smooth with yet
     mien_face_status status = MIEN_FACE_SEARCHING;
+    float seconds_lost = 0.0f;
+    float face_probability = 0.0f;  // of the crop judged last
+    std::uint32_t flags = 0;        // MIEN_RESULT_* of this frame
   };
 
   [[nodiscard]] bool look(Frame& frame, const Crop& crop, Sight& sight);
-  [[nodiscard]] bool accept(Frame& frame, const Sight& sight);
+  [[nodiscard]] bool accept(const Frame& frame, const Sight& sight);
   void look_closely(Frame& frame);
   void show(float seconds);
   void fade(float seconds);
@@ -95,6 +111,7 @@ class Face {
   Encoders& encoders_;
   Decoders decoders_;
   State state_;
+  mien_result result_ = {};
 };
 
 }  // namespace mien::tracker

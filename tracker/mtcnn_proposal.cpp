@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tracker/shrink.h"
+#include "tracker/tiles.h"
 
 namespace mien::tracker {
 namespace {
@@ -17,6 +18,7 @@ constexpr float kOverlapInLevel = 0.5f;
 constexpr float kOverlapOfLevels = 0.7f;
 constexpr float kOverlapRefined = 0.4f;
 constexpr float kLargestLogStep = 1.0f;
+constexpr std::int32_t kLargestTile = 60;  // pixels
 
 // The square that the regression (dx, dy, dlog), in sides of the window, points to.
 Square regressed(const Square& window, const float* regression) {
@@ -46,12 +48,14 @@ mien_status MtcnnProposal::load(const mien_tracker_config& config, const Models&
   const engine::Model& model = models.proposal;
   mien_status status = MIEN_OK;
   auto size = static_cast<float>(config.proposal_size);
+  tile_level_ = 0;
   for (levels_ = 0; status == MIEN_OK && levels_ < kMaxLevels; ++levels_) {
     const auto side = static_cast<std::int32_t>(std::lround(size));
     if (side < kWindow) {
       break;
     }
     status = pnets_[levels_].load(model, {"pnet", {side, side, 3}, {1, 3}}, config.cpu_mask, arena);
+    tile_level_ += side > kLargestTile ? 1 : 0;
     size *= kPyramidFactor;
   }
   const NetworkForm rnet = {"rnet", {kRefineSide, kRefineSide, 3}, {1, 3}};
@@ -59,7 +63,43 @@ mien_status MtcnnProposal::load(const mien_tracker_config& config, const Models&
 }
 
 std::size_t MtcnnProposal::propose(const ImageView& view, std::span<Candidate> found) {
-  const std::span<Candidate> scanned = scan(view, canvas_of(view));
+  const std::span<Candidate> scanned = scan(view, canvas_of(view), 0, levels_);
+  return choose(view, scanned.first(std::min(scanned.size(), kRefined)), found);
+}
+
+std::size_t MtcnnProposal::glance(const ImageView& view, std::uint32_t turn,
+                                  std::span<Candidate> found) {
+  Square canvas = canvas_of(view);
+  std::size_t sizes = levels_ - tile_level_;
+  for (std::size_t level = 0; level < tile_level_; ++level) {
+    const Tiles tiles = tiles_of(view, level);
+    if (turn < tiles.count()) {
+      canvas = tiles.square(turn);
+      sizes = 1;
+      break;
+    }
+    turn -= tiles.count();
+  }
+  const std::span<Candidate> scanned = scan(view, canvas, tile_level_, sizes);
+  return choose(view, scanned.first(std::min(scanned.size(), found.size())), found);
+}
+
+std::uint32_t MtcnnProposal::turns(const ImageView& view) const {
+  std::uint32_t turns = 1;
+  for (std::size_t level = 0; level < tile_level_; ++level) {
+    turns += tiles_of(view, level).count();
+  }
+  return turns;
+}
+
+Tiles MtcnnProposal::tiles_of(const ImageView& view, std::size_t level) const {
+  const float pixels = canvas_of(view).side / static_cast<float>(pnets_[level].input_shape().w);
+  const auto side = static_cast<float>(pnets_[tile_level_].input_shape().w);
+  return {view.width, view.height, side * pixels, kWindow * pixels};
+}
+
+std::size_t MtcnnProposal::choose(const ImageView& view, std::span<Candidate> scanned,
+                                  std::span<Candidate> found) {
   std::size_t refined = 0;
   for (Candidate candidate : scanned) {
     if (refine(view, candidate)) {
@@ -77,11 +117,12 @@ std::size_t MtcnnProposal::propose(const ImageView& view, std::span<Candidate> f
   return count;
 }
 
-std::span<Candidate> MtcnnProposal::scan(const ImageView& view, const Square& canvas) {
+std::span<Candidate> MtcnnProposal::scan(const ImageView& view, const Square& canvas,
+                                         std::size_t first, std::size_t count) {
   std::size_t total = 0;
-  for (std::size_t i = 0; i < levels_; ++i) {
+  for (std::size_t i = first; i < first + count; ++i) {
     Network& pnet = pnets_[i];
-    if (i == 0) {
+    if (i == first) {
       sampler_.cut_black(view, canvas, pnet.input_shape().w, pnet.input());
     } else {
       Network& larger = pnets_[i - 1];
@@ -93,7 +134,7 @@ std::span<Candidate> MtcnnProposal::scan(const ImageView& view, const Square& ca
     total += suppress_non_maxima(best.kept(), kOverlapInLevel);
   }
   const std::span<Candidate> all = std::span(candidates_).first(total);
-  return all.first(std::min(suppress_non_maxima(all, kOverlapOfLevels), kRefined));
+  return all.first(suppress_non_maxima(all, kOverlapOfLevels));
 }
 
 // P-Net's windows that look like faces, in pixels of the image.

@@ -12,6 +12,7 @@
 #include "tracker/network.h"
 #include "tracker/proposal.h"
 #include "tracker/sampler.h"
+#include "tracker/tiles.h"
 
 namespace mien::tracker {
 
@@ -25,12 +26,23 @@ class MtcnnProposal final : public FaceProposal {
 
   [[nodiscard]] std::size_t propose(const ImageView& view, std::span<Candidate> found) override;
 
+  // The larger sizes of the pyramid are looked at in tiles, one a turn, the smaller ones together.
+  [[nodiscard]] std::size_t glance(const ImageView& view, std::uint32_t turn,
+                                   std::span<Candidate> found) override;
+  [[nodiscard]] std::uint32_t turns(const ImageView& view) const override;
+
  private:
   static constexpr std::size_t kMaxLevels = 12;  // 640 * 0.709^12 < 12
   static constexpr std::size_t kPerLevel = 64;   // candidates kept
   static constexpr std::size_t kRefined = 32;    // candidates shown to R-Net
 
-  [[nodiscard]] std::span<Candidate> scan(const ImageView& view, const Square& canvas);
+  // P-Net's candidates on `count` sizes of `canvas`, from the one of level `first` on.
+  [[nodiscard]] std::span<Candidate> scan(const ImageView& view, const Square& canvas,
+                                          std::size_t first, std::size_t count);
+  // R-Net's choice among the best of them, written to `found`.
+  [[nodiscard]] std::size_t choose(const ImageView& view, std::span<Candidate> scanned,
+                                   std::span<Candidate> found);
+  [[nodiscard]] Tiles tiles_of(const ImageView& view, std::size_t level) const;
   void collect(const Network& pnet, const Square& canvas, BestCandidates& best) const;
   [[nodiscard]] bool refine(const ImageView& view, Candidate& candidate);
 
@@ -39,6 +51,7 @@ class MtcnnProposal final : public FaceProposal {
   float refine_threshold_ = 0.0f;
   std::array<Network, kMaxLevels> pnets_;  // the same weights for the sizes of the pyramid
   std::size_t levels_ = 0;
+  std::size_t tile_level_ = 0;  // whose size is that of a tile
   Network rnet_;
   std::array<Candidate, kMaxLevels* kPerLevel> candidates_ = {};
 };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 #include "tracker/image_view.h"
@@ -15,6 +16,13 @@ class FaceProposal {
   // Writes the most promising squares, best first, as many as fit into `found`; returns how many.
   // The square of a face is that of its crop: centre and side, roll ignored.
   [[nodiscard]] virtual std::size_t propose(const ImageView& view, std::span<Candidate> found) = 0;
+
+  // The same for a part of the image, at a small part of the cost; with every `turn` it is another
+  // one, and no more squares are judged than fit into `found`. After `turns` of them in a row faces
+  // of all sizes were looked for everywhere.
+  [[nodiscard]] virtual std::size_t glance(const ImageView& view, std::uint32_t turn,
+                                           std::span<Candidate> found) = 0;
+  [[nodiscard]] virtual std::uint32_t turns(const ImageView& view) const = 0;
 
  protected:
   ~FaceProposal() = default;

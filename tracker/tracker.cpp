@@ -6,7 +6,8 @@
 namespace mien::tracker {
 namespace {
 
-constexpr std::size_t kJudged = 3;         // proposals shown to BaseNet on one frame
+constexpr std::size_t kJudged = 2;         // proposals shown to BaseNet beyond max_faces
+constexpr std::size_t kGlanced = 4;        // the same of a glance, shown to R-Net
 constexpr std::int32_t kEagerFrames = 30;  // searching on every one of them
 
 std::int32_t highest_level(const mien_tracker_config& config) {
@@ -17,20 +18,21 @@ std::int32_t highest_level(const mien_tracker_config& config) {
 
 Tracker::Tracker(const mien_tracker_config& config, Encoders& encoders, FaceProposal& proposal)
     : config_(config),
+      encoders_(encoders),
       proposal_(proposal),
       timer_(config.clock_ns, config.clock_user),
       lod_(config.lod),
-      governor_(config.budget_ms, highest_level(config)),
-      face_(config_, encoders) {}
+      governor_(config.budget_ms, highest_level(config)) {}
 
 void Tracker::reset() {
   governor_ = LevelGovernor(config_.budget_ms, highest_level(config_));
   lod_ = config_.lod;
   state_ = State();
-  state_.result.struct_size = sizeof state_.result;
-  state_.result.lod = level();
-  state_.result.supported_controls = face_.supported_controls(level());
-  face_.reset(level());
+  faces_.reset(level());
+  for (Face& face : faces_.all()) {
+    face.result().lod = level();
+    face.result().supported_controls = face.supported_controls(level());
+  }
 }
 
 bool Tracker::set_level(std::int32_t lod) {
@@ -50,75 +52,110 @@ mien_status Tracker::push(const mien_image* image, std::int64_t pts_ns) {
   timer_.clear();
   const Timeline::Step step = state_.timeline.advance(pts_ns);
   Frame frame = {view, timer_, level(), step.seconds, step.cut};
-  if (step.cut) {
-    frame.flags |= MIEN_RESULT_CUT;
-    face_.cut(frame.level);
-  }
-  if (face_.is_followed() && !(state_.geometry == view)) {
-    face_.lose();
-  }
-  const bool followed = face_.is_followed();
-  if (followed) {
-    face_.follow(frame);
-  }
-  if (!face_.is_followed()) {
+  const bool followed = faces_.followed() > 0;
+  follow(frame);
+  const bool searched = faces_.followed() == 0 && search_is_due();
+  if (searched) {
     search(frame);
+  } else if (faces_.followed() > 0 && faces_.has_room()) {
+    glance(frame);
   }
-  face_.animate(frame);
-  publish(frame, pts_ns);
-  if (followed && face_.is_followed()) {
+  for (Face& face : faces_.all()) {
+    face.animate(frame);
+  }
+  faces_.forget_lost(frame.level);
+  publish(frame, pts_ns,
+          (searched ? MIEN_RESULT_PROPOSAL_RAN : 0u) | (frame.cut ? MIEN_RESULT_CUT : 0u));
+  if (followed && faces_.followed() > 0) {
     governor_.account(timer_.total_ns(), step.seconds);
   }
   return MIEN_OK;
 }
 
-void Tracker::search(Frame& frame) {
-  ++state_.search_frames;
-  if (!search_is_due()) {
-    return;
+void Tracker::follow(Frame& frame) {
+  for (Face& face : faces_.all()) {
+    if (frame.cut) {
+      face.cut(frame.level);
+    }
+    if (!(state_.geometry == frame.view)) {
+      face.lose();
+    }
+    if (face.is_followed()) {
+      face.follow(frame);
+    }
   }
-  std::array<Candidate, kJudged> candidates;
+  faces_.drop_doubles(frame.level);
+}
+
+void Tracker::search(Frame& frame) {
+  std::array<Candidate, kJudged + MIEN_MAX_FACES> candidates;
+  const std::size_t judged = kJudged + faces_.all().size();
   std::size_t count = 0;
   {
     const StageTimer::Scope timed(timer_, MIEN_STAGE_PROPOSAL);
-    count = proposal_.propose(frame.view, candidates);
+    count = proposal_.propose(frame.view, std::span(candidates).first(judged));
   }
-  frame.flags |= MIEN_RESULT_PROPOSAL_RAN;
-  ++state_.result.proposal_runs;
-  if (count == 0) {
-    frame.face_probability = 0.0f;
+  ++state_.proposal_runs;
+  for (Face& face : faces_.all()) {
+    if (count == 0) {
+      face.see_nothing();
+    }
   }
-  const auto found = std::span(candidates).first(count);
-  const bool acquired = std::any_of(found.begin(), found.end(), [&](const Candidate& candidate) {
-    return face_.acquire(frame, candidate.square);
-  });
-  if (acquired) {
-    state_.search_frames = 0;
+  for (std::size_t i = 0; i < count && faces_.has_room(); ++i) {
+    if (faces_.welcome(frame, candidates[i].square)) {
+      state_.search_frames = 0;
+    }
   }
 }
 
-bool Tracker::search_is_due() const {
+void Tracker::glance(Frame& frame) {
+  std::array<Candidate, kGlanced + MIEN_MAX_FACES> room;
+  std::span<Candidate> found = std::span(room).first(kGlanced + faces_.all().size());
+  {
+    const StageTimer::Scope timed(timer_, MIEN_STAGE_PROPOSAL);
+    found =
+        found.first(proposal_.glance(frame.view, state_.turn % proposal_.turns(frame.view), found));
+    ++state_.turn;
+  }
+  const auto newcomer = std::find_if(found.begin(), found.end(), [&](const Candidate& candidate) {
+    return !faces_.is_taken(candidate.square);
+  });
+  if (newcomer != found.end()) {
+    (void)faces_.welcome(frame, newcomer->square);
+  }
+}
+
+bool Tracker::search_is_due() {
+  ++state_.search_frames;
   const std::int32_t waited = state_.search_frames - kEagerFrames;
   return waited <= 0 || waited % config_.search_interval == 0;
 }
 
-void Tracker::publish(const Frame& frame, std::int64_t pts_ns) {
-  mien_result& result = state_.result;
-  result.pts_ns = pts_ns;
-  result.flags = frame.flags;
-  result.lod = frame.level;
-  result.supported_controls = face_.supported_controls(frame.level);
-  if (frame.face_probability >= 0.0f) {
-    result.face_probability = frame.face_probability;
+void Tracker::publish(const Frame& frame, std::int64_t pts_ns, std::uint32_t flags) {
+  ++state_.frames;
+  state_.face_frames += faces_.followed() > 0 ? 1 : 0;
+  state_.encoder_runs += frame.encoder_runs;
+  state_.geometry = frame.view;
+  for (Face& face : faces_.all()) {
+    describe(frame, pts_ns, flags, face.result());
+    face.result().supported_controls = face.supported_controls(frame.level);
+    face.publish(frame.view);
   }
-  ++result.frames;
-  result.face_frames += face_.is_followed() ? 1 : 0;
-  result.encoder_runs += frame.encoder_runs;
-  face_.publish(frame.view, result);
+}
+
+// What all faces of an image have in common.
+void Tracker::describe(const Frame& frame, std::int64_t pts_ns, std::uint32_t flags,
+                       mien_result& result) const {
+  result.pts_ns = pts_ns;
+  result.flags = flags;
+  result.lod = frame.level;
+  result.frames = state_.frames;
+  result.face_frames = state_.face_frames;
+  result.proposal_runs = state_.proposal_runs;
+  result.encoder_runs = state_.encoder_runs;
   for (int stage = 0; stage < MIEN_STAGE_COUNT; ++stage) {
     result.stage_ns[stage] = timer_.spent_ns(static_cast<mien_stage>(stage));
   }
-  state_.geometry = frame.view;
 }
 
 }  // namespace mien::tracker

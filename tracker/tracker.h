@@ -1,11 +1,11 @@
-// Finds and follows a face through a video: frames in, animation out.
+// Finds and follows faces through a video: frames in, animation out.
 #pragma once
 
 #include <mien/mien.h>
 
 #include <cstdint>
 
-#include "tracker/face.h"
+#include "tracker/faces.h"
 #include "tracker/image_view.h"
 #include "tracker/levels.h"
 #include "tracker/proposal.h"
@@ -15,7 +15,8 @@
 namespace mien::tracker {
 
 // Searching: the proposal looks at the whole image, BaseNet judges what it proposes and turns the
-// crop upright. Tracking: the landmarks of one frame place the crop of the next.
+// crop upright. Tracking: the landmarks of one frame place the crop of the next. While there is
+// room for more faces the proposal glances at a part of every image.
 class Tracker {
  public:
   // Both must outlive the tracker. `reset` comes before the first image.
@@ -23,36 +24,52 @@ class Tracker {
 
   // Takes from `arena` what the faces need; only measures when the arena does.
   [[nodiscard]] mien_status load(const Models& models, Arena& arena) {
-    return face_.load(models, arena);
+    return faces_.load(config_, encoders_, models, arena);
   }
 
   [[nodiscard]] mien_status push(const mien_image* image, std::int64_t pts_ns);
-  [[nodiscard]] const mien_result& result() const { return state_.result; }
+  [[nodiscard]] const Faces& faces() const { return faces_; }
+  // Of the face known longest; SEARCHING while there is none.
+  [[nodiscard]] const mien_result& result() const {
+    const Face* first = faces_.known(0);
+    return first != nullptr ? first->result() : faces_.all().front().result();
+  }
   void reset();
 
   // 0 = automatic. False if there are no weights for it.
   [[nodiscard]] bool set_level(std::int32_t lod);
 
  private:
-  // Everything that the images so far have left behind, but for the face.
+  // Everything that the images so far have left behind, but for the faces.
   struct State {
     Timeline timeline;
     ImageGeometry geometry;          // of the image before
     std::int32_t search_frames = 0;  // frames in a row with nothing found
-    mien_result result = {};
+    std::uint32_t turn = 0;          // of glances
+    // Totals.
+    std::uint64_t frames = 0;
+    std::uint64_t face_frames = 0;
+    std::uint64_t proposal_runs = 0;
+    std::uint64_t encoder_runs = 0;
   };
 
   [[nodiscard]] std::int32_t level() const { return lod_ == 0 ? governor_.level() : lod_; }
+  void follow(Frame& frame);
   void search(Frame& frame);
-  [[nodiscard]] bool search_is_due() const;
-  void publish(const Frame& frame, std::int64_t pts_ns);
+  // Counts the frames on which a face is searched.
+  [[nodiscard]] bool search_is_due();
+  void glance(Frame& frame);
+  void publish(const Frame& frame, std::int64_t pts_ns, std::uint32_t flags);
+  void describe(const Frame& frame, std::int64_t pts_ns, std::uint32_t flags,
+                mien_result& result) const;
 
   const mien_tracker_config config_;
+  Encoders& encoders_;
   FaceProposal& proposal_;
   StageTimer timer_;
   std::int32_t lod_;
   LevelGovernor governor_;
-  Face face_;
+  Faces faces_;
   State state_;
 };
 

@@ -15,8 +15,22 @@ class Row : public CsvRow {
   Row() : CsvRow(room_) {}
 
  private:
-  std::array<char, CsvRow::kMaxNumberBytes*(1 + 2 * MIEN_LANDMARK_COUNT)> room_;
+  std::array<char, CsvRow::kMaxNumberBytes*(2 + 2 * MIEN_LANDMARK_COUNT)> room_;
 };
+
+void begin_header(CsvRow& row, Faces faces) {
+  row.add(std::string_view("frame"));
+  if (faces == Faces::kSeveral) {
+    row.add(std::string_view("face_id"));
+  }
+}
+
+void begin(CsvRow& row, std::int64_t frame, Faces faces, const Result& result) {
+  row.add(frame);
+  if (faces == Faces::kSeveral) {
+    row.add(std::int64_t{result.face_id});
+  }
+}
 
 // Box, landmarks and pose mean something as long as there is a face.
 template <class... Values>
@@ -26,9 +40,10 @@ void add_if(bool present, CsvRow& row, Values... values) {
 
 }  // namespace
 
-std::string curve_header() {
+std::string curve_header(Faces faces) {
   Row row;
-  for (const char* name : {"frame", "t_ms", "status", "face_prob", "lod", "vad", "x", "y", "w", "h",
+  begin_header(row, faces);
+  for (const char* name : {"t_ms", "status", "face_prob", "lod", "vad", "x", "y", "w", "h",
                            "pitch_rad", "yaw_rad", "roll_rad", "tx_m", "ty_m", "tz_m"}) {
     row.add(std::string_view(name));
   }
@@ -38,9 +53,9 @@ std::string curve_header() {
   return std::string(row.finish());
 }
 
-std::string curve_row(std::int64_t frame, const Result& result) {
+std::string curve_row(std::int64_t frame, Faces faces, const Result& result) {
   Row row;
-  row.add(frame);
+  begin(row, frame, faces, result);
   row.add(static_cast<double>(result.pts_ns) * 1e-6);
   row.add(std::string_view(mien_face_status_name(result.status)));
   row.add(result.face_probability);
@@ -55,9 +70,9 @@ std::string curve_row(std::int64_t frame, const Result& result) {
   return std::string(row.finish());
 }
 
-std::string landmark_header() {
+std::string landmark_header(Faces faces) {
   Row row;
-  row.add(std::string_view("frame"));
+  begin_header(row, faces);
   for (int i = 0; i < mien_landmark_count(); ++i) {
     for (const char* axis : {"x", "y"}) {
       row.add(std::string_view(std::string(axis).append(std::to_string(i))));
@@ -66,9 +81,9 @@ std::string landmark_header() {
   return std::string(row.finish());
 }
 
-std::string landmark_row(std::int64_t frame, const Result& result) {
+std::string landmark_row(std::int64_t frame, Faces faces, const Result& result) {
   Row row;
-  row.add(frame);
+  begin(row, frame, faces, result);
   for (int i = 0; i < mien_landmark_count(); ++i) {
     add_if(result.has_face(), row, result.landmarks[i][0], result.landmarks[i][1]);
   }

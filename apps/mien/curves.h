@@ -8,10 +8,13 @@
 
 namespace mien::app {
 
-std::string curve_header();
-std::string curve_row(std::int64_t frame, const Result& result);
+// Of one face, or of several: these have a column more, and a row for each face of a frame.
+enum class Faces { kOne, kSeveral };
 
-std::string landmark_header();
-std::string landmark_row(std::int64_t frame, const Result& result);
+std::string curve_header(Faces faces);
+std::string curve_row(std::int64_t frame, Faces faces, const Result& result);
+
+std::string landmark_header(Faces faces);
+std::string landmark_row(std::int64_t frame, Faces faces, const Result& result);
 
 }  // namespace mien::app

@@ -35,6 +35,7 @@ LoadedTracker::LoadedTracker(const Options& options)
   }
   config.lod = options.lod;
   config.budget_ms = options.budget_ms;
+  config.max_faces = options.max_faces;
   config.smoothing = options.unfiltered ? 0 : 1;
   config.cpu_mask = cpu_mask(options.tier);
   config.clock_ns = now_ns;

@@ -16,6 +16,7 @@ struct LoadedTracker {
     int lod = 1;         // 0: automatic
     float budget_ms = 10.0f;
     bool unfiltered = false;
+    int max_faces = 1;
   };
 
   // Throws Failure.

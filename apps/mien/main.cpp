@@ -30,6 +30,8 @@ void add_track(CLI::App& program) {
   verb->add_option("--budget-ms", options->budget_ms, "of --lod auto: time per frame on average")
       ->check(CLI::Range(0.01, 1e6));
   verb->add_flag("--no-filter", options->unfiltered, "curves as the networks answer");
+  verb->add_option("--max-faces", options->max_faces, "faces followed at once, each with an id")
+      ->check(CLI::Range(1, MIEN_MAX_FACES));
   verb->add_option("--tier", options->tier, "kernel tier: ref, avx2");
   verb->add_option("--models", options->models, "folder of the model files");
   verb->add_option("--start", options->start_s, "seconds to skip")->check(CLI::NonNegativeNumber);

@@ -31,14 +31,16 @@ Overlay::Overlay(int width, int height)
       panel_x_(width * scale_),
       canvas_(width * scale_ + kPanelWidth, std::max(height * scale_, least_height())) {}
 
-const Canvas& Overlay::draw(const mien_image& image, const Result& result) {
+const Canvas& Overlay::draw(const mien_image& image, std::span<const Result> faces) {
   canvas_.fill(0, 0, canvas_.width(), canvas_.height(), kBackground);
   canvas_.paste(image, scale_);
-  if (result.has_face()) {
-    draw_face(result);
-    draw_pose(result);
+  for (const Result& face : faces) {
+    if (face.has_face()) {
+      draw_face(face);
+      draw_pose(face);
+    }
   }
-  draw_controls(result);
+  draw_controls(faces.front());
   return canvas_;
 }
 

@@ -3,6 +3,8 @@
 
 #include <mien/mien.hpp>
 
+#include <span>
+
 #include "apps/mien/canvas.h"
 
 namespace mien::app {
@@ -13,7 +15,8 @@ class Overlay {
   Overlay(int width, int height);
   int width() const { return canvas_.width(); }
   int height() const { return canvas_.height(); }
-  const Canvas& draw(const mien_image& image, const Result& result);
+  // All faces; the controls are those of the first.
+  const Canvas& draw(const mien_image& image, std::span<const Result> faces);
 
  private:
   void draw_face(const Result& result);

@@ -1,9 +1,12 @@
 #include "apps/mien/track.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <mien/mien.hpp>
 #include <nlohmann/json.hpp>
+#include <span>
+#include <vector>
 
 #include "apps/mien/curves.h"
 #include "apps/mien/failure.h"
@@ -22,26 +25,30 @@ namespace {
 class Outputs {
  public:
   Outputs(const TrackOptions& options, const VideoInfo& info, const VideoRange& range);
-  void frame(std::int64_t number, const mien_image& image, const Result& result);
+  void frame(std::int64_t number, const mien_image& image, std::span<const Result> faces);
   void finish();
 
  private:
+  void rows(std::int64_t number, const Result& face);
+
+  Faces faces_;
   std::unique_ptr<OutputFile> curves_;
   std::unique_ptr<OutputFile> landmarks_;
   std::unique_ptr<Overlay> overlay_;
   std::unique_ptr<VideoEncoder> encoder_;
 };
 
-Outputs::Outputs(const TrackOptions& options, const VideoInfo& info, const VideoRange& range) {
+Outputs::Outputs(const TrackOptions& options, const VideoInfo& info, const VideoRange& range)
+    : faces_(options.max_faces > 1 ? Faces::kSeveral : Faces::kOne) {
   if (!options.curves.empty()) {
     curves_ = std::make_unique<OutputFile>(options.curves);
-    curves_->write(curve_header());
+    curves_->write(curve_header(faces_));
   } else {
-    std::fputs(curve_header().c_str(), stdout);
+    std::fputs(curve_header(faces_).c_str(), stdout);
   }
   if (!options.landmarks.empty()) {
     landmarks_ = std::make_unique<OutputFile>(options.landmarks);
-    landmarks_->write(landmark_header());
+    landmarks_->write(landmark_header(faces_));
   }
   if (!options.overlay.empty()) {
     overlay_ = std::make_unique<Overlay>(info.width, info.height);
@@ -51,18 +58,24 @@ Outputs::Outputs(const TrackOptions& options, const VideoInfo& info, const Video
   }
 }
 
-void Outputs::frame(std::int64_t number, const mien_image& image, const Result& result) {
-  const std::string row = curve_row(number, result);
+void Outputs::frame(std::int64_t number, const mien_image& image, std::span<const Result> faces) {
+  for (const Result& face : faces) {
+    rows(number, face);
+  }
+  if (overlay_) {
+    encoder_->write(overlay_->draw(image, faces).rgb());
+  }
+}
+
+void Outputs::rows(std::int64_t number, const Result& face) {
+  const std::string row = curve_row(number, faces_, face);
   if (curves_) {
     curves_->write(row);
   } else {
     std::fputs(row.c_str(), stdout);
   }
   if (landmarks_) {
-    landmarks_->write(landmark_row(number, result));
-  }
-  if (overlay_) {
-    encoder_->write(overlay_->draw(image, result).rgb());
+    landmarks_->write(landmark_row(number, faces_, face));
   }
 }
 
@@ -117,38 +130,52 @@ void print_summary(const Result& last, const StageTimes& times) {
   }
 }
 
+void check(mien_status status, const std::string& input, std::int64_t frame) {
+  if (status != MIEN_OK) {
+    throw Failure(kExitInternal,
+                  input + ": frame " + std::to_string(frame) + ": " + message(status));
+  }
+}
+
+// Of all faces there are; of none while one is searched for.
+std::vector<Result> results(const Tracker& tracker, const std::string& input, std::int64_t frame) {
+  std::vector<Result> faces(static_cast<std::size_t>(std::max(1, tracker.face_count())));
+  check(tracker.get_result(faces.front()), input, frame);
+  for (std::size_t i = 1; i < faces.size(); ++i) {
+    check(tracker.get_face(static_cast<std::int32_t>(i), faces[i]), input, frame);
+  }
+  return faces;
+}
+
 }  // namespace
 
 void track(const TrackOptions& options) {
   const VideoRange range{options.start_s, options.duration_s};
-  LoadedTracker loaded(
-      {options.models, options.tier, options.lod, options.budget_ms, options.unfiltered});
+  LoadedTracker loaded({options.models, options.tier, options.lod, options.budget_ms,
+                        options.unfiltered, options.max_faces});
   const std::unique_ptr<VideoSource> video = open_video(options.input, range);
   Outputs outputs(options, video->info(), range);
   StageTimes times;
-  Result result;
+  Result last;
   {
     Progress progress(options.quiet, video->info().frames);
     mien_image image;
     std::int64_t pts_ns = 0;
     for (std::int64_t frame = 0; video->next(image, pts_ns); ++frame) {
-      const mien_status pushed = loaded.tracker.push_video(image, pts_ns);
-      const mien_status got = loaded.tracker.get_result(result);
-      if (pushed != MIEN_OK || got != MIEN_OK) {
-        throw Failure(kExitInternal, options.input + ": frame " + std::to_string(frame) + ": " +
-                                         message(pushed != MIEN_OK ? pushed : got));
-      }
-      outputs.frame(frame, image, result);
-      add_times(times, result);
+      check(loaded.tracker.push_video(image, pts_ns), options.input, frame);
+      const std::vector<Result> faces = results(loaded.tracker, options.input, frame);
+      outputs.frame(frame, image, faces);
+      last = faces.front();
+      add_times(times, last);
       progress.update(frame + 1);
     }
   }
   outputs.finish();
   if (!options.stats.empty()) {
-    write_stats(options.stats, result, times);
+    write_stats(options.stats, last, times);
   }
   if (!options.quiet) {
-    print_summary(result, times);
+    print_summary(last, times);
   }
 }
 

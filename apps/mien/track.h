@@ -17,6 +17,7 @@ struct TrackOptions {
   int lod = 1;  // 0: automatic
   float budget_ms = 10.0f;
   bool unfiltered = false;
+  int max_faces = 1;
   double start_s = 0.0;
   std::optional<double> duration_s;
   bool quiet = false;

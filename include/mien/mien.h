@@ -183,6 +183,8 @@ MIEN_API void mien_image_default(mien_image* image);
 
 typedef struct mien_tracker mien_tracker;
 
+#define MIEN_MAX_FACES 8
+
 /* Callbacks for all the memory of a tracker, called within create and destroy only. */
 typedef struct mien_allocator {
   /* At least `size_bytes` aligned to `alignment_bytes` (a power of two), or NULL. */
@@ -247,7 +249,12 @@ typedef struct mien_tracker_config {
    * (cutoff 1.5 Hz at rest); a blink passes at 95 % and more, without delay. Default 1. */
   int32_t smoothing;
 
-  uint32_t reserved[9];
+  /* Faces followed at once, 1..MIEN_MAX_FACES; default 1. Each takes memory of its own. With more
+   * than one, newcomers are looked for while a face is followed: in a part of every image, so that
+   * all of it was looked at within about a second. */
+  int32_t max_faces;
+
+  uint32_t reserved[8];
 } mien_tracker_config;
 
 /* Fills in *config with the defaults; the weights are NULL. NULL is ignored. */
@@ -359,20 +366,34 @@ typedef struct mien_result {
                                               of it. Order: models/landmarks.json */
 
   /* Totals since create or reset. */
-  uint64_t frames;      /* images pushed */
-  uint64_t face_frames; /* of these, with status MIEN_FACE_TRACKING */
-  uint64_t proposal_runs;
-  uint64_t encoder_runs; /* of BaseNet and HiFiNet */
+  uint64_t frames;        /* images pushed */
+  uint64_t face_frames;   /* of these, with a face followed */
+  uint64_t proposal_runs; /* on the whole image */
+  uint64_t encoder_runs;  /* of BaseNet and HiFiNet */
 
   uint64_t stage_ns[MIEN_MAX_STAGES]; /* time in each mien_stage on this frame; 0 without a clock */
 
-  uint32_t reserved[16];
+  /* Counts the faces found, from 1; 0 before any. A face found again near the place where it was
+   * lost less than 2 s ago keeps its id. */
+  uint32_t face_id;
+
+  uint32_t reserved[15];
 } mien_result;
 
 /* Copies the result of the last image pushed into *result, as much as result->struct_size says;
- * before any image: MIEN_FACE_SEARCHING and zeros. */
+ * before any image: MIEN_FACE_SEARCHING and zeros. Of several faces it is that of the lowest id. */
 MIEN_API MIEN_NODISCARD mien_status mien_tracker_get_result(const mien_tracker* tracker,
                                                             mien_result* result);
+
+/* Faces known after the last image, 0..max_faces: those followed, those lost less than 2 s ago, and
+ * the last of all, however long it is lost. 0 for NULL. */
+MIEN_API int32_t mien_tracker_face_count(const mien_tracker* tracker);
+
+/* The same as mien_tracker_get_result of one of them, in the order of their ids.
+ * MIEN_ERROR_OUT_OF_RANGE unless 0 <= index < mien_tracker_face_count. Totals, flags but those of
+ * encoders and finding, and times are those of the image. */
+MIEN_API MIEN_NODISCARD mien_status mien_tracker_get_face(const mien_tracker* tracker,
+                                                          int32_t index, mien_result* result);
 
 /* Fills in *result: struct_size, everything else 0. NULL is ignored. */
 MIEN_API void mien_result_default(mien_result* result);

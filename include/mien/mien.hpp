@@ -71,6 +71,12 @@ class Tracker {
     return mien_tracker_get_result(tracker_.get(), &result);
   }
 
+  [[nodiscard]] std::int32_t face_count() const { return mien_tracker_face_count(tracker_.get()); }
+
+  [[nodiscard]] mien_status get_face(std::int32_t index, mien_result& result) const {
+    return mien_tracker_get_face(tracker_.get(), index, &result);
+  }
+
   [[nodiscard]] mien_status set_lod(std::int32_t lod) {
     return mien_tracker_set_lod(tracker_.get(), lod);
   }

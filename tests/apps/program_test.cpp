@@ -149,6 +149,25 @@ TEST_F(Program, TracksTheDemoClip) {
   EXPECT_NE(contents(path("stats.json")).find("\"frames\": 60"), std::string::npos);
 }
 
+TEST_F(Program, TracksSeveralFacesWithIds) {
+  MIEN_NEEDS("trained model", have_models());
+  MIEN_NEEDS("ffmpeg", have_ffmpeg());
+  ASSERT_EQ(std::system(("ffmpeg -v error -t 1 -i " + kClip +
+                         " -vf 'split[a][b];[b]hflip[c];[a][c]hstack' -an " + path("two.mp4"))
+                            .c_str()),
+            0);
+  const Outcome done = run("track " + path("two.mp4") + " --max-faces 2 --quiet --landmarks " +
+                           path("lm.csv") + models());
+  ASSERT_EQ(done.code, 0) << done.errors;
+  EXPECT_EQ(done.output.find("frame,face_id,t_ms,status,"), 0u);
+  EXPECT_EQ(lines(done.output), 61u) << "two rows for each of 30 frames";
+  EXPECT_NE(done.output.find("\n29,1,"), std::string::npos);
+  EXPECT_NE(done.output.find("\n29,2,"), std::string::npos);
+  EXPECT_EQ(lines(contents(path("lm.csv"))), 61u);
+  EXPECT_EQ(run("track " + kClip + " --max-faces 0").code, 2);
+  EXPECT_EQ(run("track " + kClip + " --max-faces 9").code, 2);
+}
+
 TEST_F(Program, Y4mNeedsNoFfmpegAndGivesTheSameFrames) {
   MIEN_NEEDS("trained model", have_models());
   MIEN_NEEDS("ffmpeg", have_ffmpeg());

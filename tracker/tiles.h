@@ -1,0 +1,51 @@
+// Overlapping squares that together cover an image.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "tracker/geometry.h"
+
+namespace mien::tracker {
+
+class Tiles {
+ public:
+  // All in pixels of the image. A window of side `overlap` or less lies within one tile, wherever
+  // it is. A tile larger than the image is one in its middle.
+  Tiles(float width, float height, float side, float overlap)
+      : width_(width),
+        height_(height),
+        side_(side),
+        columns_(number(width, side, overlap)),
+        rows_(number(height, side, overlap)) {}
+
+  [[nodiscard]] std::uint32_t count() const { return columns_ * rows_; }
+
+  [[nodiscard]] Square square(std::uint32_t i) const {
+    return {{middle(i % columns_, columns_, width_), middle(i / columns_, rows_, height_)}, side_};
+  }
+
+ private:
+  [[nodiscard]] static std::uint32_t number(float length, float side, float overlap) {
+    const float more = std::ceil((length - side) / (side - overlap));
+    return 1 + static_cast<std::uint32_t>(std::max(more, 0.0f));
+  }
+
+  // Of tile `i` of `n` along an axis: the first and the last touch the image's borders.
+  [[nodiscard]] float middle(std::uint32_t i, std::uint32_t n, float length) const {
+    if (n == 1) {
+      return length / 2;
+    }
+    const float step = (length - side_) / static_cast<float>(n - 1);
+    return side_ / 2 + step * static_cast<float>(i);
+  }
+
+  float width_;
+  float height_;
+  float side_;
+  std::uint32_t columns_;
+  std::uint32_t rows_;
+};
+
+}  // namespace mien::tracker
