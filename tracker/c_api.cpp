@@ -6,23 +6,9 @@
 
 #include "tracker/arena.h"
 #include "tracker/config.h"
-#include "tracker/face.h"
 #include "tracker/models.h"
-#include "tracker/mtcnn_proposal.h"
-#include "tracker/tracker.h"
+#include "tracker/tracker_handle.h"
 #include "tracker/versioned_struct.h"
-
-struct mien_tracker {
-  explicit mien_tracker(const mien_tracker_config& config)
-      : tracker(config, encoders, proposal), allocator(config.allocator) {}
-
-  mien::tracker::Encoders encoders;
-  mien::tracker::MtcnnProposal proposal;
-  mien::tracker::Tracker tracker;
-  mien_allocator allocator;
-  std::size_t bytes = 0;
-  bool allocated = false;  // by the allocator, not by the caller
-};
 
 namespace {
 

@@ -20,6 +20,8 @@ void Decoders::reset(std::int32_t level) {
   if (level > kLowestLevel) {
     hifinet_controls_.reset();
   }
+  basenet_neutral_.restart();
+  hifinet_neutral_.restart();
   pose_.reset();
   fade_.jump(level > kLowestLevel);
 }
@@ -35,20 +37,30 @@ void Decoders::decode_controls(const Features& basenet, const Features& hifinet,
   }
   fade_.advance(to_hifinet, seconds);
   if (!fade_.second_is_heard()) {
-    basenet_controls_.decode(basenet, controls);
+    decode_basenet(basenet, controls);
     return;
   }
   if (!fade_.first_is_heard()) {
-    hifinet_controls_.decode(hifinet, controls);
+    decode_hifinet(hifinet, controls);
     return;
   }
   std::array<float, kControls> first;
-  basenet_controls_.decode(basenet, first);
-  hifinet_controls_.decode(hifinet, controls);
+  decode_basenet(basenet, first);
+  decode_hifinet(hifinet, controls);
   const float weight = fade_.weight();
   for (std::size_t i = 0; i < first.size(); ++i) {
     controls[i] = first[i] + weight * (controls[i] - first[i]);
   }
+}
+
+void Decoders::decode_basenet(const Features& features, std::span<float, kControls> controls) {
+  basenet_controls_.decode(features, controls);
+  basenet_neutral_.take_out(controls);
+}
+
+void Decoders::decode_hifinet(const Features& features, std::span<float, kControls> controls) {
+  hifinet_controls_.decode(features, controls);
+  hifinet_neutral_.take_out(controls);
 }
 
 void Decoders::decode_pose(const Features& basenet, const Crop& crop, const Camera& camera,

@@ -15,6 +15,7 @@
 #include "tracker/levels.h"
 #include "tracker/models.h"
 #include "tracker/network.h"
+#include "tracker/neutral.h"
 
 namespace mien::tracker {
 
@@ -31,6 +32,14 @@ class Decoders {
   void decode_controls(const Features& basenet, const Features& hifinet, std::int32_t level,
                        float seconds, std::span<float, kControls> controls);
 
+  // What the face shows at rest, as each of the controls decoders sees it.
+  [[nodiscard]] Neutral& neutral(std::int32_t level) {
+    return level > kLowestLevel ? hifinet_neutral_ : basenet_neutral_;
+  }
+  [[nodiscard]] const Neutral& neutral(std::int32_t level) const {
+    return level > kLowestLevel ? hifinet_neutral_ : basenet_neutral_;
+  }
+
   // A prediction that is no pose leaves `pose` as it was.
   void decode_pose(const Features& basenet, const Crop& crop, const Camera& camera, HeadPose& pose);
 
@@ -39,8 +48,13 @@ class Decoders {
   }
 
  private:
+  void decode_basenet(const Features& features, std::span<float, kControls> controls);
+  void decode_hifinet(const Features& features, std::span<float, kControls> controls);
+
   ControlsDecoder basenet_controls_;
   ControlsDecoder hifinet_controls_;
+  Neutral basenet_neutral_;
+  Neutral hifinet_neutral_;
   Network pose_;
   CrossFade fade_;  // from BaseNet's to HiFiNet's controls
 };

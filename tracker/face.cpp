@@ -32,6 +32,9 @@ bool is_plausible(const Crop& crop, const ImageView& view) {
 void Face::reset(std::int32_t level) {
   state_ = State();
   decoders_.reset(level);
+  for (const std::int32_t either : {kLowestLevel, kHighestLevel}) {
+    decoders_.neutral(either) = Neutral();
+  }
   mien_result_default(&result_);
 }
 
@@ -126,6 +129,8 @@ void Face::animate(Frame& frame) {
   Appearance& seen = state_.seen;
   decoders_.decode_controls(state_.sight.features, state_.close, frame.level, frame.seconds,
                             seen.controls);
+  state_.flags |=
+      decoders_.neutral(frame.level).is_being_captured() ? MIEN_RESULT_CAPTURING_NEUTRAL : 0;
   decoders_.decode_pose(state_.sight.features, state_.sight.crop, frame.view.camera, seen.pose);
   seen.landmarks = state_.sight.landmarks;
   state_.is_new = state_.is_new || frame.cut;

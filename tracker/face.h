@@ -55,6 +55,10 @@ class Face {
   [[nodiscard]] float seconds_lost() const { return state_.seconds_lost; }
   // Where it is, or was last.
   [[nodiscard]] Square square() const { return {state_.crop.center, state_.crop.side}; }
+  [[nodiscard]] Neutral& neutral(std::int32_t level) { return decoders_.neutral(level); }
+  [[nodiscard]] const Neutral& neutral(std::int32_t level) const {
+    return decoders_.neutral(level);
+  }
   [[nodiscard]] std::uint64_t supported_controls(std::int32_t level) const {
     return decoders_.supported_controls(level);
   }

@@ -18,6 +18,8 @@ const char* mien_status_string(mien_status status) {
       return "the allocator has no memory";
     case MIEN_ERROR_UNSUPPORTED_LOD:
       return "this level of detail is not supported";
+    case MIEN_ERROR_SEVERAL_FACES:
+      return "only a tracker of one face can do this";
     case MIEN_ERROR_WEIGHTS_NOT_MIEN:
       return "the weights are not a .mien file";
     case MIEN_ERROR_WEIGHTS_VERSION:
@@ -50,6 +52,12 @@ const char* mien_status_string(mien_status status) {
       return "the image rotation is not 0, 90, 180 or 270";
     case MIEN_ERROR_IMAGE_CAMERA:
       return "the image's focal length or principal point is out of range";
+    case MIEN_ERROR_NEUTRAL_FORMAT:
+      return "not a neutral file";
+    case MIEN_ERROR_NEUTRAL_VERSION:
+      return "the neutral file has an unsupported format version";
+    case MIEN_ERROR_NEUTRAL_DAMAGED:
+      return "the neutral file is damaged";
   }
   return "unknown status";
 }

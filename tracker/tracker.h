@@ -36,6 +36,13 @@ class Tracker {
   }
   void reset();
 
+  // From the next frames on, as seen at the present level. There is one face.
+  void capture_neutral() { faces_.all().front().neutral(level()).capture(); }
+  [[nodiscard]] Neutral& neutral(std::int32_t level) { return faces_.all().front().neutral(level); }
+  [[nodiscard]] const Neutral& neutral(std::int32_t level) const {
+    return faces_.all().front().neutral(level);
+  }
+
   // 0 = automatic. False if there are no weights for it.
   [[nodiscard]] bool set_level(std::int32_t lod);
 

@@ -1,7 +1,10 @@
 #include "apps/mien/loaded_tracker.h"
 
+#include <array>
 #include <chrono>
 #include <filesystem>
+#include <fstream>
+#include <span>
 
 #include "apps/mien/failure.h"
 #include "apps/mien/tiers.h"
@@ -46,6 +49,23 @@ LoadedTracker::LoadedTracker(const Options& options)
   }
   if (status != MIEN_OK) {
     throw Failure(kExitModel, models_directory(options.models) + ": " + message(status));
+  }
+}
+
+void load_neutral(const std::string& path, Tracker& tracker) {
+  std::ifstream file(path, std::ios::binary);
+  std::array<char, MIEN_NEUTRAL_BYTES + 1> bytes;  // one more, to notice what is too long
+  file.read(bytes.data(), bytes.size());
+  if (file.bad() || file.gcount() == 0) {
+    throw Failure(kExitNoInput, path + ": cannot be read");
+  }
+  const mien_status status = tracker.load_neutral(
+      std::as_bytes(std::span(bytes).first(static_cast<std::size_t>(file.gcount()))));
+  if (status == MIEN_ERROR_SEVERAL_FACES) {
+    throw Failure(kExitUsage, std::string("--neutral with --max-faces: ") + message(status));
+  }
+  if (status != MIEN_OK) {
+    throw Failure(kExitNoInput, path + ": " + message(status));
   }
 }
 

@@ -27,4 +27,7 @@ struct LoadedTracker {
   Tracker tracker;
 };
 
+// Takes over a file of `mien neutral`. Throws Failure.
+void load_neutral(const std::string& path, Tracker& tracker);
+
 }  // namespace mien::app

@@ -10,6 +10,7 @@
 #include "apps/mien/bench.h"
 #include "apps/mien/failure.h"
 #include "apps/mien/inspect.h"
+#include "apps/mien/neutral.h"
 #include "apps/mien/track.h"
 
 namespace mien::app {
@@ -30,6 +31,7 @@ void add_track(CLI::App& program) {
   verb->add_option("--budget-ms", options->budget_ms, "of --lod auto: time per frame on average")
       ->check(CLI::Range(0.01, 1e6));
   verb->add_flag("--no-filter", options->unfiltered, "curves as the networks answer");
+  verb->add_option("--neutral", options->neutral, "what the face shows at rest, by `mien neutral`");
   verb->add_option("--max-faces", options->max_faces, "faces followed at once, each with an id")
       ->check(CLI::Range(1, MIEN_MAX_FACES));
   verb->add_option("--tier", options->tier, "kernel tier: ref, avx2");
@@ -39,6 +41,20 @@ void add_track(CLI::App& program) {
       ->check(CLI::PositiveNumber);
   verb->add_flag("--quiet", options->quiet, "no progress bar, no summary");
   verb->callback([options] { track(*options); });
+}
+
+void add_neutral(CLI::App& program) {
+  auto* verb = program.add_subcommand("neutral", "Capture what a person's face shows at rest");
+  auto options = std::make_shared<NeutralOptions>();
+  verb->add_option("INPUT", options->input, "video of the neutral face, 2 seconds or more")
+      ->required();
+  verb->add_option("-o", options->output, "file for `mien track --neutral`")->required();
+  verb->add_option("--models", options->models, "folder of the model files");
+  verb->add_option("--start", options->start_s, "seconds to skip")->check(CLI::NonNegativeNumber);
+  verb->add_option("--duration", options->duration_s, "seconds to look at")
+      ->check(CLI::PositiveNumber);
+  verb->add_flag("--quiet", options->quiet, "no summary");
+  verb->callback([options] { neutral(*options); });
 }
 
 void add_inspect(CLI::App& program) {
@@ -68,6 +84,7 @@ int run(int argc, char** argv) {
   program.set_version_flag("--version", mien_version());
   program.require_subcommand(1);
   add_track(program);
+  add_neutral(program);
   add_inspect(program);
   add_bench(program);
   try {

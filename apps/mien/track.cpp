@@ -153,6 +153,9 @@ void track(const TrackOptions& options) {
   const VideoRange range{options.start_s, options.duration_s};
   LoadedTracker loaded({options.models, options.tier, options.lod, options.budget_ms,
                         options.unfiltered, options.max_faces});
+  if (!options.neutral.empty()) {
+    load_neutral(options.neutral, loaded.tracker);
+  }
   const std::unique_ptr<VideoSource> video = open_video(options.input, range);
   Outputs outputs(options, video->info(), range);
   StageTimes times;

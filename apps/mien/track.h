@@ -12,6 +12,7 @@ struct TrackOptions {
   std::string landmarks;  // empty: none; so for the others
   std::string overlay;
   std::string stats;
+  std::string neutral;  // file to take into account
   std::string tier;
   std::string models;
   int lod = 1;  // 0: automatic

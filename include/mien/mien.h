@@ -80,6 +80,7 @@ typedef enum mien_status {
   MIEN_ERROR_MEMORY_TOO_SMALL = -5, /* less than mien_tracker_required_bytes */
   MIEN_ERROR_OUT_OF_MEMORY = -6,    /* the allocator returned NULL */
   MIEN_ERROR_UNSUPPORTED_LOD = -7,
+  MIEN_ERROR_SEVERAL_FACES = -8, /* of a tracker for one face only */
   /* weight files */
   MIEN_ERROR_WEIGHTS_NOT_MIEN = -20,   /* not a .mien file */
   MIEN_ERROR_WEIGHTS_VERSION = -21,    /* a version of the format that this library does not read */
@@ -98,7 +99,11 @@ typedef enum mien_status {
   MIEN_ERROR_IMAGE_STRIDE = -62, /* rows or chroma samples overlap each other */
   MIEN_ERROR_IMAGE_PLANE = -63,  /* a plane of the format is NULL */
   MIEN_ERROR_IMAGE_ROTATION = -64,
-  MIEN_ERROR_IMAGE_CAMERA = -65 /* focal length or principal point negative or not finite */
+  MIEN_ERROR_IMAGE_CAMERA = -65, /* focal length or principal point negative or not finite */
+  /* neutral files */
+  MIEN_ERROR_NEUTRAL_FORMAT = -80,  /* not a neutral file */
+  MIEN_ERROR_NEUTRAL_VERSION = -81, /* a version of the format that this library does not read */
+  MIEN_ERROR_NEUTRAL_DAMAGED = -82  /* truncated, too long, or changed */
 } mien_status;
 
 /* One line of English, static, never NULL; "unknown status" for numbers that are none. */
@@ -342,6 +347,9 @@ MIEN_API const char* mien_stage_name(int32_t stage);
 #define MIEN_RESULT_ENCODER_RAN 0x2u
 #define MIEN_RESULT_FOUND 0x4u /* a face was (re)found on this frame */
 #define MIEN_RESULT_CUT 0x8u   /* the timestamp told of a cut */
+#define MIEN_RESULT_CAPTURING_NEUTRAL       \
+  0x10u /* see mien_tracker_capture_neutral \
+         */
 
 typedef struct mien_result {
   uint32_t struct_size;
@@ -397,6 +405,34 @@ MIEN_API MIEN_NODISCARD mien_status mien_tracker_get_face(const mien_tracker* tr
 
 /* Fills in *result: struct_size, everything else 0. NULL is ignored. */
 MIEN_API void mien_result_default(mien_result* result);
+
+/* Calibration ---------------------------------------------------------------------------------- */
+
+/* Some faces look raised, pressed or half closed while nothing happens. What a face shows when it
+ * is neutral can be captured and is then taken out of every control: (control - neutral) /
+ * (1 - neutral), not below 0, so that a full blink stays one. For trackers of one face; others
+ * answer MIEN_ERROR_SEVERAL_FACES. It stays with the tracker, whoever comes, until
+ * mien_tracker_reset. */
+
+/* Captures, at the present level of detail, while the person looks neutral: of each control the
+ * median of 45 frames, after 10 to settle, so that a blink does not count; 0.6 at most. Frames that
+ * count carry MIEN_RESULT_CAPTURING_NEUTRAL; then it takes effect, in place of an earlier one. It
+ * begins anew when the face is lost or the film is cut, and waits where there is none. */
+MIEN_API MIEN_NODISCARD mien_status mien_tracker_capture_neutral(mien_tracker* tracker);
+
+#define MIEN_NEUTRAL_BYTES 448
+
+/* What was captured as a file of MIEN_NEUTRAL_BYTES, to be kept; see docs/format.md. Level 1 and
+ * the others each have their own: bit 0 of *captured (NULL is fine) says that level 1 has it, bit 1
+ * the others. MIEN_ERROR_MEMORY_TOO_SMALL when file_bytes is less. */
+MIEN_API MIEN_NODISCARD mien_status mien_tracker_save_neutral(const mien_tracker* tracker,
+                                                              void* file, size_t file_bytes,
+                                                              uint32_t* captured);
+
+/* Takes over what was saved; levels that were not captured stay as they are. On an error nothing
+ * changes. */
+MIEN_API MIEN_NODISCARD mien_status mien_tracker_load_neutral(mien_tracker* tracker,
+                                                              const void* file, size_t file_bytes);
 
 #ifdef __cplusplus
 }

@@ -81,6 +81,19 @@ class Tracker {
     return mien_tracker_set_lod(tracker_.get(), lod);
   }
 
+  [[nodiscard]] mien_status capture_neutral() {
+    return mien_tracker_capture_neutral(tracker_.get());
+  }
+
+  [[nodiscard]] mien_status save_neutral(std::span<std::byte, MIEN_NEUTRAL_BYTES> file,
+                                         std::uint32_t& captured) const {
+    return mien_tracker_save_neutral(tracker_.get(), file.data(), file.size(), &captured);
+  }
+
+  [[nodiscard]] mien_status load_neutral(std::span<const std::byte> file) {
+    return mien_tracker_load_neutral(tracker_.get(), file.data(), file.size());
+  }
+
   [[nodiscard]] mien_status reset() { return mien_tracker_reset(tracker_.get()); }
 
   explicit operator bool() const { return tracker_ != nullptr; }

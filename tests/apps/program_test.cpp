@@ -168,6 +168,28 @@ TEST_F(Program, TracksSeveralFacesWithIds) {
   EXPECT_EQ(run("track " + kClip + " --max-faces 9").code, 2);
 }
 
+TEST_F(Program, CapturesTheNeutralFaceAndTakesItOut) {
+  MIEN_NEEDS("trained model", have_models());
+  MIEN_NEEDS("ffmpeg", have_ffmpeg());
+  const std::string file = path("me.neutral");
+  const Outcome captured = run("neutral " + kClip + " -o " + file + models());
+  ASSERT_EQ(captured.code, 0) << captured.errors;
+  EXPECT_EQ(fs::file_size(file), 448u);
+  const std::string track = "track " + kClip + " --quiet --duration 1" + models();
+  const Outcome plain = run(track), calibrated = run(track + " --neutral " + file);
+  ASSERT_EQ(calibrated.code, 0) << calibrated.errors;
+  EXPECT_EQ(lines(calibrated.output), 31u);
+  EXPECT_NE(calibrated.output, plain.output);
+  EXPECT_EQ(run(track + " --max-faces 2 --neutral " + file).code, 2);
+  EXPECT_EQ(run("neutral " + kClip + " --duration 1 -o " + path("short") + models()).code, 10);
+  EXPECT_FALSE(fs::exists(path("short")));
+  fs::resize_file(file, 447);
+  const Outcome damaged = run(track + " --neutral " + file);
+  EXPECT_EQ(damaged.code, 3);
+  EXPECT_NE(damaged.errors.find("me.neutral: the neutral file is damaged"), std::string::npos);
+  EXPECT_EQ(run(track + " --neutral " + path("nothing")).code, 3);
+}
+
 TEST_F(Program, Y4mNeedsNoFfmpegAndGivesTheSameFrames) {
   MIEN_NEEDS("trained model", have_models());
   MIEN_NEEDS("ffmpeg", have_ffmpeg());

@@ -1,0 +1,61 @@
+#include "apps/mien/neutral.h"
+
+#include <array>
+#include <cstdio>
+#include <memory>
+#include <string_view>
+
+#include "apps/mien/failure.h"
+#include "apps/mien/loaded_tracker.h"
+#include "apps/mien/output_file.h"
+#include "apps/mien/video_source.h"
+
+namespace mien::app {
+namespace {
+
+using NeutralBytes = std::array<std::byte, MIEN_NEUTRAL_BYTES>;
+
+void check(mien_status status, const std::string& input) {
+  if (status != MIEN_OK) {
+    throw Failure(kExitInternal, input + ": " + message(status));
+  }
+}
+
+// Plays the video until the tracker has captured what bit `wanted` stands for.
+NeutralBytes capture(const NeutralOptions& options, Tracker& tracker, std::uint32_t wanted) {
+  check(tracker.capture_neutral(), options.input);
+  const std::unique_ptr<VideoSource> video =
+      open_video(options.input, {options.start_s, options.duration_s});
+  NeutralBytes file = {};
+  std::uint32_t captured = 0;
+  mien_image image;
+  std::int64_t pts_ns = 0;
+  while ((captured & wanted) == 0 && video->next(image, pts_ns)) {
+    check(tracker.push_video(image, pts_ns), options.input);
+    check(tracker.save_neutral(file, captured), options.input);
+  }
+  if ((captured & wanted) == 0) {
+    throw Failure(kExitNoFace, options.input + ": no 55 frames in a row show a face");
+  }
+  return file;
+}
+
+}  // namespace
+
+void neutral(const NeutralOptions& options) {
+  LoadedTracker loaded({options.models, ""});
+  NeutralBytes file = capture(options, loaded.tracker, 1);
+  if (loaded.hifinet) {
+    check(loaded.tracker.set_lod(4), options.input);
+    file = capture(options, loaded.tracker, 2);
+  }
+  OutputFile output(options.output);
+  output.write({reinterpret_cast<const char*>(file.data()), file.size()});
+  output.finish();
+  if (!options.quiet) {
+    std::fprintf(stderr, "%s: for %s\n", options.output.c_str(),
+                 loaded.hifinet ? "all levels of detail" : "level of detail 1");
+  }
+}
+
+}  // namespace mien::app

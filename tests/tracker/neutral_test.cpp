@@ -1,0 +1,210 @@
+// Calibration: what a face shows at rest is taken out, and a blink keeps its range.
+#include "tracker/neutral.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "tests/tracker/blob_tracker.h"
+
+namespace mien::tests {
+namespace {
+
+using tracker::kControls;
+using tracker::Neutral;
+using Controls = std::array<float, kControls>;
+
+constexpr int kCaptureFrames = 55;
+
+Controls all(float value) {
+  Controls controls;
+  controls.fill(value);
+  return controls;
+}
+
+Controls without_rest(Neutral& neutral, float value) {
+  Controls controls = all(value);
+  neutral.take_out(controls);
+  return controls;
+}
+
+TEST(Neutral, ChangesNothingUntilItIsCaptured) {
+  Neutral neutral;
+  EXPECT_EQ(without_rest(neutral, 0.3f), all(0.3f));
+  neutral.capture();
+  for (int frame = 0; frame < kCaptureFrames - 1; ++frame) {
+    EXPECT_EQ(without_rest(neutral, 0.3f), all(0.3f));
+  }
+  EXPECT_FALSE(neutral.is_captured());
+  EXPECT_EQ(without_rest(neutral, 0.3f), all(0.0f)) << "the last frame";
+  EXPECT_TRUE(neutral.is_captured());
+  EXPECT_FALSE(neutral.is_being_captured());
+}
+
+TEST(Neutral, RestBecomesZeroAndOneStaysOne) {
+  Neutral neutral;
+  neutral.set(all(0.25f));
+  EXPECT_EQ(without_rest(neutral, 0.1f)[0], 0.0f);
+  EXPECT_EQ(without_rest(neutral, 0.25f)[0], 0.0f);
+  EXPECT_NEAR(without_rest(neutral, 0.625f)[0], 0.5f, 1e-6f);
+  EXPECT_EQ(without_rest(neutral, 1.0f)[0], 1.0f);
+}
+
+TEST(Neutral, BlinksAndTheFirstFramesDoNotCount) {
+  Neutral neutral;
+  neutral.capture();
+  for (int frame = 0; frame < kCaptureFrames; ++frame) {
+    const bool blinks = frame % 20 < 7;
+    (void)without_rest(neutral, frame < 10 ? 0.9f : blinks ? 1.0f : 0.2f);
+  }
+  EXPECT_NEAR(neutral.levels()[0], 0.2f, 1e-6f);
+}
+
+TEST(Neutral, AGrimaceDoesNotCostHalfTheRange) {
+  Neutral neutral;
+  neutral.capture();
+  for (int frame = 0; frame < kCaptureFrames; ++frame) {
+    (void)without_rest(neutral, 0.95f);
+  }
+  EXPECT_EQ(neutral.levels()[0], Neutral::kLargest);
+  EXPECT_NEAR(without_rest(neutral, 0.8f)[0], 0.5f, 1e-6f);
+}
+
+TEST(Neutral, RestartingForgetsWhatWasSeenButNotWhatWasCaptured) {
+  Neutral neutral;
+  neutral.set(all(0.1f));
+  neutral.restart();
+  EXPECT_FALSE(neutral.is_being_captured()) << "there was nothing to restart";
+  neutral.capture();
+  for (int frame = 0; frame < kCaptureFrames - 1; ++frame) {
+    (void)without_rest(neutral, 0.5f);
+  }
+  neutral.restart();
+  for (int frame = 0; frame < kCaptureFrames; ++frame) {
+    EXPECT_EQ(neutral.levels()[0], 0.1f);
+    (void)without_rest(neutral, 0.3f);
+  }
+  EXPECT_EQ(neutral.levels()[0], 0.3f);
+}
+
+BlobTracker unfiltered(std::int32_t lod, std::int32_t max_faces = 1) {
+  return BlobTracker({}, [=](mien_tracker_config& config) {
+    config.smoothing = 0;
+    config.lod = lod;
+    config.max_faces = max_faces;
+  });
+}
+
+Picture disc(int frame) {
+  return disc_picture(160.0f + 15.0f * std::sin(0.3f * static_cast<float>(frame)), 120.0f, 70.0f);
+}
+
+std::array<std::byte, MIEN_NEUTRAL_BYTES> saved(BlobTracker& tracker, std::uint32_t& captured) {
+  std::array<std::byte, MIEN_NEUTRAL_BYTES> file = {};
+  EXPECT_EQ(tracker.tracker().save_neutral(file, captured), MIEN_OK);
+  return file;
+}
+
+TEST(Calibration, OfAStillFaceLeavesNothing) {
+  for (const std::int32_t lod : {1, 4}) {
+    BlobTracker tracker = unfiltered(lod);
+    Result raw;
+    for (int frame = 0; frame < 40; ++frame) {
+      raw = tracker.push(disc(0));
+    }
+    ASSERT_EQ(tracker.tracker().capture_neutral(), MIEN_OK);
+    int counted = 0;
+    Result result;
+    for (int frame = 0; frame < 60; ++frame) {
+      result = tracker.push(disc(0));
+      counted += (result.flags & MIEN_RESULT_CAPTURING_NEUTRAL) != 0 ? 1 : 0;
+    }
+    EXPECT_NEAR(counted, kCaptureFrames, 1);
+    for (int i = 0; i < MIEN_CONTROL_COUNT; ++i) {
+      const float left =
+          std::max(0.0f, (raw.controls[i] - Neutral::kLargest)) / (1 - Neutral::kLargest);
+      EXPECT_NEAR(result.controls[i], left, 0.02f) << i;
+    }
+    std::uint32_t captured = 0;
+    (void)saved(tracker, captured);
+    EXPECT_EQ(captured, lod == 1 ? 1u : 2u);
+  }
+}
+
+TEST(Calibration, SavedAndLoadedActsTheSame) {
+  BlobTracker first = unfiltered(1), second = unfiltered(1), plain = unfiltered(1);
+  ASSERT_EQ(first.tracker().capture_neutral(), MIEN_OK);
+  for (int frame = 0; frame < 60; ++frame) {
+    (void)first.push(disc(frame));
+    (void)second.push(disc(frame));
+    (void)plain.push(disc(frame));
+  }
+  std::uint32_t captured = 0;
+  const auto file = saved(first, captured);
+  ASSERT_EQ(second.tracker().load_neutral(file), MIEN_OK);
+  float difference = 0.0f;
+  for (int frame = 60; frame < 90; ++frame) {
+    const Result a = first.push(disc(frame)), b = second.push(disc(frame));
+    const Result raw = plain.push(disc(frame));
+    for (int i = 0; i < MIEN_CONTROL_COUNT; ++i) {
+      EXPECT_EQ(a.controls[i], b.controls[i]);
+      EXPECT_LE(a.controls[i], raw.controls[i] + 1e-6f);
+      difference = std::max(difference, raw.controls[i] - a.controls[i]);
+    }
+  }
+  EXPECT_GT(difference, 0.05f) << "something was at rest";
+}
+
+TEST(Calibration, ResetForgetsIt) {
+  BlobTracker tracker = unfiltered(1), fresh = unfiltered(1);
+  ASSERT_EQ(tracker.tracker().capture_neutral(), MIEN_OK);
+  for (int frame = 0; frame < 60; ++frame) {
+    (void)tracker.push(disc(0));
+  }
+  ASSERT_EQ(tracker.tracker().reset(), MIEN_OK);
+  const Result again = tracker.push(disc(0)), first = fresh.push(disc(0));
+  EXPECT_TRUE(std::equal(again.controls, again.controls + MIEN_CONTROL_COUNT, first.controls));
+}
+
+TEST(Calibration, WaitsForAFaceAndBeginsAnewWhenItIsLost) {
+  BlobTracker tracker = unfiltered(1);
+  ASSERT_EQ(tracker.tracker().capture_neutral(), MIEN_OK);
+  const auto push = [&](const Picture& picture, int frames) {
+    for (int frame = 0; frame < frames; ++frame) {
+      (void)tracker.push(picture);
+    }
+    std::uint32_t captured = 0;
+    (void)saved(tracker, captured);
+    return captured;
+  };
+  EXPECT_EQ(push(Picture(320, 240), 10), 0u);
+  EXPECT_EQ(push(disc(0), kCaptureFrames - 10), 0u);
+  EXPECT_EQ(push(Picture(320, 240), 10), 0u);
+  EXPECT_EQ(push(disc(0), kCaptureFrames - 10), 0u);
+  EXPECT_EQ(push(disc(0), 12), 1u);
+}
+
+TEST(Calibration, WhatCannotBeIsRefused) {
+  BlobTracker tracker = unfiltered(1), several = unfiltered(1, 2);
+  std::array<std::byte, MIEN_NEUTRAL_BYTES> file = {};
+  std::uint32_t captured = 0;
+  EXPECT_EQ(several.tracker().capture_neutral(), MIEN_ERROR_SEVERAL_FACES);
+  EXPECT_EQ(several.tracker().save_neutral(file, captured), MIEN_ERROR_SEVERAL_FACES);
+  EXPECT_EQ(several.tracker().load_neutral(file), MIEN_ERROR_SEVERAL_FACES);
+  EXPECT_EQ(tracker.tracker().load_neutral(file), MIEN_ERROR_NEUTRAL_FORMAT);
+  mien_tracker* const raw = tracker.tracker().get();
+  EXPECT_EQ(mien_tracker_save_neutral(raw, file.data(), file.size() - 1, nullptr),
+            MIEN_ERROR_MEMORY_TOO_SMALL);
+  EXPECT_EQ(mien_tracker_save_neutral(raw, file.data(), file.size(), nullptr), MIEN_OK);
+  EXPECT_EQ(mien_tracker_load_neutral(raw, file.data(), file.size() - 1),
+            MIEN_ERROR_NEUTRAL_DAMAGED);
+  file[8] = std::byte{9};
+  EXPECT_EQ(tracker.tracker().load_neutral(file), MIEN_ERROR_NEUTRAL_VERSION);
+  EXPECT_EQ(mien_tracker_load_neutral(raw, nullptr, 448), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_tracker_capture_neutral(nullptr), MIEN_ERROR_NULL_ARGUMENT);
+}
+
+}  // namespace
+}  // namespace mien::tests
