@@ -33,7 +33,7 @@ def plain(tensor):
 def add_conv_norm(net, x, sequence):
     weight, bias = map(plain, folded(sequence))
     convolution = sequence[0]
-    activation = "relu6" if isinstance(sequence[-1], nn.ReLU6) else "none"
+    activation = "relu6" if sequence[1].activation else "none"
     stride, p = convolution.stride[0], convolution.padding[0]
     padding = (p, p, p, p)
     if convolution.groups > 1:

@@ -5,6 +5,7 @@ import torch.nn.functional as F
 from torch import nn
 
 from framing import BASENET, HIFINET
+from norm_activation import NormActivation
 
 FEATURES = 256
 LANDMARKS = 175
@@ -14,9 +15,8 @@ LEAK = 0.1  # slope of every leaky ReLU
 
 
 def conv_norm(channels_in, channels_out, kernel=1, stride=1, padding=0, groups=1, activation=True):
-    layers = [nn.Conv2d(channels_in, channels_out, kernel, stride, padding, groups=groups, bias=False),
-              nn.BatchNorm2d(channels_out)]
-    return nn.Sequential(*layers, *([nn.ReLU6(inplace=True)] if activation else []))
+    return nn.Sequential(nn.Conv2d(channels_in, channels_out, kernel, stride, padding, groups=groups, bias=False),
+                         NormActivation(channels_out, activation))
 
 
 class InvertedResidual(nn.Module):

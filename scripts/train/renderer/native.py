@@ -2,10 +2,11 @@
 import ctypes
 import functools
 from ctypes import POINTER, Structure, c_float, c_int32, c_void_p
+from pathlib import Path
 
 import numpy as np
 
-from renderer.build import library
+from native_build import library
 
 SKIN, INTERIOR, EYE, HAIR, SOLID, LENS, LASH = range(7)
 OPAQUE, FRINGE, BLENDED = range(3)
@@ -53,8 +54,15 @@ def pointer(array, dtype=np.float32):
 
 
 @functools.lru_cache
+def rasterizer():
+    """Path of the compiled rasterizer."""
+    here = Path(__file__).resolve().parent
+    return library(here / "rasterizer.cpp", sorted(here.glob("*.h")))
+
+
+@functools.lru_cache
 def load():
-    lib = ctypes.CDLL(str(library()))
+    lib = ctypes.CDLL(str(rasterizer()))
     lib.renderer_create.restype = c_void_p
     return lib
 

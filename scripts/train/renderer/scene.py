@@ -7,7 +7,6 @@ from landmark_points import TEACHER
 from paths import cache
 from renderer import native, props
 from renderer.assets import overlay_rectangle, pack, picture, skin_file, worn
-from renderer.build import library
 from renderer.lighting import sphere
 
 SKIN_TOLERANCE, IRIS_TOLERANCE = 0.5, 0.12  # cm that may lie in front of a landmark that counts as seen
@@ -50,7 +49,7 @@ class Studio:
 
     def vertex_occlusion(self):
         """How open each vertex of the mean head is, computed once and kept."""
-        path = cache() / f"head_occlusion_{library().stem}.npy"
+        path = cache() / f"head_occlusion_{native.rasterizer().stem}.npy"
         if not path.exists():
             shapes = Shapes()
             head = shapes.mesh(self.rig.neutral, self.rig.corner_position, pose=np.eye(3, 4, dtype=np.float32))
