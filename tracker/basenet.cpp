@@ -8,10 +8,6 @@ namespace {
 
 constexpr Raster kWhole = {65, 65, 1.0f};
 
-bool all_finite(std::span<const float> values) {
-  return std::all_of(values.begin(), values.end(), [](float v) { return std::isfinite(v); });
-}
-
 }  // namespace
 
 mien_status BaseNet::load(const Models& models, std::uint32_t cpu_mask, Arena& arena) {

@@ -2,7 +2,9 @@
 // [row, row + 1): its centre is at (column + 0.5, row + 0.5). y points down.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace mien::tracker {
 
@@ -10,6 +12,10 @@ struct Point {
   float x = 0.0f;
   float y = 0.0f;
 };
+
+inline bool all_finite(std::span<const float> values) {
+  return std::all_of(values.begin(), values.end(), [](float v) { return std::isfinite(v); });
+}
 
 inline bool is_finite(Point p) { return std::isfinite(p.x) && std::isfinite(p.y); }
 

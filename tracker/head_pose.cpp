@@ -73,12 +73,10 @@ Matrix3 roll_rotation(float angle) {
   return {{{c, -s, 0}, {s, c, 0}, {0, 0, 1}}};
 }
 
-bool all_finite(const HeadPose& pose) {
-  const auto finite = [](const Vector3& v) {
-    return std::all_of(v.begin(), v.end(), [](float value) { return std::isfinite(value); });
-  };
-  return finite(pose.translation) &&
-         std::all_of(pose.rotation.begin(), pose.rotation.end(), finite);
+bool is_finite(const HeadPose& pose) {
+  return all_finite(pose.translation) &&
+         std::all_of(pose.rotation.begin(), pose.rotation.end(),
+                     [](const Vector3& row) { return all_finite(row); });
 }
 
 }  // namespace
@@ -96,7 +94,7 @@ bool decode_head_pose(std::span<const float, kPoseOutputs> prediction, const Cro
   const HeadPose decoded = {product(crop_frame, in_crop),
                             {(origin.x - camera.principal.x) * metres_per_px,
                              (camera.principal.y - origin.y) * metres_per_px, -distance}};
-  if (!all_finite(decoded)) {
+  if (!is_finite(decoded)) {
     return false;
   }
   pose = decoded;

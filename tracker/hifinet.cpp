@@ -26,7 +26,7 @@ bool HiFiNet::look(const ImageView& view, const Crop& crop, StageTimer& timer, F
   const StageTimer::Scope timed(timer, MIEN_STAGE_ENCODER);
   encoder_.run();
   const std::span<const float> found = encoder_.output(0).first(kFeatures);
-  if (!std::ranges::all_of(found, [](float v) { return std::isfinite(v); })) {
+  if (!all_finite(found)) {
     return false;
   }
   std::ranges::copy(found, features.begin());

@@ -1,5 +1,6 @@
-// Batch norm in training with the limits of the activation behind it, in two sweeps over the map forwards and two backwards.
-// Maps are [pixels][channels], fp32, of at most kMostChannels. Sums are fp32 within a block of pixels, fp64 over the blocks.
+// Batch norm in training with the limits of the activation behind it, in two sweeps over the map
+// forwards and two backwards. Maps are [pixels][channels], fp32, of at most kMostChannels. Sums are
+// fp32 within a block of pixels, fp64 over the blocks.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -76,15 +77,19 @@ void find_moments(const float* x, Map map, float epsilon, float* mean, float* in
   }
 }
 
-float passed(float z, Limits limits, float gradient) { return z > limits.low && z < limits.high ? gradient : 0.0f; }
+float passed(float z, Limits limits, float gradient) {
+  return z > limits.low && z < limits.high ? gradient : 0.0f;
+}
 
 }  // namespace
 
 extern "C" {
 
-// y = limited(weight (x - mean) inverse + bias), inverse = 1 / sqrt(variance + epsilon); mean and inverse come out too.
-void norm_activation_forward(const float* x, std::size_t pixels, std::size_t channels, float epsilon, const float* weight,
-                             const float* bias, float low, float high, float* mean, float* inverse, float* y) {
+// y = limited(weight (x - mean) inverse + bias), inverse = 1 / sqrt(variance + epsilon); mean and
+// inverse come out too.
+void norm_activation_forward(const float* x, std::size_t pixels, std::size_t channels,
+                             float epsilon, const float* weight, const float* bias, float low,
+                             float high, float* mean, float* inverse, float* y) {
   find_moments(x, {pixels, channels}, epsilon, mean, inverse);
   const Line line({pixels, channels}, weight, bias, mean, inverse);
   for (std::size_t p = 0; p < pixels; ++p, x += channels, y += channels) {
@@ -95,9 +100,10 @@ void norm_activation_forward(const float* x, std::size_t pixels, std::size_t cha
 }
 
 // The gradients by x, weight and bias, from that by y.
-void norm_activation_backward(const float* dy, const float* x, std::size_t pixels, std::size_t channels, const float* weight,
-                              const float* bias, float low, float high, const float* mean, const float* inverse, float* dx,
-                              float* dweight, float* dbias) {
+void norm_activation_backward(const float* dy, const float* x, std::size_t pixels,
+                              std::size_t channels, const float* weight, const float* bias,
+                              float low, float high, const float* mean, const float* inverse,
+                              float* dx, float* dweight, float* dbias) {
   const Map map = {pixels, channels};
   const Limits limits = {low, high};
   const Line line(map, weight, bias, mean, inverse);

@@ -89,6 +89,48 @@ class Trained : public testing::Test {
   std::vector<Frame> frames_;
 };
 
+class TrainedLevels : public Trained {
+ protected:
+  struct Switch {
+    std::size_t frame;
+    std::int32_t lod;
+  };
+
+  void SetUp() override {
+    Trained::SetUp();
+    hifinet_ = std::make_unique<AlignedBytes>(read_model("hifinet.mien"));
+    if (!IsSkipped() && hifinet_->get().empty()) {
+      GTEST_SKIP() << "SKIPPED: models/hifinet.mien is not there";
+    }
+  }
+
+  Config config(std::int32_t lod) const {
+    Config config = blob_config(*basenet_, *proposal_);
+    config.hifinet = hifinet_->get().data();
+    config.hifinet_bytes = hifinet_->get().size();
+    config.lod = lod;
+    return config;
+  }
+
+  // The clip at the levels of `plan`, the first from frame 0 on.
+  std::vector<Result> track_at(const std::vector<Switch>& plan) const {
+    Tracker tracker;
+    EXPECT_EQ(tracker.create(config(plan.front().lod)), MIEN_OK);
+    std::vector<Result> results(frames_.size());
+    for (std::size_t i = 0; i < frames_.size(); ++i) {
+      for (const Switch& change : plan) {
+        EXPECT_EQ(change.frame == i ? tracker.set_lod(change.lod) : MIEN_OK, MIEN_OK);
+      }
+      const auto pts = static_cast<std::int64_t>(i) * 1'000'000'000 / kFps;
+      EXPECT_EQ(tracker.push_video(image_of(frames_[i]), pts), MIEN_OK);
+      EXPECT_EQ(tracker.get_result(results[i]), MIEN_OK);
+    }
+    return results;
+  }
+
+  std::unique_ptr<AlignedBytes> hifinet_;
+};
+
 TEST_F(Trained, TracksTheClipAndRarelyProposes) {
   const std::vector<Result> results = track(frames_);
   const Result& last = results.back();
@@ -118,6 +160,53 @@ TEST_F(Trained, SomethingHappensInTheFace) {
       std::printf("not looked at: these weights do not drive %s\n", name);
     }
   }
+}
+
+float largest_step(const Result& a, const Result& b) {
+  float largest = 0.0f;
+  for (int i = 0; i < MIEN_CONTROL_COUNT; ++i) {
+    largest = std::max(largest, std::abs(a.controls[i] - b.controls[i]));
+  }
+  return largest;
+}
+
+// The largest steps of controls between frames of [begin, end).
+float largest_step(const std::vector<Result>& results, std::size_t begin, std::size_t end) {
+  float largest = 0.0f;
+  for (std::size_t i = std::max<std::size_t>(begin, 1); i < std::min(end, results.size()); ++i) {
+    largest = std::max(largest, largest_step(results[i - 1], results[i]));
+  }
+  return largest;
+}
+
+// At the switch, and while the controls go over, no step is larger than what the second before had,
+// or than what the face does then anyway, as a tracker shows that always was at either level.
+TEST_F(TrainedLevels, ChangingThemNeverMakesAControlJump) {
+  std::array<std::vector<Result>, 5> always;
+  for (int lod = 1; lod <= 4; ++lod) {
+    always[static_cast<std::size_t>(lod)] = track_at({{0, lod}});
+  }
+  for (const auto& [from, to] : {std::pair{1, 4}, {4, 1}, {1, 2}, {2, 4}, {3, 2}, {4, 3}}) {
+    for (std::size_t at = kFps; at + kFps < frames_.size(); at += 17) {
+      const std::vector<Result> changed = track_at({{0, from}, {at, to}});
+      const std::size_t end = at + 5 * kFps / 2;
+      const float before = largest_step(changed, at - kFps, at);
+      const float anyway = std::max(largest_step(always[static_cast<std::size_t>(from)], at, end),
+                                    largest_step(always[static_cast<std::size_t>(to)], at, end));
+      // A tenth more: at another level the leaving decoder's encoder runs on other frames.
+      EXPECT_LE(largest_step(changed, at, end), 1.1f * std::max(before, anyway) + 1e-3f)
+          << from << " to " << to << " at frame " << at;
+    }
+  }
+}
+
+// All networks, with the memory that the weights are in left out.
+TEST_F(TrainedLevels, OneFaceTakesLessThanSixMegabytes) {
+  mien_status status = MIEN_OK;
+  const std::size_t bytes = required_bytes(config(1), status);
+  ASSERT_EQ(status, MIEN_OK);
+  EXPECT_LE(bytes, 6'000'000u);
+  std::printf("%zu bytes\n", bytes);
 }
 
 // Forehead, chin and eye corners lie where they do in an upright face, and the head is in front of
