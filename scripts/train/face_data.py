@@ -7,15 +7,15 @@ from PIL import Image
 
 import head_pose
 from expressions import CONTROLS, MIRROR as CONTROL_MIRROR
-from faces import window
+from faces import teacher_controls, window
 from framing import BASENET
 from landmark_points import MIRROR
 from paths import cache, data
 from renderer.assets import names
 from sequences import crop_to_image, fit_crop, sample_crops, template, to_window
 
-# images f32 [n,3,height,width] in 0..1; landmarks [n,175,2] in crop coordinates; pose [n,9]; has_landmarks, has_controls bool [n];
-# visible [n,175]; face [n]: 1 a face well inside the crop, 0 none or misplaced
+# images f32 [n,3,height,width] in 0..1; landmarks [n,175,2] in crop coordinates; controls [n,52], the teacher's on portraits;
+# pose [n,9]; has_landmarks, has_controls (true ones) bool [n]; visible [n,175]; face [n]: 1 a face well inside the crop, 0 none or misplaced
 Batch = namedtuple("Batch", "images landmarks controls pose visible has_landmarks has_controls face")
 
 
@@ -25,14 +25,14 @@ class Portraits:
         self.images = np.load(folder / "images.npy", mmap_mode="r")
         labels = np.load(folder / "labels.npz")
         self.landmarks, self.crop = torch.from_numpy(labels["landmarks"]), torch.from_numpy(labels["crop"])
+        self.controls = torch.from_numpy(teacher_controls(labels["name"]))
 
     def __len__(self):
         return len(self.images)
 
     def rows(self, rng, n):
         i = rng.integers(0, len(self), n)
-        zeros = torch.zeros(n, len(CONTROLS))
-        return (self.images[i], self.landmarks[i], self.crop[i], zeros, torch.zeros(n, 9), torch.ones(n, 175), False)
+        return (self.images[i], self.landmarks[i], self.crop[i], self.controls[i], torch.zeros(n, 9), torch.ones(n, 175), False)
 
 
 class Rendered:

@@ -13,6 +13,7 @@ import torch
 from tqdm import tqdm
 
 import landmark_points as lp
+from expressions import CONTROLS
 from paths import cache, data
 from framing import BASENET, FRAMINGS
 from sequences import fit_crop, template
@@ -44,6 +45,18 @@ class Portraits:
         if i >= len(self):
             raise IndexError
         return np.ascontiguousarray(self.image(i)), self.crops[i, :3]
+
+
+def teacher_controls(names):
+    """The teacher's controls f32 [n,52] of portraits; 0 where it has none."""
+    labels = np.load(data() / "faces/labels.npz")
+    row = {str(name): i for i, name in enumerate(labels["name"])}
+    rows, known = [row[str(name)] for name in names], [str(name) for name in labels["blendshape_names"]]
+    out = np.zeros((len(rows), len(CONTROLS)), np.float32)
+    for i, control in enumerate(CONTROLS):
+        if control in known:
+            out[:, i] = labels["blendshapes"][rows, known.index(control)]
+    return out
 
 
 def portraits(split):

@@ -1,4 +1,8 @@
-"""What phase 1 minimises: landmarks, their consistency, face probability, and the training-only controls and pose."""
+"""What phase 1 minimises: landmarks, their consistency, face probability, and the training-only controls and pose.
+
+Portraits have no true controls but a teacher's (MediaPipe's), on a scale of its own for each control. What the network says of
+them is brought to that scale by a line, so that it learns from the teacher what differs from face to face and not where it rests.
+"""
 import torch
 import torch.nn.functional as F
 
@@ -14,6 +18,9 @@ OPENINGS = [(159, 145), (158, 153), (160, 144), (386, 374), (385, 380), (387, 37
             (80, 88), (310, 318), (61, 291), (105, 159), (334, 386), (107, 336)]
 
 IMPORTANCE = {"jawOpen": 10.0, "eyeBlinkLeft": 4.0, "eyeBlinkRight": 4.0}  # what a viewer misses first
+RESPONDING = 0.03       # spread of a teacher's control on portraits, from which on it is worth following
+NOT_FOLLOWED = ("eyeSquintLeft", "eyeSquintRight")  # they rest at 0.4, and rise with a smile
+TEACHER_WEIGHT = 2.0
 SMALLEST_SPREAD = 0.08  # of a control, so that one that hardly moves does not rule the sum
 
 
@@ -39,6 +46,22 @@ def lids_of_controls():
     return out
 
 
+class Line:
+    """For every control the line from our answers to the teacher's, by running means."""
+
+    def __init__(self, n, device, decay=0.98):
+        self.decay, self.means = decay, torch.tensor([0.0, 0.0, 1.0, 1.0], device=device).repeat(n, 1)  # of x, y, x x, x y
+
+    @torch.no_grad()
+    def fit(self, x, y):
+        """x, y [rows,n]; (slope [n], offset [n])"""
+        now = torch.stack([x.mean(0), y.mean(0), (x * x).mean(0), (x * y).mean(0)], 1)
+        self.means.lerp_(now, 1 - self.decay)
+        mx, my, xx, xy = self.means.T
+        slope = ((xy - mx * my) / (xx - mx * mx).clamp(min=1e-4)).clamp(0.3, 3.0)
+        return slope, my - slope * mx
+
+
 class Losses:
     def __init__(self, framing, eye_distance, device):
         self.framing, self.unit = framing, eye_distance  # in crop coordinates
@@ -48,12 +71,18 @@ class Losses:
         self.of_eye = self.lids.sum(0) > 0
         self.spread = torch.ones(len(CONTROLS), device=device)
         self.importance = importance().to(device)
+        self.line = Line(len(CONTROLS), device)
+        self.teacher_spread = torch.zeros(len(CONTROLS), device=device)
 
     def learn_spread(self, rendered):
         """Controls count relative to their spread, so that rare ones are worth learning."""
         if len(rendered):
             controls = torch.cat([torch.from_numpy(labels["controls"]) for _, labels in rendered.shards]).float()
             self.spread = controls.std(0).clamp(min=SMALLEST_SPREAD).to(self.spread)
+
+    def learn_teacher(self, portraits):
+        followed = torch.tensor([name not in NOT_FOLLOWED for name in CONTROLS])
+        self.teacher_spread = (portraits.controls.std(0) * followed).to(self.teacher_spread)
 
     def distance(self, predicted, truth):
         """A rounded absolute value, in eye distances: like a squared error near zero, not ruled by outliers."""
@@ -78,6 +107,17 @@ class Losses:
         error = F.smooth_l1_loss(out / self.spread, batch.controls / self.spread, beta=2.0, reduction="none")
         return (error * weights).sum() / weights.sum().clamp(min=1)
 
+    def teacher(self, out, batch):
+        """Agreement with the teacher on portraits, in its spreads, where it responds."""
+        rows = batch.has_landmarks & ~batch.has_controls
+        responding, spread = self.teacher_spread > RESPONDING, self.teacher_spread.clamp(min=RESPONDING)
+        if not rows.any() or not responding.any():
+            return out.sum() * 0
+        slope, offset = self.line.fit(out[rows].detach(), batch.controls[rows])
+        error = F.smooth_l1_loss((slope * out + offset)[rows] / spread, batch.controls[rows] / spread, reduction="none")
+        weights = self.importance * responding
+        return (error.mean(0) * weights).sum() / weights.sum()
+
     def pose(self, out, batch):
         weights = batch.has_controls[:, None].float()
         error = F.smooth_l1_loss(out, batch.pose, beta=0.1, reduction="none")
@@ -85,4 +125,5 @@ class Losses:
 
     def total(self, out, batch):
         return (2 * self.landmarks(out["landmarks"], batch) + 0.5 * F.binary_cross_entropy_with_logits(out["face"], batch.face)
-                + 8 * self.controls(out["controls"], batch) + 2 * self.pose(out["pose"], batch))
+                + 8 * self.controls(out["controls"], batch) + TEACHER_WEIGHT * self.teacher(out["controls"], batch)
+                + 2 * self.pose(out["pose"], batch))

@@ -23,7 +23,7 @@ import face_data
 import landmark_points as lp
 from expressions import CONTROLS
 from framing import BASENET
-from losses import Losses
+from losses import RESPONDING, Losses
 from networks import FACE_NETWORKS
 from optimizer import Optimizer
 from paths import cache
@@ -31,8 +31,9 @@ from revive import Activity, revive
 from sequences import sample_crops, template
 
 CURVES = {"error, outer eye corner distances": ("loss", "real_landmarks", "rendered_landmarks", "clips_mean", "clips_worst"),
-          "correlation": ("controls_mean", "jawOpen", "eyeBlinkLeft", "mouthPucker", "browInnerUp", "clips_eyes", "clips_mouth")}
+          "correlation": ("controls_mean", "jawOpen", "eyeBlinkLeft", "mouthPucker", "browInnerUp", "real_controls_mean", "clips_eyes", "clips_mouth")}
 
+WATCHED = ("jawOpen", "eyeBlinkLeft", "mouthPucker", "mouthSmileLeft", "browInnerUp")
 MEET_EVERY = 16                             # steps a process goes alone: it need not wait for a slower one each time
 REVIVE_EVERY, REVIVE_UNTIL = 512, 0.7       # steps; share of the run
 GENTLE_UNTIL, FULL_FROM = 0.55, 0.8         # of the run
@@ -47,9 +48,15 @@ def keep_memory():
         libc.mallopt(mmap_max, 0), libc.mallopt(trim_threshold, -1)
 
 
+def correlations(a, b):
+    a, b = a - a.mean(0), b - b.mean(0)
+    return (a * b).sum(0) / (a.norm(dim=0) * b.norm(dim=0)).clamp(min=1e-6)
+
+
 @torch.no_grad()
 def validate(network, portraits, rendered, seed=11):
-    """Landmark error (outer eye corner distances) on both, correlation of the training-only controls head on renders."""
+    """Landmark error (outer eye corner distances) and correlation of the training-only controls head, with the truth on renders and
+    with the teacher on portraits."""
     network.eval()
     device = next(network.parameters()).device
     mixture = face_data.Mixture(network.framing, portraits, rendered, None, seed)
@@ -68,13 +75,11 @@ def validate(network, portraits, rendered, seed=11):
             faces.append(torch.sigmoid(out["face"]) > 0.5)
         report[f"{name}_landmarks"] = float(torch.cat(errors).mean())
         report[f"{name}_faces"] = float(torch.cat(faces).float().mean())
-        if name == "rendered":
-            a, b = torch.cat(answers), torch.cat(truths)
-            a, b = a - a.mean(0), b - b.mean(0)
-            r = (a * b).sum(0) / (a.norm(dim=0) * b.norm(dim=0)).clamp(min=1e-6)
-            for control in ("jawOpen", "eyeBlinkLeft", "mouthPucker", "mouthSmileLeft", "browInnerUp"):
-                report[control] = float(r[CONTROLS.index(control)])
-            report["controls_mean"] = float(r.mean())
+        prefix = "" if name == "rendered" else "real_"
+        values = correlations(torch.cat(answers), torch.cat(truths))
+        report.update({prefix + control: float(values[CONTROLS.index(control)]) for control in WATCHED})
+        responding = torch.cat(truths).std(0) > RESPONDING
+        report[prefix + "controls_mean"] = float(values[responding].mean())
     network.train()
     return report
 
@@ -172,6 +177,7 @@ class Trainer:
         eyes = template()[list(lp.OUTER_EYE_CORNERS)]
         self.losses = Losses(self.framing, float((eyes[0] - eyes[1]).norm()), self.device)
         self.losses.learn_spread(self.rendered)
+        self.losses.learn_teacher(self.mixture.portraits)
 
     def progress(self):
         """Share of the run that is done, by faces or by the clock."""
