@@ -19,19 +19,12 @@ from sequences import template
 LICENCE = "Apache-2.0; trained on the data that models/README.md names"
 
 
-def folded(sequence):
-    """Weight and bias of a convolution with the batch norm after it folded in."""
-    convolution, norm = sequence[0], sequence[1]
-    gain = norm.weight / torch.sqrt(norm.running_var + norm.eps)
-    return convolution.weight * gain.view(-1, 1, 1, 1), norm.bias - norm.running_mean * gain
-
-
 def plain(tensor):
     return tensor.detach().float().contiguous().numpy()
 
 
 def add_conv_norm(net, x, sequence):
-    weight, bias = map(plain, folded(sequence))
+    weight, bias = map(plain, networks.fold(sequence))
     convolution = sequence[0]
     activation = "relu6" if sequence[1].activation else "none"
     stride, p = convolution.stride[0], convolution.padding[0]

@@ -62,6 +62,13 @@ class Line:
         return slope, my - slope * mx
 
 
+def followed(controls):
+    """Of the teacher's controls [n,52] on portraits: the spread of each [52], and which respond and are worth following, [52]."""
+    spread = controls.std(0)
+    trusted = torch.tensor([name not in NOT_FOLLOWED for name in CONTROLS], device=controls.device)
+    return spread.clamp(min=RESPONDING), (spread > RESPONDING) & trusted
+
+
 class Losses:
     def __init__(self, framing, eye_distance, device):
         self.framing, self.unit = framing, eye_distance  # in crop coordinates
@@ -72,7 +79,7 @@ class Losses:
         self.spread = torch.ones(len(CONTROLS), device=device)
         self.importance = importance().to(device)
         self.line = Line(len(CONTROLS), device)
-        self.teacher_spread = torch.zeros(len(CONTROLS), device=device)
+        self.teacher_spread, self.followed = torch.ones(len(CONTROLS)), torch.zeros(len(CONTROLS))
 
     def learn_spread(self, rendered):
         """Controls count relative to their spread, so that rare ones are worth learning."""
@@ -81,8 +88,7 @@ class Losses:
             self.spread = controls.std(0).clamp(min=SMALLEST_SPREAD).to(self.spread)
 
     def learn_teacher(self, portraits):
-        followed = torch.tensor([name not in NOT_FOLLOWED for name in CONTROLS])
-        self.teacher_spread = (portraits.controls.std(0) * followed).to(self.teacher_spread)
+        self.teacher_spread, self.followed = (v.to(self.spread.device) for v in followed(portraits.controls))
 
     def distance(self, predicted, truth):
         """A rounded absolute value, in eye distances: like a squared error near zero, not ruled by outliers."""
@@ -108,15 +114,14 @@ class Losses:
         return (error * weights).sum() / weights.sum().clamp(min=1)
 
     def teacher(self, out, batch):
-        """Agreement with the teacher on portraits, in its spreads, where it responds."""
+        """Agreement with the teacher on portraits, in its spreads."""
         rows = batch.has_landmarks & ~batch.has_controls
-        responding, spread = self.teacher_spread > RESPONDING, self.teacher_spread.clamp(min=RESPONDING)
-        if not rows.any() or not responding.any():
+        weights = self.importance * self.followed
+        if not rows.any() or not weights.any():
             return out.sum() * 0
         slope, offset = self.line.fit(out[rows].detach(), batch.controls[rows])
-        error = F.smooth_l1_loss((slope * out + offset)[rows] / spread, batch.controls[rows] / spread, reduction="none")
-        weights = self.importance * responding
-        return (error.mean(0) * weights).sum() / weights.sum()
+        error = (slope * out[rows] + offset - batch.controls[rows]) / self.teacher_spread
+        return (F.smooth_l1_loss(error, torch.zeros_like(error), reduction="none").mean(0) * weights).sum() / weights.sum()
 
     def pose(self, out, batch):
         weights = batch.has_controls[:, None].float()

@@ -10,14 +10,13 @@ from pathlib import Path
 
 import numpy as np
 import torch
-from torch.fx.experimental.optimization import fuse
 
 import head_pose
 import landmark_points as lp
 from augment import OfSequence
 from expressions import CONTROLS, MIRROR
 from framing import BASENET, HIFINET
-from networks import BaseNet, HiFiNet
+from networks import BaseNet, HiFiNet, folded
 
 
 class Sequences:
@@ -113,7 +112,7 @@ def lost(crop, truth):
 
 
 def faster(encoder):
-    return fuse(encoder).to(memory_format=torch.channels_last)
+    return folded(encoder).to(memory_format=torch.channels_last)
 
 
 def run(encoder, pictures):

@@ -21,7 +21,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "evaluate"))
 import head_pose  # noqa: E402
 import metrics  # noqa: E402
 from expressions import CONTROLS, MIRROR, PAIRED  # noqa: E402
-from losses import importance  # noqa: E402
+from losses import Line, followed, importance  # noqa: E402
 from networks import FACE_NETWORKS, ControlsDecoder, PoseDecoder  # noqa: E402
 
 SUPPORTED_CORRELATION = 0.5
@@ -82,6 +82,22 @@ class ControlsTask:
     def loss(self, output, batch, mask):
         return temporal_loss(soft_clamp(output), batch["controls"], self.weight * batch["visible"] * mask, self.args,
                              self.importance)
+
+
+class TeacherTask:
+    """Agreement with the teacher's controls on portraits, each on a scale of its own; values alone."""
+
+    def __init__(self, data, args):
+        self.args = args
+        spread, follow = followed(data["controls"].flatten(0, 1).float())
+        weight = follow * importance() / (spread + 0.05)
+        self.weight, self.line = weight / weight.mean(), Line(len(CONTROLS), "cpu")
+
+    def loss(self, output, batch, mask):
+        output, target = soft_clamp(output), batch["controls"]
+        slope, offset = self.line.fit(output.detach().flatten(0, 1), target.flatten(0, 1))
+        error = F.smooth_l1_loss(slope * output + offset, target, beta=self.args.beta, reduction="none")
+        return self.args.teacher * 2 * self.args.beta * (self.weight * mask * error).mean()
 
 
 class PoseTask:
@@ -158,17 +174,17 @@ def noisy(x, spread):
     return x + spread * (0.5 * torch.randn_like(x) + torch.randn(len(x), 1, x.shape[2]))
 
 
-def train(decoder, sources, task, args, name):
-    """Fits a decoder to the sources, one batch of each per step."""
+def train(decoder, lessons, args, name):
+    """Fits a decoder to (source, task) pairs, one batch of each per step."""
     torch.manual_seed(args.seed)
-    noise = args.noise * normalise_input(first_layer(decoder), sources[0].data["features"])
+    noise = args.noise * normalise_input(first_layer(decoder), lessons[0][0].data["features"])
     optimiser = torch.optim.AdamW(decoder.parameters(), lr=args.rate, weight_decay=1e-2)
     schedule = torch.optim.lr_scheduler.OneCycleLR(optimiser, args.rate, total_steps=args.steps, pct_start=0.1)
     decoder.train()
     total, began = 0.0, time.time()
     for step in range(1, args.steps + 1):
         loss = 0
-        for source in sources:
+        for source, task in lessons:
             batch, mask = source.batch()
             loss = loss + task.loss(decoder(noisy(batch["features"], noise))[0], batch, mask)
         optimiser.zero_grad()
@@ -269,6 +285,8 @@ def main():
                         "nobody asks them for the head pose")
     parser.add_argument("--train", type=Path, nargs="+", required=True, help="features to learn from")
     parser.add_argument("--held", type=Path, nargs="*", default=[], help="features of stills (sequences.py --hold)")
+    parser.add_argument("--portraits", type=Path, nargs="*", default=[], help="features of real faces (portrait_features.py)")
+    parser.add_argument("--teacher", type=float, default=0.5, help="weight of the teacher's controls on them")
     parser.add_argument("--val", type=Path, required=True, help="features that choose the supported controls")
     parser.add_argument("--out", type=Path, required=True, help="checkpoint; scores go beside it as .json")
     parser.add_argument("--steps", type=int, default=1300)
@@ -284,13 +302,17 @@ def main():
     torch.set_num_threads(args.threads)
     sources = [kind(join([torch.load(p) for p in paths]), args)
                for kind, paths in ((Moving, args.train), (Held, args.held)) if paths]
+    portraits = Held(join([torch.load(p) for p in args.portraits]), args) if args.portraits else None
     decoders = {"controls": ControlsDecoder(), "frame": FrameDecoder()}
     if args.network == "basenet":
         decoders["pose"] = PoseDecoder()
     for name, decoder in decoders.items():
         own = argparse.Namespace(**{**vars(args), "velocity": 0, "acceleration": 0}) if name == "frame" else args
         task = (PoseTask if name == "pose" else ControlsTask)(sources[0].data, own)
-        train(decoder, sources, task, own, name)
+        lessons = [(source, task) for source in sources]
+        if portraits and name != "pose":
+            lessons.append((portraits, TeacherTask(portraits.data, own)))
+        train(decoder, lessons, own, name)
         check_streaming(decoder, sources[0].data["features"])
     report, supported = evaluate(decoders, torch.load(args.val), gaze=args.network == "hifinet")
     save(args.out, decoders, supported, report)
