@@ -1,5 +1,7 @@
 # Writes a C++ source with the page of `mien compare`, put together from its parts.
 # usage: cmake -DPAGE=page.html -DSTYLE=page.css -DSCRIPTS=a.js,b.js -DOUTPUT=page_source.cpp -P embed.cmake
+cmake_minimum_required(VERSION 3.22)  # old policies would expand the marks as variables
+
 file(READ "${PAGE}" page)
 file(READ "${STYLE}" style)
 string(REPLACE "," ";" SCRIPTS "${SCRIPTS}")

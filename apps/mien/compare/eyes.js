@@ -79,10 +79,12 @@ function drawBrow(ctx, view, c, side) {
     [0.73, 0.39 + 0.21 * outer + 0.01 * inner - 0.06 * down]];
   const middle = skinCurve(...knots.map(([x, y]) => [side * x, y]), 0.03);
   const edge = sign => middle.map(([x, y, z], i) => {
-    const half = 0.045 * (1 - 0.75 * (i / 12) ** 2) * (i === 0 ? 0.8 : 1);
+    const half = 0.036 * (1 - 0.75 * (i / 12) ** 2) * (i === 0 ? 0.8 : 1);
     return [x, y + sign * half, z];
   });
-  fillShape(ctx, view, [...edge(1), ...edge(-1).reverse()], hairColors.dark);
+  const brow = [...edge(1), ...edge(-1).reverse()];
+  fillShape(ctx, view, brow, hairColors.dark);
+  strokeLine(ctx, view, [...brow, brow[0]], hairColors.dark, 0.025);  // rounds its corners
 }
 
 // Lines of a raised and of a knitted forehead.

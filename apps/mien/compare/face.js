@@ -61,7 +61,7 @@ function drawFeatures(ctx, view, c, outlines) {
   for (const side of [-1, 1]) drawEye(ctx, view, c, side);
   for (const side of [-1, 1]) drawBrow(ctx, view, c, side);
   ctx.restore();
-  drawMouth(ctx, view, c);  // lips stand out: they may pass the outline of a turned head
+  drawMouth(ctx, view, c, outlines);
   clipTo(ctx, outlines);
   drawNose(ctx, view, c);
   ctx.restore();

@@ -154,7 +154,7 @@ const earIsNear = (view, side) => view.place([side, 0, -0.1])[2] > 0.2;
 
 // The half of the hair that faces the viewer, or the other.
 function drawHair(ctx, view, front) {
-  const rows = 6, columns = 40;
+  const rows = 8, columns = 72;
   const hairline = azimuth => mix(0.86, 2.15, ((1 - Math.cos(azimuth)) / 2) ** 0.9);
   const at = (row, column) => {
     const azimuth = 2 * Math.PI * column / columns;

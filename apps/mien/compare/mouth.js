@@ -164,10 +164,13 @@ function drawMouthMiddle(ctx, view, c, shape) {
   strokeLine(ctx, view, tip, skin.line, 0.024, 0.12 + 0.6 * c.jawForward);
 }
 
-function drawMouth(ctx, view, c) {
+// Lips stand out and may pass the outlines of a turned head; folds of the skin may not.
+function drawMouth(ctx, view, c, outlines) {
   const shape = mouthShape(c);
+  clipTo(ctx, outlines);
   drawMouthMiddle(ctx, view, c, shape);
   for (const side of [-1, 1]) drawMouthSide(ctx, view, c, shape, side);
+  ctx.restore();
   drawInside(ctx, view, c, shape);
   drawLips(ctx, view, c, shape);
   drawTongue(ctx, view, c, shape);
