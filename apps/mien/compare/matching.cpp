@@ -7,8 +7,6 @@ namespace mien::app {
 namespace {
 
 constexpr double kUsualFrameMs = 1000.0 / 30.0;
-// Times are decimal numbers of files; what should be exactly half a frame may miss it by a bit.
-constexpr double kRoundingMs = 1e-3;
 
 double median_interval_ms(const Curves& curves) {
   std::vector<double> intervals;
@@ -40,11 +38,11 @@ std::size_t nearest(const Curves& curves, double t_ms) {
 }  // namespace
 
 std::vector<FramePair> match_frames(const Curves& a, const Curves& b) {
-  const double most_ms = std::max(median_interval_ms(a), median_interval_ms(b)) / 2.0 + kRoundingMs;
+  const double less_than_ms = std::max(median_interval_ms(a), median_interval_ms(b)) / 2.0;
   std::vector<FramePair> pairs;
   for (std::size_t i = 0; i < a.size(); ++i) {
     const std::size_t j = nearest(b, a[i].t_ms);
-    if (std::abs(a[i].t_ms - b[j].t_ms) <= most_ms && nearest(a, b[j].t_ms) == i) {
+    if (std::abs(a[i].t_ms - b[j].t_ms) < less_than_ms && nearest(a, b[j].t_ms) == i) {
       pairs.push_back({i, j});
     }
   }

@@ -12,9 +12,8 @@ struct FramePair {
   std::size_t a, b;
 };
 
-// Frames that are each other's nearest in time and no further apart than half a frame of the
-// slower file, in order of time: no frame is in two pairs, and exchanging the files changes
-// nothing.
+// Frames that are each other's nearest in time and less than half a frame of the slower file
+// apart, in order of time. No frame is in two pairs, and exchanging the files changes nothing.
 std::vector<FramePair> match_frames(const Curves& a, const Curves& b);
 
 }  // namespace mien::app
