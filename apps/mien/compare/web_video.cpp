@@ -64,7 +64,7 @@ std::string web_video(const std::string& input, double start_s, double duration_
     throw Failure(kExitTruncated,
                   input + ": cannot be transcoded: " + last_line(transcoder.take_errors()));
   }
-  const std::string video = made.contents();
+  std::string video = made.contents();
   if (video.empty()) {
     throw Failure(kExitNoVideo, input + ": no frame in the time of the curves");
   }
