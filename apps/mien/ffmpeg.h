@@ -10,6 +10,12 @@
 
 namespace mien::app {
 
+// What a file says of its video. Throws Failure when there is no such file, or no video in it.
+VideoInfo probe_video(const std::string& input);
+
+// The line of what ffmpeg said on stderr that tells why it stopped.
+std::string last_line(const std::string& text);
+
 // Any file ffmpeg can decode, upright (display rotation applied), RGB, at its own frame times.
 std::unique_ptr<VideoSource> open_with_ffmpeg(const std::string& input, const VideoRange& range);
 

@@ -14,15 +14,6 @@ namespace {
 
 using nlohmann::json;
 
-std::string last_line(const std::string& text) {
-  const std::size_t end = text.find_last_not_of(" \r\n");
-  if (end == std::string::npos) {
-    return {};
-  }
-  const std::size_t begin = text.find_last_of('\n', end);
-  return text.substr(begin + 1, end - begin);
-}
-
 double number(const json& object, const char* key, double otherwise) {
   if (!object.contains(key)) {
     return otherwise;
@@ -109,7 +100,7 @@ class FfmpegSource : public VideoSource {
   FfmpegSource(const std::string& input, const VideoRange& range)
       : input_(input),
         range_(range),
-        info_(info_from(probe(input), input)),
+        info_(probe_video(input)),
         decoder_(decode_command(input, range), Subprocess::Pipe::kFromChild),
         rgb_(static_cast<std::size_t>(info_.width) * static_cast<std::size_t>(info_.height) * 3) {}
 
@@ -204,7 +195,16 @@ void FfmpegSource::at_end(std::size_t bytes_of_last_frame) {
 
 }  // namespace
 
-std::unique_ptr<VideoSource> open_with_ffmpeg(const std::string& input, const VideoRange& range) {
+std::string last_line(const std::string& text) {
+  const std::size_t end = text.find_last_not_of(" \r\n");
+  if (end == std::string::npos) {
+    return {};
+  }
+  const std::size_t begin = text.find_last_of('\n', end);
+  return text.substr(begin + 1, end - begin);
+}
+
+VideoInfo probe_video(const std::string& input) {
   struct stat status {};
   if (stat(input.c_str(), &status) != 0) {
     throw Failure(kExitNoInput, input + ": no such file");
@@ -212,6 +212,10 @@ std::unique_ptr<VideoSource> open_with_ffmpeg(const std::string& input, const Vi
   if (S_ISDIR(status.st_mode)) {
     throw Failure(kExitNoInput, input + ": is a directory");
   }
+  return info_from(probe(input), input);
+}
+
+std::unique_ptr<VideoSource> open_with_ffmpeg(const std::string& input, const VideoRange& range) {
   return std::make_unique<FfmpegSource>(input, range);
 }
 

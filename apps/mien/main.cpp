@@ -8,6 +8,7 @@
 #include <map>
 
 #include "apps/mien/bench.h"
+#include "apps/mien/compare/compare.h"
 #include "apps/mien/failure.h"
 #include "apps/mien/inspect.h"
 #include "apps/mien/neutral.h"
@@ -79,6 +80,17 @@ void add_bench(CLI::App& program) {
   verb->callback([options] { bench(*options); });
 }
 
+void add_compare(CLI::App& program) {
+  auto* verb = program.add_subcommand("compare", "Make a page to judge two files of curves by");
+  auto options = std::make_shared<CompareOptions>();
+  verb->add_option("A", options->a, "curves (.csv)")->required();
+  verb->add_option("B", options->b, "curves of the same video (.csv)")->required();
+  verb->add_option("--video", options->video, "the video that they were made from");
+  verb->add_option("-o", options->page, "the page (.html)")->required();
+  verb->add_flag("--quiet", options->quiet, "no summary");
+  verb->callback([options] { compare(*options); });
+}
+
 int run(int argc, char** argv) {
   CLI::App program("Facial animation from video, in real time, on a CPU", "mien");
   program.set_version_flag("--version", mien_version());
@@ -87,6 +99,7 @@ int run(int argc, char** argv) {
   add_neutral(program);
   add_inspect(program);
   add_bench(program);
+  add_compare(program);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

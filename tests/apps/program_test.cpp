@@ -230,5 +230,66 @@ TEST_F(Program, BenchOfAClipFollowsTheFaceAndProposesAnew) {
   EXPECT_EQ(run("bench --clip " + path("nowhere.y4m") + models()).code, 3);
 }
 
+TEST_F(Program, CompareMakesOneWholePage) {
+  std::ofstream(path("a.csv")) << "t_ms,jawOpen\n0,0\n40,0.5\n80,0.5\n";
+  std::ofstream(path("b.csv")) << "t_ms,jawOpen,more\n1,0.25,x\n41,0.25,y\n";
+  const std::string files = "compare " + path("a.csv") + " " + path("b.csv") + " -o ";
+  const Outcome done = run(files + path("page.html"), "PATH=/nowhere");
+  ASSERT_EQ(done.code, 0) << done.errors;
+  EXPECT_NE(done.output.find("2 frames matched by time, 1 controls in both"), std::string::npos)
+      << done.output;
+  EXPECT_NE(done.output.find("jawOpen                 0.2500"), std::string::npos) << done.output;
+  const std::string page = contents(path("page.html"));
+  EXPECT_EQ(page.find("<!DOCTYPE html>"), 0u);
+  EXPECT_NE(page.find("</html>"), std::string::npos);
+  EXPECT_EQ(page.find("http://"), std::string::npos);
+  EXPECT_EQ(page.find("https://"), std::string::npos);
+  EXPECT_EQ(run(files + path("page.html") + " --quiet").output, "");
+}
+
+TEST_F(Program, CompareFailsWithOneLineAndNoPage) {
+  std::ofstream(path("a.csv")) << "t_ms,jawOpen\n0,0\n40,0.5\n";
+  std::ofstream(path("bad.csv")) << "t_ms,jawOpen\n0,0\n40,lots\n";
+  std::ofstream(path("late.csv")) << "t_ms,jawOpen\n5000,0\n5040,0\n";
+  const auto compare = [&](const std::string& a, const std::string& b, const std::string& more) {
+    return run("compare " + path(a) + " " + path(b) + " " + more);
+  };
+  const std::string page = "-o " + path("page.html");
+  EXPECT_EQ(compare("a.csv", "a.csv", "").code, 2);
+  const Outcome bad = compare("a.csv", "bad.csv", page);
+  EXPECT_EQ(bad.code, 3);
+  EXPECT_EQ(bad.errors,
+            "mien: " + path("bad.csv") + ": row 3: column jawOpen: 'lots' is not a number\n");
+  EXPECT_EQ(compare("nothing.csv", "a.csv", page).code, 3);
+  EXPECT_EQ(compare("a.csv", "late.csv", page).code, 3);
+  EXPECT_EQ(compare("a.csv", "a.csv", "-o /nowhere/page.html").code, 7);
+  EXPECT_EQ(run("compare " + path("a.csv") + " " + path("a.csv") + " --video " + kClip + " " + page,
+                "PATH=/nowhere")
+                .code,
+            6);
+  EXPECT_EQ(compare("a.csv", "a.csv", "--video " + path("nothing.mp4") + " " + page).code,
+            have_ffmpeg() ? 3 : 6);
+  for (const auto& entry : fs::directory_iterator(folder_)) {
+    EXPECT_EQ(entry.path().filename().string().find("page"), std::string::npos) << entry.path();
+  }
+}
+
+TEST_F(Program, CompareRefusesVideosThatAreNoneOrTruncated) {
+  MIEN_NEEDS("ffmpeg", have_ffmpeg());
+  std::ofstream(path("a.csv")) << "t_ms,jawOpen\n0,0\n7900,0.5\n";
+  ASSERT_EQ(std::system(("ffmpeg -v error -i " + kClip + " -c copy -an -movflags +faststart " +
+                         path("half.mp4"))
+                            .c_str()),
+            0);
+  fs::resize_file(path("half.mp4"), fs::file_size(path("half.mp4")) / 2);
+  const std::string begin = "compare " + path("a.csv") + " " + path("a.csv") + " --video ";
+  const std::string page = " -o " + path("page.html");
+  EXPECT_EQ(run(begin + path("a.csv") + page).code, 4);
+  const Outcome truncated = run(begin + path("half.mp4") + page);
+  EXPECT_EQ(truncated.code, 5);
+  EXPECT_EQ(lines(truncated.errors), 1u) << truncated.errors;
+  EXPECT_FALSE(fs::exists(path("page.html")));
+}
+
 }  // namespace
 }  // namespace mien::tests

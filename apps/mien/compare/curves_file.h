@@ -1,0 +1,34 @@
+// Curves as `mien track` writes them, read back; docs/cli.md describes the columns.
+#pragma once
+
+#include <mien/mien.h>
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mien::app {
+
+struct HeadAngles {
+  double pitch, yaw, roll;  // radians, as in mien_result
+};
+
+struct CurvesFrame {
+  double t_ms = 0.0;
+  std::optional<HeadAngles> head;                     // nothing: no face
+  std::array<double, MIEN_CONTROL_COUNT> controls{};  // 0..1; NaN where not driven
+};
+
+using Curves = std::vector<CurvesFrame>;
+
+// At least one frame, times that do not go back. Columns are found by their names, in any order;
+// others are passed over. Throws Failure(kExitNoInput) naming row and column; rows count from 1,
+// the header. `name` is what the message calls the file.
+Curves parse_curves(std::string_view text, const std::string& name);
+
+// Throws Failure(kExitNoInput).
+Curves read_curves(const std::string& path);
+
+}  // namespace mien::app

@@ -1,0 +1,98 @@
+// One clock for everything that moves: the video's where there is one, else the page's own.
+// Times are those of the curves, in milliseconds.
+
+class PageClock {
+  constructor() { this.at_ms = data.start_ms; this.rate = 1; this.playing = false; }
+  get end_ms() { return data.end_ms; }
+  get time_ms() {
+    if (!this.playing) return this.at_ms;
+    return Math.min(this.end_ms, this.at_ms + (performance.now() - this.since) * this.rate);
+  }
+  seek(t_ms) { this.at_ms = t_ms; this.since = performance.now(); }
+  play() { this.since = performance.now(); this.playing = true; }
+  pause() { this.at_ms = this.time_ms; this.playing = false; }
+  setRate(rate) { this.seek(this.time_ms); this.rate = rate; }
+}
+
+class VideoClock {
+  constructor(video) { this.video = video; }
+  get end_ms() {
+    const length = this.video.duration;
+    return Number.isFinite(length) ? Math.min(data.end_ms, data.start_ms + length * 1000) : data.end_ms;
+  }
+  get playing() { return !this.video.paused && !this.video.ended; }
+  get time_ms() { return data.start_ms + this.video.currentTime * 1000; }
+  seek(t_ms) { this.video.currentTime = (t_ms - data.start_ms) / 1000; }
+  play() { this.video.play(); }
+  pause() { this.video.pause(); }
+  setRate(rate) { this.video.playbackRate = rate; }
+}
+
+// Shows the embedded video; nothing where there is none.
+function openVideo() {
+  const base64 = document.getElementById('video-data').textContent.trim();
+  if (!base64) return null;
+  const bytes = Uint8Array.from(atob(base64), character => character.charCodeAt(0));
+  const video = document.getElementById('video');
+  video.src = URL.createObjectURL(new Blob([bytes], {type: 'video/mp4'}));
+  document.getElementById('video-figure').hidden = false;
+  return video;
+}
+
+class Player {
+  constructor(onFrame) {
+    const video = openVideo();
+    this.clock = video ? new VideoClock(video) : new PageClock();
+    this.onFrame = onFrame;
+    this.element = id => document.getElementById(id);
+    this.connect();
+    const tick = () => { this.show(); requestAnimationFrame(tick); };
+    requestAnimationFrame(tick);
+  }
+
+  connect() {
+    const scrub = this.element('scrub');
+    scrub.addEventListener('input', () => this.seek(Number(scrub.value)));
+    this.element('play').addEventListener('click', () => this.toggle());
+    this.element('speed').addEventListener('change', event => this.clock.setRate(Number(event.target.value)));
+    document.addEventListener('keydown', event => this.key(event));
+  }
+
+  // Space plays and pauses, the arrows step by a frame, unless a field is being filled in.
+  key(event) {
+    if (event.target.closest?.('input, select, button')) return;
+    const frame_ms = 1000 / 30;
+    const steps = {ArrowLeft: -frame_ms, ArrowRight: frame_ms};
+    if (event.key === ' ') this.toggle();
+    else if (event.key in steps) this.seek(this.clock.time_ms + steps[event.key]);
+    else return;
+    event.preventDefault();
+  }
+
+  toggle() {
+    if (this.clock.playing) return this.clock.pause();
+    if (this.clock.time_ms >= this.clock.end_ms - 1) this.clock.seek(data.start_ms);
+    this.clock.play();
+  }
+
+  seek(t_ms) { this.clock.seek(Math.min(this.clock.end_ms, Math.max(data.start_ms, t_ms))); }
+
+  atEnd() {
+    if (!this.element('repeat').checked) return this.clock.pause();
+    this.clock.seek(data.start_ms);
+    this.clock.play();
+  }
+
+  show() {
+    const {clock} = this;
+    if (clock.time_ms >= clock.end_ms - 1 && (clock.playing || clock.video?.ended)) this.atEnd();
+    const t_ms = clock.time_ms;
+    const scrub = this.element('scrub');
+    scrub.min = Math.floor(data.start_ms);
+    scrub.max = Math.ceil(clock.end_ms);
+    scrub.value = t_ms;
+    this.element('play').textContent = clock.playing ? 'Pause' : 'Play';
+    this.element('clock').textContent = `${(t_ms / 1000).toFixed(2)} / ${(clock.end_ms / 1000).toFixed(2)} s`;
+    this.onFrame(t_ms);
+  }
+}

@@ -1,0 +1,118 @@
+// Curves are read by the names of their columns; what is wrong with a file is said with its place.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "apps/mien/compare/curves_file.h"
+#include "apps/mien/failure.h"
+
+namespace mien::tests {
+namespace {
+
+using app::Curves;
+using app::parse_curves;
+
+constexpr std::size_t kEyeBlinkLeft = 0;
+constexpr std::size_t kJawOpen = 17;
+
+std::string complaint(const std::string& text) {
+  try {
+    parse_curves(text, "x.csv");
+  } catch (const app::Failure& failure) {
+    EXPECT_EQ(failure.code(), app::kExitNoInput);
+    return failure.what();
+  }
+  return "none";
+}
+
+TEST(CurvesFile, ColumnsAreFoundByName) {
+  const Curves curves = parse_curves(
+      "jawOpen,yaw_rad,unknown,t_ms,pitch_rad,roll_rad\n"
+      "0.5,0.1,anything,40,0.2,-0.3\n",
+      "x.csv");
+  ASSERT_EQ(curves.size(), 1u);
+  EXPECT_EQ(curves[0].t_ms, 40.0);
+  EXPECT_EQ(curves[0].controls[kJawOpen], 0.5);
+  EXPECT_TRUE(std::isnan(curves[0].controls[kEyeBlinkLeft]));
+  ASSERT_TRUE(curves[0].head);
+  EXPECT_EQ(curves[0].head->pitch, 0.2);
+  EXPECT_EQ(curves[0].head->yaw, 0.1);
+  EXPECT_EQ(curves[0].head->roll, -0.3);
+}
+
+TEST(CurvesFile, EmptyCellsAreNotDriven) {
+  const Curves curves = parse_curves(
+      "t_ms,pitch_rad,yaw_rad,roll_rad,eyeBlinkLeft,jawOpen\n"
+      "0,,,,,0.25\n"
+      "33.3,0,0,0,1, \n",
+      "x.csv");
+  ASSERT_EQ(curves.size(), 2u);
+  EXPECT_FALSE(curves[0].head);
+  EXPECT_TRUE(std::isnan(curves[0].controls[kEyeBlinkLeft]));
+  EXPECT_EQ(curves[0].controls[kJawOpen], 0.25);
+  EXPECT_TRUE(curves[1].head);
+  EXPECT_EQ(curves[1].controls[kEyeBlinkLeft], 1.0);
+  EXPECT_TRUE(std::isnan(curves[1].controls[kJawOpen]));
+}
+
+TEST(CurvesFile, SpreadsheetsMayHaveSavedIt) {
+  const Curves curves = parse_curves(
+      "\xEF\xBB\xBFt_ms,\"jawOpen\",\"a \"\"note\"\", quoted\"\r\n0,\"0.5\",\"x,y\"\r\n\r\n",
+      "x.csv");
+  ASSERT_EQ(curves.size(), 1u);
+  EXPECT_EQ(curves[0].controls[kJawOpen], 0.5);
+}
+
+TEST(CurvesFile, SmallFloatsAreNumbers) {
+  const Curves curves = parse_curves("t_ms,jawOpen\n0,4.4e-31\n1,1e-45\n", "x.csv");
+  EXPECT_EQ(curves[0].controls[kJawOpen], 4.4e-31);
+  EXPECT_EQ(curves[1].controls[kJawOpen], 1e-45);
+}
+
+TEST(CurvesFile, FaultsAreNamedWithTheirPlace) {
+  EXPECT_EQ(complaint(""), "x.csv: is empty");
+  EXPECT_EQ(complaint("t_ms,jawOpen\n"), "x.csv: has no frames");
+  EXPECT_EQ(complaint("jawOpen\n0\n"), "x.csv: row 1: has no column t_ms");
+  EXPECT_EQ(complaint("t_ms,frame\n0,0\n"),
+            "x.csv: row 1: has no column of a control (eyeBlinkLeft ... tongueOut)");
+  EXPECT_EQ(complaint("t_ms,jawOpen,jawOpen\n0,0,0\n"),
+            "x.csv: row 1: column jawOpen: appears twice");
+  EXPECT_EQ(complaint("t_ms,jawOpen\n0,0\n1\n"), "x.csv: row 3: has 1 cells, the header has 2");
+  EXPECT_EQ(complaint("t_ms,jawOpen\n0,\"0\n"), "x.csv: row 2: a quotation mark is not closed");
+  EXPECT_EQ(complaint("t_ms,jawOpen\n0,0\n,0\n"), "x.csv: row 3: column t_ms: is empty");
+  EXPECT_EQ(complaint("t_ms,jawOpen\n5,0\n4,0\n"), "x.csv: row 3: column t_ms: goes back in time");
+  EXPECT_EQ(complaint("t_ms,jawOpen\n0,half\n"),
+            "x.csv: row 2: column jawOpen: 'half' is not a number");
+  EXPECT_EQ(complaint("t_ms,pitch_rad,yaw_rad,roll_rad,jawOpen\n0,30,0,0,0\n"),
+            "x.csv: row 2: column pitch_rad: more than a full turn; angles are in radians");
+}
+
+TEST(CurvesFile, ValuesLieWithinTheirRange) {
+  for (const char* value : {"nan", "inf", "0x1", "1,5", "1e999", "1.01", "-0.1", "50", "0.5;"}) {
+    EXPECT_NE(complaint("t_ms,jawOpen\n0," + std::string(value) + "\n"), "none") << value;
+  }
+  EXPECT_EQ(complaint("t_ms,jawOpen\n0,50\n"), "x.csv: row 2: column jawOpen: '50' is not in 0..1");
+}
+
+TEST(CurvesFile, NoTextBreaksIt) {
+  const std::string whole =
+      "t_ms,\"jawOpen\",pitch_rad,yaw_rad,roll_rad\n0,0.5,0,0,0\n33,0.6,0,0,0\n";
+  for (std::size_t size = 0; size <= whole.size(); ++size) {
+    complaint(whole.substr(0, size));
+    for (const char c : {'\0', '"', ',', '\n', '\r', '\xFF', '-'}) {
+      std::string changed = whole;
+      changed[std::min(size, whole.size() - 1)] = c;
+      complaint(changed);
+    }
+  }
+}
+
+TEST(CurvesFile, ThereHasToBeAFile) {
+  EXPECT_THROW(app::read_curves("/nowhere/x.csv"), app::Failure);
+  EXPECT_THROW(app::read_curves("/"), app::Failure);
+}
+
+}  // namespace
+}  // namespace mien::tests
