@@ -36,7 +36,7 @@ LoadedTracker::LoadedTracker(const Options& options)
     config.hifinet = hifinet->data();
     config.hifinet_bytes = hifinet->size();
   }
-  config.lod = options.lod;
+  config.lod = options.lod.value_or(hifinet ? 4 : 1);
   config.budget_ms = options.budget_ms;
   config.max_faces = options.max_faces;
   config.smoothing = options.unfiltered ? 0 : 1;
@@ -44,7 +44,7 @@ LoadedTracker::LoadedTracker(const Options& options)
   config.clock_ns = now_ns;
   const mien_status status = tracker.create(config);
   if (status == MIEN_ERROR_UNSUPPORTED_LOD) {
-    throw Failure(kExitUsage, "--lod " + std::to_string(options.lod) + ": " +
+    throw Failure(kExitUsage, "--lod " + std::to_string(config.lod) + ": " +
                                   models_directory(options.models) + " has no hifinet.mien");
   }
   if (status != MIEN_OK) {

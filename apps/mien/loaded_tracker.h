@@ -11,9 +11,9 @@ namespace mien::app {
 
 struct LoadedTracker {
   struct Options {
-    std::string models;  // folder; empty: see models_directory
-    std::string tier;    // empty: the best of this CPU
-    int lod = 1;         // 0: automatic
+    std::string models;          // folder; empty: see models_directory
+    std::string tier;            // empty: the best of this CPU
+    std::optional<int> lod = 1;  // 0: automatic; none: the highest that there are weights for
     float budget_ms = 10.0f;
     bool unfiltered = false;
     int max_faces = 1;

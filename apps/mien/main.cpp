@@ -26,7 +26,8 @@ void add_track(CLI::App& program) {
   verb->add_option("--landmarks", options->landmarks, "landmarks as CSV");
   verb->add_option("--overlay", options->overlay, "video with what was tracked drawn over it");
   verb->add_option("--stats", options->stats, "counts and stage times as JSON");
-  verb->add_option("--lod", options->lod, "level of detail: 1 (cheapest) to 4, or auto")
+  verb->add_option("--lod", options->lod,
+                   "level of detail: 1 (cheapest) to 4, or auto; default: the highest there is")
       ->transform(CLI::CheckedTransformer(
           std::map<std::string, int>{{"1", 1}, {"2", 2}, {"3", 3}, {"4", 4}, {"auto", 0}}));
   verb->add_option("--budget-ms", options->budget_ms, "of --lod auto: time per frame on average")

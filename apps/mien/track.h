@@ -15,7 +15,7 @@ struct TrackOptions {
   std::string neutral;  // file to take into account
   std::string tier;
   std::string models;
-  int lod = 1;  // 0: automatic
+  std::optional<int> lod;  // 0: automatic; none: the highest that there are weights for
   float budget_ms = 10.0f;
   bool unfiltered = false;
   int max_faces = 1;
