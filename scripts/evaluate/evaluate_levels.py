@@ -23,15 +23,10 @@ def controls_of(tracked):
     return values
 
 
-def costs(program, levels, paths):
-    """{level: mean ms of a frame}: the fastest round of each video, weighted by its frames."""
-    times, frames = {name: [] for name in levels}, []
-    for path in paths:
-        rounds = [{name: program.track(path, lod).stats for name, lod in levels.items()} for _ in range(ROUNDS)]
-        frames.append(rounds[0]["LOD1"]["frames"])
-        for name in levels:
-            times[name].append(min(followed_ms(r[name]) for r in rounds))
-    return {name: float(np.average(t, weights=frames)) for name, t in times.items()}
+def cost(rounds):
+    """Mean ms of a frame of one level, from its rounds [[Tracked of every video]]: the fastest round of each video counts."""
+    times = np.min([[followed_ms(t.stats) for t in videos_of] for videos_of in rounds], 0)
+    return float(np.average(times, weights=[t.stats["frames"] for t in rounds[0]]))
 
 
 def difference(answers, reference):
@@ -44,14 +39,14 @@ def measure(setting):
     program, paths = setting.program, [videos.DEMO, *videos.clips()]
     has_all = len(setting.levels("levels")) > 1
     levels = {f"LOD{k}": k for k in (range(1, 5) if has_all else (1,))}
-    tracked = {name: [program.track(p, lod) for p in paths] for name, lod in levels.items()}
+    rounds = [{name: [program.track(p, lod) for p in paths] for name, lod in levels.items()} for _ in range(ROUNDS)]
+    tracked, costs = rounds[0], {name: cost([r[name] for r in rounds]) for name in levels}
     answers = {name: np.concatenate([controls_of(t) for t in found]) for name, found in tracked.items()}
-    cost = costs(program, levels, paths)
     report = {"frames": len(answers["LOD1"]), "tracker_bytes": tracked["LOD1"][0].stats["tracker_bytes"], "levels": {}}
     for name in levels:
-        row = report["levels"][name] = {"ms": cost[name]}
+        row = report["levels"][name] = {"ms": costs[name]}
         if has_all:
-            row.update(difference(answers[name], answers["LOD4"]), cost_ratio=cost[name] / cost["LOD4"])
+            row.update(difference(answers[name], answers["LOD4"]), cost_ratio=costs[name] / costs["LOD4"])
     stems = [p.stem for p in paths]
     shown = stems.index(PICTURED) if PICTURED in stems else 0
     report["clip"] = stems[shown]

@@ -6,6 +6,7 @@ import torch
 
 from program import Program
 
+PARTS = ("synthetic", "ablation", "levels", "response", "leakage", "pictures", "clips", "following")  # modules evaluate_PART
 NETWORKS = {"LOD1": "basenet", "LOD4": "hifinet"}  # whose controls a level answers with; levels 2 and 3 are LOD4's with fewer frames
 
 
