@@ -17,7 +17,7 @@ from networks import ControlsDecoder
 from setting import NETWORKS, Missing
 
 SEEDS = (0, 1, 2)
-STEPS = 500
+STEPS, BATCH = 400, 16
 PUBLISHED = {"without time": (None, 46), "with time, causal": (0.092, 7.2)}  # FACS error, jitter x 1e-4, as our sources quote them
 
 
@@ -47,7 +47,7 @@ def features_of(setting, network):
 
 
 def arguments(seed, velocity, acceleration):
-    return Namespace(steps=STEPS, batch=24, rate=3e-3, velocity=velocity, acceleration=acceleration, beta=0.15, noise=0.2, seed=seed)
+    return Namespace(steps=STEPS, batch=BATCH, rate=3e-3, velocity=velocity, acceleration=acceleration, beta=0.15, noise=0.2, seed=seed)
 
 
 def train(name, seed, features):

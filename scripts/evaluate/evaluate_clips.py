@@ -9,6 +9,7 @@ import metrics
 import report as out
 import teacher
 import videos
+from clips import video_size
 from expressions import CONTROLS
 
 STILL_STEP, STILL_FRAMES = 0.003, 6
@@ -62,7 +63,7 @@ def measure_level(program, lod):
     results, pairs, still = {}, [], []
     for clip in videos.clips():
         labels = curves.Teacher(videos.labels_of(clip), CONTROLS)
-        results[clip.stem], pair, pieces = compare(program.track(clip, lod), labels, videos.size(clip))
+        results[clip.stem], pair, pieces = compare(program.track(clip, lod), labels, video_size(clip))
         pairs += [pair] if pair else []
         still += pieces
     ours, theirs = (np.concatenate(p) for p in zip(*pairs))

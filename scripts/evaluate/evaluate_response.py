@@ -29,10 +29,10 @@ def read(controls, plan):
     return {mark: controls[frames].mean(0) for mark, frames in plan.marks.items()}
 
 
-def collect(sources):
+def collect(sources, identities=probe_pictures.IDENTITIES):
     """{source: {mark: answers [identities,52]}} of functions (images, labels, order) -> controls [frames,52]."""
     plan, found = control_plan(), {name: [] for name in sources}
-    for images, labels in probe_pictures.identities("controls"):
+    for images, labels in probe_pictures.identities("controls", identities):
         for name, answers in sources.items():
             found[name].append(read(answers(images, labels, plan.order), plan))
     return {name: {mark: np.stack([r[mark] for r in rows]) for mark in plan.marks} for name, rows in found.items()}
@@ -80,6 +80,19 @@ def measure(setting):
     return {name: scores(answers) for name, answers in found.items()}
 
 
+def tables(r):
+    """Markdown of the scores of one source."""
+    lines = [f"{len(r['controls'])} controls are driven: {r['reached_0.6']} reach 0.6, {r['others_below_0.15']} stay below 0.15 whatever"
+             " else moves.", ""]
+    lines += out.table(["control", "at rest", "reached", "least of an identity", "with companions", "others"],
+                       [[c, *(out.number(v[k]) for k in ("rest", "reached", "lowest_identity", "with_companions", "others_at_most"))]
+                        for c, v in r["controls"].items()])
+    lines += ["Worst cross-talk:", ""] + out.table(["moves", "answers", "by"], [[a, b, out.number(v)] for a, b, v in r["worst"]])
+    lines += ["Winks; share: of identities with the closed eye above 0.8 and the other below 0.2.", ""]
+    return "\n".join(lines + out.table(["wink", "closed eye", "other eye", "share"],
+                                       [[k, *(out.number(v[x]) for x in ("closed", "other", "share"))] for k, v in r["winks"].items()]))
+
+
 def markdown(report):
     first = next(iter(report.values()))
     lines = ["# Controls that move alone", "", f"The program on {first['identities']} rendered test identities, near-frontal, without glasses, hat or"
@@ -87,15 +100,7 @@ def markdown(report):
              "With companions: the same as a face can do it (eyes turn together; the tongue and mouthClose with an open jaw). Others: the highest"
              " mean answer while another control is at 1 and this one at 0.", ""]
     for name, r in report.items():
-        lines += [f"## {name}", "", f"{len(r['controls'])} controls are driven: {r['reached_0.6']} reach 0.6, {r['others_below_0.15']} stay below 0.15"
-                  " whatever else moves.", "", f"![cross-talk](response_{name}.png)", ""]
-        lines += out.table(["control", "at rest", "reached", "least of an identity", "with companions", "others"],
-                           [[c, *(out.number(v[k]) for k in ("rest", "reached", "lowest_identity", "with_companions", "others_at_most"))]
-                            for c, v in r["controls"].items()])
-        lines += ["Worst cross-talk:", ""] + out.table(["moves", "answers", "by"], [[a, b, out.number(v)] for a, b, v in r["worst"]])
-        lines += ["Winks; share: of identities with the closed eye above 0.8 and the other below 0.2.", ""]
-        lines += out.table(["wink", "closed eye", "other eye", "share"],
-                           [[k, *(out.number(v[x]) for x in ("closed", "other", "share"))] for k, v in r["winks"].items()])
+        lines += [f"## {name}", "", f"![cross-talk](response_{name}.png)", "", tables(r)]
     return "\n".join(lines)
 
 

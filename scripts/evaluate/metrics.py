@@ -51,7 +51,7 @@ def known_mean(values, axis=0):
     values = np.asarray(values, np.float64)
     known = np.isfinite(values)
     count = known.sum(axis)
-    return np.where(count > 0, np.where(known, values, 0).sum(axis) / np.maximum(count, 1), np.nan)
+    return np.where(count > 0, np.where(known, values, 0).sum(axis) / np.maximum(count, 1), np.nan)[()]
 
 
 def linear_map_error(answers, wanted):

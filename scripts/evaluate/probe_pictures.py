@@ -98,11 +98,11 @@ def require_rig():
         raise Missing("the rig pack is absent: MIEN_DATA must name the folder of the data packs")
 
 
-def identities(kind):
-    """Yields (images, labels) of every identity of a plan, rendered where they are not in the cache yet."""
+def identities(kind, count=IDENTITIES):
+    """Yields (images, labels) of the first identities of a plan, rendered where they are not in the cache yet."""
     require_rig()
     plan, studio = PLANS[kind](), None
-    for number in tqdm(range(IDENTITIES), f"probe {kind}", mininterval=5):
+    for number in tqdm(range(count), f"probe {kind}", mininterval=5):
         folder = folder_of(kind, number)
         if not is_of(folder, plan):
             shutil.rmtree(folder, ignore_errors=True)

@@ -1,6 +1,4 @@
 """The videos that are measured on: clips of real people with what MediaPipe answers for them, and the demo clip that ships."""
-import subprocess
-
 from paths import ROOT, data
 from setting import Missing
 
@@ -18,8 +16,3 @@ def clips():
 
 def labels_of(clip):
     return clip.with_suffix(".mediapipe.npz")
-
-
-def size(clip):
-    command = ["ffprobe", "-v", "error", "-select_streams", "v:0", "-show_entries", "stream=width,height", "-of", "csv=p=0", str(clip)]
-    return [int(v) for v in subprocess.check_output(command, text=True).strip().strip(",").split(",")[:2]]
