@@ -10,7 +10,7 @@ from torch import nn
 
 import metrics
 import report as out
-import test_features
+import features
 import train_decoders as phase2
 from framing import FRAMINGS
 from networks import ControlsDecoder
@@ -37,7 +37,7 @@ DECODERS = {"without time": (phase2.FrameDecoder, 0, 0), "with time, causal": (C
             "with one frame of look-ahead": (LookAhead, 0.35, 0.1)}
 
 
-def features_of(setting, network):
+def learning_data(setting, network):
     """(moving, held) tensors that phase 2 learns from."""
     folder = setting.features.with_name(FRAMINGS[network].folder(setting.features.name))
     moving, held = [*sorted(folder.glob("train*.pt")), *sorted(folder.glob("plain*.pt"))], sorted(folder.glob("held*.pt"))
@@ -50,23 +50,23 @@ def arguments(seed, velocity, acceleration):
     return Namespace(steps=STEPS, batch=BATCH, rate=3e-3, velocity=velocity, acceleration=acceleration, beta=0.15, noise=0.2, seed=seed)
 
 
-def train(name, seed, features):
+def train(name, seed, learned):
     kind, velocity, acceleration = DECODERS[name]
     args = arguments(seed, velocity, acceleration)
     torch.manual_seed(seed)
-    sources = [source(part, args) for source, part in zip((phase2.Moving, phase2.Held), features)]
+    sources = [source(part, args) for source, part in zip((phase2.Moving, phase2.Held), learned)]
     return phase2.train(kind(), sources, phase2.ControlsTask(sources[0].data, args), args, f"{name}, seed {seed}")
 
 
 def measure_network(setting, network):
     """{decoder: {metric: [of every seed]}} with the encoder on every frame."""
-    features, data = features_of(setting, network), phase2.of_stride(test_features.of(setting, network, plain=True), 1)
+    learned, data = learning_data(setting, network), phase2.of_stride(features.of(setting, network, plain=True), 1)
     chosen = torch.load(setting.checkpoint(network)[1], map_location="cpu")["supported"].numpy() > 0.5
     truth, report = data["controls"].float().numpy(), {}
     for name in DECODERS:
         rows = []
         for seed in SEEDS:
-            curves = phase2.answers(train(name, seed, features), data["features"]).clamp(0, 1).numpy()
+            curves = phase2.answers(train(name, seed, learned), data["features"]).clamp(0, 1).numpy()
             correlation = phase2.correlation_of(curves, data)[chosen]
             rows.append({"facs_error": metrics.facs_error(curves, truth), "jitter": metrics.jitter(curves),
                          "facs_error_supported": metrics.facs_error(curves[..., chosen], truth[..., chosen]),
@@ -94,14 +94,16 @@ def spread(values, scale=1, digits=4):
 
 
 def markdown(report):
-    lines = ["# The decoder without and with time", "", f"On synthetic test sequences, the encoder on every frame, {len(SEEDS)} seeds each: mean ±"
-             f" standard deviation. Trained for {STEPS} steps. Published (Navarro et al. 2023, table 5): FACS error"
-             f" {PUBLISHED['with time, causal'][0]} and jitter {PUBLISHED['with time, causal'][1]}e-4 with the causal decoder, jitter"
-             f" {PUBLISHED['without time'][1]}e-4 without time; on other data.", ""]
+    published = PUBLISHED["with time, causal"]
+    lines = ["# The decoder without and with time", ""] + out.prose(f"""On synthetic test sequences, the encoder on every frame,
+        {len(SEEDS)} seeds each: mean ± standard deviation. Trained for {STEPS} steps. Published (Navarro et al. 2023, table 5): FACS error
+        {published[0]} and jitter {published[1]}e-4 with the causal decoder, jitter {PUBLISHED["without time"][1]}e-4 without time; on other
+        data.""")
     for name, r in report.items():
         rows = [[kind, spread(v["facs_error"]), spread(v["jitter"], 1e4, 1), spread(v["facs_error_supported"]),
                  spread(v["jitter_supported"], 1e4, 1), spread(v["correlation"], 1, 3)] for kind, v in r["decoders"].items()]
-        lines += [f"## {NETWORKS[name]}", "", f"Jitter of the truth {1e4 * r['truth_jitter']:.1f}e-4, which a perfect answer would have too.", ""]
+        lines += [f"## {NETWORKS[name]}", ""]
+        lines += out.prose(f"Jitter of the truth {1e4 * r['truth_jitter']:.1f}e-4, which a perfect answer would have too.")
         lines += out.table(["decoder", "FACS error, all 52", "jitter x 1e-4, all 52", f"FACS error, {r['supported']} supported",
                             "jitter x 1e-4, supported", "mean correlation, supported"], rows)
     return "\n".join(lines)

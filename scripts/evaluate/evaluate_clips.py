@@ -32,8 +32,8 @@ def compare(tracked, labels, size_wh):
         return result, None, []
     error = metrics.point_error(tracked.landmarks[rows][both], points[both], 1)
     turn = teacher.pose_difference(curves.rotations(table)[rows][both], labels.rotation[both])
-    result.update(landmark_error_outer_eyes=float((error / eyes[both]).mean()), landmark_error_pupils=float((error / pupils[both]).mean()),
-                  pose_difference_deg=float(turn.mean()))
+    result.update(landmark_error_outer_eyes=float((error / eyes[both]).mean()),
+                  landmark_error_pupils=float((error / pupils[both]).mean()), pose_difference_deg=float(turn.mean()))
     ours, theirs = np.stack([table[c] for c in CONTROLS], 1)[rows], labels.controls
     still = [(ours[s], theirs[s]) for s in metrics.still_stretches(points, eyes, STILL_STEP, STILL_FRAMES) if both[s].all()]
     result["still_frames"] = sum(len(o) for o, _ in still)
@@ -43,7 +43,7 @@ def compare(tracked, labels, size_wh):
 
 def still_jitter(pieces, rows):
     """Jitter of ours and of MediaPipe's on still stretches, over the controls that MediaPipe moves and we drive."""
-    chosen = [CONTROLS.index(c) for c, r in rows.items() if r["spread"] >= teacher.MOVES]
+    chosen = [CONTROLS.index(c) for c, r in rows.items() if r["spread"] >= teacher.MOVES and r["correlation"] is not None]
     joined = [np.concatenate([p[k][:, chosen] for p in pieces]) for k in (0, 1)]
     ends = np.cumsum([len(p[0]) for p in pieces])
     stretches = [slice(e - len(p[0]), e) for e, p in zip(ends, pieces)]
@@ -79,16 +79,21 @@ def measure(setting):
 
 
 def markdown(report):
-    lines = ["# Clips of real people against MediaPipe Face Landmarker", "", "MediaPipe is a teacher, not the truth. Face found: share of MediaPipe's"
-             " frames on which mien tracks. Pose: mean angle after the best constant rotation is removed. Controls are compared within clips."
-             f" Still stretches: at least {STILL_FRAMES} frames in which MediaPipe's mean landmark moves by at most {100 * STILL_STEP:.1f} % of the"
-             " distance of the outer eye corners a frame; people may still blink or speak a little in them.", ""]
+    lines = ["# Clips of real people against MediaPipe Face Landmarker", ""] + out.prose(f"""MediaPipe is a teacher, not the truth. Face
+        found: share of MediaPipe's frames on which mien tracks. Pose: mean angle after the best constant rotation is removed. Controls are
+        compared within clips. Still stretches: at least {STILL_FRAMES} frames in which MediaPipe's mean landmark moves by at most
+        {100 * STILL_STEP:.1f} % of the distance of the outer eye corners a frame; people may still blink or speak a little in them.""")
     for name, r in report.items():
-        rows = [[clip, str(v["frames"]), f"{100 * v['face_share']:.1f} %", *(out.number(v.get(k) and f * v[k], 2) for k, f in (
-            ("landmark_error_outer_eyes", 100), ("landmark_error_pupils", 100), ("pose_difference_deg", 1))), str(v.get("still_frames", 0))]
-            for clip, v in [*r["clips"].items(), ("all", r["all"])]]
         lines += [f"## {name}", ""] + out.table(["clip", "frames", "face found", "landmarks, % of outer eye corners", "% of pupils",
-                                                 "pose, degrees", "still frames"], rows)
-        lines += [f"Jitter on still stretches {1e4 * r['all']['still_jitter']:.1f}e-4, MediaPipe's {1e4 * r['all']['teacher_still_jitter']:.1f}e-4,"
-                  " over the controls that MediaPipe moves.", ""] + teacher.control_lines(r["controls"])
+                                                 "pose, degrees", "still frames"], clip_rows(r))
+        lines += out.prose(f"""Jitter on still stretches {1e4 * r['all']['still_jitter']:.1f}e-4, MediaPipe's
+            {1e4 * r['all']['teacher_still_jitter']:.1f}e-4, over the controls that MediaPipe moves.""")
+        lines += teacher.control_lines(r["controls"])
     return "\n".join(lines)
+
+
+def clip_rows(r):
+    """Cells of every clip of a level, and of all together."""
+    shown = (("landmark_error_outer_eyes", 100), ("landmark_error_pupils", 100), ("pose_difference_deg", 1))
+    return [[clip, str(v["frames"]), f"{100 * v['face_share']:.1f} %", *(out.number(v.get(k, np.nan) * scale, 2) for k, scale in shown),
+             str(v.get("still_frames", 0))] for clip, v in [*r["clips"].items(), ("all", r["all"])]]

@@ -15,12 +15,13 @@ def scores(found):
     driven = np.isfinite(front).all(0)
     drift = {mark: metrics.known_mean(np.abs(v - front)) for mark, v in found.items() if mark[0] != "front"}
     worst = {axis: np.max([d for (a, _), d in drift.items() if a == axis], 0) for axis in ("yaw", "pitch")}
-    rows = {c: {"front": out.rounded(front[:, i].mean()), "yaw": out.rounded(worst["yaw"][i]), "pitch": out.rounded(worst["pitch"][i])}
+    rows = {c: {"front": out.rounded(front[:, i].mean()), **{axis: out.rounded(d[i]) for axis, d in worst.items()}}
             for i, c in enumerate(CONTROLS) if driven[i]}
     by_angle = {axis: {degrees: out.rounded(d[driven].max()) for (a, degrees), d in sorted(drift.items()) if a == axis}
                 for axis in ("yaw", "pitch")}
     largest = max(rows, key=lambda c: max(rows[c]["yaw"], rows[c]["pitch"]))
-    return {"identities": len(front), "face_share": out.rounded(np.mean([np.isfinite(v).any(1).mean() for v in found.values()])),
+    followed = np.mean([np.isfinite(v).any(1).mean() for v in found.values()])
+    return {"identities": len(front), "face_share": out.rounded(followed),
             "largest": max(rows[largest]["yaw"], rows[largest]["pitch"]), "largest_control": largest,
             "below_0.1": sum(max(r["yaw"], r["pitch"]) <= 0.1 for r in rows.values()), "controls": rows, "by_angle": by_angle}
 
@@ -36,12 +37,13 @@ def measure(setting):
 
 def markdown(report):
     first = next(iter(report.values()))
-    lines = ["# Neutral faces that turn", "", f"The program on {first['identities']} rendered test identities with all controls at 0, turned by up to {YAW}"
-             f" degrees of yaw and {PITCH} of pitch. Drift: mean over identities of the absolute difference to the answers of the same face"
-             " when it looks ahead, before each turn; the largest over the angles.", "", "![drift by angle](leakage.png)", ""]
+    lines = ["# Neutral faces that turn", ""] + out.prose(f"""The program on {first['identities']} rendered test identities with all
+        controls at 0, turned by up to {YAW} degrees of yaw and {PITCH} of pitch. Drift: mean over identities of the absolute difference to
+        the answers of the same face when it looks ahead, before each turn; the largest over the angles.""")
+    lines += ["![drift by angle](leakage.png)", ""]
     for name, r in report.items():
-        lines += [f"## {name}", "", f"Largest: {r['largest_control']}, {out.number(r['largest'])}. {r['below_0.1']} of {len(r['controls'])} driven"
-                  f" controls drift by at most 0.1. Faces followed: {100 * r['face_share']:.1f} %.", ""]
+        lines += [f"## {name}", ""] + out.prose(f"""Largest: {r['largest_control']}, {out.number(r['largest'])}. {r['below_0.1']} of
+            {len(r['controls'])} driven controls drift by at most 0.1. Faces followed: {100 * r['face_share']:.1f} %.""")
         order = sorted(r["controls"].items(), key=lambda item: -max(item[1]["yaw"], item[1]["pitch"]))
         lines += out.table(["control", "answer ahead", "drift, yaw", "drift, pitch"],
                            [[c, out.number(v["front"]), out.number(v["yaw"]), out.number(v["pitch"])] for c, v in order])

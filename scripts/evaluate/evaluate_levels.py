@@ -55,13 +55,14 @@ def measure(setting):
 
 
 def markdown(report):
-    lines = ["# Levels of detail", "", f"The program on {report['frames']} frames of the clips of real people and of the demo clip. Error: mean absolute"
-             " difference to level 4 over the controls that both drive. Time: mean of a followed frame on one core, the fastest of"
-             f" {ROUNDS} rounds; only the ratio means something elsewhere. Published (Navarro et al. 2023): errors 0.0123 for level 2, 0.0059 for"
-             " level 3.", "", f"Memory of the tracker besides the weights: {report['tracker_bytes'] / 1e6:.2f} MB.", ""]
+    lines = ["# Levels of detail", ""] + out.prose(f"""The program on {report['frames']} frames of the clips of real people and of the demo
+        clip. Error: mean absolute difference to level 4 over the controls that both drive. Time: mean of a followed frame on one core, the
+        fastest of {ROUNDS} rounds; only the ratio means something elsewhere. Published (Navarro et al. 2023): errors 0.0123 for level 2,
+        0.0059 for level 3.""")
+    lines += out.prose(f"Memory of the tracker besides the weights: {report['tracker_bytes'] / 1e6:.2f} MB.")
     lines += out.table(["level", "error against level 4", "controls compared", "ms a frame", "time / level 4's"],
-                       [[name, out.number(r.get("error"), 4), str(r.get("controls", "-")), out.number(r["ms"]), out.number(r.get("cost_ratio"), 2)]
-                        for name, r in report["levels"].items()])
+                       [[name, out.number(r.get("error"), 4), str(r.get("controls", "-")), out.number(r["ms"]),
+                         out.number(r.get("cost_ratio"), 2)] for name, r in report["levels"].items()])
     return "\n".join(lines + [f"![curves of {report['clip']}](levels.png)", ""])
 
 

@@ -72,8 +72,10 @@ class Portraits:
         self.set, labels = faces.portraits("test"), np.load(data() / "faces/labels.npz")
         named = [str(n) for n in labels["blendshape_names"]]
         shapes = labels["blendshapes"][self.set.rows].astype(np.float64)
-        self.controls = np.stack([shapes[:, named.index(c)] if c in named else np.full(len(shapes), np.nan) for c in CONTROLS], 1)
-        self.rotation = labels["matrix_colmajor"][self.set.rows].reshape(-1, 4, 4).transpose(0, 2, 1)[:, :3, :3].astype(np.float64)
+        unknown = np.full(len(shapes), np.nan)
+        self.controls = np.stack([shapes[:, named.index(c)] if c in named else unknown for c in CONTROLS], 1)
+        matrix = labels["matrix_colmajor"][self.set.rows].reshape(-1, 4, 4).transpose(0, 2, 1)
+        self.rotation = matrix[:, :3, :3].astype(np.float64)
         self.yaw = np.degrees(np.arctan2(self.rotation[:, 0, 2], self.rotation[:, 2, 2]))
 
     def __iter__(self):
@@ -144,14 +146,16 @@ def measure(setting):
 
 def group_lines(title, portraits, rendered_people):
     """Table of two sets of groups side by side."""
-    cells = lambda r: ["-", "-", "-"] if r is None else [str(r["pictures"]), out.number(r["error"] and 100 * r["error"], 2), str(r["lost"])]
+    percent = lambda error: out.number(None if error is None else 100 * error, 2)
+    cells = lambda r: ["-", "-", "-"] if r is None else [str(r["pictures"]), percent(r["error"]), str(r["lost"])]
     rows = [[g, *cells(portraits.get(g)), *cells(rendered_people.get(g))] for g in {**portraits, **rendered_people}]
     return out.table([title, "portraits", "error, %", "not found", "rendered people", "error, %", "not found"], rows)
 
 
 def markdown(report):
-    lines = ["# Single pictures never trained on", "", f"A picture is shown for {FRAMES} frames. Landmark errors are shares of the outer eye corner"
-             f" distance. {report['places']} pieces of held-out places without a face: a face claimed in {report['false_faces']}.", ""]
+    lines = ["# Single pictures never trained on", ""] + out.prose(f"""A picture is shown for {FRAMES} frames. Landmark errors are shares
+        of the outer eye corner distance. {report['places']} pieces of held-out places without a face: a face claimed in
+        {report['false_faces']}.""")
     for name, r in report["levels"].items():
         real, drawn = r["portraits"], r["rendered"]
         lines += [f"## {name}", ""] + out.table(
@@ -160,9 +164,9 @@ def markdown(report):
               out.number(100 * s["landmark_error_p95"], 2)] for kind, s in (("test portraits", real), ("rendered people", drawn))])
         lines += ["By head pose: MediaPipe's yaw of portraits, the true one of rendered people.", ""]
         lines += group_lines("yaw, degrees", real["by_yaw"], drawn["by_yaw"])
-        lines += ["By skin tone: individual typology angle of the cheeks in the picture (Chardon et al. 1991), which the light moves too;"
-                  f" faces turned by less than {TONE_YAW} degrees.", ""]
+        lines += out.prose(f"""By skin tone: individual typology angle of the cheeks in the picture (Chardon et al. 1991), which the light
+            moves too; faces turned by less than {TONE_YAW} degrees.""")
         lines += group_lines("skin tone", real["by_tone"], drawn["by_tone"])
-        lines += [f"Portraits beside MediaPipe: head pose {real['pose_difference_deg']:.2f} degrees apart after the best constant rotation;"
-                  " controls across portraits:", ""] + teacher.control_lines(real["controls"])
+        lines += out.prose(f"""Portraits beside MediaPipe: head pose {real['pose_difference_deg']:.2f} degrees apart after the best constant
+            rotation; controls across portraits:""") + teacher.control_lines(real["controls"])
     return "\n".join(lines)

@@ -82,23 +82,23 @@ def measure(setting):
 
 def tables(r):
     """Markdown of the scores of one source."""
-    lines = [f"{len(r['controls'])} controls are driven: {r['reached_0.6']} reach 0.6, {r['others_below_0.15']} stay below 0.15 whatever"
-             " else moves.", ""]
+    lines = out.prose(f"""{len(r['controls'])} controls are driven: {r['reached_0.6']} reach 0.6, {r['others_below_0.15']} stay below 0.15
+        whatever else moves.""")
     lines += out.table(["control", "at rest", "reached", "least of an identity", "with companions", "others"],
                        [[c, *(out.number(v[k]) for k in ("rest", "reached", "lowest_identity", "with_companions", "others_at_most"))]
                         for c, v in r["controls"].items()])
     lines += ["Worst cross-talk:", ""] + out.table(["moves", "answers", "by"], [[a, b, out.number(v)] for a, b, v in r["worst"]])
     lines += ["Winks; share: of identities with the closed eye above 0.8 and the other below 0.2.", ""]
-    return "\n".join(lines + out.table(["wink", "closed eye", "other eye", "share"],
-                                       [[k, *(out.number(v[x]) for x in ("closed", "other", "share"))] for k, v in r["winks"].items()]))
+    winked = [[k, *(out.number(v[x]) for x in ("closed", "other", "share"))] for k, v in r["winks"].items()]
+    return "\n".join(lines + out.table(["wink", "closed eye", "other eye", "share"], winked))
 
 
 def markdown(report):
     first = next(iter(report.values()))
-    lines = ["# Controls that move alone", "", f"The program on {first['identities']} rendered test identities, near-frontal, without glasses, hat or"
-             " occluder. One control goes 0 -> 1 -> 0 at a time, all others stay 0. Reached: the mean answer with the control at 1.",
-             "With companions: the same as a face can do it (eyes turn together; the tongue and mouthClose with an open jaw). Others: the highest"
-             " mean answer while another control is at 1 and this one at 0.", ""]
+    lines = ["# Controls that move alone", ""] + out.prose(f"""The program on {first['identities']} rendered test identities, near-frontal,
+        without glasses, hat or occluder. One control goes 0 -> 1 -> 0 at a time, all others stay 0. Reached: the mean answer with the
+        control at 1. With companions: the same as a face can do it (eyes turn together; the tongue and mouthClose with an open jaw).
+        Others: the highest mean answer while another control is at 1 and this one at 0.""")
     for name, r in report.items():
         lines += [f"## {name}", "", f"![cross-talk](response_{name}.png)", "", tables(r)]
     return "\n".join(lines)

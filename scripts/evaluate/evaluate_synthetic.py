@@ -8,7 +8,7 @@ import torch
 
 import report as out
 import sequences as seq
-import test_features
+import features
 import train_decoders as phase2
 from expressions import CONTROLS
 from networks import ControlsDecoder, PoseDecoder
@@ -51,9 +51,9 @@ def score_networks(setting, network):
     """The shipped networks on the test sequences, as rendered and through a poor camera."""
     decoders, chosen = load_decoders(setting.checkpoint(network)[1])
     supported = [c for c, s in zip(CONTROLS, chosen) if s]
-    data = test_features.of(setting, network, plain=True)
+    data = features.of(setting, network, plain=True)
     report, _ = phase2.evaluate(decoders, data, chosen)
-    spoiled, _ = phase2.evaluate(decoders, test_features.of(setting, network, plain=False), chosen)
+    spoiled, _ = phase2.evaluate(decoders, features.of(setting, network, plain=False), chosen)
     columns = {"every frame": report["every frame"]["controls"], "alternate frames": report["alternate frames"]["controls"],
                "without time": report["every frame"]["frame"], "poor camera": spoiled["every frame"]["controls"]}
     return {"supported": supported, "columns": {k: with_means(v, supported) for k, v in columns.items()},
@@ -75,7 +75,7 @@ def camera_pictures(images, window, camera_wh):
 
 def score_program(program, lod, network):
     """The program on the test sequences; scored are those it follows from the first frame to the last."""
-    sequences = seq.Sequences.load(test_features.shards(network))
+    sequences = seq.Sequences.load(features.shards(network))
     answers, faces = [], []
     for index in range(len(sequences)):
         size = sequences.label("camera_wh")[index, 0].numpy()
@@ -129,14 +129,16 @@ def columns_of(r):
 
 
 def markdown(report):
-    lines = ["# Synthetic test sequences", "", "Faces, places and performances that training never saw. The program smooths, and runs its encoders as"
-             " its level says; the networks are scored in PyTorch with the encoder on every or on alternate frames, and on the same"
-             " pictures spoiled as in training: blur, motion, lower resolution, noise of up to 6 %, coarse JPEG, tint and contrast.", ""]
+    lines = ["# Synthetic test sequences", ""] + out.prose("""Faces, places and performances that training never saw. The program smooths,
+        and runs its encoders as its level says; the networks are scored in PyTorch with the encoder on every or on alternate frames, and
+        on the same pictures spoiled as in training: blur, motion, lower resolution, noise of up to 6 %, coarse JPEG, tint and contrast.""")
     for name, r in report.items():
         columns = columns_of(r)
-        lines += [f"## {name}: {r['network']}", "", f"The program followed {100 * r['program']['face_share']:.1f} % of the frames and"
-                  f" {r['program']['followed_whole']} of {r['program']['sequences']} sequences from end to end, which are scored.", ""]
-        lines += out.table(["", *columns], [[title, *(out.number(k * c[key], 4 if k == 1 else 1) for c in columns.values())] for title, key, k in ROWS])
+        program = r["program"]
+        lines += [f"## {name}: {r['network']}", ""] + out.prose(f"""The program followed {100 * program['face_share']:.1f} % of the frames
+            and {program['followed_whole']} of {program['sequences']} sequences from end to end, which are scored.""")
+        cells = lambda key, scale: [out.number(scale * c[key], 4 if scale == 1 else 1) for c in columns.values()]
+        lines += out.table(["", *columns], [[title, *cells(key, scale)] for title, key, scale in ROWS])
         lines += network_lines(r["networks"]) if "networks" in r else []
         correlation = {k: c["correlation"] for k, c in columns.items() if k in ("program", "networks, every frame")}
         supported = r.get("networks", {}).get("supported", [])
@@ -149,7 +151,7 @@ def markdown(report):
 def network_lines(r):
     lines = []
     if r["pose"]:
-        modes = list(r["pose"])
-        lines += out.table(["head pose", *modes], [[key, *(f"{r['pose'][m][key]:.4g}" for m in modes)] for key in r["pose"][modes[0]]])
-    return lines + [f"Landmark error {100 * r['landmark_error']:.2f} % of the outer eye corner distance. FACS error on the first sequence of"
-                    f" a long stream {r['drift']['first']:.4f}, on its second half {r['drift']['last_half']:.4f}.", ""]
+        modes = r["pose"].values()
+        lines += out.table(["head pose", *r["pose"]], [[key, *(out.number(m[key]) for m in modes)] for key in next(iter(modes))])
+    return lines + out.prose(f"""Landmark error {100 * r['landmark_error']:.2f} % of the outer eye corner distance. FACS error on the first
+        sequence of a long stream {r['drift']['first']:.4f}, on its second half {r['drift']['last_half']:.4f}.""")

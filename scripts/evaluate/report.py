@@ -1,6 +1,7 @@
 """Tables and plots of the results."""
 import json
 import re
+import textwrap
 
 import matplotlib
 
@@ -13,6 +14,11 @@ def table(header, rows):
     """Lines of a Markdown table; cells are text."""
     line = lambda cells: "| " + " | ".join(cells) + " |"
     return [line(header), "|---" * len(header) + "|", *(line(row) for row in rows), ""]
+
+
+def prose(text):
+    """A paragraph, broken into lines, and an empty line."""
+    return [*textwrap.wrap(" ".join(text.split()), 132), ""]
 
 
 def number(value, digits=3):

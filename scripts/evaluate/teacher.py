@@ -18,18 +18,24 @@ def pose_difference(ours, theirs):
 
 
 def compare_controls(ours, theirs):
-    """{control: correlation, error after the best linear map, that of the teacher's mean, the teacher's spread}, of [n,52] each."""
-    both = np.flatnonzero(np.isfinite(ours).all(0) & np.isfinite(theirs).all(0))
-    ours, theirs = ours[:, both], theirs[:, both]
-    correlation, (error, constant) = metrics.correlations(ours, theirs), metrics.linear_map_error(ours, theirs)
-    rows = zip(correlation, error, constant, theirs.std(0))
+    """{control: correlation, error after the best linear map, that of the teacher's mean, the teacher's spread}, of [n,52] each.
+
+    All controls of the teacher's; those that mien does not drive have no correlation.
+    """
+    known = np.flatnonzero(np.isfinite(theirs).all(0))
+    ours, theirs = ours[:, known], theirs[:, known]
+    driven = np.isfinite(ours).all(0)
+    correlation = np.where(driven, metrics.correlations(np.nan_to_num(ours), theirs), np.nan)
+    error, constant = metrics.linear_map_error(np.nan_to_num(ours), theirs)
+    rows = zip(correlation, np.where(driven, error, np.nan), constant, theirs.std(0))
     names = ("correlation", "error", "constant_error", "spread")
-    return {CONTROLS[i]: dict(zip(names, out.rounded(row))) for i, row in zip(both, rows)}
+    return {CONTROLS[i]: dict(zip(names, out.rounded(row))) for i, row in zip(known, rows)}
 
 
 def control_lines(rows):
-    """Table of compare_controls, those that move first."""
-    order = sorted(rows.items(), key=lambda item: (item[1]["spread"] < MOVES, -(item[1]["correlation"] or -1)))
+    """Table of compare_controls, those that move first; a dash where mien drives none, or it never moves."""
+    rank = lambda r: (r["spread"] < MOVES, r["correlation"] is None, -(r["correlation"] or 0))
+    order = sorted(rows.items(), key=lambda item: rank(item[1]))
     cells = [[c + ("" if r["spread"] >= MOVES else " (hardly moves)"), out.number(r["correlation"], 2), out.number(r["error"]),
               out.number(r["constant_error"]), out.number(r["spread"])] for c, r in order]
     return out.table(["control", "correlation", "error after the best linear map", "the same of a constant", "MediaPipe's spread"], cells)

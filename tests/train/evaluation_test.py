@@ -13,6 +13,7 @@ import torch
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "scripts/train"), str(ROOT / "scripts/evaluate")]
+import bars  # noqa: E402
 import evaluate_ablation  # noqa: E402
 import evaluate_clips  # noqa: E402
 import evaluate_leakage  # noqa: E402
@@ -134,7 +135,8 @@ class Teacher(unittest.TestCase):
     def test_still_jitter_over_what_moves(self):
         zigzag = np.tile(np.array([[0.0], [1]]), (3, 52))
         pieces = [(zigzag, 0 * zigzag), (zigzag, 0 * zigzag)]
-        rows = {"jawOpen": {"spread": 0.1}, "cheekPuff": {"spread": 0.0}}
+        rows = {"jawOpen": {"spread": 0.1, "correlation": 0.5}, "cheekPuff": {"spread": 0.0, "correlation": 0.5},
+                "browInnerUp": {"spread": 0.1, "correlation": None}}
         self.assertEqual([4 / 6, 0.0], evaluate_clips.still_jitter(pieces, rows))
 
 
@@ -160,11 +162,16 @@ class Reports(unittest.TestCase):
         self.assertEqual(table, json.loads(report.dump(table)))
 
     def test_bars(self):
-        bar = summary.Bar("leakage", "drift", "<=", 0.1, summary.of_level(None, "largest"))
-        cells, verdicts = summary.line(bar, {"leakage": {"LOD1": {"largest": 0.2}, "LOD4": {"largest": 0.05}}})
-        self.assertEqual(["drift", "<= 0.1", "0.200 **missed**", "0.050 met", "[leakage](leakage.md)"], cells)
-        self.assertEqual([False, True], verdicts)
-        self.assertEqual([None, None], summary.line(bar, {})[1])
+        bar = bars.Bar("leakage", "drift", "<=", 0.1, bars.at(bars.at, "largest"))
+        cells = summary.line(bar, {"leakage": {"LOD1": {"largest": 0.2}, "LOD4": {"largest": 0.05}}})
+        self.assertEqual(["drift", "<= 0.1", "0.20 **missed**", "0.05 met", "[leakage](leakage.md)"], cells)
+        self.assertEqual("-", summary.line(bar, {})[2])
+
+    def test_a_control_that_should_be_driven_is_missed(self):
+        results = lambda spread: {"LOD1": {"controls": {"jawOpen": {"spread": spread, "correlation": None}}}}
+        bar = bars.Bar("clips", "jawOpen", ">=", 0.9, bars.agreement("jawOpen", bars.at))
+        self.assertEqual("not driven **missed**", summary.line(bar, {"clips": results(0.1)})[2])
+        self.assertEqual("-", summary.line(bar, {"clips": results(0.001)})[2])
 
     def test_page_says_what_is_not_there(self):
         page = summary.page({}, {}, ["pictures: the portraits are absent"], has_hifinet=False)
