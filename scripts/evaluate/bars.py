@@ -1,5 +1,6 @@
 """What mien is meant to reach, and where in the results of the parts each figure is."""
 from dataclasses import dataclass
+from statistics import fmean
 from typing import Callable
 
 from teacher import MOVES
@@ -46,6 +47,11 @@ def over(key, combine, *path):
     return lambda results, level: combine(row[key] for row in at(at, *path)(results, level).values())
 
 
+def share(test):
+    """Combines figures into the share that passes a test."""
+    return lambda figures: fmean(test(f) for f in figures)
+
+
 def ratio(above, below):
     return lambda results, level: above(results, level) / below(results, level)
 
@@ -64,8 +70,9 @@ def synthetic():
 
 def probes():
     bar = lambda title, *rest: Bar("response", title, *rest)
-    return [bar("least range of a driven control that moves alone", ">=", 0.6, over("reached", min, "controls")),
-            bar("most of a driven control when only another moves", "<", 0.15, over("others_at_most", max, "controls")),
+    return [bar("% of driven controls that reach 0.6 alone", ">=", 100, over("reached", share(lambda v: v >= 0.6), "controls"), 100, 0),
+            bar("% of driven controls below 0.15 while only others move", ">=", 100,
+                over("others_at_most", share(lambda v: v < 0.15), "controls"), 100, 0),
             bar("winks: least of a closed eye", ">", 0.8, over("closed", min, "winks")),
             bar("winks: most of the other eye", "<", 0.2, over("other", max, "winks")),
             Bar("leakage", "largest drift of a control on a neutral face that turns", "<=", 0.1, at(at, "largest"))]
@@ -78,7 +85,7 @@ def levels():
     return [bar("error of level 2 against level 4", "<=", 0.0123, row("LOD2", "error"), 1, 4),
             bar("error of level 3 against level 4", "<=", 0.0059, row("LOD3", "error"), 1, 4),
             bar("time of level 2 over level 4's", "<=", 0.55, row("LOD2", "cost_ratio")),
-            bar("memory besides the weights, MB", "<=", 6, at("tracker_bytes"), 1e-6)]
+            bar("memory besides the weights, MB", "<=", 6, at("levels", at, "tracker_bytes"), 1e-6)]
 
 
 def agreement(control, *path):

@@ -27,11 +27,11 @@ def number(value, digits=3):
 
 
 def save(figure, path):
-    """A small PNG: few colours are enough for plots."""
+    """A small PNG: a palette is enough for plots."""
     from PIL import Image
     figure.savefig(path, dpi=90, bbox_inches="tight")
     plt.close(figure)
-    Image.open(path).convert("RGB").quantize(64).save(path, optimize=True)
+    Image.open(path).convert("RGB").quantize(256, dither=Image.Dither.NONE).save(path, optimize=True)
 
 
 def heat_map(values, rows, columns, title, path, limit=1.0):
