@@ -42,7 +42,10 @@ LoadedTracker::LoadedTracker(const Options& options)
   config.smoothing = options.unfiltered ? 0 : 1;
   config.cpu_mask = cpu_mask(options.tier);
   config.clock_ns = now_ns;
-  const mien_status status = tracker.create(config);
+  mien_status status = tracker.create(config);
+  if (status == MIEN_OK) {
+    status = mien_tracker_required_bytes(&config, &tracker_bytes);
+  }
   if (status == MIEN_ERROR_UNSUPPORTED_LOD) {
     throw Failure(kExitUsage, "--lod " + std::to_string(config.lod) + ": " +
                                   models_directory(options.models) + " has no hifinet.mien");

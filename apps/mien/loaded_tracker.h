@@ -1,6 +1,7 @@
 // A tracker with the weights it runs on.
 #pragma once
 
+#include <cstddef>
 #include <mien/mien.hpp>
 #include <optional>
 #include <string>
@@ -25,6 +26,7 @@ struct LoadedTracker {
   Blob basenet, proposal;
   std::optional<Blob> hifinet;  // where there is one
   Tracker tracker;
+  std::size_t tracker_bytes = 0;  // memory of the tracker, the weights not counted
 };
 
 // Takes over a file of `mien neutral`. Throws Failure.

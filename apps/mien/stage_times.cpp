@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <numeric>
 
 namespace mien::app {
 
@@ -14,7 +15,8 @@ std::map<std::string, StageTime> StageTimes::summary() const {
   for (auto [stage, times] : ms_) {
     std::sort(times.begin(), times.end());
     const std::size_t last = times.size() - 1;
-    summary[stage] = {times[last / 2], times[last * 95 / 100]};
+    summary[stage] = {times[last / 2], times[last * 95 / 100],
+                      std::accumulate(times.begin(), times.end(), 0.0)};
   }
   return summary;
 }

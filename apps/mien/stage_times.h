@@ -1,4 +1,4 @@
-// Median and 95th percentile of the time of each stage.
+// Median, 95th percentile and sum of the time of each stage.
 #pragma once
 
 #include <cstdint>
@@ -11,6 +11,7 @@ namespace mien::app {
 struct StageTime {
   double median_ms;
   double p95_ms;
+  double total_ms;
 };
 
 class StageTimes {

@@ -1,6 +1,7 @@
 #include "apps/mien/track.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdio>
 #include <memory>
 #include <mien/mien.hpp>
@@ -104,15 +105,18 @@ void add_times(StageTimes& times, const Result& result) {
   times.add("frame", static_cast<std::int64_t>(whole));
 }
 
-void write_stats(const std::string& path, const Result& last, const StageTimes& times) {
+void write_stats(const std::string& path, const Result& last, const StageTimes& times,
+                 std::size_t tracker_bytes) {
   nlohmann::ordered_json stats;
   stats["frames"] = last.frames;
   stats["frames_with_face"] = last.face_frames;
   stats["proposal_runs"] = last.proposal_runs;
   stats["encoder_runs"] = last.encoder_runs;
+  stats["tracker_bytes"] = tracker_bytes;
   stats["stages"] = nlohmann::ordered_json::object();
   for (const auto& [stage, time] : times.summary()) {
-    stats["stages"][stage] = {{"median_ms", time.median_ms}, {"p95_ms", time.p95_ms}};
+    stats["stages"][stage] = {
+        {"median_ms", time.median_ms}, {"p95_ms", time.p95_ms}, {"total_ms", time.total_ms}};
   }
   OutputFile file(path);
   file.write(stats.dump(1) + "\n");
@@ -175,7 +179,7 @@ void track(const TrackOptions& options) {
   }
   outputs.finish();
   if (!options.stats.empty()) {
-    write_stats(options.stats, last, times);
+    write_stats(options.stats, last, times, loaded.tracker_bytes);
   }
   if (!options.quiet) {
     print_summary(last, times);

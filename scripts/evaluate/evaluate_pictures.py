@@ -1,40 +1,122 @@
-#!/usr/bin/env python3
-"""Runs `mien track` on single pictures never trained on: portraits, and pieces of places without a face.
+"""The program on single pictures never trained on: portraits, rendered people, and pieces of places without a face.
 
-The portraits' landmarks are MediaPipe's; a portrait counts as found when mien's box overlaps the right one.
+A picture is shown as a still video, long enough for smoothing and the temporal decoders to come to rest. The portraits' labels are
+MediaPipe's, a teacher and not the truth; those of rendered people are exact.
 """
-import argparse
-import json
-import subprocess
-import sys
-import tempfile
-from concurrent.futures import ThreadPoolExecutor
-from pathlib import Path
+from dataclasses import dataclass, field
 
-import cv2
 import numpy as np
 from PIL import Image
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "train"))
-import curves  # noqa: E402
-import faces  # noqa: E402
-import landmark_points as lp  # noqa: E402
-import metrics  # noqa: E402
-from paths import ROOT, data  # noqa: E402
-from proposal_data import iou  # noqa: E402
-from renderer.assets import names  # noqa: E402
+import curves
+import faces
+import landmark_points as lp
+import metrics
+import probe_pictures
+import report as out
+import skin_tone
+import teacher
+from expressions import CONTROLS
+from paths import data
+from program import y4m
+from proposal_data import iou
+from renderer.assets import names
+from setting import Missing
+
+FRAMES = 12     # a picture is shown for
+PLACES = 400
+YAWS = (0, 15, 30, 45, 90)
+TONE_YAW = 30   # degrees up to which faces count for skin tone: the pose must not speak for the skin
 
 
-def track(program, picture, folder, number):
-    """(box (cx, cy, side), landmarks [175,2]) of the one face mien finds in a picture uint8 [h,w,3], or None."""
-    image, table, points = (folder / f"{number}.{kind}" for kind in ("png", "csv", "landmarks.csv"))
-    cv2.imwrite(str(image), picture[..., ::-1])
-    subprocess.run([program, "track", image, "-o", table, "--landmarks", points, "--quiet"], check=True)
-    row = curves.read_table(table)
-    if row["status"][0] != "tracking":
-        return None
-    side = row["w"][0]
-    return np.array([row["x"][0] + side / 2, row["y"][0] + side / 2, side]), curves.read_landmarks(points)[0]
+@dataclass
+class Answers:
+    """One row per picture: whether the right face was found on the first frame, and what the last frame says."""
+    found: list = field(default_factory=list)
+    error: list = field(default_factory=list)      # of landmarks, in outer eye corner distances
+    controls: list = field(default_factory=list)
+    rotation: list = field(default_factory=list)
+
+    def add(self, tracked, box, points):
+        table = tracked.table
+        boxes = np.stack([table["x"] + table["w"] / 2, table["y"] + table["h"] / 2, table["w"]], 1)
+        right = [s == "tracking" and iou(b[None], box)[0] > 0.4 for s, b in zip(table["status"], boxes)]
+        a, b = lp.OUTER_EYE_CORNERS
+        eyes = np.linalg.norm(points[a] - points[b])
+        self.found.append(right[0])
+        self.error.append(metrics.point_error(tracked.landmarks[-1:], points[None], eyes)[0] if right[-1] else np.nan)
+        self.controls.append([table[c][-1] if right[-1] else np.nan for c in CONTROLS])
+        self.rotation.append(curves.rotations(table)[-1] if right[-1] else np.full((3, 3), np.nan))
+
+
+def show(program, picture, lod, frames=FRAMES):
+    return program.track(y4m(picture[None], [0] * frames), lod)
+
+
+def track_all(program, levels, pictures):
+    """{level: Answers} and the skin tones, of (picture, box, landmarks) triples."""
+    answers, tones = {name: Answers() for name in levels}, []
+    for picture, box, points in pictures:
+        tones.append(skin_tone.angle(skin_tone.cheeks(picture, points)))
+        for name, lod in levels.items():
+            answers[name].add(show(program, picture, lod), box, points)
+    return answers, np.array(tones)
+
+
+class Portraits:
+    """The test portraits with the teacher's controls and pose."""
+
+    def __init__(self):
+        if not (data() / "faces/labels.npz").exists():
+            raise Missing("the portraits are absent: MIEN_DATA must name the folder of the data packs")
+        self.set, labels = faces.portraits("test"), np.load(data() / "faces/labels.npz")
+        named = [str(n) for n in labels["blendshape_names"]]
+        shapes = labels["blendshapes"][self.set.rows].astype(np.float64)
+        unknown = np.full(len(shapes), np.nan)
+        self.controls = np.stack([shapes[:, named.index(c)] if c in named else unknown for c in CONTROLS], 1)
+        matrix = labels["matrix_colmajor"][self.set.rows].reshape(-1, 4, 4).transpose(0, 2, 1)
+        self.rotation = matrix[:, :3, :3].astype(np.float64)
+        self.yaw = np.degrees(np.arctan2(self.rotation[:, 0, 2], self.rotation[:, 2, 2]))
+
+    def __iter__(self):
+        for (picture, box), points in zip(self.set, self.set.points):
+            yield picture, box, points
+
+
+def rendered():
+    """(pictures as of track_all, labels)."""
+    images, labels = probe_pictures.people()
+    return zip(images, labels["crop"][:, :3], labels["landmarks"].astype(np.float64)), labels
+
+
+def by_group(error, groups):
+    """{group: pictures, mean error, how many were not found}, of the groups in the order given."""
+    table = {}
+    for name, chosen in groups.items():
+        known = error[chosen][np.isfinite(error[chosen])]
+        if chosen.any():
+            table[name] = {"pictures": int(chosen.sum()), "lost": int(chosen.sum() - len(known)),
+                           "error": out.rounded(known.mean()) if len(known) else None}
+    return table
+
+
+def grouped(answers, yaw, tones):
+    """Found, landmark error, and both by yaw and by skin tone."""
+    error = np.array(answers.error)
+    yaws = {f"{a}-{b}": (np.abs(yaw) >= a) & (np.abs(yaw) < b) for a, b in zip(YAWS, YAWS[1:])}
+    tone = np.array([skin_tone.group(t) for t in tones])
+    ahead = np.abs(yaw) < TONE_YAW
+    return {"pictures": len(error), "found": float(np.mean(answers.found)), "landmark_error_outer_eyes": float(np.nanmean(error)),
+            "landmark_error_p95": float(np.nanpercentile(error, 95)), "by_yaw": by_group(error, yaws),
+            "by_tone": by_group(error, {g: ahead & (tone == g) for g in (*skin_tone.GROUPS, skin_tone.NO_TONE)})}
+
+
+def against_teacher(answers, portraits):
+    """Controls and head pose beside the teacher's, on the portraits that were found."""
+    known = np.isfinite(answers.error)
+    ours = np.array(answers.controls)[known]
+    turn = teacher.pose_difference(np.array(answers.rotation)[known], portraits.rotation[known])
+    return {"pose_difference_deg": float(turn.mean()), "controls": teacher.compare_controls(ours, portraits.controls[known])}
 
 
 def empty_places(count, seed):
@@ -48,43 +130,43 @@ def empty_places(count, seed):
         yield np.ascontiguousarray(picture[y:y + side, x:x + side])
 
 
-def score_portraits(found, portraits):
-    hits, errors = [], []
-    for answer, box, points in zip(found, portraits.crops[:, :3], portraits.points):
-        hits.append(answer is not None and iou(answer[0][None], box)[0] > 0.4)
-        if hits[-1]:
-            a, b = lp.OUTER_EYE_CORNERS
-            errors.append(metrics.point_error(answer[1][None], points[None], np.linalg.norm(points[a] - points[b]))[0])
-    return {"portraits": len(hits), "found": float(np.mean(hits)), "landmark_error_outer_eyes": float(np.mean(errors)),
-            "landmark_error_p95": float(np.percentile(errors, 95))}
+def measure(setting):
+    levels, portraits = setting.levels("pictures"), Portraits()
+    found, tones = track_all(setting.program, levels, portraits)
+    people, labels = rendered()
+    drawn, drawn_tones = track_all(setting.program, levels, people)
+    claimed = [(show(setting.program, p, 1, 1).table["status"] == "tracking").any() for p in empty_places(PLACES, 5)]
+    report = {"places": PLACES, "false_faces": int(sum(claimed)), "levels": {}}
+    for name in levels:
+        report["levels"][name] = {
+            "portraits": {**grouped(found[name], portraits.yaw, tones), **against_teacher(found[name], portraits)},
+            "rendered": grouped(drawn[name], labels["angles"][:, 0], drawn_tones)}
+    return report
+
+
+def group_lines(title, portraits, rendered_people):
+    """Table of two sets of groups side by side."""
+    percent = lambda error: out.number(None if error is None else 100 * error, 2)
+    cells = lambda r: ["-", "-", "-"] if r is None else [str(r["pictures"]), percent(r["error"]), str(r["lost"])]
+    rows = [[g, *cells(portraits.get(g)), *cells(rendered_people.get(g))] for g in {**portraits, **rendered_people}]
+    return out.table([title, "portraits", "error, %", "not found", "rendered people", "error, %", "not found"], rows)
 
 
 def markdown(report):
-    r = report
-    return "\n".join([
-        "# Single pictures never trained on", "", "Made by `scripts/evaluate/evaluate_pictures.py`.", "",
-        f"* {r['portraits']} test portraits: the face found in {100 * r['found']:.1f} %; landmarks "
-        f"{100 * r['landmark_error_outer_eyes']:.2f} % of the outer eye corner distance from MediaPipe's (95th percentile "
-        f"{100 * r['landmark_error_p95']:.2f} %).",
-        f"* {r['places']} pieces of held-out places without a face: a face claimed in {r['false_faces']}.", ""])
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--mien", required=True, help="the built program")
-    parser.add_argument("--places", type=int, default=400, help="pictures without a face")
-    parser.add_argument("--out", type=Path, default=ROOT / "docs/results")
-    args = parser.parse_args()
-    portraits = faces.portraits("test")
-    with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(2) as pool:
-        ask = lambda job: track(args.mien, job[1], Path(folder), job[0])
-        found = list(pool.map(ask, ((f"face{i}", picture) for i, (picture, _) in enumerate(portraits))))
-        empty = list(pool.map(ask, ((f"place{i}", picture) for i, picture in enumerate(empty_places(args.places, 5)))))
-    report = {**score_portraits(found, portraits), "places": len(empty), "false_faces": sum(e is not None for e in empty)}
-    (args.out / "pictures.json").write_text(json.dumps(report, indent=1) + "\n")
-    (args.out / "pictures.md").write_text(markdown(report))
-    print(json.dumps(report))
-
-
-if __name__ == "__main__":
-    main()
+    lines = ["# Single pictures never trained on", ""] + out.prose(f"""A picture is shown for {FRAMES} frames. Landmark errors are shares
+        of the outer eye corner distance. {report['places']} pieces of held-out places without a face: a face claimed in
+        {report['false_faces']}.""")
+    for name, r in report["levels"].items():
+        real, drawn = r["portraits"], r["rendered"]
+        lines += [f"## {name}", ""] + out.table(
+            ["", "pictures", "found on the first frame", "landmark error, %", "95th percentile, %"],
+            [[kind, str(s["pictures"]), f"{100 * s['found']:.1f} %", out.number(100 * s["landmark_error_outer_eyes"], 2),
+              out.number(100 * s["landmark_error_p95"], 2)] for kind, s in (("test portraits", real), ("rendered people", drawn))])
+        lines += ["By head pose: MediaPipe's yaw of portraits, the true one of rendered people.", ""]
+        lines += group_lines("yaw, degrees", real["by_yaw"], drawn["by_yaw"])
+        lines += out.prose(f"""By skin tone: individual typology angle of the cheeks in the picture (Chardon et al. 1991), which the light
+            moves too; faces turned by less than {TONE_YAW} degrees.""")
+        lines += group_lines("skin tone", real["by_tone"], drawn["by_tone"])
+        lines += out.prose(f"""Portraits beside MediaPipe: head pose {real['pose_difference_deg']:.2f} degrees apart after the best constant
+            rotation; controls across portraits:""") + teacher.control_lines(real["controls"])
+    return "\n".join(lines)

@@ -1,46 +1,37 @@
-#!/usr/bin/env python3
-"""Scores on synthetic test sequences, whose truth is exact: the networks in PyTorch, or the program `mien`.
+"""Scores on synthetic test sequences, whose truth is exact: the networks in PyTorch, and the program.
 
-With --features (made by sequences.py --plain) the decoders of a checkpoint are scored, with --spoiled (made without --plain)
-what a poor camera costs; with --mien every sequence is written as a Y4M video, its window pasted into a camera image, and the
-program's curves are scored instead.
+For the program every sequence becomes a video, its window pasted into a camera picture.
 """
-import argparse
-import json
-import subprocess
-import sys
-import tempfile
-from pathlib import Path
-
 import cv2
 import numpy as np
 import torch
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "train"))
-import curves as tables  # noqa: E402
-import metrics  # noqa: E402
-import sequences as seq  # noqa: E402
-import train_decoders as phase2  # noqa: E402
-from expressions import CONTROLS  # noqa: E402
-from networks import ControlsDecoder, PoseDecoder  # noqa: E402
-from paths import ROOT  # noqa: E402
+import report as out
+import sequences as seq
+import features
+import train_decoders as phase2
+from expressions import CONTROLS
+from networks import ControlsDecoder, PoseDecoder
+from program import y4m
+from setting import NETWORKS, Missing
 
-FPS = 30
-LONG_LOOPS = 20  # a stream this many sequences long shows whether the state drifts
+LONG_LOOPS = 11  # a stream this many sequences long shows whether the state drifts
 
 
 def load_decoders(path):
-    checkpoint = torch.load(path)
-    decoders = {"controls": ControlsDecoder(), "pose": PoseDecoder(), "frame": phase2.FrameDecoder()}
+    """{name: decoder} of a checkpoint of train_decoders.py, HiFiNet's without a pose, and the supported controls."""
+    checkpoint = torch.load(path, map_location="cpu")
+    decoders = {"controls": ControlsDecoder(), "frame": phase2.FrameDecoder()}
+    if "pose_decoder" in checkpoint:
+        decoders["pose"] = PoseDecoder()
     for name, decoder in decoders.items():
-        key = {"controls": "controls_decoder", "pose": "pose_decoder", "frame": "frame_decoder"}[name]
-        decoder.load_state_dict(checkpoint[key])
+        decoder.load_state_dict(checkpoint[f"{name}_decoder"])
         decoder.eval()
     return decoders, checkpoint["supported"].numpy() > 0.5
 
 
 def drift(decoder, data, supported):
-    """FACS error on the first and on the last sequence of one long stream of many faces."""
+    """FACS error on the first sequence and on the second half of long streams of many faces."""
     every = phase2.of_stride(data, 1)
     rows = torch.arange(LONG_LOOPS * (len(every["stride"]) // LONG_LOOPS)).view(-1, LONG_LOOPS)
     with torch.no_grad():
@@ -50,144 +41,117 @@ def drift(decoder, data, supported):
     return {"first": error[0].item(), "last_half": error[LONG_LOOPS // 2:].mean().item()}
 
 
-def lod_error(decoders, data, supported):
-    """Mean absolute difference of the controls between the encoder on alternate and on every frame."""
-    out = [phase2.answers(decoders["controls"], phase2.of_stride(data, s)["features"]).clamp(0, 1) for s in (1, 2)]
-    return (out[0] - out[1]).abs()[..., torch.from_numpy(supported)].mean().item()
+def with_means(scores, supported):
+    """Scores with the mean correlation over the supported controls, and the lowest of them."""
+    values = [scores["correlation"][c] for c in supported]
+    return {**scores, "correlation_mean": float(np.nanmean(values)), "correlation_lowest": float(np.nanmin(values))}
 
 
-def score_networks(features, spoiled, checkpoint):
-    """The report of a decoder checkpoint on one split, as rendered and, with `spoiled`, through a poor camera."""
-    data = torch.load(features)
-    decoders, supported = load_decoders(checkpoint)
-    report, _ = phase2.evaluate(decoders, data, supported)
-    report["alternate frames"]["difference_to_every_frame"] = lod_error(decoders, data, supported)
-    report["every frame"]["landmark_error"] = data["landmark_error"].mean().item()
-    report["drift"] = drift(decoders["controls"], data, supported)
-    if spoiled:
-        report["poor camera"], _ = phase2.evaluate(decoders, torch.load(spoiled), supported)
-    report["supported"] = [c for c, s in zip(CONTROLS, supported) if s]
-    return report
+def score_networks(setting, network):
+    """The shipped networks on the test sequences, as rendered and through a poor camera."""
+    decoders, chosen = load_decoders(setting.checkpoint(network)[1])
+    supported = [c for c, s in zip(CONTROLS, chosen) if s]
+    data = features.of(setting, network, plain=True)
+    report, _ = phase2.evaluate(decoders, data, chosen)
+    spoiled, _ = phase2.evaluate(decoders, features.of(setting, network, plain=False), chosen)
+    columns = {"every frame": report["every frame"]["controls"], "alternate frames": report["alternate frames"]["controls"],
+               "without time": report["every frame"]["frame"], "poor camera": spoiled["every frame"]["controls"]}
+    return {"supported": supported, "columns": {k: with_means(v, supported) for k, v in columns.items()},
+            "pose": {mode: scores["pose"] for mode, scores in report.items() if "pose" in scores},
+            "landmark_error": data["landmark_error"].mean().item(), "drift": drift(decoders["controls"], data, chosen)}
 
 
-def camera_frames(images, window, camera_wh):
-    """Camera pictures BGR of one sequence: the window where it was, around it a blur of itself."""
+def camera_pictures(images, window, camera_wh):
+    """Camera pictures RGB [n,h,w,3] of one sequence: the window where it was, around it a blur of itself."""
     width, height = (int(v) for v in camera_wh)
-    for image, (cx, cy, side) in zip(images, window):
-        picture = cv2.cvtColor(image, cv2.COLOR_RGB2BGR)
-        canvas = cv2.resize(cv2.blur(picture, (61, 61)), (width, height))
-        scale = side / seq.WINDOW
+    pictures = np.empty((len(images), height, width, 3), np.uint8)
+    for canvas, image, (cx, cy, side) in zip(pictures, images, window):
+        canvas[:] = cv2.resize(cv2.blur(image, (61, 61)), (width, height))
+        scale = side / len(image)
         place = np.float32([[scale, 0, cx - side / 2 + (scale - 1) / 2], [0, scale, cy - side / 2 + (scale - 1) / 2]])
-        cv2.warpAffine(picture, place, (width, height), canvas, cv2.INTER_LINEAR, cv2.BORDER_TRANSPARENT)
-        yield canvas
+        cv2.warpAffine(image, place, (width, height), canvas, cv2.INTER_LINEAR, cv2.BORDER_TRANSPARENT)
+    return pictures
 
 
-def write_y4m(path, frames, camera_wh):
-    """A 4:2:0 full-range video of even size."""
-    width, height = (int(v) // 2 * 2 for v in camera_wh)
-    with open(path, "wb") as file:
-        file.write(f"YUV4MPEG2 W{width} H{height} F{FPS}:1 Ip A1:1 C420jpeg XCOLORRANGE=FULL\n".encode())
-        for frame in frames:
-            # OpenCV's conversion is limited range: stretch luma and chroma to the full one.
-            planes = cv2.cvtColor(frame[:height, :width], cv2.COLOR_BGR2YUV_I420).astype(np.float32)
-            luma = (planes[:height] - 16) * (255 / 219)
-            chroma = (planes[height:] - 128) * (255 / 224) + 128
-            file.write(b"FRAME\n" + np.clip(np.concatenate([luma, chroma]) + 0.5, 0, 255).astype(np.uint8).tobytes())
-
-
-def run_program(program, sequences, index, folder):
-    """Curves table of the program on one sequence."""
-    size = sequences.label("camera_wh")[index, 0].numpy()
-    video, table = folder / f"{index}.y4m", folder / f"{index}.csv"
-    frames = camera_frames(sequences.images[index], sequences.label("window")[index].numpy(), size)
-    write_y4m(video, frames, size)
-    subprocess.run([str(program), "track", str(video), "-o", str(table), "--quiet"], check=True)
-    video.unlink()
-    return tables.read_table(table)
-
-
-def score_program(program, shards, count):
-    """Scores of the program's curves; frames without a face count as found or not, and are left out otherwise."""
-    sequences = seq.Sequences.load(shards)
-    folder = Path(tempfile.mkdtemp())
+def score_program(program, lod, network):
+    """The program on the test sequences; scored are those it follows from the first frame to the last."""
+    sequences = seq.Sequences.load(features.shards(network))
     answers, faces = [], []
-    for index in range(min(count, len(sequences))):
-        table = run_program(program, sequences, index, folder)
+    for index in range(len(sequences)):
+        size = sequences.label("camera_wh")[index, 0].numpy()
+        pictures = camera_pictures(sequences.images[index], sequences.label("window")[index].numpy(), size)
+        table = program.track(y4m(pictures), lod).table
         answers.append(np.stack([table[c] for c in CONTROLS], 1))
         faces.append(table["status"] == "tracking")
     answers, faces = np.stack(answers), np.stack(faces)
-    supported = np.isfinite(answers[faces]).all(0)
-    whole = faces.all(1)  # jitter needs uninterrupted streams
-    truth = sequences.label("controls")[:len(answers)].numpy()
-    correlation = metrics.correlations(answers[faces][:, supported], truth[faces][:, supported])
-    return {"sequences": len(answers), "face_share": float(faces.mean()), "supported": int(supported.sum()),
-            "facs_error_supported": metrics.facs_error(answers[faces][:, supported], truth[faces][:, supported]),
-            "constant_mean_supported": metrics.constant_errors(truth[faces][:, supported])["mean"],
-            "jitter_supported": metrics.jitter(answers[whole][..., supported]) if whole.any() else None,
-            "correlation": dict(zip(np.array(CONTROLS)[supported].tolist(), np.round(correlation, 3).tolist()))}
+    whole = np.flatnonzero(faces.all(1))
+    chosen = np.isfinite(answers[whole]).all((0, 1))
+    truth = {"controls": sequences.label("controls", whole), "visible": seq.visible(sequences, whole)}
+    scores = phase2.control_scores(np.nan_to_num(answers[whole]), truth, chosen)
+    scores = with_means(scores, [c for c, s in zip(CONTROLS, chosen) if s])
+    return {**scores, "sequences": len(answers), "followed_whole": len(whole), "face_share": float(faces.mean())}
 
 
-def summary(scores, supported):
-    """Scores of one decoder with the correlations that matter most."""
-    values = scores["correlation"]
-    return {**scores, "correlation_supported": np.mean([values[c] for c in supported]), "jawOpen": values["jawOpen"],
-            "eyeBlinkLeft": values["eyeBlinkLeft"], "eyeBlinkRight": values["eyeBlinkRight"]}
+def measure_level(setting, name, lod):
+    report, network = {"network": NETWORKS[name]}, NETWORKS[name]
+    try:
+        report["networks"] = score_networks(setting, network)
+    except Missing as missing:
+        setting.skip(f"synthetic, the networks of {name} in PyTorch", missing)
+    report["program"] = score_program(setting.program, lod, network)
+    return report
+
+
+def measure(setting):
+    torch.set_num_threads(1)
+    report = {}
+    for name, lod in setting.levels("synthetic").items():
+        try:
+            report[name] = measure_level(setting, name, lod)
+        except Missing as missing:
+            setting.skip(f"synthetic, {name}", missing)
+    if not report:
+        raise Missing("no synthetic test sequences at all")
+    return report
+
+
+ROWS = (("FACS error, supported controls", "facs_error_supported", 1), ("the same, constant answer (mean)", "constant_mean_supported", 1),
+        ("the same, best constant (median)", "constant_median_supported", 1), ("FACS error, all 52", "facs_error", 1),
+        ("the same, best constant (median)", "constant_median", 1), ("mean correlation, supported controls", "correlation_mean", 1),
+        ("lowest correlation of a supported control", "correlation_lowest", 1), ("asymmetry on symmetric expressions", "asymmetry", 1),
+        ("jitter x 1e-4, supported controls", "jitter_supported", 1e4), ("jitter x 1e-4, all 52", "jitter", 1e4),
+        ("jitter x 1e-4 of the truth", "truth_jitter", 1e4))
+
+
+def columns_of(r):
+    """{title: scores} of one level."""
+    return {"program": r["program"], **{f"networks, {k}": v for k, v in r.get("networks", {"columns": {}})["columns"].items()}}
 
 
 def markdown(report):
-    """The PyTorch report as tables."""
-    rows = [("FACS error, supported controls", "facs_error_supported", 1), ("the same, constant answer (mean)",
-            "constant_mean_supported", 1), ("FACS error, all 52", "facs_error", 1), ("the same, constant answer (mean)",
-            "constant_mean", 1), ("the same, best constant (median)", "constant_median", 1),
-            ("mean correlation, supported controls", "correlation_supported", 1), ("correlation of jawOpen", "jawOpen", 1),
-            ("of eyeBlinkLeft", "eyeBlinkLeft", 1), ("of eyeBlinkRight", "eyeBlinkRight", 1),
-            ("asymmetry on symmetric expressions", "asymmetry", 1),
-            ("jitter x 1e-4, supported controls", "jitter_supported", 1e4), ("jitter x 1e-4, all 52", "jitter", 1e4),
-            ("jitter x 1e-4 of the truth", "truth_jitter", 1e4)]
-    columns = {"every frame": report["every frame"]["controls"], "alternate frames": report["alternate frames"]["controls"],
-               "without time, every frame": report["every frame"]["frame"]}
-    if "poor camera" in report:
-        columns["every frame, poor camera"] = report["poor camera"]["every frame"]["controls"]
-    lines = ["# Synthetic test sequences", "", "Made by `scripts/evaluate/evaluate_synthetic.py`; faces, places and"
-             " performances that training never saw.", ""]
-    if "poor camera" in report:
-        lines += ["As rendered, and the same pictures spoiled at the size of the crop as in training: blur, motion, lower resolution,"
-                  " noise of up to 6 % in every frame, coarse JPEG, tint and contrast.", ""]
-    lines += ["| | " + " | ".join(columns) + " |", "|---" * (len(columns) + 1) + "|"]
-    cells = [summary(c, report["supported"]) for c in columns.values()]
-    lines += [f"| {title} | " + " | ".join(f"{k * c[key]:.4g}" for c in cells) + " |" for title, key, k in rows]
-    pose = [report[m]["pose"] for m in ("every frame", "alternate frames")]
-    lines += ["", "| head pose | every frame | alternate frames |", "|---|---|---|"]
-    lines += [f"| {key} | {pose[0][key]:.4g} | {pose[1][key]:.4g} |" for key in pose[0]]
-    lines += ["", f"Landmark error {100 * report['every frame']['landmark_error']:.2f} % of the outer eye corner distance. "
-              f"FACS error on the first sequence of a long stream {report['drift']['first']:.4f}, on its second half "
-              f"{report['drift']['last_half']:.4f}.", "", "| control | correlation | supported |", "|---|---|---|"]
-    correlation = report["every frame"]["controls"]["correlation"]
-    lines += [f"| {c} | {correlation[c]:.2f} | {'yes' if c in report['supported'] else ''} |"
-              for c in sorted(CONTROLS, key=lambda c: -np.nan_to_num(correlation[c], nan=-1))]
-    return "\n".join(lines) + "\n"
+    lines = ["# Synthetic test sequences", ""] + out.prose("""Faces, places and performances that training never saw. The program smooths,
+        and runs its encoders as its level says; the networks are scored in PyTorch with the encoder on every or on alternate frames, and
+        on the same pictures spoiled as in training: blur, motion, lower resolution, noise of up to 6 %, coarse JPEG, tint and contrast.""")
+    for name, r in report.items():
+        columns = columns_of(r)
+        program = r["program"]
+        lines += [f"## {name}: {r['network']}", ""] + out.prose(f"""The program followed {100 * program['face_share']:.1f} % of the frames
+            and {program['followed_whole']} of {program['sequences']} sequences from end to end, which are scored.""")
+        cells = lambda key, scale: [out.number(scale * c[key], 4 if scale == 1 else 1) for c in columns.values()]
+        lines += out.table(["", *columns], [[title, *cells(key, scale)] for title, key, scale in ROWS])
+        lines += network_lines(r["networks"]) if "networks" in r else []
+        correlation = {k: c["correlation"] for k, c in columns.items() if k in ("program", "networks, every frame")}
+        supported = r.get("networks", {}).get("supported", [])
+        lines += out.table(["control", *(f"correlation, {k}" for k in correlation), "supported"],
+                           [[c, *(out.number(v[c], 2) for v in correlation.values()), "yes" if c in supported else ""]
+                            for c in sorted(CONTROLS, key=lambda c: -np.nan_to_num(correlation["program"][c], nan=-1))])
+    return "\n".join(lines)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--features", type=Path, help="features of the test split")
-    parser.add_argument("--spoiled", type=Path, help="features of the same through a poor camera")
-    parser.add_argument("--decoders", type=Path, help="checkpoint of train_decoders.py")
-    parser.add_argument("--mien", type=Path, help="the built program, scored on --shards")
-    parser.add_argument("--shards", type=Path, nargs="*", default=[])
-    parser.add_argument("--count", type=int, default=16, help="sequences for the program")
-    parser.add_argument("--out", type=Path, default=ROOT / "docs/results")
-    args = parser.parse_args()
-    args.out.mkdir(parents=True, exist_ok=True)
-    if args.features:
-        report = score_networks(args.features, args.spoiled, args.decoders)
-        (args.out / "synthetic.md").write_text(markdown(report))
-        (args.out / "synthetic.json").write_text(json.dumps(report, indent=1) + "\n")
-    if args.mien:
-        report = score_program(args.mien, args.shards, args.count)
-        (args.out / "synthetic_program.json").write_text(json.dumps(report, indent=1) + "\n")
-    print(json.dumps(report, indent=1))
-
-
-if __name__ == "__main__":
-    main()
+def network_lines(r):
+    lines = []
+    if r["pose"]:
+        modes = r["pose"].values()
+        lines += out.table(["head pose", *r["pose"]], [[key, *(out.number(m[key]) for m in modes)] for key in next(iter(modes))])
+    return lines + out.prose(f"""Landmark error {100 * r['landmark_error']:.2f} % of the outer eye corner distance. FACS error on the first
+        sequence of a long stream {r['drift']['first']:.4f}, on its second half {r['drift']['last_half']:.4f}.""")

@@ -46,6 +46,35 @@ def asymmetry(curves, truth, pairs, tolerance=0.05):
     return float(np.abs(curves[..., left] - curves[..., right])[symmetric].mean())
 
 
+def known_mean(values, axis=0):
+    """Mean of what is known; NaN where nothing is."""
+    values = np.asarray(values, np.float64)
+    known = np.isfinite(values)
+    count = known.sum(axis)
+    return np.where(count > 0, np.where(known, values, 0).sum(axis) / np.maximum(count, 1), np.nan)[()]
+
+
+def linear_map_error(answers, wanted):
+    """Mean |error| of each column of `wanted` [n,c] after the best linear map of `answers`, and that of its mean alone: [2,c]."""
+    a, b = answers - answers.mean(0), wanted - wanted.mean(0)
+    slope = (a * b).sum(0) / np.maximum((a * a).sum(0), 1e-9)
+    return np.abs(b - slope * a).mean(0), np.abs(b).mean(0)
+
+
+def still_stretches(points, scale, most=0.003, least=6):
+    """Runs (slices of at least `least` frames) in which the mean point of [n,p,2] moves by at most `most` of `scale` [n] a frame."""
+    step = np.linalg.norm(np.diff(points, axis=0), axis=-1).mean(-1) / scale[1:]
+    still = np.concatenate([[False], step <= most, [False]]).astype(int)
+    starts, ends = np.flatnonzero(np.diff(still) == 1), np.flatnonzero(np.diff(still) == -1)
+    return [slice(a, b + 1) for a, b in zip(starts, ends) if b + 1 - a >= least]
+
+
+def jitter_of_stretches(curves, stretches):
+    """Jitter over several uninterrupted pieces of curves [n,c]."""
+    sizes = [curves[s].size for s in stretches]
+    return float(np.average([jitter(curves[s]) for s in stretches], weights=sizes)) if sizes else float("nan")
+
+
 def point_error(predicted, truth, scale):
     """Mean point distance of every frame over a length: predicted, truth [n,p,2], scale [n] -> [n]."""
     return np.linalg.norm(predicted - truth, axis=-1).mean(-1) / scale
@@ -66,6 +95,17 @@ def self_test():
     assert constant_errors(truth)["median"] <= constant_errors(truth)["mean"]
     assert asymmetry(truth * [1, 0, 1, 1], np.ones_like(truth), [(0, 1)]) == truth[..., 0].mean()
     assert facs_error(truth + 0.25, truth) - 0.25 < 1e-12
+    assert np.array_equal(known_mean([[1.0, np.nan], [3, np.nan]]), [2, np.nan], equal_nan=True)
+    fitted, constant = linear_map_error(truth[0], 3 * truth[0] - 1)
+    assert np.allclose(fitted, 0) and (constant > 0.1).all()
+    points = np.zeros((12, 5, 2))
+    points[4:, :, 0] = 1  # one jump between two pauses of 4 and 8 frames
+    assert still_stretches(points, np.ones(12)) == [slice(4, 12)]
+    assert still_stretches(points, np.ones(12), least=4) == [slice(0, 4), slice(4, 12)]
+    assert still_stretches(points, np.full(12, 1000.0)) == [slice(0, 12)]
+    trembling = np.concatenate([ramp[0], zigzag[0]])
+    assert abs(jitter_of_stretches(trembling, [slice(0, 6), slice(6, 12)]) - 2 / 6) < 1e-12
+    assert np.isnan(jitter_of_stretches(trembling, []))
     print("metrics: ok")
 
 

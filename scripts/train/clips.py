@@ -2,7 +2,7 @@
 """Follows the faces of the evaluation clips with a network alone, to judge checkpoints. Clips are never trained on.
 
 The crop of a frame comes from the landmarks of the frame before; the teacher's landmarks start a clip and start it again when
-the crop has left the face. The whole tracker is judged by scripts/evaluate/evaluate_clips.py.
+the crop has left the face. The whole tracker is judged by scripts/evaluate/evaluate.py.
 """
 import subprocess
 

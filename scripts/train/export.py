@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes models/basenet.mien, hifinet.mien and proposal.mien from the runs' checkpoints.
 
-usage: export.py basenet|hifinet ENCODER.pt DECODERS.pt     or: export.py proposal PNET.pt RNET.pt
+usage: export.py basenet|hifinet ENCODER.pt DECODERS.pt     or: export.py proposal PNET.pt RNET.pt     [--out FOLDER]
 Batch norm is folded into the convolution before it; linear layers that follow a map take the map's blocked order.
 """
 import argparse
@@ -86,19 +86,19 @@ def start(name, encoder_path, decoders):
     return file, net
 
 
-def export_basenet(encoder_path, decoders_path):
+def basenet(encoder_path, decoders_path):
     decoders = torch.load(decoders_path, map_location="cpu")
     file, net = start("basenet", encoder_path, decoders)
     add_head(file, "landmarks", net.landmarks)
     add_head(file, "face_probability", net.face, "sigmoid")
     add_decoder(file, "pose_decoder", loaded(networks.PoseDecoder(), decoders["pose_decoder"]), "none")
     file.constant("landmark_template", plain(template()))
-    file.write(ROOT / "models/basenet.mien")
+    return file
 
 
-def export_hifinet(encoder_path, decoders_path):
+def hifinet(encoder_path, decoders_path):
     file, _ = start("hifinet", encoder_path, torch.load(decoders_path, map_location="cpu"))
-    file.write(ROOT / "models/hifinet.mien")
+    return file
 
 
 def add_small_conv(net, x, convolution, prelu):
@@ -128,7 +128,7 @@ def add_rnet(file, rnet):
     net.output(net.fully_connected(x, plain(rnet.box.weight), plain(rnet.box.bias), activation="none"))
 
 
-def export_proposal(pnet_path, rnet_path):
+def proposal(pnet_path, rnet_path):
     pnet, rnet = networks.PNet(), networks.RNet()
     pnet.load_state_dict(torch.load(pnet_path, map_location="cpu"))
     rnet.load_state_dict(torch.load(rnet_path, map_location="cpu"))
@@ -137,16 +137,20 @@ def export_proposal(pnet_path, rnet_path):
     add_rnet(file, rnet)
     file.metadata["name"] = "proposal"
     file.metadata["licence"] = LICENCE
-    file.write(ROOT / "models/proposal.mien")
+    return file
+
+
+FILES = {"basenet": basenet, "hifinet": hifinet, "proposal": proposal}
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("what", choices=["basenet", "hifinet", "proposal"])
+    parser.add_argument("what", choices=FILES)
     parser.add_argument("checkpoints", type=Path, nargs=2)
+    parser.add_argument("--out", type=Path, default=ROOT / "models", help="folder")
     options = parser.parse_args()
-    {"basenet": export_basenet, "hifinet": export_hifinet, "proposal": export_proposal}[options.what](*options.checkpoints)
-    path = ROOT / f"models/{options.what}.mien"
+    path = options.out / f"{options.what}.mien"
+    FILES[options.what](*options.checkpoints).write(path)
     print(json.dumps({"file": path.name, "bytes": path.stat().st_size}))
 
 

@@ -51,16 +51,21 @@ class Set:
 
 def shoot(studio, framing, figure, vertices, place, pose, shift=np.zeros(3)):
     """Picture and labels of one frame; `place` is a Set, `pose` (rotation, translation in cm)."""
+    crop = camera.fit_crop(place.camera.project(studio.rig.landmarks(vertices) @ pose[0].T + pose[1]))
+    window = np.array([*crop[:2], framing.window_crops * crop[2]])
+    return photograph(studio, window, framing.window, figure, vertices, place, pose, shift)
+
+
+def photograph(studio, window, pixels, figure, vertices, place, pose, shift=np.zeros(3)):
+    """The same for any window (cx, cy, side) of the camera's picture, as pixels x pixels."""
     landmarks = studio.rig.landmarks(vertices)
     points = landmarks @ pose[0].T + pose[1]
-    pixels = place.camera.project(points)
-    crop = camera.fit_crop(pixels)
-    side = framing.window_crops * crop[2]
-    view = place.camera.view(crop[0] - side / 2, crop[1] - side / 2, side, framing.window, framing.window)
+    seen_at = place.camera.project(points)
+    view = place.camera.view(*(window[:2] - window[2] / 2), window[2], pixels, pixels)
     scene = Scene(figure, vertices, *pose, landmarks, place.light, view, background.behind(place.backdrop, view),
                   place.occluders(points, shift))
     image, visible = studio.render(scene)
-    labels = dict(landmarks=np.float32(pixels), window=np.float32([*crop[:2], side]), crop=np.float32(crop),
+    labels = dict(landmarks=np.float32(seen_at), window=np.float32(window), crop=np.float32(camera.fit_crop(seen_at)),
                   rotation=np.float32(pose[0]), translation=np.float32(pose[1] / 100), f_px=np.float32(place.camera.f_px),
                   camera_wh=np.int16([place.camera.width, place.camera.height]), visibility=visible)
     return image, labels
@@ -116,7 +121,12 @@ def frames_of_shard(studio, framing, split, kind, shard, count, seed):
 def write_shard(studio, framing, folder, split, kind, shard, count, seed, position):
     total = count * (FRAMES if kind == "sequences" else 1)
     source = frames_of_shard(studio, framing, split, kind, shard, count, seed)
-    images, labels = zip(*tqdm(source, f"{folder.parent.name} {shard}", total, position=position, mininterval=5, leave=False))
+    save(folder, tqdm(source, f"{folder.parent.name} {shard}", total, position=position, mininterval=5, leave=False))
+
+
+def save(folder, pictures):
+    """Writes the (image, labels) of a shard; a folder that is not whole never appears under its name."""
+    images, labels = zip(*pictures)
     unfinished = folder.with_name(f".{folder.name}.{os.getpid()}")
     unfinished.mkdir(parents=True, exist_ok=True)
     np.save(unfinished / "images.npy", np.stack(images))

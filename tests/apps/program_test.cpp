@@ -147,6 +147,8 @@ TEST_F(Program, TracksTheDemoClip) {
   EXPECT_EQ(std::count(header.begin(), header.end(), ','), 15 + 52);
   EXPECT_EQ(lines(contents(path("lm.csv"))), 61u);
   EXPECT_NE(contents(path("stats.json")).find("\"frames\": 60"), std::string::npos);
+  EXPECT_NE(contents(path("stats.json")).find("\"tracker_bytes\": "), std::string::npos);
+  EXPECT_NE(contents(path("stats.json")).find("\"total_ms\": "), std::string::npos);
 }
 
 TEST_F(Program, TracksSeveralFacesWithIds) {

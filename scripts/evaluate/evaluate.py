@@ -1,0 +1,69 @@
+#!/usr/bin/env python3
+"""Measures mien and writes docs/results: tables, plots, and README.md with every figure beside what it should be.
+
+Needs the built program, the data packs (MIEN_DATA) and the cache (MIEN_CACHE); what it needs and does not find is skipped, said, and
+makes the exit status 3. Pictures are rendered into the cache once. See docs/training.md.
+"""
+import argparse
+import importlib
+import sys
+import time
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "train"))
+import report as out  # noqa: E402
+import summary  # noqa: E402
+from paths import ROOT, cache  # noqa: E402
+from program import Program  # noqa: E402
+from setting import PARTS, Missing, Setting  # noqa: E402
+
+SKIPPED = 3  # exit status
+
+
+def evaluate(part, setting):
+    """Measures one part and writes its results."""
+    module = importlib.import_module(f"evaluate_{part}")
+    print(f"== {part}", flush=True)
+    began = time.time()
+    results = module.measure(setting)
+    seconds = time.time() - began
+    (setting.out / f"{part}.json").write_text(out.dump({"seconds": round(seconds), "results": results}))
+    note = f"\nMade by `scripts/evaluate/evaluate.py {part}`.\n"
+    (setting.out / f"{part}.md").write_text(module.markdown(results).rstrip() + "\n" + note)
+    if hasattr(module, "plot"):
+        module.plot(results, setting.out)
+    print(f"{part}: {seconds:.0f} s", flush=True)
+
+
+def main():
+    runs = cache() / "runs"
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("parts", nargs="*", metavar="PART", help=f"some of {', '.join(PARTS)}; default: all")
+    parser.add_argument("--mien", type=Path, default=ROOT / "build/release/apps/mien/mien", help="the built program")
+    parser.add_argument("--models", type=Path, default=ROOT / "models")
+    parser.add_argument("--basenet", type=Path, nargs=2, default=[runs / "finetune/last.pt", runs / "decoders.pt"],
+                        metavar=("ENCODER", "DECODERS"), help="the checkpoints that export.py was given")
+    parser.add_argument("--hifinet", type=Path, nargs=2, default=[runs / "hifinet/last.pt", runs / "hifinet_decoders.pt"],
+                        metavar=("ENCODER", "DECODERS"))
+    parser.add_argument("--features", type=Path, default=cache() / "features", help="folder of BaseNet's features; HiFiNet's: NAME_hifinet")
+    parser.add_argument("--out", type=Path, default=ROOT / "docs/results")
+    args = parser.parse_args()
+    if unknown := set(args.parts) - set(PARTS):
+        parser.error(f"no such part: {', '.join(sorted(unknown))}")
+    if not args.mien.exists():
+        parser.error(f"{args.mien} is not built: cmake --preset release && cmake --build --preset release --target mien")
+    args.out.mkdir(parents=True, exist_ok=True)
+    setting = Setting(Program(args.mien, args.models), {"basenet": args.basenet, "hifinet": args.hifinet}, args.features, args.out)
+    for part in args.parts or PARTS:
+        try:
+            evaluate(part, setting)
+        except Missing as missing:
+            setting.skip(part, missing)
+    summary.write(args.out, setting.skipped, setting.program.has_hifinet)
+    for skipped in setting.skipped:
+        print(f"SKIPPED {skipped}", file=sys.stderr)
+    return SKIPPED if setting.skipped else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,64 @@
+"""What turning the head does to the controls of a neutral face, on rendered test identities."""
+import numpy as np
+
+import metrics
+import probe_pictures
+import report as out
+from evaluate_response import program_answers, read
+from expressions import CONTROLS
+from probes import PITCH, YAW, pose_plan
+
+
+def scores(found):
+    """Drift from the frontal answer, mean of |difference| over identities; found: {(axis, degrees): [identities,52]}."""
+    front = np.mean([v for (axis, _), v in found.items() if axis == "front"], 0)
+    driven = np.isfinite(front).all(0)
+    drift = {mark: metrics.known_mean(np.abs(v - front)) for mark, v in found.items() if mark[0] != "front"}
+    worst = {axis: np.max([d for (a, _), d in drift.items() if a == axis], 0) for axis in ("yaw", "pitch")}
+    rows = {c: {"front": out.rounded(front[:, i].mean()), **{axis: out.rounded(d[i]) for axis, d in worst.items()}}
+            for i, c in enumerate(CONTROLS) if driven[i]}
+    by_angle = {axis: {degrees: out.rounded(d[driven].max()) for (a, degrees), d in sorted(drift.items()) if a == axis}
+                for axis in ("yaw", "pitch")}
+    largest = max(rows, key=lambda c: max(rows[c]["yaw"], rows[c]["pitch"]))
+    followed = np.mean([np.isfinite(v).any(1).mean() for v in found.values()])
+    return {"identities": len(front), "face_share": out.rounded(followed),
+            "largest": max(rows[largest]["yaw"], rows[largest]["pitch"]), "largest_control": largest,
+            "below_0.1": sum(max(r["yaw"], r["pitch"]) <= 0.1 for r in rows.values()), "controls": rows, "by_angle": by_angle}
+
+
+def measure(setting):
+    plan, levels = pose_plan(), setting.levels("leakage")
+    found = {name: [] for name in levels}
+    for images, labels in probe_pictures.identities("pose"):
+        for name, lod in levels.items():
+            found[name].append(read(program_answers(setting.program, lod)(images, labels, plan.order), plan))
+    return {name: scores({mark: np.stack([r[mark] for r in rows]) for mark in plan.marks}) for name, rows in found.items()}
+
+
+def markdown(report):
+    first = next(iter(report.values()))
+    lines = ["# Neutral faces that turn", ""] + out.prose(f"""The program on {first['identities']} rendered test identities with all
+        controls at 0, turned by up to {YAW} degrees of yaw and {PITCH} of pitch. Drift: mean over identities of the absolute difference to
+        the answers of the same face when it looks ahead, before each turn; the largest over the angles.""")
+    lines += ["![drift by angle](leakage.png)", ""]
+    for name, r in report.items():
+        lines += [f"## {name}", ""] + out.prose(f"""Largest: {r['largest_control']}, {out.number(r['largest'])}. {r['below_0.1']} of
+            {len(r['controls'])} driven controls drift by at most 0.1. Faces followed: {100 * r['face_share']:.1f} %.""")
+        order = sorted(r["controls"].items(), key=lambda item: -max(item[1]["yaw"], item[1]["pitch"]))
+        lines += out.table(["control", "answer ahead", "drift, yaw", "drift, pitch"],
+                           [[c, out.number(v["front"]), out.number(v["yaw"]), out.number(v["pitch"])] for c, v in order])
+    return "\n".join(lines)
+
+
+def plot(report, folder):
+    figure, axes = out.plt.subplots(1, 2, figsize=(8, 3), sharey=True)
+    for axis, panel in zip(("yaw", "pitch"), axes):
+        for name, r in report.items():
+            degrees = sorted(int(d) for d in r["by_angle"][axis])
+            values = {int(k): v for k, v in r["by_angle"][axis].items()}
+            panel.plot(degrees, [values[d] for d in degrees], marker=".", label=name)
+        panel.axhline(0.1, color="grey", linewidth=0.8)
+        panel.set_xlabel(f"{axis}, degrees")
+    axes[0].set_ylabel("largest drift of a control")
+    axes[0].legend()
+    out.save(figure, folder / "leakage.png")

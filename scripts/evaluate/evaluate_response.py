@@ -1,0 +1,111 @@
+"""What controls answer when one of them moves alone, on rendered test identities: range, cross-talk, winks.
+
+Answers are means over the last frames of a pause with the control at 1, and, for rest, of the pause before it moves.
+"""
+import numpy as np
+
+import metrics
+import probe_pictures
+import report as out
+from expressions import CONTROLS, INDEX
+from probes import control_plan
+from program import y4m
+
+WORST = 25
+
+
+def program_answers(program, lod):
+    """A function (images, order) -> controls [frames,52] of the program, NaN where it has no face."""
+    def answers(images, _, order):
+        table = program.track(y4m(images, order), lod).table
+        controls = np.stack([table[c] for c in CONTROLS], 1)
+        controls[table["status"] != "tracking"] = np.nan
+        return controls
+    return answers
+
+
+def read(controls, plan):
+    """{mark: answer [52]} of one identity."""
+    return {mark: controls[frames].mean(0) for mark, frames in plan.marks.items()}
+
+
+def collect(sources, identities=probe_pictures.IDENTITIES):
+    """{source: {mark: answers [identities,52]}} of functions (images, labels, order) -> controls [frames,52]."""
+    plan, found = control_plan(), {name: [] for name in sources}
+    for images, labels in probe_pictures.identities("controls", identities):
+        for name, answers in sources.items():
+            found[name].append(read(answers(images, labels, plan.order), plan))
+    return {name: {mark: np.stack([r[mark] for r in rows]) for mark in plan.marks} for name, rows in found.items()}
+
+
+def scores(found):
+    """Numbers of one source from {mark: answers [identities,52]}."""
+    rest = metrics.known_mean([v for k, v in found.items() if k[-1] == "rest"], (0, 1))
+    driven = np.isfinite(rest)
+    matrix = np.stack([metrics.known_mean(found[c, "alone"]) for c in CONTROLS])
+    controls = {}
+    for i, c in enumerate(CONTROLS):
+        if driven[i]:
+            alone, with_others = found[c, "alone"][:, i], found.get((c, "with companions"))
+            controls[c] = {"rest": rest[i], "reached": metrics.known_mean(alone), "lowest_identity": np.nanmin(alone),
+                           "with_companions": np.nan if with_others is None else metrics.known_mean(with_others[:, i]),
+                           "others_at_most": np.delete(matrix[:, i], i).max()}
+    controls = {c: {k: out.rounded(v) for k, v in row.items()} for c, row in controls.items()}
+    others = np.where(np.eye(len(CONTROLS), dtype=bool) | ~driven, -np.inf, matrix)
+    worst = np.argsort(others, axis=None)[::-1][:WORST]
+    worst = [(CONTROLS[k // len(CONTROLS)], CONTROLS[k % len(CONTROLS)], out.rounded(others.flat[k])) for k in worst]
+    answered = np.mean([np.isfinite(v).any(1).mean() for v in found.values()])
+    return {"identities": len(found[CONTROLS[0], "alone"]), "face_share": out.rounded(answered), "controls": controls,
+            "reached_0.6": sum(r["reached"] >= 0.6 for r in controls.values()),
+            "others_below_0.15": sum(r["others_at_most"] < 0.15 for r in controls.values()),
+            "worst": worst, "winks": winks(found), "matrix": out.rounded(matrix, 3)}
+
+
+def winks(found):
+    """Of a closed eye and of the other one, by the mouth: means and the share of identities with > 0.8 and < 0.2."""
+    table = {}
+    for mouth, kind in (("closed", "alone"), ("open", "mouth open")):
+        for side, other in (("Left", "Right"), ("Right", "Left")):
+            answers = found["eyeBlink" + side, kind]
+            shut, open_eye = (answers[:, INDEX["eyeBlink" + s]] for s in (side, other))
+            table[f"{side.lower()} eye, mouth {mouth}"] = {
+                "closed": out.rounded(metrics.known_mean(shut)), "other": out.rounded(metrics.known_mean(open_eye)),
+                "share": out.rounded(np.mean((shut > 0.8) & (open_eye < 0.2)))}
+    return table
+
+
+def measure(setting):
+    levels = setting.levels("response")
+    found = collect({name: program_answers(setting.program, lod) for name, lod in levels.items()})
+    return {name: scores(answers) for name, answers in found.items()}
+
+
+def tables(r):
+    """Markdown of the scores of one source."""
+    lines = out.prose(f"""{len(r['controls'])} controls are driven: {r['reached_0.6']} reach 0.6, {r['others_below_0.15']} stay below 0.15
+        whatever else moves.""")
+    lines += out.table(["control", "at rest", "reached", "least of an identity", "with companions", "others"],
+                       [[c, *(out.number(v[k]) for k in ("rest", "reached", "lowest_identity", "with_companions", "others_at_most"))]
+                        for c, v in r["controls"].items()])
+    lines += ["Worst cross-talk:", ""] + out.table(["moves", "answers", "by"], [[a, b, out.number(v)] for a, b, v in r["worst"]])
+    lines += ["Winks; share: of identities with the closed eye above 0.8 and the other below 0.2.", ""]
+    winked = [[k, *(out.number(v[x]) for x in ("closed", "other", "share"))] for k, v in r["winks"].items()]
+    return "\n".join(lines + out.table(["wink", "closed eye", "other eye", "share"], winked))
+
+
+def markdown(report):
+    first = next(iter(report.values()))
+    lines = ["# Controls that move alone", ""] + out.prose(f"""The program on {first['identities']} rendered test identities, near-frontal,
+        without glasses, hat or occluder. One control goes 0 -> 1 -> 0 at a time, all others stay 0. Reached: the mean answer with the
+        control at 1. With companions: the same as a face can do it (eyes turn together; the tongue and mouthClose with an open jaw).
+        Others: the highest mean answer while another control is at 1 and this one at 0.""")
+    for name, r in report.items():
+        lines += [f"## {name}", "", f"![cross-talk](response_{name}.png)", "", tables(r)]
+    return "\n".join(lines)
+
+
+def plot(report, folder):
+    for name, r in report.items():
+        values = np.array([[np.nan if v is None else v for v in row] for row in r["matrix"]])
+        out.heat_map(values, CONTROLS, CONTROLS, f"{name}: mean answer (column) while one control (row) is at 1",
+                     folder / f"response_{name}.png")

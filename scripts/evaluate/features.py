@@ -1,0 +1,43 @@
+"""Features of the synthetic test sequences, as the shipped networks see them, kept in $MIEN_CACHE/evaluation."""
+import hashlib
+
+import torch
+
+import sequences as seq
+from framing import FRAMINGS
+from paths import cache
+from setting import Missing
+
+SEED = 7
+
+
+def shards(network):
+    """Folders of the test sequences in a network's framing."""
+    framing = FRAMINGS[network]
+    found = sorted((cache() / "synthetic" / framing.folder("test_sequences")).glob("shard_*"))
+    if not found:
+        option = "" if network == "basenet" else f" --framing {network}"
+        raise Missing(f"no synthetic test sequences: make_synthetic.py --split test --kind sequences --count 66{option}")
+    return found
+
+
+def digest(paths):
+    whole = hashlib.sha256()
+    for path in paths:
+        whole.update(path.read_bytes())
+    return whole.hexdigest()[:12]
+
+
+def of(setting, network, plain):
+    """What sequences.py makes of the test sequences: as rendered (`plain`), or through a poor camera."""
+    encoders = [setting.checkpoint("basenet")[0]] + ([setting.checkpoint("hifinet")[0]] if network == "hifinet" else [])
+    folders = shards(network)
+    name = f"{network}_{digest(encoders)}_{len(folders)}_{'plain' if plain else 'spoiled'}.pt"
+    path = cache() / "evaluation" / name
+    if not path.exists():
+        view = seq.BaseNetView(encoders[0])
+        if network == "hifinet":
+            view = seq.HiFiNetView(view, encoders[1])
+        path.parent.mkdir(parents=True, exist_ok=True)
+        torch.save(seq.extract(view, seq.Sequences.load(folders), 1, SEED, plain=plain), path)
+    return torch.load(path)

@@ -1,0 +1,199 @@
+#!/usr/bin/env python3
+"""The evaluation: what probes show, how answers become figures, and that what is missing is said."""
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+import torch
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / "scripts/train"), str(ROOT / "scripts/evaluate")]
+import bars  # noqa: E402
+import evaluate_ablation  # noqa: E402
+import evaluate_clips  # noqa: E402
+import evaluate_leakage  # noqa: E402
+import evaluate_levels  # noqa: E402
+import evaluate_pictures  # noqa: E402
+import evaluate_response  # noqa: E402
+import probes  # noqa: E402
+import program  # noqa: E402
+import report  # noqa: E402
+import summary  # noqa: E402
+import teacher  # noqa: E402
+from expressions import CONTROLS, INDEX  # noqa: E402
+
+
+def answers(plan, gain=1.0):
+    """What a perfect tracker, times `gain`, reads on three identities."""
+    shown = np.stack(plan.controls)[plan.order]
+    row = evaluate_response.read(gain * shown, plan)
+    return {mark: np.stack([v] * 3) for mark, v in row.items()}
+
+
+class Probes(unittest.TestCase):
+    def test_every_control_alone_at_one_after_rest(self):
+        plan = probes.control_plan()
+        shown = np.stack(plan.controls)[plan.order]
+        for i, c in enumerate(CONTROLS):
+            np.testing.assert_array_equal(shown[plan.marks[c, "alone"]], np.tile(np.eye(52)[i], (probes.READ, 1)))
+            self.assertFalse(shown[plan.marks[c, "alone", "rest"]].any())
+
+    def test_slow_and_continuous(self):
+        for plan in (probes.control_plan(), probes.pose_plan()):
+            shown, angles = np.stack(plan.controls)[plan.order], np.array(plan.angles)[plan.order]
+            self.assertLessEqual(np.abs(np.diff(shown, axis=0)).max(), 0.2 + 1e-6)
+            self.assertLessEqual(np.abs(np.diff(angles, axis=0)).max(), probes.ANGLE_STEP)
+
+    def test_turns_reach_both_ends_with_neutral_faces(self):
+        plan = probes.pose_plan()
+        self.assertFalse(np.any(plan.controls))
+        angles = np.array(plan.angles)[plan.order]
+        for axis, (name, most) in enumerate((("yaw", probes.YAW), ("pitch", probes.PITCH))):
+            for degrees in (-most, most):
+                self.assertTrue((angles[plan.marks[name, degrees], axis] == degrees).all())
+        self.assertEqual(4, sum(mark[0] == "front" for mark in plan.marks))
+
+    def test_eyes_turn_together(self):
+        others = probes.companions()
+        self.assertEqual({"eyeLookOutRight": 1.0}, others["eyeLookInLeft"])
+        self.assertEqual({"eyeLookUpLeft": 1.0}, others["eyeLookUpRight"])
+
+
+class Response(unittest.TestCase):
+    def test_perfect_answers(self):
+        scores = evaluate_response.scores(answers(probes.control_plan()))
+        self.assertEqual((52, 52), (scores["reached_0.6"], scores["others_below_0.15"]))
+        np.testing.assert_array_equal(scores["matrix"], np.eye(52))
+        self.assertEqual({1.0}, {w["share"] for w in scores["winks"].values()})
+
+    def test_weak_answers_and_cross_talk_are_seen(self):
+        found = answers(probes.control_plan(), 0.5)
+        found["jawOpen", "alone"][:, INDEX["mouthFunnel"]] = 0.4
+        scores = evaluate_response.scores(found)
+        self.assertEqual(0, scores["reached_0.6"])
+        self.assertEqual(("jawOpen", "mouthFunnel", 0.4), scores["worst"][0])
+        self.assertEqual(0.4, scores["controls"]["mouthFunnel"]["others_at_most"])
+        self.assertEqual({0.0}, {w["share"] for w in scores["winks"].values()})
+
+    def test_controls_that_are_not_driven_are_left_out(self):
+        found = answers(probes.control_plan())
+        for values in found.values():
+            values[:, INDEX["tongueOut"]] = np.nan
+        scores = evaluate_response.scores(found)
+        self.assertNotIn("tongueOut", scores["controls"])
+        self.assertEqual(51, scores["others_below_0.15"])
+
+
+class Leakage(unittest.TestCase):
+    def test_drift_is_from_the_frontal_answer(self):
+        plan = probes.pose_plan()
+        found = {mark: np.full((3, 52), 0.2) for mark in plan.marks}
+        self.assertEqual(0.0, evaluate_leakage.scores(found)["largest"])
+        found["yaw", -40] = found["yaw", -40] + np.array([[0.1], [-0.1], [0.1]]) * np.eye(52)[INDEX["jawOpen"]]
+        scores = evaluate_leakage.scores(found)
+        self.assertEqual(("jawOpen", 0.1), (scores["largest_control"], scores["largest"]))
+        self.assertEqual(0.0, scores["controls"]["jawOpen"]["pitch"])
+
+
+class Levels(unittest.TestCase):
+    def test_difference_of_what_both_drive(self):
+        a, b = np.full((5, 52), 0.5), np.full((5, 52), 0.25)
+        a[:, 10:], b[0] = np.nan, np.nan
+        self.assertEqual({"error": 0.25, "controls": 10}, evaluate_levels.difference(a, b))
+
+    def test_fastest_round_without_the_search(self):
+        stats = lambda ms, frames: {"frames": frames, "stages": {"frame": {"total_ms": ms * frames + 20}, "proposal": {"total_ms": 20}}}
+        tracked = lambda ms, frames: program.Tracked(None, None, stats(ms, frames))
+        rounds = [[tracked(2, 10), tracked(4, 30)], [tracked(3, 10), tracked(3, 30)]]
+        self.assertAlmostEqual((2 * 10 + 3 * 30) / 40, evaluate_levels.cost(rounds))
+
+
+class LookAhead(unittest.TestCase):
+    def test_sees_exactly_one_frame_ahead(self):
+        torch.manual_seed(0)
+        decoder, x = evaluate_ablation.LookAhead().eval(), torch.randn(1, 12, 256)
+        with torch.no_grad():
+            before = decoder(x)[0]
+            x[:, 7] += 1
+            changed = (decoder(x)[0] - before).abs().amax((0, 2)) > 1e-7
+        self.assertEqual(before.shape, (1, 12, 52))
+        self.assertEqual([False] * 6 + [True] * 6, changed.tolist())
+
+
+class Teacher(unittest.TestCase):
+    def test_a_constant_turn_is_no_difference(self):
+        rotation = lambda a: np.array([[np.cos(a), -np.sin(a), 0], [np.sin(a), np.cos(a), 0], [0, 0, 1]])
+        theirs = np.stack([rotation(a) for a in (0.0, 0.3, -0.2)])
+        ours = theirs @ rotation(0.5)
+        np.testing.assert_allclose(teacher.pose_difference(ours, theirs), 0, atol=1e-4)
+
+    def test_still_jitter_over_what_moves(self):
+        zigzag = np.tile(np.array([[0.0], [1]]), (3, 52))
+        pieces = [(zigzag, 0 * zigzag), (zigzag, 0 * zigzag)]
+        rows = {"jawOpen": {"spread": 0.1, "correlation": 0.5}, "cheekPuff": {"spread": 0.0, "correlation": 0.5},
+                "browInnerUp": {"spread": 0.1, "correlation": None}}
+        self.assertEqual([4 / 6, 0.0], evaluate_clips.still_jitter(pieces, rows))
+
+
+class Video(unittest.TestCase):
+    def test_y4m_holds_frames_and_full_range(self):
+        pictures = np.stack([np.full((5, 7, 3), v, np.uint8) for v in (0, 255)])
+        header, *frames = program.y4m(pictures, [0, 0, 1])
+        self.assertIn(b" W6 H4 ", header)
+        self.assertEqual([b"FRAME\n" + bytes([0] * 24 + [128] * 12)] * 2, frames[:2])
+        self.assertEqual(b"FRAME\n" + bytes([255] * 24 + [128] * 12), frames[2])
+
+
+class Groups(unittest.TestCase):
+    def test_lost_faces_count_but_have_no_error(self):
+        error, chosen = np.array([0.1, np.nan, 0.3, 0.5]), np.array([True, True, True, False])
+        table = evaluate_pictures.by_group(error, {"near": chosen, "none": np.zeros(4, bool)})
+        self.assertEqual({"near": {"pictures": 3, "lost": 1, "error": 0.2}}, table)
+
+
+class Reports(unittest.TestCase):
+    def test_json_survives(self):
+        table = {"a": [[1.0, None], [2, 3]], "b": {"c": "[x, y]", "d": []}}
+        self.assertEqual(table, json.loads(report.dump(table)))
+
+    def test_bars(self):
+        bar = bars.Bar("leakage", "drift", "<=", 0.1, bars.at(bars.at, "largest"))
+        cells = summary.line(bar, {"leakage": {"LOD1": {"largest": 0.2}, "LOD4": {"largest": 0.05}}})
+        self.assertEqual(["drift", "<= 0.1", "0.20 **missed**", "0.05 met", "[leakage](leakage.md)"], cells)
+        self.assertEqual("-", summary.line(bar, {})[2])
+
+    def test_a_control_that_should_be_driven_is_missed(self):
+        results = lambda spread: {"LOD1": {"controls": {"jawOpen": {"spread": spread, "correlation": None}}}}
+        bar = bars.Bar("clips", "jawOpen", ">=", 0.9, bars.agreement("jawOpen", bars.at))
+        self.assertEqual("not driven **missed**", summary.line(bar, {"clips": results(0.1)})[2])
+        self.assertEqual("-", summary.line(bar, {"clips": results(0.001)})[2])
+
+    def test_page_says_what_is_not_there(self):
+        page = summary.page({}, {}, ["pictures: the portraits are absent"], has_hifinet=False)
+        self.assertIn("HiFiNet is not trained yet", page)
+        self.assertIn("* pictures: the portraits are absent", page)
+
+
+class Missing(unittest.TestCase):
+    def test_empty_folders_are_said_and_counted(self):
+        with tempfile.TemporaryDirectory() as folder:
+            models = Path(folder) / "models"
+            models.mkdir()
+            environment = {**os.environ, "MIEN_DATA": folder, "MIEN_CACHE": folder}
+            run = subprocess.run([sys.executable, ROOT / "scripts/evaluate/evaluate.py", "--mien", sys.executable, "--models", models,
+                                  "--out", f"{folder}/out"], env=environment, capture_output=True, text=True)
+            self.assertEqual(3, run.returncode, run.stderr)
+            page = Path(folder, "out/README.md").read_text()
+            for said in ("clips of real people are absent", "rig pack is absent", "portraits are absent", "no train*.pt",
+                         "no synthetic test sequences", "HiFiNet is not trained yet"):
+                self.assertIn(said, page)
+                self.assertIn(said, run.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
