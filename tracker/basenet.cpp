@@ -61,10 +61,7 @@ bool BaseNet::look(const ImageView& view, const Crop& crop, StageTimer& timer, S
   sight.crop = crop;
   std::copy_n(encoder_.output(0).begin(), kFeatures, sight.features.begin());
   const std::span<const float> xy = landmarks_.run(sight.features);
-  const Affine to_scene = crop_to_image(crop);
-  for (std::size_t i = 0; i < kLandmarks; ++i) {
-    sight.landmarks[i] = to_scene({xy[2 * i], xy[2 * i + 1]});
-  }
+  sight.landmarks = landmarks_in(crop, xy);
   sight.face_probability = face_probability_.run(sight.features)[0];
   return all_finite(sight.features) && all_finite(xy) && std::isfinite(sight.face_probability);
 }

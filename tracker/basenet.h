@@ -11,6 +11,7 @@
 #include "tracker/controls_decoder.h"
 #include "tracker/crop.h"
 #include "tracker/image_view.h"
+#include "tracker/landmarks.h"
 #include "tracker/models.h"
 #include "tracker/network.h"
 #include "tracker/sampler.h"
@@ -18,13 +19,11 @@
 
 namespace mien::tracker {
 
-inline constexpr std::size_t kLandmarks = 175;
-
 // What BaseNet sees in one crop.
 struct Sight {
   Crop crop;
-  float face_probability = 0.0f;                 // 0..1
-  std::array<Point, kLandmarks> landmarks = {};  // pixels of the scene
+  float face_probability = 0.0f;  // 0..1
+  Landmarks landmarks = {};
   Features features = {};
 };
 
@@ -50,7 +49,7 @@ class BaseNet {
   Network encoder_;
   Network landmarks_;
   Network face_probability_;
-  std::array<Point, kLandmarks> template_ = {};  // crop coordinates
+  Landmarks template_ = {};  // in crop coordinates
 };
 
 }  // namespace mien::tracker

@@ -111,7 +111,29 @@ bool Face::accept(const Frame& frame, const Sight& sight) {
 
 void Face::look_closely(Frame& frame) {
   ++frame.encoder_runs;
-  (void)encoders_.hifinet.look(frame.view, state_.crop, frame.timer, state_.close);
+  if (!encoders_.hifinet.look(frame.view, state_.crop, frame.timer, state_.close)) {
+    return;
+  }
+  const float side = state_.crop.side;
+  std::transform(state_.close.landmarks.begin(), state_.close.landmarks.end(),
+                 state_.sight.landmarks.begin(), state_.refinement.begin(),
+                 [side](Point close, Point whole) {
+                   return Point{(close.x - whole.x) / side, (close.y - whole.y) / side};
+                 });
+}
+
+// HiFiNet's, or on a frame that it did not look at BaseNet's, refined as by HiFiNet before.
+Landmarks Face::landmarks(std::int32_t level) const {
+  Landmarks refined = state_.sight.landmarks;
+  if (level == kLowestLevel) {
+    return refined;
+  }
+  const float side = state_.crop.side;
+  std::transform(refined.begin(), refined.end(), state_.refinement.begin(), refined.begin(),
+                 [side](Point whole, Point refinement) {
+                   return Point{whole.x + side * refinement.x, whole.y + side * refinement.y};
+                 });
+  return refined;
 }
 
 void Face::animate(Frame& frame) {
@@ -127,12 +149,12 @@ void Face::animate(Frame& frame) {
   state_.seconds_lost = 0.0f;
   const StageTimer::Scope timed(frame.timer, MIEN_STAGE_DECODERS);
   Appearance& seen = state_.seen;
-  decoders_.decode_controls(state_.sight.features, state_.close, frame.level, frame.seconds,
-                            seen.controls);
+  decoders_.decode_controls(state_.sight.features, state_.close.features, frame.level,
+                            frame.seconds, seen.controls);
   state_.flags |=
       decoders_.neutral(frame.level).is_being_captured() ? MIEN_RESULT_CAPTURING_NEUTRAL : 0;
   decoders_.decode_pose(state_.sight.features, state_.sight.crop, frame.view.camera, seen.pose);
-  seen.landmarks = state_.sight.landmarks;
+  seen.landmarks = landmarks(frame.level);
   state_.is_new = state_.is_new || frame.cut;
   show(frame.seconds);
 }

@@ -32,7 +32,7 @@ struct Frame {
 // What is told about a face on one frame.
 struct Appearance {
   std::array<float, kControls> controls = {};
-  std::array<Point, kLandmarks> landmarks = {};  // pixels of the scene
+  Landmarks landmarks = {};
   HeadPose pose;
 };
 
@@ -90,12 +90,13 @@ class Face {
  private:
   struct State {
     std::uint32_t id = 0;
-    bool followed = false;    // `crop` and `sight` are a face
-    bool alternate = false;   // the next frame is one on which encoders may rest
-    std::int32_t misses = 0;  // judged frames in a row without the face
-    Crop crop;                // where to look next
-    Sight sight;              // the last time the face was seen
-    Features close = {};      // HiFiNet's, of the last time that it looked
+    bool followed = false;      // `crop` and `sight` are a face
+    bool alternate = false;     // the next frame is one on which encoders may rest
+    std::int32_t misses = 0;    // judged frames in a row without the face
+    Crop crop;                  // where to look next
+    Sight sight;                // the last time the face was seen
+    CloseSight close;           // HiFiNet's, of the last time that it looked
+    Landmarks refinement = {};  // of BaseNet's landmarks by HiFiNet's then, in sides of the crop
     Appearance seen;
     Appearance shown;    // smoothed
     bool is_new = true;  // nothing to smooth with yet
@@ -108,6 +109,7 @@ class Face {
   [[nodiscard]] bool look(Frame& frame, const Crop& crop, Sight& sight);
   [[nodiscard]] bool accept(const Frame& frame, const Sight& sight);
   void look_closely(Frame& frame);
+  [[nodiscard]] Landmarks landmarks(std::int32_t level) const;
   void show(float seconds);
   void fade(float seconds);
 

@@ -298,6 +298,8 @@ MIEN_API MIEN_NODISCARD mien_status mien_tracker_reset(mien_tracker* tracker);
  *   2      HiFiNet        both on alternate frames
  *   1      BaseNet        BaseNet on alternate frames
  *
+ * From level 2 on HiFiNet also refines the landmarks.
+ *
  * Whatever the level, controls and head pose move on every frame. MIEN_ERROR_UNSUPPORTED_LOD when
  * there are no weights for it. mien_tracker_reset returns to the level of the configuration. */
 MIEN_API MIEN_NODISCARD mien_status mien_tracker_set_lod(mien_tracker* tracker, int32_t lod);

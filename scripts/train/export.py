@@ -97,7 +97,8 @@ def basenet(encoder_path, decoders_path):
 
 
 def hifinet(encoder_path, decoders_path):
-    file, _ = start("hifinet", encoder_path, torch.load(decoders_path, map_location="cpu"))
+    file, net = start("hifinet", encoder_path, torch.load(decoders_path, map_location="cpu"))
+    add_head(file, "landmarks", net.landmarks)
     return file
 
 

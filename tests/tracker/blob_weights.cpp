@@ -152,6 +152,17 @@ void add_landmarks(MienWriter& writer, const BlobOptions& options) {
   network.output(network.fully_connected(NetworkWriter::kInput, weight, bias));
 }
 
+// The template itself, a little aside.
+void add_refined_landmarks(MienWriter& writer, const BlobOptions& options) {
+  NetworkWriter& network = writer.network("landmarks", {1, 1, options.features});
+  std::vector<float> bias = landmark_template().values;
+  for (std::size_t i = 0; i < bias.size(); i += 2) {
+    bias[i] += kRefinedBy;
+  }
+  const Array weight = filled({2 * kLandmarks, options.features}, [](std::size_t) { return 0.0f; });
+  network.output(network.fully_connected(NetworkWriter::kInput, weight, bias));
+}
+
 // Half an area and more is a face.
 void add_face_probability(MienWriter& writer, const BlobOptions& options) {
   NetworkWriter& network = writer.network("face_probability", {1, 1, options.features});
@@ -255,6 +266,7 @@ AlignedBytes blob_hifinet(const BlobOptions& options) {
   network.output(network.fully_connected(
       cells, random_array({options.features, kChannels * kCells}, 0.02f, random),
       std::vector<float>(options.features, 0.0f)));
+  add_refined_landmarks(writer, options);
   add_decoder(writer, "controls_decoder", options, std::vector<float>(kControls, 0.5f),
               formats::LayerActivation::kClamp01, random);
   writer.constant("control_supported", filled({kControls}, [&](std::size_t i) {

@@ -39,7 +39,8 @@ struct BlobOptions {
 inline constexpr float kDiscPerCrop = 0.7f;
 
 [[nodiscard]] AlignedBytes blob_basenet(const BlobOptions& options = {});
-// All features random.
+// All features random; landmarks lie to the right of BaseNet's by this share of the crop's side.
+inline constexpr float kRefinedBy = 0.02f;
 [[nodiscard]] AlignedBytes blob_hifinet(const BlobOptions& options = {});
 [[nodiscard]] AlignedBytes blob_proposal();
 

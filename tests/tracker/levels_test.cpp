@@ -68,6 +68,24 @@ TEST(Levels, FromTwoOnControlsAreHiFiNets) {
   EXPECT_LT(largest_step(last[1], last[2]), 0.01f) << "the same picture again and again";
 }
 
+TEST(Levels, FromTwoOnHiFiNetRefinesTheLandmarks) {
+  BlobTracker one = tracker_at(1);
+  for (const std::int32_t lod : {2, 3, 4}) {
+    BlobTracker refined = tracker_at(lod);
+    for (int frame = 0; frame < 20; ++frame) {
+      const Picture still = moving_disc(0);
+      const Result coarse = one.push(still), fine = refined.push(still);
+      double dx = 0.0, dy = 0.0;
+      for (int i = 0; i < MIEN_LANDMARK_COUNT; ++i) {
+        dx += (fine.landmarks[i][0] - coarse.landmarks[i][0]) / MIEN_LANDMARK_COUNT;
+        dy += (fine.landmarks[i][1] - coarse.landmarks[i][1]) / MIEN_LANDMARK_COUNT;
+      }
+      EXPECT_NEAR(dx / fine.box[2], kRefinedBy, 0.003) << "level " << lod << ", frame " << frame;
+      EXPECT_NEAR(dy / fine.box[2], 0.0, 0.003);
+    }
+  }
+}
+
 TEST(Levels, ChangingThemNeverMakesAControlJump) {
   for (const auto& [from, to] : {std::pair{1, 4}, {4, 1}, {2, 3}, {3, 2}, {1, 2}, {4, 2}, {2, 4}}) {
     BlobTracker tracker = tracker_at(from);
