@@ -341,6 +341,21 @@ def recorded(rng, frames, fps):
     return (curve * rng.uniform(0.7, 1.7)).astype(np.float32)
 
 
+def from_pool(pool):
+    """A sampler of poses like those of a pool f32[k,52]: a little more or less of one, or two of them at once."""
+    def sample(rng):
+        pose = pool[rng.integers(len(pool))] * rng.uniform(0.7, 1.1)
+        other = pool[rng.integers(len(pool))] * rng.uniform(0.3, 0.8)
+        return np.maximum(pose, other) if rng.random() < 0.2 else pose
+    return sample
+
+
+def sample_like(rng, frames, pool, fps=30):
+    """A random performance through poses like those of a pool f32[k,52]; f32[frames,52]."""
+    face = ease_through(rng, frames, from_pool(pool), (2, 20), (3, 16), rest=0.25)
+    return legalise(np.maximum(face, blinks(rng, frames, fps)) + micro_motion(rng, frames))
+
+
 def sample_sequence(rng, frames, fps=30):
     """A random performance, f32[frames,52]."""
     kind = rng.random()

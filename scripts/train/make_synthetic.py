@@ -8,6 +8,7 @@ identity, sequence, frame [n]. A shard follows from the seed and its number alon
 """
 import argparse
 import os
+from functools import partial
 from multiprocessing import Pool
 from pathlib import Path
 
@@ -87,13 +88,13 @@ def stills(studio, framing, rng, split, first, count):
             yield image, dict(labels, controls=controls[k], identity=number, sequence=number, frame=0)
 
 
-def sequence(studio, framing, rng, split, number):
-    """Yields (image, labels) of the frames of one person."""
+def sequence(studio, framing, rng, split, number, perform):
+    """Yields (image, labels) of the frames of one person; `perform` makes the controls of a sequence."""
     person = look.sample(rng, split)
     place = Set(rng, split, person)
     head = studio.rig.identity(person.identity[None])[0]
     figure = Figure(studio, person, head)
-    controls = expressions.sample_sequence(rng, FRAMES)
+    controls = perform(rng, FRAMES)
     angles, shift, sweep = motion.head_angles(rng, FRAMES), motion.head_shift(rng, FRAMES), motion.sweep(rng, FRAMES)
     centre, side = camera.sample_place(rng, place.camera)
     side = min(side, 0.22 * place.camera.f_px / 0.36)  # room to move forwards
@@ -108,19 +109,19 @@ def sequence(studio, framing, rng, split, number):
             yield image, dict(labels, controls=controls[t], identity=number, sequence=number, frame=t)
 
 
-def frames_of_shard(studio, framing, split, kind, shard, count, seed):
+def frames_of_shard(studio, framing, split, kind, shard, count, seed, perform):
     """Yields (image, labels); `count` is of stills or sequences in this shard."""
     rng = np.random.default_rng([seed, SPLITS.index(split), KINDS.index(kind), shard])
     if kind == "stills":
         yield from stills(studio, framing, rng, split, shard * STILLS_PER_SHARD, count)
     else:
         for k in range(count):
-            yield from sequence(studio, framing, rng, split, shard * SEQUENCES_PER_SHARD + k)
+            yield from sequence(studio, framing, rng, split, shard * SEQUENCES_PER_SHARD + k, perform)
 
 
-def write_shard(studio, framing, folder, split, kind, shard, count, seed, position):
+def write_shard(studio, framing, folder, split, kind, shard, count, seed, perform, position):
     total = count * (FRAMES if kind == "sequences" else 1)
-    source = frames_of_shard(studio, framing, split, kind, shard, count, seed)
+    source = frames_of_shard(studio, framing, split, kind, shard, count, seed, perform)
     save(folder, tqdm(source, f"{folder.parent.name} {shard}", total, position=position, mininterval=5, leave=False))
 
 
@@ -142,13 +143,16 @@ def work(job):
     args, worker = job
     per_shard = STILLS_PER_SHARD if args.kind == "stills" else SEQUENCES_PER_SHARD
     studio, framing = None, FRAMINGS[args.framing]
+    perform = expressions.sample_sequence
+    if args.poses:
+        perform = partial(expressions.sample_like, pool=np.load(args.poses)["controls"])
     for shard in range(worker, -(-args.count // per_shard), args.workers):
         folder = args.out / framing.folder(f"{args.split}_{args.kind}") / f"shard_{shard:04d}"
         if folder.exists():
             continue
         studio = studio or Studio(Rig())
         count = min(per_shard, args.count - shard * per_shard)
-        write_shard(studio, framing, folder, args.split, args.kind, shard, count, args.seed, worker)
+        write_shard(studio, framing, folder, args.split, args.kind, shard, count, args.seed, perform, worker)
 
 
 def main():
@@ -157,11 +161,14 @@ def main():
     parser.add_argument("--kind", choices=KINDS, required=True)
     parser.add_argument("--count", type=int, required=True, help="stills or sequences in all")
     parser.add_argument("--framing", choices=FRAMINGS, default=BASENET.name)
+    parser.add_argument("--poses", type=Path, help="sequences through poses like these (hard_cases.py), in a folder of their own")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--out", type=Path, default=cache() / "synthetic")
     parser.add_argument("--data", type=Path, help="data packs, instead of MIEN_DATA")
     parser.add_argument("--workers", type=int, default=1)
     args = parser.parse_args()
+    if args.poses and args.kind == "stills":
+        parser.error("--poses is for sequences")
     if args.data:
         os.environ["MIEN_DATA"] = str(args.data.resolve())
     jobs = [(args, worker) for worker in range(args.workers)]
