@@ -17,7 +17,7 @@ using mien::formats::NeutralFileError;
 using mien::tracker::kControls;
 
 static_assert(MIEN_NEUTRAL_BYTES == mien::formats::kNeutralFileBytes);
-static_assert(mien::formats::kNeutralLevels == 2 * kControls);
+static_assert(mien::formats::kNeutralLevels / 2 == kControls);
 
 // A level that uses the decoder of each part of a neutral file.
 constexpr std::int32_t kLevelOfPart[] = {mien::tracker::kLowestLevel, mien::tracker::kHighestLevel};
