@@ -33,7 +33,7 @@ void Face::reset(std::int32_t level) {
   state_ = State();
   decoders_.reset(level);
   for (const std::int32_t either : {kLowestLevel, kHighestLevel}) {
-    decoders_.neutral(either) = Neutral();
+    decoders_.neutral(either).forget();
   }
   mien_result_default(&result_);
 }

@@ -32,10 +32,12 @@ mien_status Faces::load(const mien_tracker_config& config, Encoders& encoders, c
   const std::span<std::byte> room = arena.take(count * sizeof(Face));
   mien_status status = MIEN_OK;
   for (std::size_t i = 0; status == MIEN_OK && i < count; ++i) {
-    Face measured(config, encoders);
-    Face* face =
-        arena.measuring() ? &measured : new (room.data() + i * sizeof(Face)) Face(config, encoders);
-    status = face->load(models, arena);
+    if (arena.measuring()) {
+      Decoders measured;  // a whole face would take more of the stack
+      status = measured.load(models, config.cpu_mask, arena);
+    } else {
+      status = (new (room.data() + i * sizeof(Face)) Face(config, encoders))->load(models, arena);
+    }
   }
   faces_ = {reinterpret_cast<Face*>(room.data()), arena.measuring() ? 0 : count};
   return status;

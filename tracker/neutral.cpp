@@ -12,7 +12,8 @@ void Neutral::set(std::span<const float, kControls> levels) {
 void Neutral::observe(std::span<const float, kControls> controls) {
   if (frame_ >= 0) {
     for (std::size_t i = 0; i < controls.size(); ++i) {
-      seen_[i][static_cast<std::size_t>(frame_)] = controls[i];
+      seen_[i][static_cast<std::size_t>(frame_)] =
+          static_cast<std::uint16_t>(controls[i] * kSteps + 0.5f);
     }
   }
   if (++frame_ < kFrames) {
@@ -21,7 +22,7 @@ void Neutral::observe(std::span<const float, kControls> controls) {
   for (std::size_t i = 0; i < levels_.size(); ++i) {
     auto* const middle = seen_[i].begin() + kFrames / 2;
     std::nth_element(seen_[i].begin(), middle, seen_[i].end());
-    levels_[i] = std::clamp(*middle, 0.0f, kLargest);
+    levels_[i] = std::min(static_cast<float>(*middle) / kSteps, kLargest);
   }
   captured_ = true;
 }

@@ -21,6 +21,11 @@ class Neutral {
   [[nodiscard]] std::span<const float, kControls> levels() const { return levels_; }
 
   void set(std::span<const float, kControls> levels);
+  void forget() {
+    captured_ = false;
+    frame_ = kFrames;
+    levels_.fill(0.0f);
+  }
   // From the next frames on; replaces what was captured before, as soon as it is done.
   void capture() { frame_ = -kSettling; }
   // What was seen so far is of no use: a capture that is going on begins anew.
@@ -39,13 +44,14 @@ class Neutral {
  private:
   static constexpr std::int32_t kFrames = 45;    // so that a blink or two do not count
   static constexpr std::int32_t kSettling = 10;  // of the decoders
+  static constexpr float kSteps = 65535.0f;
 
   void observe(std::span<const float, kControls> controls);
 
   bool captured_ = false;
   std::int32_t frame_ = kFrames;  // of a measurement
   std::array<float, kControls> levels_ = {};
-  std::array<std::array<float, kFrames>, kControls> seen_ = {};
+  std::array<std::array<std::uint16_t, kFrames>, kControls> seen_ = {};  // in kSteps of one
 };
 
 }  // namespace mien::tracker
