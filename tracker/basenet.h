@@ -3,29 +3,15 @@
 
 #include <mien/mien.h>
 
-#include <array>
 #include <cstdint>
-#include <span>
 
 #include "tracker/arena.h"
-#include "tracker/controls_decoder.h"
 #include "tracker/crop.h"
-#include "tracker/image_view.h"
-#include "tracker/landmarks.h"
+#include "tracker/face_encoder.h"
 #include "tracker/models.h"
 #include "tracker/network.h"
-#include "tracker/sampler.h"
-#include "tracker/stage_timer.h"
 
 namespace mien::tracker {
-
-// What BaseNet sees in one crop.
-struct Sight {
-  Crop crop;
-  float face_probability = 0.0f;  // 0..1
-  Landmarks landmarks = {};
-  Features features = {};
-};
 
 class BaseNet {
  public:
@@ -41,13 +27,9 @@ class BaseNet {
   }
 
  private:
-  [[nodiscard]] mien_status load_networks(const engine::Model& model, std::uint32_t cpu_mask,
-                                          Arena& arena);
   [[nodiscard]] mien_status load_template(const engine::Model& model);
 
-  Sampler sampler_;
-  Network encoder_;
-  Network landmarks_;
+  FaceEncoder encoder_;
   Network face_probability_;
   Landmarks template_ = {};  // in crop coordinates
 };

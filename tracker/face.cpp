@@ -111,14 +111,15 @@ bool Face::accept(const Frame& frame, const Sight& sight) {
 
 void Face::look_closely(Frame& frame) {
   ++frame.encoder_runs;
-  if (!encoders_.hifinet.look(frame.view, state_.crop, frame.timer, state_.close)) {
+  Sight close;
+  if (!encoders_.hifinet.look(frame.view, state_.crop, frame.timer, close)) {
     return;
   }
+  state_.close = close.features;
   const float side = state_.crop.side;
-  std::transform(state_.close.landmarks.begin(), state_.close.landmarks.end(),
-                 state_.sight.landmarks.begin(), state_.refinement.begin(),
-                 [side](Point close, Point whole) {
-                   return Point{(close.x - whole.x) / side, (close.y - whole.y) / side};
+  std::transform(close.landmarks.begin(), close.landmarks.end(), state_.sight.landmarks.begin(),
+                 state_.refinement.begin(), [side](Point fine, Point coarse) {
+                   return Point{(fine.x - coarse.x) / side, (fine.y - coarse.y) / side};
                  });
 }
 
@@ -149,8 +150,8 @@ void Face::animate(Frame& frame) {
   state_.seconds_lost = 0.0f;
   const StageTimer::Scope timed(frame.timer, MIEN_STAGE_DECODERS);
   Appearance& seen = state_.seen;
-  decoders_.decode_controls(state_.sight.features, state_.close.features, frame.level,
-                            frame.seconds, seen.controls);
+  decoders_.decode_controls(state_.sight.features, state_.close, frame.level, frame.seconds,
+                            seen.controls);
   state_.flags |=
       decoders_.neutral(frame.level).is_being_captured() ? MIEN_RESULT_CAPTURING_NEUTRAL : 0;
   decoders_.decode_pose(state_.sight.features, state_.sight.crop, frame.view.camera, seen.pose);

@@ -95,7 +95,7 @@ class Face {
     std::int32_t misses = 0;    // judged frames in a row without the face
     Crop crop;                  // where to look next
     Sight sight;                // the last time the face was seen
-    CloseSight close;           // HiFiNet's, of the last time that it looked
+    Features close = {};        // HiFiNet's, of the last time that it looked
     Landmarks refinement = {};  // of BaseNet's landmarks by HiFiNet's then, in sides of the crop
     Appearance seen;
     Appearance shown;    // smoothed

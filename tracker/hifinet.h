@@ -6,37 +6,27 @@
 #include <cstdint>
 
 #include "tracker/arena.h"
-#include "tracker/controls_decoder.h"
-#include "tracker/crop.h"
-#include "tracker/image_view.h"
-#include "tracker/landmarks.h"
+#include "tracker/face_encoder.h"
 #include "tracker/models.h"
-#include "tracker/network.h"
-#include "tracker/sampler.h"
-#include "tracker/stage_timer.h"
 
 namespace mien::tracker {
-
-// What HiFiNet sees in one crop.
-struct CloseSight {
-  Features features = {};
-  Landmarks landmarks = {};
-};
 
 class HiFiNet {
  public:
   // Takes from `arena` what the networks need; only measures when the arena does.
-  [[nodiscard]] mien_status load(const Models& models, std::uint32_t cpu_mask, Arena& arena);
+  [[nodiscard]] mien_status load(const Models& models, std::uint32_t cpu_mask, Arena& arena) {
+    return encoder_.load(models.hifinet, {129, 109, 0.87f}, cpu_mask, arena);
+  }
 
-  // Looks at the middle of the crop that the landmarks of this very frame ask for. False, and
-  // `sight` untouched, when the networks' answer is not finite.
+  // Looks at the middle of the crop that the landmarks of this very frame ask for. False when the
+  // networks' answer is not finite.
   [[nodiscard]] bool look(const ImageView& view, const Crop& crop, StageTimer& timer,
-                          CloseSight& sight);
+                          Sight& sight) {
+    return encoder_.look(view, crop, timer, sight);
+  }
 
  private:
-  Sampler sampler_;
-  Network encoder_;
-  Network landmarks_;
+  FaceEncoder encoder_;
 };
 
 }  // namespace mien::tracker

@@ -96,10 +96,8 @@ void Tracker::search(Frame& frame) {
     count = proposal_.propose(frame.view, std::span(candidates).first(judged));
   }
   ++state_.proposal_runs;
-  for (Face& face : faces_.all()) {
-    if (count == 0) {
-      face.see_nothing();
-    }
+  if (count == 0) {
+    std::for_each(faces_.all().begin(), faces_.all().end(), [](Face& face) { face.see_nothing(); });
   }
   for (std::size_t i = 0; i < count && faces_.has_room(); ++i) {
     if (faces_.welcome(frame, candidates[i].square)) {

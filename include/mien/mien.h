@@ -349,9 +349,8 @@ MIEN_API const char* mien_stage_name(int32_t stage);
 #define MIEN_RESULT_ENCODER_RAN 0x2u
 #define MIEN_RESULT_FOUND 0x4u /* a face was (re)found on this frame */
 #define MIEN_RESULT_CUT 0x8u   /* the timestamp told of a cut */
-#define MIEN_RESULT_CAPTURING_NEUTRAL       \
-  0x10u /* see mien_tracker_capture_neutral \
-         */
+/* The frame counts for mien_tracker_capture_neutral. */
+#define MIEN_RESULT_CAPTURING_NEUTRAL 0x10u
 
 typedef struct mien_result {
   uint32_t struct_size;

@@ -64,9 +64,7 @@ TEST(Allocation, OneByTheCallersAllocatorAndNoneAfterCreate) {
   const AlignedBytes hifinet = blob_hifinet();
   const AlignedBytes proposal = blob_proposal();
   CountingAllocator allocator;
-  Config config = blob_config(basenet, proposal);
-  config.hifinet = hifinet.get().data();
-  config.hifinet_bytes = hifinet.get().size();
+  Config config = blob_config(basenet, proposal, hifinet);
   config.allocator = allocator.callbacks();
   const Buffer disc(disc_picture(160.0f, 120.0f, 70.0f), {.format = MIEN_IMAGE_NV12});
   const Buffer nothing(Picture(97, 55), {.rotation = 90});

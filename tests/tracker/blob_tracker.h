@@ -17,6 +17,13 @@ inline constexpr std::int64_t kFrameNs = 33'333'333;
 inline Config blob_config(const AlignedBytes& basenet, const AlignedBytes& proposal) {
   return Config(basenet.get(), proposal.get());
 }
+inline Config blob_config(const AlignedBytes& basenet, const AlignedBytes& proposal,
+                          const AlignedBytes& hifinet) {
+  Config config = blob_config(basenet, proposal);
+  config.hifinet = hifinet.get().data();
+  config.hifinet_bytes = hifinet.get().size();
+  return config;
+}
 
 class BlobTracker {
  public:
@@ -28,9 +35,7 @@ class BlobTracker {
       : basenet_(blob_basenet(options)),
         hifinet_(blob_hifinet(options)),
         proposal_(blob_proposal()) {
-    Config config = blob_config(basenet_, proposal_);
-    config.hifinet = hifinet_.get().data();
-    config.hifinet_bytes = hifinet_.get().size();
+    Config config = blob_config(basenet_, proposal_, hifinet_);
     change(config);
     EXPECT_EQ(tracker_.create(config), MIEN_OK);
   }
@@ -69,6 +74,15 @@ inline Picture disc_picture(float x, float y, float diameter, int width = 320, i
   Picture picture(width, height);
   picture.disc(x, y, diameter);
   return picture;
+}
+
+// Of a control between two results.
+inline float largest_step(const Result& a, const Result& b) {
+  float largest = 0.0f;
+  for (int i = 0; i < MIEN_CONTROL_COUNT; ++i) {
+    largest = std::max(largest, std::abs(a.controls[i] - b.controls[i]));
+  }
+  return largest;
 }
 
 // Every number of the result is finite and in its range.

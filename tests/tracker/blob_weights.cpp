@@ -190,6 +190,14 @@ void add_decoder(MienWriter& writer, const std::string& name, const BlobOptions&
   network.output(x);
 }
 
+void add_controls_decoder(MienWriter& writer, const BlobOptions& options, Random& random) {
+  add_decoder(writer, "controls_decoder", options, std::vector<float>(kControls, 0.5f),
+              formats::LayerActivation::kClamp01, random);
+  writer.constant("control_supported", filled({kControls}, [&](std::size_t i) {
+                    return static_cast<float>(options.supported_controls >> i & 1u);
+                  }));
+}
+
 // Window of 12 x 12 cells of `cell` pixels: the middle 8 x 8 bright, the rest dark, is the face;
 // logit 16 for a perfect one, -8 for anything flat.
 void add_window_network(MienWriter& writer, const std::string& name, std::uint16_t cell,
@@ -238,17 +246,13 @@ AlignedBytes blob_basenet(const BlobOptions& options) {
   add_encoder(writer, options, random);
   add_landmarks(writer, options);
   add_face_probability(writer, options);
-  add_decoder(writer, "controls_decoder", options, std::vector<float>(kControls, 0.5f),
-              formats::LayerActivation::kClamp01, random);
+  add_controls_decoder(writer, options, random);
   if (options.with_pose_decoder) {
     std::vector<float> frontal(kPose, 0.0f);
     frontal[0] = frontal[4] = 1.0f;
     add_decoder(writer, "pose_decoder", options, frontal, formats::LayerActivation::kNone, random);
   }
   writer.constant("landmark_template", landmark_template());
-  writer.constant("control_supported", filled({kControls}, [&](std::size_t i) {
-                    return static_cast<float>(options.supported_controls >> i & 1u);
-                  }));
   return finished(writer);
 }
 
@@ -267,11 +271,7 @@ AlignedBytes blob_hifinet(const BlobOptions& options) {
       cells, random_array({options.features, kChannels * kCells}, 0.02f, random),
       std::vector<float>(options.features, 0.0f)));
   add_refined_landmarks(writer, options);
-  add_decoder(writer, "controls_decoder", options, std::vector<float>(kControls, 0.5f),
-              formats::LayerActivation::kClamp01, random);
-  writer.constant("control_supported", filled({kControls}, [&](std::size_t i) {
-                    return static_cast<float>(options.supported_controls >> i & 1u);
-                  }));
+  add_controls_decoder(writer, options, random);
   return finished(writer);
 }
 

@@ -15,14 +15,6 @@ Picture moving_disc(int frame) {
   return disc_picture(160.0f + 12.0f * std::cos(phase), 120.0f + 8.0f * std::sin(phase), 70.0f);
 }
 
-float largest_step(const Result& a, const Result& b) {
-  float largest = 0.0f;
-  for (int i = 0; i < MIEN_CONTROL_COUNT; ++i) {
-    largest = std::max(largest, std::abs(a.controls[i] - b.controls[i]));
-  }
-  return largest;
-}
-
 BlobTracker tracker_at(std::int32_t lod) {
   return BlobTracker({}, [lod](mien_tracker_config& config) { config.lod = lod; });
 }

@@ -105,9 +105,7 @@ class TrainedLevels : public Trained {
   }
 
   Config config(std::int32_t lod) const {
-    Config config = blob_config(*basenet_, *proposal_);
-    config.hifinet = hifinet_->get().data();
-    config.hifinet_bytes = hifinet_->get().size();
+    Config config = blob_config(*basenet_, *proposal_, *hifinet_);
     config.lod = lod;
     return config;
   }
@@ -162,19 +160,11 @@ TEST_F(Trained, SomethingHappensInTheFace) {
   }
 }
 
-float largest_step(const Result& a, const Result& b) {
-  float largest = 0.0f;
-  for (int i = 0; i < MIEN_CONTROL_COUNT; ++i) {
-    largest = std::max(largest, std::abs(a.controls[i] - b.controls[i]));
-  }
-  return largest;
-}
-
 // The largest steps of controls between frames of [begin, end).
 float largest_step(const std::vector<Result>& results, std::size_t begin, std::size_t end) {
   float largest = 0.0f;
   for (std::size_t i = std::max<std::size_t>(begin, 1); i < std::min(end, results.size()); ++i) {
-    largest = std::max(largest, largest_step(results[i - 1], results[i]));
+    largest = std::max(largest, tests::largest_step(results[i - 1], results[i]));
   }
   return largest;
 }
