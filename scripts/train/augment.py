@@ -114,6 +114,18 @@ def noise(x, g):
     return x + fine * level * (0.3 + x.mean(1, keepdim=True).sqrt())
 
 
+def low_light(x, g, of_frame=None):
+    """A dark room: the camera amplifies what it gets, its noise too (Poisson-Gaussian, Foi et al. 2008); colours fade.
+
+    The noise comes from the generator `of_frame`, if there is one.
+    """
+    n = len(x)
+    grain, light, saturation = uniform(g, n, 0.05, 0.25) ** 2, uniform(g, n, 0.25, 1), uniform(g, n, 0.2, 1)
+    linear = torch.lerp(x.mean(1, keepdim=True), x, saturation).square()
+    seen = linear + torch.randn(x.shape, generator=of_frame or g) * (linear * grain + grain ** 2).sqrt()
+    return seen.clamp_(0, 1).mul_(light).sqrt_()
+
+
 def occlude(x, g):
     """Half-planes, discs and bars of one colour over part of the picture."""
     n, _, h, w = x.shape
@@ -139,7 +151,7 @@ def lens(x, g, share=0.2):
 def degrade(x, g):
     """Occluders, lens, sensor noise and codec."""
     x = lens(share_of(x, g, 0.3, occlude), g, 0.35)
-    x = share_of(x, g, 0.7, noise).clamp_(0, 1)
+    x = share_of(share_of(x, g, 0.15, low_light), g, 0.7, noise).clamp_(0, 1)
     return some(x, g, 0.35, lambda y, u: jpeg(y, 0.05 + 0.25 * u)).clamp_(0, 1)
 
 
@@ -158,6 +170,7 @@ class OfSequence:
         steady = torch.Generator().manual_seed(self.seed)
         x = lens(colour(share_of(x.clone(), steady, 0.35, shade), steady), steady)
         fresh = torch.Generator().manual_seed(self.seed * 1009 + frame + 1)
-        level = uniform(steady, self.n, 0, 0.06)
+        level, dark = uniform(steady, self.n, 0, 0.06), torch.rand(self.n, generator=steady) < 0.1
         x = (x + torch.randn(x.shape, generator=fresh) * level).clamp(0, 1)
+        x[dark] = low_light(x[dark], steady, fresh)
         return some(x, steady, 0.3, lambda y, u: jpeg(y, 0.05 + 0.2 * u)).clamp(0, 1)

@@ -35,6 +35,7 @@ MOUTH_UNITS = {
     "mouthRollLower": 1.2, "mouthRollUpper": 1.5, "mouthShrugLower": 1.2, "mouthShrugUpper": 1.3,
     "mouthPress": 1.2, "mouthLowerDown": 1.4, "mouthUpperUp": 1.2, "cheekPuff": 1.4, "tongueOut": 1.5,
 }
+ALONE = 0.15  # share of sequences in which one unit moves at a time
 SIDED = {"jaw", "mouth"}
 UPPER_UNITS = ["cheekSquint", "noseSneer"]
 BROW_UNITS = ["browDown", "browInnerUp", "browOuterUp"]
@@ -356,8 +357,15 @@ def sample_like(rng, frames, pool, fps=30):
     return legalise(np.maximum(face, blinks(rng, frames, fps)) + micro_motion(rng, frames))
 
 
+def in_turn(rng, frames):
+    """Units one after the other, each alone from rest to its amplitude and back."""
+    return ease_through(rng, frames, sample_solo, (1, 12), (4, 16), rest=0.5)
+
+
 def sample_sequence(rng, frames, fps=30):
     """A random performance, f32[frames,52]."""
+    if rng.random() < ALONE:
+        return legalise(np.maximum(in_turn(rng, frames), blinks(rng, frames, fps)) + micro_motion(rng, frames))
     kind = rng.random()
     if kind < 0.25 and recorded_clips():
         face = recorded(rng, frames, fps)

@@ -17,6 +17,9 @@ from augment import OfSequence
 from expressions import CONTROLS, MIRROR
 from framing import BASENET, HIFINET
 from networks import BaseNet, HiFiNet, folded
+from video_codec import some_coded
+
+CODED = 0.4  # share of sequences
 
 
 class Sequences:
@@ -46,6 +49,13 @@ class Sequences:
         images = [np.broadcast_to(i, (frames, *i.shape)) for sequence in self.images for i in sequence]
         hold = lambda v: v.flatten(0, 1).unsqueeze(1).expand(-1, frames, *v.shape[2:])
         return Sequences(images, {k: hold(v) for k, v in self.labels.items()})
+
+    def coded(self, rows, seed):
+        """The same with a share of the sequences `rows` as a video codec leaves them."""
+        images = list(self.images)
+        for i, shown in zip(rows, some_coded([images[i] for i in rows], CODED, np.random.default_rng(seed))):
+            images[i] = shown
+        return Sequences(images, self.labels)
 
     def __len__(self):
         return len(self.images)
@@ -242,7 +252,8 @@ def extract(view, sequences, passes, seed, strides=(1, 2), plain=False, batch=32
             key = ((seed * 2 + stride) * 100 + number) * 10000 + start
             spoil = untouched if plain else OfSequence(len(rows), key)
             seen = Mirrored(view) if number % 2 else view
-            features, crops, points, again = track(seen, sequences, rows, spoil, torch.Generator().manual_seed(key), stride)
+            shown = sequences if plain else sequences.coded(rows, key)
+            features, crops, points, again = track(seen, shown, rows, spoil, torch.Generator().manual_seed(key), stride)
             losses += again
             errors.append(landmark_error(points, sequences.label("landmarks", rows)))
             tracks.append({"features": features.half(), "stride": torch.full((len(rows),), stride),

@@ -3,6 +3,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from renderer import make_up, wrinkles
 from renderer.assets import names, portrait_skins, skin_table
 
 HAIR_COLOURS = np.array([[28, 22, 20], [45, 30, 22], [74, 48, 32], [104, 70, 44], [146, 104, 62], [190, 150, 96],
@@ -23,6 +24,8 @@ class Look:
     contrast: float = 1.0                # exponent of the linear albedo
     saturation: float = 1.0
     shine: float = 0.1                   # specular strength of skin
+    wrinkles: object = None              # wrinkles.Wrinkles
+    make_up: tuple = ()                  # make_up.MakeUp
     brow: str = None
     brow_opacity: float = 0.9
     beard: str = None
@@ -122,6 +125,8 @@ def sample(rng, split):
     sample_eyes(look, rng)
     sample_hair(look, rng, split)
     sample_glasses(look, rng)
+    look.wrinkles = wrinkles.sample(rng, "old" in look.skins[0])
+    look.make_up = make_up.sample(rng, skin_table()[look.skins[0].partition("+")[0]]["sex"])
     look.cloth_colour = rng.uniform(0.01, 0.7) * np.exp(rng.normal(0, 0.5, 3))
     look.collar = rng.uniform(-19, -12.5)
     return look

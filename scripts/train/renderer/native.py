@@ -8,6 +8,7 @@ import numpy as np
 
 from native_build import library
 
+OVERLAYS = 6
 SKIN, INTERIOR, EYE, HAIR, SOLID, LENS, LASH = range(7)
 OPAQUE, FRINGE, BLENDED = range(3)
 
@@ -27,7 +28,7 @@ class Overlay(Structure):
 
 class Material(Structure):
     _fields_ = [("mode", c_int32), ("texture", c_int32 * 2), ("mix", c_float), ("albedo", c_void_p),
-                ("saturation", c_float), ("overlay", Overlay * 2), ("colour", c_float * 3), ("specular", c_float),
+                ("saturation", c_float), ("overlay", Overlay * OVERLAYS), ("colour", c_float * 3), ("specular", c_float),
                 ("gloss", c_int32), ("param", c_float * 4)]
 
 

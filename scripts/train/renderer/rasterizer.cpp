@@ -113,9 +113,10 @@ Surface Renderer::surface(const Scene& scene, uint32_t id, float x, float y, boo
                     : 1.0f;
   const CornerUv uv(mesh, part, triangle);
   s.uv = uv.mix(w);
-  for (int t = 0; t < 2; ++t) {
+  for (int t = 0; t < 2; ++t)
     if (s.material->texture[t] >= 0)
       s.lod[t] = uv.lod(e, textures[size_t(s.material->texture[t])], kSamples);
+  for (int t = 0; t < kOverlays; ++t) {
     const Overlay& o = s.material->overlay[t];
     if (o.texture < 0) continue;
     const float rect = (o.rect[2] - o.rect[0]) * (o.rect[3] - o.rect[1]);

@@ -31,6 +31,9 @@ struct Part {
 
 enum Mode : int32_t { kSkin, kInterior, kEye, kHair, kSolid, kLens, kLash };
 
+// Pictures that can be laid over one skin.
+constexpr int32_t kOverlays = 6;
+
 // A picture laid over a rectangle of the skin: its red channel is the opacity of `colour`.
 struct Overlay {
   int32_t texture;  // -1: none
@@ -46,7 +49,7 @@ struct Material {
   const float*
       albedo;        // [3,256] linear albedo of each sRGB byte (kHair: of the luma byte), or null
   float saturation;  // of the albedo, 1 = as it is
-  Overlay overlay[2];
+  Overlay overlay[kOverlays];
   float colour[3];  // linear
   float specular;
   int32_t gloss;   // Blinn-Phong exponent is 2^gloss

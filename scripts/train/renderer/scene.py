@@ -5,9 +5,10 @@ import numpy as np
 
 from landmark_points import TEACHER
 from paths import cache
-from renderer import native, props
+from renderer import make_up, native, props
 from renderer.assets import overlay_rectangle, pack, picture, skin_file, worn
 from renderer.lighting import sphere
+from renderer.wrinkles import Folding
 
 SKIN_TOLERANCE, IRIS_TOLERANCE = 0.5, 0.12  # cm that may lie in front of a landmark that counts as seen
 IRIS_LANDMARKS = [i for i, teacher in enumerate(TEACHER) if teacher >= 468]
@@ -39,6 +40,8 @@ class Studio:
         self.edge = props.rim(np.concatenate(skin), rig.neutral)
         self.shoulder_corners = props.strips(len(props.SHOULDERS), len(self.edge))
         self.occlusion = self.vertex_occlusion()
+        self.folding = Folding(rig.corner_position[slice(*rig.materials["M_Face"])], len(rig.neutral))
+        self.make_up = make_up.pictures(rig)
 
     def texture(self, *parts, wrap=False):
         """Number of a picture of the rig pack, or of any file."""
@@ -113,7 +116,7 @@ def material(mode, texture=-1, second=-1, mix=0.0, albedo=None, saturation=1.0, 
              param=(0, 0, 0, 0), overlays=()):
     made = native.Material(mode, (texture, second), mix, None if albedo is None else native.pointer(albedo), saturation)
     made.colour[:], made.specular, made.gloss, made.param[:] = colour, specular, gloss, param
-    for k in range(2):
+    for k in range(native.OVERLAYS):
         made.overlay[k].texture = -1
     for k, (number, rectangle, tint, opacity) in enumerate(overlays):
         made.overlay[k] = native.Overlay(number, rectangle, tuple(tint), opacity)
@@ -158,6 +161,7 @@ class Figure:
             overlays.append((texture("brows", f"{look.brow}.png"), overlay_rectangle("brows"), hair * 0.7, look.brow_opacity))
         if look.beard:
             overlays.append((texture("beards", f"{look.beard}.png"), overlay_rectangle("beards"), hair * 0.8, 0.95))
+        overlays += [(texture(self.studio.make_up[m.region]), (0, 0, 1, 1), m.colour, m.opacity) for m in look.make_up]
         collar = -100 if "suit" in first else look.collar
         made = lambda tile, over, edge: material(
             native.SKIN, texture(skin_file(first, tile)), texture(skin_file(second, tile)), look.skin_mix,
@@ -203,7 +207,7 @@ class Figure:
         """Shapes of the figure with the scene's vertices and pose."""
         shapes, rig = Shapes(), self.rig
         pose = np.float32(np.concatenate([scene.rotation, scene.translation[:, None]], 1))
-        head = shapes.mesh(scene.vertices, rig.corner_position, pose, rig.uv, rig.corner_uv, self.studio.occlusion)
+        head = shapes.mesh(scene.vertices, rig.corner_position, pose, rig.uv, rig.corner_uv, self.lit(scene.vertices))
         for name, made, stage, cull, cast in self.skin_parts:
             shapes.part(head, rig.materials[name], made, stage, cull, cast)
         for vertices, corners, uv, parts in self.static:
@@ -215,6 +219,10 @@ class Figure:
         shapes.part(shoulders, (0, len(self.studio.shoulder_corners)),
                     material(native.SOLID, colour=self.look.cloth_colour, specular=0.01))
         return shapes
+
+    def lit(self, vertices):
+        """How open every vertex is, f32 [26719]: wrinkles are in shadow."""
+        return self.studio.occlusion * self.studio.folding.openness(self.head, vertices, self.look.wrinkles)
 
     def add_mouth(self, shapes, head, vertices):
         """Teeth, gums and tongue, unless the lips are shut."""

@@ -13,7 +13,7 @@ struct Surface {
   Vec3 normal;  // camera space, unit, towards the viewer
   Uv uv;
   float lod[2];  // mip level for the material's textures
-  float overlay_lod[2];
+  float overlay_lod[kOverlays];
   float occlusion;
 };
 
@@ -39,7 +39,7 @@ inline Vec3 skin(const Surface& s, const Textures& textures) {
     c = {c.r + m.mix * (d.r - c.r), c.g + m.mix * (d.g - c.g), c.b + m.mix * (d.b - c.b), 255};
   }
   Vec3 colour = looked_up(m, c);
-  for (int k = 0; k < 2; ++k) {
+  for (int k = 0; k < kOverlays; ++k) {
     const Overlay& o = m.overlay[k];
     if (o.texture < 0) continue;
     const float u = (s.uv.u - o.rect[0]) / (o.rect[2] - o.rect[0]),
