@@ -7,15 +7,16 @@ from PIL import Image
 
 import head_pose
 from expressions import CONTROLS, MIRROR as CONTROL_MIRROR
-from faces import teacher_controls, window
+import faces
+from faces import window
 from framing import BASENET
 from landmark_points import MIRROR
 from paths import cache, data
 from renderer.assets import names
 from sequences import crop_to_image, fit_crop, sample_crops, template, to_window
 
-# images f32 [n,3,height,width] in 0..1; landmarks [n,175,2] in crop coordinates; controls [n,52], the teacher's on portraits;
-# pose [n,9]; has_landmarks, has_controls (true ones) bool [n]; visible [n,175]; face [n]: 1 a face well inside the crop, 0 none or misplaced
+# images f32 [n,3,height,width] in 0..1; landmarks [n,175,2] in crop coordinates; controls [n,52] and pose [n,9], the teacher's on
+# portraits; has_landmarks, has_controls (true ones) bool [n]; visible [n,175]; face [n]: 1 a face well inside the crop, 0 none or misplaced
 Batch = namedtuple("Batch", "images landmarks controls pose visible has_landmarks has_controls face")
 
 
@@ -25,14 +26,16 @@ class Portraits:
         self.images = np.load(folder / "images.npy", mmap_mode="r")
         labels = np.load(folder / "labels.npz")
         self.landmarks, self.crop = torch.from_numpy(labels["landmarks"]), torch.from_numpy(labels["crop"])
-        self.controls = torch.from_numpy(teacher_controls(labels["name"]))
+        self.controls = torch.from_numpy(faces.teacher_controls(labels["name"]))
+        self.camera = faces.camera_labels(split, framing)
 
     def __len__(self):
         return len(self.images)
 
     def rows(self, rng, n):
         i = rng.integers(0, len(self), n)
-        return (self.images[i], self.landmarks[i], self.crop[i], self.controls[i], torch.zeros(n, 9), torch.ones(n, 175), False)
+        self.last = {name: value[i] for name, value in self.camera.items()}
+        return self.images[i], self.landmarks[i], self.crop[i], self.controls[i], torch.ones(n, 175)
 
 
 class Rendered:
@@ -63,8 +66,8 @@ class Rendered:
         scale = self.window / labels["window"][:, None, 2:3]
         landmarks = (labels["landmarks"] - labels["window"][:, None, :2]) * scale + self.window / 2
         crop = to_window(labels["crop"], labels["window"], self.window)
-        self.last = labels  # what pose targets need beyond the common row
-        return images, landmarks, crop, labels["controls"], torch.zeros(n, 9), labels["visibility"], True
+        self.last = labels  # what pose targets need beyond the common row, of the rows just drawn
+        return images, landmarks, crop, labels["controls"], labels["visibility"]
 
 
 class Backgrounds:
@@ -113,7 +116,7 @@ class Backgrounds:
         images = np.concatenate([self.plain[a], self.mistaken[b], self.misplaced[np.sort(c)]])
         middle = lambda k: torch.tensor(BASENET.middle).expand(k, -1)
         crop = torch.cat([middle(len(a)), self.mistaken_crop[b], middle(len(c))])
-        return images, torch.zeros(n, 175, 2), crop, torch.zeros(n, len(CONTROLS)), torch.zeros(n, 9), torch.zeros(n, 175), False
+        return images, torch.zeros(n, 175, 2), crop, torch.zeros(n, len(CONTROLS)), torch.zeros(n, 175)
 
 
 def within(crop):
@@ -181,28 +184,26 @@ class Mixture:
         misplaced_share *= self.backgrounds is not None
         n_real = size - n_background if not len(self.rendered) else int(size * self.real_share)
         n_rendered = size - n_background - n_real
-        parts = [self.part(self.portraits.rows(self.rng, n_real), misplaced_share)]
+        parts = [self.part(self.portraits, n_real, misplaced_share)]
         if n_rendered:
-            parts.append(self.part(self.rendered.rows(self.rng, n_rendered), misplaced_share))
+            parts.append(self.part(self.rendered, n_rendered, misplaced_share))
         if n_background:
-            parts.append(self.part(self.backgrounds.rows(self.rng, n_background), 0, face=0))
+            parts.append(self.part(self.backgrounds, n_background, 0))
         whole = Batch(*(torch.cat(values) for values in zip(*parts)))
         return mirror(whole, self.generator)
 
-    def part(self, rows, misplaced_share, face=1):
-        images, landmarks, crop, controls, pose, visible, rendered = rows
-        n = len(images)
+    def part(self, source, n, misplaced_share):
+        images, landmarks, crop, controls, visible = source.rows(self.rng, n)
+        face, rendered = source is not self.backgrounds, isinstance(source, Rendered)
         bad = torch.rand(n, generator=self.generator) < misplaced_share
         used = torch.where(bad[:, None], misplace(crop, self.generator), jitter(crop, self.generator, self.roughness * self.framing.looseness))
-        good = ~bad & bool(face)
-        if rendered:
-            pose = self.pose_targets(used)
+        good = ~bad & face
+        pose = self.pose_targets(source.last, used) if face else torch.zeros(n, 9)
         return Batch(sample(images, used, self.framing), to_crop(used, landmarks), controls, pose, visible, good,
                      good & rendered, good.float())
 
-    def pose_targets(self, crop):
-        """Pose of the rendered rows just drawn, as seen in these crops (window pixels -> camera pixels first)."""
-        labels = self.rendered.last
+    def pose_targets(self, labels, crop):
+        """Pose of rows as seen in these crops (window pixels -> camera pixels first)."""
         scale = labels["window"][:, 2:3] / self.framing.window
         camera = torch.cat([(crop[:, :2] - self.framing.window / 2) * scale + labels["window"][:, :2], crop[:, 2:3] * scale, crop[:, 3:]], 1)
         return head_pose.to_crop(labels["rotation"], labels["translation"], labels["f_px"], labels["camera_wh"], camera)

@@ -19,6 +19,9 @@ from framing import BASENET, FRAMINGS
 from sequences import fit_crop, template
 
 
+TEACHER_FOV = np.radians(63)  # vertical, of the camera that MediaPipe takes for granted (face_geometry)
+
+
 def split_of(name):
     """Held out by a hash of the name: 12 % test, 5 % val."""
     share = int(hashlib.sha256(str(name).encode()).hexdigest()[:8], 16) / 2 ** 32
@@ -57,6 +60,24 @@ def teacher_controls(names):
         if control in known:
             out[:, i] = labels["blendshapes"][rows, known.index(control)]
     return out
+
+
+def teacher_poses(names):
+    """The teacher's head poses in camera space of portraits: rotation f32 [n,3,3], translation f32 [n,3] (metres)."""
+    labels = np.load(data() / "faces/labels.npz")
+    row = {str(name): i for i, name in enumerate(labels["name"])}
+    matrix = labels["matrix_colmajor"][[row[str(name)] for name in names]].reshape(-1, 4, 4).transpose(0, 2, 1)
+    return matrix[:, :3, :3].astype(np.float32), matrix[:, :3, 3].astype(np.float32) / 100
+
+
+def camera_labels(split, framing):
+    """Where the portraits of a split are in front of which camera, the teacher's word: tensors as of a rendered shard."""
+    found = portraits(split)
+    rotation, translation = teacher_poses(found.names)
+    window = np.concatenate([found.crops[:, :2], framing.window_crops * found.crops[:, 2:3]], 1)
+    labels = {"rotation": rotation, "translation": translation, "f_px": found.size_wh[:, 1] / 2 / np.tan(TEACHER_FOV / 2),
+              "camera_wh": found.size_wh, "window": window}
+    return {name: torch.from_numpy(np.float32(value)) for name, value in labels.items()}
 
 
 def portraits(split):

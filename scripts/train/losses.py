@@ -1,11 +1,13 @@
 """What phase 1 minimises: landmarks, their consistency, face probability, and the training-only controls and pose.
 
-Portraits have no true controls but a teacher's (MediaPipe's), on a scale of its own for each control. What the network says of
-them is brought to that scale by a line, so that it learns from the teacher what differs from face to face and not where it rests.
+Portraits have no true controls and pose but a teacher's (MediaPipe's), on a scale of its own for each control and with its own idea
+of looking ahead. What the network says of them is brought there by lines and a rotation, so that it learns from the teacher what
+differs from face to face and not where it rests.
 """
 import torch
 import torch.nn.functional as F
 
+import head_pose
 from face_data import to_crop
 import landmark_points as lp
 from expressions import CONTROLS
@@ -62,6 +64,20 @@ class Line:
         return slope, my - slope * mx
 
 
+class Turn:
+    """The rotation from our idea of a head that looks ahead to the teacher's, by a running mean."""
+
+    def __init__(self, device, decay=0.98):
+        self.decay, self.mean = decay, torch.eye(3, device=device)
+
+    @torch.no_grad()
+    def fit(self, ours, theirs):
+        """Rotations [rows,3,3]; the rotation [3,3] that brings ours to theirs (Kabsch 1976)."""
+        self.mean.lerp_((ours.transpose(1, 2) @ theirs).mean(0), 1 - self.decay)
+        u, _, vt = torch.linalg.svd(self.mean)
+        return u @ torch.diag(torch.stack([self.mean.new_ones(()), self.mean.new_ones(()), torch.det(u @ vt)])) @ vt
+
+
 def followed(controls):
     """Of the teacher's controls [n,52] on portraits: the spread of each [52], and which respond and are worth following, [52]."""
     spread = controls.std(0)
@@ -78,7 +94,7 @@ class Losses:
         self.of_eye = self.lids.sum(0) > 0
         self.spread = torch.ones(len(CONTROLS), device=device)
         self.importance = importance().to(device)
-        self.line = Line(len(CONTROLS), device)
+        self.line, self.turn = Line(len(CONTROLS), device), Turn(device)
         self.teacher_spread, self.followed = torch.ones(len(CONTROLS)), torch.zeros(len(CONTROLS))
 
     def learn_spread(self, rendered):
@@ -128,7 +144,15 @@ class Losses:
         error = F.smooth_l1_loss(out, batch.pose, beta=0.1, reduction="none")
         return (error * weights).sum() / (9 * weights.sum()).clamp(min=1)
 
+    def teacher_pose(self, out, batch):
+        """Agreement with the teacher on portraits how the head is turned."""
+        rows = batch.has_landmarks & ~batch.has_controls
+        if not rows.any():
+            return out.sum() * 0
+        ours, theirs = (head_pose.orthonormalise(pose[rows, :6]) for pose in (out, batch.pose))
+        return F.smooth_l1_loss(ours @ self.turn.fit(ours.detach(), theirs), theirs, beta=0.1)
+
     def total(self, out, batch):
         return (2 * self.landmarks(out["landmarks"], batch) + 0.5 * F.binary_cross_entropy_with_logits(out["face"], batch.face)
                 + 8 * self.controls(out["controls"], batch) + TEACHER_WEIGHT * self.teacher(out["controls"], batch)
-                + 2 * self.pose(out["pose"], batch))
+                + 2 * self.pose(out["pose"], batch) + 2 * self.teacher_pose(out["pose"], batch))

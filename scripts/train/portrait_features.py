@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Features of the portraits, each held still for some frames, with the teacher's controls: what phase 2 sees of real faces.
+"""Features of the portraits, each held still for some frames, with the teacher's controls and pose: what phase 2 sees of real faces.
 
 usage: portrait_features.py --checkpoint BASENET.pt [--hifinet HIFINET.pt] --out FEATURES.pt      see also sequences.py
-Their pose is not known: what stands in its place means nothing.
+How far away a head is the teacher tells on a scale of its own.
 """
 import argparse
 from pathlib import Path
@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import torch
 
-from faces import teacher_controls
+import faces
 from framing import BASENET, HIFINET
 from landmark_points import TEACHER
 from paths import cache
@@ -18,16 +18,13 @@ from sequences import BaseNetView, HiFiNetView, Sequences, extract
 
 
 def portraits(split, framing):
-    """Sequences of one frame each."""
-    folder, n = cache() / "faces" / framing.folder(split), framing.window
-    images, labels = np.load(folder / "images.npy", mmap_mode="r"), dict(np.load(folder / "labels.npz"))
-    count = len(images)
-    each = lambda *value: torch.tensor(value, dtype=torch.float32).expand(count, 1, len(value))
-    found = {name: torch.from_numpy(labels[name]).unsqueeze(1) for name in ("landmarks", "crop")}
-    found.update(controls=torch.from_numpy(teacher_controls(labels["name"])).unsqueeze(1), window=each(n / 2, n / 2, n),
-                 visibility=torch.ones(count, 1, len(TEACHER)), rotation=torch.eye(3).expand(count, 1, 3, 3),
-                 translation=each(0, 0, -0.6), f_px=each(n)[..., 0], camera_wh=each(n, n))
-    return Sequences([image[None] for image in images], found)
+    """Sequences of one frame each, in pixels of the whole pictures."""
+    folder, found = cache() / "faces" / framing.folder(split), faces.portraits(split)
+    images = np.load(folder / "images.npy", mmap_mode="r")
+    labels = {"landmarks": found.points, "crop": found.crops, "controls": faces.teacher_controls(found.names),
+              "visibility": np.ones((len(images), len(TEACHER)), np.float32)}
+    labels = {name: torch.from_numpy(value) for name, value in labels.items()} | faces.camera_labels(split, framing)
+    return Sequences([image[None] for image in images], {name: value.unsqueeze(1) for name, value in labels.items()})
 
 
 def main():

@@ -21,8 +21,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "evaluate"))
 import head_pose  # noqa: E402
 import metrics  # noqa: E402
 from expressions import CONTROLS, MIRROR, PAIRED  # noqa: E402
-from losses import Line, followed, importance  # noqa: E402
-from networks import FACE_NETWORKS, ControlsDecoder, PoseDecoder  # noqa: E402
+from losses import Line, Turn, followed, importance  # noqa: E402
+from networks import FACE_NETWORKS, ControlsDecoder, PoseDecoder, TemporalDecoder  # noqa: E402
 
 SUPPORTED_CORRELATION = 0.5
 GAZE = np.array([name.startswith("eyeLook") for name in CONTROLS])
@@ -117,6 +117,19 @@ class PoseTask:
         return temporal_loss(self.expand(output), self.expand(target), weight, self.args) + 0.05 * drift
 
 
+class TeacherPoseTask:
+    """Agreement with the teacher how the heads of portraits are turned, after one rotation for all."""
+
+    def __init__(self, _, args):
+        self.args, self.turn = args, Turn("cpu")
+
+    def loss(self, output, batch, mask):
+        ours, theirs = (head_pose.orthonormalise(pose[..., :6]) for pose in (output, batch["pose"]))
+        turned = ours @ self.turn.fit(ours.detach().flatten(0, 1), theirs.flatten(0, 1))
+        error = F.smooth_l1_loss(turned, theirs, beta=self.args.beta, reduction="none")
+        return self.args.teacher * 2 * self.args.beta * (mask * error.flatten(-2)).mean()
+
+
 class Moving:
     """Batches of streams of two tracks each, so that states outlive a track."""
 
@@ -165,6 +178,15 @@ def normalise_input(layer, features):
     return spread
 
 
+@torch.no_grad()
+def mind_the_present(decoder):
+    """Lets a fresh temporal decoder begin as one that looks at the frame at hand; what came before it learns to use."""
+    for convolution in decoder.convolutions:
+        convolution.weight *= torch.tensor([0.1, 1.4])  # of the frame before, of this one
+    take_in, forget, _, let_out = decoder.lstm.bias_ih_l0.chunk(4)
+    take_in.fill_(1.0), forget.fill_(-1.0), let_out.fill_(1.0)
+
+
 def first_layer(decoder):
     return next(m for m in decoder.modules() if isinstance(m, (nn.Linear, nn.Conv1d)))
 
@@ -177,6 +199,8 @@ def noisy(x, spread):
 def train(decoder, lessons, args, name):
     """Fits a decoder to (source, task) pairs, one batch of each per step."""
     torch.manual_seed(args.seed)
+    if isinstance(decoder, TemporalDecoder):
+        mind_the_present(decoder)
     noise = args.noise * normalise_input(first_layer(decoder), lessons[0][0].data["features"])
     optimiser = torch.optim.AdamW(decoder.parameters(), lr=args.rate, weight_decay=1e-2)
     schedule = torch.optim.lr_scheduler.OneCycleLR(optimiser, args.rate, total_steps=args.steps, pct_start=0.1)
@@ -286,7 +310,7 @@ def main():
     parser.add_argument("--train", type=Path, nargs="+", required=True, help="features to learn from")
     parser.add_argument("--held", type=Path, nargs="*", default=[], help="features of stills (sequences.py --hold)")
     parser.add_argument("--portraits", type=Path, nargs="*", default=[], help="features of real faces (portrait_features.py)")
-    parser.add_argument("--teacher", type=float, default=0.5, help="weight of the teacher's controls on them")
+    parser.add_argument("--teacher", type=float, default=0.5, help="weight of what the teacher says of them")
     parser.add_argument("--val", type=Path, required=True, help="features that choose the supported controls")
     parser.add_argument("--out", type=Path, required=True, help="checkpoint; scores go beside it as .json")
     parser.add_argument("--steps", type=int, default=1300)
@@ -310,8 +334,8 @@ def main():
         own = argparse.Namespace(**{**vars(args), "velocity": 0, "acceleration": 0}) if name == "frame" else args
         task = (PoseTask if name == "pose" else ControlsTask)(sources[0].data, own)
         lessons = [(source, task) for source in sources]
-        if portraits and name != "pose":
-            lessons.append((portraits, TeacherTask(portraits.data, own)))
+        if portraits:
+            lessons.append((portraits, (TeacherPoseTask if name == "pose" else TeacherTask)(portraits.data, own)))
         train(decoder, lessons, own, name)
         check_streaming(decoder, sources[0].data["features"])
     report, supported = evaluate(decoders, torch.load(args.val), gaze=args.network == "hifinet")

@@ -66,7 +66,7 @@ def validate(network, portraits, rendered, seed=11):
             continue
         errors, answers, truths, faces = [], [], [], []
         for _ in range(4):
-            part = mixture.part(source.rows(mixture.rng, 128), 0.0)
+            part = mixture.part(source, 128, 0.0)
             out = {k: v.cpu() for k, v in network((part.images * 2 - 1).to(device)).items()}
             eyes = (part.landmarks[:, lp.OUTER_EYE_CORNERS[0]] - part.landmarks[:, lp.OUTER_EYE_CORNERS[1]]).norm(dim=1)
             errors.append((out["landmarks"] - part.landmarks).norm(dim=2).mean(1) / eyes.clamp(min=0.15))
