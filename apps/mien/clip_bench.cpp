@@ -29,9 +29,7 @@ double time_ms(Tracker& tracker, const mien_image& image, std::int64_t pts_ns,
   const auto begin = Clock::now();
   const mien_status status = tracker.push_video(image, pts_ns);
   const std::chrono::duration<double, std::milli> spent = Clock::now() - begin;
-  if (status != MIEN_OK) {
-    throw Failure(kExitInternal, input + ": " + message(status));
-  }
+  check(status, input);
   return spent.count();
 }
 
@@ -43,9 +41,7 @@ FrameTimes time_frames(const BenchOptions& options) {
   mien_image image;
   for (std::int64_t pts_ns = 0; video->next(image, pts_ns);) {
     times.followed.push_back(time_ms(following.tracker, image, pts_ns, options.clip));
-    if (proposing.tracker.reset() != MIEN_OK) {
-      throw Failure(kExitInternal, options.clip + ": reset");
-    }
+    check(proposing.tracker.reset(), options.clip);
     times.proposed.push_back(time_ms(proposing.tracker, image, pts_ns, options.clip));
   }
   Result last;

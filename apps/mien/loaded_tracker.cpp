@@ -55,6 +55,12 @@ LoadedTracker::LoadedTracker(const Options& options)
   }
 }
 
+void check(mien_status status, const std::string& where) {
+  if (status != MIEN_OK) {
+    throw Failure(kExitInternal, where + ": " + message(status));
+  }
+}
+
 void load_neutral(const std::string& path, Tracker& tracker) {
   std::ifstream file(path, std::ios::binary);
   std::array<char, MIEN_NEUTRAL_BYTES + 1> bytes;  // one more, to notice what is too long

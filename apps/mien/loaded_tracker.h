@@ -29,6 +29,9 @@ struct LoadedTracker {
   std::size_t tracker_bytes = 0;  // memory of the tracker, the weights not counted
 };
 
+// Throws a Failure that names `where` unless all is well.
+void check(mien_status status, const std::string& where);
+
 // Takes over a file of `mien neutral`. Throws Failure.
 void load_neutral(const std::string& path, Tracker& tracker);
 

@@ -15,12 +15,6 @@ namespace {
 
 using NeutralBytes = std::array<std::byte, MIEN_NEUTRAL_BYTES>;
 
-void check(mien_status status, const std::string& input) {
-  if (status != MIEN_OK) {
-    throw Failure(kExitInternal, input + ": " + message(status));
-  }
-}
-
 // Plays the video until the tracker has captured what bit `wanted` stands for.
 NeutralBytes capture(const NeutralOptions& options, Tracker& tracker, std::uint32_t wanted) {
   check(tracker.capture_neutral(), options.input);

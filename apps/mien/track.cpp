@@ -134,19 +134,12 @@ void print_summary(const Result& last, const StageTimes& times) {
   }
 }
 
-void check(mien_status status, const std::string& input, std::int64_t frame) {
-  if (status != MIEN_OK) {
-    throw Failure(kExitInternal,
-                  input + ": frame " + std::to_string(frame) + ": " + message(status));
-  }
-}
-
 // Of all faces there are; of none while one is searched for.
-std::vector<Result> results(const Tracker& tracker, const std::string& input, std::int64_t frame) {
+std::vector<Result> results(const Tracker& tracker, const std::string& where) {
   std::vector<Result> faces(static_cast<std::size_t>(std::max(1, tracker.face_count())));
-  check(tracker.get_result(faces.front()), input, frame);
+  check(tracker.get_result(faces.front()), where);
   for (std::size_t i = 1; i < faces.size(); ++i) {
-    check(tracker.get_face(static_cast<std::int32_t>(i), faces[i]), input, frame);
+    check(tracker.get_face(static_cast<std::int32_t>(i), faces[i]), where);
   }
   return faces;
 }
@@ -169,8 +162,9 @@ void track(const TrackOptions& options) {
     mien_image image;
     std::int64_t pts_ns = 0;
     for (std::int64_t frame = 0; video->next(image, pts_ns); ++frame) {
-      check(loaded.tracker.push_video(image, pts_ns), options.input, frame);
-      const std::vector<Result> faces = results(loaded.tracker, options.input, frame);
+      const std::string where = options.input + ": frame " + std::to_string(frame);
+      check(loaded.tracker.push_video(image, pts_ns), where);
+      const std::vector<Result> faces = results(loaded.tracker, where);
       outputs.frame(frame, image, faces);
       last = faces.front();
       add_times(times, last);
