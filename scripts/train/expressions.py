@@ -35,7 +35,7 @@ MOUTH_UNITS = {
     "mouthRollLower": 1.2, "mouthRollUpper": 1.5, "mouthShrugLower": 1.2, "mouthShrugUpper": 1.3,
     "mouthPress": 1.2, "mouthLowerDown": 1.4, "mouthUpperUp": 1.2, "cheekPuff": 1.4, "tongueOut": 1.5,
 }
-ALONE = 0.15  # share of sequences in which one unit moves at a time
+ALONE = 0.25  # share of sequences in which one unit moves at a time
 SIDED = {"jaw", "mouth"}
 UPPER_UNITS = ["cheekSquint", "noseSneer"]
 BROW_UNITS = ["browDown", "browInnerUp", "browOuterUp"]
@@ -234,13 +234,16 @@ def legalise(c):
 
 
 def sample_solo(rng):
-    """One unit through its whole range on an otherwise neutral face."""
+    """One unit through its whole range on an otherwise neutral face, a paired one as often on one side as on both."""
     units = list(MOUTH_UNITS) + UPPER_UNITS + BROW_UNITS + ["eyeBlink", "eyeWide", "eyeSquint", "gaze"]
     unit = rng.choice(units)
     value = rng.uniform(0, 1)
     if unit == "gaze":
         return sample_gaze(rng)
     out = zeros()
+    if unit in PAIRED and unit not in SIDED and rng.random() < 0.5:
+        out[INDEX[unit + rng.choice(["Left", "Right"])]] = value
+        return out
     add_unit(out, rng, unit, value)
     if unit == "tongueOut":
         add_unit(out, rng, "jawOpen", rng.uniform(0.45, 0.9))
