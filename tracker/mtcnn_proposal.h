@@ -34,7 +34,7 @@ class MtcnnProposal final : public FaceProposal {
  private:
   static constexpr std::size_t kMaxLevels = 12;  // 640 * 0.709^12 < 12
   static constexpr std::size_t kPerLevel = 64;   // candidates kept
-  static constexpr std::size_t kRefined = 32;    // candidates shown to R-Net
+  static constexpr std::size_t kRefined = 64;    // candidates shown to R-Net
 
   // P-Net's candidates on `count` sizes of `canvas`, from the one of level `first` on.
   [[nodiscard]] std::span<Candidate> scan(const ImageView& view, const Square& canvas,

@@ -224,7 +224,7 @@ typedef struct mien_tracker_config {
   float horizontal_fov; /* radians, of the upright image, where focal_length_px is 0; 0.01..3.1;
                            default 60 degrees */
 
-  /* Face probability at and above which a searched face is accepted; default 0.9. */
+  /* Face probability at and above which a searched face is accepted; default 0.98. */
   float accept_probability;
   /* Face probability below which a tracked face counts as missing; default 0.5; must not exceed
    * accept_probability. */
@@ -236,7 +236,7 @@ typedef struct mien_tracker_config {
    * face is 12 of them; 24..640; default 160, which finds faces from 7.5 % of the longer side. */
   int32_t proposal_size;
   float proposal_threshold; /* first stage (P-Net), 0..1; default 0.6 */
-  float refine_threshold;   /* second stage (R-Net), 0..1; default 0.9 */
+  float refine_threshold;   /* second stage (R-Net), 0..1; default 0.6 */
   /* Without a face, the proposal runs on every frame for the first 30 of them, then on every
    * search_interval-th; 1..1000; default 3. */
   int32_t search_interval;
