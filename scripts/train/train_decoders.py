@@ -24,7 +24,7 @@ from expressions import CONTROLS, MIRROR, PAIRED  # noqa: E402
 from losses import Line, Turn, followed, importance  # noqa: E402
 from networks import FACE_NETWORKS, ControlsDecoder, PoseDecoder, TemporalDecoder  # noqa: E402
 
-SUPPORTED_CORRELATION = 0.5
+SUPPORTED_CORRELATION = 0.55  # a margin over 0.5: on other people it is a little lower
 GAZE = np.array([name.startswith("eyeLook") for name in CONTROLS])
 SPEED_BETA = 0.015  # frame differences beyond it cost linearly
 LEARNED = ("features", "pose", "controls", "visible")
