@@ -89,11 +89,11 @@ def amplitude(rng):
 
 
 def asymmetry(rng):
-    """Gains (left, right): nearly equal mostly, clearly unequal or one-sided sometimes."""
+    """Gains (left, right): nearly equal mostly, clearly unequal or one-sided often enough that sides are told apart."""
     kind = rng.random()
-    if kind < 0.72:
+    if kind < 0.6:
         return 1 - rng.uniform(0, 0.08, 2)
-    weak = rng.uniform(0.3, 0.9) if kind < 0.86 else rng.uniform(0, 0.15)
+    weak = rng.uniform(0.3, 0.9) if kind < 0.75 else rng.uniform(0, 0.15)
     return (1.0, weak) if rng.random() < 0.5 else (weak, 1.0)
 
 
