@@ -1,5 +1,7 @@
 #include "tracker/neutral.h"
 
+#include <cmath>
+
 namespace mien::tracker {
 
 void Neutral::set(std::span<const float, kControls> levels) {
@@ -13,7 +15,7 @@ void Neutral::observe(std::span<const float, kControls> controls) {
   if (frame_ >= 0) {
     for (std::size_t i = 0; i < controls.size(); ++i) {
       seen_[i][static_cast<std::size_t>(frame_)] =
-          static_cast<std::uint16_t>(controls[i] * kSteps + 0.5f);
+          static_cast<std::uint16_t>(std::lround(controls[i] * kSteps));
     }
   }
   if (++frame_ < kFrames) {
