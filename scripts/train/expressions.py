@@ -361,7 +361,7 @@ def sample_like(rng, frames, pool, fps=30):
 
 
 def in_turn(rng, frames):
-    """Units one after the other, each alone from rest to its amplitude and back."""
+    """Units one after the other, with rest between about half of them."""
     return ease_through(rng, frames, sample_solo, (1, 12), (4, 16), rest=0.5)
 
 

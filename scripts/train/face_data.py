@@ -27,7 +27,7 @@ class Portraits:
         labels = np.load(folder / "labels.npz")
         self.landmarks, self.crop = torch.from_numpy(labels["landmarks"]), torch.from_numpy(labels["crop"])
         self.controls = torch.from_numpy(faces.teacher_controls(labels["name"]))
-        self.camera = faces.camera_labels(split, framing)
+        self.camera = faces.camera_labels(faces.portraits(split), framing)
 
     def __len__(self):
         return len(self.images)

@@ -50,11 +50,17 @@ class Portraits:
         return np.ascontiguousarray(self.image(i)), self.crops[i, :3]
 
 
-def teacher_controls(names):
-    """The teacher's controls f32 [n,52] of portraits; 0 where it has none."""
+def teacher_labels(names):
+    """What the teacher says, and in which of its rows it speaks of these portraits."""
     labels = np.load(data() / "faces/labels.npz")
     row = {str(name): i for i, name in enumerate(labels["name"])}
-    rows, known = [row[str(name)] for name in names], [str(name) for name in labels["blendshape_names"]]
+    return labels, [row[str(name)] for name in names]
+
+
+def teacher_controls(names):
+    """The teacher's controls f32 [n,52] of portraits; 0 where it has none."""
+    labels, rows = teacher_labels(names)
+    known = [str(name) for name in labels["blendshape_names"]]
     out = np.zeros((len(rows), len(CONTROLS)), np.float32)
     for i, control in enumerate(CONTROLS):
         if control in known:
@@ -64,15 +70,13 @@ def teacher_controls(names):
 
 def teacher_poses(names):
     """The teacher's head poses in camera space of portraits: rotation f32 [n,3,3], translation f32 [n,3] (metres)."""
-    labels = np.load(data() / "faces/labels.npz")
-    row = {str(name): i for i, name in enumerate(labels["name"])}
-    matrix = labels["matrix_colmajor"][[row[str(name)] for name in names]].reshape(-1, 4, 4).transpose(0, 2, 1)
+    labels, rows = teacher_labels(names)
+    matrix = labels["matrix_colmajor"][rows].reshape(-1, 4, 4).transpose(0, 2, 1)
     return matrix[:, :3, :3].astype(np.float32), matrix[:, :3, 3].astype(np.float32) / 100
 
 
-def camera_labels(split, framing):
-    """Where the portraits of a split are in front of which camera, the teacher's word: tensors as of a rendered shard."""
-    found = portraits(split)
+def camera_labels(found, framing):
+    """Where Portraits are in front of which camera, the teacher's word: tensors as of a rendered shard."""
     rotation, translation = teacher_poses(found.names)
     window = np.concatenate([found.crops[:, :2], framing.window_crops * found.crops[:, 2:3]], 1)
     labels = {"rotation": rotation, "translation": translation, "f_px": found.size_wh[:, 1] / 2 / np.tan(TEACHER_FOV / 2),

@@ -77,6 +77,11 @@ class Turn:
         u, _, vt = torch.linalg.svd(self.mean)
         return u @ torch.diag(torch.stack([self.mean.new_ones(()), self.mean.new_ones(()), torch.det(u @ vt)])) @ vt
 
+    def bring(self, ours, theirs):
+        """Poses [...,9] -> our rotations [...,3,3], brought to the teacher's, and the teacher's."""
+        ours, theirs = (head_pose.orthonormalise(pose[..., :6]) for pose in (ours, theirs))
+        return ours @ self.fit(ours.detach().flatten(0, -3), theirs.flatten(0, -3)), theirs
+
 
 def followed(controls):
     """Of the teacher's controls [n,52] on portraits: the spread of each [52], and which respond and are worth following, [52]."""
@@ -149,8 +154,7 @@ class Losses:
         rows = batch.has_landmarks & ~batch.has_controls
         if not rows.any():
             return out.sum() * 0
-        ours, theirs = (head_pose.orthonormalise(pose[rows, :6]) for pose in (out, batch.pose))
-        return F.smooth_l1_loss(ours @ self.turn.fit(ours.detach(), theirs), theirs, beta=0.1)
+        return F.smooth_l1_loss(*self.turn.bring(out[rows], batch.pose[rows]), beta=0.1)
 
     def total(self, out, batch):
         return (2 * self.landmarks(out["landmarks"], batch) + 0.5 * F.binary_cross_entropy_with_logits(out["face"], batch.face)

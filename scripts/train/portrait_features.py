@@ -23,7 +23,7 @@ def portraits(split, framing):
     images = np.load(folder / "images.npy", mmap_mode="r")
     labels = {"landmarks": found.points, "crop": found.crops, "controls": faces.teacher_controls(found.names),
               "visibility": np.ones((len(images), len(TEACHER)), np.float32)}
-    labels = {name: torch.from_numpy(value) for name, value in labels.items()} | faces.camera_labels(split, framing)
+    labels = {name: torch.from_numpy(value) for name, value in labels.items()} | faces.camera_labels(found, framing)
     return Sequences([image[None] for image in images], {name: value.unsqueeze(1) for name, value in labels.items()})
 
 

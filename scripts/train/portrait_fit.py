@@ -11,26 +11,14 @@ import numpy as np
 import torch
 
 import landmark_points as lp
-from expressions import CONTROLS
-from faces import portraits
+from faces import portraits, teacher_controls
 from head_pose import orthonormalise
-from paths import cache, data
+from paths import cache
 from rig import Rig
 
 DISTANCE = 150.0        # cm to the camera: portraits are taken from some way off
 IDENTITY_PRIOR, CONTROL_PRIOR = 4e-4, 2e-3
 STEPS, RATE = 500, 0.02
-
-
-def teacher_controls(rows):
-    """Blendshapes f32 [n,52] of portraits; 0 where the teacher has none."""
-    labels = np.load(data() / "faces/labels.npz")
-    theirs = [str(n) for n in labels["blendshape_names"]]
-    controls = np.zeros((len(rows), len(CONTROLS)), np.float32)
-    for i, name in enumerate(CONTROLS):
-        if name in theirs:
-            controls[:, i] = labels["blendshapes"][rows, theirs.index(name)]
-    return controls
 
 
 class Model:
@@ -93,7 +81,7 @@ def camera_pose(found):
 def main():
     photographs = portraits("train")
     target = torch.from_numpy(photographs.points - photographs.size_wh[:, None] / 2)
-    teacher = torch.from_numpy(teacher_controls(photographs.rows))
+    teacher = torch.from_numpy(teacher_controls(photographs.names))
     found = fit(Model(Rig()), target, teacher)
     translation, f_px = camera_pose(found)
     out = cache() / "portrait_skins"

@@ -124,9 +124,7 @@ class TeacherPoseTask:
         self.args, self.turn = args, Turn("cpu")
 
     def loss(self, output, batch, mask):
-        ours, theirs = (head_pose.orthonormalise(pose[..., :6]) for pose in (output, batch["pose"]))
-        turned = ours @ self.turn.fit(ours.detach().flatten(0, 1), theirs.flatten(0, 1))
-        error = F.smooth_l1_loss(turned, theirs, beta=self.args.beta, reduction="none")
+        error = F.smooth_l1_loss(*self.turn.bring(output, batch["pose"]), beta=self.args.beta, reduction="none")
         return self.args.teacher * 2 * self.args.beta * (mask * error.flatten(-2)).mean()
 
 
