@@ -160,8 +160,13 @@ class ControlsDecoder(TemporalDecoder):
 
 
 class PoseDecoder(TemporalDecoder):
+    """Begins with heads that look ahead: from half a turn off no gradient leads back."""
+
     def __init__(self):
         super().__init__([48, 48, 32], POSE)
+        nn.init.zeros_(self.output.bias)
+        with torch.no_grad():
+            self.output.bias[[0, 4]] = 1.0
 
 
 class PNet(nn.Module):
