@@ -11,8 +11,10 @@
 #include "kernels/half/half.h"
 #include "kernels/image/warp.h"
 #include "kernels/lstm/lstm.h"
+#include "kernels/matrix_vector/matrix_vector.h"
 #include "kernels/max_pool/max_pool.h"
 #include "kernels/pointwise/pointwise.h"
+#include "kernels/power_spectrum/power_spectrum.h"
 #include "kernels/residual_add/residual_add.h"
 #include "kernels/softmax/softmax.h"
 

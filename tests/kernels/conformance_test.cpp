@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 
 #include "kernels/families.h"
 #include "kernels/registry.h"
@@ -395,6 +396,37 @@ TEST(Conformance, Softmax) {
       a = {f[0], y, pixels, channels};
     };
     test.gain = 4.0;  // shares are 1 in sum; their errors are those of the exponential
+    return test;
+  });
+}
+
+TEST(Conformance, MatrixVector) {
+  check_all_tiers<MatrixVectorArgs>([](RandomValues& random) {
+    const int rows = random.between(1, 30), columns = random.between(1, 140);
+    Case<MatrixVectorArgs> test;
+    test.buffers = {
+        {random.plain(rows * columns), random.plain(columns)}, {}, static_cast<std::size_t>(rows)};
+    test.bind = [=](MatrixVectorArgs& a, float* const* f, const std::uint16_t* const*, float* y) {
+      a = {f[0], f[1], y, rows, columns};
+    };
+    return test;
+  });
+}
+
+TEST(Conformance, PowerSpectrum) {
+  check_all_tiers<PowerSpectrumArgs>([](RandomValues& random) {
+    const int n = PowerSpectrumArgs::kSmallest << random.between(0, 3);
+    std::vector<float> twiddles;
+    for (int j = 0; j < n; ++j) {
+      const double turn = 2.0 * std::numbers::pi * j / n;
+      twiddles.push_back(static_cast<float>(std::cos(turn)));
+      twiddles.push_back(static_cast<float>(-std::sin(turn)));
+    }
+    Case<PowerSpectrumArgs> test;
+    test.buffers = {{random.plain(n), twiddles}, {}, static_cast<std::size_t>(n / 2 + 1)};
+    test.bind = [=](PowerSpectrumArgs& a, float* const* f, const std::uint16_t* const*, float* y) {
+      a = {f[0], f[1], y, n};
+    };
     return test;
   });
 }

@@ -1,0 +1,88 @@
+#include "audio/mfcc.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace mien::audio {
+namespace {
+
+using std::numbers::pi;
+
+constexpr float kPreEmphasis = 0.97f;
+constexpr double kLowestHz = 60.0;
+constexpr double kHighestHz = 7600.0;
+constexpr float kFloor = 1e-8f;
+constexpr double kLifter = 22.0;
+
+double mel_of_hz(double hz) { return 2595.0 * std::log10(1.0 + hz / 700.0); }
+double hz_of_mel(double mel) { return 700.0 * (std::pow(10.0, mel / 2595.0) - 1.0); }
+
+// 0 outside of low .. high, 1 at middle, straight between.
+double triangle(double x, double low, double middle, double high) {
+  return std::max(0.0, std::min((x - low) / (middle - low), (high - x) / (high - middle)));
+}
+
+}  // namespace
+
+bool Mfcc::init(std::uint32_t cpu_mask) {
+  power_spectrum_ = kernels::find<kernels::PowerSpectrumArgs>(cpu_mask);
+  matrix_vector_ = kernels::find<kernels::MatrixVectorArgs>(cpu_mask);
+  make_window();
+  make_mel_bands();
+  make_cosines();
+  return power_spectrum_ != nullptr && matrix_vector_ != nullptr;
+}
+
+void Mfcc::make_window() {
+  for (std::size_t n = 0; n < kWindowSamples; ++n) {
+    const double turn = 2.0 * pi * static_cast<double>(n);
+    window_[n] = static_cast<float>(0.54 - 0.46 * std::cos(turn / (kWindowSamples - 1)));
+    twiddles_[2 * n] = static_cast<float>(std::cos(turn / kWindowSamples));
+    twiddles_[2 * n + 1] = static_cast<float>(-std::sin(turn / kWindowSamples));
+  }
+}
+
+void Mfcc::make_mel_bands() {
+  const double low = mel_of_hz(kLowestHz);
+  const double step = (mel_of_hz(kHighestHz) - low) / (kBands + 1);
+  for (std::size_t band = 0; band < kBands; ++band) {
+    const auto edge = [&](std::size_t i) { return hz_of_mel(low + static_cast<double>(i) * step); };
+    for (std::size_t bin = 0; bin < kBins; ++bin) {
+      const double hz = static_cast<double>(bin) * kSampleRate / kWindowSamples;
+      const double weight = triangle(hz, edge(band), edge(band + 1), edge(band + 2));
+      mel_bands_[band * kBins + bin] = static_cast<float>(weight / kWindowSamples);
+    }
+  }
+}
+
+void Mfcc::make_cosines() {
+  for (std::size_t i = 0; i < kCoefficients; ++i) {
+    const double index = static_cast<double>(i);
+    const double gain = std::sqrt((i == 0 ? 1.0 : 2.0) / kBands) *
+                        (1.0 + kLifter / 2.0 * std::sin(pi * index / kLifter));
+    for (std::size_t band = 0; band < kBands; ++band) {
+      const double turn = pi * index * (static_cast<double>(band) + 0.5) / kBands;
+      cosines_[i * kBands + band] = static_cast<float>(gain * std::cos(turn));
+    }
+  }
+}
+
+void Mfcc::analyse(std::span<const float, kWindowSamples> samples,
+                   std::span<float, kCoefficients> coefficients) {
+  std::array<float, kWindowSamples> shaped;
+  for (std::size_t n = 0; n < kWindowSamples; ++n) {
+    shaped[n] = (samples[n] - kPreEmphasis * before_) * window_[n];
+    before_ = samples[n];
+  }
+  std::array<float, kBins> power;
+  power_spectrum_({shaped.data(), twiddles_.data(), power.data(), kWindowSamples});
+  std::array<float, kBands> bands;
+  matrix_vector_({mel_bands_.data(), power.data(), bands.data(), kBands, kBins});
+  for (float& band : bands) {
+    band = std::log(std::max(band, kFloor));
+  }
+  matrix_vector_({cosines_.data(), bands.data(), coefficients.data(), kCoefficients, kBands});
+}
+
+}  // namespace mien::audio

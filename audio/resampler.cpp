@@ -1,0 +1,114 @@
+#include "audio/resampler.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace mien::audio {
+namespace {
+
+constexpr double kKaiserBeta = 8.6;  // side lobes 86 dB down
+constexpr double kCutoff = 0.91;     // middle of the transition, of half the lower rate
+
+// Modified Bessel function of the first kind and order 0, by its power series.
+double bessel_i0(double x) {
+  double term = 1.0;
+  double sum = 1.0;
+  for (int k = 1; term > 1e-18 * sum; ++k) {
+    term *= (x / (2.0 * k)) * (x / (2.0 * k));
+    sum += term;
+  }
+  return sum;
+}
+
+double sinc(double x) {
+  const double turn = std::numbers::pi * x;
+  return std::abs(turn) < 1e-9 ? 1.0 : std::sin(turn) / turn;
+}
+
+// x in -1..1
+double kaiser(double x) {
+  return bessel_i0(kKaiserBeta * std::sqrt(std::max(0.0, 1.0 - x * x))) / bessel_i0(kKaiserBeta);
+}
+
+}  // namespace
+
+bool Resampler::init(std::uint32_t cpu_mask) {
+  matrix_vector_ = kernels::find<kernels::MatrixVectorArgs>(cpu_mask);
+  return matrix_vector_ != nullptr;
+}
+
+void Resampler::start(std::int32_t input_rate) {
+  if (input_rate != rate_) {
+    rate_ = input_rate;
+    make_filter();
+  }
+  // Before the first input there is silence, for the half of the filter that looks back.
+  known_ = static_cast<std::size_t>(half_ - 1);
+  std::fill_n(history_.begin(), known_, 0.0f);
+  whole_ = 0;
+  part_ = 0;
+}
+
+void Resampler::make_filter() {
+  const std::int32_t steps = std::max(1, (rate_ + kOutputRate - 1) / kOutputRate);
+  half_ = kZeroCrossings * steps;
+  phases_ = kPhases / steps;
+  const double cutoff = kCutoff * std::min(1.0, static_cast<double>(kOutputRate) / rate_);
+  for (std::int32_t phase = 0; phase <= phases_; ++phase) {
+    float* taps = filter_.data() + std::ptrdiff_t{2} * half_ * phase;
+    double sum = 0.0;
+    const auto tap = [&](std::int32_t k) {
+      const double away = k - (half_ - 1) - static_cast<double>(phase) / phases_;
+      return sinc(cutoff * away) * kaiser(away / half_);
+    };
+    for (std::int32_t k = 0; k < 2 * half_; ++k) {
+      sum += tap(k);
+    }
+    for (std::int32_t k = 0; k < 2 * half_; ++k) {
+      taps[k] = static_cast<float>(tap(k) / sum);
+    }
+  }
+}
+
+std::size_t Resampler::take(std::span<const float> input) {
+  if (known_ == history_.size()) {
+    forget_used();
+  }
+  const std::size_t count = std::min(input.size(), history_.size() - known_);
+  std::copy_n(input.begin(), count, history_.begin() + static_cast<std::ptrdiff_t>(known_));
+  known_ += count;
+  return count;
+}
+
+bool Resampler::fetch(float& output) {
+  if (static_cast<std::size_t>(whole_) + static_cast<std::size_t>(2 * half_) > known_) {
+    return false;
+  }
+  const std::int64_t place = std::int64_t{part_} * phases_;
+  const std::int64_t phase = place / kOutputRate;
+  const float share = static_cast<float>(place % kOutputRate) / kOutputRate;
+  float of_phase[2];
+  matrix_vector_(
+      {filter_.data() + 2 * half_ * phase, history_.data() + whole_, of_phase, 2, 2 * half_});
+  output = of_phase[0] + share * (of_phase[1] - of_phase[0]);
+  advance();
+  return true;
+}
+
+void Resampler::advance() {
+  part_ += rate_;
+  whole_ += part_ / kOutputRate;
+  part_ %= kOutputRate;
+}
+
+// Moves the inputs that are still needed to the front.
+void Resampler::forget_used() {
+  const auto used = std::min(static_cast<std::size_t>(whole_), known_);
+  std::copy(history_.begin() + static_cast<std::ptrdiff_t>(used),
+            history_.begin() + static_cast<std::ptrdiff_t>(known_), history_.begin());
+  known_ -= used;
+  whole_ -= static_cast<std::int64_t>(used);
+}
+
+}  // namespace mien::audio

@@ -1,0 +1,97 @@
+// MFCCs against those of tests/golden/audio/make_mfcc.py, which knows only the definition.
+#include "audio/mfcc.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "kernels/tier.h"
+
+namespace mien::tests {
+namespace {
+
+using audio::kCoefficients;
+using audio::kWindowSamples;
+using audio::Mfcc;
+
+constexpr std::size_t kSignals = 5;
+constexpr std::size_t kWindows = 15;
+constexpr double kTolerance = 1e-4;  // of a window's largest coefficient
+
+std::vector<float> golden(const std::string& name) {
+  std::ifstream file(std::string(MIEN_SOURCE_DIR "/tests/golden/audio/") + name, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  std::vector<float> values(bytes.size() / sizeof(float));
+  std::memcpy(values.data(), bytes.data(), values.size() * sizeof(float));
+  return values;
+}
+
+using Window = std::span<const float, kWindowSamples>;
+using Coefficients = std::array<float, kCoefficients>;
+
+class MfccOfTier : public testing::TestWithParam<std::uint32_t> {
+ protected:
+  void SetUp() override {
+    if ((kernels::detect_cpu() & GetParam()) == 0) {
+      GTEST_SKIP() << "this CPU lacks the tier";
+    }
+    ASSERT_TRUE(mfcc_.init(GetParam()));
+  }
+
+  Coefficients analyse(const float* samples) {
+    Coefficients out;
+    mfcc_.analyse(Window(samples, kWindowSamples), out);
+    return out;
+  }
+
+  Mfcc mfcc_;
+};
+
+TEST_P(MfccOfTier, AreThoseOfTheDefinition) {
+  const std::vector<float> input = golden("mfcc_input.f32"), wanted = golden("mfcc_output.f32");
+  ASSERT_EQ(input.size(), kSignals * kWindows * kWindowSamples);
+  ASSERT_EQ(wanted.size(), kSignals * kWindows * kCoefficients);
+  for (std::size_t w = 0; w < kSignals * kWindows; ++w) {
+    if (w % kWindows == 0) {
+      mfcc_.reset();
+    }
+    const Coefficients got = analyse(input.data() + w * kWindowSamples);
+    const float* want = wanted.data() + w * kCoefficients;
+    double largest = 0.0;
+    for (std::size_t i = 0; i < kCoefficients; ++i) {
+      largest = std::max(largest, std::abs(static_cast<double>(want[i])));
+    }
+    for (std::size_t i = 0; i < kCoefficients; ++i) {
+      EXPECT_NEAR(got[i], want[i], kTolerance * largest) << "window " << w << ", coefficient " << i;
+    }
+  }
+}
+
+TEST_P(MfccOfTier, ResetForgetsTheWindowBefore) {
+  const std::vector<float> input = golden("mfcc_input.f32");
+  const Coefficients first = analyse(input.data());
+  EXPECT_NE(analyse(input.data()), first);
+  mfcc_.reset();
+  EXPECT_EQ(analyse(input.data()), first);
+}
+
+TEST_P(MfccOfTier, AreFiniteForSilenceAndTheLargestSamples) {
+  for (const float level : {0.0f, 1e-40f, 1.0f, -1.0f}) {
+    const std::vector<float> samples(kWindowSamples, level);
+    for (const float value : analyse(samples.data())) {
+      EXPECT_TRUE(std::isfinite(value)) << level;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Tiers, MfccOfTier,
+                         testing::Values(kernels::bit(kernels::Tier::kRef),
+                                         kernels::bit(kernels::Tier::kAvx2)));
+
+}  // namespace
+}  // namespace mien::tests

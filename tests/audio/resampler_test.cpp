@@ -1,0 +1,131 @@
+// What the resampler passes, what it stops, and that blocks and hours do not matter to it.
+#include "audio/resampler.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <span>
+#include <vector>
+
+#include "kernels/tier.h"
+#include "tests/kernels/random_values.h"
+
+namespace mien::tests {
+namespace {
+
+using audio::Resampler;
+
+constexpr double kOutputRate = 16000.0;
+constexpr std::int32_t kRates[] = {8000,  11025, 12000, 16000, 16001, 22050, 24000,
+                                   32000, 37813, 44100, 48000, 88200, 96000, 192000};
+
+std::vector<float> tone(double hz, std::int32_t rate, std::size_t samples) {
+  std::vector<float> out(samples);
+  for (std::size_t n = 0; n < samples; ++n) {
+    out[n] =
+        static_cast<float>(std::sin(2.0 * std::numbers::pi * hz * static_cast<double>(n) / rate));
+  }
+  return out;
+}
+
+std::vector<float> resampled(std::span<const float> input, std::int32_t rate,
+                             const std::function<std::size_t()>& block) {
+  Resampler resampler;
+  EXPECT_TRUE(resampler.init(kernels::detect_cpu()));
+  resampler.start(rate);
+  std::vector<float> out;
+  while (!input.empty()) {
+    const std::size_t taken = resampler.take(input.first(std::min(input.size(), block())));
+    EXPECT_GT(taken, 0u);
+    input = input.subspan(taken);
+    for (float sample; resampler.fetch(sample);) {
+      out.push_back(sample);
+    }
+  }
+  return out;
+}
+
+std::vector<float> resampled(std::span<const float> input, std::int32_t rate) {
+  return resampled(input, rate, [] { return std::size_t{4096}; });
+}
+
+double decibel(double amplitude) { return 20.0 * std::log10(amplitude + 1e-12); }
+
+// Largest value once the filter is past the beginning.
+double largest(const std::vector<float>& values) {
+  double found = 0.0;
+  for (std::size_t i = 100; i < values.size(); ++i) {
+    found = std::max(found, std::abs(static_cast<double>(values[i])));
+  }
+  return found;
+}
+
+TEST(Resampler, PassesTonesUnchangedAndInTime) {
+  for (const std::int32_t rate : kRates) {
+    const double half = std::min<double>(rate, kOutputRate) / 2;
+    for (const double share : {0.02, 0.1, 0.35, 0.6, 0.8}) {
+      const double hz = share * half;
+      const std::vector<float> got =
+          resampled(tone(hz, rate, static_cast<std::size_t>(rate / 4)), rate);
+      ASSERT_GT(got.size(), 3800u) << rate;
+      const std::vector<float> want = tone(hz, 16000, got.size());
+      std::vector<float> error(got.size());
+      for (std::size_t i = 0; i < got.size(); ++i) {
+        error[i] = got[i] - want[i];
+      }
+      EXPECT_LT(decibel(largest(error)), -78.0) << rate << " Hz, tone of " << hz;
+    }
+  }
+}
+
+TEST(Resampler, StopsWhatWouldAlias) {
+  for (const std::int32_t rate : kRates) {
+    for (double hz = 8000.0; hz < rate / 2.0; hz *= 1.07) {
+      const std::vector<float> got =
+          resampled(tone(hz, rate, static_cast<std::size_t>(rate / 8)), rate);
+      EXPECT_LT(decibel(largest(got)), -80.0) << rate << " Hz, tone of " << hz;
+    }
+  }
+}
+
+TEST(Resampler, BlocksDoNotMatter) {
+  RandomValues random(1);
+  for (const std::int32_t rate : kRates) {
+    const std::vector<float> input = random.plain(20000);
+    const std::vector<float> whole = resampled(input, rate);
+    for (int round = 0; round < 5; ++round) {
+      EXPECT_EQ(
+          resampled(input, rate, [&] { return static_cast<std::size_t>(random.between(1, 700)); }),
+          whole)
+          << rate;
+    }
+    EXPECT_EQ(resampled(input, rate, [] { return std::size_t{1}; }), whole) << rate;
+  }
+}
+
+TEST(Resampler, CountsExactly) {
+  for (const std::int32_t rate : {11025, 44100, 37813}) {
+    const std::vector<float> minute(static_cast<std::size_t>(60 * rate), 0.5f);
+    Resampler resampler;
+    ASSERT_TRUE(resampler.init(kernels::detect_cpu()));
+    resampler.start(rate);
+    const double late = resampler.delay_seconds() * kOutputRate;
+    EXPECT_NEAR(static_cast<double>(resampled(minute, rate).size()), 60 * kOutputRate - late, 1.0);
+  }
+}
+
+TEST(Resampler, AConstantStaysOne) {
+  for (const std::int32_t rate : kRates) {
+    const std::vector<float> got =
+        resampled(std::vector<float>(static_cast<std::size_t>(rate / 4), 0.7f), rate);
+    for (std::size_t i = 100; i < got.size(); ++i) {
+      ASSERT_NEAR(got[i], 0.7f, 1e-5f) << rate;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace mien::tests
