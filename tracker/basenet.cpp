@@ -4,7 +4,7 @@
 
 namespace mien::tracker {
 
-mien_status BaseNet::load(const Models& models, std::uint32_t cpu_mask, Arena& arena) {
+mien_status BaseNet::load(const Models& models, std::uint32_t cpu_mask, engine::Arena& arena) {
   const engine::Model& model = models.basenet;
   mien_status status = encoder_.load(model, {65, 65, 1.0f}, cpu_mask, arena);
   if (status == MIEN_OK) {

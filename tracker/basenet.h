@@ -5,18 +5,19 @@
 
 #include <cstdint>
 
-#include "tracker/arena.h"
+#include "engine/arena.h"
+#include "engine/network.h"
 #include "tracker/crop.h"
 #include "tracker/face_encoder.h"
 #include "tracker/models.h"
-#include "tracker/network.h"
 
 namespace mien::tracker {
 
 class BaseNet {
  public:
   // Takes from `arena` what the networks need; only measures when the arena does.
-  [[nodiscard]] mien_status load(const Models& models, std::uint32_t cpu_mask, Arena& arena);
+  [[nodiscard]] mien_status load(const Models& models, std::uint32_t cpu_mask,
+                                 engine::Arena& arena);
 
   // Encoder and plain heads. False when the networks' answer is not finite.
   [[nodiscard]] bool look(const ImageView& view, const Crop& crop, StageTimer& timer, Sight& sight);
@@ -30,7 +31,7 @@ class BaseNet {
   [[nodiscard]] mien_status load_template(const engine::Model& model);
 
   FaceEncoder encoder_;
-  Network face_probability_;
+  engine::Network face_probability_;
   Landmarks template_ = {};  // in crop coordinates
 };
 

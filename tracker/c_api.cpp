@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <new>
 
-#include "tracker/arena.h"
+#include "engine/arena.h"
 #include "tracker/config.h"
 #include "tracker/models.h"
 #include "tracker/tracker_handle.h"
@@ -12,7 +12,7 @@
 
 namespace {
 
-using mien::tracker::Arena;
+using mien::engine::Arena;
 using mien::tracker::Models;
 
 static_assert(MIEN_ALIGNMENT == Arena::kAlignment);

@@ -6,7 +6,7 @@
 namespace mien::tracker {
 
 mien_status ControlsDecoder::load(const engine::Model& model, std::uint32_t cpu_mask,
-                                  Arena& arena) {
+                                  engine::Arena& arena) {
   std::span<const float> supported;
   if (model.constant("control_supported", kControls, supported) != engine::Status::kOk) {
     return MIEN_ERROR_WEIGHTS_INCOMPLETE;

@@ -7,10 +7,10 @@
 #include <cstdint>
 #include <span>
 
+#include "engine/arena.h"
 #include "engine/model.h"
-#include "tracker/arena.h"
+#include "engine/network.h"
 #include "tracker/controls.h"
-#include "tracker/network.h"
 
 namespace mien::tracker {
 
@@ -21,7 +21,8 @@ using Features = std::array<float, kFeatures>;
 class ControlsDecoder {
  public:
   // Takes from `arena` what the network needs; only measures when the arena does.
-  [[nodiscard]] mien_status load(const engine::Model& model, std::uint32_t cpu_mask, Arena& arena);
+  [[nodiscard]] mien_status load(const engine::Model& model, std::uint32_t cpu_mask,
+                                 engine::Arena& arena);
 
   // Bit i: control i is driven.
   [[nodiscard]] std::uint64_t supported() const { return supported_; }
@@ -33,7 +34,7 @@ class ControlsDecoder {
   void reset() { decoder_.reset(); }
 
  private:
-  Network decoder_;
+  engine::Network decoder_;
   std::uint64_t supported_ = 0;
 };
 

@@ -4,7 +4,7 @@
 
 namespace mien::tracker {
 
-mien_status Decoders::load(const Models& models, std::uint32_t cpu_mask, Arena& arena) {
+mien_status Decoders::load(const Models& models, std::uint32_t cpu_mask, engine::Arena& arena) {
   mien_status status = basenet_controls_.load(models.basenet, cpu_mask, arena);
   if (status == MIEN_OK && models.has_hifinet) {
     status = hifinet_controls_.load(models.hifinet, cpu_mask, arena);

@@ -8,13 +8,13 @@
 #include <cstdint>
 #include <span>
 
-#include "tracker/arena.h"
+#include "engine/arena.h"
+#include "engine/network.h"
 #include "tracker/controls_decoder.h"
 #include "tracker/cross_fade.h"
 #include "tracker/head_pose.h"
 #include "tracker/levels.h"
 #include "tracker/models.h"
-#include "tracker/network.h"
 #include "tracker/neutral.h"
 
 namespace mien::tracker {
@@ -22,7 +22,8 @@ namespace mien::tracker {
 class Decoders {
  public:
   // Takes from `arena` what the networks need; only measures when the arena does.
-  [[nodiscard]] mien_status load(const Models& models, std::uint32_t cpu_mask, Arena& arena);
+  [[nodiscard]] mien_status load(const Models& models, std::uint32_t cpu_mask,
+                                 engine::Arena& arena);
 
   // A new stream begins, at once with the decoder that the level asks for.
   void reset(std::int32_t level);
@@ -55,7 +56,7 @@ class Decoders {
   ControlsDecoder hifinet_controls_;
   Neutral basenet_neutral_;
   Neutral hifinet_neutral_;
-  Network pose_;
+  engine::Network pose_;
   CrossFade fade_;  // from BaseNet's to HiFiNet's controls
 };
 

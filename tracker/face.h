@@ -43,7 +43,7 @@ class Face {
       : config_(config), encoders_(encoders) {}
 
   // The temporal decoders.
-  [[nodiscard]] mien_status load(const Models& models, Arena& arena) {
+  [[nodiscard]] mien_status load(const Models& models, engine::Arena& arena) {
     return decoders_.load(models, config_.cpu_mask, arena);
   }
 

@@ -5,13 +5,13 @@
 namespace mien::tracker {
 
 mien_status FaceEncoder::load(const engine::Model& model, const Raster& raster,
-                              std::uint32_t cpu_mask, Arena& arena) {
+                              std::uint32_t cpu_mask, engine::Arena& arena) {
   if (!sampler_.init(cpu_mask)) {
     return MIEN_ERROR_UNSUPPORTED_CPU;
   }
   raster_ = raster;
-  const NetworkForm encoder = {"encoder", {raster.rows, raster.columns, 3}, {kFeatures}};
-  const NetworkForm landmarks = {"landmarks", kFeatureVector, {2 * kLandmarks}};
+  const engine::NetworkForm encoder = {"encoder", {raster.rows, raster.columns, 3}, {kFeatures}};
+  const engine::NetworkForm landmarks = {"landmarks", kFeatureVector, {2 * kLandmarks}};
   const mien_status status = encoder_.load(model, encoder, cpu_mask, arena);
   return status == MIEN_OK ? landmarks_.load(model, landmarks, cpu_mask, arena) : status;
 }

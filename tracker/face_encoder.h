@@ -5,13 +5,13 @@
 
 #include <cstdint>
 
+#include "engine/arena.h"
 #include "engine/model.h"
-#include "tracker/arena.h"
+#include "engine/network.h"
 #include "tracker/controls_decoder.h"
 #include "tracker/crop.h"
 #include "tracker/image_view.h"
 #include "tracker/landmarks.h"
-#include "tracker/network.h"
 #include "tracker/sampler.h"
 #include "tracker/stage_timer.h"
 
@@ -29,7 +29,7 @@ class FaceEncoder {
  public:
   // Takes from `arena` what the networks need; only measures when the arena does.
   [[nodiscard]] mien_status load(const engine::Model& model, const Raster& raster,
-                                 std::uint32_t cpu_mask, Arena& arena);
+                                 std::uint32_t cpu_mask, engine::Arena& arena);
 
   // False when the networks' answer is not finite.
   [[nodiscard]] bool look(const ImageView& view, const Crop& crop, StageTimer& timer, Sight& sight);
@@ -37,8 +37,8 @@ class FaceEncoder {
  private:
   Sampler sampler_;
   Raster raster_ = {};
-  Network encoder_;
-  Network landmarks_;
+  engine::Network encoder_;
+  engine::Network landmarks_;
 };
 
 }  // namespace mien::tracker

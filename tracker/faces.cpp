@@ -25,9 +25,9 @@ bool was_lost_here(const Face& face, const Square& square) {
 }  // namespace
 
 mien_status Faces::load(const mien_tracker_config& config, Encoders& encoders, const Models& models,
-                        Arena& arena) {
+                        engine::Arena& arena) {
   static_assert(std::is_trivially_destructible_v<Face>, "the arena destroys nothing");
-  static_assert(alignof(Face) <= Arena::kAlignment && sizeof(Face) % alignof(Face) == 0);
+  static_assert(alignof(Face) <= engine::Arena::kAlignment && sizeof(Face) % alignof(Face) == 0);
   const auto count = static_cast<std::size_t>(config.max_faces);
   const std::span<std::byte> room = arena.take(count * sizeof(Face));
   mien_status status = MIEN_OK;

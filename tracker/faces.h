@@ -16,7 +16,7 @@ class Faces {
   // Takes from `arena` config.max_faces of them; only measures when the arena does. `config` and
   // `encoders` must outlive them.
   [[nodiscard]] mien_status load(const mien_tracker_config& config, Encoders& encoders,
-                                 const Models& models, Arena& arena);
+                                 const Models& models, engine::Arena& arena);
 
   [[nodiscard]] std::span<Face> all() { return faces_; }
   [[nodiscard]] std::span<const Face> all() const { return faces_; }

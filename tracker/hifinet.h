@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "tracker/arena.h"
+#include "engine/arena.h"
 #include "tracker/face_encoder.h"
 #include "tracker/models.h"
 
@@ -14,7 +14,8 @@ namespace mien::tracker {
 class HiFiNet {
  public:
   // Takes from `arena` what the networks need; only measures when the arena does.
-  [[nodiscard]] mien_status load(const Models& models, std::uint32_t cpu_mask, Arena& arena) {
+  [[nodiscard]] mien_status load(const Models& models, std::uint32_t cpu_mask,
+                                 engine::Arena& arena) {
     return encoder_.load(models.hifinet, {129, 109, 0.87f}, cpu_mask, arena);
   }
 

@@ -1,17 +1,18 @@
 #include "tracker/models.h"
 
-#include "tracker/network.h"
+#include "engine/network.h"
 
 namespace mien::tracker {
 
 mien_status open_models(const mien_tracker_config& config, Models& models) {
-  mien_status status = open_model(config.basenet, config.basenet_bytes, models.basenet);
+  mien_status status = engine::open_model(config.basenet, config.basenet_bytes, models.basenet);
   models.has_hifinet = config.hifinet != nullptr;
   if (status == MIEN_OK && models.has_hifinet) {
-    status = open_model(config.hifinet, config.hifinet_bytes, models.hifinet);
+    status = engine::open_model(config.hifinet, config.hifinet_bytes, models.hifinet);
   }
-  return status == MIEN_OK ? open_model(config.proposal, config.proposal_bytes, models.proposal)
-                           : status;
+  return status == MIEN_OK
+             ? engine::open_model(config.proposal, config.proposal_bytes, models.proposal)
+             : status;
 }
 
 }  // namespace mien::tracker

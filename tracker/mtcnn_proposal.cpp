@@ -39,7 +39,7 @@ Square canvas_of(const ImageView& view) {
 }  // namespace
 
 mien_status MtcnnProposal::load(const mien_tracker_config& config, const Models& models,
-                                Arena& arena) {
+                                engine::Arena& arena) {
   if (!sampler_.init(config.cpu_mask)) {
     return MIEN_ERROR_UNSUPPORTED_CPU;
   }
@@ -58,7 +58,7 @@ mien_status MtcnnProposal::load(const mien_tracker_config& config, const Models&
     tile_level_ += side > kLargestTile ? 1 : 0;
     size *= kPyramidFactor;
   }
-  const NetworkForm rnet = {"rnet", {kRefineSide, kRefineSide, 3}, {1, 3}};
+  const engine::NetworkForm rnet = {"rnet", {kRefineSide, kRefineSide, 3}, {1, 3}};
   return status == MIEN_OK ? rnet_.load(model, rnet, config.cpu_mask, arena) : status;
 }
 
@@ -121,11 +121,11 @@ std::span<Candidate> MtcnnProposal::scan(const ImageView& view, const Square& ca
                                          std::size_t first, std::size_t count) {
   std::size_t total = 0;
   for (std::size_t i = first; i < first + count; ++i) {
-    Network& pnet = pnets_[i];
+    engine::Network& pnet = pnets_[i];
     if (i == first) {
       sampler_.cut_black(view, canvas, pnet.input_shape().w, pnet.input());
     } else {
-      Network& larger = pnets_[i - 1];
+      engine::Network& larger = pnets_[i - 1];
       shrink(larger.input(), larger.input_shape().w, pnet.input(), pnet.input_shape().w);
     }
     pnet.run();
@@ -138,7 +138,8 @@ std::span<Candidate> MtcnnProposal::scan(const ImageView& view, const Square& ca
 }
 
 // P-Net's windows that look like faces, in pixels of the image.
-void MtcnnProposal::collect(const Network& pnet, const Square& canvas, BestCandidates& best) const {
+void MtcnnProposal::collect(const engine::Network& pnet, const Square& canvas,
+                            BestCandidates& best) const {
   const float pixels = canvas.side / static_cast<float>(pnet.input_shape().w);
   const float left = canvas.center.x - canvas.side / 2;
   const float top = canvas.center.y - canvas.side / 2;

@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <span>
 
-#include "tracker/arena.h"
+#include "engine/arena.h"
+#include "engine/network.h"
 #include "tracker/models.h"
-#include "tracker/network.h"
 #include "tracker/proposal.h"
 #include "tracker/sampler.h"
 #include "tracker/tiles.h"
@@ -22,7 +22,7 @@ class MtcnnProposal final : public FaceProposal {
  public:
   // Takes from `arena` what the networks need; only measures when the arena does.
   [[nodiscard]] mien_status load(const mien_tracker_config& config, const Models& models,
-                                 Arena& arena);
+                                 engine::Arena& arena);
 
   [[nodiscard]] std::size_t propose(const ImageView& view, std::span<Candidate> found) override;
 
@@ -43,16 +43,16 @@ class MtcnnProposal final : public FaceProposal {
   [[nodiscard]] std::size_t choose(const ImageView& view, std::span<Candidate> scanned,
                                    std::span<Candidate> found);
   [[nodiscard]] Tiles tiles_of(const ImageView& view, std::size_t level) const;
-  void collect(const Network& pnet, const Square& canvas, BestCandidates& best) const;
+  void collect(const engine::Network& pnet, const Square& canvas, BestCandidates& best) const;
   [[nodiscard]] bool refine(const ImageView& view, Candidate& candidate);
 
   Sampler sampler_;
   float proposal_threshold_ = 0.0f;
   float refine_threshold_ = 0.0f;
-  std::array<Network, kMaxLevels> pnets_;  // the same weights for the sizes of the pyramid
+  std::array<engine::Network, kMaxLevels> pnets_;  // the same weights for the sizes of the pyramid
   std::size_t levels_ = 0;
   std::size_t tile_level_ = 0;  // whose size is that of a tile
-  Network rnet_;
+  engine::Network rnet_;
   std::array<Candidate, kMaxLevels* kPerLevel> candidates_ = {};
 };
 

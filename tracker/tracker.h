@@ -23,7 +23,7 @@ class Tracker {
   Tracker(const mien_tracker_config& config, Encoders& encoders, FaceProposal& proposal);
 
   // Takes from `arena` what the faces need; only measures when the arena does.
-  [[nodiscard]] mien_status load(const Models& models, Arena& arena) {
+  [[nodiscard]] mien_status load(const Models& models, engine::Arena& arena) {
     return faces_.load(config_, encoders_, models, arena);
   }
 

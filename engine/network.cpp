@@ -1,6 +1,6 @@
-#include "tracker/network.h"
+#include "engine/network.h"
 
-namespace mien::tracker {
+namespace mien::engine {
 namespace {
 
 using formats::FileStatus;
@@ -24,22 +24,22 @@ mien_status status_of(FileStatus status) {
   }
 }
 
-mien_status status_of(engine::Status status) {
+mien_status status_of(Status status) {
   switch (status) {
-    case engine::Status::kOk:
+    case Status::kOk:
       return MIEN_OK;
-    case engine::Status::kBadFile:
-    case engine::Status::kShapeMismatch:
+    case Status::kBadFile:
+    case Status::kShapeMismatch:
       return MIEN_ERROR_WEIGHTS_MALFORMED;
-    case engine::Status::kNoSuchNetwork:
+    case Status::kNoSuchNetwork:
       return MIEN_ERROR_WEIGHTS_INCOMPLETE;
-    case engine::Status::kWrongInput:
+    case Status::kWrongInput:
       return MIEN_ERROR_WEIGHTS_SHAPE;
-    case engine::Status::kUnsupportedLayout:
-    case engine::Status::kNoKernel:
+    case Status::kUnsupportedLayout:
+    case Status::kNoKernel:
       return MIEN_ERROR_UNSUPPORTED_LAYER;
-    case engine::Status::kTooLarge:
-    case engine::Status::kOutOfMemory:
+    case Status::kTooLarge:
+    case Status::kOutOfMemory:
       return MIEN_ERROR_OUT_OF_MEMORY;
     default:
       return MIEN_ERROR_INTERNAL;
@@ -47,12 +47,12 @@ mien_status status_of(engine::Status status) {
 }
 
 // Whether the network, whose layers are known to fit together, has the outputs expected.
-bool outputs_fit(const engine::Model& model, const formats::NetworkRecord& network,
+bool outputs_fit(const Model& model, const formats::NetworkRecord& network,
                  const NetworkForm& form) {
-  engine::ShapeWalk walk(model.file().layers(network), form.input);
+  ShapeWalk walk(model.file().layers(network), form.input);
   while (walk.next()) {
   }
-  const engine::Shape& first = walk.shape_of(network.outputs[0]);
+  const Shape& first = walk.shape_of(network.outputs[0]);
   for (std::uint32_t i = 0; i < form.output_channels.size(); ++i) {
     if (form.output_channels[i] == 0) {
       continue;
@@ -60,7 +60,7 @@ bool outputs_fit(const engine::Model& model, const formats::NetworkRecord& netwo
     if (i >= network.output_count) {
       return false;
     }
-    const engine::Shape& output = walk.shape_of(network.outputs[i]);
+    const Shape& output = walk.shape_of(network.outputs[i]);
     if (output.c != form.output_channels[i] || output.h != first.h || output.w != first.w) {
       return false;
     }
@@ -70,18 +70,18 @@ bool outputs_fit(const engine::Model& model, const formats::NetworkRecord& netwo
 
 }  // namespace
 
-mien_status open_model(const void* file, std::size_t bytes, engine::Model& model) {
+mien_status open_model(const void* file, std::size_t bytes, Model& model) {
   formats::Validation fault;
-  const engine::Status status = model.open({static_cast<const std::byte*>(file), bytes}, &fault);
-  return status == engine::Status::kBadFile ? status_of(fault.status) : status_of(status);
+  const Status status = model.open({static_cast<const std::byte*>(file), bytes}, &fault);
+  return status == Status::kBadFile ? status_of(fault.status) : status_of(status);
 }
 
-mien_status Network::load(const engine::Model& model, const NetworkForm& form,
-                          std::uint32_t cpu_mask, Arena& arena) {
-  const engine::SessionRequest request = {&model, form.name, form.input, cpu_mask};
-  engine::SessionSize size;
-  const engine::Status sized = engine::session_size(request, size);
-  if (sized != engine::Status::kOk) {
+mien_status Network::load(const Model& model, const NetworkForm& form, std::uint32_t cpu_mask,
+                          Arena& arena) {
+  const SessionRequest request = {&model, form.name, form.input, cpu_mask};
+  SessionSize size;
+  const Status sized = session_size(request, size);
+  if (sized != Status::kOk) {
     return status_of(sized);
   }
   if (!outputs_fit(model, *model.network(form.name), form)) {
@@ -89,8 +89,7 @@ mien_status Network::load(const engine::Model& model, const NetworkForm& form,
   }
   const std::span<std::byte> own = arena.take(size.session_bytes);
   const std::span<std::byte> shared = arena.share(size.arena_bytes);
-  return arena.measuring() ? MIEN_OK
-                           : status_of(engine::Session::init(request, own, shared, session_));
+  return arena.measuring() ? MIEN_OK : status_of(Session::init(request, own, shared, session_));
 }
 
-}  // namespace mien::tracker
+}  // namespace mien::engine

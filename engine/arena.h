@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <span>
 
-namespace mien::tracker {
+namespace mien::engine {
 
 class Arena {
  public:
@@ -54,4 +54,4 @@ class Arena {
   Need need_;
 };
 
-}  // namespace mien::tracker
+}  // namespace mien::engine

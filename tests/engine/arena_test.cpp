@@ -1,11 +1,11 @@
-#include "tracker/arena.h"
+#include "engine/arena.h"
 
 #include <gtest/gtest.h>
 
 #include <cstdint>
 #include <cstring>
 
-namespace mien::tracker {
+namespace mien::engine {
 namespace {
 
 struct Pieces {
@@ -64,4 +64,4 @@ TEST(Arena, HandsOutNothingBeyondItsRoom) {
 }
 
 }  // namespace
-}  // namespace mien::tracker
+}  // namespace mien::engine

@@ -1,4 +1,4 @@
-// One network of a weight file, ready to run in the tracker's memory.
+// One network of a weight file, ready to run in its user's memory.
 #pragma once
 
 #include <mien/mien.h>
@@ -9,16 +9,16 @@
 #include <span>
 #include <string_view>
 
+#include "engine/arena.h"
 #include "engine/model.h"
 #include "engine/session.h"
-#include "tracker/arena.h"
 
-namespace mien::tracker {
+namespace mien::engine {
 
-// What the tracker expects of a network.
+// What its user expects of a network.
 struct NetworkForm {
   std::string_view name;
-  engine::Shape input;
+  Shape input;
   std::array<std::int32_t, 2> output_channels;  // 0: no such output; all outputs have one h and w
 };
 
@@ -26,7 +26,7 @@ class Network {
  public:
   // Takes from `arena` what the network needs; only measures when the arena does. Networks of one
   // arena share the memory of their intermediate maps, so they run in turns.
-  [[nodiscard]] mien_status load(const engine::Model& model, const NetworkForm& form,
+  [[nodiscard]] mien_status load(const Model& model, const NetworkForm& form,
                                  std::uint32_t cpu_mask, Arena& arena);
 
   // The rest is for loaded networks.
@@ -40,17 +40,17 @@ class Network {
   }
 
   [[nodiscard]] std::span<float> input() { return session_->input(); }
-  [[nodiscard]] const engine::Shape& input_shape() const { return session_->input_shape(); }
+  [[nodiscard]] const Shape& input_shape() const { return session_->input_shape(); }
   [[nodiscard]] std::span<const float> output(std::uint32_t i) const { return session_->output(i); }
-  [[nodiscard]] const engine::Shape& output_shape(std::uint32_t i) const {
+  [[nodiscard]] const Shape& output_shape(std::uint32_t i) const {
     return session_->output_shape(i);
   }
 
  private:
-  engine::Session* session_ = nullptr;
+  Session* session_ = nullptr;
 };
 
 // Validates a weight file in memory.
-[[nodiscard]] mien_status open_model(const void* file, std::size_t bytes, engine::Model& model);
+[[nodiscard]] mien_status open_model(const void* file, std::size_t bytes, Model& model);
 
-}  // namespace mien::tracker
+}  // namespace mien::engine
