@@ -22,7 +22,8 @@ bool in_range(const mien_tracker_config& c) {
          within(c.lose_after_frames, 1, 1000) && within(c.proposal_size, 24, 640) &&
          within(c.proposal_threshold, 0.0f, 1.0f) && within(c.refine_threshold, 0.0f, 1.0f) &&
          within(c.search_interval, 1, 1000) && within(c.budget_ms, 0.01f, 1e6f) &&
-         within(c.max_faces, 1, MIEN_MAX_FACES) &&
+         within(c.max_faces, 1, MIEN_MAX_FACES) && within(c.voice_attack_ms, 0.0f, 10000.0f) &&
+         within(c.voice_release_ms, 0.0f, 10000.0f) &&
          (c.allocator.allocate == nullptr) == (c.allocator.release == nullptr);
 }
 
@@ -43,7 +44,8 @@ mien_status read_config(const mien_tracker_config* given, mien_tracker_config& c
   if (config.basenet == nullptr || config.proposal == nullptr) {
     return MIEN_ERROR_NULL_ARGUMENT;
   }
-  if (!aligned(config.basenet) || !aligned(config.hifinet) || !aligned(config.proposal)) {
+  if (!aligned(config.basenet) || !aligned(config.hifinet) || !aligned(config.proposal) ||
+      !aligned(config.audionet)) {
     return MIEN_ERROR_ALIGNMENT;
   }
   if (!within(config.lod, 0, config.hifinet != nullptr ? kHighestLevel : kLowestLevel)) {
@@ -73,4 +75,6 @@ void mien_tracker_config_default(mien_tracker_config* config) {
   config->budget_ms = 10.0f;
   config->smoothing = 1;
   config->max_faces = 1;
+  config->voice_attack_ms = 40.0f;
+  config->voice_release_ms = 150.0f;
 }

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <string_view>
 
 namespace mien::tracker {
 
@@ -27,5 +29,13 @@ inline constexpr std::array<const char*, kControls> kControlNames = {
     "browOuterUpRight",  "cheekPuff",          "cheekSquintLeft",
     "cheekSquintRight",  "noseSneerLeft",      "noseSneerRight",
     "tongueOut"};
+
+consteval std::size_t control_named(std::string_view name) {
+  std::size_t i = 0;
+  while (kControlNames[i] != name) {
+    ++i;
+  }
+  return i;
+}
 
 }  // namespace mien::tracker

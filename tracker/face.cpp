@@ -11,6 +11,7 @@ namespace mien::tracker {
 namespace {
 
 constexpr float kFadeSeconds = 0.25f;
+constexpr float kPresenceSeconds = 0.1f;
 constexpr float kFaded = 1e-4f;         // a control below is 0
 constexpr int kAlignments = 2;          // of the crop to its landmarks when a face is acquired
 constexpr float kSmallestFace = 0.02f;  // crop sides, in longer sides of the image
@@ -83,7 +84,11 @@ void Face::follow(Frame& frame) {
     }
     return;
   }
-  // Until the face counts as lost the decoders go on with what was last seen of it.
+  miss(frame);
+}
+
+// Until the face counts as lost the decoders go on with what was last seen of it.
+void Face::miss(const Frame& frame) {
   ++state_.misses;
   state_.followed = !frame.cut && state_.misses < config_.lose_after_frames;
 }
@@ -138,6 +143,8 @@ Landmarks Face::landmarks(std::int32_t level) const {
 }
 
 void Face::animate(Frame& frame) {
+  const float share = 1.0f - std::exp(-frame.seconds / kPresenceSeconds);
+  state_.presence += share * ((state_.followed ? 1.0f : 0.0f) - state_.presence);
   if (!state_.followed) {
     fade(frame.seconds);
     state_.seconds_lost += frame.seconds;

@@ -79,6 +79,10 @@ class Face {
 
   // Looks for it where it was.
   void follow(Frame& frame);
+  // It was not seen on this frame.
+  void miss(const Frame& frame);
+  // How much it is there, 0..1: comes and goes within a few frames.
+  [[nodiscard]] float presence() const { return state_.presence; }
   // One frame of output: controls move on if it is followed, and fade if not.
   void animate(Frame& frame);
 
@@ -102,6 +106,7 @@ class Face {
     bool is_new = true;  // nothing to smooth with yet
     mien_face_status status = MIEN_FACE_SEARCHING;
     float seconds_lost = 0.0f;
+    float presence = 0.0f;
     float face_probability = 0.0f;  // of the crop judged last
     std::uint32_t flags = 0;        // MIEN_RESULT_* of this frame
   };

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 
 #include "tracker/face.h"
 
@@ -25,6 +26,13 @@ class Faces {
 
   // The known one with the n-th lowest id; nullptr: there are not so many.
   [[nodiscard]] const Face* known(std::size_t n) const;
+
+  // That one, or one that is free.
+  [[nodiscard]] const Face& first() const {
+    const Face* longest_known = known(0);
+    return longest_known != nullptr ? *longest_known : faces_.front();
+  }
+  [[nodiscard]] Face& first() { return const_cast<Face&>(std::as_const(*this).first()); }
 
   void reset(std::int32_t level);
 

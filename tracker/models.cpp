@@ -10,6 +10,10 @@ mien_status open_models(const mien_tracker_config& config, Models& models) {
   if (status == MIEN_OK && models.has_hifinet) {
     status = engine::open_model(config.hifinet, config.hifinet_bytes, models.hifinet);
   }
+  models.has_audionet = config.audionet != nullptr;
+  if (status == MIEN_OK && models.has_audionet) {
+    status = engine::open_model(config.audionet, config.audionet_bytes, models.audionet);
+  }
   return status == MIEN_OK
              ? engine::open_model(config.proposal, config.proposal_bytes, models.proposal)
              : status;

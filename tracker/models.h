@@ -11,7 +11,9 @@ struct Models {
   engine::Model basenet;
   engine::Model hifinet;  // only if there is one
   engine::Model proposal;
+  engine::Model audionet;  // only if there is one
   bool has_hifinet = false;
+  bool has_audionet = false;
 };
 
 [[nodiscard]] mien_status open_models(const mien_tracker_config& config, Models& models);

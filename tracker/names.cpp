@@ -58,6 +58,8 @@ const char* mien_stage_name(int32_t stage) {
       return "heads";
     case MIEN_STAGE_DECODERS:
       return "decoders";
+    case MIEN_STAGE_SOUND:
+      return "sound";
     default:
       return nullptr;
   }

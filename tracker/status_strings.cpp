@@ -9,9 +9,9 @@ const char* mien_status_string(mien_status status) {
     case MIEN_ERROR_STRUCT_SIZE:
       return "struct_size is too small";
     case MIEN_ERROR_OUT_OF_RANGE:
-      return "a configuration value is out of its range";
+      return "a value is out of its range";
     case MIEN_ERROR_ALIGNMENT:
-      return "weights or memory are not aligned to MIEN_ALIGNMENT";
+      return "weights, memory or samples are not aligned as they must be";
     case MIEN_ERROR_MEMORY_TOO_SMALL:
       return "the memory is smaller than mien_tracker_required_bytes";
     case MIEN_ERROR_OUT_OF_MEMORY:
@@ -20,6 +20,8 @@ const char* mien_status_string(mien_status status) {
       return "this level of detail is not supported";
     case MIEN_ERROR_SEVERAL_FACES:
       return "only a tracker of one face can do this";
+    case MIEN_ERROR_NO_AUDIONET:
+      return "the tracker has no weights for sound";
     case MIEN_ERROR_WEIGHTS_NOT_MIEN:
       return "the weights are not a .mien file";
     case MIEN_ERROR_WEIGHTS_VERSION:
@@ -52,6 +54,14 @@ const char* mien_status_string(mien_status status) {
       return "the image rotation is not 0, 90, 180 or 270";
     case MIEN_ERROR_IMAGE_CAMERA:
       return "the image's focal length or principal point is out of range";
+    case MIEN_ERROR_AUDIO_FORMAT:
+      return "the format of the sound's samples is unknown";
+    case MIEN_ERROR_AUDIO_RATE:
+      return "the sound's sample rate is out of range";
+    case MIEN_ERROR_AUDIO_CHANNELS:
+      return "the sound's number of channels is out of range";
+    case MIEN_ERROR_AUDIO_SAMPLES:
+      return "samples of the sound are NULL";
     case MIEN_ERROR_NEUTRAL_FORMAT:
       return "not a neutral file";
     case MIEN_ERROR_NEUTRAL_VERSION:

@@ -24,6 +24,12 @@ Tracker::Tracker(const mien_tracker_config& config, Encoders& encoders, FaceProp
       lod_(config.lod),
       governor_(config.budget_ms, highest_level(config)) {}
 
+mien_status Tracker::load(const Models& models, engine::Arena& arena) {
+  const mien_status status = faces_.load(config_, encoders_, models, arena);
+  return status == MIEN_OK && models.has_audionet ? Voice::load(models, config_, arena, voice_)
+                                                  : status;
+}
+
 void Tracker::reset() {
   governor_ = LevelGovernor(config_.budget_ms, highest_level(config_));
   lod_ = config_.lod;
@@ -33,6 +39,10 @@ void Tracker::reset() {
     face.result().lod = level();
     face.result().supported_controls = face.supported_controls(level());
   }
+  if (voice_ != nullptr) {
+    voice_->reset();
+  }
+  timer_.clear();
 }
 
 bool Tracker::set_level(std::int32_t lod) {
@@ -49,7 +59,6 @@ mien_status Tracker::push(const mien_image* image, std::int64_t pts_ns) {
   if (status != MIEN_OK) {
     return status;
   }
-  timer_.clear();
   const Timeline::Step step = state_.timeline.advance(pts_ns);
   Frame frame = {view, timer_, level(), step.seconds, step.cut};
   const bool followed = faces_.followed() > 0;
@@ -60,24 +69,56 @@ mien_status Tracker::push(const mien_image* image, std::int64_t pts_ns) {
   } else if (faces_.followed() > 0 && faces_.has_room()) {
     glance(frame);
   }
-  for (Face& face : faces_.all()) {
-    face.animate(frame);
-  }
-  faces_.forget_lost(frame.level);
-  publish(frame, pts_ns,
-          (searched ? MIEN_RESULT_PROPOSAL_RAN : 0u) | (frame.cut ? MIEN_RESULT_CUT : 0u));
+  state_.view = view;
+  finish(frame, pts_ns, searched ? MIEN_RESULT_PROPOSAL_RAN : 0u);
   if (followed && faces_.followed() > 0) {
     governor_.account(timer_.total_ns(), step.seconds);
   }
+  timer_.clear();
   return MIEN_OK;
 }
 
-void Tracker::follow(Frame& frame) {
+void Tracker::advance(std::int64_t pts_ns) {
+  const Timeline::Step step = state_.timeline.advance(pts_ns);
+  Frame frame = {state_.view, timer_, level(), step.seconds, step.cut};
   for (Face& face : faces_.all()) {
     if (frame.cut) {
       face.cut(frame.level);
     }
-    if (!(state_.geometry == frame.view)) {
+    if (face.is_followed()) {
+      face.miss(frame);
+    }
+  }
+  finish(frame, pts_ns, 0u);
+  timer_.clear();
+}
+
+mien_status Tracker::push_sound(const mien_audio* sound, std::int64_t pts_ns) {
+  if (voice_ == nullptr) {
+    return MIEN_ERROR_NO_AUDIONET;
+  }
+  const StageTimer::Scope timed(timer_, MIEN_STAGE_SOUND);
+  return voice_->push(sound, pts_ns);
+}
+
+void Tracker::finish(Frame& frame, std::int64_t pts_ns, std::uint32_t flags) {
+  for (Face& face : faces_.all()) {
+    face.animate(frame);
+  }
+  faces_.forget_lost(frame.level);
+  if (voice_ != nullptr) {
+    voice_->advance(pts_ns, frame.seconds);
+  }
+  publish(frame, pts_ns, flags | (frame.cut ? MIEN_RESULT_CUT : 0u));
+}
+
+void Tracker::follow(Frame& frame) {
+  const ImageGeometry& before = state_.view;
+  for (Face& face : faces_.all()) {
+    if (frame.cut) {
+      face.cut(frame.level);
+    }
+    if (!(before == frame.view)) {
       face.lose();
     }
     if (face.is_followed()) {
@@ -133,11 +174,25 @@ void Tracker::publish(const Frame& frame, std::int64_t pts_ns, std::uint32_t fla
   ++state_.frames;
   state_.face_frames += faces_.followed() > 0 ? 1 : 0;
   state_.encoder_runs += frame.encoder_runs;
-  state_.geometry = frame.view;
   for (Face& face : faces_.all()) {
     describe(frame, pts_ns, flags, face.result());
     face.result().supported_controls = face.supported_controls(frame.level);
     face.publish(frame.view);
+  }
+  if (voice_ != nullptr) {
+    mix_voice();
+  }
+}
+
+// Who of several speaks nobody can hear: it is the face known longest.
+void Tracker::mix_voice() {
+  Face& speaker = faces_.first();
+  mien_result& result = speaker.result();
+  const Mixer& mixer = voice_->mixer();
+  mixer.mix(voice_->heard(), result.supported_controls, speaker.presence(), result.controls);
+  result.voice_activity = voice_->heard().alpha;
+  if (voice_->is_listening()) {
+    result.supported_controls |= mixer.driven();
   }
 }
 
@@ -146,6 +201,7 @@ void Tracker::describe(const Frame& frame, std::int64_t pts_ns, std::uint32_t fl
                        mien_result& result) const {
   result.pts_ns = pts_ns;
   result.flags = flags;
+  result.voice_activity = 0.0f;
   result.lod = frame.level;
   result.frames = state_.frames;
   result.face_frames = state_.face_frames;

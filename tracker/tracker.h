@@ -11,6 +11,7 @@
 #include "tracker/proposal.h"
 #include "tracker/stage_timer.h"
 #include "tracker/timeline.h"
+#include "tracker/voice.h"
 
 namespace mien::tracker {
 
@@ -22,18 +23,18 @@ class Tracker {
   // Both must outlive the tracker. `reset` comes before the first image.
   Tracker(const mien_tracker_config& config, Encoders& encoders, FaceProposal& proposal);
 
-  // Takes from `arena` what the faces need; only measures when the arena does.
-  [[nodiscard]] mien_status load(const Models& models, engine::Arena& arena) {
-    return faces_.load(config_, encoders_, models, arena);
-  }
+  // Takes from `arena` what the faces and the voice need; only measures when the arena does.
+  [[nodiscard]] mien_status load(const Models& models, engine::Arena& arena);
 
   [[nodiscard]] mien_status push(const mien_image* image, std::int64_t pts_ns);
+  // A frame of output for which there is no image.
+  void advance(std::int64_t pts_ns);
+  [[nodiscard]] mien_status push_sound(const mien_audio* sound, std::int64_t pts_ns);
+  // nullptr without weights for it.
+  [[nodiscard]] Voice* voice() { return voice_; }
   [[nodiscard]] const Faces& faces() const { return faces_; }
   // Of the face known longest; SEARCHING while there is none.
-  [[nodiscard]] const mien_result& result() const {
-    const Face* first = faces_.known(0);
-    return first != nullptr ? first->result() : faces_.all().front().result();
-  }
+  [[nodiscard]] const mien_result& result() const { return faces_.first().result(); }
   void reset();
 
   // From the next frames on, as seen at the present level. There is one face.
@@ -50,7 +51,7 @@ class Tracker {
   // Everything that the images so far have left behind, but for the faces.
   struct State {
     Timeline timeline;
-    ImageGeometry geometry;          // of the image before
+    ImageView view;                  // the image before, whose pixels are gone
     std::int32_t search_frames = 0;  // frames in a row with nothing found
     std::uint32_t turn = 0;          // of glances
     // Totals.
@@ -66,9 +67,12 @@ class Tracker {
   // Counts the frames on which a face is searched.
   [[nodiscard]] bool search_is_due();
   void glance(Frame& frame);
+  // What every frame of output ends with.
+  void finish(Frame& frame, std::int64_t pts_ns, std::uint32_t flags);
   void publish(const Frame& frame, std::int64_t pts_ns, std::uint32_t flags);
   void describe(const Frame& frame, std::int64_t pts_ns, std::uint32_t flags,
                 mien_result& result) const;
+  void mix_voice();
 
   const mien_tracker_config config_;
   Encoders& encoders_;
@@ -77,6 +81,7 @@ class Tracker {
   std::int32_t lod_;
   LevelGovernor governor_;
   Faces faces_;
+  Voice* voice_ = nullptr;  // in the arena
   State state_;
 };
 

@@ -1,4 +1,4 @@
-/* mien: facial animation from video on a phone's CPU. The public C interface.
+/* mien: facial animation from video and sound on a phone's CPU. The public C interface.
  *
  * Words
  *   upright image  the pushed buffer turned clockwise by `rotation`. Its pixel (column, row) covers
@@ -75,12 +75,13 @@ typedef enum mien_status {
   /* arguments */
   MIEN_ERROR_NULL_ARGUMENT = -1,
   MIEN_ERROR_STRUCT_SIZE = -2,      /* struct_size is too small to hold what is indispensable */
-  MIEN_ERROR_OUT_OF_RANGE = -3,     /* a field lies outside its documented range, or is NaN */
-  MIEN_ERROR_ALIGNMENT = -4,        /* weights or memory are not MIEN_ALIGNMENT-aligned */
+  MIEN_ERROR_OUT_OF_RANGE = -3,     /* a value lies outside its documented range, or is NaN */
+  MIEN_ERROR_ALIGNMENT = -4,        /* weights, memory or samples are not aligned as they must be */
   MIEN_ERROR_MEMORY_TOO_SMALL = -5, /* less than mien_tracker_required_bytes */
   MIEN_ERROR_OUT_OF_MEMORY = -6,    /* the allocator returned NULL */
   MIEN_ERROR_UNSUPPORTED_LOD = -7,
   MIEN_ERROR_SEVERAL_FACES = -8, /* of a tracker for one face only */
+  MIEN_ERROR_NO_AUDIONET = -9,   /* sound, for a tracker without weights for it */
   /* weight files */
   MIEN_ERROR_WEIGHTS_NOT_MIEN = -20,   /* not a .mien file */
   MIEN_ERROR_WEIGHTS_VERSION = -21,    /* a version of the format that this library does not read */
@@ -100,6 +101,10 @@ typedef enum mien_status {
   MIEN_ERROR_IMAGE_PLANE = -63,  /* a plane of the format is NULL */
   MIEN_ERROR_IMAGE_ROTATION = -64,
   MIEN_ERROR_IMAGE_CAMERA = -65, /* focal length or principal point negative or not finite */
+  MIEN_ERROR_AUDIO_FORMAT = -66,
+  MIEN_ERROR_AUDIO_RATE = -67,     /* outside 8000..192000 samples a second */
+  MIEN_ERROR_AUDIO_CHANNELS = -68, /* outside 1..MIEN_MAX_AUDIO_CHANNELS */
+  MIEN_ERROR_AUDIO_SAMPLES = -69,  /* NULL where there should be samples */
   /* neutral files */
   MIEN_ERROR_NEUTRAL_FORMAT = -80,  /* not a neutral file */
   MIEN_ERROR_NEUTRAL_VERSION = -81, /* a version of the format that this library does not read */
@@ -184,6 +189,33 @@ typedef struct mien_image {
 /* Fills in *image: struct_size, full_range = 1, everything else 0. NULL is ignored. */
 MIEN_API void mien_image_default(mien_image* image);
 
+/* Sound ---------------------------------------------------------------------------------------- */
+
+#define MIEN_MAX_AUDIO_CHANNELS 8
+
+typedef enum mien_sample_format {
+  MIEN_SAMPLES_FLOAT32 = 0, /* full scale is -1..1 */
+  MIEN_SAMPLES_INT16 = 1    /* full scale is -32768..32767 */
+} mien_sample_format;
+
+/* A block of sound in the caller's memory, which is read during the call only. Start from
+ * mien_audio_default. Samples may be anything: what is no number counts as silence, what is beyond
+ * full scale as full scale. */
+typedef struct mien_audio {
+  uint32_t struct_size;
+  int32_t format;      /* mien_sample_format */
+  int32_t sample_rate; /* 8000..192000 a second */
+  int32_t channels;    /* 1..MIEN_MAX_AUDIO_CHANNELS; their mean is heard */
+  int32_t planar;      /* not 0: each channel in samples[channel]; 0: interleaved in samples[0] */
+  size_t frames;       /* samples of each channel; any number */
+  const void* samples[MIEN_MAX_AUDIO_CHANNELS]; /* aligned as the type of the samples is */
+  uint32_t reserved[8];
+} mien_audio;
+
+/* Fills in *audio: struct_size, sample_rate = 48000, channels = 1, everything else 0. NULL is
+ * ignored. */
+MIEN_API void mien_audio_default(mien_audio* audio);
+
 /* Tracker -------------------------------------------------------------------------------------- */
 
 typedef struct mien_tracker mien_tracker;
@@ -259,6 +291,15 @@ typedef struct mien_tracker_config {
    * all of it was looked at within about a second. */
   int32_t max_faces;
 
+  /* Weights of sound (models/audionet.mien), under the rules of `basenet`; default NULL: the
+   * tracker has no ears. */
+  const void* audionet;
+  size_t audionet_bytes;
+  /* How fast the voice is heard when it begins, and let go when it ends: time constants of
+   * mien_result.voice_activity; 0..10000 ms; default 40 and 150. */
+  float voice_attack_ms;
+  float voice_release_ms;
+
   uint32_t reserved[8];
 } mien_tracker_config;
 
@@ -317,13 +358,52 @@ MIEN_API MIEN_NODISCARD mien_status mien_tracker_push_video(mien_tracker* tracke
                                                             const mien_image* image,
                                                             int64_t pts_ns);
 
+/* One frame of output without an image: for sound alone, and while the camera gives none. `pts_ns`
+ * as of mien_tracker_push_video. A face that is followed counts as not seen on it. */
+MIEN_API MIEN_NODISCARD mien_status mien_tracker_advance(mien_tracker* tracker, int64_t pts_ns);
+
+/* Hears a block of sound, of one sample or many; the same sound gives the same answers, bit for
+ * bit, in blocks of whatever size. MIEN_ERROR_NO_AUDIONET without weights for it.
+ *
+ * pts_ns: time of the block's first sample, on the clock of the images. Between blocks the count of
+ * the samples says how time passes, and timestamps that are off by up to 20 ms pull it along, so
+ * that two clocks never drift apart. What is off by more is a gap, or sound heard twice: time hops
+ * there at once. After more than 0.5 s another stream begins; after a change of the rate, which may
+ * come with any block, the same voice goes on.
+ *
+ * A frame of output takes what is heard at its time: of the middle of 80 ms, so that the sound of a
+ * frame is all there 42 ms after it. Until then the last that was heard stands in for it, for
+ * 150 ms; then nobody speaks. Sound may be up to 4 s ahead of the pictures.
+ *
+ * Every control that the sound drives, the mouth's, becomes
+ *   (1 - alpha) v + alpha (w_v v + w_a a)
+ * of the picture's v and the sound's a, with mien_result.voice_activity as alpha and the weights w
+ * of the control. Where the picture says nothing, because no face is there or the level does not
+ * drive the control, the sound stands alone: w_a is 1. A face comes and goes within 0.1 s.
+ * Of several faces it is the one known longest that speaks. */
+MIEN_API MIEN_NODISCARD mien_status mien_tracker_push_audio(mien_tracker* tracker,
+                                                            const mien_audio* audio,
+                                                            int64_t pts_ns);
+
+/* Of sound pushed from now on: it belongs to images later than its timestamps say, by `offset_ns`,
+ * which may be negative. mien_tracker_reset returns to 0. */
+MIEN_API MIEN_NODISCARD mien_status mien_tracker_set_audio_offset(mien_tracker* tracker,
+                                                                  int64_t offset_ns);
+
+/* The weights w_a and w_v of a control while somebody speaks, each 0..1; the model file has them
+ * for all. With w_a = 0 the sound does not drive it. mien_tracker_reset returns to those of the
+ * file. MIEN_ERROR_OUT_OF_RANGE also when there is no such control. */
+MIEN_API MIEN_NODISCARD mien_status mien_tracker_set_mix(mien_tracker* tracker, int32_t control,
+                                                         float audio_weight, float video_weight);
+
 /* Result --------------------------------------------------------------------------------------- */
 
 typedef enum mien_face_status {
-  MIEN_FACE_SEARCHING = 0, /* no face since create or reset: box, landmarks, pose, controls are 0 */
+  /* No face since create or reset: box, landmarks, pose and controls but those of sound are 0. */
+  MIEN_FACE_SEARCHING = 0,
   MIEN_FACE_TRACKING = 1,
-  /* The face is gone: box, landmarks and pose keep their last values, the controls fade towards 0
-   * with a time constant of 0.25 s. */
+  /* The face is gone: box, landmarks and pose keep their last values, the picture's controls fade
+   * towards 0 with a time constant of 0.25 s. */
   MIEN_FACE_LOST = 2
 } mien_face_status;
 
@@ -336,10 +416,11 @@ typedef enum mien_stage {
   MIEN_STAGE_ENCODER = 2,  /* crop to features */
   MIEN_STAGE_HEADS = 3,    /* features to landmarks and face probability */
   MIEN_STAGE_DECODERS = 4, /* features over time to controls and head pose */
-  MIEN_STAGE_COUNT = 5
+  MIEN_STAGE_SOUND = 5,    /* all mien_tracker_push_audio since the frame before */
+  MIEN_STAGE_COUNT = 6
 } mien_stage;
 
-/* "proposal", "warp", "encoder", "heads", "decoders"; NULL for other numbers. Static. */
+/* "proposal", "warp", "encoder", "heads", "decoders", "sound"; NULL for other numbers. Static. */
 MIEN_API const char* mien_stage_name(int32_t stage);
 
 /* Bits of mien_result.flags: what happened on this frame. */
@@ -354,12 +435,13 @@ MIEN_API const char* mien_stage_name(int32_t stage);
 
 typedef struct mien_result {
   uint32_t struct_size;
-  int32_t status;              /* mien_face_status */
-  int64_t pts_ns;              /* of the image that this result belongs to */
-  uint64_t supported_controls; /* bit i: control i is driven at this level of detail */
+  int32_t status; /* mien_face_status */
+  int64_t pts_ns; /* of the image that this result belongs to */
+  /* Bit i: control i is driven, at this level of detail or, once there was sound, by sound. */
+  uint64_t supported_controls;
 
   float face_probability; /* 0..1, of the crop judged last; 0 when there was nothing to judge */
-  float voice_activity;   /* 0..1; 0 as long as there is no audio */
+  float voice_activity;   /* 0..1: alpha of mien_tracker_push_audio; 0 without sound */
   int32_t lod;
   uint32_t flags; /* MIEN_RESULT_* */
 
@@ -370,12 +452,12 @@ typedef struct mien_result {
                              to the subject's left; right-hand rule about z */
   float translation[3];   /* metres: the head's origin in camera space */
 
-  float controls[MIEN_CONTROL_COUNT];      /* 0..1; 0 where not supported */
+  float controls[MIEN_CONTROL_COUNT];      /* 0..1; 0 where not supported; of picture and sound */
   float landmarks[MIEN_LANDMARK_COUNT][2]; /* x, y in pixels of the upright image; may lie outside
                                               of it. Order: models/landmarks.json */
 
   /* Totals since create or reset. */
-  uint64_t frames;        /* images pushed */
+  uint64_t frames;        /* frames of output: images pushed, and frames without */
   uint64_t face_frames;   /* of these, with a face followed */
   uint64_t proposal_runs; /* on the whole image */
   uint64_t encoder_runs;  /* of BaseNet and HiFiNet */

@@ -23,6 +23,10 @@ struct Image : mien_image {
   Image() : mien_image() { mien_image_default(this); }
 };
 
+struct Audio : mien_audio {
+  Audio() : mien_audio() { mien_audio_default(this); }
+};
+
 struct Config : mien_tracker_config {
   // The weights (.mien files) are not copied and must outlive every tracker made of this.
   Config(std::span<const std::byte> basenet_file, std::span<const std::byte> proposal_file)
@@ -65,6 +69,22 @@ class Tracker {
 
   [[nodiscard]] mien_status push_video(const mien_image& image, std::int64_t pts_ns) {
     return mien_tracker_push_video(tracker_.get(), &image, pts_ns);
+  }
+
+  [[nodiscard]] mien_status advance(std::int64_t pts_ns) {
+    return mien_tracker_advance(tracker_.get(), pts_ns);
+  }
+
+  [[nodiscard]] mien_status push_audio(const mien_audio& audio, std::int64_t pts_ns) {
+    return mien_tracker_push_audio(tracker_.get(), &audio, pts_ns);
+  }
+
+  [[nodiscard]] mien_status set_audio_offset(std::int64_t offset_ns) {
+    return mien_tracker_set_audio_offset(tracker_.get(), offset_ns);
+  }
+
+  [[nodiscard]] mien_status set_mix(std::int32_t control, float audio_weight, float video_weight) {
+    return mien_tracker_set_mix(tracker_.get(), control, audio_weight, video_weight);
   }
 
   [[nodiscard]] mien_status get_result(mien_result& result) const {

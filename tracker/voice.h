@@ -1,0 +1,49 @@
+// The voice of one tracker: sound in, over time, and out what is heard on each frame.
+#pragma once
+
+#include <mien/mien.h>
+
+#include <cstdint>
+
+#include "audio/listener.h"
+#include "engine/arena.h"
+#include "tracker/mixer.h"
+#include "tracker/models.h"
+
+namespace mien::tracker {
+
+class Voice {
+ public:
+  // Takes from `arena` a voice with its networks; `voice` is nullptr when the arena measures.
+  [[nodiscard]] static mien_status load(const Models& models, const mien_tracker_config& config,
+                                        engine::Arena& arena, Voice*& voice);
+
+  // Forgets what was heard, and what was set since.
+  void reset();
+
+  [[nodiscard]] mien_status push(const mien_audio* sound, std::int64_t pts_ns);
+
+  // Later than its timestamps by this much.
+  void set_offset(std::int64_t offset_ns) { offset_ns_ = offset_ns; }
+  [[nodiscard]] Mixer& mixer() { return mixer_; }
+  [[nodiscard]] const Mixer& mixer() const { return mixer_; }
+
+  // One frame of output at that time, `seconds` after the one before.
+  void advance(std::int64_t pts_ns, float seconds);
+  [[nodiscard]] const Heard& heard() const { return heard_; }
+
+  // Whether any sound came since the beginning.
+  [[nodiscard]] bool is_listening() const { return listening_; }
+
+ private:
+  explicit Voice(const mien_tracker_config& config) : config_(config) {}
+
+  const mien_tracker_config& config_;
+  audio::Listener listener_;
+  Mixer mixer_;
+  std::int64_t offset_ns_ = 0;
+  bool listening_ = false;
+  Heard heard_;
+};
+
+}  // namespace mien::tracker
