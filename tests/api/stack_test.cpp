@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <mien/mien.hpp>
 
+#include <vector>
+
 #include "tests/tracker/blob_tracker.h"
 
 namespace mien::tests {
@@ -12,7 +14,9 @@ namespace {
 TEST(Stack, IsAsSmallAsTheHeaderSays) {
   const AlignedBytes basenet = blob_basenet();
   const AlignedBytes proposal = blob_proposal();
-  const Config config = blob_config(basenet, proposal);
+  const AlignedBytes hifinet = blob_hifinet();
+  const AlignedBytes audionet = blob_audionet();
+  const Config config = blob_config(basenet, proposal, hifinet, audionet);
   Tracker tracker;
   mien_status status = MIEN_ERROR_OUT_OF_MEMORY;
   const std::size_t create = stack_of([&] { status = tracker.create(config); });
@@ -29,6 +33,14 @@ TEST(Stack, IsAsSmallAsTheHeaderSays) {
     EXPECT_LT(push(i * kFrameNs), 16u * 1024) << i;
     ASSERT_EQ(status, MIEN_OK);
   }
+  const std::vector<float> samples(4800, 0.1f);
+  Audio audio;
+  audio.frames = samples.size();
+  audio.samples[0] = samples.data();
+  EXPECT_LT(stack_of([&] { status = tracker.push_audio(audio, 0); }), 16u * 1024);
+  EXPECT_EQ(status, MIEN_OK);
+  EXPECT_LT(stack_of([&] { status = tracker.advance(3 * kFrameNs); }), 16u * 1024);
+  EXPECT_EQ(status, MIEN_OK);
   EXPECT_LT(stack_of([&] { status = tracker.get_result(result); }), 16u * 1024);
   EXPECT_EQ(status, MIEN_OK);
   EXPECT_LT(stack_of([&] { status = tracker.reset(); }), 16u * 1024);

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdlib>
 #include <new>
+#include <vector>
 
 #include "tests/tracker/blob_tracker.h"
 
@@ -63,11 +64,18 @@ TEST(Allocation, OneByTheCallersAllocatorAndNoneAfterCreate) {
   const AlignedBytes basenet = blob_basenet();
   const AlignedBytes hifinet = blob_hifinet();
   const AlignedBytes proposal = blob_proposal();
+  const AlignedBytes audionet = blob_audionet();
   CountingAllocator allocator;
-  Config config = blob_config(basenet, proposal, hifinet);
+  Config config = blob_config(basenet, proposal, hifinet, audionet);
   config.allocator = allocator.callbacks();
   const Buffer disc(disc_picture(160.0f, 120.0f, 70.0f), {.format = MIEN_IMAGE_NV12});
   const Buffer nothing(Picture(97, 55), {.rotation = 90});
+  const std::vector<std::int16_t> samples(3200, 1000);
+  Audio audio;
+  audio.format = MIEN_SAMPLES_INT16;
+  audio.channels = 2;
+  audio.frames = samples.size() / 2;
+  audio.samples[0] = samples.data();
   {
     const long before_create = allocations;
     Tracker tracker;
@@ -79,7 +87,10 @@ TEST(Allocation, OneByTheCallersAllocatorAndNoneAfterCreate) {
     Result result;
     for (int i = 0; i < 60; ++i) {
       const mien_image& image = i % 20 < 12 ? disc.image() : nothing.image();
+      audio.sample_rate = i < 40 ? 48000 : 44100;
+      EXPECT_EQ(tracker.push_audio(audio, i * kFrameNs), MIEN_OK);
       (void)tracker.push_video(image, i * kFrameNs);
+      (void)tracker.advance(i * kFrameNs + 1);
       (void)tracker.set_lod(i % 5);
       (void)tracker.get_result(result);
     }

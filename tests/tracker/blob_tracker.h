@@ -25,6 +25,15 @@ inline Config blob_config(const AlignedBytes& basenet, const AlignedBytes& propo
   return config;
 }
 
+// With ears.
+inline Config blob_config(const AlignedBytes& basenet, const AlignedBytes& proposal,
+                          const AlignedBytes& hifinet, const AlignedBytes& audionet) {
+  Config config = blob_config(basenet, proposal, hifinet);
+  config.audionet = audionet.get().data();
+  config.audionet_bytes = audionet.get().size();
+  return config;
+}
+
 class BlobTracker {
  public:
   explicit BlobTracker(const BlobOptions& options = {})
@@ -34,8 +43,9 @@ class BlobTracker {
   BlobTracker(const BlobOptions& options, Change change)
       : basenet_(blob_basenet(options)),
         hifinet_(blob_hifinet(options)),
-        proposal_(blob_proposal()) {
-    Config config = blob_config(basenet_, proposal_, hifinet_);
+        proposal_(blob_proposal()),
+        audionet_(blob_audionet()) {
+    Config config = blob_config(basenet_, proposal_, hifinet_, audionet_);
     change(config);
     EXPECT_EQ(tracker_.create(config), MIEN_OK);
   }
@@ -54,6 +64,14 @@ class BlobTracker {
     return push(Buffer(picture, layout).image());
   }
 
+  // The same without an image.
+  Result advance() {
+    pts_ns_ += kFrameNs;
+    EXPECT_EQ(tracker_.advance(pts_ns_), MIEN_OK);
+    return result();
+  }
+  [[nodiscard]] std::int64_t now_ns() const { return pts_ns_; }
+
   [[nodiscard]] Result result() const {
     Result result;
     EXPECT_EQ(tracker_.get_result(result), MIEN_OK);
@@ -66,6 +84,7 @@ class BlobTracker {
   AlignedBytes basenet_;
   AlignedBytes hifinet_;
   AlignedBytes proposal_;
+  AlignedBytes audionet_;
   Tracker tracker_;
   std::int64_t pts_ns_ = 0;
 };

@@ -233,6 +233,64 @@ void add_window_network(MienWriter& writer, const std::string& name, std::uint16
                                    {0.0f, 0.0f, 0.0f}));
 }
 
+constexpr std::uint32_t kEmbedding = 80;
+constexpr std::uint32_t kSpeechControls = 18;
+
+// Embedding 0 is the loudness: -0.85 for silence, about 1 for noise at a third of full scale.
+void add_ear(MienWriter& writer, Random& random) {
+  constexpr std::uint32_t kCoefficients = 26, kHeard = 5 * kCoefficients;
+  constexpr std::size_t kMiddle = 2 * kCoefficients;  // c0 of the middle window
+  NetworkWriter& network = writer.network("encoder", {1, 1, kHeard});
+  std::vector<float> bias(kEmbedding, 0.0f);
+  bias[0] = 1.5f;
+  const Array weight = filled({kEmbedding, kHeard}, [&](std::size_t i) {
+    if (i < kHeard) {
+      return i == kMiddle ? 0.025f : 0.0f;
+    }
+    return random.normal(0.003f);
+  });
+  network.output(network.fully_connected(NetworkWriter::kInput, weight, bias));
+}
+
+void add_speech(MienWriter& writer, Random& random) {
+  NetworkWriter& network = writer.network("controls_decoder", {1, 1, kEmbedding});
+  std::vector<float> bias(kSpeechControls, 0.5f);
+  bias[0] = 0.0f;
+  const Array weight = filled({kSpeechControls, kEmbedding, 2}, [&](std::size_t i) {
+    if (i < 2 * kEmbedding) {
+      return i == 1 ? 1.0f : 0.0f;  // jawOpen is the present loudness
+    }
+    return random.normal(0.05f);
+  });
+  network.output(network.causal_conv(NetworkWriter::kInput, weight, bias,
+                                     activated(formats::LayerActivation::kClamp01)));
+}
+
+void add_activity(MienWriter& writer) {
+  NetworkWriter& network = writer.network("activity_decoder", {1, 1, kEmbedding});
+  const Array weight =
+      filled({2, kEmbedding}, [](std::size_t i) { return i == kEmbedding ? 8.0f : 0.0f; });
+  network.output(
+      network.softmax(network.fully_connected(NetworkWriter::kInput, weight, {0.0f, 0.0f})));
+}
+
+// Names are not known here: the mouth's are those of the 52 that sound is given.
+void add_mix(MienWriter& writer) {
+  constexpr std::size_t kJawOpen = 17;
+  constexpr std::size_t kMouth[] = {14, 18, 19, 20, 29, 30, 31, 32, 33,
+                                    34, 35, 36, 37, 38, 39, 40, 51};
+  const auto weights = [&](float jaw, float mouth, float others) {
+    Array array = filled({kControls}, [&](std::size_t) { return others; });
+    array.values[kJawOpen] = jaw;
+    for (const std::size_t control : kMouth) {
+      array.values[control] = mouth;
+    }
+    return array;
+  };
+  writer.constant("mix_audio", weights(kJawByEar, kMouthByEar, 0.0f));
+  writer.constant("mix_video", weights(kMouthByEye, kMouthByEye, 1.0f));
+}
+
 }  // namespace
 
 AlignedBytes::AlignedBytes(std::span<const std::byte> bytes)
@@ -272,6 +330,16 @@ AlignedBytes blob_hifinet(const BlobOptions& options) {
       std::vector<float>(options.features, 0.0f)));
   add_refined_landmarks(writer, options);
   add_controls_decoder(writer, options, random);
+  return finished(writer);
+}
+
+AlignedBytes blob_audionet() {
+  Random random(77);
+  MienWriter writer;
+  add_ear(writer, random);
+  add_speech(writer, random);
+  add_activity(writer);
+  add_mix(writer);
   return finished(writer);
 }
 

@@ -1,6 +1,8 @@
 // Finding, following, losing and finding again, with a disc as the face.
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include <cmath>
 #include <numeric>
 
@@ -253,12 +255,18 @@ TEST(Following, StagesAreTimedByTheCallersClock) {
     config.clock_ns = [](void* user) { return *static_cast<std::uint64_t*>(user) += 10; };
   });
   const Picture picture = disc_picture(160.0f, 120.0f, 70.0f);
+  const std::vector<float> silence(1600, 0.0f);
+  Audio audio;
+  audio.frames = silence.size();
+  audio.samples[0] = silence.data();
+  ASSERT_EQ(tracker.tracker().push_audio(audio, 0), MIEN_OK);
   Result result = tracker.push(picture);
   for (int stage = 0; stage < MIEN_STAGE_COUNT; ++stage) {
     EXPECT_GT(result.stage_ns[stage], 0u) << mien_stage_name(stage);
   }
   EXPECT_EQ(result.stage_ns[MIEN_STAGE_COUNT], 0u);
   result = tracker.push(picture);  // the encoder rests
+  EXPECT_EQ(result.stage_ns[MIEN_STAGE_SOUND], 0u);
   EXPECT_EQ(result.stage_ns[MIEN_STAGE_PROPOSAL], 0u);
   EXPECT_EQ(result.stage_ns[MIEN_STAGE_ENCODER], 0u);
   EXPECT_EQ(result.stage_ns[MIEN_STAGE_DECODERS], 10u);

@@ -1,0 +1,98 @@
+// The time of samples: clocks that differ, timestamps that tremble, gaps, any number.
+#include "audio/sound_clock.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <random>
+
+namespace mien::audio {
+namespace {
+
+using Flow = SoundClock::Flow;
+
+constexpr std::int32_t kRate = 48000;
+constexpr std::size_t kBlock = 480;
+constexpr std::int64_t kBlockNs = 10'000'000;
+
+double seconds_of_block(std::int64_t block) {
+  return static_cast<double>(block) * static_cast<double>(kBlock) / kRate;
+}
+
+TEST(SoundClock, CountsSamplesWhereTimestampsAreExact) {
+  SoundClock clock;
+  EXPECT_EQ(clock.advance(5'000'000'000, kBlock, kRate), Flow::kBreak) << "the beginning";
+  for (std::int64_t block = 1; block < 1000; ++block) {
+    EXPECT_EQ(clock.advance(5'000'000'000 + block * kBlockNs, kBlock, kRate), Flow::kSteady);
+  }
+  EXPECT_EQ(clock.time_ns(2.5), 7'500'000'000);
+}
+
+TEST(SoundClock, FollowsAClockThatIsFastOrSlowForHours) {
+  for (const double skew : {-50e-6, 50e-6, 200e-6}) {
+    SoundClock clock;
+    double worst_ns = 0.0;
+    for (std::int64_t block = 0; block < 8 * 3600 * 100; ++block) {
+      const auto pts = static_cast<std::int64_t>(
+          std::llround(static_cast<double>(block) * static_cast<double>(kBlockNs) * (1.0 + skew)));
+      const Flow flow = clock.advance(pts, kBlock, kRate);
+      ASSERT_TRUE(flow == Flow::kSteady || block == 0);
+      const double error = static_cast<double>(clock.time_ns(seconds_of_block(block)) - pts);
+      worst_ns = std::max(worst_ns, std::abs(error));
+    }
+    EXPECT_LT(worst_ns, 0.5e6) << skew;
+  }
+}
+
+TEST(SoundClock, EvensOutTimestampsThatTremble) {
+  SoundClock clock;
+  std::mt19937 engine(1);
+  std::uniform_int_distribution<std::int64_t> tremble(-10'000'000, 10'000'000);
+  (void)clock.advance(0, kBlock, kRate);
+  for (std::int64_t block = 1; block < 6000; ++block) {
+    ASSERT_EQ(clock.advance(block * kBlockNs + tremble(engine), kBlock, kRate), Flow::kSteady);
+    const auto truth = static_cast<double>(block * kBlockNs);
+    EXPECT_NEAR(static_cast<double>(clock.time_ns(seconds_of_block(block))), truth, 2e6);
+  }
+}
+
+TEST(SoundClock, HopsOverAGapAndBackAtOnce) {
+  for (const std::int64_t gap : {30'000'000, 400'000'000, -30'000'000, -400'000'000}) {
+    SoundClock clock;
+    (void)clock.advance(0, kBlock, kRate);
+    EXPECT_EQ(clock.advance(kBlockNs + gap, kBlock, kRate), Flow::kHop) << gap;
+    EXPECT_EQ(clock.time_ns(seconds_of_block(1)), kBlockNs + gap);
+    EXPECT_EQ(clock.advance(2 * kBlockNs + gap, kBlock, kRate), Flow::kSteady) << gap;
+  }
+}
+
+TEST(SoundClock, BeginsAnewAfterALongGap) {
+  for (const std::int64_t gap : {501'000'000LL, 3'600'000'000'000LL, -501'000'000LL}) {
+    SoundClock clock;
+    (void)clock.advance(0, kBlock, kRate);
+    EXPECT_EQ(clock.advance(kBlockNs + gap, kBlock, kRate), Flow::kBreak) << gap;
+    EXPECT_EQ(clock.time_ns(0.0), kBlockNs + gap);
+  }
+}
+
+TEST(SoundClock, TakesAnyTimestamp) {
+  constexpr std::int64_t kLowest = std::numeric_limits<std::int64_t>::min();
+  constexpr std::int64_t kHighest = std::numeric_limits<std::int64_t>::max();
+  for (const std::int64_t start : {kLowest, kHighest, std::int64_t{-1}, std::int64_t{0}}) {
+    for (const std::int64_t next : {kLowest, kHighest, std::int64_t{-1}, std::int64_t{0}}) {
+      SoundClock clock;
+      (void)clock.advance(start, kBlock, kRate);
+      (void)clock.advance(next, kBlock, kRate);
+      (void)clock.time_ns(1e6);
+    }
+  }
+  // Over the end of the numbers as anywhere.
+  SoundClock clock;
+  (void)clock.advance(kHighest - kBlockNs + 1, kBlock, kRate);
+  EXPECT_EQ(clock.advance(kLowest, kBlock, kRate), Flow::kSteady);
+}
+
+}  // namespace
+}  // namespace mien::audio
