@@ -1,0 +1,118 @@
+// Sound of WAV files, from a stream: PCM of 8, 16, 24 and 32 bits, IEEE float of 32 and 64 bits.
+//
+// Formats: RIFF WAVE (IBM, Microsoft: Multimedia Programming Interface and Data Specifications 1.0,
+// 1991); WAVE_FORMAT_EXTENSIBLE (Microsoft: Multiple Channel Audio Data and WAVE Files, 2001,
+// revised 2007); sizes above 4 GiB as RF64 (EBU Tech 3306) and BW64 (ITU-R BS.2088) have them.
+//
+// What files in the wild ask for (docs/wav.md says more):
+// * Chunks that are neither `fmt ` nor `data` are skipped. Reading stops at the end of the first
+//   data chunk; what follows it stays in the source.
+// * A data chunk of unknown length, as pipes have it, lasts to the end of the source: one of
+//   0xFFFFFFFF bytes, or of 0 bytes where the RIFF chunk is not said to go on behind it.
+// * Otherwise the size of the RIFF chunk counts for nothing, nor do bytes per second, the channel
+//   mask, and how many bits of a sample are valid (they are its upper ones).
+//
+//   WavReader reader;
+//   WavStatus status = reader.open(file_source(file));
+//   std::array<float, 4096> samples;
+//   std::size_t frames = 0;
+//   while (status == WavStatus::kOk && (status = reader.read(samples, frames)) == WavStatus::kOk) {
+//     use(std::span(samples).first(frames * reader.format().channels));
+//   }
+//   if (status != WavStatus::kEnd) {
+//     complain(message(status), reader.fault_offset());
+//   }
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "formats/byte_source.h"
+#include "formats/counted_source.h"
+
+namespace mien::formats {
+
+enum class WavStatus : std::uint8_t {
+  kOk = 0,
+  kEnd = 1,  // no more frames, not an error
+  // the file
+  kBadSignature = 2,
+  kNotWave = 3,
+  kTruncatedHeader = 4,
+  kBadSizes64 = 5,
+  kNoFormat = 6,
+  kSecondFormat = 7,
+  kDataBeforeFormat = 8,
+  kNoData = 9,
+  // the fmt chunk
+  kBadFormatSize = 10,
+  kBadExtensionSize = 11,
+  kUnsupportedCoding = 12,
+  kUnsupportedSubFormat = 13,
+  kBadChannels = 14,
+  kBadRate = 15,
+  kBadBits = 16,
+  kBadBlockAlign = 17,
+  kBadValidBits = 18,
+  // while reading; the whole frames before the fault were delivered
+  kTruncatedData = 19,
+  kPartialFrame = 20,
+  kBufferTooSmall = 21,
+};
+inline constexpr std::uint8_t kWavStatusCount = 22;
+
+// One line of English, static.
+[[nodiscard]] const char* message(WavStatus status);
+
+inline constexpr std::uint32_t kMaxWavChannels = 8;
+inline constexpr std::uint32_t kLowestWavRate = 8000;     // frames per second
+inline constexpr std::uint32_t kHighestWavRate = 192000;  // frames per second
+
+enum class WavCoding : std::uint8_t { kPcm, kFloat };
+
+struct WavFormat {
+  std::uint32_t sample_rate = 0;  // frames per second, kLowestWavRate..kHighestWavRate
+  std::uint32_t channels = 0;     // 1..kMaxWavChannels
+  std::uint32_t bits = 0;         // of a stored sample; kPcm: 8, 16, 24, 32; kFloat: 32, 64
+  WavCoding coding = WavCoding::kPcm;
+  std::optional<std::uint64_t> frames;  // as the file declares; none if it does not know
+
+  [[nodiscard]] std::size_t frame_bytes() const { return std::size_t{channels} * bits / 8; }
+};
+
+class WavReader {
+ public:
+  // Reads up to the first sample. On failure the reader has a format of zeros and no frames.
+  [[nodiscard]] WavStatus open(ByteSource source);
+
+  [[nodiscard]] const WavFormat& format() const { return format_; }
+
+  // Writes the next frames into `interleaved`, [frames][channels], as many as whole ones fit there;
+  // fewer only before the end. kOk if that is at least one; then and only then is `frames_read`
+  // above zero. Afterwards kEnd, or kTruncatedData, or kPartialFrame, however often it is asked.
+  //
+  // Full scale is -1..1: unsigned 8 bits give (x - 128) / 128, other PCM of n bits x / 2^(n-1),
+  // fp32 what it is, bit for bit. These are exact, but for what fp32 cannot hold: PCM of 32 bits
+  // and fp64 are rounded to nearest (the largest 32-bit sample to 1, fp64 beyond fp32 to infinity).
+  // Floats beyond full scale, infinities and NaNs are passed on: whoever listens has to mind them.
+  [[nodiscard]] WavStatus read(std::span<float> interleaved, std::size_t& frames_read);
+
+  // Where the fault lies of which open() or read() spoke last, in bytes from where the source
+  // began: the field, the chunk, the partial frame, or the source's end. kBufferTooSmall has no
+  // place.
+  [[nodiscard]] std::uint64_t fault_offset() const { return fault_offset_; }
+
+ private:
+  [[nodiscard]] std::size_t read_block(std::span<float> samples);
+  void end(WavStatus status, std::uint64_t offset);
+
+  CountedSource source_;
+  WavFormat format_;
+  std::uint64_t data_left_ = 0;      // bytes
+  WavStatus end_ = WavStatus::kEnd;  // kOk while there may be frames
+  std::uint64_t fault_offset_ = 0;
+};
+
+}  // namespace mien::formats

@@ -1,0 +1,145 @@
+#include "formats/wav.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "tests/formats/wav_files.h"
+
+namespace mien::formats {
+namespace {
+
+// simple() with these sizes instead of the right ones.
+std::string with_sizes(std::uint32_t riff_bytes, std::uint32_t data_bytes,
+                       const std::string& data) {
+  return "RIFF" + little(riff_bytes, 4) + "WAVE" + wav_chunk("fmt ", fmt_body({})) + "data" +
+         little(data_bytes, 4) + data;
+}
+
+TEST(WavSizes, UnknownSizesLastToTheEnd) {
+  const std::string data(30000, 'x');
+  constexpr std::uint32_t kUnknown = 0xffffffff;
+  // Before the data chunk's body lie 36 bytes that the RIFF chunk's size counts.
+  for (const std::uint32_t riff_bytes : {0u, 8u, 36u, kUnknown}) {
+    for (const std::uint32_t data_bytes : {0u, kUnknown}) {
+      const Heard heard = hear(with_sizes(riff_bytes, data_bytes, data));
+      EXPECT_EQ(heard.format.frames, std::nullopt);
+      EXPECT_EQ(heard.samples.size(), 15000u) << riff_bytes << ' ' << data_bytes;
+      EXPECT_EQ(heard.ended, WavStatus::kEnd);
+      const Heard odd = hear(with_sizes(riff_bytes, data_bytes, data + "x"));
+      EXPECT_EQ(odd.samples.size(), 15000u);
+      EXPECT_EQ(odd.ended, WavStatus::kPartialFrame);
+      EXPECT_EQ(odd.fault_offset, 44u + 30000);
+      EXPECT_TRUE(hear(with_sizes(riff_bytes, data_bytes, "")).samples.empty());
+    }
+  }
+  EXPECT_EQ(hear(with_sizes(36 + 30000, kUnknown, data)).samples.size(), 15000u);
+}
+
+TEST(WavSizes, AChunkMayHaveNoSamples) {
+  const Heard heard = hear(with_sizes(36 + 12, 0, wav_chunk("LIST", "abcd")));
+  EXPECT_EQ(heard.opened, WavStatus::kOk);
+  EXPECT_EQ(heard.format.frames, std::optional<std::uint64_t>(0));
+  EXPECT_EQ(heard.ended, WavStatus::kEnd);
+  EXPECT_TRUE(heard.samples.empty());
+}
+
+TEST(WavSizes, TheSizeOfTheRiffChunkCountsForNothing) {
+  for (const std::uint32_t size : {0u, 1u, 4u, 40u, 0x7fffffffu, 0x80000000u, 0xffffffffu}) {
+    const Heard heard = hear(with_sizes(size, 4, "abcdefgh"));
+    EXPECT_EQ(heard.samples.size(), 2u) << size;
+    EXPECT_EQ(heard.ended, WavStatus::kEnd);
+  }
+}
+
+TEST(WavSizes, SizesOfTheDataChunk) {
+  struct Case {
+    std::uint32_t declared;
+    std::size_t frames;
+    WavStatus ended;
+    std::uint64_t fault_offset;
+  };
+  // There are 9 bytes, of samples of 2 bytes.
+  for (const Case& c :
+       {Case{1, 0, WavStatus::kPartialFrame, 44}, Case{2, 1, WavStatus::kEnd, 46},
+        Case{3, 1, WavStatus::kPartialFrame, 46}, Case{8, 4, WavStatus::kEnd, 52},
+        Case{9, 4, WavStatus::kPartialFrame, 52}, Case{10, 4, WavStatus::kTruncatedData, 53},
+        Case{0x7fffffff, 4, WavStatus::kTruncatedData, 53},
+        Case{0x80000000, 4, WavStatus::kTruncatedData, 53},
+        Case{0xfffffffe, 4, WavStatus::kTruncatedData, 53}}) {
+    const Heard heard = hear(with_sizes(100, c.declared, "123456789"));
+    EXPECT_EQ(heard.format.frames, std::optional<std::uint64_t>(c.declared / 2));
+    EXPECT_EQ(heard.samples.size(), c.frames) << c.declared;
+    EXPECT_STREQ(message(heard.ended), message(c.ended)) << c.declared;
+    EXPECT_EQ(heard.fault_offset, c.fault_offset) << c.declared;
+  }
+}
+
+TEST(WavSizes, ReadsTheSizesOfRf64) {
+  const std::string fmt = wav_chunk("fmt ", fmt_body({}));
+  const std::string data = "data" + little(0xffffffff, 4) + "abcdef";
+  Heard heard = hear(rf64(1000, 4, fmt + data));
+  EXPECT_EQ(heard.samples.size(), 2u);
+  EXPECT_EQ(heard.ended, WavStatus::kEnd);
+  // A size of 32 bits that is one counts.
+  heard = hear(rf64(1000, 4, fmt + wav_chunk("data", "abcdef")));
+  EXPECT_EQ(heard.samples.size(), 3u);
+  for (const std::uint64_t size :
+       {std::uint64_t{0x100000000}, UINT64_MAX - 1, UINT64_MAX / 2 + 1}) {
+    heard = hear(rf64(UINT64_MAX - 1, size, fmt + data));
+    EXPECT_EQ(heard.format.frames, std::optional(size / 2));
+    EXPECT_EQ(heard.samples.size(), 3u);
+    EXPECT_EQ(heard.ended, WavStatus::kTruncatedData);
+  }
+  for (const std::uint64_t size : {std::uint64_t{0}, UINT64_MAX}) {
+    for (const std::uint64_t riff_bytes : {std::uint64_t{0}, UINT64_MAX}) {
+      heard = hear(rf64(riff_bytes, size, fmt + data));
+      EXPECT_EQ(heard.format.frames, std::nullopt);
+      EXPECT_EQ(heard.samples.size(), 3u);
+      EXPECT_EQ(heard.ended, WavStatus::kEnd);
+    }
+  }
+  std::string broadcast = rf64(1000, 4, fmt + data);
+  broadcast.replace(0, 2, "BW");
+  EXPECT_EQ(hear(broadcast).samples.size(), 2u);
+}
+
+TEST(WavSizes, RefusesBadSizesOfRf64) {
+  const std::string start = "RF64" + little(0xffffffff, 4) + "WAVE";
+  const std::string rest = wav_chunk("fmt ", fmt_body({})) + wav_chunk("data", "abcd");
+  expect_refused(start + rest, WavStatus::kBadSizes64, 12);
+  expect_refused(start + wav_chunk("JUNK", std::string(28, 'x')) + rest, WavStatus::kBadSizes64,
+                 12);
+  for (std::size_t size = 0; size < 28; ++size) {
+    std::string file = start;
+    file.append(wav_chunk("ds64", std::string(size, '\0'))).append(rest);
+    expect_refused(file, WavStatus::kBadSizes64, 12);
+  }
+  expect_refused(start + "ds64" + little(28, 4) + std::string(27, '\0'),
+                 WavStatus::kTruncatedHeader, 12 + 8 + 27);
+  // With a table of other chunks' sizes, which is skipped.
+  const std::string table =
+      little(0, 8) + little(4, 8) + little(0, 8) + little(1, 4) + "axml" + little(0x100000000, 8);
+  EXPECT_EQ(hear(start + wav_chunk("ds64", table) + rest).samples.size(), 2u);
+}
+
+TEST(WavSizes, AnyByteOfTheHeaderMayBeAnything) {
+  FmtFields fields;
+  fields.sub_format = 1;
+  fields.bits = 8;
+  const std::string chunks = wav_chunk("fmt ", fmt_body(fields)) + wav_chunk("data", "123456789");
+  for (const std::string& file : {riff({chunks}), rf64(1000, 4, chunks)}) {
+    for (std::size_t at = 0; at < file.size(); ++at) {
+      for (int value = 0; value < 256; ++value) {
+        std::string spoilt = file;
+        spoilt[at] = static_cast<char>(value);
+        EXPECT_LE(hear(spoilt).samples.size(), 10u);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace mien::formats
