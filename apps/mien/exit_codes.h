@@ -14,7 +14,8 @@ enum ExitCode : int {
   kExitOutput = 7,           // an output cannot be written
   kExitModel = 8,            // a model file is missing, damaged or of another version
   kExitUnsupportedTier = 9,  // this CPU cannot run the tier asked for
-  kExitNoFace = 10           // too little of a face in the input to capture a neutral one
+  kExitNoFace = 10,          // too little of a face in the input to capture a neutral one
+  kExitNoSound = 11          // the input has no sound, or none that can be read
 };
 
 }  // namespace mien::app

@@ -10,6 +10,15 @@
 
 namespace mien::app {
 
+// What there is in an input; "-" and Y4M are video alone, WAV is sound alone.
+struct InputStreams {
+  bool video = false;  // a picture on the sleeve is none
+  bool sound = false;
+};
+
+// Throws Failure when there is no such file, or nothing of either in it.
+InputStreams probe_streams(const std::string& input);
+
 // What a file says of its video. Throws Failure when there is no such file, or no video in it.
 VideoInfo probe_video(const std::string& input);
 

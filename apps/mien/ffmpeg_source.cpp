@@ -38,10 +38,15 @@ bool turned_sideways(const json& stream) {
   return std::lround(std::abs(degrees) / 90.0) % 2 == 1;
 }
 
-json probe(const std::string& input) {
-  Subprocess ffprobe({"ffprobe", "-v", "error", "-select_streams", "v:0", "-show_streams",
-                      "-show_format", "-of", "json", "-i", input},
-                     Subprocess::Pipe::kFromChild);
+// `streams` as of ffprobe; empty: all.
+json probe(const std::string& input, const std::string& streams) {
+  std::vector<std::string> command = {"ffprobe",      "-v",  "error", "-show_streams",
+                                      "-show_format", "-of", "json"};
+  if (!streams.empty()) {
+    command.insert(command.end(), {"-select_streams", streams});
+  }
+  command.insert(command.end(), {"-i", input});
+  Subprocess ffprobe(command, Subprocess::Pipe::kFromChild);
   const std::string text = ffprobe.read_all();
   const int status = ffprobe.finish();
   json found = json::parse(text, nullptr, false);
@@ -52,6 +57,16 @@ json probe(const std::string& input) {
     throw Failure(kExitNoVideo, input + ": has no video stream");
   }
   return found;
+}
+
+void require_file(const std::string& input) {
+  struct stat status {};
+  if (stat(input.c_str(), &status) != 0) {
+    throw Failure(kExitNoInput, input + ": no such file");
+  }
+  if (S_ISDIR(status.st_mode)) {
+    throw Failure(kExitNoInput, input + ": is a directory");
+  }
 }
 
 VideoInfo info_from(const json& probed, const std::string& input) {
@@ -204,15 +219,30 @@ std::string last_line(const std::string& text) {
   return text.substr(begin + 1, end - begin);
 }
 
+InputStreams probe_streams(const std::string& input) {
+  if (is_y4m(input)) {
+    return {.video = true};
+  }
+  require_file(input);
+  if (input.ends_with(".wav")) {
+    return {.sound = true};
+  }
+  InputStreams streams;
+  for (const json& stream : probe(input, "")["streams"]) {
+    const std::string kind = stream.value("codec_type", "");
+    const json disposition = stream.value("disposition", json::object());
+    streams.video |= kind == "video" && disposition.value("attached_pic", 0) == 0;
+    streams.sound |= kind == "audio";
+  }
+  if (!streams.video && !streams.sound) {
+    throw Failure(kExitNoVideo, input + ": has neither video nor sound");
+  }
+  return streams;
+}
+
 VideoInfo probe_video(const std::string& input) {
-  struct stat status {};
-  if (stat(input.c_str(), &status) != 0) {
-    throw Failure(kExitNoInput, input + ": no such file");
-  }
-  if (S_ISDIR(status.st_mode)) {
-    throw Failure(kExitNoInput, input + ": is a directory");
-  }
-  return info_from(probe(input), input);
+  require_file(input);
+  return info_from(probe(input, "v:0"), input);
 }
 
 std::unique_ptr<VideoSource> open_with_ffmpeg(const std::string& input, const VideoRange& range) {

@@ -25,16 +25,31 @@ std::span<const std::byte> bytes(const Blob& blob) {
   return {static_cast<const std::byte*>(blob.data()), blob.size()};
 }
 
+std::string audionet_path(const std::string& models) {
+  return models_directory(models) + "/audionet.mien";
+}
+
 }  // namespace
+
+bool has_audionet(const std::string& models) {
+  return std::filesystem::exists(audionet_path(models));
+}
 
 LoadedTracker::LoadedTracker(const Options& options)
     : basenet(models_directory(options.models) + "/basenet.mien"),
       proposal(models_directory(options.models) + "/proposal.mien"),
       hifinet(blob_if_there(models_directory(options.models) + "/hifinet.mien")) {
+  if (options.sound) {
+    audionet.emplace(audionet_path(options.models));
+  }
   Config config(bytes(basenet), bytes(proposal));
   if (hifinet) {
     config.hifinet = hifinet->data();
     config.hifinet_bytes = hifinet->size();
+  }
+  if (audionet) {
+    config.audionet = audionet->data();
+    config.audionet_bytes = audionet->size();
   }
   config.lod = options.lod.value_or(hifinet ? 4 : 1);
   config.budget_ms = options.budget_ms;

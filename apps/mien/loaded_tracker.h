@@ -18,19 +18,24 @@ struct LoadedTracker {
     float budget_ms = 10.0f;
     bool unfiltered = false;
     int max_faces = 1;
+    bool sound = false;  // it is to hear
   };
 
   // Throws Failure.
   explicit LoadedTracker(const Options& options);
 
   Blob basenet, proposal;
-  std::optional<Blob> hifinet;  // where there is one
+  std::optional<Blob> hifinet;   // where there is one
+  std::optional<Blob> audionet;  // if it is to hear
   Tracker tracker;
   std::size_t tracker_bytes = 0;  // memory of the tracker, the weights not counted
 };
 
 // Throws a Failure that names `where` unless all is well.
 void check(mien_status status, const std::string& where);
+
+// Whether the folder of the models has one for sound.
+bool has_audionet(const std::string& models);
 
 // Takes over a file of `mien neutral`. Throws Failure.
 void load_neutral(const std::string& path, Tracker& tracker);

@@ -1,4 +1,5 @@
-// mien: facial animation from video. docs/cli.md describes the verbs, options and exit codes.
+// mien: facial animation from video and sound. docs/cli.md describes the verbs, options and exit
+// codes.
 #include <mien/mien.h>
 #include <signal.h>
 
@@ -18,13 +19,22 @@ namespace mien::app {
 namespace {
 
 void add_track(CLI::App& program) {
-  auto* verb = program.add_subcommand("track", "Track the face in a video and write its curves");
+  auto* verb = program.add_subcommand(
+      "track", "Track the face in a video, by picture and sound, and write its curves");
   auto options = std::make_shared<TrackOptions>();
-  verb->add_option("INPUT", options->input, "video, image, .y4m, or - for Y4M on standard input")
+  verb->add_option("INPUT", options->input,
+                   "video, image, sound, .wav, .y4m, or - for Y4M on standard input")
       ->required();
   verb->add_option("-o", options->curves, "curves as CSV (default: standard output)");
   verb->add_option("--landmarks", options->landmarks, "landmarks as CSV");
   verb->add_option("--overlay", options->overlay, "video with what was tracked drawn over it");
+  verb->add_option("--audio", options->audio, "file with the sound (default: the input's own)");
+  verb->add_option("--mode", options->mode, "av, video or audio; default: what there is of both")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, Mode>{
+          {"av", Mode::kBoth}, {"video", Mode::kVideo}, {"audio", Mode::kAudio}}));
+  verb->add_option("--av-offset-ms", options->av_offset_ms,
+                   "the sound belongs to pictures so much later than it says")
+      ->check(CLI::Range(-10000.0, 10000.0));
   verb->add_option("--stats", options->stats, "counts and stage times as JSON");
   verb->add_option("--lod", options->lod,
                    "level of detail: 1 (cheapest) to 4, or auto; default: the highest there is")
@@ -93,7 +103,7 @@ void add_compare(CLI::App& program) {
 }
 
 int run(int argc, char** argv) {
-  CLI::App program("Facial animation from video, in real time, on a CPU", "mien");
+  CLI::App program("Facial animation from video and sound, in real time, on a CPU", "mien");
   program.set_version_flag("--version", mien_version());
   program.require_subcommand(1);
   add_track(program);

@@ -1,98 +1,28 @@
 #include "apps/mien/track.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdio>
 #include <memory>
 #include <mien/mien.hpp>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
-#include "apps/mien/curves.h"
 #include "apps/mien/failure.h"
 #include "apps/mien/ffmpeg.h"
 #include "apps/mien/loaded_tracker.h"
 #include "apps/mien/output_file.h"
-#include "apps/mien/overlay.h"
+#include "apps/mien/outputs.h"
 #include "apps/mien/progress.h"
+#include "apps/mien/sound_source.h"
 #include "apps/mien/stage_times.h"
 #include "apps/mien/video_source.h"
 
 namespace mien::app {
 namespace {
-
-// Everything that is written per frame.
-class Outputs {
- public:
-  Outputs(const TrackOptions& options, const VideoInfo& info, const VideoRange& range);
-  void frame(std::int64_t number, const mien_image& image, std::span<const Result> faces);
-  void finish();
-
- private:
-  void rows(std::int64_t number, const Result& face);
-
-  Faces faces_;
-  std::unique_ptr<OutputFile> curves_;
-  std::unique_ptr<OutputFile> landmarks_;
-  std::unique_ptr<Overlay> overlay_;
-  std::unique_ptr<VideoEncoder> encoder_;
-};
-
-Outputs::Outputs(const TrackOptions& options, const VideoInfo& info, const VideoRange& range)
-    : faces_(options.max_faces > 1 ? Faces::kSeveral : Faces::kOne) {
-  if (!options.curves.empty()) {
-    curves_ = std::make_unique<OutputFile>(options.curves);
-    curves_->write(curve_header(faces_));
-  } else {
-    std::fputs(curve_header(faces_).c_str(), stdout);
-  }
-  if (!options.landmarks.empty()) {
-    landmarks_ = std::make_unique<OutputFile>(options.landmarks);
-    landmarks_->write(landmark_header(faces_));
-  }
-  if (!options.overlay.empty()) {
-    overlay_ = std::make_unique<Overlay>(info.width, info.height);
-    const std::string sound_from = options.input == "-" ? "" : options.input;
-    encoder_ = std::make_unique<VideoEncoder>(options.overlay, overlay_->width(),
-                                              overlay_->height(), info.fps, sound_from, range);
-  }
-}
-
-void Outputs::frame(std::int64_t number, const mien_image& image, std::span<const Result> faces) {
-  for (const Result& face : faces) {
-    rows(number, face);
-  }
-  if (overlay_) {
-    encoder_->write(overlay_->draw(image, faces).rgb());
-  }
-}
-
-void Outputs::rows(std::int64_t number, const Result& face) {
-  const std::string row = curve_row(number, faces_, face);
-  if (curves_) {
-    curves_->write(row);
-  } else {
-    std::fputs(row.c_str(), stdout);
-  }
-  if (landmarks_) {
-    landmarks_->write(landmark_row(number, faces_, face));
-  }
-}
-
-void Outputs::finish() {
-  if (encoder_) {
-    encoder_->finish();
-  }
-  if (landmarks_) {
-    landmarks_->finish();
-  }
-  if (curves_) {
-    curves_->finish();
-  } else if (std::fflush(stdout) != 0) {
-    throw Failure(kExitOutput, "standard output: cannot be written");
-  }
-}
 
 void add_times(StageTimes& times, const Result& result) {
   std::uint64_t whole = 0;
@@ -144,31 +74,118 @@ std::vector<Result> results(const Tracker& tracker, const std::string& where) {
   return faces;
 }
 
+// What is looked at and listened to.
+struct Senses {
+  bool video = false;
+  std::string sound;  // where from; empty: nowhere
+};
+
+Senses choose(const TrackOptions& options) {
+  const InputStreams streams = probe_streams(options.input);
+  Senses senses;
+  senses.video = options.mode == Mode::kAny ? streams.video : options.mode != Mode::kAudio;
+  if (options.mode == Mode::kVideo) {
+    return senses;
+  }
+  if (!options.audio.empty()) {
+    senses.sound = options.audio;
+  } else if (streams.sound) {
+    senses.sound = options.input;
+  }
+  const bool demanded = options.mode != Mode::kAny || !senses.video || !options.audio.empty();
+  if (demanded && senses.sound.empty()) {
+    throw Failure(kExitNoSound, options.input + ": has no sound");
+  }
+  if (demanded || has_audionet(options.models)) {
+    return senses;
+  }
+  senses.sound.clear();
+  return senses;
+}
+
+// One source of frames: those of a video, or 30 a second as long as there is sound.
+class Frames {
+ public:
+  Frames(const TrackOptions& options, const VideoRange& range, const Senses& senses,
+         Tracker& tracker)
+      : input_(options.input), start_ns_(std::llround(range.start_s * 1e9)), tracker_(tracker) {
+    if (senses.video) {
+      video_ = open_video(options.input, range);
+    }
+    if (!senses.sound.empty()) {
+      sound_.emplace(senses.sound, range);
+      check(tracker.set_audio_offset(std::llround(options.av_offset_ms * 1e6)), input_);
+    }
+  }
+
+  [[nodiscard]] VideoInfo info() const { return video_ ? video_->info() : VideoInfo(); }
+  [[nodiscard]] const mien_image* image() const { return video_ ? &image_ : nullptr; }
+  [[nodiscard]] std::int64_t number() const { return number_; }
+  [[nodiscard]] std::string where() const { return input_ + ": frame " + std::to_string(number_); }
+
+  // Tracks the next one. False at the end.
+  bool next() {
+    ++number_;
+    return video_ ? next_image() : next_sound();
+  }
+
+ private:
+  bool next_image() {
+    std::int64_t pts_ns = 0;
+    if (!video_->next(image_, pts_ns)) {
+      return false;
+    }
+    if (sound_) {
+      sound_->hear_until(pts_ns, tracker_);
+    }
+    check(tracker_.push_video(image_, pts_ns), where());
+    return true;
+  }
+
+  bool next_sound() {
+    const std::int64_t pts_ns = start_ns_ + number_ * 1'000'000'000 / 30;
+    sound_->hear_until(pts_ns, tracker_);
+    if (!sound_->lasts_until(pts_ns)) {
+      return false;
+    }
+    check(tracker_.advance(pts_ns), where());
+    return true;
+  }
+
+  std::string input_;
+  std::int64_t start_ns_;
+  Tracker& tracker_;
+  std::unique_ptr<VideoSource> video_;
+  std::optional<SoundFeed> sound_;
+  mien_image image_;
+  std::int64_t number_ = -1;
+};
+
 }  // namespace
 
 void track(const TrackOptions& options) {
   const VideoRange range{options.start_s, options.duration_s};
+  const Senses senses = choose(options);
+  if (!senses.video && !options.overlay.empty()) {
+    throw Failure(kExitUsage, "--overlay: there is no picture to draw over");
+  }
   LoadedTracker loaded({options.models, options.tier, options.lod, options.budget_ms,
-                        options.unfiltered, options.max_faces});
+                        options.unfiltered, options.max_faces, !senses.sound.empty()});
   if (!options.neutral.empty()) {
     load_neutral(options.neutral, loaded.tracker);
   }
-  const std::unique_ptr<VideoSource> video = open_video(options.input, range);
-  Outputs outputs(options, video->info(), range);
+  Frames frames(options, range, senses, loaded.tracker);
+  Outputs outputs(options, frames.info(), range);
   StageTimes times;
   Result last;
   {
-    Progress progress(options.quiet, video->info().frames);
-    mien_image image;
-    std::int64_t pts_ns = 0;
-    for (std::int64_t frame = 0; video->next(image, pts_ns); ++frame) {
-      const std::string where = options.input + ": frame " + std::to_string(frame);
-      check(loaded.tracker.push_video(image, pts_ns), where);
-      const std::vector<Result> faces = results(loaded.tracker, where);
-      outputs.frame(frame, image, faces);
+    Progress progress(options.quiet, frames.info().frames);
+    while (frames.next()) {
+      const std::vector<Result> faces = results(loaded.tracker, frames.where());
+      outputs.frame(frames.number(), frames.image(), faces);
       last = faces.front();
       add_times(times, last);
-      progress.update(frame + 1);
+      progress.update(frames.number() + 1);
     }
   }
   outputs.finish();

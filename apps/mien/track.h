@@ -1,16 +1,23 @@
-// `mien track`: a video goes in, curves come out.
+// `mien track`: video and sound go in, curves come out.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
 namespace mien::app {
+
+// What of picture and sound is taken: kAny what there is, the others just that.
+enum class Mode { kAny, kBoth, kVideo, kAudio };
 
 struct TrackOptions {
   std::string input;
   std::string curves;     // empty: standard output
   std::string landmarks;  // empty: none; so for the others
   std::string overlay;
+  std::string audio;  // file with the sound; empty: the input
+  Mode mode = Mode::kAny;
+  double av_offset_ms = 0.0;  // that the sound is late by
   std::string stats;
   std::string neutral;  // file to take into account
   std::string tier;

@@ -5,8 +5,10 @@
 
 namespace mien::app {
 
+bool is_y4m(const std::string& input) { return input == "-" || input.ends_with(".y4m"); }
+
 std::unique_ptr<VideoSource> open_video(const std::string& input, const VideoRange& range) {
-  if (input == "-" || input.ends_with(".y4m")) {
+  if (is_y4m(input)) {
     return open_y4m(input, range);
   }
   return open_with_ffmpeg(input, range);

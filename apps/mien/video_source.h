@@ -32,6 +32,9 @@ class VideoSource {
   virtual bool next(mien_image& image, std::int64_t& pts_ns) = 0;
 };
 
+// Whether that is what the input is.
+bool is_y4m(const std::string& input);
+
 // "-" is a Y4M stream on stdin, a name ending in .y4m a Y4M file; everything else goes through
 // ffmpeg.
 std::unique_ptr<VideoSource> open_video(const std::string& input, const VideoRange& range);
