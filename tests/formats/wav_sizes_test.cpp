@@ -44,6 +44,7 @@ TEST(WavSizes, AChunkMayHaveNoSamples) {
   EXPECT_EQ(heard.format.frames, std::optional<std::uint64_t>(0));
   EXPECT_EQ(heard.ended, WavStatus::kEnd);
   EXPECT_TRUE(heard.samples.empty());
+  EXPECT_TRUE(hear(with_sizes(37, 0, "abcd")).samples.empty()) << "one byte says so";
 }
 
 TEST(WavSizes, TheSizeOfTheRiffChunkCountsForNothing) {
