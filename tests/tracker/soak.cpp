@@ -1,0 +1,192 @@
+#include "tests/tracker/soak.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <random>
+#include <vector>
+
+#include "tests/tracker/blob_tracker.h"
+
+namespace mien::tests {
+namespace {
+
+constexpr double kFrameSeconds = 1.0 / 30.0;
+constexpr double kBurstPeriod = 1.37;  // no multiple of a frame, a block or a window
+constexpr double kBurstReach = 0.3;    // seconds to either side of its middle
+constexpr double kBlockSeconds = 0.01;
+constexpr std::array<std::int32_t, 4> kRates = {48000, 44100, 16000, 8000};
+
+std::size_t resident_bytes() {
+  long total = 0, resident = 0;
+  if (std::FILE* file = std::fopen("/proc/self/statm", "r")) {
+    if (std::fscanf(file, "%ld %ld", &total, &resident) != 2) {
+      resident = 0;
+    }
+    std::fclose(file);
+  }
+  return static_cast<std::size_t>(resident) * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+}
+
+std::int64_t ns(double seconds) { return std::llround(seconds * 1e9); }
+
+double middle_of_burst(std::int64_t burst) {
+  return (static_cast<double>(burst) + 0.5) * kBurstPeriod;
+}
+
+// Noise that swells and fades, straight in decibels: what hears its loudness sees a smooth hill.
+class BurstNoise {
+ public:
+  explicit BurstNoise(unsigned seed) : engine_(seed) {}
+
+  float at(double seconds) {
+    const double middle =
+        middle_of_burst(static_cast<std::int64_t>(std::floor(seconds / kBurstPeriod)));
+    const double away = std::abs(seconds - middle) / kBurstReach;
+    if (away >= 1.0) {
+      return 0.0f;
+    }
+    return noise_(engine_) * static_cast<float>(std::exp(-1.0 - 8.0 * away));
+  }
+
+ private:
+  std::mt19937 engine_;
+  std::uniform_real_distribution<float> noise_{-1.0f, 1.0f};
+};
+
+// The microphone: blocks one after the other on its own clock.
+class Microphone {
+ public:
+  Microphone(const SoakPlan& plan, BlobTracker& blob)
+      : plan_(plan), blob_(blob), engine_(plan.seed), noise_(plan.seed + 1) {}
+
+  // All blocks that end before `seconds`.
+  void record_until(double seconds) {
+    while (now_ + kBlockSeconds < seconds) {
+      block();
+    }
+  }
+
+  [[nodiscard]] double disturbed_at() const { return disturbed_at_; }
+  [[nodiscard]] int gaps() const { return gaps_; }
+  [[nodiscard]] int rate_changes() const { return rate_changes_; }
+
+ private:
+  void block() {
+    misbehave();
+    const std::int32_t rate = kRates[rate_];
+    const double per_sample = 1.0 / (rate * (1.0 + plan_.skew));
+    samples_.resize(static_cast<std::size_t>(kBlockSeconds * rate));
+    for (std::size_t i = 0; i < samples_.size(); ++i) {
+      samples_[i] = noise_.at(now_ + static_cast<double>(i) * per_sample);
+    }
+    Audio audio;
+    audio.sample_rate = rate;
+    audio.frames = samples_.size();
+    audio.samples[0] = samples_.data();
+    const double tremble = plan_.tremble_s * uniform(-1.0, 1.0);
+    EXPECT_EQ(blob_.tracker().push_audio(audio, ns(now_ + tremble)), MIEN_OK);
+    now_ += static_cast<double>(samples_.size()) * per_sample;
+  }
+
+  void misbehave() {
+    if (now_ > next_gap_) {
+      const double lost = std::exp(uniform(std::log(0.03), std::log(3.0)));
+      now_ += lost;
+      disturbed_at_ = now_;
+      next_gap_ = now_ + plan_.seconds_between_gaps * uniform(0.5, 1.5);
+      ++gaps_;
+    }
+    if (now_ > next_rate_) {
+      rate_ = (rate_ + 1 + engine_() % (kRates.size() - 1)) % kRates.size();
+      disturbed_at_ = now_;
+      next_rate_ = now_ + plan_.seconds_between_rates * uniform(0.5, 1.5);
+      ++rate_changes_;
+    }
+  }
+
+  double uniform(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(engine_);
+  }
+
+  const SoakPlan& plan_;
+  BlobTracker& blob_;
+  std::mt19937 engine_;
+  BurstNoise noise_;
+  std::vector<float> samples_;
+  double now_ = 0.0;
+  std::size_t rate_ = 0;
+  double disturbed_at_ = -1.0;
+  double next_gap_ = 20.0;
+  double next_rate_ = 60.0;
+  int gaps_ = 0;
+  int rate_changes_ = 0;
+};
+
+// Where the middle of each burst shows.
+class BurstMeter {
+ public:
+  explicit BurstMeter(SoakReport& report) : report_(report) {}
+
+  void frame(double seconds, float activity, double disturbed_at) {
+    const auto burst = static_cast<std::int64_t>(std::floor(seconds / kBurstPeriod));
+    if (burst != burst_) {
+      finish(disturbed_at);
+      burst_ = burst;
+    }
+    weight_ += activity;
+    moment_ += static_cast<double>(activity) * (seconds - middle_of_burst(burst));
+  }
+
+ private:
+  void finish(double disturbed_at) {
+    const double begin = static_cast<double>(burst_) * kBurstPeriod;
+    if (burst_ >= 0 && disturbed_at < begin - 1.0) {
+      const double error_ms = 1000.0 * moment_ / weight_;
+      ++report_.bursts;
+      report_.mean_error_ms += (error_ms - report_.mean_error_ms) / report_.bursts;
+      report_.largest_error_ms = std::max(report_.largest_error_ms, std::abs(error_ms));
+    }
+    weight_ = moment_ = 0.0;
+  }
+
+  SoakReport& report_;
+  std::int64_t burst_ = -1;
+  double weight_ = 0.0;
+  double moment_ = 0.0;
+};
+
+}  // namespace
+
+SoakReport soak(const SoakPlan& plan) {
+  BlobTracker blob({}, [](mien_tracker_config& config) {
+    config.lod = 1;
+    config.voice_attack_ms = config.voice_release_ms = 0.0f;
+  });
+  const Buffer face(disc_picture(64.0f, 48.0f, 35.0f, 128, 96), {.format = MIEN_IMAGE_GRAY8});
+  const Buffer nothing(Picture(128, 96), {.format = MIEN_IMAGE_GRAY8});
+  Microphone microphone(plan, blob);
+  SoakReport report;
+  BurstMeter meter(report);
+  const auto frames = static_cast<std::int64_t>(plan.seconds / kFrameSeconds);
+  for (; report.frames < frames; ++report.frames) {
+    const double seconds = static_cast<double>(report.frames) * kFrameSeconds;
+    microphone.record_until(seconds + 0.1);
+    const bool is_away = report.frames % 3000 < 60;
+    const Result result = blob.push((is_away ? nothing : face).image(), ns(seconds));
+    meter.frame(seconds, result.voice_activity, microphone.disturbed_at());
+    if (report.frames == frames / 10) {
+      report.resident_bytes_early = resident_bytes();
+    }
+    report.frames_with_face = static_cast<std::int64_t>(result.face_frames);
+  }
+  report.resident_bytes_late = resident_bytes();
+  report.gaps = microphone.gaps();
+  report.rate_changes = microphone.rate_changes();
+  return report;
+}
+
+}  // namespace mien::tests

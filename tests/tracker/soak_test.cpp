@@ -1,0 +1,23 @@
+// The short form of scripts/evaluate/soak.sh.
+#include "tests/tracker/soak.h"
+
+#include <gtest/gtest.h>
+
+namespace mien::tests {
+namespace {
+
+TEST(Soak, PictureAndSoundStayTogether) {
+  for (const double skew : {50e-6, -50e-6}) {
+    const SoakReport report = soak(
+        {.seconds = 150, .skew = skew, .seconds_between_gaps = 15, .seconds_between_rates = 22});
+    EXPECT_GT(report.bursts, 40);
+    EXPECT_GT(report.gaps, 4);
+    EXPECT_GT(report.rate_changes, 2);
+    EXPECT_GT(report.frames_with_face, report.frames * 9 / 10);
+    EXPECT_LT(report.largest_error_ms, 20.0);
+    EXPECT_LT(report.resident_bytes_late, report.resident_bytes_early + (1u << 20));
+  }
+}
+
+}  // namespace
+}  // namespace mien::tests
