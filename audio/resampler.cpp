@@ -89,8 +89,8 @@ bool Resampler::fetch(float& output) {
   const std::int64_t phase = place / kOutputRate;
   const float share = static_cast<float>(place % kOutputRate) / kOutputRate;
   float of_phase[2];
-  matrix_vector_(
-      {filter_.data() + 2 * half_ * phase, history_.data() + whole_, of_phase, 2, 2 * half_});
+  matrix_vector_({filter_.data() + std::ptrdiff_t{2} * half_ * phase, history_.data() + whole_,
+                  of_phase, 2, 2 * half_});
   output = of_phase[0] + share * (of_phase[1] - of_phase[0]);
   advance();
   return true;

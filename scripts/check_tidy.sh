@@ -7,7 +7,7 @@ cd "$(dirname "$0")/.."
 build=${1:?build directory with compile_commands.json}
 shift
 folders=("$@")
-[ $# -gt 0 ] || folders=(kernels formats engine tracker apps)
+[ $# -gt 0 ] || folders=(kernels formats engine audio tracker apps)
 
 # A consumer of an installed mien (tests/install) is no part of the build.
 git ls-files -- "${folders[@]/%//*.cpp}" ':!tests/install' |
