@@ -13,6 +13,7 @@
 #include "apps/mien/clip_bench.h"
 #include "apps/mien/failure.h"
 #include "apps/mien/model_files.h"
+#include "apps/mien/sound_bench.h"
 #include "apps/mien/tiers.h"
 
 namespace mien::app {
@@ -174,6 +175,9 @@ void print_table(const std::map<std::string, double>& peaks, const std::vector<F
 void bench(const BenchOptions& options) {
   if (!options.clip.empty()) {
     return bench_clip(options);
+  }
+  if (options.sound) {
+    return bench_sound(options);
   }
   std::map<std::string, double> peaks;
   for (const std::string& tier : tiers_to_time(options.tier)) {

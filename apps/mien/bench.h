@@ -1,4 +1,4 @@
-// `mien bench`: time of each network, or of the tracker on a clip, on one core.
+// `mien bench`: time of each network, of the tracker on a clip, or of sound, on one core.
 #pragma once
 
 #include <string>
@@ -9,7 +9,8 @@ struct BenchOptions {
   std::string model;  // empty: all
   std::string tier;   // empty: all this CPU has
   std::string models;
-  std::string clip;  // empty: the networks
+  std::string clip;    // not empty: the tracker on it
+  bool sound = false;  // time hearing
   bool json = false;
 };
 

@@ -228,7 +228,8 @@ InputStreams probe_streams(const std::string& input) {
     return {.sound = true};
   }
   InputStreams streams;
-  for (const json& stream : probe(input, "")["streams"]) {
+  const json probed = probe(input, "");
+  for (const json& stream : probed["streams"]) {
     const std::string kind = stream.value("codec_type", "");
     const json disposition = stream.value("disposition", json::object());
     streams.video |= kind == "video" && disposition.value("attached_pic", 0) == 0;

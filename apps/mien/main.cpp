@@ -78,13 +78,17 @@ void add_inspect(CLI::App& program) {
 }
 
 void add_bench(CLI::App& program) {
-  auto* verb =
-      program.add_subcommand("bench", "Time the networks, or tracking a clip, on one core");
+  auto* verb = program.add_subcommand(
+      "bench", "Time the networks, tracking a clip, or hearing, on one core");
   auto options = std::make_shared<BenchOptions>();
   auto* model =
       verb->add_option("--model", options->model, "one network only, for instance basenet_encoder");
-  verb->add_option("--clip", options->clip, "video: following the face against searching it")
-      ->excludes(model);
+  auto* clip =
+      verb->add_option("--clip", options->clip, "video: following the face against searching it")
+          ->excludes(model);
+  verb->add_flag("--sound", options->sound, "hearing: from samples to controls, by 16 ms")
+      ->excludes(model)
+      ->excludes(clip);
   verb->add_option("--tier", options->tier, "one tier only: ref, avx2");
   verb->add_option("--models", options->models, "folder of the model files");
   verb->add_flag("--json", options->json, "as JSON");

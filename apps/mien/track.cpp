@@ -87,19 +87,15 @@ Senses choose(const TrackOptions& options) {
   if (options.mode == Mode::kVideo) {
     return senses;
   }
-  if (!options.audio.empty()) {
-    senses.sound = options.audio;
-  } else if (streams.sound) {
-    senses.sound = options.input;
-  }
+  const std::string& source = options.audio.empty() ? options.input : options.audio;
+  const bool has_sound = options.audio.empty() ? streams.sound : probe_streams(source).sound;
   const bool demanded = options.mode != Mode::kAny || !senses.video || !options.audio.empty();
-  if (demanded && senses.sound.empty()) {
-    throw Failure(kExitNoSound, options.input + ": has no sound");
+  if (demanded && !has_sound) {
+    throw Failure(kExitNoSound, source + ": has no sound");
   }
-  if (demanded || has_audionet(options.models)) {
-    return senses;
+  if (demanded || (has_sound && has_audionet(options.models))) {
+    senses.sound = source;
   }
-  senses.sound.clear();
   return senses;
 }
 
