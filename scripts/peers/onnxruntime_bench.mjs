@@ -1,24 +1,25 @@
-// Times every *.onnx of a folder in ONNX Runtime on one thread. usage: node onnxruntime_bench.mjs DIR
+// Times the networks of a folder's shapes.json in ONNX Runtime on one thread. usage: node onnxruntime_bench.mjs DIR
 import { createRequire } from 'node:module';
-import { readdirSync } from 'node:fs';
+import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 
 const directory = process.argv[2];
 const ort = createRequire(join(directory, 'package.json'))('onnxruntime-node');
 const WARM_UP = 200;
 const RUNS = 2000;
-const SHAPES = { basenet_encoder: [1, 3, 65, 65], hifinet_encoder: [1, 3, 129, 109] };
+const shapes = JSON.parse(readFileSync(join(directory, 'shapes.json'), 'utf8'));
 
 const results = {};
-for (const file of readdirSync(directory).filter((name) => name.endsWith('.onnx'))) {
-  const name = file.slice(0, -'.onnx'.length);
-  const session = await ort.InferenceSession.create(join(directory, file), {
+for (const [name, inputs] of Object.entries(shapes)) {
+  const session = await ort.InferenceSession.create(join(directory, `${name}.onnx`), {
     intraOpNumThreads: 1, interOpNumThreads: 1, executionMode: 'sequential',
     graphOptimizationLevel: 'all',
   });
-  const shape = SHAPES[name];
-  const pixels = Float32Array.from({ length: shape.reduce((a, b) => a * b) }, () => Math.random() * 2 - 1);
-  const feed = { [session.inputNames[0]]: new ort.Tensor('float32', pixels, shape) };
+  const feed = {};
+  for (const [input, shape] of Object.entries(inputs)) {
+    const values = Float32Array.from({ length: shape.reduce((a, b) => a * b) }, () => Math.random() * 2 - 1);
+    feed[input] = new ort.Tensor('float32', values, shape);
+  }
   const times = [];
   for (let i = 0; i < WARM_UP + RUNS; ++i) {
     const begin = process.hrtime.bigint();
