@@ -4,13 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
-#include <fstream>
-#include <iterator>
-#include <string>
 #include <vector>
 
 #include "kernels/tier.h"
+#include "tests/audio/golden.h"
 
 namespace mien::tests {
 namespace {
@@ -22,14 +19,6 @@ using audio::Mfcc;
 constexpr std::size_t kSignals = 5;
 constexpr std::size_t kWindows = 15;
 constexpr double kTolerance = 1e-4;  // of a window's largest coefficient
-
-std::vector<float> golden(const std::string& name) {
-  std::ifstream file(std::string(MIEN_SOURCE_DIR "/tests/golden/audio/") + name, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  std::vector<float> values(bytes.size() / sizeof(float));
-  std::memcpy(values.data(), bytes.data(), values.size() * sizeof(float));
-  return values;
-}
 
 using Window = std::span<const float, kWindowSamples>;
 using Coefficients = std::array<float, kCoefficients>;
