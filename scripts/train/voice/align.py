@@ -1,0 +1,102 @@
+#!/usr/bin/env python3
+"""Labels with times for real speech, by a network of phase 1: forced alignment of transcripts, and for speech without
+transcript of what the network itself hears (self-training, Lee 2013 "Pseudo-label").
+
+usage: python3 -m voice.align CHECKPOINT [--groups librispeech_text av librispeech commands]      (in scripts/train)
+"""
+import argparse
+from pathlib import Path
+
+import numpy as np
+import torch
+
+from voice import corpus, espeak, labels, phonemes
+from voice.features import RATE, STEP, features
+from voice.recognise import greedy, load
+
+LETTERS = {"a": "ay", "z": "zed"}  # GRID's readers are British, and say A by its name
+SILENCE_BONUS = 0.0
+
+
+def words_of(group, name, text):
+    """Phonemes of each word that is said; None if nobody knows."""
+    if group == "librispeech_text":
+        return espeak.words_to_phonemes(text[name]) if name in text else None
+    if group == "av":
+        return [sum(espeak.words_to_phonemes(LETTERS.get(word, word)), ()) for word, _, _ in corpus.words_of_clip(name)]
+    return None
+
+
+def states_of(words):
+    """One state per phoneme, silences between words that may be skipped: (phonemes, may be skipped)."""
+    states = [phonemes.SILENCE]
+    for word in words:
+        states += [*word, phonemes.SILENCE]
+    states = np.array(states)
+    return states, states == phonemes.SILENCE
+
+
+def viterbi(scores, states, optional):
+    """State of every frame, the best path of scores [t, phonemes] (Viterbi 1967) through all states in their order."""
+    count, emitted = len(states), scores[:, states]
+    best = np.full(count, -np.inf)
+    best[0] = emitted[0, 0]
+    best[1:2] = emitted[0, 1:2]
+    moves = np.zeros((len(scores), count), np.int8)
+    skip = np.zeros(count, bool)
+    skip[2:] = optional[1:-1]
+    for t in range(1, len(scores)):
+        one = np.concatenate([[-np.inf], best[:-1]])
+        two = np.where(skip, np.concatenate([[-np.inf] * 2, best[:-2]]), -np.inf)
+        options = np.stack([best, one, two])
+        moves[t] = options.argmax(0)
+        best = options.max(0) + emitted[t]
+    at = count - 1 if best[-1] >= best[-2] else count - 2
+    path = [at]
+    for t in range(len(scores) - 1, 0, -1):
+        at -= moves[t, at]
+        path.append(at)
+    return np.array(path[::-1])
+
+
+def timed(scores, words, seconds):
+    """Spoken, or None when there are more phonemes than steps."""
+    states, optional = states_of(words)
+    if len(states) > len(scores):
+        return None
+    path = viterbi(scores, states, optional)
+    changes = np.flatnonzero(np.diff(path, prepend=-1))
+    starts = np.maximum((changes - 2) * STEP, 0)  # a step speaks of the middle of its windows
+    return labels.Spoken([int(states[path[c]]) for c in changes], [float(t) for t in starts], seconds)
+
+
+@torch.no_grad()
+def align(group_name, network, heads):
+    group, text, out = corpus.Group(group_name), corpus.transcripts(), {}
+    for sound in group.sounds:
+        samples = np.float32(group.samples(sound)) / 32768
+        samples = np.concatenate([samples, np.zeros(RATE // 10, np.float32)])  # what is said last is heard later
+        embedding = network(torch.from_numpy(features(samples))[None])[0]
+        sequence, frame = heads(embedding)
+        words = words_of(group_name, sound.name, text) or [(p,) for p in greedy(sequence[0])]
+        spoken = timed(torch.log_softmax(frame[0], -1).numpy(), words, sound.length / RATE) if words else None
+        if spoken:
+            out[sound.name] = spoken
+    return out
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("checkpoint", type=Path)
+    parser.add_argument("--groups", nargs="+", default=["librispeech_text", "av", "librispeech", "commands"])
+    args = parser.parse_args()
+    torch.set_num_threads(1)
+    network, heads = load(args.checkpoint)
+    for group in args.groups:
+        spoken = align(group, network, heads)
+        labels.write(group, spoken)
+        print(group, len(spoken), "of", len(corpus.Group(group).sounds), flush=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,153 @@
+"""What happens to speech before it reaches a microphone's reader: noise, rooms, other voices, levels, codecs, bad microphones.
+
+Sounds are float32 at 16 kHz, full scale 1.
+"""
+import functools
+
+import numpy as np
+from scipy.signal import butter, fftconvolve, lfilter
+
+from voice import corpus
+from voice.features import RATE
+
+
+def played(sound, speed):
+    """Resampled to be `speed` times as fast: pitch and formants move too, as of a smaller person."""
+    count = int(len(sound) / speed)
+    return np.interp(np.arange(count) * speed, np.arange(len(sound)), sound).astype(np.float32)
+
+
+def power(sound):
+    return float(np.mean(sound ** 2)) + 1e-12
+
+
+def speech_power(sound):
+    """Of its louder parts, so that pauses do not count: of the windows within 20 dB of the loudest."""
+    windows = sound[:len(sound) // 400 * 400].reshape(-1, 400)
+    powers = np.mean(windows ** 2, 1) if len(windows) else np.array([power(sound)])
+    return float(powers[powers >= 0.01 * powers.max()].mean()) + 1e-12
+
+
+def mixed(sound, noise, decibels):
+    """At that ratio of speech to noise."""
+    return sound + noise * np.sqrt(speech_power(sound) / power(noise) * 10 ** (-decibels / 10))
+
+
+@functools.lru_cache(None)
+def rooms(split):
+    """Impulse responses whose direct sound comes at once, of energy 1."""
+    group = corpus.Group("rooms")
+    out = []
+    for s in group.of(split):
+        response = np.float32(group.samples(s)) / 32768
+        response = response[np.argmax(np.abs(response)):][:RATE]
+        out.append(response / np.sqrt(np.sum(response ** 2)))
+    return out
+
+
+def in_room(sound, response):
+    return fftconvolve(sound, response)[:len(sound)].astype(np.float32)
+
+
+@functools.lru_cache(None)
+def noises(split):
+    group = corpus.Group("noise")
+    return group, group.of(split)
+
+
+def recorded_noise(rng, split, count):
+    group, sounds = noises(split)
+    sound = sounds[rng.integers(len(sounds))]
+    samples = group.samples(sound)
+    at = rng.integers(max(len(samples) - count, 0) + 1)
+    return np.float32(np.resize(samples[at:at + count], count)) / 32768
+
+
+def coloured_noise(rng, count):
+    """White to brown."""
+    return lfilter([1], [1, -rng.choice([0, 0.5, 0.9, 0.98])], rng.standard_normal(count)).astype(np.float32)
+
+
+def music(rng, count):
+    """Chords of harmonic tones that begin together, now and then a drum: no music, but its spectrum."""
+    t, out = np.arange(count) / RATE, np.zeros(count)
+    beat = rng.uniform(0.15, 0.7)
+    for start in np.arange(0, count / RATE, beat):
+        since = np.maximum(t - start, 0)
+        within = (t >= start) * np.exp(-since * rng.uniform(1, 8))
+        root = 55 * 2 ** (rng.integers(0, 36) / 12)
+        for interval in rng.choice([0, 3, 4, 7, 10, 12], rng.integers(1, 4), replace=False):
+            pitch = root * 2 ** (interval / 12) * (1 + 0.004 * np.sin(2 * np.pi * 5 * t) * rng.integers(2))
+            slope = rng.uniform(0.5, 2.5)
+            for k in range(1, int(rng.integers(2, 8))):
+                out += within * np.sin(2 * np.pi * k * pitch * since + rng.uniform(6)) / k ** slope
+        if rng.random() < 0.5:
+            out += (t >= start) * np.exp(-since * rng.uniform(15, 60)) * rng.standard_normal(count) * rng.uniform(0.5, 3)
+    return np.float32(out)
+
+
+def impulses(rng, count):
+    """Clicks, knocks and claps."""
+    out = np.zeros(count, np.float32)
+    for _ in range(rng.integers(1, 8)):
+        at, length = rng.integers(count), int(RATE * rng.uniform(0.002, 0.15))
+        t = np.arange(min(length, count - at)) / RATE
+        body = rng.standard_normal(len(t)) if rng.random() < 0.6 else np.sin(2 * np.pi * rng.uniform(80, 3000) * t)
+        out[at:at + len(t)] += rng.uniform(0.2, 1) * np.exp(-t * 5 * RATE / length) * body
+    return out
+
+
+def some_noise(rng, split, count):
+    kind = rng.random()
+    if kind < 0.55:
+        return recorded_noise(rng, split, count)
+    return coloured_noise(rng, count) if kind < 0.75 else music(rng, count) if kind < 0.9 else impulses(rng, count)
+
+
+def band_limited(rng, sound):
+    """A telephone, a small loudspeaker, a cheap microphone."""
+    if rng.random() < 0.6:
+        sound = lfilter(*butter(2, rng.uniform(2500, 7000) / (RATE / 2)), sound)
+    if rng.random() < 0.6:
+        sound = lfilter(*butter(1, rng.uniform(60, 400) / (RATE / 2), "high"), sound)
+    return np.float32(sound)
+
+
+def mu_law(sound, bits=8):
+    """ITU-T G.711's curve."""
+    levels = 2 ** (bits - 1)
+    bent = np.sign(sound) * np.log1p(255 * np.abs(sound)) / np.log(256)
+    steps = np.rint(bent * levels) / levels
+    return np.float32(np.sign(steps) * (256 ** np.abs(steps) - 1) / 255)
+
+
+def clipped(sound, share):
+    """Beyond that share of its peak."""
+    limit = share * np.abs(sound).max() + 1e-6
+    return np.clip(sound, -limit, limit)
+
+
+def at_level(sound, decibels):
+    """Speech at that level below full scale."""
+    return sound * np.float32(np.sqrt(10 ** (decibels / 10) / speech_power(sound)))
+
+
+def spoiled(rng, sound, split, hard=1.0):
+    """As a microphone may have it; `hard` scales how often. Speech is between -45 and -12 dB of full scale then."""
+    if rng.random() < 0.3 * hard:
+        response = rooms(split)[rng.integers(len(rooms(split)))]
+        wet = rng.uniform(0.2, 1)
+        sound = (1 - wet) * sound + wet * at_level(in_room(sound, response), 10 * np.log10(speech_power(sound)))
+    if rng.random() < 0.2 * hard:
+        sound = band_limited(rng, sound)
+    if rng.random() < 0.7 * hard:
+        sound = mixed(sound, some_noise(rng, split, len(sound)), rng.uniform(-5, 30))
+    sound = at_level(sound, rng.uniform(-45, -12))
+    if rng.random() < 0.06 * hard:
+        sound = clipped(sound, rng.uniform(0.1, 0.6))
+    if rng.random() < 0.08 * hard:
+        sound = mu_law(np.clip(sound, -1, 1), int(rng.integers(6, 9)))
+    if rng.random() < 0.5:
+        sound = sound + np.float32(rng.uniform(-0.02, 0.02)) * (rng.random() < 0.3)
+        sound = sound + np.float32(10 ** rng.uniform(-5, -3)) * rng.standard_normal(len(sound)).astype(np.float32)
+    return np.clip(np.float32(sound), -1, 1)

@@ -1,0 +1,125 @@
+"""Training examples: a few seconds of spoiled speech, or of noise alone, with what is said at every step."""
+from dataclasses import dataclass
+
+import numpy as np
+import torch
+
+from voice import corpus, effects, labels, phonemes
+from voice.features import FEATURES, RATE, WINDOW, features, seconds_of_steps
+
+SHARES = {"synthetic": 0.42, "librispeech_text": 0.2, "librispeech": 0.2, "commands": 0.09, "av": 0.09}
+NOISE_ALONE = 0.08
+
+
+@dataclass
+class Scene:
+    sound: np.ndarray      # f32 [samples]
+    spoken: labels.Spoken
+    group: str = ""        # of what is said
+    name: str = ""
+    at: float = 0.0        # where in the scene it begins, seconds
+    origin: float = 0.0    # and where in its recording
+    speed: float = 1.0
+
+
+class Speech:
+    """Utterances of a split, with phonemes and times; groups without labels are left out."""
+
+    def __init__(self, split, shares=SHARES):
+        self.groups, self.spoken, self.sounds, self.shares = {}, {}, {}, {}
+        for name, share in shares.items():
+            spoken = labels.read(name)
+            group = corpus.Group(name)
+            sounds = [s for s in group.of(split) if s.name in spoken]
+            if sounds:
+                self.groups[name], self.spoken[name], self.sounds[name], self.shares[name] = group, spoken, sounds, share
+
+    def pick(self, rng):
+        names = list(self.shares)
+        weights = np.array([self.shares[n] for n in names])
+        name = names[rng.choice(len(names), p=weights / weights.sum())]
+        sounds = self.sounds[name]
+        return name, sounds[rng.integers(len(sounds))]
+
+    def part(self, rng, seconds, speeds):
+        """(sound, spoken, group, name, where it begins in the recording, speed): from one phoneme's start to another's end."""
+        name, sound = self.pick(rng)
+        spoken = self.spoken[name][sound.name]
+        speed = float(np.exp(rng.uniform(*np.log(speeds))))
+        first = rng.integers(len(spoken.starts)) if spoken.end > seconds * speed else 0
+        start = spoken.starts[first] if first else 0.0
+        stops = np.array([*spoken.starts[1:], spoken.end])
+        fitting = np.flatnonzero((stops > start) & (stops <= start + seconds * speed))
+        end = stops[fitting[-1]] if len(fitting) else min(start + seconds * speed, spoken.end)
+        samples = self.groups[name].samples(sound)[int(start * RATE):int(end * RATE)]
+        sound_part = effects.played(np.float32(samples) / 32768, speed)
+        return sound_part, spoken.between(start, end, speed), name, sound.name, start, speed
+
+
+def silent(seconds):
+    return labels.Spoken([phonemes.SILENCE], [0.0], seconds)
+
+
+def faded(sound, samples=80):
+    """Cut speech must not click."""
+    out, ramp = sound.copy(), np.linspace(0, 1, samples, dtype=np.float32)
+    if len(out) > 2 * samples:
+        out[:samples] *= ramp
+        out[-samples:] *= ramp[::-1]
+    return out
+
+
+def speech_scene(rng, speech, split, seconds, speeds=(0.85, 1.2), hard=1.0):
+    count = int(seconds * RATE)
+    lead = rng.uniform(0, 0.5) * (rng.random() < 0.6)
+    part, spoken, group, name, origin, speed = speech.part(rng, seconds - lead, speeds)
+    at = int(lead * RATE)
+    sound = np.zeros(count, np.float32)
+    part = faded(part)[:count - at]
+    sound[at:at + len(part)] = effects.at_level(part, -20)
+    placed = labels.Spoken([phonemes.SILENCE, *spoken.labels, phonemes.SILENCE],
+                           [0.0, *(t + lead for t in spoken.starts), spoken.end + lead], seconds)
+    return Scene(effects.spoiled(rng, sound, split, hard), placed, group, name, lead, origin, speed)
+
+
+def noise_scene(rng, split, seconds):
+    sound = effects.some_noise(rng, split, int(seconds * RATE))
+    if rng.random() < 0.2:
+        sound = effects.in_room(sound, effects.rooms(split)[rng.integers(len(effects.rooms(split)))])
+    sound = effects.at_level(sound, rng.uniform(-60, -12)) if rng.random() < 0.95 else 0 * sound
+    return Scene(np.clip(sound, -1, 1), silent(seconds))
+
+
+def steps_of(seconds):
+    return int(seconds * RATE) // WINDOW
+
+
+class PhonemeBatches(torch.utils.data.IterableDataset):
+    """(features [b,t,130], phoneme of each step [b,t], CTC targets, their lengths), for ever, from a seed."""
+
+    def __init__(self, split, batch, seconds, seed, hard=1.0, shares=SHARES):
+        self.speech, self.split, self.batch, self.seconds = Speech(split, shares), split, batch, seconds
+        self.seed, self.hard = seed, hard
+
+    def __iter__(self):
+        worker = torch.utils.data.get_worker_info()
+        rng = np.random.default_rng((self.seed, worker.id if worker else 0))
+        while True:
+            yield self.make(rng)
+
+    def make(self, rng):
+        scenes = [noise_scene(rng, self.split, self.seconds) if rng.random() < NOISE_ALONE else
+                  speech_scene(rng, self.speech, self.split, self.seconds, hard=self.hard) for _ in range(self.batch)]
+        x = features(np.stack([s.sound for s in scenes]))
+        frames = np.stack([s.spoken.of_steps(x.shape[1]) for s in scenes])
+        sequences = [s.spoken.sequence() for s in scenes]
+        return (torch.from_numpy(np.float32(x)), torch.from_numpy(frames), torch.tensor([p for s in sequences for p in s]),
+                torch.tensor([len(s) for s in sequences]))
+
+
+def normalisation(batches=8, seed=7):
+    """Mean and deviation of the features over training scenes."""
+    data = PhonemeBatches("train", 32, 4.0, seed, shares={"synthetic": 0.5})
+    rng = np.random.default_rng(seed)
+    x = torch.cat([data.make(rng)[0].reshape(-1, FEATURES) for _ in range(batches)])
+    return x.mean(0), x.std(0)
