@@ -5,21 +5,41 @@ import numpy as np
 import torch
 
 from voice import corpus, effects, labels, phonemes
-from voice.features import FEATURES, RATE, WINDOW, features, seconds_of_steps
+from voice.features import FEATURES, RATE, features
 
 SHARES = {"synthetic": 0.42, "librispeech_text": 0.2, "librispeech": 0.2, "commands": 0.09, "av": 0.09}
 NOISE_ALONE = 0.08
+SHORTEST_PART = 0.8  # seconds
+
+
+@dataclass
+class Part:
+    """Speech in a scene."""
+    sound: np.ndarray      # f32 [samples], clean
+    spoken: labels.Spoken
+    group: str
+    name: str
+    origin: float          # where in its recording it begins, seconds
+    speed: float           # how much faster it is played
+    at: float = 0.0        # where in the scene it begins
+
+    def recorded_at(self, times):
+        """Times of the scene as times of the recording, and which of them are within the part."""
+        since = times - self.at
+        return self.origin + since * self.speed, (since >= 0) & (since < len(self.sound) / RATE)
 
 
 @dataclass
 class Scene:
     sound: np.ndarray      # f32 [samples]
-    spoken: labels.Spoken
-    group: str = ""        # of what is said
-    name: str = ""
-    at: float = 0.0        # where in the scene it begins, seconds
-    origin: float = 0.0    # and where in its recording
-    speed: float = 1.0
+    parts: list
+
+    def spoken(self):
+        ids, starts = [phonemes.SILENCE], [0.0]
+        for part in self.parts:
+            ids += [*part.spoken.labels, phonemes.SILENCE]
+            starts += [*(t + part.at for t in part.spoken.starts), part.spoken.end + part.at]
+        return labels.Spoken(ids, starts, len(self.sound) / RATE)
 
 
 class Speech:
@@ -42,7 +62,7 @@ class Speech:
         return name, sounds[rng.integers(len(sounds))]
 
     def part(self, rng, seconds, speeds):
-        """(sound, spoken, group, name, where it begins in the recording, speed): from one phoneme's start to another's end."""
+        """From one phoneme's start to another's end."""
         name, sound = self.pick(rng)
         spoken = self.spoken[name][sound.name]
         speed = float(np.exp(rng.uniform(*np.log(speeds))))
@@ -52,12 +72,8 @@ class Speech:
         fitting = np.flatnonzero((stops > start) & (stops <= start + seconds * speed))
         end = stops[fitting[-1]] if len(fitting) else min(start + seconds * speed, spoken.end)
         samples = self.groups[name].samples(sound)[int(start * RATE):int(end * RATE)]
-        sound_part = effects.played(np.float32(samples) / 32768, speed)
-        return sound_part, spoken.between(start, end, speed), name, sound.name, start, speed
-
-
-def silent(seconds):
-    return labels.Spoken([phonemes.SILENCE], [0.0], seconds)
+        played = effects.played(np.float32(samples) / 32768, speed)
+        return Part(effects.at_level(faded(played), -20), spoken.between(start, end, speed), name, sound.name, float(start), speed)
 
 
 def faded(sound, samples=80):
@@ -70,16 +86,19 @@ def faded(sound, samples=80):
 
 
 def speech_scene(rng, speech, split, seconds, speeds=(0.85, 1.2), hard=1.0):
-    count = int(seconds * RATE)
-    lead = rng.uniform(0, 0.5) * (rng.random() < 0.6)
-    part, spoken, group, name, origin, speed = speech.part(rng, seconds - lead, speeds)
-    at = int(lead * RATE)
-    sound = np.zeros(count, np.float32)
-    part = faded(part)[:count - at]
-    sound[at:at + len(part)] = effects.at_level(part, -20)
-    placed = labels.Spoken([phonemes.SILENCE, *spoken.labels, phonemes.SILENCE],
-                           [0.0, *(t + lead for t in spoken.starts), spoken.end + lead], seconds)
-    return Scene(effects.spoiled(rng, sound, split, hard), placed, group, name, lead, origin, speed)
+    """Parts of utterances one after the other, with pauses or without."""
+    sound, parts, at = np.zeros(int(seconds * RATE), np.float32), [], 0.0
+    while True:
+        at += rng.uniform(0, 0.8) * (rng.random() < 0.6)
+        if seconds - at < SHORTEST_PART:
+            break
+        part = speech.part(rng, seconds - at, speeds)
+        first = int(at * RATE)
+        part.at, part.sound = first / RATE, part.sound[:len(sound) - first]
+        sound[first:first + len(part.sound)] = part.sound
+        parts.append(part)
+        at = part.at + part.spoken.end
+    return Scene(effects.spoiled(rng, sound, split, hard), parts)
 
 
 def noise_scene(rng, split, seconds):
@@ -87,11 +106,7 @@ def noise_scene(rng, split, seconds):
     if rng.random() < 0.2:
         sound = effects.in_room(sound, effects.rooms(split)[rng.integers(len(effects.rooms(split)))])
     sound = effects.at_level(sound, rng.uniform(-60, -12)) if rng.random() < 0.95 else 0 * sound
-    return Scene(np.clip(sound, -1, 1), silent(seconds))
-
-
-def steps_of(seconds):
-    return int(seconds * RATE) // WINDOW
+    return Scene(np.clip(sound, -1, 1), [])
 
 
 class PhonemeBatches(torch.utils.data.IterableDataset):
@@ -111,8 +126,8 @@ class PhonemeBatches(torch.utils.data.IterableDataset):
         scenes = [noise_scene(rng, self.split, self.seconds) if rng.random() < NOISE_ALONE else
                   speech_scene(rng, self.speech, self.split, self.seconds, hard=self.hard) for _ in range(self.batch)]
         x = features(np.stack([s.sound for s in scenes]))
-        frames = np.stack([s.spoken.of_steps(x.shape[1]) for s in scenes])
-        sequences = [s.spoken.sequence() for s in scenes]
+        spoken = [s.spoken() for s in scenes]
+        frames, sequences = np.stack([s.of_steps(x.shape[1]) for s in spoken]), [s.sequence() for s in spoken]
         return (torch.from_numpy(np.float32(x)), torch.from_numpy(frames), torch.tensor([p for s in sequences for p in s]),
                 torch.tensor([len(s) for s in sequences]))
 

@@ -1,0 +1,33 @@
+"""When somebody speaks, from the energy of clean speech: the truth for voice activity.
+
+Speech is what is within 30 dB of the louder parts and above the floor; pauses below 0.2 s, as of stops, belong to it.
+"""
+import numpy as np
+from scipy.ndimage import binary_closing, binary_opening
+
+from voice.features import RATE, WINDOW
+
+BELOW_LOUD, ABOVE_FLOOR = 30.0, 8.0  # dB
+SMOOTH = 3                           # windows
+LONGEST_PAUSE, SHORTEST = 13, 4      # windows of 16 ms
+
+
+def of_windows(sound):
+    """bool [windows]"""
+    windows = np.float32(sound[:len(sound) // WINDOW * WINDOW]).reshape(-1, WINDOW)
+    if not len(windows):
+        return np.zeros(0, bool)
+    powers = np.convolve(np.mean((windows - windows.mean()) ** 2, 1), np.ones(SMOOTH) / SMOOTH, "same")
+    level = 10 * np.log10(powers + 1e-10)
+    loud, floor = np.percentile(level, 95), np.percentile(level, 3)
+    active = level > max(loud - BELOW_LOUD, min(floor + ABOVE_FLOOR, loud - 12))
+    padded = np.pad(active, LONGEST_PAUSE)
+    closed = binary_closing(padded, np.ones(LONGEST_PAUSE))[LONGEST_PAUSE:-LONGEST_PAUSE]
+    return binary_opening(closed, np.ones(SHORTEST))
+
+
+def at(active, times):
+    """Of a recording's windows, at `times` in seconds; silence outside."""
+    k = np.floor(times * RATE / WINDOW).astype(int)
+    inside = (k >= 0) & (k < len(active))
+    return inside & active[np.clip(k, 0, max(len(active) - 1, 0))] if len(active) else inside

@@ -1,0 +1,144 @@
+#!/usr/bin/env python3
+"""Writes models/audionet.mien from the checkpoints of both phases, and checks that folding changed nothing.
+
+usage: python3 -m voice.export ENCODER.pt DECODERS.pt [--out FOLDER] [--golden FOLDER]      (in scripts/train)
+--golden: 60 steps of features and what the file's networks answer, with weights as the file has them (fp16), as f32 files.
+"""
+import argparse
+import copy
+import json
+from pathlib import Path
+
+import numpy as np
+import torch
+import torch.nn.functional as F
+
+from expressions import CONTROLS
+from export import LICENCE, loaded, plain
+from mien_file import MienFile
+from networks import LEAK
+from paths import ROOT
+from voice.audio_net import EMBEDDING, SPEECH_CONTROLS, Encoder, activity_decoder, controls_decoder
+from voice.features import FEATURES, RATE, features
+
+# What sound has to say of a control while somebody speaks; video has the rest. Lips that meet for a p are seen too late and too
+# briefly at 30 frames a second, and sound knows of them; how wide a mouth is drawn is expression rather than speech.
+FROM_SOUND = {"jawOpen": 0.6, "jawForward": 0.5, "mouthClose": 0.8, "mouthFunnel": 0.7, "mouthPucker": 0.6, "mouthRollLower": 0.6,
+              "mouthRollUpper": 0.5, "mouthShrugLower": 0.5, "mouthShrugUpper": 0.5, "mouthPressLeft": 0.5, "mouthPressRight": 0.5,
+              "mouthStretchLeft": 0.3, "mouthStretchRight": 0.3, "mouthLowerDownLeft": 0.4, "mouthLowerDownRight": 0.4,
+              "mouthUpperUpLeft": 0.4, "mouthUpperUpRight": 0.4, "tongueOut": 0.5}
+GOLDEN_STEPS = 60
+
+
+def add_lstm(net, x, lstm):
+    return net.lstm(x, plain(lstm.weight_ih_l0), plain(lstm.weight_hh_l0), plain(lstm.bias_ih_l0 + lstm.bias_hh_l0))
+
+
+def add_encoder(file, encoder):
+    net = file.network("encoder", input=(1, 1, FEATURES))
+    x = net.input
+    for weight, bias in encoder.folded():
+        x = net.causal_conv(x, plain(weight), plain(bias), activation="leaky_relu", alpha=LEAK)
+    x = add_lstm(net, x, encoder.lstm)
+    net.output(net.fully_connected(x, plain(encoder.output.weight), plain(encoder.output.bias)))
+
+
+def add_decoder(file, name, decoder, activation):
+    """`activation`: of the output, or softmax."""
+    net = file.network(name, input=(1, 1, EMBEDDING))
+    x = net.fully_connected(net.input, plain(decoder.input.weight), plain(decoder.input.bias))
+    x = add_lstm(net, x, decoder.lstm)
+    own = "none" if activation == "softmax" else activation
+    x = net.fully_connected(x, plain(decoder.output.weight), plain(decoder.output.bias), activation=own)
+    net.output(net.softmax(x) if activation == "softmax" else x)
+
+
+class Folded:
+    """What the file says, in PyTorch: convolutions with all norms in them, weights as fp16 unless `exact`."""
+
+    def __init__(self, encoder, decoders, exact=False):
+        stored = (lambda v: v.detach()) if exact else (lambda v: v.detach().half().float())
+        self.layers = [(stored(w), stored(b)) for w, b in encoder.folded()]
+        self.encoder, self.decoders = copy.deepcopy(encoder), {k: copy.deepcopy(d) for k, d in decoders.items()}
+        for module in (self.encoder, *self.decoders.values()):
+            with torch.no_grad():
+                # The file has one bias for the two of PyTorch.
+                module.lstm.bias_ih_l0 += module.lstm.bias_hh_l0
+                module.lstm.bias_hh_l0.zero_()
+                for p in module.parameters():
+                    p.copy_(stored(p))
+
+    @torch.no_grad()
+    def __call__(self, x):
+        """[n,t,130] -> embedding, controls, activity"""
+        x = x.transpose(1, 2)
+        for weight, bias in self.layers:
+            x = F.leaky_relu(F.conv1d(F.pad(x, (1, 0)), weight, bias), LEAK)
+        embedding = self.encoder.output(self.encoder.lstm(x.transpose(1, 2))[0])
+        return (embedding, self.decoders["controls"](embedding)[0].clamp(0, 1), self.decoders["activity"](embedding)[0].softmax(-1))
+
+
+@torch.no_grad()
+def whole(encoder, decoders, x):
+    embedding = encoder(x)[0]
+    return embedding, decoders["controls"](embedding)[0].clamp(0, 1), decoders["activity"](embedding)[0].softmax(-1)
+
+
+def some_features(steps=GOLDEN_STEPS):
+    """Of noise that swells, with a vowel's harmonics in it."""
+    t = np.arange(steps * 256) / RATE
+    noise = np.random.default_rng(1).standard_normal(len(t))
+    vowel = sum(np.sin(2 * np.pi * 120 * k * t) / k for k in range(1, 20))
+    return torch.from_numpy(np.float32(features(np.float32(0.1 * np.sin(4 * t) ** 2 * (vowel + 0.2 * noise)))))[None]
+
+
+def read(encoder_path, decoders_path):
+    """(encoder, {name: decoder}, state of the encoder's checkpoint)"""
+    state, trained = (torch.load(p, map_location="cpu") for p in (encoder_path, decoders_path))
+    encoder = loaded(Encoder(), trained.get("encoder", state["encoder"])).eval()
+    decoders = {"controls": loaded(controls_decoder(), trained["controls_decoder"]).eval(),
+                "activity": loaded(activity_decoder(), trained["activity_decoder"]).eval()}
+    return encoder, decoders, state
+
+
+def check(encoder, decoders):
+    """Largest differences of embedding, controls and activity: of folding, and of folding and fp16."""
+    x = some_features(200)
+    said = whole(encoder, decoders, x)
+    differences = [[(a - b).abs().max().item() for a, b in zip(said, Folded(encoder, decoders, exact)(x))] for exact in (True, False)]
+    assert max(differences[0]) < 1e-3 * max(1.0, said[0].abs().max().item()), differences
+    return differences
+
+
+def audionet(encoder, decoders, state):
+    file = MienFile()
+    add_encoder(file, encoder)
+    add_decoder(file, "controls_decoder", decoders["controls"], "clamp01")
+    add_decoder(file, "activity_decoder", decoders["activity"], "softmax")
+    sound = np.float32([FROM_SOUND.get(c, 0) for c in CONTROLS])
+    file.constant("mix_audio", sound)
+    file.constant("mix_video", 1 - sound)
+    file.metadata.update({"name": "audionet", "licence": LICENCE, "controls": " ".join(SPEECH_CONTROLS),
+                          "encoder_seconds": str(int(state["seconds_heard"]))})
+    return file
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("checkpoints", type=Path, nargs=2)
+    parser.add_argument("--out", type=Path, default=ROOT / "models", help="folder")
+    parser.add_argument("--golden", type=Path, help="folder")
+    args = parser.parse_args()
+    encoder, decoders, state = read(*args.checkpoints)
+    folding, stored = check(encoder, decoders)
+    path = args.out / "audionet.mien"
+    audionet(encoder, decoders, state).write(path)
+    print(json.dumps({"file": path.name, "bytes": path.stat().st_size, "folding changes": folding, "with fp16": stored}))
+    if args.golden:
+        x = some_features()
+        for name, values in zip(("input", "embedding", "controls", "activity"), (x, *Folded(encoder, decoders)(x))):
+            plain(values[0]).tofile(args.golden / f"audionet_{name}.f32")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,152 @@
+#!/usr/bin/env python3
+"""AudioNet's training: the same features as audio/, streaming as the whole, exact folding, alignment and curves that make sense."""
+import sys
+import unittest
+from pathlib import Path
+
+import numpy as np
+import torch
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "scripts/train"))
+from voice import activity, align, audio_net, effects, export, features, labels, phonemes, recognise, visemes  # noqa: E402
+from voice.audio_net import SPEECH_CONTROLS  # noqa: E402
+
+COSTS = {"encoder": 146.8e3, "controls": 39.0e3, "activity": 38.0e3}  # multiply-accumulates a step, as published within 3 %
+
+
+def random_encoder(seed=1):
+    torch.manual_seed(seed)
+    encoder = audio_net.Encoder()
+    encoder.mean.normal_(0, 5), encoder.deviation.uniform_(0.5, 9)
+    with torch.no_grad():
+        for c in encoder.convolutions:
+            c.norm.running_mean.normal_(), c.norm.running_var.uniform_(0.5, 2), c.norm.weight.uniform_(0.5, 2), c.norm.bias.normal_()
+    return encoder.eval()
+
+
+def macs(module):
+    return sum(p.numel() for n, p in module.named_parameters() if "weight" in n and "norm" not in n)
+
+
+class Features(unittest.TestCase):
+    def test_as_the_independent_implementation(self):
+        golden = ROOT / "tests/golden/audio"
+        sound = np.fromfile(golden / "mfcc_input.f32", np.float32).reshape(5, -1)
+        truth = np.fromfile(golden / "mfcc_output.f32", np.float32).reshape(5, -1, features.BANDS)
+        np.testing.assert_allclose(features.mfcc(sound), truth, rtol=1e-4, atol=1e-4 * np.abs(truth).max())
+
+    def test_five_windows_oldest_first_after_silence(self):
+        sound = np.float32(np.random.default_rng(1).standard_normal(256 * 8) * 0.1)
+        x = features.features(sound)
+        coefficients = features.mfcc(features.without_offset(sound))
+        silence = features.mfcc(np.zeros(256, np.float32))[0]
+        self.assertEqual((8, 130), x.shape)
+        np.testing.assert_allclose(x[0], np.concatenate([*[silence] * 4, coefficients[0]]), atol=1e-3)
+        np.testing.assert_allclose(x[6], coefficients[2:7].reshape(-1), atol=1e-3)
+
+    def test_an_offset_is_not_heard(self):
+        sound = np.float32(np.random.default_rng(1).standard_normal(256 * 100) * 0.1)
+        difference = features.features(sound + np.float32(0.2)) - features.features(sound)
+        self.assertLess(np.abs(difference[50:]).max(), 0.1)
+
+
+class Network(unittest.TestCase):
+    def test_cost_is_the_published(self):
+        parts = {"encoder": random_encoder(), "controls": audio_net.controls_decoder(), "activity": audio_net.activity_decoder()}
+        for name, part in parts.items():
+            self.assertLess(abs(macs(part) / COSTS[name] - 1), 0.03, name)
+
+    def test_streaming_is_the_whole(self):
+        for part, inputs in ((random_encoder(), 130), (audio_net.controls_decoder(), 80), (audio_net.activity_decoder(), 80)):
+            x = torch.randn(2, 30, inputs)
+            with torch.no_grad():
+                whole, state, pieces = part(x)[0], None, []
+                for piece in x.split([1, 2, 7, 1, 19], 1):
+                    y, state = part(piece, state)
+                    pieces.append(y)
+            torch.testing.assert_close(whole, torch.cat(pieces, 1), atol=1e-5, rtol=1e-4)
+
+    def test_folding_is_exact_from_the_first_step(self):
+        encoder = random_encoder()
+        decoders = {"controls": audio_net.controls_decoder(), "activity": audio_net.activity_decoder()}
+        folding, stored = export.check(encoder, decoders)
+        self.assertLess(max(folding), 1e-4)
+        self.assertLess(max(stored[1:]), 0.02)
+
+    def test_the_file_has_the_networks_and_the_mix(self):
+        decoders = {"controls": audio_net.controls_decoder(), "activity": audio_net.activity_decoder()}
+        file = export.audionet(random_encoder(), decoders, {"seconds_heard": 1})
+        self.assertLess(len(file.to_bytes()), 470_000)
+        self.assertEqual(set(SPEECH_CONTROLS), set(export.FROM_SOUND))
+
+
+class Labels(unittest.TestCase):
+    def test_ipa(self):
+        names = lambda text: [phonemes.NAMES[p] for p in phonemes.of_ipa(text)]
+        self.assertEqual(["ay"], names("aɪ"))
+        self.assertEqual(["ih", "r"], names("ɪɹ"))
+        self.assertEqual(["ch"], names("tʃ"))
+        self.assertEqual([], names("(de)"))
+
+    def test_a_part_played_faster(self):
+        spoken = labels.Spoken([1, 2, 3], [0.0, 1.0, 2.0], 3.0).between(0.5, 2.5, 2.0)
+        self.assertEqual(labels.Spoken([1, 2, 3], [0.0, 0.25, 0.75], 1.0), spoken)
+        self.assertEqual([1, 2, 3, 0], spoken.at(np.array([0.1, 0.3, 0.8, 1.2])).tolist())
+
+    def test_distance(self):
+        self.assertEqual(0, recognise.distance([1, 2], [1, 2]))
+        self.assertEqual(3, recognise.distance([1, 2, 3, 4, 5, 6, 7], [9, 2, 3, 4, 8, 7]))
+        self.assertEqual(2, recognise.distance([], [1, 1]))
+
+    def test_alignment_finds_times_and_skips_pauses_that_are_none(self):
+        said = [0] * 5 + [7] * 10 + [9] * 10 + [0] * 5 + [11] * 10 + [0] * 5
+        scores = np.full((len(said), 40), -5.0)
+        scores[np.arange(len(said)), said] = 0
+        spoken = align.timed(scores, [(7,), (9,), (11,)], len(said) * 0.016)
+        self.assertEqual([0, 7, 9, 0, 11, 0], spoken.labels)
+        np.testing.assert_allclose(spoken.starts[1:], (np.array([5, 15, 25, 30, 40]) - 2) * 0.016)
+
+
+class Curves(unittest.TestCase):
+    def curve(self, *said, each=0.1):
+        ids = [phonemes.INDEX[p] for p in said]
+        spoken = labels.Spoken(ids, [each * k for k in range(len(ids))], each * len(ids))
+        middles = each * (np.arange(len(ids)) + 0.5)
+        return {name: c for name, c in zip(SPEECH_CONTROLS, visemes.curves(spoken, middles).T)}
+
+    def test_lips_close_for_bilabials(self):
+        for lips in "pbm":
+            self.assertLess(self.curve("aa", lips, "aa")["jawOpen"][1], 0.15)
+            self.assertGreater(self.curve("aa", "aa", "aa")["jawOpen"][1], 0.3)
+
+    def test_rounding_begins_in_the_consonant_before(self):
+        self.assertGreater(self.curve("s", "t", "uw")["mouthPucker"][1], self.curve("s", "t", "iy")["mouthPucker"][1] + 0.1)
+
+    def test_silence_is_rest(self):
+        silence = labels.Spoken([0], [0.0], 1.0)
+        self.assertFalse(visemes.curves(silence, np.linspace(0, 1, 20)).any())
+
+
+class Sound(unittest.TestCase):
+    def test_activity_bridges_stops_and_not_pauses(self):
+        rng = np.random.default_rng(1)
+        sound = np.float32(1e-4 * rng.standard_normal(4 * 16000))
+        for a, b in ((0.5, 1.0), (1.08, 1.5), (2.5, 3.0)):
+            sound[int(16000 * a):int(16000 * b)] += np.float32(0.1 * rng.standard_normal(int(16000 * b) - int(16000 * a)))
+        heard = activity.at(activity.of_windows(sound), np.array([0.2, 0.8, 1.04, 1.3, 2.0, 2.8, 3.5]))
+        self.assertEqual([False, True, True, True, False, True, False], heard.tolist())
+
+    def test_noise_comes_at_its_ratio(self):
+        rng = np.random.default_rng(1)
+        sound, noise = (np.float32(rng.standard_normal(16000)) for _ in range(2))
+        added = effects.mixed(sound, noise, 10) - sound
+        self.assertAlmostEqual(10, 10 * np.log10(effects.speech_power(sound) / effects.power(added)), places=3)
+
+    def test_companding_changes_little(self):
+        sound = np.linspace(-1, 1, 101, dtype=np.float32)
+        self.assertLess(np.abs(effects.mu_law(sound) - sound).max(), 0.03)
+
+
+if __name__ == "__main__":
+    unittest.main()
