@@ -33,12 +33,17 @@ def mixed(sound, noise, decibels):
     return sound + noise * np.sqrt(speech_power(sound) / power(noise) * 10 ** (-decibels / 10))
 
 
+SHORTEST_RESPONSE = 256  # samples
+
+
 @functools.lru_cache(None)
 def rooms(split):
     """Impulse responses whose direct sound comes at once, of energy 1."""
     group = corpus.Group("rooms")
     out = []
     for s in group.of(split):
+        if s.length < SHORTEST_RESPONSE:
+            continue  # some files are empty
         response = np.float32(group.samples(s)) / 32768
         response = response[np.argmax(np.abs(response)):][:RATE]
         out.append(response / np.sqrt(np.sum(response ** 2)))
@@ -70,20 +75,30 @@ def coloured_noise(rng, count):
 
 def music(rng, count):
     """Chords of harmonic tones that begin together, now and then a drum: no music, but its spectrum."""
-    t, out = np.arange(count) / RATE, np.zeros(count)
-    beat = rng.uniform(0.15, 0.7)
-    for start in np.arange(0, count / RATE, beat):
-        since = np.maximum(t - start, 0)
-        within = (t >= start) * np.exp(-since * rng.uniform(1, 8))
-        root = 55 * 2 ** (rng.integers(0, 36) / 12)
+    out, beat = np.zeros(count, np.float32), rng.uniform(0.15, 0.7)
+    for first in np.arange(0, count, int(beat * RATE)):
+        t = np.arange(min(count - first, RATE), dtype=np.float32) / RATE
+        note, decay, root = np.zeros(len(t), np.float32), rng.uniform(1, 8), 55 * 2 ** (rng.integers(0, 36) / 12)
         for interval in rng.choice([0, 3, 4, 7, 10, 12], rng.integers(1, 4), replace=False):
-            pitch = root * 2 ** (interval / 12) * (1 + 0.004 * np.sin(2 * np.pi * 5 * t) * rng.integers(2))
-            slope = rng.uniform(0.5, 2.5)
+            pitch, slope = root * 2 ** (interval / 12), rng.uniform(0.5, 2.5)
             for k in range(1, int(rng.integers(2, 8))):
-                out += within * np.sin(2 * np.pi * k * pitch * since + rng.uniform(6)) / k ** slope
+                note += np.sin(np.float32(2 * np.pi * k * pitch) * t) / np.float32(k ** slope)
+        note *= np.exp(-decay * t)
         if rng.random() < 0.5:
-            out += (t >= start) * np.exp(-since * rng.uniform(15, 60)) * rng.standard_normal(count) * rng.uniform(0.5, 3)
-    return np.float32(out)
+            note += np.float32(np.exp(-t * rng.uniform(15, 60)) * rng.standard_normal(len(t)) * rng.uniform(0.5, 3))
+        out[first:first + len(t)] += note
+    return out
+
+
+TUNES, TUNE_SECONDS = [], 10
+
+
+def part_of_tune(rng, count, most=60):
+    """Of some that are made once: making them takes long."""
+    if len(TUNES) < most:
+        TUNES.append(music(rng, TUNE_SECONDS * RATE))
+    tune = TUNES[rng.integers(len(TUNES))]
+    return np.resize(np.roll(tune, -rng.integers(len(tune))), count)
 
 
 def impulses(rng, count):
@@ -101,7 +116,7 @@ def some_noise(rng, split, count):
     kind = rng.random()
     if kind < 0.55:
         return recorded_noise(rng, split, count)
-    return coloured_noise(rng, count) if kind < 0.75 else music(rng, count) if kind < 0.9 else impulses(rng, count)
+    return coloured_noise(rng, count) if kind < 0.75 else part_of_tune(rng, count) if kind < 0.9 else impulses(rng, count)
 
 
 def band_limited(rng, sound):

@@ -63,6 +63,12 @@ class Speech:
 
     def part(self, rng, seconds, speeds):
         """From one phoneme's start to another's end."""
+        while True:
+            part = self.any_part(rng, seconds, speeds)
+            if len(part.sound) >= SHORTEST_PART * RATE / 4:
+                return part
+
+    def any_part(self, rng, seconds, speeds):
         name, sound = self.pick(rng)
         spoken = self.spoken[name][sound.name]
         speed = float(np.exp(rng.uniform(*np.log(speeds))))
