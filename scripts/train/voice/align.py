@@ -15,7 +15,6 @@ from voice.features import RATE, STEP, features
 from voice.recognise import greedy, load
 
 LETTERS = {"a": "ay", "z": "zed"}  # GRID's readers are British, and say A by its name
-SILENCE_BONUS = 0.0
 
 
 def words_of(group, name, text):
@@ -39,18 +38,20 @@ def states_of(words):
 def viterbi(scores, states, optional):
     """State of every frame, the best path of scores [t, phonemes] (Viterbi 1967) through all states in their order."""
     count, emitted = len(states), scores[:, states]
-    best = np.full(count, -np.inf)
-    best[0] = emitted[0, 0]
-    best[1:2] = emitted[0, 1:2]
     moves = np.zeros((len(scores), count), np.int8)
-    skip = np.zeros(count, bool)
-    skip[2:] = optional[1:-1]
+    # Two impossible states before the first one: every state can ask for the two before it.
+    best = np.full(count + 2, -np.inf)
+    best[2:4] = emitted[0, :2]
+    skippable = np.full(count, -np.inf)
+    skippable[2:] = np.where(optional[1:-1], 0, -np.inf)
     for t in range(1, len(scores)):
-        one = np.concatenate([[-np.inf], best[:-1]])
-        two = np.where(skip, np.concatenate([[-np.inf] * 2, best[:-2]]), -np.inf)
-        options = np.stack([best, one, two])
-        moves[t] = options.argmax(0)
-        best = options.max(0) + emitted[t]
+        chosen, one, two = best[2:].copy(), best[1:-1], best[:-2] + skippable
+        for move, other in ((1, one), (2, two)):
+            better = other > chosen
+            moves[t, better] = move
+            chosen = np.where(better, other, chosen)
+        best[2:] = chosen + emitted[t]
+    best = best[2:]
     at = count - 1 if best[-1] >= best[-2] else count - 2
     path = [at]
     for t in range(len(scores) - 1, 0, -1):

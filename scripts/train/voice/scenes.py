@@ -63,23 +63,24 @@ class Speech:
 
     def part(self, rng, seconds, speeds):
         """From one phoneme's start to another's end."""
-        while True:
-            part = self.any_part(rng, seconds, speeds)
-            if len(part.sound) >= SHORTEST_PART * RATE / 4:
-                return part
-
-    def any_part(self, rng, seconds, speeds):
-        name, sound = self.pick(rng)
-        spoken = self.spoken[name][sound.name]
         speed = float(np.exp(rng.uniform(*np.log(speeds))))
-        first = rng.integers(len(spoken.starts)) if spoken.end > seconds * speed else 0
-        start = spoken.starts[first] if first else 0.0
-        stops = np.array([*spoken.starts[1:], spoken.end])
-        fitting = np.flatnonzero((stops > start) & (stops <= start + seconds * speed))
-        end = stops[fitting[-1]] if len(fitting) else min(start + seconds * speed, spoken.end)
-        samples = self.groups[name].samples(sound)[int(start * RATE):int(end * RATE)]
+        while True:
+            name, sound = self.pick(rng)
+            spoken = self.spoken[name][sound.name]
+            start, end = stretch(rng, spoken, seconds * speed)
+            samples = self.groups[name].samples(sound)[int(start * RATE):int(end * RATE)]
+            if len(samples) > SHORTEST_PART * RATE / 4:
+                break
         played = effects.played(np.float32(samples) / 32768, speed)
         return Part(effects.at_level(faded(played), -20), spoken.between(start, end, speed), name, sound.name, float(start), speed)
+
+
+def stretch(rng, spoken, longest):
+    """From one phoneme's start to another's end, at most `longest` seconds."""
+    start = spoken.starts[rng.integers(len(spoken.starts))] if spoken.end > longest else 0.0
+    stops = np.array([*spoken.starts[1:], spoken.end])
+    fitting = stops[(stops > start) & (stops <= start + longest)]
+    return start, fitting[-1] if len(fitting) else min(start + longest, spoken.end)
 
 
 def faded(sound, samples=80):

@@ -48,7 +48,7 @@ class Learner:
         features, frames, targets, lengths = (v.to(self.device) for v in batch)
         sequence, frame = self.heads(self.network(features)[0])
         steps = torch.full((len(features),), features.shape[1], dtype=torch.long)
-        ctc = F.ctc_loss(sequence.transpose(0, 1), targets, steps, lengths, zero_infinity=True)
+        ctc = F.ctc_loss(sequence.transpose(0, 1), targets, steps, lengths, reduction="sum", zero_infinity=True) / lengths.sum()
         timed = F.cross_entropy(frame.flatten(0, 1), frames.flatten(), label_smoothing=0.05)
         self.optimizer.zero_grad(set_to_none=True)
         (ctc + self.args.timed * timed).backward()

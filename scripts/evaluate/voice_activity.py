@@ -1,0 +1,70 @@
+"""Voice activity on held-out speakers in held-out noises, by signal-to-noise ratio; and what noise alone does."""
+import numpy as np
+
+import voice_model  # noqa: F401  (finds the training modules)
+from voice import activity, corpus, effects
+from voice.features import RATE
+
+RATIOS = [None, 20, 10, 5, 0, -5]
+BARS = {20: 0.96, 5: 0.90}
+PAUSE = 1.0          # seconds of silence around every utterance
+REST = 0.1           # a mouth at rest has no control above it
+SCENES = 80
+
+
+def utterances():
+    """Held-out speech, each with silence around it, and when it is speech."""
+    for name in ("librispeech", "commands"):
+        group = corpus.Group(name)
+        for sound in group.of("test")[:SCENES // 2]:
+            speech = effects.at_level(np.float32(group.samples(sound)[:8 * RATE]) / 32768, -23)
+            silence = np.zeros(int(PAUSE * RATE), np.float32)
+            yield np.concatenate([silence, speech, silence])
+
+
+def held_noise(rng, count):
+    return effects.recorded_noise(rng, "test", count)
+
+
+def area_under_roc(scores, truth):
+    """The share of pairs that are in the right order."""
+    order = np.argsort(scores, kind="stable")
+    ranks = np.empty(len(scores))
+    ranks[order] = np.arange(1, len(scores) + 1)
+    positive = truth.sum()
+    return (ranks[truth].sum() - positive * (positive + 1) / 2) / max(positive * (len(truth) - positive), 1)
+
+
+def by_ratio(model, seed=1):
+    """{ratio: accuracy, area under ROC, share of speech found, share of the rest taken for speech}"""
+    report = {}
+    sounds = list(utterances())
+    truths = [activity.of_windows(s) for s in sounds]
+    for ratio in RATIOS:
+        rng, scores, truth = np.random.default_rng(seed), [], []
+        for sound, active in zip(sounds, truths):
+            heard = sound if ratio is None else effects.mixed(sound, held_noise(rng, len(sound)), ratio)
+            times, _, alpha = model(np.clip(heard, -1, 1))
+            scores.append(alpha), truth.append(activity.at(active, times))
+        scores, truth = np.concatenate(scores), np.concatenate(truth)
+        said = scores > 0.5
+        report["clean" if ratio is None else ratio] = {
+            "accuracy": float((said == truth).mean()), "area": float(area_under_roc(scores, truth)),
+            "found": float(said[truth].mean()), "false": float(said[~truth].mean())}
+    return report
+
+
+def kind(name):
+    return name.split("_", 1)[1].rsplit("_", 1)[0] if name.startswith("esc10") else name
+
+
+def on_noise(model):
+    """Share of the time in which the mouth rests, over all noise that was held out and by its kind."""
+    group, rows = corpus.Group("noise"), {}
+    for sound in group.of("test"):
+        _, controls, alpha = model(np.float32(group.samples(sound)) / 32768)
+        rows.setdefault(kind(sound.name), []).append((controls * alpha[:, None]).max(1) < REST)
+    report = {k: float(np.concatenate(v).mean()) for k, v in rows.items()}
+    clips = [r.mean() for v in rows.values() for r in v]
+    return {"all": float(np.concatenate([r for v in rows.values() for r in v]).mean()),
+            "clips that rest 95 % of the time": float(np.mean(np.array(clips) >= 0.95)), **report}

@@ -1,0 +1,44 @@
+"""Phoneme error rate on held-out readers, clips and synthetic voices."""
+import re
+
+import numpy as np
+import torch
+
+import voice_model  # noqa: F401  (finds the training modules)
+from paths import data
+from voice import corpus, espeak, make_speech, recognise
+from voice.features import features
+
+GRID_WORDS = [dict(b="bin", l="lay", p="place", s="set"), dict(b="blue", g="green", r="red", w="white"),
+              dict(a="at", b="by", i="in", w="with"), None,
+              dict(zip("z123456789", "zero one two three four five six seven eight nine".split())),
+              dict(a="again", n="now", p="please", s="soon")]
+LETTERS = {"a": "ay", "z": "zed"}
+BARS = {"real speech": 0.40, "synthetic voices": 0.15}
+
+
+def grid_sentence(code):
+    """What a clip of GRID says: its name is the sentence."""
+    return [LETTERS.get(c, c) if words is None else words[c] for c, words in zip(code, GRID_WORDS)]
+
+
+@torch.no_grad()
+def of_grid_clips(model):
+    """Other speakers of GRID."""
+    wrong = total = 0
+    for path in sorted((data() / "clips").glob("grid_*.mpg")):
+        code = re.search(r"([a-z]{4}[z0-9][a-z])$", path.stem)[1]
+        truth = [p for word in grid_sentence(code) for p in sum(espeak.words_to_phonemes(word), ())]
+        sound = np.concatenate([np.float32(corpus.decode(path)) / 32768, np.zeros(3200, np.float32)])
+        heard = recognise.greedy(model.heads(model.encoder(torch.from_numpy(features(sound))[None])[0])[0][0])
+        wrong, total = wrong + recognise.distance(heard, truth), total + len(truth)
+    return wrong / max(total, 1)
+
+
+def measure(model):
+    rate = lambda group, **options: recognise.error_rate(model.encoder, model.heads, group, "test", **options)
+    recorded = lambda sound: sound.speaker in make_speech.FLITE_VOICES
+    return {"real speech": rate("librispeech_text"), "GRID clips of other speakers": of_grid_clips(model),
+            "synthetic voices": rate("synthetic"),
+            "synthetic voices: espeak-ng variants": rate("synthetic", choose=lambda s: not recorded(s)),
+            "synthetic voices: flite kal16": rate("synthetic", choose=recorded)}
