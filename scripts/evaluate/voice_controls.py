@@ -5,6 +5,7 @@ from voice_model import INDEX, SPEECH_CONTROLS
 from paths import data
 from voice import corpus, labels, phonemes, teacher
 
+COMPARED = ["jawOpen", "mouthClose", "mouthFunnel", "mouthPucker", "mouthRollUpper", "mouthLowerDownLeft"]
 LAGS = range(-5, 6)           # video frames
 OTHERS = ["grid_bbaf2n", "grid_brbk7n", "grid_lbax4n", "grid_lbbc2a", "grid_id2_swwp2s", "hdtf_WDA_KatieHill", "whitehouse_obama_weekly"]
 CLOSED_JAW, CLOSE, NEAR = 0.15, 0.1, 0.04
@@ -55,7 +56,7 @@ def agreement(pairs):
     """Per control: correlation over all frames, the mean of the clips' own, and the lag."""
     said, truth = zip(*pairs)
     report = {}
-    for c in teacher.RESPONDING + ["mouthFunnel", "mouthClose"]:
+    for c in COMPARED:
         i = INDEX[c]
         own = [correlation(s[:, i], t[:, i]) for s, t in pairs]
         report[c] = {"all frames": correlation(np.concatenate(said)[:, i], np.concatenate(truth)[:, i]),

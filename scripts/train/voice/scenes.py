@@ -7,7 +7,7 @@ import torch
 from voice import corpus, effects, labels, phonemes
 from voice.features import FEATURES, RATE, features
 
-SHARES = {"synthetic": 0.42, "librispeech_text": 0.2, "librispeech": 0.2, "commands": 0.09, "av": 0.09}
+SHARES = {"synthetic": 0.35, "librispeech_text": 0.3, "librispeech": 0.18, "commands": 0.08, "av": 0.09}
 NOISE_ALONE = 0.08
 SHORTEST_PART = 0.8  # seconds
 
@@ -92,7 +92,7 @@ def faded(sound, samples=80):
     return out
 
 
-def speech_scene(rng, speech, split, seconds, speeds=(0.85, 1.2), hard=1.0):
+def speech_scene(rng, speech, split, seconds, speeds=(0.8, 1.25), hard=1.0):
     """Parts of utterances one after the other, with pauses or without."""
     sound, parts, at = np.zeros(int(seconds * RATE), np.float32), [], 0.0
     while True:

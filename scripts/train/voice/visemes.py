@@ -4,7 +4,8 @@ Every phoneme pulls each control towards its own value; how strongly, falls off 
 mean of all values weighted so (dominance functions: Cohen, Massaro 1993, "Modeling coarticulation in synthetic visual speech").
 Lips that close or touch the teeth dominate what they need and leave the rest to their neighbours.
 
-The values are ours, after the visemes of ARKit-like rigs; jawOpen of vowels is on the scale of the video teacher of phase 2.
+The values are ours, after the visemes of ARKit-like rigs; jawOpen is near what the video teacher of phase 2 shows at the middle of
+each phoneme (medians over the training clips), except where lips or teeth must meet.
 """
 import numpy as np
 
@@ -20,28 +21,28 @@ SHORT = {"jaw": ["jawOpen"], "forward": ["jawForward"], "close": ["mouthClose"],
 
 VISEMES = {
     "sil": {},
-    "p": dict(jaw=0.02, close=0.15, press=0.3, roll_upper=0.15, roll_lower=0.2, shrug_lower=0.1),
-    "f": dict(jaw=0.06, roll_lower=0.45, upper=0.15, shrug_lower=0.1),
-    "th": dict(jaw=0.12, tongue=0.35, lower=0.1),
-    "t": dict(jaw=0.09, lower=0.1, stretch=0.05),
-    "s": dict(jaw=0.05, forward=0.05, stretch=0.15, lower=0.15),
-    "sh": dict(jaw=0.06, forward=0.1, funnel=0.4, pucker=0.2, lower=0.1, upper=0.1),
-    "l": dict(jaw=0.14, lower=0.1),
-    "r": dict(jaw=0.1, funnel=0.25, pucker=0.2),
-    "w": dict(jaw=0.06, funnel=0.25, pucker=0.65),
-    "k": dict(jaw=0.12, lower=0.05),
-    "y": dict(jaw=0.08, stretch=0.2, lower=0.1),
-    "aa": dict(jaw=0.36, lower=0.1, upper=0.05),
-    "ae": dict(jaw=0.3, stretch=0.12, lower=0.2, upper=0.1),
+    "p": dict(jaw=0.03, close=0.15, press=0.3, roll_upper=0.15, roll_lower=0.2, shrug_lower=0.1),
+    "f": dict(jaw=0.08, roll_lower=0.45, upper=0.15, shrug_lower=0.1),
+    "th": dict(jaw=0.1, tongue=0.35, lower=0.1),
+    "t": dict(jaw=0.16, lower=0.1, stretch=0.05),
+    "s": dict(jaw=0.13, forward=0.05, stretch=0.15, lower=0.15),
+    "sh": dict(jaw=0.13, forward=0.1, funnel=0.4, pucker=0.2, lower=0.1, upper=0.1),
+    "l": dict(jaw=0.17, lower=0.1),
+    "r": dict(jaw=0.11, funnel=0.25, pucker=0.2),
+    "w": dict(jaw=0.08, funnel=0.25, pucker=0.65),
+    "k": dict(jaw=0.18, lower=0.05),
+    "y": dict(jaw=0.15, stretch=0.2, lower=0.1),
+    "aa": dict(jaw=0.33, lower=0.1, upper=0.05),
+    "ae": dict(jaw=0.28, stretch=0.12, lower=0.2, upper=0.1),
     "ah": dict(jaw=0.2, lower=0.08),
-    "ao": dict(jaw=0.3, funnel=0.35, pucker=0.15),
-    "eh": dict(jaw=0.23, stretch=0.12, lower=0.15, upper=0.05),
-    "er": dict(jaw=0.14, funnel=0.25, pucker=0.15),
-    "ih": dict(jaw=0.14, stretch=0.12, lower=0.1),
-    "iy": dict(jaw=0.09, stretch=0.28, lower=0.15),
-    "oh": dict(jaw=0.24, funnel=0.4, pucker=0.3),
-    "uh": dict(jaw=0.13, funnel=0.25, pucker=0.3),
-    "uw": dict(jaw=0.08, funnel=0.3, pucker=0.65),
+    "ao": dict(jaw=0.24, funnel=0.35, pucker=0.15),
+    "eh": dict(jaw=0.25, stretch=0.12, lower=0.15, upper=0.05),
+    "er": dict(jaw=0.15, funnel=0.25, pucker=0.15),
+    "ih": dict(jaw=0.16, stretch=0.12, lower=0.1),
+    "iy": dict(jaw=0.17, stretch=0.28, lower=0.15),
+    "oh": dict(jaw=0.18, funnel=0.4, pucker=0.3),
+    "uh": dict(jaw=0.14, funnel=0.25, pucker=0.3),
+    "uw": dict(jaw=0.1, funnel=0.3, pucker=0.65),
 }
 SAME = {"b": "p", "m": "p", "v": "f", "dh": "th", "d": "t", "n": "t", "z": "s", "zh": "sh", "ch": "sh", "jh": "sh", "g": "k", "ng": "k",
         "hh": "k"}
