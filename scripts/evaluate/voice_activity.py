@@ -12,18 +12,14 @@ REST = 0.1           # a mouth at rest has no control above it
 SCENES = 80
 
 
-def utterances():
+def utterances(split):
     """Held-out speech, each with silence around it, and when it is speech."""
     for name in ("librispeech", "commands"):
         group = corpus.Group(name)
-        for sound in group.of("test")[:SCENES // 2]:
+        for sound in group.of(split)[:SCENES // 2]:
             speech = effects.at_level(np.float32(group.samples(sound)[:8 * RATE]) / 32768, -23)
             silence = np.zeros(int(PAUSE * RATE), np.float32)
             yield np.concatenate([silence, speech, silence])
-
-
-def held_noise(rng, count):
-    return effects.recorded_noise(rng, "test", count)
 
 
 def area_under_roc(scores, truth):
@@ -38,12 +34,12 @@ def area_under_roc(scores, truth):
 def by_ratio(model, seed=1):
     """{ratio: accuracy, area under ROC, share of speech found, share of the rest taken for speech}"""
     report = {}
-    sounds = list(utterances())
+    sounds = list(utterances(model.split))
     truths = [activity.of_windows(s) for s in sounds]
     for ratio in RATIOS:
         rng, scores, truth = np.random.default_rng(seed), [], []
         for sound, active in zip(sounds, truths):
-            heard = sound if ratio is None else effects.mixed(sound, held_noise(rng, len(sound)), ratio)
+            heard = sound if ratio is None else effects.mixed(sound, effects.recorded_noise(rng, model.split, len(sound)), ratio)
             times, _, alpha = model(np.clip(heard, -1, 1))
             scores.append(alpha), truth.append(activity.at(active, times))
         scores, truth = np.concatenate(scores), np.concatenate(truth)
@@ -61,7 +57,7 @@ def kind(name):
 def on_noise(model):
     """Share of the time in which the mouth rests, over all noise that was held out and by its kind."""
     group, rows = corpus.Group("noise"), {}
-    for sound in group.of("test"):
+    for sound in group.of(model.split):
         _, controls, alpha = model(np.float32(group.samples(sound)) / 32768)
         rows.setdefault(kind(sound.name), []).append((controls * alpha[:, None]).max(1) < REST)
     report = {k: float(np.concatenate(v).mean()) for k, v in rows.items()}

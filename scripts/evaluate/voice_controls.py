@@ -33,7 +33,7 @@ def best_lag(said, truth):
 def held_clips(model):
     """(answers, teacher's curves) of the speaker's clips that were held out."""
     group, out = corpus.Group("av"), []
-    for sound in group.of("test"):
+    for sound in group.of(model.split):
         curve = teacher.clips().get(sound.name)
         if curve is not None:
             seconds = np.arange(len(curve)) / teacher.FPS
@@ -68,7 +68,7 @@ def lips(model, most=None):
     """Shares of p, b, m at whose middle, give or take 40 ms, lips are closed; and of open vowels with an open jaw."""
     group, spoken = corpus.Group("synthetic"), labels.read("synthetic")
     closed, opened = [], []
-    for sound in group.of("test")[:most]:
+    for sound in group.of(model.split)[:most]:
         times, controls, _ = model(np.concatenate([np.float32(group.samples(sound)) / 32768, np.zeros(4000, np.float32)]))
         said = spoken[sound.name]
         for label, a, b in zip(said.labels, said.starts, [*said.starts[1:], said.end]):
@@ -84,5 +84,5 @@ def lips(model, most=None):
 def spread(model):
     """Mean and standard deviation of every control over held-out synthetic speech."""
     group = corpus.Group("synthetic")
-    rows = np.concatenate([model(np.float32(group.samples(s)) / 32768)[1] for s in group.of("test")[:60]])
+    rows = np.concatenate([model(np.float32(group.samples(s)) / 32768)[1] for s in group.of(model.split)[:60]])
     return {c: [float(rows[:, i].mean()), float(rows[:, i].std())] for c, i in zip(SPEECH_CONTROLS, range(len(SPEECH_CONTROLS)))}

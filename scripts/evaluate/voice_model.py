@@ -14,7 +14,10 @@ INDEX = {name: i for i, name in enumerate(SPEECH_CONTROLS)}
 
 
 class Model:
-    def __init__(self, encoder_path, decoders_path):
+    """`split`: of what was held out, val to decide by and test to report."""
+
+    def __init__(self, encoder_path, decoders_path, split="test"):
+        self.split = split
         torch.set_num_threads(1)
         encoder, decoders, _ = export.read(encoder_path, decoders_path)
         self.folded = export.Folded(encoder, decoders)

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 import numpy as np
 import torch
 
-from voice import corpus, effects, labels, phonemes
+from voice import corpus, effects, labels, phonemes, targets
 from voice.features import FEATURES, RATE, features
 
 SHARES = {"synthetic": 0.35, "librispeech_text": 0.3, "librispeech": 0.18, "commands": 0.08, "av": 0.09}
@@ -117,7 +117,8 @@ def noise_scene(rng, split, seconds):
 
 
 class PhonemeBatches(torch.utils.data.IterableDataset):
-    """(features [b,t,130], phoneme of each step [b,t], CTC targets, their lengths), for ever, from a seed."""
+    """(features [b,t,130], phoneme of each step [b,t], CTC targets, their lengths, controls and their weights [b,t,18], speech [b,t]),
+    for ever, from a seed."""
 
     def __init__(self, split, batch, seconds, seed, hard=1.0, shares=SHARES):
         self.speech, self.split, self.batch, self.seconds = Speech(split, shares), split, batch, seconds
@@ -135,8 +136,10 @@ class PhonemeBatches(torch.utils.data.IterableDataset):
         x = features(np.stack([s.sound for s in scenes]))
         spoken = [s.spoken() for s in scenes]
         frames, sequences = np.stack([s.of_steps(x.shape[1]) for s in spoken]), [s.sequence() for s in spoken]
+        controls, weights, speech = (np.stack(v) for v in zip(*(targets.of_scene(s, x.shape[1]) for s in scenes)))
         return (torch.from_numpy(np.float32(x)), torch.from_numpy(frames), torch.tensor([p for s in sequences for p in s]),
-                torch.tensor([len(s) for s in sequences]))
+                torch.tensor([len(s) for s in sequences]), torch.from_numpy(controls), torch.from_numpy(weights),
+                torch.from_numpy(np.int64(speech)))
 
 
 def normalisation(batches=8, seed=7):

@@ -7,56 +7,21 @@ smooth L1 of position and velocity (Navarro et al. 2023). Voice activity: cross 
 are seen several times from a pool, since making them costs more than learning from them.
 """
 import argparse
-import functools
 import json
 import time
 from pathlib import Path
 
 import numpy as np
 import torch
-import torch.nn.functional as F
 from torch import nn
 
-from voice import activity, corpus, scenes, teacher, visemes
-from voice.audio_net import SPEECH_CONTROLS, activity_decoder, controls_decoder
-from voice.features import features, seconds_of_steps
+from voice import losses, scenes, targets
+from voice.audio_net import activity_decoder, controls_decoder
+from voice.features import features
 from voice.recognise import load
 
 SHARES = {"av": 0.45, "synthetic": 0.27, "librispeech": 0.12, "librispeech_text": 0.09, "commands": 0.07}
-TRUST = {"synthetic": 1.0, "av": 0.5}  # of visemes, by how sure the phonemes are; 0.3 for all other speech
 NOISE_ALONE = 0.15
-BETA, SPEED_BETA = 0.05, 0.01          # larger errors count linearly
-
-
-@functools.lru_cache(None)
-def spoken_in(group, name):
-    """Voice activity of the windows of a recording."""
-    g = group_of(group)
-    return activity.of_windows(np.float32(g.samples(g.by_name[name])) / 32768)
-
-
-@functools.lru_cache(None)
-def group_of(name):
-    return corpus.Group(name)
-
-
-def targets(scene, steps):
-    """(controls [t,18], weights [t,18], speech [t]) of a scene."""
-    times = seconds_of_steps(steps)
-    speech = np.zeros(steps, bool)
-    controls = visemes.curves(scene.spoken(), times)
-    weights = np.ones_like(controls)
-    for part in scene.parts:
-        recorded, inside = part.recorded_at(times)
-        speech |= inside & activity.at(spoken_in(part.group, part.name), recorded)
-        weights[inside] = TRUST.get(part.group, 0.3)
-        curve = teacher.clips().get(part.name) if part.group == "av" else None
-        if curve is not None:
-            followed = teacher.mask() > 0
-            rows = np.ix_(inside, followed)
-            controls[rows] = np.clip(teacher.at(curve, recorded), 0, 1)[rows]
-            weights[rows] = 1
-    return controls, weights, speech
 
 
 class Scenes(torch.utils.data.IterableDataset):
@@ -77,7 +42,7 @@ class Scenes(torch.utils.data.IterableDataset):
         else:
             scene = scenes.speech_scene(rng, self.speech, self.split, self.seconds, (0.75, 1.35))
         x = np.float32(features(scene.sound))
-        return x, *targets(scene, len(x))
+        return x, *targets.of_scene(scene, len(x))
 
 
 class Pool:
@@ -99,28 +64,12 @@ class Pool:
         return [torch.stack(v) for v in zip(*(self.rows[k] for k in rng.integers(len(self.rows), size=count)))]
 
 
-def controls_loss(said, controls, weights, importance, velocity):
-    """Smooth L1 of position and of what changes from step to step, each control relative to its spread."""
-    weight = weights * importance
-    position = F.smooth_l1_loss(said, controls, beta=BETA, reduction="none")
-    speed = F.smooth_l1_loss(said.diff(dim=1), controls.diff(dim=1), beta=SPEED_BETA, reduction="none")
-    return (weight * position).mean() + velocity * (weight[:, 1:] * speed).mean()
-
-
-def importance_of(rows):
-    """1/spread of each control, at most 20; jawOpen, which is what one sees most, three times."""
-    controls = torch.cat([r[1] for r in rows])
-    out = 1 / controls.std(0).clamp(min=0.05)
-    out[SPEECH_CONTROLS.index("jawOpen")] *= 3
-    return out / out.mean()
-
-
 def train(network, args):
     rng = np.random.default_rng(args.seed)
     loader = torch.utils.data.DataLoader(Scenes(args.seconds, args.seed), batch_size=None, num_workers=args.workers)
     pool = Pool(network, loader, args.pool)
     pool.add(args.batch * 4)
-    importance = importance_of(pool.rows)
+    importance = losses.importance_of(torch.stack([r[1] for r in pool.rows]))
     decoders = {"controls": controls_decoder(), "activity": activity_decoder()}
     parameters = [p for d in decoders.values() for p in d.parameters()]
     optimizer = torch.optim.AdamW(parameters, args.rate, weight_decay=0.01)
@@ -130,15 +79,15 @@ def train(network, args):
         if len(pool.rows) < args.pool or step % args.reuse == 0:
             pool.add(args.fresh)
         embedding, controls, weights, speech = pool.batch(rng, args.batch)
-        losses = [controls_loss(decoders["controls"](embedding)[0], controls, weights, importance, args.velocity),
-                  F.cross_entropy(decoders["activity"](embedding)[0].flatten(0, 1), speech.flatten())]
+        parts = [losses.controls_loss(decoders["controls"](embedding)[0], controls, weights, importance),
+                 losses.activity_loss(decoders["activity"](embedding)[0], speech)]
         optimizer.zero_grad(set_to_none=True)
-        sum(losses).backward()
+        sum(parts).backward()
         nn.utils.clip_grad_norm_(parameters, 1.0)
         for group in optimizer.param_groups:
             group["lr"] = args.rate * min(1, (step + 1) / 50) * max(0.5 + 0.5 * np.cos(np.pi * done), 0.01)
         optimizer.step()
-        step, sums, count = step + 1, sums + [v.item() for v in losses], count + 1
+        step, sums, count = step + 1, sums + [v.item() for v in parts], count + 1
         if time.time() - shown > 30:
             print(step, f"{done * args.minutes:.1f} min, {len(pool.rows)} scenes", *np.round(sums / count, 5), flush=True)
             shown, sums, count = time.time(), np.zeros(2), 0
@@ -156,7 +105,6 @@ def main():
     parser.add_argument("--reuse", type=int, default=2, help="steps between new scenes, once the pool is full")
     parser.add_argument("--pool", type=int, default=1500)
     parser.add_argument("--rate", type=float, default=3e-3)
-    parser.add_argument("--velocity", type=float, default=1.0)
     parser.add_argument("--workers", type=int, default=0)
     parser.add_argument("--seed", type=int, default=1)
     args = parser.parse_args()

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""Phase 1: AudioNet's encoder learns phonemes, by CTC (Graves et al. 2006) and, where their times are known, step by step.
+"""Phase 1: AudioNet's encoder learns phonemes, by CTC (Graves et al. 2006) and, their times being known, step by step.
 
 usage: python3 -m voice.train_encoder [--name audionet] [--minutes 60] [...]      (in scripts/train)
-CTC alone is free to answer late; the second loss makes the phoneme come when it is spoken. Resumable.
+CTC alone is free to answer late; the second loss makes the phoneme come when it is spoken. --together: decoders learn along (phase 2
+trains them anew), so that the features keep what tells speech from noise, and what the video teacher sees. Resumable.
 """
 import argparse
 import json
@@ -10,19 +11,25 @@ import math
 import time
 from pathlib import Path
 
+import numpy as np
 import torch
 import torch.nn.functional as F
 from torch import nn
 
 from paths import cache
-from voice import recognise, scenes
-from voice.audio_net import Encoder, PhonemeHeads
+from voice import losses, recognise, scenes
+from voice.audio_net import Encoder, PhonemeHeads, activity_decoder, controls_decoder
+
+KEPT = 24                      # batches, of which one is taken at random
+CONTROLS, ACTIVITY = 20.0, 1.5  # weights beside CTC's, with which all have a say
 
 
 class Learner:
     def __init__(self, args):
         self.args, self.device = args, "cuda" if torch.cuda.is_available() else "cpu"
         self.network, self.heads = Encoder(), PhonemeHeads()
+        self.decoders = nn.ModuleDict({"controls": controls_decoder(), "activity": activity_decoder()})
+        self.importance = None
         self.path = cache() / "runs" / args.name / "last.pt"
         self.path.parent.mkdir(parents=True, exist_ok=True)
         self.step, self.spent = 0, 0.0
@@ -30,10 +37,11 @@ class Learner:
         state = torch.load(start, map_location="cpu") if start else None
         if state:
             self.network.load_state_dict(state["encoder"]), self.heads.load_state_dict(state["heads"])
+            self.decoders.load_state_dict(state.get("decoders", self.decoders.state_dict()))
         else:
             self.network.mean[:], self.network.deviation[:] = scenes.normalisation()
-        self.network.to(self.device), self.heads.to(self.device)
-        self.parameters = [*self.network.parameters(), *self.heads.parameters()]
+        self.modules = nn.ModuleList([self.network, self.heads, self.decoders]).to(self.device)
+        self.parameters = list(self.modules.parameters())
         self.optimizer = torch.optim.AdamW(self.parameters, args.rate, weight_decay=0.01)
         if start == self.path:
             self.optimizer.load_state_dict(state["optimizer"])
@@ -44,22 +52,35 @@ class Learner:
         done = min(self.spent / (60 * self.args.minutes), 1)
         return self.args.rate * min(1, (self.step + 1) / 100) * (0.01 + 0.99 * 0.5 * (1 + math.cos(math.pi * done)))
 
-    def learn(self, batch):
-        features, frames, targets, lengths = (v.to(self.device) for v in batch)
-        sequence, frame = self.heads(self.network(features)[0])
+    def losses(self, batch):
+        """(CTC, step by step, controls, activity), and the share of steps whose phoneme is right."""
+        features, frames, said, lengths, controls, weights, speech = (v.to(self.device) for v in batch)
+        embedding = self.network(features)[0]
+        sequence, frame = self.heads(embedding)
         steps = torch.full((len(features),), features.shape[1], dtype=torch.long)
-        ctc = F.ctc_loss(sequence.transpose(0, 1), targets, steps, lengths, reduction="sum", zero_infinity=True) / lengths.sum()
+        ctc = F.ctc_loss(sequence.transpose(0, 1), said, steps, lengths, reduction="sum", zero_infinity=True) / lengths.sum()
         timed = F.cross_entropy(frame.flatten(0, 1), frames.flatten(), label_smoothing=0.05)
+        right = (frame.argmax(-1) == frames).float().mean()
+        if not self.args.together:
+            return [ctc, timed], right
+        if self.importance is None:
+            self.importance = losses.importance_of(controls)
+        return [ctc, timed, CONTROLS * losses.controls_loss(self.decoders["controls"](embedding)[0], controls, weights, self.importance),
+                ACTIVITY * losses.activity_loss(self.decoders["activity"](embedding)[0], speech)], right
+
+    def learn(self, batch):
+        parts, right = self.losses(batch)
         self.optimizer.zero_grad(set_to_none=True)
-        (ctc + self.args.timed * timed).backward()
+        sum(parts).backward()
         nn.utils.clip_grad_norm_(self.parameters, 2.0)
         for group in self.optimizer.param_groups:
             group["lr"] = self.rate()
         self.optimizer.step()
-        return ctc.item(), timed.item(), (frame.argmax(-1) == frames).float().mean().item()
+        return np.array([v.item() for v in [*parts, right]])
 
     def save(self):
-        state = {"encoder": self.network.state_dict(), "heads": self.heads.state_dict(), "optimizer": self.optimizer.state_dict(),
+        state = {"encoder": self.network.state_dict(), "heads": self.heads.state_dict(),
+                 "decoders": self.decoders.state_dict(), "optimizer": self.optimizer.state_dict(),
                  "step": self.step, "spent": self.spent, "seconds_heard": self.step * self.args.batch * self.args.seconds}
         torch.save(state, self.path.with_suffix(".partial"))
         self.path.with_suffix(".partial").replace(self.path)
@@ -77,15 +98,17 @@ class Learner:
             data.speech = scenes.Speech("train", {"synthetic": 1})
         loader = iter(torch.utils.data.DataLoader(data, batch_size=None, num_workers=self.args.workers))
         saved = shown = time.time()
-        sums, count = [0.0] * 3, 0
+        sums, count, kept, rng = 0, 0, [], np.random.default_rng(self.args.seed)
         while self.spent < 60 * self.args.minutes:
             began = time.time()
-            sums, count = [a + b for a, b in zip(sums, self.learn(next(loader)))], count + 1
+            if self.step % self.args.reuse == 0 or len(kept) < KEPT:
+                kept = [*kept, next(loader)][-KEPT:]
+            sums, count = sums + self.learn(kept[rng.integers(len(kept))]), count + 1
             self.step += 1
             self.spent += time.time() - began
             if time.time() - shown > 30:
-                print(self.step, f"{self.spent / 60:.1f} min", *(f"{s / count:.4f}" for s in sums), flush=True)
-                sums, count, shown = [0.0] * 3, 0, time.time()
+                print(self.step, f"{self.spent / 60:.1f} min", *np.round(sums / count, 4), flush=True)
+                sums, count, shown = 0, 0, time.time()
             if time.time() - saved > 60 * self.args.validate:
                 self.save()
                 print(self.step, json.dumps(self.validate()), flush=True)
@@ -102,7 +125,8 @@ def main():
     parser.add_argument("--batch", type=int, default=24)
     parser.add_argument("--seconds", type=float, default=4.0)
     parser.add_argument("--rate", type=float, default=3e-3)
-    parser.add_argument("--timed", type=float, default=1.0, help="weight of the step-by-step loss")
+    parser.add_argument("--together", action="store_true", help="with the decoders")
+    parser.add_argument("--reuse", type=int, default=1, help="how often a batch is seen: making one takes as long as learning from it")
     parser.add_argument("--hard", type=float, default=1.0, help="how often sound is spoiled")
     parser.add_argument("--synthetic-only", action="store_true", help="before there are labels for real speech (align.py)")
     parser.add_argument("--validate", type=float, default=4, help="minutes between validations")
