@@ -3,11 +3,12 @@
     python3 -m voice.corpus                                # all sound of the data packs, decoded once
     python3 -m voice.make_speech                           # synthetic speech with exact times
     R=${MIEN_CACHE:-~/.cache/mien}/runs
-    python3 -m voice.train_encoder --name audionet_synthetic --synthetic-only --minutes 8 --rate 5e-3 --hard 0.4
+    T="python3 -m voice.train_encoder"
+    $T --name audionet_synthetic --synthetic-only --minutes 8 --rate 5e-3 --hard 0.4
     python3 -m voice.align $R/audionet_synthetic/last.pt --groups librispeech_text av
-    python3 -m voice.train_encoder --name audionet_text --start-from $R/audionet_synthetic/last.pt --minutes 10 --rate 4e-3 --hard 0.6
+    $T --name audionet_text --start-from $R/audionet_synthetic/last.pt --minutes 10 --rate 4e-3 --hard 0.6
     python3 -m voice.align $R/audionet_text/last.pt        # and labels for what has no transcript
-    python3 -m voice.train_encoder --name audionet --start-from $R/audionet_text/last.pt --minutes 24 --rate 4e-3
+    $T --name audionet --start-from $R/audionet_text/last.pt --together --reuse 2 --minutes 40 --rate 4e-3 --hard 0.7
     python3 -m voice.train_decoders $R/audionet/last.pt --out $R/audionet_decoders.pt
     python3 -m voice.export $R/audionet/last.pt $R/audionet_decoders.pt
     ../evaluate/voice_report.py $R/audionet/last.pt $R/audionet_decoders.pt

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Phase 2: the decoders of controls and of voice activity, on a frozen encoder.
+"""Phase 2: the decoders of controls and of voice activity, on a frozen encoder; they go on from where phase 1 left them.
 
 usage: python3 -m voice.train_decoders ENCODER.pt --out decoders.pt [--minutes 15] [...]      (in scripts/train)
 Controls follow the video teacher's curves where it responds (teacher.py), and visemes with co-articulation (visemes.py) elsewhere;
@@ -64,13 +64,12 @@ class Pool:
         return [torch.stack(v) for v in zip(*(self.rows[k] for k in rng.integers(len(self.rows), size=count)))]
 
 
-def train(network, args):
+def train(network, decoders, args):
     rng = np.random.default_rng(args.seed)
     loader = torch.utils.data.DataLoader(Scenes(args.seconds, args.seed), batch_size=None, num_workers=args.workers)
     pool = Pool(network, loader, args.pool)
     pool.add(args.batch * 4)
     importance = losses.importance_of(torch.stack([r[1] for r in pool.rows]))
-    decoders = {"controls": controls_decoder(), "activity": activity_decoder()}
     parameters = [p for d in decoders.values() for p in d.parameters()]
     optimizer = torch.optim.AdamW(parameters, args.rate, weight_decay=0.01)
     began = shown = time.time()
@@ -91,7 +90,6 @@ def train(network, args):
         if time.time() - shown > 30:
             print(step, f"{done * args.minutes:.1f} min, {len(pool.rows)} scenes", *np.round(sums / count, 5), flush=True)
             shown, sums, count = time.time(), np.zeros(2), 0
-    return decoders
 
 
 def main():
@@ -110,7 +108,9 @@ def main():
     args = parser.parse_args()
     torch.set_num_threads(1)
     network, _ = load(args.encoder)
-    decoders = train(network, args)
+    decoders = nn.ModuleDict({"controls": controls_decoder(), "activity": activity_decoder()})
+    decoders.load_state_dict(torch.load(args.encoder, map_location="cpu")["decoders"])
+    train(network, decoders, args)
     args.out.parent.mkdir(parents=True, exist_ok=True)
     torch.save({f"{name}_decoder": d.state_dict() for name, d in decoders.items()}, args.out)
     print(json.dumps({"out": args.out.name}))

@@ -3,7 +3,7 @@
 
 usage: python3 -m voice.train_encoder [--name audionet] [--minutes 60] [...]      (in scripts/train)
 CTC alone is free to answer late; the second loss makes the phoneme come when it is spoken. --together: decoders learn along (phase 2
-trains them anew), so that the features keep what tells speech from noise, and what the video teacher sees. Resumable.
+goes on with them), so that the features keep what tells speech from noise, and what the video teacher sees. Resumable.
 """
 import argparse
 import json
@@ -32,12 +32,13 @@ class Learner:
         self.importance = None
         self.path = cache() / "runs" / args.name / "last.pt"
         self.path.parent.mkdir(parents=True, exist_ok=True)
-        self.step, self.spent = 0, 0.0
+        self.step, self.spent, self.heard = 0, 0.0, 0.0  # steps, seconds of training, seconds of sound
         start = self.path if self.path.exists() else args.start_from
         state = torch.load(start, map_location="cpu") if start else None
         if state:
             self.network.load_state_dict(state["encoder"]), self.heads.load_state_dict(state["heads"])
             self.decoders.load_state_dict(state.get("decoders", self.decoders.state_dict()))
+            self.heard = state["seconds_heard"]
         else:
             self.network.mean[:], self.network.deviation[:] = scenes.normalisation()
         self.modules = nn.ModuleList([self.network, self.heads, self.decoders]).to(self.device)
@@ -81,7 +82,7 @@ class Learner:
     def save(self):
         state = {"encoder": self.network.state_dict(), "heads": self.heads.state_dict(),
                  "decoders": self.decoders.state_dict(), "optimizer": self.optimizer.state_dict(),
-                 "step": self.step, "spent": self.spent, "seconds_heard": self.step * self.args.batch * self.args.seconds}
+                 "step": self.step, "spent": self.spent, "seconds_heard": self.heard}
         torch.save(state, self.path.with_suffix(".partial"))
         self.path.with_suffix(".partial").replace(self.path)
 
@@ -104,7 +105,7 @@ class Learner:
             if self.step % self.args.reuse == 0 or len(kept) < KEPT:
                 kept = [*kept, next(loader)][-KEPT:]
             sums, count = sums + self.learn(kept[rng.integers(len(kept))]), count + 1
-            self.step += 1
+            self.step, self.heard = self.step + 1, self.heard + self.args.batch * self.args.seconds
             self.spent += time.time() - began
             if time.time() - shown > 30:
                 print(self.step, f"{self.spent / 60:.1f} min", *np.round(sums / count, 4), flush=True)
