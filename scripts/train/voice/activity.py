@@ -1,15 +1,22 @@
 """When somebody speaks, from the energy of clean speech: the truth for voice activity.
 
-Speech is what is within 30 dB of the louder parts and above the floor; pauses below 0.2 s, as of stops, belong to it.
+Speech is what is within 20 dB of the louder parts and above the floor; pauses below 0.2 s, as of stops, belong to it. Of 15 to 35 dB,
+20 agrees best with where transcripts were aligned: 89 % of the steps of LibriSpeech, 97 % of synthetic speech, 90 % of GRID.
 """
 import numpy as np
 from scipy.ndimage import binary_closing, binary_opening
 
 from voice.features import RATE, WINDOW
 
-BELOW_LOUD, ABOVE_FLOOR = 30.0, 8.0  # dB
+BELOW_LOUD, ABOVE_FLOOR = 20.0, 8.0  # dB
 SMOOTH = 3                           # windows
 LONGEST_PAUSE, SHORTEST = 13, 4      # windows of 16 ms
+
+
+def bridged(active):
+    """With short pauses filled."""
+    padded = np.pad(active, LONGEST_PAUSE)
+    return binary_closing(padded, np.ones(LONGEST_PAUSE))[LONGEST_PAUSE:-LONGEST_PAUSE]
 
 
 def of_windows(sound):
@@ -21,9 +28,7 @@ def of_windows(sound):
     level = 10 * np.log10(powers + 1e-10)
     loud, floor = np.percentile(level, 95), np.percentile(level, 3)
     active = level > max(loud - BELOW_LOUD, min(floor + ABOVE_FLOOR, loud - 12))
-    padded = np.pad(active, LONGEST_PAUSE)
-    closed = binary_closing(padded, np.ones(LONGEST_PAUSE))[LONGEST_PAUSE:-LONGEST_PAUSE]
-    return binary_opening(closed, np.ones(SHORTEST))
+    return binary_opening(bridged(active), np.ones(SHORTEST))
 
 
 def at(active, times):
