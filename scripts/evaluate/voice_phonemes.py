@@ -38,8 +38,9 @@ def of_grid_clips(model):
 def measure(model):
     rate = lambda group, **options: recognise.error_rate(model.encoder, model.heads, group, model.split, **options)
     recorded = lambda sound: sound.speaker in make_speech.FLITE_VOICES
-    rates = {"real speech": rate("librispeech_text"), "synthetic voices": rate("synthetic"),
-             "synthetic voices: espeak-ng variants": rate("synthetic", choose=lambda s: not recorded(s))}
+    rates = {"real speech": rate("librispeech_text"), "synthetic voices": rate("english"),
+             "synthetic voices: espeak-ng variants": rate("english", choose=lambda s: not recorded(s)),
+             "unknown words, sentences and other languages' voices": rate("synthetic")}
     if model.split == "test":
-        rates |= {"synthetic voices: flite kal16": rate("synthetic", choose=recorded), "GRID clips of other speakers": of_grid_clips(model)}
+        rates |= {"synthetic voices: flite kal16": rate("english", choose=recorded), "GRID clips of other speakers": of_grid_clips(model)}
     return rates

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Synthetic speech whose phonemes have exact times: $MIEN_CACHE/voice/synthetic.{i16,json} and synthetic.phonemes.json.
+"""Synthetic speech whose phonemes have exact times: $MIEN_CACHE/voice/synthetic.{i16,json} and synthetic.phonemes.json; and
+english.*, to measure only: what the held-out reader said, by held-out voices in English accents.
 
 usage: python3 -m voice.make_speech [--hours 2.5]      (in scripts/train)
 eSpeak NG with all its variants in English accents (and some voices of other languages that read English their way), and flite's
@@ -44,9 +45,10 @@ def variants():
 class Texts:
     """Sentences from a seed: spans of what readers of the training set said, GRID-like, orders, and words nobody knows."""
 
-    def __init__(self, rng):
-        self.rng = rng
-        self.read = [t.lower() for name, t in sorted(corpus.transcripts().items()) if not name.startswith(corpus.TEST_READER + "-")]
+    def __init__(self, rng, held=False):
+        self.rng, self.held = rng, held
+        self.read = [t.lower() for name, t in sorted(corpus.transcripts().items())
+                     if name.startswith(corpus.TEST_READER + "-") == held]
 
     def span(self):
         words = self.read[self.rng.integers(len(self.read))].split()
@@ -68,13 +70,13 @@ class Texts:
 
     def sample(self, pseudo_words=True):
         kind = self.rng.random()
-        if pseudo_words and kind < 0.25:
+        if pseudo_words and kind < 0.25 and not self.held:
             return self.unknown()
-        return self.span() if kind < 0.75 else self.phrase(GRID) if kind < 0.88 else self.phrase(ORDERS)
+        return self.span() if self.held or kind < 0.75 else self.phrase(GRID) if kind < 0.88 else self.phrase(ORDERS)
 
 
 def say_espeak(rng, texts, variant):
-    foreign = rng.random() < 0.12
+    foreign = rng.random() < 0.12 and not texts.held
     voice = str(rng.choice(FOREIGN if foreign else ACCENTS)) + "+" + variant
     return espeak.speak(voice, texts.sample(not foreign), int(rng.integers(110, 260)), int(rng.integers(15, 90)), int(rng.integers(20, 90)),
                         int(rng.choice([0, 0, 0, 2, 6])))
@@ -94,12 +96,10 @@ def say_flite(rng, texts, voice):
     return sound, [phonemes.of_flite(name) for name, _ in parts], [0.0, *ends[:-1]]
 
 
-def speeches(hours, seed):
-    """(name, speaker, split, samples, labels, starts) until there is enough of every split."""
+def speeches(wanted, seed, held=False):
+    """(name, speaker, split, samples, labels, starts) until there are `wanted` seconds of every split."""
     rng = np.random.default_rng(seed)
-    texts = Texts(rng)
-    voices = variants()
-    wanted = {"train": hours * 3600, "val": 360, "test": 720}
+    texts, voices = Texts(rng, held), variants()
     for split, seconds in wanted.items():
         formant = sorted(v for v, s in voices.items() if s == split)
         recorded = sorted(v for v, s in FLITE_VOICES.items() if s == split) if shutil.which("flite") else []
@@ -118,22 +118,32 @@ def speeches(hours, seed):
             yield f"{split}{k:05d}", voice, split, sound, ids, starts
 
 
+def store(group, made):
+    spoken = {}
+
+    def stored():
+        for name, voice, split, sound, ids, starts in made:
+            spoken[name] = labels.Spoken(ids, starts, len(sound) / RATE)
+            yield name, voice, split, sound
+
+    corpus.write(group, stored())
+    labels.write(group, spoken)
+    sounds = corpus.Group(group)
+    for split in ("train", "val", "test"):
+        seconds, voices = sum(s.length for s in sounds.of(split)) / RATE, {s.speaker for s in sounds.of(split)}
+        print(group, split, f"{seconds:.0f} s,", len(voices), "voices")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--hours", type=float, default=2.5, help="of training speech")
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--only", choices=("synthetic", "english"))
     args = parser.parse_args()
-    spoken = {}
-
-    def stored():
-        for name, voice, split, sound, ids, starts in speeches(args.hours, args.seed):
-            spoken[name] = labels.Spoken(ids, starts, len(sound) / RATE)
-            yield name, voice, split, sound
-
-    corpus.write("synthetic", stored())
-    labels.write("synthetic", spoken)
-    group = corpus.Group("synthetic")
-    print({s: (round(sum(x.length for x in group.of(s)) / RATE), len({x.speaker for x in group.of(s)})) for s in ("train", "val", "test")})
+    if args.only != "english":
+        store("synthetic", speeches({"train": args.hours * 3600, "val": 360, "test": 720}, args.seed))
+    if args.only != "synthetic":
+        store("english", speeches({"val": 200, "test": 720}, args.seed + 1, held=True))
 
 
 if __name__ == "__main__":
