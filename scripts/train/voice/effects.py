@@ -112,10 +112,22 @@ def impulses(rng, count):
     return out
 
 
+def varied_noise(rng, split, count):
+    """Recorded noise of other size or backwards, and sometimes two of them: recordings are few."""
+    speed = np.exp(rng.uniform(np.log(0.6), np.log(1.7)))
+    noise = np.resize(played(recorded_noise(rng, split, int(count * speed) + 2), speed), count)
+    if rng.random() < 0.2:
+        noise = noise[::-1]
+    if rng.random() < 0.2:
+        other = recorded_noise(rng, split, count)
+        noise = noise + other * np.float32(np.sqrt(power(noise) / power(other)) * rng.uniform(0.3, 1))
+    return noise
+
+
 def some_noise(rng, split, count):
     kind = rng.random()
     if kind < 0.55:
-        return recorded_noise(rng, split, count)
+        return varied_noise(rng, split, count)
     return coloured_noise(rng, count) if kind < 0.75 else part_of_tune(rng, count) if kind < 0.9 else impulses(rng, count)
 
 

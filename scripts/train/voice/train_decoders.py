@@ -21,7 +21,7 @@ from voice.features import features
 from voice.recognise import load
 
 SHARES = {"av": 0.45, "synthetic": 0.27, "librispeech": 0.12, "librispeech_text": 0.09, "commands": 0.07}
-NOISE_ALONE = 0.15
+NOISE_ALONE = 0.25
 
 
 class Scenes(torch.utils.data.IterableDataset):
