@@ -8,6 +8,7 @@ from scipy.signal import lfilter
 RATE, WINDOW, BANDS, WINDOWS = 16000, 256, 26, 5
 FEATURES = WINDOWS * BANDS
 STEP = WINDOW / RATE  # seconds
+WARPED = 4800  # Hz
 HIGH_PASS = 1 - 2 * np.pi * 20 / RATE
 
 
@@ -21,9 +22,11 @@ def mel(hz):
 
 
 @functools.lru_cache(None)
-def tables():
+def tables(warp=1.0):
     """Hamming window; triangles [bins, bands], 1/WINDOW included; liftered cosines [bands, coefficients]."""
-    edges = 700 * (10 ** (np.linspace(mel(60), mel(7600), BANDS + 2) / 2595) - 1)
+    hertz = 700 * (10 ** (np.linspace(mel(60), mel(7600), BANDS + 2) / 2595) - 1)
+    # Warped up to where little of a voice is left; from there straight to the same end.
+    edges = np.interp(hertz, [0, WARPED, hertz[-1]], [0, WARPED * warp, hertz[-1]])
     bins = np.fft.rfftfreq(WINDOW, 1 / RATE)
     bands = np.stack([np.interp(bins, edges[k:k + 3], [0, 1, 0], left=0, right=0) for k in range(BANDS)])
     cosines = dct(np.eye(BANDS), type=2, norm="ortho") * (1 + 11 * np.sin(np.pi * np.arange(BANDS) / 22))
@@ -34,11 +37,11 @@ def without_offset(sound):
     return lfilter(np.float32([1, -1]), np.float32([1, -HIGH_PASS]), sound).astype(np.float32)
 
 
-def mfcc(sound):
+def mfcc(sound, warp=1.0):
     """f32 [..., samples] -> f32 [..., windows, 26]; what does not fill a window is left out."""
     sound = np.float32(sound)[..., :sound.shape[-1] // WINDOW * WINDOW]
     before = np.concatenate([np.zeros_like(sound[..., :1]), sound[..., :-1]], -1)
-    window, bands, cosines = tables()
+    window, bands, cosines = tables(warp)
     shaped = (sound - np.float32(0.97) * before).reshape(*sound.shape[:-1], -1, WINDOW) * window
     spectrum = rfft(shaped)
     power = spectrum.real ** 2 + spectrum.imag ** 2
@@ -53,6 +56,9 @@ def packed(coefficients):
     return np.concatenate([padded[..., k:k + steps, :] for k in range(WINDOWS)], -1)
 
 
-def features(sound):
-    """f32 [..., samples] in -1..1 at 16 kHz -> f32 [..., steps, 130]"""
-    return packed(mfcc(without_offset(np.clip(sound, -1, 1))))
+def features(sound, warp=1.0):
+    """f32 [..., samples] in -1..1 at 16 kHz -> f32 [..., steps, 130]
+
+    `warp`, for training: as of a vocal tract that much longer (VTLP: Jaitly, Hinton 2013).
+    """
+    return packed(mfcc(without_offset(np.clip(sound, -1, 1)), warp))

@@ -10,6 +10,7 @@ from voice.features import FEATURES, RATE, features
 SHARES = {"synthetic": 0.35, "librispeech_text": 0.3, "librispeech": 0.18, "commands": 0.08, "av": 0.09}
 NOISE_ALONE = 0.08
 SHORTEST_PART = 0.8  # seconds
+WARPS = np.round(np.linspace(0.85, 1.17, 9), 3).tolist()  # of the frequency axis: other people's vocal tracts
 
 
 @dataclass
@@ -40,6 +41,10 @@ class Scene:
             ids += [*part.spoken.labels, phonemes.SILENCE]
             starts += [*(t + part.at for t in part.spoken.starts), part.spoken.end + part.at]
         return labels.Spoken(ids, starts, len(self.sound) / RATE)
+
+
+def some_warp(rng):
+    return WARPS[rng.integers(len(WARPS))]
 
 
 class Speech:
@@ -133,7 +138,7 @@ class PhonemeBatches(torch.utils.data.IterableDataset):
     def make(self, rng):
         scenes = [noise_scene(rng, self.split, self.seconds) if rng.random() < NOISE_ALONE else
                   speech_scene(rng, self.speech, self.split, self.seconds, hard=self.hard) for _ in range(self.batch)]
-        x = features(np.stack([s.sound for s in scenes]))
+        x = np.stack([features(s.sound, some_warp(rng)) for s in scenes])
         spoken = [s.spoken() for s in scenes]
         frames, sequences = np.stack([s.of_steps(x.shape[1]) for s in spoken]), [s.sequence() for s in spoken]
         controls, weights, speech = (np.stack(v) for v in zip(*(targets.of_scene(s, x.shape[1]) for s in scenes)))

@@ -41,7 +41,7 @@ class Scenes(torch.utils.data.IterableDataset):
             scene = scenes.noise_scene(rng, self.split, self.seconds)
         else:
             scene = scenes.speech_scene(rng, self.speech, self.split, self.seconds, (0.75, 1.35))
-        x = np.float32(features(scene.sound))
+        x = np.float32(features(scene.sound, scenes.some_warp(rng)))
         return x, *targets.of_scene(scene, len(x))
 
 
