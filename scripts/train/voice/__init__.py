@@ -15,7 +15,7 @@
 
 The weights in models/ were made so but in more legs: 11 of the last 40 minutes of phase 1 without --together, labels aligned once
 more after them, 27 minutes together (137 hours of sound in all; the file counts 98), and phase 2 for 7 minutes at rate 2e-3 with a pool
-of 700. Until 12 minutes into the leg together, voice activity's truth was everything within 30 dB, as which GRID's noise counts too.
+of 700. Until 12 minutes into the leg together, voice activity's truth was all within 30 dB, which takes GRID's noise for speech.
 Warping (features.py) came after them: a warm restart of 8.5 minutes with it and with labels aligned anew did not pay on validation
 (readers 36.2 % instead of 35.4 %, synthetic voices 17.5 % instead of 16.4 %).
 
