@@ -136,7 +136,8 @@ def main():
     print(json.dumps({"file": path.name, "bytes": path.stat().st_size, "folding changes": folding, "with fp16": stored}))
     if args.golden:
         x = some_features()
-        for name, values in zip(("input", "embedding", "controls", "activity"), (x, *Folded(encoder, decoders)(x))):
+        _, controls, activity = Folded(encoder, decoders)(x)
+        for name, values in (("input", x), ("controls", controls), ("activity", activity)):
             plain(values[0]).tofile(args.golden / f"audionet_{name}.f32")
 
 
