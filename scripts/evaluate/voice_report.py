@@ -61,6 +61,7 @@ def main():
         lines += text
         print("\n".join(text), flush=True)
     args.out.mkdir(parents=True, exist_ok=True)
+    lines.append("Made by `scripts/evaluate/voice_report.py ENCODER.pt DECODERS.pt`.")
     (args.out / "voice.md").write_text("\n".join(lines) + "\n")
     (args.out / "voice.json").write_text(dump(figures))
 
