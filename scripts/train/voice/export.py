@@ -21,12 +21,11 @@ from paths import ROOT
 from voice.audio_net import EMBEDDING, SPEECH_CONTROLS, Encoder, activity_decoder, controls_decoder
 from voice.features import FEATURES, RATE, features
 
-# What sound has to say of a control while somebody speaks; video has the rest. Lips that meet for a p are seen too late and too
-# briefly at 30 frames a second, and sound knows of them; how wide a mouth is drawn is expression rather than speech.
-FROM_SOUND = {"jawOpen": 0.6, "jawForward": 0.5, "mouthClose": 0.8, "mouthFunnel": 0.7, "mouthPucker": 0.6, "mouthRollLower": 0.6,
-              "mouthRollUpper": 0.5, "mouthShrugLower": 0.5, "mouthShrugUpper": 0.5, "mouthPressLeft": 0.5, "mouthPressRight": 0.5,
-              "mouthStretchLeft": 0.3, "mouthStretchRight": 0.3, "mouthLowerDownLeft": 0.4, "mouthLowerDownRight": 0.4,
-              "mouthUpperUpLeft": 0.4, "mouthUpperUpRight": 0.4, "tongueOut": 0.5}
+# What sound has to say of a control while somebody speaks and the picture shows it; video has the rest. Lips that meet for a p are seen
+# too late and too briefly at 30 frames a second, and sound knows of them. Little of all else as long as sound knows one face: of other
+# people's jaws it tells less than the picture does (docs/results/voice.md), and on a smaller scale.
+FROM_SOUND = dict.fromkeys(SPEECH_CONTROLS, 0.2) | {"mouthClose": 0.4, "mouthPressLeft": 0.3, "mouthPressRight": 0.3,
+                                                    "mouthRollLower": 0.3, "mouthRollUpper": 0.3}
 GOLDEN_STEPS = 60
 
 
