@@ -2,15 +2,12 @@
 
 #include <algorithm>
 
+#include "audio/timestamps.h"
+
 namespace mien::audio {
 namespace {
 
 constexpr std::size_t kBlock = 256;  // samples turned to mono at once
-
-// b - a modulo 2^64: any timestamps will do.
-std::int64_t from_to(std::int64_t a, std::int64_t b) {
-  return static_cast<std::int64_t>(static_cast<std::uint64_t>(b) - static_cast<std::uint64_t>(a));
-}
 
 Speech between(const Speech& a, const Speech& b, float share) {
   Speech mixed;
@@ -29,7 +26,6 @@ bool Listener::init(const AudioNet& net, std::uint32_t cpu_mask) {
 
 void Listener::reset() {
   rate_ = 0;
-  steps_ = 0;
   known_ = 0;
   clock_.restart();
 }
@@ -73,7 +69,6 @@ void Listener::hear() {
   while (front_end_.fetch(features)) {
     const std::int64_t time = clock_.time_ns(FrontEnd::seconds_of_step(stream_steps_));
     ++stream_steps_;
-    ++steps_;
     remember({time, net_.hear(features)});
   }
 }

@@ -35,8 +35,6 @@ class Listener {
   // nobody speaks where nothing was heard.
   [[nodiscard]] Speech at(std::int64_t time_ns) const;
 
-  [[nodiscard]] std::int64_t steps() const { return steps_; }  // since the beginning
-
  private:
   struct Moment {
     std::int64_t time_ns = 0;
@@ -52,8 +50,7 @@ class Listener {
   AudioNet net_;
   SoundClock clock_;
   std::int32_t rate_ = 0;
-  std::int64_t stream_steps_ = 0;  // since the front end started
-  std::int64_t steps_ = 0;
+  std::int64_t stream_steps_ = 0;                      // since the front end started
   std::array<Moment, kRememberedSteps> moments_ = {};  // a ring
   std::size_t next_ = 0;
   std::size_t known_ = 0;

@@ -3,20 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "audio/timestamps.h"
+
 namespace mien::audio {
 namespace {
 
 constexpr std::int64_t kNsPerSecond = 1'000'000'000;
 constexpr double kPullSeconds = 1.0;
-
-// Timestamps may be any: sums and differences are taken modulo 2^64, where nothing overflows.
-std::int64_t sum(std::int64_t a, std::int64_t b) {
-  return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) + static_cast<std::uint64_t>(b));
-}
-
-std::int64_t difference(std::int64_t a, std::int64_t b) {
-  return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) - static_cast<std::uint64_t>(b));
-}
 
 bool within(std::int64_t value, std::int64_t bound) { return value >= -bound && value <= bound; }
 
@@ -27,11 +20,11 @@ std::int64_t SoundClock::end_ns(std::int32_t rate) const {
   const std::int64_t whole = frames_ / rate;
   const std::int64_t rest = frames_ % rate;
   const std::int64_t passed = whole * kNsPerSecond + rest * kNsPerSecond / rate;
-  return sum(origin_ns_, passed + std::llround(pulled_ns_));
+  return later(origin_ns_, passed + std::llround(pulled_ns_));
 }
 
 SoundClock::Flow SoundClock::advance(std::int64_t pts_ns, std::size_t frames, std::int32_t rate) {
-  const std::int64_t error = started_ ? difference(pts_ns, end_ns(rate)) : 0;
+  const std::int64_t error = started_ ? from_to(end_ns(rate), pts_ns) : 0;
   Flow flow = Flow::kSteady;
   if (!started_ || !within(error, kHoppedNs)) {
     flow = Flow::kBreak;
@@ -41,7 +34,7 @@ SoundClock::Flow SoundClock::advance(std::int64_t pts_ns, std::size_t frames, st
     frames_ = 0;
   } else if (!within(error, kSlewedNs)) {
     flow = Flow::kHop;
-    origin_ns_ = sum(origin_ns_, error);
+    origin_ns_ = later(origin_ns_, error);
   } else if (!within(error, kExactNs)) {
     const double seconds = static_cast<double>(frames) / rate;
     pulled_ns_ += static_cast<double>(error) * std::min(seconds / kPullSeconds, 1.0);
@@ -51,7 +44,7 @@ SoundClock::Flow SoundClock::advance(std::int64_t pts_ns, std::size_t frames, st
 }
 
 std::int64_t SoundClock::time_ns(double seconds) const {
-  return sum(origin_ns_, std::llround(pulled_ns_ + seconds * 1e9));
+  return later(origin_ns_, std::llround(pulled_ns_ + seconds * 1e9));
 }
 
 }  // namespace mien::audio

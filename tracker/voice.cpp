@@ -4,6 +4,7 @@
 #include <new>
 #include <type_traits>
 
+#include "audio/timestamps.h"
 #include "tracker/smoothing.h"
 #include "tracker/sound_view.h"
 
@@ -83,9 +84,7 @@ mien_status Voice::push(const mien_audio* sound, std::int64_t pts_ns) {
   if (status != MIEN_OK) {
     return status;
   }
-  const std::uint64_t shifted =
-      static_cast<std::uint64_t>(pts_ns) + static_cast<std::uint64_t>(offset_ns_);
-  listener_.push(view.pcm, view.rate, static_cast<std::int64_t>(shifted));
+  listener_.push(view.pcm, view.rate, audio::later(pts_ns, offset_ns_));
   listening_ = true;
   return MIEN_OK;
 }

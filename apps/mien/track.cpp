@@ -81,12 +81,12 @@ struct Senses {
 };
 
 Senses choose(const TrackOptions& options) {
+  if (options.mode == Mode::kVideo) {
+    return {.video = true, .sound = ""};
+  }
   const InputStreams streams = probe_streams(options.input);
   Senses senses;
   senses.video = options.mode == Mode::kAny ? streams.video : options.mode != Mode::kAudio;
-  if (options.mode == Mode::kVideo) {
-    return senses;
-  }
   const std::string& source = options.audio.empty() ? options.input : options.audio;
   const bool has_sound = options.audio.empty() ? streams.sound : probe_streams(source).sound;
   const bool demanded = options.mode != Mode::kAny || !senses.video || !options.audio.empty();

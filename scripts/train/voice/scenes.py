@@ -121,19 +121,25 @@ def noise_scene(rng, split, seconds):
     return Scene(np.clip(sound, -1, 1), [])
 
 
-class PhonemeBatches(torch.utils.data.IterableDataset):
-    """(features [b,t,130], phoneme of each step [b,t], CTC targets, their lengths, controls and their weights [b,t,18], speech [b,t]),
-    for ever, from a seed."""
+class Endless(torch.utils.data.IterableDataset):
+    """What `make` makes, for ever, from a seed; each worker its own."""
 
-    def __init__(self, split, batch, seconds, seed, hard=1.0, shares=SHARES):
-        self.speech, self.split, self.batch, self.seconds = Speech(split, shares), split, batch, seconds
-        self.seed, self.hard = seed, hard
+    def __init__(self, seed):
+        self.seed = seed
 
     def __iter__(self):
         worker = torch.utils.data.get_worker_info()
         rng = np.random.default_rng((self.seed, worker.id if worker else 0))
         while True:
             yield self.make(rng)
+
+
+class PhonemeBatches(Endless):
+    """(features [b,t,130], phoneme of each step [b,t], CTC targets, their lengths, controls and their weights [b,t,18], speech [b,t])."""
+
+    def __init__(self, split, batch, seconds, seed, hard=1.0, shares=SHARES):
+        super().__init__(seed)
+        self.speech, self.split, self.batch, self.seconds, self.hard = Speech(split, shares), split, batch, seconds, hard
 
     def make(self, rng):
         scenes = [noise_scene(rng, self.split, self.seconds) if rng.random() < NOISE_ALONE else

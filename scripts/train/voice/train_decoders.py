@@ -24,17 +24,12 @@ SHARES = {"av": 0.45, "synthetic": 0.27, "librispeech": 0.12, "librispeech_text"
 NOISE_ALONE = 0.25
 
 
-class Scenes(torch.utils.data.IterableDataset):
-    """(features [t,130], controls, weights, speech), for ever, from a seed."""
+class Scenes(scenes.Endless):
+    """(features [t,130], controls, weights, speech)."""
 
     def __init__(self, seconds, seed, split="train"):
-        self.speech, self.seconds, self.seed, self.split = scenes.Speech(split, SHARES), seconds, seed, split
-
-    def __iter__(self):
-        worker = torch.utils.data.get_worker_info()
-        rng = np.random.default_rng((self.seed, worker.id if worker else 0))
-        while True:
-            yield self.make(rng)
+        super().__init__(seed)
+        self.speech, self.seconds, self.split = scenes.Speech(split, SHARES), seconds, split
 
     def make(self, rng):
         if rng.random() < NOISE_ALONE:
