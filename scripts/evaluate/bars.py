@@ -121,5 +121,22 @@ def pictures():
             *beside_mediapipe("pictures", "portraits", path, path)]
 
 
+def voice():
+    """Of sound; they have no level."""
+    figure = lambda *path: lambda results, _: at(*path)(results, None)
+    bar = lambda title, *rest: Bar("voice", title, *rest)
+    ratio = lambda decibels: figure("activity", str(decibels), "accuracy")
+    best_lag = lambda results, _: abs(results["controls"]["held-out clips"]["jawOpen"]["lag"])
+    return [bar("phoneme errors, held-out reader, %", "<=", 40, figure("phonemes", "real speech"), 100, 1),
+            bar("phoneme errors, held-out synthetic voices, %", "<=", 15, figure("phonemes", "synthetic voices"), 100, 1),
+            bar("voice activity at 20 dB, % of frames", ">=", 96, ratio(20), 100, 1),
+            bar("voice activity at 5 dB, % of frames", ">=", 90, ratio(5), 100, 1),
+            bar("noise alone: mouth at rest, % of the time", ">=", 95, figure("noise", "all"), 100, 1),
+            bar("jawOpen beside the teacher, held-out clips", ">=", 0.7, figure("controls", "held-out clips", "jawOpen", "all frames")),
+            bar("its lag, video frames", "<=", 1, best_lag, 1, 0),
+            bar("jawOpen beside the teacher, other people", ">=", 0.5, figure("controls", "other people", "jawOpen", "all frames")),
+            bar("lips closed for p b m, %", ">=", 85, figure("controls", "lips", "closed for p b m"), 100, 1)]
+
+
 def every():
     return [*synthetic(), *probes(), *levels(), *clips(), *pictures()]

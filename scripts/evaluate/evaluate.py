@@ -45,6 +45,8 @@ def main():
                         metavar=("ENCODER", "DECODERS"), help="the checkpoints that export.py was given")
     parser.add_argument("--hifinet", type=Path, nargs=2, default=[runs / "hifinet/last.pt", runs / "hifinet_decoders.pt"],
                         metavar=("ENCODER", "DECODERS"))
+    parser.add_argument("--audionet", type=Path, nargs=2, default=[runs / "audionet/last.pt", runs / "audionet_decoders.pt"],
+                        metavar=("ENCODER", "DECODERS"))
     parser.add_argument("--features", type=Path, default=cache() / "features", help="folder of BaseNet's features; HiFiNet's: NAME_hifinet")
     parser.add_argument("--out", type=Path, default=ROOT / "docs/results")
     args = parser.parse_args()
@@ -53,7 +55,7 @@ def main():
     if not args.mien.exists():
         parser.error(f"{args.mien} is not built: cmake --preset release && cmake --build --preset release --target mien")
     args.out.mkdir(parents=True, exist_ok=True)
-    setting = Setting(Program(args.mien, args.models), {"basenet": args.basenet, "hifinet": args.hifinet}, args.features, args.out)
+    setting = Setting(Program(args.mien, args.models), {"basenet": args.basenet, "hifinet": args.hifinet, "audionet": args.audionet}, args.features, args.out)
     for part in args.parts or PARTS:
         try:
             evaluate(part, setting)

@@ -24,13 +24,13 @@ class Program:
     def has_hifinet(self):
         return (self.models / "hifinet.mien").exists()
 
-    def track(self, video, lod, *options):
-        """Of a video's path, or of the pieces of a Y4M stream; the picture alone."""
+    def track(self, video, lod, *options, mode="video"):
+        """Of a video's path, or of the pieces of a Y4M stream."""
         path = "-" if not isinstance(video, Path) else str(video)
         with tempfile.TemporaryDirectory() as folder:
             outputs = [f"{folder}/{name}" for name in ("curves.csv", "landmarks.csv", "stats.json")]
             command = [self.path, "track", path, "-o", outputs[0], "--landmarks", outputs[1], "--stats", outputs[2],
-                       "--lod", lod, "--mode", "video", "--models", self.models, "--quiet", *options]
+                       "--lod", lod, "--mode", mode, "--models", self.models, "--quiet", *options]
             running = subprocess.Popen([str(c) for c in command], stdin=subprocess.PIPE if path == "-" else None)
             if path == "-":
                 with running.stdin as stream:

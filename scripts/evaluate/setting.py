@@ -6,7 +6,7 @@ import torch
 
 from program import Program
 
-PARTS = ("synthetic", "ablation", "levels", "response", "leakage", "pictures", "clips", "following")  # modules evaluate_PART
+PARTS = ("synthetic", "ablation", "levels", "response", "leakage", "pictures", "clips", "following", "voice")  # modules evaluate_PART
 NETWORKS = {"LOD1": "basenet", "LOD4": "hifinet"}  # whose controls a level answers with; levels 2 and 3 are LOD4's with fewer frames
 
 
@@ -44,8 +44,9 @@ class Setting:
         return self.checkpoints[network]
 
     def is_shipped(self, network):
-        """Whether the last biases of encoder and controls decoder are in the model file, as fp16."""
+        """Whether the last bias of the controls decoder, and of a picture's encoder, are in the model file, as fp16."""
         encoder, decoders = (torch.load(p, map_location="cpu") for p in self.checkpoints[network])
         file = (self.program.models / f"{network}.mien").read_bytes()
-        biases = encoder["average"]["encoder.tail.2.bias"], decoders["controls_decoder"]["output.bias"]
+        biases = [decoders["controls_decoder"]["output.bias"]]
+        biases += [encoder["average"]["encoder.tail.2.bias"]] if "average" in encoder else []
         return all(b.detach().half().numpy().tobytes() in file for b in biases)

@@ -37,6 +37,10 @@ def page(results, seconds, skipped, has_hifinet):
     if not has_hifinet:
         lines += ["**HiFiNet is not trained yet**: nothing is known of LOD2-4.", ""]
     lines += [*counts(results), ""] + out.table(["", "bar", *LEVELS, "more"], [line(bar, results) for bar in bars.every()])
+    if "voice" in results:
+        sound = [(bar, bar.figure(results["voice"], None)) for bar in bars.voice()]
+        rows = [[bar.title, f"{bar.sign} {bar.bound:g}", cell(bar, figure)] for bar, figure in sound]
+        lines += ["## Sound", "", *out.table(["", "bar", "AudioNet"], rows), "More: [voice](voice.md).", ""]
     for level in results.get("synthetic", {}).values():
         lines += out.prose(f"""The true curves of the synthetic test sequences of {level["network"]} have a jitter of
             {1e4 * level["program"]["truth_jitter"]:.1f}e-4 themselves: a face is never quite still.""")

@@ -6,7 +6,6 @@ from voice import activity, corpus, effects
 from voice.features import RATE
 
 RATIOS = [None, 20, 10, 5, 0, -5]
-BARS = {20: 0.96, 5: 0.90}
 PAUSE = 1.0          # seconds of silence around every utterance
 REST = 0.1           # a mouth at rest has no control above it
 SCENES = 80
@@ -31,6 +30,13 @@ def area_under_roc(scores, truth):
     return (ranks[truth].sum() - positive * (positive + 1) / 2) / max(positive * (len(truth) - positive), 1)
 
 
+def roc(scores, truth, points=60):
+    """Shares of the rest taken for speech and of speech found, at thresholds from 1 to 0."""
+    thresholds = np.quantile(scores, np.linspace(1, 0, points))
+    share = lambda rows: [round(float((rows >= t).mean()), 4) for t in thresholds]
+    return {"false": share(scores[~truth]), "found": share(scores[truth])}
+
+
 def by_ratio(model, seed=1):
     """{ratio: accuracy, area under ROC, share of speech found, share of the rest taken for speech}"""
     report = {}
@@ -46,7 +52,7 @@ def by_ratio(model, seed=1):
         said = scores > 0.5
         report["clean" if ratio is None else ratio] = {
             "accuracy": float((said == truth).mean()), "area": float(area_under_roc(scores, truth)),
-            "found": float(said[truth].mean()), "false": float(said[~truth].mean())}
+            "found": float(said[truth].mean()), "false": float(said[~truth].mean()), "roc": roc(scores, truth)}
     return report
 
 

@@ -1,13 +1,17 @@
 """Controls from sound beside the video teacher's, and lips that close where they must."""
 import numpy as np
+import torch
 
+import voice_phonemes
 from voice_model import INDEX, SPEECH_CONTROLS
 from paths import data
-from voice import corpus, labels, phonemes, teacher
+from voice import align, corpus, espeak, labels, phonemes, teacher, visemes
+from voice.features import RATE, features
 
 COMPARED = ["jawOpen", "mouthClose", "mouthFunnel", "mouthPucker", "mouthRollUpper", "mouthLowerDownLeft"]
 LAGS = range(-5, 6)           # video frames
-OTHERS = ["grid_bbaf2n", "grid_brbk7n", "grid_lbax4n", "grid_lbbc2a", "grid_id2_swwp2s", "hdtf_WDA_KatieHill", "whitehouse_obama_weekly"]
+SAID = {"whitehouse_obama_weekly": "the only people who don't want to disclose the truth are people with something to hide"}
+OTHERS = ["grid_brbk7n", "grid_lbax4n", "grid_lbbc2a", "grid_id2_swwp2s", "hdtf_WDA_KatieHill", "whitehouse_obama_weekly"]
 CLOSED_JAW, CLOSE, NEAR = 0.15, 0.1, 0.04
 OPEN_VOWELS = {phonemes.INDEX[p] for p in ("aa", "ae")}
 
@@ -45,11 +49,51 @@ def other_clips(model):
     """{clip: (answers, teacher's curves)} of other people."""
     out = {}
     for name in OTHERS:
-        path = next(p for p in (data() / "clips").glob(f"{name}.*") if p.suffix in (".mp4", ".mpg"))
         t = np.load(data() / f"clips/{name}.mediapipe.npz", allow_pickle=True)
         curve = teacher.speech_controls(t["blendshapes"], t["blendshape_names"])
-        out[name] = at_frames(model, np.float32(corpus.decode(path)) / 32768, t["t_ms"] / 1000), curve
+        out[name] = at_frames(model, np.float32(corpus.decode(clip_path(name))) / 32768, t["t_ms"] / 1000), curve
     return out
+
+
+def text_of(name):
+    """Words of a clip; none where nobody wrote them down. GRID's names are its sentences."""
+    if name.startswith("grid_"):
+        return voice_phonemes.grid_sentence(name.rsplit("_", 1)[1])
+    return SAID.get(name, "").split()
+
+
+@torch.no_grad()
+def from_right_phonemes(model, name, seconds):
+    """jawOpen as visemes have it from the text, aligned; None where the text is not known."""
+    words = [sum(espeak.words_to_phonemes(word), ()) for word in text_of(name)]
+    if not words:
+        return None
+    sound = np.float32(corpus.decode(clip_path(name))) / 32768
+    heard = torch.from_numpy(features(np.concatenate([sound, np.zeros(RATE // 10, np.float32)])))[None]
+    scores = torch.log_softmax(model.heads(model.encoder(heard)[0])[1][0], -1).numpy()
+    spoken = align.timed(scores, words, len(sound) / RATE)
+    return visemes.curves(spoken, seconds)[:, INDEX["jawOpen"]]
+
+
+def clip_path(name):
+    return next(p for p in (data() / "clips").glob(f"{name}.*") if p.suffix in (".mp4", ".mpg"))
+
+
+def of_clips(model, others):
+    """jawOpen of each clip beside the teacher's."""
+    report = {}
+    for name, (said, truth) in others.items():
+        seconds = np.load(data() / f"clips/{name}.mediapipe.npz")["t_ms"] / 1000
+        jaw, right = truth[:, INDEX["jawOpen"]], from_right_phonemes(model, name, seconds)
+        report[name] = {"said": correlation(said[:, INDEX["jawOpen"]], jaw), "lag": best_lag([said[:, INDEX["jawOpen"]]], [jaw]),
+                        "right phonemes": float("nan") if right is None else correlation(right, jaw)}
+    return report
+
+
+def measure(model):
+    others = other_clips(model) if model.split == "test" else {}
+    return {"held-out clips": agreement(held_clips(model)), "other people": agreement(list(others.values())) if others else {},
+            "clips": of_clips(model, others), "lips": lips(model), "spread": spread(model)}
 
 
 def agreement(pairs):

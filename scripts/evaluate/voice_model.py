@@ -19,8 +19,9 @@ class Model:
     def __init__(self, encoder_path, decoders_path, split="test"):
         self.split = split
         torch.set_num_threads(1)
-        encoder, decoders, _ = export.read(encoder_path, decoders_path)
+        encoder, decoders, state = export.read(encoder_path, decoders_path)
         self.folded = export.Folded(encoder, decoders)
+        self.heard = state["seconds_heard"]
         self.encoder, self.heads = recognise.load(encoder_path)
 
     def __call__(self, sound):

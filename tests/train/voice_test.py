@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """AudioNet's training: the same features as audio/, streaming as the whole, exact folding, alignment and curves that make sense."""
 import sys
+import tempfile
 import unittest
 from pathlib import Path
 
@@ -9,7 +10,8 @@ import torch
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scripts/train"))
-from voice import activity, align, audio_net, effects, export, features, labels, phonemes, recognise, visemes  # noqa: E402
+import mien_weights  # noqa: E402
+from voice import activity, align, audio_net, effects, export, features, labels, opus, phonemes, recognise, visemes, warm_start  # noqa: E402
 from voice.audio_net import SPEECH_CONTROLS  # noqa: E402
 
 COSTS = {"encoder": 146.8e3, "controls": 39.0e3, "activity": 38.0e3}  # multiply-accumulates a step, as published within 3 %
@@ -80,6 +82,19 @@ class Network(unittest.TestCase):
         self.assertLess(len(file.to_bytes()), 470_000)
         self.assertEqual(set(SPEECH_CONTROLS), set(export.FROM_SOUND))
 
+    def test_training_goes_on_from_the_file(self):
+        encoder, decoders = random_encoder(), {"controls": audio_net.controls_decoder(), "activity": audio_net.activity_decoder()}
+        with tempfile.NamedTemporaryFile(suffix=".mien") as file:
+            export.audionet(encoder, decoders, {"seconds_heard": 1}).write(file.name)
+            read = mien_weights.networks(file.name)
+        x = torch.randn(1, 20, audio_net.EMBEDDING)
+        torch.testing.assert_close(decoders["controls"](x)[0].clamp(0, 1),
+                                   warm_start.decoder_of(audio_net.controls_decoder(), read["controls_decoder"])(x)[0].clamp(0, 1),
+                                   atol=0.01, rtol=0.01)
+        for (weight, bias), layer, conv in zip(encoder.folded(), read["encoder"], encoder.convolutions):
+            torch.testing.assert_close(weight, warm_start.split_causal(layer, conv.convolution.in_channels), atol=1e-3, rtol=1e-3)
+            torch.testing.assert_close(bias, layer.bias, atol=1e-2, rtol=1e-3)
+
 
 class Labels(unittest.TestCase):
     def test_ipa(self):
@@ -146,6 +161,17 @@ class Sound(unittest.TestCase):
     def test_companding_changes_little(self):
         sound = np.linspace(-1, 1, 101, dtype=np.float32)
         self.assertLess(np.abs(effects.mu_law(sound) - sound).max(), 0.03)
+
+    def test_codecs_keep_time(self):
+        t = np.arange(32000) / 16000
+        vowel = sum(np.sin(2 * np.pi * 130 * k * t) / k for k in range(1, 15))
+        sound = np.float32(0.2 * vowel * (np.sin(2 * np.pi * (2 + t) * t) > 0.3))
+        envelope = lambda x: np.convolve(np.abs(x), np.ones(80), "same")
+        for coded in (opus.coded(sound, 16000), effects.adpcm(sound)):
+            self.assertEqual(len(sound), len(coded))
+            lags = range(-200, 201, 4)
+            matches = [np.dot(envelope(sound), np.roll(envelope(coded), lag)) for lag in lags]
+            self.assertLess(abs(lags[int(np.argmax(matches))]), 48)  # 3 ms
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Labels with times for real speech, by a network of phase 1: forced alignment of transcripts, and for speech without
-transcript of what the network itself hears (self-training, Lee 2013 "Pseudo-label").
+"""Labels with times for real speech, by a network of phase 1: forced alignment of transcripts, or of what transcribe.py heard. What it
+cannot place is left out.
 
 usage: python3 -m voice.align CHECKPOINT [--groups librispeech_text av librispeech commands]      (in scripts/train)
 """
@@ -12,18 +12,16 @@ import torch
 
 from voice import corpus, espeak, labels, phonemes
 from voice.features import RATE, STEP, features
-from voice.recognise import greedy, load
+from voice.recognise import load
 
 LETTERS = {"a": "ay", "z": "zed"}  # GRID's readers are British, and say A by its name
 
 
 def words_of(group, name, text):
-    """Phonemes of each word that is said; None if nobody knows."""
-    if group == "librispeech_text":
-        return espeak.words_to_phonemes(text[name]) if name in text else None
+    """Phonemes of each word that is said; none if nobody knows."""
     if group == "av":
         return [sum(espeak.words_to_phonemes(LETTERS.get(word, word)), ()) for word, _, _ in corpus.words_of_clip(name)]
-    return None
+    return espeak.words_to_phonemes(text[name]) if text.get(name) else []
 
 
 def states_of(words):
@@ -73,13 +71,14 @@ def timed(scores, words, seconds):
 
 @torch.no_grad()
 def align(group_name, network, heads):
-    group, text, out = corpus.Group(group_name), corpus.transcripts(), {}
+    group, out = corpus.Group(group_name), {}
+    text = corpus.transcripts() if group_name == "librispeech_text" else corpus.heard(group_name)
     for sound in group.sounds:
         samples = np.float32(group.samples(sound)) / 32768
         samples = np.concatenate([samples, np.zeros(RATE // 10, np.float32)])  # what is said last is heard later
         embedding = network(torch.from_numpy(features(samples))[None])[0]
-        sequence, frame = heads(embedding)
-        words = words_of(group_name, sound.name, text) or [(p,) for p in greedy(sequence[0])]
+        frame = heads(embedding)[1]
+        words = words_of(group_name, sound.name, text)
         spoken = timed(torch.log_softmax(frame[0], -1).numpy(), words, sound.length / RATE) if words else None
         if spoken:
             out[sound.name] = spoken

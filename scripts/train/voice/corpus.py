@@ -99,6 +99,15 @@ def transcripts():
     return dict(line.split(" ", 1) for line in lines if " " in line)
 
 
+def heard_path(group):
+    return folder() / f"{group}.words.json"
+
+
+def heard(group):
+    """{name: words}, of speech that has no transcript, by transcribe.py."""
+    return json.loads(heard_path(group).read_text()) if heard_path(group).exists() else {}
+
+
 def words_of_clip(clip):
     """(word, from, to) in seconds, of an align file of GRID."""
     rows = [line.split() for line in (data() / f"av/align/{clip}.align").read_text().splitlines()]

@@ -2,12 +2,13 @@
 
 Sounds are float32 at 16 kHz, full scale 1.
 """
+import audioop
 import functools
 
 import numpy as np
 from scipy.signal import butter, fftconvolve, lfilter
 
-from voice import corpus
+from voice import corpus, opus
 from voice.features import RATE
 
 
@@ -148,6 +149,20 @@ def mu_law(sound, bits=8):
     return np.float32(np.sign(steps) * (256 ** np.abs(steps) - 1) / 255)
 
 
+def adpcm(sound):
+    """IMA's, of 4 bits: small recorders and old radios."""
+    packed, _ = audioop.lin2adpcm(np.int16(np.clip(sound, -1, 1) * 32767).tobytes(), 2, None)
+    return np.float32(np.frombuffer(audioop.adpcm2lin(packed, 2, None)[0], np.int16)) / 32768
+
+
+def coded(rng, sound):
+    """Through one of three codecs."""
+    kind = rng.random()
+    if kind < 0.4:
+        return opus.coded(np.clip(sound, -1, 1), int(rng.integers(6000, 20000)))
+    return adpcm(sound) if kind < 0.7 else mu_law(np.clip(sound, -1, 1), int(rng.integers(6, 9)))
+
+
 def clipped(sound, share):
     """Beyond that share of its peak."""
     limit = share * np.abs(sound).max() + 1e-6
@@ -172,8 +187,8 @@ def spoiled(rng, sound, split, hard=1.0):
     sound = at_level(sound, rng.uniform(-45, -12))
     if rng.random() < 0.06 * hard:
         sound = clipped(sound, rng.uniform(0.1, 0.6))
-    if rng.random() < 0.08 * hard:
-        sound = mu_law(np.clip(sound, -1, 1), int(rng.integers(6, 9)))
+    if rng.random() < 0.12 * hard:
+        sound = coded(rng, sound)
     if rng.random() < 0.5:
         sound = sound + np.float32(rng.uniform(-0.02, 0.02)) * (rng.random() < 0.3)
         sound = sound + np.float32(10 ** rng.uniform(-5, -3)) * rng.standard_normal(len(sound)).astype(np.float32)

@@ -1,10 +1,18 @@
-"""How wrong the decoders are."""
+"""How wrong phonemes and decoders are."""
+import torch
 import torch.nn.functional as F
 
 from voice.audio_net import SPEECH_CONTROLS
 
 BETA, SPEED_BETA = 0.05, 0.01  # larger errors count linearly
 VELOCITY = 1.0                 # weight of what changes from step to step
+
+
+def phoneme_losses(sequence, frame, frames, said, lengths):
+    """(CTC per phoneme, cross entropy of the phoneme at each step)"""
+    steps = torch.full((len(sequence),), sequence.shape[1], dtype=torch.long)
+    ctc = F.ctc_loss(sequence.transpose(0, 1), said, steps, lengths, reduction="sum", zero_infinity=True) / lengths.sum()
+    return ctc, F.cross_entropy(frame.flatten(0, 1), frames.flatten(), label_smoothing=0.05)
 
 
 def controls_loss(said, controls, weights, importance):

@@ -7,7 +7,7 @@ import torch
 from voice import corpus, effects, labels, phonemes, targets
 from voice.features import FEATURES, RATE, features
 
-SHARES = {"synthetic": 0.35, "librispeech_text": 0.3, "librispeech": 0.18, "commands": 0.08, "av": 0.09}
+SHARES = {"synthetic": 0.32, "librispeech_text": 0.25, "librispeech": 0.26, "commands": 0.09, "av": 0.08}
 NOISE_ALONE = 0.08
 SHORTEST_PART = 0.8  # seconds
 WARPS = np.round(np.linspace(0.85, 1.17, 9), 3).tolist()  # of the frequency axis: other people's vocal tracts

@@ -13,7 +13,6 @@ from pathlib import Path
 
 import numpy as np
 import torch
-import torch.nn.functional as F
 from torch import nn
 
 from paths import cache
@@ -22,6 +21,7 @@ from voice.audio_net import Encoder, PhonemeHeads, activity_decoder, controls_de
 
 KEPT = 24                      # batches, of which one is taken at random
 CONTROLS, ACTIVITY = 20.0, 1.5  # weights beside CTC's, with which all have a say
+DECODED = 3                    # one in so many sequences is decoded: two more LSTMs take as long as all the rest
 
 
 class Learner:
@@ -58,16 +58,16 @@ class Learner:
         features, frames, said, lengths, controls, weights, speech = (v.to(self.device) for v in batch)
         embedding = self.network(features)[0]
         sequence, frame = self.heads(embedding)
-        steps = torch.full((len(features),), features.shape[1], dtype=torch.long)
-        ctc = F.ctc_loss(sequence.transpose(0, 1), said, steps, lengths, reduction="sum", zero_infinity=True) / lengths.sum()
-        timed = F.cross_entropy(frame.flatten(0, 1), frames.flatten(), label_smoothing=0.05)
+        ctc, timed = losses.phoneme_losses(sequence, frame, frames, said, lengths)
         right = (frame.argmax(-1) == frames).float().mean()
         if not self.args.together:
             return [ctc, timed], right
         if self.importance is None:
             self.importance = losses.importance_of(controls)
-        return [ctc, timed, CONTROLS * losses.controls_loss(self.decoders["controls"](embedding)[0], controls, weights, self.importance),
-                ACTIVITY * losses.activity_loss(self.decoders["activity"](embedding)[0], speech)], right
+        embedding, controls, weights, speech = (v[::DECODED] for v in (embedding, controls, weights, speech))
+        said, active = (self.decoders[name](embedding)[0] for name in ("controls", "activity"))
+        return [ctc, timed, CONTROLS * losses.controls_loss(said, controls, weights, self.importance),
+                ACTIVITY * losses.activity_loss(active, speech)], right
 
     def learn(self, batch):
         parts, right = self.losses(batch)

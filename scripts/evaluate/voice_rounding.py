@@ -1,0 +1,63 @@
+"""Rounded lips by sound and by picture: what the program answers to held-out clips, once to each alone."""
+import tempfile
+import wave
+from pathlib import Path
+
+import numpy as np
+
+import report as out
+import voice_model  # noqa: F401  (finds the training modules)
+from paths import data
+from voice import corpus
+from voice.features import RATE
+from setting import Missing
+
+ROUNDED = ["mouthPucker", "mouthFunnel"]
+SETTLING = 5  # frames
+
+
+def write_wav(path, samples):
+    with wave.open(str(path), "wb") as file:
+        file.setnchannels(1), file.setsampwidth(2), file.setframerate(RATE)
+        file.writeframes(np.int16(samples).tobytes())
+
+
+def answers(program, clip, samples, mode):
+    with tempfile.TemporaryDirectory() as folder:
+        sound = Path(folder) / "sound.wav"
+        write_wav(sound, samples)
+        table = program.track(clip, 1, "--audio", sound, mode=mode).table
+    return {c: table[c][SETTLING:] for c in ROUNDED}
+
+
+def measure(program):
+    """{control: {"sound": [frames], "picture": [frames], "correlation", "mean of clips"}}"""
+    group = corpus.Group("av")
+    clips = [(data() / f"av/video/{s.name}.mp4", s) for s in group.of("test")]
+    clips = [(path, s) for path, s in clips if path.exists()]
+    if not clips:
+        raise Missing("no held-out clip of av/ has its video")
+    pairs = [[answers(program, path, group.samples(s), mode) for mode in ("audio", "video")] for path, s in clips]
+    report = {"clips": len(pairs)}
+    for c in ROUNDED:
+        rows = [(a[c][:len(v[c])], v[c][:len(a[c])]) for a, v in pairs]
+        rows = [(a[known], v[known]) for a, v in rows for known in [np.isfinite(a) & np.isfinite(v)]]
+        sound, picture = (np.concatenate(v) for v in zip(*rows))
+        own = [np.corrcoef(a, v)[0, 1] for a, v in rows if a.std() > 1e-4 and v.std() > 1e-4]
+        report[c] = {"sound": out.rounded(sound, 3), "picture": out.rounded(picture, 3), "mean of clips": out.rounded(np.mean(own)),
+                     "correlation": out.rounded(np.corrcoef(sound, picture)[0, 1])}
+    return report
+
+
+def prose(report):
+    said = "; ".join(f"{c} {out.number(report[c]['correlation'])} over all frames, {out.number(report[c]['mean of clips'])} in the mean of "
+                     "clips" for c in ROUNDED)
+    return out.prose(f"""What `mien track --mode audio` and `--mode video` answer to {report['clips']} held-out clips (level 1). Correlation: {said}.""")
+
+
+def plot(report, path):
+    figure, panels = out.plt.subplots(1, 2, figsize=(7, 3.4))
+    for control, axes in zip(ROUNDED, panels):
+        axes.plot(report[control]["picture"], report[control]["sound"], ".", markersize=3, alpha=0.4)
+        axes.set(title=control, xlabel="by picture", ylabel="by sound", xlim=(0, 1), ylim=(0, 1))
+    out.save(figure, path)

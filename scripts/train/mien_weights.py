@@ -1,0 +1,64 @@
+"""Weights of a .mien file (docs/format.md) as tensors, to train on from what is committed.
+
+It trusts the file: the library's reader is the one that checks.
+"""
+import struct
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import torch
+
+from mien_file import HEADER_BYTES, OPS
+
+NAMES = {number: name for name, number in OPS.items()}
+RECORD = 64
+
+
+@dataclass
+class Layer:
+    op: str
+    channels: int
+    weight: torch.Tensor  # [outputs, elements of the reduction] in the file's order; of depthwise layers as stored
+    bias: torch.Tensor    # [outputs]
+
+
+def _tensor(data, record):
+    kind, = struct.unpack_from("<H", record, 8)
+    offset, size = struct.unpack_from("<2Q", record, 32)
+    return np.frombuffer(data, {1: "<f2", 2: "<f4"}[kind], size // (2 * kind), offset).astype(np.float32)
+
+
+def unpacked(panels, rows):
+    """Panels of 16 outputs [panel][k][16], the last one perhaps of 8 -> [rows, k]"""
+    width = -(-rows // 8) * 8
+    elements = len(panels) // width
+    parts = [panels[first * elements:(first + 16) * elements].reshape(elements, -1).T for first in range(0, width, 16)]
+    return torch.from_numpy(np.concatenate(parts)[:rows].copy())
+
+
+def _layer(data, record, tensors):
+    op = NAMES[struct.unpack_from("<H", record)[0]]
+    channels, = struct.unpack_from("<I", record, 20)
+    weights, bias = struct.unpack_from("<2I", record, 48)
+    if weights >= len(tensors):
+        return Layer(op, channels, None, None)
+    rows = channels * (4 if op == "lstm" else 1)
+    stored = _tensor(data, tensors[weights])
+    weight = torch.from_numpy(stored) if op == "depthwise" else unpacked(stored, rows)
+    return Layer(op, channels, weight, torch.from_numpy(_tensor(data, tensors[bias])[:rows].copy()))
+
+
+def networks(path):
+    """{name: [Layer]}"""
+    data = Path(path).read_bytes()
+    counts = struct.unpack_from("<4I", data, 20)
+    ends = np.cumsum([HEADER_BYTES, *(RECORD * n for n in counts[:3]), 16 * counts[3]])
+    records = [[data[at:at + RECORD] for at in range(a, b, RECORD)] for a, b in zip(ends[:3], ends[1:4])]
+    strings = data[ends[4]:]
+    out = {}
+    for record in records[0]:
+        at, size = struct.unpack_from("<2I", record)
+        first, count = struct.unpack_from("<2I", record, 24)
+        out[strings[at:at + size].decode()] = [_layer(data, r, records[2]) for r in records[1][first:first + count]]
+    return out

@@ -1,0 +1,115 @@
+#!/usr/bin/env python3
+"""A checkpoint of phase 1 out of models/audionet.mien, to train on without the one it was exported from.
+
+usage: python3 -m voice.warm_start --out CHECKPOINT [--model audionet.mien]      (in scripts/train)
+The file has neither batch norm nor the heads for phonemes. Norms are made anew from training speech, so that they change nothing at
+first; heads are learnt anew from synthetic speech, which takes a minute or two.
+"""
+import argparse
+from pathlib import Path
+
+import numpy as np
+import torch
+
+import mien_weights
+from paths import ROOT
+from voice import losses, scenes
+from voice.audio_net import Encoder, PhonemeHeads, activity_decoder, controls_decoder
+
+
+def split_causal(layer, channels_in):
+    """[out, 2 * padded in] -> [out, in, 2]"""
+    return layer.weight.reshape(layer.channels, 2, -1)[..., :channels_in].permute(0, 2, 1)
+
+
+def set_lstm(lstm, layer):
+    inputs = lstm.input_size
+    lstm.weight_ih_l0.copy_(layer.weight[:, :inputs])
+    lstm.weight_hh_l0.copy_(layer.weight[:, -lstm.hidden_size:])
+    lstm.bias_ih_l0.copy_(layer.bias)
+    lstm.bias_hh_l0.zero_()
+
+
+def set_linear(linear, layer):
+    linear.weight.copy_(layer.weight[:, :linear.in_features])
+    linear.bias.copy_(layer.bias)
+
+
+def set_convolution(convolution, layer, x):
+    """x: [n, in, t] what the layer is given in training. Returns what it answers."""
+    weight = split_causal(layer, convolution.convolution.in_channels)
+    convolution.convolution.weight.copy_(weight)
+    plain = convolution.convolution(x)
+    norm = convolution.norm
+    norm.running_mean.copy_(plain.mean((0, 2)))
+    norm.running_var.copy_(plain.var((0, 2)))
+    norm.weight.copy_(torch.sqrt(norm.running_var + norm.eps))
+    norm.bias.copy_(layer.bias + norm.running_mean)
+    return convolution.eval()(x)
+
+
+@torch.no_grad()
+def encoder_of(layers, x):
+    """x: features [n, t, 130] of training scenes."""
+    encoder = Encoder()
+    x = x.transpose(1, 2)
+    for convolution, layer in zip(encoder.convolutions, layers):
+        x = set_convolution(convolution, layer, torch.cat([torch.zeros_like(x[..., :1]), x], 2))
+    normalise(encoder)
+    set_lstm(encoder.lstm, layers[3])
+    set_linear(encoder.output, layers[4])
+    return encoder.eval()
+
+
+def normalise(encoder):
+    """Takes the features' normalisation out of the first convolution again: trained weights are of one size then."""
+    mean, deviation = scenes.normalisation()
+    first = encoder.convolutions[0]
+    encoder.mean.copy_(mean), encoder.deviation.copy_(deviation)
+    first.norm.running_mean.sub_((first.convolution.weight * mean.view(1, -1, 1)).sum((1, 2)))
+    first.convolution.weight.mul_(deviation.view(1, -1, 1))
+
+
+@torch.no_grad()
+def decoder_of(decoder, layers):
+    set_linear(decoder.input, layers[0]), set_lstm(decoder.lstm, layers[1]), set_linear(decoder.output, layers[2])
+    return decoder.eval()
+
+
+def heads_for(encoder, data, rng, fresh=60, epochs=12):
+    """Learnt from `fresh` batches while the encoder stays as it is."""
+    heads = PhonemeHeads()
+    optimizer = torch.optim.AdamW(heads.parameters(), 2e-2)
+    seen = []
+    for step in range(fresh * epochs):
+        if step < fresh:
+            features, *truth = data.make(rng)
+            with torch.no_grad():
+                seen.append((encoder(features)[0], truth))
+        embedding, truth = seen[rng.integers(len(seen))]
+        optimizer.zero_grad()
+        sum(losses.phoneme_losses(*heads(embedding), *truth[:3])).backward()
+        optimizer.param_groups[0]["lr"] = 2e-2 * (1 - step / (fresh * epochs))
+        optimizer.step()
+    return heads
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--out", type=Path, required=True)
+    parser.add_argument("--model", type=Path, default=ROOT / "models/audionet.mien")
+    args = parser.parse_args()
+    torch.set_num_threads(1)
+    networks = mien_weights.networks(args.model)
+    data, rng = scenes.PhonemeBatches("train", 48, 4.0, 1, shares={"synthetic": 1}), np.random.default_rng(1)
+    encoder = encoder_of(networks["encoder"], data.make(rng)[0])
+    heads = heads_for(encoder, data, rng)
+    decoders = torch.nn.ModuleDict({"controls": decoder_of(controls_decoder(), networks["controls_decoder"]),
+                                    "activity": decoder_of(activity_decoder(), networks["activity_decoder"])})
+    args.out.parent.mkdir(parents=True, exist_ok=True)
+    torch.save({"encoder": encoder.state_dict(), "heads": heads.state_dict(), "decoders": decoders.state_dict(),
+                "seconds_heard": 0.0}, args.out)
+
+
+if __name__ == "__main__":
+    main()
