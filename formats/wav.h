@@ -8,7 +8,8 @@
 // * Chunks that are neither `fmt ` nor `data` are skipped. Reading stops at the end of the first
 //   data chunk; what follows it stays in the source.
 // * A data chunk of unknown length, as pipes have it, lasts to the end of the source: one of
-//   0xFFFFFFFF bytes, or of 0 bytes where the RIFF chunk is not said to go on behind it.
+//   0xFFFFFFFF bytes or of a size that sox or arecord makes up, or of 0 bytes where the RIFF chunk
+//   is not said to go on behind it.
 // * Otherwise the size of the RIFF chunk counts for nothing, nor do bytes per second, the channel
 //   mask, and how many bits of a sample are valid (they are its upper ones).
 //

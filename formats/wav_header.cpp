@@ -9,6 +9,8 @@ namespace mien::formats {
 namespace {
 
 constexpr std::uint32_t kUnknown32 = 0xffffffff;
+// What sox and arecord write where they cannot seek back to the size.
+constexpr std::uint32_t kMadeUp[] = {0x7ffff000, 0x7fffff00};
 
 constexpr std::uint32_t id(const char (&name)[5]) {
   std::uint32_t value = 0;
@@ -148,7 +150,7 @@ WavFault HeaderReader::begin_data(const Chunk& chunk) {
   // Writers that cannot seek leave a zero. A chunk without samples has others behind it in the RIFF
   // chunk, whose size counts from byte 8 on; or else it makes no difference.
   const bool goes_on = riff_bytes_ != kUnknownWavBytes && riff_bytes_ > source_.position() - 8;
-  if (bytes == 0 && !goes_on) {
+  if ((bytes == 0 && !goes_on) || std::ranges::count(kMadeUp, bytes) > 0) {
     bytes = kUnknownWavBytes;
   }
   header_.data_bytes = bytes;

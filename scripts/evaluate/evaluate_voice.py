@@ -2,6 +2,7 @@
 import report as out
 import voice_activity
 import voice_controls
+import voice_mix
 import voice_phonemes
 import voice_plots
 import voice_rounding
@@ -14,6 +15,7 @@ def measure(setting):
     model = Model(*setting.checkpoint("audionet"))
     report = figures(model)
     report["rounding"] = voice_rounding.measure(setting.program)
+    report["mix"] = voice_mix.measure(setting)
     report["sentence"] = voice_plots.sentence(model)
     return report
 
@@ -29,7 +31,10 @@ def markdown(report):
         from; its encoder has heard {report['encoder_hours']:.0f} hours of sound, the same recordings many times.""")
     lines += tables(report)
     lines += ["## Rounded lips by sound and by picture", ""] + voice_rounding.prose(report["rounding"])
-    lines += ["![by sound and by picture](voice_rounding.png)", "", "## A sentence", "",
+    lines += ["![by sound and by picture](voice_rounding.png)", "", "## Sound and picture together", ""]
+    lines += out.prose("""The demo clip, whose true controls are known; its voice is a variant of eSpeak NG that was held out.""")
+    lines += voice_mix.markdown(report["mix"])
+    lines += [ "## A sentence", "",
               "One of the held-out clips; grey is the video teacher's jaw.", "", "![curves of a sentence](voice_sentence.png)", "",
               "[A face that sound alone moves](voice_head.mp4), and [its mouth](voice_head.png): `scripts/evaluate/talking_head.py`."]
     return "\n".join(lines)

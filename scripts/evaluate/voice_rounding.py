@@ -59,5 +59,6 @@ def plot(report, path):
     figure, panels = out.plt.subplots(1, 2, figsize=(7, 3.4))
     for control, axes in zip(ROUNDED, panels):
         axes.plot(report[control]["picture"], report[control]["sound"], ".", markersize=3, alpha=0.4)
-        axes.set(title=control, xlabel="by picture", ylabel="by sound", xlim=(0, 1), ylim=(0, 1))
+        axes.set(title=control, xlabel="by picture", ylabel="by sound", xlim=(0, None), ylim=(0, None))
+    figure.tight_layout()
     out.save(figure, path)

@@ -23,7 +23,7 @@ TEST(WavSizes, UnknownSizesLastToTheEnd) {
   constexpr std::uint32_t kUnknown = 0xffffffff;
   // Before the data chunk's body lie 36 bytes that the RIFF chunk's size counts.
   for (const std::uint32_t riff_bytes : {0u, 8u, 36u, kUnknown}) {
-    for (const std::uint32_t data_bytes : {0u, kUnknown}) {
+    for (const std::uint32_t data_bytes : {0u, 0x7ffff000u, 0x7fffff00u, kUnknown}) {
       const Heard heard = hear(with_sizes(riff_bytes, data_bytes, data));
       EXPECT_EQ(heard.format.frames, std::nullopt);
       EXPECT_EQ(heard.samples.size(), 15000u) << riff_bytes << ' ' << data_bytes;

@@ -6,6 +6,7 @@ import torch
 import torch.nn.functional as F
 from torch import nn
 
+from lstm_layer import Lstm
 from networks import LEAK
 from voice.features import FEATURES
 from voice.phonemes import NAMES
@@ -43,7 +44,7 @@ class Encoder(nn.Module):
         self.register_buffer("mean", torch.zeros(FEATURES))
         self.register_buffer("deviation", torch.ones(FEATURES))
         self.convolutions = nn.ModuleList(CausalConv(a, b) for a, b in zip([FEATURES] + WIDTHS, WIDTHS))
-        self.lstm = nn.LSTM(WIDTHS[-1], WIDTHS[-1], batch_first=True)
+        self.lstm = Lstm(WIDTHS[-1], WIDTHS[-1])
         self.output = nn.Linear(WIDTHS[-1], EMBEDDING)
 
     def forward(self, features, state=None):
@@ -70,7 +71,7 @@ class Decoder(nn.Module):
     def __init__(self, outputs):
         super().__init__()
         self.input = nn.Linear(EMBEDDING, HIDDEN)
-        self.lstm = nn.LSTM(HIDDEN, HIDDEN, batch_first=True)
+        self.lstm = Lstm(HIDDEN, HIDDEN)
         self.output = nn.Linear(HIDDEN, outputs)
 
     def forward(self, embedding, state=None):

@@ -3,8 +3,8 @@
 english.*, to measure only: what the held-out reader said, by held-out voices in English accents.
 
 usage: python3 -m voice.make_speech [--hours 2.5]      (in scripts/train)
-eSpeak NG with all its variants in English accents (and some voices of other languages that read English their way), and flite's
-voices where flite is installed. Held out: variants by a hash of the name, and one of flite's speakers.
+eSpeak NG with all its variants in English accents (and some voices of other languages that read English their way), and the voices of
+flite and Festival where they are installed. Held out: variants by a hash of the name, and one of flite's speakers.
 """
 import argparse
 import re
@@ -12,6 +12,7 @@ import shutil
 import subprocess
 import tempfile
 import wave
+from pathlib import Path
 
 import numpy as np
 
@@ -21,8 +22,9 @@ from voice.features import RATE
 ACCENTS = ["en-us", "en-us", "en-us", "gmw/en", "en-gb-x-rp", "en-gb-scotland", "en-gb-x-gbclan", "en-gb-x-gbcwmd", "en-029",
            "en-us-nyc"]
 FOREIGN = ["de", "nl", "es", "it", "pt", "sv", "pl", "fr", "id", "sw", "ro", "fi"]
-FLITE_SHARE = 0.1  # of sentences
+RECORDED_SHARE = {"train": 0.2, "val": 0.1, "test": 0.1}  # of sentences: voices made of recordings
 FLITE_VOICES = {"awb": "train", "rms": "train", "slt": "train", "kal16": "test"}
+FESTIVAL_VOICES = {"ked_diphone": "train", "cmu_us_slt_arctic_hts": "train"}
 UNLIKE_SPEECH = ("whisper", "robo", "Demonic", "croak")  # variants that hardly are voices
 VOWELS = "a aI aU eI i: I E V A: O: U u: 3: @ oU OI".split()
 CONSONANTS = "p b t d k g f v T D s z S Z h m n N l r j w tS dZ".split()
@@ -96,18 +98,38 @@ def say_flite(rng, texts, voice):
     return sound, [phonemes.of_flite(name) for name, _ in parts], [0.0, *ends[:-1]]
 
 
+def say_festival(rng, texts, voice):
+    """The same of Festival; its segments, too, end at their times."""
+    text = re.sub(r"[^a-z' ]", "", texts.sample(False).lower())
+    with tempfile.TemporaryDirectory() as out:
+        script = f"""(voice_{voice}) (Parameter.set 'Duration_Stretch {rng.uniform(0.75, 1.35):.2f})
+                     (set! said (utt.synth (Utterance Text "{text}")))
+                     (utt.save.wave said "{out}/a.wav" 'riff) (utt.save.segs said "{out}/a.lab")"""
+        subprocess.run(["festival", "--pipe"], input=script.encode(), check=True, stdout=subprocess.DEVNULL)
+        sound = corpus.decode(f"{out}/a.wav")
+        lines = [line.split() for line in Path(f"{out}/a.lab").read_text().splitlines()]
+    segments = [(float(end), name) for end, _, name in (line for line in lines if len(line) == 3)]
+    return sound, [phonemes.of_flite(name) for _, name in segments], [0.0, *(end for end, _ in segments[:-1])]
+
+
+def recorded_voices(split):
+    """(function, voice) of what is installed."""
+    programs = (("flite", say_flite, FLITE_VOICES), ("festival", say_festival, FESTIVAL_VOICES))
+    return [(say, voice) for program, say, voices in programs if shutil.which(program) for voice, s in voices.items() if s == split]
+
+
 def speeches(wanted, seed, held=False):
     """(name, speaker, split, samples, labels, starts) until there are `wanted` seconds of every split."""
     rng = np.random.default_rng(seed)
     texts, voices = Texts(rng, held), variants()
     for split, seconds in wanted.items():
         formant = sorted(v for v, s in voices.items() if s == split)
-        recorded = sorted(v for v, s in FLITE_VOICES.items() if s == split) if shutil.which("flite") else []
+        recorded = recorded_voices(split)
         done = k = 0
         while done < seconds:
-            if recorded and rng.random() < FLITE_SHARE:
-                voice = str(rng.choice(recorded))
-                sound, ids, starts = say_flite(rng, texts, voice)
+            if recorded and rng.random() < RECORDED_SHARE[split]:
+                say, voice = recorded[rng.integers(len(recorded))]
+                sound, ids, starts = say(rng, texts, voice)
             else:
                 voice = formant[k % len(formant)]
                 sound, ids, starts = say_espeak(rng, texts, voice)

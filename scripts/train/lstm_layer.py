@@ -1,0 +1,80 @@
+"""nn.LSTM of one layer whose training on a CPU does not wait between small matrix products.
+
+Run as a program it tests itself.
+"""
+import ctypes
+import functools
+from ctypes import c_size_t, c_void_p
+from pathlib import Path
+
+import torch
+from torch import nn
+
+from native_build import library
+
+MULTIPLE = 32  # of the hidden size
+
+
+@functools.lru_cache
+def native():
+    lib = ctypes.CDLL(str(library(Path(__file__).resolve().parent / "lstm_layer.cpp")))
+    for function in (lib.lstm_forward, lib.lstm_backward):
+        function.argtypes = [c_void_p, c_void_p, c_size_t, c_size_t, c_size_t, *[c_void_p] * (2 if function is lib.lstm_forward else 3)]
+        function.restype = None
+    return lib
+
+
+class Fused(torch.autograd.Function):
+    """x [steps,batch,in] -> h [steps,batch,hidden], from a state of zeros."""
+
+    @staticmethod
+    def forward(ctx, x, weight_ih, weight_hh, bias):
+        steps, batch, _ = x.shape
+        hidden = weight_hh.shape[1]
+        gates = torch.addmm(bias, x.flatten(0, 1), weight_ih.t())
+        h, c = (x.new_zeros(steps + 1, batch, hidden) for _ in range(2))
+        turned = weight_hh.t().contiguous()
+        native().lstm_forward(gates.data_ptr(), turned.data_ptr(), steps, batch, hidden, h.data_ptr(), c.data_ptr())
+        ctx.save_for_backward(x, weight_ih, weight_hh, gates, h, c)
+        return h[1:]
+
+    @staticmethod
+    def backward(ctx, dy):
+        x, weight_ih, weight_hh, gates, h, c = ctx.saved_tensors
+        steps, batch, hidden = dy.shape
+        dh, dc, slopes, weight = dy.contiguous().clone(), dy.new_zeros(batch, hidden), gates.clone(), weight_hh.contiguous()
+        native().lstm_backward(slopes.data_ptr(), weight.data_ptr(), steps, batch, hidden, c.data_ptr(), dh.data_ptr(), dc.data_ptr())
+        return ((slopes @ weight_ih).view_as(x), slopes.t() @ x.flatten(0, 1), slopes.t() @ h[:-1].flatten(0, 1), slopes.sum(0))
+
+
+class Lstm(nn.LSTM):
+    """Batch first, one layer; whole sequences from a state of zeros take the short way in training on a CPU."""
+
+    def __init__(self, inputs, hidden):
+        super().__init__(inputs, hidden, batch_first=True)
+
+    def forward(self, x, state=None):
+        if state is not None or not self.training or x.device.type != "cpu" or x.dtype != torch.float32 or self.hidden_size % MULTIPLE:
+            return super().forward(x, state)
+        h = Fused.apply(x.transpose(0, 1).contiguous(), self.weight_ih_l0, self.weight_hh_l0, self.bias_ih_l0 + self.bias_hh_l0)
+        return h.transpose(0, 1), None
+
+
+def self_test():
+    """Answers and gradients against those of PyTorch's own layer in fp64."""
+    torch.manual_seed(1)
+    for batch, steps, inputs, hidden in ((24, 50, 40, 96), (7, 9, 96, 64), (1, 1, 3, 32), (13, 30, 64, 64)):
+        layer, twin = Lstm(inputs, hidden), nn.LSTM(inputs, hidden, batch_first=True).double()
+        twin.load_state_dict(layer.state_dict())
+        x = torch.randn(batch, steps, inputs) * 3
+        mine, theirs = x.clone().requires_grad_(), x.double().requires_grad_()
+        y, truth, slope = layer(mine)[0], twin(theirs)[0], torch.randn(batch, steps, hidden)
+        (y * slope).sum().backward(), (truth * slope).sum().backward()
+        pairs = [(y, truth), (mine.grad, theirs.grad), *((p.grad, q.grad) for p, q in zip(layer.parameters(), twin.parameters()))]
+        for a, b in pairs:
+            assert float((a - b).abs().max()) < 2e-5 * (1 + float(b.abs().max())), (batch, steps, inputs, hidden)
+    print("lstm_layer: ok")
+
+
+if __name__ == "__main__":
+    self_test()
