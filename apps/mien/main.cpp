@@ -23,12 +23,15 @@ void add_track(CLI::App& program) {
       "track", "Track the face in a video, by picture and sound, and write its curves");
   auto options = std::make_shared<TrackOptions>();
   verb->add_option("INPUT", options->input,
-                   "video, image, sound, .wav, .y4m, or - for Y4M on standard input")
+                   "video, image, sound, .wav, .y4m, or - for Y4M on standard input, WAV with "
+                   "--mode audio")
       ->required();
   verb->add_option("-o", options->curves, "curves as CSV (default: standard output)");
   verb->add_option("--landmarks", options->landmarks, "landmarks as CSV");
   verb->add_option("--overlay", options->overlay, "video with what was tracked drawn over it");
-  verb->add_option("--audio", options->audio, "file with the sound (default: the input's own)");
+  verb->add_option(
+      "--audio", options->audio,
+      "file with the sound, or - for WAV on standard input (default: the input's own)");
   verb->add_option("--mode", options->mode, "av, video or audio; default: what there is of both")
       ->transform(CLI::CheckedTransformer(std::map<std::string, Mode>{
           {"av", Mode::kBoth}, {"video", Mode::kVideo}, {"audio", Mode::kAudio}}));

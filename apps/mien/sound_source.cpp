@@ -95,13 +95,19 @@ class WavSound : public SoundSource {
   std::int64_t last_ = 0;
 };
 
+constexpr const char* kStandardInput = "-";
+
 struct CloseFile {
-  void operator()(std::FILE* file) const { std::fclose(file); }
+  void operator()(std::FILE* file) const {
+    if (file != stdin) {
+      std::fclose(file);
+    }
+  }
 };
 using File = std::unique_ptr<std::FILE, CloseFile>;
 
 File open_file(const std::string& path) {
-  File file(std::fopen(path.c_str(), "rb"));
+  File file(path == kStandardInput ? stdin : std::fopen(path.c_str(), "rb"));
   if (!file) {
     throw Failure(kExitNoInput, path + ": no such file");
   }
@@ -116,7 +122,9 @@ struct WavFile {
 class WavFileSound : private WavFile, public WavSound {
  public:
   WavFileSound(const std::string& path, const VideoRange& range)
-      : WavFile{open_file(path)}, WavSound(path, formats::file_source(file.get()), range, 0.0) {}
+      : WavFile{open_file(path)},
+        WavSound(path == kStandardInput ? "standard input" : path, formats::file_source(file.get()),
+                 range, 0.0) {}
 };
 
 // WAV is what ffmpeg is asked for; gaps are filled with silence, so that samples tell the time.
@@ -164,7 +172,7 @@ class FfmpegSound : private Decoder, public WavSound {
 }  // namespace
 
 std::unique_ptr<SoundSource> open_sound(const std::string& input, const VideoRange& range) {
-  if (input.ends_with(".wav")) {
+  if (input == kStandardInput || input.ends_with(".wav")) {
     return std::make_unique<WavFileSound>(input, range);
   }
   return std::make_unique<FfmpegSound>(input, range);

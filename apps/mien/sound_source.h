@@ -19,8 +19,8 @@ class SoundSource {
   virtual bool next(Audio& block, std::int64_t& pts_ns) = 0;
 };
 
-// A name ending in .wav is a WAV file; everything else goes through ffmpeg. Times are those of the
-// input. Throws Failure.
+// "-" is a WAV stream on stdin, a name ending in .wav a WAV file; everything else goes through
+// ffmpeg. Times are those of the input. Throws Failure.
 std::unique_ptr<SoundSource> open_sound(const std::string& input, const VideoRange& range);
 
 // Brings sound to a tracker as its frames need it.

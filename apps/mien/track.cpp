@@ -80,15 +80,27 @@ struct Senses {
   std::string sound;  // where from; empty: nowhere
 };
 
+constexpr const char* kStandardInput = "-";
+
+bool has_sound_in(const std::string& source) {
+  return source == kStandardInput || probe_streams(source).sound;
+}
+
 Senses choose(const TrackOptions& options) {
   if (options.mode == Mode::kVideo) {
     return {.video = true, .sound = ""};
+  }
+  if (options.mode == Mode::kAudio && options.audio.empty() && options.input == kStandardInput) {
+    return {.video = false, .sound = kStandardInput};
+  }
+  if (options.audio == kStandardInput && options.input == kStandardInput) {
+    throw Failure(kExitUsage, "--audio -: standard input is the picture's already");
   }
   const InputStreams streams = probe_streams(options.input);
   Senses senses;
   senses.video = options.mode == Mode::kAny ? streams.video : options.mode != Mode::kAudio;
   const std::string& source = options.audio.empty() ? options.input : options.audio;
-  const bool has_sound = options.audio.empty() ? streams.sound : probe_streams(source).sound;
+  const bool has_sound = options.audio.empty() ? streams.sound : has_sound_in(source);
   const bool demanded = options.mode != Mode::kAny || !senses.video || !options.audio.empty();
   if (demanded && !has_sound) {
     throw Failure(kExitNoSound, source + ": has no sound");

@@ -1,5 +1,6 @@
-// An LSTM layer over whole sequences, forwards and backwards, where PyTorch on a CPU spends most of its
-// time between small matrix products. Arrays are fp32, time-major: [steps][batch][...], gates i, f, g, o.
+// An LSTM layer over whole sequences, forwards and backwards, where PyTorch on a CPU spends most of
+// its time between small matrix products. Arrays are fp32, time-major: [steps][batch][...], gates
+// i, f, g, o.
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
@@ -19,8 +20,8 @@ void store(float* to, Vector v) { std::memcpy(to, &v, sizeof v); }
 
 // c[row][0 .. 2 kLanes) += a[row][k] b[k][0 .. 2 kLanes)
 template <std::size_t kRows>
-void multiply_tile(const float* a, std::size_t a_stride, const float* b, std::size_t b_stride, std::size_t depth,
-                   float* c, std::size_t c_stride) {
+void multiply_tile(const float* a, std::size_t a_stride, const float* b, std::size_t b_stride,
+                   std::size_t depth, float* c, std::size_t c_stride) {
   Vector sums[kRows][2];
   for (std::size_t r = 0; r < kRows; ++r) {
     for (std::size_t j = 0; j < 2; ++j) {
@@ -42,7 +43,8 @@ void multiply_tile(const float* a, std::size_t a_stride, const float* b, std::si
 }
 
 // c [rows][columns] += a [rows][depth] b [depth][columns]; columns are a multiple of 2 kLanes.
-void multiply_add(const float* a, const float* b, float* c, std::size_t rows, std::size_t depth, std::size_t columns) {
+void multiply_add(const float* a, const float* b, float* c, std::size_t rows, std::size_t depth,
+                  std::size_t columns) {
   for (std::size_t j = 0; j < columns; j += 2 * kLanes) {
     std::size_t r = 0;
     for (; r + 12 <= rows; r += 12) {
@@ -62,7 +64,8 @@ Vector exponential(Vector x) {
   using Integers [[gnu::vector_size(4 * kLanes)]] = int;
   x = x < -87.0f ? Vector{} - 87.0f : x > 87.0f ? Vector{} + 87.0f : x;
   const Vector scaled = x * 1.44269504f;
-  const Integers n = __builtin_convertvector(scaled + (scaled < 0.0f ? Vector{} - 0.5f : Vector{} + 0.5f), Integers);
+  const Integers n = __builtin_convertvector(
+      scaled + (scaled < 0.0f ? Vector{} - 0.5f : Vector{} + 0.5f), Integers);
   const Vector whole = __builtin_convertvector(n, Vector);
   const Vector r = (x - whole * 0.693359375f) + whole * 2.12194440e-4f;
   Vector p = r * 1.9875691500e-4f + 1.3981999507e-3f;
@@ -82,11 +85,11 @@ Vector hyperbolic_tangent(Vector x) { return 2.0f * sigmoid(2.0f * x) - 1.0f; }
 
 }  // namespace
 
-// gates: in, what the inputs and the bias give [steps][batch][4 hidden]; out, the gates' activations.
-// weight [hidden][4 hidden]. h, c [steps + 1][batch][hidden], the first step of both zero; hidden is a
-// multiple of 32.
-extern "C" void lstm_forward(float* gates, const float* weight, std::size_t steps, std::size_t batch,
-                             std::size_t hidden, float* h, float* c) {
+// gates: in, what the inputs and the bias give [steps][batch][4 hidden]; out, the gates'
+// activations. weight [hidden][4 hidden]. h, c [steps + 1][batch][hidden], the first step of both
+// zero; hidden is a multiple of 32.
+extern "C" void lstm_forward(float* gates, const float* weight, std::size_t steps,
+                             std::size_t batch, std::size_t hidden, float* h, float* c) {
   const std::size_t state = batch * hidden;
   for (std::size_t t = 0; t < steps; ++t) {
     float* now = gates + 4 * t * state;
@@ -96,9 +99,11 @@ extern "C" void lstm_forward(float* gates, const float* weight, std::size_t step
         float* gate = now + 4 * n * hidden + j;
         const std::size_t at = t * state + n * hidden + j;
         const Vector i = sigmoid(load(gate)), f = sigmoid(load(gate + hidden));
-        const Vector g = hyperbolic_tangent(load(gate + 2 * hidden)), o = sigmoid(load(gate + 3 * hidden));
+        const Vector g = hyperbolic_tangent(load(gate + 2 * hidden)),
+                     o = sigmoid(load(gate + 3 * hidden));
         const Vector cell = f * load(c + at) + i * g;
-        store(gate, i), store(gate + hidden, f), store(gate + 2 * hidden, g), store(gate + 3 * hidden, o);
+        store(gate, i), store(gate + hidden, f), store(gate + 2 * hidden, g),
+            store(gate + 3 * hidden, o);
         store(c + at + state, cell);
         store(h + at + state, o * hyperbolic_tangent(cell));
       }
@@ -106,10 +111,12 @@ extern "C" void lstm_forward(float* gates, const float* weight, std::size_t step
   }
 }
 
-// gates: in, their activations; out, the gradient before the activations. weight [4 hidden][hidden],
-// dh [steps][batch][hidden] the gradient of h, which is overwritten; dc [batch][hidden] zeros.
-extern "C" void lstm_backward(float* gates, const float* weight, std::size_t steps, std::size_t batch,
-                              std::size_t hidden, const float* c, float* dh, float* dc) {
+// gates: in, their activations; out, the gradient before the activations. weight [4
+// hidden][hidden], dh [steps][batch][hidden] the gradient of h, which is overwritten; dc
+// [batch][hidden] zeros.
+extern "C" void lstm_backward(float* gates, const float* weight, std::size_t steps,
+                              std::size_t batch, std::size_t hidden, const float* c, float* dh,
+                              float* dc) {
   const std::size_t state = batch * hidden;
   for (std::size_t t = steps; t-- > 0;) {
     float* now = gates + 4 * t * state;
@@ -117,7 +124,8 @@ extern "C" void lstm_backward(float* gates, const float* weight, std::size_t ste
       for (std::size_t j = 0; j < hidden; j += kLanes) {
         float* gate = now + 4 * n * hidden + j;
         const std::size_t within = n * hidden + j, at = t * state + within;
-        const Vector i = load(gate), f = load(gate + hidden), g = load(gate + 2 * hidden), o = load(gate + 3 * hidden);
+        const Vector i = load(gate), f = load(gate + hidden), g = load(gate + 2 * hidden),
+                     o = load(gate + 3 * hidden);
         const Vector tangent = hyperbolic_tangent(load(c + at + state)), out = load(dh + at);
         const Vector cell = load(dc + within) + out * o * (1.0f - tangent * tangent);
         store(gate, cell * g * i * (1.0f - i));

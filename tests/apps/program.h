@@ -38,10 +38,11 @@ class Program : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  Outcome run(const std::string& arguments, const std::string& environment = "") const {
+  Outcome run(const std::string& arguments, const std::string& environment = "",
+              const std::string& input = "/dev/null") const {
     const std::string out = path("stdout"), err = path("stderr");
     const std::string command = environment + " '" + MIEN_PROGRAM + "' " + arguments + " >" + out +
-                                " 2>" + err + " </dev/null";
+                                " 2>" + err + " <" + input;
     const int status = std::system(command.c_str());
     return {WEXITSTATUS(status), contents(out), contents(err)};
   }

@@ -112,6 +112,23 @@ TEST_F(ProgramSound, AWavGivesThirtyRowsASecond) {
   expect_buzz(curve, 1000, 2000);
 }
 
+TEST_F(ProgramSound, AWavMayComeThroughAPipe) {
+  MIEN_NEEDS("trained model", have_models());
+  add_ears();
+  write_wav(path("voice.wav"), 2);
+  const std::string voice = path("voice.wav");
+  const Outcome file = run("track " + voice + models());
+  for (const std::string input : {"- --mode audio", "ignored.y4m --audio - --mode audio"}) {
+    std::ofstream(path("ignored.y4m")) << "";
+    const std::string where = input.starts_with("-") ? input : path(input);
+    const Outcome done = run("track " + where + models(), "PATH=/nowhere", voice);
+    ASSERT_EQ(done.code, 0) << done.errors;
+    EXPECT_EQ(done.output, file.output);
+  }
+  EXPECT_EQ(run("track - --audio -" + models(), "", voice).code, 2);
+  EXPECT_EQ(run("track - --mode audio" + models()).code, 11) << "an empty pipe";
+}
+
 TEST_F(ProgramSound, TheRangeCounts) {
   MIEN_NEEDS("trained model", have_models());
   add_ears();
