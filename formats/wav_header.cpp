@@ -9,8 +9,14 @@ namespace mien::formats {
 namespace {
 
 constexpr std::uint32_t kUnknown32 = 0xffffffff;
-// What sox and arecord write where they cannot seek back to the size.
+// What sox (in whole frames) and arecord write where they cannot seek back to the size.
 constexpr std::uint32_t kMadeUp[] = {0x7ffff000, 0x7fffff00};
+
+bool is_made_up(std::uint64_t bytes, std::size_t frame_bytes) {
+  return std::ranges::any_of(kMadeUp, [&](std::uint32_t size) {
+    return bytes == size || bytes == size - size % frame_bytes;
+  });
+}
 
 constexpr std::uint32_t id(const char (&name)[5]) {
   std::uint32_t value = 0;
@@ -150,7 +156,7 @@ WavFault HeaderReader::begin_data(const Chunk& chunk) {
   // Writers that cannot seek leave a zero. A chunk without samples has others behind it in the RIFF
   // chunk, whose size counts from byte 8 on; or else it makes no difference.
   const bool goes_on = riff_bytes_ != kUnknownWavBytes && riff_bytes_ > source_.position() - 8;
-  if ((bytes == 0 && !goes_on) || std::ranges::count(kMadeUp, bytes) > 0) {
+  if ((bytes == 0 && !goes_on) || is_made_up(bytes, header_.format.frame_bytes())) {
     bytes = kUnknownWavBytes;
   }
   header_.data_bytes = bytes;

@@ -38,6 +38,19 @@ TEST(WavSizes, UnknownSizesLastToTheEnd) {
   EXPECT_EQ(hear(with_sizes(36 + 30000, kUnknown, data)).samples.size(), 15000u);
 }
 
+TEST(WavSizes, MadeUpSizesAreOfWholeFrames) {
+  FmtFields stereo24;
+  stereo24.channels = 2;
+  stereo24.bits = 24;
+  for (const std::uint32_t size : {0x7fffeffcu, 0x7ffff000u}) {
+    const Heard heard =
+        hear("RIFF" + little(0x7ffff024, 4) + "WAVE" + wav_chunk("fmt ", fmt_body(stereo24)) +
+             "data" + little(size, 4) + std::string(600, 'x'));
+    EXPECT_EQ(heard.ended, WavStatus::kEnd) << size;
+    EXPECT_EQ(heard.samples.size(), 200u);
+  }
+}
+
 TEST(WavSizes, AChunkMayHaveNoSamples) {
   const Heard heard = hear(with_sizes(36 + 12, 0, wav_chunk("LIST", "abcd")));
   EXPECT_EQ(heard.opened, WavStatus::kOk);
