@@ -1,4 +1,4 @@
-"""Controls from sound beside the video teacher's, and lips that close where they must."""
+"""Controls from sound beside the video teacher's, and lips that close and round where they must."""
 import numpy as np
 import torch
 
@@ -14,6 +14,7 @@ SAID = {"whitehouse_obama_weekly": "the only people who don't want to disclose t
 OTHERS = ["grid_brbk7n", "grid_lbax4n", "grid_lbbc2a", "grid_id2_swwp2s", "hdtf_WDA_KatieHill", "whitehouse_obama_weekly"]
 CLOSED_JAW, CLOSE, NEAR = 0.15, 0.1, 0.04
 OPEN_VOWELS = {phonemes.INDEX[p] for p in ("aa", "ae")}
+ROUND, ROUNDED = 0.15, {phonemes.INDEX[p] for p in ("uw", "w")}
 
 
 def at_frames(model, sound, seconds):
@@ -109,9 +110,9 @@ def agreement(pairs):
 
 
 def lips(model, most=None):
-    """Shares of p, b, m at whose middle, give or take 40 ms, lips are closed; and of open vowels with an open jaw."""
+    """Shares of p, b, m at whose middle, give or take 40 ms, lips are closed; of open vowels with an open jaw; and of rounded lips."""
     group, spoken = corpus.Group("synthetic"), labels.read("synthetic")
-    closed, opened = [], []
+    closed, opened, rounded = [], [], []
     for sound in group.of(model.split)[:most]:
         times, controls, _ = model(np.concatenate([np.float32(group.samples(sound)) / 32768, np.zeros(4000, np.float32)]))
         said = spoken[sound.name]
@@ -122,7 +123,10 @@ def lips(model, most=None):
                 closed.append(bool(((jaw < CLOSED_JAW) | (close > CLOSE)).any()))
             elif label in OPEN_VOWELS:
                 opened.append(bool(jaw.max() > CLOSED_JAW))
-    return {"closed for p b m": float(np.mean(closed)), "count": len(closed), "open for aa ae": float(np.mean(opened))}
+            elif label in ROUNDED:
+                rounded.append(bool(controls[near, INDEX["mouthPucker"]].max() > ROUND))
+    return {"closed for p b m": float(np.mean(closed)), "count": len(closed), "open for aa ae": float(np.mean(opened)),
+            "rounded for uw w": float(np.mean(rounded))}
 
 
 def spread(model):
