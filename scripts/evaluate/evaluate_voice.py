@@ -36,7 +36,9 @@ def markdown(report):
     lines += voice_mix.markdown(report["mix"])
     lines += [ "## A sentence", "",
               "One of the held-out clips; grey is the video teacher's jaw.", "", "![curves of a sentence](voice_sentence.png)", "",
-              "[A face that sound alone moves](voice_head.mp4), and [its mouth](voice_head.png): `scripts/evaluate/talking_head.py`."]
+              "![its mouth](voice_head.jpg)", ""]
+    lines += out.prose("""[A face that sound alone moves](voice_head.mp4), and its mouth above, made by `scripts/evaluate/talking_head.py`:
+        "To note what became of me, I had two important things before me", by a held-out reader (LibriSpeech 26-495-0047, CC BY 4.0).""")
     return "\n".join(lines)
 
 
