@@ -4,10 +4,12 @@
 #include "kernels/activation/activation.h"
 #include "kernels/batch_norm/batch_norm.h"
 #include "kernels/causal_conv/causal_conv.h"
+#include "kernels/concat/concat.h"
 #include "kernels/conv2d/conv2d.h"
 #include "kernels/depthwise/depthwise.h"
 #include "kernels/fma_peak/fma_peak.h"
 #include "kernels/fully_connected/fully_connected.h"
+#include "kernels/global_average_pool/global_average_pool.h"
 #include "kernels/half/half.h"
 #include "kernels/image/warp.h"
 #include "kernels/lstm/lstm.h"
@@ -16,6 +18,7 @@
 #include "kernels/pointwise/pointwise.h"
 #include "kernels/power_spectrum/power_spectrum.h"
 #include "kernels/residual_add/residual_add.h"
+#include "kernels/slice/slice.h"
 #include "kernels/softmax/softmax.h"
 
 namespace mien::kernels {

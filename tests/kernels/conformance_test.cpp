@@ -367,6 +367,50 @@ TEST(Conformance, MaxPool) {
   });
 }
 
+TEST(Conformance, GlobalAveragePool) {
+  check_all_tiers<GlobalAveragePoolArgs>([](RandomValues& random) {
+    const int pixels = random.between(1, 90), channels = random.between(1, 20);
+    Case<GlobalAveragePoolArgs> test;
+    test.buffers = {{random.map(pixels, channels)}, {}, padded(channels)};
+    test.bind = [=](GlobalAveragePoolArgs& a, float* const* f, const std::uint16_t* const*,
+                    float* y) {
+      a = {f[0], y, pixels, channels};
+    };
+    return test;
+  });
+}
+
+TEST(Conformance, Concat) {
+  check_all_tiers<ConcatArgs>([](RandomValues& random) {
+    const int pixels = random.between(1, 9), a_channels = random.between(1, 34),
+              b_channels = random.between(1, 34);
+    Case<ConcatArgs> test;
+    test.buffers = {{random.map(pixels, a_channels), random.map(pixels, b_channels)},
+                    {},
+                    padded(a_channels + b_channels) * static_cast<std::size_t>(pixels)};
+    test.bind = [=](ConcatArgs& a, float* const* f, const std::uint16_t* const*, float* y) {
+      a = {f[0], f[1], y, pixels, a_channels, b_channels};
+    };
+    return test;
+  });
+}
+
+TEST(Conformance, Slice) {
+  check_all_tiers<SliceArgs>([](RandomValues& random) {
+    const int h = random.between(1, 6), w = random.between(1, 6), channels = random.between(1, 24);
+    const int top = random.between(0, 2), left = random.between(0, 2);
+    const int ih = h + top + random.between(0, 2), iw = w + left + random.between(0, 2);
+    const int first = random.between(0, 20), in = first + channels + random.between(0, 9);
+    Case<SliceArgs> test;
+    test.buffers = {
+        {random.map(ih * iw, in)}, {}, padded(channels) * static_cast<std::size_t>(h * w)};
+    test.bind = [=](SliceArgs& a, float* const* f, const std::uint16_t* const*, float* y) {
+      a = {f[0], y, ih, iw, top, left, first, h, w, channels};
+    };
+    return test;
+  });
+}
+
 TEST(Conformance, Activate) {
   check_all_tiers<ActivateArgs>([](RandomValues& random) {
     const int pixels = random.between(1, 30), channels = random.between(1, 20);

@@ -1,0 +1,23 @@
+// The channels of a, then those of b, at every pixel.
+//
+// a: [pixels, a_channels], b: [pixels, b_channels], y: [pixels, a_channels + b_channels], in blocks
+// of 8 channels, y overlapping neither. Lanes beyond the channels of a and b are zero, and so are
+// those of y.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace mien::kernels {
+
+struct ConcatArgs {
+  static constexpr std::string_view kFamily = "concat";
+  const float* a;
+  const float* b;
+  float* y;
+  std::int32_t pixels;
+  std::int32_t a_channels;
+  std::int32_t b_channels;
+};
+
+}  // namespace mien::kernels
