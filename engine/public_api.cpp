@@ -47,6 +47,12 @@ const char* op_name(std::uint16_t op) {
       return "activation";
     case LayerOp::kSoftmax:
       return "softmax";
+    case LayerOp::kGlobalAveragePool:
+      return "global_average_pool";
+    case LayerOp::kConcat:
+      return "concat";
+    case LayerOp::kSlice:
+      return "slice";
   }
   return "";
 }
@@ -184,6 +190,7 @@ LayerInfo WeightFile::layer(std::int32_t network, std::int32_t index) const {
   info.padding[1] = layer.pad_left;
   info.padding[2] = layer.pad_bottom;
   info.padding[3] = layer.pad_right;
+  info.first_channel = layer.first_channel;
   info.parameters = cost.parameters;
   info.macs = cost.macs;
   return info;

@@ -83,6 +83,18 @@ Status infer_shape(const LayerRecord& layer, const Shape& input, const Shape& se
     case LayerOp::kSoftmax:
       output = input;
       break;
+    case LayerOp::kGlobalAveragePool:
+      output = {1, 1, input.c};
+      break;
+    case LayerOp::kConcat:
+      output = {input.h, input.w, input.c + second.c};
+      suits = input.h == second.h && input.w == second.w;
+      break;
+    case LayerOp::kSlice:
+      output = {input.h - layer.pad_top - layer.pad_bottom,
+                input.w - layer.pad_left - layer.pad_right, channels};
+      suits = channels <= input.c - layer.first_channel;
+      break;
   }
   return suits && output.h > 0 && output.w > 0 ? Status::kOk : Status::kShapeMismatch;
 }
@@ -119,6 +131,9 @@ LayerCost layer_cost(const LayerRecord& layer, const Shape& input, const Shape& 
     case LayerOp::kAdd:
     case LayerOp::kActivation:
     case LayerOp::kSoftmax:
+    case LayerOp::kGlobalAveragePool:
+    case LayerOp::kConcat:
+    case LayerOp::kSlice:
       cost.parameters = has_slopes ? out : 0;
       break;
   }

@@ -28,7 +28,8 @@ struct Shape {
 // Whether the map, blocked, is within formats::kMaxMapElems, as those that a file declares are.
 [[nodiscard]] bool is_allowed(const Shape& shape);
 
-// Output shape of a layer. `second` is the second input of an addition. kShapeMismatch when the
+// Output shape of a layer. `second` is the second input of an addition or
+// concatenation. kShapeMismatch when the
 // input does not suit the operation.
 Status infer_shape(const formats::LayerRecord& layer, const Shape& input, const Shape& second,
                    Shape& output);

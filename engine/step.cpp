@@ -125,6 +125,12 @@ Status StepMaker::make(std::uint32_t layer, float* state, Step& step) const {
                  step);
     case LayerOp::kSoftmax:
       return put(kernels::SoftmaxArgs{x.data, y.data, pixels(y.shape), y.shape.c}, step);
+    case LayerOp::kGlobalAveragePool:
+      return put(kernels::GlobalAveragePoolArgs{x.data, y.data, pixels(x.shape), x.shape.c}, step);
+    case LayerOp::kConcat:
+      return put(concat(l, x, y), step);
+    case LayerOp::kSlice:
+      return put(slice(l, x, y), step);
   }
   return Status::kNoKernel;
 }
@@ -209,6 +215,26 @@ kernels::ResidualAddArgs StepMaker::add(const LayerRecord& l, Map x, Map y) cons
   args.w = y.shape.w;
   const Map residual = map(l.second_input);
   set_residual(residual.shape, y.shape, residual.data, args);
+  return args;
+}
+
+kernels::ConcatArgs StepMaker::concat(const LayerRecord& l, Map x, Map y) const {
+  const Map second = map(l.second_input);
+  return {x.data, second.data, y.data, pixels(y.shape), x.shape.c, second.shape.c};
+}
+
+kernels::SliceArgs StepMaker::slice(const LayerRecord& l, Map x, Map y) {
+  kernels::SliceArgs args{};
+  args.x = x.data;
+  args.y = y.data;
+  args.in_h = x.shape.h;
+  args.in_w = x.shape.w;
+  args.top = l.pad_top;
+  args.left = l.pad_left;
+  args.first_channel = l.first_channel;
+  args.h = y.shape.h;
+  args.w = y.shape.w;
+  args.channels = y.shape.c;
   return args;
 }
 

@@ -62,6 +62,9 @@ class StepMaker {
                                                      Map y);
   [[nodiscard]] kernels::ResidualAddArgs add(const formats::LayerRecord& layer, Map x, Map y) const;
 
+  [[nodiscard]] kernels::ConcatArgs concat(const formats::LayerRecord& layer, Map x, Map y) const;
+  [[nodiscard]] static kernels::SliceArgs slice(const formats::LayerRecord& layer, Map x, Map y);
+
   template <class Args>
   Status put(const Args& args, Step& step) const;
 

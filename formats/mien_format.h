@@ -1,4 +1,4 @@
-// The byte layout of weight files (.mien), version 1.0. docs/format.md is the specification; this
+// The byte layout of weight files (.mien), version 1.1. docs/format.md is the specification; this
 // header spells its tables out. All numbers are little-endian; numbers once used are never reused.
 #pragma once
 
@@ -9,7 +9,7 @@ namespace mien::formats {
 
 inline constexpr std::uint8_t kMagic[8] = {0x89, 'M', 'I', 'E', 'N', 0x0D, 0x0A, 0x1A};
 inline constexpr std::uint16_t kMajorVersion = 1;
-inline constexpr std::uint16_t kMinorVersion = 0;
+inline constexpr std::uint16_t kMinorVersion = 1;
 inline constexpr std::uint32_t kEndianTag = 0x01020304;
 
 // Sections and tensors begin at multiples of this, and so does the file in memory.
@@ -44,6 +44,9 @@ enum class LayerOp : std::uint16_t {
   kAdd = 8,
   kActivation = 9,
   kSoftmax = 10,
+  kGlobalAveragePool = 11,  // this and what follows: since version 1.1
+  kConcat = 12,
+  kSlice = 13,
 };
 
 enum class LayerActivation : std::uint16_t {
@@ -101,13 +104,13 @@ struct LayerRecord {
   std::uint16_t op;
   std::uint16_t activation;
   std::uint32_t input;                    // a value smaller than this layer's own
-  std::uint32_t second_input;             // kAdd only, else kNoIndex
+  std::uint32_t second_input;             // of kAdd and kConcat, else kNoIndex
   std::uint32_t height, width, channels;  // of the output, at the network's declared input size
   std::uint16_t kernel_height, kernel_width;
   std::uint16_t stride_height, stride_width;
-  std::uint16_t pad_top, pad_left, pad_bottom, pad_right;
-  std::uint16_t flags;  // kCeilMode
-  std::uint16_t reserved;
+  std::uint16_t pad_top, pad_left, pad_bottom, pad_right;  // of kSlice: rows, columns cut off
+  std::uint16_t flags;                                     // kCeilMode
+  std::uint16_t first_channel;                             // of kSlice, else 0
   float alpha;
   std::uint32_t weights, bias, slopes;  // tensors, or kNoIndex
   std::uint32_t reserved_tail;

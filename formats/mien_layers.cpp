@@ -22,10 +22,10 @@ bool chooses_channels(LayerOp op) {
   return has_fixed_input(op) || op == LayerOp::kConv2d || op == LayerOp::kPointwise;
 }
 
-// Cells, sums, maxima and softmax have their own nonlinearity or none.
+// The others are cells, which have their own nonlinearity, or choose, add and move values.
 bool may_activate(LayerOp op) {
-  return op != LayerOp::kLstm && op != LayerOp::kMaxPool && op != LayerOp::kAdd &&
-         op != LayerOp::kSoftmax;
+  return chooses_channels(op) ? op != LayerOp::kLstm
+                              : op == LayerOp::kDepthwise || op == LayerOp::kActivation;
 }
 
 FileStatus check_activation(const LayerRecord& layer) {
@@ -52,8 +52,11 @@ bool window_allowed(std::uint16_t kernel, std::uint16_t stride, std::uint16_t be
 }
 
 bool no_window(const LayerRecord& layer) {
-  return (layer.kernel_height | layer.kernel_width | layer.stride_height | layer.stride_width |
-          layer.pad_top | layer.pad_left | layer.pad_bottom | layer.pad_right) == 0;
+  return (layer.kernel_height | layer.kernel_width | layer.stride_height | layer.stride_width) == 0;
+}
+
+bool no_margins(const LayerRecord& layer) {
+  return (layer.pad_top | layer.pad_left | layer.pad_bottom | layer.pad_right) == 0;
 }
 
 bool geometry_allowed(const LayerRecord& layer) {
@@ -62,7 +65,7 @@ bool geometry_allowed(const LayerRecord& layer) {
     return false;
   }
   if (!slides(op_of(layer))) {
-    return no_window(layer);
+    return no_window(layer) && (op_of(layer) == LayerOp::kSlice || no_margins(layer));
   }
   return window_allowed(layer.kernel_height, layer.stride_height, layer.pad_top,
                         layer.pad_bottom) &&
@@ -88,6 +91,24 @@ ValueShape slid_shape(const LayerRecord& layer, ValueShape input) {
           window_count(input.width, layer.kernel_width, layer.stride_width, layer.pad_left,
                        layer.pad_right, ceil_mode),
           op_of(layer) == LayerOp::kConv2d ? layer.channels : input.channels};
+}
+
+// What is left of `size` elements without its margins; 0 if nothing.
+std::uint64_t cut(std::uint64_t size, std::uint64_t before, std::uint64_t after) {
+  return size > before + after ? size - before - after : 0;
+}
+
+ValueShape sliced_shape(const LayerRecord& layer, ValueShape input) {
+  if (std::uint64_t{layer.first_channel} + layer.channels > input.channels) {
+    return {};
+  }
+  return {cut(input.height, layer.pad_top, layer.pad_bottom),
+          cut(input.width, layer.pad_left, layer.pad_right), layer.channels};
+}
+
+ValueShape concatenated_shape(ValueShape a, ValueShape b) {
+  const bool same_size = a.height == b.height && a.width == b.width;
+  return same_size ? ValueShape{a.height, a.width, a.channels + b.channels} : ValueShape{};
 }
 
 // b is at least as large as a, by an even number of rows and columns.
@@ -118,6 +139,9 @@ TensorDims weights_of(const LayerRecord& layer, ValueShape input) {
     case LayerOp::kAdd:
     case LayerOp::kActivation:
     case LayerOp::kSoftmax:
+    case LayerOp::kGlobalAveragePool:
+    case LayerOp::kConcat:
+    case LayerOp::kSlice:
       break;
   }
   return {};
@@ -134,20 +158,23 @@ bool shape_allowed(ValueShape shape) {
   return shape.height * shape.width <= kMaxMapElems / padded8(shape.channels);
 }
 
-FileStatus check_layer(const LayerRecord& layer, std::uint32_t value, std::uint32_t network_flags) {
+FileStatus check_layer(const LayerRecord& layer, std::uint32_t value, std::uint32_t network_flags,
+                       std::uint16_t minor_version) {
   if (layer.op < static_cast<std::uint16_t>(LayerOp::kConv2d) ||
-      layer.op > static_cast<std::uint16_t>(LayerOp::kSoftmax)) {
+      layer.op > static_cast<std::uint16_t>(LayerOp::kSlice) ||
+      version_needed(layer) > minor_version) {
     return FileStatus::kBadOp;
   }
   if (network_flags == kAnySize && has_fixed_input(op_of(layer))) {
     return FileStatus::kBadOp;
   }
-  if (layer.reserved != 0 || layer.reserved_tail != 0) {
+  const bool slices = op_of(layer) == LayerOp::kSlice;
+  if ((layer.first_channel != 0 && !slices) || layer.reserved_tail != 0) {
     return FileStatus::kReservedNotZero;
   }
-  const bool adds = op_of(layer) == LayerOp::kAdd;
+  const bool two = takes_two(op_of(layer));
   if (layer.input >= value ||
-      (adds ? layer.second_input >= value : layer.second_input != kNoIndex)) {
+      (two ? layer.second_input >= value : layer.second_input != kNoIndex)) {
     return FileStatus::kBadReference;
   }
   if (!geometry_allowed(layer)) {
@@ -167,8 +194,17 @@ ValueShape output_shape(const LayerRecord& layer, ValueShape input, ValueShape s
   if (slides(op)) {
     return slid_shape(layer, input);
   }
-  if (op == LayerOp::kFullyConnected) {
-    return {1, 1, layer.channels};
+  switch (op) {
+    case LayerOp::kFullyConnected:
+      return {1, 1, layer.channels};
+    case LayerOp::kGlobalAveragePool:
+      return {1, 1, input.channels};
+    case LayerOp::kConcat:
+      return concatenated_shape(input, second);
+    case LayerOp::kSlice:
+      return sliced_shape(layer, input);
+    default:
+      break;
   }
   return {input.height, input.width, chooses_channels(op) ? layer.channels : input.channels};
 }

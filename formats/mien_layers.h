@@ -34,15 +34,26 @@ struct LayerTensors {
   return {layer.height, layer.width, layer.channels};
 }
 
+// Whether the op reads a second value.
+[[nodiscard]] constexpr bool takes_two(LayerOp op) {
+  return op == LayerOp::kAdd || op == LayerOp::kConcat;
+}
+
+// The minor version of the format that a layer needs.
+[[nodiscard]] constexpr std::uint16_t version_needed(const LayerRecord& layer) {
+  return layer.op >= static_cast<std::uint16_t>(LayerOp::kGlobalAveragePool) ? 1 : 0;
+}
+
 // All dimensions in 1..kMaxDim and the map, blocked, within kMaxMapElems.
 [[nodiscard]] bool shape_allowed(ValueShape shape);
 
 // Fields by themselves: op, activation, references below `value`, kernel, strides, padding.
+// `minor_version`: the file's.
 [[nodiscard]] FileStatus check_layer(const LayerRecord& layer, std::uint32_t value,
-                                     std::uint32_t network_flags);
+                                     std::uint32_t network_flags, std::uint16_t minor_version);
 
 // The output of a checked layer for these inputs, its declared height and width aside; `second`
-// counts for kAdd only. Zeros where the layer cannot take such inputs.
+// counts for ops that take two. Zeros where the layer cannot take such inputs.
 [[nodiscard]] ValueShape output_shape(const LayerRecord& layer, ValueShape input,
                                       ValueShape second);
 

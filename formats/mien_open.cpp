@@ -1,4 +1,5 @@
 // The validating pass over a weight file, front to back, by the sections of docs/format.md.
+#include <algorithm>
 #include <cstddef>
 
 #include "formats/checked.h"
@@ -106,6 +107,7 @@ class Validator {
   std::uint64_t next_string_ = 0;  // the same in the string section
   std::uint32_t next_layer_ = 0;
   std::uint32_t next_tensor_ = 0;
+  std::uint16_t version_needed_ = 0;  // minor, by the layers so far
   Validation result_;
 };
 
@@ -358,6 +360,9 @@ bool Validator::networks() {
   if (next_layer_ != header.layer_count) {
     return fail(FileStatus::kBadNetwork, offsetof(FileHeader, layer_count));
   }
+  if (version_needed_ != header.minor_version) {
+    return fail(FileStatus::kUnsupportedVersion, offsetof(FileHeader, minor_version));
+  }
   return constants();
 }
 
@@ -407,13 +412,14 @@ ValueShape Validator::value_shape(const NetworkRecord& network, std::uint32_t va
 
 bool Validator::layer(const NetworkRecord& network, std::uint32_t index) {
   const LayerRecord& record = layer_records[network.first_layer + index];
-  const FileStatus status = check_layer(record, index + 1, network.flags);
+  const FileStatus status = check_layer(record, index + 1, network.flags, header.minor_version);
   if (status != FileStatus::kOk) {
     return fail_at(status, record);
   }
+  version_needed_ = std::max(version_needed_, version_needed(record));
   const ValueShape input = value_shape(network, record.input);
-  const bool adds = op_of(record) == LayerOp::kAdd;
-  const ValueShape second = adds ? value_shape(network, record.second_input) : input;
+  const bool two = takes_two(op_of(record));
+  const ValueShape second = two ? value_shape(network, record.second_input) : input;
   const ValueShape output = output_shape(record, input, second);
   if (!shape_allowed(output) || output != shape_of(record)) {
     return fail_at(FileStatus::kBadShape, record.height);

@@ -57,6 +57,13 @@ TensorRecord tensor_record(DataType type, const TensorDims& dims) {
   return record;
 }
 
+void set_margins(LayerRecord* record, const Padding& padding) {
+  record->pad_top = padding.top;
+  record->pad_left = padding.left;
+  record->pad_bottom = padding.bottom;
+  record->pad_right = padding.right;
+}
+
 // The reader wants the file aligned, which a vector of bytes is not.
 Validation validated(std::span<const std::byte> file) {
   struct alignas(kFileAlignment) Line {
@@ -114,23 +121,20 @@ void NetworkWriter::slide(LayerRecord* record, std::uint32_t kernel_h, std::uint
   record->kernel_width = static_cast<std::uint16_t>(std::min(kernel_w, 0xffffu));
   record->stride_height = options.stride_y;
   record->stride_width = options.stride_x;
-  record->pad_top = options.padding.top;
-  record->pad_left = options.padding.left;
-  record->pad_bottom = options.padding.bottom;
-  record->pad_right = options.padding.right;
+  set_margins(record, options.padding);
 }
 
 // Checks what the format says about the layer and gives it its shape.
 bool NetworkWriter::place(LayerRecord* record) {
   const auto value = static_cast<std::uint32_t>(layers_.size() + 1);
-  const FileStatus status = check_layer(*record, value, record_.flags);
+  const FileStatus status = check_layer(*record, value, record_.flags, kMinorVersion);
   if (!require(status == FileStatus::kOk, status)) {
     return false;
   }
   const ValueShape input = shape_of_value(record->input);
-  const bool adds = op_of(*record) == LayerOp::kAdd;
+  const bool two = takes_two(op_of(*record));
   const ValueShape output =
-      output_shape(*record, input, adds ? shape_of_value(record->second_input) : input);
+      output_shape(*record, input, two ? shape_of_value(record->second_input) : input);
   record->height = static_cast<std::uint32_t>(output.height);
   record->width = static_cast<std::uint32_t>(output.width);
   return require(shape_allowed(output), FileStatus::kBadShape) && status_ == FileStatus::kOk;
@@ -257,6 +261,27 @@ LayerIndex NetworkWriter::add(LayerIndex a, LayerIndex b, const LayerOptions& op
   return append(std::move(layer), {}, {}, options);
 }
 
+LayerIndex NetworkWriter::global_average_pool(LayerIndex x, const LayerOptions& options) {
+  return append(begin(LayerOp::kGlobalAveragePool, x, options), {}, {}, options);
+}
+
+LayerIndex NetworkWriter::concat(LayerIndex a, LayerIndex b, const LayerOptions& options) {
+  Layer layer = begin(LayerOp::kConcat, a, options);
+  layer.record.second_input = b;
+  const std::uint64_t channels = shape_of_value(a).channels + shape_of_value(b).channels;
+  layer.record.channels = static_cast<std::uint32_t>(channels);
+  return append(std::move(layer), {}, {}, options);
+}
+
+LayerIndex NetworkWriter::slice(LayerIndex x, std::uint16_t first_channel, std::uint32_t channels,
+                                const LayerOptions& options) {
+  Layer layer = begin(LayerOp::kSlice, x, options);
+  layer.record.channels = channels;
+  layer.record.first_channel = first_channel;
+  set_margins(&layer.record, options.padding);
+  return append(std::move(layer), {}, {}, options);
+}
+
 LayerIndex NetworkWriter::activation(LayerIndex x, const LayerOptions& options) {
   return append(begin(LayerOp::kActivation, x, options), {}, {}, options);
 }
@@ -350,11 +375,20 @@ struct FileSections {
 
 namespace {
 
+// The smallest that the layers need.
+std::uint16_t minor_version_of(const std::vector<LayerRecord>& layers) {
+  std::uint16_t version = 0;
+  for (const LayerRecord& layer : layers) {
+    version = std::max(version, version_needed(layer));
+  }
+  return version;
+}
+
 FileHeader file_header(const FileSections& sections) {
   FileHeader header{};
   std::copy(std::begin(kMagic), std::end(kMagic), header.magic);
   header.major_version = kMajorVersion;
-  header.minor_version = kMinorVersion;
+  header.minor_version = minor_version_of(sections.layers);
   header.endian_tag = kEndianTag;
   header.header_bytes = sizeof(FileHeader);
   header.network_count = static_cast<std::uint32_t>(sections.networks.size());

@@ -75,6 +75,13 @@ class NetworkWriter {
                       const LayerOptions& options = {});
   // a + the centre slice of b
   LayerIndex add(LayerIndex a, LayerIndex b, const LayerOptions& options = {});
+  // mean over all pixels: [1, 1, c]
+  LayerIndex global_average_pool(LayerIndex x, const LayerOptions& options = {});
+  // the channels of a, then those of b
+  LayerIndex concat(LayerIndex a, LayerIndex b, const LayerOptions& options = {});
+  // `channels` channels from `first_channel` on, without the rows and columns of options.padding
+  LayerIndex slice(LayerIndex x, std::uint16_t first_channel, std::uint32_t channels,
+                   const LayerOptions& options = {});
   LayerIndex activation(LayerIndex x, const LayerOptions& options);
   LayerIndex softmax(LayerIndex x, const LayerOptions& options = {});
   void output(LayerIndex x);

@@ -1,5 +1,6 @@
 // The bytes are a weight file whose magic, version, size and checksum are made right first, so that
 // mutations reach the rules behind them.
+#include <algorithm>
 #include <cstddef>
 #include <cstring>
 #include <vector>
@@ -18,7 +19,7 @@ void make_right(std::vector<std::byte>& file) {
   std::memcpy(&header, file.data(), sizeof header);
   std::memcpy(header.magic, mien::formats::kMagic, sizeof header.magic);
   header.major_version = mien::formats::kMajorVersion;
-  header.minor_version = mien::formats::kMinorVersion;
+  header.minor_version = std::min(header.minor_version, mien::formats::kMinorVersion);
   header.endian_tag = mien::formats::kEndianTag;
   header.header_bytes = sizeof header;
   header.total_bytes = file.size();

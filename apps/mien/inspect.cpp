@@ -3,6 +3,7 @@
 #include <mien/engine.h>
 
 #include <cstdio>
+#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "apps/mien/failure.h"
@@ -32,6 +33,10 @@ ordered_json layer_json(const LayerInfo& layer) {
     json["kernel"] = layer.kernel;
     json["stride"] = layer.stride;
     json["padding"] = layer.padding;
+  }
+  if (std::strcmp(layer.op, "slice") == 0) {
+    json["left_out"] = layer.padding;
+    json["first_channel"] = layer.first_channel;
   }
   json["output"] = array(layer.output);
   json["parameters"] = layer.parameters;

@@ -79,7 +79,9 @@ struct LayerInfo {
   std::int32_t input = 0;          // 0: the network's input, k: the output of its k-th layer
   std::int32_t second_input = -1;  // the same; -1: none
   std::int32_t kernel[2] = {0, 0}, stride[2] = {0, 0};  // h, w
-  std::int32_t padding[4] = {0, 0, 0, 0};               // top, left, bottom, right
+  // Top, left, bottom, right. Of a slice: rows and columns that it leaves out.
+  std::int32_t padding[4] = {0, 0, 0, 0};
+  std::int32_t first_channel = 0;  // of a slice
   std::uint64_t parameters = 0;
   std::uint64_t macs = 0;
 };

@@ -19,10 +19,11 @@ import tempfile
 from array import array
 
 OPS = {"conv2d": 1, "depthwise": 2, "pointwise": 3, "fully_connected": 4, "causal_conv": 5, "lstm": 6, "max_pool": 7,
-       "add": 8, "activation": 9, "softmax": 10}
+       "add": 8, "activation": 9, "softmax": 10, "global_average_pool": 11, "concat": 12, "slice": 13}
 ACTIVATIONS = {"none": 0, "relu": 1, "relu6": 2, "leaky_relu": 3, "prelu": 4, "sigmoid": 5, "tanh": 6, "clamp01": 7}
 SLIDING = ("conv2d", "depthwise", "max_pool")
-PASSIVE = ("lstm", "max_pool", "add", "softmax")  # have no activation
+PASSIVE = ("lstm", "max_pool", "add", "softmax", "global_average_pool", "concat", "slice")  # have no activation
+SINCE = {"global_average_pool": 1, "concat": 1, "slice": 1}  # minor version of the format
 FP16, FP32 = 1, 2
 NO_INDEX = 0xFFFFFFFF
 ANY_SIZE, CEIL_MODE = 1, 1
@@ -31,6 +32,7 @@ HEADER_BYTES = 64
 MAX_NETWORKS, MAX_LAYERS, MAX_TENSORS, MAX_METADATA, MAX_OUTPUTS = 64, 1024, 4096, 256, 4
 MAX_TEXT_BYTES, MAX_FILE_BYTES, MAX_MAP_ELEMS = 4096, 1 << 31, 1 << 28
 MAX_DIM, MAX_RANK, MAX_KERNEL, MAX_STRIDE = 1 << 20, 4, 15, 15
+MAX_MARGIN = (1 << 16) - 1  # of a slice, and its first channel
 NAME = re.compile(r"[a-z0-9_./]{1,63}")
 
 
@@ -63,7 +65,8 @@ class MienFile:
         tensors += [tensor for _, tensor in self._constants]
         metadata = [struct.pack("<4I", *strings.add(_name(key)), *strings.add(_text(value)))
                     for key, value in sorted(self.metadata.items())]
-        return _assemble(networks, layers, list(zip(names, tensors)), metadata, bytes(strings.data))
+        version = max((SINCE.get(layer.op, 0) for network in self._networks for layer in network.layers), default=0)
+        return _assemble(version, networks, layers, list(zip(names, tensors)), metadata, bytes(strings.data))
 
     def write(self, path):
         """The file appears under its name only when it is whole."""
@@ -79,7 +82,7 @@ class MienFile:
             raise
 
 
-def _assemble(networks, layers, tensors, metadata, strings):
+def _assemble(minor_version, networks, layers, tensors, metadata, strings):
     counts = len(networks), len(layers), len(tensors), len(metadata)
     for count, limit in zip(counts, (MAX_NETWORKS, MAX_LAYERS, MAX_TENSORS, MAX_METADATA)):
         _require(count <= limit, f"{count} records, at most {limit}")
@@ -93,8 +96,8 @@ def _assemble(networks, layers, tensors, metadata, strings):
     body += bytes(data_offset - HEADER_BYTES - len(body)) + data
     total = HEADER_BYTES + len(body)
     _require(total <= MAX_FILE_BYTES, "file too large")
-    header = struct.pack("<8s2H7I2Q", b"\x89MIEN\r\n\x1a", 1, 0, 0x01020304, HEADER_BYTES, *counts, len(strings), total,
-                         data_offset)
+    header = struct.pack("<8s2H7I2Q", b"\x89MIEN\r\n\x1a", 1, minor_version, 0x01020304, HEADER_BYTES, *counts, len(strings),
+                         total, data_offset)
     return header + struct.pack("<Q", xxhash64(header + bytes(8) + body)) + body
 
 
@@ -167,6 +170,20 @@ class Network:
         """a + the centre slice of b"""
         return self._add(_Layer("add", [a, b], self._shape(a)[2]), [], options)
 
+    def global_average_pool(self, x, **options):
+        """Mean over all pixels."""
+        return self._add(_Layer("global_average_pool", [x], self._shape(x)[2]), [], options)
+
+    def concat(self, a, b, **options):
+        """The channels of a, then those of b."""
+        return self._add(_Layer("concat", [a, b], self._shape(a)[2] + self._shape(b)[2]), [], options)
+
+    def slice(self, x, first_channel, channels, padding=0, **options):
+        """Channels from the first on, without so many rows and columns at the (top, left, bottom, right)"""
+        layer = _Layer("slice", [x], channels, padding=padding)
+        layer.first_channel = first_channel
+        return self._add(layer, [], options)
+
     def activation(self, x, activation, **options):
         _require(activation != "none", "activation: none")
         return self._add(_Layer("activation", [x], self._shape(x)[2]), [], {"activation": activation, **options})
@@ -211,7 +228,7 @@ class Network:
 
 class _Layer:
     def __init__(self, op, inputs, channels, kernel=0, stride=0, padding=0):
-        self.op, self.inputs, self.channels, self.flags = op, inputs, channels, 0
+        self.op, self.inputs, self.channels, self.flags, self.first_channel = op, inputs, channels, 0, 0
         self.kernel, self.stride, self.padding = _pair(kernel), _pair(stride), _four(padding)
 
     def set_activation(self, options):
@@ -227,10 +244,14 @@ class _Layer:
         self.slopes = [_vector(slopes, self.channels)] if slopes is not None else []
 
     def output_shape(self, shapes):
-        h, w = (1, 1) if self.op == "fully_connected" else shapes[0][:2]
+        h, w = (1, 1) if self.op in ("fully_connected", "global_average_pool") else shapes[0][:2]
         if self.op == "add":
             margins = [big - small for small, big in zip(*shapes)]
             _require(margins[2] == 0 and all(m >= 0 and m % 2 == 0 for m in margins), f"add of {shapes}")
+        if self.op == "concat":
+            _require(shapes[0][:2] == shapes[1][:2], f"concat of {shapes}")
+        if self.op == "slice":
+            h, w = self._cut(shapes[0])
         if self.op in SLIDING:
             top, left, bottom, right = self.padding
             h = self._slide(h, self.kernel[0], self.stride[0], top, bottom)
@@ -238,6 +259,14 @@ class _Layer:
         _require(1 <= self.channels <= MAX_DIM and h <= MAX_DIM and w <= MAX_DIM
                  and h * w * _round_up_8(self.channels) <= MAX_MAP_ELEMS, f"{self.op}: output {(h, w, self.channels)}")
         return h, w, self.channels
+
+    def _cut(self, shape):
+        """Output size of a slice."""
+        (h, w, c), (top, left, bottom, right) = shape, self.padding
+        _require(all(0 <= n <= MAX_MARGIN for n in (*self.padding, self.first_channel)), f"slice without {self.padding}")
+        _require(top + bottom < h and left + right < w and 1 <= self.channels <= c - self.first_channel,
+                 f"slice of {shape}: {self.channels} channels from {self.first_channel}, without {self.padding}")
+        return h - top - bottom, w - left - right
 
     def _slide(self, size, kernel, stride, before, after):
         """Output size of a window that slides over `size` elements."""
@@ -256,7 +285,7 @@ class _Layer:
         tensors += self.tensors + self.slopes
         return struct.pack("<2H2I3I8H2Hf4I", OPS[self.op], ACTIVATIONS[self.activation],
                            *(self.inputs + [NO_INDEX])[:2], *self.shape, *self.kernel, *self.stride, *self.padding,
-                           self.flags, 0, self.alpha, weights, bias, slopes, 0)
+                           self.flags, self.first_channel, self.alpha, weights, bias, slopes, 0)
 
 
 class _Tensor:

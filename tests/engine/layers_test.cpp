@@ -163,5 +163,33 @@ TEST(Layers, Softmax) {
   }
 }
 
+TEST(Layers, GlobalAveragePool) {
+  for (const InputShape input : {InputShape{5, 7, 11}, {1, 1, 8}, {30, 20, 5}}) {
+    expect_layer(input, [](TwinNetwork& net) { return net.global_average_pool(0); });
+  }
+}
+
+TEST(Layers, ConcatOfChannelsThatBeginAnywhere) {
+  for (const std::uint32_t a : {1u, 7u, 8u, 9u, 20u}) {
+    for (const std::uint32_t b : {1u, 8u, 13u}) {
+      expect_layer({4, 3, 10}, [&](TwinNetwork& net) {
+        return net.concat(net.pointwise(0, a), net.pointwise(0, b));
+      });
+    }
+  }
+  expect_layer({1, 1, 5}, [](TwinNetwork& net) { return net.concat(0, 0); });
+}
+
+TEST(Layers, SlicesOfRowsColumnsAndChannels) {
+  for (const auto first : std::initializer_list<std::uint16_t>{0, 3, 8, 13}) {
+    for (const std::uint32_t channels : {1u, 6u, 8u, 10u}) {
+      expect_layer({6, 7, 24}, [&](TwinNetwork& net) {
+        return net.slice(0, first, channels, strided(1, 1, {1, 0, 2, 3}));
+      });
+    }
+  }
+  expect_layer({1, 1, 12}, [](TwinNetwork& net) { return net.slice(0, 4, 8); });
+}
+
 }  // namespace
 }  // namespace mien::tests

@@ -195,4 +195,28 @@ Map plain_softmax(Map x) {
   return x;
 }
 
+Map plain_global_average_pool(const Map& x) {
+  Map y(1, 1, x.c);
+  for (std::size_t i = 0; i < x.values.size(); ++i) {
+    y.values[i % x.c] += x.values[i] / static_cast<double>(x.h * x.w);
+  }
+  return y;
+}
+
+Map plain_concat(const Map& a, const Map& b) {
+  Map y(a.h, a.w, a.c + b.c);
+  for_elements(y, [&](std::size_t row, std::size_t column, std::size_t c, double& value) {
+    value = c < a.c ? a.at(row, column, c) : b.at(row, column, c - a.c);
+  });
+  return y;
+}
+
+Map plain_slice(const Map& x, std::size_t first, std::size_t channels, const LayerOptions& o) {
+  Map y(x.h - o.padding.top - o.padding.bottom, x.w - o.padding.left - o.padding.right, channels);
+  for_elements(y, [&](std::size_t row, std::size_t column, std::size_t c, double& value) {
+    value = x.at(row + o.padding.top, column + o.padding.left, first + c);
+  });
+  return y;
+}
+
 }  // namespace mien::tests

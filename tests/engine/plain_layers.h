@@ -48,5 +48,11 @@ Map plain_max_pool(const Map& x, std::size_t kernel_h, std::size_t kernel_w,
 Map plain_add(const Map& a, const Map& b);
 Map plain_activation(Map x, const formats::LayerOptions& options);
 Map plain_softmax(Map x);
+Map plain_global_average_pool(const Map& x);
+// The channels of a, then those of b.
+Map plain_concat(const Map& a, const Map& b);
+// `channels` channels from `first` on, without the margins of options.padding.
+Map plain_slice(const Map& x, std::size_t first, std::size_t channels,
+                const formats::LayerOptions& options);
 
 }  // namespace mien::tests

@@ -75,7 +75,10 @@ class RandomNetwork {
     const Index x = pick();
     const Map& map = twin.value(x);
     const bool is_vector = map.h == 1 && map.w == 1;
-    const int choice = between(0, 9);
+    const int choice = between(0, 11);
+    if (choice >= 10) {
+      return add_part(x);
+    }
     if (choice <= 3 && add_sum(x)) {
       return;
     }
@@ -125,6 +128,28 @@ class RandomNetwork {
       }
     }
     return false;
+  }
+
+  // Something beside x of the same size, or a part of it.
+  void add_part(Index x) {
+    const Map& map = twin.value(x);
+    for (Index other = twin.last(); other > 0; --other) {
+      const Map& b = twin.value(other);
+      if (other != x && b.h == map.h && b.w == map.w && map.c + b.c <= 40) {
+        note(twin.concat(x, other), {x, other});
+        return;
+      }
+    }
+    if (map.h > 4 && between(0, 3) == 0) {
+      note(twin.global_average_pool(x), {x});
+      return;
+    }
+    const auto first = between(std::size_t{0}, map.c - 1);
+    Options margins;
+    margins.padding = {static_cast<std::uint16_t>(map.h > 2), 0, 0,
+                       static_cast<std::uint16_t>(map.w > 2)};
+    const auto kept = static_cast<std::uint32_t>(map.c - first);
+    note(twin.slice(x, static_cast<std::uint16_t>(first), kept, margins), {x});
   }
 
   void promote(Index value) {

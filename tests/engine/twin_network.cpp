@@ -139,6 +139,25 @@ TwinNetwork::Index TwinNetwork::softmax(Index x) {
                 [=](const std::vector<Map>& values) { return plain_softmax(values[x]); });
 }
 
+TwinNetwork::Index TwinNetwork::global_average_pool(Index x) {
+  return append(writer_.global_average_pool(x), [=](const std::vector<Map>& values) {
+    return plain_global_average_pool(values[x]);
+  });
+}
+
+TwinNetwork::Index TwinNetwork::concat(Index a, Index b) {
+  return append(writer_.concat(a, b),
+                [=](const std::vector<Map>& values) { return plain_concat(values[a], values[b]); });
+}
+
+TwinNetwork::Index TwinNetwork::slice(Index x, std::uint16_t first_channel, std::uint32_t channels,
+                                      Options options) {
+  return append(writer_.slice(x, first_channel, channels, options),
+                [=](const std::vector<Map>& values) {
+                  return plain_slice(values[x], first_channel, channels, options);
+                });
+}
+
 void TwinNetwork::output(Index x) {
   writer_.output(x);
   outputs_.push_back(x);

@@ -32,6 +32,9 @@ class TwinNetwork {
   Index add(Index a, Index b);
   Index activation(Index x, Options options);
   Index softmax(Index x);
+  Index global_average_pool(Index x);
+  Index concat(Index a, Index b);
+  Index slice(Index x, std::uint16_t first_channel, std::uint32_t channels, Options options = {});
   void output(Index x);
 
   // Only the shape of it counts.

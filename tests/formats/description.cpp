@@ -92,6 +92,12 @@ void add_layer(NetworkWriter& net, const json& layer, Numbers& numbers) {
     net.max_pool(x, kernel_h, kernel_w, options);
   } else if (op == "add") {
     net.add(x, layer["b"], options);
+  } else if (op == "global_average_pool") {
+    net.global_average_pool(x);
+  } else if (op == "concat") {
+    net.concat(x, layer["b"]);
+  } else if (op == "slice") {
+    net.slice(x, layer["first_channel"], layer["channels"], options);
   } else if (op == "activation") {
     net.activation(x, options);
   } else {

@@ -76,6 +76,18 @@ class Refusals(unittest.TestCase):
         self.refused(lambda: net.max_pool(0, 2, padding=2))
         self.refused(lambda: net.softmax(1))
         self.refused(lambda: net.add(0, 0, activation="relu"))
+        self.refused(lambda: net.slice(0, 1, 8))
+        self.refused(lambda: net.slice(0, 0, 8, (2, 0, 2, 0)))
+        self.refused(lambda: net.slice(0, -1, 4))
+        self.refused(lambda: net.slice(0, 0, 4, activation="relu"))
+        self.refused(lambda: net.concat(0, net.global_average_pool(0)))
+
+    def test_version_is_the_smallest_that_has_the_ops(self):
+        self.assertEqual(file_with().to_bytes()[10], 0)
+        file = MienFile()
+        net = file.network("n", (4, 4, 8))
+        net.output(net.global_average_pool(0))
+        self.assertEqual(file.to_bytes()[10], 1)
 
     def test_names_and_texts(self):
         for bad in ("", "A", "a b", "x" * 64, "é", "a\n"):

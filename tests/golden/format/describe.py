@@ -39,6 +39,10 @@ def add_layer(net, layer, numbers):
         return net.max_pool(x, layer["kernel"], **options)
     if op == "add":
         return net.add(x, layer["b"], **options)
+    if op == "concat":
+        return net.concat(x, layer["b"], **options)
+    if op == "slice":
+        return net.slice(x, layer["first_channel"], layer["channels"], **options)
     if op == "activation":
         return net.activation(x, options.pop("activation"), **options)
     return getattr(net, op)(x, *arrays, **options)

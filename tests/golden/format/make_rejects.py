@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes reject/: accept/small.mien with one rule broken in each, the checksum made right again, and reject/expected.txt
+"""Writes reject/: accept/small.mien or parts.mien with one rule broken in each, the checksum made right again, and reject/expected.txt
 with lines "file status offset"."""
 import struct
 import sys
@@ -15,13 +15,16 @@ CONV, FC, ADD, CAUSAL = (LAYERS + 64 * i for i in range(4))
 CONSTANT = TENSORS + 64 * 7  # "c", 3 x fp32
 CONSTANT_DATA = len(BASE) - 128
 NAN = float("nan")
+PARTS = (HERE / "accept/parts.mien").read_bytes()
+SLICE, _, CONCAT, MEAN = (128 + 64 * i for i in range(4))
 
 # name, status, offset that the reader reports (None: where the first change is), changes (format, offset, value)
 CASES = [
     ("magic", "kBadMagic", 4, [("B", 4, 0x4F)]),
     ("big_endian", "kWrongEndian", 12, [("I", 12, 0x04030201)]),
     ("major_version", "kUnsupportedVersion", 8, [("H", 8, 2)]),
-    ("minor_version", "kUnsupportedVersion", 8, [("H", 10, 1)]),
+    ("minor_version", "kUnsupportedVersion", 8, [("H", 10, 2)]),
+    ("version_not_needed", "kUnsupportedVersion", 10, [("H", 10, 1)]),
     ("header_bytes", "kUnsupportedVersion", 16, [("I", 16, 128)]),
     ("no_network", "kLimitExceeded", 20, [("I", 20, 0)]),
     ("networks", "kLimitExceeded", 20, [("I", 20, 65)]),
@@ -71,7 +74,8 @@ CASES = [
     ("output_unused", "kBadNetwork", None, [("I", NETWORKS + 40, 1)]),
     ("network_reserved", "kReservedNotZero", NETWORKS + 52, [("I", NETWORKS + 60, 1)]),
     ("op_zero", "kBadOp", CONV, [("H", CONV, 0)]),
-    ("op_unknown", "kBadOp", CONV, [("H", CONV, 11)]),
+    ("op_unknown", "kBadOp", CONV, [("H", 10, 1), ("H", CONV, 14)]),
+    ("op_of_a_later_version", "kBadOp", CONV, [("H", CONV, 11)]),
     ("any_size_fully_connected", "kBadOp", FC, [("I", NETWORKS + 20, 1)]),
     ("activation_unknown", "kBadActivation", CONV, [("H", CONV + 2, 8)]),
     ("activation_of_add", "kBadActivation", ADD, [("H", ADD + 2, 1)]),
@@ -135,8 +139,30 @@ CASES = [
 ]
 
 
-def changed(changes):
-    data = bytearray(BASE)
+# the same, of parts.mien
+PARTS_CASES = [
+    ("parts_in_version_0", "kBadOp", SLICE, [("H", 10, 0)]),
+    ("slice_window", "kBadKernel", SLICE, [("H", SLICE + 24, 1)]),
+    ("slice_activation", "kBadActivation", SLICE, [("H", SLICE + 2, 1)]),
+    ("slice_second_input", "kBadReference", SLICE, [("I", SLICE + 8, 0)]),
+    ("slice_beyond_channels", "kBadShape", SLICE + 12, [("H", SLICE + 42, 6)]),
+    ("slice_of_nothing", "kBadShape", SLICE + 12, [("H", SLICE + 32, 6)]),
+    ("slice_margins_wrap", "kBadShape", SLICE + 12, [("H", SLICE + 32, 65535), ("H", SLICE + 36, 65535)]),
+    ("slice_other_height", "kBadShape", SLICE + 12, [("I", SLICE + 12, 6)]),
+    ("slice_weights", "kBadTensor", SLICE + 48, [("I", SLICE + 48, 0)]),
+    ("concat_missing_input", "kBadReference", CONCAT, [("I", CONCAT + 8, 2**32 - 1)]),
+    ("concat_of_other_sizes", "kBadShape", CONCAT + 12, [("I", CONCAT + 8, 0)]),
+    ("concat_channels", "kBadShape", CONCAT + 12, [("I", CONCAT + 20, 8)]),
+    ("concat_first_channel", "kReservedNotZero", CONCAT, [("H", CONCAT + 42, 1)]),
+    ("concat_padding", "kBadKernel", CONCAT, [("H", CONCAT + 32, 1)]),
+    ("mean_height", "kBadShape", MEAN + 12, [("I", MEAN + 12, 5)]),
+    ("mean_activation", "kBadActivation", MEAN, [("H", MEAN + 2, 1)]),
+    ("mean_window", "kBadKernel", MEAN, [("H", MEAN + 28, 1)]),
+]
+
+
+def changed(changes, base=BASE):
+    data = bytearray(base)
     for layout, offset, value in changes:
         struct.pack_into("<" + layout, data, offset, *(value if isinstance(value, tuple) else (value,)))
     return with_checksum(data)
@@ -172,6 +198,7 @@ def main():
         old.unlink()
     cases = [(name, status, changes[0][1] if offset is None else offset, changed(changes))
              for name, status, offset, changes in CASES] + whole_file_cases()
+    cases += [(name, status, offset, changed(changes, PARTS)) for name, status, offset, changes in PARTS_CASES]
     for name, _, _, data in cases:
         (folder / f"{name}.mien").write_bytes(data)
     (folder / "expected.txt").write_text("".join(f"{name}.mien {status} {offset}\n" for name, status, offset, _ in cases))

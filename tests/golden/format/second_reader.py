@@ -80,7 +80,8 @@ class Reader:
          self.metadata_count, self.string_bytes, total, self.data_offset, checksum) = struct.unpack_from("<8sHHIIIIIIIQQQ", self.data)
         check(magic == bytes.fromhex("894D49454E0D0A1A"), "kBadMagic")
         check(endian == 0x01020304, "kWrongEndian")
-        check((major, minor, header_bytes) == (1, 0, 64), "kUnsupportedVersion")
+        check(major == 1 and minor <= 1 and header_bytes == 64, "kUnsupportedVersion")
+        self.minor = minor
         check(total <= 2**31, "kLimitExceeded")
         check(total <= len(self.data), "kTruncated")
         check(total >= len(self.data), "kTrailingBytes")
@@ -162,6 +163,7 @@ class Reader:
         for name, record in zip(self.names, self.network_records):
             self.network(name, record)
         check(self.layer == self.layer_count, "kBadNetwork")
+        check(self.minor == any(fields[0] >= 11 for fields in self.layer_records), "kUnsupportedVersion")
         for index in range(self.tensor, self.tensor_count):
             check(self.tensor_names[index], "kUnusedTensor")
             self.lines.append(f"constant {self.tensor_names[index]} {'fp16' if self.types[index] == 1 else 'fp32'} "
@@ -183,21 +185,21 @@ class Reader:
               and not any(outputs[output_count:]), "kBadNetwork")
 
     def one_layer(self, fields, values, flags):
-        (op, activation, x, second, h, w, channels, kh, kw, sy, sx, top, left, bottom, right, layer_flags, reserved, alpha,
+        (op, activation, x, second, h, w, channels, kh, kw, sy, sx, top, left, bottom, right, layer_flags, first, alpha,
          weights, bias, slopes, tail) = fields
-        check(1 <= op <= 10 and not (flags and op in (4, 5, 6)), "kBadOp")
-        check(reserved == tail == 0, "kReservedNotZero")
-        check(x < len(values) and (second < len(values) if op == 8 else second == NOTHING), "kBadReference")
+        check(1 <= op <= (13 if self.minor >= 1 else 10) and not (flags and op in (4, 5, 6)), "kBadOp")
+        check((first == 0 or op == 13) and tail == 0, "kReservedNotZero")
+        check(x < len(values) and (second < len(values) if op in (8, 12) else second == NOTHING), "kBadReference")
         window = (kh, kw, sy, sx, top, left, bottom, right)
         if op in (1, 2, 7):
             check(all(1 <= n <= 15 for n in window[:4]) and max(top, bottom) < kh and max(left, right) < kw, "kBadKernel")
         else:
-            check(not any(window), "kBadKernel")
+            check(not any(window[:4] if op == 13 else window), "kBadKernel")
         check(layer_flags == 0 or (layer_flags == 1 and op == 7), "kBadKernel")
-        check(activation <= 7 and not (activation and op in (6, 7, 8, 10)) and not (activation == 0 and op == 9), "kBadActivation")
+        check(activation <= 7 and not (activation and op in (6, 7, 8, 10, 11, 12, 13)) and not (activation == 0 and op == 9), "kBadActivation")
         check(0 < alpha < 1 if activation == 3 else struct.pack("<f", alpha) == bytes(4), "kBadActivation")
         a = values[x]
-        shape = self.derived(op, a, values[second] if op == 8 else a, channels, window, layer_flags)
+        shape = self.derived(op, a, values[second] if op in (8, 12) else a, channels, window, layer_flags, first)
         check(shape == (h, w, channels) and map_ok(shape), "kBadShape")
         dims = self.weight_dims(op, a, channels, kh, kw)
         n8 = round8(channels)
@@ -207,7 +209,7 @@ class Reader:
         self.lines.append(f"layer {op} activation {activation} inputs {x} {second} output {h}x{w}x{channels}")
         return shape
 
-    def derived(self, op, a, b, n, window, flags):
+    def derived(self, op, a, b, n, window, flags, first):
         h, w, c = a
         kh, kw, sy, sx, top, left, bottom, right = window
         if op in (1, 2, 7):
@@ -216,7 +218,13 @@ class Reader:
             check((h, w) == (1, 1) and (op == 5 or n % 8 == 0), "kBadShape")
         if op == 8:
             check(b[2] == c and b[0] >= h and b[1] >= w and (b[0] - h) % 2 == 0 and (b[1] - w) % 2 == 0, "kBadShape")
-        return {3: (h, w, n), 4: (1, 1, n), 5: (1, 1, n), 6: (1, 1, n)}.get(op, a)
+        if op == 12:
+            check((h, w) == b[:2], "kBadShape")
+            return h, w, c + b[2]
+        if op == 13:
+            check(first + n <= c, "kBadShape")
+            return h - top - bottom, w - left - right, n
+        return {11: (1, 1, c), 3: (h, w, n), 4: (1, 1, n), 5: (1, 1, n), 6: (1, 1, n)}.get(op, a)
 
     def windows(self, size, kernel, stride, before, after, ceil_mode):
         room = before + size + after - kernel
