@@ -13,6 +13,7 @@
 #include "apps/mien/failure.h"
 #include "apps/mien/inspect.h"
 #include "apps/mien/neutral.h"
+#include "apps/mien/run.h"
 #include "apps/mien/track.h"
 
 namespace mien::app {
@@ -80,6 +81,21 @@ void add_inspect(CLI::App& program) {
   verb->callback([options] { inspect(*options); });
 }
 
+void add_run(CLI::App& program) {
+  auto* verb = program.add_subcommand("run", "Run a network of a weight file on an array");
+  auto options = std::make_shared<RunOptions>();
+  verb->add_option("MODEL", options->model, "weight file (.mien)")->required();
+  verb->add_option("--input", options->input, "array (.npy); axes in front of a map count steps")
+      ->required();
+  verb->add_option("--output", options->outputs, "array (.npy), once for each output")->required();
+  verb->add_option("--network", options->network, "which of several networks");
+  verb->add_option("--layout", options->layout, "of maps: chw (default) or hwc")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, MapLayout>{
+          {"chw", MapLayout::kChannelsFirst}, {"hwc", MapLayout::kChannelsLast}}));
+  verb->add_option("--tier", options->tier, "kernel tier: ref, avx2");
+  verb->callback([options] { run_network(*options); });
+}
+
 void add_bench(CLI::App& program) {
   auto* verb = program.add_subcommand(
       "bench", "Time the networks, tracking a clip, or hearing, on one core");
@@ -116,6 +132,7 @@ int run(int argc, char** argv) {
   add_track(program);
   add_neutral(program);
   add_inspect(program);
+  add_run(program);
   add_bench(program);
   add_compare(program);
   try {

@@ -10,16 +10,16 @@ namespace mien::app {
 
 namespace fs = std::filesystem;
 
-Blob::Blob(const std::string& path) {
+Blob::Blob(const std::string& path, ExitCode code) {
   std::ifstream file(path, std::ios::binary | std::ios::ate);
   if (!file) {
-    throw Failure(kExitModel, path + ": cannot be opened");
+    throw Failure(code, path + ": cannot be opened");
   }
   size_ = static_cast<std::size_t>(file.tellg());
   words_.resize((size_ + sizeof(Line) - 1) / sizeof(Line));
   file.seekg(0);
   if (!file.read(reinterpret_cast<char*>(words_.data()), static_cast<std::streamsize>(size_))) {
-    throw Failure(kExitModel, path + ": cannot be read");
+    throw Failure(code, path + ": cannot be read");
   }
 }
 

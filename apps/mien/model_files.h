@@ -5,12 +5,15 @@
 #include <string>
 #include <vector>
 
+#include "apps/mien/exit_codes.h"
+
 namespace mien::app {
 
 // A whole file in memory, aligned as the library asks for.
 class Blob {
  public:
-  explicit Blob(const std::string& path);  // throws Failure(kExitModel)
+  // Throws Failure with the code when there is no such file.
+  explicit Blob(const std::string& path, ExitCode code = kExitModel);
   const void* data() const { return words_.data(); }
   std::size_t size() const { return size_; }
 

@@ -1,0 +1,43 @@
+"""Operators on constants, which exporters leave in shape arithmetic."""
+import numpy as np
+
+from refusal import Refused
+
+TYPES = {1: np.float32, 6: np.int32, 7: np.int64, 9: np.bool_, 10: np.float16, 11: np.float64}
+
+
+def axes_of(inputs, attributes, index=1):
+    if len(inputs) > index and inputs[index] is not None:
+        return [int(a) for a in np.asarray(inputs[index]).reshape(-1)]
+    axes = attributes.get("axes")
+    return None if axes is None else list(axes)
+
+
+def constant_of_shape(inputs, attributes):
+    value = attributes.get("value")
+    value = np.zeros(1, np.float32) if value is None else value
+    return np.full([int(n) for n in inputs[0]], value.reshape(-1)[0])
+
+
+def cast(inputs, attributes):
+    if attributes["to"] not in TYPES:
+        raise Refused(f"a cast to type {attributes['to']}")
+    return inputs[0].astype(TYPES[attributes["to"]])
+
+
+def divided(inputs, _):
+    a, b = inputs
+    return a // b if np.issubdtype(a.dtype, np.integer) else a / b
+
+
+FUNCTIONS = {
+    "ConstantOfShape": constant_of_shape, "Cast": cast, "Div": divided,
+    "Add": lambda i, a: i[0] + i[1], "Sub": lambda i, a: i[0] - i[1], "Mul": lambda i, a: i[0] * i[1],
+    "Neg": lambda i, a: -i[0], "Sqrt": lambda i, a: np.sqrt(i[0]), "Exp": lambda i, a: np.exp(i[0]), "Pow": lambda i, a: i[0] ** i[1],
+    "Reciprocal": lambda i, a: 1 / i[0], "Floor": lambda i, a: np.floor(i[0]), "Ceil": lambda i, a: np.ceil(i[0]),
+    "Abs": lambda i, a: np.abs(i[0]), "Range": lambda i, a: np.arange(*(x.reshape(()) for x in i)),
+    "Gather": lambda i, a: np.take(i[0], i[1].astype(np.int64), a.get("axis", 0)), "Equal": lambda i, a: i[0] == i[1],
+    "Where": lambda i, a: np.where(*i), "Expand": lambda i, a: i[0] * np.ones([int(n) for n in i[1]], i[0].dtype),
+    "ReduceProd": lambda i, a: np.prod(i[0], tuple(axes_of(i, a)) if axes_of(i, a) else None, keepdims=bool(a.get("keepdims", 1))),
+    "Not": lambda i, a: ~i[0], "Greater": lambda i, a: i[0] > i[1], "Less": lambda i, a: i[0] < i[1],
+}

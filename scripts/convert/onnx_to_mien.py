@@ -1,0 +1,91 @@
+#!/usr/bin/env python3
+"""Turns ONNX files into one weight file of mien, a network for each; or says which node it cannot take. docs/convert.md has the details.
+
+usage: onnx_to_mien.py MODEL.onnx... -o MODEL.mien [--name NAME]... [--shape [INPUT:]1,3,64,64]... [--time-axis N|none] [--any-size]
+"""
+import argparse
+import re
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from refusal import Refused, require  # noqa: E402
+
+try:
+    from graph import Graph, converted
+    from layers import MienFile
+except ModuleNotFoundError as missing:
+    sys.exit(f"onnx_to_mien.py: no Python module {missing.name!r} here; scripts/setup.sh convert installs what is needed")
+
+
+def network_name(stem):
+    """The nearest name that the format allows."""
+    return re.sub(r"[^a-z0-9_./]", "_", stem.lower())[:63]
+
+
+def shape_of(text):
+    """[INPUT:]1,3,64,64"""
+    name, _, numbers = text.rpartition(":")
+    if not re.fullmatch(r"\d+(,\d+)*", numbers) or "0" in numbers.split(","):
+        raise argparse.ArgumentTypeError(f"{text!r} is no shape")
+    return name, [int(n) for n in numbers.split(",")]
+
+
+def time_axis_of(text):
+    if text == "none":
+        return -1
+    if text.isdigit():
+        return int(text)
+    raise argparse.ArgumentTypeError(f"{text!r} is neither an axis nor 'none'")
+
+
+def add_network(file, path, name, options):
+    graph = Graph(path)
+    first = next(iter(graph.inputs))
+    shapes = {given or first: shape for given, shape in options.shape}
+    for given in shapes:
+        require(given in graph.inputs, f"no input {given!r}; there is {', '.join(graph.inputs)}")
+    conversion = converted(graph, shapes, options.time_axis)
+    network = conversion.network()
+    net = file.network(name, conversion.source.shape, any_size=options.any_size)
+    network.write(net)
+    file.metadata[f"{name}.onnx"[:63]] = f"{Path(path).name}, opset {graph.opset}, {graph.producer}"[:1000]
+    return conversion, network
+
+
+def report(path, name, conversion, network):
+    h, w, c = conversion.source.shape
+    over_time = f", one step of its time axis {conversion.guess.time_axis} a run" if conversion.t.steps else ""
+    print(f"{path} -> network {name}: input {h}x{w}x{c}{over_time}, {len(network.layers)} layers")
+    for output, position in conversion.positions.items():
+        print(f"  output {position}: {output}, {'x'.join(map(str, network.outputs[position].shape))}")
+    for state, _ in conversion.state_names.values():
+        print(f"  state {state} stays inside")
+    for note in dict.fromkeys(conversion.t.notes):
+        print(f"  note: {note}")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("models", nargs="+", metavar="MODEL.onnx")
+    parser.add_argument("-o", "--output", required=True, metavar="MODEL.mien")
+    parser.add_argument("--name", action="append", default=[], help="of the networks, in order; default: the files' names")
+    parser.add_argument("--shape", action="append", default=[], type=shape_of, help="of an input (default: the first) that the file leaves open")
+    parser.add_argument("--time-axis", type=time_axis_of, help="of the first input, whose steps come one by one; default: as it fits")
+    parser.add_argument("--any-size", action="store_true", help="the networks run on larger maps, too")
+    options = parser.parse_args()
+    file = MienFile()
+    for i, path in enumerate(options.models):
+        name = options.name[i] if i < len(options.name) else network_name(Path(path).stem)
+        try:
+            report(path, name, *add_network(file, path, name, options))
+        except (Refused, ValueError, OSError) as refusal:
+            sys.exit(f"onnx_to_mien.py: {path}: {refusal}")
+    try:
+        file.write(options.output)
+    except (ValueError, OSError) as refusal:
+        sys.exit(f"onnx_to_mien.py: {options.output}: {refusal}")
+
+
+if __name__ == "__main__":
+    main()

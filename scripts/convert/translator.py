@@ -1,0 +1,224 @@
+"""From ONNX nodes to layers: what all operators share. operators.py has one function for each."""
+import numpy as np
+
+import tensors
+from constants import FUNCTIONS
+from layers import Layer
+from refusal import Refused, require
+from tensors import BITS, MASK, NOTHING, Tensor
+
+
+class Translator:
+    """steps: how many steps of a stream the graph holds; 0 where it has no time."""
+
+    def __init__(self, opset, steps):
+        self.opset, self.steps = opset, steps
+        self.layers = []
+        self.node = ""  # what errors name
+        self.states = {}  # number of a state input's layer -> what holds its next value, as elements
+        self.notes = []
+
+    # -- layers ----------------------------------------------------------------------------------------------------------------------
+
+    def layer(self, op, inputs, shape, **options):
+        layer = Layer(op, inputs, shape, self.node, **options)
+        layer.number = len(self.layers)
+        self.layers.append(layer)
+        return layer
+
+    def whole(self, layer):
+        """[1 or steps, c, h, w]"""
+        return Tensor(tensors.elements(layer, max(self.steps, 1)))
+
+    def replaced(self, tensor, replacements):
+        """The elements of some layers become those of others at the same places."""
+        at = tensor.at.copy()
+        for old, new in replacements.items():
+            mine = (tensor.at >= 0) & (tensor.at >> BITS == old)
+            at[mine] = (new.number << BITS) | (tensor.at[mine] & MASK)
+        return at
+
+    def real(self, number):
+        layer = self.layers[number]
+        require(layer.op not in ("state", "cell"), "it reads a state that only its own layer can use")
+        return layer
+
+    # -- per-channel arithmetic ------------------------------------------------------------------------------------------------------
+
+    def affine(self, tensor, scale, shift):
+        """scale * tensor + shift, which broadcast to it."""
+        at = np.broadcast_to(tensor.at, np.broadcast_shapes(tensor.shape, np.shape(scale), np.shape(shift)))
+        require(at.shape == tensor.shape, "its result has another shape than its operand")
+        result = Tensor(tensor.at, tensor.scale * scale, tensor.shift * scale + shift)
+        # What is linear takes it in at once; others wait for whom reads them.
+        absorbing = all(self.layers[n].is_plain() for n in tensor.layer_numbers())
+        return self.settled(result) if absorbing and self.is_per_channel(result) else result
+
+    def is_per_channel(self, tensor):
+        try:
+            for number in tensor.layer_numbers():
+                self.channel_numbers(tensor, number)
+        except Refused:
+            return False
+        return True
+
+    def channel_numbers(self, tensor, number):
+        mine = (tensor.at >= 0) & (tensor.at >> BITS == number)
+        layer = self.real(number)
+        return (tensors.per_channel(layer, tensor.at[mine], tensor.scale[mine], 1.0),
+                tensors.per_channel(layer, tensor.at[mine], tensor.shift[mine], 0.0))
+
+    def settled(self, tensor):
+        """The same with scale 1 and shift 0 but for constants: what waited becomes layers."""
+        if tensor.is_plain():
+            return tensor
+        made = {}
+        for number in tensor.layer_numbers():
+            scale, shift = self.channel_numbers(tensor, number)
+            if (scale != 1).any() or (shift != 0).any():
+                layer = self.layers[number]
+                made[number] = self.layer("affine", [layer], layer.shape, scale=scale, shift=shift)
+        constant = tensor.at < 0
+        return Tensor(self.replaced(tensor, made), np.ones(tensor.shape), np.where(constant, tensor.shift, 0.0))
+
+    def activated(self, tensor, function, activation, slopes=None):
+        """An activation of every element. `function` does it to constants; slopes: a function of (layer number) for PReLU."""
+        tensor = self.settled(tensor)
+        made = {}
+        for number in tensor.layer_numbers():
+            layer = self.real(number)
+            made[number] = self.layer("activation", [layer], layer.shape)
+            made[number].activation = dict(activation, slopes=slopes(number)) if slopes else dict(activation)
+        return Tensor(self.replaced(tensor, made), tensor.scale, np.where(tensor.at < 0, function(tensor.shift), 0.0))
+
+    # -- steps -----------------------------------------------------------------------------------------------------------------------
+
+    def sizes(self, at):
+        sizes = np.array([layer.size for layer in self.layers], np.int64)
+        return sizes[np.maximum(at, 0) >> BITS]
+
+    def one_step(self, at):
+        """[s, ...] with s 1 or all steps -> what each step holds, as elements of step 0."""
+        size = self.sizes(at)
+        step = np.where(at >= 0, (at & MASK) // size, 0)
+        at = np.where(at >= 0, at - step * size, at)
+        if len(at) == 1:
+            held = step[0][at[0] >= 0]
+            require(self.steps <= 1 or not held.size or (held == self.steps - 1).all(), "it reads one step out of many, and not the last")
+        else:
+            require(len(at) == self.steps and (at == at[0]).all()
+                    and all((step[t][at[t] >= 0] == t).all() for t in range(len(at))), "it mixes steps of time")
+        return at[0]
+
+    # -- maps ------------------------------------------------------------------------------------------------------------------------
+
+    def as_map(self, tensor):
+        """[s, c, h, w] as one layer with exactly that map; makes slices and concatenations where it has to."""
+        tensor = self.settled(tensor)
+        require(not (tensor.at == tensors.FUTURE).any(), "it reads steps that have not come")
+        constant = tensor.at == NOTHING
+        if constant.any():
+            require(tensor.at.shape[0] == 1 and not tensor.shift.any(), "it mixes constants with what the network computes")
+            return self.padded(tensor)
+        at = self.one_step(tensor.at)
+        numbers, channels = self.channel_runs(at)
+        parts = [self.block(self.real(number), at[first:last]) for number, first, last in zip(numbers, channels, channels[1:])]
+        whole = parts[0]
+        for part in parts[1:]:
+            whole = self.layer("concat", [whole, part], (*whole.shape[:2], whole.shape[2] + part.shape[2]))
+        return whole
+
+    def channel_runs(self, at):
+        """Where channels that follow one another in one layer begin: layer numbers, and the bounds of their runs."""
+        number = at[:, 0, 0] >> BITS
+        channel = (at[:, 0, 0] & MASK) // np.array([self.layers[n].shape[0] * self.layers[n].shape[1] for n in number])
+        begins = [0] + [c for c in range(1, len(at)) if number[c] != number[c - 1] or channel[c] != channel[c - 1] + 1]
+        return [int(number[c]) for c in begins], begins + [len(at)]
+
+    def block(self, layer, at):
+        """[c, h, w], which has to be a part of the layer's map."""
+        whole = tensors.elements(layer)[0]
+        first, y, x = (int(n) for n in np.unravel_index(int(at[0, 0, 0] & MASK), whole.shape))
+        part = whole[first:first + at.shape[0], y:y + at.shape[1], x:x + at.shape[2]]
+        require(part.shape == at.shape and (part == at).all(), "it reads a map whose rows, columns or channels have been rearranged")
+        if at.size == whole.size:
+            return layer
+        h, w, _ = layer.shape
+        margins = y, x, h - y - at.shape[1], w - x - at.shape[2]
+        return self.layer("slice", [layer], (at.shape[1], at.shape[2], at.shape[0]), first_channel=first, channels=at.shape[0], padding=margins)
+
+    def padded(self, tensor):
+        """Zeros around a map: a depthwise convolution whose one tap is 1."""
+        (top, left, bottom, right), inner = tensors.zero_border(tensor)
+        require(inner.shape != tensor.shape, "it mixes constants with what the network computes")
+        require(top + bottom <= 14 and left + right <= 14, "zeros around a map: at most 14 in all above and below, or left and right")
+        x = self.as_map(inner)
+        kh, kw = top + bottom + 1, left + right + 1
+        h, w, c = x.shape
+        weight = np.zeros((c, 1, kh, kw))
+        weight[:, 0, bottom, right] = 1
+        return self.layer("depthwise", [x], (h + kh - 1, w + kw - 1, c), weight=weight, bias=np.zeros(c), stride=(1, 1),
+                          padding=(kh - 1, kw - 1, kh - 1, kw - 1))
+
+    def arrangements(self, shape, channel_axis=None):
+        """Ways to read a tensor of that shape as [steps, c, h, w]: the order of its axes, and their sizes then."""
+        steps, axes = (1, max(self.steps, 1)), range(len(shape))
+        if len(shape) == 4:
+            yield from ((order, [shape[axis] for axis in order]) for order in ((0, 1, 2, 3), (0, 3, 1, 2))
+                        if channel_axis in (None, order[1]) and shape[0] in steps)
+        for step, channel in [(s, c) for s in axes for c in axes if s != c and shape[s] in steps] + [(None, c) for c in axes]:
+            others = [axis for axis in axes if axis not in (step, channel)]
+            if channel_axis in (None, channel) and all(shape[axis] == 1 for axis in others):
+                front = [channel] if step is None else [step, channel]
+                yield front + others, [1 if step is None else shape[step], shape[channel], 1, 1]
+        if len(shape) == 3 and shape[0] == 1 and channel_axis in (None, 1):
+            yield (0, 1, 2), [1, shape[1], 1, shape[2]]
+
+    def arranged(self, tensor, channel_axis=None):
+        """Some arrangement that is a map: its layer, how many steps it has, and how to bring such elements back."""
+        tensor, refusal = self.settled(tensor), None
+        for order, sizes in self.arrangements(tensor.shape, channel_axis):
+            try:
+                layer = self.as_map(tensor.moved(lambda part, order=order, sizes=sizes: part.transpose(order).reshape(sizes)))
+            except Refused as error:
+                refusal = refusal or error
+                continue
+            shape = [tensor.shape[axis] for axis in order]
+            return layer, sizes[0], lambda part, order=order, shape=shape: part.reshape(shape).transpose(np.argsort(order))
+        raise refusal or Refused(f"it reads a tensor {list(tensor.shape)}, which is no map and no vector")
+
+    def result(self, layer, steps, back):
+        """A layer's elements in the arrangement that `arranged` found."""
+        whole = self.whole(layer)
+        return (whole if steps == len(whole.at) else whole.moved(lambda part: part[-1:])).moved(back)
+
+    # -- dense layers ----------------------------------------------------------------------------------------------------------------
+
+    def rows(self, tensor):
+        """[r, n], each row a step: what a step holds, and the scales and shifts, all [n]."""
+        require(not (tensor.at == tensors.FUTURE).any(), "it reads steps that have not come")
+        message = "the steps are scaled differently"
+        return Tensor(self.one_step(tensor.at), tensors.along(tensor.scale, [0], message), tensors.along(tensor.shift, [0], message))
+
+    def dense(self, row, weight, bias):
+        """weight [out, n] times a row of any elements: one fully connected layer for each layer that they are from, added."""
+        bias = bias + weight @ row.shift
+        weight = weight * row.scale
+        total = None
+        for number in row.layer_numbers():
+            x = self.real(number)
+            mine = (row.at >= 0) & (row.at >> BITS == number)
+            own = np.zeros((len(bias), x.size))
+            np.add.at(own, (slice(None), row.at[mine] & MASK), weight[:, mine])
+            part = self.layer("fully_connected", [x], (1, 1, len(bias)), weight=own, bias=np.zeros_like(bias) if total else bias)
+            total = self.layer("add", [total, part], part.shape) if total else part
+        require(total, "it reads nothing but constants")
+        return total
+
+    # -- nodes -----------------------------------------------------------------------------------------------------------------------
+
+    def constant(self, operator, inputs, attributes):
+        """Of an operator whose inputs are all constants."""
+        require(operator in FUNCTIONS, "it is not computed on constants")
+        with np.errstate(all="ignore"):
+            return [np.asarray(FUNCTIONS[operator](inputs, attributes))]
