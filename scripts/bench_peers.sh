@@ -17,10 +17,7 @@ if [ -z "${MIEN_PROGRAM:-}" ]; then
   cmake --build --preset release --target mien_program
 fi
 
-if [ ! -d "$work/node_modules/onnxruntime-node" ]; then
-  (cd "$work" && ONNXRUNTIME_NODE_INSTALL=skip npm install --ignore-scripts --no-audit --no-fund \
-    onnxruntime-node@1.30)
-fi
+scripts/peers/install_onnxruntime.sh
 /usr/bin/python3 scripts/peers/export_onnx.py "$work"
 cp scripts/peers/onnxruntime_bench.mjs "$work/"
 

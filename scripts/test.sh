@@ -7,7 +7,7 @@ cd "$(dirname "$0")/.."
 quick=0
 [ "${1:-}" != "--quick" ] || quick=1
 
-scripts/setup.sh build test
+scripts/setup.sh build test convert
 
 build() {  # preset
   echo "== $1"

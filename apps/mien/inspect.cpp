@@ -50,6 +50,7 @@ ordered_json network_json(const WeightFile& file, std::int32_t index) {
   json["name"] = info.name;
   json["input"] = array(info.input);
   json["any_size"] = info.any_size;
+  json["outputs"] = info.outputs;
   json["parameters"] = info.parameters;
   json["macs"] = info.macs;
   json["weight_bytes"] = info.weight_bytes;

@@ -1,4 +1,6 @@
 """An ONNX file as nodes with attributes, and its translation, for one guess at what the axes of its input mean."""
+import itertools
+
 import numpy as np
 import onnx
 from onnx import numpy_helper
@@ -60,7 +62,7 @@ class Graph:
         def causal(node):
             pads = node.attributes.get("pads", [])
             return node.operator == "Conv" and len(pads) == 2 and pads[0] > 0 == pads[1]
-        return any(node.operator == "LSTM" or causal(node) for node in self.nodes)
+        return any(node.operator in ("LSTM", "GRU", "RNN") or causal(node) for node in self.nodes)
 
 
 def dimensions(value):
@@ -192,18 +194,25 @@ class Conversion:
         numbers = tensor.layer_numbers()
         if len(numbers) == 1 and (tensor.at >= 0).all():
             layer = self.t.real(numbers[0])
-            at = tensor.at.reshape(-1) & MASK
-            step = at // layer.size
-            whole = np.unique(at).size == at.size and at.size == layer.size * np.unique(step).size
-            if whole and (len(np.unique(step)) in (1, max(self.t.steps, 1))) and int(step.max()) == max(self.t.steps, 1) - 1:
-                self.note_order(at % layer.size, layer)
+            if self.is_whole(layer, tensor.at.reshape(-1) & MASK):
                 return layer
         require(not (tensor.at == FUTURE).any(), "it holds steps that have not come")
         return self.t.arranged(tensor)[0]
 
-    def note_order(self, at, layer):
-        if (at[:layer.size] != np.arange(layer.size)).any() and self.t.steps <= 1:
-            self.t.notes.append(f"an output of {self.t.layers[layer.number].node} has another order of axes in the ONNX file")
+    def is_whole(self, layer, at):
+        """Whether these are all elements of a layer at the last steps of the stream, in some order of its axes."""
+        steps, last = np.unique(at // layer.size), max(self.t.steps, 1) - 1
+        if at.size != layer.size * len(steps) or steps[-1] != last or steps[0] != last + 1 - len(steps):
+            return False
+        by_step = at[np.argsort(at // layer.size, kind="stable")].reshape(len(steps), layer.size) % layer.size
+        h, w, c = layer.shape
+        map_ = np.arange(layer.size).reshape(c, h, w)
+        for order in itertools.permutations(range(3)):
+            if (by_step == map_.transpose(order).reshape(-1)).all():
+                if order != (0, 1, 2):
+                    self.t.notes.append(f"the output of {layer.node} has its axes in another order in the ONNX file")
+                return True
+        return False
 
     def network(self):
         layers = list(dict.fromkeys(self.outputs.values()))

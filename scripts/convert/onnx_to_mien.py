@@ -49,7 +49,8 @@ def add_network(file, path, name, options):
     network = conversion.network()
     net = file.network(name, conversion.source.shape, any_size=options.any_size)
     network.write(net)
-    file.metadata[f"{name}.onnx"[:63]] = f"{Path(path).name}, opset {graph.opset}, {graph.producer}"[:1000]
+    time = f", time axis {conversion.guess.time_axis}" if conversion.t.steps else ""
+    file.metadata[f"{name[:58]}.onnx"] = f"{Path(path).name[:200]}, opset {graph.opset}, {graph.producer[:200]}{time}"
     return conversion, network
 
 
@@ -65,7 +66,7 @@ def report(path, name, conversion, network):
         print(f"  note: {note}")
 
 
-def main():
+def main(arguments=None):
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("models", nargs="+", metavar="MODEL.onnx")
     parser.add_argument("-o", "--output", required=True, metavar="MODEL.mien")
@@ -73,7 +74,7 @@ def main():
     parser.add_argument("--shape", action="append", default=[], type=shape_of, help="of an input (default: the first) that the file leaves open")
     parser.add_argument("--time-axis", type=time_axis_of, help="of the first input, whose steps come one by one; default: as it fits")
     parser.add_argument("--any-size", action="store_true", help="the networks run on larger maps, too")
-    options = parser.parse_args()
+    options = parser.parse_args(arguments)
     file = MienFile()
     for i, path in enumerate(options.models):
         name = options.name[i] if i < len(options.name) else network_name(Path(path).stem)

@@ -397,6 +397,7 @@ def conv_over_time(t, x, weight, bias, before, after, dilation):
     past, real = time_columns(t, x.at)
     reach = (weight.shape[2] - 1) * dilation
     require(past <= reach, f"{past} steps before the first, for a convolution that reaches back {reach}")
+    require(past == 0 or real == t.steps, "it puts zeros before steps that are not the first")
     steps = x.moved(lambda part: part[:, past:past + real])
     scale, shift = (tensors.along(part, [1], "the steps are scaled differently") for part in (steps.scale, steps.shift))
     if not begins_with(t, x.moved(lambda part: part[:, :past]), scale, shift):
@@ -407,7 +408,7 @@ def conv_over_time(t, x, weight, bias, before, after, dilation):
     bias = bias + np.einsum("oik,i->o", weight, shift)
     y = t.whole(causal(t, layer, weight * scale.reshape(1, -1, 1), bias, dilation)).at[:, :, 0, 0].T
     columns = np.full((len(bias), x.shape[1] - past), FUTURE, np.int64)
-    columns[:, :y.shape[1]] = y
+    columns[:, :real] = y[:, -real:]
     return Tensor(columns[None, :, reach - past:])
 
 
@@ -566,7 +567,7 @@ def product(t, x, weight, bias):
     """[..., n] times weight [out, n]: of one vector, of every step, or at every pixel."""
     rows = x.moved(lambda part: part.reshape(-1, part.shape[-1]))
     require(weight.shape[1] == rows.shape[1], f"{rows.shape[1]} numbers times a weight for {weight.shape[1]}")
-    if len(rows.at) in (1, t.steps):
+    if len(rows.at) <= max(t.steps, 1):
         y = t.whole(t.dense(t.rows(rows), weight, bias)).moved(lambda part: part[-len(rows.at):])
         return y.moved(lambda part: part.reshape(*x.shape[:-1], len(weight)))
     return at_every_pixel(t, rows, weight, bias).moved(lambda part: part.reshape(*x.shape[:-1], len(weight)))

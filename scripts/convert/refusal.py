@@ -2,9 +2,9 @@
 
 
 class Refused(Exception):
-    """`progress`: how many nodes were taken before, to tell which of several attempts came furthest."""
+    """`progress`: how many nodes were taken before, -1 before the first, to tell which of several attempts came furthest."""
 
-    def __init__(self, message, progress=0):
+    def __init__(self, message, progress=-1):
         super().__init__(message)
         self.progress = progress
 

@@ -98,16 +98,13 @@ class Translator:
         return sizes[np.maximum(at, 0) >> BITS]
 
     def one_step(self, at):
-        """[s, ...] with s 1 or all steps -> what each step holds, as elements of step 0."""
+        """[s, ...], the last steps of the stream -> what each step holds, as elements of step 0."""
         size = self.sizes(at)
         step = np.where(at >= 0, (at & MASK) // size, 0)
         at = np.where(at >= 0, at - step * size, at)
-        if len(at) == 1:
-            held = step[0][at[0] >= 0]
-            require(self.steps <= 1 or not held.size or (held == self.steps - 1).all(), "it reads one step out of many, and not the last")
-        else:
-            require(len(at) == self.steps and (at == at[0]).all()
-                    and all((step[t][at[t] >= 0] == t).all() for t in range(len(at))), "it mixes steps of time")
+        first = max(self.steps, 1) - len(at)
+        require(first >= 0 and (at == at[0]).all() and all((step[t][at[t] >= 0] == first + t).all() for t in range(len(at))),
+                "it mixes steps of time")
         return at[0]
 
     # -- maps ------------------------------------------------------------------------------------------------------------------------
@@ -162,9 +159,9 @@ class Translator:
 
     def arrangements(self, shape, channel_axis=None):
         """Ways to read a tensor of that shape as [steps, c, h, w]: the order of its axes, and their sizes then."""
-        steps, axes = (1, max(self.steps, 1)), range(len(shape))
+        steps, axes = range(1, max(self.steps, 1) + 1), range(len(shape))
         if len(shape) == 4:
-            yield from ((order, [shape[axis] for axis in order]) for order in ((0, 1, 2, 3), (0, 3, 1, 2))
+            yield from ((order, [shape[axis] for axis in order]) for order in ((0, 1, 2, 3), (0, 3, 1, 2), (0, 3, 2, 1))
                         if channel_axis in (None, order[1]) and shape[0] in steps)
         for step, channel in [(s, c) for s in axes for c in axes if s != c and shape[s] in steps] + [(None, c) for c in axes]:
             others = [axis for axis in axes if axis not in (step, channel)]
@@ -189,8 +186,7 @@ class Translator:
 
     def result(self, layer, steps, back):
         """A layer's elements in the arrangement that `arranged` found."""
-        whole = self.whole(layer)
-        return (whole if steps == len(whole.at) else whole.moved(lambda part: part[-1:])).moved(back)
+        return self.whole(layer).moved(lambda part: part[-steps:]).moved(back)
 
     # -- dense layers ----------------------------------------------------------------------------------------------------------------
 

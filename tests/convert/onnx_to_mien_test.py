@@ -1,0 +1,300 @@
+#!/usr/bin/env python3
+"""Converts generated ONNX files, runs them with `mien run`, and holds the answers against ONNX Runtime's and PyTorch's.
+
+usage: onnx_to_mien_test.py MIEN_PROGRAM      exit 77: Python's onnx package is missing here
+ONNX Runtime is the npm package that scripts/peers/install_onnxruntime.sh fetches. What cannot be compared here is said on standard output.
+"""
+import contextlib
+import io
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+import warnings
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE), str(HERE.parents[1] / "scripts/convert")]
+try:
+    import numpy as np
+    import onnx
+    import onnx_to_mien
+    import operator_cases
+except ModuleNotFoundError as missing:
+    print("skipped: no Python module", missing.name, "here; scripts/setup.sh convert installs it")
+    sys.exit(77)
+try:
+    import torch
+
+    import network_cases
+except ModuleNotFoundError as missing:
+    torch = None
+    print("NOT TESTED: networks exported by PyTorch, for want of the Python module", missing.name)
+
+PROGRAM = sys.argv[1]
+MODULES = Path(os.environ.get("MIEN_CACHE", Path.home() / ".cache/mien")) / "peers"
+RUNTIME = shutil.which("node") and (MODULES / "node_modules/onnxruntime-node").is_dir()
+if not RUNTIME:
+    print("NOT COMPARED: operators with ONNX Runtime; scripts/peers/install_onnxruntime.sh fetches it")
+# Of the largest value. Weights of the operator cases are exact in fp16; a network's are rounded to 11 bits.
+OPERATOR_TOLERANCE, ROUNDED_TOLERANCE = 2e-5, 2e-3
+
+
+def convert(arguments):
+    """Exit status (0 or the message) and what was printed."""
+    output = io.StringIO()
+    try:
+        with contextlib.redirect_stdout(output):
+            onnx_to_mien.main([str(a) for a in arguments])
+    except SystemExit as stop:
+        return stop.code or 0, output.getvalue()
+    return 0, output.getvalue()
+
+
+def answered(folder, model, x, layout="chw", network=()):
+    """What `mien run` makes of x: one array for each output."""
+    np.save(folder / "x.npy", np.ascontiguousarray(x))
+    info = json.loads(subprocess.run([PROGRAM, "inspect", model, "--json"], check=True, capture_output=True, text=True).stdout)
+    paths = [folder / f"y{i}.npy" for i in range(output_count(info, network))]
+    command = [PROGRAM, "run", model, "--input", folder / "x.npy", "--layout", layout, *network]
+    for path in paths:
+        command += ["--output", path]
+    done = subprocess.run(command, capture_output=True, text=True)
+    if done.returncode:
+        raise AssertionError(done.stderr)
+    return [np.load(path) for path in paths]
+
+
+def output_count(info, network):
+    networks = [n for n in info["networks"] if not network or n["name"] == network[1]]
+    return networks[0]["outputs"]
+
+
+class Runtime:
+    """ONNX Runtime, all jobs in one process."""
+
+    def __init__(self, folder):
+        self.folder, self.jobs = folder, []
+
+    def add(self, model, steps, feedback):
+        """steps: arrays by name, one after another."""
+        number, described = len(self.jobs), []
+        for at, step in enumerate(steps):
+            described.append({})
+            for name, array in step.items():
+                path = self.folder / f"{number}.{at}.{name}.f32"
+                path.write_bytes(np.ascontiguousarray(array, np.float32).tobytes())
+                described[-1][name] = {"file": str(path), "shape": list(array.shape)}
+        self.jobs.append({"model": str(model), "steps": described, "feedback": feedback, "out": str(self.folder / str(number))})
+
+    def run(self):
+        (self.folder / "jobs.json").write_text(json.dumps(self.jobs))
+        done = subprocess.run(["node", HERE / "onnxruntime_run.mjs", MODULES, self.folder / "jobs.json"], capture_output=True, text=True,
+                              check=True)
+        return json.loads(done.stdout)
+
+    def outputs(self, number):
+        paths = sorted(self.folder.glob(f"{number}.[0-9]"))
+        return [np.frombuffer(path.read_bytes(), np.float32) for path in paths]
+
+
+def difference(got, wanted):
+    """Largest, of the largest value wanted."""
+    if got.size != wanted.size:
+        return f"{got.size} numbers, not {wanted.size}"
+    return float(np.abs(got.reshape(-1) - wanted.reshape(-1)).max() / max(np.abs(wanted).max(), 1e-3))
+
+
+class Folder(unittest.TestCase):
+    def setUp(self):
+        self.folder = Path(tempfile.mkdtemp(prefix="mien_convert_"))
+        self.addCleanup(shutil.rmtree, self.folder)
+
+
+class Operators(Folder):
+    def test_answers_are_those_of_onnx_runtime(self):
+        runtime, answers, random = Runtime(self.folder), [], np.random.default_rng(3)
+        cases = list(operator_cases.accepted())
+        for case in cases:
+            model = self.folder / f"{case.name}.onnx"
+            onnx.save(case.model(), str(model))
+            with self.subTest(case.name):
+                status, _ = convert([model, "-o", model.with_suffix(".mien"), *case.arguments])
+                self.assertEqual(status, 0)
+            steps = [{name: random.standard_normal(shape).astype(np.float32) for name, shape in case.shapes.items() if name not in case.feedback}
+                     for _ in range(case.steps)]
+            begin = {name: np.zeros(case.shapes[name], np.float32) for name in case.feedback}
+            runtime.add(model, [{**step, **begin} for step in steps], case.feedback)
+            answers.append(self.answers(case, model.with_suffix(".mien"), steps))
+            if case.answer:
+                with self.subTest(case.name):
+                    self.assertLess(difference(answers[-1][0], case.answer(case, steps[0]["x"])), ROUNDED_TOLERANCE)
+        if not RUNTIME:
+            return
+        failures = runtime.run()
+        for number, (case, answer) in enumerate(zip(cases, answers)):
+            with self.subTest(case.name):
+                self.assertIsNone(failures.get(str(self.folder / f"{case.name}.onnx")) if not case.answer else None)
+                if not case.answer:
+                    self.compare(case, answer, runtime.outputs(number))
+
+    def answers(self, case, model, steps):
+        """In the graph's order of elements: a stream's steps come first in the engine."""
+        x = np.concatenate([step["x"] for step in steps]) if case.steps > 1 else steps[0]["x"]
+        axis = time_axis(model)
+        x = np.moveaxis(x, axis, 0) if axis is not None and case.steps == 1 else x
+        x = x.reshape(len(x), -1) if axis is not None else x
+        return answered(self.folder, model, x, case.layout)
+
+    def compare(self, case, answers, wanted):
+        streams = time_axis(self.folder / f"{case.name}.mien") is not None and case.steps == 1
+        kept = [w for name, w in zip(case.outputs, wanted) if name not in case.feedback.values()]
+        self.assertEqual(len(answers), len(kept))
+        for got, want in zip(answers, kept):
+            if streams and not case.name.startswith(("lstm", "dense")):  # [channels, steps] there
+                channels = got.shape[-1]
+                want = want.reshape(channels, -1).T
+                got = got[-len(want):]  # an unpadded convolution begins later
+            if case.layout == "hwc" and got.ndim == 4:
+                got = got.transpose(0, 3, 1, 2)
+            if case.name.startswith("lstm_last"):
+                got = got[-1]
+            self.assertLess(difference(got, want), ROUNDED_TOLERANCE if case.rounds else OPERATOR_TOLERANCE)
+
+    def test_refusals_name_the_node_and_the_reason(self):
+        for case in operator_cases.refused():
+            with self.subTest(case.name):
+                model = self.folder / f"{case.name}.onnx"
+                onnx.save(case.model(), str(model))
+                status, _ = convert([model, "-o", self.folder / "y.mien", *case.arguments])
+                self.assertIsInstance(status, str)
+                self.assertIn(case.refusal, status)
+                self.assertNotIn("malformed", status)
+                self.assertFalse((self.folder / "y.mien").exists())
+                (self.folder / "y.mien").unlink(missing_ok=True)
+
+
+def time_axis(model):
+    """Of the first input, if the network is one of steps: the converter notes it."""
+    info = json.loads(subprocess.run([PROGRAM, "inspect", model, "--json"], check=True, capture_output=True, text=True).stdout)
+    note = next(value for key, value in info["metadata"].items() if key.endswith(".onnx"))
+    return int(note.rsplit("time axis ", 1)[1]) if "time axis " in note else None
+
+
+@unittest.skipIf(torch is None, "no PyTorch here")
+class Networks(Folder):
+    def test_answers_are_those_of_onnx_runtime_and_pytorch(self):
+        torch.manual_seed(5)
+        runtime, done = Runtime(self.folder), []
+        for name, network, shapes, opset, folded, states in network_cases.networks_to_export():
+            model = self.folder / f"{name}.onnx"
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                network_cases.exported(network, shapes, str(model), opset, folded)
+            status, report = convert([model, "-o", model.with_suffix(".mien")])
+            self.assertEqual(status, 0, name)
+            steps = [{"x": torch.randn(shapes["x"])} for _ in range(network_cases.STEPS if states else 1)]
+            wanted = self.pytorch(network, steps, states)
+            x = torch.cat([step["x"] for step in steps]).numpy()
+            answers = answered(self.folder, model.with_suffix(".mien"), x[:, 0] if states else x)
+            for answer, want in zip(answers, wanted):
+                with self.subTest(name):
+                    self.assertLess(difference(answer, want), ROUNDED_TOLERANCE)
+            done.append((name, answers))
+            begin = {state: np.zeros(shape) for state, shape in states.items()}
+            outputs = [o.name for o in onnx.load(str(model)).graph.output]
+            runtime.add(model, [{"x": step["x"].numpy(), **begin} for step in steps], dict(zip(states, outputs[1:])))
+        if not RUNTIME:
+            return
+        failures = runtime.run()
+        self.assertEqual(failures, {})
+        for number, (name, answers) in enumerate(done):
+            for answer, want in zip(answers, runtime.outputs(number)):
+                with self.subTest(name):
+                    error = difference(answer, want)
+                    print(f"{name}: {error:.1e} of the largest value off ONNX Runtime")
+                    self.assertLess(error, ROUNDED_TOLERANCE)
+
+    def pytorch(self, network, steps, states):
+        with torch.no_grad():
+            memory, outputs = [torch.zeros(shape) for shape in states.values()], []
+            for step in steps:
+                outputs = network(step["x"], *memory)
+                outputs = outputs if isinstance(outputs, tuple) else (outputs,)
+                if not states:
+                    return [output.numpy() for output in outputs]
+                memory = outputs[1:]
+                self.stream = getattr(self, "stream", []) + [outputs[0]]
+            stream, self.stream = self.stream, []
+            return [torch.cat(stream).numpy()]
+
+
+class Program(Folder):
+    def model(self, name="net", nodes=None, shapes=None, **options):
+        path = self.folder / f"{name}.onnx"
+        onnx.save(operator_cases.Case("net", nodes or [operator_cases.node("Relu", "x")], shapes or {"x": [1, 3, 4, 5]}, **options).model(),
+                  str(path))
+        return path
+
+    def test_several_files_become_networks_of_one(self):
+        first, second = self.model("First Net"), self.model("b", [operator_cases.node("Tanh", "x")], {"x": [1, 9]})
+        status, report = convert([first, second, "-o", self.folder / "both.mien", "--name", "one"])
+        self.assertEqual(status, 0)
+        self.assertIn("network one: input 4x5x3", report)
+        x = np.linspace(-1, 1, 9, dtype=np.float32)
+        y, = answered(self.folder, self.folder / "both.mien", x, network=("--network", "b"))
+        np.testing.assert_allclose(y, np.tanh(x), atol=1e-6)
+
+    def test_any_size(self):
+        path = self.model(nodes=[operator_cases.node("Conv", "x w", "t"), operator_cases.node("GlobalAveragePool", "t", "y")],
+                          shapes={"x": [1, 3, None, None]}, constants={"w": operator_cases.weights(5, 3, 3, 3)}, outputs=("t", "y"))
+        status, _ = convert([path, "-o", self.folder / "any.mien", "--shape", "1,3,4,5", "--any-size"])
+        self.assertEqual(status, 0)
+        t, y = answered(self.folder, self.folder / "any.mien", np.random.default_rng(1).standard_normal((3, 9, 12)).astype(np.float32))
+        self.assertEqual(t.shape, (5, 7, 10))
+        np.testing.assert_allclose(y, t.mean((1, 2)), atol=1e-6)
+
+    def test_any_size_with_a_layer_of_one_size_is_refused(self):
+        path = self.model(nodes=[operator_cases.node("Flatten", "x", "t"), operator_cases.node("Gemm", "t w")],
+                          constants={"w": operator_cases.weights(60, 3)})
+        status, _ = convert([path, "-o", self.folder / "any.mien", "--any-size"])
+        self.assertIn("Gemm 'the_gemm': net: fully_connected in a network of any size", status)
+
+    def test_files_that_are_none(self):
+        (self.folder / "text.onnx").write_text("not a network")
+        (self.folder / "empty.onnx").write_bytes(b"")
+        for name in ("text", "empty"):
+            status, _ = convert([self.folder / f"{name}.onnx", "-o", self.folder / "y.mien"])
+            self.assertIn("not an ONNX file", status)
+        status, _ = convert([self.folder / "nowhere.onnx", "-o", self.folder / "y.mien"])
+        self.assertIn("No such file", status)
+
+    def test_weights_in_another_file_are_not_followed(self):
+        case = operator_cases.Case("net", [operator_cases.node("Conv", "x w")], {"x": [1, 3, 4, 5]},
+                                   constants={"w": operator_cases.weights(5, 3, 1, 1)})
+        model = case.model()
+        onnx.external_data_helper.set_external_data(model.graph.initializer[0], location="../../etc/passwd")
+        model.graph.initializer[0].ClearField("raw_data")
+        path = self.folder / "outside.onnx"
+        path.write_bytes(model.SerializeToString())
+        status, _ = convert([path, "-o", self.folder / "y.mien"])
+        self.assertIn("weights 'w' lie in another file", status)
+
+    def test_as_a_program(self):
+        program = [sys.executable, str(HERE.parents[1] / "scripts/convert/onnx_to_mien.py")]
+        done = subprocess.run([*program, str(self.model()), "-o", str(self.folder / "y.mien")], capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        refused = self.model("bad", [operator_cases.node("Erf", "x")])
+        done = subprocess.run([*program, str(refused), "-o", str(self.folder / "z.mien")], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual(done.stderr.count("\n"), 1)
+        self.assertIn("Erf 'the_erf': the engine has no such layer (opset 13)", done.stderr)
+        self.assertFalse((self.folder / "z.mien").exists())
+        self.assertEqual(subprocess.run([*program, "--shape", "0"], capture_output=True).returncode, 2)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
