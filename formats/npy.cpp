@@ -171,8 +171,7 @@ NpyStatus fit(std::span<const std::byte> data, NpyArray* array) {
 }
 
 NpyStatus read(std::span<const std::byte> file, NpyArray* array) {
-  if (file.size() < kPreambleBytes ||
-      std::memcmp(file.data(), kMagic.data(), kMagic.size()) != 0) {
+  if (file.size() < kPreambleBytes || std::memcmp(file.data(), kMagic.data(), kMagic.size()) != 0) {
     return NpyStatus::kBadSignature;
   }
   const auto major = std::to_integer<int>(file[6]), minor = std::to_integer<int>(file[7]);
@@ -242,9 +241,7 @@ NpyHeader npy_header(std::span<const std::uint64_t> shape) {
   std::memset(header.bytes, ' ', sizeof header.bytes);
   header.bytes[sizeof header.bytes - 1] = '\n';
   char* at = header.bytes;
-  const auto put = [&at](std::string_view text) {
-    at = std::copy(text.begin(), text.end(), at);
-  };
+  const auto put = [&at](std::string_view text) { at = std::copy(text.begin(), text.end(), at); };
   put(kMagic);
   constexpr std::size_t kLength = kNpyHeaderBytes - kPreambleBytes - 2;
   const char rest[] = {1, 0, static_cast<char>(kLength & 0xFF), static_cast<char>(kLength >> 8)};

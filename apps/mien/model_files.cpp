@@ -15,7 +15,12 @@ Blob::Blob(const std::string& path, ExitCode code) {
   if (!file) {
     throw Failure(code, path + ": cannot be opened");
   }
-  size_ = static_cast<std::size_t>(file.tellg());
+  const std::streamoff end = file.tellg();  // of a folder, the largest number there is
+  std::error_code ignored;
+  if (end < 0 || fs::is_directory(path, ignored)) {
+    throw Failure(code, path + ": cannot be read");
+  }
+  size_ = static_cast<std::size_t>(end);
   words_.resize((size_ + sizeof(Line) - 1) / sizeof(Line));
   file.seekg(0);
   if (!file.read(reinterpret_cast<char*>(words_.data()), static_cast<std::streamsize>(size_))) {

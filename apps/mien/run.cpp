@@ -38,8 +38,9 @@ NetworkInfo chosen_network(const WeightFile& file, const RunOptions& options) {
 void open_model(const Blob& blob, const std::string& path, WeightFile& file) {
   const EngineStatus status = file.open({static_cast<const std::byte*>(blob.data()), blob.size()});
   if (status != EngineStatus::kOk) {
-    throw Failure(kExitModel, path + ": " +
-                                  (status == EngineStatus::kBadFile ? file.fault() : message(status)));
+    throw Failure(
+        kExitModel,
+        path + ": " + (status == EngineStatus::kBadFile ? file.fault() : message(status)));
   }
 }
 
