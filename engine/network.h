@@ -41,6 +41,7 @@ class Network {
 
   [[nodiscard]] std::span<float> input() { return session_->input(); }
   [[nodiscard]] const Shape& input_shape() const { return session_->input_shape(); }
+  [[nodiscard]] std::uint32_t output_count() const { return session_->output_count(); }
   [[nodiscard]] std::span<const float> output(std::uint32_t i) const { return session_->output(i); }
   [[nodiscard]] const Shape& output_shape(std::uint32_t i) const {
     return session_->output_shape(i);

@@ -5,6 +5,7 @@
 #include <new>
 
 #include "engine/arena.h"
+#include "tracker/allocate.h"
 #include "tracker/config.h"
 #include "tracker/models.h"
 #include "tracker/tracker_handle.h"
@@ -13,7 +14,9 @@
 namespace {
 
 using mien::engine::Arena;
+using mien::tracker::allocate;
 using mien::tracker::Models;
+using mien::tracker::release;
 
 static_assert(MIEN_ALIGNMENT == Arena::kAlignment);
 static_assert(MIEN_LANDMARK_COUNT == mien::tracker::kLandmarks);
@@ -62,21 +65,6 @@ mien_status build(const mien_tracker_config& config, void* memory, const Arena::
   created->tracker.reset();
   *tracker = created;
   return MIEN_OK;
-}
-
-void* allocate(const mien_allocator& allocator, std::size_t bytes) {
-  if (allocator.allocate != nullptr) {
-    return allocator.allocate(allocator.user, bytes, MIEN_ALIGNMENT);
-  }
-  return ::operator new(bytes, std::align_val_t(MIEN_ALIGNMENT), std::nothrow);
-}
-
-void release(const mien_allocator& allocator, void* memory) {
-  if (allocator.release != nullptr) {
-    allocator.release(allocator.user, memory);
-  } else {
-    ::operator delete(memory, std::align_val_t(MIEN_ALIGNMENT));
-  }
 }
 
 // Faces are nobody else's business. Volatile: memory about to be released is still written to.

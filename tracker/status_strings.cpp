@@ -33,7 +33,7 @@ const char* mien_status_string(mien_status status) {
     case MIEN_ERROR_WEIGHTS_MALFORMED:
       return "the weight file breaks the rules of its format";
     case MIEN_ERROR_WEIGHTS_INCOMPLETE:
-      return "the weight file lacks a network or constant of the tracker";
+      return "the weight file lacks a network or constant that is needed";
     case MIEN_ERROR_WEIGHTS_SHAPE:
       return "a network or constant in the weight file has the wrong shape";
     case MIEN_ERROR_UNSUPPORTED_CPU:

@@ -1,4 +1,5 @@
 // Bring your own network: load a weight file (.mien, docs/format.md) and run one of its networks.
+// scripts/convert/onnx_to_mien.py makes such files of ONNX files (docs/convert.md). In C++:
 //
 //   mien::WeightFile file;
 //   if (file.open(bytes) != mien::EngineStatus::kOk) return;  // std::span<const std::byte>
@@ -9,6 +10,19 @@
 //     runner.run();
 //     use(runner.output(0));  // std::span<const float>
 //   }
+//
+// Through the C interface (mien/mien.h):
+//
+//   mien_network_config config;
+//   mien_network_config_default(&config);
+//   config.file = bytes;  config.file_bytes = size;  config.name = "encoder";
+//   mien_network* network = NULL;
+//   if (mien_network_create(&config, &network) != MIEN_OK) return 1;
+//   for (int i = 0; i < count; ++i) {
+//     memcpy(mien_network_input(network, NULL), images[i], image_bytes);
+//     if (mien_network_run(network) == MIEN_OK) use(mien_network_output(network, 0, NULL));
+//   }
+//   mien_network_destroy(network);
 //
 // `bytes` must be MIEN_ALIGNMENT-aligned (a mapped file is) and outlive everything made from it.
 //

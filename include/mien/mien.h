@@ -88,7 +88,7 @@ typedef enum mien_status {
   MIEN_ERROR_WEIGHTS_TRUNCATED = -22,  /* fewer bytes than the file says */
   MIEN_ERROR_WEIGHTS_CHECKSUM = -23,   /* damaged */
   MIEN_ERROR_WEIGHTS_MALFORMED = -24,  /* breaks another rule of the format */
-  MIEN_ERROR_WEIGHTS_INCOMPLETE = -25, /* lacks a network or constant of the tracker */
+  MIEN_ERROR_WEIGHTS_INCOMPLETE = -25, /* lacks a network or constant that is needed */
   MIEN_ERROR_WEIGHTS_SHAPE = -26,      /* a network or constant has another shape than needed */
   /* engine */
   MIEN_ERROR_UNSUPPORTED_CPU = -40,   /* the mask leaves no tier that this CPU and build can run */
@@ -516,6 +516,63 @@ MIEN_API MIEN_NODISCARD mien_status mien_tracker_save_neutral(const mien_tracker
  * changes. */
 MIEN_API MIEN_NODISCARD mien_status mien_tracker_load_neutral(mien_tracker* tracker,
                                                               const void* file, size_t file_bytes);
+
+/* Networks of your own ------------------------------------------------------------------------- */
+
+/* Any network of a weight file, for instance one that scripts/convert/onnx_to_mien.py made. How
+ * maps lie in memory, and how networks over time keep their state, is said in mien/engine.h, which
+ * has the same for C++, with an example in both. A network may be used by one thread at a time. */
+typedef struct mien_network mien_network;
+
+typedef struct mien_shape {
+  int32_t height, width, channels;
+} mien_shape;
+
+/* Start from mien_network_config_default. */
+typedef struct mien_network_config {
+  uint32_t struct_size;
+  uint32_t cpu_mask; /* tiers of kernels that may be used; default MIEN_CPU_ALL */
+  /* Weight file in memory, MIEN_ALIGNMENT-aligned. Owned by the caller; must outlive the network
+   * and stay as it is. */
+  const void* file;
+  size_t file_bytes;
+  const char* name; /* of the network in the file; default NULL: its first */
+  /* Of the input, for networks that take maps of several sizes; default 0, 0: as declared. */
+  int32_t height, width;
+  mien_allocator allocator; /* default: both callbacks NULL, the C library's allocator */
+  uint32_t reserved[8];
+} mien_network_config;
+
+/* Fills in *config with the defaults; the file is NULL. NULL is ignored. */
+MIEN_API void mien_network_config_default(mien_network_config* config);
+
+/* Makes a network ready to run, with one allocation by config->allocator. On success the caller
+ * owns *network and ends it with mien_network_destroy; on error *network is NULL and nothing stays
+ * allocated. MIEN_ERROR_WEIGHTS_INCOMPLETE: the file has no network of that name;
+ * MIEN_ERROR_WEIGHTS_SHAPE: it does not run on an input of that size. */
+MIEN_API MIEN_NODISCARD mien_status mien_network_create(const mien_network_config* config,
+                                                        mien_network** network);
+
+/* NULL is ignored. */
+MIEN_API void mien_network_destroy(mien_network* network);
+
+/* Where the input is to be written, zeros at first; its shape goes to *shape (NULL is fine). NULL
+ * for NULL. */
+MIEN_API float* mien_network_input(mien_network* network, mien_shape* shape);
+
+/* One run on the input as it is, one step of a network over time. */
+MIEN_API MIEN_NODISCARD mien_status mien_network_run(mien_network* network);
+
+/* 0 for NULL. */
+MIEN_API int32_t mien_network_output_count(const mien_network* network);
+
+/* An output of the last run, valid until the next; NULL unless 0 <= index <
+ * mien_network_output_count. */
+MIEN_API const float* mien_network_output(const mien_network* network, int32_t index,
+                                          mien_shape* shape);
+
+/* Puts what a network over time remembers back to a stream's beginning. NULL is ignored. */
+MIEN_API void mien_network_reset(mien_network* network);
 
 #ifdef __cplusplus
 }

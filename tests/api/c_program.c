@@ -3,6 +3,8 @@
 #include <string.h>
 
 int mien_c_program(void);
+int mien_c_network(const void* file, size_t file_bytes, const float* image, size_t image_bytes,
+                   float* features);
 
 int mien_c_program(void) {
   mien_tracker_config config;
@@ -24,4 +26,28 @@ int mien_c_program(void) {
     return 3;
   }
   return strcmp(mien_control_name(17), "jawOpen") == 0 ? 0 : 4;
+}
+
+/* As include/mien/engine.h has it. */
+int mien_c_network(const void* file, size_t file_bytes, const float* image, size_t image_bytes,
+                   float* features) {
+  mien_network_config config;
+  mien_network* network = NULL;
+  mien_shape shape;
+  const float* output = NULL;
+  mien_network_config_default(&config);
+  config.file = file;
+  config.file_bytes = file_bytes;
+  config.name = "encoder";
+  if (mien_network_create(&config, &network) != MIEN_OK) {
+    return 1;
+  }
+  memcpy(mien_network_input(network, NULL), image, image_bytes);
+  if (mien_network_run(network) != MIEN_OK) {
+    return 2;
+  }
+  output = mien_network_output(network, 0, &shape);
+  memcpy(features, output, (size_t)shape.channels * sizeof(float));
+  mien_network_destroy(network);
+  return 0;
 }

@@ -76,8 +76,8 @@ TEST_F(ProgramRun, AnswersAsPyTorchDid) {
   const std::vector<float> image = golden_floats("encoder_input");
   const std::string input = save("x.npy", {{1, 3, 27, 27}, channels_first(image, 3)});
   for (const char* tier : {"ref", "avx2"}) {
-    const Outcome done = run_on(input, "--network encoder --output " + path("y.npy") + " --tier " +
-                                           std::string(tier));
+    const Outcome done = run_on(
+        input, "--network encoder --output " + path("y.npy") + " --tier " + std::string(tier));
     if (done.code == 9) {
       continue;  // not on this CPU
     }
@@ -90,8 +90,7 @@ TEST_F(ProgramRun, AnswersAsPyTorchDid) {
 
 TEST_F(ProgramRun, TakesChannelsLast) {
   const std::string input = save("x.npy", {{27, 27, 3}, golden_floats("encoder_input")});
-  const Outcome done =
-      run_on(input, "--network encoder --layout hwc --output " + path("y.npy"));
+  const Outcome done = run_on(input, "--network encoder --layout hwc --output " + path("y.npy"));
   ASSERT_EQ(done.code, 0) << done.errors;
   EXPECT_EQ(load("y.npy").shape, Shape{256});
   expect_near(load("y.npy").values, golden_floats("encoder_output"));
@@ -101,10 +100,10 @@ TEST_F(ProgramRun, RunsAStreamOverTheAxisInFrontAndEveryStreamFromItsBeginning) 
   std::vector<float> steps = golden_floats("temporal_input");
   const std::vector<float> want = golden_floats("temporal_output");
   const std::uint64_t count = steps.size() / 12;
-  ASSERT_EQ(run_on(save("x.npy", {{count, 12}, steps}),
-                   "--network temporal --output " + path("y.npy"))
-                .code,
-            0);
+  ASSERT_EQ(
+      run_on(save("x.npy", {{count, 12}, steps}), "--network temporal --output " + path("y.npy"))
+          .code,
+      0);
   EXPECT_EQ(load("y.npy").shape, (Shape{count, 10}));
   expect_near(load("y.npy").values, want);
   steps.insert(steps.end(), steps.begin(), steps.end());
@@ -115,14 +114,14 @@ TEST_F(ProgramRun, RunsAStreamOverTheAxisInFrontAndEveryStreamFromItsBeginning) 
   const Array both = load("z.npy");
   EXPECT_EQ(both.shape, (Shape{2, count, 10}));
   const auto half = static_cast<std::ptrdiff_t>(want.size());
-  EXPECT_TRUE(std::equal(both.values.begin(), both.values.begin() + half,
-                         both.values.begin() + half));
+  EXPECT_TRUE(
+      std::equal(both.values.begin(), both.values.begin() + half, both.values.begin() + half));
 }
 
 TEST_F(ProgramRun, RunsOnLargerMapsWithAnOutputEach) {
   const std::string input = save("x.npy", {{3, 14, 20}, std::vector<float>(3 * 14 * 20, 0.5f)});
-  const Outcome done = run_on(input, "--network pnet --output " + path("a.npy") + " --output " +
-                                         path("b.npy"));
+  const Outcome done =
+      run_on(input, "--network pnet --output " + path("a.npy") + " --output " + path("b.npy"));
   ASSERT_EQ(done.code, 0) << done.errors;
   const Array first = load("a.npy"), second = load("b.npy");
   ASSERT_EQ(first.shape.size(), 3u);
@@ -131,9 +130,8 @@ TEST_F(ProgramRun, RunsOnLargerMapsWithAnOutputEach) {
 }
 
 TEST_F(ProgramRun, AnEmptyStreamGivesAnEmptyArray) {
-  ASSERT_EQ(run_on(save("x.npy", {{0, 12}, {}}), "--network temporal --output " + path("y.npy"))
-                .code,
-            0);
+  ASSERT_EQ(
+      run_on(save("x.npy", {{0, 12}, {}}), "--network temporal --output " + path("y.npy")).code, 0);
   EXPECT_EQ(load("y.npy").shape, (Shape{0, 10}));
 }
 

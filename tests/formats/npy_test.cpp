@@ -26,8 +26,8 @@ std::string raw(const std::vector<Number>& values) {
 }
 
 std::string file(const std::string& header, const std::string& data, char major = 1) {
-  return "\x93NUMPY" + std::string{major, '\0'} +
-         little_endian(header.size(), major == 1 ? 2 : 4) + header + data;
+  return "\x93NUMPY" + std::string{major, '\0'} + little_endian(header.size(), major == 1 ? 2 : 4) +
+         header + data;
 }
 
 std::string dictionary(const std::string& descr, const std::string& order,
@@ -145,9 +145,8 @@ TEST(Npy, RefusesFilesOfAnotherSize) {
 
 TEST(Npy, ReadsWhatItWrites) {
   constexpr std::uint64_t kLarge = std::numeric_limits<std::uint64_t>::max();
-  for (const std::vector<std::uint64_t>& shape :
-       std::vector<std::vector<std::uint64_t>>{{}, {7}, {2, 3}, {1, 3, 65, 65}, {kLarge, 0},
-                                               {1, 1, 1, 1, 1, 1, 1, 2}}) {
+  for (const std::vector<std::uint64_t>& shape : std::vector<std::vector<std::uint64_t>>{
+           {}, {7}, {2, 3}, {1, 3, 65, 65}, {kLarge, 0}, {1, 1, 1, 1, 1, 1, 1, 2}}) {
     const NpyHeader header = npy_header(shape);
     std::size_t elems = 1;
     for (const std::uint64_t dim : shape) {

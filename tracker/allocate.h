@@ -1,0 +1,27 @@
+// Memory by the caller's callbacks, or by the C library where there are none.
+#pragma once
+
+#include <mien/mien.h>
+
+#include <cstddef>
+#include <new>
+
+namespace mien::tracker {
+
+// MIEN_ALIGNMENT-aligned; nullptr if there is none.
+inline void* allocate(const mien_allocator& allocator, std::size_t bytes) {
+  if (allocator.allocate != nullptr) {
+    return allocator.allocate(allocator.user, bytes, MIEN_ALIGNMENT);
+  }
+  return ::operator new(bytes, std::align_val_t(MIEN_ALIGNMENT), std::nothrow);
+}
+
+inline void release(const mien_allocator& allocator, void* memory) {
+  if (allocator.release != nullptr) {
+    allocator.release(allocator.user, memory);
+  } else {
+    ::operator delete(memory, std::align_val_t(MIEN_ALIGNMENT));
+  }
+}
+
+}  // namespace mien::tracker
