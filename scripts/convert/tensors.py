@@ -60,11 +60,10 @@ def per_channel(layer, at, values, neutral):
     """Values given for elements of a layer as one for each of its channels."""
     h, w, c = layer.shape
     channel = (at & MASK) % layer.size // (h * w)
-    low, high = np.full(c, np.inf), np.full(c, -np.inf)
-    np.minimum.at(low, channel, values)
-    np.maximum.at(high, channel, values)
-    require((low >= high).all(), "its second operand is not one number for each channel")
-    return np.where(np.isfinite(low), low, neutral)
+    of_channel = np.full(c, neutral, np.float64)
+    of_channel[channel] = values  # the last of several, which all the others have to be
+    require((of_channel[channel] == values).all(), "its second operand is not one number for each channel")
+    return of_channel
 
 
 def along(array, other_axes, message):
