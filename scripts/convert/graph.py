@@ -36,7 +36,10 @@ def attribute(proto):
 
 def array(proto):
     require(proto.data_location != onnx.TensorProto.EXTERNAL, f"weights {proto.name!r} lie in another file")
-    return numpy_helper.to_array(proto)
+    try:
+        return numpy_helper.to_array(proto)
+    except Exception as error:  # several kinds, by version
+        raise Refused(f"weights {proto.name!r} are malformed: {error}") from error
 
 
 class Graph:

@@ -364,10 +364,11 @@ def conv_over_map(t, x, weight, bias, groups, strides, padding):
     h, w, c = layer.shape
     out = slid(layer.shape, kernel, stride, padding, len(weight))
     if max(kernel) > 15 and out[:2] == (1, 1) and not any(padding) and kernel == (h, w) and not depthwise:
-        return t.whole(t.layer("fully_connected", [layer], out, weight=weight.reshape(len(weight), -1), bias=bias))
+        return t.whole(t.layer("fully_connected", [layer], out, weight=weight.reshape(len(weight), -1), bias=bias), len(x.at))
     require(max(kernel) <= 15 and max(stride) <= 15, f"kernel {list(kernel)}, stride {list(stride)}: at most 15")
     require(all(p < k for p, k in zip(padding, kernel * 2)), f"padding {list(padding)} as large as the kernel {list(kernel)}")
-    return t.whole(t.layer("depthwise" if depthwise else "conv2d", [layer], out, weight=weight, bias=bias, stride=stride, padding=padding))
+    operation = "depthwise" if depthwise else "conv2d"
+    return t.whole(t.layer(operation, [layer], out, weight=weight, bias=bias, stride=stride, padding=padding), len(x.at))
 
 
 def folded_into_conv(t, x, weight, bias, depthwise, padded):
@@ -471,7 +472,7 @@ def max_pool(t, node):
     sizes, after, ceil_mode = pool_windows(layer.shape[:2], kernel, strides, before, after, node.attributes.get("ceil_mode", 0))
     require(max(kernel) <= 15 and max(strides) <= 15, f"kernel {list(kernel)}, stride {list(strides)}: at most 15")
     y = t.whole(t.layer("max_pool", [layer], (*sizes, layer.shape[2]), kernel=tuple(kernel), stride=tuple(strides),
-                        padding=(*before, *after), ceil_mode=ceil_mode))
+                        padding=(*before, *after), ceil_mode=ceil_mode), len(x.at))
     return [y.moved(lambda part: part[:, :, 0, :]) if flat else y]
 
 
@@ -512,8 +513,8 @@ def mean_of(t, x, keepdims=True):
     """[1, c, h, w] -> [1, c, 1, 1]"""
     layer = t.as_map(x)
     if layer.shape[:2] == (1, 1):
-        return t.whole(layer)
-    return t.whole(t.layer("global_average_pool", [layer], (1, 1, layer.shape[2])))
+        return t.whole(layer, len(x.at))
+    return t.whole(t.layer("global_average_pool", [layer], (1, 1, layer.shape[2])), len(x.at))
 
 
 def global_average_pool(t, node):
@@ -523,10 +524,13 @@ def global_average_pool(t, node):
 
 
 def global_max_pool(t, node):
-    layer = t.as_map(node.inputs[0])
+    x = node.inputs[0]
+    require(len(x.shape) == 4, f"it reads {list(x.shape)}")
+    layer = t.as_map(x)
     h, w, c = layer.shape
     require(h <= 15 and w <= 15, f"a map of {h} x {w}: at most 15")
-    return [t.whole(t.layer("max_pool", [layer], (1, 1, c), kernel=(h, w), stride=(1, 1), padding=(0, 0, 0, 0), ceil_mode=False))]
+    y = t.layer("max_pool", [layer], (1, 1, c), kernel=(h, w), stride=(1, 1), padding=(0, 0, 0, 0), ceil_mode=False)
+    return [t.whole(y, len(x.at))]
 
 
 def reduce_mean(t, node):
@@ -568,7 +572,7 @@ def product(t, x, weight, bias):
     rows = x.moved(lambda part: part.reshape(-1, part.shape[-1]))
     require(weight.shape[1] == rows.shape[1], f"{rows.shape[1]} numbers times a weight for {weight.shape[1]}")
     if len(rows.at) <= max(t.steps, 1):
-        y = t.whole(t.dense(t.rows(rows), weight, bias)).moved(lambda part: part[-len(rows.at):])
+        y = t.whole(t.dense(t.rows(rows), weight, bias), len(rows.at))
         return y.moved(lambda part: part.reshape(*x.shape[:-1], len(weight)))
     return at_every_pixel(t, rows, weight, bias).moved(lambda part: part.reshape(*x.shape[:-1], len(weight)))
 

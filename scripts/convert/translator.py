@@ -26,9 +26,9 @@ class Translator:
         self.layers.append(layer)
         return layer
 
-    def whole(self, layer):
-        """[1 or steps, c, h, w]"""
-        return Tensor(tensors.elements(layer, max(self.steps, 1)))
+    def whole(self, layer, steps=None):
+        """[steps, c, h, w]: of the last steps of the stream, by default of all."""
+        return Tensor(tensors.elements(layer, max(self.steps, 1))[-(steps or self.steps or 1):])
 
     def replaced(self, tensor, replacements):
         """The elements of some layers become those of others at the same places."""
@@ -47,8 +47,8 @@ class Translator:
 
     def affine(self, tensor, scale, shift):
         """scale * tensor + shift, which broadcast to it."""
-        at = np.broadcast_to(tensor.at, np.broadcast_shapes(tensor.shape, np.shape(scale), np.shape(shift)))
-        require(at.shape == tensor.shape, "its result has another shape than its operand")
+        shape = np.broadcast_shapes(tensor.shape, np.shape(scale), np.shape(shift))
+        require(shape == tensor.shape, "its result has another shape than its operand")
         result = Tensor(tensor.at, tensor.scale * scale, tensor.shift * scale + shift)
         # What is linear takes it in at once; others wait for whom reads them.
         absorbing = all(self.layers[n].is_plain() for n in tensor.layer_numbers())
@@ -186,7 +186,7 @@ class Translator:
 
     def result(self, layer, steps, back):
         """A layer's elements in the arrangement that `arranged` found."""
-        return self.whole(layer).moved(lambda part: part[-steps:]).moved(back)
+        return self.whole(layer, steps).moved(back)
 
     # -- dense layers ----------------------------------------------------------------------------------------------------------------
 

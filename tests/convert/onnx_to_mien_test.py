@@ -146,7 +146,7 @@ class Operators(Folder):
         x = np.concatenate([step["x"] for step in steps]) if case.steps > 1 else steps[0]["x"]
         axis = time_axis(model)
         x = np.moveaxis(x, axis, 0) if axis is not None and case.steps == 1 else x
-        x = x.reshape(len(x), -1) if axis is not None else x
+        x = x.reshape(len(x), -1) if axis is not None and x.ndim < 4 else x
         return answered(self.folder, model, x, case.layout)
 
     def compare(self, case, answers, wanted):

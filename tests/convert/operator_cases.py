@@ -259,6 +259,13 @@ def time_cases():
     yield Case("lstm_zeros", [lstm("x w r b  z z", "t"), squeeze], sequence, rounds=True, constants={**lstm_weights(5, 8), **zeros, "axes": ints(1)})
     yield Case("lstm_last", [lstm("x w r b", "t h"), node("Squeeze", "h axes", "s"), node("Gemm", "s m", transB=1)], sequence,
                rounds=True, constants={**lstm_weights(5, 8), "axes": ints(0), "m": weights(3, 8)})
+    yield Case("lstm_last_of_steps", [lstm("x w r b", "t"), node("Gather", "t last", "u", axis=0), node("Reshape", "u flat", "v"),
+                                      node("Gemm", "v m", transB=1)], sequence, rounds=True,
+               constants={**lstm_weights(5, 8), "last": np.array(-1, np.int64), "flat": ints(1, 8), "m": weights(3, 8)})
+    frames = [node("Conv", "x k", "c"), node("Relu", "c", "a"), node("GlobalAveragePool", "a", "g"), node("Squeeze", "g axes", "f"),
+              node("Unsqueeze", "f one", "s"), lstm("s w r b", "t"), node("Squeeze", "t one", "y")]
+    yield Case("lstm_of_frames", frames, {"x": [6, 3, 9, 7]}, rounds=True,
+               constants={**lstm_weights(5, 8), "k": weights(5, 3, 3, 3), "axes": ints(2, 3), "one": ints(1)})
     two = [lstm("x w r b", "t", 6), node("Squeeze", "t axes", "u"), lstm("u w2 r2 b2", "v"), node("Squeeze", "v axes", "y")]
     second = {key + "2": value for key, value in lstm_weights(6, 8).items()}
     yield Case("lstm_two", two, sequence, rounds=True, constants={**lstm_weights(5, 6), **second, "axes": ints(1)})
