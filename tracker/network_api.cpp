@@ -36,9 +36,8 @@ mien_status read_config(const mien_network_config* given, mien_network_config& c
   const bool one_callback =
       (config.allocator.allocate == nullptr) != (config.allocator.release == nullptr);
   const bool one_side = (config.height == 0) != (config.width == 0);
-  return one_callback || one_side || config.height < 0 || config.width < 0
-             ? MIEN_ERROR_OUT_OF_RANGE
-             : MIEN_OK;
+  return one_callback || one_side || config.height < 0 || config.width < 0 ? MIEN_ERROR_OUT_OF_RANGE
+                                                                           : MIEN_OK;
 }
 
 // The network asked for, on the input asked for.
