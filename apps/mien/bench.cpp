@@ -105,21 +105,6 @@ std::string bench_name(const std::filesystem::path& path, std::string_view netwo
   return path.stem().string() + "_" + std::string(network);
 }
 
-std::vector<std::filesystem::path> weight_files(const std::string& folder) {
-  std::vector<std::filesystem::path> files;
-  std::error_code ignored;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
-    if (entry.path().extension() == ".mien") {
-      files.push_back(entry.path());
-    }
-  }
-  std::sort(files.begin(), files.end());
-  if (files.empty()) {
-    throw Failure(kExitModel, folder + ": no model files");
-  }
-  return files;
-}
-
 void time_file(const std::filesystem::path& path, const std::string& chosen,
                const std::map<std::string, double>& peaks, std::vector<Figures>& results) {
   const Blob blob(path.string());

@@ -1,5 +1,6 @@
 #include "apps/mien/model_files.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -48,6 +49,21 @@ std::string models_directory(const std::string& chosen) {
     }
   }
   throw Failure(kExitModel, "no model files found; give --models DIR or set MIEN_MODELS");
+}
+
+std::vector<fs::path> weight_files(const std::string& folder) {
+  std::vector<fs::path> files;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    if (entry.path().extension() == ".mien") {
+      files.push_back(entry.path());
+    }
+  }
+  std::sort(files.begin(), files.end());
+  if (files.empty()) {
+    throw Failure(kExitModel, folder + ": no model files");
+  }
+  return files;
 }
 
 }  // namespace mien::app

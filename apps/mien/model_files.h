@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -27,5 +28,8 @@ class Blob {
 
 // `chosen` if given; else $MIEN_MODELS; else `models` beside the program, above it, or installed.
 std::string models_directory(const std::string& chosen);
+
+// All weight files of a folder, by name. Throws Failure(kExitModel) if there is none.
+std::vector<std::filesystem::path> weight_files(const std::string& folder);
 
 }  // namespace mien::app

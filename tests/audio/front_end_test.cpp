@@ -11,9 +11,9 @@
 #include <random>
 #include <vector>
 
+#include "apps/conformance/random_values.h"
 #include "audio/pcm.h"
 #include "kernels/tier.h"
-#include "tests/kernels/random_values.h"
 
 namespace mien::tests {
 namespace {
@@ -96,7 +96,7 @@ TEST(Pcm, WhatIsNoSoundIsSilenceOrFullScale) {
 
 TEST(FrontEnd, BlocksDoNotMatter) {
   for (unsigned seed = 0; seed < 200; ++seed) {
-    RandomValues random(seed);
+    conformance::RandomValues random(seed);
     const std::int32_t rates[] = {8000, 11025, 16000, 22050, 44100, 48000, 96000, 192000};
     const std::int32_t rate =
         seed % 2 == 0 ? rates[seed / 2 % std::size(rates)] : random.between(8000, 192000);

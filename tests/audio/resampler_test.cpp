@@ -10,8 +10,8 @@
 #include <span>
 #include <vector>
 
+#include "apps/conformance/random_values.h"
 #include "kernels/tier.h"
-#include "tests/kernels/random_values.h"
 
 namespace mien::tests {
 namespace {
@@ -92,7 +92,7 @@ TEST(Resampler, StopsWhatWouldAlias) {
 }
 
 TEST(Resampler, BlocksDoNotMatter) {
-  RandomValues random(1);
+  conformance::RandomValues random(1);
   for (const std::int32_t rate : kRates) {
     const std::vector<float> input = random.plain(20000);
     const std::vector<float> whole = resampled(input, rate);

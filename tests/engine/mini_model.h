@@ -1,4 +1,4 @@
-// The small networks of tests/golden/engine, and the numbers PyTorch made of them.
+// The small networks of apps/conformance/golden, and the numbers PyTorch made of them.
 #pragma once
 
 #include <fstream>
@@ -19,7 +19,7 @@ inline AlignedBuffer read_file(const std::string& path) {
 }
 
 inline std::string golden_path(const std::string& name) {
-  return std::string(MIEN_SOURCE_DIR) + "/tests/golden/engine/" + name;
+  return std::string(MIEN_SOURCE_DIR) + "/apps/conformance/golden/" + name;
 }
 
 inline AlignedBuffer mini_file() { return read_file(golden_path("mini.mien")); }

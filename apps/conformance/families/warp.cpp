@@ -1,0 +1,280 @@
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "apps/conformance/families/common.h"
+
+namespace mien::conformance {
+namespace {
+
+using kernels::PixelFormat;
+using kernels::Plane;
+using kernels::WarpArgs;
+
+constexpr int kFormats = 6;
+
+// A plane of an image, none of whose rows is followed by more than its stride asks for.
+struct TestPlane {
+  int width = 1, height = 1, pixel_bytes = 1, row_bytes = 1;
+  bool bottom_up = false;
+  std::vector<std::uint8_t> bytes;
+
+  TestPlane() : bytes(1) {}
+  TestPlane(RandomValues& random, int w, int h, int pixel, int used_bytes, bool flipped)
+      : width(w), height(h), pixel_bytes(pixel), bottom_up(flipped) {
+    constexpr int kPadding[] = {0, 1, 3, 5, 7, 13};
+    row_bytes = w * pixel + kPadding[random.between(0, 5)];
+    bytes.resize(static_cast<std::size_t>(row_bytes * (h - 1) + (w - 1) * pixel + used_bytes));
+    for (std::uint8_t& one : bytes) {
+      one = static_cast<std::uint8_t>(random.between(0, 255));
+    }
+  }
+
+  [[nodiscard]] std::ptrdiff_t offset(int x, int y) const {
+    const int row = bottom_up ? height - 1 - y : y;
+    return std::ptrdiff_t{row} * row_bytes + std::ptrdiff_t{x} * pixel_bytes;
+  }
+  [[nodiscard]] Plane at(const std::uint8_t* first) const {
+    return {first + offset(0, 0), bottom_up ? -row_bytes : row_bytes, pixel_bytes};
+  }
+  // Byte `channel` of a pixel; the border repeats outside.
+  [[nodiscard]] double sample(int x, int y, int channel) const {
+    const std::ptrdiff_t at =
+        offset(std::clamp(x, 0, width - 1), std::clamp(y, 0, height - 1)) + channel;
+    return bytes[static_cast<std::size_t>(at)];
+  }
+};
+
+struct Picture {
+  PixelFormat format;
+  bool full_range;
+  int width, height;
+  std::array<TestPlane, 3> planes;
+};
+
+struct Transform {
+  float matrix[6];
+  int taps, width, height;
+  float scale, offset;
+};
+
+// A place in the picture, and how far off a kernel's may be: coordinates are computed in fp32.
+struct Coordinate {
+  double value, error;
+};
+
+Coordinate coordinate(const float* row, double j, double i) {
+  const double terms[] = {static_cast<double>(row[0]) * j, static_cast<double>(row[1]) * i,
+                          static_cast<double>(row[2])};
+  const double value = terms[0] + terms[1] + terms[2];
+  double magnitude = 0.0;
+  for (const double one : terms) {
+    magnitude += std::abs(one);
+  }
+  const bool finite = std::isfinite(value);
+  return {finite ? value : 0.0, finite ? kSumFactor * kUnit * magnitude : 0.0};
+}
+
+// Between the centres of four samples, with the error that those of the coordinates make of it:
+// along an axis a bilinear sample changes by at most 255 a pixel.
+Approx bilinear(const TestPlane& plane, int channel, Coordinate x, Coordinate y, double shrink) {
+  constexpr double kRoom = 2.0;  // beyond the border everything is the same
+  const double px = std::clamp(x.value / shrink, -kRoom, plane.width + kRoom) - 0.5;
+  const double py = std::clamp(y.value / shrink, -kRoom, plane.height + kRoom) - 0.5;
+  const int x0 = static_cast<int>(std::floor(px)), y0 = static_cast<int>(std::floor(py));
+  const double fx = px - x0, fy = py - y0;
+  const double top =
+      (1 - fx) * plane.sample(x0, y0, channel) + fx * plane.sample(x0 + 1, y0, channel);
+  const double bottom =
+      (1 - fx) * plane.sample(x0, y0 + 1, channel) + fx * plane.sample(x0 + 1, y0 + 1, channel);
+  const double moved = std::min(
+      1.0, (x.error + y.error) / shrink + kSumFactor * kUnit * (plane.width + plane.height + 8));
+  return {(1 - fy) * top + fy * bottom, 255.0 * moved};
+}
+
+struct Colour {
+  Approx channel[3];
+};
+
+Approx clamped(double value, double error) {
+  return {std::clamp(value, 0.0, 255.0), std::min(error, 255.0)};
+}
+
+Approx luma_of(const Picture& picture, Coordinate x, Coordinate y) {
+  const Approx sample = bilinear(picture.planes[0], 0, x, y, 1.0);
+  constexpr double kGain = 255.0 / 219.0;
+  return picture.full_range ? sample : Approx{(sample.value - 16.0) * kGain, sample.error * kGain};
+}
+
+Colour yuv_colour(const Picture& picture, Coordinate x, Coordinate y) {
+  const double gain = picture.full_range ? 1.0 : 255.0 / 224.0;
+  const Approx luma = luma_of(picture, x, y);
+  const Approx u = bilinear(picture.planes[1], 0, x, y, 2.0);
+  const Approx v = bilinear(picture.planes[2], 0, x, y, 2.0);
+  constexpr double kMatrix[3][2] = {{0.0, 1.402}, {-0.344136, -0.714136}, {1.772, 0.0}};
+  Colour colour;
+  for (int c = 0; c < 3; ++c) {
+    const double of_u = kMatrix[c][0] * gain, of_v = kMatrix[c][1] * gain;
+    colour.channel[c] = clamped(luma.value + of_u * (u.value - 128) + of_v * (v.value - 128),
+                                luma.error + std::abs(of_u) * u.error + std::abs(of_v) * v.error);
+  }
+  return colour;
+}
+
+Colour colour_at(const Picture& picture, Coordinate x, Coordinate y) {
+  Colour colour;
+  switch (picture.format) {
+    case PixelFormat::kYuv420:
+      return yuv_colour(picture, x, y);
+    case PixelFormat::kGray8: {
+      const Approx luma = luma_of(picture, x, y);
+      colour.channel[0] = colour.channel[1] = colour.channel[2] = clamped(luma.value, luma.error);
+      return colour;
+    }
+    default: {
+      const bool reversed =
+          picture.format == PixelFormat::kBgr || picture.format == PixelFormat::kBgra;
+      for (int c = 0; c < 3; ++c) {
+        colour.channel[c] = bilinear(picture.planes[0], reversed ? 2 - c : c, x, y, 1.0);
+      }
+      return colour;
+    }
+  }
+}
+
+// The mean of taps x taps samples.
+Colour output_sample(const Picture& picture, const Transform& transform, int i, int j) {
+  Colour mean;
+  const double share = 1.0 / (transform.taps * transform.taps);
+  for (int v = 0; v < transform.taps; ++v) {
+    for (int u = 0; u < transform.taps; ++u) {
+      const double across = j + (u + 0.5) / transform.taps, down = i + (v + 0.5) / transform.taps;
+      const Colour one = colour_at(picture, coordinate(transform.matrix, across, down),
+                                   coordinate(transform.matrix + 3, across, down));
+      for (int c = 0; c < 3; ++c) {
+        mean.channel[c].value += share * one.channel[c].value;
+        mean.channel[c].error += share * one.channel[c].error;
+      }
+    }
+  }
+  return mean;
+}
+
+std::vector<Approx> expected(const Picture& picture, const Transform& transform) {
+  std::vector<Approx> y;
+  const auto scale = static_cast<double>(transform.scale);
+  const auto offset = static_cast<double>(transform.offset);
+  for (int i = 0; i < transform.height; ++i) {
+    for (int j = 0; j < transform.width; ++j) {
+      for (const Approx& one : output_sample(picture, transform, i, j).channel) {
+        const double rounding = kSumFactor * kUnit * (255.0 * scale + std::abs(offset));
+        y.push_back({one.value * scale + offset, one.error * scale + rounding});
+      }
+    }
+  }
+  return y;
+}
+
+Case make(const Picture& picture, const Transform& transform) {
+  Case test;
+  test.shape = "format " + std::to_string(static_cast<int>(picture.format)) + ", " +
+               times(picture.height, picture.width) + " to " +
+               times(transform.height, transform.width) + ", " + std::to_string(transform.taps) +
+               " taps";
+  for (const TestPlane& plane : picture.planes) {
+    test.buffers.push_back(reads(plane.bytes));
+  }
+  test.buffers.push_back(writes(Element::kFloat, expected(picture, transform)));
+  test.bind = [=](const Places& places) {
+    WarpArgs args{};
+    args.format = picture.format;
+    for (std::size_t i = 0; i < 3; ++i) {
+      args.plane[i] = picture.planes[i].at(places.bytes(i));
+    }
+    args.full_range = picture.full_range;
+    args.image_width = picture.width;
+    args.image_height = picture.height;
+    std::copy(std::begin(transform.matrix), std::end(transform.matrix), args.matrix);
+    args.taps = transform.taps;
+    args.y = places.floats(3);
+    args.width = transform.width;
+    args.height = transform.height;
+    args.scale = transform.scale;
+    args.offset = transform.offset;
+    return arguments(args);
+  };
+  test.call = call<WarpArgs>;
+  return test;
+}
+
+int bytes_per_pixel(PixelFormat format) {
+  switch (format) {
+    case PixelFormat::kRgb:
+    case PixelFormat::kBgr:
+      return 3;
+    case PixelFormat::kRgba:
+    case PixelFormat::kBgra:
+      return 4;
+    default:
+      return 1;
+  }
+}
+
+Picture random_picture(RandomValues& random, PixelFormat format, int width, int height) {
+  const int pixel = bytes_per_pixel(format);
+  const bool flipped = random.coin();
+  Picture picture{format, random.coin(), width, height, {}};
+  // The last pixel's fourth byte, which nobody needs, is not there.
+  picture.planes[0] = TestPlane(random, width, height, pixel, std::min(pixel, 3), flipped);
+  if (format == PixelFormat::kYuv420) {
+    const int chroma_w = (width + 1) / 2, chroma_h = (height + 1) / 2;
+    picture.planes[1] = TestPlane(random, chroma_w, chroma_h, random.between(1, 2), 1, false);
+    picture.planes[2] = TestPlane(random, chroma_w, chroma_h, random.between(1, 2), 1, flipped);
+  }
+  return picture;
+}
+
+// Some are far away or mean nothing.
+float odd_number(RandomValues& random) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  constexpr float kOdd[] = {
+      1e30f, -1e30f, kInfinity, -kInfinity, 3e9f, -3e9f, std::numeric_limits<float>::quiet_NaN()};
+  return kOdd[random.between(0, static_cast<int>(std::size(kOdd)) - 1)];
+}
+
+Transform random_transform(RandomValues& random) {
+  Transform transform{};
+  for (float& one : transform.matrix) {
+    one = static_cast<float>(random.between(-300, 300)) * 0.01f;
+  }
+  transform.matrix[2] = static_cast<float>(random.between(-50, 80));
+  transform.matrix[5] = static_cast<float>(random.between(-50, 80));
+  if (random.case_number() % 4 == 3) {
+    transform.matrix[random.between(0, 5)] = odd_number(random);
+  }
+  transform.taps = random.between(1, 3);
+  transform.width = random.size(21);
+  transform.height = random.between(1, 9);
+  transform.scale = 1.0f / 127.5f;
+  transform.offset = -1.0f;
+  return transform;
+}
+
+}  // namespace
+
+template <>
+Case random_case<WarpArgs>(RandomValues& random) {
+  const auto format = static_cast<PixelFormat>(random.case_number() % kFormats);
+  const int width = random.size(40), height = random.size(40);
+  const Picture picture = random_picture(random, format, width, height);
+  return make(picture, random_transform(random));
+}
+
+// The crop of the first encoder, out of a camera's image.
+template <>
+Case typical_case<WarpArgs>(RandomValues& random) {
+  return make(random_picture(random, PixelFormat::kYuv420, 640, 480),
+              {{3.0f, 0.3f, 150.0f, -0.3f, 3.0f, 120.0f}, 2, 65, 65, 1.0f / 127.5f, -1.0f});
+}
+
+}  // namespace mien::conformance

@@ -1,0 +1,56 @@
+// mien-conformance: is every kernel right on this machine? docs/conformance.md describes options,
+// columns and exit codes.
+#include <mien/mien.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+
+#include "apps/conformance/run.h"
+
+namespace mien::conformance {
+namespace {
+
+void add_options(CLI::App& program, Options& options) {
+  program.add_flag("--list", options.list, "names and tiers of what would be checked");
+  program.add_option("--filter", options.filter, "only names that match: * any text, ? one letter")
+      ->type_name("GLOB");
+  program.add_option("--tier", options.tier, "one tier only: ref, avx2, ...")->type_name("T");
+  program.add_option("--seed", options.seed, "of the random cases; default 1")->type_name("N");
+  program.add_option("--repeat", options.repeat, "seeds, counting up from the first; default 1")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1'000'000));
+  program.add_flag("--bench", options.bench, "times what is right, beside the measured peak");
+  program.add_option("--json", options.json, "results as JSON; -: to standard output, no table")
+      ->type_name("FILE");
+  program
+      .add_option("--models", options.models, "folder of weight files whose networks are checked")
+      ->type_name("DIR");
+  program.add_flag("--self-test", options.self_test,
+                   "checks kernels that are wrong on purpose: all must be noticed");
+}
+
+int main_with(int argc, char** argv) {
+  CLI::App program("Checks every kernel of every tier that this CPU has", "mien-conformance");
+  program.set_version_flag("--version", mien_version());
+  Options options;
+  add_options(program, options);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return program.exit(error) == 0 ? kExitOk : kExitUsage;
+  }
+  return run(options);
+}
+
+}  // namespace
+}  // namespace mien::conformance
+
+int main(int argc, char** argv) {
+  try {
+    return mien::conformance::main_with(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "mien-conformance: %s\n", error.what());
+    return mien::conformance::kExitInternal;
+  }
+}

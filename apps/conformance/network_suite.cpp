@@ -1,0 +1,264 @@
+#include "apps/conformance/network_suite.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <random>
+#include <utility>
+
+#include "apps/conformance/benchmark.h"
+#include "apps/conformance/crash_guard.h"
+#include "apps/mien/failure.h"
+#include "apps/mien/model_files.h"
+
+namespace mien::conformance {
+namespace {
+
+// Of the largest answer of an output. Both sides see the same fp16 weights and keep activations in
+// fp32; sums in another order differ by this much at the end of a deep network.
+constexpr double kTolerance = 5e-6;
+constexpr std::size_t kSteps = 4;
+
+class BuiltInFile : public NetworkFile {
+ public:
+  BuiltInFile() {
+    if (file_.open(golden_file()) != EngineStatus::kOk) {
+      throw app::Failure(app::kExitInternal, "the built-in networks are damaged");
+    }
+  }
+  [[nodiscard]] const WeightFile& view() const override { return file_; }
+
+ private:
+  WeightFile file_;
+};
+
+class ModelFile : public NetworkFile {
+ public:
+  explicit ModelFile(const std::string& path) : blob_(path) {
+    const EngineStatus status =
+        file_.open({static_cast<const std::byte*>(blob_.data()), blob_.size()});
+    if (status != EngineStatus::kOk) {
+      throw app::Failure(app::kExitModel, path + ": " + message(status));
+    }
+  }
+  [[nodiscard]] const WeightFile& view() const override { return file_; }
+
+ private:
+  app::Blob blob_;
+  WeightFile file_;
+};
+
+std::size_t elements(const TensorShape& shape) {
+  return static_cast<std::size_t>(shape.height) * static_cast<std::size_t>(shape.width) *
+         static_cast<std::size_t>(shape.channels);
+}
+
+// Where element i of [h][w][c] lies in a map of blocks.
+std::size_t in_blocks(const TensorShape& shape, std::size_t i) {
+  const auto channels = static_cast<std::size_t>(shape.channels);
+  const auto pixels =
+      static_cast<std::size_t>(shape.height) * static_cast<std::size_t>(shape.width);
+  return (i % channels / 8 * pixels + i / channels) * 8 + i % channels % 8;
+}
+
+void set_input(NetworkRunner& runner, std::span<const float> values) {
+  const TensorShape shape = runner.input_shape();
+  const bool interleaved = runner.input().size() == values.size();
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    runner.input()[interleaved ? i : in_blocks(shape, i)] = values[i];
+  }
+}
+
+// Appends one output; false if a lane that holds no channel is not zero.
+bool take_output(const NetworkRunner& runner, std::int32_t output, std::vector<float>& values) {
+  const TensorShape shape = runner.output_shape(output);
+  std::vector<float> blocks(runner.output(output).begin(), runner.output(output).end());
+  for (std::size_t i = 0; i < elements(shape); ++i) {
+    float& element = blocks[in_blocks(shape, i)];
+    values.push_back(element);
+    element = 0.0f;
+  }
+  return std::all_of(blocks.begin(), blocks.end(), [](float one) { return one == 0.0f; });
+}
+
+// One pass over all steps.
+Finding run_once(NetworkRunner& runner, Steps& steps) {
+  const std::size_t input = elements(runner.input_shape());
+  steps.outputs.assign(static_cast<std::size_t>(runner.output_count()), {});
+  for (std::size_t at = 0; at < steps.inputs.size(); at += input) {
+    set_input(runner, std::span(steps.inputs).subspan(at, input));
+    const char* crash =
+        run_guarded([](void* one) { static_cast<NetworkRunner*>(one)->run(); }, &runner);
+    if (crash != nullptr) {
+      return {Fault::kCrashes, crash};
+    }
+    for (std::int32_t i = 0; i < runner.output_count(); ++i) {
+      if (!take_output(runner, i, steps.outputs[static_cast<std::size_t>(i)])) {
+        return {Fault::kWrongResult,
+                "a lane of output " + std::to_string(i) + " that holds no channel is not zero"};
+      }
+    }
+  }
+  return {};
+}
+
+Finding compare(const std::vector<float>& got, const std::vector<float>& want, std::size_t output,
+                Fault fault) {
+  if (got.size() != want.size()) {
+    return {fault, "output " + std::to_string(output) + " has another size"};
+  }
+  double largest = 0.0;
+  for (const float one : want) {
+    largest = std::max(largest, std::abs(static_cast<double>(one)));
+  }
+  Finding finding;
+  for (std::size_t i = 0; i < want.size(); ++i) {
+    const double error = std::abs(static_cast<double>(got[i]) - static_cast<double>(want[i]));
+    const double share = got[i] == want[i] ? 0.0 : error / (kTolerance * largest);
+    if (!(share <= 1.0) && finding.fault == Fault::kNone) {
+      char text[160];
+      std::snprintf(text, sizeof text, "output %zu, element %zu: %.9g instead of %.9g +- %.2g",
+                    output, i, static_cast<double>(got[i]), static_cast<double>(want[i]),
+                    kTolerance * largest);
+      finding = {fault, text};
+    }
+    finding.worst_share = std::max(finding.worst_share, std::isnan(share) ? HUGE_VAL : share);
+  }
+  return finding;
+}
+
+std::vector<float> random_inputs(const TensorShape& shape, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<float> values(-1.0f, 1.0f);
+  std::vector<float> inputs(elements(shape) * kSteps);
+  std::generate(inputs.begin(), inputs.end(), [&] { return values(random); });
+  return inputs;
+}
+
+}  // namespace
+
+Network::Network(std::shared_ptr<const NetworkFile> file, const std::string& file_name,
+                 const NetworkInfo& info, const GoldenNetwork* golden)
+    : file_(std::move(file)),
+      network_(info.name),
+      name_("network/" + file_name + "_" + network_),
+      input_(info.input),
+      macs_(info.macs),
+      golden_(golden) {}
+
+void Network::add_file(const std::shared_ptr<const NetworkFile>& file, const std::string& name,
+                       std::vector<Network>& networks) {
+  for (std::int32_t i = 0; i < file->view().network_count(); ++i) {
+    networks.push_back(Network(file, name, file->view().network(i), nullptr));
+  }
+}
+
+std::vector<Network> Network::find_all(const std::string& models) {
+  std::vector<Network> networks;
+  add_file(std::make_shared<BuiltInFile>(), "mini", networks);
+  for (Network& network : networks) {
+    for (const GoldenNetwork& golden : golden_networks()) {
+      network.golden_ = network.network_ == golden.name ? &golden : network.golden_;
+    }
+  }
+  std::string folder;
+  try {
+    folder = app::models_directory(models);
+  } catch (const app::Failure&) {
+    if (!models.empty()) {
+      throw;
+    }
+    return networks;  // a device may have the program alone
+  }
+  for (const auto& path : app::weight_files(folder)) {
+    add_file(std::make_shared<ModelFile>(path.string()), path.stem().string(), networks);
+  }
+  return networks;
+}
+
+bool Network::has_cases(kernels::Tier tier) const {
+  return golden_ != nullptr || tier != kernels::Tier::kRef;
+}
+
+// What a tier lacks, the reference does.
+EngineStatus Network::create(kernels::Tier tier, const TensorShape& input,
+                             NetworkRunner& runner) const {
+  NetworkRunner::Options options;
+  options.cpu_mask = kernels::bit(tier) | kernels::bit(kernels::Tier::kRef);
+  options.input = input;
+  return runner.create(file_->view(), network_, options);
+}
+
+Finding Network::run(kernels::Tier tier, Steps& steps) const {
+  NetworkRunner runner;
+  const EngineStatus status = create(tier, golden_ != nullptr ? golden_->input : input_, runner);
+  if (status != EngineStatus::kOk) {
+    return {Fault::kWrongResult, message(status)};
+  }
+  Finding finding = run_once(runner, steps);
+  const std::vector<std::vector<float>> first = steps.outputs;
+  runner.reset();
+  if (finding.fault == Fault::kNone) {
+    finding = run_once(runner, steps);
+  }
+  if (finding.fault == Fault::kNone && steps.outputs != first) {
+    finding = {Fault::kWrongResult, "answers differently after a reset"};
+  }
+  return finding;
+}
+
+Finding Network::prepare(std::uint64_t seed) {
+  if (!wanted_.inputs.empty() && (golden_ != nullptr || wanted_seed_ == seed)) {
+    return {};
+  }
+  wanted_ = {};
+  wanted_seed_ = seed;
+  if (golden_ == nullptr) {
+    wanted_.inputs = random_inputs(input_, seed);
+    Finding finding = run(kernels::Tier::kRef, wanted_);
+    finding.text = "ref: " + finding.text;
+    return finding;
+  }
+  wanted_.inputs.assign(golden_->inputs.begin(), golden_->inputs.end());
+  for (const std::span<const float> output : golden_->outputs) {
+    if (!output.empty()) {
+      wanted_.outputs.emplace_back(output.begin(), output.end());
+    }
+  }
+  return {};
+}
+
+Finding Network::check(kernels::Tier tier, std::uint64_t seed, int& cases) {
+  ++cases;
+  Finding finding = prepare(seed);
+  Steps got{wanted_.inputs, {}};
+  if (finding.fault == Fault::kNone) {
+    finding = run(tier, got);
+  }
+  const Fault fault = golden_ != nullptr ? Fault::kWrongResult : Fault::kDiffersFromRef;
+  double worst_share = 0.0;
+  for (std::size_t i = 0; i < wanted_.outputs.size() && finding.fault == Fault::kNone; ++i) {
+    finding = compare(got.outputs[i], wanted_.outputs[i], i, fault);
+    finding.worst_share = worst_share = std::max(worst_share, finding.worst_share);
+  }
+  if (finding.fault != Fault::kNone && golden_ == nullptr) {
+    finding.text += "; seed " + std::to_string(seed);
+  }
+  return finding;
+}
+
+Timing Network::time(kernels::Tier tier, double peak) const {
+  NetworkRunner runner;
+  if (create(tier, input_, runner) != EngineStatus::kOk) {
+    throw app::Failure(app::kExitInternal, name_ + " cannot be made");
+  }
+  std::mt19937 random(1);
+  std::uniform_real_distribution<float> values(-1.0f, 1.0f);
+  std::vector<float> input(elements(runner.input_shape()));
+  std::generate(input.begin(), input.end(), [&] { return values(random); });
+  set_input(runner, input);
+  return timed([&] { runner.run(); }, macs_, peak);
+}
+
+}  // namespace mien::conformance

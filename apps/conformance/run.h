@@ -1,0 +1,23 @@
+// The run that the options ask for.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "apps/conformance/exit_codes.h"
+
+namespace mien::conformance {
+
+struct Options {
+  bool list = false, bench = false, self_test = false;
+  std::string filter = "*";
+  std::string tier;  // empty: all
+  std::uint64_t seed = 1;
+  int repeat = 1;
+  std::string json;    // empty: none; "-": standard output
+  std::string models;  // empty: where `mien` looks
+};
+
+[[nodiscard]] ExitCode run(const Options& options);
+
+}  // namespace mien::conformance
