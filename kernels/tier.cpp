@@ -23,7 +23,10 @@ const char* name(Tier tier) {
 }
 
 std::uint32_t detect_cpu() {
-  std::uint32_t mask = bit(Tier::kRef);
+  std::uint32_t mask = 0;
+#ifndef MIEN_TRIM_REF
+  mask |= bit(Tier::kRef);
+#endif
 #ifdef MIEN_HAVE_AVX2
   // The built-in also asks whether the system saves the registers. There is no CPU with AVX2 and
   // without F16C, which clang 14 cannot ask for.

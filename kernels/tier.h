@@ -24,7 +24,8 @@ inline constexpr std::uint32_t kTierCount = 7;
 // "ref", "avx2", ...
 [[nodiscard]] const char* name(Tier tier);
 
-// The tiers that this build has and this CPU can run; kRef is always among them.
+// The tiers that this build has and this CPU can run; kRef is always among them, unless the build
+// leaves it out (MIEN_TRIM_REF).
 [[nodiscard]] std::uint32_t detect_cpu();
 
 }  // namespace mien::kernels

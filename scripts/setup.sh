@@ -6,7 +6,7 @@ set -euo pipefail
 
 declare -A PACKAGES=(
   [build]="g++ cmake ninja-build libcli11-dev nlohmann-json3-dev libstb-dev"
-  [test]="libgtest-dev libgmock-dev clang clang-format clang-tidy libclang-rt-dev python3 python3-numpy ffmpeg chromium binutils git pkgconf"
+  [test]="libgtest-dev libgmock-dev clang clang-format clang-tidy libclang-rt-dev python3 python3-numpy ffmpeg chromium binutils git pkgconf shellcheck"
   [demo]="ffmpeg python3"
   [convert]="python3-onnx python3-numpy"
   [train]="python3-torch libopenblas0-serial python3-opencv python3-scipy python3-pil python3-matplotlib python3-tqdm espeak-ng libespeak-ng1 flite festival festvox-kdlpc16k festvox-us-slt-hts python3-pocketsphinx pocketsphinx-en-us libopus0 ffmpeg"

@@ -19,6 +19,7 @@ run_tests() {  # preset
 }
 
 scripts/check_layering.sh
+shellcheck scripts/run_on_device.sh tests/apps/run_on_device_test.sh
 if [ $quick -eq 0 ]; then
   scripts/check_format.sh
   build asan-ubsan

@@ -12,7 +12,8 @@ enum ExitCode : int {
   kExitTrimmed = 4,   // this build has no reference kernels
   kExitUnsupportedTier = 5,  // this CPU or this build lacks the tier asked for
   kExitOutput = 6,           // the JSON file cannot be written
-  kExitInternal = 7          // a fault of the program itself
+  kExitInternal = 7,         // a fault of the program itself
+  kExitModel = 8             // a weight file is missing, damaged, or of another version
 };
 
 }  // namespace mien::conformance

@@ -6,7 +6,9 @@
 #include <cstdio>
 #include <exception>
 
+#include "apps/conformance/exit_codes.h"
 #include "apps/conformance/run.h"
+#include "apps/mien/failure.h"
 
 namespace mien::conformance {
 namespace {
@@ -49,6 +51,9 @@ int main_with(int argc, char** argv) {
 int main(int argc, char** argv) {
   try {
     return mien::conformance::main_with(argc, argv);
+  } catch (const mien::app::Failure& failure) {  // of weight files
+    std::fprintf(stderr, "mien-conformance: %s\n", failure.what());
+    return mien::conformance::kExitModel;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "mien-conformance: %s\n", error.what());
     return mien::conformance::kExitInternal;

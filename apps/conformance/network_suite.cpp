@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <random>
+#include <stdexcept>
 #include <utility>
 
 #include "apps/conformance/benchmark.h"
@@ -24,7 +25,7 @@ class BuiltInFile : public NetworkFile {
  public:
   BuiltInFile() {
     if (file_.open(golden_file()) != EngineStatus::kOk) {
-      throw app::Failure(app::kExitInternal, "the built-in networks are damaged");
+      throw std::runtime_error("the built-in networks are damaged");
     }
   }
   [[nodiscard]] const WeightFile& view() const override { return file_; }
@@ -171,6 +172,9 @@ std::vector<Network> Network::find_all(const std::string& models) {
     }
     return networks;  // a device may have the program alone
   }
+  if (folder.empty()) {  // MIEN_MODELS=
+    return networks;
+  }
   for (const auto& path : app::weight_files(folder)) {
     add_file(std::make_shared<ModelFile>(path.string()), path.stem().string(), networks);
   }
@@ -251,7 +255,7 @@ Finding Network::check(kernels::Tier tier, std::uint64_t seed, int& cases) {
 Timing Network::time(kernels::Tier tier, double peak) const {
   NetworkRunner runner;
   if (create(tier, input_, runner) != EngineStatus::kOk) {
-    throw app::Failure(app::kExitInternal, name_ + " cannot be made");
+    throw std::runtime_error(name_ + " cannot be made");
   }
   std::mt19937 random(1);
   std::uniform_real_distribution<float> values(-1.0f, 1.0f);

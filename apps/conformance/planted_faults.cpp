@@ -22,7 +22,9 @@ int padded(int outputs) { return (outputs + 7) / 8 * 8; }
 // The compiler cannot know what becomes of this, so it leaves no faulty access out.
 volatile float sink;
 
-void right(const FullyConnectedArgs& a) { kernels::ref::fully_connected(a); }
+void right(const FullyConnectedArgs& a) {
+  kernels::find<FullyConnectedArgs>(kernels::bit(kernels::Tier::kRef))(a);
+}
 
 void wrong_tail(const FullyConnectedArgs& a) {
   right(a);

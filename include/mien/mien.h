@@ -132,7 +132,8 @@ MIEN_API uint32_t mien_version_api(void);
 #define MIEN_CPU_WASM 0x40u
 #define MIEN_CPU_ALL 0xFFFFFFFFu
 
-/* The tiers that this build has and this CPU can run. MIEN_CPU_REF is always among them. */
+/* The tiers that this build has and this CPU can run. MIEN_CPU_REF is always among them, unless the
+   library was built without it (MIEN_TRIM_REF). */
 MIEN_API uint32_t mien_cpu_tiers(void);
 
 /* Name of the tier with the single bit `tier` ("ref", "avx2", ...); NULL for anything else. */

@@ -18,6 +18,9 @@ if(TARGET mien_program)
   set_target_properties(mien_program PROPERTIES INSTALL_RPATH $ORIGIN/${libraries_from_program})
   install(TARGETS mien_program)
 endif()
+if(TARGET mien_conformance_program)
+  install(TARGETS mien_conformance_program)
+endif()
 
 # Who links the static library with a C compiler has to name these.
 set(cxx_runtime ${CMAKE_CXX_IMPLICIT_LINK_LIBRARIES})

@@ -52,3 +52,9 @@ if [ -x "$prefix/bin/mien" ]; then
     head -c 1536 /dev/zero
   } | "$prefix/bin/mien" track - --quiet | grep -c searching
 fi
+
+if [ -x "$prefix/bin/mien-conformance" ]; then
+  echo "== the conformance program"
+  "$prefix/bin/mien-conformance" --list --filter 'network/*' | grep -E 'mini_encoder +ref'
+  "$prefix/bin/mien-conformance" --filter softmax
+fi
