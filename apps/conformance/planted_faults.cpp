@@ -125,7 +125,7 @@ void illegal_instruction(const FullyConnectedArgs& a) {
 }
 
 // A sanitizer would end the program before the fault does.
-[[gnu::no_sanitize("undefined")]] void null_pointer(const FullyConnectedArgs& a) {
+__attribute__((no_sanitize("undefined"))) void null_pointer(const FullyConnectedArgs& a) {
   right(a);
   const float* volatile nothing = nullptr;
   sink = *nothing;

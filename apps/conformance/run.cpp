@@ -31,11 +31,16 @@ std::optional<Tier> tier_by_name(const std::string& wanted) {
   return std::nullopt;
 }
 
+struct NetworkOnTier {
+  Network network;
+  Tier tier;
+};
+
 // What matches the options, in the order of the registry.
 struct Selection {
   std::vector<Tier> tiers;
   std::vector<kernels::Entry> kernels;
-  std::vector<std::pair<Network, Tier>> networks;
+  std::vector<NetworkOnTier> networks;
 
   [[nodiscard]] bool empty() const { return kernels.empty() && networks.empty(); }
 };
@@ -61,7 +66,7 @@ Selection select(const Options& options, std::uint32_t tiers) {
   for (const Network& network : Network::find_all(options.models)) {
     for (const Tier tier : selection.tiers) {
       if (network.has_cases(tier) && matches(options.filter, network.name())) {
-        selection.networks.emplace_back(network, tier);
+        selection.networks.push_back({network, tier});
       }
     }
   }
@@ -96,13 +101,11 @@ class Run {
           [&](std::uint64_t seed, int& cases) { return check_kernel(entry, seed, cases); },
           [&](double peak) { return time_kernel(entry, peak); });
     }
-    for (auto& [network, tier] : selection.networks) {
+    for (NetworkOnTier& one : selection.networks) {
       add(
-          network.name(), tier,
-          [&, one = tier](std::uint64_t seed, int& cases) {
-            return network.check(one, seed, cases);
-          },
-          [&, one = tier](double peak) { return network.time(one, peak); });
+          one.network.name(), one.tier,
+          [&](std::uint64_t seed, int& cases) { return one.network.check(one.tier, seed, cases); },
+          [&](double peak) { return one.network.time(one.tier, peak); });
     }
     report_.seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
     if (!quiet_) {

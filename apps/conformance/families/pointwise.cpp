@@ -11,7 +11,7 @@ struct Size {
 
 Case make(RandomValues& random, const Size& size, const RandomActivation& activation,
           const ResidualSlice* slice) {
-  const auto [h, w, in_c, out_c] = size;
+  const int h = size.h, w = size.w, in_c = size.in_c, out_c = size.out_c;
   const int pixels = h * w, reduction = padded(in_c);
   const std::vector<float> x = random.map(pixels, in_c);
   const std::vector<std::uint16_t> weights = random.panels(out_c, reduction),
@@ -26,9 +26,8 @@ Case make(RandomValues& random, const Size& size, const RandomActivation& activa
       sum.add(x[blocked(i, p, pixels)], panel_weight(weights, out_c, reduction, o, i));
     }
     const Approx y = activation(sum.total(), o);
-    return slice == nullptr
-               ? y
-               : y + exact(residual[blocked(o, slice->pixel(p, size.w), slice->pixels())]);
+    return slice == nullptr ? y
+                            : y + exact(residual[blocked(o, slice->pixel(p, w), slice->pixels())]);
   };
   Case test;
   test.shape = times(h, w) + "x" + std::to_string(in_c) + " to " + std::to_string(out_c) + ", " +
@@ -44,10 +43,10 @@ Case make(RandomValues& random, const Size& size, const RandomActivation& activa
     args.bias = places.halves(2);
     args.y = places.floats(5);
     args.activation = activation.spec(places.halves(3));
-    args.h = size.h;
-    args.w = size.w;
-    args.in_c = size.in_c;
-    args.out_c = size.out_c;
+    args.h = h;
+    args.w = w;
+    args.in_c = in_c;
+    args.out_c = out_c;
     if (taken.h > 0) {
       set_residual(taken, places.floats(4), args);
     }
