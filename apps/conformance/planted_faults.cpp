@@ -71,7 +71,7 @@ void reads_before_start(const FullyConnectedArgs& a) {
 
 void reads_weights_past_end(const FullyConnectedArgs& a) {
   right(a);
-  sink = a.weights[a.in_elems * padded(a.out_c)];
+  sink = a.weights[std::ptrdiff_t{a.in_elems} * padded(a.out_c)];
 }
 
 void adds_to_output(const FullyConnectedArgs& a) {
@@ -128,7 +128,7 @@ void illegal_instruction(const FullyConnectedArgs& a) {
 __attribute__((no_sanitize("undefined"))) void null_pointer(const FullyConnectedArgs& a) {
   right(a);
   const float* volatile nothing = nullptr;
-  sink = *nothing;
+  sink = *nothing;  // NOLINT: on purpose
 }
 
 void changes_rounding_mode(const FullyConnectedArgs& a) {
@@ -178,7 +178,7 @@ static constexpr bool kHaveVectorRegisters = false;
 #endif
 
 // Where the assembly goes on, with its register lost.
-extern "C" [[gnu::visibility("hidden")]] void mien_right_kernel(const FullyConnectedArgs& args);
+extern "C" void mien_right_kernel(const FullyConnectedArgs& args);
 void mien_right_kernel(const FullyConnectedArgs& args) { right(args); }
 
 std::span<const PlantedFault> planted_faults() {

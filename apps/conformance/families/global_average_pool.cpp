@@ -18,13 +18,11 @@ Case make(RandomValues& random, int pixels, int channels) {
   const std::vector<float> x = random.map(pixels, channels);
   Case test;
   test.shape = std::to_string(pixels) + " pixels, " + std::to_string(channels) + " channels";
-  test.buffers = {reads(x),
-                  writes(Element::kFloat, expected_map(channels, 1, [&](int c, int) {
-                           return mean(x, c, pixels);
-                         }))};
+  test.buffers = {reads(x), writes(Element::kFloat, expected_map(channels, 1, [&](int c, int) {
+                                     return mean(x, c, pixels);
+                                   }))};
   test.bind = [=](const Places& places) {
-    return arguments(
-        GlobalAveragePoolArgs{places.floats(0), places.floats(1), pixels, channels});
+    return arguments(GlobalAveragePoolArgs{places.floats(0), places.floats(1), pixels, channels});
   };
   test.call = call<GlobalAveragePoolArgs>;
   return test;
