@@ -100,11 +100,11 @@ std::vector<float> RandomValues::plain(int count) {
 
 std::vector<float> RandomValues::map(int pixels, int channels) {
   const int blocks = (channels + 7) / 8;
-  std::vector<float> values(static_cast<std::size_t>(blocks * pixels * 8));
+  std::vector<float> values(as_size(blocks * pixels * 8));
   for (int b = 0; b < blocks; ++b) {
     for (int p = 0; p < pixels; ++p) {
       for (int lane = 0; lane < 8 && b * 8 + lane < channels; ++lane) {
-        values[static_cast<std::size_t>((b * pixels + p) * 8 + lane)] = value();
+        values[as_size((b * pixels + p) * 8 + lane)] = value();
       }
     }
   }
@@ -140,7 +140,7 @@ std::vector<std::uint16_t> RandomValues::panels(int outputs, int reduction) {
     const int first = o / 16 * 16;
     const int width = std::min(16, padded - first);
     for (int k = 0; k < reduction; ++k) {
-      values[static_cast<std::size_t>(first * reduction + k * width + o - first)] = 0;
+      values[as_size(first * reduction + k * width + o - first)] = 0;
     }
   }
   return values;

@@ -2,12 +2,16 @@
 // numbers, and sizes around those that kernels work in.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <random>
 #include <string_view>
 #include <vector>
 
 namespace mien::conformance {
+
+// Sizes of cases are small ints; containers count in another type.
+[[nodiscard]] inline std::size_t as_size(int count) { return static_cast<std::size_t>(count); }
 
 // What the numbers of a case are like.
 enum class Pattern : std::uint8_t {

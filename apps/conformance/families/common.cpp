@@ -14,7 +14,7 @@ double panel_weight(const std::vector<std::uint16_t>& panels, int outputs, int r
                     int k) {
   const int first = o / 16 * 16;
   const int width = std::min(16, padded(outputs) - first);
-  return widened(panels[static_cast<std::size_t>(first * reduction + k * width + o - first)]);
+  return widened(panels[as_size(first * reduction + k * width + o - first)]);
 }
 
 // Slopes as training finds them; a slope of 65504 would leave fp32 behind.

@@ -13,7 +13,7 @@ namespace mien::conformance {
 
 // Where a channel of a pixel lies in a map of blocks.
 [[nodiscard]] inline std::size_t blocked(int channel, int pixel, int pixels) {
-  return static_cast<std::size_t>((channel / 8 * pixels + pixel) * 8 + channel % 8);
+  return as_size((channel / 8 * pixels + pixel) * 8 + channel % 8);
 }
 
 [[nodiscard]] double widened(std::uint16_t half);
@@ -39,7 +39,7 @@ struct RandomActivation {
 // Every element of a map of blocks: `at(channel, pixel)` where there is a channel, 0 elsewhere.
 template <class Function>
 [[nodiscard]] std::vector<Approx> expected_map(int channels, int pixels, Function at) {
-  std::vector<Approx> map(static_cast<std::size_t>(padded(channels) * pixels));
+  std::vector<Approx> map(as_size(padded(channels) * pixels));
   for (int c = 0; c < channels; ++c) {
     for (int p = 0; p < pixels; ++p) {
       map[blocked(c, p, pixels)] = at(c, p);

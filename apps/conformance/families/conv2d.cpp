@@ -20,7 +20,7 @@ Case make(RandomValues& random, const Window& window, int in_c, int out_c, bool 
     window.for_each(out_pixel, [&](int k, int pixel) {
       for (int i = 0; i < in_c; ++i) {
         const std::size_t from =
-            interleaved ? static_cast<std::size_t>(pixel * in_c + i) : blocked(i, pixel, in_pixels);
+            interleaved ? as_size(pixel * in_c + i) : blocked(i, pixel, in_pixels);
         sum.add(x[from], panel_weight(weights, out_c, reduction, o, k * in_c + i));
       }
     });
@@ -46,8 +46,7 @@ Case make(RandomValues& random, const Window& window, int in_c, int out_c, bool 
     return arguments(args);
   };
   test.call = call<Conv2dArgs>;
-  test.macs =
-      static_cast<std::uint64_t>(out_pixels) * static_cast<std::uint64_t>(reduction * out_c);
+  test.macs = static_cast<std::uint64_t>(out_pixels) * as_size(reduction * out_c);
   return test;
 }
 

@@ -38,7 +38,7 @@ Case make(RandomValues& random, const Window& window, int channels,
     return arguments(args);
   };
   test.call = call<DepthwiseArgs>;
-  test.macs = static_cast<std::uint64_t>(out_pixels) * static_cast<std::uint64_t>(taps * channels);
+  test.macs = static_cast<std::uint64_t>(out_pixels) * as_size(taps * channels);
   return test;
 }
 

@@ -51,15 +51,14 @@ Case make(RandomValues& random, int in_elems, int hidden) {
                   reads(weights),
                   reads(bias),
                   writes(Element::kFloat, step.h),
-                  scratch(static_cast<std::size_t>(4 * hidden))};
+                  scratch(as_size(4 * hidden))};
   test.bind = [=](const Places& places) {
     return arguments(LstmArgs{places.floats(0), places.floats(1), places.floats(2),
                               places.halves(3), places.halves(4), places.floats(5),
                               places.floats(6), in_elems, hidden});
   };
   test.call = call<LstmArgs>;
-  test.macs =
-      static_cast<std::uint64_t>(in_elems + hidden) * static_cast<std::uint64_t>(4 * hidden);
+  test.macs = static_cast<std::uint64_t>(in_elems + hidden) * as_size(4 * hidden);
   return test;
 }
 

@@ -20,7 +20,7 @@ Case make(RandomValues& random, int rows, int columns) {
   for (int row = 0; row < rows; ++row) {
     Sum sum;
     for (int k = 0; k < columns; ++k) {
-      sum.add(x[static_cast<std::size_t>(k)], weights[static_cast<std::size_t>(row * columns + k)]);
+      sum.add(x[static_cast<std::size_t>(k)], weights[as_size(row * columns + k)]);
     }
     y.push_back(sum.total());
   }

@@ -53,7 +53,7 @@ Case make(RandomValues& random, const Size& size, const RandomActivation& activa
     return arguments(args);
   };
   test.call = call<PointwiseArgs>;
-  test.macs = static_cast<std::uint64_t>(pixels) * static_cast<std::uint64_t>(in_c * out_c);
+  test.macs = static_cast<std::uint64_t>(pixels) * as_size(in_c * out_c);
   return test;
 }
 

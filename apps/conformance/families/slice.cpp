@@ -5,23 +5,21 @@ namespace {
 
 using kernels::SliceArgs;
 
-Case make(RandomValues& random, SliceArgs args, int in_channels) {
-  const std::vector<float> x = random.map(args.in_h * args.in_w, in_channels);
+Case make(RandomValues& random, int h, int w, int channels, const ResidualSlice& slice,
+          int first_channel, int in_channels) {
+  const int pixels = h * w;
+  const std::vector<float> x = random.map(slice.pixels(), in_channels);
   const auto at = [&](int c, int p) {
-    const int pixel = (args.top + p / args.w) * args.in_w + args.left + p % args.w;
     return exact(
-        static_cast<double>(x[blocked(args.first_channel + c, pixel, args.in_h * args.in_w)]));
+        static_cast<double>(x[blocked(first_channel + c, slice.pixel(p, w), slice.pixels())]));
   };
   Case test;
-  test.shape = times(args.h, args.w) + "x" + std::to_string(args.channels) + " of " +
-               times(args.in_h, args.in_w) + ", from channel " + std::to_string(args.first_channel);
-  test.buffers = {reads(x),
-                  writes(Element::kFloat, expected_map(args.channels, args.h * args.w, at))};
-  test.bind = [args](const Places& places) {
-    SliceArgs bound = args;
-    bound.x = places.floats(0);
-    bound.y = places.floats(1);
-    return arguments(bound);
+  test.shape = times(h, w) + "x" + std::to_string(channels) + " of " + times(slice.h, slice.w) +
+               "x" + std::to_string(in_channels) + " from channel " + std::to_string(first_channel);
+  test.buffers = {reads(x), writes(Element::kFloat, expected_map(channels, pixels, at))};
+  test.bind = [=](const Places& places) {
+    return arguments(SliceArgs{places.floats(0), places.floats(1), slice.h, slice.w, slice.top,
+                               slice.left, first_channel, h, w, channels});
   };
   test.call = call<SliceArgs>;
   return test;
@@ -31,26 +29,16 @@ Case make(RandomValues& random, SliceArgs args, int in_channels) {
 
 template <>
 Case random_case<SliceArgs>(RandomValues& random) {
-  SliceArgs args{};
-  args.h = random.size(9);
-  args.w = random.size(25);
-  args.channels = random.size(33);
-  args.top = random.between(0, 2);
-  args.left = random.between(0, 2);
-  args.first_channel = random.between(0, 20);
-  args.in_h = args.h + args.top + random.between(0, 2);
-  args.in_w = args.w + args.left + random.between(0, 2);
-  return make(random, args, args.first_channel + args.channels + random.between(0, 9));
+  const int h = random.between(1, 6), w = random.size(17), channels = random.size(25);
+  const ResidualSlice slice = ResidualSlice::random(random, h, w);
+  const int first_channel = random.between(0, 20);
+  return make(random, h, w, channels, slice, first_channel,
+              first_channel + channels + random.between(0, 9));
 }
 
 template <>
 Case typical_case<SliceArgs>(RandomValues& random) {
-  SliceArgs args{};
-  args.in_h = args.in_w = 16;
-  args.h = args.w = 14;
-  args.top = args.left = 1;
-  args.channels = 24;
-  return make(random, args, 24);
+  return make(random, 13, 13, 16, {15, 15, 1, 1}, 4, 32);
 }
 
 }  // namespace mien::conformance

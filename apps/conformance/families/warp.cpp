@@ -24,7 +24,7 @@ struct TestPlane {
       : width(w), height(h), pixel_bytes(pixel), bottom_up(flipped) {
     constexpr int kPadding[] = {0, 1, 3, 5, 7, 13};
     row_bytes = w * pixel + kPadding[random.between(0, 5)];
-    bytes.resize(static_cast<std::size_t>(row_bytes * (h - 1) + (w - 1) * pixel + used_bytes));
+    bytes.resize(as_size(row_bytes * (h - 1) + (w - 1) * pixel + used_bytes));
     for (std::uint8_t& one : bytes) {
       one = static_cast<std::uint8_t>(random.between(0, 255));
     }
