@@ -9,6 +9,7 @@ namespace {
 namespace tier_of {
 constexpr Tier ref = Tier::kRef;
 constexpr Tier avx2 [[maybe_unused]] = Tier::kAvx2;
+constexpr Tier neon [[maybe_unused]] = Tier::kNeon;
 }  // namespace tier_of
 
 const Entry* entries(std::size_t& count) {

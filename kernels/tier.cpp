@@ -34,6 +34,9 @@ std::uint32_t detect_cpu() {
     mask |= bit(Tier::kAvx2);
   }
 #endif
+#ifdef MIEN_HAVE_NEON
+  mask |= bit(Tier::kNeon);  // every AArch64 CPU has it
+#endif
   return mask;
 }
 

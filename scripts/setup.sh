@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what building, testing and running mien need, from Debian's packages.
-# usage: scripts/setup.sh [build] [test] [demo] [train] [convert]     (default: build test demo)
+# usage: scripts/setup.sh [build] [test] [demo] [train] [convert] [cross-arm]     (default: build test demo)
 # As root or with sudo; does nothing when everything is there already.
 set -euo pipefail
 
@@ -9,6 +9,7 @@ declare -A PACKAGES=(
   [test]="libgtest-dev libgmock-dev clang clang-format clang-tidy libclang-rt-dev python3 python3-numpy ffmpeg chromium binutils git pkgconf shellcheck"
   [demo]="ffmpeg python3"
   [convert]="python3-onnx python3-numpy"
+  [cross-arm]="g++-aarch64-linux-gnu g++-arm-linux-gnueabihf qemu-user googletest binutils llvm clang clang-tidy"
   [train]="python3-torch libopenblas0-serial python3-opencv python3-scipy python3-pil python3-matplotlib python3-tqdm espeak-ng libespeak-ng1 flite festival festvox-kdlpc16k festvox-us-slt-hts python3-pocketsphinx pocketsphinx-en-us libopus0 ffmpeg"
 )
 

@@ -1,0 +1,22 @@
+// Channels that do not begin with a block: eight neighbours out of two blocks.
+#pragma once
+
+#include "kernels/common/neon.h"
+
+namespace mien::kernels::MIEN_TIER {
+namespace {
+
+inline Pair load_pair_or_zero(const float* map, std::ptrdiff_t at) {
+  return map == nullptr ? Pair{splat(0.0f), splat(0.0f)} : load_pair(map + at);
+}
+
+// Lanes `first` .. `first` + 7 of `low` and `high` in a row; `first` in 0..7.
+inline Pair shifted(Pair low, Pair high, std::int32_t first) {
+  float both[2 * kBlock];
+  store_pair(both, low);
+  store_pair(both + kBlock, high);
+  return load_pair(both + first);
+}
+
+}  // namespace
+}  // namespace mien::kernels::MIEN_TIER

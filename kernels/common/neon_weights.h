@@ -1,0 +1,113 @@
+// Weights of a panel for the tiles of sums: fp16 as they are stored, or widened once for all tiles
+// where there are several.
+#pragma once
+
+#include "kernels/common/neon.h"
+
+namespace mien::kernels::MIEN_TIER {
+namespace {
+
+// Tiles are kVecs vectors of output channels wide: 4 (a whole panel) or 2 (half of it). How many
+// pixels fit into the registers besides depends on how many of these there are.
+#ifdef __aarch64__
+template <int kVecs>
+constexpr int kTilePixels = kVecs == 4 ? 5 : 9;
+#else
+template <int kVecs>
+constexpr int kTilePixels = kVecs == 4 ? 2 : 4;
+#endif
+
+// One row of weights, those of one input: kVecs vectors.
+template <int kVecs>
+[[gnu::always_inline]] inline void load_row(const float* at, Vec (&row)[kVecs]) {
+  MIEN_UNROLLED for (int v = 0; v < kVecs; ++v) { row[v] = vld1q_f32(at + v * kLanes); }
+}
+template <int kVecs>
+[[gnu::always_inline]] inline void load_row(const std::uint16_t* at, Vec (&row)[kVecs]) {
+  MIEN_UNROLLED for (int v = 0; v < kVecs; v += 2) {
+    const Pair pair = load_half_pair(at + v * kLanes);
+    row[v] = pair.low;
+    row[v + 1] = pair.high;
+  }
+}
+
+// Where a tile's weights begin, and how far its rows are apart: in a panel of 16 or 8, or side by
+// side when widened.
+struct Halves {
+  const std::uint16_t* first;
+  std::int32_t stride;
+
+  template <int kVecs>
+  [[nodiscard]] std::int32_t row_elems() const {
+    return stride;
+  }
+};
+struct Widened {
+  const float* first;
+
+  template <int kVecs>
+  [[nodiscard]] std::int32_t row_elems() const {
+    return kVecs * kLanes;
+  }
+};
+
+// On the stack, which a session's run keeps small.
+constexpr std::int32_t kWidenedElems = 1024;
+
+template <int kVecs>
+[[maybe_unused]] constexpr bool fits_widened(std::ptrdiff_t rows) {
+  return rows * kVecs * kLanes <= kWidenedElems;
+}
+
+template <int kVecs>
+inline Widened widen(const Halves& weights, std::ptrdiff_t rows, float (&space)[kWidenedElems]) {
+  const std::uint16_t* from = weights.first;
+  float* to = space;
+  for (std::ptrdiff_t k = 0; k < rows; ++k, from += weights.stride, to += kVecs * kLanes) {
+    for (int v = 0; v < kVecs; v += 2) {
+      store_pair(to + v * kLanes, load_half_pair(from + v * kLanes));
+    }
+  }
+  return {space};
+}
+
+// sums[p][v] += x[p][k] w[k][v] over the 4 inputs k that lie together in x, those of one pixel
+// `step` floats after those of the last.
+template <int kLane, int kPixels, int kVecs>
+[[gnu::always_inline]] inline void add_input(const Vec (&row)[kVecs], const Vec (&x)[kPixels],
+                                             Vec (&sums)[kPixels][kVecs]) {
+  MIEN_UNROLLED for (int v = 0; v < kVecs; ++v) {
+    MIEN_UNROLLED for (int p = 0; p < kPixels; ++p) {
+      sums[p][v] = fma_lane<kLane>(sums[p][v], row[v], x[p]);
+    }
+  }
+}
+template <int kPixels, int kVecs, class T>
+[[gnu::always_inline]] inline void add_four_inputs(const float* x, std::ptrdiff_t step, const T* w,
+                                                   std::ptrdiff_t row_elems,
+                                                   Vec (&sums)[kPixels][kVecs]) {
+  Vec inputs[kPixels];
+  MIEN_UNROLLED for (int p = 0; p < kPixels; ++p) { inputs[p] = vld1q_f32(x + p * step); }
+  Vec row[kVecs];
+  load_row(w, row);
+  add_input<0>(row, inputs, sums);
+  load_row(w + row_elems, row);
+  add_input<1>(row, inputs, sums);
+  load_row(w + 2 * row_elems, row);
+  add_input<2>(row, inputs, sums);
+  load_row(w + 3 * row_elems, row);
+  add_input<3>(row, inputs, sums);
+}
+
+template <int kPixels, int kVecs>
+[[gnu::always_inline]] inline void start_sums(const std::uint16_t* bias,
+                                              Vec (&sums)[kPixels][kVecs]) {
+  Vec row[kVecs];
+  load_row(bias, row);
+  MIEN_UNROLLED for (auto& pixel : sums) {
+    MIEN_UNROLLED for (int v = 0; v < kVecs; ++v) { pixel[v] = row[v]; }
+  }
+}
+
+}  // namespace
+}  // namespace mien::kernels::MIEN_TIER

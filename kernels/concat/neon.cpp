@@ -1,0 +1,38 @@
+#include <cstring>
+
+#include "kernels/common/neon_lanes.h"
+#include "kernels/families.h"
+
+namespace mien::kernels::MIEN_TIER {
+
+// Where a fills its last block, blocks of b follow as they are; else every block that b has a part
+// in takes its lanes from two blocks of b, or from the last of a and the first of b.
+void concat(const ConcatArgs& a) {
+  const std::ptrdiff_t plane = std::ptrdiff_t{a.pixels} * kBlock;
+  const std::int32_t whole = a.a_channels / kBlock, used = a.a_channels % kBlock;
+  const std::int32_t b_blocks = blocks_of(a.b_channels);
+  const auto bytes = [&](std::int32_t blocks) {
+    return static_cast<std::size_t>(blocks * plane) * sizeof(float);
+  };
+  std::memcpy(a.y, a.a, bytes(whole));
+  if (used == 0) {
+    std::memcpy(a.y + whole * plane, a.b, bytes(b_blocks));
+    return;
+  }
+  const std::int32_t blocks = blocks_of(a.a_channels + a.b_channels);
+  for (std::int32_t block = whole; block < blocks; ++block) {
+    const std::int32_t second = block - whole;  // the block of b in the upper lanes
+    const float* low = second > 0 ? a.b + (second - 1) * plane : nullptr;
+    const float* high = second < b_blocks ? a.b + second * plane : nullptr;
+    for (std::ptrdiff_t p = 0; p < plane; p += kBlock) {
+      Pair y = shifted(load_pair_or_zero(low, p), load_pair_or_zero(high, p), kBlock - used);
+      if (low == nullptr) {  // lanes of a are zero where those of b begin, and the other way round
+        const Pair from_a = load_pair(a.a + whole * plane + p);
+        y = {vaddq_f32(y.low, from_a.low), vaddq_f32(y.high, from_a.high)};
+      }
+      store_pair(a.y + block * plane + p, y);
+    }
+  }
+}
+
+}  // namespace mien::kernels::MIEN_TIER

@@ -1,0 +1,84 @@
+// The pointwise kernel chooses among tiles and ways to hold weights by the numbers of pixels and
+// inputs: every choice that a tier may make, against the reference.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "apps/conformance/random_values.h"
+#include "kernels/families.h"
+#include "kernels/registry.h"
+
+namespace mien::conformance {
+namespace {
+
+using namespace kernels;  // NOLINT: the test is about nothing else
+
+constexpr int kOutputs = 40;  // two panels of 16 and half of one
+
+std::vector<float> run(Kernel<PointwiseArgs> kernel, const std::vector<float>& x,
+                       const std::vector<std::uint16_t>& weights,
+                       const std::vector<std::uint16_t>& bias, int pixels, int inputs) {
+  std::vector<float> y(static_cast<std::size_t>(pixels * kOutputs));
+  kernel({x.data(),
+          weights.data(),
+          bias.data(),
+          y.data(),
+          {},
+          1,
+          pixels,
+          inputs,
+          kOutputs,
+          nullptr,
+          0,
+          0,
+          0,
+          0});
+  return y;
+}
+
+std::vector<float> magnitudes(std::vector<float> values) {
+  for (float& one : values) {
+    one = std::abs(one);
+  }
+  return values;
+}
+
+std::vector<std::uint16_t> magnitudes(std::vector<std::uint16_t> halves) {
+  for (std::uint16_t& one : halves) {
+    one &= 0x7FFFu;
+  }
+  return halves;
+}
+
+class PointwiseSizes : public testing::TestWithParam<int> {};
+
+TEST_P(PointwiseSizes, AgreeWithTheReference) {
+  const int inputs = GetParam();
+  for (int pixels = 1; pixels <= 21; ++pixels) {
+    RandomValues random(static_cast<std::uint64_t>(pixels), 0);
+    const std::vector<float> x = random.map(pixels, inputs);
+    const auto weights = random.panels(kOutputs, inputs);
+    const auto bias = random.bias(kOutputs);
+    const auto reference = find<PointwiseArgs>(bit(Tier::kRef));
+    const auto want = run(reference, x, weights, bias, pixels, inputs);
+    const auto sums =
+        run(reference, magnitudes(x), magnitudes(weights), magnitudes(bias), pixels, inputs);
+    for (std::uint32_t tier = 1; tier < kTierCount; ++tier) {
+      if ((detect_cpu() & (1u << tier)) == 0) {
+        continue;
+      }
+      // One rounding per input, half of them up: their sum grows with the root of their number.
+      const double factor = (8.0 + std::sqrt(inputs)) * 0x1p-24;
+      const auto got = run(find<PointwiseArgs>(1u << tier), x, weights, bias, pixels, inputs);
+      for (std::size_t i = 0; i < want.size(); ++i) {
+        ASSERT_NEAR(got[i], want[i], factor * static_cast<double>(sums[i]) + 1e-8)
+            << name(static_cast<Tier>(tier)) << ", " << pixels << " pixels, element " << i;
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Inputs, PointwiseSizes, testing::Values(8, 64, 72, 128, 136, 384));
+
+}  // namespace
+}  // namespace mien::conformance
