@@ -10,6 +10,7 @@ namespace tier_of {
 constexpr Tier ref = Tier::kRef;
 constexpr Tier avx2 [[maybe_unused]] = Tier::kAvx2;
 constexpr Tier neon [[maybe_unused]] = Tier::kNeon;
+constexpr Tier neon32 [[maybe_unused]] = Tier::kNeon32;
 }  // namespace tier_of
 
 const Entry* entries(std::size_t& count) {

@@ -1,5 +1,9 @@
 #include "kernels/tier.h"
 
+#ifdef MIEN_HAVE_NEON32
+#include <sys/auxv.h>
+#endif
+
 namespace mien::kernels {
 
 const char* name(Tier tier) {
@@ -36,6 +40,14 @@ std::uint32_t detect_cpu() {
 #endif
 #ifdef MIEN_HAVE_NEON
   mask |= bit(Tier::kNeon);  // every AArch64 CPU has it
+#endif
+#ifdef MIEN_HAVE_NEON32
+  // Bits of the Linux kernel's asm/hwcap.h for ARM. VFPv4 brings multiply-adds and half precision.
+  constexpr unsigned long kHwcapNeon = 1ul << 12, kHwcapVfpv4 = 1ul << 16;
+  constexpr unsigned long kWanted = kHwcapNeon | kHwcapVfpv4;
+  if ((getauxval(AT_HWCAP) & kWanted) == kWanted) {
+    mask |= bit(Tier::kNeon32);
+  }
 #endif
   return mask;
 }

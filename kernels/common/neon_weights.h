@@ -52,7 +52,7 @@ struct Widened {
 };
 
 // On the stack, which a session's run keeps small.
-constexpr std::int32_t kWidenedElems = 1024;
+constexpr std::int32_t kWidenedElems = 1280;
 
 template <int kVecs>
 [[maybe_unused]] constexpr bool fits_widened(std::ptrdiff_t rows) {

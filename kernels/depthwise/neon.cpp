@@ -34,6 +34,8 @@ Range whole_windows(std::int32_t outputs, std::int32_t stride, std::int32_t pad,
   return {first, last};
 }
 
+constexpr int kMostOutputs = 4;  // of a tile
+
 // What is the same for all outputs of kVecs vectors of channels.
 struct Channels {
   const DepthwiseArgs& a;
@@ -41,7 +43,9 @@ struct Channels {
   const float* x;
   float* y;
   const std::uint16_t* weights;
-  const std::uint16_t* bias;
+  // Once for every sum of a tile: to load it costs no time, to copy it from register to register
+  // would, as the units that multiply do that.
+  float biases[kMostOutputs * kVecs * kLanes];
 
   Channels(const DepthwiseArgs& args, const Activator& activator, std::int32_t channel,
            const float* map)
@@ -50,7 +54,9 @@ struct Channels {
     x = map + lane;
     y = a.y + block * a.out_h * a.out_w * kBlock + lane;
     weights = a.weights + block * a.kernel_h * a.kernel_w * kBlock + lane;
-    bias = a.bias + channel;
+    for (int i = 0; i < kMostOutputs * kVecs; ++i) {
+      vst1q_f32(biases + i * kLanes, load_half(a.bias + channel + i % kVecs * kLanes));
+    }
   }
   // Of output (oy, ox), and of the first input in its window.
   [[nodiscard]] float* output(std::int32_t oy, std::int32_t ox) const {
@@ -69,7 +75,7 @@ void edge_output(const Channels& ch, std::int32_t oy, std::int32_t ox) {
   const float* origin = ch.input(oy, ox);
   float* y = ch.output(oy, ox);
   Vec sums[kVecs];
-  MIEN_UNROLLED for (int v = 0; v < kVecs; ++v) { sums[v] = load_half(ch.bias + v * kLanes); }
+  MIEN_UNROLLED for (int v = 0; v < kVecs; ++v) { sums[v] = vld1q_f32(ch.biases + v * kLanes); }
   for (std::int32_t ky = ys.first; ky < ys.last; ++ky) {
     const float* row = origin + std::ptrdiff_t{ky} * a.in_w * kBlock;
     for (std::int32_t kx = xs.first; kx < xs.last; ++kx) {
@@ -85,18 +91,16 @@ void edge_output(const Channels& ch, std::int32_t oy, std::int32_t ox) {
   }
 }
 
-// The parameters of 3x3 windows, in registers but for the bias, which is read for every tile.
+// The parameters of 3x3 windows, in registers but for the bias.
 struct Window {
   Vec w[9][kVecs];
-  float bias[kVecs * kLanes];
   Vec low, high;
+  const float* biases;
 
-  [[gnu::always_inline]] explicit Window(const Channels& ch) : low(ch.low), high(ch.high) {
+  [[gnu::always_inline]] explicit Window(const Channels& ch)
+      : low(ch.low), high(ch.high), biases(ch.biases) {
     MIEN_UNROLLED for (int i = 0; i < 9 * kVecs; ++i) {
       w[i / kVecs][i % kVecs] = load_half(ch.weights + i / kVecs * kBlock + i % kVecs * kLanes);
-    }
-    MIEN_UNROLLED for (int v = 0; v < kVecs; ++v) {
-      vst1q_f32(bias + v * kLanes, load_half(ch.bias + v * kLanes));
     }
   }
 };
@@ -107,7 +111,7 @@ template <int kRows, int kColumns, int kStride>
                                         float* y, std::ptrdiff_t y_row) {
   Vec sums[kRows * kColumns][kVecs];
   MIEN_UNROLLED for (int i = 0; i < kRows * kColumns * kVecs; ++i) {
-    sums[i / kVecs][i % kVecs] = vld1q_f32(window.bias + i % kVecs * kLanes);
+    sums[i / kVecs][i % kVecs] = vld1q_f32(window.biases + i * kLanes);
   }
   MIEN_UNROLLED for (int i = 0; i < (kRows - 1) * kStride + 3; ++i) {
     MIEN_UNROLLED for (int j = 0; j < (kColumns - 1) * kStride + 3; ++j) {
@@ -180,8 +184,8 @@ void channels_any(const Channels& ch) {
   }
 }
 
-void all_channels(const DepthwiseArgs& a, const Activator& activator, std::int32_t block,
-                  const float* map) {
+[[gnu::noinline]] void all_channels(const DepthwiseArgs& a, const Activator& activator,
+                                    std::int32_t block, const float* map) {
   const bool is_3x3 = a.kernel_h == 3 && a.kernel_w == 3 && a.stride_h == a.stride_w;
   for (std::int32_t v = 0; v < kBlock / kLanes; v += kVecs) {
     const Channels channels(a, activator, block * kBlock + v * kLanes, map);
