@@ -62,9 +62,10 @@ inline Vec curved(Vec x, const ActivationSpec& activation, std::int32_t first,
 }
 
 // On [pixels][vectors][4] in place. Out of line, so that the sums around it stay in registers.
-[[maybe_unused, gnu::noinline]] void curve(float* values, std::int32_t vectors,
-                                           std::ptrdiff_t pixels, const ActivationSpec& activation,
-                                           std::int32_t first, std::int32_t channels) {
+[[maybe_unused, gnu::noinline]] inline void curve(float* values, std::int32_t vectors,
+                                                  std::ptrdiff_t pixels,
+                                                  const ActivationSpec& activation,
+                                                  std::int32_t first, std::int32_t channels) {
   for (std::ptrdiff_t p = 0; p < pixels; ++p) {
     for (std::int32_t v = 0; v < vectors; ++v, values += kLanes) {
       const Vec value = curved(vld1q_f32(values), activation, first + v * kLanes, channels);

@@ -10,6 +10,11 @@ inline Pair load_pair_or_zero(const float* map, std::ptrdiff_t at) {
   return map == nullptr ? Pair{splat(0.0f), splat(0.0f)} : load_pair(map + at);
 }
 
+// In every lane the one of the two that is not zero, bit by bit.
+[[maybe_unused]] inline Vec either(Vec a, Vec b) {
+  return vreinterpretq_f32_u32(vorrq_u32(vreinterpretq_u32_f32(a), vreinterpretq_u32_f32(b)));
+}
+
 // Lanes `first` .. `first` + 7 of `low` and `high` in a row; `first` in 0..7.
 inline Pair shifted(Pair low, Pair high, std::int32_t first) {
   float both[2 * kBlock];

@@ -69,9 +69,9 @@ template <int kVecs>
   MIEN_UNROLLED for (int v = 0; v < kVecs; ++v) { vst1q_f32(y + first + v * kLanes, totals[0][v]); }
 }
 
-[[maybe_unused]] void matvec(const TwoParts& x, const std::uint16_t* weights,
-                             const std::uint16_t* bias, const ActivationSpec& activation,
-                             std::int32_t outputs, float* y) {
+[[maybe_unused]] inline void matvec(const TwoParts& x, const std::uint16_t* weights,
+                                    const std::uint16_t* bias, const ActivationSpec& activation,
+                                    std::int32_t outputs, float* y) {
   const Activator activator(activation, outputs);
   const std::ptrdiff_t reduction = std::ptrdiff_t{x.first_elems} + x.second_elems;
   const std::int32_t padded = blocks_of(outputs) * kBlock;

@@ -5,6 +5,10 @@
 #include "kernels/common/neon.h"
 
 namespace mien::kernels::MIEN_TIER {
+
+// Of weights widened at a time: on the stack, which a session's run keeps small.
+constexpr std::int32_t kWidenedElems = 1280;
+
 namespace {
 
 // Tiles are kVecs vectors of output channels wide: 4 (a whole panel) or 2 (half of it). How many
@@ -50,9 +54,6 @@ struct Widened {
     return kVecs * kLanes;
   }
 };
-
-// On the stack, which a session's run keeps small.
-constexpr std::int32_t kWidenedElems = 1280;
 
 template <int kVecs>
 [[maybe_unused]] constexpr bool fits_widened(std::ptrdiff_t rows) {

@@ -26,9 +26,9 @@ void concat(const ConcatArgs& a) {
     const float* high = second < b_blocks ? a.b + second * plane : nullptr;
     for (std::ptrdiff_t p = 0; p < plane; p += kBlock) {
       Pair y = shifted(load_pair_or_zero(low, p), load_pair_or_zero(high, p), kBlock - used);
-      if (low == nullptr) {  // lanes of a are zero where those of b begin, and the other way round
+      if (low == nullptr) {  // where one of them has channels, the other has zeros
         const Pair from_a = load_pair(a.a + whole * plane + p);
-        y = {vaddq_f32(y.low, from_a.low), vaddq_f32(y.high, from_a.high)};
+        y = {either(y.low, from_a.low), either(y.high, from_a.high)};
       }
       store_pair(a.y + block * plane + p, y);
     }

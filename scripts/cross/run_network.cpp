@@ -1,6 +1,6 @@
 // Runs a network of a weight file a number of times, for counting instructions: the difference
-// between two numbers of runs is what a run takes. Writes the layers and their multiply-accumulates.
-// usage: run_network MODEL.mien NETWORK TIER RUNS
+// between two numbers of runs is what a run takes. Writes the layers and their
+// multiply-accumulates. usage: run_network MODEL.mien NETWORK TIER RUNS
 #include <mien/engine.h>
 #include <mien/mien.h>
 

@@ -14,6 +14,7 @@
 
 #include "kernels/tier.h"
 #include "tests/audio/golden.h"
+#include "tests/kernels/every_tier.h"
 #include "tests/tracker/blob_weights.h"
 
 namespace mien::tests {
@@ -81,9 +82,7 @@ TEST_P(AudioNetOfTier, AnswersAsPyTorchDoes) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Tiers, AudioNetOfTier,
-                         testing::Values(kernels::bit(kernels::Tier::kRef),
-                                         kernels::bit(kernels::Tier::kAvx2)));
+INSTANTIATE_TEST_SUITE_P(Tiers, AudioNetOfTier, testing::ValuesIn(every_tier()));
 
 }  // namespace
 }  // namespace mien::tests

@@ -8,6 +8,7 @@
 
 #include "kernels/tier.h"
 #include "tests/audio/golden.h"
+#include "tests/kernels/every_tier.h"
 
 namespace mien::tests {
 namespace {
@@ -78,9 +79,7 @@ TEST_P(MfccOfTier, AreFiniteForSilenceAndTheLargestSamples) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Tiers, MfccOfTier,
-                         testing::Values(kernels::bit(kernels::Tier::kRef),
-                                         kernels::bit(kernels::Tier::kAvx2)));
+INSTANTIATE_TEST_SUITE_P(Tiers, MfccOfTier, testing::ValuesIn(every_tier()));
 
 }  // namespace
 }  // namespace mien::tests

@@ -7,6 +7,7 @@
 
 #include "kernels/tier.h"
 #include "tests/engine/mini_model.h"
+#include "tests/kernels/every_tier.h"
 
 namespace mien::tests {
 namespace {
@@ -81,9 +82,7 @@ TEST_P(Golden, TemporalNetworkStepByStepAndAgainAfterReset) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Tiers, Golden,
-                         testing::Values(kernels::bit(kernels::Tier::kRef),
-                                         kernels::bit(kernels::Tier::kAvx2)));
+INSTANTIATE_TEST_SUITE_P(Tiers, Golden, testing::ValuesIn(every_tier()));
 
 }  // namespace
 }  // namespace mien::tests

@@ -1,0 +1,39 @@
+#!/usr/bin/env bash
+# Writes docs/results/arm.md: what llvm-mca predicts of the NEON inner loops, and the instructions that
+# networks take, counted under emulation.
+# usage: scripts/cross/arm_report.sh [OUT_FILE]
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+out=${1:-docs/results/arm.md}
+work=$PWD/build/cross
+scripts/setup.sh build cross-arm
+
+launcher=()
+if command -v ccache >/dev/null; then
+  launcher=(-DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+fi
+build_library() {  # folder, options of cmake
+  local folder=$work/$1
+  shift
+  cmake -S . -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release -DMIEN_BUILD_APPS=OFF -DMIEN_INSTALL=OFF \
+    -DMIEN_BUILD_TESTS=OFF "${launcher[@]}" "$@" >/dev/null
+  cmake --build "$folder" --target mien_static >/dev/null
+}
+build_library report-arm64 --toolchain "$PWD/scripts/cross/linux-arm64.cmake"
+build_library report-x64
+
+program=scripts/cross/run_network.cpp
+options="-std=c++20 -O2 -static -Iinclude"
+# shellcheck disable=SC2086
+aarch64-linux-gnu-g++ $options $program "$work/report-arm64/tracker/libmien.a" -o "$work/run_neon"
+# shellcheck disable=SC2086
+g++ $options $program "$work/report-x64/tracker/libmien.a" -o "$work/run_avx2"
+gcc -O2 -Wall -Wextra -shared -fPIC scripts/cross/count_plugin.c -o "$work/libcount.so"
+
+# The same kernels by clang, against the cross compiler's headers.
+for family in pointwise depthwise; do
+  mkdir -p "$work/clang/$family"
+  clang++ --target=aarch64-linux-gnu -std=c++20 -O3 -DNDEBUG -fPIC -fno-exceptions -fno-rtti -I. -DMIEN_HAVE_NEON \
+    -DMIEN_TIER=neon -c "kernels/$family/neon.cpp" -o "$work/clang/$family/neon.cpp.o"
+done
+PYTHONDONTWRITEBYTECODE=1 python3 scripts/cross/arm_report.py "$work" "$out"
