@@ -3,7 +3,7 @@
 
 namespace mien::kernels::MIEN_TIER {
 
-// Products by lane, as the convolutions take them: factors stay below 1, so nothing overflows.
+// Products by lane, as the convolutions take them. Sums grow by a thousandth each time.
 void fma_peak(const FmaPeakArgs& a) {
 #ifdef __aarch64__
   constexpr int kSums = 24;  // four a cycle, up to five cycles each

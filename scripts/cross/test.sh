@@ -41,7 +41,7 @@ scripts/check_tidy.sh "$build" kernels
 run_tests() {  # CPU model, ctest's choice of tests
   echo "== $target as $1"
   QEMU_CPU=$1 ctest --test-dir "$build" -j "$(nproc)" --output-on-failure --no-tests=error "${@:2}" |
-    tee "$build/ctest-$1.log" | tail -n 4
+    tee "$build/ctest-$1.log" | grep -E 'tests passed|Failed|Timeout'
 }
 for model in $models; do
   run_tests "$model" -R '^(Conformance|Harness|Half|Formats/WarpTest|Inputs/PointwiseSizes|.*Golden|PublishedNetworks)'
