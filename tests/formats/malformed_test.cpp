@@ -70,7 +70,8 @@ TEST(Malformed, EveryBitOfTheRecordsFlippedWithTheChecksumMadeRight) {
   auto file = small();
   FileHeader header;
   std::memcpy(&header, file.data(), sizeof header);
-  const std::size_t strings = header.data_offset - (header.string_bytes + 63) / 64 * 64;
+  const auto strings =
+      static_cast<std::size_t>(header.data_offset - (header.string_bytes + 63) / 64 * 64);
   std::size_t accepted = 0;
   for (std::size_t bit = 8 * sizeof(FileHeader); bit < 8 * strings; ++bit) {
     const auto mask = std::byte(1 << bit % 8);
