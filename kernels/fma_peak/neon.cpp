@@ -11,7 +11,7 @@ void fma_peak(const FmaPeakArgs& a) {
   constexpr int kSums = 12;
 #endif
   Vec sum[kSums];
-  MIEN_UNROLLED for (int k = 0; k < kSums; ++k) { sum[k] = splat(static_cast<float>(k)); }
+  MIEN_UNROLLED for (int k = 0; k < kSums; ++k) { sum[k] = splat(0.1f * static_cast<float>(k)); }
   const Vec factors = splat(0.001f), terms = splat(0.999f);
   for (std::int64_t i = 0; i < a.rounds; ++i) {
     MIEN_UNROLLED for (int k = 0; k < kSums; ++k) { sum[k] = fma_lane<1>(sum[k], factors, terms); }
