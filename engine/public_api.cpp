@@ -289,6 +289,19 @@ TensorShape NetworkRunner::input_shape() const {
 
 void NetworkRunner::run() { session_in(session_).run(); }
 
+std::int32_t NetworkRunner::step_count() const {
+  return static_cast<std::int32_t>(session_in(session_).step_count());
+}
+
+NetworkRunner::StepLayers NetworkRunner::step_layers(std::int32_t step) const {
+  const auto layers = session_in(session_).step_layers(static_cast<std::uint32_t>(step));
+  return {static_cast<std::int32_t>(layers.first), static_cast<std::int32_t>(layers.count)};
+}
+
+void NetworkRunner::run_step(std::int32_t step) {
+  session_in(session_).run_step(static_cast<std::uint32_t>(step));
+}
+
 std::int32_t NetworkRunner::output_count() const {
   return static_cast<std::int32_t>(session_in(session_).output_count());
 }

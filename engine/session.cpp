@@ -102,7 +102,10 @@ Status SessionBuilder::make_steps(const SessionRequest& request, float* scratch,
     if (plan_.vanishes(i)) {
       continue;
     }
-    const Status status = maker.make(i, state, session.steps_[session.step_count_++]);
+    Step& step = session.steps_[session.step_count_++];
+    step.first_layer = i;
+    step.layer_count = plan_.fused_addition(i) == formats::kNoIndex ? 1 : 2;
+    const Status status = maker.make(i, state, step);
     if (status != Status::kOk) {
       return status;
     }
@@ -134,6 +137,12 @@ void Session::run() {
   for (const Step *step = steps_, *end = steps_ + step_count_; step != end; ++step) {
     step->call(*step);
   }
+}
+
+void Session::run_step(std::uint32_t i) { steps_[i].call(steps_[i]); }
+
+Session::StepLayers Session::step_layers(std::uint32_t i) const {
+  return {steps_[i].first_layer, steps_[i].layer_count};
 }
 
 void Session::reset() {

@@ -37,6 +37,15 @@ class Session {
 
   void run();
 
+  // What `run` does, one after another, for those who want to time each part.
+  [[nodiscard]] std::uint32_t step_count() const { return step_count_; }
+  void run_step(std::uint32_t i);
+  // Layers that step i performs: `count` of them from `first` on.
+  struct StepLayers {
+    std::uint32_t first, count;
+  };
+  [[nodiscard]] StepLayers step_layers(std::uint32_t i) const;
+
   // In blocks; valid until the next run of this session.
   [[nodiscard]] std::uint32_t output_count() const { return output_count_; }
   [[nodiscard]] std::span<const float> output(std::uint32_t i) const { return outputs_[i]; }

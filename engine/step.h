@@ -16,7 +16,8 @@ struct Step {
                                                 ? sizeof(kernels::PointwiseArgs)
                                                 : sizeof(kernels::Conv2dArgs);
   kernels::AnyKernel kernel;
-  void (*call)(const Step&);  // knows the type of both
+  void (*call)(const Step&);               // knows the type of both
+  std::uint32_t first_layer, layer_count;  // that it performs
   alignas(8) std::byte args[kArgsBytes];
 };
 

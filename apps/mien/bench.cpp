@@ -12,6 +12,7 @@
 
 #include "apps/mien/clip_bench.h"
 #include "apps/mien/failure.h"
+#include "apps/mien/layer_bench.h"
 #include "apps/mien/model_files.h"
 #include "apps/mien/sound_bench.h"
 #include "apps/mien/tiers.h"
@@ -32,6 +33,7 @@ struct Figures {
   double min_ms, median_ms, p95_ms;
   double gflops;  // of the median; one multiply-accumulate is two operations
   double peak_fraction;
+  std::vector<StepTime> steps;  // with --layers
 };
 
 double seconds_since(Clock::time_point begin) {
@@ -83,8 +85,15 @@ std::vector<double> run_times_ms(NetworkRunner& runner) {
   return times;
 }
 
-Figures time_network(const WeightFile& file, const NetworkInfo& info, const std::string& name,
-                     const std::string& tier, double peak) {
+struct Subject {
+  const WeightFile& file;
+  std::int32_t network;
+  std::string name;
+};
+
+Figures time_network(const Subject& subject, const std::string& tier, double peak, bool layers) {
+  const auto& [file, network, name] = subject;
+  const NetworkInfo info = file.network(network);
   NetworkRunner runner;
   NetworkRunner::Options options;
   options.cpu_mask = cpu_mask(tier);
@@ -94,9 +103,12 @@ Figures time_network(const WeightFile& file, const NetworkInfo& info, const std:
   }
   const std::vector<double> ms = run_times_ms(runner);
   Figures figures{name, tier, info.macs, ms.front(), ms[ms.size() / 2], ms[ms.size() * 95 / 100],
-                  0.0,  0.0};
+                  0.0,  0.0,  {}};
   figures.gflops = 2.0 * static_cast<double>(info.macs) / figures.median_ms * 1e-6;
   figures.peak_fraction = figures.gflops / peak;
+  if (layers) {
+    figures.steps = time_steps(file, network, runner, peak);
+  }
   return figures;
 }
 
@@ -105,7 +117,7 @@ std::string bench_name(const std::filesystem::path& path, std::string_view netwo
   return path.stem().string() + "_" + std::string(network);
 }
 
-void time_file(const std::filesystem::path& path, const std::string& chosen,
+void time_file(const std::filesystem::path& path, const BenchOptions& options,
                const std::map<std::string, double>& peaks, std::vector<Figures>& results) {
   const Blob blob(path.string());
   WeightFile file;
@@ -114,13 +126,12 @@ void time_file(const std::filesystem::path& path, const std::string& chosen,
     throw Failure(kExitModel, path.string() + ": " + message(status));
   }
   for (std::int32_t i = 0; i < file.network_count(); ++i) {
-    const NetworkInfo info = file.network(i);
-    const std::string name = bench_name(path, info.name);
-    if (!chosen.empty() && chosen != name) {
+    const std::string name = bench_name(path, file.network(i).name);
+    if (!options.model.empty() && options.model != name) {
       continue;
     }
     for (const auto& [tier, peak] : peaks) {
-      results.push_back(time_network(file, info, name, tier, peak));
+      results.push_back(time_network({file, i, name}, tier, peak, options.layers));
     }
   }
 }
@@ -138,6 +149,9 @@ void print_json(const std::map<std::string, double>& peaks, const std::vector<Fi
                                {"p95_ms", f.p95_ms},
                                {"gflops", f.gflops},
                                {"peak_fraction", f.peak_fraction}});
+    if (!f.steps.empty()) {
+      json["results"].back()["layers"] = to_json(f.steps);
+    }
   }
   std::printf("%s\n", json.dump(1).c_str());
 }
@@ -152,6 +166,7 @@ void print_table(const std::map<std::string, double>& peaks, const std::vector<F
     std::printf("%-28s %-6s %10llu %9.4f %9.4f %9.4f %9.2f %5.0f%%\n", f.name.c_str(),
                 f.tier.c_str(), static_cast<unsigned long long>(f.macs), f.min_ms, f.median_ms,
                 f.p95_ms, f.gflops, f.peak_fraction * 100.0);
+    print(f.steps);
   }
 }
 
@@ -170,7 +185,7 @@ void bench(const BenchOptions& options) {
   }
   std::vector<Figures> results;
   for (const auto& path : weight_files(models_directory(options.models))) {
-    time_file(path, options.model, peaks, results);
+    time_file(path, options, peaks, results);
   }
   if (results.empty()) {
     throw Failure(kExitUsage, "--model " + options.model + ": no such network");

@@ -9,8 +9,9 @@ struct BenchOptions {
   std::string model;  // empty: all
   std::string tier;   // empty: all this CPU has
   std::string models;
-  std::string clip;    // not empty: the tracker on it
-  bool sound = false;  // time hearing
+  std::string clip;     // not empty: the tracker on it
+  bool sound = false;   // time hearing
+  bool layers = false;  // each step of a network too
   bool json = false;
 };
 

@@ -105,9 +105,13 @@ void add_bench(CLI::App& program) {
   auto* clip =
       verb->add_option("--clip", options->clip, "video: following the face against searching it")
           ->excludes(model);
-  verb->add_flag("--sound", options->sound, "hearing: from samples to controls, by 16 ms")
-      ->excludes(model)
-      ->excludes(clip);
+  auto* sound =
+      verb->add_flag("--sound", options->sound, "hearing: from samples to controls, by 16 ms")
+          ->excludes(model)
+          ->excludes(clip);
+  verb->add_flag("--layers", options->layers, "also each layer, or what runs fused, by itself")
+      ->excludes(clip)
+      ->excludes(sound);
   verb->add_option("--tier", options->tier, "one tier only: ref, avx2");
   verb->add_option("--models", options->models, "folder of the model files");
   verb->add_flag("--json", options->json, "as JSON");

@@ -175,6 +175,14 @@ class MIEN_API NetworkRunner {
   [[nodiscard]] std::span<float> input();  // zeros at first
   [[nodiscard]] TensorShape input_shape() const;
   void run();
+  // `run` in parts, to time each: running step 0 .. step_count() - 1 once each, in this order, is
+  // one `run`. A step performs one layer, or several where they are fused.
+  struct StepLayers {
+    std::int32_t first = 0, count = 0;
+  };
+  [[nodiscard]] std::int32_t step_count() const;
+  [[nodiscard]] StepLayers step_layers(std::int32_t step) const;
+  void run_step(std::int32_t step);
   [[nodiscard]] std::int32_t output_count() const;
   [[nodiscard]] std::span<const float> output(std::int32_t index) const;  // until the next run
   [[nodiscard]] TensorShape output_shape(std::int32_t index) const;

@@ -1,0 +1,31 @@
+// Time of each step of a network: of a layer, or of several that run fused.
+#pragma once
+
+#include <mien/engine.h>
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace mien::app {
+
+struct StepTime {
+  std::int32_t first_layer, layers;  // counted from 1
+  std::string ops;                   // "pointwise+add"
+  TensorShape output;
+  std::uint64_t macs;
+  double min_us, median_us;
+  double gflops;  // of the median; one multiply-accumulate is two operations
+  double peak_fraction;
+};
+
+// Times every step inside whole runs, so that it meets the caches as it does in use. `network` is
+// the index in `file` of what `runner` runs; `peak` in GFLOP/s.
+std::vector<StepTime> time_steps(const WeightFile& file, std::int32_t network,
+                                 NetworkRunner& runner, double peak);
+
+nlohmann::ordered_json to_json(const std::vector<StepTime>& steps);
+void print(const std::vector<StepTime>& steps);
+
+}  // namespace mien::app
