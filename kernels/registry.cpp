@@ -9,6 +9,7 @@ namespace {
 namespace tier_of {
 constexpr Tier ref = Tier::kRef;
 constexpr Tier avx2 [[maybe_unused]] = Tier::kAvx2;
+constexpr Tier avx512 [[maybe_unused]] = Tier::kAvx512;
 constexpr Tier neon [[maybe_unused]] = Tier::kNeon;
 constexpr Tier neon32 [[maybe_unused]] = Tier::kNeon32;
 }  // namespace tier_of

@@ -32,10 +32,17 @@ std::uint32_t detect_cpu() {
   mask |= bit(Tier::kRef);
 #endif
 #ifdef MIEN_HAVE_AVX2
-  // The built-in also asks whether the system saves the registers. There is no CPU with AVX2 and
-  // without F16C, which clang 14 cannot ask for.
+  // The built-in also asks (XGETBV) whether the system saves the registers. There is no CPU with
+  // AVX2 and without F16C, which clang 14 cannot ask for.
   if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) {
     mask |= bit(Tier::kAvx2);
+  }
+#endif
+#ifdef MIEN_HAVE_AVX512
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+      __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq") &&
+      __builtin_cpu_supports("fma")) {
+    mask |= bit(Tier::kAvx512);
   }
 #endif
 #ifdef MIEN_HAVE_NEON

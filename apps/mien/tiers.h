@@ -6,7 +6,7 @@
 
 namespace mien::app {
 
-// The CPU mask for `name`; all tiers when it is empty. The reference tier stays allowed, so that a
+// The CPU mask for `name`; all tiers when it is empty. The tiers before it stay allowed, so that a
 // kernel that the tier lacks is still found. Throws Failure when this CPU cannot run it.
 std::uint32_t cpu_mask(const std::string& name);
 

@@ -81,7 +81,7 @@ inline std::vector<std::uint32_t> tiers_here() {
   std::vector<std::uint32_t> masks;
   for (std::uint32_t tier = 0; tier < kernels::kTierCount; ++tier) {
     if ((kernels::detect_cpu() & 1u << tier) != 0) {
-      masks.push_back(1u << tier);
+      masks.push_back(kernels::up_to(static_cast<kernels::Tier>(tier)));
     }
   }
   return masks;

@@ -1,0 +1,39 @@
+// Panels of weights times pixels: what pointwise layers, fused or not, are made of. One function of
+// the tier, since its register tiles are many.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace mien::kernels::avx512 {
+
+// Where pixel after pixel lies, row after row.
+struct PixelRows {
+  std::ptrdiff_t pixel_elems;  // from one pixel to the next
+  std::ptrdiff_t half_elems;   // from the lower 8 channels of a panel to the upper 8
+  std::ptrdiff_t panel_elems;  // from one panel to the next
+  std::int32_t row_pixels;
+  std::ptrdiff_t row_gap_elems;  // skipped after each row
+};
+
+//   y[p, o] = min(max(bias[o] + sum over i of w[o, i] x[p, i] + r[p, o], low), high)
+struct ProductArgs {
+  const float* x;  // [in_blocks] blocks of 8 channels of [pixels]
+  std::ptrdiff_t x_plane_elems;
+  std::int32_t in_blocks;
+  std::int32_t pixels;
+  const std::uint16_t* weights;  // fp16 panels, as of pointwise.h
+  const std::uint16_t* bias;     // fp16 [out_blocks * 8]
+  std::int32_t out_blocks;
+  float low, high;
+  float* y;
+  PixelRows y_rows;
+  const float* residual;  // nullptr: none
+  PixelRows residual_rows;
+  float* wide;  // [kWideElems] for weights in fp32 when there are many pixels; nullptr: none
+};
+inline constexpr std::int32_t kWideElems = 6144;
+
+void multiply_panels(const ProductArgs& args);
+
+}  // namespace mien::kernels::avx512

@@ -1,0 +1,218 @@
+// Tiles of output pixels of a row x one panel (up to 16 pixels) or two (up to 12) where the whole
+// windows lie inside the map; the last tile of a row overlaps the one before. Pixels at the border
+// one at a time.
+#include <algorithm>
+#include <utility>
+
+#include "kernels/common/avx512.h"
+#include "kernels/families.h"
+
+namespace mien::kernels::avx512 {
+namespace {
+
+struct Range {
+  std::int32_t first, last;
+};
+
+Range inside(std::int32_t origin, std::int32_t kernel, std::int32_t size) {
+  return {std::max(0, -origin), std::min(kernel, size - origin)};
+}
+
+// Output columns [first, last) whose whole window lies inside the map.
+Range whole_windows(const Conv2dArgs& a) {
+  const std::int32_t first = std::min(a.out_w, (a.pad_left + a.stride_w - 1) / a.stride_w);
+  const std::int32_t room = a.in_w + a.pad_left - a.kernel_w;
+  return {first, room < 0 ? first : std::clamp(room / a.stride_w + 1, first, a.out_w)};
+}
+
+// Output blocks of 8 channels from `block` on: four (two panels), two or one.
+struct Panels {
+  const Conv2dArgs& a;
+  const std::uint16_t* weights;
+  std::int32_t block, blocks;
+  Clamp clamp;
+  bool clamps;
+
+  [[nodiscard]] __mmask16 lanes() const { return blocks == 1 ? 0xFF : 0xFFFF; }
+};
+
+struct Windows {
+  std::int32_t oy, ox;
+  Range ys, xs;  // kernel rows and columns inside the map
+};
+
+template <int kPixels, int kVecs>
+using Sums = Vec[kPixels][kVecs];
+
+// `count` consecutive floats of x, of pixels kStep floats apart; kStep 0: `step`.
+template <int kPixels, int kVecs, int kStep>
+inline const std::uint16_t* add_run(const float* x, std::int32_t count, std::ptrdiff_t step,
+                                    const std::uint16_t* w, std::ptrdiff_t panel, __mmask16 lanes,
+                                    Sums<kPixels, kVecs>& sum) {
+  const std::ptrdiff_t width = lanes == 0xFF ? kBlock : kPanel;
+  const std::ptrdiff_t pitch = kStep == 0 ? step : kStep;
+  for (std::int32_t k = 0; k < count; ++k, w += width) {
+    Vec weight[kVecs];
+    for (int v = 0; v < kVecs; ++v) {
+      weight[v] = load_half(w + v * panel, lanes);
+    }
+#pragma GCC unroll 16
+    for (int p = 0; p < kPixels; ++p) {
+      const Vec value = _mm512_set1_ps(x[p * pitch + k]);
+      for (int v = 0; v < kVecs; ++v) {
+        sum[p][v] = _mm512_fmadd_ps(value, weight[v], sum[p][v]);
+      }
+    }
+  }
+  return w;
+}
+
+template <int kPixels, int kVecs, int kStep>
+void tile(const Panels& t, const Windows& at) {
+  const Conv2dArgs& a = t.a;
+  const __mmask16 lanes = t.lanes();
+  const std::ptrdiff_t width = t.blocks == 1 ? kBlock : kPanel;
+  const std::ptrdiff_t panel = std::ptrdiff_t{a.kernel_h} * a.kernel_w * a.in_c * kPanel;
+  Sums<kPixels, kVecs> sum;
+  for (int v = 0; v < kVecs; ++v) {
+    const Vec bias = load_half(a.bias + t.block * kBlock + v * kPanel, lanes);
+#pragma GCC unroll 16
+    for (int p = 0; p < kPixels; ++p) {
+      sum[p][v] = bias;
+    }
+  }
+  const std::ptrdiff_t step = std::ptrdiff_t{a.stride_w} * a.x_pixel_elems;
+  const std::ptrdiff_t plane = std::ptrdiff_t{a.in_h} * a.in_w * kBlock;
+  const std::int32_t top = at.oy * a.stride_h - a.pad_top, left = at.ox * a.stride_w - a.pad_left;
+  // Interleaved, neighbouring columns are neighbours in memory and in the weights.
+  const bool runs_on = a.x_pixel_elems == a.in_c;
+  const std::int32_t columns = runs_on ? at.xs.last - at.xs.first : 1;
+  for (std::int32_t ky = at.ys.first; ky < at.ys.last; ++ky) {
+    for (std::int32_t kx = at.xs.first; kx < at.xs.last; kx += columns) {
+      const float* x = a.x + (std::ptrdiff_t{top + ky} * a.in_w + left + kx) * a.x_pixel_elems;
+      const std::uint16_t* w = t.weights + std::ptrdiff_t{ky * a.kernel_w + kx} * a.in_c * width;
+      for (std::int32_t c = 0; c < a.in_c; c += runs_on ? a.in_c : kBlock, x += plane) {
+        const std::int32_t count = runs_on ? columns * a.in_c : std::min(kBlock, a.in_c - c);
+        w = add_run<kPixels, kVecs, kStep>(x, count, step, w, panel, lanes, sum);
+      }
+    }
+  }
+  const std::ptrdiff_t out_plane = std::ptrdiff_t{a.out_h} * a.out_w * kBlock;
+  float* y = a.y + t.block * out_plane + (std::ptrdiff_t{at.oy} * a.out_w + at.ox) * kBlock;
+  const Vec low = _mm512_set1_ps(t.clamp.low), high = _mm512_set1_ps(t.clamp.high);
+#pragma GCC unroll 16
+  for (int p = 0; p < kPixels; ++p) {
+    for (int v = 0; v < kVecs; ++v) {
+      store_blocks(y + 2 * v * out_plane + p * kBlock, out_plane, t.blocks > 1,
+                   _mm512_min_ps(high, _mm512_max_ps(low, sum[p][v])));
+    }
+  }
+}
+
+// Activations other than clamps, on `count` pixels that a tile has just stored.
+void finish(const Panels& t, const Windows& at, std::int32_t count) {
+  const Conv2dArgs& a = t.a;
+  const std::ptrdiff_t plane = std::ptrdiff_t{a.out_h} * a.out_w * kBlock;
+  for (std::int32_t block = t.block; block < t.block + t.blocks; block += 2) {
+    const bool both = t.blocks > 1;
+    const __mmask16 lanes = first_lanes(a.out_c - block * kBlock);
+    float* y = a.y + block * plane + (std::ptrdiff_t{at.oy} * a.out_w + at.ox) * kBlock;
+    for (std::int32_t p = 0; p < count; ++p, y += kBlock) {
+      const Vec sum = load_blocks(y, plane, both);
+      store_blocks(y, plane, both, activated(sum, a.activation, block * kBlock, lanes));
+    }
+  }
+}
+
+using Tile = void (*)(const Panels&, const Windows&);
+
+struct SizedTile {
+  std::int32_t pixels;
+  Tile run;
+};
+
+template <int kVecs, int kStep, int... kPixels>
+SizedTile largest_of(std::int32_t pixels, std::int32_t wanted,
+                     std::integer_sequence<int, kPixels...>) {
+  SizedTile best{1, &tile<1, kVecs, kStep>};
+  const auto consider = [&](SizedTile one) {
+    best = one.pixels <= pixels && best.pixels < wanted ? one : best;
+  };
+  (consider({kPixels, &tile<kPixels, kVecs, kStep>}), ...);
+  return best;
+}
+
+using UpTo12 = std::integer_sequence<int, 2, 4, 6, 8, 10, 12>;
+using UpTo16 = std::integer_sequence<int, 2, 4, 6, 8, 10, 12, 14, 16>;
+
+// The tile for a row of `pixels`: the smallest that needs no more of them than the largest would.
+template <int kStep>
+SizedTile tile_for(bool two_panels, std::int32_t pixels) {
+  const std::int32_t most = two_panels ? 12 : 16;
+  const std::int32_t tiles = (pixels + most - 1) / most;
+  const std::int32_t wanted = (pixels + tiles - 1) / tiles;
+  return two_panels ? largest_of<2, kStep>(pixels, wanted, UpTo12())
+                    : largest_of<1, kStep>(pixels, wanted, UpTo16());
+}
+
+// Steps known to the compiler: interleaved images of 3 channels, and blocks.
+SizedTile tile_for(const Conv2dArgs& a, bool two_panels, std::int32_t pixels) {
+  switch (a.stride_w * a.x_pixel_elems) {
+    case 3:
+      return tile_for<3>(two_panels, pixels);
+    case 6:
+      return tile_for<6>(two_panels, pixels);
+    case 8:
+      return tile_for<8>(two_panels, pixels);
+    default: {
+      using One = std::integer_sequence<int, 4>;
+      return two_panels ? largest_of<2, 0>(pixels, 4, One()) : largest_of<1, 0>(pixels, 4, One());
+    }
+  }
+}
+
+void row(const Panels& t, std::int32_t oy, Range whole, SizedTile inner) {
+  const Conv2dArgs& a = t.a;
+  const Tile edge = t.blocks > 2 ? &tile<1, 2, 0> : &tile<1, 1, 0>;
+  Windows at{oy, 0, inside(oy * a.stride_h - a.pad_top, a.kernel_h, a.in_h), {}};
+  const auto run = [&](SizedTile one, std::int32_t ox, Range xs) {
+    at.ox = ox;
+    at.xs = xs;
+    one.run(t, at);
+    if (!t.clamps) {
+      finish(t, at, one.pixels);
+    }
+  };
+  const auto run_edge = [&](std::int32_t ox) {
+    run({1, edge}, ox, inside(ox * a.stride_w - a.pad_left, a.kernel_w, a.in_w));
+  };
+  for (std::int32_t ox = 0; ox < whole.first; ++ox) {
+    run_edge(ox);
+  }
+  for (std::int32_t ox = whole.first; ox < whole.last; ox += inner.pixels) {
+    run(inner, std::min(ox, whole.last - inner.pixels), {0, a.kernel_w});
+  }
+  for (std::int32_t ox = whole.last; ox < a.out_w; ++ox) {
+    run_edge(ox);
+  }
+}
+
+}  // namespace
+
+void conv2d(const Conv2dArgs& a) {
+  const std::ptrdiff_t reduction = std::ptrdiff_t{a.kernel_h} * a.kernel_w * a.in_c;
+  const std::int32_t blocks = blocks_of(a.out_c);
+  const Range whole = whole_windows(a);
+  Panels t{a, a.weights, 0, 0, {}, false};
+  t.clamps = is_clamp(a.activation, t.clamp);
+  for (; t.block < blocks; t.block += t.blocks) {
+    t.blocks = blocks - t.block >= 4 ? 4 : blocks - t.block >= 2 ? 2 : 1;
+    t.weights = a.weights + t.block * kBlock * reduction;
+    const SizedTile inner = tile_for(a, t.blocks > 2, std::max(1, whole.last - whole.first));
+    for (std::int32_t oy = 0; oy < a.out_h; ++oy) {
+      row(t, oy, whole, inner);
+    }
+  }
+}
+
+}  // namespace mien::kernels::avx512

@@ -1,0 +1,275 @@
+// Register tiles of up to 13 pixels x 2 panels, 9 x 3 or 6 x 4: as many sums as there are registers
+// for, so that a value of x and a vector of weights serve several of them. A last panel of 8 takes
+// two elements of the sum at once, one in the even lanes and one in the odd.
+#include "kernels/common/avx512_product.h"
+
+#include <utility>
+
+#include "kernels/common/avx512.h"
+
+namespace mien::kernels::avx512 {
+namespace {
+
+constexpr int kMostPixels = 13;
+constexpr int kWidePixels = 10;  // the least of a tile on weights in fp32
+
+// Few sums are split into partial ones: eight at least hide the latency of the multiply-adds.
+constexpr int partial_sums(int sums) { return sums >= 8 ? 1 : sums >= 4 ? 2 : 4; }
+
+// One pixel after another.
+class Cursor {
+ public:
+  explicit Cursor(const PixelRows& rows) : rows_(&rows) {}
+  [[nodiscard]] std::ptrdiff_t at(std::int32_t panel) const {
+    return pixel_ + panel * rows_->panel_elems;
+  }
+  void advance() {
+    pixel_ += rows_->pixel_elems;
+    if (++column_ == rows_->row_pixels) {
+      column_ = 0;
+      pixel_ += rows_->row_gap_elems;
+    }
+  }
+
+ private:
+  std::ptrdiff_t pixel_ = 0;
+  std::int32_t column_ = 0;
+  const PixelRows* rows_;
+};
+
+// Panels from `panel` on, over all pixels, tile by tile.
+struct Sweep {
+  const ProductArgs& a;
+  std::int32_t panel;
+  const float* x;
+  Cursor y, residual;
+};
+
+Vec weights_at(const std::uint16_t* w) { return load_half(w); }
+Vec weights_at(const float* w) { return _mm512_loadu_ps(w); }
+
+Vec pair_at(const float* x) {
+  long long pair;
+  __builtin_memcpy(&pair, x, sizeof pair);
+  return _mm512_castsi512_ps(_mm512_set1_epi64(pair));
+}
+
+// w0 of 8 outputs, then w1 of them -> w0, w1 of the first output, of the second, ..
+Vec interleaved(Vec w) {
+  const __m512i order = _mm512_setr_epi32(0, 8, 1, 9, 2, 10, 3, 11, 4, 12, 5, 13, 6, 14, 7, 15);
+  return _mm512_permutexvar_ps(order, w);
+}
+Vec pairs_at(const std::uint16_t* w) { return interleaved(load_half(w)); }
+Vec pairs_at(const float* w) { return _mm512_loadu_ps(w); }
+
+// Lanes 2i and 2i + 1 added up, i = 0 .. 7.
+__m256 sums_of_pairs(Vec v) {
+  v = _mm512_add_ps(v, _mm512_permute_ps(v, 0xB1));
+  const __m512i even = _mm512_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14, 0, 2, 4, 6, 8, 10, 12, 14);
+  return _mm512_castps512_ps256(_mm512_permutexvar_ps(even, v));
+}
+
+template <int kPixels, int kVecs, class Weight>
+void tile(Sweep& s, const Weight* w) {
+  constexpr int kSums = partial_sums(kPixels * kVecs);
+  const ProductArgs& a = s.a;
+  const std::ptrdiff_t panel = std::ptrdiff_t{a.in_blocks} * kBlock * kPanel;
+  Vec sum[kSums][kPixels][kVecs];
+  for (int v = 0; v < kVecs; ++v) {
+    const Vec bias = load_half(a.bias + (s.panel + v) * kPanel);
+#pragma GCC unroll 16
+    for (int p = 0; p < kPixels; ++p) {
+      sum[0][p][v] = bias;
+      for (int k = 1; k < kSums; ++k) {
+        sum[k][p][v] = _mm512_setzero_ps();
+      }
+    }
+  }
+  if (a.residual != nullptr) {
+    Cursor at = s.residual;
+#pragma GCC unroll 16
+    for (int p = 0; p < kPixels; ++p, at.advance()) {
+      for (int v = 0; v < kVecs; ++v) {
+        const float* r = a.residual + at.at(s.panel + v);
+        sum[0][p][v] =
+            _mm512_add_ps(sum[0][p][v], load_blocks(r, a.residual_rows.half_elems, true));
+      }
+    }
+    s.residual = at;
+  }
+  const float* x = s.x;
+  std::int32_t left = a.in_blocks;
+  do {
+    for (int lane = 0; lane < kBlock; lane += kSums) {
+      for (int k = 0; k < kSums; ++k, w += kPanel) {
+        Vec weight[kVecs];
+        for (int v = 0; v < kVecs; ++v) {
+          weight[v] = weights_at(w + v * panel);
+        }
+#pragma GCC unroll 16
+        for (int p = 0; p < kPixels; ++p) {
+          const Vec value = _mm512_set1_ps(x[p * kBlock + lane + k]);
+          for (int v = 0; v < kVecs; ++v) {
+            sum[k][p][v] = _mm512_fmadd_ps(value, weight[v], sum[k][p][v]);
+          }
+        }
+      }
+    }
+    x += a.x_plane_elems;
+  } while (--left > 0);
+  const Vec low = _mm512_set1_ps(a.low), high = _mm512_set1_ps(a.high);
+  const std::ptrdiff_t half = a.y_rows.half_elems;
+  Cursor at = s.y;
+#pragma GCC unroll 16
+  for (int p = 0; p < kPixels; ++p, at.advance()) {
+    for (int v = 0; v < kVecs; ++v) {
+      Vec total = sum[0][p][v];
+      for (int k = 1; k < kSums; ++k) {
+        total = _mm512_add_ps(total, sum[k][p][v]);
+      }
+      total = _mm512_min_ps(high, _mm512_max_ps(low, total));
+      store_blocks(a.y + at.at(s.panel + v), half, true, total);
+    }
+  }
+  s.y = at;
+  s.x += kPixels * kBlock;
+}
+
+template <int kPixels, class Weight>
+void half_tile(Sweep& s, const Weight* w) {
+  constexpr int kSums = partial_sums(kPixels);
+  const ProductArgs& a = s.a;
+  Vec sum[kSums][kPixels];
+  for (auto& partial : sum) {
+#pragma GCC unroll 16
+    for (Vec& one : partial) {
+      one = _mm512_setzero_ps();
+    }
+  }
+  const float* x = s.x;
+  std::int32_t left = a.in_blocks;
+  do {
+    for (int lane = 0; lane < kBlock; lane += 2 * kSums) {
+      for (int k = 0; k < kSums; ++k, w += kPanel) {
+        const Vec weight = pairs_at(w);
+#pragma GCC unroll 16
+        for (int p = 0; p < kPixels; ++p) {
+          sum[k][p] = _mm512_fmadd_ps(pair_at(x + p * kBlock + lane + 2 * k), weight, sum[k][p]);
+        }
+      }
+    }
+    x += a.x_plane_elems;
+  } while (--left > 0);
+  const __m256 low = _mm256_set1_ps(a.low), high = _mm256_set1_ps(a.high);
+  const __m256 bias = _mm512_castps512_ps256(load_half(a.bias + s.panel * kPanel, 0xFF));
+  Cursor at = s.y, residual_at = s.residual;
+#pragma GCC unroll 16
+  for (int p = 0; p < kPixels; ++p, at.advance(), residual_at.advance()) {
+    Vec pairs = sum[0][p];
+    for (int k = 1; k < kSums; ++k) {
+      pairs = _mm512_add_ps(pairs, sum[k][p]);
+    }
+    __m256 total = _mm256_add_ps(sums_of_pairs(pairs), bias);
+    if (a.residual != nullptr) {
+      total = _mm256_add_ps(total, _mm256_loadu_ps(a.residual + residual_at.at(s.panel)));
+    }
+    _mm256_storeu_ps(a.y + at.at(s.panel), _mm256_min_ps(high, _mm256_max_ps(low, total)));
+  }
+  s.y = at;
+  s.residual = residual_at;
+  s.x += kPixels * kBlock;
+}
+
+template <class Weight>
+using Tile = void (*)(Sweep&, const Weight*);
+
+// Tiles of kFirst, kFirst + 1, .. pixels.
+template <int kVecs, int kFirst, class Weight, int... kMore>
+Tile<Weight> tile_from(std::int32_t pixels, std::integer_sequence<int, kMore...>) {
+  if constexpr (kVecs == 0) {
+    static constexpr Tile<Weight> kTiles[] = {&half_tile<kFirst + kMore, Weight>...};
+    return kTiles[pixels - kFirst];
+  } else {
+    static constexpr Tile<Weight> kTiles[] = {&tile<kFirst + kMore, kVecs, Weight>...};
+    return kTiles[pixels - kFirst];
+  }
+}
+
+template <int kFirst, int kLast>
+using Range = std::make_integer_sequence<int, kLast - kFirst + 1>;
+
+// `panels` 0: the last panel of 8.
+template <int kLeast, class Weight>
+Tile<Weight> tile_of(std::int32_t panels, std::int32_t pixels) {
+  switch (panels) {
+    case 0:
+      return tile_from<0, kLeast, Weight>(pixels, Range<kLeast, kMostPixels>());
+    case 1:
+      return tile_from<1, kLeast, Weight>(pixels, Range<kLeast, kMostPixels>());
+    default:
+      return tile_from<2, kLeast, Weight>(pixels, Range<kLeast, kMostPixels>());
+  }
+}
+
+Tile<float> tile_of(std::int32_t panels, std::int32_t pixels, const float*) {
+  return tile_of<kWidePixels, float>(panels, pixels);
+}
+
+Tile<std::uint16_t> tile_of(std::int32_t panels, std::int32_t pixels, const std::uint16_t*) {
+  switch (panels) {
+    case 3:
+      return tile_from<3, 7, std::uint16_t>(pixels, Range<7, 9>());
+    case 4:
+      return tile_from<4, 1, std::uint16_t>(pixels, Range<1, 6>());
+    default:
+      return tile_of<1, std::uint16_t>(panels, pixels);
+  }
+}
+
+// Tiles of nearly equal size: 15 pixels are 8 + 7, not 13 + 2.
+template <class Weight>
+void sweep(const ProductArgs& a, std::int32_t first, std::int32_t panels, const Weight* w) {
+  Sweep s{a, first, a.x, Cursor(a.y_rows), Cursor(a.residual_rows)};
+  const std::int32_t tiles = (a.pixels + kMostPixels - 1) / kMostPixels;
+  const std::int32_t least = a.pixels / tiles, larger = a.pixels % tiles;
+  const Tile<Weight> more = tile_of(panels, least + (larger > 0 ? 1 : 0), w);
+  const Tile<Weight> less = tile_of(panels, least, w);
+  for (std::int32_t i = 0; i < tiles; ++i) {
+    (i < larger ? more : less)(s, w);
+  }
+}
+
+void widen(const std::uint16_t* w, std::ptrdiff_t elems, bool pairs, float* wide) {
+  for (std::ptrdiff_t k = 0; k < elems; k += kPanel) {
+    _mm512_storeu_ps(wide + k, pairs ? pairs_at(w + k) : load_half(w + k));
+  }
+}
+
+}  // namespace
+
+void multiply_panels(const ProductArgs& a) {
+  const std::ptrdiff_t reduction = std::ptrdiff_t{a.in_blocks} * kBlock;
+  const std::int32_t panels = a.out_blocks / 2;
+  const std::int32_t at_once = a.pixels <= 6 ? 4 : a.pixels <= 9 ? 3 : 2;
+  const bool widened =
+      a.wide != nullptr && a.pixels > 3 * kMostPixels && reduction * 2 * kPanel <= kWideElems;
+  const auto run = [&](std::int32_t first, std::int32_t count) {
+    const std::uint16_t* w = a.weights + first * reduction * kPanel;
+    if (!widened) {
+      return sweep(a, first, count, w);
+    }
+    widen(w, reduction * (count == 0 ? kBlock : count * kPanel), count == 0, a.wide);
+    sweep<float>(a, first, count, a.wide);
+  };
+  std::int32_t done = 0;
+  for (std::int32_t count = at_once; count > 0; count = count > 2 ? 2 : count - 1) {
+    for (; done + count <= panels; done += count) {
+      run(done, count);
+    }
+  }
+  if (a.out_blocks % 2 != 0) {
+    run(done, 0);
+  }
+}
+
+}  // namespace mien::kernels::avx512
