@@ -1,10 +1,12 @@
 #include "engine/plan.h"
 
 #include "engine/arena_plan.h"
+#include "engine/fused_block.h"
 
 namespace mien::engine {
 
 using formats::kNoIndex;
+using formats::LayerActivation;
 using formats::LayerOp;
 using formats::LayerRecord;
 
@@ -35,6 +37,9 @@ Status Plan::make(const SessionRequest& request) {
     return status;
   }
   fuse_additions();
+  if (fuses_blocks(request.cpu_mask)) {
+    fuse_blocks();
+  }
   place_maps();
   return Status::kOk;
 }
@@ -102,14 +107,59 @@ void Plan::fuse_additions() {
     const bool adds_it = op_of(sum) == LayerOp::kAdd && sum.input == i && sum.second_input != i;
     const bool alone = values_[i].readers == 1 && !values_[i].is_output;
     if (adds_it && alone && op_of(layers_[i - 1]) == LayerOp::kPointwise) {
-      vanishes_[i] = true;
+      parts_[i] = Part::kAddition;
+      --step_count_;
+    }
+  }
+}
+
+// The next layer alone looks at the result of this one, and a fused block can hold it.
+bool Plan::passes_on(std::uint32_t layer) const {
+  const Value& value = values_[layer + 1];
+  return layer + 1 < layer_count() && layers_[layer + 1].input == layer + 1 && value.readers == 1 &&
+         !value.is_output && fuses(layers_[layer]);
+}
+
+// Depthwise and pointwise layers behind each other, with the pointwise layer before if there is.
+void Plan::fuse_blocks() {
+  for (std::uint32_t i = 0; i + 1 < layer_count(); ++i) {
+    const bool slides = op_of(layers_[i]) == LayerOp::kDepthwise && passes_on(i);
+    const LayerRecord& project = layers_[i + 1];
+    const bool adds = fused_addition(i + 1) != kNoIndex;
+    const bool projects =
+        op_of(project) == LayerOp::kPointwise && fuses(project) &&
+        (!adds || static_cast<LayerActivation>(project.activation) == LayerActivation::kNone);
+    if (!slides || !projects) {
+      continue;
+    }
+    const bool expands = i > 0 && op_of(layers_[i - 1]) == LayerOp::kPointwise &&
+                         parts_[i - 1] == Part::kStep && passes_on(i - 1);
+    parts_[i + 1] = Part::kInside;
+    --step_count_;
+    if (expands) {
+      parts_[i] = Part::kInside;
       --step_count_;
     }
   }
 }
 
 std::uint32_t Plan::fused_addition(std::uint32_t layer) const {
-  return layer + 1 < layer_count() && vanishes_[layer + 1] ? layer + 1 : kNoIndex;
+  return layer + 1 < layer_count() && parts_[layer + 1] == Part::kAddition ? layer + 1 : kNoIndex;
+}
+
+std::uint32_t Plan::fused_slide(std::uint32_t layer) const {
+  if (layer + 1 >= layer_count() || parts_[layer + 1] != Part::kInside) {
+    return kNoIndex;
+  }
+  return op_of(layers_[layer]) == LayerOp::kDepthwise ? layer : layer + 1;
+}
+
+std::uint32_t Plan::step_layers(std::uint32_t layer) const {
+  std::uint32_t end = layer + 1;
+  while (end < layer_count() && vanishes(end)) {
+    ++end;
+  }
+  return end - layer;
 }
 
 std::size_t Plan::input_elems() const {
@@ -129,11 +179,23 @@ std::size_t Plan::state_elems(std::uint32_t layer) const {
   }
 }
 
+std::size_t Plan::scratch_elems(std::uint32_t layer) const {
+  if (op_of(layers_[layer]) == LayerOp::kLstm) {
+    return 4 * blocked_elems(values_[layer + 1].shape);
+  }
+  const std::uint32_t slide = vanishes(layer) ? kNoIndex : fused_slide(layer);
+  if (slide == kNoIndex) {
+    return 0;
+  }
+  const Shape& hidden = values_[layers_[slide].input].shape;
+  return tile_block(layers_[slide], hidden, values_[slide + 1].shape).scratch_elems();
+}
+
 std::size_t Plan::scratch_elems() const {
   std::size_t most = 0;
   for (std::uint32_t i = 0; i < layer_count(); ++i) {
-    const std::size_t gates = 4 * blocked_elems(values_[i + 1].shape);
-    most = op_of(layers_[i]) == LayerOp::kLstm && gates > most ? gates : most;
+    const std::size_t elems = scratch_elems(i);
+    most = elems > most ? elems : most;
   }
   return most;
 }
@@ -143,9 +205,8 @@ void Plan::place_maps() {
   ArenaPlan arena;
   for (std::uint32_t i = 0; i < layer_count(); ++i) {
     state_elems_ += state_elems(i);
-    const std::uint32_t sum = fused_addition(i);
-    Value& value = values_[(sum == kNoIndex ? i : sum) + 1];
-    if (vanishes_[i] || value.is_output) {
+    Value& value = values_[i + step_layers(i)];
+    if (vanishes(i) || value.is_output) {
       continue;
     }
     const std::size_t bytes = blocked_elems(value.shape) * sizeof(float);

@@ -1,5 +1,5 @@
-// What a session needs to know before it has memory: every value's shape and lifetime, which
-// additions their predecessors perform, and where the maps in between lie in the arena.
+// What a session needs to know before it has memory: every value's shape and lifetime, which layers
+// run together, and where the maps in between lie in the arena.
 #pragma once
 
 #include <cstddef>
@@ -14,8 +14,8 @@ namespace mien::engine {
 struct SessionRequest {
   const Model* model = nullptr;  // its bytes must outlive the session
   std::string_view network;
-  Shape input;  // all zero: as the file declares it
-  std::uint32_t cpu_mask = 0xFFFFFFFF;
+  Shape input;                          // all zero: as the file declares it
+  std::uint32_t cpu_mask = 0xFFFFFFFF;  // tiers that may be used, and kernels::kFusedBlocks
 };
 
 // Large: a thread that makes sessions needs some 70 KB of stack.
@@ -44,10 +44,15 @@ class Plan {
     return {network_->outputs, network_->output_count};
   }
 
-  // The layer before performs this addition too.
-  [[nodiscard]] bool vanishes(std::uint32_t layer) const { return vanishes_[layer]; }
+  // A layer before performs this one too.
+  [[nodiscard]] bool vanishes(std::uint32_t layer) const { return parts_[layer] != Part::kStep; }
   // The addition that a layer performs besides, as a layer; kNoIndex if none.
   [[nodiscard]] std::uint32_t fused_addition(std::uint32_t layer) const;
+  // The depthwise layer of the inverted residual block that begins with this layer; kNoIndex if
+  // none. The block's last layer is the next.
+  [[nodiscard]] std::uint32_t fused_slide(std::uint32_t layer) const;
+  // Layers of the step that begins with this layer.
+  [[nodiscard]] std::uint32_t step_layers(std::uint32_t layer) const;
   [[nodiscard]] std::uint32_t step_count() const { return step_count_; }
 
   // Floats.
@@ -56,7 +61,7 @@ class Plan {
   [[nodiscard]] std::size_t state_elems() const { return state_elems_; }
 
   [[nodiscard]] std::size_t arena_bytes() const { return arena_bytes_; }
-  // In the arena, for the step that runs: an LSTM's gates.
+  // In the arena, for the step that runs: an LSTM's gates, a fused block's bands.
   [[nodiscard]] std::size_t scratch_offset() const { return scratch_offset_; }
 
  private:
@@ -65,13 +70,18 @@ class Plan {
   void note_reads(std::uint32_t layer);
   [[nodiscard]] Status check_size() const;
   void fuse_additions();
+  void fuse_blocks();
+  [[nodiscard]] bool passes_on(std::uint32_t layer) const;
   void place_maps();
   [[nodiscard]] std::size_t scratch_elems() const;
+  [[nodiscard]] std::size_t scratch_elems(std::uint32_t layer) const;
 
   const formats::NetworkRecord* network_ = nullptr;
   std::span<const formats::LayerRecord> layers_;
   Value values_[formats::kMaxLayers + 1];
-  bool vanishes_[formats::kMaxLayers] = {};
+  // Of a step: its beginning, an addition at its end, or what else is fused with those before.
+  enum class Part : std::uint8_t { kStep, kAddition, kInside };
+  Part parts_[formats::kMaxLayers] = {};
   std::uint32_t step_count_ = 0;
   std::size_t state_elems_ = 0;
   std::size_t scratch_offset_ = 0;

@@ -104,7 +104,7 @@ Status SessionBuilder::make_steps(const SessionRequest& request, float* scratch,
     }
     Step& step = session.steps_[session.step_count_++];
     step.first_layer = i;
-    step.layer_count = plan_.fused_addition(i) == formats::kNoIndex ? 1 : 2;
+    step.layer_count = plan_.step_layers(i);
     const Status status = maker.make(i, state, step);
     if (status != Status::kOk) {
       return status;

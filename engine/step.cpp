@@ -3,6 +3,8 @@
 #include <cstring>
 #include <type_traits>
 
+#include "engine/fused_block.h"
+
 namespace mien::engine {
 
 using formats::kNoIndex;
@@ -102,6 +104,10 @@ Status StepMaker::put(const Args& args, Step& step) const {
 
 Status StepMaker::make(std::uint32_t layer, float* state, Step& step) const {
   const LayerRecord& l = plan_.layer(layer);
+  const std::uint32_t slide = plan_.fused_slide(layer);
+  if (slide != kNoIndex) {
+    return put(block(layer, slide), step);
+  }
   const Map x = map(l.input), y = map(layer + 1);
   switch (static_cast<LayerOp>(l.op)) {
     case LayerOp::kConv2d:
@@ -148,6 +154,42 @@ kernels::DepthwiseArgs StepMaker::depthwise(const LayerRecord& l, Map x, Map y) 
   auto args = weighted<kernels::DepthwiseArgs>(l, x, y);
   args.channels = y.shape.c;
   set_windows(l, x.shape, y.shape, args);
+  return args;
+}
+
+kernels::InvertedResidualArgs::Weights StepMaker::weights(std::uint32_t layer) const {
+  const LayerRecord& l = plan_.layer(layer);
+  return {halves(l.weights), halves(l.bias), activation(l)};
+}
+
+// Layers `layer` .. slide + 1, and the addition behind them if it is fused.
+kernels::InvertedResidualArgs StepMaker::block(std::uint32_t layer, std::uint32_t slide) const {
+  const LayerRecord& l = plan_.layer(slide);
+  const Map x = map(plan_.layer(layer).input), y = map(layer + plan_.step_layers(layer));
+  const Shape hidden = plan_.value(l.input).shape, slid = plan_.value(slide + 1).shape;
+  kernels::InvertedResidualArgs args{};
+  args.x = x.data;
+  args.y = y.data;
+  args.expand = layer < slide ? weights(layer) : kernels::InvertedResidualArgs::Weights{};
+  args.slide = weights(slide);
+  args.project = weights(slide + 1);
+  set_windows(l, hidden, slid, args);
+  args.in_c = x.shape.c;
+  args.hidden_c = hidden.c;
+  args.out_c = y.shape.c;
+  const std::uint32_t sum = plan_.fused_addition(slide + 1);
+  if (sum != kNoIndex) {
+    const Map residual = map(plan_.layer(sum).second_input);
+    set_residual(residual.shape, y.shape, residual.data, args);
+  }
+  const BlockTiling tiling = tile_block(l, hidden, slid);
+  args.band = scratch_;
+  args.strip = args.band + tiling.band_elems;
+  args.wide = args.strip + tiling.strip_elems;
+  args.band_rows = tiling.band_rows;
+  args.strip_channels = tiling.strip_channels;
+  args.strip_rows = tiling.strip_rows;
+  args.strip_w = tiling.strip_w;
   return args;
 }
 

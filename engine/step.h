@@ -11,10 +11,7 @@
 namespace mien::engine {
 
 struct Step {
-  static constexpr std::size_t kArgsBytes = sizeof(kernels::PointwiseArgs) >
-                                                    sizeof(kernels::Conv2dArgs)
-                                                ? sizeof(kernels::PointwiseArgs)
-                                                : sizeof(kernels::Conv2dArgs);
+  static constexpr std::size_t kArgsBytes = sizeof(kernels::InvertedResidualArgs);  // the largest
   kernels::AnyKernel kernel;
   void (*call)(const Step&);               // knows the type of both
   std::uint32_t first_layer, layer_count;  // that it performs
@@ -52,6 +49,8 @@ class StepMaker {
   [[nodiscard]] kernels::Conv2dArgs conv2d(const formats::LayerRecord& layer, Map x, Map y) const;
   [[nodiscard]] kernels::DepthwiseArgs depthwise(const formats::LayerRecord& layer, Map x,
                                                  Map y) const;
+  [[nodiscard]] kernels::InvertedResidualArgs block(std::uint32_t layer, std::uint32_t slide) const;
+  [[nodiscard]] kernels::InvertedResidualArgs::Weights weights(std::uint32_t layer) const;
   [[nodiscard]] kernels::PointwiseArgs pointwise(std::uint32_t layer, Map x, Map y) const;
   [[nodiscard]] kernels::FullyConnectedArgs fully_connected(const formats::LayerRecord& layer,
                                                             Map x, Map y) const;

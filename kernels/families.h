@@ -12,6 +12,7 @@
 #include "kernels/global_average_pool/global_average_pool.h"
 #include "kernels/half/half.h"
 #include "kernels/image/warp.h"
+#include "kernels/inverted_residual/inverted_residual.h"
 #include "kernels/lstm/lstm.h"
 #include "kernels/matrix_vector/matrix_vector.h"
 #include "kernels/max_pool/max_pool.h"

@@ -33,18 +33,21 @@ std::span<const Entry> all_kernels() {
   return {first, count};
 }
 
-AnyKernel find_any(std::string_view family, std::uint32_t cpu_mask) {
+const Entry* find_entry(std::string_view family, std::uint32_t cpu_mask) {
   const std::uint32_t usable = cpu_mask & detect_cpu();
-  AnyKernel best = nullptr;
-  Tier best_tier = Tier::kRef;
+  const Entry* best = nullptr;
   for (const Entry& entry : all_kernels()) {
     const bool allowed = (usable & bit(entry.tier)) != 0;
-    if (allowed && entry.family == family && (best == nullptr || entry.tier > best_tier)) {
-      best = entry.function;
-      best_tier = entry.tier;
+    if (allowed && entry.family == family && (best == nullptr || entry.tier > best->tier)) {
+      best = &entry;
     }
   }
   return best;
+}
+
+AnyKernel find_any(std::string_view family, std::uint32_t cpu_mask) {
+  const Entry* best = find_entry(family, cpu_mask);
+  return best == nullptr ? nullptr : best->function;
 }
 
 }  // namespace mien::kernels

@@ -25,6 +25,7 @@ struct Entry {
 [[nodiscard]] std::span<const Entry> all_kernels();
 
 // The best kernel of a family among the tiers of `cpu_mask` that this CPU has; nullptr if none.
+[[nodiscard]] const Entry* find_entry(std::string_view family, std::uint32_t cpu_mask);
 [[nodiscard]] AnyKernel find_any(std::string_view family, std::uint32_t cpu_mask);
 
 template <class Args>

@@ -21,6 +21,9 @@ inline constexpr std::uint32_t kTierCount = 7;
   return 1u << static_cast<std::uint32_t>(tier);
 }
 
+// A bit of the CPU mask that is no tier: blocks of layers may run fused.
+inline constexpr std::uint32_t kFusedBlocks = 1u << 31;
+
 // A tier with all before it: what it lacks the best of these has.
 [[nodiscard]] constexpr std::uint32_t up_to(Tier tier) { return 2 * bit(tier) - 1; }
 

@@ -18,7 +18,7 @@ std::uint32_t cpu_mask(const std::string& name) {
     if ((mien_cpu_tiers() & tier) == 0) {
       throw Failure(kExitUnsupportedTier, "tier '" + name + "': not on this CPU or in this build");
     }
-    return 2 * tier - 1;
+    return (2 * tier - 1) | MIEN_CPU_FUSED;
   }
   throw Failure(kExitUsage, "tier '" + name + "': no such tier");
 }

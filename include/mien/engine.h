@@ -154,7 +154,7 @@ class MIEN_API NetworkRunner {
 
   struct Options {
     TensorShape input = {};                 // all zero: as declared
-    std::uint32_t cpu_mask = MIEN_CPU_ALL;  // tiers that may be used
+    std::uint32_t cpu_mask = MIEN_CPU_ALL;  // tiers that may be used, MIEN_CPU_FUSED
     mien_allocator allocator = {};          // callbacks NULL: the C library's
   };
   // On error the runner is left empty, and nothing stays allocated.

@@ -130,6 +130,9 @@ MIEN_API uint32_t mien_version_api(void);
 #define MIEN_CPU_NEON_FP16 0x10u
 #define MIEN_CPU_NEON32 0x20u
 #define MIEN_CPU_WASM 0x40u
+/* Not a tier: blocks of layers may run fused, which is faster. Without it each layer runs by
+ * itself, with the same results but for rounding. */
+#define MIEN_CPU_FUSED 0x80000000u
 #define MIEN_CPU_ALL 0xFFFFFFFFu
 
 /* The tiers that this build has and this CPU can run. MIEN_CPU_REF is always among them, unless the
@@ -234,7 +237,7 @@ typedef struct mien_allocator {
 /* Start from mien_tracker_config_default; then only the weights have to be set. */
 typedef struct mien_tracker_config {
   uint32_t struct_size;
-  uint32_t cpu_mask; /* tiers of kernels that may be used; default MIEN_CPU_ALL */
+  uint32_t cpu_mask; /* tiers of kernels that may be used, MIEN_CPU_FUSED; default MIEN_CPU_ALL */
 
   /* Weight files in memory (models/basenet.mien, models/proposal.mien), MIEN_ALIGNMENT-aligned, for
    * instance mapped files or arrays in flash. Owned by the caller; must outlive the tracker and

@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "kernels/common/avx512.h"
-#include "kernels/common/avx512_product.h"
+#include "kernels/common/product.h"
 #include "kernels/families.h"
 
 namespace mien::kernels::avx512 {

@@ -1,7 +1,7 @@
 // Register tiles of up to 13 pixels x 2 panels, 9 x 3 or 6 x 4: as many sums as there are registers
 // for, so that a value of x and a vector of weights serve several of them. A last panel of 8 takes
 // two elements of the sum at once, one in the even lanes and one in the odd.
-#include "kernels/common/avx512_product.h"
+#include "kernels/common/product.h"
 
 #include <utility>
 

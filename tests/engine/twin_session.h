@@ -76,12 +76,13 @@ inline void expect_twins_agree(const formats::MienWriter& writer, const std::str
   }
 }
 
-// The tiers of this CPU, one mask each.
+// The tiers of this CPU: two masks each, layer by layer and fused.
 inline std::vector<std::uint32_t> tiers_here() {
   std::vector<std::uint32_t> masks;
   for (std::uint32_t tier = 0; tier < kernels::kTierCount; ++tier) {
     if ((kernels::detect_cpu() & 1u << tier) != 0) {
       masks.push_back(kernels::up_to(static_cast<kernels::Tier>(tier)));
+      masks.push_back(masks.back() | kernels::kFusedBlocks);
     }
   }
   return masks;

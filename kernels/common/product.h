@@ -1,11 +1,11 @@
 // Panels of weights times pixels: what pointwise layers, fused or not, are made of. One function of
-// the tier, since its register tiles are many.
+// each tier, since its register tiles are many.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 
-namespace mien::kernels::avx512 {
+namespace mien::kernels {
 
 // Where pixel after pixel lies, row after row.
 struct PixelRows {
@@ -34,6 +34,11 @@ struct ProductArgs {
 };
 inline constexpr std::int32_t kWideElems = 6144;
 
+namespace avx2 {
 void multiply_panels(const ProductArgs& args);
+}
+namespace avx512 {
+void multiply_panels(const ProductArgs& args);
+}
 
-}  // namespace mien::kernels::avx512
+}  // namespace mien::kernels

@@ -1,0 +1,72 @@
+#include "engine/fused_block.h"
+
+#include <algorithm>
+
+#include "kernels/families.h"
+#include "kernels/registry.h"
+
+namespace mien::engine {
+
+using formats::LayerActivation;
+
+namespace {
+
+// A band for the second-level cache, a strip for the first.
+constexpr std::int64_t kBandBytes = 256 * 1024;
+constexpr std::int64_t kStripBytes = 32 * 1024;
+
+// So many channels that their sums fill the registers: fewer pixels, more channels.
+std::int32_t channels_at_once(std::size_t pixels) {
+  return pixels <= 6 ? 64 : pixels <= 9 ? 48 : 32;
+}
+
+}  // namespace
+
+std::size_t BlockTiling::scratch_elems() const {
+  return band_elems + strip_elems + kernels::kInvertedResidualWideElems;
+}
+
+BlockTiling tile_block(const formats::LayerRecord& slide, const Shape& hidden, const Shape& slid) {
+  BlockTiling t{};
+  const std::int32_t kernel_h = slide.kernel_height, stride_h = slide.stride_height;
+  const std::size_t channels = (static_cast<std::size_t>(hidden.c) + 7) / 8 * 8;
+  const std::size_t band_row = channels * static_cast<std::size_t>(slid.w);
+  const auto rows_in = [](std::int64_t bytes, std::size_t row_elems) {
+    return bytes / static_cast<std::int64_t>(row_elems * sizeof(float));
+  };
+  t.band_rows =
+      static_cast<std::int32_t>(std::clamp<std::int64_t>(rows_in(kBandBytes, band_row), 1, slid.h));
+  t.strip_channels = channels_at_once(hidden.pixels());
+  t.strip_w =
+      std::max(slide.pad_left + hidden.w, (slid.w - 1) * slide.stride_width + slide.kernel_width);
+  const std::size_t strip_row =
+      static_cast<std::size_t>(t.strip_channels) * static_cast<std::size_t>(t.strip_w);
+  const std::int64_t more = (rows_in(kStripBytes, strip_row) - kernel_h) / stride_h;
+  t.strip_rows = kernel_h + stride_h * static_cast<std::int32_t>(
+                                           std::clamp<std::int64_t>(more, 0, t.band_rows - 1));
+  t.band_elems = band_row * static_cast<std::size_t>(t.band_rows);
+  t.strip_elems = strip_row * static_cast<std::size_t>(t.strip_rows);
+  return t;
+}
+
+bool fuses_blocks(std::uint32_t cpu_mask) {
+  const kernels::Entry* fused =
+      kernels::find_entry(kernels::InvertedResidualArgs::kFamily, cpu_mask);
+  const kernels::Entry* plain = kernels::find_entry(kernels::PointwiseArgs::kFamily, cpu_mask);
+  const bool wanted = (cpu_mask & kernels::kFusedBlocks) != 0;
+  return wanted && fused != nullptr && plain != nullptr && fused->tier >= plain->tier;
+}
+
+bool fuses(const formats::LayerRecord& layer) {
+  switch (static_cast<LayerActivation>(layer.activation)) {
+    case LayerActivation::kNone:
+    case LayerActivation::kRelu:
+    case LayerActivation::kRelu6:
+    case LayerActivation::kClamp01:
+      return true;
+    default:
+      return false;
+  }
+}
+
+}  // namespace mien::engine

@@ -1,0 +1,31 @@
+// Inverted residual blocks: layers that run as one step.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "engine/shape.h"
+
+namespace mien::engine {
+
+// How a fused block divides its work, as kernels/inverted_residual/inverted_residual.h has it.
+struct BlockTiling {
+  std::int32_t band_rows;
+  std::int32_t strip_channels, strip_rows, strip_w;
+  std::size_t band_elems, strip_elems;  // floats
+
+  [[nodiscard]] std::size_t scratch_elems() const;  // with what weights in fp32 take
+};
+
+// `slide` is the depthwise layer, from `hidden` to `slid`.
+[[nodiscard]] BlockTiling tile_block(const formats::LayerRecord& slide, const Shape& hidden,
+                                     const Shape& slid);
+
+// Whether the tiers of `cpu_mask` run blocks at least as fast fused as layer by layer; never
+// without MIEN_CPU_FUSED.
+[[nodiscard]] bool fuses_blocks(std::uint32_t cpu_mask);
+
+// Whether a fused block can have this activation.
+[[nodiscard]] bool fuses(const formats::LayerRecord& layer);
+
+}  // namespace mien::engine

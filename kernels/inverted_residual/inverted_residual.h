@@ -1,0 +1,57 @@
+// Inverted residual block (Sandler et al. 2018) at once: expand (1x1), slide (depthwise), project
+// (1x1), and optionally a residual whose slice beginning at (residual_top, residual_left) is added
+// to what was projected.
+//
+//   e[p, c] = act1(b1[c] + sum over i of w1[c, i] x[p, i])
+//   s[q, c] = act2(b2[c] + sum over ky, kx of w2[c, ky, kx] e[window of q, c])
+//   y[q, o] = act3(b3[o] + sum over c of w3[o, c] s[q, c]) + r[slice of q, o]
+//
+// where e is zero outside the map. Without `expand.weights` e is x, and in_c = hidden_c. Shapes and
+// layouts are those of pointwise.h and depthwise.h: x [in_h, in_w, in_c], y [out_h, out_w, out_c],
+// r [residual_h, residual_w, out_c]; none overlaps y. Activations: none, ReLU, ReLU6 and clamp01
+// only; `project` has none when there is a residual.
+//
+// e and s are never whole in memory. Bands of `band_rows` rows of s are made for all channels, by
+// strips of `strip_rows` rows of e for `strip_channels` channels:
+//   band: [ceil(hidden_c/8)][band_rows][out_w][8]
+//   strip: [strip_channels/16][strip_rows][strip_w][16]
+// with strip_channels a multiple of 16, strip_rows = kernel_h + n stride_h for some n >= 0, and
+// strip_w >= pad_left + in_w and >= (out_w - 1) stride_w + kernel_w.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "kernels/activation/activation.h"
+
+namespace mien::kernels {
+
+struct InvertedResidualArgs {
+  static constexpr std::string_view kFamily = "inverted_residual";
+  struct Weights {
+    const std::uint16_t* weights;
+    const std::uint16_t* bias;
+    ActivationSpec activation;
+  };
+  const float* x;
+  float* y;
+  Weights expand, slide, project;
+  std::int32_t in_h, in_w, in_c;
+  std::int32_t hidden_c;
+  std::int32_t out_h, out_w, out_c;
+  std::int32_t kernel_h, kernel_w;
+  std::int32_t stride_h, stride_w;
+  std::int32_t pad_top, pad_left;
+  const float* residual;  // nullptr: none
+  std::int32_t residual_h, residual_w;
+  std::int32_t residual_top, residual_left;
+  float* band;
+  float* strip;
+  float* wide;  // [kInvertedResidualWideElems]
+  std::int32_t band_rows;
+  std::int32_t strip_channels, strip_rows, strip_w;
+};
+
+inline constexpr std::int32_t kInvertedResidualWideElems = 6144;
+
+}  // namespace mien::kernels
