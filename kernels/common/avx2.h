@@ -71,6 +71,32 @@ inline Vec load_half(const std::uint16_t* at) {
   return _mm256_blendv_ps(large, small, _mm256_cmp_ps(magnitude, _mm256_set1_ps(0.2f), _CMP_LT_OQ));
 }
 
+// min(max(x, low), high) is what most activations are.
+struct Clamp {
+  float low, high;
+};
+
+// False when the activation is something else; the clamp then lets everything pass.
+[[maybe_unused]] inline bool is_clamp(const ActivationSpec& activation, Clamp& clamp) {
+  constexpr float kInfinity = __builtin_inff();
+  clamp = {-kInfinity, kInfinity};
+  switch (activation.kind) {
+    case Activation::kNone:
+      return true;
+    case Activation::kRelu:
+      clamp.low = 0.0f;
+      return true;
+    case Activation::kRelu6:
+      clamp = {0.0f, 6.0f};
+      return true;
+    case Activation::kClamp01:
+      clamp = {0.0f, 1.0f};
+      return true;
+    default:
+      return false;
+  }
+}
+
 // The activation of one block of channels; `mask` as of lane_mask.
 [[maybe_unused]] inline Vec activated(Vec x, const ActivationSpec& activation, std::int32_t block,
                                       std::int32_t channels) {

@@ -1,122 +1,90 @@
-// Register tiles of up to 6 pixels x 16 output channels: 12 sums, two weight vectors, one
-// broadcast.
+#include <algorithm>
+
 #include "kernels/common/avx2.h"
+#include "kernels/common/product.h"
 #include "kernels/families.h"
 
 namespace mien::kernels::avx2 {
 namespace {
 
-constexpr int kTilePixels = 6;
+constexpr std::int32_t kFewPixels = 12;
 
-// Fewer pixels leave registers for more partial sums, which hide the latency of the multiply-adds.
-constexpr int partial_sums(int pixels) { return pixels == 1 ? 4 : pixels <= 3 ? 2 : 1; }
-
-struct Target {
-  std::int32_t block;  // first output block
-  std::int32_t pixel;  // first pixel
-};
-
-const float* residual_at(const PointwiseArgs& a, std::int32_t block, std::int32_t pixel) {
-  const std::int32_t y = pixel / a.w + a.residual_top;
-  const std::int32_t x = pixel % a.w + a.residual_left;
-  const std::ptrdiff_t plane = std::ptrdiff_t{a.residual_h} * a.residual_w;
-  return a.residual + (block * plane + std::ptrdiff_t{y} * a.residual_w + x) * kLanes;
-}
-
-void store(const PointwiseArgs& a, Vec sum, std::int32_t block, std::int32_t pixel) {
-  Vec value = _mm256_add_ps(sum, load_half(a.bias + block * kLanes));
-  value = activated(value, a.activation, block, a.out_c);
-  if (a.residual != nullptr) {
-    value = _mm256_add_ps(value, _mm256_loadu_ps(residual_at(a, block, pixel)));
-  }
-  const std::ptrdiff_t plane = std::ptrdiff_t{a.h} * a.w;
-  _mm256_storeu_ps(a.y + (block * plane + pixel) * kLanes, value);
-}
-
-template <int kPixels, int kVecs>
-void tile(const PointwiseArgs& a, const std::uint16_t* w, Target target) {
-  constexpr int kSums = partial_sums(kPixels);
-  Vec sum[kSums][kPixels][kVecs];
-  for (auto& partial : sum) {
-    for (auto& pixel : partial) {
-      for (Vec& one : pixel) {
-        one = _mm256_setzero_ps();
-      }
-    }
-  }
+ProductArgs product_of(const PointwiseArgs& a) {
   const std::ptrdiff_t plane = std::ptrdiff_t{a.h} * a.w * kLanes;
-  const float* x = a.x + std::ptrdiff_t{target.pixel} * kLanes;
-  for (std::int32_t block = 0; block < blocks_of(a.in_c); ++block, x += plane) {
-    for (int lane = 0; lane < kLanes; lane += kSums) {
-      for (int s = 0; s < kSums; ++s, w += kVecs * kLanes) {
-        Vec weight[kVecs];
-        for (int v = 0; v < kVecs; ++v) {
-          weight[v] = load_half(w + v * kLanes);
-        }
-        for (int p = 0; p < kPixels; ++p) {
-          const Vec value = _mm256_broadcast_ss(x + p * kLanes + lane + s);
-          for (int v = 0; v < kVecs; ++v) {
-            sum[s][p][v] = _mm256_fmadd_ps(value, weight[v], sum[s][p][v]);
-          }
-        }
-      }
+  ProductArgs product{};
+  product.x = a.x;
+  product.x_plane_elems = plane;
+  product.in_blocks = blocks_of(a.in_c);
+  product.pixels = a.h * a.w;
+  product.weights = a.weights;
+  product.bias = a.bias;
+  product.out_blocks = blocks_of(a.out_c);
+  product.y = a.y;
+  product.y_rows = {kLanes, plane, 2 * plane, 0x7FFFFFFF, 0};
+  return product;
+}
+
+std::ptrdiff_t residual_at(const PointwiseArgs& a, std::int32_t pixel) {
+  const std::ptrdiff_t y = pixel / a.w + a.residual_top, x = pixel % a.w + a.residual_left;
+  return (y * a.residual_w + x) * kLanes;
+}
+
+// Sums of a few pixels and one panel go through the stack to their activation.
+void finish(const PointwiseArgs& a, const float* sums, std::int32_t block, std::int32_t pixel,
+            std::int32_t count) {
+  const std::ptrdiff_t plane = std::ptrdiff_t{a.h} * a.w * kLanes;
+  const std::ptrdiff_t residual_plane = std::ptrdiff_t{a.residual_h} * a.residual_w * kLanes;
+  for (std::int32_t p = pixel; p < pixel + count; ++p, sums += kLanes) {
+    Vec value = activated(_mm256_loadu_ps(sums), a.activation, block, a.out_c);
+    if (a.residual != nullptr) {
+      const float* r = a.residual + block * residual_plane + residual_at(a, p);
+      value = _mm256_add_ps(value, _mm256_loadu_ps(r));
     }
-  }
-  for (int p = 0; p < kPixels; ++p) {
-    for (int v = 0; v < kVecs; ++v) {
-      Vec total = sum[0][p][v];
-      for (int s = 1; s < kSums; ++s) {
-        total = _mm256_add_ps(total, sum[s][p][v]);
-      }
-      store(a, total, target.block + v, target.pixel + p);
-    }
+    _mm256_storeu_ps(a.y + block * plane + std::ptrdiff_t{p} * kLanes, value);
   }
 }
 
-template <int kVecs>
-void tile_of(const PointwiseArgs& a, const std::uint16_t* w, Target target, std::int32_t pixels) {
-  switch (pixels) {
-    case 1:
-      return tile<1, kVecs>(a, w, target);
-    case 2:
-      return tile<2, kVecs>(a, w, target);
-    case 3:
-      return tile<3, kVecs>(a, w, target);
-    case 4:
-      return tile<4, kVecs>(a, w, target);
-    case 5:
-      return tile<5, kVecs>(a, w, target);
-    default:
-      return tile<6, kVecs>(a, w, target);
-  }
-}
-
-// Tiles of nearly equal size: 9 pixels are 5 + 4, not 6 + 3.
-template <int kVecs>
-void panel(const PointwiseArgs& a, const std::uint16_t* w, std::int32_t block) {
-  const std::int32_t pixels = a.h * a.w;
-  const std::int32_t tiles = (pixels + kTilePixels - 1) / kTilePixels;
-  std::int32_t pixel = 0;
-  for (std::int32_t left = tiles; left > 0; --left) {
-    const std::int32_t count = (pixels - pixel + left - 1) / left;
-    tile_of<kVecs>(a, w, {block, pixel}, count);
-    pixel += count;
+void activated_product(const PointwiseArgs& a, ProductArgs product) {
+  float sums[2 * kFewPixels * kLanes] = {};
+  constexpr std::ptrdiff_t kHalf = kFewPixels * kLanes;
+  product.y = sums;
+  product.y_rows = {kLanes, kHalf, 0, 0x7FFFFFFF, 0};
+  const std::int32_t blocks = product.out_blocks;
+  const std::ptrdiff_t reduction = std::ptrdiff_t{product.in_blocks} * kLanes;
+  for (std::int32_t block = 0; block < blocks; block += 2) {
+    product.out_blocks = std::min(2, blocks - block);
+    product.weights = a.weights + block * kLanes * reduction;
+    product.bias = a.bias + std::ptrdiff_t{block} * kLanes;
+    for (std::int32_t pixel = 0; pixel < a.h * a.w; pixel += kFewPixels) {
+      product.x = a.x + std::ptrdiff_t{pixel} * kLanes;
+      product.pixels = std::min(kFewPixels, a.h * a.w - pixel);
+      multiply_panels(product);
+      for (std::int32_t half = 0; half < product.out_blocks; ++half) {
+        finish(a, sums + half * kHalf, block + half, pixel, product.pixels);
+      }
+    }
   }
 }
 
 }  // namespace
 
 void pointwise(const PointwiseArgs& a) {
-  const std::ptrdiff_t reduction = std::ptrdiff_t{blocks_of(a.in_c)} * kLanes;
-  const std::int32_t blocks = blocks_of(a.out_c);
-  const std::uint16_t* w = a.weights;
-  std::int32_t block = 0;
-  for (; block + 2 <= blocks; block += 2, w += reduction * kPanel) {
-    panel<2>(a, w, block);
+  ProductArgs product = product_of(a);
+  Clamp clamp;
+  const bool clamps = is_clamp(a.activation, clamp);
+  const bool adds_last = a.residual != nullptr && a.activation.kind != Activation::kNone;
+  product.low = clamp.low;
+  product.high = clamp.high;
+  if (!clamps || adds_last) {
+    return activated_product(a, product);
   }
-  if (block < blocks) {
-    panel<1>(a, w, block);
+  if (a.residual != nullptr) {
+    const std::ptrdiff_t plane = std::ptrdiff_t{a.residual_h} * a.residual_w * kLanes;
+    product.residual = a.residual + residual_at(a, 0);
+    product.residual_rows = {kLanes, plane, 2 * plane, a.w,
+                             std::ptrdiff_t{a.residual_w - a.w} * kLanes};
   }
+  multiply_panels(product);
 }
 
 }  // namespace mien::kernels::avx2
