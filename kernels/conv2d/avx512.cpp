@@ -132,7 +132,7 @@ struct SizedTile {
 };
 
 template <int kVecs, int kStep, int... kPixels>
-SizedTile largest_of(std::int32_t pixels, std::int32_t wanted,
+SizedTile smallest_of(std::int32_t pixels, std::int32_t wanted,
                      std::integer_sequence<int, kPixels...>) {
   SizedTile best{1, &tile<1, kVecs, kStep>};
   const auto consider = [&](SizedTile one) {
@@ -151,8 +151,8 @@ SizedTile tile_for(bool two_panels, std::int32_t pixels) {
   const std::int32_t most = two_panels ? 12 : 16;
   const std::int32_t tiles = (pixels + most - 1) / most;
   const std::int32_t wanted = (pixels + tiles - 1) / tiles;
-  return two_panels ? largest_of<2, kStep>(pixels, wanted, UpTo12())
-                    : largest_of<1, kStep>(pixels, wanted, UpTo16());
+  return two_panels ? smallest_of<2, kStep>(pixels, wanted, UpTo12())
+                    : smallest_of<1, kStep>(pixels, wanted, UpTo16());
 }
 
 // Steps known to the compiler: interleaved images of 3 channels, and blocks.
@@ -166,7 +166,7 @@ SizedTile tile_for(const Conv2dArgs& a, bool two_panels, std::int32_t pixels) {
       return tile_for<8>(two_panels, pixels);
     default: {
       using One = std::integer_sequence<int, 4>;
-      return two_panels ? largest_of<2, 0>(pixels, 4, One()) : largest_of<1, 0>(pixels, 4, One());
+      return two_panels ? smallest_of<2, 0>(pixels, 4, One()) : smallest_of<1, 0>(pixels, 4, One());
     }
   }
 }
