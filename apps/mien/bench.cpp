@@ -91,12 +91,13 @@ struct Subject {
   std::string name;
 };
 
-Figures time_network(const Subject& subject, const std::string& tier, double peak, bool layers) {
+Figures time_network(const Subject& subject, const std::string& tier, double peak,
+                     const BenchOptions& bench) {
   const auto& [file, network, name] = subject;
   const NetworkInfo info = file.network(network);
   NetworkRunner runner;
   NetworkRunner::Options options;
-  options.cpu_mask = cpu_mask(tier);
+  options.cpu_mask = cpu_mask(tier, bench.unfused);
   const EngineStatus status = runner.create(file, info.name, options);
   if (status != EngineStatus::kOk) {
     throw Failure(kExitModel, name + ": " + message(status));
@@ -106,7 +107,7 @@ Figures time_network(const Subject& subject, const std::string& tier, double pea
                   0.0,  0.0,  {}};
   figures.gflops = 2.0 * static_cast<double>(info.macs) / figures.median_ms * 1e-6;
   figures.peak_fraction = figures.gflops / peak;
-  if (layers) {
+  if (bench.layers) {
     figures.steps = time_steps(file, network, runner, peak);
   }
   return figures;
@@ -131,7 +132,7 @@ void time_file(const std::filesystem::path& path, const BenchOptions& options,
       continue;
     }
     for (const auto& [tier, peak] : peaks) {
-      results.push_back(time_network({file, i, name}, tier, peak, options.layers));
+      results.push_back(time_network({file, i, name}, tier, peak, options));
     }
   }
 }

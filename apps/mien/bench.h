@@ -9,9 +9,10 @@ struct BenchOptions {
   std::string model;  // empty: all
   std::string tier;   // empty: all this CPU has
   std::string models;
-  std::string clip;     // not empty: the tracker on it
-  bool sound = false;   // time hearing
-  bool layers = false;  // each step of a network too
+  std::string clip;      // not empty: the tracker on it
+  bool sound = false;    // time hearing
+  bool unfused = false;  // layer by layer
+  bool layers = false;   // each step of a network too
   bool json = false;
 };
 

@@ -34,8 +34,10 @@ double time_ms(Tracker& tracker, const mien_image& image, std::int64_t pts_ns,
 }
 
 FrameTimes time_frames(const BenchOptions& options) {
-  LoadedTracker following({options.models, options.tier});
-  LoadedTracker proposing({options.models, options.tier});
+  const LoadedTracker::Options loaded = {
+      .models = options.models, .tier = options.tier, .unfused = options.unfused};
+  LoadedTracker following(loaded);
+  LoadedTracker proposing(loaded);
   const std::unique_ptr<VideoSource> video = open_video(options.clip, {});
   FrameTimes times;
   mien_image image;

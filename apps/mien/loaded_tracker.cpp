@@ -55,7 +55,7 @@ LoadedTracker::LoadedTracker(const Options& options)
   config.budget_ms = options.budget_ms;
   config.max_faces = options.max_faces;
   config.smoothing = options.unfiltered ? 0 : 1;
-  config.cpu_mask = cpu_mask(options.tier);
+  config.cpu_mask = cpu_mask(options.tier, options.unfused);
   config.clock_ns = now_ns;
   mien_status status = tracker.create(config);
   if (status == MIEN_OK) {

@@ -18,7 +18,8 @@ struct LoadedTracker {
     float budget_ms = 10.0f;
     bool unfiltered = false;
     int max_faces = 1;
-    bool sound = false;  // it is to hear
+    bool sound = false;    // it is to hear
+    bool unfused = false;  // networks run layer by layer
   };
 
   // Throws Failure.

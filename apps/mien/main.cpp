@@ -50,7 +50,8 @@ void add_track(CLI::App& program) {
   verb->add_option("--neutral", options->neutral, "what the face shows at rest, by `mien neutral`");
   verb->add_option("--max-faces", options->max_faces, "faces followed at once, each with an id")
       ->check(CLI::Range(1, MIEN_MAX_FACES));
-  verb->add_option("--tier", options->tier, "kernel tier: ref, avx2");
+  verb->add_option("--tier", options->tier, "kernel tier: ref, avx2, avx512");
+  verb->add_flag("--unfused", options->unfused, "networks run layer by layer");
   verb->add_option("--models", options->models, "folder of the model files");
   verb->add_option("--start", options->start_s, "seconds to skip")->check(CLI::NonNegativeNumber);
   verb->add_option("--duration", options->duration_s, "seconds to track")
@@ -112,7 +113,8 @@ void add_bench(CLI::App& program) {
   verb->add_flag("--layers", options->layers, "also each layer, or what runs fused, by itself")
       ->excludes(clip)
       ->excludes(sound);
-  verb->add_option("--tier", options->tier, "one tier only: ref, avx2");
+  verb->add_option("--tier", options->tier, "one tier only: ref, avx2, avx512");
+  verb->add_flag("--unfused", options->unfused, "networks run layer by layer");
   verb->add_option("--models", options->models, "folder of the model files");
   verb->add_flag("--json", options->json, "as JSON");
   verb->callback([options] { bench(*options); });

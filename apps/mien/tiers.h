@@ -7,7 +7,8 @@
 namespace mien::app {
 
 // The CPU mask for `name`; all tiers when it is empty. The tiers before it stay allowed, so that a
-// kernel that the tier lacks is still found. Throws Failure when this CPU cannot run it.
-std::uint32_t cpu_mask(const std::string& name);
+// kernel that the tier lacks is still found. `unfused`: each layer by
+// itself. Throws Failure when this CPU cannot run the tier.
+std::uint32_t cpu_mask(const std::string& name, bool unfused = false);
 
 }  // namespace mien::app

@@ -178,7 +178,8 @@ void track(const TrackOptions& options) {
     throw Failure(kExitUsage, "--overlay: there is no picture to draw over");
   }
   LoadedTracker loaded({options.models, options.tier, options.lod, options.budget_ms,
-                        options.unfiltered, options.max_faces, !senses.sound.empty()});
+                        options.unfiltered, options.max_faces, !senses.sound.empty(),
+                        options.unfused});
   if (!options.neutral.empty()) {
     load_neutral(options.neutral, loaded.tracker);
   }

@@ -21,6 +21,7 @@ struct TrackOptions {
   std::string stats;
   std::string neutral;  // file to take into account
   std::string tier;
+  bool unfused = false;  // networks run layer by layer
   std::string models;
   std::optional<int> lod;  // 0: automatic; none: the highest that there are weights for
   float budget_ms = 10.0f;

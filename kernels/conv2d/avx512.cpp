@@ -133,7 +133,7 @@ struct SizedTile {
 
 template <int kVecs, int kStep, int... kPixels>
 SizedTile smallest_of(std::int32_t pixels, std::int32_t wanted,
-                     std::integer_sequence<int, kPixels...>) {
+                      std::integer_sequence<int, kPixels...>) {
   SizedTile best{1, &tile<1, kVecs, kStep>};
   const auto consider = [&](SizedTile one) {
     best = one.pixels <= pixels && best.pixels < wanted ? one : best;

@@ -7,21 +7,14 @@
 
 #include "kernels/tier.h"
 #include "tests/engine/mini_model.h"
-#include "tests/kernels/every_tier.h"
+#include "tests/engine/twin_session.h"
 
 namespace mien::tests {
 namespace {
 
 constexpr double kTolerance = 2e-5;
 
-class Golden : public testing::TestWithParam<std::uint32_t> {
- protected:
-  void SetUp() override {
-    if ((kernels::detect_cpu() & GetParam()) == 0) {
-      GTEST_SKIP() << "this CPU lacks the tier";
-    }
-  }
-};
+class Golden : public testing::TestWithParam<std::uint32_t> {};
 
 void expect_close(const std::vector<float>& got, std::span<const float> want) {
   ASSERT_EQ(got.size(), want.size());
@@ -82,7 +75,7 @@ TEST_P(Golden, TemporalNetworkStepByStepAndAgainAfterReset) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Tiers, Golden, testing::ValuesIn(every_tier()));
+INSTANTIATE_TEST_SUITE_P(Tiers, Golden, testing::ValuesIn(tiers_here()));
 
 }  // namespace
 }  // namespace mien::tests

@@ -1,0 +1,190 @@
+// Networks of inverted residual blocks, fused and layer by layer: every network that is published
+// here, and random ones, which plain layers answer too.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "kernels/families.h"
+#include "kernels/registry.h"
+#include "tests/engine/twin_session.h"
+
+namespace mien::tests {
+namespace {
+
+using Index = TwinNetwork::Index;
+using Options = TwinNetwork::Options;
+using formats::LayerActivation;
+
+// Of the largest answer: both round to fp32, in another order.
+constexpr double kTolerance = 1e-5;
+
+AlignedBuffer file_bytes(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  const std::vector<char> bytes((std::istreambuf_iterator<char>(file)), {});
+  return AlignedBuffer(std::as_bytes(std::span(bytes)));
+}
+
+void set_random(engine::Session& session, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> values(-1.0f, 1.0f);
+  const auto channels = static_cast<std::size_t>(session.input_shape().c);
+  const std::size_t pixels = session.input_shape().pixels();
+  for (std::size_t i = 0; i < session.input().size(); ++i) {
+    const bool used =
+        session.input_shape().interleaved() || i / (8 * pixels) * 8 + i % 8 < channels;
+    session.input()[i] = used ? values(random) : 0.0f;
+  }
+}
+
+void expect_same(const engine::Session& a, const engine::Session& b) {
+  for (std::uint32_t output = 0; output < a.output_count(); ++output) {
+    double largest = 1e-3;
+    for (const float one : a.output(output)) {
+      largest = std::max(largest, std::abs(static_cast<double>(one)));
+    }
+    for (std::size_t i = 0; i < a.output(output).size(); ++i) {
+      ASSERT_NEAR(a.output(output)[i], b.output(output)[i], kTolerance * largest)
+          << "output " << output << ", element " << i;
+    }
+  }
+}
+
+// The tiers that can run blocks fused, as masks that run layer by layer.
+std::vector<std::uint32_t> fusing_tiers() {
+  std::vector<std::uint32_t> masks;
+  for (const kernels::Entry& entry : kernels::all_kernels()) {
+    if (entry.family == kernels::InvertedResidualArgs::kFamily &&
+        (kernels::detect_cpu() & kernels::bit(entry.tier)) != 0) {
+      masks.push_back(kernels::up_to(entry.tier));
+    }
+  }
+  return masks;
+}
+
+TEST(FusedBlocks, PublishedNetworksAnswerTheSame) {
+  for (const auto& entry : std::filesystem::directory_iterator(MIEN_SOURCE_DIR "/models")) {
+    if (entry.path().extension() != ".mien") {
+      continue;
+    }
+    AlignedBuffer bytes = file_bytes(entry.path());
+    engine::Model model;
+    ASSERT_EQ(model.open(bytes.span()), engine::Status::kOk);
+    for (const formats::NetworkRecord& network : model.file().networks()) {
+      const std::string name(model.file().text(network.name));
+      for (const std::uint32_t mask : fusing_tiers()) {
+        OwnedSession plain(bytes, name, {}, mask);
+        OwnedSession fused(bytes, name, {}, mask | kernels::kFusedBlocks);
+        ASSERT_EQ(plain.status, engine::Status::kOk);
+        ASSERT_EQ(fused.status, engine::Status::kOk);
+        set_random(*plain.session, 1);
+        set_random(*fused.session, 1);
+        fused.spoil_arena();
+        plain.session->run();
+        fused.session->run();
+        ASSERT_NO_FATAL_FAILURE(expect_same(*plain.session, *fused.session))
+            << entry.path() << " " << name << ", tier mask " << mask;
+      }
+    }
+  }
+}
+
+TEST(FusedBlocks, TakeFewerStepsAndLessMemory) {
+  AlignedBuffer bytes = file_bytes(MIEN_SOURCE_DIR "/models/hifinet.mien");
+  for (const std::uint32_t mask : fusing_tiers()) {
+    const OwnedSession plain(bytes, "encoder", {}, mask);
+    const OwnedSession fused(bytes, "encoder", {}, mask | kernels::kFusedBlocks);
+    EXPECT_EQ(fused.session->step_count(), 15u);  // a convolution, 13 blocks and the tail
+    EXPECT_LT(fused.session->step_count(), plain.session->step_count());
+    EXPECT_LT(fused.size.arena_bytes, plain.size.arena_bytes);
+  }
+}
+
+TEST(FusedBlocks, EveryLayerIsInOneStep) {
+  AlignedBuffer bytes = file_bytes(MIEN_SOURCE_DIR "/models/basenet.mien");
+  const OwnedSession fused(bytes, "encoder", {});
+  std::uint32_t next = 0;
+  for (std::uint32_t i = 0; i < fused.session->step_count(); ++i) {
+    EXPECT_EQ(fused.session->step_layers(i).first, next);
+    next += fused.session->step_layers(i).count;
+  }
+  EXPECT_EQ(next, 44u);
+}
+
+// Blocks as networks have them, and some that must not be fused: whose values somebody else reads
+// too, or whose activation is none of a block's.
+class RandomBlocks {
+ public:
+  RandomBlocks(formats::NetworkWriter& writer, formats::InputShape input, unsigned seed)
+      : twin(writer, input, seed), random_(seed) {
+    Index x = twin.conv2d(0, between(1, 40), 3, 3, options(false));
+    for (std::uint32_t i = between(1, 4); i > 0; --i) {
+      x = add_block(x);
+    }
+    twin.output(x);
+    if (inside_ != 0 && between(0, 2) == 0) {
+      twin.output(inside_);
+    }
+  }
+
+  TwinNetwork twin;
+
+ private:
+  std::uint32_t between(std::uint32_t low, std::uint32_t high) {
+    return std::uniform_int_distribution<std::uint32_t>(low, high)(random_);
+  }
+
+  Options options(bool any) {
+    const LayerActivation kinds[] = {LayerActivation::kNone, LayerActivation::kRelu,
+                                     LayerActivation::kRelu6, LayerActivation::kClamp01,
+                                     LayerActivation::kTanh};
+    Options options;
+    options.activation = kinds[between(0, any ? 4 : 3)];
+    return options;
+  }
+
+  Index add_block(Index x) {
+    const Map& map = twin.value(x);
+    const auto channels = static_cast<std::uint32_t>(map.c);
+    if (map.h < 3 || map.w < 3) {
+      return twin.pointwise(x, between(1, 40), options(true));
+    }
+    const bool adds = between(0, 1) == 0;
+    const Index wide = between(0, 3) == 0 ? x : twin.pointwise(x, between(1, 100), options(true));
+    Options sliding = options(true);
+    if (between(0, 1) == 0) {
+      sliding.padding = {1, 1, 1, 1};
+    }
+    if (!adds && between(0, 1) == 0) {
+      sliding.stride_x = sliding.stride_y = 2;
+    }
+    const Index slid = twin.depthwise(wide, 3, 3, sliding);
+    inside_ = between(0, 1) == 0 ? wide : slid;
+    Options last;
+    if (!adds) {
+      last = options(true);
+    }
+    const Index narrow = twin.pointwise(slid, adds ? channels : between(1, 60), last);
+    return adds ? twin.add(narrow, x) : narrow;
+  }
+
+  std::mt19937 random_;
+  Index inside_ = 0;  // a value that a block would not keep
+};
+
+TEST(FusedBlocks, RandomNetworksAgreeWithPlainLayers) {
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    const formats::InputShape input{9 + seed % 17, 9 + seed % 13, 1 + seed % 9};
+    for (const std::uint32_t tier : tiers_here()) {
+      formats::MienWriter writer;
+      RandomBlocks network(writer.network("net", input), input, seed);
+      ASSERT_NO_FATAL_FAILURE(expect_twins_agree(writer, "net", network.twin, tier, 1))
+          << "seed " << seed << ", tier mask " << tier;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace mien::tests
