@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Times mien's networks and the same networks in ONNX Runtime, in turns, one thread each, and writes
-# docs/results/peers.md and .json.  usage: scripts/bench_peers.sh [ROUNDS]
+# docs/results/peers.md, performance.md and their .json.  usage: scripts/bench_peers.sh [ROUNDS]
 # Needs npm (nodejs); makes a Release build unless MIEN_PROGRAM names a program to time.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -24,7 +24,10 @@ cp scripts/peers/onnxruntime_bench.mjs "$work/"
 runs=()
 for ((round = 0; round < rounds; ++round)); do
   "$program" bench --json >"$work/mien_$round.json"
+  "$program" bench --unfused --json >"$work/unfused_$round.json"
+  "$program" bench --sound --json >"$work/sound_$round.json"
   node "$work/onnxruntime_bench.mjs" "$work" >"$work/peer_$round.json"
   runs+=("$round")
 done
 /usr/bin/python3 scripts/peers/report.py "$work" "${#runs[@]}" docs/results
+/usr/bin/python3 scripts/peers/performance.py "$work" "${#runs[@]}" docs/results

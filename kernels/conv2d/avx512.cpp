@@ -32,8 +32,6 @@ struct Panels {
   std::int32_t block, blocks;
   Clamp clamp;
   bool clamps;
-
-  [[nodiscard]] __mmask16 lanes() const { return blocks == 1 ? 0xFF : 0xFFFF; }
 };
 
 struct Windows {
@@ -44,17 +42,22 @@ struct Windows {
 template <int kPixels, int kVecs>
 using Sums = Vec[kPixels][kVecs];
 
+// kWidth 8: of the last block, which is alone.
+template <int kWidth>
+Vec weights_at(const std::uint16_t* w) {
+  return kWidth == kPanel ? load_half(w) : load_half(w, 0xFF);
+}
+
 // `count` consecutive floats of x, of pixels kStep floats apart; kStep 0: `step`.
-template <int kPixels, int kVecs, int kStep>
+template <int kPixels, int kVecs, int kStep, int kWidth>
 inline const std::uint16_t* add_run(const float* x, std::int32_t count, std::ptrdiff_t step,
-                                    const std::uint16_t* w, std::ptrdiff_t panel, __mmask16 lanes,
+                                    const std::uint16_t* w, std::ptrdiff_t panel,
                                     Sums<kPixels, kVecs>& sum) {
-  const std::ptrdiff_t width = lanes == 0xFF ? kBlock : kPanel;
   const std::ptrdiff_t pitch = kStep == 0 ? step : kStep;
-  for (std::int32_t k = 0; k < count; ++k, w += width) {
+  for (std::int32_t k = 0; k < count; ++k, w += kWidth) {
     Vec weight[kVecs];
     for (int v = 0; v < kVecs; ++v) {
-      weight[v] = load_half(w + v * panel, lanes);
+      weight[v] = weights_at<kWidth>(w + v * panel);
     }
 #pragma GCC unroll 16
     for (int p = 0; p < kPixels; ++p) {
@@ -67,15 +70,13 @@ inline const std::uint16_t* add_run(const float* x, std::int32_t count, std::ptr
   return w;
 }
 
-template <int kPixels, int kVecs, int kStep>
+template <int kPixels, int kVecs, int kStep, int kWidth = kPanel>
 void tile(const Panels& t, const Windows& at) {
   const Conv2dArgs& a = t.a;
-  const __mmask16 lanes = t.lanes();
-  const std::ptrdiff_t width = t.blocks == 1 ? kBlock : kPanel;
   const std::ptrdiff_t panel = std::ptrdiff_t{a.kernel_h} * a.kernel_w * a.in_c * kPanel;
   Sums<kPixels, kVecs> sum;
   for (int v = 0; v < kVecs; ++v) {
-    const Vec bias = load_half(a.bias + t.block * kBlock + v * kPanel, lanes);
+    const Vec bias = weights_at<kWidth>(a.bias + t.block * kBlock + v * kPanel);
 #pragma GCC unroll 16
     for (int p = 0; p < kPixels; ++p) {
       sum[p][v] = bias;
@@ -90,10 +91,10 @@ void tile(const Panels& t, const Windows& at) {
   for (std::int32_t ky = at.ys.first; ky < at.ys.last; ++ky) {
     for (std::int32_t kx = at.xs.first; kx < at.xs.last; kx += columns) {
       const float* x = a.x + (std::ptrdiff_t{top + ky} * a.in_w + left + kx) * a.x_pixel_elems;
-      const std::uint16_t* w = t.weights + std::ptrdiff_t{ky * a.kernel_w + kx} * a.in_c * width;
+      const std::uint16_t* w = t.weights + std::ptrdiff_t{ky * a.kernel_w + kx} * a.in_c * kWidth;
       for (std::int32_t c = 0; c < a.in_c; c += runs_on ? a.in_c : kBlock, x += plane) {
         const std::int32_t count = runs_on ? columns * a.in_c : std::min(kBlock, a.in_c - c);
-        w = add_run<kPixels, kVecs, kStep>(x, count, step, w, panel, lanes, sum);
+        w = add_run<kPixels, kVecs, kStep, kWidth>(x, count, step, w, panel, sum);
       }
     }
   }
@@ -103,7 +104,7 @@ void tile(const Panels& t, const Windows& at) {
 #pragma GCC unroll 16
   for (int p = 0; p < kPixels; ++p) {
     for (int v = 0; v < kVecs; ++v) {
-      store_blocks(y + 2 * v * out_plane + p * kBlock, out_plane, t.blocks > 1,
+      store_blocks(y + 2 * v * out_plane + p * kBlock, out_plane, kWidth == kPanel,
                    _mm512_min_ps(high, _mm512_max_ps(low, sum[p][v])));
     }
   }
@@ -156,7 +157,11 @@ SizedTile tile_for(bool two_panels, std::int32_t pixels) {
 }
 
 // Steps known to the compiler: interleaved images of 3 channels, and blocks.
-SizedTile tile_for(const Conv2dArgs& a, bool two_panels, std::int32_t pixels) {
+SizedTile tile_for(const Conv2dArgs& a, std::int32_t blocks, std::int32_t pixels) {
+  const bool two_panels = blocks > 2;
+  if (blocks == 1) {
+    return pixels < 4 ? SizedTile{1, &tile<1, 1, 0, kBlock>} : SizedTile{4, &tile<4, 1, 0, kBlock>};
+  }
   switch (a.stride_w * a.x_pixel_elems) {
     case 3:
       return tile_for<3>(two_panels, pixels);
@@ -173,7 +178,9 @@ SizedTile tile_for(const Conv2dArgs& a, bool two_panels, std::int32_t pixels) {
 
 void row(const Panels& t, std::int32_t oy, Range whole, SizedTile inner) {
   const Conv2dArgs& a = t.a;
-  const Tile edge = t.blocks > 2 ? &tile<1, 2, 0> : &tile<1, 1, 0>;
+  const Tile edge = t.blocks > 2    ? &tile<1, 2, 0>
+                    : t.blocks == 2 ? &tile<1, 1, 0>
+                                    : &tile<1, 1, 0, kBlock>;
   Windows at{oy, 0, inside(oy * a.stride_h - a.pad_top, a.kernel_h, a.in_h), {}};
   const auto run = [&](SizedTile one, std::int32_t ox, Range xs) {
     at.ox = ox;
@@ -208,7 +215,7 @@ void conv2d(const Conv2dArgs& a) {
   for (; t.block < blocks; t.block += t.blocks) {
     t.blocks = blocks - t.block >= 4 ? 4 : blocks - t.block >= 2 ? 2 : 1;
     t.weights = a.weights + t.block * kBlock * reduction;
-    const SizedTile inner = tile_for(a, t.blocks > 2, std::max(1, whole.last - whole.first));
+    const SizedTile inner = tile_for(a, t.blocks, std::max(1, whole.last - whole.first));
     for (std::int32_t oy = 0; oy < a.out_h; ++oy) {
       row(t, oy, whole, inner);
     }

@@ -96,6 +96,8 @@ TEST(Names, Tiers) {
   EXPECT_STREQ(mien_cpu_tier_name(MIEN_CPU_AVX2), "avx2");
   EXPECT_EQ(mien_cpu_tier_name(0), nullptr);
   EXPECT_EQ(mien_cpu_tier_name(MIEN_CPU_REF | MIEN_CPU_AVX2), nullptr);
+  EXPECT_EQ(mien_cpu_tier_name(MIEN_CPU_FUSED), nullptr);  // no tier
+  EXPECT_FALSE(mien_cpu_tiers() & MIEN_CPU_FUSED);
   EXPECT_EQ(mien_cpu_tier_name(0x80000000u), nullptr);
 }
 

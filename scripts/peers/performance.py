@@ -1,0 +1,69 @@
+#!/usr/bin/env python3
+"""What the rounds of bench_peers.sh say about mien itself: tiers, fused blocks, share of the peak.  usage: performance.py WORK_DIR ROUNDS OUT_DIR"""
+import json
+import sys
+from pathlib import Path
+
+
+def load(work, kind, rounds):
+    return [json.loads((work / f"{kind}_{i}.json").read_text()) for i in range(rounds)]
+
+
+def least(runs, name, tier):
+    """Minimum in ms over all rounds."""
+    return min(r["min_ms"] for run in runs for r in run["results"] if (r["name"], r["tier"]) == (name, tier))
+
+
+def peaks(runs):
+    """GFLOP/s by tier: the best of any round."""
+    return {tier: max(run["peak_gflops"][tier] for run in runs) for tier in runs[0]["peak_gflops"]}
+
+
+def measure(work, rounds):
+    fused, unfused = load(work, "mien", rounds), load(work, "unfused", rounds)
+    peer, sound = load(work, "peer", rounds), load(work, "sound", rounds)
+    peak, rows = peaks(fused), []
+    for result in fused[0]["results"]:
+        name, tier = result["name"], result["tier"]
+        if tier == "ref":
+            continue
+        row = {"network": name, "tier": tier, "macs": result["macs"], "min_us": least(fused, name, tier) * 1e3}
+        row["peak_share"] = 2e-3 * row["macs"] / row["min_us"] / peak[tier]
+        row["to_unfused"] = least(fused, name, tier) / least(unfused, name, tier)
+        if name in peer[0]:
+            row["to_onnxruntime"] = least(fused, name, tier) / min(run[name]["min_ms"] for run in peer)
+        rows.append(row)
+    heard = [{"sample_rate": s["sample_rate"], "min_us": min(run[i]["min_us"] for run in sound),
+              "median_us": min(run[i]["median_us"] for run in sound)} for i, s in enumerate(sound[0])]
+    return {"rounds": rounds, "peak_gflops": peak, "networks": rows, "sound_step": heard}
+
+
+def table(header, rows):
+    return ["| " + " | ".join(header) + " |", "|" + "---|" * len(header)] + ["| " + " | ".join(row) + " |" for row in rows]
+
+
+def to_text(figures):
+    lines = ["# Speed", "",
+             f"One thread, minima of {figures['rounds']} rounds in turns with ONNX Runtime on one machine; `scripts/bench_peers.sh` writes this. "
+             "Absolute times mean nothing elsewhere. The peak is that of a loop of fused multiply-adds in registers, the best that was seen in the same run.", ""]
+    lines += table(("tier", "peak, GFLOP/s"), [(tier, f"{peak:.0f}") for tier, peak in figures["peak_gflops"].items()])
+    lines += ["", "## Networks", "",
+              "*Of unfused*: time with fused blocks by the time layer by layer (`mien bench --unfused`); networks without such blocks have about 1.", ""]
+    lines += table(("network", "tier", "MACs", "us", "share of the peak", "of unfused", "of ONNX Runtime"),
+                   [(r["network"], r["tier"], f"{r['macs']:,}", f"{r['min_us']:.1f}", f"{100 * r['peak_share']:.0f} %", f"{r['to_unfused']:.2f}",
+                     f"{r['to_onnxruntime']:.2f}" if "to_onnxruntime" in r else "") for r in figures["networks"]])
+    lines += ["", "## Sound", "", "What 16 ms of sound cost, from samples to controls: resampler, features, encoder, both decoders (`mien bench --sound`).", ""]
+    lines += table(("sample rate", "us, minimum", "us, median"),
+                   [(str(s["sample_rate"]), f"{s['min_us']:.1f}", f"{s['median_us']:.1f}") for s in figures["sound_step"]])
+    return "\n".join(lines) + "\n"
+
+
+def main():
+    work, rounds, out = Path(sys.argv[1]), int(sys.argv[2]), Path(sys.argv[3])
+    figures = measure(work, rounds)
+    (out / "performance.json").write_text(json.dumps(figures, indent=1) + "\n")
+    (out / "performance.md").write_text(to_text(figures))
+
+
+if __name__ == "__main__":
+    main()
