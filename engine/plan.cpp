@@ -6,7 +6,6 @@
 namespace mien::engine {
 
 using formats::kNoIndex;
-using formats::LayerActivation;
 using formats::LayerOp;
 using formats::LayerRecord;
 
@@ -125,10 +124,7 @@ void Plan::fuse_blocks() {
   for (std::uint32_t i = 0; i + 1 < layer_count(); ++i) {
     const bool slides = op_of(layers_[i]) == LayerOp::kDepthwise && passes_on(i);
     const LayerRecord& project = layers_[i + 1];
-    const bool adds = fused_addition(i + 1) != kNoIndex;
-    const bool projects =
-        op_of(project) == LayerOp::kPointwise && fuses(project) &&
-        (!adds || static_cast<LayerActivation>(project.activation) == LayerActivation::kNone);
+    const bool projects = op_of(project) == LayerOp::kPointwise && fuses(project);
     if (!slides || !projects) {
       continue;
     }

@@ -16,7 +16,9 @@ struct PixelRows {
   std::ptrdiff_t row_gap_elems;  // skipped after each row
 };
 
-//   y[p, o] = min(max(bias[o] + sum over i of w[o, i] x[p, i] + r[p, o], low), high)
+//   y[p, o] = min(max(bias[o] + sum over i of w[o, i] x[p, i], low), high) + r[p, o]
+//
+// r does not overlap y.
 struct ProductArgs {
   const float* x;  // [in_blocks] blocks of 8 channels of [pixels]
   std::ptrdiff_t x_plane_elems;

@@ -136,19 +136,19 @@ SizedTile tile_for(std::int32_t pixels) {
   constexpr std::int32_t kMost = 6;
   const std::int32_t tiles = (pixels + kMost - 1) / kMost;
   return smallest_of<kVecs, kStep>(pixels, (pixels + tiles - 1) / tiles,
-                                   std::integer_sequence<int, 2, 4, 5, kMost>());
+                                   std::integer_sequence<int, 2, 4, kMost>());
 }
 
 // Steps known to the compiler: interleaved images of 3 channels, and blocks.
 template <int kVecs>
 SizedTile tile_for(const Conv2dArgs& a, std::int32_t pixels) {
-  switch (a.stride_w * a.x_pixel_elems) {
+  switch (kVecs == 2 ? a.stride_w * a.x_pixel_elems : 0) {
     case 3:
-      return tile_for<kVecs, 3>(pixels);
+      return tile_for<2, 3>(pixels);
     case 6:
-      return tile_for<kVecs, 6>(pixels);
+      return tile_for<2, 6>(pixels);
     case 8:
-      return tile_for<kVecs, 8>(pixels);
+      return tile_for<2, 8>(pixels);
     default:
       return tile_for<kVecs, 0>(pixels);
   }

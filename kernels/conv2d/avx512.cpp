@@ -143,8 +143,8 @@ SizedTile smallest_of(std::int32_t pixels, std::int32_t wanted,
   return best;
 }
 
-using UpTo12 = std::integer_sequence<int, 2, 4, 6, 8, 10, 12>;
-using UpTo16 = std::integer_sequence<int, 2, 4, 6, 8, 10, 12, 14, 16>;
+using UpTo12 = std::integer_sequence<int, 4, 8, 12>;
+using UpTo16 = std::integer_sequence<int, 4, 8, 14, 16>;
 
 // The tile for a row of `pixels`: the smallest that needs no more of them than the largest would.
 template <int kStep>
@@ -156,7 +156,8 @@ SizedTile tile_for(bool two_panels, std::int32_t pixels) {
                     : smallest_of<1, kStep>(pixels, wanted, UpTo16());
 }
 
-// Steps known to the compiler: interleaved images of 3 channels, and blocks.
+// Steps known to the compiler: those of the project's networks, interleaved images of 3 channels
+// and blocks.
 SizedTile tile_for(const Conv2dArgs& a, std::int32_t blocks, std::int32_t pixels) {
   const bool two_panels = blocks > 2;
   if (blocks == 1) {

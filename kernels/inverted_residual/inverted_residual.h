@@ -9,7 +9,7 @@
 // where e is zero outside the map. Without `expand.weights` e is x, and in_c = hidden_c. Shapes and
 // layouts are those of pointwise.h and depthwise.h: x [in_h, in_w, in_c], y [out_h, out_w, out_c],
 // r [residual_h, residual_w, out_c]; none overlaps y. Activations: none, ReLU, ReLU6 and clamp01
-// only; `project` has none when there is a residual.
+// only.
 //
 // e and s are never whole in memory. Bands of `band_rows` rows of s are made for all channels, by
 // strips of `strip_rows` rows of e for `strip_channels` channels:

@@ -39,7 +39,7 @@ struct Sweep {
   const ProductArgs& a;
   std::int32_t panel;
   const float* x;
-  Cursor y, residual;
+  Cursor y;
 };
 
 Vec weights_at(const std::uint16_t* w) { return load_half(w); }
@@ -59,17 +59,6 @@ void tile(Sweep& s, const Weight* w) {
         sum[k][p][v] = _mm256_setzero_ps();
       }
     }
-  }
-  if (a.residual != nullptr) {
-    Cursor at = s.residual;
-#pragma GCC unroll 12
-    for (int p = 0; p < kPixels; ++p, at.advance()) {
-      for (int v = 0; v < kVecs; ++v) {
-        const float* r = a.residual + at.at(s.panel) + v * a.residual_rows.half_elems;
-        sum[0][p][v] = _mm256_add_ps(sum[0][p][v], _mm256_loadu_ps(r));
-      }
-    }
-    s.residual = at;
   }
   const float* x = s.x;
   std::int32_t left = a.in_blocks;
@@ -108,6 +97,19 @@ void tile(Sweep& s, const Weight* w) {
   s.x += kPixels * kLanes;
 }
 
+// Onto the `pixels` that a tile has just stored: once here is less code than in every tile.
+void add_residual(const Sweep& s, Cursor y, Cursor& residual, std::int32_t blocks,
+                  std::int32_t pixels) {
+  const ProductArgs& a = s.a;
+  for (std::int32_t p = 0; p < pixels; ++p, y.advance(), residual.advance()) {
+    for (std::int32_t half = 0; half < blocks; ++half) {
+      float* to = a.y + y.at(s.panel) + half * a.y_rows.half_elems;
+      const float* r = a.residual + residual.at(s.panel) + half * a.residual_rows.half_elems;
+      _mm256_storeu_ps(to, _mm256_add_ps(_mm256_loadu_ps(to), _mm256_loadu_ps(r)));
+    }
+  }
+}
+
 template <class Weight>
 using Tile = void (*)(Sweep&, const Weight*);
 
@@ -140,13 +142,18 @@ std::int32_t tile_count(const ProductArgs& a) {
 // Tiles of nearly equal size: 9 pixels are 5 + 4, not 6 + 3.
 template <int kVecs, class Weight>
 void sweep(const ProductArgs& a, std::int32_t panel, const Weight* w) {
-  Sweep s{a, panel, a.x, Cursor(a.y_rows), Cursor(a.residual_rows)};
+  Sweep s{a, panel, a.x, Cursor(a.y_rows)};
+  Cursor residual(a.residual_rows);
   const std::int32_t tiles = tile_count<kVecs>(a);
   const std::int32_t least = a.pixels / tiles, larger = a.pixels % tiles;
   const Tile<Weight> more = tile_of<kVecs>(least + (larger > 0 ? 1 : 0), w);
   const Tile<Weight> less = tile_of<kVecs>(least, w);
   for (std::int32_t i = 0; i < tiles; ++i) {
+    const Cursor before = s.y;
     (i < larger ? more : less)(s, w);
+    if (a.residual != nullptr) {
+      add_residual(s, before, residual, kVecs, least + (i < larger ? 1 : 0));
+    }
   }
 }
 

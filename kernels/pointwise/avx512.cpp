@@ -31,7 +31,8 @@ std::ptrdiff_t residual_at(const PointwiseArgs& a, std::int32_t pixel) {
   return (y * a.residual_w + x) * kBlock;
 }
 
-// Sums of a few pixels and one panel go through the stack to their activation.
+// Sums of a few pixels and one panel go through the stack to their activation, and to a residual
+// that lies where they belong.
 void finish(const PointwiseArgs& a, const float* sums, std::int32_t block, std::int32_t pixel,
             std::int32_t count) {
   const std::ptrdiff_t plane = std::ptrdiff_t{a.h} * a.w * kBlock;
@@ -73,10 +74,9 @@ void pointwise(const PointwiseArgs& a) {
   ProductArgs product = product_of(a);
   Clamp clamp;
   const bool clamps = is_clamp(a.activation, clamp);
-  const bool adds_last = a.residual != nullptr && a.activation.kind != Activation::kNone;
   product.low = clamp.low;
   product.high = clamp.high;
-  if (!clamps || adds_last) {
+  if (!clamps || a.residual == a.y) {
     return activated_product(a, product);
   }
   if (a.residual != nullptr) {

@@ -3,6 +3,7 @@
 // two elements of the sum at once, one in the even lanes and one in the odd.
 #include "kernels/common/product.h"
 
+#include <type_traits>
 #include <utility>
 
 #include "kernels/common/avx512.h"
@@ -69,6 +70,33 @@ __m256 sums_of_pairs(Vec v) {
   return _mm512_castps512_ps256(_mm512_permutexvar_ps(even, v));
 }
 
+// The end of a tile with a residual.
+template <int kPixels, int kVecs>
+void store_sum(Sweep& s, const Vec (&sum)[kPixels][kVecs]) {
+  const ProductArgs& a = s.a;
+  const Vec low = _mm512_set1_ps(a.low), high = _mm512_set1_ps(a.high);
+  Cursor to = s.y, from = s.residual;
+#pragma GCC unroll 16
+  for (int p = 0; p < kPixels; ++p, to.advance(), from.advance()) {
+    for (int v = 0; v < kVecs; ++v) {
+      const float* r = a.residual + from.at(s.panel + v);
+      const Vec total = _mm512_min_ps(high, _mm512_max_ps(low, sum[p][v]));
+      store_blocks(a.y + to.at(s.panel + v), a.y_rows.half_elems, true,
+                   _mm512_add_ps(total, load_blocks(r, a.residual_rows.half_elems, true)));
+    }
+  }
+  s.y = to;
+  s.residual = from;
+  s.x += kPixels * kBlock;
+}
+
+// Whether tiles add the residual themselves: those for many pixels do. In every tile it would be
+// too much code.
+template <class Weight>
+constexpr bool adds_inside(std::int32_t panels) {
+  return std::is_same_v<Weight, float> && panels > 0;
+}
+
 template <int kPixels, int kVecs, class Weight>
 void tile(Sweep& s, const Weight* w) {
   constexpr int kSums = partial_sums(kPixels * kVecs);
@@ -84,18 +112,6 @@ void tile(Sweep& s, const Weight* w) {
         sum[k][p][v] = _mm512_setzero_ps();
       }
     }
-  }
-  if (a.residual != nullptr) {
-    Cursor at = s.residual;
-#pragma GCC unroll 16
-    for (int p = 0; p < kPixels; ++p, at.advance()) {
-      for (int v = 0; v < kVecs; ++v) {
-        const float* r = a.residual + at.at(s.panel + v);
-        sum[0][p][v] =
-            _mm512_add_ps(sum[0][p][v], load_blocks(r, a.residual_rows.half_elems, true));
-      }
-    }
-    s.residual = at;
   }
   const float* x = s.x;
   std::int32_t left = a.in_blocks;
@@ -120,6 +136,11 @@ void tile(Sweep& s, const Weight* w) {
   const Vec low = _mm512_set1_ps(a.low), high = _mm512_set1_ps(a.high);
   const std::ptrdiff_t half = a.y_rows.half_elems;
   Cursor at = s.y;
+  if constexpr (adds_inside<Weight>(kVecs)) {
+    if (a.residual != nullptr) {
+      return store_sum<kPixels, kVecs>(s, sum[0]);
+    }
+  }
 #pragma GCC unroll 16
   for (int p = 0; p < kPixels; ++p, at.advance()) {
     for (int v = 0; v < kVecs; ++v) {
@@ -162,22 +183,33 @@ void half_tile(Sweep& s, const Weight* w) {
   } while (--left > 0);
   const __m256 low = _mm256_set1_ps(a.low), high = _mm256_set1_ps(a.high);
   const __m256 bias = _mm512_castps512_ps256(load_half(a.bias + s.panel * kPanel, 0xFF));
-  Cursor at = s.y, residual_at = s.residual;
+  Cursor at = s.y;
 #pragma GCC unroll 16
-  for (int p = 0; p < kPixels; ++p, at.advance(), residual_at.advance()) {
+  for (int p = 0; p < kPixels; ++p, at.advance()) {
     Vec pairs = sum[0][p];
     for (int k = 1; k < kSums; ++k) {
       pairs = _mm512_add_ps(pairs, sum[k][p]);
     }
-    __m256 total = _mm256_add_ps(sums_of_pairs(pairs), bias);
-    if (a.residual != nullptr) {
-      total = _mm256_add_ps(total, _mm256_loadu_ps(a.residual + residual_at.at(s.panel)));
-    }
+    const __m256 total = _mm256_add_ps(sums_of_pairs(pairs), bias);
     _mm256_storeu_ps(a.y + at.at(s.panel), _mm256_min_ps(high, _mm256_max_ps(low, total)));
   }
   s.y = at;
-  s.residual = residual_at;
   s.x += kPixels * kBlock;
+}
+
+// Onto the `pixels` that a tile has just stored. `panels` 0: the last panel of 8.
+void add_residual(Sweep& s, Cursor y, std::int32_t panels, std::int32_t pixels) {
+  const ProductArgs& a = s.a;
+  const bool both = panels > 0;
+  for (std::int32_t p = 0; p < pixels; ++p, y.advance(), s.residual.advance()) {
+    for (std::int32_t panel = s.panel; panel < s.panel + (both ? panels : 1); ++panel) {
+      float* to = a.y + y.at(panel);
+      const Vec sum = load_blocks(to, a.y_rows.half_elems, both);
+      const float* r = a.residual + s.residual.at(panel);
+      store_blocks(to, a.y_rows.half_elems, both,
+                   _mm512_add_ps(sum, load_blocks(r, a.residual_rows.half_elems, both)));
+    }
+  }
 }
 
 template <class Weight>
@@ -230,12 +262,17 @@ Tile<std::uint16_t> tile_of(std::int32_t panels, std::int32_t pixels, const std:
 template <class Weight>
 void sweep(const ProductArgs& a, std::int32_t first, std::int32_t panels, const Weight* w) {
   Sweep s{a, first, a.x, Cursor(a.y_rows), Cursor(a.residual_rows)};
+  const bool adds_after = a.residual != nullptr && !adds_inside<Weight>(panels);
   const std::int32_t tiles = (a.pixels + kMostPixels - 1) / kMostPixels;
   const std::int32_t least = a.pixels / tiles, larger = a.pixels % tiles;
   const Tile<Weight> more = tile_of(panels, least + (larger > 0 ? 1 : 0), w);
   const Tile<Weight> less = tile_of(panels, least, w);
   for (std::int32_t i = 0; i < tiles; ++i) {
+    const Cursor before = s.y;
     (i < larger ? more : less)(s, w);
+    if (adds_after) {
+      add_residual(s, before, panels, least + (i < larger ? 1 : 0));
+    }
   }
 }
 

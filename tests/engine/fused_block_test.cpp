@@ -162,11 +162,7 @@ class RandomBlocks {
     }
     const Index slid = twin.depthwise(wide, 3, 3, sliding);
     inside_ = between(0, 1) == 0 ? wide : slid;
-    Options last;
-    if (!adds) {
-      last = options(true);
-    }
-    const Index narrow = twin.pointwise(slid, adds ? channels : between(1, 60), last);
+    const Index narrow = twin.pointwise(slid, adds ? channels : between(1, 60), options(true));
     return adds ? twin.add(narrow, x) : narrow;
   }
 

@@ -101,7 +101,7 @@ struct Block {
                                  Activation::kClamp01};
     args.expand.activation.kind = clamps[random.between(0, 3)];
     args.slide.activation.kind = clamps[random.between(0, 3)];
-    args.project.activation.kind = adds ? Activation::kNone : clamps[random.between(0, 3)];
+    args.project.activation.kind = clamps[random.between(0, 3)];
   }
 };
 
