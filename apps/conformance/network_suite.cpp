@@ -185,11 +185,15 @@ bool Network::has_cases(kernels::Tier tier) const {
   return golden_ != nullptr || tier != kernels::Tier::kRef;
 }
 
-// What a tier lacks, the reference does.
+// What a tier lacks, those before it do. The reference runs layer by layer, the others as they are
+// used.
 EngineStatus Network::create(kernels::Tier tier, const TensorShape& input,
                              NetworkRunner& runner) const {
   NetworkRunner::Options options;
-  options.cpu_mask = kernels::bit(tier) | kernels::bit(kernels::Tier::kRef);
+  options.cpu_mask = kernels::up_to(tier);
+  if (tier != kernels::Tier::kRef) {
+    options.cpu_mask |= kernels::kFusedBlocks;
+  }
   options.input = input;
   return runner.create(file_->view(), network_, options);
 }

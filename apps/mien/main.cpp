@@ -93,7 +93,7 @@ void add_run(CLI::App& program) {
   verb->add_option("--layout", options->layout, "of maps: chw (default) or hwc")
       ->transform(CLI::CheckedTransformer(std::map<std::string, MapLayout>{
           {"chw", MapLayout::kChannelsFirst}, {"hwc", MapLayout::kChannelsLast}}));
-  verb->add_option("--tier", options->tier, "kernel tier: ref, avx2");
+  verb->add_option("--tier", options->tier, "kernel tier: ref, avx2, avx512");
   verb->callback([options] { run_network(*options); });
 }
 

@@ -1,0 +1,232 @@
+#include <algorithm>
+#include <iterator>
+
+#include "apps/conformance/families/common.h"
+
+namespace mien::conformance {
+namespace {
+
+using kernels::Activation;
+using kernels::InvertedResidualArgs;
+
+// How the work is divided must not show in the result.
+struct Tiling {
+  int band_rows, strip_channels, strip_rows, strip_w;
+};
+
+struct Shape {
+  Window window;
+  int in_c, hidden_c, out_c;  // in_c 0: nothing is expanded
+  Tiling tiling;
+};
+
+struct Activations {
+  RandomActivation expand, slide, project;
+};
+
+// A sum of products whose factors err already.
+class ErringSum {
+ public:
+  void add(const Approx& x, double w = 1.0) {
+    sum_.add(x.value, w);
+    error_ += x.error * std::abs(w);
+  }
+  [[nodiscard]] Approx total() const {
+    const Approx total = sum_.total();
+    return {total.value, total.error + error_ * (1.0 + kUnit)};
+  }
+
+ private:
+  Sum sum_;
+  double error_ = 0.0;
+};
+
+// The layers one after another; maps in blocks, as [channel block][pixel][8].
+struct Layers {
+  Shape shape;
+  std::vector<float> x;
+  std::vector<std::uint16_t> w1, b1, w2, b2, w3, b3;
+
+  Layers(RandomValues& random, const Shape& of)
+      : shape(of),
+        x(random.map(of.window.in_pixels(), of.in_c == 0 ? of.hidden_c : of.in_c)),
+        w2(random.halves(padded(of.hidden_c) * of.window.kernel_h * of.window.kernel_w)),
+        b2(random.bias(of.hidden_c)),
+        w3(random.panels(of.out_c, padded(of.hidden_c))),
+        b3(random.bias(of.out_c)) {
+    if (of.in_c > 0) {
+      w1 = random.panels(of.hidden_c, padded(of.in_c));
+      b1 = random.bias(of.hidden_c);
+    }
+    if (random.pattern() == Pattern::kHuge) {
+      make_room();
+    }
+  }
+
+  // Three layers in a row take huge numbers beyond fp32, whatever the kernel does.
+  void make_room() {
+    for (float& one : x) {
+      one *= 1e-12f;
+    }
+  }
+
+  [[nodiscard]] std::vector<Approx> expanded(const RandomActivation& activation) const {
+    const int pixels = shape.window.in_pixels();
+    return expected_map(shape.hidden_c, pixels, [&](int c, int p) {
+      if (shape.in_c == 0) {
+        return exact(static_cast<double>(x[blocked(c, p, pixels)]));
+      }
+      ErringSum sum;
+      sum.add(exact(widened(b1[as_size(c)])));
+      for (int i = 0; i < shape.in_c; ++i) {
+        sum.add(exact(static_cast<double>(x[blocked(i, p, pixels)])),
+                panel_weight(w1, shape.hidden_c, padded(shape.in_c), c, i));
+      }
+      return activation(sum.total(), c);
+    });
+  }
+
+  [[nodiscard]] std::vector<Approx> slid(const std::vector<Approx>& wide,
+                                         const RandomActivation& activation) const {
+    const Window& window = shape.window;
+    const int taps = window.kernel_h * window.kernel_w;
+    return expected_map(shape.hidden_c, window.out_pixels(), [&](int c, int p) {
+      ErringSum sum;
+      sum.add(exact(widened(b2[as_size(c)])));
+      window.for_each(p, [&](int tap, int pixel) {
+        sum.add(wide[blocked(c, pixel, window.in_pixels())], widened(w2[blocked(c, tap, taps)]));
+      });
+      return activation(sum.total(), c);
+    });
+  }
+
+  [[nodiscard]] Approx projected(const std::vector<Approx>& narrow, int o, int p) const {
+    ErringSum sum;
+    sum.add(exact(widened(b3[as_size(o)])));
+    for (int c = 0; c < shape.hidden_c; ++c) {
+      sum.add(narrow[blocked(c, p, shape.window.out_pixels())],
+              panel_weight(w3, shape.out_c, padded(shape.hidden_c), o, c));
+    }
+    return sum.total();
+  }
+};
+
+std::vector<Approx> expected(const Layers& layers, const Activations& activations,
+                             const ResidualSlice* slice, const std::vector<float>& residual) {
+  const std::vector<Approx> slid =
+      layers.slid(layers.expanded(activations.expand), activations.slide);
+  const Window& window = layers.shape.window;
+  return expected_map(layers.shape.out_c, window.out_pixels(), [&](int o, int p) {
+    const Approx y = activations.project(layers.projected(slid, o, p), o);
+    return slice == nullptr
+               ? y
+               : y + exact(static_cast<double>(
+                         residual[blocked(o, slice->pixel(p, window.out_w), slice->pixels())]));
+  });
+}
+
+std::uint64_t mac_count(const Shape& s) {
+  const int taps = s.window.kernel_h * s.window.kernel_w;
+  return static_cast<std::uint64_t>(s.window.in_pixels()) * as_size(s.in_c * s.hidden_c) +
+         static_cast<std::uint64_t>(s.window.out_pixels()) * as_size(s.hidden_c * (taps + s.out_c));
+}
+
+InvertedResidualArgs sizes(const Shape& s) {
+  InvertedResidualArgs args{};
+  set_window(s.window, args);
+  args.in_c = s.in_c == 0 ? s.hidden_c : s.in_c;
+  args.hidden_c = s.hidden_c;
+  args.out_c = s.out_c;
+  args.band_rows = s.tiling.band_rows;
+  args.strip_channels = s.tiling.strip_channels;
+  args.strip_rows = s.tiling.strip_rows;
+  args.strip_w = s.tiling.strip_w;
+  return args;
+}
+
+Case make(RandomValues& random, const Shape& shape, const Activations& activations,
+          const ResidualSlice* slice) {
+  const Layers layers(random, shape);
+  const std::vector<float> residual =
+      slice != nullptr ? random.map(slice->pixels(), shape.out_c) : std::vector<float>();
+  const Tiling& t = shape.tiling;
+  Case test;
+  test.shape = shape.window.text() + ", " + std::to_string(shape.in_c) + " to " +
+               std::to_string(shape.hidden_c) + " to " + std::to_string(shape.out_c) +
+               (slice != nullptr ? ", residual" : "");
+  test.buffers = {reads(layers.x),
+                  reads(layers.w1),
+                  reads(layers.b1),
+                  reads(layers.w2),
+                  reads(layers.b2),
+                  reads(layers.w3),
+                  reads(layers.b3),
+                  reads(residual),
+                  scratch(as_size(padded(shape.hidden_c) * t.band_rows * shape.window.out_w)),
+                  scratch(as_size(t.strip_channels * t.strip_rows * t.strip_w)),
+                  scratch(as_size(kernels::kInvertedResidualWideElems)),
+                  writes(Element::kFloat, expected(layers, activations, slice, residual))};
+  const ResidualSlice taken = slice != nullptr ? *slice : ResidualSlice();
+  test.bind = [=](const Places& places) {
+    InvertedResidualArgs args = sizes(shape);
+    args.x = places.floats(0);
+    args.expand = {shape.in_c == 0 ? nullptr : places.halves(1), places.halves(2),
+                   activations.expand.spec(nullptr)};
+    args.slide = {places.halves(3), places.halves(4), activations.slide.spec(nullptr)};
+    args.project = {places.halves(5), places.halves(6), activations.project.spec(nullptr)};
+    if (taken.h > 0) {
+      set_residual(taken, places.floats(7), args);
+    }
+    args.band = places.floats(8);
+    args.strip = places.floats(9);
+    args.wide = places.floats(10);
+    args.y = places.floats(11);
+    return arguments(args);
+  };
+  test.call = call<InvertedResidualArgs>;
+  test.macs = mac_count(shape);
+  return test;
+}
+
+RandomActivation random_clamp(RandomValues& random) {
+  constexpr Activation kClamps[] = {Activation::kNone, Activation::kRelu, Activation::kRelu6,
+                                    Activation::kClamp01};
+  RandomActivation activation;
+  activation.kind = kClamps[random.between(0, static_cast<int>(std::size(kClamps)) - 1)];
+  return activation;
+}
+
+int least_strip_w(const Window& w) {
+  return std::max(w.pad_left + w.in_w, (w.out_w - 1) * w.stride_w + w.kernel_w);
+}
+
+Tiling random_tiling(RandomValues& random, const Window& w) {
+  return {random.between(1, w.out_h), 16 * random.between(1, 4),
+          w.kernel_h + w.stride_h * random.between(0, 3), least_strip_w(w) + random.between(0, 1)};
+}
+
+}  // namespace
+
+template <>
+Case random_case<InvertedResidualArgs>(RandomValues& random) {
+  Window window = Window::random(random, 5, 2);
+  while (random.case_number() % 3 != 0 && (window.kernel_h != 3 || window.kernel_w != 3)) {
+    window = Window::random(random, 3, 2);
+  }
+  const int in_c = random.between(0, 3) == 0 ? 0 : random.size(40);
+  const Shape shape{window, in_c, random.size(80), random.size(50), random_tiling(random, window)};
+  const Activations activations{in_c == 0 ? RandomActivation() : random_clamp(random),
+                                random_clamp(random), random_clamp(random)};
+  const ResidualSlice slice = ResidualSlice::random(random, window.out_h, window.out_w);
+  return make(random, shape, activations, random.coin() ? &slice : nullptr);
+}
+
+template <>
+Case typical_case<InvertedResidualArgs>(RandomValues& random) {
+  RandomActivation relu6;
+  relu6.kind = Activation::kRelu6;
+  const Window window{13, 11, 11, 9, 3, 3, 1, 1, 0, 0};
+  return make(random, {window, 40, 160, 40, {11, 32, 13, 11}}, {relu6, relu6, {}}, nullptr);
+}
+
+}  // namespace mien::conformance
