@@ -1,4 +1,4 @@
-// CPU masks of one tier each, of all there are: tests skip those that this CPU lacks.
+// CPU masks of the tiers that this CPU has, each with those before it, which have what it lacks.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,9 @@ namespace mien::tests {
 inline std::vector<std::uint32_t> every_tier() {
   std::vector<std::uint32_t> masks;
   for (std::uint32_t tier = 0; tier < kernels::kTierCount; ++tier) {
-    masks.push_back(kernels::bit(static_cast<kernels::Tier>(tier)));
+    if ((kernels::detect_cpu() & 1u << tier) != 0) {
+      masks.push_back(kernels::up_to(static_cast<kernels::Tier>(tier)));
+    }
   }
   return masks;
 }
