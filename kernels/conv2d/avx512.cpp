@@ -143,7 +143,7 @@ SizedTile smallest_of(std::int32_t pixels, std::int32_t wanted,
   return best;
 }
 
-using UpTo12 = std::integer_sequence<int, 4, 8, 12>;
+using UpTo12 = std::integer_sequence<int, 4, 12>;
 using UpTo16 = std::integer_sequence<int, 4, 8, 14, 16>;
 
 // The tile for a row of `pixels`: the smallest that needs no more of them than the largest would.
