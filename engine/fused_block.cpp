@@ -12,8 +12,8 @@ using formats::LayerActivation;
 namespace {
 
 // A band for the second-level cache, a strip for the first.
-constexpr std::int64_t kBandBytes = 256 * 1024;
-constexpr std::int64_t kStripBytes = 32 * 1024;
+constexpr std::int64_t kBandBytes = std::int64_t{256} * 1024;
+constexpr std::int64_t kStripBytes = std::int64_t{32} * 1024;
 
 // So many channels that their sums fill the registers: fewer pixels, more channels.
 std::int32_t channels_at_once(std::size_t pixels) {

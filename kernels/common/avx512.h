@@ -116,7 +116,7 @@ struct Clamp {
 [[maybe_unused]] inline Vec activated(Vec x, const ActivationSpec& activation, std::int32_t channel,
                                       __mmask16 lanes) {
   const __mmask16 positive = _mm512_cmp_ps_mask(x, _mm512_setzero_ps(), _CMP_GT_OQ);
-  Vec y = x;
+  Vec y;
   switch (activation.kind) {
     case Activation::kLeakyRelu:
       y = _mm512_mask_blend_ps(positive, _mm512_mul_ps(x, _mm512_set1_ps(activation.alpha)), x);
