@@ -1,4 +1,4 @@
-// `mien run` on the networks of tests/golden/engine, and on arrays that are none.
+// `mien run` on the networks of apps/conformance/golden, and on arrays that are none.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@
 namespace mien::tests {
 namespace {
 
-const std::string kGolden = kSource + "/tests/golden/engine/";
+const std::string kGolden = kSource + "/apps/conformance/golden/";
 const std::string kModel = kGolden + "mini.mien";
 
 using Shape = std::vector<std::uint64_t>;

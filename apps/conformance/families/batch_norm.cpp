@@ -11,6 +11,7 @@ constexpr float kEpsilon = 1e-5f;
 
 std::vector<float> variances(RandomValues& random, int channels) {
   std::vector<float> values;
+  values.reserve(static_cast<std::size_t>(channels));
   for (int c = 0; c < channels; ++c) {
     values.push_back(static_cast<float>(random.between(1, 10'000)) * 1e-3f);
   }
@@ -21,6 +22,7 @@ Case make(RandomValues& random, int pixels, int channels, bool in_place) {
   const std::vector<float> x = random.map(pixels, channels), mean = random.plain(channels),
                            variance = variances(random, channels), offset = random.plain(channels);
   std::vector<float> gain;
+  gain.reserve(static_cast<std::size_t>(channels));
   for (int c = 0; c < channels; ++c) {
     gain.push_back(static_cast<float>(random.between(-3000, 3000)) * 1e-3f);
   }

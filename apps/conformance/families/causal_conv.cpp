@@ -7,6 +7,7 @@ using kernels::CausalConvArgs;
 
 std::vector<Approx> exactly(const std::vector<float>& values) {
   std::vector<Approx> same;
+  same.reserve(values.size());
   for (const float one : values) {
     same.push_back(exact(static_cast<double>(one)));
   }

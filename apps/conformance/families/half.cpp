@@ -33,6 +33,7 @@ std::vector<std::uint16_t> all_halves() {
 
 Case widening(const std::vector<std::uint16_t>& halves) {
   std::vector<Approx> y;
+  y.reserve(halves.size());
   for (const std::uint16_t half : halves) {
     y.push_back(exact(value_of(half)));
   }
