@@ -39,6 +39,7 @@ Case make(RandomValues& random, int pixels, int channels, bool in_place) {
   std::vector<Approx> y(x.size());
   for (int p = 0; p < pixels; ++p) {
     std::vector<double> pixel;
+    pixel.reserve(static_cast<std::size_t>(channels));
     for (int c = 0; c < channels; ++c) {
       pixel.push_back(static_cast<double>(x[blocked(c, p, pixels)]));
     }
