@@ -96,11 +96,23 @@ const formats::TensorRecord* constant_at(const formats::FileView& file, std::int
   return nullptr;
 }
 
+#ifdef _WIN32  // its C library has no aligned_alloc
+void* aligned_memory(std::size_t alignment, std::size_t bytes) {
+  return _aligned_malloc(bytes, alignment);
+}
+void release_aligned(void* memory) { _aligned_free(memory); }
+#else
+void* aligned_memory(std::size_t alignment, std::size_t bytes) {
+  return std::aligned_alloc(alignment, bytes);
+}
+void release_aligned(void* memory) { std::free(memory); }
+#endif
+
 void* allocate(const mien_allocator& allocator, std::size_t bytes) {
   constexpr std::size_t kAlignment = engine::kSessionAlignment;
   const std::size_t rounded = (bytes + kAlignment - 1) / kAlignment * kAlignment;
   return allocator.allocate != nullptr ? allocator.allocate(allocator.user, rounded, kAlignment)
-                                       : std::aligned_alloc(kAlignment, rounded);
+                                       : aligned_memory(kAlignment, rounded);
 }
 
 Model& model_in(std::byte* storage) { return *std::launder(reinterpret_cast<Model*>(storage)); }
@@ -273,7 +285,7 @@ EngineStatus NetworkRunner::create(const WeightFile& file, std::string_view netw
 void NetworkRunner::release() {
   if (memory_ != nullptr) {
     allocator_.release != nullptr ? allocator_.release(allocator_.user, memory_)
-                                  : std::free(memory_);
+                                  : release_aligned(memory_);
   }
   memory_ = nullptr;
   session_ = nullptr;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cstring>
 
 #include "formats/little_endian.h"
 #include "formats/wav_header.h"
@@ -34,7 +35,7 @@ std::uint16_t field16(Body body, std::size_t at) {
 bool is_tag_guid(Body body) {
   constexpr std::array<std::uint8_t, 14> kRest = {0,    0,    0,    0,    0x10, 0,    0x80,
                                                   0x00, 0x00, 0xaa, 0x00, 0x38, 0x9b, 0x71};
-  return std::ranges::equal(std::as_bytes(std::span(kRest)), body.subspan<kSubFormatAt + 2>());
+  return std::memcmp(body.data() + kSubFormatAt + 2, kRest.data(), kRest.size()) == 0;
 }
 
 WavFault parse_coding(std::uint16_t tag, WavFault otherwise, WavCoding& coding) {

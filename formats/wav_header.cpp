@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 
 #include "formats/little_endian.h"
 
@@ -13,7 +14,7 @@ constexpr std::uint32_t kUnknown32 = 0xffffffff;
 constexpr std::uint32_t kMadeUp[] = {0x7ffff000, 0x7fffff00};
 
 bool is_made_up(std::uint64_t bytes, std::size_t frame_bytes) {
-  return std::ranges::any_of(kMadeUp, [&](std::uint32_t size) {
+  return std::any_of(std::begin(kMadeUp), std::end(kMadeUp), [&](std::uint32_t size) {
     return bytes == size || bytes == size - size % frame_bytes;
   });
 }

@@ -12,6 +12,7 @@ constexpr Tier avx2 [[maybe_unused]] = Tier::kAvx2;
 constexpr Tier avx512 [[maybe_unused]] = Tier::kAvx512;
 constexpr Tier neon [[maybe_unused]] = Tier::kNeon;
 constexpr Tier neon32 [[maybe_unused]] = Tier::kNeon32;
+constexpr Tier wasm [[maybe_unused]] = Tier::kWasm;
 }  // namespace tier_of
 
 const Entry* entries(std::size_t& count) {

@@ -56,6 +56,9 @@ std::uint32_t detect_cpu() {
     mask |= bit(Tier::kNeon32);
   }
 #endif
+#ifdef MIEN_HAVE_WASM
+  mask |= bit(Tier::kWasm);  // an engine without SIMD128 would have refused the whole module
+#endif
   return mask;
 }
 

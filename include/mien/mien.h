@@ -42,7 +42,7 @@
 #else
 #define MIEN_API __declspec(dllimport)
 #endif
-#elif defined(__GNUC__)
+#elif defined(__GNUC__) && !defined(_WIN32)
 #define MIEN_API __attribute__((visibility("default")))
 #else
 #define MIEN_API

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <new>
 #include <set>
 #include <string>
 
@@ -77,13 +78,13 @@ struct CountingAllocator {
         return nullptr;
       }
       ++self.allocations;
-      return *self.live.insert(std::aligned_alloc(alignment, size)).first;
+      return *self.live.insert(::operator new (size, std::align_val_t{alignment})).first;
     };
     allocator.release = [](void* user, void* memory) {
       auto& self = *static_cast<CountingAllocator*>(user);
       ++self.releases;
       EXPECT_EQ(self.live.erase(memory), 1u);
-      std::free(memory);
+      ::operator delete (memory, std::align_val_t{MIEN_ALIGNMENT});
     };
     return allocator;
   }

@@ -1,0 +1,70 @@
+// What the WebAssembly kernels share: vectors of 4 floats (SIMD128), no fused multiply-add, no
+// conversion from fp16. Everything has internal linkage: no code of one tier may be merged with
+// that of another.
+#pragma once
+
+#include <wasm_simd128.h>
+
+#include <cstddef>
+#include <cstdint>
+
+#include "kernels/activation/activation.h"
+
+namespace mien::kernels::wasm {
+
+constexpr std::int32_t kLanes = 4;   // floats of a vector
+constexpr std::int32_t kBlock = 8;   // channels of a block of activations
+constexpr std::int32_t kPanel = 16;  // output channels of a panel of weights
+
+namespace {
+
+using Vec = v128_t;
+
+[[maybe_unused]] inline Vec splat(float x) { return wasm_f32x4_splat(x); }
+[[maybe_unused]] inline Vec load(const float* at) { return wasm_v128_load(at); }
+[[maybe_unused]] inline Vec load_splat(const float* at) { return wasm_v128_load32_splat(at); }
+[[maybe_unused]] inline void store(float* at, Vec x) { wasm_v128_store(at, x); }
+
+// sum + a * b, rounded twice
+[[maybe_unused]] inline Vec add_product(Vec sum, Vec a, Vec b) {
+  return wasm_f32x4_add(sum, wasm_f32x4_mul(a, b));
+}
+
+// The larger and the smaller of two; x where one is not a number. The operators that WebAssembly
+// calls pmax and pmin are one instruction on every CPU, its max and min are not.
+[[maybe_unused]] inline Vec at_least(Vec x, Vec low) { return wasm_f32x4_pmax(x, low); }
+[[maybe_unused]] inline Vec at_most(Vec x, Vec high) { return wasm_f32x4_pmin(x, high); }
+
+// x where the mask is set, 0 elsewhere.
+[[maybe_unused]] inline Vec only(Vec mask, Vec x) { return wasm_v128_and(mask, x); }
+
+// Four finite halves, denormals too: with the fields of a half moved to where those of a float
+// are, and sign bits removed from the exponent that the shift has left there, a float is too small
+// by the difference of the biases, 2^112.
+[[maybe_unused]] inline Vec load_half(const std::uint16_t* at) {
+  const Vec fields = wasm_i32x4_shl(wasm_i32x4_load16x4(at), 13);
+  const Vec small = wasm_v128_and(fields, wasm_i32x4_splat(static_cast<int>(0x8FFFE000u)));
+  return wasm_f32x4_mul(small, splat(0x1p112f));
+}
+
+[[maybe_unused]] inline std::int32_t blocks_of(std::int32_t channels) {
+  return (channels + kBlock - 1) / kBlock;
+}
+
+// Set in the lanes of channels first .. first + 3 that exist.
+[[maybe_unused]] inline Vec lane_mask(std::int32_t first, std::int32_t channels) {
+  return wasm_i32x4_lt(wasm_i32x4_make(0, 1, 2, 3), wasm_i32x4_splat(channels - first));
+}
+
+// combine(lane 0, lane 1, lane 2, lane 3) in all lanes.
+template <class Combine>
+[[maybe_unused]] inline Vec across(Vec x, Combine combine) {
+  x = combine(x, wasm_i32x4_shuffle(x, x, 2, 3, 0, 1));
+  return combine(x, wasm_i32x4_shuffle(x, x, 1, 0, 3, 2));
+}
+[[maybe_unused]] inline Vec sum_of_lanes(Vec x) {
+  return across(x, [](Vec a, Vec b) { return wasm_f32x4_add(a, b); });
+}
+
+}  // namespace
+}  // namespace mien::kernels::wasm

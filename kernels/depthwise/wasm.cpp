@@ -1,0 +1,222 @@
+// Four channels at a time. 3x3 windows that lie inside the map are computed four outputs of a row
+// at once; other windows one output at a time. Small maps with padding are copied to the stack with
+// it, so that all of their windows lie inside.
+#include <algorithm>
+
+#include "kernels/common/wasm_activation.h"
+#include "kernels/families.h"
+
+namespace mien::kernels::wasm {
+namespace {
+
+struct Range {
+  std::int32_t first, last;  // [first, last)
+};
+
+Range inside(std::int32_t origin, std::int32_t kernel, std::int32_t size) {
+  return {std::max(0, -origin), std::min(kernel, size - origin)};
+}
+
+// Outputs of a row or column whose whole window lies inside the map.
+Range whole_windows(std::int32_t outputs, std::int32_t stride, std::int32_t pad,
+                    std::int32_t kernel, std::int32_t size) {
+  const std::int32_t first = std::min(outputs, (pad + stride - 1) / stride);
+  const std::int32_t room = size + pad - kernel;
+  const std::int32_t last = room < 0 ? first : std::clamp(room / stride + 1, first, outputs);
+  return {first, last};
+}
+
+// What is the same for all outputs of four channels.
+struct Channels {
+  const DepthwiseArgs& a;
+  Vec low, high;
+  const float* x;
+  float* y;
+  const std::uint16_t* weights;
+  Vec bias;
+
+  Channels(const DepthwiseArgs& args, const Activator& activator, std::int32_t channel,
+           const float* map)
+      : a(args),
+        low(activator.low()),
+        high(activator.high()),
+        bias(load_half(args.bias + channel)) {
+    const std::ptrdiff_t block = channel / kBlock, lane = channel % kBlock;
+    x = map + lane;
+    y = a.y + block * a.out_h * a.out_w * kBlock + lane;
+    weights = a.weights + block * a.kernel_h * a.kernel_w * kBlock + lane;
+  }
+  // Of output (oy, ox), and of the first input in its window.
+  [[nodiscard]] float* output(std::int32_t oy, std::int32_t ox) const {
+    return y + (std::ptrdiff_t{oy} * a.out_w + ox) * kBlock;
+  }
+  [[nodiscard]] const float* input(std::int32_t oy, std::int32_t ox) const {
+    const std::int32_t top = oy * a.stride_h - a.pad_top, left = ox * a.stride_w - a.pad_left;
+    return x + (std::ptrdiff_t{top} * a.in_w + left) * kBlock;
+  }
+};
+
+void edge_output(const Channels& ch, std::int32_t oy, std::int32_t ox) {
+  const DepthwiseArgs& a = ch.a;
+  const Range ys = inside(oy * a.stride_h - a.pad_top, a.kernel_h, a.in_h);
+  const Range xs = inside(ox * a.stride_w - a.pad_left, a.kernel_w, a.in_w);
+  const float* origin = ch.input(oy, ox);
+  Vec sum = ch.bias;
+  for (std::int32_t ky = ys.first; ky < ys.last; ++ky) {
+    const float* row = origin + std::ptrdiff_t{ky} * a.in_w * kBlock;
+    for (std::int32_t kx = xs.first; kx < xs.last; ++kx) {
+      const Vec weight = load_half(ch.weights + (ky * a.kernel_w + kx) * kBlock);
+      sum = add_product(sum, load(row + kx * kBlock), weight);
+    }
+  }
+  store(ch.output(oy, ox), at_most(at_least(sum, ch.low), ch.high));
+}
+
+void edge_outputs(const Channels& ch, std::int32_t oy, std::int32_t first, std::int32_t last) {
+  for (std::int32_t ox = first; ox < last; ++ox) {
+    edge_output(ch, oy, ox);
+  }
+}
+
+// Outputs at y .. whose windows begin at x. Each input goes to the sums of all of them that it lies
+// in the windows of.
+template <int kColumns, int kStride>
+inline void tile(const Channels& ch, const Vec (&w)[9], const float* x, float* y) {
+  const std::ptrdiff_t x_row = std::ptrdiff_t{ch.a.in_w} * kBlock;
+  Vec sums[kColumns];
+  for (Vec& one : sums) {
+    one = ch.bias;
+  }
+  for (int ky = 0; ky < 3; ++ky, x += x_row) {
+    for (int j = 0; j < (kColumns - 1) * kStride + 3; ++j) {
+      const Vec input = load(x + j * kBlock);
+      for (int output = 0; output < kColumns; ++output) {
+        const int kx = j - output * kStride;
+        if (kx >= 0 && kx < 3) {
+          sums[output] = add_product(sums[output], input, w[3 * ky + kx]);
+        }
+      }
+    }
+  }
+  for (int output = 0; output < kColumns; ++output) {
+    store(y + output * kBlock, at_most(at_least(sums[output], ch.low), ch.high));
+  }
+}
+
+template <int kStride>
+void whole_row(const Channels& ch, const Vec (&w)[9], std::int32_t oy, const Range& columns) {
+  constexpr int kColumns = 4;
+  const float* x = ch.input(oy, columns.first);
+  float* y = ch.output(oy, columns.first);
+  std::int32_t left = columns.last - columns.first;
+  for (; left >= kColumns; left -= kColumns) {
+    tile<kColumns, kStride>(ch, w, x, y);
+    x += kColumns * kStride * kBlock;
+    y += kColumns * kBlock;
+  }
+  for (; left > 0; --left) {
+    tile<1, kStride>(ch, w, x, y);
+    x += kStride * kBlock;
+    y += kBlock;
+  }
+}
+
+template <int kStride>
+void channels_3x3(const Channels& ch) {
+  const DepthwiseArgs& a = ch.a;
+  Vec w[9];
+  for (int k = 0; k < 9; ++k) {
+    w[k] = load_half(ch.weights + k * kBlock);
+  }
+  const Range rows = whole_windows(a.out_h, kStride, a.pad_top, 3, a.in_h);
+  const Range columns = whole_windows(a.out_w, kStride, a.pad_left, 3, a.in_w);
+  for (std::int32_t oy = 0; oy < a.out_h; ++oy) {
+    const bool whole = oy >= rows.first && oy < rows.last;
+    edge_outputs(ch, oy, 0, whole ? columns.first : a.out_w);
+    if (whole) {
+      whole_row<kStride>(ch, w, oy, columns);
+      edge_outputs(ch, oy, columns.last, a.out_w);
+    }
+  }
+}
+
+void channels_any(const Channels& ch) {
+  for (std::int32_t oy = 0; oy < ch.a.out_h; ++oy) {
+    edge_outputs(ch, oy, 0, ch.a.out_w);
+  }
+}
+
+void one_block(const DepthwiseArgs& a, const Activator& activator, std::int32_t block,
+               const float* map) {
+  const bool is_3x3 = a.kernel_h == 3 && a.kernel_w == 3 && a.stride_h == a.stride_w;
+  for (std::int32_t lane = 0; lane < kBlock; lane += kLanes) {
+    const std::int32_t channel = block * kBlock + lane;
+    const Channels channels(a, activator, channel, map);
+    if (is_3x3 && a.stride_h == 1) {
+      channels_3x3<1>(channels);
+    } else if (is_3x3 && a.stride_h == 2) {
+      channels_3x3<2>(channels);
+    } else {
+      channels_any(channels);
+    }
+    activator.curve_channels(channels.y, std::ptrdiff_t{a.out_h} * a.out_w, channel);
+  }
+}
+
+// A map with its padding, on the stack.
+constexpr std::int32_t kPaddedPixels = 64;
+
+class Padded {
+ public:
+  explicit Padded(const DepthwiseArgs& a) : a_(a), inner_(a) {
+    inner_.in_h = (a.out_h - 1) * a.stride_h + a.kernel_h;
+    inner_.in_w = (a.out_w - 1) * a.stride_w + a.kernel_w;
+    inner_.pad_top = inner_.pad_left = 0;
+    rows_ = std::min(a.in_h, inner_.in_h - a.pad_top);
+    columns_ = std::min(a.in_w, inner_.in_w - a.pad_left);
+    std::fill_n(map_, inner_.in_h * inner_.in_w * kBlock, 0.0f);
+  }
+  static bool serves(const DepthwiseArgs& a) {
+    const std::int32_t h = (a.out_h - 1) * a.stride_h + a.kernel_h;
+    const std::int32_t w = (a.out_w - 1) * a.stride_w + a.kernel_w;
+    const bool leaves = a.pad_top > 0 || a.pad_left > 0 || h > a.in_h || w > a.in_w;
+    return leaves && h <= kPaddedPixels && w <= kPaddedPixels && h * w <= kPaddedPixels;
+  }
+  [[nodiscard]] const DepthwiseArgs& args() const { return inner_; }
+  const float* filled(const float* x) {
+    for (std::int32_t i = 0; i < rows_; ++i) {
+      const float* from = x + std::ptrdiff_t{i} * a_.in_w * kBlock;
+      float* to = map_ + ((i + a_.pad_top) * inner_.in_w + a_.pad_left) * kBlock;
+      for (std::int32_t j = 0; j < columns_ * kBlock; j += kLanes) {
+        store(to + j, load(from + j));
+      }
+    }
+    return map_;
+  }
+
+ private:
+  const DepthwiseArgs& a_;
+  DepthwiseArgs inner_;
+  std::int32_t rows_, columns_;
+  float map_[kPaddedPixels * kBlock];
+};
+
+}  // namespace
+
+void depthwise(const DepthwiseArgs& a) {
+  const Activator activator(a.activation, a.channels);
+  const std::ptrdiff_t plane = std::ptrdiff_t{a.in_h} * a.in_w * kBlock;
+  const std::int32_t blocks = blocks_of(a.channels);
+  if (Padded::serves(a)) {
+    Padded padded(a);
+    for (std::int32_t block = 0; block < blocks; ++block) {
+      one_block(padded.args(), activator, block, padded.filled(a.x + block * plane));
+    }
+    return;
+  }
+  for (std::int32_t block = 0; block < blocks; ++block) {
+    one_block(a, activator, block, a.x + block * plane);
+  }
+}
+
+}  // namespace mien::kernels::wasm

@@ -1,0 +1,10 @@
+#include "kernels/common/wasm_matvec.h"
+#include "kernels/families.h"
+
+namespace mien::kernels::wasm {
+
+void fully_connected(const FullyConnectedArgs& a) {
+  matvec({a.x, a.in_elems, nullptr, 0}, a.weights, a.bias, a.activation, a.out_c, a.y);
+}
+
+}  // namespace mien::kernels::wasm
