@@ -7,7 +7,7 @@ namespace {
 
 // kernels.inc spells tiers as namespaces; these names turn them into numbers.
 namespace tier_of {
-constexpr Tier ref = Tier::kRef;
+constexpr Tier ref [[maybe_unused]] = Tier::kRef;
 constexpr Tier avx2 [[maybe_unused]] = Tier::kAvx2;
 constexpr Tier avx512 [[maybe_unused]] = Tier::kAvx512;
 constexpr Tier neon [[maybe_unused]] = Tier::kNeon;
