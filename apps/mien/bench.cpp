@@ -7,13 +7,14 @@
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <random>
 #include <vector>
 
 #include "apps/mien/clip_bench.h"
 #include "apps/mien/failure.h"
 #include "apps/mien/layer_bench.h"
+#include "apps/mien/level_bench.h"
 #include "apps/mien/model_files.h"
+#include "apps/mien/network_times.h"
 #include "apps/mien/sound_bench.h"
 #include "apps/mien/tiers.h"
 
@@ -21,10 +22,6 @@ namespace mien::app {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-constexpr double kSecondsPerNetwork = 0.5;
-constexpr std::size_t kLeastRuns = 20;
-constexpr std::size_t kMostRuns = 5000;
 
 struct Figures {
   std::string name;
@@ -66,25 +63,6 @@ double peak_gflops(const std::string& tier) {
   return best;
 }
 
-std::vector<double> run_times_ms(NetworkRunner& runner) {
-  std::mt19937 random(1);
-  std::uniform_real_distribution<float> values(-1.0f, 1.0f);
-  for (float& value : runner.input()) {
-    value = values(random);
-  }
-  runner.run();
-  std::vector<double> times;
-  const auto begin = Clock::now();
-  while (times.size() < kLeastRuns ||
-         (times.size() < kMostRuns && seconds_since(begin) < kSecondsPerNetwork)) {
-    const auto run_begin = Clock::now();
-    runner.run();
-    times.push_back(seconds_since(run_begin) * 1e3);
-  }
-  std::sort(times.begin(), times.end());
-  return times;
-}
-
 struct Subject {
   const WeightFile& file;
   std::int32_t network;
@@ -102,7 +80,7 @@ Figures time_network(const Subject& subject, const std::string& tier, double pea
   if (status != EngineStatus::kOk) {
     throw Failure(kExitModel, name + ": " + message(status));
   }
-  const std::vector<double> ms = run_times_ms(runner);
+  const std::vector<double> ms = network_times_ms(runner);
   Figures figures{name, tier, info.macs, ms.front(), ms[ms.size() / 2], ms[ms.size() * 95 / 100],
                   0.0,  0.0,  {}};
   figures.gflops = 2.0 * static_cast<double>(info.macs) / figures.median_ms * 1e-6;
@@ -176,6 +154,9 @@ void print_table(const std::map<std::string, double>& peaks, const std::vector<F
 void bench(const BenchOptions& options) {
   if (!options.clip.empty()) {
     return bench_clip(options);
+  }
+  if (!options.levels.empty()) {
+    return bench_levels(options);
   }
   if (options.sound) {
     return bench_sound(options);

@@ -10,6 +10,7 @@ struct BenchOptions {
   std::string tier;   // empty: all this CPU has
   std::string models;
   std::string clip;      // not empty: the tracker on it
+  std::string levels;    // not empty: a clip, a frame of which is timed at each level
   bool sound = false;    // time hearing
   bool unfused = false;  // layer by layer
   bool layers = false;   // each step of a network too

@@ -106,12 +106,18 @@ void add_bench(CLI::App& program) {
   auto* clip =
       verb->add_option("--clip", options->clip, "video: following the face against searching it")
           ->excludes(model);
+  auto* levels = verb->add_option("--levels", options->levels,
+                                  "video: a frame at each level of detail, stage by stage")
+                     ->excludes(model)
+                     ->excludes(clip);
   auto* sound =
       verb->add_flag("--sound", options->sound, "hearing: from samples to controls, by 16 ms")
           ->excludes(model)
-          ->excludes(clip);
+          ->excludes(clip)
+          ->excludes(levels);
   verb->add_flag("--layers", options->layers, "also each layer, or what runs fused, by itself")
       ->excludes(clip)
+      ->excludes(levels)
       ->excludes(sound);
   verb->add_option("--tier", options->tier, "one tier only: ref, avx2, avx512");
   verb->add_flag("--unfused", options->unfused, "networks run layer by layer");

@@ -1,0 +1,15 @@
+// How long a network takes, run after run.
+#pragma once
+
+#include <mien/engine.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace mien::app {
+
+// Milliseconds, sorted, of runs on random input.
+[[nodiscard]] std::vector<double> network_times_ms(NetworkRunner& runner);
+
+}  // namespace mien::app
