@@ -26,6 +26,7 @@ for ((round = 0; round < rounds; ++round)); do
   "$program" bench --json >"$work/mien_$round.json"
   "$program" bench --unfused --json >"$work/unfused_$round.json"
   "$program" bench --sound --json >"$work/sound_$round.json"
+  "$program" bench --levels tests/data/demo.mp4 --json >"$work/levels_$round.json"
   node "$work/onnxruntime_bench.mjs" "$work" >"$work/peer_$round.json"
   runs+=("$round")
 done

@@ -1,16 +1,15 @@
 #include "tracker/sampler.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace mien::tracker {
 namespace {
 
 constexpr float kScale = 1.0f / 127.5f;
 constexpr float kBlack = -1.0f;
-constexpr float kPixelsPerTap = 1.5f;
-constexpr float kMaxTaps = 8.0f;  // along each axis
-constexpr float kMaxTapsOfProposal = 4.0f;
+// From there on a bilinear sample would miss too much of what lies between it and the next.
+constexpr float kMostPixelsApart = 1.5f;
+constexpr std::int32_t kLargestBox = 8;
 
 kernels::PixelFormat pixel_format(std::int32_t format) {
   switch (format) {
@@ -59,20 +58,19 @@ void set_planes(const mien_image& image, kernels::WarpArgs& args) {
   }
 }
 
-std::int32_t taps(float pixels_per_sample, float most) {
-  const float wanted = std::ceil(pixels_per_sample / kPixelsPerTap);
-  return static_cast<std::int32_t>(std::clamp(wanted, 1.0f, most));
+// The smallest power of two with which samples lie close enough.
+std::int32_t box(float pixels_apart) {
+  std::int32_t box = 1;
+  while (box < kLargestBox && pixels_apart > kMostPixelsApart * static_cast<float>(box)) {
+    box *= 2;
+  }
+  return box;
 }
 
 }  // namespace
 
 void Sampler::cut(const ImageView& view, const Crop& crop, const Raster& raster,
                   std::span<float> picture) const {
-  warp(view, crop, raster, kMaxTaps, picture);
-}
-
-void Sampler::warp(const ImageView& view, const Crop& crop, const Raster& raster, float max_taps,
-                   std::span<float> picture) const {
   const auto rows = static_cast<float>(raster.rows);
   const auto columns = static_cast<float>(raster.columns);
   const float unit = raster.extent / rows;
@@ -87,7 +85,8 @@ void Sampler::warp(const ImageView& view, const Crop& crop, const Raster& raster
   args.image_height = view.image.height;
   const float matrix[6] = {m.xx, m.xy, m.x0, m.yx, m.yy, m.y0};
   std::copy(std::begin(matrix), std::end(matrix), args.matrix);
-  args.taps = taps(crop.side * unit, max_taps);
+  args.box = box(crop.side * unit);
+  args.chroma_box = box(0.5f * crop.side * unit);
   args.y = picture.data();
   args.width = raster.columns;
   args.height = raster.rows;
@@ -98,8 +97,7 @@ void Sampler::warp(const ImageView& view, const Crop& crop, const Raster& raster
 
 void Sampler::cut_black(const ImageView& view, const Square& square, std::int32_t samples,
                         std::span<float> picture) const {
-  warp(view, {square.center, square.side, 0.0f}, {samples, samples, 1.0f}, kMaxTapsOfProposal,
-       picture);
+  cut(view, {square.center, square.side, 0.0f}, {samples, samples, 1.0f}, picture);
   const float pixels_per_sample = square.side / static_cast<float>(samples);
   const auto at = [&](float center, std::int32_t index) {
     return center - square.side / 2 + (static_cast<float>(index) + 0.5f) * pixels_per_sample;

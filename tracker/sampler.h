@@ -27,20 +27,16 @@ class Sampler {
     return warp_ != nullptr;
   }
 
-  // The crop as [rows][columns][3] RGB, -1..1. Where samples lie more than 1.5 pixels apart each is
-  // the mean of several. Outside the image its border repeats.
+  // The crop as [rows][columns][3] RGB, -1..1. Where samples lie more than 1.5 pixels apart the
+  // image is made smaller before. Outside the image its border repeats.
   void cut(const ImageView& view, const Crop& crop, const Raster& raster,
            std::span<float> picture) const;
 
-  // An upright square, black outside the image. For the proposal, which looks at much of the image
-  // and in no detail: at most 4 x 4 pixels are averaged.
+  // An upright square, black outside the image.
   void cut_black(const ImageView& view, const Square& square, std::int32_t samples,
                  std::span<float> picture) const;
 
  private:
-  void warp(const ImageView& view, const Crop& crop, const Raster& raster, float max_taps,
-            std::span<float> picture) const;
-
   kernels::Kernel<kernels::WarpArgs> warp_ = nullptr;
 };
 

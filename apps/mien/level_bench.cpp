@@ -24,8 +24,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kFrames = 120;
-constexpr int kRounds = 7;  // of each frame the fastest counts
+constexpr std::size_t kFrames = 60;
+constexpr int kRounds = 5;  // of each frame the fastest counts
 constexpr int kStarts = 20;
 constexpr std::int64_t kFrameNs = 33'333'333;
 constexpr std::int32_t kSoundRate = 16'000;

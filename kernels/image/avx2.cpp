@@ -1,170 +1,102 @@
-// Coordinates of 8 taps at a time; the pixels themselves are fetched one by one, since a wider load
-// could read past the last byte of an image.
-#include <algorithm>
-
 #include "kernels/common/avx2.h"
 #include "kernels/families.h"
+#include "kernels/image/tiles.h"
 
 namespace mien::kernels::avx2 {
 namespace {
 
-// Where one axis of a bilinear sample reads: sample index a, its neighbour b, and the weight of b.
-struct Axis {
-  std::int32_t a[kLanes], b[kLanes];
-  float weight[kLanes];
-};
+struct Simd {
+  static constexpr std::int32_t kLanes = avx2::kLanes;
+  using Vec = __m256;
+  using Ints = __m256i;
 
-// Coordinates to neighbours, clamped to the border. Not-a-numbers count as 0 like infinities: a
-// comparison with either is false.
-Axis axis_of(Vec coordinate, std::int32_t size) {
-  const Vec limit = _mm256_set1_ps(3.0e38f);
-  const Vec magnitude = _mm256_andnot_ps(_mm256_set1_ps(-0.0f), coordinate);
-  coordinate = _mm256_and_ps(coordinate, _mm256_cmp_ps(magnitude, limit, _CMP_LE_OQ));
-  coordinate = _mm256_max_ps(coordinate, _mm256_set1_ps(-1.0f));
-  coordinate = _mm256_min_ps(coordinate, _mm256_set1_ps(static_cast<float>(size) + 1.0f));
-  coordinate = _mm256_sub_ps(coordinate, _mm256_set1_ps(0.5f));
-  const Vec floor = _mm256_floor_ps(coordinate);
-  const __m256i index = _mm256_cvtps_epi32(floor);
-  const __m256i last = _mm256_set1_epi32(size - 1), zero = _mm256_setzero_si256();
-  const __m256i next = _mm256_add_epi32(index, _mm256_set1_epi32(1));
-  Axis axis;
-  _mm256_storeu_si256(reinterpret_cast<__m256i*>(axis.a),
-                      _mm256_max_epi32(zero, _mm256_min_epi32(index, last)));
-  _mm256_storeu_si256(reinterpret_cast<__m256i*>(axis.b),
-                      _mm256_max_epi32(zero, _mm256_min_epi32(next, last)));
-  _mm256_storeu_ps(axis.weight, _mm256_sub_ps(coordinate, floor));
-  return axis;
-}
+  static Vec splat(float x) { return _mm256_set1_ps(x); }
+  static Vec load(const float* at) { return _mm256_loadu_ps(at); }
+  static Vec count_from(float first) {
+    return _mm256_add_ps(_mm256_set1_ps(first), _mm256_setr_ps(0, 1, 2, 3, 4, 5, 6, 7));
+  }
+  static Vec fma(Vec sum, Vec a, Vec b) { return _mm256_fmadd_ps(a, b, sum); }
+  static Vec add(Vec a, Vec b) { return _mm256_add_ps(a, b); }
+  static Vec sub(Vec a, Vec b) { return _mm256_sub_ps(a, b); }
+  static Vec mul(Vec a, Vec b) { return _mm256_mul_ps(a, b); }
+  static Vec min(Vec a, Vec b) { return _mm256_min_ps(a, b); }
+  static Vec max(Vec a, Vec b) { return _mm256_max_ps(a, b); }
+  static Vec floor(Vec x) { return _mm256_floor_ps(x); }
+  static Ints equal(Vec a, Vec b) { return _mm256_castps_si256(_mm256_cmp_ps(a, b, _CMP_EQ_OQ)); }
+  // A comparison with what is not a number is false.
+  static Vec finite_or_0(Vec x) {
+    const Vec magnitude = _mm256_andnot_ps(_mm256_set1_ps(-0.0f), x);
+    return _mm256_and_ps(x, _mm256_cmp_ps(magnitude, _mm256_set1_ps(3.0e38f), _CMP_LE_OQ));
+  }
+  static Ints to_ints(Vec x) { return _mm256_cvtps_epi32(x); }
+  static void store(std::int32_t* at, Ints x) {
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(at), x);
+  }
 
-struct Rgb {
-  float c[3];
-};
+  static void gather(const std::uint16_t* base, Ints index, Vec& sample, Vec& next) {
+    const Ints pairs = _mm256_i32gather_epi32(reinterpret_cast<const int*>(base), index, 2);
+    sample = _mm256_cvtepi32_ps(_mm256_and_si256(pairs, _mm256_set1_epi32(0xFFFF)));
+    next = _mm256_cvtepi32_ps(_mm256_srli_epi32(pairs, 16));
+  }
 
-struct Corners {
-  const std::uint8_t *p00, *p01, *p10, *p11;
-  float x, y;  // weights of the right and lower neighbours
+  // Each third vector of the result has every third number of each colour.
+  static void store_rgb(float* at, Vec r, Vec g, Vec b) {
+    const auto third = [&](int first, Vec x, Vec y, Vec z) {
+      const Vec xy = _mm256_blend_ps(x, y, 0b10010010);
+      _mm256_storeu_ps(at + first, _mm256_blend_ps(xy, z, 0b00100100));
+    };
+    const auto spread = [](Vec x, Ints order) { return _mm256_permutevar8x32_ps(x, order); };
+    const Ints red = _mm256_setr_epi32(0, 3, 6, 1, 4, 7, 2, 5);
+    const Ints green = _mm256_setr_epi32(5, 0, 3, 6, 1, 4, 7, 2);
+    const Ints blue = _mm256_setr_epi32(2, 5, 0, 3, 6, 1, 4, 7);
+    r = spread(r, red), g = spread(g, green), b = spread(b, blue);
+    third(0, r, g, b);
+    third(8, b, r, g);
+    third(16, g, b, r);
+  }
 
-  [[nodiscard]] float mix(std::ptrdiff_t byte) const {
-    const float top = static_cast<float>(p00[byte]) +
-                      x * (static_cast<float>(p01[byte]) - static_cast<float>(p00[byte]));
-    const float bottom = static_cast<float>(p10[byte]) +
-                         x * (static_cast<float>(p11[byte]) - static_cast<float>(p10[byte]));
-    return top + y * (bottom - top);
+  static constexpr std::int32_t kSums = 16;
+  using Sums = __m256i;
+
+  static Sums load_sums(const std::uint16_t* at) {
+    return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(at));
+  }
+  static void store_sums(std::uint16_t* at, Sums x) {
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(at), x);
+  }
+  static Sums add_sums(Sums a, Sums b) { return _mm256_add_epi16(a, b); }
+
+  static Sums bytes(const std::uint8_t* at) {
+    return _mm256_cvtepu8_epi16(_mm_loadu_si128(reinterpret_cast<const __m128i*>(at)));
+  }
+  static Sums both_bytes(const std::uint8_t* at) {
+    return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(at));
+  }
+  static Sums byte_pairs(const std::uint8_t* at) {
+    return _mm256_maddubs_epi16(both_bytes(at), _mm256_set1_epi8(1));
+  }
+  static Sums even_bytes(const std::uint8_t* at) {
+    return _mm256_and_si256(both_bytes(at), _mm256_set1_epi16(0xFF));
+  }
+
+  static Sums halves(__m256i a, __m256i b) {
+    return _mm256_permute4x64_epi64(_mm256_packus_epi32(a, b), 0b11011000);
+  }
+  static Sums pairs(Sums a, Sums b) {
+    const __m256i ones = _mm256_set1_epi16(1);
+    return halves(_mm256_madd_epi16(a, ones), _mm256_madd_epi16(b, ones));
+  }
+  static Sums evens(Sums a, Sums b) {
+    const __m256i even = _mm256_set1_epi32(0xFFFF);
+    return halves(_mm256_and_si256(a, even), _mm256_and_si256(b, even));
   }
 };
-
-Corners corners(const Plane& plane, const Axis& xs, const Axis& ys, int i) {
-  const std::uint8_t* upper = plane.data + ys.a[i] * plane.row_bytes;
-  const std::uint8_t* lower = plane.data + ys.b[i] * plane.row_bytes;
-  const std::ptrdiff_t left = xs.a[i] * plane.pixel_bytes, right = xs.b[i] * plane.pixel_bytes;
-  return {upper + left, upper + right, lower + left, lower + right, xs.weight[i], ys.weight[i]};
-}
-
-float clamped(float value) { return std::min(std::max(value, 0.0f), 255.0f); }
-
-float full_luma(float luma, bool full_range) {
-  return full_range ? luma : (luma - 16.0f) * (255.0f / 219.0f);
-}
-
-// Adds up taps in RGB, 0..255.
-class Sampler {
- public:
-  explicit Sampler(const WarpArgs& args)
-      : a_(args),
-        chroma_width_((args.image_width + 1) / 2),
-        chroma_height_((args.image_height + 1) / 2) {}
-
-  void add(Vec x, Vec y, int count, Rgb* sums) const {
-    const Axis xs = axis_of(x, a_.image_width), ys = axis_of(y, a_.image_height);
-    switch (a_.format) {
-      case PixelFormat::kGray8:
-        return add_gray(xs, ys, count, sums);
-      case PixelFormat::kYuv420:
-        return add_yuv(xs, ys, x, y, count, sums);
-      case PixelFormat::kRgb:
-      case PixelFormat::kRgba:
-        return add_packed(xs, ys, count, sums, 0, 2);
-      case PixelFormat::kBgr:
-      case PixelFormat::kBgra:
-        return add_packed(xs, ys, count, sums, 2, 0);
-    }
-  }
-
- private:
-  void add_packed(const Axis& xs, const Axis& ys, int count, Rgb* sums, int red, int blue) const {
-    for (int i = 0; i < count; ++i) {
-      const Corners at = corners(a_.plane[0], xs, ys, i);
-      sums[i].c[0] += at.mix(red);
-      sums[i].c[1] += at.mix(1);
-      sums[i].c[2] += at.mix(blue);
-    }
-  }
-
-  void add_gray(const Axis& xs, const Axis& ys, int count, Rgb* sums) const {
-    for (int i = 0; i < count; ++i) {
-      const float luma = clamped(full_luma(corners(a_.plane[0], xs, ys, i).mix(0), a_.full_range));
-      for (float& channel : sums[i].c) {
-        channel += luma;
-      }
-    }
-  }
-
-  void add_yuv(const Axis& xs, const Axis& ys, Vec x, Vec y, int count, Rgb* sums) const {
-    const Vec half = _mm256_set1_ps(0.5f);
-    const Axis us = axis_of(_mm256_mul_ps(x, half), chroma_width_);
-    const Axis vs = axis_of(_mm256_mul_ps(y, half), chroma_height_);
-    const float gain = a_.full_range ? 1.0f : 255.0f / 224.0f;
-    for (int i = 0; i < count; ++i) {
-      const float luma = full_luma(corners(a_.plane[0], xs, ys, i).mix(0), a_.full_range);
-      const float u = (corners(a_.plane[1], us, vs, i).mix(0) - 128.0f) * gain;
-      const float v = (corners(a_.plane[2], us, vs, i).mix(0) - 128.0f) * gain;
-      sums[i].c[0] += clamped(luma + 1.402f * v);
-      sums[i].c[1] += clamped(luma - 0.344136f * u - 0.714136f * v);
-      sums[i].c[2] += clamped(luma + 1.772f * u);
-    }
-  }
-
-  const WarpArgs& a_;
-  std::int32_t chroma_width_, chroma_height_;
-};
-
-// Up to 8 output samples of a row, from column j on.
-void warp_samples(const WarpArgs& a, const Sampler& sampler, std::int32_t i, std::int32_t j,
-                  int count) {
-  const float* m = a.matrix;
-  const Vec lane = _mm256_setr_ps(0, 1, 2, 3, 4, 5, 6, 7);
-  Rgb sums[kLanes] = {};
-  const float step = 1.0f / static_cast<float>(a.taps);
-  for (std::int32_t v = 0; v < a.taps; ++v) {
-    const Vec row = _mm256_set1_ps(static_cast<float>(i) + (static_cast<float>(v) + 0.5f) * step);
-    for (std::int32_t u = 0; u < a.taps; ++u) {
-      const float first = static_cast<float>(j) + (static_cast<float>(u) + 0.5f) * step;
-      const Vec column = _mm256_add_ps(lane, _mm256_set1_ps(first));
-      const auto affine = [&](const float* k) {
-        return _mm256_fmadd_ps(column, _mm256_set1_ps(k[0]),
-                               _mm256_fmadd_ps(row, _mm256_set1_ps(k[1]), _mm256_set1_ps(k[2])));
-      };
-      sampler.add(affine(m), affine(m + 3), count, sums);
-    }
-  }
-  const float mean = a.scale * step * step;
-  float* y = a.y + (std::ptrdiff_t{i} * a.width + j) * 3;
-  for (int k = 0; k < count; ++k) {
-    for (int c = 0; c < 3; ++c) {
-      y[3 * k + c] = sums[k].c[c] * mean + a.offset;
-    }
-  }
-}
 
 }  // namespace
 
 void warp(const WarpArgs& a) {
-  const Sampler sampler(a);
-  for (std::int32_t i = 0; i < a.height; ++i) {
-    for (std::int32_t j = 0; j < a.width; j += kLanes) {
-      warp_samples(a, sampler, i, j, std::min(kLanes, a.width - j));
-    }
-  }
+  tiles::Warp<Simd> tiles(a);
+  tiles.run();
 }
 
 }  // namespace mien::kernels::avx2

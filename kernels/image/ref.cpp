@@ -8,37 +8,62 @@ struct Rgb {
   double r = 0, g = 0, b = 0;
 };
 
-Rgb operator+(Rgb a, Rgb b) { return {a.r + b.r, a.g + b.g, a.b + b.b}; }
-Rgb operator*(double s, Rgb a) { return {s * a.r, s * a.g, s * a.b}; }
+// A plane as it is sampled.
+struct Channel {
+  Plane plane;
+  std::int32_t width, height;  // samples of the plane
+  std::int32_t box;
+  double samples_per_pixel;  // of the plane, before it is made smaller
 
-// Everything outside repeats the border, so coordinates beyond it by more than a pixel are all the
-// same.
-double kept_near(double coordinate, std::int32_t size) {
-  return std::isfinite(coordinate) ? std::clamp(coordinate, -1.0, size + 1.0) : 0.0;
+  [[nodiscard]] double byte_at(std::int32_t x, std::int32_t y) const {
+    x = std::clamp(x, 0, width - 1);
+    y = std::clamp(y, 0, height - 1);
+    return plane.data[y * plane.row_bytes + x * plane.pixel_bytes];
+  }
+
+  // Mean of the box in column c and row r of boxes.
+  [[nodiscard]] double mean(std::int32_t c, std::int32_t r) const {
+    double sum = 0.0;
+    for (std::int32_t i = 0; i < box; ++i) {
+      for (std::int32_t j = 0; j < box; ++j) {
+        sum += byte_at(c * box + j, r * box + i);
+      }
+    }
+    return sum / (box * box);
+  }
+
+  // Everything outside repeats the border, so places beyond it by more than two boxes are all the
+  // same.
+  [[nodiscard]] double place(double coordinate, std::int32_t size) const {
+    const double small = coordinate * samples_per_pixel / box;
+    return std::clamp(small, -2.0, static_cast<double>(size) / box + 2.0) - 0.5;
+  }
+
+  [[nodiscard]] double bilinear(double x, double y) const {
+    x = place(x, width);
+    y = place(y, height);
+    const auto c = static_cast<std::int32_t>(std::floor(x));
+    const auto r = static_cast<std::int32_t>(std::floor(y));
+    const double a = x - c, b = y - r;
+    return (1 - b) * ((1 - a) * mean(c, r) + a * mean(c + 1, r)) +
+           b * ((1 - a) * mean(c, r + 1) + a * mean(c + 1, r + 1));
+  }
+};
+
+// Byte `first` of the pixels of an image without chroma planes.
+Channel packed(const WarpArgs& a, std::int32_t first) {
+  Plane plane = a.plane[0];
+  plane.data += first;
+  return {plane, a.image_width, a.image_height, a.box, 1.0};
 }
 
-double byte_at(const Plane& plane, std::int32_t x, std::int32_t y, std::int32_t width,
-               std::int32_t height) {
-  x = std::clamp(x, 0, width - 1);
-  y = std::clamp(y, 0, height - 1);
-  return plane.data[y * plane.row_bytes + x * plane.pixel_bytes];
+Channel chroma(const WarpArgs& a, std::int32_t index) {
+  return {a.plane[index], (a.image_width + 1) / 2, (a.image_height + 1) / 2, a.chroma_box, 0.5};
 }
 
-// Bilinear sample at (x, y), sample centres at halves.
-double bilinear(const Plane& plane, double x, double y, std::int32_t width, std::int32_t height) {
-  x = kept_near(x, width) - 0.5;
-  y = kept_near(y, height) - 0.5;
-  const std::int32_t x0 = static_cast<std::int32_t>(std::floor(x));
-  const std::int32_t y0 = static_cast<std::int32_t>(std::floor(y));
-  const double a = x - x0, b = y - y0;
-  const auto at = [&](std::int32_t dx, std::int32_t dy) {
-    return byte_at(plane, x0 + dx, y0 + dy, width, height);
-  };
-  return (1 - b) * ((1 - a) * at(0, 0) + a * at(1, 0)) + b * ((1 - a) * at(0, 1) + a * at(1, 1));
-}
-
-double full_luma(double luma, bool full_range) {
-  return full_range ? luma : (luma - 16.0) * (255.0 / 219.0);
+double luma_at(const WarpArgs& a, double x, double y) {
+  const double luma = packed(a, 0).bilinear(x, y);
+  return a.full_range ? luma : (luma - 16.0) * (255.0 / 219.0);
 }
 
 Rgb clamped(Rgb c) {
@@ -46,25 +71,17 @@ Rgb clamped(Rgb c) {
 }
 
 Rgb yuv_sample(const WarpArgs& a, double x, double y) {
-  const std::int32_t chroma_w = (a.image_width + 1) / 2, chroma_h = (a.image_height + 1) / 2;
   const double gain = a.full_range ? 1.0 : 255.0 / 224.0;
-  const double luma =
-      full_luma(bilinear(a.plane[0], x, y, a.image_width, a.image_height), a.full_range);
-  const double u = (bilinear(a.plane[1], x / 2, y / 2, chroma_w, chroma_h) - 128) * gain;
-  const double v = (bilinear(a.plane[2], x / 2, y / 2, chroma_w, chroma_h) - 128) * gain;
+  const double luma = luma_at(a, x, y);
+  const double u = (chroma(a, 1).bilinear(x, y) - 128) * gain;
+  const double v = (chroma(a, 2).bilinear(x, y) - 128) * gain;
   return clamped({luma + 1.402 * v, luma - 0.344136 * u - 0.714136 * v, luma + 1.772 * u});
 }
 
 Rgb packed_sample(const WarpArgs& a, double x, double y) {
   const bool reversed = a.format == PixelFormat::kBgr || a.format == PixelFormat::kBgra;
-  double channel[3];
-  for (std::int32_t c = 0; c < 3; ++c) {
-    Plane one = a.plane[0];
-    one.data += c;
-    channel[c] = bilinear(one, x, y, a.image_width, a.image_height);
-  }
-  return reversed ? Rgb{channel[2], channel[1], channel[0]}
-                  : Rgb{channel[0], channel[1], channel[2]};
+  return {packed(a, reversed ? 2 : 0).bilinear(x, y), packed(a, 1).bilinear(x, y),
+          packed(a, reversed ? 0 : 2).bilinear(x, y)};
 }
 
 Rgb sample(const WarpArgs& a, double x, double y) {
@@ -72,11 +89,16 @@ Rgb sample(const WarpArgs& a, double x, double y) {
     return yuv_sample(a, x, y);
   }
   if (a.format == PixelFormat::kGray8) {
-    const double luma =
-        full_luma(bilinear(a.plane[0], x, y, a.image_width, a.image_height), a.full_range);
+    const double luma = luma_at(a, x, y);
     return clamped({luma, luma, luma});
   }
   return packed_sample(a, x, y);
+}
+
+double coordinate(const float* m, double j, double i) {
+  const double at =
+      static_cast<double>(m[0]) * j + static_cast<double>(m[1]) * i + static_cast<double>(m[2]);
+  return std::isfinite(at) ? at : 0.0;
 }
 
 }  // namespace
@@ -84,20 +106,12 @@ Rgb sample(const WarpArgs& a, double x, double y) {
 void warp(const WarpArgs& a) {
   for (std::int32_t i = 0; i < a.height; ++i) {
     for (std::int32_t j = 0; j < a.width; ++j) {
-      Rgb sum;
-      for (std::int32_t v = 0; v < a.taps; ++v) {
-        for (std::int32_t u = 0; u < a.taps; ++u) {
-          const double x = j + (u + 0.5) / a.taps, y = i + (v + 0.5) / a.taps;
-          sum =
-              sum + sample(a, static_cast<double>(a.matrix[0]) * x + a.matrix[1] * y + a.matrix[2],
-                           static_cast<double>(a.matrix[3]) * x + a.matrix[4] * y + a.matrix[5]);
-        }
-      }
-      const Rgb mean = (1.0 / (a.taps * a.taps)) * sum;
+      const Rgb rgb = sample(a, coordinate(a.matrix, j + 0.5, i + 0.5),
+                             coordinate(a.matrix + 3, j + 0.5, i + 0.5));
       float* out = a.y + (std::ptrdiff_t{i} * a.width + j) * 3;
-      out[0] = static_cast<float>(mean.r * a.scale + a.offset);
-      out[1] = static_cast<float>(mean.g * a.scale + a.offset);
-      out[2] = static_cast<float>(mean.b * a.scale + a.offset);
+      out[0] = static_cast<float>(rgb.r * a.scale + a.offset);
+      out[1] = static_cast<float>(rgb.g * a.scale + a.offset);
+      out[2] = static_cast<float>(rgb.b * a.scale + a.offset);
     }
   }
 }

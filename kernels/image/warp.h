@@ -1,14 +1,18 @@
 // Affine warp of a camera image straight to the float crop a network reads.
 //
-// Output sample (i, j) covers a parallelogram of the image; it is the mean of taps x taps bilinear
-// samples at
-//   (x, y) = matrix [j + (u + 0.5) / taps; i + (v + 0.5) / taps; 1],   u, v = 0 .. taps-1,
-// in image coordinates where pixel (column c, row r) has its centre at (c + 0.5, r + 0.5). Outside
-// the image the border pixels repeat. A coordinate that is not finite counts as 0. y:
-// [height][width][3] RGB, interleaved: value * scale + offset, value in 0..255.
+// The image is first made smaller by a power of two, `box`: a sample of it is the mean of box x box
+// pixels, counted from the image's corner. An output sample (i, j) is the bilinear sample of that
+// at
+//   (x, y) = matrix [j + 0.5; i + 0.5; 1]
+// in coordinates of the full image, where pixel (column c, row r) has its centre at (c + 0.5,
+// r + 0.5), and a small sample its own in the middle of its pixels. (That is a mipmap of one level:
+// Williams, Pyramidal parametrics, 1983.) Outside the image the border pixels repeat. A coordinate
+// that is not finite counts as 0. y: [height][width][3] RGB, interleaved: value * scale + offset,
+// value in 0..255.
 //
-// YUV is BT.601; chroma is sampled bilinearly on its own grid, sited in the middle of its 2x2
-// pixels. Only bytes of pixels are read: no row is assumed to be followed by padding.
+// YUV is BT.601; chroma, sited in the middle of its 2x2 pixels, has its own grid and its own box.
+// Only bytes from a row's first pixel to its last are read: no row is assumed to be followed by
+// padding.
 #pragma once
 
 #include <cstddef>
@@ -39,7 +43,8 @@ struct WarpArgs {
   bool full_range;                         // kGray8, kYuv420: luma 0..255; else 16..235
   std::int32_t image_width, image_height;  // 1..16384
   float matrix[6];                         // x = m0 j + m1 i + m2, y = m3 j + m4 i + m5
-  std::int32_t taps;                       // 1..8
+  std::int32_t box;                        // 1, 2, 4 or 8
+  std::int32_t chroma_box;                 // the same of chroma samples, where there are any
   float* y;
   std::int32_t width, height;
   float scale, offset;

@@ -35,7 +35,16 @@ def measure(work, rounds):
         rows.append(row)
     heard = [{"sample_rate": s["sample_rate"], "min_us": min(run[i]["min_us"] for run in sound),
               "median_us": min(run[i]["median_us"] for run in sound)} for i, s in enumerate(sound[0])]
-    return {"rounds": rounds, "peak_gflops": peak, "networks": rows, "sound_step": heard}
+    return {"rounds": rounds, "peak_gflops": peak, "networks": rows, "sound_step": heard, "frames": frames(load(work, "levels", rounds))}
+
+
+def frames(runs):
+    """Of each level the fastest round."""
+    networks = min(run["networks_of_highest_us"] for run in runs)
+    levels = [min((run["levels"][i] for run in runs), key=lambda level: level["mean_us"]) for i in range(len(runs[0]["levels"]))]
+    return {"start_ms": min(run["start_ms"] for run in runs), "networks_of_highest_us": networks,
+            "highest_of_networks": levels[-1]["mean_us"] / networks,
+            "levels": [{**level, "of_highest": level["mean_us"] / levels[-1]["mean_us"]} for level in levels]}
 
 
 def table(header, rows):
@@ -55,6 +64,14 @@ def to_text(figures):
     lines += ["", "## Sound", "", "What 16 ms of sound cost, from samples to controls: resampler, features, encoder, both decoders (`mien bench --sound`).", ""]
     lines += table(("sample rate", "us, minimum", "us, median"),
                    [(str(s["sample_rate"]), f"{s['min_us']:.1f}", f"{s['median_us']:.1f}") for s in figures["sound_step"]])
+    lines += ["", "## A frame", "",
+              "Mean of the frames of the demo clip, 640 x 480 NV12, on which the face was followed, with sound to mix (`mien bench --levels`); us.", ""]
+    stages = ("warp", "encoder", "heads", "decoders")
+    lines += table(("level", "whole", "of level 4", *stages),
+                   [(str(f["lod"]), f"{f['mean_us']:.0f}", f"{f['of_highest']:.2f}", *(f"{f['stages_us'][s]:.1f}" for s in stages))
+                    for f in figures["frames"]["levels"]])
+    lines += ["", f"The networks of level 4 by themselves take {figures['frames']['networks_of_highest_us']:.0f} us; a frame takes "
+              f"{figures['frames']['highest_of_networks']:.2f} times that. From the weight files to a tracker: {figures['frames']['start_ms']:.1f} ms."]
     return "\n".join(lines) + "\n"
 
 

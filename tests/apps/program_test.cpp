@@ -183,6 +183,17 @@ TEST_F(Program, BenchOfAClipFollowsTheFaceAndProposesAnew) {
   EXPECT_EQ(run("bench --clip " + path("nowhere.y4m") + models()).code, 3);
 }
 
+TEST_F(Program, BenchOfLevelsTimesEachStage) {
+  MIEN_NEEDS("trained model", have_models());
+  MIEN_NEEDS("ffmpeg", have_ffmpeg());
+  const Outcome done = run("bench --json --levels " + kClip + models());
+  ASSERT_EQ(done.code, 0) << done.errors;
+  for (const char* key : {"start_ms", "highest_of_networks", "\"lod\": 4", "mean_us", "warp"}) {
+    EXPECT_NE(done.output.find(key), std::string::npos) << key << "\n" << done.output;
+  }
+  EXPECT_EQ(run("bench --levels " + path("nowhere.mp4") + models()).code, 3);
+}
+
 TEST_F(Program, CompareMakesOneWholePage) {
   std::ofstream(path("a.csv")) << "t_ms,jawOpen\n0,0\n40,0.5\n80,0.5\n";
   std::ofstream(path("b.csv")) << "t_ms,jawOpen,more\n1,0.25,x\n41,0.25,y\n";

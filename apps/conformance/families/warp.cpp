@@ -43,6 +43,16 @@ struct TestPlane {
         offset(std::clamp(x, 0, width - 1), std::clamp(y, 0, height - 1)) + channel;
     return bytes[static_cast<std::size_t>(at)];
   }
+  // Mean of the pixels of a box, counted in boxes.
+  [[nodiscard]] double mean(int x, int y, int channel, int box) const {
+    double sum = 0.0;
+    for (int row = y * box; row < (y + 1) * box; ++row) {
+      for (int column = x * box; column < (x + 1) * box; ++column) {
+        sum += sample(column, row, channel);
+      }
+    }
+    return sum / (box * box);
+  }
 };
 
 struct Picture {
@@ -54,7 +64,7 @@ struct Picture {
 
 struct Transform {
   float matrix[6];
-  int taps, width, height;
+  int box, chroma_box, width, height;
   float scale, offset;
 };
 
@@ -75,20 +85,24 @@ Coordinate coordinate(const float* row, double j, double i) {
   return {finite ? value : 0.0, finite ? kSumFactor * kUnit * magnitude : 0.0};
 }
 
-// Between the centres of four samples, with the error that those of the coordinates make of it:
-// along an axis a bilinear sample changes by at most 255 a pixel.
-Approx bilinear(const TestPlane& plane, int channel, Coordinate x, Coordinate y, double shrink) {
+// Between the centres of four boxes, with the error that those of the coordinates make of it: along
+// an axis a bilinear sample changes by at most 255 a box. `shrink`: pixels of the image per sample
+// of the plane.
+Approx bilinear(const TestPlane& plane, int channel, Coordinate x, Coordinate y, int shrink,
+                int box) {
   constexpr double kRoom = 2.0;  // beyond the border everything is the same
-  const double px = std::clamp(x.value / shrink, -kRoom, plane.width + kRoom) - 0.5;
-  const double py = std::clamp(y.value / shrink, -kRoom, plane.height + kRoom) - 0.5;
+  const double step = shrink * box, across = plane.width, down = plane.height;
+  const double px = std::clamp(x.value / step, -kRoom, across / box + kRoom) - 0.5;
+  const double py = std::clamp(y.value / step, -kRoom, down / box + kRoom) - 0.5;
   const int x0 = static_cast<int>(std::floor(px)), y0 = static_cast<int>(std::floor(py));
   const double fx = px - x0, fy = py - y0;
-  const double top =
-      (1 - fx) * plane.sample(x0, y0, channel) + fx * plane.sample(x0 + 1, y0, channel);
-  const double bottom =
-      (1 - fx) * plane.sample(x0, y0 + 1, channel) + fx * plane.sample(x0 + 1, y0 + 1, channel);
+  const auto at = [&](int column, int row) {
+    return plane.mean(x0 + column, y0 + row, channel, box);
+  };
+  const double top = (1 - fx) * at(0, 0) + fx * at(1, 0);
+  const double bottom = (1 - fx) * at(0, 1) + fx * at(1, 1);
   const double moved = std::min(
-      1.0, (x.error + y.error) / shrink + kSumFactor * kUnit * (plane.width + plane.height + 8));
+      1.0, (x.error + y.error) / step + kSumFactor * kUnit * (plane.width + plane.height + 8));
   return {(1 - fy) * top + fy * bottom, 255.0 * moved};
 }
 
@@ -100,17 +114,17 @@ Approx clamped(double value, double error) {
   return {std::clamp(value, 0.0, 255.0), std::min(error, 255.0)};
 }
 
-Approx luma_of(const Picture& picture, Coordinate x, Coordinate y) {
-  const Approx sample = bilinear(picture.planes[0], 0, x, y, 1.0);
+Approx luma_of(const Picture& picture, const Transform& transform, Coordinate x, Coordinate y) {
+  const Approx sample = bilinear(picture.planes[0], 0, x, y, 1, transform.box);
   constexpr double kGain = 255.0 / 219.0;
   return picture.full_range ? sample : Approx{(sample.value - 16.0) * kGain, sample.error * kGain};
 }
 
-Colour yuv_colour(const Picture& picture, Coordinate x, Coordinate y) {
+Colour yuv_colour(const Picture& picture, const Transform& transform, Coordinate x, Coordinate y) {
   const double gain = picture.full_range ? 1.0 : 255.0 / 224.0;
-  const Approx luma = luma_of(picture, x, y);
-  const Approx u = bilinear(picture.planes[1], 0, x, y, 2.0);
-  const Approx v = bilinear(picture.planes[2], 0, x, y, 2.0);
+  const Approx luma = luma_of(picture, transform, x, y);
+  const Approx u = bilinear(picture.planes[1], 0, x, y, 2, transform.chroma_box);
+  const Approx v = bilinear(picture.planes[2], 0, x, y, 2, transform.chroma_box);
   constexpr double kMatrix[3][2] = {{0.0, 1.402}, {-0.344136, -0.714136}, {1.772, 0.0}};
   Colour colour;
   for (int c = 0; c < 3; ++c) {
@@ -121,13 +135,13 @@ Colour yuv_colour(const Picture& picture, Coordinate x, Coordinate y) {
   return colour;
 }
 
-Colour colour_at(const Picture& picture, Coordinate x, Coordinate y) {
+Colour colour_at(const Picture& picture, const Transform& transform, Coordinate x, Coordinate y) {
   Colour colour;
   switch (picture.format) {
     case PixelFormat::kYuv420:
-      return yuv_colour(picture, x, y);
+      return yuv_colour(picture, transform, x, y);
     case PixelFormat::kGray8: {
-      const Approx luma = luma_of(picture, x, y);
+      const Approx luma = luma_of(picture, transform, x, y);
       colour.channel[0] = colour.channel[1] = colour.channel[2] = clamped(luma.value, luma.error);
       return colour;
     }
@@ -135,29 +149,17 @@ Colour colour_at(const Picture& picture, Coordinate x, Coordinate y) {
       const bool reversed =
           picture.format == PixelFormat::kBgr || picture.format == PixelFormat::kBgra;
       for (int c = 0; c < 3; ++c) {
-        colour.channel[c] = bilinear(picture.planes[0], reversed ? 2 - c : c, x, y, 1.0);
+        colour.channel[c] =
+            bilinear(picture.planes[0], reversed ? 2 - c : c, x, y, 1, transform.box);
       }
       return colour;
     }
   }
 }
 
-// The mean of taps x taps samples.
-Colour output_sample(const Picture& picture, const Transform& transform, int i, int j) {
-  Colour mean;
-  const double share = 1.0 / (transform.taps * transform.taps);
-  for (int v = 0; v < transform.taps; ++v) {
-    for (int u = 0; u < transform.taps; ++u) {
-      const double across = j + (u + 0.5) / transform.taps, down = i + (v + 0.5) / transform.taps;
-      const Colour one = colour_at(picture, coordinate(transform.matrix, across, down),
-                                   coordinate(transform.matrix + 3, across, down));
-      for (int c = 0; c < 3; ++c) {
-        mean.channel[c].value += share * one.channel[c].value;
-        mean.channel[c].error += share * one.channel[c].error;
-      }
-    }
-  }
-  return mean;
+Colour output_sample(const Picture& picture, const Transform& transform, double i, double j) {
+  return colour_at(picture, transform, coordinate(transform.matrix, j, i),
+                   coordinate(transform.matrix + 3, j, i));
 }
 
 std::vector<Approx> expected(const Picture& picture, const Transform& transform) {
@@ -166,7 +168,7 @@ std::vector<Approx> expected(const Picture& picture, const Transform& transform)
   const auto offset = static_cast<double>(transform.offset);
   for (int i = 0; i < transform.height; ++i) {
     for (int j = 0; j < transform.width; ++j) {
-      for (const Approx& one : output_sample(picture, transform, i, j).channel) {
+      for (const Approx& one : output_sample(picture, transform, i + 0.5, j + 0.5).channel) {
         const double rounding = kSumFactor * kUnit * (255.0 * scale + std::abs(offset));
         y.push_back({one.value * scale + offset, one.error * scale + rounding});
       }
@@ -179,8 +181,8 @@ Case make(const Picture& picture, const Transform& transform) {
   Case test;
   test.shape = "format " + std::to_string(static_cast<int>(picture.format)) + ", " +
                times(picture.height, picture.width) + " to " +
-               times(transform.height, transform.width) + ", " + std::to_string(transform.taps) +
-               " taps";
+               times(transform.height, transform.width) + ", boxes of " +
+               std::to_string(transform.box) + " and " + std::to_string(transform.chroma_box);
   for (const TestPlane& plane : picture.planes) {
     test.buffers.push_back(reads(plane.bytes));
   }
@@ -195,7 +197,8 @@ Case make(const Picture& picture, const Transform& transform) {
     args.image_width = picture.width;
     args.image_height = picture.height;
     std::copy(std::begin(transform.matrix), std::end(transform.matrix), args.matrix);
-    args.taps = transform.taps;
+    args.box = transform.box;
+    args.chroma_box = transform.chroma_box;
     args.y = places.floats(3);
     args.width = transform.width;
     args.height = transform.height;
@@ -252,9 +255,10 @@ Transform random_transform(RandomValues& random) {
   if (random.case_number() % 4 == 3) {
     transform.matrix[random.between(0, 5)] = odd_number(random);
   }
-  transform.taps = random.between(1, 3);
-  transform.width = random.size(21);
-  transform.height = random.between(1, 9);
+  transform.box = 1 << random.between(0, 3);
+  transform.chroma_box = 1 << random.between(0, 3);
+  transform.width = random.size(40);
+  transform.height = random.between(1, 19);
   transform.scale = 1.0f / 127.5f;
   transform.offset = -1.0f;
   return transform;
@@ -274,7 +278,7 @@ Case random_case<WarpArgs>(RandomValues& random) {
 template <>
 Case typical_case<WarpArgs>(RandomValues& random) {
   return make(random_picture(random, PixelFormat::kYuv420, 640, 480),
-              {{3.0f, 0.3f, 150.0f, -0.3f, 3.0f, 120.0f}, 2, 65, 65, 1.0f / 127.5f, -1.0f});
+              {{3.0f, 0.3f, 150.0f, -0.3f, 3.0f, 120.0f}, 2, 1, 65, 65, 1.0f / 127.5f, -1.0f});
 }
 
 }  // namespace mien::conformance

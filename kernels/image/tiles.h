@@ -1,0 +1,448 @@
+// The warp of tiers with vectors: tile by tile, each from a small copy of what it needs of the
+// image. The copy is made of sums of boxes, 16 bits each, with the border repeated, so that two
+// neighbours are one load of 32 bits that is always inside.
+//
+// `Simd` is a tier's own class, so every instance belongs to one tier. It has vectors of kLanes
+// floats and integers,
+//   Vec, Ints; splat, load, count_from(first), fma(sum, a, b), add, sub, mul, min, max, floor
+//   finite_or_0(Vec); equal(Vec, Vec): 0 where not; to_ints(Vec); store(std::int32_t*, Ints)
+//   gather(const std::uint16_t* base, Ints index, Vec& sample, Vec& next)
+//   store_rgb(float*, Vec, Vec, Vec): kLanes pixels, interleaved
+// and of kSums numbers of 16 bits,
+//   Sums; load_sums, store_sums, add_sums
+//   bytes(at): at[i]; byte_pairs(at): at[2 i] + at[2 i + 1]; even_bytes(at): at[2 i]
+//   pairs(a, b), evens(a, b): the same of the numbers in a and b, each below 2^15
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "kernels/image/warp.h"
+
+namespace mien::kernels::tiles {
+
+// Of the output. A tile that needs more of the image than there is room for is halved. An upright
+// one whose samples lie 1.5 boxes apart needs 50 x 15 boxes.
+constexpr std::int32_t kTileRows = 8, kTileColumns = 32;
+constexpr std::int32_t kMostColumns = 64, kMostSamples = 800;  // of a copy
+constexpr std::int32_t kMostWaiting = 12;  // parts of a tile: one for each time it is halved
+constexpr std::int32_t kMostBox = 8;
+constexpr std::int32_t kMostStep = 3;  // numbers from one pixel to the next when rows are summed
+constexpr std::int32_t kSpare = 64;    // vectors may go on beyond what they are asked for
+
+// One number of a pixel: where it is, and how it is made smaller.
+struct Channel {
+  Plane plane;
+  std::int32_t width, height;  // samples of the plane
+  std::int32_t box;
+  float boxes_per_pixel;  // of the image
+  // Beyond the border by more than two boxes everything is the same.
+  float end_x, end_y;
+  float share;  // of a sample in the mean of its box
+
+  Channel() = default;
+  Channel(const Plane& of, std::int32_t columns, std::int32_t rows, std::int32_t size,
+          float samples_per_pixel)
+      : plane(of), width(columns), height(rows), box(size) {
+    const auto side = static_cast<float>(size);
+    boxes_per_pixel = samples_per_pixel / side;
+    end_x = static_cast<float>(columns) / side + 2.0f;
+    end_y = static_cast<float>(rows) / side + 2.0f;
+    share = 1.0f / (side * side);
+  }
+};
+
+// Of the outputs, ends excluded.
+struct Tile {
+  std::int32_t top, bottom, left, right;
+
+  [[nodiscard]] bool is_one() const { return bottom - top == 1 && right - left == 1; }
+  [[nodiscard]] bool is_wide() const { return right - left > bottom - top; }
+  [[nodiscard]] std::int32_t middle() const {
+    return is_wide() ? (left + right) / 2 : (top + bottom) / 2;
+  }
+  [[nodiscard]] Tile first_half() const {
+    return is_wide() ? Tile{top, bottom, left, middle()} : Tile{top, middle(), left, right};
+  }
+  [[nodiscard]] Tile second_half() const {
+    return is_wide() ? Tile{top, bottom, middle(), right} : Tile{middle(), bottom, left, right};
+  }
+};
+
+// Of the boxes of a channel.
+struct Window {
+  std::int32_t left = 0, top = 0, columns = 0, rows = 0;
+  // The sample of a box in a copy has the number row * stride + column - first.
+  float stride = 0.0f, first = 0.0f;
+
+  Window() = default;
+  // Ends included; a bilinear sample needs the next box too.
+  Window(std::int32_t from_x, std::int32_t to_x, std::int32_t from_y, std::int32_t to_y)
+      : left(from_x),
+        top(from_y),
+        columns(to_x - from_x + 2),
+        rows(to_y - from_y + 2),
+        stride(static_cast<float>(columns)),
+        first(static_cast<float>(top) * stride + static_cast<float>(left)) {}
+
+  [[nodiscard]] bool fits() const {
+    return columns <= kMostColumns && rows * columns <= kMostSamples;
+  }
+};
+
+template <class Simd>
+class Warp {
+ public:
+  explicit Warp(const WarpArgs& args) : a_(args) {
+    const std::int32_t chroma_width = (args.image_width + 1) / 2;
+    const std::int32_t chroma_height = (args.image_height + 1) / 2;
+    const auto packed = [&](std::int32_t first) {
+      Plane plane = args.plane[0];
+      plane.data += first;
+      return Channel(plane, args.image_width, args.image_height, args.box, 1.0f);
+    };
+    const auto chroma = [&](std::int32_t index) {
+      return Channel(args.plane[index], chroma_width, chroma_height, args.chroma_box, 0.5f);
+    };
+    switch (args.format) {
+      case PixelFormat::kGray8:
+        count_ = 1;
+        channels_[0] = packed(0);
+        return;
+      case PixelFormat::kYuv420:
+        channels_[0] = packed(0), channels_[1] = chroma(1), channels_[2] = chroma(2);
+        return;
+      case PixelFormat::kRgb:
+      case PixelFormat::kRgba:
+        channels_[0] = packed(0), channels_[1] = packed(1), channels_[2] = packed(2);
+        return;
+      case PixelFormat::kBgr:
+      case PixelFormat::kBgra:
+        channels_[0] = packed(2), channels_[1] = packed(1), channels_[2] = packed(0);
+        return;
+    }
+  }
+
+  void run() {
+    for (std::int32_t i = 0; i < a_.height; i += kTileRows) {
+      for (std::int32_t j = 0; j < a_.width; j += kTileColumns) {
+        warp_tile({i, std::min(i + kTileRows, a_.height), j, std::min(j + kTileColumns, a_.width)});
+      }
+    }
+  }
+
+ private:
+  using Vec = typename Simd::Vec;
+
+  struct Place {
+    Vec x, y;  // in the image
+  };
+
+  // Between which boxes, and where between them.
+  struct Position {
+    Vec column, row, across, down;
+  };
+
+  // Of outputs in row i.
+  [[nodiscard]] Place place(std::int32_t i, Vec columns) const {
+    const Vec j = Simd::add(columns, Simd::splat(0.5f));
+    const Vec row = Simd::splat(static_cast<float>(i) + 0.5f);
+    const auto affine = [&](const float* m) {
+      const Vec start = Simd::fma(Simd::splat(m[2]), row, Simd::splat(m[1]));
+      return Simd::fma(start, j, Simd::splat(m[0]));
+    };
+    return {affine(a_.matrix), affine(a_.matrix + 3)};
+  }
+
+  [[nodiscard]] static Position position(const Place& place, const Channel& channel) {
+    const auto within = [&](Vec coordinate, float end) {
+      const Vec small = Simd::mul(coordinate, Simd::splat(channel.boxes_per_pixel));
+      const Vec kept = Simd::min(Simd::max(small, Simd::splat(-2.0f)), Simd::splat(end));
+      return Simd::sub(kept, Simd::splat(0.5f));
+    };
+    const Vec x = within(place.x, channel.end_x), y = within(place.y, channel.end_y);
+    const Vec column = Simd::floor(x), row = Simd::floor(y);
+    return {column, row, Simd::sub(x, column), Simd::sub(y, row)};
+  }
+
+  // A tile, or part after part of it where it needs too much of the image.
+  void warp_tile(const Tile& tile) {
+    Tile waiting[kMostWaiting] = {tile};
+    for (std::int32_t count = 1; count > 0;) {
+      const Tile part = waiting[--count];
+      if (copy(part)) {
+        warp_copied(part);
+      } else {
+        waiting[count++] = part.second_half();
+        waiting[count++] = part.first_half();
+      }
+    }
+  }
+
+  void warp_copied(const Tile& tile) {
+    for (std::int32_t i = tile.top; i < tile.bottom; ++i) {
+      for (std::int32_t j = tile.left; j < tile.right; j += Simd::kLanes) {
+        warp_samples(i, j, tile.right);
+      }
+    }
+  }
+
+  // False when the tile needs more of the image than there is room for.
+  [[nodiscard]] bool copy(const Tile& tile) {
+    Place upper = corners(tile, tile.top), lower = corners(tile, tile.bottom - 1);
+    if (tile.is_one()) {
+      upper = lower = finite(upper);
+    } else if (!all_finite(upper) || !all_finite(lower)) {
+      return false;  // between numbers that are finite all are, and in order
+    }
+    for (std::int32_t c = 0; c < count_; ++c) {
+      // The third channel lies where the second does; of packed ones all do where the first does.
+      if (c == 0 || (c == 1 && has_chroma())) {
+        windows_[c] = window(position(upper, channels_[c]), position(lower, channels_[c]));
+      } else {
+        windows_[c] = windows_[c - 1];
+      }
+      if (!windows_[c].fits()) {
+        return false;
+      }
+    }
+    for (std::int32_t c = 0; c < count_; ++c) {
+      fill(channels_[c], windows_[c], samples_[c]);
+    }
+    return true;
+  }
+
+  [[nodiscard]] bool has_chroma() const { return a_.format == PixelFormat::kYuv420; }
+
+  // Left and right end of a row of the tile in the first two lanes.
+  [[nodiscard]] Place corners(const Tile& tile, std::int32_t i) const {
+    float columns[Simd::kLanes];
+    std::fill_n(columns, Simd::kLanes, static_cast<float>(tile.right - 1));
+    columns[0] = static_cast<float>(tile.left);
+    return place(i, Simd::load(columns));
+  }
+
+  [[nodiscard]] static Place finite(const Place& at) {
+    return {Simd::finite_or_0(at.x), Simd::finite_or_0(at.y)};
+  }
+
+  [[nodiscard]] static bool all_finite(const Place& at) {
+    std::int32_t same[2][Simd::kLanes];
+    // A number that is not finite differs from what becomes of it.
+    const Place finite_at = finite(at);
+    Simd::store(same[0], Simd::equal(at.x, finite_at.x));
+    Simd::store(same[1], Simd::equal(at.y, finite_at.y));
+    return (same[0][0] & same[0][1] & same[1][0] & same[1][1]) != 0;
+  }
+
+  [[nodiscard]] static Window window(const Position& upper, const Position& lower) {
+    std::int32_t columns[2][Simd::kLanes], rows[2][Simd::kLanes];
+    Simd::store(columns[0], Simd::to_ints(upper.column));
+    Simd::store(columns[1], Simd::to_ints(lower.column));
+    Simd::store(rows[0], Simd::to_ints(upper.row));
+    Simd::store(rows[1], Simd::to_ints(lower.row));
+    const auto x = std::minmax({columns[0][0], columns[0][1], columns[1][0], columns[1][1]});
+    const auto y = std::minmax({rows[0][0], rows[0][1], rows[1][0], rows[1][1]});
+    return Window(x.first, x.second, y.first, y.second);
+  }
+
+  void fill(const Channel& channel, const Window& window, std::uint16_t* samples) {
+    const std::int32_t count = window.columns * channel.box;
+    const std::int32_t begin = window.left * channel.box;
+    const std::int32_t first = std::clamp(begin, 0, channel.width - 1);
+    const std::int32_t last = std::clamp(begin + count - 1, 0, channel.width - 1);
+    const bool inside = last - first + 1 == count;
+    for (std::int32_t r = 0; r < window.rows; ++r) {
+      const Rows rows = rows_of(channel, (window.top + r) * channel.box, first);
+      std::int32_t rest = count;
+      if (inside && channel.box > 1 && channel.plane.pixel_bytes == 1) {
+        rest /= 2;
+        sum_rows<2>(rows.at, channel.box, rest, count, Simd::byte_pairs,
+                    [](const std::uint8_t* at) { return at[0] + at[1]; });
+      } else {
+        sum_columns(rows.at, channel, last - first + 1);
+        repeat_border(std::clamp(first - begin, 0, count - 1), last - first + 1, count);
+      }
+      while (rest > window.columns) {
+        rest /= 2;
+        halve(rest, Simd::pairs);
+      }
+      std::copy_n(sums_, window.columns, samples + std::ptrdiff_t{r} * window.columns);
+    }
+  }
+
+  struct Rows {
+    const std::uint8_t* at[kMostBox];
+  };
+
+  // Those of a row of boxes, from column `first` on.
+  [[nodiscard]] static Rows rows_of(const Channel& channel, std::int32_t top, std::int32_t first) {
+    Rows rows{};
+    for (std::int32_t i = 0; i < channel.box; ++i) {
+      rows.at[i] = channel.plane.data +
+                   std::clamp(top + i, 0, channel.height - 1) * channel.plane.row_bytes +
+                   first * channel.plane.pixel_bytes;
+    }
+    return rows;
+  }
+
+  // Of as many columns, over the rows of a box, to the beginning of sums_.
+  void sum_columns(const std::uint8_t* const* rows, const Channel& channel, std::int32_t columns) {
+    const auto step = static_cast<std::int32_t>(channel.plane.pixel_bytes);
+    const auto first_byte = [](const std::uint8_t* at) { return std::int32_t{*at}; };
+    const std::int32_t bytes = (columns - 1) * step + 1;
+    switch (step) {
+      case 1:
+        return sum_rows<1>(rows, channel.box, columns, bytes, Simd::bytes, first_byte);
+      case 2:
+        return sum_rows<2>(rows, channel.box, columns, bytes, Simd::even_bytes, first_byte);
+      case 3:
+        sum_rows<1>(rows, channel.box, bytes, bytes, Simd::bytes, first_byte);
+        for (std::int32_t j = 1; j < columns; ++j) {
+          sums_[j] = sums_[3 * j];
+        }
+        return;
+      case 4:
+        sum_rows<2>(rows, channel.box, 2 * columns - 1, bytes, Simd::even_bytes, first_byte);
+        return halve(columns, Simd::evens);
+      default:
+        return sum_far_columns(rows, channel, columns);
+    }
+  }
+
+  // n sums over `count` rows, of what `several` finds in kBytes * kSums bytes of each, and `one`
+  // for one sum. No more than `bytes` of a row are read.
+  template <std::int32_t kBytes, class Several, class One>
+  void sum_rows(const std::uint8_t* const* rows, std::int32_t count, std::int32_t n,
+                std::int32_t bytes, Several several, One one) {
+    const auto sum = [&](std::int32_t i) {
+      auto total = several(rows[0] + kBytes * i);
+      for (std::int32_t row = 1; row < count; ++row) {
+        total = Simd::add_sums(total, several(rows[row] + kBytes * i));
+      }
+      Simd::store_sums(sums_ + i, total);
+    };
+    const std::int32_t last = bytes / kBytes - Simd::kSums;  // where there are still so many
+    std::int32_t i = 0;
+    for (; i <= last; i += Simd::kSums) {
+      sum(i);
+    }
+    if (last > 0 && i < n) {
+      sum(last);
+      i = last + Simd::kSums;
+    }
+    for (; i < n; ++i) {
+      std::int32_t total = 0;
+      for (std::int32_t row = 0; row < count; ++row) {
+        total += one(rows[row] + kBytes * i);
+      }
+      sums_[i] = static_cast<std::uint16_t>(total);
+    }
+  }
+
+  // Makes n sums of twice as many.
+  template <class Of>
+  void halve(std::int32_t n, Of of) {
+    for (std::int32_t i = 0; i < n; i += Simd::kSums) {
+      const std::uint16_t* both = sums_ + std::ptrdiff_t{2} * i;
+      Simd::store_sums(sums_ + i, of(Simd::load_sums(both), Simd::load_sums(both + Simd::kSums)));
+    }
+  }
+
+  void sum_far_columns(const std::uint8_t* const* rows, const Channel& channel,
+                       std::int32_t columns) {
+    for (std::int32_t j = 0; j < columns; ++j) {
+      sums_[j] = 0;
+      for (std::int32_t i = 0; i < channel.box; ++i) {
+        sums_[j] = static_cast<std::uint16_t>(sums_[j] + rows[i][j * channel.plane.pixel_bytes]);
+      }
+    }
+  }
+
+  // Moves the `inside` first sums behind `left` copies of the first, and fills up with the last.
+  void repeat_border(std::int32_t left, std::int32_t inside, std::int32_t count) {
+    if (left > 0) {
+      std::copy_backward(sums_, sums_ + inside, sums_ + left + inside);
+      std::fill_n(sums_, left, sums_[left]);
+    }
+    std::fill(sums_ + left + inside, sums_ + std::max(count, left + inside),
+              sums_[left + inside - 1]);
+  }
+
+  // Up to kLanes outputs of row i, from column j on.
+  void warp_samples(std::int32_t i, std::int32_t j, std::int32_t end) {
+    const Vec columns = Simd::min(Simd::count_from(static_cast<float>(j)),
+                                  Simd::splat(static_cast<float>(end - 1)));
+    const Place at = place(i, columns);
+    Vec rgb[3];
+    colour(end - j == 1 ? finite(at) : at, rgb);
+    for (Vec& one : rgb) {
+      one = Simd::fma(Simd::splat(a_.offset), one, Simd::splat(a_.scale));
+    }
+    float* y = a_.y + (std::ptrdiff_t{i} * a_.width + j) * 3;
+    if (j + Simd::kLanes <= end) {
+      return Simd::store_rgb(y, rgb[0], rgb[1], rgb[2]);
+    }
+    float pixels[3 * Simd::kLanes];
+    Simd::store_rgb(pixels, rgb[0], rgb[1], rgb[2]);
+    std::copy_n(pixels, 3 * (end - j), y);
+  }
+
+  void colour(const Place& at, Vec rgb[3]) const {
+    const Position luma = position(at, channels_[0]);
+    rgb[0] = sample(luma, 0);
+    if (a_.format == PixelFormat::kGray8) {
+      rgb[0] = rgb[1] = rgb[2] = clamped(full_luma(rgb[0]));
+    } else if (has_chroma()) {
+      const Position chroma = position(at, channels_[1]);
+      to_rgb(full_luma(rgb[0]), sample(chroma, 1), sample(chroma, 2), rgb);
+    } else {
+      rgb[1] = sample(luma, 1);
+      rgb[2] = sample(luma, 2);
+    }
+  }
+
+  [[nodiscard]] Vec sample(const Position& at, std::int32_t c) const {
+    const Window& window = windows_[c];
+    const auto index = Simd::to_ints(Simd::fma(Simd::sub(at.column, Simd::splat(window.first)),
+                                               at.row, Simd::splat(window.stride)));
+    Vec left, right, lower_left, lower_right;
+    Simd::gather(samples_[c], index, left, right);
+    Simd::gather(samples_[c] + window.columns, index, lower_left, lower_right);
+    const Vec top = Simd::fma(left, at.across, Simd::sub(right, left));
+    const Vec bottom = Simd::fma(lower_left, at.across, Simd::sub(lower_right, lower_left));
+    return Simd::mul(Simd::fma(top, at.down, Simd::sub(bottom, top)),
+                     Simd::splat(channels_[c].share));
+  }
+
+  [[nodiscard]] Vec full_luma(Vec luma) const {
+    return a_.full_range
+               ? luma
+               : Simd::mul(Simd::sub(luma, Simd::splat(16.0f)), Simd::splat(255.0f / 219.0f));
+  }
+
+  [[nodiscard]] static Vec clamped(Vec value) {
+    return Simd::min(Simd::max(value, Simd::splat(0.0f)), Simd::splat(255.0f));
+  }
+
+  void to_rgb(Vec luma, Vec u, Vec v, Vec rgb[3]) const {
+    const float gain = a_.full_range ? 1.0f : 255.0f / 224.0f;
+    u = Simd::sub(u, Simd::splat(128.0f));
+    v = Simd::sub(v, Simd::splat(128.0f));
+    rgb[0] = clamped(Simd::fma(luma, v, Simd::splat(1.402f * gain)));
+    rgb[1] = clamped(Simd::fma(Simd::fma(luma, u, Simd::splat(-0.344136f * gain)), v,
+                               Simd::splat(-0.714136f * gain)));
+    rgb[2] = clamped(Simd::fma(luma, u, Simd::splat(1.772f * gain)));
+  }
+
+  const WarpArgs& a_;
+  std::int32_t count_ = 3;
+  Channel channels_[3] = {};
+  Window windows_[3] = {};
+  alignas(64) std::uint16_t samples_[3][kMostSamples];
+  alignas(64) std::uint16_t sums_[kMostColumns * kMostBox * kMostStep + kSpare];
+};
+
+}  // namespace mien::kernels::tiles
