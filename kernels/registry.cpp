@@ -13,6 +13,7 @@ constexpr Tier avx512 [[maybe_unused]] = Tier::kAvx512;
 constexpr Tier neon [[maybe_unused]] = Tier::kNeon;
 constexpr Tier neon32 [[maybe_unused]] = Tier::kNeon32;
 constexpr Tier wasm [[maybe_unused]] = Tier::kWasm;
+constexpr Tier avx512fp16 [[maybe_unused]] = Tier::kAvx512Fp16;
 }  // namespace tier_of
 
 const Entry* entries(std::size_t& count) {

@@ -1,10 +1,24 @@
 #include "kernels/tier.h"
 
+#ifdef MIEN_HAVE_AVX512FP16
+#include <cpuid.h>
+#endif
 #ifdef MIEN_HAVE_NEON32
 #include <sys/auxv.h>
 #endif
 
 namespace mien::kernels {
+namespace {
+
+#ifdef MIEN_HAVE_AVX512FP16
+// Leaf 7, subleaf 0, EDX bit 23 (Intel SDM, volume 2, CPUID), which clang 14 cannot ask for.
+bool has_avx512fp16() {
+  unsigned eax = 0, ebx = 0, ecx = 0, edx = 0;
+  return __get_cpuid_count(7, 0, &eax, &ebx, &ecx, &edx) != 0 && (edx & 1u << 23) != 0;
+}
+#endif
+
+}  // namespace
 
 const char* name(Tier tier) {
   switch (tier) {
@@ -22,6 +36,8 @@ const char* name(Tier tier) {
       return "neon32";
     case Tier::kWasm:
       return "wasm";
+    case Tier::kAvx512Fp16:
+      return "avx512fp16";
   }
   return nullptr;
 }
@@ -43,6 +59,11 @@ std::uint32_t detect_cpu() {
       __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq") &&
       __builtin_cpu_supports("fma")) {
     mask |= bit(Tier::kAvx512);
+  }
+#endif
+#ifdef MIEN_HAVE_AVX512FP16
+  if ((mask & bit(Tier::kAvx512)) != 0 && has_avx512fp16()) {
+    mask |= bit(Tier::kAvx512Fp16);
   }
 #endif
 #ifdef MIEN_HAVE_NEON

@@ -14,12 +14,18 @@ enum class Tier : std::uint32_t {
   kNeonFp16 = 4,
   kNeon32 = 5,
   kWasm = 6,
+  kAvx512Fp16 = 7,
 };
-inline constexpr std::uint32_t kTierCount = 7;
+inline constexpr std::uint32_t kTierCount = 8;
 
 [[nodiscard]] constexpr std::uint32_t bit(Tier tier) {
   return 1u << static_cast<std::uint32_t>(tier);
 }
+
+// The tiers that compute in half precision where it pays. Values beyond 65504 become infinite
+// there.
+inline constexpr std::uint32_t kHalfTiers = bit(Tier::kNeonFp16) | bit(Tier::kAvx512Fp16);
+[[nodiscard]] constexpr bool is_half(Tier tier) { return (kHalfTiers & bit(tier)) != 0; }
 
 // A bit of the CPU mask that is no tier: blocks of layers may run fused.
 inline constexpr std::uint32_t kFusedBlocks = 1u << 31;

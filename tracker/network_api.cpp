@@ -90,7 +90,7 @@ void mien_network_config_default(mien_network_config* config) {
   if (config != nullptr) {
     *config = {};
     config->struct_size = sizeof(mien_network_config);
-    config->cpu_mask = MIEN_CPU_ALL;
+    config->cpu_mask = MIEN_CPU_ALL & ~MIEN_CPU_HALF;
   }
 }
 

@@ -5,7 +5,9 @@
 // Approach to Probabilistic Rounding Error Analysis, 2019).
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "kernels/activation/activation.h"
 
@@ -20,6 +22,20 @@ inline constexpr double kSumFactor = 8.0;
 // Denormal numbers may be flushed to zero: what is lost with each of them at most.
 inline constexpr double kFlushed = 0x1p-126;
 
+// How a kernel multiplies and adds up.
+struct Arithmetic {
+  double unit;     // of rounding
+  double flushed;  // what is lost at most with a number near zero
+  int chunk;       // as many products are added up like this, then such sums in fp32
+};
+inline constexpr Arithmetic kSingleArithmetic{kUnit, kFlushed, std::numeric_limits<int>::max()};
+// fp16: 11 bits, denormals kept. A value of x is rounded to them, each multiply-add is, and so is
+// what lies between the layers of a block. Weights are fp16 anyway. Within a chunk errors grow as
+// in any sum, with the root of its length; beyond, sums of chunks are added in fp32, so that a long
+// sum is no worse, by its magnitude, than a chunk. The longest that a kernel may take for a chunk:
+inline constexpr int kHalfChunk = 64;
+inline constexpr Arithmetic kHalfArithmetic{0x1p-11, 0x1p-24, kHalfChunk};
+
 struct Approx {
   double value = 0.0;
   double error = 0.0;
@@ -28,9 +44,9 @@ struct Approx {
 // Of floats that are copied, compared or converted without rounding.
 [[nodiscard]] inline Approx exact(double value) { return {value, 0.0}; }
 
-// The result of one more operation in fp32.
-[[nodiscard]] inline Approx rounded(Approx x) {
-  return {x.value, x.error + kUnit * std::abs(x.value) + kFlushed};
+// The result of one more operation, in fp32 if nothing else is said.
+[[nodiscard]] inline Approx rounded(Approx x, const Arithmetic& by = kSingleArithmetic) {
+  return {x.value, x.error + by.unit * std::abs(x.value) + by.flushed};
 }
 
 [[nodiscard]] inline Approx operator+(Approx a, Approx b) {
@@ -45,17 +61,20 @@ struct Approx {
 // A sum of products of floats.
 class Sum {
  public:
+  explicit Sum(const Arithmetic& by = kSingleArithmetic) : by_(by) {}
   void add(double x, double w = 1.0) {
     value_ += x * w;
     magnitude_ += std::abs(x * w);
-    flushed_ += kFlushed * std::fmax(1.0, std::abs(w));
+    flushed_ += by_.flushed * std::fmax(1.0, std::abs(w));
     ++terms_;
   }
   [[nodiscard]] Approx total() const {
-    return rounded({value_, sum_factor(terms_) * kUnit * magnitude_ + flushed_});
+    const double factor = sum_factor(std::min(terms_, by_.chunk));
+    return rounded({value_, factor * by_.unit * magnitude_ + flushed_}, by_);
   }
 
  private:
+  Arithmetic by_;
   double value_ = 0.0, magnitude_ = 0.0, flushed_ = 0.0;
   int terms_ = 0;
 };

@@ -25,7 +25,8 @@ Finding check_kernel(const kernels::Entry& entry, std::uint64_t seed, int& cases
       entry.tier == kernels::Tier::kRef ? nullptr : reference_of(entry.family);
   double worst_share = 0.0;
   for (int number = 0; number < kCasesPerSeed; ++number, ++cases) {
-    RandomValues random(seed, number);
+    RandomValues random(seed, number,
+                        kernels::is_half(entry.tier) ? kHalfArithmetic : kSingleArithmetic);
     Finding finding = check(family->random_case(random), entry.function, reference);
     finding.worst_share = worst_share = std::max(worst_share, finding.worst_share);
     if (finding.fault != Fault::kNone) {

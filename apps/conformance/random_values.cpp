@@ -25,10 +25,11 @@ std::string_view name(Pattern pattern) {
   return "";
 }
 
-RandomValues::RandomValues(std::uint64_t seed, int case_number)
+RandomValues::RandomValues(std::uint64_t seed, int case_number, const Arithmetic& arithmetic)
     : random_(seed * 1'000'003 + static_cast<std::uint64_t>(case_number)),
       case_number_(case_number),
-      pattern_(static_cast<Pattern>(case_number % kPatternCount)) {}
+      pattern_(static_cast<Pattern>(case_number % kPatternCount)),
+      arithmetic_(arithmetic) {}
 
 RandomValues::RandomValues(std::uint64_t seed, Pattern pattern)
     : random_(seed), case_number_(0), pattern_(pattern) {}
@@ -58,7 +59,8 @@ int RandomValues::size(int most) {
 
 // Pairs of nearly the same size and opposite sign.
 float RandomValues::cancelling() {
-  const float size = 4096.0f + static_cast<float>(between(0, 8)) * 0x1p-11f;
+  const float step = static_cast<float>(between(0, 8));
+  const float size = is_half() ? 64.0f + step * 0x1p-6f : 4096.0f + step * 0x1p-11f;
   return coin() ? size : -size;
 }
 
@@ -68,9 +70,9 @@ float RandomValues::value() {
     case Pattern::kCancelling:
       return cancelling();
     case Pattern::kDenormal:
-      return ordinary * 1e-39f;
+      return ordinary * (is_half() ? 0x1p-20f : 1e-39f);
     case Pattern::kHuge:
-      return std::clamp(ordinary, -4.0f, 4.0f) * 2.5e28f;
+      return std::clamp(ordinary, -4.0f, 4.0f) * (is_half() ? 48.0f : 2.5e28f);
     case Pattern::kSparse:
       return between(0, 7) == 0 ? ordinary : (coin() ? 0.0f : -0.0f);
     case Pattern::kOrdinary:
@@ -86,7 +88,7 @@ float RandomValues::value() {
     case 2:
       return ordinary * 1e-40f;
     case 3:
-      return ordinary * 1e4f;
+      return ordinary * (is_half() ? 1e2f : 1e4f);
     default:
       return ordinary;
   }
@@ -119,7 +121,7 @@ float RandomValues::weight() {
     case Pattern::kDenormal:
       return ordinary * (coin() ? 1e-6f : 1.0f);
     case Pattern::kHuge:
-      return between(0, 31) == 0 ? std::copysign(65504.0f, ordinary) : ordinary;
+      return between(0, 31) == 0 ? std::copysign(is_half() ? 16.0f : 65504.0f, ordinary) : ordinary;
     case Pattern::kOrdinary:
       return ordinary;
     default:

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "apps/conformance/approx.h"
+
 namespace mien::conformance {
 
 // Sizes of cases are small ints; containers count in another type.
@@ -18,7 +20,7 @@ enum class Pattern : std::uint8_t {
   kMixed,       // ordinary ones, some zero, denormal or large
   kCancelling,  // large ones that all but cancel: what is left shows every rounding
   kDenormal,    // nothing else
-  kHuge,        // up to 1e29: overflows where a kernel multiplies too early
+  kHuge,        // up to 1e29, of half precision 200: overflows where a kernel multiplies too early
   kSparse,      // mostly zeros of either sign
   kOrdinary,    // as in networks: not among those that cases take in turns
 };
@@ -27,12 +29,18 @@ inline constexpr int kPatternCount = 5;  // without kOrdinary
 
 class RandomValues {
  public:
-  // The pattern is that of the case's number, so that all have their turn.
-  explicit RandomValues(std::uint64_t seed, int case_number = 0);
+  // The pattern is that of the case's number, so that all have their turn. For kernels that count
+  // in half precision numbers are smaller: no sum of a case leaves +-65504, and what is denormal is
+  // so in fp16.
+  explicit RandomValues(std::uint64_t seed, int case_number = 0,
+                        const Arithmetic& arithmetic = kSingleArithmetic);
   RandomValues(std::uint64_t seed, Pattern pattern);
 
   [[nodiscard]] Pattern pattern() const { return pattern_; }
   [[nodiscard]] int case_number() const { return case_number_; }
+  // What the kernel under test may use where its family allows for half precision.
+  [[nodiscard]] const Arithmetic& arithmetic() const { return arithmetic_; }
+  [[nodiscard]] bool is_half() const { return arithmetic_.unit > kUnit; }
 
   int between(int low, int high);
   bool coin() { return between(0, 1) == 1; }
@@ -57,6 +65,7 @@ class RandomValues {
   std::mt19937_64 random_;
   int case_number_;
   Pattern pattern_;
+  Arithmetic arithmetic_ = kSingleArithmetic;
 };
 
 }  // namespace mien::conformance

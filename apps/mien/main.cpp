@@ -50,7 +50,7 @@ void add_track(CLI::App& program) {
   verb->add_option("--neutral", options->neutral, "what the face shows at rest, by `mien neutral`");
   verb->add_option("--max-faces", options->max_faces, "faces followed at once, each with an id")
       ->check(CLI::Range(1, MIEN_MAX_FACES));
-  verb->add_option("--tier", options->tier, "kernel tier: ref, avx2, avx512");
+  verb->add_option("--tier", options->tier, "kernel tier: ref, avx2, avx512, ...");
   verb->add_flag("--unfused", options->unfused, "networks run layer by layer");
   verb->add_option("--models", options->models, "folder of the model files");
   verb->add_option("--start", options->start_s, "seconds to skip")->check(CLI::NonNegativeNumber);
@@ -93,7 +93,7 @@ void add_run(CLI::App& program) {
   verb->add_option("--layout", options->layout, "of maps: chw (default) or hwc")
       ->transform(CLI::CheckedTransformer(std::map<std::string, MapLayout>{
           {"chw", MapLayout::kChannelsFirst}, {"hwc", MapLayout::kChannelsLast}}));
-  verb->add_option("--tier", options->tier, "kernel tier: ref, avx2, avx512");
+  verb->add_option("--tier", options->tier, "kernel tier: ref, avx2, avx512, ...");
   verb->callback([options] { run_network(*options); });
 }
 
@@ -119,7 +119,7 @@ void add_bench(CLI::App& program) {
       ->excludes(clip)
       ->excludes(levels)
       ->excludes(sound);
-  verb->add_option("--tier", options->tier, "one tier only: ref, avx2, avx512");
+  verb->add_option("--tier", options->tier, "one tier only: ref, avx2, avx512, ...");
   verb->add_flag("--unfused", options->unfused, "networks run layer by layer");
   verb->add_option("--models", options->models, "folder of the model files");
   verb->add_flag("--json", options->json, "as JSON");

@@ -155,7 +155,9 @@ void run_network(const RunOptions& options) {
   NetworkRunner runner;
   NetworkRunner::Options runner_options;
   runner_options.input = shape.map();
-  runner_options.cpu_mask = cpu_mask(options.tier);
+  if (!options.tier.empty()) {
+    runner_options.cpu_mask = cpu_mask(options.tier);
+  }
   const EngineStatus status = runner.create(file, network.name, runner_options);
   if (status != EngineStatus::kOk) {
     throw Failure(kExitModel, options.model + ": " + message(status));

@@ -153,9 +153,11 @@ class MIEN_API NetworkRunner {
   NetworkRunner& operator=(const NetworkRunner&) = delete;
 
   struct Options {
-    TensorShape input = {};                 // all zero: as declared
-    std::uint32_t cpu_mask = MIEN_CPU_ALL;  // tiers that may be used, MIEN_CPU_FUSED
-    mien_allocator allocator = {};          // callbacks NULL: the C library's
+    TensorShape input = {};  // all zero: as declared
+    // Tiers that may be used, MIEN_CPU_FUSED. Half precision has to be asked for: nobody knows how
+    // large the values of a network become.
+    std::uint32_t cpu_mask = MIEN_CPU_ALL & ~MIEN_CPU_HALF;
+    mien_allocator allocator = {};  // callbacks NULL: the C library's
   };
   // On error the runner is left empty, and nothing stays allocated.
   EngineStatus create(const WeightFile& file, std::string_view network, const Options& options);

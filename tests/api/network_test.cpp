@@ -81,6 +81,12 @@ TEST_F(CNetwork, RemembersUntilReset) {
   EXPECT_EQ(step(), first);
 }
 
+TEST_F(CNetwork, HalfPrecisionHasToBeAskedFor) {
+  mien_network_config fresh;
+  mien_network_config_default(&fresh);
+  EXPECT_EQ(fresh.cpu_mask, MIEN_CPU_ALL & ~MIEN_CPU_HALF);
+}
+
 TEST_F(CNetwork, SaysWhatIsWrong) {
   EXPECT_EQ(create("nobody"), MIEN_ERROR_WEIGHTS_INCOMPLETE);
   EXPECT_EQ(network, nullptr);

@@ -8,22 +8,25 @@
 #include "kernels/tier.h"
 #include "tests/engine/mini_model.h"
 #include "tests/engine/twin_session.h"
+#include "tests/kernels/every_tier.h"
 
 namespace mien::tests {
 namespace {
 
-constexpr double kTolerance = 2e-5;
+constexpr double kTolerance = 2e-5, kHalfTolerance = 1e-2;
 
 class Golden : public testing::TestWithParam<std::uint32_t> {};
 
-void expect_close(const std::vector<float>& got, std::span<const float> want) {
+void expect_close(const std::vector<float>& got, std::span<const float> want,
+                  std::uint32_t cpu_mask) {
+  const double tolerance = is_half(cpu_mask) ? kHalfTolerance : kTolerance;
   ASSERT_EQ(got.size(), want.size());
   double largest = 0.0;
   for (const float one : want) {
     largest = std::max(largest, std::abs(static_cast<double>(one)));
   }
   for (std::size_t i = 0; i < want.size(); ++i) {
-    ASSERT_NEAR(got[i], want[i], kTolerance * largest) << "element " << i;
+    ASSERT_NEAR(got[i], want[i], tolerance * largest) << "element " << i;
   }
 }
 
@@ -34,7 +37,7 @@ TEST_P(Golden, Encoder) {
   std::copy(input.begin(), input.end(), mini.session->input().begin());
   mini.session->run();
   expect_close(unblocked(mini.session->output(0), mini.session->output_shape(0)),
-               golden("encoder_output"));
+               golden("encoder_output"), GetParam());
 }
 
 TEST_P(Golden, FullyConvolutionalOnALargerImage) {
@@ -47,7 +50,7 @@ TEST_P(Golden, FullyConvolutionalOnALargerImage) {
   ASSERT_EQ(mini.session->output_count(), 2u);
   for (std::uint32_t i = 0; i < 2; ++i) {
     expect_close(unblocked(mini.session->output(i), mini.session->output_shape(i)),
-                 golden("pnet_output" + std::to_string(i)));
+                 golden("pnet_output" + std::to_string(i)), GetParam());
   }
 }
 
@@ -65,7 +68,7 @@ TEST_P(Golden, TemporalNetworkStepByStepAndAgainAfterReset) {
       const auto output = mini.session->output(0);
       answers.insert(answers.end(), output.begin(), output.begin() + 10);
     }
-    expect_close(answers, wanted);
+    expect_close(answers, wanted, GetParam());
     if (round == 0) {
       first_round = answers;
     } else {

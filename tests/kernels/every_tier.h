@@ -18,4 +18,9 @@ inline std::vector<std::uint32_t> every_tier() {
   return masks;
 }
 
+// Whether kernels of a tier of half precision may be among those of the mask.
+inline bool is_half(std::uint32_t cpu_mask) {
+  return (cpu_mask & kernels::detect_cpu() & kernels::kHalfTiers) != 0;
+}
+
 }  // namespace mien::tests

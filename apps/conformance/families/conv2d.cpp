@@ -15,7 +15,7 @@ Case make(RandomValues& random, const Window& window, int in_c, int out_c, bool 
                                    bias = random.bias(out_c);
 
   const auto at = [&](int o, int out_pixel) {
-    Sum sum;
+    Sum sum(random.arithmetic());
     sum.add(widened(bias[static_cast<std::size_t>(o)]));
     window.for_each(out_pixel, [&](int k, int pixel) {
       for (int i = 0; i < in_c; ++i) {

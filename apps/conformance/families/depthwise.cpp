@@ -15,7 +15,7 @@ Case make(RandomValues& random, const Window& window, int channels,
   const std::vector<std::uint16_t> weights = random.halves(padded(channels) * taps);
 
   const auto at = [&](int c, int out_pixel) {
-    Sum sum;
+    Sum sum(random.arithmetic());
     sum.add(widened(bias[static_cast<std::size_t>(c)]));
     window.for_each(out_pixel, [&](int tap, int pixel) {
       sum.add(x[blocked(c, pixel, in_pixels)], widened(weights[blocked(c, tap, taps)]));

@@ -27,6 +27,7 @@ struct Activations {
 // A sum of products whose factors err already.
 class ErringSum {
  public:
+  explicit ErringSum(const Arithmetic& by) : sum_(by) {}
   void add(const Approx& x, double w = 1.0) {
     sum_.add(x.value, w);
     error_ += x.error * std::abs(w);
@@ -44,11 +45,13 @@ class ErringSum {
 // The layers one after another; maps in blocks, as [channel block][pixel][8].
 struct Layers {
   Shape shape;
+  Arithmetic arithmetic;
   std::vector<float> x;
   std::vector<std::uint16_t> w1, b1, w2, b2, w3, b3;
 
   Layers(RandomValues& random, const Shape& of)
       : shape(of),
+        arithmetic(random.arithmetic()),
         x(random.map(of.window.in_pixels(), of.in_c == 0 ? of.hidden_c : of.in_c)),
         w2(random.halves(padded(of.hidden_c) * of.window.kernel_h * of.window.kernel_w)),
         b2(random.bias(of.hidden_c)),
@@ -58,15 +61,17 @@ struct Layers {
       w1 = random.panels(of.hidden_c, padded(of.in_c));
       b1 = random.bias(of.hidden_c);
     }
-    if (random.pattern() == Pattern::kHuge) {
-      make_room();
+    if (random.is_half()) {
+      make_room(0x1p-8f);
+    } else if (random.pattern() == Pattern::kHuge) {
+      make_room(1e-12f);
     }
   }
 
-  // Three layers in a row take huge numbers beyond fp32, whatever the kernel does.
-  void make_room() {
+  // Three layers in a row take huge numbers beyond any type, whatever the kernel does.
+  void make_room(float factor) {
     for (float& one : x) {
-      one *= 1e-12f;
+      one *= factor;
     }
   }
 
@@ -76,7 +81,7 @@ struct Layers {
       if (shape.in_c == 0) {
         return exact(static_cast<double>(x[blocked(c, p, pixels)]));
       }
-      ErringSum sum;
+      ErringSum sum(arithmetic);
       sum.add(exact(widened(b1[as_size(c)])));
       for (int i = 0; i < shape.in_c; ++i) {
         sum.add(exact(static_cast<double>(x[blocked(i, p, pixels)])),
@@ -91,7 +96,7 @@ struct Layers {
     const Window& window = shape.window;
     const int taps = window.kernel_h * window.kernel_w;
     return expected_map(shape.hidden_c, window.out_pixels(), [&](int c, int p) {
-      ErringSum sum;
+      ErringSum sum(arithmetic);
       sum.add(exact(widened(b2[as_size(c)])));
       window.for_each(p, [&](int tap, int pixel) {
         sum.add(wide[blocked(c, pixel, window.in_pixels())], widened(w2[blocked(c, tap, taps)]));
@@ -101,7 +106,7 @@ struct Layers {
   }
 
   [[nodiscard]] Approx projected(const std::vector<Approx>& narrow, int o, int p) const {
-    ErringSum sum;
+    ErringSum sum(arithmetic);
     sum.add(exact(widened(b3[as_size(o)])));
     for (int c = 0; c < shape.hidden_c; ++c) {
       sum.add(narrow[blocked(c, p, shape.window.out_pixels())],

@@ -20,7 +20,7 @@ Case make(RandomValues& random, const Size& size, const RandomActivation& activa
       slice != nullptr ? random.map(slice->pixels(), out_c) : std::vector<float>();
 
   const auto at = [&](int o, int p) {
-    Sum sum;
+    Sum sum(random.arithmetic());
     sum.add(widened(bias[static_cast<std::size_t>(o)]));
     for (int i = 0; i < in_c; ++i) {
       sum.add(x[blocked(i, p, pixels)], panel_weight(weights, out_c, reduction, o, i));
