@@ -1,5 +1,7 @@
 #include "kernels/tier.h"
 
+#include <atomic>
+
 #ifdef MIEN_HAVE_AVX512FP16
 #include <cpuid.h>
 #endif
@@ -18,31 +20,7 @@ bool has_avx512fp16() {
 }
 #endif
 
-}  // namespace
-
-const char* name(Tier tier) {
-  switch (tier) {
-    case Tier::kRef:
-      return "ref";
-    case Tier::kAvx2:
-      return "avx2";
-    case Tier::kAvx512:
-      return "avx512";
-    case Tier::kNeon:
-      return "neon";
-    case Tier::kNeonFp16:
-      return "neonfp16";
-    case Tier::kNeon32:
-      return "neon32";
-    case Tier::kWasm:
-      return "wasm";
-    case Tier::kAvx512Fp16:
-      return "avx512fp16";
-  }
-  return nullptr;
-}
-
-std::uint32_t detect_cpu() {
+std::uint32_t ask_cpu() {
   std::uint32_t mask = 0;
 #ifndef MIEN_TRIM_REF
   mask |= bit(Tier::kRef);
@@ -81,6 +59,43 @@ std::uint32_t detect_cpu() {
   mask |= bit(Tier::kWasm);  // an engine without SIMD128 would have refused the whole module
 #endif
   return mask;
+}
+
+}  // namespace
+
+const char* name(Tier tier) {
+  switch (tier) {
+    case Tier::kRef:
+      return "ref";
+    case Tier::kAvx2:
+      return "avx2";
+    case Tier::kAvx512:
+      return "avx512";
+    case Tier::kNeon:
+      return "neon";
+    case Tier::kNeonFp16:
+      return "neonfp16";
+    case Tier::kNeon32:
+      return "neon32";
+    case Tier::kWasm:
+      return "wasm";
+    case Tier::kAvx512Fp16:
+      return "avx512fp16";
+  }
+  return nullptr;
+}
+
+std::uint32_t detect_cpu() {
+  // Every kernel that is looked up asks, and in virtual machines CPUID takes tens of microseconds.
+  // Two threads that come first find the same. Bit 30 is no tier: the CPU was asked.
+  constexpr std::uint32_t kAsked = 1u << 30;
+  static constinit std::atomic<std::uint32_t> answer = 0;
+  std::uint32_t mask = answer.load(std::memory_order_relaxed);
+  if (mask == 0) {
+    mask = ask_cpu() | kAsked;
+    answer.store(mask, std::memory_order_relaxed);
+  }
+  return mask & ~kAsked;
 }
 
 }  // namespace mien::kernels
