@@ -1,6 +1,8 @@
 // The validating pass over a weight file, front to back, by the sections of docs/format.md.
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 
 #include "formats/checked.h"
 #include "formats/mien_file.h"
@@ -26,18 +28,26 @@ bool is_zero(const Field& field) {
 }
 
 // No element has all bits of `exponent` set, as infinities and NaNs have: adding its lowest bit
-// carries out of those alone, into the sign. Without an early exit and without comparing, so that
-// compilers vectorise it: valid files are read to the end anyway.
+// carries out of those alone, into the sign. 64 bits at a time, to the end: valid files are read
+// whole anyway.
 template <class Word>
 bool all_finite(std::span<const std::byte> data, Word exponent) {
-  const std::span words(reinterpret_cast<const Word*>(data.data()), data.size() / sizeof(Word));
-  const auto lowest = static_cast<Word>(exponent & -exponent);
-  const auto sign = static_cast<Word>(exponent + lowest);
-  Word carried = 0;
-  for (const Word word : words) {
-    carried |= static_cast<Word>((word & exponent) + lowest);
+  constexpr std::size_t kStep = sizeof(std::uint64_t);
+  constexpr std::uint64_t kOfEach = ~std::uint64_t{0} / static_cast<Word>(~Word{0});
+  const std::uint64_t exponents = kOfEach * exponent;
+  const std::uint64_t lowest = kOfEach * static_cast<Word>(exponent & -exponent);
+  std::uint64_t carried = 0;
+  const auto look_at = [&](std::size_t at, std::size_t bytes) {
+    std::uint64_t words = 0;
+    std::memcpy(&words, data.data() + at, bytes);
+    carried |= (words & exponents) + lowest;
+  };
+  std::size_t at = 0;
+  for (; at + kStep <= data.size(); at += kStep) {
+    look_at(at, kStep);
   }
-  return (carried & sign) == 0;
+  look_at(at, data.size() - at);
+  return (carried & (exponents + lowest)) == 0;
 }
 
 DataType type_of(const TensorRecord& tensor) { return static_cast<DataType>(tensor.type); }
