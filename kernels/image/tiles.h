@@ -1,9 +1,9 @@
 // The warp of tiers with vectors: tile by tile, each from a small copy of what it needs of the
 // image. The copy is made of sums of boxes, 16 bits each, with the border repeated, so that two
-// neighbours are one load of 32 bits that is always inside.
+// neighbours are one load of 32 bits that is always inside. Everything has internal linkage: no
+// code of one tier may be merged with that of another.
 //
-// `Simd` is a tier's own class, so every instance belongs to one tier. It has vectors of kLanes
-// floats and integers,
+// `Simd` is what a tier has: vectors of kLanes floats and integers,
 //   Vec, Ints; splat, load, count_from(first), fma(sum, a, b), add, sub, mul, min, max, floor
 //   finite_or_0(Vec); equal(Vec, Vec): 0 where not; to_ints(Vec); store(std::int32_t*, Ints)
 //   gather(const std::uint16_t* base, Ints index, Vec& sample, Vec& next)
@@ -23,14 +23,16 @@
 
 namespace mien::kernels::tiles {
 
-// Of the output. A tile that needs more of the image than there is room for is halved. An upright
-// one whose samples lie 1.5 boxes apart needs 50 x 15 boxes.
-constexpr std::int32_t kTileRows = 8, kTileColumns = 32;
-constexpr std::int32_t kMostColumns = 64, kMostSamples = 800;  // of a copy
+// Of the output. A tile that needs more of the image than there is room for is halved: an upright
+// one whose samples lie 1.15 boxes apart needs 39 x 20 boxes, 1.5 boxes apart 50 x 27.
+constexpr std::int32_t kTileRows = 16, kTileColumns = 32;
+constexpr std::int32_t kMostColumns = 52, kMostSamples = 1088;  // of a copy
 constexpr std::int32_t kMostWaiting = 12;  // parts of a tile: one for each time it is halved
 constexpr std::int32_t kMostBox = 8;
 constexpr std::int32_t kMostStep = 3;  // numbers from one pixel to the next when rows are summed
 constexpr std::int32_t kSpare = 64;    // vectors may go on beyond what they are asked for
+
+namespace {
 
 // One number of a pixel: where it is, and how it is made smaller.
 struct Channel {
@@ -40,7 +42,6 @@ struct Channel {
   float boxes_per_pixel;  // of the image
   // Beyond the border by more than two boxes everything is the same.
   float end_x, end_y;
-  float share;  // of a sample in the mean of its box
 
   Channel() = default;
   Channel(const Plane& of, std::int32_t columns, std::int32_t rows, std::int32_t size,
@@ -50,7 +51,6 @@ struct Channel {
     boxes_per_pixel = samples_per_pixel / side;
     end_x = static_cast<float>(columns) / side + 2.0f;
     end_y = static_cast<float>(rows) / side + 2.0f;
-    share = 1.0f / (side * side);
   }
 };
 
@@ -92,10 +92,49 @@ struct Window {
   }
 };
 
+// Sums of boxes to what the network reads: rows of red, green and blue; the last number of a row is
+// added. What comes out is kept between low and high.
+struct Mixing {
+  float weights[3][4];
+  float low, high;
+};
+
+inline Mixing mixing_of(const WarpArgs& a) {
+  const auto share = [](std::int32_t box) { return 1.0f / static_cast<float>(box * box); };
+  const bool has_luma = a.format == PixelFormat::kGray8 || a.format == PixelFormat::kYuv420;
+  const bool narrow = has_luma && !a.full_range;
+  const float contrast = narrow ? 255.0f / 219.0f : 1.0f;
+  const float black = narrow ? -16.0f * contrast : 0.0f;
+  const float of_first = contrast * share(a.box);
+  const float colour = (narrow ? 255.0f / 224.0f : 1.0f);
+  constexpr float kOfU[3] = {0.0f, -0.344136f, 1.772f}, kOfV[3] = {1.402f, -0.714136f, 0.0f};
+  Mixing mixing{};
+  for (std::int32_t c = 0; c < 3; ++c) {
+    float* w = mixing.weights[c];
+    w[3] = black;
+    if (a.format == PixelFormat::kYuv420) {
+      w[0] = of_first;
+      w[1] = kOfU[c] * colour * share(a.chroma_box);
+      w[2] = kOfV[c] * colour * share(a.chroma_box);
+      w[3] -= 128.0f * colour * (kOfU[c] + kOfV[c]);
+    } else {
+      w[has_luma ? 0 : c] = of_first;
+    }
+    for (std::int32_t k = 0; k < 4; ++k) {
+      w[k] *= a.scale;
+    }
+    w[3] += a.offset;
+  }
+  const float ends[2] = {a.offset, 255.0f * a.scale + a.offset};
+  mixing.low = std::min(ends[0], ends[1]);
+  mixing.high = std::max(ends[0], ends[1]);
+  return mixing;
+}
+
 template <class Simd>
 class Warp {
  public:
-  explicit Warp(const WarpArgs& args) : a_(args) {
+  explicit Warp(const WarpArgs& args) : a_(args), mixing_(mixing_of(args)) {
     const std::int32_t chroma_width = (args.image_width + 1) / 2;
     const std::int32_t chroma_height = (args.image_height + 1) / 2;
     const auto packed = [&](std::int32_t first) {
@@ -378,9 +417,6 @@ class Warp {
     const Place at = place(i, columns);
     Vec rgb[3];
     colour(end - j == 1 ? finite(at) : at, rgb);
-    for (Vec& one : rgb) {
-      one = Simd::fma(Simd::splat(a_.offset), one, Simd::splat(a_.scale));
-    }
     float* y = a_.y + (std::ptrdiff_t{i} * a_.width + j) * 3;
     if (j + Simd::kLanes <= end) {
       return Simd::store_rgb(y, rgb[0], rgb[1], rgb[2]);
@@ -391,53 +427,56 @@ class Warp {
   }
 
   void colour(const Place& at, Vec rgb[3]) const {
-    const Position luma = position(at, channels_[0]);
-    rgb[0] = sample(luma, 0);
+    const Spot spot = spot_of(position(at, channels_[0]), windows_[0]);
+    const Vec first = sample(spot, 0);
     if (a_.format == PixelFormat::kGray8) {
-      rgb[0] = rgb[1] = rgb[2] = clamped(full_luma(rgb[0]));
+      rgb[0] = rgb[1] = rgb[2] = kept(mixed(0, 0, first, shift(0)));
     } else if (has_chroma()) {
-      const Position chroma = position(at, channels_[1]);
-      to_rgb(full_luma(rgb[0]), sample(chroma, 1), sample(chroma, 2), rgb);
+      const Spot chroma = spot_of(position(at, channels_[1]), windows_[1]);
+      const Vec u = sample(chroma, 1), v = sample(chroma, 2);
+      rgb[0] = kept(mixed(0, 2, v, mixed(0, 0, first, shift(0))));
+      rgb[1] = kept(mixed(1, 2, v, mixed(1, 1, u, mixed(1, 0, first, shift(1)))));
+      rgb[2] = kept(mixed(2, 1, u, mixed(2, 0, first, shift(2))));
     } else {
-      rgb[1] = sample(luma, 1);
-      rgb[2] = sample(luma, 2);
+      rgb[0] = mixed(0, 0, first, shift(0));
+      rgb[1] = mixed(1, 1, sample(spot, 1), shift(1));
+      rgb[2] = mixed(2, 2, sample(spot, 2), shift(2));
     }
   }
 
-  [[nodiscard]] Vec sample(const Position& at, std::int32_t c) const {
-    const Window& window = windows_[c];
-    const auto index = Simd::to_ints(Simd::fma(Simd::sub(at.column, Simd::splat(window.first)),
-                                               at.row, Simd::splat(window.stride)));
+  [[nodiscard]] Vec shift(std::int32_t c) const { return Simd::splat(mixing_.weights[c][3]); }
+  [[nodiscard]] Vec mixed(std::int32_t c, std::int32_t of, Vec sample, Vec sum) const {
+    return Simd::fma(sum, sample, Simd::splat(mixing_.weights[c][of]));
+  }
+  [[nodiscard]] Vec kept(Vec value) const {
+    return Simd::min(Simd::max(value, Simd::splat(mixing_.low)), Simd::splat(mixing_.high));
+  }
+
+  // Where in a copy, and where between there and its neighbours.
+  struct Spot {
+    typename Simd::Ints index;
+    Vec across, down;
+    std::int32_t stride;
+  };
+
+  [[nodiscard]] static Spot spot_of(const Position& at, const Window& window) {
+    const Vec column = Simd::sub(at.column, Simd::splat(window.first));
+    return {Simd::to_ints(Simd::fma(column, at.row, Simd::splat(window.stride))), at.across,
+            at.down, window.columns};
+  }
+
+  // A sum, bilinear between four.
+  [[nodiscard]] Vec sample(const Spot& spot, std::int32_t c) const {
     Vec left, right, lower_left, lower_right;
-    Simd::gather(samples_[c], index, left, right);
-    Simd::gather(samples_[c] + window.columns, index, lower_left, lower_right);
-    const Vec top = Simd::fma(left, at.across, Simd::sub(right, left));
-    const Vec bottom = Simd::fma(lower_left, at.across, Simd::sub(lower_right, lower_left));
-    return Simd::mul(Simd::fma(top, at.down, Simd::sub(bottom, top)),
-                     Simd::splat(channels_[c].share));
-  }
-
-  [[nodiscard]] Vec full_luma(Vec luma) const {
-    return a_.full_range
-               ? luma
-               : Simd::mul(Simd::sub(luma, Simd::splat(16.0f)), Simd::splat(255.0f / 219.0f));
-  }
-
-  [[nodiscard]] static Vec clamped(Vec value) {
-    return Simd::min(Simd::max(value, Simd::splat(0.0f)), Simd::splat(255.0f));
-  }
-
-  void to_rgb(Vec luma, Vec u, Vec v, Vec rgb[3]) const {
-    const float gain = a_.full_range ? 1.0f : 255.0f / 224.0f;
-    u = Simd::sub(u, Simd::splat(128.0f));
-    v = Simd::sub(v, Simd::splat(128.0f));
-    rgb[0] = clamped(Simd::fma(luma, v, Simd::splat(1.402f * gain)));
-    rgb[1] = clamped(Simd::fma(Simd::fma(luma, u, Simd::splat(-0.344136f * gain)), v,
-                               Simd::splat(-0.714136f * gain)));
-    rgb[2] = clamped(Simd::fma(luma, u, Simd::splat(1.772f * gain)));
+    Simd::gather(samples_[c], spot.index, left, right);
+    Simd::gather(samples_[c] + spot.stride, spot.index, lower_left, lower_right);
+    const Vec top = Simd::fma(left, spot.across, Simd::sub(right, left));
+    const Vec bottom = Simd::fma(lower_left, spot.across, Simd::sub(lower_right, lower_left));
+    return Simd::fma(top, spot.down, Simd::sub(bottom, top));
   }
 
   const WarpArgs& a_;
+  const Mixing mixing_;
   std::int32_t count_ = 3;
   Channel channels_[3] = {};
   Window windows_[3] = {};
@@ -445,4 +484,5 @@ class Warp {
   alignas(64) std::uint16_t sums_[kMostColumns * kMostBox * kMostStep + kSpare];
 };
 
+}  // namespace
 }  // namespace mien::kernels::tiles
