@@ -287,6 +287,7 @@ class Warp {
     return Window(x.first, x.second, y.first, y.second);
   }
 
+  // Row by row of boxes. Vectors may write beyond a row: the next one comes after it.
   void fill(const Channel& channel, const Window& window, std::uint16_t* samples) {
     const std::int32_t count = window.columns * channel.box;
     const std::int32_t begin = window.left * channel.box;
@@ -295,20 +296,22 @@ class Warp {
     const bool inside = last - first + 1 == count;
     for (std::int32_t r = 0; r < window.rows; ++r) {
       const Rows rows = rows_of(channel, (window.top + r) * channel.box, first);
-      std::int32_t rest = count;
+      std::uint16_t* row = samples + std::ptrdiff_t{r} * window.columns;
+      const auto room = [&](std::int32_t n) { return n == window.columns ? row : sums_; };
+      std::int32_t n = count;
       if (inside && channel.box > 1 && channel.plane.pixel_bytes == 1) {
-        rest /= 2;
-        sum_rows<2>(rows.at, channel.box, rest, count, Simd::byte_pairs,
-                    [](const std::uint8_t* at) { return at[0] + at[1]; });
+        n /= 2;
+        sum_rows<2>(rows.at, channel.box, n, count, room(n), BytePairs());
       } else {
-        sum_columns(rows.at, channel, last - first + 1);
-        repeat_border(std::clamp(first - begin, 0, count - 1), last - first + 1, count);
+        sum_columns(rows.at, channel, last - first + 1, inside ? room(n) : sums_);
+        if (!inside) {
+          repeat_border(std::clamp(first - begin, 0, count - 1), last - first + 1, count, room(n));
+        }
       }
-      while (rest > window.columns) {
-        rest /= 2;
-        halve(rest, Simd::pairs);
+      while (n > window.columns) {
+        n /= 2;
+        halve(n, room(n), [](auto a, auto b) { return Simd::pairs(a, b); });
       }
-      std::copy_n(sums_, window.columns, samples + std::ptrdiff_t{r} * window.columns);
     }
   }
 
@@ -327,41 +330,55 @@ class Warp {
     return rows;
   }
 
-  // Of as many columns, over the rows of a box, to the beginning of sums_.
-  void sum_columns(const std::uint8_t* const* rows, const Channel& channel, std::int32_t columns) {
+  // Kinds of numbers in a row of bytes: kSums of them at a time, or one.
+  struct Bytes {
+    static auto several(const std::uint8_t* at) { return Simd::bytes(at); }
+    static std::int32_t one(const std::uint8_t* at) { return at[0]; }
+  };
+  struct EvenBytes {
+    static auto several(const std::uint8_t* at) { return Simd::even_bytes(at); }
+    static std::int32_t one(const std::uint8_t* at) { return at[0]; }
+  };
+  struct BytePairs {
+    static auto several(const std::uint8_t* at) { return Simd::byte_pairs(at); }
+    static std::int32_t one(const std::uint8_t* at) { return at[0] + at[1]; }
+  };
+
+  // Of as many columns, over the rows of a box.
+  void sum_columns(const std::uint8_t* const* rows, const Channel& channel, std::int32_t columns,
+                   std::uint16_t* sums) {
     const auto step = static_cast<std::int32_t>(channel.plane.pixel_bytes);
-    const auto first_byte = [](const std::uint8_t* at) { return std::int32_t{*at}; };
     const std::int32_t bytes = (columns - 1) * step + 1;
     switch (step) {
       case 1:
-        return sum_rows<1>(rows, channel.box, columns, bytes, Simd::bytes, first_byte);
+        return sum_rows<1>(rows, channel.box, columns, bytes, sums, Bytes());
       case 2:
-        return sum_rows<2>(rows, channel.box, columns, bytes, Simd::even_bytes, first_byte);
+        return sum_rows<2>(rows, channel.box, columns, bytes, sums, EvenBytes());
       case 3:
-        sum_rows<1>(rows, channel.box, bytes, bytes, Simd::bytes, first_byte);
-        for (std::int32_t j = 1; j < columns; ++j) {
-          sums_[j] = sums_[3 * j];
+        sum_rows<1>(rows, channel.box, bytes, bytes, sums_, Bytes());
+        for (std::int32_t j = 0; j < columns; ++j) {
+          sums[j] = sums_[3 * j];
         }
         return;
       case 4:
-        sum_rows<2>(rows, channel.box, 2 * columns - 1, bytes, Simd::even_bytes, first_byte);
-        return halve(columns, Simd::evens);
+        sum_rows<2>(rows, channel.box, 2 * columns - 1, bytes, sums_, EvenBytes());
+        return halve(columns, sums, [](auto a, auto b) { return Simd::evens(a, b); });
       default:
-        return sum_far_columns(rows, channel, columns);
+        return sum_far_columns(rows, channel, columns, sums);
     }
   }
 
-  // n sums over `count` rows, of what `several` finds in kBytes * kSums bytes of each, and `one`
-  // for one sum. No more than `bytes` of a row are read.
-  template <std::int32_t kBytes, class Several, class One>
-  void sum_rows(const std::uint8_t* const* rows, std::int32_t count, std::int32_t n,
-                std::int32_t bytes, Several several, One one) {
+  // n sums over `count` rows, of numbers that lie kBytes apart. No more than `bytes` of a row are
+  // read.
+  template <std::int32_t kBytes, class Numbers>
+  static void sum_rows(const std::uint8_t* const* rows, std::int32_t count, std::int32_t n,
+                       std::int32_t bytes, std::uint16_t* sums, Numbers numbers) {
     const auto sum = [&](std::int32_t i) {
-      auto total = several(rows[0] + kBytes * i);
+      auto total = numbers.several(rows[0] + kBytes * i);
       for (std::int32_t row = 1; row < count; ++row) {
-        total = Simd::add_sums(total, several(rows[row] + kBytes * i));
+        total = Simd::add_sums(total, numbers.several(rows[row] + kBytes * i));
       }
-      Simd::store_sums(sums_ + i, total);
+      Simd::store_sums(sums + i, total);
     };
     const std::int32_t last = bytes / kBytes - Simd::kSums;  // where there are still so many
     std::int32_t i = 0;
@@ -375,39 +392,39 @@ class Warp {
     for (; i < n; ++i) {
       std::int32_t total = 0;
       for (std::int32_t row = 0; row < count; ++row) {
-        total += one(rows[row] + kBytes * i);
+        total += numbers.one(rows[row] + kBytes * i);
       }
-      sums_[i] = static_cast<std::uint16_t>(total);
+      sums[i] = static_cast<std::uint16_t>(total);
     }
   }
 
-  // Makes n sums of twice as many.
+  // Makes n numbers of twice as many in sums_.
   template <class Of>
-  void halve(std::int32_t n, Of of) {
+  void halve(std::int32_t n, std::uint16_t* to, Of of) {
     for (std::int32_t i = 0; i < n; i += Simd::kSums) {
       const std::uint16_t* both = sums_ + std::ptrdiff_t{2} * i;
-      Simd::store_sums(sums_ + i, of(Simd::load_sums(both), Simd::load_sums(both + Simd::kSums)));
+      Simd::store_sums(to + i, of(Simd::load_sums(both), Simd::load_sums(both + Simd::kSums)));
     }
   }
 
-  void sum_far_columns(const std::uint8_t* const* rows, const Channel& channel,
-                       std::int32_t columns) {
+  static void sum_far_columns(const std::uint8_t* const* rows, const Channel& channel,
+                              std::int32_t columns, std::uint16_t* sums) {
     for (std::int32_t j = 0; j < columns; ++j) {
-      sums_[j] = 0;
+      std::int32_t total = 0;
       for (std::int32_t i = 0; i < channel.box; ++i) {
-        sums_[j] = static_cast<std::uint16_t>(sums_[j] + rows[i][j * channel.plane.pixel_bytes]);
+        total += rows[i][j * channel.plane.pixel_bytes];
       }
+      sums[j] = static_cast<std::uint16_t>(total);
     }
   }
 
-  // Moves the `inside` first sums behind `left` copies of the first, and fills up with the last.
-  void repeat_border(std::int32_t left, std::int32_t inside, std::int32_t count) {
-    if (left > 0) {
-      std::copy_backward(sums_, sums_ + inside, sums_ + left + inside);
-      std::fill_n(sums_, left, sums_[left]);
-    }
-    std::fill(sums_ + left + inside, sums_ + std::max(count, left + inside),
-              sums_[left + inside - 1]);
+  // Puts the `inside` first sums behind `left` copies of the first, and fills up with the last.
+  void repeat_border(std::int32_t left, std::int32_t inside, std::int32_t count,
+                     std::uint16_t* to) const {
+    const std::uint16_t first = sums_[0], last = sums_[inside - 1];
+    std::copy_backward(sums_, sums_ + inside, to + left + inside);
+    std::fill_n(to, left, first);
+    std::fill(to + left + inside, to + std::max(count, left + inside), last);
   }
 
   // Up to kLanes outputs of row i, from column j on.
@@ -480,7 +497,7 @@ class Warp {
   std::int32_t count_ = 3;
   Channel channels_[3] = {};
   Window windows_[3] = {};
-  alignas(64) std::uint16_t samples_[3][kMostSamples];
+  alignas(64) std::uint16_t samples_[3][kMostSamples + kSpare];
   alignas(64) std::uint16_t sums_[kMostColumns * kMostBox * kMostStep + kSpare];
 };
 
