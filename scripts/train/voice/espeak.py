@@ -7,7 +7,7 @@ from math import gcd
 import numpy as np
 from scipy.signal import resample_poly
 
-from voice import phonemes
+from voice import made_voices, phonemes
 from voice.features import RATE
 
 SYNCHRONOUS, PHONEME_EVENTS, IPA_EVENTS = 2, 1, 2
@@ -36,7 +36,7 @@ class _Espeak:
     def __init__(self):
         self.library = ctypes.CDLL("libespeak-ng.so.1")
         self.library.espeak_TextToPhonemes.restype = ctypes.c_char_p
-        self.rate = self.library.espeak_Initialize(SYNCHRONOUS, 0, None, PHONEME_EVENTS | IPA_EVENTS)
+        self.rate = self.library.espeak_Initialize(SYNCHRONOUS, 0, str(made_voices.folder()).encode(), PHONEME_EVENTS | IPA_EVENTS)
         self.callback = _Callback(self._take)
         self.library.espeak_SetSynthCallback(self.callback)
         self.sound, self.events = [], []

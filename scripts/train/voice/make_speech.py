@@ -3,8 +3,9 @@
 english.*, to measure only: what the held-out reader said, by held-out voices in English accents.
 
 usage: python3 -m voice.make_speech [--hours 2.5]      (in scripts/train)
-eSpeak NG with all its variants in English accents (and some voices of other languages that read English their way), and the voices of
-flite and Festival where they are installed. Held out: variants by a hash of the name, and one of flite's speakers.
+eSpeak NG with all its variants and made ones in English accents (and some voices of other languages that read English their way),
+and the voices of flite and Festival where they are installed. Held out: variants by a hash of the name, and one of flite's speakers;
+the made ones are to learn from.
 """
 import argparse
 import re
@@ -16,13 +17,14 @@ from pathlib import Path
 
 import numpy as np
 
-from voice import corpus, espeak, labels, phonemes
+from voice import corpus, espeak, labels, made_voices, phonemes
 from voice.features import RATE
 
 ACCENTS = ["en-us", "en-us", "en-us", "gmw/en", "en-gb-x-rp", "en-gb-scotland", "en-gb-x-gbclan", "en-gb-x-gbcwmd", "en-029",
            "en-us-nyc"]
 FOREIGN = ["de", "nl", "es", "it", "pt", "sv", "pl", "fr", "id", "sw", "ro", "fi"]
 RECORDED_SHARE = {"train": 0.2, "val": 0.1, "test": 0.1}  # of sentences: voices made of recordings
+MADE_SHARE = 0.6  # of eSpeak NG's sentences to learn from: voices that are drawn for one sentence
 FLITE_VOICES = {"awb": "train", "rms": "train", "slt": "train", "kal16": "test"}
 FESTIVAL_VOICES = {"ked_diphone": "train", "cmu_us_slt_arctic_hts": "train"}
 UNLIKE_SPEECH = ("whisper", "robo", "Demonic", "croak")  # variants that hardly are voices
@@ -131,7 +133,8 @@ def speeches(wanted, seed, held=False):
                 say, voice = recorded[rng.integers(len(recorded))]
                 sound, ids, starts = say(rng, texts, voice)
             else:
-                voice = formant[k % len(formant)]
+                made = split == "train" and rng.random() < MADE_SHARE
+                voice = made_voices.draw(rng) if made else formant[k % len(formant)]
                 sound, ids, starts = say_espeak(rng, texts, voice)
             k += 1
             if len(sound) < RATE // 2 or len(ids) < 3:
