@@ -96,7 +96,7 @@ def to_window(crop, window, pixels):
 
 
 def sample_crops(images, crop, framing=BASENET, taps=None):
-    """What a network sees in crops [n,4] (pixels of images f32 [n,3,h,w]); where they are large, means of taps x taps."""
+    """Nearly what a network sees in crops [n,4] (pixels of images f32 [n,3,h,w]); where they are large, means of taps x taps."""
     h, w = images.shape[-2:]
     taps = taps or int(np.clip(np.ceil(float(crop[:, 2].max()) / framing.pixels_per_crop / 1.5), 1, 8))
     rows, columns = framing.height * taps, framing.width * taps
