@@ -1,9 +1,10 @@
 // Register tiles of up to 6 pixels x 16 output channels, or 12 x 8 for a last panel of 8: 12 sums,
 // so that a value of x and the weights serve several of them.
-#include <utility>
+#include <algorithm>
 
 #include "kernels/common/avx2.h"
 #include "kernels/common/product.h"
+#include "kernels/common/sized_tile.h"
 
 namespace mien::kernels::avx2 {
 namespace {
@@ -16,7 +17,13 @@ constexpr int partial_sums(int sums) { return sums >= 8 ? 1 : sums >= 4 ? 2 : 4;
 // One pixel after another.
 class Cursor {
  public:
-  explicit Cursor(const PixelRows& rows) : rows_(&rows) {}
+  Cursor(const PixelRows& rows, std::int32_t pixel)
+      : pixel_(pixel * rows.pixel_elems), column_(pixel), rows_(&rows) {
+    if (pixel >= rows.row_pixels) {
+      pixel_ += pixel / rows.row_pixels * rows.row_gap_elems;
+      column_ = pixel % rows.row_pixels;
+    }
+  }
   [[nodiscard]] std::ptrdiff_t at(std::int32_t panel) const {
     return pixel_ + panel * rows_->panel_elems;
   }
@@ -29,24 +36,30 @@ class Cursor {
   }
 
  private:
-  std::ptrdiff_t pixel_ = 0;
-  std::int32_t column_ = 0;
+  std::ptrdiff_t pixel_;
+  std::int32_t column_;
   const PixelRows* rows_;
 };
 
-// One panel over all pixels, tile by tile.
-struct Sweep {
+// Some pixels of the panels from `panel` on. A tile moves it behind those it made.
+struct Spot {
+  Spot(const ProductArgs& args, std::int32_t first_panel, std::int32_t pixel)
+      : a(args),
+        panel(first_panel),
+        x(args.x + std::ptrdiff_t{pixel} * kLanes),
+        y(args.y_rows, pixel),
+        residual(args.residual == nullptr ? args.y_rows : args.residual_rows, pixel) {}
   const ProductArgs& a;
   std::int32_t panel;
   const float* x;
-  Cursor y;
+  Cursor y, residual;
 };
 
 Vec weights_at(const std::uint16_t* w) { return load_half(w); }
 Vec weights_at(const float* w) { return _mm256_loadu_ps(w); }
 
 template <int kPixels, int kVecs, class Weight>
-void tile(Sweep& s, const Weight* w) {
+void tile(Spot& s, const Weight* w) {
   constexpr int kSums = partial_sums(kPixels * kVecs);
   const ProductArgs& a = s.a;
   Vec sum[kSums][kPixels][kVecs];
@@ -97,63 +110,56 @@ void tile(Sweep& s, const Weight* w) {
   s.x += kPixels * kLanes;
 }
 
-// Onto the `pixels` that a tile has just stored: once here is less code than in every tile.
-void add_residual(const Sweep& s, Cursor y, Cursor& residual, std::int32_t blocks,
-                  std::int32_t pixels) {
+// Onto the `pixels` that a tile has just stored from `y` on: once here is less code than in every
+// tile.
+void add_residual(Spot& s, Cursor y, std::int32_t blocks, std::int32_t pixels) {
   const ProductArgs& a = s.a;
-  for (std::int32_t p = 0; p < pixels; ++p, y.advance(), residual.advance()) {
+  for (std::int32_t p = 0; p < pixels; ++p, y.advance(), s.residual.advance()) {
     for (std::int32_t half = 0; half < blocks; ++half) {
       float* to = a.y + y.at(s.panel) + half * a.y_rows.half_elems;
-      const float* r = a.residual + residual.at(s.panel) + half * a.residual_rows.half_elems;
+      const float* r = a.residual + s.residual.at(s.panel) + half * a.residual_rows.half_elems;
       _mm256_storeu_ps(to, _mm256_add_ps(_mm256_loadu_ps(to), _mm256_loadu_ps(r)));
     }
   }
 }
 
 template <class Weight>
-using Tile = void (*)(Sweep&, const Weight*);
+using Run = void (*)(Spot&, const Weight*);
 
-// Tiles of kFirst, kFirst + 1, .. pixels.
-template <int kVecs, int kFirst, class Weight, int... kMore>
-Tile<Weight> tile_from(std::int32_t pixels, std::integer_sequence<int, kMore...>) {
-  static constexpr Tile<Weight> kTiles[] = {&tile<kFirst + kMore, kVecs, Weight>...};
-  return kTiles[pixels - kFirst];
+template <int kVecs, class Weight, int... kSizes>
+Tiling<Run<Weight>> one_of(std::int32_t pixels) {
+  static constexpr SizedTile<Run<Weight>> kTiles[] = {{kSizes, &tile<kSizes, kVecs, Weight>}...};
+  return tiling_of(kTiles, pixels);
 }
 
-// Of several tiles none is smaller than half of the largest.
+// Where weights are widened there are pixels for several tiles.
 template <int kVecs>
-Tile<float> tile_of(std::int32_t pixels, const float*) {
-  constexpr int kMost = kMostSums / kVecs;
-  return tile_from<kVecs, kMost / 2, float>(pixels,
-                                            std::make_integer_sequence<int, kMost / 2 + 1>());
+Tiling<Run<float>> tiles_of(std::int32_t pixels, const float*) {
+  return kVecs == 2 ? one_of<2, float, 4, 5, 6>(pixels) : one_of<1, float, 7, 9, 12>(pixels);
 }
 template <int kVecs>
-Tile<std::uint16_t> tile_of(std::int32_t pixels, const std::uint16_t*) {
-  return tile_from<kVecs, 1, std::uint16_t>(pixels,
-                                            std::make_integer_sequence<int, kMostSums / kVecs>());
+Tiling<Run<std::uint16_t>> tiles_of(std::int32_t pixels, const std::uint16_t*) {
+  return kVecs == 2 ? one_of<2, std::uint16_t, 1, 2, 3, 4, 5, 6>(pixels)
+                    : one_of<1, std::uint16_t, 1, 2, 4, 6, 9, 12>(pixels);
 }
 
-template <int kVecs>
-std::int32_t tile_count(const ProductArgs& a) {
-  constexpr int kMost = kMostSums / kVecs;
-  return (a.pixels + kMost - 1) / kMost;
-}
-
-// Tiles of nearly equal size: 9 pixels are 5 + 4, not 6 + 3.
 template <int kVecs, class Weight>
 void sweep(const ProductArgs& a, std::int32_t panel, const Weight* w) {
-  Sweep s{a, panel, a.x, Cursor(a.y_rows)};
-  Cursor residual(a.residual_rows);
-  const std::int32_t tiles = tile_count<kVecs>(a);
-  const std::int32_t least = a.pixels / tiles, larger = a.pixels % tiles;
-  const Tile<Weight> more = tile_of<kVecs>(least + (larger > 0 ? 1 : 0), w);
-  const Tile<Weight> less = tile_of<kVecs>(least, w);
-  for (std::int32_t i = 0; i < tiles; ++i) {
-    const Cursor before = s.y;
-    (i < larger ? more : less)(s, w);
+  const Tiling<Run<Weight>> tiles = tiles_of<kVecs>(a.pixels, w);
+  const auto run = [&](const SizedTile<Run<Weight>>& tile, Spot& spot) {
+    const Cursor before = spot.y;
+    tile.run(spot, w);
     if (a.residual != nullptr) {
-      add_residual(s, before, residual, kVecs, least + (i < larger ? 1 : 0));
+      add_residual(spot, before, kVecs, tile.pixels);
     }
+  };
+  Spot spot(a, panel, 0);
+  for (std::int32_t i = 0; i < tiles.count; ++i) {
+    run(tiles.each, spot);
+  }
+  if (tiles.last.run != nullptr) {
+    Spot end(a, panel, a.pixels - tiles.last.pixels);
+    run(tiles.last, end);
   }
 }
 
@@ -162,7 +168,7 @@ void run_panel(const ProductArgs& a, std::int32_t panel) {
   const std::ptrdiff_t reduction = std::ptrdiff_t{a.in_blocks} * kLanes;
   const std::ptrdiff_t elems = reduction * kVecs * kLanes;
   const std::uint16_t* w = a.weights + panel * reduction * kPanel;
-  if (a.wide == nullptr || tile_count<kVecs>(a) < 2 || elems > kWideElems) {
+  if (a.wide == nullptr || a.pixels <= kMostSums / kVecs || elems > kWideElems) {
     return sweep<kVecs>(a, panel, w);
   }
   for (std::ptrdiff_t k = 0; k < elems; k += kLanes) {

@@ -3,16 +3,16 @@
 // two elements of the sum at once, one in the even lanes and one in the odd.
 #include "kernels/common/product.h"
 
+#include <algorithm>
 #include <type_traits>
-#include <utility>
 
 #include "kernels/common/avx512.h"
+#include "kernels/common/sized_tile.h"
 
 namespace mien::kernels::avx512 {
 namespace {
 
 constexpr int kMostPixels = 13;
-constexpr int kWidePixels = 10;  // the least of a tile on weights in fp32
 
 // Few sums are split into partial ones: eight at least hide the latency of the multiply-adds.
 constexpr int partial_sums(int sums) { return sums >= 8 ? 1 : sums >= 4 ? 2 : 4; }
@@ -20,7 +20,13 @@ constexpr int partial_sums(int sums) { return sums >= 8 ? 1 : sums >= 4 ? 2 : 4;
 // One pixel after another.
 class Cursor {
  public:
-  explicit Cursor(const PixelRows& rows) : rows_(&rows) {}
+  Cursor(const PixelRows& rows, std::int32_t pixel)
+      : pixel_(pixel * rows.pixel_elems), column_(pixel), rows_(&rows) {
+    if (pixel >= rows.row_pixels) {
+      pixel_ += pixel / rows.row_pixels * rows.row_gap_elems;
+      column_ = pixel % rows.row_pixels;
+    }
+  }
   [[nodiscard]] std::ptrdiff_t at(std::int32_t panel) const {
     return pixel_ + panel * rows_->panel_elems;
   }
@@ -33,13 +39,19 @@ class Cursor {
   }
 
  private:
-  std::ptrdiff_t pixel_ = 0;
-  std::int32_t column_ = 0;
+  std::ptrdiff_t pixel_;
+  std::int32_t column_;
   const PixelRows* rows_;
 };
 
-// Panels from `panel` on, over all pixels, tile by tile.
-struct Sweep {
+// Some pixels of the panels from `panel` on. A tile moves it behind those it made.
+struct Spot {
+  Spot(const ProductArgs& args, std::int32_t first_panel, std::int32_t pixel)
+      : a(args),
+        panel(first_panel),
+        x(args.x + std::ptrdiff_t{pixel} * kBlock),
+        y(args.y_rows, pixel),
+        residual(args.residual == nullptr ? args.y_rows : args.residual_rows, pixel) {}
   const ProductArgs& a;
   std::int32_t panel;
   const float* x;
@@ -72,7 +84,7 @@ __m256 sums_of_pairs(Vec v) {
 
 // The end of a tile with a residual.
 template <int kPixels, int kVecs>
-void store_sum(Sweep& s, const Vec (&sum)[kPixels][kVecs]) {
+void store_sum(Spot& s, const Vec (&sum)[kPixels][kVecs]) {
   const ProductArgs& a = s.a;
   const Vec low = _mm512_set1_ps(a.low), high = _mm512_set1_ps(a.high);
   Cursor to = s.y, from = s.residual;
@@ -98,7 +110,7 @@ constexpr bool adds_inside(std::int32_t panels) {
 }
 
 template <int kPixels, int kVecs, class Weight>
-void tile(Sweep& s, const Weight* w) {
+void tile(Spot& s, const Weight* w) {
   constexpr int kSums = partial_sums(kPixels * kVecs);
   const ProductArgs& a = s.a;
   const std::ptrdiff_t panel = std::ptrdiff_t{a.in_blocks} * kBlock * kPanel;
@@ -116,6 +128,7 @@ void tile(Sweep& s, const Weight* w) {
   const float* x = s.x;
   std::int32_t left = a.in_blocks;
   do {
+#pragma GCC unroll 1
     for (int lane = 0; lane < kBlock; lane += kSums) {
       for (int k = 0; k < kSums; ++k, w += kPanel) {
         Vec weight[kVecs];
@@ -137,6 +150,7 @@ void tile(Sweep& s, const Weight* w) {
   const std::ptrdiff_t half = a.y_rows.half_elems;
   Cursor at = s.y;
   if constexpr (adds_inside<Weight>(kVecs)) {
+    static_assert(kSums == 1);
     if (a.residual != nullptr) {
       return store_sum<kPixels, kVecs>(s, sum[0]);
     }
@@ -157,7 +171,7 @@ void tile(Sweep& s, const Weight* w) {
 }
 
 template <int kPixels, class Weight>
-void half_tile(Sweep& s, const Weight* w) {
+void half_tile(Spot& s, const Weight* w) {
   constexpr int kSums = partial_sums(kPixels);
   const ProductArgs& a = s.a;
   Vec sum[kSums][kPixels];
@@ -170,6 +184,7 @@ void half_tile(Sweep& s, const Weight* w) {
   const float* x = s.x;
   std::int32_t left = a.in_blocks;
   do {
+#pragma GCC unroll 1
     for (int lane = 0; lane < kBlock; lane += 2 * kSums) {
       for (int k = 0; k < kSums; ++k, w += kPanel) {
         const Vec weight = pairs_at(w);
@@ -197,8 +212,8 @@ void half_tile(Sweep& s, const Weight* w) {
   s.x += kPixels * kBlock;
 }
 
-// Onto the `pixels` that a tile has just stored. `panels` 0: the last panel of 8.
-void add_residual(Sweep& s, Cursor y, std::int32_t panels, std::int32_t pixels) {
+// Onto the `pixels` that a tile has just stored from `y` on. `panels` 0: the last panel of 8.
+void add_residual(Spot& s, Cursor y, std::int32_t panels, std::int32_t pixels) {
   const ProductArgs& a = s.a;
   const bool both = panels > 0;
   for (std::int32_t p = 0; p < pixels; ++p, y.advance(), s.residual.advance()) {
@@ -213,66 +228,65 @@ void add_residual(Sweep& s, Cursor y, std::int32_t panels, std::int32_t pixels) 
 }
 
 template <class Weight>
-using Tile = void (*)(Sweep&, const Weight*);
+using Run = void (*)(Spot&, const Weight*);
 
-// Tiles of kFirst, kFirst + 1, .. pixels.
-template <int kVecs, int kFirst, class Weight, int... kMore>
-Tile<Weight> tile_from(std::int32_t pixels, std::integer_sequence<int, kMore...>) {
+// `kVecs` 0: the last panel of 8.
+template <int kVecs, class Weight, int... kSizes>
+Tiling<Run<Weight>> one_of(std::int32_t pixels) {
   if constexpr (kVecs == 0) {
-    static constexpr Tile<Weight> kTiles[] = {&half_tile<kFirst + kMore, Weight>...};
-    return kTiles[pixels - kFirst];
+    static constexpr SizedTile<Run<Weight>> kTiles[] = {{kSizes, &half_tile<kSizes, Weight>}...};
+    return tiling_of(kTiles, pixels);
   } else {
-    static constexpr Tile<Weight> kTiles[] = {&tile<kFirst + kMore, kVecs, Weight>...};
-    return kTiles[pixels - kFirst];
+    static constexpr SizedTile<Run<Weight>> kTiles[] = {{kSizes, &tile<kSizes, kVecs, Weight>}...};
+    return tiling_of(kTiles, pixels);
   }
 }
 
-template <int kFirst, int kLast>
-using Range = std::make_integer_sequence<int, kLast - kFirst + 1>;
-
-// `panels` 0: the last panel of 8.
-template <int kLeast, class Weight>
-Tile<Weight> tile_of(std::int32_t panels, std::int32_t pixels) {
+Tiling<Run<float>> tiles_of(std::int32_t panels, std::int32_t pixels, const float*) {
   switch (panels) {
     case 0:
-      return tile_from<0, kLeast, Weight>(pixels, Range<kLeast, kMostPixels>());
+      return one_of<0, float, 8, 13>(pixels);
     case 1:
-      return tile_from<1, kLeast, Weight>(pixels, Range<kLeast, kMostPixels>());
+      return one_of<1, float, 8, 13>(pixels);
     default:
-      return tile_from<2, kLeast, Weight>(pixels, Range<kLeast, kMostPixels>());
+      return one_of<2, float, 8, 13>(pixels);
   }
 }
 
-Tile<float> tile_of(std::int32_t panels, std::int32_t pixels, const float*) {
-  return tile_of<kWidePixels, float>(panels, pixels);
-}
-
-Tile<std::uint16_t> tile_of(std::int32_t panels, std::int32_t pixels, const std::uint16_t*) {
+Tiling<Run<std::uint16_t>> tiles_of(std::int32_t panels, std::int32_t pixels,
+                                    const std::uint16_t*) {
   switch (panels) {
+    case 0:
+      return one_of<0, std::uint16_t, 1, 2, 4, 6, 9, 11, 13>(pixels);
+    case 1:
+      return one_of<1, std::uint16_t, 1, 2, 4, 6, 9, 11, 13>(pixels);
+    case 2:
+      return one_of<2, std::uint16_t, 1, 2, 4, 6, 7, 8, 9, 10, 11, 12, 13>(pixels);
     case 3:
-      return tile_from<3, 7, std::uint16_t>(pixels, Range<7, 9>());
-    case 4:
-      return tile_from<4, 1, std::uint16_t>(pixels, Range<1, 6>());
+      return one_of<3, std::uint16_t, 9>(pixels);
     default:
-      return tile_of<1, std::uint16_t>(panels, pixels);
+      return one_of<4, std::uint16_t, 1, 2, 3, 4, 5, 6>(pixels);
   }
 }
 
-// Tiles of nearly equal size: 15 pixels are 8 + 7, not 13 + 2.
 template <class Weight>
 void sweep(const ProductArgs& a, std::int32_t first, std::int32_t panels, const Weight* w) {
-  Sweep s{a, first, a.x, Cursor(a.y_rows), Cursor(a.residual_rows)};
   const bool adds_after = a.residual != nullptr && !adds_inside<Weight>(panels);
-  const std::int32_t tiles = (a.pixels + kMostPixels - 1) / kMostPixels;
-  const std::int32_t least = a.pixels / tiles, larger = a.pixels % tiles;
-  const Tile<Weight> more = tile_of(panels, least + (larger > 0 ? 1 : 0), w);
-  const Tile<Weight> less = tile_of(panels, least, w);
-  for (std::int32_t i = 0; i < tiles; ++i) {
-    const Cursor before = s.y;
-    (i < larger ? more : less)(s, w);
+  const Tiling<Run<Weight>> tiles = tiles_of(panels, a.pixels, w);
+  const auto run = [&](const SizedTile<Run<Weight>>& tile, Spot& spot) {
+    const Cursor before = spot.y;
+    tile.run(spot, w);
     if (adds_after) {
-      add_residual(s, before, panels, least + (i < larger ? 1 : 0));
+      add_residual(spot, before, panels, tile.pixels);
     }
+  };
+  Spot spot(a, first, 0);
+  for (std::int32_t i = 0; i < tiles.count; ++i) {
+    run(tiles.each, spot);
+  }
+  if (tiles.last.run != nullptr) {
+    Spot end(a, first, a.pixels - tiles.last.pixels);
+    run(tiles.last, end);
   }
 }
 
@@ -287,7 +301,7 @@ void widen(const std::uint16_t* w, std::ptrdiff_t elems, bool pairs, float* wide
 void multiply_panels(const ProductArgs& a) {
   const std::ptrdiff_t reduction = std::ptrdiff_t{a.in_blocks} * kBlock;
   const std::int32_t panels = a.out_blocks / 2;
-  const std::int32_t at_once = a.pixels <= 6 ? 4 : a.pixels <= 9 ? 3 : 2;
+  const std::int32_t at_once = a.pixels <= 6 ? 4 : a.pixels == 9 ? 3 : 2;
   const bool widened =
       a.wide != nullptr && a.pixels > 3 * kMostPixels && reduction * 2 * kPanel <= kWideElems;
   const auto run = [&](std::int32_t first, std::int32_t count) {
