@@ -6,8 +6,10 @@ namespace mien::kernels::avx512fp16 {
 void fma_peak(const FmaPeakArgs& a) {
   constexpr int kSums = 16;  // two a cycle, four cycles each, and room
   __m512h sum[kSums];
+  // Out of the arguments: from constants fp16 soon comes to rest, which a compiler may notice.
+  const __m512i ones = _mm512_set1_epi16(static_cast<short>(0x3C00 + a.rounds % 512));
   for (int k = 0; k < kSums; ++k) {
-    sum[k] = _mm512_castsi512_ph(_mm512_set1_epi16(static_cast<short>(0x3C00 + k)));  // 1 and more
+    sum[k] = _mm512_castsi512_ph(_mm512_add_epi16(ones, _mm512_set1_epi16(static_cast<short>(k))));
   }
   const __m512h factor = _mm512_set1_ph(static_cast<_Float16>(0.999f));
   const __m512h term = _mm512_set1_ph(static_cast<_Float16>(0.001f));
