@@ -23,13 +23,14 @@ std::int32_t channels_at_once(std::size_t pixels) {
 }  // namespace
 
 std::size_t BlockTiling::scratch_elems() const {
-  return band_elems + strip_elems + kernels::kInvertedResidualWideElems;
+  return band_elems + strip_elems + narrow_elems + kernels::kInvertedResidualWideElems;
 }
 
-BlockTiling tile_block(const formats::LayerRecord& slide, const Shape& hidden, const Shape& slid) {
+BlockTiling tile_block(const formats::LayerRecord& slide, const Shape& hidden, const Shape& slid,
+                       std::int32_t narrowed_c) {
   BlockTiling t{};
   const std::int32_t kernel_h = slide.kernel_height, stride_h = slide.stride_height;
-  const std::size_t channels = (static_cast<std::size_t>(hidden.c) + 7) / 8 * 8;
+  const std::size_t channels = (static_cast<std::size_t>(hidden.c) + 15) / 16 * 16;
   const std::size_t band_row = channels * static_cast<std::size_t>(slid.w);
   const auto rows_in = [](std::int64_t bytes, std::size_t row_elems) {
     return bytes / static_cast<std::int64_t>(row_elems * sizeof(float));
@@ -46,6 +47,9 @@ BlockTiling tile_block(const formats::LayerRecord& slide, const Shape& hidden, c
                                            std::clamp<std::int64_t>(more, 0, t.band_rows - 1));
   t.band_elems = band_row * static_cast<std::size_t>(t.band_rows);
   t.strip_elems = strip_row * static_cast<std::size_t>(t.strip_rows);
+  const std::int32_t rows = std::min(hidden.h, (t.band_rows - 1) * stride_h + kernel_h);
+  t.narrow_elems = (static_cast<std::size_t>(narrowed_c) + 31) / 32 * 16 *
+                   static_cast<std::size_t>(rows) * static_cast<std::size_t>(hidden.w);
   return t;
 }
 
@@ -55,6 +59,12 @@ bool fuses_blocks(std::uint32_t cpu_mask) {
   const kernels::Entry* plain = kernels::find_entry(kernels::PointwiseArgs::kFamily, cpu_mask);
   const bool wanted = (cpu_mask & kernels::kFusedBlocks) != 0;
   return wanted && fused != nullptr && plain != nullptr && fused->tier >= plain->tier;
+}
+
+bool narrows_blocks(std::uint32_t cpu_mask) {
+  const kernels::Entry* fused =
+      kernels::find_entry(kernels::InvertedResidualArgs::kFamily, cpu_mask);
+  return fused != nullptr && kernels::is_half(fused->tier);
 }
 
 bool fuses(const formats::LayerRecord& layer) {

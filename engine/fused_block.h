@@ -12,18 +12,22 @@ namespace mien::engine {
 struct BlockTiling {
   std::int32_t band_rows;
   std::int32_t strip_channels, strip_rows, strip_w;
-  std::size_t band_elems, strip_elems;  // floats
+  std::size_t band_elems, strip_elems, narrow_elems;  // floats
 
   [[nodiscard]] std::size_t scratch_elems() const;  // with what weights in fp32 take
 };
 
-// `slide` is the depthwise layer, from `hidden` to `slid`.
+// `slide` is the depthwise layer, from `hidden` to `slid`. `narrowed_c`: channels of the block's
+// input if it is expanded in half precision, else 0.
 [[nodiscard]] BlockTiling tile_block(const formats::LayerRecord& slide, const Shape& hidden,
-                                     const Shape& slid);
+                                     const Shape& slid, std::int32_t narrowed_c);
 
 // Whether the tiers of `cpu_mask` run blocks at least as fast fused as layer by layer; never
 // without MIEN_CPU_FUSED.
 [[nodiscard]] bool fuses_blocks(std::uint32_t cpu_mask);
+
+// Whether fused blocks are computed in half precision.
+[[nodiscard]] bool narrows_blocks(std::uint32_t cpu_mask);
 
 // Whether a fused block can have this activation.
 [[nodiscard]] bool fuses(const formats::LayerRecord& layer);

@@ -1,7 +1,6 @@
 #include "engine/plan.h"
 
 #include "engine/arena_plan.h"
-#include "engine/fused_block.h"
 
 namespace mien::engine {
 
@@ -38,6 +37,7 @@ Status Plan::make(const SessionRequest& request) {
   fuse_additions();
   if (fuses_blocks(request.cpu_mask)) {
     fuse_blocks();
+    narrows_ = narrows_blocks(request.cpu_mask);
   }
   place_maps();
   return Status::kOk;
@@ -179,12 +179,15 @@ std::size_t Plan::scratch_elems(std::uint32_t layer) const {
   if (op_of(layers_[layer]) == LayerOp::kLstm) {
     return 4 * blocked_elems(values_[layer + 1].shape);
   }
-  const std::uint32_t slide = vanishes(layer) ? kNoIndex : fused_slide(layer);
-  if (slide == kNoIndex) {
-    return 0;
-  }
-  const Shape& hidden = values_[layers_[slide].input].shape;
-  return tile_block(layers_[slide], hidden, values_[slide + 1].shape).scratch_elems();
+  const bool is_block = !vanishes(layer) && fused_slide(layer) != kNoIndex;
+  return is_block ? tiling(layer).scratch_elems() : 0;
+}
+
+BlockTiling Plan::tiling(std::uint32_t layer) const {
+  const std::uint32_t slide = fused_slide(layer);
+  const bool narrowed = narrows_ && layer < slide;
+  return tile_block(layers_[slide], values_[layers_[slide].input].shape, values_[slide + 1].shape,
+                    narrowed ? values_[layers_[layer].input].shape.c : 0);
 }
 
 std::size_t Plan::scratch_elems() const {

@@ -7,6 +7,7 @@
 #include <span>
 #include <string_view>
 
+#include "engine/fused_block.h"
 #include "engine/model.h"
 
 namespace mien::engine {
@@ -51,6 +52,8 @@ class Plan {
   // The depthwise layer of the inverted residual block that begins with this layer; kNoIndex if
   // none. The block's last layer is the next.
   [[nodiscard]] std::uint32_t fused_slide(std::uint32_t layer) const;
+  // How the block divides its work.
+  [[nodiscard]] BlockTiling tiling(std::uint32_t layer) const;
   // Layers of the step that begins with this layer.
   [[nodiscard]] std::uint32_t step_layers(std::uint32_t layer) const;
   [[nodiscard]] std::uint32_t step_count() const { return step_count_; }
@@ -76,6 +79,7 @@ class Plan {
   [[nodiscard]] std::size_t scratch_elems() const;
   [[nodiscard]] std::size_t scratch_elems(std::uint32_t layer) const;
 
+  bool narrows_ = false;  // fused blocks are computed in half precision
   const formats::NetworkRecord* network_ = nullptr;
   std::span<const formats::LayerRecord> layers_;
   Value values_[formats::kMaxLayers + 1];

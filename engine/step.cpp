@@ -182,10 +182,11 @@ kernels::InvertedResidualArgs StepMaker::block(std::uint32_t layer, std::uint32_
     const Map residual = map(plan_.layer(sum).second_input);
     set_residual(residual.shape, y.shape, residual.data, args);
   }
-  const BlockTiling tiling = tile_block(l, hidden, slid);
+  const BlockTiling tiling = plan_.tiling(layer);
   args.band = scratch_;
   args.strip = args.band + tiling.band_elems;
   args.wide = args.strip + tiling.strip_elems;
+  args.narrow = args.wide + kernels::kInvertedResidualWideElems;
   args.band_rows = tiling.band_rows;
   args.strip_channels = tiling.strip_channels;
   args.strip_rows = tiling.strip_rows;

@@ -31,10 +31,16 @@ struct Arithmetic {
 inline constexpr Arithmetic kSingleArithmetic{kUnit, kFlushed, std::numeric_limits<int>::max()};
 // fp16: 11 bits, denormals kept. A value of x is rounded to them, each multiply-add is, and so is
 // what lies between the layers of a block. Weights are fp16 anyway. Within a chunk errors grow as
-// in any sum, with the root of its length; beyond, sums of chunks are added in fp32, so that a long
-// sum is no worse, by its magnitude, than a chunk. The longest that a kernel may take for a chunk:
-inline constexpr int kHalfChunk = 64;
-inline constexpr Arithmetic kHalfArithmetic{0x1p-11, 0x1p-24, kHalfChunk};
+// in any sum, with the root of its length; sums of chunks are added in fp32, so that a long sum is
+// no worse, by its magnitude, than a chunk. The longest that a kernel may take for one: 16 bits
+// lose no more than 1/80 of a chunk's magnitude then, and the way to fp32 costs one multiply-add in
+// ten.
+inline constexpr Arithmetic kHalfArithmetic{0x1p-11, 0x1p-24, 64};
+// Of a sum that becomes fp16 in the end.
+[[nodiscard]] inline Arithmetic in_one_chunk(Arithmetic by) {
+  by.chunk = std::numeric_limits<int>::max();
+  return by;
+}
 
 struct Approx {
   double value = 0.0;

@@ -241,7 +241,9 @@ typedef struct mien_allocator {
 /* Start from mien_tracker_config_default; then only the weights have to be set. */
 typedef struct mien_tracker_config {
   uint32_t struct_size;
-  uint32_t cpu_mask; /* tiers of kernels that may be used, MIEN_CPU_FUSED; default MIEN_CPU_ALL */
+  /* Tiers of kernels that may be used, MIEN_CPU_FUSED; default MIEN_CPU_ALL. For weights that are
+   * not the project's, take out MIEN_CPU_HALF unless their encoders' values stay in its range. */
+  uint32_t cpu_mask;
 
   /* Weight files in memory (models/basenet.mien, models/proposal.mien), MIEN_ALIGNMENT-aligned, for
    * instance mapped files or arrays in flash. Owned by the caller; must outlive the tracker and

@@ -3,7 +3,7 @@
 
 #include "kernels/common/avx2.h"
 #include "kernels/families.h"
-#include "kernels/inverted_residual/strips.h"
+#include "kernels/inverted_residual/float_strips.h"
 
 namespace mien::kernels::avx2 {
 namespace {
@@ -12,7 +12,7 @@ constexpr int kMostPixels = 8;
 
 struct Window {
   const InvertedResidualArgs& a;
-  const Slide& s;
+  const Slide<float>& s;
   const float* weights;  // [kernel_h][kernel_w][8]; 3x3 only
   const std::uint16_t* halves;
   Vec bias;
@@ -88,7 +88,7 @@ void row_any(const Window& m, const float* x, float* y) {
 }
 
 // `half` 0: the lower 8 channels of the panel, 1: the upper.
-void slide_half(const InvertedResidualArgs& a, const Slide& s, std::int32_t half) {
+void slide_half(const InvertedResidualArgs& a, const Slide<float>& s, std::int32_t half) {
   const std::ptrdiff_t taps = std::ptrdiff_t{a.kernel_h} * a.kernel_w;
   const std::int32_t block = s.block + half;
   const std::uint16_t* halves = a.slide.weights + block * taps * kLanes;
@@ -98,9 +98,10 @@ void slide_half(const InvertedResidualArgs& a, const Slide& s, std::int32_t half
     _mm256_storeu_ps(weights + tap * kLanes, load_half(halves + tap * kLanes));
   }
   const Window m{a, s, weights, halves, load_half(a.slide.bias + block * kLanes)};
+  float* band = band_at(a, s) + half * band_plane(a, s);
   for (std::int32_t row = 0; row < s.rows; ++row) {
     const float* x = s.x + row * a.stride_h * s.x_row_elems + std::ptrdiff_t{half} * kLanes;
-    float* y = s.y + half * s.y_plane_elems + std::ptrdiff_t{row} * a.out_w * kLanes;
+    float* y = band + std::ptrdiff_t{row} * a.out_w * kLanes;
     is_3x3 ? row_3x3(m, x, y) : row_any(m, x, y);
   }
 }
@@ -108,9 +109,9 @@ void slide_half(const InvertedResidualArgs& a, const Slide& s, std::int32_t half
 struct Tier2 {
   static void multiply(const ProductArgs& args) { multiply_panels(args); }
 
-  static void slide(const InvertedResidualArgs& a, const Slide& s) {
+  static void slide(const InvertedResidualArgs& a, const Slide<float>& s) {
     slide_half(a, s, 0);
-    if (s.both) {
+    if (s.blocks > 1) {
       slide_half(a, s, 1);
     }
   }
@@ -120,6 +121,8 @@ struct Tier2 {
 
 }  // namespace
 
-void inverted_residual(const InvertedResidualArgs& a) { InvertedResidual<Tier2>(a).run(); }
+void inverted_residual(const InvertedResidualArgs& a) {
+  InvertedResidual<FloatStrips<Tier2>>(a).run();
+}
 
 }  // namespace mien::kernels::avx2

@@ -3,27 +3,31 @@
 
 #include "kernels/common/avx512.h"
 #include "kernels/families.h"
-#include "kernels/inverted_residual/strips.h"
+#include "kernels/inverted_residual/float_strips.h"
 
 namespace mien::kernels::avx512 {
 namespace {
 
 constexpr int kMostPixels = 8;
 
+using FloatSlide = Slide<float>;
+
 struct Window {
   const InvertedResidualArgs& a;
-  const Slide& s;
+  const FloatSlide& s;
+  std::ptrdiff_t y_plane_elems;
+  bool both;           // the upper 8 channels exist
   const Vec* weights;  // 3x3: the nine
   Vec bias;
 };
 
-Vec weights_at(const InvertedResidualArgs& a, const Slide& s, std::int32_t tap) {
+Vec weights_at(const InvertedResidualArgs& a, const FloatSlide& s, std::int32_t tap) {
   const std::ptrdiff_t taps = std::ptrdiff_t{a.kernel_h} * a.kernel_w;
   const std::uint16_t* w = a.slide.weights + (s.block * taps + tap) * kBlock;
   const auto half = [](const std::uint16_t* at) {
     return _mm256_cvtph_ps(_mm_loadu_si128(reinterpret_cast<const __m128i*>(at)));
   };
-  const __m256 high = s.both ? half(w + taps * kBlock) : _mm256_setzero_ps();
+  const __m256 high = s.blocks > 1 ? half(w + taps * kBlock) : _mm256_setzero_ps();
   return _mm512_insertf32x8(_mm512_castps256_ps512(half(w)), high, 1);
 }
 
@@ -32,7 +36,7 @@ void store(const Window& m, const Vec (&sum)[kPixels], float* y) {
   const Vec low = _mm512_set1_ps(m.s.clamp.low), high = _mm512_set1_ps(m.s.clamp.high);
 #pragma GCC unroll 8
   for (int p = 0; p < kPixels; ++p) {
-    store_blocks(y + p * kBlock, m.s.y_plane_elems, m.s.both,
+    store_blocks(y + p * kBlock, m.y_plane_elems, m.both,
                  _mm512_min_ps(high, _mm512_max_ps(low, sum[p])));
   }
 }
@@ -98,17 +102,19 @@ void row_any(const Window& m, const float* x, float* y) {
 struct Tier512 {
   static void multiply(const ProductArgs& args) { multiply_panels(args); }
 
-  static void slide(const InvertedResidualArgs& a, const Slide& s) {
+  static void slide(const InvertedResidualArgs& a, const FloatSlide& s) {
     const bool is_3x3 = a.kernel_h == 3 && a.kernel_w == 3;
     Vec weights[9];
     for (std::int32_t tap = 0; is_3x3 && tap < 9; ++tap) {
       weights[tap] = weights_at(a, s, tap);
     }
-    const Window m{a, s, weights,
-                   load_half(a.slide.bias + s.block * kBlock, s.both ? 0xFFFF : 0xFF)};
+    const bool both = s.blocks > 1;
+    const Window m{a,    s,       band_plane(a, s),
+                   both, weights, load_half(a.slide.bias + s.block * kBlock, both ? 0xFFFF : 0xFF)};
+    float* band = band_at(a, s);
     for (std::int32_t row = 0; row < s.rows; ++row) {
       const float* x = s.x + row * a.stride_h * s.x_row_elems;
-      float* y = s.y + std::ptrdiff_t{row} * a.out_w * kBlock;
+      float* y = band + std::ptrdiff_t{row} * a.out_w * kBlock;
       is_3x3 ? row_3x3(m, x, y) : row_any(m, x, y);
     }
   }
@@ -118,6 +124,8 @@ struct Tier512 {
 
 }  // namespace
 
-void inverted_residual(const InvertedResidualArgs& a) { InvertedResidual<Tier512>(a).run(); }
+void inverted_residual(const InvertedResidualArgs& a) {
+  InvertedResidual<FloatStrips<Tier512>>(a).run();
+}
 
 }  // namespace mien::kernels::avx512

@@ -13,8 +13,11 @@
 //
 // e and s are never whole in memory. Bands of `band_rows` rows of s are made for all channels, by
 // strips of `strip_rows` rows of e for `strip_channels` channels:
-//   band: [ceil(hidden_c/8)][band_rows][out_w][8]
+//   band: [ceil(hidden_c/16)][band_rows][out_w][16]
 //   strip: [strip_channels/16][strip_rows][strip_w][16]
+// or, in half precision, as many bytes of fp16 numbers, in an order of the tier's, and what is
+// expanded for a band is first narrowed to
+//   narrow: [ceil(in_c/32)][min(in_h, (band_rows - 1) stride_h + kernel_h)][in_w][16]
 // with strip_channels a multiple of 16, strip_rows = kernel_h + n stride_h for some n >= 0, and
 // strip_w >= pad_left + in_w and >= (out_w - 1) stride_w + kernel_w.
 #pragma once
@@ -47,7 +50,8 @@ struct InvertedResidualArgs {
   std::int32_t residual_top, residual_left;
   float* band;
   float* strip;
-  float* wide;  // [kInvertedResidualWideElems]
+  float* wide;    // [kInvertedResidualWideElems]
+  float* narrow;  // nullptr for tiers that compute in fp32, and where nothing is expanded
   std::int32_t band_rows;
   std::int32_t strip_channels, strip_rows, strip_w;
 };

@@ -45,13 +45,14 @@ class ErringSum {
 // The layers one after another; maps in blocks, as [channel block][pixel][8].
 struct Layers {
   Shape shape;
-  Arithmetic arithmetic;
+  Arithmetic sums, inner_sums;  // the latter of what is expanded and slid
   std::vector<float> x;
   std::vector<std::uint16_t> w1, b1, w2, b2, w3, b3;
 
   Layers(RandomValues& random, const Shape& of)
       : shape(of),
-        arithmetic(random.arithmetic()),
+        sums(random.arithmetic()),
+        inner_sums(in_one_chunk(random.arithmetic())),
         x(random.map(of.window.in_pixels(), of.in_c == 0 ? of.hidden_c : of.in_c)),
         w2(random.halves(padded(of.hidden_c) * of.window.kernel_h * of.window.kernel_w)),
         b2(random.bias(of.hidden_c)),
@@ -81,7 +82,7 @@ struct Layers {
       if (shape.in_c == 0) {
         return exact(static_cast<double>(x[blocked(c, p, pixels)]));
       }
-      ErringSum sum(arithmetic);
+      ErringSum sum(inner_sums);
       sum.add(exact(widened(b1[as_size(c)])));
       for (int i = 0; i < shape.in_c; ++i) {
         sum.add(exact(static_cast<double>(x[blocked(i, p, pixels)])),
@@ -96,7 +97,7 @@ struct Layers {
     const Window& window = shape.window;
     const int taps = window.kernel_h * window.kernel_w;
     return expected_map(shape.hidden_c, window.out_pixels(), [&](int c, int p) {
-      ErringSum sum(arithmetic);
+      ErringSum sum(inner_sums);
       sum.add(exact(widened(b2[as_size(c)])));
       window.for_each(p, [&](int tap, int pixel) {
         sum.add(wide[blocked(c, pixel, window.in_pixels())], widened(w2[blocked(c, tap, taps)]));
@@ -106,7 +107,7 @@ struct Layers {
   }
 
   [[nodiscard]] Approx projected(const std::vector<Approx>& narrow, int o, int p) const {
-    ErringSum sum(arithmetic);
+    ErringSum sum(sums);
     sum.add(exact(widened(b3[as_size(o)])));
     for (int c = 0; c < shape.hidden_c; ++c) {
       sum.add(narrow[blocked(c, p, shape.window.out_pixels())],
@@ -149,6 +150,10 @@ InvertedResidualArgs sizes(const Shape& s) {
   return args;
 }
 
+int narrow_rows(const Shape& s) {
+  return std::min(s.window.in_h, (s.tiling.band_rows - 1) * s.window.stride_h + s.window.kernel_h);
+}
+
 Case make(RandomValues& random, const Shape& shape, const Activations& activations,
           const ResidualSlice* slice) {
   const Layers layers(random, shape);
@@ -159,18 +164,20 @@ Case make(RandomValues& random, const Shape& shape, const Activations& activatio
   test.shape = shape.window.text() + ", " + std::to_string(shape.in_c) + " to " +
                std::to_string(shape.hidden_c) + " to " + std::to_string(shape.out_c) +
                (slice != nullptr ? ", residual" : "");
-  test.buffers = {reads(layers.x),
-                  reads(layers.w1),
-                  reads(layers.b1),
-                  reads(layers.w2),
-                  reads(layers.b2),
-                  reads(layers.w3),
-                  reads(layers.b3),
-                  reads(residual),
-                  scratch(as_size(padded(shape.hidden_c) * t.band_rows * shape.window.out_w)),
-                  scratch(as_size(t.strip_channels * t.strip_rows * t.strip_w)),
-                  scratch(as_size(kernels::kInvertedResidualWideElems)),
-                  writes(Element::kFloat, expected(layers, activations, slice, residual))};
+  test.buffers = {
+      reads(layers.x),
+      reads(layers.w1),
+      reads(layers.b1),
+      reads(layers.w2),
+      reads(layers.b2),
+      reads(layers.w3),
+      reads(layers.b3),
+      reads(residual),
+      scratch(as_size((shape.hidden_c + 15) / 16 * 16 * t.band_rows * shape.window.out_w)),
+      scratch(as_size(t.strip_channels * t.strip_rows * t.strip_w)),
+      scratch(as_size(kernels::kInvertedResidualWideElems)),
+      scratch(as_size((shape.in_c + 31) / 32 * 16 * narrow_rows(shape) * shape.window.in_w)),
+      writes(Element::kFloat, expected(layers, activations, slice, residual))};
   const ResidualSlice taken = slice != nullptr ? *slice : ResidualSlice();
   test.bind = [=](const Places& places) {
     InvertedResidualArgs args = sizes(shape);
@@ -185,7 +192,8 @@ Case make(RandomValues& random, const Shape& shape, const Activations& activatio
     args.band = places.floats(8);
     args.strip = places.floats(9);
     args.wide = places.floats(10);
-    args.y = places.floats(11);
+    args.narrow = places.floats(11);
+    args.y = places.floats(12);
     return arguments(args);
   };
   test.call = call<InvertedResidualArgs>;
