@@ -181,7 +181,7 @@ LayerIndex NetworkWriter::dense(Layer layer, const Array& weight, const Reductio
 
 LayerIndex NetworkWriter::conv2d(LayerIndex x, const Array& weight, const std::vector<float>& bias,
                                  const LayerOptions& options) {
-  const std::uint64_t channels = shape_of_value(x).channels;
+  const auto channels = static_cast<std::size_t>(shape_of_value(x).channels);
   Layer layer = begin(LayerOp::kConv2d, x, options);
   slide(&layer.record, dim(weight, 2), dim(weight, 3), options);
   require(has_shape(weight, {dim(weight, 0), channels, dim(weight, 2), dim(weight, 3)}),
@@ -192,7 +192,7 @@ LayerIndex NetworkWriter::conv2d(LayerIndex x, const Array& weight, const std::v
 
 LayerIndex NetworkWriter::depthwise(LayerIndex x, const Array& weight,
                                     const std::vector<float>& bias, const LayerOptions& options) {
-  const std::uint64_t channels = shape_of_value(x).channels;
+  const auto channels = static_cast<std::size_t>(shape_of_value(x).channels);
   Layer layer = begin(LayerOp::kDepthwise, x, options);
   slide(&layer.record, dim(weight, 2), dim(weight, 3), options);
   const bool good = require(has_shape(weight, {channels, 1, dim(weight, 2), dim(weight, 3)}),
@@ -204,7 +204,7 @@ LayerIndex NetworkWriter::depthwise(LayerIndex x, const Array& weight,
 
 LayerIndex NetworkWriter::pointwise(LayerIndex x, const Array& weight,
                                     const std::vector<float>& bias, const LayerOptions& options) {
-  const std::uint64_t channels = shape_of_value(x).channels;
+  const auto channels = static_cast<std::size_t>(shape_of_value(x).channels);
   require(has_shape(weight, {dim(weight, 0), channels}), FileStatus::kBadTensor);
   return dense(begin(LayerOp::kPointwise, x, options), weight, map_order(channels, 1), bias,
                options);
@@ -214,15 +214,17 @@ LayerIndex NetworkWriter::fully_connected(LayerIndex x, const Array& weight,
                                           const std::vector<float>& bias,
                                           const LayerOptions& options) {
   const ValueShape map = shape_of_value(x);
-  const std::uint64_t pixels = map.height * map.width;
-  require(has_shape(weight, {dim(weight, 0), map.channels * pixels}), FileStatus::kBadTensor);
-  return dense(begin(LayerOp::kFullyConnected, x, options), weight, map_order(map.channels, pixels),
+  require(has_shape(weight, {dim(weight, 0), map.channels * map.height * map.width}),
+          FileStatus::kBadTensor);
+  const auto channels = static_cast<std::size_t>(map.channels);
+  const auto pixels = static_cast<std::size_t>(map.height * map.width);
+  return dense(begin(LayerOp::kFullyConnected, x, options), weight, map_order(channels, pixels),
                bias, options);
 }
 
 LayerIndex NetworkWriter::causal_conv(LayerIndex x, const Array& weight,
                                       const std::vector<float>& bias, const LayerOptions& options) {
-  const std::uint64_t inputs = shape_of_value(x).channels;
+  const auto inputs = static_cast<std::size_t>(shape_of_value(x).channels);
   require(has_shape(weight, {dim(weight, 0), inputs, 2}), FileStatus::kBadTensor);
   return dense(begin(LayerOp::kCausalConv, x, options), weight, causal_conv_order(inputs), bias,
                options);
@@ -230,14 +232,14 @@ LayerIndex NetworkWriter::causal_conv(LayerIndex x, const Array& weight,
 
 LayerIndex NetworkWriter::lstm(LayerIndex x, const Array& weight_ih, const Array& weight_hh,
                                const std::vector<float>& bias, const LayerOptions& options) {
-  const std::uint64_t inputs = shape_of_value(x).channels;
-  const std::uint64_t hidden = dim(weight_hh, 1);
+  const auto inputs = static_cast<std::size_t>(shape_of_value(x).channels);
+  const std::size_t hidden = dim(weight_hh, 1);
   const bool good = require(
       has_shape(weight_ih, {4 * hidden, inputs}) && has_shape(weight_hh, {4 * hidden, hidden}),
       FileStatus::kBadTensor);
   Array rows{{static_cast<std::uint32_t>(4 * hidden)}, {}};
   for (std::size_t row = 0; good && row < 4 * hidden; ++row) {
-    const auto append_row = [&](const Array& array, std::uint64_t count) {
+    const auto append_row = [&](const Array& array, std::size_t count) {
       const float* first = array.values.data() + row * count;
       rows.values.insert(rows.values.end(), first, first + count);
     };

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "formats/fp16.h"
-#include "formats/mien_layers.h"
 
 namespace mien::formats {
 namespace {
@@ -11,9 +10,12 @@ namespace {
 constexpr std::size_t kPanel = 16;
 constexpr std::size_t kBlock = 8;
 
+// As padded8 of the format, of what is in memory.
+std::size_t padded(std::size_t n) { return (n + kBlock - 1) / kBlock * kBlock; }
+
 // `count` elements from `first` every `step`, then zeros to a multiple of 8.
 void append_padded(ReductionOrder* order, std::size_t first, std::size_t count, std::size_t step) {
-  for (std::size_t i = 0; i < padded8(count); ++i) {
+  for (std::size_t i = 0; i < padded(count); ++i) {
     order->push_back(i < count ? first + i * step : kZero);
   }
 }
@@ -58,7 +60,7 @@ ReductionOrder lstm_order(std::size_t inputs, std::size_t hidden) {
 Halves pack_panels(std::span<const float> values, std::size_t outputs,
                    const ReductionOrder& order) {
   const std::size_t row = values.size() / outputs;
-  const std::size_t width = padded8(outputs);
+  const std::size_t width = padded(outputs);
   Halves packed;
   packed.reserve(width * order.size());
   for (std::size_t panel = 0; panel < width; panel += kPanel) {
@@ -74,7 +76,7 @@ Halves pack_panels(std::span<const float> values, std::size_t outputs,
 
 Halves pack_depthwise(std::span<const float> values, std::size_t channels, std::size_t taps) {
   Halves packed;
-  packed.reserve(padded8(channels) * taps);
+  packed.reserve(padded(channels) * taps);
   for (std::size_t block = 0; block < channels; block += kBlock) {
     for (std::size_t tap = 0; tap < taps; ++tap) {
       for (std::size_t c = block; c < block + kBlock; ++c) {
@@ -86,7 +88,7 @@ Halves pack_depthwise(std::span<const float> values, std::size_t channels, std::
 }
 
 Halves pack_vector(std::span<const float> values) {
-  Halves packed(padded8(values.size()), 0);
+  Halves packed(padded(values.size()), 0);
   std::transform(values.begin(), values.end(), packed.begin(), fp16_from_float);
   return packed;
 }

@@ -1,18 +1,19 @@
 #!/usr/bin/env bash
 # Installs what building, testing and running mien need, from Debian's packages.
-# usage: scripts/setup.sh [build] [test] [demo] [train] [convert] [cross-arm] [cross-wasm] [cross-windows] [cross-compile-only]
+# usage: scripts/setup.sh [build] [test] [demo] [train] [convert] [cross-x86] [cross-arm] [cross-wasm] [cross-windows] [cross-compile-only]
 #        (default: build test demo)
 # As root or with sudo; does nothing when everything is there already.
 set -euo pipefail
 
 declare -A PACKAGES=(
   [build]="g++ cmake ninja-build libcli11-dev nlohmann-json3-dev libstb-dev"
-  [test]="libgtest-dev libgmock-dev clang clang-format clang-tidy libclang-rt-dev python3 python3-numpy ffmpeg chromium binutils git pkgconf shellcheck"
+  [test]="libgtest-dev libgmock-dev clang clang-format clang-tidy libclang-rt-dev ccache python3 python3-numpy ffmpeg chromium binutils git pkgconf shellcheck"
   [demo]="ffmpeg python3"
   [convert]="python3-onnx python3-numpy"
   [cross-arm]="g++-aarch64-linux-gnu g++-arm-linux-gnueabihf qemu-user googletest binutils llvm clang clang-tidy"
-  [cross-wasm]="emscripten node-acorn nodejs llvm googletest chromium python3 ffmpeg"
-  [cross-windows]="g++-mingw-w64-x86-64-posix wine wine64 googletest ffmpeg"
+  [cross-x86]="qemu-user"
+  [cross-wasm]="emscripten node-acorn nodejs llvm clang-tidy git googletest chromium python3 ffmpeg"
+  [cross-windows]="g++-mingw-w64-x86-64-posix binutils-mingw-w64-x86-64 wine wine64 googletest ffmpeg"
   [cross-compile-only]="clang lld llvm libc++-dev musl-dev"
   [train]="python3-torch libopenblas0-serial python3-opencv python3-scipy python3-pil python3-matplotlib python3-tqdm espeak-ng libespeak-ng1 flite festival festvox-kdlpc16k festvox-us-slt-hts python3-pocketsphinx pocketsphinx-en-us libopus0 ffmpeg"
 )

@@ -13,11 +13,14 @@ constexpr std::size_t kLineBytes = 64;
 
 std::byte* placed(std::span<std::byte> room, std::size_t bytes, std::size_t element_bytes,
                   Place place) {
+  // Without guard pages a stray write is to hit the border, not what the heap keeps beside the
+  // room.
+  const std::size_t margin = have_guard_pages() ? 0 : kLineBytes;
   switch (place) {
     case Place::kAtEnd:
-      return room.data() + room.size() - bytes;
+      return room.data() + room.size() - margin - bytes;
     case Place::kAtStart:
-      return room.data();
+      return room.data() + margin;
     case Place::kUnaligned:
       return room.data() + kLineBytes + element_bytes;
   }

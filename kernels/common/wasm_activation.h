@@ -69,9 +69,10 @@ inline Vec curved(Vec x, const ActivationSpec& activation, std::int32_t first,
 
 // On [pixels][4] in place, pixels `step` floats apart. Out of line: it is large, and the sums
 // around a call would not stay in registers.
-[[maybe_unused, gnu::noinline]] void curve(float* values, std::ptrdiff_t pixels,
-                                           std::ptrdiff_t step, const ActivationSpec& activation,
-                                           std::int32_t first, std::int32_t channels) {
+[[maybe_unused, gnu::noinline]] inline void curve(float* values, std::ptrdiff_t pixels,
+                                                  std::ptrdiff_t step,
+                                                  const ActivationSpec& activation,
+                                                  std::int32_t first, std::int32_t channels) {
   for (std::ptrdiff_t p = 0; p < pixels; ++p, values += step) {
     store(values, curved(load(values), activation, first, channels));
   }

@@ -30,8 +30,9 @@ struct Widened {
 [[maybe_unused]] inline Vec load_weights(const std::uint16_t* at) { return load_half(at); }
 [[maybe_unused]] inline Vec load_weights(const float* at) { return load(at); }
 
-// On the stack, which a session's run keeps small.
-constexpr std::int32_t kWidenedElems = 1024;
+// On the stack, 16 KB of it: enough for two vectors of a product of 512 inputs, the most that the
+// published encoders have.
+inline constexpr std::int32_t kWidenedElems = 4096;
 
 template <int kVecs>
 [[maybe_unused]] constexpr bool fits_widened(std::ptrdiff_t rows) {

@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
 # Compiles the whole library for systems whose SDK is not at hand, Android and Apple's, with clang and stand-in headers,
 # and looks at what the objects ask for. Nothing is run. Linking and running need the NDK or Xcode: docs/cross.md.
-# usage: scripts/cross/compile_only.sh
+# usage: scripts/cross/compile_only.sh [--full]      --full: also macOS on arm64 and the simulator, which differ from iOS in name
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 scripts/setup.sh build cross-compile-only
+. scripts/cross/common.sh
 
-llvm=$(ls -d /usr/lib/llvm-*/include/c++/v1 | sort -V | tail -1)
+llvm=$(printf '%s\n' /usr/lib/llvm-*/include/c++/v1 | sort -V | tail -1)
 llvm=${llvm%/include/c++/v1}
 root=$PWD/build/cross/compile-only
 musl=/usr/include/x86_64-linux-musl
@@ -17,12 +18,17 @@ sed -E 's/^(#define _(Addr|Reg)) long/\1 int/; s/^(#define _Int64) long/\1 long 
   "$musl/bits/alltypes.h" >"$root/headers32/bits/alltypes.h"
 sed -E 's/((INTPTR|PTRDIFF|SIZE)_M[A-Z]+ +U?)INT64/\1INT32/' "$musl/bits/stdint.h" >"$root/headers32/bits/stdint.h"
 
+# Apple's 64-bit integers are long long, which clang insists on.
+mkdir -p "$root/headers_apple/bits"
+sed -E 's/^(#define _Int64) long/\1 long long/' "$musl/bits/alltypes.h" >"$root/headers_apple/bits/alltypes.h"
+
 # What an object may ask others for: memory, mathematics and reading files of the C library, new and delete that do not
-# throw, and the compiler's own run-time library. No exceptions, no type information, no guarded or early initialisation.
+# throw, std::to_chars of integers, what the CPU has, and the compiler's own run-time library. No exceptions, no type information, no guarded or early initialisation.
 # abort is what libc++ has, without exceptions, where it would throw.
-allowed='^_?(abort|mem(cpy|move|set|cmp|chr)|bcmp|bzero|strlen|aligned_alloc|free|fread'
+allowed='^_?(abort|mem(cpy|move|set|cmp|chr)|bcmp|(__)?bzero|strlen|aligned_alloc|free|fread'
 allowed+='|(exp|log|log10|sin|cos|tan|acos|asin|atan|atan2|sqrt|pow|floor|ceil|round|lround|llround|hypot|tanh)f?'
 allowed+='|___?sincosf?(_stret)?|sincosf?|_Zn[wa][mj](St11align_val_t)?RKSt9nothrow_t|_Zd[la]Pv([mj])?(St11align_val_t)?|_ZSt7nothrow'
+allowed+='|_ZNSt3__16__itoa8__u(32|64)toaE[jmy]Pc|getauxval|sysctlbyname'
 allowed+='|__exp10f?|memset_pattern16|__stack_chk_(fail|guard)|__cpu_(model|indicator_init)|__aeabi_[a-z0-9_]+|_GLOBAL_OFFSET_TABLE_)$'
 
 bad=0
@@ -32,7 +38,7 @@ check() {  # triple, flags, headers, what for
   cmake -S . -B "$build" -G Ninja --toolchain "$PWD/scripts/cross/compile_only.cmake" -DMIEN_TRIPLE="$1" -DMIEN_FLAGS="$2" \
     -DMIEN_LLVM="$llvm" -DMIEN_HEADERS="$3" -DCMAKE_BUILD_TYPE=Release -DMIEN_BUILD_APPS=OFF -DMIEN_INSTALL=OFF \
     -DMIEN_BUILD_CONFORMANCE=OFF -DMIEN_BUILD_TESTS=OFF >/dev/null
-  cmake --build "$build" --target mien_static >"$root/$1.log" || { cat "$root/$1.log" >&2; exit 1; }
+  build "$build" mien_static
   local library=$build/tracker/libmien.a nm=$llvm/bin/llvm-nm
   local wanted
   wanted=$(comm -23 <("$nm" -u -j "$library" 2>/dev/null | grep -v ':$' | sort -u) \
@@ -51,12 +57,13 @@ check() {  # triple, flags, headers, what for
   echo "compiled: $1 ($4), $("$llvm/bin/llvm-ar" t "$library" | wc -l) objects; asks for $(wc -w <<<"$wanted") functions outside"
 }
 
-# Android's loader wants segments apart by pages of 16 KB.
+# Android's loader wants segments apart by pages of 16 KB: are they, with what tracker/CMakeLists.txt tells the linker?
+page_size=$(sed -nE 's/.*-Wl,-z,(max-page-size=[0-9]+).*/\1/p' tracker/CMakeLists.txt)
 check_pages() {  # triple, emulation
   local so=$root/$1/libmien.so
   echo '__attribute__((visibility("hidden"))) unsigned __cpu_model[4];' |  # of the compiler's run-time library
     clang --target="$1" -fPIC -x c -c - -o "$root/$1/run_time.o"
-  "$llvm/bin/ld.lld" -shared -m "$2" -z max-page-size=16384 --unresolved-symbols=ignore-all "$root/$1/run_time.o" --whole-archive \
+  "$llvm/bin/ld.lld" -shared -m "$2" ${page_size:+-z "$page_size"} --unresolved-symbols=ignore-all "$root/$1/run_time.o" --whole-archive \
     "$root/$1/tracker/libmien.a" -o "$so"
   if "$llvm/bin/llvm-readelf" -lW "$so" | awk '$1 == "LOAD" && $NF != "0x4000" {bad = 1} END {exit !bad}'; then
     echo "compile_only.sh: $so is not aligned to pages of 16 KB" >&2
@@ -70,9 +77,13 @@ check x86_64-linux-android28 "" "$musl" "Android x86_64"
 check_pages aarch64-linux-android28 aarch64linux
 check_pages armv7a-linux-androideabi28 armelf_linux_eabi
 check_pages x86_64-linux-android28 elf_x86_64
-check arm64-apple-ios15.0 "-D_GNU_SOURCE" "$musl" "iOS"
-check arm64-apple-ios15.0-simulator "-D_GNU_SOURCE" "$musl" "iOS simulator"
-check arm64-apple-macos13.0 "-D_GNU_SOURCE" "$musl" "macOS arm64"
-check x86_64-apple-macos13.0 "-D_GNU_SOURCE" "$musl" "macOS x86_64"
-echo "compile-only: every source of the library was compiled for the above; nothing was linked to their systems or run"
+check arm64-apple-ios15.0 "-D_GNU_SOURCE" "$root/headers_apple -idirafter $musl" "iOS"
+check x86_64-apple-macos13.0 "-D_GNU_SOURCE" "$root/headers_apple -idirafter $musl" "macOS x86_64"
+targets="Android arm64-v8a, armeabi-v7a and x86_64; iOS; macOS x86_64"
+if [ $full -eq 1 ]; then
+  check arm64-apple-ios15.0-simulator "-D_GNU_SOURCE" "$root/headers_apple -idirafter $musl" "iOS simulator"
+  check arm64-apple-macos13.0 "-D_GNU_SOURCE" "$root/headers_apple -idirafter $musl" "macOS arm64"
+  targets+=", arm64; iOS simulator"
+fi
+echo "compile-only: every source of the library was compiled for $targets; nothing was linked to their systems or run"
 exit $bad

@@ -22,7 +22,9 @@ class Chromium:
         self.inbox, from_browser = os.pipe()
         command = [program, "--headless", "--remote-debugging-pipe", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
                    "--no-first-run", "--disable-background-networking", "--disable-component-update", "--mute-audio",
-                   "--autoplay-policy=no-user-gesture-required", f"--user-data-dir={self.profile}", "about:blank"]
+                   "--disable-background-timer-throttling", "--disable-backgrounding-occluded-windows",
+                   "--disable-renderer-backgrounding", "--autoplay-policy=no-user-gesture-required",
+                   f"--user-data-dir={self.profile}", "about:blank"]
 
         def connect():  # the browser reads file descriptor 3 and writes 4
             ends = [os.dup(to_browser), os.dup(from_browser)]
@@ -56,8 +58,9 @@ class Chromium:
         data = json.dumps(message).encode() + b"\0"
         while data:
             data = data[os.write(self.outbox, data):]
+        deadline = time.monotonic() + 60  # of the answer: events may go on and on
         while True:
-            answer = self.receive(time.monotonic() + 60)
+            answer = self.receive(deadline)
             if answer.get("id") == self.number:
                 if "error" in answer:
                     raise RuntimeError(f"{method}: {answer['error']['message']}")

@@ -46,12 +46,12 @@ class ComparePage(unittest.TestCase):
         write_curves(cls.path("still.csv"), still, names)
         blinks = still | {"eyeBlinkLeft": lambda frame: float(frame >= 10), "jawOpen": lambda frame: frame / FRAMES}
         write_curves(cls.path(HOSTILE), blinks, names)
-        subprocess.run(["ffmpeg", "-v", "error", "-f", "lavfi", "-i",
+        subprocess.run(["ffmpeg", "-nostdin", "-v", "error", "-f", "lavfi", "-i",
                         f"testsrc=size={SIZE[0]}x{SIZE[1]}:rate={FPS}:duration={FRAMES / FPS}", "-pix_fmt", "yuv420p",
-                        cls.path("clip.mp4")], check=True)
+                        cls.path("clip.mp4")], check=True, timeout=60)
         for page, more in (("plain.html", []), ("video.html", ["--video", cls.path("clip.mp4")])):
             subprocess.run([MIEN, "compare", cls.path("still.csv"), cls.path(HOSTILE), "--quiet", "-o", cls.path(page),
-                            *more], check=True)
+                            *more], check=True, timeout=60)
         cls.browser = chromium.Chromium(chromium.find())
 
     @classmethod
@@ -82,12 +82,15 @@ class ComparePage(unittest.TestCase):
             self.assertLess(time.monotonic(), deadline, what)
             time.sleep(0.05)
 
-    def seek(self, t_ms):
+    def scrub_to(self, t_ms):
         self.run_js(f"""(() => {{
           const scrub = document.getElementById('scrub');
           scrub.value = {t_ms};
           scrub.dispatchEvent(new Event('input'));
         }})()""")
+
+    def seek(self, t_ms):
+        self.scrub_to(t_ms)
         self.wait(f"Math.abs(player.clock.time_ms - {t_ms}) < 2 && !document.getElementById('video').seeking", "seeking")
         # Two frames later the faces of that time are drawn.
         self.run_js("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done(true))))")
@@ -107,6 +110,13 @@ class ComparePage(unittest.TestCase):
             self.open(page)
             self.seek(400)
             self.assertEqual([url for url in self.browser.requests if not url.startswith(("file:", "blob:", "data:"))], [])
+
+    def test_seeks_before_the_first_frame_is_drawn(self):  # which a busy machine draws late
+        script = self.browser.send("Page.addScriptToEvaluateOnNewDocument", source="window.requestAnimationFrame = () => 0;")
+        self.addCleanup(self.browser.send, "Page.removeScriptToEvaluateOnNewDocument", identifier=script["identifier"])
+        self.open("plain.html")
+        self.scrub_to(400)
+        self.assertEqual(self.run_js("player.clock.time_ms"), 400)
 
     def test_every_control_moves_the_face_on_its_side(self):
         self.open("plain.html")

@@ -52,6 +52,7 @@ class Player {
 
   connect() {
     const scrub = this.element('scrub');
+    this.showRange();  // or what is sought before the first frame is cut off at 100
     scrub.addEventListener('input', () => this.seek(Number(scrub.value)));
     this.element('play').addEventListener('click', () => this.toggle());
     this.element('speed').addEventListener('change', event => this.clock.setRate(Number(event.target.value)));
@@ -83,14 +84,18 @@ class Player {
     this.clock.play();
   }
 
+  showRange() {
+    const scrub = this.element('scrub');
+    scrub.min = Math.floor(data.start_ms);
+    scrub.max = Math.ceil(this.clock.end_ms);
+  }
+
   show() {
     const {clock} = this;
     if (clock.time_ms >= clock.end_ms - 1 && (clock.playing || clock.video?.ended)) this.atEnd();
     const t_ms = clock.time_ms;
-    const scrub = this.element('scrub');
-    scrub.min = Math.floor(data.start_ms);
-    scrub.max = Math.ceil(clock.end_ms);
-    scrub.value = t_ms;
+    this.showRange();
+    this.element('scrub').value = t_ms;
     this.element('play').textContent = clock.playing ? 'Pause' : 'Play';
     this.element('clock').textContent = `${(t_ms / 1000).toFixed(2)} / ${(clock.end_ms / 1000).toFixed(2)} s`;
     this.onFrame(t_ms);

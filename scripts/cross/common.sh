@@ -1,0 +1,39 @@
+# shellcheck shell=bash
+# Sourced by the scripts beside it, in the repository's root, with their arguments: --full runs mien-conformance on 50 seeds
+# and not on a few.
+. scripts/ccache.sh
+
+# shellcheck disable=SC2034  # those who source it use them
+full=0
+seeds=3
+# shellcheck disable=SC2034
+if [ "${1:-}" = --full ]; then
+  full=1
+  seeds=50
+fi
+
+build() {  # build folder, targets: says what compilers say, and nothing else
+  cmake --build "$1" --target "${@:2}" -- --quiet
+}
+
+# Tests and mien-conformance for another machine. Debian has GoogleTest for its own architecture only, but its source for all.
+configure() {  # build folder, folder for GoogleTest, toolchain file, options
+  local googletest=$PWD/$2
+  if [ ! -d "$googletest/lib/cmake/GTest" ]; then
+    cmake -S /usr/src/googletest -B "$googletest-build" -G Ninja --toolchain "$3" -DCMAKE_BUILD_TYPE=Release \
+      -DCMAKE_INSTALL_PREFIX="$googletest" -DCMAKE_INSTALL_LIBDIR=lib >/dev/null
+    build "$googletest-build" install >/dev/null
+  fi
+  local packages=$PWD/scripts/cross/packages
+  cmake -S . -B "$1" -G Ninja --toolchain "$3" -DCMAKE_BUILD_TYPE=Release -DMIEN_BUILD_APPS=OFF -DMIEN_INSTALL=OFF \
+    -DMIEN_BUILD_TESTS=ON -DCLI11_DIR="$packages" -Dnlohmann_json_DIR="$packages" -DGTest_DIR="$googletest/lib/cmake/GTest" \
+    "${@:4}" >/dev/null
+}
+
+# Shows tiers, what is checked and the sum; everything when something is wrong.
+conformance() {  # device as of scripts/run_on_device.sh, program, options
+  local output
+  echo "-- mien-conformance ${*:3}, $1"
+  output=$(scripts/run_on_device.sh "$@" 2>&1) || { echo "$output"; return 1; }
+  sed -n '/^mien /p;/^guard pages/p;$p' <<<"$output"
+}

@@ -1,0 +1,42 @@
+#!/usr/bin/env bash
+# Runs what was built for this machine on x86 CPUs without AVX2, and with nothing beyond it, under an emulator: programs
+# choose their kernels by the CPU, and none may meet an instruction that it lacks.
+# usage: scripts/cross/linux_x64.sh
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+scripts/setup.sh build test cross-x86
+. scripts/cross/common.sh
+if [ "$(uname -m)" != x86_64 ]; then
+  echo "linux-x64: nothing ran: this is no x86-64 machine"
+  exit
+fi
+
+cmake --preset release >/dev/null
+build build/release mien_conformance_program kernels_test engine_test
+program=build/release/apps/conformance/mien-conformance
+
+expect_tiers() {  # CPU model, tiers
+  local header
+  header=$(MIEN_MODELS='' scripts/run_on_device.sh "qemu:$1" $program --filter softmax | sed -n 1p)
+  case $header in
+    *"tiers: $2;"*) echo "-- $1: tiers: $2" ;;
+    *) echo "linux_x64.sh: $1 should have the tiers $2: $header" >&2; exit 1 ;;
+  esac
+}
+
+echo "== linux-x64 under $(qemu-x86_64 --version | sed -n 1p)"
+expect_tiers Nehalem ref            # SSE4.2
+expect_tiers SandyBridge ref        # AVX
+expect_tiers max,-fma ref           # AVX2 alone
+expect_tiers max "ref avx2"         # the emulator has no AVX-512
+conformance qemu:Nehalem $program
+for part in kernels engine; do
+  echo "-- $part, Nehalem"
+  qemu-x86_64 -cpu Nehalem build/release/tests/$part/${part}_test --gtest_brief=1
+done
+# AVX2 takes long here, and runs natively elsewhere. Not matrix_vector: QEMU 7.2 reads all of what a masked load names.
+for filter in pointwise depthwise lstm warp 'network/mini*'; do
+  MIEN_MODELS='' conformance qemu:max $program --tier avx2 --filter "$filter"
+done
+
+echo "linux-x64: mien-conformance and the tests of kernels and engine ran on a CPU without AVX2 (Nehalem), some kernels and networks on one with AVX2 and no AVX-512"
