@@ -47,8 +47,14 @@ struct Approx {
   double error = 0.0;
 };
 
-// Of floats that are copied, compared or converted without rounding.
+// Of floats that are copied or converted without rounding.
 [[nodiscard]] inline Approx exact(double value) { return {value, 0.0}; }
+
+// Of floats that are compared: nothing is rounded, but vector units that know no denormal numbers,
+// such as ARMv7's, take them for zero.
+[[nodiscard]] inline Approx compared(double value) {
+  return {value, std::abs(value) < kFlushed ? kFlushed : 0.0};
+}
 
 // The result of one more operation, in fp32 if nothing else is said.
 [[nodiscard]] inline Approx rounded(Approx x, const Arithmetic& by = kSingleArithmetic) {
