@@ -1,22 +1,41 @@
 #!/usr/bin/env bash
-# Builds mien for another machine and runs its tests under an emulator, once per CPU model.
-# usage: scripts/cross/test.sh linux-arm64|linux-armv7
-# What ran, and what was only compiled, is said at the end.
+# Builds mien for an ARM machine and runs its tests under an emulator, the kernels once per CPU model.
+# usage: scripts/cross/test.sh linux-arm64|linux-armv7 [--full]
+#   --full: also the tests that take longest under emulation (`slow` below), and mien-conformance on 50 seeds, not one: hours
+# Exit status 0 only when all is right. What ran, and what was only compiled, is said at the end.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 
 target=${1:?linux-arm64 or linux-armv7}
 case "$target" in
   linux-arm64)  # ARMv8.0 without fp16 arithmetic, ARMv8.2 with it, and all that the emulator knows
-    models="cortex-a53 cortex-a57 cortex-a72 cortex-a76 neoverse-n1 max" ;;
+    models="cortex-a53 cortex-a72 cortex-a76 neoverse-n1 max"
+    emulator="qemu-aarch64 -L /usr/aarch64-linux-gnu" nm=aarch64-linux-gnu-nm ;;
   linux-armv7)  # without VFPv4 (so without a NEON tier), then with
-    models="cortex-a9 cortex-a7 cortex-a15 max" ;;
+    models="cortex-a9 cortex-a7 cortex-a15 max"
+    emulator="qemu-arm -L /usr/arm-linux-gnueabihf" nm=arm-linux-gnueabihf-nm ;;
   *) echo "test.sh: unknown target '$target'" >&2; exit 2 ;;
 esac
-scripts/setup.sh build cross-arm
+case "${2:-}" in
+  "") full=0 seeds=1 ;;
+  --full) full=1 seeds=50 ;;
+  *) echo "test.sh: unknown option '$2'" >&2; exit 2 ;;
+esac
 
+# Left out: what starts programs, which a machine without binfmt_misc cannot do with those of another one; and the kernels'
+# cases, which mien-conformance has run by then.
+elsewhere='ConformanceProgram|conformance\.|install|convert|train|apps|Kernels/Conformance'
+# Without --full, tests that take more than a tenth of a second natively and so many seconds under emulation: long streams
+# and clips, which other machines run. What stays has at least one test of every part, and one with the trained networks.
+slow='Allocation\.OneBy|Calibration\.|Equivariance\.|FrontEnd\.BlocksDoNotMatter|Images\.(OfEverySize|FourK)|Levels\.|Reset\.'
+slow+='|Resampler\.(Blocks|Counts|Passes|Stops)|SeveralFaces\.[^AR]|SeveralFaces\.AStranger|Soak\.|SoundClock\.Follows|Timestamps\.Any'
+slow+='|Following\.(DecodersBeginAnewWhen|FindsDiscs|Follows|Loses|Searches)|Trained\.([^T]|TheFace)|TrainedLevels\.'
+slow+='|Voice\.(Blocks|IsHeard|IsMixed|LetsGo|Survives|TakesOver)'
+
+scripts/setup.sh build cross-arm
 build=build/cross/$target
 toolchain=$PWD/scripts/cross/$target.cmake
+packages=$PWD/scripts/cross/packages
 launcher=()
 if command -v ccache >/dev/null; then
   launcher=(-DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
@@ -30,24 +49,46 @@ if [ ! -d "$build/googletest/lib/cmake/GTest" ]; then
 fi
 cmake -S . -B "$build" -G Ninja --toolchain "$toolchain" "${launcher[@]}" -DCMAKE_BUILD_TYPE=Release \
   -DMIEN_BUILD_APPS=OFF -DMIEN_INSTALL=OFF -DMIEN_BUILD_TESTS=ON \
+  -DCLI11_DIR="$packages" -Dnlohmann_json_DIR="$packages" \
   -DGTest_DIR="$PWD/$build/googletest/lib/cmake/GTest" >/dev/null
-cmake --build "$build"
-cmake --build "$build" --target mien_shared
-scripts/check_symbols.sh "$build"
-scripts/check_tidy.sh "$build" kernels
+cmake --build "$build" --target all mien_shared
+scripts/check_symbols.sh "$build" "$nm"
+# What only this machine compiles; without what clang does not know of gcc's options, and does by itself.
+mkdir -p "$build/tidy"
+sed 's/ -mfp16-format=ieee//' "$build/compile_commands.json" >"$build/tidy/compile_commands.json"
+scripts/check_tidy.sh "$build/tidy" 'kernels/*/neon*.cpp' kernels/tier.cpp
 
-# Kernels and the engine's golden answers on every CPU model; the rest, which is slow under emulation, on the first.
-# Not train and apps: those need Python and ffmpeg, which are not built for that machine.
+failed=0
+conformance() {  # CPU model, options
+  local log=$build/conformance-$1.log
+  # shellcheck disable=SC2086  # the emulator is a command with options
+  if $emulator -cpu "$1" "$build/apps/conformance/mien-conformance" --models models "${@:2}" >"$log" 2>&1; then
+    echo "$1: $(tail -n 1 "$log"); $(sed -n 's/^mien .*\(tiers: [^;]*\);.*/\1/p' "$log")"
+  else
+    cat "$log" >&2
+    return 1
+  fi
+}
+export -f conformance
+export build emulator
+echo "== $target: mien-conformance"
+tr ' ' '\n' <<<"$models" | xargs -P "$(nproc)" -I MODEL bash -c "conformance MODEL --repeat $seeds" || failed=1
+conformance "${models%% *}" --self-test || failed=1
+
 run_tests() {  # CPU model, ctest's choice of tests
   echo "== $target as $1"
-  QEMU_CPU=$1 ctest --test-dir "$build" -j "$(nproc)" --output-on-failure --no-tests=error "${@:2}" |
-    tee "$build/ctest-$1.log" | grep -E 'tests passed|Failed|Timeout'
+  QEMU_CPU=$1 ctest --test-dir "$build" -j "$(nproc)" --output-on-failure --no-tests=error "${@:2}" >"$build/ctest.log" ||
+    { failed=1; cat "$build/ctest.log" >&2; }
+  grep -E 'tests passed|tests failed|Total Test time' "$build/ctest.log"
 }
 for model in $models; do
-  run_tests "$model" -R '^(Kernels|Faults|Harness|Inputs/PointwiseSizes|.*Golden|PublishedNetworks)'
+  run_tests "$model" -R 'Golden|PublishedNetworks|HalfSums'
 done
-run_tests "${models%% *}" -E '^(train|apps|install|convert|Kernels|Faults|Harness|Inputs/PointwiseSizes)'
+[ $full -eq 1 ] || elsewhere+="|$slow"
+run_tests "${models%% *}" -E "^(${elsewhere})"
 
-echo "$target: tests of kernels and the engine's golden answers ran as: $models"
-echo "$target: tests of formats, engine, audio, tracker and the C API ran as: ${models%% *}"
-echo "$target: the shared library was only compiled; the mien program was not built"
+echo "$target: every kernel (mien-conformance, seeds: $seeds), the networks and the engine's golden answers ran as: $models"
+echo "$target: the tests of kernels, formats, engine, audio, tracker and the C API ran as: ${models%% *}"
+[ $full -eq 1 ] || echo "$target: left out (--full has them): $slow"
+echo "$target: only compiled: the shared library; not built: the mien program"
+exit $failed
