@@ -5,8 +5,12 @@
 #ifdef MIEN_HAVE_AVX512FP16
 #include <cpuid.h>
 #endif
-#ifdef MIEN_HAVE_NEON32
+#if defined(__linux__) && (defined(MIEN_HAVE_NEON32) || defined(MIEN_HAVE_NEONFP16))
 #include <sys/auxv.h>
+#endif
+#if defined(__APPLE__) && defined(MIEN_HAVE_NEONFP16)
+extern "C" int sysctlbyname(const char* name, void* value, std::size_t* bytes, void* next,
+                            std::size_t next_bytes);  // as sys/sysctl.h has it
 #endif
 
 namespace mien::kernels {
@@ -17,6 +21,21 @@ namespace {
 bool has_avx512fp16() {
   unsigned eax = 0, ebx = 0, ecx = 0, edx = 0;
   return __get_cpuid_count(7, 0, &eax, &ebx, &ecx, &edx) != 0 && (edx & 1u << 23) != 0;
+}
+#endif
+
+#ifdef MIEN_HAVE_NEONFP16
+bool has_neon_fp16() {
+#if defined(__linux__)
+  constexpr unsigned long kHwcapAsimdHp = 1ul << 10;  // the Linux kernel's asm/hwcap.h for AArch64
+  return (getauxval(AT_HWCAP) & kHwcapAsimdHp) != 0;
+#elif defined(__APPLE__)
+  int has = 0;
+  std::size_t bytes = sizeof has;
+  return sysctlbyname("hw.optional.arm.FEAT_FP16", &has, &bytes, nullptr, 0) == 0 && has != 0;
+#else
+  return false;
+#endif
 }
 #endif
 
@@ -46,6 +65,11 @@ std::uint32_t ask_cpu() {
 #endif
 #ifdef MIEN_HAVE_NEON
   mask |= bit(Tier::kNeon);  // every AArch64 CPU has it
+#endif
+#ifdef MIEN_HAVE_NEONFP16
+  if (has_neon_fp16()) {
+    mask |= bit(Tier::kNeonFp16);
+  }
 #endif
 #ifdef MIEN_HAVE_NEON32
   // Bits of the Linux kernel's asm/hwcap.h for ARM. VFPv4 brings multiply-adds and half precision.

@@ -55,16 +55,13 @@ struct Widened {
   }
 };
 
+// The rows of `weights` side by side in `space`.
 template <int kVecs>
-[[maybe_unused]] constexpr bool fits_widened(std::ptrdiff_t rows) {
-  return rows * kVecs * kLanes <= kWidenedElems;
-}
-
-template <int kVecs>
-inline Widened widen(const Halves& weights, std::ptrdiff_t rows, float (&space)[kWidenedElems]) {
+inline Widened widen(const Halves& weights, std::ptrdiff_t rows, float* space) {
   const std::uint16_t* from = weights.first;
+  const std::ptrdiff_t stride = weights.stride;
   float* to = space;
-  for (std::ptrdiff_t k = 0; k < rows; ++k, from += weights.stride, to += kVecs * kLanes) {
+  for (std::ptrdiff_t k = 0; k < rows; ++k, from += stride, to += kVecs * kLanes) {
     for (int v = 0; v < kVecs; v += 2) {
       store_pair(to + v * kLanes, load_half_pair(from + v * kLanes));
     }
@@ -83,30 +80,34 @@ template <int kLane, int kPixels, int kVecs>
     }
   }
 }
-template <int kPixels, int kVecs, class T>
+// In kParts partial sums, each of which has every kParts-th input.
+template <int kParts, int kPixels, int kVecs, class T>
 [[gnu::always_inline]] inline void add_four_inputs(const float* x, std::ptrdiff_t step, const T* w,
                                                    std::ptrdiff_t row_elems,
-                                                   Vec (&sums)[kPixels][kVecs]) {
+                                                   Vec (&sums)[kParts][kPixels][kVecs]) {
   Vec inputs[kPixels];
   MIEN_UNROLLED for (int p = 0; p < kPixels; ++p) { inputs[p] = vld1q_f32(x + p * step); }
   Vec row[kVecs];
   load_row(w, row);
-  add_input<0>(row, inputs, sums);
+  add_input<0>(row, inputs, sums[0]);
   load_row(w + row_elems, row);
-  add_input<1>(row, inputs, sums);
+  add_input<1>(row, inputs, sums[1 % kParts]);
   load_row(w + 2 * row_elems, row);
-  add_input<2>(row, inputs, sums);
+  add_input<2>(row, inputs, sums[2 % kParts]);
   load_row(w + 3 * row_elems, row);
-  add_input<3>(row, inputs, sums);
+  add_input<3>(row, inputs, sums[3 % kParts]);
 }
 
-template <int kPixels, int kVecs>
+template <int kParts, int kPixels, int kVecs>
 [[gnu::always_inline]] inline void start_sums(const std::uint16_t* bias,
-                                              Vec (&sums)[kPixels][kVecs]) {
+                                              Vec (&sums)[kParts][kPixels][kVecs]) {
   Vec row[kVecs];
   load_row(bias, row);
-  MIEN_UNROLLED for (auto& pixel : sums) {
-    MIEN_UNROLLED for (int v = 0; v < kVecs; ++v) { pixel[v] = row[v]; }
+  MIEN_UNROLLED for (int p = 0; p < kPixels; ++p) {
+    MIEN_UNROLLED for (int v = 0; v < kVecs; ++v) {
+      sums[0][p][v] = row[v];
+      MIEN_UNROLLED for (int part = 1; part < kParts; ++part) { sums[part][p][v] = splat(0.0f); }
+    }
   }
 }
 

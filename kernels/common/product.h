@@ -42,5 +42,11 @@ void multiply_panels(const ProductArgs& args);
 namespace avx512 {
 void multiply_panels(const ProductArgs& args);
 }
+namespace neon {
+void multiply_panels(const ProductArgs& args);
+}
+namespace neon32 {
+void multiply_panels(const ProductArgs& args);
+}
 
 }  // namespace mien::kernels

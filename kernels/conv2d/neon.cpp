@@ -37,7 +37,7 @@ struct Outputs {
 template <int kPixels, int kVecs, class T>
 [[gnu::always_inline]] inline void add_run(const float* x, std::ptrdiff_t step, std::int32_t count,
                                            const T* w, std::ptrdiff_t row_elems,
-                                           Vec (&sums)[kPixels][kVecs]) {
+                                           Vec (&sums)[1][kPixels][kVecs]) {
   for (; count >= kLanes; count -= kLanes, x += kLanes, w += kLanes * row_elems) {
     add_four_inputs(x, step, w, row_elems, sums);
   }
@@ -46,7 +46,7 @@ template <int kPixels, int kVecs, class T>
     MIEN_UNROLLED for (int p = 0; p < kPixels; ++p) { inputs[p] = vld1q_dup_f32(x + p * step); }
     Vec row[kVecs];
     load_row(w, row);
-    add_input<0>(row, inputs, sums);
+    add_input<0>(row, inputs, sums[0]);
   }
 }
 
@@ -74,7 +74,7 @@ template <int kPixels, int kVecs, class Source>
   const std::int32_t runs = interleaved ? 1 : xs.last - xs.first;
   const std::int32_t run_pixels = interleaved ? xs.last - xs.first : 1;
   const std::int32_t top = oy * a.stride_h - a.pad_top, left = ox * a.stride_w - a.pad_left;
-  Vec sums[kPixels][kVecs];
+  Vec sums[1][kPixels][kVecs];
   start_sums(a.bias + out.channel, sums);
   for (std::int32_t ky = ys.first; ky < ys.last; ++ky) {
     const float* x = a.x + (std::ptrdiff_t{top + ky} * a.in_w + left + xs.first) * a.x_pixel_elems;
@@ -92,8 +92,8 @@ template <int kPixels, int kVecs, class Source>
       }
     }
   }
-  out.activator.apply(sums, out.channel);
-  store(a, out.channel, oy, ox, sums);
+  out.activator.apply(sums[0], out.channel);
+  store(a, out.channel, oy, ox, sums[0]);
 }
 
 template <int kVecs, class Source>
@@ -144,13 +144,13 @@ void conv2d(const Conv2dArgs& a) {
   for (std::int32_t channel = 0; channel < padded; channel += kPanel) {
     const std::int32_t width = padded - channel < kPanel ? kBlock : kPanel;
     const std::uint16_t* panel = a.weights + channel * rows;
-    if (width == kPanel && fits_widened<4>(rows)) {
+    if (width == kPanel && rows * kPanel <= kWidenedElems) {
       widened_outputs<4>({a, activator, {panel, width}, channel}, rows);
       continue;
     }
     for (std::int32_t i = 0; i < width; i += kBlock) {
       const Outputs<Halves> out{a, activator, {panel + i, width}, channel + i};
-      if (fits_widened<2>(rows)) {
+      if (rows * kBlock <= kWidenedElems) {
         widened_outputs<2>(out, rows);
       } else {
         all_rows<2>(out);

@@ -1,21 +1,14 @@
-// 3x3 windows that lie inside the map are computed 2x2 outputs at a time, the weights of the block
-// in registers, every input loaded once. Small maps with padding are copied to the stack with it,
-// so that all of their windows do; other windows that leave the map are summed one output at a
-// time.
+// 3x3 windows that lie inside the map go by the tiles of neon_window.h. Small maps with padding are
+// copied to the stack with it, so that all of their windows do; other windows that leave the map
+// are summed one output at a time.
 #include <algorithm>
 
 #include "kernels/common/neon_activation.h"
+#include "kernels/depthwise/neon_window.h"
 #include "kernels/families.h"
 
 namespace mien::kernels::MIEN_TIER {
 namespace {
-
-// Vectors of a block that are worked on together: their 9 weights fill half of the registers.
-#ifdef __aarch64__
-constexpr int kVecs = 2;
-#else
-constexpr int kVecs = 1;
-#endif
 
 struct Range {
   std::int32_t first, last;  // [first, last)
@@ -34,30 +27,24 @@ Range whole_windows(std::int32_t outputs, std::int32_t stride, std::int32_t pad,
   return {first, last};
 }
 
-constexpr int kMostOutputs = 4;  // of a tile
-
-// What is the same for all outputs of kVecs vectors of channels.
+// What is the same for all outputs of Floats::kVecs vectors of channels.
 struct Channels {
   const DepthwiseArgs& a;
-  Vec low, high;
   const float* x;
   float* y;
-  const std::uint16_t* weights;
-  // Once for every sum of a tile: to load it costs no time, to copy it from register to register
-  // would, as the units that multiply do that.
-  float biases[kMostOutputs * kVecs * kLanes];
+  Taps<Floats> taps;
 
   Channels(const DepthwiseArgs& args, const Activator& activator, std::int32_t channel,
            const float* map)
-      : a(args), low(activator.low()), high(activator.high()) {
-    const std::ptrdiff_t block = channel / kBlock, lane = channel % kBlock;
-    x = map + lane;
-    y = a.y + block * a.out_h * a.out_w * kBlock + lane;
-    weights = a.weights + block * a.kernel_h * a.kernel_w * kBlock + lane;
-    for (int i = 0; i < kMostOutputs * kVecs; ++i) {
-      vst1q_f32(biases + i * kLanes, load_half(a.bias + channel + i % kVecs * kLanes));
-    }
-  }
+      : a(args),
+        x(map + channel % kBlock),
+        y(args.y + std::ptrdiff_t{channel / kBlock} * args.out_h * args.out_w * kBlock +
+          channel % kBlock),
+        taps(args.weights +
+                 std::ptrdiff_t{channel / kBlock} * args.kernel_h * args.kernel_w * kBlock +
+                 channel % kBlock,
+             kLanes, args.bias + channel, kLanes, activator.low(), activator.high()) {}
+
   // Of output (oy, ox), and of the first input in its window.
   [[nodiscard]] float* output(std::int32_t oy, std::int32_t ox) const {
     return y + (std::ptrdiff_t{oy} * a.out_w + ox) * kBlock;
@@ -74,82 +61,22 @@ void edge_output(const Channels& ch, std::int32_t oy, std::int32_t ox) {
   const Range xs = inside(ox * a.stride_w - a.pad_left, a.kernel_w, a.in_w);
   const float* origin = ch.input(oy, ox);
   float* y = ch.output(oy, ox);
-  Vec sums[kVecs];
-  MIEN_UNROLLED for (int v = 0; v < kVecs; ++v) { sums[v] = vld1q_f32(ch.biases + v * kLanes); }
+  Vec sums[Floats::kVecs];
+  MIEN_UNROLLED for (int v = 0; v < Floats::kVecs; ++v) {
+    sums[v] = vld1q_f32(ch.taps.biases + v * kLanes);
+  }
   for (std::int32_t ky = ys.first; ky < ys.last; ++ky) {
     const float* row = origin + std::ptrdiff_t{ky} * a.in_w * kBlock;
     for (std::int32_t kx = xs.first; kx < xs.last; ++kx) {
-      const std::uint16_t* w = ch.weights + (ky * a.kernel_w + kx) * kBlock;
-      MIEN_UNROLLED for (int v = 0; v < kVecs; ++v) {
+      const std::uint16_t* w = ch.taps.weights + (ky * a.kernel_w + kx) * kBlock;
+      MIEN_UNROLLED for (int v = 0; v < Floats::kVecs; ++v) {
         const Vec x = vld1q_f32(row + kx * kBlock + v * kLanes);
         sums[v] = fma(sums[v], x, load_half(w + v * kLanes));
       }
     }
   }
-  MIEN_UNROLLED for (int v = 0; v < kVecs; ++v) {
-    vst1q_f32(y + v * kLanes, vminq_f32(vmaxq_f32(sums[v], ch.low), ch.high));
-  }
-}
-
-// The parameters of 3x3 windows, in registers but for the bias.
-struct Window {
-  Vec w[9][kVecs];
-  Vec low, high;
-  const float* biases;
-
-  [[gnu::always_inline]] explicit Window(const Channels& ch)
-      : low(ch.low), high(ch.high), biases(ch.biases) {
-    MIEN_UNROLLED for (int i = 0; i < 9 * kVecs; ++i) {
-      w[i / kVecs][i % kVecs] = load_half(ch.weights + i / kVecs * kBlock + i % kVecs * kLanes);
-    }
-  }
-};
-
-// Each input goes to the sums of all outputs whose windows it lies in.
-template <int kRows, int kColumns, int kStride>
-[[gnu::always_inline]] inline void tile(const Window& window, const float* x, std::ptrdiff_t x_row,
-                                        float* y, std::ptrdiff_t y_row) {
-  Vec sums[kRows * kColumns][kVecs];
-  MIEN_UNROLLED for (int i = 0; i < kRows * kColumns * kVecs; ++i) {
-    sums[i / kVecs][i % kVecs] = vld1q_f32(window.biases + i * kLanes);
-  }
-  MIEN_UNROLLED for (int i = 0; i < (kRows - 1) * kStride + 3; ++i) {
-    MIEN_UNROLLED for (int j = 0; j < (kColumns - 1) * kStride + 3; ++j) {
-      Vec input[kVecs];
-      MIEN_UNROLLED for (int v = 0; v < kVecs; ++v) {
-        input[v] = vld1q_f32(x + i * x_row + j * kBlock + v * kLanes);
-      }
-      MIEN_UNROLLED for (int output = 0; output < kRows * kColumns; ++output) {
-        const int ky = i - output / kColumns * kStride, kx = j - output % kColumns * kStride;
-        if (ky >= 0 && ky < 3 && kx >= 0 && kx < 3) {
-          MIEN_UNROLLED for (int v = 0; v < kVecs; ++v) {
-            sums[output][v] = fma(sums[output][v], input[v], window.w[3 * ky + kx][v]);
-          }
-        }
-      }
-    }
-  }
-  MIEN_UNROLLED for (int i = 0; i < kRows * kColumns * kVecs; ++i) {
-    const int output = i / kVecs, v = i % kVecs;
-    vst1q_f32(y + output / kColumns * y_row + output % kColumns * kBlock + v * kLanes,
-              vminq_f32(vmaxq_f32(sums[output][v], window.low), window.high));
-  }
-}
-
-template <int kRows, int kStride>
-[[gnu::noinline]] void whole_outputs(const Channels& ch, std::int32_t oy, const Range& columns) {
-  const Window window(ch);
-  const float* x = ch.input(oy, columns.first);
-  float* y = ch.output(oy, columns.first);
-  const std::ptrdiff_t x_row = std::ptrdiff_t{ch.a.in_w} * kBlock;
-  const std::ptrdiff_t y_row = std::ptrdiff_t{ch.a.out_w} * kBlock;
-  for (std::int32_t left = (columns.last - columns.first) / 2; left > 0; --left) {
-    tile<kRows, 2, kStride>(window, x, x_row, y, y_row);
-    x += 2 * kStride * kBlock;
-    y += 2 * kBlock;
-  }
-  if ((columns.last - columns.first) % 2 != 0) {
-    tile<kRows, 1, kStride>(window, x, x_row, y, y_row);
+  MIEN_UNROLLED for (int v = 0; v < Floats::kVecs; ++v) {
+    vst1q_f32(y + v * kLanes, vminq_f32(vmaxq_f32(sums[v], ch.taps.low), ch.taps.high));
   }
 }
 
@@ -169,13 +96,10 @@ void channels_3x3(const Channels& ch) {
     edge_outputs(ch, oy, 0, whole ? columns.first : a.out_w);
     edge_outputs(ch, oy, whole ? columns.last : a.out_w, a.out_w);
   }
-  std::int32_t oy = rows.first;
-  for (; oy + 2 <= rows.last; oy += 2) {
-    whole_outputs<2, kStride>(ch, oy, columns);
-  }
-  if (oy < rows.last) {
-    whole_outputs<1, kStride>(ch, oy, columns);
-  }
+  const Rows<Floats> first{ch.input(rows.first, columns.first), std::ptrdiff_t{a.in_w} * kBlock,
+                           ch.output(rows.first, columns.first), std::ptrdiff_t{a.out_w} * kBlock};
+  all_whole_outputs<Floats, kStride, kBlock, kBlock>(ch.taps, first, rows.last - rows.first,
+                                                     columns.last - columns.first);
 }
 
 void channels_any(const Channels& ch) {
@@ -187,7 +111,7 @@ void channels_any(const Channels& ch) {
 [[gnu::noinline]] void all_channels(const DepthwiseArgs& a, const Activator& activator,
                                     std::int32_t block, const float* map) {
   const bool is_3x3 = a.kernel_h == 3 && a.kernel_w == 3 && a.stride_h == a.stride_w;
-  for (std::int32_t v = 0; v < kBlock / kLanes; v += kVecs) {
+  for (std::int32_t v = 0; v < kBlock / kLanes; v += Floats::kVecs) {
     const Channels channels(a, activator, block * kBlock + v * kLanes, map);
     if (is_3x3 && a.stride_h == 1) {
       channels_3x3<1>(channels);

@@ -21,7 +21,7 @@ Case make(RandomValues& random, int in_elems, int out_c, const RandomActivation&
   std::vector<float> both = previous;
   both.insert(both.end(), x.begin(), x.end());
   const auto at = [&](int o, int) {
-    return activation(dense_output(both, weights, bias, out_c, o), o);
+    return activation(dense_output(both, weights, bias, out_c, o, random.arithmetic()), o);
   };
   Case test;
   test.shape = std::to_string(in_elems) + " to " + std::to_string(out_c) + ", " + activation.name();

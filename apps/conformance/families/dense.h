@@ -9,9 +9,9 @@ namespace mien::conformance {
 // them.
 [[nodiscard]] inline Approx dense_output(const std::vector<float>& inputs,
                                          const std::vector<std::uint16_t>& panels,
-                                         const std::vector<std::uint16_t>& bias, int outputs,
-                                         int o) {
-  Sum sum;
+                                         const std::vector<std::uint16_t>& bias, int outputs, int o,
+                                         const Arithmetic& arithmetic) {
+  Sum sum(arithmetic);
   sum.add(widened(bias[static_cast<std::size_t>(o)]));
   const int reduction = static_cast<int>(inputs.size());
   for (int k = 0; k < reduction; ++k) {

@@ -10,7 +10,7 @@ Case make(RandomValues& random, int in_elems, int out_c, const RandomActivation&
   const std::vector<std::uint16_t> weights = random.panels(out_c, in_elems),
                                    bias = random.bias(out_c);
   const auto at = [&](int o, int) {
-    return activation(dense_output(x, weights, bias, out_c, o), o);
+    return activation(dense_output(x, weights, bias, out_c, o, random.arithmetic()), o);
   };
   Case test;
   test.shape = std::to_string(in_elems) + " to " + std::to_string(out_c) + ", " + activation.name();

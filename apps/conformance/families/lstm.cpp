@@ -41,8 +41,9 @@ Case make(RandomValues& random, int in_elems, int hidden) {
                                    bias = random.bias(4 * hidden);
   std::vector<float> both = x;
   both.insert(both.end(), h.begin(), h.end());
-  const Step step =
-      one_step(hidden, c, [&](int o) { return dense_output(both, weights, bias, 4 * hidden, o); });
+  const Step step = one_step(hidden, c, [&](int o) {
+    return dense_output(both, weights, bias, 4 * hidden, o, random.arithmetic());
+  });
   Case test;
   test.shape = std::to_string(in_elems) + ", hidden " + std::to_string(hidden);
   test.buffers = {reads(x),

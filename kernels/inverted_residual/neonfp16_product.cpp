@@ -1,0 +1,243 @@
+// Register tiles of up to 9 pixels x 16 outputs, or x 8 of a last block. Weights are taken as they
+// are stored, products by lane: nothing is widened, no input is ever broadcast.
+#include "kernels/inverted_residual/neonfp16_product.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "kernels/common/neon_half.h"
+
+namespace mien::kernels::neonfp16 {
+namespace {
+
+constexpr int kMostPixels = 9;
+
+// Few sums are split into partial ones: eight at least hide the latency of the multiply-adds.
+constexpr int partial_sums(int sums) { return sums >= 8 ? 1 : sums >= 4 ? 2 : 4; }
+
+struct Job {
+  const Half* x;  // first pixel
+  std::ptrdiff_t x_panel;
+  std::int32_t in_blocks;
+  const Half* w;      // [in][outputs]
+  const Half* begin;  // the sums begin with these, [outputs]
+  float low, high;
+  // Where sums go: pixels 16 apart, and `gap` more after each row of which the first pixel is
+  // number `column`.
+  Half* y;
+  std::ptrdiff_t gap;
+  std::int32_t column, row_pixels;
+};
+
+template <int kLane, int kPixels, int kVecs>
+[[gnu::always_inline]] inline void add_input(const Half* w, const HalfVec (&x)[kPixels],
+                                             HalfVec (&sums)[kPixels][kVecs]) {
+  MIEN_UNROLLED for (int v = 0; v < kVecs; ++v) {
+    const HalfVec row = load_halves(w + (kLane * kVecs + v) * kHalves);
+    MIEN_UNROLLED for (int p = 0; p < kPixels; ++p) {
+      sums[p][v] = fma_lane<kLane>(sums[p][v], row, x[p]);
+    }
+  }
+}
+
+// A block of 8 inputs, in kParts partial sums.
+template <int kParts, int kPixels, int kVecs>
+[[gnu::always_inline]] inline void add_block(const Half* x, const Half* w,
+                                             HalfVec (&sums)[kParts][kPixels][kVecs]) {
+  HalfVec inputs[kPixels];
+  MIEN_UNROLLED for (int p = 0; p < kPixels; ++p) { inputs[p] = load_halves(x + p * kPanel); }
+  add_input<0>(w, inputs, sums[0]);
+  add_input<1>(w, inputs, sums[1 % kParts]);
+  add_input<2>(w, inputs, sums[2 % kParts]);
+  add_input<3>(w, inputs, sums[3 % kParts]);
+  add_input<4>(w, inputs, sums[0]);
+  add_input<5>(w, inputs, sums[1 % kParts]);
+  add_input<6>(w, inputs, sums[2 % kParts]);
+  add_input<7>(w, inputs, sums[3 % kParts]);
+}
+
+template <int kPixels, int kVecs>
+[[gnu::noinline]] void tile(const Job& j) {
+  constexpr int kParts = partial_sums(kPixels * kVecs);
+  HalfVec sums[kParts][kPixels][kVecs];
+  MIEN_UNROLLED for (int i = 0; i < kParts * kPixels * kVecs; ++i) {
+    const int part = i / (kPixels * kVecs), p = i / kVecs % kPixels, v = i % kVecs;
+    sums[part][p][v] = part == 0 ? load_halves(j.begin + v * kHalves) : splat_halves(0.0f);
+  }
+  // From the lower 8 channels of a panel to the upper, and from there to the next panel.
+  std::ptrdiff_t step = kHalves, next_step = j.x_panel - kHalves;
+  const Half *x = j.x, *w = j.w;
+  for (std::int32_t left = j.in_blocks; left > 0; --left, w += kBlock * kVecs * kHalves) {
+    add_block(x, w, sums);
+    x += step;
+    std::swap(step, next_step);
+  }
+  const HalfVec low = splat_halves(j.low), high = splat_halves(j.high);
+  const std::ptrdiff_t gap = j.gap;
+  const std::int32_t row_pixels = j.row_pixels;
+  std::int32_t column = j.column;
+  Half* y = j.y;
+  MIEN_UNROLLED for (int p = 0; p < kPixels; ++p, y += kPanel) {
+    MIEN_UNROLLED for (int v = 0; v < kVecs; ++v) {
+      HalfVec total = sums[0][p][v];
+      MIEN_UNROLLED for (int part = 1; part < kParts; ++part) {
+        total = vaddq_f16(total, sums[part][p][v]);
+      }
+      store_halves(y + v * kHalves, vminq_f16(vmaxq_f16(total, low), high));
+    }
+    if (++column == row_pixels) {
+      column = 0;
+      y += gap;
+    }
+  }
+}
+
+struct Tile {
+  std::int32_t pixels;
+  void (*run)(const Job&);
+};
+
+// Of `pixels` pixels all tiles are one size: the last overlaps the one before, if need be.
+template <int kVecs, int... kSizes>
+Tile tile_of(std::int32_t pixels, std::integer_sequence<int, kSizes...>) {
+  const std::int32_t tiles = (pixels + kMostPixels - 1) / kMostPixels;
+  const std::int32_t wanted = (pixels + tiles - 1) / tiles;
+  Tile best{1, &tile<1, kVecs>};
+  const auto consider = [&](Tile one) {
+    best = one.pixels <= pixels && best.pixels < wanted ? one : best;
+  };
+  (consider({kSizes, &tile<kSizes, kVecs>}), ...);
+  return best;
+}
+
+Tile tile_for(std::int32_t blocks, std::int32_t pixels) {
+  return blocks == 2 ? tile_of<2>(pixels, std::integer_sequence<int, 2, 4, 6, 7, 8, 9>())
+                     : tile_of<1>(pixels, std::integer_sequence<int, 4, 8, 9>());
+}
+
+// The 16 outputs from `block` on, or 8 at the end.
+struct Group {
+  std::int32_t block, blocks;
+};
+
+template <class Run>
+void for_each_group(const HalfProduct& a, Run run) {
+  for (std::int32_t block = 0; block < a.out_blocks; block += 2) {
+    run(Group{block, std::min(2, a.out_blocks - block)});
+  }
+}
+
+Job job_of(const HalfProduct& a, const Group& g) {
+  Job job{};
+  job.x_panel = a.x_panel_elems;
+  job.in_blocks = a.in_blocks;
+  job.w = a.weights + std::ptrdiff_t{g.block} * kBlock * a.in_blocks * kBlock;
+  job.begin = a.bias + std::ptrdiff_t{g.block} * kBlock;
+  return job;
+}
+
+void expand_group(const HalfProduct& a, const StripRows& to, const Group& g) {
+  Job job = job_of(a, g);
+  job.low = a.low;
+  job.high = a.high;
+  job.row_pixels = to.row_pixels;
+  job.gap = to.row_elems - std::ptrdiff_t{to.row_pixels} * kPanel;
+  const Tile tile = tile_for(g.blocks, a.pixels);
+  for (std::int32_t done = 0; done < a.pixels; done += tile.pixels) {
+    const std::int32_t pixel = std::min(done, a.pixels - tile.pixels);
+    const std::int32_t row = pixel / to.row_pixels;
+    job.column = pixel - row * to.row_pixels;
+    job.x = a.x + std::ptrdiff_t{pixel} * kPanel;
+    job.y = to.y + g.block / 2 * to.panel_elems + row * to.row_elems +
+            std::ptrdiff_t{job.column} * kPanel;
+    tile.run(job);
+  }
+}
+
+// Sums of one tile, [pixels][16]: of the last few products, and of all before.
+struct Totals {
+  Half partial[kMostPixels * kPanel];
+  float sums[kMostPixels * kPanel];
+};
+
+template <bool kIsFirst>
+void add_partial(Totals& totals, std::int32_t pixels, std::int32_t blocks) {
+  const Half* from = totals.partial;
+  float* to = totals.sums;
+  for (std::int32_t p = 0; p < pixels; ++p, from += kPanel, to += kPanel) {
+    for (std::int32_t half = 0; half < blocks * kBlock; half += kBlock) {
+      Pair sum = widened(load_halves(from + half));
+      if (!kIsFirst) {
+        const Pair before = load_pair(to + half);
+        sum = {vaddq_f32(sum.low, before.low), vaddq_f32(sum.high, before.high)};
+      }
+      store_pair(to + half, sum);
+    }
+  }
+}
+
+// The pixels from `first` on of one block.
+void finish(const HalfProduct& a, const MapRows& to, std::int32_t block, std::int32_t first,
+            std::int32_t pixels, const float* sums) {
+  const Vec low = splat(a.low), high = splat(a.high);
+  float* y = to.y + block * to.plane_elems + std::ptrdiff_t{first} * kBlock;
+  const float* residual = to.residual == nullptr
+                              ? nullptr
+                              : to.residual + block * to.residual_plane_elems +
+                                    first / to.row_pixels * to.residual_row_elems;
+  std::int32_t column = first % to.row_pixels;
+  for (std::int32_t p = 0; p < pixels; ++p, y += kBlock, sums += kPanel) {
+    Pair value = load_pair(sums);
+    value = {vminq_f32(vmaxq_f32(value.low, low), high),
+             vminq_f32(vmaxq_f32(value.high, low), high)};
+    if (residual != nullptr) {
+      const Pair r = load_pair(residual + std::ptrdiff_t{column} * kBlock);
+      value = {vaddq_f32(value.low, r.low), vaddq_f32(value.high, r.high)};
+      if (++column == to.row_pixels) {
+        column = 0;
+        residual += to.residual_row_elems;
+      }
+    }
+    store_pair(y, value);
+  }
+}
+
+void project_tile(const HalfProduct& a, const MapRows& to, const Group& g, const Tile& tile,
+                  std::int32_t pixel) {
+  static constexpr Half kZeros[kPanel] = {};
+  constexpr std::int32_t kBlocks = kHalfSum / kBlock;
+  Job job = job_of(a, g);
+  Totals totals;
+  job.low = -__builtin_inff();
+  job.high = __builtin_inff();
+  job.x = a.x + std::ptrdiff_t{pixel} * kPanel;
+  job.y = totals.partial;
+  for (std::int32_t block = 0; block < a.in_blocks; block += kBlocks) {
+    job.in_blocks = std::min(kBlocks, a.in_blocks - block);
+    tile.run(job);
+    (block == 0 ? add_partial<true> : add_partial<false>)(totals, tile.pixels, g.blocks);
+    job.x += kHalfSum / kPanel * a.x_panel_elems;
+    job.w += std::ptrdiff_t{kHalfSum} * g.blocks * kBlock;
+    job.begin = kZeros;
+  }
+  for (std::int32_t half = 0; half < g.blocks; ++half) {
+    finish(a, to, g.block + half, pixel, tile.pixels, totals.sums + half * kBlock);
+  }
+}
+
+}  // namespace
+
+void multiply_to_strip(const HalfProduct& a, const StripRows& to) {
+  for_each_group(a, [&](const Group& g) { expand_group(a, to, g); });
+}
+
+void multiply_to_map(const HalfProduct& a, const MapRows& to) {
+  for_each_group(a, [&](const Group& g) {
+    const Tile tile = tile_for(g.blocks, a.pixels);
+    for (std::int32_t done = 0; done < a.pixels; done += tile.pixels) {
+      project_tile(a, to, g, tile, std::min(done, a.pixels - tile.pixels));
+    }
+  });
+}
+
+}  // namespace mien::kernels::neonfp16

@@ -1,0 +1,40 @@
+// What goes through temporal decoders is not bounded by their weights, so their sums of half
+// precision saturate: no infinity, and nothing that is no number, may get into a state.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "kernels/families.h"
+#include "kernels/registry.h"
+
+namespace mien::tests {
+namespace {
+
+constexpr std::uint16_t kOne = 0x3C00, kMinusOne = 0xBC00;  // fp16
+
+TEST(HalfSums, Saturate) {
+  const kernels::Entry* entry =
+      kernels::find_entry(kernels::FullyConnectedArgs::kFamily, kernels::kHalfTiers);
+  if (entry == nullptr) {
+    GTEST_SKIP() << "skipped: no tier here has such sums";
+  }
+  constexpr int kInputs = 16, kOutputs = 16;
+  float x[kInputs], y[kOutputs];
+  std::uint16_t weights[kInputs * kOutputs], bias[kOutputs] = {};
+  for (int k = 0; k < kInputs; ++k) {
+    x[k] = k < 8 ? 1e6f : 4e4f;
+    for (int o = 0; o < kOutputs; ++o) {  // the first 8 outputs cancel, the others do not
+      weights[k * kOutputs + o] = o < 8 && k % 4 < 2 ? kMinusOne : kOne;
+    }
+  }
+  const kernels::FullyConnectedArgs args{x, weights, bias, y, {}, kInputs, kOutputs};
+  reinterpret_cast<kernels::Kernel<kernels::FullyConnectedArgs>>(entry->function)(args);
+  for (int o = 0; o < kOutputs; ++o) {
+    EXPECT_TRUE(std::isfinite(y[o])) << o << ": " << y[o];
+    EXPECT_LE(std::abs(y[o]), 2 * 65504.0f);
+  }
+  EXPECT_GT(y[15], 65504.0f);
+}
+
+}  // namespace
+}  // namespace mien::tests
