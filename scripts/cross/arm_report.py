@@ -9,17 +9,27 @@ import inner_loops
 import predict
 from count_instructions import Machine
 
-NETWORKS = [("basenet", "encoder"), ("hifinet", "encoder"), ("hifinet", "controls_decoder"),
-            ("audionet", "encoder")]
-FAMILIES = ["conv2d", "depthwise", "pointwise"]  # the others share code
-ARITHMETIC = ("fmla", "fmax", "fmin", "fcvtl", "fcvtl2")
-LOOPS = [  # family, pattern of the function's name, what it is
-    ("pointwise", r"tile<5, 4, .*Widened", "pointwise, 5 pixels x 16 channels, weights widened before"),
-    ("pointwise", r"tile<9, 2, .*Widened", "pointwise, 9 pixels x 8 channels, weights widened before"),
-    ("pointwise", r"tile<9, 2, .*Halves", "pointwise, 9 pixels x 8 channels, weights widened inside"),
-    ("depthwise", r"whole_outputs<2, 1>", "depthwise 3x3, stride 1, 2x2 outputs"),
-    ("depthwise", r"whole_outputs<2, 2>", "depthwise 3x3, stride 2, 2x2 outputs"),
+ENCODERS = [("basenet", "encoder"), ("hifinet", "encoder")]
+DECODERS = [("hifinet", "controls_decoder"), ("audionet", "encoder")]
+# Layers of the fused blocks: what multiplies panels counts as pointwise, the rest as depthwise.
+FAMILIES = {"conv2d": ["conv2d"], "depthwise": ["depthwise", "inverted_residual"],
+            "pointwise": ["pointwise"]}
+ARITHMETIC = ("fmla", "fmul", "fmax", "fmin", "fadd", "fcvtl", "fcvtl2", "fcvtn", "fcvtn2")
+LOOPS = [  # tier, object, pattern of the function's name, what it is
+    ("neon", "pointwise/neon_product", r"tile<5, 4, .*Widened", "pointwise, 5 pixels x 16 channels, weights widened before"),
+    ("neon", "pointwise/neon_product", r"tile<9, 2, .*Widened", "pointwise, 9 pixels x 8 channels, weights widened before"),
+    ("neon", "pointwise/neon_product", r"tile<9, 2, .*Halves", "pointwise, 9 pixels x 8 channels, weights widened inside"),
+    ("neon", "depthwise/neon", r"whole_outputs<.*Floats, 2, 1, 8, 8>", "depthwise 3x3, stride 1, 2x2 outputs"),
+    ("neon", "depthwise/neon", r"whole_outputs<.*Floats, 2, 2, 8, 8>", "depthwise 3x3, stride 2, 2x2 outputs"),
+    ("neon", "inverted_residual/neon", r"whole_outputs<.*Floats, 2, 1, 16, 8>", "the same in a fused block, stride 1"),
+    ("neon", "inverted_residual/neon", r"whole_outputs<.*Floats, 2, 2, 16, 8>", "the same in a fused block, stride 2"),
+    ("neon", "lstm/neon", r"matvec_panel<4>", "matrix times vector, 16 outputs"),
+    ("neonfp16", "inverted_residual/neonfp16_product", r"tile<9, 2>", "pointwise, 9 pixels x 16 channels"),
+    ("neonfp16", "inverted_residual/neonfp16", r"whole_outputs<.*Halves, 2, 1, ", "depthwise 3x3, stride 1, 2x2 outputs"),
+    ("neonfp16", "inverted_residual/neonfp16", r"whole_outputs<.*Halves, 2, 2, ", "depthwise 3x3, stride 2, 2x2 outputs"),
+    ("neonfp16", "lstm/neon", r"matvec_panel<4>", "matrix times vector, 16 outputs"),
 ]
+WITHOUT_FP16 = "cortex-a53"
 
 
 def table(header, rows):
@@ -27,39 +37,63 @@ def table(header, rows):
     return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows]) + "\n"
 
 
-def loop_of(objects, family, pattern):
-    found = inner_loops.functions("aarch64-linux-gnu-objdump", objects / family / "neon.cpp.o")
-    body = next(body for name, body in found.items()
-                if re.search(pattern, name) and "tile_of" not in name)
-    return inner_loops.busiest_loop(body)
+def loop_of(folder, name, pattern):
+    found = inner_loops.functions("aarch64-linux-gnu-objdump", folder / f"{name}.cpp.o")
+    return inner_loops.busiest_loop(next(body for function, body in found.items()
+                                         if re.search(pattern, function)))
 
 
-def predictions(objects):
+def predictions(folder_of):
     rows = []
-    for family, pattern, what in LOOPS:
-        loop = loop_of(objects, family, pattern)
+    for tier, name, pattern, what in LOOPS:
+        loop = loop_of(folder_of(tier), name, pattern)
         shares = []
         for cpu in predict.CPUS:
-            fma = predict.share_of_limit(loop, cpu, "fmla")
+            if tier == "neonfp16" and cpu == WITHOUT_FP16:
+                shares.append("-")
+                continue
+            fma = predict.share_of_limit(loop, cpu, "fmla", "fmul")
             every = predict.share_of_limit(loop, cpu, *ARITHMETIC)
             shares.append(f"{fma:.0%} ({every:.0%})")
-        rows.append([what, str(len(loop)), str(inner_loops.count(loop, "fmla")),
+        rows.append([tier, what, str(len(loop)), str(inner_loops.count(loop, "fmla", "fmul")),
                      str(inner_loops.spills(loop)), *shares])
     return rows
 
 
-def counted(machines, plugin, work):
+def per_mac(neon, avx2, work):
     rows = []
-    for model, network in NETWORKS:
-        results = [machine.one_run(plugin, work, f"models/{model}.mien", network)
-                   for machine in machines]
+    for network in ENCODERS + DECODERS:
+        results = [machine.one_run(work, network) for machine in (neon, avx2)]
         macs = results[0][1]
-        for family in [*(f for f in FAMILIES if macs[f]), "all"]:
-            every = family == "all"
-            total = sum(macs.values()) if every else macs[family]
-            per_mac = [(sum(i.values()) if every else i[family]) / total for i, _ in results]
-            rows.append([f"{model}_{network}", family, str(total),
-                         *(f"{one:.3f}" for one in per_mac), f"{per_mac[0] / per_mac[1]:.2f}"])
+        for family, folders in FAMILIES.items():
+            if macs[family]:
+                counts = [sum(found[folder] for folder in folders) for found, _ in results]
+                rows.append(["_".join(network), family, *ratio_row(macs[family], counts)])
+        counts = [sum(found.values()) for found, _ in results]
+        rows.append(["_".join(network), "all", *ratio_row(sum(macs.values()), counts)])
+    return rows
+
+
+def ratio_row(macs, counts):
+    return [str(macs), *(f"{count / macs:.3f}" for count in counts), f"{counts[0] / counts[1]:.2f}"]
+
+
+def ways(neon, neonfp16, work):
+    rows = []
+    for network in ENCODERS:
+        for machine, mode in ((neon, "plain"), (neon, "fused"), (neonfp16, "fused")):
+            instructions = sum(machine.one_run(work, network, mode)[0].values())
+            kilobytes = [f"{count / 1024:.0f}" for count in machine.traffic(work, network, mode)]
+            rows.append(["_".join(network), machine.tier, mode, str(instructions), *kilobytes])
+    return rows
+
+
+def in_half(neonfp16, avx2, work):
+    rows = []
+    for network in ENCODERS + DECODERS:
+        results = [machine.one_run(work, network) for machine in (neonfp16, avx2)]
+        counts = [sum(found.values()) for found, _ in results]
+        rows.append(["_".join(network), *ratio_row(sum(results[0][1].values()), counts)])
     return rows
 
 
@@ -70,16 +104,17 @@ def version(program):
 
 def main():
     work, out = Path(sys.argv[1]), Path(sys.argv[2])
-    kernels = Path("kernels/CMakeFiles")
-    arm_objects = work / "report-arm64" / kernels / "mien_kernels_neon.dir"
-    clang_objects = work / "clang"
-    machines = [
-        Machine("neon", ["qemu-aarch64", "-cpu", "max"], work / "run_neon", arm_objects,
-                "aarch64-linux-gnu-nm"),
-        Machine("avx2", ["qemu-x86_64", "-cpu", "max"], work / "run_avx2",
-                work / "report-x64" / kernels / "mien_kernels_avx2.dir", "nm"),
-    ]
-    header = ["inner loop", "instructions", "FMAs", "spills", *predict.CPUS]
+
+    def built(target):
+        return lambda tier: work / target / "kernels/CMakeFiles" / f"mien_kernels_{tier}.dir"
+
+    gcc, x64 = built("report-arm64"), built("report-x64")
+    arm = (["qemu-aarch64", "-cpu", "max"], work / "run_neon")
+    neon = Machine("neon", *arm, [gcc("neon")], "aarch64-linux-gnu-nm")
+    neonfp16 = Machine("neonfp16", *arm, [gcc("neon"), gcc("neonfp16")], "aarch64-linux-gnu-nm")
+    avx2 = Machine("avx2", ["qemu-x86_64", "-cpu", "max"], work / "run_avx2", [x64("avx2")], "nm")
+    header = ["tier", "inner loop", "instructions", "FMAs", "spills", *predict.CPUS]
+    counted = ["network", "layers", "MACs", "neon", "avx2", "ratio"]
     text = f"""# ARM, without an ARM machine
 
 Nothing here was timed: there was no ARM hardware. `scripts/cross/arm_report.sh` writes this file.
@@ -88,23 +123,36 @@ Nothing here was timed: there was no ARM hardware. `scripts/cross/arm_report.sh`
 
 Predicted by llvm-mca ({version("llvm-mca")}) from the objects as they are linked: the cycles that
 the loop's fused multiply-adds need if nothing else limits, over the cycles the loop takes. In brackets
-the same for all of its vector arithmetic: the clamping of ReLU6 (two instructions for every output of a
-depthwise loop that has nine multiply-adds) and the widening of fp16 weights run on the same units, so
-that share cannot be won from the first. llvm-mca 14 uses the model of Cortex-A57 for A76 and X1, and
-that of Cyclone for M1; loads that miss a cache are not modelled.
+the same for all of its vector arithmetic, as clamps and conversions run on the same units. A depthwise output has nine
+multiply-adds and is clamped by two instructions, so where two units do both, as in A76 and X1, no loop with ReLU6 can have more
+than 9/11 = 82% of the limit of its multiply-adds; the bracket says how near it comes. The clamp cannot go elsewhere: whoever
+reads the result would pay for it on the same units, and the weights do not bound the sums (of all blocks of channels before
+3x3 layers of the two encoders, one needs no upper clamp). llvm-mca 14 uses the model of Cortex-A57 for A76 and X1, and that
+of Cyclone for M1; loads that miss a cache are not modelled. {WITHOUT_FP16} has no fp16 arithmetic.
 
 gcc ({version("aarch64-linux-gnu-g++")}):
 
-{table(header, predictions(arm_objects))}
+{table(header, predictions(gcc))}
 clang ({version("clang++")}):
 
-{table(header, predictions(clang_objects))}
+{table(header, predictions(lambda tier: work / "clang" / tier))}
 ## Instructions per multiply-accumulate
 
-One run of a network, counted by qemu-user on the same weights and input; gcc on both sides. `all` is
-everything that a run executes. The ratio is NEON's over AVX2's, whose vectors are twice as wide.
+One run of a network, counted by qemu-user on the same weights and input; gcc on both sides, blocks fused. `all` is
+everything that a run executes; `depthwise` has all of a block that is no product. The ratio is NEON's over AVX2's, whose vectors
+are twice as wide. AVX2 widens eight weights in the load that it needs anyway; NEON has an instruction for every four, on the
+units of the arithmetic, which shows where each weight is used once: in the decoders.
 
-{table(["network", "layers", "MACs", "neon", "avx2", "ratio"], counted(machines, work / "libcount.so", work))}"""
+{table(counted, per_mac(neon, avx2, work))}
+In half precision a vector has as many numbers as AVX2's, and weights need not be widened:
+
+{table(["network", "MACs", "neonfp16", "avx2", "ratio"], in_half(neonfp16, avx2, work))}
+## Fused blocks
+
+Layer by layer (`plain`) and fused; traffic is that of a model of Cortex-A53's caches (32 KB in 4 ways, 512 KB in 16; lines
+of 64 bytes, least recently used; no prefetching), of a second run after a first. The weights alone are 1033 KB and 1893 KB.
+
+{table(["network", "tier", "blocks", "instructions", "KB into L1", "KB into L2"], ways(neon, neonfp16, work))}"""
     out.write_text(text)
 
 

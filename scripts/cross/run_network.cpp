@@ -1,6 +1,6 @@
 // Runs a network of a weight file a number of times, for counting instructions: the difference
 // between two numbers of runs is what a run takes. Writes the layers and their
-// multiply-accumulates. usage: run_network MODEL.mien NETWORK TIER RUNS
+// multiply-accumulates. usage: run_network MODEL.mien NETWORK TIER RUNS fused|plain
 #include <mien/engine.h>
 #include <mien/mien.h>
 
@@ -21,7 +21,7 @@ std::uint32_t mask_of(const char* tier) {
   for (std::uint32_t bit = 1; bit != 0; bit <<= 1) {
     const char* name = mien_cpu_tier_name(bit);
     if (name != nullptr && std::strcmp(name, tier) == 0 && (mien_cpu_tiers() & bit) != 0) {
-      return bit;
+      return 2 * bit - 1;  // what the tier lacks those before it have
     }
   }
   fail("this CPU lacks the tier");
@@ -44,8 +44,8 @@ void print_layers(const mien::WeightFile& file, const char* network) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 5) {
-    fail("usage: run_network MODEL.mien NETWORK TIER RUNS");
+  if (argc != 6) {
+    fail("usage: run_network MODEL.mien NETWORK TIER RUNS fused|plain");
   }
   std::ifstream stream(argv[1], std::ios::binary);
   const std::vector<char> content(std::istreambuf_iterator<char>(stream), {});
@@ -57,7 +57,7 @@ int main(int argc, char** argv) {
   }
   mien::NetworkRunner runner;
   mien::NetworkRunner::Options options;
-  options.cpu_mask = mask_of(argv[3]);
+  options.cpu_mask = mask_of(argv[3]) | (std::strcmp(argv[5], "fused") == 0 ? MIEN_CPU_FUSED : 0);
   const mien::EngineStatus status = runner.create(file, argv[2], options);
   if (status != mien::EngineStatus::kOk) {
     fail(message(status));
