@@ -10,7 +10,7 @@ def measure(setting):
     report = {}
     for clip in [videos.DEMO, *videos.clips()]:
         command = [setting.program.path, "bench", "--clip", clip, "--models", setting.program.models, "--json"]
-        report[clip.stem] = json.loads(subprocess.check_output(command, text=True))
+        report[clip.stem] = {**json.loads(subprocess.check_output(command, text=True)), "clip": clip.name}
     return report
 
 
