@@ -108,7 +108,7 @@ double fastest_run_us(const Part& part, const BenchOptions& options) {
   return network_times_ms(runner).front() * 1e3;
 }
 
-// A third of a tenth of a second of sound, so that there is something to mix; it is not timed.
+// The sound of one frame, so that there is something to mix; it is not timed.
 void hear(Tracker& tracker, std::int64_t pts_ns) {
   static const std::vector<float> hum(kSoundRate / 30, 0.01f);
   Audio audio;

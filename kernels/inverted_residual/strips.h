@@ -1,11 +1,14 @@
 // The order of work of a fused block, the same for every tier: bands, in them strips of channels,
 // in these rows. A tier brings what it does with them:
-//   Value                          what strips and bands are made of: float, or std::uint16_t for
-//   fp16 kPanel                         channels that lie together in a strip Tier(args)
-//   begin(first, rows)             those rows of the map are about to be expanded
-//   expand(part, row, rows, to), copy(..)    rows of the map to rows of the strip
-//   slide(Slide)                   rows of one panel of the strip to rows of the band
-//   project(first, rows)           the band to these rows of the result
+//
+//   Value      what strips and bands are made of: float, or std::uint16_t for fp16
+//   kPanel     channels that lie together in a strip
+//   Tier(args)
+//   begin(first, rows)                    those rows of the map are about to be expanded
+//   expand(part, row, rows, to), copy(..) rows of the map to rows of the strip
+//   slide(Slide)                          rows of one panel of the strip to rows of the band
+//   project(first, rows)                  the band to these rows of the result
+//
 // Everything has internal linkage: each tier compiles its own.
 #pragma once
 
