@@ -18,7 +18,6 @@ struct Simd {
   static Vec fma(Vec sum, Vec a, Vec b) { return _mm256_fmadd_ps(a, b, sum); }
   static Vec add(Vec a, Vec b) { return _mm256_add_ps(a, b); }
   static Vec sub(Vec a, Vec b) { return _mm256_sub_ps(a, b); }
-  static Vec mul(Vec a, Vec b) { return _mm256_mul_ps(a, b); }
   static Vec min(Vec a, Vec b) { return _mm256_min_ps(a, b); }
   static Vec max(Vec a, Vec b) { return _mm256_max_ps(a, b); }
   static Vec floor(Vec x) { return _mm256_floor_ps(x); }
@@ -33,10 +32,20 @@ struct Simd {
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(at), x);
   }
 
-  static void gather(const std::uint16_t* base, Ints index, Vec& sample, Vec& next) {
-    const Ints pairs = _mm256_i32gather_epi32(reinterpret_cast<const int*>(base), index, 2);
-    sample = _mm256_cvtepi32_ps(_mm256_and_si256(pairs, _mm256_set1_epi32(0xFFFF)));
-    next = _mm256_cvtepi32_ps(_mm256_srli_epi32(pairs, 16));
+  // A neighbour's in the low half of 32 bits, the next one's in the high half.
+  using Shares = Ints;
+  static Shares shares_of(Vec across) {
+    const Ints next = to_ints(_mm256_mul_ps(across, splat(tiles::kWhole)));
+    const Ints both = _mm256_sub_epi32(_mm256_slli_epi32(next, 16), next);
+    return _mm256_add_epi32(both, _mm256_set1_epi32(tiles::kWhole));
+  }
+  static Vec gather(const std::uint16_t* base, Ints index, Shares shares) {
+    // The mask, that of all, is computed, and what is kept where it is 0 is named: else a compiler
+    // takes any register for it, and each gather waits for what was in there.
+    const Ints all = _mm256_cmpgt_epi32(index, _mm256_set1_epi32(-1));
+    const Ints pairs = _mm256_mask_i32gather_epi32(
+        _mm256_setzero_si256(), reinterpret_cast<const int*>(base), index, all, 2);
+    return _mm256_cvtepi32_ps(_mm256_madd_epi16(pairs, shares));
   }
 
   // Each third vector of the result has every third number of each colour.

@@ -19,7 +19,6 @@ struct Simd {
   static Vec fma(Vec sum, Vec a, Vec b) { return vfmaq_f32(sum, a, b); }
   static Vec add(Vec a, Vec b) { return vaddq_f32(a, b); }
   static Vec sub(Vec a, Vec b) { return vsubq_f32(a, b); }
-  static Vec mul(Vec a, Vec b) { return vmulq_f32(a, b); }
   static Vec min(Vec a, Vec b) { return vminq_f32(a, b); }
   static Vec max(Vec a, Vec b) { return vmaxq_f32(a, b); }
   static Vec floor(Vec x) { return MIEN_TIER::floor(x); }
@@ -29,7 +28,15 @@ struct Simd {
   static Ints to_ints(Vec x) { return vcvtq_s32_f32(x); }
   static void store(std::int32_t* at, Ints x) { vst1q_s32(at, x); }
 
-  static void gather(const std::uint16_t* base, Ints index, Vec& sample, Vec& next) {
+  struct Shares {
+    uint16x4_t here, next;
+  };
+  static Shares shares_of(Vec across) {
+    const Vec rounded = fma(splat(0.5f), across, splat(tiles::kWhole));
+    const uint16x4_t next = vmovn_u32(vcvtq_u32_f32(rounded));
+    return {vsub_u16(vdup_n_u16(tiles::kWhole), next), next};
+  }
+  static Vec gather(const std::uint16_t* base, Ints index, Shares shares) {
     const auto pair = [&](std::int32_t i) {
       std::uint32_t both;
       __builtin_memcpy(&both, base + i, sizeof both);
@@ -39,8 +46,8 @@ struct Simd {
     pairs = vsetq_lane_u32(pair(vgetq_lane_s32(index, 1)), pairs, 1);
     pairs = vsetq_lane_u32(pair(vgetq_lane_s32(index, 2)), pairs, 2);
     pairs = vsetq_lane_u32(pair(vgetq_lane_s32(index, 3)), pairs, 3);
-    sample = vcvtq_f32_u32(vandq_u32(pairs, vdupq_n_u32(0xFFFF)));
-    next = vcvtq_f32_u32(vshrq_n_u32(pairs, 16));
+    const uint32x4_t here = vmull_u16(vmovn_u32(pairs), shares.here);
+    return vcvtq_f32_u32(vmlal_u16(here, vshrn_n_u32(pairs, 16), shares.next));
   }
 
   static void store_rgb(float* at, Vec r, Vec g, Vec b) {

@@ -4,9 +4,10 @@
 // code of one tier may be merged with that of another.
 //
 // `Simd` is what a tier has: vectors of kLanes floats and integers,
-//   Vec, Ints; splat, load, count_from(first), fma(sum, a, b), add, sub, mul, min, max, floor
+//   Vec, Ints; splat, load, count_from(first), fma(sum, a, b), add, sub, min, max, floor
 //   finite_or_0(Vec); equal(Vec, Vec): 0 where not; to_ints(Vec); store(std::int32_t*, Ints)
-//   gather(const std::uint16_t* base, Ints index, Vec& sample, Vec& next)
+//   Shares; shares_of(Vec): of neighbours that a place lies between, in parts of kWhole
+//   gather(const std::uint16_t* base, Ints index, Shares): the sum of a number's and the next one's
 //   store_rgb(float*, Vec, Vec, Vec): kLanes pixels, interleaved
 // and of kSums numbers of 16 bits,
 //   Sums; load_sums, store_sums, add_sums
@@ -22,14 +23,17 @@
 
 namespace mien::kernels::tiles {
 
-// Of the output. A tile that needs more of the image than there is room for is halved: an upright
-// one whose samples lie 1.15 boxes apart needs 39 x 20 boxes, 1.5 boxes apart 50 x 27.
-constexpr std::int32_t kTileRows = 16, kTileColumns = 32;
-constexpr std::int32_t kMostColumns = 52, kMostSamples = 1088;  // of a copy
-constexpr std::int32_t kMostWaiting = 12;  // parts of a tile: one for each time it is halved
+// Of the output: wide, since each row of a copy costs something. A tile that needs more of the
+// image than there is room for is halved.
+constexpr std::int32_t kTileRows = 12, kTileColumns = 72;
+constexpr std::int32_t kMostSamples = 3072;  // of a copy of all channels
+constexpr std::int32_t kMostSums = 832;      // of a row, before it is made smaller
+constexpr std::int32_t kPiece = 5;           // vectors of a row at a time
+constexpr std::int32_t kMostWaiting = 12;    // parts of a tile: one for each time it is halved
 constexpr std::int32_t kMostBox = 8;
-constexpr std::int32_t kMostStep = 3;  // numbers from one pixel to the next when rows are summed
-constexpr std::int32_t kSpare = 64;    // vectors may go on beyond what they are asked for
+constexpr std::int32_t kMostStep = 3;     // numbers from one pixel to the next when rows are summed
+constexpr std::int32_t kSpare = 64;       // vectors may go on beyond what they are asked for
+constexpr std::int32_t kWhole = 1 << 14;  // its products with sums of boxes fit into 32 bits
 
 namespace {
 
@@ -38,18 +42,27 @@ struct Channel {
   Plane plane;
   std::int32_t width, height;  // samples of the plane
   std::int32_t box;
-  float boxes_per_pixel;  // of the image
+  // Between which boxes output (row i, column j) lies:
+  //   x = across[0] (j + 0.5) + across[1] (i + 0.5) + across[2], y = down[0] (j + 0.5) + ...
+  float across[3], down[3];
   // Beyond the border by more than two boxes everything is the same.
   float end_x, end_y;
 
   Channel() = default;
   Channel(const Plane& of, std::int32_t columns, std::int32_t rows, std::int32_t size,
-          float samples_per_pixel)
+          float samples_per_pixel, const float matrix[6])
       : plane(of), width(columns), height(rows), box(size) {
     const auto side = static_cast<float>(size);
-    boxes_per_pixel = samples_per_pixel / side;
+    for (std::int32_t k = 0; k < 3; ++k) {
+      across[k] = matrix[k] * (samples_per_pixel / side);
+      down[k] = matrix[3 + k] * (samples_per_pixel / side);
+    }
     end_x = static_cast<float>(columns) / side + 2.0f;
     end_y = static_cast<float>(rows) / side + 2.0f;
+  }
+
+  [[nodiscard]] bool lies_as(const Channel& other) const {
+    return box == other.box && width == other.width && height == other.height;
   }
 };
 
@@ -86,20 +99,20 @@ struct Window {
         stride(static_cast<float>(columns)),
         first(static_cast<float>(top) * stride + static_cast<float>(left)) {}
 
-  [[nodiscard]] bool fits() const {
-    return columns <= kMostColumns && rows * columns <= kMostSamples;
-  }
+  [[nodiscard]] std::int32_t samples() const { return rows * columns; }
 };
 
 // Sums of boxes to what the network reads: rows of red, green and blue; the last number of a row is
 // added. What comes out is kept between low and high.
 struct Mixing {
-  float weights[3][4];
+  float weights[3][4];  // the sums come in parts of kWhole
   float low, high;
 };
 
 inline Mixing mixing_of(const WarpArgs& a) {
-  const auto share = [](std::int32_t box) { return 1.0f / static_cast<float>(box * box); };
+  const auto share = [](std::int32_t box) {
+    return 1.0f / (static_cast<float>(box * box) * static_cast<float>(kWhole));
+  };
   const bool has_luma = a.format == PixelFormat::kGray8 || a.format == PixelFormat::kYuv420;
   const bool narrow = has_luma && !a.full_range;
   const float contrast = narrow ? 255.0f / 219.0f : 1.0f;
@@ -139,10 +152,11 @@ class Warp {
     const auto packed = [&](std::int32_t first) {
       Plane plane = args.plane[0];
       plane.data += first;
-      return Channel(plane, args.image_width, args.image_height, args.box, 1.0f);
+      return Channel(plane, args.image_width, args.image_height, args.box, 1.0f, args.matrix);
     };
     const auto chroma = [&](std::int32_t index) {
-      return Channel(args.plane[index], chroma_width, chroma_height, args.chroma_box, 0.5f);
+      return Channel(args.plane[index], chroma_width, chroma_height, args.chroma_box, 0.5f,
+                     args.matrix);
     };
     switch (args.format) {
       case PixelFormat::kGray8:
@@ -174,8 +188,14 @@ class Warp {
  private:
   using Vec = typename Simd::Vec;
 
+  // In boxes.
   struct Place {
-    Vec x, y;  // in the image
+    Vec x, y;
+  };
+
+  // Outputs in one row, of a channel.
+  struct Line {
+    Vec x, y, step_x, step_y;
   };
 
   // Between which boxes, and where between them.
@@ -183,21 +203,23 @@ class Warp {
     Vec column, row, across, down;
   };
 
-  // Of outputs in row i.
-  [[nodiscard]] Place place(std::int32_t i, Vec columns) const {
-    const Vec j = Simd::add(columns, Simd::splat(0.5f));
+  [[nodiscard]] static Line line(const Channel& channel, std::int32_t i) {
     const Vec row = Simd::splat(static_cast<float>(i) + 0.5f);
-    const auto affine = [&](const float* m) {
-      const Vec start = Simd::fma(Simd::splat(m[2]), row, Simd::splat(m[1]));
-      return Simd::fma(start, j, Simd::splat(m[0]));
+    const auto start = [&](const float* m) {
+      return Simd::fma(Simd::splat(m[2]), row, Simd::splat(m[1]));
     };
-    return {affine(a_.matrix), affine(a_.matrix + 3)};
+    return {start(channel.across), start(channel.down), Simd::splat(channel.across[0]),
+            Simd::splat(channel.down[0])};
+  }
+
+  // `middles`: of columns.
+  [[nodiscard]] static Place place(const Line& line, Vec middles) {
+    return {Simd::fma(line.x, middles, line.step_x), Simd::fma(line.y, middles, line.step_y)};
   }
 
   [[nodiscard]] static Position position(const Place& place, const Channel& channel) {
-    const auto within = [&](Vec coordinate, float end) {
-      const Vec small = Simd::mul(coordinate, Simd::splat(channel.boxes_per_pixel));
-      const Vec kept = Simd::min(Simd::max(small, Simd::splat(-2.0f)), Simd::splat(end));
+    const auto within = [](Vec coordinate, float end) {
+      const Vec kept = Simd::min(Simd::max(coordinate, Simd::splat(-2.0f)), Simd::splat(end));
       return Simd::sub(kept, Simd::splat(0.5f));
     };
     const Vec x = within(place.x, channel.end_x), y = within(place.y, channel.end_y);
@@ -220,34 +242,55 @@ class Warp {
   }
 
   void warp_copied(const Tile& tile) {
-    for (std::int32_t i = tile.top; i < tile.bottom; ++i) {
-      for (std::int32_t j = tile.left; j < tile.right; j += Simd::kLanes) {
-        warp_samples(i, j, tile.right);
-      }
+    if (a_.format == PixelFormat::kGray8) {
+      warp_rows(tile, [this](const Spots& at, Vec rgb[3]) { gray(at, rgb); });
+    } else if (has_chroma()) {
+      warp_rows(tile, [this](const Spots& at, Vec rgb[3]) { from_yuv(at, rgb); });
+    } else {
+      warp_rows(tile, [this](const Spots& at, Vec rgb[3]) { from_packed(at, rgb); });
     }
   }
 
   // False when the tile needs more of the image than there is room for.
   [[nodiscard]] bool copy(const Tile& tile) {
-    Place upper = corners(tile, tile.top), lower = corners(tile, tile.bottom - 1);
-    if (tile.is_one()) {
-      upper = lower = finite(upper);
-    } else if (!all_finite(upper) || !all_finite(lower)) {
-      return false;  // between numbers that are finite all are, and in order
-    }
     for (std::int32_t c = 0; c < count_; ++c) {
       // The third channel lies where the second does; of packed ones all do where the first does.
-      if (c == 0 || (c == 1 && has_chroma())) {
-        windows_[c] = window(position(upper, channels_[c]), position(lower, channels_[c]));
-      } else {
+      if (c != 0 && channels_[c].lies_as(channels_[c - 1])) {
         windows_[c] = windows_[c - 1];
+        continue;
       }
-      if (!windows_[c].fits()) {
-        return false;
+      Place upper = corners(channels_[c], tile, tile.top);
+      Place lower = corners(channels_[c], tile, tile.bottom - 1);
+      if (tile.is_one()) {
+        upper = lower = finite(upper);
+      } else if (!all_finite(upper) || !all_finite(lower)) {
+        return false;  // between numbers that are finite all are, and in order
       }
+      windows_[c] = window(position(upper, channels_[c]), position(lower, channels_[c]));
+    }
+    if (!lay_out()) {
+      return false;
     }
     for (std::int32_t c = 0; c < count_; ++c) {
-      fill(channels_[c], windows_[c], samples_[c]);
+      fill(channels_[c], windows_[c], copies_[c]);
+    }
+    return true;
+  }
+
+  // Finds room for the copies. Coordinates are below 2^16, so that all products fit.
+  [[nodiscard]] bool lay_out() {
+    std::int32_t used = 0;
+    for (std::int32_t c = 0; c < count_; ++c) {
+      const Window& window = windows_[c];
+      const Channel& channel = channels_[c];
+      const auto step = std::min<std::int64_t>(channel.plane.pixel_bytes, kMostStep);
+      if (window.columns > kMostSums || window.rows > kMostSamples ||
+          window.columns * channel.box * step > kMostSums ||
+          used + window.samples() > kMostSamples) {
+        return false;
+      }
+      copies_[c] = samples_ + used + c * kSpare;
+      used += window.samples();
     }
     return true;
   }
@@ -255,11 +298,11 @@ class Warp {
   [[nodiscard]] bool has_chroma() const { return a_.format == PixelFormat::kYuv420; }
 
   // Left and right end of a row of the tile in the first two lanes.
-  [[nodiscard]] Place corners(const Tile& tile, std::int32_t i) const {
-    float columns[Simd::kLanes];
-    std::fill_n(columns, Simd::kLanes, static_cast<float>(tile.right - 1));
-    columns[0] = static_cast<float>(tile.left);
-    return place(i, Simd::load(columns));
+  [[nodiscard]] static Place corners(const Channel& channel, const Tile& tile, std::int32_t i) {
+    float middles[Simd::kLanes];
+    std::fill_n(middles, Simd::kLanes, static_cast<float>(tile.right) - 0.5f);
+    middles[0] = static_cast<float>(tile.left) + 0.5f;
+    return place(line(channel, i), Simd::load(middles));
   }
 
   [[nodiscard]] static Place finite(const Place& at) {
@@ -426,37 +469,97 @@ class Warp {
     std::fill(to + left + inside, to + std::max(count, left + inside), last);
   }
 
-  // Up to kLanes outputs of row i, from column j on.
-  void warp_samples(std::int32_t i, std::int32_t j, std::int32_t end) {
-    const Vec columns = Simd::min(Simd::count_from(static_cast<float>(j)),
-                                  Simd::splat(static_cast<float>(end - 1)));
-    const Place at = place(i, columns);
-    Vec rgb[3];
-    colour(end - j == 1 ? finite(at) : at, rgb);
-    float* y = a_.y + (std::ptrdiff_t{i} * a_.width + j) * 3;
-    if (j + Simd::kLanes <= end) {
+  // Where in a copy, and where between there and its neighbours.
+  struct Spot {
+    typename Simd::Ints index;
+    typename Simd::Shares across;
+    Vec down;
+  };
+
+  // Of the first channel, and of those of another grid.
+  struct Spots {
+    Spot first, chroma;
+  };
+
+  // `colour(spots, rgb)` tells what is there. The places of several vectors come first: one after
+  // the other they and the colours are a chain of instructions too long for a CPU to begin the
+  // next.
+  template <class Colour>
+  void warp_rows(const Tile& tile, Colour colour) {
+    constexpr std::int32_t kColumns = kPiece * Simd::kLanes;
+    Spots spots[kPiece];
+    for (std::int32_t i = tile.top; i < tile.bottom; ++i) {
+      for (std::int32_t left = tile.left; left < tile.right; left += kColumns) {
+        const std::int32_t right = std::min(left + kColumns, tile.right);
+        find(tile, i, left, right, spots);
+        const Spots* at = spots;
+        for (std::int32_t next = left; next < right; next += Simd::kLanes) {
+          const std::int32_t j = column(tile, next);
+          Vec rgb[3];
+          colour(*at++, rgb);
+          store(rgb, a_.y + (std::ptrdiff_t{i} * a_.width + j) * 3, tile.right - j);
+        }
+      }
+    }
+  }
+
+  // The last vector of a row overlaps the one before.
+  [[nodiscard]] static std::int32_t column(const Tile& tile, std::int32_t next) {
+    return std::max(std::min(next, tile.right - Simd::kLanes), tile.left);
+  }
+
+  void find(const Tile& tile, std::int32_t i, std::int32_t left, std::int32_t right,
+            Spots* spots) const {
+    const Line first = line(channels_[0], i), chroma = line(channels_[1], i);
+    for (std::int32_t next = left; next < right; next += Simd::kLanes) {
+      const auto j = static_cast<float>(column(tile, next));
+      const Vec middles =
+          Simd::min(Simd::count_from(j + 0.5f), Simd::splat(static_cast<float>(tile.right) - 0.5f));
+      const auto at = [&](const Line& line) {
+        const Place middle = place(line, middles);
+        return tile.is_one() ? finite(middle) : middle;
+      };
+      find(at(first), 0, spots->first);
+      if (has_chroma()) {
+        find(at(chroma), 1, spots->chroma);
+      }
+      ++spots;
+    }
+  }
+
+  void find(const Place& place, std::int32_t c, Spot& spot) const {
+    const Position at = position(place, channels_[c]);
+    const Vec column = Simd::sub(at.column, Simd::splat(windows_[c].first));
+    const Vec index = Simd::fma(column, at.row, Simd::splat(windows_[c].stride));
+    spot.index = Simd::to_ints(index);
+    spot.across = Simd::shares_of(at.across);
+    spot.down = at.down;
+  }
+
+  // As many pixels as are left of a row.
+  static void store(const Vec rgb[3], float* y, std::int32_t left) {
+    if (left >= Simd::kLanes) {
       return Simd::store_rgb(y, rgb[0], rgb[1], rgb[2]);
     }
     float pixels[3 * Simd::kLanes];
     Simd::store_rgb(pixels, rgb[0], rgb[1], rgb[2]);
-    std::copy_n(pixels, 3 * (end - j), y);
+    std::copy_n(pixels, 3 * left, y);
   }
 
-  void colour(const Place& at, Vec rgb[3]) const {
-    const Spot spot = spot_of(position(at, channels_[0]), windows_[0]);
-    const Vec first = sample(spot, 0);
-    if (a_.format == PixelFormat::kGray8) {
-      rgb[0] = rgb[1] = rgb[2] = kept(mixed(0, 0, first, shift(0)));
-    } else if (has_chroma()) {
-      const Spot chroma = spot_of(position(at, channels_[1]), windows_[1]);
-      const Vec u = sample(chroma, 1), v = sample(chroma, 2);
-      rgb[0] = kept(mixed(0, 2, v, mixed(0, 0, first, shift(0))));
-      rgb[1] = kept(mixed(1, 2, v, mixed(1, 1, u, mixed(1, 0, first, shift(1)))));
-      rgb[2] = kept(mixed(2, 1, u, mixed(2, 0, first, shift(2))));
-    } else {
-      rgb[0] = mixed(0, 0, first, shift(0));
-      rgb[1] = mixed(1, 1, sample(spot, 1), shift(1));
-      rgb[2] = mixed(2, 2, sample(spot, 2), shift(2));
+  void gray(const Spots& at, Vec rgb[3]) const {
+    rgb[0] = rgb[1] = rgb[2] = kept(mixed(0, 0, sample(at.first, 0), shift(0)));
+  }
+
+  void from_yuv(const Spots& at, Vec rgb[3]) const {
+    const Vec y = sample(at.first, 0), u = sample(at.chroma, 1), v = sample(at.chroma, 2);
+    rgb[0] = kept(mixed(0, 2, v, mixed(0, 0, y, shift(0))));
+    rgb[1] = kept(mixed(1, 2, v, mixed(1, 1, u, mixed(1, 0, y, shift(1)))));
+    rgb[2] = kept(mixed(2, 1, u, mixed(2, 0, y, shift(2))));
+  }
+
+  void from_packed(const Spots& at, Vec rgb[3]) const {
+    for (std::int32_t c = 0; c < 3; ++c) {
+      rgb[c] = mixed(c, c, sample(at.first, c), shift(c));
     }
   }
 
@@ -468,26 +571,11 @@ class Warp {
     return Simd::min(Simd::max(value, Simd::splat(mixing_.low)), Simd::splat(mixing_.high));
   }
 
-  // Where in a copy, and where between there and its neighbours.
-  struct Spot {
-    typename Simd::Ints index;
-    Vec across, down;
-    std::int32_t stride;
-  };
-
-  [[nodiscard]] static Spot spot_of(const Position& at, const Window& window) {
-    const Vec column = Simd::sub(at.column, Simd::splat(window.first));
-    return {Simd::to_ints(Simd::fma(column, at.row, Simd::splat(window.stride))), at.across,
-            at.down, window.columns};
-  }
-
   // A sum, bilinear between four.
   [[nodiscard]] Vec sample(const Spot& spot, std::int32_t c) const {
-    Vec left, right, lower_left, lower_right;
-    Simd::gather(samples_[c], spot.index, left, right);
-    Simd::gather(samples_[c] + spot.stride, spot.index, lower_left, lower_right);
-    const Vec top = Simd::fma(left, spot.across, Simd::sub(right, left));
-    const Vec bottom = Simd::fma(lower_left, spot.across, Simd::sub(lower_right, lower_left));
+    const std::uint16_t* upper = copies_[c];
+    const Vec top = Simd::gather(upper, spot.index, spot.across);
+    const Vec bottom = Simd::gather(upper + windows_[c].columns, spot.index, spot.across);
     return Simd::fma(top, spot.down, Simd::sub(bottom, top));
   }
 
@@ -496,8 +584,9 @@ class Warp {
   std::int32_t count_ = 3;
   Channel channels_[3] = {};
   Window windows_[3] = {};
-  alignas(64) std::uint16_t samples_[3][kMostSamples + kSpare];
-  alignas(64) std::uint16_t sums_[kMostColumns * kMostBox * kMostStep + kSpare];
+  std::uint16_t* copies_[3] = {};
+  alignas(64) std::uint16_t samples_[kMostSamples + 3 * kSpare];
+  alignas(64) std::uint16_t sums_[kMostSums + kSpare];
 };
 
 }  // namespace

@@ -8,7 +8,8 @@
 // r + 0.5), and a small sample its own in the middle of its pixels. (That is a mipmap of one level:
 // Williams, Pyramidal parametrics, 1983.) Outside the image the border pixels repeat. A coordinate
 // that is not finite counts as 0. y: [height][width][3] RGB, interleaved: value * scale + offset,
-// value in 0..255.
+// value in 0..255. Between two neighbours in a row a tier may round its place to 1/16384 of their
+// distance.
 //
 // YUV is BT.601; chroma, sited in the middle of its 2x2 pixels, has its own grid and its own box.
 // Only bytes from a row's first pixel to its last are read: no row is assumed to be followed by

@@ -18,7 +18,6 @@ struct Simd {
   static Vec fma(Vec sum, Vec a, Vec b) { return add_product(sum, a, b); }
   static Vec add(Vec a, Vec b) { return wasm_f32x4_add(a, b); }
   static Vec sub(Vec a, Vec b) { return wasm_f32x4_sub(a, b); }
-  static Vec mul(Vec a, Vec b) { return wasm_f32x4_mul(a, b); }
   static Vec min(Vec a, Vec b) { return at_most(a, b); }
   static Vec max(Vec a, Vec b) { return at_least(a, b); }
   static Vec floor(Vec x) { return wasm_f32x4_floor(x); }
@@ -27,21 +26,27 @@ struct Simd {
   static Vec finite_or_0(Vec x) {
     return only(wasm_f32x4_le(wasm_f32x4_abs(x), splat(3.0e38f)), x);
   }
-  // Of whole numbers below 2^22: adding 1.5 * 2^23 leaves the integer in the lowest bits, where a
-  // conversion is many instructions on most CPUs.
-  static Ints to_ints(Vec whole) {
+  // Of numbers below 2^22, to the nearest: adding 1.5 * 2^23 leaves the integer in the lowest bits,
+  // where a conversion is many instructions on most CPUs.
+  static Ints to_ints(Vec x) {
     const Vec shift = splat(12582912.0f);
-    return wasm_i32x4_sub(wasm_f32x4_add(whole, shift), shift);
+    return wasm_i32x4_sub(wasm_f32x4_add(x, shift), shift);
   }
   static void store(std::int32_t* at, Ints x) { wasm_v128_store(at, x); }
 
-  static void gather(const std::uint16_t* base, Ints index, Vec& sample, Vec& next) {
+  // A neighbour's in the low half of 32 bits, the next one's in the high half.
+  using Shares = v128_t;
+  static Shares shares_of(Vec across) {
+    const Ints next = to_ints(wasm_f32x4_mul(across, splat(tiles::kWhole)));
+    const Ints both = wasm_i32x4_sub(wasm_i32x4_shl(next, 16), next);
+    return wasm_i32x4_add(both, wasm_i32x4_splat(tiles::kWhole));
+  }
+  static Vec gather(const std::uint16_t* base, Ints index, Shares shares) {
     v128_t pairs = wasm_v128_load32_zero(base + wasm_i32x4_extract_lane(index, 0));
     pairs = wasm_v128_load32_lane(base + wasm_i32x4_extract_lane(index, 1), pairs, 1);
     pairs = wasm_v128_load32_lane(base + wasm_i32x4_extract_lane(index, 2), pairs, 2);
     pairs = wasm_v128_load32_lane(base + wasm_i32x4_extract_lane(index, 3), pairs, 3);
-    sample = wasm_f32x4_convert_i32x4(wasm_v128_and(pairs, wasm_i32x4_splat(0xFFFF)));
-    next = wasm_f32x4_convert_i32x4(wasm_u32x4_shr(pairs, 16));
+    return wasm_f32x4_convert_i32x4(wasm_i32x4_dot_i16x8(pairs, shares));
   }
 
   static void store_rgb(float* at, Vec r, Vec g, Vec b) {

@@ -86,7 +86,8 @@ Coordinate coordinate(const float* row, double j, double i) {
 }
 
 // Between the centres of four boxes, with the error that those of the coordinates make of it: along
-// an axis a bilinear sample changes by at most 255 a box. `shrink`: pixels of the image per sample
+// an axis a bilinear sample changes by at most 255 a box. Across, a kernel may round its place to
+// parts of 2^14. `shrink`: pixels of the image per sample
 // of the plane.
 Approx bilinear(const TestPlane& plane, int channel, Coordinate x, Coordinate y, int shrink,
                 int box) {
@@ -101,8 +102,9 @@ Approx bilinear(const TestPlane& plane, int channel, Coordinate x, Coordinate y,
   };
   const double top = (1 - fx) * at(0, 0) + fx * at(1, 0);
   const double bottom = (1 - fx) * at(0, 1) + fx * at(1, 1);
-  const double moved = std::min(
-      1.0, (x.error + y.error) / step + kSumFactor * kUnit * (plane.width + plane.height + 8));
+  constexpr double kRounding = 1.0 / (1 << 15);
+  const double moved = std::min(1.0, (x.error + y.error) / step + kRounding +
+                                         kSumFactor * kUnit * (plane.width + plane.height + 8));
   return {(1 - fy) * top + fy * bottom, 255.0 * moved};
 }
 
