@@ -1,7 +1,7 @@
 // Register tiles of up to 14 pixels x 2 vectors of 32 outputs, 9 x 3 or 6 x 4: as many sums as
 // there are registers for. Of 16 outputs that are left a vector holds two elements of the sum each,
 // of 8 four: that many values of x are broadcast together, and weights are put in that order.
-#include "kernels/inverted_residual/avx512fp16_product.h"
+#include "kernels/inverted_residual/half_product.h"
 
 #include <immintrin.h>
 

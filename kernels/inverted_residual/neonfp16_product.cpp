@@ -1,19 +1,17 @@
 // Register tiles of up to 9 pixels x 16 outputs, or x 8 of a last block. Weights are taken as they
 // are stored, products by lane: nothing is widened, no input is ever broadcast.
-#include "kernels/inverted_residual/neonfp16_product.h"
+#include "kernels/inverted_residual/half_product.h"
 
 #include <algorithm>
 #include <utility>
 
 #include "kernels/common/neon_half.h"
+#include "kernels/common/product_sums.h"
 
 namespace mien::kernels::neonfp16 {
 namespace {
 
 constexpr int kMostPixels = 9;
-
-// Few sums are split into partial ones: eight at least hide the latency of the multiply-adds.
-constexpr int partial_sums(int sums) { return sums >= 8 ? 1 : sums >= 4 ? 2 : 4; }
 
 struct Job {
   const Half* x;  // first pixel

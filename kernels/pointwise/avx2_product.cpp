@@ -4,56 +4,14 @@
 
 #include "kernels/common/avx2.h"
 #include "kernels/common/product.h"
+#include "kernels/common/product_spot.h"
+#include "kernels/common/product_sums.h"
 #include "kernels/common/sized_tile.h"
 
 namespace mien::kernels::avx2 {
 namespace {
 
 constexpr int kMostSums = 12;
-
-// Few sums are split into partial ones: eight at least hide the latency of the multiply-adds.
-constexpr int partial_sums(int sums) { return sums >= 8 ? 1 : sums >= 4 ? 2 : 4; }
-
-// One pixel after another.
-class Cursor {
- public:
-  Cursor(const PixelRows& rows, std::int32_t pixel)
-      : pixel_(pixel * rows.pixel_elems), column_(pixel), rows_(&rows) {
-    if (pixel >= rows.row_pixels) {
-      pixel_ += pixel / rows.row_pixels * rows.row_gap_elems;
-      column_ = pixel % rows.row_pixels;
-    }
-  }
-  [[nodiscard]] std::ptrdiff_t at(std::int32_t panel) const {
-    return pixel_ + panel * rows_->panel_elems;
-  }
-  void advance() {
-    pixel_ += rows_->pixel_elems;
-    if (++column_ == rows_->row_pixels) {
-      column_ = 0;
-      pixel_ += rows_->row_gap_elems;
-    }
-  }
-
- private:
-  std::ptrdiff_t pixel_;
-  std::int32_t column_;
-  const PixelRows* rows_;
-};
-
-// Some pixels of the panels from `panel` on. A tile moves it behind those it made.
-struct Spot {
-  Spot(const ProductArgs& args, std::int32_t first_panel, std::int32_t pixel)
-      : a(args),
-        panel(first_panel),
-        x(args.x + std::ptrdiff_t{pixel} * kLanes),
-        y(args.y_rows, pixel),
-        residual(args.residual == nullptr ? args.y_rows : args.residual_rows, pixel) {}
-  const ProductArgs& a;
-  std::int32_t panel;
-  const float* x;
-  Cursor y, residual;
-};
 
 Vec weights_at(const std::uint16_t* w) { return load_half(w); }
 Vec weights_at(const float* w) { return _mm256_loadu_ps(w); }

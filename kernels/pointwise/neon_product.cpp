@@ -7,12 +7,10 @@
 
 #include "kernels/common/neon_weights.h"
 #include "kernels/common/product.h"
+#include "kernels/common/product_sums.h"
 
 namespace mien::kernels::MIEN_TIER {
 namespace {
-
-// Few sums are split into partial ones: eight at least hide the latency of the multiply-adds.
-constexpr int partial_sums(int sums) { return sums >= 8 ? 1 : sums >= 4 ? 2 : 4; }
 
 // One pixel after another.
 struct Cursor {

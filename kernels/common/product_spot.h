@@ -1,0 +1,56 @@
+// Where a tile of a product begins, for tiers whose tiles store one pixel after another.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "kernels/common/product.h"
+
+namespace mien::kernels {
+namespace {
+
+// One pixel after another.
+class Cursor {
+ public:
+  Cursor(const PixelRows& rows, std::int32_t pixel)
+      : pixel_(pixel * rows.pixel_elems), column_(pixel), rows_(&rows) {
+    if (pixel >= rows.row_pixels) {
+      pixel_ += pixel / rows.row_pixels * rows.row_gap_elems;
+      column_ = pixel % rows.row_pixels;
+    }
+  }
+  [[nodiscard]] std::ptrdiff_t at(std::int32_t panel) const {
+    return pixel_ + panel * rows_->panel_elems;
+  }
+  void advance() {
+    pixel_ += rows_->pixel_elems;
+    if (++column_ == rows_->row_pixels) {
+      column_ = 0;
+      pixel_ += rows_->row_gap_elems;
+    }
+  }
+
+ private:
+  std::ptrdiff_t pixel_;
+  std::int32_t column_;
+  const PixelRows* rows_;
+};
+
+inline constexpr std::int32_t kChannels = 8;  // of a block of x
+
+// Some pixels of the panels from `panel` on. A tile moves it behind those it made.
+struct Spot {
+  Spot(const ProductArgs& args, std::int32_t first_panel, std::int32_t pixel)
+      : a(args),
+        panel(first_panel),
+        x(args.x + std::ptrdiff_t{pixel} * kChannels),
+        y(args.y_rows, pixel),
+        residual(args.residual == nullptr ? args.y_rows : args.residual_rows, pixel) {}
+  const ProductArgs& a;
+  std::int32_t panel;
+  const float* x;
+  Cursor y, residual;
+};
+
+}  // namespace
+}  // namespace mien::kernels

@@ -1,0 +1,159 @@
+// The power spectrum of tiers with vectors. The real signal as one of n/2 complex numbers, z_j =
+// x_2j
+// + i x_2j+1 (Cooley, Lewis, Welch 1970). Their transform has two steps: with j = lanes r + lane
+// and k = p + rows q, each lane is transformed by itself over r, its results are turned by e^(-2 pi
+// i lane p / (n/2)), and a transform over the lanes, which a transposition has made rows, gives q.
+// Everything has internal linkage: no code of one tier may be merged with that of another.
+//
+// `Simd` is what a tier has: vectors of kLanes floats,
+//   Vec; splat, load, store, add, sub, mul
+//   add_product(sum, a, b), subtract_product(sum, a, b)
+//   deinterleave(const float*, Vec& even, Vec& odd): of 2 kLanes floats
+//   transpose(Vec[kLanes]); reversed(Vec)
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "kernels/power_spectrum/power_spectrum.h"
+
+namespace mien::kernels {
+namespace {
+
+template <class Simd>
+class RealTransform {
+ public:
+  explicit RealTransform(const PowerSpectrumArgs& args) : a_(args), half_(args.n / 2) {}
+
+  // The spectrum of x at k comes from that of z at k and at half - k: of the even places its sum,
+  // of the odd ones its difference, turned.
+  void power() {
+    transform();
+    const Vec quarter = Simd::splat(0.25f);
+    for (std::int32_t k = 0; k < half_; k += kLanes) {
+      const Complex here = {Simd::load(re_ + k), Simd::load(im_ + k)};
+      const Complex there = {before(re_ + half_ - k), before(im_ + half_ - k)};
+      const Complex even = {Simd::add(here.re, there.re), Simd::sub(here.im, there.im)};
+      const Complex odd = {Simd::add(here.im, there.im), Simd::sub(there.re, here.re)};
+      const Complex sum = add(even, multiply(odd, deinterleaved(a_.twiddles + 2 * k)));
+      const Vec power = Simd::add_product(Simd::mul(sum.im, sum.im), sum.re, sum.re);
+      Simd::store(a_.y + k, Simd::mul(power, quarter));
+    }
+    const float last = re_[0] - im_[0];
+    a_.y[half_] = last * last;
+  }
+
+ private:
+  using Vec = typename Simd::Vec;
+  static constexpr std::int32_t kLanes = Simd::kLanes;
+  static constexpr std::int32_t kMostRows = PowerSpectrumArgs::kLargest / 2 / kLanes;
+
+  struct Complex {
+    Vec re, im;
+  };
+
+  static Complex add(const Complex& a, const Complex& b) {
+    return {Simd::add(a.re, b.re), Simd::add(a.im, b.im)};
+  }
+  static Complex subtract(const Complex& a, const Complex& b) {
+    return {Simd::sub(a.re, b.re), Simd::sub(a.im, b.im)};
+  }
+  static Complex multiply(const Complex& a, const Complex& b) {
+    return {Simd::subtract_product(Simd::mul(a.re, b.re), a.im, b.im),
+            Simd::add_product(Simd::mul(a.im, b.re), a.re, b.im)};
+  }
+  static Complex deinterleaved(const float* x) {
+    Complex pairs;
+    Simd::deinterleave(x, pairs.re, pairs.im);
+    return pairs;
+  }
+  // The numbers that end at `last`, backwards.
+  static Vec before(const float* last) { return Simd::reversed(Simd::load(last - kLanes + 1)); }
+
+  // e^(-2 pi i turn / n)
+  [[nodiscard]] Complex everywhere(std::int32_t turn) const {
+    const float* at = a_.twiddles + std::ptrdiff_t{2} * turn;
+    return {Simd::splat(at[0]), Simd::splat(at[1])};
+  }
+  // The same of turns 0, step, 2 step ..
+  [[nodiscard]] Complex lanes(std::int32_t step) const {
+    float re[kLanes], im[kLanes];
+    for (std::ptrdiff_t lane = 0; lane < kLanes; ++lane) {
+      re[lane] = a_.twiddles[2 * lane * step];
+      im[lane] = a_.twiddles[2 * lane * step + 1];
+    }
+    return {Simd::load(re), Simd::load(im)};
+  }
+
+  static std::int32_t reversed_bits(std::int32_t value, std::int32_t count) {
+    std::int32_t out = 0;
+    for (std::int32_t bit = 1; bit < count; bit *= 2) {
+      out = 2 * out + (value & 1);
+      value /= 2;
+    }
+    return out;
+  }
+
+  // Rows in bit-reversed order -> their transform (Cooley, Tukey 1965).
+  void transform_rows(Complex* rows, std::int32_t count) const {
+    for (std::int32_t half = 1; half < count; half *= 2) {
+      for (std::int32_t p = 0; p < half; ++p) {
+        const Complex turn = everywhere(p * (a_.n / (2 * half)));
+        for (std::int32_t first = p; first < count; first += 2 * half) {
+          const Complex even = rows[first];
+          const Complex odd = multiply(rows[first + half], turn);
+          rows[first] = add(even, odd);
+          rows[first + half] = subtract(even, odd);
+        }
+      }
+    }
+  }
+
+  static void transpose(Complex* block) {
+    Vec re[kLanes], im[kLanes];
+    for (std::int32_t i = 0; i < kLanes; ++i) {
+      re[i] = block[i].re;
+      im[i] = block[i].im;
+    }
+    Simd::transpose(re);
+    Simd::transpose(im);
+    for (std::int32_t i = 0; i < kLanes; ++i) {
+      block[i] = {re[i], im[i]};
+    }
+  }
+
+  void transform() {
+    const std::int32_t count = half_ / kLanes;
+    Complex rows[kMostRows];
+    for (std::int32_t r = 0; r < count; ++r) {
+      rows[reversed_bits(r, count)] = deinterleaved(a_.x + std::ptrdiff_t{2} * kLanes * r);
+    }
+    transform_rows(rows, count);
+    for (std::int32_t p = 0; p < count; ++p) {
+      rows[p] = multiply(rows[p], lanes(2 * p));
+    }
+    for (std::int32_t first = 0; first < count; first += kLanes) {
+      transpose(rows + first);
+      Complex across[kLanes];
+      for (std::int32_t lane = 0; lane < kLanes; ++lane) {
+        across[reversed_bits(lane, kLanes)] = rows[first + lane];
+      }
+      transform_rows(across, kLanes);
+      for (std::int32_t q = 0; q < kLanes; ++q) {
+        Simd::store(re_ + first + q * count, across[q].re);
+        Simd::store(im_ + first + q * count, across[q].im);
+      }
+    }
+    re_[half_] = re_[0];
+    im_[half_] = im_[0];
+  }
+
+  const PowerSpectrumArgs& a_;
+  const std::int32_t half_;
+  // z_0 .. z_(half-1) and z_half = z_0, transformed.
+  alignas(64) float re_[PowerSpectrumArgs::kLargest / 2 + kLanes] = {};
+  alignas(64) float im_[PowerSpectrumArgs::kLargest / 2 + kLanes] = {};
+};
+
+}  // namespace
+}  // namespace mien::kernels
