@@ -5,6 +5,7 @@
 
 #include "kernels/common/neon_activation.h"
 #include "kernels/depthwise/neon_window.h"
+#include "kernels/depthwise/padded.h"
 #include "kernels/families.h"
 
 namespace mien::kernels::MIEN_TIER {
@@ -127,43 +128,7 @@ void channels_any(const Channels& ch) {
   }
 }
 
-// A map with its padding, on the stack.
-constexpr std::int32_t kPaddedPixels = 96;
-
-class Padded {
- public:
-  explicit Padded(const DepthwiseArgs& a) : a_(a), inner_(a) {
-    inner_.in_h = (a.out_h - 1) * a.stride_h + a.kernel_h;
-    inner_.in_w = (a.out_w - 1) * a.stride_w + a.kernel_w;
-    inner_.pad_top = inner_.pad_left = 0;
-    rows_ = std::min(a.in_h, inner_.in_h - a.pad_top);
-    columns_ = std::min(a.in_w, inner_.in_w - a.pad_left);
-    std::fill_n(map_, inner_.in_h * inner_.in_w * kBlock, 0.0f);
-  }
-  static bool serves(const DepthwiseArgs& a) {
-    const std::int32_t h = (a.out_h - 1) * a.stride_h + a.kernel_h;
-    const std::int32_t w = (a.out_w - 1) * a.stride_w + a.kernel_w;
-    const bool leaves = a.pad_top > 0 || a.pad_left > 0 || h > a.in_h || w > a.in_w;
-    return leaves && h <= kPaddedPixels && w <= kPaddedPixels && h * w <= kPaddedPixels;
-  }
-  [[nodiscard]] const DepthwiseArgs& args() const { return inner_; }
-  const float* filled(const float* x) {
-    for (std::int32_t i = 0; i < rows_; ++i) {
-      const float* from = x + std::ptrdiff_t{i} * a_.in_w * kBlock;
-      float* to = map_ + ((i + a_.pad_top) * inner_.in_w + a_.pad_left) * kBlock;
-      for (std::int32_t j = 0; j < columns_; ++j, from += kBlock, to += kBlock) {
-        store_pair(to, load_pair(from));
-      }
-    }
-    return map_;
-  }
-
- private:
-  const DepthwiseArgs& a_;
-  DepthwiseArgs inner_;
-  std::int32_t rows_, columns_;
-  float map_[kPaddedPixels * kBlock];
-};
+using InStack = Padded<96>;
 
 }  // namespace
 
@@ -171,8 +136,8 @@ void depthwise(const DepthwiseArgs& a) {
   const Activator activator(a.activation, a.channels);
   const std::ptrdiff_t plane = std::ptrdiff_t{a.in_h} * a.in_w * kBlock;
   const std::int32_t blocks = blocks_of(a.channels);
-  if (Padded::serves(a)) {
-    Padded padded(a);
+  if (InStack::serves(a)) {
+    InStack padded(a);
     for (std::int32_t block = 0; block < blocks; ++block) {
       all_channels(padded.args(), activator, block, padded.filled(a.x + block * plane));
     }

@@ -1,46 +1,23 @@
 #include <algorithm>
 
 #include "kernels/common/neon_activation.h"
-#include "kernels/common/product.h"
 #include "kernels/families.h"
+#include "kernels/pointwise/product_of.h"
 
 namespace mien::kernels::MIEN_TIER {
 namespace {
 
 constexpr std::int32_t kFewPixels = 18;  // tiles of 9 and of 3
 
-ProductArgs product_of(const PointwiseArgs& a, const Activator& activator) {
-  const std::ptrdiff_t plane = std::ptrdiff_t{a.h} * a.w * kBlock;
-  ProductArgs product{};
-  product.x = a.x;
-  product.x_plane_elems = plane;
-  product.in_blocks = blocks_of(a.in_c);
-  product.pixels = a.h * a.w;
-  product.weights = a.weights;
-  product.bias = a.bias;
-  product.out_blocks = blocks_of(a.out_c);
-  product.low = vgetq_lane_f32(activator.low(), 0);
-  product.high = vgetq_lane_f32(activator.high(), 0);
-  product.y = a.y;
-  product.y_rows = {kBlock, plane, 2 * plane, 0x7FFFFFFF, 0};
-  return product;
-}
-
-std::ptrdiff_t residual_at(const PointwiseArgs& a, std::int32_t pixel) {
-  const std::ptrdiff_t y = pixel / a.w + a.residual_top, x = pixel % a.w + a.residual_left;
-  return (y * a.residual_w + x) * kBlock;
-}
-
 // Sums of a few pixels and one block go through the stack to a residual that may lie where they
 // belong.
 void finish(const PointwiseArgs& a, const float* sums, std::int32_t block, std::int32_t pixel,
             std::int32_t count) {
-  const std::ptrdiff_t plane = std::ptrdiff_t{a.h} * a.w * kBlock;
-  const std::ptrdiff_t residual_plane = std::ptrdiff_t{a.residual_h} * a.residual_w * kBlock;
+  const std::ptrdiff_t plane = plane_of(a), residual_plane = residual_plane_of(a);
   for (std::int32_t p = pixel; p < pixel + count; ++p, sums += kBlock) {
     Pair value = load_pair(sums);
     if (a.residual != nullptr) {
-      const Pair r = load_pair(a.residual + block * residual_plane + residual_at(a, p));
+      const Pair r = load_pair(residual_at(a, p) + block * residual_plane);
       value = {vaddq_f32(value.low, r.low), vaddq_f32(value.high, r.high)};
     }
     store_pair(a.y + block * plane + std::ptrdiff_t{p} * kBlock, value);
@@ -51,6 +28,7 @@ void activated_product(const PointwiseArgs& a, const Activator& activator, Produ
   constexpr std::ptrdiff_t kHalf = kFewPixels * kBlock;
   float sums[2 * kHalf];
   product.y = sums;
+  product.residual = nullptr;
   product.y_rows = {kBlock, kHalf, 0, 0x7FFFFFFF, 0};
   const std::int32_t blocks = product.out_blocks;
   const std::ptrdiff_t reduction = std::ptrdiff_t{product.in_blocks} * kBlock;
@@ -75,15 +53,11 @@ void activated_product(const PointwiseArgs& a, const Activator& activator, Produ
 
 void pointwise(const PointwiseArgs& a) {
   const Activator activator(a.activation, a.out_c);
-  ProductArgs product = product_of(a, activator);
+  ProductArgs product = product_of(a);
+  product.low = vgetq_lane_f32(activator.low(), 0);
+  product.high = vgetq_lane_f32(activator.high(), 0);
   if (activator.curves() || a.residual == a.y) {
     return activated_product(a, activator, product);
-  }
-  if (a.residual != nullptr) {
-    const std::ptrdiff_t plane = std::ptrdiff_t{a.residual_h} * a.residual_w * kBlock;
-    product.residual = a.residual + residual_at(a, 0);
-    product.residual_rows = {kBlock, plane, 2 * plane, a.w,
-                             std::ptrdiff_t{a.residual_w - a.w} * kBlock};
   }
   multiply_panels(product);
 }
