@@ -30,7 +30,7 @@ class RealTransform {
   void power() {
     transform();
     const Vec quarter = Simd::splat(0.25f);
-    for (std::int32_t k = 0; k < half_; k += kLanes) {
+    for (std::int32_t k = 0; k < half_; k += Simd::kLanes) {
       const Complex here = {Simd::load(re_ + k), Simd::load(im_ + k)};
       const Complex there = {before(re_ + half_ - k), before(im_ + half_ - k)};
       const Complex even = {Simd::add(here.re, there.re), Simd::sub(here.im, there.im)};
@@ -45,8 +45,6 @@ class RealTransform {
 
  private:
   using Vec = typename Simd::Vec;
-  static constexpr std::int32_t kLanes = Simd::kLanes;
-  static constexpr std::int32_t kMostRows = PowerSpectrumArgs::kLargest / 2 / kLanes;
 
   struct Complex {
     Vec re, im;
@@ -68,7 +66,9 @@ class RealTransform {
     return pairs;
   }
   // The numbers that end at `last`, backwards.
-  static Vec before(const float* last) { return Simd::reversed(Simd::load(last - kLanes + 1)); }
+  static Vec before(const float* last) {
+    return Simd::reversed(Simd::load(last - Simd::kLanes + 1));
+  }
 
   // e^(-2 pi i turn / n)
   [[nodiscard]] Complex everywhere(std::int32_t turn) const {
@@ -77,8 +77,8 @@ class RealTransform {
   }
   // The same of turns 0, step, 2 step ..
   [[nodiscard]] Complex lanes(std::int32_t step) const {
-    float re[kLanes], im[kLanes];
-    for (std::ptrdiff_t lane = 0; lane < kLanes; ++lane) {
+    float re[Simd::kLanes], im[Simd::kLanes];
+    for (std::ptrdiff_t lane = 0; lane < Simd::kLanes; ++lane) {
       re[lane] = a_.twiddles[2 * lane * step];
       im[lane] = a_.twiddles[2 * lane * step + 1];
     }
@@ -110,36 +110,36 @@ class RealTransform {
   }
 
   static void transpose(Complex* block) {
-    Vec re[kLanes], im[kLanes];
-    for (std::int32_t i = 0; i < kLanes; ++i) {
+    Vec re[Simd::kLanes], im[Simd::kLanes];
+    for (std::int32_t i = 0; i < Simd::kLanes; ++i) {
       re[i] = block[i].re;
       im[i] = block[i].im;
     }
     Simd::transpose(re);
     Simd::transpose(im);
-    for (std::int32_t i = 0; i < kLanes; ++i) {
+    for (std::int32_t i = 0; i < Simd::kLanes; ++i) {
       block[i] = {re[i], im[i]};
     }
   }
 
   void transform() {
-    const std::int32_t count = half_ / kLanes;
-    Complex rows[kMostRows];
+    const std::int32_t count = half_ / Simd::kLanes;
+    Complex rows[PowerSpectrumArgs::kLargest / 2 / Simd::kLanes];
     for (std::int32_t r = 0; r < count; ++r) {
-      rows[reversed_bits(r, count)] = deinterleaved(a_.x + std::ptrdiff_t{2} * kLanes * r);
+      rows[reversed_bits(r, count)] = deinterleaved(a_.x + std::ptrdiff_t{2} * Simd::kLanes * r);
     }
     transform_rows(rows, count);
     for (std::int32_t p = 0; p < count; ++p) {
       rows[p] = multiply(rows[p], lanes(2 * p));
     }
-    for (std::int32_t first = 0; first < count; first += kLanes) {
+    for (std::int32_t first = 0; first < count; first += Simd::kLanes) {
       transpose(rows + first);
-      Complex across[kLanes];
-      for (std::int32_t lane = 0; lane < kLanes; ++lane) {
-        across[reversed_bits(lane, kLanes)] = rows[first + lane];
+      Complex across[Simd::kLanes];
+      for (std::int32_t lane = 0; lane < Simd::kLanes; ++lane) {
+        across[reversed_bits(lane, Simd::kLanes)] = rows[first + lane];
       }
-      transform_rows(across, kLanes);
-      for (std::int32_t q = 0; q < kLanes; ++q) {
+      transform_rows(across, Simd::kLanes);
+      for (std::int32_t q = 0; q < Simd::kLanes; ++q) {
         Simd::store(re_ + first + q * count, across[q].re);
         Simd::store(im_ + first + q * count, across[q].im);
       }
@@ -148,11 +148,11 @@ class RealTransform {
     im_[half_] = im_[0];
   }
 
+  // z_0 .. z_(half-1) and z_half = z_0, transformed.
+  alignas(64) float re_[PowerSpectrumArgs::kLargest / 2 + Simd::kLanes] = {};
+  alignas(64) float im_[PowerSpectrumArgs::kLargest / 2 + Simd::kLanes] = {};
   const PowerSpectrumArgs& a_;
   const std::int32_t half_;
-  // z_0 .. z_(half-1) and z_half = z_0, transformed.
-  alignas(64) float re_[PowerSpectrumArgs::kLargest / 2 + kLanes] = {};
-  alignas(64) float im_[PowerSpectrumArgs::kLargest / 2 + kLanes] = {};
 };
 
 }  // namespace

@@ -129,6 +129,8 @@ def voice():
     best_lag = lambda results, _: abs(results["controls"]["held-out clips"]["jawOpen"]["lag"])
     return [bar("phoneme errors, held-out reader, %", "<=", 40, figure("phonemes", "real speech"), 100, 1),
             bar("phoneme errors, held-out synthetic voices, %", "<=", 15, figure("phonemes", "synthetic voices"), 100, 1),
+            bar("the same, searched with n-grams, %", "<=", 15,
+                figure("phonemes", "synthetic voices, searched with n-grams of phonemes"), 100, 1),
             bar("voice activity at 20 dB, % of frames", ">=", 96, ratio(20), 100, 1),
             bar("voice activity at 5 dB, % of frames", ">=", 90, ratio(5), 100, 1),
             bar("noise alone: mouth at rest, % of the time", ">=", 95, figure("noise", "all"), 100, 1),

@@ -48,7 +48,9 @@ def tables(report):
 
 def phonemes(rates):
     rows = [[name, out.number(100 * rate, 1)] for name, rate in rates.items()]
-    return ["## Phoneme error rate", "", *out.table(["held out", "%"], rows)]
+    return ["## Phoneme error rate", "", *out.prose("""The likeliest phoneme of every step; searched: the likeliest sequence, given what four phonemes in a
+                row are usual in what the training readers read (phoneme_search.py), which the tracker has no use for."""),
+            *out.table(["held out", "%"], rows)]
 
 
 def activity(ratios):

@@ -6,7 +6,7 @@ import torch
 
 import voice_model  # noqa: F401  (finds the training modules)
 from paths import data
-from voice import corpus, espeak, make_speech, recognise
+from voice import corpus, espeak, make_speech, phoneme_search, recognise
 from voice.features import features
 
 GRID_WORDS = [dict(b="bin", l="lay", p="place", s="set"), dict(b="blue", g="green", r="red", w="white"),
@@ -43,6 +43,8 @@ def measure(model):
     rates = {"real speech": rate("librispeech_text"), "synthetic voices": rate("english"),
              "synthetic voices: espeak-ng variants": rate("english", choose=lambda s: not recorded(s)),
              "unknown words, sentences and other languages' voices": rate("synthetic")}
+    for who, group in (("real speech", "librispeech_text"), ("synthetic voices", "english")):
+        rates[f"{who}, searched with n-grams of phonemes"] = rate(group, answer=phoneme_search.search)
     if model.split == "test":
         rates |= {"synthetic voices: flite kal16": rate("english", choose=recorded), "clips of other speakers of GRID": of_grid_clips(model)}
     return rates

@@ -7,8 +7,8 @@ import torch
 from voice import corpus, effects, labels, phonemes, targets
 from voice.features import FEATURES, RATE, features
 
-SHARES = {"synthetic": 0.32, "librispeech_text": 0.25, "librispeech": 0.26, "commands": 0.09, "av": 0.08}
-NOISE_ALONE = 0.08
+SHARES = {"synthetic": 0.38, "librispeech_text": 0.23, "librispeech": 0.22, "commands": 0.09, "av": 0.08}
+NOISE_ALONE = 0.12
 SHORTEST_PART = 0.8  # seconds
 WARPS = np.round(np.linspace(0.85, 1.17, 9), 3).tolist()  # of the frequency axis: other people's vocal tracts
 
