@@ -103,13 +103,35 @@ def part_of_tune(rng, count, most=60):
 
 
 def impulses(rng, count):
-    """Clicks, knocks and claps."""
+    """Clicks, knocks, claps, and puffs of air."""
     out = np.zeros(count, np.float32)
     for _ in range(rng.integers(1, 8)):
-        at, length = rng.integers(count), int(RATE * rng.uniform(0.002, 0.15))
+        at, length = rng.integers(count), int(RATE * rng.uniform(0.002, 0.15 if rng.random() < 0.75 else 0.7))
         t = np.arange(min(length, count - at)) / RATE
         body = rng.standard_normal(len(t)) if rng.random() < 0.6 else np.sin(2 * np.pi * rng.uniform(80, 3000) * t)
         out[at:at + len(t)] += rng.uniform(0.2, 1) * np.exp(-t * 5 * RATE / length) * body
+    return out
+
+
+def call(rng, count):
+    """A voice that says nothing: harmonics of a pitch that glides and trembles, as of animals, hinges and sirens."""
+    t = np.arange(count, dtype=np.float32) / count
+    octaves = rng.uniform(-1, 1) * t + rng.uniform(-0.7, 0.7) * np.sin(np.pi * t)
+    octaves += rng.uniform(0, 0.05) * np.sin(2 * np.pi * rng.uniform(3, 12) * t * count / RATE)
+    pitch = np.exp(rng.uniform(np.log(150), np.log(2500))) * 2 ** octaves
+    phase, slope = 2 * np.pi * np.cumsum(pitch) / RATE, rng.uniform(0, 2)
+    out = np.zeros(count)
+    for k in range(1, int(rng.integers(2, 16))):
+        out += np.sin(k * phase) * (k * pitch < RATE / 2) * rng.uniform(0.2, 1) / k ** slope
+    rough = 1 + rng.uniform(0, 0.6) * np.sin(2 * np.pi * rng.uniform(15, 70) * t * count / RATE)
+    return np.float32(out * rough * np.minimum(1, np.minimum(t, 1 - t) / rng.uniform(0.02, 0.5)))
+
+
+def calls(rng, count):
+    out = np.zeros(count, np.float32)
+    for _ in range(rng.integers(1, 4)):
+        at, length = rng.integers(count), int(RATE * rng.uniform(0.15, 1.5))
+        out[at:at + length] += rng.uniform(0.3, 1) * call(rng, length)[:count - at]
     return out
 
 
@@ -125,11 +147,13 @@ def varied_noise(rng, split, count):
     return noise
 
 
+NOISES = {varied_noise: 0.5, lambda rng, _, count: coloured_noise(rng, count): 0.18, lambda rng, _, count: part_of_tune(rng, count): 0.14,
+          lambda rng, _, count: calls(rng, count): 0.1, lambda rng, _, count: impulses(rng, count): 0.08}
+
+
 def some_noise(rng, split, count):
-    kind = rng.random()
-    if kind < 0.55:
-        return varied_noise(rng, split, count)
-    return coloured_noise(rng, count) if kind < 0.75 else part_of_tune(rng, count) if kind < 0.9 else impulses(rng, count)
+    kinds = list(NOISES)
+    return kinds[rng.choice(len(kinds), p=list(NOISES.values()))](rng, split, count)
 
 
 def band_limited(rng, sound):

@@ -26,6 +26,9 @@ from voice.features import FEATURES, RATE, features
 # people's jaws it tells less than the picture does (docs/results/voice.md), and on a smaller scale.
 FROM_SOUND = dict.fromkeys(SPEECH_CONTROLS, 0.2) | {"mouthClose": 0.4, "mouthPressLeft": 0.3, "mouthPressRight": 0.3,
                                                     "mouthRollLower": 0.3, "mouthRollUpper": 0.3}
+# Added to what speaks for speech: a mouth that moves to noise looks worse than one that begins a little late. Chosen on validation
+# speech, where as many frames are right as without it (96.3 % at 20 dB), and all noises leave the mouth at rest for 95 % of the time.
+SPEECH_BIAS = -1.0
 GOLDEN_STEPS = 60
 
 
@@ -92,11 +95,13 @@ def some_features(steps=GOLDEN_STEPS):
 
 
 def read(encoder_path, decoders_path):
-    """(encoder, {name: decoder}, state of the encoder's checkpoint)"""
+    """(encoder, {name: decoder}, state of the encoder's checkpoint), as they are exported."""
     state, trained = (torch.load(p, map_location="cpu") for p in (encoder_path, decoders_path))
     encoder = loaded(Encoder(), trained.get("encoder", state["encoder"])).eval()
     decoders = {"controls": loaded(controls_decoder(), trained["controls_decoder"]).eval(),
                 "activity": loaded(activity_decoder(), trained["activity_decoder"]).eval()}
+    with torch.no_grad():
+        decoders["activity"].output.bias[1] += SPEECH_BIAS
     return encoder, decoders, state
 
 

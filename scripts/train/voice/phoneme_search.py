@@ -9,8 +9,8 @@ import numpy as np
 from voice import corpus, espeak, phonemes
 
 ORDER = 4
-BEAM, LEAST = 24, 1e-3     # prefixes; a phoneme less likely than that is not tried
-WEIGHT, BONUS = 0.3, 0.6  # of the n-grams' logarithm; for each phoneme: chosen on validation speech
+BEAM, LEAST = 64, 1e-4     # prefixes; a phoneme less likely than that is not tried
+WEIGHT, BONUS = 0.3, 0.8   # of the n-grams' logarithm; for each phoneme: chosen on validation speech
 
 
 def sentences():
