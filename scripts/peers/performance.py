@@ -74,8 +74,8 @@ def to_text(figures):
                    [(str(f["lod"]), f"{f['mean_us']:.0f}", f"{f['of_highest']:.2f}", *(f"{f['stages_us'][s]:.1f}" for s in stages))
                     for f in figures["frames"]["levels"]])
     f = figures["frames"]
-    lines += ["", f"The networks of level 4 take {f['networks_of_highest_us']:.0f} us each by itself, its weights at hand, and {f['networks_in_turn_us']:.0f} us "
-              f"one after the other as in a frame; a frame takes {f['highest_of_networks']:.2f} and {f['highest_of_networks_in_turn']:.2f} times that. "
+    lines += ["", f"The networks of level 4 take {f['networks_of_highest_us']:.0f} us in sum when each runs again and again, its weights at hand, and "
+              f"{f['networks_in_turn_us']:.0f} us one after the other, as in a frame; a frame takes {f['highest_of_networks']:.2f} and {f['highest_of_networks_in_turn']:.2f} times that. "
               f"From the weight files to a tracker: {f['start_ms']:.1f} ms."]
     return "\n".join(lines) + "\n"
 
