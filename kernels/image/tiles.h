@@ -60,10 +60,6 @@ struct Channel {
     end_x = static_cast<float>(columns) / side + 2.0f;
     end_y = static_cast<float>(rows) / side + 2.0f;
   }
-
-  [[nodiscard]] bool lies_as(const Channel& other) const {
-    return box == other.box && width == other.width && height == other.height;
-  }
 };
 
 // Of the outputs, ends excluded.
@@ -255,7 +251,7 @@ class Warp {
   [[nodiscard]] bool copy(const Tile& tile) {
     for (std::int32_t c = 0; c < count_; ++c) {
       // The third channel lies where the second does; of packed ones all do where the first does.
-      if (c != 0 && channels_[c].lies_as(channels_[c - 1])) {
+      if (c == 2 || (c == 1 && !has_chroma())) {
         windows_[c] = windows_[c - 1];
         continue;
       }
