@@ -17,7 +17,6 @@ struct Simd {
     return vaddq_f32(splat(first), vld1q_f32(kOrder));
   }
   static Vec fma(Vec sum, Vec a, Vec b) { return vfmaq_f32(sum, a, b); }
-  static Vec add(Vec a, Vec b) { return vaddq_f32(a, b); }
   static Vec sub(Vec a, Vec b) { return vsubq_f32(a, b); }
   static Vec min(Vec a, Vec b) { return vminq_f32(a, b); }
   static Vec max(Vec a, Vec b) { return vmaxq_f32(a, b); }

@@ -4,7 +4,7 @@
 // code of one tier may be merged with that of another.
 //
 // `Simd` is what a tier has: vectors of kLanes floats and integers,
-//   Vec, Ints; splat, load, count_from(first), fma(sum, a, b), add, sub, min, max, floor
+//   Vec, Ints; splat, load, count_from(first), fma(sum, a, b), sub, min, max, floor
 //   finite_or_0(Vec); equal(Vec, Vec): 0 where not; to_ints(Vec); store(std::int32_t*, Ints)
 //   Shares; shares_of(Vec): of neighbours that a place lies between, in parts of kWhole
 //   gather(const std::uint16_t* base, Ints index, Shares): the sum of a number's and the next one's

@@ -16,7 +16,6 @@ struct Simd {
     return wasm_f32x4_add(splat(first), wasm_f32x4_make(0.0f, 1.0f, 2.0f, 3.0f));
   }
   static Vec fma(Vec sum, Vec a, Vec b) { return add_product(sum, a, b); }
-  static Vec add(Vec a, Vec b) { return wasm_f32x4_add(a, b); }
   static Vec sub(Vec a, Vec b) { return wasm_f32x4_sub(a, b); }
   static Vec min(Vec a, Vec b) { return at_most(a, b); }
   static Vec max(Vec a, Vec b) { return at_least(a, b); }

@@ -87,8 +87,7 @@ Coordinate coordinate(const float* row, double j, double i) {
 
 // Between the centres of four boxes, with the error that those of the coordinates make of it: along
 // an axis a bilinear sample changes by at most 255 a box. Across, a kernel may round its place to
-// parts of 2^14. `shrink`: pixels of the image per sample
-// of the plane.
+// parts of 2^14. `shrink`: pixels of the image per sample of the plane.
 Approx bilinear(const TestPlane& plane, int channel, Coordinate x, Coordinate y, int shrink,
                 int box) {
   constexpr double kRoom = 2.0;  // beyond the border everything is the same

@@ -15,6 +15,7 @@ import mien_weights
 from paths import ROOT
 from voice import losses, scenes
 from voice.audio_net import Encoder, PhonemeHeads, activity_decoder, controls_decoder
+from voice.export import SPEECH_BIAS
 
 
 def split_causal(layer, channels_in):
@@ -106,6 +107,8 @@ def main():
     heads = heads_for(encoder, data, rng)
     decoders = torch.nn.ModuleDict({"controls": decoder_of(controls_decoder(), networks["controls_decoder"]),
                                     "activity": decoder_of(activity_decoder(), networks["activity_decoder"])})
+    with torch.no_grad():
+        decoders["activity"].output.bias[1] -= SPEECH_BIAS  # which export.py adds
     args.out.parent.mkdir(parents=True, exist_ok=True)
     torch.save({"encoder": encoder.state_dict(), "heads": heads.state_dict(), "decoders": decoders.state_dict(),
                 "seconds_heard": 0.0}, args.out)
