@@ -7,6 +7,7 @@
 
 #include "engine/session.h"
 #include "kernels/families.h"
+#include "kernels/float_mode.h"
 #include "kernels/registry.h"
 
 namespace mien {
@@ -299,7 +300,10 @@ TensorShape NetworkRunner::input_shape() const {
   return to_public(session_in(session_).input_shape());
 }
 
-void NetworkRunner::run() { session_in(session_).run(); }
+void NetworkRunner::run() {
+  const kernels::FloatMode ours;
+  session_in(session_).run();
+}
 
 std::int32_t NetworkRunner::step_count() const {
   return static_cast<std::int32_t>(session_in(session_).step_count());
@@ -311,6 +315,7 @@ NetworkRunner::StepLayers NetworkRunner::step_layers(std::int32_t step) const {
 }
 
 void NetworkRunner::run_step(std::int32_t step) {
+  const kernels::FloatMode ours;
   session_in(session_).run_step(static_cast<std::uint32_t>(step));
 }
 

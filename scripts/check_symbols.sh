@@ -24,7 +24,7 @@ done
 
 # The library as a whole: no static initialisers, and only the public names leave it.
 library=$(find "$build" -name 'libmien.a' | head -1)
-if [ -n "$library" ] && "$nm" "$library" 2>/dev/null | grep -q '_GLOBAL__sub_I'; then
+if [ -n "$library" ] && "$nm" "$library" 2>/dev/null | grep '_GLOBAL__sub_I' >/dev/null; then
   echo "$library runs code before main" >&2
   bad=1
 fi

@@ -1,18 +1,25 @@
 #!/usr/bin/env bash
 # Installs what building, testing and running mien need, from Debian's packages.
-# usage: scripts/setup.sh [build] [test] [demo] [train] [convert] [cross-x86] [cross-arm] [cross-wasm] [cross-windows] [cross-compile-only]
+# usage: scripts/setup.sh [build] [test] [demo] [train] [convert] [python] [rust] [csharp] [java] [release] [cross-x86] [cross-arm] [cross-wasm] [cross-windows] [cross-compile-only] [web] [web-test]
 #        (default: build test demo)
 # As root or with sudo; does nothing when everything is there already.
 set -euo pipefail
 
 declare -A PACKAGES=(
-  [build]="g++ cmake ninja-build libcli11-dev nlohmann-json3-dev libstb-dev"
-  [test]="libgtest-dev libgmock-dev clang clang-format clang-tidy libclang-rt-dev ccache python3 python3-numpy ffmpeg chromium binutils git pkgconf shellcheck"
+  [build]="g++ cmake ninja-build libcli11-dev nlohmann-json3-dev libstb-dev zlib1g-dev"
+  [test]="libgtest-dev libgmock-dev clang clang-format clang-tidy libclang-rt-dev ccache python3 python3-numpy ffmpeg chromium binutils git pkgconf shellcheck abigail-tools"
   [demo]="ffmpeg python3"
-  [convert]="python3-onnx python3-numpy"
+  [convert]="python3-onnx python3-numpy python3-pip unzip"
+  [python]="clang g++ cmake ninja-build python3 python3-venv python3-pip ffmpeg"
+  [rust]="clang cargo rustc ffmpeg python3"
+  [csharp]="clang mono-mcs mono-runtime libmono-system-core4.0-cil ffmpeg python3"
+  [java]="clang openjdk-17-jdk-headless unzip ffmpeg python3"
+  [release]="dpkg-dev git python3-venv"
   [cross-arm]="g++-aarch64-linux-gnu g++-arm-linux-gnueabihf qemu-user googletest binutils llvm clang clang-tidy"
   [cross-x86]="qemu-user"
   [cross-wasm]="emscripten node-acorn nodejs llvm clang-tidy git googletest chromium python3 ffmpeg"
+  [web]="emscripten node-acorn nodejs npm"
+  [web-test]="chromium ffmpeg"
   [cross-windows]="g++-mingw-w64-x86-64-posix binutils-mingw-w64-x86-64 wine wine64 googletest ffmpeg"
   [cross-compile-only]="clang lld llvm libc++-dev musl-dev"
   [train]="python3-torch libopenblas0-serial python3-opencv python3-scipy python3-pil python3-matplotlib python3-tqdm espeak-ng libespeak-ng1 flite festival festvox-kdlpc16k festvox-us-slt-hts python3-pocketsphinx pocketsphinx-en-us libopus0 ffmpeg"
@@ -24,6 +31,7 @@ missing=()
 for group in "${wanted[@]}"; do
   [ -n "${PACKAGES[$group]:-}" ] || { echo "setup.sh: unknown group '$group'" >&2; exit 2; }
   for package in ${PACKAGES[$group]}; do
+    [ "$package" != npm ] || ! command -v npm >/dev/null || continue  # nodejs from elsewhere than Debian brings its own
     dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q "ok installed" || missing+=("$package")
   done
 done

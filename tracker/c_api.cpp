@@ -5,6 +5,7 @@
 #include <new>
 
 #include "engine/arena.h"
+#include "kernels/float_mode.h"
 #include "tracker/allocate.h"
 #include "tracker/config.h"
 #include "tracker/models.h"
@@ -14,6 +15,7 @@
 namespace {
 
 using mien::engine::Arena;
+using mien::kernels::FloatMode;
 using mien::tracker::allocate;
 using mien::tracker::Models;
 using mien::tracker::release;
@@ -91,6 +93,7 @@ mien_status mien_tracker_required_bytes(const mien_tracker_config* config, size_
   if (bytes == nullptr) {
     return MIEN_ERROR_NULL_ARGUMENT;
   }
+  const FloatMode ours;
   mien_tracker_config checked;
   Arena::Need need;
   const mien_status status = prepare(config, checked, need);
@@ -103,6 +106,7 @@ mien_status mien_tracker_create(const mien_tracker_config* config, mien_tracker*
     return MIEN_ERROR_NULL_ARGUMENT;
   }
   *tracker = nullptr;
+  const FloatMode ours;
   mien_tracker_config checked;
   Arena::Need need;
   mien_status status = prepare(config, checked, need);
@@ -134,6 +138,7 @@ mien_status mien_tracker_create_in(const mien_tracker_config* config, void* memo
   if (reinterpret_cast<std::uintptr_t>(memory) % MIEN_ALIGNMENT != 0) {
     return MIEN_ERROR_ALIGNMENT;
   }
+  const FloatMode ours;
   mien_tracker_config checked;
   Arena::Need need;
   const mien_status status = prepare(config, checked, need);
@@ -164,6 +169,7 @@ mien_status mien_tracker_reset(mien_tracker* tracker) {
   if (tracker == nullptr) {
     return MIEN_ERROR_NULL_ARGUMENT;
   }
+  const FloatMode ours;
   tracker->tracker.reset();
   return MIEN_OK;
 }
@@ -177,6 +183,7 @@ mien_status mien_tracker_set_lod(mien_tracker* tracker, int32_t lod) {
 
 mien_status mien_tracker_push_video(mien_tracker* tracker, const mien_image* image,
                                     int64_t pts_ns) {
+  const FloatMode ours;
   return tracker != nullptr ? tracker->tracker.push(image, pts_ns) : MIEN_ERROR_NULL_ARGUMENT;
 }
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "tracker/levels.h"
+#include "tracker/sound_queue.h"
 #include "tracker/versioned_struct.h"
 
 namespace mien::tracker {
@@ -24,6 +25,8 @@ bool in_range(const mien_tracker_config& c) {
          within(c.search_interval, 1, 1000) && within(c.budget_ms, 0.01f, 1e6f) &&
          within(c.max_faces, 1, MIEN_MAX_FACES) && within(c.voice_attack_ms, 0.0f, 10000.0f) &&
          within(c.voice_release_ms, 0.0f, 10000.0f) &&
+         within(c.audio_queue_samples, 0, SoundQueue::kMostSamples) &&
+         within(c.voice_strength, 0.0f, 4.0f) &&
          (c.allocator.allocate == nullptr) == (c.allocator.release == nullptr);
 }
 
@@ -77,4 +80,5 @@ void mien_tracker_config_default(mien_tracker_config* config) {
   config->max_faces = 1;
   config->voice_attack_ms = 40.0f;
   config->voice_release_ms = 150.0f;
+  config->voice_strength = 1.0f;
 }

@@ -6,29 +6,20 @@
 #include <cstddef>
 #include <string_view>
 
+#include "formats/animation/vocabulary.h"
+
 namespace mien::tracker {
 
-inline constexpr int kControls = 52;
+inline constexpr int kControls = static_cast<int>(formats::kControlCount);
 
-inline constexpr std::array<const char*, kControls> kControlNames = {
-    "eyeBlinkLeft",      "eyeLookDownLeft",    "eyeLookInLeft",
-    "eyeLookOutLeft",    "eyeLookUpLeft",      "eyeSquintLeft",
-    "eyeWideLeft",       "eyeBlinkRight",      "eyeLookDownRight",
-    "eyeLookInRight",    "eyeLookOutRight",    "eyeLookUpRight",
-    "eyeSquintRight",    "eyeWideRight",       "jawForward",
-    "jawLeft",           "jawRight",           "jawOpen",
-    "mouthClose",        "mouthFunnel",        "mouthPucker",
-    "mouthLeft",         "mouthRight",         "mouthSmileLeft",
-    "mouthSmileRight",   "mouthFrownLeft",     "mouthFrownRight",
-    "mouthDimpleLeft",   "mouthDimpleRight",   "mouthStretchLeft",
-    "mouthStretchRight", "mouthRollLower",     "mouthRollUpper",
-    "mouthShrugLower",   "mouthShrugUpper",    "mouthPressLeft",
-    "mouthPressRight",   "mouthLowerDownLeft", "mouthLowerDownRight",
-    "mouthUpperUpLeft",  "mouthUpperUpRight",  "browDownLeft",
-    "browDownRight",     "browInnerUp",        "browOuterUpLeft",
-    "browOuterUpRight",  "cheekPuff",          "cheekSquintLeft",
-    "cheekSquintRight",  "noseSneerLeft",      "noseSneerRight",
-    "tongueOut"};
+// As C strings: the names are literals.
+inline constexpr std::array<const char*, kControls> kControlNames = [] {
+  std::array<const char*, kControls> names{};
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    names[i] = formats::kArkitNames[i].data();
+  }
+  return names;
+}();
 
 consteval std::size_t control_named(std::string_view name) {
   std::size_t i = 0;

@@ -19,13 +19,15 @@ constexpr float kLargestFace = 4.0f;
 
 // Whether a crop can still show something of a face in the image.
 bool is_plausible(const Crop& crop, const ImageView& view) {
-  const float longer = std::max(view.width, view.height);
+  const Rect& seen = view.region;
+  const float longer = seen.longer_side();
   const float reach = crop.side / 2;
-  const auto near = [reach](float value, float end) {
-    return value >= -reach && value <= end + reach;
+  const auto near = [reach](float value, float begin, float length) {
+    return value >= begin - reach && value <= begin + length + reach;
   };
   return crop.side >= kSmallestFace * longer && crop.side <= kLargestFace * longer &&
-         near(crop.center.x, view.width) && near(crop.center.y, view.height);
+         near(crop.center.x, seen.corner.x, seen.width) &&
+         near(crop.center.y, seen.corner.y, seen.height);
 }
 
 }  // namespace

@@ -40,6 +40,16 @@ struct Affine {
           origin.y};
 }
 
+// An axis-aligned rectangle, in pixels.
+struct Rect {
+  Point corner;  // the top left
+  float width = 0.0f;
+  float height = 0.0f;
+
+  [[nodiscard]] Point center() const { return {corner.x + width / 2, corner.y + height / 2}; }
+  [[nodiscard]] float longer_side() const { return std::max(width, height); }
+};
+
 // An axis-aligned square, in pixels.
 struct Square {
   Point center;

@@ -22,8 +22,9 @@ struct ImageGeometry {
 // Coordinates of the tracker are pixels of the upright scene: turned by `rotation`, and flipped
 // sideways when the picture is mirrored. No pixel is moved: `to_buffer` tells where each one lies.
 struct ImageView : ImageGeometry {
-  mien_image image = {};  // every plane, stride and dimension checked
-  Affine to_buffer;       // scene -> buffer
+  mien_image image = {};  // every plane, stride and dimension checked; cut down to the region
+  Affine to_buffer;       // scene -> what is left of the buffer
+  Rect region;            // in the scene's coordinates: what there is to see
   Camera camera;          // in the scene's coordinates
 };
 

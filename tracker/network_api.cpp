@@ -5,6 +5,7 @@
 
 #include "engine/arena.h"
 #include "engine/network.h"
+#include "kernels/float_mode.h"
 #include "tracker/allocate.h"
 #include "tracker/versioned_struct.h"
 
@@ -99,6 +100,7 @@ mien_status mien_network_create(const mien_network_config* config, mien_network*
     return MIEN_ERROR_NULL_ARGUMENT;
   }
   *network = nullptr;
+  const mien::kernels::FloatMode ours;
   mien_network_config checked;
   mien_status status = read_config(config, checked);
   Model model;
@@ -131,6 +133,7 @@ mien_status mien_network_run(mien_network* network) {
   if (network == nullptr) {
     return MIEN_ERROR_NULL_ARGUMENT;
   }
+  const mien::kernels::FloatMode ours;
   network->network.run();
   return MIEN_OK;
 }

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "formats/neutral_file.h"
+#include "kernels/float_mode.h"
 #include "tracker/levels.h"
 #include "tracker/neutral.h"
 #include "tracker/tracker_handle.h"
@@ -85,6 +86,7 @@ mien_status mien_tracker_load_neutral(mien_tracker* tracker, const void* file, s
   if (status != MIEN_OK) {
     return status;
   }
+  const mien::kernels::FloatMode ours;
   NeutralFile loaded;
   const NeutralFileError error =
       mien::formats::read_neutral_file({static_cast<const std::byte*>(file), file_bytes}, loaded);

@@ -13,13 +13,19 @@ namespace mien::tracker {
 // Another detector can take the place of MTCNN by implementing this.
 class FaceProposal {
  public:
-  // Writes the most promising squares, best first, as many as fit into `found`; returns how many.
-  // The square of a face is that of its crop: centre and side, roll ignored.
-  [[nodiscard]] virtual std::size_t propose(const ImageView& view, std::span<Candidate> found) = 0;
+  // A search of the whole image is done in shares, each a few million multiply-accumulates, so that
+  // it can be spread over images. They have to be of one geometry; a face is where the first one
+  // has it.
+  virtual void begin(const ImageView& view) = 0;
+  // The next share. False: it was the last.
+  [[nodiscard]] virtual bool go_on(const ImageView& view) = 0;
+  // After the last: writes the most promising squares, best first, as many as fit into `found`;
+  // returns how many. The square of a face is that of its crop: centre and side, roll ignored.
+  [[nodiscard]] virtual std::size_t found(std::span<Candidate> found) = 0;
 
-  // The same for a part of the image, at a small part of the cost; with every `turn` it is another
-  // one, and no more squares are judged than fit into `found`. After `turns` of them in a row faces
-  // of all sizes were looked for everywhere.
+  // Not while a search goes on: the same for a part of the image, at a small part of the cost; with
+  // every `turn` it is another one, and no more squares are judged than fit into `found`. After
+  // `turns` of them in a row faces of all sizes were looked for everywhere.
   [[nodiscard]] virtual std::size_t glance(const ImageView& view, std::uint32_t turn,
                                            std::span<Candidate> found) = 0;
   [[nodiscard]] virtual std::uint32_t turns(const ImageView& view) const = 0;

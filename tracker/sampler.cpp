@@ -81,6 +81,7 @@ void Sampler::cut(const ImageView& view, const Crop& crop, const Raster& raster,
   args.format = pixel_format(view.image.format);
   set_planes(view.image, args);
   args.full_range = view.image.full_range != 0;
+  args.yuv_matrix = view.image.yuv_matrix == MIEN_YUV_BT709 ? kernels::kBt709 : kernels::kBt601;
   args.image_width = view.image.width;
   args.image_height = view.image.height;
   const float matrix[6] = {m.xx, m.xy, m.x0, m.yx, m.yy, m.y0};
@@ -102,12 +103,15 @@ void Sampler::cut_black(const ImageView& view, const Square& square, std::int32_
   const auto at = [&](float center, std::int32_t index) {
     return center - square.side / 2 + (static_cast<float>(index) + 0.5f) * pixels_per_sample;
   };
-  const auto inside = [](float value, float end) { return value >= 0.0f && value <= end; };
+  const auto inside = [](float value, float begin, float length) {
+    return value >= begin && value <= begin + length;
+  };
+  const Rect& seen = view.region;
   float* pixel = picture.data();
   for (std::int32_t i = 0; i < samples; ++i) {
-    const bool row_inside = inside(at(square.center.y, i), view.height);
+    const bool row_inside = inside(at(square.center.y, i), seen.corner.y, seen.height);
     for (std::int32_t j = 0; j < samples; ++j, pixel += 3) {
-      if (!row_inside || !inside(at(square.center.x, j), view.width)) {
+      if (!row_inside || !inside(at(square.center.x, j), seen.corner.x, seen.width)) {
         std::fill(pixel, pixel + 3, kBlack);
       }
     }

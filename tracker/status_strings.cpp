@@ -42,6 +42,8 @@ const char* mien_status_string(mien_status status) {
       return "a layer has no kernel in the allowed tiers";
     case MIEN_ERROR_INTERNAL:
       return "a fault of mien itself";
+    case MIEN_ERROR_LEFT_OUT:
+      return "this build of mien was made without that part";
     case MIEN_ERROR_IMAGE_FORMAT:
       return "the image format is unknown";
     case MIEN_ERROR_IMAGE_SIZE:
@@ -62,6 +64,10 @@ const char* mien_status_string(mien_status status) {
       return "the sound's number of channels is out of range";
     case MIEN_ERROR_AUDIO_SAMPLES:
       return "samples of the sound are NULL";
+    case MIEN_ERROR_IMAGE_REGION:
+      return "the image's region of interest is empty, beyond the image, or at an odd place in YUV";
+    case MIEN_ERROR_AUDIO_QUEUE_FULL:
+      return "there is no room for more sound to wait";
     case MIEN_ERROR_NEUTRAL_FORMAT:
       return "not a neutral file";
     case MIEN_ERROR_NEUTRAL_VERSION:

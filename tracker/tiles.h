@@ -1,4 +1,4 @@
-// Overlapping squares that together cover an image.
+// Overlapping squares that together cover what is seen of an image.
 #pragma once
 
 #include <algorithm>
@@ -12,18 +12,19 @@ namespace mien::tracker {
 class Tiles {
  public:
   // All in pixels of the image. A window of side `overlap` or less lies within one tile, wherever
-  // it is. A tile larger than the image is one in its middle.
-  Tiles(float width, float height, float side, float overlap)
-      : width_(width),
-        height_(height),
+  // it is. A tile larger than the area is one in its middle.
+  Tiles(const Rect& area, float side, float overlap)
+      : area_(area),
         side_(side),
-        columns_(number(width, side, overlap)),
-        rows_(number(height, side, overlap)) {}
+        columns_(number(area.width, side, overlap)),
+        rows_(number(area.height, side, overlap)) {}
 
   [[nodiscard]] std::uint32_t count() const { return columns_ * rows_; }
 
   [[nodiscard]] Square square(std::uint32_t i) const {
-    return {{middle(i % columns_, columns_, width_), middle(i / columns_, rows_, height_)}, side_};
+    return {{area_.corner.x + middle(i % columns_, columns_, area_.width),
+             area_.corner.y + middle(i / columns_, rows_, area_.height)},
+            side_};
   }
 
  private:
@@ -32,7 +33,7 @@ class Tiles {
     return 1 + static_cast<std::uint32_t>(std::max(more, 0.0f));
   }
 
-  // Of tile `i` of `n` along an axis: the first and the last touch the image's borders.
+  // Of tile `i` of `n` along an axis: the first and the last touch the area's borders.
   [[nodiscard]] float middle(std::uint32_t i, std::uint32_t n, float length) const {
     if (n == 1) {
       return length / 2;
@@ -41,8 +42,7 @@ class Tiles {
     return side_ / 2 + step * static_cast<float>(i);
   }
 
-  float width_;
-  float height_;
+  Rect area_;
   float side_;
   std::uint32_t columns_;
   std::uint32_t rows_;

@@ -6,9 +6,11 @@
 namespace mien::tracker {
 namespace {
 
-constexpr std::size_t kJudged = 2;         // proposals shown to BaseNet beyond max_faces
 constexpr std::size_t kGlanced = 4;        // the same of a glance, shown to R-Net
 constexpr std::int32_t kEagerFrames = 30;  // searching on every one of them
+// Shares of the proposal's work that go into one frame, which at the lowest level is a smaller one.
+constexpr int kSharesLowest = 1;
+constexpr int kShares = 3;
 
 std::int32_t highest_level(const mien_tracker_config& config) {
   return config.hifinet != nullptr ? kHighestLevel : kLowestLevel;
@@ -61,11 +63,17 @@ mien_status Tracker::push(const mien_image* image, std::int64_t pts_ns) {
   }
   const Timeline::Step step = state_.timeline.advance(pts_ns);
   Frame frame = {view, timer_, level(), step.seconds, step.cut};
+  // Where a film begins nothing can stutter, and its first image may be its only one.
+  const bool new_scene = frame.cut || !(state_.view == static_cast<const ImageGeometry&>(view));
+  if (new_scene) {
+    state_.search.stage = Search::Stage::kIdle;
+  }
   const bool followed = faces_.followed() > 0;
   follow(frame);
-  const bool searched = faces_.followed() == 0 && search_is_due();
+  const bool due = faces_.followed() == 0 && search_is_due();
+  const bool searched = due || state_.search.stage != Search::Stage::kIdle;
   if (searched) {
-    search(frame);
+    search(frame, new_scene);
   } else if (faces_.followed() > 0 && faces_.has_room()) {
     glance(frame);
   }
@@ -81,6 +89,9 @@ mien_status Tracker::push(const mien_image* image, std::int64_t pts_ns) {
 void Tracker::advance(std::int64_t pts_ns) {
   const Timeline::Step step = state_.timeline.advance(pts_ns);
   Frame frame = {state_.view, timer_, level(), step.seconds, step.cut};
+  if (frame.cut) {
+    state_.search.stage = Search::Stage::kIdle;
+  }
   for (Face& face : faces_.all()) {
     if (frame.cut) {
       face.cut(frame.level);
@@ -107,6 +118,10 @@ void Tracker::finish(Frame& frame, std::int64_t pts_ns, std::uint32_t flags) {
   }
   faces_.forget_lost(frame.level);
   if (voice_ != nullptr) {
+    if (voice_->has_queued()) {
+      const StageTimer::Scope timed(timer_, MIEN_STAGE_SOUND);
+      voice_->hear_queued();
+    }
     voice_->advance(pts_ns, frame.seconds);
   }
   publish(frame, pts_ns, flags | (frame.cut ? MIEN_RESULT_CUT : 0u));
@@ -128,22 +143,54 @@ void Tracker::follow(Frame& frame) {
   faces_.drop_doubles(frame.level);
 }
 
-void Tracker::search(Frame& frame) {
-  std::array<Candidate, kJudged + MIEN_MAX_FACES> candidates;
-  const std::size_t judged = kJudged + faces_.all().size();
-  std::size_t count = 0;
+void Tracker::search(Frame& frame, bool whole) {
+  Search& search = state_.search;
+  if (search.stage == Search::Stage::kIdle) {
+    search = Search();
+    search.stage = Search::Stage::kProposing;
+    proposal_.begin(frame.view);
+    ++state_.proposal_runs;
+  }
+  if (search.stage == Search::Stage::kProposing) {
+    propose(frame, whole);
+  } else {
+    judge(frame, whole);
+  }
+}
+
+void Tracker::propose(Frame& frame, bool whole) {
+  Search& search = state_.search;
   {
     const StageTimer::Scope timed(timer_, MIEN_STAGE_PROPOSAL);
-    count = proposal_.propose(frame.view, std::span(candidates).first(judged));
+    int shares = frame.level == kLowestLevel ? kSharesLowest : kShares;
+    bool more = true;
+    while (more && (whole || shares-- > 0)) {
+      more = proposal_.go_on(frame.view);
+    }
+    if (more) {
+      return;
+    }
+    const std::size_t judged = kJudged - MIEN_MAX_FACES + faces_.all().size();
+    search.count = proposal_.found(std::span(search.proposed).first(judged));
   }
-  ++state_.proposal_runs;
-  if (count == 0) {
+  search.stage = Search::Stage::kJudging;
+  if (search.count == 0) {
     std::for_each(faces_.all().begin(), faces_.all().end(), [](Face& face) { face.see_nothing(); });
+    search.stage = Search::Stage::kIdle;
+  } else if (whole) {
+    judge(frame, whole);
   }
-  for (std::size_t i = 0; i < count && faces_.has_room(); ++i) {
-    if (faces_.welcome(frame, candidates[i].square)) {
+}
+
+void Tracker::judge(Frame& frame, bool whole) {
+  Search& search = state_.search;
+  do {
+    if (faces_.welcome(frame, search.proposed[search.judged++].square)) {
       state_.search_frames = 0;
     }
+  } while (whole && search.judged < search.count && faces_.has_room());
+  if (search.judged == search.count || !faces_.has_room()) {
+    search.stage = Search::Stage::kIdle;
   }
 }
 

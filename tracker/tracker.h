@@ -3,6 +3,7 @@
 
 #include <mien/mien.h>
 
+#include <array>
 #include <cstdint>
 
 #include "tracker/faces.h"
@@ -48,10 +49,23 @@ class Tracker {
   [[nodiscard]] bool set_level(std::int32_t lod);
 
  private:
+  // How many proposals BaseNet judges.
+  static constexpr std::size_t kJudged = MIEN_MAX_FACES + 2;
+
+  // A search of the whole image. It begins on one image and takes its share of each of the next.
+  struct Search {
+    enum class Stage { kIdle, kProposing, kJudging };
+    Stage stage = Stage::kIdle;
+    std::array<Candidate, kJudged> proposed;
+    std::size_t count = 0;
+    std::size_t judged = 0;
+  };
+
   // Everything that the images so far have left behind, but for the faces.
   struct State {
     Timeline timeline;
-    ImageView view;                  // the image before, whose pixels are gone
+    ImageView view;  // the image before, whose pixels are gone
+    Search search;
     std::int32_t search_frames = 0;  // frames in a row with nothing found
     std::uint32_t turn = 0;          // of glances
     // Totals.
@@ -63,7 +77,11 @@ class Tracker {
 
   [[nodiscard]] std::int32_t level() const { return lod_ == 0 ? governor_.level() : lod_; }
   void follow(Frame& frame);
-  void search(Frame& frame);
+  // A share of a search, or one from its beginning to its end.
+  void search(Frame& frame, bool whole);
+  void propose(Frame& frame, bool whole);
+  // What was proposed: the next, or all. Ends the search when there is no more.
+  void judge(Frame& frame, bool whole);
   // Counts the frames on which a face is searched.
   [[nodiscard]] bool search_is_due();
   void glance(Frame& frame);

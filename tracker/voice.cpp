@@ -1,5 +1,6 @@
 #include "tracker/voice.h"
 
+#include <algorithm>
 #include <cmath>
 #include <new>
 #include <type_traits>
@@ -10,6 +11,9 @@
 
 namespace mien::tracker {
 namespace {
+
+constexpr std::size_t kJawOpen = control_named("jawOpen");
+constexpr std::size_t kMouthClose = control_named("mouthClose");
 
 // Of audio::Speech::controls among the 52.
 constexpr std::array<std::size_t, audio::kSpeechControls> kSpeechControls = {
@@ -33,11 +37,13 @@ constexpr std::array<std::size_t, audio::kSpeechControls> kSpeechControls = {
     control_named("tongueOut"),
 };
 
-Controls among_all(const audio::Speech& speech) {
+Controls among_all(const audio::Speech& speech, float strength) {
   Controls controls = {};
   for (std::size_t i = 0; i < kSpeechControls.size(); ++i) {
-    controls[kSpeechControls[i]] = speech.controls[i];
+    controls[kSpeechControls[i]] = std::min(strength * speech.controls[i], 1.0f);
   }
+  // Lips meet as far as the jaw has parted them; further they would go into each other.
+  controls[kMouthClose] = std::min(controls[kMouthClose], controls[kJawOpen]);
   return controls;
 }
 
@@ -55,22 +61,24 @@ mien_status Voice::load(const Models& models, const mien_tracker_config& config,
   static_assert(std::is_trivially_destructible_v<Voice>, "the arena destroys nothing");
   static_assert(alignof(Voice) <= engine::Arena::kAlignment);
   const std::span<std::byte> room = arena.take(sizeof(Voice));
+  voice = room.empty() ? nullptr : new (room.data()) Voice(config);
+  SoundQueue measured;
+  (voice != nullptr ? voice->queue_ : measured).load(config.audio_queue_samples, arena);
   audio::AudioNet net;
   mien_status status = net.load(models.audionet, config.cpu_mask, arena);
   Mixer mixer;
   if (status == MIEN_OK) {
     status = mixer.load(models.audionet);
   }
-  voice = nullptr;
-  if (status != MIEN_OK || arena.measuring()) {
+  if (status != MIEN_OK || voice == nullptr) {
     return status;
   }
-  voice = new (room.data()) Voice(config);
   voice->mixer_ = mixer;
   return voice->listener_.init(net, config.cpu_mask) ? MIEN_OK : MIEN_ERROR_UNSUPPORTED_CPU;
 }
 
 void Voice::reset() {
+  forget_queued();
   listener_.reset();
   mixer_.restore();
   offset_ns_ = 0;
@@ -84,14 +92,46 @@ mien_status Voice::push(const mien_audio* sound, std::int64_t pts_ns) {
   if (status != MIEN_OK) {
     return status;
   }
-  listener_.push(view.pcm, view.rate, audio::later(pts_ns, offset_ns_));
-  listening_ = true;
+  hear(view.pcm, view.rate, pts_ns);
   return MIEN_OK;
+}
+
+void Voice::hear(const audio::Pcm& samples, std::int32_t rate, std::int64_t pts_ns) {
+  listener_.push(samples, rate, audio::later(pts_ns, offset_ns_));
+  listening_ = true;
+}
+
+mien_status Voice::queue(const mien_audio* sound, std::int64_t pts_ns) {
+  SoundView view;
+  const mien_status status = view_sound(sound, view);
+  if (status != MIEN_OK) {
+    return status;
+  }
+  return queue_.push(view, pts_ns) ? MIEN_OK : MIEN_ERROR_AUDIO_QUEUE_FULL;
+}
+
+bool Voice::has_queued() const { return !queue_.empty(); }
+
+void Voice::hear_queued() {
+  SoundQueue::Block block;
+  audio::Pcm samples;
+  while (queue_.front(block, samples)) {
+    hear(samples, block.rate, block.pts_ns);
+    queue_.pop(block);
+  }
+}
+
+void Voice::forget_queued() {
+  SoundQueue::Block block;
+  audio::Pcm samples;
+  while (queue_.front(block, samples)) {
+    queue_.pop(block);
+  }
 }
 
 void Voice::advance(std::int64_t pts_ns, float seconds) {
   const audio::Speech speech = listener_.at(pts_ns);
-  const Controls controls = among_all(speech);
+  const Controls controls = among_all(speech, config_.voice_strength);
   if (config_.smoothing == 0 || heard_.alpha == 0.0f) {
     heard_.controls = controls;
   } else {

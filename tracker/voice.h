@@ -9,6 +9,7 @@
 #include "engine/arena.h"
 #include "tracker/mixer.h"
 #include "tracker/models.h"
+#include "tracker/sound_queue.h"
 
 namespace mien::tracker {
 
@@ -22,6 +23,11 @@ class Voice {
   void reset();
 
   [[nodiscard]] mien_status push(const mien_audio* sound, std::int64_t pts_ns);
+
+  // By another thread than all else here, for `hear_queued`.
+  [[nodiscard]] mien_status queue(const mien_audio* sound, std::int64_t pts_ns);
+  [[nodiscard]] bool has_queued() const;
+  void hear_queued();
 
   // Later than its timestamps by this much.
   void set_offset(std::int64_t offset_ns) { offset_ns_ = offset_ns; }
@@ -38,7 +44,11 @@ class Voice {
  private:
   explicit Voice(const mien_tracker_config& config) : config_(config) {}
 
+  void hear(const audio::Pcm& samples, std::int32_t rate, std::int64_t pts_ns);
+  void forget_queued();
+
   const mien_tracker_config& config_;
+  SoundQueue queue_;
   audio::Listener listener_;
   Mixer mixer_;
   std::int64_t offset_ns_ = 0;

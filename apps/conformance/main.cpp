@@ -8,7 +8,7 @@
 
 #include "apps/conformance/exit_codes.h"
 #include "apps/conformance/run.h"
-#include "apps/mien/failure.h"
+#include "apps/mien/system/failure.h"
 
 namespace mien::conformance {
 namespace {

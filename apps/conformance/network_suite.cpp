@@ -10,8 +10,8 @@
 
 #include "apps/conformance/benchmark.h"
 #include "apps/conformance/crash_guard.h"
-#include "apps/mien/failure.h"
-#include "apps/mien/model_files.h"
+#include "apps/mien/networks/model_files.h"
+#include "apps/mien/system/failure.h"
 
 namespace mien::conformance {
 namespace {

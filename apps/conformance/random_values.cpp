@@ -35,6 +35,11 @@ RandomValues::RandomValues(std::uint64_t seed, Pattern pattern)
     : random_(seed), case_number_(0), pattern_(pattern) {}
 
 int RandomValues::between(int low, int high) {
+  if (!choices_.empty()) {
+    const int choice = choices_.front();
+    choices_ = choices_.subspan(1);
+    return low + choice % (high - low + 1);
+  }
   return std::uniform_int_distribution<int>(low, high)(random_);
 }
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <random>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -35,6 +36,8 @@ class RandomValues {
   explicit RandomValues(std::uint64_t seed, int case_number = 0,
                         const Arithmetic& arithmetic = kSingleArithmetic);
   RandomValues(std::uint64_t seed, Pattern pattern);
+  // The first choices, which are those of sizes, are these: a fuzzer's. Borrowed.
+  void choose_first(std::span<const std::uint8_t> choices) { choices_ = choices; }
 
   [[nodiscard]] Pattern pattern() const { return pattern_; }
   [[nodiscard]] int case_number() const { return case_number_; }
@@ -63,6 +66,7 @@ class RandomValues {
   float cancelling();
 
   std::mt19937_64 random_;
+  std::span<const std::uint8_t> choices_;
   int case_number_;
   Pattern pattern_;
   Arithmetic arithmetic_ = kSingleArithmetic;

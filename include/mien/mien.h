@@ -20,8 +20,14 @@
  *
  * Threads
  *   Functions without a tracker argument may be called from anywhere at any time. A tracker may be
- *   used by one thread at a time; different trackers are independent. No function locks, prints,
+ *   used by one thread at a time, and by another that does nothing but mien_tracker_queue_audio;
+ *   different trackers are independent. No function locks, prints,
  *   opens files, starts threads or (except create and destroy, through the allocator) allocates.
+ *
+ * Floating point
+ *   Rounding, traps and the treatment of denormal numbers may be as the caller likes: results do
+ *   not depend on them, and the caller finds them, and the sticky flags, as they were. Callbacks
+ *   run in the library's own state: to nearest, nothing trapped, denormal numbers as zero.
  *
  * Stack
  *   Create and required_bytes need up to 96 KiB of it, all else up to 16 KiB.
@@ -94,8 +100,9 @@ typedef enum mien_status {
   MIEN_ERROR_UNSUPPORTED_CPU = -40,   /* the mask leaves no tier that this CPU and build can run */
   MIEN_ERROR_UNSUPPORTED_LAYER = -41, /* no allowed tier has a kernel for a layer */
   MIEN_ERROR_INTERNAL = -42,          /* a fault of mien itself */
+  MIEN_ERROR_LEFT_OUT = -43,          /* this build of the library has no part for that */
   /* stream */
-  MIEN_ERROR_IMAGE_FORMAT = -60,
+  MIEN_ERROR_IMAGE_FORMAT = -60, /* no mien_image_format, or no mien_yuv_matrix */
   MIEN_ERROR_IMAGE_SIZE = -61,   /* width or height outside 1..MIEN_MAX_IMAGE_SIDE */
   MIEN_ERROR_IMAGE_STRIDE = -62, /* rows or chroma samples overlap each other */
   MIEN_ERROR_IMAGE_PLANE = -63,  /* a plane of the format is NULL */
@@ -105,6 +112,8 @@ typedef enum mien_status {
   MIEN_ERROR_AUDIO_RATE = -67,     /* outside 8000..192000 samples a second */
   MIEN_ERROR_AUDIO_CHANNELS = -68, /* outside 1..MIEN_MAX_AUDIO_CHANNELS */
   MIEN_ERROR_AUDIO_SAMPLES = -69,  /* NULL where there should be samples */
+  MIEN_ERROR_IMAGE_REGION = -70,   /* empty, beyond the image, or, of YUV, at an odd place */
+  MIEN_ERROR_AUDIO_QUEUE_FULL = -71,
   /* neutral files */
   MIEN_ERROR_NEUTRAL_FORMAT = -80,  /* not a neutral file */
   MIEN_ERROR_NEUTRAL_VERSION = -81, /* a version of the format that this library does not read */
@@ -152,6 +161,34 @@ MIEN_API const char* mien_cpu_tier_name(uint32_t tier);
  * the order of Apple's Live Link wire format; NULL outside. Static. */
 MIEN_API const char* mien_control_name(int32_t control);
 
+/* Other vocabularies for the same face: avatars of other houses have names of their own. */
+typedef enum mien_vocabulary {
+  MIEN_VOCABULARY_ARKIT = 0,     /* 52: the controls as they are */
+  MIEN_VOCABULARY_MEDIAPIPE = 1, /* 52: _neutral, always 0, and 51 by the alphabet; no tongueOut */
+  MIEN_VOCABULARY_ROBLOX = 2,    /* 50: FACS of Roblox' FaceControls, in the order of the enum */
+  MIEN_VOCABULARY_VRM0 = 3,      /* 11: Joy Angry Sorrow Fun A I U E O Blink_L Blink_R */
+  MIEN_VOCABULARY_VRM1 = 4,   /* 11: happy angry sad relaxed aa ih ou ee oh blinkLeft blinkRight */
+  MIEN_VOCABULARY_VISEMES = 5 /* 15 of OVR LipSync: sil PP FF TH DD kk CH SS nn RR aa E ih oh ou */
+} mien_vocabulary;
+
+/* Names in it; 0 for numbers that are no mien_vocabulary. */
+MIEN_API int32_t mien_vocabulary_size(int32_t vocabulary);
+
+/* Name 0..mien_vocabulary_size - 1, written as its owner writes it; NULL outside. Static. */
+MIEN_API const char* mien_vocabulary_name(int32_t vocabulary, int32_t index);
+
+/* MIEN_CONTROL_COUNT controls in other words: `count`, which has to be mien_vocabulary_size, values
+ * in 0..1. Left and right that have one name give their mean; tracker/vocabulary_tables.h has every
+ * rule. Exact for MediaPipe and nearly so for Roblox; visemes, and the vowels and moods of VRM, are
+ * a rough reading of the mouth. What no control says (FlatPucker, TongueUp, TongueDown, Fun,
+ * relaxed, DD, kk, nn, RR) is 0. MIEN_ERROR_OUT_OF_RANGE for another vocabulary or count. */
+MIEN_API MIEN_NODISCARD mien_status mien_vocabulary_values(int32_t vocabulary,
+                                                           const float* controls, float* values,
+                                                           int32_t count);
+
+/* Bit i: name i is driven, where mien_result.supported_controls says so of controls. */
+MIEN_API uint64_t mien_vocabulary_supported(int32_t vocabulary, uint64_t supported_controls);
+
 /* Number of controls / landmarks that this library fills in. */
 MIEN_API int32_t mien_control_count(void);
 MIEN_API int32_t mien_landmark_count(void);
@@ -160,9 +197,10 @@ MIEN_API int32_t mien_landmark_count(void);
 
 #define MIEN_MAX_IMAGE_SIDE 16384
 
-/* YUV is BT.601, chroma subsampled 2 x 2; a chroma plane has (width + 1) / 2 samples in each of its
- * (height + 1) / 2 rows. YV12 is I420 with planes 1 and 2 exchanged. Android's YUV_420_888 is I420
- * with chroma_pixel_stride_bytes set to the plane's pixel stride. */
+/* YUV is BT.601 or, where mien_image.yuv_matrix says so, BT.709, chroma subsampled 2 x 2; a chroma
+ * plane has (width + 1) / 2 samples in each of its (height + 1) / 2 rows. YV12 is I420 with planes
+ * 1 and 2 exchanged. Android's YUV_420_888 is I420 with chroma_pixel_stride_bytes set to the
+ * plane's pixel stride. */
 typedef enum mien_image_format {
   MIEN_IMAGE_GRAY8 = 0, /* 1 plane */
   MIEN_IMAGE_RGB = 1,   /* 1 plane, 3 bytes a pixel */
@@ -173,6 +211,9 @@ typedef enum mien_image_format {
   MIEN_IMAGE_NV21 = 6, /* 2 planes: Y; V and U interleaved */
   MIEN_IMAGE_I420 = 7  /* 3 planes: Y; U; V */
 } mien_image_format;
+
+/* How YUV was made of colours: cameras and SD video use BT.601, most HD video BT.709. */
+typedef enum mien_yuv_matrix { MIEN_YUV_BT601 = 0, MIEN_YUV_BT709 = 1 } mien_yuv_matrix;
 
 /* A picture in the caller's memory, which is read during the call only. Never read: bytes after the
  * last pixel of a row. Start from mien_image_default. */
@@ -191,7 +232,13 @@ typedef struct mien_image {
   float focal_length_px; /* in pixels of the upright image; 0: not known, use the default FOV */
   float principal_x;     /* principal point in the upright image; both 0: its centre */
   float principal_y;
-  uint32_t reserved[8];
+  int32_t yuv_matrix; /* of YUV: mien_yuv_matrix */
+  /* Region of interest: x, y, width, height in pixels of the buffer, before rotation; all 0: the
+   * whole. The image counts as cut down to it, and nothing else of it is read; results stay in
+   * pixels of the whole upright image, as focal length and principal point do. It may move from
+   * image to image while a face is followed. Of YUV, x and y are even. */
+  int32_t region[4];
+  uint32_t reserved[3];
 } mien_image;
 
 /* Fills in *image: struct_size, full_range = 1, everything else 0. NULL is ignored. */
@@ -279,8 +326,11 @@ typedef struct mien_tracker_config {
   int32_t proposal_size;
   float proposal_threshold; /* first stage (P-Net), 0..1; default 0.6 */
   float refine_threshold;   /* second stage (R-Net), 0..1; default 0.6 */
-  /* Without a face, the proposal runs on every frame for the first 30 of them, then on every
-   * search_interval-th; 1..1000; default 3. */
+  /* Without a face, searches of the whole image follow each other for the first 30 frames; then one
+   * begins on every search_interval-th frame at most; 1..1000; default 3. One that begins where the
+   * images begin, are cut, or take another size, is done on that image. Another takes its share of
+   * several images, 4 to 9 at most levels and about 20 at level 1, so that none costs much more
+   * than one with a face. */
   int32_t search_interval;
 
   /* Automatic level of detail: what a followed frame may take on average, ms; 0.01..1e6; default
@@ -302,7 +352,7 @@ typedef struct mien_tracker_config {
   int32_t max_faces;
 
   /* Weights of sound (models/audionet.mien), under the rules of `basenet`; default NULL: the
-   * tracker has no ears. */
+   * tracker has no ears. MIEN_ERROR_LEFT_OUT in a build without sound (MIEN_WITH_SOUND). */
   const void* audionet;
   size_t audionet_bytes;
   /* How fast the voice is heard when it begins, and let go when it ends: time constants of
@@ -310,7 +360,16 @@ typedef struct mien_tracker_config {
   float voice_attack_ms;
   float voice_release_ms;
 
-  uint32_t reserved[8];
+  /* Room for sound that waits in mien_tracker_queue_audio, in samples of one channel, 0..2^22;
+   * default 0: none. Half a second is enough where there are 30 frames a second. */
+  int32_t audio_queue_samples;
+
+  /* What the sound says of the controls is multiplied by this before it is mixed with what the
+   * picture says, and stays within 0..1; 0..4; default 1: as far as animators open a mouth that
+   * speaks clearly. Less mumbles, more suits a stage. */
+  float voice_strength;
+
+  uint32_t reserved[6];
 } mien_tracker_config;
 
 /* Fills in *config with the defaults; the weights are NULL. NULL is ignored. */
@@ -395,6 +454,17 @@ MIEN_API MIEN_NODISCARD mien_status mien_tracker_push_audio(mien_tracker* tracke
                                                             const mien_audio* audio,
                                                             int64_t pts_ns);
 
+/* Leaves a block of sound for the tracker, which hears it with the next frame of output (push_video
+ * or advance), as mien_tracker_push_audio would. For the real-time thread of a microphone: it may
+ * run while another thread does anything else with the tracker but create and destroy. Wait-free:
+ * its time depends on the number of samples alone. MIEN_ERROR_AUDIO_QUEUE_FULL, and nothing is
+ * taken, when there is no room (mien_tracker_config.audio_queue_samples): too many samples or
+ * blocks wait; a block of half the room always fits once no others do. Whoever queues sound pushes
+ * none. */
+MIEN_API MIEN_NODISCARD mien_status mien_tracker_queue_audio(mien_tracker* tracker,
+                                                             const mien_audio* audio,
+                                                             int64_t pts_ns);
+
 /* Of sound pushed from now on: it belongs to images later than its timestamps say, by `offset_ns`,
  * which may be negative. mien_tracker_reset returns to 0. */
 MIEN_API MIEN_NODISCARD mien_status mien_tracker_set_audio_offset(mien_tracker* tracker,
@@ -434,7 +504,7 @@ typedef enum mien_stage {
 MIEN_API const char* mien_stage_name(int32_t stage);
 
 /* Bits of mien_result.flags: what happened on this frame. */
-#define MIEN_RESULT_PROPOSAL_RAN 0x1u
+#define MIEN_RESULT_PROPOSAL_RAN 0x1u /* a search of the whole image, or a share of one */
 /* Not set on the alternate frames of levels 1 and 2: box and landmarks are those of the frame
  * before, while controls and head pose move on. */
 #define MIEN_RESULT_ENCODER_RAN 0x2u
@@ -469,7 +539,7 @@ typedef struct mien_result {
   /* Totals since create or reset. */
   uint64_t frames;        /* frames of output: images pushed, and frames without */
   uint64_t face_frames;   /* of these, with a face followed */
-  uint64_t proposal_runs; /* on the whole image */
+  uint64_t proposal_runs; /* searches of the whole image that were begun */
   uint64_t encoder_runs;  /* of BaseNet and HiFiNet */
 
   uint64_t stage_ns[MIEN_MAX_STAGES]; /* time in each mien_stage on this frame; 0 without a clock */

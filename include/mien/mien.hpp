@@ -79,6 +79,10 @@ class Tracker {
     return mien_tracker_push_audio(tracker_.get(), &audio, pts_ns);
   }
 
+  [[nodiscard]] mien_status queue_audio(const mien_audio& audio, std::int64_t pts_ns) {
+    return mien_tracker_queue_audio(tracker_.get(), &audio, pts_ns);
+  }
+
   [[nodiscard]] mien_status set_audio_offset(std::int64_t offset_ns) {
     return mien_tracker_set_audio_offset(tracker_.get(), offset_ns);
   }

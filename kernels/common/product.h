@@ -7,6 +7,8 @@
 
 namespace mien::kernels {
 
+constexpr std::ptrdiff_t kChannels = 8;  // of a block of a map
+
 // Where pixel after pixel lies, row after row.
 struct PixelRows {
   std::ptrdiff_t pixel_elems;  // from one pixel to the next

@@ -36,8 +36,6 @@ class Cursor {
   const PixelRows* rows_;
 };
 
-inline constexpr std::int32_t kChannels = 8;  // of a block of x
-
 // Some pixels of the panels from `panel` on. A tile moves it behind those it made.
 struct Spot {
   Spot(const ProductArgs& args, std::int32_t first_panel, std::int32_t pixel)

@@ -75,7 +75,9 @@ Rgb yuv_sample(const WarpArgs& a, double x, double y) {
   const double luma = luma_at(a, x, y);
   const double u = (chroma(a, 1).bilinear(x, y) - 128) * gain;
   const double v = (chroma(a, 2).bilinear(x, y) - 128) * gain;
-  return clamped({luma + 1.402 * v, luma - 0.344136 * u - 0.714136 * v, luma + 1.772 * u});
+  const YuvMatrix& m = a.yuv_matrix;
+  return clamped(
+      {luma + m.red_of_v * v, luma + m.green_of_u * u + m.green_of_v * v, luma + m.blue_of_u * u});
 }
 
 Rgb packed_sample(const WarpArgs& a, double x, double y) {

@@ -115,16 +115,19 @@ inline Mixing mixing_of(const WarpArgs& a) {
   const float black = narrow ? -16.0f * contrast : 0.0f;
   const float of_first = contrast * share(a.box);
   const float colour = (narrow ? 255.0f / 224.0f : 1.0f);
-  constexpr float kOfU[3] = {0.0f, -0.344136f, 1.772f}, kOfV[3] = {1.402f, -0.714136f, 0.0f};
+  const auto number = [](double value) { return static_cast<float>(value); };
+  const YuvMatrix& m = a.yuv_matrix;
+  const float of_u[3] = {0.0f, number(m.green_of_u), number(m.blue_of_u)};
+  const float of_v[3] = {number(m.red_of_v), number(m.green_of_v), 0.0f};
   Mixing mixing{};
   for (std::int32_t c = 0; c < 3; ++c) {
     float* w = mixing.weights[c];
     w[3] = black;
     if (a.format == PixelFormat::kYuv420) {
       w[0] = of_first;
-      w[1] = kOfU[c] * colour * share(a.chroma_box);
-      w[2] = kOfV[c] * colour * share(a.chroma_box);
-      w[3] -= 128.0f * colour * (kOfU[c] + kOfV[c]);
+      w[1] = of_u[c] * colour * share(a.chroma_box);
+      w[2] = of_v[c] * colour * share(a.chroma_box);
+      w[3] -= 128.0f * colour * (of_u[c] + of_v[c]);
     } else {
       w[has_luma ? 0 : c] = of_first;
     }

@@ -11,7 +11,7 @@
 // value in 0..255. Between two neighbours in a row a tier may round its place to 1/16384 of their
 // distance.
 //
-// YUV is BT.601; chroma, sited in the middle of its 2x2 pixels, has its own grid and its own box.
+// Chroma, sited in the middle of its 2x2 pixels, has its own grid and its own box.
 // Only bytes from a row's first pixel to its last are read: no row is assumed to be followed by
 // padding.
 #pragma once
@@ -37,11 +37,19 @@ struct Plane {
   std::ptrdiff_t pixel_bytes;  // from one sample to the next
 };
 
+// What a sample of chroma, less its middle, adds to red, green and blue.
+struct YuvMatrix {
+  double red_of_v, green_of_u, green_of_v, blue_of_u;
+};
+inline constexpr YuvMatrix kBt601 = {1.402, -0.344136, -0.714136, 1.772};
+inline constexpr YuvMatrix kBt709 = {1.5748, -0.187324, -0.468124, 1.8556};
+
 struct WarpArgs {
   static constexpr std::string_view kFamily = "warp";
   PixelFormat format;
   Plane plane[3];                          // kYuv420: Y, U, V; else only the first
   bool full_range;                         // kGray8, kYuv420: luma 0..255; else 16..235
+  YuvMatrix yuv_matrix;                    // of kYuv420
   std::int32_t image_width, image_height;  // 1..16384
   float matrix[6];                         // x = m0 j + m1 i + m2, y = m3 j + m4 i + m5
   std::int32_t box;                        // 1, 2, 4 or 8

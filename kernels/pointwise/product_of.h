@@ -7,8 +7,6 @@
 namespace mien::kernels {
 namespace {
 
-inline constexpr std::ptrdiff_t kChannels = 8;  // of a block
-
 inline std::ptrdiff_t plane_of(const PointwiseArgs& a) {
   return std::ptrdiff_t{a.h} * a.w * kChannels;
 }

@@ -1,14 +1,15 @@
 """Operators on constants, which exporters leave in shape arithmetic."""
 import numpy as np
 
-from refusal import Refused
+from refusal import Refused, require
 
 TYPES = {1: np.float32, 6: np.int32, 7: np.int64, 9: np.bool_, 10: np.float16, 11: np.float64}
 
 
 def axes_of(inputs, attributes, index=1):
     if len(inputs) > index and inputs[index] is not None:
-        return [int(a) for a in np.asarray(inputs[index]).reshape(-1)]
+        require(isinstance(inputs[index], np.ndarray), "its axes are not constant")
+        return [int(a) for a in inputs[index].reshape(-1)]
     axes = attributes.get("axes")
     return None if axes is None else list(axes)
 

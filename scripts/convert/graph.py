@@ -70,6 +70,8 @@ class Graph:
 
 def dimensions(value):
     """None where a dimension is not a number."""
+    kind = value.type.WhichOneof("value")
+    require(kind == "tensor_type", f"input {value.name!r} is no tensor (but a {kind or 'value without a type'})")
     return [d.dim_value if d.HasField("dim_value") else None for d in value.type.tensor_type.shape.dim]
 
 
@@ -99,6 +101,7 @@ class Conversion:
         self.graph, self.guess = graph, guess
         first, *others = graph.inputs
         shape = list(shapes.get(first, graph.inputs[first]))
+        require(shape, f"input {first!r} has no axes: a network's input is a map, a vector or steps; say which with --shape")
         if guess.time_axis is None:
             steps = 0
             shape = [1 if n is None and axis == 0 else n for axis, n in enumerate(shape)]

@@ -1,35 +1,37 @@
 #!/usr/bin/env bash
 # Builds mien for an ARM machine and runs its tests under an emulator, the kernels once per CPU model.
 # usage: scripts/cross/test.sh linux-arm64|linux-armv7 [--full]
-#   --full: also the tests that take longest under emulation (`slow` below), and mien-conformance on 50 seeds, not one: hours
+#   --full: also more CPU models, the tests that take longest under emulation (`slow` below), and mien-conformance on 50 seeds, not
+#   one: hours
 # Exit status 0 only when all is right. What ran, and what was only compiled, is said at the end.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 
 target=${1:?linux-arm64 or linux-armv7}
 case "$target" in
-  linux-arm64)  # ARMv8.0 without fp16 arithmetic, ARMv8.2 with it, and all that the emulator knows
-    models="cortex-a53 cortex-a72 cortex-a76 neoverse-n1 max"
+  linux-arm64)  # ARMv8.0 without fp16 arithmetic, and all that the emulator knows, fp16 among it
+    models="cortex-a53 max" more_models="cortex-a72 cortex-a76 neoverse-n1"
     emulator="qemu-aarch64 -L /usr/aarch64-linux-gnu" nm=aarch64-linux-gnu-nm ;;
   linux-armv7)  # without VFPv4 (so without a NEON tier), then with
-    models="cortex-a9 cortex-a7 cortex-a15 max"
+    models="cortex-a9 cortex-a7" more_models="cortex-a15 max"
     emulator="qemu-arm -L /usr/arm-linux-gnueabihf" nm=arm-linux-gnueabihf-nm ;;
   *) echo "test.sh: unknown target '$target'" >&2; exit 2 ;;
 esac
 case "${2:-}" in
   "") full=0 seeds=1 ;;
-  --full) full=1 seeds=50 ;;
+  --full) full=1 seeds=50 models+=" $more_models" ;;
   *) echo "test.sh: unknown option '$2'" >&2; exit 2 ;;
 esac
 
 # Left out: what starts programs, which a machine without binfmt_misc cannot do with those of another one; and the kernels'
 # cases, which mien-conformance has run by then.
-elsewhere='ConformanceProgram|conformance\.|install|convert|train|apps|Kernels/Conformance'
+elsewhere='ConformanceProgram|conformance\.|package|convert|train|apps|formats\.protocols|Kernels/Conformance'
 # Without --full, tests that take more than a tenth of a second natively and so many seconds under emulation: long streams
 # and clips, which other machines run. What stays has at least one test of every part, and one with the trained networks.
 slow='Allocation\.OneBy|Calibration\.|Equivariance\.|FrontEnd\.BlocksDoNotMatter|Images\.(OfEverySize|FourK)|Levels\.|Reset\.'
 slow+='|Resampler\.(Blocks|Counts|Passes|Stops)|SeveralFaces\.[^AR]|SeveralFaces\.AStranger|Soak\.|SoundClock\.Follows|Timestamps\.Any'
 slow+='|Following\.(DecodersBeginAnewWhen|FindsDiscs|Follows|Loses|Searches)|Trained\.([^T]|TheFace)|TrainedLevels\.'
+slow+='|Interleavings\.|Trackers\.MayBeMade|Camera\.|Microphone\.|Clocks\.|FloatState\.Denormals'
 slow+='|Voice\.(Blocks|IsHeard|IsMixed|LetsGo|Survives|TakesOver)'
 
 scripts/setup.sh build cross-arm
@@ -87,8 +89,14 @@ done
 [ $full -eq 1 ] || elsewhere+="|$slow"
 run_tests "${models%% *}" -E "^(${elsewhere})"
 
+if [ "$target" = linux-arm64 ]; then
+  echo "== $target: projects that vendor the library"
+  tests/package/vendored_test.sh "$build/package" "fetched embedded" --toolchain "$toolchain" || failed=1
+fi
+
 echo "$target: every kernel (mien-conformance, seeds: $seeds), the networks and the engine's golden answers ran as: $models"
 echo "$target: the tests of kernels, formats, engine, audio, tracker and the C API ran as: ${models%% *}"
 [ $full -eq 1 ] || echo "$target: left out (--full has them): $slow"
+[ "$target" != linux-arm64 ] || echo "$target: a C project that fetches the library, and one that embeds it, were built and ran (tests/package)"
 echo "$target: only compiled: the shared library; not built: the mien program"
 exit $failed

@@ -19,7 +19,7 @@ build $build mien_static mien_shared kernels_test engine_test mien_conformance_p
 
 # GCC bug 54412: no move of a whole AVX register may insist on an alignment that the stack does not have.
 find $build/kernels -name '*.obj' | while read -r object; do
-  if x86_64-w64-mingw32-objdump -d "$object" | grep -qE '\svmov(aps|apd|dqa)[0-9]*\s.*%[yz]mm'; then
+  if x86_64-w64-mingw32-objdump -d "$object" | grep -E '\svmov(aps|apd|dqa)[0-9]*\s.*%[yz]mm' >/dev/null; then
     echo "windows.sh: $object has aligned moves of AVX registers" >&2
     exit 1
   fi

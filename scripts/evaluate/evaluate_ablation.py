@@ -47,7 +47,8 @@ def learning_data(setting, network):
 
 
 def arguments(seed, velocity, acceleration):
-    return Namespace(steps=STEPS, batch=BATCH, rate=3e-3, velocity=velocity, acceleration=acceleration, beta=0.15, noise=0.2, seed=seed)
+    return Namespace(steps=STEPS, batch=BATCH, rate=3e-3, velocity=velocity, acceleration=acceleration, beta=0.15, noise=0.2, seed=seed,
+                     start_from=None)
 
 
 def train(name, seed, learned):

@@ -67,15 +67,11 @@ class Portraits:
     """The test portraits with the teacher's controls and pose."""
 
     def __init__(self):
-        if not (data() / "faces/labels.npz").exists():
+        self.set = faces.Portraits("test", ("faces",))
+        if not len(self.set):
             raise Missing("the portraits are absent: MIEN_DATA must name the folder of the data packs")
-        self.set, labels = faces.portraits("test"), np.load(data() / "faces/labels.npz")
-        named = [str(n) for n in labels["blendshape_names"]]
-        shapes = labels["blendshapes"][self.set.rows].astype(np.float64)
-        unknown = np.full(len(shapes), np.nan)
-        self.controls = np.stack([shapes[:, named.index(c)] if c in named else unknown for c in CONTROLS], 1)
-        matrix = labels["matrix_colmajor"][self.set.rows].reshape(-1, 4, 4).transpose(0, 2, 1)
-        self.rotation = matrix[:, :3, :3].astype(np.float64)
+        self.controls, self.rotation = self.set.labels.controls.astype(np.float64), self.set.labels.rotation.astype(np.float64)
+        self.controls[:, CONTROLS.index("tongueOut")] = np.nan  # the teacher does not know of it
         self.yaw = np.degrees(np.arctan2(self.rotation[:, 0, 2], self.rotation[:, 2, 2]))
 
     def __iter__(self):

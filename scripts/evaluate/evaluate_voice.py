@@ -74,7 +74,10 @@ def controls(report):
     return (["## Controls beside the video teacher's", "", *out.table(["who", "control", "correlation", "mean of clips", "lag, frames"], rows)]
             + out.prose("""jawOpen of other people, clip by clip; beside it what the visemes of visemes.py reach from the right phonemes, where
                 the text is known. More than that is not in the phonemes: these people open their jaws in their own ways.""")
-            + out.table(["clip", "from sound", "lag", "from the right phonemes"], clips) + out.table(["lips", "%"], lips))
+            + out.table(["clip", "from sound", "lag", "from the right phonemes"], clips) + out.table(["lips", "%"], lips)
+            + out.prose("""How far the mouth goes where it should, 95th percentile: the jaw on open vowels, pucker on uw and w, funnel on
+                these, ow, oy and ao.""")
+            + out.table(["control", "95th percentile"], [[c, out.number(v)] for c, v in report["strength"].items()]))
 
 
 def plot(report, folder):

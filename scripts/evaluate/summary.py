@@ -8,24 +8,24 @@ from setting import PARTS
 LEVELS = ("LOD1", "LOD4")
 
 
-def cell(bar, figure):
+def cell(bar, figure, level=None):
     if figure is None:
         return "-"
     shown = "not driven" if figure == bars.NOT_DRIVEN else f"{figure:.{bar.digits}f}"
-    return f"{shown} {'met' if bar.met(figure) else '**missed**'}"
+    return f"{shown} {'met' if bar.met(figure, level) else '**missed**'}"
 
 
 def line(bar, results):
     """Cells of a bar."""
-    figures = [bar.figure(results.get(bar.part, {}), level) for level in LEVELS]
-    return [bar.title, f"{bar.sign} {bar.bound:g}", *(cell(bar, f) for f in figures), f"[{bar.part}]({bar.part}.md)"]
+    cells = [cell(bar, bar.figure(results.get(bar.part, {}), level), level) for level in LEVELS]
+    return [bar.title, bar.shown(), *cells, f"[{bar.part}]({bar.part}.md)"]
 
 
 def counts(results):
     """A line for every level that was measured: how many bars it meets."""
     for level in LEVELS:
         figures = [(bar, bar.figure(results.get(bar.part, {}), level)) for bar in bars.every()]
-        known = [bar.met(figure) for bar, figure in figures if figure is not None]
+        known = [bar.met(figure, level) for bar, figure in figures if figure is not None]
         if known:
             yield f"* {level}: {sum(known)} of {len(known)} bars met."
 
@@ -33,13 +33,13 @@ def counts(results):
 def page(results, seconds, skipped, has_hifinet):
     lines = ["# Results", ""] + out.prose("""Made by `scripts/evaluate/evaluate.py`. LOD1 answers with BaseNet, LOD4 with HiFiNet; both are
         the program with its defaults, smoothing included. A dash: not measured, or MediaPipe's control hardly moves there, or a bar of
-        one level.""")
+        one level. Two bounds are level 1's and level 4's.""")
     if not has_hifinet:
         lines += ["**HiFiNet is not trained yet**: nothing is known of LOD2-4.", ""]
     lines += [*counts(results), ""] + out.table(["", "bar", *LEVELS, "more"], [line(bar, results) for bar in bars.every()])
     if "voice" in results:
         sound = [(bar, bar.figure(results["voice"], None)) for bar in bars.voice()]
-        rows = [[bar.title, f"{bar.sign} {bar.bound:g}", cell(bar, figure)] for bar, figure in sound]
+        rows = [[bar.title, bar.shown(), cell(bar, figure)] for bar, figure in sound]
         lines += ["## Sound", "", *out.table(["", "bar", "AudioNet"], rows), "More: [voice](voice.md).", ""]
     for level in results.get("synthetic", {}).values():
         lines += out.prose(f"""The true curves of the synthetic test sequences of {level["network"]} have a jitter of

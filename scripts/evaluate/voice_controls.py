@@ -15,6 +15,7 @@ OTHERS = ["grid_brbk7n", "grid_lbax4n", "grid_lbbc2a", "grid_id2_swwp2s", "hdtf_
 CLOSED_JAW, CLOSE, NEAR = 0.15, 0.1, 0.04
 OPEN_VOWELS = {phonemes.INDEX[p] for p in ("aa", "ae")}
 ROUND, ROUNDED = 0.15, {phonemes.INDEX[p] for p in ("uw", "w")}
+FUNNELLED = ROUNDED | {phonemes.INDEX[p] for p in ("ow", "oy", "ao")}
 
 
 def at_frames(model, sound, seconds):
@@ -35,11 +36,11 @@ def best_lag(said, truth):
     return max(LAGS, key=at)
 
 
-def held_clips(model):
-    """(answers, teacher's curves) of the speaker's clips that were held out."""
-    group, out = corpus.Group("av"), []
+def held_clips(model, name="av"):
+    """(answers, teacher's curves) of the clips of a group that were held out."""
+    group, out = corpus.Group(name), []
     for sound in group.of(model.split):
-        curve = teacher.clips().get(sound.name)
+        curve = teacher.clips(name).get(sound.name)
         if curve is not None:
             seconds = np.arange(len(curve)) / teacher.FPS
             out.append((at_frames(model, np.float32(group.samples(sound)) / 32768, seconds), curve))
@@ -93,8 +94,9 @@ def of_clips(model, others):
 
 def measure(model):
     others = other_clips(model) if model.split == "test" else {}
-    return {"held-out clips": agreement(held_clips(model)), "other people": agreement(list(others.values())) if others else {},
-            "clips": of_clips(model, others), "lips": lips(model), "spread": spread(model)}
+    said = list(spoken_phonemes(model))
+    return {"held-out clips": agreement(held_clips(model)), "other people": agreement(list(others.values()) or held_clips(model, "people")),
+            "clips": of_clips(model, others), "lips": lips(said), "strength": strength(said), "spread": spread(model)}
 
 
 def agreement(pairs):
@@ -109,24 +111,32 @@ def agreement(pairs):
     return report
 
 
-def lips(model, most=None):
-    """Shares of p, b, m at whose middle, give or take 40 ms, lips are closed; of open vowels with an open jaw; and of rounded lips."""
+def spoken_phonemes(model, most=None):
+    """(phoneme, controls [t,18] within 40 ms of its middle) of held-out synthetic voices."""
     group, spoken = corpus.Group("synthetic"), labels.read("synthetic")
-    closed, opened, rounded = [], [], []
     for sound in group.of(model.split)[:most]:
         times, controls, _ = model(np.concatenate([np.float32(group.samples(sound)) / 32768, np.zeros(4000, np.float32)]))
         said = spoken[sound.name]
         for label, a, b in zip(said.labels, said.starts, [*said.starts[1:], said.end]):
-            near = np.abs(times - (a + b) / 2) <= NEAR
-            jaw, close = controls[near, INDEX["jawOpen"]], controls[near, INDEX["mouthClose"]]
-            if label in phonemes.BILABIALS:
-                closed.append(bool(((jaw < CLOSED_JAW) | (close > CLOSE)).any()))
-            elif label in OPEN_VOWELS:
-                opened.append(bool(jaw.max() > CLOSED_JAW))
-            elif label in ROUNDED:
-                rounded.append(bool(controls[near, INDEX["mouthPucker"]].max() > ROUND))
-    return {"closed for p b m": float(np.mean(closed)), "count": len(closed), "open for aa ae": float(np.mean(opened)),
-            "rounded for uw w": float(np.mean(rounded))}
+            yield label, controls[np.abs(times - (a + b) / 2) <= NEAR]
+
+
+def lips(said):
+    """Shares of p, b, m at whose middle lips are closed; of open vowels with an open jaw; and of rounded lips. `said`: a list of
+    what spoken_phonemes gives."""
+    most = lambda name, chosen: [controls[:, INDEX[name]].max() for label, controls in said if label in chosen]
+    closed = [bool(((c[:, INDEX["jawOpen"]] < CLOSED_JAW) | (c[:, INDEX["mouthClose"]] > CLOSE)).any())
+              for label, c in said if label in phonemes.BILABIALS]
+    return {"closed for p b m": float(np.mean(closed)), "count": len(closed),
+            "open for aa ae": float(np.mean(np.array(most("jawOpen", OPEN_VOWELS)) > CLOSED_JAW)),
+            "rounded for uw w": float(np.mean(np.array(most("mouthPucker", ROUNDED)) > ROUND))}
+
+
+def strength(said):
+    """95th percentiles of what the mouth does where it should: whether the head speaks or mumbles."""
+    where = {"jawOpen": OPEN_VOWELS, "mouthPucker": ROUNDED, "mouthFunnel": FUNNELLED}
+    of = lambda name: np.concatenate([controls[:, INDEX[name]] for label, controls in said if label in where[name]])
+    return {name: float(np.percentile(of(name), 95)) for name in where}
 
 
 def spread(model):

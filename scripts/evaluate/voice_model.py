@@ -28,4 +28,5 @@ class Model:
         """Of f32 [samples] at 16 kHz: (times, controls [t,18], voice activity [t])"""
         x = torch.from_numpy(np.float32(features(sound)))[None]
         _, controls, activity = self.folded(x)
+        controls[..., INDEX["mouthClose"]] = torch.minimum(controls[..., INDEX["mouthClose"]], controls[..., INDEX["jawOpen"]])  # as the tracker
         return seconds_of_steps(x.shape[1]), controls[0].numpy(), activity[0, :, 1].numpy()

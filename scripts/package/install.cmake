@@ -9,24 +9,40 @@ set(pkgconfig_dir ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 
 install(TARGETS mien_static mien_shared EXPORT mien)
 install(DIRECTORY include/mien DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-install(DIRECTORY models/ DESTINATION ${models_dir})
+set(left_out)
+if(NOT MIEN_WITH_HIFINET)
+  list(APPEND left_out PATTERN hifinet.mien EXCLUDE)
+endif()
+if(NOT MIEN_WITH_SOUND)
+  list(APPEND left_out PATTERN audionet.mien EXCLUDE)
+endif()
+install(DIRECTORY models/ DESTINATION ${models_dir} ${left_out})
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/mien RENAME copyright)
 install(EXPORT mien NAMESPACE mien:: FILE mienTargets.cmake DESTINATION ${package_dir})
 
+get_target_property(default_target mien ALIASED_TARGET)
 if(TARGET mien_program)
-  file(RELATIVE_PATH libraries_from_program
-    ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
-  set_target_properties(mien_program PROPERTIES INSTALL_RPATH $ORIGIN/${libraries_from_program})
+  # One that is linked statically looks for no library, and the room that CMake keeps for a path would mean the current folder.
+  if(default_target STREQUAL mien_shared)
+    file(RELATIVE_PATH libraries_from_program
+      ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
+    set_target_properties(mien_program PROPERTIES INSTALL_RPATH $ORIGIN/${libraries_from_program})
+  endif()
   install(TARGETS mien_program)
 endif()
 if(TARGET mien_conformance_program)
   install(TARGETS mien_conformance_program)
 endif()
 
-# Who links the static library with a C compiler has to name these.
-set(cxx_runtime ${CMAKE_CXX_IMPLICIT_LINK_LIBRARIES})
-list(REMOVE_ITEM cxx_runtime ${CMAKE_C_IMPLICIT_LINK_LIBRARIES})
-list(REMOVE_DUPLICATES cxx_runtime)
-get_target_property(default_target mien ALIASED_TARGET)
+# What a wheel of bindings/python holds beside its Python: one library under one name, with nothing it needs of C++ elsewhere.
+if(MIEN_PYTHON_WHEEL)
+  target_link_options(mien_shared PRIVATE -static-libstdc++ -static-libgcc -s)
+  install(FILES $<TARGET_FILE:mien_shared> DESTINATION mien COMPONENT python
+    RENAME libmien${CMAKE_SHARED_LIBRARY_SUFFIX})
+  install(DIRECTORY models/ DESTINATION mien/models COMPONENT python)
+  install(DIRECTORY scripts/convert/ DESTINATION mien/_convert COMPONENT python FILES_MATCHING PATTERN *.py)
+  install(FILES scripts/train/mien_file.py DESTINATION mien/_convert COMPONENT python)
+endif()
 
 configure_package_config_file(scripts/package/mienConfig.cmake.in mienConfig.cmake
   INSTALL_DESTINATION ${package_dir} PATH_VARS models_dir)
@@ -34,11 +50,12 @@ write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/mienConfigVersion.c
   COMPATIBILITY SameMajorVersion)
 install(FILES
   ${CMAKE_CURRENT_BINARY_DIR}/mienConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/mienConfigVersion.cmake
+  scripts/package/embed.cmake scripts/package/embed_weights.cmake
   DESTINATION ${package_dir})
 
 file(RELATIVE_PATH prefix_from_pkgconfig
   ${CMAKE_INSTALL_PREFIX}/${pkgconfig_dir} ${CMAKE_INSTALL_PREFIX})
-list(TRANSFORM cxx_runtime PREPEND -l OUTPUT_VARIABLE cxx_runtime_flags)
+list(TRANSFORM MIEN_CXX_RUNTIME PREPEND -l OUTPUT_VARIABLE cxx_runtime_flags)
 list(JOIN cxx_runtime_flags " " cxx_runtime_flags)
 string(REGEX REPLACE "/$" "" prefix_from_pkgconfig ${prefix_from_pkgconfig})
 configure_file(scripts/package/mien.pc.in mien.pc @ONLY)

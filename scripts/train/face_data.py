@@ -5,19 +5,27 @@ import numpy as np
 import torch
 from PIL import Image
 
+from crop_sampler import sample
 import head_pose
 from expressions import CONTROLS, MIRROR as CONTROL_MIRROR
 import faces
-from faces import window
+from faces import continued, window
 from framing import BASENET
 from landmark_points import MIRROR
 from paths import cache, data
 from renderer.assets import names
-from sequences import crop_to_image, fit_crop, sample_crops, template, to_window
+from sequences import crop_to_image, fit_crop, template, to_window
 
 # images f32 [n,3,height,width] in 0..1; landmarks [n,175,2] in crop coordinates; controls [n,52] and pose [n,9], the teacher's on
 # portraits; has_landmarks, has_controls (true ones) bool [n]; visible [n,175]; face [n]: 1 a face well inside the crop, 0 none or misplaced
 Batch = namedtuple("Batch", "images landmarks controls pose visible has_landmarks has_controls face")
+
+
+def rarity(controls):
+    """How often to draw each face [n], from controls [n,52]: up to four times as often the further one of its controls is from usual."""
+    usual, rare = np.median(controls, 0), np.percentile(controls, 99, 0)
+    moved = (controls - usual) / np.maximum(rare - usual, 0.1)
+    return 0.5 + 1.5 * np.clip(moved, 0, 1).max(1)
 
 
 class Portraits:
@@ -26,16 +34,18 @@ class Portraits:
         self.images = np.load(folder / "images.npy", mmap_mode="r")
         labels = np.load(folder / "labels.npz")
         self.landmarks, self.crop = torch.from_numpy(labels["landmarks"]), torch.from_numpy(labels["crop"])
-        self.controls = torch.from_numpy(faces.teacher_controls(labels["name"]))
-        self.camera = faces.camera_labels(faces.portraits(split), framing)
+        self.trust = torch.from_numpy(labels["trust"])
+        found = faces.Portraits(split)
+        self.controls, self.camera = torch.from_numpy(found.labels.controls), faces.camera_labels(found, framing)
+        self.odds = np.cumsum(rarity(found.labels.controls))
 
     def __len__(self):
         return len(self.images)
 
     def rows(self, rng, n):
-        i = rng.integers(0, len(self), n)
+        i = np.searchsorted(self.odds, rng.uniform(0, self.odds[-1], n))
         self.last = {name: value[i] for name, value in self.camera.items()}
-        return self.images[i], self.landmarks[i], self.crop[i], self.controls[i], torch.ones(n, 175)
+        return self.images[i], self.landmarks[i], self.crop[i], self.controls[i], self.trust[i, None].expand(-1, 175)
 
 
 class Rendered:
@@ -76,7 +86,7 @@ class Backgrounds:
     def __init__(self, count=3000, seed=7):
         self.rng = np.random.default_rng(seed)
         paths = [data() / f"environments/{name}.jpg" for name in names("environments")]
-        self.pictures = [np.asarray(Image.open(p).convert("RGB")) for p in paths]
+        self.pictures = [continued(np.asarray(Image.open(p).convert("RGB")), 0.4) for p in paths]  # with the width of their border
         self.plain, middle = self.pieces(count), torch.tensor(BASENET.middle).expand(count, -1)
         self.mistaken, self.mistaken_crop, self.mistakes = self.plain.copy(), middle.clone(), 0
         self.misplaced = np.load(cache() / "faces/misplaced.npy", mmap_mode="r")
@@ -84,9 +94,10 @@ class Backgrounds:
     def pieces(self, count):
         images = np.empty((count, BASENET.window, BASENET.window, 3), np.uint8)
         for k in range(count):
-            picture = self.pictures[self.rng.integers(len(self.pictures))]
+            picture, margin = self.pictures[self.rng.integers(len(self.pictures))]
             side = np.exp(self.rng.uniform(np.log(60), np.log(400)))
-            images[k] = window(picture, self.rng.uniform(0, 1, 2) * picture.shape[1::-1], side)
+            inside = np.array(picture.shape[1::-1]) - 2 * margin
+            images[k] = window(picture, margin + self.rng.uniform(0, 1, 2) * inside, side)
         return images
 
     @torch.no_grad()
@@ -96,7 +107,7 @@ class Backgrounds:
         images = self.pieces(count)
         crop = torch.tensor(BASENET.middle).expand(count, -1)
         for k in range(alignments + 1):
-            out = network(sample(images, crop) * 2 - 1)
+            out = network(sample(images, crop, BASENET) * 2 - 1)
             face = torch.sigmoid(out["face"])
             self.remember(images, crop, (face > believed) & within(crop))
             crop = fit_crop(template(), crop_to_image(crop, out["landmarks"]))
@@ -153,17 +164,13 @@ def to_crop(crop, points):
     return head_pose.rotate(points - crop[:, None, :2], -crop[:, None, 3]) / crop[:, None, 2:3] + 0.5
 
 
-def sample(images, crop, framing=BASENET):
-    return sample_crops(torch.from_numpy(np.ascontiguousarray(images.transpose(0, 3, 1, 2))).float() / 255, crop, framing, taps=1)
-
-
 def mirror(batch, generator):
     """Flips half of the pictures, with everything that has a left and a right."""
     flip = torch.rand(len(batch.images), generator=generator) < 0.5
     choose = lambda a, b: torch.where(flip.view(-1, *[1] * (a.dim() - 1)), a, b)
     pose_signs = torch.tensor([1.0, -1, -1, -1, 1, 1, -1, 1, 1])
     return batch._replace(
-        images=choose(batch.images.flip(3), batch.images),
+        images=batch.images.index_put((flip,), batch.images[flip].flip(3)),
         landmarks=choose(torch.tensor([1.0, 0]) + batch.landmarks[:, MIRROR] * torch.tensor([-1.0, 1]), batch.landmarks),
         controls=choose(batch.controls[:, CONTROL_MIRROR], batch.controls),
         pose=choose(batch.pose * pose_signs, batch.pose),

@@ -1,48 +1,42 @@
 #!/usr/bin/env python3
-"""The real portraits: split, boxes, and a cache of face windows like those the renderer writes.
+"""The real portraits: boxes, and a cache of face windows like those the renderer writes.
 
 usage: faces.py      writes $MIEN_CACHE/faces/<split>[_hifinet]/{images.npy,labels.npz}: images uint8 [n,window,window,3], a
-square around the crop's centre (framing.py); landmarks [n,175,2] and crop [n,4] (cx, cy, side, theta) in pixels of that window.
+square around the crop's centre (framing.py); landmarks [n,175,2] and crop [n,4] (cx, cy, side, theta) in pixels of that window;
+trust [n], less than 1 where the teacher's labels are guesses (near profile, blurred).
 And misplaced.npy, uint8 [2n,112,112,3]: windows of the training portraits that the tracker must not take for a face in place.
 """
-import hashlib
-
 import cv2
 import numpy as np
 import torch
 from tqdm import tqdm
 
 import landmark_points as lp
-from expressions import CONTROLS
-from paths import cache, data
+import portrait_labels
+from paths import cache
 from framing import BASENET, FRAMINGS
 from sequences import fit_crop, template
 
 
 TEACHER_FOV = np.radians(63)  # vertical, of the camera that MediaPipe takes for granted (face_geometry)
-
-
-def split_of(name):
-    """Held out by a hash of the name: 12 % test, 5 % val."""
-    share = int(hashlib.sha256(str(name).encode()).hexdigest()[:8], 16) / 2 ** 32
-    return "test" if share < 0.12 else "val" if share < 0.17 else "train"
+GUESSED = 0.3                 # trust in labels that are partly guesses
+BLURRED = 0.1                 # variance of the Laplacian of the face at BaseNet's scale, in that of the picture, below which it is
 
 
 class Portraits:
     """(picture uint8 [h,w,3], box (cx, cy, side)) of one split."""
 
-    def __init__(self, split):
-        labels = np.load(data() / "faces/labels.npz")
-        self.rows = [i for i, name in enumerate(labels["name"]) if split_of(name) == split]
-        self.names, self.size_wh = labels["name"][self.rows], labels["size_wh"][self.rows].astype(np.float32)
-        self.points = (labels["landmarks"][self.rows][:, lp.TEACHER, :2] * self.size_wh[:, None]).astype(np.float32)
-        self.crops = fit_crop(template(), torch.from_numpy(self.points)).numpy()
+    def __init__(self, split, packs=portrait_labels.PACKS):
+        self.labels = portrait_labels.of_split(split, packs)
+        self.names, self.size_wh = self.labels.name, self.labels.size_wh
+        self.points = self.labels.points[:, lp.TEACHER]
+        self.crops = fit_crop(template(), torch.from_numpy(self.points)).numpy() if len(self) else np.zeros((0, 4), np.float32)
 
     def __len__(self):
         return len(self.names)
 
     def image(self, i):
-        return cv2.imread(str(data() / "faces/img" / str(self.names[i])))[..., ::-1]
+        return cv2.imread(str(self.labels.path(i)))[..., ::-1]
 
     def __getitem__(self, i):
         if i >= len(self):
@@ -50,46 +44,36 @@ class Portraits:
         return np.ascontiguousarray(self.image(i)), self.crops[i, :3]
 
 
-def teacher_labels(names):
-    """What the teacher says, and in which of its rows it speaks of these portraits."""
-    labels = np.load(data() / "faces/labels.npz")
-    row = {str(name): i for i, name in enumerate(labels["name"])}
-    return labels, [row[str(name)] for name in names]
-
-
-def teacher_controls(names):
-    """The teacher's controls f32 [n,52] of portraits; 0 where it has none."""
-    labels, rows = teacher_labels(names)
-    known = [str(name) for name in labels["blendshape_names"]]
-    out = np.zeros((len(rows), len(CONTROLS)), np.float32)
-    for i, control in enumerate(CONTROLS):
-        if control in known:
-            out[:, i] = labels["blendshapes"][rows, known.index(control)]
-    return out
-
-
-def teacher_poses(names):
-    """The teacher's head poses in camera space of portraits: rotation f32 [n,3,3], translation f32 [n,3] (metres)."""
-    labels, rows = teacher_labels(names)
-    matrix = labels["matrix_colmajor"][rows].reshape(-1, 4, 4).transpose(0, 2, 1)
-    return matrix[:, :3, :3].astype(np.float32), matrix[:, :3, 3].astype(np.float32) / 100
-
-
 def camera_labels(found, framing):
     """Where Portraits are in front of which camera, the teacher's word: tensors as of a rendered shard."""
-    rotation, translation = teacher_poses(found.names)
     window = np.concatenate([found.crops[:, :2], framing.window_crops * found.crops[:, 2:3]], 1)
-    labels = {"rotation": rotation, "translation": translation, "f_px": found.size_wh[:, 1] / 2 / np.tan(TEACHER_FOV / 2),
-              "camera_wh": found.size_wh, "window": window}
+    labels = {"rotation": found.labels.rotation, "translation": found.labels.translation,
+              "f_px": found.size_wh[:, 1] / 2 / np.tan(TEACHER_FOV / 2), "camera_wh": found.size_wh, "window": window}
     return {name: torch.from_numpy(np.float32(value)) for name, value in labels.items()}
 
 
-def portraits(split):
-    return Portraits(split)
+def continued(image, share=0.6):
+    """The picture with a blurred border of this share of its height around it, and the border's width: tight pictures end at a chin."""
+    margin = int(share * image.shape[0])
+    out = cv2.copyMakeBorder(image, *[margin] * 4, cv2.BORDER_REFLECT_101)
+    inside = cv2.copyMakeBorder(np.ones(image.shape[:2], np.float32), *[margin] * 4, cv2.BORDER_CONSTANT)
+    coarse = lambda x: cv2.resize(x, None, fx=0.125, fy=0.125, interpolation=cv2.INTER_AREA)
+    fine = lambda x: cv2.resize(x, out.shape[1::-1], interpolation=cv2.INTER_LINEAR)
+    soft = fine(cv2.GaussianBlur(coarse(out), (0, 0), 3))
+    sharp = np.maximum(inside, fine(cv2.GaussianBlur(coarse(inside), (0, 0), 1.5)))[..., None]
+    return np.uint8(out * sharp + soft * (1 - sharp) + 0.5), margin
+
+
+def leaves(image, centre, side):
+    """Whether a square is not wholly in the picture."""
+    return bool((centre < side / 2).any() or (centre + side / 2 > image.shape[1::-1]).any())
 
 
 def window(image, centre, side, pixels=BASENET.window):
-    """A square of the picture as [pixels,pixels,3]; the border is repeated outwards."""
+    """A square of the picture as [pixels,pixels,3]; what lies outside is a blur of what is near."""
+    if leaves(image, centre, side):
+        image, margin = continued(image)
+        centre = centre + margin
     scale = pixels / side
     matrix = np.array([[scale, 0, pixels / 2 - scale * centre[0]], [0, scale, pixels / 2 - scale * centre[1]]])
     matrix[:, 2] += scale * 0.5 - 0.5  # OpenCV puts pixel centres at whole numbers
@@ -112,24 +96,34 @@ def misplaced(crop, rng):
     return crop[:2] + away * crop[2] * np.array([np.cos(angle), np.sin(angle)]), side
 
 
+def blurred(face):
+    """Whether a window shows too little detail for labels to be believed."""
+    grey = cv2.cvtColor(cv2.resize(face, (BASENET.window,) * 2, interpolation=cv2.INTER_AREA), cv2.COLOR_RGB2GRAY)
+    middle = slice(BASENET.window // 4, -(BASENET.window // 4))
+    return cv2.Laplacian(grey, cv2.CV_32F)[middle, middle].var() < BLURRED * grey[middle, middle].var()
+
+
 def write_split(split, framing, out):
-    found, pixels = portraits(split), framing.window
+    found, pixels = Portraits(split), framing.window
     out.mkdir(parents=True, exist_ok=True)
     images = np.empty((len(found), pixels, pixels, 3), np.uint8)
     scale = framing.pixels_per_window(found.crops[:, 2])
-    for i in tqdm(range(len(found)), desc=out.name):
+    trust = np.where(found.labels.near_profile(), GUESSED, 1).astype(np.float32)
+    for i in tqdm(range(len(found)), desc=out.name, mininterval=5):
         images[i] = window(found.image(i), found.crops[i, :2], pixels / scale[i], pixels)
+        if blurred(images[i]):
+            trust[i] = GUESSED
     landmarks = (found.points - found.crops[:, None, :2]) * scale[:, None, None] + pixels / 2
     middle = np.full(len(found), pixels / 2, np.float32)
     crop = np.stack([middle, middle, found.crops[:, 2] * scale, found.crops[:, 3]], 1)
     np.save(out / "images.npy", images)
-    np.savez(out / "labels.npz", landmarks=landmarks.astype(np.float32), crop=crop.astype(np.float32), name=found.names)
+    np.savez(out / "labels.npz", landmarks=landmarks.astype(np.float32), crop=crop.astype(np.float32), name=found.names, trust=trust)
 
 
 def write_misplaced(path, each=2, seed=3):
-    found, rng = portraits("train"), np.random.default_rng(seed)
+    found, rng = Portraits("train"), np.random.default_rng(seed)
     images = np.empty((each * len(found), BASENET.window, BASENET.window, 3), np.uint8)
-    for i in tqdm(range(len(found)), desc="misplaced"):
+    for i in tqdm(range(len(found)), desc="misplaced", mininterval=5):
         picture = found.image(i)
         for k in range(each):
             centre, side = misplaced(found.crops[i], rng)

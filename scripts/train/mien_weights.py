@@ -49,16 +49,49 @@ def _layer(data, record, tensors):
     return Layer(op, channels, weight, torch.from_numpy(_tensor(data, tensors[bias])[:rows].copy()))
 
 
-def networks(path):
-    """{name: [Layer]}"""
+def _read(path):
+    """(the file, its records of networks, layers and tensors, its names)"""
     data = Path(path).read_bytes()
     counts = struct.unpack_from("<4I", data, 20)
     ends = np.cumsum([HEADER_BYTES, *(RECORD * n for n in counts[:3]), 16 * counts[3]])
     records = [[data[at:at + RECORD] for at in range(a, b, RECORD)] for a, b in zip(ends[:3], ends[1:4])]
-    strings = data[ends[4]:]
+    return data, records, data[ends[4]:]
+
+
+def _name(record, strings):
+    at, size = struct.unpack_from("<2I", record)
+    return strings[at:at + size].decode()
+
+
+def networks(path):
+    """{name: [Layer]}"""
+    data, records, strings = _read(path)
     out = {}
     for record in records[0]:
-        at, size = struct.unpack_from("<2I", record)
         first, count = struct.unpack_from("<2I", record, 24)
-        out[strings[at:at + size].decode()] = [_layer(data, r, records[2]) for r in records[1][first:first + count]]
+        out[_name(record, strings)] = [_layer(data, r, records[2]) for r in records[1][first:first + count]]
     return out
+
+
+def constant(path, name):
+    """Values of a constant, flat."""
+    data, records, strings = _read(path)
+    return torch.from_numpy(next(_tensor(data, r) for r in records[2] if _name(r, strings) == name).copy())
+
+
+def split_causal(layer, channels_in):
+    """[out, 2 * padded in] -> [out, in, 2]"""
+    return layer.weight.reshape(layer.channels, 2, -1)[..., :channels_in].permute(0, 2, 1)
+
+
+def set_lstm(lstm, layer):
+    inputs = lstm.input_size
+    lstm.weight_ih_l0.copy_(layer.weight[:, :inputs])
+    lstm.weight_hh_l0.copy_(layer.weight[:, -lstm.hidden_size:])
+    lstm.bias_ih_l0.copy_(layer.bias)
+    lstm.bias_hh_l0.zero_()
+
+
+def set_linear(linear, layer):
+    linear.weight.copy_(layer.weight[:, :linear.in_features])
+    linear.bias.copy_(layer.bias)

@@ -7,7 +7,10 @@ import torch.nn.functional as F
 from torch import nn
 
 from framing import BASENET, HIFINET
-from norm_activation import NormActivation
+from native_layers import expanded_unit
+from native_layers.depthwise_unit import depthwise_unit
+from native_layers.native import in_training
+from native_layers.norm_activation import NormActivation
 
 FEATURES = 256
 LANDMARKS = 175
@@ -16,9 +19,27 @@ POSE = 9
 LEAK = 0.1  # slope of every leaky ReLU
 
 
+class ConvNorm(nn.Sequential):
+    """A convolution without bias and its norm. Maps may be bfloat16 in training; weights are fp32 and cast where they meet such a map."""
+
+    def forward(self, x):
+        return self[1](self.convolved(x))
+
+    def convolved(self, x):
+        convolution = self[0]
+        if not in_training(self, x):
+            return convolution(x)
+        weight = convolution.weight.to(x.dtype)
+        if convolution.kernel_size == (1, 1):  # a product of matrices, which is faster told so
+            return F.linear(x.permute(0, 2, 3, 1), weight.flatten(1)).permute(0, 3, 1, 2)
+        if convolution.kernel_size == x.shape[2:]:
+            return (x * weight.permute(1, 0, 2, 3)).sum((2, 3), keepdim=True)
+        return F.conv2d(x, weight, None, convolution.stride, convolution.padding, 1, convolution.groups)
+
+
 def conv_norm(channels_in, channels_out, kernel=1, stride=1, padding=0, groups=1, activation=True):
-    return nn.Sequential(nn.Conv2d(channels_in, channels_out, kernel, stride, padding, groups=groups, bias=False),
-                         NormActivation(channels_out, activation))
+    return ConvNorm(nn.Conv2d(channels_in, channels_out, kernel, stride, padding, groups=groups, bias=False),
+                    NormActivation(channels_out, activation))
 
 
 def fold(sequence):
@@ -30,7 +51,7 @@ def fold(sequence):
 
 def folded(module):
     """A copy for answering only, which is faster: its convolutions have swallowed their batch norms."""
-    if isinstance(module, nn.Sequential) and len(module) == 2 and isinstance(module[1], NormActivation):
+    if isinstance(module, ConvNorm):
         c = module[0]
         convolution = nn.Conv2d(c.in_channels, c.out_channels, c.kernel_size, c.stride, c.padding, groups=c.groups)
         with torch.no_grad():
@@ -40,6 +61,25 @@ def folded(module):
     out = copy.copy(module)
     out._modules = {name: folded(child) for name, child in module.named_children()}
     return out
+
+
+class Branch(torch.autograd.Function):
+    """A map for an inverted residual, and its centre for the addition. On the way back the centre's gradient is added in place to the
+    other, which nobody else holds; autograd would make a whole map of zeros around it first."""
+
+    @staticmethod
+    def forward(ctx, x, margin):
+        ctx.margin = margin
+        return x.view_as(x), centre(x, margin).clone()
+
+    @staticmethod
+    def backward(ctx, gradient, of_centre):
+        centre(gradient, ctx.margin).add_(of_centre)
+        return gradient, None
+
+
+def centre(x, margin):
+    return x[..., margin:-margin, margin:-margin] if margin else x
 
 
 class InvertedResidual(nn.Module):
@@ -54,12 +94,22 @@ class InvertedResidual(nn.Module):
         self.residual = stride == 1 and channels_in == channels_out
         self.margin = 0 if padded else 1
 
+    def slid(self, x):
+        if not in_training(self, x):
+            return self.depthwise(self.expand(x))
+        if isinstance(self.expand, ConvNorm):
+            if expanded_unit.fits(x):
+                return expanded_unit.expanded_unit(x, *self.expand, *self.depthwise)
+            return depthwise_unit(self.expand.convolved(x), self.expand[1], *self.depthwise)
+        return depthwise_unit(x, None, *self.depthwise)
+
     def forward(self, x):
-        y = self.project(self.depthwise(self.expand(x)))
         if not self.residual:
-            return y
-        m = self.margin
-        return y + (x[..., m:-m, m:-m] if m else x)
+            return self.project(self.slid(x))
+        if not in_training(self, x) or not x.requires_grad:
+            return self.project(self.slid(x)) + centre(x, self.margin)
+        x, middle = Branch.apply(x, self.margin)
+        return self.project(self.slid(x)).add_(middle)
 
 
 class Encoder(nn.Module):
@@ -67,6 +117,8 @@ class Encoder(nn.Module):
 
     def __init__(self, blocks, tail_kernel):
         super().__init__()
+        self.map_type = torch.float32  # of maps in training; bfloat16 takes half the memory traffic
+        self.frozen = None             # the first parts of the body, folded, where they do not learn (freeze)
         layers, channels = [conv_norm(3, 16, 3, 2)], 16
         for expansion, stride, padded, out in blocks:
             layers.append(InvertedResidual(channels, out, expansion, stride, padded))
@@ -78,7 +130,29 @@ class Encoder(nn.Module):
 
     def forward(self, image):
         """image [n,3,h,w] in -1..1 -> features [n,256]"""
-        return self.tail(self.body(image)).flatten(1)
+        if not self.training:
+            return self.tail(self.body(image)).flatten(1)
+        maps = self.tail[:2](self.learning(self.answered(image)))
+        return self.tail[2](maps.float()).flatten(1)
+
+    def answered(self, image):
+        """What the parts that do not learn make of the pictures."""
+        image = image.to(self.map_type)
+        if not self.frozen:
+            return image
+        with torch.no_grad():
+            return self.frozen[0](image)
+
+    def learning(self, maps):
+        return self.body[len(self.frozen[0]) if self.frozen else 0:](maps)
+
+    def freeze(self, parts):
+        """The first `parts` of the body learn no more: their norms are folded into their convolutions, which is all that runs of them.
+        The large maps are there, and most of a training step with them."""
+        for parameter in self.body[:parts].parameters():
+            parameter.requires_grad_(False)
+        front = nn.Sequential(*map(folded, self.body[:parts].eval()))
+        self.frozen = [front.to(self.map_type, memory_format=torch.channels_last)]  # in a list: no part of the state
 
 
 class BaseNetEncoder(Encoder):
@@ -104,6 +178,7 @@ class FaceNetwork(nn.Module):
     def __init__(self, encoder, framing):
         super().__init__()
         self.encoder, self.framing = encoder, framing
+        self.still = {}  # StillDecoders that answer instead of the heads of their names (see_through); no part of the state
         self.landmarks = nn.Linear(FEATURES, 2 * LANDMARKS)
         self.face = nn.Linear(FEATURES, 1)
         self.controls = nn.Linear(FEATURES, CONTROLS)
@@ -111,8 +186,16 @@ class FaceNetwork(nn.Module):
 
     def forward(self, image):
         features = self.encoder(image)
+        head = lambda name: self.still.get(name, getattr(self, name))(features)
         return {"features": features, "landmarks": self.landmarks(features).view(-1, LANDMARKS, 2),
-                "face": self.face(features)[:, 0], "controls": self.controls(features), "pose": self.pose(features)}
+                "face": self.face(features)[:, 0], "controls": head("controls"), "pose": head("pose")}
+
+    def see_through(self, decoders):
+        """Trained decoders, {"controls_decoder": state, ...}, answer in place of the heads that exist in training only: the encoder then
+        learns what makes these right, and they need not be trained again after it."""
+        for name, kind in (("controls", ControlsDecoder), ("pose", PoseDecoder)):
+            if f"{name}_decoder" in decoders:
+                self.still[name] = StillDecoder(kind(), decoders[f"{name}_decoder"])
 
 
 class BaseNet(FaceNetwork):
@@ -133,9 +216,9 @@ FACE_NETWORKS = {BASENET.name: BaseNet, HIFINET.name: HiFiNet}
 class TemporalDecoder(nn.Module):
     """Three causal convolutions over time (kernel 2), one LSTM, one fully connected layer."""
 
-    def __init__(self, widths, outputs):
+    def __init__(self, widths, outputs, features=FEATURES):
         super().__init__()
-        self.convolutions = nn.ModuleList(nn.Conv1d(a, b, 2) for a, b in zip([FEATURES] + widths, widths))
+        self.convolutions = nn.ModuleList(nn.Conv1d(a, b, 2) for a, b in zip([features] + widths, widths))
         self.lstm = nn.LSTM(widths[-1], widths[-1], batch_first=True)
         self.output = nn.Linear(widths[-1], outputs)
 
@@ -155,8 +238,8 @@ class TemporalDecoder(nn.Module):
 class ControlsDecoder(TemporalDecoder):
     """Outputs are clamped to 0..1 when used, not in training."""
 
-    def __init__(self):
-        super().__init__([128, 128, 96], CONTROLS)
+    def __init__(self, features=FEATURES):
+        super().__init__([128, 128, 96], CONTROLS, features)
 
 
 class PoseDecoder(TemporalDecoder):
@@ -167,6 +250,20 @@ class PoseDecoder(TemporalDecoder):
         nn.init.zeros_(self.output.bias)
         with torch.no_grad():
             self.output.bias[[0, 4]] = 1.0
+
+
+class StillDecoder(nn.Module):
+    """What a trained decoder says of a face that holds still; it learns no more."""
+
+    FRAMES = 8
+
+    def __init__(self, decoder, state):
+        super().__init__()
+        decoder.load_state_dict(state)
+        self.decoder = decoder.requires_grad_(False)
+
+    def forward(self, features):
+        return self.decoder(features.unsqueeze(1).expand(-1, self.FRAMES, -1))[0][:, -1]
 
 
 class PNet(nn.Module):
@@ -217,6 +314,18 @@ def cost(network, *shape):
     return parameters[0], macs[0]
 
 
+def check_gradients(encoder, shape):
+    """The layers of training against PyTorch's own, which serve where maps are fp64."""
+    twin, x = copy.deepcopy(encoder).double(), torch.randn(3, *shape)
+    slope = torch.randn(3, FEATURES)
+    (encoder(x) * slope).sum().backward()
+    (twin.tail(twin.body(x.double())).flatten(1) * slope).sum().backward()
+    whole = torch.cat([p.grad.flatten() for p in twin.parameters()]).norm()
+    for (name, mine), theirs in zip(encoder.named_parameters(), twin.parameters()):
+        off = float((mine.grad - theirs.grad).norm() / (theirs.grad.norm() + 0.01 * whole))  # before a norm, a bias has none
+        assert off < 3e-2, (name, off)
+
+
 def self_test():
     parameters, macs = cost(BaseNetEncoder(), 3, 65, 65)
     assert parameters == 528656, parameters
@@ -227,6 +336,8 @@ def self_test():
     encoder, x = HiFiNetEncoder(), torch.randn(4, 3, 129, 109)
     encoder(x), encoder.eval()
     assert torch.allclose(encoder(x), folded(encoder)(x), atol=1e-4)
+    torch.manual_seed(1)
+    check_gradients(HiFiNetEncoder(), (3, 129, 109)), check_gradients(BaseNetEncoder(), (3, 65, 65))
     decoder, x = ControlsDecoder().eval(), torch.randn(2, 9, FEATURES)
     whole, state, parts = decoder(x)[0], None, []
     for t in range(9):

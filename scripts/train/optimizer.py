@@ -3,27 +3,28 @@
 Measured on BaseNet from one checkpoint, 45,000 faces: loss 0.484 against 0.492 of AdamW alone, lid correlation 0.42 against 0.39.
 """
 import torch
-from torch import nn
+
+from networks import ConvNorm
 
 MUON_RATE = 6.0      # of AdamW's rate
 MOMENTUM = 0.9
 NEWTON_SCHULZ = (3.4445, -4.7750, 2.0315)
 
 
-def orthogonal(matrix, steps=5):
-    """The nearest (semi-)orthogonal matrix, roughly: singular values end between 0.7 and 1.2."""
+def orthogonal(matrices, steps=5):
+    """The nearest (semi-)orthogonal matrices to some [n,rows,columns], roughly: singular values end between 0.7 and 1.2."""
     a, b, c = NEWTON_SCHULZ
-    x = matrix / (matrix.norm() + 1e-7)
-    tall = x.shape[0] > x.shape[1]
-    x = x.T if tall else x
+    x = matrices / (matrices.norm(dim=(1, 2), keepdim=True) + 1e-7)
+    tall = x.shape[1] > x.shape[2]
+    x = x.transpose(1, 2) if tall else x
     for _ in range(steps):
-        square = x @ x.T
+        square = x @ x.transpose(1, 2)
         x = a * x + (b * square + c * square @ square) @ x
-    return x.T if tall else x
+    return x.transpose(1, 2) if tall else x
 
 
 class Muon(torch.optim.Optimizer):
-    """For weights followed by batch norm, whose scale is free: it is kept at one per row."""
+    """For weights followed by batch norm, whose scale is free: it is kept at one per row. Weights of one shape go together."""
 
     def __init__(self, parameters, lr):
         super().__init__(parameters, dict(lr=lr))
@@ -31,22 +32,31 @@ class Muon(torch.optim.Optimizer):
     @torch.no_grad()
     def step(self):
         for group in self.param_groups:
-            for p in group["params"]:
-                momentum = self.state[p].setdefault("momentum", torch.zeros_like(p))
-                momentum.mul_(MOMENTUM).add_(p.grad)
-                rows, columns = p.shape[0], p[0].numel()
-                direction = orthogonal((p.grad + MOMENTUM * momentum).flatten(1)) * max(1, rows / columns) ** 0.5
-                p.mul_(rows ** 0.5 / p.norm()).sub_(direction.view_as(p), alpha=group["lr"])
+            for alike in self.by_shape(group["params"]):
+                momenta = [self.state[p].setdefault("momentum", torch.zeros_like(p)) for p in alike]
+                for p, momentum in zip(alike, momenta):
+                    momentum.mul_(MOMENTUM).add_(p.grad)
+                ahead = torch.stack([(p.grad + MOMENTUM * m).flatten(1) for p, m in zip(alike, momenta)])
+                rows, columns = ahead.shape[1:]
+                for p, direction in zip(alike, orthogonal(ahead) * max(1, rows / columns) ** 0.5):
+                    p.mul_(rows ** 0.5 / p.norm()).sub_(direction.view_as(p), alpha=group["lr"])
+
+    @staticmethod
+    def by_shape(parameters):
+        table = {}
+        for p in parameters:
+            table.setdefault(p.shape, []).append(p)
+        return table.values()
 
 
 class Optimizer:
     """Both, with one rate."""
 
     def __init__(self, network, rate):
-        pointwise = [m[0].weight for m in network.encoder.modules()
-                     if isinstance(m, nn.Sequential) and isinstance(m[0], nn.Conv2d) and m[0].kernel_size == (1, 1)]
-        taken = {id(p) for p in pointwise}
-        self.rest = torch.optim.AdamW([p for p in network.parameters() if id(p) not in taken], rate, weight_decay=0.02)
+        learning = [p for p in network.parameters() if p.requires_grad]
+        wide = {id(m[0].weight) for m in network.encoder.modules() if isinstance(m, ConvNorm) and m[0].kernel_size == (1, 1)}
+        pointwise = [p for p in learning if id(p) in wide]
+        self.rest = torch.optim.AdamW([p for p in learning if id(p) not in wide], rate, weight_decay=0.02)
         self.pointwise = Muon(pointwise, MUON_RATE * rate)
 
     def set_rate(self, rate):

@@ -19,9 +19,9 @@ from sequences import BaseNetView, HiFiNetView, Sequences, extract
 
 def portraits(split, framing):
     """Sequences of one frame each, in pixels of the whole pictures."""
-    folder, found = cache() / "faces" / framing.folder(split), faces.portraits(split)
+    folder, found = cache() / "faces" / framing.folder(split), faces.Portraits(split)
     images = np.load(folder / "images.npy", mmap_mode="r")
-    labels = {"landmarks": found.points, "crop": found.crops, "controls": faces.teacher_controls(found.names),
+    labels = {"landmarks": found.points, "crop": found.crops, "controls": found.labels.controls,
               "visibility": np.ones((len(images), len(TEACHER)), np.float32)}
     labels = {name: torch.from_numpy(value) for name, value in labels.items()} | faces.camera_labels(found, framing)
     return Sequences([image[None] for image in images], {name: value.unsqueeze(1) for name, value in labels.items()})

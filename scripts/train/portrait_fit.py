@@ -11,7 +11,7 @@ import numpy as np
 import torch
 
 import landmark_points as lp
-from faces import portraits, teacher_controls
+from faces import Portraits
 from head_pose import orthonormalise
 from paths import cache
 from rig import Rig
@@ -79,9 +79,9 @@ def camera_pose(found):
 
 
 def main():
-    photographs = portraits("train")
+    photographs = Portraits("train")
     target = torch.from_numpy(photographs.points - photographs.size_wh[:, None] / 2)
-    teacher = torch.from_numpy(teacher_controls(photographs.names))
+    teacher = torch.from_numpy(photographs.labels.controls)
     found = fit(Model(Rig()), target, teacher)
     translation, f_px = camera_pose(found)
     out = cache() / "portrait_skins"

@@ -1,20 +1,22 @@
 #!/usr/bin/env python3
 """Skins from photographs: what the fitted portraits show of a face, without their light, in the rig's texture.
 
-usage: portrait_skins.py [--most N] [--workers N]     after portrait_fit.py; writes $MIEN_CACHE/portrait_skins/<skin>+<portrait>.jpg, <skin>
+usage: portrait_skins.py [--most N] [--workers N]     after portrait_fit.py; writes what is not there yet of $MIEN_CACHE/portrait_skins/<skin>+<portrait>.jpg, <skin>
 being the one of the rig pack that goes on where the photograph ends.
 Light is a spherical harmonic of second order (Ramamoorthi and Hanrahan 2001), fitted so that the photograph is a skin of the
 pack under it; dividing by it leaves the photograph's detail at that skin's tone.
 """
 import argparse
 from multiprocessing import Pool
+from pathlib import Path
 
 import cv2
 import numpy as np
 from tqdm import tqdm
 
 import landmark_points as lp
-from paths import cache, data
+from paths import cache
+import portrait_labels
 from renderer import native
 from renderer.assets import names, picture, pack
 from renderer.lighting import basis
@@ -27,7 +29,9 @@ WORST_FIT = 0.023      # residual of the landmarks
 LEAST_EYES = 30        # outer eye corners' distance, pixels
 EYES_CM = 9.5          # the same of the rig
 HUBER = 0.25           # relative error of brightness beyond which a vertex counts less
-WORST_LIGHT = 0.6      # mean log error of brightness after the light has been fitted
+WORST_LIGHT = 0.45     # mean log error of brightness after the light has been fitted
+RIDGE = 0.004          # how small the light's shape stays, in what brightness there is
+DARKEST = 0.4          # shade below which a place is not brightened further, in the median of the face
 DARK_BLUE, DARK_BELOW = 0.33, 0.35  # linear blue over red, brightness in that of the picture's brightest
 SEEN_FROM, SEEN_WELL = 0.25, 0.55  # cosine between normal and line of sight
 
@@ -94,7 +98,7 @@ class Photograph:
         self.pose = np.float32(np.concatenate([fits["rotation"][i], fits["translation"][i][:, None]], 1))
         self.vertices, self.f_px = head, float(fits["f_px"][i])
         self.posed = head @ fits["rotation"][i].T + fits["translation"][i]
-        picture = cv2.imread(str(data() / "faces/img" / self.name))[..., ::-1]
+        picture = cv2.imread(str(portrait_labels.of_names([self.name]).path(0)))[..., ::-1]
         self.linear = (picture / np.float32(255)) ** 2.2
         chroma = np.ptp(picture.astype(np.float32), 2)
         self.grey = bool(np.median(chroma) < 6)
@@ -128,16 +132,26 @@ def is_dark(photo, landmarks):
     return not photo.grey and blue < DARK_BLUE * red and brightness < DARK_BELOW
 
 
+def least_squares(rows, values, weight, ridge=RIDGE):
+    """Of a few unknowns, by the normal equations: rows [n,k], values and weight [n] -> [k]. All but the first are kept small."""
+    weighted = rows * weight[:, None]
+    square = weighted.T @ rows
+    small = np.diag([0.0] + [ridge * square[0, 0]] * (len(square) - 1))
+    return np.linalg.solve(square + small, weighted.T @ values)
+
+
 def light_of(colour, skin, normals, weight):
-    """Coefficients [10,3] of the light under which `skin` [n,3] is seen as `colour` [n,3]; and how far off it stays."""
+    """Coefficients [10,3] of the light, one tint of one shape, under which `skin` [n,3] is seen as `colour` [n,3]; and how far off
+    it stays. A shape for each channel would explain lips, beards and make-up as coloured light."""
     shapes, w = basis(normals), weight.copy()
+    brightness, albedo = colour.mean(1), skin.mean(1)
     for _ in range(4):
-        light = np.stack([np.linalg.lstsq(shapes * (skin[:, c] * np.sqrt(w))[:, None], colour[:, c] * np.sqrt(w), rcond=1e-3)[0]
-                          for c in range(3)], 1)
-        shown = np.clip(shapes @ light, 1e-3, None) * skin
-        off = np.abs(np.log((colour.mean(1) + 0.01) / (shown.mean(1) + 0.01)))
+        shape = least_squares(shapes * albedo[:, None], brightness, w)
+        shown = np.clip(shapes @ shape, 1e-3, None)
+        off = np.abs(np.log((brightness + 0.01) / (shown * albedo + 0.01)))
         w = weight * np.minimum(1, HUBER / np.maximum(off, 1e-6))
-    return light, float((weight * np.minimum(off, 1)).sum() / weight.sum())
+    tint = (w[:, None] * colour).sum(0) / (w[:, None] * shown[:, None] * skin).sum(0)
+    return shape[:, None] * tint, float((weight * np.minimum(off, 1)).sum() / weight.sum())
 
 
 class Baker:
@@ -173,7 +187,7 @@ class Baker:
         normal = self.face.spread(normals)
         normal /= np.maximum(np.linalg.norm(normal, axis=-1, keepdims=True), 1e-6)
         shade = np.maximum((basis(normal.reshape(-1, 3)) @ light).reshape(SIDE, SIDE, 3), 0)
-        shade = np.maximum(shade, 0.25 * np.median(shade[self.face.inside > 0.5], axis=0))
+        shade = np.maximum(shade, DARKEST * np.median(shade[self.face.inside > 0.5], axis=0))
         places = self.face.spread(photo.posed)
         places[self.face.triangle < 0] = (0, 0, -1)  # texels that no skin uses
         found = photo.at(photo.pixels(places.reshape(-1, 3)).reshape(SIDE, SIDE, 2)) / shade
@@ -209,11 +223,14 @@ def main():
     args = parser.parse_args()
     fits = dict(np.load(cache() / "portrait_skins/fits.npz"))
     eyes = fits["f_px"] / np.abs(fits["translation"][:, 2]) * EYES_CM
-    good = np.flatnonzero((fits["residual"] < WORST_FIT) & (eyes > LEAST_EYES))[:args.most]
+    seen = ~portrait_labels.of_names(fits["name"]).near_profile()
+    good = np.flatnonzero((fits["residual"] < WORST_FIT) & (eyes > LEAST_EYES) & seen)[:args.most]
+    made = {path.stem.partition("+")[2] for path in (cache() / "portrait_skins").glob("*+*.jpg")}
+    good = np.array([i for i in good if Path(str(fits["name"][i])).stem not in made], int)
     with Pool(args.workers) as pool:
         counts = pool.map(bake_share, [(fits, good[k::args.workers], k) for k in range(args.workers)])
     used, refused = np.sum(counts, 0)
-    print(f"{used - refused} skins of {len(fits['name'])} portraits: {used} are large enough and fit, {refused} of them no light explains")
+    print(f"{used - refused} new skins of {len(fits['name'])} portraits: {used} are large enough and fit, {refused} of them no light explains")
 
 
 if __name__ == "__main__":

@@ -19,10 +19,11 @@ from torch import nn
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "evaluate"))
 import head_pose  # noqa: E402
+from face_data import rarity  # noqa: E402
 import metrics  # noqa: E402
 from expressions import CONTROLS, MIRROR, PAIRED  # noqa: E402
 from losses import Line, Turn, followed, importance  # noqa: E402
-from networks import FACE_NETWORKS, ControlsDecoder, PoseDecoder, TemporalDecoder  # noqa: E402
+from networks import FACE_NETWORKS, FEATURES, ControlsDecoder, PoseDecoder, TemporalDecoder  # noqa: E402
 
 SUPPORTED_CORRELATION = 0.55  # a margin over 0.5: on other people it is a little lower
 GAZE = np.array([name.startswith("eyeLook") for name in CONTROLS])
@@ -33,9 +34,9 @@ LEARNED = ("features", "pose", "controls", "visible")
 class FrameDecoder(nn.Module):
     """The controls decoder without time: the same widths, every frame by itself."""
 
-    def __init__(self):
+    def __init__(self, features=FEATURES):
         super().__init__()
-        widths = [256, 128, 128, 96, 96]
+        widths = [features, 128, 128, 96, 96]
         layers = []
         for a, b in zip(widths, widths[1:]):
             layers += [nn.Linear(a, b), nn.LeakyReLU(0.1)]
@@ -148,15 +149,22 @@ class Held:
 
     FRAMES, ADAPTING = 10, 2
 
-    def __init__(self, data, args):
+    def __init__(self, data, args, odds=None):
+        """`odds` [tracks]: how often to draw each."""
         self.data, self.size = {k: data[k] for k in LEARNED}, 2 * args.batch
+        self.odds = torch.ones(len(data["features"])) if odds is None else torch.as_tensor(odds, dtype=torch.float32)
         self.mask = torch.ones(1, self.FRAMES, 1)
         self.mask[:, :self.ADAPTING] = 0.25
 
     def batch(self):
-        tracks, frames = self.data["features"].shape[:2]
-        rows, at = torch.randint(tracks, (self.size, 1)), torch.randint(frames, (self.size, self.FRAMES))
+        rows = torch.multinomial(self.odds, self.size, replacement=True)[:, None]
+        at = torch.randint(self.data["features"].shape[1], (self.size, self.FRAMES))
         return {k: v[rows, at].float() for k, v in self.data.items()}, self.mask
+
+
+def of_portraits(data, args):
+    """Rare expressions are drawn more often, as in phase 1."""
+    return Held(data, args, rarity(data["controls"][:, 0].float().numpy()))
 
 
 def stream(table, rows):
@@ -164,16 +172,19 @@ def stream(table, rows):
     return table[rows].flatten(1, 2).float()
 
 
-def normalise_input(layer, features):
-    """Scales a fresh first layer (weight [out, 256, ...]) as if every feature had mean 0 and deviation 1."""
+def spread_of(features):
+    """(mean, deviation) [256] of every feature; those that hardly vary count as varying a little."""
     flat = features[::7].flatten(0, 1).float()
-    mean, spread = flat.mean(0), flat.std(0)
-    spread = spread + 0.1 * spread.mean()  # features that hardly vary stay small
+    spread = flat.std(0)
+    return flat.mean(0), spread + 0.1 * spread.mean()
+
+
+@torch.no_grad()
+def normalise_input(layer, mean, spread):
+    """Scales a fresh first layer (weight [out, 256, ...]) as if every feature had mean 0 and deviation 1."""
     shape = (1, -1) + (1,) * (layer.weight.dim() - 2)
-    with torch.no_grad():
-        layer.weight /= spread.view(shape)
-        layer.bias -= (layer.weight * mean.view(shape)).flatten(1).sum(1)
-    return spread
+    layer.weight /= spread.view(shape)
+    layer.bias -= (layer.weight * mean.view(shape)).flatten(1).sum(1)
 
 
 @torch.no_grad()
@@ -197,9 +208,15 @@ def noisy(x, spread):
 def train(decoder, lessons, args, name):
     """Fits a decoder to (source, task) pairs, one batch of each per step."""
     torch.manual_seed(args.seed)
-    if isinstance(decoder, TemporalDecoder):
-        mind_the_present(decoder)
-    noise = args.noise * normalise_input(first_layer(decoder), lessons[0][0].data["features"])
+    mean, spread = spread_of(lessons[0][0].data["features"])
+    state = f"{name}_decoder"
+    if args.start_from and state in (known := torch.load(args.start_from)):
+        decoder.load_state_dict(known[state])
+    else:
+        if isinstance(decoder, TemporalDecoder):
+            mind_the_present(decoder)
+        normalise_input(first_layer(decoder), mean, spread)
+    noise = args.noise * spread
     optimiser = torch.optim.AdamW(decoder.parameters(), lr=args.rate, weight_decay=1e-2)
     schedule = torch.optim.lr_scheduler.OneCycleLR(optimiser, args.rate, total_steps=args.steps, pct_start=0.1)
     decoder.train()
@@ -246,6 +263,7 @@ def control_scores(curves, data, chosen):
             "constant_mean_supported": constant_chosen["mean"],
             "constant_median_supported": constant_chosen["median"],
             "jitter_supported": metrics.jitter(curves[..., chosen]),
+            "truth_jitter_supported": metrics.jitter(truth[..., chosen]),
             "asymmetry": metrics.asymmetry(curves, truth, pairs) if pairs else float("nan"),
             "correlation": dict(zip(CONTROLS, correlation_of(curves, data).round(3).tolist()))}
 
@@ -308,6 +326,7 @@ def main():
     parser.add_argument("--train", type=Path, nargs="+", required=True, help="features to learn from")
     parser.add_argument("--held", type=Path, nargs="*", default=[], help="features of stills (sequences.py --hold)")
     parser.add_argument("--portraits", type=Path, nargs="*", default=[], help="features of real faces (portrait_features.py)")
+    parser.add_argument("--start-from", type=Path, help="decoders to go on from")
     parser.add_argument("--teacher", type=float, default=0.5, help="weight of what the teacher says of them")
     parser.add_argument("--val", type=Path, required=True, help="features that choose the supported controls")
     parser.add_argument("--out", type=Path, required=True, help="checkpoint; scores go beside it as .json")
@@ -324,7 +343,7 @@ def main():
     torch.set_num_threads(args.threads)
     sources = [kind(join([torch.load(p) for p in paths]), args)
                for kind, paths in ((Moving, args.train), (Held, args.held)) if paths]
-    portraits = Held(join([torch.load(p) for p in args.portraits]), args) if args.portraits else None
+    portraits = of_portraits(join([torch.load(p) for p in args.portraits]), args) if args.portraits else None
     decoders = {"controls": ControlsDecoder(), "frame": FrameDecoder()}
     if args.network == "basenet":
         decoders["pose"] = PoseDecoder()

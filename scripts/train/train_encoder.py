@@ -85,18 +85,21 @@ def validate(network, portraits, rendered, seed=11):
 
 
 class Average:
-    """Exponential moving average of the weights."""
+    """Exponential moving average of the weights, brought up to date every few steps."""
 
-    def __init__(self, network, decay=0.995):
-        self.network, self.decay = copy.deepcopy(network), decay
+    def __init__(self, network, decay=0.98, every=4):
+        self.network, self.decay, self.every = copy.deepcopy(network), decay, every
 
     @torch.no_grad()
     def update(self, network, step):
+        if step % self.every:
+            return
         decay = min(self.decay, (1 + step) / (10 + step))
-        for mine, theirs in zip(self.network.state_dict().values(), network.state_dict().values()):
-            if mine.dtype.is_floating_point:
-                mine.lerp_(theirs, 1 - decay)
-            else:
+        pairs = list(zip(self.network.state_dict().values(), network.state_dict().values()))
+        moving = [(mine, theirs) for mine, theirs in pairs if mine.dtype.is_floating_point]
+        torch._foreach_lerp_(*map(list, zip(*moving)), 1 - decay)
+        for mine, theirs in pairs:
+            if not mine.dtype.is_floating_point:
                 mine.copy_(theirs)
 
 
@@ -135,7 +138,7 @@ class Trainer:
     def __init__(self, options, device, world, rank):
         self.options, self.device, self.world, self.rank = options, device, world, rank
         self.network = FACE_NETWORKS[options.network]()
-        self.framing = self.network.framing
+        self.framing, self.network.encoder.map_type = self.network.framing, torch.bfloat16
         with torch.no_grad():
             self.network.landmarks.bias.copy_(template().flatten())
             self.network.landmarks.weight.mul_(0.1)
@@ -143,22 +146,31 @@ class Trainer:
         self.samples, self.step, self.seconds, self.history, self.revived = 0, 0, 0.0, [], 0
         self.run = cache() / "runs" / options.name
         self.run.mkdir(parents=True, exist_ok=True)
-        self.optimizer = Optimizer(self.network, options.rate)
-        self.restore()
+        resumed = self.restore()
         self.network.to(device, memory_format=torch.channels_last)
+        if options.through:
+            decoders = torch.load(options.through, map_location=device)
+            self.network.see_through(decoders), self.average.network.see_through(decoders)
+        if options.freeze:
+            self.network.encoder.freeze(options.freeze)
+        self.optimizer = Optimizer(self.network, options.rate)
+        if resumed:
+            self.optimizer.load_state_dict(resumed["optimizer"])
         self.average.network.to(device)
         self.activity = Activity(self.network.encoder)
         self.load_data()
 
     def restore(self):
+        """The checkpoint to go on from, if there is one."""
         if self.options.start_from:
             self.load(torch.load(self.options.start_from, map_location="cpu"))
         if self.options.resume and (self.run / "last.pt").exists():
             state = torch.load(self.run / "last.pt", map_location="cpu")
             self.load(state)
-            self.optimizer.load_state_dict(state["optimizer"])
             for name in ("samples", "step", "seconds", "history"):
                 setattr(self, name, state[name])
+            return state
+        return None
 
     def load(self, state):
         self.network.load_state_dict(state["network"])
@@ -214,7 +226,7 @@ class Trainer:
         self.average.update(self.network, self.step)
         self.step += 1
         self.samples += n * self.world
-        return float(loss)
+        return loss.item()
 
     def report(self, losses, with_clips):
         for source in (self.rendered, self.val_rendered):
@@ -278,6 +290,8 @@ def parse():
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--report-every", type=int, default=50_000)
     parser.add_argument("--real-share", type=float, default=0.2)
+    parser.add_argument("--freeze", type=int, default=0, metavar="PARTS", help="of the encoder's body that do not learn, from the picture on")
+    parser.add_argument("--through", metavar="DECODERS", help="decoders that stay as they are, and that controls and pose are asked of")
     parser.add_argument("--resume", action="store_true")
     parser.add_argument("--start-from", help="a checkpoint whose weights to begin with")
     parser.add_argument("--evaluate", help="a checkpoint to judge, without training")
@@ -290,6 +304,8 @@ def evaluate(options):
     state = torch.load(options.evaluate, map_location="cpu")
     network = FACE_NETWORKS[options.network]()
     network.load_state_dict(state["average"])
+    if options.through:
+        network.see_through(torch.load(options.through, map_location="cpu"))
     portraits = face_data.Portraits("val", network.framing)
     rendered = face_data.Rendered("val_stills", "val_sequences", framing=network.framing)
     report = {"samples": state["samples"], **validate(network, portraits, rendered),

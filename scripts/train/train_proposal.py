@@ -6,6 +6,7 @@ Stage 1 trains P-Net on windows of portraits, rendered faces and environments, l
 goes on with what it took for faces there, right or wrong. Stage 2 trains R-Net on what P-Net proposes then.
 """
 import argparse
+import itertools
 import json
 
 import numpy as np
@@ -15,7 +16,7 @@ from PIL import Image
 from tqdm import tqdm
 
 import proposal_data as data
-from faces import portraits
+from faces import Portraits, continued, leaves
 from networks import PNet, RNet
 from paths import cache
 from renderer.assets import environment_picture, names
@@ -96,13 +97,20 @@ def train(network, windows, samples, side, seed, history):
     network.eval()
 
 
+def with_surroundings(image, box):
+    """Tight pictures end at the chin, which no camera's do: these get a blurred border."""
+    if not leaves(image, box[:2], 1.3 * box[2]):
+        return image, box
+    image, margin = continued(image)
+    return image, box + [margin, margin, 0]
+
+
 def pictures(rng, portrait_limit=None):
     """(picture, box or None): portraits with their box, environments without a face."""
-    found = portraits("train")
+    found = Portraits("train")
     order = rng.permutation(len(found))[:portrait_limit]
-    for i in tqdm(order, desc="pictures"):
-        image, box = found[i]
-        yield image, box
+    for i in tqdm(order, desc="pictures", mininterval=5):
+        yield with_surroundings(*found[i])
     for name in names("environments"):
         image = environment_picture(name)
         for crop in range(6):
@@ -180,7 +188,7 @@ def evaluate(pnet, rnet, split):
     """Share of held-out portraits where the best-scored box overlaps the right one, per stage."""
     hits = {"pnet": [], "rnet": []}
     counts = []
-    for image, box in portraits(split):
+    for image, box in itertools.starmap(with_surroundings, Portraits(split)):
         found = propose(pnet, image)
         counts.append(len(found))
         hits["pnet"].append(bool(len(found)) and data.iou(found, box).max() > 0.5)
@@ -207,7 +215,7 @@ def train_pnet(pnet, options, history):
     rng = np.random.default_rng(options.seed)
     windows = first_windows(rng)
     train(pnet, windows, options.samples // 2, 12, options.seed, history)
-    windows = windows + second_windows(rng, pnet, portrait_limit=1000)
+    windows = windows + second_windows(rng, pnet, portrait_limit=3000)
     train(pnet, windows, options.samples // 2, 12, options.seed + 7, history)
 
 

@@ -173,10 +173,15 @@ class ComparePage(unittest.TestCase):
         self.wait(f"{video}.readyState >= 2", "the video does not load")
         self.assertEqual(self.run_js(f"[{video}.videoWidth, {video}.videoHeight]"), list(SIZE))
         self.assertFalse(self.run_js("document.getElementById('video-figure').hidden"))
+        self.run_js("player.clock.setRate(0.25)")  # or a busy machine finds it at its end
         self.press("#play")
-        self.wait("player.clock.time_ms > 300", "the video does not play")
-        self.press("#play")
-        self.assertFalse(self.run_js("player.clock.playing"))
+        self.wait("player.clock.time_ms > 100", "the video does not play")
+        # Pauses; or, where a busy machine finds it at its end already, begins anew.
+        self.assertTrue(self.run_js("""(() => {
+          const before = player.clock.playing;
+          document.querySelector('#play').click();
+          return before !== player.clock.playing;
+        })()"""))
 
     def test_without_a_video_the_page_keeps_time(self):
         self.open("plain.html")

@@ -3,7 +3,6 @@ if(NOT TARGET mien_conformance_program)  # built without it: MIEN_BUILD_CONFORMA
   return()
 endif()
 
-find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
 
 mien_add_test(conformance_program_test conformance_program_test.cpp
@@ -25,13 +24,10 @@ if(tiers)
   target_compile_definitions(mien_trimmed_registry PRIVATE
     MIEN_TRIM_REF $<TARGET_PROPERTY:mien_kernels,COMPILE_DEFINITIONS>)
   add_executable(mien_conformance_trimmed
-    ${PROJECT_SOURCE_DIR}/apps/conformance/main.cpp $<TARGET_OBJECTS:mien_trimmed_registry> ${tiers}
+    $<TARGET_OBJECTS:mien_conformance_main> $<TARGET_OBJECTS:mien_trimmed_registry> ${tiers}
     $<TARGET_OBJECTS:mien_formats> $<TARGET_OBJECTS:mien_engine> $<TARGET_OBJECTS:mien_audio>
     $<TARGET_OBJECTS:mien_tracker>)
-  target_link_libraries(mien_conformance_trimmed PRIVATE
-    mien_warnings mien_conformance CLI11::CLI11)
-  target_include_directories(mien_conformance_trimmed PRIVATE
-    ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/include)
+  target_link_libraries(mien_conformance_trimmed PRIVATE mien_warnings mien_conformance)
   add_dependencies(conformance_program_test mien_conformance_trimmed)
   target_compile_definitions(conformance_program_test PRIVATE
     MIEN_TRIMMED_PROGRAM="$<TARGET_FILE:mien_conformance_trimmed>")

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "apps/mien/compare/curves_file.h"
-#include "apps/mien/failure.h"
+#include "apps/mien/system/failure.h"
 
 namespace mien::tests {
 namespace {
@@ -72,28 +72,33 @@ TEST(CurvesFile, SmallFloatsAreNumbers) {
 }
 
 TEST(CurvesFile, FaultsAreNamedWithTheirPlace) {
-  EXPECT_EQ(complaint(""), "x.csv: is empty");
-  EXPECT_EQ(complaint("t_ms,jawOpen\n"), "x.csv: has no frames");
-  EXPECT_EQ(complaint("jawOpen\n0\n"), "x.csv: row 1: has no column t_ms");
+  EXPECT_EQ(complaint(""), "x.csv: line 1, column 1: is empty");
+  EXPECT_EQ(complaint("t_ms,jawOpen\n"), "x.csv: line 2, column 1: there are no frames");
+  EXPECT_EQ(complaint("jawOpen\n0\n"), "x.csv: line 1, column 1: there is no column t_ms");
   EXPECT_EQ(complaint("t_ms,frame\n0,0\n"),
-            "x.csv: row 1: has no column of a control (eyeBlinkLeft ... tongueOut)");
+            "x.csv: line 1, column 1: there is no column of a control (eyeBlinkLeft ... "
+            "tongueOut), of a unit of Roblox, or of a viseme");
   EXPECT_EQ(complaint("t_ms,jawOpen,jawOpen\n0,0,0\n"),
-            "x.csv: row 1: column jawOpen: appears twice");
-  EXPECT_EQ(complaint("t_ms,jawOpen\n0,0\n1\n"), "x.csv: row 3: has 1 cells, the header has 2");
-  EXPECT_EQ(complaint("t_ms,jawOpen\n0,\"0\n"), "x.csv: row 2: a quotation mark is not closed");
-  EXPECT_EQ(complaint("t_ms,jawOpen\n0,0\n,0\n"), "x.csv: row 3: column t_ms: is empty");
-  EXPECT_EQ(complaint("t_ms,jawOpen\n5,0\n4,0\n"), "x.csv: row 3: column t_ms: goes back in time");
+            "x.csv: line 1, column 14: column 'jawOpen' appears twice");
+  EXPECT_EQ(complaint("t_ms,jawOpen\n0,0\n1\n"),
+            "x.csv: line 3, column 1: the row has 1 cells, the header 2");
+  EXPECT_EQ(complaint("t_ms,jawOpen\n0,\"0\n"),
+            "x.csv: line 2, column 3: this quotation mark is not closed");
+  EXPECT_EQ(complaint("t_ms,jawOpen\n0,0\n,0\n"), "x.csv: line 3, column 1: t_ms: is empty");
+  EXPECT_EQ(complaint("t_ms,jawOpen\n5,0\n4,0\n"),
+            "x.csv: line 3, column 1: t_ms: goes back in time");
   EXPECT_EQ(complaint("t_ms,jawOpen\n0,half\n"),
-            "x.csv: row 2: column jawOpen: 'half' is not a number");
+            "x.csv: line 2, column 3: jawOpen: 'half' is not a number");
   EXPECT_EQ(complaint("t_ms,pitch_rad,yaw_rad,roll_rad,jawOpen\n0,30,0,0,0\n"),
-            "x.csv: row 2: column pitch_rad: more than a full turn; angles are in radians");
+            "x.csv: line 2, column 3: pitch_rad: more than a full turn; angles are in radians");
 }
 
 TEST(CurvesFile, ValuesLieWithinTheirRange) {
   for (const char* value : {"nan", "inf", "0x1", "1,5", "1e999", "1.01", "-0.1", "50", "0.5;"}) {
     EXPECT_NE(complaint("t_ms,jawOpen\n0," + std::string(value) + "\n"), "none") << value;
   }
-  EXPECT_EQ(complaint("t_ms,jawOpen\n0,50\n"), "x.csv: row 2: column jawOpen: '50' is not in 0..1");
+  EXPECT_EQ(complaint("t_ms,jawOpen\n0,50\n"),
+            "x.csv: line 2, column 3: jawOpen: '50' is not in 0..1");
 }
 
 TEST(CurvesFile, NoTextBreaksIt) {

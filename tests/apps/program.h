@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -30,9 +31,10 @@ inline std::string contents(const fs::path& path) {
 class Program : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ =
-        fs::temp_directory_path() /
-        ("mien_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::temp_directory_path() /
+              ("mien_" + std::string(test->test_suite_name()) + "_" + test->name() + "_" +
+               std::to_string(getpid()));  // two builds may be tested at once
     fs::remove_all(folder_);
     fs::create_directories(folder_);
   }

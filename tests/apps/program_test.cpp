@@ -223,7 +223,7 @@ TEST_F(Program, CompareFailsWithOneLineAndNoPage) {
   const Outcome bad = compare("a.csv", "bad.csv", page);
   EXPECT_EQ(bad.code, 3);
   EXPECT_EQ(bad.errors,
-            "mien: " + path("bad.csv") + ": row 3: column jawOpen: 'lots' is not a number\n");
+            "mien: " + path("bad.csv") + ": line 3, column 4: jawOpen: 'lots' is not a number\n");
   EXPECT_EQ(compare("nothing.csv", "a.csv", page).code, 3);
   EXPECT_EQ(compare("a.csv", "late.csv", page).code, 3);
   EXPECT_EQ(compare("a.csv", "a.csv", "-o /nowhere/page.html").code, 7);

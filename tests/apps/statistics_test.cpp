@@ -6,9 +6,9 @@
 #include <numbers>
 #include <vector>
 
-#include "apps/mien/compare/base64.h"
 #include "apps/mien/compare/page.h"
 #include "apps/mien/compare/statistics.h"
+#include "formats/animation/base64.h"
 
 namespace mien::tests {
 namespace {
@@ -177,12 +177,12 @@ TEST(Statistics, HeadRotationIsOneAngle) {
 }
 
 TEST(Base64, VectorsOfRfc4648) {
-  EXPECT_EQ(app::base64(""), "");
-  EXPECT_EQ(app::base64("f"), "Zg==");
-  EXPECT_EQ(app::base64("fo"), "Zm8=");
-  EXPECT_EQ(app::base64("foo"), "Zm9v");
-  EXPECT_EQ(app::base64("foobar"), "Zm9vYmFy");
-  EXPECT_EQ(app::base64("\xFB\xFF\xFE"), "+//+");
+  EXPECT_EQ(formats::base64(""), "");
+  EXPECT_EQ(formats::base64("f"), "Zg==");
+  EXPECT_EQ(formats::base64("fo"), "Zm8=");
+  EXPECT_EQ(formats::base64("foo"), "Zm9v");
+  EXPECT_EQ(formats::base64("foobar"), "Zm9vYmFy");
+  EXPECT_EQ(formats::base64("\xFB\xFF\xFE"), "+//+");
 }
 
 TEST(ComparePage, NamesOfFilesCannotLeaveTheirPlace) {

@@ -4,8 +4,6 @@
 usage: onnx_to_mien_test.py MIEN_PROGRAM      exit 77: Python's onnx package is missing here
 ONNX Runtime is the npm package that scripts/peers/install_onnxruntime.sh fetches. What cannot be compared here is said on standard output.
 """
-import contextlib
-import io
 import json
 import os
 import shutil
@@ -21,8 +19,8 @@ sys.path[:0] = [str(HERE), str(HERE.parents[1] / "scripts/convert")]
 try:
     import numpy as np
     import onnx
-    import onnx_to_mien
     import operator_cases
+    from conversion import PROGRAM, answered, convert, difference, time_axis
 except ModuleNotFoundError as missing:
     print("skipped: no Python module", missing.name, "here; scripts/setup.sh convert installs it")
     sys.exit(77)
@@ -34,43 +32,12 @@ except ModuleNotFoundError as missing:
     torch = None
     print("NOT TESTED: networks exported by PyTorch, for want of the Python module", missing.name)
 
-PROGRAM = sys.argv[1]
 MODULES = Path(os.environ.get("MIEN_CACHE", Path.home() / ".cache/mien")) / "peers"
 RUNTIME = shutil.which("node") and (MODULES / "node_modules/onnxruntime-node").is_dir()
 if not RUNTIME:
     print("NOT COMPARED: operators with ONNX Runtime; scripts/peers/install_onnxruntime.sh fetches it")
 # Of the largest value. Weights of the operator cases are exact in fp16; a network's are rounded to 11 bits.
 OPERATOR_TOLERANCE, ROUNDED_TOLERANCE = 2e-5, 2e-3
-
-
-def convert(arguments):
-    """Exit status (0 or the message) and what was printed."""
-    output = io.StringIO()
-    try:
-        with contextlib.redirect_stdout(output):
-            onnx_to_mien.main([str(a) for a in arguments])
-    except SystemExit as stop:
-        return stop.code or 0, output.getvalue()
-    return 0, output.getvalue()
-
-
-def answered(folder, model, x, layout="chw", network=()):
-    """What `mien run` makes of x: one array for each output."""
-    np.save(folder / "x.npy", np.ascontiguousarray(x))
-    info = json.loads(subprocess.run([PROGRAM, "inspect", model, "--json"], check=True, capture_output=True, text=True).stdout)
-    paths = [folder / f"y{i}.npy" for i in range(output_count(info, network))]
-    command = [PROGRAM, "run", model, "--input", folder / "x.npy", "--layout", layout, *network]
-    for path in paths:
-        command += ["--output", path]
-    done = subprocess.run(command, capture_output=True, text=True)
-    if done.returncode:
-        raise AssertionError(done.stderr)
-    return [np.load(path) for path in paths]
-
-
-def output_count(info, network):
-    networks = [n for n in info["networks"] if not network or n["name"] == network[1]]
-    return networks[0]["outputs"]
 
 
 class Runtime:
@@ -99,13 +66,6 @@ class Runtime:
     def outputs(self, number):
         paths = sorted(self.folder.glob(f"{number}.[0-9]"))
         return [np.frombuffer(path.read_bytes(), np.float32) for path in paths]
-
-
-def difference(got, wanted):
-    """Largest, of the largest value wanted."""
-    if got.size != wanted.size:
-        return f"{got.size} numbers, not {wanted.size}"
-    return float(np.abs(got.reshape(-1) - wanted.reshape(-1)).max() / max(np.abs(wanted).max(), 1e-3))
 
 
 class Folder(unittest.TestCase):
@@ -175,13 +135,6 @@ class Operators(Folder):
                 self.assertNotIn("malformed", status)
                 self.assertFalse((self.folder / "y.mien").exists())
                 (self.folder / "y.mien").unlink(missing_ok=True)
-
-
-def time_axis(model):
-    """Of the first input, if the network is one of steps: the converter notes it."""
-    info = json.loads(subprocess.run([PROGRAM, "inspect", model, "--json"], check=True, capture_output=True, text=True).stdout)
-    note = next(value for key, value in info["metadata"].items() if key.endswith(".onnx"))
-    return int(note.rsplit("time axis ", 1)[1]) if "time axis " in note else None
 
 
 @unittest.skipIf(torch is None, "no PyTorch here")

@@ -1,190 +1,24 @@
 // Random networks, whose values live long and cross: whatever the plan laid over something still
 // needed would come out wrong, for every value is random and the arena begins as NaNs.
-#include <algorithm>
+#include <random>
 
+#include "tests/engine/random_network.h"
 #include "tests/engine/twin_session.h"
 
 namespace mien::tests {
 namespace {
 
 using formats::InputShape;
-using formats::LayerActivation;
-using Index = TwinNetwork::Index;
-using Options = TwinNetwork::Options;
-
-class RandomNetwork {
- public:
-  RandomNetwork(formats::NetworkWriter& writer, InputShape input, unsigned seed)
-      : twin(writer, input, seed), random_(seed), reads_{0} {
-    const int layers = between(4, 24);
-    note(twin.conv2d(0, channels(), 3, 3, options()), {0});
-    while (twin.last() < static_cast<Index>(layers)) {
-      add_layer();
-    }
-    for (auto i = between(0, 2); i > 0; --i) {
-      promote(pick());
-    }
-    gather_loose_ends();
-  }
-
-  TwinNetwork twin;
-
- private:
-  template <class Int>
-  Int between(Int low, Int high) {
-    return std::uniform_int_distribution<Int>(low, high)(random_);
-  }
-  std::uint32_t channels() { return between(1u, 20u); }
-
-  Options options() {
-    const LayerActivation kinds[] = {LayerActivation::kNone, LayerActivation::kLeakyRelu,
-                                     LayerActivation::kPrelu, LayerActivation::kTanh};
-    Options options;
-    options.activation = kinds[between(0, 3)];
-    options.alpha = options.activation == LayerActivation::kLeakyRelu ? 0.25f : 0.0f;
-    return options;
-  }
-
-  // Any value but the image; one that nothing has read yet more often than not.
-  Index pick() {
-    const std::vector<Index> loose = loose_ends();
-    if (!loose.empty() && between(0, 2) > 0) {
-      return loose[between(std::size_t{0}, loose.size() - 1)];
-    }
-    return between(Index{1}, twin.last());
-  }
-
-  std::vector<Index> loose_ends() const {
-    std::vector<Index> loose;
-    for (Index value = 1; value <= twin.last(); ++value) {
-      if (reads_[value] == 0) {
-        loose.push_back(value);
-      }
-    }
-    return loose;
-  }
-
-  void note(Index, std::initializer_list<Index> read) {
-    reads_.push_back(0);
-    for (const Index value : read) {
-      ++reads_[value];
-    }
-  }
-
-  void add_layer() {
-    const Index x = pick();
-    const Map& map = twin.value(x);
-    const bool is_vector = map.h == 1 && map.w == 1;
-    const int choice = between(0, 11);
-    if (choice >= 10) {
-      return add_part(x);
-    }
-    if (choice <= 3 && add_sum(x)) {
-      return;
-    }
-    if (is_vector) {
-      note(choice % 3 == 0   ? twin.lstm(x, 8 * between(1u, 2u))
-           : choice % 3 == 1 ? twin.causal_conv(x, channels(), options())
-                             : twin.fully_connected(x, channels(), options()),
-           {x});
-    } else {
-      note(add_map_layer(x, map, choice), {x});
-    }
-  }
-
-  Index add_map_layer(Index x, const Map& map, int choice) {
-    Options padded = options();
-    padded.padding = {1, 1, 1, 1};
-    Options unpadded = options();
-    if (map.h > 8 && between(0, 1) == 0) {
-      unpadded.stride_x = unpadded.stride_y = 2;
-    }
-    switch (map.h < 3 || map.w < 3 ? 9 : choice) {
-      case 4:
-        return twin.depthwise(x, 3, 3, unpadded);
-      case 5:
-        return twin.depthwise(x, 3, 3, padded);
-      case 6:
-        return twin.conv2d(x, channels(), 3, 3, padded);
-      case 7:
-        return twin.max_pool(x, 2, 2);
-      case 8:
-        return twin.softmax(x);
-      case 9:
-        return twin.fully_connected(x, channels(), options());
-      default:
-        return twin.pointwise(x, static_cast<std::uint32_t>(map.c), options());
-    }
-  }
-
-  // x + something that fits, the nearest first: it is often a residual around a pointwise layer.
-  bool add_sum(Index x) {
-    for (Index other = twin.last(); other > 0; --other) {
-      const Map &a = twin.value(x), &b = twin.value(other);
-      if (other != x && a.c == b.c && b.h >= a.h && b.w >= a.w && (b.h - a.h) % 2 == 0 &&
-          (b.w - a.w) % 2 == 0) {
-        note(twin.add(x, other), {x, other});
-        return true;
-      }
-    }
-    return false;
-  }
-
-  // Something beside x of the same size, or a part of it.
-  void add_part(Index x) {
-    const Map& map = twin.value(x);
-    for (Index other = twin.last(); other > 0; --other) {
-      const Map& b = twin.value(other);
-      if (other != x && b.h == map.h && b.w == map.w && map.c + b.c <= 40) {
-        note(twin.concat(x, other), {x, other});
-        return;
-      }
-    }
-    if (map.h > 4 && between(0, 3) == 0) {
-      note(twin.global_average_pool(x), {x});
-      return;
-    }
-    const auto first = between(std::size_t{0}, map.c - 1);
-    Options margins;
-    margins.padding = {static_cast<std::uint16_t>(map.h > 2), 0, 0,
-                       static_cast<std::uint16_t>(map.w > 2)};
-    const auto kept = static_cast<std::uint32_t>(map.c - first);
-    note(twin.slice(x, static_cast<std::uint16_t>(first), kept, margins), {x});
-  }
-
-  void promote(Index value) {
-    const auto& outputs = twin.outputs();
-    if (std::find(outputs.begin(), outputs.end(), value) == outputs.end()) {
-      twin.output(value);
-      ++reads_[value];
-    }
-  }
-
-  // Every value must be read or be an output, of which there are at most four.
-  void gather_loose_ends() {
-    while (loose_ends().size() > 2) {
-      const Index a = loose_ends()[0], b = loose_ends()[1];
-      const Index first = twin.fully_connected(a, 8);
-      note(first, {a});
-      const Index second = twin.fully_connected(b, 8);
-      note(second, {b});
-      note(twin.add(first, second), {first, second});
-    }
-    for (const Index value : loose_ends()) {
-      promote(value);
-    }
-  }
-
-  std::mt19937 random_;
-  std::vector<int> reads_;
-};
 
 TEST(RandomNetworks, AgreeWithPlainLayers) {
   for (unsigned seed = 0; seed < 200; ++seed) {
     const InputShape input{9 + seed % 7, 9 + seed % 5, 1 + seed % 9};
     for (const std::uint32_t tier : tiers_here()) {
       formats::MienWriter writer;
-      RandomNetwork network(writer.network("net", input), input, seed);
+      std::mt19937 random(seed);
+      RandomNetwork network(writer.network("net", input), input, seed, [&](std::size_t count) {
+        return std::uniform_int_distribution<std::size_t>(0, count - 1)(random);
+      });
       ASSERT_NO_FATAL_FAILURE(expect_twins_agree(writer, "net", network.twin, tier, 2))
           << "seed " << seed << ", tier mask " << tier;
     }

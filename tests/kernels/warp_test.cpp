@@ -25,6 +25,7 @@ TEST(Warp, OnePixelHasOneColourWhereverItIsLookedAt) {
     args.plane[1] = {&u, 1, 1};
     args.plane[2] = {&v, 1, 1};
     args.full_range = true;
+    args.yuv_matrix = kBt601;
     args.image_width = args.image_height = 1;
     const float matrix[6] = {0.001f, 0.0f, 4.2f, 0.0f, 0.001f, 4.2f};  // beyond the border
     std::copy_n(matrix, 6, args.matrix);

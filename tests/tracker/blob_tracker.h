@@ -64,6 +64,17 @@ class BlobTracker {
     return push(Buffer(picture, layout).image());
   }
 
+  // The same image again and again, until a search that is spread over several has found the face.
+  Result push_until_found(const Picture& picture) {
+    constexpr int kLongest = 24;
+    Result result = push(picture);
+    for (int i = 1; !result.has_face() && i < kLongest; ++i) {
+      result = push(picture);
+    }
+    EXPECT_TRUE(result.flags & MIEN_RESULT_FOUND);
+    return result;
+  }
+
   // The same without an image.
   Result advance() {
     pts_ns_ += kFrameNs;

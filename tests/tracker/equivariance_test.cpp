@@ -1,8 +1,11 @@
 // The same scene, delivered in every way a camera may deliver it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
+#include <iterator>
 
 #include "tests/tracker/blob_tracker.h"
 
@@ -65,8 +68,12 @@ TEST(Equivariance, YuvIsTheSamePictureUpToChromaDetail) {
   const Result rgb = after_frames({});
   for (mien_image_format format : {MIEN_IMAGE_NV12, MIEN_IMAGE_NV21, MIEN_IMAGE_I420}) {
     for (bool full_range : {true, false}) {
-      SCOPED_TRACE(testing::Message() << format << (full_range ? " full" : " video"));
-      expect_close(after_frames({.format = format, .full_range = full_range}), rgb, 0.5f, 0.03f);
+      for (mien_yuv_matrix matrix : {MIEN_YUV_BT601, MIEN_YUV_BT709}) {
+        SCOPED_TRACE(testing::Message()
+                     << format << (full_range ? " full" : " video") << ", matrix " << matrix);
+        const Layout layout = {.format = format, .full_range = full_range, .yuv_matrix = matrix};
+        expect_close(after_frames(layout), rgb, 0.5f, 0.03f);
+      }
     }
   }
 }
@@ -119,6 +126,131 @@ TEST(Equivariance, RotatedBuffersAreTurnedUpright) {
       SCOPED_TRACE(rotation);
       expect_close(after_frames({.format = format, .rotation = rotation}), upright, 0.01f, 1e-3f);
     }
+  }
+}
+
+// The region {x, y, width, height} of an upright scene, as the buffer has it.
+void set_region(mien_image& image, const Layout& layout, int width, int height,
+                const int (&scene)[4]) {
+  const bool on_side = layout.rotation % 180 != 0;
+  const int x = layout.mirrored ? width - scene[0] - scene[2] : scene[0];
+  const int right = width - x - scene[2], bottom = height - scene[1] - scene[3];
+  const int from_left[] = {x, scene[1], right, bottom};
+  const int from_top[] = {scene[1], right, bottom, x};
+  const int turns = layout.rotation / 90;
+  image.region[0] = from_left[turns];
+  image.region[1] = from_top[turns];
+  image.region[2] = scene[on_side ? 3 : 2];
+  image.region[3] = scene[on_side ? 2 : 3];
+}
+
+TEST(Equivariance, RegionsAreTheImageCutDownToThem) {
+  constexpr int kWhole[2] = {300, 220};
+  constexpr int kRegion[4] = {60, 42, 152, 112};
+  // Seen by one camera, of which (x, y) is the first pixel.
+  const auto image_of = [](const Buffer& buffer, int x, int y) {
+    mien_image image = buffer.image();
+    image.focal_length_px = 250.0f;
+    image.principal_x = static_cast<float>(130 - x);
+    image.principal_y = static_cast<float>(100 - y);
+    return image;
+  };
+  for (mien_image_format format :
+       {MIEN_IMAGE_RGB, MIEN_IMAGE_BGRA, MIEN_IMAGE_NV12, MIEN_IMAGE_I420}) {
+    for (int rotation : {0, 90, 180, 270}) {
+      SCOPED_TRACE(testing::Message() << format << ", " << rotation);
+      const Layout layout = {.format = format, .rotation = rotation, .row_padding_bytes = 5};
+      BlobTracker whole, part;
+      Result of_whole, of_part;
+      for (int frame = 0; frame < 7; ++frame) {
+        Picture picture(kWhole[0], kWhole[1]);
+        picture.disc(250.0f, 150.0f, 75.0f);  // outside, and larger
+        picture.disc(130.0f + static_cast<float>(frame), 97.0f, 44.0f);
+        const Buffer buffer(picture, layout);
+        mien_image image = image_of(buffer, 0, 0);
+        set_region(image, layout, kWhole[0], kWhole[1], kRegion);
+        of_whole = whole.push(image);
+        const Buffer cut(picture.part(kRegion[0], kRegion[1], kRegion[2], kRegion[3]), layout);
+        of_part = part.push(image_of(cut, kRegion[0], kRegion[1]));
+      }
+      ASSERT_EQ(of_whole.status, MIEN_FACE_TRACKING);
+      of_part.box[0] += kRegion[0];
+      of_part.box[1] += kRegion[1];
+      for (auto& point : of_part.landmarks) {
+        point[0] += kRegion[0];
+        point[1] += kRegion[1];
+      }
+      expect_close(of_whole, of_part, 0.01f, 1e-3f);
+    }
+  }
+}
+
+// Cut in the scene, a mirrored region shows what the same region shows that is not.
+TEST(Equivariance, RegionsOfMirroredImages) {
+  constexpr int kRegion[4] = {40, 12, 90, 90};
+  const auto result_of = [&](const Layout& layout) {
+    BlobTracker tracker;
+    Result result;
+    for (int frame = 0; frame < 7; ++frame) {
+      const Buffer buffer(scene(frame), layout);
+      mien_image image = buffer.image();
+      set_region(image, layout, kWidth, kHeight, kRegion);
+      result = tracker.push(image);
+    }
+    EXPECT_EQ(result.status, MIEN_FACE_TRACKING);
+    return result;
+  };
+  const Result plain = result_of({});
+  for (int rotation : {0, 90, 180, 270}) {
+    SCOPED_TRACE(rotation);
+    Result mirrored = result_of({.rotation = rotation, .mirrored = true});
+    mirrored.box[0] = kWidth - (mirrored.box[0] + mirrored.box[2]);
+    for (auto& point : mirrored.landmarks) {
+      point[0] = kWidth - point[0];
+    }
+    expect_close(mirrored, plain, 0.01f, 1e-3f);
+  }
+}
+
+// Somebody moves it along with the face.
+TEST(Equivariance, RegionsMayMoveWhileAFaceIsFollowed) {
+  BlobTracker tracker;
+  const Buffer buffer(disc_picture(160.0f, 120.0f, 60.0f), {});
+  Result result;
+  for (int frame = 0; frame < 20; ++frame) {
+    mien_image image = buffer.image();
+    const int region[4] = {60 + frame, 50 + frame / 2, 170, 150};
+    std::copy(std::begin(region), std::end(region), image.region);
+    result = tracker.push(image);
+  }
+  EXPECT_TRUE(result.has_face());
+  EXPECT_EQ(result.face_id, 1u);
+  EXPECT_EQ(result.proposal_runs, 1u) << "it was never lost";
+  EXPECT_NEAR(result.box[0] + result.box[2] / 2, 160.0f, 12.0f);
+}
+
+// Memory holds the region alone, as the address sanitizer sees; the image claims more around it.
+TEST(Equivariance, NothingOutsideOfARegionIsRead) {
+  for (mien_image_format format : {MIEN_IMAGE_RGBA, MIEN_IMAGE_NV21, MIEN_IMAGE_I420}) {
+    const Layout layout = {.format = format, .row_padding_bytes = 40};
+    const Buffer buffer(disc_picture(50.0f, 50.0f, 50.0f, 100, 100), layout);
+    mien_image image = buffer.image();
+    const int pixel_bytes = format == MIEN_IMAGE_RGBA ? 4 : 1;
+    const int chroma_bytes = format == MIEN_IMAGE_I420 ? 1 : 2;
+    const auto begin_earlier = [&image](int plane, int rows, int bytes) {
+      const auto address = reinterpret_cast<std::uintptr_t>(image.planes[plane]);
+      const auto before = static_cast<std::uintptr_t>(rows * image.row_stride_bytes[plane] + bytes);
+      image.planes[plane] = reinterpret_cast<const void*>(address - before);
+    };
+    begin_earlier(0, 6, 8 * pixel_bytes);
+    begin_earlier(1, 3, 4 * chroma_bytes);
+    begin_earlier(2, 3, 4 * chroma_bytes);
+    image.width = 108;
+    image.height = 130;
+    const int region[4] = {8, 6, 100, 100};
+    std::copy(std::begin(region), std::end(region), image.region);
+    BlobTracker tracker;
+    EXPECT_TRUE(tracker.push(image).has_face()) << format;
   }
 }
 

@@ -152,7 +152,7 @@ TEST(Following, FindsTheFaceAgainElsewhere) {
     (void)tracker.push(disc_picture(80.0f, 80.0f, 60.0f));
   }
   Result result;
-  for (int i = 0; i < 10; ++i) {
+  for (int i = 0; i < 40; ++i) {
     result = tracker.push(disc_picture(250.0f, 170.0f, 50.0f));
   }
   expect_box_on_disc(result, 250.0f, 170.0f, 50.0f);
@@ -205,23 +205,55 @@ TEST(Following, DecodersBeginAnewWhenAFaceIsFound) {
     again = used.push(Picture(320, 240));
   }
   ASSERT_EQ(again.status, MIEN_FACE_LOST);
-  again = used.push(disc);
-  ASSERT_TRUE(again.flags & MIEN_RESULT_FOUND);
+  again = used.push_until_found(disc);
   EXPECT_TRUE(std::equal(again.controls, again.controls + MIEN_CONTROL_COUNT, first.controls));
 }
 
 TEST(Following, SearchesLessOftenAfterAWhile) {
-  BlobTracker tracker({}, [](mien_tracker_config& config) { config.search_interval = 5; });
+  BlobTracker tracker({}, [](mien_tracker_config& config) { config.search_interval = 15; });
   const Picture nothing(64, 48);
-  for (int i = 0; i < 30; ++i) {
-    (void)tracker.push(nothing);
-  }
-  EXPECT_EQ(tracker.result().proposal_runs, 30u);
-  for (int i = 0; i < 50; ++i) {
-    (void)tracker.push(nothing);
-  }
-  EXPECT_EQ(tracker.result().proposal_runs, 40u);
+  const auto searches = [&](int frames) {
+    const std::uint64_t before = tracker.result().proposal_runs;
+    int at_work = 0;
+    for (int i = 0; i < frames; ++i) {
+      at_work += (tracker.push(nothing).flags & MIEN_RESULT_PROPOSAL_RAN) != 0 ? 1 : 0;
+    }
+    return std::pair(tracker.result().proposal_runs - before, at_work);
+  };
+  EXPECT_EQ(searches(1), (std::pair<std::uint64_t, int>(1, 1))) << "the first is done at once";
+  const auto [eagerly, eager_frames] = searches(29);
+  EXPECT_EQ(eager_frames, 29) << "one after the other";
+  EXPECT_GE(eagerly, 2u);
+  EXPECT_LE(eagerly, 10u) << "each is spread over several frames";
+  const auto [calmly, calm_frames] = searches(150);
+  EXPECT_EQ(calmly, 10u);
+  EXPECT_LT(calm_frames, 100);
   EXPECT_EQ(tracker.result().status, MIEN_FACE_SEARCHING);
+}
+
+TEST(Following, NoFrameButTheFirstPaysForAWholeSearch) {
+  BlobTracker tracker;
+  const Result first = tracker.push(Picture(320, 240));
+  EXPECT_EQ(first.proposal_runs, 1u);
+  int frames = 1;
+  while (tracker.push(Picture(320, 240)).proposal_runs < 3 && frames < 50) {
+    ++frames;
+  }
+  EXPECT_GE(frames, 4) << "the second search took several frames";
+}
+
+// However it is spread, a search of a picture that stands still finds what one at once finds.
+TEST(Following, ASearchInSharesFindsTheSameAsOneAtOnce) {
+  for (const float diameter : {20.0f, 47.0f, 150.0f}) {
+    const Picture disc = disc_picture(211.0f, 103.0f, diameter);
+    BlobTracker at_once, spread;
+    const Result whole = at_once.push(disc);
+    (void)spread.push(Picture(320, 240));
+    const Result found = spread.push_until_found(disc);
+    for (int i = 0; i < 4; ++i) {
+      EXPECT_NEAR(found.box[i], whole.box[i], 0.02f * whole.box[2]) << diameter;
+    }
+  }
 }
 
 TEST(Following, WhatBaseNetRefusesIsNoFace) {

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <initializer_list>
 #include <limits>
 #include <vector>
 
@@ -65,6 +67,41 @@ TEST(ImageView, RotationIsClockwise) {
     expect_point(view.to_buffer({c.width - c.x, c.y}), 0.5f, 0.5f);
     expect_point(to_picture(view, {c.width - c.x, c.y}), c.x, c.y);
   }
+}
+
+TEST(ImageView, RegionsLieWithinTheImage) {
+  const auto status_with = [](mien_image_format format, std::initializer_list<int> region) {
+    mien_image image = image_of(format, 4, 2);
+    std::copy(region.begin(), region.end(), image.region);
+    return status_of(image);
+  };
+  for (const auto& region : {std::initializer_list<int>{0, 0, 0, 0}, {0, 0, 4, 2}, {3, 1, 1, 1}}) {
+    EXPECT_EQ(status_with(MIEN_IMAGE_GRAY8, region), MIEN_OK);
+  }
+  constexpr int kMost = std::numeric_limits<int>::max();
+  constexpr int kLeast = std::numeric_limits<int>::min();
+  for (const auto& region : {std::initializer_list<int>{1, 0, 4, 2},
+                             {0, 1, 4, 2},
+                             {0, 0, 0, 2},
+                             {0, 0, 4, 0},
+                             {-1, 0, 2, 2},
+                             {0, -1, 2, 2},
+                             {1, 0, 0, 0},
+                             {kMost, 0, kMost, 1},
+                             {0, kLeast, 1, kLeast}}) {
+    EXPECT_EQ(status_with(MIEN_IMAGE_GRAY8, region), MIEN_ERROR_IMAGE_REGION);
+  }
+  EXPECT_EQ(status_with(MIEN_IMAGE_NV12, {2, 0, 1, 1}), MIEN_OK);
+  EXPECT_EQ(status_with(MIEN_IMAGE_NV12, {1, 0, 2, 2}), MIEN_ERROR_IMAGE_REGION);
+  EXPECT_EQ(status_with(MIEN_IMAGE_I420, {0, 1, 2, 1}), MIEN_ERROR_IMAGE_REGION);
+}
+
+TEST(ImageView, YuvIsOfAKnownKind) {
+  mien_image image = image_of(MIEN_IMAGE_NV12, 4, 2);
+  image.yuv_matrix = MIEN_YUV_BT709;
+  EXPECT_EQ(status_of(image), MIEN_OK);
+  image.yuv_matrix = 2;
+  EXPECT_EQ(status_of(image), MIEN_ERROR_IMAGE_FORMAT);
 }
 
 TEST(ImageView, CameraFromFieldOfViewOrFromTheCaller) {

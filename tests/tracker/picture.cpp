@@ -36,9 +36,17 @@ struct Turned {
   }
 };
 
-// BT.601.
-float luma(const std::uint8_t* rgb, bool full_range) {
-  const float y = 0.299f * rgb[0] + 0.587f * rgb[1] + 0.114f * rgb[2];
+// Shares of red and blue in luma.
+struct Shares {
+  float red, blue;
+};
+Shares shares_of(mien_yuv_matrix matrix) {
+  return matrix == MIEN_YUV_BT709 ? Shares{0.2126f, 0.0722f} : Shares{0.299f, 0.114f};
+}
+
+float luma(const std::uint8_t* rgb, bool full_range, mien_yuv_matrix matrix = MIEN_YUV_BT601) {
+  const Shares s = shares_of(matrix);
+  const float y = s.red * rgb[0] + (1.0f - s.red - s.blue) * rgb[1] + s.blue * rgb[2];
   return full_range ? y : 16.0f + y * 219.0f / 255.0f;
 }
 
@@ -46,17 +54,18 @@ struct Chroma {
   std::uint8_t u, v;
 };
 
-Chroma chroma(const Turned& picture, int cx, int cy, bool full_range) {
+Chroma chroma(const Turned& picture, int cx, int cy, const Layout& layout) {
+  const Shares s = shares_of(layout.yuv_matrix);
   float u = 0.0f;
   float v = 0.0f;
   for (int k = 0; k < 4; ++k) {
     const std::uint8_t* rgb = picture.pixel(std::min(2 * cx + k % 2, picture.width() - 1),
                                             std::min(2 * cy + k / 2, picture.height() - 1));
-    const float y = luma(rgb, true);
-    u += (rgb[2] - y) / 1.772f / 4.0f;
-    v += (rgb[0] - y) / 1.402f / 4.0f;
+    const float y = luma(rgb, true, layout.yuv_matrix);
+    u += (rgb[2] - y) / (2.0f - 2.0f * s.blue) / 4.0f;
+    v += (rgb[0] - y) / (2.0f - 2.0f * s.red) / 4.0f;
   }
-  const float gain = full_range ? 1.0f : 224.0f / 255.0f;
+  const float gain = layout.full_range ? 1.0f : 224.0f / 255.0f;
   return {byte(128.0f + gain * u), byte(128.0f + gain * v)};
 }
 
@@ -73,9 +82,8 @@ int bytes_per_pixel(mien_image_format format) {
   }
 }
 
-void write_pixel(mien_image_format format, const std::uint8_t* rgb, bool full_range,
-                 std::uint8_t* out) {
-  switch (format) {
+void write_pixel(const Layout& layout, const std::uint8_t* rgb, std::uint8_t* out) {
+  switch (layout.format) {
     case MIEN_IMAGE_RGB:
     case MIEN_IMAGE_RGBA:
       std::copy(rgb, rgb + 3, out);
@@ -85,7 +93,7 @@ void write_pixel(mien_image_format format, const std::uint8_t* rgb, bool full_ra
       std::reverse_copy(rgb, rgb + 3, out);
       break;
     default:
-      *out = byte(luma(rgb, full_range));
+      *out = byte(luma(rgb, layout.full_range, layout.yuv_matrix));
   }
 }
 
@@ -133,6 +141,14 @@ void Picture::noise(unsigned seed) {
   std::generate(rgb_.begin(), rgb_.end(), [&] { return static_cast<std::uint8_t>(random()); });
 }
 
+Picture Picture::part(int x, int y, int width, int height) const {
+  Picture part(width, height);
+  for (int row = 0; row < height; ++row) {
+    std::copy_n(pixel(x, y + row), 3 * width, part.at(0, row));
+  }
+  return part;
+}
+
 Buffer::Buffer(const Picture& scene, const Layout& layout) {
   const Turned picture = {scene, layout};
   mien_image_default(&image_);
@@ -142,11 +158,12 @@ Buffer::Buffer(const Picture& scene, const Layout& layout) {
   image_.rotation = layout.rotation;
   image_.mirrored = layout.mirrored;
   image_.full_range = layout.full_range;
+  image_.yuv_matrix = layout.yuv_matrix;
   const int pixel_bytes = bytes_per_pixel(layout.format);
   add_plane(0, image_.width * pixel_bytes, image_.height, layout);
   for (int y = 0; y < image_.height; ++y) {
     for (int x = 0; x < image_.width; ++x) {
-      write_pixel(layout.format, picture.pixel(x, y), layout.full_range, at(0, x * pixel_bytes, y));
+      write_pixel(layout, picture.pixel(x, y), at(0, x * pixel_bytes, y));
     }
   }
   const bool semi_planar = layout.format == MIEN_IMAGE_NV12 || layout.format == MIEN_IMAGE_NV21;
@@ -165,7 +182,7 @@ Buffer::Buffer(const Picture& scene, const Layout& layout) {
   const int u_byte = layout.format == MIEN_IMAGE_NV21 ? 1 : 0;
   for (int y = 0; y < chroma_height; ++y) {
     for (int x = 0; x < chroma_width; ++x) {
-      const Chroma c = chroma(picture, x, y, layout.full_range);
+      const Chroma c = chroma(picture, x, y, layout);
       *at(1, x * step + (semi_planar ? u_byte : 0), y) = c.u;
       *at(semi_planar ? 1 : 2, x * step + (semi_planar ? 1 - u_byte : 0), y) = c.v;
     }

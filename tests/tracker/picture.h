@@ -16,6 +16,7 @@ class Picture {
   void disc(float center_x, float center_y, float diameter);
   void grey();                // removes colour
   void noise(unsigned seed);  // replaces everything
+  [[nodiscard]] Picture part(int x, int y, int width, int height) const;
 
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] int height() const { return height_; }
@@ -37,6 +38,7 @@ struct Layout {
   int rotation = 0;
   bool mirrored = false;
   bool full_range = true;
+  mien_yuv_matrix yuv_matrix = MIEN_YUV_BT601;
   int row_padding_bytes = 0;
   bool bottom_up = false;
   int chroma_pixel_stride = 1;  // I420

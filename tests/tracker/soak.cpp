@@ -1,5 +1,6 @@
 #include "tests/tracker/soak.h"
 
+#include <time.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -18,6 +19,7 @@ constexpr double kFrameSeconds = 1.0 / 30.0;
 constexpr double kBurstPeriod = 1.37;  // no multiple of a frame, a block or a window
 constexpr double kBurstReach = 0.3;    // seconds to either side of its middle
 constexpr double kBlockSeconds = 0.01;
+constexpr double kStepSeconds = 0.016;
 constexpr std::array<std::int32_t, 4> kRates = {48000, 44100, 16000, 8000};
 
 std::size_t resident_bytes() {
@@ -29,6 +31,13 @@ std::size_t resident_bytes() {
     std::fclose(file);
   }
   return static_cast<std::size_t>(resident) * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+}
+
+// What else runs on the machine is none of the tracker's business.
+double processor_us() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) * 1e6 + static_cast<double>(now.tv_nsec) * 1e-3;
 }
 
 std::int64_t ns(double seconds) { return std::llround(seconds * 1e9); }
@@ -70,6 +79,7 @@ class Microphone {
     }
   }
 
+  [[nodiscard]] double recorded_s() const { return recorded_s_; }
   [[nodiscard]] double disturbed_at() const { return disturbed_at_; }
   [[nodiscard]] int gaps() const { return gaps_; }
   [[nodiscard]] int rate_changes() const { return rate_changes_; }
@@ -90,6 +100,7 @@ class Microphone {
     const double tremble = plan_.tremble_s * uniform(-1.0, 1.0);
     EXPECT_EQ(blob_.tracker().push_audio(audio, ns(now_ + tremble)), MIEN_OK);
     now_ += static_cast<double>(samples_.size()) * per_sample;
+    recorded_s_ += kBlockSeconds;
   }
 
   void misbehave() {
@@ -118,6 +129,7 @@ class Microphone {
   BurstNoise noise_;
   std::vector<float> samples_;
   double now_ = 0.0;
+  double recorded_s_ = 0.0;
   std::size_t rate_ = 0;
   double disturbed_at_ = -1.0;
   double next_gap_ = 20.0;
@@ -159,6 +171,62 @@ class BurstMeter {
   double moment_ = 0.0;
 };
 
+// Of very many times, in classes that are one part in a hundred wide.
+class Times {
+ public:
+  void add(double us) {
+    const double place = std::log(std::max(us, 1.0)) / kWidth;
+    ++counts_[std::min(static_cast<std::size_t>(place), counts_.size() - 1)];
+    ++count_;
+    worst_ = std::max(worst_, us);
+  }
+
+  [[nodiscard]] double percentile(double share) const {
+    auto left = static_cast<std::int64_t>(share * static_cast<double>(count_));
+    for (std::size_t i = 0; i < counts_.size(); ++i) {
+      left -= counts_[i];
+      if (left < 0) {
+        return std::exp((static_cast<double>(i) + 0.5) * kWidth);
+      }
+    }
+    return worst_;
+  }
+  [[nodiscard]] double worst() const { return worst_; }
+
+ private:
+  static constexpr double kWidth = 0.01;
+  std::array<std::int64_t, 1800> counts_{};  // up to a minute
+  std::int64_t count_ = 0;
+  double worst_ = 0.0;
+};
+
+// The straight line nearest to points that come one by one.
+class Line {
+ public:
+  void add(double x, double y) {
+    ++count_;
+    const double from_mean = x - mean_x_;
+    mean_x_ += from_mean / count_;
+    mean_y_ += (y - mean_y_) / count_;
+    squares_ += from_mean * (x - mean_x_);
+    products_ += from_mean * (y - mean_y_);
+  }
+  [[nodiscard]] double slope() const { return squares_ > 0.0 ? products_ / squares_ : 0.0; }
+
+ private:
+  double count_ = 0.0, mean_x_ = 0.0, mean_y_ = 0.0, squares_ = 0.0, products_ = 0.0;
+};
+
+bool is_sane(const Result& result) {
+  const auto unit = [](float value) { return value >= 0.0f && value <= 1.0f; };
+  const auto finite = [](float value) { return std::isfinite(value); };
+  const float* landmarks = &result.landmarks[0][0];
+  return unit(result.face_probability) && unit(result.voice_activity) &&
+         std::all_of(result.controls, result.controls + MIEN_CONTROL_COUNT, unit) &&
+         std::all_of(result.box, result.translation + 3, finite) &&
+         std::all_of(landmarks, landmarks + sizeof result.landmarks / sizeof(float), finite);
+}
+
 }  // namespace
 
 SoakReport soak(const SoakPlan& plan) {
@@ -171,19 +239,42 @@ SoakReport soak(const SoakPlan& plan) {
   Microphone microphone(plan, blob);
   SoakReport report;
   BurstMeter meter(report);
+  Times times;
+  Line memory;
   const auto frames = static_cast<std::int64_t>(plan.seconds / kFrameSeconds);
+  const std::int64_t settled = frames / 10, between_looks = std::max<std::int64_t>(frames / 500, 1);
   for (; report.frames < frames; ++report.frames) {
     const double seconds = static_cast<double>(report.frames) * kFrameSeconds;
     microphone.record_until(seconds + 0.1);
-    const bool is_away = report.frames % 3000 < 60;
-    const Result result = blob.push((is_away ? nothing : face).image(), ns(seconds));
+    const bool is_away = report.frames % 3000 < 120;
+    const mien_image& image = (is_away ? nothing : face).image();
+    const double began_us = processor_us();
+    const mien_status pushed = blob.tracker().push_video(image, ns(seconds));
+    const double took_us = processor_us() - began_us;
+    EXPECT_EQ(pushed, MIEN_OK);
+    const Result result = blob.result();
     meter.frame(seconds, result.voice_activity, microphone.disturbed_at());
-    if (report.frames == frames / 10) {
-      report.resident_bytes_early = resident_bytes();
-    }
+    report.insane_results += is_sane(result) ? 0 : 1;
+    report.faces_found += (result.flags & MIEN_RESULT_FOUND) != 0 ? 1 : 0;
+    report.last_face_id = std::max(report.last_face_id, result.face_id);
     report.frames_with_face = static_cast<std::int64_t>(result.face_frames);
+    if (report.frames < settled) {
+      continue;
+    }
+    times.add(took_us);
+    if ((report.frames - settled) % between_looks == 0) {
+      const std::size_t resident = resident_bytes();
+      report.resident_bytes_early =
+          report.frames == settled ? resident : report.resident_bytes_early;
+      memory.add(seconds / 3600.0, static_cast<double>(resident));
+    }
   }
   report.resident_bytes_late = resident_bytes();
+  report.memory_slope_bytes = memory.slope();
+  report.median_us = times.percentile(0.5);
+  report.p999_us = times.percentile(0.999);
+  report.worst_us = times.worst();
+  report.steps_of_sound = static_cast<std::int64_t>(microphone.recorded_s() / kStepSeconds);
   report.gaps = microphone.gaps();
   report.rate_changes = microphone.rate_changes();
   return report;

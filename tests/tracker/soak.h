@@ -26,8 +26,20 @@ struct SoakReport {
   double mean_error_ms = 0.0;
   double largest_error_ms = 0.0;
   std::int64_t frames_with_face = 0;
-  std::size_t resident_bytes_early = 0;  // of the process, after a tenth of the time
+  std::int64_t steps_of_sound = 0;  // of AudioNet's 16 ms
+  // Results in which a number is not finite or out of its range.
+  std::int64_t insane_results = 0;
+  // Each face that comes back is the next one: these are equal.
+  std::uint32_t faces_found = 0;
+  std::uint32_t last_face_id = 0;
+  // From a tenth of the time on. Of the process:
+  std::size_t resident_bytes_early = 0;  // where that begins
   std::size_t resident_bytes_late = 0;   // at the end
+  double memory_slope_bytes = 0.0;       // an hour of picture and sound, by least squares
+  // Processor time of pushing an image, us.
+  double median_us = 0.0;
+  double p999_us = 0.0;
+  double worst_us = 0.0;
 };
 
 // Bursts during which, or within a second before which, sound was lost or the rate changed are not

@@ -189,6 +189,38 @@ TEST(Voice, IsMixedByTheFormula) {
   }
 }
 
+TEST(Voice, IsAsStrongAsOneWants) {
+  const auto with_strength = [](float strength) {
+    return [=](mien_tracker_config& config) {
+      config.voice_strength = strength;
+      config.smoothing = 0;
+    };
+  };
+  BlobTracker plain({}, with_strength(1.0f)), half({}, with_strength(0.5f)),
+      most({}, with_strength(4.0f));
+  const Sound sound = Sound().add(1.5, 0.01f);
+  Result as_heard, halved, stretched;
+  for (BlobTracker* blob : {&plain, &half, &most}) {
+    ASSERT_EQ(blob->tracker().push_audio(sound.all(), 0), MIEN_OK);
+  }
+  for (int frame = 0; frame < 40; ++frame) {
+    as_heard = plain.advance();
+    halved = half.advance();
+    stretched = most.advance();
+  }
+  const float jaw = as_heard.controls[kJawOpen], alpha = as_heard.voice_activity;
+  ASSERT_GT(jaw, 0.03f);
+  EXPECT_NEAR(halved.controls[kJawOpen], 0.5f * jaw, 1e-3f);
+  EXPECT_NEAR(stretched.controls[kJawOpen], std::min(4.0f * jaw, alpha), 1e-3f);
+  const AlignedBytes basenet = blob_basenet(), proposal = blob_proposal();
+  Config config = blob_config(basenet, proposal);
+  for (const float refused : {-0.1f, 4.1f, std::nanf("")}) {
+    config.voice_strength = refused;
+    Tracker tracker;
+    EXPECT_EQ(tracker.create(config), MIEN_ERROR_OUT_OF_RANGE) << refused;
+  }
+}
+
 TEST(Voice, WeightsCanBeSet) {
   BlobTracker blob = unfiltered(), seen = unfiltered();
   ASSERT_EQ(blob.tracker().set_mix(static_cast<int>(kJawOpen), 0.0f, 1.0f), MIEN_OK);
@@ -311,7 +343,7 @@ TEST(Voice, ACameraThatGivesNothingLosesTheFaceNotTheVoice) {
   }
   EXPECT_EQ(blob.result().status, MIEN_FACE_LOST);
   EXPECT_GT(blob.result().controls[kJawOpen], 0.9f);
-  EXPECT_EQ(blob.push(disc()).status, MIEN_FACE_TRACKING);
+  EXPECT_EQ(blob.push_until_found(disc()).status, MIEN_FACE_TRACKING);
 }
 
 // Of a voice alone, frame by frame, the sound in blocks that `next_size` names.

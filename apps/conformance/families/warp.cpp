@@ -58,6 +58,7 @@ struct TestPlane {
 struct Picture {
   PixelFormat format;
   bool full_range;
+  bool bt709;
   int width, height;
   std::array<TestPlane, 3> planes;
 };
@@ -126,10 +127,12 @@ Colour yuv_colour(const Picture& picture, const Transform& transform, Coordinate
   const Approx luma = luma_of(picture, transform, x, y);
   const Approx u = bilinear(picture.planes[1], 0, x, y, 2, transform.chroma_box);
   const Approx v = bilinear(picture.planes[2], 0, x, y, 2, transform.chroma_box);
-  constexpr double kMatrix[3][2] = {{0.0, 1.402}, {-0.344136, -0.714136}, {1.772, 0.0}};
+  constexpr double kSd[3][2] = {{0.0, 1.402}, {-0.344136, -0.714136}, {1.772, 0.0}};
+  constexpr double kHd[3][2] = {{0.0, 1.5748}, {-0.187324, -0.468124}, {1.8556, 0.0}};
+  const auto& matrix = picture.bt709 ? kHd : kSd;
   Colour colour;
   for (int c = 0; c < 3; ++c) {
-    const double of_u = kMatrix[c][0] * gain, of_v = kMatrix[c][1] * gain;
+    const double of_u = matrix[c][0] * gain, of_v = matrix[c][1] * gain;
     colour.channel[c] = clamped(luma.value + of_u * (u.value - 128) + of_v * (v.value - 128),
                                 luma.error + std::abs(of_u) * u.error + std::abs(of_v) * v.error);
   }
@@ -195,6 +198,7 @@ Case make(const Picture& picture, const Transform& transform) {
       args.plane[i] = picture.planes[i].at(places.bytes(i));
     }
     args.full_range = picture.full_range;
+    args.yuv_matrix = picture.bt709 ? kernels::kBt709 : kernels::kBt601;
     args.image_width = picture.width;
     args.image_height = picture.height;
     std::copy(std::begin(transform.matrix), std::end(transform.matrix), args.matrix);
@@ -227,7 +231,7 @@ int bytes_per_pixel(PixelFormat format) {
 Picture random_picture(RandomValues& random, PixelFormat format, int width, int height) {
   const int pixel = bytes_per_pixel(format);
   const bool flipped = random.coin();
-  Picture picture{format, random.coin(), width, height, {}};
+  Picture picture{format, random.coin(), random.coin(), width, height, {}};
   // The last pixel's fourth byte, which nobody needs, is not there.
   picture.planes[0] = TestPlane(random, width, height, pixel, std::min(pixel, 3), flipped);
   if (format == PixelFormat::kYuv420) {

@@ -6,10 +6,11 @@
 #include <numeric>
 #include <vector>
 
+#include "apps/mien/compare/differences_json.h"
 #include "apps/mien/compare/page.h"
-#include "apps/mien/compare/web_video.h"
-#include "apps/mien/failure.h"
-#include "apps/mien/output_file.h"
+#include "apps/mien/outputs/output_file.h"
+#include "apps/mien/pages/web_video.h"
+#include "apps/mien/system/failure.h"
 
 namespace mien::app {
 namespace {
@@ -108,13 +109,19 @@ void compare(const CompareOptions& options) {
   Comparison comparison = compare_files(options);
   OutputFile file(options.page);  // before the work that would be lost on a page that cannot be
   if (!options.video.empty()) {
-    comparison.video = web_video(options.video, comparison.start_ms * 1e-3,
-                                 (comparison.end_ms - comparison.start_ms) * 1e-3,
+    comparison.video = web_video({.picture = options.video,
+                                  .sound = options.video,
+                                  .start_s = comparison.start_ms * 1e-3,
+                                  .duration_s = (comparison.end_ms - comparison.start_ms) * 1e-3},
                                  partial_name(options.page + ".mp4"));
   }
   file.write(compare_page(comparison));
   file.finish();
-  if (!options.quiet) {
+  if (options.json) {
+    std::printf("%s\n", summary_json(comparison)
+                            .dump(1, ' ', false, nlohmann::json::error_handler_t::replace)
+                            .c_str());
+  } else if (!options.quiet) {
     print_summary(comparison);
   }
 }

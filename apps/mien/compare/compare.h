@@ -9,6 +9,7 @@ struct CompareOptions {
   std::string a, b;
   std::string video;  // empty: none
   std::string page;
+  bool json = false;  // the summary
   bool quiet = false;
 };
 

@@ -1,6 +1,7 @@
 // Curves and statistics, shown once the vote is over.
 
-const fileColors = {a: '#c2561a', b: '#1f6fb2'};
+// As the style has them, in the light or in the dark.
+const styleColor = name => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`);
 const degrees = radians => radians === null ? null : radians * 180 / Math.PI;
 
 // What can be charted: a name, the values of both files, and the range of the axis.
@@ -38,7 +39,7 @@ class Chart {
     canvas.height = canvas.clientHeight * devicePixelRatio;
     const ctx = canvas.getContext('2d');
     this.drawGrid(ctx);
-    for (const key of ['a', 'b']) this.drawCurve(ctx, data[key], fileColors[key]);
+    for (const key of ['a', 'b']) this.drawCurve(ctx, data[key], styleColor(key));
   }
 
   height(value) {
@@ -50,9 +51,9 @@ class Chart {
     const {low, high} = this.of;
     ctx.font = `${11 * devicePixelRatio}px system-ui, sans-serif`;
     for (const value of [low, (low + high) / 2, high]) {
-      ctx.fillStyle = '#e1e7ec';
+      ctx.fillStyle = styleColor('line');
       ctx.fillRect(0, this.height(value), this.canvas.width, 1);
-      ctx.fillStyle = '#7b8894';
+      ctx.fillStyle = styleColor('faint');
       ctx.textBaseline = value === high ? 'top' : 'bottom';
       ctx.fillText(high === 1 ? value : `${value.toFixed(0)}°`, 4 * devicePixelRatio, this.height(value));
     }

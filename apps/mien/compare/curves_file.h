@@ -1,4 +1,4 @@
-// Curves as `mien track` writes them, read back; docs/cli.md describes the columns.
+// What two files are compared by, whatever their format.
 #pragma once
 
 #include <mien/mien.h>
@@ -23,9 +23,8 @@ struct CurvesFrame {
 
 using Curves = std::vector<CurvesFrame>;
 
-// At least one frame, times that do not go back. Columns are found by their names, in any order;
-// others are passed over. Throws Failure(kExitNoInput) naming row and column; rows count from 1,
-// the header. `name` is what the message calls the file.
+// At least one frame, times that do not go back. Throws Failure(kExitNoInput) naming line and
+// column. `name` is what the message calls the file.
 Curves parse_curves(std::string_view text, const std::string& name);
 
 // Throws Failure(kExitNoInput).

@@ -1,7 +1,4 @@
-'use strict';
-// What the program put into the page, and how to look things up in it.
-
-const data = JSON.parse(document.getElementById('data').textContent);
+// How to look things up in what the program put into the page.
 
 // Index of the last frame that has begun by `t_ms`; -1 before the first.
 function frameIndex(file, t_ms) {

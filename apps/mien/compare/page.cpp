@@ -3,9 +3,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "apps/mien/compare/base64.h"
-#include "apps/mien/compare/page_source.h"
-#include "apps/mien/failure.h"
+#include "apps/mien/compare/differences_json.h"
+#include "apps/mien/pages/page_sources.h"
+#include "apps/mien/pages/page_text.h"
+#include "formats/animation/base64.h"
 
 namespace mien::app {
 namespace {
@@ -55,40 +56,6 @@ ordered_json file_json(const ComparedFile& file) {
   return json;
 }
 
-ordered_json difference_json(const Difference& d) {
-  return {{"frames", d.frames},
-          {"mean_abs", d.mean_abs},
-          {"max_abs", d.max_abs.value},
-          {"max_at_ms", d.max_abs.t_ms},
-          {"correlation", d.correlation ? ordered_json(*d.correlation) : ordered_json(nullptr)},
-          {"mean_a", d.mean_a},
-          {"mean_b", d.mean_b},
-          {"jitter_a", d.jitter_a},
-          {"jitter_b", d.jitter_b}};
-}
-
-ordered_json angle_difference_json(const AngleDifference& d) {
-  return {{"mean_abs_deg", d.mean_abs_deg},
-          {"max_abs_deg", d.max_abs_deg.value},
-          {"max_at_ms", d.max_abs_deg.t_ms}};
-}
-
-ordered_json differences_json(const Differences& d) {
-  ordered_json json;
-  json["matched_frames"] = d.matched_frames;
-  json["all"] = difference_json(d.all);
-  json["controls"] = ordered_json::array();
-  for (const Difference& control : d.controls) {
-    json["controls"].push_back(difference_json(control));
-  }
-  json["head"] = {{"frames", d.head.frames},
-                  {"pitch", angle_difference_json(d.head.pitch)},
-                  {"yaw", angle_difference_json(d.head.yaw)},
-                  {"roll", angle_difference_json(d.head.roll)},
-                  {"rotation", angle_difference_json(d.head.rotation)}};
-  return json;
-}
-
 ordered_json page_json(const Comparison& comparison) {
   ordered_json json;
   json["controls"] = ordered_json::array();
@@ -103,34 +70,11 @@ ordered_json page_json(const Comparison& comparison) {
   return json;
 }
 
-// JSON that can stand in a script element: outside strings it has no '<', and in a string the
-// escape means the same, so nothing in a file's name can end the element.
-std::string script_text(const ordered_json& json) {
-  const std::string text = json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
-  std::string safe;
-  safe.reserve(text.size());
-  for (const char c : text) {
-    c == '<' ? safe += "\\u003c" : safe += c;
-  }
-  return safe;
-}
-
-void insert(std::string& page, const std::string& mark, const std::string& text) {
-  const std::size_t at = page.find(mark);
-  if (at == std::string::npos) {
-    throw Failure(kExitInternal, "the page has no " + mark);
-  }
-  page.replace(at, mark.size(), text);
-}
-
 }  // namespace
 
 std::string compare_page(const Comparison& comparison) {
-  std::string page = kPageSource;
-  // The video first: it cannot contain the other mark, the names of files could contain its.
-  insert(page, "@VIDEO@", base64(comparison.video));
-  insert(page, "@DATA@", script_text(page_json(comparison)));
-  return page;
+  return filled(kComparePage, {{"@DATA@", script_text(page_json(comparison))},
+                               {"@VIDEO@", formats::base64(comparison.video)}});
 }
 
 }  // namespace mien::app

@@ -27,3 +27,14 @@ const player = new Player(t_ms => {
   showFaces(t_ms);
   results.show(t_ms);
 });
+
+// The embedded video, where there is one.
+async function openVideo() {
+  const bytes = await packedBytes('video-data');
+  if (!bytes) return;
+  const video = document.getElementById('video');
+  video.src = URL.createObjectURL(new Blob([bytes], {type: 'video/mp4'}));
+  document.getElementById('video-figure').hidden = false;
+  player.follow(video);
+}
+openVideo();

@@ -5,11 +5,13 @@ only; they are called <skin of the pack>+<portrait> and go over to that skin whe
 """
 import functools
 import json
+import re
 
 import numpy as np
 from PIL import Image
 
 from paths import cache, data
+import portrait_labels
 
 HELD_OUT = {
     "skins": {"old_light_male", "old_light_female2", "mid_dark_male", "mid_light_female2", "young_light_female3"},
@@ -29,8 +31,12 @@ def skin_table():
 
 @functools.lru_cache
 def portrait_skins():
-    """Names; none where portrait_skins.py has not been run."""
-    return sorted(p.stem for p in (cache() / "portrait_skins").glob("*+*.jpg"))
+    """Names by the group of their portraits; none where portrait_skins.py has not been run."""
+    found = sorted(p.stem for p in (cache() / "portrait_skins").glob("*+*.jpg"))
+    groups, out = portrait_labels.of_names(name.partition("+")[2] + ".jpg" for name in found).group, {}
+    for name, group in zip(found, groups):
+        out.setdefault(re.sub("^GRID.*", "GRID", group), []).append(name)
+    return out
 
 
 def skin_file(name, tile):

@@ -12,12 +12,17 @@ DARK, GREY = slice(0, 3), slice(6, 8)
 IDENTITY_SPREAD = 0.75  # standard deviation of identity coefficients
 LIGHT_SKIN, DARK_SKIN = np.array([0.55, 0.30, 0.21]), np.array([0.14, 0.06, 0.035])  # linear
 PHOTOGRAPHED = 0.65  # share of training faces with the skin of a portrait
+GROUP_SHARE = {"members of Congress": 1.5, "sfhq": 1.5, "cc0": 0.5, "GRID": 0.2}  # of their skins among these; 1 of the others
+# Mean log lightness on top of the pack's skin that a portrait's goes over to: that one is pale or dark, people are everything between.
+GROUP_LIGHTNESS = {"Indian": -0.5, "Southeast Asian": -0.35, "Latino Hispanic": -0.3, "Middle Eastern": -0.2, "East Asian": -0.05}
+DARK_HAIRED = ("Indian", "Southeast Asian", "East Asian", "Middle Eastern", "Black", "Latino Hispanic")
 EYE_HIDING = ("bob01", "bob02", "short03")  # their fringe covers one eye
 
 
 @dataclass
 class Look:
     identity: np.ndarray                 # f32 [100]
+    group: str = ""                      # of the portrait whose skin this is
     skins: tuple = ()                    # two names of skins
     skin_mix: float = 0.0                # share of the second
     tone: np.ndarray = None              # gain of linear red, green, blue [3]
@@ -53,23 +58,27 @@ def sample_skin(look, rng, split):
     choice = names("skins", split)
     plain = [n for n in choice if "suit" not in n]
     if split == "train" and portrait_skins() and rng.random() < PHOTOGRAPHED:
-        choice = portrait_skins()
+        groups = list(portrait_skins())
+        share = np.array([GROUP_SHARE.get(group, 1.0) for group in groups])
+        look.group = str(rng.choice(groups, p=share / share.sum()))
+        choice = portrait_skins()[look.group]
     first = choice[rng.integers(len(choice))]
     look.skins = (first, plain[rng.integers(len(plain))])
     look.skin_mix = 0.0 if "suit" in first or "+" in first or rng.random() < 0.4 else rng.uniform(0.15, 0.85)
-    lightness = np.exp(rng.normal(0.15 if "dark" in first else 0, 0.25))
+    usual = 0.15 if "dark" in first else GROUP_LIGHTNESS.get(look.group, 0.0)
+    lightness = np.exp(rng.normal(usual, 0.25))
     look.tone = lightness * np.exp(rng.normal(0, 0.05, 3) + rng.normal(0, 0.05) * np.array([1, 0, -1]))
     look.contrast, look.saturation = rng.uniform(0.85, 1.2), rng.uniform(0.6, 1.2)
     look.shine = rng.uniform(0.02, 0.35)
 
 
-def sample_hair_colour(rng, skin):
+def sample_hair_colour(rng, skin, group):
     if rng.random() < 0.05:
         return rng.uniform(0.05, 0.8, 3)
     pool = HAIR_COLOURS
     if "old" in skin and rng.random() < 0.7:
         pool = HAIR_COLOURS[GREY]
-    elif "dark" in skin and rng.random() < 0.85:
+    elif ("dark" in skin or group in DARK_HAIRED) and rng.random() < 0.85:
         pool = HAIR_COLOURS[DARK]
     return np.clip(pool[rng.integers(len(pool))] * np.exp(rng.normal(0, 0.15)) + rng.normal(0, 0.015, 3), 0.02, 0.9)
 
@@ -99,7 +108,7 @@ def sample_face_hair(look, rng):
 
 def sample_eyes(look, rng):
     irises = names("irises")
-    if "dark" in look.skins[0] and rng.random() < 0.9:
+    if ("dark" in look.skins[0] or look.group in DARK_HAIRED) and rng.random() < 0.9:
         irises = [n for n in irises if "brown" in n or "hazel" in n]
     look.iris = rng.choice(irises)
     look.iris_gain = rng.uniform(0.6, 1.3) * np.exp(rng.normal(0, 0.05, 3))
@@ -120,7 +129,7 @@ def sample(rng, split):
     """A random Look from the assets of split 'train', 'val' or 'test'."""
     look = Look(identity=np.float32(np.clip(rng.standard_normal(100), -2, 2) * IDENTITY_SPREAD))
     sample_skin(look, rng, split)
-    look.hair_colour = sample_hair_colour(rng, look.skins[0])
+    look.hair_colour = sample_hair_colour(rng, look.skins[0], look.group)
     sample_face_hair(look, rng)
     sample_eyes(look, rng)
     sample_hair(look, rng, split)

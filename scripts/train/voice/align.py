@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Labels with times for real speech, by a network of phase 1: forced alignment of transcripts, or of what transcribe.py heard. What it
-cannot place is left out.
+cannot place is left out. Of the animated voice, whose words nobody wrote down, what the network hears.
 
-usage: python3 -m voice.align CHECKPOINT [--groups librispeech_text av librispeech commands]      (in scripts/train)
+usage: python3 -m voice.align CHECKPOINT [--groups librispeech_text av people animated librispeech commands]      (in scripts/train)
 """
 import argparse
 from pathlib import Path
@@ -19,8 +19,8 @@ LETTERS = {"a": "ay", "z": "zed"}  # GRID's readers are British, and say A by it
 
 def words_of(group, name, text):
     """Phonemes of each word that is said; none if nobody knows."""
-    if group == "av":
-        return [sum(espeak.words_to_phonemes(LETTERS.get(word, word)), ()) for word, _, _ in corpus.words_of_clip(name)]
+    if group in corpus.SENTENCES:
+        return [sum(espeak.words_to_phonemes(LETTERS.get(word, word)), ()) for word, _, _ in corpus.words_of_clip(group, name)]
     return espeak.words_to_phonemes(text[name]) if text.get(name) else []
 
 
@@ -53,7 +53,7 @@ def viterbi(scores, states, optional):
     at = count - 1 if best[-1] >= best[-2] else count - 2
     path = [at]
     for t in range(len(scores) - 1, 0, -1):
-        at -= moves[t, at]
+        at -= int(moves[t, at])
         path.append(at)
     return np.array(path[::-1])
 
@@ -64,9 +64,14 @@ def timed(scores, words, seconds):
     if len(states) > len(scores):
         return None
     path = viterbi(scores, states, optional)
+    return spoken_of(path, states[path], seconds)
+
+
+def spoken_of(path, said, seconds):
+    """Spoken, of the phoneme of every step; a new one begins where the path goes on."""
     changes = np.flatnonzero(np.diff(path, prepend=-1))
     starts = np.maximum((changes - 2) * STEP, 0)  # a step speaks of the middle of its windows
-    return labels.Spoken([int(states[path[c]]) for c in changes], [float(t) for t in starts], seconds)
+    return labels.Spoken([int(said[c]) for c in changes], [float(t) for t in starts], seconds)
 
 
 @torch.no_grad()
@@ -80,6 +85,9 @@ def align(group_name, network, heads):
         frame = heads(embedding)[1]
         words = words_of(group_name, sound.name, text)
         spoken = timed(torch.log_softmax(frame[0], -1).numpy(), words, sound.length / RATE) if words else None
+        if group_name == "animated":
+            heard = frame[0].argmax(-1).numpy()
+            spoken = spoken_of(heard, heard, sound.length / RATE)
         if spoken:
             out[sound.name] = spoken
     return out
@@ -88,7 +96,7 @@ def align(group_name, network, heads):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("checkpoint", type=Path)
-    parser.add_argument("--groups", nargs="+", default=["librispeech_text", "av", "librispeech", "commands"])
+    parser.add_argument("--groups", nargs="+", default=["librispeech_text", "av", "people", "animated", "librispeech", "commands"])
     args = parser.parse_args()
     torch.set_num_threads(1)
     network, heads = load(args.checkpoint)

@@ -6,7 +6,7 @@ import torch
 import torch.nn.functional as F
 from torch import nn
 
-from lstm_layer import Lstm
+from native_layers.lstm_layer import Lstm
 from networks import LEAK
 from voice.features import FEATURES
 from voice.phonemes import NAMES

@@ -4,6 +4,7 @@
 usage: python3 -m voice.corpus      (in scripts/train)
 Who is held out is decided by hashes of names: speakers where they are known, else files; of the noises whole classes besides.
 """
+import functools
 import hashlib
 import json
 import subprocess
@@ -17,8 +18,11 @@ from voice.features import RATE
 
 TEST_READER = "26"  # of librispeech_text's three; one man and one woman remain to learn from
 TEST_NOISES = ("Helicopter", "Rooster", "dude_miaowing")  # one class that hums, two that have a voice
+VAL_SPEAKER = "s5"  # of GRID's; a clip of the evaluation is of the same person
+TEST_TAKE, VAL_TAKE = "1114_3_16", "1114_3_15"  # of the animated voice; the shortest
 FOLDERS = {"librispeech": "speech/librispeech", "librispeech_text": "speech/librispeech_text", "commands": "speech/commands",
-           "av": "av/audio", "noise": "noise", "rooms": "impulse_responses"}
+           "av": "av/audio", "people": "av/people/audio", "animated": "av/animated/audio", "noise": "noise", "rooms": "impulse_responses"}
+SENTENCES = {"av": "av/align", "people": "av/people/align"}  # GRID's words with their times
 
 
 @dataclass
@@ -43,7 +47,12 @@ def share(name):
 
 def split_of(group, name):
     """(speaker, split): about 10 % test, 5 % val."""
-    speaker = {"librispeech": name.split("-")[0], "librispeech_text": name.split("-")[0], "av": "s1"}.get(group, name)
+    speaker = {"librispeech": name.split("-")[0], "librispeech_text": name.split("-")[0], "av": "s1", "animated": "animated",
+               "people": people().get(name)}.get(group, name)
+    if group == "people":
+        return speaker, "val" if speaker == VAL_SPEAKER else "train"
+    if group == "animated":
+        return speaker, {TEST_TAKE: "test", VAL_TAKE: "val"}.get(name, "train")
     if group == "noise":  # ESC-10 names recordings CLASS_FOLD-RECORDING-TAKE: takes of one recording stay together
         speaker = name.rsplit("-", 1)[0]
         if any(kind in name for kind in TEST_NOISES):
@@ -55,6 +64,13 @@ def split_of(group, name):
     if group == "librispeech_text":
         return speaker, "val" if part < 0.08 else "train"
     return speaker, "test" if part < 0.1 else "val" if part < 0.15 else "train"
+
+
+@functools.lru_cache(None)
+def people():
+    """{clip of av/people: who speaks}"""
+    d = np.load(data() / "av/people/curves.npz", allow_pickle=True)
+    return dict(zip(map(str, d["clip"]), map(str, d["speaker"])))
 
 
 def decode(path, *options):
@@ -108,9 +124,9 @@ def heard(group):
     return json.loads(heard_path(group).read_text()) if heard_path(group).exists() else {}
 
 
-def words_of_clip(clip):
+def words_of_clip(group, clip):
     """(word, from, to) in seconds, of an align file of GRID."""
-    rows = [line.split() for line in (data() / f"av/align/{clip}.align").read_text().splitlines()]
+    rows = [line.split() for line in (data() / SENTENCES[group] / f"{clip}.align").read_text().splitlines()]
     return [(word, int(a) / 25000, int(b) / 25000) for a, b, word in rows if word not in ("sil", "sp")]
 
 

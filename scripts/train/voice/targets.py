@@ -4,9 +4,13 @@ import functools
 import numpy as np
 
 from voice import activity, corpus, phonemes, teacher, visemes
+from voice.audio_net import SPEECH_CONTROLS
 from voice.features import seconds_of_steps
 
-TRUST = {"synthetic": 1.0, "av": 0.5}  # of visemes, by how sure the phonemes are; 0.3 for all other speech
+TRUST = {"synthetic": 1.0, "av": 0.5, "people": 0.5, "animated": 0.0}  # of visemes, by how sure the phonemes are; else OTHERS
+OTHERS = 0.3
+LIPS = [SPEECH_CONTROLS.index(name) for name in ("jawOpen", "mouthClose")]
+MEET = 4.0  # lips that do not meet for p, b and m are what one sees first
 TIMED = ("synthetic", "av")
 
 
@@ -33,16 +37,19 @@ def of_scene(scene, steps):
     """(controls [t,18], weights [t,18], speech [t]) of a scene."""
     times = seconds_of_steps(steps)
     speech = np.zeros(steps, bool)
-    controls = visemes.curves(scene.spoken(), times)
+    spoken = scene.spoken()
+    controls = visemes.curves(spoken, times)
     weights = np.ones_like(controls)
+    closed = np.isin(spoken.at(times), list(phonemes.BILABIALS))
     for part in scene.parts:
         recorded, inside = part.recorded_at(times)
         speech |= inside & spoken_during(part, times, recorded)
-        weights[inside] = TRUST.get(part.group, 0.3)
-        curve = teacher.clips().get(part.name) if part.group == "av" else None
+        weights[inside] = TRUST.get(part.group, OTHERS)
+        curve = teacher.curves(part.group).get(part.name)
         if curve is not None:
-            followed = teacher.mask() > 0
-            rows = np.ix_(inside, followed)
-            controls[rows] = np.clip(teacher.at(curve, recorded), 0, 1)[rows]
+            rows = np.ix_(inside, curve.known)
+            controls[rows] = curve.at(recorded)[rows]
             weights[rows] = 1
+            closed = closed & ~(inside & curve.known[LIPS[0]])
+    weights[np.ix_(closed, LIPS)] *= MEET
     return controls, weights, speech

@@ -20,7 +20,7 @@ from voice.audio_net import activity_decoder, controls_decoder
 from voice.features import features
 from voice.recognise import load
 
-SHARES = {"av": 0.45, "synthetic": 0.27, "librispeech": 0.12, "librispeech_text": 0.09, "commands": 0.07}
+SHARES = {"av": 0.26, "people": 0.2, "animated": 0.14, "synthetic": 0.2, "librispeech": 0.08, "librispeech_text": 0.07, "commands": 0.05}
 NOISE_ALONE = 0.25
 
 
@@ -60,12 +60,13 @@ class Pool:
 
 
 def train(network, decoders, args):
+    """The decoders that args.learn names; the others stay as they are."""
     rng = np.random.default_rng(args.seed)
     loader = torch.utils.data.DataLoader(Scenes(args.seconds, args.seed), batch_size=None, num_workers=args.workers)
     pool = Pool(network, loader, args.pool)
     pool.add(args.batch * 4)
     importance = losses.importance_of(torch.stack([r[1] for r in pool.rows]))
-    parameters = [p for d in decoders.values() for p in d.parameters()]
+    parameters = [p for name in args.learn for p in decoders[name].parameters()]
     optimizer = torch.optim.AdamW(parameters, args.rate, weight_decay=0.01)
     began = shown = time.time()
     step, sums, count = 0, np.zeros(2), 0
@@ -73,8 +74,9 @@ def train(network, decoders, args):
         if len(pool.rows) < args.pool or step % args.reuse == 0:
             pool.add(args.fresh)
         embedding, controls, weights, speech = pool.batch(rng, args.batch)
-        parts = [losses.controls_loss(decoders["controls"](embedding)[0], controls, weights, importance),
-                 losses.activity_loss(decoders["activity"](embedding)[0], speech)]
+        answers = {name: decoders[name](embedding)[0] for name in args.learn}
+        parts = [losses.controls_loss(answers["controls"], controls, weights, importance) if "controls" in answers else torch.zeros(()),
+                 losses.activity_loss(answers["activity"], speech) if "activity" in answers else torch.zeros(())]
         optimizer.zero_grad(set_to_none=True)
         sum(parts).backward()
         nn.utils.clip_grad_norm_(parameters, 1.0)
@@ -91,6 +93,8 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("encoder", type=Path)
     parser.add_argument("--out", type=Path, required=True)
+    parser.add_argument("--learn", nargs="+", choices=("controls", "activity"), default=("controls", "activity"))
+    parser.add_argument("--start-from", type=Path, help="decoders to go on from, instead of the encoder's")
     parser.add_argument("--minutes", type=float, default=15)
     parser.add_argument("--seconds", type=float, default=6.0)
     parser.add_argument("--batch", type=int, default=24)
@@ -105,6 +109,9 @@ def main():
     network, _ = load(args.encoder)
     decoders = nn.ModuleDict({"controls": controls_decoder(), "activity": activity_decoder()})
     decoders.load_state_dict(torch.load(args.encoder, map_location="cpu")["decoders"])
+    if args.start_from:
+        for name, state in torch.load(args.start_from, map_location="cpu").items():
+            decoders[name.removesuffix("_decoder")].load_state_dict(state)
     train(network, decoders, args)
     args.out.parent.mkdir(parents=True, exist_ok=True)
     torch.save({f"{name}_decoder": d.state_dict() for name, d in decoders.items()}, args.out)

@@ -5,7 +5,7 @@ mean of all values weighted so (dominance functions: Cohen, Massaro 1993, "Model
 Lips that close or touch the teeth dominate what they need and leave the rest to their neighbours.
 
 The values are ours, after the visemes of ARKit-like rigs; jawOpen is near what the video teacher of phase 2 shows at the middle of
-each phoneme (medians over the training clips), except where lips or teeth must meet.
+each phoneme (medians over the training clips, on the scale of teacher.py), except where lips or teeth must meet.
 """
 import numpy as np
 
@@ -21,35 +21,35 @@ SHORT = {"jaw": ["jawOpen"], "forward": ["jawForward"], "close": ["mouthClose"],
 
 VISEMES = {
     "sil": {},
-    "p": dict(jaw=0.03, close=0.15, press=0.3, roll_upper=0.15, roll_lower=0.2, shrug_lower=0.1),
-    "f": dict(jaw=0.08, roll_lower=0.45, upper=0.15, shrug_lower=0.1),
-    "th": dict(jaw=0.1, tongue=0.35, lower=0.1),
-    "t": dict(jaw=0.16, lower=0.1, stretch=0.05),
-    "s": dict(jaw=0.13, forward=0.05, stretch=0.15, lower=0.15),
-    "sh": dict(jaw=0.13, forward=0.1, funnel=0.4, pucker=0.2, lower=0.1, upper=0.1),
-    "l": dict(jaw=0.17, lower=0.1),
-    "r": dict(jaw=0.11, funnel=0.25, pucker=0.2),
-    "w": dict(jaw=0.08, funnel=0.25, pucker=0.65),
-    "k": dict(jaw=0.18, lower=0.05),
-    "y": dict(jaw=0.15, stretch=0.2, lower=0.1),
-    "aa": dict(jaw=0.33, lower=0.1, upper=0.05),
-    "ae": dict(jaw=0.28, stretch=0.12, lower=0.2, upper=0.1),
-    "ah": dict(jaw=0.2, lower=0.08),
-    "ao": dict(jaw=0.24, funnel=0.35, pucker=0.15),
-    "eh": dict(jaw=0.25, stretch=0.12, lower=0.15, upper=0.05),
-    "er": dict(jaw=0.15, funnel=0.25, pucker=0.15),
-    "ih": dict(jaw=0.16, stretch=0.12, lower=0.1),
-    "iy": dict(jaw=0.17, stretch=0.28, lower=0.15),
-    "oh": dict(jaw=0.18, funnel=0.4, pucker=0.3),
-    "uh": dict(jaw=0.14, funnel=0.25, pucker=0.3),
-    "uw": dict(jaw=0.1, funnel=0.3, pucker=0.65),
+    "p": dict(jaw=0.02, close=0.45, press=0.3, roll_upper=0.15, roll_lower=0.2, shrug_lower=0.1),
+    "f": dict(jaw=0.12, roll_lower=0.45, upper=0.15, shrug_lower=0.1),
+    "th": dict(jaw=0.17, tongue=0.35, lower=0.1),
+    "t": dict(jaw=0.27, lower=0.1, stretch=0.05),
+    "s": dict(jaw=0.22, forward=0.05, stretch=0.15, lower=0.15),
+    "sh": dict(jaw=0.22, forward=0.1, funnel=0.5, pucker=0.25, lower=0.1, upper=0.1),
+    "l": dict(jaw=0.29, lower=0.1),
+    "r": dict(jaw=0.18, funnel=0.3, pucker=0.2),
+    "w": dict(jaw=0.12, funnel=0.35, pucker=0.75),
+    "k": dict(jaw=0.3, lower=0.05),
+    "y": dict(jaw=0.25, stretch=0.2, lower=0.1),
+    "aa": dict(jaw=0.6, lower=0.1, upper=0.05),
+    "ae": dict(jaw=0.5, stretch=0.12, lower=0.2, upper=0.1),
+    "ah": dict(jaw=0.36, lower=0.08),
+    "ao": dict(jaw=0.42, funnel=0.5, pucker=0.2),
+    "eh": dict(jaw=0.44, stretch=0.12, lower=0.15, upper=0.05),
+    "er": dict(jaw=0.26, funnel=0.3, pucker=0.15),
+    "ih": dict(jaw=0.28, stretch=0.12, lower=0.1),
+    "iy": dict(jaw=0.28, stretch=0.28, lower=0.15),
+    "oh": dict(jaw=0.32, funnel=0.55, pucker=0.35),
+    "uh": dict(jaw=0.25, funnel=0.35, pucker=0.4),
+    "uw": dict(jaw=0.16, funnel=0.4, pucker=0.75),
 }
 SAME = {"b": "p", "m": "p", "v": "f", "dh": "th", "d": "t", "n": "t", "z": "s", "zh": "sh", "ch": "sh", "jh": "sh", "g": "k", "ng": "k",
         "hh": "k"}
 DIPHTHONGS = {"aw": ("aa", "uh"), "ay": ("aa", "ih"), "ey": ("eh", "iy"), "ow": ("oh", "uw"), "oy": ("ao", "ih")}
 # What a viseme cannot do without: its dominance there, against 1 of a vowel and INDIFFERENT of what is left to the neighbours.
 INDIFFERENT = 0.35
-NEEDS = {"p": dict(jaw=4, close=4, press=3, roll_upper=3, roll_lower=3, funnel=0.6, pucker=0.15), "f": dict(jaw=3, roll_lower=4, upper=2),
+NEEDS = {"p": dict(jaw=6, close=6, press=3, roll_upper=3, roll_lower=3, funnel=0.6, pucker=0.15), "f": dict(jaw=3, roll_lower=4, upper=2),
          "s": dict(jaw=2, forward=1), "sh": dict(jaw=1.5, funnel=2, pucker=1, forward=1), "th": dict(tongue=3, jaw=1),
          "w": dict(pucker=3, funnel=2, jaw=1.5), "uw": dict(pucker=2, funnel=1.5), "sil": {}}
 VOWELS = set("aa ae ah ao eh er ih iy oh uh uw".split())

@@ -12,28 +12,11 @@ import numpy as np
 import torch
 
 import mien_weights
+from mien_weights import set_linear, set_lstm, split_causal
 from paths import ROOT
 from voice import losses, scenes
 from voice.audio_net import Encoder, PhonemeHeads, activity_decoder, controls_decoder
 from voice.export import SPEECH_BIAS
-
-
-def split_causal(layer, channels_in):
-    """[out, 2 * padded in] -> [out, in, 2]"""
-    return layer.weight.reshape(layer.channels, 2, -1)[..., :channels_in].permute(0, 2, 1)
-
-
-def set_lstm(lstm, layer):
-    inputs = lstm.input_size
-    lstm.weight_ih_l0.copy_(layer.weight[:, :inputs])
-    lstm.weight_hh_l0.copy_(layer.weight[:, -lstm.hidden_size:])
-    lstm.bias_ih_l0.copy_(layer.bias)
-    lstm.bias_hh_l0.zero_()
-
-
-def set_linear(linear, layer):
-    linear.weight.copy_(layer.weight[:, :linear.in_features])
-    linear.bias.copy_(layer.bias)
 
 
 def set_convolution(convolution, layer, x):

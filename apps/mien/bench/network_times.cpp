@@ -1,0 +1,41 @@
+#include "apps/mien/bench/network_times.h"
+
+#include <algorithm>
+#include <chrono>
+#include <random>
+
+namespace mien::app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kSeconds = 0.5;
+constexpr std::size_t kLeastRuns = 20;
+constexpr std::size_t kMostRuns = 5000;
+
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+}  // namespace
+
+std::vector<double> network_times_ms(NetworkRunner& runner) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<float> values(-1.0f, 1.0f);
+  for (float& value : runner.input()) {
+    value = values(random);
+  }
+  runner.run();
+  std::vector<double> times;
+  const auto begin = Clock::now();
+  while (times.size() < kLeastRuns ||
+         (times.size() < kMostRuns && seconds_since(begin) < kSeconds)) {
+    const auto run_begin = Clock::now();
+    runner.run();
+    times.push_back(seconds_since(run_begin) * 1e3);
+  }
+  std::sort(times.begin(), times.end());
+  return times;
+}
+
+}  // namespace mien::app

@@ -1,0 +1,28 @@
+#include "apps/mien/command_line/animation_options.h"
+
+#include <map>
+#include <string>
+
+namespace mien::app {
+
+CLI::Validator rotation_units() {
+  using formats::RotationUnit;
+  return CLI::CheckedTransformer(
+      std::map<std::string, RotationUnit>{{"rad", RotationUnit::kRadians},
+                                          {"norm180", RotationUnit::kDegreesBy180},
+                                          {"deg", RotationUnit::kDegrees}});
+}
+
+void add_writing_options(CLI::App& verb, formats::WriteOptions& options) {
+  verb.add_option("--llf-rot", options.live_link.rotation,
+                  "rotations of Live Link Face: rad (default), norm180 (degrees / 180) or deg")
+      ->transform(rotation_units());
+  verb.add_option("--llf-fps", options.live_link.timecode_fps,
+                  "frames in a second of its timecode; default 60")
+      ->check(CLI::Range(1.0, 100.0));
+  verb.add_option("--roblox-lod", options.roblox_level_1,
+                  "units of Roblox: 0 (all 50, default) or the 6 of its level of detail 1")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, bool>{{"0", false}, {"1", true}}));
+}
+
+}  // namespace mien::app

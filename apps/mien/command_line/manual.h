@@ -1,0 +1,15 @@
+// The manual page.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/mien/command_line/reference.h"
+
+namespace mien::app {
+
+// As troff with the macros of man(7).
+std::string manual_page(const std::vector<VerbText>& verbs, const std::string& description,
+                        const std::string& version);
+
+}  // namespace mien::app

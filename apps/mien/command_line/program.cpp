@@ -1,0 +1,45 @@
+#include "apps/mien/command_line/program.h"
+
+#include <mien/mien.h>
+
+#include <CLI/CLI.hpp>
+#include <new>
+#include <string>
+
+#include "apps/mien/command_line/reference.h"
+#include "apps/mien/command_line/verbs.h"
+#include "apps/mien/system/failure.h"
+
+namespace mien::app {
+
+int run_program(int argc, char** argv) {
+  CLI::App program("Facial animation from video and sound, in real time, on a CPU", "mien");
+  program.set_version_flag("--version", mien_version());
+  program.require_subcommand(1);
+  add_track(program);
+  add_live(program);
+  add_devices(program);
+  add_convert(program);
+  add_neutral(program);
+  add_inspect(program);
+  add_run(program);
+  add_bench(program);
+  add_compare(program);
+  add_completion(program);
+  add_manual(program);
+  finish_help(program);
+  // From here on a failure to allocate is one like all others (main.cpp).
+  program.parse_complete_callback([] { std::set_new_handler(nullptr); });
+  const std::string complaint = complaint_about({argv + 1, argv + argc}, program);
+  if (!complaint.empty()) {
+    throw Failure(kExitUsage, complaint);
+  }
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return program.exit(error) == 0 ? kExitOk : kExitUsage;
+  }
+  return kExitOk;
+}
+
+}  // namespace mien::app

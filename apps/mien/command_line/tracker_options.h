@@ -1,0 +1,28 @@
+// Options of a tracker that more than one verb has. `Options` has the members that they are read
+// to.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <map>
+#include <string>
+
+namespace mien::app {
+
+template <typename Options>
+void add_voice_strength(CLI::App& verb, Options& options) {
+  verb.add_option("--voice-strength", options.voice_strength,
+                  "what the sound says of the mouth, times this (default 1)")
+      ->check(CLI::Range(0.0, 4.0));
+}
+
+template <typename Options>
+void add_level_options(CLI::App& verb, Options& options) {
+  verb.add_option("--lod", options.lod,
+                  "level of detail: 1 (cheapest) to 4, or auto; default: the highest there is")
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, int>{{"1", 1}, {"2", 2}, {"3", 3}, {"4", 4}, {"auto", 0}}));
+  verb.add_option("--budget-ms", options.budget_ms, "of --lod auto: time per frame on average")
+      ->check(CLI::Range(0.01, 1e6));
+}
+
+}  // namespace mien::app

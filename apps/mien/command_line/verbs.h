@@ -1,0 +1,20 @@
+// The verbs of the program: each with its options, and what it calls when it is parsed.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace mien::app {
+
+void add_track(CLI::App& program);
+void add_live(CLI::App& program);
+void add_devices(CLI::App& program);
+void add_neutral(CLI::App& program);
+void add_convert(CLI::App& program);
+void add_compare(CLI::App& program);
+void add_inspect(CLI::App& program);
+void add_run(CLI::App& program);
+void add_bench(CLI::App& program);
+void add_completion(CLI::App& program);
+void add_manual(CLI::App& program);
+
+}  // namespace mien::app

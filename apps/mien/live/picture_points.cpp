@@ -1,0 +1,67 @@
+#include "apps/mien/live/picture_points.h"
+
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+namespace mien::app {
+namespace {
+
+// iBUG's 68 points among ours: "ibug68" of models/landmarks.json.
+constexpr std::array<std::size_t, 68> kIbug = {
+    169, 167, 166, 164, 163, 162, 160, 158, 157, 156, 154, 152, 151, 150, 148, 147, 145,
+    42,  43,  44,  45,  46,  51,  50,  49,  48,  47,  88,  90,  92,  93,  63,  62,  95,
+    70,  71,  0,   20,  22,  8,   5,   3,   17,  29,  27,  9,   12,  14,  99,  102, 103,
+    104, 105, 106, 109, 116, 115, 114, 113, 112, 119, 123, 124, 125, 129, 135, 134, 133};
+constexpr std::array<std::size_t, 2> kPupils = {32, 37};  // right_iris_0, left_iris_0
+
+// Of iBUG's points the one on the other side of the face.
+std::size_t partner(std::size_t point) {
+  struct Group {
+    std::size_t first, last, sum;  // partners add up to the sum
+  };
+  constexpr Group kGroups[] = {{0, 16, 16},   {17, 26, 43},  {31, 35, 66}, {36, 39, 81},
+                               {42, 45, 81},  {40, 41, 87},  {46, 47, 87}, {48, 54, 102},
+                               {55, 59, 114}, {60, 64, 124}, {65, 67, 132}};
+  for (const Group& group : kGroups) {
+    if (point >= group.first && point <= group.last) {
+      return group.sum - point;
+    }
+  }
+  return point;  // the ridge of the nose
+}
+
+formats::PicturePoint point_of(const Result& result, std::size_t landmark) {
+  return {double{result.landmarks[landmark][0]}, double{result.landmarks[landmark][1]}};
+}
+
+}  // namespace
+
+formats::OpenSeeFacePicture openseeface_picture(const Result& result, const mien_image& image) {
+  formats::OpenSeeFacePicture picture;
+  picture.width = image.width;
+  picture.height = image.height;
+  constexpr double kHalfTheView = 0.52359877559829887;  // 30 degrees
+  picture.focal_length_px = picture.width / 2 / std::tan(kHalfTheView);
+  for (std::size_t i = 0; i < kIbug.size(); ++i) {
+    picture.landmarks[i] = point_of(result, kIbug[i]);
+  }
+  for (std::size_t i = 0; i < kPupils.size(); ++i) {
+    picture.pupils[i] = point_of(result, kPupils[i]);
+  }
+  return picture;
+}
+
+formats::OpenSeeFacePicture mirrored(const formats::OpenSeeFacePicture& picture) {
+  const auto turned = [&](const formats::PicturePoint& point) {
+    return formats::PicturePoint{picture.width - point[0], point[1]};
+  };
+  formats::OpenSeeFacePicture made = picture;
+  for (std::size_t i = 0; i < picture.landmarks.size(); ++i) {
+    made.landmarks[partner(i)] = turned(picture.landmarks[i]);
+  }
+  made.pupils = {turned(picture.pupils[1]), turned(picture.pupils[0])};
+  return made;
+}
+
+}  // namespace mien::app

@@ -1,0 +1,46 @@
+// Numbers about a live run, in memory that does not grow.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <mien/mien.hpp>
+#include <string>
+#include <vector>
+
+namespace mien::app {
+
+// Of times in steps of 0.1 ms, up to 1 s.
+class Histogram {
+ public:
+  void add(std::int64_t ns);
+  // In ms, 0 of nothing. `share`: 0.5 for the median.
+  [[nodiscard]] double quantile(double share) const;
+  [[nodiscard]] std::uint64_t count() const { return count_; }
+
+ private:
+  std::array<std::uint64_t, 10001> counts_{};
+  std::uint64_t count_ = 0;
+};
+
+class LiveStatistics {
+ public:
+  // `waited_ns`: from when its picture was there until it was sent; negative where it had none.
+  void frame(const Result& result, std::int64_t now_ns, std::int64_t waited_ns);
+
+  [[nodiscard]] double frames_per_second() const { return fps_; }
+  [[nodiscard]] double stage_ms(int stage) const {
+    return stage_ms_[static_cast<std::size_t>(stage)];
+  }
+  [[nodiscard]] const Histogram& latency() const { return latency_; }
+  [[nodiscard]] std::uint64_t frames() const { return frames_; }
+  [[nodiscard]] std::uint64_t face_frames() const { return face_frames_; }
+
+ private:
+  std::uint64_t frames_ = 0, face_frames_ = 0;
+  std::int64_t last_ns_ = 0;
+  double fps_ = 0.0;  // both of about the last second
+  std::array<double, MIEN_STAGE_COUNT> stage_ms_{};
+  Histogram latency_;
+};
+
+}  // namespace mien::app

@@ -1,0 +1,69 @@
+#include "apps/mien/networks/model_files.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "apps/mien/system/failure.h"
+
+namespace mien::app {
+
+namespace fs = std::filesystem;
+
+Blob::Blob(const std::string& path, ExitCode code) {
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  if (!file) {
+    throw Failure(code, path + ": cannot be opened");
+  }
+  const std::streamoff end = file.tellg();  // of a folder, the largest number there is
+  std::error_code ignored;
+  if (end < 0 || fs::is_directory(path, ignored)) {
+    throw Failure(code, path + ": cannot be read");
+  }
+  size_ = static_cast<std::size_t>(end);
+  words_.resize((size_ + sizeof(Line) - 1) / sizeof(Line));
+  file.seekg(0);
+  if (!file.read(reinterpret_cast<char*>(words_.data()), static_cast<std::streamsize>(size_))) {
+    throw Failure(code, path + ": cannot be read");
+  }
+}
+
+std::string models_directory(const std::string& chosen) {
+  if (!chosen.empty()) {
+    return chosen;
+  }
+  if (const char* from_environment = std::getenv("MIEN_MODELS")) {
+    return from_environment;
+  }
+  std::error_code ignored;
+  const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
+  for (fs::path folder = program.parent_path(); !folder.empty(); folder = folder.parent_path()) {
+    for (const char* place : {"models", "share/mien/models"}) {
+      if (fs::exists(folder / place / "basenet.mien", ignored)) {
+        return (folder / place).string();
+      }
+    }
+    if (folder == folder.root_path()) {
+      break;
+    }
+  }
+  throw Failure(kExitModel, "no model files found; give --models DIR or set MIEN_MODELS");
+}
+
+std::vector<fs::path> weight_files(const std::string& folder) {
+  std::vector<fs::path> files;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    if (entry.path().extension() == ".mien") {
+      files.push_back(entry.path());
+    }
+  }
+  std::sort(files.begin(), files.end());
+  if (files.empty()) {
+    throw Failure(kExitModel, folder + ": no model files");
+  }
+  return files;
+}
+
+}  // namespace mien::app

@@ -1,0 +1,176 @@
+#include "apps/mien/networks/run.h"
+
+#include <mien/engine.h>
+
+#include <deque>
+
+#include "apps/mien/networks/array_shape.h"
+#include "apps/mien/networks/model_files.h"
+#include "apps/mien/networks/tiers.h"
+#include "apps/mien/outputs/output_file.h"
+#include "apps/mien/system/failure.h"
+#include "formats/npy.h"
+
+namespace mien::app {
+namespace {
+
+std::string network_names(const WeightFile& file) {
+  std::string names;
+  for (std::int32_t i = 0; i < file.network_count(); ++i) {
+    names.append(i == 0 ? "" : ", ").append(file.network(i).name);
+  }
+  return names;
+}
+
+NetworkInfo chosen_network(const WeightFile& file, const RunOptions& options) {
+  if (options.network.empty() && file.network_count() == 1) {
+    return file.network(0);
+  }
+  for (std::int32_t i = 0; i < file.network_count(); ++i) {
+    if (file.network(i).name == options.network) {
+      return file.network(i);
+    }
+  }
+  throw Failure(kExitUsage, options.model + ": choose one of its networks with --network: " +
+                                network_names(file));
+}
+
+void open_model(const Blob& blob, const std::string& path, WeightFile& file) {
+  const EngineStatus status = file.open({static_cast<const std::byte*>(blob.data()), blob.size()});
+  if (status != EngineStatus::kOk) {
+    throw Failure(
+        kExitModel,
+        path + ": " + (status == EngineStatus::kBadFile ? file.fault() : message(status)));
+  }
+}
+
+formats::NpyArray read_array(const Blob& blob, const std::string& path) {
+  formats::NpyArray array;
+  const auto status =
+      formats::read_npy({static_cast<const std::byte*>(blob.data()), blob.size()}, &array);
+  if (status != formats::NpyStatus::kOk) {
+    throw Failure(kExitNoInput, path + ": " + formats::message(status));
+  }
+  return array;
+}
+
+// Where element (y, x, c) of a map lies in an array of its shape.
+class Places {
+ public:
+  Places(const TensorShape& shape, MapLayout layout) {
+    const auto h = static_cast<std::size_t>(shape.height);
+    const auto w = static_cast<std::size_t>(shape.width);
+    const auto c = static_cast<std::size_t>(shape.channels);
+    const bool first = layout == MapLayout::kChannelsFirst;
+    channel_ = first ? h * w : 1;
+    pixel_ = first ? 1 : c;
+  }
+  // `pixel`: y * width + x.
+  [[nodiscard]] std::size_t at(std::size_t pixel, std::size_t channel) const {
+    return pixel * pixel_ + channel * channel_;
+  }
+
+ private:
+  std::size_t channel_, pixel_;
+};
+
+struct MapSize {
+  explicit MapSize(const TensorShape& shape)
+      : pixels(static_cast<std::size_t>(shape.height) * static_cast<std::size_t>(shape.width)),
+        channels(static_cast<std::size_t>(shape.channels)) {}
+  [[nodiscard]] std::size_t elems() const { return pixels * channels; }
+  // In blocks of 8 channels; include/mien/engine.h.
+  [[nodiscard]] std::size_t blocked(std::size_t pixel, std::size_t channel) const {
+    return (channel / 8 * pixels + pixel) * 8 + channel % 8;
+  }
+  std::size_t pixels, channels;
+};
+
+void set_input(const formats::NpyArray& array, std::uint64_t step, MapLayout layout,
+               NetworkRunner& runner) {
+  const TensorShape shape = runner.input_shape();
+  const MapSize size(shape);
+  const Places places(shape, layout);
+  const bool interleaved = size.channels <= 4 && size.pixels > 1;
+  const std::span<float> input = runner.input();
+  for (std::size_t p = 0; p < size.pixels; ++p) {
+    for (std::size_t c = 0; c < size.channels; ++c) {
+      input[interleaved ? p * size.channels + c : size.blocked(p, c)] =
+          array.value(step * size.elems() + places.at(p, c));
+    }
+  }
+}
+
+void write_output(const NetworkRunner& runner, std::int32_t index, MapLayout layout,
+                  OutputFile& file) {
+  const TensorShape shape = runner.output_shape(index);
+  const MapSize size(shape);
+  const Places places(shape, layout);
+  std::vector<float> values(size.elems());
+  for (std::size_t p = 0; p < size.pixels; ++p) {
+    for (std::size_t c = 0; c < size.channels; ++c) {
+      values[places.at(p, c)] = runner.output(index)[size.blocked(p, c)];
+    }
+  }
+  file.write({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float)});
+}
+
+void write_header(const std::vector<std::uint64_t>& shape, OutputFile& file) {
+  const formats::NpyHeader header = formats::npy_header(shape);
+  file.write({header.bytes, sizeof header.bytes});
+}
+
+// Every stream from the beginning: all axes but the last in front of the maps count streams, the
+// last one time.
+void run_steps(const formats::NpyArray& array, const ArrayShape& shape, MapLayout layout,
+               NetworkRunner& runner, std::deque<OutputFile>& files) {
+  for (std::uint64_t step = 0; step < shape.steps(); ++step) {
+    if (step % shape.steps_of_a_stream() == 0) {
+      runner.reset();
+    }
+    set_input(array, step, layout, runner);
+    runner.run();
+    for (std::int32_t i = 0; i < runner.output_count(); ++i) {
+      write_output(runner, i, layout, files[static_cast<std::size_t>(i)]);
+    }
+  }
+}
+
+}  // namespace
+
+void run_network(const RunOptions& options) {
+  const Blob model(options.model, kExitModel), data(options.input, kExitNoInput);
+  WeightFile file;
+  open_model(model, options.model, file);
+  const NetworkInfo network = chosen_network(file, options);
+  if (static_cast<std::size_t>(network.outputs) != options.outputs.size()) {
+    throw Failure(kExitUsage, "the network has " + std::to_string(network.outputs) +
+                                  " outputs: give --output once for each");
+  }
+  const formats::NpyArray array = read_array(data, options.input);
+  const ArrayShape shape(array.shape(), network, options.layout);
+  if (!shape.fits()) {
+    throw Failure(kExitNoInput, options.input + ": " + shape.mismatch());
+  }
+  NetworkRunner runner;
+  NetworkRunner::Options runner_options;
+  runner_options.input = shape.map();
+  if (!options.tier.empty()) {
+    runner_options.cpu_mask = cpu_mask(options.tier);
+  }
+  const EngineStatus status = runner.create(file, network.name, runner_options);
+  if (status != EngineStatus::kOk) {
+    throw Failure(kExitModel, options.model + ": " + message(status));
+  }
+  std::deque<OutputFile> files;
+  for (std::int32_t i = 0; i < runner.output_count(); ++i) {
+    files.emplace_back(options.outputs[static_cast<std::size_t>(i)]);
+    write_header(shape.output(runner.output_shape(i)), files.back());
+  }
+  run_steps(array, shape, options.layout, runner, files);
+  for (OutputFile& one : files) {
+    one.finish();
+  }
+}
+
+}  // namespace mien::app

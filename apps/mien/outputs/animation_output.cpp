@@ -1,0 +1,121 @@
+#include "apps/mien/outputs/animation_output.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "apps/mien/system/failure.h"
+
+namespace mien::app {
+namespace {
+
+using formats::AnimationFormat;
+using formats::RotationUnit;
+
+std::string format_names() {
+  std::string names;
+  for (const formats::FormatName& known : formats::kFormatNames) {
+    names.append(names.empty() ? "" : ", ").append(known.name);
+  }
+  return names;
+}
+
+AnimationFormat format_of(const std::string& file) {
+  if (const auto format = formats::format_by_ending(file)) {
+    return *format;
+  }
+  if (file.ends_with(".json")) {
+    throw Failure(kExitUsage,
+                  file + ": the ending does not say which format is meant; say --format, of " +
+                      format_names());
+  }
+  return AnimationFormat::kCsv;
+}
+
+const char* unit_name(RotationUnit unit) {
+  switch (unit) {
+    case RotationUnit::kRadians:
+      return "rad";
+    case RotationUnit::kDegreesBy180:
+      return "norm180";
+    case RotationUnit::kDegrees:
+      return "deg";
+  }
+  return "";
+}
+
+std::string live_link_notes(const formats::LiveLinkOptions& options) {
+  const nlohmann::ordered_json notes = {{"rotation", unit_name(options.rotation)},
+                                        {"timecode_fps", options.timecode_fps}};
+  return notes.dump() + "\n";
+}
+
+}  // namespace
+
+AnimationFormat format_asked_for(const std::string& name) {
+  if (const auto format = formats::format_named(name)) {
+    return *format;
+  }
+  throw Failure(kExitUsage, "'" + name + "' is no format; there are " + format_names());
+}
+
+std::vector<AnimationTarget> targets(const AnimationOptions& options) {
+  const std::vector<std::string> files =
+      options.files.empty() ? std::vector<std::string>{kStandardOutput} : options.files;
+  if (!options.formats.empty() && options.formats.size() != files.size()) {
+    throw Failure(kExitUsage, "--format has to be given once for each -o, or not at all");
+  }
+  std::vector<AnimationTarget> made;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    made.push_back({files[i], options.formats.empty() ? format_of(files[i])
+                                                      : format_asked_for(options.formats[i])});
+    for (std::size_t k = 0; k < i; ++k) {
+      if (made[k].file == files[i]) {
+        throw Failure(kExitUsage, files[i] + ": is to be written twice");
+      }
+    }
+    if (options.writing.several_faces && !formats::holds_several_faces(made.back().format)) {
+      throw Failure(kExitUsage, files[i] + ": " + std::string(formats::name(made.back().format)) +
+                                    " holds one face; follow one, or write .jsonl and convert it");
+    }
+  }
+  return made;
+}
+
+AnimationOutput::AnimationOutput(const AnimationTarget& target,
+                                 const formats::WriteOptions& options)
+    : writer_(formats::animation_writer(target.format, options)) {
+  if (target.file != kStandardOutput) {
+    file_ = std::make_unique<OutputFile>(target.file);
+    if (target.format == AnimationFormat::kLiveLink) {
+      beside_ = std::make_unique<OutputFile>(target.file + ".json");
+      beside_->write(live_link_notes(options.live_link));
+    }
+  }
+  write(writer_->begin());
+}
+
+void AnimationOutput::frame(const formats::Frame& frame) { write(writer_->frame(frame)); }
+
+void AnimationOutput::finish() {
+  write(writer_->finish());
+  if (file_) {
+    file_->finish();
+  } else {
+    write_standard_output("", wanted_);
+  }
+  if (beside_) {
+    beside_->finish();
+  }
+}
+
+void AnimationOutput::write(const std::string& text) {
+  if (file_) {
+    file_->write(text);
+  } else if (!text.empty()) {
+    write_standard_output(text, wanted_);
+  }
+}
+
+}  // namespace mien::app

@@ -1,0 +1,16 @@
+// Rows of the CSV file of landmarks; docs/cli.md describes the columns.
+#pragma once
+
+#include <cstdint>
+#include <mien/mien.hpp>
+#include <string>
+
+namespace mien::app {
+
+// Of one face, or of several: these have a column more, and a row for each face of a frame.
+enum class Faces { kOne, kSeveral };
+
+std::string landmark_header(Faces faces);
+std::string landmark_row(std::int64_t frame, Faces faces, const Result& result);
+
+}  // namespace mien::app

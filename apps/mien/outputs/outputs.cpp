@@ -1,0 +1,106 @@
+#include "apps/mien/outputs/outputs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <string>
+
+#include "apps/mien/outputs/result_frame.h"
+
+namespace mien::app {
+namespace {
+
+// Nothing is written to standard output unasked when there is a report to look at.
+bool wants_animation(const TrackOptions& options) {
+  return options.report.empty() || !options.animation.files.empty() ||
+         !options.animation.formats.empty();
+}
+
+// What a page could not read again is not shown in it.
+std::string file_or_none(const std::string& input) { return input == kStandardOutput ? "" : input; }
+
+ReportOptions report_options(const TrackOptions& options, const VideoInfo& info) {
+  return {.page = options.report,
+          .picture = info.width > 0 ? file_or_none(options.input) : "",
+          .sound = file_or_none(options.audio.empty() ? options.input : options.audio),
+          .largest_clip_bytes = options.report_clip_mb * 1e6,
+          .name = std::filesystem::path(options.input).filename().string(),
+          .width = info.width,
+          .height = info.height,
+          .writing = options.animation.writing};
+}
+
+}  // namespace
+
+Outputs::Outputs(const TrackOptions& options, const VideoInfo& info, const VideoRange& range)
+    : faces_(options.max_faces > 1 ? Faces::kSeveral : Faces::kOne),
+      sound_offset_ns_(std::llround(options.av_offset_ms * 1e6)) {
+  if (wants_animation(options)) {
+    for (const AnimationTarget& target : targets(options.animation)) {
+      animations_.emplace_back(target, options.animation.writing);
+    }
+  }
+  if (!options.landmarks.empty()) {
+    landmarks_ = std::make_unique<OutputFile>(options.landmarks);
+    landmarks_->write(landmark_header(faces_));
+  }
+  if (!options.overlay.empty()) {
+    overlay_ = std::make_unique<Overlay>(info.width, info.height);
+    const std::string sound_from = options.input == "-" ? "" : options.input;
+    encoder_ = std::make_unique<VideoEncoder>(options.overlay, overlay_->width(),
+                                              overlay_->height(), info.fps, sound_from, range);
+  }
+  if (!options.report.empty()) {
+    report_ = std::make_unique<Report>(report_options(options, info));
+  }
+}
+
+void Outputs::frame(std::int64_t number, const mien_image* image, std::span<const Result> faces) {
+  for (const Result& face : faces) {
+    const formats::Frame frame = frame_of(number, face);
+    for (AnimationOutput& animation : animations_) {
+      animation.frame(frame);
+    }
+    if (landmarks_) {
+      landmarks_->write(landmark_row(number, faces_, face));
+    }
+    if (report_) {
+      report_->frame(frame, face);
+    }
+  }
+  if (overlay_ && image != nullptr) {
+    encoder_->write(overlay_->draw(*image, faces).rgb());
+  }
+}
+
+SoundFeed::Listener Outputs::listener() {
+  if (!report_) {
+    return {};
+  }
+  return [this](const Audio& block, std::int64_t pts_ns) {
+    report_->hear(block, pts_ns + sound_offset_ns_);
+  };
+}
+
+void Outputs::finish(const StageTimes& times) {
+  if (encoder_) {
+    encoder_->finish();
+  }
+  if (landmarks_) {
+    landmarks_->finish();
+  }
+  for (AnimationOutput& animation : animations_) {
+    animation.finish();
+  }
+  if (report_) {
+    report_->finish(times);
+  }
+}
+
+bool Outputs::wanted() const {
+  return landmarks_ || encoder_ || report_ ||
+         std::any_of(animations_.begin(), animations_.end(),
+                     [](const AnimationOutput& animation) { return animation.wanted(); });
+}
+
+}  // namespace mien::app

@@ -1,0 +1,31 @@
+// Draws what was tracked beside and over the picture.
+#pragma once
+
+#include <mien/mien.hpp>
+
+#include <span>
+
+#include "apps/mien/outputs/canvas.h"
+
+namespace mien::app {
+
+class Overlay {
+ public:
+  // For frames of this size; small ones are drawn enlarged.
+  Overlay(int width, int height);
+  int width() const { return canvas_.width(); }
+  int height() const { return canvas_.height(); }
+  // All faces; the controls are those of the first.
+  const Canvas& draw(const mien_image& image, std::span<const Result> faces);
+
+ private:
+  void draw_face(const Result& result);
+  void draw_pose(const Result& result);
+  void draw_controls(const Result& result);
+
+  int scale_;
+  int panel_x_;
+  Canvas canvas_;
+};
+
+}  // namespace mien::app

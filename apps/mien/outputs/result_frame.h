@@ -1,0 +1,13 @@
+// What the tracker answers as a frame of an animation.
+#pragma once
+
+#include <cstdint>
+#include <mien/mien.hpp>
+
+#include "formats/animation/clip.h"
+
+namespace mien::app {
+
+formats::Frame frame_of(std::int64_t number, const Result& result);
+
+}  // namespace mien::app

@@ -1,0 +1,81 @@
+#include "apps/mien/outputs/video_encoder.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "apps/mien/outputs/output_file.h"
+#include "apps/mien/sources/ffmpeg.h"
+#include "apps/mien/sources/network_input.h"
+#include "apps/mien/system/failure.h"
+
+namespace mien::app {
+namespace {
+
+std::vector<std::string> encode_command(const std::string& partial_path, int width, int height,
+                                        double fps, const std::string& sound_from,
+                                        const VideoRange& range) {
+  std::vector<std::string> command = {"ffmpeg",
+                                      "-hide_banner",
+                                      "-loglevel",
+                                      "error",
+                                      "-y",
+                                      "-f",
+                                      "rawvideo",
+                                      "-pix_fmt",
+                                      "rgb24",
+                                      "-video_size",
+                                      std::to_string(width) + "x" + std::to_string(height),
+                                      "-framerate",
+                                      std::to_string(fps),
+                                      "-i",
+                                      "-"};
+  if (!sound_from.empty()) {
+    if (range.start_s > 0.0) {
+      command.insert(command.end(), {"-ss", std::to_string(range.start_s)});
+    }
+    if (range.duration_s) {
+      command.insert(command.end(), {"-t", std::to_string(*range.duration_s)});
+    }
+    const std::vector<std::string> source = input_arguments(sound_from);
+    command.insert(command.end(), source.begin(), source.end());
+    command.insert(command.end(), {"-map", "1:a:0?"});
+  }
+  // H.264 in 4:2:0 needs even sizes.
+  command.insert(command.end(), {"-map", "0:v", "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt",
+                                 "yuv420p", "-crf", "20", "-preset", "veryfast", "-movflags",
+                                 "+faststart", output_file(partial_path)});
+  return command;
+}
+
+}  // namespace
+
+VideoEncoder::VideoEncoder(const std::string& path, int width, int height, double fps,
+                           const std::string& sound_from, const VideoRange& range)
+    : path_(path),
+      partial_path_(partial_name(path)),
+      encoder_(encode_command(partial_path_, width, height, fps, sound_from, range),
+               Subprocess::Pipe::kToChild, Subprocess::kPatience) {}
+
+VideoEncoder::~VideoEncoder() { std::remove(partial_path_.c_str()); }
+
+void VideoEncoder::fail() {
+  std::string reason = encoder_.take_errors();
+  std::replace(reason.begin(), reason.end(), '\n', ' ');
+  throw Failure(kExitOutput, path_ + ": cannot be written: " + reason);
+}
+
+void VideoEncoder::write(const std::vector<unsigned char>& rgb) {
+  if (!encoder_.write(std::as_bytes(std::span(rgb)))) {
+    encoder_.finish();
+    fail();
+  }
+}
+
+void VideoEncoder::finish() {
+  if (encoder_.finish() != 0) {
+    fail();
+  }
+  publish(path_);
+}
+
+}  // namespace mien::app

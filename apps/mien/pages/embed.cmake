@@ -1,0 +1,54 @@
+# Writes a C++ source with a page put together from its parts, and says in the page which style and which script a browser may take:
+# those whose hashes it names, and no other.
+# usage: cmake -DNAME=kPage -DPAGE=page.html -DSTYLES=a.css,b.css -DSCRIPTS=a.js,b.js -DOUTPUT=page.cpp -P embed.cmake
+cmake_minimum_required(VERSION 3.22)  # old policies would expand the marks as variables
+
+# Sets `result` to the contents of files, a list with commas.
+function(read_all result files)
+  set(all "")
+  string(REPLACE "," ";" files "${files}")
+  foreach(path IN LISTS files)
+    file(READ "${path}" part)
+    string(APPEND all "${part}")
+  endforeach()
+  set(${result} "${all}" PARENT_SCOPE)
+endfunction()
+
+# Sets `result` to the text's SHA-256 as Content-Security-Policy has it, in base64.
+function(hash_of result text)
+  set(digits "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/")
+  string(SHA256 hex "${text}")
+  set(base64 "")
+  foreach(at RANGE 0 60 6)  # 3 bytes a time; of the 32 the last two are by themselves
+    string(SUBSTRING "${hex}00" ${at} 6 three_bytes)
+    foreach(shift 18 12 6 0)
+      math(EXPR digit "(0x${three_bytes} >> ${shift}) & 63")
+      string(SUBSTRING "${digits}" ${digit} 1 digit)
+      string(APPEND base64 "${digit}")
+    endforeach()
+  endforeach()
+  string(SUBSTRING "${base64}" 0 43 base64)
+  set(${result} "sha256-${base64}=" PARENT_SCOPE)
+endfunction()
+
+file(READ "${PAGE}" page)
+read_all(style "${STYLES}")
+include(${CMAKE_CURRENT_LIST_DIR}/../../web/avatar/script.cmake)
+avatar_script(avatar)
+read_all(script "${SCRIPTS}")
+set(script "'use strict';\n${avatar}${script}")
+hash_of(style_hash "${style}")
+hash_of(script_hash "${script}")
+foreach(mark style_hash script_hash style script)
+  string(TOUPPER "@${mark}@" written)
+  string(REPLACE "${written}" "${${mark}}" page "${page}")
+endforeach()
+file(WRITE "${OUTPUT}" "// Made by embed.cmake of ${PAGE}.
+#include \"apps/mien/pages/page_sources.h\"
+
+namespace mien::app {
+
+const char ${NAME}[] = R\"mien(${page})mien\";
+
+}  // namespace mien::app
+")

@@ -1,0 +1,40 @@
+#include "apps/mien/pages/page_text.h"
+
+#include <string_view>
+
+#include "apps/mien/system/failure.h"
+
+namespace mien::app {
+
+// Outside strings JSON has no '<', and in a string the escape means the same.
+std::string script_text(const nlohmann::ordered_json& json) {
+  const std::string text =
+      json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  std::string safe;
+  safe.reserve(text.size());
+  for (const char c : text) {
+    c == '<' ? safe += "\\u003c" : safe += c;
+  }
+  return safe;
+}
+
+std::string filled(const char* page, const std::vector<Insertion>& insertions) {
+  std::string_view rest = page;
+  std::size_t size = rest.size();
+  for (const Insertion& insertion : insertions) {
+    size += insertion.text.size();
+  }
+  std::string whole;
+  whole.reserve(size);
+  for (const Insertion& insertion : insertions) {
+    const std::size_t at = rest.find(insertion.mark);
+    if (at == std::string_view::npos) {
+      throw Failure(kExitInternal, "the page has no " + insertion.mark);
+    }
+    whole.append(rest.substr(0, at)).append(insertion.text);
+    rest.remove_prefix(at + insertion.mark.size());
+  }
+  return whole.append(rest);
+}
+
+}  // namespace mien::app

@@ -1,0 +1,93 @@
+#include "apps/mien/pages/web_video.h"
+
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <vector>
+
+#include "apps/mien/sources/ffmpeg.h"
+#include "apps/mien/sources/network_input.h"
+#include "apps/mien/system/failure.h"
+#include "apps/mien/system/subprocess.h"
+
+namespace mien::app {
+namespace {
+
+// H.264 in 4:2:0 needs even sizes.
+constexpr const char* kFitting =
+    "scale=w='min(640,iw)':h='min(640,ih)':"
+    "force_original_aspect_ratio=decrease:force_divisible_by=2";
+
+class ScratchFile {
+ public:
+  explicit ScratchFile(std::string path) : path_(std::move(path)) {}
+  ~ScratchFile() { std::remove(path_.c_str()); }
+  ScratchFile(const ScratchFile&) = delete;
+  ScratchFile& operator=(const ScratchFile&) = delete;
+
+  [[nodiscard]] const std::string& path() const { return path_; }
+  [[nodiscard]] std::string contents() const {
+    std::ifstream file(path_, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+
+ private:
+  std::string path_;
+};
+
+void add_input(std::vector<std::string>& command, const std::string& file, const WebVideo& wanted) {
+  if (wanted.start_s > 0.0) {
+    command.insert(command.end(), {"-ss", std::to_string(wanted.start_s)});
+  }
+  command.insert(command.end(), {"-t", std::to_string(wanted.duration_s)});
+  const std::vector<std::string> input = input_arguments(file);
+  command.insert(command.end(), input.begin(), input.end());
+}
+
+std::vector<std::string> transcode_command(const WebVideo& wanted, const std::string& output) {
+  std::vector<std::string> command = {"ffmpeg",    "-hide_banner", "-nostdin",
+                                      "-loglevel", "error",        "-xerror"};
+  const bool apart =
+      !wanted.picture.empty() && !wanted.sound.empty() && wanted.sound != wanted.picture;
+  add_input(command, wanted.picture.empty() ? wanted.sound : wanted.picture, wanted);
+  if (apart) {
+    add_input(command, wanted.sound, wanted);
+  }
+  if (!wanted.picture.empty()) {
+    command.insert(command.end(), {"-map", "0:v:0", "-vsync", "vfr", "-vf", kFitting});
+    command.insert(command.end(), {"-pix_fmt", "yuv420p"});
+    command.insert(command.end(), {"-c:v", "libx264", "-preset", "veryfast", "-crf", "26"});
+    command.insert(command.end(), {"-maxrate", "1500k", "-bufsize", "3000k"});
+    // Without frames that refer ahead the first frame is at time 0 in every player.
+    command.insert(command.end(), {"-bf", "0", "-force_key_frames", "expr:gte(t,n_forced)"});
+  }
+  if (!wanted.sound.empty()) {
+    command.insert(command.end(), {"-map", apart ? "1:a:0?" : "0:a:0?"});
+  }
+  command.insert(command.end(), {"-c:a", "aac", "-ac", "1", "-b:a", "64k"});
+  command.insert(command.end(), {"-movflags", "+faststart", "-y", output_file(output)});
+  return command;
+}
+
+}  // namespace
+
+std::string web_video(const WebVideo& wanted, const std::string& scratch) {
+  const std::string& name = wanted.picture.empty() ? wanted.sound : wanted.picture;
+  if (!wanted.picture.empty()) {
+    probe_video(wanted.picture);
+  }
+  const ScratchFile made(scratch);
+  Subprocess transcoder(transcode_command(wanted, made.path()), Subprocess::Pipe::kFromChild);
+  transcoder.read_all();
+  if (transcoder.finish() != 0) {
+    throw Failure(kExitTruncated,
+                  name + ": cannot be transcoded: " + last_line(transcoder.take_errors()));
+  }
+  std::string video = made.contents();
+  if (video.empty()) {
+    throw Failure(kExitNoVideo, name + ": no frame in the time of the curves");
+  }
+  return video;
+}
+
+}  // namespace mien::app

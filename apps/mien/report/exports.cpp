@@ -1,0 +1,40 @@
+#include "apps/mien/report/exports.h"
+
+#include "apps/mien/pages/packed_text.h"
+
+namespace mien::app {
+namespace {
+
+PackedText written(const std::vector<formats::Frame>& frames, formats::AnimationFormat format,
+                   const formats::WriteOptions& writing) {
+  const auto writer = formats::animation_writer(format, writing);
+  PackedText text;
+  text.write(writer->begin());
+  for (const formats::Frame& frame : frames) {
+    text.write(writer->frame(frame));
+  }
+  text.write(writer->finish());
+  return text;
+}
+
+}  // namespace
+
+std::string block(const std::string& id, const std::string& base64) {
+  return "<script type=\"text/plain\" id=\"" + id + "\">" + base64 + "</script>\n";
+}
+
+Exports exports_of(const std::vector<formats::Frame>& frames, const formats::WriteOptions& writing,
+                   const std::string& stem) {
+  Exports exports;
+  for (const formats::FormatName& format : formats::kFormatNames) {
+    PackedText text = written(frames, format.format, writing);
+    exports.list.push_back({{"format", format.name},
+                            {"file", stem + std::string(format.ending)},
+                            {"holds", format.holds},
+                            {"bytes", text.bytes()}});
+    exports.blocks += block("export-" + std::string(format.name), text.finish());
+  }
+  return exports;
+}
+
+}  // namespace mien::app

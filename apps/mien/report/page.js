@@ -1,0 +1,115 @@
+// Puts the parts together: first what there is to see, then what is large.
+
+document.title = `${data.name} – mien report`;
+document.getElementById('name').textContent = data.name;
+
+const report = {};  // the parts, once they are there
+
+function showFacts(take) {
+  const {steps} = take.column('status'), faces = steps.filter(step => statusNames[step] === 'tracking').length;
+  const levels = [...new Set(take.column('lod').steps)].filter(lod => lod > 0).sort();
+  document.getElementById('facts').textContent = [
+    timeText(data.end_ms - data.start_ms), `${take.frames} frames`,
+    data.width ? `a face in ${Math.round(100 * faces / Math.max(1, take.frames))} %` : 'sound alone',
+    data.width ? `${data.width} × ${data.height}` : '', levels.length ? `level of detail ${levels.join(', ')}` : '', data.program,
+  ].filter(Boolean).join(' · ');
+}
+
+// The face of frame i; neutral before the first.
+function faceOf(take, i) {
+  const value = name => take.column(name).at(i) ?? 0;
+  return {controls: Object.fromEntries(controlNames.map(name => [name, value(name)])), pitch: value('pitch'), yaw: value('yaw'), roll: value('roll')};
+}
+
+class FaceView {
+  constructor(take) {
+    Object.assign(this, {take, canvas: document.getElementById('face'), note: document.getElementById('face-note')});
+  }
+  show(i) {
+    const status = statusNames[this.take.column('status').at(i)] ?? 'searching';
+    this.canvas.classList.toggle('absent', data.width > 0 && status !== 'tracking');
+    this.note.textContent = data.width && status !== 'tracking' ? status : 'what was tracked';
+    drawFace(this.canvas.getContext('2d'), faceOf(this.take, i));
+  }
+}
+
+// To the stretch, with a little of what lies around it.
+function goTo({start_ms, end_ms}) {
+  const {view, player} = report;
+  if (!view.whole) view.set(start_ms - (end_ms - start_ms), 3 * (end_ms - start_ms));
+  player.seek(start_ms);
+}
+
+function goToLoss(direction) {
+  const {losses, player} = report, {time_ms} = player.clock;
+  const found = direction > 0 ? losses.find(loss => loss.start_ms > time_ms + 1) : losses.findLast(loss => loss.start_ms < time_ms - 1);
+  if (found) goTo(found);
+}
+
+function connectKeys() {
+  const {view, player} = report, now = () => player.clock.time_ms;
+  const actions = {
+    '+': () => view.zoom(2, now()), '=': () => view.zoom(2, now()), '-': () => view.zoom(0.5, now()), '0': () => view.all(),
+    Home: () => player.seek(data.start_ms), End: () => player.seek(data.end_ms),
+    PageUp: () => view.pan(-view.length_ms), PageDown: () => view.pan(view.length_ms),
+    n: () => goToLoss(1), p: () => goToLoss(-1), l: () => document.getElementById('with-overlay').click(),
+  };
+  document.addEventListener('keydown', event => {
+    const action = actions[event.key.length === 1 ? event.key.toLowerCase() : event.key];
+    if (!action || event.ctrlKey || event.altKey || event.metaKey || event.target.closest?.('input, select')) return;
+    if (event.key.startsWith('Page') && view.whole) return;  // the page turns
+    action();
+    event.preventDefault();
+  });
+  for (const [id, key] of [['zoom-in', '+'], ['zoom-out', '-'], ['zoom-all', '0']]) document.getElementById(id).addEventListener('click', actions[key]);
+}
+
+class ReportPlayer extends Player {
+  step(frames) {
+    const {take} = report, i = Math.min(take.frames - 1, Math.max(0, take.frameAt(this.clock.time_ms) + frames));
+    this.seek(take.t_ms[i]);
+  }
+}
+
+function showWindow(view) {
+  document.getElementById('window').textContent = view.whole ? '' : `${timeText(view.start_ms)} – ${timeText(view.end_ms)}`;
+}
+
+async function open() {
+  const take = report.take = new Take(data.columns, await inflated('columns'));
+  const losses = report.losses = findLosses(take), view = report.view = new View(data.start_ms, data.end_ms);
+  showFacts(take);
+  showLosses(losses, take, goTo);
+  showStages();
+  showDownloads();
+  const seek = t_ms => report.player.seek(t_ms);
+  const lanes = report.lanes = new Lanes(take, view, losses, seek), overview = report.overview = new Overview(take, view, losses, seek);
+  const toggles = report.toggles = new Toggles(lanes), clip = report.clip = new Clip(take);
+  view.onChange(() => showWindow(view));
+  if (matchMedia('(max-width: 62rem)').matches) document.getElementById('toggles-box').open = false;
+  let face = null, shownTime = null, shownFrame = null;
+  const player = report.player = new ReportPlayer(t_ms => {
+    if (t_ms !== shownTime) {
+      view.keep(t_ms);
+      lanes.show(t_ms);
+      overview.show(t_ms);
+      shownTime = t_ms;
+    }
+    const i = take.frameAt(t_ms);
+    if (i === shownFrame || !face) return;
+    for (const part of [face, clip, toggles]) part.show(i);
+    shownFrame = i;
+  });
+  connectKeys();
+  lanes.draw();
+  overview.draw();
+  report.curves_ms = performance.now();
+  await new Promise(done => setTimeout(done));  // the curves are seen before the face is made
+  report.face = face = new FaceView(take);
+  player.show();
+  report.opened_ms = performance.now();
+  if (document.readyState === 'loading') await new Promise(done => document.addEventListener('DOMContentLoaded', done));
+  await clip.open(player);
+  report.whole_ms = performance.now();
+}
+open();

@@ -1,0 +1,30 @@
+// What avatars call their expressions.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "apps/mien/senders/destination.h"
+#include "formats/protocols/vmc.h"
+
+namespace mien::app {
+
+class BlendNames {
+ public:
+  // Of pascal, camel, vrm0, vrm1 as many as wanted, with commas between them. Throws Failure.
+  BlendNames(const std::string& vocabularies, const Destination& destination);
+
+  // Valid until the next call.
+  std::span<const formats::NamedValue> values(const formats::Frame& frame);
+
+ private:
+  struct Vocabulary {
+    int number = 0;                  // a mien_vocabulary
+    std::vector<std::string> names;  // as they are sent
+  };
+  std::vector<Vocabulary> vocabularies_;
+  std::vector<formats::NamedValue> values_;
+};
+
+}  // namespace mien::app

@@ -1,0 +1,120 @@
+#include "apps/mien/senders/packet_sender.h"
+
+#include <utility>
+#include <vector>
+
+#include "apps/mien/senders/blend_names.h"
+#include "apps/mien/system/udp_socket.h"
+#include "formats/animation/frames_jsonl.h"
+#include "formats/protocols/live_link.h"
+#include "formats/protocols/opentrack.h"
+#include "formats/protocols/vmc.h"
+
+namespace mien::app {
+namespace {
+
+constexpr const char* kThisMachine = "127.0.0.1";
+
+// `Packets` makes the datagrams of a frame.
+template <class Packets>
+class PacketSender : public Sender {
+ public:
+  PacketSender(const Destination& destination, std::uint16_t usual_port, Packets packets)
+      : Sender(destination.text),
+        socket_(UdpSocket::to(destination.host.empty() ? kThisMachine : destination.host,
+                              destination.port == 0 ? usual_port : destination.port,
+                              "--send " + destination.text)),
+        packets_(std::move(packets)) {}
+
+  bool send(const Outgoing& outgoing) override {
+    bool all = true;
+    for (const std::string& packet : packets_(outgoing)) {
+      all = socket_.send(packet) && all;
+    }
+    return all;
+  }
+
+ private:
+  UdpSocket socket_;
+  Packets packets_;
+};
+
+template <class Packets>
+std::unique_ptr<Sender> sender(const Destination& destination, std::uint16_t usual_port,
+                               Packets packets) {
+  destination.require_all_taken();
+  return std::make_unique<PacketSender<Packets>>(destination, usual_port, std::move(packets));
+}
+
+using Datagrams = std::vector<std::string>;
+
+formats::RotationUnit rotation_unit(const std::string& name, const Destination& destination) {
+  using formats::RotationUnit;
+  if (name == "rad" || name == "norm180" || name == "deg") {
+    return name == "rad"   ? RotationUnit::kRadians
+           : name == "deg" ? RotationUnit::kDegrees
+                           : RotationUnit::kDegreesBy180;
+  }
+  destination.fail("rot is rad, norm180 or deg, not '" + name + "'");
+}
+
+}  // namespace
+
+std::unique_ptr<Sender> vmc_sender(const Destination& asked_for) {
+  Destination destination = asked_for;
+  constexpr std::uint16_t kMarionette = 39539;
+  BlendNames names(destination.take("names", "vrm0,pascal"), destination);
+  return sender(
+      destination, kMarionette, [names = std::move(names)](const Outgoing& outgoing) mutable {
+        return formats::vmc_packets({outgoing.since_start_s,
+                                     outgoing.frame.state == formats::FaceState::kTracking,
+                                     names.values(outgoing.frame), outgoing.frame.head});
+      });
+}
+
+std::unique_ptr<Sender> live_link_sender(const Destination& asked_for) {
+  Destination destination = asked_for;
+  constexpr std::uint16_t kLiveLinkFace = 11111;
+  // Unreal tells devices apart by it; one machine of ours is one device.
+  formats::LiveLinkSubject subject{destination.take("id", "6D69656E-0000-4000-8000-000000000001"),
+                                   destination.take("subject", "mien"),
+                                   {}};
+  if (subject.device_id.size() != 36) {
+    destination.fail("id is a UUID of 36 characters, not '" + subject.device_id + "'");
+  }
+  subject.rotation = rotation_unit(destination.take("rot", "rad"), destination);
+  return sender(destination, kLiveLinkFace, [subject](const Outgoing& outgoing) {
+    return Datagrams{formats::live_link_packet(outgoing.frame, subject, outgoing.time_of_day_s)};
+  });
+}
+
+// Its receivers know that a face is lost by packets that do not come, and ease by themselves.
+std::unique_ptr<Sender> openseeface_sender(const Destination& destination) {
+  constexpr std::uint16_t kOpenSeeFace = 11573;
+  return sender(destination, kOpenSeeFace, [](const Outgoing& outgoing) {
+    if (outgoing.frame.state != formats::FaceState::kTracking) {
+      return Datagrams();
+    }
+    return Datagrams{
+        formats::openseeface_packet(outgoing.frame, outgoing.picture, outgoing.unix_time_s)};
+  });
+}
+
+std::unique_ptr<Sender> opentrack_sender(const Destination& destination) {
+  constexpr std::uint16_t kOpentrack = 4242;
+  return sender(destination, kOpentrack, [](const Outgoing& outgoing) {
+    // A head that was never seen is nowhere, which is not the same as at the camera.
+    return outgoing.frame.head ? Datagrams{formats::opentrack_packet(outgoing.frame)} : Datagrams();
+  });
+}
+
+std::unique_ptr<Sender> json_sender(const Destination& destination) {
+  if (destination.port == 0) {
+    destination.fail("names no port");
+  }
+  return sender(destination, destination.port, [](const Outgoing& outgoing) {
+    return Datagrams{formats::frame_json(outgoing.frame)};
+  });
+}
+
+}  // namespace mien::app

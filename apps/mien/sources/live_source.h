@@ -1,0 +1,58 @@
+// Pictures and sound as they happen, from a camera, a microphone or a network. Times are those of
+// arrival on the steady clock, in nanoseconds.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "apps/mien/sources/sample_clock.h"
+#include "apps/mien/sources/sound_source.h"
+#include "apps/mien/sources/video_source.h"
+#include "apps/mien/system/subprocess.h"
+#include "formats/y4m.h"
+
+namespace mien::app {
+
+// Of the clock that live times are on.
+[[nodiscard]] std::int64_t steady_now_ns();
+
+class LiveVideo {
+ public:
+  // Begins to open it. Throws Failure.
+  explicit LiveVideo(const std::string& camera);
+
+  // Waits for the first picture. Throws Failure(kExitNoInput) when there is none.
+  void open();
+  // Waits for the next. The image is valid until the next call. False once the camera is gone.
+  bool next(mien_image& image, std::int64_t& pts_ns);
+  // Ends a wait from another thread.
+  void interrupt() { decoder_.interrupt(); }
+  // What the decoder last complained of.
+  std::string reason();
+
+ private:
+  std::string camera_;
+  Subprocess decoder_;
+  formats::Y4mReader reader_;
+  std::vector<std::byte> frame_;
+};
+
+class LiveSound {
+ public:
+  explicit LiveSound(const std::string& microphone);  // throws Failure
+
+  // Waits for the next block, which is valid until the next call. False once there are no more.
+  bool next(Audio& block, std::int64_t& pts_ns);
+  void interrupt() { decoder_.interrupt(); }
+  std::string reason();
+
+ private:
+  std::string microphone_;
+  Subprocess decoder_;
+  SampleClock clock_;
+  std::vector<std::int16_t> samples_;
+};
+
+}  // namespace mien::app

@@ -1,0 +1,21 @@
+#include "apps/mien/system/interrupt.h"
+
+#include <signal.h>
+
+namespace mien::app {
+namespace {
+
+volatile sig_atomic_t caught = 0;
+
+void catch_signal(int) { caught = 1; }
+
+}  // namespace
+
+void catch_interrupts() {
+  signal(SIGINT, catch_signal);
+  signal(SIGTERM, catch_signal);
+}
+
+bool interrupted() { return caught != 0; }
+
+}  // namespace mien::app

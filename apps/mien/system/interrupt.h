@@ -1,0 +1,10 @@
+// Ctrl-C, and being asked to end, as something to look at between two pieces of work.
+#pragma once
+
+namespace mien::app {
+
+// From then on SIGINT and SIGTERM do nothing but make `interrupted` true.
+void catch_interrupts();
+[[nodiscard]] bool interrupted();
+
+}  // namespace mien::app

@@ -1,0 +1,22 @@
+// `mien neutral`: what a person's face shows at rest, captured from a video.
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace mien::app {
+
+struct NeutralOptions {
+  std::string input;
+  std::string output;
+  std::string models;
+  double start_s = 0.0;
+  std::optional<double> duration_s;
+  bool json = false;  // what was captured
+  bool quiet = false;
+};
+
+// Throws Failure.
+void neutral(const NeutralOptions& options);
+
+}  // namespace mien::app

@@ -1,0 +1,44 @@
+// Puts the page together in dist/: node build.mjs WASM_FILE
+import {createHash} from 'node:crypto';
+import {cp, mkdir, readFile, readdir, rm, stat, writeFile} from 'node:fs/promises';
+import {build} from 'esbuild';
+
+const here = new URL('.', import.meta.url).pathname, root = new URL('../..', import.meta.url).pathname;
+const out = here + 'dist/';
+const wasm = process.argv[2] ?? root + 'build/wasm/tracker/mien.wasm';
+const plain = ['index.html', 'theme.css', 'style.css', 'icon.svg', 'manifest.webmanifest'];
+
+const bundle = (entries, options = {}) => build({
+  entryPoints: entries, outdir: out, bundle: true, format: 'esm', target: 'es2022', minify: true, legalComments: 'none',
+  absWorkingDir: here, logLevel: 'warning', ...options});
+
+async function listFiles(folder, prefix = '') {
+  const entries = await readdir(folder, {withFileTypes: true});
+  const lists = entries.map(entry => (entry.isDirectory() ? listFiles(`${folder}${entry.name}/`, `${prefix}${entry.name}/`) : [prefix + entry.name]));
+  return (await Promise.all(lists)).flat().sort();
+}
+
+async function licences() {
+  const names = ['three', '@pixiv/three-vrm'];
+  const texts = names.map(async name => `${name}\n\n${await readFile(`${here}node_modules/${name}/LICENSE`, 'utf8')}`);
+  return (await Promise.all(texts)).join('\n\n');
+}
+
+await rm(out, {recursive: true, force: true});
+await mkdir(out + 'models', {recursive: true});
+await bundle(['src/page.js'], {splitting: true, chunkNames: 'part-[hash]'});
+await bundle(['src/tracking/worker.js', 'src/sources/microphone_worklet.js'], {entryNames: '[name]'});
+for (const file of plain) await cp(here + file, out + file);
+for (const name of ['basenet', 'proposal', 'hifinet', 'audionet']) await cp(`${root}models/${name}.mien`, `${out}models/${name}.mien`);
+await cp(wasm, out + 'mien.wasm');
+await writeFile(out + 'licences.txt', await licences());
+
+const files = await listFiles(out), hash = createHash('sha256');
+for (const file of files) hash.update(file).update(await readFile(out + file));
+await bundle(['src/service_worker.js'], {
+  format: 'iife', entryNames: '[name]',
+  define: {FILES: JSON.stringify(['./', ...files.filter(file => file !== 'index.html')]), VERSION: JSON.stringify(hash.digest('hex').slice(0, 16))}});
+
+let bytes = 0;
+for (const file of await listFiles(out)) bytes += (await stat(out + file)).size;
+console.log(`${out}: ${bytes} bytes`);

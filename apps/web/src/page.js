@@ -1,0 +1,187 @@
+// Puts the parts together.
+import {Avatar, controlNames} from '../avatar/avatar.js';
+import {Recording} from './recording/recording.js';
+import {curvesCsv} from './recording/csv.js';
+import {animationGlb} from './recording/glb.js';
+import {liveLinkCsv} from './recording/live_link_face.js';
+import {Sound} from './sources/sound.js';
+import {Source} from './sources/source.js';
+import {Tracking} from './tracking/tracking.js';
+import {download, isModel, takeDrops} from './ui/drop_zone.js';
+import {FaceView} from './ui/faces.js';
+import {Numbers} from './ui/numbers.js';
+
+const $ = id => document.getElementById(id);
+const levels = [[0, 'automatic'], [1, '1, cheapest'], [2, '2'], [3, '3'], [4, '4, finest']];
+const formats = {
+  csv: {name: 'mien.csv', type: 'text/csv', make: curvesCsv},
+  llf: {name: 'mien-live-link-face.csv', type: 'text/csv', make: liveLinkCsv},
+  glb: {name: 'mien.glb', type: 'model/gltf-binary', make: animationGlb}};
+const calibrating = 0x10;  // MIEN_RESULT_CAPTURING_NEUTRAL
+
+function say(text, alert = false) {
+  if ($('status').textContent !== text) $('status').textContent = text;
+  $('status').classList.toggle('alert', alert);
+}
+
+class Page {
+  constructor() {
+    this.first = new FaceView($('face-a'));
+    this.numbers = new Numbers($('numbers'), $('bars'), $('bars-box'));
+    this.numbers.setControls(controlNames);
+    this.recording = new Recording();
+    this.tracking = new Tracking({
+      onReady: () => this.ready(), onResults: message => this.show(message), onError: message => say(message, true)});
+    this.source = new Source($('video'), new Sound(this.tracking), this.tracking);
+    this.source.onEnd = why => {
+      this.stop();
+      say(why ?? 'The source has ended.', Boolean(why));
+    };
+    this.connect();
+    const tick = now => {
+      this.first.draw(now);
+      this.second?.draw(now);
+      requestAnimationFrame(tick);
+    };
+    requestAnimationFrame(tick);
+  }
+
+  connect() {
+    for (const id of ['level', 'other']) {
+      $(id).append(...levels.map(([value, text]) => new Option(text, String(value))));
+      $(id).addEventListener('change', () => this.setLevels());
+    }
+    $('other').value = '1';
+    const on = (id, event, action) => $(id).addEventListener(event, action);
+    on('camera', 'click', () => this.open(() => this.source.openCamera()));
+    on('stop', 'click', () => this.stop());
+    on('file', 'change', ({target}) => target.files[0] && this.openFile(target.files[0]));
+    on('model', 'change', ({target}) => target.files[0] && this.openFile(target.files[0]));
+    on('own-face', 'click', () => this.useOwnFace());
+    on('mirror', 'change', () => this.mirror());
+    on('compare', 'change', () => this.setLevels());
+    on('calibrate', 'click', () => this.tracking.calibrate());
+    on('record', 'click', () => this.record());
+    for (const button of $('downloads').children) button.addEventListener('click', () => this.download(button.dataset.format));
+    takeDrops($('drop-note'), file => this.openFile(file));
+    this.mirror();
+  }
+
+  ready() {
+    $('camera').disabled = false;
+    this.isReady = true;
+    if (!this.running) say('Ready.');
+    if (this.waiting) this.open(this.waiting);
+  }
+
+  async open(how) {
+    if (!this.isReady) {
+      this.waiting = how;
+      return;
+    }
+    say('Opening …');
+    try {
+      const missing = await how();
+      this.tracking.reset();
+      this.setRunning(true);
+      this.openedAt = performance.now();
+      this.missing = missing ? `, without ${missing}` : '';
+    } catch (error) {
+      this.stop();
+      say(error.message, true);
+    }
+  }
+
+  openFile(file) {
+    if (isModel(file)) return this.useModel(file);
+    $('mirror').checked = false;
+    this.mirror();
+    return this.open(() => this.source.openFile(file));
+  }
+
+  stop() {
+    this.source.close();
+    this.setRunning(false);
+    if (this.recording.active) this.record();
+    if (this.isReady) say('Stopped.');
+  }
+
+  setRunning(running) {
+    this.running = running;
+    $('stop').hidden = !running;
+    $('camera').hidden = running;
+    $('preview').hidden = !running || !this.source.hasPictures;
+    for (const id of ['calibrate', 'record']) $(id).disabled = !running;
+  }
+
+  mirror() { $('stage').classList.toggle('mirrored', $('mirror').checked); }
+
+  setLevels() {
+    const both = $('compare').checked;
+    for (const id of ['second', 'other-label']) $(id).hidden = !both;
+    $('caption-a').hidden = !both;
+    this.second ??= both ? new FaceView($('face-b')) : undefined;
+    const chosen = ['level', ...(both ? ['other'] : [])].map(id => Number($(id).value));
+    this.tracking.setLevels(chosen);
+  }
+
+  show({timeMs, results}) {
+    if (!this.running) return;
+    const [result, other] = results, sinceMs = Math.min(1000, Math.max(0, timeMs - (this.shownMs ?? timeMs)));
+    this.shownMs = timeMs;
+    this.firstResultMs ??= performance.now() - this.openedAt;
+    this.first.show(result, sinceMs);
+    if (other) this.second?.show(other, sinceMs);
+    this.recording.add(timeMs, result);
+    this.numbers.show(result, {rate: this.first.rate, dropped: this.tracking.dropped});
+    this.caption(result, other);
+    if (result.flags & calibrating) say('Calibrating: look straight ahead, relaxed …');
+    else if (!this.source.hasPictures) say('Listening' + this.missing);
+    else say({searching: 'Looking for a face', tracking: 'Following', lost: 'The face is gone'}[result.status] + this.missing);
+    if (this.recording.active) $('recorded').textContent = `${this.recording.seconds.toFixed(1)} s, ${this.recording.frames.length} frames`;
+    document.dispatchEvent(new CustomEvent('mien-results', {detail: {timeMs, results}}));
+  }
+
+  caption(result, other) {
+    const text = ({lod, tookMs}) => `level ${lod}: ${tookMs.toFixed(1)} ms`;
+    if (!other) return;
+    $('caption-a').textContent = text(result);
+    $('caption-b').textContent = text(other);
+  }
+
+  record() {
+    if (this.recording.active) this.recording.stop(); else this.recording.start();
+    const {active, frames} = this.recording;
+    $('record').textContent = active ? 'Stop recording' : 'Record';
+    $('record').setAttribute('aria-pressed', String(active));
+    for (const button of $('downloads').children) button.disabled = active || !frames.length;
+  }
+
+  download(format) {
+    const {name, type, make} = formats[format];
+    download(name, make(this.recording.frames, controlNames), type);
+  }
+
+  async useModel(file) {
+    try {
+      const {openModel} = await import('./model/model_avatar.js');
+      await this.first.use(canvas => openModel(file, canvas, controlNames));
+      say(`${file.name}: ${this.first.avatar.targets.length} names of ${this.first.avatar.vocabularies.join(', ')}`);
+      $('own-face').hidden = false;
+    } catch (error) {
+      say(error.message, true);
+    }
+  }
+
+  async useOwnFace() {
+    await this.first.use(canvas => new Avatar(canvas));
+    $('own-face').hidden = true;
+  }
+}
+
+try {
+  window.page = new Page();
+} catch (error) {
+  say(error.message, true);
+}
+if ('serviceWorker' in navigator) navigator.serviceWorker.register('service_worker.js');

@@ -1,0 +1,47 @@
+// The page's side of the tracker: it sends pictures as long as the worker keeps up, and forgets those it has no time for.
+
+export class Tracking {
+  constructor({onReady, onResults, onError}) {
+    this.worker = new Worker(new URL('worker.js', document.baseURI), {type: 'module'});
+    this.busy = 0;
+    this.dropped = 0;
+    const heard = {
+      ready: message => onReady(message),
+      results: message => {
+        this.busy = Math.max(0, this.busy - 1);
+        onResults(message);
+      },
+      error: ({message}) => {
+        this.busy = 0;
+        onError(message);
+      }};
+    this.worker.onmessage = ({data}) => heard[data.type](data);
+    this.worker.onerror = event => onError(event.message || 'the tracker could not be started');
+    this.worker.postMessage({type: 'load', folder: document.baseURI});
+  }
+
+  // Newest frame wins: with two under way the next is left out.
+  get idle() { return this.busy < 2; }
+
+  push(frame, timeMs) {
+    if (!this.idle) {
+      ++this.dropped;
+      frame.close?.();
+      return;
+    }
+    ++this.busy;
+    this.worker.postMessage({type: 'frame', frame, timeMs}, [frame]);
+  }
+
+  advance(timeMs) {
+    if (!this.idle) return;
+    ++this.busy;
+    this.worker.postMessage({type: 'advance', timeMs});
+  }
+
+  setLevels(levels) { this.worker.postMessage({type: 'levels', levels}); }
+  hear(port) { this.worker.postMessage({type: 'hear', port}, [port]); }
+  setSoundOffset(offsetMs) { this.worker.postMessage({type: 'soundOffset', offsetMs}); }
+  calibrate() { this.worker.postMessage({type: 'calibrate'}); }
+  reset() { this.worker.postMessage({type: 'reset'}); }
+}

@@ -1,0 +1,80 @@
+// The tracker in a thread of its own: pictures and sound come in, results go out. With two levels of detail asked for, two
+// trackers get the same.
+import {loadMien} from '../../../../bindings/js/mien.js';
+import {FrameReader} from './frame_reader.js';
+
+const modelNames = ['basenet', 'proposal', 'hifinet', 'audionet'];
+const reader = new FrameReader();
+let mien, weights, trackers = [];
+let soundOffsetMs = 0;  // from the clock of the sound to that of the pictures
+let failed = false;
+
+async function fetched(url) {
+  const response = await fetch(url);
+  if (!response.ok) throw new Error(`${url}: ${response.status}`);
+  return response.arrayBuffer();
+}
+
+async function load({folder}) {
+  const [loaded, ...models] = await Promise.all([
+    loadMien(new URL('mien.wasm', folder)), ...modelNames.map(name => fetched(new URL(`models/${name}.mien`, folder)))]);
+  mien = loaded;
+  weights = Object.fromEntries(modelNames.map((name, i) => [name, models[i]]));
+  setLevels({levels: [0]});
+  postMessage({type: 'ready', version: mien.version, controlNames: mien.controlNames, stageNames: mien.stageNames});
+}
+
+// Trackers that go on keep their face; others begin anew.
+function setLevels({levels}) {
+  while (trackers.length > levels.length) trackers.pop().destroy();
+  levels.forEach((lod, i) => {
+    if (trackers[i]) trackers[i].setLod(lod);
+    else trackers.push(mien.createTracker({...weights, lod, budgetMs: 10}));
+  });
+}
+
+function report(timeMs, action) {
+  const results = trackers.map(tracker => {
+    const began = performance.now();
+    action(tracker);
+    return {...tracker.getResult(), tookMs: performance.now() - began};
+  });
+  postMessage({type: 'results', timeMs, results});
+}
+
+const toNs = ms => Math.round(ms * 1e6);
+
+const handlers = {
+  load,
+  levels: setLevels,
+  async frame({frame, timeMs}) {
+    let image;
+    try {
+      image = await reader.read(frame);
+    } finally {
+      frame.close?.();
+    }
+    report(timeMs, tracker => tracker.pushVideo(image, toNs(timeMs)));
+  },
+  advance({timeMs}) { report(timeMs, tracker => tracker.advance(toNs(timeMs))); },
+  hear({port}) { port.onmessage = ({data}) => guarded(() => hear(data)); },
+  soundOffset({offsetMs}) { soundOffsetMs = offsetMs; },
+  calibrate() { for (const tracker of trackers) tracker.captureNeutral(); },
+  reset() { for (const tracker of trackers) tracker.reset(); },
+};
+
+function hear({samples, sampleRate, timeMs}) {
+  for (const tracker of trackers) tracker.pushAudio(samples, {sampleRate}, toNs(timeMs + soundOffsetMs));
+}
+
+async function guarded(action) {
+  if (failed) return;
+  try {
+    await action();
+  } catch (error) {
+    failed = !mien;  // without the module nothing else will work either
+    postMessage({type: 'error', message: error.message});
+  }
+}
+
+onmessage = ({data}) => guarded(() => handlers[data.type](data));

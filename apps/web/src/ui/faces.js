@@ -1,0 +1,82 @@
+// The faces on the stage: ours or the user's, one or two, drawn when there is something new to show.
+import {Avatar, controlNames} from '../../avatar/avatar.js';
+
+const slow_ms = 36;     // of a picture: then they get smaller, so that thirty a second stay possible
+const smallest = 0.4;    // of what the screen could show
+
+const easing_ms = 400;  // how fast a head turns back when its face is lost
+
+// What to draw of a result; `turned` goes to 0 while the face is lost, so that the head comes back to the middle.
+function faceOf(result, turned = 1) {
+  return {
+    controls: Object.fromEntries(controlNames.map((name, i) => [name, result.controls[i]])),
+    pitch: result.pitch * turned, yaw: result.yaw * turned, roll: result.roll * turned};
+}
+
+export class FaceView {
+  constructor(canvas) {
+    this.canvas = canvas;
+    this.avatar = new Avatar(canvas);
+    this.face = {controls: Object.fromEntries(controlNames.map(name => [name, 0]))};
+    this.turned = 0;
+    this.changed = true;
+    this.drawnAt = [];
+    this.scale = 1;
+    this.ticks = [];
+    new ResizeObserver(() => this.resize()).observe(canvas);
+    this.resize();
+  }
+
+  resize() {
+    const ratio = Math.min(2, devicePixelRatio) * this.scale, {clientWidth, clientHeight} = this.canvas;
+    this.canvas.width = Math.max(1, Math.round(clientWidth * ratio));
+    this.canvas.height = Math.max(1, Math.round(clientHeight * ratio));
+    this.changed = true;
+  }
+
+  // `sinceMs`: since the result before.
+  show(result, sinceMs) {
+    const towards = result.status === 'tracking' ? 1 : 0, step = Math.min(1, sinceMs / easing_ms);
+    this.turned = towards > this.turned ? 1 : this.turned - Math.min(step, this.turned - towards);
+    this.face = faceOf(result, this.turned);
+    this.changed = true;
+  }
+
+  // Of what the browser's clock ticks at while faces are drawn.
+  spareTheSlow(now) {
+    this.ticks.push(now);
+    if (this.ticks.length < 30) return;
+    const mean_ms = (now - this.ticks[0]) / (this.ticks.length - 1);
+    this.ticks = [];
+    if (mean_ms < slow_ms || mean_ms > 500 || this.scale <= smallest) return;
+    this.scale = Math.max(smallest, this.scale * 0.8);
+    this.resize();
+  }
+
+  draw(now) {
+    this.spareTheSlow(now);
+    if (!this.changed || !this.canvas.clientWidth) return;
+    this.avatar.draw(this.face);
+    this.changed = false;
+    this.drawnAt.push(now);
+    while (this.drawnAt.length > 60) this.drawnAt.shift();
+  }
+
+  // Pictures a second over the last of them.
+  get rate() {
+    const span = this.drawnAt.at(-1) - this.drawnAt[0];
+    return this.drawnAt.length > 1 && performance.now() - this.drawnAt.at(-1) < 1000 ? (this.drawnAt.length - 1) * 1000 / span : 0;
+  }
+
+  // A canvas keeps the kind of drawing it began with, so another head gets another canvas.
+  async use(makeAvatar) {
+    const canvas = this.canvas.cloneNode();
+    Object.assign(canvas, {width: this.canvas.width, height: this.canvas.height});
+    const avatar = await makeAvatar(canvas);
+    this.avatar.dispose?.();
+    this.canvas.replaceWith(canvas);
+    Object.assign(this, {canvas, avatar, changed: true});
+    new ResizeObserver(() => this.resize()).observe(canvas);
+    this.resize();
+  }
+}

@@ -1,0 +1,55 @@
+// What the tracker says of itself: rates, times, voice, and every control as a bar.
+
+const element = (tag, text) => Object.assign(document.createElement(tag), {textContent: text});
+const ms = value => `${value.toFixed(value < 10 ? 2 : 1)} ms`;
+const refresh_ms = 250;
+
+export class Numbers {
+  constructor(list, bars, details) {
+    Object.assign(this, {list, bars, details, cells: new Map(), shownAt: 0, average: new Map()});
+  }
+
+  setControls(names) {
+    this.items = names.map(name => element('li', name));
+    this.bars.replaceChildren(...this.items);
+  }
+
+  cell(name) {
+    if (!this.cells.has(name)) {
+      const cell = element('dd', '');
+      this.list.append(element('dt', name), cell);
+      this.cells.set(name, cell);
+    }
+    return this.cells.get(name);
+  }
+
+  // Running mean, so that figures can be read.
+  mean(name, value) {
+    const mean = this.average.has(name) ? this.average.get(name) * 0.9 + value * 0.1 : value;
+    this.average.set(name, mean);
+    return mean;
+  }
+
+  show(result, {rate, dropped}) {
+    const whole = this.mean('frame', result.tookMs);
+    const stages = Object.entries(result.stageNs).map(([name, ns]) => [name, this.mean(name, ns / 1e6)]);
+    if (this.details.open) this.showBars(result);
+    if (performance.now() - this.shownAt < refresh_ms) return;
+    this.shownAt = performance.now();
+    const put = (name, text) => { if (this.cell(name).textContent !== text) this.cell(name).textContent = text; };
+    put('Face', `${result.status}, ${Math.round(result.faceProbability * 100)} %`);
+    put('Voice', `${Math.round(result.voiceActivity * 100)} %`);
+    put('Level', String(result.lod));
+    put('Pictures', `${rate.toFixed(0)} a second, ${dropped} left out`);
+    put('Tracking', `${ms(whole)} a frame`);
+    put('Stages', stages.filter(([, value]) => value >= 0.005).map(([name, value]) => `${name} ${value.toFixed(2)}`).join(', ') || '–');
+    put('Head', ['pitch', 'yaw', 'roll'].map(name => `${name} ${Math.round(result[name] * 180 / Math.PI)}°`).join(', '));
+  }
+
+  showBars({controls, supportedControls}) {
+    this.items.forEach((item, i) => {
+      item.style.setProperty('--value', controls[i].toFixed(3));
+      item.classList.toggle('undriven', (supportedControls >> BigInt(i) & 1n) === 0n);
+    });
+  }
+}

@@ -1,0 +1,11 @@
+// Chromium without a window, with WebGL drawn by the processor.
+import {existsSync} from 'node:fs';
+import {chromium} from 'playwright-core';
+
+const found = ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find(existsSync);
+
+export const launch = (flags = []) => chromium.launch({
+  executablePath: process.env.CHROMIUM ?? found,
+  args: ['--headless=new', '--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
+         '--disable-component-update', '--disable-sync', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', ...flags],
+});

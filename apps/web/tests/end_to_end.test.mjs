@@ -1,0 +1,195 @@
+// The page as people use it.
+import assert from 'node:assert/strict';
+import {readFileSync, readdirSync, statSync} from 'node:fs';
+import {createRequire} from 'node:module';
+import {join} from 'node:path';
+import {after, before, test} from 'node:test';
+import {bestCorrelation, readTruth} from './correlation.mjs';
+import {clip, dist, following, openPage, openStudio, spareDrawing, truthFile, until} from './page.mjs';
+
+const require = createRequire(import.meta.url);
+let studio;
+before(async () => { studio = await openStudio(); });
+after(() => studio?.close());
+
+test('the page has at most 6 MB, weights included', () => {
+  const bytes = readdirSync(dist, {recursive: true}).map(name => statSync(join(dist, name))).filter(info => info.isFile())
+    .reduce((sum, info) => sum + info.size, 0);
+  assert.ok(bytes <= 6e6, `${bytes} bytes`);
+});
+
+test("the avatar's jaw follows the clip's, from camera and microphone", async t => {
+  const {page, context, complaints, requests} = await openPage(studio);
+  await page.click('#camera');
+  await following(page);
+  await spareDrawing(page);
+  await page.selectOption('#level', '4');
+  // How far the middle of the avatar's lower lip has come down, at each picture.
+  const samples = await page.evaluate(() => new Promise(done => {
+    const {avatar} = window.page.first, {vertices, mesh} = avatar.head;
+    const lip = vertices.findIndex(v => !v.inner && v.t < 0.01 && v.sine < -0.999), samples = [];
+    document.addEventListener('mien-results', ({detail}) => {
+      window.page.first.draw(performance.now());
+      samples.push([detail.timeMs, vertices[lip].at[1] - mesh.positions[lip * 3 + 1]]);
+      if (detail.timeMs - samples[0][0] > 16500) done(samples);
+    });
+  }));
+  const {correlation, lagMs} = bestCorrelation(samples, readTruth(truthFile, 'jawOpen'));
+  t.diagnostic(`correlation ${correlation.toFixed(3)} over ${samples.length} pictures in 16.5 s, clip begun ${Math.round(lagMs)} ms into its loop`);
+  assert.ok(correlation > 0.8, `correlation ${correlation}`);
+  assert.deepEqual(complaints, []);
+  assert.ok(requests.every(url => url.startsWith(studio.url) || url.startsWith('blob:')), requests.join(' '));
+  await context.close();
+});
+
+test('the voice is heard through the microphone', async () => {
+  const {page, context} = await openPage(studio);
+  await page.click('#camera');
+  await following(page);
+  await until(page, () => new Promise(done => document.addEventListener('mien-results',
+    ({detail}) => done(detail.results[0].voiceActivity > 0.5), {once: true})), 30);
+  await context.close();
+});
+
+test('two levels stand beside each other', async () => {
+  const {page, context, complaints} = await openPage(studio);
+  await page.click('#camera');
+  await following(page);
+  await spareDrawing(page);
+  await page.selectOption('#level', '4');
+  await page.check('#compare');
+  await until(page, () => document.getElementById('caption-a').textContent.startsWith('level 4') &&
+    document.getElementById('caption-b').textContent.startsWith('level 1'));
+  await page.uncheck('#compare');
+  assert.ok(await page.isHidden('#face-b'));
+  assert.deepEqual(complaints, []);
+  await context.close();
+});
+
+test('calibrating says so and ends', async () => {
+  const {page, context} = await openPage(studio);
+  await page.click('#camera');
+  await following(page);
+  await spareDrawing(page);
+  await page.click('#calibrate');
+  await until(page, () => document.getElementById('status').textContent.startsWith('Calibrating'));
+  await following(page);
+  await context.close();
+});
+
+test('recordings come as curves, Live Link Face and glTF', async () => {
+  const {page, context, complaints} = await openPage(studio);
+  await page.click('#camera');
+  await following(page);
+  await spareDrawing(page);
+  await page.click('#record');
+  await until(page, () => window.page.recording.frames.length > 30, 60);
+  await page.click('#record');
+  const saved = {};
+  for (const format of ['csv', 'llf', 'glb']) {
+    const [download] = await Promise.all([page.waitForEvent('download'), page.click(`[data-format=${format}]`)]);
+    saved[format] = readFileSync(await download.path());
+  }
+  const frames = await page.evaluate(() => window.page.recording.frames.length);
+  assert.ok(frames > 30, `${frames} frames`);
+  await checkCurves(saved, frames);
+  await checkGlb(saved.glb, frames);
+  assert.deepEqual(complaints, []);
+  await context.close();
+});
+
+const table = bytes => bytes.toString().trim().split('\n').map(line => line.split(','));
+
+// Both tables have every frame, and the same jaw.
+async function checkCurves({csv, llf}, frames) {
+  const [curveNames, ...curves] = table(csv), [liveNames, ...live] = table(llf);
+  const truthNames = readFileSync(truthFile, 'utf8').split('\n')[0].trim().split(',');
+  assert.deepEqual(curveNames.slice(16), truthNames.filter(name => curveNames.includes(name) && name !== 'frame').slice(0, 52));
+  assert.equal(liveNames.length, 63);
+  assert.deepEqual(liveNames.slice(17, 19), ['JawRight', 'JawLeft']);
+  assert.equal(curves.length, frames);
+  assert.equal(live.length, frames);
+  const column = (names, rows, name) => rows.map(row => Number(row[names.indexOf(name)]));
+  const jaw = column(curveNames, curves, 'jawOpen'), liveJaw = column(liveNames, live, 'JawOpen');
+  jaw.forEach((value, i) => assert.ok(Math.abs(value - liveJaw[i]) < 1e-6));
+  const times = column(curveNames, curves, 't_ms');
+  assert.ok(times.every((time, i) => i === 0 ? time === 0 : time > times[i - 1]));
+  for (const row of live) assert.match(row[0], /^\d\d:\d\d:\d\d:\d\d\.\d{3}$/);
+}
+
+async function checkGlb(bytes, frames) {
+  const {issues, info} = await require('gltf-validator').validateBytes(new Uint8Array(bytes));
+  assert.equal(issues.numErrors + issues.numWarnings, 0, JSON.stringify(issues.messages));
+  assert.equal(info.animationCount, 1);
+  const {GLTFLoader} = await import('three/examples/jsm/loaders/GLTFLoader.js');
+  const buffer = bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length);
+  const {animations: [animation], scene} = await new GLTFLoader().parseAsync(buffer, '');
+  const weights = animation.tracks.find(({name}) => name.endsWith('morphTargetInfluences'));
+  assert.equal(weights.times.length, frames);
+  assert.equal(scene.getObjectByName('face').morphTargetDictionary.jawOpen, 17);
+}
+
+test('a video file takes the place of the camera', async () => {
+  const {page, context, complaints} = await openPage(studio);
+  await page.setInputFiles('#file', clip);
+  await following(page);
+  assert.deepEqual(complaints, []);
+  await context.close();
+});
+
+test('a voice alone moves the mouth', async () => {
+  const {page, context, complaints} = await openPage(studio);
+  await page.setInputFiles('#file', studio.microphone);
+  await until(page, () => document.getElementById('status').textContent === 'Listening');
+  await until(page, () => window.page.first.face.controls.jawOpen > 0.1, 30);
+  assert.ok(await page.isHidden('#preview'));
+  assert.deepEqual(complaints, []);
+  await context.close();
+});
+
+test('a file that is none is refused in words', async () => {
+  const {page, context} = await openPage(studio);
+  await page.setInputFiles('#file', {name: 'note.mp4', mimeType: 'video/mp4', buffer: Buffer.from('no video')});
+  await until(page, () => document.getElementById('status').textContent.includes('note.mp4: this browser cannot play it'));
+  await page.setInputFiles('#model', {name: 'head.glb', mimeType: '', buffer: Buffer.from('no head, but more than twenty bytes')});
+  await until(page, () => document.getElementById('status').textContent.includes('head.glb: not a binary glTF file'));
+  await page.click('#camera');
+  await following(page);
+  await context.close();
+});
+
+test('the page works offline once it was loaded', async () => {
+  const {page, context, complaints} = await openPage(studio);
+  await page.evaluate(() => navigator.serviceWorker.ready.then(() => new Promise(done => {
+    if (navigator.serviceWorker.controller) done();
+    navigator.serviceWorker.addEventListener('controllerchange', done);
+  })));
+  await context.setOffline(true);
+  await page.reload();
+  await until(page, () => !document.getElementById('camera').disabled);
+  await page.click('#camera');
+  await following(page);
+  assert.deepEqual(complaints, []);
+  await context.close();
+});
+
+for (const colorScheme of ['light', 'dark']) {
+  for (const [device, viewport] of [['desktop', {width: 1280, height: 860}], ['phone', {width: 390, height: 844}]]) {
+    test(`axe finds nothing serious: ${colorScheme}, ${device}`, async () => {
+      const {page, context} = await openPage(studio, {colorScheme, viewport, bypassCSP: true});
+      await page.click('#camera');
+      await following(page);
+      await spareDrawing(page);
+      await page.check('#compare');
+      await page.click('summary');
+      await page.evaluate(readFileSync(require.resolve('axe-core/axe.min.js'), 'utf8'));
+      const {violations} = await page.evaluate(() => window.axe.run());
+      const found = violations.map(({id, impact, nodes}) => `${impact} ${id}: ${nodes.map(node => node.html).slice(0, 3).join(' ')}`);
+      assert.deepEqual(found.filter(text => /^(serious|critical)/.test(text)), []);
+      assert.deepEqual(found, []);
+      const overflow = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+      assert.ok(overflow <= 0, `${overflow} pixels too wide`);
+      await context.close();
+    });
+  }
+}

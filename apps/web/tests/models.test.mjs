@@ -1,0 +1,79 @@
+// The user's own head: its names are understood, and it moves.
+import assert from 'node:assert/strict';
+import {after, before, test} from 'node:test';
+import {controlNames} from '../avatar/avatar.js';
+import {makeDrivers} from '../src/model/names.js';
+import {headModel, vrmModel} from './models.mjs';
+import {openPage, openStudio, until} from './page.mjs';
+
+const drivers = makeDrivers(controlNames);
+const controls = values => ({...Object.fromEntries(controlNames.map(name => [name, 0])), ...values});
+
+test('names are found in every casing', () => {
+  for (const name of ['jawOpen', 'JawOpen', 'jaw_open', 'Face.jawOpen', 'blendShape1.jawOpen']) {
+    assert.equal(drivers.morph(name)?.of(controls({jawOpen: 0.5})), 0.5, name);
+  }
+  for (const name of ['mouthSmileLeft', 'mouthSmile_L', 'MouthSmileLeft']) assert.equal(drivers.morph(name).of(controls({mouthSmileLeft: 1})), 1, name);
+  assert.equal(drivers.morph('mouthSmile_R').of(controls({mouthSmileLeft: 1})), 0);
+  assert.equal(drivers.morph('hairLength'), undefined);
+});
+
+test("every control has its name, and Roblox's 47 that have a partner theirs", () => {
+  for (const name of controlNames) assert.equal(drivers.morph(name).vocabulary, 'ARKit');
+  const roblox = `ChinRaiserUpperLip ChinRaiser Funneler LowerLipSuck LipPresser LipsTogether MouthLeft MouthRight Pucker UpperLipSuck
+    LeftCheekPuff LeftDimpler LeftLipCornerDown LeftLowerLipDepressor LeftLipCornerPuller LeftLipStretcher LeftUpperLipRaiser RightCheekPuff
+    RightDimpler RightLipCornerDown RightLowerLipDepressor RightLipCornerPuller RightLipStretcher RightUpperLipRaiser JawDrop JawLeft JawRight
+    Corrugator LeftBrowLowerer LeftOuterBrowRaiser LeftNoseWrinkler LeftInnerBrowRaiser RightBrowLowerer RightOuterBrowRaiser
+    RightInnerBrowRaiser RightNoseWrinkler EyesLookDown EyesLookLeft EyesLookUp EyesLookRight LeftCheekRaiser LeftEyeUpperLidRaiser
+    LeftEyeClosed RightCheekRaiser RightEyeUpperLidRaiser RightEyeClosed TongueOut`.split(/\s+/);
+  assert.equal(roblox.length, 47);
+  for (const name of roblox) assert.ok(drivers.morph(name), name);
+  assert.equal(drivers.morph('EyesLookLeft').of(controls({eyeLookOutLeft: 1, eyeLookInRight: 1})), 1);
+  assert.equal(drivers.morph('RightCheekRaiser').of(controls({cheekSquintRight: 0.7})), 0.7);
+});
+
+let studio;
+before(async () => { studio = await openStudio(); });
+after(() => studio?.close());
+
+// What the targets of a dropped head become under `face`, and how the head is turned.
+async function moved(bytes, name, face) {
+  const {page, context, complaints} = await openPage(studio);
+  await page.setInputFiles('#model', {name, mimeType: '', buffer: bytes});
+  await until(page, () => document.getElementById('own-face').hidden === false || document.getElementById('status').classList.contains('alert'), 60);
+  const result = await page.evaluate(controls => {
+    const {avatar} = window.page.first;
+    avatar.draw({controls, yaw: 0.3});
+    let weights;
+    avatar.root.traverse(node => { weights ??= node.morphTargetInfluences; });
+    return {weights: [...weights], status: document.getElementById('status').textContent, head: avatar.headBone.node.quaternion.toArray()};
+  }, controls(face));
+  assert.deepEqual(complaints, []);
+  await context.close();
+  return result;
+}
+
+test('a GLB with names of ARKit moves', async () => {
+  const {weights, status, head} = await moved(headModel(['jawOpen', 'mouthSmile_L', 'unknown']), 'arkit.glb', {jawOpen: 0.6, mouthSmileLeft: 0.25});
+  assert.deepEqual(weights, [0.6, 0.25, 0]);
+  assert.match(status, /arkit\.glb: 2 names of ARKit/);
+  assert.ok(Math.abs(head[1] - Math.sin(0.15)) < 1e-6, 'the head turns by 0.3');
+});
+
+test('a GLB with names of Roblox moves', async () => {
+  const {weights} = await moved(headModel(['JawDrop', 'LeftEyeClosed', 'Pucker']), 'roblox.glb', {jawOpen: 0.5, eyeBlinkLeft: 1, mouthPucker: 0.2});
+  assert.deepEqual(weights, [0.5, 1, 0.2]);
+});
+
+test('a VRM moves by its expressions', async () => {
+  const {weights, status} = await moved(vrmModel(), 'person.vrm', {jawOpen: 0.5, eyeBlinkLeft: 1});
+  assert.ok(weights[0] > 0.5 && weights[1] === 1, String(weights));
+  assert.match(status, /names of VRM/);
+});
+
+test('a head without known names is refused in words', async () => {
+  const {page, context} = await openPage(studio);
+  await page.setInputFiles('#model', {name: 'mute.glb', mimeType: '', buffer: headModel(['a1', 'a2'])});
+  await until(page, () => document.getElementById('status').textContent === 'mute.glb: no morph target or expression has a name of ARKit, VRM or Roblox');
+  await context.close();
+});

@@ -1,0 +1,45 @@
+package org.mien;
+
+import java.io.IOException;
+import java.io.InputStream;
+import java.nio.ByteBuffer;
+import java.nio.channels.FileChannel;
+import java.nio.file.Path;
+
+/** A weight file in memory, where the library wants it. Trackers and networks may share one. */
+public final class Model {
+    private static final int ALIGNMENT = 64;
+
+    final ByteBuffer bytes;
+
+    private Model(ByteBuffer bytes) {
+        this.bytes = bytes;
+    }
+
+    /** Maps a file: nothing is copied. */
+    public static Model open(Path path) throws IOException {
+        try (FileChannel channel = FileChannel.open(path)) {
+            return new Model(channel.map(FileChannel.MapMode.READ_ONLY, 0, channel.size()));
+        }
+    }
+
+    /** Reads a stream to its end, for instance an asset of an Android application. */
+    public static Model read(InputStream stream) throws IOException {
+        java.io.ByteArrayOutputStream all = new java.io.ByteArrayOutputStream();
+        byte[] some = new byte[1 << 16];
+        for (int n = stream.read(some); n >= 0; n = stream.read(some)) {
+            all.write(some, 0, n);
+        }
+        return of(all.toByteArray());
+    }
+
+    /** Copies what lies anywhere. */
+    public static Model of(byte[] data) {
+        ByteBuffer room = ByteBuffer.allocateDirect(data.length + ALIGNMENT);
+        int first = (int) ((ALIGNMENT - Native.address(room) % ALIGNMENT) % ALIGNMENT);
+        room.position(first).limit(first + data.length);
+        ByteBuffer bytes = room.slice();
+        bytes.put(data).rewind();
+        return new Model(bytes);
+    }
+}

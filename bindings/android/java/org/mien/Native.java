@@ -1,0 +1,79 @@
+package org.mien;
+
+import java.nio.ByteBuffer;
+
+/** jni/mien_jni.c, which speaks mien.h. What takes a handle trusts it, and that buffers are as large as said. */
+final class Native {
+    static {
+        System.loadLibrary("mien_jni");
+    }
+
+    /** What result() writes where. */
+    static final int STATUS = 0, TIME_NS = 1, SUPPORTED = 2, LOD = 3, FLAGS = 4, FACE_ID = 5, LONGS = 6;
+    static final int FACE_PROBABILITY = 0, VOICE_ACTIVITY = 1, BOX = 2, ROTATION = 6, PITCH = 10, YAW = 11, ROLL = 12, TRANSLATION = 13,
+            CONTROLS = 16, LANDMARKS = 68, FLOATS = 418;
+
+    static native String version();
+
+    static native String statusString(int status);
+
+    static native int vocabularySize(int vocabulary);
+
+    static native String vocabularyName(int vocabulary, int index);
+
+    static native int vocabularyValues(int vocabulary, float[] controls, float[] values);
+
+    static native long address(ByteBuffer buffer);
+
+    /** handle[0] is the tracker's. integers: lod, maxFaces, smoothing, audioQueueSamples. floats: budgetMs, horizontalFov (0: default). */
+    static native int createTracker(ByteBuffer basenet, ByteBuffer proposal, ByteBuffer hifinet, ByteBuffer audionet, int[] integers,
+            float[] floats, long[] handle);
+
+    static native void destroyTracker(long tracker);
+
+    /** Planes are direct buffers, or the picture is in `array`. integers: Image.integers(); floats: focal length, principal x, y. */
+    static native int pushVideo(long tracker, ByteBuffer plane0, ByteBuffer plane1, ByteBuffer plane2, byte[] array, int[] integers,
+            float[] floats, long timeNs);
+
+    static native int advance(long tracker, long timeNs);
+
+    static native int pushAudio(long tracker, float[] samples, int frames, int channels, int sampleRate, long timeNs);
+
+    static native int queueAudio(long tracker, float[] samples, int frames, int channels, int sampleRate, long timeNs);
+
+    static native int setAudioOffset(long tracker, long offsetNs);
+
+    static native int setMix(long tracker, int control, float audio, float video);
+
+    static native int setLod(long tracker, int lod);
+
+    static native int faceCount(long tracker);
+
+    /** index -1: of the face known longest. */
+    static native int result(long tracker, int index, long[] longs, float[] floats);
+
+    static native int captureNeutral(long tracker);
+
+    static native int saveNeutral(long tracker, byte[] file);
+
+    static native int loadNeutral(long tracker, byte[] file);
+
+    static native int reset(long tracker);
+
+    static native int createNetwork(ByteBuffer model, String name, int height, int width, long[] handle);
+
+    static native void destroyNetwork(long network);
+
+    /** index -1: of the input. shape: channels, height, width. */
+    static native void networkShape(long network, int index, int[] shape);
+
+    static native int runNetwork(long network, float[] input);
+
+    static native int networkOutputs(long network);
+
+    static native void networkOutput(long network, int index, float[] values);
+
+    static native void resetNetwork(long network);
+
+    private Native() {}
+}

@@ -1,0 +1,74 @@
+package org.mien;
+
+/** A network of your own, of a weight file that scripts/convert/onnx_to_mien.py made. Has to be closed. */
+public final class Network implements AutoCloseable {
+    private final Model model; // which has to stay as long
+    private long handle;
+
+    /** A map, [channels][height][width]. */
+    public static final class Map {
+        public final int channels, height, width;
+        public final float[] values;
+
+        private Map(int[] shape) {
+            channels = shape[0];
+            height = shape[1];
+            width = shape[2];
+            values = new float[channels * height * width];
+        }
+    }
+
+    /** The first network of a file. */
+    public Network(Model model) {
+        this(model, null, 0, 0);
+    }
+
+    /** name: of the network in the file; null: its first. height, width: for networks that take several sizes; 0: as declared. */
+    public Network(Model model, String name, int height, int width) {
+        this.model = model;
+        long[] made = new long[1];
+        MienException.check(Native.createNetwork(model.bytes, name, height, width, made));
+        handle = made[0];
+    }
+
+    /** What run takes: channels, height, width. */
+    public synchronized int[] inputShape() {
+        int[] shape = new int[3];
+        Native.networkShape(open(), -1, shape);
+        return shape;
+    }
+
+    /** One run, one step of a network over time. [channels][height][width] goes in, every output comes out so. */
+    public synchronized Map[] run(float[] input) {
+        int[] shape = inputShape();
+        if (input.length != shape[0] * shape[1] * shape[2]) {
+            throw new IllegalArgumentException(input.length + " numbers for an input of " + shape[0] + " x " + shape[1] + " x " + shape[2]);
+        }
+        MienException.check(Native.runNetwork(handle, input));
+        Map[] outputs = new Map[Native.networkOutputs(handle)];
+        for (int i = 0; i < outputs.length; ++i) {
+            Native.networkShape(handle, i, shape);
+            outputs[i] = new Map(shape);
+            Native.networkOutput(handle, i, outputs[i].values);
+        }
+        return outputs;
+    }
+
+    /** Puts what a network over time remembers back to a stream's beginning. */
+    public synchronized void reset() {
+        Native.resetNetwork(open());
+    }
+
+    @Override
+    public synchronized void close() {
+        Native.destroyNetwork(handle);
+        handle = 0;
+    }
+
+    private long open() {
+        if (handle == 0) {
+            throw new IllegalStateException("the network is closed");
+        }
+        return handle;
+    }
+}

@@ -1,0 +1,119 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+
+namespace Mien
+{
+    public enum FaceStatus
+    {
+        /// <summary>No face since the beginning.</summary>
+        Searching = 0,
+        Tracking = 1,
+        /// <summary>The face is gone: its last place stays, its controls fade.</summary>
+        Lost = 2,
+    }
+
+    /// <summary>52 animation weights, 0..1, by ARKit name.</summary>
+    public sealed class Controls
+    {
+        readonly float[] array;
+        readonly ulong supported;
+
+        internal Controls(float[] array, ulong supported)
+        {
+            this.array = array;
+            this.supported = supported;
+        }
+
+        public static IList<string> Names { get { return Vocabulary.Arkit.Names(); } }
+
+        /// <summary>In the order of Names.</summary>
+        public float this[int control] { get { return array[control]; } }
+
+        public float this[string name] { get { return array[Number(name)]; } }
+
+        /// <summary>Names of those that are driven at this level of detail; the others are always 0.</summary>
+        public IEnumerable<string> Supported { get { return Names.Where((name, i) => (supported >> i & 1) != 0); } }
+
+        /// <summary>A copy, in the order of Names.</summary>
+        public float[] ToArray()
+        {
+            return (float[])array.Clone();
+        }
+
+        /// <summary>The same face in other words, in the order of their names.</summary>
+        public float[] To(Vocabulary vocabulary)
+        {
+            var values = new float[vocabulary.Names().Count];
+            Native.Check(Native.mien_vocabulary_values((int)vocabulary, array, values, values.Length));
+            return values;
+        }
+
+        internal static int Number(string name)
+        {
+            int number = Names.IndexOf(name);
+            if (number < 0) throw new KeyNotFoundException("no control '" + name + "'");
+            return number;
+        }
+    }
+
+    /// <summary>The head in camera space: x to the right, y up, z towards the viewer.</summary>
+    public sealed class Pose
+    {
+        /// <summary>Unit quaternion x, y, z, w.</summary>
+        public float[] Rotation { get; internal set; }
+        /// <summary>Metres.</summary>
+        public float[] Translation { get; internal set; }
+        /// <summary>Radians, positive: looks down.</summary>
+        public float Pitch { get; internal set; }
+        /// <summary>Radians, positive: turns to the subject's left.</summary>
+        public float Yaw { get; internal set; }
+        /// <summary>Radians, about z by the right-hand rule.</summary>
+        public float Roll { get; internal set; }
+    }
+
+    /// <summary>One face on one frame. It owns what it says: keep as many as you like.</summary>
+    public sealed class FaceResult
+    {
+        readonly Native.mien_result raw;
+
+        internal FaceResult(Native.mien_result raw)
+        {
+            this.raw = raw;
+        }
+
+        public FaceStatus Status { get { return (FaceStatus)raw.status; } }
+        public bool HasFace { get { return Status == FaceStatus.Tracking; } }
+        /// <summary>Of the picture, seconds.</summary>
+        public double Time { get { return raw.pts_ns / 1e9; } }
+        /// <summary>Counts the faces found, from 1; 0 before any.</summary>
+        public int FaceId { get { return (int)raw.face_id; } }
+        /// <summary>The level of detail of this frame, 1..4.</summary>
+        public int Lod { get { return raw.lod; } }
+        public float FaceProbability { get { return raw.face_probability; } }
+        /// <summary>0..1: how much somebody speaks; 0 without sound.</summary>
+        public float VoiceActivity { get { return raw.voice_activity; } }
+        /// <summary>Whether this frame counts for Tracker.Calibrate.</summary>
+        public bool IsCapturingNeutral { get { return (raw.flags & Native.CapturingNeutral) != 0; } }
+        /// <summary>x, y, width, height in pixels of the upright picture.</summary>
+        public float[] Box { get { return (float[])raw.box.Clone(); } }
+        public Controls Controls { get { return new Controls(raw.controls, raw.supported_controls); } }
+        /// <summary>175 times x, y in pixels of the upright picture.</summary>
+        public float[] Landmarks { get { return (float[])raw.landmarks.Clone(); } }
+
+        public Pose Pose
+        {
+            get
+            {
+                return new Pose
+                {
+                    Rotation = (float[])raw.rotation.Clone(),
+                    Translation = (float[])raw.translation.Clone(),
+                    Pitch = raw.pitch,
+                    Yaw = raw.yaw,
+                    Roll = raw.roll,
+                };
+            }
+        }
+    }
+}

@@ -1,0 +1,138 @@
+using System;
+using System.Runtime.InteropServices;
+
+namespace Mien
+{
+    public enum PixelFormat
+    {
+        Gray8 = 0,
+        Rgb = 1,
+        Bgr = 2,
+        Rgba = 3,
+        Bgra = 4,
+        Nv12 = 5,
+        Nv21 = 6,
+        I420 = 7,
+    }
+
+    /// <summary>A picture that somebody else owns: it is read where it lies, never copied. Set what is not the default.</summary>
+    public sealed class Image
+    {
+        public PixelFormat Format;
+        public int Width, Height;
+        /// <summary>Degrees clockwise that make it upright: 0, 90, 180, 270.</summary>
+        public int Rotation;
+        /// <summary>A mirror image of the scene, a selfie.</summary>
+        public bool Mirrored;
+        /// <summary>Of grey and YUV: luma is 0..255; else 16..235.</summary>
+        public bool FullRange = true;
+        /// <summary>YUV is that of BT.709; else BT.601.</summary>
+        public bool Bt709;
+        /// <summary>x, y, width, height in its pixels, all that is looked at; null: everything.</summary>
+        public int[] Region;
+        /// <summary>In pixels of the upright picture; 0: not known.</summary>
+        public float FocalLengthPx;
+        /// <summary>In the upright picture; both 0: its centre.</summary>
+        public float PrincipalX, PrincipalY;
+        /// <summary>I420: bytes from one sample of U or V to the next; 0 means 1.</summary>
+        public int ChromaPixelStrideBytes;
+        /// <summary>Bottom row first in memory, as Unity's textures have it; of one plane.</summary>
+        public bool BottomUp;
+
+        byte[] array;
+        IntPtr[] planes;
+        int[] strides;
+
+        /// <summary>Rows without gaps, planes one behind the other.</summary>
+        public Image(PixelFormat format, int width, int height, byte[] pixels)
+        {
+            if (pixels == null) throw new ArgumentNullException("pixels");
+            Format = format;
+            Width = width;
+            Height = height;
+            array = pixels;
+        }
+
+        /// <summary>Planes of native memory, as cameras and textures give it, which has to stay during Tracker.Track.</summary>
+        public Image(PixelFormat format, int width, int height, IntPtr[] planes, int[] rowStrideBytes)
+        {
+            Format = format;
+            Width = width;
+            Height = height;
+            this.planes = planes;
+            strides = rowStrideBytes;
+        }
+
+        /// <summary>Tells `look` where the pixels lie; they stay there meanwhile.</summary>
+        internal void Described(Action<Native.mien_image> look)
+        {
+            Native.mien_image raw;
+            Native.mien_image_default(out raw);
+            raw.format = (int)Format;
+            raw.width = Width;
+            raw.height = Height;
+            raw.rotation = Rotation;
+            raw.mirrored = Mirrored ? 1 : 0;
+            raw.full_range = FullRange ? 1 : 0;
+            raw.yuv_matrix = Bt709 ? 1 : 0;
+            raw.focal_length_px = FocalLengthPx;
+            raw.principal_x = PrincipalX;
+            raw.principal_y = PrincipalY;
+            raw.chroma_pixel_stride_bytes = ChromaPixelStrideBytes;
+            if (Region != null) Region.CopyTo(raw.region, 0);
+            if (array == null)
+            {
+                planes.CopyTo(raw.planes, 0);
+                strides.CopyTo(raw.row_stride_bytes, 0);
+                look(raw);
+                return;
+            }
+            var pin = GCHandle.Alloc(array, GCHandleType.Pinned);
+            try
+            {
+                LieOneBehindTheOther(ref raw, pin.AddrOfPinnedObject());
+                look(raw);
+            }
+            finally
+            {
+                pin.Free();
+            }
+        }
+
+        void LieOneBehindTheOther(ref Native.mien_image raw, IntPtr place)
+        {
+            long chromaWidth = ((long)Width + 1) / 2, chromaHeight = ((long)Height + 1) / 2;
+            long[] rows = Format < PixelFormat.Nv12 ? new[] { (long)Height } : Format == PixelFormat.I420
+                ? new[] { Height, chromaHeight, chromaHeight } : new[] { Height, chromaHeight };
+            long first = 0;
+            for (int i = 0; i < rows.Length; ++i)
+            {
+                long stride = i == 0 ? (long)Width * PixelBytes() : Format == PixelFormat.I420 ? chromaWidth : 2 * chromaWidth;
+                raw.planes[i] = new IntPtr(place.ToInt64() + first);
+                raw.row_stride_bytes[i] = (int)stride;
+                first += stride * rows[i];
+            }
+            if (array.Length < first)
+                throw new ArgumentException("a picture of " + Width + " x " + Height + " " + Format + " has " + first + " bytes, not " + array.Length);
+            if (!BottomUp) return;
+            if (rows.Length > 1) throw new ArgumentException("YUV is not taken bottom-up");
+            raw.planes[0] = new IntPtr(raw.planes[0].ToInt64() + (Height - 1L) * raw.row_stride_bytes[0]);
+            raw.row_stride_bytes[0] = -raw.row_stride_bytes[0];
+        }
+
+        int PixelBytes()
+        {
+            switch (Format)
+            {
+                case PixelFormat.Rgb:
+                case PixelFormat.Bgr:
+                    return 3;
+                case PixelFormat.Rgba:
+                case PixelFormat.Bgra:
+                    return 4;
+                default:
+                    return 1;
+            }
+        }
+    }
+}

@@ -1,0 +1,187 @@
+using System;
+using System.Runtime.InteropServices;
+
+namespace Mien
+{
+    /// <summary>mien.h as P/Invoke has it, name by name; it says what everything means. Tests/HeaderTest.cs holds this against it.</summary>
+    internal static class Native
+    {
+#if UNITY_IOS && !UNITY_EDITOR
+        const string Library = "__Internal";
+#else
+        const string Library = "mien";
+#endif
+        internal const int ControlCount = 52, LandmarkCount = 175, MaxStages = 16, Alignment = 64, NeutralBytes = 448;
+        internal const uint CapturingNeutral = 0x10;
+
+        [StructLayout(LayoutKind.Sequential)]
+        internal struct mien_image
+        {
+            public uint struct_size;
+            public int format, width, height;
+            [MarshalAs(UnmanagedType.ByValArray, SizeConst = 3)] public IntPtr[] planes;
+            [MarshalAs(UnmanagedType.ByValArray, SizeConst = 3)] public int[] row_stride_bytes;
+            public int chroma_pixel_stride_bytes, rotation, mirrored, full_range;
+            public float focal_length_px, principal_x, principal_y;
+            public int yuv_matrix;
+            [MarshalAs(UnmanagedType.ByValArray, SizeConst = 4)] public int[] region;
+            [MarshalAs(UnmanagedType.ByValArray, SizeConst = 3)] public uint[] reserved;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        internal struct mien_audio
+        {
+            public uint struct_size;
+            public int format, sample_rate, channels, planar;
+            public UIntPtr frames;
+            [MarshalAs(UnmanagedType.ByValArray, SizeConst = 8)] public IntPtr[] samples;
+            [MarshalAs(UnmanagedType.ByValArray, SizeConst = 8)] public uint[] reserved;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        internal struct mien_allocator
+        {
+            public IntPtr allocate, release, user;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        internal struct mien_tracker_config
+        {
+            public uint struct_size, cpu_mask;
+            public IntPtr basenet;
+            public UIntPtr basenet_bytes;
+            public IntPtr proposal;
+            public UIntPtr proposal_bytes;
+            public mien_allocator allocator;
+            public IntPtr clock_ns, clock_user;
+            public int lod;
+            public float horizontal_fov, accept_probability, lose_probability;
+            public int lose_after_frames, proposal_size;
+            public float proposal_threshold, refine_threshold;
+            public int search_interval;
+            public float budget_ms;
+            public IntPtr hifinet;
+            public UIntPtr hifinet_bytes;
+            public int smoothing, max_faces;
+            public IntPtr audionet;
+            public UIntPtr audionet_bytes;
+            public float voice_attack_ms, voice_release_ms;
+            public int audio_queue_samples;
+            [MarshalAs(UnmanagedType.ByValArray, SizeConst = 7)] public uint[] reserved;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        internal struct mien_result
+        {
+            public uint struct_size;
+            public int status;
+            public long pts_ns;
+            public ulong supported_controls;
+            public float face_probability, voice_activity;
+            public int lod;
+            public uint flags;
+            [MarshalAs(UnmanagedType.ByValArray, SizeConst = 4)] public float[] box;
+            [MarshalAs(UnmanagedType.ByValArray, SizeConst = 4)] public float[] rotation;
+            public float pitch, yaw, roll;
+            [MarshalAs(UnmanagedType.ByValArray, SizeConst = 3)] public float[] translation;
+            [MarshalAs(UnmanagedType.ByValArray, SizeConst = ControlCount)] public float[] controls;
+            [MarshalAs(UnmanagedType.ByValArray, SizeConst = 2 * LandmarkCount)] public float[] landmarks;
+            public ulong frames, face_frames, proposal_runs, encoder_runs;
+            [MarshalAs(UnmanagedType.ByValArray, SizeConst = MaxStages)] public ulong[] stage_ns;
+            public uint face_id;
+            [MarshalAs(UnmanagedType.ByValArray, SizeConst = 15)] public uint[] reserved;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        internal struct mien_shape
+        {
+            public int height, width, channels;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        internal struct mien_network_config
+        {
+            public uint struct_size, cpu_mask;
+            public IntPtr file;
+            public UIntPtr file_bytes;
+            public IntPtr name;
+            public int height, width;
+            public mien_allocator allocator;
+            [MarshalAs(UnmanagedType.ByValArray, SizeConst = 8)] public uint[] reserved;
+        }
+
+        [DllImport(Library)] internal static extern IntPtr mien_status_string(int status);
+        [DllImport(Library)] internal static extern IntPtr mien_version();
+        [DllImport(Library)] internal static extern int mien_vocabulary_size(int vocabulary);
+        [DllImport(Library)] internal static extern IntPtr mien_vocabulary_name(int vocabulary, int index);
+        [DllImport(Library)] internal static extern int mien_vocabulary_values(int vocabulary, [In] float[] controls, [Out] float[] values, int count);
+        [DllImport(Library)] internal static extern void mien_image_default(out mien_image image);
+        [DllImport(Library)] internal static extern void mien_audio_default(out mien_audio audio);
+        [DllImport(Library)] internal static extern void mien_tracker_config_default(out mien_tracker_config config);
+        [DllImport(Library)] internal static extern int mien_tracker_create([In] ref mien_tracker_config config, out TrackerHandle tracker);
+        [DllImport(Library)] internal static extern void mien_tracker_destroy(IntPtr tracker);
+        [DllImport(Library)] internal static extern int mien_tracker_reset(TrackerHandle tracker);
+        [DllImport(Library)] internal static extern int mien_tracker_set_lod(TrackerHandle tracker, int lod);
+        [DllImport(Library)] internal static extern int mien_tracker_push_video(TrackerHandle tracker, [In] ref mien_image image, long pts_ns);
+        [DllImport(Library)] internal static extern int mien_tracker_advance(TrackerHandle tracker, long pts_ns);
+        [DllImport(Library)] internal static extern int mien_tracker_push_audio(TrackerHandle tracker, [In] ref mien_audio audio, long pts_ns);
+        [DllImport(Library)] internal static extern int mien_tracker_queue_audio(TrackerHandle tracker, [In] ref mien_audio audio, long pts_ns);
+        [DllImport(Library)] internal static extern int mien_tracker_set_audio_offset(TrackerHandle tracker, long offset_ns);
+        [DllImport(Library)] internal static extern int mien_tracker_set_mix(TrackerHandle tracker, int control, float audio_weight, float video_weight);
+        [DllImport(Library)] internal static extern int mien_tracker_get_result(TrackerHandle tracker, ref mien_result result);
+        [DllImport(Library)] internal static extern int mien_tracker_face_count(TrackerHandle tracker);
+        [DllImport(Library)] internal static extern int mien_tracker_get_face(TrackerHandle tracker, int index, ref mien_result result);
+        [DllImport(Library)] internal static extern void mien_result_default(out mien_result result);
+        [DllImport(Library)] internal static extern int mien_tracker_capture_neutral(TrackerHandle tracker);
+        [DllImport(Library)] internal static extern int mien_tracker_save_neutral(TrackerHandle tracker, [Out] byte[] file, UIntPtr file_bytes, out uint captured);
+        [DllImport(Library)] internal static extern int mien_tracker_load_neutral(TrackerHandle tracker, [In] byte[] file, UIntPtr file_bytes);
+        [DllImport(Library)] internal static extern void mien_network_config_default(out mien_network_config config);
+        [DllImport(Library)] internal static extern int mien_network_create([In] ref mien_network_config config, out NetworkHandle network);
+        [DllImport(Library)] internal static extern void mien_network_destroy(IntPtr network);
+        [DllImport(Library)] internal static extern IntPtr mien_network_input(NetworkHandle network, out mien_shape shape);
+        [DllImport(Library)] internal static extern int mien_network_run(NetworkHandle network);
+        [DllImport(Library)] internal static extern int mien_network_output_count(NetworkHandle network);
+        [DllImport(Library)] internal static extern IntPtr mien_network_output(NetworkHandle network, int index, out mien_shape shape);
+        [DllImport(Library)] internal static extern void mien_network_reset(NetworkHandle network);
+
+        internal static string Text(IntPtr text)
+        {
+            return text == IntPtr.Zero ? null : Marshal.PtrToStringAnsi(text);
+        }
+
+        internal static long Nanoseconds(double seconds)
+        {
+            return (long)Math.Round(seconds * 1e9);
+        }
+
+        internal static void Check(int status)
+        {
+            if (status != 0) throw new MienException((Status)status);
+        }
+    }
+
+    /// <summary>The library's tracker: ends when nobody uses it any more, during a call of another thread never.</summary>
+    internal sealed class TrackerHandle : SafeHandle
+    {
+        internal object Keeps; // what it reads during calls
+        TrackerHandle() : base(IntPtr.Zero, true) { }
+        public override bool IsInvalid { get { return handle == IntPtr.Zero; } }
+        protected override bool ReleaseHandle()
+        {
+            Native.mien_tracker_destroy(handle);
+            return true;
+        }
+    }
+
+    internal sealed class NetworkHandle : SafeHandle
+    {
+        internal object Keeps; // what it reads during calls
+        NetworkHandle() : base(IntPtr.Zero, true) { }
+        public override bool IsInvalid { get { return handle == IntPtr.Zero; } }
+        protected override bool ReleaseHandle()
+        {
+            Native.mien_network_destroy(handle);
+            return true;
+        }
+    }
+}

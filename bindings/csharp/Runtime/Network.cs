@@ -1,0 +1,106 @@
+using System;
+using System.Linq;
+using System.Runtime.InteropServices;
+
+namespace Mien
+{
+    /// <summary>A map of a network, [channels][height][width].</summary>
+    public sealed class Map
+    {
+        public int Channels { get; internal set; }
+        public int Height { get; internal set; }
+        public int Width { get; internal set; }
+        public float[] Values { get; internal set; }
+    }
+
+    /// <summary>A network of your own, of a weight file that scripts/convert/onnx_to_mien.py made. Used by one thread at a time.</summary>
+    public sealed class Network : IDisposable
+    {
+        const int Block = 8;       // channels that lie together
+        const int Interleaved = 4; // an input of up to so many channels lies as a picture does
+
+        readonly NetworkHandle handle;
+
+        /// <summary>name: of the network in the file; null: its first. height, width: for networks that take several; 0: as declared.</summary>
+        public Network(Model model, string name = null, int height = 0, int width = 0)
+        {
+            if (model == null) throw new ArgumentNullException("model");
+            Native.mien_network_config config;
+            Native.mien_network_config_default(out config);
+            config.file = model.Place;
+            config.file_bytes = model.Bytes;
+            config.height = height;
+            config.width = width;
+            config.name = name == null ? IntPtr.Zero : Marshal.StringToHGlobalAnsi(name);
+            try
+            {
+                Native.Check(Native.mien_network_create(ref config, out handle));
+            }
+            finally
+            {
+                Marshal.FreeHGlobal(config.name);
+            }
+            handle.Keeps = model;
+            Native.mien_shape shape;
+            Native.mien_network_input(handle, out shape);
+            InputShape = Of(shape);
+        }
+
+        /// <summary>What Run takes; it has no values.</summary>
+        public Map InputShape { get; private set; }
+
+        /// <summary>One run, one step of a network over time. [channels][height][width] goes in, every output comes out so.</summary>
+        public Map[] Run(float[] input)
+        {
+            int pixels = InputShape.Height * InputShape.Width;
+            if (input == null || input.Length != pixels * InputShape.Channels)
+                throw new ArgumentException("an input of " + InputShape.Channels + " x " + InputShape.Height + " x " + InputShape.Width + " is taken");
+            bool picture = InputShape.Channels <= Interleaved && pixels > 1;
+            int step = picture ? InputShape.Channels : Block;
+            var laidOut = new float[picture ? input.Length : Blocks(InputShape) * pixels * Block];
+            for (int channel = 0; channel < InputShape.Channels; ++channel)
+                for (int pixel = 0; pixel < pixels; ++pixel)
+                    laidOut[(channel / step * pixels + pixel) * step + channel % step] = input[channel * pixels + pixel];
+            Native.mien_shape ignored;
+            Marshal.Copy(laidOut, 0, Native.mien_network_input(handle, out ignored), laidOut.Length);
+            Native.Check(Native.mien_network_run(handle));
+            return Enumerable.Range(0, Native.mien_network_output_count(handle)).Select(Output).ToArray();
+        }
+
+        /// <summary>Puts what a network over time remembers back to a stream's beginning.</summary>
+        public void Reset()
+        {
+            Native.mien_network_reset(handle);
+        }
+
+        public void Dispose()
+        {
+            handle.Dispose();
+        }
+
+        Map Output(int index)
+        {
+            Native.mien_shape shape;
+            IntPtr place = Native.mien_network_output(handle, index, out shape);
+            Map map = Of(shape);
+            int pixels = map.Height * map.Width;
+            var blocks = new float[Blocks(map) * pixels * Block];
+            Marshal.Copy(place, blocks, 0, blocks.Length);
+            map.Values = new float[map.Channels * pixels];
+            for (int channel = 0; channel < map.Channels; ++channel)
+                for (int pixel = 0; pixel < pixels; ++pixel)
+                    map.Values[channel * pixels + pixel] = blocks[(channel / Block * pixels + pixel) * Block + channel % Block];
+            return map;
+        }
+
+        static Map Of(Native.mien_shape shape)
+        {
+            return new Map { Channels = shape.channels, Height = shape.height, Width = shape.width };
+        }
+
+        static int Blocks(Map map)
+        {
+            return (map.Channels + Block - 1) / Block;
+        }
+    }
+}

@@ -1,0 +1,23 @@
+#!/usr/bin/env bash
+# Compiles the package with Debian's mono and passes its tests, the README's example among them.
+# usage: bindings/csharp/test.sh      (scripts/setup.sh build csharp)
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+if ! command -v mcs >/dev/null || ! command -v mono >/dev/null; then
+  echo "NOT TESTED: bindings/csharp, for which there is no mono (scripts/setup.sh csharp)"
+  exit 0
+fi
+. bindings/library.sh
+out=build/bindings/csharp
+mkdir -p "$out"
+mcs -warnaserror -warn:4 -target:library -out:"$out/Mien.dll" bindings/csharp/Runtime/*.cs
+mcs -warnaserror -warn:4 -r:"$out/Mien.dll" -out:"$out/tests.exe" bindings/csharp/Tests/*.cs
+# shellcheck disable=SC2016  # the backquotes are Markdown's
+sed -n '/^```csharp$/,/^```$/{/^```/!p}' bindings/csharp/README.md >"$out/readme.cs"
+mcs -warnaserror -warn:4 -r:"$out/Mien.dll" -out:"$out/readme.exe" "$out/readme.cs"
+export LD_LIBRARY_PATH=$MIEN_LIBRARY_DIR
+mono "$out/tests.exe"
+ln -sfn "$MIEN_MODELS" "$out/models"
+(cd "$out" && mono readme.exe "$MIEN_CLIP") >"$out/readme.txt"
+[ "$(grep -c '^0\.[0-9]' "$out/readme.txt")" -eq 30 ]
+echo "the README's example ran"

@@ -1,0 +1,62 @@
+// Where the fields of the structs of mien.h lie in the memory of a 32-bit machine. Each is [offset, kind, count].
+
+export const fields = {
+  image: {
+    struct_size: [0, 'u32'], format: [4, 'i32'], width: [8, 'i32'], height: [12, 'i32'], planes: [16, 'u32', 3],
+    row_stride_bytes: [28, 'i32', 3], chroma_pixel_stride_bytes: [40, 'i32'], rotation: [44, 'i32'], mirrored: [48, 'i32'],
+    full_range: [52, 'i32'], focal_length_px: [56, 'f32'], principal_x: [60, 'f32'], principal_y: [64, 'f32'],
+    yuv_matrix: [68, 'i32'], region: [72, 'i32', 4]},
+  audio: {
+    struct_size: [0, 'u32'], format: [4, 'i32'], sample_rate: [8, 'i32'], channels: [12, 'i32'], planar: [16, 'i32'],
+    frames: [20, 'u32'], samples: [24, 'u32', 8]},
+  tracker_config: {
+    struct_size: [0, 'u32'], cpu_mask: [4, 'u32'], basenet: [8, 'u32'], basenet_bytes: [12, 'u32'], proposal: [16, 'u32'],
+    proposal_bytes: [20, 'u32'], clock_ns: [36, 'u32'], lod: [44, 'i32'], horizontal_fov: [48, 'f32'],
+    accept_probability: [52, 'f32'], lose_probability: [56, 'f32'], lose_after_frames: [60, 'i32'], proposal_size: [64, 'i32'],
+    proposal_threshold: [68, 'f32'], refine_threshold: [72, 'f32'], search_interval: [76, 'i32'], budget_ms: [80, 'f32'],
+    hifinet: [84, 'u32'], hifinet_bytes: [88, 'u32'], smoothing: [92, 'i32'], max_faces: [96, 'i32'], audionet: [100, 'u32'],
+    audionet_bytes: [104, 'u32'], voice_attack_ms: [108, 'f32'], voice_release_ms: [112, 'f32']},
+  result: {
+    struct_size: [0, 'u32'], status: [4, 'i32'], pts_ns: [8, 'i64'], supported_controls: [16, 'u64'],
+    face_probability: [24, 'f32'], voice_activity: [28, 'f32'], lod: [32, 'i32'], flags: [36, 'u32'], box: [40, 'f32', 4],
+    rotation: [56, 'f32', 4], pitch: [72, 'f32'], yaw: [76, 'f32'], roll: [80, 'f32'], translation: [84, 'f32', 3],
+    controls: [96, 'f32', 52], landmarks: [304, 'f32', 350], frames: [1704, 'u64'], face_frames: [1712, 'u64'],
+    proposal_runs: [1720, 'u64'], encoder_runs: [1728, 'u64'], stage_ns: [1736, 'u64', 16], face_id: [1864, 'u32']},
+  network_config: {
+    struct_size: [0, 'u32'], cpu_mask: [4, 'u32'], file: [8, 'u32'], file_bytes: [12, 'u32'], name: [16, 'u32'],
+    height: [20, 'i32'], width: [24, 'i32']},
+};
+
+// sizeof, which the module says too: a header that has grown is noticed when the module is loaded.
+export const structBytes = {image: 100, audio: 88, tracker_config: 148, result: 1928, network_config: 72};
+
+const kinds = {
+  i32: {bytes: 4, get: 'getInt32', set: 'setInt32', array: Int32Array}, u32: {bytes: 4, get: 'getUint32', set: 'setUint32', array: Uint32Array},
+  f32: {bytes: 4, get: 'getFloat32', set: 'setFloat32', array: Float32Array}, i64: {bytes: 8, get: 'getBigInt64', set: 'setBigInt64'},
+  u64: {bytes: 8, get: 'getBigUint64', set: 'setBigUint64', array: BigUint64Array}};
+
+// One struct at `address` in `memory`, which may grow in between.
+export class Struct {
+  constructor(memory, name, address) {
+    Object.assign(this, {memory, fields: fields[name], address});
+  }
+
+  set(field, value, index = 0) {
+    const [offset, kind] = this.fields[field], {bytes, set} = kinds[kind];
+    new DataView(this.memory.buffer)[set](this.address + offset + index * bytes, value, true);
+  }
+
+  // `names`: what callers say to what the field is called; what they leave out stays.
+  fill(names, values) {
+    for (const [name, field] of Object.entries(names)) {
+      if (values[name] !== undefined) this.set(field, Number(values[name]));
+    }
+  }
+
+  // A number, or a copy of an array.
+  get(field) {
+    const [offset, kind, count] = this.fields[field], {get, array: Kind} = kinds[kind];
+    if (count) return new Kind(this.memory.buffer.slice(this.address + offset, this.address + offset + count * Kind.BYTES_PER_ELEMENT));
+    return new DataView(this.memory.buffer)[get](this.address + offset, true);
+  }
+}

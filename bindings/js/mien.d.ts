@@ -1,0 +1,149 @@
+// Types of mien.js. Words, units and ranges are those of mien.h, which says more.
+
+export type ImageFormat = 'gray8' | 'rgb' | 'bgr' | 'rgba' | 'bgra' | 'nv12' | 'nv21' | 'i420';
+export type FaceStatus = 'searching' | 'tracking' | 'lost';
+export type StageName = 'proposal' | 'warp' | 'encoder' | 'heads' | 'decoders' | 'sound';
+export type LevelOfDetail = 0 | 1 | 2 | 3 | 4;
+export type Bytes = ArrayBuffer | ArrayBufferView;
+/** Nanoseconds on one clock for pictures and sound. */
+export type Nanoseconds = bigint | number;
+
+/** Thrown by everything; `status` is the mien_status, where there is one. */
+export class MienError extends Error {
+  readonly status?: number;
+  constructor(message: string, status?: number);
+}
+
+/** Weight files, copied into the module. Levels of detail 2 to 4 need `hifinet`, sound needs `audionet`. */
+export interface TrackerWeights {
+  basenet: Bytes;
+  proposal: Bytes;
+  hifinet?: Bytes;
+  audionet?: Bytes;
+}
+
+/** What is left out takes the default of mien_tracker_config_default. */
+export interface TrackerConfig extends TrackerWeights {
+  lod?: LevelOfDetail;
+  cpuMask?: number;
+  horizontalFov?: number;
+  acceptProbability?: number;
+  loseProbability?: number;
+  loseAfterFrames?: number;
+  proposalSize?: number;
+  proposalThreshold?: number;
+  refineThreshold?: number;
+  searchInterval?: number;
+  budgetMs?: number;
+  smoothing?: boolean;
+  maxFaces?: number;
+  voiceAttackMs?: number;
+  voiceReleaseMs?: number;
+}
+
+/** `data` with the planes behind each other and no padding (an ImageData is one), or `planes`. `format` is 'rgba' unless said. */
+export interface Image {
+  format?: ImageFormat;
+  width: number;
+  height: number;
+  data?: Uint8Array | Uint8ClampedArray;
+  planes?: (Uint8Array | Uint8ClampedArray)[];
+  rowStrideBytes?: number[];
+  chromaPixelStrideBytes?: number;
+  rotation?: 0 | 90 | 180 | 270;
+  mirrored?: boolean;
+  fullRange?: boolean;
+  /** YUV is that of BT.709; else BT.601. */
+  bt709?: boolean;
+  /** x, y, width, height in its pixels, before it is turned: nothing else is looked at. */
+  region?: [number, number, number, number];
+  focalLengthPx?: number;
+  principalX?: number;
+  principalY?: number;
+}
+
+export interface Result {
+  status: FaceStatus;
+  ptsNs: bigint;
+  /** Bit i: control i is driven. */
+  supportedControls: bigint;
+  faceProbability: number;
+  voiceActivity: number;
+  lod: number;
+  /** MIEN_RESULT_*. */
+  flags: number;
+  /** x, y, width, height in pixels of the upright image. */
+  box: Float32Array;
+  /** Head to camera: unit quaternion x, y, z, w. */
+  rotation: Float32Array;
+  pitch: number;
+  yaw: number;
+  roll: number;
+  /** Metres. */
+  translation: Float32Array;
+  /** 52, each 0..1, in the order of Mien.controlNames. */
+  controls: Float32Array;
+  /** x, y of 175 points in pixels of the upright image. */
+  landmarks: Float32Array;
+  frames: bigint;
+  faceFrames: bigint;
+  proposalRuns: bigint;
+  encoderRuns: bigint;
+  stageNs: Record<StageName, number>;
+  faceId: number;
+}
+
+export class Tracker {
+  private constructor();
+  pushVideo(image: Image, ptsNs: Nanoseconds): void;
+  /** Channels interleaved; `ptsNs` is the time of the first sample. */
+  pushAudio(samples: Float32Array | Int16Array, format: {sampleRate: number; channels?: number}, ptsNs: Nanoseconds): void;
+  advance(ptsNs: Nanoseconds): void;
+  getResult(): Result;
+  faceCount(): number;
+  getFace(index: number): Result;
+  setLod(lod: LevelOfDetail): void;
+  setAudioOffset(offsetNs: Nanoseconds): void;
+  setMix(control: string | number, audioWeight: number, videoWeight: number): void;
+  captureNeutral(): void;
+  saveNeutral(): {file: Uint8Array; captured: number};
+  loadNeutral(file: Bytes): void;
+  reset(): void;
+  /** Gives all its memory back; nothing else may be called afterwards. */
+  destroy(): void;
+}
+
+export interface Shape {
+  height: number;
+  width: number;
+  channels: number;
+}
+
+/** Views of the module's memory: valid until something else of the module is created. */
+export interface TensorView {
+  data: Float32Array;
+  shape: Shape;
+}
+
+export class Network {
+  private constructor();
+  input(): TensorView;
+  run(): void;
+  outputCount(): number;
+  output(index: number): TensorView;
+  reset(): void;
+  destroy(): void;
+}
+
+export class Mien {
+  private constructor();
+  readonly version: string;
+  readonly controlNames: string[];
+  readonly stageNames: StageName[];
+  readonly landmarkCount: number;
+  createTracker(config: TrackerConfig): Tracker;
+  createNetwork(config: {file: Bytes; name?: string; height?: number; width?: number; cpuMask?: number}): Network;
+}
+
+/** `source`: URL of mien.wasm, a Response with it, its bytes, or the compiled module. */
+export function loadMien(source: string | URL | Response | Bytes | WebAssembly.Module): Promise<Mien>;

@@ -1,0 +1,98 @@
+// mien in JavaScript: the functions of mien.h around the WebAssembly module, with its words. Runs in pages, in workers and in
+// Node, and needs nothing else. mien.d.ts says what everything takes and gives.
+import {MienError} from './error.js';
+import {Struct, structBytes} from './layout.js';
+import {Network} from './network.js';
+import {Tracker} from './tracker.js';
+
+export {MienError, Network, Tracker};
+
+const alignment = 64;  // MIEN_ALIGNMENT
+
+async function compile(source) {
+  if (source instanceof WebAssembly.Module) return source;
+  if (source instanceof ArrayBuffer || ArrayBuffer.isView(source)) return WebAssembly.compile(source);
+  const response = source instanceof Response ? source : await fetch(source);
+  if (!response.ok) throw new MienError(`${response.url}: ${response.status} ${response.statusText}`);
+  return WebAssembly.compile(await response.arrayBuffer());
+}
+
+// What the module asks of its host.
+function host(memoryOf) {
+  const clock_time_get = (_clock, _precision, address) => {
+    new DataView(memoryOf().buffer).setBigUint64(address, BigInt(Math.round(performance.now() * 1e6)), true);
+    return 0;
+  };
+  return {
+    wasi_snapshot_preview1: {clock_time_get, proc_exit(code) { throw new MienError(`the module ended with ${code}`); }},
+    env: {emscripten_notify_memory_growth() {}}};
+}
+
+// `source`: URL of mien.wasm, a Response with it, its bytes, or the compiled module.
+export async function loadMien(source) {
+  let memory;
+  const {exports} = await WebAssembly.instantiate(await compile(source), host(() => memory));
+  ({memory} = exports);
+  exports._initialize();
+  return new Mien(exports);
+}
+
+export class Mien {
+  constructor(exports) {
+    this.exports = exports;
+    this.memory = exports.memory;
+    for (const name of Object.keys(structBytes)) this.checkLayout(name);
+    const names = (count, of) => Array.from({length: count}, (_, i) => this.text(of(i)));
+    this.version = this.text(exports.mien_version());
+    this.controlNames = names(exports.mien_control_count(), exports.mien_control_name);
+    this.stageNames = names(6, exports.mien_stage_name);
+    this.landmarkCount = exports.mien_landmark_count();
+  }
+
+  checkLayout(name) {
+    const address = this.allocate(structBytes[name]);
+    this.exports[`mien_${name}_default`](address);
+    const bytes = new Struct(this.memory, name, address).get('struct_size');
+    this.release(address);
+    if (bytes !== structBytes[name]) throw new MienError(`mien.wasm is of another version: its mien_${name} has ${bytes} bytes, not ${structBytes[name]}`);
+  }
+
+  createTracker(config) { return new Tracker(this, config); }
+  createNetwork(config) { return new Network(this, config); }
+
+  // Beneath: the module's memory. Each is released by the address that allocate gave.
+  allocate(bytes) {
+    const block = this.exports.malloc(bytes + alignment + 4);
+    if (!block) throw new MienError('out of memory', -6);
+    const address = (block + 4 + alignment - 1) & ~(alignment - 1);
+    new DataView(this.memory.buffer).setUint32(address - 4, block, true);
+    return address;
+  }
+
+  release(address) { if (address) this.exports.free(new DataView(this.memory.buffer).getUint32(address - 4, true)); }
+
+  struct(name) {
+    const address = this.allocate(structBytes[name]);
+    this.exports[`mien_${name}_default`](address);
+    return new Struct(this.memory, name, address);
+  }
+
+  // Copies bytes into the module; null is address 0.
+  load(source) {
+    if (!source) return {address: 0, bytes: 0};
+    const data = source instanceof ArrayBuffer ? new Uint8Array(source) : new Uint8Array(source.buffer, source.byteOffset, source.byteLength);
+    const address = this.allocate(data.length);
+    new Uint8Array(this.memory.buffer).set(data, address);
+    return {address, bytes: data.length};
+  }
+
+  text(address) {
+    if (!address) return null;
+    const bytes = new Uint8Array(this.memory.buffer, address);
+    return new TextDecoder().decode(bytes.subarray(0, bytes.indexOf(0)).slice());
+  }
+
+  check(status) {
+    if (status !== 0) throw new MienError(this.text(this.exports.mien_status_string(status)), status);
+  }
+}

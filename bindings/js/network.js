@@ -1,0 +1,56 @@
+// Networks of one's own, as in mien.h.
+import {MienError} from './error.js';
+
+// Input and output are views of the module's memory, to be asked for anew each time.
+export class Network {
+  constructor(mien, {file, name = null, height = 0, width = 0, cpuMask}) {
+    this.mien = mien;
+    const struct = mien.struct('network_config');
+    const {address, bytes} = mien.load(file);
+    const named = name === null ? {address: 0} : mien.load(new TextEncoder().encode(name + '\0'));
+    struct.fill({cpuMask: 'cpu_mask', height: 'height', width: 'width'}, {cpuMask, height, width});
+    struct.set('file', address);
+    struct.set('file_bytes', bytes);
+    struct.set('name', named.address);
+    const handle = mien.allocate(16);
+    const status = mien.exports.mien_network_create(struct.address, handle);
+    this.handle = new DataView(mien.memory.buffer).getUint32(handle, true);
+    this.owned = [address, handle];
+    this.shapeAddress = handle;
+    for (const spent of [struct.address, named.address]) mien.release(spent);
+    if (status !== 0) {
+      this.destroy();
+      mien.check(status);
+    }
+  }
+
+  view(address) {
+    const [height, width, channels] = new Int32Array(this.mien.memory.buffer, this.shapeAddress, 3);
+    const interleaved = channels <= 4 && height * width > 1 && address === this.inputAddress;
+    const floats = height * width * (interleaved ? channels : (channels + 7 & ~7));
+    return {data: new Float32Array(this.mien.memory.buffer, address, floats), shape: {height, width, channels}};
+  }
+
+  input() {
+    this.inputAddress = this.mien.exports.mien_network_input(this.handle, this.shapeAddress);
+    return this.view(this.inputAddress);
+  }
+
+  run() { this.mien.check(this.mien.exports.mien_network_run(this.handle)); }
+  outputCount() { return this.mien.exports.mien_network_output_count(this.handle); }
+
+  output(index) {
+    const address = this.mien.exports.mien_network_output(this.handle, index, this.shapeAddress);
+    if (!address) throw new MienError(`there is no output ${index}`, -3);
+    return this.view(address);
+  }
+
+  reset() { this.mien.exports.mien_network_reset(this.handle); }
+
+  destroy() {
+    if (this.handle) this.mien.exports.mien_network_destroy(this.handle);
+    for (const address of this.owned) this.mien.release(address);
+    this.handle = 0;
+    this.owned = [];
+  }
+}

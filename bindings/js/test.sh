@@ -1,0 +1,17 @@
+#!/usr/bin/env bash
+# Passes the tests of the package in Node, on the module that Emscripten makes.
+# usage: bindings/js/test.sh      (scripts/setup.sh build web test)
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+for tool in emcc node ffmpeg clang; do
+  command -v "$tool" >/dev/null || { echo "NOT TESTED: bindings/js, for which there is no $tool (scripts/setup.sh build web test)"; exit 0; }
+done
+. scripts/ccache.sh
+export NODE_PATH=/usr/share/nodejs  # where Debian keeps the modules that Emscripten needs
+cmake -S . -B build/wasm -G Ninja --toolchain scripts/cross/wasm.cmake -DCMAKE_BUILD_TYPE=Release -DMIEN_BUILD_APPS=OFF \
+  -DMIEN_BUILD_CONFORMANCE=OFF -DMIEN_BUILD_TESTS=OFF -DMIEN_INSTALL=OFF >/dev/null
+cmake --build build/wasm --target mien_module -- --quiet
+MIEN_C_API32=$PWD/build/wasm/c_api32.txt
+export MIEN_C_API32
+bindings/c_api.py wasm32 >"$MIEN_C_API32"
+node --test --test-reporter=spec bindings/js/tests/*.test.mjs

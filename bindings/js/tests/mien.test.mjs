@@ -1,0 +1,144 @@
+// The wrapper in Node, on the demo clip. MIEN_WASM names the module; models and clip are the repository's.
+import assert from 'node:assert/strict';
+import {execFileSync} from 'node:child_process';
+import {readFileSync} from 'node:fs';
+import {test} from 'node:test';
+import {fields, structBytes} from '../layout.js';
+import {MienError, loadMien} from '../mien.js';
+
+const root = new URL('../../../', import.meta.url).pathname;
+const model = name => readFileSync(`${root}models/${name}.mien`);
+const mien = await loadMien(readFileSync(process.env.MIEN_WASM ?? `${root}build/wasm/tracker/mien.wasm`));
+const weights = {basenet: model('basenet'), proposal: model('proposal'), hifinet: model('hifinet'), audionet: model('audionet')};
+const width = 640, height = 480, frameNs = 1e9 / 30;
+
+const ffmpeg = (...options) =>
+  execFileSync('ffmpeg', ['-v', 'error', '-i', `${root}tests/data/demo.mp4`, ...options, '-'], {maxBuffer: 1 << 30});
+const frames = (format, bytes, count) => {
+  const all = ffmpeg('-frames:v', String(count), '-pix_fmt', format, '-f', 'rawvideo');
+  return Array.from({length: count}, (_, i) => new Uint8Array(all.buffer, all.byteOffset + i * bytes, bytes));
+};
+const truth = (() => {
+  const [header, ...rows] = readFileSync(`${root}tests/data/demo_truth.csv`, 'utf8').trim().split('\n').map(line => line.split(','));
+  return name => rows.map(row => Number(row[header.indexOf(name)]));
+})();
+
+function correlation(a, b) {
+  const mean = values => values.reduce((sum, value) => sum + value, 0) / values.length;
+  const [ma, mb] = [mean(a), mean(b)];
+  const product = (p, q, mp, mq) => p.reduce((sum, value, i) => sum + (value - mp) * (q[i] - mq), 0);
+  return product(a, b, ma, mb) / Math.sqrt(product(a, a, ma, ma) * product(b, b, mb, mb));
+}
+
+test('names come in the order of the C API', () => {
+  assert.equal(mien.controlNames.length, 52);
+  assert.equal(mien.controlNames[17], 'jawOpen');
+  assert.deepEqual(mien.stageNames, ['proposal', 'warp', 'encoder', 'heads', 'decoders', 'sound']);
+  assert.equal(mien.landmarkCount, 175);
+});
+
+test('the jaw of the clip is followed with picture and sound', () => {
+  const tracker = mien.createTracker({...weights, lod: 4}), count = 120;
+  const sound = ffmpeg('-f', 'f32le', '-ac', '1', '-ar', '16000', '-vn');
+  const samples = new Float32Array(sound.buffer.slice(sound.byteOffset, sound.byteOffset + sound.length));
+  const jaw = frames('nv12', width * height * 3 / 2, count).map((data, i) => {
+    const from = Math.round(i * 16000 / 30), to = Math.round((i + 1) * 16000 / 30);
+    tracker.pushAudio(samples.subarray(from, to), {sampleRate: 16000}, from / 16000 * 1e9);
+    tracker.pushVideo({format: 'nv12', width, height, data, fullRange: false}, i * frameNs);
+    return tracker.getResult();
+  });
+  const last = jaw.at(-1);
+  assert.equal(last.status, 'tracking');
+  assert.equal(last.lod, 4);
+  assert.equal(last.frames, BigInt(count));
+  assert.ok(last.stageNs.encoder > 0, 'stages are timed');
+  assert.ok(correlation(jaw.map(({controls}) => controls[17]), truth('jawOpen').slice(0, count)) > 0.8);
+  tracker.destroy();
+});
+
+test('formats of the same picture give the same face', () => {
+  const results = [['rgba', 'rgba', 4], ['i420', 'yuv420p', 1.5], ['bgra', 'bgra', 4]].map(([format, pixels, bytes]) => {
+    const tracker = mien.createTracker({...weights, lod: 1});
+    frames(pixels, width * height * bytes, 5).forEach((data, i) =>
+      tracker.pushVideo({format, width, height, data, fullRange: false}, i * frameNs));
+    const {status, box} = tracker.getResult();
+    tracker.destroy();
+    assert.equal(status, 'tracking');
+    return box;
+  });
+  for (const box of results) box.forEach((value, i) => assert.ok(Math.abs(value - results[0][i]) < 3, `${value} and ${results[0][i]}`));
+});
+
+test('a region is all that is seen', () => {
+  const track = region => {
+    const tracker = mien.createTracker({...weights, lod: 1});
+    frames('rgba', width * height * 4, 5).forEach((data, i) => tracker.pushVideo({width, height, data, region}, i * frameNs));
+    const result = tracker.getResult();
+    tracker.destroy();
+    return result;
+  };
+  const {box} = track();
+  const inside = track([box[0] - 40, box[1] - 40, box[2] + 80, box[3] + 80].map(Math.round));
+  box.forEach((value, i) => assert.ok(Math.abs(value - inside.box[i]) < 5, `${value} and ${inside.box[i]}`));
+  assert.equal(track([0, 0, 40, 40]).status, 'searching');
+});
+
+test('structs lie as the header says', {skip: !process.env.MIEN_C_API32 && 'MIEN_C_API32 is not set'}, () => {
+  const facts = readFileSync(process.env.MIEN_C_API32, 'utf8').split('\n').map(line => line.split(' '));
+  const said = Object.fromEntries(facts.filter(([kind]) => kind === 'field' || kind === 'struct').map(([, name, value]) => [name, Number(value)]));
+  for (const [struct, members] of Object.entries(fields)) {
+    assert.equal(structBytes[struct], said[`mien_${struct}`], struct);
+    for (const [member, [offset]] of Object.entries(members)) assert.equal(offset, said[`mien_${struct}.${member}`], `${struct}.${member}`);
+  }
+});
+
+test('what is wrong is said with its status', () => {
+  const fails = (status, action) => assert.throws(action, error => error instanceof MienError && error.status === status, `status ${status}`);
+  fails(-20, () => mien.createTracker({...weights, basenet: new Uint8Array(4096)}));
+  fails(-1, () => mien.createTracker({proposal: weights.proposal}));
+  const tracker = mien.createTracker({basenet: weights.basenet, proposal: weights.proposal});
+  fails(-60, () => tracker.pushVideo({format: 'cmyk', width, height, data: new Uint8Array(4)}, 0));
+  fails(-63, () => tracker.pushVideo({width, height, data: new Uint8Array(100)}, 0));
+  fails(-62, () => tracker.pushVideo({width, height, planes: [new Uint8Array(width * height * 4)], rowStrideBytes: [width]}, 0));
+  fails(-61, () => tracker.pushVideo({width: 0, height: 0, data: new Uint8Array(0)}, 0));
+  fails(-9, () => tracker.pushAudio(new Float32Array(160), {sampleRate: 16000}, 0));
+  fails(-7, () => tracker.setLod(4));
+  fails(-80, () => tracker.loadNeutral(new Uint8Array(448)));
+  tracker.destroy();
+  const hearing = mien.createTracker(weights);
+  fails(-3, () => hearing.setMix('nothing', 1, 1));
+  hearing.setMix('jawOpen', 1, 0);
+  hearing.destroy();
+});
+
+test('a neutral face is captured, saved and taken over', () => {
+  const tracker = mien.createTracker({...weights, lod: 2}), [data] = frames('rgba', width * height * 4, 1);
+  tracker.captureNeutral();
+  for (let i = 0; i < 70; ++i) tracker.pushVideo({width, height, data}, i * frameNs);
+  const {file, captured} = tracker.saveNeutral();
+  assert.equal(file.length, 448);
+  assert.equal(captured, 2);
+  const other = mien.createTracker({...weights, lod: 2});
+  other.loadNeutral(file);
+  assert.deepEqual(other.saveNeutral().file, file);
+  for (const one of [tracker, other]) one.destroy();
+});
+
+test('trackers give their memory back', () => {
+  const pages = () => mien.memory.buffer.byteLength;
+  mien.createTracker({...weights, lod: 4}).destroy();
+  const before = pages();
+  for (let i = 0; i < 10; ++i) mien.createTracker({...weights, lod: 4}).destroy();
+  assert.equal(pages(), before);
+});
+
+test('networks of a weight file run', () => {
+  const network = mien.createNetwork({file: weights.audionet});
+  const {data, shape} = network.input();
+  assert.equal(shape.channels, 130);
+  data.fill(0.1);
+  network.run();
+  assert.ok(network.output(0).data.some(value => value !== 0));
+  assert.throws(() => network.output(99), MienError);
+  network.destroy();
+});

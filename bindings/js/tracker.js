@@ -1,0 +1,195 @@
+// A tracker of mien.h.
+import {MienError} from './error.js';
+
+const alignment = 64;  // MIEN_ALIGNMENT
+const imageFormats = {gray8: 0, rgb: 1, bgr: 2, rgba: 3, bgra: 4, nv12: 5, nv21: 6, i420: 7};
+const faceStatus = ['searching', 'tracking', 'lost'];
+const defaultMask = 0xffffffff;  // MIEN_CPU_ALL
+const nanoseconds = time => (typeof time === 'bigint' ? time : BigInt(Math.round(time)));
+
+// Memory of the module that is as large as was ever asked for.
+class Buffer {
+  constructor(mien) { Object.assign(this, {mien, address: 0, bytes: 0}); }
+
+  reserve(bytes) {
+    if (bytes > this.bytes) {
+      this.free();
+      this.address = this.mien.allocate(bytes);
+      this.bytes = bytes;
+    }
+    return this.address;
+  }
+
+  free() {
+    this.mien.release(this.address);
+    this.address = this.bytes = 0;
+  }
+}
+
+const weightNames = ['basenet', 'proposal', 'hifinet', 'audionet'];
+const configNames = {
+  lod: 'lod', cpuMask: 'cpu_mask', horizontalFov: 'horizontal_fov', acceptProbability: 'accept_probability',
+  loseProbability: 'lose_probability', loseAfterFrames: 'lose_after_frames', proposalSize: 'proposal_size',
+  proposalThreshold: 'proposal_threshold', refineThreshold: 'refine_threshold', searchInterval: 'search_interval',
+  budgetMs: 'budget_ms', smoothing: 'smoothing', maxFaces: 'max_faces', voiceAttackMs: 'voice_attack_ms', voiceReleaseMs: 'voice_release_ms'};
+const imageNames = {
+  chromaPixelStrideBytes: 'chroma_pixel_stride_bytes', rotation: 'rotation', mirrored: 'mirrored', fullRange: 'full_range',
+  focalLengthPx: 'focal_length_px', principalX: 'principal_x', principalY: 'principal_y', bt709: 'yuv_matrix'};
+
+// Rows and bytes of a row of every plane of an image without padding.
+function planeSizes(format, width, height) {
+  const half = {width: (width + 1) >> 1, height: (height + 1) >> 1};
+  const luma = {row: width, rows: height};
+  switch (format) {
+    case 'gray8': return [luma];
+    case 'rgb': case 'bgr': return [{row: width * 3, rows: height}];
+    case 'rgba': case 'bgra': return [{row: width * 4, rows: height}];
+    case 'nv12': case 'nv21': return [luma, {row: half.width * 2, rows: half.height}];
+    case 'i420': return [luma, {row: half.width, rows: half.height}, {row: half.width, rows: half.height}];
+    default: throw new MienError(`'${format}' is no image format`, -60);
+  }
+}
+
+export class Tracker {
+  constructor(mien, config) {
+    this.mien = mien;
+    const struct = mien.struct('tracker_config');
+    this.image = mien.struct('image');
+    this.audio = mien.struct('audio');
+    this.result = mien.struct('result');
+    this.pixels = new Buffer(mien);
+    this.samples = new Buffer(mien);
+    this.weights = [];
+    struct.fill(configNames, {cpuMask: defaultMask, ...config});
+    for (const name of weightNames) {
+      const {address, bytes} = mien.load(config[name]);
+      this.weights.push(address);
+      struct.set(name, address);
+      struct.set(name + '_bytes', bytes);
+    }
+    struct.set('clock_ns', mien.exports.mien_module_clock());
+    const handle = mien.allocate(4);
+    const status = mien.exports.mien_tracker_create(struct.address, handle);
+    this.handle = new DataView(mien.memory.buffer).getUint32(handle, true);
+    for (const address of [handle, struct.address]) mien.release(address);
+    if (status !== 0) {
+      this.destroy();
+      mien.check(status);
+    }
+  }
+
+  call(name, ...values) { this.mien.check(this.mien.exports['mien_tracker_' + name](this.handle, ...values)); }
+
+  destroy() {
+    if (this.handle) this.mien.exports.mien_tracker_destroy(this.handle);
+    for (const buffer of [this.pixels, this.samples]) buffer.free();
+    for (const address of [...this.weights, this.image?.address, this.audio?.address, this.result?.address]) this.mien.release(address);
+    this.handle = 0;
+    this.weights = [];
+    this.image = this.audio = this.result = null;
+  }
+
+  reset() { this.call('reset'); }
+  setLod(lod) { this.call('set_lod', lod); }
+  advance(ptsNs) { this.call('advance', nanoseconds(ptsNs)); }
+  captureNeutral() { this.call('capture_neutral'); }
+  setAudioOffset(offsetNs) { this.call('set_audio_offset', nanoseconds(offsetNs)); }
+  setMix(control, audioWeight, videoWeight) {
+    this.call('set_mix', typeof control === 'string' ? this.mien.controlNames.indexOf(control) : control, audioWeight, videoWeight);
+  }
+
+  pushVideo(image, ptsNs) {
+    const {format = 'rgba', width, height} = image, sizes = planeSizes(format, width, height);
+    const planes = image.planes ?? this.split(image.data, sizes);
+    const strides = image.rowStrideBytes ?? sizes.map(({row}) => row);
+    const used = planes.map((plane, i) => Math.min(plane.byteLength, strides[i] * sizes[i].rows));
+    const start = this.pixels.reserve(used.reduce((sum, bytes) => sum + bytes + alignment, 0));
+    const heap = new Uint8Array(this.mien.memory.buffer);
+    this.mien.exports.mien_image_default(this.image.address);
+    this.image.fill(imageNames, image);
+    this.image.set('format', imageFormats[format]);
+    this.image.set('width', width);
+    this.image.set('height', height);
+    (image.region ?? []).forEach((side, i) => this.image.set('region', side, i));
+    let address = start;
+    planes.forEach((plane, i) => {
+      this.checkPlane(plane, strides[i], sizes[i]);
+      heap.set(new Uint8Array(plane.buffer, plane.byteOffset, used[i]), address);
+      this.image.set('planes', address, i);
+      this.image.set('row_stride_bytes', strides[i], i);
+      address += used[i];
+    });
+    this.call('push_video', this.image.address, nanoseconds(ptsNs));
+  }
+
+  // One buffer with the planes behind each other.
+  split(data, sizes) {
+    let offset = 0;
+    return sizes.map(({row, rows}) => {
+      const plane = new Uint8Array(data.buffer, data.byteOffset + offset, Math.max(0, Math.min(row * rows, data.byteLength - offset)));
+      offset += row * rows;
+      return plane;
+    });
+  }
+
+  checkPlane(plane, stride, {row, rows}) {
+    if (stride < row) throw new MienError(`rows of ${row} bytes do not fit into ${stride}`, -62);
+    if (plane.byteLength < stride * (rows - 1) + row) throw new MienError(`a plane has ${plane.byteLength} bytes, less than its rows`, -63);
+  }
+
+  // `samples`: Float32Array or Int16Array, channels interleaved.
+  pushAudio(samples, {sampleRate, channels = 1}, ptsNs) {
+    const address = this.samples.reserve(samples.byteLength);
+    new Uint8Array(this.mien.memory.buffer).set(new Uint8Array(samples.buffer, samples.byteOffset, samples.byteLength), address);
+    this.audio.set('format', samples instanceof Int16Array ? 1 : 0);
+    this.audio.set('sample_rate', sampleRate);
+    this.audio.set('channels', channels);
+    this.audio.set('frames', Math.floor(samples.length / channels));
+    this.audio.set('samples', address);
+    this.call('push_audio', this.audio.address, nanoseconds(ptsNs));
+  }
+
+  getResult() {
+    this.call('get_result', this.result.address);
+    return this.readResult();
+  }
+
+  faceCount() { return this.mien.exports.mien_tracker_face_count(this.handle); }
+
+  getFace(index) {
+    this.call('get_face', index, this.result.address);
+    return this.readResult();
+  }
+
+  readResult() {
+    const get = field => this.result.get(field), stages = get('stage_ns');
+    return {
+      status: faceStatus[get('status')], ptsNs: get('pts_ns'), supportedControls: get('supported_controls'),
+      faceProbability: get('face_probability'), voiceActivity: get('voice_activity'), lod: get('lod'), flags: get('flags'),
+      box: get('box'), rotation: get('rotation'), pitch: get('pitch'), yaw: get('yaw'), roll: get('roll'),
+      translation: get('translation'), controls: get('controls'), landmarks: get('landmarks'),
+      frames: get('frames'), faceFrames: get('face_frames'), proposalRuns: get('proposal_runs'), encoderRuns: get('encoder_runs'),
+      stageNs: Object.fromEntries(this.mien.stageNames.map((name, i) => [name, Number(stages[i])])), faceId: get('face_id')};
+  }
+
+  // The file of 448 bytes, and which levels it has: bit 0 level 1, bit 1 the others.
+  saveNeutral() {
+    const bytes = 448, address = this.mien.allocate(bytes + 4);
+    try {
+      this.call('save_neutral', address, bytes, address + bytes);
+      return {file: new Uint8Array(this.mien.memory.buffer.slice(address, address + bytes)),
+              captured: new DataView(this.mien.memory.buffer).getUint32(address + bytes, true)};
+    } finally {
+      this.mien.release(address);
+    }
+  }
+
+  loadNeutral(file) {
+    const {address, bytes} = this.mien.load(file);
+    try {
+      this.call('load_neutral', address, bytes);
+    } finally {
+      this.mien.release(address);
+    }
+  }
+}

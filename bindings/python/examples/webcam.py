@@ -1,0 +1,52 @@
+#!/usr/bin/env python3
+"""Draws what the tracker sees on a camera's picture, until q is pressed. Needs opencv-python.
+
+usage: webcam.py [CAMERA or FILE] [--frames N] [--save PICTURE.png]
+"""
+import argparse
+import time
+
+import cv2
+import mien
+
+
+def draw(frame, result):
+    for x, y in result.landmarks.astype(int):
+        cv2.circle(frame, (int(x), int(y)), 1, (0, 255, 0), -1)
+    strongest = sorted(result.controls.items(), key=lambda item: -item[1])[:8]
+    for line, (name, value) in enumerate(strongest):
+        cv2.putText(frame, f"{name} {value:.2f}", (8, 18 + 16 * line), cv2.FONT_HERSHEY_SIMPLEX, 0.45, (255, 255, 255), 1)
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("source", nargs="?", default="0")
+    parser.add_argument("--frames", type=int, default=0, help="stop after so many")
+    parser.add_argument("--save", help="write the last picture there and show no window")
+    options = parser.parse_args()
+    camera = cv2.VideoCapture(int(options.source) if options.source.isdigit() else options.source)
+    if not camera.isOpened():
+        raise SystemExit(f"webcam.py: no pictures from {options.source}")
+    start, count, frame = time.monotonic(), 0, None
+    with mien.Tracker(lod="auto") as tracker:
+        while options.frames == 0 or count < options.frames:
+            there, picture = camera.read()
+            if not there:
+                break
+            frame, count = picture, count + 1
+            # A file is read faster than it plays.
+            at = camera.get(cv2.CAP_PROP_POS_MSEC) / 1000 if not options.source.isdigit() else time.monotonic() - start
+            result = tracker.track(frame, at)
+            if result.has_face:
+                draw(frame, result)
+            if not options.save:
+                cv2.imshow("mien", frame)
+                if cv2.waitKey(1) == ord("q"):
+                    break
+    if options.save and frame is not None:
+        cv2.imwrite(options.save, frame)
+    print(f"{count} frames, {result.controls!r}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,216 @@
+"""The C library as ctypes sees it: structs and functions of mien.h. tests/test_abi.py holds them against the header."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import sys
+from ctypes import POINTER, Structure, c_char_p, c_float, c_int32, c_int64, c_size_t, c_uint32, c_uint64, c_void_p
+from pathlib import Path
+from typing import Any, Callable, Optional, Sequence, cast
+
+CONTROL_COUNT = 52
+LANDMARK_COUNT = 175
+ALIGNMENT = 64
+NEUTRAL_BYTES = 448
+
+PACKAGE = Path(__file__).resolve().parent
+MODELS = PACKAGE / "models"
+
+
+class Image(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("format", c_int32),
+        ("width", c_int32),
+        ("height", c_int32),
+        ("planes", c_void_p * 3),
+        ("row_stride_bytes", c_int32 * 3),
+        ("chroma_pixel_stride_bytes", c_int32),
+        ("rotation", c_int32),
+        ("mirrored", c_int32),
+        ("full_range", c_int32),
+        ("focal_length_px", c_float),
+        ("principal_x", c_float),
+        ("principal_y", c_float),
+        ("yuv_matrix", c_int32),
+        ("region", c_int32 * 4),
+        ("reserved", c_uint32 * 3),
+    ]
+
+
+class Audio(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("format", c_int32),
+        ("sample_rate", c_int32),
+        ("channels", c_int32),
+        ("planar", c_int32),
+        ("frames", c_size_t),
+        ("samples", c_void_p * 8),
+        ("reserved", c_uint32 * 8),
+    ]
+
+
+class Allocator(Structure):
+    _fields_ = [("allocate", c_void_p), ("release", c_void_p), ("user", c_void_p)]
+
+
+class TrackerConfig(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("cpu_mask", c_uint32),
+        ("basenet", c_void_p),
+        ("basenet_bytes", c_size_t),
+        ("proposal", c_void_p),
+        ("proposal_bytes", c_size_t),
+        ("allocator", Allocator),
+        ("clock_ns", c_void_p),
+        ("clock_user", c_void_p),
+        ("lod", c_int32),
+        ("horizontal_fov", c_float),
+        ("accept_probability", c_float),
+        ("lose_probability", c_float),
+        ("lose_after_frames", c_int32),
+        ("proposal_size", c_int32),
+        ("proposal_threshold", c_float),
+        ("refine_threshold", c_float),
+        ("search_interval", c_int32),
+        ("budget_ms", c_float),
+        ("hifinet", c_void_p),
+        ("hifinet_bytes", c_size_t),
+        ("smoothing", c_int32),
+        ("max_faces", c_int32),
+        ("audionet", c_void_p),
+        ("audionet_bytes", c_size_t),
+        ("voice_attack_ms", c_float),
+        ("voice_release_ms", c_float),
+        ("audio_queue_samples", c_int32),
+        ("voice_strength", c_float),
+        ("reserved", c_uint32 * 6),
+    ]
+
+
+class TrackerResult(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("status", c_int32),
+        ("pts_ns", c_int64),
+        ("supported_controls", c_uint64),
+        ("face_probability", c_float),
+        ("voice_activity", c_float),
+        ("lod", c_int32),
+        ("flags", c_uint32),
+        ("box", c_float * 4),
+        ("rotation", c_float * 4),
+        ("pitch", c_float),
+        ("yaw", c_float),
+        ("roll", c_float),
+        ("translation", c_float * 3),
+        ("controls", c_float * CONTROL_COUNT),
+        ("landmarks", c_float * (2 * LANDMARK_COUNT)),
+        ("frames", c_uint64),
+        ("face_frames", c_uint64),
+        ("proposal_runs", c_uint64),
+        ("encoder_runs", c_uint64),
+        ("stage_ns", c_uint64 * 16),
+        ("face_id", c_uint32),
+        ("reserved", c_uint32 * 15),
+    ]
+
+
+class NetworkShape(Structure):
+    _fields_ = [("height", c_int32), ("width", c_int32), ("channels", c_int32)]
+
+
+class NetworkConfig(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("cpu_mask", c_uint32),
+        ("file", c_void_p),
+        ("file_bytes", c_size_t),
+        ("name", c_char_p),
+        ("height", c_int32),
+        ("width", c_int32),
+        ("allocator", Allocator),
+        ("reserved", c_uint32 * 8),
+    ]
+
+
+STRUCTS = {
+    "mien_image": Image,
+    "mien_audio": Audio,
+    "mien_allocator": Allocator,
+    "mien_tracker_config": TrackerConfig,
+    "mien_result": TrackerResult,
+    "mien_shape": NetworkShape,
+    "mien_network_config": NetworkConfig,
+}
+
+Status = c_int32
+FUNCTIONS: dict[str, tuple[Any, Sequence[Any]]] = {
+    "mien_status_string": (c_char_p, [Status]),
+    "mien_version": (c_char_p, []),
+    "mien_control_name": (c_char_p, [c_int32]),
+    "mien_vocabulary_size": (c_int32, [c_int32]),
+    "mien_vocabulary_name": (c_char_p, [c_int32, c_int32]),
+    "mien_vocabulary_values": (Status, [c_int32, c_void_p, c_void_p, c_int32]),
+    "mien_image_default": (None, [POINTER(Image)]),
+    "mien_audio_default": (None, [POINTER(Audio)]),
+    "mien_tracker_config_default": (None, [POINTER(TrackerConfig)]),
+    "mien_tracker_create": (Status, [POINTER(TrackerConfig), POINTER(c_void_p)]),
+    "mien_tracker_destroy": (None, [c_void_p]),
+    "mien_tracker_reset": (Status, [c_void_p]),
+    "mien_tracker_set_lod": (Status, [c_void_p, c_int32]),
+    "mien_tracker_push_video": (Status, [c_void_p, POINTER(Image), c_int64]),
+    "mien_tracker_advance": (Status, [c_void_p, c_int64]),
+    "mien_tracker_push_audio": (Status, [c_void_p, POINTER(Audio), c_int64]),
+    "mien_tracker_queue_audio": (Status, [c_void_p, POINTER(Audio), c_int64]),
+    "mien_tracker_set_audio_offset": (Status, [c_void_p, c_int64]),
+    "mien_tracker_set_mix": (Status, [c_void_p, c_int32, c_float, c_float]),
+    "mien_tracker_get_result": (Status, [c_void_p, POINTER(TrackerResult)]),
+    "mien_tracker_face_count": (c_int32, [c_void_p]),
+    "mien_tracker_get_face": (Status, [c_void_p, c_int32, POINTER(TrackerResult)]),
+    "mien_tracker_capture_neutral": (Status, [c_void_p]),
+    "mien_tracker_save_neutral": (Status, [c_void_p, c_void_p, c_size_t, POINTER(c_uint32)]),
+    "mien_tracker_load_neutral": (Status, [c_void_p, c_char_p, c_size_t]),
+    "mien_network_config_default": (None, [POINTER(NetworkConfig)]),
+    "mien_network_create": (Status, [POINTER(NetworkConfig), POINTER(c_void_p)]),
+    "mien_network_destroy": (None, [c_void_p]),
+    "mien_network_input": (c_void_p, [c_void_p, POINTER(NetworkShape)]),
+    "mien_network_run": (Status, [c_void_p]),
+    "mien_network_output_count": (c_int32, [c_void_p]),
+    "mien_network_output": (c_void_p, [c_void_p, c_int32, POINTER(NetworkShape)]),
+    "mien_network_reset": (None, [c_void_p]),
+}
+
+
+def _path() -> Path:
+    """The library of this package, or what MIEN_LIBRARY names."""
+    name = {"win32": "libmien.dll", "darwin": "libmien.dylib"}.get(sys.platform, "libmien.so")
+    return Path(os.environ.get("MIEN_LIBRARY", PACKAGE / name))
+
+
+def _load() -> ctypes.CDLL:
+    library = ctypes.CDLL(str(_path()))
+    for name, (result, arguments) in FUNCTIONS.items():
+        function = getattr(library, name)
+        function.restype, function.argtypes = result, arguments
+    return library
+
+
+LIBRARY = _load()
+
+
+def function(name: str) -> Callable[..., Any]:
+    return cast(Callable[..., Any], getattr(LIBRARY, name))
+
+
+def text(name: str, *arguments: int) -> Optional[str]:
+    """What a function answers that returns a C string."""
+    answer = cast(Optional[bytes], function(name)(*arguments))
+    return None if answer is None else answer.decode("ascii")
+
+
+def version() -> str:
+    return text("mien_version") or ""

@@ -1,0 +1,118 @@
+"""Networks of your own: weight files that `python -m mien.convert` made of ONNX files."""
+
+from __future__ import annotations
+
+from ctypes import byref, c_float, c_void_p
+from types import TracebackType
+from typing import Any, NamedTuple, Optional
+
+import numpy as np
+import numpy.typing as npt
+
+from ._library import NetworkConfig, NetworkShape, function
+from .errors import MienError, check
+from .weights import Model, opened
+
+Floats = npt.NDArray[np.float32]
+_BLOCK = 8  # channels that lie together
+_INTERLEAVED = 4  # an input of up to so many channels lies as a picture does
+
+
+class Shape(NamedTuple):
+    channels: int
+    height: int
+    width: int
+
+
+class Network:
+    """A network of a weight file, ready to run. Used by one thread at a time.
+
+    model: a path, or the file's bytes. name: of the network; default: the file's first.
+    size: (height, width) of the input, for networks that take several.
+    """
+
+    def __init__(self, model: Model, name: Optional[str] = None, size: Optional[tuple[int, int]] = None) -> None:
+        self._handle = c_void_p()
+        self._file = opened(model)
+        config = NetworkConfig()
+        function("mien_network_config_default")(byref(config))
+        config.file, config.file_bytes = self._file.ctypes.data, self._file.size
+        config.name = None if name is None else name.encode()
+        if size is not None:
+            config.height, config.width = size
+        check(function("mien_network_create")(byref(config), byref(self._handle)))
+        shape = NetworkShape()
+        place = function("mien_network_input")(self._handle, byref(shape))
+        self.input_shape = Shape(shape.channels, shape.height, shape.width)
+        c, h, w = self.input_shape
+        self._picture = c <= _INTERLEAVED and h * w > 1
+        self._input = _floats_at(place, h * w * c if self._picture else -(-c // _BLOCK) * h * w * _BLOCK)
+
+    def run(self, array: npt.ArrayLike) -> list[Floats]:
+        """One run: every output as [channels, height, width], or [channels] of a vector.
+
+        array: [channels, height, width] with axes of 1 in front or not, as ONNX has it; of a network over time also
+        [steps, ...], one run each: outputs then have the steps in front.
+        """
+        given = np.asarray(array, np.float32)
+        size = int(np.prod(self.input_shape))
+        if given.size == size:
+            return self._step(given)
+        if given.ndim > 1 and given[0].size == size:
+            return [np.stack(outputs) for outputs in zip(*(self._step(step) for step in given))]
+        raise ValueError(f"an array of shape {given.shape} for an input of {tuple(self.input_shape)} (channels, height, width)")
+
+    def _step(self, array: Floats) -> list[Floats]:
+        if not self._handle:
+            raise MienError("the network is closed")
+        c, h, w = self.input_shape
+        map_ = array.reshape(c, h, w)
+        if self._picture:
+            self._input[:] = map_.transpose(1, 2, 0).reshape(-1)
+        else:
+            blocks = self._input.reshape(-1, h, w, _BLOCK)
+            for block in range(len(blocks)):
+                part = map_[block * _BLOCK : (block + 1) * _BLOCK]
+                blocks[block, :, :, : len(part)] = part.transpose(1, 2, 0)
+        check(function("mien_network_run")(self._handle))
+        return [self._output(i) for i in range(function("mien_network_output_count")(self._handle))]
+
+    def _output(self, index: int) -> Floats:
+        shape = NetworkShape()
+        place = function("mien_network_output")(self._handle, index, byref(shape))
+        c, h, w = shape.channels, shape.height, shape.width
+        blocks = -(-c // _BLOCK)
+        values = _floats_at(place, blocks * h * w * _BLOCK).reshape(blocks, h, w, _BLOCK)
+        map_ = values.transpose(0, 3, 1, 2).reshape(-1, h, w)[:c]
+        return np.array(map_[:, 0, 0] if h == w == 1 else map_)
+
+    def reset(self) -> None:
+        """Puts what a network over time remembers back to a stream's beginning."""
+        if self._handle:
+            function("mien_network_reset")(self._handle)
+
+    def close(self) -> None:
+        handle, self._handle = self._handle, c_void_p()
+        function("mien_network_destroy")(handle)
+
+    def __enter__(self) -> Network:
+        return self
+
+    def __exit__(self, kind: Optional[type[BaseException]], error: Optional[BaseException], trace: Optional[TracebackType]) -> None:
+        self.close()
+
+    def __del__(self) -> None:
+        if getattr(self, "_handle", None):
+            self.close()
+
+
+def _floats_at(place: Any, count: int) -> Floats:
+    memory: Any = (c_float * count).from_address(place)
+    array: Floats = np.frombuffer(memory, np.float32)
+    return array
+
+
+def run(model: Model, array: npt.ArrayLike, *, network: Optional[str] = None) -> list[Floats]:
+    """Runs a converted network once (Network.run says how arrays lie) and returns its outputs."""
+    with Network(model, network) as opened_network:
+        return opened_network.run(array)

@@ -1,0 +1,281 @@
+"""Trackers: pictures and sound in, results out."""
+
+from __future__ import annotations
+
+import ctypes
+from ctypes import byref, c_uint32, c_void_p
+from pathlib import Path
+from types import TracebackType
+from typing import Any, Literal, Optional, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from ._library import MODELS, NEUTRAL_BYTES, Audio, Image, TrackerConfig, TrackerResult, function
+from .errors import MienError, check
+from .result import Result
+from .vocabulary import CONTROL_NUMBERS
+from .weights import mapped
+
+Frame = npt.NDArray[np.uint8]
+Samples = Union[npt.NDArray[np.float32], npt.NDArray[np.int16]]
+Color = Literal["bgr", "rgb", "nv12", "nv21", "i420"]
+Lod = Literal["auto", 1, 2, 3, 4]
+
+# mien_image_format by color and bytes a pixel.
+_PACKED = {("gray", 1): 0, ("rgb", 3): 1, ("bgr", 3): 2, ("rgb", 4): 3, ("bgr", 4): 4}
+_YUV = {"nv12": 5, "nv21": 6, "i420": 7}
+
+
+def _ns(time_s: float) -> int:
+    return round(time_s * 1e9)
+
+
+class Tracker:
+    """Follows faces through a stream of pictures, and hears a voice. Used by one thread at a time, but for queue_audio.
+
+    lod: level of detail, 1 (cheapest) to 4, or "auto": as high as budget_ms a frame allows.
+    max_faces: 1..8. sound: whether it can hear. smoothing: of what hardly moves.
+    horizontal_fov: of the upright picture, radians; default 60 degrees.
+    audio_queue_samples: room for sound that another thread brings (queue_audio).
+    voice_strength: what the sound says of the mouth, times this, 0 to 4.
+    models: a folder with other weights than the package's own.
+    """
+
+    def __init__(
+        self,
+        lod: Lod = "auto",
+        max_faces: int = 1,
+        *,
+        sound: bool = True,
+        smoothing: bool = True,
+        budget_ms: float = 10.0,
+        horizontal_fov: Optional[float] = None,
+        audio_queue_samples: int = 0,
+        voice_strength: float = 1.0,
+        models: Union[str, Path, None] = None,
+    ) -> None:
+        self._handle = c_void_p()
+        folder = MODELS if models is None else Path(models)
+        config = TrackerConfig()
+        function("mien_tracker_config_default")(byref(config))
+        # They have to stay as long as the tracker does.
+        self._weights = {
+            name: mapped(folder / f"{name}.mien")
+            for name in ("basenet", "proposal", "hifinet", "audionet")
+            if name in ("basenet", "proposal")
+            or (name == "hifinet" and lod != 1 and (folder / "hifinet.mien").exists())
+            or (name == "audionet" and sound)
+        }
+        for name, data in self._weights.items():
+            setattr(config, name, data.ctypes.data)
+            setattr(config, name + "_bytes", data.size)
+        config.lod = 0 if lod == "auto" else lod
+        config.max_faces = max_faces
+        config.smoothing = int(smoothing)
+        config.budget_ms = budget_ms
+        config.audio_queue_samples = audio_queue_samples
+        config.voice_strength = voice_strength
+        if horizontal_fov is not None:
+            config.horizontal_fov = horizontal_fov
+        if lod == "auto":  # needs a clock to know what a frame takes
+            self._clock = _CLOCK
+            config.clock_ns = ctypes.cast(_CLOCK, c_void_p)
+        check(function("mien_tracker_create")(byref(config), byref(self._handle)))
+        self._push_video = function("mien_tracker_push_video")
+        self._get_result = function("mien_tracker_get_result")
+        self._image = Image()
+        function("mien_image_default")(byref(self._image))
+
+    def track(
+        self,
+        frame: Frame,
+        time_s: float,
+        *,
+        color: Color = "bgr",
+        rotation: Literal[0, 90, 180, 270] = 0,
+        mirrored: bool = False,
+        full_range: bool = True,
+        bt709: bool = False,
+        region: Optional[tuple[int, int, int, int]] = None,
+        focal_length_px: float = 0.0,
+        principal_point: tuple[float, float] = (0.0, 0.0),
+    ) -> Result:
+        """Tracks one picture and tells of the face known longest.
+
+        frame: uint8, [height, width] grey, [height, width, 3 or 4] in the order `color` ("bgr" or "rgb"), or, as OpenCV lays
+            YUV out, [height * 3 / 2, width] of "nv12", "nv21" or "i420". Read where it lies, never copied; rows may be apart
+            (a part of a larger picture), or bottom-up (frame[::-1]), but pixels of a row may not.
+        time_s: of the picture, on any clock.
+        rotation: degrees clockwise that make it upright. mirrored: a selfie.
+        region: x, y, width, height in pixels of the frame: all that is looked at.
+        """
+        image = self._image
+        _describe(image, frame, color)
+        image.rotation = rotation
+        image.mirrored = mirrored
+        image.full_range = full_range
+        image.yuv_matrix = bt709
+        image.region[:] = (0, 0, 0, 0) if region is None else region
+        image.focal_length_px = focal_length_px
+        image.principal_x, image.principal_y = principal_point
+        status = self._push_video(self._open(), image, _ns(time_s))
+        if status != 0:
+            check(status)
+        return self.result()
+
+    def advance(self, time_s: float) -> Result:
+        """A frame of output without a picture: for sound alone."""
+        check(function("mien_tracker_advance")(self._open(), _ns(time_s)))
+        return self.result()
+
+    def result(self) -> Result:
+        """Of the last picture, of the face known longest."""
+        raw = TrackerResult(_RESULT_BYTES)
+        status = self._get_result(self._open(), raw)
+        if status != 0:
+            check(status)
+        return Result(raw)
+
+    def faces(self) -> list[Result]:
+        """Of the last picture, every face known."""
+        count = function("mien_tracker_face_count")(self._open())
+        return [self._face(i) for i in range(count)]
+
+    def _face(self, index: int) -> Result:
+        raw = TrackerResult(_RESULT_BYTES)
+        check(function("mien_tracker_get_face")(self._open(), index, byref(raw)))
+        return Result(raw)
+
+    def push_audio(self, samples: Samples, time_s: float, sample_rate: int = 48000) -> None:
+        """Hears float32 (-1..1) or int16 samples, [n] or [n, channels]; time_s is that of the first."""
+        check(function("mien_tracker_push_audio")(self._open(), byref(_audio(samples, sample_rate)), _ns(time_s)))
+
+    def queue_audio(self, samples: Samples, time_s: float, sample_rate: int = 48000) -> None:
+        """The same from another thread, for the next frame; errors.AudioQueueFullError when there is no room."""
+        check(function("mien_tracker_queue_audio")(self._open(), byref(_audio(samples, sample_rate)), _ns(time_s)))
+
+    def set_audio_offset(self, seconds: float) -> None:
+        """Sound pushed from now on belongs to pictures that much later."""
+        check(function("mien_tracker_set_audio_offset")(self._open(), _ns(seconds)))
+
+    def set_mix(self, control: str, audio: float, video: float) -> None:
+        """How much sound and picture count for a control while somebody speaks, each 0..1."""
+        check(function("mien_tracker_set_mix")(self._open(), CONTROL_NUMBERS[control], audio, video))
+
+    def set_lod(self, lod: Lod) -> None:
+        check(function("mien_tracker_set_lod")(self._open(), 0 if lod == "auto" else lod))
+
+    def calibrate(self) -> None:
+        """Captures, over the next 55 frames with a face, what it shows when it is neutral, to be taken out from then on."""
+        check(function("mien_tracker_capture_neutral")(self._open()))
+
+    def save_neutral(self) -> bytes:
+        """What was captured, to be kept."""
+        data = (ctypes.c_char * NEUTRAL_BYTES)()
+        captured = c_uint32()
+        check(function("mien_tracker_save_neutral")(self._open(), data, NEUTRAL_BYTES, byref(captured)))
+        return bytes(data)
+
+    def load_neutral(self, data: bytes) -> None:
+        check(function("mien_tracker_load_neutral")(self._open(), data, len(data)))
+
+    def reset(self) -> None:
+        """Forgets everything seen and heard."""
+        check(function("mien_tracker_reset")(self._open()))
+
+    def close(self) -> None:
+        """Gives the memory back, and wipes it. Nothing else may be called then."""
+        handle, self._handle = self._handle, c_void_p()
+        function("mien_tracker_destroy")(handle)
+
+    def __enter__(self) -> Tracker:
+        return self
+
+    def __exit__(self, kind: Optional[type[BaseException]], error: Optional[BaseException], trace: Optional[TracebackType]) -> None:
+        self.close()
+
+    def __del__(self) -> None:
+        if getattr(self, "_handle", None):
+            self.close()
+
+    def _open(self) -> c_void_p:
+        if not self._handle:
+            raise MienError("the tracker is closed")
+        return self._handle
+
+
+_RESULT_BYTES = ctypes.sizeof(TrackerResult)
+_ClockFunction = ctypes.CFUNCTYPE(ctypes.c_uint64, c_void_p)
+
+
+def _monotonic_ns(_: Any) -> int:
+    import time
+
+    return time.monotonic_ns()
+
+
+_CLOCK = _ClockFunction(_monotonic_ns)
+
+
+def _describe(image: Image, frame: Frame, color: str) -> None:
+    """Tells where the frame's pixels lie."""
+    if not isinstance(frame, np.ndarray) or frame.dtype != np.uint8:
+        kind = f"an array of {frame.dtype}" if isinstance(frame, np.ndarray) else f"a {type(frame).__name__}"
+        raise TypeError(f"a frame is a numpy array of uint8, not {kind}")
+    if color in _YUV:
+        _describe_yuv(image, frame, color)
+        return
+    strides = frame.strides
+    if frame.ndim == 2:
+        channels, form = 1, _PACKED["gray", 1]
+    elif frame.ndim == 3 and (color, frame.shape[2]) in _PACKED:
+        channels = frame.shape[2]
+        form = _PACKED[color, channels]
+        if frame.size > 0 and strides[2] != 1:
+            raise ValueError("the bytes of a pixel lie apart; numpy.ascontiguousarray(frame) puts them together")
+    else:
+        raise ValueError(f"a frame of shape {frame.shape} with color={color!r} is no picture; docstring of Tracker.track lists what is")
+    if frame.size > 0 and frame.shape[1] > 1 and strides[1] != channels:
+        raise ValueError("the pixels of a row lie apart; numpy.ascontiguousarray(frame) puts them together")
+    image.format = form
+    image.height, image.width = frame.shape[0], frame.shape[1]
+    image.planes[0] = frame.__array_interface__["data"][0]
+    image.row_stride_bytes[0] = strides[0]
+
+
+def _describe_yuv(image: Image, frame: Frame, color: str) -> None:
+    if frame.ndim != 2 or not frame.flags.c_contiguous or frame.shape[0] % 3 or frame.shape[1] % 2:
+        raise ValueError(f"{color} is a contiguous array [height * 3 / 2, width] of even sizes, not {frame.shape}")
+    height, width = frame.shape[0] * 2 // 3, frame.shape[1]
+    first = frame.__array_interface__["data"][0]
+    chroma = first + height * width
+    image.format = _YUV[color]
+    image.height, image.width = height, width
+    image.chroma_pixel_stride_bytes = 0
+    image.planes[:] = (first, chroma, chroma + (height // 2) * (width // 2) if color == "i420" else None)
+    image.row_stride_bytes[:] = (width, width // 2, width // 2) if color == "i420" else (width, width, 0)
+
+
+def _audio(samples: Samples, sample_rate: int) -> Audio:
+    formats = {np.dtype(np.float32): 0, np.dtype(np.int16): 1}
+    if not isinstance(samples, np.ndarray) or samples.dtype not in formats:
+        raise TypeError("samples are a numpy array of float32 or int16")
+    if samples.ndim not in (1, 2):
+        raise ValueError(f"samples of shape {samples.shape}: [n] or [n, channels] is taken")
+    channels = 1 if samples.ndim == 1 else samples.shape[1]
+    audio = Audio()
+    function("mien_audio_default")(byref(audio))
+    audio.format = formats[samples.dtype]
+    audio.sample_rate = sample_rate
+    audio.channels = channels
+    audio.frames = samples.shape[0]
+    if samples.flags.c_contiguous:
+        audio.samples[0] = samples.ctypes.data
+    elif samples.flags.f_contiguous and channels <= 8:
+        audio.planar = 1
+        for i in range(channels):
+            audio.samples[i] = samples.ctypes.data + i * samples.strides[1]
+    else:
+        raise ValueError("the samples lie apart; numpy.ascontiguousarray(samples) puts them together")
+    return audio

@@ -1,0 +1,38 @@
+"""Weight files, mapped into memory: nothing is copied, and processes share them."""
+
+from __future__ import annotations
+
+import mmap
+from pathlib import Path
+from typing import Union
+
+import numpy as np
+import numpy.typing as npt
+
+from ._library import ALIGNMENT
+from .errors import WeightsTruncatedError
+
+Bytes = npt.NDArray[np.uint8]
+Model = Union[str, Path, bytes]
+
+
+def mapped(path: Path) -> Bytes:
+    with open(path, "rb") as file:
+        if path.stat().st_size == 0:  # which cannot be mapped
+            raise WeightsTruncatedError
+        return np.frombuffer(mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ), np.uint8)
+
+
+def aligned(data: bytes) -> Bytes:
+    """A copy that lies as the library wants it."""
+    if not data:
+        raise WeightsTruncatedError
+    room = np.empty(len(data) + ALIGNMENT, np.uint8)
+    first = -room.ctypes.data % ALIGNMENT
+    copy = room[first : first + len(data)]
+    copy[:] = np.frombuffer(data, np.uint8)
+    return copy
+
+
+def opened(model: Model) -> Bytes:
+    return aligned(model) if isinstance(model, bytes) else mapped(Path(model))

@@ -1,0 +1,62 @@
+"""The package's idea of the C interface is the header's: every struct's layout, every function, every status."""
+import ctypes
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import mien
+import pytest
+from conftest import REPOSITORY
+from mien import _library, errors
+
+HEADER = (REPOSITORY / "include/mien/mien.h").read_text()
+
+
+@pytest.fixture(scope="module")
+def facts():
+    """What bindings/c_api.py says of each kind, {name: value}."""
+    if shutil.which("clang") is None:
+        pytest.skip("no clang here")
+    said = {}
+    for line in subprocess.run([sys.executable, REPOSITORY / "bindings/c_api.py"], check=True, capture_output=True, text=True).stdout.splitlines():
+        kind, name, value = line.split()
+        said.setdefault(kind, {})[name] = int(value)
+    return said
+
+
+def test_structs_lie_as_in_the_header(facts):
+    fields = {f"{name}.{field[0]}": getattr(struct, field[0]).offset for name, struct in _library.STRUCTS.items() for field in struct._fields_}
+    assert fields == facts["field"]
+    assert {name: ctypes.sizeof(struct) for name, struct in _library.STRUCTS.items()} == facts["struct"]
+
+
+def test_every_function_is_in_the_header_with_as_many_arguments(facts):
+    for name, (_, arguments) in _library.FUNCTIONS.items():
+        assert len(arguments) == facts["function"][name], name
+
+
+def test_every_status_has_its_exception():
+    numbers = {int(n) for n in re.findall(r"MIEN_ERROR_\w+ = (-\d+)", HEADER)}
+    assert numbers == set(errors.BY_STATUS)
+    for number, kind in errors.BY_STATUS.items():
+        assert str(kind()) != "unknown status"
+        with pytest.raises(kind) as caught:
+            errors.check(number)
+        assert caught.value.status == number
+    with pytest.raises(mien.MienError, match="unknown status"):
+        errors.check(-999)
+    errors.check(0)
+
+
+def test_constants():
+    assert f"#define MIEN_CONTROL_COUNT {_library.CONTROL_COUNT}\n" in HEADER
+    assert f"#define MIEN_LANDMARK_COUNT {_library.LANDMARK_COUNT}\n" in HEADER
+    assert f"#define MIEN_NEUTRAL_BYTES {_library.NEUTRAL_BYTES}\n" in HEADER
+    assert mien.__version__ == "0.1.0"
+
+
+def test_the_package_is_small():
+    size = sum(path.stat().st_size for path in Path(mien.__file__).parent.rglob("*") if path.is_file() and "__pycache__" not in str(path))
+    assert size < 6e6, "library and weights, what a user downloads"

@@ -1,0 +1,94 @@
+use std::path::{Path, PathBuf};
+use std::{fmt, io};
+
+macro_rules! statuses {
+    ($($name:ident = $number:literal),* $(,)?) => {
+        /// What the library answers when it cannot: `MIEN_ERROR_*` of `mien.h`.
+        #[allow(missing_docs)] // their text says it
+        #[non_exhaustive]
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        pub enum Status { $($name),*, Unknown(i32) }
+
+        impl Status {
+            /// All that this version knows.
+            pub const ALL: &'static [Status] = &[$(Status::$name),*];
+
+            /// As in `mien.h`.
+            pub fn number(self) -> i32 {
+                match self { $(Status::$name => $number),*, Status::Unknown(number) => number }
+            }
+
+            fn of(number: i32) -> Status {
+                match number { $($number => Status::$name),*, other => Status::Unknown(other) }
+            }
+        }
+    };
+}
+
+statuses! {
+    NullArgument = -1, StructSize = -2, OutOfRange = -3, Alignment = -4, MemoryTooSmall = -5, OutOfMemory = -6, UnsupportedLod = -7,
+    SeveralFaces = -8, NoAudionet = -9, WeightsNotMien = -20, WeightsVersion = -21, WeightsTruncated = -22, WeightsChecksum = -23,
+    WeightsMalformed = -24, WeightsIncomplete = -25, WeightsShape = -26, UnsupportedCpu = -40, UnsupportedLayer = -41, Internal = -42,
+    LeftOut = -43, ImageFormat = -60, ImageSize = -61, ImageStride = -62, ImagePlane = -63, ImageRotation = -64, ImageCamera = -65,
+    AudioFormat = -66, AudioRate = -67, AudioChannels = -68, AudioSamples = -69, ImageRegion = -70, AudioQueueFull = -71,
+    NeutralFormat = -80, NeutralVersion = -81, NeutralDamaged = -82,
+}
+
+impl fmt::Display for Status {
+    fn fmt(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
+        // Safety: a static string of ASCII, never null.
+        formatter.write_str(unsafe { crate::vocabulary::text(mien_sys::mien_status_string(self.number())) }.unwrap_or_default())
+    }
+}
+
+/// Everything that can go wrong.
+#[non_exhaustive]
+#[derive(Debug)]
+pub enum Error {
+    /// The library refused.
+    Status(Status),
+    /// What was given does not fit together, which this crate notices before the library has it.
+    Input(String),
+    /// A weight file could not be read.
+    File(PathBuf, io::Error),
+}
+
+impl Error {
+    /// The library's, where it was the library.
+    pub fn status(&self) -> Option<Status> {
+        match self {
+            Error::Status(status) => Some(*status),
+            _ => None,
+        }
+    }
+
+    pub(crate) fn file(path: &Path, error: io::Error) -> Error {
+        Error::File(path.to_owned(), error)
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Error::Status(status) => status.fmt(formatter),
+            Error::Input(what) => formatter.write_str(what),
+            Error::File(path, error) => write!(formatter, "{}: {error}", path.display()),
+        }
+    }
+}
+
+impl std::error::Error for Error {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            Error::File(_, error) => Some(error),
+            _ => None,
+        }
+    }
+}
+
+pub(crate) fn check(status: mien_sys::mien_status) -> Result<(), Error> {
+    match status {
+        mien_sys::MIEN_OK => Ok(()),
+        number => Err(Error::Status(Status::of(number))),
+    }
+}

@@ -1,0 +1,164 @@
+use std::ffi::c_void;
+
+use crate::Error;
+
+/// How far a picture has to be turned clockwise to be upright.
+#[allow(missing_docs)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Rotation {
+    #[default]
+    None,
+    Clockwise90,
+    HalfTurn,
+    Clockwise270,
+}
+
+/// A part of a picture, in its pixels, before it is turned.
+#[allow(missing_docs)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Region {
+    pub x: i32,
+    pub y: i32,
+    pub width: i32,
+    pub height: i32,
+}
+
+/// A picture that somebody else owns: it is read where it lies, never copied.
+///
+/// Each maker takes width and height, and for every plane its bytes and the bytes from one row to the next. What does not fit into the
+/// bytes is an error.
+#[derive(Clone, Copy)]
+pub struct Image<'a> {
+    raw: mien_sys::mien_image,
+    owner: std::marker::PhantomData<&'a [u8]>,
+}
+
+/// A plane: its bytes, bytes a row, and how many of a row are read.
+type Plane<'a> = (&'a [u8], usize, usize);
+
+impl<'a> Image<'a> {
+    /// 1 byte a pixel.
+    pub fn gray(width: usize, height: usize, bytes: &'a [u8], row_bytes: usize) -> Result<Self, Error> {
+        Self::of(0, width, height, &[(bytes, row_bytes, width)])
+    }
+
+    /// 3 bytes a pixel.
+    pub fn rgb(width: usize, height: usize, bytes: &'a [u8], row_bytes: usize) -> Result<Self, Error> {
+        Self::of(1, width, height, &[(bytes, row_bytes, width.saturating_mul(3))])
+    }
+
+    /// 3 bytes a pixel.
+    pub fn bgr(width: usize, height: usize, bytes: &'a [u8], row_bytes: usize) -> Result<Self, Error> {
+        Self::of(2, width, height, &[(bytes, row_bytes, width.saturating_mul(3))])
+    }
+
+    /// 4 bytes a pixel, of which the last is ignored.
+    pub fn rgba(width: usize, height: usize, bytes: &'a [u8], row_bytes: usize) -> Result<Self, Error> {
+        Self::of(3, width, height, &[(bytes, row_bytes, width.saturating_mul(4))])
+    }
+
+    /// 4 bytes a pixel, of which the last is ignored.
+    pub fn bgra(width: usize, height: usize, bytes: &'a [u8], row_bytes: usize) -> Result<Self, Error> {
+        Self::of(4, width, height, &[(bytes, row_bytes, width.saturating_mul(4))])
+    }
+
+    /// Luma, and U and V in turns.
+    pub fn nv12(width: usize, height: usize, y: (&'a [u8], usize), uv: (&'a [u8], usize)) -> Result<Self, Error> {
+        Self::of(5, width, height, &[(y.0, y.1, width), (uv.0, uv.1, chroma(width).saturating_mul(2))])
+    }
+
+    /// Luma, and V and U in turns.
+    pub fn nv21(width: usize, height: usize, y: (&'a [u8], usize), vu: (&'a [u8], usize)) -> Result<Self, Error> {
+        Self::of(6, width, height, &[(y.0, y.1, width), (vu.0, vu.1, chroma(width).saturating_mul(2))])
+    }
+
+    /// Three planes; `chroma_step`: bytes from one sample of U or V to the next, 1 of I420, the pixel stride of Android's YUV_420_888.
+    pub fn i420(
+        width: usize,
+        height: usize,
+        y: (&'a [u8], usize),
+        u: (&'a [u8], usize),
+        v: (&'a [u8], usize),
+        chroma_step: usize,
+    ) -> Result<Self, Error> {
+        let samples = chroma(width).saturating_sub(1).saturating_mul(chroma_step).saturating_add(1);
+        let mut image = Self::of(7, width, height, &[(y.0, y.1, width), (u.0, u.1, samples), (v.0, v.1, samples)])?;
+        image.raw.chroma_pixel_stride_bytes = number(chroma_step)?;
+        Ok(image)
+    }
+
+    fn of(format: i32, width: usize, height: usize, planes: &[Plane<'a>]) -> Result<Self, Error> {
+        // Safety: plain numbers and pointers, which the library fills in.
+        let mut raw: mien_sys::mien_image = unsafe { std::mem::zeroed() };
+        unsafe { mien_sys::mien_image_default(&mut raw) };
+        raw.format = format;
+        raw.width = number(width)?;
+        raw.height = number(height)?;
+        for (i, &(bytes, row_bytes, read)) in planes.iter().enumerate() {
+            let rows = if i == 0 { height } else { chroma(height) };
+            let need = rows.saturating_sub(1).saturating_mul(row_bytes).saturating_add(read);
+            if rows > 0 && bytes.len() < need {
+                return Err(Error::Input(format!("plane {i} has {} bytes, and {need} of it would be read", bytes.len())));
+            }
+            raw.planes[i] = bytes.as_ptr().cast::<c_void>();
+            raw.row_stride_bytes[i] = number(row_bytes)?;
+        }
+        Ok(Image { raw, owner: std::marker::PhantomData })
+    }
+
+    /// To be turned before it is looked at.
+    #[must_use]
+    pub fn rotated(mut self, rotation: Rotation) -> Self {
+        self.raw.rotation = 90 * rotation as i32;
+        self
+    }
+
+    /// A mirror image of the scene, a selfie.
+    #[must_use]
+    pub fn mirrored(mut self) -> Self {
+        self.raw.mirrored = 1;
+        self
+    }
+
+    /// Of grey and YUV: luma is 16..235, as films have it; else 0..255.
+    #[must_use]
+    pub fn video_range(mut self) -> Self {
+        self.raw.full_range = 0;
+        self
+    }
+
+    /// YUV is that of BT.709; else BT.601.
+    #[must_use]
+    pub fn bt709(mut self) -> Self {
+        self.raw.yuv_matrix = 1;
+        self
+    }
+
+    /// Nothing else is looked at.
+    #[must_use]
+    pub fn region(mut self, region: Region) -> Self {
+        self.raw.region = [region.x, region.y, region.width, region.height];
+        self
+    }
+
+    /// What is known of the camera, in pixels of the upright picture; a principal point of 0, 0 is the centre.
+    #[must_use]
+    pub fn camera(mut self, focal_length_px: f32, principal_point: (f32, f32)) -> Self {
+        self.raw.focal_length_px = focal_length_px;
+        (self.raw.principal_x, self.raw.principal_y) = principal_point;
+        self
+    }
+
+    pub(crate) fn raw(&self) -> &mien_sys::mien_image {
+        &self.raw
+    }
+}
+
+/// Of so many pixels.
+fn chroma(side: usize) -> usize {
+    side / 2 + side % 2
+}
+
+pub(crate) fn number(size: usize) -> Result<i32, Error> {
+    i32::try_from(size).map_err(|_| Error::Input(format!("{size} is too large a size")))
+}

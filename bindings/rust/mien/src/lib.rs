@@ -1,0 +1,33 @@
+#![doc = include_str!("../../README.md")]
+#![warn(missing_docs)]
+
+mod audio;
+mod error;
+mod image;
+mod network;
+mod result;
+mod tracker;
+mod vocabulary;
+mod weights;
+
+pub use audio::Audio;
+pub use error::{Error, Status};
+pub use image::{Image, Region, Rotation};
+pub use network::{Network, Shape};
+pub use result::{Controls, FaceResult, FaceStatus, Pose};
+pub use tracker::{AudioQueue, Lod, Options, Tracker};
+pub use vocabulary::{control_names, Vocabulary};
+pub use weights::{Model, Weights};
+
+/// Landmarks of a face, two numbers each.
+pub const LANDMARK_COUNT: usize = mien_sys::MIEN_LANDMARK_COUNT;
+
+/// Of the library: "major.minor.patch".
+pub fn version() -> &'static str {
+    // Safety: a static string of ASCII.
+    unsafe { vocabulary::text(mien_sys::mien_version()) }.unwrap_or_default()
+}
+
+fn nanoseconds(seconds: f64) -> i64 {
+    (seconds * 1e9).round() as i64
+}

@@ -1,0 +1,111 @@
+use std::ffi::CString;
+
+use crate::error::check;
+use crate::image::number;
+use crate::{Error, Model};
+
+const BLOCK: usize = 8; // channels that lie together
+const INTERLEAVED: usize = 4; // an input of up to so many channels lies as a picture does
+
+/// Of a map.
+#[allow(missing_docs)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shape {
+    pub channels: usize,
+    pub height: usize,
+    pub width: usize,
+}
+
+impl Shape {
+    /// Numbers in it.
+    pub fn size(self) -> usize {
+        self.channels * self.height * self.width
+    }
+
+    fn of(raw: mien_sys::mien_shape) -> Shape {
+        Shape { channels: raw.channels as usize, height: raw.height as usize, width: raw.width as usize }
+    }
+
+    fn blocks(self) -> usize {
+        (self.channels + BLOCK - 1) / BLOCK
+    }
+}
+
+/// A network of your own, of a weight file that `scripts/convert/onnx_to_mien.py` made, ready to run.
+pub struct Network {
+    raw: *mut mien_sys::mien_network,
+    input_shape: Shape,
+    _model: Model,
+}
+
+// Safety: used by one thread at a time, whichever.
+unsafe impl Send for Network {}
+
+impl Network {
+    /// `name`: of the network in the file; its first where `None`. `size`: height and width, for networks that take several.
+    pub fn new(model: &Model, name: Option<&str>, size: Option<(usize, usize)>) -> Result<Network, Error> {
+        let name = name.map(CString::new).transpose().map_err(|_| Error::Input("a name with a zero in it".into()))?;
+        // Safety: plain numbers and pointers, which the library fills in.
+        let mut config: mien_sys::mien_network_config = unsafe { std::mem::zeroed() };
+        unsafe { mien_sys::mien_network_config_default(&mut config) };
+        (config.file, config.file_bytes) = (model.place(), model.bytes());
+        config.name = name.as_ref().map_or(std::ptr::null(), |name| name.as_ptr());
+        if let Some((height, width)) = size {
+            (config.height, config.width) = (number(height)?, number(width)?);
+        }
+        let mut raw = std::ptr::null_mut();
+        check(unsafe { mien_sys::mien_network_create(&config, &mut raw) })?;
+        let mut shape = mien_sys::mien_shape { height: 0, width: 0, channels: 0 };
+        unsafe { mien_sys::mien_network_input(raw, &mut shape) };
+        Ok(Network { raw, input_shape: Shape::of(shape), _model: model.clone() })
+    }
+
+    /// What [`run`](Network::run) takes.
+    pub fn input_shape(&self) -> Shape {
+        self.input_shape
+    }
+
+    /// One run, one step of a network over time. `[channels][height][width]` goes in, every output comes out so, with its shape.
+    pub fn run(&mut self, input: &[f32]) -> Result<Vec<(Shape, Vec<f32>)>, Error> {
+        let shape = self.input_shape;
+        if input.len() != shape.size() {
+            return Err(Error::Input(format!("{} numbers for an input of {shape:?}", input.len())));
+        }
+        let pixels = shape.height * shape.width;
+        let picture = shape.channels <= INTERLEAVED && pixels > 1;
+        let step = if picture { shape.channels } else { BLOCK };
+        let elements = if picture { shape.size() } else { shape.blocks() * pixels * BLOCK };
+        // Safety: so many numbers are there (mien/engine.h, Layout), and nobody else has them.
+        let to = unsafe { std::slice::from_raw_parts_mut(mien_sys::mien_network_input(self.raw, std::ptr::null_mut()), elements) };
+        for (channel, plane) in input.chunks_exact(pixels).enumerate() {
+            let first = channel / step * pixels * step + channel % step;
+            plane.iter().enumerate().for_each(|(pixel, value)| to[first + pixel * step] = *value);
+        }
+        check(unsafe { mien_sys::mien_network_run(self.raw) })?;
+        let count = unsafe { mien_sys::mien_network_output_count(self.raw) };
+        Ok((0..count).map(|index| self.output(index)).collect())
+    }
+
+    fn output(&self, index: i32) -> (Shape, Vec<f32>) {
+        let mut raw = mien_sys::mien_shape { height: 0, width: 0, channels: 0 };
+        let place = unsafe { mien_sys::mien_network_output(self.raw, index, &mut raw) };
+        let shape = Shape::of(raw);
+        let pixels = shape.height * shape.width;
+        // Safety: so many numbers are there, until the next run.
+        let from = unsafe { std::slice::from_raw_parts(place, shape.blocks() * pixels * BLOCK) };
+        let of_channel = |channel| (0..pixels).map(move |pixel| from[(channel / BLOCK * pixels + pixel) * BLOCK + channel % BLOCK]);
+        (shape, (0..shape.channels).flat_map(of_channel).collect())
+    }
+
+    /// Puts what a network over time remembers back to a stream's beginning.
+    pub fn reset(&mut self) {
+        unsafe { mien_sys::mien_network_reset(self.raw) }
+    }
+}
+
+impl Drop for Network {
+    fn drop(&mut self) {
+        // Safety: made by mien_network_create, and nobody else has it.
+        unsafe { mien_sys::mien_network_destroy(self.raw) }
+    }
+}

@@ -1,0 +1,50 @@
+use std::ffi::CStr;
+use std::os::raw::c_char;
+
+/// The words of other houses for the same face.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Vocabulary {
+    /// 52: the controls as they are.
+    Arkit,
+    /// 52: _neutral, always 0, and 51 by the alphabet.
+    MediaPipe,
+    /// 50: FACS of Roblox' FaceControls.
+    Roblox,
+    /// 11 of VRM 0.
+    Vrm0,
+    /// 11 of VRM 1.
+    Vrm1,
+    /// 15 of OVR LipSync.
+    Visemes,
+}
+
+impl Vocabulary {
+    /// Every one.
+    pub const ALL: [Vocabulary; 6] =
+        [Vocabulary::Arkit, Vocabulary::MediaPipe, Vocabulary::Roblox, Vocabulary::Vrm0, Vocabulary::Vrm1, Vocabulary::Visemes];
+
+    /// Its names in their order, written as their owner does.
+    pub fn names(self) -> impl ExactSizeIterator<Item = &'static str> {
+        // Safety: static strings of ASCII.
+        let size = unsafe { mien_sys::mien_vocabulary_size(self as i32) };
+        (0..size).map(move |i| unsafe { text(mien_sys::mien_vocabulary_name(self as i32, i)) }.unwrap_or_default())
+    }
+}
+
+/// ARKit's names of the 52 controls, in their order.
+pub fn control_names() -> impl ExactSizeIterator<Item = &'static str> {
+    Vocabulary::Arkit.names()
+}
+
+pub(crate) fn control_number(name: &str) -> Option<usize> {
+    control_names().position(|known| known == name)
+}
+
+/// # Safety
+/// Null, or a string that stays.
+pub(crate) unsafe fn text(place: *const c_char) -> Option<&'static str> {
+    if place.is_null() {
+        return None;
+    }
+    CStr::from_ptr(place).to_str().ok()
+}

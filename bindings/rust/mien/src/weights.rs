@@ -1,0 +1,85 @@
+use std::path::Path;
+use std::sync::Arc;
+use std::{fs, io::Read};
+
+use crate::Error;
+
+#[repr(C, align(64))]
+#[derive(Clone, Copy)]
+struct Line([u8; mien_sys::MIEN_ALIGNMENT]);
+
+/// A weight file in memory, where the library wants it. Cheap to clone: clones share the bytes.
+#[derive(Clone)]
+pub struct Model {
+    lines: Arc<[Line]>,
+    bytes: usize,
+}
+
+impl Model {
+    /// Reads a file.
+    pub fn open(path: impl AsRef<Path>) -> Result<Model, Error> {
+        let path = path.as_ref();
+        let read = || {
+            let mut file = fs::File::open(path)?;
+            let mut model = Model::room(usize::try_from(file.metadata()?.len()).unwrap_or(usize::MAX));
+            file.read_exact(model.bytes_mut())?;
+            Ok(model)
+        };
+        read().map_err(|error| Error::file(path, error))
+    }
+
+    /// Copies bytes that lie anywhere.
+    pub fn from_bytes(data: &[u8]) -> Model {
+        let mut model = Model::room(data.len());
+        model.bytes_mut().copy_from_slice(data);
+        model
+    }
+
+    fn room(bytes: usize) -> Model {
+        let lines = vec![Line([0; mien_sys::MIEN_ALIGNMENT]); (bytes + mien_sys::MIEN_ALIGNMENT - 1) / mien_sys::MIEN_ALIGNMENT];
+        Model { lines: lines.into(), bytes }
+    }
+
+    fn bytes_mut(&mut self) -> &mut [u8] {
+        let bytes = self.bytes;
+        let lines = Arc::get_mut(&mut self.lines).expect("a model that is being made has one owner");
+        // Safety: lines are bytes without gaps, and there are enough of them.
+        unsafe { std::slice::from_raw_parts_mut(lines.as_mut_ptr().cast(), bytes) }
+    }
+
+    pub(crate) fn place(&self) -> *const std::ffi::c_void {
+        self.lines.as_ptr().cast()
+    }
+
+    pub(crate) fn bytes(&self) -> usize {
+        self.bytes
+    }
+}
+
+/// What trackers know. Cheap to clone: trackers share the bytes.
+#[derive(Clone)]
+pub struct Weights {
+    /// Landmarks, and level of detail 1.
+    pub basenet: Model,
+    /// Finds faces.
+    pub proposal: Model,
+    /// Levels of detail 2 to 4.
+    pub hifinet: Option<Model>,
+    /// Hears.
+    pub audionet: Option<Model>,
+}
+
+impl Weights {
+    /// The files of a folder, `models/` of the repository: basenet.mien and proposal.mien, and the others where they are.
+    pub fn open(folder: impl AsRef<Path>) -> Result<Weights, Error> {
+        let folder = folder.as_ref();
+        let wanted = |name: &str| Model::open(folder.join(name));
+        let optional = |name: &str| folder.join(name).exists().then(|| wanted(name)).transpose();
+        Ok(Weights {
+            basenet: wanted("basenet.mien")?,
+            proposal: wanted("proposal.mien")?,
+            hifinet: optional("hifinet.mien")?,
+            audionet: optional("audionet.mien")?,
+        })
+    }
+}

@@ -1,0 +1,63 @@
+//! `mien-sys` says what `mien.h` says: every struct's layout, every function, every status. MIEN_C_API: what bindings/c_api.py wrote.
+use std::collections::BTreeSet;
+use std::mem::{size_of, MaybeUninit};
+
+use mien_sys::*;
+
+macro_rules! layout {
+    ($said:ident, $($name:ident { $($field:ident $(as $label:literal)?),* $(,)? })*) => {$(
+        $said.insert(format!(concat!("struct ", stringify!($name), " {}"), size_of::<$name>()));
+        $({
+            let place = MaybeUninit::<$name>::uninit();
+            let field = unsafe { std::ptr::addr_of!((*place.as_ptr()).$field) } as usize - place.as_ptr() as usize;
+            let label = stringify!($field).trim_start_matches("r#");
+            $said.insert(format!(concat!("field ", stringify!($name), ".{} {}"), label, field));
+        })*
+    )*};
+}
+
+#[test]
+fn everything_is_as_in_the_header() {
+    let path = std::env::var("MIEN_C_API").expect("MIEN_C_API names what bindings/c_api.py wrote");
+    let header = std::fs::read_to_string(path).unwrap();
+    let mut said = BTreeSet::new();
+    layout! { said,
+        mien_image { struct_size, format, width, height, planes, row_stride_bytes, chroma_pixel_stride_bytes, rotation, mirrored, full_range,
+            focal_length_px, principal_x, principal_y, yuv_matrix, region, reserved }
+        mien_audio { struct_size, format, sample_rate, channels, planar, frames, samples, reserved }
+        mien_allocator { allocate, release, user }
+        mien_tracker_config { struct_size, cpu_mask, basenet, basenet_bytes, proposal, proposal_bytes, allocator, clock_ns, clock_user, lod,
+            horizontal_fov, accept_probability, lose_probability, lose_after_frames, proposal_size, proposal_threshold, refine_threshold,
+            search_interval, budget_ms, hifinet, hifinet_bytes, smoothing, max_faces, audionet, audionet_bytes, voice_attack_ms,
+            voice_release_ms, audio_queue_samples, reserved }
+        mien_result { struct_size, status, pts_ns, supported_controls, face_probability, voice_activity, lod, flags, r#box, rotation, pitch, yaw,
+            roll, translation, controls, landmarks, frames, face_frames, proposal_runs, encoder_runs, stage_ns, face_id, reserved }
+        mien_shape { height, width, channels }
+        mien_network_config { struct_size, cpu_mask, file, file_bytes, name, height, width, allocator, reserved }
+    }
+    let layouts: BTreeSet<String> =
+        header.lines().filter(|line| line.starts_with("struct ") || line.starts_with("field ")).map(String::from).collect();
+    assert_eq!(said, layouts);
+
+    let declared = include_str!("../../mien-sys/src/lib.rs").replace("\n        ", " ").replace(",\n    )", ")");
+    for line in header.lines() {
+        let words: Vec<&str> = line.split(' ').collect();
+        match words[..] {
+            ["function", name, arguments] => {
+                let from = declared.find(&format!("pub fn {name}(")).unwrap_or_else(|| panic!("{name} is not declared"));
+                let end = declared[from..].find(')').unwrap();
+                assert_eq!(declared[from..from + end].matches(": ").count().to_string(), arguments, "{name}");
+            }
+            ["constant", name, value] => {
+                if let Some(from) = declared.find(&format!("pub const {name}: usize = ")) {
+                    assert!(declared[from..].contains(&format!("= {value};")), "{line}");
+                }
+            }
+            ["status", _, number] => {
+                let known = mien::Status::ALL.iter().any(|status| status.number().to_string() == number);
+                assert!(known || number == "0", "{line}");
+            }
+            _ => {}
+        }
+    }
+}

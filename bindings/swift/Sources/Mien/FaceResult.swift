@@ -1,0 +1,58 @@
+import CMien
+
+public enum FaceStatus: Int32 {
+  /// No face since the beginning.
+  case searching = 0
+  case tracking
+  /// The face is gone: its last place stays, its controls fade.
+  case lost
+}
+
+/// The head in camera space: x to the right, y up, z towards the viewer.
+public struct Pose {
+  /// Unit quaternion x, y, z, w.
+  public let rotation: SIMD4<Float>
+  /// Metres.
+  public let translation: SIMD3<Float>
+  /// Radians. Positive: looks down; turns to the subject's left; right-hand rule about z.
+  public let pitch, yaw, roll: Float
+}
+
+/// One face on one frame.
+public struct FaceResult {
+  let raw: mien_result
+
+  public var status: FaceStatus { FaceStatus(rawValue: raw.status) ?? .searching }
+  public var hasFace: Bool { status == .tracking }
+  /// Of the picture, seconds.
+  public var time: Double { Double(raw.pts_ns) / 1e9 }
+  /// Counts the faces found, from 1; 0 before any.
+  public var faceId: UInt32 { raw.face_id }
+  /// The level of detail of this frame, 1...4.
+  public var lod: Int32 { raw.lod }
+  public var faceProbability: Float { raw.face_probability }
+  /// 0...1: how much somebody speaks; 0 without sound.
+  public var voiceActivity: Float { raw.voice_activity }
+  /// Whether this frame counts for `Tracker.calibrate`.
+  public var isCapturingNeutral: Bool { raw.flags & 0x10 != 0 }
+  /// x, y, width, height in pixels of the upright picture.
+  public var box: SIMD4<Float> { SIMD4(raw.box.0, raw.box.1, raw.box.2, raw.box.3) }
+  public var controls: Controls { Controls(array: floats(of: raw.controls), supportedBits: raw.supported_controls) }
+
+  /// 175 of them, in pixels of the upright picture.
+  public var landmarks: [SIMD2<Float>] {
+    let all = floats(of: raw.landmarks)
+    return stride(from: 0, to: all.count, by: 2).map { SIMD2(all[$0], all[$0 + 1]) }
+  }
+
+  public var pose: Pose {
+    let (r, t) = (raw.rotation, raw.translation)
+    return Pose(
+      rotation: SIMD4(r.0, r.1, r.2, r.3), translation: SIMD3(t.0, t.1, t.2), pitch: raw.pitch, yaw: raw.yaw, roll: raw.roll)
+  }
+}
+
+/// Arrays of C are tuples here.
+private func floats<T>(of tuple: T) -> [Float] {
+  withUnsafeBytes(of: tuple) { Array($0.bindMemory(to: Float.self)) }
+}

@@ -1,0 +1,54 @@
+import CMien
+
+/// A picture that somebody else owns: it is read where it lies, never copied.
+public struct Image {
+  var raw = mien_image()
+
+  /// Planes as `mien_image` of `mien.h` wants them, which have to stay during `Tracker.track`.
+  public init(
+    format: mien_image_format, width: Int, height: Int, planes: [UnsafeRawPointer?], rowBytes: [Int], chromaPixelStride: Int = 0
+  ) {
+    mien_image_default(&raw)
+    raw.format = Int32(bitPattern: format.rawValue)
+    (raw.width, raw.height) = (Int32(clamping: width), Int32(clamping: height))
+    raw.planes = (planes[0], planes.count > 1 ? planes[1] : nil, planes.count > 2 ? planes[2] : nil)
+    let strides = (rowBytes + [0, 0]).map { Int32(clamping: $0) }
+    raw.row_stride_bytes = (strides[0], strides[1], strides[2])
+    raw.chroma_pixel_stride_bytes = Int32(clamping: chromaPixelStride)
+  }
+
+  /// Degrees clockwise that make it upright: 0, 90, 180, 270.
+  public var rotation: Int32 {
+    get { raw.rotation }
+    set { raw.rotation = newValue }
+  }
+
+  /// A mirror image of the scene, a selfie.
+  public var mirrored: Bool {
+    get { raw.mirrored != 0 }
+    set { raw.mirrored = newValue ? 1 : 0 }
+  }
+
+  /// Of grey and YUV: luma is 0...255; else 16...235.
+  public var fullRange: Bool {
+    get { raw.full_range != 0 }
+    set { raw.full_range = newValue ? 1 : 0 }
+  }
+
+  /// YUV is that of BT.709; else BT.601.
+  public var bt709: Bool {
+    get { raw.yuv_matrix != 0 }
+    set { raw.yuv_matrix = newValue ? 1 : 0 }
+  }
+
+  /// x, y, width, height in its pixels: nothing else is looked at.
+  public mutating func setRegion(x: Int32, y: Int32, width: Int32, height: Int32) {
+    raw.region = (x, y, width, height)
+  }
+
+  /// In pixels of the upright picture; 0: not known.
+  public var focalLength: Float {
+    get { raw.focal_length_px }
+    set { raw.focal_length_px = newValue }
+  }
+}

@@ -1,0 +1,37 @@
+import CMien
+import Foundation
+import XCTest
+
+@testable import Mien
+
+/// On the clip that ships. MIEN_CLIP: 60 frames of it, 640x480, RGB; MIEN_MODELS: the weights.
+final class TrackerTests: XCTestCase {
+  private func path(_ name: String) throws -> URL {
+    URL(fileURLWithPath: try XCTUnwrap(ProcessInfo.processInfo.environment[name], "\(name) is not set"))
+  }
+
+  func testAFaceIsFollowed() throws {
+    var options = TrackerOptions()
+    options.lod = 1
+    let tracker = try Tracker(weights: try Weights(folder: path("MIEN_MODELS")), options: options)
+    let clip = try Data(contentsOf: path("MIEN_CLIP"))
+    let bytes = 640 * 480 * 3
+    for i in 0..<20 {
+      try clip[i * bytes..<(i + 1) * bytes].withUnsafeBytes {
+        let image = Image(format: MIEN_IMAGE_RGB, width: 640, height: 480, planes: [$0.baseAddress], rowBytes: [640 * 3])
+        _ = try tracker.track(image, at: Double(i) / 30)
+      }
+    }
+    let result = try tracker.result()
+    XCTAssertTrue(result.hasFace)
+    XCTAssertEqual(result.landmarks.count, 175)
+    XCTAssertEqual(Controls.names[17], "jawOpen")
+    XCTAssertEqual(result.controls["jawOpen"], result.controls.array[17])
+    XCTAssertEqual(Vocabulary.allCases.map { $0.names.count }, [52, 52, 50, 11, 11, 15])
+  }
+
+  func testWhatIsWrongIsSaid() throws {
+    let broken = Weights(basenet: Model(Data(count: 640)), proposal: Model(Data(count: 640)))
+    XCTAssertThrowsError(try Tracker(weights: broken)) { XCTAssertEqual("\($0)", "\(MienError.status(-20))") }
+  }
+}

@@ -1,0 +1,29 @@
+#!/usr/bin/env bash
+# With a Swift toolchain: builds the package and passes its tests. Else: clang imports its module, and the rest is said not to be tested.
+# usage: bindings/swift/test.sh
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+bindings/swift/prepare.sh
+if command -v swift >/dev/null && swift --version >/dev/null 2>&1; then
+  . bindings/library.sh
+  cd bindings/swift && exec swift test -c release --scratch-path ../../build/bindings/swift
+fi
+if ! command -v clang >/dev/null; then
+  echo "NOT TESTED: bindings/swift, for which there is neither Swift nor clang (scripts/setup.sh test)"
+  exit 0
+fi
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cat >"$work/import.m" <<'IMPORT'
+@import CMien;
+_Static_assert(sizeof(mien_result) > sizeof(float) * 2 * MIEN_LANDMARK_COUNT, "the header is there");
+mien_status (*create)(const mien_tracker_config*, mien_tracker**) = mien_tracker_create;
+IMPORT
+clang -fmodules -fmodules-cache-path="$work/cache" -fmodule-map-file=bindings/swift/Sources/CMien/module.modulemap -Werror -Wall -Wextra -fsyntax-only \
+  "$work/import.m"
+echo "clang imports CMien"
+# Every function that Swift calls is one of the header's.
+grep -rhoE '\bmien_[a-z_]+\(' bindings/swift/Sources/Mien | sort -u | while read -r call; do
+  grep -qF "$call" include/mien/mien.h || [[ "$call" =~ ^mien_(image|audio|tracker_config|result|status)\($ ]] || { echo "no $call in mien.h" >&2; exit 1; }
+done
+echo "NOT TESTED: the Swift of bindings/swift, for which there is no compiler"

@@ -1,0 +1,73 @@
+// An animated face in memory: what every format of this folder is read into and written from.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "formats/animation/vocabulary.h"
+
+namespace mien::formats {
+
+// A number that a frame does not have: a control that nothing drives.
+inline constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+enum class FaceState : std::uint8_t { kSearching, kTracking, kLost };
+
+// "searching", "tracking", "lost". Static.
+[[nodiscard]] const char* name(FaceState state);
+
+// Radians; R = Ry(yaw) Rx(pitch) Rz(roll), right-handed, y up, z out of the face. Positive: looks
+// down; turns to the subject's left.
+struct Angles {
+  double pitch = 0.0, yaw = 0.0, roll = 0.0;
+};
+
+struct Frame {
+  std::int64_t number = 0;
+  std::int64_t time_ns = 0;
+  FaceState state = FaceState::kTracking;
+  std::int64_t face_id = 0;
+  double face_probability = kNone;  // 0..1
+  double voice_activity = kNone;    // 0..1
+  std::int64_t lod = 0;             // 0: not said
+
+  std::optional<std::array<double, 4>> box;         // x, y, width, height, pixels
+  std::optional<Angles> head;                       // head to camera
+  std::optional<std::array<double, 3>> position_m;  // of the head, camera space
+  std::optional<std::array<Angles, 2>> eyes;        // left, right; eye to head
+
+  // 0..1 in the order of kArkitNames; kNone where nothing drives one.
+  std::array<double, kControlCount> controls;
+
+  // What a file in another vocabulary said itself; the controls then are what it comes to.
+  std::vector<double> facs;     // empty, or 50 in 0..1 in the order of kFacsNames, or kNone
+  std::vector<double> visemes;  // empty, or 15 in 0..1 in the order of kVisemeNames, or kNone
+  char mouth_shape = 0;         // 0, or one of kMouthShapes, until the next frame
+
+  Frame() { controls.fill(kNone); }
+};
+
+struct Clip {
+  std::vector<Frame> frames;      // times do not go back
+  std::string sound_file;         // where the format knows one
+  std::int64_t out_of_range = 0;  // values of the file beyond 0..1, brought to the nearest of them
+};
+
+// Whether anything drives the control.
+[[nodiscard]] inline bool driven(double value) { return value == value; }
+
+// For formats that have a number for everything: 0 where nothing drives it.
+[[nodiscard]] inline double or_zero(double value) { return driven(value) ? value : 0.0; }
+
+// Of the times of a clip: from its first to its last frame, divided by how many steps lie between;
+// 1/30 s where there are none.
+[[nodiscard]] double mean_step_s(const std::vector<Frame>& frames);
+
+// Whether each frame lies within half a millisecond of where even steps would put it.
+[[nodiscard]] bool evenly_spaced(const std::vector<Frame>& frames);
+
+}  // namespace mien::formats

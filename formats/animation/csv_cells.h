@@ -1,0 +1,50 @@
+// What readers of tables share: columns by name, numbers with their place in a fault.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "formats/animation/csv_table.h"
+
+namespace mien::formats {
+
+using Column = std::optional<std::size_t>;
+
+// The header of a table: which column has which name, whatever the case.
+class CsvHeader {
+ public:
+  // Reads the first row. False where there is none, or a name stands there twice.
+  [[nodiscard]] bool read(CsvTable& table, Fault& fault);
+
+  [[nodiscard]] std::size_t size() const { return names_.size(); }
+  [[nodiscard]] Column find(std::string_view name) const;
+  [[nodiscard]] const std::string& name(std::size_t column) const { return names_[column]; }
+
+ private:
+  std::vector<std::string> names_;
+};
+
+// Whether the row has as many cells as the header.
+[[nodiscard]] bool check_width(const CsvTable& table, const CsvHeader& header, Fault& fault);
+
+// The number of a cell; nothing for an empty cell and for a column that is not there. False where
+// the cell is no number.
+[[nodiscard]] bool read_cell(const CsvTable& table, const CsvHeader& header, Column column,
+                             std::optional<double>& value, Fault& fault);
+
+// The same of what has to lie in 0..1; kNone where there is nothing.
+[[nodiscard]] bool read_share(const CsvTable& table, const CsvHeader& header, Column column,
+                              double& value, Fault& fault);
+
+// The same of what files of others may exaggerate: brought into 0..1, and counted.
+[[nodiscard]] bool read_clamped(const CsvTable& table, const CsvHeader& header, Column column,
+                                double& value, std::int64_t& out_of_range, Fault& fault);
+
+// Into 0..1, and counted where it was not there.
+[[nodiscard]] double into_range(double value, std::int64_t& out_of_range);
+
+}  // namespace mien::formats

@@ -1,0 +1,53 @@
+#include "formats/animation/facs_map.h"
+
+#include <algorithm>
+
+#include "formats/animation/clip.h"
+#include "formats/animation/facs_rows.h"
+
+namespace mien::formats {
+namespace {
+
+// Where one of the two is not driven the other stands alone.
+double joined(double a, double b, Join join) {
+  if (!driven(a) || !driven(b)) {
+    return driven(a) ? a : b;
+  }
+  switch (join) {
+    case Join::kMean:
+      return (a + b) / 2.0;
+    case Join::kMax:
+      return std::max(a, b);
+    case Join::kMin:
+      return std::min(a, b);
+  }
+  return a;
+}
+
+}  // namespace
+
+std::array<double, kFacsCount> facs_of(const std::array<double, kControlCount>& controls) {
+  std::array<double, kFacsCount> facs;
+  facs.fill(kNone);
+  for (const FacsRow& row : kFacsRows) {
+    facs[row.unit] = joined(controls[row.first], controls[row.second], row.join);
+  }
+  return facs;
+}
+
+std::array<double, kControlCount> controls_of_facs(std::span<const double, kFacsCount> facs) {
+  std::array<double, kControlCount> controls;
+  controls.fill(kNone);
+  for (const FacsRow& row : kFacsRows) {
+    if (row.join == Join::kMin) {
+      continue;
+    }
+    controls[row.first] = joined(controls[row.first], facs[row.unit], Join::kMean);
+    if (row.second != row.first) {
+      controls[row.second] = joined(controls[row.second], facs[row.unit], Join::kMean);
+    }
+  }
+  return controls;
+}
+
+}  // namespace mien::formats

@@ -1,0 +1,87 @@
+#include "formats/animation/numbers.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <system_error>
+
+namespace mien::formats {
+namespace {
+
+// Room for the largest double in fixed notation with all the decimals that anyone here prints.
+constexpr std::size_t kMaxDigits = 400;
+
+template <class Number>
+bool parse(std::string_view text, Number& value) {
+  const std::string_view digits = trimmed(text);
+  Number read{};
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), read);
+  if (digits.empty() || error != std::errc() || end != digits.data() + digits.size()) {
+    return false;
+  }
+  value = read;
+  return true;
+}
+
+}  // namespace
+
+std::string shortest(double value) {
+  std::array<char, 32> digits;
+  const auto [end, error] = std::to_chars(digits.data(), digits.data() + digits.size(), value);
+  return {digits.data(), end};
+}
+
+std::string fixed(double value, int decimals) {
+  std::array<char, kMaxDigits> digits;
+  const auto [end, error] = std::to_chars(digits.data(), digits.data() + digits.size(), value,
+                                          std::chars_format::fixed, decimals);
+  if (error != std::errc()) {
+    return shortest(value);
+  }
+  std::string text(digits.data(), end);
+  if (text.find_first_not_of("-0.") == std::string::npos && text.starts_with('-')) {
+    text.erase(0, 1);  // nothing has no sign
+  }
+  return text;
+}
+
+double decimal(float value) {
+  std::array<char, 32> digits;
+  const auto [end, error] = std::to_chars(digits.data(), digits.data() + digits.size(), value);
+  double read = 0.0;
+  std::from_chars(digits.data(), end, read);
+  return read;
+}
+
+bool parse_number(std::string_view text, double& value) {
+  double read = 0.0;
+  if (!parse(text, read) || !std::isfinite(read)) {
+    return false;
+  }
+  value = read;
+  return true;
+}
+
+bool parse_number(std::string_view text, std::int64_t& value) { return parse(text, value); }
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(" \t");
+  if (begin == std::string_view::npos) {
+    return {};
+  }
+  return text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
+}
+
+std::string quoted(std::string_view text) {
+  constexpr std::size_t kShown = 40;
+  std::string shown(trimmed(text).substr(0, kShown));
+  for (char& c : shown) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte >= 0x7f) {
+      c = '?';
+    }
+  }
+  return "'" + shown + "'";
+}
+
+}  // namespace mien::formats

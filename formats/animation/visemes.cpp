@@ -1,0 +1,259 @@
+#include "formats/animation/visemes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "formats/animation/clip.h"
+
+namespace mien::formats {
+namespace {
+
+constexpr std::size_t kPoses = kVisemeCount - 1;  // all but silence
+
+// One control of a pose; both sides of the face where `right` is another.
+struct Part {
+  std::size_t left, right;
+  double value;
+};
+
+constexpr Part at(std::size_t control, double value) { return {control, control, value}; }
+
+constexpr Part kJaw = at(control("jawOpen"), 1.0);
+constexpr Part kClose = at(control("mouthClose"), 1.0);
+constexpr Part kFunnel = at(control("mouthFunnel"), 1.0);
+constexpr Part kPucker = at(control("mouthPucker"), 1.0);
+constexpr Part kRollLower = at(control("mouthRollLower"), 1.0);
+constexpr Part kRollUpper = at(control("mouthRollUpper"), 1.0);
+constexpr Part kShrugUpper = at(control("mouthShrugUpper"), 1.0);
+constexpr Part kShrugLower = at(control("mouthShrugLower"), 1.0);
+constexpr Part kForward = at(control("jawForward"), 1.0);
+constexpr Part kTongue = at(control("tongueOut"), 1.0);
+constexpr Part kSmile = {control("mouthSmileLeft"), control("mouthSmileRight"), 1.0};
+constexpr Part kStretch = {control("mouthStretchLeft"), control("mouthStretchRight"), 1.0};
+constexpr Part kPress = {control("mouthPressLeft"), control("mouthPressRight"), 1.0};
+constexpr Part kLowerDown = {control("mouthLowerDownLeft"), control("mouthLowerDownRight"), 1.0};
+constexpr Part kUpperUp = {control("mouthUpperUpLeft"), control("mouthUpperUpRight"), 1.0};
+constexpr Part kDimple = {control("mouthDimpleLeft"), control("mouthDimpleRight"), 1.0};
+
+constexpr Part kMouth[] = {kJaw,        kClose,      kFunnel,  kPucker, kRollLower, kRollUpper,
+                           kShrugUpper, kShrugLower, kForward, kTongue, kSmile,     kStretch,
+                           kPress,      kLowerDown,  kUpperUp, kDimple};
+
+constexpr Part operator*(double value, const Part& part) { return {part.left, part.right, value}; }
+
+using Pose = std::array<double, kControlCount>;
+
+template <std::size_t N>
+constexpr Pose pose(const Part (&parts)[N]) {
+  Pose made{};
+  for (const Part& part : parts) {
+    made[part.left] = part.value;
+    made[part.right] = part.value;
+  }
+  return made;
+}
+
+// Our own, after how the articulators move (International Phonetic Association's chart); in the
+// order of kVisemeNames, without silence. No two are alike, so that a mixture can be told apart.
+constexpr std::array<Pose, kPoses> kPoseOf = {
+    pose({0.5 * kPress, 0.35 * kRollLower, 0.35 * kRollUpper, 0.1 * kClose}),            // PP
+    pose({0.55 * kRollLower, 0.3 * kUpperUp, 0.06 * kJaw}),                              // FF
+    pose({0.5 * kTongue, 0.18 * kJaw, 0.2 * kLowerDown}),                                // TH
+    pose({0.14 * kJaw, 0.35 * kLowerDown, 0.3 * kUpperUp}),                              // DD
+    pose({0.26 * kJaw, 0.1 * kStretch, 0.35 * kDimple}),                                 // kk
+    pose({0.5 * kFunnel, 0.3 * kForward, 0.25 * kUpperUp, 0.08 * kJaw}),                 // CH
+    pose({0.45 * kStretch, 0.35 * kLowerDown, 0.03 * kJaw}),                             // SS
+    pose({0.16 * kJaw, 0.3 * kShrugUpper, 0.15 * kLowerDown}),                           // nn
+    pose({0.35 * kPucker, 0.3 * kFunnel, 0.12 * kJaw, 0.3 * kShrugLower}),               // RR
+    pose({0.65 * kJaw, 0.2 * kLowerDown, 0.1 * kUpperUp}),                               // aa
+    pose({0.35 * kJaw, 0.15 * kSmile, 0.35 * kStretch, 0.2 * kDimple, 0.2 * kUpperUp}),  // E
+    pose({0.2 * kJaw, 0.45 * kSmile}),                                                   // ih
+    pose({0.42 * kJaw, 0.5 * kFunnel, 0.1 * kPucker}),                                   // oh
+    pose({0.14 * kJaw, 0.75 * kPucker, 0.15 * kFunnel}),                                 // ou
+};
+
+// In the order of kVisemeNames.
+constexpr std::string_view kShapeOf = "XAGHBBBBBEDCBEF";
+constexpr std::string_view kVisemeOfShape[] = {"PP", "DD", "E",  "aa", "oh",
+                                               "ou", "FF", "TH", "sil"};
+
+double dot(const Pose& a, const Pose& b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < kControlCount; ++i) {
+    sum += a[i] * b[i];
+  }
+  return sum;
+}
+
+using Weights = std::array<double, kPoses>;
+using Chosen = std::array<bool, kPoses>;
+
+// The normal equations of the poses: how alike any two are.
+const std::array<Weights, kPoses>& gram() {
+  static const std::array<Weights, kPoses> products = [] {
+    std::array<Weights, kPoses> made{};
+    for (std::size_t i = 0; i < kPoses; ++i) {
+      for (std::size_t j = 0; j < kPoses; ++j) {
+        made[i][j] = dot(kPoseOf[i], kPoseOf[j]);
+      }
+    }
+    return made;
+  }();
+  return products;
+}
+
+// Least squares over the chosen poses alone, the others 0: Cholesky, since the poses are not alike.
+Weights solve(const Weights& target, const Chosen& chosen) {
+  std::array<std::size_t, kPoses> index{};
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < kPoses; ++i) {
+    if (chosen[i]) {
+      index[n++] = i;
+    }
+  }
+  std::array<Weights, kPoses> lower{};
+  Weights y{};
+  for (std::size_t i = 0; i < n; ++i) {
+    double known = target[index[i]];
+    for (std::size_t j = 0; j <= i; ++j) {
+      double sum = gram()[index[i]][index[j]];
+      for (std::size_t k = 0; k < j; ++k) {
+        sum -= lower[i][k] * lower[j][k];
+      }
+      lower[i][j] = i == j ? std::sqrt(sum) : sum / lower[j][j];
+    }
+    for (std::size_t k = 0; k < i; ++k) {
+      known -= lower[i][k] * y[k];
+    }
+    y[i] = known / lower[i][i];
+  }
+  Weights solution{};
+  for (std::size_t i = n; i-- > 0;) {
+    double sum = y[i];
+    for (std::size_t k = i + 1; k < n; ++k) {
+      sum -= lower[k][i] * solution[index[k]];
+    }
+    solution[index[i]] = sum / lower[i][i];
+  }
+  return solution;
+}
+
+// Non-negative least squares, Lawson and Hanson (Solving Least Squares Problems, 1974, chapter 23).
+Weights mixture(const Pose& mouth) {
+  constexpr double kTolerance = 1e-12;
+  constexpr int kMaxSteps = 10 * static_cast<int>(kPoses);
+  Weights target{}, weights{};
+  for (std::size_t i = 0; i < kPoses; ++i) {
+    target[i] = dot(kPoseOf[i], mouth);
+  }
+  Chosen chosen{};
+  for (int step = 0; step < kMaxSteps; ++step) {
+    std::size_t best = kPoses;
+    double steepest = kTolerance;
+    for (std::size_t i = 0; i < kPoses; ++i) {
+      double gradient = target[i];
+      for (std::size_t j = 0; j < kPoses; ++j) {
+        gradient -= gram()[i][j] * weights[j];
+      }
+      if (!chosen[i] && gradient > steepest) {
+        steepest = gradient;
+        best = i;
+      }
+    }
+    if (best == kPoses) {
+      break;
+    }
+    chosen[best] = true;
+    for (Weights wanted = solve(target, chosen);; wanted = solve(target, chosen)) {
+      double way = 1.0;  // towards what is wanted, as far as nothing becomes negative
+      for (std::size_t i = 0; i < kPoses; ++i) {
+        if (chosen[i] && wanted[i] <= 0.0) {
+          way = std::min(way, weights[i] / (weights[i] - wanted[i]));
+        }
+      }
+      for (std::size_t i = 0; i < kPoses; ++i) {
+        weights[i] += way * (wanted[i] - weights[i]);
+      }
+      if (way >= 1.0) {
+        break;
+      }
+      for (std::size_t i = 0; i < kPoses; ++i) {
+        if (chosen[i] && wanted[i] <= 0.0 && weights[i] <= kTolerance) {
+          chosen[i] = false;
+          weights[i] = 0.0;
+        }
+      }
+    }
+  }
+  return weights;
+}
+
+}  // namespace
+
+std::array<double, kVisemeCount> visemes_of(const std::array<double, kControlCount>& controls) {
+  std::array<double, kVisemeCount> visemes;
+  visemes.fill(kNone);
+  Pose mouth{};
+  bool any = false;
+  for (const Part& part : kMouth) {
+    for (const std::size_t i : {part.left, part.right}) {
+      mouth[i] = or_zero(controls[i]);
+      any = any || driven(controls[i]);
+    }
+  }
+  if (!any) {
+    return visemes;
+  }
+  const Weights weights = mixture(mouth);
+  double sum = 0.0;
+  for (const double weight : weights) {
+    sum += weight;
+  }
+  const double scale = 1.0 / std::max(1.0, sum);
+  for (std::size_t i = 0; i < kPoses; ++i) {
+    visemes[i + 1] = std::clamp(weights[i] * scale, 0.0, 1.0);
+  }
+  visemes[0] = std::max(0.0, 1.0 - sum);
+  return visemes;
+}
+
+std::array<double, kControlCount> controls_of_visemes(
+    std::span<const double, kVisemeCount> visemes) {
+  std::array<double, kControlCount> controls;
+  controls.fill(kNone);
+  if (std::none_of(visemes.begin(), visemes.end(), driven)) {
+    return controls;
+  }
+  for (const Part& part : kMouth) {
+    for (const std::size_t i : {part.left, part.right}) {
+      double sum = 0.0;
+      for (std::size_t k = 0; k < kPoses; ++k) {
+        sum += or_zero(visemes[k + 1]) * kPoseOf[k][i];
+      }
+      controls[i] = std::min(sum, 1.0);
+    }
+  }
+  return controls;
+}
+
+char mouth_shape_of(std::span<const double, kVisemeCount> visemes) {
+  constexpr double kSilent = 0.75;
+  std::size_t strongest = 0;
+  for (std::size_t i = 1; i < kVisemeCount; ++i) {
+    if (strongest == 0 ? driven(visemes[i]) : or_zero(visemes[i]) > visemes[strongest]) {
+      strongest = i;
+    }
+  }
+  const bool silent = or_zero(visemes[0]) > kSilent || strongest == 0 || visemes[strongest] == 0.0;
+  return silent ? 'X' : kShapeOf[strongest];
+}
+
+std::array<double, kVisemeCount> visemes_of_mouth_shape(char shape) {
+  std::array<double, kVisemeCount> visemes{};
+  const std::size_t which = kMouthShapes.find(shape);
+  visemes[index_of(kVisemeOfShape[std::min(which, kMouthShapes.size() - 1)], kVisemeNames)] = 1.0;
+  return visemes;
+}
+
+}  // namespace mien::formats

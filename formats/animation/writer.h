@@ -1,0 +1,36 @@
+// How every format is written: frame by frame, text or bytes as they come.
+#pragma once
+
+#include <string>
+
+#include "formats/animation/clip.h"
+
+namespace mien::formats {
+
+class AnimationWriter {
+ public:
+  virtual ~AnimationWriter() = default;
+
+  // Each returns what is to be appended to the file, nothing where the format has to wait.
+  [[nodiscard]] virtual std::string begin() { return {}; }
+  [[nodiscard]] virtual std::string frame(const Frame& frame) = 0;
+  [[nodiscard]] virtual std::string finish() { return {}; }
+};
+
+// For formats that have to know all frames before their first byte.
+class WholeClipWriter : public AnimationWriter {
+ public:
+  [[nodiscard]] std::string frame(const Frame& frame) final {
+    frames_.push_back(frame);
+    return {};
+  }
+  [[nodiscard]] std::string finish() final { return whole(frames_); }
+
+ protected:
+  [[nodiscard]] virtual std::string whole(const std::vector<Frame>& frames) = 0;
+
+ private:
+  std::vector<Frame> frames_;
+};
+
+}  // namespace mien::formats

@@ -1,0 +1,239 @@
+#include "formats/animation/xml.h"
+
+#include <algorithm>
+#include <array>
+
+#include "formats/animation/numbers.h"
+
+namespace mien::formats {
+namespace {
+
+constexpr std::string_view kBlanks = " \t\r\n";
+
+struct Entity {
+  char character;
+  std::string_view written;
+};
+constexpr std::array<Entity, 5> kEntities = {
+    {{'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}, {'\'', "&apos;"}}};
+
+bool part_of_a_name(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+         c == '-' || c == '.' || c == ':';
+}
+
+class Parser {
+ public:
+  Parser(std::string_view text, std::vector<XmlTag>& tags, Fault& fault)
+      : text_(text), tags_(tags), fault_(fault) {}
+
+  bool parse() {
+    skip_text();
+    while (at_ < text_.size()) {
+      const bool fine = follows("<?") || follows("<!--") ? skip_what_says_nothing() : tag();
+      if (!fine || !take_text()) {
+        return false;
+      }
+    }
+    return open_.empty() ? !tags_.empty() || wrong("there is no element")
+                         : wrong("<" + open_.back() + "> is not closed");
+  }
+
+ private:
+  bool wrong(std::string what) {
+    XmlTag here;
+    place(here);
+    return here.fail_here(std::move(what), fault_);
+  }
+
+  [[nodiscard]] bool follows(std::string_view what) const {
+    return text_.substr(at_).starts_with(what);
+  }
+
+  void skip_text() { at_ = std::min(text_.find_first_not_of("\xEF\xBB\xBF \t\r\n"), text_.size()); }
+  void skip_blanks() { at_ = std::min(text_.find_first_not_of(kBlanks, at_), text_.size()); }
+
+  // <?xml ...?> and comments.
+  bool skip_what_says_nothing() {
+    const std::string_view end = follows("<?") ? "?>" : "-->";
+    const std::size_t found = text_.find(end, at_ + 2);
+    if (found == text_.npos) {
+      return wrong(std::string(end) + " is missing");
+    }
+    at_ = found + end.size();
+    return true;
+  }
+
+  std::string name() {
+    const std::size_t from = at_;
+    while (at_ < text_.size() && part_of_a_name(text_[at_])) {
+      ++at_;
+    }
+    return std::string(text_.substr(from, at_ - from));
+  }
+
+  bool tag() {
+    XmlTag tag;
+    place(tag);
+    if (!follows("<")) {
+      return wrong("a tag has to be here");
+    }
+    ++at_;
+    tag.closes = follows("/");
+    at_ += tag.closes ? 1 : 0;
+    tag.name = name();
+    if (tag.name.empty()) {
+      return wrong("a tag's name has to be here");
+    }
+    if (open_.empty() && !tags_.empty()) {
+      return tag.fail_here("a second outermost element", fault_);
+    }
+    return tag.closes ? close(tag) : open(tag);
+  }
+
+  // Goes on counting lines where it stopped the last time.
+  void place(XmlTag& tag) {
+    for (; counted_ < at_; ++counted_) {
+      if (text_[counted_] == '\n') {
+        ++line_;
+        line_begin_ = counted_ + 1;
+      }
+    }
+    tag.line = line_;
+    tag.column = at_ - line_begin_ + 1;
+  }
+
+  bool close(XmlTag& tag) {
+    skip_blanks();
+    if (!follows(">")) {
+      return wrong("'>' has to be here");
+    }
+    ++at_;
+    if (open_.empty() || open_.back() != tag.name) {
+      return tag.fail_here("</" + tag.name + "> closes nothing", fault_);
+    }
+    open_.pop_back();
+    tags_.push_back(std::move(tag));
+    return true;
+  }
+
+  bool open(XmlTag& tag) {
+    skip_blanks();
+    while (!follows(">") && !follows("/>")) {
+      if (!attribute(tag)) {
+        return false;
+      }
+      skip_blanks();
+    }
+    const bool empty = follows("/>");
+    at_ += empty ? 2 : 1;
+    open_.push_back(tag.name);
+    tags_.push_back(tag);
+    if (empty) {
+      tag.closes = true;
+      tag.attributes.clear();
+      tags_.push_back(std::move(tag));
+      open_.pop_back();
+    }
+    return true;
+  }
+
+  bool attribute(XmlTag& tag) {
+    const std::string key = name();
+    skip_blanks();
+    if (key.empty() || !follows("=")) {
+      return wrong(key.empty() ? "an attribute or '>' has to be here" : "'=' has to be here");
+    }
+    ++at_;
+    skip_blanks();
+    if (!follows("\"") && !follows("'")) {
+      return wrong("a quotation mark has to be here");
+    }
+    if (tag.find(key) != nullptr) {
+      return wrong(quoted(key) + " is there twice");
+    }
+    const std::size_t end = text_.find(text_[at_], at_ + 1);
+    if (end == text_.npos) {
+      return wrong("a quotation mark has no other");
+    }
+    ++at_;
+    std::string value;
+    if (!decode(end, value)) {
+      return false;
+    }
+    at_ = end + 1;
+    tag.attributes.emplace_back(key, std::move(value));
+    return true;
+  }
+
+  // From here to `end`.
+  bool decode(std::size_t end, std::string& into) {
+    while (at_ < end) {
+      if (text_[at_] != '&') {
+        into += text_[at_++];
+        continue;
+      }
+      const auto* known = std::find_if(kEntities.begin(), kEntities.end(),
+                                       [&](const Entity& each) { return follows(each.written); });
+      if (known == kEntities.end()) {
+        return wrong("an entity that is not known");
+      }
+      into += known->character;
+      at_ += known->written.size();
+    }
+    return true;
+  }
+
+  // Up to the next tag.
+  bool take_text() {
+    const std::size_t end = std::min(text_.find('<', at_), text_.size());
+    skip_blanks();
+    if (at_ >= end) {
+      return true;
+    }
+    if (open_.empty()) {
+      return wrong("text outside the outermost element");
+    }
+    std::string found;
+    if (!decode(end, found)) {
+      return false;
+    }
+    tags_.back().text += trimmed(found);
+    return true;
+  }
+
+  std::string_view text_;
+  std::vector<XmlTag>& tags_;
+  Fault& fault_;
+  std::size_t at_ = 0;
+  std::size_t counted_ = 0, line_ = 1, line_begin_ = 0;
+  std::vector<std::string> open_;
+};
+
+}  // namespace
+
+const std::string* XmlTag::find(std::string_view attribute) const {
+  for (const auto& [key, value] : attributes) {
+    if (key == attribute) {
+      return &value;
+    }
+  }
+  return nullptr;
+}
+
+bool parse_xml(std::string_view text, std::vector<XmlTag>& tags, Fault& fault) {
+  tags.clear();
+  return Parser(text, tags, fault).parse();
+}
+
+std::string xml_text(std::string_view text) {
+  std::string written;
+  for (const char c : text) {
+    const auto* known = std::find_if(kEntities.begin(), kEntities.end(),
+                                     [c](const Entity& each) { return each.character == c; });
+    known != kEntities.end() ? written += known->written : written += c;
+  }
+  return written;
+}
+
+}  // namespace mien::formats

@@ -1,0 +1,39 @@
+#include "formats/protocols/vmc.h"
+
+#include "formats/animation/rotation.h"
+#include "formats/protocols/osc.h"
+
+namespace mien::formats {
+namespace {
+
+constexpr std::size_t kMostBytes = 1500;
+constexpr std::int32_t kCalibrated = 3, kNormalMode = 0;
+
+std::string message(std::string_view address, std::initializer_list<OscArgument> arguments) {
+  return osc_message(address, {arguments.begin(), arguments.size()});
+}
+
+float narrow(double value) { return static_cast<float>(value); }
+
+}  // namespace
+
+std::vector<std::string> vmc_packets(const VmcFrame& frame) {
+  std::vector<std::string> messages = {
+      message("/VMC/Ext/OK", {std::int32_t{1}, kCalibrated, kNormalMode,
+                              static_cast<std::int32_t>(frame.tracking)}),
+      message("/VMC/Ext/T", {narrow(frame.seconds)})};
+  if (frame.head) {
+    // x turns round on the way from our head space, which has the subject's left there.
+    const auto [x, y, z, w] = quaternion(*frame.head);
+    messages.push_back(
+        message("/VMC/Ext/Bone/Pos", {std::string_view("Head"), 0.0f, 0.0f, 0.0f, narrow(x),
+                                      narrow(-y), narrow(-z), narrow(w)}));
+  }
+  for (const NamedValue& blend : frame.blends) {
+    messages.push_back(message("/VMC/Ext/Blend/Val", {blend.name, narrow(blend.value)}));
+  }
+  messages.push_back(message("/VMC/Ext/Blend/Apply", {}));
+  return osc_bundles(messages, kMostBytes);
+}
+
+}  // namespace mien::formats

@@ -1,0 +1,31 @@
+// The bytes are an animated face: of the format that their content says, and of every other.
+#include "formats/animation/animation.h"
+
+#include <string_view>
+
+#include "fuzz/target.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  namespace formats = mien::formats;
+  const std::string_view bytes(reinterpret_cast<const char*>(data), size);
+  formats::Clip clip;
+  formats::Fault fault;
+  if (formats::read_animation(formats::format_by_content(bytes), bytes, {}, clip, fault)) {
+    // What was read can be written, everywhere.
+    for (const formats::FormatName& known : formats::kFormatNames) {
+      const auto writer = formats::animation_writer(known.format, {});
+      std::size_t written = writer->begin().size();
+      for (std::size_t i = 0; i < clip.frames.size() && i < 50; ++i) {
+        written += writer->frame(clip.frames[i]).size();
+      }
+      if (written + writer->finish().size() == 0) {
+        __builtin_trap();
+      }
+      static_cast<void>(formats::losses(clip, known.format));
+    }
+  }
+  for (const formats::FormatName& known : formats::kFormatNames) {
+    static_cast<void>(formats::read_animation(known.format, bytes, {}, clip, fault));
+  }
+  return 0;
+}

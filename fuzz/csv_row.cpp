@@ -1,0 +1,42 @@
+// Any cells into rows of any length: nothing is written beyond the buffer, and a row is whole or
+// nothing.
+#include "formats/csv_row.h"
+
+#include <string_view>
+#include <vector>
+
+#include "fuzz/bytes.h"
+#include "fuzz/target.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  mien::fuzz::Bytes choices(data, size);
+  std::vector<char> buffer(static_cast<std::size_t>(choices.between(0, 300)));
+  mien::formats::CsvRow row(buffer);
+  while (!choices.empty()) {
+    switch (choices.between(0, 5)) {
+      case 0:
+        row.add(choices.take<std::int64_t>());
+        break;
+      case 1:
+        row.add(choices.take<float>());
+        break;
+      case 2:
+        row.add(choices.take<double>());
+        break;
+      case 3: {
+        const auto text = choices.rest().first(
+            std::min(choices.rest().size(), static_cast<std::size_t>(choices.between(0, 20))));
+        row.add(std::string_view(reinterpret_cast<const char*>(text.data()), text.size()));
+        break;
+      }
+      case 4:
+        row.add_empty();
+        break;
+      default: {
+        const std::string_view line = row.finish();
+        mien::fuzz::require(line.size() <= buffer.size() && (line.empty() || line.back() == '\n'));
+      }
+    }
+  }
+  return 0;
+}

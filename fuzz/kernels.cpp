@@ -1,0 +1,36 @@
+// The bytes choose a kernel and the shape of a call of it: every tier is held against the
+// reference, between guard pages.
+#include <cstdio>
+
+#include "apps/conformance/check.h"
+#include "fuzz/bytes.h"
+#include "fuzz/target.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace mien;
+  fuzz::Bytes choices(data, size);
+  const auto kernels = kernels::all_kernels();
+  const kernels::Entry& entry = kernels[choices.take<std::uint8_t>() % kernels.size()];
+  const conformance::Family* family = conformance::find_family(entry.family);
+  if ((kernels::detect_cpu() & kernels::bit(entry.tier)) == 0 || family == nullptr) {
+    return 0;
+  }
+  const int number = choices.between(0, 255);
+  const auto seed = choices.take<std::uint16_t>();
+  conformance::RandomValues random(
+      seed, number,
+      kernels::is_half(entry.tier) ? conformance::kHalfArithmetic : conformance::kSingleArithmetic);
+  random.choose_first(choices.rest().first(std::min<std::size_t>(choices.rest().size(), 12)));
+  const kernels::AnyKernel reference =
+      entry.tier == kernels::Tier::kRef
+          ? nullptr
+          : kernels::find_any(entry.family, kernels::bit(kernels::Tier::kRef));
+  const conformance::Case test = family->random_case(random);
+  const conformance::Finding finding = conformance::check(test, entry.function, reference);
+  if (finding.fault != conformance::Fault::kNone) {
+    std::fprintf(stderr, "%s, %s: %s: %s\n", std::string(entry.family).c_str(), test.shape.c_str(),
+                 conformance::name(finding.fault), finding.text.c_str());
+    fuzz::require(false);
+  }
+  return 0;
+}

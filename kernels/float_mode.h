@@ -1,0 +1,62 @@
+// The floating-point state that arithmetic runs in, whatever the caller's is.
+#pragma once
+
+#include <cstdint>
+
+#if defined(__x86_64__) || defined(_M_X64)
+#include <xmmintrin.h>
+#endif
+
+namespace mien::kernels {
+
+// While it lives: round to nearest, trap nothing, take denormal numbers for zero, which else cost a
+// hundred times the time of others in what fades out. So results do not depend on the caller's
+// state, and the caller finds it as it was, sticky flags included. Costs tens of cycles; of the
+// calling thread alone.
+class FloatMode {
+ public:
+  FloatMode() : callers_(get()) { set(kOurs); }
+  ~FloatMode() { set(callers_); }
+  FloatMode(const FloatMode&) = delete;
+  FloatMode& operator=(const FloatMode&) = delete;
+
+ private:
+#if defined(__x86_64__) || defined(_M_X64)
+  using State = std::uint32_t;
+  // MXCSR: all exceptions masked, flush to zero, denormals are zero.
+  static constexpr State kOurs = 0x1F80u | 0x8000u | 0x0040u;
+  static State get() { return _mm_getcsr(); }
+  static void set(State state) { _mm_setcsr(state); }
+#elif defined(__aarch64__)
+  struct State {
+    std::uint64_t control, flags;
+  };
+  static constexpr State kOurs = {std::uint64_t{1} << 24, 0};  // FPCR.FZ
+  static State get() {
+    State state{};
+    asm volatile("mrs %0, fpcr\n\tmrs %1, fpsr" : "=r"(state.control), "=r"(state.flags));
+    return state;
+  }
+  static void set(const State& state) {
+    asm volatile("msr fpcr, %0\n\tmsr fpsr, %1" ::"r"(state.control), "r"(state.flags));
+  }
+#elif defined(__arm__) && defined(__ARM_FP)
+  using State = std::uint32_t;
+  static constexpr State kOurs = std::uint32_t{1} << 24;  // FPSCR.FZ, as NEON always has it
+  static State get() {
+    State state = 0;
+    asm volatile("vmrs %0, fpscr" : "=r"(state));
+    return state;
+  }
+  static void set(State state) { asm volatile("vmsr fpscr, %0" ::"r"(state)); }
+#else  // WebAssembly has no such state, other machines no tier but the reference
+  using State = int;
+  static constexpr State kOurs = 0;
+  static State get() { return 0; }
+  static void set(State) {}
+#endif
+
+  State callers_;
+};
+
+}  // namespace mien::kernels

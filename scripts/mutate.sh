@@ -1,0 +1,67 @@
+#!/usr/bin/env bash
+# Plants the faults of tests/mutations.txt one by one into a copy of the tree, builds it, and passes the native tests: what they do
+# not notice, they do not test. build/mutate/report.md says of each fault which test noticed it first. Takes a minute or two a fault.
+# usage: scripts/mutate.sh [--check | FIRST [LAST]]     --check: only that every fault still has its place; else by number, default all
+# Exit status 0 only when every fault was noticed.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+faults=$PWD/tests/mutations.txt
+work=$PWD/build/mutate
+
+# plant NUMBER TREE: makes that change there and prints "FILE: the change"; without a tree, says which faults have lost their place.
+plant() {
+  python3 - "$faults" "$@" <<'PYTHON'
+import pathlib, sys
+faults = [line.rstrip("\n") for line in open(sys.argv[1]) if line.strip() and not line.startswith("#")]
+if len(sys.argv) == 2:
+    print(len(faults))
+    lost = 0
+for number, line in enumerate(faults, 1):
+    file, change = line.split(": ", 1)
+    before, after = (part.strip(" ").replace("\\n", "\n") for part in change.split("==>"))
+    if len(sys.argv) == 2:
+        found = pathlib.Path(file).read_text().count(before)
+        if found != 1 or before == after:
+            print(f"tests/mutations.txt: {line!r}: stands there {found} times", file=sys.stderr)
+            lost += 1
+    elif number == int(sys.argv[2]):
+        path = pathlib.Path(sys.argv[3]) / file
+        path.write_text(path.read_text().replace(before, after))
+        print(line)
+sys.exit(len(sys.argv) == 2 and lost > 0)
+PYTHON
+}
+
+count=$(plant)
+[ "${1:-}" != --check ] || { echo "$count faults, all have their place"; exit 0; }
+first=${1:-1} last=${2:-${1:-$count}}
+
+. scripts/ccache.sh
+tree=$work/source
+mkdir -p "$tree"
+git ls-files -z | tar --null --files-from=- --create | tar --extract --directory="$tree"
+cmake -S "$tree" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DMIEN_BUILD_TESTS=ON >/dev/null
+build() { cmake --build "$work/build" -- --quiet >"$work/build.log" 2>&1; }
+pass() { ctest --test-dir "$work/build" -j "$(nproc)" --timeout 300 --stop-on-failure -E '^(convert|train|package|apps)\.' >"$work/tests.log" 2>&1; }
+build || { cat "$work/build.log" >&2; exit 1; }
+pass || { tail -n 30 "$work/tests.log" >&2; echo "mutate.sh: the tests fail without any fault" >&2; exit 1; }
+
+missed=0
+[ "$first" -gt 1 ] || printf '| fault | noticed by |\n|---|---|\n' >"$work/report.md"
+for ((number = first; number <= last; ++number)); do
+  fault=$(plant "$number" "$tree")
+  if ! build; then
+    outcome="**nobody could: it does not compile**"
+    missed=$((missed + 1))
+  elif pass; then
+    outcome="**nobody**"
+    missed=$((missed + 1))
+  else
+    outcome=$(grep -oE '[0-9]+ - .* \((Failed|Timeout|SEGFAULT|ILLEGAL|Subprocess aborted|.*Exception.*)\)' "$work/tests.log" | head -n 1 | sed 's/^[0-9]* - //')
+  fi
+  # shellcheck disable=SC2016  # the ticks are Markdown's
+  printf '| `%s` | %s |\n' "${fault//|/\\|}" "$outcome" | tee -a "$work/report.md"
+  cp "${fault%%: *}" "$tree/${fault%%: *}"
+done
+echo "$((last - first + 1)) faults, $missed not noticed"
+[ $missed -eq 0 ]

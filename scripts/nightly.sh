@@ -1,0 +1,30 @@
+#!/usr/bin/env bash
+# What takes hours, one after the other whatever fails, with a report: build/nightly/report.md. Exit status 0 only when all is right.
+# usage: scripts/nightly.sh [HOURS]      of fuzzing, default 4
+set -uo pipefail
+cd "$(dirname "$0")/.." || exit
+hours=${1:-4}
+folder=build/nightly
+mkdir -p $folder
+report=$folder/report.md
+failed=0
+
+step() {  # name, command...
+  local log=$folder/$1.log began=$SECONDS outcome=right
+  "${@:2}" >"$log" 2>&1 || { outcome="**failed ($?)**"; failed=1; }
+  # shellcheck disable=SC2016  # the ticks are Markdown's
+  printf '| %s | `%s` | %s | %d | %s |\n' "$1" "${*:2}" "$outcome" $((SECONDS - began)) "$(tail -n 1 "$log" | tr '|' '/')" >>$report
+}
+
+printf '# %s, %s\n\n| what | command | outcome | seconds | its last line |\n|---|---|---|---|---|\n' \
+  "$(date -u +%F)" "$(git describe --always --dirty)" >$report
+step tests scripts/test.sh --all
+step other_machines scripts/cross/all.sh --full
+step made_100000_times build/release/tests/tracker/tracker_scenario_test --gtest_filter=Trackers.MayBeMadeManyTimes --gtest_repeat=10 --gtest_brief=1
+step every_allocation /usr/bin/python3 tests/apps/faults_test.py build/release/apps/mien/mien build/release/tests/apps/libmien_failing_malloc.so all
+step worst_frame scripts/evaluate/worst_frame.sh
+step soak scripts/evaluate/soak.sh
+step planted_faults scripts/mutate.sh
+step fuzzing scripts/fuzz.sh $((hours * 60))
+cat $report
+exit $failed

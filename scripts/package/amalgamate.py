@@ -1,0 +1,225 @@
+#!/usr/bin/env python3
+"""Writes the whole library as mien.h, mien.cpp and one mien_TIER.cpp a tier, to be dropped into any project.
+
+usage: scripts/package/amalgamate.py [-o FOLDER]      default: build/amalgamation
+
+They are compiled by one line, `g++ -std=c++20 -O3 app.cpp mien*.cpp`: each file says by itself what it is compiled for, and is empty where
+the machine or the compiler has no such tier. The same bits as the library's come out (tests/package/amalgamated_test.sh).
+"""
+
+import argparse
+import re
+from collections import Counter, defaultdict
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+FORMATS = ["mien_file", "mien_layers", "mien_open", "neutral_file", "text", "xxhash64"]  # the others are for programs
+
+# Of what CMake asks the machine and the compiler (kernels/CMakeLists.txt), what a source can ask.
+TIERS_HERE = """\
+#if defined(__x86_64__)
+#define MIEN_HAVE_AVX2
+#define MIEN_HAVE_AVX512
+// clang 14 has these types only where -mavx512fp16 says so.
+#if defined(__AVX512FP16__) || (defined(__clang__) ? __clang_major__ >= 15 : __GNUC__ >= 12)
+#define MIEN_HAVE_AVX512FP16
+#endif
+#elif defined(__aarch64__)
+#define MIEN_HAVE_NEON
+// clang before 17 has these intrinsics only where -march says so.
+#if defined(__ARM_FEATURE_FP16_VECTOR_ARITHMETIC) || !defined(__clang__) || __clang_major__ >= 17
+#define MIEN_HAVE_NEONFP16
+#endif
+#elif defined(__arm__) && defined(__ARM_FEATURE_FMA) && defined(__ARM_FP16_FORMAT_IEEE)
+#define MIEN_HAVE_NEON32  // -march=armv7-a -mfpu=neon-vfpv4 -mfp16-format=ieee
+#elif defined(__wasm_simd128__)
+#define MIEN_HAVE_WASM  // -msimd128
+#endif
+"""
+
+AVX512 = "avx512f,avx512bw,avx512vl,avx512dq,fma,f16c"
+GCC_ONLY = ",prefer-vector-width=512"
+
+
+class Tier:
+    """What is special about the file of a tier."""
+
+    def __init__(self, name, target="", gcc_target=None, defines=(), pragmas=()):
+        self.name = name
+        self.condition = "!defined(MIEN_TRIM_REF)" if name == "ref" else f"defined(MIEN_HAVE_{name.upper()})"
+        self.target, self.gcc_target = target, target if gcc_target is None else gcc_target
+        self.defines, self.pragmas = defines, pragmas
+
+    def sources(self):
+        stems = [self.name, f"{self.name}_product"]
+        if self.name in ("neon", "neon32"):
+            stems = ["neon", "neon_product"]
+        found = [path for stem in stems for path in (ROOT / "kernels").glob(f"*/{stem}.cpp")]
+        if self.name == "neonfp16":
+            found += [ROOT / "kernels" / family / "neon.cpp" for family in ("causal_conv", "fully_connected", "lstm")]
+        return sorted(found)
+
+
+# gcc's scheduling before register allocation stretches the lives of the sums until they spill.
+NEON_PRAGMA = '#if defined(__GNUC__) && !defined(__clang__)\n#pragma GCC optimize("no-schedule-insns")\n#endif'
+def ignored(condition, compiler, warnings):
+    return [f"#if {condition}", *(f'#pragma {compiler} diagnostic ignored "-W{name}"' for name in warnings), "#endif"]
+
+
+# GCC 12 takes the undefined operands inside its own intrinsics for faults (GCC bug 105593), and does not see that the functions behind
+# lambdas, which nobody calls, are for the target, too. To clang, what a header says to many is unused where it says it to one.
+QUIET = [*ignored("defined(__GNUC__) && !defined(__clang__)", "GCC", ["uninitialized", "maybe-uninitialized", "psabi"]),
+         *ignored("defined(__clang__)", "clang", ["unused-const-variable"])]
+TIERS = [
+    Tier("ref"),
+    Tier("avx2", "avx2,fma,f16c"),
+    Tier("avx512", AVX512, AVX512 + GCC_ONLY),
+    Tier("avx512fp16", AVX512 + ",avx512fp16", AVX512 + ",avx512fp16" + GCC_ONLY),
+    Tier("neon", defines=["MIEN_TIER neon"], pragmas=[NEON_PRAGMA]),
+    Tier("neonfp16", "fullfp16", "arch=armv8.2-a+fp16", ["MIEN_TIER neonfp16", "MIEN_HALF_TIER"], [NEON_PRAGMA]),
+    Tier("neon32", defines=["MIEN_TIER neon32"], pragmas=[NEON_PRAGMA]),
+    Tier("wasm"),
+]
+
+INCLUDE = re.compile(r'^#include ([<"])([^>"]+)[>"]')
+
+
+class Text:
+    """Sources one behind the other, every header of ours in its place once, those of the system first."""
+
+    def __init__(self):
+        self.system, self.lines, self.seen = [], [], set()
+
+    def add(self, path, rename):
+        """The file at `path`, by `rename` (None: as it is), which is given each line of code."""
+        self.lines.append(f"// {path.relative_to(ROOT)}")
+        conditions = 0
+        for line in path.read_text().splitlines():
+            conditions += line.startswith("#if")
+            conditions -= line.startswith("#endif")
+            include = INCLUDE.match(line)
+            if include:
+                self.include(line, *include.groups(), conditions > 0)
+            elif line != "#pragma once":
+                self.lines.append(rename(line) if rename else line)
+
+    def include(self, line, kind, name, conditional):
+        if name == "mien/mien.h":
+            return  # in front of all
+        if kind == "<" and not name.startswith("mien/"):
+            if conditional:
+                self.lines.append(line)
+            elif line not in self.system:
+                self.system.append(line)
+            return
+        path = ROOT / "include" / name if kind == "<" else ROOT / name
+        if path.suffix == ".inc" or path not in self.seen:  # a list is read wherever it is asked for
+            self.seen.add(path)
+            self.add(path, None)
+
+
+# What a file defines for itself alone, in unnamed namespaces, by lines as clang-format leaves them.
+DEFINITION = re.compile(
+    r"(?:template <.*> ?)?(?:inline |constexpr |static |\[\[\w+\]\] )*"
+    r"(?:(?:struct|class|union|enum class) (?P<type>\w+)|using (?P<alias>\w+) =|[A-Za-z_][\w:<>,*& ]*?[ *&](?P<value>\w+)(?: = |\(|\{|\[|;))")
+
+
+def own_names(path):
+    """Each with the line that begins its definition."""
+    names, inside, depth = {}, False, 0
+    for line in path.read_text().splitlines():
+        if line == "namespace {":
+            inside, depth = True, 0
+        elif inside:
+            found = DEFINITION.match(line) if depth == 0 and not line.startswith((" ", "//", "#", "}", "return")) else None
+            if found:
+                names[found["type"] or found["alias"] or found["value"]] = line
+            depth += line.count("{") - line.count("}")
+            inside = depth >= 0
+    return names
+
+
+def renaming(path, names):
+    """Gives names of a file the file's, so that two files with the same may become one. None where there is nothing to do."""
+    if not names:
+        return None
+    stem = "_".join(path.relative_to(ROOT).with_suffix("").parts[-2:])
+    word = re.compile(r'(?P<text>"(?:\\.|[^"\\])*")|(?P<before>\.|->)?(?P<scope>(?:\w+::)*)\b(?P<name>' + "|".join(sorted(names)) + r")\b")
+
+    def renamed(match):
+        of_another = match["text"] or match["before"] or (match["scope"] and not match["scope"].startswith("mien::"))
+        return match[0] if of_another else f"{match['scope']}{stem}_{match['name']}"
+
+    def rename(line):
+        code, slashes, comment = line.partition("//")
+        return word.sub(renamed, code) + slashes + comment
+
+    return rename
+
+
+def joined(sources):
+    """The sources as one, in which each finds what it found alone: names of its own that others know, too, are set apart."""
+    plain = Text()
+    for source in sources:
+        plain.add(source, None)
+    known = Counter(re.findall(r"\w+", "\n".join(plain.lines)))
+    names = {source: own_names(source) for source in sources}
+    lines = defaultdict(set)
+    for own in names.values():
+        for name, line in own.items():
+            lines[name].add(line)
+    text = Text()
+    for source, own in names.items():
+        alone = Counter(re.findall(r"\w+", source.read_text()))
+        # One alias for one thing may be said twice.
+        apart = [name for name, line in own.items()
+                 if known[name] > alone[name] and not (line.startswith("using ") and len(lines[name]) == 1)]
+        text.add(source, renaming(source, apart))
+    return text
+
+
+def core_sources():
+    """Everything that is no tier's."""
+    sources = [ROOT / "formats" / f"{name}.cpp" for name in FORMATS]
+    sources += [path for part in ("kernels", "engine", "audio", "tracker") for path in sorted((ROOT / part).glob("*.cpp"))]
+    return [path for path in sources if path.name != "voice_left_out.cpp"]
+
+
+def banner(version, what):
+    return [f"// mien {version}: {what} Apache-2.0.", "// Made of the sources by scripts/package/amalgamate.py, which are better to read and to change."]
+
+
+def core_file(version):
+    text = joined(core_sources())
+    return banner(version, "the library but for its kernels.") + [
+        f'#define MIEN_VERSION "{version}"', "#define MIEN_BUILDING", TIERS_HERE, '#include "mien.h"', "", *text.system, "", *QUIET, *text.lines]
+
+
+def tier_file(version, tier):
+    text = joined(tier.sources())
+    lines = banner(version, f"the kernels of the tier {tier.name}.") + [TIERS_HERE, f"#if {tier.condition}", '#include "mien.h"', ""]
+    lines += [f"#define {define}" for define in tier.defines] + text.system + QUIET + list(tier.pragmas)
+    if tier.target:
+        lines += ["#ifdef __clang__", f'#pragma clang attribute push(__attribute__((target("{tier.target}"))), apply_to = function)',
+                  "#else", f'#pragma GCC target("{tier.gcc_target}")', "#endif"]
+    lines += text.lines
+    if tier.target:
+        lines += ["#ifdef __clang__", "#pragma clang attribute pop", "#endif"]
+    return lines + ["#endif"]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("-o", "--output", type=Path, default=ROOT / "build/amalgamation", metavar="FOLDER")
+    folder = parser.parse_args().output
+    version = re.search(r"^project\(mien VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text(), re.M)[1]
+    files = {"mien.h": (ROOT / "include/mien/mien.h").read_text().splitlines(), "mien.cpp": core_file(version)}
+    files |= {f"mien_{tier.name}.cpp": tier_file(version, tier) for tier in TIERS}
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, lines in files.items():
+        (folder / name).write_text("\n".join(lines) + "\n")
+    print(f"{folder}: {len(files)} files, {sum((folder / name).stat().st_size for name in files)} bytes")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,30 @@
+#!/usr/bin/env bash
+# Makes the npm package of bindings/js with module and weights, installs it elsewhere, and uses it there.
+# usage: scripts/package/npm.sh      the package is build/npm/mien-VERSION.tgz
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+scripts/web.sh build
+
+rm -rf build/npm
+mkdir -p build/npm/package/models
+cp bindings/js/*.js bindings/js/mien.d.ts bindings/js/package.json bindings/js/README.md LICENSE build/wasm/tracker/mien.wasm build/npm/package
+cp models/*.mien build/npm/package/models
+(cd build/npm && npm pack --silent ./package)
+
+user=$(mktemp -d)
+trap 'rm -rf "$user"' EXIT
+package=$(echo "$PWD"/build/npm/mien-*.tgz)
+(cd "$user" && npm init -y >/dev/null && npm install --silent --no-audit --no-fund --offline "$package")
+cat > "$user/use.mjs" <<'USE'
+import {readFileSync} from 'node:fs';
+import {createRequire} from 'node:module';
+import {loadMien} from 'mien';
+const file = name => readFileSync(createRequire(import.meta.url).resolve(name));
+const mien = await loadMien(file('mien/mien.wasm'));
+const tracker = mien.createTracker({basenet: file('mien/models/basenet.mien'), proposal: file('mien/models/proposal.mien')});
+tracker.pushVideo({width: 64, height: 64, data: new Uint8Array(64 * 64 * 4)}, 0);
+if (tracker.getResult().status !== 'searching') throw new Error('a black picture has no face');
+console.log(`mien ${mien.version} works from its package`);
+USE
+node "$user/use.mjs"
+echo "$package: $(stat -c %s "$package") bytes"

@@ -1,0 +1,93 @@
+#!/usr/bin/env bash
+# Makes the files of a release of HEAD: the same bytes wherever and whenever it is made, by the same compilers.
+# usage: scripts/package/release.sh [-o FOLDER] [-DCMAKE_OPTION]... [PART]...      default: build/release-files, all parts
+#   source        mien-VERSION.tar.gz, the repository
+#   amalgamation  mien-VERSION-amalgamation.tar.gz, mien.h and a source for each tier
+#   binary        mien-VERSION-linux-MACHINE.tar.gz, as cmake --install lays it down
+#   deb           mien_VERSION_MACHINE.deb
+#   wheel         Python's (build and its back end come from PyPI)
+#   npm           JavaScript's (needs Emscripten; scripts/setup.sh web)
+# and of whatever there is then: an SBOM, mien-VERSION.spdx.json, and SHA256SUMS.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+out=build/release-files
+if [ "${1:-}" = -o ]; then
+  out=$2
+  shift 2
+fi
+options=()
+while [[ "${1:-}" == -D* ]]; do
+  options+=("$1")
+  shift
+done
+parts=("$@")
+[ $# -gt 0 ] || parts=(source amalgamation binary deb wheel npm)
+
+version=$(sed -n 's/^project(mien VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
+[ -z "$(git status --porcelain)" ] || { echo "release.sh: there are changes that HEAD does not have" >&2; exit 1; }
+SOURCE_DATE_EPOCH=$(git log -1 --format=%ct)
+export SOURCE_DATE_EPOCH LC_ALL=C TZ=UTC
+umask 022
+mkdir -p "$out"
+out=$(cd "$out" && pwd)
+
+# Neither where it was compiled nor when is left in what is compiled.
+export CFLAGS="-ffile-prefix-map=$PWD=." CXXFLAGS="-ffile-prefix-map=$PWD=."
+build=$PWD/build/release-build
+
+packed() {  # FOLDER NAME: NAME.tar.gz of what the folder has, under NAME/
+  tar --create --sort=name --mtime="@$SOURCE_DATE_EPOCH" --owner=0 --group=0 --numeric-owner --transform="s,^\.,$2," \
+    -C "$1" . | gzip -n9 >"$out/$2.tar.gz"
+}
+
+built() {
+  cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_INSTALL_PREFIX=/usr -DMIEN_BUILD_TESTS=OFF "${options[@]}" >/dev/null
+  cmake --build "$build" -- --quiet
+}
+
+make_source() {
+  git archive --format=tar --prefix="mien-$version/" HEAD | gzip -n9 >"$out/mien-$version.tar.gz"
+}
+
+make_amalgamation() {
+  local folder=$build-amalgamation
+  rm -rf "$folder"
+  scripts/package/amalgamate.py -o "$folder" >/dev/null
+  cp -r LICENSE models "$folder"
+  packed "$folder" "mien-$version-amalgamation"
+}
+
+make_binary() {
+  built
+  rm -rf "$build-installed"
+  DESTDIR=$build-installed cmake --install "$build" --strip >/dev/null
+  packed "$build-installed/usr" "mien-$version-linux-$(uname -m)"
+}
+
+make_deb() {
+  command -v dpkg-shlibdeps >/dev/null || { echo "LEFT OUT: the .deb, for which there is no dpkg-dev"; return 0; }
+  built
+  cpack -G DEB --config "$build/CPackConfig.cmake" -B "$build-deb" >/dev/null
+  cp "$build-deb"/*.deb "$out"
+}
+
+make_wheel() {
+  python3 -m venv "$build-python"
+  "$build-python/bin/pip" install --quiet --quiet --disable-pip-version-check build || { echo "LEFT OUT: the wheel, since PyPI cannot be reached"; return 0; }
+  "$build-python/bin/python" -m build --wheel --outdir "$out" bindings/python >"$build-python/log" 2>&1 || { cat "$build-python/log" >&2; return 1; }
+}
+
+make_npm() {
+  command -v emcc >/dev/null || { echo "LEFT OUT: the npm package, for which there is no Emscripten"; return 0; }
+  scripts/package/npm.sh >/dev/null
+  cp build/npm/mien-*.tgz "$out"
+}
+
+for part in "${parts[@]}"; do
+  "make_$part"
+done
+scripts/package/sbom.py "$version" "$out"
+cd "$out"
+rm -f SHA256SUMS
+sums=$(sha256sum ./*)
+tee SHA256SUMS <<<"${sums//  .\//  }"

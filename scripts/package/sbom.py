@@ -1,0 +1,63 @@
+#!/usr/bin/env python3
+"""Writes the software bill of materials of a release, SPDX 2.3 in JSON: every file of it, and what is in them that is not mien's.
+
+usage: scripts/package/sbom.py VERSION FOLDER      (SOURCE_DATE_EPOCH: its date)
+"""
+
+import hashlib
+import json
+import os
+import subprocess
+import sys
+from datetime import datetime, timezone
+from pathlib import Path
+
+# Headers that are compiled into the programs, by their Debian packages; the library has nothing but the standard library.
+IN_PROGRAMS = {"libcli11-dev": ("CLI11", "BSD-3-Clause"), "nlohmann-json3-dev": ("nlohmann-json", "MIT"), "libstb-dev": ("stb", "MIT OR Unlicense")}
+WITH_PROGRAMS = (".deb", f"-linux-{os.uname().machine}.tar.gz")
+
+
+def debian_version(package):
+    said = subprocess.run(["dpkg-query", "-W", "-f=${Version}", package], capture_output=True, text=True)
+    return said.stdout if said.returncode == 0 and said.stdout else "NOASSERTION"
+
+
+def package(name, version, licence, **more):
+    return {"SPDXID": "SPDXRef-" + "".join(c if c.isalnum() or c in ".-" else "-" for c in name), "name": name, "versionInfo": version,
+            "downloadLocation": "NOASSERTION", "filesAnalyzed": False, "licenseConcluded": licence, "licenseDeclared": licence,
+            "copyrightText": "NOASSERTION", **more}
+
+
+def relation(one, kind, other):
+    return {"spdxElementId": one["SPDXID"], "relationshipType": kind, "relatedSpdxElement": other["SPDXID"]}
+
+
+def document(version, folder):
+    files = sorted(path for path in folder.iterdir() if path.is_file() and path.name != "SHA256SUMS" and not path.name.endswith(".spdx.json"))
+    mien = package("mien", version, "Apache-2.0")
+    parts = {name: package(title, debian_version(name), licence) for name, (title, licence) in IN_PROGRAMS.items()}
+    artifacts, relations = [], []
+    for path in files:
+        digest = hashlib.sha256(path.read_bytes()).hexdigest()
+        artifact = package(path.name, version, "Apache-2.0", packageFileName=path.name,
+                           checksums=[{"algorithm": "SHA256", "checksumValue": digest}])
+        artifacts.append(artifact)
+        relations.append(relation(artifact, "GENERATED_FROM", mien))
+        if path.name.endswith(WITH_PROGRAMS):
+            relations += [relation(artifact, "CONTAINS", part) for part in parts.values()]
+    used = list(parts.values()) if any(path.name.endswith(WITH_PROGRAMS) for path in files) else []
+    described = {"SPDXID": "SPDXRef-DOCUMENT"}
+    digest = hashlib.sha256("".join(artifact["checksums"][0]["checksumValue"] for artifact in artifacts).encode()).hexdigest()
+    created = datetime.fromtimestamp(int(os.environ["SOURCE_DATE_EPOCH"]), timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ")
+    return {
+        "spdxVersion": "SPDX-2.3", "dataLicense": "CC0-1.0", "SPDXID": "SPDXRef-DOCUMENT", "name": f"mien-{version}",
+        "documentNamespace": f"https://spdx.org/spdxdocs/mien-{version}-{digest}",
+        "creationInfo": {"created": created, "creators": ["Tool: scripts/package/sbom.py"]},
+        "packages": [mien, *artifacts, *used],
+        "relationships": [relation(described, "DESCRIBES", mien), *(relation(described, "DESCRIBES", a) for a in artifacts), *relations],
+    }
+
+
+if __name__ == "__main__":
+    release, where = sys.argv[1], Path(sys.argv[2])
+    (where / f"mien-{release}.spdx.json").write_text(json.dumps(document(release, where), indent=2) + "\n")

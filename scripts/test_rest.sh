@@ -1,0 +1,56 @@
+#!/usr/bin/env bash
+# What scripts/test.sh leaves out and one can wait for: linters, Python, the binary interface, threads, other machines, the kernels as
+# another compiler makes them, every fuzz target for a short while, and the page. scripts/nightly.sh has what takes longer.
+# usage: scripts/test_rest.sh [--within MINUTES]      parts that would begin later than that are left out, and named
+set -euo pipefail
+cd "$(dirname "$0")/.."
+minutes=1000000
+[ "${1:-}" != --within ] || minutes=$2
+scripts/setup.sh build test convert python
+. scripts/ccache.sh
+
+build() {  # preset, targets
+  cmake --preset "$1" >/dev/null
+  cmake --build --preset "$1" --target "${@:2}"
+}
+
+linters() {
+  shellcheck -x scripts/*.sh scripts/*/*.sh tests/*/*.sh bindings/*.sh bindings/*/*.sh
+  scripts/check_format.sh
+  scripts/mutate.sh --check
+  build asan-ubsan mien_program mien_conformance_program  # by clang, whose options clang-tidy understands
+  scripts/check_tidy.sh build/asan-ubsan
+}
+threads() {
+  build tsan tracker_threads_test
+  build/tsan/tests/tracker/tracker_threads_test
+}
+clang() {
+  build clang mien_conformance_program mien_shared
+  build/clang/apps/conformance/mien-conformance --models models
+}
+page() {  # what it is built and tested with comes from npm
+  scripts/setup.sh web web-test
+  scripts/web.sh test
+  scripts/package/npm.sh
+}
+
+left_out=()
+part() {  # name, command
+  if [ $SECONDS -gt $((60 * minutes)) ]; then
+    left_out+=("$1")
+    return
+  fi
+  echo "== $1"
+  "${@:2}"
+}
+part linters linters
+part Python bindings/python/test.sh
+for binding in rust csharp android swift; do part "bindings/$binding" "bindings/$binding/test.sh"; done  # JavaScript: the page
+part "binary interface" scripts/check_abi.sh
+part threads threads
+part "other machines" scripts/cross/all.sh
+part "Release with clang" clang
+part fuzzing scripts/fuzz.sh 2
+part "the page, and the npm package" page
+[ ${#left_out[@]} -eq 0 ] || printf 'NOT TESTED for want of time: %s\n' "${left_out[@]}"

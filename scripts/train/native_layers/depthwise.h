@@ -1,0 +1,177 @@
+// A 3x3 depthwise convolution of one picture, sixteen channels at a time, in fp32: what the units
+// of a block are made of. It goes through the picture row by row, and what it needs of the map
+// before it is made when its turn comes, so that a few rows are all there ever is of it and stay in
+// the nearest cache.
+#pragma once
+
+#include <vector>
+
+#include "norm.h"
+
+namespace mien::training {
+
+constexpr std::size_t kTaps = 9;
+constexpr Limits kRelu6 = {0.0f, 6.0f};
+using Kernel = std::array<Lanes, kTaps>;
+
+extern "C" {
+struct DepthwiseShape {
+  std::size_t images, height, width, channels, stride, padding;
+};
+}
+
+struct Geometry {
+  explicit Geometry(DepthwiseShape s)
+      : shape(s),
+        padded_width(s.width + 2 * s.padding),
+        padded_height(s.height + 2 * s.padding),
+        out_width((padded_width - 3) / s.stride + 1),
+        out_height((padded_height - 3) / s.stride + 1) {}
+
+  std::size_t pixels() const { return shape.height * shape.width; }
+  std::size_t out_pixels() const { return out_height * out_width; }
+  Map in() const { return {shape.images * pixels(), shape.channels}; }
+  Map out() const { return {shape.images * out_pixels(), shape.channels}; }
+
+  DepthwiseShape shape;
+  std::size_t padded_width, padded_height, out_width, out_height;
+};
+
+// Sixteen channels of the kernel, weights being [9][channels].
+inline Kernel kernel_of(const float* weights, std::size_t channels, std::size_t c,
+                        std::size_t count) {
+  Kernel out;
+  for (std::size_t k = 0; k < kTaps; ++k) {
+    out[k] = load_some(weights + k * channels + c, count);
+  }
+  return out;
+}
+
+// The last rows of sixteen channels of a map, with the zeros that padding adds to their ends.
+class Rows {
+ public:
+  explicit Rows(const Geometry& g)
+      : width_(g.padded_width), padding_(g.shape.padding), values_(kKept * width_) {}
+  Lanes* whole(std::size_t padded_row) { return &values_[padded_row % kKept * width_]; }
+  Lanes* inner(std::size_t row) { return whole(row + padding_) + padding_; }
+  void clear(std::size_t padded_row) { std::fill_n(whole(padded_row), width_, Lanes{}); }
+
+ private:
+  static constexpr std::size_t kKept = 4;
+  std::size_t width_, padding_;
+  std::vector<Lanes> values_;
+};
+
+// begin(row) prepares the rows that a row of answers needs, end(row) is called for those that none
+// needs any more.
+class Procession {
+ public:
+  explicit Procession(const Geometry& g) : g_(g) {}
+
+  template <typename Begin>
+  void advance_to(std::size_t out_row, Rows& seen, Begin begin) {
+    for (; begun_ < out_row * g_.shape.stride + 3; ++begun_) {
+      if (real(begun_)) {
+        begin(begun_ - g_.shape.padding);
+      } else {
+        seen.clear(begun_);
+      }
+    }
+  }
+  template <typename End>
+  void leave(std::size_t out_row, End end) {
+    for (; ended_ < (out_row + 1) * g_.shape.stride; ++ended_) {
+      if (real(ended_)) {
+        end(ended_ - g_.shape.padding);
+      }
+    }
+  }
+  template <typename Begin, typename End>
+  void finish(Begin begin, End end) {
+    for (; ended_ < g_.padded_height; ++ended_) {
+      if (real(ended_)) {
+        if (ended_ >= begun_) {
+          begin(ended_ - g_.shape.padding);
+        }
+        end(ended_ - g_.shape.padding);
+      }
+    }
+  }
+
+ private:
+  bool real(std::size_t row) const {
+    return row >= g_.shape.padding && row < g_.shape.height + g_.shape.padding;
+  }
+
+  const Geometry& g_;
+  std::size_t begun_ = 0, ended_ = 0;
+};
+
+// Sixteen channels of one picture's answer, and the sums of its values and of their squares.
+// fill(row) makes a row of `seen`.
+template <typename T, typename Fill>
+void slide(const Geometry& g, Rows& seen, const Kernel& kernel, T* slid, std::size_t count,
+           Lanes& values, Lanes& squares, Fill fill) {
+  Procession rows(g);
+  for (std::size_t y = 0; y < g.out_height; ++y) {
+    rows.advance_to(y, seen, fill);
+    const std::size_t first = y * g.shape.stride;
+    const std::array<const Lanes*, 3> from = {seen.whole(first), seen.whole(first + 1),
+                                              seen.whole(first + 2)};
+    for (std::size_t x = 0; x < g.out_width; ++x, slid += g.shape.channels) {
+      Lanes sum = {};
+      for (std::size_t k = 0; k < kTaps; ++k) {
+        sum += from[k / 3][x * g.shape.stride + k % 3] * kernel[k];
+      }
+      values += sum;
+      squares += sum * sum;
+      store_some(slid, sum, count);
+    }
+  }
+}
+
+// The way back: slope_at(pixel) is the gradient by the answer. fill(row) makes a row of `seen`
+// again; when a row of `gradient`, that by what was seen, is whole, finish(row) may take it. The
+// kernel's gradient is added to dkernel.
+template <typename SlopeAt, typename Fill, typename Finish>
+void descend(const Geometry& g, Rows& seen, Rows& gradient, const Kernel& kernel, Kernel& dkernel,
+             SlopeAt slope_at, Fill fill, Finish finish) {
+  Procession rows(g);
+  const auto begin = [&](std::size_t row) {
+    fill(row);
+    gradient.clear(row + g.shape.padding);
+  };
+  std::size_t pixel = 0;
+  for (std::size_t y = 0; y < g.out_height; ++y) {
+    rows.advance_to(y, seen, begin);
+    const std::size_t first = y * g.shape.stride;
+    const std::array<const Lanes*, 3> from = {seen.whole(first), seen.whole(first + 1),
+                                              seen.whole(first + 2)};
+    const std::array<Lanes*, 3> to = {gradient.whole(first), gradient.whole(first + 1),
+                                      gradient.whole(first + 2)};
+    Kernel part = dkernel;
+    for (std::size_t x = 0; x < g.out_width; ++x) {
+      const Lanes slope = slope_at(pixel++);
+      for (std::size_t k = 0; k < kTaps; ++k) {
+        const std::size_t at = x * g.shape.stride + k % 3;
+        to[k / 3][at] += slope * kernel[k];
+        part[k] += slope * from[k / 3][at];
+      }
+    }
+    dkernel = part;
+    rows.leave(y, finish);
+  }
+  rows.finish(begin, finish);
+}
+
+// Adds sixteen channels of a kernel's gradient to that of all, [9][channels].
+inline void add_kernel(std::vector<double>& total, const Kernel& part, std::size_t channels,
+                       std::size_t c, std::size_t count) {
+  for (std::size_t k = 0; k < kTaps; ++k) {
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      total[k * channels + c + lane] += part[k][lane];
+    }
+  }
+}
+
+}  // namespace mien::training

@@ -1,0 +1,44 @@
+#!/usr/bin/env bash
+# The page: builds the library for WebAssembly and the page around it, and serves it to this machine. Installs what is needed.
+# usage: scripts/web.sh [serve [PORT]]   builds and serves (default; port 8000)
+#        scripts/web.sh build            builds apps/web/dist, which any web server can serve
+#        scripts/web.sh test             builds, and tests the page, the face and the JavaScript binding; in Chromium
+#        scripts/web.sh pictures         builds, and draws docs/images/avatar.jpg and pictures of the page into out/web
+#        scripts/web.sh measure          builds, and measures the page in Chromium into docs/results/web.md
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+command=${1:-serve}
+groups=(build web)
+[ "$command" = serve ] || [ "$command" = build ] || groups+=(web-test)
+scripts/setup.sh "${groups[@]}"
+. scripts/ccache.sh
+export NODE_PATH=/usr/share/nodejs  # where Debian keeps the modules that Emscripten needs
+
+build() {
+  cmake -S . -B build/wasm -G Ninja --toolchain scripts/cross/wasm.cmake -DCMAKE_BUILD_TYPE=Release -DMIEN_BUILD_APPS=OFF \
+    -DMIEN_BUILD_CONFORMANCE=OFF -DMIEN_BUILD_TESTS=OFF -DMIEN_INSTALL=OFF >/dev/null
+  cmake --build build/wasm --target mien_module -- --quiet
+  # Packages are what package-lock.json says, by their hashes; none runs anything of its own when it is installed.
+  [ apps/web/node_modules/.package-lock.json -nt apps/web/package-lock.json ] ||
+    (cd apps/web && npm ci --ignore-scripts --no-audit --no-fund --loglevel=error)
+  (cd apps/web && node build.mjs ../../build/wasm/tracker/mien.wasm)
+}
+
+build
+case $command in
+  build) ;;
+  serve) exec node apps/web/serve.mjs apps/web/dist "${2:-8000}" ;;
+  test)
+    for file in bindings/js/tests/*.test.mjs apps/web/tests/*.test.mjs; do  # one at a time: each keeps the processors busy
+      echo "-- $file"
+      node --test --test-reporter=spec "$file"
+    done
+    ;;
+  pictures)
+    mkdir -p out/web
+    (cd apps/web && node tests/contact_sheet.mjs ../../docs/images/avatar.jpg 180 && node tests/screenshots.mjs ../../out/web)
+    ;;
+  measure) (cd apps/web && node tests/measure.mjs ../../docs/results/web.md) ;;
+  *) echo "web.sh: unknown command '$command'" >&2; exit 2 ;;
+esac

@@ -1,0 +1,577 @@
+"""Files of mien convert, read and made by code of its own: written from the descriptions of the formats, sharing nothing with the program.
+
+usage: convert_test.py MIEN_PROGRAM
+10 000 random frames go through every format, in both directions, and have to come back to the digits that the format prints.
+"""
+import base64
+import csv
+import json
+import math
+import os
+import random
+import re
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree
+
+PROGRAM = sys.argv.pop(1)
+FRAMES = 10000
+FPS = 60
+
+ARKIT = """eyeBlinkLeft eyeLookDownLeft eyeLookInLeft eyeLookOutLeft eyeLookUpLeft eyeSquintLeft eyeWideLeft eyeBlinkRight eyeLookDownRight
+eyeLookInRight eyeLookOutRight eyeLookUpRight eyeSquintRight eyeWideRight jawForward jawLeft jawRight jawOpen mouthClose mouthFunnel
+mouthPucker mouthLeft mouthRight mouthSmileLeft mouthSmileRight mouthFrownLeft mouthFrownRight mouthDimpleLeft mouthDimpleRight
+mouthStretchLeft mouthStretchRight mouthRollLower mouthRollUpper mouthShrugLower mouthShrugUpper mouthPressLeft mouthPressRight
+mouthLowerDownLeft mouthLowerDownRight mouthUpperUpLeft mouthUpperUpRight browDownLeft browDownRight browInnerUp browOuterUpLeft
+browOuterUpRight cheekPuff cheekSquintLeft cheekSquintRight noseSneerLeft noseSneerRight tongueOut""".split()
+# The header of a real take.
+LIVE_LINK = (
+    "Timecode,BlendshapeCount,EyeBlinkLeft,EyeLookDownLeft,EyeLookInLeft,EyeLookOutLeft,EyeLookUpLeft,EyeSquintLeft,EyeWideLeft,"
+    "EyeBlinkRight,EyeLookDownRight,EyeLookInRight,EyeLookOutRight,EyeLookUpRight,EyeSquintRight,EyeWideRight,JawForward,JawRight,JawLeft,"
+    "JawOpen,MouthClose,MouthFunnel,MouthPucker,MouthRight,MouthLeft,MouthSmileLeft,MouthSmileRight,MouthFrownLeft,MouthFrownRight,"
+    "MouthDimpleLeft,MouthDimpleRight,MouthStretchLeft,MouthStretchRight,MouthRollLower,MouthRollUpper,MouthShrugLower,MouthShrugUpper,"
+    "MouthPressLeft,MouthPressRight,MouthLowerDownLeft,MouthLowerDownRight,MouthUpperUpLeft,MouthUpperUpRight,BrowDownLeft,BrowDownRight,"
+    "BrowInnerUp,BrowOuterUpLeft,BrowOuterUpRight,CheekPuff,CheekSquintLeft,CheekSquintRight,NoseSneerLeft,NoseSneerRight,TongueOut,HeadYaw,"
+    "HeadPitch,HeadRoll,LeftEyeYaw,LeftEyePitch,LeftEyeRoll,RightEyeYaw,RightEyePitch,RightEyeRoll").split(",")
+FACS = """ChinRaiserUpperLip ChinRaiser FlatPucker Funneler LowerLipSuck LipPresser LipsTogether MouthLeft MouthRight Pucker UpperLipSuck
+LeftCheekPuff LeftDimpler LeftLipCornerDown LeftLowerLipDepressor LeftLipCornerPuller LeftLipStretcher LeftUpperLipRaiser RightCheekPuff
+RightDimpler RightLipCornerDown RightLowerLipDepressor RightLipCornerPuller RightLipStretcher RightUpperLipRaiser JawDrop JawLeft JawRight
+Corrugator LeftBrowLowerer LeftOuterBrowRaiser LeftNoseWrinkler LeftInnerBrowRaiser RightBrowLowerer RightOuterBrowRaiser
+RightInnerBrowRaiser RightNoseWrinkler EyesLookDown EyesLookLeft EyesLookUp EyesLookRight LeftCheekRaiser LeftEyeUpperLidRaiser
+LeftEyeClosed RightCheekRaiser RightEyeUpperLidRaiser RightEyeClosed TongueDown TongueOut TongueUp""".split()
+# ARKit of each unit: alone, the mean, the largest or the smallest.
+ONE_TO_ONE = """LeftEyeClosed=eyeBlinkLeft RightEyeClosed=eyeBlinkRight LeftEyeUpperLidRaiser=eyeWideLeft RightEyeUpperLidRaiser=eyeWideRight
+JawDrop=jawOpen JawLeft=jawLeft JawRight=jawRight LipsTogether=mouthClose Funneler=mouthFunnel Pucker=mouthPucker MouthLeft=mouthLeft
+MouthRight=mouthRight LeftLipCornerPuller=mouthSmileLeft RightLipCornerPuller=mouthSmileRight LeftLipCornerDown=mouthFrownLeft
+RightLipCornerDown=mouthFrownRight LeftDimpler=mouthDimpleLeft RightDimpler=mouthDimpleRight LeftLipStretcher=mouthStretchLeft
+RightLipStretcher=mouthStretchRight LowerLipSuck=mouthRollLower UpperLipSuck=mouthRollUpper ChinRaiser=mouthShrugLower
+ChinRaiserUpperLip=mouthShrugUpper LeftLowerLipDepressor=mouthLowerDownLeft RightLowerLipDepressor=mouthLowerDownRight
+LeftUpperLipRaiser=mouthUpperUpLeft RightUpperLipRaiser=mouthUpperUpRight LeftBrowLowerer=browDownLeft RightBrowLowerer=browDownRight
+LeftInnerBrowRaiser=browInnerUp RightInnerBrowRaiser=browInnerUp LeftOuterBrowRaiser=browOuterUpLeft RightOuterBrowRaiser=browOuterUpRight
+LeftCheekPuff=cheekPuff RightCheekPuff=cheekPuff LeftNoseWrinkler=noseSneerLeft RightNoseWrinkler=noseSneerRight TongueOut=tongueOut"""
+FACS_OF = {unit: (max, [name]) for unit, name in (pair.split("=") for pair in ONE_TO_ONE.split())}
+mean = lambda values: sum(values) / len(values)
+FACS_OF |= {
+    "LeftCheekRaiser": (max, ["eyeSquintLeft", "cheekSquintLeft"]), "RightCheekRaiser": (max, ["eyeSquintRight", "cheekSquintRight"]),
+    "EyesLookUp": (mean, ["eyeLookUpLeft", "eyeLookUpRight"]), "EyesLookDown": (mean, ["eyeLookDownLeft", "eyeLookDownRight"]),
+    "EyesLookLeft": (mean, ["eyeLookOutLeft", "eyeLookInRight"]), "EyesLookRight": (mean, ["eyeLookInLeft", "eyeLookOutRight"]),
+    "LipPresser": (mean, ["mouthPressLeft", "mouthPressRight"]), "Corrugator": (min, ["browDownLeft", "browDownRight"]),
+}
+VISEMES = "sil PP FF TH DD kk CH SS nn RR aa E ih oh ou".split()
+
+
+def random_share(rng):
+    return rng.choice((0.0, 1.0, 0.5, rng.random(), round(rng.random(), 6), rng.random() * 1e-5))
+
+
+def random_frames(seed, count=FRAMES):
+    rng = random.Random(seed)
+    frames, t_ns = [], 0
+    for number in range(count):
+        frame = {"t_ns": t_ns, "frame": number, "status": rng.choice(("searching", "tracking", "tracking", "lost")), "face_id": 0,
+                 "face_prob": random_share(rng), "lod": rng.randint(1, 4), "vad": random_share(rng),
+                 "controls": {name: random_share(rng) for name in ARKIT}}
+        if frame["status"] == "tracking":
+            frame["box"] = [rng.uniform(-50, 900) for _ in range(4)]
+            frame["head"] = {"pitch_rad": rng.uniform(-1.5, 1.5), "yaw_rad": rng.uniform(-3, 3), "roll_rad": rng.uniform(-3, 3)}
+            frame["position_m"] = [rng.uniform(-2, 2) for _ in range(3)]
+            frame["eyes"] = {side: {"pitch_rad": rng.uniform(-0.6, 0.6), "yaw_rad": rng.uniform(-0.6, 0.6), "roll_rad": rng.uniform(-0.1, 0.1)}
+                             for side in ("left", "right")}
+        frames.append(frame)
+        t_ns += rng.choice((16666667, 33333333, 1000, 40000000))
+    return frames
+
+
+def rotation_matrix(head):
+    (sp, cp), (sy, cy), (sr, cr) = ((math.sin(head[k]), math.cos(head[k])) for k in ("pitch_rad", "yaw_rad", "roll_rad"))
+    rx, ry, rz = [[1, 0, 0], [0, cp, -sp], [0, sp, cp]], [[cy, 0, sy], [0, 1, 0], [-sy, 0, cy]], [[cr, -sr, 0], [sr, cr, 0], [0, 0, 1]]
+    times = lambda a, b: [[sum(a[i][k] * b[k][j] for k in range(3)) for j in range(3)] for i in range(3)]
+    return times(times(ry, rx), rz)
+
+
+def matrix_of_quaternion(x, y, z, w):
+    return [[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]]
+
+
+def seconds_of_timecode(text, fps=FPS):
+    found = re.fullmatch(r"(\d\d):(\d\d):(\d\d):(\d\d\.\d\d\d)", text)
+    hours, minutes, seconds, frames = found.groups()
+    return 3600 * int(hours) + 60 * int(minutes) + int(seconds) + float(frames) / fps
+
+
+def glb_chunks(data):
+    magic, version, length = struct.unpack_from("<4sII", data)
+    assert (magic, version, length) == (b"glTF", 2, len(data))
+    chunks, at = [], 12
+    while at < length:
+        size, kind = struct.unpack_from("<I4s", data, at)
+        chunks.append((kind, data[at + 8:at + 8 + size]))
+        at += 8 + size
+        assert at % 4 == 0
+    assert [kind for kind, _ in chunks] == [b"JSON", b"BIN\0"]
+    return json.loads(chunks[0][1]), chunks[1][1]
+
+
+def accessor(document, data, index):
+    a = document["accessors"][index]
+    view = document["bufferViews"][a["bufferView"]]
+    width = {"SCALAR": 1, "VEC3": 3, "VEC4": 4}[a["type"]]
+    assert a["componentType"] == 5126
+    values = struct.unpack_from(f"<{a['count'] * width}f", data, view.get("byteOffset", 0) + a.get("byteOffset", 0))
+    return [values[i:i + width] for i in range(0, len(values), width)]
+
+
+def to_f32(value):
+    return struct.unpack("<f", struct.pack("<f", value))[0]
+
+
+class Convert(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.frames = random_frames(1)
+        cls.source = cls.path("source.jsonl")
+        cls.write("source.jsonl", "".join(json.dumps(frame) + "\n" for frame in cls.frames))
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    @classmethod
+    def path(cls, name):
+        return os.path.join(cls.folder.name, name)
+
+    @classmethod
+    def write(cls, name, text):
+        with open(cls.path(name), "w", newline="") as file:
+            file.write(text)
+
+    def read(self, name):
+        with open(self.path(name), newline="") as file:
+            return file.read()
+
+    def convert(self, a, b, *more):
+        done = subprocess.run([PROGRAM, "convert", self.path(a), self.path(b), *more], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stderr
+
+    def frames_of(self, name):
+        return [json.loads(line) for line in self.read(name).splitlines()]
+
+    # Comes back as what it was, through itself: text for text.
+    def assert_stable(self, name, *more):
+        again = "again." + name
+        self.convert(name, again, *more)
+        self.assertEqual(self.read(again), self.read(name))
+
+    def test_json_lines_hold_everything(self):
+        self.assertNotIn("left out", self.convert("source.jsonl", "all.jsonl"))
+        for before, after in zip(self.frames, self.frames_of("all.jsonl"), strict=True):
+            if "head" in after:
+                q = after["head"].pop("q")
+                for row, wanted in zip(matrix_of_quaternion(*q), rotation_matrix(before["head"])):
+                    for a, b in zip(row, wanted):
+                        self.assertAlmostEqual(a, b, places=12)
+            self.assertEqual(before, after)
+        self.assert_stable("all.jsonl")
+
+    def test_csv(self):
+        said = self.convert("source.jsonl", "curves.csv")
+        self.assertIn("left out: how the eyes are turned", said)
+        rows = list(csv.DictReader(self.read("curves.csv").splitlines()))
+        for frame, row in zip(self.frames, rows, strict=True):
+            self.assertEqual(round(float(row["t_ms"]) * 1e6), frame["t_ns"])
+            self.assertEqual((row["status"], int(row["frame"]), int(row["lod"])), (frame["status"], frame["frame"], frame["lod"]))
+            self.assertEqual((float(row["face_prob"]), float(row["vad"])), (frame["face_prob"], frame["vad"]))
+            self.assertEqual({name: float(row[name]) for name in ARKIT}, frame["controls"])
+            if frame["status"] == "tracking":
+                self.assertEqual([float(row[k]) for k in "xywh"], frame["box"])
+                self.assertEqual([float(row[k]) for k in ("tx_m", "ty_m", "tz_m")], frame["position_m"])
+                self.assertEqual({k: float(row[k]) for k in ("pitch_rad", "yaw_rad", "roll_rad")}, frame["head"])
+            else:
+                self.assertEqual({row[k] for k in ("x", "w", "pitch_rad", "tz_m")}, {""})
+        self.assert_stable("curves.csv")
+
+    def test_live_link_face(self):
+        units = {"rad": 1.0, "norm180": 1 / math.pi, "deg": 180 / math.pi}
+        for unit, scale in units.items():
+            name = f"{unit}.llf.csv"
+            self.convert("source.jsonl", name, "--llf-rot", unit)
+            self.assertEqual(json.loads(self.read(name + ".json")), {"rotation": unit, "timecode_fps": 60.0})
+            lines = self.read(name).splitlines()
+            self.assertEqual(lines[0].split(","), LIVE_LINK)
+            for frame, line in zip(self.frames, lines[1:], strict=True):
+                cells = line.split(",")
+                self.assertEqual((len(cells), cells[1]), (63, "61"))
+                row = dict(zip(LIVE_LINK, cells))
+                day = 24 * 3600
+                self.assertLess(abs((seconds_of_timecode(row["Timecode"]) - frame["t_ns"] * 1e-9 + day / 2) % day - day / 2), 0.6e-3 / FPS)
+                for control in ARKIT:
+                    self.assertEqual(row[control[0].upper() + control[1:]], f"{frame['controls'][control]:.10f}", control)
+                angles = {"Head": frame.get("head", {"pitch_rad": 0, "yaw_rad": 0, "roll_rad": 0})}
+                if "eyes" in frame:
+                    angles |= {"LeftEye": frame["eyes"]["left"], "RightEye": frame["eyes"]["right"]}
+                for joint, wanted in angles.items():
+                    for axis, sign in (("Yaw", 1), ("Pitch", -1), ("Roll", 1)):
+                        self.assertAlmostEqual(float(row[joint + axis]), sign * scale * wanted[axis.lower() + "_rad"], delta=1e-10 * 0.51 + 1e-13)
+            self.assert_stable(name, "--llf-rot", unit)  # the file beside it says in which unit it is
+        os.remove(self.path("deg.llf.csv.json"))
+        self.convert("deg.llf.csv", "told.llf.csv", "--from-llf-rot", "deg", "--llf-rot", "deg")
+        self.assertEqual(self.read("told.llf.csv"), self.read("deg.llf.csv"))
+
+    def test_live_link_face_in_the_wild(self):
+        older = ("timecode,blendShapeCount,eyeBlinkRight,jawRight,jawLeft\r\n"
+                 "14:03:52:28.207,61,0.25,0.5,0.75\r\n14:03:52:29.207,0\r\n14:03:53:00.000,61,0,0,1.25\r\n")
+        self.write("older.csv", older)
+        self.assertIn("1 values beyond 0..1", self.convert("older.csv", "older.jsonl"))
+        first, none, last = self.frames_of("older.jsonl")
+        self.assertEqual(first["controls"], {"eyeBlinkRight": 0.25, "jawRight": 0.5, "jawLeft": 0.75})
+        self.assertAlmostEqual(first["t_ns"] * 1e-9, 14 * 3600 + 3 * 60 + 52 + 28.207 / 60, places=8)
+        self.assertEqual((none["status"], none["controls"]), ("searching", {}))
+        self.assertEqual(last["controls"]["jawLeft"], 1)
+        self.write("midnight.csv", "Timecode,BlendshapeCount,JawOpen\n23:59:59:59.000,61,0\n00:00:00:01.000,61,1\n")
+        self.convert("midnight.csv", "midnight.jsonl")
+        before, after = self.frames_of("midnight.jsonl")
+        self.assertAlmostEqual((after["t_ns"] - before["t_ns"]) * 1e-9, 2 / 60, places=8)
+
+    def check_gltf(self, document, data, frames):
+        animation = document["animations"][0]
+        names = document["meshes"][0]["extras"]["targetNames"]
+        self.assertEqual(names, ARKIT)
+        nodes = [node["name"] for node in document["nodes"]]
+        found = {}
+        for channel in animation["channels"]:
+            sampler = animation["samplers"][channel["sampler"]]
+            self.assertEqual(sampler["interpolation"], "LINEAR")
+            times = [t[0] for t in accessor(document, data, sampler["input"])]
+            bounds = document["accessors"][sampler["input"]]
+            self.assertEqual((bounds["min"], bounds["max"]), ([times[0]], [times[-1]]))
+            self.assertTrue(all(a < b for a, b in zip(times, times[1:])))
+            found[nodes[channel["target"]["node"]], channel["target"]["path"]] = times, accessor(document, data, sampler["output"])
+        times, weights = found["face", "weights"]
+        kept, last = [], -1.0
+        for frame in frames:
+            if to_f32(frame["t_ns"] * 1e-9) > last:
+                last = to_f32(frame["t_ns"] * 1e-9)
+                kept.append(frame)
+        self.assertEqual(times, [to_f32(frame["t_ns"] * 1e-9) for frame in kept])
+        flat = [w[0] for w in weights]
+        for i, frame in enumerate(kept):
+            self.assertEqual(flat[52 * i:52 * i + 52], [to_f32(frame["controls"][name]) for name in ARKIT])
+        seen = [frame for frame in kept if "head" in frame]
+        for (node, path), get in ((("head", "rotation"), lambda f: f["head"]), (("leftEye", "rotation"), lambda f: f["eyes"]["left"]),
+                                  (("rightEye", "rotation"), lambda f: f["eyes"]["right"])):
+            keys = dict(zip(*found[node, path]))
+            for frame in seen:
+                q = keys[to_f32(frame["t_ns"] * 1e-9)]
+                self.assertAlmostEqual(sum(part * part for part in q), 1, places=6)
+                for row, wanted in zip(matrix_of_quaternion(*q), rotation_matrix(get(frame))):
+                    for a, b in zip(row, wanted):
+                        self.assertAlmostEqual(a, b, places=6)
+        self.assertEqual(found["head", "translation"][1], [tuple(to_f32(v) for v in frame["position_m"]) for frame in seen])
+
+    def test_gltf(self):
+        self.convert("source.jsonl", "clip.glb")
+        with open(self.path("clip.glb"), "rb") as file:
+            self.check_gltf(*glb_chunks(file.read()), self.frames)
+        few = self.frames[:500]
+        self.write("few.jsonl", "".join(json.dumps(frame) + "\n" for frame in few))
+        self.convert("few.jsonl", "few.gltf")
+        document = json.loads(self.read("few.gltf"))
+        uri = document["buffers"][0]["uri"]
+        data = base64.b64decode(uri.removeprefix("data:application/octet-stream;base64,"), validate=True)
+        self.assertEqual(len(data), document["buffers"][0]["byteLength"])
+        self.check_gltf(document, data, few)
+
+    def test_gltf_comes_back(self):
+        self.convert("source.jsonl", "back.glb")
+        self.convert("back.glb", "back.jsonl")
+        kept, last = [], -1.0
+        for frame in self.frames:
+            if to_f32(frame["t_ns"] * 1e-9) > last:
+                last = to_f32(frame["t_ns"] * 1e-9)
+                kept.append(frame)
+        for frame, after in zip(kept, self.frames_of("back.jsonl"), strict=True):
+            self.assertEqual(to_f32(after["t_ns"] * 1e-9), to_f32(frame["t_ns"] * 1e-9))
+            self.assertEqual({k: to_f32(v) for k, v in after["controls"].items()}, {k: to_f32(v) for k, v in frame["controls"].items()})
+            self.assertEqual(("head" in after, after["status"]), ("head" in frame, frame["status"]))
+        with open(self.path("back.glb"), "rb") as file:
+            once = file.read()
+        self.convert("back.glb", "back.again.glb")
+        with open(self.path("back.again.glb"), "rb") as file:
+            again = file.read()
+        _, a = glb_chunks(once)
+        _, b = glb_chunks(again)
+        self.assertEqual(len(a), len(b))
+        differ = [abs(x - y) for x, y in zip(struct.unpack(f"<{len(a) // 4}f", a), struct.unpack(f"<{len(b) // 4}f", b))]
+        self.assertLess(max(differ), 1e-6)  # turns go over angles, the rest is the same
+
+    def test_gltf_of_others(self):
+        times, weights = struct.pack("<2f", 0, 1), struct.pack("<4f", 0, 1, 0.5, 0.25)
+        turn = struct.pack("<8f", 0, 0, 0, 1, 0, math.sin(0.25), 0, math.cos(0.25))
+        data = times + weights + turn
+        document = {
+            "asset": {"version": "2.0"}, "buffers": [{"byteLength": len(data), "uri": "data:;base64," + base64.b64encode(data).decode()}],
+            "bufferViews": [{"buffer": 0, "byteOffset": o, "byteLength": n} for o, n in ((0, 8), (8, 16), (24, 32))],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "type": "SCALAR", "count": 2},
+                          {"bufferView": 1, "componentType": 5126, "type": "SCALAR", "count": 4},
+                          {"bufferView": 2, "componentType": 5126, "type": "VEC4", "count": 2}],
+            "meshes": [{"primitives": [], "extras": {"targetNames": ["jawOpen", "mouthSmile_L"]}}],
+            "nodes": [{"mesh": 0}, {"name": "mixamorig:Head"}],
+            "animations": [{"samplers": [{"input": 0, "output": 1}, {"input": 0, "output": 2}],
+                            "channels": [{"sampler": 0, "target": {"node": 0, "path": "weights"}},
+                                         {"sampler": 1, "target": {"node": 1, "path": "rotation"}}]}]}
+        self.write("other.gltf", json.dumps(document, indent=1))
+        self.convert("other.gltf", "other.jsonl")
+        first, last = self.frames_of("other.jsonl")
+        self.assertEqual((first["controls"], last["controls"]), ({"jawOpen": 0, "mouthSmileLeft": 1}, {"jawOpen": 0.5, "mouthSmileLeft": 0.25}))
+        self.assertAlmostEqual(last["head"]["yaw_rad"], 0.5, places=6)
+
+    def test_bvh(self):
+        self.convert("source.jsonl", "head.bvh", "--fps", "30")
+        self.convert("source.jsonl", "even.jsonl", "--fps", "30")
+        wanted = self.frames_of("even.jsonl")
+        lines = self.read("head.bvh").splitlines()
+        self.assertEqual(lines[0], "HIERARCHY")
+        channels = next(line for line in lines if "CHANNELS" in line).split()[2:]
+        motion = lines.index("MOTION")
+        self.assertEqual(lines[motion + 1], f"Frames: {len(wanted)}")
+        self.assertAlmostEqual(float(lines[motion + 2].removeprefix("Frame Time: ")), 1 / 30, places=7)
+        turn, place = {"pitch_rad": 0, "yaw_rad": 0, "roll_rad": 0}, [0, 0, 0]
+        for frame, line in zip(wanted, lines[motion + 3:], strict=True):
+            turn = {k: v for k, v in frame.get("head", turn).items() if k != "q"}
+            place = frame.get("position_m", place)
+            values = dict(zip(channels, line.split(), strict=True))
+            for axis, metres in zip("XYZ", place):
+                self.assertAlmostEqual(float(values[axis + "position"]), metres, delta=0.51e-6)
+            for axis, key in (("Y", "yaw_rad"), ("X", "pitch_rad"), ("Z", "roll_rad")):
+                self.assertAlmostEqual(float(values[axis + "rotation"]), math.degrees(turn[key]), delta=0.51e-6)
+        self.assertEqual([c for c in channels if "rotation" in c], ["Yrotation", "Xrotation", "Zrotation"])  # the order of R = Ry Rx Rz
+        self.assert_stable("head.bvh")
+
+    def test_bvh_of_a_whole_body(self):
+        self.write("body.bvh", """HIERARCHY
+ROOT Hips
+{
+  OFFSET 0 0 0
+  CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation
+  JOINT Neck
+  {
+    OFFSET 0 1 0
+    CHANNELS 3 Zrotation Xrotation Yrotation
+    JOINT Head
+    {
+      OFFSET 0 0.5 0
+      CHANNELS 3 Zrotation Xrotation Yrotation
+      End Site
+      {
+        OFFSET 0 0.1 0
+      }
+    }
+  }
+}
+MOTION
+Frames: 1
+Frame Time: 0.04
+1 2 3 0 0 90 90 0 0 0 0 -90
+""")
+        self.convert("body.bvh", "body.jsonl")
+        frame, = self.frames_of("body.jsonl")
+        # Hips turn z to x, the neck x to y (roll), the head turns back about its own y: by hand, R = Ry(90) Rz(90) Ry(-90).
+        wanted = [[1, 0, 0], [0, 0, -1], [0, 1, 0]]
+        for row, expected in zip(rotation_matrix(frame["head"]), wanted):
+            for a, b in zip(row, expected):
+                self.assertAlmostEqual(a, b, places=9)
+        # The head sits half a unit along the neck's turned y, which is -x of the hips and so z of the world.
+        for a, b in zip(frame["position_m"], [1, 3, 3.5]):
+            self.assertAlmostEqual(a, b, places=9)
+
+    def test_roblox(self):
+        self.convert("source.jsonl", "units.roblox.csv")
+        rows = list(csv.DictReader(self.read("units.roblox.csv").splitlines()))
+        self.assertEqual(list(rows[0])[-50:], FACS)
+        for frame, row in zip(self.frames, rows, strict=True):
+            for unit in FACS:
+                if unit in FACS_OF:
+                    join, names = FACS_OF[unit]
+                    self.assertEqual(float(row[unit]), join([frame["controls"][name] for name in names]), unit)
+                else:
+                    self.assertEqual(row[unit], "", unit)
+        self.assert_stable("units.roblox.csv")
+        # Through controls it comes back the same where it came from controls.
+        self.convert("units.roblox.csv", "units.csv")
+        self.convert("units.csv", "twice.roblox.csv")
+        for a, b in zip(rows, csv.DictReader(self.read("twice.roblox.csv").splitlines()), strict=True):
+            self.assertEqual({k: v for k, v in a.items() if k != "Corrugator"}, {k: v for k, v in b.items() if k != "Corrugator"})
+        self.convert("source.jsonl", "small.roblox.csv", "--roblox-lod", "1")
+        small = list(csv.DictReader(self.read("small.roblox.csv").splitlines()))
+        self.assertEqual(list(small[0])[-6:], ["JawDrop", "RightEyeClosed", "LeftEyeClosed", "RightLipCornerPuller", "LeftLipCornerPuller", "Pucker"])
+        self.assertEqual([row["JawDrop"] for row in small], [row["JawDrop"] for row in rows])
+
+    def test_units_of_roblox_itself_are_kept(self):
+        rng = random.Random(2)
+        rows = [[str(i), str(i * 40)] + [repr(random_share(rng)) for _ in FACS] for i in range(FRAMES)]
+        self.write("own.roblox.csv", "\n".join(",".join(row) for row in [["frame", "t_ms"] + FACS] + rows) + "\n")
+        self.convert("own.roblox.csv", "own.jsonl")
+        for row, frame in zip(rows, self.frames_of("own.jsonl"), strict=True):
+            self.assertEqual(frame["facs"], dict(zip(FACS, map(float, row[2:]))))
+        self.convert("own.jsonl", "own.again.roblox.csv")
+        for row, again in zip(rows, csv.DictReader(self.read("own.again.roblox.csv").splitlines()), strict=True):
+            self.assertEqual([float(again[unit]) for unit in FACS], [float(cell) for cell in row[2:]])
+
+    def test_visemes(self):
+        self.convert("source.jsonl", "mouth.visemes.csv")
+        rows = list(csv.DictReader(self.read("mouth.visemes.csv").splitlines()))
+        self.assertEqual(list(rows[0])[-15:], VISEMES)
+        for row in rows:
+            self.assertAlmostEqual(sum(float(row[v]) for v in VISEMES), 1, places=9)
+            self.assertGreaterEqual(min(float(row[v]) for v in VISEMES), 0)
+        self.assert_stable("mouth.visemes.csv")
+        # Random mixtures become poses of a mouth, and these the same mixtures.
+        rng = random.Random(3)
+        mixtures = []
+        for _ in range(FRAMES):
+            weights = [rng.random() * rng.choice((0, 1)) for _ in VISEMES]
+            total = sum(weights) or 1
+            mixtures.append([w / total for w in weights] if any(weights) else [1] + 14 * [0])
+        self.write("mix.visemes.csv", ",".join(["t_ms"] + VISEMES) + "\n" + "".join(
+            f"{i * 33}," + ",".join(map(repr, mixture)) + "\n" for i, mixture in enumerate(mixtures)))
+        self.convert("mix.visemes.csv", "mix.csv")
+        self.convert("mix.csv", "back.visemes.csv")
+        for mixture, row in zip(mixtures, csv.DictReader(self.read("back.visemes.csv").splitlines()), strict=True):
+            for wanted, viseme in zip(mixture, VISEMES):
+                self.assertAlmostEqual(float(row[viseme]), wanted, places=6)
+
+    def test_rhubarb(self):
+        rng = random.Random(4)
+        hundredths, cues, last = 0, [], None
+        while len(cues) < FRAMES:
+            shape = rng.choice([s for s in "ABCDEFGHX" if s != last])
+            cues.append((hundredths, shape))
+            hundredths, last = hundredths + rng.randint(1, 40), shape
+        seconds = lambda h: f"{h // 100}.{h % 100:02d}"
+        self.write("cues.tsv", "".join(f"{seconds(h)}\t{s}\n" for h, s in cues) + f"{seconds(hundredths)}\tX\n")
+        self.assert_stable("cues.tsv")
+        self.convert("cues.tsv", "cues.rhubarb.json")
+        read = json.loads(self.read("cues.rhubarb.json"))
+        ends = [h for h, _ in cues[1:]] + [hundredths]
+        self.assertEqual([(cue["start"], cue["end"], cue["value"]) for cue in read["mouthCues"]],
+                         [(float(seconds(h)), float(seconds(e)), s) for (h, s), e in zip(cues, ends)])
+        self.assertEqual(read["metadata"]["duration"], float(seconds(hundredths)))
+        self.assert_stable("cues.rhubarb.json")
+        self.convert("cues.rhubarb.json", "back.tsv")
+        self.assertEqual(self.read("back.tsv"), self.read("cues.tsv"))
+        self.convert("cues.tsv", "cues.xml")
+        root = xml.etree.ElementTree.fromstring(self.read("cues.xml"))
+        self.assertEqual(root.tag, "rhubarbResult")
+        self.assertEqual([(cue.get("start"), cue.get("end"), cue.text) for cue in root.find("mouthCues")],
+                         [(seconds(h), seconds(e), s) for (h, s), e in zip(cues, ends)])
+        self.assertEqual(root.find("metadata/duration").text, seconds(hundredths))
+        self.assert_stable("cues.xml")
+        self.convert("cues.xml", "back.tsv")
+        self.assertEqual(self.read("back.tsv"), self.read("cues.tsv"))
+        # Of cues in one frame of 24 a second the first counts.
+        self.convert("cues.tsv", "cues.dat")
+        switches, last = ["MohoSwitch1"], 0
+        for h, shape in cues:
+            if h * 24 // 100 + 1 != last:
+                last = h * 24 // 100 + 1
+                switches.append(f"{last} {shape}")
+        switches.append(f"{max(hundredths * 24 // 100 + 1, last + 1)} X")
+        self.assertEqual(self.read("cues.dat").splitlines(), switches)
+        self.convert("cues.dat", "again.dat")  # equal shapes behind each other became one
+        merged = [row for i, row in enumerate(switches) if i < 2 or i == len(switches) - 1 or row.split()[1] != switches[i - 1].split()[1]]
+        self.assertEqual(self.read("again.dat").splitlines(), merged)
+        self.assert_stable("again.dat")
+        self.write("blair.dat", "MohoSwitch1\r\n1 E\r\n25 AI\r\n49 E\r\n73 rest\r\n")
+        self.convert("blair.dat", "blair.tsv")
+        self.assertEqual(self.read("blair.tsv"), "0.00\tC\n1.00\tD\n2.00\tC\n3.00\tX\n")
+
+    def test_names_in_xml(self):
+        cue = '<mouthCue start="0" end="1">D</mouthCue>'
+        self.write("a.xml", '<?xml version="1.0"?>\n<!-- made by hand --><rhubarbResult><metadata><soundFile>a &amp; &lt;b&gt; &quot;</soundFile>'
+                   f"</metadata><mouthCues>{cue}<other/></mouthCues></rhubarbResult>\n")
+        self.convert("a.xml", "a.rhubarb.json")
+        self.assertEqual(json.loads(self.read("a.rhubarb.json"))["metadata"]["soundFile"], 'a & <b> "')
+
+    def test_xml_and_switch_data_that_are_none(self):
+        head = "<rhubarbResult>\n <mouthCues>\n  "
+        tail = "\n </mouthCues>\n</rhubarbResult>\n"
+        for text, place, word in (
+                (head + '<mouthCue start="1" end="x">D</mouthCue>' + tail, (3, 3), "end: a time in seconds has to be here"),
+                (head + '<mouthCue start="2" end="1">D</mouthCue>' + tail, (3, 3), "goes back in time"),
+                (head + '<mouthCue start="0" end="1">Q</mouthCue>' + tail, (3, 3), "'Q' is none of the shapes"),
+                (head + tail, (1, 1), "there are no cues"), ("<html></html>", (1, 1), "rhubarbResult has to be here"),
+                (head + "<mouthCue></rhubarbResult>", (3, 13), "closes nothing"), (head, (3, 3), "<mouthCues> is not closed"),
+                (head + '<mouthCue start="0" start="1"/>' + tail, (3, 29), "'start' is there twice"),
+                (head + "<mouthCue start=0/>" + tail, (3, 19), "a quotation mark has to be here"), (head + "&nbsp;", (3, 3), "an entity"),
+                ("<rhubarbResult/>x", (1, 17), "text outside"), ("<!-- no end", (1, 1), "--> is missing"), ("<", (1, 2), "a tag's name"),
+                ("MohoSwitch1\n0 X\n", (2, 1), "'0' is not a frame"), ("MohoSwitch1\n1 X\n1 D\n", (3, 1), "goes back in time"),
+                ("MohoSwitch1\n1 nothing\n", (2, 3), "is no mouth"), ("MohoSwitch1\n1 X\n", (3, 1), "there are no cues")):
+            self.write("bad.txt", text)
+            done = subprocess.run([PROGRAM, "convert", self.path("bad.txt"), self.path("never.csv"), "--quiet"], capture_output=True, text=True)
+            self.assertEqual(done.returncode, 3, text)
+            self.assertIn(f"bad.txt: line {place[0]}, column {place[1]}: ", done.stderr, text)
+            self.assertIn(word, done.stderr)
+            self.assertFalse(os.path.exists(self.path("never.csv")))
+
+    def test_shapes_and_poses(self):
+        # Shapes become poses, and the poses show the same shapes: where they last.
+        self.write("slow.tsv", "0.00\tX\n0.50\tD\n1.00\tA\n1.50\tF\n2.00\tG\n2.50\tE\n3.00\tC\n3.50\tB\n4.00\tH\n4.50\tX\n5.00\tX\n")
+        self.convert("slow.tsv", "slow.csv", "--fps", "100")
+        self.convert("slow.csv", "slow.back.tsv")
+        self.assertEqual(self.read("slow.back.tsv"), self.read("slow.tsv").replace("5.00\tX", "5.01\tX"))
+
+    def test_another_rate(self):
+        self.convert("source.jsonl", "even.jsonl", "--fps", "24")
+        even = self.frames_of("even.jsonl")
+        self.assertEqual([frame["t_ns"] for frame in even], [round(k * 1e9 / 24) for k in range(len(even))])
+        after = 0
+        for frame in even:
+            while self.frames[after]["t_ns"] <= frame["t_ns"] and after + 1 < len(self.frames):
+                after += 1
+            a, b = self.frames[after - 1], self.frames[after]
+            share = (frame["t_ns"] - a["t_ns"]) / (b["t_ns"] - a["t_ns"])
+            self.assertEqual(frame["status"], a["status"])
+            for name in ("jawOpen", "eyeBlinkLeft"):
+                wanted = a["controls"][name] + share * (b["controls"][name] - a["controls"][name])
+                self.assertAlmostEqual(frame["controls"][name], wanted, places=12)
+
+    def test_several_faces(self):
+        frames = [{"t_ns": 40000000 * i, "frame": i, "face_id": face, "controls": {"jawOpen": face / 4}} for i in range(20) for face in (1, 2)
+                  if face == 1 or i >= 5]
+        self.write("two.jsonl", "".join(json.dumps(frame) + "\n" for frame in frames))
+        self.assertNotIn("left out", self.convert("two.jsonl", "two.csv"))
+        rows = list(csv.DictReader(self.read("two.csv").splitlines()))
+        self.assertEqual([(int(r["frame"]), int(r["face_id"]), float(r["jawOpen"])) for r in rows],
+                         [(f["frame"], f["face_id"], f["controls"]["jawOpen"]) for f in frames])
+        self.assertIn("all faces but 1", self.convert("two.jsonl", "two.llf.csv"))
+        self.assertNotIn("all faces", self.convert("two.jsonl", "second.llf.csv", "--face", "2"))
+        self.assertEqual({row["JawOpen"] for row in csv.DictReader(self.read("second.llf.csv").splitlines())}, {"0.5000000000"})
+
+    def test_faults_are_named_with_their_place(self):
+        faults = {
+            "t_ms,jawOpen\n0,0\n40,lots\n": "line 3, column 4: jawOpen: 'lots' is not a number",
+            "Timecode,BlendshapeCount,JawOpen\n00:00:00:00.000,61,0\nnever,61,0\n": "line 3, column 1: Timecode: 'never' is not HH:MM:SS:FF.mmm",
+            "Timecode,BlendshapeCount,JawOpen\n00:00:00:61.000,61,0\n": "line 2, column 1: Timecode: '00:00:00:61.000' has more frames than a second of 60",
+            '{"t_ns":0,"controls":{}}\n{"t_ns":1,"controls":{"jawOpen":"x"}}\n': "line 2, column 33: jawOpen: is not a number in 0..1",
+            '{"t_ns":0}\n{"t_ns":1,}\n': "line 2, column 11: a key in quotation marks is missing",
+            "HIERARCHY\nROOT a\n{\nOFFSET 0 0 zero\n": "line 4, column 12: 'zero' is not a number",
+            "0.00\tX\n0.10\tQ\n0.20\tX\n": "line 2, column 6: is none of the shapes A to H and X",
+            '{"asset":{},\n"animations":[]}': "line 1, column 1: there is no animation",
+            "glTF\1\0\0\0" + 12 * "\0": "byte 4: is not version 2 of glTF",
+        }
+        for text, wanted in faults.items():
+            self.write("bad", text)
+            done = subprocess.run([PROGRAM, "convert", self.path("bad"), self.path("bad.out.csv")], capture_output=True, text=True)
+            self.assertEqual((done.returncode, done.stderr), (3, f"mien: {self.path('bad')}: {wanted}\n"))
+            self.assertFalse(os.path.exists(self.path("bad.out.csv")))
+
+
+if __name__ == "__main__":
+    unittest.main()

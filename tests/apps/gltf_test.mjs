@@ -1,0 +1,69 @@
+// What others make of our glTF: Khronos' validator finds no error and no warning, and three.js plays it.
+// usage: gltf_test.mjs MIEN_PROGRAM PACKAGES        PACKAGES as scripts/peers/install_gltf.sh has fetched them
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import fs from 'node:fs';
+import { createRequire } from 'node:module';
+import os from 'node:os';
+import path from 'node:path';
+import { pathToFileURL } from 'node:url';
+
+globalThis.ProgressEvent ??= class extends Event {}; // of browsers; three.js fetches data: URIs as they do
+
+const [program, packages] = process.argv.slice(2);
+const modules = path.join(packages, 'node_modules');
+const validator = createRequire(path.join(modules, 'x.js'))('gltf-validator');
+const load = (name) => import(pathToFileURL(path.join(modules, name)));
+const THREE = await load('three/build/three.module.js');
+const { GLTFLoader } = await load('three/examples/jsm/loaders/GLTFLoader.js');
+
+const folder = fs.mkdtempSync(path.join(os.tmpdir(), 'mien_gltf_'));
+const file = (name) => path.join(folder, name);
+const convert = (a, b) => execFileSync(program, ['convert', file(a), file(b), '--quiet']);
+
+async function validate(name) {
+  const { issues } = await validator.validateBytes(new Uint8Array(fs.readFileSync(file(name))));
+  assert.equal(issues.numErrors, 0, JSON.stringify(issues.messages));
+  assert.equal(issues.numWarnings, 0, JSON.stringify(issues.messages));
+}
+
+const frames = [];
+for (let i = 0; i <= 30; ++i) {
+  frames.push({
+    t_ns: i * 1e9 / 30 | 0, status: i < 5 ? 'searching' : 'tracking', controls: { jawOpen: i / 30, mouthSmileLeft: 0.25, eyeLookDownLeft: i / 30 },
+    ...(i >= 5 && { head: { pitch_rad: 0, yaw_rad: i / 30, roll_rad: 0 }, position_m: [0, 0, -0.5 - i / 100] }),
+  });
+}
+fs.writeFileSync(file('clip.jsonl'), frames.map((frame) => JSON.stringify(frame) + '\n').join(''));
+fs.writeFileSync(file('one.jsonl'), JSON.stringify(frames[10]) + '\n');
+fs.writeFileSync(file('nobody.jsonl'), JSON.stringify({ t_ns: 0, status: 'searching' }) + '\n');
+for (const name of ['clip', 'one', 'nobody']) {
+  for (const ending of ['.glb', '.gltf']) {
+    convert(name + '.jsonl', name + ending);
+    await validate(name + ending);
+  }
+}
+
+for (const name of ['clip.glb', 'clip.gltf']) {
+  const bytes = fs.readFileSync(file(name));
+  const data = name.endsWith('.glb') ? bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length) : bytes.toString();
+  const gltf = await new Promise((resolve, reject) => new GLTFLoader().parse(data, '', resolve, reject));
+  const mesh = gltf.scene.getObjectByName('face');
+  const head = gltf.scene.getObjectByName('head');
+  assert.equal(Object.keys(mesh.morphTargetDictionary).length, 52);
+  assert.equal(mesh.morphTargetInfluences.length, 52);
+  const mixer = new THREE.AnimationMixer(gltf.scene);
+  mixer.clipAction(gltf.animations[0]).play();
+  mixer.setTime(0.5);
+  const weight = (control) => mesh.morphTargetInfluences[mesh.morphTargetDictionary[control]];
+  assert.ok(Math.abs(weight('jawOpen') - 0.5) < 1e-4, `${weight('jawOpen')}`);
+  assert.ok(Math.abs(weight('mouthSmileLeft') - 0.25) < 1e-6);
+  assert.equal(weight('tongueOut'), 0);
+  const turn = new THREE.Euler().setFromQuaternion(head.quaternion, 'YXZ');
+  assert.ok(Math.abs(turn.y - 0.5) < 1e-4 && Math.abs(turn.x) < 1e-6, `${turn.y}`);
+  assert.ok(Math.abs(head.position.z + 0.65) < 1e-4, `${head.position.z}`);
+  const eye = new THREE.Euler().setFromQuaternion(gltf.scene.getObjectByName('leftEye').quaternion, 'YXZ');
+  assert.ok(Math.abs(eye.x - 0.485 / 2) < 1e-4, `${eye.x}`); // looks down
+}
+fs.rmSync(folder, { recursive: true });
+console.log('6 files valid without errors and warnings, 2 played in three.js');

@@ -1,0 +1,7 @@
+#!/usr/bin/env bash
+# usage: gltf_test.sh MIEN_PROGRAM        fetches the packages of gltf_test.mjs and runs it; 77: there is no node, or no way to them
+set -euo pipefail
+here=$(cd "$(dirname "$0")" && pwd)
+command -v node >/dev/null || { echo "skipped: no node here"; exit 77; }
+"$here/../../scripts/peers/install_gltf.sh" || { echo "skipped: gltf-validator and three cannot be fetched"; exit 77; }
+exec node "$here/gltf_test.mjs" "$1" "${MIEN_CACHE:-$HOME/.cache/mien}/gltf"

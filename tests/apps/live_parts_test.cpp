@@ -1,0 +1,196 @@
+// Parts of `mien live` by themselves.
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "apps/mien/live/easing.h"
+#include "apps/mien/senders/destination.h"
+#include "apps/mien/sources/device_lists.h"
+#include "apps/mien/sources/sample_clock.h"
+#include "apps/mien/system/failure.h"
+#include "formats/animation/mirror.h"
+
+namespace mien::app {
+namespace {
+
+using formats::control;
+using formats::FaceState;
+using formats::Frame;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+TEST(Destination, IsTakenApart) {
+  Destination destination = parse_destination("vmc://[::1]:39540/?names=camel&x=a%20b");
+  EXPECT_EQ(destination.scheme, "vmc");
+  EXPECT_EQ(destination.host, "::1");
+  EXPECT_EQ(destination.port, 39540);
+  EXPECT_EQ(destination.take("x", ""), "a b");
+  EXPECT_THROW(destination.require_all_taken(), Failure);
+  EXPECT_EQ(destination.take("names", "vrm0"), "camel");
+  EXPECT_EQ(destination.take("names", "vrm0"), "vrm0");
+  EXPECT_NO_THROW(destination.require_all_taken());
+}
+
+TEST(Destination, SaysWhatIsWrong) {
+  for (const auto& [text, wanted] : {std::pair{"127.0.0.1:1", "is no destination"},
+                                     {"vmc://h:0", "'0' is no port"},
+                                     {"vmc://h:", "'' is no port"},
+                                     {"vmc://h:12a", "'12a' is no port"},
+                                     {"vmc://h:65536", "is no port"},
+                                     {"vmc://a:b:1", "IPv6"},
+                                     {"vmc://[::1", "'['"},
+                                     {"vmc://[::1]1", "'['"},
+                                     {"vmc://h?names", "is not NAME=VALUE"},
+                                     {"vmc://h?a=1&a=2", "is there twice"},
+                                     {"vmc://h?a=%4", "hexadecimal"},
+                                     {"vmc://h?a=%00", "hexadecimal"},
+                                     {"vmc://h?=1", "is not NAME=VALUE"}}) {
+    try {
+      static_cast<void>(parse_destination(text));
+      FAIL() << text;
+    } catch (const Failure& failure) {
+      EXPECT_EQ(failure.code(), kExitUsage);
+      EXPECT_THAT(failure.what(), HasSubstr(wanted)) << text;
+      EXPECT_THAT(failure.what(), HasSubstr(text));
+    }
+  }
+}
+
+constexpr std::int64_t kMs = 1'000'000;
+
+TEST(SampleClock, TellsWhenSamplesWereRecordedThatComeLate) {
+  SampleClock clock(16000);
+  std::int64_t worst = 0;
+  for (int block = 0; block < 1000; ++block) {  // of 10 ms, some of which wait up to 30 ms
+    const std::int64_t recorded = block * 10 * kMs;
+    const std::int64_t late = (block * 7 % 4) * 10 * kMs;
+    const std::int64_t told = clock.time_of(160, recorded + 10 * kMs + late);
+    worst = block > 10 ? std::max(worst, std::abs(told - recorded)) : 0;
+  }
+  EXPECT_LT(worst, 2 * kMs);
+}
+
+TEST(SampleClock, FollowsAnotherClock) {
+  SampleClock clock(16000);
+  for (int block = 0; block < 60000; ++block) {  // ten minutes of a card that is 0.01 % slow
+    const auto recorded = static_cast<std::int64_t>(block * 10.001 * kMs);
+    const std::int64_t told = clock.time_of(160, recorded + 10 * kMs);
+    ASSERT_LT(std::abs(told - recorded), 5 * kMs) << block;
+  }
+}
+
+TEST(SampleClock, BeginsAnewAfterAGap) {
+  SampleClock clock(16000);
+  EXPECT_EQ(clock.time_of(160, 10 * kMs), 0);
+  EXPECT_EQ(clock.time_of(160, 20 * kMs), 10 * kMs);
+  EXPECT_EQ(clock.time_of(160, 1000 * kMs), 990 * kMs);
+}
+
+Frame frame(std::int64_t ms, FaceState state, double jaw, double yaw) {
+  Frame made;
+  made.time_ns = ms * kMs;
+  made.state = state;
+  made.controls[control("jawOpen")] = jaw;
+  if (state == FaceState::kTracking) {
+    made.head = formats::Angles{0.0, yaw, 0.0};
+    made.position_m = {0.1, 0.0, -0.6};
+  }
+  return made;
+}
+
+TEST(Easing, LeavesATrackedFaceAlone) {
+  Easing easing;
+  for (int i = 0; i < 30; ++i) {
+    const Frame shown = easing.next(frame(i * 33, FaceState::kTracking, 0.1 * (i % 10), 0.3));
+    EXPECT_EQ(shown.controls[control("jawOpen")], 0.1 * (i % 10));
+    EXPECT_EQ(shown.head->yaw, 0.3);
+  }
+}
+
+TEST(Easing, HoldsThenEasesAndWelcomesWithoutAJump) {
+  Easing easing;
+  static_cast<void>(easing.next(frame(0, FaceState::kTracking, 0.8, 0.5)));
+  double jaw = 0.8, yaw = 0.5;
+  for (int ms = 10; ms <= 2000; ms += 10) {
+    const Frame shown = easing.next(frame(ms, FaceState::kLost, 0.8 * std::exp(-ms / 250.0), 0));
+    const double now = shown.controls[control("jawOpen")];
+    if (ms <= 500) {
+      EXPECT_EQ(now, 0.8) << ms;
+      EXPECT_EQ(shown.head->yaw, 0.5) << ms;
+    }
+    EXPECT_LE(std::abs(now - jaw), 0.02) << ms;
+    EXPECT_LE(std::abs(shown.head->yaw - yaw), 0.02) << ms;
+    EXPECT_THAT(*shown.position_m, ElementsAre(0.1, 0.0, -0.6));
+    jaw = now;
+    yaw = shown.head->yaw;
+  }
+  EXPECT_LT(jaw, 0.001);
+  EXPECT_EQ(yaw, 0.0);
+  for (int ms = 2010; ms <= 2500; ms += 10) {
+    const Frame shown = easing.next(frame(ms, FaceState::kTracking, 0.6, -0.4));
+    EXPECT_LE(std::abs(shown.controls[control("jawOpen")] - jaw), 0.1) << ms;
+    jaw = shown.controls[control("jawOpen")];
+    yaw = shown.head->yaw;
+  }
+  EXPECT_EQ(jaw, 0.6);
+  EXPECT_EQ(yaw, -0.4);
+}
+
+TEST(Easing, SaysNothingOfAHeadThatWasNeverSeen) {
+  Easing easing;
+  EXPECT_FALSE(easing.next(frame(0, FaceState::kSearching, 0.0, 0.0)).head.has_value());
+}
+
+TEST(Mirror, TwiceIsTheSame) {
+  Frame face = frame(0, FaceState::kTracking, 0.5, 0.25);
+  face.controls[control("mouthLeft")] = 0.75;
+  face.controls[control("eyeBlinkRight")] = 1.0;
+  face.eyes = {formats::Angles{0.1, 0.2, 0.0}, formats::Angles{0.3, 0.4, 0.0}};
+  const Frame mirror = formats::mirrored(face);
+  EXPECT_EQ(mirror.controls[control("mouthRight")], 0.75);
+  EXPECT_EQ(mirror.controls[control("eyeBlinkLeft")], 1.0);
+  EXPECT_EQ(mirror.controls[control("jawOpen")], 0.5);
+  EXPECT_EQ(mirror.head->yaw, -0.25);
+  EXPECT_EQ((*mirror.position_m)[0], -0.1);
+  EXPECT_EQ((*mirror.eyes)[0].yaw, -0.4);
+  const Frame again = formats::mirrored(mirror);
+  EXPECT_EQ(again.controls[control("mouthLeft")], 0.75);
+  EXPECT_EQ(again.head->yaw, 0.25);
+  EXPECT_EQ((*again.eyes)[1].yaw, 0.4);
+}
+
+auto device(CaptureKind kind, const std::string& name, const std::string& description) {
+  return testing::AllOf(testing::Field(&Device::kind, kind), testing::Field(&Device::name, name),
+                        testing::Field(&Device::description, description));
+}
+
+TEST(DeviceLists, AreReadAsEverySystemWritesThem) {
+  using enum CaptureKind;
+  EXPECT_THAT(parse_avfoundation(
+                  "[AVFoundation indev @ 0x7f] AVFoundation video devices:\n"
+                  "[AVFoundation indev @ 0x7f] [0] FaceTime HD Camera\n"
+                  "[AVFoundation indev @ 0x7f] AVFoundation audio devices:\n"
+                  "[AVFoundation indev @ 0x7f] [0] MacBook Microphone\n: Input/output error"),
+              ElementsAre(device(kCamera, "0", "FaceTime HD Camera"),
+                          device(kMicrophone, "0", "MacBook Microphone")));
+  EXPECT_THAT(parse_dshow("[dshow @ 01] \"Integrated Camera\" (video)\r\n"
+                          "[dshow @ 01]   Alternative name \"@device_pnp\"\r\n"
+                          "[dshow @ 01] \"Microphone (Realtek)\" (audio)\r\n"),
+              ElementsAre(device(kCamera, "Integrated Camera", "Integrated Camera"),
+                          device(kMicrophone, "Microphone (Realtek)", "Microphone (Realtek)")));
+  EXPECT_THAT(parse_dshow("[dshow @ 01] DirectShow video devices (some may be both)\n"
+                          "[dshow @ 01]  \"Webcam\"\n[dshow @ 01] DirectShow audio devices\n"
+                          "[dshow @ 01]  \"Mic\"\n"),
+              ElementsAre(device(kCamera, "Webcam", "Webcam"), device(kMicrophone, "Mic", "Mic")));
+  EXPECT_THAT(parse_pulse("Auto-detected sources for pulse:\n"
+                          "  alsa_output.pci.monitor [Monitor of Built-in] (audio)\n"
+                          "* alsa_input.usb [USB [stereo] Mic] (audio)\n"),
+              ElementsAre(device(kMicrophone, "alsa_input.usb", "USB [stereo] Mic")));
+  EXPECT_THAT(parse_alsa("00-00: ALC257 : ALC257 : playback 1 : capture 1\n"
+                         "00-03: HDMI 0 : HDMI 0 : playback 1\n01-00: x\nzz"),
+              ElementsAre(device(kMicrophone, "alsa:hw:0,0", "ALC257")));
+  EXPECT_THAT(parse_dshow("\"\n\"\" (video\n[\n] \""), ElementsAre());
+}
+
+}  // namespace
+}  // namespace mien::app

@@ -1,0 +1,125 @@
+"""What the program says of itself: help, manual page, completions and docs/cli.md know the same verbs and options.
+
+usage: manners_test.py MIEN_PROGRAM DOCS
+"""
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+DOCS = sys.argv.pop(2)
+PROGRAM = sys.argv.pop(1)
+
+
+def run(*arguments, **more):
+    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=60, **more)
+
+
+def verbs():
+    lines = run("--help").stdout.split("Subcommands:")[1].splitlines()
+    return [line.split()[0] for line in lines if re.match(r"  \w", line)]
+
+
+def options(verb):
+    return sorted(set(re.findall(r"^\s+(?:-\w,)?(--?[a-z][-a-z]*)", run(verb, "--help").stdout.split("Options:")[1], re.M)) - {"--help", "-h"})
+
+
+class Manners(unittest.TestCase):
+    def test_every_verb_has_examples_with_options_that_it_has(self):
+        self.assertGreaterEqual(len(verbs()), 9)
+        for verb in verbs():
+            text = run(verb, "--help").stdout
+            self.assertIn("Examples:\n  mien ", text, verb)
+            for line in text.split("Examples:")[1].splitlines():
+                words = line.split()
+                if words[:1] == ["mien"] and words[1] == verb:
+                    for option in re.findall(r"(?<= )--?[a-z][-a-z]*", line.split(" | ")[0].split(" && ")[0]):
+                        self.assertIn(option, options(verb) + ["-l"], line)
+
+    def test_the_documentation_knows_every_option(self):
+        with open(DOCS + "/cli.md") as file:
+            documented = file.read()
+        for verb in verbs():
+            self.assertIn(f"mien {verb}", documented)
+            for option in options(verb):
+                self.assertIsNotNone(re.search(re.escape(option) + r"(?![-a-z])", documented), f"{verb} {option}")
+
+    def test_the_manual_page_knows_every_option(self):
+        page = run("manual").stdout
+        self.assertTrue(page.startswith(".TH MIEN 1"))
+        for verb in verbs():
+            section = page.split(f".SH MIEN {verb}\n")[1].split("\n.SH ")[0]
+            for option in options(verb):
+                self.assertIn("\\fB" + option.replace("-", "\\-") + "\\fR", section)
+        if shutil.which("groff"):
+            done = subprocess.run(["groff", "-man", "-Tascii", "-ww"], input=page, capture_output=True, text=True)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def test_completions(self):
+        script = run("completion", "bash").stdout
+        complete = lambda *words: subprocess.run(
+            ["bash", "-c", script + 'COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _mien; printf "%s\\n" "${COMPREPLY[@]}"', "bash", *words],
+            capture_output=True, text=True, check=True).stdout.split()
+        self.assertEqual(complete("mien", "tra"), ["track"])
+        self.assertEqual(complete("mien", "track", "--mo"), ["--mode", "--models"])
+        self.assertEqual(complete("mien", "track", "--lod", ""), ["1", "2", "3", "4", "auto"])
+        self.assertEqual(complete("mien", "completion", "z"), ["zsh"])
+        for shell in ("zsh", "fish"):
+            text = run("completion", shell).stdout
+            if shutil.which(shell):
+                subprocess.run([shell, "-n"], input=text, text=True, check=True)
+            for verb in verbs():
+                for option in options(verb):
+                    self.assertIn(option if shell == "zsh" else (" -l " + option[2:] if option.startswith("--") else " -s " + option[1:]), text)
+
+    def test_comparisons_as_json(self):
+        with tempfile.TemporaryDirectory() as folder:
+            a, b, page = (os.path.join(folder, name) for name in ("a.csv", "b.csv", "page.html"))
+            for path, jaw in ((a, "0.5"), (b, "0.25")):
+                with open(path, "w") as file:
+                    file.write("t_ms,pitch_rad,yaw_rad,roll_rad,jawOpen" + (",tongueOut" if path == a else "") + "\n")
+                    file.writelines(f"{i * 40},0,{0.1 * i},0,{jaw}" + (",0" if path == a else "") + "\n" for i in range(10))
+            said = json.loads(run("compare", a, b, "-o", page, "--json").stdout)
+            self.assertEqual((said["matched_frames"], said["a"], said["b"]["name"]),
+                             (10, {"name": "a.csv", "frames": 10, "start_ms": 0.0, "last_ms": 360.0}, "b.csv"))
+            self.assertEqual(list(said["controls"]), ["jawOpen"], "what both drive")
+            self.assertEqual((said["controls"]["jawOpen"]["mean_abs"], said["controls"]["jawOpen"]["correlation"]), (0.25, None))
+            self.assertEqual(said["head"]["yaw"]["mean_abs_deg"], 0.0)
+            self.assertTrue(os.path.exists(page))
+
+    def test_a_neutral_face_as_json(self):
+        source = os.path.join(DOCS, "..")
+        if not shutil.which("ffmpeg") or not os.path.exists(os.path.join(source, "models", "basenet.mien")):
+            self.skipTest("SKIPPED: no ffmpeg or no weights here")
+        with tempfile.TemporaryDirectory() as folder:
+            clip, made = os.path.join(source, "tests", "data", "demo.mp4"), os.path.join(folder, "me.neutral")
+            done = run("neutral", clip, "-o", made, "--json", "--models", os.path.join(source, "models"))
+            levels = [1, 2, 3, 4] if os.path.exists(os.path.join(source, "models", "hifinet.mien")) else [1]
+            self.assertEqual(json.loads(done.stdout), {"input": clip, "output": made, "levels": levels})
+            self.assertEqual(done.stderr, "")
+
+    def test_what_was_mistyped(self):
+        for arguments, wanted in ((["trak"], "mien: 'trak' is no verb; did you mean 'track'?\n"), (["cmopare", "a"], "'compare'"),
+                                  (["track", "--lood", "3", "x"], "mien: track: there is no option '--lood'; did you mean '--lod'?\n"),
+                                  (["--verson"], "'--version'"), (["xyzzy"], "mien: 'xyzzy' is no verb\n")):
+            done = run(*arguments)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(wanted, done.stderr)
+        self.assertEqual(run("convert", "/nowhere.csv", "-", "--quiet").returncode, 3)
+
+    def test_a_closed_standard_output_is_no_error(self):
+        rows = "t_ms,jawOpen\n" + "".join(f"{i},0.5\n" for i in range(100000))
+        command = f"'{PROGRAM}' convert - - --to csv --quiet | head -1; echo ${{PIPESTATUS[0]}}"
+        done = subprocess.run(["bash", "-c", command], input=rows, capture_output=True, text=True, timeout=60)
+        self.assertEqual((done.stdout.splitlines()[-1], done.stderr), ("0", ""))
+        full = subprocess.run(["bash", "-c", f"'{PROGRAM}' convert - - --to csv --quiet >/dev/full"], input=rows, capture_output=True, text=True)
+        self.assertEqual(full.returncode, 7)
+        self.assertIn("standard output: cannot be written", full.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,369 @@
+#!/usr/bin/env python3
+"""`mien track --report`: what is in the page, and the page as a person meets it, in Chromium without a window.
+
+usage: report_test.py MIEN_PROGRAM      exit code 77: skipped, ffmpeg or the weights are missing
+"""
+import base64
+import csv
+import glob
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+import chromium
+import report_page
+
+MIEN = None
+SOURCE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
+CLIP = os.path.join(SOURCE, "tests", "data", "demo.mp4")
+HOSTILE = "<!--<script>'\"&.mp4"  # a name that must not disturb the page around it
+FRAMES, FPS, BLACK = 45, 30, range(15, 24)  # of the clip; frames without a face
+EXPORTS = {"csv": ".csv", "jsonl": ".jsonl", "llf": ".llf.csv", "gltf": ".gltf", "glb": ".glb", "bvh": ".bvh", "roblox": ".roblox.csv",
+           "visemes": ".visemes.csv", "rhubarb": ".tsv", "rhubarb-json": ".rhubarb.json", "rhubarb-xml": ".xml", "rhubarb-dat": ".dat"}
+
+
+def mien(*arguments, **more):
+    return subprocess.run([MIEN, *arguments, "--models", os.path.join(SOURCE, "models")], check=True, timeout=300, capture_output=True, **more)
+
+
+def ffmpeg(*arguments):
+    subprocess.run(["ffmpeg", "-nostdin", "-v", "error", "-y", *arguments], check=True, timeout=120)
+
+
+class Folder:
+    """What all tests look at, made once."""
+
+    path = None
+
+    @classmethod
+    def make(cls):
+        cls.path = tempfile.mkdtemp(prefix="mien_report_")
+        black = f"drawbox=t=fill:color=black:w=iw:h=ih:enable='between(n,{BLACK[0]},{BLACK[-1]})'"
+        ffmpeg("-t", str(FRAMES / FPS), "-i", CLIP, "-vf", black, "-crf", "18", cls.file(HOSTILE))
+        outputs = [word for format, ending in EXPORTS.items() for word in ("-o", cls.file("x" + ending))]
+        done = mien("track", cls.file(HOSTILE), "--report", cls.file("report.html"), "--landmarks", cls.file("landmarks.csv"),
+                    "--stats", cls.file("stats.json"), "--quiet", *outputs)
+        cls.said = done.stdout
+
+    @classmethod
+    def file(cls, name):
+        return os.path.join(cls.path, name)
+
+    @classmethod
+    def bytes(cls, name):
+        with open(cls.file(name), "rb") as file:
+            return file.read()
+
+
+class Contents(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.report = report_page.Report(Folder.file("report.html"))
+        cls.rows = list(csv.DictReader(Folder.bytes("x.csv").decode().splitlines()))
+
+    def same_column(self, name, values, unit):
+        column = self.report.columns[name]
+        self.assertEqual(len(column), len(values), name)
+        for ours, value in zip(column, values):
+            if value in ("", None):
+                self.assertIsNone(ours, name)
+            else:
+                self.assertAlmostEqual(ours, float(value), delta=0.51 * unit, msg=name)
+
+    def test_columns_are_the_curves(self):
+        columns = {"t_ms": ("t_ms", 0.1), "face_probability": ("face_prob", 1e-4), "voice_activity": ("vad", 1e-4), "lod": ("lod", 1),
+                   "pitch": ("pitch_rad", 1e-4), "yaw": ("yaw_rad", 1e-4), "roll": ("roll_rad", 1e-4), "x_m": ("tx_m", 1e-3),
+                   "y_m": ("ty_m", 1e-3), "z_m": ("tz_m", 1e-3)}
+        columns |= {"box_" + {"x": "x", "y": "y", "w": "width", "h": "height"}[k]: (k, self.report.data["landmark_unit"]) for k in "xywh"}
+        columns |= {name: (name, 1e-4) for name in list(self.rows[0])[16:]}
+        self.assertEqual(len(columns), 10 + 4 + 52)
+        for name, (of_csv, unit) in columns.items():
+            self.same_column(name, [row[of_csv] for row in self.rows], unit)
+        states = ["searching", "tracking", "lost"]
+        self.assertEqual([states[round(step)] for step in self.report.columns["status"]], [row["status"] for row in self.rows])
+        self.assertIn("lost", [row["status"] for row in self.rows])
+
+    def test_landmarks(self):
+        rows = list(csv.reader(Folder.bytes("landmarks.csv").decode().splitlines()))[1:]
+        found = self.report.landmarks()
+        self.assertEqual(len(found), FRAMES)
+        for row, points in zip(rows, found):
+            for k, point in enumerate(points):
+                if row[1 + 2 * k] == "":
+                    self.assertIsNone(point)
+                else:
+                    for ours, value in zip(point, row[1 + 2 * k:3 + 2 * k]):
+                        self.assertAlmostEqual(ours, float(value), delta=0.51 * self.report.data["landmark_unit"])
+
+    def test_every_export_is_what_the_program_writes(self):
+        self.assertEqual([export["format"] for export in self.report.data["exports"]], list(EXPORTS))
+        for export in self.report.data["exports"]:
+            written = Folder.bytes("x" + EXPORTS[export["format"]])
+            self.assertEqual(self.report.export(export["format"]), written, export["format"])
+            self.assertEqual(export["bytes"], len(written))
+            self.assertEqual(export["file"], HOSTILE.removesuffix(".mp4") + EXPORTS[export["format"]])
+
+    def test_sound_and_stages(self):
+        sound = subprocess.run(["ffmpeg", "-nostdin", "-v", "error", "-i", Folder.file(HOSTILE), "-ac", "1", "-ar", "16000", "-f", "s16le", "-"],
+                               check=True, capture_output=True, timeout=60).stdout
+        samples = memoryview(sound).cast("h")
+        low, high, bin = self.report.columns["sound_low"], self.report.columns["sound_high"], 160
+        self.assertGreaterEqual(len(low), FRAMES * 100 // FPS - 5)
+        for i in range(min(len(low), len(samples) // bin)):
+            part = samples[i * bin:(i + 1) * bin]
+            self.assertAlmostEqual(low[i], min(0, min(part)) / 32768, delta=0.6 / 127)
+            self.assertAlmostEqual(high[i], max(0, max(part)) / 32768, delta=0.6 / 127)
+        self.assertEqual(self.report.data["stages"], json.loads(Folder.bytes("stats.json"))["stages"])
+
+    def test_the_clip_is_in_the_page(self):
+        self.assertEqual(self.report.data["clip"], "in page")
+        with open(Folder.file("clip.mp4"), "wb") as file:
+            file.write(base64.b64decode(self.report.page.blocks["clip"], validate=True))
+        probe = subprocess.run(["ffprobe", "-v", "error", "-count_frames", "-show_entries", "stream=codec_name,nb_read_frames", "-of", "json",
+                                Folder.file("clip.mp4")], check=True, capture_output=True, timeout=60).stdout
+        streams = {stream["codec_name"]: stream for stream in json.loads(probe)["streams"]}
+        self.assertEqual(int(streams["h264"]["nb_read_frames"]), FRAMES)
+        self.assertIn("aac", streams)
+
+    def test_names_disturb_nothing_and_nothing_is_loaded(self):
+        self.assertEqual(self.report.data["name"], HOSTILE)
+        self.assertEqual(Folder.said, b"", "no curves on standard output beside a report")
+        for tag, name, value in self.report.page.attributes:
+            if name in ("src", "href"):
+                self.assertEqual((tag, value), ("link", "data:,"))
+            self.assertFalse(name.startswith("on"), (tag, name))
+            self.assertNotEqual(name, "style")
+
+    def test_only_this_script_and_this_style_may_run(self):
+        blocks = self.report.page.blocks
+        self.assertEqual(self.report.allowed("script"), [report_page.hash_of(blocks["script"])])
+        self.assertEqual(self.report.allowed("style"), [report_page.hash_of(blocks["style"])])
+        self.assertIn("default-src 'none'", self.report.page.policy)
+        self.assertNotIn("unsafe", self.report.page.policy)
+
+    def test_a_large_clip_lies_beside_the_page(self):
+        mien("track", Folder.file(HOSTILE), "--duration", "0.2", "--quiet", "--report", Folder.file("b#side.html"), "--report-clip-mb", "0.001")
+        beside = report_page.Report(Folder.file("b#side.html"))
+        self.assertEqual((beside.data["clip"], beside.data["clip_file"], beside.page.blocks["clip"]), ("beside", "b#side.html.mp4", ""))
+        self.assertTrue(Folder.bytes("b#side.html.mp4"))
+
+    def test_sound_alone_and_a_stream(self):
+        ffmpeg("-i", Folder.file(HOSTILE), "-vn", Folder.file("voice.wav"))
+        mien("track", Folder.file("voice.wav"), "--report", Folder.file("voice.html"), "--quiet")
+        voice = report_page.Report(Folder.file("voice.html"))
+        self.assertEqual((voice.data["width"], voice.data["clip"], voice.page.blocks["landmarks"]), (0, "in page", ""))
+        self.assertGreater(max(voice.columns["jawOpen"]), 0.1)
+        y4m = subprocess.run(["ffmpeg", "-v", "error", "-t", "0.2", "-i", CLIP, "-pix_fmt", "yuv420p", "-f", "yuv4mpegpipe", "-"],
+                             check=True, capture_output=True, timeout=60).stdout
+        mien("track", "-", "--report", Folder.file("stream.html"), "--quiet", input=y4m)
+        stream = report_page.Report(Folder.file("stream.html"))
+        self.assertEqual((stream.data["clip"], stream.data["name"], stream.frames()), ("none", "-", 6))
+
+    def test_what_cannot_be(self):
+        for arguments, code, word in ((["--max-faces", "2"], 2, "one face"), ([], 7, "cannot be written")):
+            page = Folder.file("no such folder/x.html") if not arguments else Folder.file("x.html")
+            with self.assertRaises(subprocess.CalledProcessError) as failed:
+                mien("track", CLIP, "--report", page, *arguments)
+            self.assertEqual(failed.exception.returncode, code)
+            self.assertIn(word, failed.exception.stderr.decode())
+            self.assertFalse(os.path.exists(page))
+
+    def test_a_folder_of_reports(self):
+        os.mkdir(Folder.file("in"))
+        shutil.copy(Folder.file(HOSTILE), Folder.file("in/a.mp4"))
+        again = lambda: json.loads(mien("track", Folder.file("in"), "--out", Folder.file("out"), "--reports", "--duration", "0.2", "--json").stdout)[0]
+        first = again()
+        self.assertEqual((first["outcome"], first["outputs"]), ("done", [Folder.file("out/a.mp4.csv"), Folder.file("out/a.mp4.html")]))
+        self.assertEqual(report_page.Report(Folder.file("out/a.mp4.html")).export("csv"), Folder.bytes("out/a.mp4.csv"))
+        self.assertEqual(again()["outcome"], "done before")
+        os.remove(Folder.file("out/a.mp4.html"))
+        self.assertEqual(again()["outcome"], "done")
+
+
+@unittest.skipUnless(chromium.find(), "SKIPPED: the page was NOT looked at in a browser: no chromium here")
+class Page(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.browser = chromium.Chromium(chromium.find())
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.browser.close()
+
+    def setUp(self):
+        self.browser.complaints.clear()
+        self.browser.requests.clear()
+
+    def tearDown(self):
+        self.assertEqual(self.browser.complaints, [])
+        self.assertEqual([url for url in self.browser.requests if not url.startswith(("file:", "blob:", "data:"))], [])
+
+    def js(self, script):
+        return self.browser.evaluate(script)
+
+    def wait(self, condition, what):
+        deadline = time.monotonic() + 60
+        while not self.js(condition):
+            self.assertLess(time.monotonic(), deadline, what)
+            time.sleep(0.05)
+
+    def open(self, page="report.html", width=1280, height=900, dark=False):
+        self.browser.send("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=width < 600)
+        self.browser.send("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}])
+        self.browser.open(Folder.file(page))
+        self.wait("!!report.whole_ms", "the page does not open")
+
+    def press(self, key, code=None):
+        for kind in ("keyDown", "keyUp"):
+            self.browser.send("Input.dispatchKeyEvent", type=kind, key=key, code=code or key, **({"text": key} if len(key) == 1 and kind == "keyDown" else {}))
+
+    def seek(self, t_ms):
+        self.js(f"report.player.seek({t_ms})")
+        self.wait(f"Math.abs(report.player.clock.time_ms - {t_ms}) < 2 && !document.getElementById('video').seeking", "seeking")
+        self.js("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done(true))))")
+
+    def drawn(self, canvas):
+        """How many pixels of a canvas are no longer empty."""
+        return self.js(f"""(() => {{
+          const canvas = document.querySelector('{canvas}'), {{width, height}} = canvas;
+          const copy = Object.assign(document.createElement('canvas'), {{width, height}}).getContext('2d', {{willReadFrequently: true}});
+          copy.drawImage(canvas, 0, 0);
+          return copy.getImageData(0, 0, width, height).data.filter((value, i) => i % 4 === 3 && value).length; }})()""")
+
+    def test_shows_the_take(self):
+        self.open()
+        self.assertEqual(self.js("document.title"), HOSTILE + " – mien report")
+        self.assertEqual(self.js("document.querySelector('h1').textContent"), HOSTILE)
+        self.assertTrue(self.js("report.player.clock instanceof VideoClock"))
+        self.seek(300)
+        self.assertGreater(self.drawn("#overlay"), 300)
+        self.assertGreater(self.drawn("#face"), 10000)
+        self.assertGreater(self.drawn("[data-lane=jaw] canvas"), 300)
+        self.press("l")
+        self.assertEqual(self.drawn("#overlay"), 0)
+        self.press("l")
+        self.seek(1000 * (BLACK[-3] + 0.5) / FPS)
+        self.assertEqual(self.drawn("#overlay"), 0)
+        self.assertTrue(self.js("document.getElementById('face').classList.contains('absent')"))
+
+    def test_numbers_are_those_of_the_curves(self):
+        self.open()
+        rows = list(csv.DictReader(Folder.bytes("x.csv").decode().splitlines()))
+        for i in (0, 7, FRAMES - 1):
+            self.seek(float(rows[i]["t_ms"]) + 5)
+            self.assertEqual(self.js("report.take.frameAt(report.player.clock.time_ms)"), i)
+            self.assertAlmostEqual(float(self.js("document.querySelector('[data-lane=jaw] b').textContent")), float(rows[i]["jawOpen"]), delta=0.006)
+
+    def test_pyramids_know_every_stretch(self):
+        self.open()
+        self.assertEqual(self.js("""(() => {
+          const steps = Int16Array.from({length: 3000}, (_, i) => (i * 7919 % 2003 < 100 ? none : i * 104729 % 30011 - 15000));
+          const tree = new Pyramid(steps);
+          let wrong = 0;
+          for (let k = 0; k < 2000; ++k) {
+            const from = k * 31 % 3000, to = Math.min(3000, from + k * 17 % 2900), known = steps.subarray(from, to).filter(step => step !== none);
+            const wanted = known.length ? [Math.min(...known), Math.max(...known)] : null;
+            if (JSON.stringify(tree.range(from, to)) !== JSON.stringify(wanted)) ++wrong;
+          }
+          return wrong; })()"""), 0)
+
+    def test_by_keyboard(self):
+        self.open()
+        frame = "report.take.frameAt(report.player.clock.time_ms)"
+        self.seek(0)
+        self.press("ArrowRight")
+        self.press("ArrowRight")
+        self.wait(f"{frame} === 2", "two frames on")
+        self.press("ArrowLeft")
+        self.wait(f"{frame} === 1", "one back")
+        self.press("+")
+        self.press("+")
+        self.assertAlmostEqual(self.js("report.view.length_ms"), (FRAMES / FPS * 1000) / 4, delta=20)
+        self.assertIn("–", self.js("document.getElementById('window').textContent"))
+        self.press("-")
+        self.press("0")
+        self.assertTrue(self.js("report.view.whole"))
+        self.press("n")
+        start = self.js("report.losses[0].start_ms")
+        self.wait(f"Math.abs(report.player.clock.time_ms - {start}) < 2", "where the face was lost")
+        self.press("End")
+        self.press("p")
+        self.press("Home")
+        self.wait("report.player.clock.time_ms < 1", "the beginning")
+        self.js("""(() => { const speed = document.getElementById('speed'); speed.value = '0.25'; speed.dispatchEvent(new Event('change')); })()""")
+        self.press(" ")
+        self.wait("report.player.clock.time_ms > 50", "plays")
+        self.press(" ")
+        self.assertFalse(self.js("report.player.clock.playing"))
+        # Every control can be reached and pressed by Tab and Enter.
+        self.js("document.querySelector('[data-name=mouthFunnel]').focus()")
+        self.browser.send("Input.dispatchKeyEvent", type="keyDown", key="Enter", code="Enter", windowsVirtualKeyCode=13, text="\r")
+        self.browser.send("Input.dispatchKeyEvent", type="keyUp", key="Enter", code="Enter", windowsVirtualKeyCode=13)
+        self.assertEqual(self.js("document.querySelector('[data-name=mouthFunnel]').getAttribute('aria-pressed')"), "true")
+        self.assertIn("mouthFunnel", self.js("document.querySelector('[data-lane=lips]').innerText"))
+        self.assertEqual(self.js("[...document.querySelectorAll('button, input, select, summary')].filter(each => each.tabIndex < 0).length"), 0)
+        self.assertEqual(self.js("[...document.querySelectorAll('button, input, select, canvas[role]')].filter(each => "
+                                 "!(each.textContent.trim() || each.ariaLabel || each.closest('label'))).length"), 0)
+
+    def test_by_pointer(self):
+        self.open()
+        where = json.loads(self.js("JSON.stringify(document.querySelector('[data-lane=jaw] canvas').getBoundingClientRect())"))
+        self.js(f"scrollTo(0, {where['top']} - 200)")
+        where = json.loads(self.js("JSON.stringify(document.querySelector('[data-lane=jaw] canvas').getBoundingClientRect())"))
+        x, y = where["left"] + where["width"] / 2, where["top"] + 20
+        for kind in ("mousePressed", "mouseReleased"):
+            self.browser.send("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", clickCount=1)
+        self.wait("Math.abs(report.player.clock.time_ms - (data.start_ms + data.end_ms) / 2) < 5", "a press on a curve goes there")
+        self.browser.send("Input.dispatchMouseEvent", type="mouseWheel", x=x, y=y, deltaX=0, deltaY=-300, modifiers=2)
+        self.wait("report.view.length_ms < 0.5 * (data.end_ms - data.start_ms)", "the wheel with Ctrl zooms")
+        self.assertAlmostEqual(self.js("(report.view.start_ms + report.view.end_ms) / 2"), self.js("(data.start_ms + data.end_ms) / 2"), delta=30)
+
+    def test_themes_and_widths(self):
+        papers = set()
+        for dark in (False, True):
+            for width in (1280, 360):
+                self.open(width=width, dark=dark)
+                self.assertLessEqual(self.js("document.documentElement.scrollWidth - innerWidth"), 0, f"{width} wide")
+                papers.add(self.js("getComputedStyle(document.body).backgroundColor"))
+        self.assertEqual(len(papers), 2)
+
+    def test_downloads(self):
+        self.open()
+        folder = tempfile.mkdtemp(dir=Folder.path)
+        self.browser.save_downloads(folder)
+        self.js("document.querySelector('[data-format=glb]').click()")
+        deadline = time.monotonic() + 30
+        while not (files := glob.glob(os.path.join(glob.escape(folder), "*.glb"))):
+            self.assertLess(time.monotonic(), deadline, "no download")
+            self.js("1")
+            time.sleep(0.05)
+        with open(files[0], "rb") as file:
+            self.assertEqual(file.read(), Folder.bytes("x.glb"))
+
+    def test_a_clip_beside_the_page(self):
+        mien("track", CLIP, "--duration", "0.3", "--quiet", "--report", Folder.file("large #1.html"), "--report-clip-mb", "0")
+        self.open("large #1.html".replace("#", "%23").replace(" ", "%20"))
+        self.assertTrue(self.js("report.player.clock instanceof VideoClock"))
+        os.remove(Folder.file("large #1.html.mp4"))
+        self.open("large #1.html".replace("#", "%23").replace(" ", "%20"))
+        self.assertIn("should lie beside it, as large #1.html.mp4. It is not there.", self.js("document.getElementById('clip-note').textContent"))
+        self.assertTrue(self.js("report.player.clock instanceof PageClock"))
+        self.browser.complaints[:] = [text for text in self.browser.complaints if "ERR_FILE_NOT_FOUND" not in str(text)]
+
+
+if __name__ == "__main__":
+    MIEN = sys.argv.pop(1)
+    if not shutil.which("ffmpeg") or not os.path.exists(os.path.join(SOURCE, "models", "basenet.mien")):
+        print("SKIPPED: reports were NOT tested: no ffmpeg or no weights here", file=sys.stderr)
+        sys.exit(77)
+    Folder.make()
+    try:
+        unittest.main(verbosity=2)
+    finally:
+        shutil.rmtree(Folder.path)

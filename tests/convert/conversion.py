@@ -1,0 +1,57 @@
+"""What the tests of the converter have in common: converting, running, comparing. The program is their first argument."""
+import contextlib
+import io
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts/convert"))
+import numpy as np  # noqa: E402
+import onnx_to_mien  # noqa: E402
+
+PROGRAM = sys.argv[1]
+
+
+def convert(arguments):
+    """Exit status (0 or the message) and what was printed."""
+    output = io.StringIO()
+    try:
+        with contextlib.redirect_stdout(output):
+            onnx_to_mien.main([str(a) for a in arguments])
+    except SystemExit as stop:
+        return stop.code or 0, output.getvalue()
+    return 0, output.getvalue()
+
+
+def answered(folder, model, x, layout="chw", network=()):
+    """What `mien run` makes of x: one array for each output."""
+    np.save(folder / "x.npy", np.ascontiguousarray(x))
+    info = json.loads(subprocess.run([PROGRAM, "inspect", model, "--json"], check=True, capture_output=True, text=True).stdout)
+    paths = [folder / f"y{i}.npy" for i in range(output_count(info, network))]
+    command = [PROGRAM, "run", model, "--input", folder / "x.npy", "--layout", layout, *network]
+    for path in paths:
+        command += ["--output", path]
+    done = subprocess.run(command, capture_output=True, text=True)
+    if done.returncode:
+        raise AssertionError(done.stderr)
+    return [np.load(path) for path in paths]
+
+
+def output_count(info, network):
+    networks = [n for n in info["networks"] if not network or n["name"] == network[1]]
+    return networks[0]["outputs"]
+
+
+def time_axis(model):
+    """Of the first input, if the network is one of steps: the converter notes it."""
+    info = json.loads(subprocess.run([PROGRAM, "inspect", model, "--json"], check=True, capture_output=True, text=True).stdout)
+    note = next(value for key, value in info["metadata"].items() if key.endswith(".onnx"))
+    return int(note.rsplit("time axis ", 1)[1]) if "time axis " in note else None
+
+
+def difference(got, wanted):
+    """Largest, of the largest value wanted."""
+    if got.size != wanted.size:
+        return f"{got.size} numbers, not {wanted.size}"
+    return float(np.abs(got.reshape(-1) - wanted.reshape(-1)).max() / max(np.abs(wanted).max(), 1e-3))

@@ -1,0 +1,15 @@
+#!/usr/bin/env bash
+# Fetches ONNX's tests of single nodes, which its Python package holds, into ${MIEN_CACHE:-~/.cache/mien}, for the test convert.nodes.
+# usage: tests/convert/fetch_node_tests.sh      Needs pip and unzip. The last version whose opset (18) the converter takes.
+set -euo pipefail
+version=1.13.1
+folder=${MIEN_CACHE:-$HOME/.cache/mien}/onnx-node-tests-$version
+[ ! -d "$folder" ] || exit 0
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+# One file of those that the package has for all Pythons and machines: what is taken of it is the same in all.
+/usr/bin/python3 -m pip download --quiet --no-deps --only-binary=:all: --python-version 3.11 --platform manylinux2014_x86_64 \
+  --dest "$work" "onnx==$version"
+unzip -q "$work"/onnx-*.whl 'onnx/backend/test/data/node/*' -d "$work"
+mkdir -p "$(dirname "$folder")"
+mv "$work/onnx/backend/test/data/node" "$folder"

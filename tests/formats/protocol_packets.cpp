@@ -1,0 +1,87 @@
+// Packets of frames, for decoders that share nothing with the encoders.
+// usage: protocol_packets PROTOCOL < FRAMES.jsonl    for each frame, little-endian: how many
+// packets,
+//                                                    then of each how many bytes, and these
+#include <cstdio>
+#include <functional>
+#include <iostream>
+#include <iterator>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "formats/animation/fault.h"
+#include "formats/animation/frames_jsonl.h"
+#include "formats/protocols/bytes.h"
+#include "formats/protocols/ifacialmocap.h"
+#include "formats/protocols/live_link.h"
+#include "formats/protocols/openseeface.h"
+#include "formats/protocols/opentrack.h"
+#include "formats/protocols/vmc.h"
+
+namespace {
+
+using namespace mien::formats;
+using Packets = std::vector<std::string>;
+
+double seconds(const Frame& frame) { return static_cast<double>(frame.time_ns) * 1e-9; }
+
+Packets vmc(const Frame& frame) {
+  std::vector<NamedValue> blends;
+  for (std::size_t i = 0; i < kControlCount; ++i) {
+    blends.push_back({kArkitNames[i], or_zero(frame.controls[i])});
+  }
+  return vmc_packets({seconds(frame), frame.state == FaceState::kTracking, blends, frame.head});
+}
+
+Packets live_link(const Frame& frame) {
+  const LiveLinkSubject subject = {std::string(36, 'A'), "M\xc3\xbcller", RotationUnit::kRadians};
+  return {live_link_packet(frame, subject, seconds(frame))};
+}
+
+// Landmarks on a diagonal of the box.
+Packets openseeface(const Frame& frame) {
+  const auto [x, y, width, height] = frame.box.value_or(std::array<double, 4>{});
+  OpenSeeFacePicture picture;
+  picture.width = 640;
+  picture.height = 480;
+  picture.focal_length_px = 500;
+  for (std::size_t i = 0; i < picture.landmarks.size(); ++i) {
+    const double share = static_cast<double>(i) / 67.0;
+    picture.landmarks[i] = {x + share * width, y + (1.0 - share) * height};
+  }
+  picture.pupils = {PicturePoint{x, y}, PicturePoint{x + width, y}};
+  return {openseeface_packet(frame, picture, seconds(frame))};
+}
+
+const std::map<std::string, std::function<Packets(const Frame&)>> kProtocols = {
+    {"vmc", vmc},
+    {"llf", live_link},
+    {"osf", openseeface},
+    {"ifm", [](const Frame& frame) { return Packets{ifacialmocap_text(frame, '-')}; }},
+    {"ifm2", [](const Frame& frame) { return Packets{ifacialmocap_text(frame, '&')}; }},
+    {"opentrack", [](const Frame& frame) { return Packets{opentrack_packet(frame)}; }}};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const auto protocol = kProtocols.find(argc == 2 ? argv[1] : "");
+  const std::string text{std::istreambuf_iterator<char>(std::cin), {}};
+  Clip clip;
+  Fault fault;
+  if (protocol == kProtocols.end() || !read_frames_jsonl(text, clip, fault)) {
+    std::fprintf(stderr, "protocol_packets: %s\n", fault.what.c_str());
+    return 2;
+  }
+  for (const Frame& frame : clip.frames) {
+    const Packets packets = protocol->second(frame);
+    std::string out;
+    append_little(out, static_cast<std::uint32_t>(packets.size()));
+    for (const std::string& packet : packets) {
+      append_little(out, static_cast<std::uint32_t>(packet.size()));
+      out += packet;
+    }
+    std::fwrite(out.data(), 1, out.size(), stdout);
+  }
+  return 0;
+}

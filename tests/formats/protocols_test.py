@@ -1,0 +1,226 @@
+"""10 000 random frames of every protocol, decoded by code that shares nothing with the encoders.
+
+usage: protocols_test.py PROTOCOL_PACKETS
+"""
+import json
+import math
+import os
+import random
+import struct
+import subprocess
+import sys
+import unittest
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "apps"))
+import live_packets as decode
+from live_packets import ARKIT
+
+TOOL = sys.argv.pop(1)
+FRAMES = 10000
+
+
+def random_frame(random, i):
+    frame = {"t_ns": i * 33_333_333 + random.randrange(1_000_000), "status": random.choice(("tracking", "lost")),
+             "face_id": random.randrange(1, 1 << 31), "face_prob": random.random(), "box": [random.uniform(-100, 600) for _ in range(4)],
+             "controls": {name: random.choice((0.0, 1.0, random.random())) for name in ARKIT if random.random() < 0.9}}
+    if random.random() < 0.9:
+        frame["head"] = {"pitch_rad": random.uniform(-1.5, 1.5), "yaw_rad": random.uniform(-3, 3), "roll_rad": random.uniform(-3, 3)}
+        frame["position_m"] = [random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-3, -0.2)]
+    if random.random() < 0.5:
+        frame["eyes"] = {side: {"pitch_rad": random.uniform(-1, 1), "yaw_rad": random.uniform(-1, 1), "roll_rad": 0.0} for side in ("left", "right")}
+    return frame
+
+
+def packets_of(protocol, frames):
+    lines = "".join(json.dumps(frame) + "\n" for frame in frames)
+    data = subprocess.run([TOOL, protocol], input=lines.encode(), stdout=subprocess.PIPE, check=True).stdout
+    at = 0
+    for _ in frames:
+        count, = struct.unpack_from("<I", data, at)
+        at += 4
+        packets = []
+        for _ in range(count):
+            size, = struct.unpack_from("<I", data, at)
+            packets.append(data[at + 4:at + 4 + size])
+            at += 4 + size
+        yield packets
+    assert at == len(data)
+
+
+def turn(a, b, angle):
+    """In the plane of axes a and b, from the first to the second"""
+    m = [[float(i == j) for j in range(3)] for i in range(3)]
+    m[a][a] = m[b][b] = math.cos(angle)
+    m[a][b], m[b][a] = -math.sin(angle), math.sin(angle)
+    return m
+
+
+def times(*matrices):
+    product = matrices[0]
+    for m in matrices[1:]:
+        product = [[sum(row[k] * m[k][j] for k in range(3)) for j in range(3)] for row in product]
+    return product
+
+
+def matrix(head):
+    return times(turn(2, 0, head["yaw_rad"]), turn(1, 2, head["pitch_rad"]), turn(0, 1, head["roll_rad"]))
+
+
+def of_quaternion(x, y, z, w):
+    return [[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]]
+
+
+STRAIGHT = {"pitch_rad": 0.0, "yaw_rad": 0.0, "roll_rad": 0.0}
+FULL_LOOK = 0.485  # rad, of a gaze control at 1
+
+
+def eyes_of(frame):
+    if "eyes" in frame:
+        return frame["eyes"]["left"], frame["eyes"]["right"]
+    c = lambda name: frame["controls"].get(name, 0.0)
+    look = lambda side, out, back: {"pitch_rad": FULL_LOOK * (c("eyeLookDown" + side) - c("eyeLookUp" + side)),
+                                    "yaw_rad": FULL_LOOK * (c(out) - c(back)), "roll_rad": 0.0}
+    return look("Left", "eyeLookOutLeft", "eyeLookInLeft"), look("Right", "eyeLookInRight", "eyeLookOutRight")
+
+
+class Protocols(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rng = random.Random(18)
+        cls.frames = [random_frame(rng, i) for i in range(FRAMES)]
+
+    def near(self, got, wanted, tolerance=1e-6):
+        self.assertEqual(len(got), len(wanted))
+        for a, b in zip(got, wanted):
+            if abs(a - b) > tolerance * max(1.0, abs(b)):
+                self.fail(f"{got} is not {wanted}")
+
+    def test_bytes_written_by_hand(self):
+        frame = {"t_ns": 1_000_000_000, "status": "tracking", "face_id": 3, "face_prob": 1, "controls": {"eyeBlinkLeft": 1.0}, "box": [0, 0, 0, 0],
+                 "head": {"pitch_rad": 0.0, "yaw_rad": 0.5, "roll_rad": 0.0}, "position_m": [0.0, 0.0, -0.5]}
+        one = lambda protocol: next(iter(packets_of(protocol, [frame])))
+        self.assertTrue(one("vmc")[0].startswith(
+            b"#bundle\0" b"\0\0\0\0\0\0\0\1"
+            b"\0\0\0\x24" b"/VMC/Ext/OK\0" b",iiii\0\0\0" b"\0\0\0\1" b"\0\0\0\3" b"\0\0\0\0" b"\0\0\0\1"
+            b"\0\0\0\x14" b"/VMC/Ext/T\0\0" b",f\0\0" b"\x3f\x80\0\0"
+            b"\0\0\0\x44" b"/VMC/Ext/Bone/Pos\0\0\0" b",sfffffff\0\0\0" b"Head\0\0\0\0" + bytes(12) + bytes(4) + b"\xbe\x7d\x57\x77" b"\x80\0\0\0" b"\x3f\x78\x0a\xa5"
+            b"\0\0\0\x2c" b"/VMC/Ext/Blend/Val\0\0" b",sf\0" b"eyeBlinkLeft\0\0\0\0" b"\x3f\x80\0\0"))
+        self.assertTrue(one("vmc")[-1].endswith(b"\0\0\0\x1c" b"/VMC/Ext/Blend/Apply\0\0\0\0" b",\0\0\0"))
+        self.assertEqual(one("llf"), [b"\6" b"\0\0\0\x24" + b"A" * 36 + b"\0\0\0\7M\xc3\xbcller" b"\0\0\0\x3c" b"\0\0\0\0" b"\0\0\0\x3c" b"\0\0\0\1" b"\x3d"
+                                      b"\x3f\x80\0\0" + bytes(51 * 4) + b"\x3f\0\0\0" + bytes(8 * 4)])
+        self.assertEqual(len(one("llf")[0]), 312 + 1)  # the name of 6 letters has 7 bytes
+        self.assertTrue(one("ifm")[0].startswith(b"eyeBlink_L-100|eyeLookDown_L-0|"))
+        self.assertTrue(one("ifm2")[0].startswith(b"eyeBlink_L&100|eyeLookDown_L&0|"))
+        self.assertIn(b"|tongueOut-0|=head#0.0000,-28.6479,0.0000,0.000000,0.000000,-0.500000|rightEye#0.0000,", one("ifm")[0])
+        self.assertTrue(one("ifm")[0].endswith(b"|leftEye#0.0000,0.0000,0.0000|"))
+        self.assertEqual(one("opentrack"), [bytes(16) + b"\0\0\0\0\0\0\x49\xc0" + struct.pack("<d", math.degrees(0.5)) + bytes(16)])
+        osf = one("osf")[0]
+        self.assertEqual(osf[:33], b"\0\0\0\0\0\0\xf0\x3f" b"\3\0\0\0" b"\0\0\x20\x44" b"\0\0\xf0\x43" b"\0\0\x80\x3f" b"\0\0\0\0" b"\1" b"\0\0\0\0")
+        self.assertEqual(osf[73:345], b"\0\0\x80\x3f" * 68)
+        self.assertEqual(osf[345:889], bytes(544))
+        self.assertEqual(osf[1729:1733], b"\0\0\x80\xbf")  # the left eye is closed
+
+    def test_vmc(self):
+        for frame, packets in zip(self.frames, packets_of("vmc", self.frames)):
+            got = decode.vmc(packets)
+            self.assertEqual(got["ok"], [1, 3, 0, int(frame["status"] == "tracking")])
+            self.near([got["t"]], [frame["t_ns"] * 1e-9])
+            self.assertEqual(list(got["blends"]), ARKIT)
+            self.near(list(got["blends"].values()), [frame["controls"].get(name, 0.0) for name in ARKIT])
+            self.assertEqual(got["head"] is None, "head" not in frame)
+            if "head" in frame:  # the same turn in a space whose x points the other way
+                self.assertEqual(got["head"][:3], [0, 0, 0])
+                turned = of_quaternion(*got["head"][3:])
+                wanted = matrix(frame["head"])
+                self.near([turned[i][j] * (-1 if (i == 0) != (j == 0) else 1) for i in range(3) for j in range(3)], sum(wanted, []), 1e-5)
+
+    def test_live_link(self):
+        nothing = {"t_ns": 0, "status": "searching", "controls": {"jawOpen": 0.0}}
+        frames = self.frames + [dict(nothing, t_ns=10**15)]
+        for frame, (packet,) in zip(frames, packets_of("llf", frames)):
+            got = decode.live_link(packet)
+            self.assertEqual((got["device"], got["subject"]), ("A" * 36, "Müller"))
+            self.assertLess(abs(got["time_s"] - frame["t_ns"] * 1e-9), 1e-4)
+            if frame["status"] == "searching":
+                self.assertEqual(got["values"], ())
+                continue
+            turns = [frame.get("head", STRAIGHT), *eyes_of(frame)]
+            self.near(got["values"], [frame["controls"].get(name, 0.0) for name in ARKIT] +
+                      [value for t in turns for value in (t["yaw_rad"], -t["pitch_rad"], t["roll_rad"])])
+        self.assertEqual(len(packet), 1 + 4 + 36 + 4 + 7 + 16 + 1)
+
+    def test_ifacialmocap(self):
+        for protocol, separator in (("ifm", "-"), ("ifm2", "&")):
+            for frame, (packet,) in zip(self.frames, packets_of(protocol, self.frames)):
+                self.assertLessEqual(len(packet), 1472)  # one datagram of Ethernet
+                got = decode.ifacialmocap(packet, separator)
+                self.assertEqual(list(got["values"]), decode.IFACIALMOCAP)
+                for name, value in zip(ARKIT, got["values"].values()):
+                    self.assertLessEqual(abs(value - 100 * frame["controls"].get(name, 0.0)), 0.5 + 1e-9)
+                degrees = lambda t: [math.degrees(t["pitch_rad"]), -math.degrees(t["yaw_rad"]), math.degrees(t["roll_rad"])]
+                self.near(got["head"], degrees(frame.get("head", STRAIGHT)) + frame.get("position_m", [0, 0, 0]), 1e-4)
+                left, right = eyes_of(frame)
+                self.near(got["leftEye"], degrees(left), 1e-4)
+                self.near(got["rightEye"], degrees(right), 1e-4)
+
+    def test_opentrack(self):
+        for frame, (packet,) in zip(self.frames, packets_of("opentrack", self.frames)):
+            head = frame.get("head", STRAIGHT)
+            self.near(list(decode.opentrack(packet).values()), [100 * x for x in frame.get("position_m", [0, 0, 0])] +
+                      [math.degrees(head[key]) for key in ("yaw_rad", "pitch_rad", "roll_rad")], 1e-12)
+
+    def test_openseeface(self):
+        dropped = {48, 54}  # of iBUG's 68
+        for number, (frame, (packet,)) in enumerate(zip(self.frames, packets_of("osf", self.frames))):
+            got = decode.openseeface(packet)
+            control = lambda name: frame["controls"].get(name, 0.0)
+            self.assertEqual((got["time"], got["id"], got["size"], got["success"]),
+                             (frame["t_ns"] * 1e-9, frame["face_id"], (640, 480), int("head" in frame)))
+            self.near(got["open"], [1 - control("eyeBlinkRight"), 1 - control("eyeBlinkLeft")])
+            self.near(got["confidence"], [frame["face_prob"]] * 68)
+            x, y, w, h = frame["box"]
+            landmarks = [(x + i / 67 * w, y + (1 - i / 67) * h) for i in range(68) if i not in dropped] + [(x, y), (x + w, y)]
+            for a, b in zip(got["landmarks"], landmarks):
+                self.near(a, b, 1e-5)
+            features = got["features"]
+            self.assertTrue(all(-1 <= f <= 1 for f in features))
+            self.near(features[:2], [control("eyeWide" + s) - control("eyeBlink" + s) for s in ("Left", "Right")])
+            self.near(features[12:13], [max(0, control("jawOpen") - control("mouthClose"))])
+            if "head" in frame and number % 20 == 0:  # which takes long
+                self.check_openseeface_space(frame, got)
+
+    # By what receivers do with it, and by what OpenSeeFace's solver promises: a proper rotation whose picture is that of the head.
+    def check_openseeface_space(self, frame, got):
+        head, (x, y, z, w) = matrix(frame["head"]), got["quaternion"]
+        raw = of_quaternion(-x, -y, -z, w)  # theirs is of the matrix transposed
+        up, left = [-head[1][0], head[1][1], head[1][2]], [head[0][0], -head[0][1], -head[0][2]]  # of its axes right, up, out
+        self.near(raw[0] + raw[1], up + left, 1e-5)
+        a, b, c = [math.radians(e) for e in got["euler"]]
+        self.near(sum(times(turn(0, 1, c), turn(2, 0, b), turn(1, 2, a)), []), sum(raw, []), 1e-4)
+        # Points in depth, seen by a camera, are the landmarks again.
+        unit, focal = 0.14, 500
+        tx, ty, tz = got["translation"]
+        nose = [-ty * unit, tx * unit, tz * unit]
+        for i, (px, py, pz) in enumerate(got["points"][:68]):
+            point = [-px * unit, -py * unit, -pz * unit]
+            seen = [nose[k] + sum(head[k][j] * point[j] for j in range(3)) for k in range(3)]
+            if abs(seen[2]) > 0.05:
+                u, v = got["landmarks"][i]
+                tolerance = 0.05 * max(1, (abs(seen[0]) + abs(seen[1])) / abs(seen[2]))
+                self.assertLess(abs(320 - focal * seen[0] / seen[2] - u), tolerance)
+                self.assertLess(abs(240 + focal * seen[1] / seen[2] - v), tolerance)
+
+    def test_openseeface_straight_ahead(self):
+        frame = {"t_ns": 0, "controls": {}, "head": STRAIGHT, "position_m": [0.1, 0.2, -0.7], "box": [320, 240, 0, 0]}
+        (packet,), = packets_of("osf", [frame])
+        got = decode.openseeface(packet)
+        x, y, z = got["euler"]
+        self.near([(z - 90) % 360, (x + 180) % 360 % 360, y], [0, 0, 0], 1e-4)  # as OpenSee.cs of Unity reads them
+        tx, ty, tz = got["translation"]
+        self.assertGreater(-tz, 0)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,29 @@
+/* Succeeds if a tracker made of embedded weights finds no face in black. */
+#include <mien/mien.h>
+#include <mien_weights.h>
+
+int main(void) {
+  static const unsigned char black[64 * 64] = {0};
+  mien_tracker_config config;
+  mien_tracker* tracker = NULL;
+  mien_image image;
+  mien_result result;
+  mien_tracker_config_default(&config);
+  mien_use_embedded_weights(&config);
+#ifdef WITHOUT_SOUND
+  config.audionet = config.basenet;
+  config.audionet_bytes = config.basenet_bytes;
+  if (mien_tracker_create(&config, &tracker) != MIEN_ERROR_LEFT_OUT) return 1;
+  config.audionet = NULL;
+#endif
+  if (mien_tracker_create(&config, &tracker) != MIEN_OK) return 2;
+  mien_image_default(&image);
+  mien_result_default(&result);
+  image.format = MIEN_IMAGE_GRAY8;
+  image.width = image.height = image.row_stride_bytes[0] = 64;
+  image.planes[0] = black;
+  if (mien_tracker_push_video(tracker, &image, 0) != MIEN_OK) return 3;
+  if (mien_tracker_get_result(tracker, &result) != MIEN_OK) return 4;
+  mien_tracker_destroy(tracker);
+  return result.frames == 1 && result.status == MIEN_FACE_SEARCHING ? 0 : 5;
+}

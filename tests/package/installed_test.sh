@@ -1,0 +1,65 @@
+#!/usr/bin/env bash
+# Installs a build to a temporary prefix, moves that, and uses it from there as strangers would.
+# usage: installed_test.sh BUILD_DIR VERSION    (CC, CXX, FLAGS: those of the build)
+set -euo pipefail
+consumers=$(cd "$(dirname "$0")" && pwd)
+build=$1
+version=$2
+FLAGS=${FLAGS:-}
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+prefix=$work/moved
+cmake --install "$build" --prefix "$work/installed" >/dev/null
+mv "$work/installed" "$prefix"
+unset MIEN_MODELS
+
+strict="-Wall -Wextra -Wpedantic -Werror"
+find_package() {  # consumer, flags for C++
+  cmake -S "$consumers/$1" -B "$work/$1" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" \
+    -DCMAKE_C_FLAGS="$FLAGS $strict" -DCMAKE_CXX_FLAGS="$FLAGS $strict ${2:-}" --no-warn-unused-cli
+  cmake --build "$work/$1"
+  ctest --test-dir "$work/$1" --output-on-failure --no-tests=error
+}
+echo "== find_package, with no C++ compiler on the machine"
+CXX=/nowhere find_package c
+echo "== find_package, C++ without exceptions and RTTI"
+find_package cpp "-fno-exceptions -fno-rtti"
+
+echo "== pkg-config"
+PKG_CONFIG_PATH=$(dirname "$(find "$prefix" -name mien.pc)")
+export PKG_CONFIG_PATH
+pkg-config --exact-version "$version" mien
+test -f "$(pkg-config --variable=modelsdir mien)/basenet.mien"
+libraries=$(pkg-config --variable=libdir mien)
+read -ra flags <<<"$FLAGS $(pkg-config --cflags mien)"
+read -ra link <<<"$(pkg-config --libs mien)"
+read -ra link_static <<<"$(pkg-config --static --libs mien)"
+"$CC" "${flags[@]}" "$consumers/c/main.c" -o "$work/shared" "${link[@]}"
+LD_LIBRARY_PATH=$libraries "$work/shared" "$version"
+link_static=("${link_static[@]/-lmien/-l:libmien.a}")
+"$CC" "${flags[@]}" "$consumers/c/main.c" -o "$work/static" "${link_static[@]}"
+"$work/static" "$version"
+
+echo "== the shared library's name"
+readelf -d "$libraries/libmien.so" | grep SONAME | grep -F "[libmien.so.${version%%.*}]"
+
+echo "== what it exports"
+if nm -D --defined-only --demangle "$libraries/libmien.so" | awk '$2 != "A"' |
+  grep -vE '^[0-9a-f]+ [A-Z] (mien_|mien::)'; then
+  exit 1
+fi
+
+if [ -x "$prefix/bin/mien" ]; then
+  echo "== the program"
+  {
+    printf 'YUV4MPEG2 W32 H32 F30:1 C420jpeg\nFRAME\n'
+    head -c 1536 /dev/zero
+  } | "$prefix/bin/mien" track - --quiet | grep -c searching
+fi
+
+if [ -x "$prefix/bin/mien-conformance" ]; then
+  echo "== the conformance program"
+  "$prefix/bin/mien-conformance" --list --filter 'network/*' | grep -E 'mini_encoder +ref'
+  "$prefix/bin/mien-conformance" --filter softmax
+fi
