@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Renders labelled synthetic faces: stills, or sequences of 90 frames at 30 frames a second.
+"""Renders labelled synthetic faces: stills, or sequences of --frames (90) at 30 frames a second.
 
 OUT/<split>_<kind>/shard_0000/images.npy is uint8 [n,window,window,3] RGB, the window being that of the framing (framing.py). labels.npz has per image: landmarks [n,175,2] in camera
 pixels; window [n,3] (cx, cy, side of the stored image in camera pixels); crop [n,4] (cx, cy, side, roll); controls [n,52];
 rotation [n,3,3] and translation [n,3] (metres) of the head in camera space; f_px [n]; camera_wh [n,2]; visibility [n,175];
-identity, sequence, frame [n]. A shard follows from the seed and its number alone; finished shards are kept.
+identity, sequence, frame [n]. A shard follows from the seed, its number and --frames; finished shards are kept.
 """
 import argparse
 import os
@@ -88,18 +88,18 @@ def stills(studio, framing, rng, split, first, count):
             yield image, dict(labels, controls=controls[k], identity=number, sequence=number, frame=0)
 
 
-def sequence(studio, framing, rng, split, number, perform):
-    """Yields (image, labels) of the frames of one person; `perform` makes the controls of a sequence."""
+def sequence(studio, framing, rng, split, number, perform, frames):
+    """Yields (image, labels) of `frames` frames of one person; `perform` makes the controls of a sequence."""
     person = look.sample(rng, split)
     place = Set(rng, split, person)
     head = studio.rig.identity(person.identity[None])[0]
     figure = Figure(studio, person, head)
-    controls = perform(rng, FRAMES)
-    angles, shift, sweep = motion.head_angles(rng, FRAMES), motion.head_shift(rng, FRAMES), motion.sweep(rng, FRAMES)
+    controls = perform(rng, frames)
+    angles, shift, sweep = motion.head_angles(rng, frames), motion.head_shift(rng, frames), motion.sweep(rng, frames)
     centre, side = camera.sample_place(rng, place.camera)
     side = min(side, 0.22 * place.camera.f_px / 0.36)  # room to move forwards
     ahead, rest = camera.pose_at(place.camera, studio.rig.landmarks(head), (0, 0, 0), (centre, side))
-    for start in range(0, FRAMES, BATCH):
+    for start in range(0, frames, BATCH):
         faces = head + studio.rig.expression(controls[start:start + BATCH])
         for k, vertices in enumerate(faces):
             t = start + k
@@ -109,19 +109,19 @@ def sequence(studio, framing, rng, split, number, perform):
             yield image, dict(labels, controls=controls[t], identity=number, sequence=number, frame=t)
 
 
-def frames_of_shard(studio, framing, split, kind, shard, count, seed, perform):
+def frames_of_shard(studio, framing, split, kind, shard, count, seed, perform, frames):
     """Yields (image, labels); `count` is of stills or sequences in this shard."""
     rng = np.random.default_rng([seed, SPLITS.index(split), KINDS.index(kind), shard])
     if kind == "stills":
         yield from stills(studio, framing, rng, split, shard * STILLS_PER_SHARD, count)
     else:
         for k in range(count):
-            yield from sequence(studio, framing, rng, split, shard * SEQUENCES_PER_SHARD + k, perform)
+            yield from sequence(studio, framing, rng, split, shard * SEQUENCES_PER_SHARD + k, perform, frames)
 
 
-def write_shard(studio, framing, folder, split, kind, shard, count, seed, perform, position):
-    total = count * (FRAMES if kind == "sequences" else 1)
-    source = frames_of_shard(studio, framing, split, kind, shard, count, seed, perform)
+def write_shard(studio, framing, folder, split, kind, shard, count, seed, perform, frames, position):
+    total = count * (frames if kind == "sequences" else 1)
+    source = frames_of_shard(studio, framing, split, kind, shard, count, seed, perform, frames)
     save(folder, tqdm(source, f"{folder.parent.name} {shard}", total, position=position, mininterval=5, leave=False))
 
 
@@ -152,7 +152,7 @@ def work(job):
             continue
         studio = studio or Studio(Rig())
         count = min(per_shard, args.count - shard * per_shard)
-        write_shard(studio, framing, folder, args.split, args.kind, shard, count, args.seed, perform, worker)
+        write_shard(studio, framing, folder, args.split, args.kind, shard, count, args.seed, perform, args.frames, worker)
 
 
 def main():
@@ -162,6 +162,7 @@ def main():
     parser.add_argument("--count", type=int, required=True, help="stills or sequences in all")
     parser.add_argument("--framing", choices=FRAMINGS, default=BASENET.name)
     parser.add_argument("--poses", type=Path, help="sequences through poses like these (hard_cases.py), in a folder of their own")
+    parser.add_argument("--frames", type=int, default=FRAMES, help="of a sequence")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--out", type=Path, default=cache() / "synthetic")
     parser.add_argument("--data", type=Path, help="data packs, instead of MIEN_DATA")
