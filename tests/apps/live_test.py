@@ -2,6 +2,7 @@
 
 usage: live_test.py MIEN_PROGRAM SOURCE_FOLDER
 """
+import contextlib
 import csv
 import functools
 import http.server
@@ -73,6 +74,20 @@ class Live(unittest.TestCase):
 
     def path(self, name):
         return os.path.join(self.folder, name)
+
+    def start(self, *arguments, **more):
+        """A process that does not outlive its test, nor a minute and a half, however it ends; nor do those it starts."""
+        process = subprocess.Popen(*arguments, start_new_session=True, **more)
+
+        def kill():
+            with contextlib.suppress(ProcessLookupError):
+                os.killpg(process.pid, signal.SIGKILL)
+        late = threading.Timer(90, kill)
+        late.start()
+        self.addCleanup(process.wait)
+        self.addCleanup(kill)
+        self.addCleanup(late.cancel)
+        return process
 
     def receiver(self):
         receiver = Receiver()
@@ -172,21 +187,25 @@ class Live(unittest.TestCase):
             film = file.read()
         server = socket.create_server(("127.0.0.1", 0))
         self.addCleanup(server.close)
-        times = []
+        connections = []
 
         def serve():
-            while len(times) < 2:
+            for film_is_over in (True, False):
                 try:
                     connection, _ = server.accept()
-                except OSError:  # the test is over
-                    return
-                times.append(time.monotonic())
-                with connection:
+                    connections.append(connection)
                     connection.sendall(film)
+                    while not film_is_over:  # at the pace of a camera, for it may be slow to be noticed
+                        for start in range(0, len(film), 4096):
+                            connection.sendall(film[start:start + 4096])
+                            time.sleep(0.05)
+                except OSError:  # the test is over
+                    pass
+                connection.close()
         threading.Thread(target=serve, daemon=True).start()
         receiver = self.receiver()
-        live = subprocess.Popen(command("--camera", f"tcp://127.0.0.1:{server.getsockname()[1]}", "--mic", "none", "--lod", 1,
-                                        "--send", f"jsonl://:{receiver.port}"), stderr=subprocess.PIPE, text=True)
+        live = self.start(command("--camera", f"tcp://127.0.0.1:{server.getsockname()[1]}", "--mic", "none", "--lod", 1,
+                                  "--send", f"jsonl://:{receiver.port}"), stderr=subprocess.PIPE, text=True)
         said = ""
         while "it is back" not in said and live.poll() is None:
             said += live.stderr.readline()
@@ -195,13 +214,13 @@ class Live(unittest.TestCase):
         self.assertEqual(live.returncode, 0, said)
         self.assertRegex(said, r"tcp://127.0.0.1:\d+: .*; waiting for it\n")
         self.assertRegex(said, r"frames \d+ in .* s, with a face \d+, dropped pictures \d+")
-        self.assertEqual(len(times), 2)
+        self.assertEqual(len(connections), 2)
         states = [json.loads(packet)["status"] for packet in receiver.packets()]
         self.assertIn("tracking", states)
 
     def test_hellos_of_iFacialMocap_and_what_is_none(self):
         port, stranger = free_port(), self.receiver()
-        live = subprocess.Popen(command("--camera", "test:" + CLIP, "--mic", "none", "--lod", 1, "--quiet", "--send", f"ifm://:{port}"))
+        live = self.start(command("--camera", "test:" + CLIP, "--mic", "none", "--lod", 1, "--quiet", "--send", f"ifm://:{port}"))
         clients = [self.receiver(), self.receiver()]
         rng = random.Random(7)
         texts = [[], []]
@@ -233,7 +252,7 @@ class Live(unittest.TestCase):
         self.assertEqual((head.stdout.splitlines()[-1], head.stderr), ("0", ""))
         self.assertEqual(json.loads(head.stdout.splitlines()[1])["status"] in ("searching", "tracking"), True)
         # A reader that sleeps finds little that is old, and whole lines.
-        slow = subprocess.Popen(["bash", "-c", lines + f" --duration 4 --stats {self.path('stats')}"], stdout=subprocess.PIPE)
+        slow = self.start(["bash", "-c", lines + f" --duration 4 --stats {self.path('stats')}"], stdout=subprocess.PIPE)
         slow.wait(timeout=60)
         text = slow.stdout.read()
         slow.stdout.close()
@@ -264,7 +283,7 @@ class Live(unittest.TestCase):
 
     def test_screen_and_keys(self):
         master, slave = pty.openpty()
-        live = subprocess.Popen(command("--camera", "test:" + CLIP, "--send", f"vmc://:{self.receiver().port}"), stdin=slave, stderr=slave)
+        live = self.start(command("--camera", "test:" + CLIP, "--send", f"vmc://:{self.receiver().port}"), stdin=slave, stderr=slave)
         os.close(slave)
         seen = ""
 
