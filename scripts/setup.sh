@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what building, testing and running mien need, from Debian's packages.
-# usage: scripts/setup.sh [build] [test] [demo] [train] [convert] [python] [rust] [csharp] [java] [release] [cross-x86] [cross-arm] [cross-wasm] [cross-windows] [cross-compile-only] [cross-i386] [cross-s390x] [cross-musl] [coverage] [msan] [valgrind] [convert-fuzz] [web] [web-test]
+# usage: scripts/setup.sh [build] [test] [demo] [train] [convert] [python] [rust] [csharp] [java] [release] [cross-x86] [cross-arm] [cross-wasm] [cross-windows] [cross-compile-only] [cross-i386] [cross-s390x] [coverage] [valgrind] [convert-fuzz] [web] [web-test]
 #        (default: build test demo)
 # As root or with sudo; does nothing when everything is there already.
 set -euo pipefail
@@ -23,9 +23,7 @@ declare -A PACKAGES=(
   [cross-windows]="g++-mingw-w64-x86-64-posix binutils-mingw-w64-x86-64 wine wine64 googletest ffmpeg"
   [cross-i386]="g++-i686-linux-gnu libc6-i386 googletest binutils"
   [cross-s390x]="g++ g++-s390x-linux-gnu"
-  [cross-musl]="clang llvm libc++-dev musl-tools musl-dev ffmpeg"
   [coverage]="clang llvm python3"
-  [msan]="clang libclang-rt-dev googletest"
   [valgrind]="valgrind ffmpeg"
   [convert-fuzz]="python3-onnx python3-numpy python3-venv python3-pip"
   [cross-compile-only]="clang lld llvm libc++-dev musl-dev"
