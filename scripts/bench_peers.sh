@@ -62,4 +62,5 @@ done
 for ((round = 0; round < rounds; ++round)); do
   for name in "${timed[@]}"; do run "$name" >"$work/${name}_$round.json" 2>"$work/$name.log"; done
 done
+cp /proc/loadavg "$work/load"
 for document in "${documents[@]}"; do /usr/bin/python3 "scripts/peers/$document.py" "$work" "$rounds" docs/results "${timed[@]}"; done

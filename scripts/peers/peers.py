@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Puts the rounds of bench_peers.sh together: mien beside its peers.  usage: peers.py WORK_DIR ROUNDS OUT_DIR MEASURED..."""
 import json
+import os
 import statistics
 import sys
 from pathlib import Path
@@ -134,10 +135,11 @@ def sound_lines(report):
 def main():
     work, rounds, out = Path(sys.argv[1]), int(sys.argv[2]), Path(sys.argv[3])
     runs = Runs(work, rounds, sys.argv[4:])
-    report = {"rounds": rounds, "processor": processor(), "networks": networks(runs), "shipped": shipped(runs)}
+    report = {"rounds": rounds, "processor": processor(), "load": float((work / "load").read_text().split()[2]), "networks": networks(runs), "shipped": shipped(runs)}
     lines = ["# Speed beside other engines and trackers", "",
              f"One thread each, on one processor that is asked for first, {rounds} rounds in turns on one machine; `scripts/bench_peers.sh` reproduces it. "
-             f"Only ratios mean something elsewhere, and they depend on what the processor has: here {report['processor']}. The machine had other work, at a lower priority, all the while. "
+             f"Only ratios mean something elsewhere, and they depend on what the processor has: here {report['processor']}. "
+             f"Load of the machine meanwhile, a mean of 15 minutes: {report['load']:.0f} on {os.cpu_count()} processors. "
              "[Speed](performance.md) has the tier in half precision beside ONNX Runtime, on a processor that has it.", ""]
     lines += network_lines(report["networks"])
     if "mediapipe" in runs.measured:
