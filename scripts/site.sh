@@ -6,10 +6,8 @@ cd "$(dirname "$0")/.."
 scripts/setup.sh docs
 site=build/site
 
-[ -x $site/venv/bin/mkdocs ] || {
-  /usr/bin/python3 -m venv $site/venv
-  $site/venv/bin/pip install --quiet --disable-pip-version-check -r scripts/package/site_requirements.txt
-}
+[ -x $site/venv/bin/pip ] || /usr/bin/python3 -m venv $site/venv
+$site/venv/bin/pip install --quiet --disable-pip-version-check -r scripts/package/site_requirements.txt
 rm -rf $site/pages $site/html
 mkdir -p $site/pages/docs
 git ls-files -z '*.md' 'docs/*' 'include/*' 'bindings/*/examples/*' 'bindings/*/sample/*' 'bindings/*/Examples/*' '*.d.ts' |

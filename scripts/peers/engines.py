@@ -21,12 +21,11 @@ def onnxruntime(stem, inputs):
     options.intra_op_num_threads = options.inter_op_num_threads = 1
     session = ort.InferenceSession(f"{stem}.onnx", options, providers=["CPUExecutionProvider"])
     bound = session.io_binding()  # a third faster than run() where networks are small
-    values = {name: ort.OrtValue.ortvalue_from_numpy(x) for name, x in inputs.items()}
-    for name, value in values.items():
-        bound.bind_ortvalue_input(name, value)
+    for name, x in inputs.items():
+        bound.bind_cpu_input(name, x)  # read where it lies: `inputs` outlives the session
     for output in session.get_outputs():
         bound.bind_output(output.name)
-    return (lambda: session.run_with_iobinding(bound)), lambda: (values, bound.copy_outputs_to_cpu()[0])[1]
+    return lambda: session.run_with_iobinding(bound), lambda: bound.copy_outputs_to_cpu()[0]
 
 
 def openvino(precision):
@@ -50,7 +49,7 @@ def ncnn(half):
         net.load_param(f"{stem}.ncnn.param")
         net.load_model(f"{stem}.ncnn.bin")
         mats = [ncnn.Mat(np.ascontiguousarray(x[0])).clone() for x in inputs.values()]
-        outputs = sorted(net.output_names())
+        outputs = sorted(net.output_names())  # out0, out1, ...
 
         def run():
             extractor = net.create_extractor()
@@ -83,8 +82,8 @@ def pytorch(stem, inputs):
     return run, lambda: run().numpy()
 
 
-# name: (how to run it, what it reads, how exact it has to be, its package, what a program ships of it)
 OPENVINO = ["openvino/libs/libopenvino.so.*", "openvino/libs/libopenvino_intel_cpu_plugin.so", "openvino/libs/libopenvino_onnx_frontend.so.*"]
+# name: (how to run it, what it reads, how exact it has to be, its package, what a program ships of it)
 ENGINES = {
     "onnxruntime": (onnxruntime, ".onnx", EXACT, "onnxruntime", ["onnxruntime/capi/libonnxruntime.so.*"]),
     "openvino": (openvino("f32"), ".onnx", EXACT, "openvino", OPENVINO),
