@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what building, testing and running mien need, from Debian's packages.
-# usage: scripts/setup.sh [build] [test] [demo] [train] [convert] [python] [rust] [csharp] [java] [release] [cross-x86] [cross-arm] [cross-wasm] [cross-windows] [cross-compile-only] [cross-i386] [cross-s390x] [coverage] [valgrind] [convert-fuzz] [web] [web-test]
+# usage: scripts/setup.sh [build] [test] [demo] [train] [convert] [python] [rust] [csharp] [java] [release] [cross-x86] [cross-arm] [cross-wasm] [cross-windows] [cross-compile-only] [cross-i386] [cross-s390x] [coverage] [valgrind] [convert-fuzz] [web] [web-test] [docs]
 #        (default: build test demo)
 # As root or with sudo; does nothing when everything is there already.
 set -euo pipefail
@@ -19,6 +19,7 @@ declare -A PACKAGES=(
   [cross-x86]="qemu-user"
   [cross-wasm]="emscripten node-acorn nodejs llvm clang-tidy git googletest chromium python3 ffmpeg"
   [web]="emscripten node-acorn nodejs npm"
+  [docs]="doxygen git python3-venv"
   [web-test]="chromium ffmpeg"
   [cross-windows]="g++-mingw-w64-x86-64-posix binutils-mingw-w64-x86-64 wine wine64 googletest ffmpeg"
   [cross-i386]="g++-i686-linux-gnu libc6-i386 googletest binutils"

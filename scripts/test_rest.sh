@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# What scripts/test.sh leaves out and one can wait for: linters, Python, the binary interface, threads, other machines, the kernels as
-# another compiler makes them, readers under the memory sanitizer, every fuzz target for a short while, and the page. scripts/nightly.sh has what takes longer.
+# What scripts/test.sh leaves out and one can wait for: linters, Python, the documentation, the binary interface, threads, other machines,
+# the kernels as another compiler makes them, readers under the memory sanitizer, every fuzz target for a short while, and the page.
+# scripts/nightly.sh has what takes longer.
 # usage: scripts/test_rest.sh [--within MINUTES]      parts that would begin later than that are left out, and named
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -47,6 +48,7 @@ part() {  # name, command
 part linters linters
 part Python bindings/python/test.sh
 for binding in rust csharp android swift; do part "bindings/$binding" "bindings/$binding/test.sh"; done  # JavaScript: the page
+part documentation scripts/site.sh
 part "binary interface" scripts/check_abi.sh
 part threads threads
 part "other machines" scripts/cross/all.sh

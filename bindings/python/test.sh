@@ -46,6 +46,8 @@ environment=$work/$(basename "${pythons[0]}")
 "$environment/bin/mypy" --strict --cache-dir "$work/mypy" "$here/tests/typed_program.py"
 "$environment/bin/python" "$here/examples/webcam.py" tests/data/demo.mp4 --frames 20 --save "$work/webcam.png"
 test -s "$work/webcam.png"
+"$environment/bin/python" "$here/examples/pose_axes.py" tests/data/demo.mp4 --frame 150 --save "$work/axes.jpg" | grep -q "yaw 0.[23]"
+test -s "$work/axes.jpg"
 sed 's|"\.\./\.\./\.\./tests|"tests|' "$here/examples/plot.ipynb" |
   "$environment/bin/python" -c 'import json, sys; print("\n".join("".join(c["source"]) for c in json.load(sys.stdin)["cells"] if c["cell_type"] == "code"))' \
     >"$work/plot.py"

@@ -11,6 +11,15 @@ def facs_error(predicted, truth):
     return float(np.abs(predicted - truth).mean()) if truth.size else float("nan")
 
 
+def area_under_roc(scores, truth):
+    """The share of pairs that are in the right order."""
+    order = np.argsort(scores, kind="stable")
+    ranks = np.empty(len(scores))
+    ranks[order] = np.arange(1, len(scores) + 1)
+    positive = truth.sum()
+    return (ranks[truth].sum() - positive * (positive + 1) / 2) / max(positive * (len(truth) - positive), 1)
+
+
 def jitter(curves):
     """Sum of |first difference| where its sign differs from the previous frame's, over frames and controls."""
     if not curves.size:
@@ -98,6 +107,8 @@ def self_test():
     assert np.array_equal(known_mean([[1.0, np.nan], [3, np.nan]]), [2, np.nan], equal_nan=True)
     fitted, constant = linear_map_error(truth[0], 3 * truth[0] - 1)
     assert np.allclose(fitted, 0) and (constant > 0.1).all()
+    said = np.array([True, False, True, False])
+    assert [area_under_roc(np.array(scores), said) for scores in ([3, 1, 4, 2], [1, 3, 2, 4], [2, 1, 4, 3])] == [1, 0, 0.75]
     points = np.zeros((12, 5, 2))
     points[4:, :, 0] = 1  # one jump between two pauses of 4 and 8 frames
     assert still_stretches(points, np.ones(12)) == [slice(4, 12)]

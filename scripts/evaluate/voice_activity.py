@@ -1,6 +1,7 @@
 """Voice activity on held-out speakers in held-out noises, by signal-to-noise ratio; and what noise alone does."""
 import numpy as np
 
+import metrics
 import voice_model  # noqa: F401  (finds the training modules)
 from voice import activity, corpus, effects
 from voice.features import RATE
@@ -21,15 +22,6 @@ def utterances(split):
             yield np.concatenate([silence, speech, silence])
 
 
-def area_under_roc(scores, truth):
-    """The share of pairs that are in the right order."""
-    order = np.argsort(scores, kind="stable")
-    ranks = np.empty(len(scores))
-    ranks[order] = np.arange(1, len(scores) + 1)
-    positive = truth.sum()
-    return (ranks[truth].sum() - positive * (positive + 1) / 2) / max(positive * (len(truth) - positive), 1)
-
-
 def roc(scores, truth, points=60):
     """Shares of the rest taken for speech and of speech found, at thresholds from 1 to 0."""
     thresholds = np.quantile(scores, np.linspace(1, 0, points))
@@ -37,21 +29,26 @@ def roc(scores, truth, points=60):
     return {"false": share(scores[~truth]), "found": share(scores[truth])}
 
 
-def by_ratio(model, seed=1):
+def heard(split, ratio, seed=1):
+    """Held-out speech in held-out noise at `ratio` dB, None for clean; and of each window whether it is speech."""
+    rng = np.random.default_rng(seed)
+    for sound in utterances(split):
+        mixed = sound if ratio is None else effects.mixed(sound, effects.recorded_noise(rng, split, len(sound)), ratio)
+        yield np.clip(mixed, -1, 1), activity.of_windows(sound)
+
+
+def by_ratio(model):
     """{ratio: accuracy, area under ROC, share of speech found, share of the rest taken for speech}"""
     report = {}
-    sounds = list(utterances(model.split))
-    truths = [activity.of_windows(s) for s in sounds]
     for ratio in RATIOS:
-        rng, scores, truth = np.random.default_rng(seed), [], []
-        for sound, active in zip(sounds, truths):
-            heard = sound if ratio is None else effects.mixed(sound, effects.recorded_noise(rng, model.split, len(sound)), ratio)
-            times, _, alpha = model(np.clip(heard, -1, 1))
+        scores, truth = [], []
+        for sound, active in heard(model.split, ratio):
+            times, _, alpha = model(sound)
             scores.append(alpha), truth.append(activity.at(active, times))
         scores, truth = np.concatenate(scores), np.concatenate(truth)
         said = scores > 0.5
         report["clean" if ratio is None else ratio] = {
-            "accuracy": float((said == truth).mean()), "area": float(area_under_roc(scores, truth)),
+            "accuracy": float((said == truth).mean()), "area": float(metrics.area_under_roc(scores, truth)),
             "found": float(said[truth].mean()), "false": float(said[~truth].mean()), "roc": roc(scores, truth)}
     return report
 

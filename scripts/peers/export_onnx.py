@@ -1,17 +1,18 @@
 #!/usr/bin/env python3
-"""Writes networks as ONNX files for other engines to time, and shapes.json: the inputs of each.  usage: export_onnx.py OUT_DIR
+"""Writes networks for other engines to time.  usage: export_onnx.py OUT_DIR
 
+NAME.onnx, NAME.pt (TorchScript) and NAME.npz: the inputs by name, in order, and the first output, `answer`.
 Networks over time take one step: what they remember comes in and goes out with it.
 """
-import json
 import sys
 from pathlib import Path
 
+import numpy as np
 import torch
 from torch import nn
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "train"))
-from networks import BaseNetEncoder, HiFiNetEncoder  # noqa: E402
+from networks import BaseNetEncoder, HiFiNetEncoder, folded  # noqa: E402
 from voice import audio_net  # noqa: E402
 
 
@@ -35,6 +36,15 @@ class DecoderStep(nn.Module):
         return (self.head(outputs), *state)
 
 
+def clamp_once(network):
+    """ReLU6 would be exported as two operators, of which engines fuse one."""
+    for parent in list(network.modules()):
+        for name, child in parent.named_children():
+            if isinstance(child, nn.ReLU6):
+                setattr(parent, name, nn.Hardtanh(0, 6))
+    return network
+
+
 def networks():
     """name -> (network, shapes of its inputs by name)"""
     decoder_inputs = {"embedding": (1, 1, audio_net.EMBEDDING), "hidden": (1, 1, audio_net.HIDDEN), "cell": (1, 1, audio_net.HIDDEN)}
@@ -42,8 +52,8 @@ def networks():
     state = {"hidden": (1, 1, audio_net.WIDTHS[-1]), "cell": (1, 1, audio_net.WIDTHS[-1])}
     encoder_inputs = {"features": (1, 1, audio_net.FEATURES), **{name: (1, width, 1) for name, width in remembered}, **state}
     return {
-        "basenet_encoder": (BaseNetEncoder(), {"image": (1, 3, 65, 65)}),
-        "hifinet_encoder": (HiFiNetEncoder(), {"image": (1, 3, 129, 109)}),
+        "basenet_encoder": (clamp_once(folded(BaseNetEncoder())), {"image": (1, 3, 65, 65)}),
+        "hifinet_encoder": (clamp_once(folded(HiFiNetEncoder())), {"image": (1, 3, 129, 109)}),
         "audionet_encoder": (EncoderStep(), encoder_inputs),
         "audionet_controls_decoder": (DecoderStep(audio_net.controls_decoder(), nn.Hardtanh(0, 1)), decoder_inputs),
         "audionet_activity_decoder": (DecoderStep(audio_net.activity_decoder(), nn.Softmax(-1)), decoder_inputs),
@@ -53,13 +63,14 @@ def networks():
 def main():
     out = Path(sys.argv[1])
     torch.manual_seed(1)
-    shapes = {}
-    for name, (network, inputs) in networks().items():
-        # In evaluation mode the exporter folds batch norm into the convolution before it.
-        torch.onnx.export(network.eval(), tuple(torch.zeros(shape) for shape in inputs.values()), out / f"{name}.onnx",
-                          opset_version=13, input_names=list(inputs))
-        shapes[name] = inputs
-    (out / "shapes.json").write_text(json.dumps(shapes) + "\n")
+    for name, (network, shapes) in networks().items():
+        network, inputs = network.eval(), tuple(torch.rand(shape) * 2 - 1 for shape in shapes.values())
+        torch.onnx.export(network, inputs, out / f"{name}.onnx", opset_version=13, input_names=list(shapes))
+        torch.jit.trace(network, inputs).save(str(out / f"{name}.pt"))
+        with torch.no_grad():
+            answers = network(*inputs)
+        first = answers[0] if isinstance(answers, tuple) else answers
+        np.savez(out / f"{name}.npz", **{k: x.numpy() for k, x in zip(shapes, inputs)}, answer=first.numpy())
 
 
 if __name__ == "__main__":

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Fetches ONNX Runtime from npm, for scripts/bench_peers.sh and for the test convert.onnx, into ${MIEN_CACHE:-~/.cache/mien}/peers.
+# Fetches ONNX Runtime from npm, for the test convert.onnx, into ${MIEN_CACHE:-~/.cache/mien}/peers.
 # usage: scripts/peers/install_onnxruntime.sh        Needs npm (nodejs).
 set -euo pipefail
 work=${MIEN_CACHE:-$HOME/.cache/mien}/peers

@@ -1,0 +1,60 @@
+#!/usr/bin/env python3
+"""Draws the head's axes into the pictures of a film: project() is how a head pose comes back into the picture. Needs opencv-python.
+
+usage: pose_axes.py FILE [--frame N] --save PICTURE.jpg
+"""
+import argparse
+import math
+
+import cv2
+import mien
+import numpy as np
+
+AXIS_M = 0.12
+COLORS = {"x": (60, 60, 235), "y": (80, 190, 60), "z": (235, 140, 40)}  # BGR
+
+
+def rotation_matrix(quaternion):
+    x, y, z, w = quaternion
+    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+                     [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                     [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
+
+
+def project(points, pose, width, height, focal_length_px=None):
+    """Points [n,3] in head space, metres, as pixels [n,2] of the upright picture, which is not mirrored."""
+    focal = focal_length_px or width / 2 / math.tan(math.radians(60) / 2)  # what mien assumes where nobody knows
+    x, y, z = (np.asarray(points) @ rotation_matrix(pose.rotation).T + pose.translation).T
+    return np.stack([width / 2 + focal * x / -z, height / 2 - focal * y / -z], 1)
+
+
+def draw(picture, pose):
+    height, width = picture.shape[:2]
+    points = project([[0, 0, 0], *(np.eye(3) * AXIS_M)], pose, width, height).round().astype(int)
+    for (name, color), end in zip(COLORS.items(), points[1:]):
+        cv2.arrowedLine(picture, tuple(map(int, points[0])), tuple(map(int, end)), color, 3, cv2.LINE_AA, tipLength=0.12)
+        cv2.putText(picture, name, tuple(map(int, end + (6, -6))), cv2.FONT_HERSHEY_SIMPLEX, 0.8, color, 2, cv2.LINE_AA)
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("film")
+    parser.add_argument("--frame", type=int, default=30)
+    parser.add_argument("--save", required=True)
+    options = parser.parse_args()
+    film, result = cv2.VideoCapture(options.film), None
+    with mien.Tracker(lod=1, sound=False) as tracker:
+        for _ in range(options.frame + 1):
+            there, picture = film.read()
+            if not there:
+                raise SystemExit(f"pose_axes.py: {options.film} has no frame {options.frame}")
+            result = tracker.track(picture, film.get(cv2.CAP_PROP_POS_MSEC) / 1000)
+    if not result.has_face:
+        raise SystemExit(f"pose_axes.py: no face on frame {options.frame}")
+    draw(picture, result.pose)
+    cv2.imwrite(options.save, picture)
+    print(f"pitch {result.pose.pitch:.2f}, yaw {result.pose.yaw:.2f}, roll {result.pose.roll:.2f} rad, {-result.pose.translation[2]:.2f} m away")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# Builds the documentation as a site, build/site/html, out of the pages where they lie; a link that leads nowhere is an error.
+# usage: scripts/site.sh [serve]      serve: on http://localhost:8000, as it was built
+set -euo pipefail
+cd "$(dirname "$0")/.."
+scripts/setup.sh docs
+site=build/site
+
+[ -x $site/venv/bin/pip ] || /usr/bin/python3 -m venv $site/venv
+$site/venv/bin/pip install --quiet --disable-pip-version-check -r scripts/package/site_requirements.txt
+rm -rf $site/pages $site/html
+mkdir -p $site/pages/docs
+git ls-files -z '*.md' 'docs/*' 'include/*' 'bindings/*/examples/*' 'bindings/*/sample/*' 'bindings/*/Examples/*' '*.d.ts' |
+  xargs -0 cp --parents -t $site/pages
+doxygen docs/Doxyfile
+# Not --quiet: then it passes over what --strict is for.
+NO_MKDOCS_2_WARNING=1 $site/venv/bin/mkdocs build --strict --config-file docs/mkdocs.yml
+echo "$(find $site/html -name '*.html' | wc -l) pages in $site/html"
+[ "${1:-}" != serve ] || exec $site/venv/bin/python -m http.server --directory $site/html 8000
