@@ -2,8 +2,13 @@
 // header spells its tables out. All numbers are little-endian; numbers once used are never reused.
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+
+static_assert(std::endian::native == std::endian::little,
+              "mien reads weight files in place, and their numbers are little-endian: there is no "
+              "mien for big-endian machines");
 
 namespace mien::formats {
 

@@ -3,7 +3,10 @@
 
 #include <cstdint>
 
-#if defined(__x86_64__) || defined(_M_X64)
+#if defined(__i386__) && !defined(__SSE2_MATH__)
+#error "mien on 32-bit x86 takes -msse2 -mfpmath=sse: the x87 rounds to another precision"
+#endif
+#if defined(__SSE2_MATH__) || defined(_M_X64)
 #include <xmmintrin.h>
 #endif
 
@@ -21,7 +24,7 @@ class FloatMode {
   FloatMode& operator=(const FloatMode&) = delete;
 
  private:
-#if defined(__x86_64__) || defined(_M_X64)
+#if defined(__SSE2_MATH__) || defined(_M_X64)
   using State = std::uint32_t;
   // MXCSR: all exceptions masked, flush to zero, denormals are zero.
   static constexpr State kOurs = 0x1F80u | 0x8000u | 0x0040u;

@@ -23,7 +23,7 @@ fuzz() {  # target
   mkdir -p "$found" "fuzz/corpus/$1"
   IFS=';' read -ra folders <<<"$(grep "^$1 " $list | cut -d' ' -f2)"
   [ ! -f "fuzz/dictionaries/$1.dict" ] || options+=("-dict=fuzz/dictionaries/$1.dict")
-  build/fuzz/fuzz/"fuzz_$1" -max_total_time=$seconds -max_len="$(max_length "$1")" -timeout=20 -rss_limit_mb=3000 -print_final_stats=1 \
+  build/fuzz/fuzz/"fuzz_$1" -max_total_time=$seconds -max_len="$(max_length "$1")" -timeout=60 -rss_limit_mb=3000 -print_final_stats=1 \
     -artifact_prefix="fuzz/corpus/$1/" "${options[@]}" "$found" "${folders[@]}" >"$log" 2>&1 || code=$?
   printf '%-20s %10s runs, %5s inputs%s\n' "$1" "$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")" \
     "$(find "$found" -type f | wc -l)" "$([ $code -eq 0 ] || echo "  BROKEN: $log")"

@@ -24,7 +24,10 @@ step made_100000_times build/release/tests/tracker/tracker_scenario_test --gtest
 step every_allocation /usr/bin/python3 tests/apps/faults_test.py build/release/apps/mien/mien build/release/tests/apps/libmien_failing_malloc.so all
 step worst_frame scripts/evaluate/worst_frame.sh
 step soak scripts/evaluate/soak.sh
+step memcheck scripts/valgrind.sh 3
+step coverage scripts/coverage.sh
 step planted_faults scripts/mutate.sh
+step fuzzing_the_converter scripts/fuzz_convert.sh 10
 step fuzzing scripts/fuzz.sh $((hours * 60))
 cat $report
 exit $failed

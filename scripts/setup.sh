@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what building, testing and running mien need, from Debian's packages.
-# usage: scripts/setup.sh [build] [test] [demo] [train] [convert] [python] [rust] [csharp] [java] [release] [cross-x86] [cross-arm] [cross-wasm] [cross-windows] [cross-compile-only] [web] [web-test]
+# usage: scripts/setup.sh [build] [test] [demo] [train] [convert] [python] [rust] [csharp] [java] [release] [cross-x86] [cross-arm] [cross-wasm] [cross-windows] [cross-compile-only] [cross-i386] [cross-s390x] [coverage] [valgrind] [convert-fuzz] [web] [web-test]
 #        (default: build test demo)
 # As root or with sudo; does nothing when everything is there already.
 set -euo pipefail
@@ -21,6 +21,11 @@ declare -A PACKAGES=(
   [web]="emscripten node-acorn nodejs npm"
   [web-test]="chromium ffmpeg"
   [cross-windows]="g++-mingw-w64-x86-64-posix binutils-mingw-w64-x86-64 wine wine64 googletest ffmpeg"
+  [cross-i386]="g++-i686-linux-gnu libc6-i386 googletest binutils"
+  [cross-s390x]="g++ g++-s390x-linux-gnu"
+  [coverage]="clang llvm python3"
+  [valgrind]="valgrind ffmpeg"
+  [convert-fuzz]="python3-onnx python3-numpy python3-venv python3-pip"
   [cross-compile-only]="clang lld llvm libc++-dev musl-dev"
   [train]="python3-torch libopenblas0-serial python3-opencv python3-scipy python3-pil python3-matplotlib python3-tqdm espeak-ng libespeak-ng1 flite festival festvox-kdlpc16k festvox-us-slt-hts python3-pocketsphinx pocketsphinx-en-us libopus0 ffmpeg"
 )

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # What scripts/test.sh leaves out and one can wait for: linters, Python, the binary interface, threads, other machines, the kernels as
-# another compiler makes them, every fuzz target for a short while, and the page. scripts/nightly.sh has what takes longer.
+# another compiler makes them, readers under the memory sanitizer, every fuzz target for a short while, and the page. scripts/nightly.sh has what takes longer.
 # usage: scripts/test_rest.sh [--within MINUTES]      parts that would begin later than that are left out, and named
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -60,6 +60,7 @@ part "binary interface" scripts/check_abi.sh
 part threads threads
 part "other machines" scripts/cross/all.sh
 part "Release with clang" clang
+part "numbers that nobody wrote" scripts/msan.sh
 part fuzzing scripts/fuzz.sh 2
 part "the page, and the npm package" page
 [ ${#left_out[@]} -eq 0 ] || printf 'NOT TESTED for want of time: %s\n' "${left_out[@]}"

@@ -1,7 +1,7 @@
 """Operators on constants, which exporters leave in shape arithmetic."""
 import numpy as np
 
-from refusal import Refused, require
+from refusal import Refused, require, require_room
 
 TYPES = {1: np.float32, 6: np.int32, 7: np.int64, 9: np.bool_, 10: np.float16, 11: np.float64}
 
@@ -17,6 +17,7 @@ def axes_of(inputs, attributes, index=1):
 def constant_of_shape(inputs, attributes):
     value = attributes.get("value")
     value = np.zeros(1, np.float32) if value is None else value
+    require_room(*inputs[0])
     return np.full([int(n) for n in inputs[0]], value.reshape(-1)[0])
 
 
@@ -24,6 +25,17 @@ def cast(inputs, attributes):
     if attributes["to"] not in TYPES:
         raise Refused(f"a cast to type {attributes['to']}")
     return inputs[0].astype(TYPES[attributes["to"]])
+
+
+def expanded(inputs, _):
+    require_room(inputs[0].size, *inputs[1])
+    return inputs[0] * np.ones([int(n) for n in inputs[1]], inputs[0].dtype)
+
+
+def counted(inputs, _):
+    first, last, step = (x.reshape(()) for x in inputs)
+    require_room(abs((last - first) / step))
+    return np.arange(first, last, step)
 
 
 def divided(inputs, _):
@@ -36,9 +48,9 @@ FUNCTIONS = {
     "Add": lambda i, a: i[0] + i[1], "Sub": lambda i, a: i[0] - i[1], "Mul": lambda i, a: i[0] * i[1],
     "Neg": lambda i, a: -i[0], "Sqrt": lambda i, a: np.sqrt(i[0]), "Exp": lambda i, a: np.exp(i[0]), "Pow": lambda i, a: i[0] ** i[1],
     "Reciprocal": lambda i, a: 1 / i[0], "Floor": lambda i, a: np.floor(i[0]), "Ceil": lambda i, a: np.ceil(i[0]),
-    "Abs": lambda i, a: np.abs(i[0]), "Range": lambda i, a: np.arange(*(x.reshape(()) for x in i)),
+    "Abs": lambda i, a: np.abs(i[0]), "Range": counted,
     "Gather": lambda i, a: np.take(i[0], i[1].astype(np.int64), a.get("axis", 0)), "Equal": lambda i, a: i[0] == i[1],
-    "Where": lambda i, a: np.where(*i), "Expand": lambda i, a: i[0] * np.ones([int(n) for n in i[1]], i[0].dtype),
+    "Where": lambda i, a: np.where(*i), "Expand": expanded,
     "ReduceProd": lambda i, a: np.prod(i[0], tuple(axes_of(i, a)) if axes_of(i, a) else None, keepdims=bool(a.get("keepdims", 1))),
     "Not": lambda i, a: ~i[0], "Greater": lambda i, a: i[0] > i[1], "Less": lambda i, a: i[0] < i[1],
 }

@@ -1,5 +1,7 @@
 """An ONNX file as nodes with attributes, and its translation, for one guess at what the axes of its input mean."""
 import itertools
+import math
+import warnings
 
 import numpy as np
 import onnx
@@ -13,14 +15,29 @@ from translator import Translator
 
 OPSETS = range(11, 19)
 DYNAMIC_STEPS = 3  # nominal, where the file does not say how many
+# What the attributes that operators read are; in a file they may be anything.
+KINDS = {
+    name: kind for kind, names in {
+        onnx.AttributeProto.INT: "allowzero axis ceil_mode count_include_pad end group hidden_size input_forget keepdims layout start to "
+                                 "training_mode transA transB value_int",
+        onnx.AttributeProto.INTS: "axes dilations kernel_shape pads perm split strides value_ints",
+        onnx.AttributeProto.FLOAT: "alpha beta epsilon value_float",
+        onnx.AttributeProto.FLOATS: "value_floats",
+        onnx.AttributeProto.STRING: "auto_pad direction mode",
+        onnx.AttributeProto.STRINGS: "activations",
+        onnx.AttributeProto.TENSOR: "value",
+    }.items() for name in names.split()
+}
 
 
 class Node:
     def __init__(self, proto):
         self.operator, self.outputs = proto.op_type, list(proto.output)
         self.input_names = list(proto.input)
-        self.name = f"{proto.op_type} {proto.name!r}" if proto.name else f"{proto.op_type} -> {proto.output[0]!r}"
+        self.name = f"{proto.op_type} {proto.name!r}" if proto.name else f"{proto.op_type} -> {', '.join(map(repr, self.outputs))}"
         self.domain = proto.domain
+        for a in proto.attribute:
+            require(a.type == KINDS.get(a.name, a.type), f"{self.name}: its attribute {a.name!r} is of another kind than ONNX says")
         self.attributes = {a.name: attribute(a) for a in proto.attribute}
         self.inputs = []
 
@@ -45,7 +62,9 @@ def array(proto):
 class Graph:
     def __init__(self, path):
         try:
-            model = onnx.load(str(path), load_external_data=False)
+            with warnings.catch_warnings():
+                warnings.simplefilter("error")  # all there is of a file that could be read in part only
+                model = onnx.load(str(path), load_external_data=False)
         except Exception as error:  # what protobuf raises depends on its version
             raise Refused(f"not an ONNX file: {error}") from error
         graph = model.graph
@@ -143,7 +162,7 @@ class Conversion:
         return source, {next(iter(self.graph.inputs)): Tensor(at.reshape(shape))}
 
     def make_state(self, name, shape):
-        state = self.t.layer("state", [], (1, 1, int(np.prod(shape))))
+        state = self.t.layer("state", [], (1, 1, math.prod(shape)))
         self.state_names[state.number] = (name, shape)
         return Tensor(elements(state).reshape(shape))
 
@@ -151,14 +170,16 @@ class Conversion:
         for count, node in enumerate(self.graph.nodes):
             self.t.node = node.name
             try:
+                missing = [name for name in node.input_names if name and name not in values]
+                require(not missing, f"nobody computes its input {', '.join(map(repr, missing))}")
                 node.inputs = [values[name] if name else None for name in node.input_names]
                 outputs = self.take(node)
-            except KeyError as missing:
-                raise Refused(f"{node.name}: nobody computes its input {missing}", count) from missing
+            except MemoryError as error:
+                raise Refused(f"{node.name}: it takes more memory than there is", count) from error
             except Refused as refusal:
                 raise Refused(f"{node.name}: {refusal}", count) from refusal
-            except (ValueError, IndexError, TypeError) as error:
-                raise Refused(f"{node.name}: it is malformed ({error})", count) from error
+            except (ValueError, TypeError, LookupError, AttributeError, ArithmeticError) as error:
+                raise Refused(f"{node.name}: it is malformed ({type(error).__name__}: {' '.join(str(error).split())})", count) from error
             values.update((name, value) for name, value in zip(node.outputs, outputs) if name)
 
     def take(self, node):
@@ -251,7 +272,8 @@ def converted(graph, shapes, time_axis=None):
     furthest = None
     for guess in guesses(graph, shapes.get(next(iter(graph.inputs)), next(iter(graph.inputs.values()))), time_axis):
         try:
-            return Conversion(graph, guess, shapes)
+            with np.errstate(all="ignore"):  # what the format cannot hold, its writer refuses
+                return Conversion(graph, guess, shapes)
         except Refused as refusal:
             if furthest is None or refusal.progress > furthest.progress:
                 furthest = refusal

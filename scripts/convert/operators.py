@@ -10,8 +10,10 @@ import numpy as np
 import tensors
 from constants import axes_of
 from layers import slid
-from refusal import Refused, require
+from refusal import Refused, require, require_room
 from tensors import FUTURE, NOTHING, Tensor
+
+MOST_DELAYS = 1000  # of one convolution: each becomes a layer, of which a file holds 1024
 
 
 def is_constant(x):
@@ -83,7 +85,9 @@ def transpose(t, node):
 
 def gather(t, node):
     index, axis = constant(node.inputs[1], "index").astype(np.int64), node.attributes.get("axis", 0)
-    return [moved(node.inputs[0], lambda part: np.take(part, index, axis))]
+    x = node.inputs[0]
+    require_room(math.prod(x.shape) // max(x.shape[axis], 1), index.size)
+    return [moved(x, lambda part: np.take(part, index, axis))]
 
 
 def slice_(t, node):
@@ -135,6 +139,7 @@ def pad(t, node):
     for i, axis in enumerate(axes):
         before[axis], after[axis] = int(amounts[i]), int(amounts[len(axes) + i])
     require(min(before + after) >= 0, "negative padding")
+    require_room(*(b + n + e for b, n, e in zip(before, x.shape, after)))
     widths = list(zip(before, after))
     x = as_tensor(x)
     return [Tensor(np.pad(x.at, widths, constant_values=NOTHING), np.pad(x.scale, widths, constant_values=1.0),
@@ -291,11 +296,20 @@ def softmax(t, node):
 
 # -- convolutions and pools ------------------------------------------------------------------------------------------------------------
 
+def steps_of(attributes, count):
+    """Strides and dilations of a window over that many axes."""
+    strides, dilations = (attributes.get(key, [1] * count) for key in ("strides", "dilations"))
+    require(len(strides) == len(dilations) == count and min(strides + dilations) > 0,
+            f"strides {strides}, dilations {dilations} of a window over {count} axes")
+    return strides, dilations
+
+
 def padding_of(attributes, sizes, kernel, strides, dilations):
     """([before...], [after...]), as pads or auto_pad say."""
     mode, count = attributes.get("auto_pad", "NOTSET"), len(sizes)
     if mode in ("NOTSET", ""):
         pads = attributes.get("pads", [0] * 2 * count)
+        require(len(pads) == 2 * count, f"padding {pads} of {count} axes")
         return list(pads[:count]), list(pads[count:])
     if mode == "VALID":
         return [0] * count, [0] * count
@@ -313,6 +327,7 @@ def dilated(weight, dilations):
     if all(d == 1 for d in dilations):
         return weight
     size = [(k - 1) * d + 1 for k, d in zip(weight.shape[2:], dilations)]
+    require_room(*weight.shape[:2], *size)
     wide = np.zeros((*weight.shape[:2], *size))
     wide[(slice(None), slice(None), *(slice(None, None, d) for d in dilations))] = weight
     return wide
@@ -335,16 +350,18 @@ def conv(t, node):
     bias = np.zeros(len(weight)) if given is None else given.astype(np.float64)
     count = weight.ndim - 2
     require(count in (1, 2), f"a convolution over {count} axes")
-    require(len(x.shape) == weight.ndim, f"it reads {list(x.shape)} with a weight {list(weight.shape)}")
-    strides, dilations = (node.attributes.get(key, [1] * count) for key in ("strides", "dilations"))
+    groups = node.attributes.get("group", 1)
+    require(len(x.shape) == weight.ndim and weight.shape[1] * groups == x.shape[1] and len(weight) % groups == 0,
+            f"it reads {list(x.shape)} with a weight {list(weight.shape)}" + (f" in {groups} groups" if groups != 1 else ""))
+    strides, dilations = steps_of(node.attributes, count)
     before, after = padding_of(node.attributes, x.shape[2:], weight.shape[2:], strides, dilations)
     if count == 1 and t.steps:
         require(strides == [1], "strides over time")
-        return [conv_over_time(t, x, ungrouped(weight, node.attributes.get("group", 1)), bias, before[0], after[0], dilations[0])]
+        return [conv_over_time(t, x, ungrouped(weight, groups), bias, before[0], after[0], dilations[0])]
     weight = dilated(weight, dilations)
     if count == 2:
-        return [conv_over_map(t, x, weight, bias, node.attributes.get("group", 1), strides, (*before, *after))]
-    y = conv_over_map(t, x.moved(lambda part: part[:, :, None, :]), weight[:, :, None, :], bias, node.attributes.get("group", 1),
+        return [conv_over_map(t, x, weight, bias, groups, strides, (*before, *after))]
+    y = conv_over_map(t, x.moved(lambda part: part[:, :, None, :]), weight[:, :, None, :], bias, groups,
                       [1, *strides], (0, before[0], 0, after[0]))
     return [y.moved(lambda part: part[:, :, 0, :])]
 
@@ -393,10 +410,12 @@ def folded_into_conv(t, x, weight, bias, depthwise, padded):
 def conv_over_time(t, x, weight, bias, before, after, dilation):
     """[1, c, t], steps of the stream between columns of what was before it and columns of what is after it."""
     require(x.shape[0] == 1, f"a batch of {x.shape[0]}")
+    reach = (weight.shape[2] - 1) * dilation
+    require(0 <= reach <= MOST_DELAYS, f"a convolution that reaches back {reach} steps; at most {MOST_DELAYS}")
+    require_room(x.shape[1], before + x.shape[2] + after)
     x = Tensor(*(np.pad(part[0], ((0, 0), (before, after)), constant_values=value)
                  for part, value in ((x.at, NOTHING), (x.scale, 1.0), (x.shift, 0.0))))
     past, real = time_columns(t, x.at)
-    reach = (weight.shape[2] - 1) * dilation
     require(past <= reach, f"{past} steps before the first, for a convolution that reaches back {reach}")
     require(past == 0 or real == t.steps, "it puts zeros before steps that are not the first")
     steps = x.moved(lambda part: part[:, past:past + real])
@@ -461,7 +480,7 @@ def max_pool(t, node):
     require(len(node.outputs) == 1 or not node.outputs[1], "its second output, the places of the largest values")
     x, kernel = node.inputs[0], node.attributes["kernel_shape"]
     require(len(x.shape) - 2 == len(kernel) <= 2 and not (t.steps and len(kernel) == 1), f"a pool over {list(kernel)} of {list(x.shape)}")
-    strides, dilations = (node.attributes.get(key, [1] * len(kernel)) for key in ("strides", "dilations"))
+    strides, dilations = steps_of(node.attributes, len(kernel))
     require(all(d == 1 for d in dilations), "dilations")
     before, after = padding_of(node.attributes, x.shape[2:], kernel, strides, dilations)
     flat = len(kernel) == 1
@@ -496,9 +515,9 @@ def average_pool(t, node):
     """Without padding, or with padding that counts: a depthwise convolution."""
     x, kernel, a = node.inputs[0], node.attributes["kernel_shape"], node.attributes
     require(len(kernel) == 2 and len(x.shape) == 4, f"a pool over {list(kernel)} of {list(x.shape)}")
-    strides = a.get("strides", [1, 1])
-    before, after = padding_of(a, x.shape[2:], kernel, strides, [1, 1])
-    require(a.get("dilations", [1, 1]) == [1, 1], "dilations")
+    strides, dilations = steps_of(a, 2)
+    before, after = padding_of(a, x.shape[2:], kernel, strides, dilations)
+    require(dilations == [1, 1], "dilations")
     require(not any(before + after) or a.get("count_include_pad", 0), "an average that leaves out its padding")
     exact = all((b + n + e - k) % s == 0 for n, k, s, b, e in zip(x.shape[2:], kernel, strides, before, after))
     require(exact or not a.get("ceil_mode", 0), "ceil_mode")

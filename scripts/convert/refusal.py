@@ -1,4 +1,7 @@
 """What the converter says when it cannot go on."""
+import math
+
+MOST_NUMBERS = 1 << 24  # of one tensor: each takes up to 24 bytes here, and a file of 100 bytes may ask for any size
 
 
 class Refused(Exception):
@@ -12,3 +15,7 @@ class Refused(Exception):
 def require(condition, message):
     if not condition:
         raise Refused(message)
+
+
+def require_room(*sizes):
+    require(math.prod(map(int, sizes)) <= MOST_NUMBERS, f"a tensor {[int(n) for n in sizes]}: at most {MOST_NUMBERS} numbers")

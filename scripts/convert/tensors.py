@@ -9,7 +9,7 @@ For every element a tensor says which element of which layer it is, or that it i
 """
 import numpy as np
 
-from refusal import Refused, require
+from refusal import Refused, require, require_room
 
 NOTHING, FUTURE = -1, -2  # FUTURE: what a convolution over time makes of steps that have not come
 BITS = 32
@@ -47,6 +47,7 @@ def of_constant(values):
 
 
 def joined(tensors, axis):
+    require_room(sum(t.at.size for t in tensors))
     return Tensor(*(np.concatenate([getattr(t, part) for t in tensors], axis) for part in ("at", "scale", "shift")))
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import tensors
 from constants import FUNCTIONS
 from layers import Layer
-from refusal import Refused, require
+from refusal import Refused, require, require_room
 from tensors import BITS, MASK, NOTHING, Tensor
 
 
@@ -21,6 +21,7 @@ class Translator:
     # -- layers ----------------------------------------------------------------------------------------------------------------------
 
     def layer(self, op, inputs, shape, **options):
+        require_room(*shape, max(self.steps, 1))
         layer = Layer(op, inputs, shape, self.node, **options)
         layer.number = len(self.layers)
         self.layers.append(layer)

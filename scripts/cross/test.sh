@@ -1,13 +1,15 @@
 #!/usr/bin/env bash
-# Builds mien for an ARM machine and runs its tests under an emulator, the kernels once per CPU model.
-# usage: scripts/cross/test.sh linux-arm64|linux-armv7 [--full]
+# Builds mien for an ARM machine and runs its tests under an emulator, the kernels once per CPU model; or for 32-bit x86, whose programs
+# run on an x86-64 machine as they are.
+# usage: scripts/cross/test.sh linux-arm64|linux-armv7|linux-i386 [--full]
 #   --full: also more CPU models, the tests that take longest under emulation (`slow` below), and mien-conformance on 50 seeds, not
 #   one: hours
 # Exit status 0 only when all is right. What ran, and what was only compiled, is said at the end.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 
-target=${1:?linux-arm64 or linux-armv7}
+target=${1:?linux-arm64, linux-armv7 or linux-i386}
+packages_of=cross-arm
 case "$target" in
   linux-arm64)  # ARMv8.0 without fp16 arithmetic, and all that the emulator knows, fp16 among it
     models="cortex-a53 max" more_models="cortex-a72 cortex-a76 neoverse-n1"
@@ -15,18 +17,21 @@ case "$target" in
   linux-armv7)  # without VFPv4 (so without a NEON tier), then with
     models="cortex-a9 cortex-a7" more_models="cortex-a15 max"
     emulator="qemu-arm -L /usr/arm-linux-gnueabihf" nm=arm-linux-gnueabihf-nm ;;
+  linux-i386)  # the reference alone
+    models="native" more_models="" packages_of=cross-i386
+    emulator="/usr/i686-linux-gnu/lib/ld-linux.so.2 --library-path /usr/i686-linux-gnu/lib" nm=i686-linux-gnu-nm ;;
   *) echo "test.sh: unknown target '$target'" >&2; exit 2 ;;
 esac
 case "${2:-}" in
   "") full=0 seeds=1 ;;
-  --full) full=1 seeds=50 models+=" $more_models" ;;
+  --full) full=1 seeds=50 models+="${more_models:+ $more_models}" ;;
   *) echo "test.sh: unknown option '$2'" >&2; exit 2 ;;
 esac
 
 # Left out: what starts programs, which a machine without binfmt_misc cannot do with those of another one; and the kernels'
 # cases, which mien-conformance has run by then.
 elsewhere='ConformanceProgram|conformance\.|package|convert|train|apps|formats\.protocols|Kernels/Conformance'
-# Without --full, tests that take more than a tenth of a second natively and so many seconds under emulation: long streams
+# Without --full, under an emulator, tests that take more than a tenth of a second natively and so many seconds under emulation: long streams
 # and clips, which other machines run. What stays has at least one test of every part, and one with the trained networks.
 slow='Allocation\.OneBy|Calibration\.|Equivariance\.|FrontEnd\.BlocksDoNotMatter|Images\.(OfEverySize|FourK)|Levels\.|Reset\.'
 slow+='|Resampler\.(Blocks|Counts|Passes|Stops)|SeveralFaces\.[^AR]|SeveralFaces\.AStranger|Soak\.|SoundClock\.Follows|Timestamps\.Any'
@@ -34,7 +39,7 @@ slow+='|Following\.(DecodersBeginAnewWhen|FindsDiscs|Follows|Loses|Searches)|Tra
 slow+='|Interleavings\.|Trackers\.MayBeMade|Camera\.|Microphone\.|Clocks\.|FloatState\.Denormals'
 slow+='|Voice\.(Blocks|IsHeard|IsMixed|LetsGo|Survives|TakesOver)'
 
-scripts/setup.sh build cross-arm
+scripts/setup.sh build $packages_of
 build=build/cross/$target
 toolchain=$PWD/scripts/cross/$target.cmake
 packages=$PWD/scripts/cross/packages
@@ -54,17 +59,19 @@ cmake -S . -B "$build" -G Ninja --toolchain "$toolchain" "${launcher[@]}" -DCMAK
   -DCLI11_DIR="$packages" -Dnlohmann_json_DIR="$packages" \
   -DGTest_DIR="$PWD/$build/googletest/lib/cmake/GTest" >/dev/null
 cmake --build "$build" --target all mien_shared
-scripts/check_symbols.sh "$build" "$nm"
-# What only this machine compiles; without what clang does not know of gcc's options, and does by itself.
-mkdir -p "$build/tidy"
-sed 's/ -mfp16-format=ieee//' "$build/compile_commands.json" >"$build/tidy/compile_commands.json"
-scripts/check_tidy.sh "$build/tidy" 'kernels/*/neon*.cpp' kernels/tier.cpp
+if [ "$target" != linux-i386 ]; then  # which has no tier of its own
+  scripts/check_symbols.sh "$build" "$nm"
+  # What only this machine compiles; without what clang does not know of gcc's options, and does by itself.
+  mkdir -p "$build/tidy"
+  sed 's/ -mfp16-format=ieee//' "$build/compile_commands.json" >"$build/tidy/compile_commands.json"
+  scripts/check_tidy.sh "$build/tidy" 'kernels/*/neon*.cpp' kernels/tier.cpp
+fi
 
 failed=0
 conformance() {  # CPU model, options
   local log=$build/conformance-$1.log
   # shellcheck disable=SC2086  # the emulator is a command with options
-  if $emulator -cpu "$1" "$build/apps/conformance/mien-conformance" --models models "${@:2}" >"$log" 2>&1; then
+  if QEMU_CPU=$1 $emulator "$build/apps/conformance/mien-conformance" --models models "${@:2}" >"$log" 2>&1; then
     echo "$1: $(tail -n 1 "$log"); $(sed -n 's/^mien .*\(tiers: [^;]*\);.*/\1/p' "$log")"
   else
     cat "$log" >&2
@@ -86,7 +93,7 @@ run_tests() {  # CPU model, ctest's choice of tests
 for model in $models; do
   run_tests "$model" -R 'Golden|PublishedNetworks|HalfSums'
 done
-[ $full -eq 1 ] || elsewhere+="|$slow"
+if [ $full -eq 1 ] || [ "$target" = linux-i386 ]; then slow=; else elsewhere+="|$slow"; fi
 run_tests "${models%% *}" -E "^(${elsewhere})"
 
 if [ "$target" = linux-arm64 ]; then
@@ -96,7 +103,7 @@ fi
 
 echo "$target: every kernel (mien-conformance, seeds: $seeds), the networks and the engine's golden answers ran as: $models"
 echo "$target: the tests of kernels, formats, engine, audio, tracker and the C API ran as: ${models%% *}"
-[ $full -eq 1 ] || echo "$target: left out (--full has them): $slow"
+[ -z "$slow" ] || echo "$target: left out (--full has them): $slow"
 [ "$target" != linux-arm64 ] || echo "$target: a C project that fetches the library, and one that embeds it, were built and ran (tests/package)"
 echo "$target: only compiled: the shared library; not built: the mien program"
 exit $failed

@@ -56,7 +56,11 @@ TEST_F(Create, NullArguments) {
   ASSERT_EQ(whole.create(config_), MIEN_OK);
   EXPECT_EQ(mien_tracker_push_video(whole.get(), nullptr, 0), MIEN_ERROR_NULL_ARGUMENT);
   EXPECT_EQ(mien_tracker_get_result(whole.get(), nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_tracker_advance(nullptr, 0), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_tracker_set_audio_offset(nullptr, 0), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_tracker_set_mix(nullptr, 0, 1.0f, 1.0f), MIEN_ERROR_NULL_ARGUMENT);
   mien_tracker_destroy(nullptr);
+  mien_audio_default(nullptr);
   mien_tracker_config_default(nullptr);
   mien_image_default(nullptr);
   mien_result_default(nullptr);

@@ -219,11 +219,22 @@ class Program(Folder):
     def test_files_that_are_none(self):
         (self.folder / "text.onnx").write_text("not a network")
         (self.folder / "empty.onnx").write_bytes(b"")
-        for name in ("text", "empty"):
+        (self.folder / "half.onnx").write_bytes(self.model().read_bytes() + b"\x0c")  # of which protobuf reads what comes before
+        for name in ("text", "empty", "half"):
             status, _ = convert([self.folder / f"{name}.onnx", "-o", self.folder / "y.mien"])
             self.assertIn("not an ONNX file", status)
         status, _ = convert([self.folder / "nowhere.onnx", "-o", self.folder / "y.mien"])
         self.assertIn("No such file", status)
+
+    def test_graphs_that_are_malformed(self):
+        """What fuzz/onnx_converter.py found to end in a traceback."""
+        for nodes in ([operator_cases.node("Concat", "x x")], [operator_cases.node("Relu", "")],
+                      [operator_cases.node("Conv", "x w", group=0)]):
+            with self.subTest(nodes[0].op_type):
+                status, _ = convert([self.model(nodes=nodes, constants={"w": operator_cases.weights(5, 3, 1, 1)}), "-o", self.folder / "y.mien"])
+                self.assertIsInstance(status, str)
+                self.assertIn(f"{nodes[0].op_type} 'the_{nodes[0].op_type.lower()}'", status)
+                self.assertEqual(len(status.splitlines()), 1)
 
     def test_weights_in_another_file_are_not_followed(self):
         case = operator_cases.Case("net", [operator_cases.node("Conv", "x w")], {"x": [1, 3, 4, 5]},

@@ -350,4 +350,28 @@ def refused():
     yield case("nobody_computes", [node("Relu", "nowhere")], X, "nobody computes its input 'nowhere'")
     yield case("opset_10", [node("Relu", "x")], X, "opset 10; 11 to 18 are taken", opset=10)
     yield case("opset_19", [node("Relu", "x")], X, "opset 19", opset=19)
+    yield case("attribute_kind", [node("Conv", "x w", pads=1)], X, "its attribute 'pads' is of another kind than ONNX says", constants=w)
+    yield case("other_groups", [node("Conv", "x w", group=3)], X, "[6, 10, 3, 3] in 3 groups", constants=w)
+    yield case("strides_of_other_axes", [node("Conv", "x w", strides=[2])], X, "strides [2], dilations [1, 1] of a window over 2 axes", constants=w)
+    yield case("no_stride", [node("MaxPool", "x", kernel_shape=[2, 2], strides=[0, 1])], X, "strides [0, 1], dilations [1, 1] of a window")
+    yield case("padding_of_other_axes", [node("Conv", "x w", pads=[1, 1])], X, "padding [1, 1] of 2 axes", constants=w)
+    yield from large_cases(w)
     yield from (case for case in move_cases() if case.refusal is not None)
+
+
+def large_cases(w):
+    """Small files that ask for much memory or time."""
+    def case(name, nodes, shapes=None, refusal="at most 16777216 numbers", **options):
+        return Case(name, nodes, shapes or X, refusal=refusal, **options)
+    much = {"n": ints(1 << 30), "p": ints(0, 0, 0, 0, 0, 0, 0, 1 << 30), "zero": np.float32(0), "one": np.float32(1), "end": np.float32(1 << 30)}
+    yield case("large_input", [node("Relu", "x")], {"x": [1, 10, 1 << 20, 7]})
+    yield case("large_dilation", [node("Conv", "x w", dilations=[1 << 20, 1 << 20])], constants=w)
+    yield case("large_padding", [node("Pad", "x p")], constants=much)
+    yield case("large_constant", [node("ConstantOfShape", "n", "t"), node("Add", "x t")], constants=much)
+    yield case("large_expansion", [node("Expand", "one n", "t"), node("Add", "x t")], constants=much)
+    yield case("large_range", [node("Range", "zero end one", "t"), node("Add", "x t")], constants=much)
+    yield case("large_selection", [node("Gather", "x i", axis=3)], constants={"i": np.zeros(1 << 18, np.int64)})
+    doubled = [node("Concat", f"t{i} t{i}" if i else "x x", f"t{i + 1}", axis=1) for i in range(3)]
+    yield case("doubled_again_and_again", [*doubled, node("Relu", "t3")], {"x": [1, 10, 512, 512]})
+    yield case("long_memory", [node("Conv", "x w", pads=[100000, 0], dilations=[100000])], {"x": [1, 5, 12]},
+               "reaches back 100000 steps; at most 1000", constants={"w": weights(6, 5, 2)}, arguments=["--time-axis", "2"])

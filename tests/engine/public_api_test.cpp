@@ -42,6 +42,30 @@ TEST_F(Engine, RunsANetworkInAFewLines) {
   }
 }
 
+TEST_F(Engine, RunsStepByStepAsAtOnce) {
+  for (const char* name : {"encoder", "temporal"}) {
+    NetworkRunner whole, steps;
+    ASSERT_EQ(whole.create(file, name), EngineStatus::kOk);
+    ASSERT_EQ(steps.create(file, name), EngineStatus::kOk);
+    std::vector<float> input(whole.input().size());
+    for (std::size_t i = 0; i < input.size(); ++i) {
+      input[i] = static_cast<float>(i % 13) / 13.0f;
+    }
+    std::copy(input.begin(), input.end(), steps.input().begin());
+    std::int32_t layers = 0;
+    for (std::int32_t step = 0; step < steps.step_count(); ++step) {
+      const NetworkRunner::StepLayers run = steps.step_layers(step);
+      EXPECT_EQ(run.first, layers);
+      layers += run.count;
+      steps.run_step(step);
+    }
+    const std::span<const float> output = steps.output(0);
+    EXPECT_EQ(run(whole, input), std::vector<float>(output.begin(), output.end()));
+  }
+  EXPECT_GT(run_fma_loop(~0u, 10), 0);
+  EXPECT_EQ(run_fma_loop(0, 10), 0) << "no tier, no loop";
+}
+
 TEST_F(Engine, RunsInTheCallersMemory) {
   RunnerMemory needed;
   const NetworkRunner::Options options;

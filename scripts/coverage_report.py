@@ -1,0 +1,100 @@
+#!/usr/bin/env python3
+"""Sums up what clang counted by folder, and holds it against the bars.
+
+usage: coverage_report.py EXPORT.json UNCOVERED.txt REPORT.md      (see coverage.sh)
+EXPORT.json is llvm-cov's. UNCOVERED.txt becomes a line for every stretch of lines and every side of a branch that nothing ran;
+in REPORT.md the table is put anew. Exit status 0 only when the bars are met.
+"""
+import json
+import os
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+LIBRARY = ("audio", "engine", "formats", "kernels", "tracker")  # without what is for programs: animation, protocols
+LINES_OF_LIBRARY, BRANCHES_OF_PARSERS = 90.0, 95.0
+# What this machine's CPU has not, its tests cannot run.
+TIERS = {"avx2": "avx2", "avx512": "avx512f", "avx512fp16": "avx512_fp16"}
+BEGIN, END = "<!-- made by scripts/coverage.sh -->", "<!-- to here -->"
+
+
+def missing_tiers():
+    flags = set(Path("/proc/cpuinfo").read_text().split())
+    return [tier for tier, flag in TIERS.items() if flag not in flags]
+
+
+def tier_of(path):
+    """Of a file that is compiled for one tier alone: avx512fp16.cpp, avx512fp16_product.cpp, avx512fp16.h."""
+    name = path.stem.split("_")[0]
+    return name if path.parts[0] == "kernels" and name in TIERS else None
+
+
+def is_writer(path):
+    return path.name in ("mien_writer.cpp", "weight_packing.cpp", "fp16.cpp") or "writer" in path.stem
+
+
+def rooms_of(path):
+    """The rows of the table that a file counts for."""
+    folder = str(path.parent) if path.parts[0] == "formats" else path.parts[0]
+    yield folder
+    if path.parts[0] in LIBRARY and folder in LIBRARY and not is_writer(path):
+        yield "the library"
+    if folder in ("formats", "formats/animation") and not is_writer(path):
+        yield "parsers"
+
+
+def uncovered_lines(segments):
+    """Stretches of lines whose regions nobody entered; a segment is [line, column, count, has a count, begins a region, is a gap]."""
+    for here, following in zip(segments, segments[1:]):
+        if here[3] and not here[2] and here[4] and not here[5]:
+            yield here[0], following[0]
+
+
+def uncovered_sides(branches):
+    """A template's branch stands there once for each of its instances."""
+    counts = {}
+    for line, column, _, _, taken, not_taken, *_ in branches:
+        before = counts.get((line, column), (0, 0))
+        counts[line, column] = before[0] + taken, before[1] + not_taken
+    for (line, column), (taken, not_taken) in sorted(counts.items()):
+        if not taken or not not_taken:
+            yield line, column, "never" if not taken and not not_taken else "never true" if not taken else "always true"
+
+
+def percent(part):
+    covered, count = part
+    return 100.0 * covered / count if count else 100.0
+
+
+def main(export, uncovered, report):
+    rooms, left_out, remarks = {}, missing_tiers(), []
+    for file in json.loads(Path(export).read_text())["data"][0]["files"]:
+        path = Path(os.path.relpath(file["filename"], ROOT))
+        if path.parts[0] not in LIBRARY or tier_of(path) in left_out:
+            continue
+        sides = list(uncovered_sides(file["branches"]))
+        remarks += [f"{path}:{a}: not run{f' (to {b})' if b != a else ''}" for a, b in uncovered_lines(file["segments"])]
+        remarks += [f"{path}:{line}:{column}: {what}" for line, column, what in sides]
+        for room in rooms_of(path):
+            sums = rooms.setdefault(room, {"lines": [0, 0], "branches": [0, 0]})
+            for kind in sums:
+                sums[kind][0] += file["summary"][kind]["covered"]
+                sums[kind][1] += file["summary"][kind]["count"]
+    Path(uncovered).write_text("".join(f"{remark}\n" for remark in remarks))
+
+    rows = ["| | lines | % | branches | % |", "|---|---|---|---|---|"]
+    for room in sorted(set(rooms) - {"the library", "parsers"}) + ["the library", "parsers"]:
+        parts = rooms[room]["lines"], rooms[room]["branches"]
+        rows.append(f"| {room} | " + " | ".join(f"{p[0]} of {p[1]} | {percent(p):.1f}" for p in parts) + " |")
+    met = percent(rooms["the library"]["lines"]) >= LINES_OF_LIBRARY and percent(rooms["parsers"]["branches"]) >= BRANCHES_OF_PARSERS
+    rows += ["", f"Bars: lines of the library {LINES_OF_LIBRARY:.0f} %, branches of parsers {BRANCHES_OF_PARSERS:.0f} %: {'met' if met else 'missed'}.",
+             f"Tiers that this CPU has not, left out: {', '.join(left_out) or 'none'}; those of other machines are not compiled here."]
+    text = Path(report).read_text()
+    before, rest = text.split(BEGIN)
+    Path(report).write_text("\n".join([before + BEGIN, *rows, END + rest.split(END)[1]]))
+    print("\n".join(rows))
+    return 0 if met else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))

@@ -1,0 +1,21 @@
+#!/usr/bin/env bash
+# There is no mien for big-endian machines, and whoever compiles it for one is told so: here for s390x. docs/cross.md says why.
+# usage: scripts/cross/big_endian.sh
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+scripts/setup.sh cross-s390x
+refusal="there is no mien for big-endian machines"
+
+compile() {  # compiler, file
+  "$1" -std=c++20 -fno-exceptions -fno-rtti -fsyntax-only -I. -Iinclude "$2" 2>&1
+}
+# All that reads a weight file; the same files are right where numbers are little-endian, so that the refusal has one reason alone.
+for file in formats/mien_open.cpp formats/mien_writer.cpp engine/model.cpp tracker/tracker.cpp; do
+  compile g++ $file || { echo "big_endian.sh: $file does not compile for this machine either" >&2; exit 1; }
+  if said=$(compile s390x-linux-gnu-g++ $file); then
+    echo "big_endian.sh: $file compiles for s390x, where its answers would be wrong" >&2
+    exit 1
+  fi
+  grep -qF "$refusal" <<<"$(tr -d '"\n' <<<"$said")" || { echo "big_endian.sh: $file is refused for another reason: $said" >&2; exit 1; }
+done
+echo "linux-s390x: compilation is refused: $refusal"
