@@ -9,10 +9,9 @@ outputs are all there and newer than it is done already, files appear under thei
 the end (exit code 12) and stops nothing. A worker that dies is replaced and its file begun anew, unless it was done: each is done once.
 """
 import argparse
-import ctypes
+import contextlib
 import json
 import os
-import signal
 import subprocess
 import sys
 import time
@@ -24,7 +23,8 @@ ENDINGS = {"csv": ".csv", "jsonl": ".jsonl", "llf": ".llf.csv", "gltf": ".gltf",
            "visemes": ".visemes.csv", "rhubarb": ".tsv", "rhubarb-json": ".rhubarb.json", "rhubarb-xml": ".xml", "rhubarb-dat": ".dat"}
 RETRIES = 5  # of a file whose worker died
 SOME_FAILED = 12
-PR_SET_PDEATHSIG = 1  # linux/prctl.h
+# A program whose worker was killed must not go on beside the one that begins its file anew.
+DIE_WITH_WORKER = ["setpriv", "--pdeathsig", "KILL"] if sys.platform == "linux" else []
 
 
 def recordings(folder, out):
@@ -41,12 +41,6 @@ def is_done(job):
     return all(os.path.exists(output) and os.stat(output).st_mtime_ns >= made for output in job["outputs"])
 
 
-def die_with_parent():
-    """A program whose worker was killed must not go on beside the one that begins its file anew."""
-    if sys.platform == "linux":
-        ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
-
-
 def track(job, program, options):
     """Runs on a worker. Looks again whether the file is done: the worker before may have died after it was."""
     begin = time.monotonic()
@@ -54,8 +48,8 @@ def track(job, program, options):
         return job | {"outcome": "done before"}
     os.makedirs(os.path.dirname(job["outputs"][0]), exist_ok=True)
     outputs = [word for output, name in zip(job["outputs"], job["formats"]) for word in ("-o", output, "--format", name)]
-    command = [program, "track", job["input"], *outputs, "--quiet", *options]
-    done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, preexec_fn=die_with_parent)
+    command = [*DIE_WITH_WORKER, program, "track", job["input"], *outputs, "--quiet", *options]
+    done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True)
     if done.returncode != 0:
         return job | {"outcome": "failed", "failure": done.stderr.strip() or f"mien ended with {done.returncode}"}
     return job | {"outcome": "done", "seconds": round(time.monotonic() - begin, 3)}
@@ -107,7 +101,8 @@ def main(words):
         sys.exit(f"{folder}: there is no video and no sound in this folder")
     before = [job | {"outcome": "done before"} for job in jobs if is_done(job)]
     waiting = [job for job in jobs if not is_done(job)]
-    finished = sorted(before + (run_all(waiting, arguments) if waiting else []), key=lambda job: job["file"])
+    with contextlib.redirect_stdout(sys.stderr):  # where Ray says that a worker died; standard output is the table's
+        finished = sorted(before + (run_all(waiting, arguments) if waiting else []), key=lambda job: job["file"])
     if arguments.json:
         print(json.dumps([{key: value for key, value in job.items() if key not in ("input", "formats")} for job in finished], indent=1))
     else:

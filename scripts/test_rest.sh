@@ -30,6 +30,14 @@ clang() {
   build clang mien_conformance_program mien_shared
   build/clang/apps/conformance/mien-conformance --models models
 }
+cluster() {  # of this machine; Ray comes from PyPI
+  local folder
+  folder=$(mktemp -d)
+  python3 -m venv "$folder"
+  "$folder/bin/pip" install --quiet 'ray==2.60.0'
+  "$folder/bin/python" tests/apps/batch_ray_test.py
+  rm -r "$folder"
+}
 page() {  # what it is built and tested with comes from npm
   scripts/setup.sh web web-test
   scripts/web.sh test
@@ -49,6 +57,7 @@ part linters linters
 part Python bindings/python/test.sh
 for binding in rust csharp android swift; do part "bindings/$binding" "bindings/$binding/test.sh"; done  # JavaScript: the page
 part documentation scripts/site.sh
+part "batches on a cluster" cluster
 part "binary interface" scripts/check_abi.sh
 part threads threads
 part "other machines" scripts/cross/all.sh

@@ -25,8 +25,7 @@ batch_ray = importlib.util.module_from_spec(specification)
 specification.loader.exec_module(batch_ray)
 
 # As `mien track`: whole files appear under their names; ends with 3 for a file that is none. `begun` and `done` note what it did.
-STAND_IN = """#!/usr/bin/env python3
-import os, sys, time
+STAND_IN = f"#!{sys.executable}\n" + """import os, sys, time
 source, log = sys.argv[2], os.environ["STAND_IN_LOG"]
 note = lambda what: open(log, "a").write(f"{what} {os.path.basename(source)} {os.getppid()}\\n")
 if "bad" in source:
@@ -117,7 +116,8 @@ class BatchRay(unittest.TestCase):
         self.assertEqual([name for name, outcome in rows.items() if outcome == "failed"], ["bad.mp4"])
         for name in rows:
             if name != "bad.mp4":
-                self.assertTrue(os.path.exists(self.path(f"out/{name}.csv")), name)
+                with open(self.path(f"out/{name}.csv")) as file:
+                    self.assertEqual(file.read(), "curves\n", name)
         done = sorted(name for _, name, _ in self.log("done"))
         self.assertEqual(done, sorted(os.path.basename(name) for name in rows if name != "bad.mp4"), "each exactly once")
         self.assertEqual(len(self.log("begun")), FILES + 1, "what was killed began anew")

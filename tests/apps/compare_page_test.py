@@ -120,7 +120,7 @@ class ComparePage(unittest.TestCase):
 
     def test_every_control_moves_the_face_on_its_side(self):
         self.open("plain.html")
-        found = self.run_js("""(() => {
+        self.run_js("""(() => {
           const canvas = document.createElement('canvas');
           [canvas.width, canvas.height] = [360, 414];
           const ctx = canvas.getContext('2d', {willReadFrequently: true});
@@ -131,7 +131,7 @@ class ComparePage(unittest.TestCase):
             return ctx.getImageData(0, 0, canvas.width, canvas.height).data;
           };
           const neutral = pixels(() => {});
-          const changed = change => {
+          window.changed = change => {
             const now = pixels(change), count = {left: 0, right: 0};
             for (let i = 0; i < now.length; i += 4) {
               const apart = [0, 1, 2, 3].some(k => Math.abs(now[i + k] - neutral[i + k]) > 24);
@@ -139,13 +139,12 @@ class ComparePage(unittest.TestCase):
             }
             return count;
           };
-          const found = {};
-          for (const name of data.controls) found[name] = changed(face => { face.controls[name] = 1; });
-          for (const angle of ['pitch', 'yaw', 'roll']) found[angle] = changed(face => { face[angle] = 0.3; });
-          found.nothing = changed(() => {});
-          return found;
         })()""")
-        self.assertEqual(found.pop("nothing"), {"left": 0, "right": 0})
+        # One answer for each face: processors that draw it and are busy with other things take their time.
+        changed = lambda change: self.run_js(f"changed(face => {{ {change}; }})")
+        found = {name: changed(f"face.controls.{name} = 1") for name in self.run_js("data.controls")}
+        found |= {angle: changed(f"face.{angle} = 0.3") for angle in ("pitch", "yaw", "roll")}
+        self.assertEqual(changed(""), {"left": 0, "right": 0})
         self.assertEqual(len(found), 52 + 3)
         for name, count in found.items():
             self.assertGreater(count["left"] + count["right"], 60, name)

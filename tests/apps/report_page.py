@@ -50,7 +50,7 @@ class Report:
         with open(path, encoding="utf-8") as file:
             self.page = Blocks(file.read())
         self.data = json.loads(self.page.blocks["data"])
-        self.columns, at, packed = {}, 0, unpack(self.page.blocks["columns"])
+        self.columns, at, packed = {}, 0, base64.b64decode(self.page.blocks["columns"], validate=True)
         for column in self.data["columns"]:
             size, count = column["bytes"], column["count"]
             steps = summed(struct.unpack_from(f"<{count}{'hi'[size == 4]}", packed, at), 8 * size)

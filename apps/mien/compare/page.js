@@ -30,10 +30,10 @@ const player = new Player(t_ms => {
 
 // The embedded video, where there is one.
 async function openVideo() {
-  const bytes = await packedBytes('video-data');
-  if (!bytes) return;
+  const blob = await blobOf('video-data', 'video/mp4');
+  if (!blob) return;
   const video = document.getElementById('video');
-  video.src = URL.createObjectURL(new Blob([bytes], {type: 'video/mp4'}));
+  video.src = URL.createObjectURL(blob);
   document.getElementById('video-figure').hidden = false;
   player.follow(video);
 }

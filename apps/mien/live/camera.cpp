@@ -2,20 +2,10 @@
 
 #include <algorithm>
 #include <cstring>
-#include <exception>
 #include <utility>
-
-#include "apps/mien/system/failure.h"
 
 namespace mien::app {
 namespace {
-
-constexpr std::int64_t kRetryNs = 1'000'000'000;
-constexpr const char* kTest = "test:";
-
-std::chrono::steady_clock::time_point point(std::int64_t time_ns) {
-  return std::chrono::steady_clock::time_point(std::chrono::nanoseconds(time_ns));
-}
 
 struct Plane {
   std::size_t rows, last_row_bytes;
@@ -61,42 +51,24 @@ void copy(const mien_image& image, Picture& into) {
 
 }  // namespace
 
-Camera::Camera(const std::string& name) : name_(name) {
-  if (name_.starts_with(kTest)) {
-    file_ = open_video(name_.substr(std::strlen(kTest)), {});
-    if (!file_->next(image_, image_pts_ns_)) {
-      throw Failure(kExitNoVideo, name_ + ": has no picture");
-    }
-  }
-}
-
-Camera::~Camera() {
-  {
-    const std::lock_guard lock(mutex_);
-    stopping_ = true;
-    if (live_) {
-      live_->interrupt();
-    }
-  }
-  changed_.notify_all();
-  if (thread_.joinable()) {
-    thread_.join();
+Camera::Camera(const std::string& name)
+    : CaptureThread(name,
+                    name.starts_with(kTest) ? open_video(name.substr(kTest.size()), {}) : nullptr,
+                    false) {
+  if (file_is_empty()) {
+    throw Failure(kExitNoVideo, name + ": has no picture");
   }
 }
 
 void Camera::start(std::int64_t begin_ns) {
-  begin_ns_ = begin_ns;
-  if (file_) {
-    thread_ = std::thread(&Camera::replay, this);
-  } else if (name_ != "none") {
-    live_ = std::make_unique<LiveVideo>(name_);
-    thread_ = std::thread(&Camera::capture, this);
+  if (name() != "none") {
+    CaptureThread::start(begin_ns);
   }
 }
 
 const Picture* Camera::newest(std::int64_t until_ns) {
   std::unique_lock lock(mutex_);
-  changed_.wait_until(lock, point(until_ns), [&] { return fresh_ || failure_ || ended_; });
+  changed_.wait_until(lock, steady_point(until_ns), [&] { return fresh_ || failure_ || ended_; });
   if (failure_) {
     std::rethrow_exception(failure_);
   }
@@ -113,25 +85,12 @@ bool Camera::ended() {
   return ended_ && !fresh_;
 }
 
-std::string Camera::trouble() {
-  const std::lock_guard lock(mutex_);
-  return trouble_;
-}
-
 std::uint64_t Camera::dropped() {
   const std::lock_guard lock(mutex_);
   return dropped_;
 }
 
-void Camera::restart(const std::string& why) {
-  const std::lock_guard lock(mutex_);
-  if (live_ && trouble_.empty()) {
-    restart_reason_ = why;
-    live_->interrupt();
-  }
-}
-
-void Camera::deliver(const mien_image& image, std::int64_t time_ns, std::int64_t there_ns) {
+void Camera::take(const mien_image& image, std::int64_t time_ns, std::int64_t there_ns) {
   copy(image, filling_);
   filling_.time_ns = time_ns;
   filling_.there_ns = there_ns;
@@ -139,89 +98,9 @@ void Camera::deliver(const mien_image& image, std::int64_t time_ns, std::int64_t
     const std::lock_guard lock(mutex_);
     std::swap(filling_, waiting_);
     dropped_ += fresh_ ? 1 : 0;
-    fresh_ = ever_ = true;
-    trouble_.clear();
+    fresh_ = true;
   }
   changed_.notify_all();
-}
-
-bool Camera::sleep_until(std::int64_t time_ns) {
-  std::unique_lock lock(mutex_);
-  return !changed_.wait_until(lock, point(time_ns), [&] { return stopping_; });
-}
-
-void Camera::replay() {
-  std::exception_ptr failure;
-  try {
-    do {
-      const std::int64_t due_ns = begin_ns_ + image_pts_ns_;
-      const std::int64_t there_ns = std::max(due_ns, steady_now_ns());
-      if (!sleep_until(due_ns)) {
-        break;
-      }
-      deliver(image_, due_ns, there_ns);
-    } while (file_->next(image_, image_pts_ns_));
-  } catch (const Failure&) {
-    failure = std::current_exception();
-  }
-  {
-    const std::lock_guard lock(mutex_);
-    failure_ = failure;
-    ended_ = true;
-  }
-  changed_.notify_all();
-}
-
-void Camera::capture() {
-  while (capture_once()) {
-    bool again = false;
-    while (!again && sleep_until(steady_now_ns() + kRetryNs)) {
-      const std::lock_guard lock(mutex_);
-      if (stopping_) {
-        return;
-      }
-      try {
-        live_ = std::make_unique<LiveVideo>(name_);
-        again = true;
-      } catch (const Failure& failure) {  // no ffmpeg any more
-        trouble_ = failure.what();
-      }
-    }
-    if (!again) {
-      return;
-    }
-  }
-}
-
-// From opening it until it is gone. False when it is not to be waited for.
-bool Camera::capture_once() {
-  std::exception_ptr failure;
-  std::string reason;
-  try {
-    live_->open();
-    mien_image image;
-    std::int64_t time_ns = 0;
-    while (live_->next(image, time_ns)) {
-      deliver(image, time_ns, time_ns);
-    }
-    reason = name_ + ": " + live_->reason();
-  } catch (const Failure& failed) {
-    reason = failed.what();
-    failure = std::current_exception();
-  }
-  std::unique_ptr<LiveVideo> gone;
-  {
-    const std::lock_guard lock(mutex_);
-    gone = std::move(live_);
-    trouble_ = restart_reason_.empty() ? reason : name_ + ": " + restart_reason_;
-    restart_reason_.clear();
-    if (!ever_) {  // what was never there is a mistake, not a cable that fell out
-      failure_ = failure ? failure : std::make_exception_ptr(Failure(kExitNoInput, reason));
-    }
-  }
-  changed_.notify_all();
-  const std::lock_guard lock(mutex_);
-  return ever_ && !stopping_;
 }
 
 }  // namespace mien::app

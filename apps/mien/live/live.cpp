@@ -47,11 +47,10 @@ std::string microphone_of(const LiveOptions& options, const std::string& camera)
   if (!has_audionet(options.models) || is_url(camera)) {
     return kNone;
   }
-  const std::string test = "test:";
-  if (!camera.starts_with(test)) {
+  if (!camera.starts_with(kTest)) {
     return default_device(CaptureKind::kMicrophone);
   }
-  return probe_streams(camera.substr(test.size())).sound ? camera : kNone;
+  return probe_streams(camera.substr(kTest.size())).sound ? camera : kNone;
 }
 
 double time_of_day_s() {

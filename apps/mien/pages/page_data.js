@@ -3,15 +3,22 @@
 const mix = (a, b, t) => a + (b - a) * t;
 const data = JSON.parse(document.getElementById('data').textContent);
 
-// The bytes of a block of base64, in parts: a page must not stand still for long. Nothing where there is no such block, or an empty one.
-async function packedBytes(id) {
-  const base64 = document.getElementById(id)?.textContent.trim();
+const blockText = id => document.getElementById(id)?.textContent.trim();
+
+function bytesOf(base64) {
+  const text = atob(base64), bytes = new Uint8Array(text.length);
+  for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
+  return bytes;
+}
+
+// What a large block of base64 holds, as a Blob, read in parts: a page must not stand still for long. Nothing where there is no such
+// block, or an empty one.
+async function blobOf(id, type) {
+  const base64 = blockText(id), part = 1 << 20, parts = [];
   if (!base64) return null;
-  const part = 1 << 20, bytes = new Uint8Array(base64.length / 4 * 3 - (base64.match(/=*$/)[0].length));
-  for (let from = 0, at = 0; from < base64.length; from += part) {
-    const text = atob(base64.slice(from, from + part));
-    for (let i = 0; i < text.length; ++i) bytes[at++] = text.charCodeAt(i);
+  for (let from = 0; from < base64.length; from += part) {
+    parts.push(bytesOf(base64.slice(from, from + part)));
     if (from + part < base64.length) await new Promise(done => setTimeout(done));
   }
-  return bytes;
+  return new Blob(parts, {type});
 }

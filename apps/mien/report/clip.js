@@ -26,10 +26,10 @@ class Clip {
   async open(player) {
     await this.openLandmarks();
     if (data.clip === 'none') return this.say('the picture was not kept: the input could be read only once');
-    const bytes = await packedBytes('clip');
+    const blob = await blobOf('clip', 'video/mp4');
     const missing = data.clip === 'beside' ?
       `The clip is too large for this page and should lie beside it, as ${data.clip_file}. It is not there.` : 'This browser cannot play the clip.';
-    this.video.src = bytes ? URL.createObjectURL(new Blob([bytes], {type: 'video/mp4'})) : encodeURIComponent(data.clip_file);
+    this.video.src = blob ? URL.createObjectURL(blob) : encodeURIComponent(data.clip_file);
     const playable = await new Promise(done => {
       this.video.addEventListener('loadedmetadata', () => done(true), {once: true});
       this.video.addEventListener('error', () => done(false), {once: true});

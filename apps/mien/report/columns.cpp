@@ -47,7 +47,7 @@ void Columns::add(const std::string& name, double unit, const std::vector<double
   std::vector<std::int16_t> column(values.size());
   std::transform(values.begin(), values.end(), column.begin(),
                  [unit](double value) { return steps(value, unit); });
-  packed_.write(differences_of(column));
+  bytes_ += differences_of(column);
 }
 
 void Columns::add_times(const std::string& name, double unit_ms,
@@ -58,7 +58,7 @@ void Columns::add_times(const std::string& name, double unit_ms,
     return static_cast<std::int32_t>(
         std::clamp(std::round(time_ms / unit_ms), INT32_MIN + 0.0, INT32_MAX + 0.0));
   });
-  packed_.write(bytes_of_differences(column));
+  bytes_ += bytes_of_differences(column);
 }
 
 }  // namespace mien::app

@@ -1,5 +1,5 @@
-// Numbers of a report: columns of whole steps, each value less the one before, which packs well and
-// which a page reads without parsing. docs/cli.md describes them.
+// Numbers of a report: columns of whole steps, each value less the one before, which a page reads
+// without parsing. docs/cli.md describes them.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +7,6 @@
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "apps/mien/pages/packed_text.h"
 
 namespace mien::app {
 
@@ -24,14 +22,14 @@ class Columns {
   // [{"name":..,"unit":..,"bytes":2|4,"count":..}], in their order.
   [[nodiscard]] const nlohmann::ordered_json& list() const { return list_; }
 
-  // All of them, little-endian, one behind the other; as packed text.
-  [[nodiscard]] std::string packed() { return packed_.finish(); }
+  // All of them, little-endian, one behind the other. Not packed: so a page has them at once.
+  [[nodiscard]] const std::string& bytes() const { return bytes_; }
 
  private:
   void note(const std::string& name, double unit, int bytes, std::size_t count);
 
   nlohmann::ordered_json list_ = nlohmann::ordered_json::array();
-  PackedText packed_;
+  std::string bytes_;
 };
 
 // What stands for no number.

@@ -3,9 +3,8 @@
 const none = -32768;  // stands for no number
 
 async function inflated(id) {
-  const bytes = await packedBytes(id);
-  if (!bytes) return null;
-  return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream('deflate'))).arrayBuffer();
+  const blob = await blobOf(id);
+  return blob && new Response(blob.stream().pipeThrough(new DecompressionStream('deflate'))).arrayBuffer();
 }
 
 // Differences to values, in place; typed arrays overflow as the writer's numbers do.

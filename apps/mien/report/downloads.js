@@ -1,6 +1,6 @@
 // Every export, unpacked when it is asked for.
 
-const sizeText = bytes => (bytes >= 1e6 ? `${(bytes / 1e6).toFixed(1)} MB` : `${Math.max(1, Math.round(bytes / 1e3))} kB`);
+const sizeText = bytes => (bytes >= 1e6 ? `${(bytes / 1e6).toFixed(1)}\u00a0MB` : `${Math.max(1, Math.round(bytes / 1e3))}\u00a0kB`);
 
 function save(bytes, file) {
   const link = document.createElement('a');

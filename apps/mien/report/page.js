@@ -75,8 +75,9 @@ function showWindow(view) {
   document.getElementById('window').textContent = view.whole ? '' : `${timeText(view.start_ms)} – ${timeText(view.end_ms)}`;
 }
 
+// Without a pause until the curves are drawn: the browser would read all that is large behind the script first.
 async function open() {
-  const take = report.take = new Take(data.columns, await inflated('columns'));
+  const take = report.take = new Take(data.columns, bytesOf(blockText('columns')).buffer);
   const losses = report.losses = findLosses(take), view = report.view = new View(data.start_ms, data.end_ms);
   showFacts(take);
   showLosses(losses, take, goTo);

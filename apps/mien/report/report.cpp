@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <numeric>
 
+#include "apps/mien/pages/packed_text.h"
 #include "apps/mien/pages/page_sources.h"
 #include "apps/mien/pages/page_text.h"
 #include "apps/mien/pages/web_video.h"
@@ -159,7 +160,7 @@ Report::Clip Report::clip() const {
 
 ordered_json Report::facts(const StageTimes& times, const Clip& clip) const {
   ordered_json facts;
-  facts["mien_report"] = 1;
+  facts["mien_report"] = 2;
   facts["program"] = std::string("mien ") + mien_version();
   facts["name"] = options_.name;
   facts["start_ms"] = start_ms();
@@ -179,13 +180,13 @@ ordered_json Report::facts(const StageTimes& times, const Clip& clip) const {
 void Report::finish(const StageTimes& times) {
   const Clip clip = this->clip();
   ordered_json facts = this->facts(times, clip);
-  Columns columns = this->columns();
+  const Columns columns = this->columns();
   facts["columns"] = columns.list();
   const std::string stem = std::filesystem::path(options_.name).stem().string();
   const Exports exports = exports_of(frames_, options_.writing, stem.empty() ? "face" : stem);
   facts["exports"] = exports.list;
   file_.write(filled(kReportPage, {{"@DATA@", script_text(facts)},
-                                   {"@COLUMNS@", columns.packed()},
+                                   {"@COLUMNS@", formats::base64(columns.bytes())},
                                    {"@BLOCKS@", block("landmarks", packed_landmarks()) +
                                                     block("clip", formats::base64(clip.bytes)) +
                                                     exports.blocks}}));

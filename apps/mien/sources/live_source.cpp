@@ -1,7 +1,6 @@
 #include "apps/mien/sources/live_source.h"
 
 #include <algorithm>
-#include <chrono>
 #include <span>
 
 #include "apps/mien/sources/capture.h"
@@ -36,10 +35,6 @@ std::string reason_of(Subprocess& decoder) {
 
 }  // namespace
 
-std::int64_t steady_now_ns() {
-  return std::chrono::steady_clock::now().time_since_epoch() / std::chrono::nanoseconds(1);
-}
-
 LiveVideo::LiveVideo(const std::string& camera)
     : camera_(camera),
       decoder_(capture_command(CaptureKind::kCamera, camera,
@@ -55,6 +50,9 @@ void LiveVideo::open() {
 }
 
 bool LiveVideo::next(mien_image& image, std::int64_t& pts_ns) {
+  if (frame_.empty()) {
+    open();
+  }
   if (reader_.read_frame(frame_) != formats::Y4mStatus::kOk) {
     return false;
   }

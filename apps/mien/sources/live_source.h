@@ -2,8 +2,8 @@
 // arrival on the steady clock, in nanoseconds.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -16,16 +16,17 @@
 namespace mien::app {
 
 // Of the clock that live times are on.
-[[nodiscard]] std::int64_t steady_now_ns();
+[[nodiscard]] inline std::int64_t steady_now_ns() {
+  return std::chrono::steady_clock::now().time_since_epoch() / std::chrono::nanoseconds(1);
+}
 
 class LiveVideo {
  public:
   // Begins to open it. Throws Failure.
   explicit LiveVideo(const std::string& camera);
 
-  // Waits for the first picture. Throws Failure(kExitNoInput) when there is none.
-  void open();
-  // Waits for the next. The image is valid until the next call. False once the camera is gone.
+  // Waits for the next picture, which is valid until the next call. False once the camera is gone.
+  // Throws Failure(kExitNoInput) when there is not even a first.
   bool next(mien_image& image, std::int64_t& pts_ns);
   // Ends a wait from another thread.
   void interrupt() { decoder_.interrupt(); }
@@ -33,6 +34,8 @@ class LiveVideo {
   std::string reason();
 
  private:
+  void open();
+
   std::string camera_;
   Subprocess decoder_;
   formats::Y4mReader reader_;
