@@ -20,7 +20,7 @@ declare -A PACKAGES=(
   [cross-wasm]="emscripten node-acorn nodejs llvm clang-tidy git googletest chromium python3 ffmpeg"
   [web]="emscripten node-acorn nodejs npm"
   [web-test]="chromium ffmpeg"
-  [cross-windows]="g++-mingw-w64-x86-64-posix binutils-mingw-w64-x86-64 wine wine64 googletest ffmpeg"
+  [cross-windows]="g++-mingw-w64-x86-64-posix binutils-mingw-w64-x86-64 libz-mingw-w64-dev wine wine64 googletest ffmpeg python3"
   [cross-compile-only]="clang lld llvm libc++-dev musl-dev"
   [train]="python3-torch libopenblas0-serial python3-opencv python3-scipy python3-pil python3-matplotlib python3-tqdm espeak-ng libespeak-ng1 flite festival festvox-kdlpc16k festvox-us-slt-hts python3-pocketsphinx pocketsphinx-en-us libopus0 ffmpeg"
 )

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "apps/mien/system/failure.h"
+#include "apps/mien/system/program_path.h"
 
 namespace mien::app {
 
@@ -37,8 +38,8 @@ std::string models_directory(const std::string& chosen) {
     return from_environment;
   }
   std::error_code ignored;
-  const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
-  for (fs::path folder = program.parent_path(); !folder.empty(); folder = folder.parent_path()) {
+  for (fs::path folder = program_path().parent_path(); !folder.empty();
+       folder = folder.parent_path()) {
     for (const char* place : {"models", "share/mien/models"}) {
       if (fs::exists(folder / place / "basenet.mien", ignored)) {
         return (folder / place).string();

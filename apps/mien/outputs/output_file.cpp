@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "apps/mien/system/failure.h"
+#include "apps/mien/system/standard_streams.h"
 
 namespace mien::app {
 namespace {
@@ -23,8 +24,10 @@ std::string partial_name(const std::string& path) {
 }
 
 void publish(const std::string& path) {
-  if (std::rename(partial_name(path).c_str(), path.c_str()) != 0) {
-    throw Failure(kExitOutput, path + ": cannot be written: " + std::strerror(errno));
+  std::error_code error;
+  std::filesystem::rename(partial_name(path), path, error);  // in place of one that is there
+  if (error) {
+    throw Failure(kExitOutput, path + ": cannot be written: " + error.message());
   }
 }
 
@@ -37,7 +40,7 @@ void write_standard_output(std::string_view text, bool& wanted) {
   if (written && (!text.empty() || std::fflush(stdout) == 0)) {
     return;
   }
-  if (errno != EPIPE) {
+  if (!reader_has_gone()) {
     throw Failure(kExitOutput,
                   std::string("standard output: cannot be written: ") + std::strerror(errno));
   }

@@ -1,8 +1,7 @@
-#include <sys/stat.h>
-
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
@@ -74,11 +73,11 @@ void require_file(const std::string& input) {
   if (is_url(input)) {
     return;
   }
-  struct stat status {};
-  if (stat(input.c_str(), &status) != 0) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(input, ignored)) {
     throw Failure(kExitNoInput, input + ": no such file");
   }
-  if (S_ISDIR(status.st_mode)) {
+  if (std::filesystem::is_directory(input, ignored)) {
     throw Failure(kExitNoInput, input + ": is a directory");
   }
 }
