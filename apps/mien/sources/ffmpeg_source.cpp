@@ -1,4 +1,3 @@
-#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -10,6 +9,7 @@
 #include "apps/mien/sources/sound_source.h"
 #include "apps/mien/system/failure.h"
 #include "apps/mien/system/subprocess.h"
+#include "formats/animation/numbers.h"
 
 namespace mien::app {
 namespace {
@@ -160,11 +160,12 @@ void FfmpegSource::collect_times(bool finished) {
     begin = end + 1;
     const std::size_t key = line.find("pts_time:");
     if (key != std::string_view::npos && line.find("showinfo") != std::string_view::npos) {
+      const std::string_view digits = line.substr(key + 9);
       double seconds = 0.0;
-      const char* digits = line.data() + key + 9;
-      const auto parsed = std::from_chars(digits, line.data() + line.size(), seconds);
-      times_s_.push_back(
-          parsed.ec == std::errc() ? seconds : static_cast<double>(times_s_.size()) / info_.fps);
+      if (!formats::parse_number(digits.substr(0, digits.find(' ')), seconds)) {
+        seconds = static_cast<double>(times_s_.size()) / info_.fps;
+      }
+      times_s_.push_back(seconds);
     } else if (line.find("[error]") != std::string_view::npos ||
                line.find("[fatal]") != std::string_view::npos) {
       last_error_ = line;
