@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "apps/mien/system/failure.h"
+#include "apps/mien/system/paths.h"
 #include "apps/mien/system/standard_streams.h"
 
 namespace mien::app {
@@ -12,20 +13,21 @@ namespace {
 
 bool is_special(const std::string& path) {
   std::error_code unknown;
-  const std::filesystem::file_status status = std::filesystem::status(path, unknown);
+  const std::filesystem::file_status status = std::filesystem::status(path_of(path), unknown);
   return std::filesystem::exists(status) && std::filesystem::is_other(status);
 }
 
 }  // namespace
 
 std::string partial_name(const std::string& path) {
-  const std::filesystem::path whole(path);
-  return (whole.parent_path() / (".partial-" + whole.filename().string())).string();
+  const std::filesystem::path whole = path_of(path);
+  return name_of(whole.parent_path() / path_of(".partial-" + name_of(whole.filename())));
 }
 
 void publish(const std::string& path) {
   std::error_code error;
-  std::filesystem::rename(partial_name(path), path, error);  // in place of one that is there
+  std::filesystem::rename(path_of(partial_name(path)), path_of(path),
+                          error);  // in place of one that is there
   if (error) {
     throw Failure(kExitOutput, path + ": cannot be written: " + error.message());
   }

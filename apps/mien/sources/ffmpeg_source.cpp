@@ -8,6 +8,7 @@
 #include "apps/mien/sources/network_input.h"
 #include "apps/mien/sources/sound_source.h"
 #include "apps/mien/system/failure.h"
+#include "apps/mien/system/paths.h"
 #include "apps/mien/system/subprocess.h"
 #include "formats/animation/numbers.h"
 
@@ -74,10 +75,10 @@ void require_file(const std::string& input) {
     return;
   }
   std::error_code ignored;
-  if (!std::filesystem::exists(input, ignored)) {
+  if (!std::filesystem::exists(path_of(input), ignored)) {
     throw Failure(kExitNoInput, input + ": no such file");
   }
-  if (std::filesystem::is_directory(input, ignored)) {
+  if (std::filesystem::is_directory(path_of(input), ignored)) {
     throw Failure(kExitNoInput, input + ": is a directory");
   }
 }

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <filesystem>
 #include <system_error>
 #include <utility>
 
 #include "apps/mien/system/failure.h"
+#include "apps/mien/system/paths.h"
 #include "apps/mien/system/program_path.h"
 
 namespace mien::app {
@@ -27,8 +27,8 @@ std::string last_error() {
   return std::system_category().message(static_cast<int>(GetLastError()));
 }
 
-// Standard C++ knows UTF-8 and UTF-16 as of paths.
-std::wstring wide(const std::string& text) { return std::filesystem::path(text).wstring(); }
+// Standard C++ makes UTF-16 of UTF-8 as of paths.
+std::wstring wide(const std::string& text) { return path_of(text).wstring(); }
 
 Handle checked(HANDLE handle, const char* what) {
   if (handle == nullptr || handle == INVALID_HANDLE_VALUE) {
