@@ -91,7 +91,7 @@ class Windows(unittest.TestCase):
 
     def test_several_outputs(self):
         made = [str(self.folder / name) for name in ("a.csv", "a.glb", "a.jsonl", "a.llf.csv", "a.bvh")]
-        more = {"--landmarks": "points.csv", "--overlay": "over.mp4", "--report": "page.html"}
+        more = {"--landmarks": "points.csv", "--overlay": "over.mp4"}  # --report needs a filter that ffmpeg 4.1 lacks
         options = [word for option, name in more.items() for word in (option, str(self.folder / name))]
         options += [word for name in made for word in ("-o", name)]
         (self.folder / "a.csv").write_text("that was there before")
@@ -145,11 +145,12 @@ class Windows(unittest.TestCase):
 
     def test_arguments_reach_ffmpeg_as_they_are(self):
         """Quotes, and backslashes before them, which a filter takes apart twice."""
-        source = r'lavfi:testsrc=size=320x240:rate=25,metadata=add:key=k:value=a\\\\"b c" \\\\,metadata=print:file=said.txt'
+        source = r'lavfi:testsrc=size=320x240:rate=25,metadata=add:key=k:value=a\\\\"b c" \\\\LONG,metadata=print:file=said.txt'
+        source = source.replace("LONG", "x" * 3000)  # ffmpeg writes when a buffer is full
         done = windows("live", "--camera", source, "--mic", "none", "--duration", "2", "--quiet", "--models", MODELS, "--lod", "1",
                        cwd=self.folder)
         self.assertEqual((done.returncode, done.stderr), (0, b""))
-        self.assertIn('k=a\\"b c" \\\n', (self.folder / "said.txt").read_text())
+        self.assertIn('k=a\\"b c" \\xxx', (self.folder / "said.txt").read_text())
 
     def test_live_sends(self):
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as receiver:
@@ -191,7 +192,7 @@ class Windows(unittest.TestCase):
         (self.folder / "broken.mp4").write_bytes(b"no video")
         for arguments, code, words in [
                 (("track", "missing.mp4"), 3, "missing.mp4: no such file"),
-                (("track", "."), 2, ""),
+                (("track", "."), 3, "is a folder"),
                 (("track", "broken.mp4"), 4, "broken.mp4: not a video: "),
                 (("track", CLIP, "-o", "no/folder.csv"), 7, "no/folder.csv: cannot be written: No such file"),
                 (("track", CLIP, "--overlay", "no/folder.mp4"), 7, "no/folder.mp4: cannot be written: "),

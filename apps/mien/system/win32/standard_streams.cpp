@@ -26,7 +26,7 @@ void prepare_standard_streams() {
   }
 }
 
-// The C library knows one of the two errors by name.
+// The C library knows one of the three errors by name.
 bool reader_has_gone() { return errno == EPIPE || (errno == EINVAL && _doserrno == ERROR_NO_DATA); }
 
 // Windows' pipes hold 4 KB and do not say how much room they have: a reader that is late is waited
