@@ -20,8 +20,8 @@ MODELS = str(SOURCE / "models")
 CLIP = str(SOURCE / "tests/data/demo.mp4")
 # Controls are 0 to 1, angles radians, positions metres. Of the same pictures, what is left are two C libraries' mathematics.
 SAME_PICTURES = 1e-4
-# Two versions of ffmpeg, which make RGB of YUV each in its own way.
-OTHER_FFMPEG = 0.02
+# Two versions of ffmpeg, which may make RGB of YUV each in its own way; 1.1e-5 was measured.
+OTHER_FFMPEG = 1e-3
 # Windows knows no names with < > : " | ? * \ or what cannot be seen.
 NAMES = ["two words.mp4", "-clip.mp4", "--help.mp4", "Ünï 顔 😀.mp4", "it's 50%d (1) & more ^.mp4", "[0v],x=y;.mp4", "%PATH%.mp4"]
 
@@ -142,15 +142,6 @@ class Windows(unittest.TestCase):
             self.assertGreater((self.folder / f"over {name}").stat().st_size, 1000)
         done = windows("inspect", "not there Ünï 顔.mien", cwd=self.folder)
         self.assertIn("not there Ünï 顔.mien", done.stderr.decode())
-
-    def test_arguments_reach_ffmpeg_as_they_are(self):
-        """Quotes, and backslashes before them, which a filter takes apart twice."""
-        source = r'lavfi:testsrc=size=320x240:rate=25,metadata=add:key=k:value=a\\\\"b c" \\\\LONG,metadata=print:file=said.txt'
-        source = source.replace("LONG", "x" * 3000)  # ffmpeg writes when a buffer is full
-        done = windows("live", "--camera", source, "--mic", "none", "--duration", "2", "--quiet", "--models", MODELS, "--lod", "1",
-                       cwd=self.folder)
-        self.assertEqual((done.returncode, done.stderr), (0, b""))
-        self.assertIn('k=a\\"b c" \\xxx', (self.folder / "said.txt").read_text())
 
     def test_live_sends(self):
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as receiver:
