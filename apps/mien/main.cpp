@@ -1,7 +1,5 @@
 // mien: facial animation from video and sound. docs/cli.md describes the verbs, options and exit
 // codes.
-#include <signal.h>
-
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -9,6 +7,7 @@
 
 #include "apps/mien/command_line/program.h"
 #include "apps/mien/system/failure.h"
+#include "apps/mien/system/standard_streams.h"
 
 namespace {
 
@@ -24,8 +23,7 @@ namespace {
 }  // namespace
 
 int main(int argc, char** argv) {
-  // A reader that goes away shows as a failed write, with a message, not as a silent death.
-  signal(SIGPIPE, SIG_IGN);
+  mien::app::prepare_standard_streams();
   try {
     return mien::app::run_program(argc, argv);
   } catch (const mien::app::Failure& failure) {

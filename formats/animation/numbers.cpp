@@ -3,6 +3,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <system_error>
 
 namespace mien::formats {
@@ -11,15 +12,32 @@ namespace {
 // Room for the largest double in fixed notation with all the decimals that anyone here prints.
 constexpr std::size_t kMaxDigits = 400;
 
+// All of it.
+template <class Number>
+bool read(std::string_view digits, Number& value) {
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  return !digits.empty() && error == std::errc() && end == digits.data() + digits.size();
+}
+
+#ifndef __cpp_lib_to_chars
+// Apple's library reads no double so. The program sets no locale.
+template <>
+bool read(std::string_view digits, double& value) {
+  const std::string text(digits);
+  char* end = nullptr;
+  value = std::strtod(text.c_str(), &end);
+  return text.find_first_not_of("+-.0123456789eE") == std::string::npos && !text.starts_with('+') &&
+         !text.empty() && end == text.c_str() + text.size();
+}
+#endif
+
 template <class Number>
 bool parse(std::string_view text, Number& value) {
-  const std::string_view digits = trimmed(text);
-  Number read{};
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), read);
-  if (digits.empty() || error != std::errc() || end != digits.data() + digits.size()) {
+  Number number{};
+  if (!read(trimmed(text), number)) {
     return false;
   }
-  value = read;
+  value = number;
   return true;
 }
 
@@ -48,17 +66,17 @@ std::string fixed(double value, int decimals) {
 double decimal(float value) {
   std::array<char, 32> digits;
   const auto [end, error] = std::to_chars(digits.data(), digits.data() + digits.size(), value);
-  double read = 0.0;
-  std::from_chars(digits.data(), end, read);
-  return read;
+  double number = 0.0;
+  read({digits.data(), static_cast<std::size_t>(end - digits.data())}, number);
+  return number;
 }
 
 bool parse_number(std::string_view text, double& value) {
-  double read = 0.0;
-  if (!parse(text, read) || !std::isfinite(read)) {
+  double number = 0.0;
+  if (!parse(text, number) || !std::isfinite(number)) {
     return false;
   }
-  value = read;
+  value = number;
   return true;
 }
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Compiles the whole library for systems whose SDK is not at hand, Android and Apple's, with clang and stand-in headers,
 # and looks at what the objects ask for. Nothing is run. Linking and running need the NDK or Xcode: docs/cross.md.
-# usage: scripts/cross/compile_only.sh [--full]      --full: also macOS on arm64 and the simulator, which differ from iOS in name
+# usage: scripts/cross/compile_only.sh [--full]      --full: also the program for macOS, macOS on arm64 and the simulator, which differ from iOS in name
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 scripts/setup.sh build cross-compile-only
@@ -22,6 +22,8 @@ sed -E 's/((INTPTR|PTRDIFF|SIZE)_M[A-Z]+ +U?)INT64/\1INT32/' "$musl/bits/stdint.
 mkdir -p "$root/headers_apple/bits"
 sed -E 's/^(#define _Int64) long/\1 long long/' "$musl/bits/alltypes.h" >"$root/headers_apple/bits/alltypes.h"
 
+apple="$root/headers_apple -idirafter $PWD/scripts/cross/apple_headers -idirafter $musl"
+
 # What an object may ask others for: memory, mathematics and reading files of the C library, new and delete that do not
 # throw, std::to_chars of integers, what the CPU has, and the compiler's own run-time library. No exceptions, no type information, no guarded or early initialisation.
 # abort is what libc++ has, without exceptions, where it would throw.
@@ -32,12 +34,16 @@ allowed+='|_ZNSt3__16__itoa8__u(32|64)toaE[jmy]Pc|getauxval|sysctlbyname'
 allowed+='|__exp10f?|memset_pattern16|__stack_chk_(fail|guard)|__cpu_(model|indicator_init)|__aeabi_[a-z0-9_]+|_GLOBAL_OFFSET_TABLE_)$'
 
 bad=0
+configure_for() {  # build folder, triple, flags, headers, options
+  rm -rf "$1"  # flags of the toolchain file are read once
+  cmake -S . -B "$1" -G Ninja --toolchain "$PWD/scripts/cross/compile_only.cmake" -DMIEN_TRIPLE="$2" -DMIEN_FLAGS="$3" \
+    -DMIEN_LLVM="$llvm" -DMIEN_HEADERS="$4" -DCMAKE_BUILD_TYPE=Release -DMIEN_BUILD_APPS=OFF -DMIEN_INSTALL=OFF \
+    -DMIEN_BUILD_CONFORMANCE=OFF -DMIEN_BUILD_TESTS=OFF "${@:5}" >/dev/null
+}
+
 check() {  # triple, flags, headers, what for
   local build=$root/$1
-  rm -rf "$build"  # flags of the toolchain file are read once
-  cmake -S . -B "$build" -G Ninja --toolchain "$PWD/scripts/cross/compile_only.cmake" -DMIEN_TRIPLE="$1" -DMIEN_FLAGS="$2" \
-    -DMIEN_LLVM="$llvm" -DMIEN_HEADERS="$3" -DCMAKE_BUILD_TYPE=Release -DMIEN_BUILD_APPS=OFF -DMIEN_INSTALL=OFF \
-    -DMIEN_BUILD_CONFORMANCE=OFF -DMIEN_BUILD_TESTS=OFF >/dev/null
+  configure_for "$build" "$1" "$2" "$3"
   build "$build" mien_static
   local library=$build/tracker/libmien.a nm=$llvm/bin/llvm-nm
   local wanted
@@ -55,6 +61,17 @@ check() {  # triple, flags, headers, what for
     bad=1
   fi
   echo "compiled: $1 ($4), $("$llvm/bin/llvm-ar" t "$library" | wc -l) objects; asks for $(wc -w <<<"$wanted") functions outside"
+}
+
+# The sources of the program; from 13.3 on macOS has all of the standard library that they use.
+check_program() {  # triple
+  local build=$root/program packages=$PWD/scripts/cross/packages
+  configure_for "$build" "$1" "-D_GNU_SOURCE" "$apple" -DMIEN_BUILD_APPS=ON -DCMAKE_FIND_PACKAGE_PREFER_CONFIG=ON \
+    -DCLI11_DIR="$packages" -Dnlohmann_json_DIR="$packages" -DZLIB_DIR="$packages"
+  local objects
+  mapfile -t objects < <(ninja -C "$build" -t targets all | sed -nE 's,^((apps/mien|formats)/.*\.obj): CXX_.*,\1,p')
+  build "$build" "${objects[@]}"
+  echo "compiled: $1 (the program mien), ${#objects[@]} objects"
 }
 
 # Android's loader wants segments apart by pages of 16 KB: are they, with what tracker/CMakeLists.txt tells the linker?
@@ -77,12 +94,13 @@ check x86_64-linux-android28 "" "$musl" "Android x86_64"
 check_pages aarch64-linux-android28 aarch64linux
 check_pages armv7a-linux-androideabi28 armelf_linux_eabi
 check_pages x86_64-linux-android28 elf_x86_64
-check arm64-apple-ios15.0 "-D_GNU_SOURCE" "$root/headers_apple -idirafter $musl" "iOS"
-check x86_64-apple-macos13.0 "-D_GNU_SOURCE" "$root/headers_apple -idirafter $musl" "macOS x86_64"
+check arm64-apple-ios15.0 "-D_GNU_SOURCE" "$apple" "iOS"
+check x86_64-apple-macos13.0 "-D_GNU_SOURCE" "$apple" "macOS x86_64"
 targets="Android arm64-v8a, armeabi-v7a and x86_64; iOS; macOS x86_64"
 if [ $full -eq 1 ]; then
-  check arm64-apple-ios15.0-simulator "-D_GNU_SOURCE" "$root/headers_apple -idirafter $musl" "iOS simulator"
-  check arm64-apple-macos13.0 "-D_GNU_SOURCE" "$root/headers_apple -idirafter $musl" "macOS arm64"
+  check arm64-apple-ios15.0-simulator "-D_GNU_SOURCE" "$apple" "iOS simulator"
+  check arm64-apple-macos13.0 "-D_GNU_SOURCE" "$apple" "macOS arm64"
+  check_program arm64-apple-macos13.3
   targets+=", arm64; iOS simulator"
 fi
 echo "compile-only: every source of the library was compiled for $targets; nothing was linked to their systems or run"

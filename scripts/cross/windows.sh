@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds mien for Windows (x86-64) with MinGW-w64 and runs mien-conformance, the tests of kernels and engine, and the whole
-# tracker on the demo clip, under Wine. What ran is said at the end.
+# Builds mien for Windows (x86-64) with MinGW-w64 and runs mien-conformance, the tests of kernels and engine, the tracker and the
+# program on the demo clip, under Wine. What ran is said at the end.
 # usage: scripts/cross/windows.sh [--full]      --full: 50 seeds of mien-conformance
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -14,8 +14,8 @@ mkdir -p "$WINEPREFIX"
 wine wineboot --init >/dev/null 2>&1
 
 echo "== windows-x64"
-configure $build $build/googletest "$PWD/scripts/cross/windows-x64.cmake"
-build $build mien_static mien_shared kernels_test engine_test mien_conformance_program mien_frame_bench
+configure $build $build/googletest "$PWD/scripts/cross/windows-x64.cmake" -DMIEN_BUILD_APPS=ON
+build $build mien_static mien_shared kernels_test engine_test mien_conformance_program mien_frame_bench mien_program
 
 # GCC bug 54412: no move of a whole AVX register may insist on an alignment that the stack does not have.
 find $build/kernels -name '*.obj' | while read -r object; do
@@ -37,5 +37,16 @@ trap 'rm -f "$frames"' EXIT
 ffmpeg -v error -y -i tests/data/demo.mp4 -frames:v 20 -pix_fmt nv12 -f rawvideo "$frames"
 wine $build/tests/tracker/frame_bench/mien_frame_bench.exe models "$frames" 640 480 avx2
 
-echo "windows-x64: mien-conformance on $seeds seeds, the tests of kernels and engine, and the tracker at level 4 on 20 frames ran under $(wine --version)"
-echo "windows-x64: only compiled: the shared library; not built: the mien program and the other tests, which need POSIX"
+echo "-- mien, Wine"
+ran_program="the program did not run: no ffmpeg.exe can be had from npm"
+if ffmpeg_folder=$(scripts/cross/install_windows_ffmpeg.sh); then
+  cmake --preset release >/dev/null
+  build build/release mien_program
+  python3 tests/apps/windows_test.py $build/apps/mien/mien.exe build/release/apps/mien/mien "$ffmpeg_folder"
+  ran_program="the program tracked, converted and sent what that of this machine does"
+else
+  echo "SKIPPED: $ran_program" >&2
+fi
+
+echo "windows-x64: mien-conformance on $seeds seeds, the tests of kernels and engine, and the tracker at level 4 on 20 frames ran under $(wine --version); $ran_program"
+echo "windows-x64: only compiled: the shared library; not built: the other tests, which need POSIX"

@@ -17,6 +17,7 @@
 #include "apps/mien/networks/model_files.h"
 #include "apps/mien/networks/tiers.h"
 #include "apps/mien/system/failure.h"
+#include "apps/mien/system/paths.h"
 
 namespace mien::app {
 namespace {
@@ -93,16 +94,16 @@ Figures time_network(const Subject& subject, const std::string& tier, double pea
 
 // "basenet.mien" and its network "encoder" are timed as basenet_encoder.
 std::string bench_name(const std::filesystem::path& path, std::string_view network) {
-  return path.stem().string() + "_" + std::string(network);
+  return name_of(path.stem()) + "_" + std::string(network);
 }
 
 void time_file(const std::filesystem::path& path, const BenchOptions& options,
                const std::map<std::string, double>& peaks, std::vector<Figures>& results) {
-  const Blob blob(path.string());
+  const Blob blob(name_of(path));
   WeightFile file;
   const EngineStatus status = file.open({static_cast<const std::byte*>(blob.data()), blob.size()});
   if (status != EngineStatus::kOk) {
-    throw Failure(kExitModel, path.string() + ": " + message(status));
+    throw Failure(kExitModel, name_of(path) + ": " + message(status));
   }
   for (std::int32_t i = 0; i < file.network_count(); ++i) {
     const std::string name = bench_name(path, file.network(i).name);

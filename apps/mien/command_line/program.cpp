@@ -16,6 +16,7 @@ int run_program(int argc, char** argv) {
   CLI::App program("Facial animation from video and sound, in real time, on a CPU", "mien");
   program.set_version_flag("--version", mien_version());
   program.require_subcommand(1);
+  program.allow_windows_style_options(false);  // "/x" is a file everywhere
   add_track(program);
   add_live(program);
   add_devices(program);

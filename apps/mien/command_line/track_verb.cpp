@@ -9,6 +9,7 @@
 #include "apps/mien/command_line/animation_options.h"
 #include "apps/mien/command_line/tracker_options.h"
 #include "apps/mien/system/failure.h"
+#include "apps/mien/system/paths.h"
 #include "apps/mien/tracking/batch.h"
 
 namespace mien::app {
@@ -86,7 +87,7 @@ void add_track(CLI::App& program) {
       throw Failure(kExitUsage, "a report shows one face; follow one");
     }
     if (batch->out.empty()) {
-      if (std::filesystem::is_directory(options->input)) {
+      if (std::filesystem::is_directory(path_of(options->input))) {
         throw Failure(kExitNoInput, options->input + ": is a folder; --out says where to");
       }
       track(*options);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <numeric>
 #include <vector>
 
@@ -11,6 +10,7 @@
 #include "apps/mien/outputs/output_file.h"
 #include "apps/mien/pages/web_video.h"
 #include "apps/mien/system/failure.h"
+#include "apps/mien/system/paths.h"
 
 namespace mien::app {
 namespace {
@@ -20,8 +20,8 @@ constexpr double kLastFrameMs = 1000.0 / 30.0;  // how long the last frame is sh
 
 // Names without folders, where these tell the two apart.
 void name_files(const CompareOptions& options, Comparison& comparison) {
-  comparison.a.name = std::filesystem::path(options.a).filename().string();
-  comparison.b.name = std::filesystem::path(options.b).filename().string();
+  comparison.a.name = name_of(path_of(options.a).filename());
+  comparison.b.name = name_of(path_of(options.b).filename());
   if (comparison.a.name == comparison.b.name) {
     comparison.a.name = options.a;
     comparison.b.name = options.b;

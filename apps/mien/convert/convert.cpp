@@ -9,6 +9,7 @@
 
 #include "apps/mien/sources/animation_file.h"
 #include "apps/mien/system/failure.h"
+#include "apps/mien/system/paths.h"
 #include "formats/animation/resample.h"
 
 namespace mien::app {
@@ -23,7 +24,7 @@ using Faces = std::map<std::int64_t, std::vector<Frame>>;
 void read_live_link_notes(const std::string& path, formats::LiveLinkOptions& options) {
   const std::string beside = path + ".json";
   std::error_code ignored;
-  if (path == "-" || !std::filesystem::exists(beside, ignored)) {
+  if (path == "-" || !std::filesystem::exists(path_of(beside), ignored)) {
     return;
   }
   const nlohmann::json notes = nlohmann::json::parse(read_whole(beside), nullptr, false);

@@ -6,6 +6,8 @@
 #include <fstream>
 
 #include "apps/mien/system/failure.h"
+#include "apps/mien/system/paths.h"
+#include "apps/mien/system/program_path.h"
 
 namespace mien::app {
 
@@ -18,7 +20,7 @@ Blob::Blob(const std::string& path, ExitCode code) {
   }
   const std::streamoff end = file.tellg();  // of a folder, the largest number there is
   std::error_code ignored;
-  if (end < 0 || fs::is_directory(path, ignored)) {
+  if (end < 0 || fs::is_directory(path_of(path), ignored)) {
     throw Failure(code, path + ": cannot be read");
   }
   size_ = static_cast<std::size_t>(end);
@@ -37,11 +39,11 @@ std::string models_directory(const std::string& chosen) {
     return from_environment;
   }
   std::error_code ignored;
-  const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
-  for (fs::path folder = program.parent_path(); !folder.empty(); folder = folder.parent_path()) {
+  for (fs::path folder = program_path().parent_path(); !folder.empty();
+       folder = folder.parent_path()) {
     for (const char* place : {"models", "share/mien/models"}) {
       if (fs::exists(folder / place / "basenet.mien", ignored)) {
-        return (folder / place).string();
+        return name_of(folder / place);
       }
     }
     if (folder == folder.root_path()) {
@@ -54,7 +56,7 @@ std::string models_directory(const std::string& chosen) {
 std::vector<fs::path> weight_files(const std::string& folder) {
   std::vector<fs::path> files;
   std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+  for (const auto& entry : fs::directory_iterator(path_of(folder), ignored)) {
     if (entry.path().extension() == ".mien") {
       files.push_back(entry.path());
     }

@@ -5,26 +5,31 @@
 #include <filesystem>
 
 #include "apps/mien/system/failure.h"
+#include "apps/mien/system/paths.h"
+#include "apps/mien/system/standard_streams.h"
 
 namespace mien::app {
 namespace {
 
 bool is_special(const std::string& path) {
   std::error_code unknown;
-  const std::filesystem::file_status status = std::filesystem::status(path, unknown);
+  const std::filesystem::file_status status = std::filesystem::status(path_of(path), unknown);
   return std::filesystem::exists(status) && std::filesystem::is_other(status);
 }
 
 }  // namespace
 
 std::string partial_name(const std::string& path) {
-  const std::filesystem::path whole(path);
-  return (whole.parent_path() / (".partial-" + whole.filename().string())).string();
+  const std::filesystem::path whole = path_of(path);
+  return name_of(whole.parent_path() / path_of(".partial-" + name_of(whole.filename())));
 }
 
 void publish(const std::string& path) {
-  if (std::rename(partial_name(path).c_str(), path.c_str()) != 0) {
-    throw Failure(kExitOutput, path + ": cannot be written: " + std::strerror(errno));
+  std::error_code error;
+  std::filesystem::rename(path_of(partial_name(path)), path_of(path),
+                          error);  // in place of one that is there
+  if (error) {
+    throw Failure(kExitOutput, path + ": cannot be written: " + error.message());
   }
 }
 
@@ -37,7 +42,7 @@ void write_standard_output(std::string_view text, bool& wanted) {
   if (written && (!text.empty() || std::fflush(stdout) == 0)) {
     return;
   }
-  if (errno != EPIPE) {
+  if (!reader_has_gone()) {
     throw Failure(kExitOutput,
                   std::string("standard output: cannot be written: ") + std::strerror(errno));
   }

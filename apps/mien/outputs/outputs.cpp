@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <string>
 
 #include "apps/mien/outputs/result_frame.h"
+#include "apps/mien/system/paths.h"
 
 namespace mien::app {
 namespace {
@@ -24,7 +24,7 @@ ReportOptions report_options(const TrackOptions& options, const VideoInfo& info)
           .picture = info.width > 0 ? file_or_none(options.input) : "",
           .sound = file_or_none(options.audio.empty() ? options.input : options.audio),
           .largest_clip_bytes = options.report_clip_mb * 1e6,
-          .name = std::filesystem::path(options.input).filename().string(),
+          .name = name_of(path_of(options.input).filename()),
           .width = info.width,
           .height = info.height,
           .writing = options.animation.writing};

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <numeric>
 
 #include "apps/mien/pages/packed_text.h"
@@ -10,6 +9,7 @@
 #include "apps/mien/pages/page_text.h"
 #include "apps/mien/pages/web_video.h"
 #include "apps/mien/report/exports.h"
+#include "apps/mien/system/paths.h"
 #include "formats/animation/base64.h"
 
 namespace mien::app {
@@ -155,7 +155,7 @@ Report::Clip Report::clip() const {
   OutputFile file(options_.page + ".mp4");
   file.write(video);
   file.finish();
-  return {.bytes = "", .beside = std::filesystem::path(options_.page + ".mp4").filename().string()};
+  return {.bytes = "", .beside = name_of(path_of(options_.page + ".mp4").filename())};
 }
 
 ordered_json Report::facts(const StageTimes& times, const Clip& clip) const {
@@ -182,7 +182,7 @@ void Report::finish(const StageTimes& times) {
   ordered_json facts = this->facts(times, clip);
   const Columns columns = this->columns();
   facts["columns"] = columns.list();
-  const std::string stem = std::filesystem::path(options_.name).stem().string();
+  const std::string stem = name_of(path_of(options_.name).stem());
   const Exports exports = exports_of(frames_, options_.writing, stem.empty() ? "face" : stem);
   facts["exports"] = exports.list;
   file_.write(filled(kReportPage, {{"@DATA@", script_text(facts)},

@@ -1,10 +1,7 @@
 #include "apps/mien/senders/line_sender.h"
 
-#include <fcntl.h>
-#include <poll.h>
-#include <unistd.h>
-
 #include "apps/mien/outputs/output_file.h"
+#include "apps/mien/system/standard_streams.h"
 #include "formats/animation/frames_jsonl.h"
 
 namespace mien::app {
@@ -12,18 +9,10 @@ namespace {
 
 class LineSender : public Sender {
  public:
-  LineSender() : Sender("-") {
-#ifdef F_SETPIPE_SZ
-    // A pipe holds 64 KB unless told otherwise, which is a second of lines that are late.
-    constexpr int kLeastBytes = 8192;
-    fcntl(STDOUT_FILENO, F_SETPIPE_SZ, kLeastBytes);
-#endif
-  }
+  LineSender() : Sender("-") { shorten_standard_output(); }
 
   bool send(const Outgoing& outgoing) override {
-    // A pipe that can be written to takes a page at once, which is more than a line has.
-    pollfd room{STDOUT_FILENO, POLLOUT, 0};
-    if (poll(&room, 1, 0) == 0) {
+    if (!standard_output_has_room()) {
       return false;
     }
     write_standard_output(formats::frame_json(outgoing.frame) + "\n", wanted_);

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "apps/mien/system/failure.h"
+#include "apps/mien/system/paths.h"
 
 namespace mien::app {
 
@@ -14,14 +15,15 @@ std::string read_whole(const std::string& path) {
     return {std::istreambuf_iterator<char>(std::cin), {}};
   }
   std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) {
+  if (std::filesystem::is_directory(path_of(path), ignored)) {
     throw Failure(kExitNoInput, path + ": is a directory");
   }
   std::ifstream file(path, std::ios::binary);
   if (!file) {
     throw Failure(
         kExitNoInput,
-        path + ": " + (std::filesystem::exists(path, ignored) ? "cannot be read" : "no such file"));
+        path + ": " +
+            (std::filesystem::exists(path_of(path), ignored) ? "cannot be read" : "no such file"));
   }
   return {std::istreambuf_iterator<char>(file), {}};
 }

@@ -20,9 +20,10 @@ using enum CaptureKind;
 }
 
 // All that ffmpeg says, which is an error where all that was asked for is a list.
-[[maybe_unused]] std::string ffmpeg_says(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), {"ffmpeg", "-hide_banner", "-nostdin"});
-  Subprocess ffmpeg(arguments, Subprocess::Pipe::kFromChild);
+[[maybe_unused]] std::string ffmpeg_says(const std::vector<std::string>& arguments) {
+  std::vector<std::string> command = {"ffmpeg", "-hide_banner", "-nostdin"};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  Subprocess ffmpeg(command, Subprocess::Pipe::kFromChild);
   std::string text = ffmpeg.read_all();
   ffmpeg.finish();
   return text + ffmpeg.take_errors();

@@ -1,8 +1,6 @@
-#include <sys/stat.h>
-
-#include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
@@ -10,7 +8,9 @@
 #include "apps/mien/sources/network_input.h"
 #include "apps/mien/sources/sound_source.h"
 #include "apps/mien/system/failure.h"
+#include "apps/mien/system/paths.h"
 #include "apps/mien/system/subprocess.h"
+#include "formats/animation/numbers.h"
 
 namespace mien::app {
 namespace {
@@ -74,11 +74,11 @@ void require_file(const std::string& input) {
   if (is_url(input)) {
     return;
   }
-  struct stat status {};
-  if (stat(input.c_str(), &status) != 0) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(path_of(input), ignored)) {
     throw Failure(kExitNoInput, input + ": no such file");
   }
-  if (S_ISDIR(status.st_mode)) {
+  if (std::filesystem::is_directory(path_of(input), ignored)) {
     throw Failure(kExitNoInput, input + ": is a directory");
   }
 }
@@ -161,11 +161,12 @@ void FfmpegSource::collect_times(bool finished) {
     begin = end + 1;
     const std::size_t key = line.find("pts_time:");
     if (key != std::string_view::npos && line.find("showinfo") != std::string_view::npos) {
+      const std::string_view digits = line.substr(key + 9);
       double seconds = 0.0;
-      const char* digits = line.data() + key + 9;
-      const auto parsed = std::from_chars(digits, line.data() + line.size(), seconds);
-      times_s_.push_back(
-          parsed.ec == std::errc() ? seconds : static_cast<double>(times_s_.size()) / info_.fps);
+      if (!formats::parse_number(digits.substr(0, digits.find(' ')), seconds)) {
+        seconds = static_cast<double>(times_s_.size()) / info_.fps;
+      }
+      times_s_.push_back(seconds);
     } else if (line.find("[error]") != std::string_view::npos ||
                line.find("[fatal]") != std::string_view::npos) {
       last_error_ = line;

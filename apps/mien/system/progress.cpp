@@ -1,10 +1,10 @@
 #include "apps/mien/system/progress.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <string>
+
+#include "apps/mien/system/terminal.h"
 
 namespace mien::app {
 namespace {
@@ -16,10 +16,7 @@ constexpr int kBarCells = 30;
 }  // namespace
 
 Progress::Progress(bool quiet, std::optional<std::int64_t> total, const char* unit)
-    : shown_(!quiet && isatty(STDERR_FILENO) != 0),
-      total_(total),
-      unit_(unit),
-      started_(Clock::now()) {}
+    : shown_(!quiet && error_is_terminal()), total_(total), unit_(unit), started_(Clock::now()) {}
 
 Progress::~Progress() {
   if (shown_) {

@@ -1,20 +1,20 @@
-// Another program connected by pipes. Used for ffmpeg and ffprobe; POSIX.
+// Another program connected by pipes. Used for ffmpeg and ffprobe.
 #pragma once
-
-#include <sys/types.h>
 
 #include <chrono>
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
+
+#include "apps/mien/system/child_process.h"
 
 namespace mien::app {
 
 class Subprocess {
  public:
-  enum class Pipe { kToChild, kFromChild };
+  using Pipe = ChildProcess::Pipe;
 
   // How long a child that reads or writes files may do nothing.
   static constexpr std::chrono::seconds kPatience{60};
@@ -25,7 +25,6 @@ class Subprocess {
   // child from which `read`, or for which `write`, waits longer than `patience` is killed.
   Subprocess(const std::vector<std::string>& arguments, Pipe pipe,
              std::chrono::milliseconds patience = kEndless);
-  ~Subprocess();
   Subprocess(const Subprocess&) = delete;
   Subprocess& operator=(const Subprocess&) = delete;
 
@@ -47,16 +46,11 @@ class Subprocess {
   std::string take_errors();
 
  private:
-  // False, and the child is killed, when nothing happens with either pipe.
-  bool wait_for(short event);
-  void drain_errors(bool wait);
-  void close_pipe();
+  void lose_patience();
 
   const std::string name_;
   const std::chrono::milliseconds patience_;
-  pid_t pid_ = -1;
-  int pipe_ = -1;
-  int errors_pipe_ = -1;
+  const std::unique_ptr<ChildProcess> child_;
   std::string errors_;
 };
 

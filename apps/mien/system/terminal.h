@@ -1,4 +1,5 @@
-// The terminal as a screen and a keyboard.
+// The terminal as a screen and a keyboard. posix/ and win32/ have the keyboard and the question,
+// each.
 #pragma once
 
 #include <memory>
@@ -6,6 +7,9 @@
 #include <string>
 
 namespace mien::app {
+
+// Whether standard error is a terminal; if so it takes escape sequences from then on.
+[[nodiscard]] bool error_is_terminal();
 
 // Keys as they are pressed, without waiting for a line. The terminal is as it was afterwards.
 class Keyboard {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "apps/mien/system/failure.h"
+#include "apps/mien/system/paths.h"
 #include "apps/mien/system/progress.h"
 
 namespace mien::app {
@@ -65,9 +66,9 @@ std::vector<std::string> endings(const std::vector<std::string>& formats) {
 
 bool done_before(const Job& job) {
   std::error_code error;
-  const auto made = fs::last_write_time(job.input, error);
+  const auto made = fs::last_write_time(path_of(job.input), error);
   return std::all_of(job.outputs.begin(), job.outputs.end(), [&](const std::string& output) {
-    const auto written = fs::last_write_time(output, error);
+    const auto written = fs::last_write_time(path_of(output), error);
     return !error && written >= made;
   });
 }
@@ -77,22 +78,22 @@ std::vector<Job> find_jobs(const BatchOptions& options) {
   if (options.reports) {
     wanted.emplace_back(".html");
   }
-  const fs::path out = fs::weakly_canonical(options.out);
+  const fs::path out = fs::weakly_canonical(path_of(options.out));
   std::vector<Job> jobs;
   try {
-    for (auto entry = fs::recursive_directory_iterator(options.folder);
+    for (auto entry = fs::recursive_directory_iterator(path_of(options.folder));
          entry != fs::recursive_directory_iterator(); ++entry) {
       if (entry->is_directory() && fs::weakly_canonical(entry->path()) == out) {
         entry.disable_recursion_pending();  // what lies there is no input
       }
-      if (!entry->is_regular_file() || !is_recording(entry->path().string())) {
+      if (!entry->is_regular_file() || !is_recording(name_of(entry->path()))) {
         continue;
       }
       Job job;
-      job.input = entry->path().string();
-      job.name = fs::relative(entry->path(), options.folder).generic_string();
+      job.input = name_of(entry->path());
+      job.name = name_of(fs::relative(entry->path(), path_of(options.folder)));
       for (const std::string& ending : wanted) {
-        job.outputs.push_back((fs::path(options.out) / (job.name + ending)).string());
+        job.outputs.push_back(name_of(path_of(options.out) / path_of(job.name + ending)));
       }
       jobs.push_back(job);
     }
@@ -143,7 +144,7 @@ void run(const BatchOptions& options, Job& job, SharedProgress& progress) {
     each.animation.writing.sound_file = job.input;
     each.quiet = true;
     each.after_frame = [&progress] { progress.frame_done(); };
-    fs::create_directories(fs::path(job.outputs.front()).parent_path());
+    fs::create_directories(path_of(job.outputs.front()).parent_path());
     job.summary = track(each);
     job.outcome = Outcome::kDone;
   } catch (const std::exception& failure) {
@@ -213,7 +214,7 @@ void print_json(const std::vector<Job>& jobs) {
 }  // namespace
 
 bool is_recording(const std::string& path) {
-  std::string ending = fs::path(path).extension().string();
+  std::string ending = name_of(path_of(path).extension());
   std::transform(ending.begin(), ending.end(), ending.begin(), formats::to_lower);
   return std::find(kRecordings.begin(), kRecordings.end(), ending) != kRecordings.end();
 }

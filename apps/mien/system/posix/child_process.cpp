@@ -1,0 +1,215 @@
+#include "apps/mien/system/child_process.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <mutex>
+#include <utility>
+
+#include "apps/mien/system/failure.h"
+
+extern "C" char** environ;  // which no header of macOS declares
+
+namespace mien::app {
+namespace {
+
+struct PipeEnds {
+  int read_end;
+  int write_end;
+};
+
+// Of no child; that pipes are born as that all at once, not every system can.
+PipeEnds make_pipe() {
+  std::array<int, 2> ends{};
+  if (pipe(ends.data()) != 0) {
+    throw Failure(kExitInternal, std::string("cannot make a pipe: ") + std::strerror(errno));
+  }
+  fcntl(ends[0], F_SETFD, FD_CLOEXEC);
+  fcntl(ends[1], F_SETFD, FD_CLOEXEC);
+  return {ends[0], ends[1]};
+}
+
+// Children of two threads would inherit each other's pipes, and never see their end.
+std::mutex one_start_at_a_time;
+
+pid_t spawn(const std::vector<std::string>& arguments, int child_stdin, int child_stdout,
+            int child_stderr) {
+  std::vector<char*> argv;
+  argv.reserve(arguments.size() + 1);
+  for (const std::string& argument : arguments) {
+    argv.push_back(const_cast<char*>(argument.c_str()));
+  }
+  argv.push_back(nullptr);
+
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  const auto connect = [&](int from, int to) {
+    if (from >= 0) {
+      posix_spawn_file_actions_adddup2(&actions, from, to);
+    } else {
+      posix_spawn_file_actions_addopen(&actions, to, "/dev/null", O_RDWR, 0);
+    }
+  };
+  connect(child_stdin, STDIN_FILENO);
+  connect(child_stdout, STDOUT_FILENO);
+  connect(child_stderr, STDERR_FILENO);
+
+  pid_t pid = -1;
+  const int error = posix_spawnp(&pid, argv[0], &actions, nullptr, argv.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (error != 0) {
+    throw Failure(kExitNoFfmpeg, "cannot run '" + arguments[0] + "': " + std::strerror(error));
+  }
+  return pid;
+}
+
+class PosixChild : public ChildProcess {
+ public:
+  PosixChild(const std::vector<std::string>& arguments, Pipe pipe);
+  ~PosixChild() override;
+  PosixChild(const PosixChild&) = delete;
+  PosixChild& operator=(const PosixChild&) = delete;
+
+  std::optional<std::size_t> read(std::span<std::byte> bytes,
+                                  std::chrono::milliseconds patience) override {
+    return transfer([&] { return ::read(pipe_, bytes.data(), bytes.size()); }, POLLIN, patience);
+  }
+  std::optional<std::size_t> write(std::span<const std::byte> bytes,
+                                   std::chrono::milliseconds patience) override {
+    return transfer([&] { return ::write(pipe_, bytes.data(), bytes.size()); }, POLLOUT, patience);
+  }
+  void close_pipe() override;
+  void kill() override { ::kill(pid_, SIGKILL); }
+  int wait() override;
+  std::string take_errors() override {
+    drain_errors(false);
+    return std::exchange(errors_, {});
+  }
+
+ private:
+  template <class Transfer>
+  std::optional<std::size_t> transfer(Transfer once, short event,
+                                      std::chrono::milliseconds patience);
+  bool wait_for(short event, std::chrono::milliseconds patience);
+  void drain_errors(bool wait);
+
+  pid_t pid_ = -1;
+  int pipe_ = -1;
+  int errors_pipe_ = -1;
+  std::string errors_;
+};
+
+PosixChild::PosixChild(const std::vector<std::string>& arguments, Pipe pipe) {
+  const std::lock_guard<std::mutex> alone(one_start_at_a_time);
+  const PipeEnds data = make_pipe();
+  const PipeEnds errors = make_pipe();
+  const bool from_child = pipe == Pipe::kFromChild;
+  const int child_end = from_child ? data.write_end : data.read_end;
+  pipe_ = from_child ? data.read_end : data.write_end;
+  errors_pipe_ = errors.read_end;
+  fcntl(errors_pipe_, F_SETFL, O_NONBLOCK);
+  fcntl(pipe_, F_SETFL, O_NONBLOCK);
+  try {
+    pid_ = spawn(arguments, from_child ? -1 : child_end, from_child ? child_end : -1,
+                 errors.write_end);
+  } catch (...) {
+    for (const int end : {data.read_end, data.write_end, errors.read_end, errors.write_end}) {
+      close(end);
+    }
+    throw;
+  }
+  close(child_end);
+  close(errors.write_end);
+}
+
+PosixChild::~PosixChild() {
+  PosixChild::close_pipe();
+  if (pid_ > 0) {
+    ::kill(pid_, SIGKILL);
+    waitpid(pid_, nullptr, 0);
+  }
+  if (errors_pipe_ >= 0) {
+    close(errors_pipe_);
+  }
+}
+
+void PosixChild::close_pipe() {
+  if (pipe_ >= 0) {
+    close(pipe_);
+    pipe_ = -1;
+  }
+}
+
+void PosixChild::drain_errors(bool wait) {
+  std::array<char, 4096> buffer{};
+  while (errors_pipe_ >= 0) {
+    const ssize_t n = ::read(errors_pipe_, buffer.data(), buffer.size());
+    if (n > 0) {
+      errors_.append(buffer.data(), static_cast<std::size_t>(n));
+    } else if (n == 0) {
+      close(errors_pipe_);
+      errors_pipe_ = -1;
+    } else if (errno == EAGAIN && wait) {
+      pollfd waiting{errors_pipe_, POLLIN, 0};
+      poll(&waiting, 1, -1);
+    } else if (errno != EINTR) {
+      return;
+    }
+  }
+}
+
+// False when nothing happens with either pipe.
+bool PosixChild::wait_for(short event, std::chrono::milliseconds patience) {
+  std::array<pollfd, 2> waiting{pollfd{pipe_, event, 0}, pollfd{errors_pipe_, POLLIN, 0}};
+  int happened = -1;
+  do {
+    happened = poll(waiting.data(), waiting.size(), static_cast<int>(patience.count()));
+  } while (happened < 0 && errno == EINTR);
+  if (waiting[1].revents != 0) {
+    drain_errors(false);
+  }
+  return happened > 0;
+}
+
+template <class Transfer>
+std::optional<std::size_t> PosixChild::transfer(Transfer once, short event,
+                                                std::chrono::milliseconds patience) {
+  for (;;) {
+    const ssize_t n = once();
+    if (n >= 0) {
+      return static_cast<std::size_t>(n);
+    }
+    if (errno == EAGAIN) {
+      if (!wait_for(event, patience)) {
+        return std::nullopt;
+      }
+    } else if (errno != EINTR) {
+      return 0;
+    }
+  }
+}
+
+int PosixChild::wait() {
+  drain_errors(true);
+  int status = 0;
+  while (waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
+  }
+  pid_ = -1;
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+}  // namespace
+
+std::unique_ptr<ChildProcess> ChildProcess::start(const std::vector<std::string>& arguments,
+                                                  Pipe pipe) {
+  return std::make_unique<PosixChild>(arguments, pipe);
+}
+
+}  // namespace mien::app

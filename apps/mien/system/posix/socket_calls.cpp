@@ -1,0 +1,24 @@
+#include "apps/mien/system/socket_calls.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+namespace mien::app::sockets {
+
+void start() {}
+
+void close(Handle handle) { ::close(handle); }
+
+void prepare(Handle handle) {
+  fcntl(handle, F_SETFL, fcntl(handle, F_GETFL) | O_NONBLOCK);
+  fcntl(handle, F_SETFD, FD_CLOEXEC);
+}
+
+std::string last_error() { return std::strerror(errno); }
+
+std::string name_error(int error) { return gai_strerror(error); }
+
+}  // namespace mien::app::sockets

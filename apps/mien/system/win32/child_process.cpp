@@ -1,0 +1,318 @@
+#include "apps/mien/system/child_process.h"
+
+#include <windows.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <system_error>
+#include <utility>
+
+#include "apps/mien/system/failure.h"
+#include "apps/mien/system/paths.h"
+#include "apps/mien/system/program_path.h"
+
+namespace mien::app {
+namespace {
+
+constexpr UINT kKilled = 128 + 9;  // as of a child that SIGKILL ended
+
+struct Close {
+  using pointer = HANDLE;
+  void operator()(HANDLE handle) const { CloseHandle(handle); }
+};
+using Handle = std::unique_ptr<void, Close>;
+
+std::string last_error() {
+  return std::system_category().message(static_cast<int>(GetLastError()));
+}
+
+// Standard C++ makes UTF-16 of UTF-8 as of paths.
+std::wstring wide(const std::string& text) { return path_of(text).wstring(); }
+
+Handle checked(HANDLE handle, const char* what) {
+  if (handle == nullptr || handle == INVALID_HANDLE_VALUE) {
+    throw Failure(kExitInternal, std::string("cannot make ") + what + ": " + last_error());
+  }
+  return Handle(handle);
+}
+
+// What the child may have of us; it has only what is listed besides.
+Handle open_for_child(const std::wstring& name, DWORD access) {
+  SECURITY_ATTRIBUTES inherited{sizeof(SECURITY_ATTRIBUTES), nullptr, TRUE};
+  return checked(CreateFileW(name.c_str(), access, FILE_SHARE_READ | FILE_SHARE_WRITE, &inherited,
+                             OPEN_EXISTING, 0, nullptr),
+                 "an end of a pipe");
+}
+
+// Our end of a pipe. A transfer is begun, and its end is an event that can be waited for.
+class PipeEnd {
+ public:
+  PipeEnd() : ended_(checked(CreateEventW(nullptr, TRUE, FALSE, nullptr), "an event")) {}
+  ~PipeEnd() { cancel(); }
+  PipeEnd(const PipeEnd&) = delete;
+  PipeEnd& operator=(const PipeEnd&) = delete;
+
+  // Returns the child's end. Only pipes with a name can be waited for.
+  Handle open(bool from_child) {
+    constexpr DWORD kBytes = 1 << 16;
+    static std::atomic<unsigned> made = 0;
+    const std::wstring name = L"\\\\.\\pipe\\mien-" + std::to_wstring(GetCurrentProcessId()) +
+                              L"-" + std::to_wstring(made++);
+    const DWORD access = from_child ? PIPE_ACCESS_INBOUND : PIPE_ACCESS_OUTBOUND;
+    pipe_ = checked(CreateNamedPipeW(
+                        name.c_str(), access | FILE_FLAG_OVERLAPPED | FILE_FLAG_FIRST_PIPE_INSTANCE,
+                        PIPE_TYPE_BYTE | PIPE_REJECT_REMOTE_CLIENTS, 1, kBytes, kBytes, 0, nullptr),
+                    "a pipe");
+    return open_for_child(name, from_child ? GENERIC_WRITE : GENERIC_READ);
+  }
+
+  void begin_read(std::span<std::byte> bytes) {
+    prepare();
+    check(ReadFile(pipe_.get(), bytes.data(), size_of(bytes), nullptr, &transfer_));
+  }
+  void begin_write(std::span<const std::byte> bytes) {
+    prepare();
+    check(WriteFile(pipe_.get(), bytes.data(), size_of(bytes), nullptr, &transfer_));
+  }
+
+  [[nodiscard]] HANDLE ended() const { return ended_.get(); }
+
+  // How many bytes the transfer moved that has ended; 0: the child closed its end.
+  std::size_t moved() {
+    DWORD bytes = 0;
+    open_ = open_ && GetOverlappedResult(pipe_.get(), &transfer_, &bytes, TRUE) != 0;
+    under_way_ = false;
+    return open_ ? bytes : 0;
+  }
+
+  void cancel() {
+    if (under_way_) {
+      CancelIoEx(pipe_.get(), &transfer_);
+      moved();
+    }
+  }
+
+  void close() {
+    cancel();
+    pipe_.reset();
+    open_ = false;
+  }
+  [[nodiscard]] bool open() const { return open_; }
+
+ private:
+  static DWORD size_of(std::span<const std::byte> bytes) {
+    constexpr std::size_t kMost = 1 << 30;
+    return static_cast<DWORD>(std::min(bytes.size(), kMost));
+  }
+  void prepare() {
+    ResetEvent(ended_.get());
+    transfer_ = {};
+    transfer_.hEvent = ended_.get();
+  }
+  void check(BOOL done) {
+    under_way_ = done != 0 || GetLastError() == ERROR_IO_PENDING;
+    if (!under_way_) {
+      open_ = false;
+      SetEvent(ended_.get());
+    }
+  }
+
+  Handle ended_;
+  Handle pipe_;
+  OVERLAPPED transfer_ = {};
+  bool under_way_ = false;
+  bool open_ = true;
+};
+
+// As the C library of the child takes it apart again: backslashes are themselves but before a
+// quote.
+std::wstring quoted(const std::wstring& argument) {
+  std::wstring made = L"\"";
+  std::size_t backslashes = 0;
+  for (const wchar_t c : argument) {
+    if (c == L'"') {
+      made.append(backslashes + 1, L'\\');
+    }
+    backslashes = c == L'\\' ? backslashes + 1 : 0;
+    made += c;
+  }
+  return made.append(backslashes, L'\\') + L'"';
+}
+
+std::wstring command_line(const std::vector<std::string>& arguments) {
+  std::wstring made;
+  for (const std::string& argument : arguments) {
+    made += quoted(wide(argument)) + L' ';
+  }
+  return made;
+}
+
+std::wstring environment_variable(const wchar_t* name) {
+  std::wstring value(GetEnvironmentVariableW(name, nullptr, 0), L'\0');
+  value.resize(GetEnvironmentVariableW(name, value.data(), static_cast<DWORD>(value.size())));
+  return value;
+}
+
+// Beside this program, as people put it there, or on PATH; not in the current folder, where anybody
+// may have put one.
+std::wstring find_program(const std::string& name) {
+  const std::wstring folders =
+      program_path().parent_path().wstring() + L';' + environment_variable(L"PATH");
+  std::array<wchar_t, 32768> found{};
+  const DWORD length = SearchPathW(folders.c_str(), wide(name).c_str(), L".exe",
+                                   static_cast<DWORD>(found.size()), found.data(), nullptr);
+  if (length == 0) {
+    throw Failure(kExitNoFfmpeg,
+                  "cannot run '" + name + "': it is neither beside mien nor on PATH");
+  }
+  return {found.data(), length};
+}
+
+// What a child inherits: these handles, and nothing that another thread makes meanwhile.
+class Inheritance {
+ public:
+  explicit Inheritance(std::span<HANDLE> handles) {
+    SIZE_T bytes = 0;
+    InitializeProcThreadAttributeList(nullptr, 1, 0, &bytes);
+    memory_.resize(bytes);
+    InitializeProcThreadAttributeList(list(), 1, 0, &bytes);
+    UpdateProcThreadAttribute(list(), 0, PROC_THREAD_ATTRIBUTE_HANDLE_LIST, handles.data(),
+                              handles.size_bytes(), nullptr, nullptr);
+  }
+  ~Inheritance() { DeleteProcThreadAttributeList(list()); }
+  Inheritance(const Inheritance&) = delete;
+  Inheritance& operator=(const Inheritance&) = delete;
+
+  LPPROC_THREAD_ATTRIBUTE_LIST list() {
+    return reinterpret_cast<LPPROC_THREAD_ATTRIBUTE_LIST>(memory_.data());
+  }
+
+ private:
+  std::vector<std::byte> memory_;
+};
+
+// `streams`: the child's standard input, output and error.
+Handle spawn(const std::vector<std::string>& arguments, std::array<HANDLE, 3> streams) {
+  Inheritance inheritance(streams);
+  STARTUPINFOEXW start = {};
+  start.StartupInfo.cb = sizeof start;
+  start.StartupInfo.dwFlags = STARTF_USESTDHANDLES;
+  start.StartupInfo.hStdInput = streams[0];
+  start.StartupInfo.hStdOutput = streams[1];
+  start.StartupInfo.hStdError = streams[2];
+  start.lpAttributeList = inheritance.list();
+  const std::wstring program = find_program(arguments[0]);
+  std::wstring line = command_line(arguments);
+  PROCESS_INFORMATION made = {};
+  if (CreateProcessW(program.c_str(), line.data(), nullptr, nullptr, TRUE,
+                     EXTENDED_STARTUPINFO_PRESENT | CREATE_NO_WINDOW, nullptr, nullptr,
+                     &start.StartupInfo, &made) == 0) {
+    throw Failure(kExitNoFfmpeg, "cannot run '" + arguments[0] + "': " + last_error());
+  }
+  CloseHandle(made.hThread);
+  return Handle(made.hProcess);
+}
+
+class Win32Child : public ChildProcess {
+ public:
+  Win32Child(const std::vector<std::string>& arguments, Pipe pipe);
+  ~Win32Child() override {
+    if (process_) {
+      Win32Child::kill();
+      WaitForSingleObject(process_.get(), INFINITE);
+    }
+  }
+  Win32Child(const Win32Child&) = delete;
+  Win32Child& operator=(const Win32Child&) = delete;
+
+  std::optional<std::size_t> read(std::span<std::byte> bytes,
+                                  std::chrono::milliseconds patience) override {
+    pipe_.begin_read(bytes);
+    return wait_for_pipe(patience);
+  }
+  std::optional<std::size_t> write(std::span<const std::byte> bytes,
+                                   std::chrono::milliseconds patience) override {
+    pipe_.begin_write(bytes);
+    return wait_for_pipe(patience);
+  }
+  void close_pipe() override { pipe_.close(); }
+  void kill() override { TerminateProcess(process_.get(), kKilled); }
+  int wait() override;
+  std::string take_errors() override {
+    drain_errors(0);
+    return std::exchange(errors_, {});
+  }
+
+ private:
+  std::optional<std::size_t> wait_for_pipe(std::chrono::milliseconds patience);
+  void collect_errors();
+  void drain_errors(DWORD wait_ms);
+
+  Handle process_;
+  std::array<std::byte, 4096> buffer_{};  // of errors_pipe_, which is always being read
+  PipeEnd pipe_;
+  PipeEnd errors_pipe_;
+  std::string errors_;
+};
+
+Win32Child::Win32Child(const std::vector<std::string>& arguments, Pipe pipe) {
+  const bool from_child = pipe == Pipe::kFromChild;
+  const Handle data = pipe_.open(from_child);
+  const Handle errors = errors_pipe_.open(true);
+  const Handle nothing = open_for_child(L"NUL", GENERIC_READ | GENERIC_WRITE);
+  process_ = from_child ? spawn(arguments, {nothing.get(), data.get(), errors.get()})
+                        : spawn(arguments, {data.get(), nothing.get(), errors.get()});
+  errors_pipe_.begin_read(buffer_);
+}
+
+// Its lines end as text of Windows does.
+void Win32Child::collect_errors() {
+  errors_.append(reinterpret_cast<const char*>(buffer_.data()), errors_pipe_.moved());
+  std::erase(errors_, '\r');
+  if (errors_pipe_.open()) {
+    errors_pipe_.begin_read(buffer_);
+  }
+}
+
+void Win32Child::drain_errors(DWORD wait_ms) {
+  while (errors_pipe_.open() &&
+         WaitForSingleObject(errors_pipe_.ended(), wait_ms) == WAIT_OBJECT_0) {
+    collect_errors();
+  }
+}
+
+std::optional<std::size_t> Win32Child::wait_for_pipe(std::chrono::milliseconds patience) {
+  const std::array<HANDLE, 2> ends = {pipe_.ended(), errors_pipe_.ended()};
+  for (;;) {
+    // Below 0 is INFINITE. An end that is closed would be waited for in vain.
+    const DWORD happened = WaitForMultipleObjects(errors_pipe_.open() ? 2 : 1, ends.data(), FALSE,
+                                                  static_cast<DWORD>(patience.count()));
+    if (happened == WAIT_OBJECT_0) {
+      return pipe_.moved();
+    }
+    if (happened != WAIT_OBJECT_0 + 1) {
+      pipe_.cancel();
+      return std::nullopt;
+    }
+    collect_errors();
+  }
+}
+
+int Win32Child::wait() {
+  drain_errors(INFINITE);
+  WaitForSingleObject(process_.get(), INFINITE);
+  DWORD status = 0;
+  GetExitCodeProcess(process_.get(), &status);
+  process_.reset();
+  return static_cast<int>(status);
+}
+
+}  // namespace
+
+std::unique_ptr<ChildProcess> ChildProcess::start(const std::vector<std::string>& arguments,
+                                                  Pipe pipe) {
+  return std::make_unique<Win32Child>(arguments, pipe);
+}
+
+}  // namespace mien::app

@@ -1,0 +1,32 @@
+#include "apps/mien/system/socket_calls.h"
+
+#include <mswsock.h>
+
+#include <system_error>
+
+namespace mien::app::sockets {
+
+void start() {
+  static const int started = [] {
+    WSADATA data;
+    return WSAStartup(MAKEWORD(2, 2), &data);
+  }();
+  static_cast<void>(started);
+}
+
+void close(Handle handle) { closesocket(handle); }
+
+// Windows says where something was received that what was sent before found nobody.
+void prepare(Handle handle) {
+  u_long on = 1;
+  ioctlsocket(handle, FIONBIO, &on);
+  BOOL off = FALSE;
+  DWORD nothing = 0;
+  WSAIoctl(handle, SIO_UDP_CONNRESET, &off, sizeof off, nullptr, 0, &nothing, nullptr, nullptr);
+}
+
+std::string last_error() { return std::system_category().message(WSAGetLastError()); }
+
+std::string name_error(int error) { return std::system_category().message(error); }
+
+}  // namespace mien::app::sockets

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <winsock2.h>
+#include <ws2tcpip.h>
+
+#include <string>
+
+namespace mien::app::sockets {
+
+using Handle = SOCKET;
+using Length = int;
+
+}  // namespace mien::app::sockets
