@@ -27,7 +27,11 @@ void prepare_standard_streams() {
 }
 
 // The C library knows one of the three errors by name.
-bool reader_has_gone() { return errno == EPIPE || (errno == EINVAL && _doserrno == ERROR_NO_DATA); }
+bool reader_has_gone() {
+  const unsigned long system_error = _doserrno;
+  const bool closed = system_error == ERROR_NO_DATA || system_error == ERROR_PIPE_NOT_CONNECTED;
+  return errno == EPIPE || (errno == EINVAL && closed);
+}
 
 // Windows' pipes hold 4 KB and do not say how much room they have: a reader that is late is waited
 // for.
