@@ -15,7 +15,7 @@ export const fields = {
     accept_probability: [52, 'f32'], lose_probability: [56, 'f32'], lose_after_frames: [60, 'i32'], proposal_size: [64, 'i32'],
     proposal_threshold: [68, 'f32'], refine_threshold: [72, 'f32'], search_interval: [76, 'i32'], budget_ms: [80, 'f32'],
     hifinet: [84, 'u32'], hifinet_bytes: [88, 'u32'], smoothing: [92, 'i32'], max_faces: [96, 'i32'], audionet: [100, 'u32'],
-    audionet_bytes: [104, 'u32'], voice_attack_ms: [108, 'f32'], voice_release_ms: [112, 'f32']},
+    audionet_bytes: [104, 'u32'], voice_attack_ms: [108, 'f32'], voice_release_ms: [112, 'f32'], voice_strength: [120, 'f32']},
   result: {
     struct_size: [0, 'u32'], status: [4, 'i32'], pts_ns: [8, 'i64'], supported_controls: [16, 'u64'],
     face_probability: [24, 'f32'], voice_activity: [28, 'f32'], lod: [32, 'i32'], flags: [36, 'u32'], box: [40, 'f32', 4],

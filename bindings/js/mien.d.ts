@@ -39,6 +39,8 @@ export interface TrackerConfig extends TrackerWeights {
   maxFaces?: number;
   voiceAttackMs?: number;
   voiceReleaseMs?: number;
+  /** What the sound says of the mouth, times this, 0..4. */
+  voiceStrength?: number;
 }
 
 /** `data` with the planes behind each other and no padding (an ImageData is one), or `planes`. `format` is 'rgba' unless said. */

@@ -31,7 +31,8 @@ const configNames = {
   lod: 'lod', cpuMask: 'cpu_mask', horizontalFov: 'horizontal_fov', acceptProbability: 'accept_probability',
   loseProbability: 'lose_probability', loseAfterFrames: 'lose_after_frames', proposalSize: 'proposal_size',
   proposalThreshold: 'proposal_threshold', refineThreshold: 'refine_threshold', searchInterval: 'search_interval',
-  budgetMs: 'budget_ms', smoothing: 'smoothing', maxFaces: 'max_faces', voiceAttackMs: 'voice_attack_ms', voiceReleaseMs: 'voice_release_ms'};
+  budgetMs: 'budget_ms', smoothing: 'smoothing', maxFaces: 'max_faces', voiceAttackMs: 'voice_attack_ms', voiceReleaseMs: 'voice_release_ms',
+  voiceStrength: 'voice_strength'};
 const imageNames = {
   chromaPixelStrideBytes: 'chroma_pixel_stride_bytes', rotation: 'rotation', mirrored: 'mirrored', fullRange: 'full_range',
   focalLengthPx: 'focal_length_px', principalX: 'principal_x', principalY: 'principal_y', bt709: 'yuv_matrix'};

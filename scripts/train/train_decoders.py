@@ -298,17 +298,27 @@ def of_stride(data, stride):
     return {k: v[chosen] for k, v in data.items() if torch.is_tensor(v)}
 
 
-def evaluate(decoders, data, supported=None, gaze=False):
+def agreement_with_teacher(decoder, portraits):
+    """Correlation of the controls with the teacher's on faces that hold still, [52]; nan where the teacher knows nothing."""
+    known = followed(portraits["controls"].flatten(0, 1).float())[1].numpy() > 0
+    curves = answers(decoder, portraits["features"]).clamp(0, 1).numpy()
+    last = {name: portraits[name][:, -1:] for name in ("controls", "visible")}
+    return np.where(known, correlation_of(curves[:, -1:], last), np.nan)
+
+
+def evaluate(decoders, data, supported=None, gaze=False, portraits=None):
     """(scores, supported): scores with the encoder on every frame and on alternate frames. `gaze`: may be supported.
 
     Without `supported` the controls that correlate well enough on this data, in both modes and on both sides of the face, are
-    chosen.
+    chosen; where the teacher knows a control, it may also do so as the mean of this data and `portraits`.
     """
     parts = {"every frame": of_stride(data, 1), "alternate frames": of_stride(data, 2)}
     curves = {(m, k): answers(decoders[k], part["features"]).clamp(0, 1).numpy()
               for m, part in parts.items() for k in ("controls", "frame")}
     if supported is None:
         lowest = np.min([correlation_of(curves[m, "controls"], part) for m, part in parts.items()], 0)
+        if portraits is not None:
+            lowest = np.fmax(lowest, (lowest + agreement_with_teacher(decoders["controls"], portraits)) / 2)
         supported = (np.nan_to_num(lowest, nan=-1) >= SUPPORTED_CORRELATION) & (~GAZE | gaze)
         supported &= supported[MIRROR]
     report = {}
@@ -329,6 +339,7 @@ def main():
     parser.add_argument("--start-from", type=Path, help="decoders to go on from")
     parser.add_argument("--teacher", type=float, default=0.5, help="weight of what the teacher says of them")
     parser.add_argument("--val", type=Path, required=True, help="features that choose the supported controls")
+    parser.add_argument("--portraits-val", type=Path, help="features of real faces that help to choose them")
     parser.add_argument("--out", type=Path, required=True, help="checkpoint; scores go beside it as .json")
     parser.add_argument("--steps", type=int, default=1300)
     parser.add_argument("--batch", type=int, default=24)
@@ -355,7 +366,8 @@ def main():
             lessons.append((portraits, (TeacherPoseTask if name == "pose" else TeacherTask)(portraits.data, own)))
         train(decoder, lessons, own, name)
         check_streaming(decoder, sources[0].data["features"])
-    report, supported = evaluate(decoders, torch.load(args.val), gaze=args.network == "hifinet")
+    real = torch.load(args.portraits_val) if args.portraits_val else None
+    report, supported = evaluate(decoders, torch.load(args.val), gaze=args.network == "hifinet", portraits=real)
     save(args.out, decoders, supported, report)
 
 

@@ -1,5 +1,6 @@
 // No value of the published encoders can leave half precision, whatever they are shown: bounds from
-// the weights alone. That is why the tracker may run them on tiers that compute in fp16.
+// the weights alone, with a factor of two for how sums are rounded on their way. That is why the
+// tracker may run them on tiers that compute in fp16.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -136,7 +137,7 @@ TEST(HalfRange, PublishedEncodersStayFarWithinIt) {
       }
       const double largest = Walk(file, network).largest();
       RecordProperty(entry.path().stem().string(), std::to_string(largest));
-      EXPECT_LT(largest, kLargestHalf / 4) << entry.path();
+      EXPECT_LT(largest, kLargestHalf / 2) << entry.path();
       ++encoders;
     }
   }

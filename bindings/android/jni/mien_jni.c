@@ -70,10 +70,10 @@ NATIVE(jint, createTracker)
   mien_tracker_config config;
   mien_tracker* tracker = NULL;
   jint integer[4];
-  jfloat number[2];
+  jfloat number[3];
   (void)unused;
   (*env)->GetIntArrayRegion(env, integers, 0, 4, integer);
-  (*env)->GetFloatArrayRegion(env, floats, 0, 2, number);
+  (*env)->GetFloatArrayRegion(env, floats, 0, 3, number);
   mien_tracker_config_default(&config);
   config.basenet = place_of(env, basenet);
   config.basenet_bytes = bytes_of(env, basenet);
@@ -89,6 +89,7 @@ NATIVE(jint, createTracker)
   config.audio_queue_samples = integer[3];
   config.budget_ms = number[0];
   if (number[1] != 0) config.horizontal_fov = number[1];
+  config.voice_strength = number[2];
   config.clock_ns = clock_ns;
   const mien_status status = mien_tracker_create(&config, &tracker);
   const jlong made = (jlong)(intptr_t)tracker;

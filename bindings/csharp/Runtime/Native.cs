@@ -67,7 +67,8 @@ namespace Mien
             public UIntPtr audionet_bytes;
             public float voice_attack_ms, voice_release_ms;
             public int audio_queue_samples;
-            [MarshalAs(UnmanagedType.ByValArray, SizeConst = 7)] public uint[] reserved;
+            public float voice_strength;
+            [MarshalAs(UnmanagedType.ByValArray, SizeConst = 6)] public uint[] reserved;
         }
 
         [StructLayout(LayoutKind.Sequential)]

@@ -20,6 +20,8 @@ namespace Mien
         public float HorizontalFov;
         /// <summary>Room for sound that another thread brings (Tracker.QueueAudio).</summary>
         public int AudioQueueSamples;
+        /// <summary>What the sound says of the mouth, times this, 0..4.</summary>
+        public float VoiceStrength = 1;
     }
 
     /// <summary>Follows faces through a stream of pictures, and hears a voice. Used by one thread at a time, but for QueueAudio.</summary>
@@ -47,6 +49,7 @@ namespace Mien
             config.smoothing = options.Smoothing ? 1 : 0;
             config.budget_ms = options.BudgetMs;
             config.audio_queue_samples = options.AudioQueueSamples;
+            config.voice_strength = options.VoiceStrength;
             if (options.HorizontalFov != 0) config.horizontal_fov = options.HorizontalFov;
             if (options.Lod == 0) config.clock_ns = clockPlace; // it has to know what a frame takes
             Native.Check(Native.mien_tracker_create(ref config, out handle));

@@ -15,7 +15,7 @@
 
 #include "apps/mien/system/failure.h"
 
-extern "C" char** environ;  // which no header of macOS declares
+extern "C" char** environ;  // NOLINT(readability-redundant-declaration): no header of macOS has it
 
 namespace mien::app {
 namespace {

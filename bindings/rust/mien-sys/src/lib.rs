@@ -98,7 +98,8 @@ pub struct mien_tracker_config {
     pub voice_attack_ms: f32,
     pub voice_release_ms: f32,
     pub audio_queue_samples: i32,
-    pub reserved: [u32; 7],
+    pub voice_strength: f32,
+    pub reserved: [u32; 6],
 }
 
 #[repr(C)]

@@ -43,11 +43,21 @@ pub struct Options {
     pub horizontal_fov: Option<f32>,
     /// Room for sound that another thread brings ([`Tracker::audio_queue`]), in samples.
     pub audio_queue_samples: i32,
+    /// What the sound says of the mouth, times this, 0..4.
+    pub voice_strength: f32,
 }
 
 impl Default for Options {
     fn default() -> Options {
-        Options { lod: Lod::Auto, max_faces: 1, smoothing: true, budget_ms: 10.0, horizontal_fov: None, audio_queue_samples: 0 }
+        Options {
+            lod: Lod::Auto,
+            max_faces: 1,
+            smoothing: true,
+            budget_ms: 10.0,
+            horizontal_fov: None,
+            audio_queue_samples: 0,
+            voice_strength: 1.0,
+        }
     }
 }
 
@@ -99,6 +109,7 @@ impl Tracker {
         config.smoothing = options.smoothing.into();
         config.budget_ms = options.budget_ms;
         config.audio_queue_samples = options.audio_queue_samples;
+        config.voice_strength = options.voice_strength;
         config.horizontal_fov = options.horizontal_fov.unwrap_or(config.horizontal_fov);
         config.clock_ns = Some(clock_ns);
         let mut raw = std::ptr::null_mut();

@@ -29,7 +29,7 @@ fn everything_is_as_in_the_header() {
         mien_tracker_config { struct_size, cpu_mask, basenet, basenet_bytes, proposal, proposal_bytes, allocator, clock_ns, clock_user, lod,
             horizontal_fov, accept_probability, lose_probability, lose_after_frames, proposal_size, proposal_threshold, refine_threshold,
             search_interval, budget_ms, hifinet, hifinet_bytes, smoothing, max_faces, audionet, audionet_bytes, voice_attack_ms,
-            voice_release_ms, audio_queue_samples, reserved }
+            voice_release_ms, audio_queue_samples, voice_strength, reserved }
         mien_result { struct_size, status, pts_ns, supported_controls, face_probability, voice_activity, lod, flags, r#box, rotation, pitch, yaw,
             roll, translation, controls, landmarks, frames, face_frames, proposal_runs, encoder_runs, stage_ns, face_id, reserved }
         mien_shape { height, width, channels }

@@ -14,6 +14,8 @@ public struct TrackerOptions {
   public var horizontalFov: Float?
   /// Room for sound that another thread brings (`Tracker.queueAudio`).
   public var audioQueueSamples: Int32 = 0
+  /// What the sound says of the mouth, times this, 0...4.
+  public var voiceStrength: Float = 1
 
   public init() {}
 }
@@ -39,6 +41,7 @@ public final class Tracker {
     config.smoothing = options.smoothing ? 1 : 0
     config.budget_ms = options.budgetMs
     config.audio_queue_samples = options.audioQueueSamples
+    config.voice_strength = options.voiceStrength
     if let fov = options.horizontalFov { config.horizontal_fov = fov }
     config.clock_ns = { _ in DispatchTime.now().uptimeNanoseconds }
     var made: OpaquePointer?

@@ -6,4 +6,5 @@
 #ifdef __cplusplus
 extern "C"
 #endif
-int _NSGetExecutablePath(char*, uint32_t*);
+    int
+    _NSGetExecutablePath(char*, uint32_t*);

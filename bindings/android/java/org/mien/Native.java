@@ -25,7 +25,8 @@ final class Native {
 
     static native long address(ByteBuffer buffer);
 
-    /** handle[0] is the tracker's. integers: lod, maxFaces, smoothing, audioQueueSamples. floats: budgetMs, horizontalFov (0: default). */
+    /** handle[0] is the tracker's. integers: lod, maxFaces, smoothing, audioQueueSamples. floats: budgetMs, horizontalFov (0: default),
+     *  voiceStrength. */
     static native int createTracker(ByteBuffer basenet, ByteBuffer proposal, ByteBuffer hifinet, ByteBuffer audionet, int[] integers,
             float[] floats, long[] handle);
 

@@ -25,6 +25,8 @@ public final class Tracker implements AutoCloseable {
         public float horizontalFov = 0;
         /** Room for sound that another thread brings (queueAudio). */
         public int audioQueueSamples = 0;
+        /** What the sound says of the mouth, times this, 0..4. */
+        public float voiceStrength = 1;
     }
 
     private final Object queue = new Object();
@@ -40,7 +42,7 @@ public final class Tracker implements AutoCloseable {
         long[] made = new long[1];
         MienException.check(Native.createTracker(bytes(weights.basenet), bytes(weights.proposal), bytes(weights.hifinet),
                 bytes(this.weights.audionet), new int[] {options.lod, options.maxFaces, options.smoothing ? 1 : 0, options.audioQueueSamples},
-                new float[] {options.budgetMs, options.horizontalFov}, made));
+                new float[] {options.budgetMs, options.horizontalFov, options.voiceStrength}, made));
         handle = made[0];
     }
 
