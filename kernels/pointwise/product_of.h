@@ -1,6 +1,8 @@
 // A pointwise layer as a product of panels of weights and pixels.
 #pragma once
 
+#include <algorithm>
+
 #include "kernels/common/product.h"
 #include "kernels/pointwise/pointwise.h"
 
@@ -39,6 +41,47 @@ inline ProductArgs product_of(const PointwiseArgs& a) {
                              (a.residual_w - a.w) * kChannels};
   }
   return product;
+}
+
+// Sums of a few pixels and one block of 8 channels, on the stack.
+struct SumsOfBlock {
+  const PointwiseArgs& a;
+  float* sums;  // [pixels][8]
+  std::int32_t block, first, pixels;
+
+  // Where they belong.
+  [[nodiscard]] float* y() const { return a.y + block * plane_of(a) + first * kChannels; }
+  // What is added to pixel `p` of them.
+  [[nodiscard]] const float* residual(std::int32_t p) const {
+    return residual_at(a, first + p) + block * residual_plane_of(a);
+  }
+};
+
+// A product whose sums go through the stack: to an activation that does more than clamp, or to a
+// residual that lies where they belong. `finish` is given one SumsOfBlock after another.
+template <std::int32_t kMostPixels, class Multiply, class Finish>
+void product_by_parts(const PointwiseArgs& a, ProductArgs product, Multiply multiply,
+                      Finish finish) {
+  constexpr std::ptrdiff_t kHalf = kMostPixels * kChannels;
+  float sums[2 * kHalf] = {};
+  product.y = sums;
+  product.residual = nullptr;
+  product.y_rows = {kChannels, kHalf, 0, 0x7FFFFFFF, 0};
+  const std::int32_t blocks = product.out_blocks, pixels = product.pixels;
+  const std::ptrdiff_t reduction = product.in_blocks * kChannels;
+  for (std::int32_t block = 0; block < blocks; block += 2) {
+    product.out_blocks = std::min(2, blocks - block);
+    product.weights = a.weights + block * kChannels * reduction;
+    product.bias = a.bias + block * kChannels;
+    for (std::int32_t first = 0; first < pixels; first += kMostPixels) {
+      product.x = a.x + first * kChannels;
+      product.pixels = std::min(kMostPixels, pixels - first);
+      multiply(product);
+      for (std::int32_t half = 0; half < product.out_blocks; ++half) {
+        finish(SumsOfBlock{a, sums + half * kHalf, block + half, first, product.pixels});
+      }
+    }
+  }
 }
 
 }  // namespace
