@@ -58,13 +58,25 @@ bool fuses_blocks(std::uint32_t cpu_mask) {
       kernels::find_entry(kernels::InvertedResidualArgs::kFamily, cpu_mask);
   const kernels::Entry* plain = kernels::find_entry(kernels::PointwiseArgs::kFamily, cpu_mask);
   const bool wanted = (cpu_mask & kernels::kFusedBlocks) != 0;
-  return wanted && fused != nullptr && plain != nullptr && fused->tier >= plain->tier;
+  return wanted && fused != nullptr && plain != nullptr &&
+         kernels::rank(fused->tier) >= kernels::rank(plain->tier);
 }
 
 bool narrows_blocks(std::uint32_t cpu_mask) {
   const kernels::Entry* fused =
       kernels::find_entry(kernels::InvertedResidualArgs::kFamily, cpu_mask);
   return fused != nullptr && kernels::is_half(fused->tier);
+}
+
+bool fixes_weights(std::uint32_t cpu_mask) {
+  const kernels::Entry* fused =
+      kernels::find_entry(kernels::InvertedResidualArgs::kFamily, cpu_mask);
+  return fused != nullptr && fused->tier == kernels::Tier::kAvx512Vnni;
+}
+
+std::size_t fixed_weights_bytes(std::int32_t in_c, std::int32_t out_c) {
+  const auto padded = [](std::int32_t c) { return (static_cast<std::size_t>(c) + 7) / 8 * 8; };
+  return padded(out_c) * (padded(in_c) * sizeof(std::int16_t) + sizeof(float));
 }
 
 bool fuses(const formats::LayerRecord& layer) {

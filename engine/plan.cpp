@@ -38,6 +38,7 @@ Status Plan::make(const SessionRequest& request) {
   if (fuses_blocks(request.cpu_mask)) {
     fuse_blocks();
     narrows_ = narrows_blocks(request.cpu_mask);
+    fixes_weights_ = fixes_weights(request.cpu_mask);
   }
   place_maps();
   return Status::kOk;
@@ -175,6 +176,17 @@ std::size_t Plan::state_elems(std::uint32_t layer) const {
   }
 }
 
+std::size_t Plan::weights_bytes(std::uint32_t layer) const {
+  const std::uint32_t slide = fused_slide(layer);
+  if (!fixes_weights_ || vanishes(layer) || slide == kNoIndex) {
+    return 0;
+  }
+  const auto channels = [&](std::uint32_t value) { return values_[value].shape.c; };
+  const std::size_t project = fixed_weights_bytes(channels(slide + 1), channels(slide + 2));
+  const std::uint32_t x = layers_[layer].input;
+  return layer < slide ? project + fixed_weights_bytes(channels(x), channels(slide)) : project;
+}
+
 std::size_t Plan::scratch_elems(std::uint32_t layer) const {
   if (op_of(layers_[layer]) == LayerOp::kLstm) {
     return 4 * blocked_elems(values_[layer + 1].shape);
@@ -204,6 +216,7 @@ void Plan::place_maps() {
   ArenaPlan arena;
   for (std::uint32_t i = 0; i < layer_count(); ++i) {
     state_elems_ += state_elems(i);
+    weights_bytes_ += weights_bytes(i);
     Value& value = values_[i + step_layers(i)];
     if (vanishes(i) || value.is_output) {
       continue;

@@ -63,6 +63,10 @@ class Plan {
   [[nodiscard]] std::size_t state_elems(std::uint32_t layer) const;
   [[nodiscard]] std::size_t state_elems() const { return state_elems_; }
 
+  // What the step that begins with this layer, and all steps, keep of weights in another form.
+  [[nodiscard]] std::size_t weights_bytes(std::uint32_t layer) const;
+  [[nodiscard]] std::size_t weights_bytes() const { return weights_bytes_; }
+
   [[nodiscard]] std::size_t arena_bytes() const { return arena_bytes_; }
   // In the arena, for the step that runs: an LSTM's gates, a fused block's bands.
   [[nodiscard]] std::size_t scratch_offset() const { return scratch_offset_; }
@@ -79,7 +83,8 @@ class Plan {
   [[nodiscard]] std::size_t scratch_elems() const;
   [[nodiscard]] std::size_t scratch_elems(std::uint32_t layer) const;
 
-  bool narrows_ = false;  // fused blocks are computed in half precision
+  bool narrows_ = false;        // fused blocks are computed in half precision
+  bool fixes_weights_ = false;  // and their weights are in fixed point
   const formats::NetworkRecord* network_ = nullptr;
   std::span<const formats::LayerRecord> layers_;
   Value values_[formats::kMaxLayers + 1];
@@ -88,6 +93,7 @@ class Plan {
   Part parts_[formats::kMaxLayers] = {};
   std::uint32_t step_count_ = 0;
   std::size_t state_elems_ = 0;
+  std::size_t weights_bytes_ = 0;
   std::size_t scratch_offset_ = 0;
   std::size_t arena_bytes_ = 0;
 };

@@ -172,7 +172,8 @@ NetworkInfo WeightFile::network(std::int32_t index) const {
     info.weight_bytes += tensor_bytes(file, layer);
   }
   engine::SessionSize size;
-  if (engine::session_size({&model, info.name, {}}, size) == engine::Status::kOk) {
+  const std::uint32_t cpu_mask = NetworkRunner::Options().cpu_mask;
+  if (engine::session_size({&model, info.name, {}, cpu_mask}, size) == engine::Status::kOk) {
     info.session_bytes = size.session_bytes;
     info.arena_bytes = size.arena_bytes;
   }

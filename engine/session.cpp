@@ -37,7 +37,7 @@ SessionSize SessionBuilder::size() const {
   for (const std::uint32_t value : plan_.outputs()) {
     bytes += aligned(blocked_elems(plan_.value(value).shape) * sizeof(float));
   }
-  bytes += aligned(plan_.state_elems() * sizeof(float));
+  bytes += aligned(plan_.state_elems() * sizeof(float)) + aligned(plan_.weights_bytes());
   return {bytes, plan_.arena_bytes()};
 }
 
@@ -97,6 +97,7 @@ void SessionBuilder::place_values(Session& session, std::span<std::byte> arena) 
 Status SessionBuilder::make_steps(const SessionRequest& request, float* scratch, Session& session) {
   session.state_ = take_floats(plan_.state_elems());
   float* state = session.state_.data();
+  std::byte* weights = take(plan_.weights_bytes());
   const StepMaker maker(plan_, request.model->file(), request.cpu_mask, maps_, scratch);
   for (std::uint32_t i = 0; i < plan_.layer_count(); ++i) {
     if (plan_.vanishes(i)) {
@@ -105,11 +106,12 @@ Status SessionBuilder::make_steps(const SessionRequest& request, float* scratch,
     Step& step = session.steps_[session.step_count_++];
     step.first_layer = i;
     step.layer_count = plan_.step_layers(i);
-    const Status status = maker.make(i, state, step);
+    const Status status = maker.make(i, {state, weights}, step);
     if (status != Status::kOk) {
       return status;
     }
     state += plan_.state_elems(i);
+    weights += plan_.weights_bytes(i);
   }
   return Status::kOk;
 }

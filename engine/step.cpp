@@ -102,11 +102,14 @@ Status StepMaker::put(const Args& args, Step& step) const {
   return step.kernel == nullptr ? Status::kNoKernel : Status::kOk;
 }
 
-Status StepMaker::make(std::uint32_t layer, float* state, Step& step) const {
+Status StepMaker::make(std::uint32_t layer, const Memory& own, Step& step) const {
   const LayerRecord& l = plan_.layer(layer);
   const std::uint32_t slide = plan_.fused_slide(layer);
   if (slide != kNoIndex) {
-    return put(block(layer, slide), step);
+    kernels::InvertedResidualArgs args = block(layer, slide);
+    const Status status =
+        plan_.weights_bytes(layer) > 0 ? fix_weights(own.weights, args) : Status::kOk;
+    return status == Status::kOk ? put(args, step) : status;
   }
   const Map x = map(l.input), y = map(layer + 1);
   switch (static_cast<LayerOp>(l.op)) {
@@ -119,9 +122,9 @@ Status StepMaker::make(std::uint32_t layer, float* state, Step& step) const {
     case LayerOp::kFullyConnected:
       return put(fully_connected(l, x, y), step);
     case LayerOp::kCausalConv:
-      return put(causal_conv(l, x, y, state), step);
+      return put(causal_conv(l, x, y, own.state), step);
     case LayerOp::kLstm:
-      return put(lstm(l, x, y, state), step);
+      return put(lstm(l, x, y, own.state), step);
     case LayerOp::kMaxPool:
       return put(max_pool(l, x, y), step);
     case LayerOp::kAdd:
@@ -159,7 +162,7 @@ kernels::DepthwiseArgs StepMaker::depthwise(const LayerRecord& l, Map x, Map y) 
 
 kernels::InvertedResidualArgs::Weights StepMaker::weights(std::uint32_t layer) const {
   const LayerRecord& l = plan_.layer(layer);
-  return {halves(l.weights), halves(l.bias), activation(l)};
+  return {halves(l.weights), halves(l.bias), activation(l), nullptr, nullptr};
 }
 
 // Layers `layer` .. slide + 1, and the addition behind them if it is fused.
@@ -192,6 +195,34 @@ kernels::InvertedResidualArgs StepMaker::block(std::uint32_t layer, std::uint32_
   args.strip_rows = tiling.strip_rows;
   args.strip_w = tiling.strip_w;
   return args;
+}
+
+// Rounded once, here.
+Status StepMaker::fix_weights(std::byte* to, kernels::InvertedResidualArgs& args) const {
+  const auto fix = kernels::find<kernels::FixedWeightsArgs>(cpu_mask_);
+  if (fix == nullptr) {
+    return Status::kNoKernel;
+  }
+  const auto layer = [&](kernels::InvertedResidualArgs::Weights& weights, std::int32_t in_c,
+                         std::int32_t out_c, bool of_map) {
+    kernels::FixedWeightsArgs one{};
+    one.in_blocks = (in_c + 7) / 8;
+    one.out_blocks = (out_c + 7) / 8;
+    one.steps = reinterpret_cast<float*>(to);
+    one.pairs = reinterpret_cast<std::int16_t*>(one.steps + std::ptrdiff_t{one.out_blocks} * 8);
+    one.weights = weights.weights;
+    one.most = of_map ? kernels::kFixedMapMost : kernels::kFixedBandMost;
+    one.is_signed = of_map;
+    fix(one);
+    weights.pairs = one.pairs;
+    weights.steps = one.steps;
+    to += fixed_weights_bytes(in_c, out_c);
+  };
+  if (args.expand.weights != nullptr) {
+    layer(args.expand, args.in_c, args.hidden_c, true);
+  }
+  layer(args.project, args.hidden_c, args.out_c, false);
+  return Status::kOk;
 }
 
 kernels::PointwiseArgs StepMaker::pointwise(std::uint32_t layer, Map x, Map y) const {

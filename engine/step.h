@@ -27,8 +27,14 @@ class StepMaker {
             float* const* maps, float* scratch)
       : plan_(plan), file_(file), cpu_mask_(cpu_mask), maps_(maps), scratch_(scratch) {}
 
-  // `state`: the layer's own, Plan::state_elems floats. kNoKernel if no tier has one.
-  Status make(std::uint32_t layer, float* state, Step& step) const;
+  // A step's own: Plan::state_elems floats, Plan::weights_bytes bytes.
+  struct Memory {
+    float* state;
+    std::byte* weights;
+  };
+
+  // kNoKernel if no tier has one.
+  Status make(std::uint32_t layer, const Memory& own, Step& step) const;
 
  private:
   struct Map {
@@ -51,6 +57,7 @@ class StepMaker {
                                                  Map y) const;
   [[nodiscard]] kernels::InvertedResidualArgs block(std::uint32_t layer, std::uint32_t slide) const;
   [[nodiscard]] kernels::InvertedResidualArgs::Weights weights(std::uint32_t layer) const;
+  Status fix_weights(std::byte* to, kernels::InvertedResidualArgs& args) const;
   [[nodiscard]] kernels::PointwiseArgs pointwise(std::uint32_t layer, Map x, Map y) const;
   [[nodiscard]] kernels::FullyConnectedArgs fully_connected(const formats::LayerRecord& layer,
                                                             Map x, Map y) const;

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "apps/conformance/check.h"
+#include "apps/conformance/kernel_suite.h"
 #include "fuzz/bytes.h"
 #include "fuzz/target.h"
 
@@ -17,9 +18,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   const int number = choices.between(0, 255);
   const auto seed = choices.take<std::uint16_t>();
-  conformance::RandomValues random(
-      seed, number,
-      kernels::is_half(entry.tier) ? conformance::kHalfArithmetic : conformance::kSingleArithmetic);
+  conformance::RandomValues random(seed, number, conformance::arithmetic_of(entry.tier));
   random.choose_first(choices.rest().first(std::min<std::size_t>(choices.rest().size(), 12)));
   const kernels::AnyKernel reference =
       entry.tier == kernels::Tier::kRef

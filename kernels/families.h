@@ -7,6 +7,7 @@
 #include "kernels/concat/concat.h"
 #include "kernels/conv2d/conv2d.h"
 #include "kernels/depthwise/depthwise.h"
+#include "kernels/fixed_weights/fixed_weights.h"
 #include "kernels/fma_peak/fma_peak.h"
 #include "kernels/fully_connected/fully_connected.h"
 #include "kernels/global_average_pool/global_average_pool.h"

@@ -15,6 +15,7 @@ constexpr Tier neonfp16 [[maybe_unused]] = Tier::kNeonFp16;
 constexpr Tier neon32 [[maybe_unused]] = Tier::kNeon32;
 constexpr Tier wasm [[maybe_unused]] = Tier::kWasm;
 constexpr Tier avx512fp16 [[maybe_unused]] = Tier::kAvx512Fp16;
+constexpr Tier avx512vnni [[maybe_unused]] = Tier::kAvx512Vnni;
 }  // namespace tier_of
 
 const Entry* entries(std::size_t& count) {
@@ -41,7 +42,8 @@ const Entry* find_entry(std::string_view family, std::uint32_t cpu_mask) {
   const Entry* best = nullptr;
   for (const Entry& entry : all_kernels()) {
     const bool allowed = (usable & bit(entry.tier)) != 0;
-    if (allowed && entry.family == family && (best == nullptr || entry.tier > best->tier)) {
+    if (allowed && entry.family == family &&
+        (best == nullptr || rank(entry.tier) > rank(best->tier))) {
       best = &entry;
     }
   }

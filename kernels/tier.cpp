@@ -63,6 +63,11 @@ std::uint32_t ask_cpu() {
     mask |= bit(Tier::kAvx512Fp16);
   }
 #endif
+#ifdef MIEN_HAVE_AVX512VNNI
+  if ((mask & bit(Tier::kAvx512)) != 0 && __builtin_cpu_supports("avx512vnni")) {
+    mask |= bit(Tier::kAvx512Vnni);
+  }
+#endif
 #ifdef MIEN_HAVE_NEON
   mask |= bit(Tier::kNeon);  // every AArch64 CPU has it
 #endif
@@ -105,6 +110,8 @@ const char* name(Tier tier) {
       return "wasm";
     case Tier::kAvx512Fp16:
       return "avx512fp16";
+    case Tier::kAvx512Vnni:
+      return "avx512vnni";
   }
   return nullptr;
 }

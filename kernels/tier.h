@@ -15,23 +15,39 @@ enum class Tier : std::uint32_t {
   kNeon32 = 5,
   kWasm = 6,
   kAvx512Fp16 = 7,
+  kAvx512Vnni = 8,
 };
-inline constexpr std::uint32_t kTierCount = 8;
+inline constexpr std::uint32_t kTierCount = 9;
 
 [[nodiscard]] constexpr std::uint32_t bit(Tier tier) {
   return 1u << static_cast<std::uint32_t>(tier);
 }
 
-// The tiers that compute in half precision where it pays. Values beyond 65504 become infinite
-// there.
-inline constexpr std::uint32_t kHalfTiers = bit(Tier::kNeonFp16) | bit(Tier::kAvx512Fp16);
+// The tiers that compute in half precision where it pays: in fp16, where values beyond 65504 become
+// infinite, or in fixed point.
+inline constexpr std::uint32_t kHalfTiers =
+    bit(Tier::kNeonFp16) | bit(Tier::kAvx512Fp16) | bit(Tier::kAvx512Vnni);
 [[nodiscard]] constexpr bool is_half(Tier tier) { return (kHalfTiers & bit(tier)) != 0; }
 
 // A bit of the CPU mask that is no tier: blocks of layers may run fused.
 inline constexpr std::uint32_t kFusedBlocks = 1u << 31;
 
-// A tier with all before it: what it lacks the best of these has.
-[[nodiscard]] constexpr std::uint32_t up_to(Tier tier) { return 2 * bit(tier) - 1; }
+// Greater for the better of two tiers. In number kAvx512Vnni is the last, but every CPU with
+// AVX-512 FP16 has it, too.
+[[nodiscard]] constexpr std::uint32_t rank(Tier tier) {
+  return tier == Tier::kAvx512Vnni ? 2 * static_cast<std::uint32_t>(Tier::kAvx512) + 1
+                                   : 2 * static_cast<std::uint32_t>(tier);
+}
+
+// A tier with all of lesser rank: what it lacks the best of these has.
+[[nodiscard]] constexpr std::uint32_t up_to(Tier tier) {
+  std::uint32_t mask = 0;
+  for (std::uint32_t i = 0; i < kTierCount; ++i) {
+    const auto one = static_cast<Tier>(i);
+    mask |= rank(one) <= rank(tier) ? bit(one) : 0;
+  }
+  return mask;
+}
 
 // "ref", "avx2", ...
 [[nodiscard]] const char* name(Tier tier);

@@ -27,6 +27,8 @@ struct Arithmetic {
   double unit;     // of rounding
   double flushed;  // what is lost at most with a number near zero
   int chunk;       // as many products are added up like this, then such sums in fp32
+  // Factors of products are first rounded to integers of 16 bits, which steps make numbers.
+  bool is_fixed = false;
 };
 inline constexpr Arithmetic kSingleArithmetic{kUnit, kFlushed, std::numeric_limits<int>::max()};
 // fp16: 11 bits, denormals kept. A value of x is rounded to them, each multiply-add is, and so is
@@ -36,6 +38,9 @@ inline constexpr Arithmetic kSingleArithmetic{kUnit, kFlushed, std::numeric_limi
 // lose no more than 1/80 of a chunk's magnitude then, and the way to fp32 costs one multiply-add in
 // ten.
 inline constexpr Arithmetic kHalfArithmetic{0x1p-11, 0x1p-24, 64};
+// Sums of integers are exact, all else is fp32; what the steps are a family's cases say.
+inline constexpr Arithmetic kFixedArithmetic{kUnit, kFlushed, std::numeric_limits<int>::max(),
+                                             true};
 // Of a sum that becomes fp16 in the end.
 [[nodiscard]] inline Arithmetic in_one_chunk(Arithmetic by) {
   by.chunk = std::numeric_limits<int>::max();

@@ -29,6 +29,7 @@ std::size_t element_bytes(Element element) {
     case Element::kByte:
       return 1;
     case Element::kHalf:
+    case Element::kInt16:
       return 2;
     case Element::kFloat:
       return 4;

@@ -90,6 +90,8 @@ double element(Element kind, const std::vector<std::byte>& bytes, std::size_t i)
       return element_as<std::uint8_t>(bytes, i);
     case Element::kHalf:
       return element_as<std::uint16_t>(bytes, i);
+    case Element::kInt16:
+      return element_as<std::int16_t>(bytes, i);
     case Element::kFloat:
       return element_as<float>(bytes, i);
     case Element::kInt64:

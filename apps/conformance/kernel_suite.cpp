@@ -16,6 +16,12 @@ std::string where(std::uint64_t seed, const RandomValues& random) {
 
 }  // namespace
 
+const Arithmetic& arithmetic_of(kernels::Tier tier) {
+  return tier == kernels::Tier::kAvx512Vnni ? kFixedArithmetic
+         : kernels::is_half(tier)           ? kHalfArithmetic
+                                            : kSingleArithmetic;
+}
+
 Finding check_kernel(const kernels::Entry& entry, std::uint64_t seed, int& cases) {
   const Family* family = find_family(entry.family);
   if (family == nullptr) {
@@ -25,8 +31,7 @@ Finding check_kernel(const kernels::Entry& entry, std::uint64_t seed, int& cases
       entry.tier == kernels::Tier::kRef ? nullptr : reference_of(entry.family);
   double worst_share = 0.0;
   for (int number = 0; number < kCasesPerSeed; ++number, ++cases) {
-    RandomValues random(seed, number,
-                        kernels::is_half(entry.tier) ? kHalfArithmetic : kSingleArithmetic);
+    RandomValues random(seed, number, arithmetic_of(entry.tier));
     Finding finding = check(family->random_case(random), entry.function, reference);
     finding.worst_share = worst_share = std::max(worst_share, finding.worst_share);
     if (finding.fault != Fault::kNone) {

@@ -10,6 +10,9 @@ namespace mien::conformance {
 
 inline constexpr int kCasesPerSeed = 40;
 
+// How kernels of a tier may count where their family allows for less than fp32.
+[[nodiscard]] const Arithmetic& arithmetic_of(kernels::Tier tier);
+
 // The cases of one seed; stops at the first that is not right. `cases` counts on.
 [[nodiscard]] Finding check_kernel(const kernels::Entry& entry, std::uint64_t seed, int& cases);
 

@@ -83,7 +83,7 @@ struct NetworkInfo {
   std::uint64_t parameters = 0;
   std::uint64_t macs = 0;          // multiply-accumulates of one run at the declared size
   std::uint64_t weight_bytes = 0;  // as stored
-  std::uint64_t session_bytes = 0, arena_bytes = 0;  // memory of a runner at the declared size
+  std::uint64_t session_bytes = 0, arena_bytes = 0;  // of a runner with default options
 };
 
 struct LayerInfo {

@@ -35,6 +35,9 @@ struct InvertedResidualArgs {
     const std::uint16_t* weights;
     const std::uint16_t* bias;
     ActivationSpec activation;
+    // The same as fixed_weights.h has them; nullptr for tiers that do not compute in fixed point.
+    const std::int16_t* pairs;
+    const float* steps;
   };
   const float* x;
   float* y;
@@ -57,5 +60,10 @@ struct InvertedResidualArgs {
 };
 
 inline constexpr std::int32_t kInvertedResidualWideElems = 6144;
+
+// In fixed point: the largest magnitudes in the map, which has both signs, and in the band, which
+// has one. A bit less there leaves one more to the weights that it is multiplied with, of which the
+// sums are longer.
+inline constexpr std::int32_t kFixedMapMost = 32767, kFixedBandMost = 16383;
 
 }  // namespace mien::kernels

@@ -57,8 +57,8 @@ def table(header, rows):
 def to_text(figures):
     lines = ["# Speed", "",
              f"One thread, minima of {figures['rounds']} rounds in turns with [other engines](peers.md) on one machine; `scripts/bench_peers.sh` writes this. "
-             "Absolute times mean nothing elsewhere. `avx512fp16` computes the encoders' blocks [in half precision](../architecture.md#half-precision), the rest is "
-             "`avx512`'s, held against a peak that only half precision can have. The peak is that of a loop of fused multiply-adds in registers, the best that was seen in the same run.", ""]
+             "Absolute times mean nothing elsewhere. `avx512fp16` and `avx512vnni` compute the encoders' blocks [with 16 bits](../architecture.md#half-precision), the rest is "
+             "`avx512`'s, held against a peak that only 16 bits can have. The peak is that of a loop of fused multiply-adds in registers, the best that was seen in the same run.", ""]
     lines += table(("tier", "peak, GFLOP/s"), [(tier, f"{peak:.0f}") for tier, peak in figures["peak_gflops"].items()])
     lines += ["", "## Networks", "",
               "*Of unfused*: time with fused blocks by the time layer by layer (`mien bench --unfused`); networks without such blocks have about 1.", ""]

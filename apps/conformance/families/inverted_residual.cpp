@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "apps/conformance/families/common.h"
+#include "apps/conformance/families/fixed_point.h"
 
 namespace mien::conformance {
 namespace {
@@ -24,13 +24,16 @@ struct Activations {
   RandomActivation expand, slide, project;
 };
 
+// Steps in fp32 are not quite those that halves are taken of here.
+constexpr double kHalfStep = 0.5 * (1.0 + 0x1p-12);
+
 // A sum of products whose factors err already.
 class ErringSum {
  public:
   explicit ErringSum(const Arithmetic& by) : sum_(by) {}
-  void add(const Approx& x, double w = 1.0) {
+  void add(const Approx& x, double w = 1.0, double w_error = 0.0) {
     sum_.add(x.value, w);
-    error_ += x.error * std::abs(w);
+    error_ += x.error * (std::abs(w) + w_error) + std::abs(x.value) * w_error;
   }
   [[nodiscard]] Approx total() const {
     const Approx total = sum_.total();
@@ -48,6 +51,8 @@ struct Layers {
   Arithmetic sums, inner_sums;  // the latter of what is expanded and slid
   std::vector<float> x;
   std::vector<std::uint16_t> w1, b1, w2, b2, w3, b3;
+  FixedPoint fixed1, fixed3;  // of w1 and w3
+  bool is_fixed = false;      // what is expanded and projected is in fixed point
 
   Layers(RandomValues& random, const Shape& of)
       : shape(of),
@@ -67,6 +72,26 @@ struct Layers {
     } else if (random.pattern() == Pattern::kHuge) {
       make_room(1e-12f);
     }
+    fixed3 = FixedPoint(w3, of.out_c, of.hidden_c, kernels::kFixedBandMost, false);
+    if (of.in_c > 0) {
+      fixed1 = FixedPoint(w1, of.hidden_c, of.in_c, kernels::kFixedMapMost, true);
+    }
+  }
+
+  // Half a step: what rounding takes from a value, or from a weight of output o.
+  [[nodiscard]] double x_error() const {
+    float largest = 0x1p-64f;
+    for (const float one : x) {
+      largest = std::max(largest, std::abs(one));
+    }
+    return is_fixed ? static_cast<double>(largest) / kernels::kFixedMapMost * kHalfStep : 0.0;
+  }
+  [[nodiscard]] double slid_error(const RandomActivation& activation) const {
+    const double most = activation.kind == Activation::kClamp01 ? 1.0 : 6.0;
+    return is_fixed ? most / kernels::kFixedBandMost * kHalfStep : 0.0;
+  }
+  [[nodiscard]] double weight_error(const FixedPoint& fixed, int o) const {
+    return is_fixed ? static_cast<double>(fixed.steps[as_size(o)]) * kHalfStep : 0.0;
   }
 
   // Three layers in a row take huge numbers beyond any type, whatever the kernel does.
@@ -78,6 +103,7 @@ struct Layers {
 
   [[nodiscard]] std::vector<Approx> expanded(const RandomActivation& activation) const {
     const int pixels = shape.window.in_pixels();
+    const double error = x_error();
     return expected_map(shape.hidden_c, pixels, [&](int c, int p) {
       if (shape.in_c == 0) {
         return exact(static_cast<double>(x[blocked(c, p, pixels)]));
@@ -85,8 +111,9 @@ struct Layers {
       ErringSum sum(inner_sums);
       sum.add(exact(widened(b1[as_size(c)])));
       for (int i = 0; i < shape.in_c; ++i) {
-        sum.add(exact(static_cast<double>(x[blocked(i, p, pixels)])),
-                panel_weight(w1, shape.hidden_c, padded(shape.in_c), c, i));
+        sum.add({static_cast<double>(x[blocked(i, p, pixels)]), error},
+                panel_weight(w1, shape.hidden_c, padded(shape.in_c), c, i),
+                weight_error(fixed1, c));
       }
       return activation(sum.total(), c);
     });
@@ -106,12 +133,15 @@ struct Layers {
     });
   }
 
-  [[nodiscard]] Approx projected(const std::vector<Approx>& narrow, int o, int p) const {
+  // `error`: of what is slid, besides.
+  [[nodiscard]] Approx projected(const std::vector<Approx>& narrow, double error, int o,
+                                 int p) const {
     ErringSum sum(sums);
     sum.add(exact(widened(b3[as_size(o)])));
     for (int c = 0; c < shape.hidden_c; ++c) {
-      sum.add(narrow[blocked(c, p, shape.window.out_pixels())],
-              panel_weight(w3, shape.out_c, padded(shape.hidden_c), o, c));
+      const Approx& s = narrow[blocked(c, p, shape.window.out_pixels())];
+      sum.add({s.value, s.error + error},
+              panel_weight(w3, shape.out_c, padded(shape.hidden_c), o, c), weight_error(fixed3, o));
     }
     return sum.total();
   }
@@ -122,8 +152,9 @@ std::vector<Approx> expected(const Layers& layers, const Activations& activation
   const std::vector<Approx> slid =
       layers.slid(layers.expanded(activations.expand), activations.slide);
   const Window& window = layers.shape.window;
+  const double error = layers.slid_error(activations.slide);
   return expected_map(layers.shape.out_c, window.out_pixels(), [&](int o, int p) {
-    const Approx y = activations.project(layers.projected(slid, o, p), o);
+    const Approx y = activations.project(layers.projected(slid, error, o, p), o);
     return slice == nullptr
                ? y
                : y + exact(static_cast<double>(
@@ -154,9 +185,15 @@ int narrow_rows(const Shape& s) {
   return std::min(s.window.in_h, (s.tiling.band_rows - 1) * s.window.stride_h + s.window.kernel_h);
 }
 
+// Only what is bounded can be in fixed point.
+bool is_bounded(const RandomActivation& activation) {
+  return activation.kind == Activation::kRelu6 || activation.kind == Activation::kClamp01;
+}
+
 Case make(RandomValues& random, const Shape& shape, const Activations& activations,
           const ResidualSlice* slice) {
-  const Layers layers(random, shape);
+  Layers layers(random, shape);
+  layers.is_fixed = random.arithmetic().is_fixed && is_bounded(activations.slide);
   const std::vector<float> residual =
       slice != nullptr ? random.map(slice->pixels(), shape.out_c) : std::vector<float>();
   const Tiling& t = shape.tiling;
@@ -177,15 +214,21 @@ Case make(RandomValues& random, const Shape& shape, const Activations& activatio
       scratch(as_size(t.strip_channels * t.strip_rows * t.strip_w)),
       scratch(as_size(kernels::kInvertedResidualWideElems)),
       scratch(as_size((shape.in_c + 31) / 32 * 16 * narrow_rows(shape) * shape.window.in_w)),
-      writes(Element::kFloat, expected(layers, activations, slice, residual))};
+      writes(Element::kFloat, expected(layers, activations, slice, residual)),
+      reads(layers.fixed1.pairs),
+      reads(layers.fixed1.steps),
+      reads(layers.fixed3.pairs),
+      reads(layers.fixed3.steps)};
   const ResidualSlice taken = slice != nullptr ? *slice : ResidualSlice();
   test.bind = [=](const Places& places) {
     InvertedResidualArgs args = sizes(shape);
     args.x = places.floats(0);
     args.expand = {shape.in_c == 0 ? nullptr : places.halves(1), places.halves(2),
-                   activations.expand.spec(nullptr)};
-    args.slide = {places.halves(3), places.halves(4), activations.slide.spec(nullptr)};
-    args.project = {places.halves(5), places.halves(6), activations.project.spec(nullptr)};
+                   activations.expand.spec(nullptr), places.int16s(13), places.floats(14)};
+    args.slide = {places.halves(3), places.halves(4), activations.slide.spec(nullptr), nullptr,
+                  nullptr};
+    args.project = {places.halves(5), places.halves(6), activations.project.spec(nullptr),
+                    places.int16s(15), places.floats(16)};
     if (taken.h > 0) {
       set_residual(taken, places.floats(7), args);
     }

@@ -125,6 +125,7 @@ int main(int count, char** arguments) {
       std::uint32_t below = tier == MIEN_CPU_AVX512        ? MIEN_CPU_AVX2
                             : tier == MIEN_CPU_AVX512_FP16 ? MIEN_CPU_AVX512 | MIEN_CPU_AVX2
                                                            : 0u;
+      below |= tier == MIEN_CPU_AVX512_VNNI ? MIEN_CPU_AVX512 | MIEN_CPU_AVX2 : 0u;
       below |= tier == MIEN_CPU_NEON_FP16 ? MIEN_CPU_NEON : 0u;
       fine = track(arguments[1], pictures, tier | below) && fine;
     }

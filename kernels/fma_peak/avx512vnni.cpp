@@ -1,0 +1,29 @@
+#include "kernels/common/avx512.h"
+#include "kernels/families.h"
+
+namespace mien::kernels::avx512vnni {
+
+void fma_peak(const FmaPeakArgs& a) {
+  constexpr int kSums = 16;  // two a cycle, five cycles each, and room
+  __m512i sum[kSums];
+  const __m512i ones = _mm512_set1_epi32(static_cast<int>(a.rounds % 512));
+  for (int k = 0; k < kSums; ++k) {
+    sum[k] = _mm512_add_epi32(ones, _mm512_set1_epi32(k));
+  }
+  const __m512i factor = _mm512_set1_epi16(3);
+  for (std::int64_t i = 0; i < a.rounds; ++i) {
+    for (__m512i& one : sum) {
+      one = _mm512_dpwssd_epi32(one, one, factor);
+    }
+  }
+  __m512i total = _mm512_setzero_si512();
+  for (const __m512i& one : sum) {
+    total = _mm512_add_epi32(total, one);
+  }
+  // The sums wrap around; some bits that depend on all.
+  total = _mm512_or_si512(_mm512_and_si512(total, _mm512_set1_epi32(62)), _mm512_set1_epi32(1));
+  _mm256_storeu_ps(a.y, _mm256_cvtepi32_ps(_mm512_castsi512_si256(total)));
+  *a.macs = a.rounds * kSums * 2 * avx512::kPanel;
+}
+
+}  // namespace mien::kernels::avx512vnni

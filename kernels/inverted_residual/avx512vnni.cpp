@@ -1,0 +1,180 @@
+// Strips are fp32; what is expanded and what is projected are integers of 16 bits: the map in steps
+// of its largest value, the band, which the depthwise layer's clamp bounds, in steps of that bound.
+#include "kernels/common/avx512.h"
+#include "kernels/families.h"
+#include "kernels/inverted_residual/fixed_product.h"
+#include "kernels/inverted_residual/float_strips.h"
+#include "kernels/inverted_residual/slide_rows.h"
+
+namespace mien::kernels::avx512vnni {
+namespace {
+
+using avx512::Vec;
+
+// The band in fixed point: clamps from 0 to `high` become 0 to kBandMost.
+float band_steps(float high) { return static_cast<float>(kFixedBandMost) / high; }
+
+Vec weights_at(const InvertedResidualArgs& a, const Slide<float>& s, std::int32_t tap) {
+  const std::ptrdiff_t taps = std::ptrdiff_t{a.kernel_h} * a.kernel_w;
+  const std::uint16_t* w = a.slide.weights + (s.block * taps + tap) * kStripBlock;
+  const auto half = [](const std::uint16_t* at) {
+    return _mm256_cvtph_ps(_mm_loadu_si128(reinterpret_cast<const __m128i*>(at)));
+  };
+  const __m256 high = s.blocks > 1 ? half(w + taps * kStripBlock) : _mm256_setzero_ps();
+  return _mm512_mul_ps(_mm512_insertf32x8(_mm512_castps256_ps512(half(w)), high, 1),
+                       _mm512_set1_ps(band_steps(s.clamp.high)));
+}
+
+// Sums of steps of the band.
+struct Window {
+  using Value = float;
+  using Vec = avx512vnni::Vec;
+  // 8 integers of the band take the place of 4 floats.
+  static constexpr std::ptrdiff_t kStrip = kFloatPanel, kBand = kStripBlock / 2;
+
+  const InvertedResidualArgs& a;
+  const Slide<float>& s;
+  std::ptrdiff_t x_row_elems;
+  std::ptrdiff_t y_plane_elems;
+  bool both;           // the upper 8 channels exist
+  const Vec* weights;  // 3x3: the nine
+  Vec bias, high;
+
+  static Vec load(const float* x) { return _mm512_loadu_ps(x); }
+  static Vec fma(Vec sum, Vec value, Vec weight) { return _mm512_fmadd_ps(value, weight, sum); }
+  [[nodiscard]] Vec weight(int tap) const { return weights[tap]; }
+  [[nodiscard]] Vec any_weight(int tap) const { return weights_at(a, s, tap); }
+  void store(Vec sum, float* y) const {
+    const Vec clamped = _mm512_min_ps(high, _mm512_max_ps(_mm512_setzero_ps(), sum));
+    const __m256i fixed = _mm512_cvtepi32_epi16(_mm512_cvtps_epi32(clamped));
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(y), _mm256_castsi256_si128(fixed));
+    if (both) {
+      _mm_storeu_si128(reinterpret_cast<__m128i*>(y + y_plane_elems),
+                       _mm256_extracti128_si256(fixed, 1));
+    }
+  }
+};
+
+void slide_rows(const InvertedResidualArgs& a, const Slide<float>& s) {
+  Vec weights[9];
+  for (std::int32_t tap = 0; a.kernel_h * a.kernel_w == 9 && tap < 9; ++tap) {
+    weights[tap] = weights_at(a, s, tap);
+  }
+  const bool both = s.blocks > 1;
+  const std::ptrdiff_t plane = band_plane(a, s) / 2;
+  const Window window{
+      a,
+      s,
+      s.x_row_elems,
+      plane,
+      both,
+      weights,
+      _mm512_mul_ps(avx512::load_half(a.slide.bias + s.block * kStripBlock, both ? 0xFFFF : 0xFF),
+                    _mm512_set1_ps(band_steps(s.clamp.high))),
+      _mm512_set1_ps(kFixedBandMost)};
+  SlideRows<Window>::run(
+      window, s.rows, s.x,
+      a.band + s.block * plane + std::ptrdiff_t{s.row} * a.out_w * Window::kBand);
+}
+
+// `elems`: a multiple of 8.
+float largest_of(const float* x, std::ptrdiff_t elems) {
+  Vec largest = _mm512_set1_ps(0x1p-64f);  // what is far smaller is taken for 0
+  for (; elems >= 16; elems -= 16, x += 16) {
+    largest = _mm512_max_ps(largest, _mm512_abs_ps(_mm512_loadu_ps(x)));
+  }
+  const Vec rest = _mm512_maskz_loadu_ps(avx512::first_lanes(static_cast<std::int32_t>(elems)), x);
+  return _mm512_reduce_max_ps(_mm512_max_ps(largest, _mm512_abs_ps(rest)));
+}
+
+void to_fixed(const float* x, std::ptrdiff_t elems, Vec per_step, std::int16_t* y) {
+  for (; elems > 0; elems -= 16, x += 16, y += 16) {
+    const __mmask16 lanes = elems >= 16 ? 0xFFFF : 0xFF;
+    const Vec values = _mm512_mul_ps(_mm512_maskz_loadu_ps(lanes, x), per_step);
+    _mm256_mask_storeu_epi16(y, lanes, _mm512_cvtsepi32_epi16(_mm512_cvtps_epi32(values)));
+  }
+}
+
+class FixedStrips {
+ public:
+  using Value = float;
+  static constexpr std::int32_t kPanel = kFloatPanel;
+
+  explicit FixedStrips(const InvertedResidualArgs& args)
+      : a_(args), map_(reinterpret_cast<std::int16_t*>(args.narrow)) {
+    if (a_.expand.weights != nullptr) {
+      largest_ = largest_of(a_.x, (a_.in_c + 7) / 8 * map_plane());
+    }
+  }
+
+  void begin(std::int32_t first, std::int32_t rows) {
+    if (a_.expand.weights == nullptr) {
+      return;
+    }
+    first_row_ = first;
+    plane_elems_ = std::ptrdiff_t{rows} * a_.in_w * kStripBlock;
+    const Vec per_step = _mm512_set1_ps(static_cast<float>(kFixedMapMost) / largest_);
+    const float* x = a_.x + std::ptrdiff_t{first} * a_.in_w * kStripBlock;
+    for (std::int32_t block = 0; block < (a_.in_c + 7) / 8; ++block) {
+      to_fixed(x + block * map_plane(), plane_elems_, per_step, map_ + block * plane_elems_);
+    }
+  }
+
+  void expand(const StripPart& part, std::int32_t row, std::int32_t rows, float* y) const {
+    const std::ptrdiff_t channel = std::ptrdiff_t{part.first} * kStripBlock;
+    FixedProduct product{};
+    product.to = expansion(a_, part, row, rows, y);
+    product.values = map_ + std::ptrdiff_t{row - first_row_} * a_.in_w * kStripBlock;
+    product.plane_elems = plane_elems_;
+    product.x_step = largest_ / static_cast<float>(kFixedMapMost);
+    product.pairs = a_.expand.pairs + channel * product.to.in_blocks * kStripBlock;
+    product.steps = a_.expand.steps + channel;
+    multiply_fixed(product);
+  }
+
+  void copy(const StripPart& part, std::int32_t row, std::int32_t rows, float* y) const {
+    copy_rows(a_, part, row, rows, y,
+              [](const float* from, float* to) { _mm256_storeu_ps(to, _mm256_loadu_ps(from)); });
+  }
+
+  void slide(const Slide<float>& s) const { slide_rows(a_, s); }
+
+  void project(std::int32_t first, std::int32_t rows) const {
+    FixedProduct product{};
+    product.to = projection(a_, first, rows);
+    product.values = reinterpret_cast<const std::int16_t*>(a_.band);
+    product.plane_elems = product.to.x_plane_elems;
+    product.x_step = clamp_of(a_.slide.activation).high / static_cast<float>(kFixedBandMost);
+    product.pairs = a_.project.pairs;
+    product.steps = a_.project.steps;
+    multiply_fixed(product);
+  }
+
+ private:
+  [[nodiscard]] std::ptrdiff_t map_plane() const {
+    return std::ptrdiff_t{a_.in_h} * a_.in_w * kStripBlock;
+  }
+
+  const InvertedResidualArgs& a_;
+  std::int16_t* map_;  // from row `first_row_` on
+  std::int32_t first_row_ = 0;
+  std::ptrdiff_t plane_elems_ = 0;
+  float largest_ = 0.0f;
+};
+
+bool is_bounded(const ActivationSpec& activation) {
+  const StripClamp clamp = clamp_of(activation);
+  return clamp.low == 0.0f && clamp.high < __builtin_inff();
+}
+
+}  // namespace
+
+void inverted_residual(const InvertedResidualArgs& a) {
+  if (a.project.pairs != nullptr && is_bounded(a.slide.activation)) {
+    InvertedResidual<FixedStrips>(a).run();
+  } else {
+    avx512::inverted_residual(a);
+  }
+}
+
+}  // namespace mien::kernels::avx512vnni

@@ -1,0 +1,28 @@
+// Panels of weights times pixels in fixed point: 16 bits multiplied, 32 bits added up. What a fused
+// block expands and projects with in tiers that have such arithmetic.
+#pragma once
+
+#include <cstdint>
+
+#include "kernels/common/product.h"
+
+namespace mien::kernels {
+
+//   y[p, o] = min(max(bias[o] + sum over i of w[o, i] x[p, i], low), high) + r[p, o]
+//
+// where w[o, i] = steps[o] pairs[o, i], as fixed_weights.h has them, and x[p, i] = x_step values[p,
+// i]. Of `to` everything counts but x, weights and wide.
+struct FixedProduct {
+  ProductArgs to;
+  const std::int16_t* values;  // [in_blocks] blocks of 8 channels of [pixels]
+  std::ptrdiff_t plane_elems;
+  float x_step;
+  const std::int16_t* pairs;
+  const float* steps;
+};
+
+namespace avx512vnni {
+void multiply_fixed(const FixedProduct& product);
+}
+
+}  // namespace mien::kernels
