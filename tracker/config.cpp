@@ -68,12 +68,12 @@ void mien_tracker_config_default(mien_tracker_config* config) {
   config->cpu_mask = MIEN_CPU_ALL;
   config->lod = 1;
   config->horizontal_fov = mien::tracker::kSixtyDegrees;
-  config->accept_probability = 0.98f;
+  config->accept_probability = 0.9985f;
   config->lose_probability = 0.5f;
   config->lose_after_frames = 3;
   config->proposal_size = 160;
-  config->proposal_threshold = 0.6f;
-  config->refine_threshold = 0.6f;
+  config->proposal_threshold = 0.3f;
+  config->refine_threshold = 0.2f;
   config->search_interval = 3;
   config->budget_ms = 10.0f;
   config->smoothing = 1;

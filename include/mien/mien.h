@@ -315,7 +315,7 @@ typedef struct mien_tracker_config {
   float horizontal_fov; /* radians, of the upright image, where focal_length_px is 0; 0.01..3.1;
                            default 60 degrees */
 
-  /* Face probability at and above which a searched face is accepted; default 0.98. */
+  /* Face probability at and above which a searched face is accepted; default 0.9985. */
   float accept_probability;
   /* Face probability below which a tracked face counts as missing; default 0.5; must not exceed
    * accept_probability. */
@@ -326,8 +326,8 @@ typedef struct mien_tracker_config {
   /* Face proposal: the longer side of the image is seen at this many pixels, and the smallest
    * face is 12 of them; 24..640; default 160, which finds faces from 7.5 % of the longer side. */
   int32_t proposal_size;
-  float proposal_threshold; /* first stage (P-Net), 0..1; default 0.6 */
-  float refine_threshold;   /* second stage (R-Net), 0..1; default 0.6 */
+  float proposal_threshold; /* first stage (P-Net), 0..1; default 0.3 */
+  float refine_threshold;   /* second stage (R-Net), 0..1; default 0.2 */
   /* Without a face, searches of the whole image follow each other for the first 30 frames; then one
    * begins on every search_interval-th frame at most; 1..1000; default 3. One that begins where the
    * images begin, are cut, or take another size, is done on that image. Another takes its share of

@@ -28,6 +28,7 @@ from networks import FACE_NETWORKS, FEATURES, ControlsDecoder, PoseDecoder, Temp
 SUPPORTED_CORRELATION = 0.55  # a margin over 0.5: on other people it is a little lower
 GAZE = np.array([name.startswith("eyeLook") for name in CONTROLS])
 SPEED_BETA = 0.015  # frame differences beyond it cost linearly
+AT_END = 0.01       # of a control: targets so near to 0 or 1 are there
 LEARNED = ("features", "pose", "controls", "visible")
 
 
@@ -50,6 +51,14 @@ def soft_clamp(x):
     """Clamp to 0..1 that keeps a little gradient outside."""
     inside = x.clamp(0, 1)
     return inside + 0.05 * (x - inside)
+
+
+def censored(x, target):
+    """What of controls x is compared with their targets. Where a target is 0, all below 0 is right, and keeps a little gradient, as all
+    above 1 where it is 1 (Tobin 1958); elsewhere what lies beyond is as wrong as it looks. Clamped there, too, controls of a person
+    whose rest the decoder takes to be below 0 would hardly be learned, and stay at 0."""
+    at_end = ((x < 0) & (target <= AT_END)) | ((x > 1) & (target >= 1 - AT_END))
+    return torch.where(at_end, soft_clamp(x), x)
 
 
 def steps(x):
@@ -81,8 +90,8 @@ class ControlsTask:
         self.importance = importance()
 
     def loss(self, output, batch, mask):
-        return temporal_loss(soft_clamp(output), batch["controls"], self.weight * batch["visible"] * mask, self.args,
-                             self.importance)
+        target = batch["controls"]
+        return temporal_loss(censored(output, target), target, self.weight * batch["visible"] * mask, self.args, self.importance)
 
 
 class TeacherTask:
@@ -95,9 +104,10 @@ class TeacherTask:
         self.weight, self.line = weight / weight.mean(), Line(len(CONTROLS), "cpu")
 
     def loss(self, output, batch, mask):
-        output, target = soft_clamp(output), batch["controls"]
-        slope, offset = self.line.fit(output.detach().flatten(0, 1), target.flatten(0, 1))
-        error = F.smooth_l1_loss(slope * output + offset, target, beta=self.args.beta, reduction="none")
+        target = batch["controls"]
+        slope, offset = self.line.fit(soft_clamp(output).detach().flatten(0, 1), target.flatten(0, 1))
+        ours = slope * censored(output, (target - offset) / slope) + offset
+        error = F.smooth_l1_loss(ours, target, beta=self.args.beta, reduction="none")
         return self.args.teacher * 2 * self.args.beta * (self.weight * mask * error).mean()
 
 
@@ -341,13 +351,13 @@ def main():
     parser.add_argument("--val", type=Path, required=True, help="features that choose the supported controls")
     parser.add_argument("--portraits-val", type=Path, help="features of real faces that help to choose them")
     parser.add_argument("--out", type=Path, required=True, help="checkpoint; scores go beside it as .json")
-    parser.add_argument("--steps", type=int, default=1300)
+    parser.add_argument("--steps", type=int, default=1600)
     parser.add_argument("--batch", type=int, default=24)
     parser.add_argument("--rate", type=float, default=3e-3)
-    parser.add_argument("--velocity", type=float, default=0.35)
-    parser.add_argument("--acceleration", type=float, default=0.1)
+    parser.add_argument("--velocity", type=float, default=0.1)
+    parser.add_argument("--acceleration", type=float, default=0.03)
     parser.add_argument("--beta", type=float, default=0.15, help="larger errors count linearly")
-    parser.add_argument("--noise", type=float, default=0.2, help="feature noise, in deviations")
+    parser.add_argument("--noise", type=float, default=0.3, help="feature noise, in deviations")
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--seed", type=int, default=0)
     args = parser.parse_args()
