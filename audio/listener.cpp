@@ -25,9 +25,8 @@ bool Listener::init(const AudioNet& net, std::uint32_t cpu_mask) {
 }
 
 void Listener::reset() {
-  rate_ = 0;
+  rate_ = 0;  // another than any, so that clock and network begin anew with the first sound
   known_ = 0;
-  clock_.restart();
 }
 
 void Listener::push(const Pcm& sound, std::int32_t rate, std::int64_t pts_ns) {

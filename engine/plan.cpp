@@ -104,7 +104,7 @@ void Plan::fuse_additions() {
   step_count_ = layer_count();
   for (std::uint32_t i = 1; i < layer_count(); ++i) {
     const LayerRecord& sum = layers_[i];
-    const bool adds_it = op_of(sum) == LayerOp::kAdd && sum.input == i && sum.second_input != i;
+    const bool adds_it = op_of(sum) == LayerOp::kAdd && sum.input == i;
     const bool alone = values_[i].readers == 1 && !values_[i].is_output;
     if (adds_it && alone && op_of(layers_[i - 1]) == LayerOp::kPointwise) {
       parts_[i] = Part::kAddition;

@@ -30,14 +30,13 @@ clang() {
   build clang mien_conformance_program mien_shared
   build/clang/apps/conformance/mien-conformance --models models
 }
-cluster() {  # of this machine; Ray comes from PyPI
-  local folder
+cluster() (  # of this machine; Ray comes from PyPI. In a shell of its own, whose end clears away, however it ends
   folder=$(mktemp -d)
+  trap 'rm -rf "$folder"' EXIT
   python3 -m venv "$folder"
   "$folder/bin/pip" install --quiet 'ray==2.60.0'
   "$folder/bin/python" tests/apps/batch_ray_test.py
-  rm -r "$folder"
-}
+)
 page() {  # what it is built and tested with comes from npm
   scripts/setup.sh web web-test
   scripts/web.sh test

@@ -86,6 +86,9 @@ TEST_F(Create, ValuesOutOfRange) {
     EXPECT_TRUE(refused([&](Config& c) { c.search_interval = bad; })) << bad;
     EXPECT_TRUE(refused([&](Config& c) { c.proposal_size = bad; })) << bad;
   }
+  for (int bad : {0, -1, MIEN_MAX_FACES + 1}) {
+    EXPECT_TRUE(refused([&](Config& c) { c.max_faces = bad; })) << bad;
+  }
   EXPECT_TRUE(refused([](Config& c) {
     c.allocator.allocate = [](void*, std::size_t, std::size_t) -> void* { return nullptr; };
   })) << "half an allocator";

@@ -106,6 +106,23 @@ TEST(Resampler, BlocksDoNotMatter) {
   }
 }
 
+TEST(Resampler, ASecondStreamIsAsTheFirst) {
+  for (const std::int32_t rate : {11025, 44100, 37813}) {
+    const std::vector<float> input = tone(440.0, rate, 1000);
+    Resampler resampler;
+    ASSERT_TRUE(resampler.init(kernels::detect_cpu()));
+    std::vector<float> streams[2];
+    for (std::vector<float>& out : streams) {
+      resampler.start(rate);
+      ASSERT_EQ(resampler.take(input), input.size());
+      for (float sample; resampler.fetch(sample);) {
+        out.push_back(sample);
+      }
+    }
+    EXPECT_EQ(streams[0], streams[1]) << rate;
+  }
+}
+
 TEST(Resampler, CountsExactly) {
   for (const std::int32_t rate : {11025, 44100, 37813}) {
     const std::vector<float> minute(static_cast<std::size_t>(60 * rate), 0.5f);

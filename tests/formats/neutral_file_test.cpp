@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <limits>
 #include <span>
+
+#include "formats/xxhash64.h"
 
 namespace mien::tests {
 namespace {
@@ -67,6 +70,12 @@ TEST(NeutralFile, SaysWhatIsWrong) {
     EXPECT_EQ(formats::read_neutral_file(all.first(size), back),
               size < 8 ? NeutralFileError::kNotANeutralFile : NeutralFileError::kDamaged);
   }
+  std::array<std::byte, kNeutralFileBytes + 8> longer = {};  // with a checksum of all that is right
+  std::copy(good.begin(), good.end(), longer.begin());
+  const std::size_t at = kNeutralFileBytes - sizeof(std::uint64_t);
+  const std::uint64_t sum = formats::xxhash64_with_hole(longer, at);
+  std::memcpy(longer.data() + at, &sum, sizeof sum);
+  EXPECT_EQ(formats::read_neutral_file(longer, back), NeutralFileError::kDamaged);
   Bytes later = good;
   later[8] = std::byte{2};
   EXPECT_EQ(formats::read_neutral_file(later, back), NeutralFileError::kVersion);

@@ -197,6 +197,19 @@ TEST(Writer, RefusesWhatDoesNotFit) {
             FileStatus::kBadTensor);
   EXPECT_EQ(status_of(map, [&](Net& n) { n.output(n.add(0, 0, relu)); }),
             FileStatus::kBadActivation);
+  LayerOptions sparse;  // whose last window would begin behind the map
+  sparse.stride_y = sparse.stride_x = 4;
+  EXPECT_EQ(status_of(map, [&](Net& n) { n.output(n.max_pool(0, 2, 2, sparse)); }),
+            FileStatus::kOk);
+  sparse.ceil_mode = true;
+  EXPECT_EQ(status_of(map, [&](Net& n) { n.output(n.max_pool(0, 2, 2, sparse)); }),
+            FileStatus::kBadShape);
+  for (const auto& [right, bottom] : {std::pair<std::uint16_t, std::uint16_t>{1, 0}, {0, 1}}) {
+    LayerOptions narrower;  // by one row or column, of which there is no half
+    narrower.padding = {0, 0, bottom, right};
+    EXPECT_EQ(status_of(map, [&](Net& n) { n.output(n.add(n.slice(0, 0, 8, narrower), 0)); }),
+              FileStatus::kBadShape);
+  }
   EXPECT_EQ(status_of(map, [&](Net& n) { n.output(n.softmax(1)); }), FileStatus::kBadReference);
   EXPECT_EQ(status_of(map, [&](Net& n) { n.output(0); }), FileStatus::kBadReference);
   EXPECT_EQ(status_of(map, [&](Net&) {}), FileStatus::kBadNetwork);

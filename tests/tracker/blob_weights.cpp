@@ -1,9 +1,9 @@
 #include "tests/tracker/blob_weights.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <functional>
 #include <random>
 #include <string>
@@ -73,7 +73,10 @@ LayerOptions activated(formats::LayerActivation activation, float alpha = 0.0f) 
 AlignedBytes finished(const MienWriter& writer) {
   std::vector<std::byte> file;
   const formats::Validation validation = writer.finish(&file);
-  EXPECT_EQ(validation.status, formats::FileStatus::kOk) << formats::message(validation.status);
+  if (validation.status != formats::FileStatus::kOk) {  // then no test means anything
+    std::fprintf(stderr, "blob_weights: %s\n", formats::message(validation.status));
+    std::abort();
+  }
   return AlignedBytes(file);
 }
 

@@ -45,6 +45,16 @@ TEST(Following, FindsDiscsOfAllSizesEverywhere) {
   }
 }
 
+// At this size the last band of the largest picture overlaps the one before.
+TEST(Following, FindsSmallDiscsInEveryBand) {
+  for (float y = 30.0f; y < 230.0f; y += 12.0f) {
+    BlobTracker tracker({}, [](mien_tracker_config& config) { config.proposal_size = 100; });
+    const Result result = tracker.push(disc_picture(150.0f, y, 26.0f));
+    ASSERT_EQ(result.status, MIEN_FACE_TRACKING) << y;
+    expect_box_on_disc(result, 150.0f, y, 26.0f);
+  }
+}
+
 TEST(Following, LandmarksSurroundTheDisc) {
   BlobTracker tracker;
   const Result result = tracker.push(disc_picture(150.0f, 110.0f, 70.0f));
@@ -139,7 +149,7 @@ TEST(Following, ShortMissesGoUnnoticed) {
   BlobTracker tracker;
   const Picture disc = disc_picture(160.0f, 120.0f, 70.0f);
   for (int i = 0; i < 30; ++i) {
-    const bool hidden = i % 6 == 4;
+    const bool hidden = i % 3 == 2;  // always a judged one
     const Result result = tracker.push(hidden ? Picture(320, 240) : disc);
     EXPECT_EQ(result.status, MIEN_FACE_TRACKING) << i;
   }
@@ -231,6 +241,13 @@ TEST(Following, SearchesLessOftenAfterAWhile) {
   EXPECT_EQ(tracker.result().status, MIEN_FACE_SEARCHING);
 }
 
+TEST(Following, SearchesAllTheTimeWhenAskedTo) {
+  BlobTracker tracker({}, [](mien_tracker_config& config) { config.search_interval = 1; });
+  for (int frame = 0; frame < 60; ++frame) {
+    EXPECT_TRUE(tracker.push(Picture(64, 48)).flags & MIEN_RESULT_PROPOSAL_RAN) << frame;
+  }
+}
+
 TEST(Following, NoFrameButTheFirstPaysForAWholeSearch) {
   BlobTracker tracker;
   const Result first = tracker.push(Picture(320, 240));
@@ -264,6 +281,27 @@ TEST(Following, WhatBaseNetRefusesIsNoFace) {
   EXPECT_EQ(result.status, MIEN_FACE_SEARCHING);
   EXPECT_GT(result.encoder_runs, 0u) << "it was proposed and judged";
   EXPECT_LT(result.face_probability, 0.01f);
+}
+
+TEST(Following, WhatRNetRefusesIsNotJudged) {
+  BlobTracker tracker({}, [](mien_tracker_config& config) { config.proposal_threshold = 0.0f; });
+  EXPECT_EQ(tracker.push(Picture(320, 240)).encoder_runs, 0u);
+}
+
+// What would do to follow a face does not do to begin with one.
+TEST(Following, AcceptsMoreStrictlyThanItFollows) {
+  mien_tracker_config config;
+  mien_tracker_config_default(&config);
+  const Picture disc = disc_picture(160.0f, 120.0f, 70.0f);
+  BlobOptions doubtful;
+  Result result = BlobTracker(doubtful).push(disc);
+  ASSERT_EQ(result.status, MIEN_FACE_TRACKING);
+  while (result.face_probability >= config.accept_probability) {
+    doubtful.face_bias -= 0.5f;
+    result = BlobTracker(doubtful).push(disc);
+  }
+  ASSERT_GT(result.face_probability, config.lose_probability);
+  EXPECT_EQ(result.status, MIEN_FACE_SEARCHING);
 }
 
 TEST(Following, UnsupportedControlsStayZero) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/tracker/blob_tracker.h"
@@ -19,19 +20,19 @@ BlobTracker tracker_at(std::int32_t lod) {
   return BlobTracker({}, [lod](mien_tracker_config& config) { config.lod = lod; });
 }
 
-TEST(Levels, EncodersRunAsOftenAsTheTableSays) {
-  const std::uint64_t per_ten[] = {5, 10, 15, 20};  // encoder runs in ten frames
+TEST(Levels, EncodersRunWhenTheTableSays) {
+  const std::uint64_t runs[4][2] = {{1, 0}, {2, 0}, {2, 1}, {2, 2}};  // on even frames, on odd ones
   for (std::int32_t lod = 1; lod <= 4; ++lod) {
     BlobTracker tracker = tracker_at(lod);
-    std::uint64_t before = 0;
-    Result result;
-    for (int frame = 0; frame < 21; ++frame) {
-      result = tracker.push(moving_disc(frame));
+    Result before = tracker.push(moving_disc(0));
+    for (int frame = 1; frame < 21; ++frame) {
+      const Result result = tracker.push(moving_disc(frame));
       ASSERT_EQ(result.status, MIEN_FACE_TRACKING);
-      before = frame == 0 ? result.encoder_runs : before;
+      EXPECT_EQ(result.encoder_runs - before.encoder_runs, runs[lod - 1][frame % 2])
+          << "level " << lod << ", frame " << frame;
+      EXPECT_EQ(result.lod, lod);
+      before = result;
     }
-    EXPECT_EQ(result.encoder_runs - before, 2 * per_ten[lod - 1]) << "level " << lod;
-    EXPECT_EQ(result.lod, lod);
   }
 }
 
@@ -143,10 +144,27 @@ TEST(Levels, ResetReturnsToTheConfiguredOne) {
   EXPECT_EQ(tracker.push(moving_disc(2)).lod, 3);
 }
 
+TEST(Levels, ResetForgetsHowBusyTheMachineWas) {
+  BlobTracker tracker({}, [](mien_tracker_config& config) {
+    static std::uint64_t now = 0;
+    config.clock_user = &now;
+    config.clock_ns = [](void* user) { return *static_cast<std::uint64_t*>(user) += 50'000'000; };
+    config.lod = 0;
+  });
+  for (int frame = 0; frame < 75; ++frame) {
+    (void)tracker.push(moving_disc(frame));
+  }
+  ASSERT_LT(tracker.result().lod, 4);
+  ASSERT_EQ(tracker.tracker().reset(), MIEN_OK);
+  EXPECT_EQ(tracker.push(moving_disc(0)).lod, 4);
+}
+
 // Milliseconds of a frame on each level, as a governor would measure them.
 std::int32_t settled(tracker::LevelGovernor& governor, const float (&ms)[4], float seconds) {
   for (float t = 0.0f; t < seconds; t += 1.0f / 30.0f) {
-    governor.account(static_cast<std::uint64_t>(ms[governor.level() - 1] * 1e6f), 1.0f / 30.0f);
+    const std::int32_t level = std::clamp(governor.level(), 1, 4);
+    EXPECT_EQ(governor.level(), level);
+    governor.account(static_cast<std::uint64_t>(ms[level - 1] * 1e6f), 1.0f / 30.0f);
   }
   return governor.level();
 }

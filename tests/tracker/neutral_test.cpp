@@ -52,6 +52,14 @@ TEST(Neutral, RestBecomesZeroAndOneStaysOne) {
   EXPECT_EQ(without_rest(neutral, 1.0f)[0], 1.0f);
 }
 
+TEST(Neutral, WhatIsSetKeepsTheBounds) {
+  Neutral neutral;
+  neutral.set(all(0.9f));
+  EXPECT_EQ(neutral.levels()[0], Neutral::kLargest);
+  neutral.set(all(-0.5f));
+  EXPECT_EQ(neutral.levels()[0], 0.0f);
+}
+
 TEST(Neutral, BlinksAndTheFirstFramesDoNotCount) {
   Neutral neutral;
   neutral.capture();

@@ -113,6 +113,15 @@ TEST(Images, ANewSizeIsSearchedAnewOnTheSameFrame) {
   EXPECT_FALSE(result.flags & MIEN_RESULT_CUT);
 }
 
+TEST(Images, ANewSizeEndsTheSearchOfTheOldOne) {
+  BlobTracker tracker;
+  (void)tracker.push(Picture(320, 240));  // searched at once
+  (void)tracker.push(Picture(320, 240));  // the first share of a search
+  const Result result = tracker.push(disc_picture(320.0f, 240.0f, 140.0f, 640, 480));
+  EXPECT_EQ(result.status, MIEN_FACE_TRACKING);
+  EXPECT_EQ(result.proposal_runs, 3u);
+}
+
 TEST(Images, FourK) {
   BlobTracker tracker;
   const Buffer buffer(disc_picture(2600.0f, 900.0f, 700.0f, 3840, 2160),

@@ -112,5 +112,25 @@ TEST(Smoothing, PosesStayRotationsOnTheShorterWay) {
   }
 }
 
+// Where the head looks matters nothing, not even over the place where angles begin anew.
+TEST(Smoothing, PosesTurnedToTheBackAreSmoothedAlike) {
+  const auto turned = [](float angle) {
+    return matrix({0.0f, std::sin(angle / 2), 0.0f, std::cos(angle / 2)});
+  };
+  for (const float from : {0.0f, static_cast<float>(M_PI) - 0.05f}) {
+    HeadPose shown, seen;
+    shown.rotation = turned(from);
+    seen.rotation = turned(from + 0.1f);
+    smooth_pose(seen, kFrame, shown);
+    const float share = kRotationSmoothing.share(0.1f, kFrame);
+    const HeadPose expected = {turned(from + share * 0.1f), {}};
+    for (std::size_t row = 0; row < 3; ++row) {
+      for (std::size_t column = 0; column < 3; ++column) {
+        EXPECT_NEAR(shown.rotation[row][column], expected.rotation[row][column], 1e-3f) << from;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace mien::tests

@@ -9,7 +9,9 @@
 #include <thread>
 #include <vector>
 
+#include "engine/arena.h"
 #include "tests/tracker/blob_tracker.h"
+#include "tracker/sound_queue.h"
 
 namespace mien::tests {
 namespace {
@@ -79,6 +81,36 @@ TEST(SoundQueue, SaysWhenItIsFull) {
         tracker.tracker().queue_audio(block_of(samples, 0, static_cast<std::size_t>(412 + i)), 0),
         MIEN_OK);
     (void)tracker.advance();
+  }
+}
+
+TEST(SoundQueue, EveryBlockLiesInOnePieceOfTheRing) {
+  constexpr std::int32_t kRoom = 64;
+  tracker::SoundQueue queue;
+  engine::Arena measure;
+  queue.load(kRoom, measure);
+  alignas(engine::Arena::kAlignment) std::byte memory[8192];
+  ASSERT_LE(measure.need().total_bytes(), sizeof memory);
+  engine::Arena arena(memory, measure.need());
+  queue.load(kRoom, arena);
+  const std::vector<float> samples = noise();
+  const void* ring = nullptr;
+  std::uint32_t next = 0;
+  for (std::uint32_t frames :
+       {16u, 16u, 16u, 17u, 47u, 30u, 30u, 5u}) {  // to the end, and one beyond it
+    tracker::SoundView sound;
+    sound.rate = kRate;
+    sound.pcm = {audio::SampleFormat::kFloat32, false, 1, frames, {samples.data()}};
+    ASSERT_TRUE(queue.push(sound, 0));
+    tracker::SoundQueue::Block block;
+    audio::Pcm heard;
+    ASSERT_TRUE(queue.front(block, heard));
+    ring = ring == nullptr ? heard.channel[0] : ring;
+    const auto begin = static_cast<std::uint32_t>(static_cast<const float*>(heard.channel[0]) -
+                                                  static_cast<const float*>(ring));
+    EXPECT_EQ(begin, next + frames <= kRoom ? next : 0u) << frames;
+    next = (begin + frames) % kRoom;
+    queue.pop(block);
   }
 }
 

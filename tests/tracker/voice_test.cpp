@@ -396,6 +396,17 @@ TEST(Voice, ResetForgetsIt) {
   }
 }
 
+TEST(Voice, ResetForgetsWhatWasHeard) {
+  BlobTracker blob = unfiltered();
+  ASSERT_EQ(blob.tracker().push_audio(Sound().add(1.0, kLoud).all(), 0), MIEN_OK);
+  for (int frame = 0; frame < 15; ++frame) {
+    (void)blob.advance();
+  }
+  ASSERT_GT(blob.result().voice_activity, 0.5f);
+  ASSERT_EQ(blob.tracker().reset(), MIEN_OK);
+  EXPECT_EQ(blob.advance().voice_activity, 0.0f);
+}
+
 TEST(Voice, SurvivesAnySamplesAndTimes) {
   BlobTracker blob;
   std::mt19937 engine(5);
