@@ -26,6 +26,7 @@ from losses import Line, Turn, followed, importance  # noqa: E402
 from networks import FACE_NETWORKS, FEATURES, ControlsDecoder, PoseDecoder, TemporalDecoder  # noqa: E402
 
 SUPPORTED_CORRELATION = 0.55  # a margin over 0.5: on other people it is a little lower
+FOLLOWED_CORRELATION = 0.7    # with the teacher, on real faces, that will do alone
 GAZE = np.array([name.startswith("eyeLook") for name in CONTROLS])
 SPEED_BETA = 0.015  # frame differences beyond it cost linearly
 AT_END = 0.01       # of a control: targets so near to 0 or 1 are there
@@ -320,7 +321,8 @@ def evaluate(decoders, data, supported=None, gaze=False, portraits=None):
     """(scores, supported): scores with the encoder on every frame and on alternate frames. `gaze`: may be supported.
 
     Without `supported` the controls that correlate well enough on this data, in both modes and on both sides of the face, are
-    chosen; where the teacher knows a control, it may also do so as the mean of this data and `portraits`.
+    chosen; where the teacher knows a control, it may also do so as the mean of this data and `portraits`, or follow the teacher on
+    `portraits` closely.
     """
     parts = {"every frame": of_stride(data, 1), "alternate frames": of_stride(data, 2)}
     curves = {(m, k): answers(decoders[k], part["features"]).clamp(0, 1).numpy()
@@ -328,7 +330,9 @@ def evaluate(decoders, data, supported=None, gaze=False, portraits=None):
     if supported is None:
         lowest = np.min([correlation_of(curves[m, "controls"], part) for m, part in parts.items()], 0)
         if portraits is not None:
-            lowest = np.fmax(lowest, (lowest + agreement_with_teacher(decoders["controls"], portraits)) / 2)
+            followed_by = agreement_with_teacher(decoders["controls"], portraits)
+            lowest = np.fmax(lowest, (lowest + followed_by) / 2)
+            lowest[np.nan_to_num(followed_by) >= FOLLOWED_CORRELATION] = 1
         supported = (np.nan_to_num(lowest, nan=-1) >= SUPPORTED_CORRELATION) & (~GAZE | gaze)
         supported &= supported[MIRROR]
     report = {}
