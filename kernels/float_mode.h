@@ -24,7 +24,24 @@ class FloatMode {
   FloatMode& operator=(const FloatMode&) = delete;
 
  private:
-#if defined(__SSE2_MATH__) || defined(_M_X64)
+#if defined(__i386__)
+  // Of SSE, and of the x87, which the C library's functions compute on: 14 words of 16 bits.
+  struct State {
+    std::uint32_t mxcsr;
+    std::uint16_t x87[14];
+  };
+  // As below; all exceptions masked, 64 bits of precision, no flag set, all registers empty.
+  static constexpr State kOurs = {0x1F80u | 0x8000u | 0x0040u, {0x037F, 0, 0, 0, 0xFFFF}};
+  static State get() {
+    State state{_mm_getcsr(), {}};
+    asm volatile("fnstenv %0" : "=m"(state.x87));
+    return state;
+  }
+  static void set(const State& state) {
+    _mm_setcsr(state.mxcsr);
+    asm volatile("fldenv %0" ::"m"(state.x87));
+  }
+#elif defined(__SSE2_MATH__) || defined(_M_X64)
   using State = std::uint32_t;
   // MXCSR: all exceptions masked, flush to zero, denormals are zero.
   static constexpr State kOurs = 0x1F80u | 0x8000u | 0x0040u;
