@@ -35,6 +35,7 @@ std::size_t place(const Panels& w, int o, int k) {
 
 std::vector<Approx> expected_steps(const std::vector<float>& steps, int reduction) {
   std::vector<Approx> all;
+  all.reserve(steps.size());
   for (const float step : steps) {
     all.push_back({static_cast<double>(step), static_cast<double>(step) * kUnit * (reduction + 8)});
   }
@@ -43,6 +44,7 @@ std::vector<Approx> expected_steps(const std::vector<float>& steps, int reductio
 
 std::vector<Approx> expected_pairs(const std::vector<double>& quotients) {
   std::vector<Approx> all;
+  all.reserve(quotients.size());
   for (const double one : quotients) {
     // Steps in fp32 are not those of double.
     all.push_back({one, one == 0.0 ? 0.0 : 0.5 + std::abs(one) * 0x1p-15});
