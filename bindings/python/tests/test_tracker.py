@@ -41,7 +41,7 @@ def test_controls_are_a_mapping_and_an_array(bgr):
     assert mien.CONTROL_NAMES[17] == "jawOpen" and controls["jawOpen"] == controls.array[17]
     assert controls.array.dtype == np.float32 and controls.array.shape == (52,)
     assert dict(controls)["eyeBlinkLeft"] == controls["eyeBlinkLeft"]
-    assert "jawOpen" in controls.supported and "tongueOut" not in controls.supported
+    assert "jawOpen" in controls.supported and "eyeLookUpLeft" not in controls.supported
     with pytest.raises(KeyError):
         controls["nothing"]
 
