@@ -72,7 +72,7 @@ void mien_tracker_config_default(mien_tracker_config* config) {
   config->lose_probability = 0.5f;
   config->lose_after_frames = 3;
   config->proposal_size = 160;
-  config->proposal_threshold = 0.3f;
+  config->proposal_threshold = 0.4f;
   config->refine_threshold = 0.2f;
   config->search_interval = 3;
   config->budget_ms = 10.0f;

@@ -326,7 +326,7 @@ typedef struct mien_tracker_config {
   /* Face proposal: the longer side of the image is seen at this many pixels, and the smallest
    * face is 12 of them; 24..640; default 160, which finds faces from 7.5 % of the longer side. */
   int32_t proposal_size;
-  float proposal_threshold; /* first stage (P-Net), 0..1; default 0.3 */
+  float proposal_threshold; /* first stage (P-Net), 0..1; default 0.4 */
   float refine_threshold;   /* second stage (R-Net), 0..1; default 0.2 */
   /* Without a face, searches of the whole image follow each other for the first 30 frames; then one
    * begins on every search_interval-th frame at most; 1..1000; default 3. One that begins where the
