@@ -2,6 +2,7 @@
 // of its largest value, the band, which the depthwise layer's clamp bounds, in steps of that bound.
 #include "kernels/common/avx512.h"
 #include "kernels/families.h"
+#include "kernels/inverted_residual/avx512_slide.h"
 #include "kernels/inverted_residual/fixed_product.h"
 #include "kernels/inverted_residual/float_strips.h"
 #include "kernels/inverted_residual/slide_rows.h"
@@ -15,14 +16,7 @@ using avx512::Vec;
 float band_steps(float high) { return static_cast<float>(kFixedBandMost) / high; }
 
 Vec weights_at(const InvertedResidualArgs& a, const Slide<float>& s, std::int32_t tap) {
-  const std::ptrdiff_t taps = std::ptrdiff_t{a.kernel_h} * a.kernel_w;
-  const std::uint16_t* w = a.slide.weights + (s.block * taps + tap) * kStripBlock;
-  const auto half = [](const std::uint16_t* at) {
-    return _mm256_cvtph_ps(_mm_loadu_si128(reinterpret_cast<const __m128i*>(at)));
-  };
-  const __m256 high = s.blocks > 1 ? half(w + taps * kStripBlock) : _mm256_setzero_ps();
-  return _mm512_mul_ps(_mm512_insertf32x8(_mm512_castps256_ps512(half(w)), high, 1),
-                       _mm512_set1_ps(band_steps(s.clamp.high)));
+  return _mm512_mul_ps(avx512::weights_at(a, s, tap), _mm512_set1_ps(band_steps(s.clamp.high)));
 }
 
 // Sums of steps of the band.
