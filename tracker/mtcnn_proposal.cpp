@@ -18,6 +18,7 @@ constexpr std::int32_t kRefineSide = 24;
 constexpr float kOverlapInSize = 0.5f;
 constexpr float kOverlapOfSizes = 0.7f;
 constexpr float kOverlapRefined = 0.4f;
+constexpr float kThorough = 0.25f;  // of P-Net's threshold, in a thorough search
 constexpr float kLargestLogStep = 1.0f;
 constexpr std::int32_t kLargestTile = 60;  // pixels
 // What one share of a search is, about ten million multiply-accumulates either way.
@@ -85,9 +86,10 @@ mien_status MtcnnProposal::load_large(const mien_tracker_config& config, const e
   return status;
 }
 
-void MtcnnProposal::begin(const ImageView& view) {
+void MtcnnProposal::begin(const ImageView& view, bool thorough) {
   search_ = {};
   search_.canvas = canvas_of(view);
+  search_.threshold = proposal_threshold_ * (thorough ? kThorough : 1.0f);
 }
 
 bool MtcnnProposal::go_on(const ImageView& view) {
@@ -114,7 +116,7 @@ bool MtcnnProposal::go_on(const ImageView& view) {
 
 std::size_t MtcnnProposal::glance(const ImageView& view, std::uint32_t turn,
                                   std::span<Candidate> candidates) {
-  begin(view);
+  begin(view, false);
   std::size_t sizes = small_count_;
   for (std::size_t i = 0; i < large_count_; ++i) {
     const Tiles tiles = tiles_of(view, large_[i]);
@@ -226,7 +228,7 @@ void MtcnnProposal::collect(const engine::Network& pnet, std::int32_t side, std:
   const float* regression = pnet.output(1).data() + skipped;
   for (std::int32_t y = at; y < at + cells.h - first; ++y) {
     for (std::int32_t x = 0; x < cells.w; ++x, face += 8, regression += 8) {
-      if (!(face[0] >= proposal_threshold_)) {
+      if (!(face[0] >= search_.threshold)) {
         continue;
       }
       const Square window = {{left + (kStride * static_cast<float>(x) + kWindowMiddle) * pixels,

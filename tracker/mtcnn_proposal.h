@@ -26,7 +26,7 @@ class MtcnnProposal final : public FaceProposal {
 
   // Shares of P-Net: a band of one of the larger sizes, or all of the smaller sizes; of R-Net: some
   // of the candidates.
-  void begin(const ImageView& view) override;
+  void begin(const ImageView& view, bool thorough) override;
   [[nodiscard]] bool go_on(const ImageView& view) override;
   [[nodiscard]] std::size_t found(std::span<Candidate> found) override;
 
@@ -52,6 +52,7 @@ class MtcnnProposal final : public FaceProposal {
   // Where a search is.
   struct Search {
     Square canvas;
+    float threshold = 1.0f;      // of P-Net
     std::size_t size = 0;        // of the pyramid, that P-Net looks at next
     std::int32_t cell_row = 0;   // of it, likewise
     std::size_t scanned = 0;     // candidates of P-Net

@@ -15,8 +15,8 @@ class FaceProposal {
  public:
   // A search of the whole image is done in shares, each a few million multiply-accumulates, so that
   // it can be spread over images. They have to be of one geometry; a face is where the first one
-  // has it.
-  virtual void begin(const ImageView& view) = 0;
+  // has it. A thorough one proposes more and takes longer.
+  virtual void begin(const ImageView& view, bool thorough) = 0;
   // The next share. False: it was the last.
   [[nodiscard]] virtual bool go_on(const ImageView& view) = 0;
   // After the last: writes the most promising squares, best first, as many as fit into `found`;

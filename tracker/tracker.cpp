@@ -148,7 +148,10 @@ void Tracker::search(Frame& frame, bool whole) {
   if (search.stage == Search::Stage::kIdle) {
     search = Search();
     search.stage = Search::Stage::kProposing;
-    proposal_.begin(frame.view);
+    // Hard faces need a thorough search; every second one stays quick for a face that comes back.
+    const bool thorough = whole || state_.searches % 2 == 1;
+    state_.searches += whole ? 0 : 1;
+    proposal_.begin(frame.view, thorough);
     ++state_.proposal_runs;
   }
   if (search.stage == Search::Stage::kProposing) {
@@ -187,6 +190,7 @@ void Tracker::judge(Frame& frame, bool whole) {
   do {
     if (faces_.welcome(frame, search.proposed[search.judged++].square)) {
       state_.search_frames = 0;
+      state_.searches = 0;
     }
   } while (whole && search.judged < search.count && faces_.has_room());
   if (search.judged == search.count || !faces_.has_room()) {

@@ -67,6 +67,7 @@ class Tracker {
     ImageView view;  // the image before, whose pixels are gone
     Search search;
     std::int32_t search_frames = 0;  // frames in a row with nothing found
+    std::uint32_t searches = 0;      // begun since then
     std::uint32_t turn = 0;          // of glances
     // Totals.
     std::uint64_t frames = 0;

@@ -326,13 +326,15 @@ typedef struct mien_tracker_config {
   /* Face proposal: the longer side of the image is seen at this many pixels, and the smallest
    * face is 12 of them; 24..640; default 160, which finds faces from 7.5 % of the longer side. */
   int32_t proposal_size;
-  float proposal_threshold; /* first stage (P-Net), 0..1; default 0.4 */
+  float proposal_threshold; /* first stage (P-Net), 0..1; default 0.4; a quarter of it in thorough
+                               searches (search_interval) */
   float refine_threshold;   /* second stage (R-Net), 0..1; default 0.2 */
   /* Without a face, searches of the whole image follow each other for the first 30 frames; then one
    * begins on every search_interval-th frame at most; 1..1000; default 3. One that begins where the
    * images begin, are cut, or take another size, is done on that image. Another takes its share of
    * several images, 4 to 9 at most levels and about 20 at level 1, so that none costs much more
-   * than one with a face. */
+   * than one with a face. Thorough, for faces that are hard to see, are those done on one image, and
+   * of the others every second one in a row that finds nothing; they take up to 11 images more. */
   int32_t search_interval;
 
   /* Automatic level of detail: what a followed frame may take on average, ms; 0.01..1e6; default
