@@ -24,6 +24,7 @@ RESPONDING = 0.03       # spread of a teacher's control on portraits, from which
 NOT_FOLLOWED = ("eyeSquintLeft", "eyeSquintRight")  # they rest at 0.4, and rise with a smile
 TEACHER_WEIGHT = 2.0
 SMALLEST_SPREAD = 0.08  # of a control, so that one that hardly moves does not rule the sum
+AT_END = 0.01           # of a control: targets so near to 0 or 1 are there
 
 
 def point_weights():
@@ -46,6 +47,20 @@ def lids_of_controls():
             if name.startswith("eye") and name.endswith(side):
                 out[lids, i] = 1 / len(lids)
     return out
+
+
+def soft_clamp(x):
+    """Clamp to 0..1 that keeps a little gradient outside."""
+    inside = x.clamp(0, 1)
+    return inside + 0.05 * (x - inside)
+
+
+def censored(x, target):
+    """What of controls x is compared with their targets. Where a target is 0, all below 0 is right, and keeps a little gradient, as all
+    above 1 where it is 1 (Tobin 1958); elsewhere what lies beyond is as wrong as it looks. Clamped there, too, controls of a person
+    whose rest the decoder takes to be below 0 would hardly be learned, and stay at 0."""
+    at_end = ((x < 0) & (target <= AT_END)) | ((x > 1) & (target >= 1 - AT_END))
+    return torch.where(at_end, soft_clamp(x), x)
 
 
 class Line:
@@ -131,7 +146,8 @@ class Losses:
         """Squared where it is small, in spreads; an eye's controls only where the eye can be seen."""
         seen = ~self.of_eye | (batch.visible @ self.lids > 0.5)
         weights = (seen & batch.has_controls[:, None]) * self.importance
-        error = F.smooth_l1_loss(out / self.spread, batch.controls / self.spread, beta=2.0, reduction="none")
+        ours = censored(out, batch.controls)
+        error = F.smooth_l1_loss(ours / self.spread, batch.controls / self.spread, beta=2.0, reduction="none")
         return (error * weights).sum() / weights.sum().clamp(min=1)
 
     def teacher(self, out, batch):
@@ -140,8 +156,9 @@ class Losses:
         weights = self.importance * self.followed
         if not rows.any() or not weights.any():
             return out.sum() * 0
-        slope, offset = self.line.fit(out[rows].detach(), batch.controls[rows])
-        error = (slope * out[rows] + offset - batch.controls[rows]) / self.teacher_spread
+        target = batch.controls[rows]
+        slope, offset = self.line.fit(soft_clamp(out[rows]).detach(), target)
+        error = (slope * censored(out[rows], (target - offset) / slope) + offset - target) / self.teacher_spread
         return (F.smooth_l1_loss(error, torch.zeros_like(error), reduction="none").mean(0) * weights).sum() / weights.sum()
 
     def pose(self, out, batch):

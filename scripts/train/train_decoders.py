@@ -22,14 +22,13 @@ import head_pose  # noqa: E402
 from face_data import rarity  # noqa: E402
 import metrics  # noqa: E402
 from expressions import CONTROLS, MIRROR, PAIRED  # noqa: E402
-from losses import Line, Turn, followed, importance  # noqa: E402
+from losses import Line, Turn, censored, followed, importance, soft_clamp  # noqa: E402
 from networks import FACE_NETWORKS, FEATURES, ControlsDecoder, PoseDecoder, TemporalDecoder  # noqa: E402
 
 SUPPORTED_CORRELATION = 0.55  # a margin over 0.5: on other people it is a little lower
 FOLLOWED_CORRELATION = 0.7    # with the teacher, on real faces, that will do alone
 GAZE = np.array([name.startswith("eyeLook") for name in CONTROLS])
 SPEED_BETA = 0.015  # frame differences beyond it cost linearly
-AT_END = 0.01       # of a control: targets so near to 0 or 1 are there
 LEARNED = ("features", "pose", "controls", "visible")
 
 
@@ -46,20 +45,6 @@ class FrameDecoder(nn.Module):
 
     def forward(self, x, state=None):
         return self.net(x), state
-
-
-def soft_clamp(x):
-    """Clamp to 0..1 that keeps a little gradient outside."""
-    inside = x.clamp(0, 1)
-    return inside + 0.05 * (x - inside)
-
-
-def censored(x, target):
-    """What of controls x is compared with their targets. Where a target is 0, all below 0 is right, and keeps a little gradient, as all
-    above 1 where it is 1 (Tobin 1958); elsewhere what lies beyond is as wrong as it looks. Clamped there, too, controls of a person
-    whose rest the decoder takes to be below 0 would hardly be learned, and stay at 0."""
-    at_end = ((x < 0) & (target <= AT_END)) | ((x > 1) & (target >= 1 - AT_END))
-    return torch.where(at_end, soft_clamp(x), x)
 
 
 def steps(x):
