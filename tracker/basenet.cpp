@@ -1,6 +1,7 @@
 #include "tracker/basenet.h"
 
 #include <cmath>
+#include <string_view>
 
 namespace mien::tracker {
 
@@ -11,7 +12,10 @@ mien_status BaseNet::load(const Models& models, std::uint32_t cpu_mask, engine::
     status =
         face_probability_.load(model, {"face_probability", kFeatureVector, {1}}, cpu_mask, arena);
   }
-  return status == MIEN_OK ? load_template(model) : status;
+  if (status == MIEN_OK) {
+    status = load_template(model);
+  }
+  return status == MIEN_OK ? load_head_points(model) : status;
 }
 
 mien_status BaseNet::load_template(const engine::Model& model) {
@@ -21,6 +25,15 @@ mien_status BaseNet::load_template(const engine::Model& model) {
   }
   for (std::size_t i = 0; i < kLandmarks; ++i) {
     template_[i] = {shape[2 * i], shape[2 * i + 1]};
+  }
+  return MIEN_OK;
+}
+
+mien_status BaseNet::load_head_points(const engine::Model& model) {
+  constexpr std::string_view kName = "head_points";
+  const bool known = model.file().find_constant(kName) != nullptr;
+  if (known && model.constant(kName, kHeadPoints, head_points_) != engine::Status::kOk) {
+    return MIEN_ERROR_WEIGHTS_INCOMPLETE;
   }
   return MIEN_OK;
 }

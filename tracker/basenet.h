@@ -10,6 +10,7 @@
 #include "tracker/crop.h"
 #include "tracker/face_encoder.h"
 #include "tracker/models.h"
+#include "tracker/pose_refinement.h"
 
 namespace mien::tracker {
 
@@ -27,12 +28,17 @@ class BaseNet {
     return fit_crop(template_, sight.landmarks, crop);
   }
 
+  // Unknown if the weights are from before they were told.
+  [[nodiscard]] HeadPoints head_points() const { return head_points_; }
+
  private:
   [[nodiscard]] mien_status load_template(const engine::Model& model);
+  [[nodiscard]] mien_status load_head_points(const engine::Model& model);
 
   FaceEncoder encoder_;
   engine::Network face_probability_;
   Landmarks template_ = {};  // in crop coordinates
+  HeadPoints head_points_;   // in the weights
 };
 
 }  // namespace mien::tracker

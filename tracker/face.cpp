@@ -164,6 +164,8 @@ void Face::animate(Frame& frame) {
   state_.flags |=
       decoders_.neutral(frame.level).is_being_captured() ? MIEN_RESULT_CAPTURING_NEUTRAL : 0;
   decoders_.decode_pose(state_.sight.features, state_.sight.crop, frame.view.camera, seen.pose);
+  refine_head_pose(encoders_.basenet.head_points(), state_.sight.landmarks, frame.view.camera,
+                   seen.pose);
   seen.landmarks = landmarks(frame.level);
   state_.is_new = state_.is_new || frame.cut;
   show(frame.seconds);

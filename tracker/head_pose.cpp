@@ -6,18 +6,7 @@
 namespace mien::tracker {
 namespace {
 
-constexpr float kReferenceMetres = 0.2f;  // a head this size at the crop's scale has log scale 0
-constexpr float kShortest = 1e-6f;        // columns below this length have no direction
-
-Vector3 scaled(const Vector3& v, float factor) {
-  return {v[0] * factor, v[1] * factor, v[2] * factor};
-}
-
-float dot(const Vector3& a, const Vector3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-Vector3 cross(const Vector3& a, const Vector3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
+constexpr float kShortest = 1e-6f;  // columns below this length have no direction
 
 bool normalise(Vector3& v) {
   const float length = std::sqrt(dot(v, v));
@@ -26,16 +15,6 @@ bool normalise(Vector3& v) {
   }
   v = scaled(v, 1.0f / length);
   return true;
-}
-
-Matrix3 product(const Matrix3& a, const Matrix3& b) {
-  Matrix3 out = {};
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) {
-      out[i][j] = a[i][0] * b[0][j] + a[i][1] * b[1][j] + a[i][2] * b[2][j];
-    }
-  }
-  return out;
 }
 
 // Gram-Schmidt on the first two columns.
@@ -89,7 +68,7 @@ bool decode_head_pose(std::span<const float, kPoseOutputs> prediction, const Cro
   }
   const Matrix3 crop_frame = product(ray_rotation(crop.center, camera), roll_rotation(-crop.roll));
   const Point origin = crop_to_image(crop)({prediction[6] + 0.5f, prediction[7] + 0.5f});
-  const float distance = camera.focal_px * kReferenceMetres / (crop.side * std::exp(prediction[8]));
+  const float distance = camera.focal_px * kHeadMetres / (crop.side * std::exp(prediction[8]));
   const float metres_per_px = distance / camera.focal_px;
   const HeadPose decoded = {product(crop_frame, in_crop),
                             {(origin.x - camera.principal.x) * metres_per_px,

@@ -6,19 +6,18 @@
 #include <span>
 
 #include "tracker/crop.h"
+#include "tracker/vector3.h"
 
 namespace mien::tracker {
 
 inline constexpr int kPoseOutputs = 9;
+inline constexpr float kHeadMetres = 0.2f;  // the size of a head, to measure in
 
 // A pinhole camera without distortion; looks along -z, x right, y up.
 struct Camera {
   float focal_px = 1.0f;
   Point principal;  // pixels
 };
-
-using Vector3 = std::array<float, 3>;
-using Matrix3 = std::array<Vector3, 3>;  // rows
 
 struct HeadPose {
   Matrix3 rotation = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  // head to camera

@@ -11,6 +11,7 @@ from pathlib import Path
 import torch
 from torch import nn
 
+import landmark_points as lp
 import networks
 from mien_file import MienFile
 from paths import ROOT
@@ -93,6 +94,7 @@ def basenet(encoder_path, decoders_path):
     add_head(file, "face_probability", net.face, "sigmoid")
     add_decoder(file, "pose_decoder", loaded(networks.PoseDecoder(), decoders["pose_decoder"]), "none")
     file.constant("landmark_template", plain(template()))
+    file.constant("head_points", plain(torch.tensor(lp.head())))
     return file
 
 

@@ -62,6 +62,12 @@ def template():
     return np.array(json.loads((ROOT / "models/landmarks.json").read_text())["template"])
 
 
+@lru_cache
+def head():
+    """[175,3] of an average head at rest, in its own frame (docs/pose.md), metres."""
+    return np.array(json.loads((ROOT / "models/landmarks.json").read_text())["head"])
+
+
 def _teacher_mirror():
     """Teacher index -> index of its mirror image."""
     mirror = {}

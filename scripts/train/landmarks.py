@@ -18,6 +18,7 @@ from paths import ROOT, data
 
 TEMPLATE_HEIGHT = 0.80
 PUPIL, LIMBUS = (0.08, 0.1), (0.36, 0.4)  # rings of vertices by their distance from the middle of the iris picture
+CM_PER_M = 100.0
 SMOOTHING = 1.0  # of the spline, cm: the jaw line's 68-landmark vertices are a choice of contour, not quite the same points
 
 
@@ -203,23 +204,23 @@ def place(surface, mean):
 def main():
     frontal, quiet = quiet_frontal()
     shape = template(frontal)
+    surface = RigSurface()
+    vertices, weights = place(surface, mean_shape(quiet))
+    np.savez(ROOT / "scripts/train/rig_landmarks.npz", vertices=vertices, weights=weights)
+    on_rig = (surface.vertices[vertices] * weights[..., None]).sum(1)
     table = {
         "points": [{"index": i, "name": name, "mediapipe": k} for i, (name, k) in enumerate(lp.named_points())],
         "ibug68": lp.IBUG,
         "mirror": lp.MIRROR,
         "template": [[round(float(x), 5), round(float(y), 5)] for x, y in shape],
+        "head": [[round(float(v) / CM_PER_M, 5) for v in point] for point in on_rig],
     }
     out = ROOT / "models/landmarks.json"
     out.parent.mkdir(exist_ok=True)
     lines = ",\n".join("  " + json.dumps(p) for p in table["points"])
-    rest = ",\n".join(f' "{k}": {json.dumps(table[k])}' for k in ("ibug68", "mirror", "template"))
+    rest = ",\n".join(f' "{k}": {json.dumps(table[k])}' for k in ("ibug68", "mirror", "template", "head"))
     out.write_text('{"points": [\n' + lines + "],\n" + rest + "}\n")
 
-    surface = RigSurface()
-    vertices, weights = place(surface, mean_shape(quiet))
-    np.savez(ROOT / "scripts/train/rig_landmarks.npz", vertices=vertices, weights=weights)
-
-    on_rig = (surface.vertices[vertices] * weights[..., None]).sum(1)
     flat = on_rig[:, :2] * [1, -1]
     difference = np.linalg.norm(apply(similarity(flat, shape), flat) - shape, axis=1)
     difference /= np.linalg.norm(shape[lp.OUTER_EYE_CORNERS[0]] - shape[lp.OUTER_EYE_CORNERS[1]])

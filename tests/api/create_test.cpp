@@ -196,6 +196,11 @@ TEST_F(Create, WeightsOfAnotherShape) {
   BlobOptions partial;
   partial.with_pose_decoder = false;
   EXPECT_EQ(status_of(partial), MIEN_ERROR_WEIGHTS_INCOMPLETE);
+  BlobOptions head;
+  head.head_points = MIEN_LANDMARK_COUNT;
+  EXPECT_EQ(status_of(head), MIEN_OK);
+  head.head_points = MIEN_LANDMARK_COUNT - 1;
+  EXPECT_EQ(status_of(head), MIEN_ERROR_WEIGHTS_INCOMPLETE);
 }
 
 TEST_F(Create, StructSizeOfOtherVersions) {

@@ -314,6 +314,9 @@ AlignedBytes blob_basenet(const BlobOptions& options) {
     add_decoder(writer, "pose_decoder", options, frontal, formats::LayerActivation::kNone, random);
   }
   writer.constant("landmark_template", landmark_template());
+  if (options.head_points > 0) {
+    writer.constant("head_points", random_array({options.head_points, 3}, 0.1f, random));
+  }
   return finished(writer);
 }
 

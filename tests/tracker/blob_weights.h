@@ -33,6 +33,7 @@ struct BlobOptions {
   std::uint64_t supported_controls = 0xfffffffffffffULL;
   std::uint32_t features = 256;  // another number than 256 makes an unusable file
   bool with_pose_decoder = true;
+  std::uint32_t head_points = 0;  // 0: the file has none; another number than 175 makes it unusable
 };
 
 // The disc's diameter is this share of the side of its crop, when the crop is right.
