@@ -6,6 +6,8 @@ import cv2
 import numpy as np
 import torch
 
+import curves
+import head_pose
 import report as out
 import sequences as seq
 import features
@@ -19,11 +21,11 @@ LONG_LOOPS = 11  # a stream this many sequences long shows whether the state dri
 
 
 def load_decoders(path):
-    """{name: decoder} of a checkpoint of train_decoders.py, HiFiNet's without a pose, and the supported controls."""
+    """{name: decoder} of a checkpoint of train_decoders.py or warm_start.py, and the supported controls. HiFiNet's have no pose, those that
+    come from a model file nothing without time."""
     checkpoint = torch.load(path, map_location="cpu")
-    decoders = {"controls": ControlsDecoder(), "frame": phase2.FrameDecoder()}
-    if "pose_decoder" in checkpoint:
-        decoders["pose"] = PoseDecoder()
+    kinds = {"controls": ControlsDecoder, "frame": phase2.FrameDecoder, "pose": PoseDecoder}
+    decoders = {name: kind() for name, kind in kinds.items() if f"{name}_decoder" in checkpoint}
     for name, decoder in decoders.items():
         decoder.load_state_dict(checkpoint[f"{name}_decoder"])
         decoder.eval()
@@ -55,7 +57,9 @@ def score_networks(setting, network):
     report, _ = phase2.evaluate(decoders, data, chosen)
     spoiled, _ = phase2.evaluate(decoders, features.of(setting, network, plain=False), chosen)
     columns = {"every frame": report["every frame"]["controls"], "alternate frames": report["alternate frames"]["controls"],
-               "without time": report["every frame"]["frame"], "poor camera": spoiled["every frame"]["controls"]}
+               "poor camera": spoiled["every frame"]["controls"]}
+    if "frame" in decoders:
+        columns["without time"] = report["every frame"]["frame"]
     return {"supported": supported, "columns": {k: with_means(v, supported) for k, v in columns.items()},
             "pose": {mode: scores["pose"] for mode, scores in report.items() if "pose" in scores},
             "landmark_error": data["landmark_error"].mean().item(), "drift": drift(decoders["controls"], data, chosen)}
@@ -73,14 +77,29 @@ def camera_pictures(images, window, camera_wh):
     return pictures
 
 
+def field_of_view(sequences, index):
+    """Horizontal, degrees, of the camera of a sequence."""
+    width, f_px = sequences.label("camera_wh")[index, 0, 0], sequences.label("f_px")[index, 0]
+    return float(torch.rad2deg(2 * torch.atan(width / 2 / f_px)))
+
+
+def pose_errors(table, sequences, index):
+    """[frames,2]: angle to the true rotation, degrees; distance from the true place, in shares of how far away that is."""
+    truth = sequences.label("rotation")[index], sequences.label("translation")[index].numpy()
+    turn = head_pose.angle_between(torch.from_numpy(curves.rotations(table)).float(), truth[0]).rad2deg().numpy()
+    place = np.stack([table[f"t{axis}_m"] for axis in "xyz"], 1)
+    return np.stack([turn, np.linalg.norm(place - truth[1], axis=1) / np.linalg.norm(truth[1], axis=1)], 1)
+
+
 def score_program(program, lod, network):
     """The program on the test sequences; scored are those it follows from the first frame to the last."""
     sequences = seq.Sequences.load(features.shards(network))
-    answers, faces = [], []
+    answers, faces, poses = [], [], []
     for index in range(len(sequences)):
         size = sequences.label("camera_wh")[index, 0].numpy()
         pictures = camera_pictures(sequences.images[index], sequences.label("window")[index].numpy(), size)
-        table = program.track(y4m(pictures), lod).table
+        table = program.track(y4m(pictures), lod, "--fov", field_of_view(sequences, index)).table
+        poses.append(pose_errors(table, sequences, index))
         answers.append(np.stack([table[c] for c in CONTROLS], 1))
         faces.append(table["status"] == "tracking")
     answers, faces = np.stack(answers), np.stack(faces)
@@ -89,6 +108,9 @@ def score_program(program, lod, network):
     truth = {"controls": sequences.label("controls", whole), "visible": seq.visible(sequences, whole)}
     scores = phase2.control_scores(np.nan_to_num(answers[whole]), truth, chosen)
     scores = with_means(scores, [c for c, s in zip(CONTROLS, chosen) if s])
+    pose = np.stack(poses)[whole].reshape(-1, 2)
+    pose = {"rotation_deg": pose[:, 0].mean(), "rotation_p95_deg": np.quantile(pose[:, 0], 0.95), "place_share": pose[:, 1].mean()}
+    scores["pose"] = {name: float(value) for name, value in pose.items()}
     return {**scores, "sequences": len(answers), "followed_whole": len(whole), "face_share": float(faces.mean())}
 
 
@@ -140,6 +162,9 @@ def markdown(report):
         cells = lambda key, scale: [out.number(scale * c[key], 4 if scale == 1 else 1) for c in columns.values()]
         lines += out.table(["", *columns], [[title, *cells(key, scale)] for title, key, scale in ROWS])
         lines += network_lines(r["networks"]) if "networks" in r else []
+        lines += out.prose(f"""The program, told the field of view, brings the pose to the landmarks: {program['pose']['rotation_deg']:.2f}
+            degrees off ({program['pose']['rotation_p95_deg']:.2f} at 95 %), its place {100 * program['pose']['place_share']:.1f} % of the
+            distance.""")
         correlation = {k: c["correlation"] for k, c in columns.items() if k in ("program", "networks, every frame")}
         supported = r.get("networks", {}).get("supported", [])
         lines += out.table(["control", *(f"correlation, {k}" for k in correlation), "supported"],

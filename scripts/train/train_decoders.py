@@ -310,8 +310,8 @@ def evaluate(decoders, data, supported=None, gaze=False, portraits=None):
     `portraits` closely.
     """
     parts = {"every frame": of_stride(data, 1), "alternate frames": of_stride(data, 2)}
-    curves = {(m, k): answers(decoders[k], part["features"]).clamp(0, 1).numpy()
-              for m, part in parts.items() for k in ("controls", "frame")}
+    kinds = [k for k in ("controls", "frame") if k in decoders]
+    curves = {(m, k): answers(decoders[k], part["features"]).clamp(0, 1).numpy() for m, part in parts.items() for k in kinds}
     if supported is None:
         lowest = np.min([correlation_of(curves[m, "controls"], part) for m, part in parts.items()], 0)
         if portraits is not None:
@@ -322,7 +322,7 @@ def evaluate(decoders, data, supported=None, gaze=False, portraits=None):
         supported &= supported[MIRROR]
     report = {}
     for mode, part in parts.items():
-        report[mode] = {k: control_scores(curves[mode, k], part, supported) for k in ("controls", "frame")}
+        report[mode] = {k: control_scores(curves[mode, k], part, supported) for k in kinds}
         if "pose" in decoders:
             report[mode]["pose"] = pose_scores(answers(decoders["pose"], part["features"]), part["pose"])
     return report, supported

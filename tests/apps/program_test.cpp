@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -119,6 +121,31 @@ TEST_F(Program, TracksSeveralFacesWithIds) {
   EXPECT_EQ(lines(contents(path("lm.csv"))), 61u);
   EXPECT_EQ(run("track " + kClip + " --max-faces 0").code, 2);
   EXPECT_EQ(run("track " + kClip + " --max-faces 9").code, 2);
+}
+
+// Of the last row.
+double depth(const std::string& json_lines) {
+  double x = 0.0, y = 0.0, z = 0.0;
+  const std::size_t at = json_lines.rfind("\"position_m\":[");
+  EXPECT_NE(at, std::string::npos);
+  EXPECT_EQ(std::sscanf(json_lines.c_str() + at, "\"position_m\":[%lf,%lf,%lf]", &x, &y, &z), 3);
+  return -z;
+}
+
+// Half the width is seen under half the field of view, so the same face is further away.
+TEST_F(Program, TheFieldOfViewSaysHowFarAwayAFaceIs) {
+  MIEN_NEEDS("trained model", have_models());
+  MIEN_NEEDS("ffmpeg", have_ffmpeg());
+  const auto distance = [&](const std::string& option) {
+    const Outcome done =
+        run("track " + kClip + " --duration 0.5 --quiet --format jsonl" + option + models());
+    EXPECT_EQ(done.code, 0) << done.errors;
+    return depth(done.output);
+  };
+  const double ratio = distance(" --fov 30") / distance("");
+  EXPECT_NEAR(ratio, std::tan(std::acos(-1.0) / 6) / std::tan(std::acos(-1.0) / 12), 0.05);
+  EXPECT_EQ(run("track " + kClip + " --fov 0").code, 2);
+  EXPECT_EQ(run("track " + kClip + " --fov 180").code, 2);
 }
 
 TEST_F(Program, CapturesTheNeutralFaceAndTakesItOut) {

@@ -28,6 +28,7 @@ void add_live(CLI::App& program) {
                    "the sound belongs to pictures so much later than it comes")
       ->check(CLI::Range(-10000.0, 10000.0));
   add_voice_strength(*verb, *options);
+  add_field_of_view(*verb, *options);
   add_level_options(*verb, *options);
   verb->add_flag("--no-filter", options->unfiltered, "controls as the networks answer");
   verb->add_option("--neutral", options->neutral, "what the face shows at rest, by `mien neutral`");

@@ -30,6 +30,7 @@ const std::map<std::string, std::string>& value_names() {
       {"--mode", "av|video|audio"},
       {"--av-offset-ms", "MS"},
       {"--voice-strength", "X"},
+      {"--fov", "DEGREES"},
       {"--stats", "FILE"},
       {"--lod", "1|2|3|4|auto"},
       {"--budget-ms", "MS"},

@@ -52,6 +52,7 @@ void add_track(CLI::App& program) {
                    "the sound belongs to pictures so much later than it says")
       ->check(CLI::Range(-10000.0, 10000.0));
   add_voice_strength(*verb, *options);
+  add_field_of_view(*verb, *options);
   verb->add_option("--stats", options->stats, "counts and stage times as JSON");
   add_level_options(*verb, *options);
   verb->add_flag("--no-filter", options->unfiltered, "curves as the networks answer");

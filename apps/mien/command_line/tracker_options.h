@@ -16,6 +16,14 @@ void add_voice_strength(CLI::App& verb, Options& options) {
 }
 
 template <typename Options>
+void add_field_of_view(CLI::App& verb, Options& options) {
+  verb.add_option("--fov", options.fov_degrees,
+                  "horizontal field of view of the camera, degrees (default 60); distances and the "
+                  "head's pose depend on it")
+      ->check(CLI::Range(1.0, 170.0));
+}
+
+template <typename Options>
 void add_level_options(CLI::App& verb, Options& options) {
   verb.add_option("--lod", options.lod,
                   "level of detail: 1 (cheapest) to 4, or auto; default: the highest there is")

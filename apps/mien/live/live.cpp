@@ -70,7 +70,7 @@ class Live {
                                             : options.camera),
         microphone_name_(microphone_of(options, camera_name_)),
         loaded_({options.models, options.tier, options.lod, options.budget_ms, options.unfiltered,
-                 1, microphone_name_ != kNone, false, options.voice_strength,
+                 1, microphone_name_ != kNone, false, options.voice_strength, options.fov_degrees,
                  microphone_name_ != kNone ? kQueuedSamples : 0}),
         camera_(camera_name_),
         mirror_(options.mirror),
@@ -139,7 +139,7 @@ class Live {
     check(loaded_.tracker.get_result(result), camera_name_);
     if (picture != nullptr) {
       ever_picture_ = true;
-      outgoing_.picture = openseeface_picture(result, picture->image);
+      outgoing_.picture = openseeface_picture(result, picture->image, options_.fov_degrees);
     }
     const std::int64_t now_ns = steady_now_ns();
     outgoing_.frame = easing_.next(frame_of(number_++, result));

@@ -18,6 +18,7 @@ struct LiveOptions {
   float budget_ms = 10.0f;
   double av_offset_ms = 0.0;
   float voice_strength = 1.0f;
+  float fov_degrees = 60.0f;
   std::optional<double> duration_s;
   bool unfiltered = false;
   bool mirror = false;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <utility>
 
 namespace mien::app {
@@ -37,12 +38,13 @@ formats::PicturePoint point_of(const Result& result, std::size_t landmark) {
 
 }  // namespace
 
-formats::OpenSeeFacePicture openseeface_picture(const Result& result, const mien_image& image) {
+formats::OpenSeeFacePicture openseeface_picture(const Result& result, const mien_image& image,
+                                                float fov_degrees) {
   formats::OpenSeeFacePicture picture;
   picture.width = image.width;
   picture.height = image.height;
-  constexpr double kHalfTheView = 0.52359877559829887;  // 30 degrees
-  picture.focal_length_px = picture.width / 2 / std::tan(kHalfTheView);
+  const double half_the_view = double{fov_degrees} / 2 * std::numbers::pi / 180;
+  picture.focal_length_px = picture.width / 2 / std::tan(half_the_view);
   for (std::size_t i = 0; i < kIbug.size(); ++i) {
     picture.landmarks[i] = point_of(result, kIbug[i]);
   }

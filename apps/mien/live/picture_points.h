@@ -9,8 +9,9 @@
 
 namespace mien::app {
 
-// The focal length is the one that the tracker assumes of a camera that it does not know.
-formats::OpenSeeFacePicture openseeface_picture(const Result& result, const mien_image& image);
+// The focal length is that of the horizontal field of view.
+formats::OpenSeeFacePicture openseeface_picture(const Result& result, const mien_image& image,
+                                                float fov_degrees);
 
 // As a mirror shows it.
 formats::OpenSeeFacePicture mirrored(const formats::OpenSeeFacePicture& picture);

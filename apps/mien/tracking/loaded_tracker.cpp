@@ -4,6 +4,7 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <numbers>
 #include <span>
 
 #include "apps/mien/networks/tiers.h"
@@ -56,6 +57,7 @@ LoadedTracker::LoadedTracker(const Options& options)
   config.budget_ms = options.budget_ms;
   config.max_faces = options.max_faces;
   config.voice_strength = options.voice_strength;
+  config.horizontal_fov = options.fov_degrees * std::numbers::pi_v<float> / 180.0f;
   config.smoothing = options.unfiltered ? 0 : 1;
   config.cpu_mask = cpu_mask(options.tier, options.unfused);
   config.audio_queue_samples = options.queued_samples;

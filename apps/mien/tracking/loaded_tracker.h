@@ -22,6 +22,7 @@ struct LoadedTracker {
     bool sound = false;    // it is to hear
     bool unfused = false;  // networks run layer by layer
     float voice_strength = 1.0f;
+    float fov_degrees = 60.0f;
     std::int32_t queued_samples = 0;  // room for sound that another thread brings
   };
 

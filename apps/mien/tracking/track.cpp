@@ -185,7 +185,7 @@ TrackSummary track(const TrackOptions& options) {
   }
   LoadedTracker loaded({options.models, options.tier, options.lod, options.budget_ms,
                         options.unfiltered, options.max_faces, !senses.sound.empty(),
-                        options.unfused, options.voice_strength});
+                        options.unfused, options.voice_strength, options.fov_degrees});
   if (!options.neutral.empty()) {
     load_neutral(options.neutral, loaded.tracker);
   }

@@ -24,6 +24,7 @@ struct TrackOptions {
   Mode mode = Mode::kAny;
   double av_offset_ms = 0.0;  // that the sound is late by
   float voice_strength = 1.0f;
+  float fov_degrees = 60.0f;
   std::string stats;
   std::string neutral;  // file to take into account
   std::string tier;
