@@ -16,8 +16,8 @@ using HeadPoints = std::span<const float>;  // kHeadPoints of them; empty: unkno
 // One Gauss-Newton step from `pose` towards one in which the average head's points are seen where
 // `landmarks` are, pixels. It is least squares of their distances, in shares of a head's size, and
 // of how far the rotation turns, radians: the decoder sees what distances between points do not
-// tell, and an average head is not everyone's. `pose` stays as it was if the points are unknown, not
-// all in front of the camera, or no step is finite.
+// tell, and an average head is not everyone's. `pose` stays as it was if the points are unknown,
+// not all in front of the camera, or no step is finite.
 void refine_head_pose(HeadPoints head, const Landmarks& landmarks, const Camera& camera,
                       HeadPose& pose);
 

@@ -55,16 +55,19 @@ TEST(Following, FindsSmallDiscsInEveryBand) {
   }
 }
 
-// P-Net is never so sure of a disc: only a thorough search, which asks for a quarter of it, finds one.
+// P-Net is never so sure of a disc: only a thorough search, which asks for a quarter of it, finds
+// one.
 constexpr float kTooSure = 1.0f;
 
 TEST(Following, TheFirstImageIsSearchedThoroughly) {
-  BlobTracker tracker({}, [](mien_tracker_config& config) { config.proposal_threshold = kTooSure; });
+  BlobTracker tracker({},
+                      [](mien_tracker_config& config) { config.proposal_threshold = kTooSure; });
   EXPECT_TRUE(tracker.push(disc_picture(160.0f, 120.0f, 70.0f)).flags & MIEN_RESULT_FOUND);
 }
 
 TEST(Following, EverySecondSearchAfterThatIsThorough) {
-  BlobTracker tracker({}, [](mien_tracker_config& config) { config.proposal_threshold = kTooSure; });
+  BlobTracker tracker({},
+                      [](mien_tracker_config& config) { config.proposal_threshold = kTooSure; });
   tracker.push(Picture(320, 240));
   const Result result = tracker.push_until_found(disc_picture(160.0f, 120.0f, 70.0f));
   EXPECT_EQ(result.proposal_runs, 3u) << "the empty image's, a quick one, the thorough one";
