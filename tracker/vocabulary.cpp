@@ -2,16 +2,18 @@
 #include <mien/mien.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <span>
 
+#include "formats/animation/visemes.h"
 #include "kernels/float_mode.h"
 #include "tracker/vocabulary_tables.h"
 
 namespace mien::tracker {
 namespace {
 
-// Empty for numbers that are no mien_vocabulary.
+// Empty for numbers that are no mien_vocabulary, and for visemes, which are no rows.
 std::span<const VocabularyRow> rows_of(std::int32_t vocabulary) {
   switch (vocabulary) {
     case MIEN_VOCABULARY_ARKIT:
@@ -24,8 +26,6 @@ std::span<const VocabularyRow> rows_of(std::int32_t vocabulary) {
       return kVrm0Rows;
     case MIEN_VOCABULARY_VRM1:
       return kVrm1Rows;
-    case MIEN_VOCABULARY_VISEMES:
-      return kVisemeRows;
     default:
       return {};
   }
@@ -56,59 +56,85 @@ float value_of(const VocabularyRow& row, const float* controls) {
   }
 }
 
+bool all_supported(std::span<const std::size_t> controls, std::uint64_t supported) {
+  return std::all_of(controls.begin(), controls.end(),
+                     [supported](std::size_t control) { return (supported >> control & 1u) != 0; });
+}
+
 // Whether all that it needs is there: of what is the largest, any of it.
 bool is_driven(const VocabularyRow& row, std::uint64_t supported) {
   const auto there = [supported](std::size_t control) { return (supported >> control & 1u) != 0; };
   const auto controls = controls_of(row);
-  return row.making == Making::kLargest
-             ? std::any_of(controls.begin(), controls.end(), there)
-             : row.count > 0 && std::all_of(controls.begin(), controls.end(), there);
+  return row.making == Making::kLargest ? std::any_of(controls.begin(), controls.end(), there)
+                                        : row.count > 0 && all_supported(controls, supported);
+}
+
+void visemes_of(const float* controls, float* values) {
+  std::array<double, formats::kControlCount> mouth;
+  std::transform(controls, controls + mouth.size(), mouth.begin(),
+                 [](float value) { return static_cast<double>(std::clamp(value, 0.0f, 1.0f)); });
+  const auto visemes = formats::visemes_of(mouth);
+  std::transform(visemes.begin(), visemes.end(), values,
+                 [](double value) { return static_cast<float>(value); });
+}
+
+// Those whose leading controls are driven, and silence with any of them.
+std::uint64_t visemes_supported(std::uint64_t supported) {
+  std::uint64_t visemes = 0;
+  for (std::size_t i = 1; i < formats::kVisemeCount; ++i) {
+    visemes |= all_supported(formats::leading_controls(i), supported) ? 1ull << i : 0;
+  }
+  return visemes != 0 ? visemes | 1u : 0;
 }
 
 }  // namespace
 }  // namespace mien::tracker
 
-using mien::tracker::Making;
 using mien::tracker::VocabularyRow;
 
 int32_t mien_vocabulary_size(int32_t vocabulary) {
+  if (vocabulary == MIEN_VOCABULARY_VISEMES) {
+    return mien::formats::kVisemeCount;
+  }
   return static_cast<std::int32_t>(mien::tracker::rows_of(vocabulary).size());
 }
 
 const char* mien_vocabulary_name(int32_t vocabulary, int32_t index) {
-  const auto rows = mien::tracker::rows_of(vocabulary);
-  const bool known = index >= 0 && static_cast<std::size_t>(index) < rows.size();
-  return known ? rows[static_cast<std::size_t>(index)].name : nullptr;
+  if (index < 0 || index >= mien_vocabulary_size(vocabulary)) {
+    return nullptr;
+  }
+  const auto i = static_cast<std::size_t>(index);
+  return vocabulary == MIEN_VOCABULARY_VISEMES ? mien::formats::kVisemeNames[i].data()
+                                               : mien::tracker::rows_of(vocabulary)[i].name;
 }
 
 mien_status mien_vocabulary_values(int32_t vocabulary, const float* controls, float* values,
                                    int32_t count) {
-  const auto rows = mien::tracker::rows_of(vocabulary);
   if (controls == nullptr || values == nullptr) {
     return MIEN_ERROR_NULL_ARGUMENT;
   }
-  if (rows.empty() || count != mien_vocabulary_size(vocabulary)) {
+  if (count != mien_vocabulary_size(vocabulary) || count == 0) {
     return MIEN_ERROR_OUT_OF_RANGE;
   }
   const mien::kernels::FloatMode ours;
+  if (vocabulary == MIEN_VOCABULARY_VISEMES) {
+    mien::tracker::visemes_of(controls, values);
+    return MIEN_OK;
+  }
+  const auto rows = mien::tracker::rows_of(vocabulary);
   std::transform(rows.begin(), rows.end(), values,
                  [&](const VocabularyRow& row) { return mien::tracker::value_of(row, controls); });
-  const float largest = *std::max_element(values, values + count);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    values[i] = rows[i].making == Making::kRest ? 1.0f - largest : values[i];
-  }
   return MIEN_OK;
 }
 
 uint64_t mien_vocabulary_supported(int32_t vocabulary, uint64_t supported_controls) {
+  if (vocabulary == MIEN_VOCABULARY_VISEMES) {
+    return mien::tracker::visemes_supported(supported_controls);
+  }
   const auto rows = mien::tracker::rows_of(vocabulary);
   std::uint64_t supported = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     supported |= mien::tracker::is_driven(rows[i], supported_controls) ? 1ull << i : 0;
   }
-  const auto rest = std::find_if(rows.begin(), rows.end(), [](const VocabularyRow& row) {
-    return row.making == Making::kRest;
-  });
-  return rest != rows.end() && supported != 0 ? supported | 1ull << (rest - rows.begin())
-                                              : supported;
+  return supported;
 }

@@ -1,7 +1,7 @@
 // Other vocabularies for faces, as rows: a name, and what of the 52 controls it is made of. Names
 // are those of formats/animation/vocabulary.h, and Roblox' rows those of facs_rows.h, which files
 // are read and written by, too. How a name is made of controls is ours where its owner does not
-// say.
+// say. Visemes are no rows, but mixtures: formats/animation/visemes.h.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,6 @@ enum class Making : std::uint8_t {
   kMean,     // of its controls; 0 where there are none
   kLargest,  // of them
   kLeast,    // of them
-  kRest,     // 1 less the largest of all other rows
 };
 
 struct VocabularyRow {
@@ -84,7 +83,7 @@ inline constexpr auto kRobloxRows = [] {
   return rows;
 }();
 
-// What the presets of both versions of VRM, and the visemes, have in common.
+// What the presets of both versions of VRM have in common.
 inline constexpr std::array<std::string_view, 2> kSmile = {"mouthSmileLeft", "mouthSmileRight"};
 inline constexpr std::array<std::string_view, 2> kScowl = {"browDownLeft", "browDownRight"};
 inline constexpr std::array<std::string_view, 2> kFrown = {"mouthFrownLeft", "mouthFrownRight"};
@@ -117,24 +116,6 @@ inline constexpr std::array kVrm1Rows = {row("happy", kSmile),
                                          row("blinkLeft", {"eyeBlinkLeft"}),
                                          row("blinkRight", {"eyeBlinkRight"})};
 
-// The consonants without controls are the tongue's, behind the teeth.
-inline constexpr std::array kVisemeRows = {
-    row("sil", {}, Making::kRest),
-    row("PP", {"mouthPressLeft", "mouthPressRight"}),
-    row("FF", {"mouthRollLower"}),
-    row("TH", {"tongueOut"}),
-    row("DD", {}),
-    row("kk", {}),
-    row("CH", {"mouthShrugUpper", "mouthFunnel"}, Making::kLeast),
-    row("SS", kSpread, Making::kLeast),
-    row("nn", {}),
-    row("RR", {}),
-    row("aa", {"jawOpen"}),
-    row("E", kHalfOpen),
-    row("ih", kSpread),
-    row("oh", {"mouthFunnel"}),
-    row("ou", {"mouthPucker"})};
-
 template <std::size_t N, std::size_t M>
 consteval bool all_are_in(const std::array<VocabularyRow, N>& rows,
                           const std::array<std::string_view, M>& names) {
@@ -144,6 +125,5 @@ consteval bool all_are_in(const std::array<VocabularyRow, N>& rows,
 }
 static_assert(all_are_in(kVrm0Rows, formats::kVrm0Names));
 static_assert(all_are_in(kVrm1Rows, formats::kVrm1Names));
-static_assert(all_are_in(kVisemeRows, formats::kVisemeNames));
 
 }  // namespace mien::tracker

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,9 +10,6 @@
 #include "formats/animation/vocabulary.h"
 
 namespace mien::formats {
-
-// A number that a frame does not have: a control that nothing drives.
-inline constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 enum class FaceState : std::uint8_t { kSearching, kTracking, kLost };
 
@@ -56,12 +52,6 @@ struct Clip {
   std::string sound_file;         // where the format knows one
   std::int64_t out_of_range = 0;  // values of the file beyond 0..1, brought to the nearest of them
 };
-
-// Whether anything drives the control.
-[[nodiscard]] inline bool driven(double value) { return value == value; }
-
-// For formats that have a number for everything: 0 where nothing drives it.
-[[nodiscard]] inline double or_zero(double value) { return driven(value) ? value : 0.0; }
 
 // Of the times of a clip: from its first to its last frame, divided by how many steps lie between;
 // 1/30 s where there are none.

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-
-#include "formats/animation/clip.h"
+#include <cstddef>
+#include <iterator>
+#include <numeric>
+#include <string_view>
 
 namespace mien::formats {
 namespace {
@@ -42,14 +43,18 @@ constexpr Part kMouth[] = {kJaw,        kClose,      kFunnel,  kPucker, kRollLow
 
 constexpr Part operator*(double value, const Part& part) { return {part.left, part.right, value}; }
 
-using Pose = std::array<double, kControlCount>;
+constexpr std::size_t kParts = std::size(kMouth);
+using Pose = std::array<double, kParts>;  // of each part of kMouth
+
+constexpr bool has_sides(const Part& part) { return part.left != part.right; }
 
 template <std::size_t N>
 constexpr Pose pose(const Part (&parts)[N]) {
   Pose made{};
-  for (const Part& part : parts) {
-    made[part.left] = part.value;
-    made[part.right] = part.value;
+  for (std::size_t i = 0; i < kParts; ++i) {
+    for (const Part& part : parts) {
+      made[i] += part.left == kMouth[i].left ? part.value : 0.0;
+    }
   }
   return made;
 }
@@ -78,30 +83,21 @@ constexpr std::string_view kShapeOf = "XAGHBBBBBEDCBEF";
 constexpr std::string_view kVisemeOfShape[] = {"PP", "DD", "E",  "aa", "oh",
                                                "ou", "FF", "TH", "sil"};
 
-double dot(const Pose& a, const Pose& b) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < kControlCount; ++i) {
-    sum += a[i] * b[i];
-  }
-  return sum;
-}
-
 using Weights = std::array<double, kPoses>;
 using Chosen = std::array<bool, kPoses>;
 
 // The normal equations of the poses: how alike any two are.
-const std::array<Weights, kPoses>& gram() {
-  static const std::array<Weights, kPoses> products = [] {
-    std::array<Weights, kPoses> made{};
-    for (std::size_t i = 0; i < kPoses; ++i) {
-      for (std::size_t j = 0; j < kPoses; ++j) {
-        made[i][j] = dot(kPoseOf[i], kPoseOf[j]);
+constexpr std::array<Weights, kPoses> kGram = [] {
+  std::array<Weights, kPoses> products{};
+  for (std::size_t i = 0; i < kPoses; ++i) {
+    for (std::size_t j = 0; j < kPoses; ++j) {
+      for (std::size_t k = 0; k < kParts; ++k) {
+        products[i][j] += kPoseOf[i][k] * kPoseOf[j][k] * (has_sides(kMouth[k]) ? 2.0 : 1.0);
       }
     }
-    return made;
-  }();
+  }
   return products;
-}
+}();
 
 // Least squares over the chosen poses alone, the others 0: Cholesky, since the poses are not alike.
 Weights solve(const Weights& target, const Chosen& chosen) {
@@ -117,7 +113,7 @@ Weights solve(const Weights& target, const Chosen& chosen) {
   for (std::size_t i = 0; i < n; ++i) {
     double known = target[index[i]];
     for (std::size_t j = 0; j <= i; ++j) {
-      double sum = gram()[index[i]][index[j]];
+      double sum = kGram[index[i]][index[j]];
       for (std::size_t k = 0; k < j; ++k) {
         sum -= lower[i][k] * lower[j][k];
       }
@@ -140,12 +136,13 @@ Weights solve(const Weights& target, const Chosen& chosen) {
 }
 
 // Non-negative least squares, Lawson and Hanson (Solving Least Squares Problems, 1974, chapter 23).
+// `mouth`: of each part the sum of its sides.
 Weights mixture(const Pose& mouth) {
   constexpr double kTolerance = 1e-12;
   constexpr int kMaxSteps = 10 * static_cast<int>(kPoses);
   Weights target{}, weights{};
   for (std::size_t i = 0; i < kPoses; ++i) {
-    target[i] = dot(kPoseOf[i], mouth);
+    target[i] = std::inner_product(mouth.begin(), mouth.end(), kPoseOf[i].begin(), 0.0);
   }
   Chosen chosen{};
   for (int step = 0; step < kMaxSteps; ++step) {
@@ -154,7 +151,7 @@ Weights mixture(const Pose& mouth) {
     for (std::size_t i = 0; i < kPoses; ++i) {
       double gradient = target[i];
       for (std::size_t j = 0; j < kPoses; ++j) {
-        gradient -= gram()[i][j] * weights[j];
+        gradient -= kGram[i][j] * weights[j];
       }
       if (!chosen[i] && gradient > steepest) {
         steepest = gradient;
@@ -196,11 +193,10 @@ std::array<double, kVisemeCount> visemes_of(const std::array<double, kControlCou
   visemes.fill(kNone);
   Pose mouth{};
   bool any = false;
-  for (const Part& part : kMouth) {
-    for (const std::size_t i : {part.left, part.right}) {
-      mouth[i] = or_zero(controls[i]);
-      any = any || driven(controls[i]);
-    }
+  for (std::size_t k = 0; k < kParts; ++k) {
+    const double left = controls[kMouth[k].left], right = controls[kMouth[k].right];
+    mouth[k] = or_zero(left) + (has_sides(kMouth[k]) ? or_zero(right) : 0.0);
+    any = any || driven(left) || driven(right);
   }
   if (!any) {
     return visemes;
@@ -218,6 +214,16 @@ std::array<double, kVisemeCount> visemes_of(const std::array<double, kControlCou
   return visemes;
 }
 
+std::array<std::size_t, 2> leading_controls(std::size_t viseme) {
+  if (viseme == 0 || viseme > kPoses) {
+    return {kControlCount, kControlCount};
+  }
+  const Pose& moved = kPoseOf[viseme - 1];
+  const auto most = std::max_element(moved.begin(), moved.end()) - moved.begin();
+  const Part& part = kMouth[static_cast<std::size_t>(most)];
+  return {part.left, part.right};
+}
+
 std::array<double, kControlCount> controls_of_visemes(
     std::span<const double, kVisemeCount> visemes) {
   std::array<double, kControlCount> controls;
@@ -225,14 +231,12 @@ std::array<double, kControlCount> controls_of_visemes(
   if (std::none_of(visemes.begin(), visemes.end(), driven)) {
     return controls;
   }
-  for (const Part& part : kMouth) {
-    for (const std::size_t i : {part.left, part.right}) {
-      double sum = 0.0;
-      for (std::size_t k = 0; k < kPoses; ++k) {
-        sum += or_zero(visemes[k + 1]) * kPoseOf[k][i];
-      }
-      controls[i] = std::min(sum, 1.0);
+  for (std::size_t i = 0; i < kParts; ++i) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < kPoses; ++k) {
+      sum += or_zero(visemes[k + 1]) * kPoseOf[k][i];
     }
+    controls[kMouth[i].left] = controls[kMouth[i].right] = std::min(sum, 1.0);
   }
   return controls;
 }

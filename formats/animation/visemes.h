@@ -5,10 +5,12 @@
 // poses, none of them negative, that comes nearest to the frame's mouth (non-negative least
 // squares); what the mixture lacks to 1 is silence, and one of more than 1 is brought down to it.
 // A pose so gives its own viseme back, alone. The mouth may have been moved by sound, by the
-// picture or by both.
+// picture or by both. The C interface (mien_vocabulary_values) and the programs read visemes by
+// these functions alone; they take no memory.
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <span>
 
 #include "formats/animation/vocabulary.h"
@@ -18,6 +20,9 @@ namespace mien::formats {
 // Sum 1; all kNone where no control of the mouth is driven.
 [[nodiscard]] std::array<double, kVisemeCount> visemes_of(
     const std::array<double, kControlCount>& controls);
+
+// The control that a pose moves most, on both sides of the face; kControlCount for silence.
+[[nodiscard]] std::array<std::size_t, 2> leading_controls(std::size_t viseme);
 
 // The controls of the mouth, the others kNone; all kNone where the visemes are.
 [[nodiscard]] std::array<double, kControlCount> controls_of_visemes(

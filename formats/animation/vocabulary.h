@@ -6,9 +6,19 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <string_view>
 
 namespace mien::formats {
+
+// A number that a frame does not have: a control that nothing drives.
+inline constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+// Whether anything drives the control.
+[[nodiscard]] constexpr bool driven(double value) { return value == value; }
+
+// For formats that have a number for everything: 0 where nothing drives it.
+[[nodiscard]] constexpr double or_zero(double value) { return driven(value) ? value : 0.0; }
 
 inline constexpr std::size_t kControlCount = 52;
 inline constexpr std::size_t kRotationCount = 9;  // of head and eyes in Live Link Face

@@ -181,14 +181,17 @@ MIEN_API const char* mien_vocabulary_name(int32_t vocabulary, int32_t index);
 
 /* MIEN_CONTROL_COUNT controls in other words: `count`, which has to be mien_vocabulary_size, values
  * in 0..1. Left and right that have one name give their mean; tracker/vocabulary_tables.h has every
- * rule. Exact for MediaPipe and nearly so for Roblox; visemes, and the vowels and moods of VRM, are
- * a rough reading of the mouth. What no control says (FlatPucker, TongueUp, TongueDown, Fun,
- * relaxed, DD, kk, nn, RR) is 0. MIEN_ERROR_OUT_OF_RANGE for another vocabulary or count. */
+ * rule. Exact for MediaPipe and nearly so for Roblox; the vowels and moods of VRM are a rough
+ * reading of the face. Visemes, whose sum is 1, are the mixture of poses that comes nearest to the
+ * mouth (formats/animation/visemes.h), as `mien track --format visemes` writes them. What no
+ * control says (FlatPucker, TongueUp, TongueDown, Fun, relaxed) is 0. MIEN_ERROR_OUT_OF_RANGE for
+ * another vocabulary or count. */
 MIEN_API MIEN_NODISCARD mien_status mien_vocabulary_values(int32_t vocabulary,
                                                            const float* controls, float* values,
                                                            int32_t count);
 
-/* Bit i: name i is driven, where mien_result.supported_controls says so of controls. */
+/* Bit i: name i is driven, where mien_result.supported_controls says so of controls; a viseme where
+ * the control is that its pose moves most. */
 MIEN_API uint64_t mien_vocabulary_supported(int32_t vocabulary, uint64_t supported_controls);
 
 /* Number of controls / landmarks that this library fills in. */

@@ -41,7 +41,7 @@ wine $build/tests/tracker/frame_bench/mien_frame_bench.exe models "$frames" 640 
 program_beside_ours() {
   local ffmpeg_folder
   if ! ffmpeg_folder=$(scripts/cross/install_windows_ffmpeg.sh); then
-    echo "SKIPPED: the program did not run: no ffmpeg.exe can be had from npm" >&2
+    echo "SKIPPED: the program did not run: no ffmpeg.exe can be had from PyPI and npm" >&2
     return
   fi
   cmake --preset release >/dev/null

@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <random>
 #include <string>
 #include <vector>
+
+#include "formats/animation/visemes.h"
 
 namespace mien::tests {
 namespace {
@@ -168,10 +171,48 @@ TEST(Vocabulary, EveryValueLiesBetweenNoughtAndOne) {
   }
 }
 
-TEST(Vocabulary, SilenceIsWhatIsLeft) {
-  EXPECT_EQ(value_of(MIEN_VOCABULARY_VISEMES, {}, "sil"), 1.0f);
-  EXPECT_FLOAT_EQ(value_of(MIEN_VOCABULARY_VISEMES, with({{"jawOpen", 0.7f}}), "sil"), 0.3f);
-  EXPECT_EQ(value_of(MIEN_VOCABULARY_VISEMES, with({{"jawOpen", 0.7f}}), "aa"), 0.7f);
+// By the functions that `mien track --format visemes` has, too.
+TEST(Vocabulary, VisemesAreThoseOfTheFormats) {
+  constexpr int kVisemes = MIEN_VOCABULARY_VISEMES;
+  EXPECT_EQ(value_of(kVisemes, {}, "sil"), 1.0f);
+  for (std::size_t i = 1; i < formats::kVisemeCount; ++i) {
+    std::array<double, formats::kVisemeCount> alone = {};
+    alone[i] = 1.0;
+    const auto pose = formats::controls_of_visemes(alone);
+    Controls controls = {};
+    std::transform(pose.begin(), pose.end(), controls.begin(),
+                   [](double value) { return static_cast<float>(formats::or_zero(value)); });
+    EXPECT_NEAR(value_of(kVisemes, controls, formats::kVisemeNames[i].data()), 1.0f, 1e-5f);
+  }
+  std::mt19937 random(3);
+  for (int times = 0; times < 100; ++times) {
+    Controls controls;
+    std::generate(controls.begin(), controls.end(),
+                  [&] { return std::uniform_real_distribution<float>()(random); });
+    std::array<double, formats::kControlCount> same;
+    std::copy(controls.begin(), controls.end(), same.begin());
+    const auto expected = formats::visemes_of(same);
+    const std::vector<float> values = values_of(kVisemes, controls);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      EXPECT_EQ(values[i], static_cast<float>(expected[i]));
+    }
+    EXPECT_NEAR(std::accumulate(values.begin(), values.end(), 0.0), 1.0, 1e-5);
+  }
+}
+
+TEST(Vocabulary, VisemesAreDrivenByTheirLeadingControls) {
+  const auto driven = [](std::initializer_list<const char*> controls) {
+    std::uint64_t supported = 0;
+    for (const char* name : controls) {
+      supported |= 1ull << control(name);
+    }
+    return mien_vocabulary_supported(MIEN_VOCABULARY_VISEMES, supported);
+  };
+  const auto bit = [](const char* name) { return 1ull << index_of(MIEN_VOCABULARY_VISEMES, name); };
+  EXPECT_EQ(driven({"mouthPucker"}), bit("sil") | bit("RR") | bit("ou"));
+  EXPECT_EQ(driven({"mouthPressLeft"}), 0u) << "PP presses both sides";
+  EXPECT_EQ(driven({"mouthPressLeft", "mouthPressRight"}), bit("sil") | bit("PP"));
+  EXPECT_EQ(mien_vocabulary_supported(MIEN_VOCABULARY_VISEMES, kAllControls), 0x7fffu);
 }
 
 TEST(Vocabulary, SupportFollowsTheControls) {

@@ -2,6 +2,7 @@
 
 usage: windows_test.py MIEN_EXE MIEN FOLDER_OF_FFMPEG_EXE          scripts/cross/windows.sh
 """
+import base64
 import csv
 import json
 import math
@@ -13,6 +14,8 @@ import subprocess
 import sys
 import tempfile
 import unittest
+
+import report_page
 
 EXE, MIEN, FFMPEG = (str(pathlib.Path(path).resolve()) for path in sys.argv[1:4])
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
@@ -91,7 +94,7 @@ class Windows(unittest.TestCase):
 
     def test_several_outputs(self):
         made = [str(self.folder / name) for name in ("a.csv", "a.glb", "a.jsonl", "a.llf.csv", "a.bvh")]
-        more = {"--landmarks": "points.csv", "--overlay": "over.mp4"}  # --report needs a filter that ffmpeg 4.1 lacks
+        more = {"--landmarks": "points.csv", "--overlay": "over.mp4"}
         options = [word for option, name in more.items() for word in (option, str(self.folder / name))]
         options += [word for name in made for word in ("-o", name)]
         (self.folder / "a.csv").write_text("that was there before")
@@ -111,6 +114,20 @@ class Windows(unittest.TestCase):
                                  "-of", "csv=p=0", str(self.folder / "over.mp4")], capture_output=True, check=True).stdout
         self.assertIn(b"video,30", frames)
         self.assertIn(b"audio", frames)
+
+    def test_report(self):
+        page, curves, clip = (self.folder / name for name in ("page.html", "curves.csv", "clip.mp4"))
+        self.succeeds(windows("track", CLIP, "--duration", "1", "--quiet", "--models", MODELS, "--report", str(page), "-o", str(curves)))
+        report = report_page.Report(page)
+        self.assertEqual((report.frames(), report.data["clip"]), (30, "in page"))
+        self.assertEqual(report.export("csv"), curves.read_bytes())
+        for kind in ("script", "style"):
+            self.assertEqual(report.allowed(kind), [report_page.hash_of(report.page.blocks[kind])])
+        clip.write_bytes(base64.b64decode(report.page.blocks["clip"], validate=True))
+        frames = subprocess.run(["ffprobe", "-v", "error", "-count_frames", "-show_entries", "stream=codec_name,nb_read_frames",
+                                 "-of", "csv=p=0", str(clip)], capture_output=True, check=True).stdout
+        self.assertIn(b"h264,30", frames)
+        self.assertIn(b"aac", frames)
 
     def test_a_folder(self):
         (self.folder / "in/below").mkdir(parents=True)

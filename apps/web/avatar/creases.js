@@ -1,9 +1,9 @@
-// Folds of the skin, painted once as soft strokes of one half of the face: x and y of head space over a square. The shader
-// darkens them as far as the controls fold the skin there.
+// Folds of the skin, painted once as soft strokes of one half of the face: x and y of head space over a square. They are put
+// together as far as the controls fold the skin there, and the shader darkens what they cover.
 import {clamp01, sideName} from './vectors.js';
 
 export const creaseField = {left: -0.08, right: 0.98, bottom: -1.26, top: 0.86};
-const size = 384;
+export const creaseSize = 256;
 
 // Each a list of quadratic curves [from, by way of, to] and how wide the stroke is.
 const strokes = {
@@ -31,7 +31,6 @@ const strokes = {
   puff: {width: 0.05, curves: [[[0.37, -0.38], [0.30, -0.58], [0.40, -0.80]]]},
   press: {width: 0.036, curves: [[[0.325, -0.52], [0.375, -0.575], [0.33, -0.645]]]},
 };
-export const creaseNames = Object.keys(strokes);
 
 // How deep each fold is on one side.
 export function creaseDepths(c, side) {
@@ -50,17 +49,17 @@ export function creaseDepths(c, side) {
 
 function paintStroke({width, curves}) {
   const {left, right, bottom, top} = creaseField;
-  const canvas = Object.assign(document.createElement('canvas'), {width: size, height: size});
+  const canvas = Object.assign(document.createElement('canvas'), {width: creaseSize, height: creaseSize});
   const ctx = canvas.getContext('2d', {willReadFrequently: true});
-  const place = ([x, y]) => [(x - left) / (right - left) * size, (y - bottom) / (top - bottom) * size];
-  ctx.fillRect(0, 0, size, size);
+  const place = ([x, y]) => [(x - left) / (right - left) * creaseSize, (y - bottom) / (top - bottom) * creaseSize];
+  ctx.fillRect(0, 0, creaseSize, creaseSize);
   ctx.globalCompositeOperation = 'lighten';
   ctx.lineCap = 'round';
   // Soft edges by strokes from wide and dim to narrow and bright; thin towards the ends by shorter ones.
   for (let layer = 1; layer <= 8; ++layer) {
     const value = Math.round(255 * (layer / 8) ** 1.4), trim = 0.055 * (layer - 1);
     ctx.strokeStyle = `rgb(${value},${value},${value})`;
-    ctx.lineWidth = width * size * (1.05 - layer / 8);
+    ctx.lineWidth = width * creaseSize * (1.05 - layer / 8);
     for (const [from, way, to] of curves) {
       const at = t => place([0, 1].map(k => (1 - t) ** 2 * from[k] + 2 * t * (1 - t) * way[k] + t * t * to[k]));
       ctx.beginPath();
@@ -68,27 +67,36 @@ function paintStroke({width, curves}) {
       ctx.stroke();
     }
   }
-  return ctx.getImageData(0, 0, size, size).data;
+  return covered(ctx.getImageData(0, 0, creaseSize, creaseSize).data);
 }
 
-// Four textures of four channels each, in the order of creaseNames.
-export function paintCreases() {
-  const textures = [];
-  for (let first = 0; first < creaseNames.length; first += 4) {
-    const data = new Uint8Array(size * size * 4);
-    creaseNames.slice(first, first + 4).forEach((name, channel) => {
-      const painted = paintStroke(strokes[name]);
-      for (let i = 0; i < size * size; ++i) data[i * 4 + channel] = painted[i * 4];
-    });
-    textures.push({size, data});
+// Where a picture is not black, and how bright.
+function covered(data) {
+  const places = [], values = [];
+  for (let i = 0; i < creaseSize * creaseSize; ++i) {
+    if (data[i * 4] === 0) continue;
+    places.push(i);
+    values.push(data[i * 4]);
   }
-  return textures;
+  return {places: Uint32Array.from(places), values: Uint8Array.from(values)};
 }
 
-export function creaseUniforms(c) {
-  const depths = [1, -1].map(side => {
-    const all = creaseDepths(c, side);
-    return creaseNames.map(name => clamp01(all[name]));
-  });
-  return {left: Float32Array.from(depths[0]), right: Float32Array.from(depths[1])};
+// What is drawn of them: two channels, the subject's left and right.
+export class Creases {
+  constructor() {
+    this.painted = Object.entries(strokes).map(([name, stroke]) => [name, paintStroke(stroke)]);
+    this.data = new Uint8ClampedArray(creaseSize * creaseSize * 2);
+  }
+
+  update(c) {
+    this.data.fill(0);
+    [1, -1].forEach((side, channel) => {
+      const depths = creaseDepths(c, side);
+      for (const [name, {places, values}] of this.painted) {
+        const depth = clamp01(depths[name]);
+        if (depth === 0) continue;
+        for (let i = 0; i < places.length; ++i) this.data[places[i] * 2 + channel] += depth * values[i];
+      }
+    });
+  }
 }

@@ -54,7 +54,7 @@ class Lid {
       const share = Math.max(0, row - 1) / (lidRows - 2), size = row === 0 ? 0.99 : 1.06 - (this.upper ? 0.03 : 0.10) * share;
       for (let column = 0; column < lidColumns; ++column) {
         const u = 1.28 * (2 * column / (lidColumns - 1) - 1);
-        const from = edge(u, height) * (Math.abs(u) > 1 ? 1 : 1);
+        const from = edge(u, height);
         this.mesh.setPosition(row * lidColumns + column, onEye(this.side, widest * u, mix(from, far, share), size));
       }
     }

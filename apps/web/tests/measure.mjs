@@ -5,7 +5,9 @@ import {readdirSync, statSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {cpus, loadavg} from 'node:os';
 import {bestCorrelation, readTruth} from './correlation.mjs';
+import {drawingCosts} from './drawing_cost.mjs';
 import {dist, following, openPage, openStudio, spareDrawing, truthFile} from './page.mjs';
+import {processorTime} from './processor_time.mjs';
 
 const out = process.argv[2] ?? '/dev/stdout';
 const median = values => [...values].sort((a, b) => a - b)[values.length >> 1];
@@ -40,6 +42,30 @@ const watch = (page, level, seconds) => page.evaluate(([level, seconds]) => new 
   document.addEventListener('mien-results', listen);
 }), [level, seconds]);
 
+// Pictures drawn while a level tracks, once the page has found how finely it can draw them.
+async function drawn(page, level, settling_s = 15, seconds = 10) {
+  await page.selectOption('#level', String(level));
+  await page.waitForTimeout(settling_s * 1000);
+  const count = () => page.evaluate(() => {
+    const {first: {canvas, quality, avatar}, tracking} = window.page;
+    if (!window.counted) {
+      window.counted = {pictures: 0, results: 0};
+      const draw = avatar.draw.bind(avatar);
+      avatar.draw = (...face) => (++window.counted.pictures, draw(...face));
+      document.addEventListener('mien-results', () => ++window.counted.results);
+    }
+    return {...window.counted, time_ms: performance.now(), width: canvas.width, height: canvas.height, leftOut: tracking.dropped, smooth: quality.now.smooth};
+  });
+  const before = await count(), usedBefore = processorTime().all;
+  await page.waitForTimeout(seconds * 1000);
+  const after = await count(), used = processorTime().all - usedBefore;
+  const rate = name => ((after[name] - before[name]) * 1000 / (after.time_ms - before.time_ms)).toFixed(1);
+  return `| ${level} | ${rate('pictures')} | ${rate('results')} | ${after.width} x ${after.height}${after.smooth ? ', smooth edges' : ''} | ` +
+    `${(used / (after.pictures - before.pictures)).toFixed(1)} | ${(used / (after.time_ms - before.time_ms) * 100).toFixed(0)} % |`;
+}
+
+const stage = {width: 814, height: 671};  // of a window of 1280 x 860
+const costs = await drawingCosts(stage.width, stage.height);
 const studio = await openStudio();
 try {
   const starts = [];
@@ -51,7 +77,7 @@ try {
   const {page} = await openPage(studio);
   await page.click('#camera');
   await following(page);
-  const drawn = await watch(page, 4, 6);
+  const drawing = [await drawn(page, 1), await drawn(page, 4)];
   await spareDrawing(page);
   const truth = readTruth(truthFile, 'jawOpen'), rows = [];
   for (const level of [1, 2, 3, 4]) {
@@ -61,7 +87,6 @@ try {
   }
   const bytes = readdirSync(dist, {recursive: true}).map(name => statSync(join(dist, name))).filter(info => info.isFile())
     .reduce((sum, {size}) => sum + size, 0);
-  const rate = ({jaw}) => ((jaw.length - 1) * 1000 / (jaw.at(-1)[0] - jaw[0][0])).toFixed(1);
   const chromium = studio.browser.version(), node = execFileSync('node', ['--version']).toString().trim();
   writeFileSync(out, `# The page, measured
 
@@ -74,7 +99,19 @@ core), so times are upper bounds. There is no graphics card: what WebGL draws, p
 | the whole page, weights included | ${bytes} bytes |
 | first result after the camera plays, three starts | ${starts.map(({afterCamera}) => Math.round(afterCamera)).join(', ')} ms |
 | first result after the button is pressed | ${starts.map(({afterClick}) => Math.round(afterClick)).join(', ')} ms |
-| frames tracked a second while every face is drawn by processors, level 4 | ${rate(drawn)} |
+
+What one picture of the face costs the browser's processes, a stage of ${stage.width} x ${stage.height} pixels, each picture waited for, the least of several rounds
+in turns. The page takes the finest quality that the browser keeps up with.
+
+| pixels of the stage | edges | processor time, ms |
+|---|---|---|
+${costs.map(({scale, smooth, ms}) => `| ${Math.round(scale * 100)} % of width and height | ${smooth ? 'smooth' : 'as they fall'} | ${ms.toFixed(1)} |`).join('\n')}
+
+While the camera runs and a level tracks, everything included: camera, video decoder, worker, drawing, and putting the window together.
+
+| level | pictures drawn a second | frames tracked a second | canvas | processor time of a picture, ms | of one processor |
+|---|---|---|---|---|---|
+${drawing.join('\n')}
 
 Below, faces are shaped but not drawn, which leaves the processors to the tracker as a graphics card would. The jaw is that of the avatar:
 how far the middle of its lower lip has come down, against \`jawOpen\` of \`tests/data/demo_truth.csv\`, over ${seconds} s (two loops of the clip; the lag

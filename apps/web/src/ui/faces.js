@@ -1,8 +1,6 @@
 // The faces on the stage: ours or the user's, one or two, drawn when there is something new to show.
 import {Avatar, controlNames} from '../../avatar/avatar.js';
-
-const slow_ms = 36;     // of a picture: then they get smaller, so that thirty a second stay possible
-const smallest = 0.4;    // of what the screen could show
+import {Quality} from './quality.js';
 
 const easing_ms = 400;  // how fast a head turns back when its face is lost
 
@@ -21,14 +19,13 @@ export class FaceView {
     this.turned = 0;
     this.changed = true;
     this.drawnAt = [];
-    this.scale = 1;
-    this.ticks = [];
+    this.quality = new Quality();
     new ResizeObserver(() => this.resize()).observe(canvas);
     this.resize();
   }
 
   resize() {
-    const ratio = Math.min(2, devicePixelRatio) * this.scale, {clientWidth, clientHeight} = this.canvas;
+    const ratio = Math.min(2, devicePixelRatio) * this.quality.now.scale, {clientWidth, clientHeight} = this.canvas;
     this.canvas.width = Math.max(1, Math.round(clientWidth * ratio));
     this.canvas.height = Math.max(1, Math.round(clientHeight * ratio));
     this.changed = true;
@@ -39,27 +36,27 @@ export class FaceView {
     const towards = result.status === 'tracking' ? 1 : 0, step = Math.min(1, sinceMs / easing_ms);
     this.turned = towards > this.turned ? 1 : this.turned - Math.min(step, this.turned - towards);
     this.face = faceOf(result, this.turned);
+    this.thereAt ??= performance.now();
     this.changed = true;
   }
 
-  // Of what the browser's clock ticks at while faces are drawn.
-  spareTheSlow(now) {
-    this.ticks.push(now);
-    if (this.ticks.length < 30) return;
-    const mean_ms = (now - this.ticks[0]) / (this.ticks.length - 1);
-    this.ticks = [];
-    if (mean_ms < slow_ms || mean_ms > 500 || this.scale <= smallest) return;
-    this.scale = Math.max(smallest, this.scale * 0.8);
-    this.resize();
-  }
-
+  // At each tick of the browser.
   draw(now) {
-    this.spareTheSlow(now);
+    this.judge();
     if (!this.changed || !this.canvas.clientWidth) return;
-    this.avatar.draw(this.face);
+    this.avatar.draw(this.face, this.quality.now);
     this.changed = false;
+    this.drawnThere = this.thereAt;
+    this.thereAt = undefined;
     this.drawnAt.push(now);
     while (this.drawnAt.length > 60) this.drawnAt.shift();
+  }
+
+  // What was drawn at the tick before: how long did it take, from when it was there?
+  judge() {
+    const time_ms = performance.now();
+    if (this.drawnThere !== undefined && this.quality.took(time_ms - this.drawnThere, time_ms)) this.resize();
+    this.drawnThere = undefined;
   }
 
   // Pictures a second over the last of them.
