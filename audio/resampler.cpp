@@ -26,10 +26,8 @@ double sinc(double x) {
   return std::abs(turn) < 1e-9 ? 1.0 : std::sin(turn) / turn;
 }
 
-// x in -1..1
-double kaiser(double x) {
-  return bessel_i0(kKaiserBeta * std::sqrt(std::max(0.0, 1.0 - x * x))) / bessel_i0(kKaiserBeta);
-}
+// x in -1..1; not 1 in the middle, since filters are divided by their sum.
+double kaiser(double x) { return bessel_i0(kKaiserBeta * std::sqrt(std::max(0.0, 1.0 - x * x))); }
 
 }  // namespace
 
@@ -57,16 +55,14 @@ void Resampler::make_filter() {
   const double cutoff = kCutoff * std::min(1.0, static_cast<double>(kOutputRate) / rate_);
   for (std::int32_t phase = 0; phase <= phases_; ++phase) {
     float* taps = filter_.data() + std::ptrdiff_t{2} * half_ * phase;
+    std::array<double, kMostTaps> exact;
     double sum = 0.0;
-    const auto tap = [&](std::int32_t k) {
-      const double away = k - (half_ - 1) - static_cast<double>(phase) / phases_;
-      return sinc(cutoff * away) * kaiser(away / half_);
-    };
     for (std::int32_t k = 0; k < 2 * half_; ++k) {
-      sum += tap(k);
+      const double away = k - (half_ - 1) - static_cast<double>(phase) / phases_;
+      sum += exact[k] = sinc(cutoff * away) * kaiser(away / half_);
     }
     for (std::int32_t k = 0; k < 2 * half_; ++k) {
-      taps[k] = static_cast<float>(tap(k) / sum);
+      taps[k] = static_cast<float>(exact[k] / sum);
     }
   }
 }

@@ -29,7 +29,7 @@ class Resampler {
   [[nodiscard]] bool init(std::uint32_t cpu_mask);
 
   // Begins a stream; `input_rate` in kLowestRate..kHighestRate. Makes the filter when the rate is
-  // another one than before, which takes some milliseconds.
+  // another one than before, which takes about a millisecond.
   void start(std::int32_t input_rate);
 
   // Takes the first samples of `input` and says how many: at least one, if all outputs that there

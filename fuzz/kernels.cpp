@@ -1,5 +1,7 @@
 // The bytes choose a kernel and the shape of a call of it: every tier is held against the
-// reference, between guard pages.
+// reference, between guard pages. No bytes choose all kernels, so that one file of the corpus calls
+// them all, however many there come to be.
+#include <algorithm>
 #include <cstdio>
 
 #include "apps/conformance/check.h"
@@ -7,19 +9,18 @@
 #include "fuzz/bytes.h"
 #include "fuzz/target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace mien;
-  fuzz::Bytes choices(data, size);
-  const auto kernels = kernels::all_kernels();
-  const kernels::Entry& entry = kernels[choices.take<std::uint8_t>() % kernels.size()];
+namespace {
+
+using namespace mien;
+
+void check(const kernels::Entry& entry, std::uint64_t seed, int number,
+           std::span<const std::uint8_t> choices) {
   const conformance::Family* family = conformance::find_family(entry.family);
   if ((kernels::detect_cpu() & kernels::bit(entry.tier)) == 0 || family == nullptr) {
-    return 0;
+    return;
   }
-  const int number = choices.between(0, 255);
-  const auto seed = choices.take<std::uint16_t>();
   conformance::RandomValues random(seed, number, conformance::arithmetic_of(entry.tier));
-  random.choose_first(choices.rest().first(std::min<std::size_t>(choices.rest().size(), 12)));
+  random.choose_first(choices);
   const kernels::AnyKernel reference =
       entry.tier == kernels::Tier::kRef
           ? nullptr
@@ -31,5 +32,25 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                  conformance::name(finding.fault), finding.text.c_str());
     fuzz::require(false);
   }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const auto kernels = kernels::all_kernels();
+  if (size == 0) {
+    for (const kernels::Entry& entry : kernels) {
+      for (int number = 0; number < conformance::kPatternCount; ++number) {
+        check(entry, 1, number, {});
+      }
+    }
+    return 0;
+  }
+  fuzz::Bytes choices(data, size);
+  const kernels::Entry& entry = kernels[choices.take<std::uint8_t>() % kernels.size()];
+  const int number = choices.between(0, 255);
+  const auto seed = choices.take<std::uint16_t>();
+  check(entry, seed, number,
+        choices.rest().first(std::min<std::size_t>(choices.rest().size(), 12)));
   return 0;
 }

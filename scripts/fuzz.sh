@@ -1,10 +1,20 @@
 #!/usr/bin/env bash
-# Fuzzes every target, under the address and undefined-behaviour sanitizers, as many at a time as there are processors, and says for
-# each how often it ran. What they find new stays in build/fuzz/found/NAME for the next time; what broke one is put to
-# fuzz/corpus/NAME, since every bug found becomes a test. Exit status 0 only when nothing broke.
-# usage: scripts/fuzz.sh MINUTES [TARGET...]      minutes in all, default 2
+# Fuzzes every target, under the address and undefined-behaviour sanitizers, and says for each how often it ran. What they find new
+# stays in build/fuzz/found/NAME for the next time; what broke one is put to fuzz/corpus/NAME, since every bug found becomes a test.
+# Exit status 0 only when nothing broke.
+# usage: scripts/fuzz.sh [--jobs N] [--tally] [MINUTES [TARGET...]]      minutes in all, default 2
+#   --jobs N   so many targets at a time, default as many as there are processors
+#   --tally    adds runs and processor time to docs/results/fuzzing.json and makes the table of fuzzing.md of them
 set -euo pipefail
 cd "$(dirname "$0")/.."
+jobs=$(nproc) tally=
+while [[ "${1:-}" == --* ]]; do
+  case $1 in
+    --jobs) jobs=$2; shift 2 ;;
+    --tally) tally=docs/results/fuzzing; shift ;;
+    *) echo "fuzz.sh: unknown option '$1'" >&2; exit 2 ;;
+  esac
+done
 minutes=${1:-2}
 shift || true
 scripts/setup.sh build test
@@ -16,17 +26,21 @@ list=build/fuzz/fuzz/targets.txt
 [ $# -gt 0 ] || set -- "${all[@]}"
 cmake --build --preset fuzz --target "${@/#/fuzz_}"
 
-seconds=$((minutes * 60 * $(nproc) / $#))
+seconds=$((minutes * 60 * jobs / $#))
 [ $seconds -gt 5 ] || seconds=5
 fuzz() {  # target
-  local found=build/fuzz/found/$1 log=build/fuzz/found/$1.log options=() folders code=0
+  local found=build/fuzz/found/$1 log=build/fuzz/found/$1.log options=() folders code=0 runs used TIMEFORMAT='%U %S'
   mkdir -p "$found" "fuzz/corpus/$1"
   IFS=';' read -ra folders <<<"$(grep "^$1 " $list | cut -d' ' -f2)"
   [ ! -f "fuzz/dictionaries/$1.dict" ] || options+=("-dict=fuzz/dictionaries/$1.dict")
-  build/fuzz/fuzz/"fuzz_$1" -max_total_time=$seconds -max_len="$(max_length "$1")" -timeout=60 -rss_limit_mb=3000 -print_final_stats=1 \
-    -artifact_prefix="fuzz/corpus/$1/" "${options[@]}" "$found" "${folders[@]}" >"$log" 2>&1 || code=$?
-  printf '%-20s %10s runs, %5s inputs%s\n' "$1" "$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")" \
-    "$(find "$found" -type f | wc -l)" "$([ $code -eq 0 ] || echo "  BROKEN: $log")"
+  # The limit of an input's time is one of the clock, and generous, since the machine may have other work.
+  { time build/fuzz/fuzz/"fuzz_$1" -max_total_time=$seconds -max_len="$(max_length "$1")" -timeout=300 -report_slow_units=300 \
+    -rss_limit_mb=3000 -print_final_stats=1 -artifact_prefix="fuzz/corpus/$1/" "${options[@]}" "$found" "${folders[@]}" \
+    >"$log" 2>&1; } 2>"$log.time" || code=$?
+  runs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
+  used=$(tail -n 1 "$log.time")
+  printf '%-20s %10s runs, %5s inputs%s\n' "$1" "$runs" "$(find "$found" -type f | wc -l)" "$([ $code -eq 0 ] || echo "  BROKEN: $log")"
+  [ -z "$tally" ] || flock "$list" scripts/fuzz_tally.py $tally.json $tally.md "$1" "${runs:-0}" "$used"
   return $code
 }
 max_length() {  # target: files are as long as the golden ones, choices of calls short
@@ -37,5 +51,5 @@ max_length() {  # target: files are as long as the golden ones, choices of calls
   esac
 }
 export -f fuzz max_length
-export seconds list
-printf '%s\n' "$@" | xargs -P "$(nproc)" -I NAME bash -c 'fuzz NAME'
+export seconds list tally
+printf '%s\n' "$@" | xargs -P "$jobs" -I NAME bash -c 'fuzz NAME'

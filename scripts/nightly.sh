@@ -27,7 +27,8 @@ step soak scripts/evaluate/soak.sh
 step memcheck scripts/valgrind.sh 3
 step coverage scripts/coverage.sh
 step planted_faults scripts/mutate.sh
+step reproducible scripts/package/check_reproducible.sh
 step fuzzing_the_converter scripts/fuzz_convert.sh 10
-step fuzzing scripts/fuzz.sh $((hours * 60))
+step fuzzing scripts/fuzz.sh --tally $((hours * 60))
 cat $report
 exit $failed

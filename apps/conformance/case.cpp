@@ -6,6 +6,8 @@
 namespace mien::conformance {
 namespace {
 
+constexpr std::byte kPartOfNan{0xFF};
+
 template <class T>
 std::vector<std::byte> bytes_of(const std::vector<T>& values) {
   std::vector<std::byte> bytes(values.size() * sizeof(T));
@@ -52,7 +54,6 @@ Buffer reads(const std::vector<std::uint8_t>& bytes) {
 }
 
 Buffer writes(Element element, std::vector<Approx> expected) {
-  constexpr std::byte kPartOfNan{0xFF};
   std::vector<std::byte> nans(expected.size() * element_bytes(element), kPartOfNan);
   return {element, Role::kWritten, std::move(nans), std::move(expected)};
 }
@@ -62,7 +63,10 @@ Buffer updates(const std::vector<float>& values, std::vector<Approx> expected) {
 }
 
 Buffer scratch(std::size_t floats) {
-  return {Element::kFloat, Role::kScratch, std::vector<std::byte>(floats * sizeof(float)), {}};
+  return {Element::kFloat,
+          Role::kScratch,
+          std::vector<std::byte>(floats * sizeof(float), kPartOfNan),
+          {}};
 }
 
 const Family* find_family(std::string_view name) {

@@ -23,7 +23,7 @@ enum class Role : std::uint8_t {
   kRead,     // must be afterwards what it was before
   kWritten,  // begins as NaNs: every element has to be written, and none read
   kUpdated,  // read and written: state, or a kernel in place
-  kScratch,  // may be anything afterwards
+  kScratch,  // begins as NaNs; may be anything afterwards
 };
 
 struct Buffer {

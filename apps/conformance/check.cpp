@@ -7,6 +7,7 @@
 #include "apps/conformance/crash_guard.h"
 #include "apps/conformance/guarded_buffer.h"
 #include "apps/conformance/registers.h"
+#include "apps/conformance/unwritten.h"
 
 namespace mien::conformance {
 namespace {
@@ -21,6 +22,9 @@ class Trial {
     for (const Buffer& one : test.buffers) {
       memory_.push_back(
           std::make_unique<GuardedBuffer>(one.content, element_bytes(one.element), place));
+      if (one.role == Role::kWritten || one.role == Role::kScratch) {
+        count_as_unwritten({memory_.back()->data(), one.content.size()});
+      }
       places.add(memory_.back()->data());
     }
     arguments_ = test.bind(places);

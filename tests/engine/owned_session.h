@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/conformance/unwritten.h"
 #include "engine/model.h"
 #include "engine/session.h"
 
@@ -56,6 +57,7 @@ class OwnedSession {
     for (std::byte& one : arena_.span()) {
       one = std::byte{0xFF};
     }
+    count_as_unwritten(arena_.span());
   }
 
   engine::Status status = engine::Status::kOk;

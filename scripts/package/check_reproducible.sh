@@ -1,0 +1,28 @@
+#!/usr/bin/env bash
+# Makes the release of HEAD twice, in clones at places of different length and without a compiler cache, and compares what came out.
+# usage: scripts/package/check_reproducible.sh [-DCMAKE_OPTION]... [PART]...      parts of release.sh, default: source amalgamation binary deb
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+options=()
+while [[ "${1:-}" == -D* ]]; do
+  options+=("$1")
+  shift
+done
+[ $# -gt 0 ] || set -- source amalgamation binary deb
+scripts/setup.sh build release
+export CCACHE_DISABLE=1
+
+work=$PWD/build/reproducible
+rm -rf "$work"
+for clone in "$work/a" "$work/at/a/deeper/place"; do
+  git clone --quiet . "$clone"
+  (cd "$clone" && scripts/package/release.sh -o "$work/files-${#clone}" "${options[@]}" "$@" >/dev/null)
+done
+cat "$work"/files-*/SHA256SUMS | sort | uniq --unique >"$work/different"
+if [ -s "$work/different" ]; then
+  echo "check_reproducible.sh: not the same twice:" >&2
+  cut -d' ' -f3 "$work/different" | sort -u >&2
+  exit 1
+fi
+echo "the same twice:"
+cat "$work/files-${#clone}/SHA256SUMS"
