@@ -206,8 +206,9 @@ def train(decoder, lessons, args, name):
     torch.manual_seed(args.seed)
     mean, spread = spread_of(lessons[0][0].data["features"])
     state = f"{name}_decoder"
-    if args.start_from and state in (known := torch.load(args.start_from)):
-        decoder.load_state_dict(known[state])
+    known = torch.load(args.start_from).get(state) if args.start_from else None
+    if known:
+        decoder.load_state_dict(known)
     else:
         if isinstance(decoder, TemporalDecoder):
             mind_the_present(decoder)
@@ -231,7 +232,17 @@ def train(decoder, lessons, args, name):
         if step % 100 == 0:
             print(f"{name} step {step} loss {total / 100:.5f} {time.time() - began:.0f} s", flush=True)
             total = 0.0
+    if known:
+        draw_back(decoder, known, args.draw_back)
     return decoder.eval()
+
+
+@torch.no_grad()
+def draw_back(decoder, start, share):
+    """Weights on the line to those it went on from: what is between is often better at what both have learned (Wortsman et al. 2022,
+    Robust fine-tuning of zero-shot models)."""
+    for name, value in decoder.state_dict().items():
+        value.lerp_(start[name].to(value), share)
 
 
 @torch.no_grad()
@@ -336,6 +347,7 @@ def main():
     parser.add_argument("--held", type=Path, nargs="*", default=[], help="features of stills (sequences.py --hold)")
     parser.add_argument("--portraits", type=Path, nargs="*", default=[], help="features of real faces (portrait_features.py)")
     parser.add_argument("--start-from", type=Path, help="decoders to go on from")
+    parser.add_argument("--draw-back", type=float, default=0.0, metavar="SHARE", help="of the way back to those in the end")
     parser.add_argument("--teacher", type=float, default=0.5, help="weight of what the teacher says of them")
     parser.add_argument("--val", type=Path, required=True, help="features that choose the supported controls")
     parser.add_argument("--portraits-val", type=Path, help="features of real faces that help to choose them")
