@@ -14,14 +14,12 @@ struct Window {
 
   const InvertedResidualArgs& a;
   std::ptrdiff_t x_row_elems;
-  const float* weights;  // [kernel_h][kernel_w][8]; 3x3 only
-  const std::uint16_t* halves;
+  const std::uint16_t* weights;  // [kernel_h][kernel_w][8]
   Vec bias, low, high;
 
   static Vec load(const float* x) { return _mm256_loadu_ps(x); }
   static Vec fma(Vec sum, Vec value, Vec weight) { return _mm256_fmadd_ps(value, weight, sum); }
-  [[nodiscard]] Vec weight(int tap) const { return load(weights + tap * kLanes); }
-  [[nodiscard]] Vec any_weight(int tap) const { return load_half(halves + tap * kLanes); }
+  [[nodiscard]] Vec weight(int tap) const { return load_half(weights + tap * kLanes); }
   void store(Vec sum, float* y) const {
     _mm256_storeu_ps(y, _mm256_min_ps(high, _mm256_max_ps(low, sum)));
   }
@@ -31,15 +29,9 @@ struct Window {
 void slide_half(const InvertedResidualArgs& a, const Slide<float>& s, std::int32_t half) {
   const std::ptrdiff_t taps = std::ptrdiff_t{a.kernel_h} * a.kernel_w;
   const std::int32_t block = s.block + half;
-  const std::uint16_t* halves = a.slide.weights + block * taps * kLanes;
-  float weights[9 * kLanes];
-  for (std::int32_t tap = 0; taps == 9 && tap < 9; ++tap) {
-    _mm256_storeu_ps(weights + tap * kLanes, load_half(halves + tap * kLanes));
-  }
   const Window window{a,
                       s.x_row_elems,
-                      weights,
-                      halves,
+                      a.slide.weights + block * taps * kLanes,
                       load_half(a.slide.bias + block * kLanes),
                       _mm256_set1_ps(s.clamp.low),
                       _mm256_set1_ps(s.clamp.high)};

@@ -17,14 +17,12 @@ struct Window {
   const Slide<float>& s;
   std::ptrdiff_t x_row_elems;
   std::ptrdiff_t y_plane_elems;
-  bool both;           // the upper 8 channels exist
-  const Vec* weights;  // 3x3: the nine
+  bool both;  // the upper 8 channels exist
   Vec bias, low, high;
 
   static Vec load(const float* x) { return _mm512_loadu_ps(x); }
   static Vec fma(Vec sum, Vec value, Vec weight) { return _mm512_fmadd_ps(value, weight, sum); }
-  [[nodiscard]] Vec weight(int tap) const { return weights[tap]; }
-  [[nodiscard]] Vec any_weight(int tap) const { return weights_at(a, s, tap); }
+  [[nodiscard]] Vec weight(int tap) const { return weights_at(a, s, tap); }
   void store(Vec sum, float* y) const {
     store_blocks(y, y_plane_elems, both, _mm512_min_ps(high, _mm512_max_ps(low, sum)));
   }
@@ -34,17 +32,12 @@ struct Tier512 {
   static void multiply(const ProductArgs& args) { multiply_panels(args); }
 
   static void slide(const InvertedResidualArgs& a, const Slide<float>& s) {
-    Vec weights[9];
-    for (std::int32_t tap = 0; a.kernel_h * a.kernel_w == 9 && tap < 9; ++tap) {
-      weights[tap] = weights_at(a, s, tap);
-    }
     const bool both = s.blocks > 1;
     const Window window{a,
                         s,
                         s.x_row_elems,
                         band_plane(a, s),
                         both,
-                        weights,
                         load_half(a.slide.bias + s.block * kBlock, both ? 0xFFFF : 0xFF),
                         _mm512_set1_ps(s.clamp.low),
                         _mm512_set1_ps(s.clamp.high)};

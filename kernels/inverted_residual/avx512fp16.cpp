@@ -47,13 +47,11 @@ struct Window {
   const InvertedResidualArgs& a;
   const Slide<Half>& s;
   std::ptrdiff_t x_row_elems;
-  const Vec* weights;  // 3x3: the nine
   Vec bias, low, high;
 
   static Vec load(const Half* x) { return _mm512_loadu_ph(x); }
   static Vec fma(Vec sum, Vec value, Vec weight) { return _mm512_fmadd_ph(value, weight, sum); }
-  [[nodiscard]] Vec weight(int tap) const { return weights[tap]; }
-  [[nodiscard]] Vec any_weight(int tap) const { return weights_at(a, s, tap); }
+  [[nodiscard]] Vec weight(int tap) const { return weights_at(a, s, tap); }
   void store(Vec sum, Half* y) const {
     _mm512_storeu_ph(y, _mm512_min_ph(high, _mm512_max_ph(low, sum)));
   }
@@ -67,14 +65,9 @@ struct Tier {
   }
 
   static void slide(const InvertedResidualArgs& a, const Slide<Half>& s, Half* y) {
-    Vec weights[9];
-    for (std::int32_t tap = 0; a.kernel_h * a.kernel_w == 9 && tap < 9; ++tap) {
-      weights[tap] = weights_at(a, s, tap);
-    }
     const Window window{a,
                         s,
                         s.x_row_elems,
-                        weights,
                         load_blocks(a.slide.bias + s.block * 8, 8, s.blocks),
                         _mm512_set1_ph(static_cast<_Float16>(s.clamp.low)),
                         _mm512_set1_ph(static_cast<_Float16>(s.clamp.high))};

@@ -30,14 +30,12 @@ struct Window {
   const Slide<float>& s;
   std::ptrdiff_t x_row_elems;
   std::ptrdiff_t y_plane_elems;
-  bool both;           // the upper 8 channels exist
-  const Vec* weights;  // 3x3: the nine
+  bool both;  // the upper 8 channels exist
   Vec bias, high;
 
   static Vec load(const float* x) { return _mm512_loadu_ps(x); }
   static Vec fma(Vec sum, Vec value, Vec weight) { return _mm512_fmadd_ps(value, weight, sum); }
-  [[nodiscard]] Vec weight(int tap) const { return weights[tap]; }
-  [[nodiscard]] Vec any_weight(int tap) const { return weights_at(a, s, tap); }
+  [[nodiscard]] Vec weight(int tap) const { return weights_at(a, s, tap); }
   void store(Vec sum, float* y) const {
     const Vec clamped = _mm512_min_ps(high, _mm512_max_ps(_mm512_setzero_ps(), sum));
     const __m256i fixed = _mm512_cvtepi32_epi16(_mm512_cvtps_epi32(clamped));
@@ -50,10 +48,6 @@ struct Window {
 };
 
 void slide_rows(const InvertedResidualArgs& a, const Slide<float>& s) {
-  Vec weights[9];
-  for (std::int32_t tap = 0; a.kernel_h * a.kernel_w == 9 && tap < 9; ++tap) {
-    weights[tap] = weights_at(a, s, tap);
-  }
   const bool both = s.blocks > 1;
   const std::ptrdiff_t plane = band_plane(a, s) / 2;
   const Window window{
@@ -62,7 +56,6 @@ void slide_rows(const InvertedResidualArgs& a, const Slide<float>& s) {
       s.x_row_elems,
       plane,
       both,
-      weights,
       _mm512_mul_ps(avx512::load_half(a.slide.bias + s.block * kStripBlock, both ? 0xFFFF : 0xFF),
                     _mm512_set1_ps(band_steps(s.clamp.high))),
       _mm512_set1_ps(kFixedBandMost)};
@@ -123,7 +116,7 @@ class FixedStrips {
     product.x_step = largest_ / static_cast<float>(kFixedMapMost);
     product.pairs = a_.expand.pairs + channel * product.to.in_blocks * kStripBlock;
     product.steps = a_.expand.steps + channel;
-    multiply_fixed(product);
+    multiply_fixed_to_strip(product);
   }
 
   void copy(const StripPart& part, std::int32_t row, std::int32_t rows, float* y) const {
@@ -141,7 +134,7 @@ class FixedStrips {
     product.x_step = clamp_of(a_.slide.activation).high / static_cast<float>(kFixedBandMost);
     product.pairs = a_.project.pairs;
     product.steps = a_.project.steps;
-    multiply_fixed(product);
+    multiply_fixed_to_map(product);
   }
 
  private:

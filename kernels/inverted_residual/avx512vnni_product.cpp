@@ -19,19 +19,97 @@ using Sum = __m512i;
 
 constexpr std::int32_t kPairElems = 2 * kPanel;  // of a vector of weights
 
+// Where sums of a tile go, once they are numbers. A tile has a copy of its own: to the compiler a
+// vector that is stored may change anything in memory.
+
+// Rows of a strip: a panel is 16 numbers, and there is no residual.
+class StripRows {
+ public:
+  StripRows(const ProductArgs& to, std::int32_t panel, std::int32_t pixel)
+      : y_(to.y + Cursor(to.y_rows, pixel).at(panel)),
+        panel_(to.y_rows.panel_elems),
+        gap_(to.y_rows.row_gap_elems),
+        column_(pixel % to.y_rows.row_pixels),
+        columns_(to.y_rows.row_pixels) {}
+
+  void store(int v, Vec value) const { _mm512_storeu_ps(y_ + v * panel_, value); }
+  void store_half(__m256 value) const { _mm256_storeu_ps(y_, value); }
+  void advance() {
+    y_ += kPanel;
+    if (++column_ == columns_) {
+      column_ = 0;
+      y_ += gap_;
+    }
+  }
+
+ private:
+  float* y_;
+  std::ptrdiff_t panel_, gap_;
+  std::int32_t column_, columns_;
+};
+
+// Pixels of a map, of which those of a row follow those of the row before.
+class MapRows {
+ public:
+  MapRows(const ProductArgs& to, std::int32_t panel, std::int32_t pixel)
+      : y_(to.y + panel * to.y_rows.panel_elems + std::ptrdiff_t{pixel} * kBlock),
+        half_(to.y_rows.half_elems),
+        panel_(to.y_rows.panel_elems) {
+    if (to.residual != nullptr) {
+      const PixelRows& rows = to.residual_rows;
+      residual_ = to.residual + Cursor(rows, pixel).at(panel);
+      residual_half_ = rows.half_elems;
+      residual_panel_ = rows.panel_elems;
+      gap_ = rows.row_gap_elems;
+      column_ = pixel % rows.row_pixels;
+      columns_ = rows.row_pixels;
+    }
+  }
+
+  void store(int v, Vec value) const {
+    if (residual_ != nullptr) {
+      value = _mm512_add_ps(
+          value, avx512::load_blocks(residual_ + v * residual_panel_, residual_half_, true));
+    }
+    avx512::store_blocks(y_ + v * panel_, half_, true, value);
+  }
+  void store_half(__m256 value) const {
+    if (residual_ != nullptr) {
+      value = _mm256_add_ps(value, _mm256_loadu_ps(residual_));
+    }
+    _mm256_storeu_ps(y_, value);
+  }
+  void advance() {
+    y_ += kBlock;
+    if (residual_ != nullptr) {
+      residual_ += kBlock;
+      if (++column_ == columns_) {
+        column_ = 0;
+        residual_ += gap_;
+      }
+    }
+  }
+
+ private:
+  float* y_;
+  std::ptrdiff_t half_, panel_;
+  const float* residual_ = nullptr;
+  std::ptrdiff_t residual_half_ = 0, residual_panel_ = 0, gap_ = 0;
+  std::int32_t column_ = 0, columns_ = 0;
+};
+
 // Some pixels of the panels from `panel` on. A tile moves it behind those it made.
+template <class Rows>
 struct FixedSpot {
   FixedSpot(const FixedProduct& product, std::int32_t first_panel, std::int32_t pixel)
       : a(product),
         panel(first_panel),
         x(product.values + std::ptrdiff_t{pixel} * kBlock),
-        y(product.to.y_rows, pixel),
-        residual(product.to.residual == nullptr ? product.to.y_rows : product.to.residual_rows,
-                 pixel) {}
+        to(product.to, first_panel, pixel) {}
   const FixedProduct& a;
   std::int32_t panel;
   const std::int16_t* x;
-  Cursor y, residual;
+  Rows to;
 };
 
 // kCount: 1 or 2 pairs, in every lane or in every two.
@@ -54,68 +132,23 @@ __m256i sums_of_two(Sum v) {
   return _mm512_cvtepi64_epi32(v);
 }
 
-// Where sums of a tile become numbers: copies of all that is needed, since to the compiler a vector
-// that is stored may change anything in memory.
-class Target {
- public:
-  explicit Target(const FixedSpot& s)
-      : panel_(s.panel),
-        y_(s.a.to.y),
-        residual_(s.a.to.residual),
-        half_(s.a.to.y_rows.half_elems),
-        residual_half_(s.a.to.residual_rows.half_elems),
-        at_(s.y),
-        from_(s.residual) {}
-
-  [[nodiscard]] float* y(int v) const { return y_ + at_.at(panel_ + v); }
-  [[nodiscard]] const float* residual(int v) const { return residual_ + from_.at(panel_ + v); }
-  [[nodiscard]] bool adds() const { return residual_ != nullptr; }
-  [[nodiscard]] bool is_strip() const { return half_ == kBlock; }
-  [[nodiscard]] std::ptrdiff_t half() const { return half_; }
-  [[nodiscard]] std::ptrdiff_t residual_half() const { return residual_half_; }
-
-  // To the next pixel.
-  void advance() {
-    at_.advance();
-    if (adds()) {
-      from_.advance();
-    }
-  }
-  void leave(FixedSpot& s) const {
-    s.y = at_;
-    s.residual = from_;
-  }
-
- private:
-  std::int32_t panel_;
-  float* y_;
-  const float* residual_;
-  std::ptrdiff_t half_, residual_half_;
-  Cursor at_, from_;
-};
-
+// Sums become numbers.
 template <int kVecs>
 struct Finish {
   Vec low, high, step[kVecs], bias[kVecs];
 
-  explicit Finish(const FixedSpot& s)
-      : low(_mm512_set1_ps(s.a.to.low)), high(_mm512_set1_ps(s.a.to.high)) {
+  Finish(const FixedProduct& a, std::int32_t panel)
+      : low(_mm512_set1_ps(a.to.low)), high(_mm512_set1_ps(a.to.high)) {
     for (int v = 0; v < kVecs; ++v) {
-      const std::ptrdiff_t channel = std::ptrdiff_t{s.panel + v} * kPanel;
-      step[v] = _mm512_mul_ps(_mm512_loadu_ps(s.a.steps + channel), _mm512_set1_ps(s.a.x_step));
-      bias[v] = avx512::load_half(s.a.to.bias + channel);
+      const std::ptrdiff_t channel = std::ptrdiff_t{panel + v} * kPanel;
+      step[v] = _mm512_mul_ps(_mm512_loadu_ps(a.steps + channel), _mm512_set1_ps(a.x_step));
+      bias[v] = avx512::load_half(a.to.bias + channel);
     }
   }
-  void store(const Target& to, int v, Sum sum) const {
-    Vec y = _mm512_fmadd_ps(_mm512_cvtepi32_ps(sum), step[v], bias[v]);
-    y = _mm512_min_ps(high, _mm512_max_ps(low, y));
-    if (to.is_strip()) {
-      return _mm512_storeu_ps(to.y(v), y);
-    }
-    if (to.adds()) {
-      y = _mm512_add_ps(y, avx512::load_blocks(to.residual(v), to.residual_half(), true));
-    }
-    avx512::store_blocks(to.y(v), to.half(), true, y);
+  template <class Rows>
+  void store(const Rows& to, int v, Sum sum) const {
+    const Vec y = _mm512_fmadd_ps(_mm512_cvtepi32_ps(sum), step[v], bias[v]);
+    to.store(v, _mm512_min_ps(high, _mm512_max_ps(low, y)));
   }
 };
 
@@ -123,25 +156,22 @@ struct Finish {
 struct HalfFinish {
   __m256 low, high, step, bias;
 
-  explicit HalfFinish(const FixedSpot& s)
-      : low(_mm256_set1_ps(s.a.to.low)), high(_mm256_set1_ps(s.a.to.high)) {
-    const std::ptrdiff_t channel = std::ptrdiff_t{s.panel} * kPanel;
-    step = _mm256_mul_ps(_mm256_loadu_ps(s.a.steps + channel), _mm256_set1_ps(s.a.x_step));
-    bias = _mm512_castps512_ps256(avx512::load_half(s.a.to.bias + channel, 0xFF));
+  HalfFinish(const FixedProduct& a, std::int32_t panel)
+      : low(_mm256_set1_ps(a.to.low)), high(_mm256_set1_ps(a.to.high)) {
+    const std::ptrdiff_t channel = std::ptrdiff_t{panel} * kPanel;
+    step = _mm256_mul_ps(_mm256_loadu_ps(a.steps + channel), _mm256_set1_ps(a.x_step));
+    bias = _mm512_castps512_ps256(avx512::load_half(a.to.bias + channel, 0xFF));
   }
-  void store(const Target& to, int, Sum sum) const {
-    __m256 y = _mm256_fmadd_ps(_mm256_cvtepi32_ps(sums_of_two(sum)), step, bias);
-    y = _mm256_min_ps(high, _mm256_max_ps(low, y));
-    if (to.adds()) {
-      y = _mm256_add_ps(y, _mm256_loadu_ps(to.residual(0)));
-    }
-    _mm256_storeu_ps(to.y(0), y);
+  template <class Rows>
+  void store(const Rows& to, int, Sum sum) const {
+    const __m256 y = _mm256_fmadd_ps(_mm256_cvtepi32_ps(sums_of_two(sum)), step, bias);
+    to.store_half(_mm256_min_ps(high, _mm256_max_ps(low, y)));
   }
 };
 
 // kCount pairs at once.
-template <int kPixels, int kVecs, int kCount, class Finish>
-void multiply(FixedSpot& s, const std::int16_t* w) {
+template <int kPixels, int kVecs, int kCount, class Finish, class Rows>
+void multiply(FixedSpot<Rows>& s, const std::int16_t* w) {
   constexpr int kStep = 2 * kCount;
   constexpr int kSums = std::min(partial_sums(kPixels * kVecs), kBlock / kStep);
   const std::ptrdiff_t panel = std::ptrdiff_t{s.a.to.in_blocks} * kBlock * kPanel;
@@ -175,8 +205,8 @@ void multiply(FixedSpot& s, const std::int16_t* w) {
     }
     x += s.a.plane_elems;
   } while (--left > 0);
-  const Finish finish(s);
-  Target to(s);
+  const Finish finish(s.a, s.panel);
+  Rows to = s.to;
 #pragma GCC unroll 16
   for (int p = 0; p < kPixels; ++p) {
     for (int v = 0; v < kVecs; ++v) {
@@ -188,74 +218,85 @@ void multiply(FixedSpot& s, const std::int16_t* w) {
     }
     to.advance();
   }
-  to.leave(s);
+  s.to = to;
   s.x += kPixels * kBlock;
 }
 
-template <int kPixels, int kVecs>
-void tile(FixedSpot& s, const std::int16_t* w) {
-  multiply<kPixels, kVecs, 1, Finish<kVecs>>(s, w);
-}
-template <int kPixels>
-void half_tile(FixedSpot& s, const std::int16_t* w) {
-  multiply<kPixels, 1, 2, HalfFinish>(s, w);
-}
+template <class Rows>
+class Tiles {
+ public:
+  using Spot = FixedSpot<Rows>;
+  using Run = void (*)(Spot&, const std::int16_t*);
 
-using Run = void (*)(FixedSpot&, const std::int16_t*);
-using Tile = SizedTile<Run>;
-
-template <int kVecs, int... kSizes>
-Tiling<Run> one_of(std::int32_t pixels) {
-  static constexpr Tile kTiles[] = {{kSizes, &tile<kSizes, kVecs>}...};
-  return tiling_of(kTiles, pixels);
-}
-
-// `panels` 0: the last panel of 8.
-Tiling<Run> tiles_of(std::int32_t panels, std::int32_t pixels) {
-  static constexpr Tile kHalf[] = {{1, &half_tile<1>},  {2, &half_tile<2>}, {4, &half_tile<4>},
-                                   {6, &half_tile<6>},  {9, &half_tile<9>}, {11, &half_tile<11>},
-                                   {13, &half_tile<13>}};
-  switch (panels) {
-    case 0:
-      return tiling_of(kHalf, pixels);
-    case 1:
-      return one_of<1, 1, 2, 4, 6, 9, 11, 13>(pixels);
-    case 2:
-      return one_of<2, 1, 2, 4, 6, 7, 8, 9, 10, 11, 12, 13>(pixels);
-    case 3:
-      return one_of<3, 9>(pixels);
-    default:
-      return one_of<4, 1, 2, 3, 4, 5, 6>(pixels);
+  // `panels` 0: the last panel of 8.
+  static Tiling<Run> of(std::int32_t panels, std::int32_t pixels) {
+    static constexpr Tile kHalf[] = {{1, &half<1>}, {2, &half<2>},   {4, &half<4>},  {6, &half<6>},
+                                     {9, &half<9>}, {11, &half<11>}, {13, &half<13>}};
+    switch (panels) {
+      case 0:
+        return tiling_of(kHalf, pixels);
+      case 1:
+        return one_of<1, 1, 2, 4, 6, 9, 11, 13>(pixels);
+      case 2:
+        return one_of<2, 1, 2, 4, 6, 7, 8, 9, 10, 11, 12, 13>(pixels);
+      case 3:
+        return one_of<3, 9>(pixels);
+      default:
+        return one_of<4, 1, 2, 3, 4, 5, 6>(pixels);
+    }
   }
-}
 
+ private:
+  using Tile = SizedTile<Run>;
+
+  template <int kPixels, int kVecs>
+  static void whole(Spot& s, const std::int16_t* w) {
+    multiply<kPixels, kVecs, 1, Finish<kVecs>>(s, w);
+  }
+  template <int kPixels>
+  static void half(Spot& s, const std::int16_t* w) {
+    multiply<kPixels, 1, 2, HalfFinish>(s, w);
+  }
+
+  template <int kVecs, int... kSizes>
+  static Tiling<Run> one_of(std::int32_t pixels) {
+    static constexpr Tile kTiles[] = {{kSizes, &whole<kSizes, kVecs>}...};
+    return tiling_of(kTiles, pixels);
+  }
+};
+
+template <class Rows>
 void sweep(const FixedProduct& a, std::int32_t first, std::int32_t panels) {
   const std::int16_t* w = a.pairs + std::ptrdiff_t{first} * a.to.in_blocks * kBlock * kPanel;
-  const Tiling<Run> tiles = tiles_of(panels, a.to.pixels);
-  FixedSpot spot(a, first, 0);
+  const auto tiles = Tiles<Rows>::of(panels, a.to.pixels);
+  FixedSpot<Rows> spot(a, first, 0);
   for (std::int32_t i = 0; i < tiles.count; ++i) {
     tiles.each.run(spot, w);
   }
   if (tiles.last.run != nullptr) {
-    FixedSpot end(a, first, a.to.pixels - tiles.last.pixels);
+    FixedSpot<Rows> end(a, first, a.to.pixels - tiles.last.pixels);
     tiles.last.run(end, w);
   }
 }
 
-}  // namespace
-
-void multiply_fixed(const FixedProduct& a) {
+template <class Rows>
+void multiply_to(const FixedProduct& a) {
   const std::int32_t panels = a.to.out_blocks / 2;
   const std::int32_t at_once = a.to.pixels <= 6 ? 4 : a.to.pixels == 9 ? 3 : 2;
   std::int32_t done = 0;
   for (std::int32_t count = at_once; count > 0; count = count > 2 ? 2 : count - 1) {
     for (; done + count <= panels; done += count) {
-      sweep(a, done, count);
+      sweep<Rows>(a, done, count);
     }
   }
   if (a.to.out_blocks % 2 != 0) {
-    sweep(a, done, 0);
+    sweep<Rows>(a, done, 0);
   }
 }
+
+}  // namespace
+
+void multiply_fixed_to_strip(const FixedProduct& a) { multiply_to<StripRows>(a); }
+void multiply_fixed_to_map(const FixedProduct& a) { multiply_to<MapRows>(a); }
 
 }  // namespace mien::kernels::avx512vnni

@@ -11,7 +11,7 @@ namespace mien::kernels {
 //   y[p, o] = min(max(bias[o] + sum over i of w[o, i] x[p, i], low), high) + r[p, o]
 //
 // where w[o, i] = steps[o] pairs[o, i], as fixed_weights.h has them, and x[p, i] = x_step values[p,
-// i]. Of `to` everything counts but x, weights and wide.
+// i]. Of `to` everything counts but x, weights and wide, to a strip the residual neither.
 struct FixedProduct {
   ProductArgs to;
   const std::int16_t* values;  // [in_blocks] blocks of 8 channels of [pixels]
@@ -22,7 +22,8 @@ struct FixedProduct {
 };
 
 namespace avx512vnni {
-void multiply_fixed(const FixedProduct& product);
-}
+void multiply_fixed_to_strip(const FixedProduct& product);
+void multiply_fixed_to_map(const FixedProduct& product);
+}  // namespace avx512vnni
 
 }  // namespace mien::kernels
