@@ -9,6 +9,7 @@ struct Simd {
   static constexpr std::int32_t kLanes = avx2::kLanes;
   using Vec = __m256;
   using Ints = __m256i;
+  using Neighbours = tiles::Gathered<Simd>;
 
   static Vec splat(float x) { return _mm256_set1_ps(x); }
   static Vec load(const float* at) { return _mm256_loadu_ps(at); }

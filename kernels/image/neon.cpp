@@ -9,6 +9,7 @@ struct Simd {
   static constexpr std::int32_t kLanes = MIEN_TIER::kLanes;
   using Vec = float32x4_t;
   using Ints = int32x4_t;
+  using Neighbours = tiles::Gathered<Simd>;
 
   static Vec splat(float x) { return vdupq_n_f32(x); }
   static Vec load(const float* at) { return vld1q_f32(at); }

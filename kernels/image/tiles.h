@@ -7,7 +7,9 @@
 //   Vec, Ints; splat, load, count_from(first), fma(sum, a, b), sub, min, max, floor
 //   finite_or_0(Vec); equal(Vec, Vec): 0 where not; to_ints(Vec); store(std::int32_t*, Ints)
 //   Shares; shares_of(Vec): of neighbours that a place lies between, in parts of kWhole
-//   gather(const std::uint16_t* base, Ints index, Shares): the sum of a number's and the next one's
+//   Neighbours(column, row, stride, across): where between numbers of a copy with so many in a row,
+//     and above and below them; rows_of<kCount>(copies): of each copy the sum of a number's and the
+//     next one's share, of the upper row and the lower
 //   store_rgb(float*, Vec, Vec, Vec): kLanes pixels, interleaved
 // and of kSums numbers of 16 bits,
 //   Sums; load_sums, store_sums, add_sums
@@ -60,6 +62,11 @@ struct Channel {
     end_x = static_cast<float>(columns) / side + 2.0f;
     end_y = static_cast<float>(rows) / side + 2.0f;
   }
+
+  [[nodiscard]] bool has_grid_of(const Channel& other) const {
+    return std::equal(across, across + 3, other.across) && std::equal(down, down + 3, other.down) &&
+           end_x == other.end_x && end_y == other.end_y;
+  }
 };
 
 // Of the outputs, ends excluded.
@@ -82,18 +89,11 @@ struct Tile {
 // Of the boxes of a channel.
 struct Window {
   std::int32_t left = 0, top = 0, columns = 0, rows = 0;
-  // The sample of a box in a copy has the number row * stride + column - first.
-  float stride = 0.0f, first = 0.0f;
 
   Window() = default;
   // Ends included; a bilinear sample needs the next box too.
   Window(std::int32_t from_x, std::int32_t to_x, std::int32_t from_y, std::int32_t to_y)
-      : left(from_x),
-        top(from_y),
-        columns(to_x - from_x + 2),
-        rows(to_y - from_y + 2),
-        stride(static_cast<float>(columns)),
-        first(static_cast<float>(top) * stride + static_cast<float>(left)) {}
+      : left(from_x), top(from_y), columns(to_x - from_x + 2), rows(to_y - from_y + 2) {}
 
   [[nodiscard]] std::int32_t samples() const { return rows * columns; }
 };
@@ -142,6 +142,33 @@ inline Mixing mixing_of(const WarpArgs& a) {
   return mixing;
 }
 
+// The Neighbours of tiers that gather each pair of numbers:
+//   gather(const std::uint16_t* base, Ints index, Shares)
+template <class Simd>
+class Gathered {
+ public:
+  using Vec = typename Simd::Vec;
+
+  Gathered() = default;
+  Gathered(Vec column, Vec row, std::int32_t stride, Vec across)
+      : index_(Simd::to_ints(Simd::fma(column, row, Simd::splat(static_cast<float>(stride))))),
+        shares_(Simd::shares_of(across)),
+        stride_(stride) {}
+
+  template <int kCount>
+  void rows_of(const std::uint16_t* const* copies, Vec* upper, Vec* lower) const {
+    for (int c = 0; c < kCount; ++c) {
+      upper[c] = Simd::gather(copies[c], index_, shares_);
+      lower[c] = Simd::gather(copies[c] + stride_, index_, shares_);
+    }
+  }
+
+ private:
+  typename Simd::Ints index_;
+  typename Simd::Shares shares_;
+  std::int32_t stride_;
+};
+
 template <class Simd>
 class Warp {
  public:
@@ -164,6 +191,7 @@ class Warp {
         return;
       case PixelFormat::kYuv420:
         channels_[0] = packed(0), channels_[1] = chroma(1), channels_[2] = chroma(2);
+        has_own_grid_ = !channels_[1].has_grid_of(channels_[0]);
         return;
       case PixelFormat::kRgb:
       case PixelFormat::kRgba:
@@ -253,8 +281,8 @@ class Warp {
   // False when the tile needs more of the image than there is room for.
   [[nodiscard]] bool copy(const Tile& tile) {
     for (std::int32_t c = 0; c < count_; ++c) {
-      // The third channel lies where the second does; of packed ones all do where the first does.
-      if (c == 2 || (c == 1 && !has_chroma())) {
+      // The third channel lies where the second does, and most often that where the first does.
+      if (c == 2 || (c == 1 && !has_own_grid_)) {
         windows_[c] = windows_[c - 1];
         continue;
       }
@@ -271,7 +299,11 @@ class Warp {
       return false;
     }
     for (std::int32_t c = 0; c < count_; ++c) {
-      fill(channels_[c], windows_[c], copies_[c]);
+      const Channel& channel = channels_[c];
+      fill(channel, windows_[c], copies_[c]);
+      if (c == 0 || channel.plane.pixel_bytes == 1 || (c == 1 && has_chroma())) {
+        fetch_next(channel, windows_[c]);
+      }
     }
     return true;
   }
@@ -352,6 +384,25 @@ class Warp {
       while (n > window.columns) {
         n /= 2;
         halve(n, room(n), [](auto a, auto b) { return Simd::pairs(a, b); });
+      }
+    }
+  }
+
+  // Asks for what the tile below this one will need.
+  void fetch_next(const Channel& channel, const Window& window) const {
+    constexpr std::int32_t kLineBytes = 64;
+    const auto next = [&](float step) { return static_cast<std::int32_t>(kTileRows * step); };
+    const Plane& plane = channel.plane;
+    const std::int32_t first =
+        std::clamp((window.left + next(channel.across[1])) * channel.box, 0, channel.width - 1);
+    const std::int32_t top = (window.top + next(channel.down[1])) * channel.box;
+    const std::ptrdiff_t bytes = window.columns * channel.box * plane.pixel_bytes;
+    for (std::int32_t r = 0; r < window.rows * channel.box; ++r) {
+      const std::uint8_t* row = plane.data +
+                                std::clamp(top + r, 0, channel.height - 1) * plane.row_bytes +
+                                first * plane.pixel_bytes;
+      for (std::ptrdiff_t i = 0; i < bytes; i += kLineBytes) {
+        __builtin_prefetch(row + i);
       }
     }
   }
@@ -470,8 +521,7 @@ class Warp {
 
   // Where in a copy, and where between there and its neighbours.
   struct Spot {
-    typename Simd::Ints index;
-    typename Simd::Shares across;
+    typename Simd::Neighbours neighbours;
     Vec down;
   };
 
@@ -519,7 +569,7 @@ class Warp {
         return tile.is_one() ? finite(middle) : middle;
       };
       find(at(first), 0, spots->first);
-      if (has_chroma()) {
+      if (has_own_grid_) {
         find(at(chroma), 1, spots->chroma);
       }
       ++spots;
@@ -528,10 +578,12 @@ class Warp {
 
   void find(const Place& place, std::int32_t c, Spot& spot) const {
     const Position at = position(place, channels_[c]);
-    const Vec column = Simd::sub(at.column, Simd::splat(windows_[c].first));
-    const Vec index = Simd::fma(column, at.row, Simd::splat(windows_[c].stride));
-    spot.index = Simd::to_ints(index);
-    spot.across = Simd::shares_of(at.across);
+    const Window& window = windows_[c];
+    const auto from = [](Vec coordinate, std::int32_t first) {
+      return Simd::sub(coordinate, Simd::splat(static_cast<float>(first)));
+    };
+    spot.neighbours = {from(at.column, window.left), from(at.row, window.top), window.columns,
+                       at.across};
     spot.down = at.down;
   }
 
@@ -546,19 +598,29 @@ class Warp {
   }
 
   void gray(const Spots& at, Vec rgb[3]) const {
-    rgb[0] = rgb[1] = rgb[2] = kept(mixed(0, 0, sample(at.first, 0), shift(0)));
+    Vec y;
+    sample<1>(at.first, 0, &y);
+    rgb[0] = rgb[1] = rgb[2] = kept(mixed(0, 0, y, shift(0)));
   }
 
   void from_yuv(const Spots& at, Vec rgb[3]) const {
-    const Vec y = sample(at.first, 0), u = sample(at.chroma, 1), v = sample(at.chroma, 2);
+    Vec yuv[3];
+    if (has_own_grid_) {
+      sample<1>(at.first, 0, yuv);
+      sample<2>(at.chroma, 1, yuv + 1);
+    } else {
+      sample<3>(at.first, 0, yuv);
+    }
+    const Vec y = yuv[0], u = yuv[1], v = yuv[2];
     rgb[0] = kept(mixed(0, 2, v, mixed(0, 0, y, shift(0))));
     rgb[1] = kept(mixed(1, 2, v, mixed(1, 1, u, mixed(1, 0, y, shift(1)))));
     rgb[2] = kept(mixed(2, 1, u, mixed(2, 0, y, shift(2))));
   }
 
   void from_packed(const Spots& at, Vec rgb[3]) const {
+    sample<3>(at.first, 0, rgb);
     for (std::int32_t c = 0; c < 3; ++c) {
-      rgb[c] = mixed(c, c, sample(at.first, c), shift(c));
+      rgb[c] = mixed(c, c, rgb[c], shift(c));
     }
   }
 
@@ -570,17 +632,20 @@ class Warp {
     return Simd::min(Simd::max(value, Simd::splat(mixing_.low)), Simd::splat(mixing_.high));
   }
 
-  // A sum, bilinear between four.
-  [[nodiscard]] Vec sample(const Spot& spot, std::int32_t c) const {
-    const std::uint16_t* upper = copies_[c];
-    const Vec top = Simd::gather(upper, spot.index, spot.across);
-    const Vec bottom = Simd::gather(upper + windows_[c].columns, spot.index, spot.across);
-    return Simd::fma(top, spot.down, Simd::sub(bottom, top));
+  // Sums of kCount channels from the first on, each bilinear between four.
+  template <int kCount>
+  void sample(const Spot& spot, std::int32_t first, Vec* sums) const {
+    Vec upper[kCount], lower[kCount];
+    spot.neighbours.template rows_of<kCount>(copies_ + first, upper, lower);
+    for (int c = 0; c < kCount; ++c) {
+      sums[c] = Simd::fma(upper[c], spot.down, Simd::sub(lower[c], upper[c]));
+    }
   }
 
   const WarpArgs& a_;
   const Mixing mixing_;
   std::int32_t count_ = 3;
+  bool has_own_grid_ = false;  // chroma
   Channel channels_[3] = {};
   Window windows_[3] = {};
   std::uint16_t* copies_[3] = {};

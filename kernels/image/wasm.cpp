@@ -9,6 +9,7 @@ struct Simd {
   static constexpr std::int32_t kLanes = wasm::kLanes;
   using Vec = v128_t;
   using Ints = v128_t;
+  using Neighbours = tiles::Gathered<Simd>;
 
   static Vec splat(float x) { return wasm_f32x4_splat(x); }
   static Vec load(const float* at) { return wasm_v128_load(at); }

@@ -1,0 +1,176 @@
+// Neighbours of 16 places that lie close together are picked out of rows that were loaded whole: a
+// gather takes longer than several rows.
+#include "kernels/common/avx512.h"
+#include "kernels/families.h"
+#include "kernels/image/tiles.h"
+
+namespace mien::kernels::avx512 {
+namespace {
+
+struct Simd {
+  static constexpr std::int32_t kLanes = 16;
+  using Vec = avx512::Vec;
+  using Ints = __m512i;
+
+  static Vec splat(float x) { return _mm512_set1_ps(x); }
+  static Vec load(const float* at) { return _mm512_loadu_ps(at); }
+  static Vec count_from(float first) {
+    return _mm512_add_ps(splat(first),
+                         _mm512_setr_ps(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15));
+  }
+  static Vec fma(Vec sum, Vec a, Vec b) { return _mm512_fmadd_ps(a, b, sum); }
+  static Vec sub(Vec a, Vec b) { return _mm512_sub_ps(a, b); }
+  static Vec min(Vec a, Vec b) { return _mm512_min_ps(a, b); }
+  static Vec max(Vec a, Vec b) { return _mm512_max_ps(a, b); }
+  static Vec floor(Vec x) {
+    return _mm512_roundscale_ps(x, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
+  }
+  static Ints equal(Vec a, Vec b) {
+    return _mm512_movm_epi32(_mm512_cmp_ps_mask(a, b, _CMP_EQ_OQ));
+  }
+  // A comparison with what is not a number is false.
+  static Vec finite_or_0(Vec x) {
+    return _mm512_maskz_mov_ps(_mm512_cmp_ps_mask(_mm512_abs_ps(x), splat(3.0e38f), _CMP_LE_OQ), x);
+  }
+  static Ints to_ints(Vec x) { return _mm512_cvtps_epi32(x); }
+  static void store(std::int32_t* at, Ints x) { _mm512_storeu_si512(at, x); }
+
+  // A neighbour's in the low half of 32 bits, the next one's in the high half.
+  using Shares = Ints;
+  static Shares shares_of(Vec across) {
+    const Ints next = to_ints(_mm512_mul_ps(across, splat(tiles::kWhole)));
+    const Ints both = _mm512_sub_epi32(_mm512_slli_epi32(next, 16), next);
+    return _mm512_add_epi32(both, _mm512_set1_epi32(tiles::kWhole));
+  }
+
+  // Places of a vector lie on a line, so that the ends are the first and the last.
+  struct Ends {
+    std::int32_t least, most;
+    Ends() = default;
+    explicit Ends(Ints x) {
+      const std::int32_t first = _mm512_cvtsi512_si32(x);
+      const std::int32_t last = _mm_extract_epi32(_mm512_extracti32x4_epi32(x, 3), 3);
+      least = std::min(first, last);
+      most = std::max(first, last);
+    }
+  };
+
+  class Neighbours {
+   public:
+    Neighbours() = default;
+    Neighbours(Vec column, Vec row, std::int32_t stride, Vec across)
+        : rows_(to_ints(row)), shares_(shares_of(across)), stride_(stride), height_(rows_) {
+      const Ints columns = to_ints(column);
+      const Ends width(columns);
+      is_close_ = width.most - width.least < kLoaded - 1 && height_.most - height_.least < kMostRows;
+      first_ = is_close_ ? height_.least * stride + width.least : 0;
+      const Ints from = _mm512_sub_epi32(columns, _mm512_set1_epi32(width.least));
+      order_ = is_close_ ? _mm512_add_epi32(_mm512_or_si512(from, _mm512_slli_epi32(from, 16)),
+                                            _mm512_set1_epi32(1 << 16))
+                         : to_ints(fma(column, row, splat(static_cast<float>(stride))));
+    }
+
+    template <int kCount>
+    void rows_of(const std::uint16_t* const* copies, Vec* upper, Vec* lower) const {
+      Ints above[kCount], below[kCount];
+      if (is_close_) {
+        pick<kCount>(copies, above, below);
+      } else {
+        for (int c = 0; c < kCount; ++c) {
+          above[c] = gather(copies[c]);
+          below[c] = gather(copies[c] + stride_);
+        }
+      }
+      for (int c = 0; c < kCount; ++c) {
+        upper[c] = _mm512_cvtepi32_ps(above[c]);
+        lower[c] = _mm512_cvtepi32_ps(below[c]);
+      }
+    }
+
+   private:
+    static constexpr std::int32_t kLoaded = 32;    // numbers of a row
+    static constexpr std::int32_t kMostRows = 20;  // take longer than two gathers
+
+    // Row after row gives its sums to the places below it, and to those above the next.
+    template <int kCount>
+    void pick(const std::uint16_t* const* copies, Ints* above, Ints* below) const {
+      for (int c = 0; c < kCount; ++c) {
+        above[c] = below[c] = _mm512_setzero_si512();
+      }
+      Ints number = _mm512_set1_epi32(height_.least);
+      __mmask16 before = 0;
+      std::ptrdiff_t at = first_;
+      for (std::int32_t i = height_.least; i <= height_.most + 1; ++i, at += stride_) {
+        const __mmask16 here = _mm512_cmpeq_epi32_mask(rows_, number);
+        for (int c = 0; c < kCount; ++c) {
+          const Ints row = _mm512_loadu_si512(copies[c] + at);
+          const Ints sums = _mm512_madd_epi16(_mm512_permutexvar_epi16(order_, row), shares_);
+          below[c] = _mm512_mask_mov_epi32(below[c], before, sums);
+          above[c] = _mm512_mask_mov_epi32(above[c], here, sums);
+        }
+        before = here;
+        number = _mm512_add_epi32(number, _mm512_set1_epi32(1));
+      }
+    }
+    [[nodiscard]] Ints gather(const std::uint16_t* base) const {
+      return _mm512_madd_epi16(_mm512_i32gather_epi32(order_, base, 2), shares_);
+    }
+
+    Ints rows_, shares_;
+    Ints order_;  // of pairs in what is loaded, or where in a copy they are
+    std::int32_t stride_, first_;
+    Ends height_;
+    bool is_close_;
+  };
+
+  static void store_rgb(float* at, Vec r, Vec g, Vec b) {
+    // Where red and green go, then blue among them, for each third.
+    const auto third = [&](int first, Ints red_green, Ints blue) {
+      const Vec rg = _mm512_permutex2var_ps(r, red_green, g);
+      _mm512_storeu_ps(at + first, _mm512_permutex2var_ps(rg, blue, b));
+    };
+    third(0, _mm512_setr_epi32(0, 16, 0, 1, 17, 0, 2, 18, 0, 3, 19, 0, 4, 20, 0, 5),
+          _mm512_setr_epi32(0, 1, 16, 3, 4, 17, 6, 7, 18, 9, 10, 19, 12, 13, 20, 15));
+    third(16, _mm512_setr_epi32(21, 0, 6, 22, 0, 7, 23, 0, 8, 24, 0, 9, 25, 0, 10, 26),
+          _mm512_setr_epi32(0, 21, 2, 3, 22, 5, 6, 23, 8, 9, 24, 11, 12, 25, 14, 15));
+    third(32, _mm512_setr_epi32(0, 11, 27, 0, 12, 28, 0, 13, 29, 0, 14, 30, 0, 15, 31, 0),
+          _mm512_setr_epi32(26, 1, 2, 27, 4, 5, 28, 7, 8, 29, 10, 11, 30, 13, 14, 31));
+  }
+
+  static constexpr std::int32_t kSums = 32;
+  using Sums = __m512i;
+
+  static Sums load_sums(const std::uint16_t* at) { return _mm512_loadu_si512(at); }
+  static void store_sums(std::uint16_t* at, Sums x) { _mm512_storeu_si512(at, x); }
+  static Sums add_sums(Sums a, Sums b) { return _mm512_add_epi16(a, b); }
+
+  static Sums bytes(const std::uint8_t* at) {
+    return _mm512_cvtepu8_epi16(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(at)));
+  }
+  static Sums both_bytes(const std::uint8_t* at) { return _mm512_loadu_si512(at); }
+  static Sums byte_pairs(const std::uint8_t* at) {
+    return _mm512_maddubs_epi16(both_bytes(at), _mm512_set1_epi8(1));
+  }
+  static Sums even_bytes(const std::uint8_t* at) {
+    return _mm512_and_si512(both_bytes(at), _mm512_set1_epi16(0xFF));
+  }
+
+  static Sums joined(__m512i a, __m512i b) {
+    return _mm512_inserti64x4(_mm512_castsi256_si512(_mm512_cvtepi32_epi16(a)),
+                              _mm512_cvtepi32_epi16(b), 1);
+  }
+  static Sums pairs(Sums a, Sums b) {
+    const __m512i ones = _mm512_set1_epi16(1);
+    return joined(_mm512_madd_epi16(a, ones), _mm512_madd_epi16(b, ones));
+  }
+  static Sums evens(Sums a, Sums b) { return joined(a, b); }
+};
+
+}  // namespace
+
+void warp(const WarpArgs& a) {
+  tiles::Warp<Simd> tiles(a);
+  tiles.run();
+}
+
+}  // namespace mien::kernels::avx512
