@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/arena_plan.h"
 #include "kernels/families.h"
 #include "kernels/registry.h"
 
@@ -76,7 +77,7 @@ bool fixes_weights(std::uint32_t cpu_mask) {
 
 std::size_t fixed_weights_bytes(std::int32_t in_c, std::int32_t out_c) {
   const auto padded = [](std::int32_t c) { return (static_cast<std::size_t>(c) + 7) / 8 * 8; };
-  return padded(out_c) * (padded(in_c) * sizeof(std::int16_t) + sizeof(float));
+  return aligned(padded(out_c) * (padded(in_c) * sizeof(std::int16_t) + sizeof(float)));
 }
 
 bool fuses(const formats::LayerRecord& layer) {

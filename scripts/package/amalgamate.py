@@ -63,8 +63,8 @@ class Tier:
 
 # gcc's scheduling before register allocation stretches the lives of the sums until they spill.
 NEON_PRAGMA = '#if defined(__GNUC__) && !defined(__clang__)\n#pragma GCC optimize("no-schedule-insns")\n#endif'
-# gcc 12 moves the sums of a tile back and forth, and spills them (kernels/CMakeLists.txt).
-VNNI_PRAGMA = '#if defined(__GNUC__) && !defined(__clang__)\n#pragma GCC optimize("no-tree-coalesce-vars")\n#endif'
+# gcc 12 moves the sums of a tile back and forth, and spills them, in two ways (kernels/CMakeLists.txt).
+VNNI_PRAGMA = '#if defined(__GNUC__) && !defined(__clang__)\n#pragma GCC optimize("no-tree-coalesce-vars", "no-tree-pre")\n#endif'
 def ignored(condition, compiler, warnings):
     return [f"#if {condition}", *(f'#pragma {compiler} diagnostic ignored "-W{name}"' for name in warnings), "#endif"]
 
