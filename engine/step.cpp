@@ -209,7 +209,8 @@ Status StepMaker::fix_weights(std::byte* to, kernels::InvertedResidualArgs& args
     one.in_blocks = (in_c + 7) / 8;
     one.out_blocks = (out_c + 7) / 8;
     one.pairs = reinterpret_cast<std::int16_t*>(to);
-    one.steps = reinterpret_cast<float*>(one.pairs + std::ptrdiff_t{one.in_blocks} * one.out_blocks * 64);
+    one.steps =
+        reinterpret_cast<float*>(one.pairs + std::ptrdiff_t{one.in_blocks} * one.out_blocks * 64);
     one.weights = weights.weights;
     one.most = of_map ? kernels::kFixedMapMost : kernels::kFixedBandMost;
     one.is_signed = of_map;

@@ -85,16 +85,28 @@ void tile(const Panels& t, const Windows& at) {
   const std::ptrdiff_t step = std::ptrdiff_t{a.stride_w} * a.x_pixel_elems;
   const std::ptrdiff_t plane = std::ptrdiff_t{a.in_h} * a.in_w * kBlock;
   const std::int32_t top = at.oy * a.stride_h - a.pad_top, left = at.ox * a.stride_w - a.pad_left;
-  // Interleaved, neighbouring columns are neighbours in memory and in the weights.
-  const bool runs_on = a.x_pixel_elems == a.in_c;
-  const std::int32_t columns = runs_on ? at.xs.last - at.xs.first : 1;
-  for (std::int32_t ky = at.ys.first; ky < at.ys.last; ++ky) {
-    for (std::int32_t kx = at.xs.first; kx < at.xs.last; kx += columns) {
-      const float* x = a.x + (std::ptrdiff_t{top + ky} * a.in_w + left + kx) * a.x_pixel_elems;
-      const std::uint16_t* w = t.weights + std::ptrdiff_t{ky * a.kernel_w + kx} * a.in_c * kWidth;
-      for (std::int32_t c = 0; c < a.in_c; c += runs_on ? a.in_c : kBlock, x += plane) {
-        const std::int32_t count = runs_on ? columns * a.in_c : std::min(kBlock, a.in_c - c);
-        w = add_run<kPixels, kVecs, kStep, kWidth>(x, count, step, w, panel, sum);
+  const std::ptrdiff_t row = std::ptrdiff_t{a.in_w} * a.x_pixel_elems;
+  const float* x =
+      a.x + (top + at.ys.first) * row + std::ptrdiff_t{left + at.xs.first} * a.x_pixel_elems;
+  const std::uint16_t* w =
+      t.weights + std::ptrdiff_t{at.ys.first * a.kernel_w + at.xs.first} * a.in_c * kWidth;
+  const std::ptrdiff_t w_row = std::ptrdiff_t{a.kernel_w} * a.in_c * kWidth;
+  std::int32_t rows = at.ys.last - at.ys.first;
+  if (a.x_pixel_elems == a.in_c) {
+    // Interleaved, neighbouring columns are neighbours in memory and in the weights.
+    const std::int32_t count = (at.xs.last - at.xs.first) * a.in_c;
+    for (; rows > 0; --rows, x += row, w += w_row) {
+      add_run<kPixels, kVecs, kStep, kWidth>(x, count, step, w, panel, sum);
+    }
+  } else {
+    for (; rows > 0; --rows, x += row, w += w_row) {
+      const std::uint16_t* w_next = w;
+      for (std::int32_t kx = at.xs.first; kx < at.xs.last; ++kx) {
+        const float* x_next = x + (kx - at.xs.first) * a.x_pixel_elems;
+        for (std::int32_t c = 0; c < a.in_c; c += kBlock, x_next += plane) {
+          w_next = add_run<kPixels, kVecs, kStep, kWidth>(x_next, std::min(kBlock, a.in_c - c),
+                                                          step, w_next, panel, sum);
+        }
       }
     }
   }
