@@ -299,11 +299,7 @@ class Warp {
       return false;
     }
     for (std::int32_t c = 0; c < count_; ++c) {
-      const Channel& channel = channels_[c];
-      fill(channel, windows_[c], copies_[c]);
-      if (c == 0 || channel.plane.pixel_bytes == 1 || (c == 1 && has_chroma())) {
-        fetch_next(channel, windows_[c]);
-      }
+      fill(channels_[c], windows_[c], copies_[c]);
     }
     return true;
   }
@@ -384,25 +380,6 @@ class Warp {
       while (n > window.columns) {
         n /= 2;
         halve(n, room(n), [](auto a, auto b) { return Simd::pairs(a, b); });
-      }
-    }
-  }
-
-  // Asks for what the tile below this one will need.
-  void fetch_next(const Channel& channel, const Window& window) const {
-    constexpr std::int32_t kLineBytes = 64;
-    const auto next = [&](float step) { return static_cast<std::int32_t>(kTileRows * step); };
-    const Plane& plane = channel.plane;
-    const std::int32_t first =
-        std::clamp((window.left + next(channel.across[1])) * channel.box, 0, channel.width - 1);
-    const std::int32_t top = (window.top + next(channel.down[1])) * channel.box;
-    const std::ptrdiff_t bytes = window.columns * channel.box * plane.pixel_bytes;
-    for (std::int32_t r = 0; r < window.rows * channel.box; ++r) {
-      const std::uint8_t* row = plane.data +
-                                std::clamp(top + r, 0, channel.height - 1) * plane.row_bytes +
-                                first * plane.pixel_bytes;
-      for (std::ptrdiff_t i = 0; i < bytes; i += kLineBytes) {
-        __builtin_prefetch(row + i);
       }
     }
   }

@@ -66,12 +66,25 @@ void slide_rows(const InvertedResidualArgs& a, const Slide<float>& s) {
 
 // `elems`: a multiple of 8.
 float largest_of(const float* x, std::ptrdiff_t elems) {
-  Vec largest = _mm512_set1_ps(0x1p-64f);  // what is far smaller is taken for 0
-  for (; elems >= 16; elems -= 16, x += 16) {
-    largest = _mm512_max_ps(largest, _mm512_abs_ps(_mm512_loadu_ps(x)));
+  constexpr int kAtOnce = 4;  // each waits for the one before
+  Vec largest[kAtOnce];
+  for (Vec& one : largest) {
+    one = _mm512_set1_ps(0x1p-64f);  // what is far smaller is taken for 0
   }
-  const Vec rest = _mm512_maskz_loadu_ps(avx512::first_lanes(static_cast<std::int32_t>(elems)), x);
-  return _mm512_reduce_max_ps(_mm512_max_ps(largest, _mm512_abs_ps(rest)));
+  const auto take = [&](Vec& one, Vec values) { one = _mm512_max_ps(one, _mm512_abs_ps(values)); };
+  for (; elems >= 16 * kAtOnce; elems -= 16 * kAtOnce, x += 16 * kAtOnce) {
+    for (int k = 0; k < kAtOnce; ++k) {
+      take(largest[k], _mm512_loadu_ps(x + 16 * k));
+    }
+  }
+  for (; elems > 0; elems -= 16, x += 16) {
+    take(largest[0],
+         _mm512_maskz_loadu_ps(avx512::first_lanes(static_cast<std::int32_t>(elems)), x));
+  }
+  for (int k = 1; k < kAtOnce; ++k) {
+    take(largest[0], largest[k]);
+  }
+  return _mm512_reduce_max_ps(largest[0]);
 }
 
 void to_fixed(const float* x, std::ptrdiff_t elems, Vec per_step, std::int16_t* y) {
