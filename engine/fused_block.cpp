@@ -12,9 +12,9 @@ using formats::LayerActivation;
 
 namespace {
 
-// A band for the second-level cache, a strip for the first.
+// A band for the second-level cache, a strip for the first, which has 48 KB where it is new.
 constexpr std::int64_t kBandBytes = std::int64_t{256} * 1024;
-constexpr std::int64_t kStripBytes = std::int64_t{32} * 1024;
+constexpr std::int64_t kStripBytes = std::int64_t{36} * 1024;
 
 // So many channels that their sums fill the registers: fewer pixels, more channels.
 std::int32_t channels_at_once(std::size_t pixels) {
@@ -38,7 +38,8 @@ BlockTiling tile_block(const formats::LayerRecord& slide, const Shape& hidden, c
   };
   t.band_rows =
       static_cast<std::int32_t>(std::clamp<std::int64_t>(rows_in(kBandBytes, band_row), 1, slid.h));
-  t.strip_channels = channels_at_once(hidden.pixels());
+  t.strip_channels =
+      std::min(channels_at_once(hidden.pixels()), static_cast<std::int32_t>(channels));
   t.strip_w =
       std::max(slide.pad_left + hidden.w, (slid.w - 1) * slide.stride_width + slide.kernel_width);
   const std::size_t strip_row =
