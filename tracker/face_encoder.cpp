@@ -6,7 +6,7 @@ namespace mien::tracker {
 
 mien_status FaceEncoder::load(const engine::Model& model, const Raster& raster,
                               std::uint32_t cpu_mask, engine::Arena& arena) {
-  if (!sampler_.init(cpu_mask)) {
+  if (!sampler_.init(cpu_mask, arena)) {
     return MIEN_ERROR_UNSUPPORTED_CPU;
   }
   raster_ = raster;

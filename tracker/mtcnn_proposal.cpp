@@ -46,7 +46,7 @@ Square canvas_of(const ImageView& view) {
 
 mien_status MtcnnProposal::load(const mien_tracker_config& config, const Models& models,
                                 engine::Arena& arena) {
-  if (!sampler_.init(config.cpu_mask)) {
+  if (!sampler_.init(config.cpu_mask, arena)) {
     return MIEN_ERROR_UNSUPPORTED_CPU;
   }
   proposal_threshold_ = config.proposal_threshold;

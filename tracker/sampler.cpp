@@ -93,6 +93,7 @@ void Sampler::cut(const ImageView& view, const Crop& crop, const Raster& raster,
   args.height = raster.rows;
   args.scale = kScale;
   args.offset = kBlack;
+  args.samples = samples_;
   warp_(args);
 }
 

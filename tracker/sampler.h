@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 
+#include "engine/arena.h"
 #include "kernels/image/warp.h"
 #include "kernels/registry.h"
 #include "tracker/crop.h"
@@ -22,8 +23,11 @@ struct Raster {
 class Sampler {
  public:
   // False when no tier of the mask has the kernel.
-  [[nodiscard]] bool init(std::uint32_t cpu_mask) {
+  [[nodiscard]] bool init(std::uint32_t cpu_mask, engine::Arena& arena) {
     warp_ = kernels::find<kernels::WarpArgs>(cpu_mask);
+    const std::span<std::byte> shared =
+        arena.share(kernels::kWarpSampleElems * sizeof(std::uint16_t));
+    samples_ = reinterpret_cast<std::uint16_t*>(shared.data());
     return warp_ != nullptr;
   }
 
@@ -38,6 +42,7 @@ class Sampler {
 
  private:
   kernels::Kernel<kernels::WarpArgs> warp_ = nullptr;
+  std::uint16_t* samples_ = nullptr;  // what only a cut in progress needs
 };
 
 }  // namespace mien::tracker

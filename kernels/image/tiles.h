@@ -27,14 +27,14 @@ namespace mien::kernels::tiles {
 
 // Of the output: wide, since each row of a copy costs something. A tile that needs more of the
 // image than there is room for is halved.
-constexpr std::int32_t kTileRows = 12, kTileColumns = 72;
-constexpr std::int32_t kMostSamples = 3072;  // of a copy of all channels
-constexpr std::int32_t kMostSums = 832;      // of a row, before it is made smaller
-constexpr std::int32_t kPiece = 5;           // vectors of a row at a time
-constexpr std::int32_t kMostWaiting = 12;    // parts of a tile: one for each time it is halved
+constexpr std::int32_t kTileRows = 12, kTileColumns = 112;
+constexpr std::int32_t kMostSums = 832;    // of a row, before it is made smaller
+constexpr std::int32_t kPiece = 5;         // vectors of a row at a time
+constexpr std::int32_t kMostWaiting = 12;  // parts of a tile: one for each time it is halved
 constexpr std::int32_t kMostBox = 8;
-constexpr std::int32_t kMostStep = 3;     // numbers from one pixel to the next when rows are summed
-constexpr std::int32_t kSpare = 64;       // vectors may go on beyond what they are asked for
+constexpr std::int32_t kMostStep = 3;  // numbers from one pixel to the next when rows are summed
+constexpr std::int32_t kSpare = 64;    // vectors may go on beyond what they are asked for
+constexpr std::int32_t kMostSamples = kWarpSampleElems - 3 * kSpare;  // of a copy of all channels
 constexpr std::int32_t kWhole = 1 << 14;  // its products with sums of boxes fit into 32 bits
 
 namespace {
@@ -316,7 +316,7 @@ class Warp {
           used + window.samples() > kMostSamples) {
         return false;
       }
-      copies_[c] = samples_ + used + c * kSpare;
+      copies_[c] = a_.samples + used + c * kSpare;
       used += window.samples();
     }
     return true;
@@ -626,7 +626,6 @@ class Warp {
   Channel channels_[3] = {};
   Window windows_[3] = {};
   std::uint16_t* copies_[3] = {};
-  alignas(64) std::uint16_t samples_[kMostSamples + 3 * kSpare];
   alignas(64) std::uint16_t sums_[kMostSums + kSpare];
 };
 

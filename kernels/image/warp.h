@@ -57,6 +57,9 @@ struct WarpArgs {
   float* y;
   std::int32_t width, height;
   float scale, offset;
+  std::uint16_t* samples;  // [kWarpSampleElems], for the tiers to work in
 };
+
+inline constexpr std::int32_t kWarpSampleElems = 10432;
 
 }  // namespace mien::kernels

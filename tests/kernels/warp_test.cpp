@@ -19,6 +19,7 @@ TEST(Warp, OnePixelHasOneColourWhereverItIsLookedAt) {
       continue;
     }
     std::vector<float> picture(std::size_t{3} * kHeight * kWidth);
+    std::vector<std::uint16_t> samples(kWarpSampleElems);
     WarpArgs args{};
     args.format = PixelFormat::kYuv420;
     args.plane[0] = {&luma, 1, 1};
@@ -34,6 +35,7 @@ TEST(Warp, OnePixelHasOneColourWhereverItIsLookedAt) {
     args.width = kWidth;
     args.height = kHeight;
     args.scale = 1.0f;
+    args.samples = samples.data();
     find<WarpArgs>(bit(entry.tier))(args);
     for (std::size_t i = 0; i < picture.size(); i += 3) {
       ASSERT_NEAR(picture[i], 150 + 1.402 * (170 - 128), 0.05)

@@ -191,6 +191,7 @@ Case make(const Picture& picture, const Transform& transform) {
     test.buffers.push_back(reads(plane.bytes));
   }
   test.buffers.push_back(writes(Element::kFloat, expected(picture, transform)));
+  test.buffers.push_back(scratch(kernels::kWarpSampleElems / 2));
   test.bind = [=](const Places& places) {
     WarpArgs args{};
     args.format = picture.format;
@@ -209,6 +210,7 @@ Case make(const Picture& picture, const Transform& transform) {
     args.height = transform.height;
     args.scale = transform.scale;
     args.offset = transform.offset;
+    args.samples = reinterpret_cast<std::uint16_t*>(places.floats(4));
     return arguments(args);
   };
   test.call = call<WarpArgs>;
