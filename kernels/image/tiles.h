@@ -27,10 +27,10 @@ namespace mien::kernels::tiles {
 
 // Of the output: wide, since each row of a copy costs something. A tile that needs more of the
 // image than there is room for is halved.
-constexpr std::int32_t kTileRows = 12, kTileColumns = 112;
+constexpr std::int32_t kTileRows = 24, kTileColumns = 112;
 constexpr std::int32_t kMostSums = 832;    // of a row, before it is made smaller
 constexpr std::int32_t kPiece = 5;         // vectors of a row at a time
-constexpr std::int32_t kMostWaiting = 12;  // parts of a tile: one for each time it is halved
+constexpr std::int32_t kMostWaiting = 13;  // parts of a tile: one for each time it is halved
 constexpr std::int32_t kMostBox = 8;
 constexpr std::int32_t kMostStep = 3;  // numbers from one pixel to the next when rows are summed
 constexpr std::int32_t kSpare = 64;    // vectors may go on beyond what they are asked for

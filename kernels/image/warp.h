@@ -60,6 +60,6 @@ struct WarpArgs {
   std::uint16_t* samples;  // [kWarpSampleElems], for the tiers to work in
 };
 
-inline constexpr std::int32_t kWarpSampleElems = 10432;
+inline constexpr std::int32_t kWarpSampleElems = 19456;
 
 }  // namespace mien::kernels
