@@ -334,6 +334,20 @@ class Page(unittest.TestCase):
                 papers.add(self.js("getComputedStyle(document.body).backgroundColor"))
         self.assertEqual(len(papers), 2)
 
+    def test_axe_finds_nothing(self):
+        package = os.path.join(SOURCE, "apps/web/node_modules/axe-core/axe.min.js")
+        if not os.path.exists(package):
+            self.skipTest("no axe-core here, which scripts/web.sh brings")
+        with open(package, encoding="utf-8") as file:
+            axe = file.read()
+        for dark in (False, True):
+            for width in (1280, 390):
+                self.open(width=width, dark=dark)
+                self.js(axe + "; 0")
+                found = json.loads(self.js("axe.run().then(({passes, violations}) => JSON.stringify({passes: passes.length, violations}))"))
+                self.assertEqual(found["violations"], [], f"{width} wide, {'dark' if dark else 'light'}")
+                self.assertGreater(found["passes"], 30)
+
     def test_downloads(self):
         self.open()
         folder = tempfile.mkdtemp(dir=Folder.path)
