@@ -37,7 +37,7 @@ trap 'rm -f "$frames"' EXIT
 ffmpeg -v error -y -i tests/data/demo.mp4 -frames:v 20 -pix_fmt nv12 -f rawvideo "$frames"
 wine $build/tests/tracker/frame_bench/mien_frame_bench.exe models "$frames" 640 480 avx2
 
-# Not by default: under Wine ffmpeg 7.1 stands still in one of some hundred runs, and the test says so after five minutes.
+# Not by default: it fetches two programs of 80 MB each.
 program_beside_ours() {
   local ffmpeg_folder
   if ! ffmpeg_folder=$(scripts/cross/install_windows_ffmpeg.sh); then
