@@ -8,9 +8,15 @@ const out = here + 'dist/';
 const wasm = process.argv[2] ?? root + 'build/wasm/tracker/mien.wasm';
 const plain = ['index.html', 'theme.css', 'style.css', 'icon.svg', 'manifest.webmanifest'];
 
-const bundle = (entries, options = {}) => build({
-  entryPoints: entries, outdir: out, bundle: true, format: 'esm', target: 'es2022', minify: true, legalComments: 'none',
-  absWorkingDir: here, logLevel: 'warning', ...options});
+// What is left of lines is in template literals, nearly all of it shaders: without indentation and lines of comment.
+const plainLines = text => text.replace(/\n\s*\/\/.*/g, '').replace(/\n\s+/g, '\n');
+
+async function bundle(entries, options = {}) {
+  const {outputFiles} = await build({
+    entryPoints: entries, outdir: out, bundle: true, format: 'esm', target: 'es2022', minify: true, legalComments: 'none',
+    absWorkingDir: here, logLevel: 'warning', write: false, ...options});
+  for (const {path, text} of outputFiles) await writeFile(path, plainLines(text));
+}
 
 async function listFiles(folder, prefix = '') {
   const entries = await readdir(folder, {withFileTypes: true});

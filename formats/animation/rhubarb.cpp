@@ -209,7 +209,8 @@ bool read_tsv(std::string_view text, Clip& clip, Fault& fault) {
       return fail(fault, line, 1, quoted(row.substr(0, tab)) + " is not a time in seconds");
     }
     if (tab == std::string_view::npos || !is_shape(row.substr(tab + 1))) {
-      return fail(fault, line, std::min(tab, row.size()) + 2, "is none of the shapes A to H and X");
+      const std::size_t at = tab == std::string_view::npos ? row.size() : tab + 1;
+      return fail(fault, line, at + 1, "is none of the shapes A to H and X");
     }
     clip.frames.push_back(cue_frame(begin_s, row[tab + 1], clip.frames.size()));
     const std::size_t count = clip.frames.size();
@@ -356,7 +357,8 @@ bool read_dat(std::string_view text, Clip& clip, Fault& fault) {
     }
     const char shape = dat_shape(name, *blair);
     if (shape == '\0') {
-      return fail(fault, line, space + 2, "is no mouth of Rhubarb's or Preston Blair's");
+      return fail(fault, line, std::min(space + 1, row.size()) + 1,
+                  "is no mouth of Rhubarb's or Preston Blair's");
     }
     if (frame <= last) {
       return fail(fault, line, 1, "goes back in time");

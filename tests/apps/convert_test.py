@@ -562,7 +562,12 @@ Frame Time: 0.04
             '{"t_ns":0,"controls":{}}\n{"t_ns":1,"controls":{"jawOpen":"x"}}\n': "line 2, column 33: jawOpen: is not a number in 0..1",
             '{"t_ns":0}\n{"t_ns":1,}\n': "line 2, column 11: a key in quotation marks is missing",
             "HIERARCHY\nROOT a\n{\nOFFSET 0 0 zero\n": "line 4, column 12: 'zero' is not a number",
+            "t_ms,JawDrop,Pucker\n0,0,0\n40,0,-1\n": "line 3, column 6: Pucker: '-1' is not in 0..1",
+            "t_ms,sil,PP\n0,1,0\n40,,much\n": "line 3, column 5: PP: 'much' is not a number",
             "0.00\tX\n0.10\tQ\n0.20\tX\n": "line 2, column 6: is none of the shapes A to H and X",
+            "0.00\tX\n0.10\n": "line 2, column 5: is none of the shapes A to H and X",
+            '{"mouthCues":[\n{"start":0,"end":1,"value":"X"},\n{"start":1,"end":"2","value":"D"}]}':
+                "line 3, column 18: end: a time in seconds has to be here",
             '{"asset":{},\n"animations":[]}': "line 1, column 1: there is no animation",
             "glTF\1\0\0\0" + 12 * "\0": "byte 4: is not version 2 of glTF",
         }

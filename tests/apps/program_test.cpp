@@ -65,6 +65,21 @@ TEST_F(Program, OutputThatCannotBeWritten) {
   EXPECT_EQ(lines(failed.errors), 1u) << failed.errors;
 }
 
+// ffmpeg says times in seconds, some of its releases with six digits: what is late would be coarse.
+TEST_F(Program, TimesOfLongRecordingsAreExact) {
+  MIEN_NEEDS("trained model", have_models());
+  MIEN_NEEDS("ffmpeg", have_ffmpeg());
+  ASSERT_EQ(
+      std::system(("ffmpeg -v error -f lavfi -i color=s=64x64:r=3/10000 -frames:v 6 -c:v ffv1 " +
+                   path("slow.nut"))
+                      .c_str()),
+      0);
+  const Outcome done = run("track " + path("slow.nut") + " --lod 1" + models());
+  ASSERT_EQ(done.code, 0) << done.errors;
+  EXPECT_NE(done.output.find("\n1,3333333.333333,"), std::string::npos) << done.output;
+  EXPECT_NE(done.output.find("\n5,16666666.666667,"), std::string::npos) << done.output;
+}
+
 TEST_F(Program, TruncatedVideoLeavesNoOutput) {
   MIEN_NEEDS("trained model", have_models());
   MIEN_NEEDS("ffmpeg", have_ffmpeg());

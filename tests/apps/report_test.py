@@ -228,9 +228,10 @@ class Page(unittest.TestCase):
         self.wait(f"Math.abs(report.player.clock.time_ms - {t_ms}) < 2 && !document.getElementById('video').seeking", "seeking")
         self.js("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done(true))))")
 
-    def drawn(self, canvas):
-        """How many pixels of a canvas are no longer empty."""
+    def drawn(self, canvas, first=""):
+        """How many pixels of a canvas are no longer empty, after `first`: WebGL keeps what it drew until the browser has seen it."""
         return self.js(f"""(() => {{
+          {first}
           const canvas = document.querySelector('{canvas}'), {{width, height}} = canvas;
           const copy = Object.assign(document.createElement('canvas'), {{width, height}}).getContext('2d', {{willReadFrequently: true}});
           copy.drawImage(canvas, 0, 0);
@@ -243,7 +244,7 @@ class Page(unittest.TestCase):
         self.assertTrue(self.js("report.player.clock instanceof VideoClock"))
         self.seek(300)
         self.assertGreater(self.drawn("#overlay"), 300)
-        self.assertGreater(self.drawn("#face"), 10000)
+        self.assertGreater(self.drawn("#face", "report.face.show(report.take.frameAt(300));"), 10000)
         self.assertGreater(self.drawn("[data-lane=jaw] canvas"), 300)
         self.press("l")
         self.assertEqual(self.drawn("#overlay"), 0)
@@ -332,6 +333,20 @@ class Page(unittest.TestCase):
                 self.assertLessEqual(self.js("document.documentElement.scrollWidth - innerWidth"), 0, f"{width} wide")
                 papers.add(self.js("getComputedStyle(document.body).backgroundColor"))
         self.assertEqual(len(papers), 2)
+
+    def test_axe_finds_nothing(self):
+        package = os.path.join(SOURCE, "apps/web/node_modules/axe-core/axe.min.js")
+        if not os.path.exists(package):
+            self.skipTest("no axe-core here, which scripts/web.sh brings")
+        with open(package, encoding="utf-8") as file:
+            axe = file.read()
+        for dark in (False, True):
+            for width in (1280, 390):
+                self.open(width=width, dark=dark)
+                self.js(axe + "; 0")
+                found = json.loads(self.js("axe.run().then(({passes, violations}) => JSON.stringify({passes: passes.length, violations}))"))
+                self.assertEqual(found["violations"], [], f"{width} wide, {'dark' if dark else 'light'}")
+                self.assertGreater(found["passes"], 30)
 
     def test_downloads(self):
         self.open()

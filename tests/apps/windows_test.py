@@ -34,7 +34,12 @@ def environment(path):
 
 
 def windows(*arguments, path=FFMPEG, **more):
-    return subprocess.run(["wine", EXE, *arguments], capture_output=True, timeout=300, env=environment(path), **more)
+    """Into files, not pipes: processes of Wine's own, which a program may start, keep those open."""
+    with tempfile.TemporaryFile() as output, tempfile.TemporaryFile() as errors:
+        done = subprocess.run(["wine", EXE, *arguments], stdout=output, stderr=errors, timeout=300, env=environment(path), **more)
+        output.seek(0)
+        errors.seek(0)
+        return subprocess.CompletedProcess(done.args, done.returncode, output.read(), errors.read())
 
 
 def here(*arguments):

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -138,7 +139,8 @@ class FfmpegSource : public VideoSource {
 
  private:
   void at_end(std::size_t bytes_of_last_frame);
-  void collect_times(bool finished);
+  void collect_log(bool finished);
+  void collect_time(std::string_view line);
   std::int64_t time_of(std::int64_t frame) const;
 
   std::string input_;
@@ -147,26 +149,48 @@ class FfmpegSource : public VideoSource {
   Subprocess decoder_;
   std::vector<unsigned char> rgb_;
   std::vector<double> times_s_;
+  double tick_s_ = 0.0;  // what times are counted in
   std::string log_;
   std::string last_error_;
   std::int64_t frames_ = 0;
 };
 
-// Log lines look like "[Parsed_showinfo_0 @ 0x..] [info] n:   0 pts: 512 pts_time:0.04 ...".
-void FfmpegSource::collect_times(bool finished) {
+// The number behind a word of a line.
+template <typename Number>
+bool number_behind(std::string_view line, std::string_view word, Number& value) {
+  const std::size_t at = line.find(word);
+  if (at == std::string_view::npos) {
+    return false;
+  }
+  line.remove_prefix(at + word.size());
+  line.remove_prefix(std::min(line.find_first_not_of(' '), line.size()));
+  return formats::parse_number(line.substr(0, line.find(' ')), value);
+}
+
+// Lines look like "[Parsed_showinfo_0 @ 0x..] [info] config in time_base: 1/12800, frame_rate:
+// 25/1" and
+// "[Parsed_showinfo_0 @ 0x..] [info] n:   0 pts: 512 pts_time:0.04 ...", whose pts_time has six
+// digits only.
+void FfmpegSource::collect_time(std::string_view line) {
+  constexpr std::string_view kTick = " config in time_base: ";
+  if (const std::size_t at = line.find(kTick); at != std::string_view::npos) {
+    tick_s_ = ratio(std::string(line.substr(at + kTick.size())));
+  } else if (line.find(" pts_time:") != std::string_view::npos) {
+    std::int64_t pts = 0;
+    const bool known = number_behind(line, " pts:", pts) && tick_s_ > 0.0;
+    times_s_.push_back(known ? static_cast<double>(pts) * tick_s_
+                             : static_cast<double>(times_s_.size()) / info_.fps);
+  }
+}
+
+void FfmpegSource::collect_log(bool finished) {
   log_ += decoder_.take_errors();
   std::size_t begin = 0;
   for (std::size_t end = log_.find('\n'); end != std::string::npos; end = log_.find('\n', begin)) {
     const std::string_view line(log_.data() + begin, end - begin);
     begin = end + 1;
-    const std::size_t key = line.find("pts_time:");
-    if (key != std::string_view::npos && line.find("showinfo") != std::string_view::npos) {
-      const std::string_view digits = line.substr(key + 9);
-      double seconds = 0.0;
-      if (!formats::parse_number(digits.substr(0, digits.find(' ')), seconds)) {
-        seconds = static_cast<double>(times_s_.size()) / info_.fps;
-      }
-      times_s_.push_back(seconds);
+    if (line.find("showinfo") != std::string_view::npos) {
+      collect_time(line);
     } else if (line.find("[error]") != std::string_view::npos ||
                line.find("[fatal]") != std::string_view::npos) {
       last_error_ = line;
@@ -191,7 +215,7 @@ bool FfmpegSource::next(mien_image& image, std::int64_t& pts_ns) {
     at_end(got);
     return false;
   }
-  collect_times(false);
+  collect_log(false);
   mien_image_default(&image);
   image.format = MIEN_IMAGE_RGB;
   image.width = info_.width;
@@ -204,7 +228,7 @@ bool FfmpegSource::next(mien_image& image, std::int64_t& pts_ns) {
 
 void FfmpegSource::at_end(std::size_t bytes_of_last_frame) {
   const int status = decoder_.finish();
-  collect_times(true);
+  collect_log(true);
   if (status != 0 && frames_ == 0) {
     throw Failure(kExitNoVideo, input_ + ": cannot be decoded: " + last_line(last_error_));
   }

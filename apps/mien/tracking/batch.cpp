@@ -169,9 +169,12 @@ void run_all(const BatchOptions& options, std::vector<Job>& jobs) {
   };
   const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
   const std::size_t wanted = options.jobs > 0 ? static_cast<std::size_t>(options.jobs) : cores;
-  std::vector<std::jthread> workers;
+  std::vector<std::thread> workers;  // Apple's library has no jthread
   for (std::size_t i = 0; i < std::min(wanted, jobs.size()); ++i) {
     workers.emplace_back(work);
+  }
+  for (std::thread& worker : workers) {
+    worker.join();
   }
 }
 

@@ -240,14 +240,14 @@ class Win32Child : public ChildProcess {
   void kill() override { TerminateProcess(process_.get(), kKilled); }
   int wait() override;
   std::string take_errors() override {
-    drain_errors(0);
+    drain_errors();
     return std::exchange(errors_, {});
   }
 
  private:
   std::optional<std::size_t> wait_for_pipe(std::chrono::milliseconds patience);
   void collect_errors();
-  void drain_errors(DWORD wait_ms);
+  void drain_errors();
 
   Handle process_;
   std::array<std::byte, 4096> buffer_{};  // of errors_pipe_, which is always being read
@@ -275,23 +275,31 @@ void Win32Child::collect_errors() {
   }
 }
 
-void Win32Child::drain_errors(DWORD wait_ms) {
-  while (errors_pipe_.open() &&
-         WaitForSingleObject(errors_pipe_.ended(), wait_ms) == WAIT_OBJECT_0) {
+// What has come so far.
+void Win32Child::drain_errors() {
+  while (errors_pipe_.open() && WaitForSingleObject(errors_pipe_.ended(), 0) == WAIT_OBJECT_0) {
     collect_errors();
   }
 }
 
+// Pipes are at their end when the child is: whoever else has inherited them may live on.
 std::optional<std::size_t> Win32Child::wait_for_pipe(std::chrono::milliseconds patience) {
-  const std::array<HANDLE, 2> ends = {pipe_.ended(), errors_pipe_.ended()};
+  const std::array<HANDLE, 3> ends = {pipe_.ended(), process_.get(), errors_pipe_.ended()};
   for (;;) {
     // Below 0 is INFINITE. An end that is closed would be waited for in vain.
-    const DWORD happened = WaitForMultipleObjects(errors_pipe_.open() ? 2 : 1, ends.data(), FALSE,
+    const DWORD happened = WaitForMultipleObjects(errors_pipe_.open() ? 3 : 2, ends.data(), FALSE,
                                                   static_cast<DWORD>(patience.count()));
     if (happened == WAIT_OBJECT_0) {
       return pipe_.moved();
     }
-    if (happened != WAIT_OBJECT_0 + 1) {
+    if (happened == WAIT_OBJECT_0 + 1) {
+      if (WaitForSingleObject(pipe_.ended(), 0) == WAIT_OBJECT_0) {
+        return pipe_.moved();
+      }
+      pipe_.cancel();
+      return 0;
+    }
+    if (happened != WAIT_OBJECT_0 + 2) {
       pipe_.cancel();
       return std::nullopt;
     }
@@ -300,8 +308,12 @@ std::optional<std::size_t> Win32Child::wait_for_pipe(std::chrono::milliseconds p
 }
 
 int Win32Child::wait() {
-  drain_errors(INFINITE);
-  WaitForSingleObject(process_.get(), INFINITE);
+  const std::array<HANDLE, 2> ends = {process_.get(), errors_pipe_.ended()};
+  while (WaitForMultipleObjects(errors_pipe_.open() ? 2 : 1, ends.data(), FALSE, INFINITE) ==
+         WAIT_OBJECT_0 + 1) {
+    collect_errors();
+  }
+  drain_errors();
   DWORD status = 0;
   GetExitCodeProcess(process_.get(), &status);
   process_.reset();
