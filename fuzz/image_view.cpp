@@ -18,8 +18,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (tracker::view_image(&image, 1.0f, view) != MIEN_OK) {
     return 0;
   }
+  alignas(engine::Arena::kAlignment) static std::byte
+      samples[kernels::kWarpSampleElems * sizeof(std::uint16_t)];
+  engine::Arena arena(samples, {.shared_bytes = sizeof samples});
   tracker::Sampler sampler;
-  fuzz::require(sampler.init(choices.coin() ? MIEN_CPU_REF : MIEN_CPU_ALL));
+  fuzz::require(sampler.init(choices.coin() ? MIEN_CPU_REF : MIEN_CPU_ALL, arena));
   for (int i = 0; i < 2; ++i) {
     const auto coordinate = [&] {
       return static_cast<float>(choices.take<std::int16_t>()) /

@@ -52,13 +52,13 @@ Matrix3 roll_rotation(float angle) {
   return {{{c, -s, 0}, {s, c, 0}, {0, 0, 1}}};
 }
 
+}  // namespace
+
 bool is_finite(const HeadPose& pose) {
   return all_finite(pose.translation) &&
          std::all_of(pose.rotation.begin(), pose.rotation.end(),
                      [](const Vector3& row) { return all_finite(row); });
 }
-
-}  // namespace
 
 bool decode_head_pose(std::span<const float, kPoseOutputs> prediction, const Crop& crop,
                       const Camera& camera, HeadPose& pose) {

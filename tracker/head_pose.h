@@ -41,6 +41,7 @@ struct Quaternion {
 [[nodiscard]] bool decode_head_pose(std::span<const float, kPoseOutputs> prediction,
                                     const Crop& crop, const Camera& camera, HeadPose& pose);
 
+[[nodiscard]] bool is_finite(const HeadPose& pose);
 [[nodiscard]] EulerAngles euler_angles(const Matrix3& rotation);
 [[nodiscard]] Quaternion quaternion(const Matrix3& rotation);
 [[nodiscard]] Matrix3 matrix(const Quaternion& unit);

@@ -122,8 +122,12 @@ void refine_head_pose(HeadPoints head, const Landmarks& landmarks, const Camera&
   if (!equations.solve(step)) {
     return;
   }
-  pose.rotation = product(rotation_by({step[0], step[1], step[2]}), pose.rotation);
-  pose.translation = sum(pose.translation, scaled({step[3], step[4], step[5]}, kHeadMetres));
+  const HeadPose refined = {
+      product(rotation_by({step[0], step[1], step[2]}), pose.rotation),
+      sum(pose.translation, scaled({step[3], step[4], step[5]}, kHeadMetres))};
+  if (is_finite(refined)) {
+    pose = refined;
+  }
 }
 
 }  // namespace mien::tracker

@@ -114,6 +114,8 @@ TEST_F(PoseRefinement, APoseWithoutAStepStaysBitForBit) {
   expect_untouched(head_, broken, guess_);
   broken[3].x = std::numeric_limits<float>::infinity();
   expect_untouched(head_, broken, guess_);
+  broken[3].x = 1e25f;  // the step is finite, its square is not
+  expect_untouched(head_, broken, guess_);
   HeadPose behind = guess_;
   behind.translation[2] = -0.05f;  // some of the points are behind the camera
   expect_untouched(head_, landmarks_, behind);
