@@ -27,24 +27,24 @@ struct Frame {
   std::int64_t time_ns = 0;
   FaceState state = FaceState::kTracking;
   std::int64_t face_id = 0;
-  double face_probability = kNone;  // 0..1
-  double voice_activity = kNone;    // 0..1
-  std::int64_t lod = 0;             // 0: not said
+  double face_probability = kNoNumber;  // 0..1
+  double voice_activity = kNoNumber;    // 0..1
+  std::int64_t lod = 0;                 // 0: not said
 
   std::optional<std::array<double, 4>> box;         // x, y, width, height, pixels
   std::optional<Angles> head;                       // head to camera
   std::optional<std::array<double, 3>> position_m;  // of the head, camera space
   std::optional<std::array<Angles, 2>> eyes;        // left, right; eye to head
 
-  // 0..1 in the order of kArkitNames; kNone where nothing drives one.
+  // 0..1 in the order of kArkitNames; kNoNumber where nothing drives one.
   std::array<double, kControlCount> controls;
 
   // What a file in another vocabulary said itself; the controls then are what it comes to.
-  std::vector<double> facs;     // empty, or 50 in 0..1 in the order of kFacsNames, or kNone
-  std::vector<double> visemes;  // empty, or 15 in 0..1 in the order of kVisemeNames, or kNone
+  std::vector<double> facs;     // empty, or 50 in 0..1 in the order of kFacsNames, or kNoNumber
+  std::vector<double> visemes;  // empty, or 15 in 0..1 in the order of kVisemeNames, or kNoNumber
   char mouth_shape = 0;         // 0, or one of kMouthShapes, until the next frame
 
-  Frame() { controls.fill(kNone); }
+  Frame() { controls.fill(kNoNumber); }
 };
 
 struct Clip {

@@ -64,7 +64,7 @@ bool read_share(const CsvTable& table, const CsvHeader& header, Column column, d
         *column, header.name(*column) + ": " + quoted(table.cell(*column)) + " is not in 0..1",
         fault);
   }
-  value = number.value_or(kNone);
+  value = number.value_or(kNoNumber);
   return true;
 }
 
@@ -74,7 +74,7 @@ bool read_clamped(const CsvTable& table, const CsvHeader& header, Column column,
   if (!read_cell(table, header, column, number, fault)) {
     return false;
   }
-  value = number ? into_range(*number, out_of_range) : kNone;
+  value = number ? into_range(*number, out_of_range) : kNoNumber;
   return true;
 }
 

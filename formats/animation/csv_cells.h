@@ -36,7 +36,7 @@ class CsvHeader {
 [[nodiscard]] bool read_cell(const CsvTable& table, const CsvHeader& header, Column column,
                              std::optional<double>& value, Fault& fault);
 
-// The same of what has to lie in 0..1; kNone where there is nothing.
+// The same of what has to lie in 0..1; kNoNumber where there is nothing.
 [[nodiscard]] bool read_share(const CsvTable& table, const CsvHeader& header, Column column,
                               double& value, Fault& fault);
 

@@ -28,7 +28,7 @@ double joined(double a, double b, Join join) {
 
 std::array<double, kFacsCount> facs_of(const std::array<double, kControlCount>& controls) {
   std::array<double, kFacsCount> facs;
-  facs.fill(kNone);
+  facs.fill(kNoNumber);
   for (const FacsRow& row : kFacsRows) {
     facs[row.unit] = joined(controls[row.first], controls[row.second], row.join);
   }
@@ -37,7 +37,7 @@ std::array<double, kFacsCount> facs_of(const std::array<double, kControlCount>& 
 
 std::array<double, kControlCount> controls_of_facs(std::span<const double, kFacsCount> facs) {
   std::array<double, kControlCount> controls;
-  controls.fill(kNone);
+  controls.fill(kNoNumber);
   for (const FacsRow& row : kFacsRows) {
     if (row.join == Join::kMin) {
       continue;

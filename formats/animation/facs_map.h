@@ -9,12 +9,12 @@
 
 namespace mien::formats {
 
-// kNone where nothing drives what a unit is made of, and for FlatPucker, TongueUp and TongueDown,
-// which ARKit does not know.
+// kNoNumber where nothing drives what a unit is made of, and for FlatPucker, TongueUp and
+// TongueDown, which ARKit does not know.
 [[nodiscard]] std::array<double, kFacsCount> facs_of(
     const std::array<double, kControlCount>& controls);
 
-// kNone for jawForward, which Roblox does not know, and where the units are kNone.
+// kNoNumber for jawForward, which Roblox does not know, and where the units are kNoNumber.
 [[nodiscard]] std::array<double, kControlCount> controls_of_facs(
     std::span<const double, kFacsCount> facs);
 

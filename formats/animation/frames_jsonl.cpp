@@ -185,7 +185,7 @@ class ObjectReader {
     if (object_.find(key) == nullptr) {
       return true;
     }
-    values.assign(N, kNone);
+    values.assign(N, kNoNumber);
     return read_weights(key, names, values);
   }
 

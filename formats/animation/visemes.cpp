@@ -190,7 +190,7 @@ Weights mixture(const Pose& mouth) {
 
 std::array<double, kVisemeCount> visemes_of(const std::array<double, kControlCount>& controls) {
   std::array<double, kVisemeCount> visemes;
-  visemes.fill(kNone);
+  visemes.fill(kNoNumber);
   Pose mouth{};
   bool any = false;
   for (std::size_t k = 0; k < kParts; ++k) {
@@ -227,7 +227,7 @@ std::array<std::size_t, 2> leading_controls(std::size_t viseme) {
 std::array<double, kControlCount> controls_of_visemes(
     std::span<const double, kVisemeCount> visemes) {
   std::array<double, kControlCount> controls;
-  controls.fill(kNone);
+  controls.fill(kNoNumber);
   if (std::none_of(visemes.begin(), visemes.end(), driven)) {
     return controls;
   }

@@ -17,14 +17,14 @@
 
 namespace mien::formats {
 
-// Sum 1; all kNone where no control of the mouth is driven.
+// Sum 1; all kNoNumber where no control of the mouth is driven.
 [[nodiscard]] std::array<double, kVisemeCount> visemes_of(
     const std::array<double, kControlCount>& controls);
 
 // The control that a pose moves most, on both sides of the face; kControlCount for silence.
 [[nodiscard]] std::array<std::size_t, 2> leading_controls(std::size_t viseme);
 
-// The controls of the mouth, the others kNone; all kNone where the visemes are.
+// The controls of the mouth, the others kNoNumber; all kNoNumber where the visemes are.
 [[nodiscard]] std::array<double, kControlCount> controls_of_visemes(
     std::span<const double, kVisemeCount> visemes);
 

@@ -12,7 +12,7 @@
 namespace mien::formats {
 
 // A number that a frame does not have: a control that nothing drives.
-inline constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+inline constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
 // Whether anything drives the control.
 [[nodiscard]] constexpr bool driven(double value) { return value == value; }

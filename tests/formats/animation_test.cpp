@@ -138,7 +138,7 @@ TEST(Animation, LossesAreSaid) {
   clip.frames[1].voice_activity = 0.5;
   EXPECT_THAT(losses(clip, AnimationFormat::kGltf), Contains(HasSubstr("voice activity")));
   EXPECT_THAT(losses(clip, AnimationFormat::kJsonl), IsEmpty());
-  clip.frames[1].controls[3] = kNone;
+  clip.frames[1].controls[3] = kNoNumber;
   EXPECT_THAT(losses(clip, AnimationFormat::kLiveLink), Contains(HasSubstr("become 0")));
   clip.frames[1].time_ns += 10'000'000'000;
   clip.frames.push_back(clip.frames[1]);

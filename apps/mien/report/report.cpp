@@ -31,7 +31,7 @@ std::vector<double> column_of(const std::vector<formats::Frame>& frames, ValueOf
 void add_head(Columns& columns, const std::vector<formats::Frame>& frames) {
   const auto angle = [&](double formats::Angles::*of) {
     return column_of(frames, [of](const formats::Frame& frame) {
-      return frame.head ? (*frame.head).*of : formats::kNone;
+      return frame.head ? (*frame.head).*of : formats::kNoNumber;
     });
   };
   columns.add("pitch", kFine, angle(&formats::Angles::pitch));
@@ -40,7 +40,7 @@ void add_head(Columns& columns, const std::vector<formats::Frame>& frames) {
   const char* const names[] = {"x_m", "y_m", "z_m"};
   for (std::size_t i = 0; i < 3; ++i) {
     columns.add(names[i], kMillimetre, column_of(frames, [i](const formats::Frame& frame) {
-                  return frame.position_m ? (*frame.position_m)[i] : formats::kNone;
+                  return frame.position_m ? (*frame.position_m)[i] : formats::kNoNumber;
                 }));
   }
 }
@@ -49,7 +49,7 @@ void add_box(Columns& columns, const std::vector<formats::Frame>& frames, double
   const char* const names[] = {"box_x", "box_y", "box_width", "box_height"};
   for (std::size_t i = 0; i < 4; ++i) {
     columns.add(names[i], unit, column_of(frames, [i](const formats::Frame& frame) {
-                  return frame.box ? (*frame.box)[i] : formats::kNone;
+                  return frame.box ? (*frame.box)[i] : formats::kNoNumber;
                 }));
   }
 }
