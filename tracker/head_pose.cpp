@@ -54,8 +54,10 @@ Matrix3 roll_rotation(float angle) {
 
 }  // namespace
 
-bool is_finite(const HeadPose& pose) {
-  return all_finite(pose.translation) &&
+bool is_plausible(const HeadPose& pose) {
+  return pose.translation[2] < 0.0f &&
+         std::all_of(pose.translation.begin(), pose.translation.end(),
+                     [](float metres) { return std::abs(metres) < kFarthestMetres; }) &&
          std::all_of(pose.rotation.begin(), pose.rotation.end(),
                      [](const Vector3& row) { return all_finite(row); });
 }
@@ -73,7 +75,7 @@ bool decode_head_pose(std::span<const float, kPoseOutputs> prediction, const Cro
   const HeadPose decoded = {product(crop_frame, in_crop),
                             {(origin.x - camera.principal.x) * metres_per_px,
                              (camera.principal.y - origin.y) * metres_per_px, -distance}};
-  if (!is_finite(decoded)) {
+  if (!is_plausible(decoded)) {
     return false;
   }
   pose = decoded;

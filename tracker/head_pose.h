@@ -37,11 +37,14 @@ struct Quaternion {
 // minus 0.5 in crop coordinates [2], log(focal_px / distance * 0.2 m / crop side). With R_ray the
 // shortest rotation from the optical axis to the ray through the crop's centre,
 //   R_camera = R_ray Rz(-crop roll) R_crop.
-// False, and `pose` untouched, when the prediction is no pose: not finite, or columns in one line.
+// False, and `pose` untouched, when the prediction is no pose: columns in one line, or not plausible.
 [[nodiscard]] bool decode_head_pose(std::span<const float, kPoseOutputs> prediction,
                                     const Crop& crop, const Camera& camera, HeadPose& pose);
 
-[[nodiscard]] bool is_finite(const HeadPose& pose);
+// Finite, in front of the camera and nearer than kFarthestMetres, far beyond which smoothing would
+// leave the numbers that there are.
+inline constexpr float kFarthestMetres = 1e6f;
+[[nodiscard]] bool is_plausible(const HeadPose& pose);
 [[nodiscard]] EulerAngles euler_angles(const Matrix3& rotation);
 [[nodiscard]] Quaternion quaternion(const Matrix3& rotation);
 [[nodiscard]] Matrix3 matrix(const Quaternion& unit);

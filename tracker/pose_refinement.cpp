@@ -125,7 +125,7 @@ void refine_head_pose(HeadPoints head, const Landmarks& landmarks, const Camera&
   const HeadPose refined = {
       product(rotation_by({step[0], step[1], step[2]}), pose.rotation),
       sum(pose.translation, scaled({step[3], step[4], step[5]}, kHeadMetres))};
-  if (is_finite(refined)) {
+  if (is_plausible(refined)) {
     pose = refined;
   }
 }

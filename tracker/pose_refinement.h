@@ -17,7 +17,7 @@ using HeadPoints = std::span<const float>;  // kHeadPoints of them; empty: unkno
 // `landmarks` are, pixels. It is least squares of their distances, in shares of a head's size, and
 // of how far the rotation turns, radians: the decoder sees what distances between points do not
 // tell, and an average head is not everyone's. `pose` stays as it was if the points are unknown,
-// not all in front of the camera, or what comes out is not finite.
+// not all in front of the camera, or what comes out is not plausible.
 void refine_head_pose(HeadPoints head, const Landmarks& landmarks, const Camera& camera,
                       HeadPose& pose);
 

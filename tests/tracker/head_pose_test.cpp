@@ -191,6 +191,8 @@ TEST(HeadPose, RefusesWhatIsNoPose) {
   }
   EXPECT_FALSE(decode_head_pose(Prediction{1, 0, 0, 2, 0, 0, 0, 0, 0}, crop, camera, pose))
       << "columns in one line";
+  EXPECT_TRUE(refused(6, 1e9f)) << "too far to the side";
+  EXPECT_TRUE(refused(8, -30.0f)) << "too far away";
   EXPECT_EQ(pose.translation[2], 3.0f);
 }
 

@@ -116,6 +116,8 @@ TEST_F(PoseRefinement, APoseWithoutAStepStaysBitForBit) {
   expect_untouched(head_, broken, guess_);
   broken[3].x = 1e25f;  // the step is finite, its square is not
   expect_untouched(head_, broken, guess_);
+  broken[3].x = 1e12f;  // all is finite, but nearer to the stars than to the camera
+  expect_untouched(head_, broken, guess_);
   HeadPose behind = guess_;
   behind.translation[2] = -0.05f;  // some of the points are behind the camera
   expect_untouched(head_, landmarks_, behind);
