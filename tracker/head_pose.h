@@ -37,7 +37,8 @@ struct Quaternion {
 // minus 0.5 in crop coordinates [2], log(focal_px / distance * 0.2 m / crop side). With R_ray the
 // shortest rotation from the optical axis to the ray through the crop's centre,
 //   R_camera = R_ray Rz(-crop roll) R_crop.
-// False, and `pose` untouched, when the prediction is no pose: columns in one line, or not plausible.
+// False, and `pose` untouched, when the prediction is no pose: columns in one line, or not
+// plausible.
 [[nodiscard]] bool decode_head_pose(std::span<const float, kPoseOutputs> prediction,
                                     const Crop& crop, const Camera& camera, HeadPose& pose);
 
