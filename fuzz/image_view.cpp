@@ -1,13 +1,13 @@
 // An image of any format, size, strides and rotation is refused, or its pixels can be cut out of it
 // anywhere.
-#include "tracker/image_view.h"
+#include "tracker/image/image_view.h"
 
 #include <cmath>
 #include <vector>
 
 #include "fuzz/target.h"
 #include "fuzz/views.h"
-#include "tracker/sampler.h"
+#include "tracker/image/sampler.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace mien;

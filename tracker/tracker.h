@@ -6,13 +6,13 @@
 #include <array>
 #include <cstdint>
 
-#include "tracker/faces.h"
-#include "tracker/image_view.h"
-#include "tracker/levels.h"
-#include "tracker/proposal.h"
+#include "tracker/encoders/levels.h"
+#include "tracker/faces/faces.h"
+#include "tracker/image/image_view.h"
+#include "tracker/search/proposal.h"
+#include "tracker/sound/voice.h"
 #include "tracker/stage_timer.h"
 #include "tracker/timeline.h"
-#include "tracker/voice.h"
 
 namespace mien::tracker {
 

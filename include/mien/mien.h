@@ -180,8 +180,8 @@ MIEN_API int32_t mien_vocabulary_size(int32_t vocabulary);
 MIEN_API const char* mien_vocabulary_name(int32_t vocabulary, int32_t index);
 
 /* MIEN_CONTROL_COUNT controls in other words: `count`, which has to be mien_vocabulary_size, values
- * in 0..1. Left and right that have one name give their mean; tracker/vocabulary_tables.h has every
- * rule. Exact for MediaPipe and nearly so for Roblox; the vowels and moods of VRM are a rough
+ * in 0..1. Left and right that have one name give their mean; vocabulary_tables.h has every rule.
+ * Exact for MediaPipe and nearly so for Roblox; the vowels and moods of VRM are a rough
  * reading of the face. Visemes, whose sum is 1, are the mixture of poses that comes nearest to the
  * mouth (formats/animation/visemes.h), as `mien track --format visemes` writes them. What no
  * control says (FlatPucker, TongueUp, TongueDown, Fun, relaxed) is 0. MIEN_ERROR_OUT_OF_RANGE for

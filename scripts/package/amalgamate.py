@@ -185,7 +185,8 @@ def joined(sources):
 def core_sources():
     """Everything that is no tier's."""
     sources = [ROOT / "formats" / f"{name}.cpp" for name in FORMATS]
-    sources += [path for part in ("kernels", "engine", "audio", "tracker") for path in sorted((ROOT / part).glob("*.cpp"))]
+    sources += [path for part in ("kernels", "engine", "audio") for path in sorted((ROOT / part).glob("*.cpp"))]
+    sources += sorted((ROOT / "tracker").rglob("*.cpp"))
     return [path for path in sources if path.name != "voice_left_out.cpp"]
 
 

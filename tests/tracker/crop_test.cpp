@@ -1,4 +1,4 @@
-#include "tracker/crop.h"
+#include "tracker/geometry/crop.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "tracker/head_pose.h"
+#include "tracker/geometry/head_pose.h"
 
 #include <gtest/gtest.h>
 

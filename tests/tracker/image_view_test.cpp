@@ -1,4 +1,4 @@
-#include "tracker/image_view.h"
+#include "tracker/image/image_view.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Levels of detail: what runs when, and that nobody sees the change.
-#include "tracker/levels.h"
+#include "tracker/encoders/levels.h"
 
 #include <gtest/gtest.h>
 

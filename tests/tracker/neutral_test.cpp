@@ -1,5 +1,5 @@
 // Calibration: what a face shows at rest is taken out, and a blink keeps its range.
-#include "tracker/neutral.h"
+#include "tracker/decoders/neutral.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "tracker/pose_refinement.h"
+#include "tracker/geometry/pose_refinement.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "tests/tracker/blob_tracker.h"
-#include "tracker/tiles.h"
+#include "tracker/search/tiles.h"
 
 namespace mien::tests {
 namespace {

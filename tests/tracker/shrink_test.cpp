@@ -1,4 +1,4 @@
-#include "tracker/shrink.h"
+#include "tracker/image/shrink.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "tracker/smoothing.h"
+#include "tracker/decoders/smoothing.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "tracker/squares.h"
+#include "tracker/search/squares.h"
 
 #include <gtest/gtest.h>
 

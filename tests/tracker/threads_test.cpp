@@ -11,7 +11,7 @@
 
 #include "engine/arena.h"
 #include "tests/tracker/blob_tracker.h"
-#include "tracker/sound_queue.h"
+#include "tracker/sound/sound_queue.h"
 
 namespace mien::tests {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "tests/tracker/blob_tracker.h"
-#include "tracker/controls.h"
+#include "tracker/decoders/controls.h"
 
 namespace mien::tests {
 namespace {

@@ -1,0 +1,218 @@
+// The C interface: checks what comes in, hands on, copies out.
+#include <mien/mien.h>
+
+#include <cstdint>
+#include <new>
+
+#include "engine/arena.h"
+#include "kernels/float_mode.h"
+#include "tracker/api/allocate.h"
+#include "tracker/api/config.h"
+#include "tracker/api/tracker_handle.h"
+#include "tracker/api/versioned_struct.h"
+#include "tracker/encoders/models.h"
+
+namespace {
+
+using mien::engine::Arena;
+using mien::kernels::FloatMode;
+using mien::tracker::allocate;
+using mien::tracker::Models;
+using mien::tracker::release;
+
+static_assert(MIEN_ALIGNMENT == Arena::kAlignment);
+static_assert(MIEN_LANDMARK_COUNT == mien::tracker::kLandmarks);
+
+// Takes from `arena` all that the networks need.
+mien_status load(const mien_tracker_config& config, mien_tracker& parts, Arena& arena) {
+  Models models;
+  mien_status status = mien::tracker::open_models(config, models);
+  if (status == MIEN_OK) {
+    status = parts.encoders.basenet.load(models, config.cpu_mask, arena);
+  }
+  if (status == MIEN_OK && models.has_hifinet) {
+    status = parts.encoders.hifinet.load(models, config.cpu_mask, arena);
+  }
+  if (status == MIEN_OK) {
+    status = parts.tracker.load(models, arena);
+  }
+  return status == MIEN_OK ? parts.proposal.load(config, models, arena) : status;
+}
+
+mien_status measure(const mien_tracker_config& config, Arena::Need& need) {
+  Arena arena;
+  (void)arena.take(sizeof(mien_tracker));
+  mien_tracker parts(config);
+  const mien_status status = load(config, parts, arena);
+  need = status == MIEN_OK ? arena.need() : Arena::Need();
+  return status;
+}
+
+// Checks everything and says how much memory it will take.
+mien_status prepare(const mien_tracker_config* given, mien_tracker_config& config,
+                    Arena::Need& need) {
+  const mien_status status = mien::tracker::read_config(given, config);
+  return status == MIEN_OK ? measure(config, need) : status;
+}
+
+mien_status build(const mien_tracker_config& config, void* memory, const Arena::Need& need,
+                  mien_tracker** tracker) {
+  Arena arena(static_cast<std::byte*>(memory), need);
+  auto* created = new (arena.take(sizeof(mien_tracker)).data()) mien_tracker(config);
+  const mien_status status = load(config, *created, arena);
+  if (status != MIEN_OK) {
+    return status;
+  }
+  created->bytes = need.total_bytes();
+  created->tracker.reset();
+  *tracker = created;
+  return MIEN_OK;
+}
+
+// Faces are nobody else's business. Volatile: memory about to be released is still written to.
+void wipe(void* memory, std::size_t bytes) {
+  volatile auto* byte = static_cast<volatile unsigned char*>(memory);
+  for (std::size_t i = 0; i < bytes; ++i) {
+    byte[i] = 0;
+  }
+}
+
+const mien::tracker::Face* known_face(const mien_tracker& tracker, int32_t index) {
+  return index >= 0 ? tracker.tracker.faces().known(static_cast<std::size_t>(index)) : nullptr;
+}
+
+mien_status copy_out(const mien_result& from, mien_result* to) {
+  const bool written =
+      mien::tracker::write_struct(from, MIEN_SIZE_THROUGH(mien_result, supported_controls), to);
+  return written ? MIEN_OK : MIEN_ERROR_STRUCT_SIZE;
+}
+
+}  // namespace
+
+mien_status mien_tracker_required_bytes(const mien_tracker_config* config, size_t* bytes) {
+  if (bytes == nullptr) {
+    return MIEN_ERROR_NULL_ARGUMENT;
+  }
+  const FloatMode ours;
+  mien_tracker_config checked;
+  Arena::Need need;
+  const mien_status status = prepare(config, checked, need);
+  *bytes = need.total_bytes();
+  return status;
+}
+
+mien_status mien_tracker_create(const mien_tracker_config* config, mien_tracker** tracker) {
+  if (tracker == nullptr) {
+    return MIEN_ERROR_NULL_ARGUMENT;
+  }
+  *tracker = nullptr;
+  const FloatMode ours;
+  mien_tracker_config checked;
+  Arena::Need need;
+  mien_status status = prepare(config, checked, need);
+  if (status != MIEN_OK) {
+    return status;
+  }
+  void* memory = allocate(checked.allocator, need.total_bytes());
+  if (memory == nullptr) {
+    return MIEN_ERROR_OUT_OF_MEMORY;
+  }
+  status = build(checked, memory, need, tracker);
+  if (status != MIEN_OK) {
+    release(checked.allocator, memory);
+    return status;
+  }
+  (*tracker)->allocated = true;
+  return MIEN_OK;
+}
+
+mien_status mien_tracker_create_in(const mien_tracker_config* config, void* memory,
+                                   size_t memory_bytes, mien_tracker** tracker) {
+  if (tracker == nullptr) {
+    return MIEN_ERROR_NULL_ARGUMENT;
+  }
+  *tracker = nullptr;
+  if (memory == nullptr) {
+    return MIEN_ERROR_NULL_ARGUMENT;
+  }
+  if (reinterpret_cast<std::uintptr_t>(memory) % MIEN_ALIGNMENT != 0) {
+    return MIEN_ERROR_ALIGNMENT;
+  }
+  const FloatMode ours;
+  mien_tracker_config checked;
+  Arena::Need need;
+  const mien_status status = prepare(config, checked, need);
+  if (status != MIEN_OK) {
+    return status;
+  }
+  if (memory_bytes < need.total_bytes()) {
+    return MIEN_ERROR_MEMORY_TOO_SMALL;
+  }
+  return build(checked, memory, need, tracker);
+}
+
+void mien_tracker_destroy(mien_tracker* tracker) {
+  if (tracker == nullptr) {
+    return;
+  }
+  const mien_allocator allocator = tracker->allocator;
+  const bool allocated = tracker->allocated;
+  const std::size_t bytes = tracker->bytes;
+  tracker->~mien_tracker();
+  wipe(tracker, bytes);
+  if (allocated) {
+    release(allocator, tracker);
+  }
+}
+
+mien_status mien_tracker_reset(mien_tracker* tracker) {
+  if (tracker == nullptr) {
+    return MIEN_ERROR_NULL_ARGUMENT;
+  }
+  const FloatMode ours;
+  tracker->tracker.reset();
+  return MIEN_OK;
+}
+
+mien_status mien_tracker_set_lod(mien_tracker* tracker, int32_t lod) {
+  if (tracker == nullptr) {
+    return MIEN_ERROR_NULL_ARGUMENT;
+  }
+  return tracker->tracker.set_level(lod) ? MIEN_OK : MIEN_ERROR_UNSUPPORTED_LOD;
+}
+
+mien_status mien_tracker_push_video(mien_tracker* tracker, const mien_image* image,
+                                    int64_t pts_ns) {
+  const FloatMode ours;
+  return tracker != nullptr ? tracker->tracker.push(image, pts_ns) : MIEN_ERROR_NULL_ARGUMENT;
+}
+
+mien_status mien_tracker_get_result(const mien_tracker* tracker, mien_result* result) {
+  if (tracker == nullptr || result == nullptr) {
+    return MIEN_ERROR_NULL_ARGUMENT;
+  }
+  return copy_out(tracker->tracker.result(), result);
+}
+
+int32_t mien_tracker_face_count(const mien_tracker* tracker) {
+  int32_t count = 0;
+  while (tracker != nullptr && known_face(*tracker, count) != nullptr) {
+    ++count;
+  }
+  return count;
+}
+
+mien_status mien_tracker_get_face(const mien_tracker* tracker, int32_t index, mien_result* result) {
+  if (tracker == nullptr || result == nullptr) {
+    return MIEN_ERROR_NULL_ARGUMENT;
+  }
+  const mien::tracker::Face* face = known_face(*tracker, index);
+  return face != nullptr ? copy_out(face->result(), result) : MIEN_ERROR_OUT_OF_RANGE;
+}
+
+void mien_result_default(mien_result* result) {
+  if (result != nullptr) {
+    *result = {};
+    result->struct_size = sizeof *result;
+  }
+}

@@ -1,0 +1,66 @@
+// Version, names and counts of the C interface.
+#include <mien/mien.h>
+
+#include <cstdint>
+
+#include "kernels/tier.h"
+#include "tracker/decoders/controls.h"
+
+static_assert(MIEN_CONTROL_COUNT == mien::tracker::kControls);
+
+const char* mien_version(void) { return MIEN_VERSION; }
+
+uint32_t mien_version_api(void) { return MIEN_API_VERSION; }
+
+uint32_t mien_cpu_tiers(void) { return mien::kernels::detect_cpu(); }
+
+const char* mien_cpu_tier_name(uint32_t tier) {
+  for (std::uint32_t i = 0; i < mien::kernels::kTierCount; ++i) {
+    const auto candidate = static_cast<mien::kernels::Tier>(i);
+    if (tier == mien::kernels::bit(candidate)) {
+      return mien::kernels::name(candidate);
+    }
+  }
+  return nullptr;
+}
+
+const char* mien_control_name(int32_t control) {
+  const bool known = control >= 0 && control < mien::tracker::kControls;
+  return known ? mien::tracker::kControlNames[static_cast<std::size_t>(control)] : nullptr;
+}
+
+int32_t mien_control_count(void) { return MIEN_CONTROL_COUNT; }
+
+int32_t mien_landmark_count(void) { return MIEN_LANDMARK_COUNT; }
+
+const char* mien_face_status_name(int32_t status) {
+  switch (status) {
+    case MIEN_FACE_SEARCHING:
+      return "searching";
+    case MIEN_FACE_TRACKING:
+      return "tracking";
+    case MIEN_FACE_LOST:
+      return "lost";
+    default:
+      return nullptr;
+  }
+}
+
+const char* mien_stage_name(int32_t stage) {
+  switch (stage) {
+    case MIEN_STAGE_PROPOSAL:
+      return "proposal";
+    case MIEN_STAGE_WARP:
+      return "warp";
+    case MIEN_STAGE_ENCODER:
+      return "encoder";
+    case MIEN_STAGE_HEADS:
+      return "heads";
+    case MIEN_STAGE_DECODERS:
+      return "decoders";
+    case MIEN_STAGE_SOUND:
+      return "sound";
+    default:
+      return nullptr;
+  }
+}

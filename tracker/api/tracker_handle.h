@@ -1,0 +1,22 @@
+// What stands behind the C interface's mien_tracker.
+#pragma once
+
+#include <mien/mien.h>
+
+#include <cstddef>
+
+#include "tracker/faces/face.h"
+#include "tracker/search/mtcnn_proposal.h"
+#include "tracker/tracker.h"
+
+struct mien_tracker {
+  explicit mien_tracker(const mien_tracker_config& config)
+      : tracker(config, encoders, proposal), allocator(config.allocator) {}
+
+  mien::tracker::Encoders encoders;
+  mien::tracker::MtcnnProposal proposal;
+  mien::tracker::Tracker tracker;
+  mien_allocator allocator;
+  std::size_t bytes = 0;
+  bool allocated = false;  // by the allocator, not by the caller
+};

@@ -1,0 +1,72 @@
+#include "tracker/decoders/decoders.h"
+
+#include <cstddef>
+
+namespace mien::tracker {
+
+mien_status Decoders::load(const Models& models, std::uint32_t cpu_mask, engine::Arena& arena) {
+  mien_status status = basenet_controls_.load(models.basenet, cpu_mask, arena);
+  if (status == MIEN_OK && models.has_hifinet) {
+    status = hifinet_controls_.load(models.hifinet, cpu_mask, arena);
+  }
+  return status == MIEN_OK
+             ? pose_.load(models.basenet, {"pose_decoder", kFeatureVector, {kPoseOutputs}},
+                          cpu_mask, arena)
+             : status;
+}
+
+void Decoders::reset(std::int32_t level) {
+  basenet_controls_.reset();
+  if (level > kLowestLevel) {
+    hifinet_controls_.reset();
+  }
+  basenet_neutral_.restart();
+  hifinet_neutral_.restart();
+  pose_.reset();
+  fade_.jump(level > kLowestLevel);
+}
+
+void Decoders::decode_controls(const Features& basenet, const Features& hifinet, std::int32_t level,
+                               float seconds, std::span<float, kControls> controls) {
+  const bool to_hifinet = level > kLowestLevel;
+  if (to_hifinet && !fade_.second_is_heard()) {
+    hifinet_controls_.reset();
+  }
+  if (!to_hifinet && !fade_.first_is_heard()) {
+    basenet_controls_.reset();
+  }
+  fade_.advance(to_hifinet, seconds);
+  if (!fade_.second_is_heard()) {
+    decode_basenet(basenet, controls);
+    return;
+  }
+  if (!fade_.first_is_heard()) {
+    decode_hifinet(hifinet, controls);
+    return;
+  }
+  std::array<float, kControls> first;
+  decode_basenet(basenet, first);
+  decode_hifinet(hifinet, controls);
+  const float weight = fade_.weight();
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    controls[i] = first[i] + weight * (controls[i] - first[i]);
+  }
+}
+
+void Decoders::decode_basenet(const Features& features, std::span<float, kControls> controls) {
+  basenet_controls_.decode(features, controls);
+  basenet_neutral_.take_out(controls);
+}
+
+void Decoders::decode_hifinet(const Features& features, std::span<float, kControls> controls) {
+  hifinet_controls_.decode(features, controls);
+  hifinet_neutral_.take_out(controls);
+}
+
+void Decoders::decode_pose(const Features& basenet, const Crop& crop, const Camera& camera,
+                           HeadPose& pose) {
+  const std::span<const float> prediction = pose_.run(basenet);
+  (void)decode_head_pose(prediction.first<kPoseOutputs>(), crop, camera, pose);
+}
+
+}  // namespace mien::tracker

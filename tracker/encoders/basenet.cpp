@@ -1,0 +1,48 @@
+#include "tracker/encoders/basenet.h"
+
+#include <cmath>
+#include <string_view>
+
+namespace mien::tracker {
+
+mien_status BaseNet::load(const Models& models, std::uint32_t cpu_mask, engine::Arena& arena) {
+  const engine::Model& model = models.basenet;
+  mien_status status = encoder_.load(model, {65, 65, 1.0f}, cpu_mask, arena);
+  if (status == MIEN_OK) {
+    status =
+        face_probability_.load(model, {"face_probability", kFeatureVector, {1}}, cpu_mask, arena);
+  }
+  if (status == MIEN_OK) {
+    status = load_template(model);
+  }
+  return status == MIEN_OK ? load_head_points(model) : status;
+}
+
+mien_status BaseNet::load_template(const engine::Model& model) {
+  std::span<const float> shape;
+  if (model.constant("landmark_template", 2 * kLandmarks, shape) != engine::Status::kOk) {
+    return MIEN_ERROR_WEIGHTS_INCOMPLETE;
+  }
+  for (std::size_t i = 0; i < kLandmarks; ++i) {
+    template_[i] = {shape[2 * i], shape[2 * i + 1]};
+  }
+  return MIEN_OK;
+}
+
+mien_status BaseNet::load_head_points(const engine::Model& model) {
+  constexpr std::string_view kName = "head_points";
+  const bool known = model.file().find_constant(kName) != nullptr;
+  if (known && model.constant(kName, kHeadPoints, head_points_) != engine::Status::kOk) {
+    return MIEN_ERROR_WEIGHTS_INCOMPLETE;
+  }
+  return MIEN_OK;
+}
+
+bool BaseNet::look(const ImageView& view, const Crop& crop, StageTimer& timer, Sight& sight) {
+  const bool finite = encoder_.look(view, crop, timer, sight);
+  const StageTimer::Scope timed(timer, MIEN_STAGE_HEADS);
+  sight.face_probability = face_probability_.run(sight.features)[0];
+  return finite && std::isfinite(sight.face_probability);
+}
+
+}  // namespace mien::tracker

@@ -1,0 +1,36 @@
+#include "tracker/encoders/face_encoder.h"
+
+#include <algorithm>
+
+namespace mien::tracker {
+
+mien_status FaceEncoder::load(const engine::Model& model, const Raster& raster,
+                              std::uint32_t cpu_mask, engine::Arena& arena) {
+  if (!sampler_.init(cpu_mask, arena)) {
+    return MIEN_ERROR_UNSUPPORTED_CPU;
+  }
+  raster_ = raster;
+  const engine::NetworkForm encoder = {"encoder", {raster.rows, raster.columns, 3}, {kFeatures}};
+  const engine::NetworkForm landmarks = {"landmarks", kFeatureVector, {2 * kLandmarks}};
+  const mien_status status = encoder_.load(model, encoder, cpu_mask, arena);
+  return status == MIEN_OK ? landmarks_.load(model, landmarks, cpu_mask, arena) : status;
+}
+
+bool FaceEncoder::look(const ImageView& view, const Crop& crop, StageTimer& timer, Sight& sight) {
+  {
+    const StageTimer::Scope timed(timer, MIEN_STAGE_WARP);
+    sampler_.cut(view, crop, raster_, encoder_.input());
+  }
+  {
+    const StageTimer::Scope timed(timer, MIEN_STAGE_ENCODER);
+    encoder_.run();
+  }
+  const StageTimer::Scope timed(timer, MIEN_STAGE_HEADS);
+  sight.crop = crop;
+  std::copy_n(encoder_.output(0).begin(), kFeatures, sight.features.begin());
+  const std::span<const float> xy = landmarks_.run(sight.features);
+  sight.landmarks = landmarks_in(crop, xy);
+  return all_finite(sight.features) && all_finite(xy);
+}
+
+}  // namespace mien::tracker

@@ -1,0 +1,44 @@
+// What BaseNet and HiFiNet have in common: a crop of the image, an encoder, and landmarks.
+#pragma once
+
+#include <mien/mien.h>
+
+#include <cstdint>
+
+#include "engine/arena.h"
+#include "engine/model.h"
+#include "engine/network.h"
+#include "tracker/decoders/controls_decoder.h"
+#include "tracker/encoders/landmarks.h"
+#include "tracker/geometry/crop.h"
+#include "tracker/image/image_view.h"
+#include "tracker/image/sampler.h"
+#include "tracker/stage_timer.h"
+
+namespace mien::tracker {
+
+// What is seen in one crop.
+struct Sight {
+  Crop crop;
+  float face_probability = 0.0f;  // 0..1, BaseNet's
+  Landmarks landmarks = {};
+  Features features = {};
+};
+
+class FaceEncoder {
+ public:
+  // Takes from `arena` what the networks need; only measures when the arena does.
+  [[nodiscard]] mien_status load(const engine::Model& model, const Raster& raster,
+                                 std::uint32_t cpu_mask, engine::Arena& arena);
+
+  // False when the networks' answer is not finite.
+  [[nodiscard]] bool look(const ImageView& view, const Crop& crop, StageTimer& timer, Sight& sight);
+
+ private:
+  Sampler sampler_;
+  Raster raster_ = {};
+  engine::Network encoder_;
+  engine::Network landmarks_;
+};
+
+}  // namespace mien::tracker

@@ -1,0 +1,224 @@
+#include "tracker/faces/face.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "tracker/decoders/smoothing.h"
+#include "tracker/encoders/levels.h"
+
+namespace mien::tracker {
+namespace {
+
+constexpr float kFadeSeconds = 0.25f;
+constexpr float kPresenceSeconds = 0.1f;
+constexpr float kFaded = 1e-4f;         // a control below is 0
+constexpr int kAlignments = 2;          // of the crop to its landmarks when a face is acquired
+constexpr float kSmallestFace = 0.02f;  // crop sides, in longer sides of the image
+constexpr float kLargestFace = 4.0f;
+
+// Whether a crop can still show something of a face in the image.
+bool is_plausible(const Crop& crop, const ImageView& view) {
+  const Rect& seen = view.region;
+  const float longer = seen.longer_side();
+  const float reach = crop.side / 2;
+  const auto near = [reach](float value, float begin, float length) {
+    return value >= begin - reach && value <= begin + length + reach;
+  };
+  return crop.side >= kSmallestFace * longer && crop.side <= kLargestFace * longer &&
+         near(crop.center.x, seen.corner.x, seen.width) &&
+         near(crop.center.y, seen.corner.y, seen.height);
+}
+
+}  // namespace
+
+void Face::reset(std::int32_t level) {
+  state_ = State();
+  decoders_.reset(level);
+  for (const std::int32_t either : {kLowestLevel, kHighestLevel}) {
+    decoders_.neutral(either).forget();
+  }
+  mien_result_default(&result_);
+}
+
+bool Face::find(Frame& frame, const Square& square, Sight& sight) {
+  Crop crop = {square.center, square.side, 0.0f};
+  for (int i = 0; i <= kAlignments; ++i) {
+    if (!is_plausible(crop, frame.view) || !look(frame, crop, sight)) {
+      return false;
+    }
+    if (!encoders_.basenet.align(sight, crop)) {
+      return false;
+    }
+  }
+  return sight.face_probability >= config_.accept_probability;
+}
+
+bool Face::adopt(Frame& frame, const Sight& sight, std::uint32_t id) {
+  if (!accept(frame, sight)) {
+    return false;
+  }
+  if (frame.level > kLowestLevel) {
+    look_closely(frame);
+  }
+  state_.id = id;
+  state_.followed = true;
+  state_.is_new = true;
+  state_.alternate = true;
+  decoders_.reset(frame.level);
+  state_.flags |= MIEN_RESULT_FOUND;
+  return true;
+}
+
+void Face::follow(Frame& frame) {
+  const bool alternate = state_.alternate && !frame.cut;
+  const EncoderWork work = encoder_work(frame.level, alternate);
+  state_.alternate = false;
+  if (!work.basenet) {
+    return;
+  }
+  Sight sight;
+  if (look(frame, state_.crop, sight) && sight.face_probability >= config_.lose_probability) {
+    state_.followed = accept(frame, sight);
+    state_.alternate = !alternate;
+    if (state_.followed && work.hifinet) {
+      look_closely(frame);
+    }
+    return;
+  }
+  miss(frame);
+}
+
+// Until the face counts as lost the decoders go on with what was last seen of it.
+void Face::miss(const Frame& frame) {
+  ++state_.misses;
+  state_.followed = !frame.cut && state_.misses < config_.lose_after_frames;
+}
+
+bool Face::look(Frame& frame, const Crop& crop, Sight& sight) {
+  state_.flags |= MIEN_RESULT_ENCODER_RAN;
+  ++frame.encoder_runs;
+  const bool seen = encoders_.basenet.look(frame.view, crop, frame.timer, sight);
+  if (seen) {
+    state_.face_probability = sight.face_probability;
+  }
+  return seen;
+}
+
+bool Face::accept(const Frame& frame, const Sight& sight) {
+  Crop next;
+  if (!encoders_.basenet.align(sight, next) || !is_plausible(next, frame.view)) {
+    return false;
+  }
+  state_.crop = next;
+  state_.sight = sight;
+  state_.misses = 0;
+  return true;
+}
+
+void Face::look_closely(Frame& frame) {
+  ++frame.encoder_runs;
+  Sight close;
+  if (!encoders_.hifinet.look(frame.view, state_.crop, frame.timer, close)) {
+    return;
+  }
+  state_.close = close.features;
+  const float side = state_.crop.side;
+  std::transform(close.landmarks.begin(), close.landmarks.end(), state_.sight.landmarks.begin(),
+                 state_.refinement.begin(), [side](Point fine, Point coarse) {
+                   return Point{(fine.x - coarse.x) / side, (fine.y - coarse.y) / side};
+                 });
+}
+
+// HiFiNet's, or on a frame that it did not look at BaseNet's, refined as by HiFiNet before.
+Landmarks Face::landmarks(std::int32_t level) const {
+  Landmarks refined = state_.sight.landmarks;
+  if (level == kLowestLevel) {
+    return refined;
+  }
+  const float side = state_.crop.side;
+  std::transform(refined.begin(), refined.end(), state_.refinement.begin(), refined.begin(),
+                 [side](Point whole, Point refinement) {
+                   return Point{whole.x + side * refinement.x, whole.y + side * refinement.y};
+                 });
+  return refined;
+}
+
+void Face::animate(Frame& frame) {
+  const float share = 1.0f - std::exp(-frame.seconds / kPresenceSeconds);
+  state_.presence += share * ((state_.followed ? 1.0f : 0.0f) - state_.presence);
+  if (!state_.followed) {
+    fade(frame.seconds);
+    state_.seconds_lost += frame.seconds;
+    if (state_.status == MIEN_FACE_TRACKING) {
+      state_.status = MIEN_FACE_LOST;
+    }
+    return;
+  }
+  state_.status = MIEN_FACE_TRACKING;
+  state_.seconds_lost = 0.0f;
+  const StageTimer::Scope timed(frame.timer, MIEN_STAGE_DECODERS);
+  Appearance& seen = state_.seen;
+  decoders_.decode_controls(state_.sight.features, state_.close, frame.level, frame.seconds,
+                            seen.controls);
+  state_.flags |=
+      decoders_.neutral(frame.level).is_being_captured() ? MIEN_RESULT_CAPTURING_NEUTRAL : 0;
+  decoders_.decode_pose(state_.sight.features, state_.sight.crop, frame.view.camera, seen.pose);
+  refine_head_pose(encoders_.basenet.head_points(), state_.sight.landmarks, frame.view.camera,
+                   seen.pose);
+  seen.landmarks = landmarks(frame.level);
+  state_.is_new = state_.is_new || frame.cut;
+  show(frame.seconds);
+}
+
+void Face::show(float seconds) {
+  if (config_.smoothing == 0 || state_.is_new) {
+    state_.shown = state_.seen;
+    state_.is_new = false;
+    return;
+  }
+  smooth_controls(state_.seen.controls, seconds, state_.shown.controls);
+  smooth_points(state_.seen.landmarks, state_.crop.side, seconds, state_.shown.landmarks);
+  smooth_pose(state_.seen.pose, seconds, state_.shown.pose);
+}
+
+void Face::fade(float seconds) {
+  const float factor = std::exp(-seconds / kFadeSeconds);
+  for (float& control : state_.shown.controls) {
+    control = control > kFaded ? control * factor : 0.0f;
+  }
+}
+
+void Face::publish(const ImageView& view) {
+  mien_result& result = result_;
+  result.status = state_.status;
+  result.face_id = state_.id;
+  result.flags |= std::exchange(state_.flags, 0);
+  result.face_probability = state_.face_probability;
+  const Appearance& shown = state_.shown;
+  std::copy(shown.controls.begin(), shown.controls.end(), result.controls);
+  if (!state_.followed) {
+    return;
+  }
+  const Crop& crop = state_.crop;
+  const Point center = to_picture(view, crop.center);
+  result.box[0] = center.x - crop.side / 2;
+  result.box[1] = center.y - crop.side / 2;
+  result.box[2] = crop.side;
+  result.box[3] = crop.side;
+  for (std::size_t i = 0; i < shown.landmarks.size(); ++i) {
+    const Point p = to_picture(view, shown.landmarks[i]);
+    result.landmarks[i][0] = p.x;
+    result.landmarks[i][1] = p.y;
+  }
+  const Quaternion q = quaternion(shown.pose.rotation);
+  const std::array<float, 4> rotation = {q.x, q.y, q.z, q.w};
+  std::copy(rotation.begin(), rotation.end(), result.rotation);
+  const EulerAngles angles = euler_angles(shown.pose.rotation);
+  result.pitch = angles.pitch;
+  result.yaw = angles.yaw;
+  result.roll = angles.roll;
+  std::copy(shown.pose.translation.begin(), shown.pose.translation.end(), result.translation);
+}
+
+}  // namespace mien::tracker

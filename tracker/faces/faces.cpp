@@ -1,0 +1,133 @@
+#include "tracker/faces/faces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <new>
+#include <type_traits>
+
+namespace mien::tracker {
+namespace {
+
+constexpr float kSamePlace = 0.4f;  // of the larger side, between the centres of one face
+constexpr float kNear = 1.0f;       // the same of a face that moved while it was lost
+constexpr float kRememberedSeconds = 2.0f;
+
+float distance(const Square& a, const Square& b) {
+  return std::hypot(a.center.x - b.center.x, a.center.y - b.center.y) / std::max(a.side, b.side);
+}
+
+bool was_lost_here(const Face& face, const Square& square) {
+  return face.is_known() && !face.is_followed() && face.seconds_lost() < kRememberedSeconds &&
+         distance(face.square(), square) < kNear;
+}
+
+}  // namespace
+
+mien_status Faces::load(const mien_tracker_config& config, Encoders& encoders, const Models& models,
+                        engine::Arena& arena) {
+  static_assert(std::is_trivially_destructible_v<Face>, "the arena destroys nothing");
+  static_assert(alignof(Face) <= engine::Arena::kAlignment && sizeof(Face) % alignof(Face) == 0);
+  const auto count = static_cast<std::size_t>(config.max_faces);
+  const std::span<std::byte> room = arena.take(count * sizeof(Face));
+  mien_status status = MIEN_OK;
+  for (std::size_t i = 0; status == MIEN_OK && i < count; ++i) {
+    if (arena.measuring()) {
+      Decoders measured;  // a whole face would take more of the stack
+      status = measured.load(models, config.cpu_mask, arena);
+    } else {
+      status = (new (room.data() + i * sizeof(Face)) Face(config, encoders))->load(models, arena);
+    }
+  }
+  faces_ = {reinterpret_cast<Face*>(room.data()), arena.measuring() ? 0 : count};
+  return status;
+}
+
+std::size_t Faces::followed() const {
+  return static_cast<std::size_t>(std::count_if(
+      faces_.begin(), faces_.end(), [](const Face& face) { return face.is_followed(); }));
+}
+
+const Face* Faces::known(std::size_t n) const {
+  const Face* found = nullptr;
+  for (const Face& face : faces_) {
+    const auto is_before = [&](const Face& other) {
+      return other.is_known() && other.id() < face.id();
+    };
+    if (face.is_known() &&
+        static_cast<std::size_t>(std::count_if(faces_.begin(), faces_.end(), is_before)) == n) {
+      found = &face;
+    }
+  }
+  return found;
+}
+
+void Faces::reset(std::int32_t level) {
+  newest_id_ = 0;
+  for (Face& face : faces_) {
+    face.reset(level);
+  }
+}
+
+bool Faces::is_taken(const Square& square) const {
+  return std::any_of(faces_.begin(), faces_.end(), [&](const Face& face) {
+    return face.is_followed() && distance(face.square(), square) < kSamePlace;
+  });
+}
+
+bool Faces::welcome(Frame& frame, const Square& square) {
+  if (is_taken(square)) {
+    return false;
+  }
+  Face& face = place_for(square);
+  Sight sight;
+  if (!face.find(frame, square, sight) || is_taken({sight.crop.center, sight.crop.side})) {
+    return false;
+  }
+  const std::uint32_t id = was_lost_here(face, square) ? face.id() : newest_id_ + 1;
+  if (!face.adopt(frame, sight, id)) {
+    return false;
+  }
+  newest_id_ = std::max(newest_id_, id);
+  return true;
+}
+
+// That of a face lost here; else one that is free; else that of the face lost longest ago.
+Face& Faces::place_for(const Square& square) {
+  const auto worth = [&](const Face& face) {
+    if (face.is_followed()) {
+      return -1.0f;
+    }
+    if (was_lost_here(face, square)) {
+      return std::numeric_limits<float>::infinity();
+    }
+    return face.is_known() ? face.seconds_lost() : std::numeric_limits<float>::max();
+  };
+  return *std::max_element(faces_.begin(), faces_.end(),
+                           [&](const Face& a, const Face& b) { return worth(a) < worth(b); });
+}
+
+void Faces::drop_doubles(std::int32_t level) {
+  for (Face& younger : faces_) {
+    const bool is_double =
+        younger.is_followed() && std::any_of(faces_.begin(), faces_.end(), [&](const Face& older) {
+          return older.is_followed() && older.id() < younger.id() &&
+                 distance(older.square(), younger.square()) < kSamePlace;
+        });
+    if (is_double) {
+      younger.reset(level);
+    }
+  }
+}
+
+void Faces::forget_lost(std::int32_t level) {
+  for (Face& face : faces_) {
+    const bool is_last = known(1) == nullptr;
+    if (!is_last && face.is_known() && !face.is_followed() &&
+        face.seconds_lost() > kRememberedSeconds) {
+      face.reset(level);
+    }
+  }
+}
+
+}  // namespace mien::tracker

@@ -1,0 +1,122 @@
+#include "tracker/image/sampler.h"
+
+#include <algorithm>
+
+namespace mien::tracker {
+namespace {
+
+constexpr float kScale = 1.0f / 127.5f;
+constexpr float kBlack = -1.0f;
+// From there on a bilinear sample would miss too much of what lies between it and the next.
+constexpr float kMostPixelsApart = 1.5f;
+constexpr std::int32_t kLargestBox = 8;
+
+kernels::PixelFormat pixel_format(std::int32_t format) {
+  switch (format) {
+    case MIEN_IMAGE_GRAY8:
+      return kernels::PixelFormat::kGray8;
+    case MIEN_IMAGE_RGB:
+      return kernels::PixelFormat::kRgb;
+    case MIEN_IMAGE_BGR:
+      return kernels::PixelFormat::kBgr;
+    case MIEN_IMAGE_RGBA:
+      return kernels::PixelFormat::kRgba;
+    case MIEN_IMAGE_BGRA:
+      return kernels::PixelFormat::kBgra;
+    default:
+      return kernels::PixelFormat::kYuv420;
+  }
+}
+
+std::ptrdiff_t pixel_bytes(std::int32_t format) {
+  switch (format) {
+    case MIEN_IMAGE_RGB:
+    case MIEN_IMAGE_BGR:
+      return 3;
+    case MIEN_IMAGE_RGBA:
+    case MIEN_IMAGE_BGRA:
+      return 4;
+    default:
+      return 1;
+  }
+}
+
+kernels::Plane plane(const mien_image& image, int index, int first_byte, std::ptrdiff_t pixel) {
+  return {static_cast<const std::uint8_t*>(image.planes[index]) + first_byte,
+          image.row_stride_bytes[index], pixel};
+}
+
+void set_planes(const mien_image& image, kernels::WarpArgs& args) {
+  args.plane[0] = plane(image, 0, 0, pixel_bytes(image.format));
+  if (image.format == MIEN_IMAGE_I420) {
+    args.plane[1] = plane(image, 1, 0, image.chroma_pixel_stride_bytes);
+    args.plane[2] = plane(image, 2, 0, image.chroma_pixel_stride_bytes);
+  } else if (image.format == MIEN_IMAGE_NV12 || image.format == MIEN_IMAGE_NV21) {
+    const int u = image.format == MIEN_IMAGE_NV12 ? 0 : 1;
+    args.plane[1] = plane(image, 1, u, 2);
+    args.plane[2] = plane(image, 1, 1 - u, 2);
+  }
+}
+
+// The smallest power of two with which samples lie close enough.
+std::int32_t box(float pixels_apart) {
+  std::int32_t box = 1;
+  while (box < kLargestBox && pixels_apart > kMostPixelsApart * static_cast<float>(box)) {
+    box *= 2;
+  }
+  return box;
+}
+
+}  // namespace
+
+void Sampler::cut(const ImageView& view, const Crop& crop, const Raster& raster,
+                  std::span<float> picture) const {
+  const auto rows = static_cast<float>(raster.rows);
+  const auto columns = static_cast<float>(raster.columns);
+  const float unit = raster.extent / rows;
+  const Affine sample_to_crop = {unit, 0,    0.5f * (1.0f - unit * columns),
+                                 0,    unit, 0.5f * (1.0f - unit * rows)};
+  const Affine m = compose(view.to_buffer, compose(crop_to_image(crop), sample_to_crop));
+  kernels::WarpArgs args = {};
+  args.format = pixel_format(view.image.format);
+  set_planes(view.image, args);
+  args.full_range = view.image.full_range != 0;
+  args.yuv_matrix = view.image.yuv_matrix == MIEN_YUV_BT709 ? kernels::kBt709 : kernels::kBt601;
+  args.image_width = view.image.width;
+  args.image_height = view.image.height;
+  const float matrix[6] = {m.xx, m.xy, m.x0, m.yx, m.yy, m.y0};
+  std::copy(std::begin(matrix), std::end(matrix), args.matrix);
+  args.box = box(crop.side * unit);
+  args.chroma_box = box(0.5f * crop.side * unit);
+  args.y = picture.data();
+  args.width = raster.columns;
+  args.height = raster.rows;
+  args.scale = kScale;
+  args.offset = kBlack;
+  args.samples = samples_;
+  warp_(args);
+}
+
+void Sampler::cut_black(const ImageView& view, const Square& square, std::int32_t samples,
+                        std::span<float> picture) const {
+  cut(view, {square.center, square.side, 0.0f}, {samples, samples, 1.0f}, picture);
+  const float pixels_per_sample = square.side / static_cast<float>(samples);
+  const auto at = [&](float center, std::int32_t index) {
+    return center - square.side / 2 + (static_cast<float>(index) + 0.5f) * pixels_per_sample;
+  };
+  const auto inside = [](float value, float begin, float length) {
+    return value >= begin && value <= begin + length;
+  };
+  const Rect& seen = view.region;
+  float* pixel = picture.data();
+  for (std::int32_t i = 0; i < samples; ++i) {
+    const bool row_inside = inside(at(square.center.y, i), seen.corner.y, seen.height);
+    for (std::int32_t j = 0; j < samples; ++j, pixel += 3) {
+      if (!row_inside || !inside(at(square.center.x, j), seen.corner.x, seen.width)) {
+        std::fill(pixel, pixel + 3, kBlack);
+      }
+    }
+  }
+}
+
+}  // namespace mien::tracker
