@@ -2,7 +2,8 @@
 """Writes models/basenet.mien, hifinet.mien and proposal.mien from the runs' checkpoints.
 
 usage: export.py basenet|hifinet ENCODER.pt DECODERS.pt     or: export.py proposal PNET.pt RNET.pt     [--out FOLDER]
-Batch norm is folded into the convolution before it; linear layers that follow a map take the map's blocked order.
+Batch norm is folded into the convolution before it; linear layers that follow a map take the map's blocked order. Weights are rounded
+(round_weights.py).
 """
 import argparse
 import json
@@ -13,8 +14,9 @@ from torch import nn
 
 import landmark_points as lp
 import networks
-from mien_file import MienFile
+from mien_file import MienFile, write_whole
 from paths import ROOT
+from round_weights import rounded
 from sequences import template
 
 LICENCE = "Apache-2.0; trained on the data that models/README.md names"
@@ -153,7 +155,7 @@ def main():
     parser.add_argument("--out", type=Path, default=ROOT / "models", help="folder")
     options = parser.parse_args()
     path = options.out / f"{options.what}.mien"
-    FILES[options.what](*options.checkpoints).write(path)
+    write_whole(path, rounded(FILES[options.what](*options.checkpoints).to_bytes()))
     print(json.dumps({"file": path.name, "bytes": path.stat().st_size}))
 
 

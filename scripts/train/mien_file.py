@@ -28,7 +28,8 @@ FP16, FP32 = 1, 2
 NO_INDEX = 0xFFFFFFFF
 ANY_SIZE, CEIL_MODE = 1, 1
 ALIGNMENT = 64
-HEADER_BYTES = 64
+HEADER_BYTES = RECORD_BYTES = 64
+CHECKSUM_AT = 56
 MAX_NETWORKS, MAX_LAYERS, MAX_TENSORS, MAX_METADATA, MAX_OUTPUTS = 64, 1024, 4096, 256, 4
 MAX_TEXT_BYTES, MAX_FILE_BYTES, MAX_MAP_ELEMS = 4096, 1 << 31, 1 << 28
 MAX_DIM, MAX_RANK, MAX_KERNEL, MAX_STRIDE = 1 << 20, 4, 15, 15
@@ -69,17 +70,27 @@ class MienFile:
         return _assemble(version, networks, layers, list(zip(names, tensors)), metadata, bytes(strings.data))
 
     def write(self, path):
-        """The file appears under its name only when it is whole."""
-        path = os.fspath(path)
-        handle, partial = tempfile.mkstemp(dir=os.path.dirname(path) or ".", suffix=".partial")
-        try:
-            with os.fdopen(handle, "wb") as out:
-                out.write(self.to_bytes())
-            os.chmod(partial, 0o644)
-            os.replace(partial, path)
-        except BaseException:
-            os.unlink(partial)
-            raise
+        write_whole(path, self.to_bytes())
+
+
+def write_whole(path, data):
+    """The file appears under its name only when it is whole."""
+    path = os.fspath(path)
+    handle, partial = tempfile.mkstemp(dir=os.path.dirname(path) or ".", suffix=".partial")
+    try:
+        with os.fdopen(handle, "wb") as out:
+            out.write(data)
+        os.chmod(partial, 0o644)
+        os.replace(partial, path)
+    except BaseException:
+        os.unlink(partial)
+        raise
+
+
+def sealed(file):
+    """The bytes of a file with the checksum that belongs to them."""
+    head, body = file[:CHECKSUM_AT], file[HEADER_BYTES:]
+    return head + struct.pack("<Q", xxhash64(head + bytes(8) + body)) + body
 
 
 def _assemble(minor_version, networks, layers, tensors, metadata, strings):
@@ -98,7 +109,7 @@ def _assemble(minor_version, networks, layers, tensors, metadata, strings):
     _require(total <= MAX_FILE_BYTES, "file too large")
     header = struct.pack("<8s2H7I2Q", b"\x89MIEN\r\n\x1a", 1, minor_version, 0x01020304, HEADER_BYTES, *counts, len(strings),
                          total, data_offset)
-    return header + struct.pack("<Q", xxhash64(header + bytes(8) + body)) + body
+    return sealed(header + bytes(8) + body)
 
 
 class Network:

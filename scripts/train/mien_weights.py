@@ -9,10 +9,9 @@ from pathlib import Path
 import numpy as np
 import torch
 
-from mien_file import HEADER_BYTES, OPS
+from mien_file import HEADER_BYTES, OPS, RECORD_BYTES
 
 NAMES = {number: name for name, number in OPS.items()}
-RECORD = 64
 
 
 @dataclass
@@ -53,8 +52,8 @@ def _read(path):
     """(the file, its records of networks, layers and tensors, its names)"""
     data = Path(path).read_bytes()
     counts = struct.unpack_from("<4I", data, 20)
-    ends = np.cumsum([HEADER_BYTES, *(RECORD * n for n in counts[:3]), 16 * counts[3]])
-    records = [[data[at:at + RECORD] for at in range(a, b, RECORD)] for a, b in zip(ends[:3], ends[1:4])]
+    ends = np.cumsum([HEADER_BYTES, *(RECORD_BYTES * n for n in counts[:3]), 16 * counts[3]])
+    records = [[data[at:at + RECORD_BYTES] for at in range(a, b, RECORD_BYTES)] for a, b in zip(ends[:3], ends[1:4])]
     return data, records, data[ends[4]:]
 
 

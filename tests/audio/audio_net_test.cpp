@@ -1,5 +1,5 @@
 // AudioNet of models/audionet.mien against PyTorch's answers to the same features
-// (scripts/train/voice/export.py --golden).
+// (scripts/train/voice/golden.py).
 #include "audio/audio_net.h"
 
 #include <gtest/gtest.h>

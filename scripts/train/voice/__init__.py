@@ -10,6 +10,7 @@
     $T --start-from $R/committed.pt --minutes 82           # stop it twice, after a validation, to align anew with $R/audionet/last.pt
     python3 -m voice.train_decoders $R/audionet/last.pt --out $R/audionet_decoders.pt
     python3 -m voice.export $R/audionet/last.pt $R/audionet_decoders.pt
+    python3 -m voice.golden                                # what a test holds the file against
     ../evaluate/evaluate.py voice --audionet $R/audionet/last.pt $R/audionet_decoders.pt
 
 Without weights to start from: --synthetic-only --minutes 8 --rate 5e-3 --hard 0.4 without --together makes an encoder that can align.

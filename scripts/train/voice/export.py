@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Writes models/audionet.mien from the checkpoints of both phases, and checks that folding changed nothing.
 
-usage: python3 -m voice.export ENCODER.pt DECODERS.pt [--out FOLDER] [--golden FOLDER]      (in scripts/train)
---golden: 60 steps of features and what the file's networks answer, with weights as the file has them (fp16), as f32 files.
+usage: python3 -m voice.export ENCODER.pt DECODERS.pt [--out FOLDER]      (in scripts/train)
+Then voice/golden.py makes what a test holds the file against.
 """
 import argparse
 import copy
@@ -15,11 +15,13 @@ import torch.nn.functional as F
 
 from expressions import CONTROLS
 from export import LICENCE, loaded, plain
-from mien_file import MienFile
+from mien_file import MienFile, write_whole
 from networks import LEAK
 from paths import ROOT
+from round_weights import rounded
 from voice.audio_net import EMBEDDING, SPEECH_CONTROLS, Encoder, activity_decoder, controls_decoder
-from voice.features import FEATURES, RATE, features
+from voice.features import FEATURES
+from voice.golden import answers, some_features
 
 # What sound has to say of a control while somebody speaks and the picture shows it; video has the rest. Lips that meet for a p are seen
 # too late and too briefly at 30 frames a second, and sound knows of them. Little of all else as long as sound knows one face: of other
@@ -29,7 +31,6 @@ FROM_SOUND = dict.fromkeys(SPEECH_CONTROLS, 0.2) | {"mouthClose": 0.4, "mouthPre
 # Added to what speaks for speech: a mouth that moves to noise looks worse than one that begins a little late. Chosen on validation
 # speech, where as many frames are right as without it (96.3 % at 20 dB), and all noises leave the mouth at rest for 95 % of the time.
 SPEECH_BIAS = -1.0
-GOLDEN_STEPS = 60
 
 
 def add_lstm(net, x, lstm):
@@ -86,14 +87,6 @@ def whole(encoder, decoders, x):
     return embedding, decoders["controls"](embedding)[0].clamp(0, 1), decoders["activity"](embedding)[0].softmax(-1)
 
 
-def some_features(steps=GOLDEN_STEPS):
-    """Of noise that swells, with a vowel's harmonics in it."""
-    t = np.arange(steps * 256) / RATE
-    noise = np.random.default_rng(1).standard_normal(len(t))
-    vowel = sum(np.sin(2 * np.pi * 120 * k * t) / k for k in range(1, 20))
-    return torch.from_numpy(np.float32(features(np.float32(0.1 * np.sin(4 * t) ** 2 * (vowel + 0.2 * noise)))))[None]
-
-
 def read(encoder_path, decoders_path):
     """(encoder, {name: decoder}, state of the encoder's checkpoint), as they are exported."""
     state, trained = (torch.load(p, map_location="cpu") for p in (encoder_path, decoders_path))
@@ -105,13 +98,9 @@ def read(encoder_path, decoders_path):
     return encoder, decoders, state
 
 
-def check(encoder, decoders):
-    """Largest differences of embedding, controls and activity: of folding, and of folding and fp16."""
-    x = some_features(200)
-    said = whole(encoder, decoders, x)
-    differences = [[(a - b).abs().max().item() for a, b in zip(said, Folded(encoder, decoders, exact)(x))] for exact in (True, False)]
-    assert max(differences[0]) < 1e-3 * max(1.0, said[0].abs().max().item()), differences
-    return differences
+def differences(said, other):
+    """The largest of embedding, controls and activity."""
+    return [(a - b).abs().max().item() for a, b in zip(said, other)]
 
 
 def audionet(encoder, decoders, state):
@@ -131,18 +120,16 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("checkpoints", type=Path, nargs=2)
     parser.add_argument("--out", type=Path, default=ROOT / "models", help="folder")
-    parser.add_argument("--golden", type=Path, help="folder")
     args = parser.parse_args()
     encoder, decoders, state = read(*args.checkpoints)
-    folding, stored = check(encoder, decoders)
+    x = some_features(200)
+    said = whole(encoder, decoders, x)
+    folding = differences(said, Folded(encoder, decoders, exact=True)(x))
+    assert max(folding) < 1e-3 * max(1.0, said[0].abs().max().item()), folding
     path = args.out / "audionet.mien"
-    audionet(encoder, decoders, state).write(path)
-    print(json.dumps({"file": path.name, "bytes": path.stat().st_size, "folding changes": folding, "with fp16": stored}))
-    if args.golden:
-        x = some_features()
-        _, controls, activity = Folded(encoder, decoders)(x)
-        for name, values in (("input", x), ("controls", controls), ("activity", activity)):
-            plain(values[0]).tofile(args.golden / f"audionet_{name}.f32")
+    write_whole(path, rounded(audionet(encoder, decoders, state).to_bytes()))
+    print(json.dumps({"file": path.name, "bytes": path.stat().st_size, "folding changes": folding,
+                      "with rounding": differences(said, answers(path, x))}))
 
 
 if __name__ == "__main__":
