@@ -46,7 +46,7 @@ fuzz() {  # target
 max_length() {  # target: files are as long as the golden ones, choices of calls short
   case $1 in
     weight_file*) echo 20000 ;;
-    curves_csv | wav | y4m | pnm | npy | neutral_file) echo 4096 ;;
+    curves_csv | wav | y4m | pnm | npy | neutral_file | packed_file) echo 4096 ;;
     *) echo 400 ;;
   esac
 }

@@ -96,6 +96,7 @@ typedef enum mien_status {
   MIEN_ERROR_WEIGHTS_MALFORMED = -24,  /* breaks another rule of the format */
   MIEN_ERROR_WEIGHTS_INCOMPLETE = -25, /* lacks a network or constant that is needed */
   MIEN_ERROR_WEIGHTS_SHAPE = -26,      /* a network or constant has another shape than needed */
+  MIEN_ERROR_WEIGHTS_NOT_PACKED = -27, /* no packed weights */
   /* engine */
   MIEN_ERROR_UNSUPPORTED_CPU = -40,   /* the mask leaves no tier that this CPU and build can run */
   MIEN_ERROR_UNSUPPORTED_LAYER = -41, /* no allowed tier has a kernel for a layer */
@@ -483,6 +484,28 @@ MIEN_API MIEN_NODISCARD mien_status mien_tracker_set_audio_offset(mien_tracker* 
  * file. MIEN_ERROR_OUT_OF_RANGE also when there is no such control. */
 MIEN_API MIEN_NODISCARD mien_status mien_tracker_set_mix(mien_tracker* tracker, int32_t control,
                                                          float audio_weight, float video_weight);
+
+/* Packed weights ------------------------------------------------------------------------------- */
+
+/* A program that carries its weights can carry them packed, without loss, in 70 % of their bytes,
+ * if it has memory to unpack them to: scripts/package/pack_weights.py packs a weight file,
+ * mien_embed does so when it is told PACKED, docs/format.md says what is in it. */
+
+/* How many bytes they have unpacked goes to *unpacked_bytes: at most 2^31, and at most 820 times
+ * packed_bytes. `packed` is aligned in any way. MIEN_ERROR_WEIGHTS_NOT_PACKED;
+ * MIEN_ERROR_WEIGHTS_VERSION; MIEN_ERROR_WEIGHTS_TRUNCATED; MIEN_ERROR_WEIGHTS_MALFORMED also when
+ * there are more bytes than they say. */
+MIEN_API MIEN_NODISCARD mien_status mien_unpacked_bytes(const void* packed, size_t packed_bytes,
+                                                        size_t* unpacked_bytes);
+
+/* Unpacks to `file`: the weight file that was packed, byte for byte, as its checksum tells who
+ * reads it. Both are the caller's, and `packed` is not needed afterwards. `file` is
+ * MIEN_ALIGNMENT-aligned as weight files have to be, does not overlap `packed`, and has
+ * mien_unpacked_bytes or more: it is MIEN_ERROR_MEMORY_TOO_SMALL when file_bytes is less, and what
+ * is more stays as it is. Errors are those of mien_unpacked_bytes; after
+ * MIEN_ERROR_WEIGHTS_MALFORMED `file` may be zeros. */
+MIEN_API MIEN_NODISCARD mien_status mien_unpack(const void* packed, size_t packed_bytes, void* file,
+                                                size_t file_bytes);
 
 /* Result --------------------------------------------------------------------------------------- */
 

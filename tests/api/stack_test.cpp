@@ -6,6 +6,7 @@
 
 #include <vector>
 
+#include "tests/engine/mini_model.h"
 #include "tests/tracker/blob_tracker.h"
 
 namespace mien::tests {
@@ -45,6 +46,18 @@ TEST(Stack, IsAsSmallAsTheHeaderSays) {
   EXPECT_EQ(status, MIEN_OK);
   EXPECT_LT(stack_of([&] { status = tracker.reset(); }), 16u * 1024);
   EXPECT_TRUE(result.has_face());
+}
+
+TEST(Stack, IsEnoughToUnpackWeights) {
+  AlignedBuffer packed = read_file(MIEN_SOURCE_DIR "/tests/golden/packed/accept/small.packed");
+  AlignedBuffer file(4096);
+  mien_status status = MIEN_ERROR_INTERNAL;
+  const std::size_t used = stack_of([&] {
+    status = mien_unpack(packed.span().data(), packed.span().size(), file.span().data(), 4096);
+  });
+  EXPECT_EQ(status, MIEN_OK);
+  EXPECT_LT(used, 16u * 1024);
+  EXPECT_GT(used, 8u * 1024) << "nothing was measured";
 }
 
 }  // namespace

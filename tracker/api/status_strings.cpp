@@ -13,7 +13,7 @@ const char* mien_status_string(mien_status status) {
     case MIEN_ERROR_ALIGNMENT:
       return "weights, memory or samples are not aligned as they must be";
     case MIEN_ERROR_MEMORY_TOO_SMALL:
-      return "the memory is smaller than mien_tracker_required_bytes";
+      return "the memory is smaller than what is to be put into it";
     case MIEN_ERROR_OUT_OF_MEMORY:
       return "the allocator has no memory";
     case MIEN_ERROR_UNSUPPORTED_LOD:
@@ -36,6 +36,8 @@ const char* mien_status_string(mien_status status) {
       return "the weight file lacks a network or constant that is needed";
     case MIEN_ERROR_WEIGHTS_SHAPE:
       return "a network or constant in the weight file has the wrong shape";
+    case MIEN_ERROR_WEIGHTS_NOT_PACKED:
+      return "these are no packed weights";
     case MIEN_ERROR_UNSUPPORTED_CPU:
       return "no allowed tier of kernels runs on this CPU";
     case MIEN_ERROR_UNSUPPORTED_LAYER:

@@ -22,6 +22,7 @@ namespace Mien
         WeightsMalformed = -24,
         WeightsIncomplete = -25,
         WeightsShape = -26,
+        WeightsNotPacked = -27,
         UnsupportedCpu = -40,
         UnsupportedLayer = -41,
         Internal = -42,

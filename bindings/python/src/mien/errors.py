@@ -79,6 +79,10 @@ class WeightsShapeError(MienError, ValueError):
     status = -26
 
 
+class WeightsNotPackedError(MienError, ValueError):
+    status = -27
+
+
 class UnsupportedCpuError(MienError):
     status = -40
 

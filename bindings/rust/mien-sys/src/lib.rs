@@ -195,6 +195,8 @@ extern "C" {
     pub fn mien_tracker_save_neutral(tracker: *const mien_tracker, file: *mut c_void, file_bytes: usize, captured: *mut u32)
         -> mien_status;
     pub fn mien_tracker_load_neutral(tracker: *mut mien_tracker, file: *const c_void, file_bytes: usize) -> mien_status;
+    pub fn mien_unpacked_bytes(packed: *const c_void, packed_bytes: usize, unpacked_bytes: *mut usize) -> mien_status;
+    pub fn mien_unpack(packed: *const c_void, packed_bytes: usize, file: *mut c_void, file_bytes: usize) -> mien_status;
     pub fn mien_network_config_default(config: *mut mien_network_config);
     pub fn mien_network_create(config: *const mien_network_config, network: *mut *mut mien_network) -> mien_status;
     pub fn mien_network_destroy(network: *mut mien_network);

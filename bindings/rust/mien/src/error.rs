@@ -28,8 +28,8 @@ macro_rules! statuses {
 statuses! {
     NullArgument = -1, StructSize = -2, OutOfRange = -3, Alignment = -4, MemoryTooSmall = -5, OutOfMemory = -6, UnsupportedLod = -7,
     SeveralFaces = -8, NoAudionet = -9, WeightsNotMien = -20, WeightsVersion = -21, WeightsTruncated = -22, WeightsChecksum = -23,
-    WeightsMalformed = -24, WeightsIncomplete = -25, WeightsShape = -26, UnsupportedCpu = -40, UnsupportedLayer = -41, Internal = -42,
-    LeftOut = -43, ImageFormat = -60, ImageSize = -61, ImageStride = -62, ImagePlane = -63, ImageRotation = -64, ImageCamera = -65,
+    WeightsMalformed = -24, WeightsIncomplete = -25, WeightsShape = -26, WeightsNotPacked = -27, UnsupportedCpu = -40, UnsupportedLayer = -41,
+    Internal = -42, LeftOut = -43, ImageFormat = -60, ImageSize = -61, ImageStride = -62, ImagePlane = -63, ImageRotation = -64, ImageCamera = -65,
     AudioFormat = -66, AudioRate = -67, AudioChannels = -68, AudioSamples = -69, ImageRegion = -70, AudioQueueFull = -71,
     NeutralFormat = -80, NeutralVersion = -81, NeutralDamaged = -82,
 }

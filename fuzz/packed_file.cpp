@@ -1,0 +1,58 @@
+// The bytes are a packed weight file, as they are and with its header made right, so that mutations
+// reach the blocks behind it.
+#include "formats/packed_file.h"
+
+#include <algorithm>
+#include <cstring>
+#include <vector>
+
+#include "fuzz/bytes.h"
+#include "fuzz/target.h"
+
+namespace {
+
+using namespace mien::formats;
+
+constexpr unsigned char kRight[] = {0x89, 'M', 'I', 'E', 'P', 0x0D, 0x0A, 0x1A,
+                                    1,    0,   0,   0,   0,   0,    0,    0};
+constexpr std::size_t kPackedBytesAt = 16;
+constexpr std::size_t kUnpackedBytesAt = 24;
+constexpr std::size_t kHeaderBytes = 32;
+constexpr std::uint64_t kMostUnpacked = 1 << 18;
+
+void read(std::span<const std::byte> packed) {
+  std::size_t bytes = 0;
+  if (unpacked_bytes(packed, bytes) != PackedStatus::kOk) {
+    mien::fuzz::require(bytes == 0);
+    return;
+  }
+  mien::fuzz::require(bytes > 0 && bytes <= 820 * packed.size());
+  std::vector<std::byte> file(bytes, std::byte{0xAA});
+  const PackedStatus status = unpack(packed, file);
+  if (status != PackedStatus::kOk) {
+    mien::fuzz::require(std::ranges::count(file, std::byte{0}) == std::ssize(file));
+    return;
+  }
+  std::vector<std::byte> again(bytes);
+  mien::fuzz::require(unpack(packed, again) == PackedStatus::kOk && file == again);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const auto bytes = std::as_bytes(std::span(data, size));
+  read(bytes);
+  if (size < kHeaderBytes) {
+    return 0;
+  }
+  std::vector<std::byte> right(bytes.begin(), bytes.end());
+  std::memcpy(right.data(), kRight, sizeof kRight);
+  const std::uint64_t packed_bytes = size;
+  std::memcpy(right.data() + kPackedBytesAt, &packed_bytes, sizeof packed_bytes);
+  std::uint64_t unpacked = 0;
+  std::memcpy(&unpacked, right.data() + kUnpackedBytesAt, sizeof unpacked);
+  unpacked = unpacked % kMostUnpacked / 64 * 64;
+  std::memcpy(right.data() + kUnpackedBytesAt, &unpacked, sizeof unpacked);
+  read(right);
+  return 0;
+}
