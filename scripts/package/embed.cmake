@@ -1,8 +1,11 @@
-# mien_embed(TARGET WEIGHTS...): the target carries weight files in itself, for machines without a file system or for one file to
-# ship. WEIGHTS: of basenet, proposal (a tracker needs both), hifinet, audionet. Its sources may then
+# mien_embed(TARGET [PACKED] WEIGHTS...): the target carries weight files in itself, for machines without a file system or for one file
+# to ship. WEIGHTS: of basenet, proposal (a tracker needs both), hifinet, audionet. Its sources may then
 #   #include <mien_weights.h>
 #   mien_use_embedded_weights(&config);     // after mien_tracker_config_default
+# PACKED: in 70 % of the bytes. They are unpacked into memory of the program's own when they are first used. Python packs them, while the
+# target is built.
 set(MIEN_EMBED_SCRIPT ${CMAKE_CURRENT_LIST_DIR}/embed_weights.cmake CACHE INTERNAL "")
+set(MIEN_PACK_SCRIPT ${CMAKE_CURRENT_LIST_DIR}/pack_weights.py CACHE INTERNAL "")
 if(DEFINED mien_MODELS_DIR)  # installed
   set(MIEN_EMBED_MODELS ${mien_MODELS_DIR} CACHE INTERNAL "")
 else()
@@ -10,21 +13,34 @@ else()
 endif()
 
 function(mien_embed target)
+  cmake_parse_arguments(ARG "PACKED" "" "" ${ARGN})
   set(folder ${CMAKE_CURRENT_BINARY_DIR}/${target}_weights)
+  if(ARG_PACKED)
+    find_package(Python3 REQUIRED COMPONENTS Interpreter)
+  endif()
   set(files)
-  foreach(name IN LISTS ARGN)
-    if(NOT name MATCHES "^(basenet|proposal|hifinet|audionet)$" OR NOT EXISTS ${MIEN_EMBED_MODELS}/${name}.mien)
+  foreach(name IN LISTS ARG_UNPARSED_ARGUMENTS)
+    set(file ${MIEN_EMBED_MODELS}/${name}.mien)
+    if(NOT name MATCHES "^(basenet|proposal|hifinet|audionet)$" OR NOT EXISTS ${file})
       message(FATAL_ERROR "mien_embed(${target}): no weights '${name}' in ${MIEN_EMBED_MODELS}")
     endif()
-    list(APPEND files ${MIEN_EMBED_MODELS}/${name}.mien)
+    if(ARG_PACKED)
+      set(packed ${folder}/${name}.packed)
+      add_custom_command(OUTPUT ${packed} COMMAND ${Python3_EXECUTABLE} ${MIEN_PACK_SCRIPT} ${file} ${packed}
+        DEPENDS ${file} ${MIEN_PACK_SCRIPT} VERBATIM COMMENT "Packing ${name} for ${target}")
+      set(file ${packed})
+    endif()
+    list(APPEND files ${file})
   endforeach()
+  file(MAKE_DIRECTORY ${folder})
   get_property(languages GLOBAL PROPERTY ENABLED_LANGUAGES)
   set(source ${folder}/mien_weights.c)
   if(NOT C IN_LIST languages)
     set(source ${folder}/mien_weights.cpp)
   endif()
   add_custom_command(OUTPUT ${source} ${folder}/mien_weights.h
-    COMMAND ${CMAKE_COMMAND} -DSOURCE=${source} -DHEADER=${folder}/mien_weights.h "-DFILES=${files}" -P ${MIEN_EMBED_SCRIPT}
+    COMMAND ${CMAKE_COMMAND} -DSOURCE=${source} -DHEADER=${folder}/mien_weights.h "-DFILES=${files}" -DPACKED=${ARG_PACKED}
+      -P ${MIEN_EMBED_SCRIPT}
     DEPENDS ${files} ${MIEN_EMBED_SCRIPT} VERBATIM COMMENT "Embedding weights in ${target}")
   target_sources(${target} PRIVATE ${source} ${folder}/mien_weights.h)
   target_include_directories(${target} PRIVATE ${folder})

@@ -50,7 +50,7 @@ write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/mienConfigVersion.c
   COMPATIBILITY SameMajorVersion)
 install(FILES
   ${CMAKE_CURRENT_BINARY_DIR}/mienConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/mienConfigVersion.cmake
-  scripts/package/embed.cmake scripts/package/embed_weights.cmake
+  scripts/package/embed.cmake scripts/package/embed_weights.cmake scripts/package/pack_weights.py
   DESTINATION ${package_dir})
 
 file(RELATIVE_PATH prefix_from_pkgconfig

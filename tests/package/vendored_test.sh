@@ -22,4 +22,9 @@ if nm -A "$library" | grep -E ' U f?(open|read|write|close)(at|64|v)?$|[^a-z]pri
   exit 1
 fi
 strip -o "$1/stripped" "$1/embedded/embedded" 2>/dev/null || cp "$1/embedded/embedded" "$1/stripped"  # of another machine
-echo "a program of level 1 with its weights: $(stat -c %s "$1/stripped") bytes"
+bytes=$(stat -c %s "$1/stripped")
+echo "a program of level 1 with its weights: $bytes bytes"
+if [ "$(uname -m)" = x86_64 ] && [ $# -eq 2 ] && [ "$bytes" -gt 1600000 ]; then
+  echo "vendored_test.sh: these are more than 1.6 MB" >&2
+  exit 1
+fi
