@@ -24,7 +24,8 @@ fi
 strip -o "$1/stripped" "$1/embedded/embedded" 2>/dev/null || cp "$1/embedded/embedded" "$1/stripped"  # of another machine
 bytes=$(stat -c %s "$1/stripped")
 echo "a program of level 1 with its weights: $bytes bytes"
-if [ "$(uname -m)" = x86_64 ] && [ $# -eq 2 ] && [ "$bytes" -gt 1600000 ]; then
+# As docs/packages.md has it; clang's code is 33 KB larger.
+if [ "$(uname -m) $#" = "x86_64 2" ] && [[ $("${CC:-cc}" --version) != *clang* ]] && [ "$bytes" -gt 1600000 ]; then
   echo "vendored_test.sh: these are more than 1.6 MB" >&2
   exit 1
 fi
