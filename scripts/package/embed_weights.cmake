@@ -5,7 +5,8 @@ cmake_minimum_required(VERSION 3.22)
 
 set(how "Sets the weights in *config, which never have to be released.")
 if(PACKED)
-  string(APPEND how " The first call unpacks them, and\n * has to be over before another thread calls. Damage is found by mien_tracker_create.")
+  string(APPEND how " The first call unpacks them, and
+ * has to be over before another thread calls. Damage is found by mien_tracker_create.")
 endif()
 file(WRITE ${HEADER} "/* Made by mien_embed. */
 #ifndef MIEN_WEIGHTS_H_
