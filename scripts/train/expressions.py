@@ -27,6 +27,10 @@ INDEX = {name: i for i, name in enumerate(CONTROLS)}
 SWAPPED = {"Left": "Right", "Right": "Left"}
 MIRROR = [INDEX[re.sub("(Left|Right)$", lambda m: SWAPPED[m[0]], n)] for n in CONTROLS]  # of a mirrored face
 PAIRED = [n[:-4] for n in CONTROLS if n.endswith("Left") and n[:-4] + "Right" in INDEX]
+PAIRED_LEFT, PAIRED_RIGHT = ([INDEX[n + side] for n in PAIRED] for side in ("Left", "Right"))
+
+LEANING = [[u for u in PAIRED if u.startswith(region)] for region in ("mouth", "brow", "cheek", "nose")] + [
+    ["eyeBlink", "eyeWide", "eyeSquint"]]  # pairs that lean to one side together
 
 # Units are drawn by weight; a sided one (jaw, mouth) counts twice because each side gets half of its draws.
 MOUTH_UNITS = {
@@ -261,6 +265,16 @@ def sample_still(rng):
         return legalise(sample_solo(rng))
     face = sample_expression(rng) if kind < 0.28 else sample_mouth(rng) + sample_upper(rng)
     return legalise(np.maximum(face, sample_lids(rng)) + sample_gaze(rng))
+
+
+def lean(rng, face):
+    """The same face on one side mostly, in some of its regions: sides are rarely told apart by chance."""
+    face = face.copy()
+    for region in LEANING:
+        if rng.random() < 0.6:
+            weak = rng.choice(["Left", "Right"])
+            weaken(face, [unit + weak for unit in region], rng.uniform(0, 0.4))
+    return face
 
 
 def min_jerk(n):

@@ -10,7 +10,7 @@ import torch.nn.functional as F
 import head_pose
 from face_data import to_crop
 import landmark_points as lp
-from expressions import CONTROLS
+from expressions import CONTROLS, PAIRED_LEFT, PAIRED_RIGHT
 
 # Lids, lips, irises and brows carry the expression; the oval is a matter of opinion.
 POINT_WEIGHTS = {"eye": 2.0, "iris": 1.5, "lips": 2.0, "brow": 1.5, "face": 0.6}
@@ -63,6 +63,11 @@ def censored(x, target):
     return torch.where(at_end, soft_clamp(x), x)
 
 
+def unevenness(controls):
+    """By how much the left of each pair is above the right: [...,52] -> [...,pairs]."""
+    return controls[..., PAIRED_LEFT] - controls[..., PAIRED_RIGHT]
+
+
 class Line:
     """For every control the line from our answers to the teacher's, by running means."""
 
@@ -113,6 +118,7 @@ class Losses:
         self.lids = lids_of_controls().to(device)
         self.of_eye = self.lids.sum(0) > 0
         self.spread = torch.ones(len(CONTROLS), device=device)
+        self.side_spread = torch.ones(len(PAIRED_LEFT), device=device)
         self.importance = importance().to(device)
         self.line, self.turn = Line(len(CONTROLS), device), Turn(device)
         self.teacher_spread, self.followed = torch.ones(len(CONTROLS)), torch.zeros(len(CONTROLS))
@@ -122,6 +128,7 @@ class Losses:
         if len(rendered):
             controls = torch.cat([torch.from_numpy(labels["controls"]) for _, labels in rendered.shards]).float()
             self.spread = controls.std(0).clamp(min=SMALLEST_SPREAD).to(self.spread)
+            self.side_spread = unevenness(controls).std(0).clamp(min=SMALLEST_SPREAD).to(self.spread)
 
     def learn_teacher(self, portraits):
         self.teacher_spread, self.followed = (v.to(self.spread.device) for v in followed(portraits.controls))
@@ -150,6 +157,14 @@ class Losses:
         error = F.smooth_l1_loss(ours / self.spread, batch.controls / self.spread, beta=2.0, reduction="none")
         return (error * weights).sum() / weights.sum().clamp(min=1)
 
+    def sides(self, out, batch):
+        """Which side moves: faces are even mostly, so that the loss of controls alone hardly asks for it."""
+        seen = ~self.of_eye | (batch.visible @ self.lids > 0.5)
+        weights = seen[:, PAIRED_LEFT] * seen[:, PAIRED_RIGHT] * batch.has_controls[:, None]
+        error = F.smooth_l1_loss(out / self.side_spread, unevenness(batch.controls) / self.side_spread, beta=2.0,
+                                 reduction="none")
+        return (error * weights).sum() / weights.sum().clamp(min=1)
+
     def teacher(self, out, batch):
         """Agreement with the teacher on portraits, in its spreads."""
         rows = batch.has_landmarks & ~batch.has_controls
@@ -175,5 +190,6 @@ class Losses:
 
     def total(self, out, batch):
         return (2 * self.landmarks(out["landmarks"], batch) + 0.5 * F.binary_cross_entropy_with_logits(out["face"], batch.face)
-                + 8 * self.controls(out["controls"], batch) + TEACHER_WEIGHT * self.teacher(out["controls"], batch)
+                + 8 * self.controls(out["controls"], batch) + 4 * self.sides(out["sides"], batch)
+                + TEACHER_WEIGHT * self.teacher(out["controls"], batch)
                 + 2 * self.pose(out["pose"], batch) + 2 * self.teacher_pose(out["pose"], batch))

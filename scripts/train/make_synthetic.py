@@ -72,11 +72,13 @@ def photograph(studio, window, pixels, figure, vertices, place, pose, shift=np.z
     return image, labels
 
 
-def stills(studio, framing, rng, split, first, count):
+def stills(studio, framing, rng, split, first, count, leaning):
     """Yields (image, labels) of `count` people numbered from `first`."""
     for start in range(0, count, BATCH):
         people = [look.sample(rng, split) for _ in range(min(BATCH, count - start))]
         controls = np.stack([expressions.sample_still(rng) for _ in people])
+        if leaning:
+            controls = np.stack([expressions.lean(rng, face) if rng.random() < leaning else face for face in controls])
         heads = studio.rig.identity(np.stack([p.identity for p in people]))
         faces = heads + studio.rig.expression(controls)
         for k, person in enumerate(people):
@@ -109,19 +111,19 @@ def sequence(studio, framing, rng, split, number, perform, frames):
             yield image, dict(labels, controls=controls[t], identity=number, sequence=number, frame=t)
 
 
-def frames_of_shard(studio, framing, split, kind, shard, count, seed, perform, frames):
+def frames_of_shard(studio, framing, split, kind, shard, count, seed, perform, frames, leaning):
     """Yields (image, labels); `count` is of stills or sequences in this shard."""
     rng = np.random.default_rng([seed, SPLITS.index(split), KINDS.index(kind), shard])
     if kind == "stills":
-        yield from stills(studio, framing, rng, split, shard * STILLS_PER_SHARD, count)
+        yield from stills(studio, framing, rng, split, shard * STILLS_PER_SHARD, count, leaning)
     else:
         for k in range(count):
             yield from sequence(studio, framing, rng, split, shard * SEQUENCES_PER_SHARD + k, perform, frames)
 
 
-def write_shard(studio, framing, folder, split, kind, shard, count, seed, perform, frames, position):
+def write_shard(studio, framing, folder, split, kind, shard, count, seed, perform, frames, leaning, position):
     total = count * (frames if kind == "sequences" else 1)
-    source = frames_of_shard(studio, framing, split, kind, shard, count, seed, perform, frames)
+    source = frames_of_shard(studio, framing, split, kind, shard, count, seed, perform, frames, leaning)
     save(folder, tqdm(source, f"{folder.parent.name} {shard}", total, position=position, mininterval=5, leave=False))
 
 
@@ -152,7 +154,7 @@ def work(job):
             continue
         studio = studio or Studio(Rig())
         count = min(per_shard, args.count - shard * per_shard)
-        write_shard(studio, framing, folder, args.split, args.kind, shard, count, args.seed, perform, args.frames, worker)
+        write_shard(studio, framing, folder, args.split, args.kind, shard, count, args.seed, perform, args.frames, args.leaning, worker)
 
 
 def main():
@@ -163,6 +165,7 @@ def main():
     parser.add_argument("--framing", choices=FRAMINGS, default=BASENET.name)
     parser.add_argument("--poses", type=Path, help="sequences through poses like these (hard_cases.py), in a folder of their own")
     parser.add_argument("--frames", type=int, default=FRAMES, help="of a sequence")
+    parser.add_argument("--leaning", type=float, default=0, help="share of stills whose expression leans to one side")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--out", type=Path, default=cache() / "synthetic")
     parser.add_argument("--data", type=Path, help="data packs, instead of MIEN_DATA")
@@ -170,6 +173,8 @@ def main():
     args = parser.parse_args()
     if args.poses and args.kind == "stills":
         parser.error("--poses is for sequences")
+    if args.leaning and args.kind == "sequences":
+        parser.error("--leaning is for stills")
     if args.data:
         os.environ["MIEN_DATA"] = str(args.data.resolve())
     jobs = [(args, worker) for worker in range(args.workers)]

@@ -6,6 +6,7 @@ import torch
 import torch.nn.functional as F
 from torch import nn
 
+from expressions import PAIRED
 from framing import BASENET, HIFINET
 from native_layers import expanded_unit
 from native_layers.depthwise_unit import depthwise_unit
@@ -173,7 +174,8 @@ class HiFiNetEncoder(Encoder):
 
 
 class FaceNetwork(nn.Module):
-    """Encoder with its plain heads; `controls` and `pose` exist in training only, to keep expression in the features."""
+    """Encoder with its plain heads; `controls`, `pose` and `sides`, by how much the left of a pair of controls is above the right, exist
+    in training only, to keep expression in the features."""
 
     def __init__(self, encoder, framing):
         super().__init__()
@@ -183,12 +185,14 @@ class FaceNetwork(nn.Module):
         self.face = nn.Linear(FEATURES, 1)
         self.controls = nn.Linear(FEATURES, CONTROLS)
         self.pose = nn.Linear(FEATURES, POSE)
+        self.sides = nn.Linear(FEATURES, len(PAIRED))
 
     def forward(self, image):
         features = self.encoder(image)
         head = lambda name: self.still.get(name, getattr(self, name))(features)
         return {"features": features, "landmarks": self.landmarks(features).view(-1, LANDMARKS, 2),
-                "face": self.face(features)[:, 0], "controls": head("controls"), "pose": head("pose")}
+                "face": self.face(features)[:, 0], "controls": head("controls"), "pose": head("pose"),
+                "sides": self.sides(features)}
 
     def see_through(self, decoders):
         """Trained decoders, {"controls_decoder": state, ...}, answer in place of the heads that exist in training only: the encoder then

@@ -21,8 +21,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "evaluate"))
 import head_pose  # noqa: E402
 from face_data import rarity  # noqa: E402
 import metrics  # noqa: E402
-from expressions import CONTROLS, MIRROR, PAIRED  # noqa: E402
-from losses import Line, Turn, censored, followed, importance, soft_clamp  # noqa: E402
+from expressions import CONTROLS, MIRROR, PAIRED, PAIRED_LEFT, PAIRED_RIGHT  # noqa: E402
+from losses import Line, Turn, censored, followed, importance, soft_clamp, unevenness  # noqa: E402
 from networks import FACE_NETWORKS, FEATURES, ControlsDecoder, PoseDecoder, TemporalDecoder  # noqa: E402
 
 SUPPORTED_CORRELATION = 0.55  # a margin over 0.5: on other people it is a little lower
@@ -63,7 +63,7 @@ def temporal_loss(predicted, target, weight, args, importance=1.0):
 
 
 class ControlsTask:
-    """Loss of the controls: rare ones weigh more, eyes nobody can see weigh nothing.
+    """Loss of the controls, and of which side of a pair moves: rare ones weigh more, eyes nobody can see weigh nothing.
 
     The price of motion is `args.velocity` and `args.acceleration`; a decoder without time could only pay it by answering
     less, so it learns values alone.
@@ -71,13 +71,16 @@ class ControlsTask:
 
     def __init__(self, data, args):
         self.args = args
-        weight = 1 / (data["controls"].flatten(0, 1).std(0) + 0.05)
-        self.weight = weight / weight.mean()
+        controls = data["controls"].flatten(0, 1).float()
+        weight, of_sides = (1 / (values.std(0) + 0.05) for values in (controls, unevenness(controls)))
+        self.weight, self.of_sides = weight / weight.mean(), self.args.sides * of_sides / weight.mean()
         self.importance = importance()
 
     def loss(self, output, batch, mask):
-        target = batch["controls"]
-        return temporal_loss(censored(output, target), target, self.weight * batch["visible"] * mask, self.args, self.importance)
+        target, seen = batch["controls"], batch["visible"]
+        ours, both_seen = censored(output, target), torch.minimum(seen[..., PAIRED_LEFT], seen[..., PAIRED_RIGHT])
+        return (temporal_loss(ours, target, self.weight * seen * mask, self.args, self.importance)
+                + temporal_loss(unevenness(ours), unevenness(target), self.of_sides * both_seen * mask, self.args))
 
 
 class TeacherTask:
@@ -357,6 +360,7 @@ def main():
     parser.add_argument("--rate", type=float, default=3e-3)
     parser.add_argument("--velocity", type=float, default=0.1)
     parser.add_argument("--acceleration", type=float, default=0.03)
+    parser.add_argument("--sides", type=float, default=1.0, help="weight of which side of a pair moves")
     parser.add_argument("--beta", type=float, default=0.15, help="larger errors count linearly")
     parser.add_argument("--noise", type=float, default=0.3, help="feature noise, in deviations")
     parser.add_argument("--threads", type=int, default=1)

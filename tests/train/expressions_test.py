@@ -49,6 +49,17 @@ class Expressions(unittest.TestCase):
         mean = stills(1500).mean(0)
         np.testing.assert_allclose(mean, mean[e.MIRROR], atol=0.04)
 
+    def test_leaning_faces_are_those_of_before_on_one_side(self):
+        rng, straight = np.random.default_rng(5), stills()
+        leaning = np.stack([e.lean(rng, face) for face in straight])
+        self.assertTrue((leaning <= straight).all())
+        uneven = lambda c: np.abs(c[:, e.PAIRED_LEFT] - c[:, e.PAIRED_RIGHT])
+        smile = e.PAIRED.index("mouthSmile")
+        for pair, before, after in zip(e.PAIRED, (uneven(straight) > 0.3).mean(0), (uneven(leaning) > 0.3).mean(0)):
+            self.assertGreaterEqual(after, 0 if pair in ("jaw", "mouth") or pair.startswith("eyeLook") else 1.2 * before, pair)
+        lean = (leaning[:, e.PAIRED_LEFT[smile]] - leaning[:, e.PAIRED_RIGHT[smile]]).mean()
+        self.assertLess(abs(lean), 0.02, "to both sides alike")
+
     def test_mirror_is_its_own_inverse(self):
         self.assertEqual([e.MIRROR[m] for m in e.MIRROR], list(range(52)))
         self.assertEqual(e.MIRROR[e.INDEX["eyeLookInLeft"]], e.INDEX["eyeLookInRight"])
