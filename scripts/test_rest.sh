@@ -22,6 +22,10 @@ linters() {
   build asan-ubsan mien_program mien_conformance_program  # by clang, whose options clang-tidy understands
   scripts/check_tidy.sh build/asan-ubsan
 }
+binding() {  # folder, and the group of what it needs, without which it says itself that it is not tested
+  scripts/setup.sh "$2" || echo "setup.sh: $2 could not be had" >&2
+  "bindings/$1/test.sh"
+}
 threads() {
   build tsan tracker_threads_test
   build/tsan/tests/tracker/tracker_threads_test
@@ -54,7 +58,10 @@ part() {  # name, command
 }
 part linters linters
 part Python bindings/python/test.sh
-for binding in rust csharp android swift; do part "bindings/$binding" "bindings/$binding/test.sh"; done  # JavaScript: the page
+part Rust binding rust rust
+part "C#" binding csharp csharp
+part Java binding android java
+part Swift bindings/swift/test.sh  # no compiler for it is in Debian; JavaScript: the page
 part documentation scripts/site.sh
 part "batches on a cluster" cluster
 part "binary interface" scripts/check_abi.sh
