@@ -45,6 +45,9 @@ struct Frame {
   char mouth_shape = 0;         // 0, or one of kMouthShapes, until the next frame
 
   Frame() { controls.fill(kNoNumber); }
+
+  // Rounded once: no 33.333332999999996.
+  [[nodiscard]] double time_ms() const { return static_cast<double>(time_ns) / 1e6; }
 };
 
 struct Clip {

@@ -96,7 +96,7 @@ class CurvesCsvWriter : public AnimationWriter {
     if (several_faces_) {
       row.add(frame.face_id);
     }
-    row.add(static_cast<double>(frame.time_ns) / 1e6);  // rounded once: no 33.333332999999996
+    row.add(frame.time_ms());
     row.add(std::string_view(name(frame.state)));
     row.add(frame.face_probability);
     frame.lod != 0 ? row.add(frame.lod) : row.add_empty();

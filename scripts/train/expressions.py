@@ -277,6 +277,14 @@ def lean(rng, face):
     return face
 
 
+def sample_stills(rng, count, leaning=0):
+    """Random expressions f32[count,52], of which a share leans to one side."""
+    faces = [sample_still(rng) for _ in range(count)]
+    if leaning:
+        faces = [lean(rng, face) if rng.random() < leaning else face for face in faces]
+    return np.stack(faces)
+
+
 def min_jerk(n):
     """n values of the minimum-jerk step from 0 (exclusive) to 1 (inclusive)."""
     t = np.arange(1, n + 1) / n

@@ -149,18 +149,21 @@ class Losses:
         """Landmarks must move with the picture (Honari et al. 2018): `second` was seen in `crop` of the first's picture."""
         return self.distance(second, to_crop(crop, self.framing.to_pixels(first))).mean()
 
+    def told(self, batch):
+        """Which controls the pictures tell and the labels know, bool [n,52]: an eye's only where the eye can be seen."""
+        return (~self.of_eye | (batch.visible @ self.lids > 0.5)) & batch.has_controls[:, None]
+
     def controls(self, out, batch):
-        """Squared where it is small, in spreads; an eye's controls only where the eye can be seen."""
-        seen = ~self.of_eye | (batch.visible @ self.lids > 0.5)
-        weights = (seen & batch.has_controls[:, None]) * self.importance
+        """Squared where it is small, in spreads."""
+        weights = self.told(batch) * self.importance
         ours = censored(out, batch.controls)
         error = F.smooth_l1_loss(ours / self.spread, batch.controls / self.spread, beta=2.0, reduction="none")
         return (error * weights).sum() / weights.sum().clamp(min=1)
 
     def sides(self, out, batch):
         """Which side moves: faces are even mostly, so that the loss of controls alone hardly asks for it."""
-        seen = ~self.of_eye | (batch.visible @ self.lids > 0.5)
-        weights = seen[:, PAIRED_LEFT] * seen[:, PAIRED_RIGHT] * batch.has_controls[:, None]
+        told = self.told(batch)
+        weights = told[:, PAIRED_LEFT] & told[:, PAIRED_RIGHT]
         error = F.smooth_l1_loss(out / self.side_spread, unevenness(batch.controls) / self.side_spread, beta=2.0,
                                  reduction="none")
         return (error * weights).sum() / weights.sum().clamp(min=1)

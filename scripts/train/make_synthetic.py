@@ -72,13 +72,11 @@ def photograph(studio, window, pixels, figure, vertices, place, pose, shift=np.z
     return image, labels
 
 
-def stills(studio, framing, rng, split, first, count, leaning):
-    """Yields (image, labels) of `count` people numbered from `first`."""
+def stills(studio, framing, rng, split, first, perform, count):
+    """Yields (image, labels) of `count` people numbered from `first`; `perform` makes the controls of several."""
     for start in range(0, count, BATCH):
         people = [look.sample(rng, split) for _ in range(min(BATCH, count - start))]
-        controls = np.stack([expressions.sample_still(rng) for _ in people])
-        if leaning:
-            controls = np.stack([expressions.lean(rng, face) if rng.random() < leaning else face for face in controls])
+        controls = perform(rng, len(people))
         heads = studio.rig.identity(np.stack([p.identity for p in people]))
         faces = heads + studio.rig.expression(controls)
         for k, person in enumerate(people):
@@ -111,19 +109,19 @@ def sequence(studio, framing, rng, split, number, perform, frames):
             yield image, dict(labels, controls=controls[t], identity=number, sequence=number, frame=t)
 
 
-def frames_of_shard(studio, framing, split, kind, shard, count, seed, perform, frames, leaning):
+def frames_of_shard(studio, framing, split, kind, shard, count, seed, perform, frames):
     """Yields (image, labels); `count` is of stills or sequences in this shard."""
     rng = np.random.default_rng([seed, SPLITS.index(split), KINDS.index(kind), shard])
     if kind == "stills":
-        yield from stills(studio, framing, rng, split, shard * STILLS_PER_SHARD, count, leaning)
+        yield from stills(studio, framing, rng, split, shard * STILLS_PER_SHARD, perform, count)
     else:
         for k in range(count):
             yield from sequence(studio, framing, rng, split, shard * SEQUENCES_PER_SHARD + k, perform, frames)
 
 
-def write_shard(studio, framing, folder, split, kind, shard, count, seed, perform, frames, leaning, position):
+def write_shard(studio, framing, folder, split, kind, shard, count, seed, perform, frames, position):
     total = count * (frames if kind == "sequences" else 1)
-    source = frames_of_shard(studio, framing, split, kind, shard, count, seed, perform, frames, leaning)
+    source = frames_of_shard(studio, framing, split, kind, shard, count, seed, perform, frames)
     save(folder, tqdm(source, f"{folder.parent.name} {shard}", total, position=position, mininterval=5, leave=False))
 
 
@@ -145,7 +143,7 @@ def work(job):
     args, worker = job
     per_shard = STILLS_PER_SHARD if args.kind == "stills" else SEQUENCES_PER_SHARD
     studio, framing = None, FRAMINGS[args.framing]
-    perform = expressions.sample_sequence
+    perform = expressions.sample_sequence if args.kind == "sequences" else partial(expressions.sample_stills, leaning=args.leaning)
     if args.poses:
         perform = partial(expressions.sample_like, pool=np.load(args.poses)["controls"])
     for shard in range(worker, -(-args.count // per_shard), args.workers):
@@ -154,7 +152,7 @@ def work(job):
             continue
         studio = studio or Studio(Rig())
         count = min(per_shard, args.count - shard * per_shard)
-        write_shard(studio, framing, folder, args.split, args.kind, shard, count, args.seed, perform, args.frames, args.leaning, worker)
+        write_shard(studio, framing, folder, args.split, args.kind, shard, count, args.seed, perform, args.frames, worker)
 
 
 def main():

@@ -24,6 +24,10 @@ AlignedBytes::AlignedBytes(std::span<const std::byte> bytes)
 
 AlignedBytes::~AlignedBytes() { ::operator delete (bytes_, std::align_val_t{64}); }
 
+std::string name_of(const std::string& path) {
+  return std::filesystem::path(path).filename().string();
+}
+
 std::string golden_folder() { return MIEN_SOURCE_DIR "/tests/golden/format/"; }
 
 std::vector<std::byte> read_file(const std::string& path) {
@@ -94,12 +98,7 @@ std::string status_name(FileStatus status) {
       {FileStatus::kBadTensor, "kBadTensor"},
       {FileStatus::kUnusedTensor, "kUnusedTensor"},
   };
-  for (const auto& [known, name] : names) {
-    if (known == status) {
-      return name;
-    }
-  }
-  return "";
+  return name_in(names, status);
 }
 
 namespace {

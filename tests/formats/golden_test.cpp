@@ -14,12 +14,6 @@
 namespace mien::formats {
 namespace {
 
-constexpr const char* kPython = "/usr/bin/python3";
-
-std::string name_of(const std::string& path) {
-  return std::filesystem::path(path).filename().string();
-}
-
 // What the second reader says: file -> status and description.
 std::map<std::string, std::string> second_reader(const std::string& folder) {
   const std::string output = output_of(std::string(kPython) + " " + golden_folder() +

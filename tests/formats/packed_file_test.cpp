@@ -17,7 +17,6 @@
 namespace mien::formats {
 namespace {
 
-constexpr const char* kPython = "/usr/bin/python3";
 constexpr std::size_t kPackedBytesAt = 16;
 constexpr std::size_t kUnpackedBytesAt = 24;
 constexpr std::size_t kHeaderBytes = 32;
@@ -26,10 +25,6 @@ using Bytes = std::vector<std::byte>;
 
 std::string folder() { return MIEN_SOURCE_DIR "/tests/golden/packed/"; }
 Bytes small() { return read_file(folder() + "accept/small.packed"); }
-
-std::string name_of(const std::string& path) {
-  return std::filesystem::path(path).filename().string();
-}
 
 std::string packed_status_name(PackedStatus status) {
   constexpr std::pair<PackedStatus, const char*> kNames[] = {
@@ -47,12 +42,7 @@ std::string packed_status_name(PackedStatus status) {
       {PackedStatus::kBytesMissing, "kBytesMissing"},
       {PackedStatus::kBytesLeft, "kBytesLeft"},
   };
-  for (const auto& [number, name] : kNames) {
-    if (number == status) {
-      return name;
-    }
-  }
-  return "";
+  return name_in(kNames, status);
 }
 
 // The status, and what came out into memory that was not zero before.

@@ -8,7 +8,7 @@ Curves parse_curves(std::string_view text, const std::string& name) {
   Curves curves;
   for (const formats::Frame& read : parse_animation(text, name, std::nullopt, {}).frames) {
     CurvesFrame frame;
-    frame.t_ms = static_cast<double>(read.time_ns) / 1e6;
+    frame.t_ms = read.time_ms();
     if (read.head) {
       frame.head = {read.head->pitch, read.head->yaw, read.head->roll};
     }

@@ -89,20 +89,17 @@ void Report::frame(const formats::Frame& frame, const Result& result) {
   }
 }
 
-double Report::start_ms() const {
-  return frames_.empty() ? 0.0 : static_cast<double>(frames_.front().time_ns) / 1e6;
-}
+double Report::start_ms() const { return frames_.empty() ? 0.0 : frames_.front().time_ms(); }
 
 double Report::end_ms() const {
-  const double last_ms = frames_.empty() ? 0.0 : static_cast<double>(frames_.back().time_ns) / 1e6;
+  const double last_ms = frames_.empty() ? 0.0 : frames_.back().time_ms();
   return last_ms + formats::mean_step_s(frames_) * 1e3;
 }
 
 Columns Report::columns() const {
   Columns columns;
-  columns.add_times("t_ms", 0.1, column_of(frames_, [](const formats::Frame& frame) {
-                      return static_cast<double>(frame.time_ns) / 1e6;
-                    }));
+  columns.add_times(
+      "t_ms", 0.1, column_of(frames_, [](const formats::Frame& frame) { return frame.time_ms(); }));
   columns.add("status", 1.0, column_of(frames_, [](const formats::Frame& frame) {
                 return static_cast<double>(frame.state);
               }));
