@@ -21,6 +21,9 @@ from sequences import crop_to_image, fit_crop, template, to_window
 Batch = namedtuple("Batch", "images landmarks controls pose visible has_landmarks has_controls face")
 
 
+NEAR_PROFILE_ODDS = 2  # heads turned far are few and hard, and what the teacher guesses of them counts little
+
+
 def rarity(controls):
     """How often to draw each face [n], from controls [n,52]: up to four times as often the further one of its controls is from usual."""
     usual, rare = np.median(controls, 0), np.percentile(controls, 99, 0)
@@ -37,7 +40,7 @@ class Portraits:
         self.trust = torch.from_numpy(labels["trust"])
         found = faces.Portraits(split)
         self.controls, self.camera = torch.from_numpy(found.labels.controls), faces.camera_labels(found, framing)
-        self.odds = np.cumsum(rarity(found.labels.controls))
+        self.odds = np.cumsum(rarity(found.labels.controls) * np.where(found.labels.near_profile(), NEAR_PROFILE_ODDS, 1))
 
     def __len__(self):
         return len(self.images)

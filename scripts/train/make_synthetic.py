@@ -72,8 +72,8 @@ def photograph(studio, window, pixels, figure, vertices, place, pose, shift=np.z
     return image, labels
 
 
-def stills(studio, framing, rng, split, first, perform, count):
-    """Yields (image, labels) of `count` people numbered from `first`; `perform` makes the controls of several."""
+def stills(studio, framing, rng, split, first, perform, turned, count):
+    """Yields (image, labels) of `count` people numbered from `first`, a share of them `turned`; `perform` makes the controls of several."""
     for start in range(0, count, BATCH):
         people = [look.sample(rng, split) for _ in range(min(BATCH, count - start))]
         controls = perform(rng, len(people))
@@ -81,7 +81,7 @@ def stills(studio, framing, rng, split, first, perform, count):
         faces = heads + studio.rig.expression(controls)
         for k, person in enumerate(people):
             place = Set(rng, split, person)
-            pose = camera.pose_at(place.camera, studio.rig.landmarks(faces[k]), camera.sample_angles(rng),
+            pose = camera.pose_at(place.camera, studio.rig.landmarks(faces[k]), camera.sample_angles(rng, turned),
                                   camera.sample_place(rng, place.camera))
             image, labels = shoot(studio, framing, Figure(studio, person, heads[k]), faces[k], place, pose)
             number = first + start + k
@@ -109,19 +109,19 @@ def sequence(studio, framing, rng, split, number, perform, frames):
             yield image, dict(labels, controls=controls[t], identity=number, sequence=number, frame=t)
 
 
-def frames_of_shard(studio, framing, split, kind, shard, count, seed, perform, frames):
+def frames_of_shard(studio, framing, args, shard, count, perform):
     """Yields (image, labels); `count` is of stills or sequences in this shard."""
-    rng = np.random.default_rng([seed, SPLITS.index(split), KINDS.index(kind), shard])
-    if kind == "stills":
-        yield from stills(studio, framing, rng, split, shard * STILLS_PER_SHARD, perform, count)
+    rng = np.random.default_rng([args.seed, SPLITS.index(args.split), KINDS.index(args.kind), shard])
+    if args.kind == "stills":
+        yield from stills(studio, framing, rng, args.split, shard * STILLS_PER_SHARD, perform, args.turned, count)
     else:
         for k in range(count):
-            yield from sequence(studio, framing, rng, split, shard * SEQUENCES_PER_SHARD + k, perform, frames)
+            yield from sequence(studio, framing, rng, args.split, shard * SEQUENCES_PER_SHARD + k, perform, args.frames)
 
 
-def write_shard(studio, framing, folder, split, kind, shard, count, seed, perform, frames, position):
-    total = count * (frames if kind == "sequences" else 1)
-    source = frames_of_shard(studio, framing, split, kind, shard, count, seed, perform, frames)
+def write_shard(studio, framing, folder, args, shard, count, perform, position):
+    total = count * (args.frames if args.kind == "sequences" else 1)
+    source = frames_of_shard(studio, framing, args, shard, count, perform)
     save(folder, tqdm(source, f"{folder.parent.name} {shard}", total, position=position, mininterval=5, leave=False))
 
 
@@ -152,7 +152,7 @@ def work(job):
             continue
         studio = studio or Studio(Rig())
         count = min(per_shard, args.count - shard * per_shard)
-        write_shard(studio, framing, folder, args.split, args.kind, shard, count, args.seed, perform, args.frames, worker)
+        write_shard(studio, framing, folder, args, shard, count, perform, worker)
 
 
 def main():
@@ -164,6 +164,7 @@ def main():
     parser.add_argument("--poses", type=Path, help="sequences through poses like these (hard_cases.py), in a folder of their own")
     parser.add_argument("--frames", type=int, default=FRAMES, help="of a sequence")
     parser.add_argument("--leaning", type=float, default=0, help="share of stills whose expression leans to one side")
+    parser.add_argument("--turned", type=float, default=0, help="share of stills whose head looks far to one side")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--out", type=Path, default=cache() / "synthetic")
     parser.add_argument("--data", type=Path, help="data packs, instead of MIEN_DATA")
@@ -171,8 +172,8 @@ def main():
     args = parser.parse_args()
     if args.poses and args.kind == "stills":
         parser.error("--poses is for sequences")
-    if args.leaning and args.kind == "sequences":
-        parser.error("--leaning is for stills")
+    if (args.leaning or args.turned) and args.kind == "sequences":
+        parser.error("--leaning and --turned are for stills")
     if args.data:
         os.environ["MIEN_DATA"] = str(args.data.resolve())
     jobs = [(args, worker) for worker in range(args.workers)]

@@ -13,6 +13,7 @@ import torch
 
 import face_data
 import mien_weights
+from losses import unevenness
 from mien_weights import set_linear, set_lstm, split_causal
 from networks import FACE_NETWORKS, ControlsDecoder, ConvNorm, InvertedResidual, PoseDecoder
 from paths import ROOT
@@ -88,6 +89,7 @@ def network_of(path, name):
     features = torch.cat([network.encoder(part.images * 2 - 1) for part in lessons])
     solve(network.controls, features, torch.cat([part.controls for part in lessons]))
     solve(network.pose, features, torch.cat([part.pose for part in lessons]))
+    solve(network.sides, features, unevenness(torch.cat([part.controls for part in lessons])))
     return network
 
 

@@ -6,8 +6,9 @@ import numpy as np
 import landmark_points as lp
 from renderer import native
 
-SPREAD = np.radians([25, 13, 10])  # of yaw, pitch, roll relative to the line of sight
+SPREAD = np.radians([25, 13, 10])     # of yaw, pitch, roll relative to the line of sight
 LIMIT = np.radians([70, 45, 50])
+FAR = np.radians([35, 70])            # yaw of a head that does
 
 
 @dataclass
@@ -56,8 +57,12 @@ def towards(ray):
     return np.array([[1 - k * x * x, -k * x * y, -x], [-k * x * y, 1 - k * y * y, -y], [x, y, -z]])
 
 
-def sample_angles(rng):
-    return np.clip(rng.normal(0, SPREAD), -LIMIT, LIMIT)
+def sample_angles(rng, turned=0):
+    """Yaw, pitch and roll; a share looks far to one side, where half of the face is hidden and what little is seen has to do."""
+    angles = np.clip(rng.normal(0, SPREAD), -LIMIT, LIMIT)
+    if turned and rng.random() < turned:
+        angles[0] = rng.choice([-1, 1]) * rng.uniform(*FAR)
+    return angles
 
 
 def sample_place(rng, camera):
