@@ -8,9 +8,17 @@ namespace {
 
 constexpr std::size_t kGlanced = 4;        // the same of a glance, shown to R-Net
 constexpr std::int32_t kEagerFrames = 30;  // searching on every one of them
-// Shares of the proposal's work that go into one frame, which at the lowest level is a smaller one.
-constexpr int kSharesLowest = 1;
-constexpr int kShares = 3;
+
+// How much of a search goes into one frame.
+struct Pace {
+  int shares;           // of the proposal's work
+  int alignments;       // before a face is judged, each as dear as to follow one
+  bool begins_at_loss;  // of a face, or else one frame later
+};
+constexpr Pace kPace = {4, 2, true};
+constexpr Pace kPaceLowest = {1, 1, false};  // frames are cheap there, and none may stutter
+
+Pace pace_at(std::int32_t level) { return level == kLowestLevel ? kPaceLowest : kPace; }
 
 std::int32_t highest_level(const mien_tracker_config& config) {
   return config.hifinet != nullptr ? kHighestLevel : kLowestLevel;
@@ -70,7 +78,8 @@ mien_status Tracker::push(const mien_image* image, std::int64_t pts_ns) {
   }
   const bool followed = faces_.followed() > 0;
   follow(frame);
-  const bool due = faces_.followed() == 0 && search_is_due();
+  const bool begins = !followed || new_scene || pace_at(frame.level).begins_at_loss;
+  const bool due = begins && faces_.followed() == 0 && search_is_due();
   const bool searched = due || state_.search.stage != Search::Stage::kIdle;
   if (searched) {
     search(frame, new_scene);
@@ -165,7 +174,7 @@ void Tracker::propose(Frame& frame, bool whole) {
   Search& search = state_.search;
   {
     const StageTimer::Scope timed(timer_, MIEN_STAGE_PROPOSAL);
-    int shares = frame.level == kLowestLevel ? kSharesLowest : kShares;
+    int shares = pace_at(frame.level).shares;
     bool more = true;
     while (more && (whole || shares-- > 0)) {
       more = proposal_.go_on(frame.view);
@@ -187,8 +196,9 @@ void Tracker::propose(Frame& frame, bool whole) {
 
 void Tracker::judge(Frame& frame, bool whole) {
   Search& search = state_.search;
+  const int alignments = (whole ? kPace : pace_at(frame.level)).alignments;
   do {
-    if (faces_.welcome(frame, search.proposed[search.judged++].square)) {
+    if (faces_.welcome(frame, search.proposed[search.judged++].square, alignments)) {
       state_.search_frames = 0;
       state_.searches = 0;
     }
@@ -211,7 +221,7 @@ void Tracker::glance(Frame& frame) {
     return !faces_.is_taken(candidate.square);
   });
   if (newcomer != found.end()) {
-    (void)faces_.welcome(frame, newcomer->square);
+    (void)faces_.welcome(frame, newcomer->square, pace_at(frame.level).alignments);
   }
 }
 

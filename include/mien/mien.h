@@ -336,10 +336,9 @@ typedef struct mien_tracker_config {
   /* Without a face, searches of the whole image follow each other for the first 30 frames; then one
    * begins on every search_interval-th frame at most; 1..1000; default 3. One that begins where the
    * images begin, are cut, or take another size, is done on that image. Another takes its share of
-   * several images, 4 to 9 at most levels and about 20 at level 1, so that none costs much more
-   * than one with a face. Thorough, for faces that are hard to see, are those done on one image,
-   * and of the others every second one in a row that finds nothing; they take up to 11 images more.
-   */
+   * several images, 4 to 7 at most levels and 15 to 27 at level 1, so that none costs more than
+   * three with a face. Thorough, for faces that are hard to see, are those done on one image, and
+   * of the others every second one in a row that finds nothing: they take the most images. */
   int32_t search_interval;
 
   /* Automatic level of detail: what a followed frame may take on average, ms; 0.01..1e6; default

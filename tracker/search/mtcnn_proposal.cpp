@@ -24,7 +24,7 @@ constexpr std::int32_t kLargestTile = 60;  // pixels
 // What one share of a search is, about ten million multiply-accumulates either way.
 constexpr std::int32_t kSharePixels = 6400;  // of a band for P-Net
 constexpr std::int32_t kLeastRows = 24;      // the same
-constexpr std::size_t kRefinedPerShare = 6;  // by R-Net
+constexpr std::size_t kRefinedPerShare = 5;  // by R-Net
 
 // The square that the regression (dx, dy, dlog), in sides of the window, points to.
 Square regressed(const Square& window, const float* regression) {
@@ -36,6 +36,11 @@ Square regressed(const Square& window, const float* regression) {
 
 bool is_usable(const Square& square) {
   return is_finite(square.center) && std::isfinite(square.side) && square.side > 0.0f;
+}
+
+std::span<float> take_floats(engine::Arena& arena, std::size_t count) {
+  const std::span<std::byte> memory = arena.take(count * sizeof(float));
+  return {reinterpret_cast<float*>(memory.data()), memory.size() / sizeof(float)};
 }
 
 Square canvas_of(const ImageView& view) {
@@ -51,6 +56,7 @@ mien_status MtcnnProposal::load(const mien_tracker_config& config, const Models&
   }
   proposal_threshold_ = config.proposal_threshold;
   refine_threshold_ = config.refine_threshold;
+  row_ = take_floats(arena, 3 * static_cast<std::size_t>(config.proposal_size));
   const engine::Model& model = models.proposal;
   mien_status status = MIEN_OK;
   large_count_ = small_count_ = 0;
@@ -73,9 +79,8 @@ mien_status MtcnnProposal::load_large(const mien_tracker_config& config, const e
                                       std::int32_t side, engine::Arena& arena) {
   LargeSize& size = large_[large_count_++];
   const auto floats = 3 * static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
-  const std::span<std::byte> memory = arena.take(floats * sizeof(float));
   size.side = side;
-  size.picture = {reinterpret_cast<float*>(memory.data()), memory.size() / sizeof(float)};
+  size.picture = take_floats(arena, floats);
   // Windows lie two rows apart, so every band begins at an even one.
   const std::int32_t rows = std::min(std::max(kSharePixels / side, kLeastRows), side) / 2 * 2;
   const mien_status status =
@@ -94,7 +99,11 @@ void MtcnnProposal::begin(const ImageView& view, bool thorough) {
 
 bool MtcnnProposal::go_on(const ImageView& view) {
   if (search_.size < large_count_) {
-    scan_band(view);
+    if (search_.has_picture) {
+      scan_band();
+    } else {
+      make_picture(view);
+    }
     return true;
   }
   if (search_.size == large_count_) {
@@ -104,9 +113,14 @@ bool MtcnnProposal::go_on(const ImageView& view) {
       sampler_.cut_black(view, search_.canvas, first.input_shape().w, first.input());
     } else {
       const LargeSize& last = large_[large_count_ - 1];
-      shrink(last.picture, last.side, first.input(), first.input_shape().w);
+      shrink(last.picture, last.side, first.input(), first.input_shape().w, row_);
     }
-    scan_small_sizes(small_count_);
+    scan_small_sizes(0, 1);
+    return true;
+  }
+  if (search_.size == large_count_ + 1) {
+    ++search_.size;
+    scan_small_sizes(1, small_count_);
     end_scan(kRefined);
   } else {
     refine(view, kRefinedPerShare);
@@ -129,7 +143,7 @@ std::size_t MtcnnProposal::glance(const ImageView& view, std::uint32_t turn,
   }
   engine::Network& first = small_.front();
   sampler_.cut_black(view, search_.canvas, first.input_shape().w, first.input());
-  scan_small_sizes(sizes);
+  scan_small_sizes(0, sizes);
   end_scan(candidates.size());
   refine(view, candidates.size());
   return found(candidates);
@@ -160,17 +174,20 @@ std::size_t MtcnnProposal::found(std::span<Candidate> found) {
   return count;
 }
 
-void MtcnnProposal::scan_band(const ImageView& view) {
-  LargeSize& size = large_[search_.size];
-  if (search_.cell_row == 0) {
-    if (search_.size == 0) {
-      sampler_.cut_black(view, search_.canvas, size.side, size.picture);
-    } else {
-      const LargeSize& larger = large_[search_.size - 1];
-      shrink(larger.picture, larger.side, size.picture, size.side);
-    }
-    best_ = none_yet();
+void MtcnnProposal::make_picture(const ImageView& view) {
+  const LargeSize& size = large_[search_.size];
+  if (search_.size == 0) {
+    sampler_.cut_black(view, search_.canvas, size.side, size.picture);
+  } else {
+    const LargeSize& larger = large_[search_.size - 1];
+    shrink(larger.picture, larger.side, size.picture, size.side, row_);
   }
+  search_.has_picture = true;
+  best_ = none_yet();
+}
+
+void MtcnnProposal::scan_band() {
+  LargeSize& size = large_[search_.size];
   const std::int32_t rows = size.band.output_shape(0).h;
   const std::int32_t first = std::min(search_.cell_row, size.cell_rows - rows);
   const std::size_t offset =  // P-Net has a cell every 2 pixels, of 3 values
@@ -183,17 +200,18 @@ void MtcnnProposal::scan_band(const ImageView& view) {
   if (search_.cell_row == size.cell_rows) {
     keep(best_);
     ++search_.size;
+    search_.has_picture = false;
     search_.cell_row = 0;
   }
 }
 
-void MtcnnProposal::scan_small_sizes(std::size_t count) {
-  for (std::size_t i = 0; i < count; ++i) {
+void MtcnnProposal::scan_small_sizes(std::size_t first, std::size_t end) {
+  for (std::size_t i = first; i < end; ++i) {
     engine::Network& pnet = small_[i];
     const std::int32_t side = pnet.input_shape().w;
     if (i > 0) {
       engine::Network& larger = small_[i - 1];
-      shrink(larger.input(), larger.input_shape().w, pnet.input(), side);
+      shrink(larger.input(), larger.input_shape().w, pnet.input(), side, row_);
     }
     pnet.run();
     BestCandidates best = none_yet();

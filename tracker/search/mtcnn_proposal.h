@@ -24,8 +24,8 @@ class MtcnnProposal final : public FaceProposal {
   [[nodiscard]] mien_status load(const mien_tracker_config& config, const Models& models,
                                  engine::Arena& arena);
 
-  // Shares of P-Net: a band of one of the larger sizes, or all of the smaller sizes; of R-Net: some
-  // of the candidates.
+  // Shares: the picture of one of the larger sizes; of P-Net a band of it, or the largest
+  // or all others of the smaller sizes; of R-Net some of the candidates.
   void begin(const ImageView& view, bool thorough) override;
   [[nodiscard]] bool go_on(const ImageView& view) override;
   [[nodiscard]] std::size_t found(std::span<Candidate> found) override;
@@ -54,7 +54,8 @@ class MtcnnProposal final : public FaceProposal {
     Square canvas;
     float threshold = 1.0f;      // of P-Net
     std::size_t size = 0;        // of the pyramid, that P-Net looks at next
-    std::int32_t cell_row = 0;   // of it, likewise
+    bool has_picture = false;    // of that size
+    std::int32_t cell_row = 0;   // of it, that P-Net looks at next
     std::size_t scanned = 0;     // candidates of P-Net
     std::size_t seen_again = 0;  // of these, by R-Net
     std::size_t refined = 0;     // of these, kept
@@ -64,9 +65,10 @@ class MtcnnProposal final : public FaceProposal {
                                        const engine::Model& model, std::int32_t side,
                                        engine::Arena& arena);
   [[nodiscard]] Tiles tiles_of(const ImageView& view, const LargeSize& size) const;
-  void scan_band(const ImageView& view);
-  // The first `count` of them, of which the first has its picture.
-  void scan_small_sizes(std::size_t count);
+  void make_picture(const ImageView& view);
+  void scan_band();
+  // Those from `first` on; the very first has its picture.
+  void scan_small_sizes(std::size_t first, std::size_t end);
   // Of one size of the pyramid, the candidates so far.
   [[nodiscard]] BestCandidates none_yet();
   void keep(const BestCandidates& best);
@@ -80,6 +82,7 @@ class MtcnnProposal final : public FaceProposal {
   [[nodiscard]] bool refine(const ImageView& view, Candidate& candidate);
 
   Sampler sampler_;
+  std::span<float> row_;  // scratch, of the largest size
   float proposal_threshold_ = 0.0f;
   float refine_threshold_ = 0.0f;
   std::array<LargeSize, kMaxLarge> large_;

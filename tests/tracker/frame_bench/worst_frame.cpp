@@ -1,7 +1,10 @@
 // What a frame costs at worst, while a face is followed, goes and comes back: a line of Markdown
-// for each level. usage: mien_worst_frame MODELS FRAMES WIDTH HEIGHT [ROUNDS] FRAMES: raw NV12 of
-// video range with a face on every frame. Again and again it is looked at for 240 frames, then
-// hidden for 60: upside down, which a proposal has to look at closely, too.
+// for each level.
+// usage: mien_worst_frame MODELS FRAMES WIDTH HEIGHT [ROUNDS]
+// FRAMES: raw NV12 of video range with a face on every frame. Again and again it is looked at for
+// 240 frames, then hidden for 60: upside down, which a proposal has to look at closely, too.
+// All of it is replayed a few times, and the least time of each frame counts: the tracker does the
+// same work each time, other programs on the machine do not.
 #include <time.h>
 
 #include <algorithm>
@@ -20,6 +23,7 @@ namespace {
 constexpr std::int64_t kFrameNs = 33'333'333;
 constexpr int kShown = 240;
 constexpr int kHidden = 60;
+constexpr int kReplays = 5;
 
 // Aligned as weight files have to be.
 class File {
@@ -102,6 +106,18 @@ Times run(mien::Tracker& tracker, const File& clip, int width, int height, int r
   return times;
 }
 
+Times least_of_replays(mien::Tracker& tracker, const File& clip, int width, int height,
+                       int rounds) {
+  Times least = run(tracker, clip, width, height, rounds);
+  for (int replay = 1; replay < kReplays; ++replay) {
+    tracker.reset();
+    const std::vector<double> again = run(tracker, clip, width, height, rounds).all_us;
+    std::transform(again.begin(), again.end(), least.all_us.begin(), least.all_us.begin(),
+                   [](double a, double b) { return std::min(a, b); });
+  }
+  return least;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -126,7 +142,8 @@ int main(int argc, char** argv) {
     if (tracker.create(config) != MIEN_OK) {
       return 1;
     }
-    const Times times = run(tracker, clip, width, height, argc > 5 ? std::atoi(argv[5]) : 20);
+    const Times times =
+        least_of_replays(tracker, clip, width, height, argc > 5 ? std::atoi(argv[5]) : 20);
     double sum = 0.0;
     for (const double frames : times.found_after) {
       sum += frames;
