@@ -104,7 +104,7 @@ class Backgrounds:
         return images
 
     @torch.no_grad()
-    def mine(self, network, count=600, alignments=2, believed=0.15):
+    def mine(self, network, count=1500, alignments=2, believed=0.15):
         """Lets the network align itself on new pieces, as the tracker does, and keeps what it then takes for a face."""
         network.eval()
         images = self.pieces(count)
