@@ -198,7 +198,7 @@ void Tracker::judge(Frame& frame, bool whole) {
   Search& search = state_.search;
   const int alignments = (whole ? kPace : pace_at(frame.level)).alignments;
   do {
-    if (faces_.welcome(frame, search.proposed[search.judged++].square, alignments)) {
+    if (faces_.welcome(frame, search.proposed[search.judged++], alignments)) {
       state_.search_frames = 0;
       state_.searches = 0;
     }
@@ -221,7 +221,7 @@ void Tracker::glance(Frame& frame) {
     return !faces_.is_taken(candidate.square);
   });
   if (newcomer != found.end()) {
-    (void)faces_.welcome(frame, newcomer->square, pace_at(frame.level).alignments);
+    (void)faces_.welcome(frame, *newcomer, pace_at(frame.level).alignments);
   }
 }
 

@@ -319,7 +319,8 @@ typedef struct mien_tracker_config {
   float horizontal_fov; /* radians, of the upright image, where focal_length_px is 0; 0.01..3.1;
                            default 60 degrees */
 
-  /* Face probability at and above which a searched face is accepted; default 0.9985. */
+  /* Face probability at and above which a searched face is accepted, what the proposal thinks of
+   * it taken into account; default 0.9985. It has to reach lose_probability without. */
   float accept_probability;
   /* Face probability below which a tracked face counts as missing; default 0.5; must not exceed
    * accept_probability. */

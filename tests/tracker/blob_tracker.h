@@ -43,7 +43,7 @@ class BlobTracker {
   BlobTracker(const BlobOptions& options, Change change)
       : basenet_(blob_basenet(options)),
         hifinet_(blob_hifinet(options)),
-        proposal_(blob_proposal()),
+        proposal_(blob_proposal(options)),
         audionet_(blob_audionet()) {
     Config config = blob_config(basenet_, proposal_, hifinet_, audionet_);
     change(config);

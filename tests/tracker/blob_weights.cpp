@@ -204,7 +204,7 @@ void add_controls_decoder(MienWriter& writer, const BlobOptions& options, Random
 // Window of 12 x 12 cells of `cell` pixels: the middle 8 x 8 bright, the rest dark, is the face;
 // logit 16 for a perfect one, -8 for anything flat.
 void add_window_network(MienWriter& writer, const std::string& name, std::uint16_t cell,
-                        bool any_size) {
+                        bool any_size, float bias) {
   constexpr std::uint32_t kCells = 12;
   NetworkWriter& network = writer.network(name, {kCells * cell, kCells * cell, 3}, any_size);
   LayerOptions strided;
@@ -230,8 +230,8 @@ void add_window_network(MienWriter& writer, const std::string& name, std::uint16
              }),
       std::vector<float>(8, 0.0f), every_other);
   const Array logit = filled({1, 8}, [](std::size_t i) { return i == 0 ? 12.0f : 0.0f; });
-  network.output(
-      network.pointwise(contrast, logit, {-8.0f}, activated(formats::LayerActivation::kSigmoid)));
+  network.output(network.pointwise(contrast, logit, {-8.0f + bias},
+                                   activated(formats::LayerActivation::kSigmoid)));
   network.output(network.pointwise(contrast, filled({3, 8}, [](std::size_t) { return 0.0f; }),
                                    {0.0f, 0.0f, 0.0f}));
 }
@@ -349,10 +349,10 @@ AlignedBytes blob_audionet() {
   return finished(writer);
 }
 
-AlignedBytes blob_proposal() {
+AlignedBytes blob_proposal(const BlobOptions& options) {
   MienWriter writer;
-  add_window_network(writer, "pnet", 1, true);
-  add_window_network(writer, "rnet", 2, false);
+  add_window_network(writer, "pnet", 1, true, 0.0f);
+  add_window_network(writer, "rnet", 2, false, options.refine_bias);
   return finished(writer);
 }
 

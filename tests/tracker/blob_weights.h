@@ -30,6 +30,7 @@ struct BlobOptions {
   // Added to the logit of the face probability, which else is that of a disc: +-100 makes
   // everything or nothing a face.
   float face_bias = 0.0f;
+  float refine_bias = 0.0f;  // the same of R-Net's score
   std::uint64_t supported_controls = 0xfffffffffffffULL;
   std::uint32_t features = 256;  // another number than 256 makes an unusable file
   bool with_pose_decoder = true;
@@ -43,7 +44,7 @@ inline constexpr float kDiscPerCrop = 0.7f;
 // All features random; landmarks lie to the right of BaseNet's by this share of the crop's side.
 inline constexpr float kRefinedBy = 0.02f;
 [[nodiscard]] AlignedBytes blob_hifinet(const BlobOptions& options = {});
-[[nodiscard]] AlignedBytes blob_proposal();
+[[nodiscard]] AlignedBytes blob_proposal(const BlobOptions& options = {});
 
 // Loudness plays the voice: jawOpen and voice activity are 0 for silence, 1 for loud noise, and
 // tell of the middle of AudioNet's windows. The other controls of speech are random, over time.

@@ -15,6 +15,7 @@ constexpr float kPresenceSeconds = 0.1f;
 constexpr float kFaded = 1e-4f;         // a control below is 0
 constexpr float kSmallestFace = 0.02f;  // crop sides, in longer sides of the image
 constexpr float kLargestFace = 4.0f;
+constexpr float kSayOfProposal = 0.4f;  // beside BaseNet's, whether a face is there
 
 // Whether a crop can still show something of a face in the image.
 bool is_plausible(const Crop& crop, const ImageView& view) {
@@ -29,6 +30,17 @@ bool is_plausible(const Crop& crop, const ImageView& view) {
          near(crop.center.y, seen.corner.y, seen.height);
 }
 
+float log_odds(float probability) {
+  constexpr float kSure = 1e-6f;
+  const float p = std::clamp(probability, kSure, 1.0f - kSure);
+  return std::log(p / (1.0f - p));
+}
+
+// What BaseNet and the proposal say together: their mistakes are not the same.
+float agreed(float probability, float score) {
+  return 1.0f / (1.0f + std::exp(-log_odds(probability) - kSayOfProposal * log_odds(score)));
+}
+
 }  // namespace
 
 void Face::reset(std::int32_t level) {
@@ -40,8 +52,8 @@ void Face::reset(std::int32_t level) {
   mien_result_default(&result_);
 }
 
-bool Face::find(Frame& frame, const Square& square, int alignments, Sight& sight) {
-  Crop crop = {square.center, square.side, 0.0f};
+bool Face::find(Frame& frame, const Candidate& candidate, int alignments, Sight& sight) {
+  Crop crop = {candidate.square.center, candidate.square.side, 0.0f};
   for (int i = 0; i <= alignments; ++i) {
     if (!is_plausible(crop, frame.view) || !look(frame, crop, sight)) {
       return false;
@@ -50,7 +62,8 @@ bool Face::find(Frame& frame, const Square& square, int alignments, Sight& sight
       return false;
     }
   }
-  return sight.face_probability >= config_.accept_probability;
+  return sight.face_probability >= config_.lose_probability &&
+         agreed(sight.face_probability, candidate.score) >= config_.accept_probability;
 }
 
 bool Face::adopt(Frame& frame, const Sight& sight, std::uint32_t id) {

@@ -9,6 +9,7 @@
 #include "tracker/encoders/basenet.h"
 #include "tracker/encoders/hifinet.h"
 #include "tracker/image/image_view.h"
+#include "tracker/search/squares.h"
 #include "tracker/stage_timer.h"
 
 namespace mien::tracker {
@@ -70,9 +71,9 @@ class Face {
   // The decoders begin anew: the film was cut.
   void cut(std::int32_t level) { decoders_.reset(level); }
 
-  // Whether a face is in this square, after so many alignments of the crop to its landmarks; if so,
-  // what is seen of it, and where.
-  [[nodiscard]] bool find(Frame& frame, const Square& square, int alignments, Sight& sight);
+  // Whether the candidate is a face, judged after so many alignments of the crop to its landmarks;
+  // if so, what is seen of it, and where.
+  [[nodiscard]] bool find(Frame& frame, const Candidate& candidate, int alignments, Sight& sight);
   // Follows from now on the face that was found. False if it cannot be.
   [[nodiscard]] bool adopt(Frame& frame, const Sight& sight, std::uint32_t id);
   // Nothing in the image looks like a face.

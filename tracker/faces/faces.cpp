@@ -75,13 +75,14 @@ bool Faces::is_taken(const Square& square) const {
   });
 }
 
-bool Faces::welcome(Frame& frame, const Square& square, int alignments) {
+bool Faces::welcome(Frame& frame, const Candidate& candidate, int alignments) {
+  const Square& square = candidate.square;
   if (is_taken(square)) {
     return false;
   }
   Face& face = place_for(square);
   Sight sight;
-  if (!face.find(frame, square, alignments, sight) ||
+  if (!face.find(frame, candidate, alignments, sight) ||
       is_taken({sight.crop.center, sight.crop.side})) {
     return false;
   }

@@ -39,10 +39,10 @@ class Faces {
   // Whether a face that is followed is here.
   [[nodiscard]] bool is_taken(const Square& square) const;
 
-  // Whether a face that nobody follows yet is in this square; if so it is followed from now on,
+  // Whether the candidate is a face that nobody follows yet; if so it is followed from now on,
   // under its old id if it was lost here lately. Only while there is room. `alignments`: of the
   // crop to its landmarks, before it is judged.
-  [[nodiscard]] bool welcome(Frame& frame, const Square& square, int alignments);
+  [[nodiscard]] bool welcome(Frame& frame, const Candidate& candidate, int alignments);
 
   // Of faces followed at the same place only the one known longest stays.
   void drop_doubles(std::int32_t level);
