@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # What a frame costs at worst, while a face goes and comes back -> docs/results/worst_frame.md
-# usage: scripts/evaluate/worst_frame.sh [ROUNDS]     of 300 frames; default 40
+# usage: scripts/evaluate/worst_frame.sh [ROUNDS]     of 300 frames; default 20
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . scripts/ccache.sh
@@ -21,6 +21,6 @@ frame in a thousand takes 3 times the median at most. [reliability.md](../reliab
 Made by `scripts/evaluate/worst_frame.sh`.
 
 TEXT
-  build/release/tests/tracker/frame_bench/mien_worst_frame models "$work/frames" 640 480 "${1:-40}"
+  build/release/tests/tracker/frame_bench/mien_worst_frame models "$work/frames" 640 480 "${1:-20}"
 } >"$work/report"
 cp "$work/report" docs/results/worst_frame.md
