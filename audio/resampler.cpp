@@ -55,7 +55,7 @@ void Resampler::make_filter() {
   const double cutoff = kCutoff * std::min(1.0, static_cast<double>(kOutputRate) / rate_);
   for (std::int32_t phase = 0; phase <= phases_; ++phase) {
     float* taps = filter_.data() + std::ptrdiff_t{2} * half_ * phase;
-    std::array<double, kMostTaps> exact;
+    double exact[kMostTaps];
     double sum = 0.0;
     for (std::int32_t k = 0; k < 2 * half_; ++k) {
       const double away = k - (half_ - 1) - static_cast<double>(phase) / phases_;

@@ -19,12 +19,16 @@ linters() {
   shellcheck -x scripts/*.sh scripts/*/*.sh tests/*/*.sh bindings/*.sh bindings/*/*.sh
   scripts/check_format.sh
   scripts/mutate.sh --check
-  build asan-ubsan mien_program mien_conformance_program  # by clang, whose options clang-tidy understands
-  scripts/check_tidy.sh build/asan-ubsan
+  cmake --preset tidy >/dev/null  # for clang, whose options clang-tidy understands, file by file
+  scripts/check_tidy.sh build/tidy
 }
 binding() {  # folder, and the group of what it needs, without which it says itself that it is not tested
   scripts/setup.sh "$2" || echo "setup.sh: $2 could not be had" >&2
   "bindings/$1/test.sh"
+}
+packages() {  # the library as a part of other projects, and as one file
+  build release all
+  ctest --preset release --label-regex compiles_again -j "$(nproc)" --output-log build/release/tests_compiling_again.log
 }
 threads() {
   build tsan tracker_threads_test
@@ -66,6 +70,7 @@ part documentation scripts/site.sh
 part "batches on a cluster" cluster
 part "binary interface" scripts/check_abi.sh
 part threads threads
+part "the library inside other projects" packages
 part "other machines" scripts/cross/all.sh
 part "Release with clang" clang
 part "numbers that nobody wrote" scripts/msan.sh

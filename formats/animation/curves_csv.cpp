@@ -130,9 +130,9 @@ class CurvesCsvWriter : public AnimationWriter {
   bool several_faces_;
 };
 
-class Reader {
+class CurvesReader {
  public:
-  Reader(std::string_view text, Fault& fault) : table_(text), fault_(fault) {}
+  CurvesReader(std::string_view text, Fault& fault) : table_(text), fault_(fault) {}
 
   bool read(Clip& clip) {
     if (!header_.read(table_, fault_) || !find_columns()) {
@@ -310,7 +310,7 @@ std::unique_ptr<AnimationWriter> curves_csv_writer(Weights weights, bool several
 
 bool read_curves_csv(std::string_view text, Clip& clip, Fault& fault) {
   Clip read;
-  if (!Reader(text, fault).read(read)) {
+  if (!CurvesReader(text, fault).read(read)) {
     return false;
   }
   clip = std::move(read);

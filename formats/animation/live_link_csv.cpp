@@ -99,9 +99,9 @@ class LiveLinkCsvWriter : public AnimationWriter {
   LiveLinkOptions options_;
 };
 
-class Reader {
+class LiveLinkReader {
  public:
-  Reader(std::string_view text, const LiveLinkOptions& options, Fault& fault)
+  LiveLinkReader(std::string_view text, const LiveLinkOptions& options, Fault& fault)
       : table_(text), options_(options), fault_(fault) {}
 
   bool read(Clip& clip) {
@@ -280,7 +280,7 @@ std::unique_ptr<AnimationWriter> live_link_csv_writer(const LiveLinkOptions& opt
 bool read_live_link_csv(std::string_view text, const LiveLinkOptions& options, Clip& clip,
                         Fault& fault) {
   Clip read;
-  if (!Reader(text, options, fault).read(read)) {
+  if (!LiveLinkReader(text, options, fault).read(read)) {
     return false;
   }
   clip = std::move(read);

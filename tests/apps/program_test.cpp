@@ -231,7 +231,7 @@ TEST_F(Program, BenchOfAClipFollowsTheFaceAndProposesAnew) {
 TEST_F(Program, BenchOfLevelsTimesEachStage) {
   MIEN_NEEDS("trained model", have_models());
   MIEN_NEEDS("ffmpeg", have_ffmpeg());
-  const Outcome done = run("bench --json --levels " + kClip + models());
+  const Outcome done = run("bench --json --rounds 2 --levels " + kClip + models());
   ASSERT_EQ(done.code, 0) << done.errors;
   for (const char* key : {"start_ms", "highest_of_networks", "\"lod\": 4", "mean_us", "warp"}) {
     EXPECT_NE(done.output.find(key), std::string::npos) << key << "\n" << done.output;

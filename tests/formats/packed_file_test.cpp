@@ -24,7 +24,7 @@ constexpr std::size_t kHeaderBytes = 32;
 using Bytes = std::vector<std::byte>;
 
 std::string folder() { return MIEN_SOURCE_DIR "/tests/golden/packed/"; }
-Bytes small() { return read_file(folder() + "accept/small.packed"); }
+Bytes small_packed() { return read_file(folder() + "accept/small.packed"); }
 
 std::string packed_status_name(PackedStatus status) {
   constexpr std::pair<PackedStatus, const char*> kNames[] = {
@@ -160,7 +160,7 @@ TEST(PackedFiles, ShippedWeightsComeOutAsTheyWent) {
 }
 
 TEST(PackedFiles, TruncatedAtEveryByte) {
-  const Bytes packed = small();
+  const Bytes packed = small_packed();
   for (std::size_t size = 0; size < packed.size(); ++size) {
     const Bytes cut(packed.begin(), packed.begin() + static_cast<std::ptrdiff_t>(size));
     EXPECT_EQ(status_of(cut), PackedStatus::kTruncated) << size;
@@ -174,7 +174,7 @@ TEST(PackedFiles, TruncatedAtEveryByte) {
 
 TEST(PackedFiles, BytesBehindTheEnd) {
   for (const std::size_t more : {1u, 2u, 63u, 4096u}) {
-    Bytes packed = small();
+    Bytes packed = small_packed();
     packed.resize(packed.size() + more);
     EXPECT_EQ(status_of(packed), PackedStatus::kTrailingBytes);
     const std::uint64_t size = packed.size();
@@ -183,7 +183,7 @@ TEST(PackedFiles, BytesBehindTheEnd) {
 }
 
 TEST(PackedFiles, EveryBitFlippedIsNoticedAtTheLatestByTheFileThatComesOut) {
-  Bytes packed = small();
+  Bytes packed = small_packed();
   std::size_t refused = 0;
   for (std::size_t bit = 0; bit < 8 * packed.size(); ++bit) {
     packed[bit / 8] ^= std::byte(1 << bit % 8);
@@ -200,7 +200,7 @@ TEST(PackedFiles, EveryBitFlippedIsNoticedAtTheLatestByTheFileThatComesOut) {
 }
 
 TEST(PackedFiles, HostileSizesAreRefusedBeforeAnybodyLooksForMemory) {
-  const Bytes packed = small();
+  const Bytes packed = small_packed();
   const std::uint64_t most = (packed.size() - kHeaderBytes) / 80 * 65536;
   for (const std::uint64_t size : {std::uint64_t{0}, std::uint64_t{1}, std::uint64_t{63}, most + 64,
                                    (std::uint64_t{1} << 31) + 64, std::uint64_t{1} << 32,
@@ -213,7 +213,7 @@ TEST(PackedFiles, HostileSizesAreRefusedBeforeAnybodyLooksForMemory) {
 }
 
 TEST(PackedFiles, MemoryOfAnotherSizeIsRefused) {
-  const Bytes packed = small();
+  const Bytes packed = small_packed();
   std::size_t bytes = 0;
   ASSERT_EQ(unpacked_bytes(packed, bytes), PackedStatus::kOk);
   for (const std::size_t size : {std::size_t{0}, bytes - 1, bytes + 1}) {

@@ -16,7 +16,7 @@ import live_packets as decode
 from live_packets import ARKIT
 
 TOOL = sys.argv.pop(1)
-FRAMES = 10000
+FRAMES = int(sys.argv.pop(1))
 
 
 def random_frame(random, i):

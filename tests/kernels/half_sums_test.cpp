@@ -18,18 +18,18 @@ TEST(HalfSums, Saturate) {
   if (entry == nullptr) {
     GTEST_SKIP() << "skipped: no tier here has such sums";
   }
-  constexpr int kInputs = 16, kOutputs = 16;
-  float x[kInputs], y[kOutputs];
-  std::uint16_t weights[kInputs * kOutputs], bias[kOutputs] = {};
+  constexpr int kInputs = 16, kSums = 16;
+  float x[kInputs], y[kSums];
+  std::uint16_t weights[kInputs * kSums], bias[kSums] = {};
   for (int k = 0; k < kInputs; ++k) {
     x[k] = k < 8 ? 1e6f : 4e4f;
-    for (int o = 0; o < kOutputs; ++o) {  // the first 8 outputs cancel, the others do not
-      weights[k * kOutputs + o] = o < 8 && k % 4 < 2 ? kMinusOne : kOne;
+    for (int o = 0; o < kSums; ++o) {  // the first 8 outputs cancel, the others do not
+      weights[k * kSums + o] = o < 8 && k % 4 < 2 ? kMinusOne : kOne;
     }
   }
-  const kernels::FullyConnectedArgs args{x, weights, bias, y, {}, kInputs, kOutputs};
+  const kernels::FullyConnectedArgs args{x, weights, bias, y, {}, kInputs, kSums};
   reinterpret_cast<kernels::Kernel<kernels::FullyConnectedArgs>>(entry->function)(args);
-  for (int o = 0; o < kOutputs; ++o) {
+  for (int o = 0; o < kSums; ++o) {
     EXPECT_TRUE(std::isfinite(y[o])) << o << ": " << y[o];
     EXPECT_LE(std::abs(y[o]), 2 * 65504.0f);
   }

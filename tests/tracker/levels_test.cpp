@@ -11,7 +11,7 @@
 namespace mien::tests {
 namespace {
 
-Picture moving_disc(int frame) {
+Picture circling_disc(int frame) {
   const float phase = 0.11f * static_cast<float>(frame);
   return disc_picture(160.0f + 12.0f * std::cos(phase), 120.0f + 8.0f * std::sin(phase), 70.0f);
 }
@@ -24,9 +24,9 @@ TEST(Levels, EncodersRunWhenTheTableSays) {
   const std::uint64_t runs[4][2] = {{1, 0}, {2, 0}, {2, 1}, {2, 2}};  // on even frames, on odd ones
   for (std::int32_t lod = 1; lod <= 4; ++lod) {
     BlobTracker tracker = tracker_at(lod);
-    Result before = tracker.push(moving_disc(0));
+    Result before = tracker.push(circling_disc(0));
     for (int frame = 1; frame < 21; ++frame) {
-      const Result result = tracker.push(moving_disc(frame));
+      const Result result = tracker.push(circling_disc(frame));
       ASSERT_EQ(result.status, MIEN_FACE_TRACKING);
       EXPECT_EQ(result.encoder_runs - before.encoder_runs, runs[lod - 1][frame % 2])
           << "level " << lod << ", frame " << frame;
@@ -39,9 +39,9 @@ TEST(Levels, EncodersRunWhenTheTableSays) {
 TEST(Levels, ControlsMoveOnEveryFrame) {
   for (std::int32_t lod = 1; lod <= 4; ++lod) {
     BlobTracker tracker = tracker_at(lod);
-    Result before = tracker.push(moving_disc(0));
+    Result before = tracker.push(circling_disc(0));
     for (int frame = 1; frame < 6; ++frame) {
-      const Result after = tracker.push(moving_disc(frame));
+      const Result after = tracker.push(circling_disc(frame));
       EXPECT_GT(largest_step(before, after), 0.0f) << "level " << lod << ", frame " << frame;
       before = after;
     }
@@ -52,7 +52,7 @@ TEST(Levels, FromTwoOnControlsAreHiFiNets) {
   BlobTracker one = tracker_at(1), two = tracker_at(2), four = tracker_at(4);
   Result last[3];
   for (int frame = 0; frame < 60; ++frame) {
-    const Picture still = moving_disc(0);
+    const Picture still = circling_disc(0);
     last[0] = one.push(still);
     last[1] = two.push(still);
     last[2] = four.push(still);
@@ -66,7 +66,7 @@ TEST(Levels, FromTwoOnHiFiNetRefinesTheLandmarks) {
   for (const std::int32_t lod : {2, 3, 4}) {
     BlobTracker refined = tracker_at(lod);
     for (int frame = 0; frame < 20; ++frame) {
-      const Picture still = moving_disc(0);
+      const Picture still = circling_disc(0);
       const Result coarse = one.push(still), fine = refined.push(still);
       double dx = 0.0, dy = 0.0;
       for (int i = 0; i < MIEN_LANDMARK_COUNT; ++i) {
@@ -85,18 +85,18 @@ TEST(Levels, ChangingThemNeverMakesAControlJump) {
     Result before;
     int frame = 0;
     for (; frame < 30; ++frame) {
-      before = tracker.push(moving_disc(frame));
+      before = tracker.push(circling_disc(frame));
     }
     float usual = 0.0f;
     for (; frame < 90; ++frame) {
-      const Result after = tracker.push(moving_disc(frame));
+      const Result after = tracker.push(circling_disc(frame));
       usual = std::max(usual, largest_step(before, after));
       before = after;
     }
     ASSERT_EQ(tracker.tracker().set_lod(to), MIEN_OK);
     float at_switch = 0.0f, later = 0.0f;
     for (; frame < 220; ++frame) {
-      const Result after = tracker.push(moving_disc(frame));
+      const Result after = tracker.push(circling_disc(frame));
       float& largest = frame < 155 ? at_switch : later;
       largest = std::max(largest, largest_step(before, after));
       before = after;
@@ -114,8 +114,8 @@ TEST(Levels, AfterAChangeTheTrackerIsAsOneThatAlwaysWasThere) {
       if (frame == 30) {
         ASSERT_EQ(changed.tracker().set_lod(to), MIEN_OK);
       }
-      a = changed.push(moving_disc(0));
-      b = always.push(moving_disc(0));
+      a = changed.push(circling_disc(0));
+      b = always.push(circling_disc(0));
     }
     EXPECT_LT(largest_step(a, b), 0.01f);
     EXPECT_EQ(a.supported_controls, b.supported_controls);
@@ -132,16 +132,16 @@ TEST(Levels, ThoseWithoutWeightsAreRefused) {
   EXPECT_EQ(tracker.tracker().set_lod(5), MIEN_ERROR_UNSUPPORTED_LOD);
   EXPECT_EQ(tracker.tracker().set_lod(-1), MIEN_ERROR_UNSUPPORTED_LOD);
   EXPECT_EQ(tracker.tracker().set_lod(0), MIEN_OK);
-  EXPECT_EQ(tracker.push(moving_disc(0)).lod, 1);
+  EXPECT_EQ(tracker.push(circling_disc(0)).lod, 1);
 }
 
 TEST(Levels, ResetReturnsToTheConfiguredOne) {
   BlobTracker tracker = tracker_at(3);
-  (void)tracker.push(moving_disc(0));
+  (void)tracker.push(circling_disc(0));
   ASSERT_EQ(tracker.tracker().set_lod(1), MIEN_OK);
-  EXPECT_EQ(tracker.push(moving_disc(1)).lod, 1);
+  EXPECT_EQ(tracker.push(circling_disc(1)).lod, 1);
   ASSERT_EQ(tracker.tracker().reset(), MIEN_OK);
-  EXPECT_EQ(tracker.push(moving_disc(2)).lod, 3);
+  EXPECT_EQ(tracker.push(circling_disc(2)).lod, 3);
 }
 
 TEST(Levels, ResetForgetsHowBusyTheMachineWas) {
@@ -152,11 +152,11 @@ TEST(Levels, ResetForgetsHowBusyTheMachineWas) {
     config.lod = 0;
   });
   for (int frame = 0; frame < 75; ++frame) {
-    (void)tracker.push(moving_disc(frame));
+    (void)tracker.push(circling_disc(frame));
   }
   ASSERT_LT(tracker.result().lod, 4);
   ASSERT_EQ(tracker.tracker().reset(), MIEN_OK);
-  EXPECT_EQ(tracker.push(moving_disc(0)).lod, 4);
+  EXPECT_EQ(tracker.push(circling_disc(0)).lod, 4);
 }
 
 // Milliseconds of a frame on each level, as a governor would measure them.

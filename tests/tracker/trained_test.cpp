@@ -171,6 +171,8 @@ float largest_step(const std::vector<Result>& results, std::size_t begin, std::s
   return largest;
 }
 
+constexpr std::size_t kChangeEvery = MIEN_CHANGE_EVERY;  // frames
+
 // At the switch, and while the controls go over, no step is larger than what the second before had,
 // or than what the face does then anyway, as a tracker shows that always was at either level.
 TEST_F(TrainedLevels, ChangingThemNeverMakesAControlJump) {
@@ -179,7 +181,7 @@ TEST_F(TrainedLevels, ChangingThemNeverMakesAControlJump) {
     always[static_cast<std::size_t>(lod)] = track_at({{0, lod}});
   }
   for (const auto& [from, to] : {std::pair{1, 4}, {4, 1}, {1, 2}, {2, 4}, {3, 2}, {4, 3}}) {
-    for (std::size_t at = kFps; at + kFps < frames_.size(); at += 17) {
+    for (std::size_t at = kFps; at + kFps < frames_.size(); at += kChangeEvery) {
       const std::vector<Result> changed = track_at({{0, from}, {at, to}});
       const std::size_t end = at + 5 * kFps / 2;
       const float before = largest_step(changed, at - kFps, at);

@@ -34,7 +34,7 @@ struct Figures {
   std::vector<StepTime> steps;  // with --layers
 };
 
-double seconds_since(Clock::time_point begin) {
+double seconds_from(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
@@ -59,7 +59,7 @@ double peak_gflops(const std::string& tier) {
   for (int i = 0; i < 30; ++i) {
     const auto begin = Clock::now();
     const std::int64_t macs = run_fma_loop(cpu_mask(tier), kRounds);
-    best = std::max(best, 2.0 * static_cast<double>(macs) / seconds_since(begin) * 1e-9);
+    best = std::max(best, 2.0 * static_cast<double>(macs) / seconds_from(begin) * 1e-9);
   }
   return best;
 }

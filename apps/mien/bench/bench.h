@@ -11,6 +11,7 @@ struct BenchOptions {
   std::string models;
   std::string clip;      // not empty: the tracker on it
   std::string levels;    // not empty: a clip, a frame of which is timed at each level
+  int rounds = 30;       // of that clip: of each frame the fastest time counts
   bool sound = false;    // time hearing
   bool unfused = false;  // layer by layer
   bool layers = false;   // each step of a network too

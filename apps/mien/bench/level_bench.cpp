@@ -26,9 +26,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kFrames = 60;
-constexpr int kRounds = 30;  // of each frame the fastest counts
-constexpr int kStarts = 20;
-constexpr int kTurns = 1000;  // of all networks
+constexpr int kMostStarts = 20;
+constexpr int kTurns = 33;  // of all networks, for each round
 constexpr std::int64_t kFrameNs = 33'333'333;
 constexpr std::int32_t kSoundRate = 16'000;
 constexpr int kHighest = 4;
@@ -63,7 +62,7 @@ struct Level {
   FrameTime frame;  // mean
 };
 
-struct Report {
+struct LevelTimes {
   double start_ms = 0.0;
   double networks_us = 0.0;  // of the highest level, each run again and again
   double in_turn_us = 0.0;   // one after the other, as in a frame: they share the caches
@@ -87,7 +86,7 @@ LoadedTracker::Options tracker_options(const BenchOptions& options, int lod) {
 // From the files, in the system's cache, to a tracker.
 double fastest_start_ms(const BenchOptions& options) {
   double fastest = 1e9;
-  for (int i = 0; i < kStarts; ++i) {
+  for (int i = 0; i < std::min(kMostStarts, options.rounds); ++i) {
     const auto begin = Clock::now();
     const LoadedTracker loaded(tracker_options(options, kHighest));
     fastest = std::min(fastest, us_since(begin) * 1e-3);
@@ -122,13 +121,13 @@ struct Network {
   }
 };
 
-void time_networks(const BenchOptions& options, Report& report) {
+void time_networks(const BenchOptions& options, LevelTimes& report) {
   std::vector<std::unique_ptr<Network>> networks;
   for (const Part& part : kParts) {
     networks.push_back(std::make_unique<Network>(part, options));
     report.networks_us += network_times_ms(networks.back()->runner).front() * 1e3;
   }
-  for (int turn = 0; turn < kTurns; ++turn) {
+  for (int turn = 0; turn < kTurns * options.rounds; ++turn) {
     for (const auto& network : networks) {
       network->run();
     }
@@ -189,7 +188,7 @@ FrameTime mean(const std::vector<FrameTime>& frames) {
 FrameTime mean_frame(int lod, const Nv12Clip& clip, const BenchOptions& options) {
   LoadedTracker loaded(tracker_options(options, lod));
   std::vector<FrameTime> fastest = one_round(loaded, clip);
-  for (int round = 1; round < kRounds; ++round) {
+  for (int round = 1; round < options.rounds; ++round) {
     const std::vector<FrameTime> again = one_round(loaded, clip);
     for (std::size_t i = 0; i < fastest.size(); ++i) {
       fastest[i].keep_fastest(again[i]);
@@ -201,9 +200,9 @@ FrameTime mean_frame(int lod, const Nv12Clip& clip, const BenchOptions& options)
   return mean(fastest);
 }
 
-Report measure(const BenchOptions& options) {
+LevelTimes measure(const BenchOptions& options) {
   const Nv12Clip clip(options.levels, kFrames);
-  Report report;
+  LevelTimes report;
   report.start_ms = fastest_start_ms(options);
   time_networks(options, report);
   for (int lod = 1; lod <= kHighest; ++lod) {
@@ -212,7 +211,7 @@ Report measure(const BenchOptions& options) {
   return report;
 }
 
-void print_json(const Report& report) {
+void print_json(const LevelTimes& report) {
   nlohmann::ordered_json json = {{"start_ms", report.start_ms},
                                  {"networks_of_highest_us", report.networks_us},
                                  {"highest_of_networks", report.highest_us() / report.networks_us},
@@ -230,7 +229,7 @@ void print_json(const Report& report) {
   std::printf("%s\n", json.dump(1).c_str());
 }
 
-void print_table(const Report& report) {
+void print_table(const LevelTimes& report) {
   std::printf("start-up %.2f ms\n", report.start_ms);
   std::printf("%5s %10s %9s", "level", "mean us", "of 4");
   for (std::int32_t stage = MIEN_STAGE_WARP; stage <= MIEN_STAGE_DECODERS; ++stage) {
@@ -254,7 +253,7 @@ void print_table(const Report& report) {
 }  // namespace
 
 void bench_levels(const BenchOptions& options) {
-  const Report report = measure(options);
+  const LevelTimes report = measure(options);
   options.json ? print_json(report) : print_table(report);
 }
 

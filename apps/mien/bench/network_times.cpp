@@ -9,7 +9,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kSeconds = 0.5;
+constexpr double kNetworkSeconds = 0.5;
 constexpr std::size_t kLeastRuns = 20;
 constexpr std::size_t kMostRuns = 5000;
 
@@ -29,7 +29,7 @@ std::vector<double> network_times_ms(NetworkRunner& runner) {
   std::vector<double> times;
   const auto begin = Clock::now();
   while (times.size() < kLeastRuns ||
-         (times.size() < kMostRuns && seconds_since(begin) < kSeconds)) {
+         (times.size() < kMostRuns && seconds_since(begin) < kNetworkSeconds)) {
     const auto run_begin = Clock::now();
     runner.run();
     times.push_back(seconds_since(run_begin) * 1e3);

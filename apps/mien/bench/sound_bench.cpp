@@ -18,12 +18,12 @@ constexpr std::int64_t kStepNs = 16'000'000;
 constexpr int kSteps = 4000;
 
 // Of one step of 16 ms: resampler, features, encoder, both decoders.
-struct StepTime {
+struct HearingTime {
   std::int32_t rate;
   double min_us, median_us, p95_us;
 };
 
-StepTime time_steps(Tracker& tracker, std::int32_t rate) {
+HearingTime time_hearing(Tracker& tracker, std::int32_t rate) {
   std::mt19937 engine(1);
   std::normal_distribution<float> noise(0.0f, 0.1f);
   std::vector<float> samples(static_cast<std::size_t>(rate * kStepNs / 1'000'000'000));
@@ -52,7 +52,7 @@ void bench_sound(const BenchOptions& options) {
   LoadedTracker loaded({.models = options.models, .tier = options.tier, .sound = true});
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   for (const std::int32_t rate : {16000, 44100, 48000}) {
-    const StepTime time = time_steps(loaded.tracker, rate);
+    const HearingTime time = time_hearing(loaded.tracker, rate);
     json.push_back({{"sample_rate", time.rate},
                     {"min_us", time.min_us},
                     {"median_us", time.median_us},

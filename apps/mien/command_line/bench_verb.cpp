@@ -19,6 +19,11 @@ void add_bench(CLI::App& program) {
                                   "video: a frame at each level of detail, stage by stage")
                      ->excludes(model)
                      ->excludes(clip);
+  verb->add_option("--rounds", options->rounds,
+                   "with --levels: how often each frame is timed; the fastest counts")
+      ->needs(levels)
+      ->check(CLI::Range(1, 10'000))
+      ->capture_default_str();
   auto* sound =
       verb->add_flag("--sound", options->sound, "hearing: from samples to controls, by 16 ms")
           ->excludes(model)

@@ -39,7 +39,7 @@ ordered_json angle_json(const Curves& curves, double HeadAngles::*angle) {
   return values;
 }
 
-ordered_json file_json(const ComparedFile& file) {
+ordered_json page_file(const ComparedFile& file) {
   ordered_json json;
   json["name"] = file.name;
   json["t_ms"] = ordered_json::array();
@@ -64,8 +64,8 @@ ordered_json page_json(const Comparison& comparison) {
   }
   json["start_ms"] = comparison.start_ms;
   json["end_ms"] = comparison.end_ms;
-  json["a"] = file_json(comparison.a);
-  json["b"] = file_json(comparison.b);
+  json["a"] = page_file(comparison.a);
+  json["b"] = page_file(comparison.b);
   json["differences"] = differences_json(comparison.differences);
   return json;
 }

@@ -109,7 +109,7 @@ VideoInfo info_from(const json& probed, const std::string& input) {
 
 std::string seconds_text(double seconds) { return std::to_string(seconds); }
 
-std::vector<std::string> decode_command(const std::string& input, const VideoRange& range) {
+std::vector<std::string> video_command(const std::string& input, const VideoRange& range) {
   std::vector<std::string> command = {"ffmpeg",   "-hide_banner", "-nostdin",
                                       "-nostats", "-loglevel",    "level+info"};
   if (range.start_s > 0.0) {
@@ -131,7 +131,7 @@ class FfmpegSource : public VideoSource {
       : input_(input),
         range_(range),
         info_(probe_video(input)),
-        decoder_(decode_command(input, range), Subprocess::Pipe::kFromChild, patience_with(input)),
+        decoder_(video_command(input, range), Subprocess::Pipe::kFromChild, patience_with(input)),
         rgb_(static_cast<std::size_t>(info_.width) * static_cast<std::size_t>(info_.height) * 3) {}
 
   const VideoInfo& info() const override { return info_; }

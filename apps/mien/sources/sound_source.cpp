@@ -97,8 +97,6 @@ class WavSound : public SoundSource {
   std::int64_t last_ = 0;
 };
 
-constexpr const char* kStandardInput = "-";
-
 struct CloseFile {
   void operator()(std::FILE* file) const {
     if (file != stdin) {
@@ -130,7 +128,7 @@ class WavFileSound : private WavFile, public WavSound {
 };
 
 // WAV is what ffmpeg is asked for; gaps are filled with silence, so that samples tell the time.
-std::vector<std::string> decode_command(const std::string& input, const VideoRange& range) {
+std::vector<std::string> sound_command(const std::string& input, const VideoRange& range) {
   std::vector<std::string> command = {"ffmpeg",   "-hide_banner", "-nostdin",
                                       "-nostats", "-loglevel",    "error"};
   if (range.start_s > 0.0) {
@@ -157,7 +155,7 @@ struct Decoder {
 class FfmpegSound : private Decoder, public WavSound {
  public:
   FfmpegSound(const std::string& input, const VideoRange& range)
-      : Decoder{{decode_command(input, range), Subprocess::Pipe::kFromChild, patience_with(input)}},
+      : Decoder{{sound_command(input, range), Subprocess::Pipe::kFromChild, patience_with(input)}},
         WavSound(input, {&Decoder::read, static_cast<Decoder*>(this)}, range, range.start_s),
         input_(input) {}
 

@@ -11,6 +11,8 @@
 
 namespace mien::app {
 
+inline constexpr const char* kStandardInput = "-";  // the name of an input
+
 // Reads block by block. The samples of `next` stay valid until the next call.
 class SoundSource {
  public:

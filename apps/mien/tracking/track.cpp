@@ -80,8 +80,6 @@ struct Senses {
   std::string sound;  // where from; empty: nowhere
 };
 
-constexpr const char* kStandardInput = "-";
-
 bool has_sound_in(const std::string& source) {
   return source == kStandardInput || probe_streams(source).sound;
 }
