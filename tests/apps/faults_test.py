@@ -16,7 +16,7 @@ MIEN, FAILING_MALLOC = sys.argv[1:3]
 EVERY_ALLOCATION = "all" in sys.argv[3:]
 ALLOCATIONS_TRIED = 60
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
-OUTPUT_FAILED, TRUNCATED, NO_VIDEO, NO_SOUND, INTERNAL = 7, 5, 4, 11, 1
+OUTPUT_FAILED, TRUNCATED, NO_VIDEO, NO_INPUT, NO_SOUND, INTERNAL = 7, 5, 4, 3, 11, 1
 WIDTH, HEIGHT, FRAMES = 64, 48, 40
 
 
@@ -116,6 +116,13 @@ class Faults(unittest.TestCase):
             failed = self.mien("-o", self.folder / "out.csv", source="-", input=whole[:cut])
             self.assertIn(failed.returncode, (TRUNCATED, NO_VIDEO), cut)
             self.assert_no_output()
+
+    def test_input_that_cannot_be_read_is_no_empty_one(self):
+        """The first page of a process's memory can be opened and not read, as a damaged disk."""
+        failed = subprocess.run([MIEN, "convert", "/proc/self/mem", str(self.folder / "out.csv")], capture_output=True, timeout=120)
+        self.assertEqual(failed.returncode, NO_INPUT)
+        self.assertEqual(failed.stderr, b"mien: /proc/self/mem: cannot be read to its end\n")
+        self.assert_no_output()
 
     def test_killed_at_any_moment_outputs_are_whole_or_absent(self):
         whole, dice = self.whole(), random.Random(3)

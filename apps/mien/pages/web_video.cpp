@@ -1,10 +1,9 @@
 #include "apps/mien/pages/web_video.h"
 
 #include <cstdio>
-#include <fstream>
-#include <iterator>
 #include <vector>
 
+#include "apps/mien/sources/animation_file.h"
 #include "apps/mien/sources/ffmpeg.h"
 #include "apps/mien/sources/network_input.h"
 #include "apps/mien/system/failure.h"
@@ -26,10 +25,7 @@ class ScratchFile {
   ScratchFile& operator=(const ScratchFile&) = delete;
 
   [[nodiscard]] const std::string& path() const { return path_; }
-  [[nodiscard]] std::string contents() const {
-    std::ifstream file(path_, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
+  [[nodiscard]] std::string contents() const { return read_whole(path_); }
 
  private:
   std::string path_;

@@ -3,16 +3,31 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <iterator>
+#include <istream>
 
 #include "apps/mien/system/failure.h"
 #include "apps/mien/system/paths.h"
 
 namespace mien::app {
+namespace {
+
+std::string rest_of(std::istream& stream, const std::string& name) {
+  std::string text, block(std::size_t{1} << 16, '\0');
+  while (stream.read(block.data(), static_cast<std::streamsize>(block.size())) ||
+         stream.gcount() > 0) {
+    text.append(block, 0, static_cast<std::size_t>(stream.gcount()));
+  }
+  if (stream.bad()) {
+    throw Failure(kExitNoInput, name + ": cannot be read to its end");
+  }
+  return text;
+}
+
+}  // namespace
 
 std::string read_whole(const std::string& path) {
   if (path == "-") {
-    return {std::istreambuf_iterator<char>(std::cin), {}};
+    return rest_of(std::cin, "standard input");
   }
   std::error_code ignored;
   if (std::filesystem::is_directory(path_of(path), ignored)) {
@@ -25,7 +40,7 @@ std::string read_whole(const std::string& path) {
         path + ": " +
             (std::filesystem::exists(path_of(path), ignored) ? "cannot be read" : "no such file"));
   }
-  return {std::istreambuf_iterator<char>(file), {}};
+  return rest_of(file, path);
 }
 
 formats::Clip parse_animation(std::string_view bytes, const std::string& name,
