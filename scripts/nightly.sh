@@ -25,6 +25,7 @@ step every_allocation /usr/bin/python3 tests/apps/faults_test.py build/release/a
 step worst_frame scripts/evaluate/worst_frame.sh
 step soak scripts/evaluate/soak.sh
 step memcheck scripts/valgrind.sh 3
+step realtime scripts/rtsan.sh
 step coverage scripts/coverage.sh
 step planted_faults scripts/mutate.sh
 step reproducible scripts/package/check_reproducible.sh

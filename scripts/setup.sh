@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what building, testing and running mien need, from Debian's packages.
-# usage: scripts/setup.sh [build] [test] [demo] [train] [convert] [python] [rust] [csharp] [java] [release] [cross-x86] [cross-arm] [cross-wasm] [cross-windows] [cross-compile-only] [cross-i386] [cross-s390x] [coverage] [valgrind] [convert-fuzz] [web] [web-test] [docs]
+# usage: scripts/setup.sh [build] [test] [demo] [train] [convert] [python] [rust] [csharp] [java] [release] [cross-x86] [cross-arm] [cross-wasm] [cross-windows] [cross-compile-only] [cross-musl] [cross-i386] [cross-s390x] [coverage] [rtsan] [compilers] [valgrind] [convert-fuzz] [web] [web-test] [docs]
 #        (default: build test demo)
 # As root or with sudo; does nothing when everything is there already.
 set -euo pipefail
@@ -22,9 +22,12 @@ declare -A PACKAGES=(
   [docs]="doxygen git python3-venv"
   [web-test]="chromium ffmpeg"
   [cross-windows]="g++-mingw-w64-x86-64-posix binutils-mingw-w64-x86-64 libz-mingw-w64-dev wine wine64 googletest ffmpeg python3 python3-pip unzip"
+  [cross-musl]="python3-venv googletest binutils"
   [cross-i386]="g++-i686-linux-gnu libc6-i386 googletest binutils"
   [cross-s390x]="g++ g++-s390x-linux-gnu"
   [coverage]="clang llvm python3"
+  [rtsan]="clang-22 libclang-rt-22-dev"
+  [compilers]="g++-11 clang-13 clang-22 ffmpeg"
   [valgrind]="valgrind ffmpeg"
   [convert-fuzz]="python3-onnx python3-numpy python3-venv python3-pip"
   [cross-compile-only]="clang lld llvm libc++-dev musl-dev"

@@ -47,11 +47,12 @@ TEST(Following, FindsDiscsOfAllSizesEverywhere) {
 
 // At this size the last band of the largest picture overlaps the one before.
 TEST(Following, FindsSmallDiscsInEveryBand) {
+  constexpr float kSmall = 21.0f;  // no size of the search but the largest sees it
   for (float y = 30.0f; y < 230.0f; y += 12.0f) {
     BlobTracker tracker({}, [](mien_tracker_config& config) { config.proposal_size = 100; });
-    const Result result = tracker.push(disc_picture(150.0f, y, 26.0f));
+    const Result result = tracker.push(disc_picture(150.0f, y, kSmall));
     ASSERT_EQ(result.status, MIEN_FACE_TRACKING) << y;
-    expect_box_on_disc(result, 150.0f, y, 26.0f);
+    expect_box_on_disc(result, 150.0f, y, kSmall);
   }
 }
 
