@@ -61,6 +61,7 @@ part() {  # name, command
   "${@:2}"
 }
 part linters linters
+part "supply chain" scripts/check_supply_chain.sh
 part Python bindings/python/test.sh
 part Rust binding rust rust
 part "C#" binding csharp csharp

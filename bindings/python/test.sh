@@ -20,8 +20,8 @@ trap 'rm -rf "$work"' EXIT
 
 rm -rf "$wheels"
 "${pythons[0]}" -m venv "$work/build"
-"$work/build/bin/pip" install --quiet --quiet --disable-pip-version-check build
-"$work/build/bin/python" -m build --wheel --outdir "$wheels" "$here" >"$work/build.log" 2>&1 || { cat "$work/build.log" >&2; exit 1; }
+"$work/build/bin/pip" install --quiet --quiet --disable-pip-version-check --require-hashes -r scripts/package/wheel_requirements.txt
+"$work/build/bin/python" -m build --no-isolation --wheel --outdir "$wheels" "$here" >"$work/build.log" 2>&1 || { cat "$work/build.log" >&2; exit 1; }
 wheel=$(echo "$wheels"/mien-*-py3-none-*.whl)
 bytes=$(stat -c %s "$wheel")
 echo "$(basename "$wheel"): $bytes bytes"

@@ -11,6 +11,7 @@ import time
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "train"))
+import model_card  # noqa: E402
 import report as out  # noqa: E402
 import summary  # noqa: E402
 from paths import ROOT, cache  # noqa: E402
@@ -62,6 +63,8 @@ def main():
         except Missing as missing:
             setting.skip(part, missing)
     summary.write(args.out, setting.skipped, setting.program.has_hifinet)
+    if args.out == ROOT / "docs/results":
+        model_card.write(args.out)
     for skipped in setting.skipped:
         print(f"SKIPPED {skipped}", file=sys.stderr)
     return SKIPPED if setting.skipped else 0

@@ -20,6 +20,9 @@ install(DIRECTORY models/ DESTINATION ${models_dir} ${left_out})
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/mien RENAME copyright)
 install(EXPORT mien NAMESPACE mien:: FILE mienTargets.cmake DESTINATION ${package_dir})
 
+if(TARGET mien_program OR TARGET mien_conformance_program)
+  install(FILES apps/third_party.txt DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/mien)
+endif()
 get_target_property(default_target mien ALIASED_TARGET)
 if(TARGET mien_program)
   # One that is linked statically looks for no library, and the room that CMake keeps for a path would mean the current folder.

@@ -5,7 +5,7 @@
 #   amalgamation  mien-VERSION-amalgamation.tar.gz, mien.h and a source for each tier
 #   binary        mien-VERSION-linux-MACHINE.tar.gz, as cmake --install lays it down
 #   deb           mien_VERSION_MACHINE.deb
-#   wheel         Python's (build and its back end come from PyPI)
+#   wheel         Python's (what builds it comes from PyPI, by its hashes)
 #   npm           JavaScript's (needs Emscripten; scripts/setup.sh web)
 # and of whatever there is then: an SBOM, mien-VERSION.spdx.json, and SHA256SUMS.
 set -euo pipefail
@@ -73,8 +73,9 @@ make_deb() {
 
 make_wheel() {
   python3 -m venv "$build-python"
-  "$build-python/bin/pip" install --quiet --quiet --disable-pip-version-check build || { echo "LEFT OUT: the wheel, since PyPI cannot be reached"; return 0; }
-  "$build-python/bin/python" -m build --wheel --outdir "$out" bindings/python >"$build-python/log" 2>&1 || { cat "$build-python/log" >&2; return 1; }
+  "$build-python/bin/pip" install --quiet --quiet --disable-pip-version-check --require-hashes -r scripts/package/wheel_requirements.txt ||
+    { echo "LEFT OUT: the wheel, since PyPI cannot be reached"; return 0; }
+  "$build-python/bin/python" -m build --no-isolation --wheel --outdir "$out" bindings/python >"$build-python/log" 2>&1 || { cat "$build-python/log" >&2; return 1; }
 }
 
 make_npm() {

@@ -56,6 +56,7 @@ if [ -x "$prefix/bin/mien" ]; then
     printf 'YUV4MPEG2 W32 H32 F30:1 C420jpeg\nFRAME\n'
     head -c 1536 /dev/zero
   } | "$prefix/bin/mien" track - --quiet | grep -c searching
+  grep -q "CLI11 Copyright" "$prefix/share/doc/mien/third_party.txt"  # as its licence wants it
 fi
 
 if [ -x "$prefix/bin/mien-conformance" ]; then

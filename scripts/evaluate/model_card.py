@@ -1,0 +1,49 @@
+#!/usr/bin/env python3
+"""Writes the errors by group of people into the model card, from docs/results: models/README.md, between its two comments.
+
+usage: scripts/evaluate/model_card.py        evaluate.py does it, too
+"""
+import json
+from pathlib import Path
+
+import report as out
+
+ROOT = Path(__file__).resolve().parents[2]
+CARD = ROOT / "models/README.md"
+BEGIN, END = "<!-- made by scripts/evaluate/model_card.py -->", "<!-- to here -->"
+LEVELS = ("LOD1", "LOD4")
+
+
+def wild(results):
+    """Lines of the portraits in the wild: of each group of people, and of all."""
+    levels = [results["levels"][name] for name in LEVELS]
+    cells = lambda r: [f"{100 * r['found']:.1f} %", out.number(r["error"] and 100 * r["error"], 2)]
+    lines = [["all", str(levels[0]["pictures"]), *cells(levels[0]), *cells(levels[1])]]
+    for key in ("by_group", "by_sex", "by_age"):
+        for name, first in levels[0][key].items():
+            lines.append([name, str(first["pictures"]), *cells(first), *cells(levels[1][key][name])])
+    return out.table(["portraits in the wild", "pictures", "level 1: found rightly", "landmarks, %", "level 4: found rightly", "landmarks, %"], lines)
+
+
+def tones(results):
+    """Lines of the single portraits by skin tone."""
+    first, last = (results["levels"][name]["portraits"]["by_tone"] for name in LEVELS)
+    cells = lambda r: [str(r["lost"]), out.number(r["error"] and 100 * r["error"], 2)]
+    lines = [[name, str(group["pictures"]), *cells(group), *cells(last[name])] for name, group in first.items()]
+    return out.table(["single portraits, skin tone", "pictures", "level 1: not found", "landmarks, %", "level 4: not found", "landmarks, %"], lines)
+
+
+def write(folder):
+    """Replaces what stands between the comments, from the results in that folder, where it has both parts."""
+    parts = [folder / "wild.json", folder / "pictures.json"]
+    if not all(part.exists() for part in parts):
+        return
+    found, single = (json.loads(part.read_text())["results"] for part in parts)
+    card = CARD.read_text()
+    before, _, rest = card.partition(BEGIN)
+    after = rest.partition(END)[2]
+    CARD.write_text("\n".join([before + BEGIN, *wild(found), *tones(single)]).rstrip() + "\n" + END + after)
+
+
+if __name__ == "__main__":
+    write(ROOT / "docs/results")
