@@ -46,9 +46,10 @@ mien_status status_of(Status status) {
   }
 }
 
-// Whether the network, whose layers are known to fit together, has the outputs expected.
-bool outputs_fit(const Model& model, const formats::NetworkRecord& network,
-                 const NetworkForm& form) {
+// Whether the network, whose layers are known to fit together, has the outputs expected. Its shapes
+// take 12 KB of the stack, and inlined they would still lie there while a session is made.
+[[gnu::noinline]] bool outputs_fit(const Model& model, const formats::NetworkRecord& network,
+                                   const NetworkForm& form) {
   ShapeWalk walk(model.file().layers(network), form.input);
   while (walk.next()) {
   }

@@ -2,8 +2,8 @@
 
 #include <atomic>
 
-#ifdef MIEN_HAVE_AVX512FP16
-#include <cpuid.h>
+#ifdef MIEN_HAVE_AVX2
+#include "kernels/x86_features.h"
 #endif
 #if defined(__linux__) && (defined(MIEN_HAVE_NEON32) || defined(MIEN_HAVE_NEONFP16))
 #include <sys/auxv.h>
@@ -15,14 +15,6 @@ extern "C" int sysctlbyname(const char* name, void* value, std::size_t* bytes, v
 
 namespace mien::kernels {
 namespace {
-
-#ifdef MIEN_HAVE_AVX512FP16
-// Leaf 7, subleaf 0, EDX bit 23 (Intel SDM, volume 2, CPUID), which clang 14 cannot ask for.
-bool has_avx512fp16() {
-  unsigned eax = 0, ebx = 0, ecx = 0, edx = 0;
-  return __get_cpuid_count(7, 0, &eax, &ebx, &ecx, &edx) != 0 && (edx & 1u << 23) != 0;
-}
-#endif
 
 #ifdef MIEN_HAVE_NEONFP16
 bool has_neon_fp16() {
@@ -45,28 +37,17 @@ std::uint32_t ask_cpu() {
   mask |= bit(Tier::kRef);
 #endif
 #ifdef MIEN_HAVE_AVX2
-  // The built-in also asks (XGETBV) whether the system saves the registers. There is no CPU with
-  // AVX2 and without F16C, which clang 14 cannot ask for.
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) {
-    mask |= bit(Tier::kAvx2);
-  }
+  const X86Features x86 = x86_features();
+  mask |= x86.avx2 ? bit(Tier::kAvx2) : 0u;
 #endif
 #ifdef MIEN_HAVE_AVX512
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
-      __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq") &&
-      __builtin_cpu_supports("fma")) {
-    mask |= bit(Tier::kAvx512);
-  }
+  mask |= x86.avx512 ? bit(Tier::kAvx512) : 0u;
 #endif
 #ifdef MIEN_HAVE_AVX512FP16
-  if ((mask & bit(Tier::kAvx512)) != 0 && has_avx512fp16()) {
-    mask |= bit(Tier::kAvx512Fp16);
-  }
+  mask |= x86.avx512fp16 ? bit(Tier::kAvx512Fp16) : 0u;
 #endif
 #ifdef MIEN_HAVE_AVX512VNNI
-  if ((mask & bit(Tier::kAvx512)) != 0 && __builtin_cpu_supports("avx512vnni")) {
-    mask |= bit(Tier::kAvx512Vnni);
-  }
+  mask |= x86.avx512vnni ? bit(Tier::kAvx512Vnni) : 0u;
 #endif
 #ifdef MIEN_HAVE_NEON
   mask |= bit(Tier::kNeon);  // every AArch64 CPU has it

@@ -4,7 +4,7 @@
 # usage: scripts/cross/all.sh [--full]      --full: more seeds, targets and tests, and hours
 set -euo pipefail
 cd "$(dirname "$0")/../.."
-scripts/setup.sh build test cross-x86 cross-arm cross-s390x cross-wasm cross-windows cross-compile-only
+scripts/setup.sh build test cross-x86 cross-arm cross-s390x cross-wasm cross-windows cross-compile-only cross-musl
 mkdir -p build/cross/logs
 
 run() {  # script of this folder, its arguments
@@ -28,4 +28,5 @@ windows.sh
 compile_only.sh
 linux_x64.sh
 big_endian.sh
+musl.sh
 LINES

@@ -31,7 +31,7 @@ allowed='^_?(abort|mem(cpy|move|set|cmp|chr)|bcmp|(__)?bzero|strlen|aligned_allo
 allowed+='|(exp|log|log10|sin|cos|tan|acos|asin|atan|atan2|sqrt|pow|floor|ceil|round|lround|llround|hypot|tanh)f?'
 allowed+='|___?sincosf?(_stret)?|sincosf?|_Zn[wa][mj](St11align_val_t)?RKSt9nothrow_t|_Zd[la]Pv([mj])?(St11align_val_t)?|_ZSt7nothrow'
 allowed+='|_ZNSt3__16__itoa8__u(32|64)toaE[jmy]Pc|getauxval|sysctlbyname'
-allowed+='|__exp10f?|memset_pattern16|__stack_chk_(fail|guard)|__cpu_(model|indicator_init)|__aeabi_[a-z0-9_]+|_GLOBAL_OFFSET_TABLE_)$'
+allowed+='|__exp10f?|memset_pattern16|__stack_chk_(fail|guard)|__aeabi_[a-z0-9_]+|_GLOBAL_OFFSET_TABLE_)$'
 
 bad=0
 configure_for() {  # build folder, triple, flags, headers, options
@@ -78,9 +78,7 @@ check_program() {  # triple
 page_size=$(sed -nE 's/.*-Wl,-z,(max-page-size=[0-9]+).*/\1/p' tracker/CMakeLists.txt)
 check_pages() {  # triple, emulation
   local so=$root/$1/libmien.so
-  echo '__attribute__((visibility("hidden"))) unsigned __cpu_model[4];' |  # of the compiler's run-time library
-    clang --target="$1" -fPIC -x c -c - -o "$root/$1/run_time.o"
-  "$llvm/bin/ld.lld" -shared -m "$2" ${page_size:+-z "$page_size"} --unresolved-symbols=ignore-all "$root/$1/run_time.o" --whole-archive \
+  "$llvm/bin/ld.lld" -shared -m "$2" ${page_size:+-z "$page_size"} --unresolved-symbols=ignore-all --whole-archive \
     "$root/$1/tracker/libmien.a" -o "$so"
   if "$llvm/bin/llvm-readelf" -lW "$so" | awk '$1 == "LOAD" && $NF != "0x4000" {bad = 1} END {exit !bad}'; then
     echo "compile_only.sh: $so is not aligned to pages of 16 KB" >&2

@@ -1,5 +1,5 @@
-// What a thread of a camera or a sound card calls, under clang's real-time sanitizer, which knows some
-// hundred functions of the C library that may block and ends the process at the first one.
+// What a thread of a camera or a sound card calls, under clang's real-time sanitizer, which knows
+// some hundred functions of the C library that may block and ends the process at the first one.
 // Source: https://clang.llvm.org/docs/RealtimeSanitizer.html
 #include <gtest/gtest.h>
 

@@ -39,7 +39,9 @@ mien_status load(const mien_tracker_config& config, mien_tracker& parts, Arena& 
   return status == MIEN_OK ? parts.proposal.load(config, models, arena) : status;
 }
 
-mien_status measure(const mien_tracker_config& config, Arena::Need& need) {
+// Its tracker takes 15 KB of the stack, and inlined it would still lie there while the real one is
+// made.
+[[gnu::noinline]] mien_status measure(const mien_tracker_config& config, Arena::Need& need) {
   Arena arena;
   (void)arena.take(sizeof(mien_tracker));
   mien_tracker parts(config);

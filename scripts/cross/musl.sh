@@ -1,0 +1,43 @@
+#!/usr/bin/env bash
+# Builds mien with musl, as Alpine and static programs have it, and runs the tests: of a machine's C library nothing is left in them.
+# Debian has no C++ library for musl; Zig from PyPI has one, and a clang of its own (22).
+# usage: scripts/cross/musl.sh [--full]      --full: 50 seeds of mien-conformance
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+scripts/setup.sh build test cross-musl
+. scripts/cross/common.sh
+if [ "$(uname -m)" != x86_64 ]; then
+  echo "linux-musl: nothing ran: this is no x86-64 machine"
+  exit
+fi
+
+build=build/cross/linux-musl
+if [ ! -x $build/python/bin/python ]; then
+  python3 -m venv $build/python
+fi
+if ! printf '%s\n' 'ziglang==0.17.1 --hash=sha256:ea6cc5d87b033cf0aedfbc8f9549a908cae6c50ac31f1698188fa48a74524b54' |
+  $build/python/bin/pip install --quiet --disable-pip-version-check --only-binary=:all: --require-hashes -r /dev/stdin; then
+  echo "linux-musl: SKIPPED: Zig could not be had from PyPI"
+  exit
+fi
+MIEN_ZIG=$($build/python/bin/python -c 'import os, ziglang; print(os.path.join(os.path.dirname(ziglang.__file__), "zig"))')
+export MIEN_ZIG
+
+echo "== linux-musl by $("$MIEN_ZIG" version)"
+configure $build $build/googletest "$PWD/scripts/cross/linux-musl.cmake" -DMIEN_UNITY_BUILD=ON
+build $build all
+program=$build/apps/conformance/mien-conformance
+if readelf --dynamic $program | grep -F NEEDED; then
+  echo "musl.sh: $program asks for a library" >&2
+  exit 1
+fi
+$program --models models --repeat "$seeds" >$build/conformance.log || { cat $build/conformance.log >&2; exit 1; }
+sed -n '/^mien /p;/^guard pages/p;$p' $build/conformance.log
+if grep -qw avx2 /proc/cpuinfo && ! grep -q 'tiers: ref avx2' $build/conformance.log; then
+  echo "musl.sh: this CPU has AVX2, and $program does not find it" >&2
+  exit 1
+fi
+ctest --test-dir $build -j "$(nproc)" --output-on-failure --no-tests=error -E "^(convert|train|apps)" --output-log $build/tests.log >/dev/null ||
+  { cat $build/tests.log >&2; exit 1; }
+grep -E 'tests passed|Total Test time' $build/tests.log
+echo "linux-musl: mien-conformance on $seeds seeds and the tests of kernels, formats, engine, audio, tracker and the C API ran as static programs; not built: the mien program"
