@@ -20,6 +20,7 @@ try:
     import numpy as np
     import onnx
     import operator_cases
+    import random_graphs
     from conversion import PROGRAM, answered, convert, difference, time_axis
 except ModuleNotFoundError as missing:
     print("skipped: no Python module", missing.name, "here; scripts/setup.sh convert installs it")
@@ -36,6 +37,7 @@ MODULES = Path(os.environ.get("MIEN_CACHE", Path.home() / ".cache/mien")) / "pee
 RUNTIME = shutil.which("node") and (MODULES / "node_modules/onnxruntime-node").is_dir()
 if not RUNTIME:
     print("NOT COMPARED: operators with ONNX Runtime; scripts/peers/install_onnxruntime.sh fetches it")
+RANDOM_GRAPHS = int(os.environ.get("MIEN_RANDOM_GRAPHS", 60))
 # Of the largest value. Weights of the operator cases are exact in fp16; a network's are rounded to 11 bits.
 OPERATOR_TOLERANCE, ROUNDED_TOLERANCE = 2e-5, 2e-3
 
@@ -76,8 +78,13 @@ class Folder(unittest.TestCase):
 
 class Operators(Folder):
     def test_answers_are_those_of_onnx_runtime(self):
+        self.check(list(operator_cases.accepted()))
+
+    def test_graphs_drawn_by_chance(self):
+        self.check(list(random_graphs.graphs(RANDOM_GRAPHS)))
+
+    def check(self, cases):
         runtime, answers, random = Runtime(self.folder), [], np.random.default_rng(3)
-        cases = list(operator_cases.accepted())
         for case in cases:
             model = self.folder / f"{case.name}.onnx"
             onnx.save(case.model(), str(model))
@@ -122,7 +129,7 @@ class Operators(Folder):
                 got = got.transpose(0, 3, 1, 2)
             if case.name.startswith("lstm_last"):
                 got = got[-1]
-            self.assertLess(difference(got, want), ROUNDED_TOLERANCE if case.rounds else OPERATOR_TOLERANCE)
+            self.assertLess(difference(got, want), case.rounds * ROUNDED_TOLERANCE or OPERATOR_TOLERANCE)
 
     def test_refusals_name_the_node_and_the_reason(self):
         for case in operator_cases.refused():

@@ -7,8 +7,8 @@ OPSETS = (11, 13, 15, 18)
 
 
 class Case:
-    """shapes: of the inputs by name. arguments: of the converter. feedback: state inputs -> outputs, of a graph of one step. rounds: numbers
-    are folded into others, and the result rounded to fp16. answer: numpy's, where ONNX Runtime does not take the graph."""
+    """shapes: of the inputs by name. arguments: of the converter. feedback: state inputs -> outputs, of a graph of one step. rounds: how
+    often numbers are folded into others, and the result rounded to fp16. answer: numpy's, where ONNX Runtime does not take the graph."""
 
     def __init__(self, name, nodes, shapes, outputs=("y",), opset=13, constants=None, arguments=(), steps=1, feedback=None, layout="chw",
                  refusal=None, domains=(), rounds=False, answer=None):
