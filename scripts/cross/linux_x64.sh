@@ -34,9 +34,10 @@ for part in kernels engine; do
   echo "-- $part, Nehalem"
   qemu-x86_64 -cpu Nehalem build/release/tests/$part/${part}_test --gtest_brief=1
 done
-# AVX2 takes long here, and runs natively elsewhere. Not matrix_vector: QEMU 7.2 reads all of what a masked load names.
-for filter in pointwise depthwise lstm warp 'network/mini*'; do
+# AVX2 takes long here, and runs natively elsewhere. Not matrix_vector: QEMU 7.2 reads all of what a masked load names. Nor networks, which
+# compute with denormal numbers as zero: there QEMU 7.2 takes those of half precision for zero, too, where a CPU does not.
+for filter in pointwise depthwise lstm warp; do
   MIEN_MODELS='' conformance qemu:max $program --tier avx2 --filter "$filter"
 done
 
-echo "linux-x64: mien-conformance and the tests of kernels and engine ran on a CPU without AVX2 (Nehalem), some kernels and networks on one with AVX2 and no AVX-512"
+echo "linux-x64: mien-conformance and the tests of kernels and engine ran on a CPU without AVX2 (Nehalem), some kernels on one with AVX2 and no AVX-512"
