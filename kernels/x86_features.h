@@ -32,8 +32,12 @@ constexpr bool all_set(std::uint32_t word, Bits... bits) {
 }
 
 inline X86Features x86_features() {
-  constexpr std::uint32_t kVectors = 0x6;      // SSE, AVX
+  constexpr std::uint32_t kVectors = 0x6;  // SSE, AVX
+#ifdef __APPLE__  // saves the rest as soon as a thread first uses it, and does not say so before
+  constexpr std::uint32_t kAllVectors = kVectors;
+#else
   constexpr std::uint32_t kAllVectors = 0xe6;  // masks and upper halves, too
+#endif
   std::uint32_t eax = 0, ebx = 0, ecx = 0, edx = 0;
   X86Features features;
   const bool known = __get_cpuid(1, &eax, &ebx, &ecx, &edx) != 0;
@@ -45,11 +49,7 @@ inline X86Features x86_features() {
     return features;
   }
   features.avx2 = all_set(ebx, 5);
-#ifdef __APPLE__  // saves the rest as soon as a thread first uses it, and does not say so before
-  const bool saves_all = true;
-#else
   const bool saves_all = (saved & kAllVectors) == kAllVectors;
-#endif
   features.avx512 = features.avx2 && saves_all && all_set(ebx, 16, 17, 30, 31);  // F, DQ, BW, VL
   features.avx512fp16 = features.avx512 && all_set(edx, 23);
   features.avx512vnni = features.avx512 && all_set(ecx, 11);
