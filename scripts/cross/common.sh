@@ -37,3 +37,11 @@ conformance() {  # device as of scripts/run_on_device.sh, program, options
   output=$(scripts/run_on_device.sh "$@" 2>&1) || { echo "$output"; return 1; }
   sed -n '/^mien /p;/^guard pages/p;$p' <<<"$output"
 }
+
+# Ends the script, rightly, on a machine that cannot run x86-64 programs itself.
+x86_64_only() {  # name of the target
+  if [ "$(uname -m)" != x86_64 ]; then
+    echo "$1: nothing ran: this is no x86-64 machine"
+    exit
+  fi
+}

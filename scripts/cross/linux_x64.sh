@@ -6,10 +6,7 @@ set -euo pipefail
 cd "$(dirname "$0")/../.."
 scripts/setup.sh build test cross-x86
 . scripts/cross/common.sh
-if [ "$(uname -m)" != x86_64 ]; then
-  echo "linux-x64: nothing ran: this is no x86-64 machine"
-  exit
-fi
+x86_64_only linux-x64
 
 cmake --preset release >/dev/null
 build build/release mien_conformance_program kernels_test engine_test

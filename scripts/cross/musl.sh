@@ -6,10 +6,7 @@ set -euo pipefail
 cd "$(dirname "$0")/../.."
 scripts/setup.sh build test cross-musl
 . scripts/cross/common.sh
-if [ "$(uname -m)" != x86_64 ]; then
-  echo "linux-musl: nothing ran: this is no x86-64 machine"
-  exit
-fi
+x86_64_only linux-musl
 
 build=build/cross/linux-musl
 if [ ! -x $build/python/bin/python ]; then
