@@ -43,6 +43,10 @@ ALONE = 0.25  # share of sequences in which one unit moves at a time
 SIDED = {"jaw", "mouth"}
 UPPER_UNITS = ["cheekSquint", "noseSneer"]
 BROW_UNITS = ["browDown", "browInnerUp", "browOuterUp"]
+LID_UNITS = ["eyeBlink", "eyeWide", "eyeSquint"]
+GAZE_UNITS = [unit for unit in PAIRED if unit.startswith("eyeLook")]
+APART = [(list(MOUTH_UNITS), 0.75), (UPPER_UNITS, 0.35), (BROW_UNITS, 0.5), (LID_UNITS, 0.45)]  # regions, and how often one of each moves
+ONE_SIDED, ONE_EYED = 0.65, 0.4  # share of paired units, and of gazes, of faces whose units move apart
 
 # Familiar expressions: unit -> (low, high) of its amplitude.
 EXPRESSIONS = {
@@ -237,23 +241,39 @@ def legalise(c):
     return np.clip(c, 0, 1).astype(np.float32)
 
 
-def sample_solo(rng):
-    """One unit through its whole range on an otherwise neutral face, a paired one as often on one side as on both."""
-    units = list(MOUTH_UNITS) + UPPER_UNITS + BROW_UNITS + ["eyeBlink", "eyeWide", "eyeSquint", "gaze"]
-    unit = rng.choice(units)
-    value = rng.uniform(0, 1)
-    if unit == "gaze":
-        return sample_gaze(rng)
-    out = zeros()
-    if unit in PAIRED and unit not in SIDED and rng.random() < 0.5:
+def add_solo(out, rng, unit, value, one_sided):
+    """Raises one unit in `out`, with no other but the jaw where it needs it; a paired one on one side alone in a share of cases."""
+    if unit in PAIRED and unit not in SIDED and rng.random() < one_sided:
         out[INDEX[unit + rng.choice(["Left", "Right"])]] = value
-        return out
+        return
     add_unit(out, rng, unit, value)
     if unit == "tongueOut":
         add_unit(out, rng, "jawOpen", rng.uniform(0.45, 0.9))
     if unit == "mouthClose":
         add_unit(out, rng, "jawOpen", value)
+
+
+def sample_solo(rng):
+    """One unit through its whole range on an otherwise neutral face, a paired one as often on one side as on both."""
+    unit = rng.choice(list(MOUTH_UNITS) + UPPER_UNITS + BROW_UNITS + LID_UNITS + ["gaze"])
+    value = rng.uniform(0, 1)
+    if unit == "gaze":
+        return sample_gaze(rng)
+    out = zeros()
+    add_solo(out, rng, unit, value, 0.5)
     return out
+
+
+def sample_apart(rng):
+    """At most one unit of each region, mostly on one side, sometimes the gaze of one eye: what each looks like by itself."""
+    out = zeros()
+    for units, share in APART:
+        if rng.random() < share:
+            add_solo(out, rng, rng.choice(units), amplitude(rng), ONE_SIDED)
+    if rng.random() < ONE_EYED:
+        out[INDEX[rng.choice(GAZE_UNITS) + rng.choice(["Left", "Right"])]] = amplitude(rng)
+        return legalise(out)
+    return legalise(out + sample_gaze(rng))
 
 
 def sample_still(rng):
@@ -277,11 +297,15 @@ def lean(rng, face):
     return face
 
 
-def sample_stills(rng, count, leaning=0):
-    """Random expressions f32[count,52], of which a share leans to one side."""
-    faces = [sample_still(rng) for _ in range(count)]
-    if leaning:
-        faces = [lean(rng, face) if rng.random() < leaning else face for face in faces]
+def sample_stills(rng, count, leaning=0, apart=0):
+    """Random expressions f32[count,52]; of a share the units move apart, and of the others a share leans to one side."""
+    faces = []
+    for _ in range(count):
+        if apart and rng.random() < apart:
+            faces.append(sample_apart(rng))
+            continue
+        face = sample_still(rng)
+        faces.append(lean(rng, face) if leaning and rng.random() < leaning else face)
     return np.stack(faces)
 
 

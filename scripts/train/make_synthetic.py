@@ -143,7 +143,8 @@ def work(job):
     args, worker = job
     per_shard = STILLS_PER_SHARD if args.kind == "stills" else SEQUENCES_PER_SHARD
     studio, framing = None, FRAMINGS[args.framing]
-    perform = expressions.sample_sequence if args.kind == "sequences" else partial(expressions.sample_stills, leaning=args.leaning)
+    perform = expressions.sample_sequence if args.kind == "sequences" else partial(
+        expressions.sample_stills, leaning=args.leaning, apart=args.apart)
     if args.poses:
         perform = partial(expressions.sample_like, pool=np.load(args.poses)["controls"])
     for shard in range(worker, -(-args.count // per_shard), args.workers):
@@ -164,6 +165,7 @@ def main():
     parser.add_argument("--poses", type=Path, help="sequences through poses like these (hard_cases.py), in a folder of their own")
     parser.add_argument("--frames", type=int, default=FRAMES, help="of a sequence")
     parser.add_argument("--leaning", type=float, default=0, help="share of stills whose expression leans to one side")
+    parser.add_argument("--apart", type=float, default=0, help="share of stills in which at most one unit of each region moves")
     parser.add_argument("--turned", type=float, default=0, help="share of stills whose head looks far to one side")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--out", type=Path, default=cache() / "synthetic")
@@ -172,8 +174,8 @@ def main():
     args = parser.parse_args()
     if args.poses and args.kind == "stills":
         parser.error("--poses is for sequences")
-    if (args.leaning or args.turned) and args.kind == "sequences":
-        parser.error("--leaning and --turned are for stills")
+    if (args.leaning or args.apart or args.turned) and args.kind == "sequences":
+        parser.error("--leaning, --apart and --turned are for stills")
     if args.data:
         os.environ["MIEN_DATA"] = str(args.data.resolve())
     jobs = [(args, worker) for worker in range(args.workers)]

@@ -60,6 +60,22 @@ class Expressions(unittest.TestCase):
         lean = (leaning[:, e.PAIRED_LEFT[smile]] - leaning[:, e.PAIRED_RIGHT[smile]]).mean()
         self.assertLess(abs(lean), 0.02, "to both sides alike")
 
+    def test_of_units_apart_one_of_a_region_moves(self):
+        rng = np.random.default_rng(7)
+        faces = np.stack([e.sample_apart(rng) for _ in range(3000)])
+        self.assertGreater((faces > 0.5).mean(0).min(), 0.005, "each control has its turn")
+        np.testing.assert_allclose(faces.mean(0), faces.mean(0)[e.MIRROR], atol=0.02)
+        needs_jaw = (faces[:, [e.INDEX["tongueOut"], e.INDEX["mouthClose"]]] > 0).any(1)
+        mouth = [i for i, n in enumerate(e.CONTROLS) if n.startswith(("jaw", "mouth", "cheekPuff", "tongue"))]
+        units = [{e.CONTROLS[i].removesuffix("Left").removesuffix("Right") for i in mouth if face[i] > 0} for face in faces[~needs_jaw]]
+        self.assertLessEqual(max(map(len, units)), 1)
+        blink = np.sort(faces[:, [e.INDEX["eyeBlinkLeft"], e.INDEX["eyeBlinkRight"]]], 1)
+        self.assertGreater(((blink[:, 0] == 0) & (blink[:, 1] > 0)).mean(), 0.05, "one eye alone")
+
+    def test_stills_without_shares_are_those_of_before(self):
+        a, b = (np.random.default_rng(3) for _ in range(2))
+        np.testing.assert_array_equal(e.sample_stills(a, 50), np.stack([e.sample_still(b) for _ in range(50)]))
+
     def test_mirror_is_its_own_inverse(self):
         self.assertEqual([e.MIRROR[m] for m in e.MIRROR], list(range(52)))
         self.assertEqual(e.MIRROR[e.INDEX["eyeLookInLeft"]], e.INDEX["eyeLookInRight"])
