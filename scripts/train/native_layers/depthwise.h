@@ -1,7 +1,7 @@
-// A 3x3 depthwise convolution of one picture, sixteen channels at a time, in fp32: what the units
-// of a block are made of. It goes through the picture row by row, and what it needs of the map
-// before it is made when its turn comes, so that a few rows are all there ever is of it and stay in
-// the nearest cache.
+// A 3x3 depthwise convolution of one picture, a vector of channels at a time, in fp32: what the
+// units of a block are made of. It goes through the picture row by row, and what it needs of the
+// map before it is made when its turn comes, so that a few rows are all there ever is of it and
+// stay in the nearest cache.
 #pragma once
 
 #include <vector>
@@ -37,7 +37,7 @@ struct Geometry {
   std::size_t padded_width, padded_height, out_width, out_height;
 };
 
-// Sixteen channels of the kernel, weights being [9][channels].
+// A vector of channels of the kernel, weights being [9][channels].
 inline Kernel kernel_of(const float* weights, std::size_t channels, std::size_t c,
                         std::size_t count) {
   Kernel out;
@@ -47,7 +47,7 @@ inline Kernel kernel_of(const float* weights, std::size_t channels, std::size_t 
   return out;
 }
 
-// The last rows of sixteen channels of a map, with the zeros that padding adds to their ends.
+// The last rows of a vector of channels of a map, with the zeros that padding adds to their ends.
 class Rows {
  public:
   explicit Rows(const Geometry& g)
@@ -107,7 +107,7 @@ class Procession {
   std::size_t begun_ = 0, ended_ = 0;
 };
 
-// Sixteen channels of one picture's answer, and the sums of its values and of their squares.
+// A vector of channels of one picture's answer, and the sums of its values and of their squares.
 // fill(row) makes a row of `seen`.
 template <typename T, typename Fill>
 void slide(const Geometry& g, Rows& seen, const Kernel& kernel, T* slid, std::size_t count,
@@ -164,7 +164,7 @@ void descend(const Geometry& g, Rows& seen, Rows& gradient, const Kernel& kernel
   rows.finish(begin, finish);
 }
 
-// Adds sixteen channels of a kernel's gradient to that of all, [9][channels].
+// Adds a vector of channels of a kernel's gradient to that of all, [9][channels].
 inline void add_kernel(std::vector<double>& total, const Kernel& part, std::size_t channels,
                        std::size_t c, std::size_t count) {
   for (std::size_t k = 0; k < kTaps; ++k) {

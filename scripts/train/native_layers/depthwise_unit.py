@@ -1,7 +1,7 @@
 """Norm and ReLU6 of an expanded map, a 3x3 depthwise convolution, its norm and ReLU6, as one layer for training on a CPU.
 
 Layer by layer these sweep the largest maps of an encoder over and over; here what lies between is made again from the two maps that
-are kept, sixteen channels of a picture at a time. Maps are fp32 or bfloat16, parameters and sums fp32. Run as a program it tests itself.
+are kept, a vector of channels of a picture at a time. Maps are fp32 or bfloat16, parameters and sums fp32. Run as a program it tests itself.
 """
 import ctypes
 from ctypes import POINTER, c_float, c_int, c_size_t, c_void_p

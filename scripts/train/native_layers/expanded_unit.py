@@ -1,7 +1,7 @@
 """An inverted residual without its projection as one layer for training on a CPU: a pointwise convolution that expands few channels to
 many, norm and ReLU6, a 3x3 depthwise convolution, norm and ReLU6.
 
-The expanded map, the largest of all, is never stored: it is made from what comes in, sixteen channels of a picture at a time, and again on
+The expanded map, the largest of all, is never stored: it is made from what comes in, a vector of channels of a picture at a time, and again on
 the way back. Maps are fp32 or bfloat16, all in between is fp32. Run as a program it tests itself.
 """
 import ctypes

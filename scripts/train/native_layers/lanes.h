@@ -1,5 +1,5 @@
-// Sixteen channels at a time: maps are [pixels][channels], stored as fp32 or bfloat16 and computed
-// with in fp32.
+// As many channels at a time as a vector of the processor holds: maps are [pixels][channels],
+// stored as fp32 or bfloat16 and computed with in fp32.
 #pragma once
 
 #include <bit>
@@ -9,10 +9,14 @@
 
 namespace mien::training {
 
+#ifdef __AVX512F__
 constexpr std::size_t kLanes = 16;
-using Lanes = float __attribute__((vector_size(64)));
-using Words = std::uint32_t __attribute__((vector_size(64)));
-using Halves = std::uint16_t __attribute__((vector_size(32)));
+#else
+constexpr std::size_t kLanes = 8;
+#endif
+using Lanes = float __attribute__((vector_size(4 * kLanes)));
+using Words = std::uint32_t __attribute__((vector_size(4 * kLanes)));
+using Halves = std::uint16_t __attribute__((vector_size(2 * kLanes)));
 
 // The upper half of a float; its own type, so that loads and stores know what they meet.
 struct BFloat16 {
