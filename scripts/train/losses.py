@@ -194,5 +194,6 @@ class Losses:
     def total(self, out, batch):
         return (2 * self.landmarks(out["landmarks"], batch) + 0.5 * F.binary_cross_entropy_with_logits(out["face"], batch.face)
                 + 8 * self.controls(out["controls"], batch) + 4 * self.sides(out["sides"], batch)
+                + 2 * self.sides(unevenness(censored(out["controls"], batch.controls)), batch)
                 + TEACHER_WEIGHT * self.teacher(out["controls"], batch)
                 + 2 * self.pose(out["pose"], batch) + 2 * self.teacher_pose(out["pose"], batch))

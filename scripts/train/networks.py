@@ -180,7 +180,7 @@ class FaceNetwork(nn.Module):
     def __init__(self, encoder, framing):
         super().__init__()
         self.encoder, self.framing = encoder, framing
-        self.still = {}  # StillDecoders that answer instead of the heads of their names (see_through); no part of the state
+        self.still = nn.ModuleDict()  # StillDecoders that answer instead of the heads of their names (see_through)
         self.landmarks = nn.Linear(FEATURES, 2 * LANDMARKS)
         self.face = nn.Linear(FEATURES, 1)
         self.controls = nn.Linear(FEATURES, CONTROLS)
@@ -189,17 +189,25 @@ class FaceNetwork(nn.Module):
 
     def forward(self, image):
         features = self.encoder(image)
-        head = lambda name: self.still.get(name, getattr(self, name))(features)
+        head = lambda name: (self.still[name] if name in self.still else getattr(self, name))(features)
         return {"features": features, "landmarks": self.landmarks(features).view(-1, LANDMARKS, 2),
                 "face": self.face(features)[:, 0], "controls": head("controls"), "pose": head("pose"),
                 "sides": self.sides(features)}
 
-    def see_through(self, decoders):
+    def see_through(self, decoders, learn=False):
         """Trained decoders, {"controls_decoder": state, ...}, answer in place of the heads that exist in training only: the encoder then
-        learns what makes these right, and they need not be trained again after it."""
+        learns what makes these right, and, where they do not `learn` with it, they need not be trained again after it."""
         for name, kind in (("controls", ControlsDecoder), ("pose", PoseDecoder)):
             if f"{name}_decoder" in decoders:
-                self.still[name] = StillDecoder(kind(), decoders[f"{name}_decoder"])
+                self.still[name] = StillDecoder(kind(), decoders[f"{name}_decoder"], learn)
+
+    def own_state(self):
+        """The state without that of decoders it is seen through."""
+        return {name: value for name, value in self.state_dict().items() if not name.startswith("still.")}
+
+    def decoders(self):
+        """Those decoders, as see_through takes them."""
+        return {f"{name}_decoder": still.decoder.state_dict() for name, still in self.still.items()}
 
 
 class BaseNet(FaceNetwork):
@@ -257,14 +265,14 @@ class PoseDecoder(TemporalDecoder):
 
 
 class StillDecoder(nn.Module):
-    """What a trained decoder says of a face that holds still; it learns no more."""
+    """What a trained decoder says of a face that holds still."""
 
     FRAMES = 8
 
-    def __init__(self, decoder, state):
+    def __init__(self, decoder, state, learn):
         super().__init__()
         decoder.load_state_dict(state)
-        self.decoder = decoder.requires_grad_(False)
+        self.decoder = decoder.requires_grad_(learn)
 
     def forward(self, features):
         return self.decoder(features.unsqueeze(1).expand(-1, self.FRAMES, -1))[0][:, -1]

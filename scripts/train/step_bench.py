@@ -63,7 +63,8 @@ class Step(train_encoder.Trainer):
         self.losses.learn_spread(rendered), self.losses.learn_teacher(portraits)
 
 options = types.SimpleNamespace(network=name, name="step_bench", rate=1e-4, start_from=None, resume=False, seed=1, batch=batch, samples=10**9,
-                                hours=None, real_share=0.2, threads=1, freeze=int(sys.argv[5]), through=None)
+                                hours=None, real_share=0.2, threads=1, freeze=int(sys.argv[5]), through=None,
+                                decoders_learn=False)
 trainer = Step(options, torch.device("cpu"), 1, 0)
 seconds = {}
 def timed(owner, method, part):

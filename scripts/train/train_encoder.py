@@ -2,7 +2,7 @@
 """Phase 1: an encoder with landmarks and, BaseNet's, face probability, on portraits and rendered faces.
 
 usage: train_encoder.py [--network hifinet] [--samples N] [--hours H] [--resume] [--name RUN]     or: ... --evaluate CHECKPOINT
-Writes $MIEN_CACHE/runs/NAME/{last.pt,curves.png}; `average` in last.pt are the weights to use. Rendered shards that appear
+Writes $MIEN_CACHE/runs/NAME/{last.pt,curves.png} and, of decoders that learn with it, decoders.pt; `average` in last.pt are the weights to use. Rendered shards that appear
 while it runs are taken up. On several machines or GPUs: torchrun --nproc_per_node N train_encoder.py ...
 Two heads exist in training only, controls and pose on rendered faces: they keep expression in the features that phase 2 decodes.
 """
@@ -13,6 +13,7 @@ import json
 import math
 import os
 import time
+from pathlib import Path
 
 import torch
 from tqdm import tqdm
@@ -46,6 +47,13 @@ def keep_memory():
     libc = ctypes.CDLL(None)
     if hasattr(libc, "mallopt"):
         libc.mallopt(mmap_max, 0), libc.mallopt(trim_threshold, -1)
+
+
+def map_type(device):
+    """Of maps in training. A CPU without products of bfloat16 makes a product a dozen times as slow of them as of fp32."""
+    cpu = Path("/proc/cpuinfo")
+    narrow = device.type != "cpu" or cpu.exists() and "avx512_bf16" in cpu.read_text()
+    return torch.bfloat16 if narrow else torch.float32
 
 
 def correlations(a, b):
@@ -97,7 +105,8 @@ class Average:
         decay = min(self.decay, (1 + step) / (10 + step))
         pairs = list(zip(self.network.state_dict().values(), network.state_dict().values()))
         moving = [(mine, theirs) for mine, theirs in pairs if mine.dtype.is_floating_point]
-        torch._foreach_lerp_(*map(list, zip(*moving)), 1 - decay)
+        ours, others = map(list, zip(*moving))
+        torch._foreach_mul_(ours, decay), torch._foreach_add_(ours, others, alpha=1 - decay)
         for mine, theirs in pairs:
             if not mine.dtype.is_floating_point:
                 mine.copy_(theirs)
@@ -138,7 +147,7 @@ class Trainer:
     def __init__(self, options, device, world, rank):
         self.options, self.device, self.world, self.rank = options, device, world, rank
         self.network = FACE_NETWORKS[options.network]()
-        self.framing, self.network.encoder.map_type = self.network.framing, torch.bfloat16
+        self.framing, self.network.encoder.map_type = self.network.framing, map_type(device)
         with torch.no_grad():
             self.network.landmarks.bias.copy_(template().flatten())
             self.network.landmarks.weight.mul_(0.1)
@@ -147,10 +156,9 @@ class Trainer:
         self.run = cache() / "runs" / options.name
         self.run.mkdir(parents=True, exist_ok=True)
         resumed = self.restore()
-        self.network.to(device, memory_format=torch.channels_last)
         if options.through:
-            decoders = torch.load(options.through, map_location=device)
-            self.network.see_through(decoders), self.average.network.see_through(decoders)
+            self.see_through(torch.load(options.through, map_location="cpu"), resumed)
+        self.network.to(device, memory_format=torch.channels_last)
         if options.freeze:
             self.network.encoder.freeze(options.freeze)
         self.optimizer = Optimizer(self.network, options.rate)
@@ -171,6 +179,11 @@ class Trainer:
                 setattr(self, name, state[name])
             return state
         return None
+
+    def see_through(self, decoders, resumed):
+        for network, name in ((self.network, "decoders"), (self.average.network, "average_decoders")):
+            network.see_through(resumed[name] if resumed else decoders, self.options.decoders_learn)
+        self.supported = decoders["supported"]
 
     def load(self, state):
         self.network.load_state_dict(state["network"])
@@ -238,9 +251,13 @@ class Trainer:
             report.update({f"clips_{k}": v for k, v in clips.evaluate(self.average.network, self.clips).items()})
         self.history.append(report)
         tqdm.write(json.dumps({k: round(v, 4) for k, v in report.items()}))
-        save(self.run / "last.pt", {"network": self.network.state_dict(), "average": self.average.network.state_dict(),
+        average = self.average.network
+        save(self.run / "last.pt", {"network": self.network.own_state(), "average": average.own_state(),
+                                    "decoders": self.network.decoders(), "average_decoders": average.decoders(),
                                     "optimizer": self.optimizer.state_dict(), "samples": self.samples, "step": self.step,
                                     "seconds": self.seconds, "history": self.history})
+        if self.options.decoders_learn:
+            save(self.run / "decoders.pt", {**average.decoders(), "supported": self.supported})
         plot(self.history, self.run / "curves.png")
 
     @torch.no_grad()
@@ -292,10 +309,13 @@ def parse():
     parser.add_argument("--real-share", type=float, default=0.2)
     parser.add_argument("--freeze", type=int, default=0, metavar="PARTS", help="of the encoder's body that do not learn, from the picture on")
     parser.add_argument("--through", metavar="DECODERS", help="decoders that stay as they are, and that controls and pose are asked of")
+    parser.add_argument("--decoders-learn", action="store_true", help="these, too: what they become is written to decoders.pt, to go on from in phase 2")
     parser.add_argument("--resume", action="store_true")
     parser.add_argument("--start-from", help="a checkpoint whose weights to begin with")
     parser.add_argument("--evaluate", help="a checkpoint to judge, without training")
     options = parser.parse_args()
+    if options.decoders_learn and not options.through:
+        parser.error("--decoders-learn needs --through")
     options.name = options.name or options.network
     return options
 
