@@ -17,10 +17,13 @@ scripts/setup.sh build test convert
 . scripts/ccache.sh
 
 build_and_test() {  # preset
+  local began=$SECONDS built
   echo "== $1"
   cmake --preset "$1" >/dev/null
   cmake --build --preset "$1"
+  built=$SECONDS
   ctest --preset "$1" --label-exclude compiles_again -j "$(nproc)" --output-log "build/$1/tests.log"
+  echo "== $1 was built in $((built - began)) s and tested in $((SECONDS - built)) s"
 }
 
 tests/convert/fetch_node_tests.sh || echo "NOT TESTED: ONNX's own node tests, which could not be fetched"
