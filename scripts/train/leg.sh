@@ -1,0 +1,80 @@
+#!/usr/bin/env bash
+# One more leg of training for a network of models/: from empty caches to decoders to choose from. What is there already is kept, so the
+# same command goes on where it was stopped, in the middle of training, too. Nothing in models/ is touched: export.py does that.
+# usage: scripts/train/leg.sh basenet|hifinet HOURS [NAME]
+#   HOURS   of the encoder's training; data, features and decoders take about an hour on two cores besides
+#   NAME    of the run, default NETWORK_leg: $MIEN_CACHE/runs/NAME has checkpoints and decoders, $MIEN_CACHE/features/NAME their features
+# MIEN_DATA, MIEN_CACHE, PYTHON (default python3, one with PyTorch), PROCESSES (default as many as processors), STILLS (24000),
+# SEQUENCES (264) and SEED (11) of what is rendered to learn from.
+set -euo pipefail
+cd "$(dirname "$0")"
+network=$1 hours=$2 name=${3:-$1_leg}
+python=${PYTHON:-python3} processes=${PROCESSES:-$(nproc)} seed=${SEED:-11}
+cache=${MIEN_CACHE:-$HOME/.cache/mien}
+runs=$cache/runs features=$cache/features/$name suffix=
+[ "$network" = basenet ] || suffix=_hifinet
+../setup.sh train
+export OMP_NUM_THREADS=1
+mkdir -p "$runs/$name" "$features"
+
+render() {  # arguments of make_synthetic.py
+  "$python" make_synthetic.py --workers "$processes" "$@"
+}
+once() {  # file that comes of it, command
+  [ -e "$1" ] || "${@:2}"
+}
+
+once "$cache/faces/misplaced.npy" "$python" faces.py
+once "$cache/portrait_skins/fits.npz" "$python" portrait_fit.py
+"$python" portrait_skins.py --workers "$processes"
+render --framing "$network" --split val --kind sequences --count 44
+render --framing "$network" --split val --kind stills --count 2000
+render --framing "$network" --split val --kind stills --count 1200 --apart 1 --seed 31 --out "$cache/apart"
+render --framing "$network" --split train --kind stills --count "${STILLS:-24000}" --leaning 0.6 --apart 0.4 --turned 0.25 --seed "$seed"
+render --framing "$network" --split train --kind sequences --count "${SEQUENCES:-264}" --frames 60 --seed "$seed"
+# BaseNet places HiFiNet's crops; to warm it up takes a few pictures of its own framing.
+render --framing basenet --split train --kind stills --count 2000 --leaning 0.6 --apart 0.4 --turned 0.25 --seed "$seed"
+
+for each in $(printf '%s\n' basenet "$network" | sort -u); do
+  once "$runs/${each}_start.pt" "$python" warm_start.py --network "$each" --out "$runs/${each}_start.pt" --decoders "$runs/${each}_start_decoders.pt"
+done
+before=$runs/${network}_start_decoders.pt
+
+# An end that was reached is reached at once when it is resumed.
+nice -n 15 "$python" -m torch.distributed.run --standalone --nproc_per_node "$processes" train_encoder.py --network "$network" --name "$name" \
+  --start-from "$runs/${network}_start.pt" --through "$before" --decoders-learn --real-share 0.4 --rate 8e-4 --hours "$hours" \
+  --samples 100000000 --resume
+
+checkpoints=(--checkpoint "$runs/$name/last.pt")
+[ "$network" = basenet ] || checkpoints=(--checkpoint "$runs/basenet_start.pt" --hifinet "$runs/$name/last.pt")
+sequences() {  # output, arguments of sequences.py
+  once "$features/$1.pt" "$python" sequences.py "${checkpoints[@]}" --passes 1 --out "$features/$1.pt" "${@:2}"
+}
+portraits() {  # output, arguments of portrait_features.py
+  once "$features/$1.pt" "$python" portrait_features.py "${checkpoints[@]}" --out "$features/$1.pt" "${@:2}"
+}
+stills=("$cache/synthetic/train_stills$suffix"/*) half=$((($(find "$cache/synthetic/train_stills$suffix" -name 'shard_*' | wc -l) + 1) / 2))
+moving=("$cache/synthetic/train_sequences$suffix"/*)
+(
+  sequences train --shards "${moving[@]}"
+  sequences held --hold 3 --seed 5 --shards "${stills[@]:0:half}"
+  sequences val --plain --shards "$cache/synthetic/val_sequences$suffix"/*
+) &
+sequences train_plain --plain --seed 3 --shards "${moving[@]}"
+portraits portraits --hold 2
+portraits portraits_val --hold 3 --plain --passes 1 --split val
+sequences held_plain --hold 3 --plain --shards "${stills[@]:half}"
+sequences val_apart --hold 8 --plain --shards "$cache/apart/val_stills$suffix"/*
+wait $!
+
+f=$features
+decoders() {  # output, arguments of train_decoders.py
+  once "$runs/$name/$1.pt" "$python" train_decoders.py --network "$network" --train "$f/train.pt" "$f/train_plain.pt" \
+    --held "$f/held.pt" "$f/held_plain.pt" --portraits "$f/portraits.pt" --val "$f/val.pt" --portraits-val "$f/portraits_val.pt" \
+    --noise 0.2 --rate 1.5e-3 --steps 1200 --sides 1.5 --out "$runs/$name/$1.pt" "${@:2}" >"$f/$1.log"
+}
+decoders decoders_whole --start-from "$runs/$name/decoders.pt" &
+decoders decoders_half --start-from "$runs/$name/decoders.pt" --draw-back 0.5
+wait $!
+"$python" compare_decoders.py --val "$f/val.pt" --portraits-val "$f/portraits_val.pt" --apart "$f/val_apart.pt" \
+  "$before" "$runs/$name/decoders.pt" "$runs/$name"/decoders_{half,whole}.pt | tee "$runs/$name/compared.txt"
