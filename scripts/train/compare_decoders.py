@@ -41,10 +41,10 @@ def alone(decoder, apart):
 
 def judge(path, val, portraits, apart):
     """(scores {name: value}, columns {name: [52]}) of a checkpoint of decoders."""
-    decoder = ControlsDecoder()
-    decoder.load_state_dict(torch.load(path)["controls_decoder"])
+    known, decoder = torch.load(path), ControlsDecoder()
+    decoder.load_state_dict(known["controls_decoder"])
     decoder.eval()
-    report, supported = evaluate({"controls": decoder}, val, gaze=True, portraits=portraits)
+    report, supported = evaluate({"controls": decoder}, val, gaze=True, portraits=portraits, before=known["supported"].numpy())
     scores = report["every frame"]["controls"]
     rendered, teacher = np.array(list(scores["correlation"].values()), float), agreement_with_teacher(decoder, portraits)
     followed, reached, other = alone(decoder, apart)

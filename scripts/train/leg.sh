@@ -26,7 +26,8 @@ once() {  # file that comes of it, command
 
 once "$cache/faces/misplaced.npy" "$python" faces.py
 once "$cache/portrait_skins/fits.npz" "$python" portrait_fit.py
-"$python" portrait_skins.py --workers "$processes"
+once "$cache/portrait_skins/whole" "$python" portrait_skins.py --workers "$processes"
+touch "$cache/portrait_skins/whole"
 render --framing "$network" --split val --kind sequences --count 44
 render --framing "$network" --split val --kind stills --count 2000
 render --framing "$network" --split val --kind stills --count 1200 --apart 1 --seed 31 --out "$cache/apart"
@@ -76,5 +77,6 @@ decoders() {  # output, arguments of train_decoders.py
 decoders decoders_whole --start-from "$runs/$name/decoders.pt" &
 decoders decoders_half --start-from "$runs/$name/decoders.pt" --draw-back 0.5
 wait $!
+once "$runs/$name/decoders_before.pt" "$python" blend_decoders.py "$runs/$name/decoders_half.pt" "$before" 0.15 "$runs/$name/decoders_before.pt"
 "$python" compare_decoders.py --val "$f/val.pt" --portraits-val "$f/portraits_val.pt" --apart "$f/val_apart.pt" \
-  "$before" "$runs/$name/decoders.pt" "$runs/$name"/decoders_{half,whole}.pt | tee "$runs/$name/compared.txt"
+  "$before" "$runs/$name/decoders.pt" "$runs/$name"/decoders_{whole,half,before}.pt | tee "$runs/$name/compared.txt"
