@@ -44,7 +44,7 @@ if(MIEN_PYTHON_WHEEL)
     RENAME libmien${CMAKE_SHARED_LIBRARY_SUFFIX})
   install(DIRECTORY models/ DESTINATION mien/models COMPONENT python)
   install(DIRECTORY scripts/convert/ DESTINATION mien/_convert COMPONENT python FILES_MATCHING PATTERN *.py)
-  install(FILES scripts/train/mien_file.py DESTINATION mien/_convert COMPONENT python)
+  install(FILES scripts/train/mien_file.py scripts/train/whole_files.py DESTINATION mien/_convert COMPONENT python)
 endif()
 
 configure_package_config_file(scripts/package/mienConfig.cmake.in mienConfig.cmake

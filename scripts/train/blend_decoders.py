@@ -9,6 +9,8 @@ from pathlib import Path
 
 import torch
 
+from whole_files import whole
+
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
@@ -21,7 +23,8 @@ def main():
     for name in ("controls_decoder", "pose_decoder"):
         for weight, value in ours.get(name, {}).items():
             value.lerp_(others[name][weight].to(value), args.share)
-    torch.save(ours, args.out)
+    with whole(args.out) as out:
+        torch.save(ours, out)
 
 
 if __name__ == "__main__":

@@ -14,10 +14,11 @@ from torch import nn
 
 import landmark_points as lp
 import networks
-from mien_file import MienFile, write_whole
+from mien_file import MienFile
 from paths import ROOT
 from round_weights import rounded
 from sequences import template
+from whole_files import write_whole
 
 LICENCE = "Apache-2.0; trained on the data that models/README.md names"
 

@@ -16,6 +16,7 @@ import portrait_labels
 from paths import cache
 from framing import BASENET, FRAMINGS
 from sequences import fit_crop, template
+from whole_files import whole
 
 
 TEACHER_FOV = np.radians(63)  # vertical, of the camera that MediaPipe takes for granted (face_geometry)
@@ -116,8 +117,10 @@ def write_split(split, framing, out):
     landmarks = (found.points - found.crops[:, None, :2]) * scale[:, None, None] + pixels / 2
     middle = np.full(len(found), pixels / 2, np.float32)
     crop = np.stack([middle, middle, found.crops[:, 2] * scale, found.crops[:, 3]], 1)
-    np.save(out / "images.npy", images)
-    np.savez(out / "labels.npz", landmarks=landmarks.astype(np.float32), crop=crop.astype(np.float32), name=found.names, trust=trust)
+    with whole(out / "images.npy") as file:
+        np.save(file, images)
+    with whole(out / "labels.npz") as file:
+        np.savez(file, landmarks=landmarks.astype(np.float32), crop=crop.astype(np.float32), name=found.names, trust=trust)
 
 
 def write_misplaced(path, each=2, seed=3):
@@ -128,7 +131,8 @@ def write_misplaced(path, each=2, seed=3):
         for k in range(each):
             centre, side = misplaced(found.crops[i], rng)
             images[each * i + k] = window(picture, centre, BASENET.window_crops * side)
-    np.save(path, images)
+    with whole(path) as file:
+        np.save(file, images)
 
 
 def main():

@@ -17,6 +17,7 @@ from expressions import CONTROLS
 from losses import importance
 from networks import ControlsDecoder
 from train_decoders import answers, of_stride
+from whole_files import whole
 
 APART = 8               # frames between two hard ones of a track: neighbours are the same pose
 SMALLEST_SPREAD = 0.08  # of a control, so that one that hardly moves does not rule the choice
@@ -65,7 +66,8 @@ def main():
     shown = answers(decoder, data["features"]).clamp(0, 1)
     errors, signed = weighted_errors(shown, data, checkpoint["supported"])
     tracks, frames = worst_frames(errors, max(1, int(args.share * errors.numel()))).T
-    np.savez(args.out, controls=data["controls"][tracks, frames].float().numpy())
+    with whole(args.out) as out:
+        np.savez(out, controls=data["controls"][tracks, frames].float().numpy())
     print("\n".join(report(signed, data["controls"].float(), checkpoint["supported"] > 0.5)))
     print(f"{len(tracks)} poses of {errors.numel()} frames, their error {errors[tracks, frames].mean() / errors.mean():.1f} times the mean")
 

@@ -1,4 +1,4 @@
-"""Writes .mien weight files (docs/format.md). Standard library only; same bytes as formats/mien_writer.cpp.
+"""Writes .mien weight files (docs/format.md). With the standard library only; same bytes as formats/mien_writer.cpp.
 
     file = MienFile()
     net = file.network("encoder", input=(65, 65, 3))
@@ -12,11 +12,11 @@ Arrays are whatever has .shape and .tolist() (numpy, torch), (array('f'), shape)
 layout. Everything that the format forbids raises ValueError.
 """
 import math
-import os
 import re
 import struct
-import tempfile
 from array import array
+
+from whole_files import write_whole
 
 OPS = {"conv2d": 1, "depthwise": 2, "pointwise": 3, "fully_connected": 4, "causal_conv": 5, "lstm": 6, "max_pool": 7,
        "add": 8, "activation": 9, "softmax": 10, "global_average_pool": 11, "concat": 12, "slice": 13}
@@ -71,20 +71,6 @@ class MienFile:
 
     def write(self, path):
         write_whole(path, self.to_bytes())
-
-
-def write_whole(path, data):
-    """The file appears under its name only when it is whole."""
-    path = os.fspath(path)
-    handle, partial = tempfile.mkstemp(dir=os.path.dirname(path) or ".", suffix=".partial")
-    try:
-        with os.fdopen(handle, "wb") as out:
-            out.write(data)
-        os.chmod(partial, 0o644)
-        os.replace(partial, path)
-    except BaseException:
-        os.unlink(partial)
-        raise
 
 
 def sealed(file):

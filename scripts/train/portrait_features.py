@@ -15,6 +15,7 @@ from framing import BASENET, HIFINET
 from landmark_points import TEACHER
 from paths import cache
 from sequences import BaseNetView, HiFiNetView, Sequences, extract
+from whole_files import whole
 
 
 def portraits(split, framing):
@@ -44,7 +45,9 @@ def main():
         view = HiFiNetView(view, args.hifinet)
     held = portraits(args.split, HIFINET if args.hifinet else BASENET).held(args.hold)
     args.out.parent.mkdir(parents=True, exist_ok=True)
-    torch.save(extract(view, held, args.passes, args.seed, (1,), args.plain), args.out)
+    found = extract(view, held, args.passes, args.seed, (1,), args.plain)
+    with whole(args.out) as out:
+        torch.save(found, out)
 
 
 if __name__ == "__main__":

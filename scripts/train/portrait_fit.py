@@ -15,6 +15,7 @@ from faces import Portraits
 from head_pose import orthonormalise
 from paths import cache
 from rig import Rig
+from whole_files import whole
 
 DISTANCE = 150.0        # cm to the camera: portraits are taken from some way off
 IDENTITY_PRIOR, CONTROL_PRIOR = 4e-4, 2e-3
@@ -86,8 +87,9 @@ def main():
     translation, f_px = camera_pose(found)
     out = cache() / "portrait_skins"
     out.mkdir(parents=True, exist_ok=True)
-    np.savez(out / "fits.npz", name=photographs.names, translation=translation.numpy(), f_px=f_px.numpy(), size_wh=photographs.size_wh,
-             **{k: found[k].detach().numpy() for k in ("identity", "controls", "rotation", "residual")})
+    with whole(out / "fits.npz") as file:
+        np.savez(file, name=photographs.names, translation=translation.numpy(), f_px=f_px.numpy(), size_wh=photographs.size_wh,
+                 **{k: found[k].detach().numpy() for k in ("identity", "controls", "rotation", "residual")})
     r = found["residual"]
     print(f"{len(target)} portraits, residual median {100 * r.median():.2f} %, 95th percentile {100 * r.quantile(0.95):.2f} %")
     print("identity rms", found["identity"].square().mean().sqrt().item(),

@@ -8,7 +8,8 @@ import argparse
 import struct
 from pathlib import Path
 
-from mien_file import NO_INDEX, RECORD_BYTES, sealed, write_whole
+from mien_file import NO_INDEX, RECORD_BYTES, sealed
+from whole_files import write_whole
 
 BITS = 8                 # significant ones, of 11 that fp16 has; docs/packages.md says what that costs
 FEW_WEIGHTS = 8192

@@ -18,6 +18,7 @@ from expressions import CONTROLS, MIRROR
 from framing import BASENET, HIFINET
 from networks import BaseNet, HiFiNet, folded
 from video_codec import some_coded
+from whole_files import whole
 
 CODED = 0.4  # share of sequences
 
@@ -285,7 +286,8 @@ def main():
         view = HiFiNetView(view, args.hifinet)
     found = extract(view, sequences, args.passes, args.seed, strides, args.plain)
     args.out.parent.mkdir(parents=True, exist_ok=True)
-    torch.save(found, args.out)
+    with whole(args.out) as out:
+        torch.save(found, out)
 
 
 def self_test():

@@ -24,6 +24,7 @@ import metrics  # noqa: E402
 from expressions import CONTROLS, MIRROR, PAIRED, PAIRED_LEFT, PAIRED_RIGHT  # noqa: E402
 from losses import Line, Turn, censored, followed, importance, soft_clamp, unevenness  # noqa: E402
 from networks import FACE_NETWORKS, FEATURES, ControlsDecoder, PoseDecoder, TemporalDecoder  # noqa: E402
+from whole_files import whole  # noqa: E402
 
 SUPPORTED_CORRELATION = 0.55  # a margin over 0.5: on other people it is a little lower
 KEPT_CORRELATION = 0.5        # for controls that people rely on already
@@ -396,7 +397,8 @@ def join(parts):
 def save(path, decoders, supported, report):
     path.parent.mkdir(parents=True, exist_ok=True)
     states = {f"{name}_decoder": decoder.state_dict() for name, decoder in decoders.items()}
-    torch.save({**states, "supported": torch.from_numpy(supported.astype(np.float32))}, path)
+    with whole(path) as out:
+        torch.save({**states, "supported": torch.from_numpy(supported.astype(np.float32))}, out)
     path.with_suffix(".json").write_text(json.dumps(report, indent=1) + "\n")
     for mode, scores in report.items():
         for name, values in scores.items():

@@ -30,6 +30,7 @@ from optimizer import Optimizer
 from paths import cache
 from revive import Activity, revive
 from sequences import sample_crops, template
+from whole_files import whole
 
 CURVES = {"error, outer eye corner distances": ("loss", "real_landmarks", "rendered_landmarks", "clips_mean", "clips_worst"),
           "correlation": ("controls_mean", "jawOpen", "eyeBlinkLeft", "mouthPucker", "browInnerUp", "real_controls_mean", "clips_eyes", "clips_mouth")}
@@ -113,8 +114,8 @@ class Average:
 
 
 def save(path, value):
-    torch.save(value, f"{path}.part")
-    os.replace(f"{path}.part", path)
+    with whole(path) as out:
+        torch.save(value, out)
 
 
 def plot(history, path):

@@ -20,6 +20,7 @@ from faces import Portraits, continued, leaves
 from networks import PNet, RNet
 from paths import cache
 from renderer.assets import environment_picture, names
+from whole_files import whole
 
 CANVAS = 160           # side of the square the tracker searches, pixels
 PYRAMID_FACTOR = 0.709
@@ -247,9 +248,11 @@ def main():
         pnet.eval()
     else:
         train_pnet(pnet, options, histories["P-Net"])
-        torch.save(pnet.state_dict(), run / "pnet.pt")
+        with whole(run / "pnet.pt") as out:
+            torch.save(pnet.state_dict(), out)
     train(rnet, second_windows(np.random.default_rng(options.seed + 1), pnet), options.samples, 24, options.seed + 1, histories["R-Net"])
-    torch.save(rnet.state_dict(), run / "rnet.pt")
+    with whole(run / "rnet.pt") as out:
+        torch.save(rnet.state_dict(), out)
     result = evaluate(pnet, rnet, "test")
     (run / "metrics.json").write_text(json.dumps(result, indent=1) + "\n")
     print(result)

@@ -17,6 +17,7 @@ from losses import unevenness
 from mien_weights import set_linear, set_lstm, split_causal
 from networks import FACE_NETWORKS, ControlsDecoder, ConvNorm, InvertedResidual, PoseDecoder
 from paths import ROOT
+from whole_files import whole
 
 PICTURES = 384      # that norms are measured on
 LESSONS = 4000      # rendered faces that the heads are solved for on
@@ -118,11 +119,13 @@ def main():
     torch.set_num_threads(1)
     model = options.model or ROOT / f"models/{options.network}.mien"
     if options.decoders:
-        torch.save(decoders_of(model), options.decoders)
+        with whole(options.decoders) as out:
+            torch.save(decoders_of(model), out)
     network = network_of(model, options.network)
     options.out.parent.mkdir(parents=True, exist_ok=True)
     state = network.state_dict()
-    torch.save({"network": state, "average": state, "samples": 0}, options.out)
+    with whole(options.out) as out:
+        torch.save({"network": state, "average": state, "samples": 0}, out)
 
 
 if __name__ == "__main__":

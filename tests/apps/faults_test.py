@@ -144,6 +144,36 @@ class Faults(unittest.TestCase):
         self.assertEqual(self.mien("-o", out).returncode, 0, "what is left behind is in nobody's way")
         self.assertEqual(out.read_bytes(), whole)
 
+    def test_a_batch_killed_at_any_moment_goes_on_where_it_was(self):
+        whole, dice = self.whole(), random.Random(4)
+        clips, out = self.folder / "clips", self.folder / "curves"
+        clips.mkdir()
+        names = [f"{n}.y4m" for n in range(6)]
+        for name in names:
+            shutil.copy(self.clip, clips / name)
+        batch = self.arguments("--out", out, "--jobs", 2, source=clips)
+        began = time.monotonic()
+        subprocess.run(batch, check=True, capture_output=True, timeout=120)
+        usual = time.monotonic() - began
+        halves = 0
+        for _ in range(10):
+            shutil.rmtree(out)
+            process = subprocess.Popen(batch, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            time.sleep(dice.uniform(0.2, 1) * usual)
+            process.kill()
+            process.wait()
+            done = {path: path.stat().st_mtime_ns for path in out.glob("[!.]*")}
+            halves += 0 < len(done) < len(names)
+            for path in done:
+                self.assertEqual(path.read_bytes(), whole)
+            again = subprocess.run(batch, capture_output=True, timeout=120)
+            self.assertEqual(again.returncode, 0, again.stderr)
+            self.assertEqual(sorted(path.name for path in out.iterdir()), [f"{name}.csv" for name in names])
+            for path in out.iterdir():
+                self.assertEqual(path.read_bytes(), whole)
+                self.assertEqual(path.stat().st_mtime_ns, done.get(path, path.stat().st_mtime_ns), "done once")
+        self.assertGreater(halves, 0, "some should have been killed in the middle")
+
     @unittest.skipUnless(shutil.which("ffmpeg"), "no ffmpeg here")
     def test_a_decoder_that_dies_leaves_no_output(self):
         """ffmpeg decodes some of the video, then is killed, fails, or only ends."""

@@ -31,12 +31,12 @@ HELLO = b"iFacialMocap_sahuasouryya9218sauhuiayeta91555dy3719"
 
 
 class Receiver:
-    """Keeps all datagrams that come to a port of its own."""
+    """Keeps all datagrams that come to a port, by default one of its own."""
 
-    def __init__(self):
+    def __init__(self, port=0):
         self.socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         self.socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1 << 22)
-        self.socket.bind(("127.0.0.1", 0))
+        self.socket.bind(("127.0.0.1", port))
         self.port = self.socket.getsockname()[1]
 
     def packets(self):
@@ -89,8 +89,8 @@ class Live(unittest.TestCase):
         self.addCleanup(late.cancel)
         return process
 
-    def receiver(self):
-        receiver = Receiver()
+    def receiver(self, port=0):
+        receiver = Receiver(port)
         self.addCleanup(receiver.socket.close)
         return receiver
 
@@ -217,6 +217,30 @@ class Live(unittest.TestCase):
         self.assertEqual(len(connections), 2)
         states = [json.loads(packet)["status"] for packet in receiver.packets()]
         self.assertIn("tracking", states)
+
+    def test_receivers_that_fail_stop_nothing_and_are_counted(self):
+        """The system refuses every packet to one, nobody is at the second's port until half-way, and the third gets all."""
+        late_port, receiver = free_port(), self.receiver()
+        live = self.start(command("--camera", "test:" + CLIP, "--mic", "none", "--lod", 1, "--stats", self.path("stats"),
+                                  "--send", "jsonl://255.255.255.255:9999", "--send", f"jsonl://:{late_port}",
+                                  "--send", f"jsonl://:{receiver.port}"), stderr=subprocess.PIPE, text=True)
+        receiver.socket.settimeout(60)
+        first = receiver.socket.recv(65536)
+        time.sleep(1)
+        late = self.receiver(late_port)
+        late.socket.settimeout(60)
+        late_first = late.socket.recv(65536)
+        time.sleep(1)
+        live.send_signal(signal.SIGINT)
+        said = live.communicate(timeout=60)[1]
+        self.assertEqual(live.returncode, 0, said)
+        with open(self.path("stats")) as file:
+            stats = json.load(file)
+        self.assertEqual(stats["dropped_packets"], stats["frames"], "those to the first")
+        packets, late_packets = [first, *receiver.packets()], [late_first, *late.packets()]
+        self.assertEqual(len(packets), stats["frames"])
+        self.assertLess(len(late_packets), len(packets))
+        self.assertEqual(late_packets, packets[-len(late_packets):])
 
     def test_hellos_of_iFacialMocap_and_what_is_none(self):
         port, stranger = free_port(), self.receiver()

@@ -11,10 +11,10 @@ import torch
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scripts/train"))
 import mien_weights  # noqa: E402
-from mien_file import write_whole  # noqa: E402
 from round_weights import rounded  # noqa: E402
 from voice import activity, align, audio_net, effects, export, features, golden, labels, opus, phonemes, recognise, visemes, warm_start  # noqa: E402
 from voice.audio_net import SPEECH_CONTROLS  # noqa: E402
+from whole_files import write_whole  # noqa: E402
 
 COSTS = {"encoder": 146.8e3, "controls": 39.0e3, "activity": 38.0e3}  # multiply-accumulates a step, as published within 3 %
 

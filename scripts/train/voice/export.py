@@ -15,13 +15,14 @@ import torch.nn.functional as F
 
 from expressions import CONTROLS
 from export import LICENCE, loaded, plain
-from mien_file import MienFile, write_whole
+from mien_file import MienFile
 from networks import LEAK
 from paths import ROOT
 from round_weights import rounded
 from voice.audio_net import EMBEDDING, SPEECH_CONTROLS, Encoder, activity_decoder, controls_decoder
 from voice.features import FEATURES
 from voice.golden import answers, some_features
+from whole_files import write_whole
 
 # What sound has to say of a control while somebody speaks and the picture shows it; video has the rest. Lips that meet for a p are seen
 # too late and too briefly at 30 frames a second, and sound knows of them. Little of all else as long as sound knows one face: of other

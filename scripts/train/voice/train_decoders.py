@@ -19,6 +19,7 @@ from voice import losses, scenes, targets
 from voice.audio_net import activity_decoder, controls_decoder
 from voice.features import features
 from voice.recognise import load
+from whole_files import whole
 
 SHARES = {"av": 0.26, "people": 0.2, "animated": 0.14, "synthetic": 0.2, "librispeech": 0.08, "librispeech_text": 0.07, "commands": 0.05}
 NOISE_ALONE = 0.25
@@ -114,7 +115,8 @@ def main():
             decoders[name.removesuffix("_decoder")].load_state_dict(state)
     train(network, decoders, args)
     args.out.parent.mkdir(parents=True, exist_ok=True)
-    torch.save({f"{name}_decoder": d.state_dict() for name, d in decoders.items()}, args.out)
+    with whole(args.out) as out:
+        torch.save({f"{name}_decoder": d.state_dict() for name, d in decoders.items()}, out)
     print(json.dumps({"out": args.out.name}))
 
 

@@ -18,6 +18,7 @@ from torch import nn
 from paths import cache
 from voice import losses, recognise, scenes
 from voice.audio_net import Encoder, PhonemeHeads, activity_decoder, controls_decoder
+from whole_files import whole
 
 KEPT = 24                      # batches, of which one is taken at random
 CONTROLS, ACTIVITY = 20.0, 1.5  # weights beside CTC's, with which all have a say
@@ -83,8 +84,8 @@ class Learner:
         state = {"encoder": self.network.state_dict(), "heads": self.heads.state_dict(),
                  "decoders": self.decoders.state_dict(), "optimizer": self.optimizer.state_dict(),
                  "step": self.step, "spent": self.spent, "seconds_heard": self.heard}
-        torch.save(state, self.path.with_suffix(".partial"))
-        self.path.with_suffix(".partial").replace(self.path)
+        with whole(self.path) as out:
+            torch.save(state, out)
 
     def validate(self):
         self.network.eval(), self.heads.eval()

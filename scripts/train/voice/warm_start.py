@@ -17,6 +17,7 @@ from paths import ROOT
 from voice import losses, scenes
 from voice.audio_net import Encoder, PhonemeHeads, activity_decoder, controls_decoder
 from voice.export import SPEECH_BIAS
+from whole_files import whole
 
 
 def set_convolution(convolution, layer, x):
@@ -93,8 +94,9 @@ def main():
     with torch.no_grad():
         decoders["activity"].output.bias[1] -= SPEECH_BIAS  # which export.py adds
     args.out.parent.mkdir(parents=True, exist_ok=True)
-    torch.save({"encoder": encoder.state_dict(), "heads": heads.state_dict(), "decoders": decoders.state_dict(),
-                "seconds_heard": 0.0}, args.out)
+    with whole(args.out) as out:
+        torch.save({"encoder": encoder.state_dict(), "heads": heads.state_dict(), "decoders": decoders.state_dict(),
+                    "seconds_heard": 0.0}, out)
 
 
 if __name__ == "__main__":

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import mmap
 from pathlib import Path
 from typing import Union
@@ -10,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ._library import ALIGNMENT
-from .errors import WeightsTruncatedError
+from .errors import OutOfMemoryError, WeightsTruncatedError
 
 Bytes = npt.NDArray[np.uint8]
 Model = Union[str, Path, bytes]
@@ -20,7 +21,13 @@ def mapped(path: Path) -> Bytes:
     with open(path, "rb") as file:
         if path.stat().st_size == 0:  # which cannot be mapped
             raise WeightsTruncatedError
-        return np.frombuffer(mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ), np.uint8)
+        try:
+            pages = mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)
+        except OSError as error:
+            if error.errno != errno.ENOMEM:
+                raise
+            raise OutOfMemoryError(f"{path}: there is no room to map it") from error
+        return np.frombuffer(pages, np.uint8)
 
 
 def aligned(data: bytes) -> Bytes:
