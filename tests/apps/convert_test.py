@@ -1,7 +1,7 @@
 """Files of mien convert, read and made by code of its own: written from the descriptions of the formats, sharing nothing with the program.
 
-usage: convert_test.py MIEN_PROGRAM
-10 000 random frames go through every format, in both directions, and have to come back to the digits that the format prints.
+usage: convert_test.py MIEN_PROGRAM [FRAMES]
+10 000 random frames, or so many, go through every format, in both directions, and have to come back to the digits that the format prints.
 """
 import base64
 import csv
@@ -18,7 +18,7 @@ import unittest
 import xml.etree.ElementTree
 
 PROGRAM = sys.argv.pop(1)
-FRAMES = 10000
+FRAMES = int(sys.argv.pop(1)) if len(sys.argv) > 1 else 10000
 FPS = 60
 
 ARKIT = """eyeBlinkLeft eyeLookDownLeft eyeLookInLeft eyeLookOutLeft eyeLookUpLeft eyeSquintLeft eyeWideLeft eyeBlinkRight eyeLookDownRight
