@@ -58,7 +58,9 @@ part() {  # name, command
     return
   fi
   echo "== $1"
+  local began=$SECONDS
   "${@:2}"
+  echo "== $1 took $((SECONDS - began)) s"
 }
 part linters linters
 part "supply chain" scripts/check_supply_chain.sh
