@@ -20,7 +20,7 @@ linters() {
   scripts/check_format.sh
   scripts/mutate.sh --check
   cmake --preset tidy >/dev/null  # for clang, whose options clang-tidy understands, file by file
-  scripts/check_tidy.sh build/tidy
+  scripts/check_tidy.py build/tidy
 }
 binding() {  # folder, and the group of what it needs, without which it says itself that it is not tested
   scripts/setup.sh "$2" || echo "setup.sh: $2 could not be had" >&2

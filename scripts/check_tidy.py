@@ -1,0 +1,85 @@
+#!/usr/bin/env python3
+"""clang-tidy, as .clang-tidy says, on every file of which it has not been right already, includes and options being the same.
+
+usage: scripts/check_tidy.py BUILD_DIR [FOLDER|PATTERN.cpp...]      BUILD_DIR has compile_commands.json
+Without any, what people run: the library and the programs. The tests include GoogleTest, which takes ten seconds a file, so they
+are checked when named: scripts/check_tidy.py build/tidy tests fuzz. What was right is remembered in $XDG_CACHE_HOME/mien/tidy.
+"""
+import argparse
+import concurrent.futures
+import hashlib
+import json
+import os
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+PEOPLE_RUN = ["kernels", "formats", "engine", "audio", "tracker", "apps"]
+REMEMBERED = Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache")) / "mien/tidy"
+
+
+def output_of(*command, **options):
+    return subprocess.run(command, check=True, stdout=subprocess.PIPE, **options).stdout
+
+
+def tracked(patterns):
+    """Source files of the repository in folders, or that match patterns."""
+    wanted = [pattern if pattern.endswith(".cpp") else pattern + "/*.cpp" for pattern in patterns]
+    return output_of("git", "ls-files", "-z", "--", *wanted, cwd=ROOT, text=True).split("\0")[:-1]
+
+
+def preprocessed(entry):
+    """What the compiler sees of a file, and its comments, for they may allow something to clang-tidy."""
+    words = shlex.split(entry["command"])
+    at = words.index("-o")
+    options = [word for word in words[:at] + words[at + 2:] if word != "-c"]
+    return output_of(*options, "-E", "-C", "-P", "-w", cwd=entry["directory"])
+
+
+class Tidy:
+    def __init__(self, build):
+        self.build = build
+        entries = json.loads((build / "compile_commands.json").read_text())
+        self.entries = {os.path.relpath(entry["file"], ROOT): entry for entry in entries}
+        self.rules = (ROOT / ".clang-tidy").read_bytes() + output_of("clang-tidy", "--version")
+
+    def key(self, entry):
+        command = entry["command"].replace(str(ROOT), "").encode()
+        return hashlib.sha256(b"\0".join([self.rules, command, preprocessed(entry)])).hexdigest()
+
+    def complaints(self, file):
+        """What is wrong with a file, or nothing."""
+        done = REMEMBERED / self.key(self.entries[file])
+        if done.exists():
+            return ""
+        found = subprocess.run(["clang-tidy", "-p", str(self.build), "--quiet", file], cwd=ROOT, stdout=subprocess.PIPE,
+                               stderr=subprocess.PIPE, text=True)
+        if found.returncode == 0 and not found.stdout:
+            REMEMBERED.mkdir(parents=True, exist_ok=True)
+            done.touch()
+        return found.stdout + (found.stderr if found.returncode else "")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("build", type=Path)
+    parser.add_argument("patterns", nargs="*", default=PEOPLE_RUN)
+    args = parser.parse_args()
+    tidy = Tidy(args.build.resolve())
+    # What is no part of the build, such as the kernels for another CPU, cannot be checked.
+    files = [file for file in tracked(args.patterns) if file in tidy.entries]
+    if not files:
+        sys.exit("check_tidy.py: nothing of this is built in " + str(args.build))
+    wrong = 0
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        for complaints in pool.map(tidy.complaints, files):
+            wrong += bool(complaints)
+            print(complaints, end="")
+    print(f"clang-tidy: {len(files)} files, {wrong} of them wrong")
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
