@@ -37,7 +37,7 @@ def drift(decoder, data, supported):
     every = phase2.of_stride(data, 1)
     rows = torch.arange(LONG_LOOPS * (len(every["stride"]) // LONG_LOOPS)).view(-1, LONG_LOOPS)
     with torch.no_grad():
-        long = decoder(phase2.stream(every["features"], rows))[0].clamp(0, 1)
+        long = phase2.shown(decoder(phase2.stream(every["features"], rows))[0])
     error = (long - phase2.stream(every["controls"], rows)).abs()[..., torch.from_numpy(supported)]
     error = error.unflatten(1, (LONG_LOOPS, -1)).mean((0, 2, 3))
     return {"first": error[0].item(), "last_half": error[LONG_LOOPS // 2:].mean().item()}

@@ -58,7 +58,7 @@ def ours(setting):
 
 def measure(setting):
     data = true_points(Sequences.load(features.shards(HIFINET.name)))
-    curves = phase2.answers(trained(), data["features"]).clamp(0, 1).numpy()
+    curves = phase2.shown(phase2.answers(trained(), data["features"])).numpy()
     truth, seen = data["controls"].float().numpy(), data["visible"].float().numpy()
     values = metrics.correlations(curves, truth, seen)
     return {"sequences": len(curves), "facs_error": metrics.facs_error(curves, truth),

@@ -14,6 +14,7 @@ import torch  # noqa: E402
 import evaluate_response  # noqa: E402
 import sequences as seq  # noqa: E402
 from evaluate_synthetic import load_decoders  # noqa: E402
+from shown import shown  # noqa: E402
 
 
 def network_answers(view, decoder, supported):
@@ -22,7 +23,7 @@ def network_answers(view, decoder, supported):
     def answers(images, labels, order):
         sequence = seq.Sequences([images], {k: torch.from_numpy(v)[None] for k, v in labels.items()})
         features = seq.track(view, sequence, torch.arange(1), seq.untouched, torch.Generator().manual_seed(0))[0]
-        controls = decoder(features[:, order])[0][0].clamp(0, 1).numpy()
+        controls = shown(decoder(features[:, order])[0][0]).numpy()
         controls[:, ~supported] = np.nan
         return controls
     return answers

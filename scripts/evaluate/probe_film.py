@@ -22,6 +22,7 @@ from expressions import CONTROLS  # noqa: E402
 from networks import ControlsDecoder  # noqa: E402
 from paths import ROOT, cache, data  # noqa: E402
 from program import Program  # noqa: E402
+from shown import shown  # noqa: E402
 
 FRAMES = 75         # of a film
 SIZE = (288, 360)   # height, width
@@ -91,7 +92,7 @@ def controls_decoder(path):
 
 def decoded(decoder, features):
     with torch.no_grad():
-        return decoder(features.float())[0].clamp(0, 1).numpy()
+        return shown(decoder(features.float())[0]).numpy()
 
 
 def main():

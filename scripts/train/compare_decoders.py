@@ -16,6 +16,7 @@ import torch  # noqa: E402
 import metrics  # noqa: E402
 from expressions import CONTROLS, MIRROR  # noqa: E402
 from networks import ControlsDecoder  # noqa: E402
+from shown import shown  # noqa: E402
 from train_decoders import agreement_with_teacher, answers, evaluate  # noqa: E402
 
 AT_ONE, STRONG, AT_ZERO = 0.8, 0.7, 0.01  # of a control
@@ -30,13 +31,13 @@ def mean_where(values, chosen):
 
 def alone(decoder, apart):
     """Of units that move apart: correlation, answer at 1 as a share of the truth, answer while the other side moves; each [52]."""
-    shown = answers(decoder, apart["features"]).clamp(0, 1).numpy()[:, -1]
+    told = shown(answers(decoder, apart["features"])).numpy()[:, -1]
     truth, seen = (apart[name][:, -1].float().numpy() for name in ("controls", "visible"))
     up = (truth > AT_ONE) & (seen > 0.5)
-    reached = mean_where(shown, up) / mean_where(truth, up)
+    reached = mean_where(told, up) / mean_where(truth, up)
     sided = np.arange(len(CONTROLS)) != MIRROR
-    other = mean_where(shown, (truth[:, MIRROR] > STRONG) & (truth < AT_ZERO) & (seen > 0.5) & sided)
-    return metrics.correlations(shown[:, None], truth[:, None], seen[:, None]), reached, other
+    other = mean_where(told, (truth[:, MIRROR] > STRONG) & (truth < AT_ZERO) & (seen > 0.5) & sided)
+    return metrics.correlations(told[:, None], truth[:, None], seen[:, None]), reached, other
 
 
 def judge(path, val, portraits, apart):

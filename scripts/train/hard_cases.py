@@ -16,6 +16,7 @@ import torch
 from expressions import CONTROLS
 from losses import importance
 from networks import ControlsDecoder
+from shown import shown
 from train_decoders import answers, of_stride
 from whole_files import whole
 
@@ -23,10 +24,10 @@ APART = 8               # frames between two hard ones of a track: neighbours ar
 SMALLEST_SPREAD = 0.08  # of a control, so that one that hardly moves does not rule the choice
 
 
-def weighted_errors(shown, data, supported):
+def weighted_errors(told, data, supported):
     """Error of every frame [m,frames] and signed errors of every control [m,frames,52], those that cannot be seen at 0."""
     truth, seen = data["controls"].float(), data["visible"].float()
-    signed = (shown - truth) * seen
+    signed = (told - truth) * seen
     weight = importance() * supported / truth.flatten(0, 1).std(0).clamp(min=SMALLEST_SPREAD)
     return (signed.abs() * weight).sum(-1) / weight.sum(), signed
 
@@ -63,8 +64,8 @@ def main():
     checkpoint, data = torch.load(args.decoders), of_stride(torch.load(args.features), 1)
     decoder = ControlsDecoder().eval()
     decoder.load_state_dict(checkpoint["controls_decoder"])
-    shown = answers(decoder, data["features"]).clamp(0, 1)
-    errors, signed = weighted_errors(shown, data, checkpoint["supported"])
+    told = shown(answers(decoder, data["features"]))
+    errors, signed = weighted_errors(told, data, checkpoint["supported"])
     tracks, frames = worst_frames(errors, max(1, int(args.share * errors.numel()))).T
     with whole(args.out) as out:
         np.savez(out, controls=data["controls"][tracks, frames].float().numpy())

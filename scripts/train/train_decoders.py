@@ -21,9 +21,10 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "evaluate"))
 import head_pose  # noqa: E402
 from face_data import rarity  # noqa: E402
 import metrics  # noqa: E402
-from expressions import CONTROLS, MIRROR, PAIRED, PAIRED_LEFT, PAIRED_RIGHT  # noqa: E402
+from expressions import CONTROLS, MIRROR, PAIRED_LEFT, PAIRED_RIGHT  # noqa: E402
 from losses import Line, Turn, censored, followed, importance, soft_clamp, unevenness  # noqa: E402
 from networks import FACE_NETWORKS, FEATURES, ControlsDecoder, PoseDecoder, TemporalDecoder  # noqa: E402
+from shown import LEFT, RIGHT, shown  # noqa: E402
 from whole_files import whole  # noqa: E402
 
 SUPPORTED_CORRELATION = 0.55  # a margin over 0.5: on other people it is a little lower
@@ -257,9 +258,7 @@ def answers(decoder, features, batch=64):
 
 def symmetric_pairs(chosen):
     """(left, right) indices of the paired controls that mirror each other and are chosen."""
-    mirrored = [n for n in PAIRED if n not in ("jaw", "mouth", "eyeLookIn", "eyeLookOut")]
-    pairs = [(CONTROLS.index(n + "Left"), CONTROLS.index(n + "Right")) for n in mirrored]
-    return [(a, b) for a, b in pairs if chosen[a] and chosen[b]]
+    return [(a, b) for a, b in zip(LEFT, RIGHT) if chosen[a] and chosen[b]]
 
 
 def control_scores(curves, data, chosen):
@@ -313,7 +312,7 @@ def of_stride(data, stride):
 def agreement_with_teacher(decoder, portraits):
     """Correlation of the controls with the teacher's on faces that hold still, [52]; nan where the teacher knows nothing."""
     known = followed(portraits["controls"].flatten(0, 1).float())[1].numpy() > 0
-    curves = answers(decoder, portraits["features"]).clamp(0, 1).numpy()
+    curves = shown(answers(decoder, portraits["features"])).numpy()
     last = {name: portraits[name][:, -1:] for name in ("controls", "visible")}
     return np.where(known, correlation_of(curves[:, -1:], last), np.nan)
 
@@ -327,7 +326,7 @@ def evaluate(decoders, data, supported=None, gaze=False, portraits=None, before=
     """
     parts = {"every frame": of_stride(data, 1), "alternate frames": of_stride(data, 2)}
     kinds = [k for k in ("controls", "frame") if k in decoders]
-    curves = {(m, k): answers(decoders[k], part["features"]).clamp(0, 1).numpy() for m, part in parts.items() for k in kinds}
+    curves = {(m, k): shown(answers(decoders[k], part["features"])).numpy() for m, part in parts.items() for k in kinds}
     if supported is None:
         lowest = np.min([correlation_of(curves[m, "controls"], part) for m, part in parts.items()], 0)
         if portraits is not None:

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tracker/decoders/sides.h"
+
 namespace mien::tracker {
 
 mien_status ControlsDecoder::load(const engine::Model& model, std::uint32_t cpu_mask,
@@ -25,6 +27,7 @@ void ControlsDecoder::decode(std::span<const float, kFeatures> features,
     const bool driven = (supported_ >> i & 1u) != 0 && std::isfinite(decoded[i]);
     controls[i] = driven ? std::clamp(decoded[i], 0.0f, 1.0f) : 0.0f;
   }
+  even_out_sides(supported_, controls);
 }
 
 }  // namespace mien::tracker
