@@ -44,7 +44,8 @@ TEST(Sides, SmallDifferencesShrinkAroundTheirMean) {
 }
 
 TEST(Sides, NoControlMovesFarNorOutOfItsRange) {
-  for (float right = 0.0f; right <= 1.0f; right += 0.001f) {
+  for (int thousandth = 0; thousandth <= 1000; ++thousandth) {
+    const float right = static_cast<float>(thousandth) / 1000;
     const Controls even = evened(smile(0.01f, right));
     EXPECT_LE(std::abs(even[kLeft] - 0.01f), kToldApart / 8 + 1e-6f);
     EXPECT_LE(std::abs(even[kRight] - right), kToldApart / 8 + 1e-6f);
