@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # One more leg of training for a network of models/: from empty caches to decoders to choose from. What is there already is kept, so the
-# same command goes on where it was stopped, in the middle of training, too. Nothing in models/ is touched: export.py does that.
+# same command goes on where it was stopped, in the middle of training, too, and with more HOURS it trains on. Nothing in models/ is touched:
+# export.py does that.
 # usage: scripts/train/leg.sh basenet|hifinet HOURS [NAME]
 #   HOURS   of the encoder's training; data, features and decoders take about an hour on two cores besides
 #   NAME    of the run, default NETWORK_leg: $MIEN_CACHE/runs/NAME has checkpoints and decoders, $MIEN_CACHE/features/NAME their features
@@ -22,6 +23,9 @@ render() {  # arguments of make_synthetic.py
 }
 once() {  # file that comes of it, command
   [ -e "$1" ] || "${@:2}"
+}
+since_training() {  # the same, of the encoder's last checkpoint
+  [ "$1" -nt "$runs/$name/last.pt" ] || "${@:2}"
 }
 
 once "$cache/faces/misplaced.npy" "$python" faces.py
@@ -49,10 +53,10 @@ nice -n 15 "$python" -m torch.distributed.run --standalone --nproc_per_node "$pr
 checkpoints=(--checkpoint "$runs/$name/last.pt")
 [ "$network" = basenet ] || checkpoints=(--checkpoint "$runs/basenet_start.pt" --hifinet "$runs/$name/last.pt")
 sequences() {  # output, arguments of sequences.py
-  once "$features/$1.pt" "$python" sequences.py "${checkpoints[@]}" --passes 1 --out "$features/$1.pt" "${@:2}"
+  since_training "$features/$1.pt" "$python" sequences.py "${checkpoints[@]}" --passes 1 --out "$features/$1.pt" "${@:2}"
 }
 portraits() {  # output, arguments of portrait_features.py
-  once "$features/$1.pt" "$python" portrait_features.py "${checkpoints[@]}" --out "$features/$1.pt" "${@:2}"
+  since_training "$features/$1.pt" "$python" portrait_features.py "${checkpoints[@]}" --out "$features/$1.pt" "${@:2}"
 }
 stills=("$cache/synthetic/train_stills$suffix"/*) half=$((($(find "$cache/synthetic/train_stills$suffix" -name 'shard_*' | wc -l) + 1) / 2))
 moving=("$cache/synthetic/train_sequences$suffix"/*)
@@ -70,13 +74,13 @@ wait $!
 
 f=$features
 decoders() {  # output, arguments of train_decoders.py
-  once "$runs/$name/$1.pt" "$python" train_decoders.py --network "$network" --train "$f/train.pt" "$f/train_plain.pt" \
+  since_training "$runs/$name/$1.pt" "$python" train_decoders.py --network "$network" --train "$f/train.pt" "$f/train_plain.pt" \
     --held "$f/held.pt" "$f/held_plain.pt" --portraits "$f/portraits.pt" --val "$f/val.pt" --portraits-val "$f/portraits_val.pt" \
     --noise 0.2 --rate 1.5e-3 --steps 1200 --sides 1.5 --out "$runs/$name/$1.pt" "${@:2}" >"$f/$1.log"
 }
 decoders decoders_whole --start-from "$runs/$name/decoders.pt" &
 decoders decoders_half --start-from "$runs/$name/decoders.pt" --draw-back 0.5
 wait $!
-once "$runs/$name/decoders_before.pt" "$python" blend_decoders.py "$runs/$name/decoders_half.pt" "$before" 0.15 "$runs/$name/decoders_before.pt"
+since_training "$runs/$name/decoders_before.pt" "$python" blend_decoders.py "$runs/$name/decoders_half.pt" "$before" 0.15 "$runs/$name/decoders_before.pt"
 "$python" compare_decoders.py --val "$f/val.pt" --portraits-val "$f/portraits_val.pt" --apart "$f/val_apart.pt" \
   "$before" "$runs/$name/decoders.pt" "$runs/$name"/decoders_{whole,half,before}.pt | tee "$runs/$name/compared.txt"
