@@ -59,7 +59,7 @@ class Tidy:
         if found.returncode == 0 and not found.stdout:
             REMEMBERED.mkdir(parents=True, exist_ok=True)
             done.touch()
-        return found.stdout + (found.stderr if found.returncode else "")
+        return found.stdout + (found.stderr or f"{file}: {found.returncode}\n" if found.returncode else "")
 
 
 def main():

@@ -7,6 +7,7 @@ import sequences as seq
 from framing import FRAMINGS
 from paths import cache
 from setting import Missing
+from whole_files import whole
 
 SEED = 7
 
@@ -39,5 +40,7 @@ def of(setting, network, plain):
         if network == "hifinet":
             view = seq.HiFiNetView(view, encoders[1])
         path.parent.mkdir(parents=True, exist_ok=True)
-        torch.save(seq.extract(view, seq.Sequences.load(folders), 1, SEED, plain=plain), path)
+        found = seq.extract(view, seq.Sequences.load(folders), 1, SEED, plain=plain)
+        with whole(path) as out:
+            torch.save(found, out)
     return torch.load(path)

@@ -23,6 +23,7 @@ from networks import ControlsDecoder  # noqa: E402
 from paths import ROOT, cache, data  # noqa: E402
 from program import Program  # noqa: E402
 from shown import shown  # noqa: E402
+from whole_files import whole  # noqa: E402
 
 FRAMES = 75         # of a film
 SIZE = (288, 360)   # height, width
@@ -42,7 +43,9 @@ def landmarks_of(program, path):
     kept = cache() / "evaluation/films" / f"{path.stem}.npy"
     if not kept.exists():
         kept.parent.mkdir(parents=True, exist_ok=True)
-        np.save(kept, program.track(path, 4).landmarks[:FRAMES])
+        landmarks = program.track(path, 4).landmarks[:FRAMES]
+        with whole(kept) as out:
+            np.save(out, landmarks)
     return np.load(kept)
 
 

@@ -54,6 +54,16 @@ TEST(Sides, NoControlMovesFarNorOutOfItsRange) {
   }
 }
 
+TEST(Sides, WhatIsAtRestNeverGoesBelowIt) {
+  float right = kToldApart;
+  while (right > 0.04f) {
+    right = std::nextafter(right, 0.0f);
+    ASSERT_GE(evened(smile(0.0f, right))[kLeft], 0.0f) << right;
+    ASSERT_LE(evened(smile(1.0f, 1.0f - right))[kLeft], 1.0f) << right;
+    right -= 1e-7f;
+  }
+}
+
 TEST(Sides, EveryPairOfSidesIsOneAndNothingElse) {
   for (std::size_t i = 0; i < kControls; ++i) {
     Controls controls{};

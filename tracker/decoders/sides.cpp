@@ -13,33 +13,28 @@ struct Pair {
   std::size_t right;
 };
 
-// Eyes look sideways together, one of them in and the other out; jaw and mouth have no sides, they
-// go there.
-constexpr bool has_sides(std::string_view unit) {
-  return unit != "jaw" && unit != "mouth" && unit != "eyeLookIn" && unit != "eyeLookOut";
+constexpr std::size_t named(std::string_view unit, std::string_view side) {
+  std::size_t i = 0;
+  while (!std::string_view(kControlNames[i]).starts_with(unit) ||
+         std::string_view(kControlNames[i]).substr(unit.size()) != side) {
+    ++i;
+  }
+  return i;
 }
 
-constexpr std::array<Pair, 16> kSides = [] {
-  constexpr std::string_view kLeft = "Left";
-  constexpr std::string_view kRight = "Right";
-  std::array<Pair, 16> pairs{};
-  std::size_t count = 0;
-  for (std::size_t l = 0; l < kControls; ++l) {
-    std::string_view unit = kControlNames[l];
-    if (!unit.ends_with(kLeft)) {
-      continue;
-    }
-    unit.remove_suffix(kLeft.size());
-    for (std::size_t r = 0; r < kControls && has_sides(unit); ++r) {
-      const std::string_view other = kControlNames[r];
-      if (other.starts_with(unit) && other.substr(unit.size()) == kRight) {
-        pairs[count++] = {l, r};
-      }
-    }
+// Not jaw and mouth, which go to a side, nor eyes that look in and out, which they do together.
+constexpr std::array<std::string_view, 16> kUnits = {
+    "eyeBlink",   "eyeLookDown", "eyeLookUp",    "eyeSquint",  "eyeWide",        "mouthSmile",
+    "mouthFrown", "mouthDimple", "mouthStretch", "mouthPress", "mouthLowerDown", "mouthUpperUp",
+    "browDown",   "browOuterUp", "cheekSquint",  "noseSneer"};
+
+constexpr std::array<Pair, kUnits.size()> kSides = [] {
+  std::array<Pair, kUnits.size()> pairs{};
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    pairs[i] = {named(kUnits[i], "Left"), named(kUnits[i], "Right")};
   }
   return pairs;
 }();
-static_assert(kSides.back().right != 0, "there are fewer pairs");
 
 }  // namespace
 
@@ -50,10 +45,9 @@ void even_out_sides(std::uint64_t supported, std::span<float, kControls> control
     float& right = controls[pair.right];
     const float apart = left - right;
     if (driven && std::abs(apart) < kToldApart) {
-      const float middle = (left + right) / 2;
-      const float half = apart * std::abs(apart) / kToldApart / 2;
-      left = middle + half;
-      right = middle - half;
+      const float step = apart * (1 - std::abs(apart) / kToldApart) / 2;  // stays between both
+      left -= step;
+      right += step;
     }
   }
 }

@@ -4,10 +4,11 @@ import textwrap
 
 import pytest
 
+pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="other systems do not hold a process to a limit of memory")
+
 # Grants the process ever more memory until what it makes can be made; the package's own refusals are counted.
 MADE_AT_LAST = textwrap.dedent("""
     import resource
-    import sys
     import mien
     from mien import errors
 
@@ -40,7 +41,6 @@ def run(body):
     return done.stdout.split()
 
 
-@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="other systems do not hold a process to a limit of memory")
 @pytest.mark.parametrize("lod", [1, 4])
 def test_a_tracker_without_memory_is_an_error_and_the_next_one_works(lod):
     refused, status = run(f"""
@@ -52,7 +52,6 @@ def test_a_tracker_without_memory_is_an_error_and_the_next_one_works(lod):
     assert status == "SEARCHING"
 
 
-@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="other systems do not hold a process to a limit of memory")
 def test_a_network_without_memory_is_an_error_and_the_next_one_works():
     refused, outputs = run("""
         import numpy
