@@ -8,6 +8,8 @@ import math
 import torch
 import torch.nn.functional as F
 
+STRANGE = 0.1  # share of pictures in light that nobody would choose
+
 
 def uniform(generator, n, low, high, channels=1):
     return torch.empty(n, channels, 1, 1).uniform_(low, high, generator=generator)
@@ -39,6 +41,27 @@ def shade(x, g):
     ramp = torch.sigmoid(along * torch.exp(uniform(g, n, 0, 2.5)))
     depth = uniform(g, n, 0, 0.75)
     return x * ((1 - depth * ramp) * (1 + 0.5 * depth))
+
+
+def coloured_light(x, g):
+    """Light of about one colour, as on a stage: what is left is brightness, in that colour."""
+    n = len(x)
+    light = uniform(g, n, 0, 1, channels=3)
+    light = light / light.amax(1, keepdim=True)
+    brightness = torch.lerp(x.mean(1, keepdim=True), x.amax(1, keepdim=True), uniform(g, n, 0, 1))
+    return torch.lerp(x, brightness * light, uniform(g, n, 0.4, 1))
+
+
+def badly_exposed(x, g):
+    """Much too light, much too dark, or with next to no contrast, as through haze."""
+    n, kind = len(x), torch.rand(len(x), 1, 1, 1, generator=g)
+    light, dark = x * uniform(g, n, 1.3, 2.5) + uniform(g, n, 0, 0.3), x * uniform(g, n, 0.1, 0.5)
+    faded = x * uniform(g, n, 0.15, 0.5) + uniform(g, n, 0, 0.5)
+    return torch.where(kind < 0.35, light, torch.where(kind < 0.7, dark, faded)).clamp_(0, 1)
+
+
+def strange_light(x, g):
+    return torch.where(torch.rand(len(x), 1, 1, 1, generator=g) < 0.4, coloured_light(x, g), badly_exposed(x, g))
 
 
 def gaussian(x, sigma):
@@ -157,7 +180,8 @@ def degrade(x, g):
 
 def photometric(x, g, degraded=0.5):
     """The whole chain, for pictures that have nothing to do with each other. A share stays sharp, for lids and lips."""
-    return share_of(colour(share_of(x.clone(), g, 0.35, shade), g), g, degraded, degrade)
+    lit = share_of(colour(share_of(x.clone(), g, 0.35, shade), g), g, STRANGE, strange_light)
+    return share_of(lit, g, degraded, degrade)
 
 
 class OfSequence:
@@ -168,7 +192,8 @@ class OfSequence:
 
     def __call__(self, x, frame):
         steady = torch.Generator().manual_seed(self.seed)
-        x = lens(colour(share_of(x.clone(), steady, 0.35, shade), steady), steady)
+        lit = share_of(colour(share_of(x.clone(), steady, 0.35, shade), steady), steady, STRANGE, strange_light)
+        x = lens(lit, steady)
         fresh = torch.Generator().manual_seed(self.seed * 1009 + frame + 1)
         level, dark = uniform(steady, self.n, 0, 0.06), torch.rand(self.n, generator=steady) < 0.1
         x = (x + torch.randn(x.shape, generator=fresh) * level).clamp(0, 1)

@@ -15,6 +15,7 @@ import torch.nn.functional as F
 from PIL import Image
 from tqdm import tqdm
 
+import augment
 import proposal_data as data
 from faces import Portraits, continued, leaves
 from networks import PNet, RNet
@@ -26,19 +27,21 @@ CANVAS = 160           # side of the square the tracker searches, pixels
 PYRAMID_FACTOR = 0.709
 PNET_THRESHOLD = 0.4   # low: R-Net is there to refuse
 BATCH = 512
+STRANGE = 0.15         # share of windows in strange light
 
 
 def to_tensor(windows):
     return torch.from_numpy(windows).permute(0, 3, 1, 2).float() / 127.5 - 1
 
 
-def augment(x, generator):
-    """Photometric variety per window: gain, offset, per-channel tint, grey, blur, noise."""
+def augmented(x, generator):
+    """Photometric variety per window: gain, offset, per-channel tint, grey, strange light, blur, noise."""
     n = len(x)
     uniform = lambda low, high, *shape: torch.empty(n, *shape).uniform_(low, high, generator=generator)
     grey = x.mean(1, keepdim=True)
     x = torch.where(uniform(0, 1, 1, 1, 1) < 0.25, grey.expand_as(x), x)
     x = x * uniform(0.5, 1.4, 1, 1, 1) * uniform(0.85, 1.15, 3, 1, 1) + uniform(-0.4, 0.4, 1, 1, 1)
+    x = augment.share_of(x, generator, STRANGE, lambda y, g: augment.strange_light((y.clamp(-1, 1) + 1) / 2, g) * 2 - 1)
     blurred = F.avg_pool2d(F.pad(x, (1, 1, 1, 1), mode="replicate"), 3, 1)
     x = torch.lerp(x, blurred, uniform(0, 1, 1, 1, 1) * (uniform(0, 1, 1, 1, 1) < 0.3))
     x = x + torch.randn(x.shape, generator=generator) * uniform(0, 0.12, 1, 1, 1)
@@ -86,7 +89,7 @@ def train(network, windows, samples, side, seed, history):
     network.train()
     for step in tqdm(range(steps), desc=type(network).__name__):
         x, kind, target = windows.batch(rng, BATCH)
-        x, target = mirrored(augment(x, generator), target, generator)
+        x, target = mirrored(augmented(x, generator), target, generator)
         logit, box = network(F.adaptive_avg_pool2d(x, side) if side != data.WINDOW else x)
         loss = loss_of(logit.flatten(), box.flatten(1), kind, target)
         optimizer.zero_grad()
