@@ -320,7 +320,7 @@ typedef struct mien_tracker_config {
                            default 60 degrees */
 
   /* Face probability at and above which a searched face is accepted, what the proposal thinks of
-   * it taken into account; default 0.9975. It has to reach lose_probability without. */
+   * it taken into account; default 0.999. It has to reach lose_probability without. */
   float accept_probability;
   /* Face probability below which a tracked face counts as missing; default 0.5; must not exceed
    * accept_probability. */

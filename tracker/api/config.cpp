@@ -68,7 +68,7 @@ void mien_tracker_config_default(mien_tracker_config* config) {
   config->cpu_mask = MIEN_CPU_ALL;
   config->lod = 1;
   config->horizontal_fov = mien::tracker::kSixtyDegrees;
-  config->accept_probability = 0.9975f;
+  config->accept_probability = 0.999f;
   config->lose_probability = 0.5f;
   config->lose_after_frames = 3;
   config->proposal_size = 160;
