@@ -153,7 +153,8 @@ def columns_of(r):
 def markdown(report):
     lines = ["# Synthetic test sequences", ""] + out.prose("""Faces, places and performances that training never saw. The program smooths,
         and runs its encoders as its level says; the networks are scored in PyTorch with the encoder on every or on alternate frames, and
-        on the same pictures spoiled as in training: blur, motion, lower resolution, noise of up to 6 %, coarse JPEG, tint and contrast.""")
+        on the same pictures spoiled as in training: blur, motion, lower resolution, noise of up to 6 %, coarse JPEG, tint and contrast,
+        a tenth in strange light (augment.py).""")
     for name, r in report.items():
         columns = columns_of(r)
         program = r["program"]

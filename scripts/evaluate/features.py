@@ -23,10 +23,10 @@ def shards(network):
 
 
 def digest(paths):
-    whole = hashlib.sha256()
+    content = hashlib.sha256()
     for path in paths:
-        whole.update(path.read_bytes())
-    return whole.hexdigest()[:12]
+        content.update(path.read_bytes())
+    return content.hexdigest()[:12]
 
 
 def of(setting, network, plain):

@@ -64,6 +64,11 @@ def strange_light(x, g):
     return torch.where(torch.rand(len(x), 1, 1, 1, generator=g) < 0.4, coloured_light(x, g), badly_exposed(x, g))
 
 
+def lit(x, g):
+    """Copies in another light, before a lens sees them."""
+    return share_of(colour(share_of(x.clone(), g, 0.35, shade), g), g, STRANGE, strange_light)
+
+
 def gaussian(x, sigma):
     radius = max(1, math.ceil(2 * sigma))
     at = torch.arange(-radius, radius + 1, dtype=torch.float32)
@@ -180,8 +185,7 @@ def degrade(x, g):
 
 def photometric(x, g, degraded=0.5):
     """The whole chain, for pictures that have nothing to do with each other. A share stays sharp, for lids and lips."""
-    lit = share_of(colour(share_of(x.clone(), g, 0.35, shade), g), g, STRANGE, strange_light)
-    return share_of(lit, g, degraded, degrade)
+    return share_of(lit(x, g), g, degraded, degrade)
 
 
 class OfSequence:
@@ -192,8 +196,7 @@ class OfSequence:
 
     def __call__(self, x, frame):
         steady = torch.Generator().manual_seed(self.seed)
-        lit = share_of(colour(share_of(x.clone(), steady, 0.35, shade), steady), steady, STRANGE, strange_light)
-        x = lens(lit, steady)
+        x = lens(lit(x, steady), steady)
         fresh = torch.Generator().manual_seed(self.seed * 1009 + frame + 1)
         level, dark = uniform(steady, self.n, 0, 0.06), torch.rand(self.n, generator=steady) < 0.1
         x = (x + torch.randn(x.shape, generator=fresh) * level).clamp(0, 1)
