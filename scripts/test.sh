@@ -29,14 +29,14 @@ build_and_test() {  # preset, options of CMake
 
 tests/convert/fetch_node_tests.sh || echo "NOT TESTED: ONNX's own node tests, which could not be fetched"
 
-scripts/check_layering.sh
+scripts/check/layering.sh
 # Sanitizers find nothing in kernels that this machine cannot run; Release compiles them.
 avx512=ON
 [ "$(uname -m)" != x86_64 ] || grep -qw avx512f /proc/cpuinfo || avx512=OFF
 [ "$mode" = --quick ] || build_and_test asan-ubsan -DMIEN_WITH_AVX512=$avx512
 build_and_test release
-scripts/check_symbols.sh build/release
-scripts/check_hardening.sh build/release
+scripts/check/symbols.sh build/release
+scripts/check/hardening.sh build/release
 
 case "$mode" in
   --quick) echo "left out: the sanitizers (scripts/test.sh), and what scripts/test.sh --all has" ;;

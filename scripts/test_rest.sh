@@ -17,10 +17,10 @@ build() {  # preset, targets
 
 linters() {
   shellcheck -x scripts/*.sh scripts/*/*.sh tests/*/*.sh bindings/*.sh bindings/*/*.sh
-  scripts/check_format.sh
+  scripts/check/format.sh
   scripts/mutate.sh --check
   cmake --preset tidy >/dev/null  # for clang, whose options clang-tidy understands, file by file
-  scripts/check_tidy.py build/tidy
+  scripts/check/tidy.py build/tidy
 }
 binding() {  # folder, and the group of what it needs, without which it says itself that it is not tested
   scripts/setup.sh "$2" || echo "setup.sh: $2 could not be had" >&2
@@ -63,7 +63,7 @@ part() {  # name, command
   echo "== $1 took $((SECONDS - began)) s"
 }
 part linters linters
-part "supply chain" scripts/check_supply_chain.sh
+part "supply chain" scripts/check/supply_chain.sh
 part Python bindings/python/test.sh
 part Rust binding rust rust
 part "C#" binding csharp csharp
@@ -71,7 +71,7 @@ part Java binding android java
 part Swift bindings/swift/test.sh  # no compiler for it is in Debian; JavaScript: the page
 part documentation scripts/site.sh
 part "batches on a cluster" cluster
-part "binary interface" scripts/check_abi.sh
+part "binary interface" scripts/check/abi.sh
 part threads threads
 part "the library inside other projects" packages
 part "other machines" scripts/cross/all.sh

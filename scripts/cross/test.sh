@@ -60,11 +60,11 @@ cmake -S . -B "$build" -G Ninja --toolchain "$toolchain" "${launcher[@]}" -DCMAK
   -DGTest_DIR="$PWD/$build/googletest/lib/cmake/GTest" >/dev/null
 cmake --build "$build" --target all mien_shared
 if [ "$target" != linux-i386 ]; then  # which has no tier of its own
-  scripts/check_symbols.sh "$build" "$nm"
+  scripts/check/symbols.sh "$build" "$nm"
   # What only this machine compiles; without what clang does not know of gcc's options, and does by itself.
   mkdir -p "$build/tidy"
   sed 's/ -mfp16-format=ieee//' "$build/compile_commands.json" >"$build/tidy/compile_commands.json"
-  scripts/check_tidy.py "$build/tidy" 'kernels/*/neon*.cpp' kernels/tier.cpp
+  scripts/check/tidy.py "$build/tidy" 'kernels/*/neon*.cpp' kernels/tier.cpp
 fi
 
 failed=0

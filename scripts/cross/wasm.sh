@@ -45,7 +45,7 @@ for variant in simd plain; do
   echo "== wasm, $variant"
   configure_variant $variant
   build "$root/$variant" kernels_test engine_test mien_conformance_program mien_module
-  [ $variant = plain ] || { scripts/check_symbols.sh "$root/$variant" llvm-nm; tidy; }
+  [ $variant = plain ] || { scripts/check/symbols.sh "$root/$variant" llvm-nm; tidy; }
   program=$root/$variant/apps/conformance/mien-conformance.js
   conformance node "$program" --self-test
   conformance node "$program" --repeat "$seeds"

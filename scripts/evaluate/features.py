@@ -1,8 +1,10 @@
 """Features of the synthetic test sequences, as the shipped networks see them, kept in $MIEN_CACHE/evaluation."""
 import hashlib
+from pathlib import Path
 
 import torch
 
+import augment
 import sequences as seq
 from framing import FRAMINGS
 from paths import cache
@@ -33,7 +35,8 @@ def of(setting, network, plain):
     """What sequences.py makes of the test sequences: as rendered (`plain`), or through a poor camera."""
     encoders = [setting.checkpoint("basenet")[0]] + ([setting.checkpoint("hifinet")[0]] if network == "hifinet" else [])
     folders = shards(network)
-    name = f"{network}_{digest(encoders)}_{len(folders)}_{'plain' if plain else 'spoiled'}.pt"
+    made_by = encoders if plain else [*encoders, Path(augment.__file__)]  # which says what a poor camera is
+    name = f"{network}_{digest(made_by)}_{len(folders)}_{'plain' if plain else 'spoiled'}.pt"
     path = cache() / "evaluation" / name
     if not path.exists():
         view = seq.BaseNetView(encoders[0])

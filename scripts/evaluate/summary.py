@@ -45,7 +45,7 @@ def page(results, seconds, skipped, has_hifinet):
         lines += out.prose(f"""The true curves of the synthetic test sequences of {level["network"]} have a jitter of
             {1e4 * level["program"]["truth_jitter"]:.1f}e-4 themselves: a face is never quite still.""")
     lines += ["## Parts", ""] + out.table(["part", "minutes"], [[f"[{p}]({p}.md)", f"{s / 60:.1f}"] for p, s in seconds.items()])
-    lines += ["[Speed beside other engines and trackers](peers.md) is measured by `scripts/bench_peers.sh`.", ""]
+    lines += ["[Speed beside other engines and trackers](peers.md) is measured by `scripts/peers/bench.sh`.", ""]
     if skipped:
         lines += ["## Skipped in the last run", "", *(f"* {s}" for s in skipped), ""]
     return "\n".join(lines)

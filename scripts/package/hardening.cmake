@@ -1,5 +1,5 @@
 # What distributions build with, so that a fault in memory ends the process rather than be used by somebody: for the library and
-# the programs, checked on the files by scripts/check_hardening.sh. A parent project has its own mind, sanitizers look closer.
+# the programs, checked on the files by scripts/check/hardening.sh. A parent project has its own mind, sanitizers look closer.
 option(MIEN_HARDEN "Linux: build library and programs with what distributions build with; they themselves say so by flags" ON)
 add_library(mien_hardening INTERFACE)
 if(MIEN_HARDEN AND MIEN_TOP_LEVEL AND NOT MIEN_SANITIZE AND CMAKE_SYSTEM_NAME STREQUAL "Linux")

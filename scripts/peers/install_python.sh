@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs the peers of scripts/bench_peers.sh from PyPI into ${MIEN_CACHE:-~/.cache/mien}/peers/venv. What cannot be had is said and left out.
+# Installs the peers of bench.sh from PyPI into ${MIEN_CACHE:-~/.cache/mien}/peers/venv. What cannot be had is said and left out.
 # usage: scripts/peers/install_python.sh
 set -euo pipefail
 venv=${MIEN_CACHE:-$HOME/.cache/mien}/peers/venv

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Puts the rounds of bench_peers.sh together: mien beside its peers.  usage: peers.py WORK_DIR ROUNDS OUT_DIR MEASURED..."""
+"""Puts the rounds of bench.sh together: mien beside its peers.  usage: peers.py WORK_DIR ROUNDS OUT_DIR MEASURED..."""
 import json
 import os
 import statistics
@@ -143,7 +143,7 @@ def main():
     runs = Runs(work, rounds, sys.argv[4:])
     report = {"rounds": rounds, "processor": processor(), "load": float((work / "load").read_text().split()[2]), "networks": networks(runs), "shipped": shipped(runs)}
     lines = ["# Speed beside other engines and trackers", "",
-             f"One thread each, on one processor that is asked for first, {rounds} rounds in turns on one machine; `scripts/bench_peers.sh` reproduces it. "
+             f"One thread each, on one processor that is asked for first, {rounds} rounds in turns on one machine; `scripts/peers/bench.sh` reproduces it. "
              f"Only ratios mean something elsewhere, and they depend on what the processor has: here {report['processor']}. "
              f"Load of the machine meanwhile, a mean of 15 minutes: {report['load']:.0f} on {os.cpu_count()} processors. "
              "[Speed](performance.md) has the tier in half precision beside ONNX Runtime, on a processor that has it.", ""]

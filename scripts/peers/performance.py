@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What the rounds of bench_peers.sh say about mien itself: tiers, fused blocks, share of the peak.  usage: performance.py WORK_DIR ROUNDS OUT_DIR [MEASURED...]"""
+"""What the rounds of bench.sh say about mien itself: tiers, fused blocks, share of the peak.  usage: performance.py WORK_DIR ROUNDS OUT_DIR [MEASURED...]"""
 import json
 import sys
 from pathlib import Path
@@ -56,7 +56,7 @@ def table(header, rows):
 
 def to_text(figures):
     lines = ["# Speed", "",
-             f"One thread, minima of {figures['rounds']} rounds in turns with [other engines](peers.md) on one machine; `scripts/bench_peers.sh` writes this. "
+             f"One thread, minima of {figures['rounds']} rounds in turns with [other engines](peers.md) on one machine; `scripts/peers/bench.sh` writes this. "
              "Absolute times mean nothing elsewhere. `avx512fp16` and `avx512vnni` compute the encoders' blocks [with 16 bits](../architecture.md#half-precision), the rest is "
              "`avx512`'s, held against a peak that only 16 bits can have. The peak is that of a loop of fused multiply-adds in registers, the best that was seen in the same run.", ""]
     lines += table(("tier", "peak, GFLOP/s"), [(tier, f"{peak:.0f}") for tier, peak in figures["peak_gflops"].items()])

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """clang-tidy, as .clang-tidy says, on every file of which it has not been right already, includes and options being the same.
 
-usage: scripts/check_tidy.py BUILD_DIR [FOLDER|PATTERN.cpp...]      BUILD_DIR has compile_commands.json
+usage: scripts/check/tidy.py BUILD_DIR [FOLDER|PATTERN.cpp...]      BUILD_DIR has compile_commands.json
 Without any, what people run: the library and the programs. The tests include GoogleTest, which takes ten seconds a file, so they
-are checked when named: scripts/check_tidy.py build/tidy tests fuzz. What was right is remembered in $XDG_CACHE_HOME/mien/tidy.
+are checked when named: scripts/check/tidy.py build/tidy tests fuzz. What was right is remembered in $XDG_CACHE_HOME/mien/tidy.
 """
 import argparse
 import concurrent.futures
@@ -15,7 +15,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[1]
+ROOT = Path(__file__).resolve().parents[2]
 PEOPLE_RUN = ["kernels", "formats", "engine", "audio", "tracker", "apps"]
 REMEMBERED = Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache")) / "mien/tidy"
 
@@ -71,7 +71,7 @@ def main():
     # What is no part of the build, such as the kernels for another CPU, cannot be checked.
     files = [file for file in tracked(args.patterns) if file in tidy.entries]
     if not files:
-        sys.exit("check_tidy.py: nothing of this is built in " + str(args.build))
+        sys.exit("check/tidy.py: nothing of this is built in " + str(args.build))
     wrong = 0
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         for complaints in pool.map(tidy.complaints, files):

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # What others have made and that reaches users comes as it was chosen: by its hash, under a licence that mien's users can live with, and
 # named where the licence asks for that. And no key or password is in the tree.
-# usage: scripts/check_supply_chain.sh
+# usage: scripts/check/supply_chain.sh
 set -euo pipefail
-cd "$(dirname "$0")/.."
+cd "$(dirname "$0")/../.."
 scripts/setup.sh build
 
 python3 - <<'PYTHON'
@@ -61,7 +61,7 @@ planted=$(mktemp)
 trap 'rm -f "$planted"' EXIT
 printf -- '-----BEGIN %s KEY-----\n' "RSA PRIVATE" >"$planted"
 if "${find_secrets[@]}" "$planted" >/dev/null; then
-  echo "check_supply_chain.sh: a private key is not noticed" >&2
+  echo "check/supply_chain.sh: a private key is not noticed" >&2
   exit 1
 fi
 git ls-files -z ':!fuzz/corpus' | xargs -0 "${find_secrets[@]}"

@@ -2,9 +2,9 @@
 # Programs and shared library are built as distributions build theirs (scripts/package/hardening.cmake): addresses that no program
 # knows beforehand, nothing that is both written and executed, tables of pointers read-only once it runs, guarded stacks and
 # copies, and on x86-64 landing pads for jumps. Read from the files themselves.
-# usage: scripts/check_hardening.sh BUILD_DIR      a Release build
+# usage: scripts/check/hardening.sh BUILD_DIR      a Release build
 set -euo pipefail
-cd "$(dirname "$0")/.."
+cd "$(dirname "$0")/../.."
 build=${1:?build directory}
 
 faults() {  # file: what is missing, a line each
@@ -26,7 +26,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 echo 'int main(void) { return 0; }' >"$work/soft.c"
 cc -no-pie -fno-stack-protector -Wl,-z,norelro -Wl,-z,lazy -Wl,-z,execstack -o "$work/soft" "$work/soft.c" 2>/dev/null
-[ "$(faults "$work/soft" | wc -l)" -eq 5 ] || { echo "check_hardening.sh: it does not notice a program without any of it" >&2; exit 1; }
+[ "$(faults "$work/soft" | wc -l)" -eq 5 ] || { echo "check/hardening.sh: it does not notice a program without any of it" >&2; exit 1; }
 
 bad=0
 for file in apps/mien/mien apps/conformance/mien-conformance tracker/libmien.so; do

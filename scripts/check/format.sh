@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# clang-format, as .clang-format says. usage: scripts/check_format.sh [--fix]
+# clang-format, as .clang-format says. usage: scripts/check/format.sh [--fix]
 set -euo pipefail
-cd "$(dirname "$0")/.."
+cd "$(dirname "$0")/../.."
 mode=(--dry-run --Werror)
 [ "${1:-}" != "--fix" ] || mode=(-i)
 git ls-files '*.h' '*.hpp' '*.cpp' '*.c' | xargs -r clang-format "${mode[@]}"

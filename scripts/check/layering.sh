@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # An #include may only point down the house: see docs/architecture.md. Standard headers are free.
 set -euo pipefail
-cd "$(dirname "$0")/.."
+cd "$(dirname "$0")/../.."
 
 declare -A MAY_INCLUDE=(
   [include]="mien"

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # Times mien and its peers in turns, one thread each: networks in other engines, whole frames beside MediaPipe, sound beside Silero VAD.
 # Writes docs/results/peers.md, or performance.md, and their .json. What cannot be had here is said and left out.
-# usage: scripts/bench_peers.sh [ROUNDS] [peers|performance]...      default: 7, both documents
+# usage: scripts/peers/bench.sh [ROUNDS] [peers|performance]...      default: 7, both documents
 # Makes a Release build unless MIEN_PROGRAM names a program to time. MIEN_DATA: folder of the data packs, for MediaPipe's model and for speech.
 set -euo pipefail
-cd "$(dirname "$0")/.."
+cd "$(dirname "$0")/../.."
 
 rounds=${1:-7}
 documents=("${@:2}")

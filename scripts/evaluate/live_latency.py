@@ -18,7 +18,7 @@ import tempfile
 import threading
 import time
 
-SOURCE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..")
+SOURCE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 FPS = 30
 COLUMNS = ["level", "sound", "packets", "dropped pictures", "dropped packets", "median", "99 % within", "most", "CPU a packet",
            "memory after 1 minute", "at the end"]

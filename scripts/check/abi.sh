@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Holds the shared library's binary interface against that of the last release (tests/package/abi/libmien.abi): what programs
 # compiled then rely on must still be there and lie where it lay. Additions pass, and members in the place of reserved ones.
-# usage: scripts/check_abi.sh [--update]      --update: makes today's interface the one to be held against; with a release
+# usage: scripts/check/abi.sh [--update]      --update: makes today's interface the one to be held against; with a release
 set -euo pipefail
-cd "$(dirname "$0")/.."
+cd "$(dirname "$0")/../.."
 baseline=tests/package/abi/libmien.abi
 build=build/abi
 
@@ -38,12 +38,12 @@ moved=$build/moved.abi
 awk "/class-decl name='mien_result'/ { inside = 1 } inside && /data-member/ && ++n == 3 { sub(/layout-offset-in-bits='[0-9]+'/, \"layout-offset-in-bits='96'\") } /<\/class-decl>/ { inside = 0 } { print }" \
   "$baseline" >"$moved"
 if cmp -s "$baseline" "$moved" || ! breaks "$moved" >/dev/null; then
-  echo "check_abi.sh: it does not notice a member of mien_result that moved" >&2
+  echo "check/abi.sh: it does not notice a member of mien_result that moved" >&2
   exit 1
 fi
 
 if breaks "$baseline"; then
-  echo "check_abi.sh: programs that were compiled with the last release would break" >&2
+  echo "check/abi.sh: programs that were compiled with the last release would break" >&2
   exit 1
 fi
-echo "check_abi.sh: programs of the last release run with this library"
+echo "check/abi.sh: programs of the last release run with this library"
