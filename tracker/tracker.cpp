@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace mien::tracker {
 namespace {
@@ -59,6 +60,9 @@ bool Tracker::set_level(std::int32_t lod) {
   if (lod < 0 || lod > highest_level(config_)) {
     return false;
   }
+  if (lod == 0 && lod_ != 0) {
+    governor_.begin_at(lod_);
+  }
   lod_ = lod;
   return true;
 }
@@ -72,14 +76,15 @@ mien_status Tracker::push(const mien_image* image, std::int64_t pts_ns) {
   const Timeline::Step step = state_.timeline.advance(pts_ns);
   Frame frame = {view, timer_, level(), step.seconds, step.cut};
   // Where a film begins nothing can stutter, and its first image may be its only one.
-  const bool new_scene = frame.cut || !(state_.view == static_cast<const ImageGeometry&>(view));
+  const bool new_scene = std::exchange(state_.cut_without_image, false) || frame.cut ||
+                         !(state_.view == static_cast<const ImageGeometry&>(view));
   if (new_scene) {
     state_.search.stage = Search::Stage::kIdle;
   }
   const bool followed = faces_.followed() > 0;
   follow(frame);
   const bool begins = !followed || new_scene || pace_at(frame.level).begins_at_loss;
-  const bool due = begins && faces_.followed() == 0 && search_is_due();
+  const bool due = begins && faces_.followed() == 0 && (search_is_due() || new_scene);
   const bool searched = due || state_.search.stage != Search::Stage::kIdle;
   if (searched) {
     search(frame, new_scene);
@@ -88,7 +93,7 @@ mien_status Tracker::push(const mien_image* image, std::int64_t pts_ns) {
   }
   state_.view = view;
   finish(frame, pts_ns, searched ? MIEN_RESULT_PROPOSAL_RAN : 0u);
-  if (followed && faces_.followed() > 0) {
+  if (lod_ == 0 && followed && !searched && faces_.followed() > 0) {
     governor_.account(timer_.total_ns(), step.seconds);
   }
   timer_.clear();
@@ -100,6 +105,7 @@ void Tracker::advance(std::int64_t pts_ns) {
   Frame frame = {state_.view, timer_, level(), step.seconds, step.cut};
   if (frame.cut) {
     state_.search.stage = Search::Stage::kIdle;
+    state_.cut_without_image = true;
   }
   for (Face& face : faces_.all()) {
     if (frame.cut) {
@@ -143,7 +149,7 @@ void Tracker::follow(Frame& frame) {
       face.cut(frame.level);
     }
     if (!(before == frame.view)) {
-      face.lose();
+      face.lose_to(before, frame.view);
     }
     if (face.is_followed()) {
       face.follow(frame);
@@ -237,8 +243,7 @@ void Tracker::publish(const Frame& frame, std::int64_t pts_ns, std::uint32_t fla
   state_.encoder_runs += frame.encoder_runs;
   for (Face& face : faces_.all()) {
     describe(frame, pts_ns, flags, face.result());
-    face.result().supported_controls = face.supported_controls(frame.level);
-    face.publish(frame.view);
+    face.publish(frame);
   }
   if (voice_ != nullptr) {
     mix_voice();
@@ -250,7 +255,7 @@ void Tracker::mix_voice() {
   Face& speaker = faces_.first();
   mien_result& result = speaker.result();
   const Mixer& mixer = voice_->mixer();
-  mixer.mix(voice_->heard(), result.supported_controls, speaker.presence(), result.controls);
+  mixer.mix(voice_->heard(), speaker.seen_controls(), result.controls);
   result.voice_activity = voice_->heard().alpha;
   if (voice_->is_listening()) {
     result.supported_controls |= mixer.driven();

@@ -66,6 +66,7 @@ class Tracker {
     Timeline timeline;
     ImageView view;  // the image before, whose pixels are gone
     Search search;
+    bool cut_without_image = false;  // the film was, since the image before
     std::int32_t search_frames = 0;  // frames in a row with nothing found
     std::uint32_t searches = 0;      // begun since then
     std::uint32_t turn = 0;          // of glances

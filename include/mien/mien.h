@@ -417,7 +417,7 @@ MIEN_API MIEN_NODISCARD mien_status mien_tracker_reset(mien_tracker* tracker);
  *   2      HiFiNet        both on alternate frames
  *   1      BaseNet        BaseNet on alternate frames
  *
- * From level 2 on HiFiNet also refines the landmarks.
+ * From level 2 on HiFiNet also refines the landmarks. Automatic goes on from the level before.
  *
  * Whatever the level, controls and head pose move on every frame. MIEN_ERROR_UNSUPPORTED_LOD when
  * there are no weights for it. mien_tracker_reset returns to the level of the configuration. */
@@ -537,7 +537,7 @@ MIEN_API const char* mien_stage_name(int32_t stage);
 /* Bits of mien_result.flags: what happened on this frame. */
 #define MIEN_RESULT_PROPOSAL_RAN 0x1u /* a search of the whole image, or a share of one */
 /* Not set on the alternate frames of levels 1 and 2: box and landmarks are those of the frame
- * before, while controls and head pose move on. */
+ * before, but for smoothing, while controls and head pose move on. */
 #define MIEN_RESULT_ENCODER_RAN 0x2u
 #define MIEN_RESULT_FOUND 0x4u /* a face was (re)found on this frame */
 #define MIEN_RESULT_CUT 0x8u   /* the timestamp told of a cut */
@@ -548,7 +548,8 @@ typedef struct mien_result {
   uint32_t struct_size;
   int32_t status; /* mien_face_status */
   int64_t pts_ns; /* of the image that this result belongs to */
-  /* Bit i: control i is driven, at this level of detail or, once there was sound, by sound. */
+  /* Bit i: control i is driven, at this level of detail, by what fades out of another for up to 2 s
+   * (mien_tracker_set_lod) or, once there was sound, by sound. */
   uint64_t supported_controls;
 
   float face_probability; /* 0..1, of the crop judged last; 0 when there was nothing to judge */
@@ -611,7 +612,8 @@ MIEN_API void mien_result_default(mien_result* result);
 /* Captures, at the present level of detail, while the person looks neutral: of each control the
  * median of 45 frames, after 10 to settle, so that a blink does not count; 0.6 at most. Frames that
  * count carry MIEN_RESULT_CAPTURING_NEUTRAL; then it takes effect, in place of an earlier one. It
- * begins anew when the face is lost or the film is cut, and waits where there is none. */
+ * begins anew when the face is lost or the film is cut, and waits where there is none. When the
+ * level goes over between 1 and the others it begins anew, at the new one. */
 MIEN_API MIEN_NODISCARD mien_status mien_tracker_capture_neutral(mien_tracker* tracker);
 
 #define MIEN_NEUTRAL_BYTES 448

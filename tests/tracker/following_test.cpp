@@ -200,6 +200,73 @@ TEST(Following, ACutLosesAndFindsOnTheSameFrame) {
   expect_box_on_disc(result, 250.0f, 170.0f, 50.0f);
 }
 
+TEST(Following, ACutWithoutAnImageIsSearchedOnTheNext) {
+  for (const std::int32_t lod : {1, 4}) {
+    BlobTracker tracker({}, [=](mien_tracker_config& config) { config.lod = lod; });
+    for (int i = 0; i < 4; ++i) {
+      (void)tracker.push(disc_picture(80.0f, 80.0f, 60.0f));
+    }
+    ASSERT_EQ(tracker.tracker().advance(tracker.now_ns() + 5'000'000'000), MIEN_OK);
+    EXPECT_TRUE(tracker.result().flags & MIEN_RESULT_CUT);
+    const Buffer elsewhere(disc_picture(250.0f, 170.0f, 50.0f), {});
+    const Result result = tracker.push(elsewhere.image(), tracker.now_ns() + 5'100'000'000);
+    EXPECT_TRUE(result.flags & MIEN_RESULT_FOUND) << "level " << lod;
+  }
+}
+
+TEST(Following, ANewSizeIsSearchedAtOnceHoweverLongThereWasNobody) {
+  for (int empty = 28; empty < 38; ++empty) {
+    BlobTracker tracker;
+    for (int i = 0; i < empty; ++i) {
+      (void)tracker.push(Picture(160, 120));
+    }
+    EXPECT_TRUE(tracker.push(disc_picture(160.0f, 120.0f, 70.0f)).has_face()) << empty;
+  }
+}
+
+// The same scene, as another size of picture or another camera shows it.
+TEST(Following, AFaceKeepsItsIdWhenTheImageChangesItsSize) {
+  for (const float scale : {0.5f, 2.0f, 3.0f}) {
+    for (const std::int32_t faces : {1, 2}) {
+      BlobTracker tracker({}, [=](mien_tracker_config& config) { config.max_faces = faces; });
+      for (int i = 0; i < 3; ++i) {
+        (void)tracker.push(disc_picture(220.0f, 150.0f, 60.0f));
+      }
+      const Picture scaled =
+          disc_picture(220.0f * scale, 150.0f * scale, 60.0f * scale, static_cast<int>(320 * scale),
+                       static_cast<int>(240 * scale));
+      for (int i = 0; i < 10; ++i) {
+        const Result result = tracker.push(scaled);
+        EXPECT_TRUE(result.has_face()) << scale;
+        EXPECT_EQ(result.face_id, 1u) << scale;
+      }
+      EXPECT_EQ(tracker.tracker().face_count(), 1);
+    }
+  }
+}
+
+TEST(Following, AnotherPlaceOfAnotherSizeIsAStranger) {
+  BlobTracker tracker;
+  (void)tracker.push(disc_picture(80.0f, 80.0f, 40.0f));
+  const Result result = tracker.push(disc_picture(80.0f, 80.0f, 90.0f, 1280, 960));
+  EXPECT_TRUE(result.has_face());
+  EXPECT_EQ(result.face_id, 2u);
+}
+
+// More frames of output than images: each image shows the face, whatever lies between.
+TEST(Following, FramesWithoutImagesDoNotLoseAFaceThatEveryImageShows) {
+  for (std::int32_t lod = 1; lod <= 4; ++lod) {
+    BlobTracker tracker({}, [=](mien_tracker_config& config) { config.lod = lod; });
+    (void)tracker.push(disc_picture(160.0f, 120.0f, 70.0f));
+    for (int i = 0; i < 30; ++i) {
+      EXPECT_TRUE(tracker.advance().has_face()) << "level " << lod;
+      EXPECT_TRUE(tracker.advance().has_face()) << "level " << lod;
+      EXPECT_TRUE(tracker.push(disc_picture(160.0f, 120.0f, 70.0f)).has_face()) << "level " << lod;
+    }
+    EXPECT_EQ(tracker.result().proposal_runs, 1u);
+  }
+}
+
 TEST(Following, DecodersBeginAnewAfterACut) {
   const Buffer disc(disc_picture(160.0f, 120.0f, 70.0f), {});
   const auto distance = [](const Result& a, const Result& b) {

@@ -122,6 +122,56 @@ TEST(Levels, AfterAChangeTheTrackerIsAsOneThatAlwaysWasThere) {
   }
 }
 
+// BaseNet drives the first control only.
+BlobTracker tracker_with_few_at_level_1(std::int32_t lod) {
+  static const AlignedBytes few = [] {
+    BlobOptions options;
+    options.supported_controls = 1;
+    return blob_basenet(options);
+  }();
+  return BlobTracker({}, [=](mien_tracker_config& config) {
+    config.basenet = few.get().data();
+    config.basenet_bytes = few.get().size();
+    config.lod = lod;
+  });
+}
+
+TEST(Levels, WhatIsNotSupportedIsZeroWhileOneFadesOut) {
+  BlobTracker tracker = tracker_with_few_at_level_1(4);
+  int frame = 0;
+  for (; frame < 30; ++frame) {
+    (void)tracker.push(circling_disc(frame));
+  }
+  ASSERT_EQ(tracker.tracker().set_lod(1), MIEN_OK);
+  Result before = tracker.result();
+  for (; frame < 120; ++frame) {
+    const Result result = tracker.push(circling_disc(frame));
+    EXPECT_LT(largest_step(before, result), 0.2f) << frame;
+    for (int i = 0; i < MIEN_CONTROL_COUNT; ++i) {
+      EXPECT_TRUE(result.supports(i) || result.controls[i] == 0.0f) << i << ", frame " << frame;
+    }
+    before = result;
+  }
+  EXPECT_EQ(before.supported_controls, 1u);
+}
+
+TEST(Levels, GoingUpRefinesTheLandmarksAtOnce) {
+  for (const std::int32_t to : {2, 3, 4}) {
+    for (const int frames : {1, 2}) {  // then one on which BaseNet may rest, or not
+      BlobTracker tracker = tracker_at(1), always = tracker_at(to);
+      for (int frame = 0; frame < frames; ++frame) {
+        (void)tracker.push(circling_disc(0));
+        (void)always.push(circling_disc(0));
+      }
+      ASSERT_EQ(tracker.tracker().set_lod(to), MIEN_OK);
+      const Result gone_up = tracker.push(circling_disc(0)),
+                   refined = always.push(circling_disc(0));
+      const float coarse_by = kRefinedBy * refined.box[2];
+      EXPECT_GT(gone_up.landmarks[0][0], refined.landmarks[0][0] - 0.5f * coarse_by) << to;
+    }
+  }
+}
+
 TEST(Levels, ThoseWithoutWeightsAreRefused) {
   const auto without = [](mien_tracker_config& config) {
     config.hifinet = nullptr;
@@ -157,6 +207,41 @@ TEST(Levels, ResetForgetsHowBusyTheMachineWas) {
   ASSERT_LT(tracker.result().lod, 4);
   ASSERT_EQ(tracker.tracker().reset(), MIEN_OK);
   EXPECT_EQ(tracker.push(circling_disc(0)).lod, 4);
+}
+
+// Each call of the clock, of which a frame has more the more it does, is as long as this.
+struct Clock {
+  std::uint64_t now = 0, step_ns = 0;
+};
+
+BlobTracker timed_tracker(Clock& clock, std::int32_t lod) {
+  return BlobTracker({}, [&clock, lod](mien_tracker_config& config) {
+    config.clock_user = &clock;
+    config.clock_ns = [](void* user) {
+      auto& read = *static_cast<Clock*>(user);
+      return read.now += read.step_ns;
+    };
+    config.lod = lod;
+  });
+}
+
+TEST(Levels, AutomaticGoesOnFromTheLevelBeforeAndKnowsNothingOfIt) {
+  Clock clock;
+  BlobTracker tracker = timed_tracker(clock, 4);
+  clock.step_ns = 50'000'000;  // much too long
+  int frame = 0;
+  for (; frame < 300; ++frame) {
+    EXPECT_EQ(tracker.push(circling_disc(frame)).lod, 4);
+  }
+  clock.step_ns = 1;
+  ASSERT_EQ(tracker.tracker().set_lod(0), MIEN_OK);
+  for (; frame < 400; ++frame) {
+    EXPECT_EQ(tracker.push(circling_disc(frame)).lod, 4);
+  }
+  ASSERT_EQ(tracker.tracker().set_lod(2), MIEN_OK);
+  (void)tracker.push(circling_disc(frame));
+  ASSERT_EQ(tracker.tracker().set_lod(0), MIEN_OK);
+  EXPECT_EQ(tracker.push(circling_disc(frame)).lod, 2);
 }
 
 // Milliseconds of a frame on each level, as a governor would measure them.

@@ -26,6 +26,7 @@ Controls all(float value) {
 
 Controls without_rest(Neutral& neutral, float value) {
   Controls controls = all(value);
+  neutral.observe(controls);
   neutral.take_out(controls);
   return controls;
 }
@@ -194,6 +195,31 @@ TEST(Calibration, WaitsForAFaceAndBeginsAnewWhenItIsLost) {
   (void)tracker.push_until_found(disc(0));
   EXPECT_EQ(push(disc(0), kCaptureFrames - 11), 0u);
   EXPECT_EQ(push(disc(0), 12), 1u);
+}
+
+// A capture that nobody waits for any more would take whatever is shown for a rest.
+TEST(Calibration, GoesOnAtTheLevelThatTheTrackerGoesOverTo) {
+  for (const auto& [from, to] : {std::pair{1, 4}, {4, 1}}) {
+    BlobTracker tracker = unfiltered(from);
+    (void)tracker.push(disc(0));
+    ASSERT_EQ(tracker.tracker().capture_neutral(), MIEN_OK);
+    for (int frame = 0; frame < 20; ++frame) {
+      EXPECT_TRUE(tracker.push(disc(frame)).flags & MIEN_RESULT_CAPTURING_NEUTRAL);
+    }
+    ASSERT_EQ(tracker.tracker().set_lod(to), MIEN_OK);
+    int counted = 0;
+    for (int frame = 0; frame < 100; ++frame) {
+      counted += (tracker.push(disc(frame)).flags & MIEN_RESULT_CAPTURING_NEUTRAL) != 0 ? 1 : 0;
+    }
+    EXPECT_NEAR(counted, kCaptureFrames, 1) << from << " to " << to;
+    ASSERT_EQ(tracker.tracker().set_lod(from), MIEN_OK);
+    for (int frame = 0; frame < 100; ++frame) {
+      EXPECT_FALSE(tracker.push(disc(frame)).flags & MIEN_RESULT_CAPTURING_NEUTRAL);
+    }
+    std::uint32_t captured = 0;
+    (void)saved(tracker, captured);
+    EXPECT_EQ(captured, to == 1 ? 1u : 2u) << from << " to " << to;
+  }
 }
 
 TEST(Calibration, WhatCannotBeIsRefused) {

@@ -314,6 +314,36 @@ TEST(Voice, TakesOverFromALostFaceWithoutAJump) {
   EXPECT_LT(steps.largest(69, 100), kJump) << "the face comes back";
 }
 
+// Controls of speech that one level leaves to the sound and the other does not.
+TEST(Voice, HandsOverBetweenLevelsWithoutAJump) {
+  const AlignedBytes blind = [] {
+    BlobOptions options;
+    options.supported_controls = 1;
+    return blob_basenet(options);
+  }();
+  for (const auto& [from, to] : {std::pair{1, 4}, {4, 1}}) {
+    const auto begin_at_from = [&, lod = from](mien_tracker_config& config) {
+      config.basenet = blind.get().data();
+      config.basenet_bytes = blind.get().size();
+      config.smoothing = 0;
+      config.lod = lod;
+    };
+    BlobTracker changed({}, begin_at_from), unchanged({}, begin_at_from);
+    const Sound sound = Sound().add(3.9, kLoud);
+    ASSERT_EQ(changed.tracker().push_audio(sound.all(), 0), MIEN_OK);
+    ASSERT_EQ(unchanged.tracker().push_audio(sound.all(), 0), MIEN_OK);
+    float difference = 0.0f;
+    for (int frame = 0; frame < 100; ++frame) {
+      if (frame == 40) {
+        ASSERT_EQ(changed.tracker().set_lod(to), MIEN_OK);
+      }
+      difference = largest_step(changed.push(disc()), unchanged.push(disc()));
+      EXPECT_TRUE(frame >= 45 || difference < 0.02f) << from << " to " << to << ", frame " << frame;
+    }
+    EXPECT_GT(difference, 0.1f) << "the levels do differ";
+  }
+}
+
 TEST(Voice, LetsGoWithoutAJumpWhenTheSoundStops) {
   BlobTracker blob;
   const Sound sound = Sound().add(1.0, kLoud);

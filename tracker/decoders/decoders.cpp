@@ -35,31 +35,57 @@ void Decoders::decode_controls(const Features& basenet, const Features& hifinet,
   if (!to_hifinet && !fade_.first_is_heard()) {
     basenet_controls_.reset();
   }
+  hand_over_capture(level);
   fade_.advance(to_hifinet, seconds);
   if (!fade_.second_is_heard()) {
-    decode_basenet(basenet, controls);
+    decode_basenet(basenet, !to_hifinet, controls);
     return;
   }
   if (!fade_.first_is_heard()) {
-    decode_hifinet(hifinet, controls);
+    decode_hifinet(hifinet, to_hifinet, controls);
     return;
   }
   std::array<float, kControls> first;
-  decode_basenet(basenet, first);
-  decode_hifinet(hifinet, controls);
+  decode_basenet(basenet, !to_hifinet, first);
+  decode_hifinet(hifinet, to_hifinet, controls);
   const float weight = fade_.weight();
   for (std::size_t i = 0; i < first.size(); ++i) {
     controls[i] = first[i] + weight * (controls[i] - first[i]);
   }
 }
 
-void Decoders::decode_basenet(const Features& features, std::span<float, kControls> controls) {
+// The decoder that fades out is of no more use to a capture than one that is silent.
+void Decoders::hand_over_capture(std::int32_t level) {
+  Neutral& other = neutral(level > kLowestLevel ? kLowestLevel : kHighestLevel);
+  if (other.is_being_captured()) {
+    other.give_up();
+    neutral(level).capture();
+  }
+}
+
+float Decoders::share_driven(std::size_t control) const {
+  const auto drives = [control](const ControlsDecoder& decoder) {
+    return static_cast<float>(decoder.supported() >> control & 1u);
+  };
+  const float weight = fade_.weight();
+  return (1.0f - weight) * drives(basenet_controls_) + weight * drives(hifinet_controls_);
+}
+
+void Decoders::decode_basenet(const Features& features, bool observed,
+                              std::span<float, kControls> controls) {
   basenet_controls_.decode(features, controls);
+  if (observed) {
+    basenet_neutral_.observe(controls);
+  }
   basenet_neutral_.take_out(controls);
 }
 
-void Decoders::decode_hifinet(const Features& features, std::span<float, kControls> controls) {
+void Decoders::decode_hifinet(const Features& features, bool observed,
+                              std::span<float, kControls> controls) {
   hifinet_controls_.decode(features, controls);
+  if (observed) {
+    hifinet_neutral_.observe(controls);
+  }
   hifinet_neutral_.take_out(controls);
 }
 

@@ -5,6 +5,7 @@
 #include <mien/mien.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -29,7 +30,8 @@ class Decoders {
   void reset(std::int32_t level);
 
   // One step, for one frame of output. When the level has changed between 1 and the others the
-  // controls go over from one decoder to the other within two seconds.
+  // controls go over from one decoder to the other within two seconds, and a capture of what is
+  // neutral begins anew with the other.
   void decode_controls(const Features& basenet, const Features& hifinet, std::int32_t level,
                        float seconds, std::span<float, kControls> controls);
 
@@ -44,13 +46,24 @@ class Decoders {
   // A prediction that is no pose leaves `pose` as it was.
   void decode_pose(const Features& basenet, const Crop& crop, const Camera& camera, HeadPose& pose);
 
+  // Bit i: the level drives control i.
   [[nodiscard]] std::uint64_t supported_controls(std::int32_t level) const {
     return level > kLowestLevel ? hifinet_controls_.supported() : basenet_controls_.supported();
   }
+  // Bit i: a decoder that is heard drives control i; while one hands over to the other both are.
+  [[nodiscard]] std::uint64_t heard_controls() const {
+    return (fade_.first_is_heard() ? basenet_controls_.supported() : 0) |
+           (fade_.second_is_heard() ? hifinet_controls_.supported() : 0);
+  }
+  // How much of a control comes from decoders that drive it, 0..1.
+  [[nodiscard]] float share_driven(std::size_t control) const;
 
  private:
-  void decode_basenet(const Features& features, std::span<float, kControls> controls);
-  void decode_hifinet(const Features& features, std::span<float, kControls> controls);
+  void decode_basenet(const Features& features, bool observed,
+                      std::span<float, kControls> controls);
+  void decode_hifinet(const Features& features, bool observed,
+                      std::span<float, kControls> controls);
+  void hand_over_capture(std::int32_t level);
 
   ControlsDecoder basenet_controls_;
   ControlsDecoder hifinet_controls_;

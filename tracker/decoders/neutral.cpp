@@ -12,6 +12,9 @@ void Neutral::set(std::span<const float, kControls> levels) {
 
 // The median of every control over the frames.
 void Neutral::observe(std::span<const float, kControls> controls) {
+  if (!is_being_captured()) {
+    return;
+  }
   if (frame_ >= 0) {
     for (std::size_t i = 0; i < controls.size(); ++i) {
       seen_[i][static_cast<std::size_t>(frame_)] =

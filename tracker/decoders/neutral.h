@@ -30,12 +30,13 @@ class Neutral {
   void capture() { frame_ = -kSettling; }
   // What was seen so far is of no use: a capture that is going on begins anew.
   void restart() { frame_ = is_being_captured() ? -kSettling : kFrames; }
+  // A capture that is going on is given up; what was captured before stays.
+  void give_up() { frame_ = kFrames; }
 
-  // One frame of controls: the rest becomes 0, and 1 stays 1, so that a blink keeps its range.
-  void take_out(std::span<float, kControls> controls) {
-    if (is_being_captured()) {
-      observe(controls);
-    }
+  // One frame of controls while it is being captured.
+  void observe(std::span<const float, kControls> controls);
+  // The rest becomes 0, and 1 stays 1, so that a blink keeps its range.
+  void take_out(std::span<float, kControls> controls) const {
     for (std::size_t i = 0; i < controls.size(); ++i) {
       controls[i] = std::max(0.0f, (controls[i] - levels_[i]) / (1.0f - levels_[i]));
     }
@@ -45,8 +46,6 @@ class Neutral {
   static constexpr std::int32_t kFrames = 45;    // so that a blink or two do not count
   static constexpr std::int32_t kSettling = 10;  // of the decoders
   static constexpr float kSteps = 65535.0f;
-
-  void observe(std::span<const float, kControls> controls);
 
   bool captured_ = false;
   std::int32_t frame_ = kFrames;  // of a measurement

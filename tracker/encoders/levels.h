@@ -39,6 +39,13 @@ class LevelGovernor {
 
   [[nodiscard]] std::int32_t level() const { return level_; }
 
+  // Goes on from this level, of whose cost nothing is known.
+  void begin_at(std::int32_t level) {
+    level_ = level;
+    since_change_ = 0.0f;
+    frames_ = 0;
+  }
+
   // A followed frame took `spent_ns`; `seconds` lie between it and the frame before.
   void account(std::uint64_t spent_ns, float seconds) {
     const float spent_ms = static_cast<float>(spent_ns) * 1e-6f;
@@ -49,9 +56,9 @@ class LevelGovernor {
       return;
     }
     if (mean_ms_ > budget_ms_ && level_ > kLowestLevel) {
-      change(level_ - 1);
+      begin_at(level_ - 1);
     } else if (level_ < highest_ && mean_ms_ * growth(level_) < kRoom * budget_ms_) {
-      change(level_ + 1);
+      begin_at(level_ + 1);
     }
   }
 
@@ -65,12 +72,6 @@ class LevelGovernor {
   [[nodiscard]] static constexpr float growth(std::int32_t level) {
     constexpr std::array<float, 3> kGrowth = {5.9f, 1.2f, 1.7f};
     return kGrowth[static_cast<std::size_t>(level - kLowestLevel)];
-  }
-
-  void change(std::int32_t level) {
-    level_ = level;
-    since_change_ = 0.0f;
-    frames_ = 0;
   }
 
   float budget_ms_;

@@ -82,8 +82,21 @@ bool Face::adopt(Frame& frame, const Sight& sight, std::uint32_t id) {
   return true;
 }
 
+void Face::lose_to(const ImageGeometry& before, const ImageGeometry& now) {
+  state_.followed = false;
+  if (!is_known()) {
+    return;
+  }
+  Crop& crop = state_.crop;
+  crop.center.x *= now.width / before.width;
+  crop.center.y *= now.height / before.height;
+  crop.side *= std::max(now.width, now.height) / std::max(before.width, before.height);
+}
+
 void Face::follow(Frame& frame) {
-  const bool alternate = state_.alternate && !frame.cut;
+  state_.looked_close = state_.looked_close && frame.level > kLowestLevel;
+  const bool may_rest = frame.level == kLowestLevel || state_.looked_close;
+  const bool alternate = state_.alternate && may_rest && !frame.cut;
   const EncoderWork work = encoder_work(frame.level, alternate);
   state_.alternate = false;
   if (!work.basenet) {
@@ -101,8 +114,10 @@ void Face::follow(Frame& frame) {
   miss(frame);
 }
 
-// Until the face counts as lost the decoders go on with what was last seen of it.
+// Until the face counts as lost the decoders go on with what was last seen of it. The next image is
+// judged, since misses are those in a row.
 void Face::miss(const Frame& frame) {
+  state_.alternate = false;
   ++state_.misses;
   state_.followed = !frame.cut && state_.misses < config_.lose_after_frames;
 }
@@ -134,6 +149,7 @@ void Face::look_closely(Frame& frame) {
   if (!encoders_.hifinet.look(frame.view, state_.crop, frame.timer, close)) {
     return;
   }
+  state_.looked_close = true;
   state_.close = close.features;
   const float side = state_.crop.side;
   std::transform(close.landmarks.begin(), close.landmarks.end(), state_.sight.landmarks.begin(),
@@ -201,14 +217,27 @@ void Face::fade(float seconds) {
   }
 }
 
-void Face::publish(const ImageView& view) {
+std::array<float, kControls> Face::seen_controls() const {
+  std::array<float, kControls> seen;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    seen[i] = state_.presence * decoders_.share_driven(i);
+  }
+  return seen;
+}
+
+void Face::publish(const Frame& frame) {
+  const ImageView& view = frame.view;
   mien_result& result = result_;
   result.status = state_.status;
   result.face_id = state_.id;
   result.flags |= std::exchange(state_.flags, 0);
   result.face_probability = state_.face_probability;
+  result.supported_controls = supported_controls(frame.level);
   const Appearance& shown = state_.shown;
-  std::copy(shown.controls.begin(), shown.controls.end(), result.controls);
+  for (std::size_t i = 0; i < shown.controls.size(); ++i) {
+    const bool driven = (result.supported_controls >> i & 1u) != 0;
+    result.controls[i] = driven ? shown.controls[i] : 0.0f;  // smoothing never quite arrives at 0
+  }
   if (!state_.followed) {
     return;
   }

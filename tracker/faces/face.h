@@ -39,6 +39,9 @@ struct Appearance {
 
 class Face {
  public:
+  // After it was lost: its id waits for it, and its controls have faded.
+  static constexpr float kRememberedSeconds = 2.0f;
+
   // Both must outlive the face.
   Face(const mien_tracker_config& config, Encoders& encoders)
       : config_(config), encoders_(encoders) {}
@@ -60,14 +63,17 @@ class Face {
   [[nodiscard]] const Neutral& neutral(std::int32_t level) const {
     return decoders_.neutral(level);
   }
+  // Bit i: control i is driven, at this level or by what still fades out of another.
   [[nodiscard]] std::uint64_t supported_controls(std::int32_t level) const {
-    return decoders_.supported_controls(level);
+    const bool shows = is_known() && seconds_lost() < kRememberedSeconds;
+    return decoders_.supported_controls(level) | (shows ? decoders_.heard_controls() : 0);
   }
 
   // Forgets everything.
   void reset(std::int32_t level);
-  // It is followed no more.
-  void lose() { state_.followed = false; }
+  // Pixels mean other places than before: it is followed no more, and what is known of its place
+  // is brought over.
+  void lose_to(const ImageGeometry& before, const ImageGeometry& now);
   // The decoders begin anew: the film was cut.
   void cut(std::int32_t level) { decoders_.reset(level); }
 
@@ -83,13 +89,13 @@ class Face {
   void follow(Frame& frame);
   // It was not seen on this frame.
   void miss(const Frame& frame);
-  // How much it is there, 0..1: comes and goes within a few frames.
-  [[nodiscard]] float presence() const { return state_.presence; }
+  // How much the picture says of each control, 0..1: the face comes and goes within a few frames.
+  [[nodiscard]] std::array<float, kControls> seen_controls() const;
   // One frame of output: controls move on if it is followed, and fade if not.
   void animate(Frame& frame);
 
   // Fills in what is the face's own. Once per frame.
-  void publish(const ImageView& view);
+  void publish(const Frame& frame);
   [[nodiscard]] const mien_result& result() const { return result_; }
   [[nodiscard]] mien_result& result() { return result_; }
 
@@ -98,6 +104,7 @@ class Face {
     std::uint32_t id = 0;
     bool followed = false;      // `crop` and `sight` are a face
     bool alternate = false;     // the next frame is one on which encoders may rest
+    bool looked_close = false;  // HiFiNet did, since the level was 1
     std::int32_t misses = 0;    // judged frames in a row without the face
     Crop crop;                  // where to look next
     Sight sight;                // the last time the face was seen

@@ -11,14 +11,13 @@ namespace {
 
 constexpr float kSamePlace = 0.4f;  // of the larger side, between the centres of one face
 constexpr float kNear = 1.0f;       // the same of a face that moved while it was lost
-constexpr float kRememberedSeconds = 2.0f;
 
 float distance(const Square& a, const Square& b) {
   return std::hypot(a.center.x - b.center.x, a.center.y - b.center.y) / std::max(a.side, b.side);
 }
 
 bool was_lost_here(const Face& face, const Square& square) {
-  return face.is_known() && !face.is_followed() && face.seconds_lost() < kRememberedSeconds &&
+  return face.is_known() && !face.is_followed() && face.seconds_lost() < Face::kRememberedSeconds &&
          distance(face.square(), square) < kNear;
 }
 
@@ -126,7 +125,7 @@ void Faces::forget_lost(std::int32_t level) {
   for (Face& face : faces_) {
     const bool is_last = known(1) == nullptr;
     if (!is_last && face.is_known() && !face.is_followed() &&
-        face.seconds_lost() > kRememberedSeconds) {
+        face.seconds_lost() > Face::kRememberedSeconds) {
       face.reset(level);
     }
   }

@@ -48,15 +48,14 @@ std::uint64_t Mixer::driven() const {
   return driven;
 }
 
-void Mixer::mix(const Heard& heard, std::uint64_t seen, float presence,
+void Mixer::mix(const Heard& heard, std::span<const float, kControls> seen,
                 std::span<float, kControls> controls) const {
   for (std::size_t i = 0; i < kControls; ++i) {
     if (weights_.audio[i] <= 0.0f) {
       continue;
     }
-    const float there = (seen >> i & 1u) != 0 ? presence : 0.0f;
-    const float audio = 1.0f + there * (weights_.audio[i] - 1.0f);
-    const float video = there * weights_.video[i];
+    const float audio = 1.0f + seen[i] * (weights_.audio[i] - 1.0f);
+    const float video = seen[i] * weights_.video[i];
     const float mixed = audio * heard.controls[i] + video * controls[i];
     controls[i] = std::clamp(controls[i] + heard.alpha * (mixed - controls[i]), 0.0f, 1.0f);
   }

@@ -35,9 +35,8 @@ class Mixer {
   // Bit i: sound drives control i.
   [[nodiscard]] std::uint64_t driven() const;
 
-  // Mixes what is heard into `controls`. `seen`: bit i: the picture drives control i; `presence`,
-  // 0..1: how much the face is there.
-  void mix(const Heard& heard, std::uint64_t seen, float presence,
+  // Mixes what is heard into `controls`. `seen`, 0..1: how much the picture says of each.
+  void mix(const Heard& heard, std::span<const float, kControls> seen,
            std::span<float, kControls> controls) const;
 
  private:
