@@ -51,6 +51,7 @@ export interface Image {
   data?: Uint8Array | Uint8ClampedArray;
   planes?: (Uint8Array | Uint8ClampedArray)[];
   rowStrideBytes?: number[];
+  /** I420: from one sample of U or V to the next; 0 means 1. */
   chromaPixelStrideBytes?: number;
   rotation?: 0 | 90 | 180 | 270;
   mirrored?: boolean;

@@ -37,8 +37,8 @@ const imageNames = {
   chromaPixelStrideBytes: 'chroma_pixel_stride_bytes', rotation: 'rotation', mirrored: 'mirrored', fullRange: 'full_range',
   focalLengthPx: 'focal_length_px', principalX: 'principal_x', principalY: 'principal_y', bt709: 'yuv_matrix'};
 
-// Rows and bytes of a row of every plane of an image without padding.
-function planeSizes(format, width, height) {
+// Rows and bytes of a row of every plane of an image without padding. `step`: from one sample of I420's U or V to the next.
+function planeSizes(format, width, height, step) {
   const half = {width: (width + 1) >> 1, height: (height + 1) >> 1};
   const luma = {row: width, rows: height};
   switch (format) {
@@ -46,7 +46,10 @@ function planeSizes(format, width, height) {
     case 'rgb': case 'bgr': return [{row: width * 3, rows: height}];
     case 'rgba': case 'bgra': return [{row: width * 4, rows: height}];
     case 'nv12': case 'nv21': return [luma, {row: half.width * 2, rows: half.height}];
-    case 'i420': return [luma, {row: half.width, rows: half.height}, {row: half.width, rows: half.height}];
+    case 'i420': {
+      const chroma = {row: (half.width - 1) * (step || 1) + 1, rows: half.height};
+      return [luma, chroma, chroma];
+    }
     default: throw new MienError(`'${format}' is no image format`, -60);
   }
 }
@@ -100,7 +103,7 @@ export class Tracker {
   }
 
   pushVideo(image, ptsNs) {
-    const {format = 'rgba', width, height} = image, sizes = planeSizes(format, width, height);
+    const {format = 'rgba', width, height} = image, sizes = planeSizes(format, width, height, image.chromaPixelStrideBytes);
     const planes = image.planes ?? this.split(image.data, sizes);
     const strides = image.rowStrideBytes ?? sizes.map(({row}) => row);
     const used = planes.map((plane, i) => Math.min(plane.byteLength, strides[i] * sizes[i].rows));

@@ -80,13 +80,18 @@ class Page {
       return;
     }
     say('Opening …');
+    $('camera').disabled = true;
+    const opening = how(), {generation} = this.source;
+    const isStale = () => generation !== this.source.generation;  // something else was opened, or this one stopped
     try {
-      const missing = await how();
+      const missing = await opening;
+      if (isStale()) return;
       this.tracking.reset();
       this.setRunning(true);
       this.openedAt = performance.now();
       this.missing = missing ? `, without ${missing}` : '';
     } catch (error) {
+      if (isStale()) return;
       this.stop();
       say(error.message, true);
     }
@@ -110,6 +115,7 @@ class Page {
     this.running = running;
     $('stop').hidden = !running;
     $('camera').hidden = running;
+    $('camera').disabled = false;
     $('preview').hidden = !running || !this.source.hasPictures;
     for (const id of ['calibrate', 'record']) $(id).disabled = !running;
   }

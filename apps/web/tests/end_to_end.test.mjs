@@ -147,6 +147,101 @@ test('a voice alone moves the mouth', async () => {
   await context.close();
 });
 
+// From now on the camera is waited for until the page's `grant` is called; `tracks` are what it gave.
+const holdCamera = page => page.evaluate(() => {
+  const {mediaDevices} = navigator, give = mediaDevices.getUserMedia.bind(mediaDevices);
+  const granted = new Promise(done => { window.grant = done; });
+  window.tracks = [];
+  mediaDevices.getUserMedia = async wish => {
+    await granted;
+    const stream = await give(wish);
+    window.tracks.push(...stream.getTracks());
+    return stream;
+  };
+});
+const liveTracks = page => page.evaluate(() => window.tracks.filter(({readyState}) => readyState === 'live').length);
+
+test('a file chosen while the browser asks for the camera is what plays, and the camera goes off', async () => {
+  const {page, context, complaints} = await openPage(studio);
+  await holdCamera(page);
+  await page.click('#camera');
+  assert.ok(await page.isDisabled('#camera'));
+  await page.setInputFiles('#file', clip);
+  await following(page);
+  await page.evaluate(() => window.grant());
+  await until(page, () => window.tracks.length === 2 && window.tracks.every(({readyState}) => readyState === 'ended'));
+  await following(page);
+  assert.ok(await page.evaluate(() => !window.page.source.video.srcObject && !window.page.source.video.paused));
+  await page.click('#stop');
+  await until(page, () => document.getElementById('status').textContent === 'Stopped.');
+  assert.ok(await page.isEnabled('#camera'));
+  assert.deepEqual(complaints, []);
+  await context.close();
+});
+
+test('a camera that is refused while a file plays changes nothing', async () => {
+  const {page, context, complaints} = await openPage(studio);
+  await page.evaluate(() => {
+    const refused = new Promise((_, refuse) => { window.refuse = () => refuse(new DOMException('', 'NotAllowedError')); });
+    navigator.mediaDevices.getUserMedia = () => refused;
+  });
+  await page.click('#camera');
+  await page.setInputFiles('#file', clip);
+  await following(page);
+  await page.evaluate(() => window.refuse());
+  await following(page);
+  assert.ok(await page.isVisible('#stop'));
+  assert.deepEqual(complaints, []);
+  await context.close();
+});
+
+test('of two cameras opened at once the later stays, and Stop ends it', async () => {
+  const {page, context, complaints} = await openPage(studio);
+  await holdCamera(page);
+  await page.evaluate(() => {
+    for (let i = 0; i < 2; ++i) window.page.open(() => window.page.source.openCamera());
+    window.grant();
+  });
+  await following(page);
+  await until(page, () => window.tracks.length === 4);
+  assert.equal(await liveTracks(page), 2);
+  await page.click('#stop');
+  assert.equal(await liveTracks(page), 0);
+  assert.deepEqual(complaints, []);
+  await context.close();
+});
+
+test('of two files opened at once the later gives each picture once', async () => {
+  const {page, context, complaints} = await openPage(studio);
+  await page.evaluate(() => {
+    const {sound} = window.page.source, listen = sound.listen.bind(sound);
+    const granted = new Promise(done => { window.grant = done; });
+    sound.listen = async (...what) => {  // the first waits here
+      sound.listen = listen;
+      window.held = true;
+      await granted;
+      return listen(...what);
+    };
+  });
+  await page.setInputFiles('#file', clip);
+  await until(page, () => window.held);
+  await page.evaluate(() => { document.getElementById('file').value = ''; });  // the same file is no change
+  await page.setInputFiles('#file', clip);
+  await following(page);
+  const times = await page.evaluate(() => new Promise(done => {
+    const {tracking} = window.page, push = tracking.push.bind(tracking), times = [];
+    window.grant();
+    tracking.push = (frame, timeMs) => {
+      times.push(timeMs);
+      push(frame, timeMs);
+      if (times.length === 40) done(times);
+    };
+  }));
+  assert.equal(new Set(times).size, times.length);
+  assert.deepEqual(complaints, []);
+  await context.close();
+});
+
 test('a file that is none is refused in words', async () => {
   const {page, context} = await openPage(studio);
   await page.setInputFiles('#file', {name: 'note.mp4', mimeType: 'video/mp4', buffer: Buffer.from('no video')});

@@ -36,7 +36,7 @@ namespace Mien
         public float PrincipalX, PrincipalY;
         /// <summary>I420: bytes from one sample of U or V to the next; 0 means 1.</summary>
         public int ChromaPixelStrideBytes;
-        /// <summary>Bottom row first in memory, as Unity's textures have it; of one plane.</summary>
+        /// <summary>Bottom row first in memory, as Unity's textures have it; of one plane. Native planes then begin with that row, too.</summary>
         public bool BottomUp;
 
         byte[] array;
@@ -84,6 +84,7 @@ namespace Mien
             {
                 planes.CopyTo(raw.planes, 0);
                 strides.CopyTo(raw.row_stride_bytes, 0);
+                if (BottomUp) BeginAtTheTop(ref raw);
                 look(raw);
                 return;
             }
@@ -91,6 +92,7 @@ namespace Mien
             try
             {
                 LieOneBehindTheOther(ref raw, pin.AddrOfPinnedObject());
+                if (BottomUp) BeginAtTheTop(ref raw);
                 look(raw);
             }
             finally
@@ -102,20 +104,25 @@ namespace Mien
         void LieOneBehindTheOther(ref Native.mien_image raw, IntPtr place)
         {
             long chromaWidth = ((long)Width + 1) / 2, chromaHeight = ((long)Height + 1) / 2;
+            long chromaRow = Format == PixelFormat.I420 ? (chromaWidth - 1) * Math.Max(ChromaPixelStrideBytes, 1) + 1 : 2 * chromaWidth;
             long[] rows = Format < PixelFormat.Nv12 ? new[] { (long)Height } : Format == PixelFormat.I420
                 ? new[] { Height, chromaHeight, chromaHeight } : new[] { Height, chromaHeight };
             long first = 0;
             for (int i = 0; i < rows.Length; ++i)
             {
-                long stride = i == 0 ? (long)Width * PixelBytes() : Format == PixelFormat.I420 ? chromaWidth : 2 * chromaWidth;
+                long stride = i == 0 ? (long)Width * PixelBytes() : chromaRow;
                 raw.planes[i] = new IntPtr(place.ToInt64() + first);
                 raw.row_stride_bytes[i] = (int)stride;
                 first += stride * rows[i];
             }
             if (array.Length < first)
                 throw new ArgumentException("a picture of " + Width + " x " + Height + " " + Format + " has " + first + " bytes, not " + array.Length);
-            if (!BottomUp) return;
-            if (rows.Length > 1) throw new ArgumentException("YUV is not taken bottom-up");
+        }
+
+        /// <summary>mien.h wants the top row's first byte, and a negative way to the next row.</summary>
+        void BeginAtTheTop(ref Native.mien_image raw)
+        {
+            if (Format >= PixelFormat.Nv12) throw new ArgumentException("YUV is not taken bottom-up");
             raw.planes[0] = new IntPtr(raw.planes[0].ToInt64() + (Height - 1L) * raw.row_stride_bytes[0]);
             raw.row_stride_bytes[0] = -raw.row_stride_bytes[0];
         }

@@ -83,18 +83,24 @@ class ClipTest
 
     public void NativeMemoryIsReadWhereItLies()
     {
+        NativeMemoryIsRead(false);
+    }
+
+    public void NativeMemoryMayBeBottomUp()
+    {
+        NativeMemoryIsRead(true);
+    }
+
+    void NativeMemoryIsRead(bool bottomUp)
+    {
         const int stride = Width * 3 + 32;
         IntPtr memory = Marshal.AllocHGlobal(stride * Height);
-        using (var tracker = new Tracker(weights, new TrackerOptions { Lod = 1, Sound = false }))
+        Same(frame =>
         {
-            FaceResult last = null;
-            for (int i = 0; i < 10; ++i)
-            {
-                for (int row = 0; row < Height; ++row) Marshal.Copy(frames[i], row * Width * 3, new IntPtr(memory.ToInt64() + row * stride), Width * 3);
-                last = tracker.Track(new Image(PixelFormat.Rgb, Width, Height, new[] { memory }, new[] { stride }), i / Rate);
-            }
-            Assert.Near(reference.Landmarks, last.Landmarks, 0);
-        }
+            for (int row = 0; row < Height; ++row)
+                Marshal.Copy(frame, (bottomUp ? Height - 1 - row : row) * Width * 3, new IntPtr(memory.ToInt64() + row * stride), Width * 3);
+            return new Image(PixelFormat.Rgb, Width, Height, new[] { memory }, new[] { stride }) { BottomUp = bottomUp };
+        }, 0, 0);
         Marshal.FreeHGlobal(memory);
     }
 
@@ -104,6 +110,11 @@ class ClipTest
         {
             Assert.Throws<ArgumentException>(() => tracker.Track(new Image(PixelFormat.Rgb, Width, Height, new byte[FrameBytes - 1]), 0));
             Assert.Throws<ArgumentException>(() => tracker.Track(new Image(PixelFormat.I420, 3, 3, new byte[16]), 0));
+            Func<int, Image> apart = bytes => new Image(PixelFormat.I420, 8, 2, new byte[bytes]) { ChromaPixelStrideBytes = 4 };
+            Assert.Throws<ArgumentException>(() => tracker.Track(apart(16 + 2 * 13 - 1), 0));
+            tracker.Track(apart(16 + 2 * 13), 0);
+            var yuv = new Image(PixelFormat.Nv12, 8, 2, new[] { IntPtr.Zero, IntPtr.Zero }, new[] { 8, 8 }) { BottomUp = true };
+            Assert.Throws<ArgumentException>(() => tracker.Track(yuv, 0));
             Assert.Refuses(Status.ImageSize, () => tracker.Track(new Image(PixelFormat.Gray8, 0, 0, new byte[0]), 0));
             Assert.Refuses(Status.ImageRotation, () => tracker.Track(new Image(PixelFormat.Rgb, Width, Height, frames[0]) { Rotation = 45 }, 0));
             Assert.Refuses(Status.NoAudionet, () => tracker.PushAudio(new float[10], 0));

@@ -100,6 +100,11 @@ test('what is wrong is said with its status', () => {
   fails(-60, () => tracker.pushVideo({format: 'cmyk', width, height, data: new Uint8Array(4)}, 0));
   fails(-63, () => tracker.pushVideo({width, height, data: new Uint8Array(100)}, 0));
   fails(-62, () => tracker.pushVideo({width, height, planes: [new Uint8Array(width * height * 4)], rowStrideBytes: [width]}, 0));
+  const apart = bytes => ({
+    format: 'i420', width: 8, height: 2, chromaPixelStrideBytes: 4, rowStrideBytes: [8, 13, 13],
+    planes: [new Uint8Array(16), new Uint8Array(bytes), new Uint8Array(bytes)]});  // four samples of U, each 4 bytes from the one before
+  fails(-63, () => tracker.pushVideo(apart(12), 0));
+  tracker.pushVideo(apart(13), 0);
   fails(-61, () => tracker.pushVideo({width: 0, height: 0, data: new Uint8Array(0)}, 0));
   fails(-9, () => tracker.pushAudio(new Float32Array(160), {sampleRate: 16000}, 0));
   fails(-7, () => tracker.setLod(4));

@@ -1,4 +1,6 @@
+import os
 import shutil
+import subprocess
 import wave
 
 import mien
@@ -22,16 +24,75 @@ def test_it_is_read_while_rows_are_taken(clip):
     rows.close()
 
 
-def test_a_voice(tmp_path):
-    path = tmp_path / "voice.wav"
+def voice(folder):
+    path = folder / "voice.wav"
     with wave.open(str(path), "wb") as file:
         file.setnchannels(1)
         file.setsampwidth(2)
         file.setframerate(16000)
         t = np.arange(16000) / 16000
         file.writeframes((8000 * np.sign(np.sin(2 * np.pi * 130 * t)) * (t % 0.25 < 0.15)).astype(np.int16).tobytes())
-    rows = list(mien.track_file(path))
+    return path
+
+
+def ffmpeg(*options):
+    subprocess.run(["ffmpeg", "-v", "error", *map(str, options)], check=True)
+
+
+def test_a_voice(tmp_path):
+    rows = list(mien.track_file(voice(tmp_path)))
     assert len(rows) == 30 and all(row["status"] == "searching" for row in rows)
+    with pytest.raises(mien.MienError, match="no pictures"):
+        list(mien.track_file(tmp_path / "voice.wav", sound=False))
+
+
+def test_a_cover_is_no_film(tmp_path):
+    song = tmp_path / "song.flac"
+    cover = ["-f", "lavfi", "-i", "color=red:size=64x64:rate=1:duration=1"]
+    ffmpeg("-i", voice(tmp_path), *cover, "-map", "0", "-map", "1", "-c:v", "png", "-disposition:v", "attached_pic", song)
+    assert len(list(mien.track_file(song))) == 30
+
+
+def test_a_voice_that_begins_late(tmp_path, clip):
+    speech, film = tmp_path / "speech.wav", tmp_path / "late.mp4"
+    ffmpeg("-i", clip, "-vn", "-t", "2", speech)
+    black = ["-f", "lavfi", "-i", "color=black:size=64x64:rate=30:duration=3"]
+    ffmpeg(*black, "-itsoffset", "1", "-i", speech, "-c:a", "aac", film)
+    heard = [[row["voice_activity"] for row in mien.track_file(path)] for path in (speech, film)]
+    assert len(heard[0]) == 60 and max(heard[0]) > 0.9
+    assert np.abs(np.subtract(heard[1][:90], [0] * 30 + heard[0])).max() < 0.2
+
+
+def test_damaged_films(tmp_path, clip):
+    for container, fault in (("mp4", r"\d+ frames of 240: .*partial file"), ("mkv", r"\d+ frames of 2\d\d")):
+        whole, damaged = tmp_path / f"whole.{container}", tmp_path / f"damaged.{container}"
+        ffmpeg("-i", clip, "-c", "copy", "-movflags", "faststart", whole)
+        damaged.write_bytes(whole.read_bytes()[:80000])
+        rows = mien.track_file(damaged, lod=1)
+        with pytest.raises(mien.MienError, match="truncated after " + fault):
+            for number, row in enumerate(rows):
+                assert abs(row["time_s"] - number / 30) < 1e-6
+        assert number > 30
+    cut = tmp_path / "cut.mp4"  # its pictures before the cut are there, and are not shown
+    ffmpeg("-ss", "1.5", "-i", clip, "-t", "1", "-c", "copy", cut)
+    assert len(list(mien.track_file(cut, lod=1))) >= 30
+
+
+def test_what_ffmpeg_says_is_handed_on(tmp_path, clip, monkeypatch):
+    program = tmp_path / "ffmpeg"
+    program.write_text(f'#!/bin/sh\n{shutil.which("ffmpeg")} "$@"\necho "it fell ill" >&2\nexit 3\n')
+    program.chmod(0o755)
+    monkeypatch.setenv("PATH", str(tmp_path), prepend=os.pathsep)
+    with pytest.raises(mien.MienError, match="truncated after 240 frames of 240: it fell ill"):
+        list(mien.track_file(clip, lod=1, sound=False))
+    with pytest.raises(mien.MienError, match="the sound is damaged: it fell ill"):
+        list(mien.track_file(clip, lod=1))
+
+
+def test_a_name_is_a_name(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    voice(tmp_path).rename("10:30.wav")
+    assert len(list(mien.track_file("10:30.wav"))) == 30
 
 
 def test_what_is_no_film(tmp_path, monkeypatch):

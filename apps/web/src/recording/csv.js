@@ -1,4 +1,5 @@
 // Curves as `mien track` writes them: docs/cli.md, Curves.
+import {isFollowed} from './recording.js';
 
 const fixed = ['frame', 't_ms', 'status', 'face_prob', 'lod', 'vad', 'x', 'y', 'w', 'h', 'pitch_rad', 'yaw_rad', 'roll_rad', 'tx_m', 'ty_m', 'tz_m'];
 // As few digits as give the same float back.
@@ -12,7 +13,7 @@ const shortest = value => {
 
 export function curvesCsv(frames, names) {
   const rows = frames.map((frame, i) => {
-    const seen = frame.status !== 'searching';
+    const seen = isFollowed(frame);
     const pose = [...frame.box, frame.pitch, frame.yaw, frame.roll, ...frame.translation];
     return [i, Number(frame.tMs.toFixed(4)), frame.status, shortest(frame.faceProbability), frame.lod, shortest(frame.voiceActivity),
             ...pose.map(value => (seen ? shortest(value) : '')),

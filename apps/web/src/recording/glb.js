@@ -1,6 +1,6 @@
 // glTF 2.0, binary: morph weights of a small triangle whose 52 targets move nothing, and turns of head and eyes, so that a
 // program for animation shows named curves. Nodes: root > head > leftEye, rightEye, face.
-import {gaze} from './recording.js';
+import {gaze, isFollowed} from './recording.js';
 
 const float = 5126, leftEye = 2, rightEye = 3, face = 4, head = 1;
 
@@ -42,7 +42,7 @@ function animation(frames, names, floats) {
     samplers.push({input, output: floats.add(values, type), interpolation: 'LINEAR'});
     channels.push({sampler: samplers.length - 1, target: {node, path}});
   };
-  const seen = frames.filter(({status}) => status !== 'searching'), eyes = frames.map(({controls}) => gaze(controls, names));
+  const seen = frames.filter(isFollowed), eyes = frames.map(({controls}) => gaze(controls, names));
   channel(frames, face, 'weights', frames.flatMap(({controls}) => [...controls]), 'SCALAR');
   channel(seen, head, 'rotation', seen.flatMap(({rotation}) => unit([...rotation])), 'VEC4');
   channel(seen, head, 'translation', seen.flatMap(({translation}) => [...translation]), 'VEC3');

@@ -28,6 +28,9 @@ export class Recording {
   get seconds() { return this.frames.length ? this.frames.at(-1).tMs / 1000 : 0; }
 }
 
+// Box and pose of other frames are where the face was last.
+export const isFollowed = ({status}) => status === 'tracking';
+
 // Where the eyes look, radians; 0.485 is a control at 1.
 export function gaze(controls, names) {
   const of = name => controls[names.indexOf(name)], full = 0.485;

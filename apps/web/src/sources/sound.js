@@ -6,8 +6,16 @@ export class Sound {
     this.elements = new WeakMap();  // an element can be taken up once only
   }
 
-  async prepare() {
-    if (this.context) return;
+  // Once, whoever asks meanwhile; again after a failure.
+  prepare() {
+    this.prepared ??= this.makeNode().catch(error => {
+      this.prepared = null;
+      throw error;
+    });
+    return this.prepared;
+  }
+
+  async makeNode() {
     const context = new AudioContext({latencyHint: 'interactive'});
     await context.audioWorklet.addModule(new URL('microphone_worklet.js', document.baseURI));
     const node = new AudioWorkletNode(context, 'mien-microphone', {numberOfInputs: 1, numberOfOutputs: 0});

@@ -1,4 +1,5 @@
-// Where pictures and sound come from: camera and microphone, or a file. One at a time.
+// Where pictures and sound come from: camera and microphone, or a file. One at a time: what is opened or closed makes all earlier
+// openings stale (`generation`), and what these still wait for is given back or left alone.
 
 const cameraWish = {width: {ideal: 640}, height: {ideal: 480}, frameRate: {ideal: 30}, facingMode: 'user'};
 const microphoneWish = {echoCancellation: false, noiseSuppression: false, autoGainControl: true};
@@ -12,24 +13,20 @@ export class Source {
 
   // Either camera or microphone may be missing; with both missing the camera's error is thrown.
   async openCamera() {
-    this.close();
+    const mine = this.close();
     const {stream, missing} = await openDevices();
+    if (mine !== this.generation) return stopTracks(stream);
     this.stream = stream;
     this.video.muted = true;
     this.video.srcObject = stream.getVideoTracks().length ? stream : null;
     for (const track of stream.getTracks()) track.addEventListener('ended', () => this.onEnd?.(`the ${track.kind === 'video' ? 'camera' : 'microphone'} is gone`));
     if (stream.getAudioTracks().length) await this.sound.listen(stream, false);
-    if (this.video.srcObject) {
-      await this.video.play();
-      this.pumpFrames();
-    } else {
-      this.pumpTicks(() => true);
-    }
+    await this.start(mine);
     return missing;
   }
 
   async openFile(file) {
-    this.close();
+    const mine = this.close();
     this.url = URL.createObjectURL(file);
     this.video.muted = false;
     this.video.src = this.url;
@@ -38,54 +35,66 @@ export class Source {
       this.video.onloadeddata = done;
       this.video.onerror = () => failed(new Error(`${file.name}: this browser cannot play it`));
     });
+    if (mine !== this.generation) return;
     await this.sound.listen(this.video, true);
-    await this.video.play();
-    if (this.hasPictures) this.pumpFrames(); else this.pumpTicks(() => !this.video.paused);
+    await this.start(mine);
   }
 
+  async start(mine) {
+    if (mine !== this.generation) return;
+    if (this.url || this.video.srcObject) await this.video.play();
+    if (this.hasPictures) this.pumpFrames(mine); else this.pumpTicks(mine);
+  }
+
+  // Returns the generation of what is opened next.
   close() {
     ++this.generation;
     this.sound.stop();
-    for (const track of this.stream?.getTracks() ?? []) track.stop();
+    if (this.stream) stopTracks(this.stream);
     this.video.pause();
     this.video.srcObject = this.stream = null;
     this.video.removeAttribute('src');
     this.video.load();  // forgets what was shown
     if (this.url) URL.revokeObjectURL(this.url);
     this.url = null;
+    return this.generation;
   }
 
   get hasPictures() { return Boolean(this.video.srcObject || this.video.videoWidth); }
 
   // Each picture as it is shown, at the time it was taken.
-  pumpFrames() {
-    const {generation, video} = this;
+  pumpFrames(mine) {
+    const {video} = this;
     const next = video.requestVideoFrameCallback ?
       callback => video.requestVideoFrameCallback(callback) : callback => requestAnimationFrame(now => callback(now, {}));
     const each = async (now, {captureTime, mediaTime}) => {
-      if (generation !== this.generation) return;
+      if (mine !== this.generation) return;
       next(each);
       if (video.readyState < 2 || (mediaTime === undefined && video.currentTime === this.shownAt)) return;
       this.shownAt = video.currentTime;
       const timeMs = captureTime ?? now;
-      if (!this.tracking.idle) ++this.tracking.dropped;
-      else this.tracking.push(await pictureOf(video, timeMs), timeMs);
+      if (!this.tracking.idle) return ++this.tracking.dropped;
+      const picture = await pictureOf(video, timeMs);
+      if (mine === this.generation) this.tracking.push(picture, timeMs); else picture.close();
     };
     next(each);
   }
 
   // Sound without pictures still moves the mouth.
-  pumpTicks(isOn) {
-    const {generation} = this;
+  pumpTicks(mine) {
     const timer = setInterval(() => {
-      if (generation !== this.generation) return clearInterval(timer);
-      if (isOn()) this.tracking.advance(performance.now() - 50);
+      if (mine !== this.generation) return clearInterval(timer);
+      if (this.stream || !this.video.paused) this.tracking.advance(performance.now() - 50);
     }, tick_ms);
   }
 }
 
 const pictureOf = (video, timeMs) =>
   (window.VideoFrame ? new VideoFrame(video, {timestamp: Math.round(timeMs * 1000)}) : createImageBitmap(video));
+
+function stopTracks(stream) {
+  for (const track of stream.getTracks()) track.stop();
+}
 
 async function openDevices() {
   const devices = navigator.mediaDevices;

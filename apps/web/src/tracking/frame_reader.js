@@ -1,5 +1,5 @@
 // Pictures of the browser to what the tracker takes: a VideoFrame as it lies in memory where that is a format of mien's, and
-// through a canvas else.
+// through a canvas else. One at a time: the memory is the next one's, too.
 
 const formats = {I420: 'i420', NV12: 'nv12', RGBA: 'rgba', RGBX: 'rgba', BGRA: 'bgra', BGRX: 'bgra'};
 

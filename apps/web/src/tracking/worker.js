@@ -77,4 +77,6 @@ async function guarded(action) {
   }
 }
 
-onmessage = ({data}) => guarded(() => handlers[data.type](data));
+// One after another: while a picture is read, the next one would be read into the same memory, and be tracked first.
+let last = Promise.resolve();
+onmessage = ({data}) => { last = last.then(() => guarded(() => handlers[data.type](data))); };

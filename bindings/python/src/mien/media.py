@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import shutil
-import subprocess
 from pathlib import Path
-from typing import IO, Iterable, Iterator, Union
+from typing import Iterable, Iterator, Union
 
 import numpy as np
 import numpy.typing as npt
 
+from ._ffmpeg import SOUND_RATE, pictures, samples, streams
 from .errors import MienError
 from .result import Result
 from .tracker import Lod, Tracker
@@ -17,7 +17,6 @@ from .vocabulary import CONTROL_NAMES
 
 Row = dict[str, Union[int, float, str]]
 
-_SOUND_RATE = 16000
 _SOUND_AHEAD_S = 0.1  # a frame takes sound that ends 42 ms after it
 _FRAMES_A_SECOND = 30.0  # of sound without pictures
 
@@ -26,10 +25,12 @@ def track_file(path: Union[str, Path], *, lod: Lod = 4, sound: bool = True, smoo
     """A row for every frame of a film, picture and sound together; of a file without pictures 30 a second.
 
     A row has time_s, status, face_id, face_probability, voice_activity, x, y, width, height (the face's box), pitch, yaw, roll,
-    tx, ty, tz, and the 52 controls by name. Needs ffmpeg. The file is read while the rows are taken.
+    tx, ty, tz, and the 52 controls by name. Needs ffmpeg and ffprobe, which comes with it. The file is read while the rows are taken:
+    one that is damaged or ends early is a MienError after its last good row.
     """
-    if shutil.which("ffmpeg") is None:
-        raise MienError("ffmpeg is not installed, which reads the file")
+    for program in ("ffmpeg", "ffprobe"):
+        if shutil.which(program) is None:
+            raise MienError(f"{program} is not installed, which reads the file")
     if not Path(path).is_file():
         raise FileNotFoundError(f"no file {str(path)!r}")
     return _rows(Path(path), lod, sound, smoothing)
@@ -42,29 +43,29 @@ def columns(rows: Iterable[Row]) -> dict[str, npt.NDArray[np.generic]]:
 
 
 def _rows(path: Path, lod: Lod, sound: bool, smoothing: bool) -> Iterator[Row]:
-    voice = _samples(path) if sound else np.empty(0, np.float32)
+    film, has_sound = streams(path)
+    voice = samples(path) if sound and has_sound else np.empty(0, np.float32)
+    if film is None and voice.size == 0:
+        raise MienError(f"{path} has no pictures, and no sound that was asked for")
     heard = 0
     with Tracker(lod, sound=voice.size > 0, smoothing=smoothing) as tracker:
 
         def hear(until_s: float) -> None:
             nonlocal heard
-            end = min(int(until_s * _SOUND_RATE), voice.size)
+            end = min(int(until_s * SOUND_RATE), voice.size)
             if end > heard:
-                tracker.push_audio(voice[heard:end], heard / _SOUND_RATE, _SOUND_RATE)
+                tracker.push_audio(voice[heard:end], heard / SOUND_RATE, SOUND_RATE)
                 heard = end
 
-        frames = 0
-        for frame, time_s in _pictures(path):
-            hear(time_s + _SOUND_AHEAD_S)
-            yield _row(tracker.track(frame, time_s, color="i420", full_range=False))
-            frames += 1
-        if frames == 0:
-            if voice.size == 0:
-                raise MienError(f"{path} has neither pictures nor sound that ffmpeg can read")
-            for i in range(int(voice.size / _SOUND_RATE * _FRAMES_A_SECOND)):
-                time_s = i / _FRAMES_A_SECOND
+        if film is not None:
+            for frame, time_s in pictures(path, film):
                 hear(time_s + _SOUND_AHEAD_S)
-                yield _row(tracker.advance(time_s))
+                yield _row(tracker.track(frame, time_s, color="i420", full_range=False))
+            return
+        for i in range(int(voice.size / SOUND_RATE * _FRAMES_A_SECOND)):
+            time_s = i / _FRAMES_A_SECOND
+            hear(time_s + _SOUND_AHEAD_S)
+            yield _row(tracker.advance(time_s))
 
 
 def _row(result: Result) -> Row:
@@ -90,45 +91,3 @@ def _row(result: Result) -> Row:
     }
     row.update(zip(CONTROL_NAMES, result.controls.array.tolist()))
     return row
-
-
-def _ffmpeg(path: Path, *options: str) -> subprocess.Popen[bytes]:
-    command = ["ffmpeg", "-nostdin", "-v", "error", "-i", str(path), *options, "-"]
-    return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
-
-
-def _samples(path: Path) -> npt.NDArray[np.float32]:
-    """The sound of the whole file, one channel; empty where there is none."""
-    with _ffmpeg(path, "-vn", "-ac", "1", "-ar", str(_SOUND_RATE), "-f", "f32le") as process:
-        assert process.stdout is not None
-        data = process.stdout.read()
-    return np.frombuffer(data[: len(data) // 4 * 4], np.float32)
-
-
-def _pictures(path: Path) -> Iterator[tuple[npt.NDArray[np.uint8], float]]:
-    """Frames as I420 of even sizes, at a constant rate, with their times."""
-    even = "scale=trunc(iw/2)*2:trunc(ih/2)*2:out_range=tv:out_color_matrix=bt601"
-    with _ffmpeg(path, "-an", "-vf", even, "-pix_fmt", "yuv420p", "-f", "yuv4mpegpipe") as process:
-        assert process.stdout is not None
-        try:
-            yield from _frames_of_y4m(process.stdout)
-        finally:
-            process.stdout.close()
-            process.kill()
-
-
-def _frames_of_y4m(stream: IO[bytes]) -> Iterator[tuple[npt.NDArray[np.uint8], float]]:
-    header = stream.readline().decode("ascii", "replace").split()
-    if not header:
-        return
-    fields = {field[0]: field[1:] for field in header[1:]}
-    width, height = int(fields["W"]), int(fields["H"])
-    numerator, denominator = (int(n) for n in fields["F"].split(":"))
-    size = width * height * 3 // 2
-    number = 0
-    while stream.readline().startswith(b"FRAME"):
-        data = stream.read(size)
-        if len(data) < size:
-            return
-        yield np.frombuffer(data, np.uint8).reshape(height * 3 // 2, width), number * denominator / numerator
-        number += 1

@@ -72,7 +72,8 @@ impl<'a> Image<'a> {
         Self::of(6, width, height, &[(y.0, y.1, width), (vu.0, vu.1, chroma(width).saturating_mul(2))])
     }
 
-    /// Three planes; `chroma_step`: bytes from one sample of U or V to the next, 1 of I420, the pixel stride of Android's YUV_420_888.
+    /// Three planes; `chroma_step`: bytes from one sample of U or V to the next, 1 of I420, the pixel stride of Android's YUV_420_888;
+    /// 0 means 1.
     pub fn i420(
         width: usize,
         height: usize,
@@ -81,6 +82,7 @@ impl<'a> Image<'a> {
         v: (&'a [u8], usize),
         chroma_step: usize,
     ) -> Result<Self, Error> {
+        let chroma_step = chroma_step.max(1);
         let samples = chroma(width).saturating_sub(1).saturating_mul(chroma_step).saturating_add(1);
         let mut image = Self::of(7, width, height, &[(y.0, y.1, width), (u.0, u.1, samples), (v.0, v.1, samples)])?;
         image.raw.chroma_pixel_stride_bytes = number(chroma_step)?;

@@ -105,6 +105,10 @@ fn what_is_wrong_is_said() {
     let weights = weights();
     assert!(Image::rgb(WIDTH, HEIGHT, &frame[1..], WIDTH * 3).is_err(), "nothing beyond the bytes is read");
     assert!(Image::rgb(usize::MAX, 1, frame, 3).is_err());
+    let i420 = |chroma: &[u8], step| Image::i420(8, 2, (&frame[..16], 8), (chroma, 4), (chroma, 4), step).is_ok();
+    for (step, need) in [(0, 4), (1, 4), (2, 7)] {
+        assert!(i420(&frame[..need], step) && !i420(&frame[..need - 1], step), "step {step} reads {need} bytes");
+    }
     let mut tracker = Tracker::new(&weights, level(1)).unwrap();
     let refused = |tracker: &mut Tracker, image: Image| tracker.track(&image, 0.0).err().and_then(|error| error.status());
     assert_eq!(refused(&mut tracker, Image::gray(0, 0, &[], 0).unwrap()), Some(Status::ImageSize));

@@ -1,0 +1,45 @@
+// The worker in Node, with pictures that say when they are read. MIEN_WASM names the module.
+import assert from 'node:assert/strict';
+import {EventEmitter, once} from 'node:events';
+import {readFileSync} from 'node:fs';
+import {test} from 'node:test';
+import {setTimeout as pass} from 'node:timers/promises';
+
+const root = new URL('../../../', import.meta.url), wasm = process.env.MIEN_WASM ?? new URL('build/wasm/tracker/mien.wasm', root);
+const heard = new EventEmitter(), happened = [];
+globalThis.fetch = async url => new Response(readFileSync(url.pathname.endsWith('mien.wasm') ? wasm : url));
+globalThis.onmessage = null;
+globalThis.postMessage = message => heard.emit(message.type, message);
+heard.on('results', ({timeMs}) => happened.push(`results ${timeMs}`));
+await import('../src/tracking/worker.js');
+const post = data => globalThis.onmessage({data});
+
+const picture = (name, readMs, side) => ({
+  format: 'RGBA', visibleRect: {width: side, height: side}, allocationSize: () => 4 * side * side,
+  async copyTo(memory) {
+    happened.push(`reads ${name}`);
+    await pass(readMs);
+    memory.fill(100);
+    return [{offset: 0, stride: 4 * side}];
+  },
+  close() { happened.push(`closes ${name}`); }});
+
+test('what is asked before the tracker is there waits for it', async () => {
+  const ready = once(heard, 'ready');
+  post({type: 'load', folder: root});
+  post({type: 'levels', levels: [1]});
+  await ready;
+  const results = once(heard, 'results');
+  post({type: 'advance', timeMs: 0});
+  const [{results: [{lod}]}] = await results;
+  assert.equal(lod, 1);
+});
+
+test('a picture is read when the one before it has been tracked', async () => {
+  happened.length = 0;
+  post({type: 'frame', frame: picture('slow', 50, 64), timeMs: 100});
+  post({type: 'frame', frame: picture('quick', 0, 96), timeMs: 133});
+  post({type: 'advance', timeMs: 166});
+  while (happened.filter(what => what.startsWith('results')).length < 3) await pass(5);
+  assert.deepEqual(happened, ['reads slow', 'closes slow', 'results 100', 'reads quick', 'closes quick', 'results 133', 'results 166']);
+});
