@@ -6,6 +6,7 @@
 #include <new>
 
 #include "apps/mien/command_line/program.h"
+#include "apps/mien/outputs/output_file.h"
 #include "apps/mien/system/failure.h"
 #include "apps/mien/system/standard_streams.h"
 
@@ -25,7 +26,9 @@ namespace {
 int main(int argc, char** argv) {
   mien::app::prepare_standard_streams();
   try {
-    return mien::app::run_program(argc, argv);
+    const int code = mien::app::run_program(argc, argv);
+    mien::app::finish_standard_output();
+    return code;
   } catch (const mien::app::Failure& failure) {
     std::fprintf(stderr, "mien: %s\n", failure.what());
     return failure.code();

@@ -542,6 +542,17 @@ Frame Time: 0.04
                 wanted = a["controls"][name] + share * (b["controls"][name] - a["controls"][name])
                 self.assertAlmostEqual(frame["controls"][name], wanted, places=12)
 
+    def test_the_report_is_json_whatever_files_are_called(self):
+        with open(self.path("plain.csv"), "w") as file:
+            file.write("t_ms,jawOpen\n0,0\n40,0.5\n")
+        names = [os.fsencode(self.path(name)) + b"-\xff.csv" for name in ("in", "out")]
+        os.rename(self.path("plain.csv"), names[0])
+        done = subprocess.run([PROGRAM, "convert", *names, "--json"], capture_output=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        said = json.loads(done.stderr.decode())
+        self.assertEqual((said["frames"], said["input"]), (2, self.path("in") + "-\ufffd.csv"))
+        self.assertTrue(os.path.exists(names[1]))
+
     def test_several_faces(self):
         frames = [{"t_ns": 40000000 * i, "frame": i, "face_id": face, "controls": {"jawOpen": face / 4}} for i in range(20) for face in (1, 2)
                   if face == 1 or i >= 5]

@@ -1,8 +1,11 @@
 // Curves are read by the names of their columns; what is wrong with a file is said with its place.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <string>
 
 #include "apps/mien/compare/curves_file.h"
@@ -112,6 +115,22 @@ TEST(CurvesFile, NoTextBreaksIt) {
       complaint(changed);
     }
   }
+}
+
+// A file of Live Link Face says neither its unit nor the rate of its timecode.
+TEST(CurvesFile, WhatLiesBesideALiveLinkFaceFileCounts) {
+  const std::string file = testing::TempDir() + "mien_" + std::to_string(getpid()) + ".csv";
+  std::ofstream(file) << "Timecode,BlendshapeCount,JawOpen,HeadYaw,HeadPitch,HeadRoll\n"
+                         "00:00:00:00.000,61,0,90,0,0\n00:00:00:12.000,61,0,90,0,0\n";
+  std::ofstream(file + ".json") << R"({"rotation":"deg","timecode_fps":24.0})";
+  const Curves curves = app::read_curves(file);
+  std::ofstream(file + ".json") << R"({"rotation":"deg","timecode_fps":0})";
+  EXPECT_THROW(app::read_curves(file), app::Failure);
+  std::filesystem::remove(file + ".json");
+  std::filesystem::remove(file);
+  ASSERT_EQ(curves.size(), 2u);
+  EXPECT_NEAR(curves[0].head->yaw, std::acos(0.0), 1e-9);
+  EXPECT_NEAR(curves[1].t_ms - curves[0].t_ms, 500.0, 1e-6);
 }
 
 TEST(CurvesFile, ThereHasToBeAFile) {

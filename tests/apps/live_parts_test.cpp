@@ -1,5 +1,6 @@
 // Parts of `mien live` by themselves.
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include <cmath>
 
@@ -8,6 +9,8 @@
 #include "apps/mien/sources/device_lists.h"
 #include "apps/mien/sources/sample_clock.h"
 #include "apps/mien/system/failure.h"
+#include "apps/mien/system/socket_calls.h"
+#include "apps/mien/system/udp_socket.h"
 #include "formats/animation/mirror.h"
 
 namespace mien::app {
@@ -54,6 +57,37 @@ TEST(Destination, SaysWhatIsWrong) {
       EXPECT_THAT(failure.what(), HasSubstr(text));
     }
   }
+}
+
+addrinfo address_of(int family, addrinfo* next) {
+  addrinfo address = {};
+  address.ai_family = family;
+  address.ai_next = next;
+  return address;
+}
+
+// Many receivers listen on 127.0.0.1 alone, and many systems say "localhost" is ::1 first.
+TEST(UdpSocket, PrefersAnAddressOfIpv4) {
+  addrinfo second_v4 = address_of(AF_INET, nullptr), first_v4 = address_of(AF_INET, &second_v4);
+  addrinfo last_v6 = address_of(AF_INET6, nullptr), next_v6 = address_of(AF_INET6, &last_v6);
+  const addrinfo mixed = address_of(AF_INET6, &first_v4), v6 = address_of(AF_INET6, &next_v6);
+  EXPECT_EQ(&sockets::preferred(mixed), &first_v4);
+  EXPECT_EQ(&sockets::preferred(first_v4), &first_v4);
+  EXPECT_EQ(&sockets::preferred(v6), &v6);
+}
+
+TEST(UdpSocket, ReachesThisMachineByItsName) {
+  const int receiver = socket(AF_INET, SOCK_DGRAM, 0);
+  sockaddr_in address = {};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t bytes = sizeof address;
+  ASSERT_EQ(bind(receiver, reinterpret_cast<sockaddr*>(&address), bytes), 0);
+  ASSERT_EQ(getsockname(receiver, reinterpret_cast<sockaddr*>(&address), &bytes), 0);
+  EXPECT_TRUE(UdpSocket::to("localhost", ntohs(address.sin_port), "test").send("a face"));
+  char got[16] = {};
+  EXPECT_EQ(recv(receiver, got, sizeof got, MSG_DONTWAIT), 6);
+  close(receiver);
 }
 
 constexpr std::int64_t kMs = 1'000'000;

@@ -218,6 +218,47 @@ class Live(unittest.TestCase):
         states = [json.loads(packet)["status"] for packet in receiver.packets()]
         self.assertIn("tracking", states)
 
+    def test_ctrl_c_before_the_first_picture(self):
+        """A terminal sends it to ffmpeg, too, which ends with a complaint."""
+        server = socket.create_server(("127.0.0.1", 0))
+        self.addCleanup(server.close)
+        live = self.start(command("--camera", f"tcp://127.0.0.1:{server.getsockname()[1]}", "--mic", "none", "--lod", 1,
+                                  "--quiet", "--stats", self.path("stats")), stderr=subprocess.PIPE, text=True)
+        server.settimeout(60)
+        connection, _ = server.accept()  # and nothing is sent
+        self.addCleanup(connection.close)
+        time.sleep(0.5)
+        os.killpg(live.pid, signal.SIGINT)
+        said = live.communicate(timeout=60)[1]
+        self.assertEqual((live.returncode, said), (0, ""))
+        with open(self.path("stats")) as file:
+            self.assertEqual(json.load(file)["frames_with_face"], 0)
+
+    def test_a_neutral_face_of_a_stream_is_captured_in_one_go(self):
+        """It is opened to see what is in it, and once to be watched: what it gave cannot be had again."""
+        ffmpeg("-t", "6", "-i", CLIP, "-an", "-c", "copy", "-f", "mpegts", self.path("clip.ts"))
+        with open(self.path("clip.ts"), "rb") as file:
+            film = file.read()
+        server = socket.create_server(("127.0.0.1", 0))
+        self.addCleanup(server.close)
+        opened = []
+
+        def send(connection):
+            with contextlib.suppress(OSError), connection:
+                while True:
+                    connection.sendall(film)
+
+        def serve():
+            with contextlib.suppress(OSError):
+                while True:
+                    opened.append(server.accept()[0])
+                    threading.Thread(target=send, args=(opened[-1],), daemon=True).start()
+        threading.Thread(target=serve, daemon=True).start()
+        done = subprocess.run([PROGRAM, "neutral", f"tcp://127.0.0.1:{server.getsockname()[1]}", "-o", self.path("me"), "--models",
+                               SOURCE + "/models", "--quiet"], capture_output=True, text=True, timeout=90)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(len(opened), 2)
+
     def test_receivers_that_fail_stop_nothing_and_are_counted(self):
         """The system refuses every packet to one, nobody is at the second's port until half-way, and the third gets all."""
         late_port, receiver = free_port(), self.receiver()

@@ -120,6 +120,49 @@ class Manners(unittest.TestCase):
         self.assertEqual(full.returncode, 7)
         self.assertIn("standard output: cannot be written", full.stderr)
 
+    def test_all_that_is_printed_is_written_or_said_not_to_be(self):
+        """Whoever is not there any more is no failure; a full disk is."""
+        source = os.path.join(DOCS, "..")
+        models = os.path.join(source, "models")
+        with tempfile.TemporaryDirectory() as folder:
+            place = lambda name: os.path.join(folder, name)
+            with open(place("a.csv"), "w") as file:
+                file.write("t_ms,jawOpen\n0,0\n40,0.5\n")
+            mini = os.path.join(source, "apps", "conformance", "golden", "mini.mien")
+            compare = ["compare", place("a.csv"), place("a.csv"), "-o", place("page.html")]
+            printing = [["--help"], ["--version"], ["track", "--help"], ["manual"], ["completion", "bash"], ["inspect", mini],
+                        ["inspect", mini, "--json"], compare, [*compare, "--json"]]
+            if os.path.exists(os.path.join(models, "basenet.mien")):
+                printing.append(["bench", "--model", "basenet_pose_decoder", "--tier", "ref", "--models", models])
+                if shutil.which("ffmpeg"):
+                    clip = os.path.join(source, "tests", "data", "demo.mp4")
+                    os.mkdir(place("in"))
+                    os.symlink(clip, place("in/a.mp4"))
+                    batch = ["track", place("in"), "--out", place("out"), "--duration", "0.1", "--lod", "1", "--models", models]
+                    printing += [batch, [*batch, "--json"], ["neutral", clip, "-o", place("me"), "--json", "--models", models]]
+            for arguments in printing:
+                with open("/dev/full", "w") as full:
+                    done = subprocess.run([PROGRAM, *arguments], stdout=full, stderr=subprocess.PIPE, text=True, timeout=120)
+                self.assertEqual(done.returncode, 7, arguments)
+                self.assertIn("mien: standard output: cannot be written: ", done.stderr, arguments)
+                reader, writer = os.pipe()
+                os.close(reader)
+                with open(writer, "w") as gone:
+                    done = subprocess.run([PROGRAM, *arguments], stdout=gone, stderr=subprocess.PIPE, text=True, timeout=120)
+                self.assertEqual((done.returncode, [line for line in done.stderr.splitlines() if line.startswith("mien:")]), (0, []), arguments)
+
+    def test_numbers_that_are_none(self):
+        """Of every option that is a number."""
+        tried = 0
+        for verb in verbs():
+            for option in re.findall(r"^\s+(--[a-z][-a-z]*) (?:N|X|S|MS|MB|DEGREES)\b", run(verb, "--help").stdout, re.M):
+                tried += 1
+                for number in ("nan", "-nan", "NAN", "inf", "-inf", "1e999"):
+                    done = run(verb, f"{option}={number}")
+                    self.assertEqual(done.returncode, 2, (verb, option, number))
+                    self.assertRegex(done.stderr, f"{option}\\b.*{number}", (verb, option, number))
+        self.assertGreaterEqual(tried, 20)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -69,6 +69,20 @@ TEST_F(ProgramBatch, OneFailureStopsNothingAndIsNamed) {
   EXPECT_FALSE(fs::exists(path("out/0.mp4.csv")));
 }
 
+// What a link leads to lies elsewhere; what is made of it does not.
+TEST_F(ProgramBatch, LinksAreRecordingsOfTheirOwnNames) {
+  MIEN_NEEDS("trained model", have_models());
+  MIEN_NEEDS("ffmpeg", have_ffmpeg());
+  fs::create_directory(path("archive"));
+  fs::rename(path("in/a.mp4"), path("archive/x.mp4"));
+  fs::create_symlink("../archive/x.mp4", path("in/a.mp4"));
+  const Outcome outcome = track("--jobs 1");
+  EXPECT_EQ(outcome.code, 0) << outcome.errors;
+  EXPECT_NE(outcome.output.find("\na.mp4 "), std::string::npos) << outcome.output;
+  EXPECT_TRUE(fs::exists(path("out/a.mp4.csv")));
+  EXPECT_FALSE(fs::exists(path("archive/x.mp4.csv")));
+}
+
 TEST_F(ProgramBatch, WrongUsage) {
   EXPECT_EQ(run("track " + path("in")).code, 3);
   EXPECT_EQ(track("-o x.csv").code, 2);

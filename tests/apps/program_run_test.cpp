@@ -151,6 +151,10 @@ TEST_F(ProgramRun, WrongUsage) {
   expect_one_line(run_on(input, output + " --network nobody"), 2, "--network");
   expect_one_line(run_on(input, output + output + " --network temporal"), 2, "has 1 outputs");
   expect_one_line(run_on(input, output + " --network temporal --tier x"), 2, "no such tier");
+  const std::string map = save("map.npy", {{3, 12, 12}, std::vector<float>(432)});
+  expect_one_line(run_on(map, output + output + " --network pnet"), 2, "is to be written twice");
+  EXPECT_FALSE(fs::exists(path("y.npy")));
+  EXPECT_FALSE(fs::exists(path(".partial-y.npy")));
 }
 
 TEST_F(ProgramRun, InputsThatAreNoArrayOfTheNetwork) {

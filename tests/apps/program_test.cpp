@@ -57,6 +57,42 @@ TEST_F(Program, LevelsOfDetailThatAreNone) {
   EXPECT_EQ(run("track " + kClip + " --lod auto --budget-ms 0").code, 2);
 }
 
+// Two outputs of one name, however it is spelled, would be written into one file.
+TEST_F(Program, OneFileForTwoOutputsIsRefusedBeforeAnyIsWritten) {
+  MIEN_NEEDS("trained model", have_models());
+  MIEN_NEEDS("ffmpeg", have_ffmpeg());
+  fs::create_directory(path("folder"));
+  fs::create_directory_symlink(path("folder"), path("link"));
+  const std::string in = "cd " + folder_.string() + " && ";
+  const auto refuses = [&](const std::string& outputs) {
+    std::ofstream(path("folder/a.csv")) << "before";
+    const Outcome failed =
+        run("track " + kClip + " --duration 0.2 --lod 1 --quiet " + outputs + models(), in);
+    EXPECT_EQ(failed.code, 2) << outputs << ": " << failed.errors;
+    EXPECT_NE(failed.errors.find(": is to be written twice"), std::string::npos) << failed.errors;
+    EXPECT_EQ(contents(path("folder/a.csv")), "before") << outputs;
+    for (const auto& entry : fs::recursive_directory_iterator(folder_)) {
+      const std::string name = entry.path().filename().string();
+      EXPECT_TRUE(name == "a.csv" || name == "folder" || name == "link" || name == "stdout" ||
+                  name == "stderr")
+          << outputs << ": " << name;
+    }
+  };
+  refuses("-o folder/a.csv -o ./folder/a.csv");
+  refuses("-o folder/a.csv --landmarks folder/../folder/a.csv");
+  refuses("-o folder/a.csv --landmarks link/a.csv");
+  refuses("-o folder/a.csv --stats " + path("folder/a.csv"));
+  refuses("-o folder/a.llf.csv --stats folder/a.llf.csv.json");
+  refuses("--overlay folder/a.mp4 --landmarks folder/a.mp4");
+  refuses("--overlay folder/o.mp4 -o folder/a.csv --report folder/a.csv");
+  refuses("--overlay folder/a.html.mp4 --report folder/a.html");
+  const Outcome done = run("track " + kClip + " --duration 0.2 --lod 1 --quiet -o /dev/null" +
+                               " --landmarks /dev/null --stats folder/s --report folder/r.html" +
+                               " --overlay folder/o.mp4" + models(),
+                           in);
+  EXPECT_EQ(done.code, 0) << done.errors;
+}
+
 TEST_F(Program, OutputThatCannotBeWritten) {
   MIEN_NEEDS("trained model", have_models());
   MIEN_NEEDS("ffmpeg", have_ffmpeg());
@@ -96,6 +132,32 @@ TEST_F(Program, TruncatedVideoLeavesNoOutput) {
   for (const auto& entry : fs::directory_iterator(folder_)) {
     EXPECT_EQ(entry.path().filename().string().find(".partial"), std::string::npos) << entry.path();
   }
+}
+
+// Cut without being encoded anew, an MP4 begins with frames that its edit list leaves out, and may
+// lack some in front of its last one.
+TEST_F(Program, CutVideosAreWholeUnlessTheyAreTruncated) {
+  MIEN_NEEDS("trained model", have_models());
+  MIEN_NEEDS("ffmpeg", have_ffmpeg());
+  const auto cut = [&](const std::string& start, const std::string& duration) {
+    EXPECT_EQ(std::system(("ffmpeg -y -v error -ss " + start + " -i " + kClip + " -t " + duration +
+                           " -c copy -an -movflags +faststart " + path("cut.mp4"))
+                              .c_str()),
+              0);
+  };
+  const auto track = [&] {
+    return run("track " + path("cut.mp4") + " --quiet --lod 1 --mode video" + models());
+  };
+  for (const auto& [start, duration] :
+       {std::pair("2", "2"), {"1", "1"}, {"0.1", "1"}, {"3.7", "0.5"}}) {
+    cut(start, duration);
+    const Outcome done = track();
+    EXPECT_EQ(done.code, 0) << start << ": " << done.errors;
+    EXPECT_GT(lines(done.output), 15u) << start;
+  }
+  cut("2", "4");
+  fs::resize_file(path("cut.mp4"), fs::file_size(path("cut.mp4")) * 4 / 5);
+  EXPECT_EQ(track().code, 5);
 }
 
 TEST_F(Program, TracksTheDemoClip) {
@@ -186,6 +248,26 @@ TEST_F(Program, CapturesTheNeutralFaceAndTakesItOut) {
   EXPECT_EQ(damaged.code, 3);
   EXPECT_NE(damaged.errors.find("me.neutral: the neutral file is damaged"), std::string::npos);
   EXPECT_EQ(run(track + " --neutral " + path("nothing")).code, 3);
+}
+
+// Standard input cannot be opened at its beginning again for the second of two captures.
+TEST_F(Program, CapturesTheNeutralFaceOfAStream) {
+  MIEN_NEEDS("trained model", have_models());
+  MIEN_NEEDS("ffmpeg", have_ffmpeg());
+  ASSERT_EQ(std::system(("ffmpeg -v error -t 6 -i " + kClip +
+                         " -pix_fmt yuv420p -vf scale=320:-2 " + path("clip.y4m"))
+                            .c_str()),
+            0);
+  const Outcome streamed =
+      run("neutral - -o " + path("me.neutral") + models(), "", path("clip.y4m"));
+  EXPECT_EQ(streamed.code, 0) << streamed.errors;
+  EXPECT_EQ(fs::file_size(path("me.neutral")), 448u);
+  const Outcome tracked =
+      run("track " + path("clip.y4m") + " --quiet --neutral " + path("me.neutral") + models());
+  EXPECT_EQ(tracked.code, 0) << tracked.errors;
+  // Seen twice, a file may be half as long.
+  EXPECT_EQ(run("neutral " + path("clip.y4m") + " --duration 2.5 -o " + path("b") + models()).code,
+            0);
 }
 
 TEST_F(Program, Y4mNeedsNoFfmpegAndGivesTheSameFrames) {

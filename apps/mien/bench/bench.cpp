@@ -17,6 +17,7 @@
 #include "apps/mien/networks/model_files.h"
 #include "apps/mien/networks/tiers.h"
 #include "apps/mien/system/failure.h"
+#include "apps/mien/system/json_text.h"
 #include "apps/mien/system/paths.h"
 
 namespace mien::app {
@@ -133,7 +134,7 @@ void print_json(const std::map<std::string, double>& peaks, const std::vector<Fi
       json["results"].back()["layers"] = to_json(f.steps);
     }
   }
-  std::printf("%s\n", json.dump(1).c_str());
+  std::printf("%s\n", json_text(json).c_str());
 }
 
 void print_table(const std::map<std::string, double>& peaks, const std::vector<Figures>& results) {

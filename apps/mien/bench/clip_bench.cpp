@@ -10,6 +10,7 @@
 
 #include "apps/mien/sources/video_source.h"
 #include "apps/mien/system/failure.h"
+#include "apps/mien/system/json_text.h"
 #include "apps/mien/tracking/loaded_tracker.h"
 
 namespace mien::app {
@@ -88,7 +89,7 @@ void bench_clip(const BenchOptions& options) {
                                          {"followed", to_json(followed)},
                                          {"proposed_on_every_frame", to_json(proposed)},
                                          {"speedup", speedup}};
-    std::printf("%s\n", json.dump(1).c_str());
+    std::printf("%s\n", json_text(json).c_str());
     return;
   }
   std::printf("%zu frames, the proposal ran %llu times\n", times.followed.size(),

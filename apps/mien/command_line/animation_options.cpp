@@ -3,6 +3,8 @@
 #include <map>
 #include <string>
 
+#include "apps/mien/command_line/finite_number.h"
+
 namespace mien::app {
 
 CLI::Validator rotation_units() {
@@ -19,7 +21,7 @@ void add_writing_options(CLI::App& verb, formats::WriteOptions& options) {
       ->transform(rotation_units());
   verb.add_option("--llf-fps", options.live_link.timecode_fps,
                   "frames in a second of its timecode; default 60")
-      ->check(CLI::Range(1.0, 100.0));
+      ->check(finite(CLI::Range(1.0, 100.0)));
   verb.add_option("--roblox-lod", options.roblox_level_1,
                   "units of Roblox: 0 (all 50, default) or the 6 of its level of detail 1")
       ->transform(CLI::CheckedTransformer(std::map<std::string, bool>{{"0", false}, {"1", true}}));

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "apps/mien/command_line/animation_options.h"
+#include "apps/mien/command_line/finite_number.h"
 #include "apps/mien/command_line/verbs.h"
 
 namespace mien::app {
@@ -19,7 +20,7 @@ void add_convert(CLI::App& program) {
   verb->add_option("--from", options->from, "format of INPUT (default: as its content tells)");
   verb->add_option("--to", options->to, "format of OUTPUT");
   verb->add_option("--fps", options->fps, "even frames, so many a second")
-      ->check(CLI::Range(0.1, 1000.0));
+      ->check(finite(CLI::Range(0.1, 1000.0)));
   verb->add_option("--face", options->face, "only the face with this id");
   verb->add_option("--from-llf-rot", options->from_rotation,
                    "rotations of INPUT, from Live Link Face: rad, norm180 or deg (default: as the "
@@ -27,7 +28,7 @@ void add_convert(CLI::App& program) {
       ->transform(rotation_units());
   verb->add_option("--from-llf-fps", options->from_timecode_fps,
                    "frames in a second of its timecode (default: so, or 60)")
-      ->check(CLI::Range(1.0, 100.0));
+      ->check(finite(CLI::Range(1.0, 100.0)));
   add_writing_options(*verb, options->writing);
   verb->add_flag("--json", options->json, "what was done and left out as JSON on standard error");
   verb->add_flag("--quiet", options->quiet, "no word about what was left out");

@@ -1,5 +1,6 @@
 #include <memory>
 
+#include "apps/mien/command_line/finite_number.h"
 #include "apps/mien/command_line/tracker_options.h"
 #include "apps/mien/command_line/verbs.h"
 #include "apps/mien/live/live.h"
@@ -26,7 +27,7 @@ void add_live(CLI::App& program) {
   verb->add_flag("--mirror", options->mirror, "left and right exchanged, as in a mirror");
   verb->add_option("--av-offset-ms", options->av_offset_ms,
                    "the sound belongs to pictures so much later than it comes")
-      ->check(CLI::Range(-10000.0, 10000.0));
+      ->check(finite(CLI::Range(-10000.0, 10000.0)));
   add_voice_strength(*verb, *options);
   add_field_of_view(*verb, *options);
   add_level_options(*verb, *options);
@@ -35,7 +36,7 @@ void add_live(CLI::App& program) {
   verb->add_option("--tier", options->tier, "kernel tier: ref, avx2, avx512, ...");
   verb->add_option("--models", options->models, "folder of the model files");
   verb->add_option("--duration", options->duration_s, "seconds until it ends by itself")
-      ->check(CLI::PositiveNumber);
+      ->check(finite(CLI::PositiveNumber));
   verb->add_option("--stats", options->stats, "counts and times as JSON, at the end");
   verb->add_flag("--quiet", options->quiet, "no screen, no summary");
   verb->callback([options] { live(*options); });

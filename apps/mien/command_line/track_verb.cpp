@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "apps/mien/command_line/animation_options.h"
+#include "apps/mien/command_line/finite_number.h"
 #include "apps/mien/command_line/tracker_options.h"
 #include "apps/mien/system/failure.h"
 #include "apps/mien/system/paths.h"
@@ -41,7 +42,7 @@ void add_track(CLI::App& program) {
                    "page with the clip, an animated face, the curves and all exports (.html)");
   verb->add_option("--report-clip-mb", options->report_clip_mb,
                    "a larger clip is put beside the report (default: 64)")
-      ->check(CLI::NonNegativeNumber);
+      ->check(finite(CLI::NonNegativeNumber));
   verb->add_option(
       "--audio", options->audio,
       "file with the sound, or - for WAV on standard input (default: the input's own)");
@@ -50,7 +51,7 @@ void add_track(CLI::App& program) {
           {"av", Mode::kBoth}, {"video", Mode::kVideo}, {"audio", Mode::kAudio}}));
   verb->add_option("--av-offset-ms", options->av_offset_ms,
                    "the sound belongs to pictures so much later than it says")
-      ->check(CLI::Range(-10000.0, 10000.0));
+      ->check(finite(CLI::Range(-10000.0, 10000.0)));
   add_voice_strength(*verb, *options);
   add_field_of_view(*verb, *options);
   verb->add_option("--stats", options->stats, "counts and stage times as JSON");
@@ -62,9 +63,10 @@ void add_track(CLI::App& program) {
   verb->add_option("--tier", options->tier, "kernel tier: ref, avx2, avx512, ...");
   verb->add_flag("--unfused", options->unfused, "networks run layer by layer");
   verb->add_option("--models", options->models, "folder of the model files");
-  verb->add_option("--start", options->start_s, "seconds to skip")->check(CLI::NonNegativeNumber);
+  verb->add_option("--start", options->start_s, "seconds to skip")
+      ->check(finite(CLI::NonNegativeNumber));
   verb->add_option("--duration", options->duration_s, "seconds to track")
-      ->check(CLI::PositiveNumber);
+      ->check(finite(CLI::PositiveNumber));
   verb->add_flag("--quiet", options->quiet, "no progress bar, no summary");
   auto* out =
       verb->add_option("--out", batch->out, "folder for the outputs when INPUT is a folder");

@@ -6,13 +6,15 @@
 #include <map>
 #include <string>
 
+#include "apps/mien/command_line/finite_number.h"
+
 namespace mien::app {
 
 template <typename Options>
 void add_voice_strength(CLI::App& verb, Options& options) {
   verb.add_option("--voice-strength", options.voice_strength,
                   "what the sound says of the mouth, times this (default 1)")
-      ->check(CLI::Range(0.0, 4.0));
+      ->check(finite(CLI::Range(0.0, 4.0)));
 }
 
 template <typename Options>
@@ -20,7 +22,7 @@ void add_field_of_view(CLI::App& verb, Options& options) {
   verb.add_option("--fov", options.fov_degrees,
                   "horizontal field of view of the camera, degrees (default 60); distances and the "
                   "head's pose depend on it")
-      ->check(CLI::Range(1.0, 170.0));
+      ->check(finite(CLI::Range(1.0, 170.0)));
 }
 
 template <typename Options>
@@ -30,7 +32,7 @@ void add_level_options(CLI::App& verb, Options& options) {
       ->transform(CLI::CheckedTransformer(
           std::map<std::string, int>{{"1", 1}, {"2", 2}, {"3", 3}, {"4", 4}, {"auto", 0}}));
   verb.add_option("--budget-ms", options.budget_ms, "of --lod auto: time per frame on average")
-      ->check(CLI::Range(0.01, 1e6));
+      ->check(finite(CLI::Range(0.01, 1e6)));
 }
 
 }  // namespace mien::app

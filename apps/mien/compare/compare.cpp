@@ -10,6 +10,7 @@
 #include "apps/mien/outputs/output_file.h"
 #include "apps/mien/pages/web_video.h"
 #include "apps/mien/system/failure.h"
+#include "apps/mien/system/json_text.h"
 #include "apps/mien/system/paths.h"
 
 namespace mien::app {
@@ -113,14 +114,12 @@ void compare(const CompareOptions& options) {
                                   .sound = options.video,
                                   .start_s = comparison.start_ms * 1e-3,
                                   .duration_s = (comparison.end_ms - comparison.start_ms) * 1e-3},
-                                 partial_name(options.page + ".mp4"));
+                                 PartialFile(options.page + ".mp4"));
   }
   file.write(compare_page(comparison));
   file.finish();
   if (options.json) {
-    std::printf("%s\n", summary_json(comparison)
-                            .dump(1, ' ', false, nlohmann::json::error_handler_t::replace)
-                            .c_str());
+    std::printf("%s\n", json_text(summary_json(comparison)).c_str());
   } else if (!options.quiet) {
     print_summary(comparison);
   }

@@ -4,9 +4,10 @@
 
 namespace mien::app {
 
-Curves parse_curves(std::string_view text, const std::string& name) {
+Curves parse_curves(std::string_view text, const std::string& name,
+                    const formats::LiveLinkOptions& live_link) {
   Curves curves;
-  for (const formats::Frame& read : parse_animation(text, name, std::nullopt, {}).frames) {
+  for (const formats::Frame& read : parse_animation(text, name, std::nullopt, live_link).frames) {
     CurvesFrame frame;
     frame.t_ms = read.time_ms();
     if (read.head) {
@@ -18,6 +19,8 @@ Curves parse_curves(std::string_view text, const std::string& name) {
   return curves;
 }
 
-Curves read_curves(const std::string& path) { return parse_curves(read_whole(path), path); }
+Curves read_curves(const std::string& path) {
+  return parse_curves(read_whole(path), path, read_live_link_notes(path));
+}
 
 }  // namespace mien::app

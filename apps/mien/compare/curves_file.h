@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "formats/animation/animation.h"
+
 namespace mien::app {
 
 struct HeadAngles {
@@ -25,9 +27,10 @@ using Curves = std::vector<CurvesFrame>;
 
 // At least one frame, times that do not go back. Throws Failure(kExitNoInput) naming line and
 // column. `name` is what the message calls the file.
-Curves parse_curves(std::string_view text, const std::string& name);
+Curves parse_curves(std::string_view text, const std::string& name,
+                    const formats::LiveLinkOptions& live_link = {});
 
-// Throws Failure(kExitNoInput).
+// Also what lies beside a file of Live Link Face counts. Throws Failure(kExitNoInput).
 Curves read_curves(const std::string& path);
 
 }  // namespace mien::app

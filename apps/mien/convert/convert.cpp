@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <vector>
 
 #include "apps/mien/sources/animation_file.h"
 #include "apps/mien/system/failure.h"
-#include "apps/mien/system/paths.h"
+#include "apps/mien/system/json_text.h"
 #include "formats/animation/resample.h"
 
 namespace mien::app {
@@ -19,30 +18,6 @@ using formats::Clip;
 using formats::Frame;
 
 using Faces = std::map<std::int64_t, std::vector<Frame>>;
-
-// What lies beside a file of ours says what the file itself cannot.
-void read_live_link_notes(const std::string& path, formats::LiveLinkOptions& options) {
-  const std::string beside = path + ".json";
-  std::error_code ignored;
-  if (path == "-" || !std::filesystem::exists(path_of(beside), ignored)) {
-    return;
-  }
-  const nlohmann::json notes = nlohmann::json::parse(read_whole(beside), nullptr, false);
-  if (!notes.is_object() || !notes.contains("rotation") || !notes["rotation"].is_string()) {
-    return;  // somebody else's
-  }
-  const std::map<std::string, formats::RotationUnit> units = {
-      {"rad", formats::RotationUnit::kRadians},
-      {"norm180", formats::RotationUnit::kDegreesBy180},
-      {"deg", formats::RotationUnit::kDegrees}};
-  const auto unit = units.find(notes["rotation"].get<std::string>());
-  const nlohmann::json fps = notes.value("timecode_fps", nlohmann::json());
-  if (unit == units.end() || !fps.is_number() || fps.get<double>() < 1.0 ||
-      fps.get<double>() > 100.0) {
-    throw Failure(kExitNoInput, beside + ": is damaged");
-  }
-  options = {unit->second, fps.get<double>()};
-}
 
 // Frames without an id belong to whoever comes next.
 Faces by_face(const Clip& clip) {
@@ -80,7 +55,7 @@ std::vector<Frame> at_rate(const Clip& clip, double fps) {
   constexpr double kMostFrames = 1e7;
   const std::int64_t first_ns = clip.frames.front().time_ns;
   const auto span_ns = static_cast<double>(clip.frames.back().time_ns - first_ns);
-  if (span_ns * 1e-9 * fps > kMostFrames) {
+  if (!(span_ns * 1e-9 * fps <= kMostFrames)) {
     throw Failure(kExitUsage, "--fps: these would be more than ten million frames");
   }
   const Faces faces = by_face(clip);
@@ -133,7 +108,7 @@ void report(const ConvertOptions& options, formats::AnimationFormat format, cons
                                          {"format", formats::name(format)},
                                          {"frames", clip.frames.size()},
                                          {"left_out", lost}};
-    std::fprintf(stderr, "%s\n", text.dump().c_str());
+    std::fprintf(stderr, "%s\n", json_text(text, -1).c_str());
     return;
   }
   if (options.quiet) {
@@ -159,8 +134,7 @@ void convert(const ConvertOptions& options) {
   if (!options.from.empty()) {
     from = format_asked_for(options.from);
   }
-  formats::LiveLinkOptions live_link;
-  read_live_link_notes(options.input, live_link);
+  formats::LiveLinkOptions live_link = read_live_link_notes(options.input);
   live_link.rotation = options.from_rotation.value_or(live_link.rotation);
   live_link.timecode_fps = options.from_timecode_fps.value_or(live_link.timecode_fps);
   Clip clip = parse_animation(read_whole(options.input), options.input, from, live_link);

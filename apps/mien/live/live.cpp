@@ -110,13 +110,28 @@ class Live {
   }
 
  private:
-  // False at the end of a file.
+  // Ctrl-C in a terminal ends ffmpeg, too: that a camera gives nothing any more is no failure then.
+  const Picture* newest(std::int64_t until_ns) {
+    try {
+      return camera_.newest(until_ns);
+    } catch (const Failure&) {
+      if (!interrupted()) {
+        throw;
+      }
+      return nullptr;
+    }
+  }
+
+  // False at the end of a file, and when it was interrupted while it waited.
   bool step() {
     const std::int64_t now_ns = steady_now_ns();
     const bool pictures = camera_name_ != kNone && now_ns - last_picture_ns_ < kPatienceNs;
     const std::int64_t due_ns =
         pictures ? last_picture_ns_ + kPatienceNs : last_output_ns_ + kFrameNs;
-    const Picture* picture = camera_.newest(std::min(due_ns, now_ns + kGlanceNs));
+    const Picture* picture = newest(std::min(due_ns, now_ns + kGlanceNs));
+    if (picture == nullptr && interrupted()) {
+      return false;
+    }
     if (picture != nullptr) {
       last_picture_ns_ = steady_now_ns();
       check(loaded_.tracker.push_video(picture->image, picture->time_ns), camera_name_);

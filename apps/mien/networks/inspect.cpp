@@ -8,6 +8,7 @@
 
 #include "apps/mien/networks/model_files.h"
 #include "apps/mien/system/failure.h"
+#include "apps/mien/system/json_text.h"
 
 namespace mien::app {
 namespace {
@@ -151,7 +152,7 @@ void inspect(const InspectOptions& options) {
     throw Failure(kExitModel, options.file + ": " + message(status));
   }
   if (options.json) {
-    std::printf("%s\n", file_json(file).dump(1).c_str());
+    std::printf("%s\n", json_text(file_json(file)).c_str());
   } else {
     print_file(file);
   }

@@ -3,6 +3,8 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <mutex>
+#include <set>
 
 #include "apps/mien/system/failure.h"
 #include "apps/mien/system/paths.h"
@@ -11,26 +13,67 @@
 namespace mien::app {
 namespace {
 
+namespace fs = std::filesystem;
+
 bool is_special(const std::string& path) {
   std::error_code unknown;
-  const std::filesystem::file_status status = std::filesystem::status(path_of(path), unknown);
-  return std::filesystem::exists(status) && std::filesystem::is_other(status);
+  const fs::file_status status = fs::status(path_of(path), unknown);
+  return fs::exists(status) && fs::is_other(status);
+}
+
+std::string partial_name(const std::string& path) {
+  const fs::path whole = path_of(path);
+  return name_of(whole.parent_path() / path_of(".partial-" + name_of(whole.filename())));
+}
+
+// A link in a folder's name is followed, one in the place of the file itself is replaced.
+std::string target_of(const std::string& path) {
+  std::error_code unknown;
+  const fs::path whole = fs::absolute(path_of(path), unknown);
+  const fs::path folder = fs::weakly_canonical(whole.parent_path(), unknown);
+  return name_of(unknown ? whole.lexically_normal() : folder / whole.filename());
+}
+
+struct Targets {
+  std::mutex mutex;  // the files of a folder are written by several threads
+  std::set<std::string> names;
+};
+
+Targets& open_targets() {
+  static Targets all;
+  return all;
+}
+
+[[noreturn]] void fail_standard_output() {
+  throw Failure(kExitOutput,
+                std::string("standard output: cannot be written: ") + std::strerror(errno));
 }
 
 }  // namespace
 
-std::string partial_name(const std::string& path) {
-  const std::filesystem::path whole = path_of(path);
-  return name_of(whole.parent_path() / path_of(".partial-" + name_of(whole.filename())));
+PartialFile::PartialFile(const std::string& path)
+    : path_(path), name_(partial_name(path)), target_(target_of(path)) {
+  const std::scoped_lock lock(open_targets().mutex);
+  if (!open_targets().names.insert(target_).second) {
+    throw Failure(kExitUsage, path + ": is to be written twice");
+  }
 }
 
-void publish(const std::string& path) {
-  std::error_code error;
-  std::filesystem::rename(path_of(partial_name(path)), path_of(path),
-                          error);  // in place of one that is there
-  if (error) {
-    throw Failure(kExitOutput, path + ": cannot be written: " + error.message());
+PartialFile::~PartialFile() {
+  if (!published_) {
+    std::remove(name_.c_str());
   }
+  const std::scoped_lock lock(open_targets().mutex);
+  open_targets().names.erase(target_);
+}
+
+void PartialFile::publish() {
+  std::error_code error;
+  fs::rename(path_of(name_), path_of(path_), error);  // in place of one that is there
+  if (error) {
+    throw Failure(kExitOutput, path_ + ": cannot be written: " + error.message());
+  }
+  published_ = true;
 }
 
 void write_standard_output(std::string_view text, bool& wanted) {
@@ -43,15 +86,25 @@ void write_standard_output(std::string_view text, bool& wanted) {
     return;
   }
   if (!reader_has_gone()) {
-    throw Failure(kExitOutput,
-                  std::string("standard output: cannot be written: ") + std::strerror(errno));
+    fail_standard_output();
   }
   wanted = false;
+  std::clearerr(stdout);  // known, and not to be found again at the end
 }
 
-OutputFile::OutputFile(const std::string& path)
-    : path_(path), written_(is_special(path) ? path : partial_name(path)) {
-  file_ = std::fopen(written_.c_str(), "wb");
+void finish_standard_output() {
+  // Where nothing is left to write, errno still says why an earlier write failed.
+  const bool failed_before = std::ferror(stdout) != 0;
+  if ((std::fflush(stdout) != 0 || failed_before) && !reader_has_gone()) {
+    fail_standard_output();
+  }
+}
+
+OutputFile::OutputFile(const std::string& path) : path_(path) {
+  if (!is_special(path)) {
+    partial_.emplace(path);
+  }
+  file_ = std::fopen(partial_ ? partial_->name().c_str() : path.c_str(), "wb");
   if (file_ == nullptr) {
     fail();
   }
@@ -60,13 +113,6 @@ OutputFile::OutputFile(const std::string& path)
 OutputFile::~OutputFile() {
   if (file_ != nullptr) {
     std::fclose(file_);
-    discard();
-  }
-}
-
-void OutputFile::discard() {
-  if (written_ != path_) {
-    std::remove(written_.c_str());
   }
 }
 
@@ -85,11 +131,10 @@ void OutputFile::finish() {
   const bool closed = std::fclose(file_) == 0;
   file_ = nullptr;
   if (!whole || !closed) {
-    discard();
     fail();
   }
-  if (written_ != path_) {
-    publish(path_);
+  if (partial_) {
+    partial_->publish();
   }
 }
 

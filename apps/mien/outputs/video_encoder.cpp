@@ -1,9 +1,7 @@
 #include "apps/mien/outputs/video_encoder.h"
 
 #include <algorithm>
-#include <cstdio>
 
-#include "apps/mien/outputs/output_file.h"
 #include "apps/mien/sources/ffmpeg.h"
 #include "apps/mien/sources/network_input.h"
 #include "apps/mien/system/failure.h"
@@ -52,11 +50,9 @@ std::vector<std::string> encode_command(const std::string& partial_path, int wid
 VideoEncoder::VideoEncoder(const std::string& path, int width, int height, double fps,
                            const std::string& sound_from, const VideoRange& range)
     : path_(path),
-      partial_path_(partial_name(path)),
-      encoder_(encode_command(partial_path_, width, height, fps, sound_from, range),
+      partial_(path),
+      encoder_(encode_command(partial_.name(), width, height, fps, sound_from, range),
                Subprocess::Pipe::kToChild, Subprocess::kPatience) {}
-
-VideoEncoder::~VideoEncoder() { std::remove(partial_path_.c_str()); }
 
 void VideoEncoder::fail() {
   std::string reason = encoder_.take_errors();
@@ -75,7 +71,7 @@ void VideoEncoder::finish() {
   if (encoder_.finish() != 0) {
     fail();
   }
-  publish(path_);
+  partial_.publish();
 }
 
 }  // namespace mien::app

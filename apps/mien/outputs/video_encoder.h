@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/mien/outputs/output_file.h"
 #include "apps/mien/sources/video_source.h"
 #include "apps/mien/system/subprocess.h"
 
@@ -15,7 +16,6 @@ class VideoEncoder {
  public:
   VideoEncoder(const std::string& path, int width, int height, double fps,
                const std::string& sound_from, const VideoRange& range);
-  ~VideoEncoder();
   void write(const std::vector<unsigned char>& rgb);  // width * height * 3 bytes
   void finish();
 
@@ -23,7 +23,7 @@ class VideoEncoder {
   [[noreturn]] void fail();
 
   std::string path_;
-  std::string partial_path_;
+  PartialFile partial_;  // before what writes it, and so removed when that has ended
   Subprocess encoder_;
 };
 

@@ -3,13 +3,13 @@
 #include <string_view>
 
 #include "apps/mien/system/failure.h"
+#include "apps/mien/system/json_text.h"
 
 namespace mien::app {
 
 // Outside strings JSON has no '<', and in a string the escape means the same.
 std::string script_text(const nlohmann::ordered_json& json) {
-  const std::string text =
-      json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  const std::string text = json_text(json, -1);
   std::string safe;
   safe.reserve(text.size());
   for (const char c : text) {

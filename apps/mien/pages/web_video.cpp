@@ -1,6 +1,5 @@
 #include "apps/mien/pages/web_video.h"
 
-#include <cstdio>
 #include <vector>
 
 #include "apps/mien/sources/animation_file.h"
@@ -16,20 +15,6 @@ namespace {
 constexpr const char* kFitting =
     "scale=w='min(640,iw)':h='min(640,ih)':"
     "force_original_aspect_ratio=decrease:force_divisible_by=2";
-
-class ScratchFile {
- public:
-  explicit ScratchFile(std::string path) : path_(std::move(path)) {}
-  ~ScratchFile() { std::remove(path_.c_str()); }
-  ScratchFile(const ScratchFile&) = delete;
-  ScratchFile& operator=(const ScratchFile&) = delete;
-
-  [[nodiscard]] const std::string& path() const { return path_; }
-  [[nodiscard]] std::string contents() const { return read_whole(path_); }
-
- private:
-  std::string path_;
-};
 
 void add_input(std::vector<std::string>& command, const std::string& file, const WebVideo& wanted) {
   if (wanted.start_s > 0.0) {
@@ -67,19 +52,18 @@ std::vector<std::string> transcode_command(const WebVideo& wanted, const std::st
 
 }  // namespace
 
-std::string web_video(const WebVideo& wanted, const std::string& scratch) {
+std::string web_video(const WebVideo& wanted, const PartialFile& file) {
   const std::string& name = wanted.picture.empty() ? wanted.sound : wanted.picture;
   if (!wanted.picture.empty()) {
     probe_video(wanted.picture);
   }
-  const ScratchFile made(scratch);
-  Subprocess transcoder(transcode_command(wanted, made.path()), Subprocess::Pipe::kFromChild);
+  Subprocess transcoder(transcode_command(wanted, file.name()), Subprocess::Pipe::kFromChild);
   transcoder.read_all();
   if (transcoder.finish() != 0) {
     throw Failure(kExitTruncated,
                   name + ": cannot be transcoded: " + last_line(transcoder.take_errors()));
   }
-  std::string video = made.contents();
+  std::string video = read_whole(file.name());
   if (video.empty()) {
     throw Failure(kExitNoVideo, name + ": no frame in the time of the curves");
   }

@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "apps/mien/outputs/output_file.h"
+
 namespace mien::app {
 
 struct WebVideo {
@@ -12,8 +14,7 @@ struct WebVideo {
 };
 
 // H.264 in MP4, at most 640 pixels a side, with sound, its own frame times, and a key frame a
-// second to seek to. Made by ffmpeg by way of a file named `scratch`, which is gone again
-// afterwards. Throws Failure.
-std::string web_video(const WebVideo& wanted, const std::string& scratch);
+// second to seek to. Made by ffmpeg, which leaves it in `file`, too. Throws Failure.
+std::string web_video(const WebVideo& wanted, const PartialFile& file);
 
 }  // namespace mien::app

@@ -75,6 +75,9 @@ ordered_json stages_json(const StageTimes& times) {
 Report::Report(const ReportOptions& options) : options_(options), file_(options.page) {
   // Fine enough to be drawn, and in 16 bits also where a face reaches beyond the picture.
   landmark_unit_ = std::max({options.width, options.height, 1}) / 8192.0;
+  if (!options.picture.empty() || !options.sound.empty()) {
+    clip_file_.emplace(options.page + ".mp4");
+  }
 }
 
 void Report::frame(const formats::Frame& frame, const Result& result) {
@@ -137,21 +140,19 @@ std::string Report::packed_landmarks() const {
   return packed.finish();
 }
 
-Report::Clip Report::clip() const {
-  if ((options_.picture.empty() && options_.sound.empty()) || frames_.empty()) {
+Report::Clip Report::clip() {
+  if (!clip_file_ || frames_.empty()) {
     return {};
   }
   std::string video = web_video({.picture = options_.picture,
                                  .sound = options_.sound,
                                  .start_s = start_ms() * 1e-3,
                                  .duration_s = (end_ms() - start_ms()) * 1e-3},
-                                partial_name(options_.page + ".mp4"));
+                                *clip_file_);
   if (static_cast<double>(video.size()) <= options_.largest_clip_bytes) {
     return {.bytes = std::move(video), .beside = ""};
   }
-  OutputFile file(options_.page + ".mp4");
-  file.write(video);
-  file.finish();
+  clip_file_->publish();
   return {.bytes = "", .beside = name_of(path_of(options_.page + ".mp4").filename())};
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <mien/mien.hpp>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,11 +45,12 @@ class Report {
   [[nodiscard]] double end_ms() const;
   [[nodiscard]] Columns columns() const;
   [[nodiscard]] std::string packed_landmarks() const;
-  [[nodiscard]] Clip clip() const;
+  Clip clip();
   [[nodiscard]] nlohmann::ordered_json facts(const StageTimes& times, const Clip& clip) const;
 
   ReportOptions options_;
   OutputFile file_;  // before the work that would be lost on a page that cannot be
+  std::optional<PartialFile> clip_file_;  // so, too; none: there is no clip
   std::vector<formats::Frame> frames_;
   std::vector<double> took_ms_;          // each frame
   std::vector<std::int16_t> landmarks_;  // [frames][MIEN_LANDMARK_COUNT * 2], in `landmark_unit`s

@@ -4,6 +4,8 @@
 #include <fstream>
 #include <iostream>
 #include <istream>
+#include <map>
+#include <nlohmann/json.hpp>
 
 #include "apps/mien/system/failure.h"
 #include "apps/mien/system/paths.h"
@@ -41,6 +43,29 @@ std::string read_whole(const std::string& path) {
             (std::filesystem::exists(path_of(path), ignored) ? "cannot be read" : "no such file"));
   }
   return rest_of(file, path);
+}
+
+formats::LiveLinkOptions read_live_link_notes(const std::string& path) {
+  const std::string beside = path + ".json";
+  std::error_code ignored;
+  if (path == "-" || !std::filesystem::exists(path_of(beside), ignored)) {
+    return {};
+  }
+  const nlohmann::json notes = nlohmann::json::parse(read_whole(beside), nullptr, false);
+  if (!notes.is_object() || !notes.contains("rotation") || !notes["rotation"].is_string()) {
+    return {};  // somebody else's
+  }
+  const std::map<std::string, formats::RotationUnit> units = {
+      {"rad", formats::RotationUnit::kRadians},
+      {"norm180", formats::RotationUnit::kDegreesBy180},
+      {"deg", formats::RotationUnit::kDegrees}};
+  const auto unit = units.find(notes["rotation"].get<std::string>());
+  const nlohmann::json fps = notes.value("timecode_fps", nlohmann::json());
+  if (unit == units.end() || !fps.is_number() || fps.get<double>() < 1.0 ||
+      fps.get<double>() > 100.0) {
+    throw Failure(kExitNoInput, beside + ": is damaged");
+  }
+  return {unit->second, fps.get<double>()};
 }
 
 formats::Clip parse_animation(std::string_view bytes, const std::string& name,

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/mien/outputs/output_file.h"
+#include "apps/mien/system/json_text.h"
 #include "apps/mien/system/subprocess.h"
 
 namespace mien::app {
@@ -62,8 +63,7 @@ void print_devices(bool json) {
                       {"name", device.name},
                       {"description", device.description}});
     }
-    constexpr auto kReplace = nlohmann::ordered_json::error_handler_t::replace;
-    write_standard_output(list.dump(1, ' ', false, kReplace) + "\n", wanted);
+    write_standard_output(json_text(list) + "\n", wanted);
   } else {
     for (const CaptureKind kind : {kCamera, kMicrophone}) {
       bool any = false;

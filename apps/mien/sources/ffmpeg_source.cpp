@@ -84,6 +84,25 @@ void require_file(const std::string& input) {
   }
 }
 
+// Containers round their frame counts; a few frames less is not a damaged file.
+bool too_few(std::int64_t frames, std::int64_t promised) {
+  return frames + 2 + promised / 50 < promised;
+}
+
+// Frames that an edit list leaves out are counted all the same; only the duration is without them.
+std::optional<std::int64_t> frames_promised(const json& probed, double fps) {
+  const json& stream = probed["streams"][0];
+  const auto counted = static_cast<std::int64_t>(number(stream, "nb_frames", 0.0));
+  // How long sound and picture last together says nothing of a picture that is counted.
+  const double both_s = counted > 0 ? 0.0 : number(probed["format"], "duration", 0.0);
+  constexpr double kRounding = 1e-3;  // of a frame, durations having six digits
+  const auto shown =
+      static_cast<std::int64_t>(std::floor(number(stream, "duration", both_s) * fps + kRounding));
+  const std::int64_t frames =
+      counted > 0 && shown > 0 ? std::min(counted, shown) : std::max(counted, shown);
+  return frames > 0 ? std::optional(frames) : std::nullopt;
+}
+
 VideoInfo info_from(const json& probed, const std::string& input) {
   const json& stream = probed["streams"][0];
   VideoInfo info;
@@ -97,13 +116,7 @@ VideoInfo info_from(const json& probed, const std::string& input) {
   }
   const double fps = ratio(stream.value("avg_frame_rate", "0/1"));
   info.fps = fps > 0.0 ? fps : 30.0;
-  const double counted = number(stream, "nb_frames", 0.0);
-  const double seconds = number(stream, "duration", number(probed["format"], "duration", 0.0));
-  const std::int64_t frames =
-      static_cast<std::int64_t>(counted > 0.0 ? counted : std::floor(seconds * fps));
-  if (frames > 0) {
-    info.frames = frames;
-  }
+  info.frames = frames_promised(probed, fps);
   return info;
 }
 
@@ -142,6 +155,7 @@ class FfmpegSource : public VideoSource {
   void collect_log(bool finished);
   void collect_time(std::string_view line);
   std::int64_t time_of(std::int64_t frame) const;
+  std::int64_t lacking_at_end() const;
 
   std::string input_;
   VideoRange range_;
@@ -209,6 +223,19 @@ std::int64_t FfmpegSource::time_of(std::int64_t frame) const {
   return std::llround((range_.start_s + seconds) * 1e9);
 }
 
+// A video that was cut without being encoded anew may lack frames in front of its last one, which
+// stands before them in the file. Its duration is that of all.
+std::int64_t FfmpegSource::lacking_at_end() const {
+  constexpr std::int64_t kMost = 16;  // frames that one may stand before, in H.264 and H.265
+  if (times_s_.size() < 2) {
+    return 0;
+  }
+  const std::size_t steps = std::min<std::size_t>(kMost, times_s_.size() - 1);
+  const double lasted_s = times_s_.back() - times_s_[times_s_.size() - 1 - steps];
+  return std::clamp<std::int64_t>(
+      std::llround(lasted_s * info_.fps) - static_cast<std::int64_t>(steps), 0, kMost);
+}
+
 bool FfmpegSource::next(mien_image& image, std::int64_t& pts_ns) {
   const std::size_t got = decoder_.read(std::as_writable_bytes(std::span(rgb_)));
   if (got < rgb_.size()) {
@@ -232,11 +259,10 @@ void FfmpegSource::at_end(std::size_t bytes_of_last_frame) {
   if (status != 0 && frames_ == 0) {
     throw Failure(kExitNoVideo, input_ + ": cannot be decoded: " + last_line(last_error_));
   }
-  // Containers round their frame counts; a few frames less is not a damaged file.
   const bool whole_file = range_.start_s <= 0.0 && !range_.duration_s;
-  const bool too_few =
-      whole_file && info_.frames && frames_ + 2 + *info_.frames / 50 < *info_.frames;
-  if (status != 0 || bytes_of_last_frame != 0 || too_few) {
+  const bool cut_off =
+      whole_file && info_.frames && too_few(frames_ + lacking_at_end(), *info_.frames);
+  if (status != 0 || bytes_of_last_frame != 0 || cut_off) {
     throw Failure(kExitTruncated,
                   input_ + ": truncated after " + std::to_string(frames_) + " frames" +
                       (info_.frames ? " of " + std::to_string(*info_.frames) : std::string()) +

@@ -16,4 +16,8 @@ void prepare(Handle handle);  // so that it never waits, no child has it, and no
 std::string last_error();
 std::string name_error(int error);  // of getaddrinfo
 
+// Of what getaddrinfo found, the address to take: the first of IPv4, on which most receivers listen
+// alone, even where the system would rather have the name's other ones; else the first.
+const addrinfo& preferred(const addrinfo& found);
+
 }  // namespace mien::app::sockets

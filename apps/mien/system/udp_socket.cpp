@@ -25,6 +25,15 @@ UdpAddress packed(const sockaddr_storage& address, socklen_t bytes) {
 
 }  // namespace
 
+const addrinfo& sockets::preferred(const addrinfo& found) {
+  for (const addrinfo* address = &found; address != nullptr; address = address->ai_next) {
+    if (address->ai_family == AF_INET) {
+      return *address;
+    }
+  }
+  return found;
+}
+
 bool UdpAddress::loopback() const {
   const sockaddr_storage address = storage(*this);
   if (address.ss_family == AF_INET6) {
@@ -69,11 +78,12 @@ UdpSocket::UdpSocket(const std::string& host, std::uint16_t port, const std::str
                   what + ": there is no host '" + host + "': " + sockets::name_error(error));
   }
   const std::unique_ptr<addrinfo, FreeAddresses> addresses(found);
-  peer_.bytes.assign(reinterpret_cast<const char*>(found->ai_addr), found->ai_addrlen);
-  const auto handle = ::socket(found->ai_family, SOCK_DGRAM, 0);
+  const addrinfo& address = sockets::preferred(*found);
+  peer_.bytes.assign(reinterpret_cast<const char*>(address.ai_addr), address.ai_addrlen);
+  const auto handle = ::socket(address.ai_family, SOCK_DGRAM, 0);
   handle_ = static_cast<std::intptr_t>(handle);
   if (handle_ < 0 ||
-      (bound && ::bind(handle, found->ai_addr, static_cast<socklen_t>(found->ai_addrlen)) != 0)) {
+      (bound && ::bind(handle, address.ai_addr, static_cast<socklen_t>(address.ai_addrlen)) != 0)) {
     const std::string reason = sockets::last_error();
     if (handle_ >= 0) {
       sockets::close(handle);

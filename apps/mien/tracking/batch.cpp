@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "apps/mien/system/failure.h"
+#include "apps/mien/system/json_text.h"
 #include "apps/mien/system/paths.h"
 #include "apps/mien/system/progress.h"
 
@@ -91,7 +92,8 @@ std::vector<Job> find_jobs(const BatchOptions& options) {
       }
       Job job;
       job.input = name_of(entry->path());
-      job.name = name_of(fs::relative(entry->path(), path_of(options.folder)));
+      // As it is called: what a link leads to may lie anywhere, and so would its outputs.
+      job.name = name_of(entry->path().lexically_relative(path_of(options.folder)));
       for (const std::string& ending : wanted) {
         job.outputs.push_back(name_of(path_of(options.out) / path_of(job.name + ending)));
       }
@@ -211,7 +213,7 @@ void print_json(const std::vector<Job>& jobs) {
     }
     list.push_back(row);
   }
-  std::printf("%s\n", list.dump(1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+  std::printf("%s\n", json_text(list).c_str());
 }
 
 }  // namespace

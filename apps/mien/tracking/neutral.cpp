@@ -2,14 +2,19 @@
 
 #include <array>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string_view>
 #include <vector>
 
 #include "apps/mien/outputs/output_file.h"
+#include "apps/mien/sources/network_input.h"
+#include "apps/mien/sources/sound_source.h"
 #include "apps/mien/sources/video_source.h"
 #include "apps/mien/system/failure.h"
+#include "apps/mien/system/json_text.h"
+#include "apps/mien/system/paths.h"
 #include "apps/mien/tracking/loaded_tracker.h"
 
 namespace mien::app {
@@ -17,16 +22,28 @@ namespace {
 
 using NeutralBytes = std::array<std::byte, MIEN_NEUTRAL_BYTES>;
 
-// Plays the video until the tracker has captured what bit `wanted` stands for.
-NeutralBytes capture(const NeutralOptions& options, Tracker& tracker, std::uint32_t wanted) {
+std::unique_ptr<VideoSource> open(const NeutralOptions& options) {
+  return open_video(options.input, {options.start_s, options.duration_s});
+}
+
+// What comes over a network may be a file, too, and then says how many frames it has.
+bool can_be_shown_again(const std::string& input, const VideoSource& video) {
+  if (is_url(input)) {
+    return video.info().frames.has_value();
+  }
+  std::error_code unknown;
+  return input != kStandardInput && std::filesystem::is_regular_file(path_of(input), unknown);
+}
+
+// Plays the video on until the tracker has captured what bit `wanted` stands for.
+NeutralBytes capture(const NeutralOptions& options, VideoSource& video, Tracker& tracker,
+                     std::uint32_t wanted) {
   check(tracker.capture_neutral(), options.input);
-  const std::unique_ptr<VideoSource> video =
-      open_video(options.input, {options.start_s, options.duration_s});
   NeutralBytes file = {};
   std::uint32_t captured = 0;
   mien_image image;
   std::int64_t pts_ns = 0;
-  while ((captured & wanted) == 0 && video->next(image, pts_ns)) {
+  while ((captured & wanted) == 0 && video.next(image, pts_ns)) {
     check(tracker.push_video(image, pts_ns), options.input);
     check(tracker.save_neutral(file, captured), options.input);
   }
@@ -40,10 +57,14 @@ NeutralBytes capture(const NeutralOptions& options, Tracker& tracker, std::uint3
 
 void neutral(const NeutralOptions& options) {
   LoadedTracker loaded({options.models, ""});
-  NeutralBytes file = capture(options, loaded.tracker, 1);
+  std::unique_ptr<VideoSource> video = open(options);
+  NeutralBytes file = capture(options, *video, loaded.tracker, 1);
   if (loaded.hifinet) {
     check(loaded.tracker.set_lod(4), options.input);
-    file = capture(options, loaded.tracker, 2);
+    if (can_be_shown_again(options.input, *video)) {
+      video = open(options);
+    }
+    file = capture(options, *video, loaded.tracker, 2);
   }
   OutputFile output(options.output);
   output.write({reinterpret_cast<const char*>(file.data()), file.size()});
@@ -53,7 +74,7 @@ void neutral(const NeutralOptions& options) {
         {"input", options.input},
         {"output", options.output},
         {"levels", loaded.hifinet ? std::vector<int>{1, 2, 3, 4} : std::vector<int>{1}}};
-    std::printf("%s\n", done.dump(1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+    std::printf("%s\n", json_text(done).c_str());
   } else if (!options.quiet) {
     std::fprintf(stderr, "%s: for %s\n", options.output.c_str(),
                  loaded.hifinet ? "all levels of detail" : "level of detail 1");

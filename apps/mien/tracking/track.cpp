@@ -35,7 +35,7 @@ void add_times(StageTimes& times, const Result& result) {
   times.add("frame", static_cast<std::int64_t>(whole));
 }
 
-void write_stats(const std::string& path, const Result& last, const StageTimes& times,
+void write_stats(OutputFile& file, const Result& last, const StageTimes& times,
                  std::size_t tracker_bytes) {
   nlohmann::ordered_json stats;
   stats["frames"] = last.frames;
@@ -48,7 +48,6 @@ void write_stats(const std::string& path, const Result& last, const StageTimes& 
     stats["stages"][stage] = {
         {"median_ms", time.median_ms}, {"p95_ms", time.p95_ms}, {"total_ms", time.total_ms}};
   }
-  OutputFile file(path);
   file.write(stats.dump(1) + "\n");
   file.finish();
 }
@@ -189,6 +188,10 @@ TrackSummary track(const TrackOptions& options) {
   }
   Frames frames(options, range, senses, loaded.tracker);
   Outputs outputs(options, frames.info(), range);
+  std::optional<OutputFile> stats;  // before the work that would be lost
+  if (!options.stats.empty()) {
+    stats.emplace(options.stats);
+  }
   frames.set_listener(outputs.listener());
   StageTimes times;
   Result last;
@@ -206,8 +209,8 @@ TrackSummary track(const TrackOptions& options) {
     }
   }
   outputs.finish(times);
-  if (!options.stats.empty()) {
-    write_stats(options.stats, last, times, loaded.tracker_bytes);
+  if (stats) {
+    write_stats(*stats, last, times, loaded.tracker_bytes);
   }
   if (!options.quiet) {
     print_summary(last, times);
