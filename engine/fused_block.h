@@ -29,8 +29,8 @@ struct BlockTiling {
 // Whether fused blocks are computed in half precision.
 [[nodiscard]] bool narrows_blocks(std::uint32_t cpu_mask);
 
-// Whether fused blocks want their pointwise weights in fixed point, too, and what such a layer's
-// take: steps, then pairs.
+// Whether fused blocks want their pointwise weights in fixed point, too (up to
+// kernels::kFixedWeightsMostInputs), and what such a layer's take: steps, then pairs.
 [[nodiscard]] bool fixes_weights(std::uint32_t cpu_mask);
 [[nodiscard]] std::size_t fixed_weights_bytes(std::int32_t in_c, std::int32_t out_c);
 

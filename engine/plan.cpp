@@ -1,6 +1,7 @@
 #include "engine/plan.h"
 
 #include "engine/arena_plan.h"
+#include "kernels/families.h"
 
 namespace mien::engine {
 
@@ -176,9 +177,16 @@ std::size_t Plan::state_elems(std::uint32_t layer) const {
   }
 }
 
+// Blocks with longer sums are computed in fp32. Without an expanding layer both are the same value.
+bool Plan::is_fixed(std::uint32_t layer, std::uint32_t slide) const {
+  const std::uint32_t x = layers_[layer].input, hidden = layers_[slide].input;
+  return fixes_weights_ && values_[x].shape.c <= kernels::kFixedWeightsMostInputs &&
+         values_[hidden].shape.c <= kernels::kFixedWeightsMostInputs;
+}
+
 std::size_t Plan::weights_bytes(std::uint32_t layer) const {
   const std::uint32_t slide = fused_slide(layer);
-  if (!fixes_weights_ || vanishes(layer) || slide == kNoIndex) {
+  if (vanishes(layer) || slide == kNoIndex || !is_fixed(layer, slide)) {
     return 0;
   }
   const auto channels = [&](std::uint32_t value) { return values_[value].shape.c; };
@@ -197,7 +205,7 @@ std::size_t Plan::scratch_elems(std::uint32_t layer) const {
 
 BlockTiling Plan::tiling(std::uint32_t layer) const {
   const std::uint32_t slide = fused_slide(layer);
-  const bool narrowed = narrows_ && layer < slide;
+  const bool narrowed = layer < slide && (fixes_weights_ ? is_fixed(layer, slide) : narrows_);
   return tile_block(layers_[slide], values_[layers_[slide].input].shape, values_[slide + 1].shape,
                     narrowed ? values_[layers_[layer].input].shape.c : 0);
 }

@@ -79,12 +79,13 @@ class Plan {
   void fuse_additions();
   void fuse_blocks();
   [[nodiscard]] bool passes_on(std::uint32_t layer) const;
+  [[nodiscard]] bool is_fixed(std::uint32_t layer, std::uint32_t slide) const;
   void place_maps();
   [[nodiscard]] std::size_t scratch_elems() const;
   [[nodiscard]] std::size_t scratch_elems(std::uint32_t layer) const;
 
   bool narrows_ = false;        // fused blocks are computed in half precision
-  bool fixes_weights_ = false;  // and their weights are in fixed point
+  bool fixes_weights_ = false;  // and their weights, unless they are too many, in fixed point
   const formats::NetworkRecord* network_ = nullptr;
   std::span<const formats::LayerRecord> layers_;
   Value values_[formats::kMaxLayers + 1];

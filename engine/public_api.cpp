@@ -255,6 +255,7 @@ EngineStatus NetworkRunner::create_in(const WeightFile& file, std::string_view n
                                       std::span<std::byte> arena) {
   release();
   Session* made = nullptr;
+  const kernels::FloatMode ours;  // weights may be rounded here
   const engine::Status status =
       Session::init(request_of(model_in(file.model_), network, options), session, arena, made);
   session_ = made;
@@ -341,6 +342,7 @@ std::int64_t run_fma_loop(std::uint32_t cpu_mask, std::int64_t rounds) {
   }
   float sums[8];
   std::int64_t macs = 0;
+  const kernels::FloatMode ours;
   loop({sums, rounds, &macs});
   // The sums are looked at, so the work cannot be left out.
   return sums[0] > -1e30f ? macs : 0;

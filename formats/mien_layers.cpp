@@ -1,6 +1,7 @@
 #include "formats/mien_layers.h"
 
-#include <cmath>
+#include <algorithm>
+#include <bit>
 
 namespace mien::formats {
 namespace {
@@ -36,12 +37,13 @@ FileStatus check_activation(const LayerRecord& layer) {
     return FileStatus::kBadActivation;
   }
   const bool leaky = activation_of(layer) == LayerActivation::kLeakyRelu;
-  // Written so that a NaN fails; -0.0 is not admitted.
-  const bool plain_zero = layer.alpha == 0.0f && !std::signbit(layer.alpha);
-  if (leaky ? !(layer.alpha > 0.0f && layer.alpha < 1.0f) : !plain_zero) {
-    return FileStatus::kBadActivation;
-  }
-  return FileStatus::kOk;
+  // As bits, which are in the order of the numbers from +0 on, and behind them are NaNs and what
+  // has a sign: as numbers denormal ones would be zero or not as the caller's floating-point state
+  // has it.
+  const auto alpha = std::bit_cast<std::uint32_t>(layer.alpha);
+  const bool below_one = alpha < std::bit_cast<std::uint32_t>(1.0f);
+  const bool admitted_alpha = leaky ? alpha > 0 && below_one : alpha == 0;
+  return admitted_alpha ? FileStatus::kOk : FileStatus::kBadActivation;
 }
 
 // Padding is smaller than the kernel so that no window sees padding alone.
@@ -147,6 +149,87 @@ TensorDims weights_of(const LayerRecord& layer, ValueShape input) {
   return {};
 }
 
+constexpr std::uint64_t kPanel = 16;
+constexpr std::uint64_t kBlock = 8;
+constexpr std::size_t kElementBytes = 2;
+
+// Looks at runs of elements of one tensor until one is not zero.
+class Search {
+ public:
+  explicit Search(std::span<const std::byte> tensor) : tensor_(tensor), found_(tensor.size()) {}
+
+  [[nodiscard]] bool done() const { return found_ < tensor_.size(); }
+  [[nodiscard]] std::size_t found() const { return found_; }
+
+  void look_at(std::uint64_t first, std::uint64_t count) {
+    const auto end = static_cast<std::size_t>((first + count) * kElementBytes);
+    for (auto at = static_cast<std::size_t>(first * kElementBytes); at < end && !done(); ++at) {
+      found_ = tensor_[at] != std::byte{0} ? at / kElementBytes * kElementBytes : found_;
+    }
+  }
+
+ private:
+  std::span<const std::byte> tensor_;
+  std::size_t found_;
+};
+
+// One panel: `first` is its first element, `width` its outputs, of which `used` are.
+struct Panel {
+  std::uint64_t first, width, used;
+};
+
+// Only the last block of a map has unused channels: some of each of its pixels.
+void look_at_inputs(const TensorLanes& lanes, const Panel& panel, Search& search) {
+  const std::uint64_t used = lanes.map_channels % kBlock;
+  if (used == 0) {
+    return;
+  }
+  const std::uint64_t channels = padded8(lanes.map_channels);
+  for (std::uint64_t map = 0; map < lanes.maps; ++map) {
+    std::uint64_t step = (map * channels + channels - kBlock) * lanes.pixels;
+    for (std::uint64_t pixel = 0; pixel < lanes.pixels; ++pixel, step += kBlock) {
+      search.look_at(panel.first + (step + used) * panel.width, (kBlock - used) * panel.width);
+    }
+  }
+}
+
+void look_at_outputs(const TensorLanes& lanes, const Panel& panel, Search& search) {
+  for (std::uint64_t step = 0; panel.used < panel.width && step < lanes.steps; ++step) {
+    search.look_at(panel.first + step * panel.width + panel.used, panel.width - panel.used);
+  }
+}
+
+TensorLanes vector_lanes(std::uint64_t outputs) { return {outputs, kBlock, 1, 0, 0, 0}; }
+
+TensorLanes weight_lanes(const LayerRecord& layer, ValueShape input) {
+  const std::uint64_t outputs = layer.channels, channels = input.channels;
+  const std::uint64_t blocked = padded8(channels), pixels = input.height * input.width;
+  const std::uint64_t taps = std::uint64_t{layer.kernel_height} * layer.kernel_width;
+  switch (op_of(layer)) {
+    case LayerOp::kConv2d:
+      return {outputs, kPanel, taps * channels, 0, 0, 0};
+    case LayerOp::kDepthwise:
+      return {outputs, kBlock, taps, 0, 0, 0};
+    case LayerOp::kPointwise:
+      return {outputs, kPanel, blocked, 1, 1, channels};
+    case LayerOp::kFullyConnected:
+      return {outputs, kPanel, blocked * pixels, 1, pixels, channels};
+    case LayerOp::kCausalConv:
+      return {outputs, kPanel, 2 * blocked, 2, 1, channels};
+    case LayerOp::kLstm:  // of its own output no lane is unused
+      return {4 * outputs, kPanel, blocked + outputs, 1, 1, channels};
+    case LayerOp::kMaxPool:
+    case LayerOp::kAdd:
+    case LayerOp::kActivation:
+    case LayerOp::kSoftmax:
+    case LayerOp::kGlobalAveragePool:
+    case LayerOp::kConcat:
+    case LayerOp::kSlice:
+      break;
+  }
+  return {};
+}
+
 }  // namespace
 
 bool shape_allowed(ValueShape shape) {
@@ -220,6 +303,24 @@ LayerTensors tensors_of(const LayerRecord& layer, ValueShape input) {
     tensors.slopes = vector_of(out);
   }
   return tensors;
+}
+
+LayerLanes lanes_of(const LayerRecord& layer, ValueShape input) {
+  const std::uint64_t gates = op_of(layer) == LayerOp::kLstm ? 4 : 1;
+  return {weight_lanes(layer, input), vector_lanes(gates * layer.channels),
+          vector_lanes(layer.channels)};
+}
+
+std::size_t find_filled(const TensorLanes& lanes, std::span<const std::byte> tensor) {
+  Search search(tensor);
+  const std::uint64_t padded = padded8(lanes.outputs);
+  for (std::uint64_t output = 0; output < padded && !search.done(); output += lanes.panel) {
+    const std::uint64_t width = std::min(lanes.panel, padded - output);
+    const Panel panel{output * lanes.steps, width, std::min(width, lanes.outputs - output)};
+    look_at_inputs(lanes, panel, search);
+    look_at_outputs(lanes, panel, search);
+  }
+  return search.found();
 }
 
 }  // namespace mien::formats

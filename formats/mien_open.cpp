@@ -111,7 +111,7 @@ class Validator {
   bool network(const NetworkRecord& record);
   bool outputs(const NetworkRecord& record);
   bool layer(const NetworkRecord& network, std::uint32_t index);
-  bool layer_tensor(const std::uint32_t& index, const TensorDims& dims);
+  bool layer_tensor(const std::uint32_t& index, const TensorDims& dims, const TensorLanes& lanes);
   bool constants();
   [[nodiscard]] ValueShape value_shape(const NetworkRecord& network, std::uint32_t value) const;
 
@@ -438,12 +438,15 @@ bool Validator::layer(const NetworkRecord& network, std::uint32_t index) {
     return fail_at(FileStatus::kBadShape, record.height);
   }
   const LayerTensors tensors = tensors_of(record, input);
-  return layer_tensor(record.weights, tensors.weights) && layer_tensor(record.bias, tensors.bias) &&
-         layer_tensor(record.slopes, tensors.slopes);
+  const LayerLanes lanes = lanes_of(record, input);
+  return layer_tensor(record.weights, tensors.weights, lanes.weights) &&
+         layer_tensor(record.bias, tensors.bias, lanes.bias) &&
+         layer_tensor(record.slopes, tensors.slopes, lanes.slopes);
 }
 
 // Layers' tensors come first, in the order of their use, so that each belongs to one layer.
-bool Validator::layer_tensor(const std::uint32_t& index, const TensorDims& dims) {
+bool Validator::layer_tensor(const std::uint32_t& index, const TensorDims& dims,
+                             const TensorLanes& lanes) {
   if (dims.rank == 0) {
     return index == kNoIndex || fail_at(FileStatus::kBadTensor, index);
   }
@@ -456,7 +459,11 @@ bool Validator::layer_tensor(const std::uint32_t& index, const TensorDims& dims)
   for (std::uint32_t i = 0; i < kMaxRank; ++i) {
     same = same && record.dims[i] == dims.dim[i];
   }
-  return same || fail_at(FileStatus::kBadTensor, index);
+  if (!same) {
+    return fail_at(FileStatus::kBadTensor, index);
+  }
+  const std::size_t filled = find_filled(lanes, part(record.offset, record.bytes));
+  return filled == record.bytes || fail(FileStatus::kPaddingNotZero, record.offset + filled);
 }
 
 bool Validator::constants() {

@@ -9,8 +9,6 @@ bool is_name_character(char c) {
   return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '.' || c == '/';
 }
 
-bool is_plain(std::uint8_t c) { return (c >= 0x20 && c != 0x7f) || c == '\t' || c == '\n'; }
-
 // First bytes of a character, how many follow, and the range of the second: the rows of RFC 3629's
 // grammar, which leave out overlong forms, surrogates and numbers above U+10FFFF.
 struct Sequence {
@@ -46,6 +44,13 @@ std::size_t character_bytes(std::string_view text) {
   return 0;
 }
 
+// Of Unicode's control characters, which are C0, delete and C1, text has tab and line feed alone.
+// The last are two bytes long: U+0080 to U+009F.
+bool is_control(std::string_view text) {
+  const std::uint8_t c = byte_at(text, 0);
+  return c == 0xc2 ? byte_at(text, 1) < 0xa0 : c == 0x7f || (c < 0x20 && c != '\t' && c != '\n');
+}
+
 }  // namespace
 
 bool is_name(std::string_view text) {
@@ -60,7 +65,7 @@ bool is_name(std::string_view text) {
 bool is_text(std::string_view text) {
   while (!text.empty()) {
     const std::size_t bytes = character_bytes(text);
-    if (bytes == 0 || !is_plain(byte_at(text, 0))) {
+    if (bytes == 0 || is_control(text)) {
       return false;
     }
     text.remove_prefix(bytes);

@@ -13,6 +13,12 @@
 namespace mien::formats {
 namespace {
 
+// Editors put a byte order mark before text that has none to tell.
+std::string_view without_mark(std::string_view bytes) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  return bytes.starts_with(kByteOrderMark) ? bytes.substr(kByteOrderMark.size()) : bytes;
+}
+
 // Of the first line of a table.
 AnimationFormat table_kind(std::string_view text) {
   CsvTable table(text);
@@ -82,7 +88,8 @@ AnimationFormat format_by_content(std::string_view bytes) {
   if (bytes.starts_with("glTF")) {
     return AnimationFormat::kGlb;
   }
-  const std::size_t first = bytes.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+  bytes = without_mark(bytes);
+  const std::size_t first = bytes.find_first_not_of(" \t\r\n");
   const std::string_view text =
       first == std::string_view::npos ? std::string_view() : bytes.substr(first);
   if (text.starts_with('{')) {
@@ -141,6 +148,7 @@ std::unique_ptr<AnimationWriter> animation_writer(AnimationFormat format,
 
 bool read_animation(AnimationFormat format, std::string_view bytes,
                     const LiveLinkOptions& live_link, Clip& clip, Fault& fault) {
+  bytes = without_mark(bytes);
   switch (format) {
     case AnimationFormat::kCsv:
     case AnimationFormat::kRoblox:

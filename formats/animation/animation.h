@@ -76,7 +76,7 @@ struct WriteOptions {
 [[nodiscard]] std::unique_ptr<AnimationWriter> animation_writer(AnimationFormat format,
                                                                 const WriteOptions& options);
 
-// On a fault `clip` stays as it was.
+// On a fault `clip` stays as it was. A byte order mark before a text is passed over.
 [[nodiscard]] bool read_animation(AnimationFormat format, std::string_view bytes,
                                   const LiveLinkOptions& live_link, Clip& clip, Fault& fault);
 

@@ -221,7 +221,9 @@ class Reader {
     for (std::int64_t i = 0; i < count; ++i) {
       Frame frame;
       frame.number = i;
-      frame.time_ns = std::llround(static_cast<double>(i) * step_s * 1e9);
+      if (!time_of(static_cast<double>(i) * step_s, kSecond_ns, frame.time_ns)) {
+        return words_.fail_here("the frames last too long", fault_);
+      }
       if (!read_pose(frame)) {
         return false;
       }

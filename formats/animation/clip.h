@@ -24,7 +24,7 @@ struct Angles {
 
 struct Frame {
   std::int64_t number = 0;
-  std::int64_t time_ns = 0;
+  std::int64_t time_ns = 0;  // time_allowed
   FaceState state = FaceState::kTracking;
   std::int64_t face_id = 0;
   double face_probability = kNoNumber;  // 0..1
@@ -46,9 +46,22 @@ struct Frame {
 
   Frame() { controls.fill(kNoNumber); }
 
-  // Rounded once: no 33.333332999999996.
-  [[nodiscard]] double time_ms() const { return static_cast<double>(time_ns) / 1e6; }
+  // The nearest: no 33.333332999999996.
+  [[nodiscard]] double time_ms() const;
 };
+
+// Of a frame of any file: 146 years before and after 0, so that the time from one frame to another
+// fits into 64 bits, too. Nanoseconds since 1970 are among them.
+inline constexpr std::int64_t kLastTime_ns = (std::int64_t{1} << 62) - 1;
+[[nodiscard]] constexpr bool time_allowed(std::int64_t time_ns) {
+  return -kLastTime_ns <= time_ns && time_ns <= kLastTime_ns;
+}
+
+// So many units of time, to the nanosecond; false, and `time_ns` as it was, where that is no time
+// that is allowed.
+[[nodiscard]] bool time_of(double units, std::int64_t unit_ns, std::int64_t& time_ns);
+inline constexpr std::int64_t kSecond_ns = 1'000'000'000;
+inline constexpr std::int64_t kMillisecond_ns = 1'000'000;
 
 struct Clip {
   std::vector<Frame> frames;      // times do not go back

@@ -2,13 +2,6 @@
 
 namespace mien::formats {
 
-CsvTable::CsvTable(std::string_view text) : rest_(text) {
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  if (rest_.starts_with(kByteOrderMark)) {
-    rest_.remove_prefix(kByteOrderMark.size());
-  }
-}
-
 bool CsvTable::next_row(Fault& fault) {
   fault = {};
   if (rest_.find_first_not_of("\r\n") == std::string_view::npos) {

@@ -1,5 +1,5 @@
-// Tables as text (RFC 4180, cells of one line), read row by row, knowing where they are. A byte
-// order mark, CR LF and empty lines at the end are what spreadsheets make, and no fault.
+// Tables as text (RFC 4180, cells of one line), read row by row, knowing where they are. CR LF and
+// empty lines at the end are what spreadsheets make, and no fault.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@ namespace mien::formats {
 
 class CsvTable {
  public:
-  explicit CsvTable(std::string_view text);
+  explicit CsvTable(std::string_view text) : rest_(text) {}
 
   // False at the end, and where a quotation mark is not closed: then `fault` says so.
   [[nodiscard]] bool next_row(Fault& fault);

@@ -195,13 +195,9 @@ class CurvesReader {
     if (!t_ms) {
       return table_.fail_at(*time_, "t_ms: is empty", fault_);
     }
-    constexpr double kLongest = 1e12;  // 30 years
-    if (std::abs(*t_ms) > kLongest) {
-      return table_.fail_at(*time_, "t_ms: " + quoted(table_.cell(*time_)) + " is out of range",
-                            fault_);
-    }
-    frame.time_ns = std::llround(*t_ms * 1e6);
-    return true;
+    return time_of(*t_ms, kMillisecond_ns, frame.time_ns) ||
+           table_.fail_at(*time_, "t_ms: " + quoted(table_.cell(*time_)) + " is out of range",
+                          fault_);
   }
 
   bool goes_on(const std::vector<Frame>& before, const Frame& frame) {

@@ -62,10 +62,12 @@ class ObjectReader {
 
  private:
   bool read_time(std::int64_t& time_ns) {
-    if (object_.find("t_ns") == nullptr) {
+    const JsonValue* found = object_.find("t_ns");
+    if (found == nullptr) {
       return object_.fail_here("the frame has no t_ns", fault_);
     }
-    return read_integer("t_ns", time_ns);
+    return read_integer("t_ns", time_ns) &&
+           (time_allowed(time_ns) || found->fail_here("t_ns: is out of range", fault_));
   }
 
   bool read_integer(std::string_view key, std::int64_t& value) {

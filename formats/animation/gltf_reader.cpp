@@ -231,9 +231,9 @@ class Reader {
     }
     const bool ascending = std::adjacent_find(track.times.begin(), track.times.end(),
                                               std::greater_equal<>()) == track.times.end();
-    constexpr float kLongest_s = 1e9f;
-    if (!ascending || std::abs(track.times.front()) > kLongest_s ||
-        std::abs(track.times.back()) > kLongest_s) {
+    std::int64_t first_ns = 0, last_ns = 0;
+    if (!ascending || !time_of(decimal(track.times.front()), kSecond_ns, first_ns) ||
+        !time_of(decimal(track.times.back()), kSecond_ns, last_ns)) {
       return input->fail_here("times have to ascend, and to be times", fault_);
     }
     return true;
@@ -325,6 +325,9 @@ class Reader {
     if (start != nullptr && !start->integer(start_ns_)) {
       return start->fail_here("start_ns: is not a whole number", fault_);
     }
+    if (start != nullptr && !time_allowed(start_ns_)) {
+      return start->fail_here("start_ns: is out of range", fault_);
+    }
     const JsonValue* states = ours->find("states");
     states_ = states != nullptr ? states->text : "";
     const JsonValue* names = list(*ours, "not_driven");
@@ -344,12 +347,12 @@ class Reader {
     for (std::size_t i = 0; i < times.size(); ++i) {
       Frame frame;
       frame.number = static_cast<std::int64_t>(i);
-      const std::int64_t since = std::llround(decimal(times[i]) * 1e9);
-      constexpr std::int64_t kFar = std::int64_t{1} << 62;
-      if (std::abs(start_ns_) > kFar) {
-        return animation.fail_here("start_ns: is out of range", fault_);
+      std::int64_t since_ns = 0;
+      const bool is_time = time_of(decimal(times[i]), kSecond_ns, since_ns);
+      frame.time_ns = start_ns_ + since_ns;  // both are allowed, and so it fits
+      if (!is_time || !time_allowed(frame.time_ns)) {
+        return animation.fail_here("the times of frames are out of range", fault_);
       }
-      frame.time_ns = start_ns_ + since;
       set_controls(i, frame, clip.out_of_range);
       frame.head = turn_at(head_turns_, times[i]);
       frame.position_m = place_at(head_moves_, times[i]);

@@ -170,14 +170,20 @@ class LiveLinkReader {
   bool read_time(Frame& frame, const std::vector<Frame>& before) {
     if (*time_ >= table_.size() || trimmed(table_.cell(*time_)).empty()) {
       const double row = static_cast<double>(frame.number) / options_.timecode_fps;
-      frame.time_ns = std::llround(row * 1e9);
+      if (!time_of(row, kSecond_ns, frame.time_ns)) {
+        return table_.fail_at(*time_, "Timecode: is out of range", fault_);
+      }
     } else if (!read_timecode(frame.time_ns)) {
       return false;
     }
-    // Past midnight the hours begin anew.
-    constexpr std::int64_t kHalfADay = 43'200'000'000'000;
-    while (!before.empty() && before.back().time_ns - frame.time_ns > kHalfADay) {
-      frame.time_ns += 2 * kHalfADay;
+    // Past midnight the hours begin anew: as many days later as bring it nearest.
+    constexpr std::int64_t kHalfADay = 43200 * kSecond_ns;
+    const std::int64_t back_ns = before.empty() ? 0 : before.back().time_ns - frame.time_ns;
+    if (back_ns > kHalfADay) {
+      frame.time_ns += (back_ns + kHalfADay - 1) / (2 * kHalfADay) * (2 * kHalfADay);
+    }
+    if (!time_allowed(frame.time_ns)) {
+      return table_.fail_at(*time_, "Timecode: is out of range", fault_);
     }
     return before.empty() || frame.time_ns >= before.back().time_ns ||
            table_.fail_at(*time_, "Timecode: goes back in time", fault_);

@@ -99,6 +99,8 @@ std::vector<std::string> losses(const Clip& clip, AnimationFormat format) {
        [](const Frame& frame) { return !frame.facs.empty(); }},
       {format == Format::kVisemes || cues, "visemes, but as controls",
        [](const Frame& frame) { return !frame.visemes.empty(); }},
+      {!cues, "times before 0: the first cue is at 0",
+       [](const Frame& frame) { return frame.time_ns < 0; }},
       {cues, "mouth shapes, but as controls",
        [](const Frame& frame) { return frame.mouth_shape != 0; }},
   };

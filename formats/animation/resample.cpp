@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "formats/animation/rotation.h"
 
@@ -53,18 +54,20 @@ std::vector<Frame> resampled(const std::vector<Frame>& frames, double fps, std::
   if (frames.empty()) {
     return made;
   }
-  const auto time_of = [&](std::int64_t k) {
-    return origin_ns + std::llround(static_cast<double>(k) * 1e9 / fps);
+  // Since the origin. All of a clip fits, but not all that may follow.
+  const auto since_origin = [&](std::int64_t k) -> std::int64_t {
+    const double since = static_cast<double>(k) * 1e9 / fps;
+    return since < 0x1p63 ? std::llround(since) : std::numeric_limits<std::int64_t>::max();
   };
-  const auto ahead_s = static_cast<double>(frames.front().time_ns - origin_ns) * 1e-9;
-  std::int64_t first = std::llround(ahead_s * fps);
-  first += time_of(first) < frames.front().time_ns ? 1 : 0;
+  const std::int64_t ahead_ns = frames.front().time_ns - origin_ns;
+  std::int64_t first = std::llround(static_cast<double>(ahead_ns) * 1e-9 * fps);
+  first += since_origin(first) < ahead_ns ? 1 : 0;
   std::size_t before = 0;
   for (std::int64_t k = first;; ++k) {
-    const std::int64_t time_ns = time_of(k);
-    if (time_ns > frames.back().time_ns) {
+    if (since_origin(k) > frames.back().time_ns - origin_ns) {
       return made;
     }
+    const std::int64_t time_ns = origin_ns + since_origin(k);
     while (before + 1 < frames.size() && frames[before + 1].time_ns <= time_ns) {
       ++before;
     }

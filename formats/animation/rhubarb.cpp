@@ -45,13 +45,32 @@ void add(std::vector<Cue>& cues, const Cue& cue) {
   }
 }
 
+// A whole second, so that it is allowed in hundredths and in frames, too, and with a frame behind
+// it.
+constexpr std::int64_t kLastCue_ns = kLastTime_ns - kLastTime_ns % kSecond_ns;
+
+// Rhubarb counts from the beginning of the sound, and has nothing before it: a clip that begins
+// earlier is moved to there.
+class Clock {
+ public:
+  explicit Clock(const std::vector<Frame>& frames)
+      : begin_ns_(std::min<std::int64_t>(frames.front().time_ns, 0)) {}
+  [[nodiscard]] std::int64_t at(const Frame& frame) const {
+    return std::min(frame.time_ns - begin_ns_, kLastCue_ns);
+  }
+
+ private:
+  std::int64_t begin_ns_;
+};
+
 // Cues as a file had them: the last frame is where they end.
 Cues cues_as_read(const std::vector<Frame>& frames) {
+  const Clock clock(frames);
   Cues made;
   for (std::size_t i = 0; i + 1 < frames.size(); ++i) {
-    add(made.cues, {frames[i].time_ns, frames[i].mouth_shape});
+    add(made.cues, {clock.at(frames[i]), frames[i].mouth_shape});
   }
-  made.end_ns = frames.back().time_ns;
+  made.end_ns = clock.at(frames.back());
   return made;
 }
 
@@ -66,14 +85,18 @@ char shape_seen(const Frame& frame) {
 }
 
 Cues cues_seen(const std::vector<Frame>& frames) {
+  const Clock clock(frames);
   Cues made;
   if (frames.front().time_ns > 0) {
     add(made.cues, {0, 'X'});
   }
   for (const Frame& frame : frames) {
-    add(made.cues, {frame.time_ns, shape_seen(frame)});
+    add(made.cues, {clock.at(frame), shape_seen(frame)});
   }
-  made.end_ns = frames.back().time_ns + std::llround(mean_step_s(frames) * 1e9);
+  // At most twice what is allowed, which still fits.
+  const double step_ns = std::min(mean_step_s(frames) * 1e9, static_cast<double>(kLastCue_ns));
+  const std::int64_t end_ns = clock.at(frames.back()) + std::llround(step_ns);
+  made.end_ns = std::min(end_ns, kLastCue_ns);
   std::vector<Cue> lasting;
   for (std::size_t i = 0; i < made.cues.size(); ++i) {
     if (lasting.empty() || made.end_of(i) - made.cues[i].begin_ns >= kShortest_ns) {
@@ -99,7 +122,16 @@ constexpr std::string_view kDatHead = "MohoSwitch1";
 constexpr std::int64_t kDatFps = 24;
 
 // Frames count from 1; times of frames were rounded to a nanosecond.
-std::int64_t dat_frame(std::int64_t time_ns) { return 1 + (time_ns + 1) * kDatFps / 1'000'000'000; }
+std::int64_t dat_frame(std::int64_t time_ns) {
+  const std::int64_t second = (time_ns + 1) / kSecond_ns, rest_ns = (time_ns + 1) % kSecond_ns;
+  return 1 + second * kDatFps + rest_ns * kDatFps / kSecond_ns;
+}
+
+// The other way.
+std::int64_t dat_time(std::int64_t frame) {
+  const std::int64_t second = (frame - 1) / kDatFps, rest = (frame - 1) % kDatFps;
+  return second * kSecond_ns + (rest * kSecond_ns + kDatFps / 2) / kDatFps;
+}
 
 class RhubarbWriter : public WholeClipWriter {
  public:
@@ -179,12 +211,15 @@ bool is_shape(std::string_view text) {
   return text.size() == 1 && kMouthShapes.find(text[0]) != kMouthShapes.npos;
 }
 
-constexpr double kLongest_s = 1e7;
+// Rhubarb counts from the beginning of the sound.
+bool cue_time(double seconds, std::int64_t& time_ns) {
+  return seconds >= 0.0 && time_of(seconds, kSecond_ns, time_ns);
+}
 
-Frame cue_frame(double begin_s, char shape, std::size_t number) {
+Frame cue_frame(std::int64_t begin_ns, char shape, std::size_t number) {
   Frame frame;
   frame.number = static_cast<std::int64_t>(number);
-  frame.time_ns = std::llround(begin_s * 1e9);
+  frame.time_ns = begin_ns;
   frame.mouth_shape = shape;
   frame.controls = controls_of_visemes(visemes_of_mouth_shape(shape));
   return frame;
@@ -205,14 +240,15 @@ bool read_tsv(std::string_view text, Clip& clip, Fault& fault) {
     }
     const std::size_t tab = row.find('\t');
     double begin_s = 0.0;
-    if (!parse_number(row.substr(0, tab), begin_s) || begin_s < 0.0 || begin_s > kLongest_s) {
+    std::int64_t begin_ns = 0;
+    if (!parse_number(row.substr(0, tab), begin_s) || !cue_time(begin_s, begin_ns)) {
       return fail(fault, line, 1, quoted(row.substr(0, tab)) + " is not a time in seconds");
     }
     if (tab == std::string_view::npos || !is_shape(row.substr(tab + 1))) {
       const std::size_t at = tab == std::string_view::npos ? row.size() : tab + 1;
       return fail(fault, line, at + 1, "is none of the shapes A to H and X");
     }
-    clip.frames.push_back(cue_frame(begin_s, row[tab + 1], clip.frames.size()));
+    clip.frames.push_back(cue_frame(begin_ns, row[tab + 1], clip.frames.size()));
     const std::size_t count = clip.frames.size();
     if (count > 1 && clip.frames[count - 1].time_ns < clip.frames[count - 2].time_ns) {
       return fail(fault, line, 1, "goes back in time");
@@ -221,15 +257,11 @@ bool read_tsv(std::string_view text, Clip& clip, Fault& fault) {
   return clip.frames.size() > 1 || fail(fault, line + 1, 1, "there are no cues");
 }
 
-bool time_of(const JsonValue& cue, std::string_view key, double& time_s, Fault& fault) {
+bool time_in(const JsonValue& cue, std::string_view key, std::int64_t& time_ns, Fault& fault) {
   const JsonValue* found = cue.find(key);
-  if (found == nullptr || !found->is(Kind::kNumber) || found->number < 0.0 ||
-      found->number > kLongest_s) {
-    return (found == nullptr ? cue : *found)
-        .fail_here(std::string(key) + ": a time in seconds has to be here", fault);
-  }
-  time_s = found->number;
-  return true;
+  return (found != nullptr && found->is(Kind::kNumber) && cue_time(found->number, time_ns)) ||
+         (found == nullptr ? cue : *found)
+             .fail_here(std::string(key) + ": a time in seconds has to be here", fault);
 }
 
 bool read_json(std::string_view text, Clip& clip, Fault& fault) {
@@ -241,14 +273,14 @@ bool read_json(std::string_view text, Clip& clip, Fault& fault) {
   if (cues == nullptr || !cues->is(Kind::kArray) || cues->items.empty()) {
     return (cues == nullptr ? root : *cues).fail_here("mouthCues: there are no cues", fault);
   }
-  double end_s = 0.0;
+  std::int64_t end_ns = 0;
   for (const JsonValue& cue : cues->items) {
-    double begin_s = 0.0;
-    const double before_s = end_s;
-    if (!time_of(cue, "start", begin_s, fault) || !time_of(cue, "end", end_s, fault)) {
+    std::int64_t begin_ns = 0;
+    const std::int64_t before_ns = end_ns;
+    if (!time_in(cue, "start", begin_ns, fault) || !time_in(cue, "end", end_ns, fault)) {
       return false;
     }
-    if (begin_s < before_s || end_s < begin_s) {
+    if (begin_ns < before_ns || end_ns < begin_ns) {
       return cue.fail_here("goes back in time", fault);
     }
     const JsonValue* shape = cue.find("value");
@@ -256,9 +288,9 @@ bool read_json(std::string_view text, Clip& clip, Fault& fault) {
       return (shape == nullptr ? cue : *shape)
           .fail_here("value: is none of the shapes A to H and X", fault);
     }
-    clip.frames.push_back(cue_frame(begin_s, shape->text[0], clip.frames.size()));
+    clip.frames.push_back(cue_frame(begin_ns, shape->text[0], clip.frames.size()));
   }
-  clip.frames.push_back(cue_frame(end_s, 'X', clip.frames.size()));
+  clip.frames.push_back(cue_frame(end_ns, 'X', clip.frames.size()));
   const JsonValue* metadata = root.find("metadata");
   const JsonValue* sound = metadata != nullptr ? metadata->find("soundFile") : nullptr;
   clip.sound_file = sound != nullptr ? sound->text : "";
@@ -273,10 +305,10 @@ std::string text_of(const std::vector<XmlTag>& tags, std::string_view name) {
   return found != tags.end() ? found->text : "";
 }
 
-bool time_of(const XmlTag& cue, std::string_view key, double& time_s, Fault& fault) {
+bool time_in(const XmlTag& cue, std::string_view key, std::int64_t& time_ns, Fault& fault) {
   const std::string* found = cue.find(key);
-  return (found != nullptr && parse_number(*found, time_s) && time_s >= 0.0 &&
-          time_s <= kLongest_s) ||
+  double time_s = 0.0;
+  return (found != nullptr && parse_number(*found, time_s) && cue_time(time_s, time_ns)) ||
          cue.fail_here(std::string(key) + ": a time in seconds has to be here", fault);
 }
 
@@ -288,28 +320,28 @@ bool read_xml(std::string_view text, Clip& clip, Fault& fault) {
   if (tags.front().name != "rhubarbResult") {
     return tags.front().fail_here("rhubarbResult has to be here", fault);
   }
-  double end_s = 0.0;
+  std::int64_t end_ns = 0;
   for (const XmlTag& tag : tags) {
     if (tag.name != "mouthCue" || tag.closes) {
       continue;
     }
-    double begin_s = 0.0;
-    const double before_s = end_s;
-    if (!time_of(tag, "start", begin_s, fault) || !time_of(tag, "end", end_s, fault)) {
+    std::int64_t begin_ns = 0;
+    const std::int64_t before_ns = end_ns;
+    if (!time_in(tag, "start", begin_ns, fault) || !time_in(tag, "end", end_ns, fault)) {
       return false;
     }
-    if (begin_s < before_s || end_s < begin_s) {
+    if (begin_ns < before_ns || end_ns < begin_ns) {
       return tag.fail_here("goes back in time", fault);
     }
     if (!is_shape(tag.text)) {
       return tag.fail_here(quoted(tag.text) + " is none of the shapes A to H and X", fault);
     }
-    clip.frames.push_back(cue_frame(begin_s, tag.text[0], clip.frames.size()));
+    clip.frames.push_back(cue_frame(begin_ns, tag.text[0], clip.frames.size()));
   }
   if (clip.frames.empty()) {
     return tags.front().fail_here("mouthCues: there are no cues", fault);
   }
-  clip.frames.push_back(cue_frame(end_s, 'X', clip.frames.size()));
+  clip.frames.push_back(cue_frame(end_ns, 'X', clip.frames.size()));
   clip.sound_file = text_of(tags, "soundFile");
   return true;
 }
@@ -348,7 +380,7 @@ bool read_dat(std::string_view text, Clip& clip, Fault& fault) {
     const std::size_t space = std::min(row.find(' '), row.size());
     std::int64_t frame = 0;
     if (!parse_number(row.substr(0, space), frame) || frame < 1 ||
-        frame > static_cast<std::int64_t>(kLongest_s) * kDatFps) {
+        frame > dat_frame(kLastTime_ns)) {
       return fail(fault, line, 1, quoted(row.substr(0, space)) + " is not a frame, 1 or later");
     }
     const std::string_view name = trimmed(row.substr(space));
@@ -364,8 +396,7 @@ bool read_dat(std::string_view text, Clip& clip, Fault& fault) {
       return fail(fault, line, 1, "goes back in time");
     }
     last = frame;
-    const double begin_s = static_cast<double>(frame - 1) / kDatFps;
-    clip.frames.push_back(cue_frame(begin_s, shape, clip.frames.size()));
+    clip.frames.push_back(cue_frame(dat_time(frame), shape, clip.frames.size()));
   }
   return clip.frames.size() > 1 || fail(fault, line + 1, 1, "there are no cues");
 }

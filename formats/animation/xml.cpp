@@ -28,7 +28,7 @@ class Parser {
       : text_(text), tags_(tags), fault_(fault) {}
 
   bool parse() {
-    skip_text();
+    skip_blanks();
     while (at_ < text_.size()) {
       const bool fine = follows("<?") || follows("<!--") ? skip_what_says_nothing() : tag();
       if (!fine || !take_text()) {
@@ -50,7 +50,6 @@ class Parser {
     return text_.substr(at_).starts_with(what);
   }
 
-  void skip_text() { at_ = std::min(text_.find_first_not_of("\xEF\xBB\xBF \t\r\n"), text_.size()); }
   void skip_blanks() { at_ = std::min(text_.find_first_not_of(kBlanks, at_), text_.size()); }
 
   // <?xml ...?> and comments.

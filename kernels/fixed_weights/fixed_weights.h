@@ -23,12 +23,16 @@
 
 namespace mien::kernels {
 
+// The longer the sum, the wider the steps: with this many inputs a weight of average size has five
+// bits left, and with 131072 no step would be wide enough.
+inline constexpr std::int32_t kFixedWeightsMostInputs = 2048;
+
 struct FixedWeightsArgs {
   static constexpr std::string_view kFamily = "fixed_weights";
   const std::uint16_t* weights;        // fp16
   std::int16_t* pairs;                 // [out_blocks * 8 * in_blocks * 8]
   float* steps;                        // [out_blocks * 8]
-  std::int32_t in_blocks, out_blocks;  // of 8 channels; at most 8192
+  std::int32_t in_blocks, out_blocks;  // of 8 channels; at most kFixedWeightsMostInputs of them in
   std::int32_t most;                   // up to 32767
   bool is_signed;
 };

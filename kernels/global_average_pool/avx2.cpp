@@ -1,28 +1,29 @@
 #include "kernels/common/avx2.h"
 #include "kernels/families.h"
+#include "kernels/global_average_pool/parts.h"
 
 namespace mien::kernels::avx2 {
+namespace {
 
-// Four sums hide the latency of additions, and err less on large maps than one would.
-void global_average_pool(const GlobalAveragePoolArgs& a) {
-  const Vec scale = _mm256_set1_ps(1.0f / static_cast<float>(a.pixels));
-  const float* x = a.x;
-  for (std::int32_t block = 0; block < blocks_of(a.channels); ++block) {
-    Vec sum[4] = {_mm256_setzero_ps(), _mm256_setzero_ps(), _mm256_setzero_ps(),
-                  _mm256_setzero_ps()};
-    std::int32_t p = 0;
-    for (; p + 4 <= a.pixels; p += 4) {
-      for (Vec& one : sum) {
-        one = _mm256_add_ps(one, _mm256_loadu_ps(x));
-        x += kLanes;
-      }
+// Four sums hide the latency of additions.
+void sum_of_part(const float* x, std::int32_t pixels, float (&part)[8]) {
+  Vec sum[4] = {_mm256_setzero_ps(), _mm256_setzero_ps(), _mm256_setzero_ps(), _mm256_setzero_ps()};
+  std::int32_t p = 0;
+  for (; p + 4 <= pixels; p += 4) {
+    for (Vec& one : sum) {
+      one = _mm256_add_ps(one, _mm256_loadu_ps(x));
+      x += kLanes;
     }
-    for (; p < a.pixels; ++p, x += kLanes) {
-      sum[0] = _mm256_add_ps(sum[0], _mm256_loadu_ps(x));
-    }
-    const Vec total = _mm256_add_ps(_mm256_add_ps(sum[0], sum[1]), _mm256_add_ps(sum[2], sum[3]));
-    _mm256_storeu_ps(a.y + std::ptrdiff_t{block} * kLanes, _mm256_mul_ps(total, scale));
   }
+  for (; p < pixels; ++p, x += kLanes) {
+    sum[0] = _mm256_add_ps(sum[0], _mm256_loadu_ps(x));
+  }
+  _mm256_storeu_ps(part,
+                   _mm256_add_ps(_mm256_add_ps(sum[0], sum[1]), _mm256_add_ps(sum[2], sum[3])));
 }
+
+}  // namespace
+
+void global_average_pool(const GlobalAveragePoolArgs& a) { mean_by_parts(a, sum_of_part); }
 
 }  // namespace mien::kernels::avx2

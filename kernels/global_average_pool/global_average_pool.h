@@ -1,7 +1,8 @@
 // Mean of a whole map: y[c] = sum over all pixels of x[p, c] / pixels, per channel.
 //
 // x: [pixels, c] in blocks of 8 channels, y: [c]; not overlapping. Lanes >= c of x are zero, and so
-// are those of y.
+// are those of y. However large the map, the mean errs by no more than that of some hundred pixels
+// in fp32.
 #pragma once
 
 #include <cstdint>

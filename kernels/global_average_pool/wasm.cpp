@@ -1,11 +1,12 @@
 #include "kernels/common/wasm.h"
 #include "kernels/families.h"
+#include "kernels/global_average_pool/parts.h"
 
 namespace mien::kernels::wasm {
 namespace {
 
-// Four sums hide the latency of additions, and err less on large maps than one would.
-Vec sum_of_pixels(const float* x, std::int32_t pixels) {
+// Four sums hide the latency of additions.
+Vec sum_of_four(const float* x, std::int32_t pixels) {
   constexpr int kSums = 4;
   Vec sums[kSums];
   for (Vec& one : sums) {
@@ -23,14 +24,13 @@ Vec sum_of_pixels(const float* x, std::int32_t pixels) {
   return wasm_f32x4_add(wasm_f32x4_add(sums[0], sums[1]), wasm_f32x4_add(sums[2], sums[3]));
 }
 
+void sum_of_part(const float* x, std::int32_t pixels, float (&part)[8]) {
+  store(part, sum_of_four(x, pixels));
+  store(part + kLanes, sum_of_four(x + kLanes, pixels));
+}
+
 }  // namespace
 
-void global_average_pool(const GlobalAveragePoolArgs& a) {
-  const Vec scale = splat(1.0f / static_cast<float>(a.pixels));
-  for (std::int32_t first = 0; first < blocks_of(a.channels) * kBlock; first += kLanes) {
-    const float* x = a.x + std::ptrdiff_t{first / kBlock} * a.pixels * kBlock + first % kBlock;
-    store(a.y + first, wasm_f32x4_mul(sum_of_pixels(x, a.pixels), scale));
-  }
-}
+void global_average_pool(const GlobalAveragePoolArgs& a) { mean_by_parts(a, sum_of_part); }
 
 }  // namespace mien::kernels::wasm

@@ -15,7 +15,7 @@ void pointwise(const PointwiseArgs& a) {
   const bool clamps = is_clamp(a.activation, clamp);
   product.low = clamp.low;
   product.high = clamp.high;
-  if (clamps && a.residual != a.y) {
+  if (clamps) {
     return multiply_panels(product);
   }
   product_by_parts<kFewPixels>(a, product, multiply_panels, [&](const SumsOfBlock& part) {

@@ -9,8 +9,8 @@ namespace {
 
 constexpr std::int32_t kFewPixels = 12;
 
-// Sums of a few pixels and one panel go through the stack to their activation, and to a residual
-// that lies where they belong.
+// Sums of a few pixels and one panel go through the stack to their activation, and then to a
+// residual.
 void finish(const PointwiseArgs& a, const float* sums, std::int32_t block, std::int32_t pixel,
             std::int32_t count) {
   const std::ptrdiff_t plane = plane_of(a), residual_plane = residual_plane_of(a);
@@ -54,7 +54,7 @@ void pointwise(const PointwiseArgs& a) {
   const bool clamps = is_clamp(a.activation, clamp);
   product.low = clamp.low;
   product.high = clamp.high;
-  if (!clamps || a.residual == a.y) {
+  if (!clamps) {
     return activated_product(a, product);
   }
   multiply_panels(product);

@@ -14,7 +14,7 @@ void pointwise(const PointwiseArgs& a) {
   ProductArgs product = product_of(a);
   product.low = vgetq_lane_f32(activator.low(), 0);
   product.high = vgetq_lane_f32(activator.high(), 0);
-  if (!activator.curves() && a.residual != a.y) {
+  if (!activator.curves()) {
     return multiply_panels(product);
   }
   product_by_parts<kFewPixels>(a, product, multiply_panels, [&](const SumsOfBlock& part) {

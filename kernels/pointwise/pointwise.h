@@ -2,11 +2,10 @@
 //
 //   y[p, o] = act(bias[o] + sum over i of w[o, i] x[p, i]) + r[slice of p, o]
 //
-// x: [h, w, in_c], y: [h, w, out_c], in blocks of 8 channels, not overlapping; lanes >= out_c
-// become 0. r: [residual_h, residual_w, out_c], from which the slice beginning at (residual_top,
-// residual_left) is added; r may be y's own memory only when both have the same size. Weights: fp16
-// panels of 16 output channels, [panel][i][16] with i up to ceil(in_c/8) * 8; the last panel is 8
-// wide when ceil(out_c/8) is odd.
+// x: [h, w, in_c], y: [h, w, out_c], in blocks of 8 channels; lanes >= out_c become 0. r:
+// [residual_h, residual_w, out_c], from which the slice beginning at (residual_top, residual_left)
+// is added. Neither x nor r overlaps y. Weights: fp16 panels of 16 output channels, [panel][i][16]
+// with i up to ceil(in_c/8) * 8; the last panel is 8 wide when ceil(out_c/8) is odd.
 #pragma once
 
 #include <cstdint>

@@ -22,7 +22,6 @@ inline const float* residual_at(const PointwiseArgs& a, std::int32_t pixel) {
   return a.residual + (y * a.residual_w + x) * kChannels;
 }
 
-// With a residual that does not lie where the result does.
 inline ProductArgs product_of(const PointwiseArgs& a) {
   const std::ptrdiff_t plane = plane_of(a), residual_plane = residual_plane_of(a);
   ProductArgs product{};
@@ -35,7 +34,7 @@ inline ProductArgs product_of(const PointwiseArgs& a) {
   product.out_blocks = (a.out_c + 7) / 8;
   product.y = a.y;
   product.y_rows = {kChannels, plane, 2 * plane, 0x7FFFFFFF, 0};
-  if (a.residual != nullptr && a.residual != a.y) {
+  if (a.residual != nullptr) {
     product.residual = residual_at(a, 0);
     product.residual_rows = {kChannels, residual_plane, 2 * residual_plane, a.w,
                              (a.residual_w - a.w) * kChannels};
@@ -57,8 +56,8 @@ struct SumsOfBlock {
   }
 };
 
-// A product whose sums go through the stack: to an activation that does more than clamp, or to a
-// residual that lies where they belong. `finish` is given one SumsOfBlock after another.
+// A product whose sums go through the stack, to an activation that does more than clamp. `finish`
+// is given one SumsOfBlock after another.
 template <std::int32_t kMostPixels, class Multiply, class Finish>
 void product_by_parts(const PointwiseArgs& a, ProductArgs product, Multiply multiply,
                       Finish finish) {

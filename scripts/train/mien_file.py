@@ -425,7 +425,7 @@ def _name(name):
 
 
 def _text(text):
-    _require(len(text.encode()) <= MAX_TEXT_BYTES and not re.search(r"[\x00-\x08\x0b-\x1f\x7f]", text), f"metadata {text[:40]!r}")
+    _require(len(text.encode()) <= MAX_TEXT_BYTES and not re.search(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]", text), f"metadata {text[:40]!r}")
     return text
 
 

@@ -110,6 +110,42 @@ TEST(FusedBlocks, EveryLayerIsInOneStep) {
   EXPECT_EQ(next, 44u);
 }
 
+// Fixed point has no room for so long sums: weights that are all the same and inputs that are all
+// one are what its steps are worst at.
+TEST(FusedBlocks, LongSumsAreNotRoundedAway) {
+  const auto same = [](std::uint32_t outputs, std::uint32_t inputs) {
+    const std::size_t count = std::size_t{outputs} * inputs;
+    return formats::Array{{outputs, inputs},
+                          std::vector<float>(count, 3.0f / static_cast<float>(inputs))};
+  };
+  struct Sizes {
+    std::uint32_t in_c, hidden_c;
+  };
+  for (const Sizes size : {Sizes{16384, 8}, Sizes{131072, 8}, Sizes{8, 16384}}) {
+    formats::MienWriter writer;
+    formats::NetworkWriter& net = writer.network("net", {1, 1, size.in_c});
+    formats::LayerOptions relu6;
+    relu6.activation = LayerActivation::kRelu6;
+    const formats::Array ones{{size.hidden_c, 1, 1, 1}, std::vector<float>(size.hidden_c, 1.0f)};
+    const formats::LayerIndex wide = net.pointwise(0, same(size.hidden_c, size.in_c), {});
+    const formats::LayerIndex slid = net.depthwise(wide, ones, {}, relu6);
+    net.output(net.pointwise(slid, same(8, size.hidden_c), {}));
+    AlignedBuffer bytes = finished(writer);
+    for (const std::uint32_t mask : fusing_tiers()) {
+      OwnedSession fused(bytes, "net", {}, mask | kernels::kFusedBlocks);
+      ASSERT_EQ(fused.status, engine::Status::kOk);
+      EXPECT_EQ(fused.session->step_count(), 1u);
+      std::fill(fused.session->input().begin(), fused.session->input().end(), 1.0f);
+      fused.spoil_arena();
+      fused.session->run();
+      for (const float one : fused.session->output(0)) {
+        EXPECT_NEAR(one, 9.0f, 9.0 * (is_half(mask) ? kHalfTwinTolerance : 1e-3))
+            << size.in_c << " to " << size.hidden_c << ", tier mask " << mask;
+      }
+    }
+  }
+}
+
 // Blocks as networks have them, and some that must not be fused: whose values somebody else reads
 // too, or whose activation is none of a block's.
 class RandomBlocks {

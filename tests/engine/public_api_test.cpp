@@ -3,13 +3,17 @@
 #include <mien/engine.h>
 
 #include <algorithm>
+#include <cfenv>
 #include <cstdlib>
 #include <cstring>
 #include <new>
+#include <random>
 #include <set>
 #include <string>
 
+#include "formats/mien_writer.h"
 #include "tests/engine/mini_model.h"
+#include "tests/engine/twin_session.h"
 
 namespace mien::tests {
 namespace {
@@ -65,6 +69,62 @@ TEST_F(Engine, RunsStepByStepAsAtOnce) {
   EXPECT_GT(run_fma_loop(~0u, 10), 0);
   EXPECT_EQ(run_fma_loop(0, 10), 0) << "no tier, no loop";
 }
+
+#if defined(FE_UPWARD) && !defined(__EMSCRIPTEN__)
+// Weights in fixed point are rounded when a runner is made.
+TEST(EngineFloatMode, IsOursWhenARunnerIsMade) {
+  constexpr std::uint32_t kChannels = 64;
+  constexpr std::size_t kWeights = std::size_t{kChannels} * kChannels;
+  std::mt19937 random(2);
+  std::uniform_real_distribution<float> values(-0.5f, 0.5f);
+  formats::Array mixing{{kChannels, kChannels}, std::vector<float>(kWeights)};
+  std::generate(mixing.values.begin(), mixing.values.end(), [&] { return values(random); });
+  const formats::Array sliding{{kChannels, 1, 3, 3},
+                               std::vector<float>(std::size_t{9} * kChannels, 0.11f)};
+  formats::MienWriter writer;
+  formats::NetworkWriter& net = writer.network("net", {4, 4, kChannels});
+  formats::LayerOptions relu6;
+  relu6.activation = formats::LayerActivation::kRelu6;
+  net.output(net.pointwise(net.depthwise(net.pointwise(0, mixing, {}, relu6), sliding, {}, relu6),
+                           mixing, {}));
+  AlignedBuffer bytes = finished(writer);
+  WeightFile file;
+  ASSERT_EQ(file.open(bytes.span()), EngineStatus::kOk);
+  NetworkRunner::Options options;
+  options.cpu_mask = MIEN_CPU_ALL;
+  RunnerMemory needed;
+  ASSERT_EQ(NetworkRunner::required_memory(file, "net", options, needed), EngineStatus::kOk);
+  AlignedBuffer session(needed.session), arena(needed.arena);
+  std::vector<float> input(std::size_t{4} * 4 * kChannels);
+  std::generate(input.begin(), input.end(), [&] { return values(random); });
+  NetworkRunner usual;
+  ASSERT_EQ(usual.create(file, "net", options), EngineStatus::kOk);
+  const std::vector<float> want = run(usual, input);
+  for (const int rounding : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
+    NetworkRunner own, lent;
+    std::fesetround(rounding);
+    const EngineStatus of_own = own.create(file, "net", options);
+    const EngineStatus of_lent = lent.create_in(file, "net", options, session.span(), arena.span());
+    EXPECT_EQ(std::fegetround(), rounding);
+    std::fesetround(FE_TONEAREST);
+    ASSERT_EQ(of_own, EngineStatus::kOk);
+    ASSERT_EQ(of_lent, EngineStatus::kOk);
+    EXPECT_EQ(run(own, input), want);
+    EXPECT_EQ(run(lent, input), want);
+  }
+#ifdef __GLIBC__
+  NetworkRunner runner;
+  std::feclearexcept(FE_ALL_EXCEPT);
+  feenableexcept(FE_INEXACT | FE_UNDERFLOW);  // not all machines can, and the others trap nothing
+  const EngineStatus status = runner.create(file, "net", options);
+  const std::int64_t macs = run_fma_loop(~0u, 10);
+  fedisableexcept(FE_ALL_EXCEPT);
+  ASSERT_EQ(status, EngineStatus::kOk);
+  EXPECT_GT(macs, 0);
+  EXPECT_EQ(run(runner, input), want);
+#endif
+}
+#endif
 
 TEST_F(Engine, RunsInTheCallersMemory) {
   RunnerMemory needed;

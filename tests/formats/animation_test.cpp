@@ -77,6 +77,115 @@ TEST(Animation, EndingsAndContentSayTheFormat) {
   EXPECT_EQ(format_by_ending(".csv"), std::nullopt) << "a hidden file, not an ending";
 }
 
+std::string read_and_written(const std::string& text, AnimationFormat format) {
+  Clip read;
+  Fault fault;
+  EXPECT_TRUE(read_animation(format, text, {}, read, fault)) << describe(fault);
+  return written(read, format);
+}
+
+TEST(Animation, AByteOrderMarkIsPassedOver) {
+  const Clip clip = random_clip(5, 9);
+  for (const FormatName& known : kFormatNames) {
+    if (known.format == AnimationFormat::kGlb) {
+      continue;  // no text
+    }
+    const std::string text = written(clip, known.format);
+    const std::string marked = "\xEF\xBB\xBF" + text;
+    EXPECT_EQ(format_by_content(marked), known.format) << known.name;
+    EXPECT_EQ(read_and_written(marked, known.format), read_and_written(text, known.format))
+        << known.name;
+  }
+}
+
+Clip clip_from(std::int64_t begin_ns) {
+  Clip clip = random_clip(20, 10);
+  for (Frame& frame : clip.frames) {
+    frame.time_ns += begin_ns;
+  }
+  return clip;
+}
+
+// Of 1970, of a camera that began before the sound, and of a clip.
+TEST(Animation, WhatIsWrittenOfAnyTimeIsReadAgain) {
+  constexpr std::int64_t kSince1970_ns = 1'700'000'000'033'250'000;
+  for (const std::int64_t begin_ns : {kSince1970_ns, std::int64_t{-500'000'000}, std::int64_t{0}}) {
+    const Clip clip = clip_from(begin_ns);
+    for (const FormatName& known : kFormatNames) {
+      SCOPED_TRACE(std::string(known.name) + " from " + std::to_string(begin_ns) + " ns on");
+      const std::string text = written(clip, known.format);
+      const std::string again = read_and_written(text, known.format);
+      const bool over_angles =
+          known.format == AnimationFormat::kGltf || known.format == AnimationFormat::kGlb;
+      EXPECT_TRUE(over_angles || again == text) << text << again;
+    }
+  }
+}
+
+TEST(Animation, TimesKeepTheirDigits) {
+  Clip clip;
+  Fault fault;
+  ASSERT_TRUE(read_animation(AnimationFormat::kCsv,
+                             "t_ms,jawOpen\n1700000000033.25,0\n1700000000066.5,0\n", {}, clip,
+                             fault))
+      << describe(fault);
+  EXPECT_EQ(clip.frames[0].time_ns, 1'700'000'000'033'250'000);
+  EXPECT_EQ(clip.frames[0].time_ms(), 1700000000033.25);
+  EXPECT_EQ(clip.frames[1].time_ns, 1'700'000'000'066'500'000);
+  ASSERT_TRUE(read_animation(AnimationFormat::kRhubarbDat,
+                             "MohoSwitch1\n40800000002 A\n40800000003 X\n", {}, clip, fault))
+      << describe(fault);
+  EXPECT_EQ(clip.frames[0].time_ns, 1'700'000'000'041'666'667);
+  EXPECT_EQ(written(clip, AnimationFormat::kRhubarbDat),
+            "MohoSwitch1\n40800000002 A\n40800000003 X\n");
+}
+
+// Cues count from the beginning of the sound: a clip that begins before is moved to there, which
+// is said.
+TEST(Animation, CuesBeginAtZero) {
+  const Clip clip = clip_from(-500'000'000), moved = clip_from(0);
+  for (const AnimationFormat format :
+       {AnimationFormat::kRhubarb, AnimationFormat::kRhubarbJson, AnimationFormat::kRhubarbXml,
+        AnimationFormat::kRhubarbDat}) {
+    EXPECT_EQ(written(clip, format), written(moved, format));
+    EXPECT_THAT(losses(clip, format), Contains(HasSubstr("times before 0")));
+    EXPECT_THAT(losses(moved, format), Not(Contains(HasSubstr("times before 0"))));
+  }
+}
+
+// Whatever times are allowed, no writer leaves 64 bits, and all come to an end.
+TEST(Animation, TimesAsFarApartAsMayBe) {
+  constexpr std::int64_t kLast = kLastTime_ns;
+  for (const std::vector<std::int64_t>& times :
+       std::vector<std::vector<std::int64_t>>{{-kLast, 0, kLast},
+                                              {-kLast, 1'000'000'000, kLast},
+                                              {-kLast, kLast},
+                                              {kLast},
+                                              {-kLast},
+                                              {kLast, kLast},
+                                              {-kLast, -kLast, kLast - 1, kLast}}) {
+    Clip clip = random_clip(times.size(), 11);
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      clip.frames[i].time_ns = times[i];
+    }
+    for (const bool has_shapes : {false, true}) {
+      for (Frame& frame : clip.frames) {
+        frame.mouth_shape = has_shapes ? 'B' : '\0';
+      }
+      for (const FormatName& known : kFormatNames) {
+        SCOPED_TRACE(known.name);
+        const std::string text = written(clip, known.format);
+        static_cast<void>(losses(clip, known.format));
+        // Those that count from their first frame on, or have times of a day, say no to these.
+        if (known.format != AnimationFormat::kGltf && known.format != AnimationFormat::kGlb &&
+            known.format != AnimationFormat::kBvh && known.format != AnimationFormat::kLiveLink) {
+          read_and_written(text, known.format);
+        }
+      }
+    }
+  }
+}
+
 // A line of the text and a byte of it, its end included, or where the next line would be; of a
 // binary file a byte, or a place in its JSON.
 void expect_place(const Fault& fault, AnimationFormat format, const std::string& text) {

@@ -66,8 +66,8 @@ TEST(Xxhash64, TheHoleCountsAsZero) {
 
 TEST(Text, IsUtf8WithoutControlCharacters) {
   for (const char* good :
-       {"", "plain\ttext\n", "\xc2\x80", "\xdf\xbf", "\xe0\xa0\x80", "\xed\x9f\xbf", "\xee\x80\x80",
-        "\xf0\x90\x80\x80", "\xf4\x8f\xbf\xbf", "a\xc3\xa9z"}) {
+       {"", "plain\ttext\n", "\xc2\xa0", "\xc3\x80", "\xdf\xbf", "\xe0\xa0\x80", "\xed\x9f\xbf",
+        "\xee\x80\x80", "\xf0\x90\x80\x80", "\xf4\x8f\xbf\xbf", "a\xc3\xa9z"}) {
     EXPECT_TRUE(is_text(good)) << good;
   }
   for (const char* bad : {"\r", "\x1b[31m", "\x7f", "\x80", "\xbf", "\xc0\xaf", "\xc1\xbf", "\xc2",
@@ -76,6 +76,13 @@ TEST(Text, IsUtf8WithoutControlCharacters) {
     EXPECT_FALSE(is_text(bad)) << bad;
   }
   EXPECT_FALSE(is_text(std::string_view("a\0b", 3)));
+  for (char c = '\0'; c < ' '; ++c) {
+    EXPECT_EQ(is_text({&c, 1}), c == '\t' || c == '\n') << static_cast<int>(c);
+  }
+  for (int c = 0x80; c < 0xC0; ++c) {
+    const char character[] = {'\xC2', static_cast<char>(c)};
+    EXPECT_EQ(is_text({character, 2}), c >= 0xA0) << "C1 ends before U+00A0: " << c;
+  }
 }
 
 TEST(Text, NamesAreLowerCase) {

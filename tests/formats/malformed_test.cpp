@@ -4,6 +4,7 @@
 #include <cstring>
 #include <limits>
 
+#include "kernels/float_mode.h"
 #include "tests/formats/files.h"
 
 namespace mien::formats {
@@ -81,6 +82,31 @@ TEST(Malformed, EveryBitOfTheRecordsFlippedWithTheChecksumMadeRight) {
     file[bit / 8] ^= mask;
   }
   EXPECT_LT(accepted, 8 * strings / 20);
+}
+
+// Denormal numbers are none to a caller that takes them for zero, and bits all the same.
+TEST(Malformed, AlphasAreJudgedByTheirBits) {
+  constexpr std::size_t kLeakyAlpha = 192 + 44, kOtherAlpha = kLeakyAlpha + 64;  // of small.mien
+  const auto status_with = [](std::size_t at, std::uint32_t bits) {
+    auto file = small();
+    std::memcpy(file.data() + at, &bits, sizeof bits);
+    fix_checksum(file);
+    const FileStatus status = open_copy(file).status;
+    const kernels::FloatMode ours;
+    EXPECT_EQ(open_copy(file).status, status);
+    return status;
+  };
+  for (const std::uint32_t good : {0x1u, 0x7FFFFFu, 0x800000u, 0x3E800000u, 0x3F7FFFFFu}) {
+    EXPECT_EQ(status_with(kLeakyAlpha, good), FileStatus::kOk) << good;
+    EXPECT_EQ(status_with(kOtherAlpha, good), FileStatus::kBadActivation) << good;
+  }
+  for (const std::uint32_t bad : {0u, 0x3F800000u, 0x7F800000u, 0x7FC00000u, 0x80000000u,
+                                  0x80000001u, 0xBE800000u, 0xFFFFFFFFu}) {
+    EXPECT_EQ(status_with(kLeakyAlpha, bad), FileStatus::kBadActivation) << bad;
+    EXPECT_EQ(status_with(kOtherAlpha, bad),
+              bad == 0 ? FileStatus::kOk : FileStatus::kBadActivation)
+        << bad;
+  }
 }
 
 template <class Integer>

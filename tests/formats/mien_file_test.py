@@ -92,7 +92,7 @@ class Refusals(unittest.TestCase):
     def test_names_and_texts(self):
         for bad in ("", "A", "a b", "x" * 64, "é", "a\n"):
             self.refused(lambda: file_with(name=bad))
-        for bad in ("\r", "\x00", "\x7f", "x" * 4097):
+        for bad in ("\r", "\x00", "\x7f", "\x80", "x" * 4097):
             file = file_with()
             file.metadata["key"] = bad
             self.refused(file)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes reject/: accept/small.mien or parts.mien with one rule broken in each, the checksum made right again, and reject/expected.txt
+"""Writes reject/: accept/small.mien, parts.mien or every_op.mien with one rule broken in each, the checksum made right again, and reject/expected.txt
 with lines "file status offset"."""
 import struct
 import sys
@@ -16,6 +16,7 @@ CONSTANT = TENSORS + 64 * 7  # "c", 3 x fp32
 CONSTANT_DATA = len(BASE) - 128
 NAN = float("nan")
 PARTS = (HERE / "accept/parts.mien").read_bytes()
+EVERY_OP = (HERE / "accept/every_op.mien").read_bytes()
 SLICE, _, CONCAT, MEAN = (128 + 64 * i for i in range(4))
 
 # name, status, offset that the reader reports (None: where the first change is), changes (format, offset, value)
@@ -56,6 +57,8 @@ CASES = [
     ("text_delete", "kBadMetadata", METADATA + 8, [("B", STRINGS + 7, 0x7F)]),
     ("text_overlong", "kBadMetadata", METADATA + 8, [("2s", STRINGS + 7, b"\xc0\x80")]),
     ("text_surrogate", "kBadMetadata", METADATA + 8, [("3s", STRINGS + 7, b"\xed\xa0\x80")]),
+    ("text_first_of_c1", "kBadMetadata", METADATA + 8, [("2s", STRINGS + 7, b"\xc2\x80")]),
+    ("text_last_of_c1", "kBadMetadata", METADATA + 8, [("2s", STRINGS + 7, b"\xc2\x9f")]),
     ("text_cut_character", "kBadMetadata", METADATA + 24, [("B", STRINGS + 20, 0xC3)]),
     ("text_beyond_unicode", "kBadMetadata", METADATA + 8, [("4s", STRINGS + 7, b"\xf4\x90\x80\x80")]),
     ("input_zero", "kBadNetwork", None, [("I", NETWORKS + 8, 0)]),
@@ -84,6 +87,7 @@ CASES = [
     ("alpha_one", "kBadActivation", CONV, [("f", CONV + 44, 1.0)]),
     ("alpha_nan", "kBadActivation", CONV, [("f", CONV + 44, NAN)]),
     ("alpha_unused", "kBadActivation", FC, [("f", FC + 44, 0.5)]),
+    ("alpha_denormal", "kBadActivation", FC, [("I", FC + 44, 1)]),
     ("alpha_minus_zero", "kBadActivation", FC, [("f", FC + 44, -0.0)]),
     ("input_is_itself", "kBadReference", FC, [("I", FC + 4, 2)]),
     ("input_beyond", "kBadReference", ADD, [("I", ADD + 4, 2**32 - 1)]),
@@ -160,6 +164,36 @@ PARTS_CASES = [
     ("mean_window", "kBadKernel", MEAN, [("H", MEAN + 28, 1)]),
 ]
 
+# Of every_op.mien: name, layer, its tensor, element (all of the first network have 20 channels, in 24 lanes), what is put there.
+WEIGHTS, BIAS, SLOPES = range(3)
+LANES_CASES = [
+    ("lane_of_conv2d", 0, WEIGHTS, 16 * 27 + 26 * 8 + 7, 0x3C00),
+    ("lane_of_depthwise", 1, WEIGHTS, 2 * 9 * 8 + 8 * 8 + 4, 0x3C00),
+    ("lane_of_pointwise_output", 3, WEIGHTS, 16 * 24 + 5 * 8 + 4, 0x3C00),
+    ("lane_of_pointwise_input", 3, WEIGHTS, 20 * 16, 0x3C00),
+    ("lane_of_fully_connected_output", 11, WEIGHTS, 13, 0x3C00),
+    ("lane_of_fully_connected_first_pixel", 11, WEIGHTS, (16 * 2 + 4) * 16 + 12, 0x3C00),
+    ("lane_of_fully_connected_last_pixel", 11, WEIGHTS, 47 * 16, 0x3C00),
+    ("lane_of_causal_conv_previous", 13, WEIGHTS, 13 * 16, 0x3C00),
+    ("lane_of_causal_conv_current", 13, WEIGHTS, 16 * 32 + 31 * 8, 0x3C00),
+    ("lane_of_lstm", 14, WEIGHTS, 16 * 32 + 20 * 16 + 15, 0x3C00),
+    ("lane_of_bias", 0, BIAS, 20, 0x3C00),
+    ("lane_of_bias_denormal", 2, BIAS, 23, 0x0001),
+    ("lane_of_slopes", 7, SLOPES, 21, 0x3C00),
+    ("lane_of_slopes_minus_zero", 13, SLOPES, 20, 0x8000),
+]
+
+
+def lane_of(layer, tensor, element):
+    """Where an element of a layer's tensor is in every_op.mien."""
+    networks, layers = struct.unpack_from("<2I", EVERY_OP, 20)
+    first_layer = 64 + 64 * networks
+    index, = struct.unpack_from("<I", EVERY_OP, first_layer + 64 * layer + 48 + 4 * tensor)
+    offset, = struct.unpack_from("<Q", EVERY_OP, first_layer + 64 * (layers + index) + 32)
+    at = offset + 2 * element
+    assert EVERY_OP[at:at + 2] == bytes(2)
+    return at
+
 
 def changed(changes, base=BASE):
     data = bytearray(base)
@@ -199,6 +233,9 @@ def main():
     cases = [(name, status, changes[0][1] if offset is None else offset, changed(changes))
              for name, status, offset, changes in CASES] + whole_file_cases()
     cases += [(name, status, offset, changed(changes, PARTS)) for name, status, offset, changes in PARTS_CASES]
+    for name, layer, tensor, element, value in LANES_CASES:
+        at = lane_of(layer, tensor, element)
+        cases.append((name, "kPaddingNotZero", at, changed([("H", at, value)], EVERY_OP)))
     for name, _, _, data in cases:
         (folder / f"{name}.mien").write_bytes(data)
     (folder / "expected.txt").write_text("".join(f"{name}.mien {status} {offset}\n" for name, status, offset, _ in cases))

@@ -119,9 +119,11 @@ class Reader:
         text = self.string(offset, size)
         check(size <= 4096 and not any((c < 32 and c not in b"\t\n") or c == 127 for c in text), "kBadMetadata")
         try:
-            return text.decode("utf-8")
+            text = text.decode("utf-8")
         except UnicodeDecodeError:
             raise Refused("kBadMetadata")
+        check(not any(0x80 <= ord(c) <= 0x9F for c in text), "kBadMetadata")
+        return text
 
     def strings(self):
         self.network_records = self.records(0, self.network_count, "<2I3I3I1I4I3I")
@@ -203,9 +205,11 @@ class Reader:
         check(shape == (h, w, channels) and map_ok(shape), "kBadShape")
         dims = self.weight_dims(op, a, channels, kh, kw)
         n8 = round8(channels)
-        self.take(weights, dims)
-        self.take(bias, dims and [4 * channels if op == 6 else n8])
-        self.take(slopes, [n8] if activation == 4 else None)
+        outputs = 4 * channels if op == 6 else channels
+        used = self.used_elements(op, a)
+        self.take(weights, dims, 8 if op == 2 else 16, lambda output, k: output < outputs and used(k))
+        self.take(bias, dims and [4 * channels if op == 6 else n8], 8, lambda output, _: output < outputs)
+        self.take(slopes, [n8] if activation == 4 else None, 8, lambda output, _: output < channels)
         self.lines.append(f"layer {op} activation {activation} inputs {x} {second} output {h}x{w}x{channels}")
         return shape
 
@@ -239,13 +243,35 @@ class Reader:
         return {1: [n8, kh, kw, c], 2: [n8, kh, kw], 3: [n8, c8], 4: [n8, h * w * c8], 5: [n8, 2, c8],
                 6: [4 * n, c8 + n]}.get(op)
 
-    def take(self, index, dims):
+    def used_elements(self, op, a):
+        """Whether an element of the reduction belongs to a channel."""
+        h, w, c = a
+        c8 = round8(c)
+        return {3: lambda k: k < c,
+                4: lambda k: k // 8 // (h * w) * 8 + k % 8 < c,
+                5: lambda k: k % c8 < c,
+                6: lambda k: k < c or k >= c8}.get(op, lambda k: True)
+
+    def take(self, index, dims, panel, used):
         if dims is None:
             check(index == NOTHING, "kBadTensor")
             return
         check(index == self.tensor < self.tensor_count, "kBadTensor")
         check(self.types[index] == 1 and self.dims[index] == dims and not self.tensor_names[index], "kBadTensor")
+        self.lanes(index, panel, used)
         self.tensor += 1
+
+    def lanes(self, index, panel, used):
+        """Of panels of so many outputs, the last perhaps of 8, with the elements of the reduction one after the other."""
+        outputs, *rest = self.dims[index]
+        elements = 1
+        for n in rest:
+            elements *= n
+        words = iter(struct.unpack_from(f"<{outputs * elements}H", self.data, self.tensor_records[index][9]))
+        for first in range(0, outputs, panel):
+            for k in range(elements):
+                for output in range(first, min(first + panel, outputs)):
+                    check(next(words) == 0 or used(output, k), "kPaddingNotZero")
 
 
 def read(path):
