@@ -2,8 +2,6 @@
 
 Every decoder is trained anew on the same features with several seeds, for fewer steps than the shipped one.
 """
-from argparse import Namespace
-
 import numpy as np
 import torch
 from torch import nn
@@ -47,8 +45,7 @@ def learning_data(setting, network):
 
 
 def arguments(seed, velocity, acceleration):
-    return Namespace(steps=STEPS, batch=BATCH, rate=3e-3, velocity=velocity, acceleration=acceleration, beta=0.15, noise=0.2, seed=seed,
-                     start_from=None)
+    return phase2.arguments(steps=STEPS, batch=BATCH, velocity=velocity, acceleration=acceleration, noise=0.2, seed=seed)
 
 
 def train(name, seed, learned):

@@ -3,7 +3,6 @@
 A control that this answers and ours does not is lost by the encoder; one that neither answers is not in where points are.
 """
 import json
-from argparse import Namespace
 
 import numpy as np
 import torch
@@ -22,7 +21,7 @@ from setting import Missing
 
 KNOWN = 2 * LANDMARKS + POSE
 STILLS = 10  # shards
-ARGUMENTS = Namespace(steps=900, batch=24, rate=3e-3, velocity=0.35, acceleration=0.1, beta=0.15, noise=0.02, seed=0, start_from=None)
+ARGUMENTS = phase2.arguments(steps=900, velocity=0.35, acceleration=0.1, noise=0.02)
 
 
 def shards(kind):

@@ -110,10 +110,10 @@ class Backgrounds:
         images = self.pieces(count)
         crop = torch.tensor(BASENET.middle).expand(count, -1)
         for k in range(alignments + 1):
-            out = network(sample(images, crop, BASENET) * 2 - 1)
-            face = torch.sigmoid(out["face"])
+            out = network((sample(images, crop, BASENET) * 2 - 1).to(next(network.parameters()).device))
+            face = torch.sigmoid(out["face"]).cpu()
             self.remember(images, crop, (face > believed) & within(crop))
-            crop = fit_crop(template(), crop_to_image(crop, out["landmarks"]))
+            crop = fit_crop(template(), crop_to_image(crop, out["landmarks"].cpu()))
         network.train()
 
     def remember(self, images, crop, chosen):

@@ -82,6 +82,7 @@ decoders() {  # output, arguments of train_decoders.py
 decoders decoders_whole --start-from "$runs/$name/decoders.pt" &
 decoders decoders_half --start-from "$runs/$name/decoders.pt" --draw-back 0.5
 wait $!
+decoders decoders_cut --start-from "$runs/$name/decoders.pt" --cuts 0.3 --draw-back 0.5
 since_training "$runs/$name/decoders_before.pt" "$python" blend_decoders.py "$runs/$name/decoders_half.pt" "$before" 0.15 "$runs/$name/decoders_before.pt"
 "$python" compare_decoders.py --val "$f/val.pt" --portraits-val "$f/portraits_val.pt" --apart "$f/val_apart.pt" \
-  "$before" "$runs/$name/decoders.pt" "$runs/$name"/decoders_{whole,half,before}.pt | tee "$runs/$name/compared.txt"
+  "$before" "$runs/$name/decoders.pt" "$runs/$name"/decoders_{whole,half,cut,before}.pt | tee "$runs/$name/compared.txt"

@@ -1,6 +1,7 @@
 """The real portraits of both packs, `faces` and `faces_wild`: what the teacher says of each, and who may be learned from.
 
-Held out by a hash of the name: 12 % test, 5 % validation. Of GRID, whose frames show the same people often, by speaker.
+Held out by a hash of the name: 12 % test, 5 % validation. Of GRID, whose frames show the same people often, by speaker. Whoever is
+held out under another name is not learned from (portrait_twins.py).
 """
 import functools
 import hashlib
@@ -9,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from expressions import CONTROLS
+import portrait_twins
 from paths import data
 
 PACKS = ("faces", "faces_wild")
@@ -86,7 +88,11 @@ def every():
 
 def of_split(split, packs=PACKS):
     labels = every()
-    return labels.of([i for i in range(len(labels)) if labels.pack[i] in packs and split_of(labels.name[i], labels.group[i]) == split])
+    belongs = np.array([split_of(name, group) for name, group in zip(labels.name, labels.group)], str)
+    chosen = (belongs == split) & np.isin(labels.pack, packs)
+    if split == "train" and len(labels):
+        chosen &= ~np.isin(labels.name, list(portrait_twins.twins(labels, belongs)))
+    return labels.of(np.flatnonzero(chosen))
 
 
 def of_names(names):

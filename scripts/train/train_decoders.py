@@ -151,22 +151,30 @@ class Held:
 
     FRAMES, ADAPTING = 10, 2
 
-    def __init__(self, data, args, odds=None):
-        """`odds` [tracks]: how often to draw each."""
-        self.data, self.size = {k: data[k] for k in LEARNED}, 2 * args.batch
+    def __init__(self, data, args, odds=None, cuts=0.0):
+        """`odds` [tracks]: how often to draw each. `cuts`: how often another face takes a face's place from one frame to the next; from
+        faces that only hold still decoders learn to answer late, since the frames before are as good as the one at hand."""
+        self.data, self.size, self.cuts = {k: data[k] for k in LEARNED}, 2 * args.batch, cuts
         self.odds = torch.ones(len(data["features"])) if odds is None else torch.as_tensor(odds, dtype=torch.float32)
         self.mask = torch.ones(1, self.FRAMES, 1)
-        self.mask[:, :self.ADAPTING] = 0.25
+        if cuts:
+            self.mask[:, 0] = 0.5
+        else:
+            self.mask[:, :self.ADAPTING] = 0.25
 
     def batch(self):
-        rows = torch.multinomial(self.odds, self.size, replacement=True)[:, None]
-        at = torch.randint(self.data["features"].shape[1], (self.size, self.FRAMES))
+        shape = self.size, self.FRAMES
+        drawn = torch.multinomial(self.odds, self.size * self.FRAMES, replacement=True).view(shape)
+        begins = torch.rand(shape) < self.cuts
+        begins[:, 0] = True
+        rows = drawn.gather(1, torch.where(begins, torch.arange(self.FRAMES), 0).cummax(1)[0])
+        at = torch.randint(self.data["features"].shape[1], shape)
         return {k: v[rows, at].float() for k, v in self.data.items()}, self.mask
 
 
 def of_portraits(data, args):
     """Rare expressions are drawn more often, as in phase 1."""
-    return Held(data, args, rarity(data["controls"][:, 0].float().numpy()))
+    return Held(data, args, rarity(data["controls"][:, 0].float().numpy()), args.cuts)
 
 
 def stream(table, rows):
@@ -344,7 +352,7 @@ def evaluate(decoders, data, supported=None, gaze=False, portraits=None, before=
     return report, supported
 
 
-def main():
+def options():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--network", choices=FACE_NETWORKS, default="basenet", help="whose features: HiFiNet's tell of gaze, and "
                         "nobody asks them for the head pose")
@@ -363,11 +371,21 @@ def main():
     parser.add_argument("--velocity", type=float, default=0.1)
     parser.add_argument("--acceleration", type=float, default=0.03)
     parser.add_argument("--sides", type=float, default=1.0, help="weight of which side of a pair moves")
+    parser.add_argument("--cuts", type=float, default=0.0, help="how often a real face gives way to another from one frame to the next")
     parser.add_argument("--beta", type=float, default=0.15, help="larger errors count linearly")
     parser.add_argument("--noise", type=float, default=0.3, help="feature noise, in deviations")
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--seed", type=int, default=0)
-    args = parser.parse_args()
+    return parser
+
+
+def arguments(**changed):
+    """What `train` and the tasks ask for, for who is no command line."""
+    return argparse.Namespace(**{action.dest: action.default for action in options()._actions} | changed)
+
+
+def main():
+    args = options().parse_args()
     torch.set_num_threads(args.threads)
     sources = [kind(join([torch.load(p) for p in paths]), args)
                for kind, paths in ((Moving, args.train), (Held, args.held)) if paths]

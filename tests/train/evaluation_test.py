@@ -20,11 +20,14 @@ import evaluate_leakage  # noqa: E402
 import evaluate_levels  # noqa: E402
 import evaluate_pictures  # noqa: E402
 import evaluate_response  # noqa: E402
+import evaluate_yardstick  # noqa: E402
+import portrait_twins  # noqa: E402
 import probes  # noqa: E402
 import program  # noqa: E402
 import report  # noqa: E402
 import summary  # noqa: E402
 import teacher  # noqa: E402
+import train_decoders  # noqa: E402
 from expressions import CONTROLS, INDEX  # noqa: E402
 
 
@@ -33,6 +36,40 @@ def answers(plan, gain=1.0):
     shown = np.stack(plan.controls)[plan.order]
     row = evaluate_response.read(gain * shown, plan)
     return {mark: np.stack([v] * 3) for mark, v in row.items()}
+
+
+class Decoders(unittest.TestCase):
+    def data(self, tracks=40, frames=2):
+        number = torch.arange(tracks, dtype=torch.float32).view(tracks, 1, 1)
+        return {name: number.expand(tracks, frames, width) for name, width in
+                (("features", 4), ("pose", 9), ("controls", len(CONTROLS)), ("visible", len(CONTROLS)))}
+
+    def test_those_of_the_evaluation_are_trained_as_ours_are(self):
+        for arguments in (evaluate_ablation.arguments(0, 0.35, 0.1), evaluate_yardstick.ARGUMENTS):
+            self.assertEqual(vars(arguments).keys(), vars(train_decoders.arguments()).keys())
+            source = train_decoders.Held(self.data(), arguments)
+            task, (batch, mask) = train_decoders.ControlsTask(source.data, arguments), source.batch()
+            self.assertTrue(torch.isfinite(task.loss(batch["controls"] / 40, batch, mask)))
+
+    def test_faces_hold_still_but_for_cuts(self):
+        torch.manual_seed(1)
+        for cuts in (0.0, 0.3):
+            batch, mask = train_decoders.Held(self.data(), train_decoders.arguments(batch=100), cuts=cuts).batch()
+            changes = (batch["features"][:, 1:, 0] != batch["features"][:, :-1, 0]).float().mean().item()
+            self.assertAlmostEqual(changes, cuts, delta=0.04)
+            self.assertTrue(torch.equal(batch["features"][..., 0], batch["pose"][..., 0]))
+            self.assertEqual(mask[0, 1, 0].item(), 1 if cuts else 0.25)
+
+
+class Twins(unittest.TestCase):
+    def test_the_same_photograph_is_one_whatever_its_size_and_light(self):
+        rng = np.random.default_rng(1)
+        big = np.uint8(np.kron(rng.integers(0, 200, (12, 12)), np.ones((20, 20))))
+        points = np.float32([[0, 0], [239, 239]])
+        half = np.uint8(big.reshape(120, 2, 120, 2).mean((1, 3)) * 0.8 + 30)
+        one, same, other = (portrait_twins.small(p, q) for p, q in ((big, points), (half, points / 2), (big[::-1].copy(), points)))
+        self.assertEqual(portrait_twins.alike(np.stack([one, other]), same[None]).tolist(), [True, False])
+        self.assertFalse(portrait_twins.alike(one[None], np.zeros((0, len(one)), np.float32)).any())
 
 
 class Probes(unittest.TestCase):
