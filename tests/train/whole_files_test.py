@@ -33,8 +33,9 @@ class WholeFiles(unittest.TestCase):
 
     def test_killed_at_any_moment(self):
         """Each run begins beside what the killed one before it left."""
-        dice, left_behind = random.Random(5), 0
-        for _ in range(25):
+        dice, runs, left_behind = random.Random(5), 0, 0
+        while runs < 25 or left_behind < 6 and runs < 300:  # a busy machine is often between two writes
+            runs += 1
             self.path.unlink(missing_ok=True)
             process = subprocess.Popen([sys.executable, "-c", WRITES_FOR_EVER, self.path], stdout=subprocess.PIPE)
             process.stdout.readline()
@@ -45,7 +46,7 @@ class WholeFiles(unittest.TestCase):
             self.assertEqual(len(written), BLOCKS * BLOCK)
             self.assertEqual(written, written[:1] * len(written), "of one write alone")
             left_behind += len(list(self.path.parent.iterdir())) > 1
-        self.assertGreater(left_behind, 5, "most should have been killed in the middle")
+        self.assertGreater(left_behind, 5, "some have to be killed in the middle")
         write_whole(self.path, b"new")
         self.assertEqual([path.name for path in self.path.parent.iterdir()], [self.path.name], "nothing piles up")
 
