@@ -93,7 +93,7 @@ mien_status Tracker::push(const mien_image* image, std::int64_t pts_ns) {
   }
   state_.view = view;
   finish(frame, pts_ns, searched ? MIEN_RESULT_PROPOSAL_RAN : 0u);
-  if (lod_ == 0 && followed && !searched && faces_.followed() > 0) {
+  if (followed && !searched && faces_.followed() > 0) {
     governor_.account(timer_.total_ns(), step.seconds);
   }
   timer_.clear();

@@ -244,6 +244,21 @@ TEST(Levels, AutomaticGoesOnFromTheLevelBeforeAndKnowsNothingOfIt) {
   EXPECT_EQ(tracker.push(circling_disc(frame)).lod, 2);
 }
 
+// A frame of another size is searched whole, which says nothing of what a followed one takes.
+TEST(Levels, AutomaticJudgesFollowedFramesAlone) {
+  Clock clock;
+  BlobTracker tracker = timed_tracker(clock, 0);
+  clock.step_ns = 50'000'000;
+  for (int frame = 0; frame < 100; ++frame) {
+    const float scale = frame % 2 == 0 ? 1.0f : 1.5f;
+    const Result result =
+        tracker.push(disc_picture(160.0f * scale, 120.0f * scale, 70.0f * scale,
+                                  static_cast<int>(320 * scale), static_cast<int>(240 * scale)));
+    EXPECT_TRUE(result.has_face());
+    EXPECT_EQ(result.lod, 4);
+  }
+}
+
 // Milliseconds of a frame on each level, as a governor would measure them.
 std::int32_t settled(tracker::LevelGovernor& governor, const float (&ms)[4], float seconds) {
   for (float t = 0.0f; t < seconds; t += 1.0f / 30.0f) {
