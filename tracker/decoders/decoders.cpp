@@ -3,6 +3,16 @@
 #include <cstddef>
 
 namespace mien::tracker {
+namespace {
+
+void decode(ControlsDecoder& decoder, Neutral& neutral, const Features& features,
+            std::span<float, kControls> controls) {
+  decoder.decode(features, controls);
+  neutral.observe(controls);
+  neutral.take_out(controls);
+}
+
+}  // namespace
 
 mien_status Decoders::load(const Models& models, std::uint32_t cpu_mask, engine::Arena& arena) {
   mien_status status = basenet_controls_.load(models.basenet, cpu_mask, arena);
@@ -38,23 +48,23 @@ void Decoders::decode_controls(const Features& basenet, const Features& hifinet,
   hand_over_capture(level);
   fade_.advance(to_hifinet, seconds);
   if (!fade_.second_is_heard()) {
-    decode_basenet(basenet, !to_hifinet, controls);
+    decode(basenet_controls_, basenet_neutral_, basenet, controls);
     return;
   }
   if (!fade_.first_is_heard()) {
-    decode_hifinet(hifinet, to_hifinet, controls);
+    decode(hifinet_controls_, hifinet_neutral_, hifinet, controls);
     return;
   }
   std::array<float, kControls> first;
-  decode_basenet(basenet, !to_hifinet, first);
-  decode_hifinet(hifinet, to_hifinet, controls);
+  decode(basenet_controls_, basenet_neutral_, basenet, first);
+  decode(hifinet_controls_, hifinet_neutral_, hifinet, controls);
   const float weight = fade_.weight();
   for (std::size_t i = 0; i < first.size(); ++i) {
     controls[i] = first[i] + weight * (controls[i] - first[i]);
   }
 }
 
-// The decoder that fades out is of no more use to a capture than one that is silent.
+// So that one of both decoders is captured at most, and not the one that fades out.
 void Decoders::hand_over_capture(std::int32_t level) {
   Neutral& other = neutral(level > kLowestLevel ? kLowestLevel : kHighestLevel);
   if (other.is_being_captured()) {
@@ -69,24 +79,6 @@ float Decoders::share_driven(std::size_t control) const {
   };
   const float weight = fade_.weight();
   return (1.0f - weight) * drives(basenet_controls_) + weight * drives(hifinet_controls_);
-}
-
-void Decoders::decode_basenet(const Features& features, bool observed,
-                              std::span<float, kControls> controls) {
-  basenet_controls_.decode(features, controls);
-  if (observed) {
-    basenet_neutral_.observe(controls);
-  }
-  basenet_neutral_.take_out(controls);
-}
-
-void Decoders::decode_hifinet(const Features& features, bool observed,
-                              std::span<float, kControls> controls) {
-  hifinet_controls_.decode(features, controls);
-  if (observed) {
-    hifinet_neutral_.observe(controls);
-  }
-  hifinet_neutral_.take_out(controls);
 }
 
 void Decoders::decode_pose(const Features& basenet, const Crop& crop, const Camera& camera,

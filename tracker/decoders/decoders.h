@@ -59,10 +59,6 @@ class Decoders {
   [[nodiscard]] float share_driven(std::size_t control) const;
 
  private:
-  void decode_basenet(const Features& features, bool observed,
-                      std::span<float, kControls> controls);
-  void decode_hifinet(const Features& features, bool observed,
-                      std::span<float, kControls> controls);
   void hand_over_capture(std::int32_t level);
 
   ControlsDecoder basenet_controls_;

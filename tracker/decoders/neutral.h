@@ -33,7 +33,7 @@ class Neutral {
   // A capture that is going on is given up; what was captured before stays.
   void give_up() { frame_ = kFrames; }
 
-  // One frame of controls while it is being captured.
+  // One frame of controls; of use only while it is being captured.
   void observe(std::span<const float, kControls> controls);
   // The rest becomes 0, and 1 stays 1, so that a blink keeps its range.
   void take_out(std::span<float, kControls> controls) const {
