@@ -119,36 +119,6 @@ bool has_centre_slice(ValueShape a, ValueShape b) {
          (b.height - a.height) % 2 == 0 && (b.width - a.width) % 2 == 0;
 }
 
-TensorDims vector_of(std::uint64_t n) { return {1, {n}}; }
-
-TensorDims weights_of(const LayerRecord& layer, ValueShape input) {
-  const std::uint64_t out = padded8(layer.channels);
-  const std::uint64_t blocked = padded8(input.channels);
-  switch (op_of(layer)) {
-    case LayerOp::kConv2d:
-      return {4, {out, layer.kernel_height, layer.kernel_width, input.channels}};
-    case LayerOp::kDepthwise:
-      return {3, {out, layer.kernel_height, layer.kernel_width}};
-    case LayerOp::kPointwise:
-      return {2, {out, blocked}};
-    case LayerOp::kFullyConnected:
-      return {2, {out, blocked * input.height * input.width}};
-    case LayerOp::kCausalConv:
-      return {3, {out, 2, blocked}};
-    case LayerOp::kLstm:
-      return {2, {4 * out, blocked + out}};
-    case LayerOp::kMaxPool:
-    case LayerOp::kAdd:
-    case LayerOp::kActivation:
-    case LayerOp::kSoftmax:
-    case LayerOp::kGlobalAveragePool:
-    case LayerOp::kConcat:
-    case LayerOp::kSlice:
-      break;
-  }
-  return {};
-}
-
 constexpr std::uint64_t kPanel = 16;
 constexpr std::uint64_t kBlock = 8;
 constexpr std::size_t kElementBytes = 2;
@@ -199,25 +169,31 @@ void look_at_outputs(const TensorLanes& lanes, const Panel& panel, Search& searc
   }
 }
 
-TensorLanes vector_lanes(std::uint64_t outputs) { return {outputs, kBlock, 1, 0, 0, 0}; }
+LayerTensor vector_of(std::uint64_t outputs) {
+  return {{1, {padded8(outputs)}}, {outputs, kBlock, 1, 0, 0, 0}};
+}
 
-TensorLanes weight_lanes(const LayerRecord& layer, ValueShape input) {
+LayerTensor weights_of(const LayerRecord& layer, ValueShape input) {
   const std::uint64_t outputs = layer.channels, channels = input.channels;
-  const std::uint64_t blocked = padded8(channels), pixels = input.height * input.width;
-  const std::uint64_t taps = std::uint64_t{layer.kernel_height} * layer.kernel_width;
+  const std::uint64_t out = padded8(outputs), blocked = padded8(channels);
+  const std::uint64_t pixels = input.height * input.width;
+  const std::uint64_t height = layer.kernel_height, width = layer.kernel_width;
   switch (op_of(layer)) {
     case LayerOp::kConv2d:
-      return {outputs, kPanel, taps * channels, 0, 0, 0};
+      return {{4, {out, height, width, channels}},
+              {outputs, kPanel, height * width * channels, 0, 0, 0}};
     case LayerOp::kDepthwise:
-      return {outputs, kBlock, taps, 0, 0, 0};
+      return {{3, {out, height, width}}, {outputs, kBlock, height * width, 0, 0, 0}};
     case LayerOp::kPointwise:
-      return {outputs, kPanel, blocked, 1, 1, channels};
+      return {{2, {out, blocked}}, {outputs, kPanel, blocked, 1, 1, channels}};
     case LayerOp::kFullyConnected:
-      return {outputs, kPanel, blocked * pixels, 1, pixels, channels};
+      return {{2, {out, blocked * pixels}},
+              {outputs, kPanel, blocked * pixels, 1, pixels, channels}};
     case LayerOp::kCausalConv:
-      return {outputs, kPanel, 2 * blocked, 2, 1, channels};
+      return {{3, {out, 2, blocked}}, {outputs, kPanel, 2 * blocked, 2, 1, channels}};
     case LayerOp::kLstm:  // of its own output no lane is unused
-      return {4 * outputs, kPanel, blocked + outputs, 1, 1, channels};
+      return {{2, {4 * out, blocked + out}},
+              {4 * outputs, kPanel, blocked + outputs, 1, 1, channels}};
     case LayerOp::kMaxPool:
     case LayerOp::kAdd:
     case LayerOp::kActivation:
@@ -295,20 +271,14 @@ ValueShape output_shape(const LayerRecord& layer, ValueShape input, ValueShape s
 LayerTensors tensors_of(const LayerRecord& layer, ValueShape input) {
   LayerTensors tensors;
   tensors.weights = weights_of(layer, input);
-  const std::uint64_t out = padded8(layer.channels);
-  if (tensors.weights.rank != 0) {
-    tensors.bias = vector_of(op_of(layer) == LayerOp::kLstm ? 4 * out : out);
+  const std::uint64_t outputs = layer.channels;
+  if (tensors.weights.dims.rank != 0) {
+    tensors.bias = vector_of(op_of(layer) == LayerOp::kLstm ? 4 * outputs : outputs);
   }
   if (activation_of(layer) == LayerActivation::kPrelu) {
-    tensors.slopes = vector_of(out);
+    tensors.slopes = vector_of(outputs);
   }
   return tensors;
-}
-
-LayerLanes lanes_of(const LayerRecord& layer, ValueShape input) {
-  const std::uint64_t gates = op_of(layer) == LayerOp::kLstm ? 4 : 1;
-  return {weight_lanes(layer, input), vector_lanes(gates * layer.channels),
-          vector_lanes(layer.channels)};
 }
 
 std::size_t find_filled(const TensorLanes& lanes, std::span<const std::byte> tensor) {

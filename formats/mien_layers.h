@@ -21,8 +21,27 @@ struct TensorDims {
   std::uint64_t dim[kMaxRank] = {};
 };
 
+// Weights are padded to whole panels and blocks. What no channel owns of them is zero, and kernels
+// compute it along or leave it out, as suits them: of anything else they would make different
+// answers.
+
+// How the elements of a layer's tensor lie, all of them fp16: [panel][step][output of the panel].
+struct TensorLanes {
+  std::uint64_t outputs = 0;  // that are used; the tensor has padded8 of them
+  std::uint64_t panel = 0;    // most outputs side by side; the last panel may have 8
+  std::uint64_t steps = 0;    // of the reduction, for each output
+  std::uint64_t maps = 0;     // that the reduction begins with, in blocks; 0 if none has blocks
+  std::uint64_t pixels = 0;   // of each map
+  std::uint64_t map_channels = 0;  // that are used, of padded8
+};
+
+struct LayerTensor {
+  TensorDims dims;
+  TensorLanes lanes;  // count if it has dims
+};
+
 struct LayerTensors {
-  TensorDims weights, bias, slopes;
+  LayerTensor weights, bias, slopes;
 };
 
 [[nodiscard]] constexpr std::uint64_t padded8(std::uint64_t n) { return (n + 7) / 8 * 8; }
@@ -61,27 +80,6 @@ struct LayerTensors {
 
 // The tensors of a checked layer with this input.
 [[nodiscard]] LayerTensors tensors_of(const LayerRecord& layer, ValueShape input);
-
-// Weights are padded to whole panels and blocks. What no channel owns of them is zero, and kernels
-// compute it along or leave it out, as suits them: of anything else they would make different
-// answers.
-
-// How the elements of a layer's tensor lie, all of them fp16: [panel][step][output of the panel].
-struct TensorLanes {
-  std::uint64_t outputs = 0;  // that are used; the tensor has padded8 of them
-  std::uint64_t panel = 0;    // most outputs side by side; the last panel may have 8
-  std::uint64_t steps = 0;    // of the reduction, for each output
-  std::uint64_t maps = 0;     // that the reduction begins with, in blocks; 0 if none has blocks
-  std::uint64_t pixels = 0;   // of each map
-  std::uint64_t map_channels = 0;  // that are used, of padded8
-};
-
-struct LayerLanes {
-  TensorLanes weights, bias, slopes;
-};
-
-// Of a checked layer with this input. Counts for the tensors that it has (tensors_of).
-[[nodiscard]] LayerLanes lanes_of(const LayerRecord& layer, ValueShape input);
 
 // Offset in bytes of an element that no channel owns and that is not +0; the tensor's size if there
 // is none.

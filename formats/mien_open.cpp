@@ -111,7 +111,7 @@ class Validator {
   bool network(const NetworkRecord& record);
   bool outputs(const NetworkRecord& record);
   bool layer(const NetworkRecord& network, std::uint32_t index);
-  bool layer_tensor(const std::uint32_t& index, const TensorDims& dims, const TensorLanes& lanes);
+  bool layer_tensor(const std::uint32_t& index, const LayerTensor& tensor);
   bool constants();
   [[nodiscard]] ValueShape value_shape(const NetworkRecord& network, std::uint32_t value) const;
 
@@ -438,15 +438,13 @@ bool Validator::layer(const NetworkRecord& network, std::uint32_t index) {
     return fail_at(FileStatus::kBadShape, record.height);
   }
   const LayerTensors tensors = tensors_of(record, input);
-  const LayerLanes lanes = lanes_of(record, input);
-  return layer_tensor(record.weights, tensors.weights, lanes.weights) &&
-         layer_tensor(record.bias, tensors.bias, lanes.bias) &&
-         layer_tensor(record.slopes, tensors.slopes, lanes.slopes);
+  return layer_tensor(record.weights, tensors.weights) && layer_tensor(record.bias, tensors.bias) &&
+         layer_tensor(record.slopes, tensors.slopes);
 }
 
 // Layers' tensors come first, in the order of their use, so that each belongs to one layer.
-bool Validator::layer_tensor(const std::uint32_t& index, const TensorDims& dims,
-                             const TensorLanes& lanes) {
+bool Validator::layer_tensor(const std::uint32_t& index, const LayerTensor& tensor) {
+  const TensorDims& dims = tensor.dims;
   if (dims.rank == 0) {
     return index == kNoIndex || fail_at(FileStatus::kBadTensor, index);
   }
@@ -462,7 +460,7 @@ bool Validator::layer_tensor(const std::uint32_t& index, const TensorDims& dims,
   if (!same) {
     return fail_at(FileStatus::kBadTensor, index);
   }
-  const std::size_t filled = find_filled(lanes, part(record.offset, record.bytes));
+  const std::size_t filled = find_filled(tensor.lanes, part(record.offset, record.bytes));
   return filled == record.bytes || fail(FileStatus::kPaddingNotZero, record.offset + filled);
 }
 

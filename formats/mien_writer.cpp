@@ -149,11 +149,11 @@ LayerIndex NetworkWriter::append(Layer layer, const Halves& weights, std::vector
     const std::size_t outputs = layer.record.channels * (gates ? std::size_t{4} : std::size_t{1});
     bias.resize(bias.empty() ? outputs : bias.size());
     require(bias.size() == outputs, FileStatus::kBadTensor);
-    require(options.slopes.size() == (tensors.slopes.rank == 0 ? 0 : layer.record.channels),
+    require(options.slopes.size() == (tensors.slopes.dims.rank == 0 ? 0 : layer.record.channels),
             FileStatus::kBadTensor);
-    layer.weights = tensor(tensors.weights, weights);
-    layer.bias = tensor(tensors.bias, pack_vector(bias));
-    layer.slopes = tensor(tensors.slopes, pack_vector(options.slopes));
+    layer.weights = tensor(tensors.weights.dims, weights);
+    layer.bias = tensor(tensors.bias.dims, pack_vector(bias));
+    layer.slopes = tensor(tensors.slopes.dims, pack_vector(options.slopes));
   }
   layers_.push_back(std::move(layer));
   return static_cast<LayerIndex>(layers_.size());
