@@ -3,7 +3,7 @@
 # same command goes on where it was stopped, in the middle of training, too, and with more HOURS it trains on. Nothing in models/ is touched:
 # export.py does that.
 # usage: scripts/train/leg.sh basenet|hifinet HOURS [NAME]
-#   HOURS   of the encoder's training; data, features and decoders take about an hour on two cores besides
+#   HOURS   of the encoder's training, 0 for decoders alone; data, features and decoders take about an hour on two cores besides
 #   NAME    of the run, default NETWORK_leg: $MIEN_CACHE/runs/NAME has checkpoints and decoders, $MIEN_CACHE/features/NAME their features
 # MIEN_DATA, MIEN_CACHE, PYTHON (default python3, one with PyTorch), PROCESSES (default as many as processors), STILLS (24000),
 # SEQUENCES (264) and SEED (11) of what is rendered to learn from.
@@ -25,7 +25,7 @@ once() {  # file that comes of it, command
   [ -e "$1" ] || "${@:2}"
 }
 since_training() {  # the same, of the encoder's last checkpoint
-  [ "$1" -nt "$runs/$name/last.pt" ] || "${@:2}"
+  [ "$1" -nt "$encoder" ] || "${@:2}"
 }
 
 once "$cache/faces/misplaced.npy" "$python" faces.py
@@ -44,14 +44,18 @@ for each in $(printf '%s\n' basenet "$network" | sort -u); do
   once "$runs/${each}_start.pt" "$python" warm_start.py --network "$each" --out "$runs/${each}_start.pt" --decoders "$runs/${each}_start_decoders.pt"
 done
 before=$runs/${network}_start_decoders.pt
+encoder=$runs/${network}_start.pt decoders=$before
 
-# An end that was reached is reached at once when it is resumed.
-nice -n 15 "$python" -m torch.distributed.run --standalone --nproc_per_node "$processes" train_encoder.py --network "$network" --name "$name" \
-  --start-from "$runs/${network}_start.pt" --through "$before" --decoders-learn --real-share 0.4 --rate 8e-4 --hours "$hours" \
-  --samples 100000000 --resume
+if [ "$hours" != 0 ]; then
+  encoder=$runs/$name/last.pt decoders=$runs/$name/decoders.pt
+  # An end that was reached is reached at once when it is resumed.
+  nice -n 15 "$python" -m torch.distributed.run --standalone --nproc_per_node "$processes" train_encoder.py --network "$network" --name "$name" \
+    --start-from "$runs/${network}_start.pt" --through "$before" --decoders-learn --real-share 0.4 --rate 8e-4 --hours "$hours" \
+    --samples 100000000 --resume
+fi
 
-checkpoints=(--checkpoint "$runs/$name/last.pt")
-[ "$network" = basenet ] || checkpoints=(--checkpoint "$runs/basenet_start.pt" --hifinet "$runs/$name/last.pt")
+checkpoints=(--checkpoint "$encoder")
+[ "$network" = basenet ] || checkpoints=(--checkpoint "$runs/basenet_start.pt" --hifinet "$encoder")
 sequences() {  # output, arguments of sequences.py
   since_training "$features/$1.pt" "$python" sequences.py "${checkpoints[@]}" --passes 1 --out "$features/$1.pt" "${@:2}"
 }
@@ -79,10 +83,10 @@ decoders() {  # output, arguments of train_decoders.py
     --held "$f/held.pt" "$f/held_plain.pt" --portraits "$f/portraits.pt" --val "$f/val.pt" --portraits-val "$f/portraits_val.pt" \
     --noise 0.2 --rate 1.5e-3 --steps 1200 --sides 1.5 --out "$runs/$name/$1.pt" "${@:2}" >"$f/$1.log"
 }
-decoders decoders_whole --start-from "$runs/$name/decoders.pt" &
-decoders decoders_half --start-from "$runs/$name/decoders.pt" --draw-back 0.5
+decoders decoders_whole --start-from "$decoders" &
+decoders decoders_half --start-from "$decoders" --draw-back 0.5
 wait $!
-decoders decoders_cut --start-from "$runs/$name/decoders.pt" --cuts 0.3 --draw-back 0.5
+decoders decoders_cut --start-from "$decoders" --cuts 0.3 --draw-back 0.5
 since_training "$runs/$name/decoders_before.pt" "$python" blend_decoders.py "$runs/$name/decoders_half.pt" "$before" 0.15 "$runs/$name/decoders_before.pt"
 "$python" compare_decoders.py --val "$f/val.pt" --portraits-val "$f/portraits_val.pt" --apart "$f/val_apart.pt" \
-  "$before" "$runs/$name/decoders.pt" "$runs/$name"/decoders_{whole,half,cut,before}.pt | tee "$runs/$name/compared.txt"
+  "$before" "$decoders" "$runs/$name"/decoders_{whole,half,cut,before}.pt | tee "$runs/$name/compared.txt"
