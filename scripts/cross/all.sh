@@ -1,10 +1,23 @@
 #!/usr/bin/env bash
 # Builds and tests for every other machine (docs/cross.md), as many at a time as there are processors. What ran is said at the
 # end of each; all that it printed is in build/cross/logs.
-# usage: scripts/cross/all.sh [--full]      --full: more seeds, targets and tests, and hours
+# usage: scripts/cross/all.sh [--full] [NAME...]
+#   --full   more seeds, targets and tests, and hours
+#   NAME     of a machine: arm64, armv7, wasm, windows, compile_only, linux_x64, big_endian, musl; default all
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 scripts/setup.sh build test cross-x86 cross-arm cross-s390x cross-wasm cross-windows cross-compile-only cross-musl
+
+# The longest first.
+declare -A of=([arm64]="test.sh linux-arm64" [armv7]="test.sh linux-armv7")
+names=(arm64 armv7 wasm windows compile_only linux_x64 big_endian musl)
+for name in "${names[@]:2}"; do of[$name]=$name.sh; done
+options=()
+[ "${1:-}" != --full ] || { options=(--full); shift; }
+[ $# -eq 0 ] || names=("$@")
+for name in "${names[@]}"; do
+  [ -n "${of[$name]:-}" ] || { echo "all.sh: unknown machine '$name'" >&2; exit 2; }
+done
 mkdir -p build/cross/logs
 
 run() {  # script of this folder, its arguments
@@ -20,13 +33,4 @@ run() {  # script of this folder, its arguments
 }
 export -f run
 
-xargs -P "$(nproc)" -I LINE bash -c "run LINE $*" <<'LINES'
-test.sh linux-arm64
-test.sh linux-armv7
-wasm.sh
-windows.sh
-compile_only.sh
-linux_x64.sh
-big_endian.sh
-musl.sh
-LINES
+for name in "${names[@]}"; do echo "${of[$name]}"; done | xargs -P "$(nproc)" -I LINE bash -c "run LINE ${options[*]}"

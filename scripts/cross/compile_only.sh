@@ -28,7 +28,7 @@ apple="$root/headers_apple -idirafter $PWD/scripts/cross/apple_headers -idirafte
 # throw, std::to_chars of integers, what the CPU has, and the compiler's own run-time library. No exceptions, no type information, no guarded or early initialisation.
 # abort is what libc++ has, without exceptions, where it would throw.
 allowed='^_?(abort|mem(cpy|move|set|cmp|chr)|bcmp|(__)?bzero|strlen|aligned_alloc|free|fread'
-allowed+='|(exp|log|log10|sin|cos|tan|acos|asin|atan|atan2|sqrt|pow|floor|ceil|round|lround|llround|hypot|tanh)f?'
+allowed+='|(exp|log|log10|sin|cos|tan|acos|asin|atan|atan2|sqrt|pow|floor|ceil|round|nearbyint|lround|llround|hypot|tanh)f?'
 allowed+='|___?sincosf?(_stret)?|sincosf?|_Zn[wa][mj](St11align_val_t)?RKSt9nothrow_t|_Zd[la]Pv([mj])?(St11align_val_t)?|_ZSt7nothrow'
 allowed+='|_ZNSt3__16__itoa8__u(32|64)toaE[jmy]Pc|getauxval|sysctlbyname'
 allowed+='|__exp10f?|memset_pattern16|__stack_chk_(fail|guard)|__aeabi_[a-z0-9_]+|_GLOBAL_OFFSET_TABLE_)$'

@@ -88,5 +88,7 @@ decoders decoders_half --start-from "$decoders" --draw-back 0.5
 wait $!
 decoders decoders_cut --start-from "$decoders" --cuts 0.3 --draw-back 0.5
 since_training "$runs/$name/decoders_before.pt" "$python" blend_decoders.py "$runs/$name/decoders_half.pt" "$before" 0.15 "$runs/$name/decoders_before.pt"
+candidates=("$before")
+[ "$decoders" = "$before" ] || candidates+=("$decoders")
 "$python" compare_decoders.py --val "$f/val.pt" --portraits-val "$f/portraits_val.pt" --apart "$f/val_apart.pt" \
-  "$before" "$decoders" "$runs/$name"/decoders_{whole,half,cut,before}.pt | tee "$runs/$name/compared.txt"
+  "${candidates[@]}" "$runs/$name"/decoders_{whole,half,cut,before}.pt | tee "$runs/$name/compared.txt"
