@@ -35,7 +35,7 @@ elsewhere='ConformanceProgram|conformance\.|package|convert|train|apps|formats\.
 # and clips, which other machines run. What stays has at least one test of every part, and one with the trained networks.
 slow='Allocation\.OneBy|Calibration\.|Equivariance\.|FrontEnd\.BlocksDoNotMatter|Images\.(OfEverySize|FourK)|Levels\.|Reset\.'
 slow+='|Resampler\.(Blocks|Counts|Passes|Stops)|SeveralFaces\.[^AR]|SeveralFaces\.AStranger|Soak\.|SoundClock\.Follows|Timestamps\.Any'
-slow+='|Following\.(DecodersBeginAnewWhen|FindsDiscs|Follows|Loses|Searches)|Trained\.([^T]|TheFace)|TrainedLevels\.'
+slow+='|Following\.(AcceptsMore|AFaceKeeps|ANewSize|DecodersBeginAnewWhen|FindsDiscs|Follows|Loses|Searches)|Trained\.([^T]|TheFace)|TrainedLevels\.'
 slow+='|Interleavings\.|Trackers\.MayBeMade|Camera\.|Microphone\.|Clocks\.|FloatState\.Denormals'
 slow+='|Voice\.(Blocks|IsHeard|IsMixed|LetsGo|Survives|TakesOver)'
 

@@ -20,6 +20,7 @@ from shown import shown  # noqa: E402
 from train_decoders import agreement_with_teacher, answers, evaluate  # noqa: E402
 
 AT_ONE, STRONG, AT_ZERO = 0.8, 0.7, 0.01  # of a control
+STREAMS = 16                               # of portraits one after the other
 FEW = 3                                    # pictures, by fewer of which nothing is judged
 
 
@@ -40,6 +41,16 @@ def alone(decoder, apart):
     return metrics.correlations(told[:, None], truth[:, None], seen[:, None]), reached, other
 
 
+def at_once(decoder, portraits):
+    """As agreement_with_teacher, [52], one frame after a face has taken the place of another, which decoders that answer late get wrong."""
+    count = len(portraits["features"]) // STREAMS * STREAMS
+    features = portraits["features"][:count]
+    told = shown(answers(decoder, features.unflatten(0, (STREAMS, -1)).flatten(1, 2))).numpy()
+    told = told.reshape(*features.shape[:2], -1)[:, 1:2]
+    truth, seen = (portraits[name][:count, -1:].float().numpy() for name in ("controls", "visible"))
+    return metrics.correlations(told, truth, seen)
+
+
 def judge(path, val, portraits, apart):
     """(scores {name: value}, columns {name: [52]}) of a checkpoint of decoders."""
     known, decoder = torch.load(path), ControlsDecoder()
@@ -48,12 +59,13 @@ def judge(path, val, portraits, apart):
     report, supported = evaluate({"controls": decoder}, val, gaze=True, portraits=portraits, before=known["supported"].numpy())
     scores = report["every frame"]["controls"]
     rendered, teacher = np.array(list(scores["correlation"].values()), float), agreement_with_teacher(decoder, portraits)
+    moving = np.where(np.isfinite(teacher), at_once(decoder, portraits), np.nan)
     followed, reached, other = alone(decoder, apart)
-    return ({"rendered": np.nanmean(rendered), "teacher": np.nanmean(teacher), "supported": supported.sum(),
+    return ({"rendered": np.nanmean(rendered), "teacher": np.nanmean(teacher), "at once": np.nanmean(moving), "supported": supported.sum(),
              "of them": rendered[supported].mean(), "error": scores["facs_error_supported"] / scores["constant_median_supported"],
              "jitter": scores["jitter_supported"] / scores["truth_jitter_supported"], "asymmetry": 1e3 * scores["asymmetry"],
              "apart": np.nanmean(followed), "reach 0.6": (reached[supported] > 0.6).mean(), "other side": np.nanmean(other[supported])},
-            {"rendered": rendered, "teacher": teacher, "apart": followed, "reached": reached, "other side": other})
+            {"rendered": rendered, "teacher": teacher, "at once": moving, "apart": followed, "reached": reached, "other side": other})
 
 
 def main():
