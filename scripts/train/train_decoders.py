@@ -152,8 +152,7 @@ class Held:
     FRAMES, ADAPTING = 10, 2
 
     def __init__(self, data, args, odds=None, cuts=0.0):
-        """`odds` [tracks]: how often to draw each. `cuts`: how often another face takes a face's place from one frame to the next; from
-        faces that only hold still decoders learn to answer late, since the frames before are as good as the one at hand."""
+        """`odds` [tracks]: how often to draw each. `cuts`: how often another face takes a face's place from one frame to the next."""
         self.data, self.size, self.cuts = {k: data[k] for k in LEARNED}, 2 * args.batch, cuts
         self.odds = torch.ones(len(data["features"])) if odds is None else torch.as_tensor(odds, dtype=torch.float32)
         self.mask = torch.ones(1, self.FRAMES, 1)
@@ -172,9 +171,9 @@ class Held:
         return {k: v[rows, at].float() for k, v in self.data.items()}, self.mask
 
 
-def of_portraits(data, args):
+def of_portraits(data, args, cuts=0.0):
     """Rare expressions are drawn more often, as in phase 1."""
-    return Held(data, args, rarity(data["controls"][:, 0].float().numpy()), args.cuts)
+    return Held(data, args, rarity(data["controls"][:, 0].float().numpy()), cuts)
 
 
 def stream(table, rows):
@@ -371,7 +370,6 @@ def options():
     parser.add_argument("--velocity", type=float, default=0.1)
     parser.add_argument("--acceleration", type=float, default=0.03)
     parser.add_argument("--sides", type=float, default=1.0, help="weight of which side of a pair moves")
-    parser.add_argument("--cuts", type=float, default=0.0, help="how often a real face gives way to another from one frame to the next")
     parser.add_argument("--beta", type=float, default=0.15, help="larger errors count linearly")
     parser.add_argument("--noise", type=float, default=0.3, help="feature noise, in deviations")
     parser.add_argument("--threads", type=int, default=1)
@@ -404,18 +402,18 @@ def main():
     real = torch.load(args.portraits_val) if args.portraits_val else None
     before = torch.load(args.start_from)["supported"].numpy() if args.start_from else None
     report, supported = evaluate(decoders, torch.load(args.val), gaze=args.network == "hifinet", portraits=real, before=before)
-    save(args.out, decoders, supported, report)
+    save(args.out, {f"{name}_decoder": decoder.state_dict() for name, decoder in decoders.items()}, supported, report)
 
 
 def join(parts):
     return {k: torch.cat([p[k] for p in parts]) for k in parts[0]}
 
 
-def save(path, decoders, supported, report):
+def save(path, known, supported, report):
+    """A checkpoint of what is known of decoders, {name: state}, and the scores beside it."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    states = {f"{name}_decoder": decoder.state_dict() for name, decoder in decoders.items()}
     with whole(path) as out:
-        torch.save({**states, "supported": torch.from_numpy(supported.astype(np.float32))}, out)
+        torch.save({**known, "supported": torch.from_numpy(supported.astype(np.float32))}, out)
     path.with_suffix(".json").write_text(json.dumps(report, indent=1) + "\n")
     for mode, scores in report.items():
         for name, values in scores.items():

@@ -1,0 +1,137 @@
+#!/usr/bin/env python3
+"""Decoders of controls that answer at once what others answer in the end: the same judgement, with less lag.
+
+usage: hasten_decoders.py --decoders D.pt --train F/train.pt... --held F/held.pt... --portraits F/portraits.pt --val F/val.pt
+                          --portraits-val F/portraits_val.pt --out HASTENED.pt
+
+Real faces are learned as streams that hold still (train_decoders.py), where the frames before are as good as the one at hand, so that
+decoders answer a frame or two late. Here the decoders are their own teachers (distillation, Hinton et al. 2015): of a face that holds
+still the target is what they have come to after some frames, and the stream goes from face to face at any time; of a rendered face that
+moves it is the true motion, raised to where they see that face. Nothing is asked of them that they do not know, so little is unlearned.
+Frames have noise of their own, by which decoders learn what not to follow. In the end weights are drawn back to what they were.
+"""
+import argparse
+from pathlib import Path
+
+import torch
+import torch.nn.functional as F
+
+from losses import soft_clamp
+from networks import FACE_NETWORKS, ControlsDecoder
+from train_decoders import (ControlsTask, Held, Moving, answers, arguments, draw_back, evaluate, join, of_portraits, save, spread_of,
+                            temporal_loss)
+
+SETTLED = 10       # frames after which a decoder has said of a still face what it has to say
+SLOW = 4.0         # frames, deviation of the window in which we tell how far off a decoder is from how late it is
+NEAR = 0.05        # larger errors count linearly
+WEIGHT_DECAY = 1e-4
+
+
+def in_the_end(decoder, features):
+    """What a decoder answers when every frame of features [m,frames,c] is held, [m,frames,52]."""
+    still = features.flatten(0, 1).unsqueeze(1)
+    told = torch.cat([answers(decoder, part.expand(-1, SETTLED, -1))[:, -1] for part in still.split(4096)])
+    return soft_clamp(told).unflatten(0, features.shape[:2])
+
+
+def slowly(curves):
+    """Curves [m,frames,c] without what changes fast, by a window that looks as far ahead as back."""
+    reach = int(3 * SLOW)
+    window = torch.exp(-torch.arange(-reach, reach + 1) ** 2 / (2 * SLOW ** 2))
+    lanes = F.pad(curves.transpose(1, 2), (reach, reach), mode="replicate")
+    smooth = F.conv1d(lanes.flatten(0, 1).unsqueeze(1), (window / window.sum()).view(1, 1, -1))
+    return smooth.view(lanes.shape[0], lanes.shape[1], -1).transpose(1, 2)
+
+
+def without_lag(told, truth):
+    """The true motion, as far off the truth as what is told of it."""
+    return truth + slowly(told - truth)
+
+
+class Noisy:
+    """A source whose frames have noise of their own."""
+
+    def __init__(self, source, deviation):
+        self.source, self.deviation = source, deviation
+
+    def batch(self):
+        batch, mask = self.source.batch()
+        return batch | {"features": batch["features"] + self.deviation * torch.randn_like(batch["features"])}, mask
+
+
+def sources_of(decoder, args):
+    """(sources, weight of each control [52]) whose controls are the targets."""
+    moving, held, portraits = (join([torch.load(path) for path in paths]) for paths in (args.train, args.held, args.portraits))
+    weight = ControlsTask(moving, args).weight
+    truth = moving["controls"].float()
+    real = of_portraits(portraits, args, args.cuts)
+    for data in (moving, held, portraits):
+        data["controls"] = in_the_end(decoder, data["features"])
+    moving["controls"] = without_lag(moving["controls"], truth)
+    real.data["controls"] = portraits["controls"]
+    deviation = args.noise * spread_of(moving["features"])[1]
+    return [Noisy(source, deviation) for source in (Moving(moving, args), Held(held, args, cuts=args.cuts), real)], weight
+
+
+def hasten(decoder, args):
+    torch.manual_seed(args.seed)
+    sources, weight = sources_of(decoder, args)
+    start = {name: value.clone() for name, value in decoder.state_dict().items()}
+    optimiser = torch.optim.AdamW(decoder.parameters(), lr=args.rate, weight_decay=WEIGHT_DECAY)
+    schedule = torch.optim.lr_scheduler.OneCycleLR(optimiser, args.rate, total_steps=args.steps, pct_start=0.1)
+    decoder.train()
+    total = 0.0
+    for step in range(1, args.steps + 1):
+        loss = 0
+        for source in sources:
+            batch, mask = source.batch()
+            loss = loss + temporal_loss(soft_clamp(decoder(batch["features"])[0]), batch["controls"], weight * mask, args)
+        optimiser.zero_grad()
+        loss.backward()
+        optimiser.step()
+        schedule.step()
+        total += loss.item()
+        if step % 100 == 0:
+            print(f"step {step} loss {total / 100:.6f}", flush=True)
+            total = 0.0
+    draw_back(decoder, start, args.draw_back)
+    return decoder.eval()
+
+
+def options():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--network", choices=FACE_NETWORKS, default="basenet", help="whose features")
+    parser.add_argument("--decoders", type=Path, required=True)
+    parser.add_argument("--train", type=Path, nargs="+", required=True, help="features of rendered faces that move (sequences.py)")
+    parser.add_argument("--held", type=Path, nargs="+", required=True, help="features of stills (sequences.py --hold)")
+    parser.add_argument("--portraits", type=Path, nargs="+", required=True, help="features of real faces (portrait_features.py)")
+    parser.add_argument("--val", type=Path, required=True, help="features that choose the supported controls")
+    parser.add_argument("--portraits-val", type=Path, required=True, help="features of real faces that help to choose them")
+    parser.add_argument("--out", type=Path, required=True, help="checkpoint; scores go beside it as .json")
+    parser.add_argument("--steps", type=int, default=600)
+    parser.add_argument("--rate", type=float, default=3e-4)
+    parser.add_argument("--cuts", type=float, default=0.1, help="how often a face gives way to another from one frame to the next")
+    parser.add_argument("--noise", type=float, default=0.85, help="of every frame, in deviations of the features")
+    parser.add_argument("--draw-back", type=float, default=0.5, metavar="SHARE", help="of the way back in the end")
+    parser.add_argument("--threads", type=int, default=1)
+    parser.add_argument("--seed", type=int, default=0)
+    return parser
+
+
+def main():
+    given = vars(options().parse_args())
+    args = arguments(**given, beta=NEAR)
+    torch.set_num_threads(args.threads)
+    known = torch.load(args.decoders)
+    decoder = ControlsDecoder()
+    decoder.load_state_dict(known["controls_decoder"])
+    hasten(decoder.eval(), args)
+    before = known["supported"].numpy()
+    report, supported = evaluate({"controls": decoder}, torch.load(args.val), gaze=args.network == "hifinet",
+                                 portraits=torch.load(args.portraits_val), before=before)
+    # The judgement is the same, so what was supported stays so.
+    save(args.out, known | {"controls_decoder": decoder.state_dict()}, supported | (before > 0), report)
+
+
+if __name__ == "__main__":
+    main()
