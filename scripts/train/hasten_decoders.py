@@ -73,10 +73,7 @@ def sources_of(decoder, args):
     return [Noisy(source, deviation) for source in (Moving(moving, args), Held(held, args, cuts=args.cuts), real)], weight
 
 
-def hasten(decoder, args):
-    torch.manual_seed(args.seed)
-    sources, weight = sources_of(decoder, args)
-    start = {name: value.clone() for name, value in decoder.state_dict().items()}
+def learn(decoder, sources, weight, args):
     optimiser = torch.optim.AdamW(decoder.parameters(), lr=args.rate, weight_decay=WEIGHT_DECAY)
     schedule = torch.optim.lr_scheduler.OneCycleLR(optimiser, args.rate, total_steps=args.steps, pct_start=0.1)
     decoder.train()
@@ -94,8 +91,14 @@ def hasten(decoder, args):
         if step % 100 == 0:
             print(f"step {step} loss {total / 100:.6f}", flush=True)
             total = 0.0
+    decoder.eval()
+
+
+def hasten(decoder, args):
+    torch.manual_seed(args.seed)
+    start = {name: value.clone() for name, value in decoder.state_dict().items()}
+    learn(decoder, *sources_of(decoder, args), args)
     draw_back(decoder, start, args.draw_back)
-    return decoder.eval()
 
 
 def options():

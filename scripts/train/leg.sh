@@ -86,9 +86,17 @@ decoders() {  # output, arguments of train_decoders.py
 decoders decoders_whole --start-from "$decoders" &
 decoders decoders_half --start-from "$decoders" --draw-back 0.5
 wait $!
-decoders decoders_cut --start-from "$decoders" --cuts 0.3 --draw-back 0.5
 since_training "$runs/$name/decoders_before.pt" "$python" blend_decoders.py "$runs/$name/decoders_half.pt" "$before" 0.15 "$runs/$name/decoders_before.pt"
+hasten() {  # decoders, output
+  since_training "$2" "$python" hasten_decoders.py --network "$network" --decoders "$1" --train "$f/train.pt" "$f/train_plain.pt" \
+    --held "$f/held.pt" "$f/held_plain.pt" --portraits "$f/portraits.pt" --val "$f/val.pt" --portraits-val "$f/portraits_val.pt" \
+    --out "$2" >"${2%.pt}.log"
+}
+hasten "$runs/$name/decoders_before.pt" "$runs/$name/decoders_before_prompt.pt" &
+hasten "$decoders" "$runs/$name/decoders_prompt.pt"
+wait $!
+
 candidates=("$before")
 [ "$decoders" = "$before" ] || candidates+=("$decoders")
 "$python" compare_decoders.py --val "$f/val.pt" --portraits-val "$f/portraits_val.pt" --apart "$f/val_apart.pt" \
-  "${candidates[@]}" "$runs/$name"/decoders_{whole,half,cut,before}.pt | tee "$runs/$name/compared.txt"
+  "${candidates[@]}" "$runs/$name"/decoders_{whole,half,before,before_prompt,prompt}.pt | tee "$runs/$name/compared.txt"

@@ -21,6 +21,7 @@ import evaluate_levels  # noqa: E402
 import evaluate_pictures  # noqa: E402
 import evaluate_response  # noqa: E402
 import evaluate_yardstick  # noqa: E402
+import hasten_decoders  # noqa: E402
 import portrait_twins  # noqa: E402
 import probes  # noqa: E402
 import program  # noqa: E402
@@ -29,6 +30,10 @@ import summary  # noqa: E402
 import teacher  # noqa: E402
 import train_decoders  # noqa: E402
 from expressions import CONTROLS, INDEX  # noqa: E402
+from losses import soft_clamp  # noqa: E402
+from networks import FEATURES, ControlsDecoder  # noqa: E402
+
+torch.set_num_threads(1)  # tests run beside each other
 
 
 def answers(plan, gain=1.0):
@@ -59,6 +64,35 @@ class Decoders(unittest.TestCase):
             self.assertAlmostEqual(changes, cuts, delta=0.04)
             self.assertTrue(torch.equal(batch["features"][..., 0], batch["pose"][..., 0]))
             self.assertEqual(mask[0, 1, 0].item(), 1 if cuts else 0.25)
+
+    def test_in_the_end_is_what_held_frames_come_to(self):
+        torch.manual_seed(1)
+        decoder, features = ControlsDecoder().eval(), torch.randn(3, 2, FEATURES)
+        told = hasten_decoders.in_the_end(decoder, features)
+        with torch.no_grad():
+            held = decoder(features[1, 0].expand(1, hasten_decoders.SETTLED, -1))[0][0, -1]
+        self.assertTrue(torch.allclose(told[1, 0], soft_clamp(held), atol=1e-6))
+
+    def test_what_is_late_is_told_from_what_is_wrong(self):
+        truth = torch.zeros(1, 60, 2)
+        truth[0, 20:24] = 1.0  # a blink
+        late = truth.roll(2, 1) + 0.3
+        aim = hasten_decoders.without_lag(late, truth)
+        self.assertLess((aim - truth - 0.3).abs().max().item(), 0.25)  # it is 1 where the late one is not there yet
+        self.assertTrue(torch.allclose(hasten_decoders.without_lag(truth + 0.3, truth), truth + 0.3, atol=1e-6))
+
+    def test_hastened_decoders_are_earlier(self):
+        torch.manual_seed(1)
+        args = train_decoders.arguments(steps=60, rate=1e-3, batch=8, velocity=0, acceleration=0)
+        decoder = ControlsDecoder().eval()
+        data = {"features": torch.randn(30, 2, FEATURES), "controls": torch.zeros(30, 2, 52), "pose": torch.zeros(30, 2, 9),
+                "visible": torch.ones(30, 2, 52)}
+        data["controls"] = hasten_decoders.in_the_end(decoder, data["features"])
+        at_cuts = data["features"][:, 0].view(1, 30, FEATURES)
+        wrong = lambda: (soft_clamp(train_decoders.answers(decoder, at_cuts)) - data["controls"][:, 0]).abs()[:, 1:].mean().item()
+        before = wrong()
+        hasten_decoders.learn(decoder, [train_decoders.Held(data, args, cuts=0.5)], torch.ones(52), args)
+        self.assertLess(wrong(), 0.7 * before)
 
 
 class Twins(unittest.TestCase):
