@@ -18,8 +18,8 @@ import torch.nn.functional as F
 
 from losses import soft_clamp
 from networks import FACE_NETWORKS, ControlsDecoder
-from train_decoders import (ControlsTask, Held, Moving, answers, arguments, draw_back, evaluate, join, of_portraits, save, spread_of,
-                            temporal_loss)
+from train_decoders import (ControlsTask, Held, Moving, answers, arguments, draw_back, evaluate, join, minimise, of_portraits, save,
+                            spread_of, temporal_loss)
 
 SETTLED = 10       # frames after which a decoder has said of a still face what it has to say
 SLOW = 4.0         # frames, deviation of the window in which we tell how far off a decoder is from how late it is
@@ -74,24 +74,11 @@ def sources_of(decoder, args):
 
 
 def learn(decoder, sources, weight, args):
-    optimiser = torch.optim.AdamW(decoder.parameters(), lr=args.rate, weight_decay=WEIGHT_DECAY)
-    schedule = torch.optim.lr_scheduler.OneCycleLR(optimiser, args.rate, total_steps=args.steps, pct_start=0.1)
-    decoder.train()
-    total = 0.0
-    for step in range(1, args.steps + 1):
-        loss = 0
-        for source in sources:
-            batch, mask = source.batch()
-            loss = loss + temporal_loss(soft_clamp(decoder(batch["features"])[0]), batch["controls"], weight * mask, args)
-        optimiser.zero_grad()
-        loss.backward()
-        optimiser.step()
-        schedule.step()
-        total += loss.item()
-        if step % 100 == 0:
-            print(f"step {step} loss {total / 100:.6f}", flush=True)
-            total = 0.0
-    decoder.eval()
+    def lesson(source):
+        batch, mask = source.batch()
+        return temporal_loss(soft_clamp(decoder(batch["features"])[0]), batch["controls"], weight * mask, args)
+
+    minimise(lambda: sum(map(lesson, sources)), decoder, args, "hastened", WEIGHT_DECAY)
 
 
 def hasten(decoder, args):

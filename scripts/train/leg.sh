@@ -78,19 +78,18 @@ sequences val_apart --hold 8 --plain --shards "$cache/apart/val_stills$suffix"/*
 wait $!
 
 f=$features
+seen=(--network "$network" --train "$f/train.pt" "$f/train_plain.pt" --held "$f/held.pt" "$f/held_plain.pt" --portraits "$f/portraits.pt"
+  --val "$f/val.pt" --portraits-val "$f/portraits_val.pt")
 decoders() {  # output, arguments of train_decoders.py
-  since_training "$runs/$name/$1.pt" "$python" train_decoders.py --network "$network" --train "$f/train.pt" "$f/train_plain.pt" \
-    --held "$f/held.pt" "$f/held_plain.pt" --portraits "$f/portraits.pt" --val "$f/val.pt" --portraits-val "$f/portraits_val.pt" \
-    --noise 0.2 --rate 1.5e-3 --steps 1200 --sides 1.5 --out "$runs/$name/$1.pt" "${@:2}" >"$f/$1.log"
+  since_training "$runs/$name/$1.pt" "$python" train_decoders.py "${seen[@]}" --noise 0.2 --rate 1.5e-3 --steps 1200 --sides 1.5 \
+    --out "$runs/$name/$1.pt" "${@:2}" >"$f/$1.log"
 }
 decoders decoders_whole --start-from "$decoders" &
 decoders decoders_half --start-from "$decoders" --draw-back 0.5
 wait $!
 since_training "$runs/$name/decoders_before.pt" "$python" blend_decoders.py "$runs/$name/decoders_half.pt" "$before" 0.15 "$runs/$name/decoders_before.pt"
 hasten() {  # decoders, output
-  since_training "$2" "$python" hasten_decoders.py --network "$network" --decoders "$1" --train "$f/train.pt" "$f/train_plain.pt" \
-    --held "$f/held.pt" "$f/held_plain.pt" --portraits "$f/portraits.pt" --val "$f/val.pt" --portraits-val "$f/portraits_val.pt" \
-    --out "$2" >"${2%.pt}.log"
+  since_training "$2" "$python" hasten_decoders.py "${seen[@]}" --decoders "$1" --out "$2" >"${2%.pt}.log"
 }
 hasten "$runs/$name/decoders_before.pt" "$runs/$name/decoders_before_prompt.pt" &
 hasten "$decoders" "$runs/$name/decoders_prompt.pt"

@@ -214,6 +214,26 @@ def noisy(x, spread):
     return x + spread * (0.5 * torch.randn_like(x) + torch.randn(len(x), 1, x.shape[2]))
 
 
+def minimise(loss_of_step, decoder, args, name, weight_decay=1e-2):
+    """Fits a decoder by `args.steps` of AdamW to what each call of `loss_of_step` answers."""
+    optimiser = torch.optim.AdamW(decoder.parameters(), lr=args.rate, weight_decay=weight_decay)
+    schedule = torch.optim.lr_scheduler.OneCycleLR(optimiser, args.rate, total_steps=args.steps, pct_start=0.1)
+    decoder.train()
+    total, began = 0.0, time.time()
+    for step in range(1, args.steps + 1):
+        loss = loss_of_step()
+        optimiser.zero_grad()
+        loss.backward()
+        nn.utils.clip_grad_norm_(decoder.parameters(), 1.0)
+        optimiser.step()
+        schedule.step()
+        total += loss.item()
+        if step % 100 == 0:
+            print(f"{name} step {step} loss {total / 100:.5f} {time.time() - began:.0f} s", flush=True)
+            total = 0.0
+    decoder.eval()
+
+
 def train(decoder, lessons, args, name):
     """Fits a decoder to (source, task) pairs, one batch of each per step."""
     torch.manual_seed(args.seed)
@@ -227,27 +247,15 @@ def train(decoder, lessons, args, name):
             mind_the_present(decoder)
         normalise_input(first_layer(decoder), mean, spread)
     noise = args.noise * spread
-    optimiser = torch.optim.AdamW(decoder.parameters(), lr=args.rate, weight_decay=1e-2)
-    schedule = torch.optim.lr_scheduler.OneCycleLR(optimiser, args.rate, total_steps=args.steps, pct_start=0.1)
-    decoder.train()
-    total, began = 0.0, time.time()
-    for step in range(1, args.steps + 1):
-        loss = 0
-        for source, task in lessons:
-            batch, mask = source.batch()
-            loss = loss + task.loss(decoder(noisy(batch["features"], noise))[0], batch, mask)
-        optimiser.zero_grad()
-        loss.backward()
-        nn.utils.clip_grad_norm_(decoder.parameters(), 1.0)
-        optimiser.step()
-        schedule.step()
-        total += loss.item()
-        if step % 100 == 0:
-            print(f"{name} step {step} loss {total / 100:.5f} {time.time() - began:.0f} s", flush=True)
-            total = 0.0
+
+    def lesson(source, task):
+        batch, mask = source.batch()
+        return task.loss(decoder(noisy(batch["features"], noise))[0], batch, mask)
+
+    minimise(lambda: sum(lesson(*pair) for pair in lessons), decoder, args, name)
     if known:
         draw_back(decoder, known, args.draw_back)
-    return decoder.eval()
+    return decoder
 
 
 @torch.no_grad()
