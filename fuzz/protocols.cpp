@@ -1,0 +1,170 @@
+// The bytes are a datagram that may greet the iFacialMocap sender, and say which face goes out by
+// every protocol: its datagrams are whole, as receivers read them.
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "formats/protocols/ifacialmocap.h"
+#include "formats/protocols/live_link.h"
+#include "formats/protocols/openseeface.h"
+#include "formats/protocols/opentrack.h"
+#include "formats/protocols/vmc.h"
+#include "fuzz/bytes.h"
+#include "fuzz/target.h"
+
+namespace {
+
+using mien::fuzz::Bytes;
+using mien::fuzz::require;
+namespace formats = mien::formats;
+
+std::string_view text_of(Bytes& bytes, std::size_t most) {
+  const auto rest = bytes.rest().first(std::min(bytes.rest().size(), most));
+  const std::string_view text(reinterpret_cast<const char*>(rest.data()), rest.size());
+  return text.substr(0, text.find('\0'));
+}
+
+// 0..1, or none.
+double control(Bytes& bytes) {
+  const auto level = bytes.take<std::uint8_t>();
+  return level == 255 ? formats::kNoNumber : level / 254.0;
+}
+
+// Up to a million, of which millionths are told apart.
+double number(Bytes& bytes) { return bytes.take<std::int32_t>() / 2147.0; }
+
+formats::Angles angles(Bytes& bytes) { return {number(bytes), number(bytes), number(bytes)}; }
+
+formats::Frame frame_of(Bytes& bytes) {
+  formats::Frame frame;
+  frame.state = bytes.coin() ? formats::FaceState::kTracking : formats::FaceState::kLost;
+  frame.face_id = bytes.take<std::int64_t>();
+  frame.face_probability = control(bytes);
+  if (bytes.coin()) {
+    frame.head = angles(bytes);
+  }
+  if (bytes.coin()) {
+    frame.position_m = {number(bytes), number(bytes), number(bytes)};
+  }
+  if (bytes.coin()) {
+    frame.eyes = {angles(bytes), angles(bytes)};
+  }
+  for (double& value : frame.controls) {
+    value = control(bytes);
+  }
+  return frame;
+}
+
+// Reads a packet of OSC from its begin on.
+class OscReader {
+ public:
+  explicit OscReader(std::string_view packet) : left_(packet) {}
+
+  [[nodiscard]] bool empty() const { return left_.empty(); }
+
+  std::string_view take(std::size_t count) {
+    require(count <= left_.size());
+    const std::string_view taken = left_.substr(0, count);
+    left_.remove_prefix(count);
+    return taken;
+  }
+  std::uint32_t big() {
+    std::uint32_t value = 0;
+    for (const char byte : take(4)) {
+      value = value << 8 | static_cast<std::uint8_t>(byte);
+    }
+    return value;
+  }
+  std::string_view text() {
+    const std::size_t length = left_.find('\0');
+    require(length != std::string_view::npos);
+    const std::string_view filled = take((length / 4 + 1) * 4);
+    require(filled.find_first_not_of('\0', length) == std::string_view::npos);
+    return filled.substr(0, length);
+  }
+
+ private:
+  std::string_view left_;
+};
+
+void check_message(OscReader message) {
+  require(message.text().starts_with("/VMC/Ext/"));
+  const std::string_view tags = message.text();
+  require(tags.starts_with(','));
+  for (const char tag : tags.substr(1)) {
+    if (tag == 's') {
+      static_cast<void>(message.text());
+    } else {
+      require(tag == 'i' || tag == 'f');
+      static_cast<void>(message.big());
+    }
+  }
+  require(message.empty());
+}
+
+void check_vmc(const formats::Frame& frame, Bytes& bytes) {
+  std::vector<std::string> names;
+  for (int i = bytes.between(0, 60); i > 0; --i) {
+    names.emplace_back(text_of(bytes, static_cast<std::size_t>(bytes.between(0, 2000))));
+  }
+  std::vector<formats::NamedValue> blends;
+  blends.reserve(names.size());
+  for (const std::string& name : names) {
+    blends.push_back({name, control(bytes)});
+  }
+  std::size_t messages = 0;
+  for (const std::string& packet :
+       formats::vmc_packets({number(bytes), bytes.coin(), blends, frame.head})) {
+    OscReader bundle(packet);
+    require(bundle.text() == "#bundle" && bundle.big() == 0 && bundle.big() == 1);
+    const std::size_t before = messages;
+    for (; !bundle.empty(); ++messages) {
+      check_message(OscReader(bundle.take(bundle.big())));
+    }
+    require(packet.size() <= 1500 || messages == before + 1);
+  }
+  require(messages == 3 + blends.size() + (frame.head ? 1 : 0));
+}
+
+void check_ifacialmocap(const formats::Frame& frame, std::string_view datagram) {
+  const std::optional<char> asked = formats::ifacialmocap_separator(datagram);
+  require(!asked || datagram.starts_with(formats::kIfacialmocapHello));
+  const std::string text = formats::ifacialmocap_text(frame, asked.value_or('-'));
+  require(static_cast<std::size_t>(std::count(text.begin(), text.end(), '|')) ==
+          formats::kControlCount + 3);
+  require(text.find("nan") == std::string::npos && text.find("inf") == std::string::npos);
+}
+
+void check_openseeface(const formats::Frame& frame, Bytes& bytes) {
+  formats::OpenSeeFacePicture picture{
+      number(bytes), number(bytes), 1.0 + std::abs(number(bytes)), {}, {}};
+  for (formats::PicturePoint& point : picture.landmarks) {
+    point = {number(bytes), number(bytes)};
+  }
+  const std::string packet = formats::openseeface_packet(frame, picture, number(bytes));
+  require(packet.size() == formats::kOpenSeeFaceBytes);
+}
+
+void check_live_link(const formats::Frame& frame, Bytes& bytes) {
+  const formats::LiveLinkSubject subject{std::string(36, '0'), std::string(text_of(bytes, 99))};
+  const std::string packet = formats::live_link_packet(frame, subject, number(bytes));
+  const std::size_t head = 62 + subject.name.size(), values = 61 * sizeof(float);
+  const bool nothing = formats::shows_nothing(frame);
+  require(packet.size() == (nothing ? head : head + values));
+  require(packet[head - 1] == (nothing ? 0 : 61));
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  Bytes bytes(data, size);
+  const formats::Frame frame = frame_of(bytes);
+  check_vmc(frame, bytes);
+  check_openseeface(frame, bytes);
+  check_live_link(frame, bytes);
+  require(formats::opentrack_packet(frame).size() == 6 * sizeof(double));
+  check_ifacialmocap(frame, {reinterpret_cast<const char*>(data), size});
+  return 0;
+}
