@@ -21,7 +21,7 @@ from sequences import crop_to_image, fit_crop, template, to_window
 Batch = namedtuple("Batch", "images landmarks controls pose visible has_landmarks has_controls face")
 
 
-NEAR_PROFILE_ODDS = 2  # heads turned far are few and hard, and what the teacher guesses of them counts little
+NEAR_PROFILE_ODDS = 3  # heads turned far are few and hard
 
 
 def rarity(controls):

@@ -3,7 +3,7 @@
 
 usage: faces.py      writes $MIEN_CACHE/faces/<split>[_hifinet]/{images.npy,labels.npz}: images uint8 [n,window,window,3], a
 square around the crop's centre (framing.py); landmarks [n,175,2] and crop [n,4] (cx, cy, side, theta) in pixels of that window;
-trust [n], less than 1 where the teacher's labels are guesses (near profile, blurred).
+trust [n], less than 1 where the picture is too blurred for the teacher's labels to be believed.
 And misplaced.npy, uint8 [2n,112,112,3]: windows of the training portraits that the tracker must not take for a face in place.
 """
 import cv2
@@ -20,7 +20,7 @@ from whole_files import whole
 
 
 TEACHER_FOV = np.radians(63)  # vertical, of the camera that MediaPipe takes for granted (face_geometry)
-GUESSED = 0.3                 # trust in labels that are partly guesses
+GUESSED = 0.3                 # trust in labels of blurred pictures
 BLURRED = 0.1                 # variance of the Laplacian of the face at BaseNet's scale, in that of the picture, below which it is
 
 
@@ -109,7 +109,7 @@ def write_split(split, framing, out):
     out.mkdir(parents=True, exist_ok=True)
     images = np.empty((len(found), pixels, pixels, 3), np.uint8)
     scale = framing.pixels_per_window(found.crops[:, 2])
-    trust = np.where(found.labels.near_profile(), GUESSED, 1).astype(np.float32)
+    trust = np.ones(len(found), np.float32)
     for i in tqdm(range(len(found)), desc=out.name, mininterval=5):
         images[i] = window(found.image(i), found.crops[i, :2], pixels / scale[i], pixels)
         if blurred(images[i]):

@@ -12,8 +12,8 @@ from face_data import to_crop
 import landmark_points as lp
 from expressions import CONTROLS, PAIRED_LEFT, PAIRED_RIGHT
 
-# Lids, lips, irises and brows carry the expression; the oval is a matter of opinion.
-POINT_WEIGHTS = {"eye": 2.0, "iris": 1.5, "lips": 2.0, "brow": 1.5, "face": 0.6}
+# Lids, lips, irises and brows carry the expression.
+POINT_WEIGHTS = {"eye": 2.0, "iris": 1.5, "lips": 2.0, "brow": 1.5}
 
 # Pairs whose distance is an expression: lids, lips, brows above eyes (teacher indices).
 OPENINGS = [(159, 145), (158, 153), (160, 144), (386, 374), (385, 380), (387, 373), (13, 14), (82, 87), (312, 317),
