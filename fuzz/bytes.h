@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstring>
 #include <span>
+#include <string_view>
 
 namespace mien::fuzz {
 
@@ -15,6 +16,12 @@ class Bytes {
 
   [[nodiscard]] bool empty() const { return left_.empty(); }
   [[nodiscard]] std::span<const std::uint8_t> rest() const { return left_; }
+
+  // At most so many of the next bytes, which stay.
+  [[nodiscard]] std::string_view text(std::int32_t most) const {
+    return {reinterpret_cast<const char*>(left_.data()),
+            std::min(left_.size(), static_cast<std::size_t>(most))};
+  }
 
   // Zeros where there are no bytes left.
   template <class T>

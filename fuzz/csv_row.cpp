@@ -23,12 +23,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       case 2:
         row.add(choices.take<double>());
         break;
-      case 3: {
-        const auto text = choices.rest().first(
-            std::min(choices.rest().size(), static_cast<std::size_t>(choices.between(0, 20))));
-        row.add(std::string_view(reinterpret_cast<const char*>(text.data()), text.size()));
+      case 3:
+        row.add(choices.text(choices.between(0, 20)));
         break;
-      }
       case 4:
         row.add_empty();
         break;

@@ -2,6 +2,7 @@
 // every protocol: its datagrams are whole, as receivers read them.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,9 +21,11 @@ using mien::fuzz::Bytes;
 using mien::fuzz::require;
 namespace formats = mien::formats;
 
-std::string_view text_of(Bytes& bytes, std::size_t most) {
-  const auto rest = bytes.rest().first(std::min(bytes.rest().size(), most));
-  const std::string_view text(reinterpret_cast<const char*>(rest.data()), rest.size());
+constexpr std::size_t kMostBytes = 1500;  // of a datagram, unless one message is longer
+constexpr std::size_t kValues = formats::kControlCount + formats::kRotationCount;
+
+std::string_view name_of(Bytes& bytes) {
+  const std::string_view text = bytes.text(bytes.between(0, 2000));
   return text.substr(0, text.find('\0'));
 }
 
@@ -32,7 +35,7 @@ double control(Bytes& bytes) {
   return level == 255 ? formats::kNoNumber : level / 254.0;
 }
 
-// Up to a million, of which millionths are told apart.
+// Up to a million, in steps of half a thousandth.
 double number(Bytes& bytes) { return bytes.take<std::int32_t>() / 2147.0; }
 
 formats::Angles angles(Bytes& bytes) { return {number(bytes), number(bytes), number(bytes)}; }
@@ -105,14 +108,9 @@ void check_message(OscReader message) {
 }
 
 void check_vmc(const formats::Frame& frame, Bytes& bytes) {
-  std::vector<std::string> names;
-  for (int i = bytes.between(0, 60); i > 0; --i) {
-    names.emplace_back(text_of(bytes, static_cast<std::size_t>(bytes.between(0, 2000))));
-  }
-  std::vector<formats::NamedValue> blends;
-  blends.reserve(names.size());
-  for (const std::string& name : names) {
-    blends.push_back({name, control(bytes)});
+  std::vector<formats::NamedValue> blends(static_cast<std::size_t>(bytes.between(0, 60)));
+  for (formats::NamedValue& blend : blends) {
+    blend = {name_of(bytes), control(bytes)};
   }
   std::size_t messages = 0;
   for (const std::string& packet :
@@ -123,14 +121,15 @@ void check_vmc(const formats::Frame& frame, Bytes& bytes) {
     for (; !bundle.empty(); ++messages) {
       check_message(OscReader(bundle.take(bundle.big())));
     }
-    require(packet.size() <= 1500 || messages == before + 1);
+    require(packet.size() <= kMostBytes || messages == before + 1);
   }
   require(messages == 3 + blends.size() + (frame.head ? 1 : 0));
 }
 
 void check_ifacialmocap(const formats::Frame& frame, std::string_view datagram) {
   const std::optional<char> asked = formats::ifacialmocap_separator(datagram);
-  require(!asked || datagram.starts_with(formats::kIfacialmocapHello));
+  const std::string hello(formats::kIfacialmocapHello);
+  require(asked.has_value() == (datagram == hello || datagram == hello + "|sendDataVersion=v2"));
   const std::string text = formats::ifacialmocap_text(frame, asked.value_or('-'));
   require(static_cast<std::size_t>(std::count(text.begin(), text.end(), '|')) ==
           formats::kControlCount + 3);
@@ -148,12 +147,12 @@ void check_openseeface(const formats::Frame& frame, Bytes& bytes) {
 }
 
 void check_live_link(const formats::Frame& frame, Bytes& bytes) {
-  const formats::LiveLinkSubject subject{std::string(36, '0'), std::string(text_of(bytes, 99))};
+  const formats::LiveLinkSubject subject{std::string(36, '0'), std::string(name_of(bytes))};
   const std::string packet = formats::live_link_packet(frame, subject, number(bytes));
-  const std::size_t head = 62 + subject.name.size(), values = 61 * sizeof(float);
+  const std::size_t head = 62 + subject.name.size(), values = kValues * sizeof(float);
   const bool nothing = formats::shows_nothing(frame);
   require(packet.size() == (nothing ? head : head + values));
-  require(packet[head - 1] == (nothing ? 0 : 61));
+  require(packet[head - 1] == (nothing ? 0 : static_cast<char>(kValues)));
 }
 
 }  // namespace
