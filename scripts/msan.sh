@@ -10,8 +10,8 @@ cd "$(dirname "$0")/.."
 scripts/setup.sh build test
 . scripts/ccache.sh
 
-targets=(weight_file weight_file_fields packed_file neutral_file npy pnm wav y4m csv_row animation protocols image_view audio_stream api_calls networks kernels)
 cmake --preset msan >/dev/null
+mapfile -t targets < <(ctest --test-dir build/msan/fuzz --show-only | sed -n 's/.*: fuzz_replay_//p' | grep -vx curves_csv)
 cmake --build --preset msan --target "${targets[@]/#/replay_}"
 names=$(IFS='|'; echo "${targets[*]}")
 
