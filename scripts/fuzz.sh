@@ -21,6 +21,9 @@ scripts/setup.sh build test
 . scripts/ccache.sh
 
 cmake --preset fuzz >/dev/null
+# What a killed run leaves going holds it, too, so that no two runs write the same logs.
+exec {lock}>build/fuzz/lock
+flock --nonblock "$lock" || { echo "fuzz.sh: another run, or what one left going, has build/fuzz" >&2; exit 1; }
 list=build/fuzz/fuzz/targets.txt
 [ $# -gt 0 ] || mapfile -t all < <(cut -d' ' -f1 $list)
 [ $# -gt 0 ] || set -- "${all[@]}"
