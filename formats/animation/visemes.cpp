@@ -125,7 +125,8 @@ Weights solve(const Weights& target, const Chosen& chosen) {
     y[i] = known / lower[i][i];
   }
   Weights solution{};
-  for (std::size_t i = n; i-- > 0;) {
+  for (std::size_t left = n; left > 0; --left) {
+    const std::size_t i = left - 1;
     double sum = y[i];
     for (std::size_t k = i + 1; k < n; ++k) {
       sum -= lower[k][i] * solution[index[k]];

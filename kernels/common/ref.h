@@ -25,7 +25,7 @@ inline constexpr std::int32_t kPanel = 16;  // output channels of a panel of wei
     const float magnitude = static_cast<float>(fraction) * 0x1p-24f;
     return sign != 0 ? -magnitude : magnitude;
   }
-  const std::uint32_t widened = exponent == 31 ? 255u : exponent - 15 + 127;
+  const std::uint32_t widened = exponent == 31 ? 255u : exponent + (127 - 15);
   return std::bit_cast<float>(sign | (widened << 23) | (fraction << 13));
 }
 

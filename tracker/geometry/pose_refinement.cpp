@@ -54,7 +54,8 @@ class NormalEquations {
       }
       unknowns[i] /= square_[i][i];
     }
-    for (std::size_t i = kUnknowns; i-- > 0;) {
+    for (std::size_t left = kUnknowns; left > 0; --left) {
+      const std::size_t i = left - 1;
       for (std::size_t k = i + 1; k < kUnknowns; ++k) {
         unknowns[i] -= square_[k][i] * unknowns[k];
       }

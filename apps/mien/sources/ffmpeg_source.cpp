@@ -282,8 +282,9 @@ std::string last_line(const std::string& text) {
   if (end == std::string::npos) {
     return {};
   }
-  const std::size_t begin = text.find_last_of('\n', end);
-  return text.substr(begin + 1, end - begin);
+  const std::size_t before = text.find_last_of('\n', end);
+  const std::size_t begin = before == std::string::npos ? 0 : before + 1;
+  return text.substr(begin, end + 1 - begin);
 }
 
 InputStreams probe_streams(const std::string& input) {
