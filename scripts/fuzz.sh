@@ -46,9 +46,10 @@ fuzz() {  # target
   [ -z "$tally" ] || flock "$list" scripts/fuzz_tally.py $tally.json $tally.md "$1" "${runs:-0}" "$used"
   return $code
 }
-max_length() {  # target: files are as long as the golden ones, choices of calls short
+max_length() {  # target: files are as long as the golden ones and those of the corpus, choices of calls short
   case $1 in
     weight_file*) echo 20000 ;;
+    animation) echo 8192 ;;
     curves_csv | wav | y4m | pnm | npy | neutral_file | packed_file) echo 4096 ;;
     *) echo 400 ;;
   esac
