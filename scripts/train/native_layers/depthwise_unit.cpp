@@ -90,14 +90,17 @@ void backward(DepthwiseShape shape, const T* dy, const T* x, const T* slid, Norm
             }
           },
           [&](std::size_t row) {
+            Lanes of_row = {}, products_of_row = {};  // in registers, as sums captured are not
             for (std::size_t column = 0; column < shape.width; ++column) {
               const std::size_t at = picture + (row * shape.width + column) * shape.channels;
               const Lanes v = load_some(x + at, count);
               const Lanes dz = passed(line.at(c, v), limits, gradient.inner(row)[column]);
-              gradients += dz;
-              products += dz * (v - load(&mean[c]));
+              of_row += dz;
+              products_of_row += dz * (v - load(&mean[c]));
               store_some(dx + at, dz, count);
             }
+            gradients += of_row;
+            products += products_of_row;
           });
       add_kernel(dweights, dkernel, shape.channels, c, count);
       sums.add(c, count, gradients, products);

@@ -300,11 +300,14 @@ void backward(DepthwiseShape shape, std::size_t narrow, const T* dy, const T* x,
           [&](std::size_t row) {
             const Lanes *z = expanded.inner(row), *value = seen.inner(row);
             Lanes* dz = gradient.inner(row);
+            Lanes of_row = {}, along_row = {};  // in registers, as sums captured are not
             for (std::size_t column = 0; column < shape.width; ++column) {
               dz[column] = passed(value[column], kRelu6, dz[column]);
-              gradients += dz[column];
-              along += dz[column] * (z[column] - load(&mean[c]));
+              of_row += dz[column];
+              along_row += dz[column] * (z[column] - load(&mean[c]));
             }
+            gradients += of_row;
+            along += along_row;
             outer(picture.floats(row * shape.width), picture.stride(), narrow, dz, 1, shape.width,
                   part.data());
             for (std::size_t v = 0; v < picture.vectors(); ++v) {
