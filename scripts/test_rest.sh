@@ -76,7 +76,7 @@ part 3 "the library inside other projects" packages
 part 16 linters linters
 part 5 "Release with clang" clang
 part 5 "numbers that nobody wrote" scripts/msan.sh
-part 6 fuzzing scripts/fuzz.sh 2
+part 8 fuzzing scripts/fuzz.sh 2
 part 10 "the page, and the npm package" page
 part 20 "other machines than ARM" scripts/cross/all.sh wasm windows compile_only linux_x64 big_endian musl
 part 25 "ARM" scripts/cross/all.sh arm64 armv7
