@@ -21,7 +21,7 @@ namespace mien::formats {
 [[nodiscard]] bool parse_number(std::string_view text, double& value);
 [[nodiscard]] bool parse_number(std::string_view text, std::int64_t& value);
 
-[[nodiscard]] std::string_view trimmed(std::string_view text);
+[[nodiscard]] std::string_view trimmed(std::string_view text, std::string_view blanks = " \t");
 
 // For a message: in quotation marks, shortened where it is long, unprintable bytes as '?'.
 [[nodiscard]] std::string quoted(std::string_view text);

@@ -17,13 +17,7 @@ namespace {
 using Kind = JsonValue::Kind;
 
 // Without blanks and ends of lines around it.
-std::string_view stripped(std::string_view text) {
-  constexpr std::string_view kBlanks = " \t\r\n";
-  const std::size_t first = text.find_first_not_of(kBlanks);
-  return first == std::string_view::npos
-             ? std::string_view()
-             : text.substr(first, text.find_last_not_of(kBlanks) + 1 - first);
-}
+std::string_view stripped(std::string_view text) { return trimmed(text, " \t\r\n"); }
 
 constexpr std::int64_t kShortest_ns = 80'000'000;
 
