@@ -30,7 +30,7 @@ esac
 
 # Left out: what starts programs, which a machine without binfmt_misc cannot do with those of another one; and the kernels'
 # cases, which mien-conformance has run by then.
-elsewhere='ConformanceProgram|conformance\.|package|convert|train|apps|formats\.protocols|Kernels/Conformance'
+elsewhere='ConformanceProgram|conformance\.|package|convert|train|apps|formats\.(locale|protocols)|Kernels/Conformance'
 # Without --full, under an emulator, tests that take more than a tenth of a second natively and so many seconds under emulation: long streams
 # and clips, which other machines run. What stays has at least one test of every part, and one with the trained networks.
 slow='Allocation\.OneBy|Calibration\.|Equivariance\.|FrontEnd\.BlocksDoNotMatter|Images\.(OfEverySize|FourK)|Levels\.|Reset\.'

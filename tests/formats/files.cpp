@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <locale>
 #include <new>
 #include <sstream>
 
@@ -125,6 +126,7 @@ void describe_network(const FileView& view, const NetworkRecord& network, std::o
 
 std::string described(const FileView& view) {
   std::ostringstream out;
+  out.imbue(std::locale::classic());
   for (const NetworkRecord& network : view.networks()) {
     EXPECT_EQ(view.find_network(view.text(network.name)), &network);
     describe_network(view, network, out);

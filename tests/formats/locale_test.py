@@ -1,0 +1,24 @@
+"""Readers and writers in a program whose locale writes a half as 0,5 and a thousand as 1.000. usage: locale_test.py FORMATS_TEST"""
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+
+NAME = "de_DE.UTF-8"
+
+
+def main():
+    if not shutil.which("localedef"):
+        print("skipped: no localedef here, to make a locale with")
+        return 77
+    with tempfile.TemporaryDirectory() as folder:
+        made = subprocess.run(["localedef", "-i", "de_DE", "-f", "UTF-8", f"{folder}/{NAME}"], capture_output=True, text=True)
+        if made.returncode > 1:  # 1: made, with warnings
+            print("skipped: no description of a locale here:", made.stderr.strip())
+            return 77
+        return subprocess.run([sys.argv[1], "--gtest_brief=1"], env={**os.environ, "LOCPATH": folder, "MIEN_TEST_LOCALE": NAME}).returncode
+
+
+if __name__ == "__main__":
+    sys.exit(main())
