@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Makes the release of HEAD twice, in clones at places of different length and without a compiler cache, and compares what came out.
-# usage: scripts/package/check_reproducible.sh [-DCMAKE_OPTION]... [PART]...      parts of release.sh, default: source amalgamation binary deb
+# usage: scripts/package/check_reproducible.sh [-DCMAKE_OPTION]... [PART]...      parts of release.sh, default: all
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 options=()
@@ -8,8 +8,7 @@ while [[ "${1:-}" == -D* ]]; do
   options+=("$1")
   shift
 done
-[ $# -gt 0 ] || set -- source amalgamation binary deb
-scripts/setup.sh build release
+scripts/setup.sh build release web
 export CCACHE_DISABLE=1
 
 work=$PWD/build/reproducible
