@@ -173,14 +173,15 @@ class Conversion:
                 missing = [name for name in node.input_names if name and name not in values]
                 require(not missing, f"nobody computes its input {', '.join(map(repr, missing))}")
                 node.inputs = [values[name] if name else None for name in node.input_names]
-                outputs = self.take(node)
+                made = {name: value for name, value in zip(node.outputs, self.take(node)) if name}
+                require(all(value is not None for value in made.values()), "an input is missing")
             except MemoryError as error:
                 raise Refused(f"{node.name}: it takes more memory than there is", count) from error
             except Refused as refusal:
                 raise Refused(f"{node.name}: {refusal}", count) from refusal
             except (ValueError, TypeError, LookupError, AttributeError, ArithmeticError) as error:
                 raise Refused(f"{node.name}: it is malformed ({type(error).__name__}: {' '.join(str(error).split())})", count) from error
-            values.update((name, value) for name, value in zip(node.outputs, outputs) if name)
+            values.update(made)
 
     def take(self, node):
         require(node.domain in ("", "ai.onnx"), f"an operator of the domain {node.domain!r}")

@@ -25,6 +25,7 @@ import landmark_points as lp
 from expressions import CONTROLS
 from framing import BASENET
 from losses import RESPONDING, Losses
+from native_layers import native
 from networks import FACE_NETWORKS
 from optimizer import Optimizer
 from paths import cache
@@ -149,7 +150,7 @@ class Trainer:
     def __init__(self, options, device, world, rank):
         self.options, self.device, self.world, self.rank = options, device, world, rank
         self.network = FACE_NETWORKS[options.network]()
-        self.framing, self.network.encoder.map_type = self.network.framing, map_type(device)
+        self.framing, self.network.encoder.map_type = self.network.framing, torch.float32 if options.plain else map_type(device)
         with torch.no_grad():
             self.network.landmarks.bias.copy_(template().flatten())
             self.network.landmarks.weight.mul_(0.1)
@@ -310,6 +311,7 @@ def parse():
     parser.add_argument("--report-every", type=int, default=50_000)
     parser.add_argument("--real-share", type=float, default=0.2)
     parser.add_argument("--freeze", type=int, default=0, metavar="PARTS", help="of the encoder's body that do not learn, from the picture on")
+    parser.add_argument("--plain", action="store_true", help="PyTorch's own layers and maps in fp32, to compare with")
     parser.add_argument("--through", metavar="DECODERS", help="decoders that stay as they are, and that controls and pose are asked of")
     parser.add_argument("--decoders-learn", action="store_true", help="these, too: what they become is written to decoders.pt, to go on from in phase 2")
     parser.add_argument("--resume", action="store_true")
@@ -340,6 +342,7 @@ def main():
     keep_memory()
     torch.set_flush_denormal(True)  # moments of units that are off decay into them, and a step takes twice as long
     torch.set_num_threads(options.threads)
+    native.serves = not options.plain
     if options.evaluate:
         return evaluate(options)
     world, rank = int(os.environ.get("WORLD_SIZE", 1)), int(os.environ.get("RANK", 0))

@@ -348,6 +348,7 @@ def refused():
     yield case("output_is_input", [node("Identity", "x")], X, "output 'y' is the input")
     yield case("constant_output", [node("Shape", "x")], X, "output 'y' is a constant")
     yield case("nobody_computes", [node("Relu", "nowhere")], X, "nobody computes its input 'nowhere'")
+    yield case("no_input", [helper.make_node("Identity", [""], ["y"], name="the_identity")], X, "Identity 'the_identity': an input is missing")
     yield case("opset_10", [node("Relu", "x")], X, "opset 10; 11 to 18 are taken", opset=10)
     yield case("opset_19", [node("Relu", "x")], X, "opset 19", opset=19)
     yield case("attribute_kind", [node("Conv", "x w", pads=1)], X, "its attribute 'pads' is of another kind than ONNX says", constants=w)
