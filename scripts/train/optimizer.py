@@ -71,6 +71,18 @@ class Optimizer:
     def step(self):
         self.rest.step(), self.pointwise.step()
 
+    @torch.no_grad()
+    def begin_anew(self, parameter, chosen, axis=0):
+        """Of rows or columns of a parameter that have become others: no momentum, and the others' mean square of the gradient. One that has
+        decayed to nothing would make their first steps several times as long as anyone's."""
+        state = {**self.rest.state, **self.pointwise.state}.get(parameter, {})
+        for name in ("exp_avg", "exp_avg_sq", "momentum"):
+            if name in state:
+                rows = state[name].transpose(0, axis)
+                others = torch.ones(len(rows), dtype=torch.bool, device=rows.device)
+                others[chosen] = False
+                rows[chosen] = rows[others].mean() if name == "exp_avg_sq" else 0.0
+
     def state_dict(self):
         return {"rest": self.rest.state_dict(), "pointwise": self.pointwise.state_dict()}
 

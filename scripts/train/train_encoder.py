@@ -277,7 +277,8 @@ class Trainer:
                 value.copy_(common.view(value.shape))
         self.seconds = float(seconds)
         if self.step % REVIVE_EVERY == 0 and self.progress() < REVIVE_UNTIL:
-            self.revived += revive(self.network.encoder, self.activity.on, torch.Generator().manual_seed(self.step))
+            generator = torch.Generator().manual_seed(self.step)
+            self.revived += revive(self.network.encoder, self.activity.on, generator, self.optimizer, self.average.network.encoder)
 
     def train(self):
         bar = tqdm(total=self.options.samples, initial=self.samples, unit="face", disable=self.rank > 0, mininterval=10)
