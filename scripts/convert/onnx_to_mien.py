@@ -82,6 +82,8 @@ def main(arguments=None):
             report(path, name, *add_network(file, path, name, options))
         except (Refused, ValueError, OSError) as refusal:
             sys.exit(f"onnx_to_mien.py: {path}: {refusal}")
+        except MemoryError:
+            sys.exit(f"onnx_to_mien.py: {path}: it takes more memory than there is")
     try:
         file.write(options.output)
     except (ValueError, OSError) as refusal:

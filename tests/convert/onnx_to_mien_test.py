@@ -6,6 +6,7 @@ ONNX Runtime is the npm package that scripts/peers/install_onnxruntime.sh fetche
 """
 import json
 import os
+import resource
 import shutil
 import subprocess
 import sys
@@ -265,6 +266,19 @@ class Program(Folder):
         self.assertIn("Erf 'the_erf': the engine has no such layer (opset 13)", done.stderr)
         self.assertFalse((self.folder / "z.mien").exists())
         self.assertEqual(subprocess.run([*program, "--shape", "0"], capture_output=True).returncode, 2)
+
+    def test_too_little_memory_is_said_in_a_line(self):
+        """Wherever it ends: a map of 16 million numbers, from what holds no input to what nearly does."""
+        large = self.folder / "large.onnx"
+        large.write_bytes(operator_cases.Case("net", [operator_cases.node("Relu", "x")], {"x": [1, 64, 512, 512]}).model().SerializeToString())
+        program = [sys.executable, str(HERE.parents[1] / "scripts/convert/onnx_to_mien.py"), str(large), "-o", str(self.folder / "y.mien")]
+        for megabytes in (250, 400, 550):
+            room = (megabytes << 20,) * 2
+            done = subprocess.run(program, capture_output=True, text=True, env={**os.environ, "OPENBLAS_NUM_THREADS": "1"},
+                                  preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, room))
+            self.assertEqual((done.returncode, done.stderr.count("\n")), (1, 1), done.stderr)
+            self.assertIn("it takes more memory than there is", done.stderr)
+            self.assertFalse((self.folder / "y.mien").exists())
 
 
 if __name__ == "__main__":
