@@ -54,9 +54,11 @@ def attribute(proto):
 def array(proto):
     require(proto.data_location != onnx.TensorProto.EXTERNAL, f"weights {proto.name!r} lie in another file")
     try:
-        return numpy_helper.to_array(proto)
+        values = numpy_helper.to_array(proto)
     except Exception as error:  # several kinds, by version
         raise Refused(f"weights {proto.name!r} are malformed: {error}") from error
+    require(values.dtype.kind in "biuf", f"weights {proto.name!r} are no real numbers ({values.dtype})")
+    return values
 
 
 class Graph:
