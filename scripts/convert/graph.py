@@ -93,7 +93,8 @@ def dimensions(value):
     """None where a dimension is not a number."""
     kind = value.type.WhichOneof("value")
     require(kind == "tensor_type", f"input {value.name!r} is no tensor (but a {kind or 'value without a type'})")
-    return [d.dim_value if d.HasField("dim_value") else None for d in value.type.tensor_type.shape.dim]
+    # Not said is 0; some exporters say -1.
+    return [d.dim_value if d.dim_value > 0 else None for d in value.type.tensor_type.shape.dim]
 
 
 class Guess:

@@ -350,6 +350,7 @@ def refused():
     yield case("nobody_computes", [node("Relu", "nowhere")], X, "nobody computes its input 'nowhere'")
     yield case("complex_padding", [node("Pad", "x p")], X, "weights 'p' are no real numbers (complex64)",
                constants={"p": np.array([0, 0, 1, 1, 0, 0, 1, 1], np.complex64)})
+    yield case("no_size", [node("Relu", "x")], {"x": [0, -2, 1 << 40]}, "say which with --shape")
     yield case("no_input", [helper.make_node("Identity", [""], ["y"], name="the_identity")], X, "Identity 'the_identity': an input is missing")
     yield case("opset_10", [node("Relu", "x")], X, "opset 10; 11 to 18 are taken", opset=10)
     yield case("opset_19", [node("Relu", "x")], X, "opset 19", opset=19)
