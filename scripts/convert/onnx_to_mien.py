@@ -81,7 +81,7 @@ def main(arguments=None):
         try:
             report(path, name, *add_network(file, path, name, options))
         except (Refused, ValueError, OSError) as refusal:
-            sys.exit(f"onnx_to_mien.py: {path}: {refusal}")
+            sys.exit(f"onnx_to_mien.py: {path}: {' '.join(str(refusal).split())}")  # what onnx says may have several lines
         except MemoryError:
             sys.exit(f"onnx_to_mien.py: {path}: it takes more memory than there is")
     try:

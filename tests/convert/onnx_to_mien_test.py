@@ -267,6 +267,15 @@ class Program(Folder):
         self.assertFalse((self.folder / "z.mien").exists())
         self.assertEqual(subprocess.run([*program, "--shape", "0"], capture_output=True).returncode, 2)
 
+    def test_an_attribute_without_name_and_type_is_said_in_a_line(self):
+        model = operator_cases.Case("net", [operator_cases.node("Relu", "x")], {"x": [1, 3, 4, 5]}).model()
+        model.graph.node[0].attribute.add(name="")
+        path = self.folder / "nameless.onnx"
+        path.write_bytes(model.SerializeToString())
+        status, _ = convert([path, "-o", self.folder / "y.mien"])
+        self.assertRegex(status, "^onnx_to_mien.py: .*nameless.onnx: .*$")
+        self.assertNotIn("\n", status)
+
     def test_too_little_memory_is_said_in_a_line(self):
         """Wherever it ends: a map of 16 million numbers, from what holds no input to what nearly does."""
         large = self.folder / "large.onnx"
