@@ -156,9 +156,9 @@ def convert(data):
         except SystemExit as stop:
             if not isinstance(stop.code, str) or "\n" in stop.code or output.exists():
                 raise RuntimeError(f"refused with {stop.code!r}, output {'there' if output.exists() else 'not there'}") from stop
-    # A refusal and its frames hold one another, and the large arrays in them, until Python looks for that.
-    if time.process_time() > began + 0.1:
-        gc.collect()
+        # A refusal and its frames hold one another, and the large arrays in them, until Python looks for that.
+        if time.process_time() > began + 0.1:
+            gc.collect()
 
 
 def write_seeds(folder):

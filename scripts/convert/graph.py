@@ -9,7 +9,7 @@ from onnx import numpy_helper
 
 from layers import Network
 from operators import MOVES, OPERATORS, is_constant
-from refusal import Refused, require
+from refusal import Refused, in_a_line, require
 from tensors import FUTURE, MASK, NOTHING, Tensor, elements
 from translator import Translator
 
@@ -183,7 +183,7 @@ class Conversion:
             except Refused as refusal:
                 raise Refused(f"{node.name}: {refusal}", count) from refusal
             except (ValueError, TypeError, LookupError, AttributeError, ArithmeticError) as error:
-                raise Refused(f"{node.name}: it is malformed ({type(error).__name__}: {' '.join(str(error).split())})", count) from error
+                raise Refused(f"{node.name}: it is malformed ({type(error).__name__}: {in_a_line(error)})", count) from error
             values.update(made)
 
     def take(self, node):

@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from refusal import Refused, require  # noqa: E402
+from refusal import Refused, in_a_line, require  # noqa: E402
 
 try:
     from graph import Graph, converted
@@ -81,7 +81,7 @@ def main(arguments=None):
         try:
             report(path, name, *add_network(file, path, name, options))
         except (Refused, ValueError, OSError) as refusal:
-            sys.exit(f"onnx_to_mien.py: {path}: {' '.join(str(refusal).split())}")  # what onnx says may have several lines
+            sys.exit(f"onnx_to_mien.py: {path}: {in_a_line(refusal)}")
         except MemoryError:
             sys.exit(f"onnx_to_mien.py: {path}: it takes more memory than there is")
     try:

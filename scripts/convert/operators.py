@@ -434,8 +434,8 @@ def conv_over_time(t, x, weight, bias, before, after, dilation):
 
 def time_columns(t, at):
     """How many columns come before the stream's steps, and how many are steps."""
-    told = np.array([layer.op != "state" for layer in t.layers] + [False])  # the last: of constants, whose number is -1
-    real = told[np.maximum(at >> tensors.BITS, NOTHING)].any(0)
+    told = np.array([layer.op != "state" for layer in t.layers] + [False])  # the last: NOTHING and FUTURE, whose number is -1
+    real = told[at >> tensors.BITS].any(0)
     require(real.any(), "it reads nothing but constants")
     first, last = np.flatnonzero(real)[[0, -1]]
     require(real[first:last + 1].all() and ((at[:, last + 1:] == NOTHING) | (at[:, last + 1:] == FUTURE)).all(), "it mixes steps of time")

@@ -17,5 +17,10 @@ def require(condition, message):
         raise Refused(message)
 
 
+def in_a_line(error):
+    """What an exception says, for some of others say it in several lines."""
+    return " ".join(str(error).split())
+
+
 def require_room(*sizes):
     require(math.prod(map(int, sizes)) <= MOST_NUMBERS, f"a tensor {[int(n) for n in sizes]}: at most {MOST_NUMBERS} numbers")

@@ -76,10 +76,10 @@ def self_test():
     average = copy.deepcopy(encoder)
     before = encoder(images)
     assert (activity.on[:7] == 0).all()
-    assert revive(encoder, activity.on, torch.Generator().manual_seed(2), optimizer, average) >= 7
+    assert revive(encoder, activity.on, torch.Generator().manual_seed(2), optimizer, average) == 7
     assert all(torch.equal(mine.transpose(0, axis)[:7], theirs.transpose(0, axis)[:7])
                for (mine, axis), (theirs, _) in zip(of_units(encoder), of_units(average)))
-    assert torch.allclose(before, encoder(images), atol=1e-3) and (activity.on[:7] > 0.1).all()
+    assert torch.allclose(before, encoder(images), atol=1e-4) and (activity.on[:7] > 0.1).all()
     outgoing = encoder.tail[2].weight
     step()
     assert 0 < outgoing[:, :7].abs().max() <= 1e-3, "no step is longer than the rate"
