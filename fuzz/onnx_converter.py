@@ -5,13 +5,11 @@ usage: onnx_converter.py --seeds FOLDER                      writes the graphs o
        onnx_converter.py [libFuzzer's options] FOLDER...
 """
 import contextlib
-import gc
 import io
 import random
 import resource
 import sys
 import tempfile
-import time
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -146,7 +144,6 @@ def mutate(data, max_size, seed):
 
 def convert(data):
     """Any exception but SystemExit with a line of text breaks the target."""
-    began = time.process_time()
     with tempfile.TemporaryDirectory(dir=WORK) as folder:
         model, output = Path(folder, "model.onnx"), Path(folder, "model.mien")
         model.write_bytes(data)
@@ -156,9 +153,6 @@ def convert(data):
         except SystemExit as stop:
             if not isinstance(stop.code, str) or "\n" in stop.code or output.exists():
                 raise RuntimeError(f"refused with {stop.code!r}, output {'there' if output.exists() else 'not there'}") from stop
-        # A refusal and its frames hold one another, and the large arrays in them, until Python looks for that.
-        if time.process_time() > began + 0.1:
-            gc.collect()
 
 
 def write_seeds(folder):
