@@ -9,7 +9,7 @@ from onnx import numpy_helper
 
 from layers import Network
 from operators import MOVES, OPERATORS, is_constant
-from refusal import Refused, in_a_line, require
+from refusal import MOST_IN_ALL, Refused, in_a_line, require
 from tensors import FUTURE, MASK, NOTHING, Tensor, elements
 from translator import Translator
 
@@ -170,6 +170,7 @@ class Conversion:
         return Tensor(elements(state).reshape(shape))
 
     def run(self, values):
+        room = MOST_IN_ALL
         for count, node in enumerate(self.graph.nodes):
             self.t.node = node.name
             try:
@@ -178,6 +179,8 @@ class Conversion:
                 node.inputs = [values[name] if name else None for name in node.input_names]
                 made = {name: value for name, value in zip(node.outputs, self.take(node)) if name}
                 require(all(value is not None for value in made.values()), "an input is missing")
+                room -= sum(map(size, made.values()))
+                require(room >= 0, f"all tensors up to here: at most {MOST_IN_ALL} numbers; a smaller --shape and --any-size may do")
             except MemoryError as error:
                 raise Refused(f"{node.name}: it takes more memory than there is", count) from error
             except Refused as refusal:
@@ -258,6 +261,10 @@ def constant_value(attributes):
             value = attributes[key]
             return np.asarray(value, np.float32 if "float" in key else np.int64 if "int" in key else None)
     raise Refused("a constant of another kind")
+
+
+def size(x):
+    return x.at.size if isinstance(x, Tensor) else np.size(x)
 
 
 def constant_if_it_is(x):

@@ -377,6 +377,8 @@ def large_cases(w):
     yield case("large_selection", [node("Gather", "x i", axis=3)], constants={"i": np.zeros(1 << 18, np.int64)})
     doubled = [node("Concat", f"t{i} t{i}" if i else "x x", f"t{i + 1}", axis=1) for i in range(3)]
     yield case("doubled_again_and_again", [*doubled, node("Relu", "t3")], {"x": [1, 10, 512, 512]})
+    many = [node("ConstantOfShape", "n", f"t{i}") for i in range(9)]
+    yield case("many_large_constants", [*many, node("Add", "x t8")], None, "at most 134217728 numbers", constants={"n": ints(1 << 24)})
     yield case("long_future", [node("Conv", "x w", pads=[1, 1 << 20])], {"x": [1, 5, 12]}, "it holds steps that have not come",
                constants={"w": weights(6, 5, 2)}, arguments=["--time-axis", "2"])
     yield case("long_memory", [node("Conv", "x w", pads=[100000, 0], dilations=[100000])], {"x": [1, 5, 12]},
