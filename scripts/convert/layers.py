@@ -11,7 +11,7 @@ import numpy as np
 from refusal import Refused, require
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "train"))
-from mien_file import MienFile  # noqa: E402,F401
+from mien_file import MAX_LAYERS, MienFile  # noqa: E402,F401
 
 WEIGHTED = ("conv2d", "depthwise", "fully_connected", "causal_conv")  # and an activation may follow
 

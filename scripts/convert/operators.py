@@ -338,6 +338,7 @@ def ungrouped(weight, groups):
     if groups == 1:
         return weight
     outputs, inputs = weight.shape[0] // groups, weight.shape[1]
+    require_room(weight.shape[0], inputs * groups, *weight.shape[2:])
     full = np.zeros((weight.shape[0], inputs * groups, *weight.shape[2:]))
     for g in range(groups):
         full[g * outputs:(g + 1) * outputs, g * inputs:(g + 1) * inputs] = weight[g * outputs:(g + 1) * outputs]

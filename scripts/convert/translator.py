@@ -3,7 +3,7 @@ import numpy as np
 
 import tensors
 from constants import FUNCTIONS
-from layers import Layer
+from layers import MAX_LAYERS, Layer
 from refusal import Refused, require, require_room
 from tensors import BITS, MASK, NOTHING, Tensor
 
@@ -128,20 +128,24 @@ class Translator:
 
     def channel_runs(self, at):
         """Where channels that follow one another in one layer begin: layer numbers, and the bounds of their runs."""
-        number = at[:, 0, 0] >> BITS
-        channel = (at[:, 0, 0] & MASK) // np.array([self.layers[n].shape[0] * self.layers[n].shape[1] for n in number])
-        begins = [0] + [c for c in range(1, len(at)) if number[c] != number[c - 1] or channel[c] != channel[c - 1] + 1]
-        return [int(number[c]) for c in begins], begins + [len(at)]
+        first = at[:, 0, 0]
+        number, pixels = first >> BITS, np.array([layer.shape[0] * layer.shape[1] for layer in self.layers])
+        channel = (first & MASK) // pixels[number]
+        begins = np.flatnonzero((np.diff(number) != 0) | (np.diff(channel) != 1)) + 1
+        bounds = [0, *begins.tolist(), len(at)]
+        require(len(bounds) <= MAX_LAYERS, f"it puts its channels together of {len(bounds) - 1} pieces; a network has at most {MAX_LAYERS} layers")
+        return number[bounds[:-1]].tolist(), bounds
 
     def block(self, layer, at):
         """[c, h, w], which has to be a part of the layer's map."""
-        whole = tensors.elements(layer)[0]
-        first, y, x = (int(n) for n in np.unravel_index(int(at[0, 0, 0] & MASK), whole.shape))
-        part = whole[first:first + at.shape[0], y:y + at.shape[1], x:x + at.shape[2]]
-        require(part.shape == at.shape and (part == at).all(), "it reads a map whose rows, columns or channels have been rearranged")
-        if at.size == whole.size:
+        h, w, c = layer.shape
+        begin = first, y, x = [int(n) for n in np.unravel_index(int(at[0, 0, 0] & MASK), (c, h, w))]
+        inside = all(b + n <= size for b, n, size in zip(begin, at.shape, (c, h, w)))
+        channels, rows, columns = np.ogrid[tuple(map(slice, at.shape))]
+        require(inside and (at == at[0, 0, 0] + (channels * h + rows) * w + columns).all(),
+                "it reads a map whose rows, columns or channels have been rearranged")
+        if at.size == layer.size:
             return layer
-        h, w, _ = layer.shape
         margins = y, x, h - y - at.shape[1], w - x - at.shape[2]
         return self.layer("slice", [layer], (at.shape[1], at.shape[2], at.shape[0]), first_channel=first, channels=at.shape[0], padding=margins)
 
@@ -205,6 +209,7 @@ class Translator:
         for number in row.layer_numbers():
             x = self.real(number)
             mine = (row.at >= 0) & (row.at >> BITS == number)
+            require_room(len(bias), x.size)
             own = np.zeros((len(bias), x.size))
             np.add.at(own, (slice(None), row.at[mine] & MASK), weight[:, mine])
             part = self.layer("fully_connected", [x], (1, 1, len(bias)), weight=own, bias=np.zeros_like(bias) if total else bias)

@@ -379,6 +379,11 @@ def large_cases(w):
     yield case("doubled_again_and_again", [*doubled, node("Relu", "t3")], {"x": [1, 10, 512, 512]})
     many = [node("ConstantOfShape", "n", f"t{i}") for i in range(9)]
     yield case("many_large_constants", [*many, node("Add", "x t8")], None, "at most 134217728 numbers", constants={"n": ints(1 << 24)})
+    yield case("few_of_many", [node("Slice", "x start end axis", "t"), node("Flatten", "t", "u"), node("Gemm", "u w", "y")],
+               {"x": [1, 1, 1024, 1024]}, constants={"start": ints(0), "end": ints(2), "axis": ints(3), "w": weights(2048, 20)})
+    backward = {"start": ints(-1), "end": ints(-(1 << 31)), "axis": ints(1), "step": ints(-1)}
+    yield case("channels_in_pieces", [node("Slice", "x start end axis step", "t"), node("Relu", "t")], {"x": [1, 1 << 20, 1, 1]},
+               "together of 1048576 pieces; a network has at most 1024 layers", constants=backward)
     yield case("long_future", [node("Conv", "x w", pads=[1, 1 << 20])], {"x": [1, 5, 12]}, "it holds steps that have not come",
                constants={"w": weights(6, 5, 2)}, arguments=["--time-axis", "2"])
     yield case("long_memory", [node("Conv", "x w", pads=[100000, 0], dilations=[100000])], {"x": [1, 5, 12]},
