@@ -132,8 +132,8 @@ class Translator:
         number, pixels = first >> BITS, np.array([layer.shape[0] * layer.shape[1] for layer in self.layers])
         channel = (first & MASK) // pixels[number]
         begins = np.flatnonzero((np.diff(number) != 0) | (np.diff(channel) != 1)) + 1
+        require(len(begins) < MAX_LAYERS, f"it puts its channels together of {len(begins) + 1} pieces; a network has at most {MAX_LAYERS} layers")
         bounds = [0, *begins.tolist(), len(at)]
-        require(len(bounds) <= MAX_LAYERS, f"it puts its channels together of {len(bounds) - 1} pieces; a network has at most {MAX_LAYERS} layers")
         return number[bounds[:-1]].tolist(), bounds
 
     def block(self, layer, at):
