@@ -77,6 +77,7 @@ part 16 linters linters
 part 5 "Release with clang" clang
 part 5 "numbers that nobody wrote" scripts/msan.sh
 part 8 fuzzing scripts/fuzz.sh 2
+part 2 "fuzzing of the converter" scripts/fuzz_convert.sh 1
 part 10 "the page, and the npm package" page
 part 20 "other machines than ARM" scripts/cross/all.sh wasm windows compile_only linux_x64 big_endian musl
 part 25 "ARM" scripts/cross/all.sh arm64 armv7
