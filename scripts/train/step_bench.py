@@ -64,7 +64,7 @@ class Step(train_encoder.Trainer):
 
 options = types.SimpleNamespace(network=name, name="step_bench", rate=1e-4, start_from=None, resume=False, seed=1, batch=batch, samples=10**9,
                                 hours=None, real_share=0.2, threads=1, freeze=int(sys.argv[5]), through=None,
-                                decoders_learn=False)
+                                decoders_learn=False, plain=False)
 trainer = Step(options, torch.device("cpu"), 1, 0)
 seconds = {}
 def timed(owner, method, part):
