@@ -19,17 +19,22 @@ def chosen(generator, n, share):
     return (torch.rand(n, 1, 1, 1, generator=generator) < share).float()
 
 
+def grey(x):
+    """The mean of the colours, [n,1,h,w]; a sum of three is faster than a mean."""
+    return (x[:, :1] + x[:, 1:2]).add_(x[:, 2:]).mul_(1 / 3)
+
+
 def colour(x, g):
     """Exposure, contrast, gamma, white balance, saturation; black-and-white and tinted pictures."""
     n = len(x)
     saturation = uniform(g, n, 0.3, 1.5) * (1 - chosen(g, n, 0.2))  # some black and white
     tint = torch.exp(torch.randn(n, 3, 1, 1, generator=g) * 0.07)
     tint = tint / tint.mean(1, keepdim=True)
-    x = torch.lerp(x.mean(1, keepdim=True), x, saturation).mul_(tint).clamp_(0, 1)
+    x = torch.lerp(grey(x), x, saturation).mul_(tint).clamp_(0, 1)
     bend = uniform(g, n, -0.5, 0.5)  # x + bend x (1 - x): a gamma-like curve without its cost
     contrast, brightness = uniform(g, n, 0.6, 1.35), uniform(g, n, -0.15, 0.15)
-    curved = (1 + bend - bend * x).mul_(x)
-    return curved.mul_(contrast).add_(0.5 + brightness - 0.5 * contrast).clamp_(0, 1)
+    curved = (x * (-bend * contrast)).add_((1 + bend) * contrast).mul_(x)
+    return curved.add_(0.5 + brightness - 0.5 * contrast).clamp_(0, 1)
 
 
 def shade(x, g):
@@ -48,7 +53,7 @@ def coloured_light(x, g):
     n = len(x)
     light = uniform(g, n, 0, 1, channels=3)
     light = light / light.amax(1, keepdim=True)
-    brightness = torch.lerp(x.mean(1, keepdim=True), x.amax(1, keepdim=True), uniform(g, n, 0, 1))
+    brightness = torch.lerp(grey(x), x.amax(1, keepdim=True), uniform(g, n, 0, 1))
     return torch.lerp(x, brightness * light, uniform(g, n, 0.4, 1))
 
 
@@ -139,7 +144,7 @@ def noise(x, g):
     level = uniform(g, n, 0.02, 0.25) ** 2
     fine = torch.randn(x.shape, generator=g)
     fine = torch.where(torch.rand(n, 1, 1, 1, generator=g) < 0.5, fine[:, :1], fine)
-    return x + fine * level * (0.3 + x.mean(1, keepdim=True).sqrt())
+    return x + fine * level * (0.3 + grey(x).sqrt())
 
 
 def low_light(x, g, of_frame=None):
@@ -149,7 +154,7 @@ def low_light(x, g, of_frame=None):
     """
     n = len(x)
     grain, light, saturation = uniform(g, n, 0.05, 0.25) ** 2, uniform(g, n, 0.25, 1), uniform(g, n, 0.2, 1)
-    linear = torch.lerp(x.mean(1, keepdim=True), x, saturation).square()
+    linear = torch.lerp(grey(x), x, saturation).square()
     seen = linear + torch.randn(x.shape, generator=of_frame or g) * (linear * grain + grain ** 2).sqrt()
     return seen.clamp_(0, 1).mul_(light).sqrt_()
 

@@ -12,15 +12,22 @@ NEWTON_SCHULZ = (3.4445, -4.7750, 2.0315)
 
 
 def orthogonal(matrices, steps=5):
-    """The nearest (semi-)orthogonal matrices to some [n,rows,columns], roughly: singular values end between 0.7 and 1.2."""
+    """The nearest (semi-)orthogonal matrices to some [n,rows,columns], roughly: singular values end between 0.7 and 1.2.
+
+    Newton-Schulz steps x <- (a + b g + c g g) x with g = x x' are polynomials in the first g, so they are taken among matrices of the shorter
+    side, and x is multiplied once by what they come to: for sides of 1 to 4 that is little more than half the work.
+    """
     a, b, c = NEWTON_SCHULZ
     x = matrices / (matrices.norm(dim=(1, 2), keepdim=True) + 1e-7)
     tall = x.shape[1] > x.shape[2]
-    x = x.transpose(1, 2) if tall else x
-    for _ in range(steps):
-        square = x @ x.transpose(1, 2)
-        x = a * x + (b * square + c * square @ square) @ x
-    return x.transpose(1, 2) if tall else x
+    gram = x.transpose(1, 2) @ x if tall else x @ x.transpose(1, 2)
+    one = a * torch.eye(gram.shape[1], device=x.device)
+    product = None
+    for step in range(steps):
+        factor = torch.baddbmm(gram, gram, gram, beta=b, alpha=c).add_(one)
+        product = factor if product is None else factor @ product
+        gram = factor @ gram @ factor if step < steps - 1 else gram
+    return x @ product if tall else product @ x
 
 
 class Muon(torch.optim.Optimizer):

@@ -4,100 +4,14 @@
 // shape.channels. The expanded map, the largest of all, is never stored: a vector of channels of
 // one picture at a time are made from x, and again on the way back. Its moments follow from those
 // of x, since it is linear in x: mean z = W mean x, E[z z'] = W E[x x'] W'. So do the terms by
-// which they take part in the gradients.
+// which they take part in the gradients. The expanding weights are of the map's type.
 #include "depthwise.h"
+#include "products.h"
 
 namespace mien::training {
 namespace {
 
 constexpr std::size_t kMostNarrow = 48;
-constexpr std::size_t kSummed = 8;  // rows of a sum of products that stay in registers
-
-// out[p] = (out[p] +) sum over k < count of x[p][k] weights[k], for so many pixels at a time that
-// the sums hide their latency
-template <std::size_t kTogether>
-std::size_t product_of(const float* x, std::size_t stride, std::size_t count, const Lanes* weights,
-                       std::size_t begin, std::size_t pixels, Lanes* out, std::size_t out_stride,
-                       bool add) {
-  std::size_t p = begin;
-  for (; p + kTogether <= pixels; p += kTogether) {
-    std::array<Lanes, kTogether> sums = {};
-    for (std::size_t k = 0; k < count; ++k) {
-      for (std::size_t j = 0; j < kTogether; ++j) {
-        sums[j] += weights[k] * x[(p + j) * stride + k];
-      }
-    }
-    for (std::size_t j = 0; j < kTogether; ++j) {
-      Lanes& to = out[(p + j) * out_stride];
-      to = add ? to + sums[j] : sums[j];
-    }
-  }
-  return p;
-}
-
-void product(const float* x, std::size_t stride, std::size_t count, const Lanes* weights,
-             std::size_t pixels, Lanes* out, std::size_t out_stride, bool add) {
-  std::size_t p = product_of<8>(x, stride, count, weights, 0, pixels, out, out_stride, add);
-  p = product_of<4>(x, stride, count, weights, p, pixels, out, out_stride, add);
-  product_of<1>(x, stride, count, weights, p, pixels, out, out_stride, add);
-}
-
-// totals[k] += sum over pixels of x[p][k] y[p], for k < count, which is a multiple of kSummed
-void outer(const float* x, std::size_t stride, std::size_t count, const Lanes* y,
-           std::size_t y_stride, std::size_t pixels, Lanes* totals) {
-  for (std::size_t k = 0; k < count; k += kSummed) {
-    std::array<Lanes, kSummed> sums;
-    std::copy_n(totals + k, kSummed, sums.begin());
-    for (std::size_t p = 0; p < pixels; ++p) {
-      const Lanes value = y[p * y_stride];
-      for (std::size_t j = 0; j < kSummed; ++j) {
-        sums[j] += value * x[p * stride + k + j];
-      }
-    }
-    std::copy(sums.begin(), sums.end(), totals + k);
-  }
-}
-
-// One picture of few channels in fp32, each pixel in whole vectors.
-class Picture {
- public:
-  Picture(std::size_t pixels, std::size_t channels)
-      : pixels_(pixels),
-        channels_(channels),
-        vectors_((channels + kLanes - 1) / kLanes),
-        values_(pixels * vectors_) {}
-
-  template <typename T>
-  void read(const T* x) {
-    for (std::size_t p = 0; p < pixels_; ++p, x += channels_) {
-      for (std::size_t v = 0; v < vectors_; ++v) {
-        values_[p * vectors_ + v] =
-            load_some(x + v * kLanes, std::min(kLanes, channels_ - v * kLanes));
-      }
-    }
-  }
-  template <typename T>
-  void write(T* x) const {
-    for (std::size_t p = 0; p < pixels_; ++p, x += channels_) {
-      for (std::size_t v = 0; v < vectors_; ++v) {
-        store_some(x + v * kLanes, values_[p * vectors_ + v],
-                   std::min(kLanes, channels_ - v * kLanes));
-      }
-    }
-  }
-  const float* floats(std::size_t pixel = 0) const {
-    return reinterpret_cast<const float*>(values_.data() + pixel * vectors_);
-  }
-  std::size_t stride() const { return vectors_ * kLanes; }
-  std::size_t vectors() const { return vectors_; }
-  Lanes* vector(std::size_t v, std::size_t pixel = 0) {
-    return values_.data() + pixel * vectors_ + v;
-  }
-
- private:
-  std::size_t pixels_, channels_, vectors_;
-  std::vector<Lanes> values_;
-};
 
 // Sums over all pixels of x and of x x', in fp64.
 struct Gram {
@@ -107,13 +21,15 @@ struct Gram {
   double& at(std::size_t j, std::size_t k) const { return values[j * narrow + k]; }
   double& sum(std::size_t k) const { return values[narrow * narrow + k]; }
 
-  void add(Picture& x, std::size_t pixels) const {
+  template <typename T>
+  void add(const Along<T>& x) const {
     for (std::size_t v = 0; v < x.vectors(); ++v) {
+      const Vector<T>* vector = x.row(0) + v;
       std::array<Lanes, kMostNarrow> part = {};
-      outer(x.floats(), x.stride(), narrow, x.vector(v), x.vectors(), pixels, part.data());
+      outer<T>(x.row(0), x.vectors(), narrow, vector, x.vectors(), x.units_of_all(), part.data());
       Lanes sums = {};
-      for (std::size_t p = 0; p < pixels; ++p) {
-        sums += x.vector(v)[p * x.vectors()];
+      for (std::size_t u = 0; u < x.units_of_all(); ++u) {
+        sums = Terms<T>::plus(sums, vector[u * x.vectors()], Terms<T>::kOnes);
       }
       for (std::size_t lane = 0; lane < kLanes && v * kLanes + lane < narrow; ++lane) {
         sum(v * kLanes + lane) += sums[lane];
@@ -132,27 +48,29 @@ struct Expansion {
 
   const float* row(std::size_t channel) const { return weights + channel * narrow; }
 
-  // For channels from c on: [narrow] vectors over the channels.
-  std::array<Lanes, kMostNarrow> by_input(std::size_t c, std::size_t count) const {
-    std::array<Lanes, kMostNarrow> out = {};
-    for (std::size_t lane = 0; lane < count; ++lane) {
-      for (std::size_t k = 0; k < narrow; ++k) {
-        out[k][lane] = row(c + lane)[k];
+  // For channels from c on: [narrow / terms] vectors over the channels.
+  template <typename T>
+  std::array<Vector<T>, kMostNarrow> by_input(std::size_t c, std::size_t count) const {
+    return joined<T, kMostNarrow>(narrow, [&](std::size_t k) {
+      Lanes out = {};
+      for (std::size_t lane = 0; lane < count; ++lane) {
+        out[lane] = row(c + lane)[k];
       }
-    }
-    return out;
+      return out;
+    });
   }
 
-  // Times scale, for 16 inputs from k on: [16] vectors over the inputs.
-  std::array<Lanes, kLanes> by_channel(std::size_t c, std::size_t count, std::size_t k,
-                                       const float* scale) const {
-    std::array<Lanes, kLanes> out = {};
-    for (std::size_t lane = 0; lane < count; ++lane) {
-      for (std::size_t i = 0; i < kLanes && k + i < narrow; ++i) {
-        out[lane][i] = scale[c + lane] * row(c + lane)[k + i];
+  // Times scale, for a vector of inputs from k on: [kLanes / terms] vectors over the inputs.
+  template <typename T>
+  std::array<Vector<T>, kLanes> by_channel(std::size_t c, std::size_t count, std::size_t k,
+                                           const float* scale) const {
+    return joined<T, kLanes>(kLanes, [&](std::size_t lane) {
+      Lanes out = {};
+      for (std::size_t i = 0; lane < count && i < kLanes && k + i < narrow; ++i) {
+        out[i] = scale[c + lane] * row(c + lane)[k + i];
       }
-    }
-    return out;
+      return out;
+    });
   }
 
   // Sums of the expanded map and of its squares.
@@ -180,26 +98,26 @@ void forward(DepthwiseShape shape, std::size_t narrow, const T* x, float epsilon
   const Expansion expansion = {shape.channels, narrow, expansion_weights};
   const Gram gram = {narrow, gram_values};
   std::fill_n(gram_values, (narrow + 1) * narrow, 0.0);
-  Picture picture(g.pixels(), narrow);
+  Along<T> along(shape.height, shape.width, narrow);
   for (std::size_t i = 0; i < shape.images; ++i) {
-    picture.read(x + i * g.pixels() * narrow);
-    gram.add(picture, g.pixels());
+    along.read(x + i * g.pixels() * narrow);
+    gram.add(along);
   }
   set_moments(expansion.totals(gram), g.in().pixels, shape.channels, epsilon, first);
   const Line line(shape.channels, first);
   Rows seen(g);
   Totals sums;
   for (std::size_t i = 0; i < shape.images; ++i) {
-    picture.read(x + i * g.pixels() * narrow);
+    const T* picture = x + i * g.pixels() * narrow;
     for (std::size_t c = 0; c < shape.channels; c += kLanes) {
       const std::size_t count = std::min(kLanes, shape.channels - c);
-      const auto by_input = expansion.by_input(c, count);
+      const auto by_input = expansion.by_input<T>(c, count);
       Lanes values = {}, squares = {};
       slide(g, seen, kernel_of(weights, shape.channels, c, count),
             slid + i * g.out_pixels() * shape.channels + c, count, values, squares,
             [&](std::size_t row) {
               Lanes* to = seen.inner(row);
-              product(picture.floats(row * shape.width), picture.stride(), narrow, by_input.data(),
+              product(picture + row * shape.width * narrow, narrow, narrow, by_input.data(),
                       shape.width, to, 1, false);
               for (std::size_t column = 0; column < shape.width; ++column) {
                 to[column] = limited(line.at(c, to[column]), kRelu6);
@@ -216,17 +134,39 @@ struct Gradients {
   float *expansion, *first_weight, *first_bias, *weights, *second_weight, *second_bias;
 };
 
-// What the moments of the expanded map add to the gradient by x: x B + constant, B [narrow] vectors
-// of 16 outputs from k on.
-void moments_share(const Expansion& e, const Descent& before, std::size_t k, Lanes* b,
-                   Lanes& constant) {
+// What the moments of the expanded map add to the gradient by x: x B + constant, for a vector of
+// outputs from k on: [narrow / terms] vectors of B.
+template <typename T>
+std::array<Vector<T>, kMostNarrow> moments_share(const Expansion& e, const Descent& before,
+                                                 std::size_t k, Lanes& constant) {
+  const std::size_t count = std::min(kLanes, e.narrow - k);
   constant = Lanes{};
-  std::fill_n(b, e.narrow, Lanes{});
-  for (std::size_t i = 0; i < kLanes && k + i < e.narrow; ++i) {
+  for (std::size_t c = 0; c < e.channels; ++c) {
+    constant += before.constant[c] * load_some(e.row(c) + k, count);
+  }
+  return joined<T, kMostNarrow>(e.narrow, [&](std::size_t j) {
+    Lanes out = {};
     for (std::size_t c = 0; c < e.channels; ++c) {
-      constant[i] += before.constant[c] * e.row(c)[k + i];
-      for (std::size_t j = 0; j < e.narrow; ++j) {
-        b[j][i] += e.row(c)[j] * before.along[c] * e.row(c)[k + i];
+      out += e.row(c)[j] * before.along[c] * load_some(e.row(c) + k, count);
+    }
+    return out;
+  });
+}
+
+template <typename T>
+void add_moments_share(const Expansion& e, const Descent& before, const Geometry& g, const T* x,
+                       T* dx) {
+  const std::size_t pixels = g.shape.width;  // at a time
+  std::vector<Lanes> share(pixels);
+  for (std::size_t k = 0; k < e.narrow; k += kLanes) {
+    const std::size_t count = std::min(kLanes, e.narrow - k);
+    Lanes constant;
+    const auto b = moments_share<T>(e, before, k, constant);
+    for (std::size_t p = 0; p < g.in().pixels; p += pixels) {
+      product(x + p * e.narrow, e.narrow, e.narrow, b.data(), pixels, share.data(), 1, false);
+      for (std::size_t j = 0; j < pixels; ++j) {
+        T* to = dx + (p + j) * e.narrow + k;
+        store_some(to, load_some(to, count) + share[j] + constant, count);
       }
     }
   }
@@ -247,6 +187,16 @@ void expansion_gradient(const Expansion& e, const Gram& gram, const Line& line,
   }
 }
 
+// [pixels][vectors] in fp32 as [pixels][channels].
+template <typename T>
+void write(const std::vector<Lanes>& from, std::size_t channels, T* to) {
+  for (auto vector = from.begin(); vector != from.end(); to += channels) {
+    for (std::size_t c = 0; c < channels; c += kLanes) {
+      store_some(to + c, *vector++, std::min(kLanes, channels - c));
+    }
+  }
+}
+
 template <typename T>
 void backward(DepthwiseShape shape, std::size_t narrow, const T* dy, const T* x, const T* slid,
               const float* expansion_weights, Norm first, const float* weights, Norm second,
@@ -261,22 +211,24 @@ void backward(DepthwiseShape shape, std::size_t narrow, const T* dy, const T* x,
   PerChannel<float> mean = {};
   std::copy_n(first.mean, shape.channels, mean.begin());
   Rows expanded(g), seen(g), gradient(g);
-  Picture picture(g.pixels(), narrow);
-  std::vector<Picture> towards_x(shape.images,
-                                 picture);  // the gradient by x, but for what the moments add
+  Along<T> along_x(shape.height, shape.width, narrow), along_dz(1, shape.width, kLanes);
+  const std::size_t vectors = along_x.vectors();
+  std::vector<T> by_channel_dz(shape.width * kLanes);
+  std::vector<Lanes> towards_x(g.pixels() * vectors);  // the gradient by a picture of x
   Totals sums;
   std::vector<double> dweights(kTaps * shape.channels), products(shape.channels * narrow);
   for (std::size_t i = 0; i < shape.images; ++i) {
     prefetch(slid + i * g.out_pixels() * shape.channels, g.out_pixels() * shape.channels);
     prefetch(dy + i * g.out_pixels() * shape.channels, g.out_pixels() * shape.channels);
-    picture.read(x + i * g.pixels() * narrow);
+    const T* picture = x + i * g.pixels() * narrow;
+    along_x.read(picture);
     for (std::size_t c = 0; c < shape.channels; c += kLanes) {
       const std::size_t count = std::min(kLanes, shape.channels - c),
                         slid_picture = i * g.out_pixels() * shape.channels + c;
-      const auto by_input = expansion.by_input(c, count);
-      std::array<std::array<Lanes, kLanes>, kMostNarrow / kLanes> by_channel;
-      for (std::size_t v = 0; v < picture.vectors(); ++v) {
-        by_channel[v] = expansion.by_channel(c, count, v * kLanes, line.scale.data());
+      const auto by_input = expansion.by_input<T>(c, count);
+      std::array<std::array<Vector<T>, kLanes>, kMostNarrow / kLanes> by_channel;
+      for (std::size_t v = 0; v < vectors; ++v) {
+        by_channel[v] = expansion.by_channel<T>(c, count, v * kLanes, line.scale.data());
       }
       Kernel dkernel = {};
       Lanes gradients = {}, along = {};
@@ -291,7 +243,7 @@ void backward(DepthwiseShape shape, std::size_t narrow, const T* dy, const T* x,
           },
           [&](std::size_t row) {
             Lanes *z = expanded.inner(row), *to = seen.inner(row);
-            product(picture.floats(row * shape.width), picture.stride(), narrow, by_input.data(),
+            product(picture + row * shape.width * narrow, narrow, narrow, by_input.data(),
                     shape.width, z, 1, false);
             for (std::size_t column = 0; column < shape.width; ++column) {
               to[column] = limited(line.at(c, z[column]), kRelu6);
@@ -305,15 +257,17 @@ void backward(DepthwiseShape shape, std::size_t narrow, const T* dy, const T* x,
               dz[column] = passed(value[column], kRelu6, dz[column]);
               of_row += dz[column];
               along_row += dz[column] * (z[column] - load(&mean[c]));
+              store(&by_channel_dz[column * kLanes], dz[column]);
             }
             gradients += of_row;
             along += along_row;
-            outer(picture.floats(row * shape.width), picture.stride(), narrow, dz, 1, shape.width,
-                  part.data());
-            for (std::size_t v = 0; v < picture.vectors(); ++v) {
-              product(reinterpret_cast<const float*>(dz), kLanes, kLanes, by_channel[v].data(),
-                      shape.width, towards_x[i].vector(v, row * shape.width), picture.vectors(),
-                      c > 0);
+            along_dz.fill(
+                [dz](std::size_t, std::size_t column, std::size_t) { return dz[column]; });
+            outer<T>(along_x.row(row), vectors, narrow, along_dz.row(0), 1, along_dz.units_of_all(),
+                     part.data());
+            for (std::size_t v = 0; v < vectors; ++v) {
+              product(by_channel_dz.data(), kLanes, kLanes, by_channel[v].data(), shape.width,
+                      &towards_x[row * shape.width * vectors + v], vectors, c > 0);
             }
           });
       add_kernel(dweights, dkernel, shape.channels, c, count);
@@ -324,27 +278,12 @@ void backward(DepthwiseShape shape, std::size_t narrow, const T* dy, const T* x,
         }
       }
     }
+    write(towards_x, narrow, dx + i * g.pixels() * narrow);
   }
   std::copy(dweights.begin(), dweights.end(), out.weights);
   const Descent before(g.in(), first, line, sums, out.first_weight, out.first_bias);
   expansion_gradient(expansion, gram, line, before, products, out.expansion);
-  std::array<std::array<Lanes, kMostNarrow>, kMostNarrow / kLanes> b;
-  std::array<Lanes, kMostNarrow / kLanes> constant;
-  for (std::size_t v = 0; v < picture.vectors(); ++v) {
-    moments_share(expansion, before, v * kLanes, b[v].data(), constant[v]);
-  }
-  for (std::size_t i = 0; i < shape.images; ++i) {
-    picture.read(x + i * g.pixels() * narrow);
-    for (std::size_t v = 0; v < picture.vectors(); ++v) {
-      Lanes* to = towards_x[i].vector(v);
-      product(picture.floats(), picture.stride(), narrow, b[v].data(), g.pixels(), to,
-              picture.vectors(), true);
-      for (std::size_t p = 0; p < g.pixels(); ++p) {
-        to[p * picture.vectors()] += constant[v];
-      }
-    }
-    towards_x[i].write(dx + i * g.pixels() * narrow);
-  }
+  add_moments_share(expansion, before, g, x, dx);
 }
 
 }  // namespace

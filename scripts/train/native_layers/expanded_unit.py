@@ -16,7 +16,7 @@ from native_layers.depthwise_unit import Norm, Shape, norm
 from native_layers.native import address, by_pixel, code
 from native_layers.norm_activation import NormActivation
 
-MOST_NARROW = 16  # channels that come in; beyond, a product of matrices is faster
+MOST_NARROW = 24  # channels that come in; beyond, a product of matrices is faster
 
 
 class Gradients(ctypes.Structure):
@@ -45,7 +45,7 @@ class Fused(torch.autograd.Function):
         first = [first_weight, first_bias, torch.empty_like(first_weight), torch.empty_like(first_weight)]
         second = [second_weight, second_bias, torch.empty_like(second_weight), torch.empty_like(second_weight)]
         gram = torch.empty(narrow + 1, narrow, dtype=torch.float64)
-        expansion = expansion.flatten(1).contiguous()
+        expansion = expansion.flatten(1).to(x.dtype).float().contiguous()
         native().expanded_unit_forward(Shape(n, h, w, len(expansion), stride, padding), narrow, x.dtype == torch.bfloat16, address(x),
                                        epsilon, address(expansion), norm(*first), address(kernel), norm(*second),
                                        *map(address, (gram, slid, y)))
@@ -94,6 +94,7 @@ def self_test():
                                    NormActivation(channels, True)).train()
             for layer in (layers[1], layers[3]):
                 nn.init.uniform_(layer.weight, 0.5, 1.5), nn.init.uniform_(layer.bias, 0.5, 2)
+            layers[0].weight.data = layers[0].weight.data.to(dtype).float()
             twin = nn.Sequential(nn.Conv2d(narrow, channels, 1, bias=False), nn.BatchNorm2d(channels), convolution(),
                                  nn.BatchNorm2d(channels)).double().train()
             twin.load_state_dict(layers.state_dict())
