@@ -95,3 +95,22 @@ class Optimizer:
 
     def load_state_dict(self, state):
         self.rest.load_state_dict(state["rest"]), self.pointwise.load_state_dict(state["pointwise"])
+
+
+def self_test():
+    """Directions: the singular vectors of the matrices with values near 1, also where only a few are not 0; and both kinds of rows move."""
+    torch.manual_seed(1)
+    for shape in ((2, 24, 96), (3, 96, 24), (1, 16, 16)):
+        matrices = torch.randn(shape)
+        u, _, vt = torch.linalg.svd(matrices, full_matrices=False)
+        cosines = torch.einsum("nik,nij,njk->nk", u, orthogonal(matrices), vt.transpose(1, 2))
+        assert cosines.min() > 0.3 and cosines.max() < 1.25, (shape, cosines.min(), cosines.max())
+        assert torch.linalg.svdvals(orthogonal(matrices)).max() < 1.25, shape
+    thin = torch.randn(1, 96, 2) @ torch.randn(1, 2, 24)
+    values = torch.linalg.svdvals(orthogonal(thin))[0]
+    assert values[1] > 0.6 and values[2] < 0.05, values[:3]
+    print("optimizer: ok")
+
+
+if __name__ == "__main__":
+    self_test()
