@@ -51,7 +51,7 @@ if [ "$hours" != 0 ]; then
   # An end that was reached is reached at once when it is resumed.
   nice -n 15 "$python" -m torch.distributed.run --standalone --nproc_per_node "$processes" train_encoder.py --network "$network" --name "$name" \
     --start-from "$runs/${network}_start.pt" --through "$before" --decoders-learn --real-share 0.4 --rate 8e-4 --hours "$hours" \
-    --samples 100000000 --resume
+    --samples 100000000 --report-every 150000 --resume
 fi
 
 checkpoints=(--checkpoint "$encoder")
@@ -70,10 +70,10 @@ moving=("$cache/synthetic/train_sequences$suffix"/*)
   sequences held --hold 3 --seed 5 --shards "${stills[@]:0:half}"
   sequences val --plain --shards "$cache/synthetic/val_sequences$suffix"/*
 ) &
-sequences train_plain --plain --seed 3 --shards "${moving[@]}"
+sequences train_plain --plain --mirrored --seed 3 --shards "${moving[@]}"
 portraits portraits --hold 2
 portraits portraits_val --hold 3 --plain --passes 1 --split val
-sequences held_plain --hold 3 --plain --shards "${stills[@]:half}"
+sequences held_plain --hold 3 --plain --mirrored --shards "${stills[@]:half}"
 sequences val_apart --hold 8 --plain --shards "$cache/apart/val_stills$suffix"/*
 wait $!
 

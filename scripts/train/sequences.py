@@ -238,12 +238,12 @@ def untouched(x, frame):
     return x
 
 
-def extract(view, sequences, passes, seed, strides=(1, 2), plain=False, batch=32):
+def extract(view, sequences, passes, seed, strides=(1, 2), plain=False, mirrored=False, batch=32):
     """Tracks every sequence `passes` times with the encoder on every frame, and as often on alternate frames.
 
-    Every second pass mirrors the faces. Returns tensors with one row per track: features fp16 [m,frames,256], pose
-    [m,frames,9], controls and visible [m,frames,52], stride [m], landmark_error [m,frames]. `plain` leaves the
-    pictures as they are.
+    Passes see the faces as they are and mirrored in turns, mirrored first if `mirrored`. Returns tensors with one row per track:
+    features fp16 [m,frames,256], pose [m,frames,9], controls and visible [m,frames,52], stride [m], landmark_error [m,frames].
+    `plain` leaves the pictures as they are.
     """
     tracks, losses = [], 0
     for stride, number in itertools.product(strides, range(passes)):
@@ -252,13 +252,14 @@ def extract(view, sequences, passes, seed, strides=(1, 2), plain=False, batch=32
             rows = torch.arange(start, min(start + batch, len(sequences)))
             key = ((seed * 2 + stride) * 100 + number) * 10000 + start
             spoil = untouched if plain else OfSequence(len(rows), key)
-            seen = Mirrored(view) if number % 2 else view
+            mirror = (number % 2 == 1) != mirrored
+            seen = Mirrored(view) if mirror else view
             shown = sequences if plain else sequences.coded(rows, key)
             features, crops, points, again = track(seen, shown, rows, spoil, torch.Generator().manual_seed(key), stride)
             losses += again
             errors.append(landmark_error(points, sequences.label("landmarks", rows)))
             tracks.append({"features": features.half(), "stride": torch.full((len(rows),), stride),
-                           "landmark_error": errors[-1], **targets(sequences, rows, crops, number % 2)})
+                           "landmark_error": errors[-1], **targets(sequences, rows, crops, mirror)})
         print(f"stride {stride} pass {number} landmark error {torch.cat(errors).mean():.4f}", flush=True)
     out = {k: torch.cat([t[k] for t in tracks]) for k in tracks[0]}
     print(f"tracks {len(out['stride'])}, faces found again {losses}")
@@ -274,6 +275,7 @@ def main():
     parser.add_argument("--passes", type=int, default=2)
     parser.add_argument("--hold", type=int, help="shards of stills: each held for so many frames")
     parser.add_argument("--plain", action="store_true", help="no photometric variety")
+    parser.add_argument("--mirrored", action="store_true", help="begin with the faces mirrored")
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--seed", type=int, default=0)
     args = parser.parse_args()
@@ -284,7 +286,7 @@ def main():
     view = BaseNetView(args.checkpoint)
     if args.hifinet:
         view = HiFiNetView(view, args.hifinet)
-    found = extract(view, sequences, args.passes, args.seed, strides, args.plain)
+    found = extract(view, sequences, args.passes, args.seed, strides, args.plain, args.mirrored)
     args.out.parent.mkdir(parents=True, exist_ok=True)
     with whole(args.out) as out:
         torch.save(found, out)
