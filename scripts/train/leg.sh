@@ -81,7 +81,7 @@ f=$features
 seen=(--network "$network" --train "$f/train.pt" "$f/train_plain.pt" --held "$f/held.pt" "$f/held_plain.pt" --portraits "$f/portraits.pt"
   --val "$f/val.pt" --portraits-val "$f/portraits_val.pt")
 decoders() {  # output, arguments of train_decoders.py
-  since_training "$runs/$name/$1.pt" "$python" train_decoders.py "${seen[@]}" --noise 0.2 --rate 1.5e-3 --steps 1200 --sides 1.5 \
+  since_training "$runs/$name/$1.pt" "$python" train_decoders.py "${seen[@]}" --noise 0.2 --rate 1.5e-3 --steps 1200 --sides 1.5 --teacher 2 \
     --out "$runs/$name/$1.pt" "${@:2}" >"$f/$1.log"
 }
 decoders decoders_whole --start-from "$decoders" &
