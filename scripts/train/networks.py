@@ -138,7 +138,7 @@ class Encoder(nn.Module):
 
     def answered(self, image):
         """What the parts that do not learn make of the pictures."""
-        image = image.to(self.map_type)
+        image = image.to(self.map_type).contiguous(memory_format=torch.channels_last)
         if not self.frozen:
             return image
         with torch.no_grad():

@@ -22,11 +22,12 @@ def orthogonal(matrices, steps=5):
     tall = x.shape[1] > x.shape[2]
     gram = x.transpose(1, 2) @ x if tall else x @ x.transpose(1, 2)
     one = a * torch.eye(gram.shape[1], device=x.device)
-    product = None
-    for step in range(steps):
-        factor = torch.baddbmm(gram, gram, gram, beta=b, alpha=c).add_(one)
-        product = factor if product is None else factor @ product
-        gram = factor @ gram @ factor if step < steps - 1 else gram
+    factor_of = lambda gram: torch.baddbmm(gram, gram, gram, beta=b, alpha=c).add_(one)
+    product = factor = factor_of(gram)
+    for _ in range(steps - 1):
+        gram = factor @ gram @ factor
+        factor = factor_of(gram)
+        product = factor @ product
     return x @ product if tall else product @ x
 
 
@@ -98,7 +99,7 @@ class Optimizer:
 
 
 def self_test():
-    """Directions: the singular vectors of the matrices with values near 1, also where only a few are not 0; and both kinds of rows move."""
+    """Directions: the singular vectors of the matrices with values near 1, also where only a few are not 0."""
     torch.manual_seed(1)
     for shape in ((2, 24, 96), (3, 96, 24), (1, 16, 16)):
         matrices = torch.randn(shape)

@@ -231,8 +231,7 @@ class Trainer:
         images = augment.photometric(torch.cat([batch.images, moved]), self.generator, degraded).mul_(2).sub_(1)
         batch = face_data.Batch(*(value.to(self.device) for value in batch))
         n = len(batch.images)
-        images = images.to(self.device, self.network.encoder.map_type)  # first, for then there is half as much to turn
-        whole = self.network(images.to(memory_format=torch.channels_last))
+        whole = self.network(images.to(self.device))
         out = {name: value[:n] for name, value in whole.items()}
         consistency = self.losses.consistency(out["landmarks"][rows], whole["landmarks"][n:], crop.to(self.device))
         loss = self.losses.total(out, batch) + 0.5 * consistency
