@@ -2,10 +2,8 @@
 import report as out
 import voice_activity
 import voice_controls
-import voice_mix
 import voice_phonemes
 import voice_plots
-import voice_rounding
 from voice_model import Model
 
 RATE, FRAMES, HOURS = "% of phonemes", "% of frames", 3600
@@ -14,8 +12,6 @@ RATE, FRAMES, HOURS = "% of phonemes", "% of frames", 3600
 def measure(setting):
     model = Model(*setting.checkpoint("audionet"))
     report = figures(model)
-    report["rounding"] = voice_rounding.measure(setting.program)
-    report["mix"] = voice_mix.measure(setting)
     report["sentence"] = voice_plots.sentence(model)
     return report
 
@@ -30,11 +26,7 @@ def markdown(report):
     lines = ["# Voice", ""] + out.prose(f"""AudioNet as models/audionet.mien has it, on people, voices and noises that it never learned
         from; its encoder has heard {report['encoder_hours']:.0f} hours of sound, the same recordings many times.""")
     lines += tables(report)
-    lines += ["## Rounded lips by sound and by picture", ""] + voice_rounding.prose(report["rounding"])
-    lines += ["![by sound and by picture](voice_rounding.png)", "", "## Sound and picture together", ""]
-    lines += out.prose("""The demo clip, whose true controls are known; its voice is a variant of eSpeak NG that was held out.""")
-    lines += voice_mix.markdown(report["mix"])
-    lines += [ "## A sentence", "",
+    lines += ["## A sentence", "",
               "One of the held-out clips; grey is the video teacher's jaw.", "", "![curves of a sentence](voice_sentence.png)", "",
               "![its mouth](voice_head.jpg)", ""]
     lines += out.prose("""[A face that sound alone moves](voice_head.mp4), and its mouth above, made by `scripts/evaluate/talking_head.py`:
@@ -83,4 +75,3 @@ def controls(report):
 def plot(report, folder):
     voice_plots.roc(report["activity"], folder / "voice_roc.png")
     voice_plots.curves(report["sentence"], folder / "voice_sentence.png")
-    voice_rounding.plot(report["rounding"], folder / "voice_rounding.png")

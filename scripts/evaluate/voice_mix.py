@@ -29,7 +29,7 @@ def errors(program, lod):
 
 
 def measure(setting):
-    return {name: errors(setting.program, lod) for name, lod in setting.levels("voice").items()}
+    return {name: errors(setting.program, lod) for name, lod in setting.levels("sound_and_picture").items()}
 
 
 def markdown(report):

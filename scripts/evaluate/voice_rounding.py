@@ -30,14 +30,18 @@ def answers(program, clip, samples, mode):
     return {c: table[c][SETTLING:] for c in ROUNDED}
 
 
+def held_out():
+    """[(video, its sound)]"""
+    clips = [(clip, data() / f"av/audio/{clip.stem}.opus") for clip in sorted((data() / "av/video").glob("*.mp4"))]
+    return [(clip, sound) for clip, sound in clips if sound.exists() and corpus.split_of("av", clip.stem)[1] == "test"]
+
+
 def measure(program):
     """{control: {"sound": [frames], "picture": [frames], "correlation", "mean of clips"}}"""
-    group = corpus.Group("av")
-    clips = [(data() / f"av/video/{s.name}.mp4", s) for s in group.of("test")]
-    clips = [(path, s) for path, s in clips if path.exists()]
+    clips = held_out()
     if not clips:
-        raise Missing("no held-out clip of av/ has its video")
-    pairs = [[answers(program, path, group.samples(s), mode) for mode in ("audio", "video")] for path, s in clips]
+        raise Missing("no held-out clip with sound is in av/: MIEN_DATA must name the folder of the data packs")
+    pairs = [[answers(program, clip, corpus.decode(sound), mode) for mode in ("audio", "video")] for clip, sound in clips]
     report = {"clips": len(pairs)}
     for c in ROUNDED:
         rows = [(a[c][:len(v[c])], v[c][:len(a[c])]) for a, v in pairs]
