@@ -95,7 +95,7 @@ def options():
     parser.add_argument("--train", type=Path, nargs="+", required=True, help="features of rendered faces that move (sequences.py)")
     parser.add_argument("--held", type=Path, nargs="+", required=True, help="features of stills (sequences.py --hold)")
     parser.add_argument("--portraits", type=Path, nargs="+", required=True, help="features of real faces (portrait_features.py)")
-    parser.add_argument("--val", type=Path, required=True, help="features that choose the supported controls")
+    parser.add_argument("--val", type=Path, nargs="+", required=True, help="features that choose the supported controls")
     parser.add_argument("--portraits-val", type=Path, required=True, help="features of real faces that help to choose them")
     parser.add_argument("--out", type=Path, required=True, help="checkpoint; scores go beside it as .json")
     parser.add_argument("--steps", type=int, default=600)
@@ -117,7 +117,7 @@ def main():
     decoder.load_state_dict(known["controls_decoder"])
     hasten(decoder.eval(), args)
     before = known["supported"].numpy()
-    report, supported = evaluate({"controls": decoder}, torch.load(args.val), gaze=args.network == "hifinet",
+    report, supported = evaluate({"controls": decoder}, join([torch.load(p) for p in args.val]), gaze=args.network == "hifinet",
                                  portraits=torch.load(args.portraits_val), before=before)
     # The judgement is the same, so what was supported stays so.
     save(args.out, known | {"controls_decoder": decoder.state_dict()}, supported | (before > 0), report)

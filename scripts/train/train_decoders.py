@@ -369,7 +369,7 @@ def options():
     parser.add_argument("--start-from", type=Path, help="decoders to go on from")
     parser.add_argument("--draw-back", type=float, default=0.0, metavar="SHARE", help="of the way back to those in the end")
     parser.add_argument("--teacher", type=float, default=0.5, help="weight of what the teacher says of them")
-    parser.add_argument("--val", type=Path, required=True, help="features that choose the supported controls")
+    parser.add_argument("--val", type=Path, nargs="+", required=True, help="features that choose the supported controls")
     parser.add_argument("--portraits-val", type=Path, help="features of real faces that help to choose them")
     parser.add_argument("--out", type=Path, required=True, help="checkpoint; scores go beside it as .json")
     parser.add_argument("--steps", type=int, default=1600)
@@ -409,7 +409,7 @@ def main():
         check_streaming(decoder, sources[0].data["features"])
     real = torch.load(args.portraits_val) if args.portraits_val else None
     before = torch.load(args.start_from)["supported"].numpy() if args.start_from else None
-    report, supported = evaluate(decoders, torch.load(args.val), gaze=args.network == "hifinet", portraits=real, before=before)
+    report, supported = evaluate(decoders, join([torch.load(p) for p in args.val]), gaze=args.network == "hifinet", portraits=real, before=before)
     save(args.out, {f"{name}_decoder": decoder.state_dict() for name, decoder in decoders.items()}, supported, report)
 
 
