@@ -6,7 +6,7 @@
 #   HOURS   of the encoder's training, 0 for decoders alone; data, features and decoders take about an hour on two cores besides
 #   NAME    of the run, default NETWORK_leg: $MIEN_CACHE/runs/NAME has checkpoints and decoders, $MIEN_CACHE/features/NAME their features
 # MIEN_DATA, MIEN_CACHE, PYTHON (default python3, one with PyTorch), PROCESSES (default as many as processors), STILLS (24000),
-# SEQUENCES (264) and SEED (11) of what is rendered to learn from.
+# SEQUENCES (264) and SEED (11) of what is rendered to learn from, RATE (8e-4) at which it learns.
 set -euo pipefail
 cd "$(dirname "$0")"
 network=$1 hours=$2 name=${3:-$1_leg}
@@ -51,7 +51,7 @@ if [ "$hours" != 0 ]; then
   encoder=$runs/$name/last.pt decoders=$runs/$name/decoders.pt
   # An end that was reached is reached at once when it is resumed.
   nice -n 15 "$python" -m torch.distributed.run --standalone --nproc_per_node "$processes" train_encoder.py --network "$network" --name "$name" \
-    --start-from "$runs/${network}_start.pt" --through "$before" --decoders-learn --real-share 0.4 --rate 8e-4 --hours "$hours" \
+    --start-from "$runs/${network}_start.pt" --through "$before" --decoders-learn --real-share 0.4 --rate "${RATE:-8e-4}" --hours "$hours" \
     --samples 100000000 --report-every 150000 --resume
 fi
 
