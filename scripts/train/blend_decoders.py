@@ -12,17 +12,27 @@ import torch
 from whole_files import whole
 
 
+def between(ours, others, share):
+    """A state on the line between two."""
+    return {name: value.lerp(others[name].to(value), share) if value.is_floating_point() else value for name, value in ours.items()}
+
+
+def add_line(parser):
+    """The arguments of a line between two checkpoints."""
+    parser.add_argument("ours", type=Path)
+    parser.add_argument("others", type=Path)
+    parser.add_argument("share", type=float, help="of the others")
+    parser.add_argument("out", type=Path)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("decoders", type=Path)
-    parser.add_argument("others", type=Path)
-    parser.add_argument("share", type=float)
-    parser.add_argument("out", type=Path)
+    add_line(parser)
     args = parser.parse_args()
-    ours, others = torch.load(args.decoders), torch.load(args.others)
+    ours, others = torch.load(args.ours), torch.load(args.others)
     for name in ("controls_decoder", "pose_decoder"):
-        for weight, value in ours.get(name, {}).items():
-            value.lerp_(others[name][weight].to(value), args.share)
+        if name in ours:
+            ours[name] = between(ours[name], others[name], args.share)
     with whole(args.out) as out:
         torch.save(ours, out)
 

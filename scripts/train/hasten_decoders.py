@@ -18,7 +18,7 @@ import torch.nn.functional as F
 
 from losses import soft_clamp
 from networks import FACE_NETWORKS, ControlsDecoder
-from train_decoders import (ControlsTask, Held, Moving, answers, arguments, draw_back, evaluate, join, minimise, of_portraits, save,
+from train_decoders import (ControlsTask, Held, Moving, answers, arguments, draw_back, evaluate, load_joined, minimise, of_portraits, save,
                             spread_of, temporal_loss)
 
 SETTLED = 10       # frames after which a decoder has said of a still face what it has to say
@@ -61,7 +61,7 @@ class Noisy:
 
 def sources_of(decoder, args):
     """(sources, weight of each control [52]) whose controls are the targets."""
-    moving, held, portraits = (join([torch.load(path) for path in paths]) for paths in (args.train, args.held, args.portraits))
+    moving, held, portraits = map(load_joined, (args.train, args.held, args.portraits))
     weight = ControlsTask(moving, args).weight
     truth = moving["controls"].float()
     real = of_portraits(portraits, args, args.cuts)
@@ -117,7 +117,7 @@ def main():
     decoder.load_state_dict(known["controls_decoder"])
     hasten(decoder.eval(), args)
     before = known["supported"].numpy()
-    report, supported = evaluate({"controls": decoder}, join([torch.load(p) for p in args.val]), gaze=args.network == "hifinet",
+    report, supported = evaluate({"controls": decoder}, load_joined(args.val), gaze=args.network == "hifinet",
                                  portraits=torch.load(args.portraits_val), before=before)
     # The judgement is the same, so what was supported stays so.
     save(args.out, known | {"controls_decoder": decoder.state_dict()}, supported | (before > 0), report)

@@ -393,9 +393,9 @@ def arguments(**changed):
 def main():
     args = options().parse_args()
     torch.set_num_threads(args.threads)
-    sources = [kind(join([torch.load(p) for p in paths]), args)
+    sources = [kind(load_joined(paths), args)
                for kind, paths in ((Moving, args.train), (Held, args.held)) if paths]
-    portraits = of_portraits(join([torch.load(p) for p in args.portraits]), args) if args.portraits else None
+    portraits = of_portraits(load_joined(args.portraits), args) if args.portraits else None
     decoders = {"controls": ControlsDecoder(), "frame": FrameDecoder()}
     if args.network == "basenet":
         decoders["pose"] = PoseDecoder()
@@ -409,11 +409,13 @@ def main():
         check_streaming(decoder, sources[0].data["features"])
     real = torch.load(args.portraits_val) if args.portraits_val else None
     before = torch.load(args.start_from)["supported"].numpy() if args.start_from else None
-    report, supported = evaluate(decoders, join([torch.load(p) for p in args.val]), gaze=args.network == "hifinet", portraits=real, before=before)
+    report, supported = evaluate(decoders, load_joined(args.val), gaze=args.network == "hifinet", portraits=real, before=before)
     save(args.out, {f"{name}_decoder": decoder.state_dict() for name, decoder in decoders.items()}, supported, report)
 
 
-def join(parts):
+def load_joined(paths):
+    """Features of several files as if they were one's."""
+    parts = [torch.load(path) for path in paths]
     return {k: torch.cat([p[k] for p in parts]) for k in parts[0]}
 
 

@@ -42,6 +42,11 @@ def weight_of(layer, convolution):
     return layer.weight[:, :kh * kw * channels].reshape(out, kh, kw, channels).permute(0, 3, 1, 2)
 
 
+def set_statistics(norm, maps):
+    """The mean and variance of what a norm is given."""
+    norm.running_mean.copy_(maps.mean((0, 2, 3))), norm.running_var.copy_(maps.var((0, 2, 3)))
+
+
 class Measure:
     """Sets the norm behind a convolution when the first pictures come by, so that it passes on what the file's bias would."""
 
@@ -51,10 +56,8 @@ class Measure:
         self.hook = conv_norm[1].register_forward_pre_hook(self.see)
 
     def see(self, norm, inputs):
-        plain = inputs[0]
-        mean, variance = plain.mean((0, 2, 3)), plain.var((0, 2, 3))
-        norm.running_mean.copy_(mean), norm.running_var.copy_(variance)
-        norm.weight.copy_(torch.sqrt(variance + norm.eps)), norm.bias.copy_(self.bias + mean)
+        set_statistics(norm, inputs[0])
+        norm.weight.copy_(torch.sqrt(norm.running_var + norm.eps)), norm.bias.copy_(self.bias + norm.running_mean)
         self.hook.remove()
 
 
@@ -109,6 +112,14 @@ def decoders_of(path):
             "supported": mien_weights.constant(path, "control_supported")}
 
 
+def save_start(network, path):
+    """A checkpoint to train on from."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    state = network.state_dict()
+    with whole(path) as out:
+        torch.save({"network": state, "average": state, "samples": 0}, out)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--network", choices=FACE_NETWORKS, required=True)
@@ -122,10 +133,7 @@ def main():
         with whole(options.decoders) as out:
             torch.save(decoders_of(model), out)
     network = network_of(model, options.network)
-    options.out.parent.mkdir(parents=True, exist_ok=True)
-    state = network.state_dict()
-    with whole(options.out) as out:
-        torch.save({"network": state, "average": state, "samples": 0}, out)
+    save_start(network, options.out)
 
 
 if __name__ == "__main__":

@@ -3,7 +3,8 @@ import unittest
 
 import torch
 
-from average_encoders import between, measure_norms
+from average_encoders import measure_norms
+from blend_decoders import between
 from networks import BaseNet, ConvNorm
 
 
