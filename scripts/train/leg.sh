@@ -12,11 +12,11 @@ cd "$(dirname "$0")"
 network=$1 hours=$2 name=${3:-$1_leg}
 python=${PYTHON:-python3} processes=${PROCESSES:-$(nproc)} seed=${SEED:-11}
 cache=${MIEN_CACHE:-$HOME/.cache/mien}
-runs=$cache/runs features=$cache/features/$name suffix=
+runs=$cache/runs suffix=
 [ "$network" = basenet ] || suffix=_hifinet
 ../setup.sh train
 export OMP_NUM_THREADS=1
-mkdir -p "$runs/$name" "$features"
+mkdir -p "$runs/$name"
 
 render() {  # arguments of make_synthetic.py
   "$python" make_synthetic.py --workers "$processes" "$@"
@@ -44,37 +44,46 @@ render --framing basenet --split train --kind stills --count 2000 --leaning 0.6 
 for each in $(printf '%s\n' basenet "$network" | sort -u); do
   once "$runs/${each}_start.pt" "$python" warm_start.py --network "$each" --out "$runs/${each}_start.pt" --decoders "$runs/${each}_start_decoders.pt"
 done
-before=$runs/${network}_start_decoders.pt
-encoder=$runs/${network}_start.pt decoders=$before
+start=$runs/${network}_start.pt before=$runs/${network}_start_decoders.pt
+last=$start decoders=$before
 
 if [ "$hours" != 0 ]; then
-  encoder=$runs/$name/last.pt decoders=$runs/$name/decoders.pt
+  last=$runs/$name/last.pt decoders=$runs/$name/decoders.pt
   # An end that was reached is reached at once when it is resumed.
   nice -n 15 "$python" -m torch.distributed.run --standalone --nproc_per_node "$processes" train_encoder.py --network "$network" --name "$name" \
-    --start-from "$runs/${network}_start.pt" --through "$before" --decoders-learn --real-share 0.4 --rate "${RATE:-8e-4}" --hours "$hours" \
+    --start-from "$start" --through "$before" --decoders-learn --real-share 0.4 --rate "${RATE:-8e-4}" --hours "$hours" \
     --samples 100000000 --report-every 150000 --resume
 fi
 
-checkpoints=(--checkpoint "$encoder")
-[ "$network" = basenet ] || checkpoints=(--checkpoint "$runs/basenet_start.pt" --hifinet "$encoder")
+of_encoder() {  # checkpoint, folder that its features go to from here on
+  encoder=$1 features=$2 checkpoints=(--checkpoint "$1")
+  [ "$network" = basenet ] || checkpoints=(--checkpoint "$runs/basenet_start.pt" --hifinet "$1")
+  mkdir -p "$features"
+}
 sequences() {  # output, arguments of sequences.py
   since_training "$features/$1.pt" "$python" sequences.py "${checkpoints[@]}" --passes 1 --out "$features/$1.pt" "${@:2}"
 }
 portraits() {  # output, arguments of portrait_features.py
   since_training "$features/$1.pt" "$python" portrait_features.py "${checkpoints[@]}" --out "$features/$1.pt" "${@:2}"
 }
+validation_people() {
+  sequences val --plain --shards "$cache/synthetic/val_sequences$suffix"/*
+  sequences val2 --plain --shards "$cache/val2/val_sequences$suffix"/*
+  portraits portraits_val --hold 3 --plain --passes 1 --split val
+}
+of_encoder "$last" "$cache/features/$name"
 stills=("$cache/synthetic/train_stills$suffix"/shard_*)
 stills=("${stills[@]:0:16}") half=$(((${#stills[@]} + 1) / 2))  # 32,000 for the decoders: features of more take longer than they are worth
 moving=("$cache/synthetic/train_sequences$suffix"/*)
 (
   sequences train --shards "${moving[@]}"
   sequences held --hold 3 --seed 5 --shards "${stills[@]:0:half}"
-  sequences val --plain --shards "$cache/synthetic/val_sequences$suffix"/*
-  sequences val2 --plain --shards "$cache/val2/val_sequences$suffix"/*
+  validation_people
+  of_encoder "$start" "$cache/features/${network}_start"
+  validation_people
 ) &
 sequences train_plain --plain --mirrored --seed 3 --shards "${moving[@]}"
 portraits portraits --hold 2
-portraits portraits_val --hold 3 --plain --passes 1 --split val
 sequences held_plain --hold 3 --plain --mirrored --shards "${stills[@]:half}"
 sequences val_apart --hold 8 --plain --shards "$cache/apart/val_stills$suffix"/*
 wait $!
@@ -97,7 +106,9 @@ hasten "$runs/$name/decoders_before.pt" "$runs/$name/decoders_before_prompt.pt" 
 hasten "$decoders" "$runs/$name/decoders_prompt.pt"
 wait $!
 
-candidates=("$before")
+candidates=("$runs/$name"/decoders_{whole,half,before,before_prompt,prompt}.pt)
 [ "$decoders" = "$before" ] || candidates+=("$decoders")
-"$python" compare_decoders.py --val "$f/val.pt" --portraits-val "$f/portraits_val.pt" --apart "$f/val_apart.pt" \
-  "${candidates[@]}" "$runs/$name"/decoders_{whole,half,before,before_prompt,prompt}.pt | tee "$runs/$name/compared.txt"
+{
+  "$python" compare_decoders.py --val "$f/val.pt" --portraits-val "$f/portraits_val.pt" --apart "$f/val_apart.pt" "$before" "${candidates[@]}"
+  "$python" compare_legs.py "$cache/features/${network}_start" "$before" "$f" "${candidates[@]}"
+} | tee "$runs/$name/compared.txt"

@@ -1,0 +1,100 @@
+#!/usr/bin/env python3
+"""Whether a leg of training is an improvement, control by control, on people whom nobody was trained on: never on the test's.
+
+usage: compare_legs.py [--each] BEFORE_FEATURES BEFORE.pt FEATURES DECODERS.pt...
+FEATURES are folders with val.pt and val2.pt (sequences.py --plain) and portraits_val.pt (portrait_features.py --hold 3 --plain), of the encoder
+that the decoders belong to. A control's figure is the mean of its correlations on rendered people and with the teacher on portraits, where the
+teacher knows it. A leg is accepted when most of the controls supported before rise and none falls by more than 0.02. In brackets: the standard
+error of what is beside it, from sequences and portraits drawn again (Efron 1979): a fall of less than two of them may be chance.
+"""
+import argparse
+from pathlib import Path
+
+import numpy as np
+import torch
+
+from expressions import CONTROLS
+from losses import followed
+from networks import ControlsDecoder
+from shown import shown
+from train_decoders import answers, correlation_of, load_joined, of_stride
+
+WORSE = 0.02   # a control's figure may fall by this
+DRAWS = 200    # of people
+
+
+def rendered_people(folder):
+    return of_stride(load_joined([folder / "val.pt", folder / "val2.pt"]), 1)
+
+
+def real_people(folder):
+    """Portraits that have held still, and whom the teacher knows nothing of weigh nothing."""
+    portraits = torch.load(folder / "portraits_val.pt")
+    known = followed(portraits["controls"].flatten(0, 1).float())[1] > 0
+    return {**portraits, "visible": portraits["visible"].float() * known}
+
+
+class People:
+    """What decoders answer on validation people."""
+
+    def __init__(self, path, rendered, real):
+        known, decoder = torch.load(path), ControlsDecoder()
+        decoder.load_state_dict(known["controls_decoder"])
+        decoder.eval()
+        self.supported = known["supported"].numpy() > 0
+        self.parts = []
+        for data, frames in ((rendered, slice(None)), (real, slice(-1, None))):
+            curves = shown(answers(decoder, data["features"])).numpy()
+            self.parts.append((curves[:, frames], {name: data[name][:, frames] for name in ("controls", "visible")}))
+
+    def figures(self, draws):
+        """[52], of the people drawn from each part."""
+        rendered, teacher = (correlation_of(curves[drawn], {name: values[drawn] for name, values in truth.items()})
+                             for (curves, truth), drawn in zip(self.parts, draws))
+        return np.where(np.isfinite(teacher), (rendered + teacher) / 2, rendered)
+
+
+def compare(before, after, draws=DRAWS):
+    """(differences [52], their standard errors [52], standard error of the mean of those supported before)."""
+    counts = [len(curves) for curves, _ in before.parts]
+    difference = after.figures([np.arange(n) for n in counts]) - before.figures([np.arange(n) for n in counts])
+    generator = np.random.default_rng(1)
+    again = []
+    for _ in range(draws):
+        drawn = [generator.integers(0, n, n) for n in counts]
+        again.append(after.figures(drawn) - before.figures(drawn))
+    means = [np.nanmean(each[before.supported]) for each in again]
+    return difference, np.nanstd(again, 0), np.std(means)
+
+
+def verdict(differences, errors, error_of_mean, supported):
+    """A line for a leg."""
+    changes = differences[supported]
+    rising, fallen = (changes > 0).sum(), np.flatnonzero(supported & (differences < -WORSE))
+    accepted = rising > len(changes) / 2 and not len(fallen)
+    fallen = [f"{CONTROLS[i]} {differences[i]:+.3f} ({errors[i]:.3f})" for i in sorted(fallen, key=differences.__getitem__)]
+    return (f"{'accepted' if accepted else 'not accepted'}: {rising} of {len(changes)} rise, mean {np.nanmean(changes):+.4f} ({error_of_mean:.4f})"
+            + (f"; fall by more than {WORSE}: {', '.join(fallen)}" if fallen else ""))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("before_features", type=Path)
+    parser.add_argument("before", type=Path)
+    parser.add_argument("features", type=Path)
+    parser.add_argument("decoders", type=Path, nargs="+")
+    parser.add_argument("--each", action="store_true", help="every control, too")
+    args = parser.parse_args()
+    torch.set_num_threads(1)
+    before = People(args.before, rendered_people(args.before_features), real_people(args.before_features))
+    parts = rendered_people(args.features), real_people(args.features)
+    for path in args.decoders:
+        differences, errors, error_of_mean = compare(before, People(path, *parts))
+        print(f"{path.stem.rjust(24)}  {verdict(differences, errors, error_of_mean, before.supported)}", flush=True)
+        for i in np.argsort(differences) if args.each else ():
+            if before.supported[i]:
+                print(f"{CONTROLS[i].rjust(48)} {differences[i]:+.3f} ({errors[i]:.3f})")
+
+
+if __name__ == "__main__":
+    main()
