@@ -40,7 +40,7 @@ def learning_data(setting, network):
     folder = setting.features.with_name(FRAMINGS[network].folder(setting.features.name))
     moving, held = [*sorted(folder.glob("train*.pt")), *sorted(folder.glob("plain*.pt"))], sorted(folder.glob("held*.pt"))
     if not moving:
-        raise Missing(f"no train*.pt in the folder {folder.name} of features: make them with sequences.py (docs/training.md, phase 2)")
+        raise Missing(f"no train*.pt in the folder {folder.name} of features: make them with sequences.py (scripts/train/leg.sh)")
     return [phase2.join([torch.load(p) for p in paths]) for paths in (moving, held) if paths]
 
 
