@@ -17,14 +17,16 @@ LEVELS = ("LOD1", "LOD4")
 def wild(results):
     """Lines of the portraits in the wild: how far the worst group is off, each group of people, and all."""
     levels = [results["levels"][name] for name in LEVELS]
-    cells = lambda r: [f"{100 * r['found']:.1f} %", out.number(r["error"] and 100 * r["error"], 2)]
+    cells = lambda r: [f"{100 * r['found']:.1f} %", out.number(r["error"] and 100 * r["error"], 2), out.number(r["correlation"], 2)]
     lines = [["all", str(levels[0]["pictures"]), *cells(levels[0]), *cells(levels[1])]]
     for key in ("by_group", "by_sex", "by_age"):
         for name, first in levels[0][key].items():
             lines.append([name, str(first["pictures"]), *cells(first), *cells(levels[1][key][name])])
     worst = [f"level {name[-1]}: {r['worst_group_ratio']:.2f}" for name, r in zip(LEVELS, levels)]
     said = out.prose(f"""Landmarks of the worst ethnic group, as a multiple of those of all, at most 1.15 by our goal: {", ".join(worst)}.""")
-    return said + out.table(["portraits in the wild", "pictures", "level 1: found rightly", "landmarks, %", "level 4: found rightly", "landmarks, %"], lines)
+    columns = ["found rightly", "landmarks, %", "controls"]
+    return said + out.table(["portraits in the wild", "pictures", *(f"level {name[-1]}: {columns[0]}" if c == columns[0] else c for name in LEVELS for c in columns)],
+                            lines)
 
 
 def tones(results):

@@ -20,6 +20,7 @@ import evaluate_leakage  # noqa: E402
 import evaluate_levels  # noqa: E402
 import evaluate_pictures  # noqa: E402
 import evaluate_response  # noqa: E402
+import evaluate_wild  # noqa: E402
 import evaluate_yardstick  # noqa: E402
 import hasten_decoders  # noqa: E402
 import portrait_twins  # noqa: E402
@@ -41,6 +42,30 @@ def answers(plan, gain=1.0):
     shown = np.stack(plan.controls)[plan.order]
     row = evaluate_response.read(gain * shown, plan)
     return {mark: np.stack([v] * 3) for mark, v in row.items()}
+
+
+class Wild(unittest.TestCase):
+    def answers(self, people=40):
+        generator = np.random.default_rng(3)
+        made = evaluate_wild.Answers.__new__(evaluate_wild.Answers)
+        made.theirs = generator.random((people, len(CONTROLS)))
+        made.controls, made.error = made.theirs.copy(), np.full(people, 0.05)
+        made.followed = np.array([INDEX["jawOpen"], INDEX["mouthPucker"]])
+        made.controls[:, INDEX["cheekPuff"]] = np.nan  # not driven
+        return made
+
+    def test_groups_are_told_apart(self):
+        answers, group = self.answers(), np.repeat(["A", "B"], 20)
+        answers.controls[20:, INDEX["jawOpen"]] *= -1
+        answers.error[:5], answers.error[20] = np.inf, 0.2
+        found = answers.by(group)
+        self.assertEqual(found["A"], {"pictures": 20, "found": 0.75, "error": 0.05, "correlation": 1.0})
+        self.assertEqual(found["B"], {"pictures": 20, "found": 0.95, "error": 0.05, "correlation": 0.0})
+
+    def test_nobody_found_has_no_error(self):
+        answers = self.answers()
+        answers.error[:] = np.inf
+        self.assertEqual(answers.summary(np.ones(40, bool)), {"pictures": 40, "found": 0.0, "error": None, "correlation": None})
 
 
 class Decoders(unittest.TestCase):
