@@ -34,6 +34,12 @@ def real_people(folder):
     return {**portraits, "visible": portraits["visible"].float() * known}
 
 
+def figures(parts):
+    """[52] of [(curves, truth)] of rendered people and of real ones: the mean of both correlations, where the teacher knows a control."""
+    rendered, teacher = (correlation_of(curves, truth) for curves, truth in parts)
+    return np.where(np.isfinite(teacher), (rendered + teacher) / 2, rendered)
+
+
 class People:
     """What decoders answer on validation people."""
 
@@ -47,22 +53,20 @@ class People:
             curves = shown(answers(decoder, data["features"])).numpy()
             self.parts.append((curves[:, frames], {name: data[name][:, frames] for name in ("controls", "visible")}))
 
-    def figures(self, draws):
-        """[52], of the people drawn from each part."""
-        rendered, teacher = (correlation_of(curves[drawn], {name: values[drawn] for name, values in truth.items()})
-                             for (curves, truth), drawn in zip(self.parts, draws))
-        return np.where(np.isfinite(teacher), (rendered + teacher) / 2, rendered)
+    def drawn(self, draws):
+        """The figures [52] of the people drawn from each part."""
+        return figures([(curves[rows], {name: values[rows] for name, values in truth.items()}) for (curves, truth), rows in zip(self.parts, draws)])
 
 
 def compare(before, after, draws=DRAWS):
     """(differences [52], their standard errors [52], standard error of the mean of those supported before)."""
     counts = [len(curves) for curves, _ in before.parts]
-    difference = after.figures([np.arange(n) for n in counts]) - before.figures([np.arange(n) for n in counts])
+    difference = after.drawn([np.arange(n) for n in counts]) - before.drawn([np.arange(n) for n in counts])
     generator = np.random.default_rng(1)
     again = []
     for _ in range(draws):
         drawn = [generator.integers(0, n, n) for n in counts]
-        again.append(after.figures(drawn) - before.figures(drawn))
+        again.append(after.drawn(drawn) - before.drawn(drawn))
     means = [np.nanmean(each[before.supported]) for each in again]
     return difference, np.nanstd(again, 0), np.std(means)
 
