@@ -20,7 +20,8 @@ OPENINGS = [(159, 145), (158, 153), (160, 144), (386, 374), (385, 380), (387, 37
             (80, 88), (310, 318), (61, 291), (105, 159), (334, 386), (107, 336)]
 
 IMPORTANCE = {"jawOpen": 10.0, "eyeBlinkLeft": 4.0, "eyeBlinkRight": 4.0}  # what a viewer misses first
-RESPONDING = 0.03       # spread of a teacher's control on portraits, from which on it is worth following
+RESPONDING = 0.03       # spread of a teacher's control on portraits, from which on it is asked whether it is followed
+HINTING = 0.015         # spread from which on it is learned from: funnel, mouthClose and jawRight hardly move, but rightly
 NOT_FOLLOWED = ("eyeSquintLeft", "eyeSquintRight")  # they rest at 0.4, and rise with a smile
 TEACHER_WEIGHT = 2.0
 SMALLEST_SPREAD = 0.08  # of a control, so that one that hardly moves does not rule the sum
@@ -103,11 +104,11 @@ class Turn:
         return ours @ self.fit(ours.detach().flatten(0, -3), theirs.flatten(0, -3)), theirs
 
 
-def followed(controls):
-    """Of the teacher's controls [n,52] on portraits: the spread of each [52], and which respond and are worth following, [52]."""
+def followed(controls, least=RESPONDING):
+    """Of the teacher's controls [n,52] on portraits: the spread of each [52], and which respond so much and can be trusted, [52]."""
     spread = controls.std(0)
     trusted = torch.tensor([name not in NOT_FOLLOWED for name in CONTROLS], device=controls.device)
-    return spread.clamp(min=RESPONDING), (spread > RESPONDING) & trusted
+    return spread.clamp(min=least), (spread > least) & trusted
 
 
 class Losses:
@@ -131,7 +132,7 @@ class Losses:
             self.side_spread = unevenness(controls).std(0).clamp(min=SMALLEST_SPREAD).to(self.spread)
 
     def learn_teacher(self, portraits):
-        self.teacher_spread, self.followed = (v.to(self.spread.device) for v in followed(portraits.controls))
+        self.teacher_spread, self.followed = (v.to(self.spread.device) for v in followed(portraits.controls, HINTING))
 
     def distance(self, predicted, truth):
         """A rounded absolute value, in eye distances: like a squared error near zero, not ruled by outliers."""
