@@ -2,7 +2,7 @@
 """Whether a leg of training is an improvement, control by control, on people whom nobody was trained on: never on the test's.
 
 usage: compare_legs.py [--each] BEFORE_FEATURES BEFORE.pt FEATURES DECODERS.pt...
-FEATURES are folders with val.pt and val2.pt (sequences.py --plain) and portraits_val.pt (portrait_features.py --hold 3 --plain), of the encoder
+FEATURES are folders with val.pt, val2.pt and val3.pt (sequences.py --plain) and portraits_val.pt (portrait_features.py --hold 3 --plain), of the encoder
 that the decoders belong to. A control's figure is the mean of its correlations on rendered people and with the teacher on portraits, where the
 teacher knows it. A leg is accepted when most of the controls supported before rise and none falls by more than 0.02. In brackets: the standard
 error of what is beside it, from sequences and portraits drawn again (Efron 1979): a fall of less than two of them may be chance.
@@ -24,7 +24,7 @@ DRAWS = 200    # of people
 
 
 def rendered_people(folder):
-    return of_stride(load_joined([folder / "val.pt", folder / "val2.pt"]), 1)
+    return of_stride(load_joined([folder / f"{name}.pt" for name in ("val", "val2", "val3")]), 1)
 
 
 def real_people(folder):

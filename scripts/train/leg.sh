@@ -34,6 +34,7 @@ once "$cache/portrait_skins/whole" "$python" portrait_skins.py --workers "$proce
 touch "$cache/portrait_skins/whole"
 render --framing "$network" --split val --kind sequences --count 44
 render --framing "$network" --split val --kind sequences --count 88 --seed 91 --out "$cache/val2"
+render --framing "$network" --split val --kind sequences --count 132 --seed 92 --out "$cache/val3"
 render --framing "$network" --split val --kind stills --count 2000
 render --framing "$network" --split val --kind stills --count 1200 --apart 1 --seed 31 --out "$cache/apart"
 render --framing "$network" --split train --kind stills --count "${STILLS:-24000}" --leaning 0.6 --apart 0.4 --turned 0.25 --seed "$seed"
@@ -69,6 +70,7 @@ portraits() {  # output, arguments of portrait_features.py
 validation_people() {
   sequences val --plain --shards "$cache/synthetic/val_sequences$suffix"/*
   sequences val2 --plain --shards "$cache/val2/val_sequences$suffix"/*
+  sequences val3 --plain --shards "$cache/val3/val_sequences$suffix"/*
   portraits portraits_val --hold 3 --plain --passes 1 --split val
 }
 of_encoder "$last" "$cache/features/$name"
@@ -90,7 +92,7 @@ wait $!
 
 f=$features
 seen=(--network "$network" --train "$f/train.pt" "$f/train_plain.pt" --held "$f/held.pt" "$f/held_plain.pt" --portraits "$f/portraits.pt"
-  --val "$f"/val{,2}.pt --portraits-val "$f/portraits_val.pt")
+  --val "$f"/val{,2,3}.pt --portraits-val "$f/portraits_val.pt")
 decoders() {  # output, arguments of train_decoders.py
   since_training "$runs/$name/$1.pt" "$python" train_decoders.py "${seen[@]}" --noise 0.2 --rate 1.5e-3 --steps 1200 --sides 1.5 --teacher 2 \
     --out "$runs/$name/$1.pt" "${@:2}" >"$f/$1.log"
