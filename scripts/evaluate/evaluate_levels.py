@@ -5,7 +5,7 @@ import report as out
 import videos
 from expressions import CONTROLS
 
-ROUNDS = 3  # of timing, all levels in turns; the fastest counts, the machine has other things to do too
+ROUNDS = 9  # of timing, all levels in turns; the fastest counts, the machine has other things to do too
 SHOWN = ("jawOpen", "mouthPucker", "eyeBlinkLeft")
 PICTURED = "whitehouse_obama_weekly"
 
