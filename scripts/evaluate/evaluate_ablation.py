@@ -41,7 +41,7 @@ def learning_data(setting, network):
     moving, held = [*sorted(folder.glob("train*.pt")), *sorted(folder.glob("plain*.pt"))], sorted(folder.glob("held*.pt"))
     if not moving:
         raise Missing(f"no train*.pt in the folder {folder.name} of features: make them with sequences.py (scripts/train/leg.sh)")
-    return [phase2.join([torch.load(p) for p in paths]) for paths in (moving, held) if paths]
+    return [phase2.load_joined(paths) for paths in (moving, held) if paths]
 
 
 def arguments(seed, velocity, acceleration):

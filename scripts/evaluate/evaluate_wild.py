@@ -16,7 +16,6 @@ from setting import Missing
 
 CANVAS = (480, 640)     # height, width
 RIGHT = 0.15            # of the pupils' distance
-UNKNOWN = "tongueOut"   # to the teacher
 FEWEST = 20             # pictures of a group worth a line
 ETHNIC = ("Black", "East Asian", "Indian", "Latino Hispanic", "Middle Eastern", "Southeast Asian", "White")
 
@@ -45,7 +44,7 @@ class Answers:
         self.controls = np.array(controls, np.float64)          # [n,52]; NaN where none is driven
         self.theirs = portraits.labels.controls.astype(np.float64)
         driven = np.isfinite(self.controls[np.isfinite(self.error)]).all(0)
-        self.followed = np.flatnonzero(driven & (self.theirs.std(0) >= teacher.MOVES) & (np.array(CONTROLS) != UNKNOWN))
+        self.followed = np.flatnonzero(driven & (self.theirs.std(0) >= teacher.MOVES))
 
     def summary(self, chosen):
         """Of the portraits `chosen` [n]; figures but the first two are of those found rightly."""

@@ -61,14 +61,10 @@ class People:
 def compare(before, after, draws=DRAWS):
     """(differences [52], their standard errors [52], standard error of the mean of those supported before)."""
     counts = [len(curves) for curves, _ in before.parts]
-    difference = after.drawn([np.arange(n) for n in counts]) - before.drawn([np.arange(n) for n in counts])
-    generator = np.random.default_rng(1)
-    again = []
-    for _ in range(draws):
-        drawn = [generator.integers(0, n, n) for n in counts]
-        again.append(after.drawn(drawn) - before.drawn(drawn))
+    generator, change = np.random.default_rng(1), lambda rows: after.drawn(rows) - before.drawn(rows)
+    again = [change([generator.integers(0, n, n) for n in counts]) for _ in range(draws)]
     means = [np.nanmean(each[before.supported]) for each in again]
-    return difference, np.nanstd(again, 0), np.std(means)
+    return change([slice(None)] * len(counts)), np.nanstd(again, 0), np.std(means)
 
 
 def verdict(differences, errors, error_of_mean, supported):

@@ -45,8 +45,9 @@ render --framing basenet --split train --kind stills --count 2000 --leaning 0.6 
 for each in $(printf '%s\n' basenet "$network" | sort -u); do
   once "$runs/${each}_start.pt" "$python" warm_start.py --network "$each" --out "$runs/${each}_start.pt" --decoders "$runs/${each}_start_decoders.pt"
 done
-start=$runs/${network}_start.pt before=$runs/${network}_start_decoders.pt
+start=$runs/${network}_start.pt start_features=$cache/features/${network}_start before=$runs/${network}_start_decoders.pt
 last=$start decoders=$before
+[ "$hours" != 0 ] || start_features=$cache/features/$name  # the same encoder's
 
 if [ "$hours" != 0 ]; then
   last=$runs/$name/last.pt decoders=$runs/$name/decoders.pt
@@ -81,7 +82,7 @@ moving=("$cache/synthetic/train_sequences$suffix"/*)
   sequences train --shards "${moving[@]}"
   sequences held --hold 3 --seed 5 --shards "${stills[@]:0:half}"
   validation_people
-  of_encoder "$start" "$cache/features/${network}_start"
+  of_encoder "$start" "$start_features"
   validation_people
 ) &
 sequences train_plain --plain --mirrored --seed 3 --shards "${moving[@]}"
@@ -94,7 +95,7 @@ f=$features
 seen=(--network "$network" --train "$f/train.pt" "$f/train_plain.pt" --held "$f/held.pt" "$f/held_plain.pt" --portraits "$f/portraits.pt"
   --val "$f"/val{,2,3}.pt --portraits-val "$f/portraits_val.pt")
 decoders() {  # output, arguments of train_decoders.py
-  since_training "$runs/$name/$1.pt" "$python" train_decoders.py "${seen[@]}" --noise 0.2 --rate 1.5e-3 --steps 1200 --sides 1.5 --teacher 2 \
+  since_training "$runs/$name/$1.pt" "$python" train_decoders.py "${seen[@]}" --noise 0.2 --rate 1.5e-3 --steps 1200 --sides 1.5 --teacher 2 --frowns 20 \
     --out "$runs/$name/$1.pt" "${@:2}" >"$f/$1.log"
 }
 decoders decoders_whole --start-from "$decoders" &
@@ -112,5 +113,5 @@ candidates=("$runs/$name"/decoders_{whole,half,before,before_prompt,prompt}.pt)
 [ "$decoders" = "$before" ] || candidates+=("$decoders")
 {
   "$python" compare_decoders.py --val "$f/val.pt" --portraits-val "$f/portraits_val.pt" --apart "$f/val_apart.pt" "$before" "${candidates[@]}"
-  "$python" compare_legs.py "$cache/features/${network}_start" "$before" "$f" "${candidates[@]}"
+  "$python" compare_legs.py "$start_features" "$before" "$f" "${candidates[@]}"
 } | tee "$runs/$name/compared.txt"

@@ -20,7 +20,6 @@ OPENINGS = [(159, 145), (158, 153), (160, 144), (386, 374), (385, 380), (387, 37
             (80, 88), (310, 318), (61, 291), (105, 159), (334, 386), (107, 336)]
 
 IMPORTANCE = {"jawOpen": 10.0, "eyeBlinkLeft": 4.0, "eyeBlinkRight": 4.0}  # what a viewer misses first
-RARE = {"mouthFrownLeft": 20.0, "mouthFrownRight": 20.0}  # to decoders, who would else give them up for what moves more often
 RESPONDING = 0.03       # spread of a teacher's control on portraits, from which on it is asked whether it is followed
 HINTING = 0.015         # spread from which on it is learned from: funnel, mouthClose and jawRight hardly move, but rightly
 NOT_FOLLOWED = ("eyeSquintLeft", "eyeSquintRight")  # they rest at 0.4, and rise with a smile
@@ -35,9 +34,9 @@ def point_weights():
     return weights / weights.mean()
 
 
-def importance(more=None):
-    """How much every control counts, [52]; some of them more."""
-    known = IMPORTANCE | (more or {})
+def importance(frowns=1.0):
+    """How much every control counts, [52]."""
+    known = IMPORTANCE | {"mouthFrownLeft": frowns, "mouthFrownRight": frowns}
     return torch.tensor([known.get(name, 1.0) for name in CONTROLS])
 
 

@@ -22,7 +22,7 @@ import head_pose  # noqa: E402
 from face_data import rarity  # noqa: E402
 import metrics  # noqa: E402
 from expressions import CONTROLS, MIRROR, PAIRED_LEFT, PAIRED_RIGHT  # noqa: E402
-from losses import HINTING, RARE, Line, Turn, censored, followed, importance, soft_clamp, unevenness  # noqa: E402
+from losses import HINTING, Line, Turn, censored, followed, importance, soft_clamp, unevenness  # noqa: E402
 from networks import FACE_NETWORKS, FEATURES, ControlsDecoder, PoseDecoder, TemporalDecoder  # noqa: E402
 from shown import LEFT, RIGHT, shown  # noqa: E402
 from whole_files import whole  # noqa: E402
@@ -77,7 +77,7 @@ class ControlsTask:
         controls = data["controls"].flatten(0, 1).float()
         weight, of_sides = (1 / (values.std(0) + 0.05) for values in (controls, unevenness(controls)))
         self.weight, self.of_sides = weight / weight.mean(), self.args.sides * of_sides / weight.mean()
-        self.importance = importance(RARE)
+        self.importance = importance(args.frowns)
 
     def loss(self, output, batch, mask):
         target, seen = batch["controls"], batch["visible"]
@@ -92,7 +92,7 @@ class TeacherTask:
     def __init__(self, data, args):
         self.args = args
         spread, follow = followed(data["controls"].flatten(0, 1).float(), HINTING)
-        weight = follow * importance(RARE) / (spread + 0.05)
+        weight = follow * importance(args.frowns) / (spread + 0.05)
         self.weight, self.line = weight / weight.mean(), Line(len(CONTROLS), "cpu")
 
     def loss(self, output, batch, mask):
@@ -377,6 +377,7 @@ def options():
     parser.add_argument("--rate", type=float, default=3e-3)
     parser.add_argument("--velocity", type=float, default=0.1)
     parser.add_argument("--acceleration", type=float, default=0.03)
+    parser.add_argument("--frowns", type=float, default=1.0, help="weight of frowns, which decoders that go on give up for what moves more often")
     parser.add_argument("--sides", type=float, default=1.0, help="weight of which side of a pair moves")
     parser.add_argument("--beta", type=float, default=0.15, help="larger errors count linearly")
     parser.add_argument("--noise", type=float, default=0.3, help="feature noise, in deviations")

@@ -5,6 +5,7 @@ import os
 import subprocess
 import sys
 import tempfile
+import types
 import unittest
 from pathlib import Path
 
@@ -80,6 +81,15 @@ class Decoders(unittest.TestCase):
             source = train_decoders.Held(self.data(), arguments)
             task, (batch, mask) = train_decoders.ControlsTask(source.data, arguments), source.batch()
             self.assertTrue(torch.isfinite(task.loss(batch["controls"] / 40, batch, mask)))
+
+    def test_the_ablation_learns_from_all_features_of_a_folder(self):
+        with tempfile.TemporaryDirectory() as folder:
+            setting = types.SimpleNamespace(features=Path(folder) / "F")
+            setting.features.mkdir()
+            for name in ("train", "train_plain", "held"):
+                torch.save(self.data(tracks=4), setting.features / f"{name}.pt")
+            moving, held = evaluate_ablation.learning_data(setting, "basenet")
+        self.assertEqual((len(moving["features"]), len(held["features"])), (8, 4))
 
     def test_faces_hold_still_but_for_cuts(self):
         torch.manual_seed(1)
