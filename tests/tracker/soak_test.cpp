@@ -23,6 +23,7 @@ TEST(Soak, PictureAndSoundStayTogether) {
     EXPECT_EQ(report.last_face_id, report.faces_found);
     EXPECT_GT(report.median_us, 0.0);
     EXPECT_GE(report.p999_us, report.median_us);
+    EXPECT_GE(report.worst_us, report.p999_us);
     EXPECT_LT(report.resident_bytes_late, report.resident_bytes_early + MIEN_SOAK_GROWTH_BYTES);
   }
 }
