@@ -184,6 +184,16 @@ bool Plan::is_fixed(std::uint32_t layer, std::uint32_t slide) const {
          values_[hidden].shape.c <= kernels::kFixedWeightsMostInputs;
 }
 
+// Whether the block's input is copied at 16 bits a value before it is expanded.
+bool Plan::is_narrowed(std::uint32_t layer, std::uint32_t slide) const {
+  if (layer == slide || fixes_weights_) {
+    return layer < slide && is_fixed(layer, slide);
+  }
+  const LayerRecord& depthwise = layers_[slide];
+  return narrows_ && kernels::has_short_half_sums(values_[layers_[layer].input].shape.c,
+                                                  depthwise.kernel_height, depthwise.kernel_width);
+}
+
 std::size_t Plan::weights_bytes(std::uint32_t layer) const {
   const std::uint32_t slide = fused_slide(layer);
   if (vanishes(layer) || slide == kNoIndex || !is_fixed(layer, slide)) {
@@ -205,9 +215,8 @@ std::size_t Plan::scratch_elems(std::uint32_t layer) const {
 
 BlockTiling Plan::tiling(std::uint32_t layer) const {
   const std::uint32_t slide = fused_slide(layer);
-  const bool narrowed = layer < slide && (fixes_weights_ ? is_fixed(layer, slide) : narrows_);
   return tile_block(layers_[slide], values_[layers_[slide].input].shape, values_[slide + 1].shape,
-                    narrowed ? values_[layers_[layer].input].shape.c : 0);
+                    is_narrowed(layer, slide) ? values_[layers_[layer].input].shape.c : 0);
 }
 
 std::size_t Plan::scratch_elems() const {

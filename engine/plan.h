@@ -80,6 +80,7 @@ class Plan {
   void fuse_blocks();
   [[nodiscard]] bool passes_on(std::uint32_t layer) const;
   [[nodiscard]] bool is_fixed(std::uint32_t layer, std::uint32_t slide) const;
+  [[nodiscard]] bool is_narrowed(std::uint32_t layer, std::uint32_t slide) const;
   void place_maps();
   [[nodiscard]] std::size_t scratch_elems() const;
   [[nodiscard]] std::size_t scratch_elems(std::uint32_t layer) const;

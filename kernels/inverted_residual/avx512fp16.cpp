@@ -85,7 +85,11 @@ struct Tier {
 }  // namespace
 
 void inverted_residual(const InvertedResidualArgs& a) {
-  InvertedResidual<HalfStrips<Tier>>(a).run();
+  if (HalfStrips<Tier>::can_run(a)) {
+    InvertedResidual<HalfStrips<Tier>>(a).run();
+  } else {
+    avx512::inverted_residual(a);
+  }
 }
 
 }  // namespace mien::kernels::avx512fp16

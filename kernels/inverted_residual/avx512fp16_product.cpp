@@ -199,7 +199,13 @@ void for_each_tile(const Tiles& tiles, std::int32_t pixels, Run run) {
   }
 }
 
-std::int32_t vecs_at_once(std::int32_t pixels) { return pixels <= 6 ? 4 : pixels == 9 ? 3 : 2; }
+// Vectors of outputs that are computed together when `left` of them are left. Tiles of three
+// vectors have nine pixels and no other number.
+std::int32_t vecs_together(std::int32_t pixels, std::int32_t left) {
+  const std::int32_t at_once = pixels <= 6 ? 4 : pixels == 9 ? 3 : 2;
+  const std::int32_t vecs = std::min(at_once, left);
+  return vecs == 3 && pixels != 9 ? 2 : vecs;
+}
 
 // Outputs that are made together.
 struct Group {
@@ -222,10 +228,9 @@ Job job_of(const HalfProduct& a, const Group& g) {
 // Whole vectors, then what is left.
 template <class Run>
 void for_each_group(const HalfProduct& a, bool splits, Run run) {
-  const std::int32_t at_once = vecs_at_once(a.pixels);
   std::int32_t block = 0;
   while (a.out_blocks - block >= 4) {
-    const std::int32_t vecs = std::min(at_once, (a.out_blocks - block) / 4);
+    const std::int32_t vecs = vecs_together(a.pixels, (a.out_blocks - block) / 4);
     run(Group{block, 4 * vecs, Lanes::k32});
     block += 4 * vecs;
   }

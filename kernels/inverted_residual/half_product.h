@@ -37,8 +37,8 @@ struct MapRows {
   std::int32_t row_pixels;
 };
 
-// To a strip all sums are in half precision: rounding grows with the root of in_blocks. To a map
-// sums of up to kHalfSum products are, which are added up in fp32.
+// To a strip, sums stay in half precision: at most kHalfMaxExpandInputs products. To a map, sums of
+// up to kHalfSum products do, and these are added up in fp32.
 inline constexpr std::int32_t kHalfSum = 64;
 
 namespace avx512fp16 {

@@ -18,6 +18,11 @@ class HalfStrips {
   using Value = Half;
   static constexpr std::int32_t kPanel = Tier::kPanel;
 
+  [[nodiscard]] static bool can_run(const InvertedResidualArgs& args) {
+    return has_short_half_sums(args.expand.weights != nullptr ? args.in_c : 0, args.kernel_h,
+                               args.kernel_w);
+  }
+
   explicit HalfStrips(const InvertedResidualArgs& args)
       : a_(args),
         x_(reinterpret_cast<Half*>(args.narrow)),

@@ -61,6 +61,20 @@ struct InvertedResidualArgs {
 
 inline constexpr std::int32_t kInvertedResidualWideElems = 6144;
 
+// The longest sums that fp16 tiers keep in fp16: those of the expansion, one product per input
+// channel, and those of the depthwise layer, one product per tap. A sum of n fused multiply-adds
+// errs by at most n u / (1 - n u) times the sum of its magnitudes, with u = 2^-11 (Higham, Accuracy
+// and Stability of Numerical Algorithms, 2002, section 3.1): 6.7 % for 128 products, 3.2 % for 64.
+// The bound of a longer sum soon says nothing, and a running sum of n equal terms stops growing
+// once a term is below half a unit in its last place. Blocks with longer sums are computed in fp32.
+inline constexpr std::int32_t kHalfMaxExpandInputs = 128, kHalfMaxTaps = 64;
+
+// in_c: 0 if nothing is expanded.
+[[nodiscard]] constexpr bool has_short_half_sums(std::int32_t in_c, std::int32_t kernel_h,
+                                                 std::int32_t kernel_w) {
+  return in_c <= kHalfMaxExpandInputs && kernel_h <= kHalfMaxTaps / kernel_w;
+}
+
 // In fixed point: the largest magnitudes in the map, which has both signs, and in the band, which
 // has one. A bit less there leaves one more to the weights that it is multiplied with, of which the
 // sums are longer.

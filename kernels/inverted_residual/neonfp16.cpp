@@ -48,7 +48,11 @@ struct Tier {
 }  // namespace
 
 void inverted_residual(const InvertedResidualArgs& a) {
-  InvertedResidual<HalfStrips<Tier>>(a).run();
+  if (HalfStrips<Tier>::can_run(a)) {
+    InvertedResidual<HalfStrips<Tier>>(a).run();
+  } else {
+    neon::inverted_residual(a);
+  }
 }
 
 }  // namespace mien::kernels::neonfp16

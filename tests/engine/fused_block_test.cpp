@@ -110,8 +110,8 @@ TEST(FusedBlocks, EveryLayerIsInOneStep) {
   EXPECT_EQ(next, 44u);
 }
 
-// Fixed point has no room for so long sums: weights that are all the same and inputs that are all
-// one are what its steps are worst at.
+// Neither fixed point nor fp16 has room for sums this long. Equal weights and equal inputs are the
+// worst case of both: the steps of fixed point are widest, and a running sum in fp16 stops growing.
 TEST(FusedBlocks, LongSumsAreNotRoundedAway) {
   const auto same = [](std::uint32_t outputs, std::uint32_t inputs) {
     const std::size_t count = std::size_t{outputs} * inputs;
@@ -202,6 +202,27 @@ class RandomBlocks {
   std::mt19937 random_;
   Index inside_ = 0;  // a value that a block would not keep
 };
+
+// Register tiles come in few sizes: every count of pixels and of vectors of channels must find one
+// that does not reach beyond the map.
+TEST(FusedBlocks, FewPixelsAgreeWithPlainLayersAtEveryWidth) {
+  for (std::uint32_t channels = 16; channels <= 144; channels += 16) {
+    for (std::uint32_t pixels = 1; pixels <= 10; ++pixels) {
+      const formats::InputShape input{1, pixels, 16};
+      for (const std::uint32_t tier : tiers_here()) {
+        formats::MienWriter writer;
+        TwinNetwork twin(writer.network("net", input), input, channels + pixels);
+        Options relu6;
+        relu6.activation = LayerActivation::kRelu6;
+        const Index expanded = twin.pointwise(0, channels, relu6);
+        const Index depthwise = twin.depthwise(expanded, 1, 1, relu6);
+        twin.output(twin.pointwise(depthwise, channels, {}));
+        ASSERT_NO_FATAL_FAILURE(expect_twins_agree(writer, "net", twin, tier, 1))
+            << channels << " channels, " << pixels << " pixels, tier mask " << tier;
+      }
+    }
+  }
+}
 
 TEST(FusedBlocks, RandomNetworksAgreeWithPlainLayers) {
   for (unsigned seed = 0; seed < 60; ++seed) {

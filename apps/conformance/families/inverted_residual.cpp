@@ -20,6 +20,22 @@ struct Shape {
   Tiling tiling;
 };
 
+constexpr int kLongCases = 8;  // every eighth case has long sums
+
+// The engine makes none for longer sums.
+bool has_fixed_weights(const Shape& s) {
+  return std::max(s.in_c, s.hidden_c) <= kernels::kFixedWeightsMostInputs;
+}
+
+// What the block computes its inner sums with: a tier in fp16 takes fp32 for a block with long
+// ones.
+Arithmetic block_arithmetic(const Arithmetic& tier, const Shape& of) {
+  const bool short_sums =
+      kernels::has_short_half_sums(of.in_c, of.window.kernel_h, of.window.kernel_w);
+  const bool is_fp16 = tier.unit > kUnit;
+  return is_fp16 && !short_sums ? kSingleArithmetic : tier;
+}
+
 struct Activations {
   RandomActivation expand, slide, project;
 };
@@ -56,8 +72,8 @@ struct Layers {
 
   Layers(RandomValues& random, const Shape& of)
       : shape(of),
-        sums(random.arithmetic()),
-        inner_sums(in_one_chunk(random.arithmetic())),
+        sums(block_arithmetic(random.arithmetic(), of)),
+        inner_sums(in_one_chunk(sums)),
         x(random.map(of.window.in_pixels(), of.in_c == 0 ? of.hidden_c : of.in_c)),
         w2(random.halves(padded(of.hidden_c) * of.window.kernel_h * of.window.kernel_w)),
         b2(random.bias(of.hidden_c)),
@@ -71,6 +87,13 @@ struct Layers {
       make_room(0x1p-8f);
     } else if (random.pattern() == Pattern::kHuge) {
       make_room(1e-12f);
+    }
+    fix_weights(of);
+  }
+
+  void fix_weights(const Shape& of) {
+    if (!has_fixed_weights(of)) {
+      return;
     }
     fixed3 = FixedPoint(w3, of.out_c, of.hidden_c, kernels::kFixedBandMost, false);
     if (of.in_c > 0) {
@@ -92,6 +115,27 @@ struct Layers {
   }
   [[nodiscard]] double weight_error(const FixedPoint& fixed, int o) const {
     return is_fixed ? static_cast<double>(fixed.steps[as_size(o)]) * kHalfStep : 0.0;
+  }
+
+  void make_positive() {
+    for (float& one : x) {
+      one = std::abs(one);
+    }
+    for (std::vector<std::uint16_t>* weights : {&w1, &w2, &w3}) {
+      for (std::uint16_t& one : *weights) {
+        one &= 0x7fff;
+      }
+    }
+    fix_weights(shape);
+  }
+
+  // Makes `largest` the largest value of the expansion.
+  void scale_expansion(double largest) {
+    double now = 0x1p-126;
+    for (const Approx& one : expanded({})) {
+      now = std::max(now, std::abs(one.value));
+    }
+    make_room(static_cast<float>(largest / now));
   }
 
   // Three layers in a row take huge numbers beyond any type, whatever the kernel does.
@@ -190,10 +234,11 @@ bool is_bounded(const RandomActivation& activation) {
   return activation.kind == Activation::kRelu6 || activation.kind == Activation::kClamp01;
 }
 
-Case make(RandomValues& random, const Shape& shape, const Activations& activations,
+Case make(RandomValues& random, Layers layers, const Activations& activations,
           const ResidualSlice* slice) {
-  Layers layers(random, shape);
-  layers.is_fixed = random.arithmetic().is_fixed && is_bounded(activations.slide);
+  const Shape shape = layers.shape;
+  layers.is_fixed =
+      random.arithmetic().is_fixed && has_fixed_weights(shape) && is_bounded(activations.slide);
   const std::vector<float> residual =
       slice != nullptr ? random.map(slice->pixels(), shape.out_c) : std::vector<float>();
   const Tiling& t = shape.tiling;
@@ -223,12 +268,14 @@ Case make(RandomValues& random, const Shape& shape, const Activations& activatio
   test.bind = [=](const Places& places) {
     InvertedResidualArgs args = sizes(shape);
     args.x = places.floats(0);
+    const bool fixed = has_fixed_weights(shape);
     args.expand = {shape.in_c == 0 ? nullptr : places.halves(1), places.halves(2),
-                   activations.expand.spec(nullptr), places.int16s(13), places.floats(14)};
+                   activations.expand.spec(nullptr), fixed ? places.int16s(13) : nullptr,
+                   fixed ? places.floats(14) : nullptr};
     args.slide = {places.halves(3), places.halves(4), activations.slide.spec(nullptr), nullptr,
                   nullptr};
     args.project = {places.halves(5), places.halves(6), activations.project.spec(nullptr),
-                    places.int16s(15), places.floats(16)};
+                    fixed ? places.int16s(15) : nullptr, fixed ? places.floats(16) : nullptr};
     if (taken.h > 0) {
       set_residual(taken, places.floats(7), args);
     }
@@ -261,10 +308,46 @@ Tiling random_tiling(RandomValues& random, const Window& w) {
           w.kernel_h + w.stride_h * random.between(0, 3), least_strip_w(w) + random.between(0, 1)};
 }
 
+// Sums as long as a tier in fp16 keeps them, one longer, the longest in fixed point, and longer
+// ones.
+Shape long_shape(RandomValues& random) {
+  const Window one_tap{2, 2, 2, 2, 1, 1, 1, 1, 0, 0}, many_taps{13, 5, 1, 1, 13, 5, 1, 1, 0, 0};
+  struct Sums {
+    Window window;
+    int in_c, hidden_c;
+  };
+  const int few = random.size(24), longest_half = kernels::kHalfMaxExpandInputs;
+  const Sums all[] = {{one_tap, 4096, few},
+                      {one_tap, few, 4096},
+                      {many_taps, few, few},
+                      {one_tap, longest_half + random.between(0, 1), few},
+                      {one_tap, kernels::kFixedWeightsMostInputs, few}};
+  const Sums& sums = all[random.case_number() / kLongCases % static_cast<int>(std::size(all))];
+  return {sums.window, sums.in_c, sums.hidden_c, random.size(10),
+          random_tiling(random, sums.window)};
+}
+
+// Terms of one sign are what a running sum in few bits loses most of. Nothing is clamped, so that
+// nothing is hidden, but where tiers in fixed point need it.
+Case long_case(RandomValues& random) {
+  const Shape shape = long_shape(random);
+  Layers layers(random, shape);
+  layers.make_positive();
+  layers.scale_expansion(3.0);
+  RandomActivation relu, relu6;
+  relu.kind = Activation::kRelu;
+  relu6.kind = Activation::kRelu6;
+  const bool may_clamp = shape.window.kernel_h == 1;
+  return make(random, std::move(layers), {relu, may_clamp ? relu6 : relu, {}}, nullptr);
+}
+
 }  // namespace
 
 template <>
 Case random_case<InvertedResidualArgs>(RandomValues& random) {
+  if (random.case_number() % kLongCases == kLongCases - 1) {
+    return long_case(random);
+  }
   Window window = Window::random(random, 5, 2);
   while (random.case_number() % 3 != 0 && (window.kernel_h != 3 || window.kernel_w != 3)) {
     window = Window::random(random, 3, 2);
@@ -274,7 +357,7 @@ Case random_case<InvertedResidualArgs>(RandomValues& random) {
   const Activations activations{in_c == 0 ? RandomActivation() : random_clamp(random),
                                 random_clamp(random), random_clamp(random)};
   const ResidualSlice slice = ResidualSlice::random(random, window.out_h, window.out_w);
-  return make(random, shape, activations, random.coin() ? &slice : nullptr);
+  return make(random, Layers(random, shape), activations, random.coin() ? &slice : nullptr);
 }
 
 template <>
@@ -282,7 +365,8 @@ Case typical_case<InvertedResidualArgs>(RandomValues& random) {
   RandomActivation relu6;
   relu6.kind = Activation::kRelu6;
   const Window window{13, 11, 11, 9, 3, 3, 1, 1, 0, 0};
-  return make(random, {window, 40, 160, 40, {11, 32, 13, 11}}, {relu6, relu6, {}}, nullptr);
+  const Shape shape{window, 40, 160, 40, {11, 32, 13, 11}};
+  return make(random, Layers(random, shape), {relu6, relu6, {}}, nullptr);
 }
 
 }  // namespace mien::conformance
