@@ -7,17 +7,13 @@
 #include "formats/animation/curves_csv.h"
 #include "formats/animation/frames_jsonl.h"
 #include "formats/animation/gltf.h"
+#include "formats/animation/live_link_reader.h"
 #include "formats/animation/numbers.h"
 #include "formats/animation/rhubarb.h"
+#include "formats/animation/text_encoding.h"
 
 namespace mien::formats {
 namespace {
-
-// Editors put a byte order mark before text that has none to tell.
-std::string_view without_mark(std::string_view bytes) {
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  return bytes.starts_with(kByteOrderMark) ? bytes.substr(kByteOrderMark.size()) : bytes;
-}
 
 // Of the first line of a table.
 AnimationFormat table_kind(std::string_view text) {
@@ -39,6 +35,13 @@ AnimationFormat table_kind(std::string_view text) {
     }
   }
   return AnimationFormat::kCsv;
+}
+
+// A time and a mouth shape, and so no header of a table whose cells are separated by tabs.
+bool is_cue(std::string_view line) {
+  const std::size_t tab = line.find('\t');
+  double time_s = 0.0;
+  return tab != line.npos && parse_number(line.substr(0, tab), time_s);
 }
 
 AnimationFormat object_kind(std::string_view text) {
@@ -88,10 +91,14 @@ AnimationFormat format_by_content(std::string_view bytes) {
   if (bytes.starts_with("glTF")) {
     return AnimationFormat::kGlb;
   }
-  bytes = without_mark(bytes);
-  const std::size_t first = bytes.find_first_not_of(" \t\r\n");
+  std::string converted;
+  std::string_view table;
+  Fault ignored;
+  if (!to_utf8(bytes, converted, table, ignored)) {
+    return AnimationFormat::kCsv;
+  }
   const std::string_view text =
-      first == std::string_view::npos ? std::string_view() : bytes.substr(first);
+      table.substr(std::min(table.find_first_not_of(" \t\r\n"), table.size()));
   if (text.starts_with('{')) {
     return object_kind(text);
   }
@@ -104,9 +111,7 @@ AnimationFormat format_by_content(std::string_view bytes) {
   if (text.starts_with("HIERARCHY")) {
     return AnimationFormat::kBvh;
   }
-  const std::string_view line = text.substr(0, text.find('\n'));
-  return line.find('\t') != line.npos && line.find(',') == line.npos ? AnimationFormat::kRhubarb
-                                                                     : table_kind(bytes);
+  return is_cue(text.substr(0, text.find('\n'))) ? AnimationFormat::kRhubarb : table_kind(table);
 }
 
 bool holds_several_faces(AnimationFormat format) {
@@ -128,7 +133,7 @@ std::unique_ptr<AnimationWriter> animation_writer(AnimationFormat format,
     case AnimationFormat::kGlb:
       return gltf_writer(GltfForm::kBinary);
     case AnimationFormat::kBvh:
-      return bvh_writer();
+      return bvh_writer(options.bvh_unit);
     case AnimationFormat::kRoblox:
       return curves_csv_writer(options.roblox_level_1 ? Weights::kFacsLevel1 : Weights::kFacs,
                                options.several_faces);
@@ -146,28 +151,33 @@ std::unique_ptr<AnimationWriter> animation_writer(AnimationFormat format,
   return nullptr;
 }
 
-bool read_animation(AnimationFormat format, std::string_view bytes,
-                    const LiveLinkOptions& live_link, Clip& clip, Fault& fault) {
-  bytes = without_mark(bytes);
+bool read_animation(AnimationFormat format, std::string_view bytes, const ReadOptions& options,
+                    Clip& clip, Fault& fault) {
+  std::string converted;
+  std::string_view text = bytes;
+  const bool binary = bytes.starts_with("glTF");
+  if (!binary && !to_utf8(bytes, converted, text, fault)) {
+    return false;
+  }
   switch (format) {
     case AnimationFormat::kCsv:
     case AnimationFormat::kRoblox:
     case AnimationFormat::kVisemes:
-      return read_curves_csv(bytes, clip, fault);
+      return read_curves_csv(text, clip, fault);
     case AnimationFormat::kJsonl:
-      return read_frames_jsonl(bytes, clip, fault);
+      return read_frames_jsonl(text, clip, fault);
     case AnimationFormat::kLiveLink:
-      return read_live_link_csv(bytes, live_link, clip, fault);
+      return read_live_link_csv(text, options, clip, fault);
     case AnimationFormat::kGltf:
     case AnimationFormat::kGlb:
-      return read_gltf(bytes, clip, fault);
+      return read_gltf(text, options, clip, fault);
     case AnimationFormat::kBvh:
-      return read_bvh(bytes, clip, fault);
+      return read_bvh(text, options, clip, fault);
     case AnimationFormat::kRhubarb:
     case AnimationFormat::kRhubarbJson:
     case AnimationFormat::kRhubarbXml:
     case AnimationFormat::kRhubarbDat:
-      return read_rhubarb(bytes, clip, fault);
+      return read_rhubarb(text, clip, fault);
   }
   return false;
 }

@@ -13,6 +13,7 @@
 #include "formats/animation/clip.h"
 #include "formats/animation/fault.h"
 #include "formats/animation/live_link_csv.h"
+#include "formats/animation/read_options.h"
 #include "formats/animation/writer.h"
 
 namespace mien::formats {
@@ -60,7 +61,7 @@ inline constexpr std::array<FormatName, 12> kFormatNames = {{
 // What a file name's ending means, the longest first; nothing where it means none of them.
 [[nodiscard]] std::optional<AnimationFormat> format_by_ending(std::string_view path);
 
-// What a file holds, as its first bytes tell.
+// What a file holds, as its content tells.
 [[nodiscard]] AnimationFormat format_by_content(std::string_view bytes);
 
 // Whether frames of several faces can be told apart in it.
@@ -68,6 +69,7 @@ inline constexpr std::array<FormatName, 12> kFormatNames = {{
 
 struct WriteOptions {
   LiveLinkOptions live_link;
+  LengthUnit bvh_unit = LengthUnit::kMetres;
   bool roblox_level_1 = false;  // 6 units instead of 50
   bool several_faces = false;   // of csv, roblox, visemes: a column more
   std::string sound_file;       // to be named in rhubarb-json, -xml
@@ -76,9 +78,10 @@ struct WriteOptions {
 [[nodiscard]] std::unique_ptr<AnimationWriter> animation_writer(AnimationFormat format,
                                                                 const WriteOptions& options);
 
-// On a fault `clip` stays as it was. A byte order mark before a text is passed over.
+// On a fault `clip` stays as it was. Text may be UTF-8 or UTF-16, with or without a byte order
+// mark.
 [[nodiscard]] bool read_animation(AnimationFormat format, std::string_view bytes,
-                                  const LiveLinkOptions& live_link, Clip& clip, Fault& fault);
+                                  const ReadOptions& options, Clip& clip, Fault& fault);
 
 // What of this clip the format has no place for, in words; nothing where it holds all of it. Digits
 // count as held: docs/cli.md says how many each format has.

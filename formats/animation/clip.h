@@ -64,9 +64,10 @@ inline constexpr std::int64_t kSecond_ns = 1'000'000'000;
 inline constexpr std::int64_t kMillisecond_ns = 1'000'000;
 
 struct Clip {
-  std::vector<Frame> frames;      // times do not go back
-  std::string sound_file;         // where the format knows one
-  std::int64_t out_of_range = 0;  // values of the file beyond 0..1, brought to the nearest of them
+  std::vector<Frame> frames;       // times do not go back
+  std::string sound_file;          // where the format knows one
+  std::int64_t out_of_range = 0;   // values of the file beyond 0..1, brought to the nearest of them
+  std::vector<std::string> notes;  // what was taken for granted, and the option that changes it
 };
 
 // Of the times of a clip: from its first to its last frame, divided by how many steps lie between;

@@ -14,18 +14,27 @@ namespace mien::formats {
 
 using Column = std::optional<std::size_t>;
 
-// The header of a table: which column has which name, whatever the case.
+// The header of a table: which column has which name, whatever the case. Columns are sorted by
+// their names, so that any number of them is read in nearly linear time.
 class CsvHeader {
  public:
   // Reads the first row. False where there is none, or a name stands there twice.
   [[nodiscard]] bool read(CsvTable& table, Fault& fault);
 
-  [[nodiscard]] std::size_t size() const { return names_.size(); }
+  [[nodiscard]] std::size_t size() const { return columns_; }
   [[nodiscard]] Column find(std::string_view name) const;
-  [[nodiscard]] const std::string& name(std::size_t column) const { return names_[column]; }
+  [[nodiscard]] std::string_view name(std::size_t column) const;
 
  private:
-  std::vector<std::string> names_;
+  struct Name {
+    std::uint32_t begin, column;  // `begin` in names_
+  };
+
+  [[nodiscard]] std::string_view text(const Name& name) const;
+
+  std::string names_;         // each with '\n' behind it; no name has one inside
+  std::vector<Name> sorted_;  // those that are not empty
+  std::size_t columns_ = 0;
 };
 
 // Whether the row has as many cells as the header.
@@ -33,15 +42,15 @@ class CsvHeader {
 
 // The number of a cell; nothing for an empty cell and for a column that is not there. False where
 // the cell is no number.
-[[nodiscard]] bool read_cell(const CsvTable& table, const CsvHeader& header, Column column,
+[[nodiscard]] bool read_cell(CsvTable& table, const CsvHeader& header, Column column,
                              std::optional<double>& value, Fault& fault);
 
 // The same of what has to lie in 0..1; kNoNumber where there is nothing.
-[[nodiscard]] bool read_share(const CsvTable& table, const CsvHeader& header, Column column,
+[[nodiscard]] bool read_share(CsvTable& table, const CsvHeader& header, Column column,
                               double& value, Fault& fault);
 
 // The same of what files of others may exaggerate: brought into 0..1, and counted.
-[[nodiscard]] bool read_clamped(const CsvTable& table, const CsvHeader& header, Column column,
+[[nodiscard]] bool read_clamped(CsvTable& table, const CsvHeader& header, Column column,
                                 double& value, std::int64_t& out_of_range, Fault& fault);
 
 // Into 0..1, and counted where it was not there.

@@ -14,6 +14,7 @@
 
 #include "formats/animation/clip.h"
 #include "formats/animation/fault.h"
+#include "formats/animation/read_options.h"
 #include "formats/animation/writer.h"
 
 namespace mien::formats {
@@ -26,6 +27,7 @@ enum class GltfForm : std::uint8_t { kText, kBinary };
 // mouthSmile_L), rotation and translation of nodes called head, leftEye, rightEye. Frames are
 // where the weights have keys, or the head without any. Buffers have to be in the file, and values
 // fp32. Weights beyond 0..1 are brought there. On a fault `clip` stays as it was.
-[[nodiscard]] bool read_gltf(std::string_view bytes, Clip& clip, Fault& fault);
+[[nodiscard]] bool read_gltf(std::string_view bytes, const ReadOptions& options, Clip& clip,
+                             Fault& fault);
 
 }  // namespace mien::formats

@@ -449,7 +449,7 @@ class Reader {
 
 }  // namespace
 
-bool read_gltf(std::string_view bytes, Clip& clip, Fault& fault) {
+bool read_gltf(std::string_view bytes, const ReadOptions& /*options*/, Clip& clip, Fault& fault) {
   Parts parts{bytes, std::nullopt};
   if (bytes.starts_with("glTF") && !split_glb(bytes, parts, fault)) {
     return false;

@@ -13,12 +13,13 @@
 #include <string_view>
 
 #include "formats/animation/clip.h"
-#include "formats/animation/fault.h"
 #include "formats/animation/writer.h"
 
 namespace mien::formats {
 
 enum class RotationUnit : std::uint8_t { kRadians, kDegreesBy180, kDegrees };
+[[nodiscard]] double units_per_radian(RotationUnit unit);
+[[nodiscard]] const char* name(RotationUnit unit);  // "radians", ... Static.
 
 // Yaw, pitch, roll of head, left eye, right eye, in the order of kRotationNames: what files and
 // packets have behind the controls. Eyes without rotations of their own look as the controls say.
@@ -28,6 +29,7 @@ enum class RotationUnit : std::uint8_t { kRadians, kDegreesBy180, kDegrees };
 // Neither a face nor a voice that moves the mouth.
 [[nodiscard]] bool shows_nothing(const Frame& frame);
 
+// Of what is written.
 struct LiveLinkOptions {
   RotationUnit rotation = RotationUnit::kRadians;
   double timecode_fps = 60.0;  // 1..100
@@ -36,10 +38,5 @@ struct LiveLinkOptions {
 // A frame without a face and without a voice that moves the mouth has BlendshapeCount 0 and empty
 // cells behind it.
 [[nodiscard]] std::unique_ptr<AnimationWriter> live_link_csv_writer(const LiveLinkOptions& options);
-
-// Columns are found by name, so that older files (camel case, right eye first, BlendShapeCount) are
-// read, too. Rows of count 0 may be shorter. Without a timecode, rows are 1/fps apart.
-[[nodiscard]] bool read_live_link_csv(std::string_view text, const LiveLinkOptions& options,
-                                      Clip& clip, Fault& fault);
 
 }  // namespace mien::formats

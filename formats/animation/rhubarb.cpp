@@ -221,6 +221,14 @@ Frame cue_frame(std::int64_t begin_ns, char shape, std::size_t number) {
   return frame;
 }
 
+// Where a cue does not begin at the end of the one before it, the mouth rests in between.
+void add_cue(Clip& clip, std::int64_t before_end_ns, std::int64_t begin_ns, char shape) {
+  if (!clip.frames.empty() && begin_ns > before_end_ns) {
+    clip.frames.push_back(cue_frame(before_end_ns, 'X', clip.frames.size()));
+  }
+  clip.frames.push_back(cue_frame(begin_ns, shape, clip.frames.size()));
+}
+
 bool read_tsv(std::string_view text, Clip& clip, Fault& fault) {
   std::size_t line = 0;
   while (!text.empty()) {
@@ -284,7 +292,7 @@ bool read_json(std::string_view text, Clip& clip, Fault& fault) {
       return (shape == nullptr ? cue : *shape)
           .fail_here("value: is none of the shapes A to H and X", fault);
     }
-    clip.frames.push_back(cue_frame(begin_ns, shape->text[0], clip.frames.size()));
+    add_cue(clip, before_ns, begin_ns, shape->text[0]);
   }
   clip.frames.push_back(cue_frame(end_ns, 'X', clip.frames.size()));
   const JsonValue* metadata = root.find("metadata");
@@ -332,7 +340,7 @@ bool read_xml(std::string_view text, Clip& clip, Fault& fault) {
     if (!is_shape(tag.text)) {
       return tag.fail_here(quoted(tag.text) + " is none of the shapes A to H and X", fault);
     }
-    clip.frames.push_back(cue_frame(begin_ns, tag.text[0], clip.frames.size()));
+    add_cue(clip, before_ns, begin_ns, tag.text[0]);
   }
   if (clip.frames.empty()) {
     return tags.front().fail_here("mouthCues: there are no cues", fault);

@@ -565,11 +565,53 @@ Frame Time: 0.04
         self.assertNotIn("all faces", self.convert("two.jsonl", "second.llf.csv", "--face", "2"))
         self.assertEqual({row["JawOpen"] for row in csv.DictReader(self.read("second.llf.csv").splitlines())}, {"0.5000000000"})
 
+    def refused(self, a, b, *more):
+        done = subprocess.run([PROGRAM, "convert", self.path(a), self.path(b), *more], capture_output=True, text=True)
+        self.assertFalse(os.path.exists(self.path(b)), b)
+        return done.returncode, done.stderr
+
+    def test_units_of_live_link_face_are_noted(self):
+        rows = ["Timecode,BlendshapeCount,JawOpen,HeadYaw,HeadPitch,HeadRoll"]
+        rows += [f"10:00:{i // 25:02}:{i % 25:02}.000,61,0,20.0,-8.5,3.0" for i in range(75)]
+        self.write("phone.csv", "\n".join(rows) + "\n")
+        said = self.convert("phone.csv", "phone.jsonl")
+        self.assertIn("timecode: 25 frames a second, as the file shows (--from-llf-fps)", said)
+        self.assertIn("rotations: degrees, as the file shows (--from-llf-rot)", said)
+        frames = self.frames_of("phone.jsonl")
+        self.assertEqual([frame["t_ns"] - frames[0]["t_ns"] for frame in frames], [40000000 * i for i in range(75)])
+        self.assertEqual(self.convert("phone.csv", "phone.jsonl", "--quiet"), "")
+        told = json.loads(self.convert("phone.csv", "phone.jsonl", "--json"))
+        self.assertEqual(len(told["notes"]), 2)
+        code, said = self.refused("phone.csv", "phone.out.jsonl", "--from-llf-rot", "rad")
+        self.assertEqual(code, 3)
+        self.assertIn("HeadYaw: more than half a turn in radians (got 20, expected -3.14 to 3.14; --from-llf-rot", said)
+
+    def test_units_of_bvh_are_options(self):
+        self.write("one.jsonl", json.dumps({"t_ns": 0, "position_m": [0.5, 0.25, -1], "head": {"pitch_rad": 0, "yaw_rad": 0, "roll_rad": 0}}) + "\n")
+        self.assertNotIn("positions", self.convert("one.jsonl", "cm.bvh", "--bvh-unit", "cm"))
+        self.assertIn("\n50.000000 25.000000 -100.000000 ", self.read("cm.bvh"))
+        self.assertIn("positions: centimetres, as the size of the skeleton shows (--from-bvh-unit)", self.convert("cm.bvh", "cm.jsonl"))
+        self.assertEqual(self.frames_of("cm.jsonl")[0]["position_m"], [0.5, 0.25, -1])
+        self.assertNotIn("positions", self.convert("cm.bvh", "m.jsonl", "--from-bvh-unit", "m"))
+        self.assertEqual(self.frames_of("m.jsonl")[0]["position_m"], [50, 25, -100])
+
+    def test_an_unknown_ending_is_no_format(self):
+        self.write("one.csv", "t_ms,jawOpen\n0,0\n")
+        for name in ("x.fbx", "x.txt", "x.csv.gz", "x.json", "x.v2"):
+            code, said = self.refused("one.csv", name)
+            self.assertEqual(code, 2)
+            self.assertIn(f"{name}: unknown format (got {os.path.splitext(name)[1]}, expected one of .csv, .jsonl, .llf.csv, .gltf, .glb", said)
+            self.assertIn("--to csv, jsonl, llf", said)
+        self.convert("one.csv", "x.fbx", "--to", "csv")
+        self.assertEqual(self.read("x.fbx").splitlines()[1].split(",")[:2], ["0", "0"])
+        self.convert("one.csv", "no_ending")
+        self.assertTrue(self.read("no_ending").startswith("frame,t_ms,"))
+
     def test_faults_are_named_with_their_place(self):
         faults = {
             "t_ms,jawOpen\n0,0\n40,lots\n": "line 3, column 4: jawOpen: 'lots' is not a number",
             "Timecode,BlendshapeCount,JawOpen\n00:00:00:00.000,61,0\nnever,61,0\n": "line 3, column 1: Timecode: 'never' is not HH:MM:SS:FF.mmm",
-            "Timecode,BlendshapeCount,JawOpen\n00:00:00:61.000,61,0\n": "line 2, column 1: Timecode: '00:00:00:61.000' has more frames than a second of 60",
+            "Timecode,BlendshapeCount,JawOpen\n00:00:00:61.000,61,0\n": "line 2, column 1: Timecode: '00:00:00:61.000' has more frames than a second of 60 (--from-llf-fps)",
             '{"t_ns":0,"controls":{}}\n{"t_ns":1,"controls":{"jawOpen":"x"}}\n': "line 2, column 33: jawOpen: is not a number in 0..1",
             '{"t_ns":0}\n{"t_ns":1,}\n': "line 2, column 11: a key in quotation marks is missing",
             "HIERARCHY\nROOT a\n{\nOFFSET 0 0 zero\n": "line 4, column 12: 'zero' is not a number",

@@ -123,9 +123,9 @@ TEST(CurvesFile, WhatLiesBesideALiveLinkFaceFileCounts) {
   std::ofstream(file) << "Timecode,BlendshapeCount,JawOpen,HeadYaw,HeadPitch,HeadRoll\n"
                          "00:00:00:00.000,61,0,90,0,0\n00:00:00:12.000,61,0,90,0,0\n";
   std::ofstream(file + ".json") << R"({"rotation":"deg","timecode_fps":24.0})";
-  const Curves curves = app::read_curves(file);
+  const Curves curves = app::read_curves(file, true);
   std::ofstream(file + ".json") << R"({"rotation":"deg","timecode_fps":0})";
-  EXPECT_THROW(app::read_curves(file), app::Failure);
+  EXPECT_THROW(app::read_curves(file, true), app::Failure);
   std::filesystem::remove(file + ".json");
   std::filesystem::remove(file);
   ASSERT_EQ(curves.size(), 2u);
@@ -134,8 +134,8 @@ TEST(CurvesFile, WhatLiesBesideALiveLinkFaceFileCounts) {
 }
 
 TEST(CurvesFile, ThereHasToBeAFile) {
-  EXPECT_THROW(app::read_curves("/nowhere/x.csv"), app::Failure);
-  EXPECT_THROW(app::read_curves("/"), app::Failure);
+  EXPECT_THROW(app::read_curves("/nowhere/x.csv", true), app::Failure);
+  EXPECT_THROW(app::read_curves("/", true), app::Failure);
 }
 
 }  // namespace

@@ -15,6 +15,14 @@ CLI::Validator rotation_units() {
                                           {"deg", RotationUnit::kDegrees}});
 }
 
+CLI::Validator length_units() {
+  using formats::LengthUnit;
+  return CLI::CheckedTransformer(std::map<std::string, LengthUnit>{{"m", LengthUnit::kMetres},
+                                                                   {"cm", LengthUnit::kCentimetres},
+                                                                   {"mm", LengthUnit::kMillimetres},
+                                                                   {"in", LengthUnit::kInches}});
+}
+
 void add_writing_options(CLI::App& verb, formats::WriteOptions& options) {
   verb.add_option("--llf-rot", options.live_link.rotation,
                   "rotations of Live Link Face: rad (default), norm180 (degrees / 180) or deg")
@@ -22,6 +30,8 @@ void add_writing_options(CLI::App& verb, formats::WriteOptions& options) {
   verb.add_option("--llf-fps", options.live_link.timecode_fps,
                   "frames in a second of its timecode; default 60")
       ->check(finite(CLI::Range(1.0, 100.0)));
+  verb.add_option("--bvh-unit", options.bvh_unit, "positions of BVH: m (default), cm, mm or in")
+      ->transform(length_units());
   verb.add_option("--roblox-lod", options.roblox_level_1,
                   "units of Roblox: 0 (all 50, default) or the 6 of its level of detail 1")
       ->transform(CLI::CheckedTransformer(std::map<std::string, bool>{{"0", false}, {"1", true}}));

@@ -10,7 +10,10 @@ namespace mien::app {
 // Takes the names of units of Live Link Face's rotations.
 CLI::Validator rotation_units();
 
-// --llf-rot, --llf-fps, --roblox-lod.
+// Takes the names of units of positions.
+CLI::Validator length_units();
+
+// --llf-rot, --llf-fps, --roblox-lod, --bvh-unit.
 void add_writing_options(CLI::App& verb, formats::WriteOptions& options);
 
 }  // namespace mien::app

@@ -24,11 +24,15 @@ void add_convert(CLI::App& program) {
   verb->add_option("--face", options->face, "only the face with this id");
   verb->add_option("--from-llf-rot", options->from_rotation,
                    "rotations of INPUT, from Live Link Face: rad, norm180 or deg (default: as the "
-                   "file beside it says, or rad)")
+                   "file beside it says, or its values show)")
       ->transform(rotation_units());
   verb->add_option("--from-llf-fps", options->from_timecode_fps,
-                   "frames in a second of its timecode (default: so, or 60)")
+                   "frames in a second of its timecode (default: the same)")
       ->check(finite(CLI::Range(1.0, 100.0)));
+  verb->add_option("--from-bvh-unit", options->from_bvh_unit,
+                   "positions of INPUT, from BVH: m, cm, mm or in (default: as the size of its "
+                   "skeleton shows)")
+      ->transform(length_units());
   add_writing_options(*verb, options->writing);
   verb->add_flag("--json", options->json, "what was done and left out as JSON on standard error");
   verb->add_flag("--quiet", options->quiet, "no word about what was left out");

@@ -21,6 +21,8 @@ const std::map<std::string, std::string>& value_names() {
       {"--from-llf-rot", "rad|norm180|deg"},
       {"--llf-fps", "N"},
       {"--from-llf-fps", "N"},
+      {"--bvh-unit", "m|cm|mm|in"},
+      {"--from-bvh-unit", "m|cm|mm|in"},
       {"--roblox-lod", "0|1"},
       {"--landmarks", "FILE"},
       {"--overlay", "FILE"},

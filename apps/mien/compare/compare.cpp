@@ -34,8 +34,8 @@ Comparison compare_files(const CompareOptions& options) {
   name_files(options, comparison);
   Curves& a = comparison.a.curves;
   Curves& b = comparison.b.curves;
-  a = read_curves(options.a);
-  b = read_curves(options.b);
+  a = read_curves(options.a, options.quiet);
+  b = read_curves(options.b, options.quiet);
   const std::vector<FramePair> pairs = match_frames(a, b);
   if (pairs.empty()) {
     throw Failure(kExitNoInput, options.a + ", " + options.b + ": no frames at the same times");

@@ -3,11 +3,11 @@
 #include "apps/mien/sources/animation_file.h"
 
 namespace mien::app {
+namespace {
 
-Curves parse_curves(std::string_view text, const std::string& name,
-                    const formats::LiveLinkOptions& live_link) {
+Curves curves_of(const formats::Clip& clip) {
   Curves curves;
-  for (const formats::Frame& read : parse_animation(text, name, std::nullopt, live_link).frames) {
+  for (const formats::Frame& read : clip.frames) {
     CurvesFrame frame;
     frame.t_ms = read.time_ms();
     if (read.head) {
@@ -19,8 +19,20 @@ Curves parse_curves(std::string_view text, const std::string& name,
   return curves;
 }
 
-Curves read_curves(const std::string& path) {
-  return parse_curves(read_whole(path), path, read_live_link_notes(path));
+}  // namespace
+
+Curves parse_curves(std::string_view text, const std::string& name,
+                    const formats::ReadOptions& options) {
+  return curves_of(parse_animation(text, name, std::nullopt, options));
+}
+
+Curves read_curves(const std::string& path, bool quiet) {
+  const formats::Clip clip =
+      parse_animation(read_whole(path), path, std::nullopt, read_options_for(path));
+  if (!quiet) {
+    print_notes(path, clip);
+  }
+  return curves_of(clip);
 }
 
 }  // namespace mien::app

@@ -28,9 +28,10 @@ using Curves = std::vector<CurvesFrame>;
 // At least one frame, times that do not go back. Throws Failure(kExitNoInput) naming line and
 // column. `name` is what the message calls the file.
 Curves parse_curves(std::string_view text, const std::string& name,
-                    const formats::LiveLinkOptions& live_link = {});
+                    const formats::ReadOptions& options = {});
 
-// Also what lies beside a file of Live Link Face counts. Throws Failure(kExitNoInput).
-Curves read_curves(const std::string& path);
+// Also what lies beside a file of Live Link Face counts; what was taken for granted is printed,
+// unless `quiet`. Throws Failure(kExitNoInput).
+Curves read_curves(const std::string& path, bool quiet);
 
 }  // namespace mien::app

@@ -107,6 +107,7 @@ void report(const ConvertOptions& options, formats::AnimationFormat format, cons
                                          {"output", options.output},
                                          {"format", formats::name(format)},
                                          {"frames", clip.frames.size()},
+                                         {"notes", clip.notes},
                                          {"left_out", lost}};
     std::fprintf(stderr, "%s\n", json_text(text, -1).c_str());
     return;
@@ -114,10 +115,20 @@ void report(const ConvertOptions& options, formats::AnimationFormat format, cons
   if (options.quiet) {
     return;
   }
+  print_notes(options.input, clip);
   std::fprintf(stderr, "%s: %zu frames\n", options.output.c_str(), clip.frames.size());
   for (const std::string& what : lost) {
     std::fprintf(stderr, "  left out: %s\n", what.c_str());
   }
+}
+
+formats::ReadOptions reading_options(const ConvertOptions& options) {
+  formats::ReadOptions reading = read_options_for(options.input);
+  reading.rotation = options.from_rotation ? options.from_rotation : reading.rotation;
+  reading.timecode_fps =
+      options.from_timecode_fps ? options.from_timecode_fps : reading.timecode_fps;
+  reading.bvh_unit = options.from_bvh_unit;
+  return reading;
 }
 
 }  // namespace
@@ -126,6 +137,7 @@ void convert(const ConvertOptions& options) {
   AnimationOptions asked;
   asked.files = {options.output};
   asked.writing = options.writing;
+  asked.format_option = "--to";
   if (!options.to.empty()) {
     asked.formats = {options.to};
   }
@@ -134,10 +146,8 @@ void convert(const ConvertOptions& options) {
   if (!options.from.empty()) {
     from = format_asked_for(options.from);
   }
-  formats::LiveLinkOptions live_link = read_live_link_notes(options.input);
-  live_link.rotation = options.from_rotation.value_or(live_link.rotation);
-  live_link.timecode_fps = options.from_timecode_fps.value_or(live_link.timecode_fps);
-  Clip clip = parse_animation(read_whole(options.input), options.input, from, live_link);
+  Clip clip =
+      parse_animation(read_whole(options.input), options.input, from, reading_options(options));
   const std::vector<std::string> lost = fit(clip, options, target.format);
   const bool ids = std::any_of(clip.frames.begin(), clip.frames.end(),
                                [](const Frame& frame) { return frame.face_id != 0; });

@@ -10,11 +10,13 @@
 namespace mien::app {
 
 struct ConvertOptions {
-  std::string input;                                   // "-": standard input
-  std::string output;                                  // "-": standard output
-  std::string from, to;                                // names of formats; empty: as the file says
-  std::optional<formats::RotationUnit> from_rotation;  // of Live Link Face; none: as the file
-  std::optional<double> from_timecode_fps;             // beside it says, or its own defaults
+  std::string input;     // "-": standard input
+  std::string output;    // "-": standard output
+  std::string from, to;  // names of formats; empty: as the file says
+  // Of INPUT; none: as files beside it or its content say.
+  std::optional<formats::RotationUnit> from_rotation;
+  std::optional<double> from_timecode_fps;
+  std::optional<formats::LengthUnit> from_bvh_unit;
   formats::WriteOptions writing;
   std::optional<double> fps;  // none: the frames' own times
   std::optional<std::int64_t> face;

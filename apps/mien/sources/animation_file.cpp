@@ -1,5 +1,7 @@
 #include "apps/mien/sources/animation_file.h"
 
+#include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -13,8 +15,13 @@
 namespace mien::app {
 namespace {
 
-std::string rest_of(std::istream& stream, const std::string& name) {
+// Beyond this a size that a file system states is not trusted before the bytes are there.
+constexpr std::uintmax_t kMostReserved = std::uintmax_t{1} << 32;
+
+// `size` is how much is expected, 0 where nobody knows.
+std::string rest_of(std::istream& stream, const std::string& name, std::size_t size) {
   std::string text, block(std::size_t{1} << 16, '\0');
+  text.reserve(size);
   while (stream.read(block.data(), static_cast<std::streamsize>(block.size())) ||
          stream.gcount() > 0) {
     text.append(block, 0, static_cast<std::size_t>(stream.gcount()));
@@ -25,11 +32,66 @@ std::string rest_of(std::istream& stream, const std::string& name) {
   return text;
 }
 
+// Files of other folders, and what is no file, are not read: the one that names them may come from
+// anywhere.
+bool load(const std::filesystem::path& folder, const std::string& name, std::size_t bytes,
+          std::string& data, std::string& why) {
+  const std::filesystem::path relative = path_of(name);
+  const bool leaves = relative.is_absolute() || relative.has_root_path() ||
+                      std::find(relative.begin(), relative.end(), "..") != relative.end();
+  if (leaves || name.find(':') != std::string::npos) {
+    why = "is not in the folder of the file";
+    return false;
+  }
+  std::error_code error;
+  const std::filesystem::path whole = folder / relative;
+  if (!std::filesystem::is_regular_file(whole, error)) {
+    why = std::filesystem::exists(whole, error) ? "is no file" : "no such file";
+    return false;
+  }
+  if (std::filesystem::file_size(whole, error) < bytes || error) {
+    why = "is shorter than " + std::to_string(bytes) + " bytes";
+    return false;
+  }
+  data.resize(bytes);
+  std::ifstream file(whole, std::ios::binary);
+  if (!file.read(data.data(), static_cast<std::streamsize>(bytes))) {
+    why = "cannot be read";
+    return false;
+  }
+  return true;
+}
+
+// FILE.json beside FILE, where it is ours.
+void read_live_link_notes(const std::string& path, formats::ReadOptions& options) {
+  const std::string beside = path + ".json";
+  std::error_code ignored;
+  if (!std::filesystem::exists(path_of(beside), ignored)) {
+    return;
+  }
+  const nlohmann::json notes = nlohmann::json::parse(read_whole(beside), nullptr, false);
+  if (!notes.is_object() || !notes.contains("rotation") || !notes["rotation"].is_string()) {
+    return;
+  }
+  const std::map<std::string, formats::RotationUnit> units = {
+      {"rad", formats::RotationUnit::kRadians},
+      {"norm180", formats::RotationUnit::kDegreesBy180},
+      {"deg", formats::RotationUnit::kDegrees}};
+  const auto unit = units.find(notes["rotation"].get<std::string>());
+  const nlohmann::json fps = notes.value("timecode_fps", nlohmann::json());
+  if (unit == units.end() || !fps.is_number() || fps.get<double>() < 1.0 ||
+      fps.get<double>() > 100.0) {
+    throw Failure(kExitNoInput, beside + ": is damaged");
+  }
+  options.rotation = unit->second;
+  options.timecode_fps = fps.get<double>();
+}
+
 }  // namespace
 
 std::string read_whole(const std::string& path) {
   if (path == "-") {
-    return rest_of(std::cin, "standard input");
+    return rest_of(std::cin, "standard input", 0);
   }
   std::error_code ignored;
   if (std::filesystem::is_directory(path_of(path), ignored)) {
@@ -42,42 +104,38 @@ std::string read_whole(const std::string& path) {
         path + ": " +
             (std::filesystem::exists(path_of(path), ignored) ? "cannot be read" : "no such file"));
   }
-  return rest_of(file, path);
+  const std::uintmax_t size = std::filesystem::file_size(path_of(path), ignored);
+  return rest_of(file, path, ignored || size > kMostReserved ? 0 : static_cast<std::size_t>(size));
 }
 
-formats::LiveLinkOptions read_live_link_notes(const std::string& path) {
-  const std::string beside = path + ".json";
-  std::error_code ignored;
-  if (path == "-" || !std::filesystem::exists(path_of(beside), ignored)) {
-    return {};
+formats::ReadOptions read_options_for(const std::string& path) {
+  formats::ReadOptions options;
+  if (path == "-") {
+    return options;
   }
-  const nlohmann::json notes = nlohmann::json::parse(read_whole(beside), nullptr, false);
-  if (!notes.is_object() || !notes.contains("rotation") || !notes["rotation"].is_string()) {
-    return {};  // somebody else's
-  }
-  const std::map<std::string, formats::RotationUnit> units = {
-      {"rad", formats::RotationUnit::kRadians},
-      {"norm180", formats::RotationUnit::kDegreesBy180},
-      {"deg", formats::RotationUnit::kDegrees}};
-  const auto unit = units.find(notes["rotation"].get<std::string>());
-  const nlohmann::json fps = notes.value("timecode_fps", nlohmann::json());
-  if (unit == units.end() || !fps.is_number() || fps.get<double>() < 1.0 ||
-      fps.get<double>() > 100.0) {
-    throw Failure(kExitNoInput, beside + ": is damaged");
-  }
-  return {unit->second, fps.get<double>()};
+  options.load_beside = [folder = path_of(path).parent_path()](
+                            const std::string& name, std::size_t bytes, std::string& data,
+                            std::string& why) { return load(folder, name, bytes, data, why); };
+  read_live_link_notes(path, options);
+  return options;
 }
 
 formats::Clip parse_animation(std::string_view bytes, const std::string& name,
                               std::optional<formats::AnimationFormat> format,
-                              const formats::LiveLinkOptions& live_link) {
+                              const formats::ReadOptions& options) {
   formats::Clip clip;
   formats::Fault fault;
   const formats::AnimationFormat kind = format.value_or(formats::format_by_content(bytes));
-  if (!formats::read_animation(kind, bytes, live_link, clip, fault)) {
+  if (!formats::read_animation(kind, bytes, options, clip, fault)) {
     throw Failure(kExitNoInput, name + ": " + formats::describe(fault));
   }
   return clip;
+}
+
+void print_notes(const std::string& name, const formats::Clip& clip) {
+  for (const std::string& note : clip.notes) {
+    std::fprintf(stderr, "%s: %s\n", name.c_str(), note.c_str());
+  }
 }
 
 }  // namespace mien::app

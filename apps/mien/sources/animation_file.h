@@ -12,14 +12,17 @@ namespace mien::app {
 // The whole file, or standard input for "-". Throws Failure(kExitNoInput).
 std::string read_whole(const std::string& path);
 
-// What FILE.json beside a file of Live Link Face says that the file itself cannot; without it, or
-// for "-", what is usual. Throws Failure(kExitNoInput).
-formats::LiveLinkOptions read_live_link_notes(const std::string& path);
+// What FILE.json beside a file of Live Link Face says that the file itself cannot, and where the
+// file finds others beside it; for "-" nothing. Throws Failure(kExitNoInput).
+formats::ReadOptions read_options_for(const std::string& path);
 
 // `name` is what messages call it; without a format its content says which. Throws
 // Failure(kExitNoInput) that names line and column.
 formats::Clip parse_animation(std::string_view bytes, const std::string& name,
                               std::optional<formats::AnimationFormat> format,
-                              const formats::LiveLinkOptions& live_link);
+                              const formats::ReadOptions& options);
+
+// What was taken for granted, a line each on standard error.
+void print_notes(const std::string& name, const formats::Clip& clip);
 
 }  // namespace mien::app
