@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/mien/system/failure.h"
+#include "apps/mien/system/paths.h"
 
 namespace mien::app {
 namespace {
@@ -21,16 +22,24 @@ std::string format_names() {
   return names;
 }
 
-AnimationFormat format_of(const std::string& file) {
+std::string endings() {
+  std::string listed;
+  for (const formats::FormatName& known : formats::kFormatNames) {
+    listed.append(listed.empty() ? "" : ", ").append(known.ending);
+  }
+  return listed;
+}
+
+AnimationFormat format_of(const std::string& file, const char* format_option) {
   if (const auto format = formats::format_by_ending(file)) {
     return *format;
   }
-  if (file.ends_with(".json")) {
-    throw Failure(kExitUsage,
-                  file + ": the ending does not say which format is meant; say --format, of " +
-                      format_names());
+  const std::string ending = name_of(path_of(file).extension());
+  if (file == kStandardOutput || ending.empty()) {
+    return AnimationFormat::kCsv;
   }
-  return AnimationFormat::kCsv;
+  throw Failure(kExitUsage, file + ": unknown format (got " + ending + ", expected one of " +
+                                endings() + "; or " + format_option + " " + format_names() + ")");
 }
 
 const char* unit_name(RotationUnit unit) {
@@ -68,7 +77,7 @@ std::vector<AnimationTarget> targets(const AnimationOptions& options) {
   }
   std::vector<AnimationTarget> made;
   for (std::size_t i = 0; i < files.size(); ++i) {
-    made.push_back({files[i], options.formats.empty() ? format_of(files[i])
+    made.push_back({files[i], options.formats.empty() ? format_of(files[i], options.format_option)
                                                       : format_asked_for(options.formats[i])});
     for (std::size_t k = 0; k < i; ++k) {
       if (made[k].file == files[i]) {

@@ -18,6 +18,7 @@ struct AnimationOptions {
   std::vector<std::string> files;    // none: standard output
   std::vector<std::string> formats;  // names of them; none: by the files' endings
   formats::WriteOptions writing;
+  const char* format_option = "--format";  // for messages
 };
 
 struct AnimationTarget {
@@ -25,7 +26,8 @@ struct AnimationTarget {
   formats::AnimationFormat format;
 };
 
-// One for each file. Throws Failure(kExitUsage) where it cannot be told what is meant.
+// One for each file. A file without an ending, as a device or a pipe, is CSV. Throws
+// Failure(kExitUsage) where it cannot be told what is meant.
 std::vector<AnimationTarget> targets(const AnimationOptions& options);
 
 // Throws Failure(kExitUsage) where there is no such format.
