@@ -34,7 +34,7 @@ TEST(SoundClock, FollowsAClockThatIsFastOrSlowForHours) {
   for (const double skew : {-50e-6, 50e-6, 200e-6}) {
     SoundClock clock;
     double worst_ns = 0.0;
-    for (std::int64_t block = 0; block < 8 * 3600 * 100; ++block) {
+    for (std::int64_t block = 0; block < std::int64_t{8} * 3600 * 100; ++block) {
       const auto pts = static_cast<std::int64_t>(
           std::llround(static_cast<double>(block) * static_cast<double>(kBlockNs) * (1.0 + skew)));
       const Flow flow = clock.advance(pts, kBlock, kRate);
@@ -65,6 +65,29 @@ TEST(SoundClock, HopsOverAGapAndBackAtOnce) {
     EXPECT_EQ(clock.advance(kBlockNs + gap, kBlock, kRate), Flow::kHop) << gap;
     EXPECT_EQ(clock.time_ns(seconds_of_block(1)), kBlockNs + gap);
     EXPECT_EQ(clock.advance(2 * kBlockNs + gap, kBlock, kRate), Flow::kSteady) << gap;
+  }
+}
+
+// Whatever the rate, the gap, and how far the clock was pulled before: no error adds up.
+TEST(SoundClock, AfterAHopTimesAreExactlyThoseOfTheTimestamps) {
+  for (const std::int32_t rate : {11025, 44100, 48000}) {
+    SoundClock clock;
+    std::mt19937 engine(7);
+    std::uniform_int_distribution<std::int64_t> gap(20'100'001, 400'000'000);
+    std::uniform_int_distribution<std::int64_t> late(200'000, 5'000'000);
+    constexpr std::size_t kFrames = 1021;
+    std::int64_t frames = 0, pts = 3;
+    (void)clock.advance(pts, kFrames, rate);
+    for (int hop = 0; hop < 200; ++hop) {
+      frames += kFrames;
+      pts += static_cast<std::int64_t>(kFrames) * 1'000'000'000 / rate + late(engine);
+      ASSERT_EQ(clock.advance(pts, kFrames, rate), Flow::kSteady);
+      frames += kFrames;
+      pts += static_cast<std::int64_t>(kFrames) * 1'000'000'000 / rate + gap(engine);
+      ASSERT_EQ(clock.advance(pts, kFrames, rate), Flow::kHop);
+      const double seconds = static_cast<double>(frames) / rate;
+      EXPECT_NEAR(static_cast<double>(clock.time_ns(seconds) - pts), 0.0, 2.0) << rate;
+    }
   }
 }
 

@@ -260,7 +260,7 @@ void add_window_network(MienWriter& writer, const std::string& name, std::uint16
 }
 
 constexpr std::uint32_t kEmbedding = 80;
-constexpr std::uint32_t kSpeechControls = 18;
+constexpr std::uint32_t kSpeechControls = kSpeechOutputs;
 
 // Embedding 0 is the loudness: -0.85 for silence, about 1 for noise at a third of full scale.
 void add_ear(MienWriter& writer, Random& random) {
@@ -290,6 +290,14 @@ void add_speech(MienWriter& writer, Random& random) {
   });
   network.output(network.causal_conv(NetworkWriter::kInput, weight, bias,
                                      activated(formats::LayerActivation::kClamp01)));
+}
+
+void add_constant_speech(MienWriter& writer, std::span<const float, kSpeechOutputs> controls) {
+  NetworkWriter& network = writer.network("controls_decoder", {1, 1, kEmbedding});
+  const Array weight = filled({kSpeechControls, kEmbedding}, [](std::size_t) { return 0.0f; });
+  network.output(network.fully_connected(NetworkWriter::kInput, weight,
+                                         {controls.begin(), controls.end()},
+                                         activated(formats::LayerActivation::kClamp01)));
 }
 
 void add_activity(MienWriter& writer) {
@@ -367,6 +375,16 @@ AlignedBytes blob_audionet() {
   MienWriter writer;
   add_ear(writer, random);
   add_speech(writer, random);
+  add_activity(writer);
+  add_mix(writer);
+  return finished(writer);
+}
+
+AlignedBytes blob_audionet(std::span<const float, kSpeechOutputs> controls) {
+  Random random(77);
+  MienWriter writer;
+  add_ear(writer, random);
+  add_constant_speech(writer, controls);
   add_activity(writer);
   add_mix(writer);
   return finished(writer);

@@ -49,6 +49,9 @@ inline constexpr float kRefinedBy = 0.02f;
 // Loudness plays the voice: jawOpen and voice activity are 0 for silence, 1 for loud noise, and
 // tell of the middle of AudioNet's windows. The other controls of speech are random, over time.
 [[nodiscard]] AlignedBytes blob_audionet();
+inline constexpr std::size_t kSpeechOutputs = 18;
+// The same, but its decoder always answers with these values.
+[[nodiscard]] AlignedBytes blob_audionet(std::span<const float, kSpeechOutputs> controls);
 inline constexpr float kJawByEar = 0.75f;    // weight of the sound for jawOpen
 inline constexpr float kMouthByEar = 0.5f;   // for the others
 inline constexpr float kMouthByEye = 0.25f;  // weight of the picture for all of them

@@ -172,6 +172,26 @@ TEST(Levels, GoingUpRefinesTheLandmarksAtOnce) {
   }
 }
 
+// Features from before a stay at level 1 are too old to animate with.
+TEST(Levels, ComingBackFromLevelOneHiFiNetLooksAtTheFirstImage) {
+  for (const std::int32_t back_to : {2, 3, 4}) {
+    for (const int frames_at_one : {7, 8}) {  // BaseNet rests on every other one
+      BlobTracker tracker = tracker_at(4);
+      for (int frame = 0; frame < 10; ++frame) {
+        (void)tracker.push(circling_disc(0));
+      }
+      ASSERT_EQ(tracker.tracker().set_lod(1), MIEN_OK);
+      for (int frame = 0; frame < frames_at_one; ++frame) {
+        (void)tracker.push(circling_disc(frame));
+      }
+      const std::uint64_t before = tracker.result().encoder_runs;
+      ASSERT_EQ(tracker.tracker().set_lod(back_to), MIEN_OK);
+      EXPECT_EQ(tracker.push(circling_disc(20)).encoder_runs, before + 2)
+          << "to level " << back_to << " after " << frames_at_one;
+    }
+  }
+}
+
 TEST(Levels, ThoseWithoutWeightsAreRefused) {
   const auto without = [](mien_tracker_config& config) {
     config.hifinet = nullptr;
@@ -279,6 +299,26 @@ TEST(LevelGovernor, SettlesOnTheHighestLevelThatFits) {
     tracker::LevelGovernor governor(budget, 4);
     EXPECT_EQ(settled(governor, ms, 20.0f), level) << "budget " << budget;
     EXPECT_EQ(settled(governor, ms, 20.0f), level) << "it stays";
+  }
+}
+
+// How much more a frame costs one level up.
+constexpr float kGrowth[] = {5.9f, 1.2f, 1.7f};
+
+// A level that would only just fit into the budget would be left again at the next hiccup.
+TEST(LevelGovernor, GoesUpOnlyWhereThereIsRoomToSpare) {
+  constexpr float kBudgetMs = 20.0f;
+  for (std::int32_t level = 1; level <= 3; ++level) {
+    for (const float share_of_budget : {0.80f, 0.84f, 0.86f, 0.95f}) {
+      tracker::LevelGovernor governor(kBudgetMs, 4);
+      governor.begin_at(level);
+      const float ms = share_of_budget * kBudgetMs / kGrowth[level - 1];
+      for (int frame = 0; frame < 75; ++frame) {
+        governor.account(static_cast<std::uint64_t>(ms * 1e6f), 1.0f / 30.0f);
+      }
+      EXPECT_EQ(governor.level(), share_of_budget < 0.85f ? level + 1 : level)
+          << "from level " << level << ", " << share_of_budget << " of the budget";
+    }
   }
 }
 

@@ -177,8 +177,12 @@ TEST(Calibration, ResetForgetsIt) {
   EXPECT_TRUE(std::equal(again.controls, again.controls + MIEN_CONTROL_COUNT, first.controls));
 }
 
-TEST(Calibration, WaitsForAFaceAndBeginsAnewWhenItIsLost) {
-  BlobTracker tracker = unfiltered(1);
+class CalibrationAtLevel : public testing::TestWithParam<std::int32_t> {};
+INSTANTIATE_TEST_SUITE_P(Levels, CalibrationAtLevel, testing::Values(1, 2, 4));
+
+TEST_P(CalibrationAtLevel, WaitsForAFaceAndBeginsAnewWhenItIsLost) {
+  const std::uint32_t done = GetParam() == 1 ? 1u : 2u;
+  BlobTracker tracker = unfiltered(GetParam());
   ASSERT_EQ(tracker.tracker().capture_neutral(), MIEN_OK);
   const auto push = [&](const Picture& picture, int frames) {
     for (int frame = 0; frame < frames; ++frame) {
@@ -194,7 +198,7 @@ TEST(Calibration, WaitsForAFaceAndBeginsAnewWhenItIsLost) {
   EXPECT_EQ(push(Picture(320, 240), 10), 0u);
   (void)tracker.push_until_found(disc(0));
   EXPECT_EQ(push(disc(0), kCaptureFrames - 11), 0u);
-  EXPECT_EQ(push(disc(0), 12), 1u);
+  EXPECT_EQ(push(disc(0), 12), done);
 }
 
 // A capture that nobody waits for any more would take whatever is shown for a rest.

@@ -123,6 +123,18 @@ TEST(SeveralFaces, OneDiscIsNeverTwoFaces) {
   }
 }
 
+// A child's face next to one close to the camera: half of the larger crop lies between them.
+TEST(SeveralFaces, ASmallFaceCloseToALargeOneIsAFaceOfItsOwn) {
+  const Disc large = {110, 120, 100}, small = {183, 120, 20};
+  SeveralTracker tracker(2);
+  for (int frame = 0; frame < 40; ++frame) {
+    const std::vector<Result> results = followed(tracker.push_all({large, small}));
+    ASSERT_EQ(results.size(), 2u) << frame;
+    EXPECT_NEAR(middle_x(results[0]) + middle_x(results[1]), large.x + small.x, 8.0f);
+    EXPECT_GT(std::abs(middle_x(results[0]) - middle_x(results[1])), 60.0f);
+  }
+}
+
 TEST(SeveralFaces, OneThatLeavesFadesAndIsForgotten) {
   SeveralTracker tracker(2);
   ASSERT_EQ(tracker.push_all({{80, 120}, {240, 120}}).size(), 2u);

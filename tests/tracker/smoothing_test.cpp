@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <random>
 #include <vector>
 
@@ -130,6 +131,51 @@ TEST(Smoothing, PosesTurnedToTheBackAreSmoothedAlike) {
       }
     }
   }
+}
+
+// Share of a step that is visible on the first frame after it, at 30 frames per second.
+struct Step {
+  float size;
+  float shown;
+};
+
+template <class Smooth>
+void expect_shown(const char* signal, std::initializer_list<Step> steps, Smooth smooth) {
+  for (const Step& step : steps) {
+    EXPECT_NEAR(smooth(step.size) / step.size, step.shown, 0.02f)
+        << signal << ", a step of " << step.size;
+  }
+}
+
+TEST(Smoothing, ShowsLargeStepsAtOnceAndSmallOnesSlowly) {
+  expect_shown("control", {{0.002f, 0.30f}, {0.01f, 0.52f}, {0.1f, 0.89f}, {0.3f, 0.96f}},
+               [](float size) {
+                 float shown = 0.0f;
+                 smooth_controls({&size, 1}, kFrame, {&shown, 1});
+                 return shown;
+               });
+  // In sides of the crop, which is 1 pixel wide here.
+  expect_shown("landmark", {{0.0005f, 0.33f}, {0.002f, 0.52f}, {0.02f, 0.89f}, {0.06f, 0.96f}},
+               [](float size) {
+                 const Point seen = {0.6f * size, 0.8f * size};
+                 Point shown = {0.0f, 0.0f};
+                 smooth_points({&seen, 1}, 1.0f, kFrame, {&shown, 1});
+                 return std::hypot(shown.x, shown.y);
+               });
+  expect_shown("position in metres", {{0.001f, 0.29f}, {0.01f, 0.56f}, {0.1f, 0.91f}},
+               [](float size) {
+                 HeadPose seen, shown;
+                 seen.translation = {0.0f, 0.6f * size, -0.8f * size};
+                 smooth_pose(seen, kFrame, shown);
+                 return std::hypot(shown.translation[1], shown.translation[2]);
+               });
+  expect_shown("rotation in radians", {{0.003f, 0.37f}, {0.01f, 0.56f}, {0.1f, 0.91f}},
+               [](float size) {
+                 HeadPose seen, shown;
+                 seen.rotation = matrix({0.0f, std::sin(size / 2), 0.0f, std::cos(size / 2)});
+                 smooth_pose(seen, kFrame, shown);
+                 return euler_angles(shown.rotation).yaw;
+               });
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tests/tracker/blob_tracker.h"
+#include "tests/tracker/sound.h"
 #include "tracker/decoders/controls.h"
 
 namespace mien::tests {
@@ -16,45 +17,11 @@ namespace {
 
 using tracker::control_named;
 
-constexpr int kRate = 16000;
 constexpr std::size_t kJawOpen = control_named("jawOpen");
 constexpr std::size_t kMouth[] = {kJawOpen, control_named("mouthClose"),
                                   control_named("mouthPucker"), control_named("mouthStretchLeft"),
                                   control_named("mouthUpperUpRight")};
 constexpr float kLoud = 0.5f;
-
-// Noise between silences; anybody can make it again.
-class Sound {
- public:
-  explicit Sound(int rate = kRate) : rate_(rate) {}
-
-  Sound& add(double seconds, float amplitude) {
-    std::uniform_real_distribution<float> noise(-amplitude, amplitude);
-    const auto count = static_cast<std::size_t>(std::llround(seconds * rate_));
-    for (std::size_t i = 0; i < count; ++i) {
-      samples_.push_back(amplitude > 0.0f ? noise(engine_) : 0.0f);
-    }
-    return *this;
-  }
-
-  [[nodiscard]] std::size_t size() const { return samples_.size(); }
-  [[nodiscard]] Audio block(std::size_t first, std::size_t count) const {
-    Audio audio;
-    audio.sample_rate = rate_;
-    audio.frames = std::min(count, samples_.size() - first);
-    audio.samples[0] = samples_.data() + first;
-    return audio;
-  }
-  [[nodiscard]] Audio all() const { return block(0, samples_.size()); }
-  [[nodiscard]] std::int64_t time_ns(std::size_t sample) const {
-    return static_cast<std::int64_t>(sample) * 1'000'000'000 / rate_;
-  }
-
- private:
-  int rate_;
-  std::mt19937 engine_{3};
-  std::vector<float> samples_;
-};
 
 BlobTracker unfiltered(const BlobOptions& options = {}) {
   return BlobTracker(options, [](mien_tracker_config& config) {
