@@ -1,77 +1,6 @@
 #include "kernels/tier.h"
 
-#include <atomic>
-
-#ifdef MIEN_HAVE_AVX2
-#include "kernels/x86_features.h"
-#endif
-#if defined(__linux__) && (defined(MIEN_HAVE_NEON32) || defined(MIEN_HAVE_NEONFP16))
-#include <sys/auxv.h>
-#endif
-#if defined(__APPLE__) && defined(MIEN_HAVE_NEONFP16)
-extern "C" int sysctlbyname(const char* name, void* value, std::size_t* bytes, void* next,
-                            std::size_t next_bytes);  // as sys/sysctl.h has it
-#endif
-
 namespace mien::kernels {
-namespace {
-
-#ifdef MIEN_HAVE_NEONFP16
-bool has_neon_fp16() {
-#if defined(__linux__)
-  constexpr unsigned long kHwcapAsimdHp = 1ul << 10;  // the Linux kernel's asm/hwcap.h for AArch64
-  return (getauxval(AT_HWCAP) & kHwcapAsimdHp) != 0;
-#elif defined(__APPLE__)
-  int has = 0;
-  std::size_t bytes = sizeof has;
-  return sysctlbyname("hw.optional.arm.FEAT_FP16", &has, &bytes, nullptr, 0) == 0 && has != 0;
-#else
-  return false;
-#endif
-}
-#endif
-
-std::uint32_t ask_cpu() {
-  std::uint32_t mask = 0;
-#ifndef MIEN_TRIM_REF
-  mask |= bit(Tier::kRef);
-#endif
-#ifdef MIEN_HAVE_AVX2
-  const X86Features x86 = x86_features();
-  mask |= x86.avx2 ? bit(Tier::kAvx2) : 0u;
-#endif
-#ifdef MIEN_HAVE_AVX512
-  mask |= x86.avx512 ? bit(Tier::kAvx512) : 0u;
-#endif
-#ifdef MIEN_HAVE_AVX512FP16
-  mask |= x86.avx512fp16 ? bit(Tier::kAvx512Fp16) : 0u;
-#endif
-#ifdef MIEN_HAVE_AVX512VNNI
-  mask |= x86.avx512vnni ? bit(Tier::kAvx512Vnni) : 0u;
-#endif
-#ifdef MIEN_HAVE_NEON
-  mask |= bit(Tier::kNeon);  // every AArch64 CPU has it
-#endif
-#ifdef MIEN_HAVE_NEONFP16
-  if (has_neon_fp16()) {
-    mask |= bit(Tier::kNeonFp16);
-  }
-#endif
-#ifdef MIEN_HAVE_NEON32
-  // Bits of the Linux kernel's asm/hwcap.h for ARM. VFPv4 brings multiply-adds and half precision.
-  constexpr unsigned long kHwcapNeon = 1ul << 12, kHwcapVfpv4 = 1ul << 16;
-  constexpr unsigned long kWanted = kHwcapNeon | kHwcapVfpv4;
-  if ((getauxval(AT_HWCAP) & kWanted) == kWanted) {
-    mask |= bit(Tier::kNeon32);
-  }
-#endif
-#ifdef MIEN_HAVE_WASM
-  mask |= bit(Tier::kWasm);  // an engine without SIMD128 would have refused the whole module
-#endif
-  return mask;
-}
-
-}  // namespace
 
 const char* name(Tier tier) {
   switch (tier) {
@@ -95,19 +24,6 @@ const char* name(Tier tier) {
       return "avx512vnni";
   }
   return nullptr;
-}
-
-std::uint32_t detect_cpu() {
-  // Every kernel that is looked up asks, and in virtual machines CPUID takes tens of microseconds.
-  // Two threads that come first find the same. Bit 30 is no tier: the CPU was asked.
-  constexpr std::uint32_t kAsked = 1u << 30;
-  static constinit std::atomic<std::uint32_t> answer = 0;
-  std::uint32_t mask = answer.load(std::memory_order_relaxed);
-  if (mask == 0) {
-    mask = ask_cpu() | kAsked;
-    answer.store(mask, std::memory_order_relaxed);
-  }
-  return mask & ~kAsked;
 }
 
 }  // namespace mien::kernels

@@ -11,6 +11,11 @@
 
 #include "kernels/activation/activation.h"
 
+// The instructions of AArch64. Tests define it where they emulate them on another machine.
+#ifdef __aarch64__
+#define MIEN_NEON64
+#endif
+
 // Before a loop over vectors: gcc unrolls loops that no other encloses too late to keep the arrays
 // they walk in registers. clang needs no telling.
 #ifdef __clang__
@@ -47,7 +52,7 @@ struct Pair {
 [[maybe_unused]] inline Vec load_half(const std::uint16_t* at) {
   return vcvt_f32_f16(vreinterpret_f16_u16(vld1_u16(at)));
 }
-#ifdef __aarch64__
+#ifdef MIEN_NEON64
 
 [[maybe_unused]] inline Pair load_half_pair(const std::uint16_t* at) {
   const float16x8_t halves = vreinterpretq_f16_u16(vld1q_u16(at));

@@ -32,10 +32,11 @@ using HalfVec = float16x8_t;
   const HalfVec largest = splat_halves(65504.0f);
   return vmaxnmq_f16(vminnmq_f16(x, largest), vnegq_f16(largest));
 }
-// a * b[kLane], and sum + that. gcc 12 would copy the lane to all of a register first.
+// a * b[kLane], and sum + that. gcc 12 would copy the lane to all of a register first. Emulated,
+// they are what the intrinsics are.
 template <int kLane>
 inline HalfVec multiply_lane(HalfVec a, HalfVec b) {
-#ifdef __clang__
+#if defined(__clang__) || !defined(__aarch64__)
   return vmulq_laneq_f16(a, b, kLane);
 #else
   HalfVec product;
@@ -45,7 +46,7 @@ inline HalfVec multiply_lane(HalfVec a, HalfVec b) {
 }
 template <int kLane>
 inline HalfVec fma_lane(HalfVec sum, HalfVec a, HalfVec b) {
-#ifdef __clang__
+#if defined(__clang__) || !defined(__aarch64__)
   return vfmaq_laneq_f16(sum, a, b, kLane);
 #else
   asm("fmla %0.8h, %1.8h, %2.h[%3]" : "+w"(sum) : "w"(a), "x"(b), "i"(kLane));

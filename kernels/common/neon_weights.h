@@ -13,7 +13,7 @@ namespace {
 
 // Tiles are kVecs vectors of output channels wide: 4 (a whole panel) or 2 (half of it). How many
 // pixels fit into the registers besides depends on how many of these there are.
-#ifdef __aarch64__
+#ifdef MIEN_NEON64
 template <int kVecs>
 constexpr int kTilePixels = kVecs == 4 ? 5 : 9;
 #else

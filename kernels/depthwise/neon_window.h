@@ -15,7 +15,7 @@ struct Floats {
   using Vec = MIEN_TIER::Vec;
   static constexpr int kLanes = MIEN_TIER::kLanes;
 // Vectors of channels that are worked on together: their 9 weights fill half of the registers.
-#ifdef __aarch64__
+#ifdef MIEN_NEON64
   static constexpr int kVecs = 2;
 #else
   static constexpr int kVecs = 1;

@@ -5,7 +5,7 @@ namespace mien::kernels::MIEN_TIER {
 
 // Products by lane, as the convolutions take them. Sums grow by a thousandth each time.
 void fma_peak(const FmaPeakArgs& a) {
-#ifdef __aarch64__
+#ifdef MIEN_NEON64
   constexpr int kSums = 24;  // four a cycle, up to five cycles each
 #else
   constexpr int kSums = 12;

@@ -96,7 +96,7 @@ struct Tile {
 // than half of the largest.
 template <int... kPixels>
 using Sizes = std::integer_sequence<int, kPixels...>;
-#ifdef __aarch64__
+#ifdef MIEN_NEON64
 template <int kVecs>
 using WidenedSizes = std::conditional_t<kVecs == 4, Sizes<3, 4, 5>, Sizes<5, 7, 9>>;
 using HalvesSizes = Sizes<1, 2, 3, 4, 6, 9>;

@@ -64,7 +64,7 @@ if [ "$target" != linux-i386 ]; then  # which has no tier of its own
   # What only this machine compiles; without what clang does not know of gcc's options, and does by itself.
   mkdir -p "$build/tidy"
   sed 's/ -mfp16-format=ieee//' "$build/compile_commands.json" >"$build/tidy/compile_commands.json"
-  scripts/check/tidy.py "$build/tidy" 'kernels/*/neon*.cpp' kernels/tier.cpp
+  scripts/check/tidy.py "$build/tidy" 'kernels/*/neon*.cpp' kernels/detect_cpu.cpp
 fi
 
 failed=0

@@ -19,7 +19,8 @@ get_target_property(tiers mien_kernels INTERFACE_SOURCES)
 list(FILTER tiers EXCLUDE REGEX mien_kernels_ref)
 if(tiers)
   add_library(mien_trimmed_registry OBJECT
-    ${PROJECT_SOURCE_DIR}/kernels/registry.cpp ${PROJECT_SOURCE_DIR}/kernels/tier.cpp)
+    ${PROJECT_SOURCE_DIR}/kernels/detect_cpu.cpp ${PROJECT_SOURCE_DIR}/kernels/registry.cpp
+    ${PROJECT_SOURCE_DIR}/kernels/tier.cpp)
   target_link_libraries(mien_trimmed_registry PRIVATE mien_library_options)
   target_compile_definitions(mien_trimmed_registry PRIVATE
     MIEN_TRIM_REF $<TARGET_PROPERTY:mien_kernels,COMPILE_DEFINITIONS>)

@@ -1,0 +1,33 @@
+# The source files of each tier, relative to this folder. Every family has a file for ref; a tier has
+# files for the families that it makes faster.
+set(mien_tier_families
+  activation batch_norm causal_conv concat conv2d depthwise fma_peak fully_connected
+  global_average_pool half image lstm matrix_vector max_pool pointwise power_spectrum residual_add
+  slice softmax)
+set(mien_ref_extra fixed_weights/ref.cpp inverted_residual/ref.cpp)
+set(mien_avx2_extra inverted_residual/avx2.cpp pointwise/avx2_product.cpp)
+set(mien_avx512_families
+  causal_conv conv2d fma_peak fully_connected image inverted_residual lstm pointwise)
+set(mien_avx512_extra pointwise/avx512_product.cpp)
+set(mien_avx512vnni_families fixed_weights fma_peak inverted_residual)
+set(mien_avx512vnni_extra inverted_residual/avx512vnni_product.cpp)
+set(mien_avx512fp16_families fma_peak inverted_residual)
+set(mien_avx512fp16_extra inverted_residual/avx512fp16_product.cpp)
+set(mien_neon_extra inverted_residual/neon.cpp pointwise/neon_product.cpp)
+set(mien_neon32_extra ${mien_neon_extra})
+set(mien_neonfp16_families causal_conv fully_connected lstm)
+set(mien_neonfp16_extra
+  fma_peak/neonfp16.cpp inverted_residual/neonfp16.cpp inverted_residual/neonfp16_product.cpp)
+
+function(mien_tier_sources tier output)
+  set(families ${mien_tier_families})
+  if(DEFINED mien_${tier}_families)
+    set(families ${mien_${tier}_families})
+  endif()
+  set(file ${tier})
+  if(tier MATCHES "^neon")  # one source for all of them: kernels/common/neon.h
+    set(file neon)
+  endif()
+  list(TRANSFORM families APPEND /${file}.cpp)
+  set(${output} ${families} ${mien_${tier}_extra} PARENT_SCOPE)
+endfunction()

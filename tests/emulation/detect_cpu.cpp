@@ -1,0 +1,14 @@
+// In place of kernels/detect_cpu.cpp: every tier that is compiled in is emulated, so any CPU has it.
+#include "kernels/registry.h"
+
+namespace mien::kernels {
+
+std::uint32_t detect_cpu() {
+  std::uint32_t mask = 0;
+  for (const Entry& entry : all_kernels()) {
+    mask |= bit(entry.tier);
+  }
+  return mask;
+}
+
+}  // namespace mien::kernels
