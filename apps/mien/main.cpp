@@ -9,6 +9,7 @@
 #include "apps/mien/outputs/output_file.h"
 #include "apps/mien/system/failure.h"
 #include "apps/mien/system/standard_streams.h"
+#include "apps/mien/system/termination.h"
 
 namespace {
 
@@ -25,6 +26,7 @@ namespace {
 
 int main(int argc, char** argv) {
   mien::app::prepare_standard_streams();
+  mien::app::clean_up_on_termination();
   try {
     const int code = mien::app::run_program(argc, argv);
     mien::app::finish_standard_output();

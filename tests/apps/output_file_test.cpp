@@ -2,11 +2,14 @@
 #include "apps/mien/outputs/output_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -87,6 +90,138 @@ TEST_F(OutputFiles, OneThatCannotBePublishedLeavesNothing) {
     EXPECT_THROW(file.finish(), Failure);
   }
   EXPECT_EQ(files(), std::vector<std::string>());
+}
+
+mode_t mode_of(const std::string& path) {
+  struct stat found = {};
+  return stat(path.c_str(), &found) == 0 ? found.st_mode & 07777 : 0;
+}
+
+std::string contents(const std::string& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// With and without a name while it is written.
+constexpr TemporaryFile::Ending kEndings[] = {TemporaryFile::Ending::kAny,
+                                              TemporaryFile::Ending::kOfDestination};
+
+void write_file(const std::string& path, TemporaryFile::Ending ending) {
+  PartialFile file(path, ending);
+  std::FILE* stream = file.open();
+  ASSERT_NE(stream, nullptr);
+  std::fputs("after", stream);
+  std::fclose(stream);
+  file.publish();
+}
+
+TEST_F(OutputFiles, KeepTheModeOfAFileTheyReplace) {
+  for (const TemporaryFile::Ending ending : kEndings) {
+    for (const mode_t mode : {0600U, 0640U, 0664U, 0755U, 0400U}) {
+      std::ofstream(path("a")) << "before";
+      chmod(path("a").c_str(), mode);
+      write_file(path("a"), ending);
+      EXPECT_EQ(mode_of(path("a")), mode);
+      EXPECT_EQ(contents(path("a")), "after");
+      fs::remove(path("a"));
+    }
+  }
+}
+
+TEST_F(OutputFiles, KeepTheOwnerOfAFileTheyReplace) {
+  if (geteuid() != 0) {
+    GTEST_SKIP() << "only root can give a file away";
+  }
+  for (const TemporaryFile::Ending ending : kEndings) {
+    std::ofstream(path("a")) << "before";
+    ASSERT_EQ(chown(path("a").c_str(), 12345, 23456), 0);
+    write_file(path("a"), ending);
+    struct stat found = {};
+    ASSERT_EQ(stat(path("a").c_str(), &found), 0);
+    EXPECT_EQ(found.st_uid, 12345U);
+    EXPECT_EQ(found.st_gid, 23456U);
+    fs::remove(path("a"));
+  }
+}
+
+TEST_F(OutputFiles, NewOnesHaveTheUsualMode) {
+  const mode_t before = umask(027);
+  for (const TemporaryFile::Ending ending : kEndings) {
+    write_file(path("a"), ending);
+    EXPECT_EQ(mode_of(path("a")), 0640U);
+    fs::remove(path("a"));
+  }
+  umask(before);
+}
+
+// Whoever may not read the file that is replaced may not read the new one before its time either.
+TEST_F(OutputFiles, APrivateFileIsPrivateWhileItIsReplaced) {
+  std::ofstream(path("a")) << "before";
+  chmod(path("a").c_str(), 0600);
+  for (const TemporaryFile::Ending ending : kEndings) {
+    const PartialFile file(path("a"), ending);
+    EXPECT_EQ(mode_of(file.name()), 0600U);
+  }
+}
+
+TEST_F(OutputFiles, TemporaryNamesAreUnpredictableAndInTheSameFolder) {
+  std::set<std::string> names;
+  for (int i = 0; i < 100; ++i) {
+    const PartialFile file(path("below/a.webm"), TemporaryFile::Ending::kOfDestination);
+    const fs::path name(file.name());
+    EXPECT_EQ(name.parent_path(), folder_ / "below");
+    EXPECT_EQ(name.extension(), ".webm");
+    EXPECT_TRUE(names.insert(name.filename().string()).second) << name;
+    EXPECT_GE(name.stem().string().size(), 24U);
+  }
+  EXPECT_EQ(files(), std::vector<std::string>());
+}
+
+TEST_F(OutputFiles, NamesMayBeAsLongAsTheFileSystemAllows) {
+  const std::string longest(255, 'a');
+  for (const TemporaryFile::Ending ending : kEndings) {
+    write_file(path(longest), ending);
+    EXPECT_EQ(contents(path(longest)), "after");
+  }
+}
+
+TEST_F(OutputFiles, ALinkInTheirPlaceIsReplacedAndNotFollowed) {
+  for (const TemporaryFile::Ending ending : kEndings) {
+    std::ofstream(path("victim")) << "before";
+    fs::create_symlink(path("victim"), path("a"));
+    write_file(path("a"), ending);
+    EXPECT_EQ(contents(path("victim")), "before");
+    EXPECT_FALSE(fs::is_symlink(path("a")));
+    EXPECT_EQ(contents(path("a")), "after");
+    fs::remove(path("a"));
+  }
+}
+
+// Another program put something else under the temporary name, which another user's could be.
+TEST_F(OutputFiles, ATemporaryFileThatWasExchangedIsNotPublished) {
+  {
+    PartialFile file(path("a"), TemporaryFile::Ending::kOfDestination);
+    fs::remove(file.name());
+    std::ofstream(path("victim")) << "before";
+    fs::create_symlink(path("victim"), file.name());
+    EXPECT_THROW(file.publish(), Failure);
+  }
+  EXPECT_FALSE(fs::exists(path("a")));
+  EXPECT_EQ(contents(path("victim")), "before");
+}
+
+// A file in the place of /dev/stdout would be the end of that name for all programs.
+TEST_F(OutputFiles, NamesOfOpenFilesAreWrittenTo) {
+  std::ofstream(path("a")) << "before";
+  std::FILE* const opened = std::fopen(path("a").c_str(), "r+");
+  ASSERT_NE(opened, nullptr);
+  const std::string name = "/dev/fd/" + std::to_string(fileno(opened));
+  OutputFile file(name);
+  file.write("after");
+  file.finish();
+  EXPECT_TRUE(fs::is_symlink(name));
+  std::fclose(opened);
+  EXPECT_EQ(contents(path("a")), "after");
 }
 
 TEST_F(OutputFiles, ThreadsGetOneOfAFileToo) {

@@ -7,6 +7,7 @@
 
 #include "apps/mien/compare/differences_json.h"
 #include "apps/mien/compare/page.h"
+#include "apps/mien/outputs/distinct_files.h"
 #include "apps/mien/outputs/output_file.h"
 #include "apps/mien/pages/web_video.h"
 #include "apps/mien/system/failure.h"
@@ -107,6 +108,7 @@ void print_summary(const Comparison& comparison) {
 }  // namespace
 
 void compare(const CompareOptions& options) {
+  require_distinct_files({options.a, options.b, options.video}, {options.page});
   Comparison comparison = compare_files(options);
   OutputFile file(options.page);  // before the work that would be lost on a page that cannot be
   if (!options.video.empty()) {
@@ -114,7 +116,7 @@ void compare(const CompareOptions& options) {
                                   .sound = options.video,
                                   .start_s = comparison.start_ms * 1e-3,
                                   .duration_s = (comparison.end_ms - comparison.start_ms) * 1e-3},
-                                 PartialFile(options.page + ".mp4"));
+                                 PartialFile(options.page + ".mp4", TemporaryFile::Ending::kAny));
   }
   file.write(compare_page(comparison));
   file.finish();

@@ -6,9 +6,11 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "apps/mien/outputs/distinct_files.h"
 #include "apps/mien/sources/animation_file.h"
 #include "apps/mien/system/failure.h"
 #include "apps/mien/system/json_text.h"
+#include "apps/mien/system/paths.h"
 #include "formats/animation/resample.h"
 
 namespace mien::app {
@@ -122,12 +124,23 @@ void report(const ConvertOptions& options, formats::AnimationFormat format, cons
   }
 }
 
-formats::ReadOptions reading_options(const ConvertOptions& options) {
+// `beside`: gets the names of other files that the input refers to, when they are read.
+formats::ReadOptions reading_options(const ConvertOptions& options,
+                                     std::vector<std::string>& beside) {
   formats::ReadOptions reading = read_options_for(options.input);
   reading.rotation = options.from_rotation ? options.from_rotation : reading.rotation;
   reading.timecode_fps =
       options.from_timecode_fps ? options.from_timecode_fps : reading.timecode_fps;
   reading.bvh_unit = options.from_bvh_unit;
+  if (reading.load_beside) {
+    reading.load_beside = [load = reading.load_beside, &beside,
+                           folder = path_of(options.input).parent_path()](
+                              const std::string& name, std::size_t bytes, std::string& data,
+                              std::string& why) {
+      beside.push_back(name_of(folder / path_of(name)));
+      return load(name, bytes, data, why);
+    };
+  }
   return reading;
 }
 
@@ -142,12 +155,15 @@ void convert(const ConvertOptions& options) {
     asked.formats = {options.to};
   }
   const AnimationTarget target = targets(asked).front();
+  require_distinct_files({options.input, live_link_notes_of(options.input)}, files_of(target));
   std::optional<formats::AnimationFormat> from;
   if (!options.from.empty()) {
     from = format_asked_for(options.from);
   }
-  Clip clip =
-      parse_animation(read_whole(options.input), options.input, from, reading_options(options));
+  std::vector<std::string> beside;
+  Clip clip = parse_animation(read_whole(options.input), options.input, from,
+                              reading_options(options, beside));
+  require_distinct_files(beside, files_of(target));
   const std::vector<std::string> lost = fit(clip, options, target.format);
   const bool ids = std::any_of(clip.frames.begin(), clip.frames.end(),
                                [](const Frame& frame) { return frame.face_id != 0; });

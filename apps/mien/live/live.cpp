@@ -15,6 +15,7 @@
 #include "apps/mien/live/picture_points.h"
 #include "apps/mien/live/screen.h"
 #include "apps/mien/live/statistics.h"
+#include "apps/mien/outputs/distinct_files.h"
 #include "apps/mien/outputs/output_file.h"
 #include "apps/mien/outputs/result_frame.h"
 #include "apps/mien/senders/sender.h"
@@ -38,6 +39,10 @@ constexpr std::int64_t kSilentNs = 5'000'000'000;  // then the camera is opened 
 constexpr std::int64_t kRedrawNs = 100'000'000;
 constexpr std::int32_t kQueuedSamples = 16000;
 
+std::string file_played_by(const std::string& device) {
+  return device.starts_with(kTest) ? device.substr(kTest.size()) : "";
+}
+
 // What is heard unless --mic says so: the sound of the file that plays the camera, or the first
 // microphone beside a camera of this machine.
 std::string microphone_of(const LiveOptions& options, const std::string& camera) {
@@ -50,7 +55,7 @@ std::string microphone_of(const LiveOptions& options, const std::string& camera)
   if (!camera.starts_with(kTest)) {
     return default_device(CaptureKind::kMicrophone);
   }
-  return probe_streams(camera.substr(kTest.size())).sound ? camera : kNone;
+  return probe_streams(file_played_by(camera)).sound ? camera : kNone;
 }
 
 double time_of_day_s() {
@@ -76,6 +81,9 @@ class Live {
         mirror_(options.mirror),
         automatic_(options.lod == 0) {
     shown_.state = formats::FaceState::kSearching;
+    require_distinct_files(
+        {file_played_by(camera_name_), file_played_by(microphone_name_), options.neutral},
+        {options.stats});
     if (microphone_name_ != kNone) {
       check(loaded_.tracker.set_audio_offset(std::llround(options.av_offset_ms * 1e6)),
             microphone_name_);

@@ -7,6 +7,7 @@
 #include "apps/mien/networks/array_shape.h"
 #include "apps/mien/networks/model_files.h"
 #include "apps/mien/networks/tiers.h"
+#include "apps/mien/outputs/distinct_files.h"
 #include "apps/mien/outputs/output_file.h"
 #include "apps/mien/system/failure.h"
 #include "formats/npy.h"
@@ -147,6 +148,7 @@ void run_network(const RunOptions& options) {
     throw Failure(kExitUsage, "the network has " + std::to_string(network.outputs) +
                                   " outputs: give --output once for each");
   }
+  require_distinct_files({options.model, options.input}, options.outputs);
   const formats::NpyArray array = read_array(data, options.input);
   const ArrayShape shape(array.shape(), network, options.layout);
   if (!shape.fits()) {

@@ -92,15 +92,24 @@ std::vector<AnimationTarget> targets(const AnimationOptions& options) {
   return made;
 }
 
+std::vector<std::string> files_of(const AnimationTarget& target) {
+  std::vector<std::string> files = {target.file};
+  if (target.file != kStandardOutput && target.format == AnimationFormat::kLiveLink) {
+    files.push_back(target.file + ".json");
+  }
+  return files;
+}
+
 AnimationOutput::AnimationOutput(const AnimationTarget& target,
                                  const formats::WriteOptions& options)
     : writer_(formats::animation_writer(target.format, options)) {
+  const std::vector<std::string> files = files_of(target);
   if (target.file != kStandardOutput) {
-    file_ = std::make_unique<OutputFile>(target.file);
-    if (target.format == AnimationFormat::kLiveLink) {
-      beside_ = std::make_unique<OutputFile>(target.file + ".json");
-      beside_->write(live_link_notes(options.live_link));
-    }
+    file_ = std::make_unique<OutputFile>(files.front());
+  }
+  if (files.size() > 1) {
+    beside_ = std::make_unique<OutputFile>(files.back());
+    beside_->write(live_link_notes(options.live_link));
   }
   write(writer_->begin());
 }

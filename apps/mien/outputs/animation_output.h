@@ -33,6 +33,9 @@ std::vector<AnimationTarget> targets(const AnimationOptions& options);
 // Throws Failure(kExitUsage) where there is no such format.
 formats::AnimationFormat format_asked_for(const std::string& name);
 
+// The files that are written for it, the animation first.
+std::vector<std::string> files_of(const AnimationTarget& target);
+
 class AnimationOutput {
  public:
   // Throws Failure(kExitOutput), as the others.

@@ -15,15 +15,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// /dev/stdout, /dev/fd/3 and /proc/self/fd/3 are names of open files, whatever these are. Another
+// file in their place would change what they mean to all programs.
+bool names_descriptor(const std::string& path) {
+  std::error_code unknown;
+  const std::string folder = name_of(fs::weakly_canonical(path_of(path).parent_path(), unknown));
+  return folder == "/dev" || folder == "/dev/fd" || folder.starts_with("/proc/");
+}
+
 bool is_special(const std::string& path) {
   std::error_code unknown;
   const fs::file_status status = fs::status(path_of(path), unknown);
-  return fs::exists(status) && fs::is_other(status);
-}
-
-std::string partial_name(const std::string& path) {
-  const fs::path whole = path_of(path);
-  return name_of(whole.parent_path() / path_of(".partial-" + name_of(whole.filename())));
+  return fs::exists(status) && (fs::is_other(status) || names_descriptor(path));
 }
 
 // A link in a folder's name is followed, one in the place of the file itself is replaced.
@@ -49,31 +52,39 @@ Targets& open_targets() {
                 std::string("standard output: cannot be written: ") + std::strerror(errno));
 }
 
+void forget_target(const std::string& target) {
+  const std::scoped_lock lock(open_targets().mutex);
+  open_targets().names.erase(target);
+}
+
+[[noreturn]] void fail_output(const std::string& path, const std::error_code& error) {
+  throw Failure(kExitOutput, path + ": cannot be written: " + error.message());
+}
+
 }  // namespace
 
-PartialFile::PartialFile(const std::string& path)
-    : path_(path), name_(partial_name(path)), target_(target_of(path)) {
-  const std::scoped_lock lock(open_targets().mutex);
-  if (!open_targets().names.insert(target_).second) {
-    throw Failure(kExitUsage, path + ": is to be written twice");
+PartialFile::PartialFile(const std::string& path, TemporaryFile::Ending ending)
+    : path_(path), target_(target_of(path)) {
+  {
+    const std::scoped_lock lock(open_targets().mutex);
+    if (!open_targets().names.insert(target_).second) {
+      throw Failure(kExitUsage, path + ": is to be written twice");
+    }
+  }
+  std::error_code error;
+  file_.emplace(path, ending, error);
+  if (error) {
+    forget_target(target_);
+    fail_output(path_, error);
   }
 }
 
-PartialFile::~PartialFile() {
-  if (!published_) {
-    std::remove(name_.c_str());
-  }
-  const std::scoped_lock lock(open_targets().mutex);
-  open_targets().names.erase(target_);
-}
+PartialFile::~PartialFile() { forget_target(target_); }
 
 void PartialFile::publish() {
-  std::error_code error;
-  fs::rename(path_of(name_), path_of(path_), error);  // in place of one that is there
-  if (error) {
-    throw Failure(kExitOutput, path_ + ": cannot be written: " + error.message());
+  if (const std::error_code error = file_->publish()) {
+    fail_output(path_, error);
   }
-  published_ = true;
 }
 
 void write_standard_output(std::string_view text, bool& wanted) {
@@ -102,9 +113,9 @@ void finish_standard_output() {
 
 OutputFile::OutputFile(const std::string& path) : path_(path) {
   if (!is_special(path)) {
-    partial_.emplace(path);
+    partial_.emplace(path, TemporaryFile::Ending::kAny);
   }
-  file_ = std::fopen(partial_ ? partial_->name().c_str() : path.c_str(), "wb");
+  file_ = partial_ ? partial_->open() : std::fopen(path.c_str(), "wb");
   if (file_ == nullptr) {
     fail();
   }

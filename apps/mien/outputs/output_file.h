@@ -7,26 +7,30 @@
 #include <string>
 #include <string_view>
 
+#include "apps/mien/system/temporary_file.h"
+
 namespace mien::app {
 
-// What stands for a file until that is whole: in the same folder, with the same ending.
+// A temporary file that replaces the file at `path` when that is whole.
 class PartialFile {
  public:
-  // Creates nothing yet. Throws Failure(kExitUsage) where another of this program stands for the
-  // same file, whatever name that was given by: the two would be written into one.
-  explicit PartialFile(const std::string& path);
-  ~PartialFile();  // removes it
+  // Throws Failure(kExitUsage) if this program is already writing the same file, under whatever
+  // name, and Failure(kExitOutput) if the file cannot be created.
+  PartialFile(const std::string& path, TemporaryFile::Ending ending);
+  ~PartialFile();  // removes it unless it was published
   PartialFile(const PartialFile&) = delete;
   PartialFile& operator=(const PartialFile&) = delete;
 
-  [[nodiscard]] const std::string& name() const { return name_; }
-  // It is whole: puts it in place of what may be there. Throws Failure(kExitOutput).
+  // Under which other programs can open it.
+  [[nodiscard]] const std::string& name() const { return file_->name(); }
+  [[nodiscard]] std::FILE* open() { return file_->open(); }
+  // Throws Failure(kExitOutput).
   void publish();
 
  private:
-  std::string path_, name_;
+  std::string path_;
   std::string target_;  // equal for all names of the file
-  bool published_ = false;
+  std::optional<TemporaryFile> file_;
 };
 
 // Writes and flushes; `wanted` becomes false where the reader has gone, which is no failure:

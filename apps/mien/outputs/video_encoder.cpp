@@ -1,17 +1,40 @@
 #include "apps/mien/outputs/video_encoder.h"
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 
 #include "apps/mien/sources/ffmpeg.h"
 #include "apps/mien/sources/network_input.h"
 #include "apps/mien/system/failure.h"
+#include "apps/mien/system/paths.h"
 
 namespace mien::app {
 namespace {
 
-std::vector<std::string> encode_command(const std::string& partial_path, int width, int height,
-                                        double fps, const std::string& sound_from,
-                                        const VideoRange& range) {
+struct Muxer {
+  std::string_view ending, name;
+};
+
+// What ffmpeg chooses for the usual endings. Told the format it can write a file without a name.
+constexpr std::array<Muxer, 5> kMuxers = {
+    {{".mp4", "mp4"}, {".mov", "mov"}, {".mkv", "matroska"}, {".avi", "avi"}, {".ts", "mpegts"}}};
+
+std::string_view muxer_of(const std::string& path) {
+  const std::string ending = name_of(path_of(path).extension());
+  const auto* known = std::find_if(kMuxers.begin(), kMuxers.end(),
+                                   [&](const Muxer& muxer) { return muxer.ending == ending; });
+  return known == kMuxers.end() ? std::string_view() : known->name;
+}
+
+TemporaryFile::Ending needed_ending(const std::string& path) {
+  return muxer_of(path).empty() ? TemporaryFile::Ending::kOfDestination
+                                : TemporaryFile::Ending::kAny;
+}
+
+std::vector<std::string> encode_command(const std::string& partial_path, std::string_view muxer,
+                                        int width, int height, double fps,
+                                        const std::string& sound_from, const VideoRange& range) {
   std::vector<std::string> command = {"ffmpeg",
                                       "-hide_banner",
                                       "-loglevel",
@@ -39,9 +62,13 @@ std::vector<std::string> encode_command(const std::string& partial_path, int wid
     command.insert(command.end(), {"-map", "1:a:0?"});
   }
   // H.264 in 4:2:0 needs even sizes.
-  command.insert(command.end(), {"-map", "0:v", "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt",
-                                 "yuv420p", "-crf", "20", "-preset", "veryfast", "-movflags",
-                                 "+faststart", output_file(partial_path)});
+  command.insert(command.end(),
+                 {"-map", "0:v", "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p",
+                  "-crf", "20", "-preset", "veryfast", "-movflags", "+faststart"});
+  if (!muxer.empty()) {
+    command.insert(command.end(), {"-f", std::string(muxer)});
+  }
+  command.push_back(output_file(partial_path));
   return command;
 }
 
@@ -50,9 +77,10 @@ std::vector<std::string> encode_command(const std::string& partial_path, int wid
 VideoEncoder::VideoEncoder(const std::string& path, int width, int height, double fps,
                            const std::string& sound_from, const VideoRange& range)
     : path_(path),
-      partial_(path),
-      encoder_(encode_command(partial_.name(), width, height, fps, sound_from, range),
-               Subprocess::Pipe::kToChild, Subprocess::kPatience) {}
+      partial_(path, needed_ending(path)),
+      encoder_(
+          encode_command(partial_.name(), muxer_of(path), width, height, fps, sound_from, range),
+          Subprocess::Pipe::kToChild, Subprocess::kPatience) {}
 
 void VideoEncoder::fail() {
   std::string reason = encoder_.take_errors();

@@ -46,7 +46,8 @@ std::vector<std::string> transcode_command(const WebVideo& wanted, const std::st
     command.insert(command.end(), {"-map", apart ? "1:a:0?" : "0:a:0?"});
   }
   command.insert(command.end(), {"-c:a", "aac", "-ac", "1", "-b:a", "64k"});
-  command.insert(command.end(), {"-movflags", "+faststart", "-y", output_file(output)});
+  command.insert(command.end(),
+                 {"-movflags", "+faststart", "-f", "mp4", "-y", output_file(output)});
   return command;
 }
 

@@ -72,11 +72,13 @@ ordered_json stages_json(const StageTimes& times) {
 
 }  // namespace
 
+std::string clip_beside(const std::string& page) { return page + ".mp4"; }
+
 Report::Report(const ReportOptions& options) : options_(options), file_(options.page) {
   // Fine enough to be drawn, and in 16 bits also where a face reaches beyond the picture.
   landmark_unit_ = std::max({options.width, options.height, 1}) / 8192.0;
   if (!options.picture.empty() || !options.sound.empty()) {
-    clip_file_.emplace(options.page + ".mp4");
+    clip_file_.emplace(clip_beside(options.page), TemporaryFile::Ending::kAny);
   }
 }
 
@@ -153,7 +155,7 @@ Report::Clip Report::clip() {
     return {.bytes = std::move(video), .beside = ""};
   }
   clip_file_->publish();
-  return {.bytes = "", .beside = name_of(path_of(options_.page + ".mp4").filename())};
+  return {.bytes = "", .beside = name_of(path_of(clip_beside(options_.page)).filename())};
 }
 
 ordered_json Report::facts(const StageTimes& times, const Clip& clip) const {

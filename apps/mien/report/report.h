@@ -25,6 +25,9 @@ struct ReportOptions {
   formats::WriteOptions writing;
 };
 
+// The file beside a page that holds the clip if that is too large for the page.
+std::string clip_beside(const std::string& page);
+
 class Report {
  public:
   explicit Report(const ReportOptions& options);  // throws Failure(kExitOutput), as the others

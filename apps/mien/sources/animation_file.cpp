@@ -64,7 +64,7 @@ bool load(const std::filesystem::path& folder, const std::string& name, std::siz
 
 // FILE.json beside FILE, where it is ours.
 void read_live_link_notes(const std::string& path, formats::ReadOptions& options) {
-  const std::string beside = path + ".json";
+  const std::string beside = live_link_notes_of(path);
   std::error_code ignored;
   if (!std::filesystem::exists(path_of(beside), ignored)) {
     return;
@@ -88,6 +88,8 @@ void read_live_link_notes(const std::string& path, formats::ReadOptions& options
 }
 
 }  // namespace
+
+std::string live_link_notes_of(const std::string& path) { return path + ".json"; }
 
 std::string read_whole(const std::string& path) {
   if (path == "-") {

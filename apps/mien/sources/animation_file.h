@@ -12,6 +12,9 @@ namespace mien::app {
 // The whole file, or standard input for "-". Throws Failure(kExitNoInput).
 std::string read_whole(const std::string& path);
 
+// The file beside one of Live Link Face that says what the file itself cannot.
+std::string live_link_notes_of(const std::string& path);
+
 // What FILE.json beside a file of Live Link Face says that the file itself cannot, and where the
 // file finds others beside it; for "-" nothing. Throws Failure(kExitNoInput).
 formats::ReadOptions read_options_for(const std::string& path);

@@ -4,8 +4,8 @@
 
 namespace mien::app {
 
-// From then on SIGINT and SIGTERM, or Ctrl-C and Ctrl-Break, do nothing but make `interrupted`
-// true.
+// From then on SIGINT, SIGTERM and SIGHUP, or Ctrl-C and Ctrl-Break, do nothing but make
+// `interrupted` true.
 void catch_interrupts();
 [[nodiscard]] bool interrupted();
 

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "apps/mien/outputs/distinct_files.h"
 #include "apps/mien/outputs/output_file.h"
 #include "apps/mien/sources/network_input.h"
 #include "apps/mien/sources/sound_source.h"
@@ -57,6 +58,11 @@ NeutralBytes capture(const NeutralOptions& options, VideoSource& video, Tracker&
 
 void neutral(const NeutralOptions& options) {
   LoadedTracker loaded({options.models, ""});
+  std::vector<std::string> inputs = {options.input};
+  for (const std::filesystem::path& weights : weight_files(models_directory(options.models))) {
+    inputs.push_back(name_of(weights));
+  }
+  require_distinct_files(inputs, {options.output});
   std::unique_ptr<VideoSource> video = open(options);
   NeutralBytes file = capture(options, *video, loaded.tracker, 1);
   if (loaded.hifinet) {

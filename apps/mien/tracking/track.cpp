@@ -11,12 +11,15 @@
 #include <span>
 #include <vector>
 
+#include "apps/mien/networks/model_files.h"
+#include "apps/mien/outputs/distinct_files.h"
 #include "apps/mien/outputs/output_file.h"
 #include "apps/mien/outputs/outputs.h"
 #include "apps/mien/sources/ffmpeg.h"
 #include "apps/mien/sources/sound_source.h"
 #include "apps/mien/sources/video_source.h"
 #include "apps/mien/system/failure.h"
+#include "apps/mien/system/paths.h"
 #include "apps/mien/system/progress.h"
 #include "apps/mien/tracking/loaded_tracker.h"
 #include "apps/mien/tracking/stage_times.h"
@@ -172,6 +175,27 @@ class Frames {
   std::int64_t number_ = -1;
 };
 
+std::vector<std::string> inputs_of(const TrackOptions& options) {
+  std::vector<std::string> inputs = {options.input, options.audio, options.neutral};
+  for (const std::filesystem::path& file : weight_files(models_directory(options.models))) {
+    inputs.push_back(name_of(file));
+  }
+  return inputs;
+}
+
+std::vector<std::string> outputs_of(const TrackOptions& options) {
+  std::vector<std::string> outputs = {options.landmarks, options.overlay, options.stats};
+  if (!options.report.empty()) {
+    outputs.push_back(options.report);
+    outputs.push_back(clip_beside(options.report));
+  }
+  for (const AnimationTarget& target : targets(options.animation)) {
+    const std::vector<std::string> files = files_of(target);
+    outputs.insert(outputs.end(), files.begin(), files.end());
+  }
+  return outputs;
+}
+
 }  // namespace
 
 TrackSummary track(const TrackOptions& options) {
@@ -186,6 +210,7 @@ TrackSummary track(const TrackOptions& options) {
   if (!options.neutral.empty()) {
     load_neutral(options.neutral, loaded.tracker);
   }
+  require_distinct_files(inputs_of(options), outputs_of(options));
   Frames frames(options, range, senses, loaded.tracker);
   Outputs outputs(options, frames.info(), range);
   std::optional<OutputFile> stats;  // before the work that would be lost

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "apps/mien/system/failure.h"
+#include "apps/mien/system/termination.h"
 
 extern "C" char** environ;  // NOLINT(readability-redundant-declaration): no header of macOS has it
 
@@ -61,8 +62,17 @@ pid_t spawn(const std::vector<std::string>& arguments, int child_stdin, int chil
   connect(child_stdout, STDOUT_FILENO);
   connect(child_stderr, STDERR_FILENO);
 
+  // This thread holds the lock that blocks signals; the child shall not inherit that.
+  posix_spawnattr_t attributes;
+  sigset_t none;
+  sigemptyset(&none);
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setsigmask(&attributes, &none);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
+
   pid_t pid = -1;
-  const int error = posix_spawnp(&pid, argv[0], &actions, nullptr, argv.data(), environ);
+  const int error = posix_spawnp(&pid, argv[0], &actions, &attributes, argv.data(), environ);
+  posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
   if (error != 0) {
     throw Failure(kExitNoFfmpeg, "cannot run '" + arguments[0] + "': " + std::strerror(error));
@@ -70,7 +80,7 @@ pid_t spawn(const std::vector<std::string>& arguments, int child_stdin, int chil
   return pid;
 }
 
-class PosixChild : public ChildProcess {
+class PosixChild final : public ChildProcess, private Leftover {
  public:
   PosixChild(const std::vector<std::string>& arguments, Pipe pipe);
   ~PosixChild() override;
@@ -99,6 +109,8 @@ class PosixChild : public ChildProcess {
                                       std::chrono::milliseconds patience);
   bool wait_for(short event, std::chrono::milliseconds patience);
   void drain_errors(bool wait);
+  void discard() noexcept override;
+  int reap();
 
   pid_t pid_ = -1;
   int pipe_ = -1;
@@ -117,8 +129,10 @@ PosixChild::PosixChild(const std::vector<std::string>& arguments, Pipe pipe) {
   fcntl(errors_pipe_, F_SETFL, O_NONBLOCK);
   fcntl(pipe_, F_SETFL, O_NONBLOCK);
   try {
+    TerminationLock lock;
     pid_ = spawn(arguments, from_child ? -1 : child_end, from_child ? child_end : -1,
                  errors.write_end);
+    lock.add(*this);
   } catch (...) {
     for (const int end : {data.read_end, data.write_end, errors.read_end, errors.write_end}) {
       close(end);
@@ -133,7 +147,7 @@ PosixChild::~PosixChild() {
   PosixChild::close_pipe();
   if (pid_ > 0) {
     ::kill(pid_, SIGKILL);
-    waitpid(pid_, nullptr, 0);
+    reap();
   }
   if (errors_pipe_ >= 0) {
     close(errors_pipe_);
@@ -196,12 +210,31 @@ std::optional<std::size_t> PosixChild::transfer(Transfer once, short event,
   }
 }
 
-int PosixChild::wait() {
-  drain_errors(true);
+// In the signal handler. The child has gone when this returns, and creates no file any more.
+void PosixChild::discard() noexcept {
+  ::kill(pid_, SIGKILL);
+  while (waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) {
+  }
+}
+
+// Waits without the lock, and gives the process id back under it: `discard` must not meet the id of
+// another process.
+int PosixChild::reap() {
+  siginfo_t ended = {};
+  while (waitid(P_PID, static_cast<id_t>(pid_), &ended, WEXITED | WNOWAIT) < 0 && errno == EINTR) {
+  }
+  TerminationLock lock;
   int status = 0;
   while (waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
   }
+  lock.remove(*this);
   pid_ = -1;
+  return status;
+}
+
+int PosixChild::wait() {
+  drain_errors(true);
+  const int status = reap();
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 

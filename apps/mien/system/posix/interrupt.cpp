@@ -14,6 +14,11 @@ void catch_signal(int) { caught = 1; }
 void catch_interrupts() {
   signal(SIGINT, catch_signal);
   signal(SIGTERM, catch_signal);
+  struct sigaction hangup = {};
+  sigaction(SIGHUP, nullptr, &hangup);
+  if (hangup.sa_handler != SIG_IGN) {  // nohup
+    signal(SIGHUP, catch_signal);
+  }
 }
 
 bool interrupted() { return caught != 0; }

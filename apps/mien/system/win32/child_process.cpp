@@ -11,6 +11,7 @@
 #include "apps/mien/system/failure.h"
 #include "apps/mien/system/paths.h"
 #include "apps/mien/system/program_path.h"
+#include "apps/mien/system/termination.h"
 
 namespace mien::app {
 namespace {
@@ -214,13 +215,13 @@ Handle spawn(const std::vector<std::string>& arguments, std::array<HANDLE, 3> st
   return Handle(made.hProcess);
 }
 
-class Win32Child : public ChildProcess {
+class Win32Child final : public ChildProcess, private Leftover {
  public:
   Win32Child(const std::vector<std::string>& arguments, Pipe pipe);
   ~Win32Child() override {
     if (process_) {
-      Win32Child::kill();
-      WaitForSingleObject(process_.get(), INFINITE);
+      discard();
+      release();
     }
   }
   Win32Child(const Win32Child&) = delete;
@@ -248,6 +249,15 @@ class Win32Child : public ChildProcess {
   std::optional<std::size_t> wait_for_pipe(std::chrono::milliseconds patience);
   void collect_errors();
   void drain_errors();
+  void discard() noexcept override {
+    TerminateProcess(process_.get(), kKilled);
+    WaitForSingleObject(process_.get(), INFINITE);
+  }
+  void release() {
+    TerminationLock lock;
+    lock.remove(*this);
+    process_.reset();
+  }
 
   Handle process_;
   std::array<std::byte, 4096> buffer_{};  // of errors_pipe_, which is always being read
@@ -261,8 +271,10 @@ Win32Child::Win32Child(const std::vector<std::string>& arguments, Pipe pipe) {
   const Handle data = pipe_.open(from_child);
   const Handle errors = errors_pipe_.open(true);
   const Handle nothing = open_for_child(L"NUL", GENERIC_READ | GENERIC_WRITE);
+  TerminationLock lock;
   process_ = from_child ? spawn(arguments, {nothing.get(), data.get(), errors.get()})
                         : spawn(arguments, {data.get(), nothing.get(), errors.get()});
+  lock.add(*this);
   errors_pipe_.begin_read(buffer_);
 }
 
@@ -316,7 +328,7 @@ int Win32Child::wait() {
   drain_errors();
   DWORD status = 0;
   GetExitCodeProcess(process_.get(), &status);
-  process_.reset();
+  release();
   return static_cast<int>(status);
 }
 

@@ -1,0 +1,15 @@
+// No output may be an input.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace mien::app {
+
+// Throws Failure(kExitUsage) if an output is the same file as an input, also through a link or
+// under another name. "-" is standard input or output; empty names and URLs are skipped. Every verb
+// that writes a file calls this before it writes anything.
+void require_distinct_files(const std::vector<std::string>& inputs,
+                            const std::vector<std::string>& outputs);
+
+}  // namespace mien::app
