@@ -51,11 +51,11 @@ def frames_of(clip, count):
 def in_c(loop, tracker, frames):
     tracker.reset()
     image = tracker._image
-    image.format, image.width, image.height, image.row_stride_bytes[0] = 2, 640, 480, 640 * 3
+    image.format, image.width, image.height, image.row_stride_bytes = 2, 640, 480, (640 * 3, 0, 0)
     places = (ctypes.c_void_p * len(frames))(*[frame.ctypes.data for frame in frames])
     result = _library.TrackerResult(ctypes.sizeof(_library.TrackerResult))
     ns = np.zeros(len(frames), np.int64)
-    address = {name: ctypes.cast(_library.function(name), ctypes.c_void_p) for name in ("mien_tracker_push_video", "mien_tracker_get_result")}
+    address = {name: ctypes.cast(getattr(_library.LIBRARY, name), ctypes.c_void_p) for name in ("mien_tracker_push_video", "mien_tracker_get_result")}
     plane = ctypes.c_void_p(ctypes.addressof(image) + _library.Image.planes.offset)
     failed = loop(address["mien_tracker_push_video"], address["mien_tracker_get_result"], tracker._handle, ctypes.byref(image), plane,
                   places, len(frames), ctypes.byref(result), ns.ctypes.data_as(ctypes.c_void_p))

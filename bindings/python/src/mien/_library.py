@@ -9,6 +9,8 @@ from ctypes import POINTER, Structure, c_char_p, c_float, c_int32, c_int64, c_si
 from pathlib import Path
 from typing import Any, Callable, Optional, Sequence, cast
 
+from ._numbers import Check, check_of, with_checked_arguments
+
 CONTROL_COUNT = 52
 LANDMARK_COUNT = 175
 ALIGNMENT = 64
@@ -18,7 +20,28 @@ PACKAGE = Path(__file__).resolve().parent
 MODELS = PACKAGE / "models"
 
 
-class Image(Structure):
+class Struct(Structure):
+    """Every number that is assigned has to fit its field. Assign arrays as a whole: their elements are not checked one by one."""
+
+    _checks: dict[str, Check] = {}
+    _array_checks: dict[str, Check] = {}
+
+    def __init_subclass__(cls) -> None:
+        super().__init_subclass__()
+        kinds = {field[0]: field[1] for field in cls._fields_}
+        cls._checks = {name: check for name, kind in kinds.items() if (check := check_of(kind))}
+        cls._array_checks = {name: check for name, kind in kinds.items() if (check := check_of(getattr(kind, "_type_", None)))}
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if name in self._checks:
+            value = self._checks[name](value, name)
+        elif name in self._array_checks:
+            check = self._array_checks[name]
+            value = tuple(check(one, name) for one in value)
+        super().__setattr__(name, value)
+
+
+class Image(Struct):
     _fields_ = [
         ("struct_size", c_uint32),
         ("format", c_int32),
@@ -39,7 +62,7 @@ class Image(Structure):
     ]
 
 
-class Audio(Structure):
+class Audio(Struct):
     _fields_ = [
         ("struct_size", c_uint32),
         ("format", c_int32),
@@ -52,11 +75,11 @@ class Audio(Structure):
     ]
 
 
-class Allocator(Structure):
+class Allocator(Struct):
     _fields_ = [("allocate", c_void_p), ("release", c_void_p), ("user", c_void_p)]
 
 
-class TrackerConfig(Structure):
+class TrackerConfig(Struct):
     _fields_ = [
         ("struct_size", c_uint32),
         ("cpu_mask", c_uint32),
@@ -91,7 +114,7 @@ class TrackerConfig(Structure):
     ]
 
 
-class TrackerResult(Structure):
+class TrackerResult(Struct):
     _fields_ = [
         ("struct_size", c_uint32),
         ("status", c_int32),
@@ -119,11 +142,11 @@ class TrackerResult(Structure):
     ]
 
 
-class NetworkShape(Structure):
+class NetworkShape(Struct):
     _fields_ = [("height", c_int32), ("width", c_int32), ("channels", c_int32)]
 
 
-class NetworkConfig(Structure):
+class NetworkConfig(Struct):
     _fields_ = [
         ("struct_size", c_uint32),
         ("cpu_mask", c_uint32),
@@ -200,10 +223,11 @@ def _load() -> ctypes.CDLL:
 
 
 LIBRARY = _load()
+_CALLS = {name: with_checked_arguments(getattr(LIBRARY, name), name, arguments) for name, (_, arguments) in FUNCTIONS.items()}
 
 
 def function(name: str) -> Callable[..., Any]:
-    return cast(Callable[..., Any], getattr(LIBRARY, name))
+    return _CALLS[name]
 
 
 def text(name: str, *arguments: int) -> Optional[str]:

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from ctypes import byref, c_float, c_void_p
-from types import TracebackType
+from ctypes import byref, c_float
 from typing import Any, NamedTuple, Optional
 
 import numpy as np
 import numpy.typing as npt
 
+from ._handle import Handle
 from ._library import NetworkConfig, NetworkShape, function
-from .errors import MienError, check
+from .errors import check
 from .weights import Model, opened
 
 Floats = npt.NDArray[np.float32]
@@ -24,15 +24,17 @@ class Shape(NamedTuple):
     width: int
 
 
-class Network:
+class Network(Handle):
     """A network of a weight file, ready to run. Used by one thread at a time.
 
     model: a path, or the file's bytes. name: of the network; default: the file's first.
     size: (height, width) of the input, for networks that take several.
     """
 
+    _kind = "network"
+
     def __init__(self, model: Model, name: Optional[str] = None, size: Optional[tuple[int, int]] = None) -> None:
-        self._handle = c_void_p()
+        super().__init__()
         self._file = opened(model)
         config = NetworkConfig()
         function("mien_network_config_default")(byref(config))
@@ -63,8 +65,7 @@ class Network:
         raise ValueError(f"an array of shape {given.shape} for an input of {tuple(self.input_shape)} (channels, height, width)")
 
     def _step(self, array: Floats) -> list[Floats]:
-        if not self._handle:
-            raise MienError("the network is closed")
+        handle = self._open()
         c, h, w = self.input_shape
         map_ = array.reshape(c, h, w)
         if self._picture:
@@ -74,8 +75,8 @@ class Network:
             for block in range(len(blocks)):
                 part = map_[block * _BLOCK : (block + 1) * _BLOCK]
                 blocks[block, :, :, : len(part)] = part.transpose(1, 2, 0)
-        check(function("mien_network_run")(self._handle))
-        return [self._output(i) for i in range(function("mien_network_output_count")(self._handle))]
+        check(function("mien_network_run")(handle))
+        return [self._output(i) for i in range(function("mien_network_output_count")(handle))]
 
     def _output(self, index: int) -> Floats:
         shape = NetworkShape()
@@ -89,21 +90,7 @@ class Network:
     def reset(self) -> None:
         """Puts what a network over time remembers back to a stream's beginning."""
         if self._handle:
-            function("mien_network_reset")(self._handle)
-
-    def close(self) -> None:
-        handle, self._handle = self._handle, c_void_p()
-        function("mien_network_destroy")(handle)
-
-    def __enter__(self) -> Network:
-        return self
-
-    def __exit__(self, kind: Optional[type[BaseException]], error: Optional[BaseException], trace: Optional[TracebackType]) -> None:
-        self.close()
-
-    def __del__(self) -> None:
-        if getattr(self, "_handle", None):
-            self.close()
+            function("mien_network_reset")(self._open())
 
 
 def _floats_at(place: Any, count: int) -> Floats:

@@ -51,6 +51,8 @@ class Controls(Mapping[str, float]):
         """The same face in another vocabulary, one of VOCABULARIES."""
         names = vocabulary_names(vocabulary)
         controls = np.ascontiguousarray(self.array, np.float32)
+        if controls.shape != (CONTROL_COUNT,):
+            raise ValueError(f"array: there are {CONTROL_COUNT} controls (got an array of shape {controls.shape})")
         values = np.empty(len(names), np.float32)
         check(function("mien_vocabulary_values")(number_of(vocabulary), controls.ctypes.data, values.ctypes.data, len(names)))
         return dict(zip(names, values.tolist()))

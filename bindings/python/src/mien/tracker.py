@@ -5,14 +5,15 @@ from __future__ import annotations
 import ctypes
 from ctypes import byref, c_uint32, c_void_p
 from pathlib import Path
-from types import TracebackType
 from typing import Any, Literal, Optional, Union
 
 import numpy as np
 import numpy.typing as npt
 
+from ._handle import Handle
 from ._library import MODELS, NEUTRAL_BYTES, Audio, Image, TrackerConfig, TrackerResult, function
-from .errors import MienError, check
+from ._numbers import nanoseconds
+from .errors import check
 from .result import Result
 from .vocabulary import CONTROL_NUMBERS
 from .weights import mapped
@@ -27,11 +28,7 @@ _PACKED = {("gray", 1): 0, ("rgb", 3): 1, ("bgr", 3): 2, ("rgb", 4): 3, ("bgr", 
 _YUV = {"nv12": 5, "nv21": 6, "i420": 7}
 
 
-def _ns(time_s: float) -> int:
-    return round(time_s * 1e9)
-
-
-class Tracker:
+class Tracker(Handle):
     """Follows faces through a stream of pictures, and hears a voice. Used by one thread at a time, but for queue_audio.
 
     lod: level of detail, 1 (cheapest) to 4, or "auto": as high as budget_ms a frame allows.
@@ -41,6 +38,8 @@ class Tracker:
     voice_strength: what the sound says of the mouth, times this, 0 to 4.
     models: a folder with other weights than the package's own.
     """
+
+    _kind = "tracker"
 
     def __init__(
         self,
@@ -55,7 +54,7 @@ class Tracker:
         voice_strength: float = 1.0,
         models: Union[str, Path, None] = None,
     ) -> None:
-        self._handle = c_void_p()
+        super().__init__()
         folder = MODELS if models is None else Path(models)
         config = TrackerConfig()
         function("mien_tracker_config_default")(byref(config))
@@ -84,6 +83,7 @@ class Tracker:
         check(function("mien_tracker_create")(byref(config), byref(self._handle)))
         self._push_video = function("mien_tracker_push_video")
         self._get_result = function("mien_tracker_get_result")
+        self._facts: tuple[Any, ...] = ()  # about pictures, as self._image has them
         self._image = Image()
         function("mien_image_default")(byref(self._image))
 
@@ -112,21 +112,23 @@ class Tracker:
         """
         image = self._image
         _describe(image, frame, color)
-        image.rotation = rotation
-        image.mirrored = mirrored
-        image.full_range = full_range
-        image.yuv_matrix = bt709
-        image.region[:] = (0, 0, 0, 0) if region is None else region
-        image.focal_length_px = focal_length_px
-        image.principal_x, image.principal_y = principal_point
-        status = self._push_video(self._open(), image, _ns(time_s))
+        facts = (rotation, mirrored, full_range, bt709, _NOWHERE if region is None else tuple(region), focal_length_px, *principal_point)
+        if facts != self._facts:  # which most frames share, and to check them takes longer than to compare
+            self._facts = ()
+            image.rotation = rotation
+            image.mirrored = bool(mirrored)
+            image.full_range = bool(full_range)
+            image.yuv_matrix = bool(bt709)
+            image.region, image.focal_length_px, image.principal_x, image.principal_y = facts[4:]
+            self._facts = facts
+        status = self._push_video(self._open(), image, nanoseconds(time_s))
         if status != 0:
             check(status)
         return self.result()
 
     def advance(self, time_s: float) -> Result:
         """A frame of output without a picture: for sound alone."""
-        check(function("mien_tracker_advance")(self._open(), _ns(time_s)))
+        check(function("mien_tracker_advance")(self._open(), nanoseconds(time_s)))
         return self.result()
 
     def result(self) -> Result:
@@ -149,15 +151,15 @@ class Tracker:
 
     def push_audio(self, samples: Samples, time_s: float, sample_rate: int = 48000) -> None:
         """Hears float32 (-1..1) or int16 samples, [n] or [n, channels]; time_s is that of the first."""
-        check(function("mien_tracker_push_audio")(self._open(), byref(_audio(samples, sample_rate)), _ns(time_s)))
+        check(function("mien_tracker_push_audio")(self._open(), byref(_audio(samples, sample_rate)), nanoseconds(time_s)))
 
     def queue_audio(self, samples: Samples, time_s: float, sample_rate: int = 48000) -> None:
         """The same from another thread, for the next frame; errors.AudioQueueFullError when there is no room."""
-        check(function("mien_tracker_queue_audio")(self._open(), byref(_audio(samples, sample_rate)), _ns(time_s)))
+        check(function("mien_tracker_queue_audio")(self._open(), byref(_audio(samples, sample_rate)), nanoseconds(time_s)))
 
     def set_audio_offset(self, seconds: float) -> None:
         """Sound pushed from now on belongs to pictures that much later."""
-        check(function("mien_tracker_set_audio_offset")(self._open(), _ns(seconds)))
+        check(function("mien_tracker_set_audio_offset")(self._open(), nanoseconds(seconds, "seconds")))
 
     def set_mix(self, control: str, audio: float, video: float) -> None:
         """How much sound and picture count for a control while somebody speaks, each 0..1."""
@@ -184,27 +186,8 @@ class Tracker:
         """Forgets everything seen and heard."""
         check(function("mien_tracker_reset")(self._open()))
 
-    def close(self) -> None:
-        """Gives the memory back, and wipes it. Nothing else may be called then."""
-        handle, self._handle = self._handle, c_void_p()
-        function("mien_tracker_destroy")(handle)
 
-    def __enter__(self) -> Tracker:
-        return self
-
-    def __exit__(self, kind: Optional[type[BaseException]], error: Optional[BaseException], trace: Optional[TracebackType]) -> None:
-        self.close()
-
-    def __del__(self) -> None:
-        if getattr(self, "_handle", None):
-            self.close()
-
-    def _open(self) -> c_void_p:
-        if not self._handle:
-            raise MienError("the tracker is closed")
-        return self._handle
-
-
+_NOWHERE = (0, 0, 0, 0)
 _RESULT_BYTES = ctypes.sizeof(TrackerResult)
 _ClockFunction = ctypes.CFUNCTYPE(ctypes.c_uint64, c_void_p)
 
@@ -241,7 +224,8 @@ def _describe(image: Image, frame: Frame, color: str) -> None:
     image.format = form
     image.height, image.width = frame.shape[0], frame.shape[1]
     image.planes[0] = frame.__array_interface__["data"][0]
-    image.row_stride_bytes[0] = strides[0]
+    # NumPy leaves the stride of a single row to chance.
+    image.row_stride_bytes = (strides[0] if image.height > 1 else image.width * channels, 0, 0)
 
 
 def _describe_yuv(image: Image, frame: Frame, color: str) -> None:
@@ -254,7 +238,7 @@ def _describe_yuv(image: Image, frame: Frame, color: str) -> None:
     image.height, image.width = height, width
     image.chroma_pixel_stride_bytes = 0
     image.planes[:] = (first, chroma, chroma + (height // 2) * (width // 2) if color == "i420" else None)
-    image.row_stride_bytes[:] = (width, width // 2, width // 2) if color == "i420" else (width, width, 0)
+    image.row_stride_bytes = (width, width // 2, width // 2) if color == "i420" else (width, width, 0)
 
 
 def _audio(samples: Samples, sample_rate: int) -> Audio:

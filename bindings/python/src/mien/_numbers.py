@@ -1,0 +1,73 @@
+"""Numbers on their way into C. ctypes cuts those that do not fit; here they are errors."""
+
+from __future__ import annotations
+
+import math
+import operator
+from ctypes import c_float, c_int32, c_int64, c_size_t, c_uint32, c_uint64, sizeof
+from typing import Any, Callable, Optional, Sequence
+
+_FLOAT_MAX = float.fromhex("0x1.fffffep+127")
+_WHOLE = {kind: (sizeof(kind), kind(-1).value < 0) for kind in (c_int32, c_uint32, c_int64, c_uint64, c_size_t)}
+_LIMITS = {kind: (-(1 << 8 * size - 1), (1 << 8 * size - 1) - 1) if signed else (0, (1 << 8 * size) - 1) for kind, (size, signed) in _WHOLE.items()}
+
+Check = Callable[[Any, str], Any]
+
+
+def _out_of_range(name: str, value: object, least: object, most: object) -> Exception:
+    from .errors import OutOfRangeError  # which needs the library, and that needs this
+
+    return OutOfRangeError(f"{name}: number out of range (got {value}, expected {least} to {most})")
+
+
+def check_of(kind: Any) -> Optional[Check]:
+    """What makes a Python number fit for a C type, or raises; None: the type is no number."""
+    if kind is c_float:
+        return _real
+    if kind not in _LIMITS:
+        return None
+    least, most = _LIMITS[kind]
+
+    def whole(value: Any, name: str) -> int:
+        number = operator.index(value)
+        if least <= number <= most:
+            return number
+        raise _out_of_range(name, number, least, most)
+
+    return whole
+
+
+def _real(value: Any, name: str) -> float:
+    number = float(value)
+    if abs(number) <= _FLOAT_MAX or not math.isfinite(number):
+        return number
+    raise _out_of_range(name, number, -_FLOAT_MAX, _FLOAT_MAX)
+
+
+def with_checked_arguments(function: Callable[..., Any], name: str, kinds: Sequence[Any]) -> Callable[..., Any]:
+    checks = [(i, check, f"argument {i + 1} of {name}") for i, kind in enumerate(kinds) if (check := check_of(kind))]
+    if not checks:
+        return function
+
+    def call(*arguments: Any) -> Any:
+        given = list(arguments)
+        for i, check, what in checks:
+            given[i] = check(given[i], what)
+        return function(*given)
+
+    return call
+
+
+def nanoseconds(seconds: float, name: str = "time_s") -> int:
+    if not math.isfinite(seconds):
+        raise _out_of_range(name, seconds, *_seconds())
+    number = round(seconds * 1e9)
+    least, most = _LIMITS[c_int64]
+    if least <= number <= most:
+        return number
+    raise _out_of_range(name, seconds, *_seconds())
+
+
+def _seconds() -> tuple[float, float]:
+    least, most = _LIMITS[c_int64]
+    return least / 1e9, most / 1e9
