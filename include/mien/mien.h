@@ -441,7 +441,8 @@ MIEN_API MIEN_NODISCARD mien_status mien_tracker_push_video(mien_tracker* tracke
 MIEN_API MIEN_NODISCARD mien_status mien_tracker_advance(mien_tracker* tracker, int64_t pts_ns);
 
 /* Hears a block of sound, of one sample or many; the same sound gives the same answers, bit for
- * bit, in blocks of whatever size. MIEN_ERROR_NO_AUDIONET without weights for it.
+ * bit, in blocks of whatever size. A block without samples changes nothing.
+ * MIEN_ERROR_NO_AUDIONET without weights for it.
  *
  * pts_ns: time of the block's first sample, on the clock of the images. Between blocks the count of
  * the samples says how time passes, and timestamps that are off by up to 20 ms pull it along, so

@@ -416,6 +416,11 @@ class Warp {
   // Of as many columns, over the rows of a box.
   void sum_columns(const std::uint8_t* const* rows, const Channel& channel, std::int32_t columns,
                    std::uint16_t* sums) {
+    constexpr std::ptrdiff_t kMostNear = 4;
+    if (channel.plane.pixel_bytes >
+        kMostNear) {  // a row may have more bytes than 32 bits can count
+      return sum_far_columns(rows, channel, columns, sums);
+    }
     const auto step = static_cast<std::int32_t>(channel.plane.pixel_bytes);
     const std::int32_t bytes = (columns - 1) * step + 1;
     switch (step) {
@@ -429,11 +434,9 @@ class Warp {
           sums[j] = sums_[3 * j];
         }
         return;
-      case 4:
+      default:
         sum_rows<2>(rows, channel.box, 2 * columns - 1, bytes, sums_, EvenBytes());
         return halve(columns, sums, [](auto a, auto b) { return Simd::evens(a, b); });
-      default:
-        return sum_far_columns(rows, channel, columns, sums);
     }
   }
 

@@ -89,6 +89,32 @@ TEST(Voice, NamesWhatIsWrongWithTheSound) {
   EXPECT_EQ(mien_tracker_push_audio(blob.tracker().get(), nullptr, 0), MIEN_ERROR_NULL_ARGUMENT);
 }
 
+// Some microphones deliver empty blocks, with any time and rate.
+TEST(Voice, ABlockWithoutSamplesChangesNothing) {
+  const auto empty_block = [](BlobTracker& blob, bool queued, std::int64_t pts_ns) {
+    Audio empty;
+    empty.sample_rate = 48000;
+    const mien_status status = queued ? blob.tracker().queue_audio(empty, pts_ns)
+                                      : blob.tracker().push_audio(empty, pts_ns);
+    EXPECT_EQ(status, MIEN_OK);
+  };
+  const Sound sound = Sound().add(1.0, 0.05f);
+  for (const bool queued : {false, true}) {
+    BlobTracker plain = unfiltered(), disturbed = unfiltered();
+    for (int frame = 0; frame < 30; ++frame) {
+      empty_block(disturbed, queued, frame % 2 == 0 ? -1'000'000'000 : 1'000'000'000'000);
+      if (frame == 10) {
+        ASSERT_EQ(plain.tracker().push_audio(sound.all(), plain.now_ns()), MIEN_OK);
+        ASSERT_EQ(disturbed.tracker().push_audio(sound.all(), plain.now_ns()), MIEN_OK);
+      }
+      const Result expected = plain.advance(), result = disturbed.advance();
+      EXPECT_EQ(result.supported_controls, expected.supported_controls) << frame;
+      EXPECT_EQ(result.voice_activity, expected.voice_activity) << frame;
+      EXPECT_EQ(largest_step(result, expected), 0.0f) << frame;
+    }
+  }
+}
+
 TEST(Voice, ChecksWeightsOfTheMix) {
   BlobTracker blob;
   EXPECT_EQ(blob.tracker().set_mix(0, 1.0f, 0.0f), MIEN_OK);

@@ -98,7 +98,7 @@ mien_status Voice::push(const mien_audio* sound, std::int64_t pts_ns) {
 
 void Voice::hear(const audio::Pcm& samples, std::int32_t rate, std::int64_t pts_ns) {
   listener_.push(samples, rate, audio::later(pts_ns, offset_ns_));
-  listening_ = true;
+  listening_ = listening_ || samples.frames > 0;
 }
 
 mien_status Voice::queue(const mien_audio* sound, std::int64_t pts_ns) {
