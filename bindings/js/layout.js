@@ -1,4 +1,5 @@
 // Where the fields of the structs of mien.h lie in the memory of a 32-bit machine. Each is [offset, kind, count].
+import {MienError} from './error.js';
 
 export const fields = {
   image: {
@@ -31,9 +32,24 @@ export const fields = {
 export const structBytes = {image: 100, audio: 88, tracker_config: 148, result: 1928, network_config: 72};
 
 const kinds = {
-  i32: {bytes: 4, get: 'getInt32', set: 'setInt32', array: Int32Array}, u32: {bytes: 4, get: 'getUint32', set: 'setUint32', array: Uint32Array},
-  f32: {bytes: 4, get: 'getFloat32', set: 'setFloat32', array: Float32Array}, i64: {bytes: 8, get: 'getBigInt64', set: 'setBigInt64'},
-  u64: {bytes: 8, get: 'getBigUint64', set: 'setBigUint64', array: BigUint64Array}};
+  i32: {bytes: 4, get: 'getInt32', set: 'setInt32', array: Int32Array, least: -(2 ** 31), most: 2 ** 31 - 1},
+  u32: {bytes: 4, get: 'getUint32', set: 'setUint32', array: Uint32Array, least: 0, most: 2 ** 32 - 1},
+  f32: {bytes: 4, get: 'getFloat32', set: 'setFloat32', array: Float32Array},
+  i64: {bytes: 8, get: 'getBigInt64', set: 'setBigInt64', least: -(2n ** 63n), most: 2n ** 63n - 1n},
+  u64: {bytes: 8, get: 'getBigUint64', set: 'setBigUint64', array: BigUint64Array, least: 0n, most: 2n ** 64n - 1n}};
+
+export const outOfRange = -3;  // MIEN_ERROR_OUT_OF_RANGE
+
+// Every number on its way into the module passes here. JavaScript itself would cut off what does not fit, and make 0 of NaN. The
+// module judges what floats mean.
+export function number(kind, value, name) {
+  const {least, most} = kinds[kind], taken = ['number', 'bigint', 'boolean'].includes(typeof value);
+  if (!taken) throw new MienError(`${name}: not a number (got ${typeof value})`, outOfRange);
+  if (least === undefined) return Number(value);
+  const whole = typeof value === 'bigint' || Number.isInteger(Number(value));
+  if (whole && value >= least && value <= most) return typeof least === 'bigint' ? BigInt(value) : Number(value);
+  throw new MienError(`${name}: number out of range (got ${value}, expected a whole number from ${least} to ${most})`, outOfRange);
+}
 
 // One struct at `address` in `memory`, which may grow in between.
 export class Struct {
@@ -42,14 +58,15 @@ export class Struct {
   }
 
   set(field, value, index = 0) {
-    const [offset, kind] = this.fields[field], {bytes, set} = kinds[kind];
-    new DataView(this.memory.buffer)[set](this.address + offset + index * bytes, value, true);
+    const [offset, kind, count = 1] = this.fields[field], {bytes, set} = kinds[kind];
+    if (index >= count) throw new MienError(`${field}: too many values (expected ${count})`, outOfRange);
+    new DataView(this.memory.buffer)[set](this.address + offset + index * bytes, number(kind, value, field), true);
   }
 
   // `names`: what callers say to what the field is called; what they leave out stays.
   fill(names, values) {
     for (const [name, field] of Object.entries(names)) {
-      if (values[name] !== undefined) this.set(field, Number(values[name]));
+      if (values[name] !== undefined) this.set(field, values[name]);
     }
   }
 

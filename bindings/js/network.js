@@ -1,26 +1,37 @@
 // Networks of one's own, as in mien.h.
 import {MienError} from './error.js';
+import {number} from './layout.js';
 
 // Input and output are views of the module's memory, to be asked for anew each time.
 export class Network {
-  constructor(mien, {file, name = null, height = 0, width = 0, cpuMask}) {
+  constructor(mien, config) {
     this.mien = mien;
-    const struct = mien.struct('network_config');
-    const {address, bytes} = mien.load(file);
-    const named = name === null ? {address: 0} : mien.load(new TextEncoder().encode(name + '\0'));
-    struct.fill({cpuMask: 'cpu_mask', height: 'height', width: 'width'}, {cpuMask, height, width});
-    struct.set('file', address);
-    struct.set('file_bytes', bytes);
-    struct.set('name', named.address);
-    const handle = mien.allocate(16);
-    const status = mien.exports.mien_network_create(struct.address, handle);
-    this.handle = new DataView(mien.memory.buffer).getUint32(handle, true);
-    this.owned = [address, handle];
-    this.shapeAddress = handle;
-    for (const spent of [struct.address, named.address]) mien.release(spent);
-    if (status !== 0) {
+    this.handle = 0;
+    this.owned = [];
+    try {
+      this.create(config);
+    } catch (error) {
       this.destroy();
-      mien.check(status);
+      throw error;
+    }
+  }
+
+  create({file, name = null, height = 0, width = 0, cpuMask}) {
+    const {mien} = this, struct = mien.struct('network_config');
+    const named = name === null ? {address: 0} : mien.load(new TextEncoder().encode(name + '\0'));
+    try {
+      const {address, bytes} = mien.load(file);
+      this.owned.push(address);
+      this.shapeAddress = mien.allocate(16);
+      this.owned.push(this.shapeAddress);
+      struct.fill({cpuMask: 'cpu_mask', height: 'height', width: 'width'}, {cpuMask, height, width});
+      struct.set('file', address);
+      struct.set('file_bytes', bytes);
+      struct.set('name', named.address);
+      mien.check(mien.exports.mien_network_create(struct.address, this.shapeAddress));
+      this.handle = new DataView(mien.memory.buffer).getUint32(this.shapeAddress, true);
+    } finally {
+      for (const spent of [struct.address, named.address]) mien.release(spent);
     }
   }
 
@@ -31,7 +42,10 @@ export class Network {
     return {data: new Float32Array(this.mien.memory.buffer, address, floats), shape: {height, width, channels}};
   }
 
+  checkOpen() { if (!this.handle) throw new MienError('the network was destroyed', -1); }
+
   input() {
+    this.checkOpen();
     this.inputAddress = this.mien.exports.mien_network_input(this.handle, this.shapeAddress);
     return this.view(this.inputAddress);
   }
@@ -40,7 +54,8 @@ export class Network {
   outputCount() { return this.mien.exports.mien_network_output_count(this.handle); }
 
   output(index) {
-    const address = this.mien.exports.mien_network_output(this.handle, index, this.shapeAddress);
+    this.checkOpen();
+    const address = this.mien.exports.mien_network_output(this.handle, number('i32', index, 'index'), this.shapeAddress);
     if (!address) throw new MienError(`there is no output ${index}`, -3);
     return this.view(address);
   }

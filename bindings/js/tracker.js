@@ -1,11 +1,21 @@
 // A tracker of mien.h.
 import {MienError} from './error.js';
+import {number, outOfRange} from './layout.js';
 
 const alignment = 64;  // MIEN_ALIGNMENT
 const imageFormats = {gray8: 0, rgb: 1, bgr: 2, rgba: 3, bgra: 4, nv12: 5, nv21: 6, i420: 7};
 const faceStatus = ['searching', 'tracking', 'lost'];
 const defaultMask = 0xffffffff;  // MIEN_CPU_ALL
-const nanoseconds = time => (typeof time === 'bigint' ? time : BigInt(Math.round(time)));
+// MIEN_ERROR_*
+const wrong = {argument: -1, format: -60, size: -61, stride: -62, plane: -63, samples: -66};
+// "Float32Array" and the like, of arrays of another window or worker too; undefined: it is none.
+const kindOf = data => (ArrayBuffer.isView(data) ? data[Symbol.toStringTag] : undefined);
+const isBytes = data => ['Uint8Array', 'Uint8ClampedArray'].includes(kindOf(data));
+
+function nanoseconds(time, name = 'ptsNs') {
+  if (typeof time !== 'bigint' && !Number.isFinite(time)) throw new MienError(`${name}: not a finite number (got ${time})`, outOfRange);
+  return number('i64', typeof time === 'bigint' ? time : BigInt(Math.round(time)), name);
+}
 
 // Memory of the module that is as large as was ever asked for.
 class Buffer {
@@ -50,35 +60,43 @@ function planeSizes(format, width, height, step) {
       const chroma = {row: (half.width - 1) * (step || 1) + 1, rows: half.height};
       return [luma, chroma, chroma];
     }
-    default: throw new MienError(`'${format}' is no image format`, -60);
+    default: throw new MienError(`'${format}' is no image format`, wrong.format);
   }
 }
 
 export class Tracker {
   constructor(mien, config) {
     this.mien = mien;
-    const struct = mien.struct('tracker_config');
+    this.handle = 0;
     this.image = mien.struct('image');
     this.audio = mien.struct('audio');
     this.result = mien.struct('result');
     this.pixels = new Buffer(mien);
     this.samples = new Buffer(mien);
     this.weights = [];
-    struct.fill(configNames, {cpuMask: defaultMask, ...config});
-    for (const name of weightNames) {
-      const {address, bytes} = mien.load(config[name]);
-      this.weights.push(address);
-      struct.set(name, address);
-      struct.set(name + '_bytes', bytes);
-    }
-    struct.set('clock_ns', mien.exports.mien_module_clock());
-    const handle = mien.allocate(4);
-    const status = mien.exports.mien_tracker_create(struct.address, handle);
-    this.handle = new DataView(mien.memory.buffer).getUint32(handle, true);
-    for (const address of [handle, struct.address]) mien.release(address);
-    if (status !== 0) {
+    try {
+      this.create(config);
+    } catch (error) {
       this.destroy();
-      mien.check(status);
+      throw error;
+    }
+  }
+
+  create(config) {
+    const {mien} = this, struct = mien.struct('tracker_config'), handle = mien.allocate(4);
+    try {
+      struct.fill(configNames, {cpuMask: defaultMask, ...config});
+      for (const name of weightNames) {
+        const {address, bytes} = mien.load(config[name]);
+        this.weights.push(address);
+        struct.set(name, address);
+        struct.set(name + '_bytes', bytes);
+      }
+      struct.set('clock_ns', mien.exports.mien_module_clock());
+      mien.check(mien.exports.mien_tracker_create(struct.address, handle));
+      this.handle = new DataView(mien.memory.buffer).getUint32(handle, true);
+    } finally {
+      for (const address of [handle, struct.address]) mien.release(address);
     }
   }
 
@@ -94,19 +112,26 @@ export class Tracker {
   }
 
   reset() { this.call('reset'); }
-  setLod(lod) { this.call('set_lod', lod); }
+  setLod(lod) { this.call('set_lod', number('i32', lod, 'lod')); }
   advance(ptsNs) { this.call('advance', nanoseconds(ptsNs)); }
   captureNeutral() { this.call('capture_neutral'); }
-  setAudioOffset(offsetNs) { this.call('set_audio_offset', nanoseconds(offsetNs)); }
+  setAudioOffset(offsetNs) { this.call('set_audio_offset', nanoseconds(offsetNs, 'offsetNs')); }
   setMix(control, audioWeight, videoWeight) {
-    this.call('set_mix', typeof control === 'string' ? this.mien.controlNames.indexOf(control) : control, audioWeight, videoWeight);
+    const index = typeof control === 'string' ? this.mien.controlNames.indexOf(control) : control;
+    this.call('set_mix', number('i32', index, 'control'), number('f32', audioWeight, 'audioWeight'), number('f32', videoWeight, 'videoWeight'));
   }
 
   pushVideo(image, ptsNs) {
-    const {format = 'rgba', width, height} = image, sizes = planeSizes(format, width, height, image.chromaPixelStrideBytes);
+    this.checkOpen();
+    const {format = 'rgba', width, height, chromaPixelStrideBytes = 0} = image;
+    for (const [name, value] of Object.entries({width, height, chromaPixelStrideBytes})) number('i32', value, name);
+    if (width < 0 || height < 0) throw new MienError(`an image of ${width} x ${height}`, wrong.size);
+    if (chromaPixelStrideBytes < 0) throw new MienError(`chromaPixelStrideBytes: negative (got ${chromaPixelStrideBytes})`, wrong.stride);
+    const sizes = planeSizes(format, width, height, chromaPixelStrideBytes);
     const planes = image.planes ?? this.split(image.data, sizes);
     const strides = image.rowStrideBytes ?? sizes.map(({row}) => row);
-    const used = planes.map((plane, i) => Math.min(plane.byteLength, strides[i] * sizes[i].rows));
+    sizes.forEach((size, i) => this.checkPlane(planes[i], strides[i], size));
+    const used = sizes.map(({rows}, i) => Math.min(planes[i].byteLength, strides[i] * rows));
     const start = this.pixels.reserve(used.reduce((sum, bytes) => sum + bytes + alignment, 0));
     const heap = new Uint8Array(this.mien.memory.buffer);
     this.mien.exports.mien_image_default(this.image.address);
@@ -116,9 +141,8 @@ export class Tracker {
     this.image.set('height', height);
     (image.region ?? []).forEach((side, i) => this.image.set('region', side, i));
     let address = start;
-    planes.forEach((plane, i) => {
-      this.checkPlane(plane, strides[i], sizes[i]);
-      heap.set(new Uint8Array(plane.buffer, plane.byteOffset, used[i]), address);
+    sizes.forEach((_, i) => {
+      heap.set(new Uint8Array(planes[i].buffer, planes[i].byteOffset, used[i]), address);
       this.image.set('planes', address, i);
       this.image.set('row_stride_bytes', strides[i], i);
       address += used[i];
@@ -128,6 +152,7 @@ export class Tracker {
 
   // One buffer with the planes behind each other.
   split(data, sizes) {
+    if (!isBytes(data)) throw new MienError('data: neither Uint8Array nor Uint8ClampedArray', wrong.plane);
     let offset = 0;
     return sizes.map(({row, rows}) => {
       const plane = new Uint8Array(data.buffer, data.byteOffset + offset, Math.max(0, Math.min(row * rows, data.byteLength - offset)));
@@ -137,23 +162,35 @@ export class Tracker {
   }
 
   checkPlane(plane, stride, {row, rows}) {
-    if (stride < row) throw new MienError(`rows of ${row} bytes do not fit into ${stride}`, -62);
-    if (plane.byteLength < stride * (rows - 1) + row) throw new MienError(`a plane has ${plane.byteLength} bytes, less than its rows`, -63);
+    if (!isBytes(plane)) throw new MienError('planes: one of them is neither Uint8Array nor Uint8ClampedArray', wrong.plane);
+    number('i32', stride, 'rowStrideBytes');
+    if (stride < row) throw new MienError(`rows of ${row} bytes do not fit into ${stride}`, wrong.stride);
+    if (plane.byteLength < stride * (rows - 1) + row) {
+      throw new MienError(`a plane has ${plane.byteLength} bytes, less than its rows`, wrong.plane);
+    }
   }
+
+  checkOpen() { if (!this.handle) throw new MienError('the tracker was destroyed', wrong.argument); }
 
   // `samples`: Float32Array or Int16Array, channels interleaved.
   pushAudio(samples, {sampleRate, channels = 1}, ptsNs) {
+    this.checkOpen();
+    const kind = kindOf(samples);
+    if (kind !== 'Float32Array' && kind !== 'Int16Array') {
+      throw new MienError(`samples: wrong type (got ${kind ?? typeof samples}, expected Float32Array or Int16Array)`, wrong.samples);
+    }
     const address = this.samples.reserve(samples.byteLength);
     new Uint8Array(this.mien.memory.buffer).set(new Uint8Array(samples.buffer, samples.byteOffset, samples.byteLength), address);
-    this.audio.set('format', samples instanceof Int16Array ? 1 : 0);
+    this.audio.set('format', kind === 'Int16Array' ? 1 : 0);
     this.audio.set('sample_rate', sampleRate);
     this.audio.set('channels', channels);
-    this.audio.set('frames', Math.floor(samples.length / channels));
+    this.audio.set('frames', channels >= 1 ? Math.floor(samples.length / channels) : 0);
     this.audio.set('samples', address);
     this.call('push_audio', this.audio.address, nanoseconds(ptsNs));
   }
 
   getResult() {
+    this.checkOpen();
     this.call('get_result', this.result.address);
     return this.readResult();
   }
@@ -161,7 +198,8 @@ export class Tracker {
   faceCount() { return this.mien.exports.mien_tracker_face_count(this.handle); }
 
   getFace(index) {
-    this.call('get_face', index, this.result.address);
+    this.checkOpen();
+    this.call('get_face', number('i32', index, 'index'), this.result.address);
     return this.readResult();
   }
 

@@ -199,6 +199,7 @@ public final class ClipTest {
             refuses(Status.IMAGE_ROTATION, () -> tracker.track(rgb(frames.get(0)).rotated(45), 0));
             refuses(Status.NO_AUDIONET, () -> tracker.pushAudio(new float[10], 1, 16000, 0));
             refuses(Status.NEUTRAL_FORMAT, () -> tracker.loadNeutral(new byte[448]));
+            thrown(NullPointerException.class, () -> tracker.loadNeutral(null));
             require(tracker.result().status() == FaceResult.Status.SEARCHING, "nothing happened");
         }
         refuses(Status.UNSUPPORTED_LOD, () -> new Tracker(weights, level(5)));

@@ -56,6 +56,9 @@ namespace Mien
         /// <summary>Planes of native memory, as cameras and textures give it, which has to stay during Tracker.Track.</summary>
         public Image(PixelFormat format, int width, int height, IntPtr[] planes, int[] rowStrideBytes)
         {
+            if (planes == null) throw new ArgumentNullException("planes");
+            if (rowStrideBytes == null) throw new ArgumentNullException("rowStrideBytes");
+            if (planes.Length > 3 || rowStrideBytes.Length > 3) throw new ArgumentException("a picture has three planes at most");
             Format = format;
             Width = width;
             Height = height;
@@ -79,6 +82,7 @@ namespace Mien
             raw.principal_x = PrincipalX;
             raw.principal_y = PrincipalY;
             raw.chroma_pixel_stride_bytes = ChromaPixelStrideBytes;
+            if (Region != null && Region.Length != 4) throw new ArgumentException("a region is x, y, width, height, not " + Region.Length + " numbers");
             if (Region != null) Region.CopyTo(raw.region, 0);
             if (array == null)
             {

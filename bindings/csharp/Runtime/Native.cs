@@ -152,7 +152,10 @@ namespace Mien
 
         internal static long Nanoseconds(double seconds)
         {
-            return (long)Math.Round(seconds * 1e9);
+            const double end = 9223372036854775808.0; // 2^63
+            double ns = Math.Round(seconds * 1e9);
+            if (!(ns >= -end && ns < end)) throw new ArgumentOutOfRangeException("seconds", seconds, "a time that fits into 64 bits of nanoseconds is taken");
+            return (long)ns;
         }
 
         internal static void Check(int status)

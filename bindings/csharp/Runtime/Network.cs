@@ -86,6 +86,7 @@ namespace Mien
             int pixels = map.Height * map.Width;
             var blocks = new float[Blocks(map) * pixels * Block];
             Marshal.Copy(place, blocks, 0, blocks.Length);
+            GC.KeepAlive(handle); // a collector that sees nobody use it any more would give back what is copied here
             map.Values = new float[map.Channels * pixels];
             for (int channel = 0; channel < map.Channels; ++channel)
                 for (int pixel = 0; pixel < pixels; ++pixel)

@@ -115,6 +115,10 @@ class ClipTest
             tracker.Track(apart(16 + 2 * 13), 0);
             var yuv = new Image(PixelFormat.Nv12, 8, 2, new[] { IntPtr.Zero, IntPtr.Zero }, new[] { 8, 8 }) { BottomUp = true };
             Assert.Throws<ArgumentException>(() => tracker.Track(yuv, 0));
+            foreach (double time in new[] { double.NaN, double.PositiveInfinity, 1e10, -1e10 })
+                Assert.Throws<ArgumentOutOfRangeException>(() => tracker.Advance(time));
+            Assert.Throws<ArgumentNullException>(() => new Image(PixelFormat.Rgb, 8, 2, null, new[] { 24 }));
+            Assert.Throws<ArgumentException>(() => tracker.Track(new Image(PixelFormat.Rgb, Width, Height, frames[0]) { Region = new[] { 0 } }, 0));
             Assert.Refuses(Status.ImageSize, () => tracker.Track(new Image(PixelFormat.Gray8, 0, 0, new byte[0]), 0));
             Assert.Refuses(Status.ImageRotation, () => tracker.Track(new Image(PixelFormat.Rgb, Width, Height, frames[0]) { Rotation = 45 }, 0));
             Assert.Refuses(Status.NoAudionet, () => tracker.PushAudio(new float[10], 0));

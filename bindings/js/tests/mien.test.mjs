@@ -116,6 +116,64 @@ test('what is wrong is said with its status', () => {
   hearing.destroy();
 });
 
+test('numbers that do not fit and arrays of another type never reach the module', () => {
+  const fails = (status, action) => assert.throws(action, error => error instanceof MienError && error.status === status, `${status}: ${action}`);
+  const far = 2 ** 32, data = new Uint8Array(64 * 48 * 4), image = {width: 64, height: 48, data};
+  for (const option of ['lod', 'maxFaces', 'cpuMask', 'loseAfterFrames']) fails(-3, () => mien.createTracker({...weights, [option]: far + 1}));
+  fails(-3, () => mien.createTracker({...weights, maxFaces: 1.5}));
+  fails(-3, () => mien.createTracker({...weights, maxFaces: 'many'}));
+  fails(-1, () => mien.createTracker({...weights, basenet: 'models/basenet.mien'}));
+  const tracker = mien.createTracker({...weights, lod: 1});
+  for (const samples of [new Uint8Array(640), new Float64Array(160), new Int32Array(160), [0, 0, 0], new DataView(new ArrayBuffer(640)), null]) {
+    fails(-66, () => tracker.pushAudio(samples, {sampleRate: 16000}, 0));
+  }
+  const samples = new Float32Array(160);
+  fails(-3, () => tracker.pushAudio(samples, {sampleRate: far + 16000}, 0));
+  fails(-68, () => tracker.pushAudio(samples, {sampleRate: 16000, channels: 0}, 0));
+  fails(-3, () => tracker.pushAudio(samples, {sampleRate: 16000, channels: 0.5}, 0));
+  tracker.pushAudio(samples, {sampleRate: 16000}, 0);
+  for (const time of [NaN, Infinity, 1e19, -1e19, 2n ** 63n, '0']) {
+    fails(-3, () => tracker.pushVideo(image, time));
+    fails(-3, () => tracker.pushAudio(samples, {sampleRate: 16000}, time));
+    fails(-3, () => tracker.advance(time));
+    fails(-3, () => tracker.setAudioOffset(time));
+  }
+  fails(-3, () => tracker.setLod(far + 1));
+  fails(-3, () => tracker.getFace(far));
+  fails(-3, () => tracker.setMix(far, 1, 1));
+  for (const size of [NaN, 1.5, far + 64, '64']) fails(-3, () => tracker.pushVideo({...image, width: size}, 0));
+  fails(-61, () => tracker.pushVideo({...image, width: -64, height: -48}, 0));
+  fails(-3, () => tracker.pushVideo({...image, region: [0, 0, far + 64, 48]}, 0));
+  fails(-3, () => tracker.pushVideo({...image, region: Array(200).fill(0)}, 0));
+  fails(-3, () => tracker.pushVideo({...image, rotation: far}, 0));
+  fails(-63, () => tracker.pushVideo({...image, data: new Float32Array(64 * 48)}, 0));
+  fails(-63, () => tracker.pushVideo({...image, data: undefined, planes: []}, 0));
+  fails(-3, () => tracker.pushVideo({...image, planes: [data], rowStrideBytes: [NaN]}, 0));
+  fails(-3, () => tracker.pushVideo({...image, planes: [data], rowStrideBytes: []}, 0));
+  const planes = [data, data, data];
+  fails(-62, () => tracker.pushVideo({format: 'i420', width: 64, height: 48, planes, chromaPixelStrideBytes: -1}, 0));
+  tracker.pushVideo(image, 0);
+  assert.equal(tracker.getResult().frames, 1n);
+  tracker.destroy();
+});
+
+test('what was destroyed is an error, not memory of others', () => {
+  const gone = action => assert.throws(action, error => error instanceof MienError && error.status === -1);
+  const tracker = mien.createTracker({...weights, lod: 1});
+  tracker.destroy();
+  tracker.destroy();
+  gone(() => tracker.pushVideo({width: 1, height: 1, data: new Uint8Array(4)}, 0));
+  gone(() => tracker.pushAudio(new Float32Array(1), {sampleRate: 16000}, 0));
+  for (const call of ['getResult', 'reset', 'captureNeutral', 'saveNeutral']) gone(() => tracker[call]());
+  gone(() => tracker.getFace(0));
+  const network = mien.createNetwork({file: weights.audionet});
+  network.destroy();
+  network.destroy();
+  gone(() => network.input());
+  gone(() => network.run());
+  gone(() => network.output(0));
+});
+
 test('a neutral face is captured, saved and taken over', () => {
   const tracker = mien.createTracker({...weights, lod: 2}), [data] = frames('rgba', width * height * 4, 1);
   tracker.captureNeutral();

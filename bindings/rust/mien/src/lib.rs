@@ -28,6 +28,12 @@ pub fn version() -> &'static str {
     unsafe { vocabulary::text(mien_sys::mien_version()) }.unwrap_or_default()
 }
 
-fn nanoseconds(seconds: f64) -> i64 {
-    (seconds * 1e9).round() as i64
+/// `as` would make the largest number of what does not fit, and 0 of what is no number.
+fn nanoseconds(seconds: f64) -> Result<i64, Error> {
+    const END: f64 = 9_223_372_036_854_775_808.0; // 2^63
+    let ns = (seconds * 1e9).round();
+    if (-END..END).contains(&ns) {
+        return Ok(ns as i64);
+    }
+    Err(Error::Input(format!("time: number out of range (got {seconds} s, expected {} s to {} s)", -END / 1e9, END / 1e9)))
 }

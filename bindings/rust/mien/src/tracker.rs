@@ -122,13 +122,13 @@ impl Tracker {
     /// Tracks one picture and tells of the face known longest. `time_s`: of the picture, on any clock.
     pub fn track(&mut self, image: &Image, time_s: f64) -> Result<FaceResult, Error> {
         // Safety: what the image describes was held against what it borrows.
-        check(unsafe { mien_sys::mien_tracker_push_video(self.handle.raw, image.raw(), nanoseconds(time_s)) })?;
+        check(unsafe { mien_sys::mien_tracker_push_video(self.handle.raw, image.raw(), nanoseconds(time_s)?) })?;
         self.result()
     }
 
     /// A frame of output without a picture: for sound alone.
     pub fn advance(&mut self, time_s: f64) -> Result<FaceResult, Error> {
-        check(unsafe { mien_sys::mien_tracker_advance(self.handle.raw, nanoseconds(time_s)) })?;
+        check(unsafe { mien_sys::mien_tracker_advance(self.handle.raw, nanoseconds(time_s)?) })?;
         self.result()
     }
 
@@ -152,7 +152,7 @@ impl Tracker {
 
     /// Hears a block of sound. `time_s`: of its first sample, on the clock of the pictures.
     pub fn push_audio(&mut self, audio: &Audio, time_s: f64) -> Result<(), Error> {
-        check(unsafe { mien_sys::mien_tracker_push_audio(self.handle.raw, audio.raw(), nanoseconds(time_s)) })
+        check(unsafe { mien_sys::mien_tracker_push_audio(self.handle.raw, audio.raw(), nanoseconds(time_s)?) })
     }
 
     /// The end for the thread of a microphone; there is one, and only where `Options::audio_queue_samples` made room.
@@ -163,7 +163,7 @@ impl Tracker {
 
     /// Sound pushed from now on belongs to pictures that much later.
     pub fn set_audio_offset(&mut self, seconds: f64) -> Result<(), Error> {
-        check(unsafe { mien_sys::mien_tracker_set_audio_offset(self.handle.raw, nanoseconds(seconds)) })
+        check(unsafe { mien_sys::mien_tracker_set_audio_offset(self.handle.raw, nanoseconds(seconds)?) })
     }
 
     /// How much sound and picture count for a control while somebody speaks, each 0..1.
@@ -210,6 +210,6 @@ pub struct AudioQueue {
 impl AudioQueue {
     /// As [`Tracker::push_audio`]. [`Status::AudioQueueFull`](crate::Status::AudioQueueFull): there is no room, nothing was taken.
     pub fn push(&mut self, audio: &Audio, time_s: f64) -> Result<(), Error> {
-        check(unsafe { mien_sys::mien_tracker_queue_audio(self.handle.raw, audio.raw(), nanoseconds(time_s)) })
+        check(unsafe { mien_sys::mien_tracker_queue_audio(self.handle.raw, audio.raw(), nanoseconds(time_s)?) })
     }
 }

@@ -21,7 +21,8 @@ impl Model {
         let path = path.as_ref();
         let read = || {
             let mut file = fs::File::open(path)?;
-            let mut model = Model::room(usize::try_from(file.metadata()?.len()).unwrap_or(usize::MAX));
+            let bytes = usize::try_from(file.metadata()?.len()).map_err(|_| std::io::ErrorKind::OutOfMemory)?;
+            let mut model = Model::room(bytes);
             file.read_exact(model.bytes_mut())?;
             Ok(model)
         };
@@ -36,7 +37,7 @@ impl Model {
     }
 
     fn room(bytes: usize) -> Model {
-        let lines = vec![Line([0; mien_sys::MIEN_ALIGNMENT]); (bytes + mien_sys::MIEN_ALIGNMENT - 1) / mien_sys::MIEN_ALIGNMENT];
+        let lines = vec![Line([0; mien_sys::MIEN_ALIGNMENT]); bytes / mien_sys::MIEN_ALIGNMENT + 1];
         Model { lines: lines.into(), bytes }
     }
 

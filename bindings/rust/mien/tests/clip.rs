@@ -190,6 +190,27 @@ fn calibration_reset_and_threads() {
 }
 
 #[test]
+fn times_that_do_not_fit_are_errors() {
+    let mut tracker = Tracker::new(&weights(), Options { audio_queue_samples: 16000, ..level(1) }).unwrap();
+    let sound = [0.0; 160];
+    let sound = Audio::float(&sound, 1, 16000).unwrap();
+    let mut queue = tracker.audio_queue().unwrap();
+    for time in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e10, -1e10] {
+        let answers = [
+            tracker.track(&rgb(&frames()[0]), time).err(),
+            tracker.advance(time).err(),
+            tracker.push_audio(&sound, time).err(),
+            queue.push(&sound, time).err(),
+            tracker.set_audio_offset(time).err(),
+        ];
+        for error in answers {
+            assert!(error.unwrap().to_string().contains("number out of range (got "), "{time}");
+        }
+    }
+    tracker.advance(9e9).unwrap();
+}
+
+#[test]
 fn networks_of_ones_own() {
     let model = Model::open(format!("{REPOSITORY}/models/proposal.mien")).unwrap();
     let mut network = Network::new(&model, Some("rnet"), None).unwrap();

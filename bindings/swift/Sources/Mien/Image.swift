@@ -10,11 +10,13 @@ public struct Image {
   ) {
     mien_image_default(&raw)
     raw.format = Int32(bitPattern: format.rawValue)
-    (raw.width, raw.height) = (Int32(clamping: width), Int32(clamping: height))
+    // What does not fit becomes a number that the library refuses, not another one.
+    let refused: Int32 = -1
+    (raw.width, raw.height) = (Int32(exactly: width) ?? refused, Int32(exactly: height) ?? refused)
     raw.planes = (planes[0], planes.count > 1 ? planes[1] : nil, planes.count > 2 ? planes[2] : nil)
-    let strides = (rowBytes + [0, 0]).map { Int32(clamping: $0) }
+    let strides = (rowBytes + [0, 0]).map { Int32(exactly: $0) ?? 0 }
     raw.row_stride_bytes = (strides[0], strides[1], strides[2])
-    raw.chroma_pixel_stride_bytes = Int32(clamping: chromaPixelStride)
+    raw.chroma_pixel_stride_bytes = Int32(exactly: chromaPixelStride) ?? refused
   }
 
   /// Degrees clockwise that make it upright: 0, 90, 180, 270.

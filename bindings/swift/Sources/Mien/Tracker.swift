@@ -127,7 +127,12 @@ public final class Tracker {
   public func reset() throws { try check(mien_tracker_reset(handle)) }
 }
 
-private func nanoseconds(_ seconds: Double) -> Int64 { Int64((seconds * 1e9).rounded()) }
+private func nanoseconds(_ seconds: Double) throws -> Int64 {
+  guard let ns = Int64(exactly: (seconds * 1e9).rounded()) else {
+    throw MienError.input("time: number out of range (got \(seconds) s, expected a whole number of nanoseconds in 64 bits)")
+  }
+  return ns
+}
 
 private func described(_ samples: UnsafeBufferPointer<Float>, _ channels: Int32, _ sampleRate: Int32) -> mien_audio {
   var audio = mien_audio()

@@ -2,6 +2,7 @@ package org.mien;
 
 import java.util.ArrayList;
 import java.util.List;
+import java.util.Objects;
 
 /**
  * Follows faces through a stream of pictures, and hears a voice. Has to be closed. Its methods exclude each other, but for queueAudio, which
@@ -112,6 +113,7 @@ public final class Tracker implements AutoCloseable {
     }
 
     public synchronized void loadNeutral(byte[] file) {
+        Objects.requireNonNull(file, "file");
         MienException.check(Native.loadNeutral(open(), file));
     }
 
