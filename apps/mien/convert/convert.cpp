@@ -133,13 +133,12 @@ formats::ReadOptions reading_options(const ConvertOptions& options,
       options.from_timecode_fps ? options.from_timecode_fps : reading.timecode_fps;
   reading.bvh_unit = options.from_bvh_unit;
   if (reading.load_beside) {
-    reading.load_beside = [load = reading.load_beside, &beside,
-                           folder = path_of(options.input).parent_path()](
-                              const std::string& name, std::size_t bytes, std::string& data,
-                              std::string& why) {
-      beside.push_back(name_of(folder / path_of(name)));
-      return load(name, bytes, data, why);
-    };
+    reading.load_beside =
+        [load = reading.load_beside, &beside, folder = path_of(options.input).parent_path()](
+            const std::string& name, std::size_t bytes, std::string& data, std::string& why) {
+          beside.push_back(name_of(folder / path_of(name)));
+          return load(name, bytes, data, why);
+        };
   }
   return reading;
 }
