@@ -1,4 +1,5 @@
-// In place of kernels/detect_cpu.cpp: every tier that is compiled in is emulated, so any CPU has it.
+// In place of kernels/detect_cpu.cpp: every tier that is compiled in is emulated, so any CPU has
+// it.
 #include "kernels/registry.h"
 
 namespace mien::kernels {

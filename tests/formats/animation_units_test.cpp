@@ -3,13 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <string>
 #include <vector>
 
 #include "formats/animation/animation.h"
 #include "formats/animation/live_link_units.h"
+#include "formats/animation/numbers.h"
 
 namespace mien::formats {
 namespace {
@@ -51,9 +51,10 @@ std::string with(std::string text, const std::string& from, const std::string& t
 }
 
 std::string timecode(int second, double frame) {
-  char text[32];
-  std::snprintf(text, sizeof text, "10:00:%02d:%06.3f", second, frame);
-  return text;
+  const auto two_digits = [](std::string number) {
+    return number.find('.', 2) == 2 || number.size() == 2 ? number : "0" + number;
+  };
+  return "10:00:" + two_digits(std::to_string(second)) + ":" + two_digits(fixed(frame, 3));
 }
 
 const std::string kTimes = "Timecode,BlendshapeCount,JawOpen\n";
@@ -125,11 +126,11 @@ std::string angles(const std::vector<Row>& rows, double scale) {
     text += timecode(i / 60, i % 60) + ",61";
     ++i;
     for (const double value : {row.look_up, row.look_up}) {
-      text += "," + std::to_string(value);
+      text += "," + fixed(value, 6);
     }
     for (const auto& turn : {row.head, row.eye, row.eye}) {
       for (const double angle : turn) {
-        text += "," + std::to_string(angle * scale);
+        text += "," + fixed(angle * scale, 6);
       }
     }
     text += "\n";

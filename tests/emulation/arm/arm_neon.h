@@ -1,5 +1,5 @@
-// NEON in scalar code, for kernels that a test compiles for a machine without it: SIMDe, and below it
-// what SIMDe 0.7.4 lacks. Names and meaning are those of the Arm Neon Intrinsics Reference.
+// NEON in scalar code, for kernels that a test compiles for a machine without it: SIMDe, and below
+// it what SIMDe 0.7.4 lacks. Names and meaning are those of the Arm Neon Intrinsics Reference.
 #pragma once
 
 #define SIMDE_NO_NATIVE
@@ -58,9 +58,9 @@ float16x8_t emulated_halves(float16x8_t a, float16x8_t b, float16x8_t c, Functio
   const EmulatedHalves x(a), w(b), s(c);
   EmulatedHalves y;
   for (int i = 0; i < y.kCount; ++i) {
-    y.at[i] = emulated_to_half(f(double{emulated_to_float(x.at[i])},
-                                 double{emulated_to_float(w.at[i])},
-                                 double{emulated_to_float(s.at[i])}));
+    y.at[i] =
+        emulated_to_half(f(double{emulated_to_float(x.at[i])}, double{emulated_to_float(w.at[i])},
+                           double{emulated_to_float(s.at[i])}));
   }
   return y.vector();
 }
@@ -82,8 +82,8 @@ inline float32x4_t vsqrtq_f32(float32x4_t a) {
 inline float32x4_t vfmsq_f32(float32x4_t sum, float32x4_t a, float32x4_t b) {
   return emulated_floats(a, b, sum, [](float x, float w, float s) { return std::fma(-x, w, s); });
 }
-// In place of SIMDe's: the estimate of a reciprocal has 8 bits, and the step of Newton's method takes
-// zero times infinity for zero (Arm Architecture Reference Manual, FPRecipEstimate and
+// In place of SIMDe's: the estimate of a reciprocal has 8 bits, and the step of Newton's method
+// takes zero times infinity for zero (Arm Architecture Reference Manual, FPRecipEstimate and
 // FPRecipStepFused).
 #undef vrecpeq_f32
 inline float32x4_t vrecpeq_f32(float32x4_t a) {
@@ -98,7 +98,8 @@ inline float32x4_t vrecpeq_f32(float32x4_t a) {
 #undef vrecpsq_f32
 inline float32x4_t vrecpsq_f32(float32x4_t a, float32x4_t b) {
   return emulated_floats(a, b, a, [](float x, float y, float) {
-    const bool is_zero_times_infinity = (std::isinf(x) && y == 0.0f) || (x == 0.0f && std::isinf(y));
+    const bool is_zero_times_infinity =
+        (std::isinf(x) && y == 0.0f) || (x == 0.0f && std::isinf(y));
     return is_zero_times_infinity ? 2.0f : 2.0f - x * y;
   });
 }

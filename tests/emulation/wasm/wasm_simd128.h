@@ -9,8 +9,8 @@
 #include <cstdint>
 #include <cstring>
 
-// WebAssembly never takes denormal numbers for zero, as the engine asks other machines to, and kernels
-// rely on it where they widen fp16 by a product. A denormal factor is read from its bits.
+// WebAssembly never takes denormal numbers for zero, as the engine asks other machines to, and
+// kernels rely on it where they widen fp16 by a product. A denormal factor is read from its bits.
 inline double emulated_exact(float x) {
   std::uint32_t bits;
   std::memcpy(&bits, &x, sizeof bits);

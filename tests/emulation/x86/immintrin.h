@@ -1,6 +1,6 @@
 // x86 vector instructions in scalar code, for kernels that a test compiles for a machine without
-// them: SIMDe, and below it what SIMDe 0.7.4 lacks of AVX-512 and AVX-512 FP16. Names and meaning are
-// those of the Intel Intrinsics Guide.
+// them: SIMDe, and below it what SIMDe 0.7.4 lacks of AVX-512 and AVX-512 FP16. Names and meaning
+// are those of the Intel Intrinsics Guide.
 #pragma once
 
 #define SIMDE_NO_NATIVE
@@ -155,8 +155,8 @@ inline simde__m512i _mm512_i32gather_epi32(simde__m512i index, const void* base,
   });
 }
 
-// In place of what SIMDe 0.7.4 has: these two of its functions are wrong, and its masked load reads what
-// the mask excludes.
+// In place of what SIMDe 0.7.4 has: these two of its functions are wrong, and its masked load reads
+// what the mask excludes.
 #undef _mm512_abs_ps
 inline simde__m512 _mm512_abs_ps(simde__m512 x) {
   return emulated_map<float, simde__m512, float>(x, [](float one) { return std::fabs(one); });
