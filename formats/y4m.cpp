@@ -58,6 +58,19 @@ bool parse_rate(std::string_view text, Y4mHeader* header) {
   return header->rate_num != 0 && header->rate_den != 0;
 }
 
+// "0:0" says that it is not known, and what is no ratio says no more.
+void parse_aspect(std::string_view text, Y4mHeader* header) {
+  constexpr std::uint32_t kMaxTerm = 0x7fffffff;
+  const std::size_t colon = text.find(':');
+  if (colon == std::string_view::npos) {
+    return;
+  }
+  const auto numerator = parse_number(text.substr(0, colon), kMaxTerm);
+  const auto denominator = parse_number(text.substr(colon + 1), kMaxTerm);
+  header->aspect_num = denominator ? numerator.value_or(0) : 0;
+  header->aspect_den = numerator ? denominator.value_or(0) : 0;
+}
+
 bool parse_colour(std::string_view name, Y4mColour* colour) {
   struct Known {
     std::string_view name;
@@ -77,7 +90,7 @@ bool parse_colour(std::string_view name, Y4mColour* colour) {
   return false;
 }
 
-// Interlacing, pixel aspect and comments do not change how frames are stored.
+// Interlacing and comments do not change how frames are stored.
 Y4mStatus parse_parameter(std::string_view parameter, Y4mHeader* header) {
   const std::string_view value = parameter.substr(1);
   switch (parameter.front()) {
@@ -92,8 +105,10 @@ Y4mStatus parse_parameter(std::string_view parameter, Y4mHeader* header) {
     case 'X':
       header->full_range = header->full_range || value == "COLORRANGE=FULL";
       return Y4mStatus::kOk;
-    case 'I':
     case 'A':
+      parse_aspect(value, header);
+      return Y4mStatus::kOk;
+    case 'I':
       return Y4mStatus::kOk;
     default:
       return Y4mStatus::kBadParameter;
@@ -163,6 +178,12 @@ const char* message(Y4mStatus status) {
       return "the buffer is smaller than a frame";
   }
   return "unknown status";
+}
+
+double Y4mHeader::pixel_aspect() const {
+  constexpr double kLeast = 0.1, kMost = 10.0;
+  const double said = aspect_den == 0 ? 1.0 : static_cast<double>(aspect_num) / aspect_den;
+  return said >= kLeast && said <= kMost ? said : 1.0;
 }
 
 std::uint32_t Y4mHeader::chroma_width() const {

@@ -39,7 +39,11 @@ struct Y4mHeader {
   std::uint32_t rate_den = 0;
   Y4mColour colour = Y4mColour::k420;
   bool full_range = false;  // XCOLORRANGE=FULL; else 16..235
+  // Width and height of a pixel, one to the other; 0 where the header does not say.
+  std::uint32_t aspect_num = 0;
+  std::uint32_t aspect_den = 0;
 
+  double pixel_aspect() const;          // 0.1..10; 1 where it is not known, or nonsense
   std::uint32_t chroma_width() const;   // 0 for kMono; odd widths round up
   std::uint32_t chroma_height() const;  // 0 for kMono; odd heights round up
   std::size_t frame_bytes() const;      // planes Y, U, V one behind the other, no padding

@@ -66,6 +66,7 @@ void spoil(Bytes& choices, mien_image& image) {
       break;
     default:
       image.focal_length_px = choices.one_of({-1.0f, __builtin_nanf(""), __builtin_inff()});
+      image.pixel_aspect = choices.one_of({-1.0f, 11.0f, __builtin_nanf("")});
   }
 }
 

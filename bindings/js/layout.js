@@ -6,7 +6,7 @@ export const fields = {
     struct_size: [0, 'u32'], format: [4, 'i32'], width: [8, 'i32'], height: [12, 'i32'], planes: [16, 'u32', 3],
     row_stride_bytes: [28, 'i32', 3], chroma_pixel_stride_bytes: [40, 'i32'], rotation: [44, 'i32'], mirrored: [48, 'i32'],
     full_range: [52, 'i32'], focal_length_px: [56, 'f32'], principal_x: [60, 'f32'], principal_y: [64, 'f32'],
-    yuv_matrix: [68, 'i32'], region: [72, 'i32', 4]},
+    yuv_matrix: [68, 'i32'], region: [72, 'i32', 4], pixel_aspect: [88, 'f32']},
   audio: {
     struct_size: [0, 'u32'], format: [4, 'i32'], sample_rate: [8, 'i32'], channels: [12, 'i32'], planar: [16, 'i32'],
     frames: [20, 'u32'], samples: [24, 'u32', 8]},

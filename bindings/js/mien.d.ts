@@ -63,6 +63,8 @@ export interface Image {
   focalLengthPx?: number;
   principalX?: number;
   principalY?: number;
+  /** Width of a pixel / its height, 0.1 to 10; results are in square pixels: the upright picture keeps its height. */
+  pixelAspect?: number;
 }
 
 export interface Result {

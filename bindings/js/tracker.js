@@ -45,7 +45,8 @@ const configNames = {
   voiceStrength: 'voice_strength'};
 const imageNames = {
   chromaPixelStrideBytes: 'chroma_pixel_stride_bytes', rotation: 'rotation', mirrored: 'mirrored', fullRange: 'full_range',
-  focalLengthPx: 'focal_length_px', principalX: 'principal_x', principalY: 'principal_y', bt709: 'yuv_matrix'};
+  focalLengthPx: 'focal_length_px', principalX: 'principal_x', principalY: 'principal_y', bt709: 'yuv_matrix',
+  pixelAspect: 'pixel_aspect'};
 
 // Rows and bytes of a row of every plane of an image without padding. `step`: from one sample of I420's U or V to the next.
 function planeSizes(format, width, height, step) {

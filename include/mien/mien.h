@@ -104,7 +104,8 @@ typedef enum mien_status {
   MIEN_ERROR_LEFT_OUT = -43,          /* this build of the library has no part for that */
   /* stream */
   MIEN_ERROR_IMAGE_FORMAT = -60, /* no mien_image_format, or no mien_yuv_matrix */
-  MIEN_ERROR_IMAGE_SIZE = -61,   /* width or height outside 1..MIEN_MAX_IMAGE_SIDE */
+  MIEN_ERROR_IMAGE_SIZE = -61,   /* width or height outside 1..MIEN_MAX_IMAGE_SIDE, or
+                                  * pixel_aspect outside 0.1..10 */
   MIEN_ERROR_IMAGE_STRIDE = -62, /* rows or chroma samples overlap each other */
   MIEN_ERROR_IMAGE_PLANE = -63,  /* a plane of the format is NULL */
   MIEN_ERROR_IMAGE_ROTATION = -64,
@@ -244,7 +245,11 @@ typedef struct mien_image {
    * pixels of the whole upright image, as focal length and principal point do. It may move from
    * image to image while a face is followed. Of YUV, x and y are even. */
   int32_t region[4];
-  uint32_t reserved[3];
+  /* Width of a pixel of the buffer / its height, 0.1..10; 0 means 1. Where it is not 1, the upright
+   * image counts as made of square pixels: its height stays, its width follows. Results, focal
+   * length and principal point are in those; width, height and region above in the buffer's own. */
+  float pixel_aspect;
+  uint32_t reserved[2];
 } mien_image;
 
 /* Fills in *image: struct_size, full_range = 1, everything else 0. NULL is ignored. */

@@ -37,6 +37,20 @@ Y4mStatus read_all(const std::string& text, int* frames) {
   return status;
 }
 
+TEST(Y4m, SaysTheAspectOfItsPixels) {
+  const auto aspect = [](const char* parameter) {
+    Y4mHeader header;
+    const std::string text = std::string("YUV4MPEG2 W2 H2 F25:1 ") + parameter + "\n";
+    EXPECT_EQ(open_text(text, &header), Y4mStatus::kOk) << parameter;
+    return header.pixel_aspect();
+  };
+  EXPECT_DOUBLE_EQ(aspect("A4:3"), 4.0 / 3.0);
+  EXPECT_DOUBLE_EQ(aspect("A8:9"), 8.0 / 9.0);
+  for (const char* unknown : {"A0:0", "A1:0", "A0:1", "A", "A4", "Ax:y", "A1:1000", "A1000:1", ""}) {
+    EXPECT_EQ(aspect(unknown), 1.0) << unknown;
+  }
+}
+
 TEST(Y4m, ReadsTheHeader) {
   Y4mHeader header;
   ASSERT_EQ(

@@ -69,6 +69,50 @@ TEST(ImageView, RotationIsClockwise) {
   }
 }
 
+// Two columns of the buffer are three of the scene, whose height stays.
+TEST(ImageView, PixelsThatAreNotSquareAreStretched) {
+  mien_image image = image_of(MIEN_IMAGE_GRAY8, 40, 30);
+  image.pixel_aspect = 1.5f;
+  image.region[0] = 10;
+  image.region[1] = 6;
+  image.region[2] = 20;
+  image.region[3] = 12;
+  ImageView view = viewed(image);
+  EXPECT_FLOAT_EQ(view.width, 60.0f);
+  EXPECT_FLOAT_EQ(view.height, 30.0f);
+  expect_point(view.to_buffer({30.0f, 12.0f}), 10.0f, 6.0f);  // in what is left of the buffer
+  expect_point(view.region.corner, 15.0f, 6.0f);
+  EXPECT_FLOAT_EQ(view.region.width, 30.0f);
+  EXPECT_FLOAT_EQ(view.region.height, 12.0f);
+  EXPECT_FLOAT_EQ(view.camera.focal_px, 30.0f / std::tan(kFov / 2));
+  EXPECT_EQ(view.buffer_pixels_per_pixel, 1.0f);
+  image.mirrored = 1;
+  expect_point(viewed(image).to_buffer({30.0f, 12.0f}), 10.0f, 6.0f);
+  expect_point(viewed(image).region.corner, 15.0f, 6.0f);
+  image.mirrored = 0;
+  image.rotation = 90;  // on its side a pixel is 1 / 1.5 as wide as high
+  view = viewed(image);
+  EXPECT_FLOAT_EQ(view.width, 20.0f);
+  EXPECT_FLOAT_EQ(view.height, 40.0f);
+  EXPECT_FLOAT_EQ(view.region.corner.x, 8.0f);
+  EXPECT_FLOAT_EQ(view.region.width, 8.0f);
+  EXPECT_FLOAT_EQ(view.region.height, 20.0f);
+  EXPECT_FLOAT_EQ(view.buffer_pixels_per_pixel, 1.5f);
+}
+
+TEST(ImageView, PixelAspectsAreWithinLimits) {
+  mien_image image = image_of(MIEN_IMAGE_GRAY8, 4, 2);
+  for (float good : {0.0f, 0.1f, 1.0f, 10.0f}) {
+    image.pixel_aspect = good;
+    EXPECT_EQ(status_of(image), MIEN_OK) << good;
+  }
+  for (float bad : {-1.0f, 0.01f, 10.5f, std::numeric_limits<float>::quiet_NaN(),
+                    std::numeric_limits<float>::infinity()}) {
+    image.pixel_aspect = bad;
+    EXPECT_EQ(status_of(image), MIEN_ERROR_IMAGE_SIZE) << bad;
+  }
+}
+
 TEST(ImageView, RegionsLieWithinTheImage) {
   const auto status_with = [](mien_image_format format, std::initializer_list<int> region) {
     mien_image image = image_of(format, 4, 2);

@@ -49,7 +49,7 @@ const char* mien_status_string(mien_status status) {
     case MIEN_ERROR_IMAGE_FORMAT:
       return "the image format is unknown";
     case MIEN_ERROR_IMAGE_SIZE:
-      return "the image's width or height is out of range";
+      return "the image's width, height or pixel aspect is out of range";
     case MIEN_ERROR_IMAGE_STRIDE:
       return "an image stride is smaller than what a row needs";
     case MIEN_ERROR_IMAGE_PLANE:

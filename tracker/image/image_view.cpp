@@ -113,10 +113,12 @@ mien_image cut(const mien_image& image) {
 
 bool is_side(std::int32_t pixels) { return pixels >= 1 && pixels <= MIEN_MAX_IMAGE_SIDE; }
 
+bool is_aspect(float value) { return value >= 0.1f && value <= 10.0f; }
+
 bool is_length(float value) { return std::isfinite(value) && value >= 0.0f; }
 
 mien_status check_values(const mien_image& image) {
-  if (!is_side(image.width) || !is_side(image.height)) {
+  if (!is_side(image.width) || !is_side(image.height) || !is_aspect(image.pixel_aspect)) {
     return MIEN_ERROR_IMAGE_SIZE;
   }
   const std::int32_t r = image.rotation;
@@ -149,13 +151,14 @@ Affine unturned(const mien_image& image) {
   }
 }
 
-// Where in the scene those pixels of the buffer lie. `to_buffer` turns and flips only, so its
-// transpose undoes it.
-Rect to_scene(const Affine& to_buffer, const std::int32_t* region) {
+// Where in the scene those pixels of the buffer lie. `to_buffer` turns and flips what was stretched
+// sideways by 1 / aspect, so its transpose undoes it but for that.
+Rect to_scene(const Affine& to_buffer, float aspect, const std::int32_t* region) {
   const auto place = [&](std::int32_t x, std::int32_t y) {
     const float dx = static_cast<float>(x) - to_buffer.x0;
     const float dy = static_cast<float>(y) - to_buffer.y0;
-    return Point{to_buffer.xx * dx + to_buffer.yx * dy, to_buffer.xy * dx + to_buffer.yy * dy};
+    return Point{(to_buffer.xx * dx + to_buffer.yx * dy) * (aspect * aspect),
+                 to_buffer.xy * dx + to_buffer.yy * dy};
   };
   const Point a = place(region[0], region[1]);
   const Point b = place(region[0] + region[2], region[1] + region[3]);
@@ -187,6 +190,9 @@ mien_status view_image(const mien_image* given, float horizontal_fov, ImageView&
   if (image.chroma_pixel_stride_bytes == 0) {
     image.chroma_pixel_stride_bytes = 1;
   }
+  if (image.pixel_aspect == 0.0f) {
+    image.pixel_aspect = 1.0f;
+  }
   if (const mien_status status = check_values(image); status != MIEN_OK) {
     return status;
   }
@@ -202,13 +208,17 @@ mien_status view_image(const mien_image* given, float horizontal_fov, ImageView&
   }
   const bool on_side = image.rotation == 90 || image.rotation == 270;
   view.image = cut(image);
-  view.width = static_cast<float>(on_side ? image.height : image.width);
+  const float aspect = on_side ? 1.0f / image.pixel_aspect : image.pixel_aspect;
+  view.width = aspect * static_cast<float>(on_side ? image.height : image.width);
   view.height = static_cast<float>(on_side ? image.width : image.height);
   view.rotation = image.rotation;
   view.mirrored = image.mirrored != 0;
   const Affine flip = {-1, 0, view.width, 0, 1, 0};
-  const Affine to_buffer = view.mirrored ? compose(unturned(image), flip) : unturned(image);
-  view.region = to_scene(to_buffer, image.region);
+  const Affine narrowed = {1.0f / aspect, 0, 0, 0, 1, 0};
+  const Affine upright = compose(unturned(image), narrowed);
+  const Affine to_buffer = view.mirrored ? compose(upright, flip) : upright;
+  view.buffer_pixels_per_pixel = std::max(1.0f, 1.0f / aspect);
+  view.region = to_scene(to_buffer, aspect, image.region);
   const Affine to_part = {1, 0, -static_cast<float>(image.region[0]),
                           0, 1, -static_cast<float>(image.region[1])};
   view.to_buffer = compose(to_part, to_buffer);

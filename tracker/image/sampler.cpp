@@ -86,8 +86,9 @@ void Sampler::cut(const ImageView& view, const Crop& crop, const Raster& raster,
   args.image_height = view.image.height;
   const float matrix[6] = {m.xx, m.xy, m.x0, m.yx, m.yy, m.y0};
   std::copy(std::begin(matrix), std::end(matrix), args.matrix);
-  args.box = box(crop.side * unit);
-  args.chroma_box = box(0.5f * crop.side * unit);
+  const float apart = crop.side * unit * view.buffer_pixels_per_pixel;
+  args.box = box(apart);
+  args.chroma_box = box(0.5f * apart);
   args.y = picture.data();
   args.width = raster.columns;
   args.height = raster.rows;

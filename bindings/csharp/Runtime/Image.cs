@@ -34,6 +34,8 @@ namespace Mien
         public float FocalLengthPx;
         /// <summary>In the upright picture; both 0: its centre.</summary>
         public float PrincipalX, PrincipalY;
+        /// <summary>Width of a pixel / its height, 0.1 to 10. Results are in square pixels: the upright picture keeps its height.</summary>
+        public float PixelAspect = 1f;
         /// <summary>I420: bytes from one sample of U or V to the next; 0 means 1.</summary>
         public int ChromaPixelStrideBytes;
         /// <summary>Bottom row first in memory, as Unity's textures have it; of one plane. Native planes then begin with that row, too.</summary>
@@ -81,6 +83,7 @@ namespace Mien
             raw.focal_length_px = FocalLengthPx;
             raw.principal_x = PrincipalX;
             raw.principal_y = PrincipalY;
+            raw.pixel_aspect = PixelAspect;
             raw.chroma_pixel_stride_bytes = ChromaPixelStrideBytes;
             if (Region != null && Region.Length != 4) throw new ArgumentException("a region is x, y, width, height, not " + Region.Length + " numbers");
             if (Region != null) Region.CopyTo(raw.region, 0);

@@ -25,7 +25,8 @@ namespace Mien
             public float focal_length_px, principal_x, principal_y;
             public int yuv_matrix;
             [MarshalAs(UnmanagedType.ByValArray, SizeConst = 4)] public int[] region;
-            [MarshalAs(UnmanagedType.ByValArray, SizeConst = 3)] public uint[] reserved;
+            public float pixel_aspect;
+            [MarshalAs(UnmanagedType.ByValArray, SizeConst = 2)] public uint[] reserved;
         }
 
         [StructLayout(LayoutKind.Sequential)]

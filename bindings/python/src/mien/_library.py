@@ -58,7 +58,8 @@ class Image(Struct):
         ("principal_y", c_float),
         ("yuv_matrix", c_int32),
         ("region", c_int32 * 4),
-        ("reserved", c_uint32 * 3),
+        ("pixel_aspect", c_float),
+        ("reserved", c_uint32 * 2),
     ]
 
 

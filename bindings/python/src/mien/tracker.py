@@ -100,6 +100,7 @@ class Tracker(Handle):
         region: Optional[tuple[int, int, int, int]] = None,
         focal_length_px: float = 0.0,
         principal_point: tuple[float, float] = (0.0, 0.0),
+        pixel_aspect: float = 1.0,
     ) -> Result:
         """Tracks one picture and tells of the face known longest.
 
@@ -109,17 +110,19 @@ class Tracker(Handle):
         time_s: of the picture, on any clock.
         rotation: degrees clockwise that make it upright. mirrored: a selfie.
         region: x, y, width, height in pixels of the frame: all that is looked at.
+        pixel_aspect: width of a pixel / its height, 0.1 to 10; results are in square pixels: the upright picture keeps its height.
         """
         image = self._image
         _describe(image, frame, color)
-        facts = (rotation, mirrored, full_range, bt709, _NOWHERE if region is None else tuple(region), focal_length_px, *principal_point)
+        place = _NOWHERE if region is None else tuple(region)
+        facts = (rotation, mirrored, full_range, bt709, place, focal_length_px, *principal_point, pixel_aspect)
         if facts != self._facts:  # which most frames share, and to check them takes longer than to compare
             self._facts = ()
             image.rotation = rotation
             image.mirrored = bool(mirrored)
             image.full_range = bool(full_range)
             image.yuv_matrix = bool(bt709)
-            image.region, image.focal_length_px, image.principal_x, image.principal_y = facts[4:]
+            image.region, image.focal_length_px, image.principal_x, image.principal_y, image.pixel_aspect = facts[4:]
             self._facts = facts
         status = self._push_video(self._open(), image, nanoseconds(time_s))
         if status != 0:

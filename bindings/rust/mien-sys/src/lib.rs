@@ -43,7 +43,8 @@ pub struct mien_image {
     pub principal_y: f32,
     pub yuv_matrix: i32,
     pub region: [i32; 4],
-    pub reserved: [u32; 3],
+    pub pixel_aspect: f32,
+    pub reserved: [u32; 2],
 }
 
 #[repr(C)]

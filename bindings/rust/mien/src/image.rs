@@ -151,6 +151,13 @@ impl<'a> Image<'a> {
         self
     }
 
+    /// Width of a pixel / its height, 0.1 to 10. Results are in square pixels: the upright picture keeps its height.
+    #[must_use]
+    pub fn pixel_aspect(mut self, aspect: f32) -> Self {
+        self.raw.pixel_aspect = aspect;
+        self
+    }
+
     pub(crate) fn raw(&self) -> &mien_sys::mien_image {
         &self.raw
     }

@@ -23,7 +23,7 @@ fn everything_is_as_in_the_header() {
     let mut said = BTreeSet::new();
     layout! { said,
         mien_image { struct_size, format, width, height, planes, row_stride_bytes, chroma_pixel_stride_bytes, rotation, mirrored, full_range,
-            focal_length_px, principal_x, principal_y, yuv_matrix, region, reserved }
+            focal_length_px, principal_x, principal_y, yuv_matrix, region, pixel_aspect, reserved }
         mien_audio { struct_size, format, sample_rate, channels, planar, frames, samples, reserved }
         mien_allocator { allocate, release, user }
         mien_tracker_config { struct_size, cpu_mask, basenet, basenet_bytes, proposal, proposal_bytes, allocator, clock_ns, clock_user, lod,

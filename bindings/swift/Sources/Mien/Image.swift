@@ -48,6 +48,12 @@ public struct Image {
     raw.region = (x, y, width, height)
   }
 
+  /// Width of a pixel / its height, 0.1...10. Results are in square pixels: the upright picture keeps its height.
+  public var pixelAspect: Float {
+    get { raw.pixel_aspect == 0 ? 1 : raw.pixel_aspect }
+    set { raw.pixel_aspect = newValue }
+  }
+
   /// In pixels of the upright picture; 0: not known.
   public var focalLength: Float {
     get { raw.focal_length_px }
