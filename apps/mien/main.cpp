@@ -4,10 +4,12 @@
 #include <cstdlib>
 #include <exception>
 #include <new>
+#include <string>
 
 #include "apps/mien/command_line/program.h"
 #include "apps/mien/outputs/output_file.h"
 #include "apps/mien/system/failure.h"
+#include "apps/mien/system/shown.h"
 #include "apps/mien/system/standard_streams.h"
 #include "apps/mien/system/termination.h"
 
@@ -32,10 +34,13 @@ int main(int argc, char** argv) {
     mien::app::finish_standard_output();
     return code;
   } catch (const mien::app::Failure& failure) {
-    std::fprintf(stderr, "mien: %s\n", failure.what());
+    std::fprintf(stderr, "mien: %s\n", mien::app::shown(failure.what()).c_str());
+    for (const std::string& detail : failure.details()) {
+      std::fprintf(stderr, "  %s\n", mien::app::shown(detail).c_str());
+    }
     return failure.code();
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "mien: %s\n", error.what());
+    std::fprintf(stderr, "mien: %s\n", mien::app::shown(error.what()).c_str());
     return mien::app::kExitInternal;
   }
 }

@@ -55,6 +55,27 @@ TEST(Subprocess, TalkOnStandardErrorBlocksNeitherDirection) {
   EXPECT_EQ(reader.take_errors().substr(300000), "1048576\n");
 }
 
+TEST(Subprocess, AChildThatClosesStdoutAndGoesOnIsEnded) {
+  const auto began = Clock::now();
+  Subprocess child(shell("printf abc; exec >&-; exec sleep 300"), Subprocess::Pipe::kFromChild,
+                   200ms);
+  EXPECT_EQ(child.read_all(), "abc");
+  EXPECT_EQ(child.finish(), kKilled);
+  EXPECT_LT(Clock::now() - began, 100s);
+  EXPECT_NE(child.take_errors().find("'sh' did nothing for 0.2"), std::string::npos);
+}
+
+// A grandchild that inherited stderr.
+TEST(Subprocess, WhoHoldsStderrOpenIsNotWaitedFor) {
+  const auto began = Clock::now();
+  Subprocess child(shell("printf wrong >&2; sleep 30 >/dev/null & exit 3"),
+                   Subprocess::Pipe::kFromChild, 60s);
+  EXPECT_EQ(child.read_all(), "");
+  EXPECT_EQ(child.finish(), 3);
+  EXPECT_EQ(child.take_errors(), "wrong");
+  EXPECT_LT(Clock::now() - began, 25s);
+}
+
 TEST(Subprocess, AChildThatWentAwayTakesNothing) {
   signal(SIGPIPE, SIG_IGN);  // as the program does
   const std::vector<std::byte> much(1 << 22);

@@ -2,13 +2,14 @@
 
 #include "apps/mien/sources/ffmpeg.h"
 #include "apps/mien/sources/network_input.h"
+#include "apps/mien/sources/recording.h"
 #include "apps/mien/system/failure.h"
 #include "apps/mien/system/subprocess.h"
 
 namespace mien::app {
 
 Nv12Clip::Nv12Clip(const std::string& input, std::size_t most) : bytes_(most * kFrameBytes) {
-  (void)probe_video(input);  // says what is wrong with it better than the decoder
+  require_video(input);  // says what is wrong with it better than the decoder
   const std::string size = std::to_string(kWidth) + ":" + std::to_string(kHeight);
   std::vector<std::string> command = {"ffmpeg", "-nostdin", "-v", "error"};
   const std::vector<std::string> file = input_arguments(input);

@@ -3,12 +3,15 @@
 #include <mien/mien.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <new>
+#include <sstream>
 #include <string>
 
 #include "apps/mien/command_line/reference.h"
 #include "apps/mien/command_line/verbs.h"
 #include "apps/mien/system/failure.h"
+#include "apps/mien/system/shown.h"
 
 namespace mien::app {
 
@@ -38,7 +41,11 @@ int run_program(int argc, char** argv) {
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return program.exit(error) == 0 ? kExitOk : kExitUsage;
+    std::ostringstream help, complaints;
+    const int code = program.exit(error, help, complaints);
+    std::fputs(help.str().c_str(), stdout);
+    std::fputs(shown_lines(complaints.str()).c_str(), stderr);
+    return code == 0 ? kExitOk : kExitUsage;
   }
   return kExitOk;
 }

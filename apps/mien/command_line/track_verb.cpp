@@ -11,6 +11,7 @@
 #include "apps/mien/command_line/tracker_options.h"
 #include "apps/mien/system/failure.h"
 #include "apps/mien/system/paths.h"
+#include "apps/mien/system/shown.h"
 #include "apps/mien/tracking/batch.h"
 
 namespace mien::app {
@@ -63,6 +64,12 @@ void add_track(CLI::App& program) {
   verb->add_option("--tier", options->tier, "kernel tier: ref, avx2, avx512, ...");
   verb->add_flag("--unfused", options->unfused, "networks run layer by layer");
   verb->add_option("--models", options->models, "folder of the model files");
+  verb->add_option("--audio-track", options->audio_track,
+                   "which audio track is heard, where there are several; the first is 1 (default)")
+      ->check(CLI::Range(1, 1000));
+  verb->add_option("--rotate", options->rotation,
+                   "degrees clockwise that make the video upright, whatever it says itself")
+      ->check(CLI::IsMember({0, 90, 180, 270}));
   verb->add_option("--start", options->start_s, "seconds to skip")
       ->check(finite(CLI::NonNegativeNumber));
   verb->add_option("--duration", options->duration_s, "seconds to track")
@@ -85,7 +92,7 @@ void add_track(CLI::App& program) {
   verb->callback([options, batch] {
     options->animation.writing.several_faces = options->max_faces > 1;
     options->animation.writing.sound_file =
-        options->audio.empty() ? options->input : options->audio;
+        without_credentials(options->audio.empty() ? options->input : options->audio);
     if (options->max_faces > 1 && (batch->reports || !options->report.empty())) {
       throw Failure(kExitUsage, "a report shows one face; follow one");
     }
@@ -93,7 +100,10 @@ void add_track(CLI::App& program) {
       if (std::filesystem::is_directory(path_of(options->input))) {
         throw Failure(kExitNoInput, options->input + ": is a folder; --out says where to");
       }
-      track(*options);
+      const TrackSummary summary = track(*options);
+      if (!summary.lost.empty()) {
+        throw Failure(kExitDamaged, summary.lost + "; the outputs have the rest");
+      }
       return;
     }
     batch->folder = options->input;

@@ -11,6 +11,7 @@
 #include "apps/mien/system/failure.h"
 #include "apps/mien/system/json_text.h"
 #include "apps/mien/system/paths.h"
+#include "apps/mien/system/shown.h"
 #include "formats/animation/resample.h"
 
 namespace mien::app {
@@ -118,9 +119,9 @@ void report(const ConvertOptions& options, formats::AnimationFormat format, cons
     return;
   }
   print_notes(options.input, clip);
-  std::fprintf(stderr, "%s: %zu frames\n", options.output.c_str(), clip.frames.size());
+  std::fprintf(stderr, "%s: %zu frames\n", shown(options.output).c_str(), clip.frames.size());
   for (const std::string& what : lost) {
-    std::fprintf(stderr, "  left out: %s\n", what.c_str());
+    std::fprintf(stderr, "  left out: %s\n", shown(what).c_str());
   }
 }
 

@@ -20,10 +20,11 @@
 #include "apps/mien/outputs/result_frame.h"
 #include "apps/mien/senders/sender.h"
 #include "apps/mien/sources/capture.h"
-#include "apps/mien/sources/ffmpeg.h"
+#include "apps/mien/sources/input.h"
 #include "apps/mien/sources/network_input.h"
 #include "apps/mien/system/failure.h"
 #include "apps/mien/system/interrupt.h"
+#include "apps/mien/system/shown.h"
 #include "apps/mien/system/terminal.h"
 #include "apps/mien/tracking/loaded_tracker.h"
 #include "formats/animation/mirror.h"
@@ -55,7 +56,7 @@ std::string microphone_of(const LiveOptions& options, const std::string& camera)
   if (!camera.starts_with(kTest)) {
     return default_device(CaptureKind::kMicrophone);
   }
-  return probe_streams(file_played_by(camera)).sound ? camera : kNone;
+  return Input(file_played_by(camera)).has_sound() ? camera : kNone;
 }
 
 double time_of_day_s() {
@@ -243,11 +244,12 @@ class Live {
   [[nodiscard]] ScreenState screen_state(const std::string& camera,
                                          const std::string& microphone) const {
     ScreenState state;
-    state.camera = camera.empty() ? camera_name_ : camera + "; waiting for it";
-    state.microphone = microphone.empty() ? microphone_name_ : microphone + "; waiting for it";
+    state.camera = shown(camera.empty() ? camera_name_ : camera + "; waiting for it");
+    state.microphone =
+        shown(microphone.empty() ? microphone_name_ : microphone + "; waiting for it");
     for (const std::unique_ptr<Sender>& sender : senders_) {
       const std::string more = sender->state();
-      state.receivers.push_back(sender->name() + (more.empty() ? "" : ", " + more));
+      state.receivers.push_back(shown(sender->name() + (more.empty() ? "" : ", " + more)));
     }
     state.frame = shown_;
     state.level = level_;
@@ -262,7 +264,7 @@ class Live {
   // Where there is no screen, what went wrong is a line when it goes wrong.
   static void say_once(const std::string& trouble, std::string& said) {
     if (trouble != said && !trouble.empty()) {
-      std::fprintf(stderr, "%s; waiting for it\n", trouble.c_str());
+      std::fprintf(stderr, "%s; waiting for it\n", shown(trouble).c_str());
     } else if (trouble != said) {
       std::fputs("it is back\n", stderr);
     }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 
 #pragma GCC diagnostic push
@@ -53,6 +54,16 @@ Color pixel(const mien_image& image, int x, int y) {
   return {rgb[0], rgb[1], rgb[2]};
 }
 
+// The pixel of `pixels` that each of `places` shows.
+std::vector<int> spread(int pixels, int places, bool backwards) {
+  std::vector<int> shown(static_cast<std::size_t>(places));
+  for (int i = 0; i < places; ++i) {
+    const int pixel = static_cast<int>(std::int64_t{i} * pixels / places);
+    shown[static_cast<std::size_t>(i)] = backwards ? pixels - 1 - pixel : pixel;
+  }
+  return shown;
+}
+
 }  // namespace
 
 Canvas::Canvas(int width, int height)
@@ -73,10 +84,17 @@ void Canvas::set(int x, int y, Color color) {
   at[2] = color.b;
 }
 
-void Canvas::paste(const mien_image& image, int scale) {
-  for (int y = 0; y < std::min(image.height * scale, height_); ++y) {
-    for (int x = 0; x < std::min(image.width * scale, width_); ++x) {
-      set(x, y, pixel(image, x / scale, y / scale));
+void Canvas::paste(const mien_image& image, int width, int height) {
+  const bool sideways = image.rotation % 180 != 0;
+  const bool from_right = image.rotation == 180 || image.rotation == 270;
+  const bool from_below = image.rotation == 90 || image.rotation == 180;
+  const std::vector<int> columns = spread(image.width, sideways ? height : width, from_right);
+  const std::vector<int> rows = spread(image.height, sideways ? width : height, from_below);
+  for (int y = 0; y < std::min(height, height_); ++y) {
+    for (int x = 0; x < std::min(width, width_); ++x) {
+      const auto column = static_cast<std::size_t>(sideways ? y : x);
+      const auto line = static_cast<std::size_t>(sideways ? x : y);
+      set(x, y, pixel(image, columns[column], rows[line]));
     }
   }
 }

@@ -19,8 +19,9 @@ class Canvas {
   int height() const { return height_; }
   const std::vector<unsigned char>& rgb() const { return rgb_; }
 
-  // Copies an RGB, I420 or grey image to the top left corner, each pixel `scale` x `scale`.
-  void paste(const mien_image& image, int scale);
+  // Copies an RGB, I420 or grey image to the top left corner, upright (mien_image.rotation), as
+  // width x height pixels.
+  void paste(const mien_image& image, int width, int height);
   void fill(int x, int y, int width, int height, Color color);
   void dot(float x, float y, float radius, Color color);
   void line(float x0, float y0, float x1, float y1, Color color);

@@ -6,6 +6,7 @@
 
 #include "apps/mien/outputs/result_frame.h"
 #include "apps/mien/system/paths.h"
+#include "apps/mien/system/shown.h"
 
 namespace mien::app {
 namespace {
@@ -24,7 +25,7 @@ ReportOptions report_options(const TrackOptions& options, const VideoInfo& info)
           .picture = info.width > 0 ? file_or_none(options.input) : "",
           .sound = file_or_none(options.audio.empty() ? options.input : options.audio),
           .largest_clip_bytes = options.report_clip_mb * 1e6,
-          .name = name_of(path_of(options.input).filename()),
+          .name = name_of(path_of(without_credentials(options.input)).filename()),
           .width = info.width,
           .height = info.height,
           .writing = options.animation.writing};
@@ -47,8 +48,9 @@ Outputs::Outputs(const TrackOptions& options, const VideoInfo& info, const Video
   if (!options.overlay.empty()) {
     overlay_ = std::make_unique<Overlay>(info.width, info.height);
     const std::string sound_from = options.input == "-" ? "" : options.input;
-    encoder_ = std::make_unique<VideoEncoder>(options.overlay, overlay_->width(),
-                                              overlay_->height(), info.fps, sound_from, range);
+    encoder_ =
+        std::make_unique<VideoEncoder>(options.overlay, overlay_->width(), overlay_->height(),
+                                       info.fps, sound_from, options.audio_track, range);
   }
   if (!options.report.empty()) {
     report_ = std::make_unique<Report>(report_options(options, info));
@@ -69,7 +71,7 @@ void Outputs::frame(std::int64_t number, const mien_image* image, std::span<cons
     }
   }
   if (overlay_ && image != nullptr) {
-    encoder_->write(overlay_->draw(*image, faces).rgb());
+    encoder_->write(overlay_->draw(*image, faces).rgb(), faces.front().pts_ns);
   }
 }
 

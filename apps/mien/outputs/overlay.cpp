@@ -27,13 +27,15 @@ int enlargement(int height) { return std::max(1, least_height() * 4 / 5 / height
 }  // namespace
 
 Overlay::Overlay(int width, int height)
-    : scale_(enlargement(height)),
+    : width_(width),
+      height_(height),
+      scale_(enlargement(height)),
       panel_x_(width * scale_),
       canvas_(width * scale_ + kPanelWidth, std::max(height * scale_, least_height())) {}
 
 const Canvas& Overlay::draw(const mien_image& image, std::span<const Result> faces) {
   canvas_.fill(0, 0, canvas_.width(), canvas_.height(), kBackground);
-  canvas_.paste(image, scale_);
+  canvas_.paste(image, width_ * scale_, height_ * scale_);
   for (const Result& face : faces) {
     if (face.has_face()) {
       draw_face(face);

@@ -23,6 +23,7 @@ class Overlay {
   void draw_pose(const Result& result);
   void draw_controls(const Result& result);
 
+  int width_, height_;  // of the upright picture
   int scale_;
   int panel_x_;
   Canvas canvas_;

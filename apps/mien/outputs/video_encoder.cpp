@@ -34,7 +34,8 @@ TemporaryFile::Ending needed_ending(const std::string& path) {
 
 std::vector<std::string> encode_command(const std::string& partial_path, std::string_view muxer,
                                         int width, int height, double fps,
-                                        const std::string& sound_from, const VideoRange& range) {
+                                        const std::string& sound_from, int audio_track,
+                                        const VideoRange& range) {
   std::vector<std::string> command = {"ffmpeg",
                                       "-hide_banner",
                                       "-loglevel",
@@ -59,7 +60,7 @@ std::vector<std::string> encode_command(const std::string& partial_path, std::st
     }
     const std::vector<std::string> source = input_arguments(sound_from);
     command.insert(command.end(), source.begin(), source.end());
-    command.insert(command.end(), {"-map", "1:a:0?"});
+    command.insert(command.end(), {"-map", "1:a:" + std::to_string(audio_track - 1) + "?"});
   }
   // H.264 in 4:2:0 needs even sizes.
   command.insert(command.end(),
@@ -69,18 +70,23 @@ std::vector<std::string> encode_command(const std::string& partial_path, std::st
     command.insert(command.end(), {"-f", std::string(muxer)});
   }
   command.push_back(output_file(partial_path));
+  if (!sound_from.empty()) {  // so that time 0 is that of the recording, not of its audio
+    command.insert(command.end(), {"-map", "1:v:0", "-c", "copy", "-f", "null", "-"});
+  }
   return command;
 }
 
 }  // namespace
 
 VideoEncoder::VideoEncoder(const std::string& path, int width, int height, double fps,
-                           const std::string& sound_from, const VideoRange& range)
+                           const std::string& sound_from, int audio_track, const VideoRange& range)
     : path_(path),
+      fps_(fps),
+      start_s_(range.start_s),
       partial_(path, needed_ending(path)),
-      encoder_(
-          encode_command(partial_.name(), muxer_of(path), width, height, fps, sound_from, range),
-          Subprocess::Pipe::kToChild, Subprocess::kPatience) {}
+      encoder_(encode_command(partial_.name(), muxer_of(path), width, height, fps, sound_from,
+                              audio_track, range),
+               Subprocess::Pipe::kToChild, Subprocess::kPatience) {}
 
 void VideoEncoder::fail() {
   std::string reason = encoder_.take_errors();
@@ -88,14 +94,33 @@ void VideoEncoder::fail() {
   throw Failure(kExitOutput, path_ + ": cannot be written: " + reason);
 }
 
-void VideoEncoder::write(const std::vector<unsigned char>& rgb) {
-  if (!encoder_.write(std::as_bytes(std::span(rgb)))) {
+// The picture is shown until the time of the next; the first from the beginning on.
+void VideoEncoder::write(const std::vector<unsigned char>& rgb, std::int64_t time_ns) {
+  constexpr double kLongestGapS = 600.0;  // of timestamps that jump, no more is filled
+  const double due = (static_cast<double>(time_ns) * 1e-9 - start_s_) * fps_;
+  const auto shown = static_cast<double>(frames_);
+  const double until = std::min(due + 0.5, shown + kLongestGapS * fps_);
+  if (shown_.empty()) {
+    shown_ = rgb;
+  }
+  while (static_cast<double>(frames_) + 1.0 <= until) {
+    send();
+  }
+  shown_ = rgb;
+}
+
+void VideoEncoder::send() {
+  ++frames_;
+  if (!encoder_.write(std::as_bytes(std::span(shown_)))) {
     encoder_.finish();
     fail();
   }
 }
 
 void VideoEncoder::finish() {
+  if (!shown_.empty()) {
+    send();
+  }
   if (encoder_.finish() != 0) {
     fail();
   }

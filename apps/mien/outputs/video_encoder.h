@@ -1,6 +1,7 @@
 // Video files, through the ffmpeg program.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -15,15 +16,23 @@ namespace mien::app {
 class VideoEncoder {
  public:
   VideoEncoder(const std::string& path, int width, int height, double fps,
-               const std::string& sound_from, const VideoRange& range);
-  void write(const std::vector<unsigned char>& rgb);  // width * height * 3 bytes
+               const std::string& sound_from, int audio_track, const VideoRange& range);
+  // Width * height * 3 bytes, and when it is shown. The video has a constant frame rate: pictures
+  // are repeated or left out, so that they stay beside the sound.
+  void write(const std::vector<unsigned char>& rgb, std::int64_t time_ns);
   void finish();
 
  private:
   [[noreturn]] void fail();
 
+  void send();
+
   std::string path_;
-  PartialFile partial_;  // before what writes it, and so removed when that has ended
+  double fps_;
+  double start_s_;
+  std::int64_t frames_ = 0;           // written
+  std::vector<unsigned char> shown_;  // since the last that was written
+  PartialFile partial_;               // before what writes it, and so removed when that has ended
   Subprocess encoder_;
 };
 

@@ -5,6 +5,7 @@
 #include "apps/mien/sources/animation_file.h"
 #include "apps/mien/sources/ffmpeg.h"
 #include "apps/mien/sources/network_input.h"
+#include "apps/mien/sources/recording.h"
 #include "apps/mien/system/failure.h"
 #include "apps/mien/system/subprocess.h"
 
@@ -56,7 +57,7 @@ std::vector<std::string> transcode_command(const WebVideo& wanted, const std::st
 std::string web_video(const WebVideo& wanted, const PartialFile& file) {
   const std::string& name = wanted.picture.empty() ? wanted.sound : wanted.picture;
   if (!wanted.picture.empty()) {
-    probe_video(wanted.picture);
+    require_video(wanted.picture);
   }
   Subprocess transcoder(transcode_command(wanted, file.name()), Subprocess::Pipe::kFromChild);
   transcoder.read_all();

@@ -13,29 +13,29 @@ namespace mien::app {
 
 inline constexpr const char* kStandardInput = "-";  // the name of an input
 
-// Reads block by block. The samples of `next` stay valid until the next call.
+// Reads block by block. The samples of `next`, fp32, stay valid until the next call.
 class SoundSource {
  public:
   virtual ~SoundSource() = default;
 
-  // False at the end of the sound. Throws Failure when it is damaged or truncated.
+  // False at the end of the sound. Throws Failure when it is truncated.
   virtual bool next(Audio& block, std::int64_t& pts_ns) = 0;
+
+  // So far.
+  [[nodiscard]] virtual Damage damage() const { return {}; }
 };
 
-// A WAV file, which needs no ffmpeg.
-bool is_wav(const std::string& input);
-
-// "-" is a WAV stream on stdin, a name ending in .wav a WAV file; everything else goes through
-// ffmpeg. Times are those of the input. Throws Failure.
-std::unique_ptr<SoundSource> open_sound(const std::string& input, const VideoRange& range);
+// "-" is a WAV stream on stdin, a name ending in .wav a WAV file unless ffmpeg alone can read it;
+// everything else goes through ffmpeg. Times are those of the input. Throws Failure.
+std::unique_ptr<SoundSource> open_sound(const std::string& input, const InputOptions& options);
 
 // Brings sound to a tracker as its frames need it.
 class SoundFeed {
  public:
   using Listener = std::function<void(const Audio& block, std::int64_t pts_ns)>;
 
-  SoundFeed(const std::string& input, const VideoRange& range)
-      : input_(input), source_(open_sound(input, range)) {}
+  SoundFeed(std::string input, std::unique_ptr<SoundSource> source)
+      : input_(std::move(input)), source_(std::move(source)) {}
 
   // Hears all that the tracker hears.
   void set_listener(Listener listener) { listener_ = std::move(listener); }
@@ -46,11 +46,15 @@ class SoundFeed {
   // Whether the sound lasts until then, as far as it was heard.
   [[nodiscard]] bool lasts_until(std::int64_t pts_ns) const { return end_ns_ > pts_ns; }
 
+  [[nodiscard]] float peak() const { return peak_; }  // of what was heard, 1 being full scale
+  [[nodiscard]] Damage damage() const { return source_->damage(); }
+
  private:
   std::string input_;
   std::unique_ptr<SoundSource> source_;
   Listener listener_;
   std::int64_t end_ns_ = INT64_MIN;  // of what was heard
+  float peak_ = 0.0f;
   bool ended_ = false;
 };
 

@@ -4,6 +4,9 @@
 #include <cstdio>
 #include <vector>
 
+#include "apps/mien/sources/input_file.h"
+#include "apps/mien/sources/network_input.h"
+#include "apps/mien/sources/recording.h"
 #include "apps/mien/system/failure.h"
 #include "formats/y4m.h"
 
@@ -12,14 +15,7 @@ namespace {
 
 class Y4mSource : public VideoSource {
  public:
-  Y4mSource(const std::string& input, const VideoRange& range);
-  ~Y4mSource() override {
-    if (file_ != stdin) {
-      std::fclose(file_);
-    }
-  }
-  Y4mSource(const Y4mSource&) = delete;
-  Y4mSource& operator=(const Y4mSource&) = delete;
+  Y4mSource(const std::string& input, const InputOptions& options);
 
   const VideoInfo& info() const override { return info_; }
   bool next(mien_image& image, std::int64_t& pts_ns) override;
@@ -32,28 +28,30 @@ class Y4mSource : public VideoSource {
 
   std::string name_;
   VideoRange range_;
-  std::FILE* file_;
+  InputFile file_;
   formats::Y4mReader reader_;
   VideoInfo info_;
   std::vector<std::byte> frame_;
   std::int64_t frames_ = 0;
 };
 
-Y4mSource::Y4mSource(const std::string& input, const VideoRange& range)
-    : name_(input == "-" ? "standard input" : input),
-      range_(range),
-      file_(input == "-" ? stdin : std::fopen(input.c_str(), "rb")) {
-  if (file_ == nullptr) {
-    throw Failure(kExitNoInput, name_ + ": no such file");
-  }
-  const formats::Y4mStatus status = reader_.open(formats::file_source(file_));
+Y4mSource::Y4mSource(const std::string& input, const InputOptions& options)
+    : name_(input_label(input)), range_(options.range), file_(open_input_file(input)) {
+  const formats::Y4mStatus status = reader_.open(formats::file_source(file_.get()));
   if (status != formats::Y4mStatus::kOk) {
     throw Failure(kExitNoVideo, name_ + ": not a Y4M video: " + formats::message(status));
   }
   const formats::Y4mHeader& header = reader_.header();
-  info_.width = static_cast<int>(header.width);
-  info_.height = static_cast<int>(header.height);
+  VideoTrack track;
+  track.width = static_cast<int>(header.width);
+  track.height = static_cast<int>(header.height);
+  track.pixel_aspect = header.pixel_aspect();
+  const DisplaySize size = display_size(track, options.rotation);
+  info_.width = size.width;
+  info_.height = size.height;
   info_.fps = static_cast<double>(header.rate_num) / static_cast<double>(header.rate_den);
+  info_.pixel_aspect = track.pixel_aspect;
+  info_.rotation = options.rotation.value_or(0);
   frame_.resize(header.frame_bytes());
 }
 
@@ -81,6 +79,7 @@ bool Y4mSource::next(mien_image& image, std::int64_t& pts_ns) {
     }
   } while (seconds(frames_ - 1) < range_.start_s);
   image = y4m_image(reader_.header(), frame_.data());
+  image.rotation = info_.rotation;
   pts_ns = std::llround(seconds(frames_ - 1) * 1e9);
   return true;
 }
@@ -95,6 +94,7 @@ mien_image y4m_image(const formats::Y4mHeader& header, const std::byte* frame) {
   image.width = width;
   image.height = height;
   image.full_range = header.full_range ? 1 : 0;
+  image.pixel_aspect = static_cast<float>(header.pixel_aspect());
   image.planes[0] = frame;
   image.row_stride_bytes[0] = width;
   if (header.colour == formats::Y4mColour::kMono) {
@@ -115,8 +115,22 @@ mien_image y4m_image(const formats::Y4mHeader& header, const std::byte* frame) {
   return image;
 }
 
-std::unique_ptr<VideoSource> open_y4m(const std::string& input, const VideoRange& range) {
-  return std::make_unique<Y4mSource>(input, range);
+bool is_y4m(const std::string& input) {
+  return input == kStandardInput || (input.ends_with(".y4m") && !is_url(input));
+}
+
+std::string y4m_refusal(const std::string& path) {
+  const InputFile file = open_input_file(path);
+  if (!can_be_read_again(path)) {
+    return {};
+  }
+  formats::Y4mReader reader;
+  const formats::Y4mStatus status = reader.open(formats::file_source(file.get()));
+  return status == formats::Y4mStatus::kOk ? std::string() : formats::message(status);
+}
+
+std::unique_ptr<VideoSource> open_y4m(const std::string& input, const InputOptions& options) {
+  return std::make_unique<Y4mSource>(input, options);
 }
 
 }  // namespace mien::app

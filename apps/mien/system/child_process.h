@@ -36,8 +36,9 @@ class ChildProcess {
   // Ends the child; also from another thread, until `wait` was called.
   virtual void kill() = 0;
 
-  // Returns the exit status, 128 + signal when killed.
-  virtual int wait() = 0;
+  // Returns the exit status, 128 + signal when killed; none: it still runs after so long, below 0
+  // being for ever. What else holds its stderr open is not waited for.
+  virtual std::optional<int> wait(std::chrono::milliseconds patience) = 0;
 
   // What the child has said on stderr so far and nobody has taken.
   virtual std::string take_errors() = 0;

@@ -16,7 +16,8 @@ enum ExitCode : int {
   kExitUnsupportedTier = 9,  // this CPU cannot run the tier asked for
   kExitNoFace = 10,          // too little of a face in the input to capture a neutral one
   kExitNoSound = 11,         // the input has no sound, or none that can be read
-  kExitSomeFailed = 12       // of a folder: some of its files failed, the others are done
+  kExitSomeFailed = 12,      // of a folder: some of its files failed, the others are done
+  kExitDamaged = 13          // the outputs are whole, but lack frames that cannot be decoded
 };
 
 struct ExitMeaning {
@@ -39,6 +40,7 @@ inline constexpr ExitMeaning kExitMeanings[] = {
     {kExitNoFace, "mien neutral: no 55 frames in a row show a face"},
     {kExitNoSound, "there is no sound where some was asked for, or none that can be read"},
     {kExitSomeFailed, "some files of a folder failed, the others are done"},
+    {kExitDamaged, "done, but frames of the input could not be decoded"},
 };
 
 }  // namespace mien::app

@@ -8,12 +8,17 @@ namespace mien::app {
 
 Subprocess::Subprocess(const std::vector<std::string>& arguments, Pipe pipe,
                        std::chrono::milliseconds patience)
-    : name_(arguments[0]), patience_(patience), child_(ChildProcess::start(arguments, pipe)) {}
+    : name_(arguments[0]),
+      patience_(patience),
+      last_patience_(pipe == Pipe::kToChild       ? kPatienceWithOutput
+                     : patience < patience.zero() ? kPatience
+                                                  : patience),
+      child_(ChildProcess::start(arguments, pipe)) {}
 
-void Subprocess::lose_patience() {
+void Subprocess::lose_patience(std::chrono::milliseconds after) {
   child_->kill();
   errors_ += child_->take_errors() + "[error] '" + name_ + "' did nothing for " +
-             std::to_string(std::chrono::duration<double>(patience_).count()) + " s\n";
+             std::to_string(std::chrono::duration<double>(after).count()) + " s\n";
 }
 
 std::size_t Subprocess::read(std::span<std::byte> bytes) {
@@ -21,7 +26,7 @@ std::size_t Subprocess::read(std::span<std::byte> bytes) {
   while (done < bytes.size()) {
     const std::optional<std::size_t> n = child_->read(bytes.subspan(done), patience_);
     if (!n) {
-      lose_patience();
+      lose_patience(patience_);
     }
     if (n.value_or(0) == 0) {
       break;
@@ -47,7 +52,7 @@ bool Subprocess::write(std::span<const std::byte> bytes) {
   while (!bytes.empty()) {
     const std::optional<std::size_t> n = child_->write(bytes, patience_);
     if (!n) {
-      lose_patience();
+      lose_patience(patience_);
     }
     if (n.value_or(0) == 0) {
       return false;
@@ -61,7 +66,12 @@ void Subprocess::interrupt() { child_->kill(); }
 
 int Subprocess::finish() {
   child_->close_pipe();
-  return child_->wait();
+  std::optional<int> status = child_->wait(last_patience_);
+  if (!status) {
+    lose_patience(last_patience_);
+    status = child_->wait(kEndless);
+  }
+  return *status;
 }
 
 std::string Subprocess::take_errors() { return std::exchange(errors_, {}) + child_->take_errors(); }

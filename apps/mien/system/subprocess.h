@@ -18,6 +18,8 @@ class Subprocess {
 
   // How long a child that reads or writes files may do nothing.
   static constexpr std::chrono::seconds kPatience{60};
+  // How long a child may take that has all of its input: it may have a file to move about.
+  static constexpr std::chrono::minutes kPatienceWithOutput{30};
   static constexpr std::chrono::milliseconds kEndless{-1};
 
   // Starts arguments[0], found on PATH. kFromChild connects the child's stdout, kToChild its stdin;
@@ -39,17 +41,19 @@ class Subprocess {
   // `finish` was called.
   void interrupt();
 
-  // Closes the pipe and waits. Returns the exit status, 128 + signal when killed.
+  // Closes the pipe and waits. Returns the exit status, 128 + signal when killed, as a child is
+  // that does not end.
   int finish();
 
   // What the child has said on stderr so far and nobody has taken; empties it.
   std::string take_errors();
 
  private:
-  void lose_patience();
+  void lose_patience(std::chrono::milliseconds after);
 
   const std::string name_;
   const std::chrono::milliseconds patience_;
+  const std::chrono::milliseconds last_patience_;  // once the pipe is closed
   const std::unique_ptr<ChildProcess> child_;
   std::string errors_;
 };

@@ -15,6 +15,7 @@
 #include "apps/mien/system/json_text.h"
 #include "apps/mien/system/paths.h"
 #include "apps/mien/system/progress.h"
+#include "apps/mien/system/shown.h"
 
 namespace mien::app {
 namespace {
@@ -183,12 +184,12 @@ void run_all(const BatchOptions& options, std::vector<Job>& jobs) {
 void print_table(const std::vector<Job>& jobs) {
   std::size_t widest = 4;
   for (const Job& job : jobs) {
-    widest = std::max(widest, job.name.size());
+    widest = std::max(widest, shown(job.name).size());
   }
   const int width = static_cast<int>(widest);
   std::printf("%-*s  %-11s %8s %9s %9s\n", width, "file", "", "frames", "with face", "frames/s");
   for (const Job& job : jobs) {
-    std::printf("%-*s  %-11s", width, job.name.c_str(), word(job.outcome));
+    std::printf("%-*s  %-11s", width, shown(job.name).c_str(), word(job.outcome));
     if (job.outcome == Outcome::kDone) {
       const auto frames = static_cast<double>(job.summary.frames);
       std::printf(" %8llu %7.0f %% %9.0f", static_cast<unsigned long long>(job.summary.frames),
@@ -208,6 +209,9 @@ void print_json(const std::vector<Job>& jobs) {
       row["frames"] = job.summary.frames;
       row["frames_with_face"] = job.summary.face_frames;
       row["seconds"] = job.seconds;
+      if (!job.summary.notes.empty()) {
+        row["notes"] = job.summary.notes;
+      }
     } else if (job.outcome == Outcome::kFailed) {
       row["failure"] = job.failure;
     }
@@ -233,17 +237,22 @@ void track_folder(const BatchOptions& options) {
     print_table(jobs);
   }
   std::fflush(stdout);
-  std::string failures;
-  std::size_t failed = 0;
+  std::vector<std::string> failures, losses;
   for (const Job& job : jobs) {
     if (job.outcome == Outcome::kFailed) {
-      ++failed;
-      failures += "\n  " + job.failure;
+      failures.push_back(job.failure);
+    } else if (!job.summary.lost.empty()) {
+      losses.push_back(job.summary.lost);
     }
   }
-  if (failed > 0) {
-    throw Failure(kExitSomeFailed, std::to_string(failed) + " of " + std::to_string(jobs.size()) +
-                                       " files failed:" + failures);
+  const std::string of_all = " of " + std::to_string(jobs.size()) + " files ";
+  if (!failures.empty()) {
+    throw Failure(kExitSomeFailed, std::to_string(failures.size()) + of_all + "failed:", failures);
+  }
+  if (!losses.empty()) {
+    throw Failure(
+        kExitDamaged,
+        std::to_string(losses.size()) + of_all + "could be decoded only in part:", losses);
   }
 }
 

@@ -16,6 +16,7 @@
 #include "apps/mien/system/failure.h"
 #include "apps/mien/system/json_text.h"
 #include "apps/mien/system/paths.h"
+#include "apps/mien/system/shown.h"
 #include "apps/mien/tracking/loaded_tracker.h"
 
 namespace mien::app {
@@ -24,7 +25,7 @@ namespace {
 using NeutralBytes = std::array<std::byte, MIEN_NEUTRAL_BYTES>;
 
 std::unique_ptr<VideoSource> open(const NeutralOptions& options) {
-  return open_video(options.input, {options.start_s, options.duration_s});
+  return open_video(options.input, {{options.start_s, options.duration_s}, {}, 1});
 }
 
 // What comes over a network may be a file, too, and then says how many frames it has.
@@ -77,12 +78,12 @@ void neutral(const NeutralOptions& options) {
   output.finish();
   if (options.json) {
     const nlohmann::ordered_json done = {
-        {"input", options.input},
+        {"input", without_credentials(options.input)},
         {"output", options.output},
         {"levels", loaded.hifinet ? std::vector<int>{1, 2, 3, 4} : std::vector<int>{1}}};
     std::printf("%s\n", json_text(done).c_str());
   } else if (!options.quiet) {
-    std::fprintf(stderr, "%s: for %s\n", options.output.c_str(),
+    std::fprintf(stderr, "%s: for %s\n", shown(options.output).c_str(),
                  loaded.hifinet ? "all levels of detail" : "level of detail 1");
   }
 }

@@ -1,10 +1,8 @@
 #include "apps/mien/tracking/track.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdio>
-#include <memory>
 #include <mien/mien.hpp>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -15,12 +13,11 @@
 #include "apps/mien/outputs/distinct_files.h"
 #include "apps/mien/outputs/output_file.h"
 #include "apps/mien/outputs/outputs.h"
-#include "apps/mien/sources/ffmpeg.h"
-#include "apps/mien/sources/sound_source.h"
-#include "apps/mien/sources/video_source.h"
 #include "apps/mien/system/failure.h"
 #include "apps/mien/system/paths.h"
 #include "apps/mien/system/progress.h"
+#include "apps/mien/system/shown.h"
+#include "apps/mien/tracking/frames.h"
 #include "apps/mien/tracking/loaded_tracker.h"
 #include "apps/mien/tracking/stage_times.h"
 
@@ -39,13 +36,14 @@ void add_times(StageTimes& times, const Result& result) {
 }
 
 void write_stats(OutputFile& file, const Result& last, const StageTimes& times,
-                 std::size_t tracker_bytes) {
+                 std::size_t tracker_bytes, const MediaReport& media) {
   nlohmann::ordered_json stats;
   stats["frames"] = last.frames;
   stats["frames_with_face"] = last.face_frames;
   stats["proposal_runs"] = last.proposal_runs;
   stats["encoder_runs"] = last.encoder_runs;
   stats["tracker_bytes"] = tracker_bytes;
+  stats["input"] = media.as_json;
   stats["stages"] = nlohmann::ordered_json::object();
   for (const auto& [stage, time] : times.summary()) {
     stats["stages"][stage] = {
@@ -76,105 +74,6 @@ std::vector<Result> results(const Tracker& tracker, const std::string& where) {
   return faces;
 }
 
-// What is looked at and listened to.
-struct Senses {
-  bool video = false;
-  std::string sound;  // where from; empty: nowhere
-};
-
-bool has_sound_in(const std::string& source) {
-  return source == kStandardInput || probe_streams(source).sound;
-}
-
-Senses choose(const TrackOptions& options) {
-  if (options.mode == Mode::kVideo) {
-    return {.video = true, .sound = ""};
-  }
-  if (options.mode == Mode::kAudio && options.audio.empty() && options.input == kStandardInput) {
-    return {.video = false, .sound = kStandardInput};
-  }
-  if (options.audio == kStandardInput && options.input == kStandardInput) {
-    throw Failure(kExitUsage, "--audio -: standard input is the picture's already");
-  }
-  const InputStreams streams = probe_streams(options.input);
-  Senses senses;
-  senses.video = options.mode == Mode::kAny ? streams.video : options.mode != Mode::kAudio;
-  const std::string& source = options.audio.empty() ? options.input : options.audio;
-  const bool has_sound = options.audio.empty() ? streams.sound : has_sound_in(source);
-  const bool demanded = options.mode != Mode::kAny || !senses.video || !options.audio.empty();
-  if (demanded && !has_sound) {
-    throw Failure(kExitNoSound, source + ": has no sound");
-  }
-  if (demanded || (has_sound && has_audionet(options.models))) {
-    senses.sound = source;
-  }
-  return senses;
-}
-
-// One source of frames: those of a video, or 30 a second as long as there is sound.
-class Frames {
- public:
-  Frames(const TrackOptions& options, const VideoRange& range, const Senses& senses,
-         Tracker& tracker)
-      : input_(options.input), start_ns_(std::llround(range.start_s * 1e9)), tracker_(tracker) {
-    if (senses.video) {
-      video_ = open_video(options.input, range);
-    }
-    if (!senses.sound.empty()) {
-      sound_.emplace(senses.sound, range);
-      check(tracker.set_audio_offset(std::llround(options.av_offset_ms * 1e6)), input_);
-    }
-  }
-
-  [[nodiscard]] VideoInfo info() const { return video_ ? video_->info() : VideoInfo(); }
-  [[nodiscard]] const mien_image* image() const { return video_ ? &image_ : nullptr; }
-  [[nodiscard]] std::int64_t number() const { return number_; }
-  [[nodiscard]] std::string where() const { return input_ + ": frame " + std::to_string(number_); }
-
-  void set_listener(SoundFeed::Listener listener) {
-    if (sound_) {
-      sound_->set_listener(std::move(listener));
-    }
-  }
-
-  // Tracks the next one. False at the end.
-  bool next() {
-    ++number_;
-    return video_ ? next_image() : next_sound();
-  }
-
- private:
-  bool next_image() {
-    std::int64_t pts_ns = 0;
-    if (!video_->next(image_, pts_ns)) {
-      return false;
-    }
-    if (sound_) {
-      sound_->hear_until(pts_ns, tracker_);
-    }
-    check(tracker_.push_video(image_, pts_ns), where());
-    return true;
-  }
-
-  bool next_sound() {
-    const std::int64_t pts_ns = start_ns_ + number_ * 1'000'000'000 / 30;
-    sound_->hear_until(pts_ns, tracker_);
-    if (!sound_->lasts_until(pts_ns)) {
-      return false;
-    }
-    check(tracker_.advance(pts_ns), where());
-    return true;
-  }
-
-  std::string input_;
-  std::int64_t start_ns_;
-  Tracker& tracker_;
-  std::unique_ptr<VideoSource> video_;
-  std::optional<SoundFeed> sound_;
-  mien_image image_;
-  std::int64_t number_ = -1;
-};
-
 std::vector<std::string> inputs_of(const TrackOptions& options) {
   std::vector<std::string> inputs = {options.input, options.audio, options.neutral};
   for (const std::filesystem::path& file : weight_files(models_directory(options.models))) {
@@ -199,10 +98,12 @@ std::vector<std::string> outputs_of(const TrackOptions& options) {
 }  // namespace
 
 TrackSummary track(const TrackOptions& options) {
-  const VideoRange range{options.start_s, options.duration_s};
+  const VideoRange range = range_of(options);
   const Senses senses = choose(options);
-  if (!senses.video && !options.overlay.empty()) {
-    throw Failure(kExitUsage, "--overlay: there is no picture to draw over");
+  if (!senses.video && (!options.overlay.empty() || options.rotation)) {
+    throw Failure(kExitUsage, options.overlay.empty()
+                                  ? "--rotate: there is no video to rotate"
+                                  : "--overlay: there is no video to draw over");
   }
   LoadedTracker loaded({options.models, options.tier, options.lod, options.budget_ms,
                         options.unfiltered, options.max_faces, !senses.sound.empty(),
@@ -211,7 +112,7 @@ TrackSummary track(const TrackOptions& options) {
     load_neutral(options.neutral, loaded.tracker);
   }
   require_distinct_files(inputs_of(options), outputs_of(options));
-  Frames frames(options, range, senses, loaded.tracker);
+  Frames frames(options, senses, loaded.tracker);
   Outputs outputs(options, frames.info(), range);
   std::optional<OutputFile> stats;  // before the work that would be lost
   if (!options.stats.empty()) {
@@ -234,13 +135,17 @@ TrackSummary track(const TrackOptions& options) {
     }
   }
   outputs.finish(times);
+  const MediaReport media = frames.report();
   if (stats) {
-    write_stats(*stats, last, times, loaded.tracker_bytes);
+    write_stats(*stats, last, times, loaded.tracker_bytes, media);
+  }
+  for (const std::string& note : media.notes) {
+    std::fprintf(stderr, "mien: note: %s\n", shown(note).c_str());
   }
   if (!options.quiet) {
     print_summary(last, times);
   }
-  return {last.frames, last.face_frames};
+  return {last.frames, last.face_frames, media.lost, media.notes};
 }
 
 }  // namespace mien::app

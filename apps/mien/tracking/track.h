@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "apps/mien/outputs/animation_output.h"
 
@@ -36,6 +37,8 @@ struct TrackOptions {
   int max_faces = 1;
   double start_s = 0.0;
   std::optional<double> duration_s;
+  int audio_track = 1;          // the first is 1
+  std::optional<int> rotation;  // degrees clockwise that make the video upright
   bool quiet = false;
   std::function<void()> after_frame;  // called after each; none: nothing
 };
@@ -43,6 +46,8 @@ struct TrackOptions {
 struct TrackSummary {
   std::uint64_t frames = 0;
   std::uint64_t face_frames = 0;
+  std::string lost;                // of the input that could not be decoded; empty: nothing
+  std::vector<std::string> notes;  // that were printed
 };
 
 // Throws Failure.

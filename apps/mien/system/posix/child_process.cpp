@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -97,9 +98,9 @@ class PosixChild final : public ChildProcess, private Leftover {
   }
   void close_pipe() override;
   void kill() override { ::kill(pid_, SIGKILL); }
-  int wait() override;
+  std::optional<int> wait(std::chrono::milliseconds patience) override;
   std::string take_errors() override {
-    drain_errors(false);
+    drain_errors();
     return std::exchange(errors_, {});
   }
 
@@ -108,7 +109,7 @@ class PosixChild final : public ChildProcess, private Leftover {
   std::optional<std::size_t> transfer(Transfer once, short event,
                                       std::chrono::milliseconds patience);
   bool wait_for(short event, std::chrono::milliseconds patience);
-  void drain_errors(bool wait);
+  void drain_errors();
   void discard() noexcept override;
   int reap();
 
@@ -161,7 +162,7 @@ void PosixChild::close_pipe() {
   }
 }
 
-void PosixChild::drain_errors(bool wait) {
+void PosixChild::drain_errors() {
   std::array<char, 4096> buffer{};
   while (errors_pipe_ >= 0) {
     const ssize_t n = ::read(errors_pipe_, buffer.data(), buffer.size());
@@ -170,9 +171,6 @@ void PosixChild::drain_errors(bool wait) {
     } else if (n == 0) {
       close(errors_pipe_);
       errors_pipe_ = -1;
-    } else if (errno == EAGAIN && wait) {
-      pollfd waiting{errors_pipe_, POLLIN, 0};
-      poll(&waiting, 1, -1);
     } else if (errno != EINTR) {
       return;
     }
@@ -187,7 +185,7 @@ bool PosixChild::wait_for(short event, std::chrono::milliseconds patience) {
     happened = poll(waiting.data(), waiting.size(), static_cast<int>(patience.count()));
   } while (happened < 0 && errno == EINTR);
   if (waiting[1].revents != 0) {
-    drain_errors(false);
+    drain_errors();
   }
   return happened > 0;
 }
@@ -217,12 +215,8 @@ void PosixChild::discard() noexcept {
   }
 }
 
-// Waits without the lock, and gives the process id back under it: `discard` must not meet the id of
-// another process.
+// Gives the process id back under the lock: `discard` must not meet the id of another process.
 int PosixChild::reap() {
-  siginfo_t ended = {};
-  while (waitid(P_PID, static_cast<id_t>(pid_), &ended, WEXITED | WNOWAIT) < 0 && errno == EINTR) {
-  }
   TerminationLock lock;
   int status = 0;
   while (waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
@@ -232,10 +226,25 @@ int PosixChild::reap() {
   return status;
 }
 
-int PosixChild::wait() {
-  drain_errors(true);
-  const int status = reap();
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+// No call of POSIX waits for a child and for a pipe: it is asked again and again, first at once.
+std::optional<int> PosixChild::wait(std::chrono::milliseconds patience) {
+  constexpr int kLongestNapMs = 20;
+  const auto began = std::chrono::steady_clock::now();
+  for (int nap_ms = 0;; nap_ms = std::min(nap_ms + 1, kLongestNapMs)) {
+    pollfd waiting{errors_pipe_, POLLIN, 0};  // none is passed over
+    poll(&waiting, 1, nap_ms);
+    drain_errors();
+    siginfo_t ended = {};
+    if (waitid(P_PID, static_cast<id_t>(pid_), &ended, WEXITED | WNOWAIT | WNOHANG) == 0 &&
+        ended.si_pid == pid_) {
+      drain_errors();
+      const int status = reap();
+      return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    }
+    if (patience >= patience.zero() && std::chrono::steady_clock::now() - began > patience) {
+      return std::nullopt;
+    }
+  }
 }
 
 }  // namespace

@@ -239,7 +239,7 @@ class Win32Child final : public ChildProcess, private Leftover {
   }
   void close_pipe() override { pipe_.close(); }
   void kill() override { TerminateProcess(process_.get(), kKilled); }
-  int wait() override;
+  std::optional<int> wait(std::chrono::milliseconds patience) override;
   std::string take_errors() override {
     drain_errors();
     return std::exchange(errors_, {});
@@ -319,11 +319,19 @@ std::optional<std::size_t> Win32Child::wait_for_pipe(std::chrono::milliseconds p
   }
 }
 
-int Win32Child::wait() {
+std::optional<int> Win32Child::wait(std::chrono::milliseconds patience) {
   const std::array<HANDLE, 2> ends = {process_.get(), errors_pipe_.ended()};
-  while (WaitForMultipleObjects(errors_pipe_.open() ? 2 : 1, ends.data(), FALSE, INFINITE) ==
-         WAIT_OBJECT_0 + 1) {
-    collect_errors();
+  DWORD happened = WAIT_OBJECT_0 + 1;
+  while (happened == WAIT_OBJECT_0 + 1) {
+    // Below 0 is INFINITE.
+    happened = WaitForMultipleObjects(errors_pipe_.open() ? 2 : 1, ends.data(), FALSE,
+                                      static_cast<DWORD>(patience.count()));
+    if (happened == WAIT_OBJECT_0 + 1) {
+      collect_errors();
+    }
+  }
+  if (happened == WAIT_TIMEOUT) {
+    return std::nullopt;
   }
   drain_errors();
   DWORD status = 0;

@@ -1,0 +1,17 @@
+#include "apps/mien/sources/ffmpeg.h"
+
+namespace mien::app {
+
+std::string output_file(const std::string& path) { return "file:" + path; }
+
+std::string last_line(const std::string& text) {
+  const std::size_t end = text.find_last_not_of(" \r\n");
+  if (end == std::string::npos) {
+    return {};
+  }
+  const std::size_t before = text.find_last_of('\n', end);
+  const std::size_t begin = before == std::string::npos ? 0 : before + 1;
+  return text.substr(begin, end + 1 - begin);
+}
+
+}  // namespace mien::app

@@ -1,0 +1,205 @@
+#include "apps/mien/sources/input.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "apps/mien/sources/decoded_sound.h"
+#include "apps/mien/sources/decoded_video.h"
+#include "apps/mien/sources/network_input.h"
+#include "apps/mien/sources/wav_sound.h"
+#include "apps/mien/sources/y4m_source.h"
+#include "apps/mien/system/failure.h"
+
+namespace mien::app {
+namespace {
+
+using Arguments = std::vector<std::string>;
+
+Arguments joined(Arguments first, const Arguments& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+
+const char* turned(int degrees) {
+  switch (degrees) {
+    case 90:
+      return "transpose=clock,";
+    case 180:
+      return "hflip,vflip,";
+    case 270:
+      return "transpose=cclock,";
+    default:
+      return "";
+  }
+}
+
+Arguments input_options(const InputOptions& options) {
+  return options.rotation ? Arguments{"-noautorotate"} : Arguments();
+}
+
+// Where in an input ffmpeg is told to begin. It may miss the last frame before that which can be
+// decoded by itself, as in MPEG-TS, so it begins earlier.
+double seek_s(const VideoRange& range) {
+  constexpr double kEarlierS = 10.0;
+  return std::max(0.0, range.start_s - kEarlierS);
+}
+
+// Leaves out what lies before the range; `filter`: "trim" or "atrim".
+std::string trimmed(const char* filter, const VideoRange& range) {
+  constexpr double kRounding = 1e-6;
+  const double before = range.start_s - seek_s(range);
+  return before > 0.0
+             ? std::string(filter) + "=start=" + std::to_string(before - kRounding) + ","
+             : std::string();
+}
+
+std::string audio_filter(const InputOptions& options) { return trimmed("atrim", options.range); }
+
+// Square pixels of one size, even where the size changes within the video.
+std::string video_filter(const VideoTrack& track, const InputOptions& options) {
+  const DisplaySize size = display_size(track, options.rotation);
+  return trimmed("trim", options.range) + turned(options.rotation.value_or(0)) + "scale=" +
+         std::to_string(size.width) + ":" + std::to_string(size.height);
+}
+
+VideoInfo info_of(const VideoTrack& track, const InputOptions& options) {
+  const DisplaySize size = display_size(track, options.rotation);
+  return {size.width, size.height, track.fps, track.frames, track.pixel_aspect,
+          options.rotation.value_or(track.rotation)};
+}
+
+// The other streams. Containers without a start time of their own (MPEG-TS) begin at 0 with the
+// first stream that is read: all processes that read an input read the same streams.
+Arguments clock_outputs(const Recording& recording, int but) {
+  Arguments arguments;
+  if (recording.video && recording.video->index != but) {
+    arguments = clock_output(recording.video->index);
+  }
+  for (const AudioTrack& track : recording.audio) {
+    if (track.index != but) {
+      arguments = joined(arguments, clock_output(track.index));
+    }
+  }
+  return arguments;
+}
+
+}  // namespace
+
+Input::Input(std::string name) : name_(std::move(name)) {
+  if (is_y4m(name_)) {
+    const std::string refusal = y4m_refusal(name_);
+    kind_ = Kind::kY4m;
+    if (!refusal.empty()) {
+      probe_instead(kExitNoVideo, "not a Y4M video: " + refusal);
+    }
+  } else if (is_wav(name_)) {
+    const std::string refusal = wav_refusal(name_);
+    kind_ = Kind::kWav;
+    if (!refusal.empty()) {
+      probe_instead(kExitNoSound, "no audio that can be read: " + refusal);
+    }
+  } else {
+    probe();
+  }
+}
+
+void Input::probe() {
+  kind_ = Kind::kFfmpeg;
+  recording_ = probe_recording(name_);
+}
+
+// What the name promises is not in the file, or not in a way that needs no ffmpeg.
+void Input::probe_instead(ExitCode code, const std::string& refusal) {
+  try {
+    probe();
+  } catch (const Failure& failure) {
+    throw Failure(failure.code() == kExitNoFfmpeg ? kExitNoFfmpeg : code,
+                  name_ + ": " + refusal +
+                      (failure.code() == kExitNoFfmpeg ? std::string("; ") + failure.what() : ""));
+  }
+}
+
+int Input::audio_index(int track) const {
+  const auto tracks = static_cast<int>(audio_tracks());
+  if (track < 1 || track > tracks) {
+    throw Failure(kExitNoSound,
+                  tracks == 0 ? name_ + ": has no audio"
+                              : "--audio-track: " + name_ + " has no such track (got " +
+                                    std::to_string(track) + ", expected 1 to " +
+                                    std::to_string(tracks) + ")");
+  }
+  return kind_ == Kind::kFfmpeg ? recording_.audio[static_cast<std::size_t>(track - 1)].index : 0;
+}
+
+// Two processes, of which each reads at its own pace: one that wrote both would have to hold back
+// pictures wherever audio begins late.
+Input::Opened Input::open_apart(const InputOptions& options, bool video, bool sound) const {
+  Opened opened;
+  const auto decoder = [&](const Arguments& output, int index) {
+    return std::make_shared<Decoder>(
+        name_, seek_s(options.range), input_options(options),
+        joined(joined(output, nut_output()), clock_outputs(recording_, index)), 1);
+  };
+  if (video) {
+    const VideoTrack& track = *recording_.video;
+    opened.video = std::make_unique<DecodedVideo>(
+        name_, options.range, info_of(track, options),
+        decoder(video_output(track.index, track.time_base, video_filter(track, options)),
+                track.index),
+        0);
+  }
+  if (sound) {
+    const int index = audio_index(options.audio_track);
+    opened.sound = std::make_unique<DecodedSound>(name_, options.range,
+                                                  decoder(audio_output(index, audio_filter(options)), index), 0);
+  }
+  return opened;
+}
+
+// One process: two connections to a live stream would begin at different times.
+Input::Opened Input::open_together(const InputOptions& options) const {
+  const VideoTrack& track = *recording_.video;
+  const Arguments both =
+      joined(video_output(track.index, track.time_base, video_filter(track, options)),
+             audio_output(audio_index(options.audio_track), audio_filter(options)));
+  const auto decoder =
+      std::make_shared<Decoder>(name_, seek_s(options.range), input_options(options),
+                                joined(both, nut_output()), 2);
+  Opened opened;
+  opened.video = std::make_unique<DecodedVideo>(name_, options.range, info_of(track, options),
+                                                decoder, 0);
+  opened.sound = std::make_unique<DecodedSound>(name_, options.range, decoder, 1);
+  return opened;
+}
+
+Input::Opened Input::open(const InputOptions& options, bool video, bool sound) const {
+  if (video && !has_video()) {
+    throw Failure(kExitNoVideo, name_ + ": has no video stream");
+  }
+  if (sound) {
+    static_cast<void>(audio_index(options.audio_track));
+  }
+  if (kind_ == Kind::kY4m) {
+    return {open_y4m(name_, options), nullptr};
+  }
+  if (kind_ == Kind::kWav) {
+    return {nullptr, open_wav(name_, options.range)};
+  }
+  return video && sound && is_url(name_) ? open_together(options)
+                                         : open_apart(options, video, sound);
+}
+
+std::unique_ptr<VideoSource> open_video(const std::string& input, const InputOptions& options) {
+  return Input(input).open(options, true, false).video;
+}
+
+std::unique_ptr<SoundSource> open_sound(const std::string& input, const InputOptions& options) {
+  if (input == kStandardInput) {
+    return open_wav(input, options.range);
+  }
+  return Input(input).open(options, false, true).sound;
+}
+
+}  // namespace mien::app

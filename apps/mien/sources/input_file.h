@@ -1,0 +1,43 @@
+// A file that is read without ffmpeg, or standard input.
+#pragma once
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "apps/mien/sources/sound_source.h"
+#include "apps/mien/system/failure.h"
+#include "apps/mien/system/paths.h"
+
+namespace mien::app {
+
+struct CloseInput {
+  void operator()(std::FILE* file) const {
+    if (file != stdin) {
+      std::fclose(file);
+    }
+  }
+};
+using InputFile = std::unique_ptr<std::FILE, CloseInput>;
+
+// As messages name it.
+[[nodiscard]] inline std::string input_label(const std::string& name) {
+  return name == kStandardInput ? "standard input" : name;
+}
+
+[[nodiscard]] inline InputFile open_input_file(const std::string& name) {
+  InputFile file(name == kStandardInput ? stdin : std::fopen(name.c_str(), "rb"));
+  if (!file) {
+    throw Failure(kExitNoInput, input_label(name) + ": no such file");
+  }
+  return file;
+}
+
+// A pipe's bytes can be read only once.
+[[nodiscard]] inline bool can_be_read_again(const std::string& name) {
+  std::error_code unknown;
+  return name != kStandardInput && std::filesystem::is_regular_file(path_of(name), unknown);
+}
+
+}  // namespace mien::app

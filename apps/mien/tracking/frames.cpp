@@ -1,0 +1,178 @@
+#include "apps/mien/tracking/frames.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "apps/mien/system/failure.h"
+#include "apps/mien/tracking/loaded_tracker.h"
+
+namespace mien::app {
+namespace {
+
+constexpr float kSilence = 1e-4f;  // -80 dB of full scale
+
+bool has_sound(const Senses& senses, const TrackOptions& options) {
+  if (options.audio == kStandardInput) {
+    return true;
+  }
+  const std::optional<Input>& from = options.audio.empty() ? senses.input : senses.audio;
+  return from && from->has_sound();
+}
+
+std::string damage_note(const std::string& input, const char* what, const Damage& damage) {
+  return input + ": " + what + ": " + std::to_string(damage.complaints) +
+         (damage.complaints == 1 ? " decoding error: " : " decoding errors, the last: ") +
+         damage.last;
+}
+
+}  // namespace
+
+Senses choose(const TrackOptions& options) {
+  Senses senses;
+  const bool pipes_sound = options.mode == Mode::kAudio && options.audio.empty();
+  if (pipes_sound && options.input == kStandardInput) {
+    senses.sound = kStandardInput;
+    return senses;
+  }
+  if (options.audio == kStandardInput && options.input == kStandardInput) {
+    throw Failure(kExitUsage, "--audio -: standard input is the video's already");
+  }
+  if (options.mode != Mode::kAudio || options.audio.empty()) {
+    senses.input.emplace(options.input);
+  }
+  senses.video =
+      options.mode == Mode::kAny ? senses.input->has_video() : options.mode != Mode::kAudio;
+  if (options.mode == Mode::kVideo) {
+    return senses;
+  }
+  if (!options.audio.empty() && options.audio != kStandardInput) {
+    senses.audio.emplace(options.audio);
+  }
+  const std::string& source = options.audio.empty() ? options.input : options.audio;
+  const bool there = has_sound(senses, options);
+  const bool demanded = options.mode != Mode::kAny || !senses.video || !options.audio.empty();
+  if (demanded && !there) {
+    throw Failure(kExitNoSound, source + ": has no audio");
+  }
+  if (demanded || (there && has_audionet(options.models))) {
+    senses.sound = source;
+  }
+  return senses;
+}
+
+VideoRange range_of(const TrackOptions& options) {
+  constexpr double kMostSeconds = 1e9;  // 31 years
+  VideoRange range;
+  range.start_s = std::min(options.start_s, kMostSeconds);
+  if (options.duration_s) {
+    range.duration_s = std::min(*options.duration_s, kMostSeconds);
+  }
+  return range;
+}
+
+Frames::Frames(const TrackOptions& options, const Senses& senses, Tracker& tracker)
+    : options_(options),
+      senses_(senses),
+      start_ns_(std::llround(range_of(options).start_s * 1e9)),
+      tracker_(tracker) {
+  const InputOptions how{range_of(options), options.rotation, options.audio_track};
+  std::unique_ptr<SoundSource> sound;
+  if (senses.input) {
+    const bool own_sound = !senses.sound.empty() && options.audio.empty();
+    Input::Opened opened = senses.input->open(how, senses.video, own_sound);
+    video_ = std::move(opened.video);
+    sound = std::move(opened.sound);
+  }
+  if (senses.audio) {
+    sound = senses.audio->open(how, false, true).sound;
+  } else if (senses.sound == kStandardInput) {
+    sound = open_sound(kStandardInput, how);
+  }
+  if (sound) {
+    sound_.emplace(senses.sound, std::move(sound));
+    check(tracker.set_audio_offset(std::llround(options.av_offset_ms * 1e6)), options.input);
+  }
+}
+
+std::size_t Frames::audio_tracks() const {
+  const std::optional<Input>& from = senses_.audio ? senses_.audio : senses_.input;
+  return from ? from->audio_tracks() : 1;
+}
+
+std::string Frames::silence_note() const {
+  const std::size_t tracks = audio_tracks();
+  std::string note = senses_.sound + ": audio track " + std::to_string(options_.audio_track) +
+                     " is silent";
+  return tracks > 1 ? note + "; --audio-track takes another of the " + std::to_string(tracks)
+                    : note;
+}
+
+MediaReport Frames::report() const {
+  MediaReport report;
+  report.as_json = nlohmann::ordered_json::object();
+  if (video_) {
+    const VideoInfo& info = video_->info();
+    const Damage damage = video_->damage();
+    report.as_json["video"] = {{"width", info.width},
+                               {"height", info.height},
+                               {"pixel_aspect", info.pixel_aspect},
+                               {"rotation", info.rotation},
+                               {"decoding_errors", damage.complaints}};
+    if (damage.complaints > 0) {
+      report.notes.push_back(damage_note(options_.input, "video", damage));
+    }
+    if (damage.frames_lost) {
+      report.lost = options_.input + ": pictures could not be decoded: " + damage.last;
+    }
+  }
+  if (sound_) {
+    const Damage damage = sound_->damage();
+    report.as_json["audio"] = {{"track", options_.audio_track},
+                               {"tracks", audio_tracks()},
+                               {"peak", sound_->peak()},
+                               {"decoding_errors", damage.complaints}};
+    if (damage.complaints > 0) {
+      report.notes.push_back(damage_note(senses_.sound, "audio", damage));
+    }
+    if (sound_->peak() < kSilence) {
+      report.notes.push_back(silence_note());
+    }
+  }
+  return report;
+}
+
+void Frames::set_listener(SoundFeed::Listener listener) {
+  if (sound_) {
+    sound_->set_listener(std::move(listener));
+  }
+}
+
+bool Frames::next() {
+  ++number_;
+  return video_ ? next_image() : next_sound();
+}
+
+bool Frames::next_image() {
+  std::int64_t pts_ns = 0;
+  if (!video_->next(image_, pts_ns)) {
+    return false;
+  }
+  if (sound_) {
+    sound_->hear_until(pts_ns, tracker_);
+  }
+  check(tracker_.push_video(image_, pts_ns), where());
+  return true;
+}
+
+bool Frames::next_sound() {
+  const std::int64_t pts_ns = start_ns_ + number_ * 1'000'000'000 / 30;
+  sound_->hear_until(pts_ns, tracker_);
+  if (!sound_->lasts_until(pts_ns)) {
+    return false;
+  }
+  check(tracker_.advance(pts_ns), where());
+  return true;
+}
+
+}  // namespace mien::app
