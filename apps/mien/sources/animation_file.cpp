@@ -11,6 +11,7 @@
 
 #include "apps/mien/system/failure.h"
 #include "apps/mien/system/paths.h"
+#include "apps/mien/system/shown.h"
 
 namespace mien::app {
 namespace {
@@ -136,7 +137,7 @@ formats::Clip parse_animation(std::string_view bytes, const std::string& name,
 
 void print_notes(const std::string& name, const formats::Clip& clip) {
   for (const std::string& note : clip.notes) {
-    std::fprintf(stderr, "%s: %s\n", name.c_str(), note.c_str());
+    std::fprintf(stderr, "%s: %s\n", shown(name).c_str(), shown(note).c_str());
   }
 }
 

@@ -18,6 +18,7 @@ NEUTRAL_BYTES = 448
 
 PACKAGE = Path(__file__).resolve().parent
 MODELS = PACKAGE / "models"
+PROGRAM = PACKAGE / ("mien.exe" if sys.platform == "win32" else "mien")
 
 
 class Struct(Structure):

@@ -1,39 +1,51 @@
-"""Whole files: what ffmpeg can read goes in, a row for each frame comes out."""
+"""Whole files: what ffmpeg can read goes in, a row for each frame comes out. The `mien` program, which the package holds, reads them."""
 
 from __future__ import annotations
 
-import shutil
+import json
+import subprocess
+import tempfile
+import warnings
 from pathlib import Path
-from typing import Iterable, Iterator, Union
+from typing import Any, Iterable, Iterator, Literal, Optional, Union
 
 import numpy as np
 import numpy.typing as npt
 
-from ._ffmpeg import SOUND_RATE, pictures, samples, streams
+from ._library import MODELS, PROGRAM
 from .errors import MienError
-from .result import Result
-from .tracker import Lod, Tracker
+from .tracker import Lod
 from .vocabulary import CONTROL_NAMES
 
 Row = dict[str, Union[int, float, str]]
 
-_SOUND_AHEAD_S = 0.1  # a frame takes sound that ends 42 ms after it
-_FRAMES_A_SECOND = 30.0  # of sound without pictures
+_NOTE = "mien: note: "
 
 
-def track_file(path: Union[str, Path], *, lod: Lod = 4, sound: bool = True, smoothing: bool = True) -> Iterator[Row]:
-    """A row for every frame of a film, picture and sound together; of a file without pictures 30 a second.
+def track_file(
+    path: Union[str, Path],
+    *,
+    lod: Lod = 4,
+    sound: bool = True,
+    smoothing: bool = True,
+    audio_track: int = 1,
+    rotation: Optional[Literal[0, 90, 180, 270]] = None,
+) -> Iterator[Row]:
+    """A row for every frame of a video with its own time, video and audio together; of a file without video 30 a second.
 
     A row has time_s, status, face_id, face_probability, voice_activity, x, y, width, height (the face's box), pitch, yaw, roll,
     tx, ty, tz, and the 52 controls by name. Needs ffmpeg and ffprobe, which comes with it. The file is read while the rows are taken:
-    one that is damaged or ends early is a MienError after its last good row.
+    one that is damaged or ends early is a MienError after its last good row, and what is odd about one is a warning.
+
+    audio_track: which is heard, from 1. rotation: degrees clockwise that make the video upright, in place of what the file says.
     """
-    for program in ("ffmpeg", "ffprobe"):
-        if shutil.which(program) is None:
-            raise MienError(f"{program} is not installed, which reads the file")
     if not Path(path).is_file():
         raise FileNotFoundError(f"no file {str(path)!r}")
-    return _rows(Path(path), lod, sound, smoothing)
+    options = ["--lod", str(lod), "--audio-track", str(audio_track)]
+    options += [] if sound else ["--mode", "video"]
+    options += [] if smoothing else ["--no-filter"]
+    options += [] if rotation is None else ["--rotate", str(rotation)]
+    return _rows([*options, "--", str(Path(path).absolute())])
 
 
 def columns(rows: Iterable[Row]) -> dict[str, npt.NDArray[np.generic]]:
@@ -42,52 +54,45 @@ def columns(rows: Iterable[Row]) -> dict[str, npt.NDArray[np.generic]]:
     return {name: np.array([row[name] for row in taken]) for name in (taken[0] if taken else {})}
 
 
-def _rows(path: Path, lod: Lod, sound: bool, smoothing: bool) -> Iterator[Row]:
-    film, has_sound = streams(path)
-    voice = samples(path) if sound and has_sound else np.empty(0, np.float32)
-    if film is None and voice.size == 0:
-        raise MienError(f"{path} has no pictures, and no sound that was asked for")
-    heard = 0
-    with Tracker(lod, sound=voice.size > 0, smoothing=smoothing) as tracker:
+def _rows(arguments: list[str]) -> Iterator[Row]:
+    command = [str(PROGRAM), "track", "--quiet", "--models", str(MODELS), "--format", "jsonl", "-o", "-", *arguments]
+    with tempfile.TemporaryFile() as said:  # a pipe that nobody reads would fill up, and hold it
+        try:
+            process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=said)
+        except OSError as error:
+            raise MienError(f"{PROGRAM} cannot be run: {error.strerror}") from error
+        assert process.stdout is not None
+        try:
+            for line in process.stdout:
+                if line.endswith(b"\n"):
+                    yield _row(json.loads(line))
+            status = process.wait()
+        finally:  # wherever this is left, be it because nobody wants more
+            process.stdout.close()
+            process.kill()
+            process.wait()
+        said.seek(0)
+        lines = said.read().decode("utf-8", "replace").splitlines()
+        for line_said in lines:
+            if line_said.startswith(_NOTE):
+                warnings.warn(line_said[len(_NOTE) :], stacklevel=2)
+        if status != 0:
+            complaints = [line_said for line_said in lines if not line_said.startswith(_NOTE)]
+            raise MienError(" ".join(complaints).replace("mien: ", "", 1) or f"{PROGRAM.name} ended with {status}")
 
-        def hear(until_s: float) -> None:
-            nonlocal heard
-            end = min(int(until_s * SOUND_RATE), voice.size)
-            if end > heard:
-                tracker.push_audio(voice[heard:end], heard / SOUND_RATE, SOUND_RATE)
-                heard = end
 
-        if film is not None:
-            for frame, time_s in pictures(path, film):
-                hear(time_s + _SOUND_AHEAD_S)
-                yield _row(tracker.track(frame, time_s, color="i420", full_range=False))
-            return
-        for i in range(int(voice.size / SOUND_RATE * _FRAMES_A_SECOND)):
-            time_s = i / _FRAMES_A_SECOND
-            hear(time_s + _SOUND_AHEAD_S)
-            yield _row(tracker.advance(time_s))
-
-
-def _row(result: Result) -> Row:
-    x, y, width, height = (float(v) for v in result.box)
-    pose = result.pose
-    tx, ty, tz = (float(v) for v in pose.translation)
+def _row(frame: dict[str, Any]) -> Row:
+    head = frame.get("head", {})
+    controls = frame.get("controls", {})
     row: Row = {
-        "time_s": result.time_s,
-        "status": result.status.name.lower(),
-        "face_id": result.face_id,
-        "face_probability": result.face_probability,
-        "voice_activity": result.voice_activity,
-        "x": x,
-        "y": y,
-        "width": width,
-        "height": height,
-        "pitch": pose.pitch,
-        "yaw": pose.yaw,
-        "roll": pose.roll,
-        "tx": tx,
-        "ty": ty,
-        "tz": tz,
+        "time_s": frame["t_ns"] / 1e9,
+        "status": frame.get("status", "searching"),
+        "face_id": frame.get("face_id", 0),
+        "face_probability": frame.get("face_prob", 0.0),
+        "voice_activity": frame.get("vad", 0.0),
     }
-    row.update(zip(CONTROL_NAMES, result.controls.array.tolist()))
+    row.update(zip(("x", "y", "width", "height"), frame.get("box", [0.0] * 4)))
+    row.update({angle: head.get(f"{angle}_rad", 0.0) for angle in ("pitch", "yaw", "roll")})
+    row.update(zip(("tx", "ty", "tz"), frame.get("position_m", [0.0] * 3)))
+    row.update({name: controls.get(name, 0.0) for name in CONTROL_NAMES})
     return row
