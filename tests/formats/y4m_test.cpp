@@ -46,7 +46,8 @@ TEST(Y4m, SaysTheAspectOfItsPixels) {
   };
   EXPECT_DOUBLE_EQ(aspect("A4:3"), 4.0 / 3.0);
   EXPECT_DOUBLE_EQ(aspect("A8:9"), 8.0 / 9.0);
-  for (const char* unknown : {"A0:0", "A1:0", "A0:1", "A", "A4", "Ax:y", "A1:1000", "A1000:1", ""}) {
+  for (const char* unknown :
+       {"A0:0", "A1:0", "A0:1", "A", "A4", "Ax:y", "A1:1000", "A1000:1", ""}) {
     EXPECT_EQ(aspect(unknown), 1.0) << unknown;
   }
 }

@@ -21,10 +21,11 @@ constexpr std::size_t kMostWaitingBytes = std::size_t{1} << 29;
 std::vector<std::string> command_of(const std::string& input, double seek_s,
                                     const std::vector<std::string>& input_options,
                                     const std::vector<std::string>& output) {
-  std::vector<std::string> command = {"ffmpeg",    "-hide_banner", "-nostdin",
-                                      "-nostats",  "-loglevel",    "repeat+level+error",
-                                      "-max_error_rate", "0",      "-max_pixels",
-                                      std::to_string(kMostPixels)};
+  std::vector<std::string> command = {"ffmpeg",          "-hide_banner",
+                                      "-nostdin",        "-nostats",
+                                      "-loglevel",       "repeat+level+error",
+                                      "-max_error_rate", "0",
+                                      "-max_pixels",     std::to_string(kMostPixels)};
   const std::vector<std::string> source = input_arguments(input);
   if (seek_s > 0.0) {
     command.insert(command.end(), {"-ss", std::to_string(seek_s)});
@@ -56,8 +57,7 @@ Decoder::Decoder(const std::string& input, double seek_s,
       waiting_(streams) {}
 
 void Decoder::keep(NutPacket& packet) {
-  if (packet.stream < waiting_.size() &&
-      waiting_bytes_ + packet.data.size() <= kMostWaitingBytes) {
+  if (packet.stream < waiting_.size() && waiting_bytes_ + packet.data.size() <= kMostWaitingBytes) {
     waiting_bytes_ += packet.data.size();
     waiting_[packet.stream].push_back(std::exchange(packet, {}));
   }
@@ -118,11 +118,11 @@ void Decoder::finish(bool whole) {
 
 std::vector<std::string> video_output(int index, const std::string& time_base,
                                       const std::string& filter) {
-  std::vector<std::string> options = {"-map",     "0:" + std::to_string(index),
-                                      "-vsync",   "passthrough",
+  std::vector<std::string> options = {"-map",      "0:" + std::to_string(index),
+                                      "-vsync",    "passthrough",
                                       "-filter:v", filter,
-                                      "-c:v",     "rawvideo",
-                                      "-pix_fmt", "rgb24"};
+                                      "-c:v",      "rawvideo",
+                                      "-pix_fmt",  "rgb24"};
   if (!time_base.empty()) {  // else ffmpeg rounds times to those of a constant frame rate
     options.insert(options.end(), {"-enc_time_base:v", time_base});
   }
@@ -131,8 +131,11 @@ std::vector<std::string> video_output(int index, const std::string& time_base,
 
 // Gaps are filled with silence.
 std::vector<std::string> audio_output(int index, const std::string& filter) {
-  return {"-map", "0:" + std::to_string(index), "-filter:a", filter + "aresample=async=1", "-ac", "1",
-          "-ar",  "16000",                      "-c:a",      "pcm_s16le"};
+  return {"-map",      "0:" + std::to_string(index),
+          "-filter:a", filter + "aresample=async=1",
+          "-ac",       "1",
+          "-ar",       "16000",
+          "-c:a",      "pcm_s16le"};
 }
 
 std::vector<std::string> nut_output() {

@@ -24,7 +24,7 @@ class Decoder {
   [[nodiscard]] const Damage& damage() const { return damage_; }  // so far
 
   // Once `next` was false.
-  [[nodiscard]] bool failed() const { return failed_; }        // ffmpeg gave up
+  [[nodiscard]] bool failed() const { return failed_; }          // ffmpeg gave up
   [[nodiscard]] bool ended_early() const { return truncated_; }  // the input is not whole
 
  private:

@@ -50,9 +50,8 @@ double seek_s(const VideoRange& range) {
 std::string trimmed(const char* filter, const VideoRange& range) {
   constexpr double kRounding = 1e-6;
   const double before = range.start_s - seek_s(range);
-  return before > 0.0
-             ? std::string(filter) + "=start=" + std::to_string(before - kRounding) + ","
-             : std::string();
+  return before > 0.0 ? std::string(filter) + "=start=" + std::to_string(before - kRounding) + ","
+                      : std::string();
 }
 
 std::string audio_filter(const InputOptions& options) { return trimmed("atrim", options.range); }
@@ -60,14 +59,14 @@ std::string audio_filter(const InputOptions& options) { return trimmed("atrim", 
 // Square pixels of one size, even where the size changes within the video.
 std::string video_filter(const VideoTrack& track, const InputOptions& options) {
   const DisplaySize size = display_size(track, options.rotation);
-  return trimmed("trim", options.range) + turned(options.rotation.value_or(0)) + "scale=" +
-         std::to_string(size.width) + ":" + std::to_string(size.height);
+  return trimmed("trim", options.range) + turned(options.rotation.value_or(0)) +
+         "scale=" + std::to_string(size.width) + ":" + std::to_string(size.height);
 }
 
 VideoInfo info_of(const VideoTrack& track, const InputOptions& options) {
   const DisplaySize size = display_size(track, options.rotation);
-  return {size.width, size.height, track.fps, track.frames, track.pixel_aspect,
-          options.rotation.value_or(track.rotation)};
+  return {size.width,   size.height,        track.fps,
+          track.frames, track.pixel_aspect, options.rotation.value_or(track.rotation)};
 }
 
 // The other streams. Containers without a start time of their own (MPEG-TS) begin at 0 with the
@@ -124,11 +123,11 @@ void Input::probe_instead(ExitCode code, const std::string& refusal) {
 int Input::audio_index(int track) const {
   const auto tracks = static_cast<int>(audio_tracks());
   if (track < 1 || track > tracks) {
-    throw Failure(kExitNoSound,
-                  tracks == 0 ? name_ + ": has no audio"
-                              : "--audio-track: " + name_ + " has no such track (got " +
-                                    std::to_string(track) + ", expected 1 to " +
-                                    std::to_string(tracks) + ")");
+    throw Failure(kExitNoSound, tracks == 0
+                                    ? name_ + ": has no audio"
+                                    : "--audio-track: " + name_ + " has no such track (got " +
+                                          std::to_string(track) + ", expected 1 to " +
+                                          std::to_string(tracks) + ")");
   }
   return kind_ == Kind::kFfmpeg ? recording_.audio[static_cast<std::size_t>(track - 1)].index : 0;
 }
@@ -152,8 +151,8 @@ Input::Opened Input::open_apart(const InputOptions& options, bool video, bool so
   }
   if (sound) {
     const int index = audio_index(options.audio_track);
-    opened.sound = std::make_unique<DecodedSound>(name_, options.range,
-                                                  decoder(audio_output(index, audio_filter(options)), index), 0);
+    opened.sound = std::make_unique<DecodedSound>(
+        name_, options.range, decoder(audio_output(index, audio_filter(options)), index), 0);
   }
   return opened;
 }
@@ -164,12 +163,11 @@ Input::Opened Input::open_together(const InputOptions& options) const {
   const Arguments both =
       joined(video_output(track.index, track.time_base, video_filter(track, options)),
              audio_output(audio_index(options.audio_track), audio_filter(options)));
-  const auto decoder =
-      std::make_shared<Decoder>(name_, seek_s(options.range), input_options(options),
-                                joined(both, nut_output()), 2);
+  const auto decoder = std::make_shared<Decoder>(
+      name_, seek_s(options.range), input_options(options), joined(both, nut_output()), 2);
   Opened opened;
-  opened.video = std::make_unique<DecodedVideo>(name_, options.range, info_of(track, options),
-                                                decoder, 0);
+  opened.video =
+      std::make_unique<DecodedVideo>(name_, options.range, info_of(track, options), decoder, 0);
   opened.sound = std::make_unique<DecodedSound>(name_, options.range, decoder, 1);
   return opened;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numeric>
 #include <span>
 #include <string_view>
@@ -32,6 +33,7 @@ enum Flag : std::uint64_t {
 constexpr std::uint64_t kLargestHeader = 1u << 20;  // bytes; ffmpeg's have some hundreds
 constexpr std::uint64_t kLargestFrame = std::uint64_t{1} << 30;
 constexpr std::uint64_t kMostStreams = 16;
+constexpr std::int64_t kLastTimestamp = std::int64_t{1} << 61;
 
 bool fits(std::int64_t value) { return value > 0 && value <= INT32_MAX; }
 
@@ -192,7 +194,7 @@ void NutReader::read_main_header() {
 // change.
 void NutReader::read_codes() {
   FrameCode run;
-  for (std::size_t i = 0; i < codes_.size() && !at_end_;) {
+  for (std::size_t i = 0; i < codes_.size() && !at_end_ && !damaged_;) {
     run.flags = number();
     const std::uint64_t fields = number();
     run.step = fields > 0 ? signed_number() : run.step;
@@ -200,7 +202,8 @@ void NutReader::read_codes() {
     run.stream = fields > 2 ? static_cast<std::size_t>(number()) : run.stream;
     run.size = fields > 3 ? number() : 0;
     run.reserved = fields > 4 ? number() : 0;
-    std::uint64_t count = fields > 5 ? number() : run.size_factor - run.size;
+    damaged_ = damaged_ || run.size > run.size_factor;
+    std::uint64_t count = fields > 5 ? number() : damaged_ ? 0 : run.size_factor - run.size;
     if (fields > 6) {
       signed_number();  // time of a match, of no use here
     }
@@ -282,20 +285,22 @@ bool NutReader::read_frame(std::uint8_t code, NutPacket& packet) {
   if ((frame.flags & kCodedFlags) != 0) {
     frame.flags ^= number();
   }
-  frame.stream = (frame.flags & kStreamNumber) != 0 ? static_cast<std::size_t>(number())
-                                                    : frame.stream;
+  frame.stream =
+      (frame.flags & kStreamNumber) != 0 ? static_cast<std::size_t>(number()) : frame.stream;
   if (frame.stream >= streams_.size() || streams_[frame.stream].unit.denominator == 0) {
     return false;
   }
   Stream& stream = streams_[frame.stream];
-  stream.last = (frame.flags & kCodedTimestamp) != 0 ? timestamp(stream, number())
-                                                     : stream.last + frame.step;
+  if (std::abs(stream.last) > kLastTimestamp || std::abs(frame.step) > kLastTimestamp) {
+    return false;
+  }
+  stream.last =
+      (frame.flags & kCodedTimestamp) != 0 ? timestamp(stream, number()) : stream.last + frame.step;
   const std::uint64_t high = (frame.flags & kSizeHigh) != 0 ? number() : 0;
   if ((frame.flags & kMatchTime) != 0) {
     signed_number();
   }
-  const std::uint64_t header_number =
-      (frame.flags & kHeaderNumber) != 0 ? number() : frame.header;
+  const std::uint64_t header_number = (frame.flags & kHeaderNumber) != 0 ? number() : frame.header;
   std::uint64_t reserved = (frame.flags & kReserved) != 0 ? number() : frame.reserved;
   for (; reserved > 0 && !at_end_; --reserved) {
     number();
@@ -303,7 +308,7 @@ bool NutReader::read_frame(std::uint8_t code, NutPacket& packet) {
   if ((frame.flags & kChecksum) != 0) {
     skip(4);
   }
-  if (high > kLargestFrame || frame.size_factor > kLargestFrame) {
+  if (std::max({high, frame.size_factor, frame.size}) > kLargestFrame) {
     return false;
   }
   const std::uint64_t size = frame.size + frame.size_factor * high;
@@ -317,9 +322,22 @@ bool NutReader::read_frame(std::uint8_t code, NutPacket& packet) {
   }
   packet.stream = frame.stream;
   packet.time_s = seconds(stream);
-  packet.data.resize(static_cast<std::size_t>(size));
-  std::copy(header.begin(), header.end(), packet.data.begin());
-  return read(std::span(packet.data).subspan(header.size()));
+  return read_data(header, static_cast<std::size_t>(size), packet.data);
+}
+
+// In parts, so that a size that is not true takes no more memory than there are bytes.
+bool NutReader::read_data(std::span<const std::byte> header, std::size_t size,
+                          std::vector<std::byte>& data) {
+  constexpr std::size_t kPart = std::size_t{1} << 24;
+  data.assign(header.begin(), header.end());
+  while (data.size() < size) {
+    const std::size_t done = data.size();
+    data.resize(std::min(size, done + kPart));
+    if (!read(std::span(data).subspan(done))) {
+      return false;
+    }
+  }
+  return true;
 }
 
 }  // namespace mien::app

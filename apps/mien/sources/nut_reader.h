@@ -64,6 +64,7 @@ class NutReader {
   void read_stream_header();
   void read_syncpoint();
   bool read_frame(std::uint8_t code, NutPacket& packet);
+  bool read_data(std::span<const std::byte> header, std::size_t size, std::vector<std::byte>& data);
   std::int64_t timestamp(const Stream& stream, std::uint64_t coded) const;
   [[nodiscard]] double seconds(const Stream& stream) const;
 

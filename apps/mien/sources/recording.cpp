@@ -92,15 +92,9 @@ VideoTrack video_track(const json& stream, const json& format) {
 }
 
 json run_ffprobe(const std::string& input, std::string& complaint) {
-  std::vector<std::string> command = {"ffprobe",
-                                      "-v",
-                                      "error",
-                                      "-max_pixels",
-                                      std::to_string(kMostPixels),
-                                      "-show_entries",
-                                      kEntries,
-                                      "-of",
-                                      "json"};
+  std::vector<std::string> command = {
+      "ffprobe",       "-v",     "error", "-max_pixels", std::to_string(kMostPixels),
+      "-show_entries", kEntries, "-of",   "json"};
   const std::vector<std::string> source = input_arguments(input);
   command.insert(command.end(), source.begin(), source.end());
   Subprocess ffprobe(command, Subprocess::Pipe::kFromChild, patience_with(input));
@@ -114,7 +108,8 @@ json run_ffprobe(const std::string& input, std::string& complaint) {
   if (is_url(input)) {
     throw Failure(kExitNoInput, input + ": cannot be opened: " + complaint);
   }
-  throw Failure(kExitNoVideo, input + ": neither video nor audio that ffmpeg can read: " + complaint);
+  throw Failure(kExitNoVideo,
+                input + ": neither video nor audio that ffmpeg can read: " + complaint);
 }
 
 void require_file(const std::string& input) {
@@ -136,10 +131,10 @@ void check_size(const VideoTrack& track, const std::string& input, const std::st
                                     (complaint.empty() ? "" : ": " + complaint));
   }
   const DisplaySize size = display_size(track, {});
-  const std::int64_t pixels = std::max(std::int64_t{track.width} * track.height,
-                                       std::int64_t{size.width} * size.height);
-  if (pixels > kMostPixels || std::max({size.width, size.height, track.width, track.height}) >
-                                  MIEN_MAX_IMAGE_SIDE) {
+  const std::int64_t pixels =
+      std::max(std::int64_t{track.width} * track.height, std::int64_t{size.width} * size.height);
+  if (pixels > kMostPixels ||
+      std::max({size.width, size.height, track.width, track.height}) > MIEN_MAX_IMAGE_SIDE) {
     throw Failure(kExitNoVideo,
                   input + ": the picture is too large (got " + std::to_string(track.width) + "x" +
                       std::to_string(track.height) + ", at most " + std::to_string(kMostPixels) +

@@ -36,7 +36,8 @@ class WavSound : public SoundSource {
       : name_(input_label(path)), file_(open_input_file(path)) {
     const WavStatus status = reader_.open(formats::file_source(file_.get()));
     if (status != WavStatus::kOk) {
-      throw Failure(kExitNoSound, name_ + ": no audio that can be read: " + refusal(reader_, status));
+      throw Failure(kExitNoSound,
+                    name_ + ": no audio that can be read: " + refusal(reader_, status));
     }
     const WavFormat& format = reader_.format();
     samples_.resize(kBlockFrames * format.channels);

@@ -12,7 +12,7 @@ constexpr std::string_view kHidden = "***";
 constexpr std::string_view kEndsUrl = " \t\r\n'\"<>";
 
 bool is_secret(std::string key) {
-  constexpr std::array<std::string_view, 7> kWords = {"pass", "pwd",  "token", "key",
+  constexpr std::array<std::string_view, 7> kWords = {"pass", "pwd",    "token", "key",
                                                       "auth", "secret", "sig"};
   std::transform(key.begin(), key.end(), key.begin(), [](char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
@@ -84,8 +84,7 @@ Character utf8(std::string_view text) {
     }
     code = code << 6 | (byte(i) & 0x3Fu);
   }
-  const bool valid =
-      code >= kLeast[bytes] && code <= 0x10FFFF && (code < 0xD800 || code > 0xDFFF);
+  const bool valid = code >= kLeast[bytes] && code <= 0x10FFFF && (code < 0xD800 || code > 0xDFFF);
   return valid ? Character{code, bytes, true} : Character{first, 1, false};
 }
 
@@ -122,8 +121,7 @@ std::string escaped(std::string_view text, bool lines) {
 std::string without_credentials(std::string_view text) {
   constexpr std::string_view kScheme = "://";
   std::string made;
-  for (std::size_t at = text.find(kScheme); at != std::string_view::npos;
-       at = text.find(kScheme)) {
+  for (std::size_t at = text.find(kScheme); at != std::string_view::npos; at = text.find(kScheme)) {
     made.append(text.substr(0, at + kScheme.size()));
     text.remove_prefix(at + kScheme.size());
     const std::size_t end = std::min(text.find_first_of(kEndsUrl), text.size());

@@ -102,8 +102,8 @@ std::size_t Frames::audio_tracks() const {
 
 std::string Frames::silence_note() const {
   const std::size_t tracks = audio_tracks();
-  std::string note = senses_.sound + ": audio track " + std::to_string(options_.audio_track) +
-                     " is silent";
+  std::string note =
+      senses_.sound + ": audio track " + std::to_string(options_.audio_track) + " is silent";
   return tracks > 1 ? note + "; --audio-track takes another of the " + std::to_string(tracks)
                     : note;
 }
