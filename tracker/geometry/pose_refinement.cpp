@@ -9,7 +9,7 @@ namespace mien::tracker {
 namespace {
 
 // Of a squared turn, in squared distances of a point: chosen on rendered validation people and on
-// films of one speaker (docs/results/training_legs.md).
+// films of one speaker (docs/results/training_history.md).
 constexpr float kTurnPrice = 0.01f * static_cast<float>(kLandmarks);
 constexpr std::size_t kUnknowns = 6;  // a turn about x, y, z, radians; a move, in kHeadMetres
 
