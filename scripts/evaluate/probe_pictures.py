@@ -14,7 +14,7 @@ import expressions
 import make_synthetic as ms
 from paths import cache, data
 from probes import PLANS
-from renderer import camera, look
+from renderer import camera, look, motion
 from renderer.scene import Figure, Studio
 from rig import Rig
 from setting import Missing
@@ -49,7 +49,7 @@ def turned(studio, head, angles):
     ahead, rest = camera.pose_at(LENS, studio.rig.landmarks(head), (0, 0, 0), (WINDOW[:2], SIDE))
     for degrees in angles:
         rotation = ahead @ camera.rotation(*np.radians(degrees))
-        yield rotation, rest + (ahead - rotation) @ ms.NECK
+        yield rotation, rest + (ahead - rotation) @ motion.NECK
 
 
 def identity_pictures(studio, plan, number):

@@ -43,11 +43,12 @@ def figures(parts):
 class People:
     """What decoders answer on validation people."""
 
-    def __init__(self, path, rendered, real):
+    def __init__(self, path, rendered, real, supported=None):
+        """`supported` [52], where the checkpoint does not say."""
         known, decoder = torch.load(path), ControlsDecoder()
         decoder.load_state_dict(known["controls_decoder"])
         decoder.eval()
-        self.supported = known["supported"].numpy() > 0
+        self.supported = known["supported"].numpy() > 0 if supported is None else supported
         self.parts = []
         for data, frames in ((rendered, slice(None)), (real, slice(-1, None))):
             curves = shown(answers(decoder, data["features"])).numpy()

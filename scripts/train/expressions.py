@@ -6,12 +6,11 @@ mixture of single units, sparse combinations and familiar expressions; `legalise
 can do. A sequence moves every region from pose to pose with minimum-jerk easing, and adds blinks, saccades,
 speech and recorded curves. All functions take a numpy Generator and are deterministic in it.
 """
-import functools
 import re
 
 import numpy as np
 
-from paths import data
+import recordings
 
 CONTROLS = """
 eyeBlinkLeft eyeLookDownLeft eyeLookInLeft eyeLookOutLeft eyeLookUpLeft eyeSquintLeft eyeWideLeft
@@ -23,6 +22,7 @@ mouthPressLeft mouthPressRight mouthLowerDownLeft mouthLowerDownRight mouthUpper
 browDownLeft browDownRight browInnerUp browOuterUpLeft browOuterUpRight
 cheekPuff cheekSquintLeft cheekSquintRight noseSneerLeft noseSneerRight tongueOut
 """.split()
+NAMES = tuple(CONTROLS)
 INDEX = {name: i for i, name in enumerate(CONTROLS)}
 SWAPPED = {"Left": "Right", "Right": "Left"}
 MIRROR = [INDEX[re.sub("(Left|Right)$", lambda m: SWAPPED[m[0]], n)] for n in CONTROLS]  # of a mirrored face
@@ -40,6 +40,8 @@ MOUTH_UNITS = {
     "mouthPress": 1.2, "mouthLowerDown": 1.4, "mouthUpperUp": 1.2, "cheekPuff": 1.4, "tongueOut": 1.5,
 }
 ALONE = 0.25  # share of sequences in which one unit moves at a time
+PHONE, POSED = 0.15, 0.25  # shares of lessons that follow the phone's recordings, and that go from still face to still face
+LEANING_SHARE, APART_SHARE = 0.6, 0.4  # of those still faces
 SIDED = {"jaw", "mouth"}
 UPPER_UNITS = ["cheekSquint", "noseSneer"]
 BROW_UNITS = ["browDown", "browInnerUp", "browOuterUp"]
@@ -359,38 +361,6 @@ def micro_motion(rng, frames):
     return (0.005 * np.stack(smooth, 1)).astype(np.float32)
 
 
-@functools.lru_cache(maxsize=1)
-def recorded_clips():
-    """Recorded control curves of one speaker, a list of f32[n,52] at 25 fps; every tenth clip is held out."""
-    path = data() / "av/curves.npz"
-    if not path.exists():
-        return []
-    source = np.load(path, allow_pickle=True)
-    names = [str(n) for n in source["blendshape_names"]]
-    table = np.zeros((len(source["blendshapes"]), len(CONTROLS)), np.float32)
-    for i, name in enumerate(CONTROLS):
-        if name in names and not name.startswith(("cheek", "noseSneer", "jawForward")):  # dead in the source
-            table[:, i] = source["blendshapes"][:, names.index(name)]
-    for name in both("eyeSquint"):  # rests at 0.35 in the source
-        table[:, INDEX[name]] = np.maximum(table[:, INDEX[name]] - 0.4, 0) / 0.6
-    offset, found = source["offset"], source["found"].astype(bool)
-    spans = [slice(offset[i], offset[i + 1]) for i in range(len(offset) - 1) if i % 10]
-    return [table[s] for s in spans if found[s].all() and s.stop - s.start > 30]
-
-
-def recorded(rng, frames, fps):
-    """A recorded clip with random speed and gains, played to and fro when it is too short."""
-    clips = recorded_clips()
-    clip = clips[rng.integers(len(clips))]
-    speed = 25 / fps * rng.uniform(0.75, 1.3)
-    at = rng.uniform(0, len(clip)) + speed * np.arange(frames)
-    at = np.abs((at + len(clip) - 1) % (2 * (len(clip) - 1)) - (len(clip) - 1))
-    low = np.floor(at).astype(int)
-    high = np.minimum(low + 1, len(clip) - 1)
-    curve = clip[low] + (at - low)[:, None] * (clip[high] - clip[low])
-    return (curve * rng.uniform(0.7, 1.7)).astype(np.float32)
-
-
 def from_pool(pool):
     """A sampler of poses like those of a pool f32[k,52]: a little more or less of one, or two of them at once."""
     def sample(rng):
@@ -411,13 +381,15 @@ def in_turn(rng, frames):
     return ease_through(rng, frames, sample_solo, (1, 12), (4, 16), rest=0.5)
 
 
-def sample_sequence(rng, frames, fps=30):
-    """A random performance, f32[frames,52]."""
+def sample_sequence(rng, frames, fps=30, phone=0.0):
+    """A random performance, f32[frames,52]; a share `phone` of them follows what the phone recorded, eyes included."""
+    if phone and rng.random() < phone and recordings.phone_takes(NAMES):
+        return legalise(recordings.of_phone(rng, frames, fps, NAMES, MIRROR) + micro_motion(rng, frames))
     if rng.random() < ALONE:
         return legalise(np.maximum(in_turn(rng, frames), blinks(rng, frames, fps)) + micro_motion(rng, frames))
     kind = rng.random()
-    if kind < 0.25 and recorded_clips():
-        face = recorded(rng, frames, fps)
+    if kind < 0.25 and recordings.grid_clips(NAMES):
+        face = recordings.of_grid(rng, frames, fps, NAMES)
         if rng.random() < 0.5:
             face = np.maximum(face, ease_through(rng, frames, sample_upper, (5, 40), (3, 20), rest=0.5))
     elif kind < 0.45:
@@ -435,3 +407,16 @@ def sample_sequence(rng, frames, fps=30):
     if kind >= 0.25 or rng.random() < 0.4:
         face = face + ease_through(rng, frames, sample_gaze, (4, 45), (1, 3))
     return legalise(face + micro_motion(rng, frames))
+
+
+def sample_posed(rng, frames, fps=30):
+    """A performance from still face to still face, many of which lean to one side or move one unit of each region alone."""
+    face = ease_through(rng, frames, lambda rng: sample_stills(rng, 1, LEANING_SHARE, APART_SHARE)[0], (2, 25), (3, 16), rest=0.25)
+    return legalise(np.maximum(face, blinks(rng, frames, fps)) + micro_motion(rng, frames))
+
+
+def sample_lesson(rng, frames, fps=30):
+    """What decoders learn from: of all kinds, f32[frames,52]."""
+    if rng.random() < POSED:
+        return sample_posed(rng, frames, fps)
+    return sample_sequence(rng, frames, fps, PHONE)

@@ -25,7 +25,6 @@ from rig import Rig
 SPLITS, KINDS = ("train", "val", "test"), ("stills", "sequences")
 STILLS_PER_SHARD, SEQUENCES_PER_SHARD, FRAMES = 2000, 22, 90
 BATCH = 16          # heads blended together
-NECK = np.array([0, -8, -3])  # the head turns about it, head frame, cm
 OCCLUDED = 0.15     # share of pictures with something in front of the face
 
 
@@ -95,17 +94,12 @@ def sequence(studio, framing, rng, split, number, perform, frames):
     head = studio.rig.identity(person.identity[None])[0]
     figure = Figure(studio, person, head)
     controls = perform(rng, frames)
-    angles, shift, sweep = motion.head_angles(rng, frames), motion.head_shift(rng, frames), motion.sweep(rng, frames)
-    centre, side = camera.sample_place(rng, place.camera)
-    side = min(side, 0.22 * place.camera.f_px / 0.36)  # room to move forwards
-    ahead, rest = camera.pose_at(place.camera, studio.rig.landmarks(head), (0, 0, 0), (centre, side))
+    rotations, translations, sweep = motion.head_poses(rng, place.camera, studio.rig.landmarks(head), frames)
     for start in range(0, frames, BATCH):
         faces = head + studio.rig.expression(controls[start:start + BATCH])
         for k, vertices in enumerate(faces):
             t = start + k
-            rotation = ahead @ camera.rotation(*angles[t])
-            translation = rest + (ahead - rotation) @ NECK + shift[t]
-            image, labels = shoot(studio, framing, figure, vertices, place, (rotation, translation), sweep[t])
+            image, labels = shoot(studio, framing, figure, vertices, place, (rotations[t], translations[t]), sweep[t])
             yield image, dict(labels, controls=controls[t], identity=number, sequence=number, frame=t)
 
 

@@ -78,6 +78,16 @@ def constant(path, name):
     return torch.from_numpy(next(_tensor(data, r) for r in records[2] if _name(r, strings) == name).copy())
 
 
+def metadata(path):
+    """{key: value}"""
+    data = Path(path).read_bytes()
+    *counts, pairs, strings = struct.unpack_from("<5I", data, 20)
+    at = HEADER_BYTES + RECORD_BYTES * sum(counts[:3])
+    texts = data[at + 16 * pairs:at + 16 * pairs + strings]
+    text = lambda offset: texts[slice(*np.cumsum(struct.unpack_from("<2I", data, offset)))].decode()
+    return {text(at + 16 * k): text(at + 16 * k + 8) for k in range(pairs)}
+
+
 def split_causal(layer, channels_in):
     """[out, 2 * padded in] -> [out, in, 2]"""
     return layer.weight.reshape(layer.channels, 2, -1)[..., :channels_in].permute(0, 2, 1)

@@ -26,11 +26,8 @@ class Model:
     """The rig's landmarks as linear functions of identity and controls."""
 
     def __init__(self, rig):
-        def of(shapes):
-            return torch.from_numpy(rig.landmarks(shapes[:, :rig.neutral.size].reshape(len(shapes), -1, 3)))
-
         self.neutral = torch.from_numpy(rig.landmarks(rig.neutral))
-        self.identity, self.controls = of(rig.identity_shapes), of(rig.control_shapes)
+        self.identity, self.controls = (torch.from_numpy(rig.landmark_shapes(s)) for s in (rig.identity_shapes, rig.control_shapes))
 
     def points(self, identity, controls):
         return self.neutral + torch.einsum("nk,kpc->npc", identity, self.identity) + \

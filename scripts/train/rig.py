@@ -9,23 +9,22 @@ from paths import ROOT, data
 from renderer import native
 
 
-
-def padded(shapes):
-    """Shapes [k,n] as f32 with n rounded up to a multiple of 16."""
-    n = shapes.shape[1]
-    out = np.zeros((len(shapes), -(-n // 16) * 16), np.float32)
+def blocked(shapes):
+    """Shapes [k,n] as native.blend_shapes reads them: f32 [blocks,k,native.BLOCK], n rounded up."""
+    k, n = shapes.shape
+    out = np.zeros((k, -(-n // native.BLOCK) * native.BLOCK), np.float32)
     out[:, :n] = shapes
-    return out
+    return np.ascontiguousarray(out.reshape(k, -1, native.BLOCK).transpose(1, 0, 2))
 
 
 class Rig:
     def __init__(self):
         rig = np.load(data() / "rig/rig.npz")
         self.neutral = rig["v0"].astype(np.float32)
-        self.identity_shapes = padded(rig["ids"].reshape(100, -1))
+        self.identity_shapes = blocked(rig["ids"].reshape(100, -1))
         order = [[str(n) for n in rig["arkit_names"]].index(name) for name in CONTROLS]
         shapes = rig["ex"].astype(np.float32).reshape(len(rig["ex_names"]), -1)
-        self.control_shapes = padded(rig["arkit_map"].astype(np.float32)[order] @ shapes)
+        self.control_shapes = blocked(rig["arkit_map"].astype(np.float32)[order] @ shapes)
         self.corner_position = rig["gpu_pos"].astype(np.int32)[rig["gpu_f"].astype(np.int32)]
         self.corner_uv, self.uv = rig["gpu_f"].astype(np.int32), rig["gpu_uv"].astype(np.float32)
         self.materials = {str(n): (int(a), int(b)) for n, (a, b) in zip(rig["mat_names"], rig["mat_range"])}
@@ -44,6 +43,10 @@ class Rig:
     def combine(self, weights, shapes):
         whole = native.blend_shapes(weights, shapes)[:, :self.neutral.size]
         return whole.reshape(-1, *self.neutral.shape)
+
+    def landmark_shapes(self, shapes):
+        """How each of the blocked shapes moves the landmarks, f32 [k,175,3]."""
+        return self.landmarks(self.combine(np.eye(shapes.shape[1], dtype=np.float32), shapes))
 
     def landmarks(self, vertices):
         """Landmarks f32 [...,175,3] of vertices [...,26719,3]."""

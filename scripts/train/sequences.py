@@ -152,8 +152,12 @@ class HiFiNetView:
 
     def look(self, images, crop, spoil):
         shape = self.basenet.look(images, crop, spoil)[1]
-        close = fit_crop(self.template, crop_to_image(crop, shape))
-        return run(self.encoder, spoil(sample_crops(images, close, HIFINET))), shape
+        return self.close(images, crop_to_image(crop, shape), spoil), shape
+
+    def close(self, images, points, spoil):
+        """Features of the face with landmarks [n,175,2] in pixels."""
+        crop = fit_crop(self.template, points)
+        return run(self.encoder, spoil(sample_crops(images, crop, HIFINET)))
 
 
 def load(checkpoint, network):
@@ -242,7 +246,8 @@ def extract(view, sequences, passes, seed, strides=(1, 2), plain=False, mirrored
     """Tracks every sequence `passes` times with the encoder on every frame, and as often on alternate frames.
 
     Passes see the faces as they are and mirrored in turns, mirrored first if `mirrored`. Returns tensors with one row per track:
-    features fp16 [m,frames,256], pose [m,frames,9], controls and visible [m,frames,52], stride [m], landmark_error [m,frames].
+    features fp16 [m,frames,256], pose [m,frames,9], controls and visible [m,frames,52], crop [m,frames,4], stride [m], landmark_error
+    [m,frames].
     `plain` leaves the pictures as they are.
     """
     tracks, losses = [], 0
@@ -258,7 +263,7 @@ def extract(view, sequences, passes, seed, strides=(1, 2), plain=False, mirrored
             features, crops, points, again = track(seen, shown, rows, spoil, torch.Generator().manual_seed(key), stride)
             losses += again
             errors.append(landmark_error(points, sequences.label("landmarks", rows)))
-            tracks.append({"features": features.half(), "stride": torch.full((len(rows),), stride),
+            tracks.append({"features": features.half(), "crop": crops, "stride": torch.full((len(rows),), stride),
                            "landmark_error": errors[-1], **targets(sequences, rows, crops, mirror)})
         print(f"stride {stride} pass {number} landmark error {torch.cat(errors).mean():.4f}", flush=True)
     out = {k: torch.cat([t[k] for t in tracks]) for k in tracks[0]}

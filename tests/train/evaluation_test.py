@@ -76,7 +76,7 @@ class Decoders(unittest.TestCase):
                 (("features", 4), ("pose", 9), ("controls", len(CONTROLS)), ("visible", len(CONTROLS)))}
 
     def test_those_of_the_evaluation_are_trained_as_ours_are(self):
-        for arguments in (evaluate_ablation.arguments(0, 0.35, 0.1), evaluate_yardstick.ARGUMENTS):
+        for arguments in (evaluate_ablation.arguments(0, 0.35, 0.1), train_decoders.arguments(velocity=0.05)):
             self.assertEqual(vars(arguments).keys(), vars(train_decoders.arguments()).keys())
             source = train_decoders.Held(self.data(), arguments)
             task, (batch, mask) = train_decoders.ControlsTask(source.data, arguments), source.batch()

@@ -76,6 +76,22 @@ class Expressions(unittest.TestCase):
         a, b = (np.random.default_rng(3) for _ in range(2))
         np.testing.assert_array_equal(e.sample_stills(a, 50), np.stack([e.sample_still(b) for _ in range(50)]))
 
+    def test_a_phone_takes_part_only_where_it_is_asked_to(self):
+        a, b = (np.random.default_rng(4) for _ in range(2))
+        np.testing.assert_array_equal(e.sample_sequence(a, 40), e.sample_sequence(b, 40, phone=0.0))
+        if not e.recordings.phone_takes(e.NAMES):
+            self.skipTest("the recordings of the phone are not here")
+        curves = np.stack([e.sample_sequence(np.random.default_rng(k), 120, phone=1.0) for k in range(40)])
+        self.assertTrue(curves.min() >= 0 and curves.max() <= 1)
+        for name in ("jawOpen", "eyeBlinkLeft", "mouthPucker", "cheekPuff", "noseSneerRight"):
+            self.assertGreater(curves[..., e.INDEX[name]].max(), 0.25, name)
+        np.testing.assert_allclose(curves.mean((0, 1)), curves.mean((0, 1))[e.MIRROR], atol=0.06)
+
+    def test_lessons_are_legal(self):
+        curves = np.stack([e.sample_lesson(np.random.default_rng(k), 30) for k in range(20)])
+        self.assertTrue(np.isfinite(curves).all() and curves.min() >= 0 and curves.max() <= 1)
+        self.assertTrue((curves[..., e.INDEX["mouthClose"]] <= curves[..., e.INDEX["jawOpen"]] + 1e-6).all())
+
     def test_mirror_is_its_own_inverse(self):
         self.assertEqual([e.MIRROR[m] for m in e.MIRROR], list(range(52)))
         self.assertEqual(e.MIRROR[e.INDEX["eyeLookInLeft"]], e.INDEX["eyeLookInRight"])

@@ -1,4 +1,5 @@
 """Cameras, head poses, crops and windows; camera space as in head_pose.py, but in numpy and one at a time."""
+import functools
 from dataclasses import dataclass
 
 import numpy as np
@@ -43,10 +44,13 @@ def sample_camera(rng):
 
 
 def rotation(yaw, pitch, roll):
+    """Rotations [...,3,3] of angles [...]."""
     (cy, cp, cr), (sy, sp, sr) = np.cos([yaw, pitch, roll]), np.sin([yaw, pitch, roll])
-    about_y = np.array([[cy, 0, sy], [0, 1, 0], [-sy, 0, cy]])
-    about_x = np.array([[1, 0, 0], [0, cp, -sp], [0, sp, cp]])
-    about_z = np.array([[cr, -sr, 0], [sr, cr, 0], [0, 0, 1]])
+    zero, one = np.zeros_like(cy), np.ones_like(cy)
+    matrix = lambda *rows: np.stack([np.stack(row, -1) for row in rows], -2)
+    about_y = matrix((cy, zero, sy), (zero, one, zero), (-sy, zero, cy))
+    about_x = matrix((one, zero, zero), (zero, cp, -sp), (zero, sp, cp))
+    about_z = matrix((cr, -sr, zero), (sr, cr, zero), (zero, zero, one))
     return about_y @ about_x @ about_z
 
 
@@ -74,13 +78,22 @@ def sample_place(rng, camera):
     return rng.uniform(margin, size - margin), side
 
 
-def fit_crop(points):
-    """Crop (cx, cy, side, roll) of landmarks [175,2]: least-squares similarity from the template (Umeyama 1991)."""
+@functools.lru_cache
+def centred_template():
+    """Mean of the template's points around the middle of a crop, and the weights [175] that tell how much a face is turned and scaled."""
     source = (lp.template() - 0.5) @ [1, 1j]
-    target = points @ [1, 1j]
-    a = np.vdot(source - source.mean(), target - target.mean()) / (np.abs(source - source.mean()) ** 2).sum()
-    centre = target.mean() - a * source.mean()
-    return np.array([centre.real, centre.imag, np.abs(a), np.angle(a)])
+    s = source - source.mean()
+    return source.mean(), s.conj() / (np.abs(s) ** 2).sum()
+
+
+def fit_crop(points):
+    """Crops [...,4] (cx, cy, side, roll) of landmarks [...,175,2]: least-squares similarity from the template (Umeyama 1991)."""
+    mean, conjugate = centred_template()
+    target = points[..., 0] + 1j * points[..., 1]
+    middle = target.mean(-1)
+    a = (target - middle[..., None]) @ conjugate
+    centre = middle - a * mean
+    return np.stack([centre.real, centre.imag, np.abs(a), np.angle(a)], -1)
 
 
 def pose_at(camera, landmarks, angles, place, rounds=3):

@@ -1,6 +1,7 @@
 // Vertices in camera space, their normals and projections.
 #pragma once
 #include <cmath>
+#include <cstring>
 #include <vector>
 
 #include "scene.h"
@@ -25,10 +26,31 @@ struct Projected {
   float x, y, near;
 };
 
+// All that is interpolated over triangles, side by side, so that a corner is one line of the cache.
+struct alignas(64) Attributes {
+  Vec3 camera, normal, head;
+  float occlusion;
+  float unused[6];
+};
+using AttributeLanes = float __attribute__((vector_size(sizeof(Attributes))));
+
 struct Vertices {
   std::vector<Vec3> camera, normal;  // camera space, cm; normals not yet of unit length
   std::vector<Projected> screen;
+  std::vector<Attributes> attributes;
 };
+
+// Weighted sum of the attributes of a triangle's corners.
+inline Attributes interpolated(const Attributes& a, const Attributes& b, const Attributes& c,
+                               Vec3 w) {
+  AttributeLanes corner[3];
+  std::memcpy(&corner[0], &a, sizeof a), std::memcpy(&corner[1], &b, sizeof b);
+  std::memcpy(&corner[2], &c, sizeof c);
+  const AttributeLanes sum = corner[0] * w.x + corner[1] * w.y + corner[2] * w.z;
+  Attributes out;
+  std::memcpy(&out, &sum, sizeof out);
+  return out;
+}
 
 inline Vec3 transform(const float* pose, Vec3 p) {
   return {pose[0] * p.x + pose[1] * p.y + pose[2] * p.z + pose[3],
@@ -49,6 +71,17 @@ inline void place(const Mesh& mesh, Vertices& out) {
   out.camera.resize(size_t(mesh.vertices));
   for (size_t i = 0; i < out.camera.size(); ++i)
     out.camera[i] = transform(mesh.pose, load(mesh.position + 3 * i));
+}
+
+// Gathers the attributes once camera space and normals are known.
+inline void gather(const Mesh& mesh, Vertices& v) {
+  v.attributes.resize(v.camera.size());
+  for (size_t i = 0; i < v.camera.size(); ++i)
+    v.attributes[i] = {v.camera[i],
+                       v.normal[i],
+                       load(mesh.position + 3 * i),
+                       mesh.occlusion ? mesh.occlusion[i] : 1.0f,
+                       {}};
 }
 
 // Adds the area-weighted normals of a part's triangles to its vertices.

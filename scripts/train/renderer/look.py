@@ -125,9 +125,14 @@ def sample_glasses(look, rng):
     look.lens_opacity = rng.uniform(0.7, 0.95) if rng.random() < 0.15 else rng.uniform(0, 0.12)
 
 
+def sample_identity(rng):
+    """Coefficients of a face's shape, f32 [100]."""
+    return np.float32(np.clip(rng.standard_normal(100), -2, 2) * IDENTITY_SPREAD)
+
+
 def sample(rng, split):
     """A random Look from the assets of split 'train', 'val' or 'test'."""
-    look = Look(identity=np.float32(np.clip(rng.standard_normal(100), -2, 2) * IDENTITY_SPREAD))
+    look = Look(identity=sample_identity(rng))
     sample_skin(look, rng, split)
     look.hair_colour = sample_hair_colour(rng, look.skins[0], look.group)
     sample_face_hair(look, rng)

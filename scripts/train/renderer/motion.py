@@ -2,7 +2,10 @@
 import numpy as np
 
 from expressions import min_jerk
+from renderer import camera
 from renderer.camera import LIMIT, SPREAD
+
+NECK = np.array([0, -8, -3])  # the head turns about it, head frame, cm
 
 
 def wander(rng, frames, spread, hold, ease):
@@ -52,3 +55,14 @@ def sweep(rng, frames):
     share = np.interp(t, come + np.arange(len(ramp)), 1 - ramp, left=1, right=0) + \
         np.interp(t, come + stay + np.arange(len(ramp)), ramp, left=0, right=1)
     return np.clip(share, 0, 1)[:, None] * away + tremor(rng, frames, np.array([0.2, 0.2, 0.1]))
+
+
+def head_poses(rng, filmed_by, landmarks, frames):
+    """How a head with landmarks [175,3] at rest moves before a camera: rotations [frames,3,3], translations [frames,3] in cm, and the
+    sweep of an occluder [frames,3]."""
+    angles, shift, passing = head_angles(rng, frames), head_shift(rng, frames), sweep(rng, frames)
+    centre, side = camera.sample_place(rng, filmed_by)
+    side = min(side, 0.22 * filmed_by.f_px / 0.36)  # room to move forwards
+    ahead, rest = camera.pose_at(filmed_by, landmarks, (0, 0, 0), (centre, side))
+    rotations = ahead @ camera.rotation(*angles.T)
+    return rotations, rest + (ahead - rotations) @ NECK + shift, passing

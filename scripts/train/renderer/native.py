@@ -9,6 +9,7 @@ import numpy as np
 from native_build import library
 
 OVERLAYS = 6
+BLOCK = 64  # numbers of a shape that lie together (blend.h)
 SKIN, INTERIOR, EYE, HAIR, SOLID, LENS, LASH = range(7)
 OPAQUE, FRINGE, BLENDED = range(3)
 
@@ -48,6 +49,12 @@ class Scene(Structure):
                 ("background", c_void_p)]
 
 
+class Folds(Structure):
+    _fields_ = [(n, c_void_p) for n in ("first", "second", "at", "to", "square", "along", "scale", "start", "neighbour", "shade",
+                                        "vertex")]
+    _fields_ += [("edges", c_int32), ("skin", c_int32), ("begins", c_float), ("deepest", c_float)]
+
+
 def pointer(array, dtype=np.float32):
     """Address of a contiguous array; the caller keeps the array alive."""
     assert array.dtype == dtype and array.flags.c_contiguous, (array.dtype, array.flags)
@@ -69,12 +76,27 @@ def load():
 
 
 def blend_shapes(weights, basis):
-    """f32 [rows,n]: weights [rows,shapes] @ basis [shapes,n]; n is a multiple of 16."""
+    """f32 [rows,blocks * BLOCK]: weights [rows,shapes] times shapes that lie as basis [blocks,shapes,BLOCK]."""
     weights = np.ascontiguousarray(weights, np.float32)
-    out = np.empty((len(weights), basis.shape[1]), np.float32)
-    load().renderer_blend_shapes(c_void_p(pointer(weights)), c_void_p(pointer(basis)),
-                                 *weights.shape, basis.shape[1], c_void_p(pointer(out)))
+    blocks, shapes, _ = basis.shape
+    out = np.empty((len(weights), blocks * BLOCK), np.float32)
+    load().renderer_blend_shapes(c_void_p(pointer(weights)), c_void_p(pointer(basis)), len(weights), shapes, blocks, c_void_p(pointer(out)))
     return out
+
+
+def folds(ints, floats, begins, deepest):
+    """Folds of int32 arrays (first, second, at, to, start, neighbour, vertex) and f32 ones (square, along, scale, shade), which it keeps."""
+    first, second, at, to, start, neighbour, vertex = (pointer(a, np.int32) for a in ints)
+    square, along, scale, shade = map(pointer, floats)
+    made = Folds(first, second, at, to, square, along, scale, start, neighbour, shade, vertex, len(ints[0]), len(ints[-1]), begins, deepest)
+    made.keep = ints, floats
+    return made
+
+
+def darkened(made, posed, openness):
+    """Openness f32 [vertices] less what the folds of a posed head f32 [vertices,3] take, in place."""
+    load().renderer_darken(ctypes.byref(made), c_void_p(pointer(posed)), c_void_p(pointer(openness)))
+    return openness
 
 
 class Rasterizer:

@@ -7,14 +7,15 @@
 #include <cstring>
 
 #include "blend.h"
+#include "folding.h"
 #include "shade.h"
 
 namespace mien::render {
 namespace {
 
 constexpr int kSamples = 2;  // per picture pixel and axis
-constexpr float kSameSurfaceCm =
-    0.6f;  // samples of one part closer than this in depth count as one surface
+// Samples of one part closer than this in depth count as one surface.
+constexpr float kSameSurfaceCm = 0.6f;
 
 class Renderer {
  public:
@@ -32,15 +33,33 @@ class Renderer {
   void exposure_to_sky(const Scene& scene, const float* directions, int count, float* out);
 
  private:
-  Surface surface(const Scene& scene, uint32_t id, float x, float y, bool clamp) const;
-  Vec3 pixel(const Scene& scene, int x, int y, Vec3 background) const;
+  // A point of a triangle that a pixel shows.
+  struct Wanted {
+    uint32_t id;
+    float x, y;   // sample coordinates
+    bool clamp;   // a point just outside of the triangle goes to its edge
+    float share;  // of its pixel
+    size_t pixel;
+  };
+
+  Surface surface(const Scene& scene, const Wanted& wanted) const;
+  void want(const Scene& scene, const Wanted& wanted);
+  void fetch(const Scene& scene, uint32_t id) const;
+  bool one_surface(size_t first) const;
+  void pixel(const Scene& scene, int x, int y, Vec3 background);
+  void outline(const Scene& scene, int x, int y, Vec3 background);
+  void gather_wanted(const Scene& scene, const ShadowMap* shadow);
+  void shade_wanted(const Scene& scene);
   void blend(const Scene& scene, const Part& part);
+  void blend_wanted(const Scene& scene, const Material& lens);
 
   std::vector<Vertices> vertices_;
   Grid grid_;
   ShadowMap shadow_;
   std::vector<Projected> scratch_;
   std::vector<Vec3> colour_;  // [height,width] linear
+  std::vector<Wanted> wanted_;
+  Batch batch_;
 };
 
 void Renderer::geometry(const Scene& scene) {
@@ -57,6 +76,7 @@ void Renderer::geometry(const Scene& scene) {
     const Part& part = scene.parts[p];
     add_normals(scene.meshes[part.mesh], part, vertices_[size_t(part.mesh)]);
   }
+  for (int m = 0; m < scene.mesh_count; ++m) gather(scene.meshes[m], vertices_[size_t(m)]);
 }
 
 void Renderer::hide(const Scene& scene, int stage) {
@@ -72,85 +92,141 @@ void Renderer::hide(const Scene& scene, int stage) {
                   kSamples, grid_);
     else
       draw_opaque(mesh, part, uint32_t(p), screen, grid_);
+    // The face comes first and hides most of the rest.
+    if (p == 0) grid_.hidden_areas();
   }
 }
 
 void Renderer::shadows(const Scene& scene) {
   if (!scene.light.shadow) return;
   shadow_.aim(load(scene.light.direction[0]), load(scene.light.centre));
-  for (int p = 0; p < scene.part_count; ++p) {
-    const Part& part = scene.parts[p];
-    if (part.casts_shadow)
-      shadow_.draw(scene.meshes[part.mesh], part, vertices_[size_t(part.mesh)], scratch_);
+  for (int m = 0; m < scene.mesh_count; ++m) {
+    shadow_.project(vertices_[size_t(m)], scratch_);
+    for (int p = 0; p < scene.part_count; ++p)
+      if (scene.parts[p].mesh == m && scene.parts[p].casts_shadow)
+        shadow_.draw(scene.meshes[m], scene.parts[p], scratch_);
   }
 }
 
-// Attributes of a triangle at sample coordinates; `clamp` keeps a point just outside of it on its
-// edge.
-Surface Renderer::surface(const Scene& scene, uint32_t id, float x, float y, bool clamp) const {
+// Notes a point for the batch and has the memory fetch its triangle.
+void Renderer::want(const Scene& scene, const Wanted& wanted) {
+  const Part& part = scene.parts[wanted.id >> kTriangleBits];
+  const Mesh& mesh = scene.meshes[part.mesh];
+  const int triangle = part.first + int(wanted.id & ((1u << kTriangleBits) - 1));
+  __builtin_prefetch(mesh.corner_position + 3 * triangle);
+  __builtin_prefetch(mesh.corner_uv + 3 * triangle);
+  wanted_.push_back(wanted);
+}
+
+// Has the memory fetch the corners of a triangle.
+void Renderer::fetch(const Scene& scene, uint32_t id) const {
   const Part& part = scene.parts[id >> kTriangleBits];
   const Mesh& mesh = scene.meshes[part.mesh];
-  const int triangle = int(id & ((1u << kTriangleBits) - 1));
+  const int triangle = part.first + int(id & ((1u << kTriangleBits) - 1));
+  const Vertices& v = vertices_[size_t(part.mesh)];
+  for (int k = 0; k < 3; ++k) {
+    const size_t corner = size_t(mesh.corner_position[3 * triangle + k]);
+    __builtin_prefetch(&v.attributes[corner]);
+    __builtin_prefetch(&v.screen[corner]);
+    __builtin_prefetch(mesh.uv + 2 * mesh.corner_uv[3 * triangle + k]);
+  }
+}
+
+// What a point of a triangle looks like.
+Surface Renderer::surface(const Scene& scene, const Wanted& wanted) const {
+  const Part& part = scene.parts[wanted.id >> kTriangleBits];
+  const Mesh& mesh = scene.meshes[part.mesh];
+  const int triangle = int(wanted.id & ((1u << kTriangleBits) - 1));
   const int32_t* corner = mesh.corner_position + 3 * (part.first + triangle);
   const Vertices& v = vertices_[size_t(part.mesh)];
   const size_t i = size_t(corner[0]), j = size_t(corner[1]), k = size_t(corner[2]);
   const Edges e(v.screen[i], v.screen[j], v.screen[k]);
-  Vec3 w = e.linear(x, y);
-  if (clamp) {
+  Vec3 w = e.linear(wanted.x, wanted.y);
+  if (wanted.clamp) {
     w = {std::max(w.x, 0.0f), std::max(w.y, 0.0f), std::max(w.z, 0.0f)};
     w = w * (1 / (w.x + w.y + w.z));
   }
   w = e.perspective(w);
-  Surface s{};
+  const Attributes here = interpolated(v.attributes[i], v.attributes[j], v.attributes[k], w);
+  Surface s;
   s.material = &scene.materials[part.material];
-  s.camera = v.camera[i] * w.x + v.camera[j] * w.y + v.camera[k] * w.z;
-  s.head = load(mesh.position + 3 * i) * w.x + load(mesh.position + 3 * j) * w.y +
-           load(mesh.position + 3 * k) * w.z;
-  s.normal = unit(v.normal[i] * w.x + v.normal[j] * w.y + v.normal[k] * w.z);
+  s.camera = here.camera, s.head = here.head, s.occlusion = here.occlusion;
+  s.normal = unit(here.normal);
   if (dot(s.normal, s.camera) > 0) s.normal = s.normal * -1.0f;
-  s.occlusion = mesh.occlusion
-                    ? mesh.occlusion[i] * w.x + mesh.occlusion[j] * w.y + mesh.occlusion[k] * w.z
-                    : 1.0f;
   const CornerUv uv(mesh, part, triangle);
   s.uv = uv.mix(w);
-  for (int t = 0; t < 2; ++t)
-    if (s.material->texture[t] >= 0)
-      s.lod[t] = uv.lod(e, textures[size_t(s.material->texture[t])], kSamples);
-  for (int t = 0; t < kOverlays; ++t) {
-    const Overlay& o = s.material->overlay[t];
-    if (o.texture < 0) continue;
-    const float rect = (o.rect[2] - o.rect[0]) * (o.rect[3] - o.rect[1]);
-    s.overlay_lod[t] = uv.lod(e, textures[size_t(o.texture)], kSamples) - 0.5f * std::log2(rect);
-  }
+  s.span = uv.span(e, kSamples);
   return s;
 }
 
-Vec3 Renderer::pixel(const Scene& scene, int x, int y, Vec3 background) const {
-  const ShadowMap* shadow = scene.light.shadow ? &shadow_ : nullptr;
-  const size_t first = size_t(y) * kSamples * grid_.width + size_t(x) * kSamples;
-  const std::array<size_t, 4> at{first, first + 1, first + size_t(grid_.width),
-                                 first + size_t(grid_.width) + 1};
-  const uint32_t id = grid_.id[at[0]];
+// Whether the samples of a pixel, of which `first` is one, lie on one surface or on none.
+bool Renderer::one_surface(size_t first) const {
+  const size_t below = first + size_t(grid_.stride);
+  const uint32_t part = grid_.id[first] >> kTriangleBits;
+  const float near = grid_.near[first];
+  const float limit = kSameSurfaceCm * near * near;  // nearness is 1/depth
   bool same = true;
-  for (size_t k : at) {
-    const float limit =
-        kSameSurfaceCm * grid_.near[first] * grid_.near[first];  // nearness is 1/depth
-    same = same && (grid_.id[k] >> kTriangleBits) == (id >> kTriangleBits) &&
-           std::abs(grid_.near[k] - grid_.near[first]) <= limit;
+  for (size_t k : {first + 1, below, below + 1})
+    same &= (grid_.id[k] >> kTriangleBits) == part && std::abs(grid_.near[k] - near) <= limit;
+  return same;
+}
+
+// Notes the surfaces that a pixel shows, and puts what shows of the background into the picture.
+void Renderer::pixel(const Scene& scene, int x, int y, Vec3 background) {
+  const size_t first = grid_.at(kSamples * x, kSamples * y);
+  const size_t to = size_t(y) * size_t(scene.view.width) + size_t(x);
+  const uint32_t id = grid_.id[first];
+  const bool same = one_surface(first);
+  colour_[to] = same && id == kNothing ? background : Vec3{0, 0, 0};
+  if (!same)
+    outline(scene, x, y, background);
+  else if (id != kNothing)
+    want(scene, {id, float(2 * x + 1), float(2 * y + 1), true, 1, to});
+}
+
+// The same of a pixel in which several surfaces meet; each is shaded once.
+void Renderer::outline(const Scene& scene, int x, int y, Vec3 background) {
+  const size_t to = size_t(y) * size_t(scene.view.width) + size_t(x), begin = wanted_.size();
+  float nearness[kSamples * kSamples];
+  for (int k = 0; k < kSamples * kSamples; ++k) {
+    const int sx = kSamples * x + (k & 1), sy = kSamples * y + (k >> 1);
+    const uint32_t id = grid_.id[grid_.at(sx, sy)];
+    const float near = grid_.near[grid_.at(sx, sy)], limit = kSameSurfaceCm * near * near;
+    if (id == kNothing) {
+      colour_[to] = colour_[to] + background * 0.25f;
+      continue;
+    }
+    size_t same = begin;
+    while (same < wanted_.size() && (wanted_[same].id >> kTriangleBits != id >> kTriangleBits ||
+                                     std::abs(nearness[same - begin] - near) > limit))
+      ++same;
+    nearness[same - begin] = near;
+    if (same < wanted_.size())
+      wanted_[same].share += 0.25f;
+    else
+      want(scene, {id, float(sx) + 0.5f, float(sy) + 0.5f, false, 0.25f, to});
   }
-  if (same && id == kNothing) return background;
-  if (same)
-    return shade(surface(scene, id, float(2 * x + 1), float(2 * y + 1), true), textures,
-                 scene.light, shadow);
-  Vec3 sum{0, 0, 0};
-  for (int k = 0; k < 4; ++k) {
-    const uint32_t sample = grid_.id[at[size_t(k)]];
-    const float sx = float(2 * x + (k & 1)) + 0.5f, sy = float(2 * y + (k >> 1)) + 0.5f;
-    sum = sum + (sample == kNothing
-                     ? background
-                     : shade(surface(scene, sample, sx, sy, false), textures, scene.light, shadow));
+}
+
+// Puts all that is wanted into the batch.
+void Renderer::gather_wanted(const Scene& scene, const ShadowMap* shadow) {
+  constexpr size_t kAhead = 8;
+  batch_.count = 0;
+  for (size_t k = 0; k < wanted_.size(); ++k) {
+    if (k + kAhead < wanted_.size()) fetch(scene, wanted_[k + kAhead].id);
+    const Wanted& w = wanted_[k];
+    batch_.add(surface(scene, w), textures, shadow, w.pixel, w.share);
   }
-  return sum * 0.25f;
+  wanted_.clear();
+}
+
+void Renderer::shade_wanted(const Scene& scene) {
+  gather_wanted(scene, scene.light.shadow ? &shadow_ : nullptr);
+  shade(scene.light, batch_);
+  for (int i = 0; i < batch_.count; ++i) {
+    Vec3& pixel = colour_[batch_.pixel[i]];
+    pixel = pixel + batch_.answer(i) * batch_.share[i];
+  }
 }
 
 // A lens tints what is behind it and mirrors the lamps.
@@ -158,22 +234,29 @@ void Renderer::blend(const Scene& scene, const Part& part) {
   const Mesh& mesh = scene.meshes[part.mesh];
   const uint32_t number = uint32_t(&part - scene.parts);
   const auto& screen = vertices_[size_t(part.mesh)].screen;
-  each_triangle(
-      mesh, part, screen, grid_.width, grid_.height, [&](int t, const Edges& e, const Bounds& box) {
-        cover(e, box, grid_, [&](size_t, int x, int y, float, Vec3) {
-          Vec3& colour =
-              colour_[size_t(y / kSamples) * size_t(scene.view.width) + size_t(x / kSamples)];
-          const uint32_t id = number << kTriangleBits | uint32_t(t);
-          const Surface s = surface(scene, id, float(x) + 0.5f, float(y) + 0.5f, false);
-          const Vec3 lens = shade(s, textures, scene.light, nullptr);
-          const float share = 1.0f / (kSamples * kSamples);
-          const Vec3 gleam =
-              lens - times(load(s.material->colour), from_environment(scene.light, s.normal)) *
-                         scene.light.exposure;
-          colour = mix(colour, lens, s.material->param[0] * share) +
-                   gleam * (share * (1 - s.material->param[0]));
-        });
-      });
+  const Material& lens = scene.materials[part.material];
+  each_triangle(mesh, part, screen, grid_, [&](int t, const Edges& e, const Bounds& box) {
+    each_sample(e, box, grid_, [&](size_t, int x, int y, float, Vec3) {
+      const size_t to = size_t(y / kSamples) * size_t(scene.view.width) + size_t(x / kSamples);
+      want(scene, {number << kTriangleBits | uint32_t(t), float(x) + 0.5f, float(y) + 0.5f, false,
+                   1.0f / (kSamples * kSamples), to});
+      if (wanted_.size() == Batch::kSize) blend_wanted(scene, lens);
+    });
+  });
+  blend_wanted(scene, lens);
+}
+
+void Renderer::blend_wanted(const Scene& scene, const Material& lens) {
+  gather_wanted(scene, nullptr);
+  shade(scene.light, batch_);
+  for (int i = 0; i < batch_.count; ++i) {
+    Vec3& pixel = colour_[batch_.pixel[i]];
+    const Vec3 c = batch_.answer(i);
+    const Vec3 matt = times(load(lens.colour), from_environment(scene.light, batch_.normal(i)));
+    const Vec3 gleam = c - matt * scene.light.exposure;
+    pixel = mix(pixel, c, lens.param[0] * batch_.share[i]) +
+            gleam * (batch_.share[i] * (1 - lens.param[0]));
+  }
 }
 
 float to_linear(uint8_t c) {
@@ -203,14 +286,15 @@ void Renderer::paint(const Scene& scene, uint8_t* out) {
   for (int y = 0; y < h; ++y)
     for (int x = 0; x < w; ++x) {
       const uint8_t* b = scene.background + (size_t(y) * w + x) * 3;
-      colour_[size_t(y) * w + x] =
-          pixel(scene, x, y, {to_linear(b[0]), to_linear(b[1]), to_linear(b[2])});
+      pixel(scene, x, y, {to_linear(b[0]), to_linear(b[1]), to_linear(b[2])});
+      if (wanted_.size() > Batch::kSize - kSamples * kSamples) shade_wanted(scene);
     }
+  shade_wanted(scene);
   for (int p = 0; p < scene.part_count; ++p)
     if (scene.parts[p].stage == kBlended) blend(scene, scene.parts[p]);
   for (size_t i = 0; i < colour_.size(); ++i) {
     const size_t x = i % size_t(w), y = i / size_t(w);
-    const bool drawn = grid_.id[y * kSamples * size_t(grid_.width) + x * kSamples] != kNothing;
+    const bool drawn = grid_.id[grid_.at(int(x) * kSamples, int(y) * kSamples)] != kNothing;
     const Vec3 c = colour_[i];
     for (int k = 0; k < 3; ++k)
       out[3 * i + size_t(k)] = to_byte(k == 0 ? c.x : k == 1 ? c.y : c.z, drawn);
@@ -229,7 +313,7 @@ void Renderer::visibility(const Scene& scene, const float* points, const float* 
     for (int y = cy - 1; y <= cy + 1; ++y)
       for (int x = cx - 1; x <= cx + 1; ++x) {
         const int gx = std::clamp(x, 0, grid_.width - 1), gy = std::clamp(y, 0, grid_.height - 1);
-        seen = seen || grid_.near[size_t(gy) * grid_.width + gx] <= limit;
+        seen = seen || grid_.near[grid_.at(gx, gy)] <= limit;
       }
     out[i] = seen;
   }
@@ -244,9 +328,9 @@ void Renderer::exposure_to_sky(const Scene& scene, const float* directions, int 
   for (int d = 0; d < count; ++d) {
     const Vec3 to_sky = load(directions + 3 * d);
     shadow_.aim(to_sky, load(scene.light.centre));
+    shadow_.project(v, scratch_);
     for (int p = 0; p < scene.part_count; ++p)
-      shadow_.draw(scene.meshes[scene.parts[p].mesh], scene.parts[p],
-                   vertices_[size_t(scene.parts[p].mesh)], scratch_);
+      shadow_.draw(scene.meshes[0], scene.parts[p], scratch_);
     for (size_t i = 0; i < open.size(); ++i) {
       const Vec3 n = unit(v.normal[i]);
       const float cosine = std::max(0.0f, dot(n, to_sky));
@@ -288,9 +372,15 @@ void renderer_render(Renderer* renderer, const Scene* scene, uint8_t* out, const
   renderer->paint(*scene, out);
 }
 
-void renderer_blend_shapes(const float* weights, const float* basis, int rows, int shapes, int n,
-                           float* out) {
-  mien::render::blend_shapes(weights, basis, rows, shapes, size_t(n), out);
+void renderer_blend_shapes(const float* weights, const float* basis, int rows, int shapes,
+                           int blocks, float* out) {
+  mien::render::blend_shapes(weights, basis, rows, shapes, blocks, out);
+}
+
+// Takes what the folds of a posed head [vertices,3] cost off openness [vertices].
+void renderer_darken(const mien::render::Folds* folds, const float* posed, float* open) {
+  thread_local mien::render::Folding folding;
+  folding.darken(*folds, posed, open);
 }
 
 // How open to the sky each vertex of the first mesh is, out [vertices]; directions [count,3], unit.

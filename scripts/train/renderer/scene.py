@@ -8,7 +8,7 @@ from paths import cache
 from renderer import make_up, native, props
 from renderer.assets import overlay_rectangle, pack, picture, skin_file, worn
 from renderer.lighting import sphere
-from renderer.wrinkles import Folding
+from renderer.wrinkles import Folding, Skin
 
 SKIN_TOLERANCE, IRIS_TOLERANCE = 0.5, 0.12  # cm that may lie in front of a landmark that counts as seen
 IRIS_LANDMARKS = [i for i, teacher in enumerate(TEACHER) if teacher >= 468]
@@ -40,15 +40,14 @@ class Studio:
         self.edge = props.rim(np.concatenate(skin), rig.neutral)
         self.shoulder_corners = props.strips(len(props.SHOULDERS), len(self.edge))
         self.occlusion = self.vertex_occlusion()
-        self.folding = Folding(rig.corner_position[slice(*rig.materials["M_Face"])], len(rig.neutral))
+        self.skin = Skin(rig.corner_position[slice(*rig.materials["M_Face"])], len(rig.neutral))
         self.make_up = make_up.pictures(rig)
 
     def texture(self, *parts, wrap=False):
         """Number of a picture of the rig pack, or of any file."""
-        file = pack(*parts)
-        if file not in self.textures:
-            self.textures[file] = self.rasterizer.add_texture(picture(file), wrap)
-        return self.textures[file]
+        if parts not in self.textures:
+            self.textures[parts] = self.rasterizer.add_texture(picture(pack(*parts)), wrap)
+        return self.textures[parts]
 
     def vertex_occlusion(self):
         """How open each vertex of the mean head is, computed once and kept."""
@@ -148,6 +147,7 @@ class Figure:
         self.studio, self.look, self.head, self.rig = studio, look, head, studio.rig
         self.albedo, self.plain = skin_albedo(look), plain_albedo()
         self.lid = float(head[self.rig.ibug68[36:48], 1].mean())
+        self.folding = Folding(studio.skin, head, look.wrinkles)
         self.static = []  # (mesh arrays, parts) fixed to the skull
         self.skin_parts = self.make_skin()
         self.wear()
@@ -222,7 +222,7 @@ class Figure:
 
     def lit(self, vertices):
         """How open every vertex is, f32 [26719]: wrinkles are in shadow."""
-        return self.studio.occlusion * self.studio.folding.openness(self.head, vertices, self.look.wrinkles)
+        return self.studio.occlusion * self.folding.openness(vertices)
 
     def add_mouth(self, shapes, head, vertices):
         """Teeth, gums and tongue, unless the lips are shut."""

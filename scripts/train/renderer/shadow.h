@@ -17,13 +17,16 @@ class ShadowMap {
     grid_.clear(kSize, kSize);
   }
 
-  void draw(const Mesh& mesh, const Part& part, const Vertices& vertices,
-            std::vector<Projected>& scratch) {
-    scratch.resize(vertices.camera.size());
-    for (size_t i = 0; i < scratch.size(); ++i) scratch[i] = project(vertices.camera[i]);
+  // Where the vertices of a mesh are on the map.
+  void project(const Vertices& vertices, std::vector<Projected>& out) const {
+    out.resize(vertices.camera.size());
+    for (size_t i = 0; i < out.size(); ++i) out[i] = project(vertices.camera[i]);
+  }
+
+  void draw(const Mesh& mesh, const Part& part, const std::vector<Projected>& on_map) {
     Part both_sides = part;
     both_sides.cull = 0;
-    draw_opaque(mesh, both_sides, 0, scratch, grid_);
+    draw_depth(mesh, both_sides, on_map, grid_);
   }
 
   // Share of light 0..1 that reaches a point, over 2x2 texels.
@@ -34,10 +37,11 @@ class ShadowMap {
     const int x = int(fx), y = int(fy);
     if (x < 0 || y < 0 || x + 1 >= kSize || y + 1 >= kSize) return 1;
     const float reach = p.near + bias / (4 * kRadius);
-    const float* row = &grid_.near[size_t(y) * kSize + x];
-    const auto lit = [&](int i) { return row[i] <= reach ? 1.0f : 0.0f; };
-    return (1 - ay) * ((1 - ax) * lit(0) + ax * lit(1)) +
-           ay * ((1 - ax) * lit(kSize) + ax * lit(kSize + 1));
+    const auto lit = [&](int column, int row) {
+      return grid_.near[grid_.at(column, row)] <= reach ? 1.0f : 0.0f;
+    };
+    return (1 - ay) * ((1 - ax) * lit(x, y) + ax * lit(x + 1, y)) +
+           ay * ((1 - ax) * lit(x, y + 1) + ax * lit(x + 1, y + 1));
   }
 
  private:

@@ -1,0 +1,63 @@
+"""A controls decoder in training, on whitened features, that can be stopped and goes on from its checkpoint."""
+import math
+
+import torch
+
+from networks import ControlsDecoder
+from whitening import Whitening
+from whole_files import whole
+
+WARM_UP = 200   # steps over which the learning rate rises
+AT_END = 0.01   # share of the learning rate that is left
+
+
+class Run:
+    """The decoder with its optimiser, and where they are kept.
+
+    args: out, steps, rate, seed. start: the state of a decoder of plain features to begin with, or None.
+    """
+
+    def __init__(self, args, features, start=None):
+        torch.manual_seed(args.seed)
+        self.args, self.step, self.start = args, 0, start
+        self.decoder = ControlsDecoder(features)
+        self.optimiser = torch.optim.AdamW(self.decoder.parameters(), lr=args.rate, weight_decay=1e-3, betas=(0.9, 0.98))
+        self.known = torch.load(args.out) if args.out.exists() else None
+
+    def begin(self, samples):
+        """Features [n,features] to whiten by, unless there is a checkpoint."""
+        if self.known is None:
+            self.whitening = Whitening.of(samples.float())
+            if self.start:
+                self.decoder.load_state_dict(self.whitening.unfold(self.start))
+            return
+        self.decoder.load_state_dict(self.known["white"]), self.optimiser.load_state_dict(self.known["optimiser"])
+        self.whitening, self.step = Whitening(self.known["mean"], self.known["matrix"]), self.known["step"]
+
+    def rate(self):
+        """Rises, then falls along a cosine."""
+        done = min(self.step / self.args.steps, 1.0)
+        return self.args.rate * min(1.0, self.step / WARM_UP) * (AT_END + (1 - AT_END) * (0.5 + 0.5 * math.cos(math.pi * done)))
+
+    def answer(self, features):
+        return self.decoder(self.whitening(features), self.whitening.start(self.decoder, len(features)))[0]
+
+    def advance(self, loss):
+        """One step of the optimiser; the loss as a number."""
+        for group in self.optimiser.param_groups:
+            group["lr"] = self.rate()
+        self.optimiser.zero_grad()
+        loss.backward()
+        torch.nn.utils.clip_grad_norm_(self.decoder.parameters(), 1.0)
+        self.optimiser.step()
+        self.step += 1
+        return loss.item()
+
+    def state(self):
+        """Of a decoder of plain features."""
+        return self.whitening.fold(self.decoder.state_dict())
+
+    def save(self, **more):
+        with whole(self.args.out) as out:
+            torch.save({"controls_decoder": self.state(), "white": self.decoder.state_dict(), "optimiser": self.optimiser.state_dict(),
+                        "mean": self.whitening.mean, "matrix": self.whitening.matrix, "step": self.step, **more}, out)

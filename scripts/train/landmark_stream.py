@@ -1,0 +1,104 @@
+#!/usr/bin/env python3
+"""Sequences of landmarks without pictures: identity, expression and head pose move the 175 landmarks of the rig, and nothing else.
+
+A stream never repeats and takes about 5 ms of one core for a sequence of 90 frames. It gives what a decoder of true landmarks learns from
+(evaluate_yardstick.py). Run as a program it tests itself, and says how fast it is.
+"""
+import time
+
+import numpy as np
+import torch
+
+import expressions
+import head_pose
+import landmark_points as lp
+from face_data import to_crop
+from renderer import camera, look, motion
+from rig import Rig
+
+KNOWN = 2 * len(lp.TEACHER) + 9  # landmarks in crop coordinates and the pose
+
+
+class PointRig:
+    """The rig at its landmarks alone."""
+
+    def __init__(self, rig=None):
+        rig = rig or Rig()
+        self.neutral = rig.landmarks(rig.neutral)
+        self.identity_shapes, self.control_shapes = (
+            rig.landmark_shapes(shapes).reshape(shapes.shape[1], -1) for shapes in (rig.identity_shapes, rig.control_shapes))
+
+    def moved(self, identity, controls):
+        """Landmarks at rest f32 [175,3] and with controls [frames,52], [frames,175,3], in the head's frame, cm."""
+        rest = self.neutral + (identity @ self.identity_shapes).reshape(self.neutral.shape)
+        return rest, rest + (controls @ self.control_shapes).reshape(-1, *self.neutral.shape)
+
+
+def sequence(rig, rng, frames, perform):
+    """One performance of a new person before a new camera, as labels of make_synthetic.py name it."""
+    controls = perform(rng, frames)
+    rest, points = rig.moved(look.sample_identity(rng), controls)
+    filmed_by = camera.sample_camera(rng)
+    rotation, translation, _ = motion.head_poses(rng, filmed_by, rest, frames)
+    seen_at = filmed_by.project(points @ rotation.transpose(0, 2, 1) + translation[:, None])
+    return dict(controls=controls, landmarks=seen_at, crop=camera.fit_crop(seen_at), rotation=rotation, translation=translation / 100,
+                f_px=np.full(frames, filmed_by.f_px), camera_wh=np.tile([filmed_by.width, filmed_by.height], (frames, 1)))
+
+
+def template():
+    return torch.tensor(lp.template(), dtype=torch.float32)
+
+
+def known(labels):
+    """What a decoder of true landmarks is given: f32 [...,KNOWN] of landmarks, crop, rotation, translation, f_px and camera_wh."""
+    crops, points = labels["crop"].float(), labels["landmarks"].float()
+    inside = to_crop(crops.flatten(0, 1), points.flatten(0, 1)).view_as(points) - template()
+    pose = head_pose.to_crop(*(labels[k].float() for k in ("rotation", "translation", "f_px", "camera_wh")), crops)
+    return torch.cat([inside.flatten(2), pose], -1)
+
+
+def batch(rig, rng, count, frames, perform=expressions.sample_sequence):
+    """Features f32 [count,frames,KNOWN] and controls [count,frames,52] of new people; `perform` makes the controls of a sequence."""
+    rows = [sequence(rig, rng, frames, perform) for _ in range(count)]
+    labels = {k: torch.from_numpy(np.stack([row[k] for row in rows])) for k in rows[0]}
+    return known(labels), labels["controls"].float()
+
+
+def tracked(rig, rng, count, frames, perform, lag):
+    """Landmarks [count,frames,175,2] in the crops of a tracker, their poses [count,frames,9] and controls [count,frames,52].
+
+    A crop fits the landmarks of the frame before, or of that before it, and is off by deviations `lag` (middle, log side, roll).
+    """
+    rows = [sequence(rig, rng, frames + 2, perform) for _ in range(count)]
+    labels = {k: torch.from_numpy(np.stack([row[k] for row in rows])).float() for k in rows[0]}
+    late = rng.integers(2, size=(count, 1)) * rng.integers(2, size=(count, frames))  # half of the encoders run on alternate frames
+    before = np.arange(1, frames + 1) - late
+    crops = labels["crop"][torch.arange(count)[:, None], torch.from_numpy(before)]
+    off = torch.from_numpy(rng.normal(0, lag, (count, frames, 4))).float()
+    side = crops[..., 2:3]
+    crops = torch.cat([crops[..., :2] + off[..., :2] * side, side * torch.exp(off[..., 2:3]), crops[..., 3:] + off[..., 3:]], -1)
+    now = {k: v[:, 2:] for k, v in labels.items()}
+    points = to_crop(crops.flatten(0, 1), now["landmarks"].flatten(0, 1)).view_as(now["landmarks"])
+    pose = head_pose.to_crop(*(now[k] for k in ("rotation", "translation", "f_px", "camera_wh")), crops)
+    return points, pose, now["controls"]
+
+
+def self_test():
+    """Landmarks alone are those of whole heads, and the stream does not repeat."""
+    rig = Rig()
+    points, rng = PointRig(rig), np.random.default_rng(0)
+    identity, controls = look.sample_identity(rng), expressions.sample_sequence(rng, 5, phone=1.0)
+    whole = rig.landmarks(rig.identity(identity[None]) + rig.expression(controls))
+    assert np.abs(points.moved(identity, controls)[1] - whole).max() < 1e-3
+    began = time.time()
+    features, answers = batch(points, rng, 100, 90)
+    print(f"{100 / (time.time() - began) * 60:.0f} sequences of 90 frames a minute")
+    assert features.shape == (100, 90, KNOWN) and answers.shape == (100, 90, 52) and bool(features.isfinite().all())
+    assert not torch.equal(batch(points, rng, 100, 90)[1], answers)
+    again = batch(points, np.random.default_rng(3), 2, 30)
+    assert all(torch.equal(a, b) for a, b in zip(again, batch(points, np.random.default_rng(3), 2, 30)))
+    print("landmark_stream: ok")
+
+
+if __name__ == "__main__":
+    self_test()

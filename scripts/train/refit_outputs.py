@@ -1,0 +1,132 @@
+#!/usr/bin/env python3
+"""Gives a controls decoder its amplitude back by its output layer alone, which is solved for: few rendered people are enough for that.
+
+usage: refit_outputs.py --network basenet|hifinet --decoders DECODERS.pt --out OUT.pt      after stream_features.py and portrait_stream.py
+Eyelids and smiles follow the portraits, where a closed eye is 1 for everybody (eyelids.py) and a smile is as wide as the teacher says; on
+renders they keep to what they answered before, times a gain. All other controls that move less than the true ones on rendered training
+people get a gain, around what they answer to faces at rest.
+"""
+import argparse
+from dataclasses import dataclass
+from pathlib import Path
+
+import torch
+from torch import nn
+
+import stream_features
+from expressions import CONTROLS, INDEX
+from eyelids import closures
+from networks import FACE_NETWORKS, ControlsDecoder
+from paths import cache
+from shown import shown
+from whole_files import whole
+
+AIM, MOST = 0.85, 1.4     # deviation over the true one that gains aim at, and the largest gain
+AT_REST = 0.08            # a face is at rest where nothing is above this
+STILL = 8                 # frames that a portrait is shown for
+RIDGE = 1e-6
+SMALLEST = 1e-3           # deviation of a control that hardly answers
+
+
+@dataclass
+class Weights:
+    """What rows of the output layer are solved for."""
+    portraits: float  # to agree with the portraits' labels
+    renders: float    # to agree with the truth on renders
+    keep: float       # to answer `gain` times what they answered before
+    gain: float
+
+
+EYELIDS = Weights(portraits=1, renders=0, keep=0.7, gain=1.1)
+SMILES = Weights(portraits=1, renders=0, keep=3, gain=1.25)
+KEPT_ON_PORTRAITS = 0.02  # share of `keep` there
+
+
+class Parts:
+    """Hidden states with a 1 behind them, [frames,97], and targets [frames,52] of tracks of renders or of portraits."""
+
+    def __init__(self, decoder, data, still):
+        features = data["features"].float()
+        features = features[:, -1:].expand(-1, STILL, -1) if still else features
+        hidden = torch.cat([decoder(part)[0] for part in features.split(64)])
+        frames = slice(-1, None) if still else slice(None)
+        self.hidden = torch.cat([hidden, torch.ones(*hidden.shape[:2], 1)], 2)[:, frames].flatten(0, 1)
+        self.controls, self.seen = (data[k][:, frames].flatten(0, 1).float() for k in ("controls", "visible"))
+        self.closed = closures(data["points"][:, frames].flatten(0, 1).float())
+
+    def square(self, control):
+        """Second moments of the states [97,97] where a control can be seen."""
+        return (self.hidden * self.seen[:, control:control + 1]).T @ self.hidden / self.seen[:, control].sum()
+
+    def product(self, control, target):
+        return (self.hidden * self.seen[:, control:control + 1]).T @ target / self.seen[:, control].sum()
+
+
+@torch.no_grad()
+def parts_of(state, stream, network):
+    """(renders, portraits) as the decoder's last layer sees them."""
+    decoder = ControlsDecoder()
+    decoder.load_state_dict(state)
+    decoder.eval().output = nn.Identity()
+    return (Parts(decoder, stream_features.load(stream / "train", network), False),
+            Parts(decoder, stream_features.load(stream / "portraits_train", network), True))
+
+
+def solved(before, control, wanted, renders, portraits, weights):
+    """A row [97] of the output layer in place of `before`; wanted [portraits] is what portraits should give."""
+    on_renders, on_portraits = renders.square(control), portraits.square(control)
+    kept = weights.keep * on_renders + KEPT_ON_PORTRAITS * weights.keep * on_portraits
+    left = weights.renders * on_renders + weights.portraits * on_portraits + kept + RIDGE * torch.eye(len(before))
+    right = (weights.renders * renders.product(control, renders.controls[:, control])
+             + weights.portraits * portraits.product(control, wanted) + weights.gain * kept @ before)
+    return torch.linalg.solve(left, right)
+
+
+def at_rest(layer, renders, portraits):
+    """The larger of what rendered faces at rest and portraits that the teacher takes for neutral get, [52]."""
+    still = renders.controls.amax(1) < AT_REST
+    watched = [INDEX[name] for name in ("jawOpen", "mouthSmileLeft", "mouthSmileRight", "mouthPucker")]
+    neutral = (portraits.controls[:, watched].amax(1) < AT_REST) & (portraits.closed.amax(1) < AT_REST)
+    answers = lambda parts, rows: shown(parts.hidden[rows] @ layer.T).mean(0)
+    return torch.maximum(answers(renders, still), answers(portraits, neutral))
+
+
+def gains(layer, renders):
+    """[52], at least 1."""
+    deviation = shown(renders.hidden @ layer.T).std(0).clamp(min=SMALLEST)
+    return (AIM * renders.controls.std(0) / deviation).clamp(1, MOST)
+
+
+def refitted(layer, renders, portraits):
+    """The output layer [52,97], bias last, in place of `layer`."""
+    out, stays = layer.clone(), torch.zeros(len(CONTROLS), dtype=torch.bool)
+    for side, number in (("Left", 0), ("Right", 1)):
+        for name, wanted, weights in ((f"eyeBlink{side}", portraits.closed[:, number], EYELIDS),
+                                      (f"mouthSmile{side}", portraits.controls[:, INDEX[f"mouthSmile{side}"]], SMILES)):
+            control = INDEX[name]
+            out[control], stays[control] = solved(layer[control], control, wanted, renders, portraits, weights), True
+    gain = torch.where(stays, torch.ones(len(CONTROLS)), gains(layer, renders))
+    out *= gain[:, None]
+    out[:, -1] -= (gain - 1) * at_rest(layer, renders, portraits)
+    return out
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--network", choices=FACE_NETWORKS, required=True)
+    parser.add_argument("--decoders", type=Path, required=True)
+    parser.add_argument("--out", type=Path, required=True)
+    parser.add_argument("--stream", type=Path, default=cache() / "stream")
+    args = parser.parse_args()
+    torch.set_num_threads(1)
+    known = torch.load(args.decoders)
+    state = known["controls_decoder"]
+    parts = parts_of(state, args.stream, args.network)
+    layer = refitted(torch.cat([state["output.weight"], state["output.bias"][:, None]], 1), *parts)
+    known["controls_decoder"] = {**state, "output.weight": layer[:, :-1].contiguous(), "output.bias": layer[:, -1].contiguous()}
+    with whole(args.out) as out:
+        torch.save(known, out)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,58 @@
+#!/usr/bin/env python3
+"""Committed weights come back from shipped.py exactly, and streamed features are stored as they are learned from."""
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import torch
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "scripts/train"))
+import export  # noqa: E402
+import mien_weights  # noqa: E402
+import shipped  # noqa: E402
+import stream_features  # noqa: E402
+from round_weights import rounded  # noqa: E402
+from warm_start import decoders_of  # noqa: E402
+
+
+class Shipped(unittest.TestCase):
+    def test_export_of_what_is_shipped_gives_the_same_bytes(self):
+        for name in ("basenet", "hifinet"):
+            path = ROOT / f"models/{name}.mien"
+            with tempfile.TemporaryDirectory() as folder:
+                files = [Path(folder) / "encoder.pt", Path(folder) / "decoders.pt"]
+                torch.save(shipped.checkpoint(path, name), files[0])
+                torch.save(decoders_of(path), files[1])
+                made = rounded(export.FILES[name](*files).to_bytes())
+            self.assertEqual(made, path.read_bytes(), name)
+
+    def test_metadata(self):
+        found = mien_weights.metadata(ROOT / "models/hifinet.mien")
+        self.assertEqual(found["name"], "hifinet")
+        self.assertGreater(int(found["encoder_samples"]), 0)
+
+
+class Streamed(unittest.TestCase):
+    def tracks(self, seed):
+        torch.manual_seed(seed)
+        shape = (4, 6)
+        return {"features": torch.randn(*shape, 512), "controls": torch.rand(*shape, 52), "visible": torch.ones(*shape, 52),
+                "pose": torch.randn(*shape, 9), "stride": torch.tensor([1, 1, 2, 2]), "landmark_error": torch.rand(*shape),
+                "points": torch.rand(*shape, 175, 2)}
+
+    def test_shards_join_in_order_and_each_network_finds_its_own(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for number in (1, 0):
+                torch.save(stream_features.kept(self.tracks(number)), Path(folder) / f"{number:05d}.pt")
+            for k, name in enumerate(stream_features.NETWORKS):
+                found = stream_features.load(folder, name)
+                wanted = torch.cat([self.tracks(n)["features"][..., 256 * k:256 * (k + 1)] for n in (0, 1)])
+                self.assertTrue(torch.equal(found["features"], wanted.half()), name)
+                self.assertEqual(found["stride"].tolist(), [1, 1, 2, 2] * 2)
+                self.assertEqual(len(stream_features.load(folder, name, 1)["stride"]), 4)
+
+
+if __name__ == "__main__":
+    unittest.main()
