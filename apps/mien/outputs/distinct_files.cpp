@@ -27,7 +27,9 @@ void require_distinct_files(const std::vector<std::string>& inputs,
   for (const std::string& output : outputs) {
     for (const std::string& input : inputs) {
       if (!input.empty() && !output.empty() && same_file(input, output)) {
-        throw Failure(kExitUsage, output + ": the output is the same file as the input " + input);
+        std::string message = output;
+        message.append(": the output is the same file as the input ").append(input);
+        throw Failure(kExitUsage, message);
       }
     }
   }
