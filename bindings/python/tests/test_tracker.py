@@ -129,7 +129,7 @@ def test_pictures_are_not_copied(frames, monkeypatch):
     (np.zeros((4, 8, 3), np.uint8)[:, ::2], {}, ValueError, "pixels of a row lie apart"),
     (np.zeros((4, 8, 3), np.uint8)[..., ::-1], {}, ValueError, "bytes of a pixel lie apart"),
     (np.zeros((5, 8), np.uint8), {"color": "nv12"}, ValueError, "contiguous array"),
-    (np.zeros((0, 8, 3), np.uint8), {}, errors.ImageSizeError, "width or height"),
+    (np.zeros((0, 8, 3), np.uint8), {}, errors.ImageSizeError, "width, height"),
     (np.zeros((4, 8, 3), np.uint8), {"rotation": 45}, errors.ImageRotationError, "0, 90, 180 or 270"),
     (np.zeros((4, 8, 3), np.uint8), {"region": (4, 0, 8, 4)}, errors.ImageRegionError, "region of interest"),
 ])
