@@ -35,7 +35,7 @@ step soak scripts/evaluate/soak.sh
 step memcheck scripts/valgrind.sh 3
 step realtime scripts/rtsan.sh
 step coverage scripts/coverage.sh
-step planted_faults scripts/mutate.sh
+step mutation_testing scripts/mutate.sh --workers 2
 step reproducible scripts/package/check_reproducible.sh
 step fuzzing_the_converter scripts/fuzz_convert.sh 10
 step fuzzing scripts/fuzz.sh --tally $((hours * 60))

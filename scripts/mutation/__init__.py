@@ -1,0 +1,1 @@
+"""Mutation testing of the library's C++ code: scripts/mutate.sh."""

@@ -1,0 +1,72 @@
+"""The page of results."""
+import collections
+import json
+
+from .worker import IDENTICAL, KILLED, NOT_COMPILED, SURVIVED
+
+BAR = 0.95
+
+
+def folder_of(file):
+    parts = file.split("/")
+    return "/".join(parts[:2]) if parts[1] in ("animation", "protocols") else parts[0]
+
+
+def code(text):
+    """One line of Markdown's table."""
+    return "`" + " ".join(text.split()).replace("|", "\\|").replace("`", "'") + "`"
+
+
+class Argued:
+    """Survivors that change nothing anybody could notice, each with the reason (tests/equivalent_mutants.json)."""
+
+    def __init__(self, path):
+        entries = json.loads(path.read_text()) if path.is_file() else []
+        self._reasons = {(entry["file"], entry["before"], entry["after"]): entry["reason"] for entry in entries}
+
+    def reason(self, result):
+        return self._reasons.get((result["file"], result["before"].strip(), result["after"].strip()))
+
+
+def share(killed, missed):
+    return f"{100 * killed / (killed + missed):.1f} %" if killed + missed else "none"
+
+
+def table(results, argued):
+    counts = collections.defaultdict(collections.Counter)
+    for result in results:
+        outcome = result["outcome"]
+        if outcome == SURVIVED and argued.reason(result):
+            outcome = "equivalent"
+        for name in (folder_of(result["file"]), "all"):
+            counts[name][outcome] += 1
+    rows = ["| folder | killed | survived | share | argued equivalent | same machine code | does not compile |", "|---|---|---|---|---|---|---|"]
+    for name in sorted(counts, key=lambda name: (name == "all", name)):
+        count = counts[name]
+        rows.append(f"| {name} | {count[KILLED]} | {count[SURVIVED]} | {share(count[KILLED], count[SURVIVED])} | {count['equivalent']} | "
+                    f"{count[IDENTICAL]} | {count[NOT_COMPILED]} |")
+    return rows
+
+
+def listed(title, results, last):
+    if not results:
+        return []
+    rows = [f"| `{result['file']}`, line {result['line']} | {code(result['before'])} | {code(result['after'])} | {last(result)} |"
+            for result in results]
+    return ["", f"## {title}", "", f"| where | code | mutant | {'reason' if 'quivalent' in title else 'test'} |", "|---|---|---|---|", *rows]
+
+
+def page(results, argued, opening):
+    results = sorted(results, key=lambda result: (result["file"], result["line"], result["after"]))
+    survived = [result for result in results if result["outcome"] == SURVIVED]
+    return "\n".join([
+        opening, *table(results, argued),
+        *listed("Survivors", [result for result in survived if not argued.reason(result)], lambda _: "none"),
+        *listed("Argued equivalent", [result for result in survived if argued.reason(result)], argued.reason),
+        *listed("Killed", [result for result in results if result["outcome"] == KILLED], lambda result: code(result["by"])), ""])
+
+
+def enough_killed(results, argued):
+    killed = sum(result["outcome"] == KILLED for result in results)
+    missed = sum(result["outcome"] == SURVIVED and not argued.reason(result) for result in results)
+    return killed >= BAR * (killed + missed)
