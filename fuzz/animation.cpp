@@ -15,8 +15,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (const formats::FormatName& known : formats::kFormatNames) {
       const auto writer = formats::animation_writer(known.format, {});
       std::size_t written = writer->begin().size();
-      for (std::size_t i = 0; i < clip.frames.size() && i < 50; ++i) {
-        written += writer->frame(clip.frames[i]).size();
+      std::size_t count = 0;
+      for (const formats::Frame& frame : clip.frames) {
+        written += writer->frame(frame).size();
+        if (++count == 50) {
+          break;
+        }
       }
       if (written + writer->finish().size() == 0) {
         __builtin_trap();

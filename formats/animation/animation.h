@@ -83,8 +83,30 @@ struct WriteOptions {
 [[nodiscard]] bool read_animation(AnimationFormat format, std::string_view bytes,
                                   const ReadOptions& options, Clip& clip, Fault& fault);
 
-// What of this clip the format has no place for, in words; nothing where it holds all of it. Digits
-// count as held: docs/cli.md says how many each format has.
+struct LossCheck {
+  bool held;         // by the format
+  const char* what;  // is lost
+  bool (*there)(const Frame& frame);
+};
+
+// Finds what of a clip a format has no place for, in words; nothing where it holds all of it.
+// Digits count as held: docs/cli.md says how many each format has.
+class Losses {
+ public:
+  explicit Losses(AnimationFormat format);
+
+  void add(const Frame& frame);
+  // `evenly_spaced`: whether the frames were so.
+  [[nodiscard]] std::vector<std::string> found(bool evenly_spaced) const;
+
+ private:
+  AnimationFormat format_;
+  std::vector<LossCheck> checks_;
+  std::vector<bool> there_;                    // of the checks
+  std::array<bool, kControlCount> changed_{};  // what does not come back from Roblox's units
+  bool gaps_ = false;                          // controls that nothing drives, beside others
+};
+
 [[nodiscard]] std::vector<std::string> losses(const Clip& clip, AnimationFormat format);
 
 }  // namespace mien::formats

@@ -23,10 +23,16 @@ class BvhWriter : public WholeClipWriter {
   explicit BvhWriter(LengthUnit unit) : metres_(metres(unit)) {}
 
  protected:
-  std::string whole(const std::vector<Frame>& frames) override {
+  std::string whole(const FrameSequence& frames) override {
     const double step_s = mean_step_s(frames);
-    const std::vector<Frame> even =
-        evenly_spaced(frames) ? frames : resampled(frames, 1.0 / step_s, frames.front().time_ns);
+    if (evenly_spaced(frames)) {
+      return with_step(frames, step_s);
+    }
+    return with_step(resampled(frames, 1.0 / step_s, frames.first_time_ns()), step_s);
+  }
+
+ private:
+  std::string with_step(const FrameSequence& even, double step_s) const {
     std::string text =
         "HIERARCHY\n"
         "ROOT Head\n"
@@ -58,7 +64,6 @@ class BvhWriter : public WholeClipWriter {
     return text;
   }
 
- private:
   double metres_;  // of one unit
 };
 

@@ -42,6 +42,8 @@ class Words {
     return text_.substr(begin, at_ - begin);
   }
 
+  [[nodiscard]] std::size_t line() const { return word_line_; }
+
   // At the last word.
   bool fail_here(std::string what, Fault& fault) const {
     return fail(fault, word_line_, word_column_, std::move(what));
@@ -247,10 +249,9 @@ class BvhReader {
       if (!time_of(static_cast<double>(i) * step_s, kSecond_ns, frame.time_ns)) {
         return words_.fail_here("the frames last too long", fault_);
       }
-      if (!read_pose(frame)) {
+      if (!read_pose(frame) || !add_frame(clip, frame, words_.line(), fault_)) {
         return false;
       }
-      clip.frames.push_back(std::move(frame));
     }
     return words_.next().empty() ||
            words_.fail_here("there is more than " + std::to_string(count) + " frames", fault_);
@@ -345,6 +346,7 @@ const char* name(LengthUnit unit) {
 
 bool read_bvh(std::string_view text, const ReadOptions& options, Clip& clip, Fault& fault) {
   Clip read;
+  read.frames.limit_bytes(most_clip_bytes(text.size()));
   if (!BvhReader(text, options, fault).read(read)) {
     return false;
   }

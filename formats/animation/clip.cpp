@@ -41,23 +41,38 @@ bool time_of(double units, std::int64_t unit_ns, std::int64_t& time_ns) {
   return time_allowed(time);
 }
 
-double mean_step_s(const std::vector<Frame>& frames) {
-  if (frames.size() < 2 || frames.back().time_ns == frames.front().time_ns) {
+double mean_step_s(std::int64_t first_ns, std::int64_t last_ns, std::size_t frames) {
+  if (frames < 2 || last_ns == first_ns) {
     return 1.0 / 30.0;
   }
-  const auto span = static_cast<double>(frames.back().time_ns - frames.front().time_ns);
-  return span * 1e-9 / static_cast<double>(frames.size() - 1);
+  return static_cast<double>(last_ns - first_ns) * 1e-9 / static_cast<double>(frames - 1);
 }
 
-bool evenly_spaced(const std::vector<Frame>& frames) {
+double mean_step_s(const FrameSequence& frames) {
+  return frames.empty() ? mean_step_s(0, 0, 0)
+                        : mean_step_s(frames.first_time_ns(), frames.last_time_ns(), frames.size());
+}
+
+bool evenly_spaced(const FrameSequence& frames) {
   const double step_ns = mean_step_s(frames) * 1e9;
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    const auto since = static_cast<double>(frames[i].time_ns - frames.front().time_ns);
-    if (std::abs(since - static_cast<double>(i) * step_ns) > 0.5e6) {
+  std::size_t i = 0;
+  for (const Frame& frame : frames) {
+    const auto since = static_cast<double>(frame.time_ns - frames.first_time_ns());
+    if (std::abs(since - static_cast<double>(i++) * step_ns) > 0.5e6) {
       return false;
     }
   }
   return true;
+}
+
+std::size_t most_clip_bytes(std::size_t input_bytes) {
+  constexpr std::size_t kAlways = std::size_t{40} << 20, kInputs = 4;
+  return kAlways + kInputs * input_bytes;
+}
+
+bool add_frame(Clip& clip, const Frame& frame, std::size_t line, Fault& fault) {
+  return clip.frames.add(frame) ||
+         fail(fault, line, 1, "the frames take too much memory for a file of this size");
 }
 
 }  // namespace mien::formats

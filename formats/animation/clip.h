@@ -1,80 +1,37 @@
-// An animated face in memory: what every format of this folder is read into and written from.
+// An animated face in memory.
 #pragma once
 
-#include <array>
+#include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "formats/animation/vocabulary.h"
+#include "formats/animation/fault.h"
+#include "formats/animation/frame.h"
+#include "formats/animation/frame_sequence.h"
 
 namespace mien::formats {
 
-enum class FaceState : std::uint8_t { kSearching, kTracking, kLost };
-
-// "searching", "tracking", "lost". Static.
-[[nodiscard]] const char* name(FaceState state);
-
-// Radians; R = Ry(yaw) Rx(pitch) Rz(roll), right-handed, y up, z out of the face. Positive: looks
-// down; turns to the subject's left.
-struct Angles {
-  double pitch = 0.0, yaw = 0.0, roll = 0.0;
-};
-
-struct Frame {
-  std::int64_t number = 0;
-  std::int64_t time_ns = 0;  // time_allowed
-  FaceState state = FaceState::kTracking;
-  std::int64_t face_id = 0;
-  double face_probability = kNoNumber;  // 0..1
-  double voice_activity = kNoNumber;    // 0..1
-  std::int64_t lod = 0;                 // 0: not said
-
-  std::optional<std::array<double, 4>> box;         // x, y, width, height, pixels
-  std::optional<Angles> head;                       // head to camera
-  std::optional<std::array<double, 3>> position_m;  // of the head, camera space
-  std::optional<std::array<Angles, 2>> eyes;        // left, right; eye to head
-
-  // 0..1 in the order of kArkitNames; kNoNumber where nothing drives one.
-  std::array<double, kControlCount> controls;
-
-  // What a file in another vocabulary said itself; the controls then are what it comes to.
-  std::vector<double> facs;     // empty, or 50 in 0..1 in the order of kFacsNames, or kNoNumber
-  std::vector<double> visemes;  // empty, or 15 in 0..1 in the order of kVisemeNames, or kNoNumber
-  char mouth_shape = 0;         // 0, or one of kMouthShapes, until the next frame
-
-  Frame() { controls.fill(kNoNumber); }
-
-  // The nearest: no 33.333332999999996.
-  [[nodiscard]] double time_ms() const;
-};
-
-// Of a frame of any file: 146 years before and after 0, so that the time from one frame to another
-// fits into 64 bits, too. Nanoseconds since 1970 are among them.
-inline constexpr std::int64_t kLastTime_ns = (std::int64_t{1} << 62) - 1;
-[[nodiscard]] constexpr bool time_allowed(std::int64_t time_ns) {
-  return -kLastTime_ns <= time_ns && time_ns <= kLastTime_ns;
-}
-
-// So many units of time, to the nanosecond; false, and `time_ns` as it was, where that is no time
-// that is allowed.
-[[nodiscard]] bool time_of(double units, std::int64_t unit_ns, std::int64_t& time_ns);
-inline constexpr std::int64_t kSecond_ns = 1'000'000'000;
-inline constexpr std::int64_t kMillisecond_ns = 1'000'000;
-
 struct Clip {
-  std::vector<Frame> frames;       // times do not go back
+  FrameSequence frames;            // times do not go back
   std::string sound_file;          // where the format knows one
   std::int64_t out_of_range = 0;   // values of the file beyond 0..1, brought to the nearest of them
   std::vector<std::string> notes;  // what was taken for granted, and the option that changes it
 };
 
+// How much memory the frames of a file may take: no reader takes more than 8 times its input and
+// 64 MB. Files whose lines have something to say stay far below.
+[[nodiscard]] std::size_t most_clip_bytes(std::size_t input_bytes);
+
+// False, with a fault, where that is too little for one frame more.
+[[nodiscard]] bool add_frame(Clip& clip, const Frame& frame, std::size_t line, Fault& fault);
+
 // Of the times of a clip: from its first to its last frame, divided by how many steps lie between;
 // 1/30 s where there are none.
-[[nodiscard]] double mean_step_s(const std::vector<Frame>& frames);
+[[nodiscard]] double mean_step_s(const FrameSequence& frames);
+[[nodiscard]] double mean_step_s(std::int64_t first_ns, std::int64_t last_ns, std::size_t frames);
 
 // Whether each frame lies within half a millisecond of where even steps would put it.
-[[nodiscard]] bool evenly_spaced(const std::vector<Frame>& frames);
+[[nodiscard]] bool evenly_spaced(const FrameSequence& frames);
 
 }  // namespace mien::formats

@@ -142,10 +142,9 @@ class CurvesReader {
       Frame frame;
       frame.number = static_cast<std::int64_t>(clip.frames.size());
       if (!check_width(table_, header_, fault_) || !read_frame(frame) ||
-          !goes_on(clip.frames, frame)) {
+          !goes_on(clip.frames, frame) || !add_frame(clip, frame, table_.line(), fault_)) {
         return false;
       }
-      clip.frames.push_back(frame);
     }
     return fault_.what.empty() &&
            (!clip.frames.empty() || fail(fault_, table_.line() + 1, 1, "there are no frames"));
@@ -200,8 +199,8 @@ class CurvesReader {
                           fault_);
   }
 
-  bool goes_on(const std::vector<Frame>& before, const Frame& frame) {
-    return before.empty() || frame.time_ns >= before.back().time_ns ||
+  bool goes_on(const FrameSequence& before, const Frame& frame) {
+    return before.empty() || frame.time_ns >= before.last_time_ns() ||
            table_.fail_at(*time_, "t_ms: goes back in time", fault_);
   }
 
@@ -306,6 +305,7 @@ std::unique_ptr<AnimationWriter> curves_csv_writer(Weights weights, bool several
 
 bool read_curves_csv(std::string_view text, Clip& clip, Fault& fault) {
   Clip read;
+  read.frames.limit_bytes(most_clip_bytes(text.size()));
   if (!CurvesReader(text, fault).read(read)) {
     return false;
   }

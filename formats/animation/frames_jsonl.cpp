@@ -1,6 +1,8 @@
 #include "formats/animation/frames_jsonl.h"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
 
 #include "formats/animation/json.h"
@@ -62,8 +64,8 @@ class ObjectReader {
 
  private:
   bool read_time(std::int64_t& time_ns) {
-    const JsonValue* found = object_.find("t_ns");
-    if (found == nullptr) {
+    const std::optional<JsonValue> found = object_.find("t_ns");
+    if (!found) {
       return object_.fail_here("the frame has no t_ns", fault_);
     }
     return read_integer("t_ns", time_ns) &&
@@ -71,32 +73,32 @@ class ObjectReader {
   }
 
   bool read_integer(std::string_view key, std::int64_t& value) {
-    const JsonValue* found = object_.find(key);
-    return found == nullptr || found->integer(value) ||
+    const std::optional<JsonValue> found = object_.find(key);
+    return !found || found->integer(value) ||
            found->fail_here(std::string(key) + ": is not a whole number", fault_);
   }
 
   bool read_share(std::string_view key, double& value) {
-    const JsonValue* found = object_.find(key);
-    return found == nullptr || share(*found, key, value);
+    const std::optional<JsonValue> found = object_.find(key);
+    return !found || share(*found, key, value);
   }
 
   bool share(const JsonValue& found, std::string_view key, double& value) {
-    if (!found.is(Kind::kNumber) || found.number < 0.0 || found.number > 1.0) {
+    if (!found.is(Kind::kNumber) || found.number() < 0.0 || found.number() > 1.0) {
       return found.fail_here(std::string(key) + ": is not a number in 0..1", fault_);
     }
-    value = found.number;
+    value = found.number();
     return true;
   }
 
   bool read_state(FaceState& state) {
-    const JsonValue* found = object_.find("status");
-    if (found == nullptr) {
+    const std::optional<JsonValue> found = object_.find("status");
+    if (!found) {
       return true;
     }
     for (const FaceState candidate :
          {FaceState::kSearching, FaceState::kTracking, FaceState::kLost}) {
-      if (found->is(Kind::kString) && found->text == name(candidate)) {
+      if (found->is(Kind::kString) && found->text() == name(candidate)) {
         state = candidate;
         return true;
       }
@@ -106,17 +108,21 @@ class ObjectReader {
 
   template <std::size_t N>
   bool read_array(std::string_view key, std::optional<std::array<double, N>>& values) {
-    const JsonValue* found = object_.find(key);
-    if (found == nullptr) {
+    const std::optional<JsonValue> found = object_.find(key);
+    if (!found) {
       return true;
     }
     std::array<double, N> read{};
-    bool good = found->is(Kind::kArray) && found->items.size() == N;
-    for (std::size_t i = 0; good && i < N; ++i) {
-      good = found->items[i].is(Kind::kNumber);
-      read[i] = found->items[i].number;
+    std::size_t count = 0;
+    bool good = found->is(Kind::kArray);
+    for (const JsonValue item : found->items()) {
+      good = good && count < N && item.is(Kind::kNumber);
+      if (!good) {
+        break;
+      }
+      read[count++] = item.number();
     }
-    if (!good) {
+    if (!good || count != N) {
       return found->fail_here(std::string(key) + ": is not " + std::to_string(N) + " numbers",
                               fault_);
     }
@@ -124,27 +130,27 @@ class ObjectReader {
     return true;
   }
 
-  bool read_angles(const JsonValue* found, std::optional<Angles>& angles) {
-    if (found == nullptr) {
+  bool read_angles(const std::optional<JsonValue>& found, std::optional<Angles>& angles) {
+    if (!found) {
       return true;
     }
     Angles read;
     double* const parts[] = {&read.pitch, &read.yaw, &read.roll};
     constexpr std::string_view kKeys[] = {"pitch_rad", "yaw_rad", "roll_rad"};
     for (std::size_t i = 0; i < 3; ++i) {
-      const JsonValue* part = found->find(kKeys[i]);
-      if (part == nullptr || !part->is(Kind::kNumber)) {
+      const std::optional<JsonValue> part = found->find(kKeys[i]);
+      if (!part || !part->is(Kind::kNumber)) {
         return found->fail_here("pitch_rad, yaw_rad and roll_rad have to be here", fault_);
       }
-      *parts[i] = part->number;
+      *parts[i] = part->number();
     }
     angles = read;
     return true;
   }
 
   bool read_eyes(Frame& frame) {
-    const JsonValue* found = object_.find("eyes");
-    if (found == nullptr) {
+    const std::optional<JsonValue> found = object_.find("eyes");
+    if (!found) {
       return true;
     }
     std::optional<Angles> left, right;
@@ -161,20 +167,21 @@ class ObjectReader {
   template <std::size_t N, class Values>
   bool read_weights(std::string_view key, const std::array<std::string_view, N>& names,
                     Values& values) {
-    const JsonValue* found = object_.find(key);
-    if (found == nullptr) {
+    const std::optional<JsonValue> found = object_.find(key);
+    if (!found) {
       return true;
     }
     if (!found->is(Kind::kObject)) {
       return found->fail_here(std::string(key) + ": is not an object", fault_);
     }
-    for (std::size_t i = 0; i < found->items.size(); ++i) {
-      const std::size_t which = index_of(found->keys[i], names);
+    const JsonValue::Items members = found->items();
+    for (auto at = members.begin(); at != members.end(); ++at) {
+      const std::string name = at.key().text();
+      const std::size_t which = index_of(name, names);
       if (which == N) {
-        return found->items[i].fail_here(
-            std::string(key) + ": there is no " + quoted(found->keys[i]), fault_);
+        return (*at).fail_here(std::string(key) + ": there is no " + quoted(name), fault_);
       }
-      if (!share(found->items[i], found->keys[i], values[which])) {
+      if (!share(*at, name, values[which])) {
         return false;
       }
     }
@@ -184,7 +191,7 @@ class ObjectReader {
   template <std::size_t N>
   bool read_list(std::string_view key, const std::array<std::string_view, N>& names,
                  std::vector<double>& values) {
-    if (object_.find(key) == nullptr) {
+    if (!object_.find(key)) {
       return true;
     }
     values.assign(N, kNoNumber);
@@ -192,21 +199,26 @@ class ObjectReader {
   }
 
   bool read_shape(char& shape) {
-    const JsonValue* found = object_.find("mouth_shape");
-    if (found == nullptr) {
+    const std::optional<JsonValue> found = object_.find("mouth_shape");
+    if (!found) {
       return true;
     }
-    if (!found->is(Kind::kString) || found->text.size() != 1 ||
-        kMouthShapes.find(found->text[0]) == kMouthShapes.npos) {
+    const std::string said = found->text();
+    if (said.size() != 1 || kMouthShapes.find(said[0]) == kMouthShapes.npos) {
       return found->fail_here("mouth_shape: is none of A to H and X", fault_);
     }
-    shape = found->text[0];
+    shape = said[0];
     return true;
   }
 
-  const JsonValue& object_;
+  JsonValue object_;
   Fault& fault_;
 };
+
+bool read_object(const JsonValue& object, Frame& frame, Fault& fault) {
+  return object.is(Kind::kObject) ? ObjectReader(object, fault).read(frame)
+                                  : object.fail_here("is not an object", fault);
+}
 
 }  // namespace
 
@@ -259,31 +271,27 @@ std::unique_ptr<AnimationWriter> frames_jsonl_writer() {
 
 bool read_frames_jsonl(std::string_view text, Clip& clip, Fault& fault) {
   Clip read;
+  read.frames.limit_bytes(most_clip_bytes(text.size()));
+  JsonDocument document;
   std::size_t line = 0;
   while (!text.empty()) {
-    const std::size_t end = text.find('\n');
-    const std::string_view row = text.substr(0, end);
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    const std::string_view row = text.substr(0, text.find('\n'));
+    text.remove_prefix(std::min(row.size() + 1, text.size()));
     ++line;
     if (row.find_first_not_of(" \t\r") == std::string_view::npos) {
       continue;
     }
-    JsonValue object;
     Frame frame;
     frame.number = static_cast<std::int64_t>(read.frames.size());
-    if (!parse_json(row, object, fault, line)) {
+    if (!document.parse(row, fault, line) || !read_object(document.root(), frame, fault)) {
       return false;
     }
-    if (!object.is(Kind::kObject)) {
-      return object.fail_here("is not an object", fault);
+    if (!read.frames.empty() && frame.time_ns < read.frames.last_time_ns()) {
+      return document.root().find("t_ns")->fail_here("t_ns: goes back in time", fault);
     }
-    if (!ObjectReader(object, fault).read(frame)) {
+    if (!add_frame(read, frame, line, fault)) {
       return false;
     }
-    if (!read.frames.empty() && frame.time_ns < read.frames.back().time_ns) {
-      return object.find("t_ns")->fail_here("t_ns: goes back in time", fault);
-    }
-    read.frames.push_back(std::move(frame));
   }
   if (read.frames.empty()) {
     return fail(fault, line + 1, 1, "there are no frames");

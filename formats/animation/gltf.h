@@ -25,8 +25,10 @@ enum class GltfForm : std::uint8_t { kText, kBinary };
 
 // The first animation: weights of a mesh whose target names are ARKit's (mouthSmileLeft or
 // mouthSmile_L), rotation and translation of nodes called head, leftEye, rightEye. Frames are
-// where the weights have keys, or the head without any. Buffers have to be in the file, and values
-// fp32. Weights beyond 0..1 are brought there. On a fault `clip` stays as it was.
+// where the weights have keys, or the head without any. Values are fp32 or normalized whole
+// numbers, their buffers in the file or beside it (options.load_beside). Weights beyond 0..1 are
+// brought there. Only what is animated is looked at: textures and meshes may be compressed, values
+// of the animation not. On a fault `clip` stays as it was.
 [[nodiscard]] bool read_gltf(std::string_view bytes, const ReadOptions& options, Clip& clip,
                              Fault& fault);
 

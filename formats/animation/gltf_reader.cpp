@@ -1,68 +1,19 @@
 #include <algorithm>
-#include <bit>
-#include <cmath>
+#include <array>
 #include <cstddef>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
-#include "formats/animation/base64.h"
 #include "formats/animation/csv_cells.h"
 #include "formats/animation/gltf.h"
-#include "formats/animation/json.h"
+#include "formats/animation/gltf_file.h"
 #include "formats/animation/numbers.h"
 #include "formats/animation/rotation.h"
 
 namespace mien::formats {
 namespace {
-
-using Kind = JsonValue::Kind;
-
-std::uint32_t u32(std::string_view bytes, std::size_t at) {
-  std::uint32_t value = 0;
-  for (std::size_t i = 0; i < 4; ++i) {
-    value |= static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[at + i])) << (8 * i);
-  }
-  return value;
-}
-
-bool fail_at_byte(std::size_t byte, const char* what, Fault& fault) {
-  return fail(fault, 0, byte, what);
-}
-
-// What a file is made of.
-struct Parts {
-  std::string_view json;
-  std::optional<std::string_view> data;
-};
-
-bool split_glb(std::string_view bytes, Parts& parts, Fault& fault) {
-  constexpr std::uint32_t kJson = 0x4E4F534A, kBin = 0x004E4942;
-  if (bytes.size() < 20) {
-    return fail_at_byte(bytes.size(), "the file ends within its header", fault);
-  }
-  if (u32(bytes, 4) != 2) {
-    return fail_at_byte(4, "is not version 2 of glTF", fault);
-  }
-  if (u32(bytes, 8) != bytes.size()) {
-    return fail_at_byte(8, "says that the file has another length", fault);
-  }
-  if (u32(bytes, 16) != kJson) {
-    return fail_at_byte(16, "the first chunk is not JSON", fault);
-  }
-  const std::size_t json_bytes = u32(bytes, 12);
-  if (json_bytes > bytes.size() - 20) {
-    return fail_at_byte(12, "the chunk does not fit into the file", fault);
-  }
-  parts.json = bytes.substr(20, json_bytes);
-  const std::size_t next = 20 + json_bytes;
-  if (bytes.size() - next < 8 || u32(bytes, next + 4) != kBin) {
-    return true;
-  }
-  if (u32(bytes, next) > bytes.size() - next - 8) {
-    return fail_at_byte(next, "the chunk does not fit into the file", fault);
-  }
-  parts.data = bytes.substr(next + 8, u32(bytes, next));
-  return true;
-}
 
 // ARKit's mouthSmileLeft, or its mouthSmile_L.
 std::size_t control_of(std::string_view name) {
@@ -76,185 +27,104 @@ std::size_t control_of(std::string_view name) {
 
 // Keys of one channel: `width` numbers at each time.
 struct Track {
-  std::vector<float> times;
-  std::vector<float> values;
-  std::size_t width = 0;
+  GltfNumbers times;
+  GltfNumbers values;
+  std::size_t width = 0;  // 0: there is no such channel
+  bool cubic = false;     // a value has a tangent before and one behind
+  bool step = false;      // a value holds until the next
 
-  [[nodiscard]] const float* key(std::size_t i) const { return values.data() + i * width; }
+  [[nodiscard]] std::size_t in_key() const { return width * (cubic ? 3 : 1); }
+  [[nodiscard]] double value(std::size_t key, std::size_t i) const {
+    return decimal(values[key * in_key() + (cubic ? width : 0) + i]);
+  }
 };
 
-class Reader {
- public:
-  Reader(const Parts& parts, Fault& fault) : parts_(parts), fault_(fault) {}
+// The first key at a time or behind it.
+std::size_t lower_bound(const GltfNumbers& times, float time) {
+  std::size_t begin = 0, end = times.size();
+  while (begin < end) {
+    const std::size_t middle = begin + (end - begin) / 2;
+    if (times[middle] < time) {
+      begin = middle + 1;
+    } else {
+      end = middle;
+    }
+  }
+  return begin;
+}
 
-  bool read(Clip& clip) {
-    if (!parse_json(parts_.json, root_, fault_) || !read_buffers()) {
+std::optional<JsonValue> list(const JsonValue& object, std::string_view key) {
+  const std::optional<JsonValue> found = object.find(key);
+  return found && found->is(JsonValue::Kind::kArray) ? found : std::nullopt;
+}
+
+class GltfReader {
+ public:
+  GltfReader(const ReadOptions& options, Fault& fault) : file_(options, fault), fault_(fault) {}
+
+  bool read(std::string_view bytes, Clip& clip) {
+    if (!file_.read(bytes)) {
       return false;
     }
-    const JsonValue* animations = list(root_, "animations");
-    if (animations == nullptr || animations->items.empty()) {
-      return root_.fail_here("there is no animation", fault_);
+    const std::optional<JsonValue> animations = list(file_.root(), "animations");
+    if (!animations || animations->empty()) {
+      return file_.root().fail_here("there is no animation", fault_);
     }
-    const JsonValue& animation = animations->items.front();
+    const JsonValue animation = *animations->items().begin();
     return read_channels(animation) && read_extras(animation) && make_frames(animation, clip);
   }
 
  private:
-  static const JsonValue* list(const JsonValue& object, std::string_view key) {
-    const JsonValue* found = object.find(key);
-    return found != nullptr && found->is(Kind::kArray) ? found : nullptr;
-  }
-
-  // The item of a list of the document that a number of `from` says.
-  bool item(const JsonValue& from, std::string_view key, std::string_view of,
-            const JsonValue*& found) {
-    const JsonValue* index = from.find(key);
-    const JsonValue* items = list(root_, of);
-    std::int64_t i = -1;
-    if (index == nullptr || !index->integer(i)) {
-      return from.fail_here(std::string(key) + ": has to be here", fault_);
-    }
-    if (items == nullptr || i < 0 || static_cast<std::uint64_t>(i) >= items->items.size()) {
-      return index->fail_here(std::string(key) + ": there is no such one", fault_);
-    }
-    found = &items->items[static_cast<std::size_t>(i)];
-    return true;
-  }
-
-  // 0 where there is none; false where it is no number of bytes or elements.
-  bool count(const JsonValue& from, std::string_view key, std::size_t& value) {
-    value = 0;
-    const JsonValue* found = from.find(key);
-    std::int64_t read = 0;
-    constexpr std::int64_t kMost = 0xFFFFFFFF;
-    if (found == nullptr) {
-      return true;
-    }
-    if (!found->integer(read) || read < 0 || read > kMost) {
-      return found->fail_here(std::string(key) + ": is out of range", fault_);
-    }
-    value = static_cast<std::size_t>(read);
-    return true;
-  }
-
-  bool read_buffers() {
-    const JsonValue* buffers = list(root_, "buffers");
-    for (std::size_t i = 0; buffers != nullptr && i < buffers->items.size(); ++i) {
-      const JsonValue& buffer = buffers->items[i];
-      const JsonValue* uri = buffer.find("uri");
-      if (uri == nullptr) {
-        if (i != 0 || !parts_.data) {
-          return buffer.fail_here("the buffer has no data in this file", fault_);
-        }
-        buffers_.emplace_back(*parts_.data);
-        continue;
-      }
-      constexpr std::string_view kBase64 = ";base64,";
-      const std::size_t comma = uri->text.find(kBase64);
-      std::string bytes;
-      if (!uri->text.starts_with("data:") || comma == std::string::npos) {
-        return uri->fail_here("uri: data in another file is not read", fault_);
-      }
-      if (!parse_base64(std::string_view(uri->text).substr(comma + kBase64.size()), bytes)) {
-        return uri->fail_here("uri: is not base64", fault_);
-      }
-      buffers_.push_back(std::move(bytes));
-    }
-    return true;
-  }
-
-  // `width` floats an element.
-  bool floats(const JsonValue& accessor, std::size_t width, std::vector<float>& values) {
-    const JsonValue* view = nullptr;
-    const JsonValue* buffer = nullptr;
-    std::size_t elements = 0, offset = 0, view_offset = 0, view_bytes = 0, stride = 0, type = 0;
-    if (accessor.find("sparse") != nullptr) {
-      return accessor.fail_here("sparse accessors are not read", fault_);
-    }
-    if (!item(accessor, "bufferView", "bufferViews", view) ||
-        !item(*view, "buffer", "buffers", buffer) || !count(accessor, "count", elements) ||
-        !count(accessor, "byteOffset", offset) || !count(accessor, "componentType", type) ||
-        !count(*view, "byteOffset", view_offset) || !count(*view, "byteLength", view_bytes) ||
-        !count(*view, "byteStride", stride)) {
-      return false;
-    }
-    constexpr std::size_t kFloat = 5126;
-    if (type != kFloat) {
-      return accessor.fail_here("componentType: only 5126 (float) is read", fault_);
-    }
-    const std::string& bytes =
-        buffers_[static_cast<std::size_t>(buffer - root_.find("buffers")->items.data())];
-    const std::size_t element_bytes = 4 * width;
-    stride = stride == 0 ? element_bytes : stride;
-    const std::uint64_t needed =
-        elements == 0 ? 0 : std::uint64_t{elements - 1} * stride + element_bytes;
-    if (stride < element_bytes || std::uint64_t{view_offset} + view_bytes > bytes.size() ||
-        offset + needed > view_bytes) {
-      return accessor.fail_here("the data of the accessor does not fit into its buffer", fault_);
-    }
-    values.resize(elements * width);
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      const std::size_t at = view_offset + offset + i / width * stride + 4 * (i % width);
-      values[i] = std::bit_cast<float>(u32(bytes, at));
-      if (!std::isfinite(values[i])) {
-        return accessor.fail_here("a value is not a finite number", fault_);
-      }
-    }
-    return true;
-  }
-
   // Keys of a sampler; of cubic splines their values, without tangents.
   bool read_sampler(const JsonValue& sampler, std::size_t width, std::size_t parts, Track& track) {
-    const JsonValue* input = nullptr;
-    const JsonValue* output = nullptr;
-    if (!item(sampler, "input", "accessors", input) ||
-        !item(sampler, "output", "accessors", output) || !floats(*input, 1, track.times)) {
-      return false;
-    }
-    std::vector<float> values;
-    if (!floats(*output, width, values)) {
+    const std::optional<std::size_t> input = file_.index(sampler, "input", "accessors");
+    const std::optional<std::size_t> output =
+        input ? file_.index(sampler, "output", "accessors") : std::nullopt;
+    if (!output || !file_.numbers(file_.item("accessors", *input), 1, track.times) ||
+        !file_.numbers(file_.item("accessors", *output), width, track.values)) {
       return false;
     }
     track.width = width * parts;
-    const JsonValue* way = sampler.find("interpolation");
-    const bool cubic = way != nullptr && way->text == "CUBICSPLINE";
+    const std::optional<JsonValue> way = sampler.find("interpolation");
+    track.cubic = way && way->text() == "CUBICSPLINE";
+    track.step = way && way->text() == "STEP";
     const std::size_t keys = track.times.size();
-    const std::size_t in_key = track.width * (cubic ? 3 : 1);
-    if (keys == 0 || values.size() != keys * in_key) {
-      return output->fail_here("the values are not as many as the times ask for", fault_);
+    if (keys == 0 || track.values.size() != keys * track.in_key()) {
+      return file_.item("accessors", *output)
+          .fail_here("the values are not as many as the times ask for", fault_);
     }
-    for (std::size_t i = 0; i < keys; ++i) {
-      const auto begin =
-          values.begin() + static_cast<std::ptrdiff_t>(i * in_key + (cubic ? track.width : 0));
-      track.values.insert(track.values.end(), begin,
-                          begin + static_cast<std::ptrdiff_t>(track.width));
+    bool ascending = true;
+    for (std::size_t i = 1; i < keys; ++i) {
+      ascending = ascending && track.times[i - 1] < track.times[i];
     }
-    const bool ascending = std::adjacent_find(track.times.begin(), track.times.end(),
-                                              std::greater_equal<>()) == track.times.end();
     std::int64_t first_ns = 0, last_ns = 0;
-    if (!ascending || !time_of(decimal(track.times.front()), kSecond_ns, first_ns) ||
-        !time_of(decimal(track.times.back()), kSecond_ns, last_ns)) {
-      return input->fail_here("times have to ascend, and to be times", fault_);
+    if (!ascending || !time_of(decimal(track.times[0]), kSecond_ns, first_ns) ||
+        !time_of(decimal(track.times[keys - 1]), kSecond_ns, last_ns)) {
+      return file_.item("accessors", *input)
+          .fail_here("times have to ascend, and to be times", fault_);
     }
     return true;
   }
 
   bool read_channels(const JsonValue& animation) {
-    const JsonValue* channels = list(animation, "channels");
-    const JsonValue* samplers = list(animation, "samplers");
-    if (channels == nullptr || samplers == nullptr) {
+    const std::optional<JsonValue> channels = list(animation, "channels");
+    const std::optional<JsonValue> listed = list(animation, "samplers");
+    if (!channels || !listed) {
       return animation.fail_here("the animation has no channels or samplers", fault_);
     }
-    for (const JsonValue& channel : channels->items) {
-      const JsonValue* target = channel.find("target");
-      const JsonValue* index = channel.find("sampler");
+    std::vector<JsonValue> samplers;
+    for (const JsonValue sampler : listed->items()) {
+      samplers.push_back(sampler);
+    }
+    for (const JsonValue channel : channels->items()) {
+      const std::optional<JsonValue> target = channel.find("target");
+      const std::optional<JsonValue> index = channel.find("sampler");
       std::int64_t i = -1;
-      if (index == nullptr || !index->integer(i) || i < 0 ||
-          static_cast<std::uint64_t>(i) >= samplers->items.size() || target == nullptr) {
+      if (!index || !index->integer(i) || i < 0 ||
+          static_cast<std::uint64_t>(i) >= samplers.size() || !target) {
         return channel.fail_here("the channel has no sampler or target", fault_);
       }
-      if (target->find("node") != nullptr &&
-          !read_channel(*target, samplers->items[static_cast<std::size_t>(i)])) {
+      if (target->find("node") && !read_channel(*target, samplers[static_cast<std::size_t>(i)])) {
         return false;
       }
     }
@@ -263,16 +133,15 @@ class Reader {
   }
 
   bool read_channel(const JsonValue& target, const JsonValue& sampler) {
-    const JsonValue* node = nullptr;
-    const JsonValue* path = target.find("path");
-    if (!item(target, "node", "nodes", node)) {
+    const std::optional<std::size_t> index = file_.index(target, "node", "nodes");
+    if (!index) {
       return false;
     }
-    const JsonValue* name = node->find("name");
-    const std::string_view called = name != nullptr ? name->text : std::string_view();
-    const std::string_view what = path != nullptr ? path->text : std::string_view();
+    const JsonValue& node = file_.item("nodes", *index);
+    const std::optional<JsonValue> name = node.find("name"), path = target.find("path");
+    const std::string called = name ? name->text() : "", what = path ? path->text() : "";
     if (what == "weights" && weights_.width == 0) {
-      return read_weights(*node, sampler);
+      return read_weights(node, sampler);
     }
     if (what == "rotation" || what == "translation") {
       Track* track = what == "translation"           ? (is_head(called) ? &head_moves_ : nullptr)
@@ -292,47 +161,59 @@ class Reader {
   }
 
   bool read_weights(const JsonValue& node, const JsonValue& sampler) {
-    const JsonValue* mesh = nullptr;
-    if (!item(node, "mesh", "meshes", mesh)) {
+    const std::optional<std::size_t> index = file_.index(node, "mesh", "meshes");
+    if (!index) {
       return false;
     }
-    const JsonValue* extras = mesh->find("extras");
-    const JsonValue* names = extras != nullptr ? list(*extras, "targetNames") : nullptr;
-    if (names == nullptr || names->items.empty()) {
-      return mesh->fail_here("the mesh has no extras.targetNames", fault_);
+    // Each mesh is looked at once, however many channels move it.
+    if (other_meshes_.size() <= *index) {
+      other_meshes_.resize(*index + 1);
+    }
+    if (other_meshes_[*index]) {
+      return true;
+    }
+    const JsonValue& mesh = file_.item("meshes", *index);
+    const std::optional<JsonValue> extras = mesh.find("extras");
+    const std::optional<JsonValue> names = extras ? list(*extras, "targetNames") : std::nullopt;
+    if (!names || names->empty()) {
+      return mesh.fail_here("the mesh has no extras.targetNames", fault_);
     }
     bool any = false;
     std::vector<std::size_t> targets;
-    for (const JsonValue& target : names->items) {
-      targets.push_back(control_of(target.text));
+    for (const JsonValue target : names->items()) {
+      targets.push_back(control_of(target.text()));
       any = any || targets.back() < kControlCount;
     }
     if (!any) {
-      return true;  // some other mesh
+      other_meshes_[*index] = true;
+      return true;
     }
     targets_ = std::move(targets);
     return read_sampler(sampler, 1, targets_.size(), weights_);
   }
 
   bool read_extras(const JsonValue& animation) {
-    const JsonValue* extras = animation.find("extras");
-    const JsonValue* ours = extras != nullptr ? extras->find("mien") : nullptr;
-    if (ours == nullptr) {
+    const std::optional<JsonValue> extras = animation.find("extras");
+    const std::optional<JsonValue> ours = extras ? extras->find("mien") : std::nullopt;
+    if (!ours) {
       return true;
     }
     ours_ = true;
-    const JsonValue* start = ours->find("start_ns");
-    if (start != nullptr && !start->integer(start_ns_)) {
+    const std::optional<JsonValue> start = ours->find("start_ns");
+    if (start && !start->integer(start_ns_)) {
       return start->fail_here("start_ns: is not a whole number", fault_);
     }
-    if (start != nullptr && !time_allowed(start_ns_)) {
+    if (start && !time_allowed(start_ns_)) {
       return start->fail_here("start_ns: is out of range", fault_);
     }
-    const JsonValue* states = ours->find("states");
-    states_ = states != nullptr ? states->text : "";
-    const JsonValue* names = list(*ours, "not_driven");
-    for (std::size_t i = 0; names != nullptr && i < names->items.size(); ++i) {
-      const std::size_t which = index_of(names->items[i].text, kArkitNames);
+    const std::optional<JsonValue> states = ours->find("states");
+    states_ = states ? states->text() : "";
+    const std::optional<JsonValue> names = list(*ours, "not_driven");
+    if (!names) {
+      return true;
+    }
+    for (const JsonValue item : names->items()) {
+      const std::size_t which = index_of(item.text(), kArkitNames);
       if (which < kControlCount) {
         not_driven_[which] = true;
       }
@@ -341,9 +222,9 @@ class Reader {
   }
 
   bool make_frames(const JsonValue& animation, Clip& clip) {
-    const std::vector<float>& times = weights_.width > 0      ? weights_.times
-                                      : head_turns_.width > 0 ? head_turns_.times
-                                                              : head_moves_.times;
+    const GltfNumbers& times = weights_.width > 0      ? weights_.times
+                               : head_turns_.width > 0 ? head_turns_.times
+                                                       : head_moves_.times;
     for (std::size_t i = 0; i < times.size(); ++i) {
       Frame frame;
       frame.number = static_cast<std::int64_t>(i);
@@ -361,8 +242,11 @@ class Reader {
       if (left && right) {
         frame.eyes = {*left, *right};
       }
+      frame.step = weights_.step;
       set_state(i, frame);
-      clip.frames.push_back(std::move(frame));
+      if (!add_frame(clip, frame, 0, fault_)) {
+        return false;
+      }
     }
     return true;
   }
@@ -370,7 +254,7 @@ class Reader {
   void set_controls(std::size_t key, Frame& frame, std::int64_t& out_of_range) const {
     for (std::size_t i = 0; i < targets_.size(); ++i) {
       if (targets_[i] < kControlCount && !not_driven_[targets_[i]]) {
-        frame.controls[targets_[i]] = into_range(decimal(weights_.key(key)[i]), out_of_range);
+        frame.controls[targets_[i]] = into_range(weights_.value(key, i), out_of_range);
       }
     }
   }
@@ -389,18 +273,19 @@ class Reader {
     if (track.width == 0) {
       return false;
     }
-    const auto next = std::lower_bound(track.times.begin(), track.times.end(), time);
-    after = static_cast<std::size_t>(next - track.times.begin());
-    const bool exact = next != track.times.end() && *next == time;
-    if (exact || after == 0 || after == track.times.size()) {
-      after = std::min(after, track.times.size() - 1);
+    const std::size_t keys = track.times.size();
+    after = lower_bound(track.times, time);
+    const bool exact = after < keys && track.times[after] == time;
+    if (exact || after == 0 || after == keys) {
+      after = std::min(after, keys - 1);
       before = after;
       share = 0.0;
       return exact || !ours_;
     }
     before = after - 1;
-    share = static_cast<double>(time - track.times[before]) /
-            static_cast<double>(track.times[after] - track.times[before]);
+    share = track.step ? 0.0
+                       : static_cast<double>(time - track.times[before]) /
+                             static_cast<double>(track.times[after] - track.times[before]);
     return !ours_;
   }
 
@@ -411,8 +296,8 @@ class Reader {
       return std::nullopt;
     }
     const auto at = [&track](std::size_t i) {
-      const float* q = track.key(i);
-      const Quaternion turn = {decimal(q[0]), decimal(q[1]), decimal(q[2]), decimal(q[3])};
+      const Quaternion turn = {track.value(i, 0), track.value(i, 1), track.value(i, 2),
+                               track.value(i, 3)};
       const bool none = turn[0] == 0.0 && turn[1] == 0.0 && turn[2] == 0.0 && turn[3] == 0.0;
       return none ? Angles() : angles(turn);
     };
@@ -428,17 +313,16 @@ class Reader {
     }
     std::array<double, 3> place;
     for (std::size_t i = 0; i < 3; ++i) {
-      const double from = decimal(track.key(before)[i]);
-      place[i] = from + share * (decimal(track.key(after)[i]) - from);
+      const double from = track.value(before, i);
+      place[i] = from + share * (track.value(after, i) - from);
     }
     return place;
   }
 
-  Parts parts_;
+  GltfFile file_;
   Fault& fault_;
-  JsonValue root_;
-  std::vector<std::string> buffers_;
   std::vector<std::size_t> targets_;  // control of each morph target; kControlCount: another
+  std::vector<bool> other_meshes_;    // those that are no face
   Track weights_, head_turns_, head_moves_;
   std::array<Track, 2> eye_turns_;
   bool ours_ = false;
@@ -449,13 +333,10 @@ class Reader {
 
 }  // namespace
 
-bool read_gltf(std::string_view bytes, const ReadOptions& /*options*/, Clip& clip, Fault& fault) {
-  Parts parts{bytes, std::nullopt};
-  if (bytes.starts_with("glTF") && !split_glb(bytes, parts, fault)) {
-    return false;
-  }
+bool read_gltf(std::string_view bytes, const ReadOptions& options, Clip& clip, Fault& fault) {
   Clip read;
-  if (!Reader(parts, fault).read(read)) {
+  read.frames.limit_bytes(most_clip_bytes(bytes.size()));
+  if (!GltfReader(options, fault).read(bytes, read)) {
     return false;
   }
   clip = std::move(read);

@@ -1,7 +1,8 @@
-#include <algorithm>
+#include <array>
 #include <bit>
-#include <cmath>
 #include <cstddef>
+#include <string>
+#include <string_view>
 
 #include "formats/animation/base64.h"
 #include "formats/animation/gltf.h"
@@ -38,20 +39,93 @@ class List {
   std::size_t count_ = 0;
 };
 
+// What one channel animates: a key at each of some frames.
+class Channel {
+ public:
+  Channel(int node, const char* path, const char* type) : node_(node), path_(path), type_(type) {}
+
+  void add_key(float second) {
+    first_ = keys_ == 0 ? second : first_;
+    last_ = second;
+    put_float(times_, static_cast<double>(second));
+    ++keys_;
+  }
+  void add_value(double value) { put_float(values_, value); }
+
+  [[nodiscard]] int node() const { return node_; }
+  [[nodiscard]] const char* path() const { return path_; }
+  [[nodiscard]] const char* type() const { return type_; }
+  [[nodiscard]] std::size_t keys() const { return keys_; }
+  [[nodiscard]] float first() const { return first_; }
+  [[nodiscard]] float last() const { return last_; }
+  [[nodiscard]] const std::string& times() const { return times_; }
+  [[nodiscard]] const std::string& values() const { return values_; }
+
+ private:
+  int node_;
+  const char* path_;
+  const char* type_;
+  std::size_t keys_ = 0;
+  float first_ = 0.0f, last_ = 0.0f;
+  std::string times_, values_;
+};
+
+// Turns of a node, each on the shorter way from the one before.
+class Turns {
+ public:
+  explicit Turns(int node) : channel(node, "rotation", "VEC4") {}
+
+  void add(float second, const Angles& angles) {
+    Quaternion turn = quaternion(angles);
+    double same_way = 0.0;
+    for (std::size_t k = 0; k < 4; ++k) {
+      same_way += turn[k] * before_[k];
+    }
+    channel.add_key(second);
+    for (double& part : turn) {
+      part = same_way < 0.0 ? -part : part;
+      channel.add_value(part);
+    }
+    before_ = turn;
+  }
+
+  Channel channel;
+
+ private:
+  Quaternion before_ = {0.0, 0.0, 0.0, 1.0};
+};
+
 class Document {
  public:
-  explicit Document(const std::vector<Frame>& frames) {
-    keep_later_ones(frames);
-    if (!frames_.empty()) {
-      add_weights();
-      add_turns(kHead, [](const Frame& frame) { return frame.head; });
-      add_moves();
-      for (std::size_t eye = 0; eye < 2; ++eye) {
-        add_turns(eye == 0 ? kLeftEye : kRightEye, [eye](const Frame& frame) {
-          const auto eyes = frame.eyes ? frame.eyes : gaze(frame.controls);
-          return eyes ? std::optional((*eyes)[eye]) : std::nullopt;
-        });
+  explicit Document(const FrameSequence& frames) {
+    Channel weights(kFace, "weights", "SCALAR"), moves(kHead, "translation", "VEC3");
+    Turns head(kHead), left(kLeftEye), right(kRightEye);
+    for (const Frame& frame : frames) {
+      // Keys have to ascend, as fp32.
+      const std::int64_t since = frame.time_ns - frames.first_time_ns();
+      const auto second = static_cast<float>(static_cast<double>(since) * 1e-9);
+      if (weights.keys() > 0 && second <= weights.last()) {
+        continue;
       }
+      add_weights(frame, second, weights);
+      if (frame.head) {
+        head.add(second, *frame.head);
+      }
+      if (frame.position_m) {
+        moves.add_key(second);
+        for (const double metres : *frame.position_m) {
+          moves.add_value(metres);
+        }
+      }
+      if (const auto eyes = frame.eyes ? frame.eyes : gaze(frame.controls)) {
+        left.add(second, (*eyes)[0]);
+        right.add(second, (*eyes)[1]);
+      }
+    }
+    start_ns_ = frames.empty() ? 0 : frames.first_time_ns();
+    for (const Channel* channel :
+         {&weights, &head.channel, &moves, &left.channel, &right.channel}) {
+      add_channel(*channel);
     }
     add_triangle();
   }
@@ -74,7 +148,7 @@ class Document {
            "\"meshes\":[{\"name\":\"face\",\"primitives\":[{\"attributes\":{\"POSITION\":" +
            std::to_string(corners_) + "},\"targets\":[" + targets + "]}],\"weights\":[" +
            zeros(kControlCount) + "],\"extras\":{\"targetNames\":[" + names + "]}}]," +
-           (frames_.empty() ? "" : animation()) + "\"accessors\":" + accessors_.text() +
+           (states_.empty() ? "" : animation()) + "\"accessors\":" + accessors_.text() +
            ",\"bufferViews\":" + views_.text() +
            ",\"buffers\":[{\"byteLength\":" + std::to_string(bytes_.size()) +
            (buffer_uri.empty() ? "" : ",\"uri\":\"" + buffer_uri + "\"") + "}]}";
@@ -83,15 +157,13 @@ class Document {
   [[nodiscard]] const std::string& bytes() const { return bytes_; }
 
  private:
-  // Keys have to ascend, as fp32.
-  void keep_later_ones(const std::vector<Frame>& frames) {
-    for (const Frame& frame : frames) {
-      const std::int64_t since = frame.time_ns - frames.front().time_ns;
-      const auto second = static_cast<float>(static_cast<double>(since) * 1e-9);
-      if (frames_.empty() || second > seconds_.back()) {
-        frames_.push_back(&frame);
-        seconds_.push_back(second);
-      }
+  void add_weights(const Frame& frame, float second, Channel& weights) {
+    states_ += name(frame.state)[0];
+    holds_ = holds_ && frame.holds();
+    weights.add_key(second);
+    for (std::size_t i = 0; i < kControlCount; ++i) {
+      weights.add_value(or_zero(frame.controls[i]));
+      driven_[i] = driven_[i] || driven(frame.controls[i]);
     }
   }
 
@@ -115,85 +187,25 @@ class Document {
                           "\",\"count\":" + std::to_string(count) + bounds + "}");
   }
 
-  std::size_t add_times(const std::vector<std::size_t>& keys) {
-    std::string data;
-    for (const std::size_t key : keys) {
-      put_float(data, static_cast<double>(seconds_[key]));
-    }
-    return add_accessor(data, "SCALAR", keys.size(),
-                        ",\"min\":[" + exact(seconds_[keys.front()]) + "],\"max\":[" +
-                            exact(seconds_[keys.back()]) + "]",
-                        false);
-  }
-
   // All digits of the fp32, so that it is the same number whoever reads it.
   static std::string exact(float value) { return shortest(static_cast<double>(value)); }
 
-  void add_channel(int node, const char* path, std::size_t input, std::size_t output) {
-    const std::size_t sampler =
-        samplers_.add("{\"input\":" + std::to_string(input) +
-                      ",\"output\":" + std::to_string(output) + ",\"interpolation\":\"LINEAR\"}");
-    channels_.add("{\"sampler\":" + std::to_string(sampler) +
-                  ",\"target\":{\"node\":" + std::to_string(node) + ",\"path\":\"" + path + "\"}}");
-  }
-
-  void add_weights() {
-    std::vector<std::size_t> keys(frames_.size());
-    std::string data;
-    for (std::size_t i = 0; i < frames_.size(); ++i) {
-      keys[i] = i;
-      for (const double value : frames_[i]->controls) {
-        put_float(data, or_zero(value));
-      }
+  void add_channel(const Channel& channel) {
+    if (channel.keys() == 0) {
+      return;
     }
-    const std::size_t times = add_times(keys);
-    add_channel(kFace, "weights", times,
-                add_accessor(data, "SCALAR", frames_.size() * kControlCount, "", false));
-  }
-
-  template <class Get>
-  void add_turns(int node, const Get& get) {
-    std::vector<std::size_t> keys;
-    std::string data;
-    Quaternion before = {0.0, 0.0, 0.0, 1.0};
-    for (std::size_t i = 0; i < frames_.size(); ++i) {
-      const std::optional<Angles> angles = get(*frames_[i]);
-      if (!angles) {
-        continue;
-      }
-      Quaternion turn = quaternion(*angles);
-      double same_way = 0.0;
-      for (std::size_t k = 0; k < 4; ++k) {
-        same_way += turn[k] * before[k];
-      }
-      for (double& part : turn) {
-        part = same_way < 0.0 ? -part : part;  // the shorter way from key to key
-        put_float(data, part);
-      }
-      before = turn;
-      keys.push_back(i);
-    }
-    if (!keys.empty()) {
-      const std::size_t times = add_times(keys);
-      add_channel(node, "rotation", times, add_accessor(data, "VEC4", keys.size(), "", false));
-    }
-  }
-
-  void add_moves() {
-    std::vector<std::size_t> keys;
-    std::string data;
-    for (std::size_t i = 0; i < frames_.size(); ++i) {
-      if (frames_[i]->position_m) {
-        keys.push_back(i);
-        for (const double metres : *frames_[i]->position_m) {
-          put_float(data, metres);
-        }
-      }
-    }
-    if (!keys.empty()) {
-      const std::size_t times = add_times(keys);
-      add_channel(kHead, "translation", times, add_accessor(data, "VEC3", keys.size(), "", false));
-    }
+    const std::size_t components =
+        std::string_view(channel.path()) == "weights" ? kControlCount : 1;
+    const std::size_t input = add_accessor(
+        channel.times(), "SCALAR", channel.keys(),
+        ",\"min\":[" + exact(channel.first()) + "],\"max\":[" + exact(channel.last()) + "]", false);
+    const std::size_t output =
+        add_accessor(channel.values(), channel.type(), channel.keys() * components, "", false);
+    const std::size_t sampler = samplers_.add(
+        "{\"input\":" + std::to_string(input) + ",\"output\":" + std::to_string(output) +
+        ",\"interpolation\":\"" + (holds_ ? "STEP" : "LINEAR") + "\"}");
+    channels_.add("{\"sampler\":" + std::to_string(sampler) + ",\"target\":{\"node\":" +
+                  std::to_string(channel.node()) + ",\"path\":\"" + channel.path() + "\"}}");
   }
 
   void add_triangle() {
@@ -210,24 +222,22 @@ class Document {
   }
 
   [[nodiscard]] std::string animation() const {
-    std::string states, not_driven;
-    for (const Frame* frame : frames_) {
-      states += name(frame->state)[0];
-    }
+    std::string not_driven;
     for (std::size_t i = 0; i < kControlCount; ++i) {
-      if (std::none_of(frames_.begin(), frames_.end(),
-                       [i](const Frame* frame) { return driven(frame->controls[i]); })) {
+      if (!driven_[i]) {
         not_driven.append(not_driven.empty() ? "\"" : ",\"").append(kArkitNames[i]).append("\"");
       }
     }
     return "\"animations\":[{\"name\":\"face\",\"channels\":" + channels_.text() +
            ",\"samplers\":" + samplers_.text() +
-           ",\"extras\":{\"mien\":{\"start_ns\":" + std::to_string(frames_.front()->time_ns) +
-           ",\"states\":\"" + states + "\",\"not_driven\":[" + not_driven + "]}}}],";
+           ",\"extras\":{\"mien\":{\"start_ns\":" + std::to_string(start_ns_) + ",\"states\":\"" +
+           states_ + "\",\"not_driven\":[" + not_driven + "]}}}],";
   }
 
-  std::vector<const Frame*> frames_;
-  std::vector<float> seconds_;
+  std::int64_t start_ns_ = 0;
+  std::string states_;  // a letter for each key of the weights
+  bool holds_ = true;   // all of them
+  std::array<bool, kControlCount> driven_{};
   std::string bytes_;
   List accessors_, views_, samplers_, channels_;
   std::size_t corners_ = 0, still_ = 0;
@@ -244,7 +254,7 @@ class GltfWriter : public WholeClipWriter {
   explicit GltfWriter(GltfForm form) : form_(form) {}
 
  protected:
-  std::string whole(const std::vector<Frame>& frames) override {
+  std::string whole(const FrameSequence& frames) override {
     const Document document(frames);
     if (form_ == GltfForm::kText) {
       return document.json("data:application/octet-stream;base64," + base64(document.bytes())) +

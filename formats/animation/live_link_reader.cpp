@@ -49,11 +49,10 @@ class LiveLinkReader {
     while (table_.next_row(fault_)) {
       Frame frame;
       frame.number = number_++;
-      if (!read_frame(frame, clip)) {
+      if (!read_frame(frame, clip) || !add_frame(clip, frame, table_.line(), fault_)) {
         return false;
       }
       last_ns_ = frame.time_ns;
-      clip.frames.push_back(std::move(frame));
     }
     return fault_.what.empty() &&
            (last_ns_ || fail(fault_, table_.line() + 1, 1, "there are no frames"));
@@ -256,6 +255,7 @@ class LiveLinkReader {
 bool read_live_link_csv(std::string_view text, const ReadOptions& options, Clip& clip,
                         Fault& fault) {
   Clip read;
+  read.frames.limit_bytes(most_clip_bytes(text.size()));
   if (!LiveLinkReader(text, options, fault).read(read)) {
     return false;
   }

@@ -1,7 +1,6 @@
 // What formats have no place for.
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "formats/animation/animation.h"
 #include "formats/animation/facs_map.h"
@@ -45,47 +44,18 @@ bool shows_a_control(const Frame& frame) {
                      [](double value) { return or_zero(value) != 0.0; });
 }
 
-// What of the controls does not come back from Roblox's units.
-std::string lost_to_roblox(const std::vector<Frame>& frames) {
-  std::string names;
-  std::array<bool, kControlCount> lost{};
-  for (const Frame& frame : frames) {
-    if (frame.facs.empty()) {
-      const auto facs = facs_of(frame.controls);
-      const auto back = controls_of_facs(facs);
-      for (std::size_t i = 0; i < kControlCount; ++i) {
-        lost[i] =
-            lost[i] || (or_zero(frame.controls[i]) != 0.0 && differ(frame.controls[i], back[i]));
-      }
-    }
-  }
-  for (std::size_t i = 0; i < kControlCount; ++i) {
-    if (lost[i]) {
-      names.append(names.empty() ? "" : ", ").append(kArkitNames[i]);
-    }
-  }
-  return names;
+bool all_driven(const Frame& frame) {
+  return std::all_of(frame.controls.begin(), frame.controls.end(), driven);
 }
 
-struct Check {
-  bool held;         // by the format
-  const char* what;  // is lost
-  std::function<bool(const Frame&)> there;
-};
-
-}  // namespace
-
-std::vector<std::string> losses(const Clip& clip, AnimationFormat format) {
-  if (format == Format::kJsonl) {
-    return {};
-  }
+std::vector<LossCheck> checks_of(Format format) {
   const bool table = is_table(format), gltf = is_gltf(format), cues = is_cues(format);
   const bool weights = !cues && format != Format::kBvh;
-  const Check checks[] = {
+  return {
       {table, "face probability, voice activity, level of detail, box",
        [](const Frame& frame) {
          return driven(frame.face_probability) || driven(frame.voice_activity) || frame.lod != 0 ||
-                frame.box;
+                frame.box.has_value();
        }},
       {table || gltf, "the state of tracking",
        [](const Frame& frame) { return frame.state == FaceState::kLost; }},
@@ -104,32 +74,64 @@ std::vector<std::string> losses(const Clip& clip, AnimationFormat format) {
       {cues, "mouth shapes, but as controls",
        [](const Frame& frame) { return frame.mouth_shape != 0; }},
   };
+}
+
+}  // namespace
+
+Losses::Losses(AnimationFormat format) : format_(format) {
+  if (format != Format::kJsonl) {
+    checks_ = checks_of(format);
+  }
+  there_.resize(checks_.size());
+}
+
+void Losses::add(const Frame& frame) {
+  for (std::size_t i = 0; i < checks_.size(); ++i) {
+    there_[i] = there_[i] || (!checks_[i].held && checks_[i].there(frame));
+  }
+  if (format_ == Format::kRoblox && frame.facs.empty()) {
+    const auto back = controls_of_facs(facs_of(frame.controls));
+    for (std::size_t i = 0; i < kControlCount; ++i) {
+      const double value = frame.controls[i];
+      changed_[i] = changed_[i] || (or_zero(value) != 0.0 && differ(value, back[i]));
+    }
+  }
+  if (format_ == Format::kLiveLink) {
+    gaps_ = gaps_ || (shows_a_control(frame) && !all_driven(frame));
+  }
+}
+
+std::vector<std::string> Losses::found(bool evenly_spaced) const {
   std::vector<std::string> lost;
-  for (const Check& check : checks) {
-    const auto& frames = clip.frames;
-    if (!check.held && std::any_of(frames.begin(), frames.end(), check.there)) {
-      lost.emplace_back(check.what);
+  for (std::size_t i = 0; i < checks_.size(); ++i) {
+    if (there_[i]) {
+      lost.emplace_back(checks_[i].what);
     }
   }
-  if (format == Format::kRoblox) {
-    const std::string names = lost_to_roblox(clip.frames);
-    if (!names.empty()) {
-      lost.push_back("parts of " + names);
+  std::string names;
+  for (std::size_t i = 0; i < kControlCount; ++i) {
+    if (changed_[i]) {
+      names.append(names.empty() ? "" : ", ").append(kArkitNames[i]);
     }
   }
-  if (format == Format::kLiveLink) {
-    const bool gaps = std::any_of(clip.frames.begin(), clip.frames.end(), [](const Frame& frame) {
-      return shows_a_control(frame) &&
-             !std::all_of(frame.controls.begin(), frame.controls.end(), driven);
-    });
-    if (gaps) {
-      lost.emplace_back("which controls nothing drives: they become 0");
-    }
+  if (!names.empty()) {
+    lost.push_back("parts of " + names);
   }
-  if (format == Format::kBvh && !evenly_spaced(clip.frames)) {
+  if (gaps_) {
+    lost.emplace_back("which controls nothing drives: they become 0");
+  }
+  if (format_ == Format::kBvh && !evenly_spaced) {
     lost.emplace_back("the frames' own times: they become even");
   }
   return lost;
+}
+
+std::vector<std::string> losses(const Clip& clip, AnimationFormat format) {
+  Losses losses(format);
+  for (const Frame& frame : clip.frames) {
+    losses.add(frame);
+  }
+  return losses.found(evenly_spaced(clip.frames));
 }
 
 }  // namespace mien::formats

@@ -22,7 +22,7 @@ void mix(Values& values, const Values& next, double share) {
 
 Frame between_frames(const Frame& before, const Frame& after, double share) {
   Frame frame = before;
-  if (share <= 0.0 || before.mouth_shape != 0) {
+  if (share <= 0.0 || before.holds()) {
     return frame;
   }
   frame.face_probability = mixed(before.face_probability, after.face_probability, share);
@@ -49,36 +49,57 @@ Frame between_frames(const Frame& before, const Frame& after, double share) {
 
 }  // namespace
 
-std::vector<Frame> resampled(const std::vector<Frame>& frames, double fps, std::int64_t origin_ns) {
-  std::vector<Frame> made;
+Resampler::Resampler(const FrameSequence& frames, double fps, std::int64_t origin_ns)
+    : frames_(frames), fps_(fps), origin_ns_(origin_ns), after_(frames.begin()) {
   if (frames.empty()) {
-    return made;
+    return;
   }
-  // Since the origin. All of a clip fits, but not all that may follow.
-  const auto since_origin = [&](std::int64_t k) -> std::int64_t {
-    const double since = static_cast<double>(k) * 1e9 / fps;
-    return since < 0x1p63 ? std::llround(since) : std::numeric_limits<std::int64_t>::max();
-  };
-  const std::int64_t ahead_ns = frames.front().time_ns - origin_ns;
-  std::int64_t first = std::llround(static_cast<double>(ahead_ns) * 1e-9 * fps);
-  first += since_origin(first) < ahead_ns ? 1 : 0;
-  std::size_t before = 0;
-  for (std::int64_t k = first;; ++k) {
-    if (since_origin(k) > frames.back().time_ns - origin_ns) {
-      return made;
-    }
-    const std::int64_t time_ns = origin_ns + since_origin(k);
-    while (before + 1 < frames.size() && frames[before + 1].time_ns <= time_ns) {
-      ++before;
-    }
-    const std::size_t after = before + 1 < frames.size() ? before + 1 : before;
-    const auto gap = static_cast<double>(frames[after].time_ns - frames[before].time_ns);
-    const auto since = static_cast<double>(time_ns - frames[before].time_ns);
-    Frame frame = between_frames(frames[before], frames[after], gap > 0.0 ? since / gap : 0.0);
-    frame.number = k;
-    frame.time_ns = time_ns;
-    made.push_back(std::move(frame));
+  before_ = *after_;
+  ++after_;
+  const std::int64_t ahead_ns = frames.first_time_ns() - origin_ns;
+  step_ = std::llround(static_cast<double>(ahead_ns) * 1e-9 * fps);
+  step_ += since_origin(step_) < ahead_ns ? 1 : 0;
+}
+
+double Resampler::count(const FrameSequence& frames, double fps) {
+  if (frames.empty()) {
+    return 0.0;
   }
+  const auto span_ns = static_cast<double>(frames.last_time_ns() - frames.first_time_ns());
+  return span_ns * 1e-9 * fps + 1.0;
+}
+
+std::int64_t Resampler::since_origin(std::int64_t k) const {
+  const double since = static_cast<double>(k) * 1e9 / fps_;
+  return since < 0x1p63 ? std::llround(since) : std::numeric_limits<std::int64_t>::max();
+}
+
+std::optional<Frame> Resampler::next() {
+  if (frames_.empty() || since_origin(step_) > frames_.last_time_ns() - origin_ns_) {
+    return std::nullopt;
+  }
+  const std::int64_t time_ns = origin_ns_ + since_origin(step_);
+  for (; after_ != FrameSequence::end() && after_->time_ns <= time_ns; ++after_) {
+    before_ = *after_;
+  }
+  Frame frame = before_;
+  if (after_ != FrameSequence::end()) {
+    const auto gap = static_cast<double>(after_->time_ns - before_.time_ns);
+    const auto since = static_cast<double>(time_ns - before_.time_ns);
+    frame = between_frames(before_, *after_, gap > 0.0 ? since / gap : 0.0);
+  }
+  frame.number = step_++;
+  frame.time_ns = time_ns;
+  return frame;
+}
+
+FrameSequence resampled(const FrameSequence& frames, double fps, std::int64_t origin_ns) {
+  FrameSequence made;
+  Resampler resampler(frames, fps, origin_ns);
+  while (const auto frame = resampler.next()) {
+    made.push_back(*frame);
+  }
+  return made;
 }
 
 }  // namespace mien::formats

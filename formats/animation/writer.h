@@ -27,10 +27,10 @@ class WholeClipWriter : public AnimationWriter {
   [[nodiscard]] std::string finish() final { return whole(frames_); }
 
  protected:
-  [[nodiscard]] virtual std::string whole(const std::vector<Frame>& frames) = 0;
+  [[nodiscard]] virtual std::string whole(const FrameSequence& frames) = 0;
 
  private:
-  std::vector<Frame> frames_;
+  FrameSequence frames_;
 };
 
 }  // namespace mien::formats

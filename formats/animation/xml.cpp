@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "formats/animation/numbers.h"
 
@@ -22,10 +23,10 @@ bool part_of_a_name(char c) {
          c == '-' || c == '.' || c == ':';
 }
 
-class Parser {
+class XmlParser {
  public:
-  Parser(std::string_view text, std::vector<XmlTag>& tags, Fault& fault)
-      : text_(text), tags_(tags), fault_(fault) {}
+  XmlParser(std::string_view text, const XmlVisit& visit, Fault& fault)
+      : text_(text), visit_(visit), fault_(fault) {}
 
   bool parse() {
     skip_blanks();
@@ -35,11 +36,22 @@ class Parser {
         return false;
       }
     }
-    return open_.empty() ? !tags_.empty() || wrong("there is no element")
-                         : wrong("<" + open_.back() + "> is not closed");
+    if (!open_.empty()) {
+      return wrong("<" + open_.back() + "> is not closed");
+    }
+    return last_ ? visit_(*last_) : wrong("there is no element");
   }
 
  private:
+  static constexpr std::size_t kMost = 64;  // elements inside each other, attributes of one
+
+  // The tag before it has all its text now.
+  bool add(XmlTag tag) {
+    const bool goes_on = !last_ || visit_(*last_);
+    last_ = std::move(tag);
+    return goes_on;
+  }
+
   bool wrong(std::string what) {
     XmlTag here;
     place(here);
@@ -84,7 +96,7 @@ class Parser {
     if (tag.name.empty()) {
       return wrong("a tag's name has to be here");
     }
-    if (open_.empty() && !tags_.empty()) {
+    if (open_.empty() && last_) {
       return tag.fail_here("a second outermost element", fault_);
     }
     return tag.closes ? close(tag) : open(tag);
@@ -112,8 +124,7 @@ class Parser {
       return tag.fail_here("</" + tag.name + "> closes nothing", fault_);
     }
     open_.pop_back();
-    tags_.push_back(std::move(tag));
-    return true;
+    return add(std::move(tag));
   }
 
   bool open(XmlTag& tag) {
@@ -126,15 +137,17 @@ class Parser {
     }
     const bool empty = follows("/>");
     at_ += empty ? 2 : 1;
-    open_.push_back(tag.name);
-    tags_.push_back(tag);
-    if (empty) {
-      tag.closes = true;
-      tag.attributes.clear();
-      tags_.push_back(std::move(tag));
-      open_.pop_back();
+    if (open_.size() == kMost) {
+      return tag.fail_here("too deeply nested", fault_);
     }
-    return true;
+    if (!empty) {
+      open_.push_back(tag.name);
+      return add(std::move(tag));
+    }
+    XmlTag closing = tag;
+    closing.closes = true;
+    closing.attributes.clear();
+    return add(std::move(tag)) && add(std::move(closing));
   }
 
   bool attribute(XmlTag& tag) {
@@ -147,6 +160,9 @@ class Parser {
     skip_blanks();
     if (!follows("\"") && !follows("'")) {
       return wrong("a quotation mark has to be here");
+    }
+    if (tag.attributes.size() == kMost) {
+      return wrong("more than " + std::to_string(kMost) + " attributes");
     }
     if (tag.find(key) != nullptr) {
       return wrong(quoted(key) + " is there twice");
@@ -197,16 +213,17 @@ class Parser {
     if (!decode(end, found)) {
       return false;
     }
-    tags_.back().text += trimmed(found);
+    last_->text += trimmed(found);
     return true;
   }
 
   std::string_view text_;
-  std::vector<XmlTag>& tags_;
+  const XmlVisit& visit_;
   Fault& fault_;
   std::size_t at_ = 0;
   std::size_t counted_ = 0, line_ = 1, line_begin_ = 0;
   std::vector<std::string> open_;
+  std::optional<XmlTag> last_;
 };
 
 }  // namespace
@@ -220,9 +237,8 @@ const std::string* XmlTag::find(std::string_view attribute) const {
   return nullptr;
 }
 
-bool parse_xml(std::string_view text, std::vector<XmlTag>& tags, Fault& fault) {
-  tags.clear();
-  return Parser(text, tags, fault).parse();
+bool parse_xml(std::string_view text, const XmlVisit& visit, Fault& fault) {
+  return XmlParser(text, visit, fault).parse();
 }
 
 std::string xml_text(std::string_view text) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -28,9 +29,14 @@ struct XmlTag {
   }
 };
 
-// False, with a fault, for what is no such document: elements have to be closed in turn, and
-// nothing but blanks stands outside the outermost. An empty element gives two tags.
-[[nodiscard]] bool parse_xml(std::string_view text, std::vector<XmlTag>& tags, Fault& fault);
+// What is done with a tag; false ends the reading.
+using XmlVisit = std::function<bool(const XmlTag& tag)>;
+
+// Visits each tag once its text is known, so that only one is in memory. False, with a fault, for
+// what is no such document: elements have to be closed in turn, and nothing but blanks stands
+// outside the outermost. An empty element gives two tags. More than 64 elements inside each other,
+// or attributes of one, are a fault.
+[[nodiscard]] bool parse_xml(std::string_view text, const XmlVisit& visit, Fault& fault);
 
 // The text as it stands in a document.
 [[nodiscard]] std::string xml_text(std::string_view text);

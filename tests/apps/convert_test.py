@@ -332,6 +332,81 @@ class Convert(unittest.TestCase):
         self.assertEqual((first["controls"], last["controls"]), ({"jawOpen": 0, "mouthSmileLeft": 1}, {"jawOpen": 0.5, "mouthSmileLeft": 0.25}))
         self.assertAlmostEqual(last["head"]["yaw_rad"], 0.5, places=6)
 
+    def gltf_document(self, uri, weight_type=5126, extension=None):
+        """A face with keys at 0 and 1 s, and its data."""
+        pack = {5126: "<4f", 5121: "<4B", 5123: "<4H", 5122: "<4h"}[weight_type]
+        most = {5126: 1, 5121: 255, 5123: 65535, 5122: 32767}[weight_type]
+        data = struct.pack("<2f", 0, 1) + struct.pack(pack, *[most if weight == 1 else 0 for weight in (0, 1, 1, 0)])
+        view = {"buffer": 0, "byteOffset": 8, "byteLength": len(data) - 8} | ({"extensions": {extension: {"buffer": 0}}} if extension else {})
+        return {"asset": {"version": "2.0"}, "buffers": [{"byteLength": len(data), "uri": uri}],
+                "bufferViews": [{"buffer": 0, "byteOffset": 0, "byteLength": 8}, view],
+                "accessors": [{"bufferView": 0, "componentType": 5126, "type": "SCALAR", "count": 2},
+                              {"bufferView": 1, "componentType": weight_type, "normalized": weight_type != 5126, "type": "SCALAR", "count": 4}],
+                "meshes": [{"primitives": [], "extras": {"targetNames": ["jawOpen", "mouthSmile_L"]}}], "nodes": [{"mesh": 0}],
+                "animations": [{"samplers": [{"input": 0, "output": 1}],
+                                "channels": [{"sampler": 0, "target": {"node": 0, "path": "weights"}}]}]}, data
+
+    def test_gltf_with_its_data_beside_it(self):
+        os.makedirs(self.path("scene/parts"))
+        for uri, name in (("data.bin", "data.bin"), ("parts/my%20data.bin", "parts/my data.bin"), ("./parts/%e4%bd%a0.bin", "parts/\u4f60.bin")):
+            document, data = self.gltf_document(uri)
+            with open(self.path("scene/" + name), "wb") as file:
+                file.write(data + b"more")
+            self.write("scene/face.gltf", json.dumps(document))
+            self.convert("scene/face.gltf", "beside.jsonl")
+            first, last = self.frames_of("beside.jsonl")
+            self.assertEqual((first["controls"], last["controls"]), ({"jawOpen": 0, "mouthSmileLeft": 1}, {"jawOpen": 1, "mouthSmileLeft": 0}))
+        outside = self.path("outside.bin")
+        with open(outside, "wb") as file:
+            file.write(data)
+        with open(self.path("scene/short.bin"), "wb") as file:
+            file.write(data[:-1])
+        os.mkfifo(self.path("scene/pipe.bin"))
+        for uri, why in (("../outside.bin", "is not in the folder of the file"), ("parts/../../outside.bin", "is not in the folder of the file"),
+                         (outside, "is not in the folder of the file"), ("file://" + outside, "is not in the folder of the file"),
+                         ("none.bin", "no such file"), ("short.bin", f"is shorter than {len(data)} bytes"), ("parts", "is no file"),
+                         ("pipe.bin", "is no file")):
+            self.write("scene/bad.gltf", json.dumps(self.gltf_document(uri)[0]))
+            code, said = self.refused("scene/bad.gltf", "bad.jsonl")
+            self.assertEqual(code, 3)
+            self.assertIn(f"uri: '{uri[:40]}': {why}", said)
+        done = subprocess.run([PROGRAM, "convert", "-", self.path("bad.jsonl")], capture_output=True, text=True,
+                              input=json.dumps(self.gltf_document("data.bin")[0]))
+        self.assertEqual(done.returncode, 3)
+        self.assertIn("uri: 'data.bin': there is no folder to look for it in", done.stderr)
+
+    def test_gltf_that_is_compressed(self):
+        for weight_type in (5121, 5122, 5123):
+            document, data = self.gltf_document("data:;base64,", weight_type)
+            document["buffers"][0]["uri"] += base64.b64encode(data).decode()
+            # What is not animated may be compressed: it is not looked at.
+            document["extensionsRequired"] = ["KHR_draco_mesh_compression", "KHR_texture_basisu", "KHR_mesh_quantization"]
+            document["meshes"][0]["primitives"] = [{"extensions": {"KHR_draco_mesh_compression": {"bufferView": 7}}}]
+            document["images"] = [{"bufferView": 9, "mimeType": "image/ktx2"}]
+            document["buffers"].append({"byteLength": 100})
+            self.write("small.gltf", json.dumps(document))
+            self.convert("small.gltf", "small.jsonl")
+            first, last = self.frames_of("small.jsonl")
+            self.assertEqual((first["controls"], last["controls"]), ({"jawOpen": 0, "mouthSmileLeft": 1}, {"jawOpen": 1, "mouthSmileLeft": 0}))
+        for extension in ("EXT_meshopt_compression", "KHR_meshopt_compression"):
+            document, data = self.gltf_document("data:;base64,", extension=extension)
+            document["buffers"][0]["uri"] += base64.b64encode(data).decode()
+            self.write("packed.gltf", json.dumps(document))
+            code, said = self.refused("packed.gltf", "packed.jsonl")
+            self.assertEqual(code, 3)
+            self.assertIn(f"bufferView: compressed with {extension}, which is not read; export the animation without it", said)
+
+    def test_cues_hold_in_gltf(self):
+        self.write("cues.tsv", "0.00\tX\n1.00\tD\n2.00\tX\n3.00\tX\n")
+        self.convert("cues.tsv", "cues.gltf")
+        sampler, = {s["interpolation"] for s in json.loads(self.read("cues.gltf"))["animations"][0]["samplers"]}
+        self.assertEqual(sampler, "STEP")
+        self.convert("cues.tsv", "cues.csv", "--fps", "10")
+        self.convert("cues.gltf", "held.csv", "--fps", "10")
+        jaws = [[row["jawOpen"] for row in csv.DictReader(self.read(name).splitlines())] for name in ("cues.csv", "held.csv")]
+        self.assertEqual(jaws[0], jaws[1])
+        self.assertEqual(len(set(jaws[0])), 2)
+
     def test_bvh(self):
         self.convert("source.jsonl", "head.bvh", "--fps", "30")
         self.convert("source.jsonl", "even.jsonl", "--fps", "30")

@@ -100,9 +100,11 @@ TEST(Animation, AByteOrderMarkIsPassedOver) {
 
 Clip clip_from(std::int64_t begin_ns) {
   Clip clip = random_clip(20, 10);
-  for (Frame& frame : clip.frames) {
+  std::vector<Frame> frames = clip.frames.unpacked();
+  for (Frame& frame : frames) {
     frame.time_ns += begin_ns;
   }
+  clip.frames = FrameSequence(frames);
   return clip;
 }
 
@@ -129,13 +131,13 @@ TEST(Animation, TimesKeepTheirDigits) {
                              "t_ms,jawOpen\n1700000000033.25,0\n1700000000066.5,0\n", {}, clip,
                              fault))
       << describe(fault);
-  EXPECT_EQ(clip.frames[0].time_ns, 1'700'000'000'033'250'000);
-  EXPECT_EQ(clip.frames[0].time_ms(), 1700000000033.25);
-  EXPECT_EQ(clip.frames[1].time_ns, 1'700'000'000'066'500'000);
+  EXPECT_EQ(clip.frames.unpacked()[0].time_ns, 1'700'000'000'033'250'000);
+  EXPECT_EQ(clip.frames.unpacked()[0].time_ms(), 1700000000033.25);
+  EXPECT_EQ(clip.frames.unpacked()[1].time_ns, 1'700'000'000'066'500'000);
   ASSERT_TRUE(read_animation(AnimationFormat::kRhubarbDat,
                              "MohoSwitch1\n40800000002 A\n40800000003 X\n", {}, clip, fault))
       << describe(fault);
-  EXPECT_EQ(clip.frames[0].time_ns, 1'700'000'000'041'666'667);
+  EXPECT_EQ(clip.frames.unpacked()[0].time_ns, 1'700'000'000'041'666'667);
   EXPECT_EQ(written(clip, AnimationFormat::kRhubarbDat),
             "MohoSwitch1\n40800000002 A\n40800000003 X\n");
 }
@@ -164,14 +166,16 @@ TEST(Animation, TimesAsFarApartAsMayBe) {
                                               {-kLast},
                                               {kLast, kLast},
                                               {-kLast, -kLast, kLast - 1, kLast}}) {
-    Clip clip = random_clip(times.size(), 11);
+    Clip clip;
+    std::vector<Frame> frames = random_clip(times.size(), 11).frames.unpacked();
     for (std::size_t i = 0; i < times.size(); ++i) {
-      clip.frames[i].time_ns = times[i];
+      frames[i].time_ns = times[i];
     }
     for (const bool has_shapes : {false, true}) {
-      for (Frame& frame : clip.frames) {
+      for (Frame& frame : frames) {
         frame.mouth_shape = has_shapes ? 'B' : '\0';
       }
+      clip.frames = FrameSequence(frames);
       for (const FormatName& known : kFormatNames) {
         SCOPED_TRACE(known.name);
         const std::string text = written(clip, known.format);
@@ -240,18 +244,23 @@ TEST(Animation, LossesAreSaid) {
   EXPECT_THAT(losses(clip, AnimationFormat::kBvh), Contains("the controls"));
   EXPECT_THAT(losses(clip, AnimationFormat::kRoblox), Contains(HasSubstr("jawForward")));
   EXPECT_THAT(losses(clip, AnimationFormat::kRhubarb), Contains("the turn of the head"));
-  clip.frames[0].eyes = gaze(clip.frames[0].controls);
-  EXPECT_THAT(losses(clip, AnimationFormat::kCsv), IsEmpty()) << "the controls say as much";
-  clip.frames[0].eyes = {Angles{0.3, 0.2, 0.1}, Angles{}};
-  EXPECT_THAT(losses(clip, AnimationFormat::kCsv), ElementsAre("how the eyes are turned"));
-  clip.frames[1].voice_activity = 0.5;
-  EXPECT_THAT(losses(clip, AnimationFormat::kGltf), Contains(HasSubstr("voice activity")));
-  EXPECT_THAT(losses(clip, AnimationFormat::kJsonl), IsEmpty());
-  clip.frames[1].controls[3] = kNoNumber;
-  EXPECT_THAT(losses(clip, AnimationFormat::kLiveLink), Contains(HasSubstr("become 0")));
-  clip.frames[1].time_ns += 10'000'000'000;
-  clip.frames.push_back(clip.frames[1]);
-  EXPECT_THAT(losses(clip, AnimationFormat::kBvh), Contains(HasSubstr("become even")));
+  std::vector<Frame> frames = clip.frames.unpacked();
+  const auto lost = [&frames, &clip](AnimationFormat format) {
+    clip.frames = FrameSequence(frames);
+    return losses(clip, format);
+  };
+  frames[0].eyes = gaze(frames[0].controls);
+  EXPECT_THAT(lost(AnimationFormat::kCsv), IsEmpty()) << "the controls say as much";
+  frames[0].eyes = {Angles{0.3, 0.2, 0.1}, Angles{}};
+  EXPECT_THAT(lost(AnimationFormat::kCsv), ElementsAre("how the eyes are turned"));
+  frames[1].voice_activity = 0.5;
+  EXPECT_THAT(lost(AnimationFormat::kGltf), Contains(HasSubstr("voice activity")));
+  EXPECT_THAT(lost(AnimationFormat::kJsonl), IsEmpty());
+  frames[1].controls[3] = kNoNumber;
+  EXPECT_THAT(lost(AnimationFormat::kLiveLink), Contains(HasSubstr("become 0")));
+  frames[1].time_ns += 10'000'000'000;
+  frames.push_back(frames[1]);
+  EXPECT_THAT(lost(AnimationFormat::kBvh), Contains(HasSubstr("become even")));
 }
 
 TEST(Animation, FloatsKeepTheirDigitsAndThemselves) {
@@ -291,12 +300,21 @@ TEST(Animation, Base64) {
 }
 
 TEST(Animation, JsonIsReadStrictly) {
-  JsonValue value;
+  JsonDocument document;
   Fault fault;
-  EXPECT_TRUE(
-      parse_json(R"( {"a":[1,-2.5e1,true,null],"b":"\u00e4\ud83d\ude00\n"} )", value, fault));
-  EXPECT_EQ(value.find("b")->text, "\xC3\xA4\xF0\x9F\x98\x80\n");
-  EXPECT_EQ(value.find("a")->items[1].number, -25.0);
+  ASSERT_TRUE(document.parse(
+      R"( {"a":[1,-2.5e1,true,null],"b":"\u00e4\ud83d\ude00\n","\u0063":{}} )", fault));
+  const JsonValue root = document.root();
+  EXPECT_EQ(root.find("b")->text(), "\xC3\xA4\xF0\x9F\x98\x80\n");
+  EXPECT_TRUE(root.find("c")->empty()) << "a key may be escaped";
+  EXPECT_FALSE(root.find("d"));
+  std::vector<JsonValue::Kind> kinds;
+  for (const JsonValue item : root.find("a")->items()) {
+    kinds.push_back(item.kind());
+  }
+  using enum JsonValue::Kind;
+  EXPECT_THAT(kinds, ElementsAre(kNumber, kNumber, kBoolean, kNull));
+  EXPECT_EQ((*++root.find("a")->items().begin()).number(), -25.0);
   for (const char* bad : {"",
                           "{",
                           "[1,]",
@@ -316,16 +334,17 @@ TEST(Animation, JsonIsReadStrictly) {
                           "\"\t\"",
                           "{} {}",
                           "{\"a\":1,\"a\":2}",
+                          "{\"a\":1,\"b\":2,\"\\u0061\":2}",
                           "NaN",
                           "1e999"}) {
-    EXPECT_FALSE(parse_json(bad, value, fault)) << bad;
+    EXPECT_FALSE(document.parse(bad, fault)) << bad;
   }
-  EXPECT_FALSE(parse_json(std::string(1000, '['), value, fault));
-  EXPECT_FALSE(parse_json("{\"a\":\n [1,\n  x]}", value, fault));
+  EXPECT_FALSE(document.parse(std::string(1000, '['), fault));
+  EXPECT_FALSE(document.parse("{\"a\":\n [1,\n  x]}", fault));
   EXPECT_EQ(describe(fault), "line 3, column 3: is no value");
   std::int64_t large = 0;
-  ASSERT_TRUE(parse_json("9007199254740993", value, fault));
-  EXPECT_TRUE(value.integer(large));
+  ASSERT_TRUE(document.parse("9007199254740993", fault));
+  EXPECT_TRUE(document.root().integer(large));
   EXPECT_EQ(large, 9007199254740993) << "more than a double can tell";
 }
 
@@ -459,18 +478,19 @@ TEST(Animation, VisemesAreTheNearestMixture) {
 
 TEST(Animation, ResampledAtItsOwnTimesIsTheSame) {
   const Clip clip = random_clip(50, 9);
-  const std::vector<Frame> same = resampled(clip.frames, 25.0, 0);
-  ASSERT_EQ(same.size(), clip.frames.size());
+  const std::vector<Frame> same = resampled(clip.frames, 25.0, 0).unpacked();
+  const std::vector<Frame> frames = clip.frames.unpacked();
+  ASSERT_EQ(same.size(), frames.size());
   for (std::size_t i = 0; i < same.size(); ++i) {
-    EXPECT_EQ(frame_json(same[i]), frame_json(clip.frames[i]));
+    EXPECT_EQ(frame_json(same[i]), frame_json(frames[i]));
   }
-  const std::vector<Frame> twice = resampled(clip.frames, 50.0, 0);
+  const std::vector<Frame> twice = resampled(clip.frames, 50.0, 0).unpacked();
   ASSERT_EQ(twice.size(), 99u);
   EXPECT_EQ(frame_json(twice[0]).substr(20), frame_json(same[0]).substr(20));
   EXPECT_NEAR(twice[1].controls[0], (same[0].controls[0] + same[1].controls[0]) / 2.0, 1e-15);
-  EXPECT_THAT(resampled({}, 25.0, 0), IsEmpty());
-  const std::vector<Frame> later(clip.frames.begin() + 3, clip.frames.end());
-  EXPECT_EQ(resampled(later, 10.0, 0).front().time_ns, 200'000'000)
+  EXPECT_TRUE(resampled(FrameSequence(), 25.0, 0).empty());
+  const FrameSequence later({frames.begin() + 3, frames.end()});
+  EXPECT_EQ(resampled(later, 10.0, 0).first_time_ns(), 200'000'000)
       << "the first grid time after 120 ms";
 }
 

@@ -154,7 +154,7 @@ TEST(LiveLinkAngles, AreDegreesWhereTheyAreTooLargeForRadians) {
   for (const double head_rad : {0.05, 0.4, 1.2}) {  // 2.9 to 69 degrees
     const std::vector<Row> rows = moving(head_rad, 0.0);
     const Clip clip = read(AnimationFormat::kLiveLink, angles(rows, kDegrees));
-    EXPECT_NEAR(clip.frames.at(25).head->yaw, rows[25].head[0], 1e-6);
+    EXPECT_NEAR(clip.frames.unpacked().at(25).head->yaw, rows[25].head[0], 1e-6);
     EXPECT_THAT(clip.notes, Contains("rotations: degrees, as the file shows (--from-llf-rot)"));
   }
 }
@@ -164,23 +164,24 @@ TEST(LiveLinkAngles, AreDegreesWhereStepsAreTooLargeForRadians) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     rows[i].head = {(i % 2 == 0 ? 0.5 : -0.5) / kDegrees, 0.0, 0.0};
   }
-  EXPECT_NEAR(read(AnimationFormat::kLiveLink, angles(rows, kDegrees)).frames.at(0).head->yaw,
-              0.5 / kDegrees, 1e-6);
+  EXPECT_NEAR(
+      read(AnimationFormat::kLiveLink, angles(rows, kDegrees)).frames.unpacked().at(0).head->yaw,
+      0.5 / kDegrees, 1e-6);
 }
 
 TEST(LiveLinkAngles, TheEyesShowTheUnit) {
   const std::vector<Row> rows = moving(0.02, 0.6);
   for (const double scale : {1.0, 1.0 / std::numbers::pi, kDegrees}) {
     const Clip clip = read(AnimationFormat::kLiveLink, angles(rows, scale));
-    EXPECT_NEAR(clip.frames.at(30).head->yaw, rows[30].head[0], 4e-6) << scale;
-    EXPECT_NEAR((*clip.frames.at(30).eyes)[1].pitch, -rows[30].eye[1], 4e-6) << scale;
+    EXPECT_NEAR(clip.frames.unpacked().at(30).head->yaw, rows[30].head[0], 4e-6) << scale;
+    EXPECT_NEAR((*clip.frames.unpacked().at(30).eyes)[1].pitch, -rows[30].eye[1], 4e-6) << scale;
   }
 }
 
 TEST(LiveLinkAngles, WithoutAnySignAreRadians) {
   const std::vector<Row> rows = moving(0.5, 0.0);
   const Clip clip = read(AnimationFormat::kLiveLink, angles(rows, 1.0));
-  EXPECT_NEAR(clip.frames.at(30).head->yaw, rows[30].head[0], 1e-6);
+  EXPECT_NEAR(clip.frames.unpacked().at(30).head->yaw, rows[30].head[0], 1e-6);
   EXPECT_THAT(clip.notes, Contains("rotations: radians, the usual unit (--from-llf-rot)"));
 }
 
@@ -205,16 +206,17 @@ TEST(Tables, AreReadWithAnySeparator) {
   for (const char* separator : {";", "\t"}) {
     const Clip clip = read(AnimationFormat::kLiveLink, with(comma, ",", separator));
     EXPECT_EQ(times_ms(clip), wanted);
-    EXPECT_EQ(clip.frames.at(0).controls[control("jawOpen")], 0.5);
+    EXPECT_EQ(clip.frames.unpacked().at(0).controls[control("jawOpen")], 0.5);
   }
   const std::string curves = "t_ms,jawOpen\n0,0.25\n40,0.5\n";
   for (const char* separator : {",", ";", "\t"}) {
     const Clip clip = read(AnimationFormat::kCsv, with(curves, ",", separator));
-    EXPECT_EQ(clip.frames.at(1).controls[control("jawOpen")], 0.5);
+    EXPECT_EQ(clip.frames.unpacked().at(1).controls[control("jawOpen")], 0.5);
   }
   // As spreadsheets write them where a comma stands before the decimals.
-  EXPECT_EQ(read(AnimationFormat::kCsv, "t_ms;jawOpen\n0;0,25\n40,5;1\n").frames.at(1).time_ns,
-            40'500'000);
+  EXPECT_EQ(
+      read(AnimationFormat::kCsv, "t_ms;jawOpen\n0;0,25\n40,5;1\n").frames.unpacked().at(1).time_ns,
+      40'500'000);
   EXPECT_EQ(read(AnimationFormat::kCsv, "\"t,ms\";t_ms;jawOpen\n\"a;b\";0;1\n").frames.size(), 1);
   EXPECT_THAT(fault_of(AnimationFormat::kCsv, "t_ms;jawOpen\n0;0,2,5\n"),
               HasSubstr("not a number"));
@@ -231,9 +233,10 @@ std::string utf16(const std::string& ascii, bool big) {
 TEST(Encodings, Utf16IsReadLikeUtf8) {
   const std::string text = "{\"t_ns\":1}\n{\"t_ns\":2}\n";
   for (const bool big : {false, true}) {
-    EXPECT_EQ(read(AnimationFormat::kJsonl, utf16(text, big)).frames.at(1).time_ns, 2);
+    EXPECT_EQ(read(AnimationFormat::kJsonl, utf16(text, big)).frames.unpacked().at(1).time_ns, 2);
     const std::string mark = big ? "\xFE\xFF" : "\xFF\xFE";
-    EXPECT_EQ(read(AnimationFormat::kJsonl, mark + utf16(text, big)).frames.at(1).time_ns, 2);
+    EXPECT_EQ(
+        read(AnimationFormat::kJsonl, mark + utf16(text, big)).frames.unpacked().at(1).time_ns, 2);
     EXPECT_THAT(fault_of(AnimationFormat::kJsonl, mark + utf16(text, big) + "x"),
                 HasSubstr("UTF-16 ends within a character"));
   }
@@ -275,13 +278,13 @@ TEST(BvhUnits, TheSizeOfTheSkeletonShowsThem) {
   };
   for (const auto& file : files) {
     const Clip clip = read(AnimationFormat::kBvh, motion(file.neck, file.tip, file.position));
-    EXPECT_NEAR((*clip.frames.at(0).position_m)[0], file.place_m, 1e-12) << file.neck;
+    EXPECT_NEAR((*clip.frames.unpacked().at(0).position_m)[0], file.place_m, 1e-12) << file.neck;
     EXPECT_THAT(clip.notes, ElementsAre(HasSubstr(file.unit)));
   }
   ReadOptions options;
   options.bvh_unit = LengthUnit::kInches;
   const Clip clip = read(AnimationFormat::kBvh, motion("24", "6", "100 0 0"), options);
-  EXPECT_NEAR((*clip.frames.at(0).position_m)[0], 2.54, 1e-12);
+  EXPECT_NEAR((*clip.frames.unpacked().at(0).position_m)[0], 2.54, 1e-12);
   EXPECT_THAT(clip.notes, IsEmpty());
 }
 
@@ -302,7 +305,7 @@ TEST(BvhUnits, AreWrittenAsAskedFor) {
       reading.bvh_unit = unit;
     }
     const Clip clip = read(AnimationFormat::kBvh, text, reading);
-    EXPECT_NEAR((*clip.frames.at(0).position_m)[2], -1.5, 1e-6) << name(unit);
+    EXPECT_NEAR((*clip.frames.unpacked().at(0).position_m)[2], -1.5, 1e-6) << name(unit);
   }
 }
 
@@ -324,9 +327,9 @@ TEST(MouthCues, TheMouthRestsInAGap) {
       shapes += frame.mouth_shape;
     }
     EXPECT_EQ(shapes, "DXCBX");
-    EXPECT_EQ(clip.frames.at(1).controls[control("jawOpen")], 0.0);
-    EXPECT_EQ(clip.frames.at(1).number, 1);
-    EXPECT_GT(clip.frames.at(2).controls[control("jawOpen")], 0.1);
+    EXPECT_EQ(clip.frames.unpacked().at(1).controls[control("jawOpen")], 0.0);
+    EXPECT_EQ(clip.frames.unpacked().at(1).number, 1);
+    EXPECT_GT(clip.frames.unpacked().at(2).controls[control("jawOpen")], 0.1);
   }
 }
 

@@ -4,81 +4,60 @@
 #include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
 #include <vector>
 
+#include "apps/mien/convert/even_frames.h"
 #include "apps/mien/outputs/distinct_files.h"
 #include "apps/mien/sources/animation_file.h"
 #include "apps/mien/system/failure.h"
 #include "apps/mien/system/json_text.h"
 #include "apps/mien/system/paths.h"
 #include "apps/mien/system/shown.h"
-#include "formats/animation/resample.h"
 
 namespace mien::app {
 namespace {
 
 using formats::Clip;
 using formats::Frame;
+using formats::FrameSequence;
 
-using Faces = std::map<std::int64_t, std::vector<Frame>>;
+// How many frames each face has. Frames without an id belong to whoever comes next.
+using Faces = std::map<std::int64_t, std::size_t>;
 
-// Frames without an id belong to whoever comes next.
-Faces by_face(const Clip& clip) {
+Faces count_faces(const FrameSequence& frames) {
   Faces faces;
-  for (const Frame& frame : clip.frames) {
-    faces[frame.face_id].push_back(frame);
+  for (const Frame& frame : frames) {
+    ++faces[frame.face_id];
   }
   return faces;
 }
 
 std::size_t count_named(const Faces& faces) { return faces.size() - (faces.contains(0) ? 1 : 0); }
 
-bool same_time_or_later(const Frame& a, const Frame& b) { return a.time_ns < b.time_ns; }
-
-// The frames of one face, and those without any.
-std::vector<Frame> only(const Faces& faces, std::int64_t id) {
-  std::vector<Frame> frames = faces.at(id);
-  if (id != 0 && faces.contains(0)) {
-    const std::vector<Frame>& nobody = faces.at(0);
-    frames.insert(frames.end(), nobody.begin(), nobody.end());
-    std::stable_sort(frames.begin(), frames.end(), same_time_or_later);
-  }
-  return frames;
-}
-
 std::int64_t most_seen(const Faces& faces) {
   const auto most = std::max_element(faces.begin(), faces.end(), [](const auto& a, const auto& b) {
-    return std::pair(a.first != 0, a.second.size()) < std::pair(b.first != 0, b.second.size());
+    return std::pair(a.first != 0, a.second) < std::pair(b.first != 0, b.second);
   });
   return most->first;
 }
 
-// At even times, each face by itself.
-std::vector<Frame> at_rate(const Clip& clip, double fps) {
-  constexpr double kMostFrames = 1e7;
-  const std::int64_t first_ns = clip.frames.front().time_ns;
-  const auto span_ns = static_cast<double>(clip.frames.back().time_ns - first_ns);
-  if (!(span_ns * 1e-9 * fps <= kMostFrames)) {
-    throw Failure(kExitUsage, "--fps: these would be more than ten million frames");
-  }
-  const Faces faces = by_face(clip);
-  if (count_named(faces) <= 1) {
-    return formats::resampled(clip.frames, fps, first_ns);
-  }
-  std::vector<Frame> all;
-  for (const auto& [id, frames] : faces) {
-    const std::vector<Frame> even = formats::resampled(frames, fps, first_ns);
-    all.insert(all.end(), even.begin(), even.end());
-  }
-  std::stable_sort(all.begin(), all.end(), same_time_or_later);
-  return all;
+// The frames of one face, and those without any.
+FrameSequence only(FrameSequence frames, std::int64_t id) {
+  FrameSequence kept;
+  frames.consume([&](const Frame& frame) {
+    if (frame.face_id == id || frame.face_id == 0) {
+      kept.push_back(frame);
+    }
+  });
+  return kept;
 }
 
-// What was lost on the way; also leaves one face where the format holds no more.
-std::vector<std::string> fit(Clip& clip, const ConvertOptions& options,
-                             formats::AnimationFormat format) {
-  std::vector<std::string> lost;
-  const Faces faces = by_face(clip);
+// Leaves one face where one was asked for, or the format holds no more, and says so.
+void choose_face(Clip& clip, const ConvertOptions& options, formats::AnimationFormat format,
+                 std::vector<std::string>& lost) {
+  const Faces faces = count_faces(clip.frames);
   if (options.face && !faces.contains(*options.face)) {
     throw Failure(kExitUsage, "--face: there is no face " + std::to_string(*options.face) + " in " +
                                   options.input);
@@ -86,32 +65,60 @@ std::vector<std::string> fit(Clip& clip, const ConvertOptions& options,
   const bool too_many = count_named(faces) > 1 && !formats::holds_several_faces(format);
   if (options.face || too_many) {
     const std::int64_t id = options.face.value_or(most_seen(faces));
-    clip.frames = only(faces, id);
+    clip.frames = only(std::move(clip.frames), id);
     if (!options.face) {
       lost.push_back("all faces but " + std::to_string(id) + ", the one seen most (--face)");
     }
   }
-  if (options.fps) {
-    clip.frames = at_rate(clip, *options.fps);
-  }
   if (clip.out_of_range > 0) {
     lost.push_back(std::to_string(clip.out_of_range) + " values beyond 0..1 were brought there");
   }
-  for (const std::string& what : formats::losses(clip, format)) {
-    lost.push_back(what);
-  }
-  return lost;
 }
 
+// Writes the frames of a clip, of which nothing is left then.
+class ClipWriter {
+ public:
+  ClipWriter(const AnimationTarget& target, const formats::WriteOptions& options)
+      : losses_(target.format), output_(target, options) {}
+
+  void write(FrameSequence frames) {
+    evenly_spaced_ = formats::evenly_spaced(frames);
+    for (auto at = frames.begin(); at != FrameSequence::end() && output_.wanted(); ++at) {
+      write_frame(*at);
+    }
+    output_.finish();
+  }
+
+  void write(EvenFrames& frames) {
+    evenly_spaced_ = true;
+    while (const std::optional<Frame> frame = output_.wanted() ? frames.next() : std::nullopt) {
+      write_frame(*frame);
+    }
+    output_.finish();
+  }
+
+  [[nodiscard]] std::size_t count() const { return count_; }
+  [[nodiscard]] std::vector<std::string> lost() const { return losses_.found(evenly_spaced_); }
+
+ private:
+  void write_frame(const Frame& frame) {
+    losses_.add(frame);
+    output_.frame(frame);
+    ++count_;
+  }
+
+  formats::Losses losses_;
+  AnimationOutput output_;
+  std::size_t count_ = 0;
+  bool evenly_spaced_ = false;
+};
+
 void report(const ConvertOptions& options, formats::AnimationFormat format, const Clip& clip,
-            const std::vector<std::string>& lost) {
+            std::size_t frames, const std::vector<std::string>& lost) {
   if (options.json) {
-    const nlohmann::ordered_json text = {{"input", options.input},
-                                         {"output", options.output},
-                                         {"format", formats::name(format)},
-                                         {"frames", clip.frames.size()},
-                                         {"notes", clip.notes},
-                                         {"left_out", lost}};
+    const nlohmann::ordered_json text = {
+        {"input", options.input}, {"output", options.output}, {"format", formats::name(format)},
+        {"frames", frames},       {"notes", clip.notes},      {"left_out", lost}};
     std::fprintf(stderr, "%s\n", json_text(text, -1).c_str());
     return;
   }
@@ -119,7 +126,7 @@ void report(const ConvertOptions& options, formats::AnimationFormat format, cons
     return;
   }
   print_notes(options.input, clip);
-  std::fprintf(stderr, "%s: %zu frames\n", shown(options.output).c_str(), clip.frames.size());
+  std::fprintf(stderr, "%s: %zu frames\n", shown(options.output).c_str(), frames);
   for (const std::string& what : lost) {
     std::fprintf(stderr, "  left out: %s\n", shown(what).c_str());
   }
@@ -164,18 +171,21 @@ void convert(const ConvertOptions& options) {
   Clip clip = parse_animation(read_whole(options.input), options.input, from,
                               reading_options(options, beside));
   require_distinct_files(beside, files_of(target));
-  const std::vector<std::string> lost = fit(clip, options, target.format);
-  const bool ids = std::any_of(clip.frames.begin(), clip.frames.end(),
-                               [](const Frame& frame) { return frame.face_id != 0; });
+  std::vector<std::string> lost;
+  choose_face(clip, options, target.format, lost);
   formats::WriteOptions writing = options.writing;
-  writing.several_faces = ids && formats::holds_several_faces(target.format);
+  writing.several_faces =
+      count_named(count_faces(clip.frames)) > 0 && formats::holds_several_faces(target.format);
   writing.sound_file = clip.sound_file;
-  AnimationOutput output(target, writing);
-  for (std::size_t i = 0; i < clip.frames.size() && output.wanted(); ++i) {
-    output.frame(clip.frames[i]);
+  std::optional<EvenFrames> even;
+  if (options.fps) {
+    even.emplace(std::move(clip.frames), *options.fps);
   }
-  output.finish();
-  report(options, target.format, clip, lost);
+  ClipWriter writer(target, writing);
+  even ? writer.write(*even) : writer.write(std::move(clip.frames));
+  const std::vector<std::string> of_format = writer.lost();
+  lost.insert(lost.end(), of_format.begin(), of_format.end());
+  report(options, target.format, clip, writer.count(), lost);
 }
 
 }  // namespace mien::app

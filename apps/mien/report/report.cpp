@@ -97,8 +97,11 @@ void Report::frame(const formats::Frame& frame, const Result& result) {
 double Report::start_ms() const { return frames_.empty() ? 0.0 : frames_.front().time_ms(); }
 
 double Report::end_ms() const {
-  const double last_ms = frames_.empty() ? 0.0 : frames_.back().time_ms();
-  return last_ms + formats::mean_step_s(frames_) * 1e3;
+  if (frames_.empty()) {
+    return formats::mean_step_s(0, 0, 0) * 1e3;
+  }
+  const std::int64_t first_ns = frames_.front().time_ns, last_ns = frames_.back().time_ns;
+  return frames_.back().time_ms() + formats::mean_step_s(first_ns, last_ns, frames_.size()) * 1e3;
 }
 
 Columns Report::columns() const {
