@@ -1,0 +1,24 @@
+// Times of an animation, however far from 0.
+#include "formats/animation/clip.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <random>
+
+namespace mien::formats {
+namespace {
+
+TEST(Clip, TimesBeforeZeroAreAsExactAsThoseAfter) {
+  std::mt19937_64 random(6);
+  std::uniform_int_distribution<std::int64_t> time(std::int64_t{1} << 53, kLastTime_ns);
+  for (int i = 0; i < 1000; ++i) {
+    Frame before, after;
+    after.time_ns = time(random);
+    before.time_ns = -after.time_ns;
+    EXPECT_EQ(before.time_ms(), -after.time_ms()) << after.time_ns;
+  }
+}
+
+}  // namespace
+}  // namespace mien::formats
