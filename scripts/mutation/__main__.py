@@ -19,11 +19,12 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 WORK = ROOT / "build/mutate"
 PAGE = ROOT / "docs/results/mutations.md"
 ARGUED = ROOT / "tests/equivalent_mutants.json"
+GOAL = 300  # mutants that compile and change the machine code
 
 
 def options():
     parser = argparse.ArgumentParser(prog="scripts/mutate.sh", description=__doc__.splitlines()[0])
-    parser.add_argument("--count", type=int, default=300, help="mutants that compile and change the machine code (default 300)")
+    parser.add_argument("--count", type=int, default=GOAL, help=f"mutants that compile and change the machine code (default {GOAL})")
     parser.add_argument("--seed", type=int, default=1, help="of the sample (default 1)")
     parser.add_argument("--workers", type=int, default=1, help="mutants at a time, each in a copy of the sources (default 1)")
     parser.add_argument("--results", type=pathlib.Path, default=WORK / "results.jsonl",
@@ -123,6 +124,8 @@ def write_page(known, argued, generated, seed):
     valid = sum(result["outcome"] in (KILLED, SURVIVED) for result in known)
     opening = (f"<!-- results -->\n\nCommit {commit}, seed {seed}: {len(known):,} of {generated:,} generated mutants were tried; {valid} of "
                "them compile and change the machine code.\n")
+    if valid < GOAL:
+        opening += f"\nThe run is not complete: `scripts/mutate.sh` goes on with it until there are {GOAL}.\n"
     PAGE.write_text(head + report.page(known, argued, opening))
 
 
