@@ -71,11 +71,11 @@ def test_damaged_films(tmp_path, clip):
         ffmpeg("-i", clip, "-c", "copy", "-movflags", "faststart", whole)
         damaged.write_bytes(whole.read_bytes()[:80000])
         rows = mien.track_file(damaged, lod=1, sound=False)
-        number = 0
+        times = []
         with pytest.raises(mien.MienError, match=r"truncated after \d+ frames"):
-            for number, row in enumerate(rows):
-                assert abs(row["time_s"] - number / 30) < 1.1e-3
-        assert number > 30
+            for row in rows:
+                times.append(row["time_s"])
+        assert len(times) > 30 and np.abs(np.diff(times) - 1 / 30).max() < 1.1e-3
     cut = tmp_path / "cut.mp4"  # its pictures before the cut are there, and are not shown
     ffmpeg("-ss", "1.5", "-i", clip, "-t", "1", "-c", "copy", cut)
     assert len(list(mien.track_file(cut, lod=1))) >= 30
