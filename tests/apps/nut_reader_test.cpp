@@ -15,8 +15,8 @@ namespace {
 constexpr double kOffsetS = 1000.0;
 
 std::vector<std::byte> made_by_ffmpeg(const std::string& options) {
-  const std::string command = "ffmpeg -v error -nostdin " + options +
-                              " -output_ts_offset 1000 -f nut - </dev/null";
+  const std::string command =
+      "ffmpeg -v error -nostdin " + options + " -output_ts_offset 1000 -f nut - </dev/null";
   std::FILE* pipe = popen(command.c_str(), "r");
   std::vector<std::byte> bytes;
   for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) {
@@ -68,8 +68,8 @@ TEST(NutReader, FindsPacketsAndTheirTimes) {
 
 // A time base of more than a second, and times of a day.
 TEST(NutReader, TimesOfSlowStreamsAreExact) {
-  const std::vector<std::byte> bytes = made_by_ffmpeg(
-      "-f lavfi -i color=s=4x4:r=3/10000 -frames:v 30 -c:v rawvideo -pix_fmt rgb24");
+  const std::vector<std::byte> bytes =
+      made_by_ffmpeg("-f lavfi -i color=s=4x4:r=3/10000 -frames:v 30 -c:v rawvideo -pix_fmt rgb24");
   if (bytes.empty()) {
     GTEST_SKIP() << "skipped: no ffmpeg here";
   }

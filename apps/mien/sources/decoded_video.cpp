@@ -7,11 +7,11 @@
 
 namespace mien::app {
 
-DecodedVideo::DecodedVideo(std::string input, const VideoRange& range, VideoInfo info,
+DecodedVideo::DecodedVideo(std::string input, const VideoRange& range, const VideoInfo& info,
                            std::shared_ptr<Decoder> decoder, std::size_t stream)
     : input_(std::move(input)),
       range_(range),
-      info_(std::move(info)),
+      info_(info),
       decoder_(std::move(decoder)),
       stream_(stream) {}
 

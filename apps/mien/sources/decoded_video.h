@@ -12,7 +12,7 @@ namespace mien::app {
 class DecodedVideo : public VideoSource {
  public:
   // `stream`: its number in what the decoder writes.
-  DecodedVideo(std::string input, const VideoRange& range, VideoInfo info,
+  DecodedVideo(std::string input, const VideoRange& range, const VideoInfo& info,
                std::shared_ptr<Decoder> decoder, std::size_t stream);
 
   const VideoInfo& info() const override { return info_; }
