@@ -177,6 +177,21 @@ TEST_F(ProgramRun, InputsThatAreNoArrayOfTheNetwork) {
   EXPECT_FALSE(fs::exists(path("y.npy")));
 }
 
+TEST_F(ProgramRun, TransposedInputsAreRejected) {
+  const std::string end = "--network encoder --output " + path("y.npy");
+  const std::vector<float> values(3 * 27 * 27);
+  for (const Shape& shape : {Shape{27, 27, 3}, Shape{27, 3, 27}, Shape{1, 27, 27, 3},
+                             Shape{3 * 27 * 27}, Shape{1, 3, 27 * 27}}) {
+    expect_one_line(run_on(save("x.npy", {shape, values}), end), 3,
+                    "its last axes should be (3, 27, 27)");
+  }
+  const std::string large = save("large.npy", {{20, 14, 3}, std::vector<float>(840)});
+  expect_one_line(
+      run_on(large, "--network pnet --output " + path("y.npy") + " --output " + path("z.npy")), 3,
+      "(3, 12, 12) or larger");
+  EXPECT_FALSE(fs::exists(path("y.npy")));
+}
+
 TEST_F(ProgramRun, ModelsAndOutputsThatAreNone) {
   const std::string input = save("x.npy", {{12}, std::vector<float>(12)});
   std::ofstream(path("bad.mien")) << "not a weight file";

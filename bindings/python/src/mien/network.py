@@ -53,16 +53,28 @@ class Network(Handle):
     def run(self, array: npt.ArrayLike) -> list[Floats]:
         """One run: every output as [channels, height, width], or [channels] of a vector.
 
-        array: [channels, height, width] with axes of 1 in front or not, as ONNX has it; of a network over time also
-        [steps, ...], one run each: outputs then have the steps in front.
+        array: [channels, height, width], or [channels] of a vector, or [channels, width] of a map of one row. Axes of 1 may be
+        in front, and one axis of steps, one run each: outputs then have the steps in front. Another shape raises ValueError, also
+        where the number of elements is right.
         """
         given = np.asarray(array, np.float32)
-        size = int(np.prod(self.input_shape))
-        if given.size == size:
+        front = given.shape[: given.ndim - self._item_axes(given.shape)]
+        steps = int(np.prod(front))
+        if steps == 1 and all(n == 1 for n in front):
             return self._step(given)
-        if given.ndim > 1 and given[0].size == size:
-            return [np.stack(outputs) for outputs in zip(*(self._step(step) for step in given))]
-        raise ValueError(f"an array of shape {given.shape} for an input of {tuple(self.input_shape)} (channels, height, width)")
+        maps = given.reshape(steps, *self.input_shape)
+        return [np.stack(outputs) for outputs in zip(*(self._step(step) for step in maps))]
+
+    def _item_axes(self, shape: tuple[int, ...]) -> int:
+        """How many of the last axes hold one input. Sizes have to match: an input in another order is an error, not other numbers."""
+        c, h, w = self.input_shape
+        items = [(c, h, w)] + ([(c,)] if h == w == 1 else [(c, w)] if h == 1 else [])
+        for item in items:
+            front = shape[: max(len(shape) - len(item), 0)]
+            if shape[len(front) :] == item and sum(n != 1 for n in front) <= 1 and 0 not in front:
+                return len(item)
+        wanted = " or ".join(str(item) for item in items)
+        raise ValueError(f"array: wrong shape (got {shape}, expected {wanted}, channels first; in front axes of 1 or one axis of steps)")
 
     def _step(self, array: Floats) -> list[Floats]:
         handle = self._open()
