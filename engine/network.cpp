@@ -53,7 +53,7 @@ mien_status status_of(Status status) {
   ShapeWalk walk(model.file().layers(network), form.input);
   while (walk.next()) {
   }
-  const Shape& first = walk.shape_of(network.outputs[0]);
+  const Shape& first = walk.shape_of(formats::output_value(network, 0));
   for (std::uint32_t i = 0; i < form.output_channels.size(); ++i) {
     if (form.output_channels[i] == 0) {
       continue;
@@ -61,7 +61,7 @@ mien_status status_of(Status status) {
     if (i >= network.output_count) {
       return false;
     }
-    const Shape& output = walk.shape_of(network.outputs[i]);
+    const Shape& output = walk.shape_of(formats::output_value(network, i));
     if (output.c != form.output_channels[i] || output.h != first.h || output.w != first.w) {
       return false;
     }

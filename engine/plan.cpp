@@ -74,8 +74,8 @@ Status Plan::infer(const Shape& input) {
       return Status::kUnsupportedLayout;
     }
   }
-  for (const std::uint32_t value : outputs()) {
-    values_[value].is_output = true;
+  for (std::uint32_t i = 0; i < output_count(); ++i) {
+    values_[output(i)].is_output = true;
   }
   // The layers fit together at the declared size; at this one they do not.
   return walk.status() == Status::kOk ? Status::kOk : Status::kWrongInput;

@@ -41,8 +41,9 @@ class Plan {
   [[nodiscard]] const formats::LayerRecord& layer(std::uint32_t i) const { return layers_[i]; }
   // 0 is the network's input, k the output of its k-th layer.
   [[nodiscard]] const Value& value(std::uint32_t i) const { return values_[i]; }
-  [[nodiscard]] std::span<const std::uint32_t> outputs() const {
-    return {network_->outputs, network_->output_count};
+  [[nodiscard]] std::uint32_t output_count() const { return network_->output_count; }
+  [[nodiscard]] std::uint32_t output(std::uint32_t i) const {
+    return formats::output_value(*network_, i);
   }
 
   // A layer before performs this one too.

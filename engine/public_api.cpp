@@ -54,6 +54,18 @@ const char* op_name(std::uint16_t op) {
       return "concat";
     case LayerOp::kSlice:
       return "slice";
+    case LayerOp::kMultiply:
+      return "multiply";
+    case LayerOp::kDivide:
+      return "divide";
+    case LayerOp::kBroadcastAdd:
+      return "broadcast_add";
+    case LayerOp::kResize:
+      return "resize";
+    case LayerOp::kRearrange:
+      return "rearrange";
+    case LayerOp::kNormalize:
+      return "normalize";
   }
   return "";
 }
@@ -76,6 +88,20 @@ const char* activation_name(std::uint16_t activation) {
       return "tanh";
     case LayerActivation::kClamp01:
       return "clamp01";
+    case LayerActivation::kHardSwish:
+      return "hard_swish";
+    case LayerActivation::kSwish:
+      return "swish";
+    case LayerActivation::kGelu:
+      return "gelu";
+    case LayerActivation::kGeluTanh:
+      return "gelu_tanh";
+    case LayerActivation::kErf:
+      return "erf";
+    case LayerActivation::kExp:
+      return "exp";
+    case LayerActivation::kSqrt:
+      return "sqrt";
   }
   return "";
 }

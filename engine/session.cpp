@@ -34,7 +34,8 @@ class SessionBuilder {
 SessionSize SessionBuilder::size() const {
   std::size_t bytes = aligned(sizeof(Session)) + aligned(plan_.step_count() * sizeof(Step)) +
                       aligned(plan_.input_elems() * sizeof(float));
-  for (const std::uint32_t value : plan_.outputs()) {
+  for (std::uint32_t i = 0; i < plan_.output_count(); ++i) {
+    const std::uint32_t value = plan_.output(i);
     bytes += aligned(blocked_elems(plan_.value(value).shape) * sizeof(float));
   }
   bytes += aligned(plan_.state_elems() * sizeof(float)) + aligned(plan_.weights_bytes());
@@ -78,8 +79,8 @@ void SessionBuilder::place_values(Session& session, std::span<std::byte> arena) 
   session.input_shape_ = plan_.value(0).shape;
   session.input_ = take_floats(plan_.input_elems());
   maps_[0] = session.input_.data();
-  for (const std::uint32_t value : plan_.outputs()) {
-    const std::uint32_t i = session.output_count_++;
+  for (std::uint32_t i = 0; i < plan_.output_count(); ++i) {
+    const std::uint32_t value = plan_.output(i);
     const Shape& shape = plan_.value(value).shape;
     const std::span<float> own = take_floats(blocked_elems(shape));
     // A value may be two outputs; both are the same memory.
@@ -87,6 +88,7 @@ void SessionBuilder::place_values(Session& session, std::span<std::byte> arena) 
     session.outputs_[i] = {maps_[value], own.size()};
     session.output_shapes_[i] = shape;
   }
+  session.output_count_ = plan_.output_count();
   for (std::uint32_t i = 1; i <= plan_.layer_count(); ++i) {
     if (plan_.value(i).in_arena) {
       maps_[i] = reinterpret_cast<float*>(arena.data() + plan_.value(i).arena_offset);

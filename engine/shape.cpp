@@ -37,6 +37,18 @@ bool is_centre_slice(const Shape& small, const Shape& large) {
          (large.h - small.h) % 2 == 0 && (large.w - small.w) % 2 == 0;
 }
 
+bool is_broadcast(std::int32_t from, std::int32_t to) { return from == to || from == 1; }
+
+bool is_broadcast(const Shape& b, const Shape& a) {
+  return is_broadcast(b.h, a.h) && is_broadcast(b.w, a.w) && is_broadcast(b.c, a.c);
+}
+
+// A factor of 0 stands for the declared size. Too large a product is too large a map.
+std::int32_t resized(std::int32_t size, std::int32_t factor, std::uint32_t declared) {
+  const std::int64_t all = factor == 0 ? std::int64_t{declared} : std::int64_t{size} * factor;
+  return static_cast<std::int32_t>(all <= INT32_MAX ? all : INT32_MAX);
+}
+
 }  // namespace
 
 bool is_allowed(const Shape& shape) {
@@ -79,8 +91,25 @@ Status infer_shape(const LayerRecord& layer, const Shape& input, const Shape& se
       output = input;
       suits = is_centre_slice(input, second);
       break;
+    case LayerOp::kMultiply:
+    case LayerOp::kDivide:
+    case LayerOp::kBroadcastAdd:
+      output = input;
+      suits = is_broadcast(second, input);
+      break;
+    case LayerOp::kResize:
+      output = {resized(input.h, layer.stride_height, layer.height),
+                resized(input.w, layer.stride_width, layer.width), input.c};
+      break;
+    case LayerOp::kRearrange:
+      output = {static_cast<std::int32_t>(layer.height), static_cast<std::int32_t>(layer.width),
+                channels};
+      suits = output.pixels() * static_cast<std::size_t>(output.c) ==
+              input.pixels() * static_cast<std::size_t>(input.c);
+      break;
     case LayerOp::kActivation:
     case LayerOp::kSoftmax:
+    case LayerOp::kNormalize:
       output = input;
       break;
     case LayerOp::kGlobalAveragePool:
@@ -134,6 +163,12 @@ LayerCost layer_cost(const LayerRecord& layer, const Shape& input, const Shape& 
     case LayerOp::kGlobalAveragePool:
     case LayerOp::kConcat:
     case LayerOp::kSlice:
+    case LayerOp::kMultiply:
+    case LayerOp::kDivide:
+    case LayerOp::kBroadcastAdd:
+    case LayerOp::kResize:
+    case LayerOp::kRearrange:
+    case LayerOp::kNormalize:
       cost.parameters = has_slopes ? out : 0;
       break;
   }

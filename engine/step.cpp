@@ -12,6 +12,7 @@ using formats::LayerActivation;
 using formats::LayerOp;
 using formats::LayerRecord;
 using kernels::Activation;
+using kernels::Curve;
 
 namespace {
 
@@ -33,8 +34,66 @@ Activation kind_of(LayerActivation activation) {
       return Activation::kTanh;
     case LayerActivation::kClamp01:
       return Activation::kClamp01;
+    default:  // curves, which only layers of their own have
+      return Activation::kNone;
   }
-  return Activation::kNone;
+}
+
+// False where an activation is none of the curves.
+bool is_curve(LayerActivation activation, Curve& curve) {
+  switch (activation) {
+    case LayerActivation::kHardSwish:
+      curve = Curve::kHardSwish;
+      return true;
+    case LayerActivation::kSwish:
+      curve = Curve::kSwish;
+      return true;
+    case LayerActivation::kGelu:
+      curve = Curve::kGelu;
+      return true;
+    case LayerActivation::kGeluTanh:
+      curve = Curve::kGeluTanh;
+      return true;
+    case LayerActivation::kErf:
+      curve = Curve::kErf;
+      return true;
+    case LayerActivation::kExp:
+      curve = Curve::kExp;
+      return true;
+    case LayerActivation::kSqrt:
+      curve = Curve::kSqrt;
+      return true;
+    default:
+      return false;
+  }
+}
+
+kernels::ResizeArgs resize(const LayerRecord& l, const Shape& x, const Shape& y) {
+  kernels::ResizeArgs args{};
+  args.in_h = x.h;
+  args.in_w = x.w;
+  args.out_h = y.h;
+  args.out_w = y.w;
+  args.channels = y.c;
+  args.grid = static_cast<kernels::Grid>(l.flags % formats::kResizeGrids);
+  args.sampling = static_cast<kernels::Sampling>(l.flags / formats::kResizeGrids);
+  return args;
+}
+
+kernels::RearrangeArgs rearrange(const LayerRecord& l, const Shape& x, const Shape& y) {
+  constexpr std::uint8_t kOrders[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2},
+                                          {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
+  kernels::RearrangeArgs args{};
+  args.in_h = x.h;
+  args.in_w = x.w;
+  args.in_c = x.c;
+  args.out_h = y.h;
+  args.out_w = y.w;
+  args.out_c = y.c;
+  for (int i = 0; i < 3; ++i) {
+    args.order[i] = static_cast<kernels::Axis>(kOrders[l.flags][i]);
+  }
+  return args;
 }
 
 std::int32_t vector_elems(const Shape& shape) {
@@ -129,9 +188,14 @@ Status StepMaker::make(std::uint32_t layer, const Memory& own, Step& step) const
       return put(max_pool(l, x, y), step);
     case LayerOp::kAdd:
       return put(add(l, x, y), step);
-    case LayerOp::kActivation:
+    case LayerOp::kActivation: {
+      Curve curve{};
+      if (is_curve(static_cast<LayerActivation>(l.activation), curve)) {
+        return put(kernels::CurveArgs{x.data, y.data, curve, pixels(y.shape), y.shape.c}, step);
+      }
       return put(kernels::ActivateArgs{x.data, y.data, activation(l), pixels(y.shape), y.shape.c},
                  step);
+    }
     case LayerOp::kSoftmax:
       return put(kernels::SoftmaxArgs{x.data, y.data, pixels(y.shape), y.shape.c}, step);
     case LayerOp::kGlobalAveragePool:
@@ -140,6 +204,26 @@ Status StepMaker::make(std::uint32_t layer, const Memory& own, Step& step) const
       return put(concat(l, x, y), step);
     case LayerOp::kSlice:
       return put(slice(l, x, y), step);
+    case LayerOp::kMultiply:
+      return put(combine(kernels::Combination::kProduct, l, x, y), step);
+    case LayerOp::kDivide:
+      return put(combine(kernels::Combination::kQuotient, l, x, y), step);
+    case LayerOp::kBroadcastAdd:
+      return put(combine(kernels::Combination::kSum, l, x, y), step);
+    case LayerOp::kResize: {
+      kernels::ResizeArgs args = resize(l, x.shape, y.shape);
+      args.x = x.data;
+      args.y = y.data;
+      return put(args, step);
+    }
+    case LayerOp::kRearrange: {
+      kernels::RearrangeArgs args = rearrange(l, x.shape, y.shape);
+      args.x = x.data;
+      args.y = y.data;
+      return put(args, step);
+    }
+    case LayerOp::kNormalize:
+      return put(kernels::NormalizeArgs{x.data, y.data, l.alpha, pixels(y.shape), y.shape.c}, step);
   }
   return Status::kNoKernel;
 }
@@ -291,6 +375,21 @@ kernels::ResidualAddArgs StepMaker::add(const LayerRecord& l, Map x, Map y) cons
   const Map residual = map(l.second_input);
   set_residual(residual.shape, y.shape, residual.data, args);
   return args;
+}
+
+kernels::CombineArgs StepMaker::combine(kernels::Combination kind, const LayerRecord& l, Map x,
+                                        Map y) const {
+  const Map second = map(l.second_input);
+  return {x.data,
+          second.data,
+          y.data,
+          kind,
+          y.shape.h,
+          y.shape.w,
+          y.shape.c,
+          second.shape.h == 1 && y.shape.h > 1,
+          second.shape.w == 1 && y.shape.w > 1,
+          second.shape.c == 1 && y.shape.c > 1};
 }
 
 kernels::ConcatArgs StepMaker::concat(const LayerRecord& l, Map x, Map y) const {

@@ -69,6 +69,8 @@ class StepMaker {
                                                      Map y);
   [[nodiscard]] kernels::ResidualAddArgs add(const formats::LayerRecord& layer, Map x, Map y) const;
 
+  [[nodiscard]] kernels::CombineArgs combine(kernels::Combination kind,
+                                             const formats::LayerRecord& layer, Map x, Map y) const;
   [[nodiscard]] kernels::ConcatArgs concat(const formats::LayerRecord& layer, Map x, Map y) const;
   [[nodiscard]] static kernels::SliceArgs slice(const formats::LayerRecord& layer, Map x, Map y);
 

@@ -1,4 +1,4 @@
-// The byte layout of weight files (.mien), version 1.1. docs/format.md is the specification; this
+// The byte layout of weight files (.mien), version 1.2. docs/format.md is the specification; this
 // header spells its tables out. All numbers are little-endian; numbers once used are never reused.
 #pragma once
 
@@ -14,7 +14,7 @@ namespace mien::formats {
 
 inline constexpr std::uint8_t kMagic[8] = {0x89, 'M', 'I', 'E', 'N', 0x0D, 0x0A, 0x1A};
 inline constexpr std::uint16_t kMajorVersion = 1;
-inline constexpr std::uint16_t kMinorVersion = 1;
+inline constexpr std::uint16_t kMinorVersion = 2;
 inline constexpr std::uint32_t kEndianTag = 0x01020304;
 
 // Sections and tensors begin at multiples of this, and so does the file in memory.
@@ -32,7 +32,8 @@ inline constexpr std::uint32_t kMaxRank = 4;
 inline constexpr std::uint32_t kMaxDim = 1u << 20;
 inline constexpr std::uint64_t kMaxFileBytes = std::uint64_t{1} << 31;
 inline constexpr std::uint64_t kMaxMapElems = std::uint64_t{1} << 28;  // of one blocked map
-inline constexpr std::uint32_t kMaxOutputs = 4;
+inline constexpr std::uint32_t kMaxOutputs = 14;
+inline constexpr std::uint32_t kMaxWideOutputs = 4;  // as many are 32-bit numbers
 inline constexpr std::uint16_t kMaxKernel = 15;
 inline constexpr std::uint16_t kMaxStride = 15;
 
@@ -52,6 +53,12 @@ enum class LayerOp : std::uint16_t {
   kGlobalAveragePool = 11,  // this and what follows: since version 1.1
   kConcat = 12,
   kSlice = 13,
+  kMultiply = 14,  // this and what follows: since version 1.2
+  kDivide = 15,
+  kBroadcastAdd = 16,
+  kResize = 17,
+  kRearrange = 18,
+  kNormalize = 19,
 };
 
 enum class LayerActivation : std::uint16_t {
@@ -63,6 +70,13 @@ enum class LayerActivation : std::uint16_t {
   kSigmoid = 5,
   kTanh = 6,
   kClamp01 = 7,
+  kHardSwish = 8,  // this and what follows: since version 1.2, of kActivation alone
+  kSwish = 9,
+  kGelu = 10,
+  kGeluTanh = 11,
+  kErf = 12,
+  kExp = 13,
+  kSqrt = 14,
 };
 
 enum class DataType : std::uint16_t {
@@ -98,9 +112,16 @@ struct NetworkRecord {
   std::uint32_t first_layer;
   std::uint32_t layer_count;
   std::uint32_t output_count;
-  std::uint32_t outputs[kMaxOutputs];  // values of the network (see LayerRecord), unused ones 0
-  std::uint32_t reserved[3];
+  // Values of the network (see LayerRecord), unused ones 0. Up to kMaxWideOutputs of them are
+  // 32-bit numbers and take two places each: output_value reads, output_place says where they are.
+  std::uint16_t outputs[kMaxOutputs];
 };
+[[nodiscard]] constexpr std::uint32_t output_place(std::uint32_t output_count, std::uint32_t i) {
+  return output_count <= kMaxWideOutputs ? 2 * i : i;
+}
+[[nodiscard]] constexpr std::uint32_t output_value(const NetworkRecord& network, std::uint32_t i) {
+  return network.outputs[output_place(network.output_count, i)];
+}
 // Runs on every map at least as large as the declared one.
 inline constexpr std::uint32_t kAnySize = 1;
 
@@ -109,18 +130,43 @@ struct LayerRecord {
   std::uint16_t op;
   std::uint16_t activation;
   std::uint32_t input;                    // a value smaller than this layer's own
-  std::uint32_t second_input;             // of kAdd and kConcat, else kNoIndex
+  std::uint32_t second_input;             // of ops that take two, else kNoIndex
   std::uint32_t height, width, channels;  // of the output, at the network's declared input size
   std::uint16_t kernel_height, kernel_width;
-  std::uint16_t stride_height, stride_width;
+  std::uint16_t stride_height, stride_width;               // of kResize: see format.md
   std::uint16_t pad_top, pad_left, pad_bottom, pad_right;  // of kSlice: rows, columns cut off
-  std::uint16_t flags;                                     // kCeilMode
-  std::uint16_t first_channel;                             // of kSlice, else 0
+  std::uint16_t flags;          // kCeilMode; of kResize and kRearrange: see below
+  std::uint16_t first_channel;  // of kSlice, else 0
   float alpha;
   std::uint32_t weights, bias, slopes;  // tensors, or kNoIndex
   std::uint32_t reserved_tail;
 };
 inline constexpr std::uint16_t kCeilMode = 1;  // pooling: a last, partly filled window counts
+
+// flags of kResize: a ResizeGrid and, times 4, a ResizeSampling.
+enum class ResizeGrid : std::uint16_t { kHalfPixel = 0, kAsymmetric = 1, kAlignCorners = 2 };
+enum class ResizeSampling : std::uint16_t {
+  kRoundHalfDown = 0,
+  kRoundHalfUp = 1,
+  kFloor = 2,
+  kCeil = 3,
+  kBilinear = 4,
+};
+inline constexpr std::uint16_t kResizeGrids = 4;
+[[nodiscard]] constexpr std::uint16_t resize_flags(ResizeGrid grid, ResizeSampling sampling) {
+  return static_cast<std::uint16_t>(static_cast<std::uint16_t>(grid) +
+                                    kResizeGrids * static_cast<std::uint16_t>(sampling));
+}
+
+// flags of kRearrange: in which order the input is read, the outermost axis first.
+enum class ReadingOrder : std::uint16_t {
+  kRowColumnChannel = 0,
+  kRowChannelColumn = 1,
+  kColumnRowChannel = 2,
+  kColumnChannelRow = 3,
+  kChannelRowColumn = 4,
+  kChannelColumnRow = 5,
+};
 
 struct TensorRecord {
   StringRef name;  // empty unless it is a constant

@@ -19,6 +19,13 @@ bool takes_vector(LayerOp op) { return op == LayerOp::kCausalConv || op == Layer
 
 bool has_fixed_input(LayerOp op) { return takes_vector(op) || op == LayerOp::kFullyConnected; }
 
+// Has no meaning for maps of another size than declared.
+bool has_fixed_size(const LayerRecord& layer) {
+  const bool resizes_to =
+      op_of(layer) == LayerOp::kResize && (layer.stride_height == 0 || layer.stride_width == 0);
+  return has_fixed_input(op_of(layer)) || op_of(layer) == LayerOp::kRearrange || resizes_to;
+}
+
 bool chooses_channels(LayerOp op) {
   return has_fixed_input(op) || op == LayerOp::kConv2d || op == LayerOp::kPointwise;
 }
@@ -29,20 +36,24 @@ bool may_activate(LayerOp op) {
                               : op == LayerOp::kDepthwise || op == LayerOp::kActivation;
 }
 
-FileStatus check_activation(const LayerRecord& layer) {
-  const bool known = layer.activation <= static_cast<std::uint16_t>(LayerActivation::kClamp01);
+FileStatus check_activation(const LayerRecord& layer, std::uint16_t minor_version) {
+  const bool known = layer.activation <= static_cast<std::uint16_t>(LayerActivation::kSqrt) &&
+                     version_needed(activation_of(layer)) <= minor_version;
   const bool none = activation_of(layer) == LayerActivation::kNone;
-  const bool admitted = none ? op_of(layer) != LayerOp::kActivation : may_activate(op_of(layer));
+  const bool alone = activation_of(layer) >= LayerActivation::kHardSwish;
+  const bool is_activation = op_of(layer) == LayerOp::kActivation;
+  const bool admitted = none ? !is_activation : alone ? is_activation : may_activate(op_of(layer));
   if (!known || !admitted) {
     return FileStatus::kBadActivation;
   }
-  const bool leaky = activation_of(layer) == LayerActivation::kLeakyRelu;
+  const bool has_alpha =
+      activation_of(layer) == LayerActivation::kLeakyRelu || op_of(layer) == LayerOp::kNormalize;
   // As bits, which are in the order of the numbers from +0 on, and behind them are NaNs and what
   // has a sign: as numbers denormal ones would be zero or not as the caller's floating-point state
   // has it.
   const auto alpha = std::bit_cast<std::uint32_t>(layer.alpha);
   const bool below_one = alpha < std::bit_cast<std::uint32_t>(1.0f);
-  const bool admitted_alpha = leaky ? alpha > 0 && below_one : alpha == 0;
+  const bool admitted_alpha = has_alpha ? alpha > 0 && below_one : alpha == 0;
   return admitted_alpha ? FileStatus::kOk : FileStatus::kBadActivation;
 }
 
@@ -61,10 +72,26 @@ bool no_margins(const LayerRecord& layer) {
   return (layer.pad_top | layer.pad_left | layer.pad_bottom | layer.pad_right) == 0;
 }
 
+bool flags_allowed(const LayerRecord& layer) {
+  switch (op_of(layer)) {
+    case LayerOp::kMaxPool:
+      return layer.flags <= kCeilMode;
+    case LayerOp::kResize:
+      return layer.flags % kResizeGrids <= static_cast<std::uint16_t>(ResizeGrid::kAlignCorners) &&
+             layer.flags / kResizeGrids <= static_cast<std::uint16_t>(ResizeSampling::kBilinear);
+    case LayerOp::kRearrange:
+      return layer.flags <= static_cast<std::uint16_t>(ReadingOrder::kChannelColumnRow);
+    default:
+      return layer.flags == 0;
+  }
+}
+
 bool geometry_allowed(const LayerRecord& layer) {
-  const std::uint16_t allowed_flags = op_of(layer) == LayerOp::kMaxPool ? kCeilMode : 0;
-  if (layer.flags > allowed_flags) {
+  if (!flags_allowed(layer)) {
     return false;
+  }
+  if (op_of(layer) == LayerOp::kResize) {
+    return (layer.kernel_height | layer.kernel_width) == 0 && no_margins(layer);
   }
   if (!slides(op_of(layer))) {
     return no_window(layer) && (op_of(layer) == LayerOp::kSlice || no_margins(layer));
@@ -111,6 +138,31 @@ ValueShape sliced_shape(const LayerRecord& layer, ValueShape input) {
 ValueShape concatenated_shape(ValueShape a, ValueShape b) {
   const bool same_size = a.height == b.height && a.width == b.width;
   return same_size ? ValueShape{a.height, a.width, a.channels + b.channels} : ValueShape{};
+}
+
+bool broadcasts(LayerOp op) {
+  return op == LayerOp::kMultiply || op == LayerOp::kDivide || op == LayerOp::kBroadcastAdd;
+}
+
+bool is_broadcast(std::uint64_t from, std::uint64_t to) { return from == to || from == 1; }
+
+bool is_broadcast(ValueShape b, ValueShape a) {
+  return is_broadcast(b.height, a.height) && is_broadcast(b.width, a.width) &&
+         is_broadcast(b.channels, a.channels);
+}
+
+ValueShape resized_shape(const LayerRecord& layer, ValueShape input) {
+  const bool suits = layer.stride_height == resize_factor(input.height, layer.height) &&
+                     layer.stride_width == resize_factor(input.width, layer.width);
+  return suits ? ValueShape{layer.height, layer.width, input.channels} : ValueShape{};
+}
+
+ValueShape rearranged_shape(const LayerRecord& layer, ValueShape input) {
+  const ValueShape output = shape_of(layer);
+  return shape_allowed(output) && output.height * output.width * output.channels ==
+                                      input.height * input.width * input.channels
+             ? output
+             : ValueShape{};
 }
 
 // b is at least as large as a, by an even number of rows and columns.
@@ -201,12 +253,38 @@ LayerTensor weights_of(const LayerRecord& layer, ValueShape input) {
     case LayerOp::kGlobalAveragePool:
     case LayerOp::kConcat:
     case LayerOp::kSlice:
+    case LayerOp::kMultiply:
+    case LayerOp::kDivide:
+    case LayerOp::kBroadcastAdd:
+    case LayerOp::kResize:
+    case LayerOp::kRearrange:
+    case LayerOp::kNormalize:
       break;
   }
   return {};
 }
 
 }  // namespace
+
+FileStatus check_outputs(const NetworkRecord& network, std::uint16_t minor_version,
+                         std::uint32_t& place) {
+  const std::uint32_t count = network.output_count;
+  place = kNoIndex;
+  if (count == 0 || count > kMaxOutputs || version_needed(network) > minor_version) {
+    return FileStatus::kBadNetwork;
+  }
+  const std::uint32_t width = output_place(count, 1);  // places of one
+  for (place = 0; place < kMaxOutputs; ++place) {
+    const std::uint32_t value = network.outputs[place];
+    const bool used = place % width == 0 && place / width < count;
+    if (used ? value == 0 || value > network.layer_count : value != 0) {
+      const bool reserved = count <= kMaxWideOutputs && place >= 2 * kMaxWideOutputs;
+      place = reserved ? 2 * kMaxWideOutputs : place;
+      return reserved ? FileStatus::kReservedNotZero : FileStatus::kBadNetwork;
+    }
+  }
+  return FileStatus::kOk;
+}
 
 bool shape_allowed(ValueShape shape) {
   for (const std::uint64_t dim : {shape.height, shape.width, shape.channels}) {
@@ -220,11 +298,11 @@ bool shape_allowed(ValueShape shape) {
 FileStatus check_layer(const LayerRecord& layer, std::uint32_t value, std::uint32_t network_flags,
                        std::uint16_t minor_version) {
   if (layer.op < static_cast<std::uint16_t>(LayerOp::kConv2d) ||
-      layer.op > static_cast<std::uint16_t>(LayerOp::kSlice) ||
-      version_needed(layer) > minor_version) {
+      layer.op > static_cast<std::uint16_t>(LayerOp::kNormalize) ||
+      version_needed(op_of(layer)) > minor_version) {
     return FileStatus::kBadOp;
   }
-  if (network_flags == kAnySize && has_fixed_input(op_of(layer))) {
+  if (network_flags == kAnySize && has_fixed_size(layer)) {
     return FileStatus::kBadOp;
   }
   const bool slices = op_of(layer) == LayerOp::kSlice;
@@ -239,14 +317,15 @@ FileStatus check_layer(const LayerRecord& layer, std::uint32_t value, std::uint3
   if (!geometry_allowed(layer)) {
     return FileStatus::kBadKernel;
   }
-  return check_activation(layer);
+  return check_activation(layer, minor_version);
 }
 
 ValueShape output_shape(const LayerRecord& layer, ValueShape input, ValueShape second) {
   const LayerOp op = op_of(layer);
   const bool refused = (takes_vector(op) && (input.height != 1 || input.width != 1)) ||
                        (op == LayerOp::kLstm && layer.channels % 8 != 0) ||
-                       (op == LayerOp::kAdd && !has_centre_slice(input, second));
+                       (op == LayerOp::kAdd && !has_centre_slice(input, second)) ||
+                       (broadcasts(op) && !is_broadcast(second, input));
   if (refused) {
     return {};
   }
@@ -262,6 +341,10 @@ ValueShape output_shape(const LayerRecord& layer, ValueShape input, ValueShape s
       return concatenated_shape(input, second);
     case LayerOp::kSlice:
       return sliced_shape(layer, input);
+    case LayerOp::kResize:
+      return resized_shape(layer, input);
+    case LayerOp::kRearrange:
+      return rearranged_shape(layer, input);
     default:
       break;
   }

@@ -57,13 +57,31 @@ struct LayerTensors {
 
 // Whether the op reads a second value.
 [[nodiscard]] constexpr bool takes_two(LayerOp op) {
-  return op == LayerOp::kAdd || op == LayerOp::kConcat;
+  return op == LayerOp::kAdd || op == LayerOp::kConcat || op == LayerOp::kMultiply ||
+         op == LayerOp::kDivide || op == LayerOp::kBroadcastAdd;
 }
 
 // The minor version of the format that a layer needs.
-[[nodiscard]] constexpr std::uint16_t version_needed(const LayerRecord& layer) {
-  return layer.op >= static_cast<std::uint16_t>(LayerOp::kGlobalAveragePool) ? 1 : 0;
+[[nodiscard]] constexpr std::uint16_t version_needed(LayerOp op) {
+  return op >= LayerOp::kMultiply ? 2 : op >= LayerOp::kGlobalAveragePool ? 1 : 0;
 }
+[[nodiscard]] constexpr std::uint16_t version_needed(LayerActivation activation) {
+  return activation >= LayerActivation::kHardSwish ? 2 : 0;
+}
+[[nodiscard]] constexpr std::uint16_t version_needed(const LayerRecord& layer) {
+  const std::uint16_t activation = version_needed(static_cast<LayerActivation>(layer.activation));
+  return activation > 0 ? activation : version_needed(op_of(layer));
+}
+
+// The same of a network's own record.
+[[nodiscard]] constexpr std::uint16_t version_needed(const NetworkRecord& network) {
+  return network.output_count > kMaxWideOutputs ? 2 : 0;
+}
+
+// Whether outputs are the right number of values of the network, and nothing is beside them.
+// `place`: of the field at fault in NetworkRecord::outputs; kNoIndex where it is their count.
+[[nodiscard]] FileStatus check_outputs(const NetworkRecord& network, std::uint16_t minor_version,
+                                       std::uint32_t& place);
 
 // All dimensions in 1..kMaxDim and the map, blocked, within kMaxMapElems.
 [[nodiscard]] bool shape_allowed(ValueShape shape);
@@ -73,10 +91,19 @@ struct LayerTensors {
 [[nodiscard]] FileStatus check_layer(const LayerRecord& layer, std::uint32_t value,
                                      std::uint32_t network_flags, std::uint16_t minor_version);
 
-// The output of a checked layer for these inputs, its declared height and width aside; `second`
-// counts for ops that take two. Zeros where the layer cannot take such inputs.
+// The output of a checked layer for these inputs, its declared height and width aside, which count
+// where inputs leave them open; `second` counts for ops that take two. Zeros where the layer cannot
+// take such inputs.
 [[nodiscard]] ValueShape output_shape(const LayerRecord& layer, ValueShape input,
                                       ValueShape second);
+
+// Of kResize, rows or columns: how many times as large the output is, 0 where that is no whole
+// number.
+[[nodiscard]] constexpr std::uint16_t resize_factor(std::uint64_t from, std::uint64_t to) {
+  constexpr std::uint64_t kMost = 0xFFFF;
+  return from != 0 && to % from == 0 && to / from <= kMost ? static_cast<std::uint16_t>(to / from)
+                                                           : std::uint16_t{0};
+}
 
 // The tensors of a checked layer with this input.
 [[nodiscard]] LayerTensors tensors_of(const LayerRecord& layer, ValueShape input);

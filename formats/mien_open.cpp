@@ -109,7 +109,6 @@ class Validator {
   bool padding(std::uint64_t begin, std::uint64_t end);
   bool networks();
   bool network(const NetworkRecord& record);
-  bool outputs(const NetworkRecord& record);
   bool layer(const NetworkRecord& network, std::uint32_t index);
   bool layer_tensor(const std::uint32_t& index, const LayerTensor& tensor);
   bool constants();
@@ -380,9 +379,6 @@ bool Validator::networks() {
 }
 
 bool Validator::network(const NetworkRecord& record) {
-  if (!is_zero(record.reserved)) {
-    return fail_at(FileStatus::kReservedNotZero, record.reserved);
-  }
   if (!shape_allowed({record.input_height, record.input_width, record.input_channels})) {
     return fail_at(FileStatus::kBadNetwork, record.input_height);
   }
@@ -399,21 +395,11 @@ bool Validator::network(const NetworkRecord& record) {
       return false;
     }
   }
-  return outputs(record);
-}
-
-bool Validator::outputs(const NetworkRecord& record) {
-  if (record.output_count == 0 || record.output_count > kMaxOutputs) {
-    return fail_at(FileStatus::kBadNetwork, record.output_count);
-  }
-  for (std::uint32_t i = 0; i < kMaxOutputs; ++i) {
-    const std::uint32_t& value = record.outputs[i];
-    const bool used = i < record.output_count;
-    if (used ? (value == 0 || value > record.layer_count) : value != 0) {
-      return fail_at(FileStatus::kBadNetwork, value);
-    }
-  }
-  return true;
+  version_needed_ = std::max(version_needed_, version_needed(record));
+  std::uint32_t place = kNoIndex;
+  const FileStatus status = check_outputs(record, header.minor_version, place);
+  return status == FileStatus::kOk || (place == kNoIndex ? fail_at(status, record.output_count)
+                                                         : fail_at(status, record.outputs[place]));
 }
 
 ValueShape Validator::value_shape(const NetworkRecord& network, std::uint32_t value) const {

@@ -2,36 +2,12 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstring>
 #include <utility>
 
-#include "formats/checked.h"
-#include "formats/fp16.h"
-#include "formats/xxhash64.h"
+#include "formats/writer_bytes.h"
 
 namespace mien::formats {
 namespace {
-
-template <class T>
-std::span<const std::byte> bytes_of(const std::vector<T>& values) {
-  return std::as_bytes(std::span(values));
-}
-
-void append_bytes(std::vector<std::byte>* file, std::span<const std::byte> bytes) {
-  file->insert(file->end(), bytes.begin(), bytes.end());
-}
-
-void align(std::vector<std::byte>* file) {
-  file->resize((file->size() + kFileAlignment - 1) / kFileAlignment * kFileAlignment);
-}
-
-std::uint64_t count_of(std::span<const std::uint32_t> shape) {
-  std::uint64_t count = 1;
-  for (const std::uint32_t dim : shape) {
-    count *= dim;
-  }
-  return count;
-}
 
 // Whether the array is [dims..., 1, 1, ...] and not empty.
 bool has_shape(const Array& array, std::initializer_list<std::uint64_t> dims) {
@@ -48,31 +24,11 @@ std::uint32_t dim(const Array& array, std::size_t i) {
   return i < array.shape.size() ? array.shape[i] : 0;
 }
 
-TensorRecord tensor_record(DataType type, const TensorDims& dims) {
-  TensorRecord record{};
-  record.type = static_cast<std::uint16_t>(type);
-  record.rank = static_cast<std::uint16_t>(dims.rank);
-  std::transform(dims.dim, dims.dim + kMaxRank, record.dims,
-                 [](std::uint64_t n) { return static_cast<std::uint32_t>(n); });
-  return record;
-}
-
 void set_margins(LayerRecord* record, const Padding& padding) {
   record->pad_top = padding.top;
   record->pad_left = padding.left;
   record->pad_bottom = padding.bottom;
   record->pad_right = padding.right;
-}
-
-// The reader wants the file aligned, which a vector of bytes is not.
-Validation validated(std::span<const std::byte> file) {
-  struct alignas(kFileAlignment) Line {
-    std::byte bytes[kFileAlignment];
-  };
-  std::vector<Line> copy(file.size() / sizeof(Line));
-  std::memcpy(copy.data(), file.data(), file.size());
-  FileView view;
-  return open(std::as_bytes(std::span(copy)), view);
 }
 
 }  // namespace
@@ -135,8 +91,11 @@ bool NetworkWriter::place(LayerRecord* record) {
   const bool two = takes_two(op_of(*record));
   const ValueShape output =
       output_shape(*record, input, two ? shape_of_value(record->second_input) : input);
-  record->height = static_cast<std::uint32_t>(output.height);
-  record->width = static_cast<std::uint32_t>(output.width);
+  const bool declares = op_of(*record) == LayerOp::kResize || op_of(*record) == LayerOp::kRearrange;
+  if (!declares) {
+    record->height = static_cast<std::uint32_t>(output.height);
+    record->width = static_cast<std::uint32_t>(output.width);
+  }
   return require(shape_allowed(output), FileStatus::kBadShape) && status_ == FileStatus::kOk;
 }
 
@@ -257,10 +216,54 @@ LayerIndex NetworkWriter::max_pool(LayerIndex x, std::uint32_t kernel_h, std::ui
   return append(std::move(layer), {}, {}, options);
 }
 
-LayerIndex NetworkWriter::add(LayerIndex a, LayerIndex b, const LayerOptions& options) {
-  Layer layer = begin(LayerOp::kAdd, a, options);
+LayerIndex NetworkWriter::of_two(LayerOp op, LayerIndex a, LayerIndex b,
+                                 const LayerOptions& options) {
+  Layer layer = begin(op, a, options);
   layer.record.second_input = b;
   return append(std::move(layer), {}, {}, options);
+}
+
+LayerIndex NetworkWriter::add(LayerIndex a, LayerIndex b, const LayerOptions& options) {
+  return of_two(LayerOp::kAdd, a, b, options);
+}
+
+LayerIndex NetworkWriter::multiply(LayerIndex a, LayerIndex b, const LayerOptions& options) {
+  return of_two(LayerOp::kMultiply, a, b, options);
+}
+
+LayerIndex NetworkWriter::divide(LayerIndex a, LayerIndex b, const LayerOptions& options) {
+  return of_two(LayerOp::kDivide, a, b, options);
+}
+
+LayerIndex NetworkWriter::broadcast_add(LayerIndex a, LayerIndex b, const LayerOptions& options) {
+  return of_two(LayerOp::kBroadcastAdd, a, b, options);
+}
+
+LayerIndex NetworkWriter::resize(LayerIndex x, std::uint32_t height, std::uint32_t width,
+                                 ResizeGrid grid, ResizeSampling sampling,
+                                 const LayerOptions& options) {
+  Layer layer = begin(LayerOp::kResize, x, options);
+  const ValueShape input = shape_of_value(x);
+  layer.record.height = height;
+  layer.record.width = width;
+  layer.record.stride_height = resize_factor(input.height, height);
+  layer.record.stride_width = resize_factor(input.width, width);
+  layer.record.flags = resize_flags(grid, sampling);
+  return append(std::move(layer), {}, {}, options);
+}
+
+LayerIndex NetworkWriter::rearrange(LayerIndex x, ReadingOrder order, InputShape shape,
+                                    const LayerOptions& options) {
+  Layer layer = begin(LayerOp::kRearrange, x, options);
+  layer.record.height = shape.height;
+  layer.record.width = shape.width;
+  layer.record.channels = shape.channels;
+  layer.record.flags = static_cast<std::uint16_t>(order);
+  return append(std::move(layer), {}, {}, options);
+}
+
+LayerIndex NetworkWriter::normalize(LayerIndex x, const LayerOptions& options) {
+  return append(begin(LayerOp::kNormalize, x, options), {}, {}, options);
 }
 
 LayerIndex NetworkWriter::global_average_pool(LayerIndex x, const LayerOptions& options) {
@@ -293,17 +296,15 @@ LayerIndex NetworkWriter::softmax(LayerIndex x, const LayerOptions& options) {
 }
 
 void NetworkWriter::output(LayerIndex x) {
-  const auto* last = record_.outputs + record_.output_count;
-  if (require(x >= 1 && x <= layers_.size() && record_.output_count < kMaxOutputs &&
-                  std::find(static_cast<const std::uint32_t*>(record_.outputs), last, x) == last,
+  const bool is_new = std::find(outputs_.begin(), outputs_.end(), x) == outputs_.end();
+  if (require(x >= 1 && x <= layers_.size() && outputs_.size() < kMaxOutputs && is_new,
               FileStatus::kBadReference)) {
-    record_.outputs[record_.output_count++] = x;
+    outputs_.push_back(x);
   }
 }
 
 bool NetworkWriter::uses(LayerIndex value) const {
-  const auto* last = record_.outputs + record_.output_count;
-  return std::find(static_cast<const std::uint32_t*>(record_.outputs), last, value) != last ||
+  return std::find(outputs_.begin(), outputs_.end(), value) != outputs_.end() ||
          std::any_of(layers_.begin(), layers_.end(), [&](const Layer& layer) {
            return layer.record.input == value || layer.record.second_input == value;
          });
@@ -319,168 +320,6 @@ FileStatus NetworkWriter::status() const {
     }
   }
   return FileStatus::kOk;
-}
-
-NetworkWriter& MienWriter::network(std::string name, InputShape input, bool any_size) {
-  networks_.push_back(NetworkWriter(std::move(name), input, any_size));
-  return networks_.back();
-}
-
-void MienWriter::constant(std::string name, const Array& array, DataType type) {
-  TensorDims dims{static_cast<std::uint32_t>(array.shape.size()), {}};
-  if (dims.rank == 0 || dims.rank > kMaxRank || count_of(array.shape) != array.values.size()) {
-    status_ = FileStatus::kBadDims;
-    return;
-  }
-  std::copy(array.shape.begin(), array.shape.end(), dims.dim);
-  NetworkWriter::Tensor tensor{tensor_record(type, dims), {}};
-  if (type == DataType::kFloat16) {
-    Halves halves(array.values.size());
-    std::transform(array.values.begin(), array.values.end(), halves.begin(), fp16_from_float);
-    append_bytes(&tensor.data, bytes_of(halves));
-  } else {
-    append_bytes(&tensor.data, bytes_of(array.values));
-  }
-  constants_.push_back({std::move(name), std::move(tensor)});
-}
-
-void MienWriter::metadata(const std::string& key, std::string value) {
-  metadata_[key] = std::move(value);
-}
-
-struct FileSections {
-  std::vector<NetworkRecord> networks;
-  std::vector<LayerRecord> layers;
-  std::vector<TensorRecord> tensors;
-  std::vector<MetadataRecord> metadata;
-  std::string strings;
-  std::vector<std::byte> data;  // of the tensors, whose offsets count from its start
-
-  StringRef add_string(const std::string& string) {
-    const StringRef ref = {static_cast<std::uint32_t>(strings.size()),
-                           static_cast<std::uint32_t>(string.size())};
-    strings += string;
-    return ref;
-  }
-
-  std::uint32_t add_tensor(TensorRecord record, const std::string& name,
-                           const std::vector<std::byte>& values) {
-    record.name = add_string(name);
-    record.offset = data.size();
-    record.bytes = values.size();
-    append_bytes(&data, values);
-    align(&data);
-    tensors.push_back(record);
-    return static_cast<std::uint32_t>(tensors.size() - 1);
-  }
-};
-
-namespace {
-
-// The smallest that the layers need.
-std::uint16_t minor_version_of(const std::vector<LayerRecord>& layers) {
-  std::uint16_t version = 0;
-  for (const LayerRecord& layer : layers) {
-    version = std::max(version, version_needed(layer));
-  }
-  return version;
-}
-
-FileHeader file_header(const FileSections& sections) {
-  FileHeader header{};
-  std::copy(std::begin(kMagic), std::end(kMagic), header.magic);
-  header.major_version = kMajorVersion;
-  header.minor_version = minor_version_of(sections.layers);
-  header.endian_tag = kEndianTag;
-  header.header_bytes = sizeof(FileHeader);
-  header.network_count = static_cast<std::uint32_t>(sections.networks.size());
-  header.layer_count = static_cast<std::uint32_t>(sections.layers.size());
-  header.tensor_count = static_cast<std::uint32_t>(sections.tensors.size());
-  header.metadata_count = static_cast<std::uint32_t>(sections.metadata.size());
-  header.string_bytes = static_cast<std::uint32_t>(sections.strings.size());
-  const std::uint64_t records = bytes_of(sections.networks).size() +
-                                bytes_of(sections.layers).size() +
-                                bytes_of(sections.tensors).size() +
-                                bytes_of(sections.metadata).size() + sections.strings.size();
-  header.data_offset = Checked(sizeof(FileHeader) + records).aligned(kFileAlignment).value();
-  header.total_bytes = header.data_offset + sections.data.size();
-  return header;
-}
-
-std::vector<std::byte> assembled(FileSections sections) {
-  FileHeader header = file_header(sections);
-  for (TensorRecord& tensor : sections.tensors) {
-    tensor.offset += header.data_offset;
-  }
-  std::vector<std::byte> file;
-  append_bytes(&file, std::as_bytes(std::span(&header, 1)));
-  append_bytes(&file, bytes_of(sections.networks));
-  append_bytes(&file, bytes_of(sections.layers));
-  append_bytes(&file, bytes_of(sections.tensors));
-  append_bytes(&file, bytes_of(sections.metadata));
-  append_bytes(&file, std::as_bytes(std::span(sections.strings)));
-  align(&file);
-  append_bytes(&file, sections.data);
-  header.checksum = xxhash64_with_hole(file, offsetof(FileHeader, checksum));
-  std::memcpy(file.data(), &header, sizeof header);
-  return file;
-}
-
-}  // namespace
-
-// Networks and layers in order; says what is wrong with the first network at fault.
-FileStatus MienWriter::add_networks(FileSections* sections) const {
-  for (const NetworkWriter& network : networks_) {
-    if (const FileStatus status = network.status(); status != FileStatus::kOk) {
-      return status;
-    }
-    NetworkRecord record = network.record_;
-    record.name = sections->add_string(network.name_);
-    record.first_layer = static_cast<std::uint32_t>(sections->layers.size());
-    record.layer_count = static_cast<std::uint32_t>(network.layers_.size());
-    sections->networks.push_back(record);
-    for (const NetworkWriter::Layer& layer : network.layers_) {
-      sections->layers.push_back(layer.record);
-    }
-  }
-  return status_;
-}
-
-void MienWriter::add_tensors(FileSections* sections) const {
-  const auto add = [&](const NetworkWriter::Tensor& tensor) {
-    return tensor.data.empty() ? kNoIndex : sections->add_tensor(tensor.record, "", tensor.data);
-  };
-  auto record = sections->layers.begin();
-  for (const NetworkWriter& network : networks_) {
-    for (const NetworkWriter::Layer& layer : network.layers_) {
-      record->weights = add(layer.weights);
-      record->bias = add(layer.bias);
-      record->slopes = add(layer.slopes);
-      ++record;
-    }
-  }
-  for (const Constant& constant : constants_) {
-    sections->add_tensor(constant.tensor.record, constant.name, constant.tensor.data);
-  }
-}
-
-Validation MienWriter::finish(std::vector<std::byte>* file) const {
-  file->clear();
-  FileSections sections;
-  if (const FileStatus status = add_networks(&sections); status != FileStatus::kOk) {
-    return {status, 0};
-  }
-  add_tensors(&sections);
-  for (const auto& [key, value] : metadata_) {
-    const StringRef name = sections.add_string(key);
-    sections.metadata.push_back({name, sections.add_string(value)});
-  }
-  std::vector<std::byte> bytes = assembled(std::move(sections));
-  const Validation validation = validated(bytes);
-  if (validation.status == FileStatus::kOk) {
-    *file = std::move(bytes);
-  }
-  return validation;
 }
 
 }  // namespace mien::formats

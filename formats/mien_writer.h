@@ -35,7 +35,7 @@ struct Padding {
 
 struct LayerOptions {
   LayerActivation activation = LayerActivation::kNone;
-  float alpha = 0;            // of kLeakyRelu
+  float alpha = 0;            // of kLeakyRelu, of normalize
   std::vector<float> slopes;  // of kPrelu, one per output channel
   std::uint16_t stride_y = 1;
   std::uint16_t stride_x = 1;
@@ -82,6 +82,17 @@ class NetworkWriter {
   // `channels` channels from `first_channel` on, without the rows and columns of options.padding
   LayerIndex slice(LayerIndex x, std::uint16_t first_channel, std::uint32_t channels,
                    const LayerOptions& options = {});
+  // a times, divided by, plus b, which is as high, wide and deep as a or 1 in any of the three
+  LayerIndex multiply(LayerIndex a, LayerIndex b, const LayerOptions& options = {});
+  LayerIndex divide(LayerIndex a, LayerIndex b, const LayerOptions& options = {});
+  LayerIndex broadcast_add(LayerIndex a, LayerIndex b, const LayerOptions& options = {});
+  LayerIndex resize(LayerIndex x, std::uint32_t height, std::uint32_t width, ResizeGrid grid,
+                    ResizeSampling sampling, const LayerOptions& options = {});
+  // the elements of x, read in that order, as a map of that shape
+  LayerIndex rearrange(LayerIndex x, ReadingOrder order, InputShape shape,
+                       const LayerOptions& options = {});
+  // mean 0 and variance 1 of the channels of each pixel; options.alpha is added to the variance
+  LayerIndex normalize(LayerIndex x, const LayerOptions& options);
   LayerIndex activation(LayerIndex x, const LayerOptions& options);
   LayerIndex softmax(LayerIndex x, const LayerOptions& options = {});
   void output(LayerIndex x);
@@ -100,6 +111,7 @@ class NetworkWriter {
 
   ValueShape shape_of_value(LayerIndex value);
   Layer begin(LayerOp op, LayerIndex x, const LayerOptions& options);
+  LayerIndex of_two(LayerOp op, LayerIndex a, LayerIndex b, const LayerOptions& options);
   static void slide(LayerRecord* record, std::uint32_t kernel_h, std::uint32_t kernel_w,
                     const LayerOptions& options);
   LayerIndex dense(Layer layer, const Array& weight, const ReductionOrder& order,
@@ -114,6 +126,7 @@ class NetworkWriter {
 
   std::string name_;
   NetworkRecord record_{};
+  std::vector<LayerIndex> outputs_;
   std::vector<Layer> layers_;
   FileStatus status_ = FileStatus::kOk;  // the first fault
 };

@@ -19,18 +19,26 @@ from array import array
 from whole_files import write_whole
 
 OPS = {"conv2d": 1, "depthwise": 2, "pointwise": 3, "fully_connected": 4, "causal_conv": 5, "lstm": 6, "max_pool": 7,
-       "add": 8, "activation": 9, "softmax": 10, "global_average_pool": 11, "concat": 12, "slice": 13}
+       "add": 8, "activation": 9, "softmax": 10, "global_average_pool": 11, "concat": 12, "slice": 13, "multiply": 14,
+       "divide": 15, "broadcast_add": 16, "resize": 17, "rearrange": 18, "normalize": 19}
 ACTIVATIONS = {"none": 0, "relu": 1, "relu6": 2, "leaky_relu": 3, "prelu": 4, "sigmoid": 5, "tanh": 6, "clamp01": 7}
+CURVES = {"hard_swish": 8, "swish": 9, "gelu": 10, "gelu_tanh": 11, "erf": 12, "exp": 13, "sqrt": 14}  # only layers of their own have these
 SLIDING = ("conv2d", "depthwise", "max_pool")
-PASSIVE = ("lstm", "max_pool", "add", "softmax", "global_average_pool", "concat", "slice")  # have no activation
-SINCE = {"global_average_pool": 1, "concat": 1, "slice": 1}  # minor version of the format
+TWO_SIZES = ("multiply", "divide", "broadcast_add")  # of which the second may be smaller
+PASSIVE = ("lstm", "max_pool", "add", "softmax", "global_average_pool", "concat", "slice", *TWO_SIZES, "resize", "rearrange", "normalize")  # have no activation
+SINCE = {"global_average_pool": 1, "concat": 1, "slice": 1, **dict.fromkeys((*TWO_SIZES, "resize", "rearrange", "normalize", *CURVES), 2)}  # minor version of the format
 FP16, FP32 = 1, 2
 NO_INDEX = 0xFFFFFFFF
 ANY_SIZE, CEIL_MODE = 1, 1
 ALIGNMENT = 64
 HEADER_BYTES = RECORD_BYTES = 64
 CHECKSUM_AT = 56
-MAX_NETWORKS, MAX_LAYERS, MAX_TENSORS, MAX_METADATA, MAX_OUTPUTS = 64, 1024, 4096, 256, 4
+MAX_NETWORKS, MAX_LAYERS, MAX_TENSORS, MAX_METADATA, MAX_OUTPUTS = 64, 1024, 4096, 256, 14
+MAX_WIDE_OUTPUTS = 4  # as many are 32-bit numbers
+MAX_FACTOR = (1 << 16) - 1  # of a resize
+GRIDS = ("half_pixel", "asymmetric", "align_corners")
+SAMPLINGS = ("round_half_down", "round_half_up", "floor", "ceil", "bilinear")
+READING_ORDERS = ("hwc", "hcw", "whc", "wch", "chw", "cwh")
 MAX_TEXT_BYTES, MAX_FILE_BYTES, MAX_MAP_ELEMS = 4096, 1 << 31, 1 << 28
 MAX_DIM, MAX_RANK, MAX_KERNEL, MAX_STRIDE = 1 << 20, 4, 15, 15
 MAX_MARGIN = (1 << 16) - 1  # of a slice, and its first channel
@@ -66,7 +74,7 @@ class MienFile:
         tensors += [tensor for _, tensor in self._constants]
         metadata = [struct.pack("<4I", *strings.add(_name(key)), *strings.add(_text(value)))
                     for key, value in sorted(self.metadata.items())]
-        version = max((SINCE.get(layer.op, 0) for network in self._networks for layer in network.layers), default=0)
+        version = max(network.version() for network in self._networks) if self._networks else 0
         return _assemble(version, networks, layers, list(zip(names, tensors)), metadata, bytes(strings.data))
 
     def write(self, path):
@@ -181,6 +189,35 @@ class Network:
         layer.first_channel = first_channel
         return self._add(layer, [], options)
 
+    def multiply(self, a, b, **options):
+        """a times b, which is as high, wide and deep as a, or 1 in any of the three."""
+        return self._add(_Layer("multiply", [a, b], self._shape(a)[2]), [], options)
+
+    def divide(self, a, b, **options):
+        return self._add(_Layer("divide", [a, b], self._shape(a)[2]), [], options)
+
+    def broadcast_add(self, a, b, **options):
+        return self._add(_Layer("broadcast_add", [a, b], self._shape(a)[2]), [], options)
+
+    def resize(self, x, height, width, grid, sampling, **options):
+        """grid: one of GRIDS, sampling: one of SAMPLINGS"""
+        _require(grid in GRIDS and sampling in SAMPLINGS, f"resize: {grid}, {sampling}")
+        h, w, channels = self._shape(x)
+        layer = _Layer("resize", [x], channels, stride=(_factor(h, height), _factor(w, width)))
+        layer.flags, layer.declared = GRIDS.index(grid) + 4 * SAMPLINGS.index(sampling), (height, width)
+        return self._add(layer, [], options)
+
+    def rearrange(self, x, order, shape, **options):
+        """The elements of x, read in an order of READING_ORDERS (the outermost axis first), as a map (h, w, c)."""
+        _require(order in READING_ORDERS, f"rearrange: {order}")
+        layer = _Layer("rearrange", [x], shape[2])
+        layer.flags, layer.declared = READING_ORDERS.index(order), tuple(shape[:2])
+        return self._add(layer, [], options)
+
+    def normalize(self, x, epsilon, **options):
+        """Mean 0 and variance 1 of the channels of each pixel."""
+        return self._add(_Layer("normalize", [x], self._shape(x)[2]), [], {"alpha": epsilon, **options})
+
     def activation(self, x, activation, **options):
         _require(activation != "none", "activation: none")
         return self._add(_Layer("activation", [x], self._shape(x)[2]), [], {"activation": activation, **options})
@@ -199,9 +236,17 @@ class Network:
         for value in range(1, len(self.shapes)):
             _require(value in used, f"{self.name}: nobody uses the output of layer {value}")
         _require(self.outputs, f"{self.name}: no output")
-        outputs = self.outputs + [0] * (MAX_OUTPUTS - len(self.outputs))
-        return struct.pack("<2I3I4I4I12x", *name, *self.shapes[0], ANY_SIZE if self.any_size else 0, first_layer,
+        outputs = self.outputs
+        if len(outputs) <= MAX_WIDE_OUTPUTS:
+            outputs = [place for value in outputs for place in (value, 0)]
+        outputs = outputs + [0] * (MAX_OUTPUTS - len(outputs))
+        return struct.pack("<2I3I4I14H", *name, *self.shapes[0], ANY_SIZE if self.any_size else 0, first_layer,
                            len(self.layers), len(self.outputs), *outputs)
+
+    def version(self):
+        """The minor version of the format that it needs."""
+        names = [name for layer in self.layers for name in (layer.op, layer.activation)]
+        return max([SINCE.get(name, 0) for name in names] + [2 if len(self.outputs) > MAX_WIDE_OUTPUTS else 0])
 
     def _shape(self, x):
         _require(0 <= x < len(self.shapes), f"{self.name}: no value {x}")
@@ -216,7 +261,8 @@ class Network:
         layer.set_activation(options)
         layer.shape = layer.output_shape([self._shape(x) for x in layer.inputs])
         layer.tensors = tensors
-        _require(not self.any_size or layer.op not in ("fully_connected", "causal_conv", "lstm"),
+        one_size = layer.op in ("fully_connected", "causal_conv", "lstm", "rearrange") or layer.op == "resize" and 0 in layer.stride
+        _require(not self.any_size or not one_size,
                  f"{self.name}: {layer.op} in a network of any size")
         self.layers.append(layer)
         self.shapes.append(layer.shape)
@@ -227,6 +273,7 @@ class _Layer:
     def __init__(self, op, inputs, channels, kernel=0, stride=0, padding=0):
         self.op, self.inputs, self.channels, self.flags, self.first_channel = op, inputs, channels, 0, 0
         self.kernel, self.stride, self.padding = _pair(kernel), _pair(stride), _four(padding)
+        self.declared = None  # height and width, where they do not follow from the input's
 
     def set_activation(self, options):
         options = dict(options)
@@ -234,9 +281,10 @@ class _Layer:
         self.alpha = options.pop("alpha", 0.0)
         slopes = options.pop("slopes", None)
         _require(not options, f"{self.op}: no option {sorted(options)}")
-        _require(self.activation in ACTIVATIONS, f"no activation {self.activation}")
+        _require(self.activation in ACTIVATIONS or self.activation in CURVES and self.op == "activation", f"no activation {self.activation}")
         _require(self.activation == "none" or self.op not in PASSIVE, f"{self.op} with {self.activation}")
-        _require(0 < self.alpha < 1 if self.activation == "leaky_relu" else self.alpha == 0, f"alpha {self.alpha}")
+        has_alpha = self.activation == "leaky_relu" or self.op == "normalize"
+        _require(0 < self.alpha < 1 if has_alpha else self.alpha == 0, f"alpha {self.alpha}")
         _require((slopes is not None) == (self.activation == "prelu"), f"{self.op}: slopes belong to prelu")
         self.slopes = [_vector(slopes, self.channels)] if slopes is not None else []
 
@@ -249,11 +297,17 @@ class _Layer:
             _require(shapes[0][:2] == shapes[1][:2], f"concat of {shapes}")
         if self.op == "slice":
             h, w = self._cut(shapes[0])
+        if self.op in TWO_SIZES:
+            _require(all(b in (a, 1) for a, b in zip(*shapes)), f"{self.op} of {shapes}")
+        if self.declared:
+            h, w = self.declared
+        if self.op == "rearrange":
+            _require(h * w * self.channels == math.prod(shapes[0]), f"rearrange of {shapes[0]} as {(h, w, self.channels)}")
         if self.op in SLIDING:
             top, left, bottom, right = self.padding
             h = self._slide(h, self.kernel[0], self.stride[0], top, bottom)
             w = self._slide(w, self.kernel[1], self.stride[1], left, right)
-        _require(1 <= self.channels <= MAX_DIM and h <= MAX_DIM and w <= MAX_DIM
+        _require(1 <= self.channels <= MAX_DIM and 1 <= h <= MAX_DIM and 1 <= w <= MAX_DIM
                  and h * w * _round_up_8(self.channels) <= MAX_MAP_ELEMS, f"{self.op}: output {(h, w, self.channels)}")
         return h, w, self.channels
 
@@ -280,7 +334,7 @@ class _Layer:
         weights, bias = (first, first + 1) if self.tensors else (NO_INDEX, NO_INDEX)
         slopes = first + len(self.tensors) if self.slopes else NO_INDEX
         tensors += self.tensors + self.slopes
-        return struct.pack("<2H2I3I8H2Hf4I", OPS[self.op], ACTIVATIONS[self.activation],
+        return struct.pack("<2H2I3I8H2Hf4I", OPS[self.op], {**ACTIVATIONS, **CURVES}[self.activation],
                            *(self.inputs + [NO_INDEX])[:2], *self.shape, *self.kernel, *self.stride, *self.padding,
                            self.flags, self.first_channel, self.alpha, weights, bias, slopes, 0)
 
@@ -312,6 +366,12 @@ class _Strings:
         encoded = text.encode()
         self.data += encoded
         return len(self.data) - len(encoded), len(encoded)
+
+
+def _factor(size, resized):
+    """How many times as large it is; 0 where that is no whole number."""
+    factor, rest = divmod(resized, size)
+    return factor if rest == 0 and factor <= MAX_FACTOR else 0
 
 
 def xxhash64(data):

@@ -191,5 +191,78 @@ TEST(Layers, SlicesOfRowsColumnsAndChannels) {
   expect_layer({1, 1, 12}, [](TwinNetwork& net) { return net.slice(0, 4, 8); });
 }
 
+TEST(Layers, CurvesThatNoOtherLayerHas) {
+  for (const LayerActivation kind :
+       {LayerActivation::kHardSwish, LayerActivation::kSwish, LayerActivation::kGelu,
+        LayerActivation::kGeluTanh, LayerActivation::kErf, LayerActivation::kExp}) {
+    for (const std::uint32_t channels : {5u, 8u, 19u}) {
+      expect_layer({3, 4, channels},
+                   [&](TwinNetwork& net) { return net.activation(0, activating(kind)); });
+    }
+  }
+  expect_layer({3, 4, 11}, [](TwinNetwork& net) {
+    return net.activation(net.multiply(0, 0), activating(LayerActivation::kSqrt));
+  });
+}
+
+// Of a map, one row, one column, one pixel; of all channels, of one.
+TEST(Layers, ProductsQuotientsAndSumsWithMapsThatAreBroadcast) {
+  for (const InputShape b :
+       {InputShape{6, 7, 11}, {1, 7, 11}, {6, 1, 11}, {1, 1, 11}, {6, 7, 1}, {1, 1, 1}}) {
+    const auto second = [&](TwinNetwork& net) {
+      const auto rows = static_cast<std::uint16_t>(b.height == 1 ? 5 : 0);
+      const auto columns = static_cast<std::uint16_t>(b.width == 1 ? 6 : 0);
+      const auto part = net.slice(0, 0, b.channels, strided(1, 1, {rows, columns, 0, 0}));
+      return net.activation(part, activating(LayerActivation::kExp));  // not zero
+    };
+    expect_layer({6, 7, 11}, [&](TwinNetwork& net) { return net.multiply(0, second(net)); });
+    expect_layer({6, 7, 11}, [&](TwinNetwork& net) { return net.divide(0, second(net)); });
+    expect_layer({6, 7, 11}, [&](TwinNetwork& net) { return net.broadcast_add(0, second(net)); });
+  }
+}
+
+TEST(Layers, MapsInAnotherSize) {
+  using formats::ResizeGrid;
+  using formats::ResizeSampling;
+  for (const auto grid :
+       {ResizeGrid::kHalfPixel, ResizeGrid::kAsymmetric, ResizeGrid::kAlignCorners}) {
+    for (const auto sampling :
+         {ResizeSampling::kRoundHalfDown, ResizeSampling::kRoundHalfUp, ResizeSampling::kFloor,
+          ResizeSampling::kCeil, ResizeSampling::kBilinear}) {
+      for (const auto& [h, w] : {std::pair{10u, 12u}, {7u, 13u}, {3u, 2u}, {1u, 1u}, {5u, 6u}}) {
+        expect_layer({5, 6, 9}, [&, h = h, w = w](TwinNetwork& net) {
+          return net.resize(0, h, w, grid, sampling);
+        });
+      }
+    }
+  }
+}
+
+TEST(Layers, RearrangementsInEveryOrder) {
+  for (std::uint16_t order = 0; order < 6; ++order) {
+    const auto read = static_cast<formats::ReadingOrder>(order);
+    for (const InputShape shape : {InputShape{1, 1, 360}, {5, 6, 12}, {12, 30, 1}, {9, 2, 20}}) {
+      expect_layer({6, 5, 12}, [&](TwinNetwork& net) { return net.rearrange(0, read, shape); });
+    }
+  }
+}
+
+TEST(Layers, NormalizationOfChannels) {
+  for (const std::uint32_t channels : {5u, 8u, 19u, 40u}) {
+    expect_layer({4, 3, channels}, [](TwinNetwork& net) { return net.normalize(0, 1e-5f); });
+  }
+}
+
+TEST(Layers, FourteenOutputs) {
+  for (const std::uint32_t tier : tiers_here()) {
+    formats::MienWriter writer;
+    TwinNetwork twin(writer.network("net", {3, 4, 9}), {3, 4, 9}, 5);
+    for (std::uint32_t i = 0; i < formats::kMaxOutputs; ++i) {
+      twin.output(twin.pointwise(0, i + 1));
+    }
+    ASSERT_NO_FATAL_FAILURE(expect_twins_agree(writer, "net", twin, tier));
+  }
+}
+
 }  // namespace
 }  // namespace mien::tests

@@ -30,6 +30,20 @@ double activated(double x, const LayerOptions& options, std::size_t channel) {
       return std::tanh(x);
     case LayerActivation::kClamp01:
       return x < 0 ? 0 : x > 1 ? 1 : x;
+    case LayerActivation::kHardSwish:
+      return x <= -3 ? 0 : x >= 3 ? x : x * (x + 3) / 6;
+    case LayerActivation::kSwish:
+      return x / (1 + std::exp(-x));
+    case LayerActivation::kGelu:
+      return x * (1 + std::erf(x / std::sqrt(2.0))) / 2;
+    case LayerActivation::kGeluTanh:
+      return x * (1 + std::tanh(0.7978845608028654 * (x + 0.044715 * x * x * x))) / 2;
+    case LayerActivation::kErf:
+      return std::erf(x);
+    case LayerActivation::kExp:
+      return std::exp(x);
+    case LayerActivation::kSqrt:
+      return std::sqrt(x);
   }
   return x;
 }
@@ -217,6 +231,103 @@ Map plain_slice(const Map& x, std::size_t first, std::size_t channels, const Lay
     value = x.at(row + o.padding.top, column + o.padding.left, first + c);
   });
   return y;
+}
+
+Map plain_combine(const Map& a, const Map& b, double (*function)(double, double)) {
+  Map y = a;
+  for_elements(y, [&](std::size_t row, std::size_t column, std::size_t c, double& value) {
+    value = function(value, b.at(row % b.h, column % b.w, c % b.c));
+  });
+  return y;
+}
+
+namespace {
+
+double place_in(std::size_t i, std::size_t in, std::size_t out, formats::ResizeGrid grid) {
+  const auto from = static_cast<double>(in), to = static_cast<double>(out);
+  const auto at = static_cast<double>(i);
+  switch (grid) {
+    case formats::ResizeGrid::kHalfPixel:
+      return (at + 0.5) * from / to - 0.5;
+    case formats::ResizeGrid::kAsymmetric:
+      return at * from / to;
+    case formats::ResizeGrid::kAlignCorners:
+      break;
+  }
+  return out > 1 ? at * (from - 1) / (to - 1) : 0;
+}
+
+double rounded(double at, formats::ResizeSampling sampling) {
+  switch (sampling) {
+    case formats::ResizeSampling::kRoundHalfDown:
+      return std::ceil(at - 0.5 - 1e-9);
+    case formats::ResizeSampling::kRoundHalfUp:
+      return std::floor(at + 0.5 + 1e-9);
+    case formats::ResizeSampling::kFloor:
+      return std::floor(at + 1e-9);
+    case formats::ResizeSampling::kCeil:
+      return std::ceil(at - 1e-9);
+    case formats::ResizeSampling::kBilinear:
+      break;
+  }
+  return at;
+}
+
+}  // namespace
+
+Map plain_resize(const Map& x, std::size_t h, std::size_t w, formats::ResizeGrid grid,
+                 formats::ResizeSampling sampling) {
+  Map y(h, w, x.c);
+  for_elements(y, [&](std::size_t row, std::size_t column, std::size_t c, double& value) {
+    const auto inside = [&](std::size_t i, std::size_t in, std::size_t out) {
+      const double at = rounded(place_in(i, in, out, grid), sampling);
+      return std::clamp(at, 0.0, static_cast<double>(in - 1));
+    };
+    const double v = inside(row, x.h, h), u = inside(column, x.w, w);
+    value = 0;
+    for (std::size_t i = 0; i < x.h; ++i) {
+      for (std::size_t j = 0; j < x.w; ++j) {
+        const double near_v = std::max(0.0, 1 - std::abs(v - static_cast<double>(i)));
+        const double near_u = std::max(0.0, 1 - std::abs(u - static_cast<double>(j)));
+        value += near_v * near_u * x.at(i, j, c);
+      }
+    }
+  });
+  return y;
+}
+
+Map plain_rearrange(const Map& x, formats::ReadingOrder order, const Map& shape) {
+  const char* names[] = {"hwc", "hcw", "whc", "wch", "chw", "cwh"};
+  const char* name = names[static_cast<std::size_t>(order)];
+  const auto size = [&](char axis) { return axis == 'h' ? x.h : axis == 'w' ? x.w : x.c; };
+  Map y(shape.h, shape.w, shape.c);
+  for (std::size_t element = 0; element < y.values.size(); ++element) {
+    std::size_t rest = element, h = 0, w = 0, c = 0;
+    for (int i = 2; i >= 0; --i) {
+      std::size_t& at = name[i] == 'h' ? h : name[i] == 'w' ? w : c;
+      at = rest % size(name[i]);
+      rest /= size(name[i]);
+    }
+    y.values[element] = x.at(h, w, c);
+  }
+  return y;
+}
+
+Map plain_normalize(Map x, double epsilon) {
+  for (std::size_t p = 0; p < x.h * x.w; ++p) {
+    double* pixel = x.values.data() + p * x.c;
+    double mean = 0, square = 0;
+    for (std::size_t c = 0; c < x.c; ++c) {
+      mean += pixel[c] / static_cast<double>(x.c);
+    }
+    for (std::size_t c = 0; c < x.c; ++c) {
+      square += (pixel[c] - mean) * (pixel[c] - mean) / static_cast<double>(x.c);
+    }
+    for (std::size_t c = 0; c < x.c; ++c) {
+      pixel[c] = (pixel[c] - mean) / std::sqrt(square + epsilon);
+    }
+  }
+  return x;
 }
 
 }  // namespace mien::tests

@@ -55,4 +55,12 @@ Map plain_concat(const Map& a, const Map& b);
 Map plain_slice(const Map& x, std::size_t first, std::size_t channels,
                 const formats::LayerOptions& options);
 
+// b may be of one row, column or channel.
+Map plain_combine(const Map& a, const Map& b, double (*function)(double, double));
+Map plain_resize(const Map& x, std::size_t h, std::size_t w, formats::ResizeGrid grid,
+                 formats::ResizeSampling sampling);
+// Of `shape` only the size counts.
+Map plain_rearrange(const Map& x, formats::ReadingOrder order, const Map& shape);
+Map plain_normalize(Map x, double epsilon);
+
 }  // namespace mien::tests

@@ -158,6 +158,47 @@ TwinNetwork::Index TwinNetwork::slice(Index x, std::uint16_t first_channel, std:
                 });
 }
 
+TwinNetwork::Index TwinNetwork::multiply(Index a, Index b) {
+  return append(writer_.multiply(a, b), [=](const std::vector<Map>& values) {
+    return plain_combine(values[a], values[b], [](double x, double y) { return x * y; });
+  });
+}
+
+TwinNetwork::Index TwinNetwork::divide(Index a, Index b) {
+  return append(writer_.divide(a, b), [=](const std::vector<Map>& values) {
+    return plain_combine(values[a], values[b], [](double x, double y) { return x / y; });
+  });
+}
+
+TwinNetwork::Index TwinNetwork::broadcast_add(Index a, Index b) {
+  return append(writer_.broadcast_add(a, b), [=](const std::vector<Map>& values) {
+    return plain_combine(values[a], values[b], [](double x, double y) { return x + y; });
+  });
+}
+
+TwinNetwork::Index TwinNetwork::resize(Index x, std::uint32_t height, std::uint32_t width,
+                                       formats::ResizeGrid grid, formats::ResizeSampling sampling) {
+  return append(writer_.resize(x, height, width, grid, sampling),
+                [=](const std::vector<Map>& values) {
+                  return plain_resize(values[x], height, width, grid, sampling);
+                });
+}
+
+TwinNetwork::Index TwinNetwork::rearrange(Index x, formats::ReadingOrder order,
+                                          formats::InputShape shape) {
+  return append(writer_.rearrange(x, order, shape), [=](const std::vector<Map>& values) {
+    return plain_rearrange(values[x], order, Map(shape.height, shape.width, shape.channels));
+  });
+}
+
+TwinNetwork::Index TwinNetwork::normalize(Index x, float epsilon) {
+  Options options;
+  options.alpha = epsilon;
+  return append(writer_.normalize(x, options), [=](const std::vector<Map>& values) {
+    return plain_normalize(values[x], static_cast<double>(epsilon));
+  });
+}
+
 void TwinNetwork::output(Index x) {
   writer_.output(x);
   outputs_.push_back(x);

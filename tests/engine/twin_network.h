@@ -35,6 +35,13 @@ class TwinNetwork {
   Index global_average_pool(Index x);
   Index concat(Index a, Index b);
   Index slice(Index x, std::uint16_t first_channel, std::uint32_t channels, Options options = {});
+  Index multiply(Index a, Index b);
+  Index divide(Index a, Index b);
+  Index broadcast_add(Index a, Index b);
+  Index resize(Index x, std::uint32_t height, std::uint32_t width, formats::ResizeGrid grid,
+               formats::ResizeSampling sampling);
+  Index rearrange(Index x, formats::ReadingOrder order, formats::InputShape shape);
+  Index normalize(Index x, float epsilon);
   void output(Index x);
 
   // Only the shape of it counts.

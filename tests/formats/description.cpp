@@ -37,10 +37,30 @@ class Numbers {
 };
 
 LayerActivation activation_named(const std::string& name) {
-  const std::vector<std::string> names = {"none",  "relu",    "relu6", "leaky_relu",
-                                          "prelu", "sigmoid", "tanh",  "clamp01"};
+  const std::vector<std::string> names = {"none",    "relu",      "relu6",   "leaky_relu", "prelu",
+                                          "sigmoid", "tanh",      "clamp01", "hard_swish", "swish",
+                                          "gelu",    "gelu_tanh", "erf",     "exp",        "sqrt"};
   const auto at = std::find(names.begin(), names.end(), name);
   return static_cast<LayerActivation>(at - names.begin());
+}
+
+std::uint16_t index_of(const std::string& name, const std::vector<std::string>& names) {
+  return static_cast<std::uint16_t>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+void add_resize(NetworkWriter& net, const json& layer) {
+  const std::uint16_t grid = index_of(layer["grid"], {"half_pixel", "asymmetric", "align_corners"});
+  const std::uint16_t sampling = index_of(
+      layer["sampling"], {"round_half_down", "round_half_up", "floor", "ceil", "bilinear"});
+  const json& size = layer["size"];
+  net.resize(layer["x"], size[0], size[1], static_cast<ResizeGrid>(grid),
+             static_cast<ResizeSampling>(sampling));
+}
+
+void add_rearrange(NetworkWriter& net, const json& layer) {
+  const std::uint16_t order = index_of(layer["order"], {"hwc", "hcw", "whc", "wch", "chw", "cwh"});
+  const json& shape = layer["shape"];
+  net.rearrange(layer["x"], static_cast<ReadingOrder>(order), {shape[0], shape[1], shape[2]});
 }
 
 // A number for both directions, or [rows, columns].
@@ -98,6 +118,18 @@ void add_layer(NetworkWriter& net, const json& layer, Numbers& numbers) {
     net.concat(x, layer["b"]);
   } else if (op == "slice") {
     net.slice(x, layer["first_channel"], layer["channels"], options);
+  } else if (op == "multiply") {
+    net.multiply(x, layer["b"]);
+  } else if (op == "divide") {
+    net.divide(x, layer["b"]);
+  } else if (op == "broadcast_add") {
+    net.broadcast_add(x, layer["b"]);
+  } else if (op == "resize") {
+    add_resize(net, layer);
+  } else if (op == "rearrange") {
+    add_rearrange(net, layer);
+  } else if (op == "normalize") {
+    net.normalize(x, options);
   } else if (op == "activation") {
     net.activation(x, options);
   } else {

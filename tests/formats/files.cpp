@@ -109,7 +109,7 @@ void describe_network(const FileView& view, const NetworkRecord& network, std::o
       << network.input_width << 'x' << network.input_channels << " flags " << network.flags
       << " outputs";
   for (std::uint32_t i = 0; i < network.output_count; ++i) {
-    out << ' ' << network.outputs[i];
+    out << ' ' << output_value(network, i);
   }
   out << '\n';
   for (const LayerRecord& layer : view.layers(network)) {

@@ -43,6 +43,14 @@ def add_layer(net, layer, numbers):
         return net.concat(x, layer["b"], **options)
     if op == "slice":
         return net.slice(x, layer["first_channel"], layer["channels"], **options)
+    if op in ("multiply", "divide", "broadcast_add"):
+        return getattr(net, op)(x, layer["b"], **options)
+    if op == "resize":
+        return net.resize(x, *layer["size"], layer["grid"], layer["sampling"], **options)
+    if op == "rearrange":
+        return net.rearrange(x, layer["order"], layer["shape"], **options)
+    if op == "normalize":
+        return net.normalize(x, options.pop("alpha"), **options)
     if op == "activation":
         return net.activation(x, options.pop("activation"), **options)
     return getattr(net, op)(x, *arrays, **options)

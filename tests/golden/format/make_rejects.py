@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes reject/: accept/small.mien, parts.mien or every_op.mien with one rule broken in each, the checksum made right again, and reject/expected.txt
+"""Writes reject/: accept/small.mien, parts.mien, every_op.mien or arithmetic.mien with one rule broken in each, the checksum made right again, and reject/expected.txt
 with lines "file status offset"."""
 import struct
 import sys
@@ -24,7 +24,7 @@ CASES = [
     ("magic", "kBadMagic", 4, [("B", 4, 0x4F)]),
     ("big_endian", "kWrongEndian", 12, [("I", 12, 0x04030201)]),
     ("major_version", "kUnsupportedVersion", 8, [("H", 8, 2)]),
-    ("minor_version", "kUnsupportedVersion", 8, [("H", 10, 2)]),
+    ("minor_version", "kUnsupportedVersion", 8, [("H", 10, 3)]),
     ("version_not_needed", "kUnsupportedVersion", 10, [("H", 10, 1)]),
     ("header_bytes", "kUnsupportedVersion", 16, [("I", 16, 128)]),
     ("no_network", "kLimitExceeded", 20, [("I", 20, 0)]),
@@ -77,7 +77,7 @@ CASES = [
     ("output_unused", "kBadNetwork", None, [("I", NETWORKS + 40, 1)]),
     ("network_reserved", "kReservedNotZero", NETWORKS + 52, [("I", NETWORKS + 60, 1)]),
     ("op_zero", "kBadOp", CONV, [("H", CONV, 0)]),
-    ("op_unknown", "kBadOp", CONV, [("H", 10, 1), ("H", CONV, 14)]),
+    ("op_unknown", "kBadOp", CONV, [("H", 10, 2), ("H", CONV, 20)]),
     ("op_of_a_later_version", "kBadOp", CONV, [("H", CONV, 11)]),
     ("any_size_fully_connected", "kBadOp", FC, [("I", NETWORKS + 20, 1)]),
     ("activation_unknown", "kBadActivation", CONV, [("H", CONV + 2, 8)]),
@@ -164,6 +164,50 @@ PARTS_CASES = [
     ("mean_window", "kBadKernel", MEAN, [("H", MEAN + 28, 1)]),
 ]
 
+ARITHMETIC = (HERE / "accept/arithmetic.mien").read_bytes()
+BIG, SMALL = 64, 128  # its networks
+OUTPUTS = BIG + 36
+L = [192 + 64 * i for i in range(20)]  # its layers: 16 of the first network, 4 of the second
+RESIZE, OTHER_RESIZE, MULTIPLY, ADD_BROADCAST, DIVIDE, REARRANGE, NORMALIZE, SWISH = (L[i] for i in (0, 1, 3, 5, 6, 7, 8, 10))
+ARITHMETIC_CASES = [
+    ("arithmetic_in_version_1", "kBadOp", RESIZE, [("H", 10, 1)]),
+    ("curve_in_version_1", "kBadActivation", L[4], [("H", 10, 1), *[("H", at, 11) for at in L[:4]], *[("I", at + 8, 2**32 - 1) for at in L[:5]],
+                                                    *[("2H", at + 28, (0, 0)) for at in L[:4]], *[("H", at + 40, 0) for at in L[:4]],
+                                                    *[("3I", at + 12, (1, 1, 12)) for at in L[:4]], ("2H", L[4], (9, 9)),
+                                                    ("3I", L[4] + 12, (1, 1, 12)), ("H", L[4] + 42, 0)]),
+    ("curve_of_another_layer", "kBadActivation", NORMALIZE, [("H", NORMALIZE + 2, 9)]),
+    ("curve_unknown", "kBadActivation", SWISH, [("H", SWISH + 2, 15)]),
+    ("resize_factor", "kBadShape", RESIZE + 12, [("H", RESIZE + 28, 0)]),
+    ("resize_factor_of_no_whole_number", "kBadShape", OTHER_RESIZE + 12, [("H", OTHER_RESIZE + 30, 2)]),
+    ("resize_channels", "kBadShape", RESIZE + 12, [("I", RESIZE + 20, 11)]),
+    ("resize_to_nothing", "kBadShape", OTHER_RESIZE + 12, [("I", OTHER_RESIZE + 12, 0)]),
+    ("resize_grid_unknown", "kBadKernel", RESIZE, [("H", RESIZE + 40, 3)]),
+    ("resize_sampling_unknown", "kBadKernel", RESIZE, [("H", RESIZE + 40, 20)]),
+    ("resize_kernel", "kBadKernel", RESIZE, [("H", RESIZE + 24, 1)]),
+    ("resize_padding", "kBadKernel", RESIZE, [("H", RESIZE + 38, 1)]),
+    ("resize_of_any_size_without_factor", "kBadOp", L[16], [("H", L[16] + 28, 0)]),
+    ("rearrange_of_any_size", "kBadOp", L[17], [("H", L[17], 18), ("H", L[17] + 40, 0), ("2H", L[17] + 28, (0, 0))]),
+    ("multiply_without_second_input", "kBadReference", MULTIPLY, [("I", MULTIPLY + 8, 2**32 - 1)]),
+    ("multiply_by_a_larger_map", "kBadShape", MULTIPLY + 12, [("I", MULTIPLY + 8, 2)]),
+    ("multiply_flags", "kBadKernel", MULTIPLY, [("H", MULTIPLY + 40, 1)]),
+    ("multiply_activation", "kBadActivation", MULTIPLY, [("H", MULTIPLY + 2, 1)]),
+    ("broadcast_add_of_other_channels", "kBadShape", ADD_BROADCAST + 12, [("I", ADD_BROADCAST + 4, 5), ("I", ADD_BROADCAST + 8, 4)]),
+    ("divide_stride", "kBadKernel", DIVIDE, [("H", DIVIDE + 28, 1)]),
+    ("divide_weights", "kBadTensor", DIVIDE + 48, [("I", DIVIDE + 48, 0)]),
+    ("rearrange_order_unknown", "kBadKernel", REARRANGE, [("H", REARRANGE + 40, 6)]),
+    ("rearrange_of_other_size", "kBadShape", REARRANGE + 12, [("I", REARRANGE + 20, 25)]),
+    ("rearrange_wraps", "kBadShape", REARRANGE + 12, [("3I", REARRANGE + 12, (2**31, 2**31, 2**31))]),
+    ("normalize_without_epsilon", "kBadActivation", NORMALIZE, [("f", NORMALIZE + 44, 0.0)]),
+    ("normalize_epsilon_nan", "kBadActivation", NORMALIZE, [("f", NORMALIZE + 44, NAN)]),
+    ("normalize_epsilon_one", "kBadActivation", NORMALIZE, [("f", NORMALIZE + 44, 1.0)]),
+    ("outputs_15", "kBadNetwork", BIG + 32, [("I", BIG + 32, 15)]),
+    ("narrow_output_zero", "kBadNetwork", OUTPUTS + 10, [("H", OUTPUTS + 10, 0)]),
+    ("narrow_output_beyond", "kBadNetwork", OUTPUTS + 26, [("H", OUTPUTS + 26, 17)]),
+    ("narrow_output_unused", "kBadNetwork", OUTPUTS + 26, [("I", BIG + 32, 13)]),
+    ("wide_output_beyond_16_bits", "kBadNetwork", SMALL + 38, [("H", SMALL + 38, 1)]),
+    ("wide_output_reserved", "kReservedNotZero", SMALL + 52, [("H", SMALL + 58, 1)]),
+]
+
 # Of every_op.mien: name, layer, its tensor, element (all of the first network have 20 channels, in 24 lanes), what is put there.
 WEIGHTS, BIAS, SLOPES = range(3)
 LANES_CASES = [
@@ -233,6 +277,7 @@ def main():
     cases = [(name, status, changes[0][1] if offset is None else offset, changed(changes))
              for name, status, offset, changes in CASES] + whole_file_cases()
     cases += [(name, status, offset, changed(changes, PARTS)) for name, status, offset, changes in PARTS_CASES]
+    cases += [(name, status, offset, changed(changes, ARITHMETIC)) for name, status, offset, changes in ARITHMETIC_CASES]
     for name, layer, tensor, element, value in LANES_CASES:
         at = lane_of(layer, tensor, element)
         cases.append((name, "kPaddingNotZero", at, changed([("H", at, value)], EVERY_OP)))

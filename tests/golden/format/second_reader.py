@@ -80,7 +80,7 @@ class Reader:
          self.metadata_count, self.string_bytes, total, self.data_offset, checksum) = struct.unpack_from("<8sHHIIIIIIIQQQ", self.data)
         check(magic == bytes.fromhex("894D49454E0D0A1A"), "kBadMagic")
         check(endian == 0x01020304, "kWrongEndian")
-        check(major == 1 and minor <= 1 and header_bytes == 64, "kUnsupportedVersion")
+        check(major == 1 and minor <= 2 and header_bytes == 64, "kUnsupportedVersion")
         self.minor = minor
         check(total <= 2**31, "kLimitExceeded")
         check(total <= len(self.data), "kTruncated")
@@ -126,7 +126,7 @@ class Reader:
         return text
 
     def strings(self):
-        self.network_records = self.records(0, self.network_count, "<2I3I3I1I4I3I")
+        self.network_records = self.records(0, self.network_count, "<2I3I3I1I14H")
         self.layer_records = self.records(1, self.layer_count, "<2H2I3I8H2Hf3II")
         self.tensor_records = self.records(2, self.tensor_count, "<2I2HI4I2Q4I")
         self.names = [self.name(*r[:2]) for r in self.network_records]
@@ -165,7 +165,9 @@ class Reader:
         for name, record in zip(self.names, self.network_records):
             self.network(name, record)
         check(self.layer == self.layer_count, "kBadNetwork")
-        check(self.minor == any(fields[0] >= 11 for fields in self.layer_records), "kUnsupportedVersion")
+        needed = [2 if fields[0] >= 14 or fields[1] >= 8 else 1 if fields[0] >= 11 else 0 for fields in self.layer_records]
+        needed += [2 if record[8] > 4 else 0 for record in self.network_records]
+        check(self.minor == max(needed, default=0), "kUnsupportedVersion")
         for index in range(self.tensor, self.tensor_count):
             check(self.tensor_names[index], "kUnusedTensor")
             self.lines.append(f"constant {self.tensor_names[index]} {'fp16' if self.types[index] == 1 else 'fp32'} "
@@ -174,8 +176,10 @@ class Reader:
 
     def network(self, name, record):
         h, w, c, flags, first, count, output_count = record[2:9]
-        outputs, reserved = record[9:13], record[13:]
-        check(not any(reserved), "kReservedNotZero")
+        places = record[9:]
+        wide = output_count <= 4
+        check(not wide or not any(places[8:]), "kReservedNotZero")
+        outputs = [places[i] + 65536 * places[i + 1] for i in range(0, 8, 2)] if wide else list(places)
         check(map_ok((h, w, c)) and flags in (0, 1) and first == self.layer and count >= 1
               and first + count <= self.layer_count, "kBadNetwork")
         self.lines.append(f"network {name} {h}x{w}x{c} flags {flags} outputs {' '.join(map(str, outputs[:output_count]))}")
@@ -183,25 +187,29 @@ class Reader:
         values = [(h, w, c)]
         for fields in self.layer_records[first:first + count]:
             values.append(self.one_layer(fields, values, flags))
-        check(1 <= output_count <= 4 and all(1 <= v <= count for v in outputs[:output_count])
+        check(1 <= output_count <= (14 if self.minor >= 2 else 4) and all(1 <= v <= count for v in outputs[:output_count])
               and not any(outputs[output_count:]), "kBadNetwork")
 
     def one_layer(self, fields, values, flags):
         (op, activation, x, second, h, w, channels, kh, kw, sy, sx, top, left, bottom, right, layer_flags, first, alpha,
          weights, bias, slopes, tail) = fields
-        check(1 <= op <= (13 if self.minor >= 1 else 10) and not (flags and op in (4, 5, 6)), "kBadOp")
+        check(1 <= op <= (10, 13, 19)[self.minor] and not (flags and (op in (4, 5, 6, 18) or op == 17 and 0 in (sy, sx))), "kBadOp")
         check((first == 0 or op == 13) and tail == 0, "kReservedNotZero")
-        check(x < len(values) and (second < len(values) if op in (8, 12) else second == NOTHING), "kBadReference")
+        two = op in (8, 12, 14, 15, 16)
+        check(x < len(values) and (second < len(values) if two else second == NOTHING), "kBadReference")
         window = (kh, kw, sy, sx, top, left, bottom, right)
         if op in (1, 2, 7):
             check(all(1 <= n <= 15 for n in window[:4]) and max(top, bottom) < kh and max(left, right) < kw, "kBadKernel")
         else:
-            check(not any(window[:4] if op == 13 else window), "kBadKernel")
-        check(layer_flags == 0 or (layer_flags == 1 and op == 7), "kBadKernel")
-        check(activation <= 7 and not (activation and op in (6, 7, 8, 10, 11, 12, 13)) and not (activation == 0 and op == 9), "kBadActivation")
-        check(0 < alpha < 1 if activation == 3 else struct.pack("<f", alpha) == bytes(4), "kBadActivation")
+            zeros = window[:4] if op == 13 else window[:2] + window[4:] if op == 17 else window
+            check(not any(zeros), "kBadKernel")
+        resize_flags = [grid + 4 * sampling for grid in range(3) for sampling in range(5)]
+        check(layer_flags in {7: (0, 1), 17: resize_flags, 18: range(6)}.get(op, (0,)), "kBadKernel")
+        own = 8 <= activation <= 14 and op == 9 and self.minor >= 2
+        check((activation <= 7 or own) and not (activation and op in (6, 7, 8, *range(10, 20))) and not (activation == 0 and op == 9), "kBadActivation")
+        check(0 < alpha < 1 if activation == 3 or op == 19 else struct.pack("<f", alpha) == bytes(4), "kBadActivation")
         a = values[x]
-        shape = self.derived(op, a, values[second] if op in (8, 12) else a, channels, window, layer_flags, first)
+        shape = self.derived(op, a, values[second] if two else a, channels, window, layer_flags, first, (h, w))
         check(shape == (h, w, channels) and map_ok(shape), "kBadShape")
         dims = self.weight_dims(op, a, channels, kh, kw)
         n8 = round8(channels)
@@ -213,7 +221,7 @@ class Reader:
         self.lines.append(f"layer {op} activation {activation} inputs {x} {second} output {h}x{w}x{channels}")
         return shape
 
-    def derived(self, op, a, b, n, window, flags, first):
+    def derived(self, op, a, b, n, window, flags, first, declared):
         h, w, c = a
         kh, kw, sy, sx, top, left, bottom, right = window
         if op in (1, 2, 7):
@@ -228,6 +236,16 @@ class Reader:
         if op == 13:
             check(first + n <= c, "kBadShape")
             return h - top - bottom, w - left - right, n
+        if op in (14, 15, 16):
+            check(all(of_b in (of_a, 1) for of_a, of_b in zip(a, b)), "kBadShape")
+        if op == 17:
+            for factor, old, new in ((sy, h, declared[0]), (sx, w, declared[1])):
+                whole = new % old == 0 and new // old < 2**16
+                check(factor == (new // old if whole else 0), "kBadShape")
+            return *declared, c
+        if op == 18:
+            check(map_ok((*declared, n)) and declared[0] * declared[1] * n == h * w * c, "kBadShape")
+            return *declared, n
         return {11: (1, 1, c), 3: (h, w, n), 4: (1, 1, n), 5: (1, 1, n), 6: (1, 1, n)}.get(op, a)
 
     def windows(self, size, kernel, stride, before, after, ceil_mode):
