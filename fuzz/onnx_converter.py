@@ -22,7 +22,8 @@ import atheris  # noqa: E402
 import numpy as np  # noqa: E402
 import onnx  # noqa: E402
 
-with atheris.instrument_imports(include=["onnx_to_mien", "graph", "operators", "refusal", "translator", "tensors", "layers", "constants", "mien_file"]):
+with atheris.instrument_imports(include=["onnx_to_mien", "activations", "arithmetic", "constants", "dense", "graph", "layers", "mien_file", "model", "moves",
+                                        "operands", "operators", "over_time", "pieces", "refusal", "resize", "tensors", "translator", "windows"]):
     import graph
     import onnx_to_mien
     import refusal
@@ -33,7 +34,7 @@ with atheris.instrument_imports(include=["onnx_to_mien", "graph", "operators", "
 refusal.MOST_NUMBERS >>= 4
 graph.MOST_IN_ALL >>= 4
 
-OPERATOR_NAMES = sorted({*OPERATORS, *FUNCTIONS, "Constant", "Erf"})
+OPERATOR_NAMES = sorted({*OPERATORS, *FUNCTIONS, "Constant", "If", "Sin"})
 NUMBERS = (0, 1, 2, 3, 4, 7, 15, 16, 64, 255, -1, -2, 1 << 20, 1 << 31, (1 << 31) - 1, -(1 << 31), 1 << 40, (1 << 63) - 1, -(1 << 63))
 TYPES = range(0, 17)
 

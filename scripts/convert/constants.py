@@ -1,8 +1,15 @@
 """Operators on constants, which exporters leave in shape arithmetic."""
 import numpy as np
+import onnx
 
-from refusal import Refused, require, require_room
+from refusal import Refused, in_a_line, require, require_room
 
+try:
+    from onnx.reference import ReferenceEvaluator
+except ImportError:  # before onnx 1.13
+    ReferenceEvaluator = None
+
+MOST_OPEN = 1 << 10  # taken for a size that shape inference leaves open
 TYPES = {1: np.float32, 6: np.int32, 7: np.int64, 9: np.bool_, 10: np.float16, 11: np.float64}
 
 
@@ -54,3 +61,22 @@ FUNCTIONS = {
     "ReduceProd": lambda i, a: np.prod(i[0], tuple(axes_of(i, a)) if axes_of(i, a) else None, keepdims=bool(a.get("keepdims", 1))),
     "Not": lambda i, a: ~i[0], "Greater": lambda i, a: i[0] > i[1], "Less": lambda i, a: i[0] < i[1],
 }
+
+
+def evaluated(node, opset):
+    """An operator on constants by ONNX's own reference, if ONNX's own shape inference says that its results are not too large."""
+    require(ReferenceEvaluator is not None, f"onnx {onnx.__version__} computes no constants: pip install 'onnx>=1.15', or fold constants before "
+                                            "(onnxsim)")
+    given = {name: np.asarray(x) for name, x in zip(node.input_names, node.inputs) if name}
+    constants = [onnx.numpy_helper.from_array(x, name) for name, x in given.items()]
+    graph = onnx.helper.make_graph([node.proto], "constants", [], [onnx.ValueInfoProto(name=name) for name in node.outputs if name], constants)
+    model = onnx.helper.make_model(graph, opset_imports=[onnx.helper.make_opsetid("", opset)])
+    try:
+        inferred = onnx.shape_inference.infer_shapes(model, data_prop=True)
+        for output in inferred.graph.output:
+            require_room(*(d.dim_value or MOST_OPEN for d in output.type.tensor_type.shape.dim))
+        return [np.asarray(x) for x in ReferenceEvaluator(model).run(None, {})]
+    except Refused:
+        raise
+    except Exception as error:  # whatever the reference raises
+        raise Refused(f"it cannot be computed on its constants: {in_a_line(error)}") from error

@@ -1,100 +1,37 @@
-"""An ONNX file as nodes with attributes, and its translation, for one guess at what the axes of its input mean."""
+"""The translation of an ONNX graph, for one guess at what the axes of its input mean."""
 import itertools
 import math
-import warnings
 
 import numpy as np
-import onnx
-from onnx import numpy_helper
 
-from layers import Network
-from operators import MOVES, OPERATORS, is_constant
+from layers import MAX_OUTPUTS, Network
+from operands import is_constant
+from operators import MOVES, OPERATORS
 from refusal import MOST_IN_ALL, Refused, in_a_line, require
 from tensors import FUTURE, MASK, NOTHING, Tensor, elements
 from translator import Translator
 
-OPSETS = range(11, 19)
 DYNAMIC_STEPS = 3  # nominal, where the file does not say how many
-# What the attributes that operators read are; in a file they may be anything.
-KINDS = {
-    name: kind for kind, names in {
-        onnx.AttributeProto.INT: "allowzero axis ceil_mode count_include_pad end group hidden_size input_forget keepdims layout start to "
-                                 "training_mode transA transB value_int",
-        onnx.AttributeProto.INTS: "axes dilations kernel_shape pads perm split strides value_ints",
-        onnx.AttributeProto.FLOAT: "alpha beta epsilon value_float",
-        onnx.AttributeProto.FLOATS: "value_floats",
-        onnx.AttributeProto.STRING: "auto_pad direction mode",
-        onnx.AttributeProto.STRINGS: "activations",
-        onnx.AttributeProto.TENSOR: "value",
-    }.items() for name in names.split()
+
+
+OTHER_ADVICE = "replace it by operators of docs/convert.md, or cut the model before it"
+ADVICE = {
+    "ConvTranspose": "replace it by Resize and Conv",
+    "GRU": "replace it by LSTM", "RNN": "replace it by LSTM",
+    "Loop": "export the model without control flow", "Scan": "export the model without control flow",
+    "NonMaxSuppression": "cut the model before it and do this in your program", "TopK": "cut the model before it and do this in your program",
+    "ArgMax": "cut the model before it and do this in your program",
+    "QLinearConv": "convert the model that is not quantized", "DequantizeLinear": "convert the model that is not quantized",
+    "QuantizeLinear": "convert the model that is not quantized", "ConvInteger": "convert the model that is not quantized",
 }
+MICROSOFT = {"FusedConv", "Gelu"}  # of ONNX Runtime's optimizer
 
 
-class Node:
-    def __init__(self, proto):
-        self.operator, self.outputs = proto.op_type, list(proto.output)
-        self.input_names = list(proto.input)
-        self.name = f"{proto.op_type} {proto.name!r}" if proto.name else f"{proto.op_type} -> {', '.join(map(repr, self.outputs))}"
-        self.domain = proto.domain
-        for a in proto.attribute:
-            require(a.type == KINDS.get(a.name, a.type), f"{self.name}: its attribute {a.name!r} is of another kind than ONNX says")
-        self.attributes = {a.name: attribute(a) for a in proto.attribute}
-        self.inputs = []
-
-
-def attribute(proto):
-    value = onnx.helper.get_attribute_value(proto)
-    if isinstance(value, onnx.TensorProto):
-        return array(value)
-    if isinstance(value, bytes):
-        return value.decode()
-    return [v.decode() if isinstance(v, bytes) else v for v in value] if isinstance(value, (list, tuple)) or hasattr(value, "append") else value
-
-
-def array(proto):
-    require(proto.data_location != onnx.TensorProto.EXTERNAL, f"weights {proto.name!r} lie in another file")
-    try:
-        values = numpy_helper.to_array(proto)
-    except Exception as error:  # several kinds, by version
-        raise Refused(f"weights {proto.name!r} are malformed: {error}") from error
-    require(values.dtype.kind in "biuf", f"weights {proto.name!r} are no real numbers ({values.dtype})")
-    return values
-
-
-class Graph:
-    def __init__(self, path):
-        try:
-            with warnings.catch_warnings():
-                warnings.simplefilter("error")  # all there is of a file that could be read in part only
-                model = onnx.load(str(path), load_external_data=False)
-        except Exception as error:  # what protobuf raises depends on its version
-            raise Refused(f"not an ONNX file: {error}") from error
-        graph = model.graph
-        require(len(graph.node) > 0, "not an ONNX file, or one without nodes")
-        versions = {o.domain: o.version for o in model.opset_import}
-        self.opset = versions.get("", versions.get("ai.onnx", 0))
-        require(self.opset in OPSETS, f"opset {self.opset}; {OPSETS[0]} to {OPSETS[-1]} are taken")
-        self.producer = f"{model.producer_name} {model.producer_version}".strip()
-        self.constants = {p.name: array(p) for p in graph.initializer}
-        self.inputs = {i.name: dimensions(i) for i in graph.input if i.name not in self.constants}
-        self.outputs = [o.name for o in graph.output]
-        self.nodes = [Node(proto) for proto in graph.node]
-        require(self.inputs, "the graph has no input")
-
-    def has_time(self):
-        """Whether it looks as if its steps came one by one: a cell, or a convolution that sees the past only."""
-        def causal(node):
-            pads = node.attributes.get("pads", [])
-            return node.operator == "Conv" and len(pads) == 2 and pads[0] > 0 == pads[1]
-        return any(node.operator in ("LSTM", "GRU", "RNN") or causal(node) for node in self.nodes)
-
-
-def dimensions(value):
-    """None where a dimension is not a number."""
-    kind = value.type.WhichOneof("value")
-    require(kind == "tensor_type", f"input {value.name!r} is no tensor (but a {kind or 'value without a type'})")
-    # Not said is 0; some exporters say -1.
-    return [d.dim_value if d.dim_value > 0 else None for d in value.type.tensor_type.shape.dim]
+def operator_of(node):
+    if node.domain == "com.microsoft" and node.operator in MICROSOFT:
+        return node.operator
+    require(node.domain in ("", "ai.onnx"), f"an operator of the domain {node.domain!r}; export the model without it")
+    return node.operator
 
 
 class Guess:
@@ -170,34 +107,50 @@ class Conversion:
         return Tensor(elements(state).reshape(shape))
 
     def run(self, values):
-        room = MOST_IN_ALL
-        for count, node in enumerate(self.graph.nodes):
+        self.room, self.count = MOST_IN_ALL, 0
+        self.run_body(self.graph, values)
+
+    def run_body(self, body, values):
+        for node in body.nodes:
             self.t.node = node.name
+            count = self.count
+            self.count += 1
             try:
                 missing = [name for name in node.input_names if name and name not in values]
                 require(not missing, f"nobody computes its input {', '.join(map(repr, missing))}")
                 node.inputs = [values[name] if name else None for name in node.input_names]
-                made = {name: value for name, value in zip(node.outputs, self.take(node)) if name}
+                made = {name: value for name, value in zip(node.outputs, self.take(node, values)) if name}
                 require(all(value is not None for value in made.values()), "an input is missing")
-                room -= sum(map(size, made.values()))
-                require(room >= 0, f"all tensors up to here: at most {MOST_IN_ALL} numbers; a smaller --shape and --any-size may do")
+                self.room -= sum(map(size, made.values()))
+                require(self.room >= 0, f"all tensors up to here: at most {MOST_IN_ALL} numbers; a smaller --shape and --any-size may do")
             except MemoryError as error:
                 raise Refused(f"{node.name}: it takes more memory than there is", count) from error
             except Refused as refusal:
-                raise Refused(f"{node.name}: {refusal}", count) from refusal
+                raise Refused(f"{node.name}: {refusal}", max(count, refusal.progress)) from refusal
             except (ValueError, TypeError, LookupError, AttributeError, ArithmeticError) as error:
                 raise Refused(f"{node.name}: it is malformed ({type(error).__name__}: {in_a_line(error)})", count) from error
             values.update(made)
 
-    def take(self, node):
-        require(node.domain in ("", "ai.onnx"), f"an operator of the domain {node.domain!r}")
-        if node.operator == "Constant":
+    def take(self, node, values):
+        operator = operator_of(node)
+        if operator == "Constant":
             return [constant_value(node.attributes)]
-        if all(x is None or is_constant(x) for x in node.inputs) and node.operator not in MOVES:
-            return self.t.constant(node.operator, node.inputs, node.attributes)
-        require(node.operator in OPERATORS, f"the engine has no such layer (opset {self.graph.opset})")
-        outputs = OPERATORS[node.operator](self.t, node)
+        if operator == "If":
+            return self.take_branch(node, values)
+        if all(x is None or is_constant(x) for x in node.inputs) and operator not in MOVES:
+            return self.t.constant(node)
+        require(operator in OPERATORS, f"the engine has no such layer (opset {self.graph.opset}); {ADVICE.get(operator, OTHER_ADVICE)}")
+        outputs = OPERATORS[operator](self.t, node)
         return [constant_if_it_is(x) for x in outputs]
+
+    def take_branch(self, node, values):
+        """Of an If whose condition is known: as if the other branch were not there."""
+        condition, = node.inputs
+        require(is_constant(condition) and np.size(condition) == 1, "its condition depends on the network's input; export the model with one branch")
+        branch = node.attributes["then_branch" if np.reshape(condition, ()) else "else_branch"]
+        inner = {**values, **branch.constants}
+        self.run_body(branch, inner)
+        return [inner[name] for name in branch.outputs]
 
     def take_outputs(self, values):
         states = dict(self.t.states)
@@ -223,34 +176,53 @@ class Conversion:
         require(self.outputs, "nothing but states comes out")
 
     def output_layer(self, tensor):
-        """The layer that an output is, whatever its shape; else one that is made for it."""
+        """The layer that an output is; else one that is made for it, whose elements come in the order of the ONNX file."""
         tensor = self.t.settled(tensor)
         numbers = tensor.layer_numbers()
         if len(numbers) == 1 and (tensor.at >= 0).all():
             layer = self.t.real(numbers[0])
-            if self.is_whole(layer, tensor.at.reshape(-1) & MASK):
+            if self.is_whole(layer, tensor.at.reshape(-1) & MASK, len(tensor.shape)):
                 return layer
         require(not (tensor.at == FUTURE).any(), "it holds steps that have not come")
-        return self.t.arranged(tensor)[0]
+        if self.t.steps or max(tensor.shape, default=1) == math.prod(tensor.shape):
+            return self.t.arranged(tensor)[0]
+        if len(tensor.shape) == 4 and tensor.shape[0] == 1:
+            return self.t.as_map(tensor.moved(lambda part: part.transpose(0, 3, 1, 2) if self.guess.channels_last else part))
+        rows = math.prod(tensor.shape[:-1])
+        layer = self.t.as_map(tensor.moved(lambda part: part.reshape(1, rows, -1, 1).transpose(0, 2, 1, 3)))
+        return self.t.layer("rearrange", [layer], (rows, layer.shape[2], 1), order="hwc")
 
-    def is_whole(self, layer, at):
-        """Whether these are all elements of a layer at the last steps of the stream, in some order of its axes."""
+    def is_whole(self, layer, at, rank):
+        """Whether these are all elements of a layer at the last steps of the stream: in its own order, of a map with channels last, of a
+        stream in any order of its axes."""
         steps, last = np.unique(at // layer.size), max(self.t.steps, 1) - 1
         if at.size != layer.size * len(steps) or steps[-1] != last or steps[0] != last + 1 - len(steps):
             return False
         by_step = at[np.argsort(at // layer.size, kind="stable")].reshape(len(steps), layer.size) % layer.size
         h, w, c = layer.shape
         map_ = np.arange(layer.size).reshape(c, h, w)
-        for order in itertools.permutations(range(3)):
+        channels_last = self.guess.channels_last and rank == 4
+        orders = itertools.permutations(range(3)) if self.t.steps else [(0, 1, 2), (1, 2, 0)][:2 if channels_last else 1]
+        for order in orders:
             if (by_step == map_.transpose(order).reshape(-1)).all():
                 if order != (0, 1, 2):
                     self.t.notes.append(f"the output of {layer.node} has its axes in another order in the ONNX file")
                 return True
         return False
 
+    def rearranges_source(self):
+        layers, seen = list(self.outputs.values()), set()
+        while layers:
+            layer = layers.pop()
+            if layer.op == "rearrange" and layer.inputs[0] is self.source:
+                return True
+            layers += [x for x in layer.inputs if id(x) not in seen]
+            seen.update(map(id, layer.inputs))
+        return False
+
     def network(self):
         layers = list(dict.fromkeys(self.outputs.values()))
-        require(len(layers) <= 4, f"{len(layers)} outputs; at most 4")
+        require(len(layers) <= MAX_OUTPUTS, f"{len(layers)} outputs; at most {MAX_OUTPUTS}: join some of them by Concat in the model")
         self.positions = {name: layers.index(layer) for name, layer in self.outputs.items()}
         return Network(self.source, layers)
 
@@ -279,13 +251,20 @@ def same_elements(value, following, shape):
 
 
 def converted(graph, shapes, time_axis=None):
-    """The first guess that works, or what stopped the one that came furthest."""
-    furthest = None
+    """The first guess that works, or what stopped the one that came furthest. One that has to rearrange its input is taken for wrong
+    if another works, where channels may be last."""
+    furthest = rearranging = None
     for guess in guesses(graph, shapes.get(next(iter(graph.inputs)), next(iter(graph.inputs.values()))), time_axis):
         try:
             with np.errstate(all="ignore"):  # what the format cannot hold, its writer refuses
-                return Conversion(graph, guess, shapes)
+                conversion = Conversion(graph, guess, shapes)
+            doubtful = guess.channels_last or graph.puts_channels_first()
+            if not doubtful or not conversion.rearranges_source():
+                return conversion
+            rearranging = rearranging or conversion
         except Refused as refusal:
             if furthest is None or refusal.progress > furthest.progress:
                 furthest = refusal
+    if rearranging:
+        return rearranging
     raise furthest

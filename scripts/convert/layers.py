@@ -11,7 +11,7 @@ import numpy as np
 from refusal import Refused, require
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "train"))
-from mien_file import MAX_LAYERS, MienFile  # noqa: E402,F401
+from mien_file import CURVES, MAX_LAYERS, MAX_OUTPUTS, MienFile  # noqa: E402,F401
 
 WEIGHTED = ("conv2d", "depthwise", "fully_connected", "causal_conv")  # and an activation may follow
 
@@ -55,7 +55,8 @@ class Network:
     def __init__(self, source, outputs):
         self.source, self.outputs = source, list(outputs)
         self.sort()
-        for change in (self.fold_affine_back, self.merge_activations, self.fuse_activations, self.affine_to_depthwise, self.centre_slices, self.unpack_image):
+        for change in (self.merge_affines, self.fuse_curves, self.merge_affines, self.fold_affine_back, self.merge_activations, self.fuse_activations, self.affine_to_depthwise, self.centre_slices,
+                       self.merge_rearrangements, self.unpack_image):
             change()
             self.sort()
 
@@ -87,6 +88,35 @@ class Network:
             layer.inputs = [new if x is old else x for x in layer.inputs]
         self.outputs = [new if x is old else x for x in self.outputs]
 
+    def merge_affines(self):
+        """Of two behind each other one is left, and none of those that change nothing."""
+        for layer in list(self.layers):
+            if layer.op != "affine":
+                continue
+            before, o = layer.inputs[0], layer.options
+            if before.op == "affine" and not before.activation and self.alone(before):
+                layer.inputs = list(before.inputs)
+                layer.options = {"scale": before.options["scale"] * o["scale"], "shift": before.options["shift"] * o["scale"] + o["shift"]}
+            if is_uniform(layer, 1.0, 0.0) and layer.inputs[0] is not self.source:
+                self.replace(layer, layer.inputs[0])
+            self.sort()
+
+    def fuse_curves(self):
+        """What exporters write as several operators: x sigmoid(x), x relu6(x + 3), x (1 + erf(x / sqrt 2))."""
+        for layer in list(self.layers):
+            if layer.op != "multiply" or layer.inputs[0].shape != layer.inputs[1].shape:
+                continue
+            for x, gate in (layer.inputs, layer.inputs[::-1]):
+                found = curve_of(x, gate) if self.alone(gate) else None
+                if found:
+                    x, kind, scale = found
+                    curve = Layer("activation", [x], x.shape, layer.node)
+                    curve.activation = {"activation": kind}
+                    layer.op, layer.inputs = "affine", [curve]
+                    layer.options = {"scale": np.full(x.shape[2], scale), "shift": np.zeros(x.shape[2])}
+                    self.sort()
+                    break
+
     def fold_affine_back(self):
         for layer in list(self.layers):
             if layer.op != "affine":
@@ -112,7 +142,7 @@ class Network:
     def fuse_activations(self):
         for layer in list(self.layers):
             before = layer.inputs[0]
-            if layer.op == "activation" and (before.is_plain() or before.op == "affine" and not before.activation) and self.alone(before):
+            if layer.op == "activation" and layer.activation["activation"] not in CURVES and (before.is_plain() or before.op == "affine" and not before.activation) and self.alone(before):
                 before.activation = layer.activation
                 self.replace(layer, before)
                 self.sort()
@@ -134,6 +164,14 @@ class Network:
                 if is_centre_slice(layer.inputs[1]):
                     layer.inputs[1] = layer.inputs[1].inputs[0]
 
+    def merge_rearrangements(self):
+        """What is read in the order in which another has put it."""
+        for layer in list(self.layers):
+            before = layer.inputs[0]
+            if layer.op == before.op == "rearrange" and layer.options["order"] == "hwc" and self.alone(before):
+                layer.inputs, layer.options = list(before.inputs), before.options
+                self.sort()
+
     def unpack_image(self):
         h, w, c = self.source.shape
         needing = [layer for layer in self.layers if any(x is self.source for x in layer.inputs) and layer.op != "conv2d"]
@@ -153,6 +191,40 @@ class Network:
                 raise Refused(f"{layer.node}: {error}") from error
         for output in self.outputs:
             net.output(numbers[id(output)])
+
+
+def is_uniform(layer, scale, shift):
+    """Whether an affine layer has the same scale and shift for all channels, these."""
+    return layer.op == "affine" and not layer.activation and np.allclose(layer.options["scale"], scale, rtol=1e-5, atol=0) \
+        and np.allclose(layer.options["shift"], shift, rtol=1e-5, atol=0)
+
+
+def activated_by(layer, kind):
+    """What an activation reads; None if it is another layer."""
+    return layer.inputs[0] if layer.op == "activation" and layer.activation == {"activation": kind} else None
+
+
+def curve_of(x, gate):
+    """(its input, the curve, a factor) if x times the gate is one."""
+    if activated_by(gate, "sigmoid") is x:
+        return x, "swish", 1.0
+    for kind, scale, shift, factor in (("relu6", 1.0, 3.0, 6.0), ("clamp01", 1 / 6, 0.5, 1.0)):
+        inner = activated_by(gate, kind)
+        if inner is not None and is_uniform(inner, scale, shift) and inner.inputs[0] is x:
+            return x, "hard_swish", factor
+        whole = gate.inputs[0] if gate.op == "affine" else None
+        inner = activated_by(whole, kind) if whole is not None else None
+        if inner is not None and is_uniform(inner, scale, shift) and inner.inputs[0] is x:
+            own = float(gate.options["scale"][0])
+            if is_uniform(gate, own, 0.0):
+                return x, "hard_swish", own * factor
+    if gate.op == "affine" and is_uniform(gate, float(gate.options["scale"][0]), float(gate.options["scale"][0])):
+        inner = activated_by(gate.inputs[0], "erf")
+        halved = x.inputs[0] if x.op == "affine" and is_uniform(x, float(x.options["scale"][0]), 0.0) else None
+        if inner is not None and is_uniform(inner, 0.5 ** 0.5, 0.0) and inner.inputs[0] in (x, halved):
+            own = 2 * float(gate.options["scale"][0])
+            return (x, "gelu", own) if inner.inputs[0] is x else (halved, "gelu", own * float(x.options["scale"][0]))
+    return None
 
 
 def is_centre_slice(layer):
@@ -176,4 +248,6 @@ def write_layer(net, layer, x, reads_source):
     if layer.op == "activation":
         kind = dict(activation)
         return net.activation(*x, kind.pop("activation"), **kind)
+    if layer.op == "rearrange":
+        return net.rearrange(*x, o["order"], layer.shape)
     return getattr(net, layer.op)(*x, **o)

@@ -12,8 +12,9 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 from refusal import Refused, in_a_line, require  # noqa: E402
 
 try:
-    from graph import Graph, converted
+    from graph import converted
     from layers import MienFile
+    from model import Graph
 except ModuleNotFoundError as missing:
     sys.exit(f"onnx_to_mien.py: no Python module {missing.name!r} here; scripts/setup.sh convert installs what is needed")
 
@@ -40,7 +41,7 @@ def time_axis_of(text):
 
 
 def add_network(file, path, name, options):
-    graph = Graph(path)
+    graph = Graph(Path(path))
     first = next(iter(graph.inputs))
     shapes = {given or first: shape for given, shape in options.shape}
     for given in shapes:

@@ -19,8 +19,9 @@ MASK = (1 << BITS) - 1
 class Tensor:
     def __init__(self, at, scale=None, shift=None):
         self.at = at
-        self.scale = np.ones(at.shape) if scale is None else scale
-        self.shift = np.zeros(at.shape) if shift is None else shift
+        # Of one number, which takes no memory until somebody computes with it.
+        self.scale = np.broadcast_to(1.0, at.shape) if scale is None else scale
+        self.shift = np.broadcast_to(0.0, at.shape) if shift is None else shift
 
     @property
     def shape(self):

@@ -2,10 +2,14 @@
 import numpy as np
 
 import tensors
-from constants import FUNCTIONS
+from constants import FUNCTIONS, evaluated
 from layers import MAX_LAYERS, Layer
+from pieces import MOST_PIECES, pieces_of
 from refusal import Refused, require, require_room
 from tensors import BITS, MASK, NOTHING, Tensor
+
+
+MOST_GROUPS = 16  # of channels that are put together out of different layers
 
 
 class Translator:
@@ -38,6 +42,19 @@ class Translator:
             mine = (tensor.at >= 0) & (tensor.at >> BITS == old)
             at[mine] = (new.number << BITS) | (tensor.at[mine] & MASK)
         return at
+
+    def replaced_layers(self, tensor, replacements):
+        """The same for a plain tensor, as one."""
+        return Tensor(self.replaced(tensor, replacements), None, tensor.shift)
+
+    def same_layers(self, a, b):
+        """Pairs of layers of equal shape, if plain tensors hold the same elements of one as of the other everywhere; else nothing."""
+        if a.shape != b.shape or (a.at < 0).any() or (b.at < 0).any() or ((a.at ^ b.at) & MASK).any():
+            return []
+        pairs = np.unique(np.stack([a.at >> BITS, b.at >> BITS], -1).reshape(-1, 2), axis=0)
+        layers = [(self.real(int(first)), self.real(int(second))) for first, second in pairs]
+        distinct = len({first.number for first, _ in layers}) == len(layers)
+        return layers if distinct and all(first.shape == second.shape for first, second in layers) else []
 
     def real(self, number):
         layer = self.layers[number]
@@ -73,6 +90,8 @@ class Translator:
         """The same with scale 1 and shift 0 but for constants: what waited becomes layers."""
         if tensor.is_plain():
             return tensor
+        if not self.steps and not self.is_per_channel(tensor):
+            return self.settled_by_element(tensor)
         made = {}
         for number in tensor.layer_numbers():
             scale, shift = self.channel_numbers(tensor, number)
@@ -81,6 +100,20 @@ class Translator:
                 made[number] = self.layer("affine", [layer], layer.shape, scale=scale, shift=shift)
         constant = tensor.at < 0
         return Tensor(self.replaced(tensor, made), np.ones(tensor.shape), np.where(constant, tensor.shift, 0.0))
+
+    def settled_by_element(self, tensor):
+        """As a vector, each of whose channels has a scale and a shift of its own."""
+        computed = tensor.at >= 0
+        vector = self.vector_of(tensor.at[computed])
+        self.notes.append(f"{self.node}: its constants, one for each element, are rounded to fp16")
+        layer = self.layer("affine", [vector], vector.shape, scale=tensor.scale[computed], shift=tensor.shift[computed])
+        if computed.all() and len(tensor.shape) > 1:  # a pixel for each row, whose channels can be sliced
+            columns = tensor.shape[-1]
+            pixels = self.layer("rearrange", [layer], (layer.size // columns, 1, columns), order="hwc")
+            return Tensor(tensors.elements(pixels).reshape(columns, -1).T.reshape(tensor.shape))
+        at = tensor.at.copy()
+        at[computed] = tensors.elements(layer).reshape(-1)
+        return Tensor(at, None, np.where(computed, 0.0, tensor.shift))
 
     def activated(self, tensor, function, activation, slopes=None):
         """An activation of every element. `function` does it to constants; slopes: a function of (layer number) for PReLU."""
@@ -110,8 +143,9 @@ class Translator:
 
     # -- maps ------------------------------------------------------------------------------------------------------------------------
 
-    def as_map(self, tensor):
-        """[s, c, h, w] as one layer with exactly that map; makes slices and concatenations where it has to."""
+    def as_map(self, tensor, rearranges=True):
+        """[s, c, h, w] as one layer with exactly that map; makes slices and concatenations where it has to, and layers that rearrange
+        elements where that is not enough and `rearranges` allows it."""
         tensor = self.settled(tensor)
         require(not (tensor.at == tensors.FUTURE).any(), "it reads steps that have not come")
         constant = tensor.at == NOTHING
@@ -119,8 +153,30 @@ class Translator:
             require(tensor.at.shape[0] == 1 and not tensor.shift.any(), "it mixes constants with what the network computes")
             return self.padded(tensor)
         at = self.one_step(tensor.at)
+        return self.map_of(at) if rearranges and not self.steps else self.blocks(at)
+
+    def map_of(self, at):
+        """[c, h, w] by whatever layers it takes."""
+        try:
+            return self.blocks(at)
+        except Refused:
+            pass
+        begins = np.flatnonzero(np.diff(at[:, 0, 0] >> BITS)) + 1
+        try:
+            return self.rearranged(at)
+        except Refused:
+            if not 0 < len(begins) < MOST_GROUPS:
+                raise
+        return self.joined([self.map_of(part) for part in np.split(at, begins)])
+
+    def blocks(self, at):
+        """[c, h, w] as parts of layers' maps, one behind the other."""
         numbers, channels = self.channel_runs(at)
-        parts = [self.block(self.real(number), at[first:last]) for number, first, last in zip(numbers, channels, channels[1:])]
+        runs = [(self.real(number), at[first:last]) for number, first, last in zip(numbers, channels, channels[1:])]
+        boxes = [self.place_of_block(layer, run) for layer, run in runs]  # before any layer is made
+        return self.joined([self.block(layer, run, box) for (layer, run), box in zip(runs, boxes)])
+
+    def joined(self, parts):
         whole = parts[0]
         for part in parts[1:]:
             whole = self.layer("concat", [whole, part], (*whole.shape[:2], whole.shape[2] + part.shape[2]))
@@ -136,14 +192,18 @@ class Translator:
         bounds = [0, *begins.tolist(), len(at)]
         return number[bounds[:-1]].tolist(), bounds
 
-    def block(self, layer, at):
-        """[c, h, w], which has to be a part of the layer's map."""
+    def place_of_block(self, layer, at):
+        """Where [c, h, w] begins, which has to be a part of the layer's map."""
         h, w, c = layer.shape
         begin = first, y, x = [int(n) for n in np.unravel_index(int(at[0, 0, 0] & MASK), (c, h, w))]
         inside = all(b + n <= size for b, n, size in zip(begin, at.shape, (c, h, w)))
         channels, rows, columns = np.ogrid[tuple(map(slice, at.shape))]
         require(inside and (at == at[0, 0, 0] + (channels * h + rows) * w + columns).all(),
                 "it reads a map whose rows, columns or channels have been rearranged")
+        return begin
+
+    def block(self, layer, at, begin):
+        (h, w, _), (first, y, x) = layer.shape, begin
         if at.size == layer.size:
             return layer
         margins = y, x, h - y - at.shape[1], w - x - at.shape[2]
@@ -162,32 +222,90 @@ class Translator:
         return self.layer("depthwise", [x], (h + kh - 1, w + kw - 1, c), weight=weight, bias=np.zeros(c), stride=(1, 1),
                           padding=(kh - 1, kw - 1, kh - 1, kw - 1))
 
+    def rearranged(self, at):
+        """[c, h, w] of any elements, which have to be pieces of layers."""
+        c, h, w = at.shape
+        try:
+            pieces = self.pieces(at.transpose(1, 2, 0).reshape(-1))
+        except Refused:
+            vector = self.vector_of(at.reshape(-1))
+            turned = self.layer("rearrange", [vector], (c, h, w), order="hwc")
+            return self.layer("rearrange", [turned], (h, w, c), order="wch")
+        if len(pieces) == 1:
+            return self.piece(pieces[0], (h, w, c))
+        vector = self.joined([self.piece(piece) for piece in pieces])
+        return self.layer("rearrange", [vector], (h, w, c), order="hwc")
+
+    def vector_of(self, elements):
+        """[n] elements of layers as a vector."""
+        return self.joined([self.piece(piece) for piece in self.pieces(elements)])
+
+    def pieces(self, elements):
+        """[n] elements as pieces of layers."""
+        numbers = elements >> BITS
+        bounds = [0, *(np.flatnonzero(np.diff(numbers)) + 1).tolist(), len(elements)]
+        require(len(bounds) <= MOST_PIECES, f"it puts a tensor together of more than {MOST_PIECES} pieces")
+        found = []
+        for first, last in zip(bounds, bounds[1:]):
+            found += pieces_of(self.real(int(numbers[first])), elements[first:last] & MASK)
+        require(len(found) <= MOST_PIECES, f"it puts a tensor together of more than {MOST_PIECES} pieces")
+        return found
+
+    def piece(self, piece, shape=None):
+        """As a map of that shape, by default as a vector."""
+        layer = self.joined([self.slice_of(piece, channels) for channels in piece.channels])
+        shape = shape or (1, 1, layer.size)
+        same = layer.shape == shape and (piece.order == "hwc" or shape[:2] == (1, 1))
+        return layer if same else self.layer("rearrange", [layer], shape, order=piece.order)
+
+    def slice_of(self, piece, channels):
+        layer, (first, last), (top, bottom), (left, right) = piece.layer, channels, piece.rows, piece.columns
+        size = bottom - top, right - left, last - first
+        if size == layer.shape:
+            return layer
+        margins = top, left, layer.shape[0] - bottom, layer.shape[1] - right
+        return self.layer("slice", [layer], size, first_channel=first, channels=size[2], padding=margins)
+
     def arrangements(self, shape, channel_axis=None):
-        """Ways to read a tensor of that shape as [steps, c, h, w]: the order of its axes, and their sizes then."""
+        """Ways to read a tensor of that shape as [steps, c, h, w]: for each of these the axes that it is made of."""
         steps, axes = range(1, max(self.steps, 1) + 1), range(len(shape))
         if len(shape) == 4:
-            yield from ((order, [shape[axis] for axis in order]) for order in ((0, 1, 2, 3), (0, 3, 1, 2), (0, 3, 2, 1))
+            yield from ([[axis] for axis in order] for order in ((0, 1, 2, 3), (0, 3, 1, 2), (0, 3, 2, 1))
                         if channel_axis in (None, order[1]) and shape[0] in steps)
         for step, channel in [(s, c) for s in axes for c in axes if s != c and shape[s] in steps] + [(None, c) for c in axes]:
             others = [axis for axis in axes if axis not in (step, channel)]
             if channel_axis in (None, channel) and all(shape[axis] == 1 for axis in others):
-                front = [channel] if step is None else [step, channel]
-                yield front + others, [1 if step is None else shape[step], shape[channel], 1, 1]
+                yield [[] if step is None else [step], [channel], others, []]
+        if len(shape) == 3 and shape[0] == 1 and channel_axis in (None, 2) and not self.steps:
+            yield [[0], [2], [1], []]
         if len(shape) == 3 and shape[0] == 1 and channel_axis in (None, 1):
-            yield (0, 1, 2), [1, shape[1], 1, shape[2]]
+            yield [[0], [1], [], [2]]
+        if not self.steps:
+            for channel in [len(shape) - 1, 1] if channel_axis is None else [channel_axis]:
+                if 0 <= channel < len(shape):
+                    yield [[], [channel], [axis for axis in axes if axis != channel], []]
 
     def arranged(self, tensor, channel_axis=None):
         """Some arrangement that is a map: its layer, how many steps it has, and how to bring such elements back."""
-        tensor, refusal = self.settled(tensor), None
-        for order, sizes in self.arrangements(tensor.shape, channel_axis):
-            try:
-                layer = self.as_map(tensor.moved(lambda part, order=order, sizes=sizes: part.transpose(order).reshape(sizes)))
-            except Refused as error:
-                refusal = refusal or error
-                continue
-            shape = [tensor.shape[axis] for axis in order]
-            return layer, sizes[0], lambda part, order=order, shape=shape: part.reshape(shape).transpose(np.argsort(order))
-        raise refusal or Refused(f"it reads a tensor {list(tensor.shape)}, which is no map and no vector")
+        (layer,), steps, back = self.arranged_alike([tensor], channel_axis)
+        return layer, steps, back
+
+    def arranged_alike(self, given, channel_axis=None):
+        """The same for tensors of which the first is the largest, and the others have ones where they are broadcast."""
+        given, refusal = [self.settled(tensor) for tensor in given], None
+        shape = given[0].shape
+        for rearranges in (False, True):
+            for groups in self.arrangements(shape, channel_axis):
+                try:
+                    layers = [self.as_map(tensor.moved(lambda part, groups=groups: grouped(part, groups)), rearranges) for tensor in given]
+                except Refused as error:
+                    refusal = refusal or error
+                    continue
+                order = [axis for group in groups for axis in group]
+                ordered = [shape[axis] for axis in order]
+                steps = grouped(given[0].at, groups).shape[0]
+                return layers, steps, lambda part, order=order, ordered=ordered: part.reshape(ordered).transpose(np.argsort(order))
+        raise refusal or Refused(f"it reads a tensor {list(shape)}, which is no map and no vector")
 
     def result(self, layer, steps, back):
         """A layer's elements in the arrangement that `arranged` found."""
@@ -220,8 +338,15 @@ class Translator:
 
     # -- nodes -----------------------------------------------------------------------------------------------------------------------
 
-    def constant(self, operator, inputs, attributes):
+    def constant(self, node):
         """Of an operator whose inputs are all constants."""
-        require(operator in FUNCTIONS, "it is not computed on constants")
         with np.errstate(all="ignore"):
-            return [np.asarray(FUNCTIONS[operator](inputs, attributes))]
+            if node.operator in FUNCTIONS:
+                return [np.asarray(FUNCTIONS[node.operator](node.inputs, node.attributes))]
+            return evaluated(node, self.opset)
+
+
+def grouped(part, groups):
+    """The axes of each group become one."""
+    order = [axis for group in groups for axis in group]
+    return part.transpose(order).reshape([int(np.prod([part.shape[axis] for axis in group], dtype=np.int64)) for group in groups])

@@ -19,6 +19,7 @@ HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parents[1] / "scripts/convert")]
 try:
     import numpy as np
+    import arithmetic_cases
     import onnx
     import operator_cases
     import random_graphs
@@ -67,7 +68,7 @@ class Runtime:
         return json.loads(done.stdout)
 
     def outputs(self, number):
-        paths = sorted(self.folder.glob(f"{number}.[0-9]"))
+        paths = sorted((path for path in self.folder.glob(f"{number}.*") if path.suffix[1:].isdigit()), key=lambda path: int(path.suffix[1:]))
         return [np.frombuffer(path.read_bytes(), np.float32) for path in paths]
 
 
@@ -80,6 +81,9 @@ class Folder(unittest.TestCase):
 class Operators(Folder):
     def test_answers_are_those_of_onnx_runtime(self):
         self.check(list(operator_cases.accepted()))
+
+    def test_arithmetic_answers_as_numpy_and_onnx_runtime_do(self):
+        self.check(list(arithmetic_cases.accepted()))
 
     def test_graphs_drawn_by_chance(self):
         self.check(list(random_graphs.graphs(RANDOM_GRAPHS)))
@@ -97,6 +101,10 @@ class Operators(Folder):
             begin = {name: np.zeros(case.shapes[name], np.float32) for name in case.feedback}
             runtime.add(model, [{**step, **begin} for step in steps], case.feedback)
             answers.append(self.answers(case, model.with_suffix(".mien"), steps))
+            if case.expected:
+                for answer, want in zip(answers[-1], case.expected(case, steps[0]["x"]), strict=True):
+                    with self.subTest(case.name):
+                        self.assertLess(difference(answer, want), ROUNDED_TOLERANCE)
             if case.answer:
                 with self.subTest(case.name):
                     self.assertLess(difference(answers[-1][0], case.answer(case, steps[0]["x"])), ROUNDED_TOLERANCE)
@@ -105,8 +113,9 @@ class Operators(Folder):
         failures = runtime.run()
         for number, (case, answer) in enumerate(zip(cases, answers)):
             with self.subTest(case.name):
-                self.assertIsNone(failures.get(str(self.folder / f"{case.name}.onnx")) if not case.answer else None)
-                if not case.answer:
+                failure = failures.get(str(self.folder / f"{case.name}.onnx"))
+                self.assertIsNone(failure if not case.answer and not case.expected else None)
+                if not case.answer and not failure:
                     self.compare(case, answer, runtime.outputs(number))
 
     def answers(self, case, model, steps):
@@ -133,16 +142,16 @@ class Operators(Folder):
             self.assertLess(difference(got, want), case.rounds * ROUNDED_TOLERANCE or OPERATOR_TOLERANCE)
 
     def test_refusals_name_the_node_and_the_reason(self):
-        for case in operator_cases.refused():
+        for case in [*operator_cases.refused(), *arithmetic_cases.refused()]:
             with self.subTest(case.name):
                 model = self.folder / f"{case.name}.onnx"
                 onnx.save(case.model(), str(model))
+                (self.folder / "y.mien").unlink(missing_ok=True)
                 status, _ = convert([model, "-o", self.folder / "y.mien", *case.arguments])
                 self.assertIsInstance(status, str)
                 self.assertIn(case.refusal, status)
                 self.assertNotIn("malformed", status)
                 self.assertFalse((self.folder / "y.mien").exists())
-                (self.folder / "y.mien").unlink(missing_ok=True)
 
 
 @unittest.skipIf(torch is None, "no PyTorch here")
@@ -244,26 +253,56 @@ class Program(Folder):
                 self.assertIn(f"{nodes[0].op_type} 'the_{nodes[0].op_type.lower()}'", status)
                 self.assertEqual(len(status.splitlines()), 1)
 
-    def test_weights_in_another_file_are_not_followed(self):
+    def with_external_weights(self, **external):
+        """A model whose weights lie in another file, and what becomes of it."""
         case = operator_cases.Case("net", [operator_cases.node("Conv", "x w")], {"x": [1, 3, 4, 5]},
                                    constants={"w": operator_cases.weights(5, 3, 1, 1)})
         model = case.model()
-        onnx.external_data_helper.set_external_data(model.graph.initializer[0], location="../../etc/passwd")
-        model.graph.initializer[0].ClearField("raw_data")
-        path = self.folder / "outside.onnx"
+        weights = model.graph.initializer[0]
+        data = weights.raw_data
+        onnx.external_data_helper.set_external_data(weights, **external)
+        weights.ClearField("raw_data")
+        path = self.folder / "external.onnx"
         path.write_bytes(model.SerializeToString())
-        status, _ = convert([path, "-o", self.folder / "y.mien"])
-        self.assertIn("weights 'w' lie in another file", status)
+        return data, convert([path, "-o", self.folder / "y.mien"])[0]
+
+    def test_weights_in_another_file_beside_the_model(self):
+        (self.folder / "here").mkdir()
+        data, _ = self.with_external_weights(location="weights.bin")
+        (self.folder / "weights.bin").write_bytes(bytes(16) + data + b"more")
+        (self.folder / "here/weights.bin").write_bytes(data)
+        x = np.random.default_rng(1).standard_normal((3, 4, 5)).astype(np.float32)
+        want = np.einsum("oi,ihw->ohw", np.frombuffer(data, np.float32).reshape(5, 3), x)
+        for external in ({"location": "weights.bin", "offset": 16, "length": len(data)}, {"location": "here/weights.bin"}):
+            with self.subTest(external):
+                self.assertEqual(self.with_external_weights(**external)[1], 0)
+                y, = answered(self.folder, self.folder / "y.mien", x)
+                np.testing.assert_allclose(y, want, atol=1e-5)
+
+    def test_weights_in_another_file_that_is_not_there_or_not_theirs(self):
+        (self.folder / "short.bin").write_bytes(bytes(59))
+        os.symlink("/etc/passwd", self.folder / "link.bin")
+        for external, refusal in (({"location": "../../etc/passwd"}, "outside the model's folder"), ({"location": "/etc/passwd"}, "outside the model"),
+                                  ({"location": "link.bin"}, "outside the model"), ({"location": "none.bin"}, "no file 'none.bin' beside the model"),
+                                  ({"location": "."}, "no file '.'"), ({"location": "short.bin", "length": 60}, "too short (got 59 bytes, expected 60)"),
+                                  ({"location": "short.bin", "offset": 1 << 62, "length": 60}, "too short"), ({"location": "short.bin"}, "malformed")):
+            with self.subTest(external):
+                _, status = self.with_external_weights(**external)
+                self.assertIsInstance(status, str)
+                self.assertIn("weights 'w'", status)
+                self.assertIn(refusal, status)
+                self.assertNotIn("\n", status)
+                self.assertFalse((self.folder / "y.mien").exists())
 
     def test_as_a_program(self):
         program = [sys.executable, str(HERE.parents[1] / "scripts/convert/onnx_to_mien.py")]
         done = subprocess.run([*program, str(self.model()), "-o", str(self.folder / "y.mien")], capture_output=True, text=True)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
-        refused = self.model("bad", [operator_cases.node("Erf", "x")])
+        refused = self.model("bad", [operator_cases.node("Sin", "x")])
         done = subprocess.run([*program, str(refused), "-o", str(self.folder / "z.mien")], capture_output=True, text=True)
         self.assertEqual(done.returncode, 1)
         self.assertEqual(done.stderr.count("\n"), 1)
-        self.assertIn("Erf 'the_erf': the engine has no such layer (opset 13)", done.stderr)
+        self.assertIn("Sin 'the_sin': the engine has no such layer (opset 13); replace it by", done.stderr)
         self.assertFalse((self.folder / "z.mien").exists())
         self.assertEqual(subprocess.run([*program, "--shape", "0"], capture_output=True).returncode, 2)
 
