@@ -18,7 +18,6 @@ build() {  # preset, targets
 linters() {
   shellcheck -x scripts/*.sh scripts/*/*.sh tests/*/*.sh bindings/*.sh bindings/*/*.sh
   scripts/check/format.sh
-  scripts/check/project_files.sh
   cmake --preset tidy >/dev/null  # for clang, whose options clang-tidy understands, file by file
   scripts/check/tidy.py build/tidy
 }
