@@ -151,6 +151,24 @@ def wild():
             bar("error of the worst ethnic group over the mean of all", "<=", 1.15, figure("worst_group_ratio"))]
 
 
+def amplitude():
+    """How far faces move."""
+    bar = lambda title, *rest: Bar("amplitude", f"amplitude: {title}", *rest)
+    peaks = at(at, "clips", "blinks", "peaks")
+    portraits, renders = (lambda key: at(at, "portraits", key)), (lambda key: at(at, "renders", key))
+    known = lambda rows, key: (row[key] for row in rows.values() if row[key] is not None)
+    fits = lambda v: 0.8 <= v <= 1.25
+    right = lambda results, level: fmean(fits(renders("controls")(results, level)[c]["ratio"]) for c in results[level]["supported"])
+    return [bar("blinks counted by eye: mean peak of eyeBlink", ">=", of_levels(0.7, 0.8), lambda *a: fmean(peaks(*a))),
+            bar("% of those blinks above 0.5", ">=", 95, lambda *a: fmean(p > 0.5 for p in peaks(*a)), 100, 0),
+            bar("false blinks on the clips", "<=", 1, at(at, "clips", "blinks", "false"), 1, 0),
+            bar("closed eyes on portraits: mean eyeBlink", ">=", of_levels(0.7, 0.8), portraits("closed")),
+            bar("neutral portraits: largest mean of a control", "<=", 0.1, portraits("neutral_largest")),
+            bar("neutral portraits: mean of all controls", "<=", 0.03, portraits("neutral_mean"), 1, 3),
+            bar("renders: % of supported controls whose deviation is 0.8 to 1.25 of the true one", ">=", 100, right, 100, 0),
+            bar("renders at rest: largest mean of a control", "<=", 0.1, lambda *a: max(known(renders("at_rest")(*a), "mean")))]
+
+
 def voice():
     """Of sound; they have no level."""
     figure = lambda *path: lambda results, _: at(*path)(results, None)
@@ -182,4 +200,4 @@ def clips_of(*prefixes):
 
 
 def every():
-    return [*synthetic(), *probes(), *levels(), *clips(), *pictures(), *wild()]
+    return [*synthetic(), *probes(), *levels(), *clips(), *pictures(), *wild(), *amplitude()]

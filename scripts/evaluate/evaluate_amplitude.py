@@ -31,6 +31,7 @@ BLINKS = json.loads((Path(__file__).parent / "blinks.json").read_text())
 EYES = [INDEX["eyeBlinkLeft"], INDEX["eyeBlinkRight"]]
 PASSED, FRAMES_AROUND = 0.5, 2  # a blink that is told; frames before and after one counted by eye that still belong to it
 AT_REST, CLOSED, SMILING = 0.05, 0.9, 0.6
+FEWEST = 96  # test sequences that say something about rare controls
 
 
 def slopes(predicted, truth):
@@ -65,6 +66,8 @@ def streamed(kind, network):
 
 def on_renders(decoder, network):
     data = of_stride(streamed("test", network), 1)
+    if len(data["features"]) < FEWEST:
+        raise Missing(f"only {len(data['features'])} streamed test sequences of {FEWEST}: stream_features.py --split test --count {FEWEST}")
     told, truth = shown(answers(decoder, data["features"])).numpy(), data["controls"].float().numpy()
     rest = told[truth.max(-1) < AT_REST]
     return {"sequences": len(told), "controls": by_control(slope=slopes(told, truth), ratio=ratios(told, truth)),
@@ -117,7 +120,7 @@ def on_clips(program, lod):
         labels = curves.Teacher(videos.labels_of(clip), CONTROLS)
         told = tracked(program, clip, lod, labels)
         seen = labels.found & np.isfinite(told[:, INDEX["jawOpen"]])
-        ours.append(told[seen] - np.nanmean(told[seen], 0)), theirs.append(labels.controls[seen] - labels.controls[seen].mean(0))
+        ours.append(told[seen] - told[seen].mean(0)), theirs.append(labels.controls[seen] - labels.controls[seen].mean(0))
         again.append(mirrored(program, videos.labels_of(clip), lod))
         if clip.stem in BLINKS:
             found, wrong = blinks_of(told[:, EYES].mean(1), BLINKS[clip.stem])
@@ -139,6 +142,7 @@ def winks(setting, level):
 
 def measure(setting):
     torch.set_num_threads(1)
+    videos.clips()
     results = {}
     for name, lod in setting.levels("amplitude").items():
         decoder, supported = decoder_of(setting.program.models, NETWORKS[name])

@@ -22,6 +22,7 @@ from shown import shown
 from whole_files import whole
 
 AIM, MOST = 0.85, 1.4     # deviation over the true one that gains aim at, and the largest gain
+FURTHEST = 1.2            # the same that a control may reach on renders because portraits ask for it
 AT_REST = 0.08            # a face is at rest where nothing is above this
 STILL = 8                 # frames that a portrait is shown for
 RIDGE = 1e-6
@@ -91,23 +92,40 @@ def at_rest(layer, renders, portraits):
     return torch.maximum(answers(renders, still), answers(portraits, neutral))
 
 
-def gains(layer, renders):
-    """[52], at least 1."""
-    deviation = shown(renders.hidden @ layer.T).std(0).clamp(min=SMALLEST)
-    return (AIM * renders.controls.std(0) / deviation).clamp(1, MOST)
+def deviation_of(layer, parts):
+    """Of the answers, [52]."""
+    return shown(parts.hidden @ layer.T).std(0).clamp(min=SMALLEST)
 
 
-def refitted(layer, renders, portraits):
-    """The output layer [52,97], bias last, in place of `layer`."""
-    out, stays = layer.clone(), torch.zeros(len(CONTROLS), dtype=torch.bool)
-    for side, number in (("Left", 0), ("Right", 1)):
-        for name, wanted, weights in ((f"eyeBlink{side}", portraits.closed[:, number], EYELIDS),
-                                      (f"mouthSmile{side}", portraits.controls[:, INDEX[f"mouthSmile{side}"]], SMILES)):
-            control = INDEX[name]
-            out[control], stays[control] = solved(layer[control], control, wanted, renders, portraits, weights), True
-    gain = torch.where(stays, torch.ones(len(CONTROLS)), gains(layer, renders))
+def gains(layer, renders, most):
+    """What brings every control near to its true deviation on renders, [52], from 1 to `most`."""
+    return (AIM * renders.controls.std(0) / deviation_of(layer, renders)).clamp(1, most)
+
+
+def portrait_gain(layer, control, wanted, renders, portraits):
+    """What brings a control to the deviation that portraits should have, as far as renders stand it."""
+    on_portraits = wanted.std() / deviation_of(layer, portraits)[control]
+    on_renders = FURTHEST * renders.controls[:, control].std() / deviation_of(layer, renders)[control]
+    return torch.minimum(on_portraits, on_renders).clamp(1, MOST)
+
+
+def followers(portraits):
+    """(control, what portraits should give [portraits], Weights) of those that follow the portraits."""
+    for number, side in enumerate(("Left", "Right")):
+        smile = INDEX[f"mouthSmile{side}"]
+        yield INDEX[f"eyeBlink{side}"], portraits.closed[:, number], EYELIDS
+        yield smile, portraits.controls[:, smile], SMILES
+
+
+def refitted(layer, renders, portraits, most=MOST):
+    """The output layer [52,97], bias last, in place of `layer`; `most` is the largest gain of controls that do not follow portraits."""
+    out, gain = layer.clone(), gains(layer, renders, most)
+    for control, wanted, weights in followers(portraits):
+        out[control] = solved(layer[control], control, wanted, renders, portraits, weights)
+        gain[control] = portrait_gain(out, control, wanted, renders, portraits)
+    rest = at_rest(out, renders, portraits)
     out *= gain[:, None]
-    out[:, -1] -= (gain - 1) * at_rest(layer, renders, portraits)
+    out[:, -1] -= (gain - 1) * rest
     return out
 
 
@@ -116,13 +134,15 @@ def main():
     parser.add_argument("--network", choices=FACE_NETWORKS, required=True)
     parser.add_argument("--decoders", type=Path, required=True)
     parser.add_argument("--out", type=Path, required=True)
+    parser.add_argument("--most", type=float, default=MOST, help="largest gain of what does not follow the portraits; 1 leaves it as it is, "
+                        "which is better for BaseNet: what it tells of faint controls is mostly noise")
     parser.add_argument("--stream", type=Path, default=cache() / "stream")
     args = parser.parse_args()
     torch.set_num_threads(1)
     known = torch.load(args.decoders)
     state = known["controls_decoder"]
     parts = parts_of(state, args.stream, args.network)
-    layer = refitted(torch.cat([state["output.weight"], state["output.bias"][:, None]], 1), *parts)
+    layer = refitted(torch.cat([state["output.weight"], state["output.bias"][:, None]], 1), *parts, args.most)
     known["controls_decoder"] = {**state, "output.weight": layer[:, :-1].contiguous(), "output.bias": layer[:, -1].contiguous()}
     with whole(args.out) as out:
         torch.save(known, out)

@@ -1,0 +1,93 @@
+#!/usr/bin/env python3
+"""Amplitude: how it is measured, what a closed eye is, and that a refitted output layer gives it back."""
+import sys
+import unittest
+from pathlib import Path
+
+import numpy as np
+import torch
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / "scripts/train"), str(ROOT / "scripts/evaluate")]
+import evaluate_amplitude as measured  # noqa: E402
+import eyelids  # noqa: E402
+import landmark_points as lp  # noqa: E402
+import refit_outputs as refit  # noqa: E402
+from expressions import CONTROLS, INDEX  # noqa: E402
+
+torch.set_num_threads(1)
+
+
+class Measures(unittest.TestCase):
+    def test_half_the_motion_has_half_the_slope_and_deviation(self):
+        truth = np.random.default_rng(0).random((3, 40, len(CONTROLS)))
+        np.testing.assert_allclose(measured.slopes(0.5 * truth + 0.1, truth), 0.5)
+        np.testing.assert_allclose(measured.ratios(0.5 * truth + 0.1, truth), 0.5)
+        self.assertTrue(np.isnan(measured.ratios(truth, np.ones_like(truth))).all())
+
+    def test_blinks_are_found_where_they_were_counted(self):
+        curve = np.zeros(60)
+        curve[10:13], curve[30], curve[50] = (0.4, 0.9, 0.4), 0.3, 0.7
+        peaks, false = measured.blinks_of(curve, [[11, 12], [28, 29]])
+        self.assertEqual((peaks, false), ([0.9, 0.3], 1))
+
+    def test_every_counted_blink_has_its_frames_in_order(self):
+        spans = [s for name, counted in measured.BLINKS.items() if name != "about" for s in counted]
+        self.assertGreater(len(spans), 10)
+        self.assertTrue(all(first < last < first + 12 for first, last in spans))
+
+
+class Eyelids(unittest.TestCase):
+    def face(self, height):
+        """Landmarks of eyes of width 1 whose lids are `height` apart."""
+        points = torch.zeros(175, 2)
+        for outer, inner in ((263, 362), (33, 133)):
+            points[lp.POSITION[inner], 0] = 1
+        for _, pairs in eyelids.EYES.values():
+            for upper, _ in pairs:
+                points[lp.POSITION[upper], 1] = height
+        return points
+
+    def test_open_and_closed_whatever_the_size(self):
+        for size in (1.0, 40.0):
+            self.assertEqual((eyelids.closures(self.face(0.35) * size)).tolist(), [0, 0])
+            self.assertEqual((eyelids.closures(self.face(0.05) * size)).tolist(), [1, 1])
+            middle = eyelids.closures(self.face((eyelids.OPEN + eyelids.CLOSED) / 2) * size)
+            self.assertTrue(torch.allclose(middle, torch.tensor([0.5, 0.5]), atol=1e-5))
+
+
+class Refit(unittest.TestCase):
+    def made(self, gain):
+        """Renders and portraits of a layer that answers `gain` of the truth, for states that tell all."""
+        torch.manual_seed(1)
+
+        def part(rows):
+            made = refit.Parts.__new__(refit.Parts)
+            controls = torch.rand(rows, len(CONTROLS)) * (torch.rand(rows, 1) > 0.2)
+            made.hidden = torch.cat([controls, torch.randn(rows, 96 - len(CONTROLS)), torch.ones(rows, 1)], 1)
+            made.controls, made.seen = controls, torch.ones_like(controls)
+            made.closed = controls[:, [INDEX["eyeBlinkLeft"], INDEX["eyeBlinkRight"]]]
+            return made
+        layer = torch.zeros(len(CONTROLS), 97)
+        layer[range(len(CONTROLS)), range(len(CONTROLS))] = gain
+        return layer, part(3000), part(2000)
+
+    def test_amplitude_comes_back_and_faces_at_rest_stay_there(self):
+        layer, renders, portraits = self.made(0.7)
+        after = refit.refitted(layer, renders, portraits)
+        answers = renders.hidden @ after.T
+        ratio = answers.std(0) / renders.controls.std(0)
+        self.assertGreater(float(ratio.min()), 0.83)
+        self.assertLess(float(ratio.max()), 1.1)
+        still = renders.controls.amax(1) == 0
+        self.assertLess(float(answers[still].abs().max()), 0.05)
+
+    def test_what_moves_enough_is_left_alone(self):
+        layer, renders, portraits = self.made(1.0)
+        after = refit.refitted(layer, renders, portraits)
+        others = [i for i, name in enumerate(CONTROLS) if not name.startswith(("eyeBlink", "mouthSmile"))]
+        self.assertTrue(torch.equal(after[others], layer[others]))
+
+
+if __name__ == "__main__":
+    unittest.main()
