@@ -28,7 +28,7 @@ inline float exp_of(float x) {
   p = p * r + 1.6666665459e-1f;
   p = p * r + 5.0000001201e-1f;
   p = p * (r * r) + (r + 1.0f);
-  const std::uint32_t power = (__builtin_bit_cast(std::uint32_t, shifted) << 23) + 0x3F800000u;
+  const std::uint32_t power = ((__builtin_bit_cast(std::uint32_t, shifted) + 127u) & 0xFFu) << 23;
   return p * __builtin_bit_cast(float, power);
 }
 
