@@ -64,25 +64,6 @@ def batch(rig, rng, count, frames, perform=expressions.sample_sequence):
     return known(labels), labels["controls"].float()
 
 
-def tracked(rig, rng, count, frames, perform, lag):
-    """Landmarks [count,frames,175,2] in the crops of a tracker, their poses [count,frames,9] and controls [count,frames,52].
-
-    A crop fits the landmarks of the frame before, or of that before it, and is off by deviations `lag` (middle, log side, roll).
-    """
-    rows = [sequence(rig, rng, frames + 2, perform) for _ in range(count)]
-    labels = {k: torch.from_numpy(np.stack([row[k] for row in rows])).float() for k in rows[0]}
-    late = rng.integers(2, size=(count, 1)) * rng.integers(2, size=(count, frames))  # half of the encoders run on alternate frames
-    before = np.arange(1, frames + 1) - late
-    crops = labels["crop"][torch.arange(count)[:, None], torch.from_numpy(before)]
-    off = torch.from_numpy(rng.normal(0, lag, (count, frames, 4))).float()
-    side = crops[..., 2:3]
-    crops = torch.cat([crops[..., :2] + off[..., :2] * side, side * torch.exp(off[..., 2:3]), crops[..., 3:] + off[..., 3:]], -1)
-    now = {k: v[:, 2:] for k, v in labels.items()}
-    points = to_crop(crops.flatten(0, 1), now["landmarks"].flatten(0, 1)).view_as(now["landmarks"])
-    pose = head_pose.to_crop(*(now[k] for k in ("rotation", "translation", "f_px", "camera_wh")), crops)
-    return points, pose, now["controls"]
-
-
 def self_test():
     """Landmarks alone are those of whole heads, and the stream does not repeat."""
     rig = Rig()

@@ -156,14 +156,14 @@ void cover(const Edges& e, const Bounds& box, const Grid& grid, Visit visit) {
 template <class Draw>
 void each_triangle(const Mesh& mesh, const Part& part, const std::vector<Projected>& screen,
                    const Grid& grid, Draw draw) {
-  constexpr int kBlock = 256;
+  constexpr int kTogether = 256;
   const int32_t* corners = mesh.corner_position + 3 * part.first;
   const Projected* points = screen.data();
   const float w = float(grid.width), h = float(grid.height);
-  for (int begin = 0; begin < part.count; begin += kBlock) {
-    const int size = std::min(kBlock, part.count - begin);
+  for (int begin = 0; begin < part.count; begin += kTogether) {
+    const int size = std::min(kTogether, part.count - begin);
     const int32_t* corner = corners + 3 * begin;
-    int32_t seen[kBlock];
+    int32_t seen[kTogether];
     for (int t = 0; t < size; ++t)
       seen[t] = may_be_seen(points[corner[3 * t]], points[corner[3 * t + 1]],
                             points[corner[3 * t + 2]], w, h, part.cull != 0);
