@@ -29,7 +29,8 @@ void read_networks(const FileView& view) {
       }
     }
     for (std::uint32_t i = 0; i < network.output_count; ++i) {
-      require(network.outputs[i] >= 1 && network.outputs[i] <= value);
+      const std::uint32_t output = formats::output_value(network, i);
+      require(output >= 1 && output <= value);
     }
   }
 }

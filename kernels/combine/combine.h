@@ -1,7 +1,7 @@
 // Two maps element by element: y = a * b, a / b or a + b.
 //
-// a, y: [h, w, c], b: as they are, but of one row, one column or one channel where repeats_* say so;
-// in blocks of 8 channels. y may be a. Lanes beyond the channels become zero.
+// a, y: [h, w, c], b: as they are, but of one row, one column or one channel where repeats_* say
+// so; in blocks of 8 channels. y may be a. Lanes beyond the channels become zero.
 #pragma once
 
 #include <cstdint>

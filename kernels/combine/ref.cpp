@@ -26,10 +26,10 @@ void combine(const CombineArgs& args) {
       const std::ptrdiff_t row = args.repeats_rows ? 0 : p / args.w;
       const std::ptrdiff_t column = args.repeats_columns ? 0 : p % args.w;
       const std::ptrdiff_t at = blocked(c, p, pixels);
-      const std::ptrdiff_t from = blocked(args.repeats_channels ? 0 : c, row * b_w + column,
-                                          std::ptrdiff_t{b_h} * b_w);
-      const double value = combined(args.kind, static_cast<double>(args.a[at]),
-                                    static_cast<double>(args.b[from]));
+      const std::ptrdiff_t from =
+          blocked(args.repeats_channels ? 0 : c, row * b_w + column, std::ptrdiff_t{b_h} * b_w);
+      const double value =
+          combined(args.kind, static_cast<double>(args.a[at]), static_cast<double>(args.b[from]));
       args.y[at] = c < args.channels ? static_cast<float>(value) : 0.0f;
     }
   }

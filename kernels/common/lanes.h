@@ -1,4 +1,5 @@
-// What kernels share that are written once for all tiers, as plain loops over the 8 channels of a block.
+// What kernels share that are written once for all tiers, as plain loops over the 8 channels of a
+// block.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +11,10 @@ namespace {
 constexpr int kBlockLanes = 8;
 
 // Before a loop whose iterations do not depend on one another, whatever the compiler can prove.
+// clang warns where sanitizers or the optimization level keep it from making vectors, which is no
+// fault.
 #ifdef __clang__
+#pragma clang diagnostic ignored "-Wpass-failed"
 #define MIEN_INDEPENDENT _Pragma("clang loop vectorize(assume_safety)")
 #else
 #define MIEN_INDEPENDENT _Pragma("GCC ivdep")

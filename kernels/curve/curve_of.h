@@ -86,8 +86,8 @@ inline float curve_of(float x) {
   }
 }
 
-// One loop over all elements, so that the compiler need not see that 8 of them are a vector. In place
-// too they are independent, which it cannot know.
+// One loop over all elements, so that the compiler need not see that 8 of them are a vector. In
+// place too they are independent, which it cannot know.
 template <Curve kKind>
 void curve_map(const CurveArgs& a) {
   const std::ptrdiff_t elems = std::ptrdiff_t{blocks_for(a.channels)} * a.pixels * kBlockLanes;

@@ -1,4 +1,5 @@
-// Mean 0 and variance 1 of the channels of each pixel: y_c = (x_c - mean) / sqrt(variance + epsilon).
+// Mean 0 and variance 1 of the channels of each pixel: y_c = (x_c - mean) / sqrt(variance +
+// epsilon).
 //
 // x, y: [pixels, c] in blocks of 8 channels; y may be x. Lanes >= c become 0.
 #pragma once

@@ -1,5 +1,5 @@
-// The loop of all tiers: both maps are walked once, in the order of the elements. Each tier has a copy
-// with internal linkage.
+// The loop of all tiers: both maps are walked once, in the order of the elements. Each tier has a
+// copy with internal linkage.
 #pragma once
 
 #include "kernels/common/lanes.h"

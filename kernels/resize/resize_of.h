@@ -80,8 +80,8 @@ void weigh(const float* a, const float* b, float share, Lanes& made) {
   }
 }
 
-void resize_pixel(const float* above, const float* below, const Between& row,
-                  const Between& column, float* y) {
+void resize_pixel(const float* above, const float* below, const Between& row, const Between& column,
+                  float* y) {
   const std::ptrdiff_t left = std::ptrdiff_t{column.low} * kBlockLanes;
   const std::ptrdiff_t right = std::ptrdiff_t{column.high} * kBlockLanes;
   Lanes up, down, made;

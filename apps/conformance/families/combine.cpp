@@ -5,8 +5,8 @@
 namespace mien::conformance {
 namespace {
 
-using kernels::CombineArgs;
 using kernels::Combination;
+using kernels::CombineArgs;
 
 struct Repeats {
   bool rows, columns, channels;

@@ -14,9 +14,7 @@ constexpr double kCurveUnits = 12.0;
 
 double exponential(double x) { return std::exp(std::clamp(x, -87.0, 88.0)); }
 
-Approx with_error(double y, double error) {
-  return rounded({y, error + 2 * kFlushed});
-}
+Approx with_error(double y, double error) { return rounded({y, error + 2 * kFlushed}); }
 
 // What exp makes of its argument's rounding, and of the limits of the argument.
 Approx divided_by_exponential(double x, double u) {

@@ -7,7 +7,8 @@ namespace {
 
 using kernels::NormalizeArgs;
 
-// One pixel. Its mean errs as any sum; that error is in each difference, and squared in the variance.
+// One pixel. Its mean errs as any sum; that error is in each difference, and squared in the
+// variance.
 std::vector<Approx> normalized(const std::vector<double>& x, double epsilon) {
   const auto count = static_cast<double>(x.size());
   Sum sum;
@@ -31,8 +32,8 @@ std::vector<Approx> normalized(const std::vector<double>& x, double epsilon) {
   for (const double one : x) {
     const double difference = one - mean.value;
     const double own = mean.error + kUnit * std::abs(difference) + kFlushed;
-    y.push_back(rounded({difference * scale,
-                         std::abs(difference) * scale_error + own * (scale + scale_error)}));
+    y.push_back(rounded(
+        {difference * scale, std::abs(difference) * scale_error + own * (scale + scale_error)}));
   }
   return y;
 }
