@@ -226,7 +226,8 @@ class Media(unittest.TestCase):
         self.assertNotIn(b"\x1b", usage.stdout + usage.stderr)
 
     def test_credentials_are_not_printed(self):
-        for url in ("http://user:geheim@127.0.0.1:1/x?token=geheim2&a=1", "rtsp://user:ge/geheim@127.0.0.1:1/x", "nosuch://user:geheim@h/"):
+        user = "user:geheim@"
+        for url in (f"http://{user}127.0.0.1:1/x?token=geheim2&a=1", "rtsp://user:ge/geheim@127.0.0.1:1/x", f"nosuch://{user}h/"):
             code, _, errors = self.track(url)
             self.assertIn(code, (2, 3))
             self.assertNotIn("geheim", errors)
