@@ -42,7 +42,7 @@ if(MIEN_PYTHON_WHEEL)
   target_link_options(mien_shared PRIVATE -static-libstdc++ -static-libgcc -s)
   install(FILES $<TARGET_FILE:mien_shared> DESTINATION mien COMPONENT python
     RENAME libmien${CMAKE_SHARED_LIBRARY_SUFFIX})
-  target_link_options(mien_program PRIVATE -static-libstdc++ -static-libgcc -s)
+  target_link_options(mien_program PRIVATE -static-libstdc++ -static-libgcc -s -Wl,--gc-sections)
   install(PROGRAMS $<TARGET_FILE:mien_program> DESTINATION mien COMPONENT python)  # what track_file runs
   install(FILES apps/third_party.txt DESTINATION mien COMPONENT python)
   install(DIRECTORY models/ DESTINATION mien/models COMPONENT python)
