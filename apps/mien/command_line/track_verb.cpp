@@ -65,7 +65,7 @@ void add_track(CLI::App& program) {
   verb->add_flag("--unfused", options->unfused, "networks run layer by layer");
   verb->add_option("--models", options->models, "folder of the model files");
   verb->add_option("--audio-track", options->audio_track,
-                   "which audio track is heard, where there are several; the first is 1 (default)")
+                   "number of the audio track to use; the first is 1 (default)")
       ->check(CLI::Range(1, 1000));
   verb->add_option("--rotate", options->rotation,
                    "degrees clockwise that make the video upright, whatever it says itself")

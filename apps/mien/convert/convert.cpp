@@ -75,7 +75,7 @@ void choose_face(Clip& clip, const ConvertOptions& options, formats::AnimationFo
   }
 }
 
-// Writes the frames of a clip, of which nothing is left then.
+// Writes the frames of a clip and empties it.
 class ClipWriter {
  public:
   ClipWriter(const AnimationTarget& target, const formats::WriteOptions& options)

@@ -19,7 +19,7 @@ namespace {
 // Beyond this a size that a file system states is not trusted before the bytes are there.
 constexpr std::uintmax_t kMostReserved = std::uintmax_t{1} << 32;
 
-// `size` is how much is expected, 0 where nobody knows.
+// `size` is the expected number of bytes, 0 if it is unknown.
 std::string rest_of(std::istream& stream, const std::string& name, std::size_t size) {
   std::string text, block(std::size_t{1} << 16, '\0');
   text.reserve(size);

@@ -12,7 +12,7 @@ namespace {
 constexpr double kRate = 16000.0;
 constexpr std::size_t kSampleBytes = 2;
 
-// Samples before that time, of which a block has `most`.
+// Samples before that time; a block has at most `most`.
 std::size_t samples_before(double seconds, std::size_t most) {
   return static_cast<std::size_t>(
       std::clamp(std::round(seconds * kRate), 0.0, static_cast<double>(most)));

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kDecodingErrors = 69;  // ffmpeg's exit status by -max_error_rate
 constexpr double kOffsetS = 1000.0;  // so that no timestamp is below 0, which NUT has none of
-// Of a stream that nobody asks for, while another gives nothing.
+// Of a stream that is not being read while another one is empty.
 constexpr std::size_t kMostWaitingBytes = std::size_t{1} << 29;
 
 std::vector<std::string> command_of(const std::string& input, double seek_s,

@@ -14,7 +14,7 @@ namespace mien::app {
 class Decoder {
  public:
   // `output` tells ffmpeg what to write to its standard output, and how (see `nut_output`).
-  // ffmpeg is told to look for `seek_s` (0: the start), and its times count from there.
+  // ffmpeg seeks to `seek_s` (0: the start), and its times count from there.
   Decoder(const std::string& input, double seek_s, const std::vector<std::string>& input_options,
           const std::vector<std::string>& output, std::size_t streams);
 

@@ -39,7 +39,7 @@ Arguments input_options(const InputOptions& options) {
   return options.rotation ? Arguments{"-noautorotate"} : Arguments();
 }
 
-// Where in an input ffmpeg is told to begin. It may miss the last frame before that which can be
+// Where in an input ffmpeg begins. It may miss the last frame before that which can be
 // decoded by itself, as in MPEG-TS, so it begins earlier.
 double seek_s(const VideoRange& range) {
   constexpr double kEarlierS = 10.0;
@@ -132,7 +132,7 @@ int Input::audio_index(int track) const {
   return kind_ == Kind::kFfmpeg ? recording_.audio[static_cast<std::size_t>(track - 1)].index : 0;
 }
 
-// Two processes, of which each reads at its own pace: one that wrote both would have to hold back
+// Two processes, and each reads at its own pace: one that wrote both would have to hold back
 // pictures wherever audio begins late.
 Input::Opened Input::open_apart(const InputOptions& options, bool video, bool sound) const {
   Opened opened;

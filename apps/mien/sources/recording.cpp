@@ -27,7 +27,7 @@ constexpr const char* kEntries =
     "nb_frames,duration,sample_rate:stream_disposition=attached_pic:stream_side_data=rotation:"
     "format=duration";
 
-// ffprobe writes some numbers as strings, and "N/A" where there is none.
+// ffprobe writes some numbers as strings, and "N/A" where it has none.
 double number(const json& object, const char* key) {
   const auto found = object.find(key);
   if (found == object.end()) {
@@ -64,7 +64,7 @@ int rotation_of(const json& stream) {
   return clockwise % 360;
 }
 
-// Of all pixels square ones are the likeliest, where nothing or nonsense is said.
+// Pixels are taken to be square where the aspect ratio is missing or invalid.
 double pixel_aspect_of(const json& stream) {
   const double said = ratio(text(stream, "sample_aspect_ratio"));
   return said >= kLeastPixelAspect && said <= kMostPixelAspect ? said : 1.0;

@@ -29,7 +29,7 @@ struct AudioTrack {
 };
 
 struct Recording {
-  std::optional<VideoTrack> video;  // the first; a cover picture is none
+  std::optional<VideoTrack> video;  // the first; a cover image does not count
   std::vector<AudioTrack> audio;    // those that ffmpeg knows how to decode
 };
 

@@ -43,7 +43,8 @@ std::string hidden_values(std::string_view query) {
 // What follows "://".
 std::string hidden_url(std::string_view rest) {
   const std::size_t authority = std::min(rest.find_first_of("/?#"), rest.size());
-  // A password that nobody encoded may hold a '/': what is before an '@' counts as the user's.
+  // A password that is not percent-encoded may hold a '/': what is before an '@' counts as the
+  // user's.
   std::size_t at = rest.substr(0, authority).rfind('@');
   if (at == std::string_view::npos) {
     const std::size_t colon = rest.substr(0, authority).find(':');

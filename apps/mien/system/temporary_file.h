@@ -16,7 +16,7 @@ class TemporaryFile {
 
   // Creates the file exclusively: without a name where the file system allows that and `ending`
   // does not matter, so that nothing is left behind however the program ends; otherwise under an
-  // unpredictable name. `error` says why there is none.
+  // unpredictable name. `error` says why it failed.
   TemporaryFile(const std::string& destination, Ending ending, std::error_code& error);
   ~TemporaryFile();  // removes it unless it was published
   TemporaryFile(const TemporaryFile&) = delete;

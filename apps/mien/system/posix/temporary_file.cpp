@@ -14,7 +14,7 @@
 namespace mien::app {
 namespace {
 
-constexpr int kAttempts = 100;  // at a name that nobody has taken
+constexpr int kAttempts = 100;  // at an unused name
 
 std::error_code last_error() { return {errno, std::generic_category()}; }
 
@@ -59,7 +59,7 @@ struct TemporaryFile::Native final : Leftover {
 
   void discard() noexcept override { unlink(name.c_str()); }
 
-  // What replaces a file is nobody else's to read until it has that file's mode.
+  // Only the owner may read a replacement until it has the replaced file's mode.
   [[nodiscard]] mode_t mode() const { return replaced ? 0600 : 0666; }
   [[nodiscard]] std::string partial(const std::string& ending) const {
     std::string made = folder;

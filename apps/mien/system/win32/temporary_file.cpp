@@ -14,7 +14,7 @@
 namespace mien::app {
 namespace {
 
-constexpr int kAttempts = 100;  // at a name that nobody has taken
+constexpr int kAttempts = 100;  // at an unused name
 // A file that is open can be removed only if whoever opened it agreed.
 constexpr DWORD kShared = FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE;
 
