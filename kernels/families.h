@@ -2,7 +2,6 @@
 #pragma once
 
 #include "kernels/activation/activation.h"
-#include "kernels/batch_norm/batch_norm.h"
 #include "kernels/causal_conv/causal_conv.h"
 #include "kernels/combine/combine.h"
 #include "kernels/concat/concat.h"
@@ -13,7 +12,6 @@
 #include "kernels/fma_peak/fma_peak.h"
 #include "kernels/fully_connected/fully_connected.h"
 #include "kernels/global_average_pool/global_average_pool.h"
-#include "kernels/half/half.h"
 #include "kernels/image/warp.h"
 #include "kernels/inverted_residual/inverted_residual.h"
 #include "kernels/lstm/lstm.h"

@@ -1,9 +1,11 @@
 # The source files of each tier, relative to this folder. Every family has a file for ref; a tier has
 # files for the families that it makes faster.
 set(mien_tier_families
-  activation batch_norm causal_conv combine concat conv2d curve depthwise fma_peak fully_connected
-  global_average_pool half image lstm matrix_vector max_pool normalize pointwise power_spectrum
-  rearrange residual_add resize slice softmax)
+  activation causal_conv concat conv2d depthwise fma_peak fully_connected global_average_pool image
+  lstm matrix_vector max_pool pointwise power_spectrum residual_add slice softmax)
+if(NOT MIEN_TRIM_LAYERS)
+  list(APPEND mien_tier_families combine curve normalize rearrange resize)
+endif()
 set(mien_ref_extra fixed_weights/ref.cpp inverted_residual/ref.cpp)
 set(mien_avx2_extra inverted_residual/avx2.cpp pointwise/avx2_product.cpp)
 set(mien_avx512_families

@@ -14,7 +14,6 @@ namespace mien::conformance {
 namespace {
 
 using kernels::AnyKernel;
-using kernels::FloatToHalfArgs;
 using kernels::FullyConnectedArgs;
 
 int padded(int outputs) { return (outputs + 7) / 8 * 8; }
@@ -136,26 +135,6 @@ void changes_rounding_mode(const FullyConnectedArgs& a) {
   std::fesetround(FE_TOWARDZERO);
 }
 
-// Cuts off where it should round to nearest.
-void truncates(const FloatToHalfArgs& a) {
-  for (std::int32_t i = 0; i < a.n; ++i) {
-    std::uint32_t bits;
-    std::memcpy(&bits, a.x + i, sizeof bits);
-    bits &= ~0x1FFFu;
-    float cut;
-    std::memcpy(&cut, &bits, sizeof cut);
-    a.y[i] = formats::fp16_from_float(cut);
-  }
-}
-
-// Rounds to nearest, but ties away from zero.
-void rounds_ties_up(const FloatToHalfArgs& a) {
-  for (std::int32_t i = 0; i < a.n; ++i) {
-    const float up = std::nextafter(a.x[i], std::copysign(HUGE_VALF, a.x[i]));
-    a.y[i] = formats::fp16_from_float(up);
-  }
-}
-
 template <class Args>
 AnyKernel any(void (*kernel)(const Args&)) {
   return reinterpret_cast<AnyKernel>(kernel);
@@ -185,7 +164,6 @@ std::span<const PlantedFault> planted_faults() {
   static const bool pages = have_guard_pages(), crashes = can_catch_crashes() && pages,
                     registers = register_convention() != nullptr;
   constexpr const char* kDense = "fully_connected";
-  constexpr const char* kHalf = "float_to_half";
   // The first buffers end at a guarded page; where there is none, a stray write shows in the
   // border.
   static const Fault stray = crashes ? Fault::kCrashes : Fault::kTouchesBorder;
@@ -206,8 +184,6 @@ std::span<const PlantedFault> planted_faults() {
       {"right for positive inputs only", kDense, any(forgets_signs), Fault::kWrongResult, true},
       {"overflows early", kDense, any(overflows_early), Fault::kWrongResult, true},
       {"ignores the activation", kDense, any(ignores_activation), Fault::kWrongResult, true},
-      {"truncates instead of rounding", kHalf, any(truncates), Fault::kWrongResult, true},
-      {"rounds ties away from zero", kHalf, any(rounds_ties_up), Fault::kWrongResult, true},
       {"illegal instruction", kDense, any(illegal_instruction), Fault::kCrashes, crashes},
       {"null pointer", kDense, any(null_pointer), Fault::kCrashes, crashes},
       {"loses a general register", kDense, mien_loses_general_register, Fault::kClobbersRegister,

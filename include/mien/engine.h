@@ -59,11 +59,11 @@ enum class [[nodiscard]] EngineStatus : std::int32_t{
     kShapeMismatch = 3,      // a layer's declared output is not what its input gives
     kWrongInput = 4,         // the network does not run on that input shape
     kUnsupportedLayout = 5,  // a layer other than a convolution reads the interleaved image
-    kNoKernel = 6,           // no allowed tier has a kernel for a layer
-    kMemoryTooSmall = 7,     // the caller's memory is less than required_memory
-    kMisaligned = 8,         // the caller's memory is not MIEN_ALIGNMENT-aligned
-    kTooLarge = 9,           // a map of that input shape would be beyond 2^28 floats
-    kOutOfMemory = 10,       // the allocator returned nothing
+    kNoKernel = 6,  // no allowed tier has a kernel for a layer, or MIEN_TRIM_LAYERS left it out
+    kMemoryTooSmall = 7,  // the caller's memory is less than required_memory
+    kMisaligned = 8,      // the caller's memory is not MIEN_ALIGNMENT-aligned
+    kTooLarge = 9,        // a map of that input shape would be beyond 2^28 floats
+    kOutOfMemory = 10,    // the allocator returned nothing
 };
 
 // One line of English, static.
