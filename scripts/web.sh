@@ -3,7 +3,8 @@
 # usage: scripts/web.sh [serve [PORT]]   builds and serves (default; port 8000)
 #        scripts/web.sh build            builds apps/web/dist, which any web server can serve
 #        scripts/web.sh test             builds, and tests the page, the face and the JavaScript binding; in Chromium
-#        scripts/web.sh pictures         builds, and draws docs/images/avatar.jpg and pictures of the page into out/web
+#        scripts/web.sh pictures         builds, and draws docs/images/avatar.jpg and screenshots of the page into out/web
+#        scripts/web.sh animation        builds, and makes docs/images/demo.webp: the demo clip beside the avatar
 #        scripts/web.sh measure          builds, and measures the page in Chromium into docs/results/web.md
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -38,6 +39,15 @@ case $command in
   pictures)
     mkdir -p out/web
     (cd apps/web && node tests/contact_sheet.mjs ../../docs/images/avatar.jpg 180 && node tests/screenshots.mjs ../../out/web)
+    ;;
+  animation)
+    cmake --preset release >/dev/null
+    cmake --build --preset release --target mien_program
+    mkdir -p out/web
+    build/release/apps/mien/mien track tests/data/demo.mp4 --start 1 --duration 5 -o out/web/demo.csv --overlay out/web/demo.mp4
+    (cd apps/web && node tests/animation.mjs ../../out/web/demo.csv ../../out/web/frames 320 320)
+    ffmpeg -v error -y -i out/web/demo.mp4 -framerate 30 -i out/web/frames/frame_%04d.png -an \
+      -filter_complex "[0:v]scale=-2:320[clip];[clip][1:v]hstack,fps=15" -c:v libwebp -loop 0 -q:v 55 docs/images/demo.webp
     ;;
   measure) (cd apps/web && node tests/measure.mjs ../../docs/results/web.md) ;;
   *) echo "web.sh: unknown command '$command'" >&2; exit 2 ;;

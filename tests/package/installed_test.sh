@@ -26,6 +26,24 @@ CXX=/nowhere find_package c
 echo "== find_package, C++ without exceptions and RTTI"
 find_package cpp "-fno-exceptions -fno-rtti"
 
+echo "== the README's example in C"
+mkdir "$work/readme"
+# shellcheck disable=SC2016  # these are Markdown backquotes
+sed -n '/^```c$/,/^```$/{/^```/!p}' "$consumers/../../README.md" >"$work/readme/app.c"
+cat >"$work/readme/CMakeLists.txt" <<'CMAKE'
+cmake_minimum_required(VERSION 3.22)
+project(readme LANGUAGES C)
+find_package(mien REQUIRED)
+add_executable(app app.c)
+target_link_libraries(app mien::mien)
+mien_embed(app basenet proposal)
+CMAKE
+cmake -S "$work/readme" -B "$work/readme/build" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_C_FLAGS="$FLAGS" --no-warn-unused-cli
+cmake --build "$work/readme/build"
+ffmpeg -v error -i "$consumers/../data/demo.mp4" -frames:v 20 -s 640x480 -pix_fmt rgb24 -f rawvideo "$work/readme/video"
+"$work/readme/build/app" <"$work/readme/video" >"$work/readme/curves"
+[ "$(grep -c ' jawOpen [01][.][0-9]' "$work/readme/curves")" -eq 20 ]
+
 echo "== pkg-config"
 PKG_CONFIG_PATH=$(dirname "$(find "$prefix" -name mien.pc)")
 export PKG_CONFIG_PATH

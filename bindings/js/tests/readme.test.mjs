@@ -39,3 +39,11 @@ test('the example tracks the face of a picture', () => {
   const said = execFileSync(process.execPath, ['example.mjs'], {cwd: project, encoding: 'utf8'});
   assert.match(said, /^tracking jawOpen [01](\.\d+)?(e-\d+)? -?\d/);
 });
+
+test('the example of the repository tracks the face of an image in Node', () => {
+  decode('face.rgba', '-frames:v', '1', '-pix_fmt', 'rgba', '-f', 'rawvideo');
+  const [, example] = readFileSync(join(root, 'README.md'), 'utf8').match(/```js\n([^]*?)```/);
+  writeFileSync(join(project, 'repository.mjs'), example);
+  const said = execFileSync(process.execPath, ['repository.mjs'], {cwd: project, encoding: 'utf8'});
+  assert.match(said, /^tracking jawOpen [01](\.\d+)?(e-\d+)?\n$/);
+});
