@@ -68,6 +68,7 @@ part 1 "C#" binding csharp csharp
 part 1 Java binding android java
 part 1 Swift bindings/swift/test.sh  # no compiler for it is in Debian; JavaScript: the page
 part 1 documentation scripts/site.sh
+part 1 words scripts/check/words.sh
 part 1 "batches on a cluster" cluster
 part 1 "binary interface" scripts/check/abi.sh
 part 2 threads threads

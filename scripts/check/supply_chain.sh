@@ -14,16 +14,20 @@ wrong = []
 PERMISSIVE = {"MIT", "Apache-2.0", "BSD-2-Clause", "BSD-3-Clause", "ISC", "0BSD", "Unlicense", "CC0-1.0"}
 FOR_TESTS = PERMISSIVE | {"MPL-2.0"}  # of what never leaves this machine
 
-# npm: package-lock.json has every package's hash and licence.
-for name, package in json.loads(Path("apps/web/package-lock.json").read_text())["packages"].items():
-    if name and "integrity" not in package:
-        wrong.append(f"apps/web/package-lock.json: {name}: no hash")
-    if name and package.get("license") not in (FOR_TESTS if package.get("dev") else PERMISSIVE):
-        wrong.append(f"apps/web/package-lock.json: {name}: licence {package.get('license')}")
-for name in ("dependencies", "devDependencies"):
-    for package, version in json.loads(Path("apps/web/package.json").read_text())[name].items():
+# npm: package-lock.json has every package's hash and licence. Tools of the checks reach no user.
+TOOLS = FOR_TESTS | {"BlueOak-1.0.0", "CC-BY-3.0", "CC BY-SA 4.0", "Python-2.0", "WTFPL", "(MIT OR CC0-1.0)"}
+UNDECLARED = {"node_modules/format": "MIT"}  # its package.json has the older field "licenses"
+for folder, for_development in (("apps/web", FOR_TESTS), ("scripts/check/npm", TOOLS)):
+    lock, listed = f"{folder}/package-lock.json", json.loads(Path(folder, "package.json").read_text())
+    for name, package in json.loads(Path(lock).read_text())["packages"].items():
+        if name and "integrity" not in package:
+            wrong.append(f"{lock}: {name}: no hash")
+        licence = package.get("license", UNDECLARED.get(name))
+        if name and licence not in (for_development if package.get("dev") else PERMISSIVE):
+            wrong.append(f"{lock}: {name}: licence {licence}")
+    for package, version in {**listed.get("dependencies", {}), **listed.get("devDependencies", {})}.items():
         if not re.fullmatch(r"\d+(\.\d+)+(-[\w.]+)?", version):
-            wrong.append(f"apps/web/package.json: {package}: {version} is no version but a range")
+            wrong.append(f"{folder}/package.json: {package}: version range (got {version}, expected one version)")
 # Rust: mien's own packages alone.
 others = set(re.findall(r'^name = "(.*)"', Path("bindings/rust/Cargo.lock").read_text(), re.M)) - {"mien", "mien-sys"}
 wrong += [f"bindings/rust/Cargo.lock: {name}: others' packages need a look at their licences" for name in sorted(others)]

@@ -1,0 +1,53 @@
+#!/usr/bin/env bash
+# Checks spelling (cspell), terms (textlint) and prose (write-good). Terms come from docs/glossary.md, known words from there and from
+# scripts/check/words.txt.
+# usage: scripts/check/words.sh            the pages that COVERED names
+#        scripts/check/words.sh FILE...    these pages
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+. scripts/check/npm.sh
+
+# Patterns of git ls-files.
+COVERED=(.github README.md CONTRIBUTING.md CHANGELOG.md SECURITY.md docs/glossary.md)
+
+if ! install_check_tools; then
+  echo "SKIPPED: words: cspell, textlint and write-good could not be installed from npm" >&2
+  exit 0
+fi
+files=("$@")
+[ $# -gt 0 ] || mapfile -t files < <(git ls-files "${COVERED[@]}" | grep '\.md$')
+
+work=build/words
+modules=$PWD/scripts/check/npm/node_modules
+rm -rf "$work"
+scripts/check/words.py "$work" "${files[@]}"
+ln -s "$modules" "$work/node_modules"  # where textlint looks for its rules
+cd "$work"
+
+run() {  # tool, files
+  case $1 in
+    cspell) node node_modules/cspell/bin.mjs lint --config cspell.json --no-progress --no-summary --no-must-find-files --dot "${@:2}" ;;
+    textlint) node node_modules/textlint/bin/textlint.js --config .textlintrc.json --format unix "${@:2}" ;;
+    # Its other checks forbid words that technical text needs, such as several, multiple and most adverbs.
+    write-good) node node_modules/write-good/bin/write-good.js --parse --illusion --so --thereIs --cliches "${@:2}" ;;
+  esac
+}
+
+# A check that accepts these errors does not work.
+printf 'A pictuer.\n' >cspell.md
+printf 'A film.\n' >textlint.md
+printf 'So it it is.\n' >write-good.md
+for tool in cspell textlint write-good; do
+  if run $tool $tool.md >/dev/null 2>&1; then
+    echo "check/words.sh: $tool: no error reported in: $(cat $tool.md)" >&2
+    exit 1
+  fi
+done
+
+failed=0
+for tool in cspell textlint write-good; do
+  run $tool "${files[@]/#/text/}" >findings || failed=1
+  sed -n "s|^$PWD/||; s|^text/||; /:/p" findings
+done
+[ $failed -eq 1 ] || echo "words: ${#files[@]} files are clean"
+exit $failed
