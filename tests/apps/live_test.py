@@ -218,6 +218,14 @@ class Live(unittest.TestCase):
         states = [json.loads(packet)["status"] for packet in receiver.packets()]
         self.assertIn("tracking", states)
 
+    def test_statistics_do_not_overwrite_the_clip_that_plays(self):
+        shutil.copy(CLIP, self.path("clip.mp4"))
+        os.symlink(self.path("clip.mp4"), self.path("stats"))
+        done = run("--camera", "test:" + self.path("clip.mp4"), "--mic", "none", "--duration", 1, "--stats", self.path("stats"))
+        self.assertEqual(done.returncode, 2, done.stderr)
+        with open(CLIP, "rb") as clip, open(self.path("clip.mp4"), "rb") as played:
+            self.assertEqual(clip.read(), played.read())
+
     def test_ctrl_c_before_the_first_picture(self):
         """A terminal sends it to ffmpeg, too, which ends with a complaint."""
         server = socket.create_server(("127.0.0.1", 0))

@@ -131,6 +131,22 @@ class Contents(unittest.TestCase):
         self.assertEqual(int(streams["h264"]["nb_read_frames"]), FRAMES)
         self.assertIn("aac", streams)
 
+    def test_the_clip_has_the_rotation_pixels_and_audio_track_of_the_curves(self):
+        ffmpeg("-t", "0.5", "-i", CLIP, "-f", "lavfi", "-t", "0.5", "-i", "anullsrc=r=16000:cl=mono", "-map", "0:v", "-map", "1:a", "-map", "0:a",
+               "-vf", "scale=480:480,setsar=4/3", Folder.file("odd.mkv"))
+        mien("track", Folder.file("odd.mkv"), "--rotate", "270", "--audio-track", "2", "--report", Folder.file("odd.html"), "--quiet")
+        odd = report_page.Report(Folder.file("odd.html"))
+        with open(Folder.file("odd.mp4"), "wb") as file:
+            file.write(base64.b64decode(odd.page.blocks["clip"], validate=True))
+        probe = subprocess.run(["ffprobe", "-v", "error", "-select_streams", "v", "-show_entries", "stream=width,height,sample_aspect_ratio", "-of", "json",
+                                Folder.file("odd.mp4")], check=True, capture_output=True, timeout=60).stdout
+        stream = json.loads(probe)["streams"][0]
+        self.assertEqual((odd.data["width"], odd.data["height"]), (360, 480))
+        self.assertEqual((stream["width"], stream["height"], stream["sample_aspect_ratio"]), (360, 480, "1:1"))
+        samples = subprocess.run(["ffmpeg", "-nostdin", "-v", "error", "-i", Folder.file("odd.mp4"), "-f", "s16le", "-"], check=True,
+                                 capture_output=True, timeout=60).stdout
+        self.assertGreater(max(memoryview(samples).cast("h")), 100, "the second track, not the silent first")
+
     def test_names_disturb_nothing_and_nothing_is_loaded(self):
         self.assertEqual(self.report.data["name"], HOSTILE)
         self.assertEqual(Folder.said, b"", "no curves on standard output beside a report")

@@ -115,6 +115,8 @@ void compare(const CompareOptions& options) {
   if (!options.video.empty()) {
     comparison.video = web_video({.picture = options.video,
                                   .sound = options.video,
+                                  .audio_track = 1,
+                                  .rotation = std::nullopt,
                                   .start_s = comparison.start_ms * 1e-3,
                                   .duration_s = (comparison.end_ms - comparison.start_ms) * 1e-3},
                                  PartialFile(options.page + ".mp4", TemporaryFile::Ending::kAny));

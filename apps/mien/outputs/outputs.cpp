@@ -24,6 +24,8 @@ ReportOptions report_options(const TrackOptions& options, const VideoInfo& info)
   return {.page = options.report,
           .picture = info.width > 0 ? file_or_none(options.input) : "",
           .sound = file_or_none(options.audio.empty() ? options.input : options.audio),
+          .audio_track = options.audio_track,
+          .rotation = options.rotation,
           .largest_clip_bytes = options.report_clip_mb * 1e6,
           .name = name_of(path_of(without_credentials(options.input)).filename()),
           .width = info.width,

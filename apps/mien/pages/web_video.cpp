@@ -12,8 +12,9 @@
 namespace mien::app {
 namespace {
 
-// H.264 in 4:2:0 needs even sizes.
+// Square pixels; H.264 in 4:2:0 needs even sizes.
 constexpr const char* kFitting =
+    "scale=w='iw*sar':h=ih,setsar=1,"
     "scale=w='min(640,iw)':h='min(640,ih)':"
     "force_original_aspect_ratio=decrease:force_divisible_by=2";
 
@@ -31,12 +32,16 @@ std::vector<std::string> transcode_command(const WebVideo& wanted, const std::st
                                       "-loglevel", "error",        "-xerror"};
   const bool apart =
       !wanted.picture.empty() && !wanted.sound.empty() && wanted.sound != wanted.picture;
+  if (wanted.rotation) {
+    command.emplace_back("-noautorotate");
+  }
   add_input(command, wanted.picture.empty() ? wanted.sound : wanted.picture, wanted);
   if (apart) {
     add_input(command, wanted.sound, wanted);
   }
   if (!wanted.picture.empty()) {
-    command.insert(command.end(), {"-map", "0:v:0", "-vsync", "vfr", "-vf", kFitting});
+    command.insert(command.end(), {"-map", "0:v:0", "-vsync", "vfr", "-vf",
+                                   rotation_filter(wanted.rotation.value_or(0)) + kFitting});
     command.insert(command.end(), {"-pix_fmt", "yuv420p"});
     command.insert(command.end(), {"-c:v", "libx264", "-preset", "veryfast", "-crf", "26"});
     command.insert(command.end(), {"-maxrate", "1500k", "-bufsize", "3000k"});
@@ -44,7 +49,8 @@ std::vector<std::string> transcode_command(const WebVideo& wanted, const std::st
     command.insert(command.end(), {"-bf", "0", "-force_key_frames", "expr:gte(t,n_forced)"});
   }
   if (!wanted.sound.empty()) {
-    command.insert(command.end(), {"-map", apart ? "1:a:0?" : "0:a:0?"});
+    command.insert(command.end(), {"-map", (apart ? "1:a:" : "0:a:") +
+                                               std::to_string(wanted.audio_track - 1) + "?"});
   }
   command.insert(command.end(), {"-c:a", "aac", "-ac", "1", "-b:a", "64k"});
   command.insert(command.end(),

@@ -151,6 +151,8 @@ Report::Clip Report::clip() {
   }
   std::string video = web_video({.picture = options_.picture,
                                  .sound = options_.sound,
+                                 .audio_track = options_.audio_track,
+                                 .rotation = options_.rotation,
                                  .start_s = start_ms() * 1e-3,
                                  .duration_s = (end_ms() - start_ms()) * 1e-3},
                                 *clip_file_);

@@ -19,6 +19,8 @@ namespace mien::app {
 struct ReportOptions {
   std::string page;                  // file
   std::string picture, sound;        // files that the clip is made of; empty: none
+  int audio_track = 1;               // of `sound`; the first is 1
+  std::optional<int> rotation;       // degrees clockwise, instead of what `picture` says
   double largest_clip_bytes = 64e6;  // a larger one lies beside the page
   std::string name;                  // of what was tracked
   int width = 0, height = 0;         // of the picture, pixels

@@ -14,4 +14,17 @@ std::string last_line(const std::string& text) {
   return text.substr(begin, end + 1 - begin);
 }
 
+std::string rotation_filter(int degrees) {
+  switch (degrees) {
+    case 90:
+      return "transpose=clock,";
+    case 180:
+      return "hflip,vflip,";
+    case 270:
+      return "transpose=cclock,";
+    default:
+      return "";
+  }
+}
+
 }  // namespace mien::app

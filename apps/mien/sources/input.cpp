@@ -22,19 +22,6 @@ Arguments joined(Arguments first, const Arguments& second) {
   return first;
 }
 
-const char* turned(int degrees) {
-  switch (degrees) {
-    case 90:
-      return "transpose=clock,";
-    case 180:
-      return "hflip,vflip,";
-    case 270:
-      return "transpose=cclock,";
-    default:
-      return "";
-  }
-}
-
 Arguments input_options(const InputOptions& options) {
   return options.rotation ? Arguments{"-noautorotate"} : Arguments();
 }
@@ -59,7 +46,7 @@ std::string audio_filter(const InputOptions& options) { return trimmed("atrim", 
 // Square pixels of one size, even where the size changes within the video.
 std::string video_filter(const VideoTrack& track, const InputOptions& options) {
   const DisplaySize size = display_size(track, options.rotation);
-  return trimmed("trim", options.range) + turned(options.rotation.value_or(0)) +
+  return trimmed("trim", options.range) + rotation_filter(options.rotation.value_or(0)) +
          "scale=" + std::to_string(size.width) + ":" + std::to_string(size.height);
 }
 
