@@ -4,6 +4,7 @@
 usage: words.py FOLDER FILE...
 Terms come from docs/glossary.md, known words from there and from scripts/check/words.txt. Copies keep their line numbers.
 """
+import itertools
 import json
 import re
 import sys
@@ -13,8 +14,8 @@ GLOSSARY = Path("docs/glossary.md")
 WORDS = Path("scripts/check/words.txt")
 IN_CODE_FONT = re.compile(r"`([^`]+)`")
 FENCE = re.compile(r"(?ms)^[ ]*```.*?^[ ]*```[ ]*$")
-NOT_PROSE = [re.compile(r"<!--.*?-->"), re.compile(r"`[^`\n]+`"), re.compile(r"(?<=\])\([^)\n]*\)"), re.compile(r"https?://\S+"),
-             re.compile(r"(?m)^    .*$"), re.compile(r"</?[a-z][^>\n]*>")]
+INLINE_CODE = re.compile(r"`(?:[^`\n]|\n(?!\n))+`")
+NOT_PROSE = [re.compile(pattern) for pattern in (r"<!--.*?-->", r"(?<=\])\([^)\n]*\)", r"https?://\S+", r"(?m)^    .*$", r"</?[a-z][^>\n]*>")]
 
 
 def glossary_rows(text):
@@ -37,9 +38,11 @@ def terminology(rows):
 
 
 def prose(text):
-    """The text with code, links' targets and comments blanked."""
+    """The text with code, links' targets and comments blanked. A number stands for inline code, so that no word seems repeated."""
     blank = lambda match: re.sub(r"\S", " ", match.group())
-    text = FENCE.sub(blank, text)
+    numbers = itertools.cycle(range(10, 100))
+    number = lambda match: str(next(numbers)) + blank(match)[2:]
+    text = INLINE_CODE.sub(number, FENCE.sub(blank, text))
     for pattern in NOT_PROSE:
         text = pattern.sub(blank, text)
     return text
