@@ -77,24 +77,24 @@ def ratio(above, below):
 def synthetic():
     score = lambda key: at(at, "program", key)
     error = score("facs_error_supported")
-    bar = lambda title, *rest: Bar("synthetic", f"synthetic test identities: {title}", *rest)
+    bar = lambda title, *rest: Bar("synthetic", f"rendered people: {title}", *rest)
     return [bar("supported controls", ">=", of_levels(36, 44), score("supported"), 1, 0),
-            bar("FACS error, supported controls, over that of the best constant answer (medians)", "<=", 0.5,
+            bar("error of supported controls, relative to the best constant", "<=", 0.5,
                 ratio(error, score("constant_median_supported"))),
             bar("mean correlation, supported controls", ">=", of_levels(0.75, 0.8), score("correlation_mean")),
             bar("lowest correlation of a supported control", ">=", 0.5, score("correlation_lowest")),
-            bar("jitter over the truth's own, supported controls", "<=", 1, ratio(score("jitter_supported"), score("truth_jitter_supported"))),
+            bar("jitter of supported controls, relative to the truth's", "<=", 1, ratio(score("jitter_supported"), score("truth_jitter_supported"))),
             bar("asymmetry x 1e-3", "<=", 3.6, score("asymmetry"), 1e3, 1)]
 
 
 def probes():
     bar = lambda title, *rest: Bar("response", title, *rest)
-    return [bar("% of driven controls that reach 0.6 alone", ">=", 80, over("reached", share(lambda v: v >= 0.6), "controls"), 100, 0),
-            bar("% of driven controls below 0.15 while only others move", ">=", 80,
+    return [bar("% of supported controls that reach 0.6 alone", ">=", 80, over("reached", share(lambda v: v >= 0.6), "controls"), 100, 0),
+            bar("% of supported controls below 0.15 while others move", ">=", 80,
                 over("others_at_most", share(lambda v: v < 0.15), "controls"), 100, 0),
-            bar("winks: least of a closed eye", ">", 0.8, over("closed", min, "winks")),
-            bar("winks: most of the other eye", "<", 0.2, over("other", max, "winks")),
-            Bar("leakage", "largest drift of a control on a neutral face that turns", "<=", 0.1, at(at, "largest"))]
+            bar("winks: lowest closed eye", ">", 0.8, over("closed", min, "winks")),
+            bar("winks: highest open eye", "<", 0.2, over("other", max, "winks")),
+            Bar("leakage", "largest drift of a control on a turning neutral face", "<=", 0.1, at(at, "largest"))]
 
 
 def levels():
@@ -103,8 +103,8 @@ def levels():
     bar = lambda title, *rest: Bar("levels", title, *rest)
     return [bar("error of level 2 against level 4", "<=", 0.0123, row("LOD2", "error"), 1, 4),
             bar("error of level 3 against level 4", "<=", 0.0059, row("LOD3", "error"), 1, 4),
-            bar("time of level 2 over level 4's", "<=", 0.55, row("LOD2", "cost_ratio")),
-            bar("memory besides the weights, MB", "<=", 6, at("levels", at, "tracker_bytes"), 1e-6)]
+            bar("time of level 2 relative to level 4", "<=", 0.55, row("LOD2", "cost_ratio")),
+            bar("memory without weights, MB", "<=", 6, at("levels", at, "tracker_bytes"), 1e-6)]
 
 
 def agreement(control, *path):
@@ -131,14 +131,14 @@ def clips():
     total = lambda key: at(at, "all", key)
     bar = lambda title, *rest: Bar("clips", f"clips: {title}", *rest)
     return [bar("% of MediaPipe's frames with a face", ">=", 99, total("face_share"), 100, 1),
-            bar("jitter on still stretches over MediaPipe's", "<=", 1, ratio(total("still_jitter"), total("teacher_still_jitter"))),
+            bar("jitter at rest, relative to MediaPipe", "<=", 1, ratio(total("still_jitter"), total("teacher_still_jitter"))),
             *beside_mediapipe("clips", "clips", (at,), (at, "all"),
                               ("the pupils' distance", "landmark_error_pupils", of_levels(4.2, 3.5)))]
 
 
 def pictures():
     path = ("levels", at, "portraits")
-    return [Bar("pictures", "portraits: % with the face found", ">=", 99, at(*path, "found"), 100, 1),
+    return [Bar("pictures", "portraits: % detected", ">=", 99, at(*path, "found"), 100, 1),
             *beside_mediapipe("pictures", "portraits", path, path,
                               ("the outer eye corner distance", "landmark_error_outer_eyes", 4))]
 
@@ -146,9 +146,9 @@ def pictures():
 def wild():
     figure = lambda key: at("levels", at, key)
     bar = lambda title, *rest: Bar("wild", f"portraits in the wild: {title}", *rest)
-    return [bar("% found rightly", ">=", 97, figure("found"), 100, 1),
+    return [bar("% correctly detected", ">=", 97, figure("found"), 100, 1),
             bar("landmark error, % of the pupils' distance", "<=", 4, figure("error"), 100),
-            bar("error of the worst ethnic group over the mean of all", "<=", 1.15, figure("worst_group_ratio"))]
+            bar("landmark error of the worst ethnic group, relative to all", "<=", 1.15, figure("worst_group_ratio"))]
 
 
 def amplitude():
@@ -159,14 +159,14 @@ def amplitude():
     known = lambda rows, key: (row[key] for row in rows.values() if row[key] is not None)
     fits = lambda v: 0.8 <= v <= 1.25
     right = lambda results, level: fmean(fits(renders("controls")(results, level)[c]["ratio"]) for c in results[level]["supported"])
-    return [bar("blinks counted by eye: mean peak of eyeBlink", ">=", of_levels(0.7, 0.8), lambda *a: fmean(peaks(*a))),
-            bar("% of those blinks above 0.5", ">=", 95, lambda *a: fmean(p > 0.5 for p in peaks(*a)), 100, 0),
-            bar("false blinks on the clips", "<=", 1, at(at, "clips", "blinks", "false"), 1, 0),
-            bar("closed eyes on portraits: mean eyeBlink", ">=", of_levels(0.7, 0.8), portraits("closed")),
+    return [bar("mean peak of eyeBlink in blinks", ">=", of_levels(0.7, 0.8), lambda *a: fmean(peaks(*a))),
+            bar("% of blinks above 0.5", ">=", 95, lambda *a: fmean(p > 0.5 for p in peaks(*a)), 100, 0),
+            bar("false blinks on clips", "<=", 1, at(at, "clips", "blinks", "false"), 1, 0),
+            bar("mean eyeBlink of closed eyes on portraits", ">=", of_levels(0.7, 0.8), portraits("closed")),
             bar("neutral portraits: largest mean of a control", "<=", 0.1, portraits("neutral_largest")),
             bar("neutral portraits: mean of all controls", "<=", 0.03, portraits("neutral_mean"), 1, 3),
-            bar("renders: % of supported controls whose deviation is 0.8 to 1.25 of the true one", ">=", 100, right, 100, 0),
-            bar("renders at rest: largest mean of a control", "<=", 0.1, lambda *a: max(known(renders("at_rest")(*a), "mean")))]
+            bar("% of supported controls with 0.8 to 1.25 of the true deviation", ">=", 100, right, 100, 0),
+            bar("rendered neutral faces: largest mean of a control", "<=", 0.1, lambda *a: max(known(renders("at_rest")(*a), "mean")))]
 
 
 def voice():
@@ -182,13 +182,13 @@ def voice():
             bar("voice activity at 20 dB, % of frames", ">=", 96, ratio(20), 100, 1),
             bar("voice activity at 5 dB, % of frames", ">=", 90, ratio(5), 100, 1),
             bar("noise alone: mouth at rest, % of the time", ">=", 95, figure("noise", "all"), 100, 1),
-            bar("jawOpen beside the teacher, held-out clips", ">=", 0.7, figure("controls", "held-out clips", "jawOpen", "all frames")),
+            bar("jawOpen, correlation with MediaPipe, held-out clips", ">=", 0.7, figure("controls", "held-out clips", "jawOpen", "all frames")),
             bar("its lag, video frames", "<=", 1, best_lag, 1, 0),
-            bar("jawOpen beside the teacher, other people's GRID clips, mean of clips", ">=", 0.65, clips_of("grid_")),
-            bar("jawOpen beside the teacher, free speech, mean of clips", ">=", 0.4, clips_of("hdtf_", "whitehouse_")),
+            bar("jawOpen, other people, GRID clips, mean of clips", ">=", 0.65, clips_of("grid_")),
+            bar("jawOpen, other people, free speech, mean of clips", ">=", 0.4, clips_of("hdtf_", "whitehouse_")),
             bar("lips closed for p b m, %", ">=", 95, figure("controls", "lips", "closed for p b m"), 100, 1),
             *(bar(f"{control} on {where}, 95th percentile", ">=", 0.4, figure("controls", "strength", control))
-              for control, where in (("jawOpen", "open vowels"), ("mouthPucker", "rounded ones"), ("mouthFunnel", "rounded ones")))]
+              for control, where in (("jawOpen", "open vowels"), ("mouthPucker", "rounded vowels"), ("mouthFunnel", "rounded vowels")))]
 
 
 def clips_of(*prefixes):

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Measures mien and writes docs/results: tables, plots, and README.md with every figure beside what it should be.
+"""Measures mien and writes docs/results: tables, plots, and README.md with every figure and its goal.
 
-Needs the built program, the data packs (MIEN_DATA) and the cache (MIEN_CACHE); what it needs and does not find is skipped, said, and
-makes the exit status 3. Pictures are rendered into the cache once. See docs/training.md.
+Needs the built program, the data packs (MIEN_DATA) and the cache (MIEN_CACHE). Parts without their data are skipped and reported, and the
+exit status is then 3. Images are rendered into the cache once. See docs/training.md.
 """
 import argparse
 import importlib
+import json
 import sys
 import time
 from pathlib import Path
@@ -29,11 +30,22 @@ def evaluate(part, setting):
     results = module.measure(setting)
     seconds = time.time() - began
     (setting.out / f"{part}.json").write_text(out.dump({"seconds": round(seconds), "results": results}))
-    note = f"\nMade by `scripts/evaluate/evaluate.py {part}`.\n"
-    (setting.out / f"{part}.md").write_text(module.markdown(results).rstrip() + "\n" + note)
-    if hasattr(module, "plot"):
-        module.plot(results, setting.out)
+    write_page(part, results, setting.out)
     print(f"{part}: {seconds:.0f} s", flush=True)
+
+
+def write_page(part, results, folder):
+    module = importlib.import_module(f"evaluate_{part}")
+    note = f"\nMade by `scripts/evaluate/evaluate.py {part}`; [{part}.json]({part}.json) has all figures.\n"
+    (folder / f"{part}.md").write_text(module.markdown(results).rstrip() + "\n" + note)
+    if hasattr(module, "plot"):
+        module.plot(results, folder)
+
+
+def write_summary(folder, skipped, has_hifinet):
+    summary.write(folder, skipped, has_hifinet)
+    if folder == ROOT / "docs/results":
+        model_card.write(folder)
 
 
 def main():
@@ -50,9 +62,14 @@ def main():
                         metavar=("ENCODER", "DECODERS"))
     parser.add_argument("--features", type=Path, default=cache() / "features", help="folder of BaseNet's features; HiFiNet's: NAME_hifinet")
     parser.add_argument("--out", type=Path, default=ROOT / "docs/results")
+    parser.add_argument("--pages-only", action="store_true", help="write the pages anew from the JSON files; measure nothing")
     args = parser.parse_args()
     if unknown := set(args.parts) - set(PARTS):
         parser.error(f"no such part: {', '.join(sorted(unknown))}")
+    if args.pages_only:
+        for part in args.parts or [p for p in PARTS if (args.out / f"{p}.json").exists()]:
+            write_page(part, json.loads((args.out / f"{part}.json").read_text())["results"], args.out)
+        return write_summary(args.out, [], has_hifinet=True)
     if not args.mien.exists():
         parser.error(f"{args.mien} is not built: cmake --preset release && cmake --build --preset release --target mien")
     args.out.mkdir(parents=True, exist_ok=True)
@@ -62,9 +79,7 @@ def main():
             evaluate(part, setting)
         except Missing as missing:
             setting.skip(part, missing)
-    summary.write(args.out, setting.skipped, setting.program.has_hifinet)
-    if args.out == ROOT / "docs/results":
-        model_card.write(args.out)
+    write_summary(args.out, setting.skipped, setting.program.has_hifinet)
     for skipped in setting.skipped:
         print(f"SKIPPED {skipped}", file=sys.stderr)
     return SKIPPED if setting.skipped else 0

@@ -79,21 +79,25 @@ def measure(setting):
 
 
 def markdown(report):
-    lines = ["# Clips of real people against MediaPipe Face Landmarker", ""] + out.prose(f"""MediaPipe is a teacher, not the truth. Face
-        found: share of MediaPipe's frames on which mien tracks. Pose: mean angle after the best constant rotation is removed. Controls are
-        compared within clips. Still stretches: at least {STILL_FRAMES} frames in which MediaPipe's mean landmark moves by at most
-        {100 * STILL_STEP:.1f} % of the distance of the outer eye corners a frame; people may still blink or speak a little in them.""")
-    for name, r in report.items():
-        lines += [f"## {name}", ""] + out.table(["clip", "frames", "face found", "landmarks, % of outer eye corners", "% of pupils",
-                                                 "pose, degrees", "still frames"], clip_rows(r))
-        lines += out.prose(f"""Jitter on still stretches {1e4 * r['all']['still_jitter']:.1f}e-4, MediaPipe's
-            {1e4 * r['all']['teacher_still_jitter']:.1f}e-4, over the controls that MediaPipe moves.""")
-        lines += teacher.control_lines(r["controls"])
-    return "\n".join(lines)
+    total = lambda r: f"{100 * r['all']['landmark_error_pupils']:.1f} % of the distance between the pupils, {r['all']['pose_difference_deg']:.1f} degrees"
+    first = next(iter(report.values()))
+    lines = ["# Clips of real people", "", "For users who compare mien with MediaPipe Face Landmarker, and for trainers.", ""] + out.prose(f"""Mean
+        difference from MediaPipe in landmarks and head pose: {out.by_level(report, total)}. The data are {len(first['clips'])} clips of real people with
+        {first['all']['frames']} frames, which were not used for training. MediaPipe is a reference, not the truth.""")
+    lines += out.prose(f"""Tracked: share of MediaPipe's frames that mien tracks. Pose: mean angle after removal of the best constant rotation. Controls
+        are compared within clips. Jitter at rest covers runs of at least {STILL_FRAMES} frames in which MediaPipe's mean landmark moves by at most
+        {100 * STILL_STEP:.1f} % of the distance between the outer eye corners per frame: {out.by_level(report, lambda r:
+        f"{1e4 * r['all']['still_jitter']:.1f}e-4, MediaPipe's {1e4 * r['all']['teacher_still_jitter']:.1f}e-4")}.""")
+    header = ["clip", "frames", *(f"{title}, {out.level(name)}" for name in report for title in ("tracked", "landmarks, % of pupils", "pose, degrees"))]
+    lines += out.table(header, clip_rows(report))
+    return "\n".join(lines + teacher.control_lines({name: r["controls"] for name, r in report.items()}))
 
 
-def clip_rows(r):
-    """Cells of every clip of a level, and of all together."""
-    shown = (("landmark_error_outer_eyes", 100), ("landmark_error_pupils", 100), ("pose_difference_deg", 1))
-    return [[clip, str(v["frames"]), f"{100 * v['face_share']:.1f} %", *(out.number(v.get(k, np.nan) * scale, 2) for k, scale in shown),
-             str(v.get("still_frames", 0))] for clip, v in [*r["clips"].items(), ("all", r["all"])]]
+def clip_rows(report):
+    """Cells of every clip, and of all together."""
+    first = next(iter(report.values()))
+    figures = lambda v: [f"{100 * v['face_share']:.1f} %", out.number(100 * v.get("landmark_error_pupils", np.nan), 2),
+                         out.number(v.get("pose_difference_deg", np.nan), 2)]
+    of = lambda r, clip: r["all"] if clip == "all" else r["clips"][clip]
+    return [[clip, str(of(first, clip)["frames"]), *(cell for r in report.values() for cell in figures(of(r, clip)))]
+            for clip in (*first["clips"], "all")]

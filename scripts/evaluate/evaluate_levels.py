@@ -55,14 +55,15 @@ def measure(setting):
 
 
 def markdown(report):
-    lines = ["# Levels of detail", ""] + out.prose(f"""The program on {report['frames']} frames of the clips of real people and of the demo
-        clip. Error: mean absolute difference to level 4 over the controls that both drive. Time: mean of a followed frame on one core, the
-        fastest of {ROUNDS} rounds; only the ratio means something elsewhere. Published (Navarro et al. 2023): errors 0.0123 for level 2,
-        0.0059 for level 3. Memory: of the tracker besides the weights, with all weights that there are.""")
-    lines += out.table(["level", "error against level 4", "controls compared", "ms a frame", "time / level 4's", "memory, MB"],
-                       [[name, out.number(r.get("error"), 4), str(r.get("controls", "-")), out.number(r["ms"]),
+    ratios = ", ".join(f"{out.level(name)} {r['cost_ratio']:.2f}" for name, r in report["levels"].items() if "cost_ratio" in r)
+    lines = ["# Levels of detail", "", "For users who choose between speed and accuracy.", ""] + out.prose(f"""Time of a tracked frame relative to level 4:
+        {ratios or "not measured"}. The data are {report['frames']} frames of the [clips](clips.md) and the demo clip. Error: mean absolute difference to
+        level 4 over controls that both levels support; Navarro et al. (2023) report 0.0123 for level 2 and 0.0059 for level 3. Time: one core, the
+        fastest of {ROUNDS} rounds; only the ratio carries over to other machines. Memory: the tracker without weights, with all networks loaded.""")
+    lines += out.table(["level", "error", "controls compared", "ms per frame", "relative time", "memory, MB"],
+                       [[out.level(name), out.number(r.get("error"), 4), str(r.get("controls", "-")), out.number(r["ms"]),
                          out.number(r.get("cost_ratio"), 2), out.number(r["tracker_bytes"] / 1e6, 2)] for name, r in report["levels"].items()])
-    return "\n".join(lines + [f"![curves of {report['clip']}](levels.png)", ""])
+    return "\n".join(lines + [f"![Curves of {report['clip']}](levels.png)", ""])
 
 
 def plot(report, folder):

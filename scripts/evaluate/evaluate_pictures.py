@@ -140,29 +140,32 @@ def measure(setting):
     return report
 
 
-def group_lines(title, portraits, rendered_people):
-    """Table of two sets of groups side by side."""
-    percent = lambda error: out.number(None if error is None else 100 * error, 2)
-    cells = lambda r: ["-", "-", "-"] if r is None else [str(r["pictures"]), percent(r["error"]), str(r["lost"])]
-    rows = [[g, *cells(portraits.get(g)), *cells(rendered_people.get(g))] for g in {**portraits, **rendered_people}]
-    return out.table([title, "portraits", "error, %", "not found", "rendered people", "error, %", "not found"], rows)
+def group_lines(title, levels, key):
+    """Table of the groups `key`: number, error at each level and faces not detected, of portraits and of rendered people."""
+    percent = lambda group: out.number(group and group["error"] and 100 * group["error"], 2)
+    first, rows = next(iter(levels.values())), []
+    for name in {**first["portraits"][key], **first["rendered"][key]}:
+        row = [name]
+        for kind in ("portraits", "rendered"):
+            found = [r[kind][key].get(name) for r in levels.values()]
+            row += [str(found[0]["pictures"]) if found[0] else "-", " / ".join(map(percent, found)),
+                    " / ".join(str(group["lost"]) if group else "-" for group in found)]
+        rows.append(row)
+    return out.table([title, "portraits", "error, %", "lost", "rendered people", "error, %", "lost"], rows)
 
 
 def markdown(report):
-    lines = ["# Single pictures never trained on", ""] + out.prose(f"""A picture is shown for {FRAMES} frames. Landmark errors are shares
-        of the outer eye corner distance. {report['places']} pieces of held-out places without a face: a face claimed in
-        {report['false_faces']}.""")
-    for name, r in report["levels"].items():
-        real, drawn = r["portraits"], r["rendered"]
-        lines += [f"## {name}", ""] + out.table(
-            ["", "pictures", "found on the first frame", "landmark error, %", "95th percentile, %"],
-            [[kind, str(s["pictures"]), f"{100 * s['found']:.1f} %", out.number(100 * s["landmark_error_outer_eyes"], 2),
-              out.number(100 * s["landmark_error_p95"], 2)] for kind, s in (("test portraits", real), ("rendered people", drawn))])
-        lines += ["By head pose: MediaPipe's yaw of portraits, the true one of rendered people.", ""]
-        lines += group_lines("yaw, degrees", real["by_yaw"], drawn["by_yaw"])
-        lines += out.prose(f"""By skin tone: individual typology angle of the cheeks in the picture (Chardon et al. 1991), which the light
-            moves too; faces turned by less than {TONE_YAW} degrees.""")
-        lines += group_lines("skin tone", real["by_tone"], drawn["by_tone"])
-        lines += out.prose(f"""Portraits beside MediaPipe: head pose {real['pose_difference_deg']:.2f} degrees apart after the best constant
-            rotation; controls across portraits:""") + teacher.control_lines(real["controls"])
+    levels = report["levels"]
+    share = lambda kind: out.by_level(levels, lambda r: f"{100 * r[kind]['found']:.1f} %, {100 * r[kind]['landmark_error_outer_eyes']:.2f} %")
+    lines = ["# Single images", "", "For users who track photographs, and for everyone who asks how pose and skin tone matter.", ""] + out.prose(f"""Faces
+        detected on the first frame, and landmark error in shares of the distance between the outer eye corners. Portraits:
+        {share("portraits")}. Rendered people: {share("rendered")}. Of {report['places']} images of places without a face, mien reports a face in
+        {report['false_faces']}. Head pose differs from MediaPipe's by {out.by_level(levels, lambda r:
+        f"{r['portraits']['pose_difference_deg']:.1f} degrees")} after removal of the best constant rotation.""")
+    lines += out.prose(f"""The data are held-out portraits with labels of MediaPipe and rendered test people with exact labels; each image is shown for
+        {FRAMES} frames. Two figures in a cell are for {" and ".join(map(out.level, levels))}; lost faces are not detected.""")
+    lines += ["## By head pose", "", *group_lines("yaw, degrees", levels, "by_yaw"), "## By skin tone", ""]
+    lines += out.prose(f"""Individual typology angle of the cheeks in the image (Chardon et al. 1991), which light changes as well; faces turned by
+        less than {TONE_YAW} degrees.""") + group_lines("skin tone", levels, "by_tone")
+    lines += ["## Controls across portraits", "", *teacher.control_lines({name: r["portraits"]["controls"] for name, r in levels.items()})]
     return "\n".join(lines)

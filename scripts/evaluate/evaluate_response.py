@@ -11,7 +11,7 @@ from expressions import CONTROLS, INDEX
 from probes import control_plan
 from program import y4m
 
-WORST = 25
+WORST, WORST_SHOWN = 25, 8
 
 
 def program_answers(program, lod):
@@ -81,33 +81,37 @@ def measure(setting):
     return {name: scores(answers) for name, answers in found.items()}
 
 
-def tables(r):
-    """Markdown of the scores of one source."""
-    lines = out.prose(f"""{len(r['controls'])} controls are driven: {r['reached_0.6']} reach 0.6 alone,
-        {r['reached_0.6_with_companions']} with what has to go with them on a real face (eyes turn together, the tongue and mouthClose need an open
-        jaw), {r['others_below_0.15']} stay below 0.15 whatever else moves.""")
-    lines += out.table(["control", "at rest", "reached", "least of an identity", "with companions", "others"],
-                       [[c, *(out.number(v[k]) for k in ("rest", "reached", "lowest_identity", "with_companions", "others_at_most"))]
-                        for c, v in r["controls"].items()])
-    lines += ["Worst cross-talk:", ""] + out.table(["moves", "answers", "by"], [[a, b, out.number(v)] for a, b, v in r["worst"]])
-    lines += ["Winks; share: of identities with the closed eye above 0.8 and the other below 0.2.", ""]
-    winked = [[k, *(out.number(v[x]) for x in ("closed", "other", "share"))] for k, v in r["winks"].items()]
-    return "\n".join(lines + out.table(["wink", "closed eye", "other eye", "share"], winked))
+def table_of_controls(report):
+    """The control at 1 alone (with companions), and while others move, at every level."""
+    reached = lambda r: out.number(r["reached"], 2) + ("" if r["with_companions"] is None else f" ({out.number(r['with_companions'], 2)})")
+    cells = lambda r: [reached(r), out.number(r["others_at_most"], 2)] if r else ["-", "-"]
+    rows = [[c, *(cell for r in report.values() for cell in cells(r["controls"].get(c)))] for c in CONTROLS]
+    header = ["control", *(f"{out.level(name)}, {title}" for name in report for title in ("at 1", "while others move"))]
+    return out.table(header, [row for row in rows if any(cell != "-" for cell in row[1:])])
+
+
+def winks_and_worst(name, r):
+    worst = ", ".join(f"{a} moves {b} by {out.number(v, 2)}" for a, b, v in r["worst"][:WORST_SHOWN])
+    winks = "; ".join(f"{k}: {out.number(v['closed'], 2)} and {out.number(v['other'], 2)}" for k, v in r["winks"].items())
+    return out.prose(f"""**{out.level(name).capitalize()}**. Strongest cross-talk: {worst}. Winks (closed eye and open eye): {winks}.""")
 
 
 def markdown(report):
     first = next(iter(report.values()))
-    lines = ["# Controls that move alone", ""] + out.prose(f"""The program on {first['identities']} rendered test identities, near-frontal,
-        without glasses, hat or occluder. One control goes 0 -> 1 -> 0 at a time, all others stay 0. Reached: the mean answer with the
-        control at 1. With companions: the same as a face can do it (eyes turn together; the tongue and mouthClose with an open jaw).
-        Others: the highest mean answer while another control is at 1 and this one at 0.""")
+    lines = ["# Single controls", "", "For users who need single expressions, and for trainers.", ""] + out.prose(f"""One control of a rendered face
+        moves to 1 while the others stay at 0. The number of supported controls that reach 0.6, and of those that stay below 0.15 while others
+        move: {out.by_level(report, lambda r: f"{r['reached_0.6']} and {r['others_below_0.15']} of {len(r['controls'])}")}. With companions, as on real faces (eyes
+        turn together; tongue and mouthClose need an open jaw), {out.by_level(report, lambda r: str(r['reached_0.6_with_companions']))} reach 0.6.""")
+    lines += out.prose(f"""The data are {first['identities']} rendered test people, near-frontal, without glasses, hat or occluder. The table has means
+        over people: the response to the control alone at 1 (with companions), and the largest response while another control moves.""")
     for name, r in report.items():
-        lines += [f"## {name}", "", f"![cross-talk](response_{name}.png)", "", tables(r)]
-    return "\n".join(lines)
+        lines += winks_and_worst(name, r)
+    lines += table_of_controls(report)
+    return "\n".join(lines + [line for name in report for line in (f"![Cross-talk at {out.level(name)}](response_{name}.png)", "")])
 
 
 def plot(report, folder):
     for name, r in report.items():
         values = np.array([[np.nan if v is None else v for v in row] for row in r["matrix"]])
-        out.heat_map(values, CONTROLS, CONTROLS, f"{name}: mean answer (column) while one control (row) is at 1",
+        out.heat_map(values, CONTROLS, CONTROLS, f"{out.level(name)}: mean response (column) to one control at 1 (row)",
                      folder / f"response_{name}.png")

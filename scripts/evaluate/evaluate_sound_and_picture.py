@@ -9,10 +9,9 @@ def measure(setting):
 
 
 def markdown(report):
-    lines = ["# Sound and picture", "", "## Rounded lips by sound and by picture", ""] + voice_rounding.prose(report["rounding"])
-    lines += ["![by sound and by picture](sound_and_picture.png)", "", "## Sound and picture together", ""]
-    lines += out.prose("""The demo clip, whose true controls are known; its voice is a variant of eSpeak NG that was held out.""")
-    return "\n".join(lines + voice_mix.markdown(report["mix"]))
+    lines = ["# Audio and video", "", "For users who combine camera and microphone.", ""] + voice_mix.summary(report["mix"])
+    lines += voice_mix.markdown(report["mix"]) + ["## Rounded lips from audio and from video", "", *voice_rounding.prose(report["rounding"])]
+    return "\n".join(lines + ["![Rounded lips from video and from audio](sound_and_picture.png)", ""])
 
 
 def plot(report, folder):

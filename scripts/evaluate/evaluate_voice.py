@@ -23,13 +23,16 @@ def figures(model):
 
 
 def markdown(report):
-    lines = ["# Voice", ""] + out.prose(f"""AudioNet as models/audionet.mien has it, on people, voices and noises that it never learned
-        from; its encoder has heard {report['encoder_hours']:.0f} hours of sound, the same recordings many times.""")
-    lines += tables(report)
-    lines += ["## A sentence", "",
-              "One of the held-out clips; grey is the video teacher's jaw.", "", "![curves of a sentence](voice_sentence.png)", "",
-              "![its mouth](voice_head.jpg)", ""]
-    lines += out.prose("""[A face that sound alone moves](voice_head.mp4), and its mouth above, made by `scripts/evaluate/talking_head.py`:
+    rates, jaw = report["phonemes"], report["controls"]["held-out clips"]["jawOpen"]
+    lines = ["# Audio", "", "For users who animate a mouth from audio, and for trainers.", ""] + out.prose(f"""AudioNet recognizes
+        {100 - 100 * rates['real speech']:.0f} % of the phonemes of real speech. Voice activity is right on {100 * report['activity'].get('20',
+        report['activity'].get(20))['accuracy']:.0f} % of frames at 20 dB. On noise alone the mouth rests {100 * report['noise']['all']:.0f} % of the time. jawOpen correlates
+        with MediaPipe by {jaw['all frames']:.2f} on held-out clips of the speaker of its training, but by
+        {report['controls']['other people']['jawOpen']['mean of clips']:.2f} on other people. The data are speakers, voices and noises that training has not
+        used; the encoder was trained on {report['encoder_hours']:.0f} hours of audio, with repetitions.""")
+    lines += tables(report) + ["## A sentence", "", "A held-out clip; MediaPipe's jaw is grey.", "", "![Curves of a sentence](voice_sentence.png)", "",
+                               "![Its mouth](voice_head.jpg)", ""]
+    lines += out.prose("""[A face animated from audio](voice_head.mp4), and its mouth above, made by `scripts/evaluate/talking_head.py`:
         "To note what became of me, I had two important things before me", by a held-out reader (LibriSpeech 26-495-0047, CC BY 4.0).""")
     return "\n".join(lines)
 
@@ -40,36 +43,38 @@ def tables(report):
 
 def phonemes(rates):
     rows = [[name, out.number(100 * rate, 1)] for name, rate in rates.items()]
-    return ["## Phoneme error rate", "", *out.prose("""The likeliest phoneme of every step; searched: the likeliest sequence, given what four phonemes in a
-                row are usual in what the training readers read (phoneme_search.py), which the tracker has no use for."""),
+    return ["## Phoneme error rate", "", *out.prose("""The most likely phoneme of each step. With n-grams: the most likely sequence, given frequent
+                sequences of four phonemes in the training texts (`phoneme_search.py`), which the tracker does not use."""),
             *out.table(["held out", "%"], rows)]
 
 
 def activity(ratios):
     rows = [[str(r), *(out.number(100 * row[k], 1) for k in ("accuracy", "found", "false")), out.number(row["area"])]
             for r, row in ratios.items()]
-    return ["## Voice activity, held-out speakers in held-out noises", "",
-            *out.table(["dB", "frames right %", "speech found %", "rest taken for speech %", "area under ROC"], rows),
+    return ["## Voice activity", "",
+            *out.table(["signal-to-noise ratio, dB", "frames right, %", "speech found, %", "silence taken for speech, %", "area under ROC"], rows),
             "![ROC](voice_roc.png)", ""]
 
 
 def noise(shares):
-    return ["## Noise alone", "",
-            *out.table(["noise", "mouth at rest, % of the time"], [[k, out.number(100 * v, 1)] for k, v in shares.items()])]
+    worst = sorted((v, k) for k, v in shares.items() if k not in ("all", "clips that rest 95 % of the time") and v < 1)
+    return ["## Noise alone", "", *out.prose("Share of the time with the mouth at rest: " + ", ".join(
+        f"{k} {out.number(100 * v, 1)} %" for k, v in [("all", shares["all"]), *((name, v) for v, name in worst)]) + "; other noises 100 %.")]
 
 
 def controls(report):
-    rows = [[who, c, out.number(v["all frames"]), out.number(v["mean of clips"]), str(v["lag"])]
-            for who in ("held-out clips", "other people") for c, v in report[who].items()]
-    clips = [[name, out.number(v["said"]), str(v["lag"]), out.number(v["right phonemes"])] for name, v in report["clips"].items()]
-    lips = [[k, out.number(100 * v, 1)] for k, v in report["lips"].items() if k != "count"]
-    return (["## Controls beside the video teacher's", "", *out.table(["who", "control", "correlation", "mean of clips", "lag, frames"], rows)]
-            + out.prose("""jawOpen of other people, clip by clip; beside it what the visemes of visemes.py reach from the right phonemes, where
-                the text is known. More than that is not in the phonemes: these people open their jaws in their own ways.""")
-            + out.table(["clip", "from sound", "lag", "from the right phonemes"], clips) + out.table(["lips", "%"], lips)
-            + out.prose("""How far the mouth goes where it should, 95th percentile: the jaw on open vowels, pucker on uw and w, funnel on
-                these, ow, oy and ao.""")
-            + out.table(["control", "95th percentile"], [[c, out.number(v)] for c, v in report["strength"].items()]))
+    rows = [[c, *(cell for who in ("held-out clips", "other people") for v in [report[who][c]] for cell in (
+        out.number(v["all frames"], 2), out.number(v["mean of clips"], 2), str(v["lag"])))] for c in report["held-out clips"]]
+    clips = [[name, out.number(v["said"], 2), str(v["lag"]), out.number(v["right phonemes"], 2)] for name, v in report["clips"].items()]
+    lips = ", ".join(f"{k} {out.number(100 * v, 1)} %" for k, v in report["lips"].items() if k != "count")
+    strength = ", ".join(f"{c} {out.number(v, 2)}" for c, v in report["strength"].items())
+    columns = [f"{title}, {who}" for who in ("held-out clips", "other people") for title in ("correlation", "mean of clips", "lag, frames")]
+    return (["## Controls compared with MediaPipe", "", *out.table(["control", *columns], rows)]
+            + out.prose("""jawOpen of other people by clip, beside the curve from the correct phonemes where the text is known. Phonemes do not contain
+                more than that: people open their jaws differently.""")
+            + out.table(["clip", "from audio", "lag, frames", "from correct phonemes"], clips)
+            + out.prose(f"""Lips: {lips}. 95th percentile where the control is expected, the jaw on open vowels, pucker on uw and w, funnel on these
+                and on ow, oy and ao: {strength}."""))
 
 
 def plot(report, folder):

@@ -32,10 +32,10 @@ def compare_controls(ours, theirs):
     return {CONTROLS[i]: dict(zip(names, out.rounded(row))) for i, row in zip(known, rows)}
 
 
-def control_lines(rows):
-    """Table of compare_controls, those that move first; a dash where mien drives none, or it never moves."""
-    rank = lambda r: (r["spread"] < MOVES, r["correlation"] is None, -(r["correlation"] or 0))
-    order = sorted(rows.items(), key=lambda item: rank(item[1]))
-    cells = [[c + ("" if r["spread"] >= MOVES else " (hardly moves)"), out.number(r["correlation"], 2), out.number(r["error"]),
-              out.number(r["constant_error"]), out.number(r["spread"])] for c, r in order]
-    return out.table(["control", "correlation", "error after the best linear map", "the same of a constant", "MediaPipe's spread"], cells)
+def control_lines(levels):
+    """Table of compare_controls of each level {name: rows}: controls that the teacher moves and a level supports."""
+    last = next(reversed(levels.values()))
+    moving = [c for c, r in last.items() if r["spread"] >= MOVES and any(rows[c]["correlation"] is not None for rows in levels.values())]
+    moving.sort(key=lambda c: -(last[c]["correlation"] or 0))
+    cells = [[c, *(out.number(rows[c]["correlation"], 2) for rows in levels.values()), out.number(last[c]["spread"], 2)] for c in moving]
+    return out.table(["control", *(f"correlation, {out.level(name)}" for name in levels), "MediaPipe's deviation"], cells)

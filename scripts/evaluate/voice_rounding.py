@@ -54,15 +54,16 @@ def measure(program):
 
 
 def prose(report):
-    said = "; ".join(f"{c} {out.number(report[c]['correlation'])} over all frames, {out.number(report[c]['mean of clips'])} in the mean of "
-                     "clips" for c in ROUNDED)
-    return out.prose(f"""What `mien track --mode audio` and `--mode video` answer to {report['clips']} held-out clips (level 1). Correlation: {said}.""")
+    found = "; ".join(f"{c} {out.number(report[c]['correlation'])} over all frames, {out.number(report[c]['mean of clips'])} as the mean of "
+                      "clips" for c in ROUNDED)
+    return out.prose(f"""Correlation between the output of `mien track --mode audio` and `--mode video` on {report['clips']} held-out clips at level 1:
+        {found}.""")
 
 
 def plot(report, path):
     figure, panels = out.plt.subplots(1, 2, figsize=(7, 3.4))
     for control, axes in zip(ROUNDED, panels):
         axes.plot(report[control]["picture"], report[control]["sound"], ".", markersize=3, alpha=0.4)
-        axes.set(title=control, xlabel="by picture", ylabel="by sound", xlim=(0, None), ylim=(0, None))
+        axes.set(title=control, xlabel="from video", ylabel="from audio", xlim=(0, None), ylim=(0, None))
     figure.tight_layout()
     out.save(figure, path)

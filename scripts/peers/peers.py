@@ -1,5 +1,9 @@
 #!/usr/bin/env python3
-"""Puts the rounds of bench.sh together: mien beside its peers.  usage: peers.py WORK_DIR ROUNDS OUT_DIR MEASURED..."""
+"""Compares mien with its peers from the rounds of bench.sh.
+
+usage: peers.py WORK_DIR ROUNDS OUT_DIR MEASURED...
+       peers.py --page OUT_DIR          only writes the page from OUT_DIR/peers.json
+"""
 import json
 import os
 import statistics
@@ -86,11 +90,13 @@ def met(right):
 
 
 def network_lines(report):
-    lines = ["## Networks", "", "Minimum / median in ms of one run of a network, its input at hand; every peer's answer is checked. LiteRT has the encoders alone: "
-             "what of its format `onnx_to_tflite.py` writes has no LSTM.", ""]
     engines = [e for e in ENGINES if any(e in row["peers"] for row in report)]
     show = lambda t: f"{t['min_ms']:.4f} / {t['median_ms']:.4f}" if t else ""
+    lines = ["## Networks", "", "Minimum / median in ms of one run, with checked results. LiteRT runs the encoders only, because `onnx_to_tflite.py` does not "
+             "convert LSTMs.", ""]
     lines += table(["network", *(ENGINES[e] for e in engines)], [[r["network"], *(show(r["peers"].get(e)) for e in engines)] for r in report])
+    lines += ["Below, ratios of minima to the fastest peer in fp32 and to the fastest of all; below 1 mien is faster. Peers use all vector instructions of the "
+              "processor in every row.", ""]
     rows = []
     for r in report:
         full = fastest({e: t for e, t in r["peers"].items() if e not in LESS_EXACT})
@@ -98,26 +104,31 @@ def network_lines(report):
         for tier, t in r["mien"].items():
             ratios = [t["min_ms"] / r["peers"][e]["min_ms"] for e in (full, of_all)]
             rows.append([r["network"], tier, show(t), f"{ratios[0]:.2f} of {ENGINES[full]}", f"{ratios[1]:.2f} of {ENGINES[of_all]}"])
-    lines += ["Ratios of minima: below 1 mien is faster. bf16 and 16 bits are what an engine computes in when it is allowed to. Peers take what they choose of the "
-              "processor's vectors, so a row of a lesser tier says what mien's program would lose without the better one, not how they compare where nobody has it.", ""]
     lines += table(["network", "mien's tier", "mien", "of the fastest in fp32", "of the fastest"], rows)
-    for r in report:
-        if r["network"] in BARS:
-            peer, tier = fastest(r["peers"]), fastest(r["mien"])
-            ratios = [r["mien"][tier][k] / r["peers"][peer][k] for k in ("min_ms", "median_ms")]
-            lines.append(f"* {r['network']}, `{tier}`: {ratios[0]:.2f} of the fastest peer's time ({ENGINES[peer]}) by minima, {ratios[1]:.2f} by medians; "
-                         f"at most {BARS[r['network']]} wanted: {met(max(ratios) <= BARS[r['network']])}.")
+    lines += [f"* {name}: the goal is at most {BARS[name]} of the fastest peer, by minima and by medians: {met(max(ratios) <= BARS[name])}."
+              for name, (_, _, ratios) in best_ratios(report).items()]
     return lines + [""]
 
 
+def best_ratios(report):
+    """{encoder: (tier, peer, [of minima, of medians])} of the fastest tier and the fastest peer."""
+    found = {}
+    for r in report:
+        if r["network"] in BARS:
+            peer, tier = fastest(r["peers"]), fastest(r["mien"])
+            found[r["network"]] = tier, peer, [r["mien"][tier][k] / r["peers"][peer][k] for k in ("min_ms", "median_ms")]
+    return found
+
+
 def frame_lines(report):
-    rows = [[str(lod), f"{us:.0f}", f"{report['mediapipe_us'] / us:.1f}"] for lod, us in report["mien_us"].items()]
-    best = report["mediapipe_us"] / report["mien_us"][4]
-    return ["## Whole frames", "", "The demo clip, 640 x 480, a face that is followed: mien from NV12, with sound to mix, MediaPipe's face landmarker from RGB "
-            f"with blendshapes and head pose, {100 * report['mediapipe_faces']:.0f} % of its frames with a face. Of each frame the fastest of 30 passes of mien's and 5 of MediaPipe's, the mean of "
-            f"these, the least of the rounds. MediaPipe: {report['mediapipe_us']:.0f} us.", "",
-            *table(["mien's level", "us", "times faster than MediaPipe"], rows),
-            f"* Level 4: {best:.1f} times faster, at least {BAR_FRAMES} wanted: {met(best >= BAR_FRAMES)}.", ""]
+    levels = {int(level): us for level, us in report["mien_us"].items()}
+    rows = [[str(level), f"{us:.0f}", f"{report['mediapipe_us'] / us:.1f}"] for level, us in levels.items()]
+    best = report["mediapipe_us"] / levels[4]
+    return ["## Frames", "", "The demo clip, 640 x 480, with one tracked face: mien from NV12 with audio, MediaPipe Face Landmarker from RGB "
+            f"with blendshapes and head pose, which finds the face in {100 * report['mediapipe_faces']:.0f} % of the frames. Mean over frames of the fastest pass, of 30 of mien and 5 of "
+            f"MediaPipe. MediaPipe takes {report['mediapipe_us']:.0f} us.", "",
+            *table(["level", "us", "times as fast as MediaPipe"], rows),
+            f"* Level 4: the goal is {BAR_FRAMES} times as fast: {met(best >= BAR_FRAMES)}.", ""]
 
 
 def decibels(ratio):
@@ -131,34 +142,55 @@ def sound_lines(report):
     shifts = {who: " / ".join(f"{r['heard'][k]['shift_ms']:.0f}" for k in ratios) for who, r in report.items()}
     seconds = report["mien"]["heard"]["clean"]["seconds"]
     better = [k for k in ratios if report["silero"]["heard"][k]["area"] > report["mien"]["heard"][k]["area"]]
-    return ["## Sound", "", f"Time for a second of sound at 16 kHz, minimum / median in us; area under ROC on the same {seconds:.0f} s of held-out speakers, with "
-            "silence around what they say, clean and in held-out noises. The truth is the energy of the clean speech, which mien's network was "
-            f"trained to find and Silero's was not; what mien takes includes the controls of the mouth. Each is compared at its best delay, in ms: mien {shifts['mien']}, Silero {shifts['silero']}.", "",
-            *table(["", "us for a second", *map(decibels, ratios)], rows),
-            f"* Silero finds speech better: {', '.join(map(decibels, better)) or 'nowhere'}.", ""]
+    return ["## Audio", "", f"Time per second of audio at 16 kHz, minimum / median in us, and area under ROC of voice activity on {seconds:.0f} s of held-out speakers "
+            "in held-out noises. The truth is the energy of clean speech, which mien's network was trained for and Silero's was not; mien's time includes the controls "
+            f"of the mouth. Each is compared at its best delay in ms: mien {shifts['mien']}, Silero {shifts['silero']}.", "",
+            *table(["", "us per second", *map(decibels, ratios)], rows),
+            f"* Silero detects speech better at: {', '.join(map(decibels, better)) or 'none'}.", ""]
+
+
+def in_short(report):
+    """How fast, on which data."""
+    found = best_ratios(report["networks"]).items()
+    text = "; ".join(f"{name} takes {ratios[0]:.2f} of the time of the fastest other engine ({ENGINES[peer]})" for name, (_, peer, ratios) in found)
+    if "frames" in report:
+        frames = report["frames"]
+        text += f"; a frame at level 4 is {frames['mediapipe_us'] / {int(k): v for k, v in frames['mien_us'].items()}[4]:.0f} times as fast as MediaPipe"
+    return text
+
+
+def page(report):
+    lines = ["# Speed compared with other engines and trackers", "", "For users who choose an engine or a tracker.", "",
+             f"{in_short(report)}. The data are the networks of `models/`, the demo clip and held-out speech. One thread each, {report['rounds']} rounds in turns on one machine "
+             f"({report['processor']}; load {report['load']:.0f}), by `scripts/peers/bench.sh`. Only ratios carry over to similar processors. "
+             "[Speed](performance.md) has the tier in half precision.", ""]
+    lines += network_lines(report["networks"])
+    lines += frame_lines(report["frames"]) if "frames" in report else []
+    lines += sound_lines(report["sound"]) if "sound" in report else []
+    lines += ["## Sizes", "", "Files of the packages for x86-64 Linux, not stripped; engines without a network.", ""]
+    lines += table(["", "version", "MB"], [[what, version, f"{size / MILLION:.1f}" if size else "-"] for what, version, size in report["shipped"]])
+    return "\n".join(lines).rstrip() + "\n"
+
+
+def measure(runs):
+    report = {"rounds": runs.rounds, "processor": processor(), "load": float((runs.work / "load").read_text().split()[2]), "networks": networks(runs), "shipped": shipped(runs)}
+    if "mediapipe" in runs.measured:
+        report["frames"] = frames(runs)
+    if "voice_silero" in runs.measured:
+        report["sound"] = sound(runs)
+    return report
 
 
 def main():
-    work, rounds, out = Path(sys.argv[1]), int(sys.argv[2]), Path(sys.argv[3])
-    runs = Runs(work, rounds, sys.argv[4:])
-    report = {"rounds": rounds, "processor": processor(), "load": float((work / "load").read_text().split()[2]), "networks": networks(runs), "shipped": shipped(runs)}
-    lines = ["# Speed beside other engines and trackers", "",
-             f"One thread each, on one processor that is asked for first, {rounds} rounds in turns on one machine; `scripts/peers/bench.sh` reproduces it. "
-             f"Only ratios mean something elsewhere, and they depend on what the processor has: here {report['processor']}. "
-             f"Load of the machine meanwhile, a mean of 15 minutes: {report['load']:.0f} on {os.cpu_count()} processors. "
-             "[Speed](performance.md) has the tier in half precision beside ONNX Runtime, on a processor that has it.", ""]
-    lines += network_lines(report["networks"])
-    if "mediapipe" in runs.measured:
-        report["frames"] = frames(runs)
-        lines += frame_lines(report["frames"])
-    if "voice_silero" in runs.measured:
-        report["sound"] = sound(runs)
-        lines += sound_lines(report["sound"])
-    lines += ["## What a program ships", "", "Files as the packages for x86-64 Linux have them, not stripped; engines without the network.", ""]
-    lines += table(["", "version", "MB"], [[what, version, f"{size / MILLION:.1f}" if size else "-"] for what, version, size in report["shipped"]])
-    (out / "peers.json").write_text(json.dumps(report, indent=1) + "\n")
-    (out / "peers.md").write_text("\n".join(lines).rstrip() + "\n")
-    print("\n".join(lines))
+    if sys.argv[1] == "--page":
+        out = Path(sys.argv[2])
+        report = json.loads((out / "peers.json").read_text())
+    else:
+        out = Path(sys.argv[3])
+        report = measure(Runs(Path(sys.argv[1]), int(sys.argv[2]), sys.argv[4:]))
+        (out / "peers.json").write_text(json.dumps(report, indent=1) + "\n")
+    (out / "peers.md").write_text(page(report))
+    print(page(report))
 
 
 def processor():

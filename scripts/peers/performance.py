@@ -1,5 +1,9 @@
 #!/usr/bin/env python3
-"""What the rounds of bench.sh say about mien itself: tiers, fused blocks, share of the peak.  usage: performance.py WORK_DIR ROUNDS OUT_DIR [MEASURED...]"""
+"""Reports the speed of mien from the rounds of bench.sh: tiers, fused blocks, share of the peak.
+
+usage: performance.py WORK_DIR ROUNDS OUT_DIR [MEASURED...]
+       performance.py --page OUT_DIR          only writes the page from OUT_DIR/performance.json
+"""
 import json
 import sys
 from pathlib import Path
@@ -55,36 +59,40 @@ def table(header, rows):
 
 
 def to_text(figures):
-    lines = ["# Speed", "",
-             f"One thread, minima of {figures['rounds']} rounds in turns with [other engines](peers.md) on one machine; `scripts/peers/bench.sh` writes this. "
-             "Absolute times mean nothing elsewhere. `avx512fp16` and `avx512vnni` compute the encoders' blocks [with 16 bits](../architecture.md#half-precision), the rest is "
-             "`avx512`'s, held against a peak that only 16 bits can have. The peak is that of a loop of fused multiply-adds in registers, the best that was seen in the same run.", ""]
-    lines += table(("tier", "peak, GFLOP/s"), [(tier, f"{peak:.0f}") for tier, peak in figures["peak_gflops"].items()])
-    lines += ["", "## Networks", "",
-              "*Of unfused*: time with fused blocks by the time layer by layer (`mien bench --unfused`); networks without such blocks have about 1.", ""]
-    lines += table(("network", "tier", "MACs", "us", "share of the peak", "of unfused", "of ONNX Runtime"),
+    levels = ", ".join(f"level {f['lod']} {f['mean_us']:.0f} us" for f in figures["frames"]["levels"])
+    lines = ["# Speed", "", "For developers of kernels, and for users who plan a budget.", "",
+             f"A tracked frame of 640 x 480 pixels takes: {levels}. One thread, minima of {figures['rounds']} rounds in turns with [other engines](peers.md) on one machine, by "
+             "`scripts/peers/bench.sh`; only ratios carry over to other machines. `avx512fp16` and `avx512vnni` compute the encoders' blocks "
+             "[with 16 bits](../architecture.md#half-precision) and the rest as `avx512`. The peak is that of a loop of fused multiply-adds in registers in the same run, in "
+             f"GFLOP/s: {', '.join(f'{tier} {peak:.0f}' for tier, peak in figures['peak_gflops'].items())}.", "", "## Networks", "",
+             "*Of unfused*: time relative to `mien bench --unfused`. Decoders and heads take the time of `avx512` in all 512-bit tiers.", ""]
+    encoders = [r for r in figures["networks"] if r["tier"] in ("avx2", "avx512", "neon") or r["network"].endswith("net_encoder")]
+    lines += table(("network", "tier", "MACs", "us", "of the peak", "of unfused", "of ONNX Runtime"),
                    [(r["network"], r["tier"], f"{r['macs']:,}", f"{r['min_us']:.1f}", f"{100 * r['peak_share']:.0f} %", f"{r['to_unfused']:.2f}",
-                     f"{r['to_onnxruntime']:.2f}" if "to_onnxruntime" in r else "") for r in figures["networks"]])
-    lines += ["", "## Sound", "", "What 16 ms of sound cost, from samples to controls: resampler, features, encoder, both decoders (`mien bench --sound`).", ""]
+                     f"{r['to_onnxruntime']:.2f}" if "to_onnxruntime" in r else "") for r in encoders])
+    lines += ["", "## Audio", "", "16 ms of audio, from samples to controls: resampler, features, encoder, both decoders (`mien bench --sound`).", ""]
     lines += table(("sample rate", "us, minimum", "us, median"),
                    [(str(s["sample_rate"]), f"{s['min_us']:.1f}", f"{s['median_us']:.1f}") for s in figures["sound_step"]])
-    lines += ["", "## A frame", "",
-              "Mean of the frames of the demo clip, 640 x 480 NV12, on which the face was followed, with sound to mix (`mien bench --levels`); us.", ""]
+    lines += ["", "## A frame", "", "Mean over tracked frames of the demo clip, 640 x 480 NV12, with audio (`mien bench --levels`); us.", ""]
     stages = ("warp", "encoder", "heads", "decoders")
-    lines += table(("level", "whole", "of level 4", *stages),
+    lines += table(("level", "frame", "of level 4", *stages),
                    [(str(f["lod"]), f"{f['mean_us']:.0f}", f"{f['of_highest']:.2f}", *(f"{f['stages_us'][s]:.1f}" for s in stages))
                     for f in figures["frames"]["levels"]])
     f = figures["frames"]
-    lines += ["", f"The networks of level 4 take {f['networks_of_highest_us']:.0f} us in sum when each runs again and again, its weights at hand, and "
-              f"{f['networks_in_turn_us']:.0f} us one after the other, as in a frame; a frame takes {f['highest_of_networks']:.2f} and {f['highest_of_networks_in_turn']:.2f} times that. "
-              f"From the weight files to a tracker: {f['start_ms']:.1f} ms."]
+    lines += ["", f"The networks of level 4 take {f['networks_of_highest_us']:.0f} us if each is repeated, with its weights in the cache, and "
+              f"{f['networks_in_turn_us']:.0f} us in sequence, as in a frame; a frame takes {f['highest_of_networks']:.2f} and {f['highest_of_networks_in_turn']:.2f} times that. "
+              f"Creating a tracker from the weight files takes {f['start_ms']:.1f} ms."]
     return "\n".join(lines) + "\n"
 
 
 def main():
-    work, rounds, out = Path(sys.argv[1]), int(sys.argv[2]), Path(sys.argv[3])
-    figures = measure(work, rounds)
-    (out / "performance.json").write_text(json.dumps(figures, indent=1) + "\n")
+    if sys.argv[1] == "--page":
+        out = Path(sys.argv[2])
+        figures = json.loads((out / "performance.json").read_text())
+    else:
+        out = Path(sys.argv[3])
+        figures = measure(Path(sys.argv[1]), int(sys.argv[2]))
+        (out / "performance.json").write_text(json.dumps(figures, indent=1) + "\n")
     (out / "performance.md").write_text(to_text(figures))
 
 
