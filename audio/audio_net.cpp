@@ -33,7 +33,7 @@ void AudioNet::reset() {
   activity_.reset();
 }
 
-Speech AudioNet::hear(std::span<const float, FrontEnd::kFeatures> features) {
+Speech AudioNet::process(std::span<const float, FrontEnd::kFeatures> features) {
   const std::span<const float> embedding = encoder_.run(features).first(kEmbedding);
   Speech speech;
   const std::span<const float> controls = controls_.run(embedding);

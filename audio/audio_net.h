@@ -37,7 +37,7 @@ class AudioNet {
   // A new stream begins.
   void reset();
 
-  [[nodiscard]] Speech hear(std::span<const float, FrontEnd::kFeatures> features);
+  [[nodiscard]] Speech process(std::span<const float, FrontEnd::kFeatures> features);
 
  private:
   engine::Network encoder_;

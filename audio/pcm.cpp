@@ -22,7 +22,7 @@ template <class Sample>
 void mean_of_channels(const Pcm& pcm, std::size_t first, std::span<float> mono) {
   const auto channels = static_cast<std::size_t>(pcm.channels);
   const std::size_t step = pcm.planar ? 1 : channels;
-  const Sample* begin[kMostChannels];
+  const Sample* begin[kMaxChannels];
   for (std::size_t c = 0; c < channels; ++c) {
     begin[c] = pcm.planar ? static_cast<const Sample*>(pcm.channel[c])
                           : static_cast<const Sample*>(pcm.channel[0]) + c;

@@ -7,7 +7,7 @@
 
 namespace mien::audio {
 
-inline constexpr std::int32_t kMostChannels = 8;
+inline constexpr std::int32_t kMaxChannels = 8;
 
 enum class SampleFormat { kFloat32, kInt16 };
 
@@ -16,9 +16,9 @@ enum class SampleFormat { kFloat32, kInt16 };
 struct Pcm {
   SampleFormat format;
   bool planar;
-  std::int32_t channels;  // 1..kMostChannels
+  std::int32_t channels;  // 1..kMaxChannels
   std::size_t frames;
-  const void* channel[kMostChannels];  // aligned as its samples ask for
+  const void* channel[kMaxChannels];  // aligned as its samples ask for
 };
 
 // The mean of the channels of frames [first, first + mono.size()), -1..1. What is no number counts

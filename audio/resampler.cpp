@@ -55,7 +55,7 @@ void Resampler::make_filter() {
   const double cutoff = kCutoff * std::min(1.0, static_cast<double>(kOutputRate) / rate_);
   for (std::int32_t phase = 0; phase <= phases_; ++phase) {
     float* taps = filter_.data() + std::ptrdiff_t{2} * half_ * phase;
-    double exact[kMostTaps];
+    double exact[kMaxTaps];
     double sum = 0.0;
     for (std::int32_t k = 0; k < 2 * half_; ++k) {
       const double away = k - (half_ - 1) - static_cast<double>(phase) / phases_;
@@ -69,7 +69,7 @@ void Resampler::make_filter() {
 
 std::size_t Resampler::take(std::span<const float> input) {
   if (known_ == history_.size()) {
-    forget_used();
+    drop_used();
   }
   const std::size_t count = std::min(input.size(), history_.size() - known_);
   std::copy_n(input.begin(), count, history_.begin() + static_cast<std::ptrdiff_t>(known_));
@@ -99,7 +99,7 @@ void Resampler::advance() {
 }
 
 // Moves the inputs that are still needed to the front.
-void Resampler::forget_used() {
+void Resampler::drop_used() {
   const auto used = std::min(static_cast<std::size_t>(whole_), known_);
   std::copy(history_.begin() + static_cast<std::ptrdiff_t>(used),
             history_.begin() + static_cast<std::ptrdiff_t>(known_), history_.begin());

@@ -46,14 +46,13 @@ class Resampler {
   static constexpr std::int32_t kOutputRate = 16000;
   static constexpr std::int32_t kZeroCrossings = 32;
   static constexpr std::int32_t kPhases = 256;  // when the input is not the faster one
-  static constexpr std::int32_t kMostSteps = kHighestRate / kOutputRate;
-  static constexpr std::size_t kMostTaps = std::size_t{2} * kZeroCrossings * kMostSteps;
-  static constexpr std::size_t kTableSize =
-      std::size_t{2} * kZeroCrossings * (kPhases + kMostSteps);
+  static constexpr std::int32_t kMaxSteps = kHighestRate / kOutputRate;
+  static constexpr std::size_t kMaxTaps = std::size_t{2} * kZeroCrossings * kMaxSteps;
+  static constexpr std::size_t kTableSize = std::size_t{2} * kZeroCrossings * (kPhases + kMaxSteps);
 
   void make_filter();
   void advance();
-  void forget_used();
+  void drop_used();
 
   kernels::Kernel<kernels::MatrixVectorArgs> matrix_vector_ = nullptr;
   std::int32_t rate_ = 0;
@@ -62,7 +61,7 @@ class Resampler {
   std::int64_t whole_ = 0;   // first input of the next output's filter, in history_
   std::int32_t part_ = 0;    // how far the output is beyond an input, in 1 / kOutputRate
   std::size_t known_ = 0;    // inputs in history_
-  std::array<float, 4 * kMostTaps> history_ = {};
+  std::array<float, 4 * kMaxTaps> history_ = {};
   std::array<float, kTableSize> filter_ = {};  // [phases + 1, 2 half]
 };
 

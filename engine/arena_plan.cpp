@@ -3,7 +3,7 @@
 namespace mien::engine {
 
 std::size_t ArenaPlan::place(std::size_t bytes, std::uint32_t born, std::uint32_t dies) {
-  drop_dead(born);
+  drop_expired(born);
   std::size_t begin = 0;
   const std::uint32_t at = lowest_gap(aligned(bytes), begin);
   for (std::uint32_t i = count_++; i > at; --i) {
@@ -15,7 +15,7 @@ std::size_t ArenaPlan::place(std::size_t bytes, std::uint32_t born, std::uint32_
   return begin;
 }
 
-void ArenaPlan::drop_dead(std::uint32_t now) {
+void ArenaPlan::drop_expired(std::uint32_t now) {
   std::uint32_t kept = 0;
   for (std::uint32_t i = 0; i < count_; ++i) {
     if (live_[i].dies >= now) {

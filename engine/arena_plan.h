@@ -31,7 +31,7 @@ class ArenaPlan {
     std::uint32_t dies;
   };
 
-  void drop_dead(std::uint32_t now);
+  void drop_expired(std::uint32_t now);
   [[nodiscard]] std::uint32_t lowest_gap(std::size_t bytes, std::size_t& begin) const;
 
   Map live_[formats::kMaxLayers];  // by offset

@@ -24,24 +24,26 @@ std::int32_t channels_at_once(std::size_t pixels) {
 }  // namespace
 
 std::size_t BlockTiling::scratch_elems() const {
-  return band_elems + strip_elems + narrow_elems + kernels::kInvertedResidualWideElems;
+  return band_elems + strip_elems + half_input_elems + kernels::kInvertedResidualFp32WeightElems;
 }
 
-BlockTiling tile_block(const formats::LayerRecord& slide, const Shape& hidden, const Shape& slid,
-                       std::int32_t narrowed_c) {
+BlockTiling tile_block(const formats::LayerRecord& depthwise_layer, const Shape& hidden,
+                       const Shape& depthwise_output, std::int32_t half_input_c) {
   BlockTiling t{};
-  const std::int32_t kernel_h = slide.kernel_height, stride_h = slide.stride_height;
+  const std::int32_t kernel_h = depthwise_layer.kernel_height,
+                     stride_h = depthwise_layer.stride_height;
   const std::size_t channels = (static_cast<std::size_t>(hidden.c) + 15) / 16 * 16;
-  const std::size_t band_row = channels * static_cast<std::size_t>(slid.w);
+  const std::size_t band_row = channels * static_cast<std::size_t>(depthwise_output.w);
   const auto rows_in = [](std::int64_t bytes, std::size_t row_elems) {
     return bytes / static_cast<std::int64_t>(row_elems * sizeof(float));
   };
-  t.band_rows =
-      static_cast<std::int32_t>(std::clamp<std::int64_t>(rows_in(kBandBytes, band_row), 1, slid.h));
+  t.band_rows = static_cast<std::int32_t>(
+      std::clamp<std::int64_t>(rows_in(kBandBytes, band_row), 1, depthwise_output.h));
   t.strip_channels =
       std::min(channels_at_once(hidden.pixels()), static_cast<std::int32_t>(channels));
-  t.strip_w =
-      std::max(slide.pad_left + hidden.w, (slid.w - 1) * slide.stride_width + slide.kernel_width);
+  t.strip_w = std::max(
+      depthwise_layer.pad_left + hidden.w,
+      (depthwise_output.w - 1) * depthwise_layer.stride_width + depthwise_layer.kernel_width);
   const std::size_t strip_row =
       static_cast<std::size_t>(t.strip_channels) * static_cast<std::size_t>(t.strip_w);
   const std::int64_t more = (rows_in(kStripBytes, strip_row) - kernel_h) / stride_h;
@@ -50,8 +52,8 @@ BlockTiling tile_block(const formats::LayerRecord& slide, const Shape& hidden, c
   t.band_elems = band_row * static_cast<std::size_t>(t.band_rows);
   t.strip_elems = strip_row * static_cast<std::size_t>(t.strip_rows);
   const std::int32_t rows = std::min(hidden.h, (t.band_rows - 1) * stride_h + kernel_h);
-  t.narrow_elems = (static_cast<std::size_t>(narrowed_c) + 31) / 32 * 16 *
-                   static_cast<std::size_t>(rows) * static_cast<std::size_t>(hidden.w);
+  t.half_input_elems = (static_cast<std::size_t>(half_input_c) + 31) / 32 * 16 *
+                       static_cast<std::size_t>(rows) * static_cast<std::size_t>(hidden.w);
   return t;
 }
 
@@ -64,19 +66,19 @@ bool fuses_blocks(std::uint32_t cpu_mask) {
          kernels::rank(fused->tier) >= kernels::rank(plain->tier);
 }
 
-bool narrows_blocks(std::uint32_t cpu_mask) {
+bool uses_half_precision(std::uint32_t cpu_mask) {
   const kernels::Entry* fused =
       kernels::find_entry(kernels::InvertedResidualArgs::kFamily, cpu_mask);
   return fused != nullptr && kernels::is_half(fused->tier);
 }
 
-bool fixes_weights(std::uint32_t cpu_mask) {
+bool quantizes_weights(std::uint32_t cpu_mask) {
   const kernels::Entry* fused =
       kernels::find_entry(kernels::InvertedResidualArgs::kFamily, cpu_mask);
   return fused != nullptr && fused->tier == kernels::Tier::kAvx512Vnni;
 }
 
-std::size_t fixed_weights_bytes(std::int32_t in_c, std::int32_t out_c) {
+std::size_t quantized_weights_bytes(std::int32_t in_c, std::int32_t out_c) {
   const auto padded = [](std::int32_t c) { return (static_cast<std::size_t>(c) + 7) / 8 * 8; };
   return aligned(padded(out_c) * (padded(in_c) * sizeof(std::int16_t) + sizeof(float)));
 }

@@ -38,8 +38,8 @@ Status Plan::make(const SessionRequest& request) {
   fuse_additions();
   if (fuses_blocks(request.cpu_mask)) {
     fuse_blocks();
-    narrows_ = narrows_blocks(request.cpu_mask);
-    fixes_weights_ = fixes_weights(request.cpu_mask);
+    uses_half_precision_ = uses_half_precision(request.cpu_mask);
+    quantizes_weights_ = quantizes_weights(request.cpu_mask);
   }
   place_maps();
   return Status::kOk;
@@ -115,7 +115,7 @@ void Plan::fuse_additions() {
 }
 
 // The next layer alone looks at the result of this one, and a fused block can hold it.
-bool Plan::passes_on(std::uint32_t layer) const {
+bool Plan::has_single_fusable_consumer(std::uint32_t layer) const {
   const Value& value = values_[layer + 1];
   return layer + 1 < layer_count() && layers_[layer + 1].input == layer + 1 && value.readers == 1 &&
          !value.is_output && fuses(layers_[layer]);
@@ -124,14 +124,15 @@ bool Plan::passes_on(std::uint32_t layer) const {
 // Depthwise and pointwise layers behind each other, with the pointwise layer before if there is.
 void Plan::fuse_blocks() {
   for (std::uint32_t i = 0; i + 1 < layer_count(); ++i) {
-    const bool slides = op_of(layers_[i]) == LayerOp::kDepthwise && passes_on(i);
+    const bool is_windowed =
+        op_of(layers_[i]) == LayerOp::kDepthwise && has_single_fusable_consumer(i);
     const LayerRecord& project = layers_[i + 1];
     const bool projects = op_of(project) == LayerOp::kPointwise && fuses(project);
-    if (!slides || !projects) {
+    if (!is_windowed || !projects) {
       continue;
     }
     const bool expands = i > 0 && op_of(layers_[i - 1]) == LayerOp::kPointwise &&
-                         parts_[i - 1] == Part::kStep && passes_on(i - 1);
+                         parts_[i - 1] == Part::kStep && has_single_fusable_consumer(i - 1);
     parts_[i + 1] = Part::kInside;
     --step_count_;
     if (expands) {
@@ -145,7 +146,7 @@ std::uint32_t Plan::fused_addition(std::uint32_t layer) const {
   return layer + 1 < layer_count() && parts_[layer + 1] == Part::kAddition ? layer + 1 : kNoIndex;
 }
 
-std::uint32_t Plan::fused_slide(std::uint32_t layer) const {
+std::uint32_t Plan::fused_depthwise(std::uint32_t layer) const {
   if (layer + 1 >= layer_count() || parts_[layer + 1] != Part::kInside) {
     return kNoIndex;
   }
@@ -154,7 +155,7 @@ std::uint32_t Plan::fused_slide(std::uint32_t layer) const {
 
 std::uint32_t Plan::step_layers(std::uint32_t layer) const {
   std::uint32_t end = layer + 1;
-  while (end < layer_count() && vanishes(end)) {
+  while (end < layer_count() && is_fused_into_previous(end)) {
     ++end;
   }
   return end - layer;
@@ -178,45 +179,52 @@ std::size_t Plan::state_elems(std::uint32_t layer) const {
 }
 
 // Blocks with longer sums are computed in fp32. Without an expanding layer both are the same value.
-bool Plan::is_fixed(std::uint32_t layer, std::uint32_t slide) const {
-  const std::uint32_t x = layers_[layer].input, hidden = layers_[slide].input;
-  return fixes_weights_ && values_[x].shape.c <= kernels::kFixedWeightsMostInputs &&
-         values_[hidden].shape.c <= kernels::kFixedWeightsMostInputs;
+bool Plan::is_quantized(std::uint32_t layer, std::uint32_t depthwise_layer) const {
+  const std::uint32_t x = layers_[layer].input, hidden = layers_[depthwise_layer].input;
+  return quantizes_weights_ && values_[x].shape.c <= kernels::kQuantizedWeightsMaxInputs &&
+         values_[hidden].shape.c <= kernels::kQuantizedWeightsMaxInputs;
 }
 
 // Whether the block's input is copied at 16 bits a value before it is expanded.
-bool Plan::is_narrowed(std::uint32_t layer, std::uint32_t slide) const {
-  if (layer == slide || fixes_weights_) {
-    return layer < slide && is_fixed(layer, slide);
+bool Plan::has_half_input(std::uint32_t layer, std::uint32_t depthwise_layer) const {
+  if (layer == depthwise_layer || quantizes_weights_) {
+    return layer < depthwise_layer && is_quantized(layer, depthwise_layer);
   }
-  const LayerRecord& depthwise = layers_[slide];
-  return narrows_ && kernels::has_short_half_sums(values_[layers_[layer].input].shape.c,
-                                                  depthwise.kernel_height, depthwise.kernel_width);
+  const LayerRecord& depthwise = layers_[depthwise_layer];
+  return uses_half_precision_ &&
+         kernels::has_short_half_sums(values_[layers_[layer].input].shape.c,
+                                      depthwise.kernel_height, depthwise.kernel_width);
 }
 
 std::size_t Plan::weights_bytes(std::uint32_t layer) const {
-  const std::uint32_t slide = fused_slide(layer);
-  if (vanishes(layer) || slide == kNoIndex || !is_fixed(layer, slide)) {
+  const std::uint32_t depthwise_layer = fused_depthwise(layer);
+  if (is_fused_into_previous(layer) || depthwise_layer == kNoIndex ||
+      !is_quantized(layer, depthwise_layer)) {
     return 0;
   }
   const auto channels = [&](std::uint32_t value) { return values_[value].shape.c; };
-  const std::size_t project = fixed_weights_bytes(channels(slide + 1), channels(slide + 2));
+  const std::size_t project =
+      quantized_weights_bytes(channels(depthwise_layer + 1), channels(depthwise_layer + 2));
   const std::uint32_t x = layers_[layer].input;
-  return layer < slide ? project + fixed_weights_bytes(channels(x), channels(slide)) : project;
+  return layer < depthwise_layer
+             ? project + quantized_weights_bytes(channels(x), channels(depthwise_layer))
+             : project;
 }
 
 std::size_t Plan::scratch_elems(std::uint32_t layer) const {
   if (op_of(layers_[layer]) == LayerOp::kLstm) {
     return 4 * blocked_elems(values_[layer + 1].shape);
   }
-  const bool is_block = !vanishes(layer) && fused_slide(layer) != kNoIndex;
+  const bool is_block = !is_fused_into_previous(layer) && fused_depthwise(layer) != kNoIndex;
   return is_block ? tiling(layer).scratch_elems() : 0;
 }
 
 BlockTiling Plan::tiling(std::uint32_t layer) const {
-  const std::uint32_t slide = fused_slide(layer);
-  return tile_block(layers_[slide], values_[layers_[slide].input].shape, values_[slide + 1].shape,
-                    is_narrowed(layer, slide) ? values_[layers_[layer].input].shape.c : 0);
+  const std::uint32_t depthwise_layer = fused_depthwise(layer);
+  return tile_block(
+      layers_[depthwise_layer], values_[layers_[depthwise_layer].input].shape,
+      values_[depthwise_layer + 1].shape,
+      has_half_input(layer, depthwise_layer) ? values_[layers_[layer].input].shape.c : 0);
 }
 
 std::size_t Plan::scratch_elems() const {
@@ -235,7 +243,7 @@ void Plan::place_maps() {
     state_elems_ += state_elems(i);
     weights_bytes_ += weights_bytes(i);
     Value& value = values_[i + step_layers(i)];
-    if (vanishes(i) || value.is_output) {
+    if (is_fused_into_previous(i) || value.is_output) {
       continue;
     }
     const std::size_t bytes = blocked_elems(value.shape) * sizeof(float);

@@ -47,12 +47,14 @@ class Plan {
   }
 
   // A layer before performs this one too.
-  [[nodiscard]] bool vanishes(std::uint32_t layer) const { return parts_[layer] != Part::kStep; }
+  [[nodiscard]] bool is_fused_into_previous(std::uint32_t layer) const {
+    return parts_[layer] != Part::kStep;
+  }
   // The addition that a layer performs besides, as a layer; kNoIndex if none.
   [[nodiscard]] std::uint32_t fused_addition(std::uint32_t layer) const;
   // The depthwise layer of the inverted residual block that begins with this layer; kNoIndex if
   // none. The block's last layer is the next.
-  [[nodiscard]] std::uint32_t fused_slide(std::uint32_t layer) const;
+  [[nodiscard]] std::uint32_t fused_depthwise(std::uint32_t layer) const;
   // How the block divides its work.
   [[nodiscard]] BlockTiling tiling(std::uint32_t layer) const;
   // Layers of the step that begins with this layer.
@@ -79,15 +81,15 @@ class Plan {
   [[nodiscard]] Status check_size() const;
   void fuse_additions();
   void fuse_blocks();
-  [[nodiscard]] bool passes_on(std::uint32_t layer) const;
-  [[nodiscard]] bool is_fixed(std::uint32_t layer, std::uint32_t slide) const;
-  [[nodiscard]] bool is_narrowed(std::uint32_t layer, std::uint32_t slide) const;
+  [[nodiscard]] bool has_single_fusable_consumer(std::uint32_t layer) const;
+  [[nodiscard]] bool is_quantized(std::uint32_t layer, std::uint32_t depthwise_layer) const;
+  [[nodiscard]] bool has_half_input(std::uint32_t layer, std::uint32_t depthwise_layer) const;
   void place_maps();
   [[nodiscard]] std::size_t scratch_elems() const;
   [[nodiscard]] std::size_t scratch_elems(std::uint32_t layer) const;
 
-  bool narrows_ = false;        // fused blocks are computed in half precision
-  bool fixes_weights_ = false;  // and their weights, unless they are too many, in fixed point
+  bool uses_half_precision_ = false;  // fused blocks are computed in half precision
+  bool quantizes_weights_ = false;    // and their weights, unless they are too many, in fixed point
   const formats::NetworkRecord* network_ = nullptr;
   std::span<const formats::LayerRecord> layers_;
   Value values_[formats::kMaxLayers + 1];

@@ -102,7 +102,7 @@ Status SessionBuilder::make_steps(const SessionRequest& request, float* scratch,
   std::byte* weights = take(plan_.weights_bytes());
   const StepMaker maker(plan_, request.model->file(), request.cpu_mask, maps_, scratch);
   for (std::uint32_t i = 0; i < plan_.layer_count(); ++i) {
-    if (plan_.vanishes(i)) {
+    if (plan_.is_fused_into_previous(i)) {
       continue;
     }
     Step& step = session.steps_[session.step_count_++];

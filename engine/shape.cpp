@@ -19,7 +19,7 @@ std::int32_t windows(std::int32_t size, std::int32_t kernel, std::int32_t stride
   return (room + (ceil_mode ? stride - 1 : 0)) / stride + 1;
 }
 
-Shape slid(const LayerRecord& l, const Shape& input, std::int32_t channels) {
+Shape windowed(const LayerRecord& l, const Shape& input, std::int32_t channels) {
   const bool ceil_mode = (l.flags & formats::kCeilMode) != 0;
   return {windows(input.h, l.kernel_height, l.stride_height, l.pad_top + l.pad_bottom, ceil_mode),
           windows(input.w, l.kernel_width, l.stride_width, l.pad_left + l.pad_right, ceil_mode),
@@ -64,13 +64,13 @@ Status infer_shape(const LayerRecord& layer, const Shape& input, const Shape& se
   bool suits = true;
   switch (op_of(layer)) {
     case LayerOp::kConv2d:
-      output = slid(layer, input, channels);
+      output = windowed(layer, input, channels);
       break;
     case LayerOp::kDepthwise:
-      output = slid(layer, input, input.c);
+      output = windowed(layer, input, input.c);
       break;
     case LayerOp::kMaxPool:
-      output = slid(layer, input, input.c);
+      output = windowed(layer, input, input.c);
       suits = pool_windows_hold_values(layer, input, output);
       break;
     case LayerOp::kPointwise:

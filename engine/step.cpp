@@ -163,11 +163,11 @@ Status StepMaker::put(const Args& args, Step& step) const {
 
 Status StepMaker::make(std::uint32_t layer, const Memory& own, Step& step) const {
   const LayerRecord& l = plan_.layer(layer);
-  const std::uint32_t slide = plan_.fused_slide(layer);
-  if (slide != kNoIndex) {
-    kernels::InvertedResidualArgs args = block(layer, slide);
+  const std::uint32_t depthwise_layer = plan_.fused_depthwise(layer);
+  if (depthwise_layer != kNoIndex) {
+    kernels::InvertedResidualArgs args = block(layer, depthwise_layer);
     const Status status =
-        plan_.weights_bytes(layer) > 0 ? fix_weights(own.weights, args) : Status::kOk;
+        plan_.weights_bytes(layer) > 0 ? quantize_weights(own.weights, args) : Status::kOk;
     return status == Status::kOk ? put(args, step) : status;
   }
   const Map x = map(l.input), y = map(layer + 1);
@@ -250,21 +250,23 @@ kernels::InvertedResidualArgs::Weights StepMaker::weights(std::uint32_t layer) c
 }
 
 // Layers `layer` .. slide + 1, and the addition behind them if it is fused.
-kernels::InvertedResidualArgs StepMaker::block(std::uint32_t layer, std::uint32_t slide) const {
-  const LayerRecord& l = plan_.layer(slide);
+kernels::InvertedResidualArgs StepMaker::block(std::uint32_t layer,
+                                               std::uint32_t depthwise_layer) const {
+  const LayerRecord& l = plan_.layer(depthwise_layer);
   const Map x = map(plan_.layer(layer).input), y = map(layer + plan_.step_layers(layer));
-  const Shape hidden = plan_.value(l.input).shape, slid = plan_.value(slide + 1).shape;
+  const Shape hidden = plan_.value(l.input).shape,
+              depthwise_output = plan_.value(depthwise_layer + 1).shape;
   kernels::InvertedResidualArgs args{};
   args.x = x.data;
   args.y = y.data;
-  args.expand = layer < slide ? weights(layer) : kernels::InvertedResidualArgs::Weights{};
-  args.slide = weights(slide);
-  args.project = weights(slide + 1);
-  set_windows(l, hidden, slid, args);
+  args.expand = layer < depthwise_layer ? weights(layer) : kernels::InvertedResidualArgs::Weights{};
+  args.depthwise = weights(depthwise_layer);
+  args.project = weights(depthwise_layer + 1);
+  set_windows(l, hidden, depthwise_output, args);
   args.in_c = x.shape.c;
   args.hidden_c = hidden.c;
   args.out_c = y.shape.c;
-  const std::uint32_t sum = plan_.fused_addition(slide + 1);
+  const std::uint32_t sum = plan_.fused_addition(depthwise_layer + 1);
   if (sum != kNoIndex) {
     const Map residual = map(plan_.layer(sum).second_input);
     set_residual(residual.shape, y.shape, residual.data, args);
@@ -272,8 +274,8 @@ kernels::InvertedResidualArgs StepMaker::block(std::uint32_t layer, std::uint32_
   const BlockTiling tiling = plan_.tiling(layer);
   args.band = scratch_;
   args.strip = args.band + tiling.band_elems;
-  args.wide = args.strip + tiling.strip_elems;
-  args.narrow = args.wide + kernels::kInvertedResidualWideElems;
+  args.fp32_weights = args.strip + tiling.strip_elems;
+  args.half_input = args.fp32_weights + kernels::kInvertedResidualFp32WeightElems;
   args.band_rows = tiling.band_rows;
   args.strip_channels = tiling.strip_channels;
   args.strip_rows = tiling.strip_rows;
@@ -282,26 +284,26 @@ kernels::InvertedResidualArgs StepMaker::block(std::uint32_t layer, std::uint32_
 }
 
 // Rounded once, here.
-Status StepMaker::fix_weights(std::byte* to, kernels::InvertedResidualArgs& args) const {
-  const auto fix = kernels::find<kernels::FixedWeightsArgs>(cpu_mask_);
+Status StepMaker::quantize_weights(std::byte* to, kernels::InvertedResidualArgs& args) const {
+  const auto fix = kernels::find<kernels::QuantizeWeightsArgs>(cpu_mask_);
   if (fix == nullptr) {
     return Status::kNoKernel;
   }
   const auto layer = [&](kernels::InvertedResidualArgs::Weights& weights, std::int32_t in_c,
                          std::int32_t out_c, bool of_map) {
-    kernels::FixedWeightsArgs one{};
+    kernels::QuantizeWeightsArgs one{};
     one.in_blocks = (in_c + 7) / 8;
     one.out_blocks = (out_c + 7) / 8;
     one.pairs = reinterpret_cast<std::int16_t*>(to);
-    one.steps =
+    one.scales =
         reinterpret_cast<float*>(one.pairs + std::ptrdiff_t{one.in_blocks} * one.out_blocks * 64);
     one.weights = weights.weights;
-    one.most = of_map ? kernels::kFixedMapMost : kernels::kFixedBandMost;
+    one.most = of_map ? kernels::kQuantizedMapMax : kernels::kQuantizedBandMax;
     one.is_signed = of_map;
     fix(one);
     weights.pairs = one.pairs;
-    weights.steps = one.steps;
-    to += fixed_weights_bytes(in_c, out_c);
+    weights.scales = one.scales;
+    to += quantized_weights_bytes(in_c, out_c);
   };
   if (args.expand.weights != nullptr) {
     layer(args.expand, args.in_c, args.hidden_c, true);

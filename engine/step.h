@@ -55,9 +55,10 @@ class StepMaker {
   [[nodiscard]] kernels::Conv2dArgs conv2d(const formats::LayerRecord& layer, Map x, Map y) const;
   [[nodiscard]] kernels::DepthwiseArgs depthwise(const formats::LayerRecord& layer, Map x,
                                                  Map y) const;
-  [[nodiscard]] kernels::InvertedResidualArgs block(std::uint32_t layer, std::uint32_t slide) const;
+  [[nodiscard]] kernels::InvertedResidualArgs block(std::uint32_t layer,
+                                                    std::uint32_t depthwise_layer) const;
   [[nodiscard]] kernels::InvertedResidualArgs::Weights weights(std::uint32_t layer) const;
-  Status fix_weights(std::byte* to, kernels::InvertedResidualArgs& args) const;
+  Status quantize_weights(std::byte* to, kernels::InvertedResidualArgs& args) const;
   [[nodiscard]] kernels::PointwiseArgs pointwise(std::uint32_t layer, Map x, Map y) const;
   [[nodiscard]] kernels::FullyConnectedArgs fully_connected(const formats::LayerRecord& layer,
                                                             Map x, Map y) const;

@@ -10,7 +10,7 @@ LayerActivation activation_of(const LayerRecord& layer) {
   return static_cast<LayerActivation>(layer.activation);
 }
 
-bool slides(LayerOp op) {
+bool is_windowed(LayerOp op) {
   return op == LayerOp::kConv2d || op == LayerOp::kDepthwise || op == LayerOp::kMaxPool;
 }
 
@@ -93,7 +93,7 @@ bool geometry_allowed(const LayerRecord& layer) {
   if (op_of(layer) == LayerOp::kResize) {
     return (layer.kernel_height | layer.kernel_width) == 0 && no_margins(layer);
   }
-  if (!slides(op_of(layer))) {
+  if (!is_windowed(op_of(layer))) {
     return no_window(layer) && (op_of(layer) == LayerOp::kSlice || no_margins(layer));
   }
   return window_allowed(layer.kernel_height, layer.stride_height, layer.pad_top,
@@ -113,7 +113,7 @@ std::uint64_t window_count(std::uint64_t size, std::uint64_t kernel, std::uint64
   return last * stride < before + size ? last + 1 : 0;
 }
 
-ValueShape slid_shape(const LayerRecord& layer, ValueShape input) {
+ValueShape depthwise_shape(const LayerRecord& layer, ValueShape input) {
   const bool ceil_mode = layer.flags == kCeilMode;
   return {window_count(input.height, layer.kernel_height, layer.stride_height, layer.pad_top,
                        layer.pad_bottom, ceil_mode),
@@ -329,8 +329,8 @@ ValueShape output_shape(const LayerRecord& layer, ValueShape input, ValueShape s
   if (refused) {
     return {};
   }
-  if (slides(op)) {
-    return slid_shape(layer, input);
+  if (is_windowed(op)) {
+    return depthwise_shape(layer, input);
   }
   switch (op) {
     case LayerOp::kFullyConnected:

@@ -70,8 +70,8 @@ NetworkWriter::Layer NetworkWriter::begin(LayerOp op, LayerIndex x, const LayerO
   return layer;
 }
 
-void NetworkWriter::slide(LayerRecord* record, std::uint32_t kernel_h, std::uint32_t kernel_w,
-                          const LayerOptions& options) {
+void NetworkWriter::set_window(LayerRecord* record, std::uint32_t kernel_h, std::uint32_t kernel_w,
+                               const LayerOptions& options) {
   // Too large a kernel must not become a small one.
   record->kernel_height = static_cast<std::uint16_t>(std::min(kernel_h, 0xffffu));
   record->kernel_width = static_cast<std::uint16_t>(std::min(kernel_w, 0xffffu));
@@ -142,7 +142,7 @@ LayerIndex NetworkWriter::conv2d(LayerIndex x, const Array& weight, const std::v
                                  const LayerOptions& options) {
   const auto channels = static_cast<std::size_t>(shape_of_value(x).channels);
   Layer layer = begin(LayerOp::kConv2d, x, options);
-  slide(&layer.record, dim(weight, 2), dim(weight, 3), options);
+  set_window(&layer.record, dim(weight, 2), dim(weight, 3), options);
   require(has_shape(weight, {dim(weight, 0), channels, dim(weight, 2), dim(weight, 3)}),
           FileStatus::kBadTensor);
   const std::size_t taps = std::size_t{dim(weight, 2)} * dim(weight, 3);
@@ -153,7 +153,7 @@ LayerIndex NetworkWriter::depthwise(LayerIndex x, const Array& weight,
                                     const std::vector<float>& bias, const LayerOptions& options) {
   const auto channels = static_cast<std::size_t>(shape_of_value(x).channels);
   Layer layer = begin(LayerOp::kDepthwise, x, options);
-  slide(&layer.record, dim(weight, 2), dim(weight, 3), options);
+  set_window(&layer.record, dim(weight, 2), dim(weight, 3), options);
   const bool good = require(has_shape(weight, {channels, 1, dim(weight, 2), dim(weight, 3)}),
                             FileStatus::kBadTensor);
   const std::size_t taps = std::size_t{dim(weight, 2)} * dim(weight, 3);
@@ -211,7 +211,7 @@ LayerIndex NetworkWriter::lstm(LayerIndex x, const Array& weight_ih, const Array
 LayerIndex NetworkWriter::max_pool(LayerIndex x, std::uint32_t kernel_h, std::uint32_t kernel_w,
                                    const LayerOptions& options) {
   Layer layer = begin(LayerOp::kMaxPool, x, options);
-  slide(&layer.record, kernel_h, kernel_w, options);
+  set_window(&layer.record, kernel_h, kernel_w, options);
   layer.record.flags = options.ceil_mode ? kCeilMode : 0;
   return append(std::move(layer), {}, {}, options);
 }

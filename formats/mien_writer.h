@@ -112,8 +112,8 @@ class NetworkWriter {
   ValueShape shape_of_value(LayerIndex value);
   Layer begin(LayerOp op, LayerIndex x, const LayerOptions& options);
   LayerIndex of_two(LayerOp op, LayerIndex a, LayerIndex b, const LayerOptions& options);
-  static void slide(LayerRecord* record, std::uint32_t kernel_h, std::uint32_t kernel_w,
-                    const LayerOptions& options);
+  static void set_window(LayerRecord* record, std::uint32_t kernel_h, std::uint32_t kernel_w,
+                         const LayerOptions& options);
   LayerIndex dense(Layer layer, const Array& weight, const ReductionOrder& order,
                    const std::vector<float>& bias, const LayerOptions& options);
   LayerIndex append(Layer layer, const Halves& weights, std::vector<float> bias,

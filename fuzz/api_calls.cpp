@@ -68,7 +68,7 @@ bool call(Bytes& choices, mien_tracker* tracker, std::int64_t pts_ns) {
   }
 }
 
-void look(Bytes& choices, const mien_tracker* tracker) {
+void encode(Bytes& choices, const mien_tracker* tracker) {
   const std::int32_t faces = mien_tracker_face_count(tracker);
   require(faces >= 0 && faces <= MIEN_MAX_FACES);
   // As much of the result as another version of the header has, in memory of just that size.
@@ -101,7 +101,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     mien::fuzz::require_sane(after);
     require(accepted || std::memcmp(&before, &after, sizeof before) == 0);
     require(std::memcmp(&of_other, &of_other_after, sizeof of_other) == 0);
-    look(choices, tracker);
+    encode(choices, tracker);
   }
   return 0;
 }

@@ -18,7 +18,7 @@ constexpr unsigned char kRight[] = {0x89, 'M', 'I', 'E', 'P', 0x0D, 0x0A, 0x1A,
 constexpr std::size_t kPackedBytesAt = 16;
 constexpr std::size_t kUnpackedBytesAt = 24;
 constexpr std::size_t kHeaderBytes = 32;
-constexpr std::uint64_t kMostUnpacked = 1 << 18;
+constexpr std::uint64_t kMaxUnpacked = 1 << 18;
 
 void read(std::span<const std::byte> packed) {
   std::size_t bytes = 0;
@@ -51,7 +51,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::memcpy(right.data() + kPackedBytesAt, &packed_bytes, sizeof packed_bytes);
   std::uint64_t unpacked = 0;
   std::memcpy(&unpacked, right.data() + kUnpackedBytesAt, sizeof unpacked);
-  unpacked = unpacked % kMostUnpacked / 64 * 64;
+  unpacked = unpacked % kMaxUnpacked / 64 * 64;
   std::memcpy(right.data() + kUnpackedBytesAt, &unpacked, sizeof unpacked);
   read(right);
   return 0;

@@ -21,7 +21,7 @@ using mien::fuzz::Bytes;
 using mien::fuzz::require;
 namespace formats = mien::formats;
 
-constexpr std::size_t kMostBytes = 1500;  // of a datagram, unless one message is longer
+constexpr std::size_t kMaxBytes = 1500;  // of a datagram, unless one message is longer
 constexpr std::size_t kValues = formats::kControlCount + formats::kRotationCount;
 
 std::string_view name_of(Bytes& bytes) {
@@ -121,7 +121,7 @@ void check_vmc(const formats::Frame& frame, Bytes& bytes) {
     for (; !bundle.empty(); ++messages) {
       check_message(OscReader(bundle.take(bundle.big())));
     }
-    require(packet.size() <= kMostBytes || messages == before + 1);
+    require(packet.size() <= kMaxBytes || messages == before + 1);
   }
   require(messages == 3 + blends.size() + (frame.head ? 1 : 0));
 }

@@ -18,11 +18,11 @@ void expect(bool truth) {
   }
 }
 
-struct Heard {
+struct AudioOutput {
   WavStatus status = WavStatus::kOk;  // the first that is not kOk
   std::uint64_t fault_offset = 0;
   std::vector<std::uint32_t> samples;  // the floats' bits, so that NaNs compare
-  bool operator==(const Heard&) const = default;
+  bool operator==(const AudioOutput&) const = default;
 };
 
 void check_format(const mien::formats::WavFormat& format, WavStatus opened) {
@@ -31,36 +31,36 @@ void check_format(const mien::formats::WavFormat& format, WavStatus opened) {
   expect(format.channels <= mien::formats::kMaxWavChannels && frame_bytes <= 64);
 }
 
-Heard hear(std::span<const std::byte> file, std::size_t block_frames) {
+AudioOutput process(std::span<const std::byte> file, std::size_t block_frames) {
   std::span<const std::byte> left = file;
-  Heard heard;
+  AudioOutput output;
   WavReader reader;
-  heard.status = reader.open(mien::formats::span_source(&left));
+  output.status = reader.open(mien::formats::span_source(&left));
   const auto& format = reader.format();
-  check_format(format, heard.status);
+  check_format(format, output.status);
   std::vector<float> block(format.channels * block_frames);
-  while (heard.status == WavStatus::kOk) {
+  while (output.status == WavStatus::kOk) {
     std::size_t frames = 0;
-    heard.status = reader.read(block, frames);
-    expect((heard.status == WavStatus::kOk) == (frames > 0) && frames <= block_frames);
+    output.status = reader.read(block, frames);
+    expect((output.status == WavStatus::kOk) == (frames > 0) && frames <= block_frames);
     for (const float sample : std::span(block).first(frames * format.channels)) {
-      heard.samples.push_back(std::bit_cast<std::uint32_t>(sample));
+      output.samples.push_back(std::bit_cast<std::uint32_t>(sample));
     }
   }
-  heard.fault_offset = reader.fault_offset();
-  expect(heard.fault_offset <= file.size() && heard.status != WavStatus::kBufferTooSmall);
+  output.fault_offset = reader.fault_offset();
+  expect(output.fault_offset <= file.size() && output.status != WavStatus::kBufferTooSmall);
   // There is what was declared, if nothing else is said.
   const std::size_t declared =
       format.channels * static_cast<std::size_t>(format.frames.value_or(0));
-  const bool as_declared = !format.frames || heard.samples.size() == declared;
-  expect(as_declared || heard.status == WavStatus::kTruncatedData);
-  return heard;
+  const bool as_declared = !format.frames || output.samples.size() == declared;
+  expect(as_declared || output.status == WavStatus::kTruncatedData);
+  return output;
 }
 
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto file = std::as_bytes(std::span(data, size));
-  expect(hear(file, 1) == hear(file, size + 1));
+  expect(process(file, 1) == process(file, size + 1));
   return 0;
 }

@@ -27,7 +27,7 @@ std::int32_t highest_level(const mien_tracker_config& config) {
 
 }  // namespace
 
-Tracker::Tracker(const mien_tracker_config& config, Encoders& encoders, FaceProposal& proposal)
+Tracker::Tracker(const mien_tracker_config& config, Encoders& encoders, FaceDetector& proposal)
     : config_(config),
       encoders_(encoders),
       proposal_(proposal),
@@ -37,7 +37,7 @@ Tracker::Tracker(const mien_tracker_config& config, Encoders& encoders, FaceProp
 
 mien_status Tracker::load(const Models& models, engine::Arena& arena) {
   const mien_status status = faces_.load(config_, encoders_, models, arena);
-  return status == MIEN_OK && models.has_audionet ? Voice::load(models, config_, arena, voice_)
+  return status == MIEN_OK && models.has_audionet ? AudioTrack::load(models, config_, arena, audio_)
                                                   : status;
 }
 
@@ -50,8 +50,8 @@ void Tracker::reset() {
     face.result().lod = level();
     face.result().supported_controls = face.supported_controls(level());
   }
-  if (voice_ != nullptr) {
-    voice_->reset();
+  if (audio_ != nullptr) {
+    audio_->reset();
   }
   timer_.clear();
 }
@@ -81,19 +81,19 @@ mien_status Tracker::push(const mien_image* image, std::int64_t pts_ns) {
   if (new_scene) {
     state_.search.stage = Search::Stage::kIdle;
   }
-  const bool followed = faces_.followed() > 0;
-  follow(frame);
-  const bool begins = !followed || new_scene || pace_at(frame.level).begins_at_loss;
-  const bool due = begins && faces_.followed() == 0 && (search_is_due() || new_scene);
+  const bool tracked = faces_.tracked() > 0;
+  track(frame);
+  const bool begins = !tracked || new_scene || pace_at(frame.level).begins_at_loss;
+  const bool due = begins && faces_.tracked() == 0 && (detection_is_due() || new_scene);
   const bool searched = due || state_.search.stage != Search::Stage::kIdle;
   if (searched) {
     search(frame, new_scene);
-  } else if (faces_.followed() > 0 && faces_.has_room()) {
-    glance(frame);
+  } else if (faces_.tracked() > 0 && faces_.has_free_slot()) {
+    detect_in_tile(frame);
   }
   state_.view = view;
   finish(frame, pts_ns, searched ? MIEN_RESULT_PROPOSAL_RAN : 0u);
-  if (followed && !searched && faces_.followed() > 0) {
+  if (tracked && !searched && faces_.tracked() > 0) {
     governor_.account(timer_.total_ns(), step.seconds);
   }
   timer_.clear();
@@ -111,20 +111,20 @@ void Tracker::advance(std::int64_t pts_ns) {
     if (frame.cut) {
       face.cut(frame.level);
     }
-    if (face.is_followed()) {
-      face.miss(frame);
+    if (face.is_tracked()) {
+      face.mark_missed(frame);
     }
   }
   finish(frame, pts_ns, 0u);
   timer_.clear();
 }
 
-mien_status Tracker::push_sound(const mien_audio* sound, std::int64_t pts_ns) {
-  if (voice_ == nullptr) {
+mien_status Tracker::push_audio(const mien_audio* sound, std::int64_t pts_ns) {
+  if (audio_ == nullptr) {
     return MIEN_ERROR_NO_AUDIONET;
   }
   const StageTimer::Scope timed(timer_, MIEN_STAGE_SOUND);
-  return voice_->push(sound, pts_ns);
+  return audio_->push(sound, pts_ns);
 }
 
 void Tracker::finish(Frame& frame, std::int64_t pts_ns, std::uint32_t flags) {
@@ -132,30 +132,30 @@ void Tracker::finish(Frame& frame, std::int64_t pts_ns, std::uint32_t flags) {
     face.animate(frame);
   }
   faces_.forget_lost(frame.level);
-  if (voice_ != nullptr) {
-    if (voice_->has_queued()) {
+  if (audio_ != nullptr) {
+    if (audio_->has_queued()) {
       const StageTimer::Scope timed(timer_, MIEN_STAGE_SOUND);
-      voice_->hear_queued();
+      audio_->process_queued();
     }
-    voice_->advance(pts_ns, frame.seconds);
+    audio_->advance(pts_ns, frame.seconds);
   }
   publish(frame, pts_ns, flags | (frame.cut ? MIEN_RESULT_CUT : 0u));
 }
 
-void Tracker::follow(Frame& frame) {
+void Tracker::track(Frame& frame) {
   const ImageGeometry& before = state_.view;
   for (Face& face : faces_.all()) {
     if (frame.cut) {
       face.cut(frame.level);
     }
     if (!(before == frame.view)) {
-      face.lose_to(before, frame.view);
+      face.change_geometry(before, frame.view);
     }
-    if (face.is_followed()) {
-      face.follow(frame);
+    if (face.is_tracked()) {
+      face.track(frame);
     }
   }
-  faces_.drop_doubles(frame.level);
+  faces_.drop_duplicates(frame.level);
 }
 
 void Tracker::search(Frame& frame, bool whole) {
@@ -188,12 +188,12 @@ void Tracker::propose(Frame& frame, bool whole) {
     if (more) {
       return;
     }
-    const std::size_t judged = kJudged - MIEN_MAX_FACES + faces_.all().size();
+    const std::size_t judged = kMaxVerified - MIEN_MAX_FACES + faces_.all().size();
     search.count = proposal_.found(std::span(search.proposed).first(judged));
   }
-  search.stage = Search::Stage::kJudging;
+  search.stage = Search::Stage::kVerifying;
   if (search.count == 0) {
-    std::for_each(faces_.all().begin(), faces_.all().end(), [](Face& face) { face.see_nothing(); });
+    std::for_each(faces_.all().begin(), faces_.all().end(), [](Face& face) { face.mark_absent(); });
     search.stage = Search::Stage::kIdle;
   } else if (whole) {
     judge(frame, whole);
@@ -204,48 +204,48 @@ void Tracker::judge(Frame& frame, bool whole) {
   Search& search = state_.search;
   const int alignments = (whole ? kPace : pace_at(frame.level)).alignments;
   do {
-    if (faces_.welcome(frame, search.proposed[search.judged++], alignments)) {
-      state_.search_frames = 0;
+    if (faces_.add_face(frame, search.proposed[search.judged++], alignments)) {
+      state_.frames_without_face = 0;
       state_.searches = 0;
     }
-  } while (whole && search.judged < search.count && faces_.has_room());
-  if (search.judged == search.count || !faces_.has_room()) {
+  } while (whole && search.judged < search.count && faces_.has_free_slot());
+  if (search.judged == search.count || !faces_.has_free_slot()) {
     search.stage = Search::Stage::kIdle;
   }
 }
 
-void Tracker::glance(Frame& frame) {
-  std::array<Candidate, kGlanced + MIEN_MAX_FACES> room;
-  std::span<Candidate> found = std::span(room).first(kGlanced + faces_.all().size());
+void Tracker::detect_in_tile(Frame& frame) {
+  std::array<Detection, kGlanced + MIEN_MAX_FACES> memory;
+  std::span<Detection> found = std::span(memory).first(kGlanced + faces_.all().size());
   {
     const StageTimer::Scope timed(timer_, MIEN_STAGE_PROPOSAL);
-    found =
-        found.first(proposal_.glance(frame.view, state_.turn % proposal_.turns(frame.view), found));
+    found = found.first(
+        proposal_.detect_in_tile(frame.view, state_.turn % proposal_.turns(frame.view), found));
     ++state_.turn;
   }
-  const auto newcomer = std::find_if(found.begin(), found.end(), [&](const Candidate& candidate) {
-    return !faces_.is_taken(candidate.square);
+  const auto newcomer = std::find_if(found.begin(), found.end(), [&](const Detection& detection) {
+    return !faces_.is_taken(detection.square);
   });
   if (newcomer != found.end()) {
-    (void)faces_.welcome(frame, *newcomer, pace_at(frame.level).alignments);
+    (void)faces_.add_face(frame, *newcomer, pace_at(frame.level).alignments);
   }
 }
 
-bool Tracker::search_is_due() {
-  ++state_.search_frames;
-  const std::int32_t waited = state_.search_frames - kEagerFrames;
+bool Tracker::detection_is_due() {
+  ++state_.frames_without_face;
+  const std::int32_t waited = state_.frames_without_face - kEagerFrames;
   return waited <= 0 || waited % config_.search_interval == 0;
 }
 
 void Tracker::publish(const Frame& frame, std::int64_t pts_ns, std::uint32_t flags) {
   ++state_.frames;
-  state_.face_frames += faces_.followed() > 0 ? 1 : 0;
+  state_.face_frames += faces_.tracked() > 0 ? 1 : 0;
   state_.encoder_runs += frame.encoder_runs;
   for (Face& face : faces_.all()) {
     describe(frame, pts_ns, flags, face.result());
     face.publish(frame);
   }
-  if (voice_ != nullptr) {
+  if (audio_ != nullptr) {
     mix_voice();
   }
 }
@@ -254,10 +254,10 @@ void Tracker::publish(const Frame& frame, std::int64_t pts_ns, std::uint32_t fla
 void Tracker::mix_voice() {
   Face& speaker = faces_.first();
   mien_result& result = speaker.result();
-  const Mixer& mixer = voice_->mixer();
-  mixer.mix(voice_->heard(), speaker.seen_controls(), result.controls);
-  result.voice_activity = voice_->heard().alpha;
-  if (voice_->is_listening()) {
+  const Mixer& mixer = audio_->mixer();
+  mixer.mix(audio_->output(), speaker.video_weights(), result.controls);
+  result.voice_activity = audio_->output().alpha;
+  if (audio_->has_audio()) {
     result.supported_controls |= mixer.driven();
   }
 }

@@ -6,11 +6,11 @@
 #include <array>
 #include <cstdint>
 
+#include "tracker/audio/audio_track.h"
+#include "tracker/detection/face_detector.h"
 #include "tracker/encoders/levels.h"
 #include "tracker/faces/faces.h"
 #include "tracker/image/image_view.h"
-#include "tracker/search/proposal.h"
-#include "tracker/sound/voice.h"
 #include "tracker/stage_timer.h"
 #include "tracker/timeline.h"
 
@@ -22,7 +22,7 @@ namespace mien::tracker {
 class Tracker {
  public:
   // Both must outlive the tracker. `reset` comes before the first image.
-  Tracker(const mien_tracker_config& config, Encoders& encoders, FaceProposal& proposal);
+  Tracker(const mien_tracker_config& config, Encoders& encoders, FaceDetector& proposal);
 
   // Takes from `arena` what the faces and the voice need; only measures when the arena does.
   [[nodiscard]] mien_status load(const Models& models, engine::Arena& arena);
@@ -30,9 +30,9 @@ class Tracker {
   [[nodiscard]] mien_status push(const mien_image* image, std::int64_t pts_ns);
   // A frame of output for which there is no image.
   void advance(std::int64_t pts_ns);
-  [[nodiscard]] mien_status push_sound(const mien_audio* sound, std::int64_t pts_ns);
+  [[nodiscard]] mien_status push_audio(const mien_audio* sound, std::int64_t pts_ns);
   // nullptr without weights for it.
-  [[nodiscard]] Voice* voice() { return voice_; }
+  [[nodiscard]] AudioTrack* voice() { return audio_; }
   [[nodiscard]] const Faces& faces() const { return faces_; }
   // Of the face known longest; SEARCHING while there is none.
   [[nodiscard]] const mien_result& result() const { return faces_.first().result(); }
@@ -50,13 +50,13 @@ class Tracker {
 
  private:
   // How many proposals BaseNet judges.
-  static constexpr std::size_t kJudged = MIEN_MAX_FACES + 2;
+  static constexpr std::size_t kMaxVerified = MIEN_MAX_FACES + 2;
 
   // A search of the whole image. It begins on one image and takes its share of each of the next.
   struct Search {
-    enum class Stage { kIdle, kProposing, kJudging };
+    enum class Stage { kIdle, kProposing, kVerifying };
     Stage stage = Stage::kIdle;
-    std::array<Candidate, kJudged> proposed;
+    std::array<Detection, kMaxVerified> proposed;
     std::size_t count = 0;
     std::size_t judged = 0;
   };
@@ -66,10 +66,10 @@ class Tracker {
     Timeline timeline;
     ImageView view;  // the image before, whose pixels are gone
     Search search;
-    bool cut_without_image = false;  // the film was, since the image before
-    std::int32_t search_frames = 0;  // frames in a row with nothing found
-    std::uint32_t searches = 0;      // begun since then
-    std::uint32_t turn = 0;          // of glances
+    bool cut_without_image = false;        // the film was, since the image before
+    std::int32_t frames_without_face = 0;  // frames in a row with nothing found
+    std::uint32_t searches = 0;            // begun since then
+    std::uint32_t turn = 0;                // of glances
     // Totals.
     std::uint64_t frames = 0;
     std::uint64_t face_frames = 0;
@@ -78,15 +78,15 @@ class Tracker {
   };
 
   [[nodiscard]] std::int32_t level() const { return lod_ == 0 ? governor_.level() : lod_; }
-  void follow(Frame& frame);
+  void track(Frame& frame);
   // A share of a search, or one from its beginning to its end.
   void search(Frame& frame, bool whole);
   void propose(Frame& frame, bool whole);
   // What was proposed: the next, or all. Ends the search when there is no more.
   void judge(Frame& frame, bool whole);
   // Counts the frames on which a face is searched.
-  [[nodiscard]] bool search_is_due();
-  void glance(Frame& frame);
+  [[nodiscard]] bool detection_is_due();
+  void detect_in_tile(Frame& frame);
   // What every frame of output ends with.
   void finish(Frame& frame, std::int64_t pts_ns, std::uint32_t flags);
   void publish(const Frame& frame, std::int64_t pts_ns, std::uint32_t flags);
@@ -96,12 +96,12 @@ class Tracker {
 
   const mien_tracker_config config_;
   Encoders& encoders_;
-  FaceProposal& proposal_;
+  FaceDetector& proposal_;
   StageTimer timer_;
   std::int32_t lod_;
   LevelGovernor governor_;
   Faces faces_;
-  Voice* voice_ = nullptr;  // in the arena
+  AudioTrack* audio_ = nullptr;  // in the arena
   State state_;
 };
 

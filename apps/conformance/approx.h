@@ -28,7 +28,7 @@ struct Arithmetic {
   double flushed;  // what is lost at most with a number near zero
   int chunk;       // as many products are added up like this, then such sums in fp32
   // Factors of products are first rounded to integers of 16 bits, which steps make numbers.
-  bool is_fixed = false;
+  bool is_quantized = false;
 };
 inline constexpr Arithmetic kSingleArithmetic{kUnit, kFlushed, std::numeric_limits<int>::max()};
 // fp16: 11 bits, denormals kept. A value of x is rounded to them, each multiply-add is, and so is

@@ -140,13 +140,13 @@ std::unique_ptr<AnimationWriter> animation_writer(AnimationFormat format,
     case AnimationFormat::kVisemes:
       return curves_csv_writer(Weights::kVisemes, options.several_faces);
     case AnimationFormat::kRhubarb:
-      return rhubarb_writer(RhubarbForm::kTsv, options.sound_file);
+      return rhubarb_writer(RhubarbForm::kTsv, options.audio_file);
     case AnimationFormat::kRhubarbJson:
-      return rhubarb_writer(RhubarbForm::kJson, options.sound_file);
+      return rhubarb_writer(RhubarbForm::kJson, options.audio_file);
     case AnimationFormat::kRhubarbXml:
-      return rhubarb_writer(RhubarbForm::kXml, options.sound_file);
+      return rhubarb_writer(RhubarbForm::kXml, options.audio_file);
     case AnimationFormat::kRhubarbDat:
-      return rhubarb_writer(RhubarbForm::kDat, options.sound_file);
+      return rhubarb_writer(RhubarbForm::kDat, options.audio_file);
   }
   return nullptr;
 }

@@ -72,7 +72,7 @@ struct WriteOptions {
   LengthUnit bvh_unit = LengthUnit::kMetres;
   bool roblox_level_1 = false;  // 6 units instead of 50
   bool several_faces = false;   // of csv, roblox, visemes: a column more
-  std::string sound_file;       // to be named in rhubarb-json, -xml
+  std::string audio_file;       // to be named in rhubarb-json, -xml
 };
 
 [[nodiscard]] std::unique_ptr<AnimationWriter> animation_writer(AnimationFormat format,

@@ -14,7 +14,7 @@ namespace mien::formats {
 
 struct Clip {
   FrameSequence frames;            // times do not go back
-  std::string sound_file;          // where the format knows one
+  std::string audio_file;          // where the format knows one
   std::int64_t out_of_range = 0;   // values of the file beyond 0..1, brought to the nearest of them
   std::vector<std::string> notes;  // what was taken for granted, and the option that changes it
 };

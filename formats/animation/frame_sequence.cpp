@@ -13,7 +13,7 @@ namespace mien::formats {
 namespace {
 
 // Of one frame: three numbers of 64 bits, 7 bits a byte, and 18 groups.
-constexpr std::size_t kMostBytes = 3 * 10 + 18 * (2 + 8 * 8);
+constexpr std::size_t kMaxBytes = 3 * 10 + 18 * (2 + 8 * 8);
 constexpr std::size_t kFirstBlock = 256, kLargestBlock = std::size_t{1} << 16;
 
 // Where in the slots things are.
@@ -221,7 +221,7 @@ void FrameSequence::take(const State& state, Frame& frame) {
 // them take 4 bytes, and their values.
 std::string FrameSequence::packed(const State& before, const State& state) {
   std::string bytes;
-  bytes.reserve(kMostBytes);
+  bytes.reserve(kMaxBytes);
   put_varint(bytes, zigzag(difference(difference(state.number, before.number), 1)));
   put_varint(bytes, zigzag(difference(state.time_ns, before.time_ns)));
   std::uint64_t groups = 0;

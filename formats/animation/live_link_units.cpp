@@ -20,8 +20,8 @@ constexpr std::size_t kEnoughTurns = 10;
 
 // How far an eye turns while eyeLook... goes from 0 to 1, in radians; measured on captures.
 constexpr double kEyeTurn_rad = 0.485;
-constexpr double kLeastLook = 0.1;
-constexpr double kLeastCorrelation = 0.9;
+constexpr double kMinLook = 0.1;
+constexpr double kMinCorrelation = 0.9;
 
 // Which of two is nearer on a logarithmic scale.
 bool nearer_to_first(double value, double first, double second) {
@@ -104,12 +104,12 @@ void AngleUnit::add(const Rotations& rotations, const std::array<double, kContro
 
 // What the line of the eyes that fits best says, in the file's unit.
 std::optional<double> AngleUnit::eye_turn() const {
-  double best = kLeastCorrelation;
+  double best = kMinCorrelation;
   std::optional<double> turn;
   for (const Line& line : eyes_) {
     const double correlation =
         line.xx > 0.0 && line.yy > 0.0 ? std::abs(line.xy) / std::sqrt(line.xx * line.yy) : 0.0;
-    if (line.largest >= kLeastLook && correlation >= best) {
+    if (line.largest >= kMinLook && correlation >= best) {
       best = correlation;
       turn = std::abs(line.xy) / line.xx;
     }

@@ -116,8 +116,8 @@ std::string seconds(std::int64_t time_ns) { return fixed(static_cast<double>(tim
 
 class RhubarbWriter : public WholeClipWriter {
  public:
-  RhubarbWriter(RhubarbForm form, const std::string& sound_file)
-      : form_(form), sound_file_(sound_file) {}
+  RhubarbWriter(RhubarbForm form, const std::string& audio_file)
+      : form_(form), audio_file_(audio_file) {}
 
  protected:
   std::string whole(const FrameSequence& frames) override {
@@ -145,7 +145,7 @@ class RhubarbWriter : public WholeClipWriter {
   }
 
   std::string json(const Cues& cues) const {
-    std::string text = "{\n  \"metadata\": {\n    \"soundFile\": " + json_string(sound_file_) +
+    std::string text = "{\n  \"metadata\": {\n    \"soundFile\": " + json_string(audio_file_) +
                        ",\n    \"duration\": " + seconds(cues.end_ns) +
                        "\n  },\n  \"mouthCues\": [";
     for (std::size_t i = 0; i < cues.cues.size(); ++i) {
@@ -161,7 +161,7 @@ class RhubarbWriter : public WholeClipWriter {
     std::string text =
         "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<rhubarbResult>\n  <metadata>\n    "
         "<soundFile>" +
-        xml_text(sound_file_) + "</soundFile>\n    <duration>" + seconds(cues.end_ns) +
+        xml_text(audio_file_) + "</soundFile>\n    <duration>" + seconds(cues.end_ns) +
         "</duration>\n  </metadata>\n  <mouthCues>\n";
     for (std::size_t i = 0; i < cues.cues.size(); ++i) {
       text += "    <mouthCue start=\"" + seconds(cues.cues[i].begin_ns) + "\" end=\"" +
@@ -185,13 +185,13 @@ class RhubarbWriter : public WholeClipWriter {
   }
 
   RhubarbForm form_;
-  std::string sound_file_;
+  std::string audio_file_;
 };
 
 }  // namespace
 
-std::unique_ptr<AnimationWriter> rhubarb_writer(RhubarbForm form, const std::string& sound_file) {
-  return std::make_unique<RhubarbWriter>(form, sound_file);
+std::unique_ptr<AnimationWriter> rhubarb_writer(RhubarbForm form, const std::string& audio_file) {
+  return std::make_unique<RhubarbWriter>(form, audio_file);
 }
 
 }  // namespace mien::formats

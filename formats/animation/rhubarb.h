@@ -19,9 +19,9 @@ enum class RhubarbForm : std::uint8_t { kTsv, kJson, kXml, kDat };
 // Shapes are those of the frames where they have some, else the shape of the strongest viseme
 // (visemes.h); of the latter, none lasts less than 0.08 s: it goes to the one before.
 // Cues count from the beginning of the sound, at 0; of a clip that begins before, from its own.
-// `sound_file` is named in JSON and XML.
+// `audio_file` is named in JSON and XML.
 [[nodiscard]] std::unique_ptr<AnimationWriter> rhubarb_writer(RhubarbForm form,
-                                                              const std::string& sound_file);
+                                                              const std::string& audio_file);
 
 // A frame for each cue, which lasts until the next; the last one, an X, is where the sound ends.
 // The form is seen from the text; a .dat may also have the names of Preston Blair's mouths. On a

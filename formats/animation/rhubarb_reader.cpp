@@ -105,7 +105,7 @@ bool read_json(std::string_view text, Clip& clip, Fault& fault) {
   }
   const std::optional<JsonValue> metadata = root.find("metadata");
   const std::optional<JsonValue> sound = metadata ? metadata->find("soundFile") : std::nullopt;
-  clip.sound_file = sound ? sound->text() : "";
+  clip.audio_file = sound ? sound->text() : "";
   return intervals.finish();
 }
 
@@ -128,9 +128,9 @@ class RhubarbXml {
       column_ = tag.column;
       return tag.name == "rhubarbResult" || tag.fail_here("rhubarbResult has to be here", fault_);
     }
-    if (!tag.closes && tag.name == "soundFile" && !has_sound_) {
-      has_sound_ = true;
-      clip_.sound_file = tag.text;
+    if (!tag.closes && tag.name == "soundFile" && !has_audio_) {
+      has_audio_ = true;
+      clip_.audio_file = tag.text;
     }
     return tag.closes || tag.name != "mouthCue" || see_cue(tag);
   }
@@ -158,7 +158,7 @@ class RhubarbXml {
   Fault& fault_;
   Intervals intervals_;
   std::size_t line_ = 0, column_ = 0;  // of the outermost element
-  bool has_sound_ = false;
+  bool has_audio_ = false;
 };
 
 // One after the other, without its end.

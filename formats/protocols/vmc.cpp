@@ -6,7 +6,7 @@
 namespace mien::formats {
 namespace {
 
-constexpr std::size_t kMostBytes = 1500;
+constexpr std::size_t kMaxBytes = 1500;
 constexpr std::int32_t kCalibrated = 3, kNormalMode = 0;
 
 std::string message(std::string_view address, std::initializer_list<OscArgument> arguments) {
@@ -33,7 +33,7 @@ std::vector<std::string> vmc_packets(const VmcFrame& frame) {
     messages.push_back(message("/VMC/Ext/Blend/Val", {blend.name, narrow(blend.value)}));
   }
   messages.push_back(message("/VMC/Ext/Blend/Apply", {}));
-  return osc_bundles(messages, kMostBytes);
+  return osc_bundles(messages, kMaxBytes);
 }
 
 }  // namespace mien::formats

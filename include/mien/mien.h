@@ -366,7 +366,7 @@ typedef struct mien_tracker_config {
   int32_t max_faces;
 
   /* Weights of sound (models/audionet.mien), under the rules of `basenet`; default NULL: the
-   * tracker has no ears. MIEN_ERROR_LEFT_OUT in a build without sound (MIEN_WITH_SOUND). */
+   * tracker has no ears. MIEN_ERROR_LEFT_OUT in a build without sound (MIEN_WITH_AUDIO). */
   const void* audionet;
   size_t audionet_bytes;
   /* How fast the voice is heard when it begins, and let go when it ends: time constants of

@@ -34,9 +34,10 @@ struct ProductArgs {
   PixelRows y_rows;
   const float* residual;  // nullptr: none
   PixelRows residual_rows;
-  float* wide;  // [kWideElems] for weights in fp32 when there are many pixels; nullptr: none
+  float* fp32_weights;  // [kFp32WeightElems] for weights in fp32 when there are many pixels;
+                        // nullptr: none
 };
-inline constexpr std::int32_t kWideElems = 6144;
+inline constexpr std::int32_t kFp32WeightElems = 6144;
 
 namespace avx2 {
 void multiply_panels(const ProductArgs& args);

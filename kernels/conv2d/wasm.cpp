@@ -11,7 +11,7 @@ namespace mien::kernels::wasm {
 namespace {
 
 constexpr int kVecs = 2;  // a block
-constexpr int kMostPixels = 5;
+constexpr int kMaxPixels = 5;
 constexpr int kSomePixels = 3;
 
 struct Range {
@@ -105,8 +105,8 @@ void row(const Outputs<Source>& out, std::int32_t oy) {
     }
   };
   singly(whole.first);
-  for (; ox + kMostPixels <= whole.last; ox += kMostPixels) {
-    tile<kMostPixels>(out, oy, ox, ys, all);
+  for (; ox + kMaxPixels <= whole.last; ox += kMaxPixels) {
+    tile<kMaxPixels>(out, oy, ox, ys, all);
   }
   for (; ox + kSomePixels <= whole.last; ox += kSomePixels) {
     tile<kSomePixels>(out, oy, ox, ys, all);

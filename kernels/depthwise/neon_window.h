@@ -6,7 +6,7 @@
 
 namespace mien::kernels::MIEN_TIER {
 
-constexpr int kMostOutputs = 4;  // of a tile
+constexpr int kMaxOutputs = 4;  // of a tile
 
 namespace {
 
@@ -36,13 +36,13 @@ struct Taps {
   typename N::Vec low, high;
   // Once for every sum of a tile: to load it costs no time, to copy it from register to register
   // would, as the units that multiply do that.
-  typename N::Value biases[kMostOutputs * N::kVecs * N::kLanes];
+  typename N::Value biases[kMaxOutputs * N::kVecs * N::kLanes];
 
   Taps(const std::uint16_t* first_weights, std::ptrdiff_t weights_vec_elems,
        const std::uint16_t* bias, std::ptrdiff_t bias_vec_elems, typename N::Vec lowest,
        typename N::Vec highest)
       : weights(first_weights), vec_elems(weights_vec_elems), low(lowest), high(highest) {
-    for (int i = 0; i < kMostOutputs * N::kVecs; ++i) {
+    for (int i = 0; i < kMaxOutputs * N::kVecs; ++i) {
       N::store(biases + i * N::kLanes, N::weights(bias + i % N::kVecs * bias_vec_elems));
     }
   }

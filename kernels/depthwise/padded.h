@@ -8,8 +8,8 @@
 namespace mien::kernels {
 namespace {
 
-// A block of 8 channels of a map with its padding, on the stack: up to kMostPixels.
-template <std::int32_t kMostPixels>
+// A block of 8 channels of a map with its padding, on the stack: up to kMaxPixels.
+template <std::int32_t kMaxPixels>
 class Padded {
  public:
   explicit Padded(const DepthwiseArgs& a) : a_(a), inner_(a) {
@@ -24,7 +24,7 @@ class Padded {
     const std::int32_t h = (a.out_h - 1) * a.stride_h + a.kernel_h;
     const std::int32_t w = (a.out_w - 1) * a.stride_w + a.kernel_w;
     const bool leaves = a.pad_top > 0 || a.pad_left > 0 || h > a.in_h || w > a.in_w;
-    return leaves && h <= kMostPixels && w <= kMostPixels && h * w <= kMostPixels;
+    return leaves && h <= kMaxPixels && w <= kMaxPixels && h * w <= kMaxPixels;
   }
   [[nodiscard]] const DepthwiseArgs& args() const { return inner_; }
   const float* filled(const float* x) {
@@ -44,7 +44,7 @@ class Padded {
   const DepthwiseArgs& a_;
   DepthwiseArgs inner_;
   std::int32_t rows_, columns_;
-  float map_[kMostPixels * kChannels];
+  float map_[kMaxPixels * kChannels];
 };
 
 }  // namespace

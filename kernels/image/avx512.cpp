@@ -73,8 +73,7 @@ struct Simd {
         : rows_(to_ints(row)), shares_(shares_of(across)), stride_(stride), height_(rows_) {
       const Ints columns = to_ints(column);
       const Ends width(columns);
-      is_close_ =
-          width.most - width.least < kLoaded - 1 && height_.most - height_.least < kMostRows;
+      is_close_ = width.most - width.least < kLoaded - 1 && height_.most - height_.least < kMaxRows;
       first_ = is_close_ ? height_.least * stride + width.least : 0;
       const Ints from = _mm512_sub_epi32(columns, _mm512_set1_epi32(width.least));
       order_ = is_close_ ? _mm512_add_epi32(_mm512_or_si512(from, _mm512_slli_epi32(from, 16)),
@@ -100,8 +99,8 @@ struct Simd {
     }
 
    private:
-    static constexpr std::int32_t kLoaded = 32;    // numbers of a row
-    static constexpr std::int32_t kMostRows = 20;  // take longer than two gathers
+    static constexpr std::int32_t kLoaded = 32;   // numbers of a row
+    static constexpr std::int32_t kMaxRows = 20;  // take longer than two gathers
 
     // Row after row gives its sums to the places below it, and to those above the next.
     template <int kCount>

@@ -28,13 +28,13 @@ namespace mien::kernels::tiles {
 // Of the output: wide, since each row of a copy costs something. A tile that needs more of the
 // image than there is room for is halved.
 constexpr std::int32_t kTileRows = 24, kTileColumns = 112;
-constexpr std::int32_t kMostSums = 832;    // of a row, before it is made smaller
-constexpr std::int32_t kPiece = 5;         // vectors of a row at a time
-constexpr std::int32_t kMostWaiting = 13;  // parts of a tile: one for each time it is halved
-constexpr std::int32_t kMostBox = 8;
-constexpr std::int32_t kMostStep = 3;  // numbers from one pixel to the next when rows are summed
-constexpr std::int32_t kSpare = 64;    // vectors may go on beyond what they are asked for
-constexpr std::int32_t kMostSamples = kWarpSampleElems - 3 * kSpare;  // of a copy of all channels
+constexpr std::int32_t kMaxSums = 832;    // of a row, before it is made smaller
+constexpr std::int32_t kPiece = 5;        // vectors of a row at a time
+constexpr std::int32_t kMaxWaiting = 13;  // parts of a tile: one for each time it is halved
+constexpr std::int32_t kMaxBox = 8;
+constexpr std::int32_t kMaxStep = 3;  // numbers from one pixel to the next when rows are summed
+constexpr std::int32_t kSpare = 64;   // vectors may go on beyond what they are asked for
+constexpr std::int32_t kMaxSamples = kWarpSampleElems - 3 * kSpare;  // of a copy of all channels
 constexpr std::int32_t kWhole = 1 << 14;  // its products with sums of boxes fit into 32 bits
 
 namespace {
@@ -110,11 +110,11 @@ inline Mixing mixing_of(const WarpArgs& a) {
     return 1.0f / (static_cast<float>(box * box) * static_cast<float>(kWhole));
   };
   const bool has_luma = a.format == PixelFormat::kGray8 || a.format == PixelFormat::kYuv420;
-  const bool narrow = has_luma && !a.full_range;
-  const float contrast = narrow ? 255.0f / 219.0f : 1.0f;
-  const float black = narrow ? -16.0f * contrast : 0.0f;
+  const bool half_input = has_luma && !a.full_range;
+  const float contrast = half_input ? 255.0f / 219.0f : 1.0f;
+  const float black = half_input ? -16.0f * contrast : 0.0f;
   const float of_first = contrast * share(a.box);
-  const float colour = (narrow ? 255.0f / 224.0f : 1.0f);
+  const float colour = (half_input ? 255.0f / 224.0f : 1.0f);
   const auto number = [](double value) { return static_cast<float>(value); };
   const YuvMatrix& m = a.yuv_matrix;
   const float of_u[3] = {0.0f, number(m.green_of_u), number(m.blue_of_u)};
@@ -256,7 +256,7 @@ class Warp {
 
   // A tile, or part after part of it where it needs too much of the image.
   void warp_tile(const Tile& tile) {
-    Tile waiting[kMostWaiting] = {tile};
+    Tile waiting[kMaxWaiting] = {tile};
     for (std::int32_t count = 1; count > 0;) {
       const Tile part = waiting[--count];
       if (copy(part)) {
@@ -310,10 +310,9 @@ class Warp {
     for (std::int32_t c = 0; c < count_; ++c) {
       const Window& window = windows_[c];
       const Channel& channel = channels_[c];
-      const auto step = std::min<std::int64_t>(channel.plane.pixel_bytes, kMostStep);
-      if (window.columns > kMostSums || window.rows > kMostSamples ||
-          window.columns * channel.box * step > kMostSums ||
-          used + window.samples() > kMostSamples) {
+      const auto step = std::min<std::int64_t>(channel.plane.pixel_bytes, kMaxStep);
+      if (window.columns > kMaxSums || window.rows > kMaxSamples ||
+          window.columns * channel.box * step > kMaxSums || used + window.samples() > kMaxSamples) {
         return false;
       }
       copies_[c] = a_.samples + used + c * kSpare;
@@ -385,7 +384,7 @@ class Warp {
   }
 
   struct Rows {
-    const std::uint8_t* at[kMostBox];
+    const std::uint8_t* at[kMaxBox];
   };
 
   // Those of a row of boxes, from column `first` on.
@@ -416,9 +415,8 @@ class Warp {
   // Of as many columns, over the rows of a box.
   void sum_columns(const std::uint8_t* const* rows, const Channel& channel, std::int32_t columns,
                    std::uint16_t* sums) {
-    constexpr std::ptrdiff_t kMostNear = 4;
-    if (channel.plane.pixel_bytes >
-        kMostNear) {  // a row may have more bytes than 32 bits can count
+    constexpr std::ptrdiff_t kMaxNear = 4;
+    if (channel.plane.pixel_bytes > kMaxNear) {  // a row may have more bytes than 32 bits can count
       return sum_far_columns(rows, channel, columns, sums);
     }
     const auto step = static_cast<std::int32_t>(channel.plane.pixel_bytes);
@@ -629,7 +627,7 @@ class Warp {
   Channel channels_[3] = {};
   Window windows_[3] = {};
   std::uint16_t* copies_[3] = {};
-  alignas(64) std::uint16_t sums_[kMostSums + kSpare];
+  alignas(64) std::uint16_t sums_[kMaxSums + kSpare];
 };
 
 }  // namespace

@@ -1,8 +1,8 @@
 // The depthwise part takes 8 channels at once: half of a panel.
 #include "kernels/common/avx2.h"
 #include "kernels/families.h"
+#include "kernels/inverted_residual/depthwise_rows.h"
 #include "kernels/inverted_residual/float_strips.h"
-#include "kernels/inverted_residual/slide_rows.h"
 
 namespace mien::kernels::avx2 {
 namespace {
@@ -26,26 +26,27 @@ struct Window {
 };
 
 // `half` 0: the lower 8 channels of the panel, 1: the upper.
-void slide_half(const InvertedResidualArgs& a, const Slide<float>& s, std::int32_t half) {
+void depthwise_half(const InvertedResidualArgs& a, const DepthwisePart<float>& s,
+                    std::int32_t half) {
   const std::ptrdiff_t taps = std::ptrdiff_t{a.kernel_h} * a.kernel_w;
   const std::int32_t block = s.block + half;
   const Window window{a,
                       s.x_row_elems,
-                      a.slide.weights + block * taps * kLanes,
-                      load_half(a.slide.bias + block * kLanes),
+                      a.depthwise.weights + block * taps * kLanes,
+                      load_half(a.depthwise.bias + block * kLanes),
                       _mm256_set1_ps(s.clamp.low),
                       _mm256_set1_ps(s.clamp.high)};
-  SlideRows<Window>::run(window, s.rows, s.x + std::ptrdiff_t{half} * kLanes,
-                         band_at(a, s) + half * band_plane(a, s));
+  DepthwiseRows<Window>::run(window, s.rows, s.x + std::ptrdiff_t{half} * kLanes,
+                             band_at(a, s) + half * band_plane(a, s));
 }
 
 struct Tier2 {
   static void multiply(const ProductArgs& args) { multiply_panels(args); }
 
-  static void slide(const InvertedResidualArgs& a, const Slide<float>& s) {
-    slide_half(a, s, 0);
+  static void depthwise(const InvertedResidualArgs& a, const DepthwisePart<float>& s) {
+    depthwise_half(a, s, 0);
     if (s.blocks > 1) {
-      slide_half(a, s, 1);
+      depthwise_half(a, s, 1);
     }
   }
 

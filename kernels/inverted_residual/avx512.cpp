@@ -1,9 +1,9 @@
 // The depthwise part takes 16 channels at once: a panel.
 #include "kernels/common/avx512.h"
 #include "kernels/families.h"
-#include "kernels/inverted_residual/avx512_slide.h"
+#include "kernels/inverted_residual/avx512_depthwise.h"
+#include "kernels/inverted_residual/depthwise_rows.h"
 #include "kernels/inverted_residual/float_strips.h"
-#include "kernels/inverted_residual/slide_rows.h"
 
 namespace mien::kernels::avx512 {
 namespace {
@@ -14,7 +14,7 @@ struct Window {
   static constexpr std::ptrdiff_t kStrip = kPanel, kBand = kBlock;
 
   const InvertedResidualArgs& a;
-  const Slide<float>& s;
+  const DepthwisePart<float>& s;
   std::ptrdiff_t x_row_elems;
   std::ptrdiff_t y_plane_elems;
   bool both;  // the upper 8 channels exist
@@ -31,17 +31,17 @@ struct Window {
 struct Tier512 {
   static void multiply(const ProductArgs& args) { multiply_panels(args); }
 
-  static void slide(const InvertedResidualArgs& a, const Slide<float>& s) {
+  static void depthwise(const InvertedResidualArgs& a, const DepthwisePart<float>& s) {
     const bool both = s.blocks > 1;
     const Window window{a,
                         s,
                         s.x_row_elems,
                         band_plane(a, s),
                         both,
-                        load_half(a.slide.bias + s.block * kBlock, both ? 0xFFFF : 0xFF),
+                        load_half(a.depthwise.bias + s.block * kBlock, both ? 0xFFFF : 0xFF),
                         _mm512_set1_ps(s.clamp.low),
                         _mm512_set1_ps(s.clamp.high)};
-    SlideRows<Window>::run(window, s.rows, s.x, band_at(a, s));
+    DepthwiseRows<Window>::run(window, s.rows, s.x, band_at(a, s));
   }
 
   static void load(const float* x, float* y) { _mm256_storeu_ps(y, _mm256_loadu_ps(x)); }

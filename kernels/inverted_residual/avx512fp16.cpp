@@ -1,15 +1,15 @@
 // Strips and bands in half precision, 32 channels of a pixel together: a vector.
 #include "kernels/common/avx512.h"
 #include "kernels/families.h"
+#include "kernels/inverted_residual/depthwise_rows.h"
 #include "kernels/inverted_residual/half_strips.h"
-#include "kernels/inverted_residual/slide_rows.h"
 
 namespace mien::kernels::avx512fp16 {
 namespace {
 
 using Vec = __m512h;
 
-static_assert(kSumsElems <= kInvertedResidualWideElems);
+static_assert(kSumsElems <= kInvertedResidualFp32WeightElems);
 
 __m512i joined(__m256i low, __m256i high) {
   return _mm512_inserti64x4(_mm512_castsi256_si512(low), high, 1);
@@ -34,9 +34,9 @@ Vec narrowed(const float* at, std::ptrdiff_t step, std::int32_t blocks) {
   return _mm512_castsi512_ph(joined(_mm256_castph_si256(pair(0)), _mm256_castph_si256(pair(2))));
 }
 
-Vec weights_at(const InvertedResidualArgs& a, const Slide<Half>& s, std::int32_t tap) {
+Vec weights_at(const InvertedResidualArgs& a, const DepthwisePart<Half>& s, std::int32_t tap) {
   const std::ptrdiff_t taps = std::ptrdiff_t{a.kernel_h} * a.kernel_w;
-  return load_blocks(a.slide.weights + (s.block * taps + tap) * 8, taps * 8, s.blocks);
+  return load_blocks(a.depthwise.weights + (s.block * taps + tap) * 8, taps * 8, s.blocks);
 }
 
 struct Window {
@@ -45,7 +45,7 @@ struct Window {
   static constexpr std::ptrdiff_t kStrip = kHalves, kBand = kHalves;
 
   const InvertedResidualArgs& a;
-  const Slide<Half>& s;
+  const DepthwisePart<Half>& s;
   std::ptrdiff_t x_row_elems;
   Vec bias, low, high;
 
@@ -60,25 +60,25 @@ struct Window {
 struct Tier {
   static constexpr std::int32_t kPanel = kHalves;
 
-  static void narrow(const float* x, std::ptrdiff_t plane, std::int32_t blocks, Half* y) {
+  static void half_input(const float* x, std::ptrdiff_t plane, std::int32_t blocks, Half* y) {
     _mm512_storeu_ph(y, narrowed(x, plane, blocks));
   }
 
-  static void slide(const InvertedResidualArgs& a, const Slide<Half>& s, Half* y) {
+  static void depthwise(const InvertedResidualArgs& a, const DepthwisePart<Half>& s, Half* y) {
     const Window window{a,
                         s,
                         s.x_row_elems,
-                        load_blocks(a.slide.bias + s.block * 8, 8, s.blocks),
+                        load_blocks(a.depthwise.bias + s.block * 8, 8, s.blocks),
                         _mm512_set1_ph(static_cast<_Float16>(s.clamp.low)),
                         _mm512_set1_ph(static_cast<_Float16>(s.clamp.high))};
-    SlideRows<Window>::run(window, s.rows, s.x, y);
+    DepthwiseRows<Window>::run(window, s.rows, s.x, y);
   }
 
   static void multiply_to_strip(const HalfProduct& product, const StripRows& to) {
     avx512fp16::multiply_to_strip(product, to);
   }
-  static void multiply_to_map(const HalfProduct& product, const MapRows& to, float* wide) {
-    avx512fp16::multiply_to_map(product, to, wide);
+  static void multiply_to_map(const HalfProduct& product, const MapRows& to, float* fp32_weights) {
+    avx512fp16::multiply_to_map(product, to, fp32_weights);
   }
 };
 

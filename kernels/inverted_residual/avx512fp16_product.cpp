@@ -15,10 +15,10 @@ namespace {
 
 using Vec = __m512h;
 
-constexpr int kMostVecs = 4;
-constexpr int kMostSums = 28;  // pixels times vectors of a tile
+constexpr int kMaxVecs = 4;
+constexpr int kMaxSums = 28;  // pixels times vectors of a tile
 constexpr std::int32_t kPanel = 16;
-static_assert(kSumsElems == kMostSums * kHalves * 3 / 2);  // in fp32, and in fp16
+static_assert(kSumsElems == kMaxSums * kHalves * 3 / 2);  // in fp32, and in fp16
 
 Vec load(const Half* at) { return _mm512_loadu_ph(at); }
 Vec set(float value) { return _mm512_set1_ph(static_cast<_Float16>(value)); }
@@ -108,7 +108,7 @@ Vec broadcast(const Half* x) {
 
 template <int kPixels, int kVecs, Lanes kLanes>
 void tile(const Job& j) {
-  static_assert(kPixels * kVecs <= kMostSums);
+  static_assert(kPixels * kVecs <= kMaxSums);
   Vec sum[kPixels][kVecs];
   for (int v = 0; v < kVecs; ++v) {
     const Vec begin = load(j.begin + v * kHalves);
@@ -257,7 +257,7 @@ void load_bias(const HalfProduct& a, const Group& g, Half* to) {
 }
 
 void expand_group(const HalfProduct& a, const StripRows& to, const Group& g) {
-  Half bias[kMostVecs * kHalves];
+  Half bias[kMaxVecs * kHalves];
   load_bias(a, g, bias);
   Job job = job_of(a, g);
   job.begin = bias;
@@ -379,7 +379,7 @@ void finish(Lanes lanes, const Totals& t, std::ptrdiff_t at, bool is_first, cons
 
 void project_tile(const HalfProduct& a, const MapRows& to, const Group& g, const Tile& tile,
                   std::int32_t pixel, Job job, const Totals& totals) {
-  alignas(64) static constexpr Half kZeros[kMostVecs * kHalves] = {};
+  alignas(64) static constexpr Half kZeros[kMaxVecs * kHalves] = {};
   constexpr std::int32_t kBlocks = kHalfSum / 8;
   const std::ptrdiff_t step = (g.lanes == Lanes::kQuads ? 8 : kPanel) * kHalfSum;
   const std::ptrdiff_t vec = std::ptrdiff_t{tile.pixels} * kHalves;
@@ -404,7 +404,7 @@ void project_tile(const HalfProduct& a, const MapRows& to, const Group& g, const
 }
 
 void project_group(const HalfProduct& a, const MapRows& to, const Group& g, const Totals& totals) {
-  Half bias[kMostVecs * kHalves];
+  Half bias[kMaxVecs * kHalves];
   load_bias(a, g, bias);
   Job job = job_of(a, g);
   job.begin = bias;
@@ -423,7 +423,7 @@ void multiply_to_strip(const HalfProduct& a, const StripRows& to) {
 }
 
 void multiply_to_map(const HalfProduct& a, const MapRows& to, float* scratch) {
-  const Totals totals{scratch, reinterpret_cast<Half*>(scratch + kMostSums * kHalves)};
+  const Totals totals{scratch, reinterpret_cast<Half*>(scratch + kMaxSums * kHalves)};
   for_each_group(a, true, [&](const Group& g) { project_group(a, to, g, totals); });
 }
 

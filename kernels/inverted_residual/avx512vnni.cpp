@@ -2,10 +2,10 @@
 // of its largest value, the band, which the depthwise layer's clamp bounds, in steps of that bound.
 #include "kernels/common/avx512.h"
 #include "kernels/families.h"
-#include "kernels/inverted_residual/avx512_slide.h"
-#include "kernels/inverted_residual/fixed_product.h"
+#include "kernels/inverted_residual/avx512_depthwise.h"
+#include "kernels/inverted_residual/depthwise_rows.h"
 #include "kernels/inverted_residual/float_strips.h"
-#include "kernels/inverted_residual/slide_rows.h"
+#include "kernels/inverted_residual/quantized_product.h"
 
 namespace mien::kernels::avx512vnni {
 namespace {
@@ -13,9 +13,9 @@ namespace {
 using avx512::Vec;
 
 // The band in fixed point: clamps from 0 to `high` become 0 to kBandMost.
-float band_steps(float high) { return static_cast<float>(kFixedBandMost) / high; }
+float band_steps(float high) { return static_cast<float>(kQuantizedBandMax) / high; }
 
-Vec weights_at(const InvertedResidualArgs& a, const Slide<float>& s, std::int32_t tap) {
+Vec weights_at(const InvertedResidualArgs& a, const DepthwisePart<float>& s, std::int32_t tap) {
   return _mm512_mul_ps(avx512::weights_at(a, s, tap), _mm512_set1_ps(band_steps(s.clamp.high)));
 }
 
@@ -27,7 +27,7 @@ struct Window {
   static constexpr std::ptrdiff_t kStrip = kFloatPanel, kBand = kStripBlock / 2;
 
   const InvertedResidualArgs& a;
-  const Slide<float>& s;
+  const DepthwisePart<float>& s;
   std::ptrdiff_t x_row_elems;
   std::ptrdiff_t y_plane_elems;
   bool both;  // the upper 8 channels exist
@@ -47,19 +47,19 @@ struct Window {
   }
 };
 
-void slide_rows(const InvertedResidualArgs& a, const Slide<float>& s) {
+void depthwise_rows(const InvertedResidualArgs& a, const DepthwisePart<float>& s) {
   const bool both = s.blocks > 1;
   const std::ptrdiff_t plane = band_plane(a, s) / 2;
-  const Window window{
-      a,
-      s,
-      s.x_row_elems,
-      plane,
-      both,
-      _mm512_mul_ps(avx512::load_half(a.slide.bias + s.block * kStripBlock, both ? 0xFFFF : 0xFF),
-                    _mm512_set1_ps(band_steps(s.clamp.high))),
-      _mm512_set1_ps(kFixedBandMost)};
-  SlideRows<Window>::run(
+  const Window window{a,
+                      s,
+                      s.x_row_elems,
+                      plane,
+                      both,
+                      _mm512_mul_ps(avx512::load_half(a.depthwise.bias + s.block * kStripBlock,
+                                                      both ? 0xFFFF : 0xFF),
+                                    _mm512_set1_ps(band_steps(s.clamp.high))),
+                      _mm512_set1_ps(kQuantizedBandMax)};
+  DepthwiseRows<Window>::run(
       window, s.rows, s.x,
       a.band + s.block * plane + std::ptrdiff_t{s.row} * a.out_w * Window::kBand);
 }
@@ -95,13 +95,13 @@ void to_fixed(const float* x, std::ptrdiff_t elems, Vec per_step, std::int16_t* 
   }
 }
 
-class FixedStrips {
+class QuantizedStrips {
  public:
   using Value = float;
   static constexpr std::int32_t kPanel = kFloatPanel;
 
-  explicit FixedStrips(const InvertedResidualArgs& args)
-      : a_(args), map_(reinterpret_cast<std::int16_t*>(args.narrow)) {
+  explicit QuantizedStrips(const InvertedResidualArgs& args)
+      : a_(args), map_(reinterpret_cast<std::int16_t*>(args.half_input)) {
     if (a_.expand.weights != nullptr) {
       largest_ = largest_of(a_.x, (a_.in_c + 7) / 8 * map_plane());
     }
@@ -113,7 +113,7 @@ class FixedStrips {
     }
     first_row_ = first;
     plane_elems_ = std::ptrdiff_t{rows} * a_.in_w * kStripBlock;
-    const Vec per_step = _mm512_set1_ps(static_cast<float>(kFixedMapMost) / largest_);
+    const Vec per_step = _mm512_set1_ps(static_cast<float>(kQuantizedMapMax) / largest_);
     const float* x = a_.x + std::ptrdiff_t{first} * a_.in_w * kStripBlock;
     for (std::int32_t block = 0; block < (a_.in_c + 7) / 8; ++block) {
       to_fixed(x + block * map_plane(), plane_elems_, per_step, map_ + block * plane_elems_);
@@ -122,13 +122,13 @@ class FixedStrips {
 
   void expand(const StripPart& part, std::int32_t row, std::int32_t rows, float* y) const {
     const std::ptrdiff_t channel = std::ptrdiff_t{part.first} * kStripBlock;
-    FixedProduct product{};
+    QuantizedProduct product{};
     product.to = expansion(a_, part, row, rows, y);
     product.values = map_ + std::ptrdiff_t{row - first_row_} * a_.in_w * kStripBlock;
     product.plane_elems = plane_elems_;
-    product.x_step = largest_ / static_cast<float>(kFixedMapMost);
+    product.x_scale = largest_ / static_cast<float>(kQuantizedMapMax);
     product.pairs = a_.expand.pairs + channel * product.to.in_blocks * kStripBlock;
-    product.steps = a_.expand.steps + channel;
+    product.scales = a_.expand.scales + channel;
     multiply_fixed_to_strip(product);
   }
 
@@ -137,16 +137,17 @@ class FixedStrips {
               [](const float* from, float* to) { _mm256_storeu_ps(to, _mm256_loadu_ps(from)); });
   }
 
-  void slide(const Slide<float>& s) const { slide_rows(a_, s); }
+  void depthwise(const DepthwisePart<float>& s) const { depthwise_rows(a_, s); }
 
   void project(std::int32_t first, std::int32_t rows) const {
-    FixedProduct product{};
+    QuantizedProduct product{};
     product.to = projection(a_, first, rows);
     product.values = reinterpret_cast<const std::int16_t*>(a_.band);
     product.plane_elems = product.to.x_plane_elems;
-    product.x_step = clamp_of(a_.slide.activation).high / static_cast<float>(kFixedBandMost);
+    product.x_scale =
+        clamp_of(a_.depthwise.activation).high / static_cast<float>(kQuantizedBandMax);
     product.pairs = a_.project.pairs;
-    product.steps = a_.project.steps;
+    product.scales = a_.project.scales;
     multiply_fixed_to_map(product);
   }
 
@@ -170,8 +171,8 @@ bool is_bounded(const ActivationSpec& activation) {
 }  // namespace
 
 void inverted_residual(const InvertedResidualArgs& a) {
-  if (a.project.pairs != nullptr && is_bounded(a.slide.activation)) {
-    InvertedResidual<FixedStrips>(a).run();
+  if (a.project.pairs != nullptr && is_bounded(a.depthwise.activation)) {
+    InvertedResidual<QuantizedStrips>(a).run();
   } else {
     avx512::inverted_residual(a);
   }

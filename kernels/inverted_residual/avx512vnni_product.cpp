@@ -7,7 +7,7 @@
 #include "kernels/common/product_spot.h"
 #include "kernels/common/product_sums.h"
 #include "kernels/common/sized_tile.h"
-#include "kernels/inverted_residual/fixed_product.h"
+#include "kernels/inverted_residual/quantized_product.h"
 
 namespace mien::kernels::avx512vnni {
 namespace {
@@ -100,13 +100,13 @@ class MapRows {
 
 // Some pixels of the panels from `panel` on. A tile moves it behind those it made.
 template <class Rows>
-struct FixedSpot {
-  FixedSpot(const FixedProduct& product, std::int32_t first_panel, std::int32_t pixel)
+struct QuantizedSpot {
+  QuantizedSpot(const QuantizedProduct& product, std::int32_t first_panel, std::int32_t pixel)
       : a(product),
         panel(first_panel),
         x(product.values + std::ptrdiff_t{pixel} * kBlock),
         to(product.to, first_panel, pixel) {}
-  const FixedProduct& a;
+  const QuantizedProduct& a;
   std::int32_t panel;
   const std::int16_t* x;
   Rows to;
@@ -137,11 +137,11 @@ template <int kVecs>
 struct Finish {
   Vec low, high, step[kVecs], bias[kVecs];
 
-  Finish(const FixedProduct& a, std::int32_t panel)
+  Finish(const QuantizedProduct& a, std::int32_t panel)
       : low(_mm512_set1_ps(a.to.low)), high(_mm512_set1_ps(a.to.high)) {
     for (int v = 0; v < kVecs; ++v) {
       const std::ptrdiff_t channel = std::ptrdiff_t{panel + v} * kPanel;
-      step[v] = _mm512_mul_ps(_mm512_loadu_ps(a.steps + channel), _mm512_set1_ps(a.x_step));
+      step[v] = _mm512_mul_ps(_mm512_loadu_ps(a.scales + channel), _mm512_set1_ps(a.x_scale));
       bias[v] = avx512::load_half(a.to.bias + channel);
     }
   }
@@ -156,10 +156,10 @@ struct Finish {
 struct HalfFinish {
   __m256 low, high, step, bias;
 
-  HalfFinish(const FixedProduct& a, std::int32_t panel)
+  HalfFinish(const QuantizedProduct& a, std::int32_t panel)
       : low(_mm256_set1_ps(a.to.low)), high(_mm256_set1_ps(a.to.high)) {
     const std::ptrdiff_t channel = std::ptrdiff_t{panel} * kPanel;
-    step = _mm256_mul_ps(_mm256_loadu_ps(a.steps + channel), _mm256_set1_ps(a.x_step));
+    step = _mm256_mul_ps(_mm256_loadu_ps(a.scales + channel), _mm256_set1_ps(a.x_scale));
     bias = _mm512_castps512_ps256(avx512::load_half(a.to.bias + channel, 0xFF));
   }
   template <class Rows>
@@ -171,7 +171,7 @@ struct HalfFinish {
 
 // kCount pairs at once.
 template <int kPixels, int kVecs, int kCount, class Finish, class Rows>
-void multiply(FixedSpot<Rows>& s, const std::int16_t* w) {
+void multiply(QuantizedSpot<Rows>& s, const std::int16_t* w) {
   constexpr int kStep = 2 * kCount;
   constexpr int kSums = std::min(partial_sums(kPixels * kVecs), kBlock / kStep);
   const std::ptrdiff_t panel = std::ptrdiff_t{s.a.to.in_blocks} * kBlock * kPanel;
@@ -225,7 +225,7 @@ void multiply(FixedSpot<Rows>& s, const std::int16_t* w) {
 template <class Rows>
 class Tiles {
  public:
-  using Spot = FixedSpot<Rows>;
+  using Spot = QuantizedSpot<Rows>;
   using Run = void (*)(Spot&, const std::int16_t*);
 
   // `panels` 0: the last panel of 8.
@@ -266,21 +266,21 @@ class Tiles {
 };
 
 template <class Rows>
-void sweep(const FixedProduct& a, std::int32_t first, std::int32_t panels) {
+void sweep(const QuantizedProduct& a, std::int32_t first, std::int32_t panels) {
   const std::int16_t* w = a.pairs + std::ptrdiff_t{first} * a.to.in_blocks * kBlock * kPanel;
   const auto tiles = Tiles<Rows>::of(panels, a.to.pixels);
-  FixedSpot<Rows> spot(a, first, 0);
+  QuantizedSpot<Rows> spot(a, first, 0);
   for (std::int32_t i = 0; i < tiles.count; ++i) {
     tiles.each.run(spot, w);
   }
   if (tiles.last.run != nullptr) {
-    FixedSpot<Rows> end(a, first, a.to.pixels - tiles.last.pixels);
+    QuantizedSpot<Rows> end(a, first, a.to.pixels - tiles.last.pixels);
     tiles.last.run(end, w);
   }
 }
 
 template <class Rows>
-void multiply_to(const FixedProduct& a) {
+void multiply_to(const QuantizedProduct& a) {
   const std::int32_t panels = a.to.out_blocks / 2;
   const std::int32_t at_once = a.to.pixels <= 6 ? 4 : a.to.pixels == 9 ? 3 : 2;
   std::int32_t done = 0;
@@ -296,7 +296,7 @@ void multiply_to(const FixedProduct& a) {
 
 }  // namespace
 
-void multiply_fixed_to_strip(const FixedProduct& a) { multiply_to<StripRows>(a); }
-void multiply_fixed_to_map(const FixedProduct& a) { multiply_to<MapRows>(a); }
+void multiply_fixed_to_strip(const QuantizedProduct& a) { multiply_to<StripRows>(a); }
+void multiply_fixed_to_map(const QuantizedProduct& a) { multiply_to<MapRows>(a); }
 
 }  // namespace mien::kernels::avx512vnni

@@ -12,10 +12,11 @@ namespace {
 inline constexpr std::int32_t kFloatPanel = 16;  // channels that lie together in a strip of floats
 
 // Where the band has the first pixel of a slide, lower 8 channels, and from them to the next 8.
-inline std::ptrdiff_t band_plane(const InvertedResidualArgs& a, const Slide<float>& s) {
+inline std::ptrdiff_t band_plane(const InvertedResidualArgs& a, const DepthwisePart<float>& s) {
   return std::ptrdiff_t{s.band_rows} * a.out_w * kStripBlock;
 }
-[[maybe_unused]] inline float* band_at(const InvertedResidualArgs& a, const Slide<float>& s) {
+[[maybe_unused]] inline float* band_at(const InvertedResidualArgs& a,
+                                       const DepthwisePart<float>& s) {
   return a.band + s.block * band_plane(a, s) + std::ptrdiff_t{s.row} * a.out_w * kStripBlock;
 }
 
@@ -38,7 +39,7 @@ inline ProductArgs expansion(const InvertedResidualArgs& a, const StripPart& par
   product.y = y;
   product.y_rows = {kFloatPanel, kStripBlock, part.panel_elems, a.in_w,
                     part.row_elems - std::ptrdiff_t{a.in_w} * kFloatPanel};
-  product.wide = a.wide;
+  product.fp32_weights = a.fp32_weights;
   return product;
 }
 
@@ -59,7 +60,7 @@ inline ProductArgs projection(const InvertedResidualArgs& a, std::int32_t first,
   product.high = clamp.high;
   product.y = a.y + std::ptrdiff_t{first} * a.out_w * kStripBlock;
   product.y_rows = {kStripBlock, plane, 2 * plane, 0x7FFFFFFF, 0};
-  product.wide = a.wide;
+  product.fp32_weights = a.fp32_weights;
   if (a.residual != nullptr) {
     const std::ptrdiff_t residual_plane = std::ptrdiff_t{a.residual_h} * a.residual_w * kStripBlock;
     const std::ptrdiff_t pixel =
@@ -103,7 +104,7 @@ class FloatStrips {
   void copy(const StripPart& part, std::int32_t row, std::int32_t rows, float* y) const {
     copy_rows(a_, part, row, rows, y, &Tier::load);
   }
-  void slide(const Slide<float>& s) const { Tier::slide(a_, s); }
+  void depthwise(const DepthwisePart<float>& s) const { Tier::depthwise(a_, s); }
   void project(std::int32_t first, std::int32_t rows) const {
     Tier::multiply(projection(a_, first, rows));
   }

@@ -25,7 +25,7 @@ class HalfStrips {
 
   explicit HalfStrips(const InvertedResidualArgs& args)
       : a_(args),
-        x_(reinterpret_cast<Half*>(args.narrow)),
+        x_(reinterpret_cast<Half*>(args.half_input)),
         band_(reinterpret_cast<Half*>(args.band)) {}
 
   void begin(std::int32_t first, std::int32_t rows) {
@@ -66,9 +66,9 @@ class HalfStrips {
     }
   }
 
-  void slide(const Slide<Half>& s) const {
+  void depthwise(const DepthwisePart<Half>& s) const {
     const std::ptrdiff_t row = std::ptrdiff_t{s.block / kBlocks} * s.band_rows + s.row;
-    Tier::slide(a_, s, band_ + row * a_.out_w * kPanel);
+    Tier::depthwise(a_, s, band_ + row * a_.out_w * kPanel);
   }
 
   void project(std::int32_t first, std::int32_t rows) const {
@@ -94,7 +94,7 @@ class HalfStrips {
       to.residual_plane_elems = std::ptrdiff_t{a_.residual_h} * a_.residual_w * kStripBlock;
       to.residual_row_elems = std::ptrdiff_t{a_.residual_w} * kStripBlock;
     }
-    Tier::multiply_to_map(product, to, a_.wide);
+    Tier::multiply_to_map(product, to, a_.fp32_weights);
   }
 
  private:
@@ -108,7 +108,7 @@ class HalfStrips {
     const std::ptrdiff_t plane = std::ptrdiff_t{a_.in_h} * a_.in_w * kStripBlock;
     const float* x = a_.x + block * plane + std::ptrdiff_t{row} * a_.in_w * kStripBlock;
     for (std::int32_t p = 0; p < pixels; ++p, x += kStripBlock, y += kPanel) {
-      Tier::narrow(x, plane, blocks, y);
+      Tier::half_input(x, plane, blocks, y);
     }
   }
 

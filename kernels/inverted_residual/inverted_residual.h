@@ -35,13 +35,14 @@ struct InvertedResidualArgs {
     const std::uint16_t* weights;
     const std::uint16_t* bias;
     ActivationSpec activation;
-    // The same as fixed_weights.h has them; nullptr for tiers that do not compute in fixed point.
+    // The same as quantize_weights.h has them; nullptr for tiers that do not compute in fixed
+    // point.
     const std::int16_t* pairs;
-    const float* steps;
+    const float* scales;
   };
   const float* x;
   float* y;
-  Weights expand, slide, project;
+  Weights expand, depthwise, project;
   std::int32_t in_h, in_w, in_c;
   std::int32_t hidden_c;
   std::int32_t out_h, out_w, out_c;
@@ -53,13 +54,13 @@ struct InvertedResidualArgs {
   std::int32_t residual_top, residual_left;
   float* band;
   float* strip;
-  float* wide;    // [kInvertedResidualWideElems]
-  float* narrow;  // nullptr for tiers that compute in fp32, and where nothing is expanded
+  float* fp32_weights;  // [kInvertedResidualFp32WeightElems]
+  float* half_input;    // nullptr for tiers that compute in fp32, and where nothing is expanded
   std::int32_t band_rows;
   std::int32_t strip_channels, strip_rows, strip_w;
 };
 
-inline constexpr std::int32_t kInvertedResidualWideElems = 6144;
+inline constexpr std::int32_t kInvertedResidualFp32WeightElems = 6144;
 
 // The longest sums that fp16 tiers keep in fp16: those of the expansion, one product per input
 // channel, and those of the depthwise layer, one product per tap. A sum of n fused multiply-adds
@@ -78,6 +79,6 @@ inline constexpr std::int32_t kHalfMaxExpandInputs = 128, kHalfMaxTaps = 64;
 // In fixed point: the largest magnitudes in the map, which has both signs, and in the band, which
 // has one. A bit less there leaves one more to the weights that it is multiplied with, of which the
 // sums are longer.
-inline constexpr std::int32_t kFixedMapMost = 32767, kFixedBandMost = 16383;
+inline constexpr std::int32_t kQuantizedMapMax = 32767, kQuantizedBandMax = 16383;
 
 }  // namespace mien::kernels

@@ -1,29 +1,30 @@
 #include "kernels/families.h"
 #include "kernels/inverted_residual/float_strips.h"
-#include "kernels/inverted_residual/neon_slide.h"
+#include "kernels/inverted_residual/neon_depthwise.h"
 
 namespace mien::kernels::MIEN_TIER {
 namespace {
 
 // kVecs vectors of channels from `channel` of the panel on.
-void slide_channels(const InvertedResidualArgs& a, const Slide<float>& s, std::int32_t channel) {
+void depthwise_channels(const InvertedResidualArgs& a, const DepthwisePart<float>& s,
+                        std::int32_t channel) {
   const std::int32_t half = channel / kBlock, lane = channel % kBlock;
   const std::ptrdiff_t block = s.block + half;
-  const Taps<Floats> taps(a.slide.weights + block * a.kernel_h * a.kernel_w * kBlock + lane, kLanes,
-                          a.slide.bias + block * kBlock + lane, kLanes, splat(s.clamp.low),
-                          splat(s.clamp.high));
+  const Taps<Floats> taps(a.depthwise.weights + block * a.kernel_h * a.kernel_w * kBlock + lane,
+                          kLanes, a.depthwise.bias + block * kBlock + lane, kLanes,
+                          splat(s.clamp.low), splat(s.clamp.high));
   const Rows<Floats> at{s.x + channel, s.x_row_elems,
                         band_at(a, s) + half * band_plane(a, s) + lane,
                         std::ptrdiff_t{a.out_w} * kBlock};
-  slide_rows<Floats, kBlock>(a, taps, at, s.rows);
+  depthwise_rows<Floats, kBlock>(a, taps, at, s.rows);
 }
 
 struct Neon {
   static void multiply(const ProductArgs& args) { multiply_panels(args); }
 
-  static void slide(const InvertedResidualArgs& a, const Slide<float>& s) {
+  static void depthwise(const InvertedResidualArgs& a, const DepthwisePart<float>& s) {
     for (std::int32_t channel = 0; channel < s.blocks * kBlock; channel += Floats::kVecs * kLanes) {
-      slide_channels(a, s, channel);
+      depthwise_channels(a, s, channel);
     }
   }
 

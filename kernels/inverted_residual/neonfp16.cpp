@@ -2,7 +2,7 @@
 #include "kernels/common/neon_half.h"
 #include "kernels/families.h"
 #include "kernels/inverted_residual/half_strips.h"
-#include "kernels/inverted_residual/neon_slide.h"
+#include "kernels/inverted_residual/neon_depthwise.h"
 
 namespace mien::kernels::neonfp16 {
 namespace {
@@ -22,19 +22,19 @@ struct Halves {
 struct Tier {
   static constexpr std::int32_t kPanel = neonfp16::kPanel;
 
-  static void narrow(const float* x, std::ptrdiff_t plane, std::int32_t blocks, Half* y) {
+  static void half_input(const float* x, std::ptrdiff_t plane, std::int32_t blocks, Half* y) {
     store_halves(y, narrowed(load_pair(x)));
     store_halves(y + kHalves, narrowed(load_pair(x + (blocks > 1 ? plane : 0))));
   }
 
-  static void slide(const InvertedResidualArgs& a, const Slide<Half>& s, Half* y) {
+  static void depthwise(const InvertedResidualArgs& a, const DepthwisePart<Half>& s, Half* y) {
     const std::ptrdiff_t taps_elems = std::ptrdiff_t{a.kernel_h} * a.kernel_w * kBlock;
     const bool both = s.blocks > 1;  // else the upper vector is computed like the lower, for nobody
-    const Taps<Halves> taps(a.slide.weights + s.block * taps_elems, both ? taps_elems : 0,
-                            a.slide.bias + std::ptrdiff_t{s.block} * kBlock, both ? kBlock : 0,
+    const Taps<Halves> taps(a.depthwise.weights + s.block * taps_elems, both ? taps_elems : 0,
+                            a.depthwise.bias + std::ptrdiff_t{s.block} * kBlock, both ? kBlock : 0,
                             splat_halves(s.clamp.low), splat_halves(s.clamp.high));
     const std::ptrdiff_t y_row = std::ptrdiff_t{a.out_w} * kPanel;
-    slide_rows<Halves, kPanel>(a, taps, {s.x, s.x_row_elems, y, y_row}, s.rows);
+    depthwise_rows<Halves, kPanel>(a, taps, {s.x, s.x_row_elems, y, y_row}, s.rows);
   }
 
   static void multiply_to_strip(const HalfProduct& product, const StripRows& to) {

@@ -11,7 +11,7 @@
 namespace mien::kernels::neonfp16 {
 namespace {
 
-constexpr int kMostPixels = 9;
+constexpr int kMaxPixels = 9;
 
 struct Job {
   const Half* x;  // first pixel
@@ -98,7 +98,7 @@ struct Tile {
 // Of `pixels` pixels all tiles are one size: the last overlaps the one before, if need be.
 template <int kVecs, int... kSizes>
 Tile tile_of(std::int32_t pixels, std::integer_sequence<int, kSizes...>) {
-  const std::int32_t tiles = (pixels + kMostPixels - 1) / kMostPixels;
+  const std::int32_t tiles = (pixels + kMaxPixels - 1) / kMaxPixels;
   const std::int32_t wanted = (pixels + tiles - 1) / tiles;
   Tile best{1, &tile<1, kVecs>};
   const auto consider = [&](Tile one) {
@@ -154,8 +154,8 @@ void expand_group(const HalfProduct& a, const StripRows& to, const Group& g) {
 
 // Sums of one tile, [pixels][16]: of the last few products, and of all before.
 struct Totals {
-  Half partial[kMostPixels * kPanel];
-  float sums[kMostPixels * kPanel];
+  Half partial[kMaxPixels * kPanel];
+  float sums[kMaxPixels * kPanel];
 };
 
 template <bool kIsFirst>

@@ -31,10 +31,10 @@ void expand_rows(const InvertedResidualArgs& a, std::int32_t oy, std::int32_t c)
   }
 }
 
-float slid(const InvertedResidualArgs& a, std::int32_t ox, std::int32_t c) {
+float depthwise_output(const InvertedResidualArgs& a, std::int32_t ox, std::int32_t c) {
   const std::ptrdiff_t first = std::ptrdiff_t{c / kBlock} * a.kernel_h * a.kernel_w * kBlock;
-  const std::uint16_t* weights = a.slide.weights + first;
-  double sum = half_to_float(a.slide.bias[c]);
+  const std::uint16_t* weights = a.depthwise.weights + first;
+  double sum = half_to_float(a.depthwise.bias[c]);
   for (std::int32_t ky = 0; ky < a.kernel_h; ++ky) {
     for (std::int32_t kx = 0; kx < a.kernel_w; ++kx) {
       const std::int32_t x = ox * a.stride_w + kx - a.pad_left;
@@ -44,7 +44,7 @@ float slid(const InvertedResidualArgs& a, std::int32_t ox, std::int32_t c) {
       }
     }
   }
-  return static_cast<float>(activated(sum, a.slide.activation, c));
+  return static_cast<float>(activated(sum, a.depthwise.activation, c));
 }
 
 double projected(const InvertedResidualArgs& a, std::int32_t ox, std::int32_t o) {
@@ -74,7 +74,7 @@ void inverted_residual(const InvertedResidualArgs& a) {
     for (std::int32_t c = 0; c < a.hidden_c; ++c) {
       expand_rows(a, oy, c);
       for (std::int32_t ox = 0; ox < a.out_w; ++ox) {
-        a.band[blocked(c, ox, a.out_w)] = slid(a, ox, c);
+        a.band[blocked(c, ox, a.out_w)] = depthwise_output(a, ox, c);
       }
     }
     for (std::int32_t o = 0; o < blocks_of(a.out_c) * kBlock; ++o) {

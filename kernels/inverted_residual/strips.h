@@ -47,7 +47,7 @@ struct StripPart {
 
 // Rows of outputs from one panel: what the depthwise part of a tier needs to know.
 template <class Value>
-struct Slide {
+struct DepthwisePart {
   const Value* x;              // the strip's first row; pixels are kPanel values apart
   std::ptrdiff_t x_row_elems;  // from row to row
   std::int32_t block, blocks;  // first block of 8 channels; how many of them there are
@@ -113,10 +113,10 @@ class InvertedResidual {
       const std::int32_t top = (first + row) * a_.stride_h - a_.pad_top;
       fill(part, top, known, needed);
       for (std::int32_t panel = 0; panel < panels_of(part); ++panel) {
-        tier_.slide(Slide<Value>{strip_ + panel * panel_elems_, row_elems_,
-                                 part.first + panel * kBlocks,
-                                 std::min(kBlocks, part.count - panel * kBlocks), row, count, rows,
-                                 clamp_of(a_.slide.activation)});
+        tier_.depthwise(DepthwisePart<Value>{strip_ + panel * panel_elems_, row_elems_,
+                                             part.first + panel * kBlocks,
+                                             std::min(kBlocks, part.count - panel * kBlocks), row,
+                                             count, rows, clamp_of(a_.depthwise.activation)});
       }
       known = std::max(0, needed - count * a_.stride_h);
       if (row + at_once < rows) {

@@ -11,7 +11,7 @@
 namespace mien::kernels::avx2 {
 namespace {
 
-constexpr int kMostSums = 12;
+constexpr int kMaxSums = 12;
 
 Vec weights_at(const std::uint16_t* w) { return load_half(w); }
 Vec weights_at(const float* w) { return _mm256_loadu_ps(w); }
@@ -126,13 +126,13 @@ void run_panel(const ProductArgs& a, std::int32_t panel) {
   const std::ptrdiff_t reduction = std::ptrdiff_t{a.in_blocks} * kLanes;
   const std::ptrdiff_t elems = reduction * kVecs * kLanes;
   const std::uint16_t* w = a.weights + panel * reduction * kPanel;
-  if (a.wide == nullptr || a.pixels <= kMostSums / kVecs || elems > kWideElems) {
+  if (a.fp32_weights == nullptr || a.pixels <= kMaxSums / kVecs || elems > kFp32WeightElems) {
     return sweep<kVecs>(a, panel, w);
   }
   for (std::ptrdiff_t k = 0; k < elems; k += kLanes) {
-    _mm256_storeu_ps(a.wide + k, load_half(w + k));
+    _mm256_storeu_ps(a.fp32_weights + k, load_half(w + k));
   }
-  sweep<kVecs, float>(a, panel, a.wide);
+  sweep<kVecs, float>(a, panel, a.fp32_weights);
 }
 
 }  // namespace

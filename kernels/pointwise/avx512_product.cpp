@@ -14,7 +14,7 @@
 namespace mien::kernels::avx512 {
 namespace {
 
-constexpr int kMostPixels = 13;
+constexpr int kMaxPixels = 13;
 
 Vec weights_at(const std::uint16_t* w) { return load_half(w); }
 Vec weights_at(const float* w) { return _mm512_loadu_ps(w); }
@@ -248,9 +248,9 @@ void sweep(const ProductArgs& a, std::int32_t first, std::int32_t panels, const 
   }
 }
 
-void widen(const std::uint16_t* w, std::ptrdiff_t elems, bool pairs, float* wide) {
+void widen(const std::uint16_t* w, std::ptrdiff_t elems, bool pairs, float* fp32_weights) {
   for (std::ptrdiff_t k = 0; k < elems; k += kPanel) {
-    _mm512_storeu_ps(wide + k, pairs ? pairs_at(w + k) : load_half(w + k));
+    _mm512_storeu_ps(fp32_weights + k, pairs ? pairs_at(w + k) : load_half(w + k));
   }
 }
 
@@ -260,15 +260,15 @@ void multiply_panels(const ProductArgs& a) {
   const std::ptrdiff_t reduction = std::ptrdiff_t{a.in_blocks} * kBlock;
   const std::int32_t panels = a.out_blocks / 2;
   const std::int32_t at_once = a.pixels <= 6 ? 4 : a.pixels == 9 ? 3 : 2;
-  const bool widened =
-      a.wide != nullptr && a.pixels > 3 * kMostPixels && reduction * 2 * kPanel <= kWideElems;
+  const bool widened = a.fp32_weights != nullptr && a.pixels > 3 * kMaxPixels &&
+                       reduction * 2 * kPanel <= kFp32WeightElems;
   const auto run = [&](std::int32_t first, std::int32_t count) {
     const std::uint16_t* w = a.weights + first * reduction * kPanel;
     if (!widened) {
       return sweep(a, first, count, w);
     }
-    widen(w, reduction * (count == 0 ? kBlock : count * kPanel), count == 0, a.wide);
-    sweep<float>(a, first, count, a.wide);
+    widen(w, reduction * (count == 0 ? kBlock : count * kPanel), count == 0, a.fp32_weights);
+    sweep<float>(a, first, count, a.fp32_weights);
   };
   std::int32_t done = 0;
   for (std::int32_t count = at_once; count > 0; count = count > 2 ? 2 : count - 1) {

@@ -172,7 +172,8 @@ void run_panel(const ProductArgs& a, std::int32_t block, std::int32_t width, con
 
 void multiply_panels(const ProductArgs& a) {
   float own[kWidenedElems];
-  const Space space = a.wide == nullptr ? Space{own, kWidenedElems} : Space{a.wide, kWideElems};
+  const Space space = a.fp32_weights == nullptr ? Space{own, kWidenedElems}
+                                                : Space{a.fp32_weights, kFp32WeightElems};
   for (std::int32_t block = 0; block < a.out_blocks; block += 2) {
     run_panel(a, block, block + 1 < a.out_blocks ? kPanel : kBlock, space);
   }

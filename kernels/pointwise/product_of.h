@@ -58,10 +58,10 @@ struct SumsOfBlock {
 
 // A product whose sums go through the stack, to an activation that does more than clamp. `finish`
 // is given one SumsOfBlock after another.
-template <std::int32_t kMostPixels, class Multiply, class Finish>
+template <std::int32_t kMaxPixels, class Multiply, class Finish>
 void product_by_parts(const PointwiseArgs& a, ProductArgs product, Multiply multiply,
                       Finish finish) {
-  constexpr std::ptrdiff_t kHalf = kMostPixels * kChannels;
+  constexpr std::ptrdiff_t kHalf = kMaxPixels * kChannels;
   float sums[2 * kHalf] = {};
   product.y = sums;
   product.residual = nullptr;
@@ -72,9 +72,9 @@ void product_by_parts(const PointwiseArgs& a, ProductArgs product, Multiply mult
     product.out_blocks = std::min(2, blocks - block);
     product.weights = a.weights + block * kChannels * reduction;
     product.bias = a.bias + block * kChannels;
-    for (std::int32_t first = 0; first < pixels; first += kMostPixels) {
+    for (std::int32_t first = 0; first < pixels; first += kMaxPixels) {
       product.x = a.x + first * kChannels;
-      product.pixels = std::min(kMostPixels, pixels - first);
+      product.pixels = std::min(kMaxPixels, pixels - first);
       multiply(product);
       for (std::int32_t half = 0; half < product.out_blocks; ++half) {
         finish(SumsOfBlock{a, sums + half * kHalf, block + half, first, product.pixels});

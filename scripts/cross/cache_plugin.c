@@ -30,12 +30,12 @@ void qemu_plugin_register_atexit_cb(qemu_plugin_id_t id, void (*callback)(qemu_p
 
 __attribute__((visibility("default"))) int qemu_plugin_version = 1;
 
-enum { kLineShift = 6, kMostWays = 16, kMostSets = 512, kNoRegisters = 0, kReadOrWrite = 3 };
+enum { kLineShift = 6, kMaxWays = 16, kMaxSets = 512, kNoRegisters = 0, kReadOrWrite = 3 };
 
 struct Cache {
   unsigned sets, ways;
   uint64_t fetched;
-  uint64_t lines[kMostSets][kMostWays]; /* of each set the most recently used first; 0: none */
+  uint64_t lines[kMaxSets][kMaxWays]; /* of each set the most recently used first; 0: none */
 };
 
 static struct Cache l1 = {.sets = 128, .ways = 4}, l2 = {.sets = 512, .ways = 16};

@@ -34,7 +34,7 @@ elsewhere='ConformanceProgram|conformance\.|package|convert|train|apps|formats\.
 # Without --full, under an emulator, tests that take more than a tenth of a second natively and so many seconds under emulation: long streams
 # and clips, which other machines run. What stays has at least one test of every part, and one with the trained networks.
 slow='Allocation\.OneBy|Calibration\.|Equivariance\.|FrontEnd\.BlocksDoNotMatter|Images\.(OfEverySize|FourK)|Levels\.|Reset\.'
-slow+='|Resampler\.(Blocks|Counts|Passes|Stops)|SeveralFaces\.[^AR]|SeveralFaces\.AStranger|Soak\.|SoundClock\.Follows|Timestamps\.Any'
+slow+='|Resampler\.(Blocks|Counts|Passes|Stops)|SeveralFaces\.[^AR]|SeveralFaces\.AStranger|Soak\.|AudioClock\.Follows|Timestamps\.Any'
 slow+='|Following\.(AcceptsMore|AFaceKeeps|ANewSize|DecodersBeginAnewWhen|FindsDiscs|Follows|Loses|Searches)|Trained\.([^T]|TheFace)|TrainedLevels\.'
 slow+='|Interleavings\.|Trackers\.MayBeMade|Camera\.|Microphone\.|Clocks\.|FloatState\.Denormals'
 slow+='|Voice\.(Blocks|IsHeard|IsMixed|LetsGo|Survives|TakesOver)'

@@ -187,7 +187,7 @@ def core_sources():
     sources = [ROOT / "formats" / f"{name}.cpp" for name in FORMATS]
     sources += [path for part in ("kernels", "engine", "audio") for path in sorted((ROOT / part).glob("*.cpp"))]
     sources += sorted((ROOT / "tracker").rglob("*.cpp"))
-    return [path for path in sources if path.name != "voice_left_out.cpp"]
+    return [path for path in sources if path.name != "audio_disabled.cpp"]
 
 
 def banner(version, what):

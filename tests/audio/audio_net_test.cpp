@@ -69,7 +69,7 @@ TEST_P(AudioNetOfTier, AnswersAsPyTorchDoes) {
   const float tolerance = is_half(GetParam()) ? 5e-3f : 2e-5f;
   for (int round = 0; round < 2; ++round) {  // the second one after a reset
     for (std::size_t step = 0; step < steps; ++step) {
-      const Speech speech = net_.hear(std::span<const float, FrontEnd::kFeatures>(
+      const Speech speech = net_.process(std::span<const float, FrontEnd::kFeatures>(
           features.data() + step * FrontEnd::kFeatures, FrontEnd::kFeatures));
       for (std::size_t i = 0; i < kSpeechControls; ++i) {
         ASSERT_NEAR(speech.controls[i], controls[step * kSpeechControls + i], tolerance) << step;

@@ -127,9 +127,9 @@ TEST(FusedBlocks, LongSumsAreNotRoundedAway) {
     formats::LayerOptions relu6;
     relu6.activation = LayerActivation::kRelu6;
     const formats::Array ones{{size.hidden_c, 1, 1, 1}, std::vector<float>(size.hidden_c, 1.0f)};
-    const formats::LayerIndex wide = net.pointwise(0, same(size.hidden_c, size.in_c), {});
-    const formats::LayerIndex slid = net.depthwise(wide, ones, {}, relu6);
-    net.output(net.pointwise(slid, same(8, size.hidden_c), {}));
+    const formats::LayerIndex expanded = net.pointwise(0, same(size.hidden_c, size.in_c), {});
+    const formats::LayerIndex filtered = net.depthwise(expanded, ones, {}, relu6);
+    net.output(net.pointwise(filtered, same(8, size.hidden_c), {}));
     AlignedBuffer bytes = finished(writer);
     for (const std::uint32_t mask : fusing_tiers()) {
       OwnedSession fused(bytes, "net", {}, mask | kernels::kFusedBlocks);
@@ -185,18 +185,20 @@ class RandomBlocks {
       return twin.pointwise(x, between(1, 40), options(true));
     }
     const bool adds = between(0, 1) == 0;
-    const Index wide = between(0, 3) == 0 ? x : twin.pointwise(x, between(1, 100), options(true));
-    Options sliding = options(true);
+    const Index expanded =
+        between(0, 3) == 0 ? x : twin.pointwise(x, between(1, 100), options(true));
+    Options window_options = options(true);
     if (between(0, 1) == 0) {
-      sliding.padding = {1, 1, 1, 1};
+      window_options.padding = {1, 1, 1, 1};
     }
     if (!adds && between(0, 1) == 0) {
-      sliding.stride_x = sliding.stride_y = 2;
+      window_options.stride_x = window_options.stride_y = 2;
     }
-    const Index slid = twin.depthwise(wide, 3, 3, sliding);
-    inside_ = between(0, 1) == 0 ? wide : slid;
-    const Index narrow = twin.pointwise(slid, adds ? channels : between(1, 60), options(true));
-    return adds ? twin.add(narrow, x) : narrow;
+    const Index filtered = twin.depthwise(expanded, 3, 3, window_options);
+    inside_ = between(0, 1) == 0 ? expanded : filtered;
+    const Index projected =
+        twin.pointwise(filtered, adds ? channels : between(1, 60), options(true));
+    return adds ? twin.add(projected, x) : projected;
   }
 
   std::mt19937 random_;

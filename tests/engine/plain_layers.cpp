@@ -53,8 +53,8 @@ std::size_t windows(std::size_t size, std::size_t kernel, std::size_t stride, st
   return (size + padding - kernel + (ceil_mode ? stride - 1 : 0)) / stride + 1;
 }
 
-Map slid(const Map& x, std::size_t kernel_h, std::size_t kernel_w, std::size_t channels,
-         const LayerOptions& o) {
+Map filtered(const Map& x, std::size_t kernel_h, std::size_t kernel_w, std::size_t channels,
+             const LayerOptions& o) {
   return {windows(x.h, kernel_h, o.stride_y, std::size_t{o.padding.top} + o.padding.bottom,
                   o.ceil_mode),
           windows(x.w, kernel_w, o.stride_x, std::size_t{o.padding.left} + o.padding.right,
@@ -98,7 +98,7 @@ double element(const Array& weight, std::size_t row, std::size_t column) {
 Map plain_conv(const Map& x, const Array& weight, const Bias& bias, const LayerOptions& o) {
   const std::size_t kh = weight.shape[2], kw = weight.shape[3], per_group = weight.shape[1];
   const std::size_t outputs_per_group = weight.shape[0] / (x.c / per_group);
-  Map y = slid(x, kh, kw, weight.shape[0], o);
+  Map y = filtered(x, kh, kw, weight.shape[0], o);
   for_elements(y, [&](std::size_t oy, std::size_t ox, std::size_t c, double& value) {
     double sum = bias[c];
     for_window(x, oy, ox, kh, kw, o,
@@ -168,7 +168,7 @@ Map plain_lstm(const Map& x, const Array& weight_ih, const Array& weight_hh, con
 
 Map plain_max_pool(const Map& x, std::size_t kernel_h, std::size_t kernel_w,
                    const LayerOptions& o) {
-  Map y = slid(x, kernel_h, kernel_w, x.c, o);
+  Map y = filtered(x, kernel_h, kernel_w, x.c, o);
   for_elements(y, [&](std::size_t oy, std::size_t ox, std::size_t c, double& value) {
     value = -std::numeric_limits<double>::infinity();
     for_window(x, oy, ox, kernel_h, kernel_w, o,

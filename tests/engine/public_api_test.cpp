@@ -79,14 +79,14 @@ TEST(EngineFloatMode, IsOursWhenARunnerIsMade) {
   std::uniform_real_distribution<float> values(-0.5f, 0.5f);
   formats::Array mixing{{kChannels, kChannels}, std::vector<float>(kWeights)};
   std::generate(mixing.values.begin(), mixing.values.end(), [&] { return values(random); });
-  const formats::Array sliding{{kChannels, 1, 3, 3},
-                               std::vector<float>(std::size_t{9} * kChannels, 0.11f)};
+  const formats::Array window_options{{kChannels, 1, 3, 3},
+                                      std::vector<float>(std::size_t{9} * kChannels, 0.11f)};
   formats::MienWriter writer;
   formats::NetworkWriter& net = writer.network("net", {4, 4, kChannels});
   formats::LayerOptions relu6;
   relu6.activation = formats::LayerActivation::kRelu6;
-  net.output(net.pointwise(net.depthwise(net.pointwise(0, mixing, {}, relu6), sliding, {}, relu6),
-                           mixing, {}));
+  net.output(net.pointwise(
+      net.depthwise(net.pointwise(0, mixing, {}, relu6), window_options, {}, relu6), mixing, {}));
   AlignedBuffer bytes = finished(writer);
   WeightFile file;
   ASSERT_EQ(file.open(bytes.span()), EngineStatus::kOk);

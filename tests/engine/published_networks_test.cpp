@@ -67,11 +67,11 @@ Options relu6(std::uint16_t stride = 1, bool padded = false) {
 
 Index add_block(TwinNetwork& net, Index x, const Block& block) {
   const auto channels = static_cast<std::uint32_t>(net.value(x).c);
-  const Index wide =
+  const Index expanded =
       block.expansion == 1 ? x : net.pointwise(x, channels * block.expansion, relu6());
-  const Index slid = net.depthwise(wide, 3, 3, relu6(block.stride, block.padded));
-  const Index narrow = net.pointwise(slid, block.channels);
-  return block.residual ? net.add(narrow, x) : narrow;
+  const Index filtered = net.depthwise(expanded, 3, 3, relu6(block.stride, block.padded));
+  const Index projected = net.pointwise(filtered, block.channels);
+  return block.residual ? net.add(projected, x) : projected;
 }
 
 NetworkInfo info_of(const Encoder& encoder) {

@@ -435,12 +435,12 @@ TEST(AnimationFaults, Rhubarb) {
 TEST(AnimationFaults, RhubarbIsMadeOfWhatThereIs) {
   Clip clip;
   EXPECT_EQ(said_of(AnimationFormat::kRhubarb, "0\tA\n0.5\tD\n1\tX\n", &clip), "");
-  clip.sound_file = "a & \"b\"";
+  clip.audio_file = "a & \"b\"";
   for (const AnimationFormat format :
        {AnimationFormat::kRhubarb, AnimationFormat::kRhubarbJson, AnimationFormat::kRhubarbXml,
         AnimationFormat::kRhubarbDat}) {
     WriteOptions options;
-    options.sound_file = clip.sound_file;
+    options.audio_file = clip.audio_file;
     for (const bool as_read : {true, false}) {
       std::vector<Frame> frames = clip.frames.unpacked();
       if (!as_read) {

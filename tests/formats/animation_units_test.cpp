@@ -252,7 +252,7 @@ TEST(Encodings, Utf16HasAllOfUnicode) {
       bytes.find(std::string("x\0", 2), bytes.find(std::string("l\0e\0\"\0:", 7)));
   const std::string smile = std::string("\xE9\0\x3D\xD8\x00\xDE", 6);  // é and U+1F600
   bytes.replace(at, 2, smile);
-  EXPECT_EQ(read(AnimationFormat::kRhubarbJson, bytes).sound_file, "\xC3\xA9\xF0\x9F\x98\x80");
+  EXPECT_EQ(read(AnimationFormat::kRhubarbJson, bytes).audio_file, "\xC3\xA9\xF0\x9F\x98\x80");
   bytes.replace(at, 6, std::string("\x00\xDE", 2));
   EXPECT_THAT(fault_of(AnimationFormat::kRhubarbJson, bytes), HasSubstr("surrogate"));
 }

@@ -274,8 +274,8 @@ TEST(Trackers, MayBeMadeManyTimes) {
   mien_status status = MIEN_ERROR_INTERNAL;
   const std::size_t bytes = required_bytes(config, status);
   ASSERT_EQ(status, MIEN_OK);
-  const std::vector<std::byte> room(bytes);
-  const AlignedBytes memory(room);
+  const std::vector<std::byte> space(bytes);
+  const AlignedBytes memory(space);
   for (int i = 0; i < kTimes; ++i) {
     mien_tracker* tracker = nullptr;
     ASSERT_EQ(i % 10 == 0

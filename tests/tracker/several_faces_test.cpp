@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "tests/tracker/blob_tracker.h"
-#include "tracker/search/tiles.h"
+#include "tracker/detection/tiles.h"
 
 namespace mien::tests {
 namespace {
@@ -46,7 +46,7 @@ class SeveralTracker : public BlobTracker {
 
 float middle_x(const Result& result) { return result.box[0] + result.box[2] / 2; }
 
-std::vector<Result> followed(const std::vector<Result>& results) {
+std::vector<Result> tracked(const std::vector<Result>& results) {
   std::vector<Result> kept;
   std::copy_if(results.begin(), results.end(), std::back_inserter(kept),
                [](const Result& result) { return result.has_face(); });
@@ -128,7 +128,7 @@ TEST(SeveralFaces, ASmallFaceCloseToALargeOneIsAFaceOfItsOwn) {
   const Disc large = {110, 120, 100}, small = {183, 120, 20};
   SeveralTracker tracker(2);
   for (int frame = 0; frame < 40; ++frame) {
-    const std::vector<Result> results = followed(tracker.push_all({large, small}));
+    const std::vector<Result> results = tracked(tracker.push_all({large, small}));
     ASSERT_EQ(results.size(), 2u) << frame;
     EXPECT_NEAR(middle_x(results[0]) + middle_x(results[1]), large.x + small.x, 8.0f);
     EXPECT_GT(std::abs(middle_x(results[0]) - middle_x(results[1])), 60.0f);
@@ -143,8 +143,8 @@ TEST(SeveralFaces, OneThatLeavesFadesAndIsForgotten) {
     results = tracker.push_all({{240, 120}});
   }
   ASSERT_EQ(results.size(), 2u) << "it still fades";
-  ASSERT_EQ(followed(results).size(), 1u);
-  EXPECT_NEAR(middle_x(followed(results)[0]), 240, 3);
+  ASSERT_EQ(tracked(results).size(), 1u);
+  EXPECT_NEAR(middle_x(tracked(results)[0]), 240, 3);
   for (int frame = 0; frame < 70; ++frame) {
     results = tracker.push_all({{240, 120}});
   }
@@ -162,7 +162,7 @@ TEST(SeveralFaces, OneThatComesBackSoonKeepsItsId) {
   }
   std::vector<Result> after;
   for (int frame = 0; frame < 32; ++frame) {
-    after = followed(tracker.push_all({{95, 125}, {240, 120}}));
+    after = tracked(tracker.push_all({{95, 125}, {240, 120}}));
   }
   ASSERT_EQ(after.size(), 2u);
   EXPECT_EQ(after[middle_x(after[0]) < 160 ? 0 : 1].face_id, id);
@@ -189,8 +189,8 @@ TEST(SeveralFaces, TwoThatMeetAreOneAndTheOlderStays) {
     const float d = 80 - 2 * static_cast<float>(frame);
     results = tracker.push_all({{160 - d, 120}, {160 + d, 120}});
   }
-  ASSERT_EQ(followed(results).size(), 1u);
-  EXPECT_EQ(followed(results)[0].face_id, 1u);
+  ASSERT_EQ(tracked(results).size(), 1u);
+  EXPECT_EQ(tracked(results)[0].face_id, 1u);
 }
 
 // What one face shows does not depend on who else is there.

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "tests/tracker/audio.h"
 #include "tests/tracker/blob_tracker.h"
-#include "tests/tracker/sound.h"
 #include "tracker/decoders/controls.h"
 
 namespace mien::tests {

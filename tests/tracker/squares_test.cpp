@@ -1,4 +1,4 @@
-#include "tracker/search/squares.h"
+#include "tracker/detection/squares.h"
 
 #include <gtest/gtest.h>
 
@@ -19,20 +19,20 @@ TEST(IntersectionOverUnion, KnownSquares) {
   EXPECT_EQ(intersection_over_union({{1, 1}, 0}, {{1, 1}, 0}), 0.0f) << "empty";
 }
 
-std::vector<Candidate> random_candidates(std::size_t count, unsigned seed) {
+std::vector<Detection> random_candidates(std::size_t count, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<float> unit(0.0f, 1.0f);
-  std::vector<Candidate> candidates(count);
-  for (Candidate& c : candidates) {
+  std::vector<Detection> detections(count);
+  for (Detection& c : detections) {
     c = {{{unit(random), unit(random)}, 0.1f + 0.3f * unit(random)}, unit(random)};
   }
-  return candidates;
+  return detections;
 }
 
 TEST(SuppressNonMaxima, KeepsExactlyTheUnbeaten) {
   for (unsigned seed = 0; seed < 50; ++seed) {
-    const std::vector<Candidate> all = random_candidates(60, seed);
-    std::vector<Candidate> list = all;
+    const std::vector<Detection> all = random_candidates(60, seed);
+    std::vector<Detection> list = all;
     const std::size_t kept = suppress_non_maxima(list, 0.4f);
     ASSERT_GE(kept, 1u);
     for (std::size_t i = 0; i < kept; ++i) {
@@ -41,12 +41,12 @@ TEST(SuppressNonMaxima, KeepsExactlyTheUnbeaten) {
         EXPECT_LE(intersection_over_union(list[i].square, list[j].square), 0.4f);
       }
     }
-    for (const Candidate& candidate : all) {  // kept, or beaten by a kept one with a better score
+    for (const Detection& detection : all) {  // kept, or beaten by a kept one with a better score
       bool explained = false;
       for (std::size_t i = 0; i < kept && !explained; ++i) {
-        const bool same = list[i].score == candidate.score;
-        explained = same || (list[i].score > candidate.score &&
-                             intersection_over_union(list[i].square, candidate.square) > 0.4f);
+        const bool same = list[i].score == detection.score;
+        explained = same || (list[i].score > detection.score &&
+                             intersection_over_union(list[i].square, detection.square) > 0.4f);
       }
       EXPECT_TRUE(explained);
     }
@@ -54,30 +54,30 @@ TEST(SuppressNonMaxima, KeepsExactlyTheUnbeaten) {
 }
 
 TEST(SuppressNonMaxima, OneAndNone) {
-  std::vector<Candidate> none;
+  std::vector<Detection> none;
   EXPECT_EQ(suppress_non_maxima(none, 0.5f), 0u);
-  std::vector<Candidate> twins(2, Candidate{{{1, 1}, 1}, 0.9f});
+  std::vector<Detection> twins(2, Detection{{{1, 1}, 1}, 0.9f});
   EXPECT_EQ(suppress_non_maxima(twins, 0.5f), 1u);
 }
 
-TEST(BestCandidates, KeepsTheBestOfAnyNumber) {
+TEST(BestDetections, KeepsTheBestOfAnyNumber) {
   for (std::size_t offered : {0u, 3u, 10u, 11u, 200u}) {
-    std::vector<Candidate> all = random_candidates(offered, 9);
-    std::vector<Candidate> room(10);
-    BestCandidates best(room);
-    for (const Candidate& candidate : all) {
-      best.offer(candidate);
+    std::vector<Detection> all = random_candidates(offered, 9);
+    std::vector<Detection> memory(10);
+    BestDetections best(memory);
+    for (const Detection& detection : all) {
+      best.offer(detection);
     }
-    const auto by_score = [](const Candidate& a, const Candidate& b) { return a.score > b.score; };
+    const auto by_score = [](const Detection& a, const Detection& b) { return a.score > b.score; };
     std::sort(all.begin(), all.end(), by_score);
-    std::vector<Candidate> kept(best.kept().begin(), best.kept().end());
+    std::vector<Detection> kept(best.kept().begin(), best.kept().end());
     std::sort(kept.begin(), kept.end(), by_score);
     ASSERT_EQ(kept.size(), std::min<std::size_t>(offered, 10));
     for (std::size_t i = 0; i < kept.size(); ++i) {
       EXPECT_EQ(kept[i].score, all[i].score);
     }
   }
-  BestCandidates none({});
+  BestDetections none({});
   none.offer({{}, 1.0f});
   EXPECT_TRUE(none.kept().empty());
 }

@@ -11,7 +11,7 @@
 
 #include "engine/arena.h"
 #include "tests/tracker/blob_tracker.h"
-#include "tracker/sound/sound_queue.h"
+#include "tracker/audio/audio_queue.h"
 
 namespace mien::tests {
 namespace {
@@ -44,7 +44,7 @@ BlobTracker with_queue(std::int32_t samples) {
                      [=](mien_tracker_config& config) { config.audio_queue_samples = samples; });
 }
 
-TEST(SoundQueue, WhatWaitedIsHeardAsWhatWasPushed) {
+TEST(AudioQueue, WhatWaitedIsHeardAsWhatWasPushed) {
   const std::vector<float> samples = noise();
   BlobTracker queued = with_queue(8192), pushed = with_queue(0);
   std::size_t first = 0, blocks = 0;
@@ -62,7 +62,7 @@ TEST(SoundQueue, WhatWaitedIsHeardAsWhatWasPushed) {
   EXPECT_GT(result.voice_activity, 0.0f);
 }
 
-TEST(SoundQueue, SaysWhenItIsFull) {
+TEST(AudioQueue, SaysWhenItIsFull) {
   const std::vector<float> samples = noise();
   BlobTracker tracker = with_queue(1000);  // 1024
   EXPECT_EQ(tracker.tracker().queue_audio(block_of(samples, 0, 1025), 0),
@@ -84,9 +84,9 @@ TEST(SoundQueue, SaysWhenItIsFull) {
   }
 }
 
-TEST(SoundQueue, EveryBlockLiesInOnePieceOfTheRing) {
+TEST(AudioQueue, EveryBlockLiesInOnePieceOfTheRing) {
   constexpr std::int32_t kRoom = 64;
-  tracker::SoundQueue queue;
+  tracker::AudioQueue queue;
   engine::Arena measure;
   queue.load(kRoom, measure);
   alignas(engine::Arena::kAlignment) std::byte memory[8192];
@@ -98,15 +98,15 @@ TEST(SoundQueue, EveryBlockLiesInOnePieceOfTheRing) {
   std::uint32_t next = 0;
   for (std::uint32_t frames :
        {16u, 16u, 16u, 17u, 47u, 30u, 30u, 5u}) {  // to the end, and one beyond it
-    tracker::SoundView sound;
+    tracker::AudioView sound;
     sound.rate = kRate;
     sound.pcm = {audio::SampleFormat::kFloat32, false, 1, frames, {samples.data()}};
     ASSERT_TRUE(queue.push(sound, 0));
-    tracker::SoundQueue::Block block;
-    audio::Pcm heard;
-    ASSERT_TRUE(queue.front(block, heard));
-    ring = ring == nullptr ? heard.channel[0] : ring;
-    const auto begin = static_cast<std::uint32_t>(static_cast<const float*>(heard.channel[0]) -
+    tracker::AudioQueue::Block block;
+    audio::Pcm output;
+    ASSERT_TRUE(queue.front(block, output));
+    ring = ring == nullptr ? output.channel[0] : ring;
+    const auto begin = static_cast<std::uint32_t>(static_cast<const float*>(output.channel[0]) -
                                                   static_cast<const float*>(ring));
     EXPECT_EQ(begin, next + frames <= kRoom ? next : 0u) << frames;
     next = (begin + frames) % kRoom;
@@ -114,7 +114,7 @@ TEST(SoundQueue, EveryBlockLiesInOnePieceOfTheRing) {
   }
 }
 
-TEST(SoundQueue, IsThereOnlyWhenAskedFor) {
+TEST(AudioQueue, IsThereOnlyWhenAskedFor) {
   const std::vector<float> samples = noise();
   BlobTracker none = with_queue(0);
   EXPECT_EQ(none.tracker().queue_audio(block_of(samples, 0, 1), 0), MIEN_ERROR_AUDIO_QUEUE_FULL);
@@ -129,7 +129,7 @@ TEST(SoundQueue, IsThereOnlyWhenAskedFor) {
   EXPECT_EQ(mien_tracker_queue_audio(nullptr, &wrong, 0), MIEN_ERROR_NULL_ARGUMENT);
 }
 
-TEST(SoundQueue, ResetForgetsWhatWaits) {
+TEST(AudioQueue, ResetForgetsWhatWaits) {
   const std::vector<float> samples = noise();
   BlobTracker tracker = with_queue(16384);
   ASSERT_EQ(tracker.tracker().queue_audio(block_of(samples, 0, 16000), 0), MIEN_OK);
@@ -137,7 +137,7 @@ TEST(SoundQueue, ResetForgetsWhatWaits) {
   EXPECT_EQ(tracker.advance().voice_activity, 0.0f);
 }
 
-TEST(SoundQueue, OutOfRange) {
+TEST(AudioQueue, OutOfRange) {
   const AlignedBytes basenet = blob_basenet(), proposal = blob_proposal();
   Config config = blob_config(basenet, proposal);
   for (const std::int32_t samples : {-1, (1 << 22) + 1}) {
@@ -149,7 +149,7 @@ TEST(SoundQueue, OutOfRange) {
 
 // The answers at the end are those of one thread: nothing is lost, doubled or read before it is
 // there.
-TEST(SoundQueue, BetweenTwoThreads) {
+TEST(AudioQueue, BetweenTwoThreads) {
   const std::vector<float> samples = noise();
   BlobTracker tracker = with_queue(4096), alone = with_queue(0);
   std::atomic<bool> done = false;

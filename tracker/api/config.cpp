@@ -3,8 +3,8 @@
 #include <cstdint>
 
 #include "tracker/api/versioned_struct.h"
+#include "tracker/audio/audio_queue.h"
 #include "tracker/encoders/levels.h"
-#include "tracker/sound/sound_queue.h"
 
 namespace mien::tracker {
 namespace {
@@ -25,7 +25,7 @@ bool in_range(const mien_tracker_config& c) {
          within(c.search_interval, 1, 1000) && within(c.budget_ms, 0.01f, 1e6f) &&
          within(c.max_faces, 1, MIEN_MAX_FACES) && within(c.voice_attack_ms, 0.0f, 10000.0f) &&
          within(c.voice_release_ms, 0.0f, 10000.0f) &&
-         within(c.audio_queue_samples, 0, SoundQueue::kMostSamples) &&
+         within(c.audio_queue_samples, 0, AudioQueue::kMaxSamples) &&
          within(c.voice_strength, 0.0f, 4.0f) &&
          (c.allocator.allocate == nullptr) == (c.allocator.release == nullptr);
 }

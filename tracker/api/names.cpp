@@ -16,9 +16,9 @@ uint32_t mien_cpu_tiers(void) { return mien::kernels::detect_cpu(); }
 
 const char* mien_cpu_tier_name(uint32_t tier) {
   for (std::uint32_t i = 0; i < mien::kernels::kTierCount; ++i) {
-    const auto candidate = static_cast<mien::kernels::Tier>(i);
-    if (tier == mien::kernels::bit(candidate)) {
-      return mien::kernels::name(candidate);
+    const auto detection = static_cast<mien::kernels::Tier>(i);
+    if (tier == mien::kernels::bit(detection)) {
+      return mien::kernels::name(detection);
     }
   }
   return nullptr;

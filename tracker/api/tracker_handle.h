@@ -5,8 +5,8 @@
 
 #include <cstddef>
 
+#include "tracker/detection/mtcnn_detector.h"
 #include "tracker/faces/face.h"
-#include "tracker/search/mtcnn_proposal.h"
 #include "tracker/tracker.h"
 
 struct mien_tracker {
@@ -14,7 +14,7 @@ struct mien_tracker {
       : tracker(config, encoders, proposal), allocator(config.allocator) {}
 
   mien::tracker::Encoders encoders;
-  mien::tracker::MtcnnProposal proposal;
+  mien::tracker::MtcnnDetector proposal;
   mien::tracker::Tracker tracker;
   mien_allocator allocator;
   std::size_t bytes = 0;

@@ -23,11 +23,11 @@ enum class Making : std::uint8_t {
 };
 
 struct VocabularyRow {
-  static constexpr std::size_t kMostControls = 4;
+  static constexpr std::size_t kMaxControls = 4;
   const char* name;
   Making making = Making::kMean;
   std::size_t count = 0;
-  std::array<std::size_t, kMostControls> controls = {};
+  std::array<std::size_t, kMaxControls> controls = {};
 };
 
 consteval VocabularyRow row(const char* name, std::span<const std::string_view> controls,

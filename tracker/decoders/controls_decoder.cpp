@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tracker/decoders/sides.h"
+#include "tracker/decoders/symmetry.h"
 
 namespace mien::tracker {
 
@@ -27,7 +27,7 @@ void ControlsDecoder::decode(std::span<const float, kFeatures> features,
     const bool driven = (supported_ >> i & 1u) != 0 && std::isfinite(decoded[i]);
     controls[i] = driven ? std::clamp(decoded[i], 0.0f, 1.0f) : 0.0f;
   }
-  even_out_sides(supported_, controls);
+  symmetrize(supported_, controls);
 }
 
 }  // namespace mien::tracker

@@ -39,19 +39,19 @@ void Decoders::reset(std::int32_t level) {
 void Decoders::decode_controls(const Features& basenet, const Features& hifinet, std::int32_t level,
                                float seconds, std::span<float, kControls> controls) {
   const bool to_hifinet = level > kLowestLevel;
-  if (to_hifinet && !fade_.second_is_heard()) {
+  if (to_hifinet && !fade_.second_is_active()) {
     hifinet_controls_.reset();
   }
-  if (!to_hifinet && !fade_.first_is_heard()) {
+  if (!to_hifinet && !fade_.first_is_active()) {
     basenet_controls_.reset();
   }
-  hand_over_capture(level);
+  transfer_capture(level);
   fade_.advance(to_hifinet, seconds);
-  if (!fade_.second_is_heard()) {
+  if (!fade_.second_is_active()) {
     decode(basenet_controls_, basenet_neutral_, basenet, controls);
     return;
   }
-  if (!fade_.first_is_heard()) {
+  if (!fade_.first_is_active()) {
     decode(hifinet_controls_, hifinet_neutral_, hifinet, controls);
     return;
   }
@@ -65,7 +65,7 @@ void Decoders::decode_controls(const Features& basenet, const Features& hifinet,
 }
 
 // So that one of both decoders is captured at most, and not the one that fades out.
-void Decoders::hand_over_capture(std::int32_t level) {
+void Decoders::transfer_capture(std::int32_t level) {
   Neutral& other = neutral(level > kLowestLevel ? kLowestLevel : kHighestLevel);
   if (other.is_being_captured()) {
     other.give_up();
@@ -73,7 +73,7 @@ void Decoders::hand_over_capture(std::int32_t level) {
   }
 }
 
-float Decoders::share_driven(std::size_t control) const {
+float Decoders::supported_share(std::size_t control) const {
   const auto drives = [control](const ControlsDecoder& decoder) {
     return static_cast<float>(decoder.supported() >> control & 1u);
   };

@@ -12,7 +12,7 @@
 #include "engine/arena.h"
 #include "engine/network.h"
 #include "tracker/decoders/controls_decoder.h"
-#include "tracker/decoders/cross_fade.h"
+#include "tracker/decoders/crossfade.h"
 #include "tracker/decoders/neutral.h"
 #include "tracker/encoders/levels.h"
 #include "tracker/encoders/models.h"
@@ -51,22 +51,22 @@ class Decoders {
     return level > kLowestLevel ? hifinet_controls_.supported() : basenet_controls_.supported();
   }
   // Bit i: a decoder that is heard drives control i; while one hands over to the other both are.
-  [[nodiscard]] std::uint64_t heard_controls() const {
-    return (fade_.first_is_heard() ? basenet_controls_.supported() : 0) |
-           (fade_.second_is_heard() ? hifinet_controls_.supported() : 0);
+  [[nodiscard]] std::uint64_t active_controls() const {
+    return (fade_.first_is_active() ? basenet_controls_.supported() : 0) |
+           (fade_.second_is_active() ? hifinet_controls_.supported() : 0);
   }
   // How much of a control comes from decoders that drive it, 0..1.
-  [[nodiscard]] float share_driven(std::size_t control) const;
+  [[nodiscard]] float supported_share(std::size_t control) const;
 
  private:
-  void hand_over_capture(std::int32_t level);
+  void transfer_capture(std::int32_t level);
 
   ControlsDecoder basenet_controls_;
   ControlsDecoder hifinet_controls_;
   Neutral basenet_neutral_;
   Neutral hifinet_neutral_;
   engine::Network pose_;
-  CrossFade fade_;  // from BaseNet's to HiFiNet's controls
+  Crossfade fade_;  // from BaseNet's to HiFiNet's controls
 };
 
 }  // namespace mien::tracker

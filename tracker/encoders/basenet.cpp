@@ -38,11 +38,12 @@ mien_status BaseNet::load_head_points(const engine::Model& model) {
   return MIEN_OK;
 }
 
-bool BaseNet::look(const ImageView& view, const Crop& crop, StageTimer& timer, Sight& sight) {
-  const bool finite = encoder_.look(view, crop, timer, sight);
+bool BaseNet::encode(const ImageView& view, const Crop& crop, StageTimer& timer,
+                     Encoding& encoding) {
+  const bool finite = encoder_.encode(view, crop, timer, encoding);
   const StageTimer::Scope timed(timer, MIEN_STAGE_HEADS);
-  sight.face_probability = face_probability_.run(sight.features)[0];
-  return finite && std::isfinite(sight.face_probability);
+  encoding.face_probability = face_probability_.run(encoding.features)[0];
+  return finite && std::isfinite(encoding.face_probability);
 }
 
 }  // namespace mien::tracker

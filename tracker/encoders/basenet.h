@@ -21,11 +21,12 @@ class BaseNet {
                                  engine::Arena& arena);
 
   // Encoder and plain heads. False when the networks' answer is not finite.
-  [[nodiscard]] bool look(const ImageView& view, const Crop& crop, StageTimer& timer, Sight& sight);
+  [[nodiscard]] bool encode(const ImageView& view, const Crop& crop, StageTimer& timer,
+                            Encoding& encoding);
 
   // The crop that the landmarks of `sight` ask for.
-  [[nodiscard]] bool align(const Sight& sight, Crop& crop) const {
-    return fit_crop(template_, sight.landmarks, crop);
+  [[nodiscard]] bool align(const Encoding& encoding, Crop& crop) const {
+    return fit_crop(template_, encoding.landmarks, crop);
   }
 
   // Unknown if the weights are from before they were told.

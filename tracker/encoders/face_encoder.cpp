@@ -16,7 +16,8 @@ mien_status FaceEncoder::load(const engine::Model& model, const Raster& raster,
   return status == MIEN_OK ? landmarks_.load(model, landmarks, cpu_mask, arena) : status;
 }
 
-bool FaceEncoder::look(const ImageView& view, const Crop& crop, StageTimer& timer, Sight& sight) {
+bool FaceEncoder::encode(const ImageView& view, const Crop& crop, StageTimer& timer,
+                         Encoding& encoding) {
   {
     const StageTimer::Scope timed(timer, MIEN_STAGE_WARP);
     sampler_.cut(view, crop, raster_, encoder_.input());
@@ -26,11 +27,11 @@ bool FaceEncoder::look(const ImageView& view, const Crop& crop, StageTimer& time
     encoder_.run();
   }
   const StageTimer::Scope timed(timer, MIEN_STAGE_HEADS);
-  sight.crop = crop;
-  std::copy_n(encoder_.output(0).begin(), kFeatures, sight.features.begin());
-  const std::span<const float> xy = landmarks_.run(sight.features);
-  sight.landmarks = landmarks_in(crop, xy);
-  return all_finite(sight.features) && all_finite(xy);
+  encoding.crop = crop;
+  std::copy_n(encoder_.output(0).begin(), kFeatures, encoding.features.begin());
+  const std::span<const float> xy = landmarks_.run(encoding.features);
+  encoding.landmarks = landmarks_in(crop, xy);
+  return all_finite(encoding.features) && all_finite(xy);
 }
 
 }  // namespace mien::tracker

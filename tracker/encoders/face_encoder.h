@@ -18,7 +18,7 @@
 namespace mien::tracker {
 
 // What is seen in one crop.
-struct Sight {
+struct Encoding {
   Crop crop;
   float face_probability = 0.0f;  // 0..1, BaseNet's
   Landmarks landmarks = {};
@@ -32,7 +32,8 @@ class FaceEncoder {
                                  std::uint32_t cpu_mask, engine::Arena& arena);
 
   // False when the networks' answer is not finite.
-  [[nodiscard]] bool look(const ImageView& view, const Crop& crop, StageTimer& timer, Sight& sight);
+  [[nodiscard]] bool encode(const ImageView& view, const Crop& crop, StageTimer& timer,
+                            Encoding& encoding);
 
  private:
   Sampler sampler_;

@@ -21,9 +21,9 @@ class HiFiNet {
 
   // Looks at the middle of the crop that the landmarks of this very frame ask for. False when the
   // networks' answer is not finite.
-  [[nodiscard]] bool look(const ImageView& view, const Crop& crop, StageTimer& timer,
-                          Sight& sight) {
-    return encoder_.look(view, crop, timer, sight);
+  [[nodiscard]] bool encode(const ImageView& view, const Crop& crop, StageTimer& timer,
+                            Encoding& encoding) {
+    return encoder_.encode(view, crop, timer, encoding);
   }
 
  private:

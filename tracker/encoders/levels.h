@@ -52,7 +52,7 @@ class LevelGovernor {
     mean_ms_ = frames_ == 0 ? spent_ms : mean_ms_ + kWeight * (spent_ms - mean_ms_);
     ++frames_;
     since_change_ += seconds;
-    if (since_change_ < kSettleSeconds || frames_ < kLeastFrames) {
+    if (since_change_ < kSettleSeconds || frames_ < kMinFrames) {
       return;
     }
     if (mean_ms_ > budget_ms_ && level_ > kLowestLevel) {
@@ -65,7 +65,7 @@ class LevelGovernor {
  private:
   static constexpr float kSettleSeconds = 2.0f;
   static constexpr float kWeight = 0.1f;  // of the newest frame in the mean
-  static constexpr std::int32_t kLeastFrames = 20;
+  static constexpr std::int32_t kMinFrames = 20;
   static constexpr float kRoom = 0.85f;
 
   // How much more a frame costs on the next level, from the multiply-accumulates of the encoders.

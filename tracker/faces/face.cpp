@@ -52,29 +52,29 @@ void Face::reset(std::int32_t level) {
   mien_result_default(&result_);
 }
 
-bool Face::find(Frame& frame, const Candidate& candidate, int alignments, Sight& sight) {
-  Crop crop = {candidate.square.center, candidate.square.side, 0.0f};
+bool Face::find(Frame& frame, const Detection& detection, int alignments, Encoding& encoding) {
+  Crop crop = {detection.square.center, detection.square.side, 0.0f};
   for (int i = 0; i <= alignments; ++i) {
-    if (!is_plausible(crop, frame.view) || !look(frame, crop, sight)) {
+    if (!is_plausible(crop, frame.view) || !encode(frame, crop, encoding)) {
       return false;
     }
-    if (!encoders_.basenet.align(sight, crop)) {
+    if (!encoders_.basenet.align(encoding, crop)) {
       return false;
     }
   }
-  return sight.face_probability >= config_.lose_probability &&
-         agreed(sight.face_probability, candidate.score) >= config_.accept_probability;
+  return encoding.face_probability >= config_.lose_probability &&
+         agreed(encoding.face_probability, detection.score) >= config_.accept_probability;
 }
 
-bool Face::adopt(Frame& frame, const Sight& sight, std::uint32_t id) {
-  if (!accept(frame, sight)) {
+bool Face::start_tracking(Frame& frame, const Encoding& encoding, std::uint32_t id) {
+  if (!accept(frame, encoding)) {
     return false;
   }
   if (frame.level > kLowestLevel) {
-    look_closely(frame);
+    encode_hifinet(frame);
   }
   state_.id = id;
-  state_.followed = true;
+  state_.tracked = true;
   state_.is_new = true;
   state_.alternate = true;
   decoders_.reset(frame.level);
@@ -82,8 +82,8 @@ bool Face::adopt(Frame& frame, const Sight& sight, std::uint32_t id) {
   return true;
 }
 
-void Face::lose_to(const ImageGeometry& before, const ImageGeometry& now) {
-  state_.followed = false;
+void Face::change_geometry(const ImageGeometry& before, const ImageGeometry& now) {
+  state_.tracked = false;
   if (!is_known()) {
     return;
   }
@@ -93,66 +93,67 @@ void Face::lose_to(const ImageGeometry& before, const ImageGeometry& now) {
   crop.side *= std::max(now.width, now.height) / std::max(before.width, before.height);
 }
 
-void Face::follow(Frame& frame) {
-  state_.looked_close = state_.looked_close && frame.level > kLowestLevel;
-  const bool may_rest = frame.level == kLowestLevel || state_.looked_close;
+void Face::track(Frame& frame) {
+  state_.has_hifinet_features = state_.has_hifinet_features && frame.level > kLowestLevel;
+  const bool may_rest = frame.level == kLowestLevel || state_.has_hifinet_features;
   const bool alternate = state_.alternate && may_rest && !frame.cut;
   const EncoderWork work = encoder_work(frame.level, alternate);
   state_.alternate = false;
   if (!work.basenet) {
     return;
   }
-  Sight sight;
-  if (look(frame, state_.crop, sight) && sight.face_probability >= config_.lose_probability) {
-    state_.followed = accept(frame, sight);
+  Encoding encoding;
+  if (encode(frame, state_.crop, encoding) &&
+      encoding.face_probability >= config_.lose_probability) {
+    state_.tracked = accept(frame, encoding);
     state_.alternate = !alternate;
-    if (state_.followed && work.hifinet) {
-      look_closely(frame);
+    if (state_.tracked && work.hifinet) {
+      encode_hifinet(frame);
     }
     return;
   }
-  miss(frame);
+  mark_missed(frame);
 }
 
 // Until the face counts as lost the decoders go on with what was last seen of it. The next image is
 // judged, since misses are those in a row.
-void Face::miss(const Frame& frame) {
+void Face::mark_missed(const Frame& frame) {
   state_.alternate = false;
   ++state_.misses;
-  state_.followed = !frame.cut && state_.misses < config_.lose_after_frames;
+  state_.tracked = !frame.cut && state_.misses < config_.lose_after_frames;
 }
 
-bool Face::look(Frame& frame, const Crop& crop, Sight& sight) {
+bool Face::encode(Frame& frame, const Crop& crop, Encoding& encoding) {
   state_.flags |= MIEN_RESULT_ENCODER_RAN;
   ++frame.encoder_runs;
-  const bool seen = encoders_.basenet.look(frame.view, crop, frame.timer, sight);
+  const bool seen = encoders_.basenet.encode(frame.view, crop, frame.timer, encoding);
   if (seen) {
-    state_.face_probability = sight.face_probability;
+    state_.face_probability = encoding.face_probability;
   }
   return seen;
 }
 
-bool Face::accept(const Frame& frame, const Sight& sight) {
+bool Face::accept(const Frame& frame, const Encoding& encoding) {
   Crop next;
-  if (!encoders_.basenet.align(sight, next) || !is_plausible(next, frame.view)) {
+  if (!encoders_.basenet.align(encoding, next) || !is_plausible(next, frame.view)) {
     return false;
   }
   state_.crop = next;
-  state_.sight = sight;
+  state_.encoding = encoding;
   state_.misses = 0;
   return true;
 }
 
-void Face::look_closely(Frame& frame) {
+void Face::encode_hifinet(Frame& frame) {
   ++frame.encoder_runs;
-  Sight close;
-  if (!encoders_.hifinet.look(frame.view, state_.crop, frame.timer, close)) {
+  Encoding close;
+  if (!encoders_.hifinet.encode(frame.view, state_.crop, frame.timer, close)) {
     return;
   }
-  state_.looked_close = true;
+  state_.has_hifinet_features = true;
   state_.close = close.features;
   const float side = state_.crop.side;
-  std::transform(close.landmarks.begin(), close.landmarks.end(), state_.sight.landmarks.begin(),
+  std::transform(close.landmarks.begin(), close.landmarks.end(), state_.encoding.landmarks.begin(),
                  state_.refinement.begin(), [side](Point fine, Point coarse) {
                    return Point{(fine.x - coarse.x) / side, (fine.y - coarse.y) / side};
                  });
@@ -160,7 +161,7 @@ void Face::look_closely(Frame& frame) {
 
 // HiFiNet's, or on a frame that it did not look at BaseNet's, refined as by HiFiNet before.
 Landmarks Face::landmarks(std::int32_t level) const {
-  Landmarks refined = state_.sight.landmarks;
+  Landmarks refined = state_.encoding.landmarks;
   if (level == kLowestLevel) {
     return refined;
   }
@@ -174,8 +175,8 @@ Landmarks Face::landmarks(std::int32_t level) const {
 
 void Face::animate(Frame& frame) {
   const float share = 1.0f - std::exp(-frame.seconds / kPresenceSeconds);
-  state_.presence += share * ((state_.followed ? 1.0f : 0.0f) - state_.presence);
-  if (!state_.followed) {
+  state_.presence += share * ((state_.tracked ? 1.0f : 0.0f) - state_.presence);
+  if (!state_.tracked) {
     fade(frame.seconds);
     state_.seconds_lost += frame.seconds;
     if (state_.status == MIEN_FACE_TRACKING) {
@@ -186,13 +187,14 @@ void Face::animate(Frame& frame) {
   state_.status = MIEN_FACE_TRACKING;
   state_.seconds_lost = 0.0f;
   const StageTimer::Scope timed(frame.timer, MIEN_STAGE_DECODERS);
-  Appearance& seen = state_.seen;
-  decoders_.decode_controls(state_.sight.features, state_.close, frame.level, frame.seconds,
+  FaceOutput& seen = state_.seen;
+  decoders_.decode_controls(state_.encoding.features, state_.close, frame.level, frame.seconds,
                             seen.controls);
   state_.flags |=
       decoders_.neutral(frame.level).is_being_captured() ? MIEN_RESULT_CAPTURING_NEUTRAL : 0;
-  decoders_.decode_pose(state_.sight.features, state_.sight.crop, frame.view.camera, seen.pose);
-  refine_head_pose(encoders_.basenet.head_points(), state_.sight.landmarks, frame.view.camera,
+  decoders_.decode_pose(state_.encoding.features, state_.encoding.crop, frame.view.camera,
+                        seen.pose);
+  refine_head_pose(encoders_.basenet.head_points(), state_.encoding.landmarks, frame.view.camera,
                    seen.pose);
   seen.landmarks = landmarks(frame.level);
   state_.is_new = state_.is_new || frame.cut;
@@ -217,10 +219,10 @@ void Face::fade(float seconds) {
   }
 }
 
-std::array<float, kControls> Face::seen_controls() const {
+std::array<float, kControls> Face::video_weights() const {
   std::array<float, kControls> seen;
   for (std::size_t i = 0; i < seen.size(); ++i) {
-    seen[i] = state_.presence * decoders_.share_driven(i);
+    seen[i] = state_.presence * decoders_.supported_share(i);
   }
   return seen;
 }
@@ -233,12 +235,12 @@ void Face::publish(const Frame& frame) {
   result.flags |= std::exchange(state_.flags, 0);
   result.face_probability = state_.face_probability;
   result.supported_controls = supported_controls(frame.level);
-  const Appearance& shown = state_.shown;
+  const FaceOutput& shown = state_.shown;
   for (std::size_t i = 0; i < shown.controls.size(); ++i) {
     const bool driven = (result.supported_controls >> i & 1u) != 0;
     result.controls[i] = driven ? shown.controls[i] : 0.0f;  // smoothing never quite arrives at 0
   }
-  if (!state_.followed) {
+  if (!state_.tracked) {
     return;
   }
   const Crop& crop = state_.crop;

@@ -6,10 +6,10 @@
 #include <cstdint>
 
 #include "tracker/decoders/decoders.h"
+#include "tracker/detection/squares.h"
 #include "tracker/encoders/basenet.h"
 #include "tracker/encoders/hifinet.h"
 #include "tracker/image/image_view.h"
-#include "tracker/search/squares.h"
 #include "tracker/stage_timer.h"
 
 namespace mien::tracker {
@@ -31,7 +31,7 @@ struct Frame {
 };
 
 // What is told about a face on one frame.
-struct Appearance {
+struct FaceOutput {
   std::array<float, kControls> controls = {};
   Landmarks landmarks = {};
   HeadPose pose;
@@ -52,7 +52,7 @@ class Face {
   }
 
   [[nodiscard]] std::uint32_t id() const { return state_.id; }
-  [[nodiscard]] bool is_followed() const { return state_.followed; }
+  [[nodiscard]] bool is_tracked() const { return state_.tracked; }
   // It is followed, or was once.
   [[nodiscard]] bool is_known() const { return state_.status != MIEN_FACE_SEARCHING; }
   // Since it was followed last.
@@ -66,31 +66,32 @@ class Face {
   // Bit i: control i is driven, at this level or by what still fades out of another.
   [[nodiscard]] std::uint64_t supported_controls(std::int32_t level) const {
     const bool shows = is_known() && seconds_lost() < kRememberedSeconds;
-    return decoders_.supported_controls(level) | (shows ? decoders_.heard_controls() : 0);
+    return decoders_.supported_controls(level) | (shows ? decoders_.active_controls() : 0);
   }
 
   // Forgets everything.
   void reset(std::int32_t level);
   // Pixels mean other places than before: it is followed no more, and what is known of its place
   // is brought over.
-  void lose_to(const ImageGeometry& before, const ImageGeometry& now);
+  void change_geometry(const ImageGeometry& before, const ImageGeometry& now);
   // The decoders begin anew: the film was cut.
   void cut(std::int32_t level) { decoders_.reset(level); }
 
   // Whether the candidate is a face, judged after so many alignments of the crop to its landmarks;
   // if so, what is seen of it, and where.
-  [[nodiscard]] bool find(Frame& frame, const Candidate& candidate, int alignments, Sight& sight);
+  [[nodiscard]] bool find(Frame& frame, const Detection& detection, int alignments,
+                          Encoding& encoding);
   // Follows from now on the face that was found. False if it cannot be.
-  [[nodiscard]] bool adopt(Frame& frame, const Sight& sight, std::uint32_t id);
+  [[nodiscard]] bool start_tracking(Frame& frame, const Encoding& encoding, std::uint32_t id);
   // Nothing in the image looks like a face.
-  void see_nothing() { state_.face_probability = 0.0f; }
+  void mark_absent() { state_.face_probability = 0.0f; }
 
   // Looks for it where it was.
-  void follow(Frame& frame);
+  void track(Frame& frame);
   // It was not seen on this frame.
-  void miss(const Frame& frame);
+  void mark_missed(const Frame& frame);
   // How much the picture says of each control, 0..1: the face comes and goes within a few frames.
-  [[nodiscard]] std::array<float, kControls> seen_controls() const;
+  [[nodiscard]] std::array<float, kControls> video_weights() const;
   // One frame of output: controls move on if it is followed, and fade if not.
   void animate(Frame& frame);
 
@@ -102,16 +103,16 @@ class Face {
  private:
   struct State {
     std::uint32_t id = 0;
-    bool followed = false;      // `crop` and `sight` are a face
-    bool alternate = false;     // the next frame is one on which encoders may rest
-    bool looked_close = false;  // HiFiNet did, since the level was 1
-    std::int32_t misses = 0;    // judged frames in a row without the face
-    Crop crop;                  // where to look next
-    Sight sight;                // the last time the face was seen
-    Features close = {};        // HiFiNet's, of the last time that it looked
+    bool tracked = false;               // `crop` and `sight` are a face
+    bool alternate = false;             // the next frame is one on which encoders may rest
+    bool has_hifinet_features = false;  // HiFiNet did, since the level was 1
+    std::int32_t misses = 0;            // judged frames in a row without the face
+    Crop crop;                          // where to look next
+    Encoding encoding;                  // the last time the face was seen
+    Features close = {};                // HiFiNet's, of the last time that it looked
     Landmarks refinement = {};  // of BaseNet's landmarks by HiFiNet's then, in sides of the crop
-    Appearance seen;
-    Appearance shown;    // smoothed
+    FaceOutput seen;
+    FaceOutput shown;    // smoothed
     bool is_new = true;  // nothing to smooth with yet
     mien_face_status status = MIEN_FACE_SEARCHING;
     float seconds_lost = 0.0f;
@@ -120,9 +121,9 @@ class Face {
     std::uint32_t flags = 0;        // MIEN_RESULT_* of this frame
   };
 
-  [[nodiscard]] bool look(Frame& frame, const Crop& crop, Sight& sight);
-  [[nodiscard]] bool accept(const Frame& frame, const Sight& sight);
-  void look_closely(Frame& frame);
+  [[nodiscard]] bool encode(Frame& frame, const Crop& crop, Encoding& encoding);
+  [[nodiscard]] bool accept(const Frame& frame, const Encoding& encoding);
+  void encode_hifinet(Frame& frame);
   [[nodiscard]] Landmarks landmarks(std::int32_t level) const;
   void show(float seconds);
   void fade(float seconds);

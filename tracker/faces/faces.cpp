@@ -17,7 +17,7 @@ float distance(const Square& a, const Square& b) {
 }
 
 bool was_lost_here(const Face& face, const Square& square) {
-  return face.is_known() && !face.is_followed() && face.seconds_lost() < Face::kRememberedSeconds &&
+  return face.is_known() && !face.is_tracked() && face.seconds_lost() < Face::kRememberedSeconds &&
          distance(face.square(), square) < kNear;
 }
 
@@ -28,23 +28,23 @@ mien_status Faces::load(const mien_tracker_config& config, Encoders& encoders, c
   static_assert(std::is_trivially_destructible_v<Face>, "the arena destroys nothing");
   static_assert(alignof(Face) <= engine::Arena::kAlignment && sizeof(Face) % alignof(Face) == 0);
   const auto count = static_cast<std::size_t>(config.max_faces);
-  const std::span<std::byte> room = arena.take(count * sizeof(Face));
+  const std::span<std::byte> memory = arena.take(count * sizeof(Face));
   mien_status status = MIEN_OK;
   for (std::size_t i = 0; status == MIEN_OK && i < count; ++i) {
     if (arena.measuring()) {
       Decoders measured;  // a whole face would take more of the stack
       status = measured.load(models, config.cpu_mask, arena);
     } else {
-      status = (new (room.data() + i * sizeof(Face)) Face(config, encoders))->load(models, arena);
+      status = (new (memory.data() + i * sizeof(Face)) Face(config, encoders))->load(models, arena);
     }
   }
-  faces_ = {reinterpret_cast<Face*>(room.data()), arena.measuring() ? 0 : count};
+  faces_ = {reinterpret_cast<Face*>(memory.data()), arena.measuring() ? 0 : count};
   return status;
 }
 
-std::size_t Faces::followed() const {
+std::size_t Faces::tracked() const {
   return static_cast<std::size_t>(std::count_if(
-      faces_.begin(), faces_.end(), [](const Face& face) { return face.is_followed(); }));
+      faces_.begin(), faces_.end(), [](const Face& face) { return face.is_tracked(); }));
 }
 
 const Face* Faces::known(std::size_t n) const {
@@ -70,23 +70,23 @@ void Faces::reset(std::int32_t level) {
 
 bool Faces::is_taken(const Square& square) const {
   return std::any_of(faces_.begin(), faces_.end(), [&](const Face& face) {
-    return face.is_followed() && distance(face.square(), square) < kSamePlace;
+    return face.is_tracked() && distance(face.square(), square) < kSamePlace;
   });
 }
 
-bool Faces::welcome(Frame& frame, const Candidate& candidate, int alignments) {
-  const Square& square = candidate.square;
+bool Faces::add_face(Frame& frame, const Detection& detection, int alignments) {
+  const Square& square = detection.square;
   if (is_taken(square)) {
     return false;
   }
   Face& face = place_for(square);
-  Sight sight;
-  if (!face.find(frame, candidate, alignments, sight) ||
-      is_taken({sight.crop.center, sight.crop.side})) {
+  Encoding encoding;
+  if (!face.find(frame, detection, alignments, encoding) ||
+      is_taken({encoding.crop.center, encoding.crop.side})) {
     return false;
   }
   const std::uint32_t id = was_lost_here(face, square) ? face.id() : newest_id_ + 1;
-  if (!face.adopt(frame, sight, id)) {
+  if (!face.start_tracking(frame, encoding, id)) {
     return false;
   }
   newest_id_ = std::max(newest_id_, id);
@@ -96,7 +96,7 @@ bool Faces::welcome(Frame& frame, const Candidate& candidate, int alignments) {
 // That of a face lost here; else one that is free; else that of the face lost longest ago.
 Face& Faces::place_for(const Square& square) {
   const auto worth = [&](const Face& face) {
-    if (face.is_followed()) {
+    if (face.is_tracked()) {
       return -1.0f;
     }
     if (was_lost_here(face, square)) {
@@ -108,11 +108,11 @@ Face& Faces::place_for(const Square& square) {
                            [&](const Face& a, const Face& b) { return worth(a) < worth(b); });
 }
 
-void Faces::drop_doubles(std::int32_t level) {
+void Faces::drop_duplicates(std::int32_t level) {
   for (Face& younger : faces_) {
     const bool is_double =
-        younger.is_followed() && std::any_of(faces_.begin(), faces_.end(), [&](const Face& older) {
-          return older.is_followed() && older.id() < younger.id() &&
+        younger.is_tracked() && std::any_of(faces_.begin(), faces_.end(), [&](const Face& older) {
+          return older.is_tracked() && older.id() < younger.id() &&
                  distance(older.square(), younger.square()) < kSamePlace;
         });
     if (is_double) {
@@ -124,7 +124,7 @@ void Faces::drop_doubles(std::int32_t level) {
 void Faces::forget_lost(std::int32_t level) {
   for (Face& face : faces_) {
     const bool is_last = known(1) == nullptr;
-    if (!is_last && face.is_known() && !face.is_followed() &&
+    if (!is_last && face.is_known() && !face.is_tracked() &&
         face.seconds_lost() > Face::kRememberedSeconds) {
       face.reset(level);
     }

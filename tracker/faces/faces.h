@@ -21,8 +21,8 @@ class Faces {
 
   [[nodiscard]] std::span<Face> all() { return faces_; }
   [[nodiscard]] std::span<const Face> all() const { return faces_; }
-  [[nodiscard]] std::size_t followed() const;
-  [[nodiscard]] bool has_room() const { return followed() < faces_.size(); }
+  [[nodiscard]] std::size_t tracked() const;
+  [[nodiscard]] bool has_free_slot() const { return tracked() < faces_.size(); }
 
   // The known one with the n-th lowest id; nullptr: there are not so many.
   [[nodiscard]] const Face* known(std::size_t n) const;
@@ -42,10 +42,10 @@ class Faces {
   // Whether the candidate is a face that nobody follows yet; if so it is followed from now on,
   // under its old id if it was lost here lately. Only while there is room. `alignments`: of the
   // crop to its landmarks, before it is judged.
-  [[nodiscard]] bool welcome(Frame& frame, const Candidate& candidate, int alignments);
+  [[nodiscard]] bool add_face(Frame& frame, const Detection& detection, int alignments);
 
   // Of faces followed at the same place only the one known longest stays.
-  void drop_doubles(std::int32_t level);
+  void drop_duplicates(std::int32_t level);
   // Those lost for long, but for the last of all.
   void forget_lost(std::int32_t level);
 

@@ -8,7 +8,7 @@ namespace {
 constexpr float kScale = 1.0f / 127.5f;
 constexpr float kBlack = -1.0f;
 // From there on a bilinear sample would miss too much of what lies between it and the next.
-constexpr float kMostPixelsApart = 1.5f;
+constexpr float kMaxPixelsApart = 1.5f;
 constexpr std::int32_t kLargestBox = 8;
 
 kernels::PixelFormat pixel_format(std::int32_t format) {
@@ -61,7 +61,7 @@ void set_planes(const mien_image& image, kernels::WarpArgs& args) {
 // The smallest power of two with which samples lie close enough.
 std::int32_t box(float pixels_apart) {
   std::int32_t box = 1;
-  while (box < kLargestBox && pixels_apart > kMostPixelsApart * static_cast<float>(box)) {
+  while (box < kLargestBox && pixels_apart > kMaxPixelsApart * static_cast<float>(box)) {
     box *= 2;
   }
   return box;

@@ -1,4 +1,4 @@
-// Weights in fixed point, as fixed_weights.h wants them.
+// Weights in fixed point, as quantize_weights.h wants them.
 #pragma once
 
 #include "apps/conformance/families/common.h"
@@ -14,7 +14,7 @@ struct FixedPoint {
   // Before they are rounded: w / step. `pairs` has them in this order.
   std::vector<double> quotients;
   std::vector<std::uint16_t> pairs;  // two's complement
-  std::vector<float> steps;
+  std::vector<float> scales;
 };
 
 }  // namespace mien::conformance

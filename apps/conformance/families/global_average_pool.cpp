@@ -6,11 +6,11 @@ namespace {
 using kernels::GlobalAveragePoolArgs;
 
 // Of a large map a mean is as good as that of so many pixels.
-constexpr int kMostRoundings = 512;
+constexpr int kMaxRoundings = 512;
 
 Case make(const std::vector<float>& x, int pixels, int channels) {
   Arithmetic by_parts = kSingleArithmetic;
-  by_parts.chunk = kMostRoundings;
+  by_parts.chunk = kMaxRoundings;
   const auto mean = [&](int c, int) {
     Sum sum(by_parts);
     for (int p = 0; p < pixels; ++p) {

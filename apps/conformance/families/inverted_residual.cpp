@@ -24,7 +24,7 @@ constexpr int kLongCases = 8;  // every eighth case has long sums
 
 // The engine makes none for longer sums.
 bool has_fixed_weights(const Shape& s) {
-  return std::max(s.in_c, s.hidden_c) <= kernels::kFixedWeightsMostInputs;
+  return std::max(s.in_c, s.hidden_c) <= kernels::kQuantizedWeightsMaxInputs;
 }
 
 // What the block computes its inner sums with: a tier in fp16 takes fp32 for a block with long
@@ -37,7 +37,7 @@ Arithmetic block_arithmetic(const Arithmetic& tier, const Shape& of) {
 }
 
 struct Activations {
-  RandomActivation expand, slide, project;
+  RandomActivation expand, depthwise, project;
 };
 
 // Steps in fp32 are not quite those that halves are taken of here.
@@ -68,7 +68,7 @@ struct Layers {
   std::vector<float> x;
   std::vector<std::uint16_t> w1, b1, w2, b2, w3, b3;
   FixedPoint fixed1, fixed3;  // of w1 and w3
-  bool is_fixed = false;      // what is expanded and projected is in fixed point
+  bool is_quantized = false;  // what is expanded and projected is in fixed point
 
   Layers(RandomValues& random, const Shape& of)
       : shape(of),
@@ -88,16 +88,16 @@ struct Layers {
     } else if (random.pattern() == Pattern::kHuge) {
       make_room(1e-12f);
     }
-    fix_weights(of);
+    quantize_weights(of);
   }
 
-  void fix_weights(const Shape& of) {
+  void quantize_weights(const Shape& of) {
     if (!has_fixed_weights(of)) {
       return;
     }
-    fixed3 = FixedPoint(w3, of.out_c, of.hidden_c, kernels::kFixedBandMost, false);
+    fixed3 = FixedPoint(w3, of.out_c, of.hidden_c, kernels::kQuantizedBandMax, false);
     if (of.in_c > 0) {
-      fixed1 = FixedPoint(w1, of.hidden_c, of.in_c, kernels::kFixedMapMost, true);
+      fixed1 = FixedPoint(w1, of.hidden_c, of.in_c, kernels::kQuantizedMapMax, true);
     }
   }
 
@@ -107,14 +107,15 @@ struct Layers {
     for (const float one : x) {
       largest = std::max(largest, std::abs(one));
     }
-    return is_fixed ? static_cast<double>(largest) / kernels::kFixedMapMost * kHalfStep : 0.0;
+    return is_quantized ? static_cast<double>(largest) / kernels::kQuantizedMapMax * kHalfStep
+                        : 0.0;
   }
-  [[nodiscard]] double slid_error(const RandomActivation& activation) const {
+  [[nodiscard]] double depthwise_error(const RandomActivation& activation) const {
     const double most = activation.kind == Activation::kClamp01 ? 1.0 : 6.0;
-    return is_fixed ? most / kernels::kFixedBandMost * kHalfStep : 0.0;
+    return is_quantized ? most / kernels::kQuantizedBandMax * kHalfStep : 0.0;
   }
   [[nodiscard]] double weight_error(const FixedPoint& fixed, int o) const {
-    return is_fixed ? static_cast<double>(fixed.steps[as_size(o)]) * kHalfStep : 0.0;
+    return is_quantized ? static_cast<double>(fixed.scales[as_size(o)]) * kHalfStep : 0.0;
   }
 
   void make_positive() {
@@ -126,7 +127,7 @@ struct Layers {
         one &= 0x7fff;
       }
     }
-    fix_weights(shape);
+    quantize_weights(shape);
   }
 
   // Makes `largest` the largest value of the expansion.
@@ -163,27 +164,28 @@ struct Layers {
     });
   }
 
-  [[nodiscard]] std::vector<Approx> slid(const std::vector<Approx>& wide,
-                                         const RandomActivation& activation) const {
+  [[nodiscard]] std::vector<Approx> depthwise_output(const std::vector<Approx>& fp32_weights,
+                                                     const RandomActivation& activation) const {
     const Window& window = shape.window;
     const int taps = window.kernel_h * window.kernel_w;
     return expected_map(shape.hidden_c, window.out_pixels(), [&](int c, int p) {
       ErringSum sum(inner_sums);
       sum.add(exact(widened(b2[as_size(c)])));
       window.for_each(p, [&](int tap, int pixel) {
-        sum.add(wide[blocked(c, pixel, window.in_pixels())], widened(w2[blocked(c, tap, taps)]));
+        sum.add(fp32_weights[blocked(c, pixel, window.in_pixels())],
+                widened(w2[blocked(c, tap, taps)]));
       });
       return activation(sum.total(), c);
     });
   }
 
   // `error`: of what is slid, besides.
-  [[nodiscard]] Approx projected(const std::vector<Approx>& narrow, double error, int o,
+  [[nodiscard]] Approx projected(const std::vector<Approx>& half_input, double error, int o,
                                  int p) const {
     ErringSum sum(sums);
     sum.add(exact(widened(b3[as_size(o)])));
     for (int c = 0; c < shape.hidden_c; ++c) {
-      const Approx& s = narrow[blocked(c, p, shape.window.out_pixels())];
+      const Approx& s = half_input[blocked(c, p, shape.window.out_pixels())];
       sum.add({s.value, s.error + error},
               panel_weight(w3, shape.out_c, padded(shape.hidden_c), o, c), weight_error(fixed3, o));
     }
@@ -193,12 +195,12 @@ struct Layers {
 
 std::vector<Approx> expected(const Layers& layers, const Activations& activations,
                              const ResidualSlice* slice, const std::vector<float>& residual) {
-  const std::vector<Approx> slid =
-      layers.slid(layers.expanded(activations.expand), activations.slide);
+  const std::vector<Approx> depthwise_output =
+      layers.depthwise_output(layers.expanded(activations.expand), activations.depthwise);
   const Window& window = layers.shape.window;
-  const double error = layers.slid_error(activations.slide);
+  const double error = layers.depthwise_error(activations.depthwise);
   return expected_map(layers.shape.out_c, window.out_pixels(), [&](int o, int p) {
-    const Approx y = activations.project(layers.projected(slid, error, o, p), o);
+    const Approx y = activations.project(layers.projected(depthwise_output, error, o, p), o);
     return slice == nullptr
                ? y
                : y + exact(static_cast<double>(
@@ -237,8 +239,8 @@ bool is_bounded(const RandomActivation& activation) {
 Case make(RandomValues& random, Layers layers, const Activations& activations,
           const ResidualSlice* slice) {
   const Shape shape = layers.shape;
-  layers.is_fixed =
-      random.arithmetic().is_fixed && has_fixed_weights(shape) && is_bounded(activations.slide);
+  layers.is_quantized = random.arithmetic().is_quantized && has_fixed_weights(shape) &&
+                        is_bounded(activations.depthwise);
   const std::vector<float> residual =
       slice != nullptr ? random.map(slice->pixels(), shape.out_c) : std::vector<float>();
   const Tiling& t = shape.tiling;
@@ -257,13 +259,13 @@ Case make(RandomValues& random, Layers layers, const Activations& activations,
       reads(residual),
       scratch(as_size((shape.hidden_c + 15) / 16 * 16 * t.band_rows * shape.window.out_w)),
       scratch(as_size(t.strip_channels * t.strip_rows * t.strip_w)),
-      scratch(as_size(kernels::kInvertedResidualWideElems)),
+      scratch(as_size(kernels::kInvertedResidualFp32WeightElems)),
       scratch(as_size((shape.in_c + 31) / 32 * 16 * narrow_rows(shape) * shape.window.in_w)),
       writes(Element::kFloat, expected(layers, activations, slice, residual)),
       reads(layers.fixed1.pairs),
-      reads(layers.fixed1.steps),
+      reads(layers.fixed1.scales),
       reads(layers.fixed3.pairs),
-      reads(layers.fixed3.steps)};
+      reads(layers.fixed3.scales)};
   const ResidualSlice taken = slice != nullptr ? *slice : ResidualSlice();
   test.bind = [=](const Places& places) {
     InvertedResidualArgs args = sizes(shape);
@@ -272,8 +274,8 @@ Case make(RandomValues& random, Layers layers, const Activations& activations,
     args.expand = {shape.in_c == 0 ? nullptr : places.halves(1), places.halves(2),
                    activations.expand.spec(nullptr), fixed ? places.int16s(13) : nullptr,
                    fixed ? places.floats(14) : nullptr};
-    args.slide = {places.halves(3), places.halves(4), activations.slide.spec(nullptr), nullptr,
-                  nullptr};
+    args.depthwise = {places.halves(3), places.halves(4), activations.depthwise.spec(nullptr),
+                      nullptr, nullptr};
     args.project = {places.halves(5), places.halves(6), activations.project.spec(nullptr),
                     fixed ? places.int16s(15) : nullptr, fixed ? places.floats(16) : nullptr};
     if (taken.h > 0) {
@@ -281,8 +283,8 @@ Case make(RandomValues& random, Layers layers, const Activations& activations,
     }
     args.band = places.floats(8);
     args.strip = places.floats(9);
-    args.wide = places.floats(10);
-    args.narrow = places.floats(11);
+    args.fp32_weights = places.floats(10);
+    args.half_input = places.floats(11);
     args.y = places.floats(12);
     return arguments(args);
   };
@@ -321,7 +323,7 @@ Shape long_shape(RandomValues& random) {
                       {one_tap, few, 4096},
                       {many_taps, few, few},
                       {one_tap, longest_half + random.between(0, 1), few},
-                      {one_tap, kernels::kFixedWeightsMostInputs, few}};
+                      {one_tap, kernels::kQuantizedWeightsMaxInputs, few}};
   const Sums& sums = all[random.case_number() / kLongCases % static_cast<int>(std::size(all))];
   return {sums.window, sums.in_c, sums.hidden_c, random.size(10),
           random_tiling(random, sums.window)};

@@ -9,11 +9,11 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "apps/mien/bench/audio_bench.h"
 #include "apps/mien/bench/clip_bench.h"
 #include "apps/mien/bench/layer_bench.h"
 #include "apps/mien/bench/level_bench.h"
 #include "apps/mien/bench/network_times.h"
-#include "apps/mien/bench/sound_bench.h"
 #include "apps/mien/networks/model_files.h"
 #include "apps/mien/networks/tiers.h"
 #include "apps/mien/system/failure.h"
@@ -161,7 +161,7 @@ void bench(const BenchOptions& options) {
     return bench_levels(options);
   }
   if (options.sound) {
-    return bench_sound(options);
+    return bench_audio(options);
   }
   std::map<std::string, double> peaks;
   for (const std::string& tier : tiers_to_time(options.tier)) {

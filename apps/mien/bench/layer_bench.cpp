@@ -10,14 +10,14 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double kLayerSeconds = 0.5;
-constexpr std::size_t kLeastTurns = 20;
+constexpr std::size_t kMinTurns = 20;
 
 // [step][run], sorted.
 std::vector<std::vector<double>> times_us(NetworkRunner& runner) {
   std::vector<std::vector<double>> times(static_cast<std::size_t>(runner.step_count()));
   const auto begin = Clock::now();
   auto now = begin;
-  while (times.front().size() < kLeastTurns ||
+  while (times.front().size() < kMinTurns ||
          std::chrono::duration<double>(now - begin).count() < kLayerSeconds) {
     for (std::size_t i = 0; i < times.size(); ++i) {
       const auto step_begin = Clock::now();

@@ -26,7 +26,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kFrames = 60;
-constexpr int kMostStarts = 20;
+constexpr int kMaxStarts = 20;
 constexpr int kTurns = 33;  // of all networks, for each round
 constexpr std::int64_t kFrameNs = 33'333'333;
 constexpr std::int32_t kSoundRate = 16'000;
@@ -86,7 +86,7 @@ LoadedTracker::Options tracker_options(const BenchOptions& options, int lod) {
 // From the files, in the system's cache, to a tracker.
 double fastest_start_ms(const BenchOptions& options) {
   double fastest = 1e9;
-  for (int i = 0; i < std::min(kMostStarts, options.rounds); ++i) {
+  for (int i = 0; i < std::min(kMaxStarts, options.rounds); ++i) {
     const auto begin = Clock::now();
     const LoadedTracker loaded(tracker_options(options, kHighest));
     fastest = std::min(fastest, us_since(begin) * 1e-3);

@@ -10,8 +10,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double kNetworkSeconds = 0.5;
-constexpr std::size_t kLeastRuns = 20;
-constexpr std::size_t kMostRuns = 5000;
+constexpr std::size_t kMinRuns = 20;
+constexpr std::size_t kMaxRuns = 5000;
 
 double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
@@ -28,8 +28,8 @@ std::vector<double> network_times_ms(NetworkRunner& runner) {
   runner.run();
   std::vector<double> times;
   const auto begin = Clock::now();
-  while (times.size() < kLeastRuns ||
-         (times.size() < kMostRuns && seconds_since(begin) < kNetworkSeconds)) {
+  while (times.size() < kMinRuns ||
+         (times.size() < kMaxRuns && seconds_since(begin) < kNetworkSeconds)) {
     const auto run_begin = Clock::now();
     runner.run();
     times.push_back(seconds_since(run_begin) * 1e3);

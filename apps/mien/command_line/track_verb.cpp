@@ -91,7 +91,7 @@ void add_track(CLI::App& program) {
   }
   verb->callback([options, batch] {
     options->animation.writing.several_faces = options->max_faces > 1;
-    options->animation.writing.sound_file =
+    options->animation.writing.audio_file =
         without_credentials(options->audio.empty() ? options->input : options->audio);
     if (options->max_faces > 1 && (batch->reports || !options->report.empty())) {
       throw Failure(kExitUsage, "a report shows one face; follow one");

@@ -8,7 +8,7 @@ namespace mien::app {
 namespace {
 
 // Deviations below this are rounding: such a curve does not move.
-constexpr double kLeastSpread = 1e-9;
+constexpr double kMinSpread = 1e-9;
 
 int sign(double value) { return (value > 0.0) - (value < 0.0); }
 
@@ -49,7 +49,7 @@ std::optional<double> correlation(const Series& series, const Difference& of) {
     ab += a * b;
   }
   const double spread = std::sqrt(aa * bb);
-  if (spread <= kLeastSpread * static_cast<double>(of.frames)) {
+  if (spread <= kMinSpread * static_cast<double>(of.frames)) {
     return std::nullopt;
   }
   return ab / spread;

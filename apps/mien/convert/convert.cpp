@@ -176,7 +176,7 @@ void convert(const ConvertOptions& options) {
   formats::WriteOptions writing = options.writing;
   writing.several_faces =
       count_named(count_faces(clip.frames)) > 0 && formats::holds_several_faces(target.format);
-  writing.sound_file = clip.sound_file;
+  writing.audio_file = clip.audio_file;
   std::optional<EvenFrames> even;
   if (options.fps) {
     even.emplace(std::move(clip.frames), *options.fps);

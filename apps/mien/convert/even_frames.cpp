@@ -13,8 +13,8 @@ namespace {
 using formats::Frame;
 using formats::FrameSequence;
 
-constexpr double kMostFrames = 1e7;
-constexpr std::size_t kMostFaces = 1000;
+constexpr double kMaxFrames = 1e7;
+constexpr std::size_t kMaxFaces = 1000;
 
 }  // namespace
 
@@ -25,7 +25,7 @@ EvenFrames::EvenFrames(FrameSequence frames, double fps) {
   for (const FrameSequence& part : parts_) {
     count += formats::Resampler::count(part, fps);
   }
-  if (!(count <= kMostFrames)) {
+  if (!(count <= kMaxFrames)) {
     throw Failure(kExitUsage, "--fps: these would be more than ten million frames");
   }
   for (const FrameSequence& part : parts_) {
@@ -39,7 +39,7 @@ void EvenFrames::split(FrameSequence frames) {
   std::map<std::int64_t, std::size_t> ids;
   for (const Frame& frame : frames) {
     ids.try_emplace(frame.face_id, 0);
-    if (ids.size() > kMostFaces) {
+    if (ids.size() > kMaxFaces) {
       throw Failure(kExitUsage, "--fps: there are more than 1000 faces; choose one with --face");
     }
   }

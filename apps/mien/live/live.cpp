@@ -56,7 +56,7 @@ std::string microphone_of(const LiveOptions& options, const std::string& camera)
   if (!camera.starts_with(kTest)) {
     return default_device(CaptureKind::kMicrophone);
   }
-  return Input(file_played_by(camera)).has_sound() ? camera : kNone;
+  return Input(file_played_by(camera)).has_audio() ? camera : kNone;
 }
 
 double time_of_day_s() {
@@ -151,7 +151,7 @@ class Live {
       check(loaded_.tracker.advance(steady_now_ns()), camera_name_);
       output(nullptr);
     }
-    if (ever_picture_ && now_ns - std::max(last_picture_ns_, last_restart_ns_) > kSilentNs) {
+    if (had_image_ && now_ns - std::max(last_picture_ns_, last_restart_ns_) > kSilentNs) {
       last_restart_ns_ = now_ns;
       camera_.restart("no picture for 5 s; it is opened anew");
     }
@@ -162,7 +162,7 @@ class Live {
     Result result;
     check(loaded_.tracker.get_result(result), camera_name_);
     if (picture != nullptr) {
-      ever_picture_ = true;
+      had_image_ = true;
       outgoing_.picture = openseeface_picture(result, picture->image, options_.fov_degrees);
     }
     const std::int64_t now_ns = steady_now_ns();
@@ -256,7 +256,7 @@ class Live {
     state.automatic = automatic_;
     state.mirrored = mirror_;
     state.calibrating = calibrating_;
-    state.dropped_pictures = camera_.dropped();
+    state.dropped_images = camera_.dropped();
     state.dropped_packets = dropped_packets_;
     return state;
   }
@@ -312,7 +312,7 @@ class Live {
   LiveStatistics statistics_;
   Outgoing outgoing_;
   formats::Frame shown_;
-  bool mirror_, automatic_, calibrating_ = false, quit_ = false, ever_picture_ = false;
+  bool mirror_, automatic_, calibrating_ = false, quit_ = false, had_image_ = false;
   int level_ = 0;
   std::int64_t number_ = 0, begin_ns_ = 0;
   std::int64_t last_picture_ns_ = 0, last_output_ns_ = 0, last_draw_ns_ = 0, last_restart_ns_ = 0;

@@ -6,11 +6,11 @@
 #include <string>
 
 #include "apps/mien/live/capture_thread.h"
-#include "apps/mien/sources/sound_source.h"
+#include "apps/mien/sources/audio_source.h"
 
 namespace mien::app {
 
-class Microphone : public CaptureThread<SoundSource, LiveSound, Audio> {
+class Microphone : public CaptureThread<AudioSource, LiveSound, Audio> {
  public:
   // "test:FILE": the sound of a file, as if it happened; else a device or a URL, which is waited
   // for. The tracker has room for half a second (mien_tracker_config.audio_queue_samples) and

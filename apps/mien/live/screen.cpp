@@ -96,7 +96,7 @@ std::string screen_text(const ScreenState& state, const LiveStatistics& statisti
   }
   text +=
       labelled("frames", formats::fixed(statistics.frames_per_second(), 1) +
-                             " a second, dropped: " + std::to_string(state.dropped_pictures) +
+                             " a second, dropped: " + std::to_string(state.dropped_images) +
                              " pictures, " + std::to_string(state.dropped_packets) + " packets");
   text += labelled("level", std::to_string(state.level) + (state.automatic ? " (automatic)" : "") +
                                 (state.mirrored ? ", mirrored" : ""));

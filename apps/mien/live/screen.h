@@ -16,7 +16,7 @@ struct ScreenState {
   formats::Frame frame;                // as it is sent
   int level = 0;                       // that runs
   bool automatic = false, mirrored = false, calibrating = false;
-  std::uint64_t dropped_pictures = 0;  // since the beginning
+  std::uint64_t dropped_images = 0;  // since the beginning
   std::uint64_t dropped_packets = 0;
 };
 

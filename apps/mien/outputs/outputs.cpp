@@ -37,7 +37,7 @@ ReportOptions report_options(const TrackOptions& options, const VideoInfo& info)
 
 Outputs::Outputs(const TrackOptions& options, const VideoInfo& info, const VideoRange& range)
     : faces_(options.max_faces > 1 ? Faces::kSeveral : Faces::kOne),
-      sound_offset_ns_(std::llround(options.av_offset_ms * 1e6)) {
+      audio_offset_ns_(std::llround(options.av_offset_ms * 1e6)) {
   if (wants_animation(options)) {
     for (const AnimationTarget& target : targets(options.animation)) {
       animations_.emplace_back(target, options.animation.writing);
@@ -49,10 +49,10 @@ Outputs::Outputs(const TrackOptions& options, const VideoInfo& info, const Video
   }
   if (!options.overlay.empty()) {
     overlay_ = std::make_unique<Overlay>(info.width, info.height);
-    const std::string sound_from = options.input == "-" ? "" : options.input;
+    const std::string audio_from = options.input == "-" ? "" : options.input;
     encoder_ =
         std::make_unique<VideoEncoder>(options.overlay, overlay_->width(), overlay_->height(),
-                                       info.fps, sound_from, options.audio_track, range);
+                                       info.fps, audio_from, options.audio_track, range);
   }
   if (!options.report.empty()) {
     report_ = std::make_unique<Report>(report_options(options, info));
@@ -77,12 +77,12 @@ void Outputs::frame(std::int64_t number, const mien_image* image, std::span<cons
   }
 }
 
-SoundFeed::Listener Outputs::listener() {
+AudioFeed::Listener Outputs::listener() {
   if (!report_) {
     return {};
   }
   return [this](const Audio& block, std::int64_t pts_ns) {
-    report_->hear(block, pts_ns + sound_offset_ns_);
+    report_->hear(block, pts_ns + audio_offset_ns_);
   };
 }
 

@@ -13,7 +13,7 @@
 #include "apps/mien/outputs/overlay.h"
 #include "apps/mien/outputs/video_encoder.h"
 #include "apps/mien/report/report.h"
-#include "apps/mien/sources/sound_source.h"
+#include "apps/mien/sources/audio_source.h"
 #include "apps/mien/sources/video_source.h"
 #include "apps/mien/tracking/stage_times.h"
 #include "apps/mien/tracking/track.h"
@@ -29,7 +29,7 @@ class Outputs {
   void finish(const StageTimes& times);
 
   // Who wants to hear what the tracker hears; none: nobody. Not beyond this object's life.
-  [[nodiscard]] SoundFeed::Listener listener();
+  [[nodiscard]] AudioFeed::Listener listener();
 
   // False when the only output was standard output and its reader has gone.
   [[nodiscard]] bool wanted() const;
@@ -41,7 +41,7 @@ class Outputs {
   std::unique_ptr<Overlay> overlay_;
   std::unique_ptr<VideoEncoder> encoder_;
   std::unique_ptr<Report> report_;
-  std::int64_t sound_offset_ns_;
+  std::int64_t audio_offset_ns_;
 };
 
 }  // namespace mien::app

@@ -34,7 +34,7 @@ TemporaryFile::Ending needed_ending(const std::string& path) {
 
 std::vector<std::string> encode_command(const std::string& partial_path, std::string_view muxer,
                                         int width, int height, double fps,
-                                        const std::string& sound_from, int audio_track,
+                                        const std::string& audio_from, int audio_track,
                                         const VideoRange& range) {
   std::vector<std::string> command = {"ffmpeg",
                                       "-hide_banner",
@@ -51,14 +51,14 @@ std::vector<std::string> encode_command(const std::string& partial_path, std::st
                                       std::to_string(fps),
                                       "-i",
                                       "-"};
-  if (!sound_from.empty()) {
+  if (!audio_from.empty()) {
     if (range.start_s > 0.0) {
       command.insert(command.end(), {"-ss", std::to_string(range.start_s)});
     }
     if (range.duration_s) {
       command.insert(command.end(), {"-t", std::to_string(*range.duration_s)});
     }
-    const std::vector<std::string> source = input_arguments(sound_from);
+    const std::vector<std::string> source = input_arguments(audio_from);
     command.insert(command.end(), source.begin(), source.end());
     command.insert(command.end(), {"-map", "1:a:" + std::to_string(audio_track - 1) + "?"});
   }
@@ -70,7 +70,7 @@ std::vector<std::string> encode_command(const std::string& partial_path, std::st
     command.insert(command.end(), {"-f", std::string(muxer)});
   }
   command.push_back(output_file(partial_path));
-  if (!sound_from.empty()) {  // so that time 0 is that of the recording, not of its audio
+  if (!audio_from.empty()) {  // so that time 0 is that of the recording, not of its audio
     command.insert(command.end(), {"-map", "1:v:0", "-c", "copy", "-f", "null", "-"});
   }
   return command;
@@ -79,12 +79,12 @@ std::vector<std::string> encode_command(const std::string& partial_path, std::st
 }  // namespace
 
 VideoEncoder::VideoEncoder(const std::string& path, int width, int height, double fps,
-                           const std::string& sound_from, int audio_track, const VideoRange& range)
+                           const std::string& audio_from, int audio_track, const VideoRange& range)
     : path_(path),
       fps_(fps),
       start_s_(range.start_s),
       partial_(path, needed_ending(path)),
-      encoder_(encode_command(partial_.name(), muxer_of(path), width, height, fps, sound_from,
+      encoder_(encode_command(partial_.name(), muxer_of(path), width, height, fps, audio_from,
                               audio_track, range),
                Subprocess::Pipe::kToChild, Subprocess::kPatience) {}
 

@@ -12,11 +12,11 @@
 namespace mien::app {
 
 // Encodes RGB frames of one size as H.264 (or what the name's ending asks for), with the sound of
-// `sound_from` when that has any. The file appears under its name only when `finish` succeeds.
+// `audio_from` when that has any. The file appears under its name only when `finish` succeeds.
 class VideoEncoder {
  public:
   VideoEncoder(const std::string& path, int width, int height, double fps,
-               const std::string& sound_from, int audio_track, const VideoRange& range);
+               const std::string& audio_from, int audio_track, const VideoRange& range);
   // Width * height * 3 bytes, and when it is shown. The video has a constant frame rate: pictures
   // are repeated or left out, so that they stay beside the sound.
   void write(const std::vector<unsigned char>& rgb, std::int64_t time_ns);

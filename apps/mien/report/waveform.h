@@ -12,7 +12,7 @@ class Waveform {
  public:
   static constexpr std::int64_t kBinNs = 10'000'000;
 
-  // Blocks as a SoundSource has them, of which the first channel counts; gaps stay silent.
+  // Blocks as a AudioSource has them, of which the first channel counts; gaps stay silent.
   void hear(const Audio& block, std::int64_t pts_ns);
 
   [[nodiscard]] bool empty() const { return low_.empty(); }

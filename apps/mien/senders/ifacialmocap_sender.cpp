@@ -11,9 +11,9 @@ namespace mien::app {
 namespace {
 
 constexpr std::uint16_t kPort = 49983;
-constexpr std::size_t kMostReceivers = 8;
-constexpr int kMostHellosAFrame = 64;         // the others wait, or are thrown away by the system
-constexpr std::size_t kMostHelloBytes = 256;  // of a longer one we see that it is none
+constexpr std::size_t kMaxReceivers = 8;
+constexpr int kMaxHellosAFrame = 64;         // the others wait, or are thrown away by the system
+constexpr std::size_t kMaxHelloBytes = 256;  // of a longer one we see that it is none
 
 struct Receiver {
   UdpAddress address;
@@ -54,8 +54,8 @@ class IfacialmocapSender : public Sender {
 
  private:
   void take_hellos() {
-    for (int i = 0; i < kMostHellosAFrame; ++i) {
-      const std::optional<Datagram> datagram = socket_.receive(kMostHelloBytes);
+    for (int i = 0; i < kMaxHellosAFrame; ++i) {
+      const std::optional<Datagram> datagram = socket_.receive(kMaxHelloBytes);
       if (!datagram) {
         return;
       }
@@ -78,7 +78,7 @@ class IfacialmocapSender : public Sender {
   void welcome(const Receiver& receiver) {
     std::erase_if(receivers_,
                   [&](const Receiver& known) { return known.address == receiver.address; });
-    if (receivers_.size() == kMostReceivers) {
+    if (receivers_.size() == kMaxReceivers) {
       receivers_.erase(receivers_.begin());
     }
     receivers_.push_back(receiver);

@@ -17,7 +17,7 @@ namespace mien::app {
 namespace {
 
 // Beyond this a size that a file system states is not trusted before the bytes are there.
-constexpr std::uintmax_t kMostReserved = std::uintmax_t{1} << 32;
+constexpr std::uintmax_t kMaxReserved = std::uintmax_t{1} << 32;
 
 // `size` is the expected number of bytes, 0 if it is unknown.
 std::string rest_of(std::istream& stream, const std::string& name, std::size_t size) {
@@ -108,7 +108,7 @@ std::string read_whole(const std::string& path) {
             (std::filesystem::exists(path_of(path), ignored) ? "cannot be read" : "no such file"));
   }
   const std::uintmax_t size = std::filesystem::file_size(path_of(path), ignored);
-  return rest_of(file, path, ignored || size > kMostReserved ? 0 : static_cast<std::size_t>(size));
+  return rest_of(file, path, ignored || size > kMaxReserved ? 0 : static_cast<std::size_t>(size));
 }
 
 formats::ReadOptions read_options_for(const std::string& path) {

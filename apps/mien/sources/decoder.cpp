@@ -16,7 +16,7 @@ namespace {
 constexpr int kDecodingErrors = 69;  // ffmpeg's exit status by -max_error_rate
 constexpr double kOffsetS = 1000.0;  // so that no timestamp is below 0, which NUT has none of
 // Of a stream that is not being read while another one is empty.
-constexpr std::size_t kMostWaitingBytes = std::size_t{1} << 29;
+constexpr std::size_t kMaxWaitingBytes = std::size_t{1} << 29;
 
 std::vector<std::string> command_of(const std::string& input, double seek_s,
                                     const std::vector<std::string>& input_options,
@@ -25,7 +25,7 @@ std::vector<std::string> command_of(const std::string& input, double seek_s,
                                       "-nostdin",        "-nostats",
                                       "-loglevel",       "repeat+level+error",
                                       "-max_error_rate", "0",
-                                      "-max_pixels",     std::to_string(kMostPixels)};
+                                      "-max_pixels",     std::to_string(kMaxPixels)};
   const std::vector<std::string> source = input_arguments(input);
   if (seek_s > 0.0) {
     command.insert(command.end(), {"-ss", std::to_string(seek_s)});
@@ -57,7 +57,7 @@ Decoder::Decoder(const std::string& input, double seek_s,
       waiting_(streams) {}
 
 void Decoder::keep(NutPacket& packet) {
-  if (packet.stream < waiting_.size() && waiting_bytes_ + packet.data.size() <= kMostWaitingBytes) {
+  if (packet.stream < waiting_.size() && waiting_bytes_ + packet.data.size() <= kMaxWaitingBytes) {
     waiting_bytes_ += packet.data.size();
     waiting_[packet.stream].push_back(std::exchange(packet, {}));
   }

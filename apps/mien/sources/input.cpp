@@ -5,10 +5,10 @@
 #include <utility>
 #include <vector>
 
-#include "apps/mien/sources/decoded_sound.h"
+#include "apps/mien/sources/decoded_audio.h"
 #include "apps/mien/sources/decoded_video.h"
 #include "apps/mien/sources/network_input.h"
-#include "apps/mien/sources/wav_sound.h"
+#include "apps/mien/sources/wav_audio.h"
 #include "apps/mien/sources/y4m_source.h"
 #include "apps/mien/system/failure.h"
 
@@ -138,7 +138,7 @@ Input::Opened Input::open_apart(const InputOptions& options, bool video, bool so
   }
   if (sound) {
     const int index = audio_index(options.audio_track);
-    opened.sound = std::make_unique<DecodedSound>(
+    opened.sound = std::make_unique<DecodedAudio>(
         name_, options.range, decoder(audio_output(index, audio_filter(options)), index), 0);
   }
   return opened;
@@ -155,7 +155,7 @@ Input::Opened Input::open_together(const InputOptions& options) const {
   Opened opened;
   opened.video =
       std::make_unique<DecodedVideo>(name_, options.range, info_of(track, options), decoder, 0);
-  opened.sound = std::make_unique<DecodedSound>(name_, options.range, decoder, 1);
+  opened.sound = std::make_unique<DecodedAudio>(name_, options.range, decoder, 1);
   return opened;
 }
 
@@ -180,7 +180,7 @@ std::unique_ptr<VideoSource> open_video(const std::string& input, const InputOpt
   return Input(input).open(options, true, false).video;
 }
 
-std::unique_ptr<SoundSource> open_sound(const std::string& input, const InputOptions& options) {
+std::unique_ptr<AudioSource> open_sound(const std::string& input, const InputOptions& options) {
   if (input == kStandardInput) {
     return open_wav(input, options.range);
   }

@@ -4,8 +4,8 @@
 #include <memory>
 #include <string>
 
+#include "apps/mien/sources/audio_source.h"
 #include "apps/mien/sources/recording.h"
-#include "apps/mien/sources/sound_source.h"
 #include "apps/mien/sources/video_source.h"
 #include "apps/mien/system/exit_codes.h"
 
@@ -18,14 +18,14 @@ class Input {
 
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] bool has_video() const { return kind_ == Kind::kY4m || recording_.video; }
-  [[nodiscard]] bool has_sound() const { return kind_ == Kind::kWav || !recording_.audio.empty(); }
+  [[nodiscard]] bool has_audio() const { return kind_ == Kind::kWav || !recording_.audio.empty(); }
   [[nodiscard]] std::size_t audio_tracks() const {
     return kind_ == Kind::kWav ? 1 : recording_.audio.size();
   }
 
   struct Opened {
     std::unique_ptr<VideoSource> video;
-    std::unique_ptr<SoundSource> sound;
+    std::unique_ptr<AudioSource> sound;
   };
   // What is asked for of both, on one clock. Throws Failure where it is not there.
   [[nodiscard]] Opened open(const InputOptions& options, bool video, bool sound) const;

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "apps/mien/sources/sound_source.h"
+#include "apps/mien/sources/audio_source.h"
 #include "apps/mien/system/failure.h"
 #include "apps/mien/system/paths.h"
 

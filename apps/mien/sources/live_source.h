@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/mien/sources/audio_source.h"
 #include "apps/mien/sources/sample_clock.h"
-#include "apps/mien/sources/sound_source.h"
 #include "apps/mien/sources/video_source.h"
 #include "apps/mien/system/subprocess.h"
 #include "formats/y4m.h"

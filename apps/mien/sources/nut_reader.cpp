@@ -32,7 +32,7 @@ enum Flag : std::uint64_t {
 
 constexpr std::uint64_t kLargestHeader = 1u << 20;  // bytes; ffmpeg's have some hundreds
 constexpr std::uint64_t kLargestFrame = std::uint64_t{1} << 30;
-constexpr std::uint64_t kMostStreams = 16;
+constexpr std::uint64_t kMaxStreams = 16;
 constexpr std::int64_t kLastTimestamp = std::int64_t{1} << 61;
 
 bool fits(std::int64_t value) { return value > 0 && value <= INT32_MAX; }
@@ -62,9 +62,9 @@ std::uint8_t NutReader::byte() {
 }
 
 std::uint64_t NutReader::number() {
-  constexpr int kMostBytes = 9;
+  constexpr int kMaxBytes = 9;
   std::uint64_t value = 0;
-  for (int i = 0; i < kMostBytes; ++i) {
+  for (int i = 0; i < kMaxBytes; ++i) {
     const std::uint8_t next = byte();
     value = value << 7 | (next & 0x7Fu);
     if ((next & 0x80u) == 0) {
@@ -169,7 +169,7 @@ void NutReader::read_main_header() {
   const std::uint64_t streams = number();
   number();  // largest distance of syncpoints
   const std::uint64_t units = number();
-  if (streams > kMostStreams || units == 0 || units > kMostStreams) {
+  if (streams > kMaxStreams || units == 0 || units > kMaxStreams) {
     damaged_ = true;
     return;
   }

@@ -19,7 +19,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kLeastPixelAspect = 0.1, kMostPixelAspect = 10.0;
+constexpr double kMinPixelAspect = 0.1, kMaxPixelAspect = 10.0;
 
 // No titles and other texts of the input.
 constexpr const char* kEntries =
@@ -67,7 +67,7 @@ int rotation_of(const json& stream) {
 // Pixels are taken to be square where the aspect ratio is missing or invalid.
 double pixel_aspect_of(const json& stream) {
   const double said = ratio(text(stream, "sample_aspect_ratio"));
-  return said >= kLeastPixelAspect && said <= kMostPixelAspect ? said : 1.0;
+  return said >= kMinPixelAspect && said <= kMaxPixelAspect ? said : 1.0;
 }
 
 VideoTrack video_track(const json& stream, const json& format) {
@@ -93,7 +93,7 @@ VideoTrack video_track(const json& stream, const json& format) {
 
 json run_ffprobe(const std::string& input, std::string& complaint) {
   std::vector<std::string> command = {
-      "ffprobe",       "-v",     "error", "-max_pixels", std::to_string(kMostPixels),
+      "ffprobe",       "-v",     "error", "-max_pixels", std::to_string(kMaxPixels),
       "-show_entries", kEntries, "-of",   "json"};
   const std::vector<std::string> source = input_arguments(input);
   command.insert(command.end(), source.begin(), source.end());
@@ -133,11 +133,11 @@ void check_size(const VideoTrack& track, const std::string& input, const std::st
   const DisplaySize size = display_size(track, {});
   const std::int64_t pixels =
       std::max(std::int64_t{track.width} * track.height, std::int64_t{size.width} * size.height);
-  if (pixels > kMostPixels ||
+  if (pixels > kMaxPixels ||
       std::max({size.width, size.height, track.width, track.height}) > MIEN_MAX_IMAGE_SIDE) {
     throw Failure(kExitNoVideo,
                   input + ": the picture is too large (got " + std::to_string(track.width) + "x" +
-                      std::to_string(track.height) + ", at most " + std::to_string(kMostPixels) +
+                      std::to_string(track.height) + ", at most " + std::to_string(kMaxPixels) +
                       " pixels and " + std::to_string(MIEN_MAX_IMAGE_SIDE) + " a side)");
   }
 }

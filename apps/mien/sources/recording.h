@@ -9,7 +9,7 @@
 namespace mien::app {
 
 // More pixels than this are refused before they are decoded: 8192 x 8192.
-inline constexpr std::int64_t kMostPixels = std::int64_t{1} << 26;
+inline constexpr std::int64_t kMaxPixels = std::int64_t{1} << 26;
 
 struct VideoTrack {
   int index = 0;  // among all streams

@@ -144,7 +144,7 @@ void run(const BatchOptions& options, Job& job, SharedProgress& progress) {
     }
     each.animation.formats =
         each.animation.formats.empty() ? std::vector<std::string>{"csv"} : each.animation.formats;
-    each.animation.writing.sound_file = job.input;
+    each.animation.writing.audio_file = job.input;
     each.quiet = true;
     each.after_frame = [&progress] { progress.frame_done(); };
     fs::create_directories(path_of(job.outputs.front()).parent_path());

@@ -12,12 +12,12 @@ namespace {
 
 constexpr float kSilence = 1e-4f;  // -80 dB of full scale
 
-bool has_sound(const Senses& senses, const TrackOptions& options) {
+bool has_audio(const Senses& senses, const TrackOptions& options) {
   if (options.audio == kStandardInput) {
     return true;
   }
   const std::optional<Input>& from = options.audio.empty() ? senses.input : senses.audio;
-  return from && from->has_sound();
+  return from && from->has_audio();
 }
 
 std::string damage_note(const std::string& input, const char* what, const Damage& damage) {
@@ -50,7 +50,7 @@ Senses choose(const TrackOptions& options) {
     senses.audio.emplace(options.audio);
   }
   const std::string& source = options.audio.empty() ? options.input : options.audio;
-  const bool there = has_sound(senses, options);
+  const bool there = has_audio(senses, options);
   const bool demanded = options.mode != Mode::kAny || !senses.video || !options.audio.empty();
   if (demanded && !there) {
     throw Failure(kExitNoSound, source + ": has no audio");
@@ -62,11 +62,11 @@ Senses choose(const TrackOptions& options) {
 }
 
 VideoRange range_of(const TrackOptions& options) {
-  constexpr double kMostSeconds = 1e9;  // 31 years
+  constexpr double kMaxSeconds = 1e9;  // 31 years
   VideoRange range;
-  range.start_s = std::min(options.start_s, kMostSeconds);
+  range.start_s = std::min(options.start_s, kMaxSeconds);
   if (options.duration_s) {
-    range.duration_s = std::min(*options.duration_s, kMostSeconds);
+    range.duration_s = std::min(*options.duration_s, kMaxSeconds);
   }
   return range;
 }
@@ -77,7 +77,7 @@ Frames::Frames(const TrackOptions& options, const Senses& senses, Tracker& track
       start_ns_(std::llround(range_of(options).start_s * 1e9)),
       tracker_(tracker) {
   const InputOptions how{range_of(options), options.rotation, options.audio_track};
-  std::unique_ptr<SoundSource> sound;
+  std::unique_ptr<AudioSource> sound;
   if (senses.input) {
     const bool own_sound = !senses.sound.empty() && options.audio.empty();
     Input::Opened opened = senses.input->open(how, senses.video, own_sound);
@@ -142,7 +142,7 @@ MediaReport Frames::report() const {
   return report;
 }
 
-void Frames::set_listener(SoundFeed::Listener listener) {
+void Frames::set_listener(AudioFeed::Listener listener) {
   if (sound_) {
     sound_->set_listener(std::move(listener));
   }

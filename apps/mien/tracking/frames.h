@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/mien/sources/audio_source.h"
 #include "apps/mien/sources/input.h"
-#include "apps/mien/sources/sound_source.h"
 #include "apps/mien/sources/video_source.h"
 #include "apps/mien/tracking/track.h"
 
@@ -50,7 +50,7 @@ class Frames {
   }
   [[nodiscard]] MediaReport report() const;
 
-  void set_listener(SoundFeed::Listener listener);
+  void set_listener(AudioFeed::Listener listener);
 
   // Tracks the next one. False at the end.
   bool next();
@@ -66,7 +66,7 @@ class Frames {
   std::int64_t start_ns_;
   Tracker& tracker_;
   std::unique_ptr<VideoSource> video_;
-  std::optional<SoundFeed> sound_;
+  std::optional<AudioFeed> sound_;
   mien_image image_;
   std::int64_t number_ = -1;
 };

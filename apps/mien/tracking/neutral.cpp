@@ -10,8 +10,8 @@
 
 #include "apps/mien/outputs/distinct_files.h"
 #include "apps/mien/outputs/output_file.h"
+#include "apps/mien/sources/audio_source.h"
 #include "apps/mien/sources/network_input.h"
-#include "apps/mien/sources/sound_source.h"
 #include "apps/mien/sources/video_source.h"
 #include "apps/mien/system/failure.h"
 #include "apps/mien/system/json_text.h"

@@ -15,8 +15,8 @@ class Mien(ConanFile):
     topics = ("face-tracking", "animation", "arkit", "inference")
     package_type = "library"
     settings = "os", "arch", "compiler", "build_type"
-    options = {"shared": [True, False], "fPIC": [True, False], "with_sound": [True, False], "with_hifinet": [True, False]}
-    default_options = {"shared": False, "fPIC": True, "with_sound": True, "with_hifinet": True}
+    options = {"shared": [True, False], "fPIC": [True, False], "with_audio": [True, False], "with_hifinet": [True, False]}
+    default_options = {"shared": False, "fPIC": True, "with_audio": True, "with_hifinet": True}
     implements = ["auto_shared_fpic"]
 
     @property
@@ -41,7 +41,7 @@ class Mien(ConanFile):
         toolchain = CMakeToolchain(self)
         for part in ("TESTS", "APPS", "CONFORMANCE"):
             toolchain.cache_variables[f"MIEN_BUILD_{part}"] = False
-        toolchain.cache_variables["MIEN_WITH_SOUND"] = bool(self.options.with_sound)
+        toolchain.cache_variables["MIEN_WITH_AUDIO"] = bool(self.options.with_audio)
         toolchain.cache_variables["MIEN_WITH_HIFINET"] = bool(self.options.with_hifinet)
         toolchain.generate()
 

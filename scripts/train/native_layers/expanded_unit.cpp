@@ -11,7 +11,7 @@
 namespace mien::training {
 namespace {
 
-constexpr std::size_t kMostNarrow = 48;
+constexpr std::size_t kMaxNarrow = 48;
 
 // Sums over all pixels of x and of x x', in fp64.
 struct Gram {
@@ -25,7 +25,7 @@ struct Gram {
   void add(const Along<T>& x) const {
     for (std::size_t v = 0; v < x.vectors(); ++v) {
       const Vector<T>* vector = x.row(0) + v;
-      std::array<Lanes, kMostNarrow> part = {};
+      std::array<Lanes, kMaxNarrow> part = {};
       outer<T>(x.row(0), x.vectors(), narrow, vector, x.vectors(), x.units_of_all(), part.data());
       Lanes sums = {};
       for (std::size_t u = 0; u < x.units_of_all(); ++u) {
@@ -50,8 +50,8 @@ struct Expansion {
 
   // For channels from c on: [narrow / terms] vectors over the channels.
   template <typename T>
-  std::array<Vector<T>, kMostNarrow> by_input(std::size_t c, std::size_t count) const {
-    return joined<T, kMostNarrow>(narrow, [&](std::size_t k) {
+  std::array<Vector<T>, kMaxNarrow> by_input(std::size_t c, std::size_t count) const {
+    return joined<T, kMaxNarrow>(narrow, [&](std::size_t k) {
       Lanes out = {};
       for (std::size_t lane = 0; lane < count; ++lane) {
         out[lane] = row(c + lane)[k];
@@ -137,14 +137,14 @@ struct Gradients {
 // What the moments of the expanded map add to the gradient by x: x B + constant, for a vector of
 // outputs from k on: [narrow / terms] vectors of B.
 template <typename T>
-std::array<Vector<T>, kMostNarrow> moments_share(const Expansion& e, const Descent& before,
-                                                 std::size_t k, Lanes& constant) {
+std::array<Vector<T>, kMaxNarrow> moments_share(const Expansion& e, const Descent& before,
+                                                std::size_t k, Lanes& constant) {
   const std::size_t count = std::min(kLanes, e.narrow - k);
   constant = Lanes{};
   for (std::size_t c = 0; c < e.channels; ++c) {
     constant += before.constant[c] * load_some(e.row(c) + k, count);
   }
-  return joined<T, kMostNarrow>(e.narrow, [&](std::size_t j) {
+  return joined<T, kMaxNarrow>(e.narrow, [&](std::size_t j) {
     Lanes out = {};
     for (std::size_t c = 0; c < e.channels; ++c) {
       out += e.row(c)[j] * before.along[c] * load_some(e.row(c) + k, count);
@@ -226,13 +226,13 @@ void backward(DepthwiseShape shape, std::size_t narrow, const T* dy, const T* x,
       const std::size_t count = std::min(kLanes, shape.channels - c),
                         slid_picture = i * g.out_pixels() * shape.channels + c;
       const auto by_input = expansion.by_input<T>(c, count);
-      std::array<std::array<Vector<T>, kLanes>, kMostNarrow / kLanes> by_channel;
+      std::array<std::array<Vector<T>, kLanes>, kMaxNarrow / kLanes> by_channel;
       for (std::size_t v = 0; v < vectors; ++v) {
         by_channel[v] = expansion.by_channel<T>(c, count, v * kLanes, line.scale.data());
       }
       Kernel dkernel = {};
       Lanes gradients = {}, along = {};
-      std::array<Lanes, kMostNarrow> part = {};
+      std::array<Lanes, kMaxNarrow> part = {};
       descend(
           g, seen, gradient, kernel_of(weights, shape.channels, c, count), dkernel,
           [&](std::size_t pixel) {

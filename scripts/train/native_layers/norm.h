@@ -11,11 +11,11 @@
 
 namespace mien::training {
 
-constexpr std::size_t kMostChannels = 1024;
+constexpr std::size_t kMaxChannels = 1024;
 constexpr std::size_t kBlock = 256;  // pixels
 
 template <typename T>
-using PerChannel = std::array<T, kMostChannels>;
+using PerChannel = std::array<T, kMaxChannels>;
 
 struct Map {
   std::size_t pixels, channels;

@@ -124,7 +124,7 @@ struct Batch {
   }
 };
 
-constexpr int kMostSquarings = 8;  // of the gleam of lamps
+constexpr int kMaxSquarings = 8;  // of the gleam of lamps
 
 inline float max0(float x) { return x > 0 ? x : 0.0f; }
 
@@ -160,7 +160,7 @@ inline void light_from_lamp(const Light& light, int lamp, Batch& b) {
     const float hx = to.x + b.vx[i], hy = to.y + b.vy[i], hz = to.z + b.vz[i];
     float half = max0(b.nx[i] * hx + b.ny[i] * hy + b.nz[i] * hz) /
                  std::sqrt(hx * hx + hy * hy + hz * hz + 1e-20f);
-    for (int k = 0; k < kMostSquarings; ++k) half = k < b.gloss[i] ? half * half : half;
+    for (int k = 0; k < kMaxSquarings; ++k) half = k < b.gloss[i] ? half * half : half;
     const float gleam = half * lit * b.specular[i] * b.open[i];
     const float reach = lit * (0.4f + 0.6f * b.open[i]);
     for (int c = 0; c < 3; ++c) {

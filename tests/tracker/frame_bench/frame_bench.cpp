@@ -46,9 +46,9 @@ class Weights {
   explicit Weights(const std::string& path) {
     const std::vector<char> file = read_file(path);
     memory_.resize(file.size() + MIEN_ALIGNMENT);
-    std::size_t room = memory_.size();
+    std::size_t memory = memory_.size();
     void* begin = memory_.data();
-    std::memcpy(std::align(MIEN_ALIGNMENT, file.size(), begin, room), file.data(), file.size());
+    std::memcpy(std::align(MIEN_ALIGNMENT, file.size(), begin, memory), file.data(), file.size());
     bytes_ = {static_cast<const std::byte*>(begin), file.size()};
   }
   Weights(const Weights&) = delete;

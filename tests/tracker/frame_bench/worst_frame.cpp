@@ -33,8 +33,9 @@ class File {
     const std::vector<char> bytes((std::istreambuf_iterator<char>(file)), {});
     memory_.resize(bytes.size() + MIEN_ALIGNMENT);
     void* begin = memory_.data();
-    std::size_t room = memory_.size();
-    std::memcpy(std::align(MIEN_ALIGNMENT, bytes.size(), begin, room), bytes.data(), bytes.size());
+    std::size_t memory = memory_.size();
+    std::memcpy(std::align(MIEN_ALIGNMENT, bytes.size(), begin, memory), bytes.data(),
+                bytes.size());
     bytes_ = {static_cast<const std::byte*>(begin), bytes.size()};
   }
   File(const File&) = delete;

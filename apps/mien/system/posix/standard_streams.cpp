@@ -16,8 +16,8 @@ bool reader_has_gone() { return errno == EPIPE; }
 void shorten_standard_output() {
 #ifdef F_SETPIPE_SZ
   // A pipe holds 64 KB unless told otherwise, which is a second of lines that are late.
-  constexpr int kLeastBytes = 8192;
-  fcntl(STDOUT_FILENO, F_SETPIPE_SZ, kLeastBytes);
+  constexpr int kMinBytes = 8192;
+  fcntl(STDOUT_FILENO, F_SETPIPE_SZ, kMinBytes);
 #endif
 }
 

@@ -1,0 +1,460 @@
+// Sound in the tracker: heard at its time, mixed as documented, handed over without a jump.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "tests/tracker/audio.h"
+#include "tests/tracker/blob_tracker.h"
+#include "tracker/decoders/controls.h"
+
+namespace mien::tests {
+namespace {
+
+using tracker::control_named;
+
+constexpr std::size_t kJawOpen = control_named("jawOpen");
+constexpr std::size_t kMouth[] = {kJawOpen, control_named("mouthClose"),
+                                  control_named("mouthPucker"), control_named("mouthStretchLeft"),
+                                  control_named("mouthUpperUpRight")};
+constexpr float kLoud = 0.5f;
+
+BlobTracker unfiltered(const BlobOptions& options = {}) {
+  return BlobTracker(options, [](mien_tracker_config& config) {
+    config.smoothing = 0;
+    config.voice_attack_ms = config.voice_release_ms = 0.0f;
+  });
+}
+
+const Picture& disc() {
+  static const Picture picture = disc_picture(160.0f, 120.0f, 70.0f);
+  return picture;
+}
+
+const Picture& nothing() {
+  static const Picture picture(320, 240);
+  return picture;
+}
+
+TEST(AudioTrack, NeedsWeightsForIt) {
+  BlobTracker blob({}, [](mien_tracker_config& config) { config.audionet = nullptr; });
+  const Sound sound = Sound().add(0.1, kLoud);
+  EXPECT_EQ(blob.tracker().push_audio(sound.all(), 0), MIEN_ERROR_NO_AUDIONET);
+  EXPECT_EQ(blob.tracker().set_audio_offset(0), MIEN_ERROR_NO_AUDIONET);
+  EXPECT_EQ(blob.tracker().set_mix(0, 0.0f, 1.0f), MIEN_ERROR_NO_AUDIONET);
+  EXPECT_EQ(blob.tracker().advance(0), MIEN_OK) << "a frame without an image is always possible";
+}
+
+TEST(AudioTrack, RefusesOtherWeights) {
+  const AlignedBytes basenet = blob_basenet();
+  const AlignedBytes proposal = blob_proposal();
+  Config config = blob_config(basenet, proposal);
+  config.audionet = proposal.get().data();
+  config.audionet_bytes = proposal.get().size();
+  Tracker tracker;
+  EXPECT_EQ(tracker.create(config), MIEN_ERROR_WEIGHTS_INCOMPLETE);
+}
+
+TEST(AudioTrack, NamesWhatIsWrongWithTheSound) {
+  BlobTracker blob;
+  const Sound sound = Sound().add(0.1, kLoud);
+  const auto status_with = [&](auto change) {
+    Audio audio = sound.all();
+    change(audio);
+    return blob.tracker().push_audio(audio, 0);
+  };
+  EXPECT_EQ(status_with([](Audio&) {}), MIEN_OK);
+  EXPECT_EQ(status_with([](Audio& a) { a.frames = 0; }), MIEN_OK);
+  EXPECT_EQ(status_with([](Audio& a) { a.struct_size = 8; }), MIEN_ERROR_STRUCT_SIZE);
+  EXPECT_EQ(status_with([](Audio& a) { a.format = 2; }), MIEN_ERROR_AUDIO_FORMAT);
+  for (const int rate : {0, -16000, 7999, 192001}) {
+    EXPECT_EQ(status_with([=](Audio& a) { a.sample_rate = rate; }), MIEN_ERROR_AUDIO_RATE);
+  }
+  for (const int channels : {0, -1, 9, std::numeric_limits<int>::max()}) {
+    EXPECT_EQ(status_with([=](Audio& a) { a.channels = channels; }), MIEN_ERROR_AUDIO_CHANNELS);
+  }
+  EXPECT_EQ(status_with([](Audio& a) { a.samples[0] = nullptr; }), MIEN_ERROR_AUDIO_SAMPLES);
+  const auto second_channel_is_missing = [](Audio& a) { a.planar = 1, a.channels = 2; };
+  EXPECT_EQ(status_with(second_channel_is_missing), MIEN_ERROR_AUDIO_SAMPLES);
+  const auto odd_address = [](Audio& a) {
+    a.samples[0] = static_cast<const std::byte*>(a.samples[0]) + 1;
+    --a.frames;
+  };
+  EXPECT_EQ(status_with(odd_address), MIEN_ERROR_ALIGNMENT);
+  EXPECT_EQ(mien_tracker_push_audio(nullptr, nullptr, 0), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_tracker_push_audio(blob.tracker().get(), nullptr, 0), MIEN_ERROR_NULL_ARGUMENT);
+}
+
+// Some microphones deliver empty blocks, with any time and rate.
+TEST(AudioTrack, ABlockWithoutSamplesChangesNothing) {
+  const auto empty_block = [](BlobTracker& blob, bool queued, std::int64_t pts_ns) {
+    Audio empty;
+    empty.sample_rate = 48000;
+    const mien_status status = queued ? blob.tracker().queue_audio(empty, pts_ns)
+                                      : blob.tracker().push_audio(empty, pts_ns);
+    EXPECT_EQ(status, MIEN_OK);
+  };
+  const Sound sound = Sound().add(1.0, 0.05f);
+  for (const bool queued : {false, true}) {
+    BlobTracker plain = unfiltered(), disturbed = unfiltered();
+    for (int frame = 0; frame < 30; ++frame) {
+      empty_block(disturbed, queued, frame % 2 == 0 ? -1'000'000'000 : 1'000'000'000'000);
+      if (frame == 10) {
+        ASSERT_EQ(plain.tracker().push_audio(sound.all(), plain.now_ns()), MIEN_OK);
+        ASSERT_EQ(disturbed.tracker().push_audio(sound.all(), plain.now_ns()), MIEN_OK);
+      }
+      const Result expected = plain.advance(), result = disturbed.advance();
+      EXPECT_EQ(result.supported_controls, expected.supported_controls) << frame;
+      EXPECT_EQ(result.voice_activity, expected.voice_activity) << frame;
+      EXPECT_EQ(largest_step(result, expected), 0.0f) << frame;
+    }
+  }
+}
+
+TEST(AudioTrack, ChecksWeightsOfTheMix) {
+  BlobTracker blob;
+  EXPECT_EQ(blob.tracker().set_mix(0, 1.0f, 0.0f), MIEN_OK);
+  EXPECT_EQ(blob.tracker().set_mix(-1, 1.0f, 0.0f), MIEN_ERROR_OUT_OF_RANGE);
+  EXPECT_EQ(blob.tracker().set_mix(MIEN_CONTROL_COUNT, 1.0f, 0.0f), MIEN_ERROR_OUT_OF_RANGE);
+  EXPECT_EQ(blob.tracker().set_mix(0, 1.1f, 0.0f), MIEN_ERROR_OUT_OF_RANGE);
+  EXPECT_EQ(blob.tracker().set_mix(0, 0.0f, std::nanf("")), MIEN_ERROR_OUT_OF_RANGE);
+}
+
+TEST(AudioTrack, AloneItMovesTheMouth) {
+  BlobTracker blob;
+  EXPECT_EQ(blob.advance().voice_activity, 0.0f);
+  const Sound sound = Sound().add(1.0, kLoud).add(1.0, 0.0f);
+  ASSERT_EQ(blob.tracker().push_audio(sound.all(), blob.now_ns()), MIEN_OK);
+  float loudest = 0.0f;
+  Result result;
+  for (int frame = 0; frame < 58; ++frame) {
+    result = blob.advance();
+    expect_sane(result);
+    EXPECT_EQ(result.status, MIEN_FACE_SEARCHING);
+    loudest = std::max(loudest, result.controls[kJawOpen]);
+    EXPECT_EQ(result.controls[control_named("eyeBlinkLeft")], 0.0f) << "nobody hears a blink";
+  }
+  EXPECT_GT(loudest, 0.95f);
+  EXPECT_LT(result.controls[kJawOpen], 0.01f) << "it is silent again";
+  EXPECT_LT(result.voice_activity, 0.01f);
+  EXPECT_TRUE(result.supports(static_cast<int>(kJawOpen)));
+}
+
+TEST(AudioTrack, SilenceLeavesThePictureAlone) {
+  BlobTracker output, deaf;
+  const Sound silence = Sound().add(2.0, 0.0f);
+  ASSERT_EQ(output.tracker().push_audio(silence.all(), 0), MIEN_OK);
+  for (int frame = 0; frame < 50; ++frame) {
+    const Result with = output.push(disc());
+    const Result without = deaf.push(disc());
+    EXPECT_LT(largest_step(with, without), 0.002f) << frame;
+    EXPECT_EQ(with.face_probability, without.face_probability);
+  }
+}
+
+// Loud enough to speak, not so loud that everything is at its end.
+TEST(AudioTrack, IsMixedByTheFormula) {
+  BlobTracker both = unfiltered(), seen = unfiltered(), output = unfiltered();
+  const Sound sound = Sound().add(3.5, 0.01f);
+  ASSERT_EQ(both.tracker().push_audio(sound.all(), 0), MIEN_OK);
+  ASSERT_EQ(output.tracker().push_audio(sound.all(), 0), MIEN_OK);
+  Result mixed, picture, voice;
+  for (int frame = 0; frame < 90; ++frame) {
+    mixed = both.push(disc());
+    picture = seen.push(disc());
+    voice = output.advance();
+  }
+  const float alpha = mixed.voice_activity;
+  ASSERT_GT(alpha, 0.1f);
+  ASSERT_LT(alpha, 0.999f);
+  for (int i = 0; i < MIEN_CONTROL_COUNT; ++i) {
+    const auto control = static_cast<std::size_t>(i);
+    const float v = picture.controls[i];
+    const float a = voice.controls[i] / alpha;  // alone it counts as much as alpha
+    const float w_a = control == kJawOpen ? kJawByEar : kMouthByEar;
+    const bool is_heard = voice.controls[i] != 0.0f || control == kJawOpen;
+    const float expected = is_heard ? (1 - alpha) * v + alpha * (w_a * a + kMouthByEye * v) : v;
+    EXPECT_NEAR(mixed.controls[i], std::clamp(expected, 0.0f, 1.0f), 2e-5f) << mien_control_name(i);
+  }
+}
+
+TEST(AudioTrack, IsAsStrongAsOneWants) {
+  const auto with_strength = [](float strength) {
+    return [=](mien_tracker_config& config) {
+      config.voice_strength = strength;
+      config.smoothing = 0;
+    };
+  };
+  BlobTracker plain({}, with_strength(1.0f)), half({}, with_strength(0.5f)),
+      most({}, with_strength(4.0f));
+  const Sound sound = Sound().add(1.5, 0.01f);
+  Result as_heard, halved, stretched;
+  for (BlobTracker* blob : {&plain, &half, &most}) {
+    ASSERT_EQ(blob->tracker().push_audio(sound.all(), 0), MIEN_OK);
+  }
+  for (int frame = 0; frame < 40; ++frame) {
+    as_heard = plain.advance();
+    halved = half.advance();
+    stretched = most.advance();
+  }
+  const float jaw = as_heard.controls[kJawOpen], alpha = as_heard.voice_activity;
+  ASSERT_GT(jaw, 0.03f);
+  EXPECT_NEAR(halved.controls[kJawOpen], 0.5f * jaw, 1e-3f);
+  EXPECT_NEAR(stretched.controls[kJawOpen], std::min(4.0f * jaw, alpha), 1e-3f);
+  const AlignedBytes basenet = blob_basenet(), proposal = blob_proposal();
+  Config config = blob_config(basenet, proposal);
+  for (const float refused : {-0.1f, 4.1f, std::nanf("")}) {
+    config.voice_strength = refused;
+    Tracker tracker;
+    EXPECT_EQ(tracker.create(config), MIEN_ERROR_OUT_OF_RANGE) << refused;
+  }
+}
+
+TEST(AudioTrack, WeightsCanBeSet) {
+  BlobTracker blob = unfiltered(), seen = unfiltered();
+  ASSERT_EQ(blob.tracker().set_mix(static_cast<int>(kJawOpen), 0.0f, 1.0f), MIEN_OK);
+  const Sound sound = Sound().add(1.5, kLoud);
+  ASSERT_EQ(blob.tracker().push_audio(sound.all(), 0), MIEN_OK);
+  for (int frame = 0; frame < 40; ++frame) {
+    const float expected = seen.push(disc()).controls[kJawOpen];
+    EXPECT_EQ(blob.push(disc()).controls[kJawOpen], expected);
+  }
+  ASSERT_EQ(blob.tracker().reset(), MIEN_OK);
+  ASSERT_EQ(blob.tracker().push_audio(sound.all(), blob.now_ns()), MIEN_OK);
+  for (int frame = 0; frame < 30; ++frame) {
+    (void)blob.advance();
+  }
+  EXPECT_GT(blob.result().controls[kJawOpen], 0.9f) << "those of the file again";
+}
+
+// Frames from the one pushed next to the first with a voice, noise beginning at `begin_ns`.
+int frames_until_heard(BlobTracker& blob, std::int64_t begin_ns, std::int64_t offset_ns = 0) {
+  const double lead = 0.5;
+  const Sound sound = Sound().add(lead, 0.0f).add(1.0, kLoud);
+  EXPECT_EQ(blob.tracker().set_audio_offset(offset_ns), MIEN_OK);
+  EXPECT_EQ(
+      blob.tracker().push_audio(sound.all(), begin_ns - static_cast<std::int64_t>(lead * 1e9)),
+      MIEN_OK);
+  for (int frame = 0; frame < 60; ++frame) {
+    if (blob.advance().voice_activity > 0.5f) {
+      return frame;
+    }
+  }
+  return -1;
+}
+
+TEST(AudioTrack, IsHeardWithinAFrameOfItsTime) {
+  for (int later = 0; later < 10; ++later) {
+    BlobTracker blob = unfiltered();
+    (void)blob.advance();
+    const std::int64_t begin_ns = blob.now_ns() + kFrameNs + later * 7'000'000;
+    const int frame = frames_until_heard(blob, begin_ns);
+    const double late = static_cast<double>(frame) - static_cast<double>(later) * 7.0 / 33.333;
+    EXPECT_GE(late, -0.5) << later;
+    EXPECT_LE(late, 1.0) << later;
+  }
+}
+
+TEST(AudioTrack, AnOffsetMovesIt) {
+  for (const int frames : {-6, 0, 6}) {
+    BlobTracker blob = unfiltered();
+    (void)blob.advance();
+    const std::int64_t begin_ns = blob.now_ns() + 10 * kFrameNs;
+    EXPECT_NEAR(frames_until_heard(blob, begin_ns, frames * kFrameNs), 9 + frames, 1) << frames;
+  }
+}
+
+// Largest step of a control of speech between consecutive frames.
+class Steps {
+ public:
+  void add(const Result& result) {
+    float largest = 0.0f;
+    for (const std::size_t i : kMouth) {
+      largest = std::max(largest, std::abs(result.controls[i] - before_.controls[i]));
+    }
+    steps_.push_back(known_ ? largest : 0.0f);
+    before_ = result;
+    known_ = true;
+  }
+  [[nodiscard]] float largest(std::size_t first, std::size_t end) const {
+    return *std::max_element(steps_.begin() + static_cast<std::ptrdiff_t>(first),
+                             steps_.begin() + static_cast<std::ptrdiff_t>(end));
+  }
+
+ private:
+  bool known_ = false;
+  Result before_;
+  std::vector<float> steps_;
+};
+
+// Full opening of a jaw within two frames is fast speech; a jump is more.
+constexpr float kJump = 0.35f;
+
+TEST(AudioTrack, TakesOverFromALostFaceWithoutAJump) {
+  BlobTracker blob;
+  const Sound sound = Sound().add(3.9, kLoud);
+  ASSERT_EQ(blob.tracker().push_audio(sound.all(), 0), MIEN_OK);
+  Steps steps;
+  for (int frame = 0; frame < 100; ++frame) {
+    steps.add(blob.push(frame < 40 || frame >= 70 ? disc() : nothing()));
+  }
+  EXPECT_EQ(blob.result().status, MIEN_FACE_TRACKING);
+  EXPECT_LT(steps.largest(35, 69), kJump) << "the face goes";
+  EXPECT_LT(steps.largest(69, 100), kJump) << "the face comes back";
+}
+
+// Controls of speech that one level leaves to the sound and the other does not.
+TEST(AudioTrack, HandsOverBetweenLevelsWithoutAJump) {
+  const AlignedBytes blind = [] {
+    BlobOptions options;
+    options.supported_controls = 1;
+    return blob_basenet(options);
+  }();
+  for (const auto& [from, to] : {std::pair{1, 4}, {4, 1}}) {
+    const auto begin_at_from = [&, lod = from](mien_tracker_config& config) {
+      config.basenet = blind.get().data();
+      config.basenet_bytes = blind.get().size();
+      config.smoothing = 0;
+      config.lod = lod;
+    };
+    BlobTracker changed({}, begin_at_from), unchanged({}, begin_at_from);
+    const Sound sound = Sound().add(3.9, kLoud);
+    ASSERT_EQ(changed.tracker().push_audio(sound.all(), 0), MIEN_OK);
+    ASSERT_EQ(unchanged.tracker().push_audio(sound.all(), 0), MIEN_OK);
+    float difference = 0.0f;
+    for (int frame = 0; frame < 100; ++frame) {
+      if (frame == 40) {
+        ASSERT_EQ(changed.tracker().set_lod(to), MIEN_OK);
+      }
+      difference = largest_step(changed.push(disc()), unchanged.push(disc()));
+      EXPECT_TRUE(frame >= 45 || difference < 0.02f) << from << " to " << to << ", frame " << frame;
+    }
+    EXPECT_GT(difference, 0.1f) << "the levels do differ";
+  }
+}
+
+TEST(AudioTrack, LetsGoWithoutAJumpWhenTheSoundStops) {
+  BlobTracker blob;
+  const Sound sound = Sound().add(1.0, kLoud);
+  ASSERT_EQ(blob.tracker().push_audio(sound.all(), 0), MIEN_OK);
+  Steps steps;
+  for (int frame = 0; frame < 90; ++frame) {
+    steps.add(blob.push(disc()));
+  }
+  EXPECT_LT(steps.largest(25, 90), kJump);
+  EXPECT_LT(blob.result().voice_activity, 0.001f) << "there is no sound any more";
+  for (int frame = 0; frame < 200; ++frame) {
+    (void)blob.push(disc());
+  }
+  EXPECT_EQ(blob.result().voice_activity, 0.0f);
+}
+
+TEST(AudioTrack, ACameraThatGivesNothingLosesTheFaceNotTheVoice) {
+  BlobTracker blob;
+  const Sound sound = Sound().add(3.0, kLoud);
+  ASSERT_EQ(blob.tracker().push_audio(sound.all(), 0), MIEN_OK);
+  for (int frame = 0; frame < 20; ++frame) {
+    (void)blob.push(disc());
+  }
+  EXPECT_EQ(blob.advance().status, MIEN_FACE_TRACKING) << "one frame is none";
+  for (int frame = 0; frame < 40; ++frame) {
+    expect_sane(blob.advance());
+  }
+  EXPECT_EQ(blob.result().status, MIEN_FACE_LOST);
+  EXPECT_GT(blob.result().controls[kJawOpen], 0.9f);
+  EXPECT_EQ(blob.push_until_found(disc()).status, MIEN_FACE_TRACKING);
+}
+
+// Of a voice alone, frame by frame, the sound in blocks that `next_size` names.
+template <class NextSize>
+std::vector<Result> animation(const Sound& sound, NextSize next_size) {
+  BlobTracker blob;
+  std::size_t pushed = 0;
+  std::vector<Result> results;
+  for (int frame = 0; frame < 40; ++frame) {
+    while (pushed < sound.size() && sound.time_ns(pushed) < blob.now_ns() + 200'000'000) {
+      const Audio block = sound.block(pushed, next_size());
+      EXPECT_EQ(blob.tracker().push_audio(block, sound.time_ns(pushed)), MIEN_OK);
+      pushed += block.frames;
+    }
+    results.push_back(blob.advance());
+  }
+  return results;
+}
+
+TEST(AudioTrack, BlocksDoNotMatter) {
+  for (const int rate : {8000, 16000, 44100, 48000}) {
+    const Sound sound = Sound(rate).add(0.3, kLoud).add(0.3, 0.0f).add(1.0, 0.01f);
+    const auto whole = animation(sound, [&] { return sound.size(); });
+    std::mt19937 engine(9);
+    const auto chunked = animation(sound, [&] { return 1 + engine() % 3000; });
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+      EXPECT_EQ(std::memcmp(whole[i].controls, chunked[i].controls, sizeof whole[i].controls), 0);
+      EXPECT_EQ(whole[i].voice_activity, chunked[i].voice_activity);
+    }
+  }
+}
+
+TEST(AudioTrack, ResetForgetsIt) {
+  BlobTracker used, fresh;
+  const Sound sound = Sound().add(1.0, kLoud);
+  const Buffer image(disc(), {});
+  for (int frame = 0; frame < 20; ++frame) {
+    ASSERT_EQ(used.tracker().push_audio(sound.block(0, 600), frame * kFrameNs), MIEN_OK);
+    (void)used.push(image.image(), frame * kFrameNs);
+  }
+  ASSERT_EQ(used.tracker().set_audio_offset(kFrameNs), MIEN_OK);
+  ASSERT_EQ(used.tracker().reset(), MIEN_OK);
+  for (BlobTracker* blob : {&used, &fresh}) {
+    ASSERT_EQ(blob->tracker().push_audio(sound.all(), 0), MIEN_OK);
+  }
+  for (int frame = 0; frame < 30; ++frame) {
+    const Result a = used.push(image.image(), frame * kFrameNs);
+    const Result b = fresh.push(image.image(), frame * kFrameNs);
+    EXPECT_EQ(std::memcmp(&a, &b, sizeof(mien_result)), 0) << frame;
+  }
+}
+
+TEST(AudioTrack, ResetForgetsWhatWasHeard) {
+  BlobTracker blob = unfiltered();
+  ASSERT_EQ(blob.tracker().push_audio(Sound().add(1.0, kLoud).all(), 0), MIEN_OK);
+  for (int frame = 0; frame < 15; ++frame) {
+    (void)blob.advance();
+  }
+  ASSERT_GT(blob.result().voice_activity, 0.5f);
+  ASSERT_EQ(blob.tracker().reset(), MIEN_OK);
+  EXPECT_EQ(blob.advance().voice_activity, 0.0f);
+}
+
+TEST(AudioTrack, SurvivesAnySamplesAndTimes) {
+  BlobTracker blob;
+  std::mt19937 engine(5);
+  std::vector<float> samples(4000);
+  const float wild[] = {0.0f, 1.0f, -1.0f, 1e30f, std::nanf(""), INFINITY, -INFINITY, 1e-42f};
+  const std::int64_t times[] = {0,
+                                -1,
+                                kFrameNs,
+                                std::numeric_limits<std::int64_t>::max(),
+                                std::numeric_limits<std::int64_t>::min(),
+                                3'600'000'000'000};
+  for (int i = 0; i < 300; ++i) {
+    for (float& sample : samples) {
+      sample = wild[engine() % std::size(wild)];
+    }
+    Audio audio;
+    audio.sample_rate = std::vector<int>{8000, 16000, 44100, 192000}[engine() % 4];
+    audio.channels = 1 + static_cast<int>(engine() % 8);
+    audio.format = static_cast<int>(engine() % 2);
+    audio.frames = engine() % (samples.size() / 8);
+    audio.samples[0] = samples.data();
+    ASSERT_EQ(blob.tracker().push_audio(audio, times[engine() % std::size(times)]), MIEN_OK);
+    expect_sane(i % 3 == 0 ? blob.push(disc()) : blob.advance());
+  }
+}
+
+}  // namespace
+}  // namespace mien::tests

@@ -1,0 +1,64 @@
+#include "tracker/audio/mixer.h"
+
+#include <algorithm>
+
+namespace mien::tracker {
+namespace {
+
+// Written so that NaN fails it.
+bool is_share(float value) { return value >= 0.0f && value <= 1.0f; }
+
+[[nodiscard]] mien_status read(const engine::Model& model, const char* name, Controls& weights) {
+  std::span<const float> values;
+  if (model.constant(name, kControls, values) != engine::Status::kOk) {
+    return MIEN_ERROR_WEIGHTS_INCOMPLETE;
+  }
+  if (!std::all_of(values.begin(), values.end(), is_share)) {
+    return MIEN_ERROR_WEIGHTS_MALFORMED;
+  }
+  std::copy(values.begin(), values.end(), weights.begin());
+  return MIEN_OK;
+}
+
+}  // namespace
+
+mien_status Mixer::load(const engine::Model& model) {
+  mien_status status = read(model, "mix_audio", loaded_.audio);
+  if (status == MIEN_OK) {
+    status = read(model, "mix_video", loaded_.video);
+  }
+  restore();
+  return status;
+}
+
+bool Mixer::set_weights(std::size_t control, float audio, float video) {
+  if (!is_share(audio) || !is_share(video)) {
+    return false;
+  }
+  weights_.audio[control] = audio;
+  weights_.video[control] = video;
+  return true;
+}
+
+std::uint64_t Mixer::driven() const {
+  std::uint64_t driven = 0;
+  for (std::size_t i = 0; i < kControls; ++i) {
+    driven |= static_cast<std::uint64_t>(weights_.audio[i] > 0.0f) << i;
+  }
+  return driven;
+}
+
+void Mixer::mix(const AudioOutput& output, std::span<const float, kControls> seen,
+                std::span<float, kControls> controls) const {
+  for (std::size_t i = 0; i < kControls; ++i) {
+    if (weights_.audio[i] <= 0.0f) {
+      continue;
+    }
+    const float audio = 1.0f + seen[i] * (weights_.audio[i] - 1.0f);
+    const float video = seen[i] * weights_.video[i];
+    const float mixed = audio * output.controls[i] + video * controls[i];
+    controls[i] = std::clamp(controls[i] + output.alpha * (mixed - controls[i]), 0.0f, 1.0f);
+  }
+}
+
+}  // namespace mien::tracker

@@ -1,0 +1,281 @@
+#include "tracker/detection/mtcnn_detector.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "tracker/detection/tiles.h"
+#include "tracker/image/shrink.h"
+
+namespace mien::tracker {
+namespace {
+
+constexpr float kPyramidFactor = 0.709f;
+constexpr std::int32_t kWindow = 12;   // P-Net's, pixels
+constexpr float kStride = 2.0f;        // of P-Net's windows, pixels
+constexpr float kWindowMiddle = 6.0f;  // from its beginning, pixels
+constexpr std::int32_t kRefineSide = 24;
+constexpr float kOverlapInSize = 0.5f;
+constexpr float kOverlapOfSizes = 0.7f;
+constexpr float kOverlapRefined = 0.4f;
+constexpr float kThorough = 0.25f;  // of P-Net's threshold, in a thorough search
+constexpr float kLargestLogStep = 1.0f;
+constexpr std::int32_t kLargestTile = 60;  // pixels
+// What one share of a search is, about ten million multiply-accumulates either way.
+constexpr std::int32_t kSharePixels = 6400;  // of a band for P-Net
+constexpr std::int32_t kMinRows = 24;        // the same
+constexpr std::size_t kRefinedPerShare = 5;  // by R-Net
+
+// The square that the regression (dx, dy, dlog), in sides of the window, points to.
+Square regressed(const Square& window, const float* regression) {
+  const float dlog = std::clamp(regression[2], -kLargestLogStep, kLargestLogStep);
+  return {{window.center.x + regression[0] * window.side,
+           window.center.y + regression[1] * window.side},
+          window.side * std::exp(dlog)};
+}
+
+bool is_usable(const Square& square) {
+  return is_finite(square.center) && std::isfinite(square.side) && square.side > 0.0f;
+}
+
+std::span<float> take_floats(engine::Arena& arena, std::size_t count) {
+  const std::span<std::byte> memory = arena.take(count * sizeof(float));
+  return {reinterpret_cast<float*>(memory.data()), memory.size() / sizeof(float)};
+}
+
+Square canvas_of(const ImageView& view) {
+  return {view.region.center(), view.region.longer_side()};
+}
+
+}  // namespace
+
+mien_status MtcnnDetector::load(const mien_tracker_config& config, const Models& models,
+                                engine::Arena& arena) {
+  if (!sampler_.init(config.cpu_mask, arena)) {
+    return MIEN_ERROR_UNSUPPORTED_CPU;
+  }
+  proposal_threshold_ = config.proposal_threshold;
+  refine_threshold_ = config.refine_threshold;
+  row_ = take_floats(arena, 3 * static_cast<std::size_t>(config.proposal_size));
+  const engine::Model& model = models.proposal;
+  mien_status status = MIEN_OK;
+  large_count_ = small_count_ = 0;
+  auto size = static_cast<float>(config.proposal_size);
+  for (; status == MIEN_OK; size *= kPyramidFactor) {
+    const auto side = static_cast<std::int32_t>(std::lround(size));
+    if (side < kWindow) {
+      break;
+    }
+    status = side > kLargestTile
+                 ? load_large(config, model, side, arena)
+                 : small_[small_count_++].load(model, {"pnet", {side, side, 3}, {1, 3}},
+                                               config.cpu_mask, arena);
+  }
+  const engine::NetworkForm rnet = {"rnet", {kRefineSide, kRefineSide, 3}, {1, 3}};
+  return status == MIEN_OK ? rnet_.load(model, rnet, config.cpu_mask, arena) : status;
+}
+
+mien_status MtcnnDetector::load_large(const mien_tracker_config& config, const engine::Model& model,
+                                      std::int32_t side, engine::Arena& arena) {
+  LargeSize& size = large_[large_count_++];
+  const auto floats = 3 * static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
+  size.side = side;
+  size.picture = take_floats(arena, floats);
+  // Windows lie two rows apart, so every band begins at an even one.
+  const std::int32_t rows = std::min(std::max(kSharePixels / side, kMinRows), side) / 2 * 2;
+  const mien_status status =
+      size.band.load(model, {"pnet", {rows, side, 3}, {1, 3}}, config.cpu_mask, arena);
+  if (status == MIEN_OK && !arena.measuring()) {
+    size.cell_rows = size.band.output_shape(0).h + (side - rows) / 2;
+  }
+  return status;
+}
+
+void MtcnnDetector::begin(const ImageView& view, bool thorough) {
+  search_ = {};
+  search_.canvas = canvas_of(view);
+  search_.threshold = proposal_threshold_ * (thorough ? kThorough : 1.0f);
+}
+
+bool MtcnnDetector::go_on(const ImageView& view) {
+  if (search_.size < large_count_) {
+    if (search_.has_picture) {
+      scan_band();
+    } else {
+      make_picture(view);
+    }
+    return true;
+  }
+  if (search_.size == large_count_) {
+    ++search_.size;
+    engine::Network& first = small_.front();
+    if (large_count_ == 0) {
+      sampler_.cut_black(view, search_.canvas, first.input_shape().w, first.input());
+    } else {
+      const LargeSize& last = large_[large_count_ - 1];
+      shrink(last.picture, last.side, first.input(), first.input_shape().w, row_);
+    }
+    scan_small_sizes(0, 1);
+    return true;
+  }
+  if (search_.size == large_count_ + 1) {
+    ++search_.size;
+    scan_small_sizes(1, small_count_);
+    end_scan(kRefined);
+  } else {
+    refine(view, kRefinedPerShare);
+  }
+  return search_.seen_again < search_.scanned;
+}
+
+std::size_t MtcnnDetector::detect_in_tile(const ImageView& view, std::uint32_t turn,
+                                          std::span<Detection> detections) {
+  begin(view, false);
+  std::size_t sizes = small_count_;
+  for (std::size_t i = 0; i < large_count_; ++i) {
+    const Tiles tiles = tiles_of(view, large_[i]);
+    if (turn < tiles.count()) {
+      search_.canvas = tiles.square(turn);
+      sizes = 1;
+      break;
+    }
+    turn -= tiles.count();
+  }
+  engine::Network& first = small_.front();
+  sampler_.cut_black(view, search_.canvas, first.input_shape().w, first.input());
+  scan_small_sizes(0, sizes);
+  end_scan(detections.size());
+  refine(view, detections.size());
+  return found(detections);
+}
+
+std::uint32_t MtcnnDetector::turns(const ImageView& view) const {
+  return std::accumulate(large_.begin(), large_.begin() + static_cast<std::ptrdiff_t>(large_count_),
+                         1u, [&](std::uint32_t turns, const LargeSize& size) {
+                           return turns + tiles_of(view, size).count();
+                         });
+}
+
+Tiles MtcnnDetector::tiles_of(const ImageView& view, const LargeSize& size) const {
+  const float pixels = canvas_of(view).side / static_cast<float>(size.side);
+  const auto side = static_cast<float>(small_.front().input_shape().w);
+  return {view.region, side * pixels, kWindow * pixels};
+}
+
+std::size_t MtcnnDetector::found(std::span<Detection> found) {
+  const std::span<Detection> refined = std::span(detections_).first(search_.refined);
+  const std::span<Detection> faces = refined.first(suppress_non_maxima(refined, kOverlapRefined));
+  // Of several faces the largest comes first, unless R-Net is much less sure of it.
+  std::sort(faces.begin(), faces.end(), [](const Detection& a, const Detection& b) {
+    return a.score * a.square.side > b.score * b.square.side;
+  });
+  const std::size_t count = std::min(found.size(), faces.size());
+  std::copy_n(faces.begin(), count, found.begin());
+  return count;
+}
+
+void MtcnnDetector::make_picture(const ImageView& view) {
+  const LargeSize& size = large_[search_.size];
+  if (search_.size == 0) {
+    sampler_.cut_black(view, search_.canvas, size.side, size.picture);
+  } else {
+    const LargeSize& larger = large_[search_.size - 1];
+    shrink(larger.picture, larger.side, size.picture, size.side, row_);
+  }
+  search_.has_picture = true;
+  best_ = none_yet();
+}
+
+void MtcnnDetector::scan_band() {
+  LargeSize& size = large_[search_.size];
+  const std::int32_t rows = size.band.output_shape(0).h;
+  const std::int32_t first = std::min(search_.cell_row, size.cell_rows - rows);
+  const std::size_t offset =  // P-Net has a cell every 2 pixels, of 3 values
+      6 * static_cast<std::size_t>(first) * static_cast<std::size_t>(size.side);
+  const std::span<float> input = size.band.input();
+  std::copy_n(size.picture.subspan(offset, input.size()).begin(), input.size(), input.begin());
+  size.band.run();
+  collect(size.band, size.side, search_.cell_row - first, search_.cell_row, best_);
+  search_.cell_row = first + rows;
+  if (search_.cell_row == size.cell_rows) {
+    keep(best_);
+    ++search_.size;
+    search_.has_picture = false;
+    search_.cell_row = 0;
+  }
+}
+
+void MtcnnDetector::scan_small_sizes(std::size_t first, std::size_t end) {
+  for (std::size_t i = first; i < end; ++i) {
+    engine::Network& pnet = small_[i];
+    const std::int32_t side = pnet.input_shape().w;
+    if (i > 0) {
+      engine::Network& larger = small_[i - 1];
+      shrink(larger.input(), larger.input_shape().w, pnet.input(), side, row_);
+    }
+    pnet.run();
+    BestDetections best = none_yet();
+    collect(pnet, side, 0, 0, best);
+    keep(best);
+  }
+}
+
+BestDetections MtcnnDetector::none_yet() {
+  return BestDetections(std::span<Detection>(detections_).subspan(search_.scanned, kPerSize));
+}
+
+void MtcnnDetector::keep(const BestDetections& best) {
+  search_.scanned += suppress_non_maxima(best.kept(), kOverlapInSize);
+}
+
+void MtcnnDetector::end_scan(std::size_t most) {
+  const std::span<Detection> all = std::span(detections_).first(search_.scanned);
+  search_.scanned = std::min(suppress_non_maxima(all, kOverlapOfSizes), most);
+}
+
+void MtcnnDetector::collect(const engine::Network& pnet, std::int32_t side, std::int32_t first,
+                            std::int32_t at, BestDetections& best) const {
+  const Square& canvas = search_.canvas;
+  const float pixels = canvas.side / static_cast<float>(side);
+  const float left = canvas.center.x - canvas.side / 2;
+  const float top = canvas.center.y - canvas.side / 2;
+  const engine::Shape& cells = pnet.output_shape(0);
+  const std::size_t skipped =
+      8 * static_cast<std::size_t>(first) * static_cast<std::size_t>(cells.w);
+  const float* face = pnet.output(0).data() + skipped;
+  const float* regression = pnet.output(1).data() + skipped;
+  for (std::int32_t y = at; y < at + cells.h - first; ++y) {
+    for (std::int32_t x = 0; x < cells.w; ++x, face += 8, regression += 8) {
+      if (!(face[0] >= search_.threshold)) {
+        continue;
+      }
+      const Square window = {{left + (kStride * static_cast<float>(x) + kWindowMiddle) * pixels,
+                              top + (kStride * static_cast<float>(y) + kWindowMiddle) * pixels},
+                             kWindow * pixels};
+      const Square square = regressed(window, regression);
+      if (is_usable(square)) {
+        best.offer({square, face[0]});
+      }
+    }
+  }
+}
+
+void MtcnnDetector::refine(const ImageView& view, std::size_t most) {
+  for (; most > 0 && search_.seen_again < search_.scanned; --most, ++search_.seen_again) {
+    Detection detection = detections_[search_.seen_again];
+    if (refine(view, detection)) {
+      detections_[search_.refined++] = detection;
+    }
+  }
+}
+
+bool MtcnnDetector::refine(const ImageView& view, Detection& detection) {
+  sampler_.cut_black(view, detection.square, kRefineSide, rnet_.input());
+  rnet_.run();
+  const float score = rnet_.output(0)[0];
+  const Square square = regressed(detection.square, rnet_.output(1).data());
+  detection = {square, score};
+  return score >= refine_threshold_ && is_usable(square);
+}
+
+}  // namespace mien::tracker
