@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Sums up what clang counted by folder, and holds it against the bars.
+"""Sums up coverage by folder and compares it with the goals.
 
 usage: coverage_report.py EXPORT.json UNCOVERED.txt REPORT.md      (see coverage.sh)
 EXPORT.json is llvm-cov's. UNCOVERED.txt becomes a line for every stretch of lines and every side of a branch that nothing ran;
@@ -87,8 +87,8 @@ def main(export, uncovered, report):
         parts = rooms[room]["lines"], rooms[room]["branches"]
         rows.append(f"| {room} | " + " | ".join(f"{p[0]} of {p[1]} | {percent(p):.1f}" for p in parts) + " |")
     met = percent(rooms["the library"]["lines"]) >= LINES_OF_LIBRARY and percent(rooms["parsers"]["branches"]) >= BRANCHES_OF_PARSERS
-    rows += ["", f"Bars: lines of the library {LINES_OF_LIBRARY:.0f} %, branches of parsers {BRANCHES_OF_PARSERS:.0f} %: {'met' if met else 'missed'}.",
-             f"Tiers that this CPU has not, left out: {', '.join(left_out) or 'none'}; those of other machines are not compiled here."]
+    rows += ["", f"Goals: lines of the library {LINES_OF_LIBRARY:.0f} %, branches of parsers {BRANCHES_OF_PARSERS:.0f} %: {'met' if met else 'missed'}.",
+             f"Excluded tiers, which this CPU lacks: {', '.join(left_out) or 'none'}; tiers of other machines are not compiled."]
     text = Path(report).read_text()
     before, rest = text.split(BEGIN)
     Path(report).write_text("\n".join([before + BEGIN, *rows, END + rest.split(END)[1]]))

@@ -58,7 +58,7 @@ def main(folder, files):
     known = set(WORDS.read_text().split()) | set(re.findall(r"[A-Za-z]+", " ".join(term for term, _, _ in rows)))
     spelling = {"version": "0.2", "language": "en-GB", "words": sorted(known), "useGitignore": False,
                 "dictionaries": ["softwareTerms", "cpp", "python", "typescript", "node", "companies", "filetypes"],
-                "ignoreRegExpList": [r"\b\w*[_\d]\w*\b", r"\b[0-9a-f]{7,40}\b"]}
+                "ignoreRegExpList": [r"\+git\w+", r"\b\w*[_\d]\w*\b", r"\b[0-9a-f]{7,40}\b"]}
     rules = {"rules": {"terminology": {"defaultTerms": False, "terms": terminology(rows)}}}
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "cspell.json").write_text(json.dumps(spelling, indent=2))

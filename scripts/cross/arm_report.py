@@ -115,20 +115,19 @@ def main():
     avx2 = Machine("avx2", ["qemu-x86_64", "-cpu", "max"], work / "run_avx2", [x64("avx2")], "nm")
     header = ["tier", "inner loop", "instructions", "FMAs", "spills", *predict.CPUS]
     counted = ["network", "layers", "MACs", "neon", "avx2", "ratio"]
-    text = f"""# ARM, without an ARM machine
+    text = f"""# Predicted speed on ARM
 
-Nothing here was timed: there was no ARM hardware. `scripts/cross/arm_report.sh` writes this file.
+For developers of kernels. No ARM machine was available: these are predictions and instruction counts, not measurements.
+
+The second and third table compare instructions per multiply-accumulate with AVX2, whose vectors have twice the width of NEON's in fp32 and the same
+in half precision. The data are the published networks; `scripts/cross/arm_report.sh` writes this page.
 
 ## Inner loops
 
-Predicted by llvm-mca ({version("llvm-mca")}) from the objects as they are linked: the cycles that
-the loop's fused multiply-adds need if nothing else limits, over the cycles the loop takes. In brackets
-the same for all of its vector arithmetic, as clamps and conversions run on the same units. A depthwise output has nine
-multiply-adds and is clamped by two instructions, so where two units do both, as in A76 and X1, no loop with ReLU6 can have more
-than 9/11 = 82% of the limit of its multiply-adds; the bracket says how near it comes. The clamp cannot go elsewhere: whoever
-reads the result would pay for it on the same units, and the weights do not bound the sums (of all blocks of channels before
-3x3 layers of the two encoders, one needs no upper clamp). llvm-mca 14 uses the model of Cortex-A57 for A76 and X1, and that
-of Cyclone for M1; loads that miss a cache are not modelled. {WITHOUT_FP16} has no fp16 arithmetic.
+Predictions of llvm-mca ({version("llvm-mca")}): the cycles that the fused multiply-adds of a loop need at least, as a share of the cycles that it takes. In brackets the same
+for all vector arithmetic, because clamps and conversions use the same units. With two units for both, as in A76 and X1, a depthwise loop of nine multiply-adds and a ReLU6
+of two instructions reaches at most 82 %. llvm-mca 14 uses the model of Cortex-A57 for A76 and X1 and of Cyclone for M1, and ignores cache misses. {WITHOUT_FP16} has no fp16
+arithmetic.
 
 gcc ({version("aarch64-linux-gnu-g++")}):
 
@@ -138,19 +137,17 @@ clang ({version("clang++")}):
 {table(header, predictions(lambda tier: work / "clang" / tier))}
 ## Instructions per multiply-accumulate
 
-One run of a network, counted by qemu-user on the same weights and input; gcc on both sides, blocks fused. `all` is
-everything that a run executes; `depthwise` has all of a block that is no product. The ratio is NEON's over AVX2's, whose vectors
-are twice as wide. AVX2 widens eight weights in the load that it needs anyway; NEON has an instruction for every four, on the
-units of the arithmetic, which shows where each weight is used once: in the decoders.
+One run of a network, counted by qemu-user, with gcc and fused blocks. `all` is the whole run; `depthwise` includes everything in a block except products. AVX2 converts eight
+weights in their load, NEON needs an instruction for four, which matters in decoders, where each weight is used once.
 
 {table(counted, per_mac(neon, avx2, work))}
-In half precision a vector has as many numbers as AVX2's, and weights need not be widened:
+In half precision, vectors have as many values as AVX2's, and weights need no conversion:
 
 {table(["network", "MACs", "neonfp16", "avx2", "ratio"], in_half(neonfp16, avx2, work))}
 ## Fused blocks
 
-Layer by layer (`plain`) and fused; traffic is that of a model of Cortex-A53's caches (32 KB in 4 ways, 512 KB in 16; lines
-of 64 bytes, least recently used; no prefetching), of a second run after a first. The weights alone are 1033 KB and 1893 KB.
+Layer by layer (`plain`) and fused; memory traffic of a second run, in a model of Cortex-A53's caches (32 KB in 4 ways, 512 KB in 16; lines of 64 bytes, LRU, no prefetching).
+The weights are 1033 KB and 1893 KB.
 
 {table(["network", "tier", "blocks", "instructions", "KB into L1", "KB into L2"], ways(neon, neonfp16, work))}"""
     out.write_text(text)

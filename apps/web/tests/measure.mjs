@@ -60,7 +60,7 @@ async function drawn(page, level, settling_s = 15, seconds = 10) {
   await page.waitForTimeout(seconds * 1000);
   const after = await count(), used = processorTime().all - usedBefore;
   const rate = name => ((after[name] - before[name]) * 1000 / (after.time_ms - before.time_ms)).toFixed(1);
-  return `| ${level} | ${rate('pictures')} | ${rate('results')} | ${after.width} x ${after.height}${after.smooth ? ', smooth edges' : ''} | ` +
+  return `| ${level} | ${rate('pictures')} | ${rate('results')} | ${after.width} x ${after.height}${after.smooth ? ', antialiased' : ''} | ` +
     `${(used / (after.pictures - before.pictures)).toFixed(1)} | ${(used / (after.time_ms - before.time_ms) * 100).toFixed(0)} % |`;
 }
 
@@ -88,36 +88,37 @@ try {
   const bytes = readdirSync(dist, {recursive: true}).map(name => statSync(join(dist, name))).filter(info => info.isFile())
     .reduce((sum, {size}) => sum + size, 0);
   const chromium = studio.browser.version(), node = execFileSync('node', ['--version']).toString().trim();
-  writeFileSync(out, `# The page, measured
+  writeFileSync(out, `# The web page
 
-Made by \`scripts/web.sh measure\`: Chromium ${chromium} without a window, whose camera and microphone play \`tests/data/demo.mp4\`, on
-${cpus().length} cores of ${cpus()[0].model}, Node ${node}. The load of the machine was ${loadavg()[0].toFixed(1)} (processes that want a
-core), so times are upper bounds. There is no graphics card: what WebGL draws, processors draw (SwiftShader).
+For developers of web apps.
 
-| | |
+The first result appears about ${(median(starts.map(({afterCamera}) => afterCamera)) / 1000).toFixed(2)} s after the camera starts; the tables below have CPU time, frame rates, and how
+closely the avatar's jaw follows the true jaw of the clip. \`scripts/web.sh measure\` ran Chromium ${chromium} with \`tests/data/demo.mp4\` as camera and microphone on ${cpus().length} cores of ${cpus()[0].model} with Node
+${node} and a load of ${loadavg()[0].toFixed(1)}, without a graphics card (SwiftShader), so times are upper bounds.
+
+| figure | value |
 |---|---|
-| the whole page, weights included | ${bytes} bytes |
-| first result after the camera plays, three starts | ${starts.map(({afterCamera}) => Math.round(afterCamera)).join(', ')} ms |
+| page with weights | ${bytes} bytes |
+| first result after the camera starts, three runs | ${starts.map(({afterCamera}) => Math.round(afterCamera)).join(', ')} ms |
 | first result after the button is pressed | ${starts.map(({afterClick}) => Math.round(afterClick)).join(', ')} ms |
 
-What one picture of the face costs the browser's processes, a stage of ${stage.width} x ${stage.height} pixels, each picture waited for, the least of several rounds
-in turns. The page takes the finest quality that the browser keeps up with.
+CPU time of the browser for one image of the face, ${stage.width} x ${stage.height} pixels, minimum of several rounds. The page selects the finest quality that
+the browser sustains.
 
-| pixels of the stage | edges | processor time, ms |
+| pixels | antialiasing | CPU time, ms |
 |---|---|---|
-${costs.map(({scale, smooth, ms}) => `| ${Math.round(scale * 100)} % of width and height | ${smooth ? 'smooth' : 'as they fall'} | ${ms.toFixed(1)} |`).join('\n')}
+${costs.map(({scale, smooth, ms}) => `| ${Math.round(scale * 100)} % of width and height | ${smooth ? 'yes' : 'no'} | ${ms.toFixed(1)} |`).join('\n')}
 
-While the camera runs and a level tracks, everything included: camera, video decoder, worker, drawing, and putting the window together.
+While camera, decoder, worker, drawing and compositing run:
 
-| level | pictures drawn a second | frames tracked a second | canvas | processor time of a picture, ms | of one processor |
+| level | images drawn per second | frames tracked per second | canvas | CPU time per image, ms | CPU load |
 |---|---|---|---|---|---|
 ${drawing.join('\n')}
 
-Below, faces are shaped but not drawn, which leaves the processors to the tracker as a graphics card would. The jaw is that of the avatar:
-how far the middle of its lower lip has come down, against \`jawOpen\` of \`tests/data/demo_truth.csv\`, over ${seconds} s (two loops of the clip; the lag
-that fits best). Tracking is one frame in the worker, picture and sound; shaping is what the avatar computes before it is drawn.
+Without drawing, as with a graphics card. Jaw: correlation of the avatar's lower lip with \`jawOpen\` of \`tests/data/demo_truth.csv\` over ${seconds} s at the best
+lag. Tracking: one frame with audio in the worker. Shaping: computation of the avatar's vertices.
 
-| level | correlation of the jaw | frames a second | tracking, median ms | shaping, median ms |
+| level | correlation of the jaw | frames per second | tracking, median ms | shaping, median ms |
 |---|---|---|---|---|
 ${rows.join('\n')}
 `);
