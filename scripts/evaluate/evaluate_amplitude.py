@@ -190,17 +190,4 @@ def markdown(report):
         control relative to that of the truth, or of MediaPipe on clips.""")
     rows = [[rows[0][0], *(row[1] for row in rows)] for rows in zip(*(summary(r) for r in report.values()))]
     lines += out.table(["figure", *map(out.level, report)], rows)
-    titles = ("rendered", "clips")
-    header = ["control", *(f"{out.level(name)}: {title}" for name in report for title in titles)]
-    lines += ["## Deviation of controls", ""]
-    supported = [c for c in CONTROLS if any(c in r["supported"] for r in report.values())]
-    return "\n".join(lines + out.table(header, [[c, *(cell for r in report.values() for cell in cells_of(r, c))] for c in supported]))
-
-
-def cells_of(r, control):
-    """Deviations of a control; dashes where the level does not support it or the reference does not move."""
-    if control not in r["supported"]:
-        return ["-"] * 2
-    render, clip = r.get("renders", {"controls": {}})["controls"].get(control, {}), r["clips"]["controls"][control]
-    moves = (clip["moves"] or 0) >= teacher.MOVES
-    return [out.number(v, 2) for v in (render.get("ratio"), clip["ratio"] if moves else None)]
+    return "\n".join(lines + ["[Accuracy by control](controls.md)", ""])

@@ -90,7 +90,7 @@ def markdown(report):
         f"{1e4 * r['all']['still_jitter']:.1f}e-4, MediaPipe's {1e4 * r['all']['teacher_still_jitter']:.1f}e-4")}.""")
     header = ["clip", "frames", *(f"{title}, {out.level(name)}" for name in report for title in ("tracked", "landmarks, % of pupils", "pose, degrees"))]
     lines += out.table(header, clip_rows(report))
-    return "\n".join(lines + teacher.control_lines({name: r["controls"] for name, r in report.items()}))
+    return "\n".join(lines + out.prose(teacher.worst_controls({name: r["controls"] for name, r in report.items()})))
 
 
 def clip_rows(report):

@@ -167,5 +167,5 @@ def markdown(report):
     lines += ["## By head pose", "", *group_lines("yaw, degrees", levels, "by_yaw"), "## By skin tone", ""]
     lines += out.prose(f"""Individual typology angle of the cheeks in the image (Chardon et al. 1991), which light changes as well; faces turned by
         less than {TONE_YAW} degrees.""") + group_lines("skin tone", levels, "by_tone")
-    lines += ["## Controls across portraits", "", *teacher.control_lines({name: r["portraits"]["controls"] for name, r in levels.items()})]
+    lines += ["## Controls across portraits", "", *out.prose(teacher.worst_controls({name: r["portraits"]["controls"] for name, r in levels.items()}))]
     return "\n".join(lines)

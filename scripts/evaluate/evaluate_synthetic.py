@@ -165,15 +165,7 @@ def markdown(report):
         cells = lambda key, scale: [out.number(scale * c[key], 4 if scale == 1 else 1) for c in columns.values()]
         lines += out.table(["", *columns], [[title, *cells(key, scale)] for title, key, scale in ROWS])
         lines += network_lines(r["networks"]) if "networks" in r else []
-    return "\n".join(lines + ["## Correlation of the program's controls", "", *control_table(programs)])
-
-
-def control_table(programs):
-    """Correlations of all controls; a dash where a level does not support one."""
-    last = next(reversed(programs.values()))["correlation"]
-    rows = [[c, *(out.number(p["correlation"][c], 2) for p in programs.values())]
-            for c in sorted(CONTROLS, key=lambda c: -np.nan_to_num(last[c], nan=-1))]
-    return out.table(["control", *map(out.level, programs)], [row for row in rows if any(cell != "-" for cell in row[1:])])
+    return "\n".join(lines + ["[Accuracy by control](controls.md)", ""])
 
 
 def network_lines(r):

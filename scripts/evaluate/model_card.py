@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes the errors by group of people into the model card, from docs/results: models/README.md, between its two comments.
 
-usage: scripts/evaluate/model_card.py        evaluate.py does it, too
+usage: scripts/evaluate/model_card.py        evaluate.py runs it as well
 """
 import json
 from pathlib import Path
@@ -15,7 +15,7 @@ LEVELS = ("LOD1", "LOD4")
 
 
 def wild(results):
-    """Lines of the portraits in the wild: how far the worst group is off, each group of people, and all."""
+    """Lines of the portraits in the wild: the worst group relative to all, and each group."""
     levels = [results["levels"][name] for name in LEVELS]
     cells = lambda r: [f"{100 * r['found']:.1f} %", out.number(r["error"] and 100 * r["error"], 2), out.number(r["correlation"], 2)]
     lines = [["all", str(levels[0]["pictures"]), *cells(levels[0]), *cells(levels[1])]]
@@ -23,9 +23,9 @@ def wild(results):
         for name, first in levels[0][key].items():
             lines.append([name, str(first["pictures"]), *cells(first), *cells(levels[1][key][name])])
     worst = [f"level {name[-1]}: {r['worst_group_ratio']:.2f}" for name, r in zip(LEVELS, levels)]
-    said = out.prose(f"""Landmarks of the worst ethnic group, as a multiple of those of all, at most 1.15 by our goal: {", ".join(worst)}.""")
-    return said + out.table(["portraits in the wild", "pictures", "level 1: found rightly", "landmarks, %", "controls",
-                             "level 4: found rightly", "landmarks, %", "controls"], lines)
+    text = out.prose(f"""Landmark error of the worst ethnic group relative to all (goal: 1.15 at most): {", ".join(worst)}.""")
+    return text + out.table(["portraits in the wild", "images", "level 1: detected", "landmarks, %", "controls",
+                             "level 4: detected", "landmarks, %", "controls"], lines)
 
 
 def tones(results):
@@ -33,7 +33,7 @@ def tones(results):
     first, last = (results["levels"][name]["portraits"]["by_tone"] for name in LEVELS)
     cells = lambda r: [str(r["lost"]), out.number(r["error"] and 100 * r["error"], 2)]
     lines = [[name, str(group["pictures"]), *cells(group), *cells(last[name])] for name, group in first.items()]
-    return out.table(["single portraits, skin tone", "pictures", "level 1: not found", "landmarks, %", "level 4: not found", "landmarks, %"], lines)
+    return out.table(["portraits by skin tone", "images", "level 1: lost", "landmarks, %", "level 4: lost", "landmarks, %"], lines)
 
 
 def write(folder):

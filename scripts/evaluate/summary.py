@@ -2,10 +2,10 @@
 import json
 
 import bars
+import controls_page
 import report as out
+from controls_page import LEVELS, find
 from setting import PARTS
-
-LEVELS = ("LOD1", "LOD4")
 
 
 def cell(bar, figure, level=None):
@@ -30,19 +30,12 @@ def counts(results):
             yield f"* {out.level(level)}: {sum(known)} of {len(known)} goals met."
 
 
-def figure(results, *path):
-    """A figure of a part, or None if it was not measured."""
-    for step in path:
-        results = results.get(step) if results else None
-    return results
-
-
 def in_short(results):
     """How accurate, how fast, on which data."""
     known = lambda digits, scale, *path: " and ".join(out.number(None if v is None else scale * v, digits) for v in (
-        figure(results, *(level if p is None else p for p in path)) for level in LEVELS))
+        find(results, *(level if p is None else p for p in path)) for level in LEVELS))
     speed = ""
-    if frames := figure(results, "peers", "frames"):
+    if frames := find(results, "peers", "frames"):
         first, last = (frames["mien_us"][level] for level in ("1", "4"))
         speed = f"""a frame takes {first / 1000:.3f} ms at level 1 and {last / 1000:.3f} ms at level 4 on one core ({results["peers"]["processor"]}),
             {frames["mediapipe_us"] / first:.0f} and {frames["mediapipe_us"] / last:.0f} times as fast as MediaPipe."""
@@ -66,6 +59,7 @@ def page(results, seconds, skipped, has_hifinet):
     if not has_hifinet:
         lines += ["**HiFiNet is not trained yet**: levels 2 to 4 are unknown.", ""]
     lines += [*counts(results), ""]
+    lines += out.prose("[Accuracy by control](controls.md) has the figures of each control.")
     lines += out.table(["figure", "goal", *map(out.level, LEVELS), "page"], [line(bar, results) for bar in bars.every()])
     if "voice" in results:
         sound = [(bar, bar.figure(results["voice"], None)) for bar in bars.voice()]
@@ -84,4 +78,5 @@ def write(folder, skipped, has_hifinet):
     results, seconds = ({part: r[key] for part, r in stored.items()} for key in ("results", "seconds"))
     if (folder / "peers.json").exists():
         results["peers"] = json.loads((folder / "peers.json").read_text())
+    (folder / "controls.md").write_text(controls_page.page(results))
     (folder / "README.md").write_text(page(results, seconds, skipped, has_hifinet))

@@ -32,10 +32,8 @@ def compare_controls(ours, theirs):
     return {CONTROLS[i]: dict(zip(names, out.rounded(row))) for i, row in zip(known, rows)}
 
 
-def control_lines(levels):
-    """Table of compare_controls of each level {name: rows}: controls that the teacher moves and a level supports."""
-    last = next(reversed(levels.values()))
-    moving = [c for c, r in last.items() if r["spread"] >= MOVES and any(rows[c]["correlation"] is not None for rows in levels.values())]
-    moving.sort(key=lambda c: -(last[c]["correlation"] or 0))
-    cells = [[c, *(out.number(rows[c]["correlation"], 2) for rows in levels.values()), out.number(last[c]["spread"], 2)] for c in moving]
-    return out.table(["control", *(f"correlation, {out.level(name)}" for name in levels), "MediaPipe's deviation"], cells)
+def worst_controls(levels, count=5):
+    """Text: the lowest correlations of each level {name: rows} among controls that the teacher moves."""
+    rank = lambda rows: sorted((r["correlation"], c) for c, r in rows.items() if r["spread"] >= MOVES and r["correlation"] is not None)
+    return "Lowest correlations with MediaPipe: " + out.by_level(levels, lambda rows: ", ".join(
+        f"{c} {value:.2f}" for value, c in rank(rows)[:count])) + ". [Accuracy by control](controls.md) has all."

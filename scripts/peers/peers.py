@@ -101,7 +101,9 @@ def network_lines(report):
     for r in report:
         full = fastest({e: t for e, t in r["peers"].items() if e not in LESS_EXACT})
         of_all = fastest(r["peers"])
-        for tier, t in r["mien"].items():
+        tiers = r["mien"] if r["network"] in BARS else [fastest(r["mien"])]
+        for tier in tiers:
+            t = r["mien"][tier]
             ratios = [t["min_ms"] / r["peers"][e]["min_ms"] for e in (full, of_all)]
             rows.append([r["network"], tier, show(t), f"{ratios[0]:.2f} of {ENGINES[full]}", f"{ratios[1]:.2f} of {ENGINES[of_all]}"])
     lines += table(["network", "mien's tier", "mien", "of the fastest in fp32", "of the fastest"], rows)
