@@ -87,7 +87,7 @@ def markdown(report):
     lines += out.prose(f"""Tracked: share of MediaPipe's frames that mien tracks. Pose: mean angle after removal of the best constant rotation. Controls
         are compared within clips. Jitter at rest covers runs of at least {STILL_FRAMES} frames in which MediaPipe's mean landmark moves by at most
         {100 * STILL_STEP:.1f} % of the distance between the outer eye corners per frame: {out.by_level(report, lambda r:
-        f"{1e4 * r['all']['still_jitter']:.1f}e-4, MediaPipe's {1e4 * r['all']['teacher_still_jitter']:.1f}e-4")}.""")
+        f"{1e4 * r['all']['still_jitter']:.1f}e-4 for mien, {1e4 * r['all']['teacher_still_jitter']:.1f}e-4 for MediaPipe on the same controls,")}.""")
     header = ["clip", "frames", *(f"{title}, {out.level(name)}" for name in report for title in ("tracked", "landmarks, % of pupils", "pose, degrees"))]
     lines += out.table(header, clip_rows(report))
     return "\n".join(lines + out.prose(teacher.worst_controls({name: r["controls"] for name, r in report.items()})))

@@ -163,7 +163,8 @@ def markdown(report):
         {report['false_faces']}. Head pose differs from MediaPipe's by {out.by_level(levels, lambda r:
         f"{r['portraits']['pose_difference_deg']:.1f} degrees")} after removal of the best constant rotation.""")
     lines += out.prose(f"""The data are held-out portraits with labels of MediaPipe and rendered test people with exact labels; each image is shown for
-        {FRAMES} frames. Two figures in a cell are for {" and ".join(map(out.level, levels))}; lost faces are not detected.""")
+        {FRAMES} frames. Cells with two figures are for
+        {" and ".join(map(out.level, levels))}; *lost* counts faces that were not detected.""")
     lines += ["## By head pose", "", *group_lines("yaw, degrees", levels, "by_yaw"), "## By skin tone", ""]
     lines += out.prose(f"""Individual typology angle of the cheeks in the image (Chardon et al. 1991), which light changes as well; faces turned by
         less than {TONE_YAW} degrees.""") + group_lines("skin tone", levels, "by_tone")

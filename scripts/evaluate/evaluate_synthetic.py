@@ -169,9 +169,9 @@ def markdown(report):
 
 
 def network_lines(r):
-    text = f"""Landmark error {100 * r['landmark_error']:.2f} % of the distance between the outer eye corners. Error on the first sequence of a
-        long stream {r['drift']['first']:.4f}, on its second half {r['drift']['last_half']:.4f}."""
+    text = f"""The landmark error is {100 * r['landmark_error']:.2f} % of the distance between the outer eye corners. The error of controls is
+        {r['drift']['first']:.4f} on the first sequence of a long stream and {r['drift']['last_half']:.4f} on its second half."""
     if r["pose"]:
-        text += " Decoder's head pose: " + "; ".join(f"encoder on {mode}: {out.number(p['rotation_deg'], 2)} degrees, distance off by "
-                                                      f"{100 * p['distance_share']:.1f} %" for mode, p in r["pose"].items()) + "."
+        text += " The decoder's head pose is off by " + " and by ".join(f"{out.number(p['rotation_deg'], 2)} degrees and "
+            f"{100 * p['distance_share']:.1f} % of the distance with the encoder on {mode}" for mode, p in r["pose"].items()) + "."
     return out.prose(text)

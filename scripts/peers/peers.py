@@ -154,7 +154,7 @@ def sound_lines(report):
 def in_short(report):
     """How fast, on which data."""
     found = best_ratios(report["networks"]).items()
-    text = "; ".join(f"{name} takes {ratios[0]:.2f} of the time of the fastest other engine ({ENGINES[peer]})" for name, (_, peer, ratios) in found)
+    text = "; ".join(f"{name} takes {ratios[0]:.2f} times as long as with the fastest other engine ({ENGINES[peer]})" for name, (_, peer, ratios) in found)
     if "frames" in report:
         frames = report["frames"]
         text += f"; a frame at level 4 is {frames['mediapipe_us'] / {int(k): v for k, v in frames['mien_us'].items()}[4]:.0f} times as fast as MediaPipe"
