@@ -12,8 +12,8 @@ import sys
 import threading
 
 from . import checks, mutants, report
-from .tree import Tree
-from .worker import KILLED, SURVIVED, BrokenTests, Worker
+from .base import Base
+from .worker import KILLED, SURVIVED, WAITING, BrokenTests, Times, Worker
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 WORK = ROOT / "build/mutate"
@@ -26,7 +26,7 @@ def options():
     parser = argparse.ArgumentParser(prog="scripts/mutate.sh", description=__doc__.splitlines()[0])
     parser.add_argument("--count", type=int, default=GOAL, help=f"mutants that compile and change the machine code (default {GOAL})")
     parser.add_argument("--seed", type=int, default=1, help="of the sample (default 1)")
-    parser.add_argument("--workers", type=int, default=1, help="mutants at a time, each in a copy of the sources (default 1)")
+    parser.add_argument("--workers", type=int, default=1, help="mutants at a time (default 1)")
     parser.add_argument("--results", type=pathlib.Path, default=WORK / "results.jsonl",
                         help="what is known so far: a run goes on where the last one ended (default build/mutate/results.jsonl)")
     parser.add_argument("--again", action="store_true", help="try mutants again that survived, since there are more tests now")
@@ -54,30 +54,37 @@ class Results:
 
 
 class Sample:
-    """The first mutants of an order that are any, handed out one by one."""
+    """The first mutants of an order that are any, handed out one by one: all of them to the quick tests, then what is left to the slow ones."""
 
     def __init__(self, order, results, count, again):
         self._order, self._results, self._count = order, results, count
-        self._again = {key for key, result in results.by_key.items() if again and result["outcome"] == SURVIVED}
-        self._next, self._lock, self._running = 0, threading.Lock(), 0
+        self._again = {key for key, result in results.by_key.items() if again and result["outcome"] in (SURVIVED, WAITING)}
+        self._next, self._lock, self._running, self._handed = 0, threading.Lock(), 0, set()
 
     def take(self):
-        """The next mutant to try; None when there are enough."""
+        """(the next mutant to try, whether it is the slow tests' turn); None when there are enough."""
         with self._lock:
             while self._next < len(self._order) and self._valid() + self._running < self._count:
                 mutant = self._order[self._next]
                 self._next += 1
                 if mutant.key not in self._results.by_key or mutant.key in self._again:
                     self._running += 1
-                    return mutant
+                    return mutant, False
+            for mutant in self._order[:self._next]:
+                if self._outcome(mutant) == WAITING and mutant.key not in self._handed:
+                    self._handed.add(mutant.key)
+                    return mutant, True
             return None
 
-    def done(self):
+    def done(self, slow):
         with self._lock:
-            self._running -= 1
+            self._running -= 0 if slow else 1
+
+    def _outcome(self, mutant):
+        return self._results.by_key.get(mutant.key, {}).get("outcome")
 
     def _valid(self):
-        return sum(result["outcome"] in (KILLED, SURVIVED) for result in self.known())
+        return sum(result["outcome"] in (KILLED, SURVIVED, WAITING) for result in self.known())
 
     def known(self):
         """Results of the part of the order that was reached, as the sources are now."""
@@ -85,29 +92,30 @@ class Sample:
         return [result for result in found if result]
 
 
-def work_through(number, sample, results, files, failures):
-    def log(text):
-        print(f"worker {number}: {text}", flush=True)
-
+def work_through(number, base, times, sample, results, failures):
     try:
-        worker = Worker(Tree(ROOT, WORK / f"worker{number}"), log)
-        worker.prepare(files)
-        for result in results.by_key.values():
+        worker = Worker(base, times, WORK / f"worker{number}")
+        for result in list(results.by_key.values()):
             if result["outcome"] == KILLED:
                 worker.learn(result["file"], result["by"])
-        while (mutant := sample.take()) is not None:
+        while (taken := sample.take()) is not None:
+            mutant, slow = taken
             try:
-                result = results.add(mutant, worker.judge(mutant))
+                result = results.add(mutant, worker.judge(mutant, slow))
             finally:
-                sample.done()
-            log(f"{result['outcome']} {mutant.file}:{mutant.line} {result['by']} ({result['seconds']} s)")
-    except (BrokenTests, OSError, subprocess.CalledProcessError) as error:
+                sample.done(slow)
+            print(f"{result['outcome']} {mutant.file}:{mutant.line} {result['by']} ({result['seconds']} s)", flush=True)
+    except (OSError, subprocess.CalledProcessError) as error:
         failures.append(str(error))
 
 
 def run(sample, results, files, workers):
-    failures = []
-    threads = [threading.Thread(target=work_through, args=(number, sample, results, files, failures)) for number in range(workers)]
+    base = Base(ROOT, WORK / "base")
+    needed = {check for file in files for check in checks.checks_of(file)}
+    base.prepare(sorted({check.target for check in needed}))
+    times, failures = Times(base, print), []
+    times.measure(needed)
+    threads = [threading.Thread(target=work_through, args=(number, base, times, sample, results, failures)) for number in range(workers)]
     for thread in threads:
         thread.start()
     for thread in threads:
@@ -121,7 +129,7 @@ def write_page(known, argued, generated, seed):
     text = PAGE.read_text()
     head = text[:text.index("<!-- results -->")]
     commit = subprocess.run(["git", "rev-parse", "--short=10", "HEAD"], cwd=ROOT, check=True, capture_output=True, text=True).stdout.strip()
-    valid = sum(result["outcome"] in (KILLED, SURVIVED) for result in known)
+    valid = sum(result["outcome"] in (KILLED, SURVIVED, WAITING) for result in known)
     opening = (f"<!-- results -->\n\nCommit {commit}, seed {seed}: {len(known):,} of {generated:,} generated mutants were tried; {valid} of "
                "them compile and change the machine code.\n")
     if valid < GOAL:
@@ -149,7 +157,11 @@ def main():
         return 0
     print(f"{len(order):,} mutants of {len(files)} files; {len(results.by_key)} known", flush=True)
     sample = Sample(order, results, given.count, given.again)
-    if not run(sample, results, files, given.workers):
+    try:
+        if not run(sample, results, files, given.workers):
+            return 1
+    except BrokenTests as error:
+        print(f"mutate.sh: {error}", file=sys.stderr)
         return 1
     known = sample.known()
     print("\n".join(report.table(known, argued)))

@@ -1,14 +1,14 @@
-"""The tests that mutants of a folder face: those nearest to it, as they are run by ctest."""
+"""The tests that mutants of a folder face: those nearest to it."""
 import contextlib
 import dataclasses
-import json
 import os
 import re
+import resource
 import signal
 import subprocess
 
 FRAMES = "300"  # of a test's random animations: what depends on more of them is no fault of one line
-SLOW_S = 1.0  # tests that take longer wait until all others have passed
+MEMORY = 4 << 30  # bytes; a mutant may ask for any amount
 
 
 @dataclasses.dataclass(frozen=True)
@@ -50,6 +50,12 @@ def checks_of(file):
     return PLAN[max((folder for folder in PLAN if file.startswith(folder + "/")), key=len)]
 
 
+def is_near(file, test):
+    """Whether they have a word of their names in common."""
+    words = os.path.splitext(os.path.basename(file))[0].split("_")
+    return any(len(word) > 2 and word in test.lower().replace("_", "") for word in words)
+
+
 running = set()
 
 
@@ -60,11 +66,13 @@ def stop_all():
 
 
 def run(command, seconds, folder):
-    """(exit status or "timeout", output). At a timeout it also ends what the command started."""
-    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, cwd=folder, start_new_session=True) as process:
+    """(exit status or "timeout", output). `seconds` of a processor: how busy the machine is does not matter."""
+    limits = ["prlimit", f"--cpu={int(seconds)}", f"--as={MEMORY}", "--core=0"]
+    with subprocess.Popen([*limits, *command], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, cwd=folder,
+                          start_new_session=True) as process:
         running.add(process)
         try:
-            output, _ = process.communicate(timeout=seconds)
+            output, _ = process.communicate(timeout=20 * seconds)
             return process.returncode, output.decode(errors="replace")
         except subprocess.TimeoutExpired:
             os.killpg(process.pid, signal.SIGKILL)
@@ -74,34 +82,53 @@ def run(command, seconds, folder):
             running.discard(process)
 
 
-def command(check, tree, tests=None):
-    path = str(tree.build_folder / check.path)
+def command(check, path, source, tests):
     if check.script:
-        return ["/usr/bin/python3", str(tree.source / check.script), path, *check.arguments, "-f"]
-    chosen = [f"--gtest_filter={':'.join(tests)}"] if tests else []
-    return [path, "--gtest_fail_fast", *chosen]
+        return ["/usr/bin/python3", "-B", str(source / check.script), str(path), *check.arguments, "-f", *tests]
+    return [str(path), "--gtest_fail_fast", f"--gtest_filter={':'.join(tests)}"]
 
 
-def times(check, tree):
-    """Seconds of each of its tests, all of which pass; None if one fails."""
+def processor_seconds():
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+def names(check, path, source):
+    """Of its tests."""
     if check.script:
-        outcome, output = run(command(check, tree), 3600, tree.build_folder)
-        found = re.search(r"Ran \d+ tests? in ([\d.]+)s", output)
-        return {check.script: float(found[1])} if outcome == 0 and found else None
-    report = tree.build_folder / "mutation_times.json"
-    outcome, _ = run([*command(check, tree), f"--gtest_output=json:{report}"], 3600, tree.build_folder)
-    if outcome != 0:
-        return None
-    suites = json.loads(report.read_text())["testsuites"]
-    return {f"{test['classname']}.{test['name']}": float(test["time"].rstrip("s")) for suite in suites for test in suite["testsuite"]
-            if test["result"] == "COMPLETED"}
+        found = re.findall(r"^class (\w+)|^    def (test\w+)", (source / check.script).read_text(), re.MULTILINE)
+        suite, tests = "", []
+        for class_name, test in found:
+            suite = class_name or suite
+            tests += [f"{suite}.{test}"] if test else []
+        return tests
+    done = subprocess.run([path, "--gtest_list_tests"], check=True, capture_output=True, text=True)
+    suite, tests = "", []
+    for line in done.stdout.splitlines()[1:]:
+        if line.startswith("  "):
+            tests.append(suite + line.split("#")[0].strip())
+        else:
+            suite = line.split("#")[0].strip()
+    return tests
+
+
+def times(check, path, source, folder):
+    """Seconds of a processor of each of its tests, all of which pass; None if one fails."""
+    found = {}
+    for test in names(check, path, source):
+        began = processor_seconds()
+        outcome, _ = run(command(check, path, source, [test]), 600, folder)
+        if outcome != 0:
+            return None
+        found[test] = round(processor_seconds() - began, 3)
+    return found
 
 
 def first_failure(check, output):
     """The test that noticed."""
     if check.script:
-        found = re.search(r"^(?:FAIL|ERROR): (\w+)", output, re.MULTILINE)
-        return f"{check.script}: {found[1] if found else 'it stops'}"
+        found = re.search(r"^(?:FAIL|ERROR): (\w+) \((?:__main__\.)?(\w+)", output, re.MULTILINE)
+        return f"{found[2]}.{found[1]}" if found else f"{check.script} (it stops)"
     found = re.search(r"^\[  FAILED  \] (\S+?),? .*\(\d+ ms\)$", output, re.MULTILINE)
     if found:
         return found[1]

@@ -2,9 +2,10 @@
 import collections
 import json
 
-from .worker import IDENTICAL, KILLED, NOT_COMPILED, SURVIVED
+from .worker import IDENTICAL, KILLED, NOT_COMPILED, SURVIVED, WAITING
 
 BAR = 0.95
+ALIVE = (SURVIVED, WAITING)
 
 
 def folder_of(file):
@@ -36,8 +37,10 @@ def table(results, argued):
     counts = collections.defaultdict(collections.Counter)
     for result in results:
         outcome = result["outcome"]
-        if outcome == SURVIVED and argued.reason(result):
+        if outcome in ALIVE and argued.reason(result):
             outcome = "equivalent"
+        elif outcome in ALIVE:
+            outcome = SURVIVED
         for name in (folder_of(result["file"]), "all"):
             counts[name][outcome] += 1
     rows = ["| folder | killed | survived | share | argued equivalent | same machine code | does not compile |", "|---|---|---|---|---|---|---|"]
@@ -58,15 +61,14 @@ def listed(title, results, last):
 
 def page(results, argued, opening):
     results = sorted(results, key=lambda result: (result["file"], result["line"], result["after"]))
-    survived = [result for result in results if result["outcome"] == SURVIVED]
+    survived = [result for result in results if result["outcome"] in ALIVE]
     return "\n".join([
         opening, *table(results, argued),
         *listed("Survivors", [result for result in survived if not argued.reason(result)], lambda _: "none"),
-        *listed("Argued equivalent", [result for result in survived if argued.reason(result)], argued.reason),
-        *listed("Killed", [result for result in results if result["outcome"] == KILLED], lambda result: code(result["by"])), ""])
+        *listed("Argued equivalent", [result for result in survived if argued.reason(result)], argued.reason), ""])
 
 
 def enough_killed(results, argued):
     killed = sum(result["outcome"] == KILLED for result in results)
-    missed = sum(result["outcome"] == SURVIVED and not argued.reason(result) for result in results)
+    missed = sum(result["outcome"] in ALIVE and not argued.reason(result) for result in results)
     return killed >= BAR * (killed + missed)

@@ -1,13 +1,16 @@
 """Builds mutants one by one and runs the tests until the first one fails."""
 import json
-import os
 import time
 
 from . import checks
-from .tree import digest
+from .base import digest
+from .variant import NotCompiled, Variant
 
 KILLED, SURVIVED = "killed", "survived"
+WAITING = "waiting"  # for the slow tests: the quick ones pass
 NOT_COMPILED, IDENTICAL = "not compiled", "identical"  # no mutants at all
+QUICK_S = 1.0  # tests that take longer wait until the quick ones have seen all mutants
+INSTANT_S = 0.05
 LATEST_KILLERS = 12
 
 
@@ -15,95 +18,97 @@ class BrokenTests(Exception):
     """Tests fail without any mutant."""
 
 
-class Worker:
-    def __init__(self, tree, log):
-        self._tree, self._log = tree, log
-        self._hashes, self._times, self._killers = {}, {}, {}
+class Times:
+    """Of the tests without a mutant, by check."""
 
-    def prepare(self, files):
-        """Builds and runs everything without a mutant."""
-        self._tree.prepare()
-        needed = {check for file in files for check in checks.checks_of(file)}
-        if not self._tree.build(sorted({check.target for check in needed}), keep_in_cache=True):
-            raise BrokenTests(f"the tests do not build: {self._tree.build_folder}/mutation_build.log")
-        for file in files:
-            self._hashes[file] = self._hash_objects(file)
+    def __init__(self, base, log):
+        self._base, self._log, self._times = base, log, {}
+
+    def measure(self, needed):
         for check in sorted(needed, key=lambda check: (check.target, check.script)):
-            self._hashes[check.path] = digest(self._tree.build_folder / check.path)
-            self._times[check] = self._known_times(check)
-            self._log(f"{check.target}: {len(self._times[check])} tests, {sum(self._times[check].values()):.0f} s")
+            self._times[check] = self._of(check)
+            self._log(f"{check.target}: {len(self._times[check])} tests, {sum(self._times[check].values()):.1f} s")
+        self._log(f"all tests: {sum(sum(times.values()) for times in self._times.values()):.0f} s of one processor")
 
-    def _known_times(self, check):
+    def __getitem__(self, check):
+        return self._times[check]
+
+    def _of(self, check):
         """From an earlier run where neither the program nor the script has changed since."""
-        script = digest(self._tree.source / check.script) if check.script else ""
-        memory = self._tree.build_folder / f"mutation_times_{check.target}.json"
-        state = [self._hashes[check.path], script]
+        path = self._base.build_folder / check.path
+        memory = self._base.build_folder / f"mutation_times_{check.target}.json"
+        state = [digest(path), digest(self._base.source / check.script) if check.script else ""]
         if memory.is_file() and (known := json.loads(memory.read_text()))["state"] == state:
             return known["times"]
-        times = checks.times(check, self._tree)
+        times = checks.times(check, path, self._base.source, self._base.build_folder)
         if times is None:
             raise BrokenTests(f"{check.path} {check.script}: tests fail without a mutant")
         memory.write_text(json.dumps({"state": state, "times": times}))
         return times
 
+
+class Worker:
+    def __init__(self, base, times, folder):
+        self._base, self._times, self._folder = base, times, folder
+        self._variant, self._killers = Variant(base, folder), {}
+
     def learn(self, file, test):
         """That such tests noticed mutants of the file: they are run first."""
+        test = test.split(" ")[0]
         known = self._killers.setdefault(file, [])
         if test in known:
             known.remove(test)
         known.insert(0, test)
         del known[LATEST_KILLERS:]
 
-    def judge(self, mutant):
+    def judge(self, mutant, slow):
+        """By the quick tests or by the slow ones."""
         began = time.monotonic()
-        source = self._tree.read(mutant.file)
-        self._tree.write(mutant.file, mutant.applied(source))
-        try:
-            outcome, test = self._outcome(mutant.file)
-        finally:
-            self._tree.write(mutant.file, source)
+        outcome, test = self._outcome(mutant, slow)
         if outcome == KILLED:
             self.learn(mutant.file, test)
         return {"outcome": outcome, "by": test, "seconds": round(time.monotonic() - began, 1)}
 
-    def _hash_objects(self, file):
-        return [digest(self._tree.build_folder / name) for name in self._tree.objects(file)
-                if os.path.exists(self._tree.build_folder / name)]
-
-    def _outcome(self, file):
-        objects = [name for name in self._tree.objects(file) if os.path.exists(self._tree.build_folder / name)]
-        if objects and not self._tree.build(objects, keep_in_cache=False):
+    def _outcome(self, mutant, slow):
+        changed = False
+        try:
+            self._variant.begin(mutant.file, mutant.applied((self._base.source / mutant.file).read_text()))
+            programs = {}
+            for check, tests in self._jobs(mutant.file, slow):
+                if check.path not in programs:
+                    programs[check.path] = self._variant.program(check.path)
+                if programs[check.path] is None:
+                    continue
+                changed = True
+                failure = self._failure(check, programs[check.path], tests)
+                if failure:
+                    return KILLED, failure
+        except NotCompiled:
             return NOT_COMPILED, ""
-        if objects and self._hash_objects(file) == self._hashes[file]:
-            return IDENTICAL, ""
-        changed = set()
-        for check, tests in self._jobs(file):
-            if not self._tree.build([check.target], keep_in_cache=False):
-                return NOT_COMPILED, ""
-            if digest(self._tree.build_folder / check.path) == self._hashes[check.path]:
-                continue
-            changed.add(check.path)
-            failure = self._failure(check, tests)
-            if failure:
-                return KILLED, failure
-        return (SURVIVED, "") if changed else (IDENTICAL, "")
+        if slow:
+            return SURVIVED, ""
+        return (WAITING if changed else IDENTICAL), ""
 
-    def _jobs(self, file):
-        """(check, tests): those that noticed mutants of this file, then the fast ones, then the slow ones."""
-        plan = checks.checks_of(file)
-        killers = self._killers.get(file, [])
-        first, fast, slow = [], [], []
-        for check in plan:
-            times = self._times[check]
-            known = [test for test in killers if test in times]
-            slow_ones = [test for test in times if times[test] > checks.SLOW_S and test not in known]
-            rest = [test for test in times if test not in slow_ones and test not in known]
-            first += [(check, known)] if known else []
-            fast += [(check, rest)] if rest else []
-            slow += [(check, [test]) for test in sorted(slow_ones, key=times.get)]
-        return first + fast + sorted(slow, key=lambda job: self._times[job[0]][job[1][0]])
+    def _jobs(self, file, slow):
+        """(check, tests): those that noticed mutants of this file, those named like it, then the others, the quickest first."""
+        jobs = []
+        for check in checks.checks_of(file):
+            tests = [test for test, seconds in self._times[check].items() if (seconds > QUICK_S) == slow]
+            ranks = {test: self._rank(file, test, self._times[check][test]) for test in tests}
+            jobs += [(rank, check, [test for test in tests if ranks[test] == rank]) for rank in set(ranks.values())]
+        jobs.sort(key=lambda job: job[0])
+        return [(check, tests) for _, check, tests in jobs]
 
-    def _failure(self, check, tests):
+    def _rank(self, file, test, seconds):
+        if test in self._killers.get(file, []):
+            return (0, 0)
+        if seconds > QUICK_S:
+            return (3, seconds)
+        if checks.is_near(file, test):
+            return (1, 0)
+        return (2, seconds > INSTANT_S)
+
+    def _failure(self, check, path, tests):
         usual = sum(self._times[check][test] for test in tests)
-        outcome, output = checks.run(checks.command(check, self._tree, tests), 60 + 10 * usual, self._tree.build_folder)
+        outcome, output = checks.run(checks.command(check, path, self._base.source, tests), 10 + 5 * usual, self._folder)
         return "" if outcome == 0 else checks.first_failure(check, output)

@@ -1,0 +1,84 @@
+"""Builds one mutant: the objects that hold the changed file, and programs with these objects in the place of the original ones."""
+import os
+import shutil
+import subprocess
+
+from .base import digest
+
+# For mutants and for what they are compared with. Code that is optimized little is sooner compiled, and shows more differences.
+LIKE_EACH_OTHER = ["-O1", "-w", "-frandom-seed=mien"]
+
+
+class NotCompiled(Exception):
+    pass
+
+
+class Variant:
+    """One at a time in its folder."""
+
+    def __init__(self, base, folder):
+        self._base, self._folder, self._originals = base, folder, base.source / "build/originals"
+        self._overlay, self._objects, self._programs = (folder / name for name in ("source", "objects", "programs"))
+        self._changed, self._file = {}, ""
+
+    def begin(self, file, text):
+        for folder in (self._overlay, self._objects, self._programs):
+            shutil.rmtree(folder, ignore_errors=True)
+            folder.mkdir(parents=True)
+        self._file, self._changed = file, {}
+        path = self._overlay / file
+        path.parent.mkdir(parents=True)
+        path.write_text(text)
+        self._dependents = self._base.dependents(file)
+        if self._dependents:
+            self._object(self._dependents[0])
+
+    def _compile(self, output, to_path, overlay):
+        to_path.parent.mkdir(parents=True, exist_ok=True)
+        name = self._base.source_of(output)
+        source = (overlay if overlay and name == self._file else self._base.source) / name
+        words = self._base.compile_command(output)
+        include = [f"-I{overlay}"] if overlay else []
+        command = [words[0], *include, *words[1:], *LIKE_EACH_OTHER, "-o", str(to_path), "-c", str(source)]
+        done = subprocess.run(command, cwd=self._base.build_folder, env=dict(os.environ, CCACHE_DISABLE="1"), check=False,
+                              stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        if done.returncode != 0:
+            raise NotCompiled
+
+    def _object(self, output):
+        """Its path; None where it is as it was."""
+        if output not in self._changed:
+            changed = self._objects / output
+            self._compile(output, changed, self._overlay)
+            self._changed[output] = changed if digest(changed) != self._original(output) else None
+        return self._changed[output]
+
+    def _original(self, output):
+        state = digest(self._base.build_folder / output)
+        path = self._originals / output
+        memory = path.with_suffix(f".{state}.digest")
+        if not memory.is_file():
+            self._compile(output, path, None)
+            memory.write_text(digest(path))
+            path.unlink()
+        return memory.read_text()
+
+    def program(self, path):
+        """Of the mutant; None where nothing in it has changed."""
+        program = self._base.program(path)
+        parts = [output for output in self._dependents if output in program.direct or output in program.archived]
+        changed = {output: str(self._object(output)) for output in parts if self._object(output)}
+        if not changed:
+            return None
+        linked = self._programs / path
+        linked.parent.mkdir(parents=True, exist_ok=True)
+        direct = {self._base.source_of(output) for output in program.direct}
+        # Ahead of all: the linker takes no second definition from a library, nor of an inline function from a test.
+        ahead = [path for output, path in changed.items() if output not in program.direct and self._base.source_of(output) not in direct]
+        compiler, *words = [changed.get(word, word) for word in program.command]
+        words[words.index("-o") + 1] = str(linked)
+        command = [compiler, *ahead, *words, "-fuse-ld=gold"]
+        done = subprocess.run(command, cwd=self._base.build_folder, check=False, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        if done.returncode != 0:
+            raise NotCompiled
+        return linked
