@@ -5,9 +5,10 @@ import dataclasses
 import hashlib
 import io
 import pathlib
-import re
 
 from universalmutator import mutator
+
+from .plausible import Filter
 
 FOLDERS = ("tracker", "audio", "engine", "formats")
 RULES = ["universal.rules", "c_like.rules", "cpp.rules"]
@@ -34,29 +35,6 @@ class Mutant:
         return "".join(lines)
 
 
-def words(text):
-    return set(re.findall(r"[A-Za-z_]\w*", text))
-
-
-NEW_WORDS = words("break continue min max begin end any_of all_of none_of min_element max_element front_inserter back_inserter")
-
-
-def without_comments(text):
-    return re.sub(r"/\*.*?\*/", "", re.sub(r"//.*", "", text), flags=re.DOTALL)
-
-
-def balance(text):
-    return [text.count(pair[0]) - text.count(pair[1]) for pair in ("()", "[]", "{}")]
-
-
-def may_compile(before, after):
-    """False where nobody needs a compiler to see it: new names (int1_t), a bracket too many, a statement inside another one."""
-    code, changed = without_comments(before), without_comments(after)
-    inserts = changed.count("\n") > code.count("\n")
-    return (words(changed) - words(code) <= NEW_WORDS and balance(code) == balance(changed)
-            and (not inserts or code.rstrip().endswith((";", "{"))))
-
-
 def sources(root):
     return sorted(str(path.relative_to(root)) for folder in FOLDERS for path in (pathlib.Path(root) / folder).rglob("*")
                   if path.suffix in (".cpp", ".h"))
@@ -66,10 +44,10 @@ def mutants_of(root, file):
     lines = (pathlib.Path(root) / file).read_text().splitlines(keepends=True)
     with contextlib.redirect_stdout(io.StringIO()):
         raw = mutator.mutants_regexp(lines, ruleFiles=RULES, ignorePatterns=[], ignoreStringOnly=True)
-    seen = collections.Counter()
+    plausible, seen = Filter(lines), collections.Counter()
     for number, after, (rule, _), _ in raw:
         before = lines[number - 1]
-        if not may_compile(before, after):
+        if not plausible.passes(number, before, after):
             continue
         change = (before.strip(), after.strip())
         yield Mutant(file, number, before, after, rule, seen[change])
