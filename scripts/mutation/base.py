@@ -32,7 +32,7 @@ class Base:
 
     def prepare(self, targets):
         """Brings the copy to the state of the root, and builds it."""
-        listed = subprocess.run(["git", "ls-files", "-z"], cwd=self.root, check=True, capture_output=True, text=True).stdout
+        listed = subprocess.run(["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"], cwd=self.root, check=True, capture_output=True, text=True).stdout
         names = {name for name in listed.split("\0") if name and (self.root / name).is_file()}
         for name in names:
             self._copy(name)

@@ -9,8 +9,8 @@ from .variant import NotCompiled, Variant
 KILLED, SURVIVED = "killed", "survived"
 WAITING = "waiting"  # for the slow tests: the quick ones pass
 NOT_COMPILED, IDENTICAL = "not compiled", "identical"  # no mutants at all
-QUICK_S = 1.0  # tests that take longer wait until the quick ones have seen all mutants
-INSTANT_S = 0.05
+QUICK_S = 0.1  # tests that take longer wait until the quick ones have seen all mutants
+INSTANT_S = 0.03
 LATEST_KILLERS = 12
 
 
