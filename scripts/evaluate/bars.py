@@ -77,7 +77,7 @@ def ratio(above, below):
 def synthetic():
     score = lambda key: at(at, "program", key)
     error = score("facs_error_supported")
-    bar = lambda title, *rest: Bar("synthetic", f"rendered people: {title}", *rest)
+    bar = lambda title, *rest: Bar("synthetic", title, *rest)
     return [bar("supported controls", ">=", of_levels(36, 44), score("supported"), 1, 0),
             bar("error of supported controls, relative to the best constant", "<=", 0.5,
                 ratio(error, score("constant_median_supported"))),
@@ -117,9 +117,9 @@ def agreement(control, *path):
     return pick
 
 
-def beside_mediapipe(part, where, path, numbers, landmarks):
+def beside_mediapipe(part, path, numbers, landmarks):
     """Bars of landmarks, pose and controls; `numbers` leads to pose, `path` to the controls; landmarks: (title, key, bound)."""
-    bar = lambda title, *rest: Bar(part, f"{where}: {title}", *rest)
+    bar = lambda title, *rest: Bar(part, title, *rest)
     key = lambda name: at(*numbers, name)
     title, name, bound = landmarks
     return [bar(f"landmark error, % of {title}", "<=", bound, key(name), 100),
@@ -129,23 +129,23 @@ def beside_mediapipe(part, where, path, numbers, landmarks):
 
 def clips():
     total = lambda key: at(at, "all", key)
-    bar = lambda title, *rest: Bar("clips", f"clips: {title}", *rest)
+    bar = lambda title, *rest: Bar("clips", title, *rest)
     return [bar("% of MediaPipe's frames with a face", ">=", 99, total("face_share"), 100, 1),
             bar("jitter at rest, relative to MediaPipe", "<=", 1, ratio(total("still_jitter"), total("teacher_still_jitter"))),
-            *beside_mediapipe("clips", "clips", (at,), (at, "all"),
+            *beside_mediapipe("clips", (at,), (at, "all"),
                               ("the pupils' distance", "landmark_error_pupils", of_levels(4.2, 3.5)))]
 
 
 def pictures():
     path = ("levels", at, "portraits")
-    return [Bar("pictures", "portraits: % detected", ">=", 99, at(*path, "found"), 100, 1),
-            *beside_mediapipe("pictures", "portraits", path, path,
+    return [Bar("pictures", "% detected", ">=", 99, at(*path, "found"), 100, 1),
+            *beside_mediapipe("pictures", path, path,
                               ("the outer eye corner distance", "landmark_error_outer_eyes", 4))]
 
 
 def wild():
     figure = lambda key: at("levels", at, key)
-    bar = lambda title, *rest: Bar("wild", f"portraits in the wild: {title}", *rest)
+    bar = lambda title, *rest: Bar("wild", title, *rest)
     return [bar("% correctly detected", ">=", 97, figure("found"), 100, 1),
             bar("landmark error, % of the pupils' distance", "<=", 4, figure("error"), 100),
             bar("landmark error of the worst ethnic group, relative to all", "<=", 1.15, figure("worst_group_ratio"))]
@@ -153,7 +153,7 @@ def wild():
 
 def amplitude():
     """How far faces move."""
-    bar = lambda title, *rest: Bar("amplitude", f"amplitude: {title}", *rest)
+    bar = lambda title, *rest: Bar("amplitude", title, *rest)
     peaks = at(at, "clips", "blinks", "peaks")
     portraits, renders = (lambda key: at(at, "portraits", key)), (lambda key: at(at, "renders", key))
     known = lambda rows, key: (row[key] for row in rows.values() if row[key] is not None)

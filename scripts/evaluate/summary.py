@@ -7,6 +7,9 @@ import report as out
 from controls_page import LEVELS, find
 from setting import PARTS
 
+TITLES = {"synthetic": "Rendered people", "response": "Single controls", "leakage": "Turning faces", "levels": "Levels of detail",
+          "clips": "Clips of real people", "pictures": "Single portraits", "wild": "Portraits in the wild", "amplitude": "Amplitude"}
+
 
 def cell(bar, figure, level=None):
     if figure is None:
@@ -18,7 +21,7 @@ def cell(bar, figure, level=None):
 def line(bar, results):
     """Cells of a bar."""
     cells = [cell(bar, bar.figure(results.get(bar.part, {}), level), level) for level in LEVELS]
-    return [bar.title, bar.shown(), *cells, f"[{bar.part}]({bar.part}.md)"]
+    return [bar.title, bar.shown(), *cells]
 
 
 def counts(results):
@@ -60,11 +63,13 @@ def page(results, seconds, skipped, has_hifinet):
         lines += ["**HiFiNet is not trained yet**: levels 2 to 4 are unknown.", ""]
     lines += [*counts(results), ""]
     lines += out.prose("[Accuracy by control](controls.md) has the figures of each control.")
-    lines += out.table(["figure", "goal", *map(out.level, LEVELS), "page"], [line(bar, results) for bar in bars.every()])
+    for part, title in TITLES.items():
+        rows = [line(bar, results) for bar in bars.every() if bar.part == part]
+        lines += [f"## [{title}]({part}.md)", "", *out.table(["figure", "goal", *map(out.level, LEVELS)], rows)]
     if "voice" in results:
         sound = [(bar, bar.figure(results["voice"], None)) for bar in bars.voice()]
         rows = [[bar.title, bar.shown(), cell(bar, value)] for bar, value in sound]
-        lines += ["## Audio", "", *out.table(["figure", "goal", "AudioNet"], rows), "More: [voice](voice.md).", ""]
+        lines += ["## [Audio](voice.md)", "", *out.table(["figure", "goal", "AudioNet"], rows)]
     minutes = ", ".join(f"[{p}]({p}.md) {s / 60:.1f}" for p, s in seconds.items())
     lines += out.prose(f"Made by `scripts/evaluate/evaluate.py`. Minutes per part: {minutes}.")
     if skipped:
