@@ -35,7 +35,7 @@ class Page {
     this.source = new Source($('video'), new Sound(this.tracking), this.tracking);
     this.source.onEnd = why => {
       this.stop();
-      say(why ?? 'The source has ended.', Boolean(why));
+      say(why ?? 'The input has ended.', Boolean(why));
     };
     this.connect();
     const tick = now => {
@@ -142,8 +142,8 @@ class Page {
     this.numbers.show(result, {rate: this.first.rate, dropped: this.tracking.dropped});
     this.caption(result, other);
     if (result.flags & calibrating) say('Calibrating: look straight ahead, relaxed …');
-    else if (!this.source.hasPictures) say('Listening' + this.missing);
-    else say({searching: 'Looking for a face', tracking: 'Following', lost: 'The face is gone'}[result.status] + this.missing);
+    else if (!this.source.hasPictures) say('Audio only' + this.missing);
+    else say({searching: 'No face', tracking: 'Tracking', lost: 'Face lost'}[result.status] + this.missing);
     if (this.recording.active) $('recorded').textContent = `${this.recording.seconds.toFixed(1)} s, ${this.recording.frames.length} frames`;
     document.dispatchEvent(new CustomEvent('mien-results', {detail: {timeMs, results}}));
   }

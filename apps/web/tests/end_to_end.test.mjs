@@ -140,7 +140,7 @@ test('a video file takes the place of the camera', async () => {
 test('a voice alone moves the mouth', async () => {
   const {page, context, complaints} = await openPage(studio);
   await page.setInputFiles('#file', studio.microphone);
-  await until(page, () => document.getElementById('status').textContent === 'Listening');
+  await until(page, () => document.getElementById('status').textContent === 'Audio only');
   await until(page, () => window.page.first.face.controls.jawOpen > 0.1, 30);
   assert.ok(await page.isHidden('#preview'));
   assert.deepEqual(complaints, []);

@@ -59,4 +59,4 @@ export async function until(page, condition, seconds = 15) {
 export const spareDrawing = page =>
   page.evaluate(() => { Object.getPrototypeOf(window.page.first.avatar.renderer).draw = () => {}; });
 
-export const following = page => until(page, () => document.getElementById('status').textContent.startsWith('Following'), 40);
+export const following = page => until(page, () => document.getElementById('status').textContent.startsWith('Tracking'), 40);

@@ -40,8 +40,8 @@ export class Numbers {
     put('Face', `${result.status}, ${Math.round(result.faceProbability * 100)} %`);
     put('Voice', `${Math.round(result.voiceActivity * 100)} %`);
     put('Level', String(result.lod));
-    put('Pictures', `${rate.toFixed(0)} a second, ${dropped} left out`);
-    put('Tracking', `${ms(whole)} a frame`);
+    put('Frames', `${rate.toFixed(0)} per second, ${dropped} dropped`);
+    put('Tracking', `${ms(whole)} per frame`);
     put('Stages', stages.filter(([, value]) => value >= 0.005).map(([name, value]) => `${name} ${value.toFixed(2)}`).join(', ') || '–');
     put('Head', ['pitch', 'yaw', 'roll'].map(name => `${name} ${Math.round(result[name] * 180 / Math.PI)}°`).join(', '));
   }
