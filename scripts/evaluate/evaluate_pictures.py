@@ -166,7 +166,7 @@ def markdown(report):
         {FRAMES} frames. Cells with two figures are for
         {" and ".join(map(out.level, levels))}; *lost* counts faces that were not detected.""")
     lines += ["## By head pose", "", *group_lines("yaw, degrees", levels, "by_yaw"), "## By skin tone", ""]
-    lines += out.prose(f"""Individual typology angle of the cheeks in the image (Chardon et al. 1991), which light changes as well; faces turned by
-        less than {TONE_YAW} degrees.""") + group_lines("skin tone", levels, "by_tone")
+    lines += out.prose(f"""Skin tone is the individual typology angle of the cheeks in the image (Chardon et al. 1991), which light changes as well.
+        Only faces turned by less than {TONE_YAW} degrees count.""") + group_lines("skin tone", levels, "by_tone")
     lines += ["## Controls across portraits", "", *out.prose(teacher.worst_controls({name: r["portraits"]["controls"] for name, r in levels.items()}))]
     return "\n".join(lines)
