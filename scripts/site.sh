@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds the documentation as a site, build/site/html, out of the pages where they lie; a link that leads nowhere is an error.
+# Builds the documentation as a site, build/site/html. A link without a target is an error.
 # usage: scripts/site.sh [serve]      serve: on http://localhost:8000, as it was built
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -12,8 +12,14 @@ rm -rf $site/pages $site/html
 mkdir -p $site/pages/docs
 git ls-files -z '*.md' 'docs/*' 'include/*' 'bindings/*/examples/*' 'bindings/*/sample/*' 'bindings/*/Examples/*' '*.d.ts' |
   xargs -0 cp --parents -t $site/pages
+# In tables, GitHub wants a backslash before a pipe in code; Python-Markdown would show it.
+find $site/pages -name '*.md' -exec sed -i '/^|/s/\\|/|/g' {} +
 doxygen docs/Doxyfile
-# Not --quiet: then it passes over what --strict is for.
+# Not --quiet, which would hide the warnings that --strict turns into errors.
 NO_MKDOCS_2_WARNING=1 $site/venv/bin/mkdocs build --strict --config-file docs/mkdocs.yml
+if grep -rlF --include='*.html' '\|' $site/html/docs; then
+  echo "site.sh: these pages show a backslash before a pipe" >&2
+  exit 1
+fi
 echo "$(find $site/html -name '*.html' | wc -l) pages in $site/html"
 [ "${1:-}" != serve ] || exec $site/venv/bin/python -m http.server --directory $site/html 8000
