@@ -16,14 +16,18 @@ scripts/setup.sh "${groups[@]}"
 . scripts/ccache.sh
 export NODE_PATH=/usr/share/nodejs  # where Debian keeps the modules that Emscripten needs
 
+module() {  # folder, options
+  cmake -S . -B "$1" -G Ninja --toolchain scripts/cross/wasm.cmake -DCMAKE_BUILD_TYPE=Release -DMIEN_BUILD_APPS=OFF \
+    -DMIEN_BUILD_CONFORMANCE=OFF -DMIEN_BUILD_TESTS=OFF -DMIEN_INSTALL=OFF "${@:2}" >/dev/null
+  cmake --build "$1" --target mien_module -- --quiet
+}
 build() {
-  cmake -S . -B build/wasm -G Ninja --toolchain scripts/cross/wasm.cmake -DCMAKE_BUILD_TYPE=Release -DMIEN_BUILD_APPS=OFF \
-    -DMIEN_BUILD_CONFORMANCE=OFF -DMIEN_BUILD_TESTS=OFF -DMIEN_INSTALL=OFF >/dev/null
-  cmake --build build/wasm --target mien_module -- --quiet
+  module build/wasm                              # for the npm package
+  module build/wasm-page -DMIEN_TRIM_LAYERS=ON   # for the page, which runs no converted networks
   # Packages are what package-lock.json says, by their hashes; none runs anything of its own when it is installed.
   [ apps/web/node_modules/.package-lock.json -nt apps/web/package-lock.json ] ||
     (cd apps/web && npm ci --ignore-scripts --no-audit --no-fund --loglevel=error)
-  (cd apps/web && node build.mjs ../../build/wasm/tracker/mien.wasm)
+  (cd apps/web && node build.mjs ../../build/wasm-page/tracker/mien.wasm)
 }
 
 build

@@ -5,7 +5,7 @@ import {build} from 'esbuild';
 
 const here = new URL('.', import.meta.url).pathname, root = new URL('../..', import.meta.url).pathname;
 const out = here + 'dist/';
-const wasm = process.argv[2] ?? root + 'build/wasm/tracker/mien.wasm';
+const wasm = process.argv[2] ?? root + 'build/wasm-page/tracker/mien.wasm';
 const plain = ['index.html', 'theme.css', 'style.css', 'icon.svg', 'manifest.webmanifest'];
 
 // What is left of lines is in template literals, nearly all of it shaders: without indentation and lines of comment.

@@ -156,10 +156,11 @@ def group_lines(title, levels, key):
 
 def markdown(report):
     levels = report["levels"]
-    share = lambda kind: out.by_level(levels, lambda r: f"{100 * r[kind]['found']:.1f} %, {100 * r[kind]['landmark_error_outer_eyes']:.2f} %")
-    lines = ["# Single images", "", "For users who track photographs, and for everyone who asks how pose and skin tone matter.", ""] + out.prose(f"""Faces
-        detected on the first frame, and landmark error in shares of the distance between the outer eye corners. Portraits:
-        {share("portraits")}. Rendered people: {share("rendered")}. Of {report['places']} images of places without a face, mien reports a face in
+    share = lambda kind: out.by_level(levels, lambda r: f"{100 * r[kind]['found']:.1f} %")
+    error = lambda kind: out.by_level(levels, lambda r: f"{100 * r[kind]['landmark_error_outer_eyes']:.2f} %")
+    lines = ["# Single images", "", "For users who track photographs, and for everyone who asks how pose and skin tone matter.", ""] + out.prose(f"""The share
+        of faces detected on the first frame is {share("portraits")} on portraits, and {share("rendered")} on rendered people. The landmark error relative to the
+        distance between the outer eye corners is {error("portraits")} on portraits, and {error("rendered")} on rendered people. Of {report['places']} images of places without a face, mien reports a face in
         {report['false_faces']}. Head pose differs from MediaPipe's by {out.by_level(levels, lambda r:
         f"{r['portraits']['pose_difference_deg']:.1f} degrees")} after removal of the best constant rotation.""")
     lines += out.prose(f"""The data are held-out portraits with labels of MediaPipe and rendered test people with exact labels; each image is shown for

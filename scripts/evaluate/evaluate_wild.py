@@ -81,8 +81,9 @@ def measure(setting):
 def markdown(report):
     levels = report["levels"]
     first = next(iter(levels.values()))
-    lines = ["# Portraits in the wild", "", "For everyone who asks how well mien works for different people.", ""] + out.prose(f"""Faces correctly detected, and
-        landmark error in shares of the distance between the pupils: {out.by_level(levels, lambda r: f"{100 * r['found']:.1f} %, {100 * r['error']:.2f} %")}. The error of the
+    lines = ["# Portraits in the wild", "", "For everyone who asks how well mien works for different people.", ""] + out.prose(f"""The share of
+        correctly detected faces is {out.by_level(levels, lambda r: f"{100 * r['found']:.1f} %")}. The landmark error relative to the distance between the pupils is
+        {out.by_level(levels, lambda r: f"{100 * r['error']:.2f} %")}. The error of the
         worst ethnic group relative to all is {out.by_level(levels, lambda r: out.number(r["worst_group_ratio"], 2))}; relative to the photographs with a known group,
         without the generated faces, {out.by_level(levels, lambda r: out.number(r["worst_group_ratio_among_groups"], 2))}.""")
     lines += out.prose(f"""The data are {first['pictures']} held-out portraits, photographs (`ff`) and generated faces (`sfhq`), each pasted into a plain

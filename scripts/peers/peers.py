@@ -95,8 +95,8 @@ def network_lines(report):
     lines = ["## Networks", "", "Minimum / median in ms of one run, with checked results. LiteRT runs the encoders only, because `onnx_to_tflite.py` does not "
              "convert LSTMs.", ""]
     lines += table(["network", *(ENGINES[e] for e in engines)], [[r["network"], *(show(r["peers"].get(e)) for e in engines)] for r in report])
-    lines += ["Below, ratios of minima to the fastest peer in fp32 and to the fastest of all; below 1 mien is faster. Peers use all vector instructions of the "
-              "processor in every row.", ""]
+    lines += ["The next table has ratios of minima to the fastest peer in fp32 and to the fastest of all; below 1 mien is faster. Peers use all vector instructions "
+              "of the processor in every row.", ""]
     rows = []
     for r in report:
         full = fastest({e: t for e, t in r["peers"].items() if e not in LESS_EXACT})
