@@ -1,3 +1,4 @@
+// One line of English for each status of the C API.
 #include <mien/mien.h>
 
 const char* mien_status_string(mien_status status) {
@@ -9,19 +10,19 @@ const char* mien_status_string(mien_status status) {
     case MIEN_ERROR_STRUCT_SIZE:
       return "struct_size is too small";
     case MIEN_ERROR_OUT_OF_RANGE:
-      return "a value is out of its range";
+      return "a value is out of range";
     case MIEN_ERROR_ALIGNMENT:
-      return "weights, memory or samples are not aligned as they must be";
+      return "weights, memory or samples are misaligned";
     case MIEN_ERROR_MEMORY_TOO_SMALL:
-      return "the memory is smaller than what is to be put into it";
+      return "the buffer is too small";
     case MIEN_ERROR_OUT_OF_MEMORY:
-      return "the allocator has no memory";
+      return "the allocator returned NULL";
     case MIEN_ERROR_UNSUPPORTED_LOD:
       return "this level of detail is not supported";
     case MIEN_ERROR_SEVERAL_FACES:
-      return "only a tracker of one face can do this";
+      return "this needs a tracker with max_faces = 1";
     case MIEN_ERROR_NO_AUDIONET:
-      return "the tracker has no weights for sound";
+      return "audio is disabled: the tracker has no AudioNet weights";
     case MIEN_ERROR_WEIGHTS_NOT_MIEN:
       return "the weights are not a .mien file";
     case MIEN_ERROR_WEIGHTS_VERSION:
@@ -31,27 +32,27 @@ const char* mien_status_string(mien_status status) {
     case MIEN_ERROR_WEIGHTS_CHECKSUM:
       return "the weight file is damaged: wrong checksum";
     case MIEN_ERROR_WEIGHTS_MALFORMED:
-      return "the weight file breaks the rules of its format";
+      return "the weight file is malformed";
     case MIEN_ERROR_WEIGHTS_INCOMPLETE:
-      return "the weight file lacks a network or constant that is needed";
+      return "the weight file lacks a required network or constant";
     case MIEN_ERROR_WEIGHTS_SHAPE:
       return "a network or constant in the weight file has the wrong shape";
     case MIEN_ERROR_WEIGHTS_NOT_PACKED:
-      return "these are no packed weights";
+      return "the weights are not packed";
     case MIEN_ERROR_UNSUPPORTED_CPU:
-      return "no allowed tier of kernels runs on this CPU";
+      return "no allowed tier runs on this CPU";
     case MIEN_ERROR_UNSUPPORTED_LAYER:
-      return "a layer has no kernel in the allowed tiers";
+      return "no allowed tier has a kernel for a layer";
     case MIEN_ERROR_INTERNAL:
-      return "a fault of mien itself";
+      return "internal error";
     case MIEN_ERROR_LEFT_OUT:
-      return "this build of mien was made without that part";
+      return "not compiled in";
     case MIEN_ERROR_IMAGE_FORMAT:
       return "the image format is unknown";
     case MIEN_ERROR_IMAGE_SIZE:
       return "the image's width, height or pixel aspect is out of range";
     case MIEN_ERROR_IMAGE_STRIDE:
-      return "an image stride is smaller than what a row needs";
+      return "an image stride is shorter than a row";
     case MIEN_ERROR_IMAGE_PLANE:
       return "an image plane is NULL";
     case MIEN_ERROR_IMAGE_ROTATION:
@@ -59,19 +60,19 @@ const char* mien_status_string(mien_status status) {
     case MIEN_ERROR_IMAGE_CAMERA:
       return "the image's focal length or principal point is out of range";
     case MIEN_ERROR_AUDIO_FORMAT:
-      return "the format of the sound's samples is unknown";
+      return "the audio sample format is unknown";
     case MIEN_ERROR_AUDIO_RATE:
-      return "the sound's sample rate is out of range";
+      return "the audio sample rate is out of range";
     case MIEN_ERROR_AUDIO_CHANNELS:
-      return "the sound's number of channels is out of range";
+      return "the number of audio channels is out of range";
     case MIEN_ERROR_AUDIO_SAMPLES:
-      return "samples of the sound are NULL";
+      return "a pointer to audio samples is NULL";
     case MIEN_ERROR_IMAGE_REGION:
-      return "the image's region of interest is empty, beyond the image, or at an odd place in YUV";
+      return "the image's region of interest is empty, outside the image, or at odd x or y in YUV";
     case MIEN_ERROR_AUDIO_QUEUE_FULL:
-      return "there is no room for more sound to wait";
+      return "the audio queue is full";
     case MIEN_ERROR_NEUTRAL_FORMAT:
-      return "not a neutral file";
+      return "the file is not a neutral file";
     case MIEN_ERROR_NEUTRAL_VERSION:
       return "the neutral file has an unsupported format version";
     case MIEN_ERROR_NEUTRAL_DAMAGED:
