@@ -1,4 +1,4 @@
-// Memory by the caller's callbacks, or by the C library where there are none.
+// Allocates memory with the caller's callbacks, or with operator new if there are none.
 #pragma once
 
 #include <mien/mien.h>
@@ -8,7 +8,7 @@
 
 namespace mien::tracker {
 
-// MIEN_ALIGNMENT-aligned; nullptr if there is none.
+// MIEN_ALIGNMENT-aligned; nullptr if no memory is available.
 inline void* allocate(const mien_allocator& allocator, std::size_t bytes) {
   if (allocator.allocate != nullptr) {
     return allocator.allocate(allocator.user, bytes, MIEN_ALIGNMENT);

@@ -1,4 +1,4 @@
-// The part of the C interface that is about sound.
+// C API: audio.
 #include <mien/mien.h>
 
 #include <cstddef>
@@ -12,14 +12,14 @@ mien_status mien_tracker_advance(mien_tracker* tracker, int64_t pts_ns) {
   if (tracker == nullptr) {
     return MIEN_ERROR_NULL_ARGUMENT;
   }
-  const FloatMode ours;
+  const FloatMode float_mode;
   tracker->tracker.advance(pts_ns);
   return MIEN_OK;
 }
 
 mien_status mien_tracker_push_audio(mien_tracker* tracker, const mien_audio* audio,
                                     int64_t pts_ns) {
-  const FloatMode ours;
+  const FloatMode float_mode;
   return tracker != nullptr ? tracker->tracker.push_audio(audio, pts_ns) : MIEN_ERROR_NULL_ARGUMENT;
 }
 
@@ -28,20 +28,20 @@ mien_status mien_tracker_queue_audio(mien_tracker* tracker, const mien_audio* au
   if (tracker == nullptr) {
     return MIEN_ERROR_NULL_ARGUMENT;
   }
-  const FloatMode ours;
-  mien::tracker::AudioTrack* voice = tracker->tracker.voice();
-  return voice != nullptr ? voice->queue(audio, pts_ns) : MIEN_ERROR_NO_AUDIONET;
+  const FloatMode float_mode;
+  mien::tracker::AudioTrack* audio_track = tracker->tracker.voice();
+  return audio_track != nullptr ? audio_track->queue(audio, pts_ns) : MIEN_ERROR_NO_AUDIONET;
 }
 
 mien_status mien_tracker_set_audio_offset(mien_tracker* tracker, int64_t offset_ns) {
   if (tracker == nullptr) {
     return MIEN_ERROR_NULL_ARGUMENT;
   }
-  mien::tracker::AudioTrack* voice = tracker->tracker.voice();
-  if (voice == nullptr) {
+  mien::tracker::AudioTrack* audio_track = tracker->tracker.voice();
+  if (audio_track == nullptr) {
     return MIEN_ERROR_NO_AUDIONET;
   }
-  voice->set_offset(offset_ns);
+  audio_track->set_offset(offset_ns);
   return MIEN_OK;
 }
 
@@ -50,14 +50,14 @@ mien_status mien_tracker_set_mix(mien_tracker* tracker, int32_t control, float a
   if (tracker == nullptr) {
     return MIEN_ERROR_NULL_ARGUMENT;
   }
-  mien::tracker::AudioTrack* voice = tracker->tracker.voice();
-  if (voice == nullptr) {
+  mien::tracker::AudioTrack* audio_track = tracker->tracker.voice();
+  if (audio_track == nullptr) {
     return MIEN_ERROR_NO_AUDIONET;
   }
-  const FloatMode ours;
+  const FloatMode float_mode;
   const bool known = control >= 0 && control < MIEN_CONTROL_COUNT;
-  return known && voice->mixer().set_weights(static_cast<std::size_t>(control), audio_weight,
-                                             video_weight)
+  return known && audio_track->mixer().set_weights(static_cast<std::size_t>(control), audio_weight,
+                                                   video_weight)
              ? MIEN_OK
              : MIEN_ERROR_OUT_OF_RANGE;
 }

@@ -1,4 +1,4 @@
-// The C interface: checks what comes in, hands on, copies out.
+// C API: creation, images and results of a tracker. Validates arguments and copies results.
 #include <mien/mien.h>
 
 #include <cstdint>
@@ -23,7 +23,7 @@ using mien::tracker::release;
 static_assert(MIEN_ALIGNMENT == Arena::kAlignment);
 static_assert(MIEN_LANDMARK_COUNT == mien::tracker::kLandmarks);
 
-// Takes from `arena` all that the networks need.
+// Takes the memory of all networks from `arena`.
 mien_status load(const mien_tracker_config& config, mien_tracker& parts, Arena& arena) {
   Models models;
   mien_status status = mien::tracker::open_models(config, models);
@@ -39,8 +39,7 @@ mien_status load(const mien_tracker_config& config, mien_tracker& parts, Arena& 
   return status == MIEN_OK ? parts.proposal.load(config, models, arena) : status;
 }
 
-// Its tracker takes 15 KB of the stack, and inlined it would still lie there while the real one is
-// made.
+// Not inlined, so that the 15 KB of its tracker leave the stack before the real one is created.
 [[gnu::noinline]] mien_status measure(const mien_tracker_config& config, Arena::Need& need) {
   Arena arena;
   (void)arena.take(sizeof(mien_tracker));
@@ -50,7 +49,7 @@ mien_status load(const mien_tracker_config& config, mien_tracker& parts, Arena& 
   return status;
 }
 
-// Checks everything and says how much memory it will take.
+// Validates everything and measures the required memory.
 mien_status prepare(const mien_tracker_config* given, mien_tracker_config& config,
                     Arena::Need& need) {
   const mien_status status = mien::tracker::read_config(given, config);
@@ -71,7 +70,8 @@ mien_status build(const mien_tracker_config& config, void* memory, const Arena::
   return MIEN_OK;
 }
 
-// Faces are nobody else's business. Volatile: memory about to be released is still written to.
+// Leaves no trace of a face in memory. Volatile, because a compiler may drop writes before a
+// release.
 void wipe(void* memory, std::size_t bytes) {
   volatile auto* byte = static_cast<volatile unsigned char*>(memory);
   for (std::size_t i = 0; i < bytes; ++i) {
@@ -95,7 +95,7 @@ mien_status mien_tracker_required_bytes(const mien_tracker_config* config, size_
   if (bytes == nullptr) {
     return MIEN_ERROR_NULL_ARGUMENT;
   }
-  const FloatMode ours;
+  const FloatMode float_mode;
   mien_tracker_config checked;
   Arena::Need need;
   const mien_status status = prepare(config, checked, need);
@@ -108,7 +108,7 @@ mien_status mien_tracker_create(const mien_tracker_config* config, mien_tracker*
     return MIEN_ERROR_NULL_ARGUMENT;
   }
   *tracker = nullptr;
-  const FloatMode ours;
+  const FloatMode float_mode;
   mien_tracker_config checked;
   Arena::Need need;
   mien_status status = prepare(config, checked, need);
@@ -140,7 +140,7 @@ mien_status mien_tracker_create_in(const mien_tracker_config* config, void* memo
   if (reinterpret_cast<std::uintptr_t>(memory) % MIEN_ALIGNMENT != 0) {
     return MIEN_ERROR_ALIGNMENT;
   }
-  const FloatMode ours;
+  const FloatMode float_mode;
   mien_tracker_config checked;
   Arena::Need need;
   const mien_status status = prepare(config, checked, need);
@@ -171,7 +171,7 @@ mien_status mien_tracker_reset(mien_tracker* tracker) {
   if (tracker == nullptr) {
     return MIEN_ERROR_NULL_ARGUMENT;
   }
-  const FloatMode ours;
+  const FloatMode float_mode;
   tracker->tracker.reset();
   return MIEN_OK;
 }
@@ -185,7 +185,7 @@ mien_status mien_tracker_set_lod(mien_tracker* tracker, int32_t lod) {
 
 mien_status mien_tracker_push_video(mien_tracker* tracker, const mien_image* image,
                                     int64_t pts_ns) {
-  const FloatMode ours;
+  const FloatMode float_mode;
   return tracker != nullptr ? tracker->tracker.push(image, pts_ns) : MIEN_ERROR_NULL_ARGUMENT;
 }
 

@@ -1,3 +1,4 @@
+// Defaults and validation of a tracker's configuration.
 #include "tracker/api/config.h"
 
 #include <cstdint>
@@ -11,7 +12,7 @@ namespace {
 
 constexpr float kSixtyDegrees = 1.04719755f;
 
-// Comparisons are written so that NaN fails them.
+// NaN fails these comparisons.
 bool within(float value, float low, float high) { return value >= low && value <= high; }
 bool within(std::int32_t value, std::int32_t low, std::int32_t high) {
   return value >= low && value <= high;

@@ -1,4 +1,4 @@
-// Version, names and counts of the C interface.
+// C API: version, names and counts.
 #include <mien/mien.h>
 
 #include <cstdint>
@@ -16,9 +16,9 @@ uint32_t mien_cpu_tiers(void) { return mien::kernels::detect_cpu(); }
 
 const char* mien_cpu_tier_name(uint32_t tier) {
   for (std::uint32_t i = 0; i < mien::kernels::kTierCount; ++i) {
-    const auto detection = static_cast<mien::kernels::Tier>(i);
-    if (tier == mien::kernels::bit(detection)) {
-      return mien::kernels::name(detection);
+    const auto candidate = static_cast<mien::kernels::Tier>(i);
+    if (tier == mien::kernels::bit(candidate)) {
+      return mien::kernels::name(candidate);
     }
   }
   return nullptr;

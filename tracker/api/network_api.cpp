@@ -1,4 +1,4 @@
-// The part of the C interface that runs networks of the user's own.
+// C API: custom networks.
 #include <mien/mien.h>
 
 #include <cstdint>
@@ -41,7 +41,7 @@ mien_status read_config(const mien_network_config* given, mien_network_config& c
                                                                            : MIEN_OK;
 }
 
-// The network asked for, on the input asked for.
+// The form of the network and input that the configuration selects.
 mien_status form_of(const mien_network_config& config, const Model& model, NetworkForm& form) {
   const auto* record =
       config.name == nullptr ? model.file().networks().data() : model.network(config.name);
@@ -55,7 +55,7 @@ mien_status form_of(const mien_network_config& config, const Model& model, Netwo
   return MIEN_OK;
 }
 
-void tell(const Shape& shape, mien_shape* out) {
+void write_shape(const Shape& shape, mien_shape* out) {
   if (out != nullptr) {
     *out = {shape.h, shape.w, shape.c};
   }
@@ -100,7 +100,7 @@ mien_status mien_network_create(const mien_network_config* config, mien_network*
     return MIEN_ERROR_NULL_ARGUMENT;
   }
   *network = nullptr;
-  const mien::kernels::FloatMode ours;
+  const mien::kernels::FloatMode float_mode;
   mien_network_config checked;
   mien_status status = read_config(config, checked);
   Model model;
@@ -125,7 +125,7 @@ float* mien_network_input(mien_network* network, mien_shape* shape) {
   if (network == nullptr) {
     return nullptr;
   }
-  tell(network->network.input_shape(), shape);
+  write_shape(network->network.input_shape(), shape);
   return network->network.input().data();
 }
 
@@ -133,7 +133,7 @@ mien_status mien_network_run(mien_network* network) {
   if (network == nullptr) {
     return MIEN_ERROR_NULL_ARGUMENT;
   }
-  const mien::kernels::FloatMode ours;
+  const mien::kernels::FloatMode float_mode;
   network->network.run();
   return MIEN_OK;
 }
@@ -147,7 +147,7 @@ const float* mien_network_output(const mien_network* network, int32_t index, mie
     return nullptr;
   }
   const auto i = static_cast<std::uint32_t>(index);
-  tell(network->network.output_shape(i), shape);
+  write_shape(network->network.output_shape(i), shape);
   return network->network.output(i).data();
 }
 

@@ -1,4 +1,4 @@
-// The part of the C interface that is about the neutral face.
+// C API: neutral calibration.
 #include <mien/mien.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ using mien::tracker::kControls;
 static_assert(MIEN_NEUTRAL_BYTES == mien::formats::kNeutralFileBytes);
 static_assert(mien::formats::kNeutralLevels / 2 == kControls);
 
-// A level that uses the decoder of each part of a neutral file.
+// For each part of a neutral file, a level of detail that uses its decoder.
 constexpr std::int32_t kLevelOfPart[] = {mien::tracker::kLowestLevel, mien::tracker::kHighestLevel};
 
 std::span<float, kControls> levels(NeutralFile& file, std::size_t part) {
@@ -86,7 +86,7 @@ mien_status mien_tracker_load_neutral(mien_tracker* tracker, const void* file, s
   if (status != MIEN_OK) {
     return status;
   }
-  const mien::kernels::FloatMode ours;
+  const mien::kernels::FloatMode float_mode;
   NeutralFile loaded;
   const NeutralFileError error =
       mien::formats::read_neutral_file({static_cast<const std::byte*>(file), file_bytes}, loaded);

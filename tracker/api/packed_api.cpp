@@ -1,4 +1,4 @@
-// The part of the C interface that is about packed weights.
+// C API: packed weights.
 #include <mien/mien.h>
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// What stands behind the C interface's mien_tracker.
+// The type behind the C API's mien_tracker.
 #pragma once
 
 #include <mien/mien.h>
@@ -18,5 +18,5 @@ struct mien_tracker {
   mien::tracker::Tracker tracker;
   mien_allocator allocator;
   std::size_t bytes = 0;
-  bool allocated = false;  // by the allocator, not by the caller
+  bool allocated = false;  // by the allocator; false: memory of the caller
 };

@@ -1,4 +1,5 @@
-// Structs of the C interface as their caller knew them: `struct_size` says how far they reach.
+// Copies structs of the C API between versions of the library: `struct_size` is the size that the
+// caller knows.
 #pragma once
 
 #include <algorithm>
@@ -11,10 +12,11 @@ namespace mien::tracker {
 // Size of T up to and including `member`.
 #define MIEN_SIZE_THROUGH(T, member) (offsetof(T, member) + sizeof(T::member))
 
-// Copies what `from` has over the defaults in `to`. False when it has less than `least_bytes`.
+// Copies `from`, as far as its size goes, over the defaults in `to`. False if it is smaller than
+// `min_bytes`.
 template <typename T>
-[[nodiscard]] bool read_struct(const T& from, std::size_t least_bytes, T& to) {
-  if (from.struct_size < least_bytes) {
+[[nodiscard]] bool read_struct(const T& from, std::size_t min_bytes, T& to) {
+  if (from.struct_size < min_bytes) {
     return false;
   }
   std::memcpy(&to, &from, std::min<std::size_t>(from.struct_size, sizeof(T)));
@@ -22,12 +24,12 @@ template <typename T>
   return true;
 }
 
-// Copies as much of `from` as `to` has room for, and zeros what lies beyond. False when `to` has
-// room for less than `least_bytes`.
+// Copies `from` into `to`, as far as its size goes, and zeroes the rest of `to`. False if `to` is
+// smaller than `min_bytes`.
 template <typename T>
-[[nodiscard]] bool write_struct(const T& from, std::size_t least_bytes, T* to) {
+[[nodiscard]] bool write_struct(const T& from, std::size_t min_bytes, T* to) {
   const std::uint32_t size = to->struct_size;
-  if (size < least_bytes) {
+  if (size < min_bytes) {
     return false;
   }
   auto* bytes = reinterpret_cast<std::byte*>(to);

@@ -1,4 +1,4 @@
-// The part of the C interface that speaks other vocabularies.
+// C API: controls in other vocabularies.
 #include <mien/mien.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace mien::tracker {
 namespace {
 
-// Empty for numbers that are no mien_vocabulary, and for visemes, which are no rows.
+// Empty for an undefined mien_vocabulary, and for visemes, which are not computed from rows.
 std::span<const VocabularyRow> rows_of(std::int32_t vocabulary) {
   switch (vocabulary) {
     case MIEN_VOCABULARY_ARKIT:
@@ -36,21 +36,21 @@ std::span<const std::size_t> controls_of(const VocabularyRow& row) {
 }
 
 float value_of(const VocabularyRow& row, const float* controls) {
-  float sum = 0.0f, largest = 0.0f, least = 1.0f;
+  float sum = 0.0f, max = 0.0f, min = 1.0f;
   for (const std::size_t control : controls_of(row)) {
     const float value = std::clamp(controls[control], 0.0f, 1.0f);
     sum += value;
-    largest = std::max(largest, value);
-    least = std::min(least, value);
+    max = std::max(max, value);
+    min = std::min(min, value);
   }
   if (row.count == 0) {
     return 0.0f;
   }
-  switch (row.making) {
-    case Making::kLargest:
-      return largest;
-    case Making::kLeast:
-      return least;
+  switch (row.combination) {
+    case Combination::kMax:
+      return max;
+    case Combination::kMin:
+      return min;
     default:
       return sum / static_cast<float>(row.count);
   }
@@ -61,12 +61,12 @@ bool all_supported(std::span<const std::size_t> controls, std::uint64_t supporte
                      [supported](std::size_t control) { return (supported >> control & 1u) != 0; });
 }
 
-// Whether all that it needs is there: of what is the largest, any of it.
-bool is_driven(const VocabularyRow& row, std::uint64_t supported) {
-  const auto there = [supported](std::size_t control) { return (supported >> control & 1u) != 0; };
+// A maximum needs any of its controls, other combinations all of them.
+bool is_supported(const VocabularyRow& row, std::uint64_t supported) {
+  const auto has = [supported](std::size_t control) { return (supported >> control & 1u) != 0; };
   const auto controls = controls_of(row);
-  return row.making == Making::kLargest ? std::any_of(controls.begin(), controls.end(), there)
-                                        : row.count > 0 && all_supported(controls, supported);
+  return row.combination == Combination::kMax ? std::any_of(controls.begin(), controls.end(), has)
+                                              : row.count > 0 && all_supported(controls, supported);
 }
 
 void visemes_of(const float* controls, float* values) {
@@ -78,7 +78,7 @@ void visemes_of(const float* controls, float* values) {
                  [](double value) { return static_cast<float>(value); });
 }
 
-// Those whose leading controls are driven, and silence with any of them.
+// Visemes whose leading controls are supported, and silence if there is any of these.
 std::uint64_t visemes_supported(std::uint64_t supported) {
   std::uint64_t visemes = 0;
   for (std::size_t i = 1; i < formats::kVisemeCount; ++i) {
@@ -116,7 +116,7 @@ mien_status mien_vocabulary_values(int32_t vocabulary, const float* controls, fl
   if (count != mien_vocabulary_size(vocabulary) || count == 0) {
     return MIEN_ERROR_OUT_OF_RANGE;
   }
-  const mien::kernels::FloatMode ours;
+  const mien::kernels::FloatMode float_mode;
   if (vocabulary == MIEN_VOCABULARY_VISEMES) {
     mien::tracker::visemes_of(controls, values);
     return MIEN_OK;
@@ -134,7 +134,7 @@ uint64_t mien_vocabulary_supported(int32_t vocabulary, uint64_t supported_contro
   const auto rows = mien::tracker::rows_of(vocabulary);
   std::uint64_t supported = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    supported |= mien::tracker::is_driven(rows[i], supported_controls) ? 1ull << i : 0;
+    supported |= mien::tracker::is_supported(rows[i], supported_controls) ? 1ull << i : 0;
   }
   return supported;
 }

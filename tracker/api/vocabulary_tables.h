@@ -1,7 +1,7 @@
-// Other vocabularies for faces, as rows: a name, and what of the 52 controls it is made of. Names
-// are those of formats/animation/vocabulary.h, and Roblox' rows those of facs_rows.h, which files
-// are read and written by, too. How a name is made of controls is ours where its owner does not
-// say. Visemes are no rows, but mixtures: formats/animation/visemes.h.
+// Other vocabularies as rows: a name, and how it is computed from the 52 controls. Names come from
+// formats/animation/vocabulary.h, and Roblox's rows from facs_rows.h, as in the file formats. Where
+// a standard does not define the conversion, the rows are the project's choice. Visemes are
+// mixtures instead of rows: formats/animation/visemes.h.
 #pragma once
 
 #include <algorithm>
@@ -16,57 +16,59 @@
 
 namespace mien::tracker {
 
-enum class Making : std::uint8_t {
-  kMean,     // of its controls; 0 where there are none
-  kLargest,  // of them
-  kLeast,    // of them
+// How the values of several controls become one.
+enum class Combination : std::uint8_t {
+  kMean,  // 0 without controls
+  kMax,
+  kMin,
 };
 
 struct VocabularyRow {
   static constexpr std::size_t kMaxControls = 4;
   const char* name;
-  Making making = Making::kMean;
+  Combination combination = Combination::kMean;
   std::size_t count = 0;
   std::array<std::size_t, kMaxControls> controls = {};
 };
 
 consteval VocabularyRow row(const char* name, std::span<const std::string_view> controls,
-                            Making making = Making::kMean) {
-  VocabularyRow made = {name, making};
+                            Combination combination = Combination::kMean) {
+  VocabularyRow result = {name, combination};
   for (const std::string_view control : controls) {
-    made.controls[made.count++] = control_named(control);
+    result.controls[result.count++] = control_named(control);
   }
-  return made;
+  return result;
 }
 
 consteval VocabularyRow row(const char* name, std::initializer_list<std::string_view> controls,
-                            Making making = Making::kMean) {
-  return row(name, std::span(controls.begin(), controls.size()), making);
+                            Combination combination = Combination::kMean) {
+  return row(name, std::span(controls.begin(), controls.size()), combination);
 }
 
 inline constexpr auto kArkitRows = [] {
   std::array<VocabularyRow, kControls> rows = {};
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    rows[i] = {kControlNames[i], Making::kMean, 1, {i}};
+    rows[i] = {kControlNames[i], Combination::kMean, 1, {i}};
   }
   return rows;
 }();
 
-// ARKit's controls by their own names, and one that is none of them.
+// ARKit's controls by name, and _neutral, which is not a control.
 inline constexpr auto kMediaPipeRows = [] {
   std::array<VocabularyRow, formats::kMediaPipeNames.size()> rows = {};
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const std::string_view name = formats::kMediaPipeNames[i];
     const std::size_t control = formats::index_of(name, formats::kArkitNames);
-    rows[i] = {name.data(), Making::kMean, control < formats::kControlCount ? 1u : 0u, {control}};
+    rows[i] = {
+        name.data(), Combination::kMean, control < formats::kControlCount ? 1u : 0u, {control}};
   }
   return rows;
 }();
 
-constexpr Making making_of(formats::Join join) {
-  return join == formats::Join::kMax   ? Making::kLargest
-         : join == formats::Join::kMin ? Making::kLeast
-                                       : Making::kMean;
+constexpr Combination combination_of(formats::Join join) {
+  return join == formats::Join::kMax   ? Combination::kMax
+         : join == formats::Join::kMin ? Combination::kMin
+                                       : Combination::kMean;
 }
 
 inline constexpr auto kRobloxRows = [] {
@@ -74,16 +76,16 @@ inline constexpr auto kRobloxRows = [] {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     rows[i].name = formats::kFacsNames[i].data();
   }
-  for (const formats::FacsRow& of : formats::kFacsRows) {
-    VocabularyRow& row = rows[of.unit];
-    row.making = making_of(of.join);
-    row.count = of.first == of.second ? 1 : 2;
-    row.controls = {of.first, of.second};
+  for (const formats::FacsRow& facs : formats::kFacsRows) {
+    VocabularyRow& row = rows[facs.unit];
+    row.combination = combination_of(facs.join);
+    row.count = facs.first == facs.second ? 1 : 2;
+    row.controls = {facs.first, facs.second};
   }
   return rows;
 }();
 
-// What the presets of both versions of VRM have in common.
+// Controls of the presets of both versions of VRM.
 inline constexpr std::array<std::string_view, 2> kSmile = {"mouthSmileLeft", "mouthSmileRight"};
 inline constexpr std::array<std::string_view, 2> kScowl = {"browDownLeft", "browDownRight"};
 inline constexpr std::array<std::string_view, 2> kFrown = {"mouthFrownLeft", "mouthFrownRight"};
