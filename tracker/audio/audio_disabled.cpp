@@ -1,11 +1,12 @@
-// In place of voice.cpp in a build without sound (MIEN_WITH_AUDIO): no tracker ever gets a voice.
+// Replaces audio_track.cpp if audio is not compiled in (MIEN_WITH_AUDIO): load fails, so no tracker
+// has an audio track.
 #include "tracker/audio/audio_track.h"
 
 namespace mien::tracker {
 
 mien_status AudioTrack::load(const Models&, const mien_tracker_config&, engine::Arena&,
-                             AudioTrack*& voice) {
-  voice = nullptr;
+                             AudioTrack*& track) {
+  track = nullptr;
   return MIEN_ERROR_LEFT_OUT;
 }
 

@@ -1,3 +1,4 @@
+// The lock-free audio queue.
 #include "tracker/audio/audio_queue.h"
 
 #include <bit>
@@ -7,8 +8,8 @@
 namespace mien::tracker {
 namespace {
 
-constexpr std::uint32_t kSamplesOfBlock =
-    32;  // fewer in each, and blocks run out before samples do
+// With shorter blocks on average, the ring of blocks fills before that of samples.
+constexpr std::uint32_t kSamplesPerBlock = 32;
 constexpr std::uint32_t kMinBlocks = 64;
 
 template <typename T>
@@ -25,35 +26,35 @@ void AudioQueue::load(std::int32_t samples, engine::Arena& arena) {
   if (samples <= 0) {
     return;
   }
-  const std::uint32_t memory = std::bit_ceil(static_cast<std::uint32_t>(samples));
-  samples_ = take<float>(arena, memory);
-  blocks_ = take<Block>(arena, std::max(kMinBlocks, memory / kSamplesOfBlock));
+  const std::uint32_t capacity = std::bit_ceil(static_cast<std::uint32_t>(samples));
+  samples_ = take<float>(arena, capacity);
+  blocks_ = take<Block>(arena, std::max(kMinBlocks, capacity / kSamplesPerBlock));
 }
 
 bool AudioQueue::place(std::uint32_t frames, std::uint32_t& first) const {
-  const auto memory = static_cast<std::uint32_t>(samples_.size());
-  const std::uint32_t to_end = memory - (samples_written_ & (memory - 1));
+  const auto capacity = static_cast<std::uint32_t>(samples_.size());
+  const std::uint32_t to_end = capacity - (samples_written_ & (capacity - 1));
   first = frames <= to_end ? samples_written_ : samples_written_ + to_end;
   const std::uint32_t used = first + frames - samples_read_.load(std::memory_order_acquire);
-  return used <= memory;
+  return used <= capacity;
 }
 
-bool AudioQueue::push(const AudioView& sound, std::int64_t pts_ns) {
-  if (sound.pcm.frames == 0) {
+bool AudioQueue::push(const AudioView& view, std::int64_t pts_ns) {
+  if (view.pcm.frames == 0) {
     return true;
   }
   const std::uint32_t written = blocks_written_.load(std::memory_order_relaxed);
   const std::uint32_t waiting = written - blocks_read_.load(std::memory_order_acquire);
-  if (sound.pcm.frames > samples_.size() || waiting == blocks_.size()) {
+  if (view.pcm.frames > samples_.size() || waiting == blocks_.size()) {
     return false;
   }
-  const auto frames = static_cast<std::uint32_t>(sound.pcm.frames);
+  const auto frames = static_cast<std::uint32_t>(view.pcm.frames);
   std::uint32_t first = 0;
   if (!place(frames, first)) {
     return false;
   }
-  audio::to_mono(sound.pcm, 0, samples_.subspan(at(first, samples_.size()), frames));
-  blocks_[at(written, blocks_.size())] = {pts_ns, sound.rate, first, frames};
+  audio::to_mono(view.pcm, 0, samples_.subspan(at(first, samples_.size()), frames));
+  blocks_[at(written, blocks_.size())] = {pts_ns, view.rate, first, frames};
   samples_written_ = first + frames;
   blocks_written_.store(written + 1, std::memory_order_release);
   return true;

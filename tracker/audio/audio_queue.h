@@ -1,4 +1,4 @@
-// Sound from one thread to another: wait-free on both sides, one of either.
+// Passes audio from one thread to another. Wait-free for one writer and one reader.
 #pragma once
 
 #include <mien/mien.h>
@@ -13,10 +13,10 @@
 
 namespace mien::tracker {
 
-// Two rings, of samples and of blocks that say which samples are theirs. A block lies in one piece,
-// so that what would not fit before the end of the ring begins at its beginning. Positions count on
-// and are wrapped where they are used; what is written becomes visible with `blocks_written_`, what
-// is read becomes free with `blocks_read_` and `samples_read_`.
+// Two rings: samples, and blocks that refer to them. The samples of a block are contiguous: if they
+// do not fit before the end of the ring, they start at its beginning. Positions increase without
+// limit and are wrapped when used. A store to `blocks_written_` publishes what was written; stores
+// to `samples_read_` and `blocks_read_` free what was read.
 class AudioQueue {
  public:
   static constexpr std::int32_t kMaxSamples = 1 << 22;
@@ -24,31 +24,32 @@ class AudioQueue {
   struct Block {
     std::int64_t pts_ns = 0;
     std::int32_t rate = 0;
-    std::uint32_t first = 0;  // position of its samples
+    std::uint32_t first = 0;  // position of the first sample
     std::uint32_t frames = 0;
   };
 
-  // Takes from `arena` room for so many samples; 0: none, and nothing fits.
+  // Takes memory for `samples` samples from `arena`. With 0 every push fails.
   void load(std::int32_t samples, engine::Arena& arena);
 
-  // By the one thread that has the sound. False, and nothing is taken, when there is no room.
-  [[nodiscard]] bool push(const AudioView& sound, std::int64_t pts_ns);
+  // For the writing thread. False, without any effect, if the queue is full.
+  [[nodiscard]] bool push(const AudioView& view, std::int64_t pts_ns);
 
-  // By the one thread that hears it: the oldest block, its samples in one channel of floats; false
-  // when there is none. They stay there until `pop`.
+  // For the reading thread: the oldest block, with its samples as one channel of floats that stay
+  // valid until `pop`; false if the queue is empty.
   [[nodiscard]] bool front(Block& block, audio::Pcm& samples) const;
   void pop(const Block& block);
   [[nodiscard]] bool empty() const;
 
  private:
-  // Where `frames` samples go, beginning at `samples_written_`; false when they do not fit.
+  // Finds the position of `frames` new samples, at or after `samples_written_`; false if they do
+  // not fit.
   [[nodiscard]] bool place(std::uint32_t frames, std::uint32_t& first) const;
 
   static_assert(std::atomic<std::uint32_t>::is_always_lock_free);
 
-  std::span<float> samples_;  // a power of two of them, as of blocks
+  std::span<float> samples_;  // the sizes of both rings are powers of two
   std::span<Block> blocks_;
-  std::uint32_t samples_written_ = 0;  // of the writing thread alone
+  std::uint32_t samples_written_ = 0;  // used by the writing thread only
   std::atomic<std::uint32_t> blocks_written_ = 0;
   std::atomic<std::uint32_t> blocks_read_ = 0;
   std::atomic<std::uint32_t> samples_read_ = 0;

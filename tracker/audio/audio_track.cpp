@@ -1,3 +1,4 @@
+// The audio track of a tracker.
 #include "tracker/audio/audio_track.h"
 
 #include <algorithm>
@@ -15,7 +16,7 @@ namespace {
 constexpr std::size_t kJawOpen = control_named("jawOpen");
 constexpr std::size_t kMouthClose = control_named("mouthClose");
 
-// Of audio::Speech::controls among the 52.
+// Maps audio::Speech::controls to the 52 controls.
 constexpr std::array<std::size_t, audio::kSpeechControls> kSpeechControls = {
     control_named("jawOpen"),
     control_named("jawForward"),
@@ -37,44 +38,44 @@ constexpr std::array<std::size_t, audio::kSpeechControls> kSpeechControls = {
     control_named("tongueOut"),
 };
 
-Controls among_all(const audio::Speech& speech, float strength) {
+Controls all_controls(const audio::Speech& speech, float strength) {
   Controls controls = {};
   for (std::size_t i = 0; i < kSpeechControls.size(); ++i) {
     controls[kSpeechControls[i]] = std::min(strength * speech.controls[i], 1.0f);
   }
-  // Lips meet as far as the jaw has parted them; further they would go into each other.
+  // mouthClose cancels the opening by jawOpen; a larger value would push the lips into each other.
   controls[kMouthClose] = std::min(controls[kMouthClose], controls[kJawOpen]);
   return controls;
 }
 
-constexpr float kNothing = 1e-6f;
+constexpr float kMinAlpha = 1e-6f;  // below it alpha is 0
 
-// Share of the way that a first-order low-pass goes.
-float share(float seconds, float constant_ms) {
-  return constant_ms > 0.0f ? 1.0f - std::exp(-1000.0f * seconds / constant_ms) : 1.0f;
+// Step of a first-order low-pass towards its input, as a fraction of their distance.
+float low_pass_share(float seconds, float time_constant_ms) {
+  return time_constant_ms > 0.0f ? 1.0f - std::exp(-1000.0f * seconds / time_constant_ms) : 1.0f;
 }
 
 }  // namespace
 
 mien_status AudioTrack::load(const Models& models, const mien_tracker_config& config,
-                             engine::Arena& arena, AudioTrack*& voice) {
+                             engine::Arena& arena, AudioTrack*& track) {
   static_assert(std::is_trivially_destructible_v<AudioTrack>, "the arena destroys nothing");
   static_assert(alignof(AudioTrack) <= engine::Arena::kAlignment);
   const std::span<std::byte> memory = arena.take(sizeof(AudioTrack));
-  voice = memory.empty() ? nullptr : new (memory.data()) AudioTrack(config);
+  track = memory.empty() ? nullptr : new (memory.data()) AudioTrack(config);
   AudioQueue measured;
-  (voice != nullptr ? voice->queue_ : measured).load(config.audio_queue_samples, arena);
+  (track != nullptr ? track->queue_ : measured).load(config.audio_queue_samples, arena);
   audio::AudioNet net;
   mien_status status = net.load(models.audionet, config.cpu_mask, arena);
   Mixer mixer;
   if (status == MIEN_OK) {
     status = mixer.load(models.audionet);
   }
-  if (status != MIEN_OK || voice == nullptr) {
+  if (status != MIEN_OK || track == nullptr) {
     return status;
   }
-  voice->mixer_ = mixer;
-  return voice->pipeline_.init(net, config.cpu_mask) ? MIEN_OK : MIEN_ERROR_UNSUPPORTED_CPU;
+  track->mixer_ = mixer;
+  return track->pipeline_.init(net, config.cpu_mask) ? MIEN_OK : MIEN_ERROR_UNSUPPORTED_CPU;
 }
 
 void AudioTrack::reset() {
@@ -86,9 +87,9 @@ void AudioTrack::reset() {
   output_ = {};
 }
 
-mien_status AudioTrack::push(const mien_audio* sound, std::int64_t pts_ns) {
+mien_status AudioTrack::push(const mien_audio* audio, std::int64_t pts_ns) {
   AudioView view;
-  const mien_status status = view_audio(sound, view);
+  const mien_status status = view_audio(audio, view);
   if (status != MIEN_OK) {
     return status;
   }
@@ -101,9 +102,9 @@ void AudioTrack::process(const audio::Pcm& samples, std::int32_t rate, std::int6
   has_audio_ = has_audio_ || samples.frames > 0;
 }
 
-mien_status AudioTrack::queue(const mien_audio* sound, std::int64_t pts_ns) {
+mien_status AudioTrack::queue(const mien_audio* audio, std::int64_t pts_ns) {
   AudioView view;
-  const mien_status status = view_audio(sound, view);
+  const mien_status status = view_audio(audio, view);
   if (status != MIEN_OK) {
     return status;
   }
@@ -131,16 +132,16 @@ void AudioTrack::clear_queue() {
 
 void AudioTrack::advance(std::int64_t pts_ns, float seconds) {
   const audio::Speech speech = pipeline_.at(pts_ns);
-  const Controls controls = among_all(speech, config_.voice_strength);
+  const Controls controls = all_controls(speech, config_.voice_strength);
   if (config_.smoothing == 0 || output_.alpha == 0.0f) {
     output_.controls = controls;
   } else {
     smooth_controls(controls, seconds, output_.controls);
   }
-  const float constant_ms =
+  const float time_constant_ms =
       speech.activity > output_.alpha ? config_.voice_attack_ms : config_.voice_release_ms;
-  output_.alpha += share(seconds, constant_ms) * (speech.activity - output_.alpha);
-  output_.alpha = output_.alpha < kNothing ? 0.0f : output_.alpha;
+  output_.alpha += low_pass_share(seconds, time_constant_ms) * (speech.activity - output_.alpha);
+  output_.alpha = output_.alpha < kMinAlpha ? 0.0f : output_.alpha;
 }
 
 }  // namespace mien::tracker

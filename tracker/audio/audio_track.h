@@ -1,4 +1,5 @@
-// The voice of one tracker: sound in, over time, and out what is heard on each frame.
+// The audio side of a tracker: audio blocks in, predicted controls and voice activity per frame
+// out.
 #pragma once
 
 #include <mien/mien.h>
@@ -15,30 +16,32 @@ namespace mien::tracker {
 
 class AudioTrack {
  public:
-  // Takes from `arena` a voice with its networks; `voice` is nullptr when the arena measures.
+  // Takes an audio track with its networks from `arena`; `track` is nullptr if the arena only
+  // measures.
   [[nodiscard]] static mien_status load(const Models& models, const mien_tracker_config& config,
-                                        engine::Arena& arena, AudioTrack*& voice);
+                                        engine::Arena& arena, AudioTrack*& track);
 
-  // Forgets what was heard, and what was set since.
+  // Returns to the state after creation, including offset and mixing weights.
   void reset();
 
-  [[nodiscard]] mien_status push(const mien_audio* sound, std::int64_t pts_ns);
+  [[nodiscard]] mien_status push(const mien_audio* audio, std::int64_t pts_ns);
 
-  // By another thread than all else here, for `process_queued`.
-  [[nodiscard]] mien_status queue(const mien_audio* sound, std::int64_t pts_ns);
+  // Another thread than that of the other functions may call `queue`; process_queued processes its
+  // audio.
+  [[nodiscard]] mien_status queue(const mien_audio* audio, std::int64_t pts_ns);
   [[nodiscard]] bool has_queued() const;
   void process_queued();
 
-  // Later than its timestamps by this much.
+  // Added to the timestamps of audio.
   void set_offset(std::int64_t offset_ns) { offset_ns_ = offset_ns; }
   [[nodiscard]] Mixer& mixer() { return mixer_; }
   [[nodiscard]] const Mixer& mixer() const { return mixer_; }
 
-  // One frame of output at that time, `seconds` after the one before.
+  // Computes the output of the frame at pts_ns, `seconds` after the previous frame.
   void advance(std::int64_t pts_ns, float seconds);
   [[nodiscard]] const AudioOutput& output() const { return output_; }
 
-  // Whether any sound came since the beginning.
+  // Whether any audio was processed since the last reset.
   [[nodiscard]] bool has_audio() const { return has_audio_; }
 
  private:

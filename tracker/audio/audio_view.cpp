@@ -1,3 +1,4 @@
+// Validates the caller's audio blocks.
 #include "tracker/audio/audio_view.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The caller's sound as the tracker hears it.
+// A validated view of the caller's audio block.
 #pragma once
 
 #include <mien/mien.h>
@@ -11,10 +11,10 @@ namespace mien::tracker {
 
 struct AudioView {
   audio::Pcm pcm = {};
-  std::int32_t rate = 0;  // samples a second
+  std::int32_t rate = 0;  // Hz
 };
 
-// Checks `given` completely, but for the samples themselves.
+// Validates everything in `given` except the values of the samples.
 [[nodiscard]] mien_status view_audio(const mien_audio* given, AudioView& view);
 
 }  // namespace mien::tracker

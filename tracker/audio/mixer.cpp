@@ -1,3 +1,4 @@
+// Mixes controls predicted from audio and video.
 #include "tracker/audio/mixer.h"
 
 #include <algorithm>
@@ -5,15 +6,15 @@
 namespace mien::tracker {
 namespace {
 
-// Written so that NaN fails it.
-bool is_share(float value) { return value >= 0.0f && value <= 1.0f; }
+// False for NaN.
+bool is_weight(float value) { return value >= 0.0f && value <= 1.0f; }
 
 [[nodiscard]] mien_status read(const engine::Model& model, const char* name, Controls& weights) {
   std::span<const float> values;
   if (model.constant(name, kControls, values) != engine::Status::kOk) {
     return MIEN_ERROR_WEIGHTS_INCOMPLETE;
   }
-  if (!std::all_of(values.begin(), values.end(), is_share)) {
+  if (!std::all_of(values.begin(), values.end(), is_weight)) {
     return MIEN_ERROR_WEIGHTS_MALFORMED;
   }
   std::copy(values.begin(), values.end(), weights.begin());
@@ -32,7 +33,7 @@ mien_status Mixer::load(const engine::Model& model) {
 }
 
 bool Mixer::set_weights(std::size_t control, float audio, float video) {
-  if (!is_share(audio) || !is_share(video)) {
+  if (!is_weight(audio) || !is_weight(video)) {
     return false;
   }
   weights_.audio[control] = audio;
@@ -48,14 +49,14 @@ std::uint64_t Mixer::driven() const {
   return driven;
 }
 
-void Mixer::mix(const AudioOutput& output, std::span<const float, kControls> seen,
+void Mixer::mix(const AudioOutput& output, std::span<const float, kControls> video_weights,
                 std::span<float, kControls> controls) const {
   for (std::size_t i = 0; i < kControls; ++i) {
     if (weights_.audio[i] <= 0.0f) {
       continue;
     }
-    const float audio = 1.0f + seen[i] * (weights_.audio[i] - 1.0f);
-    const float video = seen[i] * weights_.video[i];
+    const float audio = 1.0f + video_weights[i] * (weights_.audio[i] - 1.0f);
+    const float video = video_weights[i] * weights_.video[i];
     const float mixed = audio * output.controls[i] + video * controls[i];
     controls[i] = std::clamp(controls[i] + output.alpha * (mixed - controls[i]), 0.0f, 1.0f);
   }

@@ -1,4 +1,4 @@
-// Picture and sound, mixed control by control (Navarro et al. 2023, section 5).
+// Mixes controls predicted from video and audio (Navarro et al. 2023, section 5).
 #pragma once
 
 #include <mien/mien.h>
@@ -14,29 +14,30 @@ namespace mien::tracker {
 
 using Controls = std::array<float, kControls>;
 
-// What is heard on one frame of output.
+// The prediction from audio for one frame.
 struct AudioOutput {
-  Controls controls = {};  // 0 where sound says nothing
-  float alpha = 0.0f;      // 0..1: how much the voice counts
+  Controls controls = {};  // 0 where audio predicts nothing
+  float alpha = 0.0f;      // 0..1, mien_result.voice_activity
 };
 
-// s = (1 - alpha) v + alpha (w_a a + w_v v) for the picture's v and the sound's a. Where the
-// picture does not say anything, of a control or at all, the sound has its place: w_a is 1.
+// Mixed control = (1 - alpha) v + alpha (w_a a + w_v v), with v from video and a from audio. Where
+// video predicts nothing, w_a is 1 and w_v is 0.
 class Mixer {
  public:
-  // The weights of a model file. Sound drives the controls that it gives a weight.
+  // Reads the weights from a model file. Audio drives the controls with w_a > 0.
   [[nodiscard]] mien_status load(const engine::Model& model);
 
   // False unless both are in 0..1.
   [[nodiscard]] bool set_weights(std::size_t control, float audio, float video);
-  // Those of the model file again.
+  // Restores the weights of the model file.
   void restore() { weights_ = loaded_; }
 
-  // Bit i: sound drives control i.
+  // Bit i: audio drives control i.
   [[nodiscard]] std::uint64_t driven() const;
 
-  // Mixes what is heard into `controls`. `seen`, 0..1: how much the picture says of each.
-  void mix(const AudioOutput& output, std::span<const float, kControls> seen,
+  // Mixes the prediction from audio into `controls`, which come from video. `video_weights`, 0..1:
+  // how much video predicts each control.
+  void mix(const AudioOutput& output, std::span<const float, kControls> video_weights,
            std::span<float, kControls> controls) const;
 
  private:
