@@ -27,7 +27,7 @@ Controls all(float value) {
 Controls without_rest(Neutral& neutral, float value) {
   Controls controls = all(value);
   neutral.observe(controls);
-  neutral.take_out(controls);
+  neutral.remove(controls);
   return controls;
 }
 
@@ -56,7 +56,7 @@ TEST(Neutral, RestBecomesZeroAndOneStaysOne) {
 TEST(Neutral, WhatIsSetKeepsTheBounds) {
   Neutral neutral;
   neutral.set(all(0.9f));
-  EXPECT_EQ(neutral.levels()[0], Neutral::kLargest);
+  EXPECT_EQ(neutral.levels()[0], Neutral::kMax);
   neutral.set(all(-0.5f));
   EXPECT_EQ(neutral.levels()[0], 0.0f);
 }
@@ -77,7 +77,7 @@ TEST(Neutral, AGrimaceDoesNotCostHalfTheRange) {
   for (int frame = 0; frame < kCaptureFrames; ++frame) {
     (void)without_rest(neutral, 0.95f);
   }
-  EXPECT_EQ(neutral.levels()[0], Neutral::kLargest);
+  EXPECT_EQ(neutral.levels()[0], Neutral::kMax);
   EXPECT_NEAR(without_rest(neutral, 0.8f)[0], 0.5f, 1e-6f);
 }
 
@@ -133,7 +133,7 @@ TEST(Calibration, OfAStillFaceLeavesNothing) {
     EXPECT_NEAR(counted, kCaptureFrames, 1);
     for (int i = 0; i < MIEN_CONTROL_COUNT; ++i) {
       const float left =
-          std::max(0.0f, (raw.controls[i] - Neutral::kLargest)) / (1 - Neutral::kLargest);
+          std::max(0.0f, (raw.controls[i] - Neutral::kMax)) / (1 - Neutral::kMax);
       EXPECT_NEAR(result.controls[i], left, 0.02f) << i;
     }
     std::uint32_t captured = 0;

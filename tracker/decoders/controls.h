@@ -12,7 +12,7 @@ namespace mien::tracker {
 
 inline constexpr int kControls = static_cast<int>(formats::kControlCount);
 
-// As C strings: the names are literals.
+// Null-terminated, because the names are literals.
 inline constexpr std::array<const char*, kControls> kControlNames = [] {
   std::array<const char*, kControls> names{};
   for (std::size_t i = 0; i < names.size(); ++i) {

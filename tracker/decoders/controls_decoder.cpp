@@ -1,3 +1,4 @@
+// Runs a controls decoder and limits its output.
 #include "tracker/decoders/controls_decoder.h"
 
 #include <algorithm>
@@ -24,8 +25,8 @@ void ControlsDecoder::decode(std::span<const float, kFeatures> features,
                              std::span<float, kControls> controls) {
   const std::span<const float> decoded = decoder_.run(features);
   for (std::size_t i = 0; i < controls.size(); ++i) {
-    const bool driven = (supported_ >> i & 1u) != 0 && std::isfinite(decoded[i]);
-    controls[i] = driven ? std::clamp(decoded[i], 0.0f, 1.0f) : 0.0f;
+    const bool valid = (supported_ >> i & 1u) != 0 && std::isfinite(decoded[i]);
+    controls[i] = valid ? std::clamp(decoded[i], 0.0f, 1.0f) : 0.0f;
   }
   symmetrize(supported_, controls);
 }

@@ -1,4 +1,4 @@
-// A controls decoder: an encoder's features, over time, to the 52 controls.
+// A controls decoder: converts an encoder's features over time to the 52 controls.
 #pragma once
 
 #include <mien/mien.h>
@@ -20,17 +20,17 @@ using Features = std::array<float, kFeatures>;
 
 class ControlsDecoder {
  public:
-  // Takes from `arena` what the network needs; only measures when the arena does.
+  // Takes the network's memory from `arena`, or only measures it if the arena does.
   [[nodiscard]] mien_status load(const engine::Model& model, std::uint32_t cpu_mask,
                                  engine::Arena& arena);
 
-  // Bit i: control i is driven.
+  // Bit i: the network predicts control i.
   [[nodiscard]] std::uint64_t supported() const { return supported_; }
 
-  // One step, for one frame of output: 0..1, and 0 where not supported.
+  // Computes the controls of one frame, 0..1; those not supported are 0.
   void decode(std::span<const float, kFeatures> features, std::span<float, kControls> controls);
 
-  // A new stream begins.
+  // Resets the state to the start of a stream.
   void reset() { decoder_.reset(); }
 
  private:

@@ -1,12 +1,11 @@
-// Hands a face over from one controls decoder to another without a jump.
+// The crossfade between two controls decoders, without a jump.
 #pragma once
 
 #include <algorithm>
 
 namespace mien::tracker {
 
-// Between two signals: 0 is all of the first, 1 all of the second. The one that fades in has no
-// weight while its state warms up.
+// The signal that fades in runs with weight 0 for kWarmUpSeconds, until its state is settled.
 class Crossfade {
  public:
   void jump(bool second) { position_ = second ? kEnd : 0.0f; }
@@ -18,7 +17,7 @@ class Crossfade {
   [[nodiscard]] bool first_is_active() const { return position_ < kEnd; }
   [[nodiscard]] bool second_is_active() const { return position_ > 0.0f; }
 
-  // Of the second signal: smoothstep over the middle of the way.
+  // Weight of the second signal, 0..1: a smoothstep between the warm-up phases at both ends.
   [[nodiscard]] float weight() const {
     const float t = std::clamp((position_ - kWarmUpSeconds) / kFadeSeconds, 0.0f, 1.0f);
     return t * t * (3.0f - 2.0f * t);
@@ -29,7 +28,7 @@ class Crossfade {
   static constexpr float kFadeSeconds = 1.5f;
   static constexpr float kEnd = kFadeSeconds + 2 * kWarmUpSeconds;
 
-  float position_ = 0.0f;
+  float position_ = 0.0f;  // seconds, 0 (first signal) .. kEnd (second)
 };
 
 }  // namespace mien::tracker

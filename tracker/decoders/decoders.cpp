@@ -1,3 +1,4 @@
+// Runs the decoders of a face and crossfades between them.
 #include "tracker/decoders/decoders.h"
 
 #include <cstddef>
@@ -9,7 +10,7 @@ void decode(ControlsDecoder& decoder, Neutral& neutral, const Features& features
             std::span<float, kControls> controls) {
   decoder.decode(features, controls);
   neutral.observe(controls);
-  neutral.take_out(controls);
+  neutral.remove(controls);
 }
 
 }  // namespace
@@ -55,30 +56,30 @@ void Decoders::decode_controls(const Features& basenet, const Features& hifinet,
     decode(hifinet_controls_, hifinet_neutral_, hifinet, controls);
     return;
   }
-  std::array<float, kControls> first;
-  decode(basenet_controls_, basenet_neutral_, basenet, first);
+  std::array<float, kControls> basenet_values;
+  decode(basenet_controls_, basenet_neutral_, basenet, basenet_values);
   decode(hifinet_controls_, hifinet_neutral_, hifinet, controls);
   const float weight = fade_.weight();
-  for (std::size_t i = 0; i < first.size(); ++i) {
-    controls[i] = first[i] + weight * (controls[i] - first[i]);
+  for (std::size_t i = 0; i < basenet_values.size(); ++i) {
+    controls[i] = basenet_values[i] + weight * (controls[i] - basenet_values[i]);
   }
 }
 
-// So that one of both decoders is captured at most, and not the one that fades out.
+// Captures at most one decoder, and never the one that fades out.
 void Decoders::transfer_capture(std::int32_t level) {
   Neutral& other = neutral(level > kLowestLevel ? kLowestLevel : kHighestLevel);
   if (other.is_being_captured()) {
-    other.give_up();
+    other.cancel();
     neutral(level).capture();
   }
 }
 
 float Decoders::supported_share(std::size_t control) const {
-  const auto drives = [control](const ControlsDecoder& decoder) {
+  const auto supports = [control](const ControlsDecoder& decoder) {
     return static_cast<float>(decoder.supported() >> control & 1u);
   };
   const float weight = fade_.weight();
-  return (1.0f - weight) * drives(basenet_controls_) + weight * drives(hifinet_controls_);
+  return (1.0f - weight) * supports(basenet_controls_) + weight * supports(hifinet_controls_);
 }
 
 void Decoders::decode_pose(const Features& basenet, const Crop& crop, const Camera& camera,

@@ -1,5 +1,5 @@
-// The temporal decoders of one face: features of both encoders, over time, to controls and head
-// pose.
+// The temporal decoders of one face: convert the features of both encoders over time to controls
+// and head pose.
 #pragma once
 
 #include <mien/mien.h>
@@ -22,20 +22,21 @@ namespace mien::tracker {
 
 class Decoders {
  public:
-  // Takes from `arena` what the networks need; only measures when the arena does.
+  // Takes the networks' memory from `arena`, or only measures it if the arena does.
   [[nodiscard]] mien_status load(const Models& models, std::uint32_t cpu_mask,
                                  engine::Arena& arena);
 
-  // A new stream begins, at once with the decoder that the level asks for.
+  // Resets all decoders to the start of a stream and ends a crossfade: the level's decoder has full
+  // weight.
   void reset(std::int32_t level);
 
-  // One step, for one frame of output. When the level has changed between 1 and the others the
-  // controls go over from one decoder to the other within two seconds, and a capture of what is
-  // neutral begins anew with the other.
+  // Computes the controls of one frame. If the level has changed between 1 and the others, they
+  // crossfade between the decoders within two seconds, and a running capture restarts with the new
+  // decoder.
   void decode_controls(const Features& basenet, const Features& hifinet, std::int32_t level,
                        float seconds, std::span<float, kControls> controls);
 
-  // What the face shows at rest, as each of the controls decoders sees it.
+  // The neutral calibration of the controls decoder that the level uses.
   [[nodiscard]] Neutral& neutral(std::int32_t level) {
     return level > kLowestLevel ? hifinet_neutral_ : basenet_neutral_;
   }
@@ -43,19 +44,19 @@ class Decoders {
     return level > kLowestLevel ? hifinet_neutral_ : basenet_neutral_;
   }
 
-  // A prediction that is no pose leaves `pose` as it was.
+  // Leaves `pose` unchanged if the prediction is not a valid pose.
   void decode_pose(const Features& basenet, const Crop& crop, const Camera& camera, HeadPose& pose);
 
-  // Bit i: the level drives control i.
+  // Bit i: the level's decoder predicts control i.
   [[nodiscard]] std::uint64_t supported_controls(std::int32_t level) const {
     return level > kLowestLevel ? hifinet_controls_.supported() : basenet_controls_.supported();
   }
-  // Bit i: a decoder that is heard drives control i; while one hands over to the other both are.
+  // Bit i: a running decoder predicts control i; during a crossfade both run.
   [[nodiscard]] std::uint64_t active_controls() const {
     return (fade_.first_is_active() ? basenet_controls_.supported() : 0) |
            (fade_.second_is_active() ? hifinet_controls_.supported() : 0);
   }
-  // How much of a control comes from decoders that drive it, 0..1.
+  // Weight, 0..1, in the crossfade of those decoders that predict the control.
   [[nodiscard]] float supported_share(std::size_t control) const;
 
  private:

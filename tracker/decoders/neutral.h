@@ -1,4 +1,4 @@
-// What a person's face shows at rest: captured once, and taken out of the controls from then on.
+// Neutral calibration: captures a person's controls at rest and removes them from later frames.
 #pragma once
 
 #include <algorithm>
@@ -13,8 +13,8 @@ namespace mien::tracker {
 
 class Neutral {
  public:
-  // Of a rest that is taken out.
-  static constexpr float kLargest = 0.6f;
+  // Upper limit of a neutral value, so that a control keeps most of its range.
+  static constexpr float kMax = 0.6f;
 
   [[nodiscard]] bool is_captured() const { return captured_; }
   [[nodiscard]] bool is_being_captured() const { return frame_ < kFrames; }
@@ -26,31 +26,32 @@ class Neutral {
     frame_ = kFrames;
     levels_.fill(0.0f);
   }
-  // From the next frames on; replaces what was captured before, as soon as it is done.
+  // Starts a capture with the next frame. When it is complete it replaces an earlier one.
   void capture() { frame_ = -kSettling; }
-  // What was seen so far is of no use: a capture that is going on begins anew.
+  // Restarts a running capture, because its frames so far are not usable.
   void restart() { frame_ = is_being_captured() ? -kSettling : kFrames; }
-  // A capture that is going on is given up; what was captured before stays.
-  void give_up() { frame_ = kFrames; }
+  // Cancels a running capture. An earlier one stays in effect.
+  void cancel() { frame_ = kFrames; }
 
-  // One frame of controls; of use only while it is being captured.
+  // Adds one frame of controls to a running capture.
   void observe(std::span<const float, kControls> controls);
-  // The rest becomes 0, and 1 stays 1, so that a blink keeps its range.
-  void take_out(std::span<float, kControls> controls) const {
+  // Maps the neutral value to 0 and 1 to 1, so that a blink keeps its range.
+  void remove(std::span<float, kControls> controls) const {
     for (std::size_t i = 0; i < controls.size(); ++i) {
       controls[i] = std::max(0.0f, (controls[i] - levels_[i]) / (1.0f - levels_[i]));
     }
   }
 
  private:
-  static constexpr std::int32_t kFrames = 45;    // so that a blink or two do not count
-  static constexpr std::int32_t kSettling = 10;  // of the decoders
+  static constexpr std::int32_t kFrames = 45;    // long enough that blinks do not change the median
+  static constexpr std::int32_t kSettling = 10;  // frames until the decoders have settled
   static constexpr float kSteps = 65535.0f;
 
   bool captured_ = false;
-  std::int32_t frame_ = kFrames;  // of a measurement
+  std::int32_t frame_ = kFrames;  // of the capture; negative while settling
   std::array<float, kControls> levels_ = {};
-  std::array<std::array<std::uint16_t, kFrames>, kControls> seen_ = {};  // in kSteps of one
+  std::array<std::array<std::uint16_t, kFrames>, kControls> captured_frames_ =
+      {};  // in units of 1 / kSteps
 };
 
 }  // namespace mien::tracker

@@ -1,3 +1,4 @@
+// Smooths controls, landmarks and head pose.
 #include "tracker/decoders/smoothing.h"
 
 #include <algorithm>
@@ -9,6 +10,7 @@ float distance(const Vector3& a, const Vector3& b) {
   return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
+// Moves `from` towards `to` along the shorter way.
 Quaternion towards(const Quaternion& from, Quaternion to, float seconds) {
   float cosine = from.x * to.x + from.y * to.y + from.z * to.z + from.w * to.w;
   if (cosine < 0.0f) {
@@ -25,27 +27,29 @@ Quaternion towards(const Quaternion& from, Quaternion to, float seconds) {
 
 }  // namespace
 
-void smooth_controls(std::span<const float> seen, float seconds, std::span<float> shown) {
-  for (std::size_t i = 0; i < seen.size(); ++i) {
-    const float step = seen[i] - shown[i];
-    shown[i] += kControlSmoothing.share(std::abs(step), seconds) * step;
+void smooth_controls(std::span<const float> raw, float seconds, std::span<float> smoothed) {
+  for (std::size_t i = 0; i < raw.size(); ++i) {
+    const float step = raw[i] - smoothed[i];
+    smoothed[i] += kControlSmoothing.share(std::abs(step), seconds) * step;
   }
 }
 
-void smooth_points(std::span<const Point> seen, float side, float seconds, std::span<Point> shown) {
-  for (std::size_t i = 0; i < seen.size(); ++i) {
-    const Point step = {seen[i].x - shown[i].x, seen[i].y - shown[i].y};
+void smooth_points(std::span<const Point> raw, float side, float seconds,
+                   std::span<Point> smoothed) {
+  for (std::size_t i = 0; i < raw.size(); ++i) {
+    const Point step = {raw[i].x - smoothed[i].x, raw[i].y - smoothed[i].y};
     const float share = kLandmarkSmoothing.share(std::hypot(step.x, step.y) / side, seconds);
-    shown[i] = {shown[i].x + share * step.x, shown[i].y + share * step.y};
+    smoothed[i] = {smoothed[i].x + share * step.x, smoothed[i].y + share * step.y};
   }
 }
 
-void smooth_pose(const HeadPose& seen, float seconds, HeadPose& shown) {
-  shown.rotation = matrix(towards(quaternion(shown.rotation), quaternion(seen.rotation), seconds));
+void smooth_pose(const HeadPose& raw, float seconds, HeadPose& smoothed) {
+  smoothed.rotation =
+      matrix(towards(quaternion(smoothed.rotation), quaternion(raw.rotation), seconds));
   const float share =
-      kTranslationSmoothing.share(distance(seen.translation, shown.translation), seconds);
+      kTranslationSmoothing.share(distance(raw.translation, smoothed.translation), seconds);
   for (std::size_t i = 0; i < 3; ++i) {
-    shown.translation[i] += share * (seen.translation[i] - shown.translation[i]);
+    smoothed.translation[i] += share * (raw.translation[i] - smoothed.translation[i]);
   }
 }
 

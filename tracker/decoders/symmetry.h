@@ -1,4 +1,5 @@
-// Both sides of a pair of controls, such as mouthSmileLeft and mouthSmileRight.
+// Reduces small differences between the left and right control of a pair, such as mouthSmileLeft
+// and mouthSmileRight.
 #pragma once
 
 #include <cstdint>
@@ -8,12 +9,12 @@
 
 namespace mien::tracker {
 
-// Differences of two sides that are smaller say little: decoders give even faces such ones, too.
+// Smaller differences are within the decoders' error: they also occur for symmetric faces.
 inline constexpr float kSymmetryThreshold = 0.05f;
 
-// Brings both sides of each pair that is driven (bit i of `supported`: control i) together where
-// they are less than kSymmetryThreshold apart, the more the nearer they are; their mean stays. No
-// control moves by more than an eighth of kSymmetryThreshold.
+// Moves both sides of each supported pair (bit i of `supported`: control i) towards each other if
+// they differ by less than kSymmetryThreshold; the smaller the difference, the larger the fraction
+// removed. The mean stays. No control changes by more than kSymmetryThreshold / 8.
 void symmetrize(std::uint64_t supported, std::span<float, kControls> controls);
 
 }  // namespace mien::tracker

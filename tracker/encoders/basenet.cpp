@@ -1,3 +1,4 @@
+// Loads and runs BaseNet.
 #include "tracker/encoders/basenet.h"
 
 #include <cmath>
@@ -31,8 +32,8 @@ mien_status BaseNet::load_template(const engine::Model& model) {
 
 mien_status BaseNet::load_head_points(const engine::Model& model) {
   constexpr std::string_view kName = "head_points";
-  const bool known = model.file().find_constant(kName) != nullptr;
-  if (known && model.constant(kName, kHeadPoints, head_points_) != engine::Status::kOk) {
+  const bool present = model.file().find_constant(kName) != nullptr;
+  if (present && model.constant(kName, kHeadPoints, head_points_) != engine::Status::kOk) {
     return MIEN_ERROR_WEIGHTS_INCOMPLETE;
   }
   return MIEN_OK;

@@ -1,4 +1,4 @@
-// BaseNet: one 65x65 crop to landmarks, face probability, and the features that decoders read.
+// BaseNet: converts a crop of 65 x 65 samples to landmarks, face probability and features.
 #pragma once
 
 #include <mien/mien.h>
@@ -16,20 +16,20 @@ namespace mien::tracker {
 
 class BaseNet {
  public:
-  // Takes from `arena` what the networks need; only measures when the arena does.
+  // Takes the networks' memory from `arena`, or only measures it if the arena does.
   [[nodiscard]] mien_status load(const Models& models, std::uint32_t cpu_mask,
                                  engine::Arena& arena);
 
-  // Encoder and plain heads. False when the networks' answer is not finite.
+  // Runs the encoder and the heads. False if an output of the networks is not finite.
   [[nodiscard]] bool encode(const ImageView& view, const Crop& crop, StageTimer& timer,
                             Encoding& encoding);
 
-  // The crop that the landmarks of `sight` ask for.
+  // Fits a crop to the landmarks. False, and `crop` unchanged, if none fits.
   [[nodiscard]] bool align(const Encoding& encoding, Crop& crop) const {
     return fit_crop(template_, encoding.landmarks, crop);
   }
 
-  // Unknown if the weights are from before they were told.
+  // Empty if the weight file predates this constant.
   [[nodiscard]] HeadPoints head_points() const { return head_points_; }
 
  private:
@@ -38,8 +38,8 @@ class BaseNet {
 
   FaceEncoder encoder_;
   engine::Network face_probability_;
-  Landmarks template_ = {};  // in crop coordinates
-  HeadPoints head_points_;   // in the weights
+  Landmarks template_ = {};  // mean shape, in crop coordinates
+  HeadPoints head_points_;   // refers to the weight file
 };
 
 }  // namespace mien::tracker

@@ -1,3 +1,4 @@
+// Runs an encoder and its landmark head on a crop.
 #include "tracker/encoders/face_encoder.h"
 
 #include <algorithm>

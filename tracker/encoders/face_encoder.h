@@ -1,4 +1,4 @@
-// What BaseNet and HiFiNet have in common: a crop of the image, an encoder, and landmarks.
+// The common part of BaseNet and HiFiNet: warps a crop, runs an encoder and its landmark head.
 #pragma once
 
 #include <mien/mien.h>
@@ -17,21 +17,21 @@
 
 namespace mien::tracker {
 
-// What is seen in one crop.
+// The output of the networks for one crop.
 struct Encoding {
   Crop crop;
-  float face_probability = 0.0f;  // 0..1, BaseNet's
+  float face_probability = 0.0f;  // 0..1; only BaseNet sets it
   Landmarks landmarks = {};
   Features features = {};
 };
 
 class FaceEncoder {
  public:
-  // Takes from `arena` what the networks need; only measures when the arena does.
+  // Takes the networks' memory from `arena`, or only measures it if the arena does.
   [[nodiscard]] mien_status load(const engine::Model& model, const Raster& raster,
                                  std::uint32_t cpu_mask, engine::Arena& arena);
 
-  // False when the networks' answer is not finite.
+  // False if an output of the networks is not finite.
   [[nodiscard]] bool encode(const ImageView& view, const Crop& crop, StageTimer& timer,
                             Encoding& encoding);
 

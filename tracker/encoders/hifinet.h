@@ -1,4 +1,5 @@
-// HiFiNet: the face alone, 129 x 109, to features that tell all controls, and finer landmarks.
+// HiFiNet: converts a narrow crop of 129 x 109 samples to features for all controls, and to finer
+// landmarks.
 #pragma once
 
 #include <mien/mien.h>
@@ -13,14 +14,14 @@ namespace mien::tracker {
 
 class HiFiNet {
  public:
-  // Takes from `arena` what the networks need; only measures when the arena does.
+  // Takes the networks' memory from `arena`, or only measures it if the arena does.
   [[nodiscard]] mien_status load(const Models& models, std::uint32_t cpu_mask,
                                  engine::Arena& arena) {
     return encoder_.load(models.hifinet, {129, 109, 0.87f}, cpu_mask, arena);
   }
 
-  // Looks at the middle of the crop that the landmarks of this very frame ask for. False when the
-  // networks' answer is not finite.
+  // Reads the middle of `crop`, which BaseNet's landmarks of the same frame place. False if an
+  // output of the networks is not finite.
   [[nodiscard]] bool encode(const ImageView& view, const Crop& crop, StageTimer& timer,
                             Encoding& encoding) {
     return encoder_.encode(view, crop, timer, encoding);

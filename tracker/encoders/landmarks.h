@@ -1,4 +1,4 @@
-// The landmarks that networks find; models/landmarks.json names them.
+// The landmarks that encoders output; models/landmarks.json names them.
 #pragma once
 
 #include <array>
@@ -11,9 +11,9 @@
 namespace mien::tracker {
 
 inline constexpr std::size_t kLandmarks = 175;
-using Landmarks = std::array<Point, kLandmarks>;  // pixels of the scene
+using Landmarks = std::array<Point, kLandmarks>;  // pixels of the upright scene
 
-// From crop coordinates, x0, y0, x1, ...
+// Converts `xy` (x0, y0, x1, ...) from crop coordinates.
 [[nodiscard]] inline Landmarks landmarks_in(const Crop& crop, std::span<const float> xy) {
   const Affine to_scene = crop_to_image(crop);
   Landmarks landmarks;

@@ -1,3 +1,4 @@
+// Opens and validates the weight files of a tracker.
 #include "tracker/encoders/models.h"
 
 #include "engine/network.h"

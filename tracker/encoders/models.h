@@ -1,4 +1,4 @@
-// The weight files of a tracker, validated.
+// The validated weight files of a tracker.
 #pragma once
 
 #include <mien/mien.h>
@@ -9,9 +9,9 @@ namespace mien::tracker {
 
 struct Models {
   engine::Model basenet;
-  engine::Model hifinet;  // only if there is one
+  engine::Model hifinet;  // only if has_hifinet
   engine::Model proposal;
-  engine::Model audionet;  // only if there is one
+  engine::Model audionet;  // only if has_audionet
   bool has_hifinet = false;
   bool has_audionet = false;
 };

@@ -1,3 +1,4 @@
+// Fits crops to landmarks.
 #include "tracker/geometry/crop.h"
 
 #include <cmath>
@@ -30,25 +31,25 @@ Affine crop_to_image(const Crop& crop) {
 }
 
 bool fit_crop(std::span<const Point> shape, std::span<const Point> landmarks, Crop& crop) {
-  const Mean from = mean(shape);
-  const Mean to = mean(landmarks);
-  // As complex numbers the similarity is multiplication by sum(conj(t) p) / sum(|t|^2).
+  const Mean template_mean = mean(shape);
+  const Mean landmark_mean = mean(landmarks);
+  // With points as complex numbers, the similarity multiplies by sum(conj(t) p) / sum(|t|^2).
   double dot = 0.0;
   double cross = 0.0;
   double spread = 0.0;
   for (std::size_t i = 0; i < shape.size(); ++i) {
-    const double tx = shape[i].x - from.x;
-    const double ty = shape[i].y - from.y;
-    const double px = landmarks[i].x - to.x;
-    const double py = landmarks[i].y - to.y;
+    const double tx = shape[i].x - template_mean.x;
+    const double ty = shape[i].y - template_mean.y;
+    const double px = landmarks[i].x - landmark_mean.x;
+    const double py = landmarks[i].y - landmark_mean.y;
     dot += tx * px + ty * py;
     cross += tx * py - ty * px;
     spread += tx * tx + ty * ty;
   }
   const double c = dot / spread;
   const double s = cross / spread;
-  const double cx = to.x + c * (0.5 - from.x) - s * (0.5 - from.y);
-  const double cy = to.y + s * (0.5 - from.x) + c * (0.5 - from.y);
+  const double cx = landmark_mean.x + c * (0.5 - template_mean.x) - s * (0.5 - template_mean.y);
+  const double cy = landmark_mean.y + s * (0.5 - template_mean.x) + c * (0.5 - template_mean.y);
   const Crop fitted = {{static_cast<float>(cx), static_cast<float>(cy)},
                        static_cast<float>(std::hypot(c, s)),
                        static_cast<float>(std::atan2(s, c))};

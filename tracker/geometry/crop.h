@@ -1,4 +1,4 @@
-// The crop of a face: a turned square of the image, placed by the face's landmarks.
+// The crop of a face: a rotated square of the image, placed by the face's landmarks.
 #pragma once
 
 #include <span>
@@ -17,10 +17,10 @@ struct Crop {
 
 [[nodiscard]] Affine crop_to_image(const Crop& crop);
 
-// Least-squares similarity without reflection that takes the template [n] (crop coordinates) to the
-// landmarks [n] (image pixels): the plane's case of Umeyama 1991, "Least-Squares Estimation of
-// Transformation Parameters Between Two Point Patterns", in closed form. False, and `crop`
-// untouched, when it has no answer: points that are not finite, or that all coincide.
+// Fits the crop whose similarity (without reflection) maps the template `shape` [n] (crop
+// coordinates) to `landmarks` [n] (image pixels) with least squares: Umeyama 1991, "Least-Squares
+// Estimation of Transformation Parameters Between Two Point Patterns", in closed form for the
+// plane. False, and `crop` unchanged, if points are not finite or all coincide.
 [[nodiscard]] bool fit_crop(std::span<const Point> shape, std::span<const Point> landmarks,
                             Crop& crop);
 

@@ -1,5 +1,5 @@
-// Points, squares and affine maps in the plane. Pixel (column, row) covers [column, column + 1) x
-// [row, row + 1): its centre is at (column + 0.5, row + 0.5). y points down.
+// Points, squares and affine maps in the image plane. Pixel (column, row) covers [column, column +
+// 1) x [row, row + 1): its centre is at (column + 0.5, row + 0.5). y points down.
 #pragma once
 
 #include <algorithm>
@@ -42,7 +42,7 @@ struct Affine {
 
 // An axis-aligned rectangle, in pixels.
 struct Rect {
-  Point corner;  // the top left
+  Point corner;  // top left
   float width = 0.0f;
   float height = 0.0f;
 

@@ -1,3 +1,4 @@
+// Decodes and converts head poses.
 #include "tracker/geometry/head_pose.h"
 
 #include <algorithm>
@@ -6,11 +7,11 @@
 namespace mien::tracker {
 namespace {
 
-constexpr float kShortest = 1e-6f;  // columns below this length have no direction
+constexpr float kMinLength = 1e-6f;  // shorter columns have no usable direction
 
 bool normalise(Vector3& v) {
   const float length = std::sqrt(dot(v, v));
-  if (!std::isfinite(length) || !(length > kShortest)) {
+  if (!std::isfinite(length) || !(length > kMinLength)) {
     return false;
   }
   v = scaled(v, 1.0f / length);
@@ -34,7 +35,7 @@ bool rotation_from_columns(std::span<const float, kPoseOutputs> six, Matrix3& ro
   return true;
 }
 
-// Shortest rotation that takes (0, 0, -1) to the ray through the pixel: Rodrigues' formula.
+// The smallest rotation from (0, 0, -1) to the ray through the pixel, by Rodrigues' formula.
 Matrix3 ray_rotation(Point pixel, const Camera& camera) {
   const float u = (pixel.x - camera.principal.x) / camera.focal_px;
   const float v = (camera.principal.y - pixel.y) / camera.focal_px;
@@ -57,7 +58,7 @@ Matrix3 roll_rotation(float angle) {
 bool is_plausible(const HeadPose& pose) {
   return pose.translation[2] < 0.0f &&
          std::all_of(pose.translation.begin(), pose.translation.end(),
-                     [](float metres) { return std::abs(metres) < kFarthestMetres; }) &&
+                     [](float metres) { return std::abs(metres) < kMaxDistanceMetres; }) &&
          std::all_of(pose.rotation.begin(), pose.rotation.end(),
                      [](const Vector3& row) { return all_finite(row); });
 }
@@ -87,7 +88,7 @@ EulerAngles euler_angles(const Matrix3& r) {
           std::atan2(r[1][0], r[1][1])};
 }
 
-// Shepperd 1978: divides by the largest of the four components, so never by almost nothing.
+// Shepperd 1978: divides by the largest of the four components, so never by a value near 0.
 Quaternion quaternion(const Matrix3& r) {
   const float xx = r[0][0];
   const float yy = r[1][1];

@@ -1,5 +1,5 @@
-// Head pose: from what the pose decoder says about the crop to rotation and translation in the
-// camera.
+// Head pose: converts the pose decoder's prediction for a crop to rotation and translation in
+// camera space.
 #pragma once
 
 #include <array>
@@ -11,9 +11,9 @@
 namespace mien::tracker {
 
 inline constexpr int kPoseOutputs = 9;
-inline constexpr float kHeadMetres = 0.2f;  // the size of a head, to measure in
+inline constexpr float kHeadMetres = 0.2f;  // size of a head, the unit of predicted distances
 
-// A pinhole camera without distortion; looks along -z, x right, y up.
+// A pinhole camera without distortion. It looks along -z; x points right, y up.
 struct Camera {
   float focal_px = 1.0f;
   Point principal;  // pixels
@@ -33,18 +33,17 @@ struct Quaternion {
 };
 
 // `prediction`: the first two columns of R_crop [6] (Zhou et al. 2019, "On the Continuity of
-// Rotation Representations in Neural Networks"; orthonormalised here), the projected head origin
+// Rotation Representations in Neural Networks"; orthonormalized here), the projected head origin
 // minus 0.5 in crop coordinates [2], log(focal_px / distance * 0.2 m / crop side). With R_ray the
 // shortest rotation from the optical axis to the ray through the crop's centre,
 //   R_camera = R_ray Rz(-crop roll) R_crop.
-// False, and `pose` untouched, when the prediction is no pose: columns in one line, or not
-// plausible.
+// False, and `pose` unchanged, if the columns are collinear or the pose is not plausible.
 [[nodiscard]] bool decode_head_pose(std::span<const float, kPoseOutputs> prediction,
                                     const Crop& crop, const Camera& camera, HeadPose& pose);
 
-// Finite, in front of the camera and nearer than kFarthestMetres, far beyond which smoothing would
-// leave the numbers that there are.
-inline constexpr float kFarthestMetres = 1e6f;
+// Whether a pose is finite, in front of the camera and closer than kMaxDistanceMetres. The limit
+// keeps smoothing far from an overflow.
+inline constexpr float kMaxDistanceMetres = 1e6f;
 [[nodiscard]] bool is_plausible(const HeadPose& pose);
 [[nodiscard]] EulerAngles euler_angles(const Matrix3& rotation);
 [[nodiscard]] Quaternion quaternion(const Matrix3& rotation);

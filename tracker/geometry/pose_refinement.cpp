@@ -1,3 +1,4 @@
+// Refines a head pose with one Gauss-Newton step.
 #include "tracker/geometry/pose_refinement.h"
 
 #include <array>
@@ -8,22 +9,23 @@
 namespace mien::tracker {
 namespace {
 
-// Of a squared turn, in squared distances of a point: chosen on rendered validation people and on
-// films of one speaker (docs/results/training_history.md).
-constexpr float kTurnPrice = 0.01f * static_cast<float>(kLandmarks);
-constexpr std::size_t kUnknowns = 6;  // a turn about x, y, z, radians; a move, in kHeadMetres
+// Weight of the squared rotation against the squared distances of the points. Chosen on rendered
+// people of the validation set and on videos of one speaker (docs/results/training_history.md).
+constexpr float kRotationWeight = 0.01f * static_cast<float>(kLandmarks);
+constexpr std::size_t kUnknowns = 6;  // rotation about x, y, z, radians; translation, kHeadMetres
 
 using Row = std::array<float, kUnknowns>;
 
-// The least-squares problem: of each residual, how it changes with the unknowns.
+// The normal equations of the least-squares problem.
 class NormalEquations {
  public:
-  explicit NormalEquations(float turn_price) {
+  explicit NormalEquations(float rotation_weight) {
     for (std::size_t i = 0; i < 3; ++i) {
-      square_[i][i] = turn_price;
+      square_[i][i] = rotation_weight;
     }
   }
 
+  // `change`: derivatives of the residual with respect to the unknowns.
   void add(const Row& change, float residual) {
     for (std::size_t i = 0; i < kUnknowns; ++i) {
       for (std::size_t j = 0; j <= i; ++j) {
@@ -33,18 +35,18 @@ class NormalEquations {
     }
   }
 
-  // By Cholesky's decomposition. False if there is no single solution.
+  // Solves by Cholesky decomposition. False if the solution is not unique or not finite.
   [[nodiscard]] bool solve(Row& unknowns) {
     for (std::size_t i = 0; i < kUnknowns; ++i) {
       for (std::size_t j = 0; j <= i; ++j) {
-        float rest = square_[i][j];
+        float remainder = square_[i][j];
         for (std::size_t k = 0; k < j; ++k) {
-          rest -= square_[i][k] * square_[j][k];
+          remainder -= square_[i][k] * square_[j][k];
         }
-        if (i == j && !(rest > 0.0f)) {
+        if (i == j && !(remainder > 0.0f)) {
           return false;
         }
-        square_[i][j] = i == j ? std::sqrt(rest) : rest / square_[j][j];
+        square_[i][j] = i == j ? std::sqrt(remainder) : remainder / square_[j][j];
       }
     }
     unknowns = right_;
@@ -69,25 +71,21 @@ class NormalEquations {
   Row right_ = {};
 };
 
-// How a residual changes that changes with the point by `change`, when the head turns or moves;
-// `arm` is where the point is, seen from the head's origin.
+// Derivatives of a residual with respect to the unknowns. `change`: its derivative with respect to
+// the point's position; `arm`: the point relative to the head's origin.
 Row row(const Vector3& arm, const Vector3& change) {
-  const Vector3 turn = cross(arm, change);
-  return {turn[0],
-          turn[1],
-          turn[2],
-          kHeadMetres * change[0],
-          kHeadMetres * change[1],
-          kHeadMetres * change[2]};
+  const Vector3 rotation_vector = cross(arm, change);
+  return {rotation_vector[0],      rotation_vector[1],      rotation_vector[2],
+          kHeadMetres * change[0], kHeadMetres * change[1], kHeadMetres * change[2]};
 }
 
-// Rodrigues' formula for the rotation about `turn` by its length.
-Matrix3 rotation_by(const Vector3& turn) {
-  const float angle = std::sqrt(dot(turn, turn));
+// Rodrigues' formula: rotates about `rotation_vector` by its length in radians.
+Matrix3 rotation_by(const Vector3& rotation_vector) {
+  const float angle = std::sqrt(dot(rotation_vector, rotation_vector));
   if (!(angle > 0.0f)) {
     return {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
   }
-  const Vector3 axis = scaled(turn, 1.0f / angle);
+  const Vector3 axis = scaled(rotation_vector, 1.0f / angle);
   const float x = axis[0], y = axis[1], z = axis[2];
   const float c = std::cos(angle), s = std::sin(angle), k = 1.0f - c;
   return {{{c + k * x * x, k * x * y - s * z, k * x * z + s * y},
@@ -103,7 +101,7 @@ void refine_head_pose(HeadPoints head, const Landmarks& landmarks, const Camera&
     return;
   }
   const float pixels_per_head = camera.focal_px * kHeadMetres / -pose.translation[2];
-  NormalEquations equations(kTurnPrice);
+  NormalEquations equations(kRotationWeight);
   for (std::size_t i = 0; i < kLandmarks; ++i) {
     const Vector3 at_rest = {head[3 * i], head[3 * i + 1], head[3 * i + 2]};
     const Vector3 arm = product(pose.rotation, at_rest);

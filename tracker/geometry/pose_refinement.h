@@ -1,4 +1,4 @@
-// Head pose, brought to the landmarks that were found.
+// Refines a head pose so that it agrees with the landmarks.
 #pragma once
 
 #include <cstddef>
@@ -9,15 +9,15 @@
 
 namespace mien::tracker {
 
-// Where the landmarks are on an average head at rest: x, y, z of each, in its own frame, metres.
+// The landmarks of an average head at rest: x, y, z of each in head space, metres.
 inline constexpr std::size_t kHeadPoints = 3 * kLandmarks;
-using HeadPoints = std::span<const float>;  // kHeadPoints of them; empty: unknown
+using HeadPoints = std::span<const float>;  // [kHeadPoints]; empty: unknown
 
-// One Gauss-Newton step from `pose` towards one in which the average head's points are seen where
-// `landmarks` are, pixels. It is least squares of their distances, in shares of a head's size, and
-// of how far the rotation turns, radians: the decoder sees what distances between points do not
-// tell, and an average head is not everyone's. `pose` stays as it was if the points are unknown,
-// not all in front of the camera, or what comes out is not plausible.
+// Takes one Gauss-Newton step from `pose` towards the pose that projects the points of the average
+// head onto `landmarks` (pixels). It minimizes the squared distances, relative to the size of a
+// head, plus the weighted square of the rotation (radians): the decoder uses more than the
+// landmarks, and a person's head differs from the average one. `pose` stays unchanged if the points
+// are unknown or not all in front of the camera, or if the refined pose is not plausible.
 void refine_head_pose(HeadPoints head, const Landmarks& landmarks, const Camera& camera,
                       HeadPose& pose);
 

@@ -1,4 +1,4 @@
-// Vectors and matrices in space.
+// Vectors and matrices of three dimensions.
 #pragma once
 
 #include <array>
