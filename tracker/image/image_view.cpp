@@ -1,3 +1,4 @@
+// Validates the caller's image and computes the map from the scene to its pixels.
 #include "tracker/image/image_view.h"
 
 #include <algorithm>
@@ -68,16 +69,16 @@ bool is_yuv420(std::int32_t format) {
   return format == MIEN_IMAGE_NV12 || format == MIEN_IMAGE_NV21 || format == MIEN_IMAGE_I420;
 }
 
-// Begins at `first` of at most `length` pixels.
-bool is_part(std::int32_t first, std::int32_t pixels, std::int32_t length) {
+// Whether `pixels` pixels from `first` on lie within `length` pixels.
+bool is_inside(std::int32_t first, std::int32_t pixels, std::int32_t length) {
   return first >= 0 && pixels >= 1 && first <= length - pixels;
 }
 
 mien_status check_region(const mien_image& image) {
   const std::int32_t* const region = image.region;
   const bool odd = is_yuv420(image.format) && (region[0] % 2 != 0 || region[1] % 2 != 0);
-  return !odd && is_part(region[0], region[2], image.width) &&
-                 is_part(region[1], region[3], image.height)
+  return !odd && is_inside(region[0], region[2], image.width) &&
+                 is_inside(region[1], region[3], image.height)
              ? MIEN_OK
              : MIEN_ERROR_IMAGE_REGION;
 }
@@ -87,26 +88,26 @@ bool has_region(const mien_image& image) {
                      [](std::int32_t number) { return number != 0; });
 }
 
-// The plane from there on: whole samples, and rows.
-const void* moved(const mien_image& image, std::size_t plane, std::int64_t bytes,
-                  std::int64_t rows) {
+// The first byte of a plane, moved by `bytes` within a row and by `rows`.
+const void* plane_at(const mien_image& image, std::size_t plane, std::int64_t bytes,
+                     std::int64_t rows) {
   return static_cast<const std::byte*>(image.planes[plane]) +
          (rows * image.row_stride_bytes[plane] + bytes);
 }
 
-// The image of its region alone.
-mien_image cut(const mien_image& image) {
+// The image cropped to its region.
+mien_image cropped(const mien_image& image) {
   mien_image part = image;
   const std::int64_t x = image.region[0];
   const std::int64_t y = image.region[1];
   part.width = image.region[2];
   part.height = image.region[3];
   const auto planes = planes_of(image);
-  part.planes[0] = moved(image, 0, x * (planes[0].row_bytes / image.width), y);
+  part.planes[0] = plane_at(image, 0, x * (planes[0].row_bytes / image.width), y);
   const bool planar = image.format == MIEN_IMAGE_I420;
   const std::int64_t step = planar ? image.chroma_pixel_stride_bytes : 2;
   for (std::size_t i = 1; i < planes.size() && planes[i].rows > 0; ++i) {
-    part.planes[i] = moved(image, i, x / 2 * step, y / 2);
+    part.planes[i] = plane_at(image, i, x / 2 * step, y / 2);
   }
   return part;
 }
@@ -135,8 +136,8 @@ mien_status check_values(const mien_image& image) {
   return MIEN_OK;
 }
 
-// Upright picture -> buffer.
-Affine unturned(const mien_image& image) {
+// Maps the upright image to the buffer.
+Affine upright_to_buffer(const mien_image& image) {
   const auto width = static_cast<float>(image.width);
   const auto height = static_cast<float>(image.height);
   switch (image.rotation) {
@@ -151,17 +152,17 @@ Affine unturned(const mien_image& image) {
   }
 }
 
-// Where in the scene those pixels of the buffer lie. `to_buffer` turns and flips what was stretched
-// sideways by 1 / aspect, so its transpose undoes it but for that.
-Rect to_scene(const Affine& to_buffer, float aspect, const std::int32_t* region) {
-  const auto place = [&](std::int32_t x, std::int32_t y) {
+// The region of the buffer in scene coordinates. `to_buffer` rotates and flips after it stretches x
+// by 1 / aspect, so its transpose inverts everything but the stretch.
+Rect region_in_scene(const Affine& to_buffer, float aspect, const std::int32_t* region) {
+  const auto to_scene = [&](std::int32_t x, std::int32_t y) {
     const float dx = static_cast<float>(x) - to_buffer.x0;
     const float dy = static_cast<float>(y) - to_buffer.y0;
     return Point{(to_buffer.xx * dx + to_buffer.yx * dy) * (aspect * aspect),
                  to_buffer.xy * dx + to_buffer.yy * dy};
   };
-  const Point a = place(region[0], region[1]);
-  const Point b = place(region[0] + region[2], region[1] + region[3]);
+  const Point a = to_scene(region[0], region[1]);
+  const Point b = to_scene(region[0] + region[2], region[1] + region[3]);
   return {{std::min(a.x, b.x), std::min(a.y, b.y)}, std::abs(a.x - b.x), std::abs(a.y - b.y)};
 }
 
@@ -169,9 +170,9 @@ Camera camera_of(const mien_image& image, const ImageView& view, float horizonta
   Camera camera;
   camera.focal_px = image.focal_length_px > 0.0f ? image.focal_length_px
                                                  : view.width / 2 / std::tan(horizontal_fov / 2);
-  const bool known = image.principal_x > 0.0f || image.principal_y > 0.0f;
-  const Point principal =
-      known ? Point{image.principal_x, image.principal_y} : Point{view.width / 2, view.height / 2};
+  const bool has_principal = image.principal_x > 0.0f || image.principal_y > 0.0f;
+  const Point principal = has_principal ? Point{image.principal_x, image.principal_y}
+                                        : Point{view.width / 2, view.height / 2};
   camera.principal = to_picture(view, principal);
   return camera;
 }
@@ -206,19 +207,19 @@ mien_status view_image(const mien_image* given, float horizontal_fov, ImageView&
   if (const mien_status status = check_region(image); status != MIEN_OK) {
     return status;
   }
-  const bool on_side = image.rotation == 90 || image.rotation == 270;
-  view.image = cut(image);
-  const float aspect = on_side ? 1.0f / image.pixel_aspect : image.pixel_aspect;
-  view.width = aspect * static_cast<float>(on_side ? image.height : image.width);
-  view.height = static_cast<float>(on_side ? image.width : image.height);
+  const bool sideways = image.rotation == 90 || image.rotation == 270;
+  view.image = cropped(image);
+  const float aspect = sideways ? 1.0f / image.pixel_aspect : image.pixel_aspect;
+  view.width = aspect * static_cast<float>(sideways ? image.height : image.width);
+  view.height = static_cast<float>(sideways ? image.width : image.height);
   view.rotation = image.rotation;
   view.mirrored = image.mirrored != 0;
   const Affine flip = {-1, 0, view.width, 0, 1, 0};
-  const Affine narrowed = {1.0f / aspect, 0, 0, 0, 1, 0};
-  const Affine upright = compose(unturned(image), narrowed);
+  const Affine unstretch = {1.0f / aspect, 0, 0, 0, 1, 0};
+  const Affine upright = compose(upright_to_buffer(image), unstretch);
   const Affine to_buffer = view.mirrored ? compose(upright, flip) : upright;
   view.buffer_pixels_per_pixel = std::max(1.0f, 1.0f / aspect);
-  view.region = to_scene(to_buffer, aspect, image.region);
+  view.region = region_in_scene(to_buffer, aspect, image.region);
   const Affine to_part = {1, 0, -static_cast<float>(image.region[0]),
                           0, 1, -static_cast<float>(image.region[1])};
   view.to_buffer = compose(to_part, to_buffer);

@@ -1,4 +1,4 @@
-// The caller's image as the tracker sees it: upright and un-mirrored, whatever lies in memory.
+// A validated view of the caller's image, with upright and unmirrored coordinates.
 #pragma once
 
 #include <mien/mien.h>
@@ -10,7 +10,7 @@
 
 namespace mien::tracker {
 
-// What has to be the same for a point of one image to mean the same place in another.
+// Two images with equal geometry have the same coordinates for the same place.
 struct ImageGeometry {
   float width = 0.0f;  // square pixels of the upright image
   float height = 0.0f;
@@ -19,22 +19,22 @@ struct ImageGeometry {
   friend bool operator==(const ImageGeometry&, const ImageGeometry&) = default;
 };
 
-// Coordinates of the tracker are square pixels of the upright scene: turned by `rotation`,
-// stretched by the pixel aspect, and flipped sideways when the picture is mirrored. No pixel is
-// moved: `to_buffer` tells where each one lies.
+// The tracker's coordinates are square pixels of the upright scene: rotated by `rotation`,
+// stretched by the pixel aspect, and flipped in x if the image is mirrored. No pixel is copied:
+// `to_buffer` maps the coordinates to the buffer.
 struct ImageView : ImageGeometry {
-  mien_image image = {};  // every plane, stride and dimension checked; cut down to the region
-  Affine to_buffer;       // scene -> what is left of the buffer
-  float buffer_pixels_per_pixel = 1.0f;  // along the axis where they are most
-  Rect region;                           // in the scene's coordinates: what there is to see
-  Camera camera;                         // in the scene's coordinates
+  mien_image image = {};                 // validated and cropped to the region
+  Affine to_buffer;                      // scene -> cropped buffer
+  float buffer_pixels_per_pixel = 1.0f;  // along the denser axis
+  Rect region;                           // the visible region, in scene coordinates
+  Camera camera;                         // in scene coordinates
 };
 
-// Checks `given` completely. `horizontal_fov` (radians) is used where it has no focal length.
+// Validates `given` completely. `horizontal_fov` (radians) applies if it has no focal length.
 [[nodiscard]] mien_status view_image(const mien_image* given, float horizontal_fov,
                                      ImageView& view);
 
-// Between the scene's coordinates and those of the upright picture as the caller sees it.
+// Converts between scene coordinates and the caller's upright image; the map is its own inverse.
 [[nodiscard]] inline Point to_picture(const ImageGeometry& view, Point scene) {
   return view.mirrored ? Point{view.width - scene.x, scene.y} : scene;
 }

@@ -1,3 +1,4 @@
+// Warps the caller's image into the inputs of networks.
 #include "tracker/image/sampler.h"
 
 #include <algorithm>
@@ -7,9 +8,9 @@ namespace {
 
 constexpr float kScale = 1.0f / 127.5f;
 constexpr float kBlack = -1.0f;
-// From there on a bilinear sample would miss too much of what lies between it and the next.
-constexpr float kMaxPixelsApart = 1.5f;
-constexpr std::int32_t kLargestBox = 8;
+// With a larger distance between samples, bilinear sampling would skip too many pixels.
+constexpr float kMaxSampleDistance = 1.5f;
+constexpr std::int32_t kMaxBox = 8;
 
 kernels::PixelFormat pixel_format(std::int32_t format) {
   switch (format) {
@@ -58,10 +59,11 @@ void set_planes(const mien_image& image, kernels::WarpArgs& args) {
   }
 }
 
-// The smallest power of two with which samples lie close enough.
-std::int32_t box(float pixels_apart) {
+// The smallest box (a power of two, in pixels) whose means are dense enough to be sampled at this
+// distance, in pixels.
+std::int32_t box(float sample_distance) {
   std::int32_t box = 1;
-  while (box < kLargestBox && pixels_apart > kMaxPixelsApart * static_cast<float>(box)) {
+  while (box < kMaxBox && sample_distance > kMaxSampleDistance * static_cast<float>(box)) {
     box *= 2;
   }
   return box;
@@ -70,7 +72,7 @@ std::int32_t box(float pixels_apart) {
 }  // namespace
 
 void Sampler::cut(const ImageView& view, const Crop& crop, const Raster& raster,
-                  std::span<float> picture) const {
+                  std::span<float> out) const {
   const auto rows = static_cast<float>(raster.rows);
   const auto columns = static_cast<float>(raster.columns);
   const float unit = raster.extent / rows;
@@ -86,10 +88,10 @@ void Sampler::cut(const ImageView& view, const Crop& crop, const Raster& raster,
   args.image_height = view.image.height;
   const float matrix[6] = {m.xx, m.xy, m.x0, m.yx, m.yy, m.y0};
   std::copy(std::begin(matrix), std::end(matrix), args.matrix);
-  const float apart = crop.side * unit * view.buffer_pixels_per_pixel;
-  args.box = box(apart);
-  args.chroma_box = box(0.5f * apart);
-  args.y = picture.data();
+  const float sample_distance = crop.side * unit * view.buffer_pixels_per_pixel;
+  args.box = box(sample_distance);
+  args.chroma_box = box(0.5f * sample_distance);
+  args.y = out.data();
   args.width = raster.columns;
   args.height = raster.rows;
   args.scale = kScale;
@@ -99,8 +101,8 @@ void Sampler::cut(const ImageView& view, const Crop& crop, const Raster& raster,
 }
 
 void Sampler::cut_black(const ImageView& view, const Square& square, std::int32_t samples,
-                        std::span<float> picture) const {
-  cut(view, {square.center, square.side, 0.0f}, {samples, samples, 1.0f}, picture);
+                        std::span<float> out) const {
+  cut(view, {square.center, square.side, 0.0f}, {samples, samples, 1.0f}, out);
   const float pixels_per_sample = square.side / static_cast<float>(samples);
   const auto at = [&](float center, std::int32_t index) {
     return center - square.side / 2 + (static_cast<float>(index) + 0.5f) * pixels_per_sample;
@@ -108,12 +110,12 @@ void Sampler::cut_black(const ImageView& view, const Square& square, std::int32_
   const auto inside = [](float value, float begin, float length) {
     return value >= begin && value <= begin + length;
   };
-  const Rect& seen = view.region;
-  float* pixel = picture.data();
+  const Rect& visible = view.region;
+  float* pixel = out.data();
   for (std::int32_t i = 0; i < samples; ++i) {
-    const bool row_inside = inside(at(square.center.y, i), seen.corner.y, seen.height);
+    const bool row_inside = inside(at(square.center.y, i), visible.corner.y, visible.height);
     for (std::int32_t j = 0; j < samples; ++j, pixel += 3) {
-      if (!row_inside || !inside(at(square.center.x, j), seen.corner.x, seen.width)) {
+      if (!row_inside || !inside(at(square.center.x, j), visible.corner.x, visible.width)) {
         std::fill(pixel, pixel + 3, kBlack);
       }
     }

@@ -1,4 +1,4 @@
-// Cuts squares out of the caller's image, straight into the pictures that networks read.
+// Warps crops of the caller's image directly into the inputs of networks.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,8 @@
 
 namespace mien::tracker {
 
-// What a network sees of a crop: rows x columns samples, square ones, around its middle; `extent`
-// is their height in sides of the crop.
+// The sampling of a crop: rows x columns square samples around its centre. `extent` is the height
+// of all rows, in sides of the crop.
 struct Raster {
   std::int32_t rows;
   std::int32_t columns;
@@ -22,7 +22,7 @@ struct Raster {
 
 class Sampler {
  public:
-  // False when no tier of the mask has the kernel.
+  // False if no tier of the mask has the kernel.
   [[nodiscard]] bool init(std::uint32_t cpu_mask, engine::Arena& arena) {
     warp_ = kernels::find<kernels::WarpArgs>(cpu_mask);
     const std::span<std::byte> shared =
@@ -31,18 +31,18 @@ class Sampler {
     return warp_ != nullptr;
   }
 
-  // The crop as [rows][columns][3] RGB, -1..1. Where samples lie more than 1.5 pixels apart the
-  // image is made smaller before. Outside the image its border repeats.
+  // Writes the crop as [rows][columns][3] RGB, -1..1. If samples are more than 1.5 pixels apart, it
+  // samples means of boxes of pixels. Outside the image the border repeats.
   void cut(const ImageView& view, const Crop& crop, const Raster& raster,
-           std::span<float> picture) const;
+           std::span<float> out) const;
 
-  // An upright square, black outside the image.
+  // Writes an upright square as [samples][samples][3]; black outside the image.
   void cut_black(const ImageView& view, const Square& square, std::int32_t samples,
-                 std::span<float> picture) const;
+                 std::span<float> out) const;
 
  private:
   kernels::Kernel<kernels::WarpArgs> warp_ = nullptr;
-  std::uint16_t* samples_ = nullptr;  // what only a cut in progress needs
+  std::uint16_t* samples_ = nullptr;  // scratch
 };
 
 }  // namespace mien::tracker

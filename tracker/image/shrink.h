@@ -1,4 +1,4 @@
-// Making pictures smaller.
+// Downscaling of network inputs.
 #pragma once
 
 #include <cstdint>
@@ -6,9 +6,9 @@
 
 namespace mien::tracker {
 
-// Square RGB picture [from][from][3] to [to][to][3], to <= from: every pixel becomes the mean of
-// the area that it covers. `scratch`: [from][3] at least.
-void shrink(std::span<const float> picture, std::int32_t from, std::span<float> smaller,
+// Downscales a square RGB image [from][from][3] to [to][to][3], to <= from: each pixel is the mean
+// of the area that it covers. `scratch`: at least [from][3].
+void shrink(std::span<const float> image, std::int32_t from, std::span<float> smaller,
             std::int32_t to, std::span<float> scratch);
 
 }  // namespace mien::tracker
