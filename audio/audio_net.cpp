@@ -1,3 +1,4 @@
+// Runs AudioNet.
 #include "audio/audio_net.h"
 
 #include <algorithm>
@@ -6,18 +7,18 @@
 namespace mien::audio {
 namespace {
 
-constexpr engine::Shape kHeard = {1, 1, FrontEnd::kFeatures};
+constexpr engine::Shape kInput = {1, 1, FrontEnd::kFeatures};
 constexpr std::int32_t kEmbedding = 80;
 constexpr engine::Shape kEmbedded = {1, 1, kEmbedding};
 constexpr std::int32_t kClasses = 2;  // no speech, speech
 
-float unit(float value) { return std::isfinite(value) ? std::clamp(value, 0.0f, 1.0f) : 0.0f; }
+float clamped(float value) { return std::isfinite(value) ? std::clamp(value, 0.0f, 1.0f) : 0.0f; }
 
 }  // namespace
 
 mien_status AudioNet::load(const engine::Model& model, std::uint32_t cpu_mask,
                            engine::Arena& arena) {
-  mien_status status = encoder_.load(model, {"encoder", kHeard, {kEmbedding}}, cpu_mask, arena);
+  mien_status status = encoder_.load(model, {"encoder", kInput, {kEmbedding}}, cpu_mask, arena);
   if (status == MIEN_OK) {
     status =
         controls_.load(model, {"controls_decoder", kEmbedded, {kSpeechControls}}, cpu_mask, arena);
@@ -38,8 +39,8 @@ Speech AudioNet::process(std::span<const float, FrontEnd::kFeatures> features) {
   Speech speech;
   const std::span<const float> controls = controls_.run(embedding);
   std::transform(controls.begin(), controls.begin() + kSpeechControls, speech.controls.begin(),
-                 unit);
-  speech.activity = unit(activity_.run(embedding)[1]);
+                 clamped);
+  speech.activity = clamped(activity_.run(embedding)[1]);
   return speech;
 }
 

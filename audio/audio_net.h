@@ -1,5 +1,5 @@
-// AudioNet: what is heard, step by step, to the controls of speech and to voice activity (Navarro
-// et al. 2023, section 4). A step is 16 ms.
+// AudioNet: converts audio features, in steps of 16 ms, to the controls of speech and to voice
+// activity (Navarro et al. 2023, section 4).
 #pragma once
 
 #include <mien/mien.h>
@@ -18,25 +18,26 @@ namespace mien::audio {
 
 inline constexpr std::size_t kSpeechControls = 18;
 
-// What a voice does at one time.
+// The prediction for one time.
 struct Speech {
   // 0..1: jawOpen, jawForward, mouthClose, mouthFunnel, mouthPucker, mouthRollLower,
   // mouthRollUpper, mouthShrugLower, mouthShrugUpper, mouthPressLeft, mouthPressRight,
   // mouthStretchLeft, mouthStretchRight, mouthLowerDownLeft, mouthLowerDownRight, mouthUpperUpLeft,
   // mouthUpperUpRight, tongueOut
   std::array<float, kSpeechControls> controls = {};
-  float activity = 0.0f;  // 0..1: how probable it is that somebody speaks
+  float activity = 0.0f;  // 0..1: probability of speech
 };
 
 class AudioNet {
  public:
-  // Takes from `arena` what the networks need; only measures when the arena does.
+  // Takes the networks' memory from `arena`, or only measures it if the arena does.
   [[nodiscard]] mien_status load(const engine::Model& model, std::uint32_t cpu_mask,
                                  engine::Arena& arena);
 
-  // A new stream begins.
+  // Resets the state to the start of a stream.
   void reset();
 
+  // One step.
   [[nodiscard]] Speech process(std::span<const float, FrontEnd::kFeatures> features);
 
  private:

@@ -1,3 +1,4 @@
+// Runs audio blocks through the front end and AudioNet, and interpolates the predictions.
 #include "audio/audio_pipeline.h"
 
 #include <algorithm>
@@ -7,13 +8,13 @@
 namespace mien::audio {
 namespace {
 
-constexpr std::size_t kBlock = 256;  // samples turned to mono at once
+constexpr std::size_t kBlock = 256;  // samples converted to mono at a time
 
-Speech between(const Speech& a, const Speech& b, float share) {
+Speech interpolate(const Speech& a, const Speech& b, float weight) {
   Speech mixed;
   std::transform(a.controls.begin(), a.controls.end(), b.controls.begin(), mixed.controls.begin(),
-                 [share](float x, float y) { return x + share * (y - x); });
-  mixed.activity = a.activity + share * (b.activity - a.activity);
+                 [weight](float x, float y) { return x + weight * (y - x); });
+  mixed.activity = a.activity + weight * (b.activity - a.activity);
   return mixed;
 }
 
@@ -25,23 +26,23 @@ bool AudioPipeline::init(const AudioNet& net, std::uint32_t cpu_mask) {
 }
 
 void AudioPipeline::reset() {
-  rate_ = 0;  // another than any, so that clock and network begin anew with the first sound
-  known_ = 0;
+  rate_ = 0;  // not a valid rate, so that the next block resets clock and network
+  count_ = 0;
 }
 
-void AudioPipeline::push(const Pcm& sound, std::int32_t rate, std::int64_t pts_ns) {
-  if (sound.frames == 0) {
+void AudioPipeline::push(const Pcm& pcm, std::int32_t rate, std::int64_t pts_ns) {
+  if (pcm.frames == 0) {
     return;
   }
   const bool same_rate = rate == rate_;
   if (!same_rate) {
     clock_.restart();
   }
-  follow(clock_.advance(pts_ns, sound.frames, rate), rate);
+  start_stream_if_broken(clock_.advance(pts_ns, pcm.frames, rate), rate);
   std::array<float, kBlock> mono;
-  for (std::size_t first = 0; first < sound.frames; first += kBlock) {
-    std::span<const float> block = std::span(mono).first(std::min(kBlock, sound.frames - first));
-    to_mono(sound, first, std::span(mono).first(block.size()));
+  for (std::size_t first = 0; first < pcm.frames; first += kBlock) {
+    std::span<const float> block = std::span(mono).first(std::min(kBlock, pcm.frames - first));
+    to_mono(pcm, first, std::span(mono).first(block.size()));
     while (!block.empty()) {
       block = block.subspan(front_end_.take(block));
       process();
@@ -49,16 +50,16 @@ void AudioPipeline::push(const Pcm& sound, std::int32_t rate, std::int64_t pts_n
   }
 }
 
-// Sound of another rate goes on as the same voice; after a break it is another one.
-void AudioPipeline::follow(AudioClock::Flow flow, std::int32_t rate) {
+// A change of the rate keeps the network's state; any other break resets it.
+void AudioPipeline::start_stream_if_broken(AudioClock::Flow flow, std::int32_t rate) {
   if (flow != AudioClock::Flow::kBreak) {
     return;
   }
-  const bool goes_on = rate_ != 0 && rate != rate_;
+  const bool only_rate_changed = rate_ != 0 && rate != rate_;
   rate_ = rate;
   stream_steps_ = 0;
   front_end_.start(rate);
-  if (!goes_on) {
+  if (!only_rate_changed) {
     net_.reset();
   }
 }
@@ -68,42 +69,43 @@ void AudioPipeline::process() {
   while (front_end_.fetch(features)) {
     const std::int64_t time = clock_.time_ns(FrontEnd::seconds_of_step(stream_steps_));
     ++stream_steps_;
-    remember({time, net_.process(features)});
+    store({time, net_.process(features)});
   }
 }
 
-const AudioPipeline::Moment& AudioPipeline::moment(std::size_t back) const {
-  return moments_[(next_ + kRememberedSteps - 1 - back) % kRememberedSteps];
+const AudioPipeline::Prediction& AudioPipeline::stored(std::size_t back) const {
+  return predictions_[(next_ + kStoredSteps - 1 - back) % kStoredSteps];
 }
 
-// Where time has hopped back, what was heard last counts.
-void AudioPipeline::remember(const Moment& heard) {
-  while (known_ > 0 && from_to(moment(0).time_ns, heard.time_ns) <= 0) {
-    next_ = (next_ + kRememberedSteps - 1) % kRememberedSteps;
-    --known_;
+// After a jump back in time, the newest prediction replaces older ones of the same time.
+void AudioPipeline::store(const Prediction& prediction) {
+  while (count_ > 0 && from_to(stored(0).time_ns, prediction.time_ns) <= 0) {
+    next_ = (next_ + kStoredSteps - 1) % kStoredSteps;
+    --count_;
   }
-  moments_[next_] = heard;
-  next_ = (next_ + 1) % kRememberedSteps;
-  known_ = std::min(known_ + 1, kRememberedSteps);
+  predictions_[next_] = prediction;
+  next_ = (next_ + 1) % kStoredSteps;
+  count_ = std::min(count_ + 1, kStoredSteps);
 }
 
 Speech AudioPipeline::at(std::int64_t time_ns) const {
   std::size_t back = 0;
-  while (back < known_ && from_to(moment(back).time_ns, time_ns) < 0) {
+  while (back < count_ && from_to(stored(back).time_ns, time_ns) < 0) {
     ++back;
   }
-  if (back == known_) {
+  if (back == count_) {
     return {};
   }
-  const Moment& before = moment(back);
+  const Prediction& before = stored(back);
   const std::int64_t since = from_to(before.time_ns, time_ns);
-  const Moment& after = moment(back > 0 ? back - 1 : 0);
-  const std::int64_t apart = from_to(before.time_ns, after.time_ns);
-  if (back == 0 || apart > kPatienceNs) {
-    return since <= kPatienceNs ? before.speech : Speech{before.speech.controls, 0.0f};
+  const Prediction& after = stored(back > 0 ? back - 1 : 0);
+  const std::int64_t interval = from_to(before.time_ns, after.time_ns);
+  if (back == 0 || interval > kMaxHoldNs) {
+    return since <= kMaxHoldNs ? before.speech : Speech{before.speech.controls, 0.0f};
   }
-  return between(before.speech, after.speech,
-                 static_cast<float>(static_cast<double>(since) / static_cast<double>(apart)));
+  return interpolate(
+      before.speech, after.speech,
+      static_cast<float>(static_cast<double>(since) / static_cast<double>(interval)));
 }
 
 }  // namespace mien::audio

@@ -1,4 +1,4 @@
-// Sound in blocks with timestamps in; what the voice does at any time lately out.
+// Converts audio blocks with timestamps to predictions for any time of the last seconds.
 #pragma once
 
 #include <mien/mien.h>
@@ -16,44 +16,46 @@ namespace mien::audio {
 
 class AudioPipeline {
  public:
-  // What was heard longer ago is forgotten: sound may be ahead of the picture by this much.
-  static constexpr std::size_t kRememberedSteps = 256;  // 4 s
-  // For so long after the last of it, sound that is late counts as going on.
-  static constexpr std::int64_t kPatienceNs = 150'000'000;
+  // Number of stored predictions: audio may be ahead of the images by this much.
+  static constexpr std::size_t kStoredSteps = 256;  // 4 s
+  // How long the latest prediction is held while audio is late.
+  static constexpr std::int64_t kMaxHoldNs = 150'000'000;
 
-  // False when no tier of `cpu_mask` runs here. `net` is loaded.
+  // False if no tier of `cpu_mask` can run on this CPU. `net` is loaded.
   [[nodiscard]] bool init(const AudioNet& net, std::uint32_t cpu_mask);
 
-  // Forgets everything.
+  // Returns to the state after init.
   void reset();
 
-  // `sound` is valid, its rate one of the resampler's. Whatever the blocks, the same sound gives
-  // the same steps bit for bit.
-  void push(const Pcm& sound, std::int32_t rate, std::int64_t pts_ns);
+  // `pcm` must be valid, and `rate` (Hz) within the resampler's range. The same samples give
+  // bit-identical predictions however they are divided into blocks.
+  void push(const Pcm& pcm, std::int32_t rate, std::int64_t pts_ns);
 
-  // At that time, between the steps around it. With the last of them while the sound is late; else
-  // nobody speaks where nothing was heard.
+  // The prediction for a time, interpolated between the steps before and after it. While audio is
+  // late it is the latest one, for up to kMaxHoldNs; otherwise activity is 0 where there was no
+  // audio.
   [[nodiscard]] Speech at(std::int64_t time_ns) const;
 
  private:
-  struct Moment {
+  struct Prediction {
     std::int64_t time_ns = 0;
     Speech speech;
   };
 
-  void follow(AudioClock::Flow flow, std::int32_t rate);
+  void start_stream_if_broken(AudioClock::Flow flow, std::int32_t rate);
   void process();
-  void remember(const Moment& moment);
-  [[nodiscard]] const Moment& moment(std::size_t back) const;
+  void store(const Prediction& prediction);
+  // The stored prediction `back` steps before the latest.
+  [[nodiscard]] const Prediction& stored(std::size_t back) const;
 
   FrontEnd front_end_;
   AudioNet net_;
   AudioClock clock_;
   std::int32_t rate_ = 0;
-  std::int64_t stream_steps_ = 0;                      // since the front end started
-  std::array<Moment, kRememberedSteps> moments_ = {};  // a ring
+  std::int64_t stream_steps_ = 0;                          // since the front end was started
+  std::array<Prediction, kStoredSteps> predictions_ = {};  // a ring buffer
   std::size_t next_ = 0;
-  std::size_t known_ = 0;
+  std::size_t count_ = 0;
 };
 
 }  // namespace mien::audio

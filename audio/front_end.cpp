@@ -1,3 +1,4 @@
+// Computes the input features of AudioNet.
 #include "audio/front_end.h"
 
 #include <algorithm>
@@ -9,7 +10,7 @@ namespace {
 
 constexpr float kHighPass =
     static_cast<float>(1.0 - 2.0 * std::numbers::pi * 20.0 / kSampleRate);  // one pole at 20 Hz
-constexpr float kNothing = 1e-20f;
+constexpr float kMinState = 1e-20f;
 
 }  // namespace
 
@@ -24,30 +25,30 @@ bool FrontEnd::init(std::uint32_t cpu_mask) {
 void FrontEnd::start(std::int32_t input_rate) {
   resampler_.start(input_rate);
   mfcc_.reset();
-  sample_before_ = filtered_before_ = 0.0f;
-  known_ = 0;
+  previous_sample_ = previous_filtered_ = 0.0f;
+  window_size_ = 0;
   for (std::size_t w = 0; w < kWindows; ++w) {
     std::copy(silence_.begin(), silence_.end(),
               features_.begin() + static_cast<std::ptrdiff_t>(w * kCoefficients));
   }
 }
 
-float FrontEnd::without_offset(float sample) {
-  const float filtered = sample - sample_before_ + kHighPass * filtered_before_;
-  sample_before_ = sample;
-  // What fades away must not become denormal, which is slow.
-  filtered_before_ = std::abs(filtered) < kNothing ? 0.0f : filtered;
-  return filtered_before_;
+float FrontEnd::high_pass(float sample) {
+  const float filtered = sample - previous_sample_ + kHighPass * previous_filtered_;
+  previous_sample_ = sample;
+  // Flushes decaying values to 0 before they become denormal, which is slow.
+  previous_filtered_ = std::abs(filtered) < kMinState ? 0.0f : filtered;
+  return previous_filtered_;
 }
 
 bool FrontEnd::fetch(std::span<float, kFeatures> features) {
-  for (float sample; known_ < kWindowSamples; ++known_) {
+  for (float sample; window_size_ < kWindowSamples; ++window_size_) {
     if (!resampler_.fetch(sample)) {
       return false;
     }
-    window_[known_] = without_offset(sample);
+    window_[window_size_] = high_pass(sample);
   }
-  known_ = 0;
+  window_size_ = 0;
   std::copy(features_.begin() + kCoefficients, features_.end(), features_.begin());
   mfcc_.analyse(window_, std::span(features_).last<kCoefficients>());
   std::copy(features_.begin(), features_.end(), features.begin());

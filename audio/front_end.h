@@ -1,9 +1,9 @@
-// Sound at any rate -> what AudioNet hears: the MFCCs of five windows, once every 16 ms.
+// Converts audio of any rate to the input of AudioNet: the MFCCs of five windows, every 16 ms.
 //
-// Resampler -> high-pass of 20 Hz against a microphone's constant offset -> MFCC -> the last five
-// windows, oldest first. Before the first window there was silence. Step k speaks of the middle of
-// its windows, (256 k - 384) / 16000 s after the stream's first sample, and can be had 40 ms later
-// plus the resampler's 2 ms.
+// Resampler -> high-pass at 20 Hz, against the constant offset of microphones -> MFCC -> the last
+// five windows, oldest first. Windows before the first one are silence. Step k describes the middle
+// of its windows, (256 k - 384) / 16000 s after the stream's first sample. It is available 40 ms
+// later, plus the 2 ms of the resampler.
 #pragma once
 
 #include <array>
@@ -21,34 +21,34 @@ class FrontEnd {
   static constexpr std::size_t kWindows = 5;
   static constexpr std::size_t kFeatures = kWindows * kCoefficients;
 
-  // False when no tier of `cpu_mask` runs here.
+  // False if no tier of `cpu_mask` can run on this CPU.
   [[nodiscard]] bool init(std::uint32_t cpu_mask);
 
-  // Begins a stream of `input_rate` samples a second (see Resampler).
+  // Starts a stream of `input_rate` Hz (see Resampler).
   void start(std::int32_t input_rate);
 
-  // Takes the first of `samples` (one channel, as of to_mono) and says how many: at least one, if
-  // all features that there are were fetched before.
+  // Takes samples from the front of `samples` (mono, as from to_mono) and returns their number: at
+  // least one if all available features have been fetched.
   [[nodiscard]] std::size_t take(std::span<const float> samples) {
     return resampler_.take(samples);
   }
 
-  // The features of the next step; false if it needs further samples.
+  // The features of the next step; false if it needs more samples.
   [[nodiscard]] bool fetch(std::span<float, kFeatures> features);
 
-  // Of what time, since the stream's first sample, step k speaks.
+  // The time that a step describes, in seconds after the stream's first sample.
   [[nodiscard]] static double seconds_of_step(std::int64_t step) {
     return (static_cast<double>(step) - 1.5) * kWindowSamples / kSampleRate;
   }
 
  private:
-  [[nodiscard]] float without_offset(float sample);
+  [[nodiscard]] float high_pass(float sample);
 
   Resampler resampler_;
   Mfcc mfcc_;
-  float sample_before_ = 0.0f;
-  float filtered_before_ = 0.0f;
-  std::size_t known_ = 0;  // samples in window_
+  float previous_sample_ = 0.0f;
+  float previous_filtered_ = 0.0f;
+  std::size_t window_size_ = 0;  // samples in window_
   std::array<float, kWindowSamples> window_ = {};
   std::array<float, kCoefficients> silence_ = {};
   std::array<float, kFeatures> features_ = {};

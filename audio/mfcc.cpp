@@ -1,3 +1,4 @@
+// Computes mel-frequency cepstral coefficients.
 #include "audio/mfcc.h"
 
 #include <algorithm>
@@ -18,7 +19,7 @@ constexpr double kLifter = 22.0;
 double mel_of_hz(double hz) { return 2595.0 * std::log10(1.0 + hz / 700.0); }
 double hz_of_mel(double mel) { return 700.0 * (std::pow(10.0, mel / 2595.0) - 1.0); }
 
-// 0 outside of low .. high, 1 at middle, straight between.
+// 0 outside low..high, 1 at `middle`, linear between.
 double triangle(double x, double low, double middle, double high) {
   return std::max(0.0, std::min((x - low) / (middle - low), (high - x) / (high - middle)));
 }
@@ -36,10 +37,10 @@ bool Mfcc::init(std::uint32_t cpu_mask) {
 
 void Mfcc::make_window() {
   for (std::size_t n = 0; n < kWindowSamples; ++n) {
-    const double turn = 2.0 * pi * static_cast<double>(n);
-    window_[n] = static_cast<float>(0.54 - 0.46 * std::cos(turn / (kWindowSamples - 1)));
-    twiddles_[2 * n] = static_cast<float>(std::cos(turn / kWindowSamples));
-    twiddles_[2 * n + 1] = static_cast<float>(-std::sin(turn / kWindowSamples));
+    const double angle = 2.0 * pi * static_cast<double>(n);
+    window_[n] = static_cast<float>(0.54 - 0.46 * std::cos(angle / (kWindowSamples - 1)));
+    twiddles_[2 * n] = static_cast<float>(std::cos(angle / kWindowSamples));
+    twiddles_[2 * n + 1] = static_cast<float>(-std::sin(angle / kWindowSamples));
   }
 }
 
@@ -62,21 +63,21 @@ void Mfcc::make_cosines() {
     const double gain = std::sqrt((i == 0 ? 1.0 : 2.0) / kBands) *
                         (1.0 + kLifter / 2.0 * std::sin(pi * index / kLifter));
     for (std::size_t band = 0; band < kBands; ++band) {
-      const double turn = pi * index * (static_cast<double>(band) + 0.5) / kBands;
-      cosines_[i * kBands + band] = static_cast<float>(gain * std::cos(turn));
+      const double angle = pi * index * (static_cast<double>(band) + 0.5) / kBands;
+      cosines_[i * kBands + band] = static_cast<float>(gain * std::cos(angle));
     }
   }
 }
 
 void Mfcc::analyse(std::span<const float, kWindowSamples> samples,
                    std::span<float, kCoefficients> coefficients) {
-  std::array<float, kWindowSamples> shaped;
+  std::array<float, kWindowSamples> windowed;
   for (std::size_t n = 0; n < kWindowSamples; ++n) {
-    shaped[n] = (samples[n] - kPreEmphasis * before_) * window_[n];
-    before_ = samples[n];
+    windowed[n] = (samples[n] - kPreEmphasis * previous_sample_) * window_[n];
+    previous_sample_ = samples[n];
   }
   std::array<float, kBins> power;
-  power_spectrum_({shaped.data(), twiddles_.data(), power.data(), kWindowSamples});
+  power_spectrum_({windowed.data(), twiddles_.data(), power.data(), kWindowSamples});
   std::array<float, kBands> bands;
   matrix_vector_({mel_bands_.data(), power.data(), bands.data(), kBands, kBins});
   for (float& band : bands) {

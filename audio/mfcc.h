@@ -1,15 +1,15 @@
-// Mel-frequency cepstral coefficients (Davis, Mermelstein 1980), of windows that follow each other.
+// Mel-frequency cepstral coefficients (Davis, Mermelstein 1980) of consecutive windows.
 //
-// Of every 256 samples at 16 kHz (16 ms), as the HTK book (Young et al. 2006, ch. 5) has it:
-//   pre-emphasis x_n - 0.97 x_(n-1), over the windows' borders
+// For every 256 samples at 16 kHz (16 ms), as in the HTK book (Young et al. 2006, ch. 5):
+//   pre-emphasis x_n - 0.97 x_(n-1), across window borders
 //   Hamming window 0.54 - 0.46 cos(2 pi n / 255)
 //   power spectrum |X_k|^2 / 256, k = 0 .. 128
 //   26 triangles, evenly spaced on mel(f) = 2595 log10(1 + f/700) from 60 Hz to 7600 Hz, each
-//     summing from one neighbour's middle to the other's
-//   natural logarithm of what is at least 1e-8 (80 dB below full scale)
+//     reaching from one neighbour's centre to the other's
+//   natural logarithm, of at least 1e-8 (80 dB below full scale)
 //   orthonormal DCT-II, all 26 coefficients
 //   lifter 1 + 11 sin(pi i / 22) of coefficient i
-// An independent implementation is tests/golden/make_mfcc.py.
+// tests/golden/make_mfcc.py is an independent implementation.
 #pragma once
 
 #include <array>
@@ -29,12 +29,12 @@ inline constexpr std::size_t kCoefficients = 26;
 
 class Mfcc {
  public:
-  // False when no tier of `cpu_mask` runs here.
+  // False if no tier of `cpu_mask` can run on this CPU.
   [[nodiscard]] bool init(std::uint32_t cpu_mask);
 
-  void reset() { before_ = 0.0f; }
+  void reset() { previous_sample_ = 0.0f; }
 
-  // The window that follows the last one; samples in -1..1.
+  // Analyses the next window; samples in -1..1.
   void analyse(std::span<const float, kWindowSamples> samples,
                std::span<float, kCoefficients> coefficients);
 
@@ -48,7 +48,7 @@ class Mfcc {
 
   kernels::Kernel<kernels::PowerSpectrumArgs> power_spectrum_ = nullptr;
   kernels::Kernel<kernels::MatrixVectorArgs> matrix_vector_ = nullptr;
-  float before_ = 0.0f;  // the last sample of the window before
+  float previous_sample_ = 0.0f;  // last sample of the previous window
   std::array<float, kWindowSamples> window_ = {};
   std::array<float, 2 * kWindowSamples> twiddles_ = {};
   std::array<float, kBands* kBins> mel_bands_ = {};        // [bands, bins], 1/256 included

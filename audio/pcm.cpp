@@ -1,3 +1,4 @@
+// Converts samples to mono floats.
 #include "audio/pcm.h"
 
 #include <algorithm>
@@ -7,7 +8,7 @@
 namespace mien::audio {
 namespace {
 
-float sane(float sample) {
+float sanitized(float sample) {
   const float magnitude = std::abs(sample);
   if (!(magnitude >= std::numeric_limits<float>::min()) ||
       magnitude == std::numeric_limits<float>::infinity()) {
@@ -16,7 +17,7 @@ float sane(float sample) {
   return std::clamp(sample, -1.0f, 1.0f);
 }
 
-float sane(std::int16_t sample) { return static_cast<float>(sample) / 32768.0f; }
+float sanitized(std::int16_t sample) { return static_cast<float>(sample) / 32768.0f; }
 
 template <class Sample>
 void mean_of_channels(const Pcm& pcm, std::size_t first, std::span<float> mono) {
@@ -27,13 +28,13 @@ void mean_of_channels(const Pcm& pcm, std::size_t first, std::span<float> mono) 
     begin[c] = pcm.planar ? static_cast<const Sample*>(pcm.channel[c])
                           : static_cast<const Sample*>(pcm.channel[0]) + c;
   }
-  const float share = 1.0f / static_cast<float>(channels);
+  const float scale = 1.0f / static_cast<float>(channels);
   for (std::size_t i = 0; i < mono.size(); ++i) {
     float sum = 0.0f;
     for (std::size_t c = 0; c < channels; ++c) {
-      sum += sane(begin[c][(first + i) * step]);
+      sum += sanitized(begin[c][(first + i) * step]);
     }
-    mono[i] = sum * share;
+    mono[i] = sum * scale;
   }
 }
 

@@ -1,4 +1,4 @@
-// Sound as callers have it -> one channel of floats that nothing can upset.
+// Converts the caller's samples to one channel of finite floats.
 #pragma once
 
 #include <cstddef>
@@ -11,18 +11,18 @@ inline constexpr std::int32_t kMaxChannels = 8;
 
 enum class SampleFormat { kFloat32, kInt16 };
 
-// Samples of all channels, interleaved in channel[0], or each channel in memory of its own.
-// Borrowed for the duration of a call.
+// Samples of all channels: interleaved in channel[0], or planar in one buffer per channel. Valid
+// during a call only.
 struct Pcm {
   SampleFormat format;
   bool planar;
-  std::int32_t channels;  // 1..kMaxChannels
-  std::size_t frames;
-  const void* channel[kMaxChannels];  // aligned as its samples ask for
+  std::int32_t channels;              // 1..kMaxChannels
+  std::size_t frames;                 // samples per channel
+  const void* channel[kMaxChannels];  // aligned to the type of the samples
 };
 
-// The mean of the channels of frames [first, first + mono.size()), -1..1. What is no number counts
-// as silence, what is beyond full scale as full scale, what fp32 holds with fewer digits as zero.
+// Writes the mean of the channels of frames [first, first + mono.size()), -1..1. NaN, infinity and
+// denormal numbers count as 0; other values are clamped to full scale.
 void to_mono(const Pcm& pcm, std::size_t first, std::span<float> mono);
 
 }  // namespace mien::audio

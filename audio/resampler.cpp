@@ -1,3 +1,4 @@
+// Resamples audio to 16 kHz.
 #include "audio/resampler.h"
 
 #include <algorithm>
@@ -8,7 +9,8 @@ namespace mien::audio {
 namespace {
 
 constexpr double kKaiserBeta = 8.6;  // side lobes 86 dB down
-constexpr double kCutoff = 0.91;     // middle of the transition, of half the lower rate
+// Centre of the transition band, relative to the Nyquist frequency of the lower rate.
+constexpr double kCutoff = 0.91;
 
 // Modified Bessel function of the first kind and order 0, by its power series.
 double bessel_i0(double x) {
@@ -22,11 +24,11 @@ double bessel_i0(double x) {
 }
 
 double sinc(double x) {
-  const double turn = std::numbers::pi * x;
-  return std::abs(turn) < 1e-9 ? 1.0 : std::sin(turn) / turn;
+  const double angle = std::numbers::pi * x;
+  return std::abs(angle) < 1e-9 ? 1.0 : std::sin(angle) / angle;
 }
 
-// x in -1..1; not 1 in the middle, since filters are divided by their sum.
+// x in -1..1. Not normalized to 1 at 0, because filters are divided by their sum.
 double kaiser(double x) { return bessel_i0(kKaiserBeta * std::sqrt(std::max(0.0, 1.0 - x * x))); }
 
 }  // namespace
@@ -41,9 +43,9 @@ void Resampler::start(std::int32_t input_rate) {
     rate_ = input_rate;
     make_filter();
   }
-  // Before the first input there is silence, for the half of the filter that looks back.
-  known_ = static_cast<std::size_t>(half_ - 1);
-  std::fill_n(history_.begin(), known_, 0.0f);
+  // The past half of the filter starts with silence.
+  history_size_ = static_cast<std::size_t>(half_ - 1);
+  std::fill_n(history_.begin(), history_size_, 0.0f);
   whole_ = 0;
   part_ = 0;
 }
@@ -58,8 +60,8 @@ void Resampler::make_filter() {
     double exact[kMaxTaps];
     double sum = 0.0;
     for (std::int32_t k = 0; k < 2 * half_; ++k) {
-      const double away = k - (half_ - 1) - static_cast<double>(phase) / phases_;
-      sum += exact[k] = sinc(cutoff * away) * kaiser(away / half_);
+      const double offset = k - (half_ - 1) - static_cast<double>(phase) / phases_;
+      sum += exact[k] = sinc(cutoff * offset) * kaiser(offset / half_);
     }
     for (std::int32_t k = 0; k < 2 * half_; ++k) {
       taps[k] = static_cast<float>(exact[k] / sum);
@@ -68,26 +70,26 @@ void Resampler::make_filter() {
 }
 
 std::size_t Resampler::take(std::span<const float> input) {
-  if (known_ == history_.size()) {
+  if (history_size_ == history_.size()) {
     drop_used();
   }
-  const std::size_t count = std::min(input.size(), history_.size() - known_);
-  std::copy_n(input.begin(), count, history_.begin() + static_cast<std::ptrdiff_t>(known_));
-  known_ += count;
+  const std::size_t count = std::min(input.size(), history_.size() - history_size_);
+  std::copy_n(input.begin(), count, history_.begin() + static_cast<std::ptrdiff_t>(history_size_));
+  history_size_ += count;
   return count;
 }
 
 bool Resampler::fetch(float& output) {
-  if (static_cast<std::size_t>(whole_) + static_cast<std::size_t>(2 * half_) > known_) {
+  if (static_cast<std::size_t>(whole_) + static_cast<std::size_t>(2 * half_) > history_size_) {
     return false;
   }
-  const std::int64_t place = std::int64_t{part_} * phases_;
-  const std::int64_t phase = place / kOutputRate;
-  const float share = static_cast<float>(place % kOutputRate) / kOutputRate;
-  float of_phase[2];
+  const std::int64_t position = std::int64_t{part_} * phases_;
+  const std::int64_t phase = position / kOutputRate;
+  const float weight = static_cast<float>(position % kOutputRate) / kOutputRate;
+  float at_phase[2];
   matrix_vector_({filter_.data() + std::ptrdiff_t{2} * half_ * phase, history_.data() + whole_,
-                  of_phase, 2, 2 * half_});
-  output = of_phase[0] + share * (of_phase[1] - of_phase[0]);
+                  at_phase, 2, 2 * half_});
+  output = at_phase[0] + weight * (at_phase[1] - at_phase[0]);
   advance();
   return true;
 }
@@ -98,12 +100,12 @@ void Resampler::advance() {
   part_ %= kOutputRate;
 }
 
-// Moves the inputs that are still needed to the front.
+// Moves the inputs that later outputs need to the front.
 void Resampler::drop_used() {
-  const auto used = std::min(static_cast<std::size_t>(whole_), known_);
+  const auto used = std::min(static_cast<std::size_t>(whole_), history_size_);
   std::copy(history_.begin() + static_cast<std::ptrdiff_t>(used),
-            history_.begin() + static_cast<std::ptrdiff_t>(known_), history_.begin());
-  known_ -= used;
+            history_.begin() + static_cast<std::ptrdiff_t>(history_size_), history_.begin());
+  history_size_ -= used;
   whole_ -= static_cast<std::int64_t>(used);
 }
 

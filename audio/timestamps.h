@@ -1,5 +1,4 @@
-// Nanoseconds that may be any number: differences and sums are taken modulo 2^64, where nothing
-// overflows.
+// Arithmetic of timestamps in nanoseconds, which may have any value: modulo 2^64, without overflow.
 #pragma once
 
 #include <cstdint>
@@ -11,6 +10,7 @@ namespace mien::audio {
                                    static_cast<std::uint64_t>(by_ns));
 }
 
+// b - a.
 [[nodiscard]] constexpr std::int64_t from_to(std::int64_t a_ns, std::int64_t b_ns) {
   return static_cast<std::int64_t>(static_cast<std::uint64_t>(b_ns) -
                                    static_cast<std::uint64_t>(a_ns));
