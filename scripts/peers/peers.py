@@ -91,8 +91,8 @@ def met(right):
 
 def network_lines(report):
     engines = [e for e in ENGINES if any(e in row["peers"] for row in report)]
-    show = lambda t: f"{t['min_ms']:.4f} / {t['median_ms']:.4f}" if t else ""
-    lines = ["## Networks", "", "Minimum / median in ms of one run, with checked results. LiteRT runs the encoders only, because `onnx_to_tflite.py` does not "
+    show = lambda t: f"{t['min_ms']:.4f}" if t else ""
+    lines = ["## Networks", "", "Fastest run in ms, with checked results; [peers.json](peers.json) has medians. LiteRT runs the encoders only, because `onnx_to_tflite.py` does not "
              "convert LSTMs.", ""]
     lines += table(["network", *(ENGINES[e] for e in engines)], [[r["network"], *(show(r["peers"].get(e)) for e in engines)] for r in report])
     lines += ["The next table has ratios of minima to the fastest peer in fp32 and to the fastest of all; below 1 mien is faster. Peers use all vector instructions "
