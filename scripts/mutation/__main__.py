@@ -105,7 +105,7 @@ def work_through(number, base, times, sample, results, failures):
             finally:
                 sample.done(slow)
             print(f"{result['outcome']} {mutant.file}:{mutant.line} {result['by']} ({result['seconds']} s)", flush=True)
-    except (OSError, subprocess.CalledProcessError) as error:
+    except (BrokenTests, OSError, subprocess.CalledProcessError) as error:
         failures.append(str(error))
 
 

@@ -112,18 +112,6 @@ def names(check, path, source):
     return tests
 
 
-def times(check, path, source, folder):
-    """Seconds of a processor of each of its tests, all of which pass; None if one fails."""
-    found = {}
-    for test in names(check, path, source):
-        began = processor_seconds()
-        outcome, _ = run(command(check, path, source, [test]), 600, folder)
-        if outcome != 0:
-            return None
-        found[test] = round(processor_seconds() - began, 3)
-    return found
-
-
 def first_failure(check, output):
     """The test that noticed."""
     if check.script:
