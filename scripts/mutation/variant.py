@@ -19,13 +19,13 @@ class Variant:
     def __init__(self, base, folder):
         self._base, self._folder, self._originals = base, folder, base.source / "build/originals"
         self._overlay, self._objects, self._programs = (folder / name for name in ("source", "objects", "programs"))
-        self._changed, self._file = {}, ""
+        self._compiled, self._file = set(), ""
 
     def begin(self, file, text):
         for folder in (self._overlay, self._objects, self._programs):
             shutil.rmtree(folder, ignore_errors=True)
             folder.mkdir(parents=True)
-        self._file, self._changed = file, {}
+        self._file, self._compiled = file, set()
         path = self._overlay / file
         path.parent.mkdir(parents=True)
         path.write_text(text)
@@ -46,12 +46,16 @@ class Variant:
             raise NotCompiled
 
     def _object(self, output):
-        """Its path; None where it is as it was."""
-        if output not in self._changed:
-            changed = self._objects / output
-            self._compile(output, changed, self._overlay)
-            self._changed[output] = changed if digest(changed) != self._original(output) else None
-        return self._changed[output]
+        path = self._objects / output
+        if output not in self._compiled:
+            self._compile(output, path, self._overlay)
+            self._compiled.add(output)
+        return path
+
+    def is_identical(self):
+        """Whether none of the objects that were needed differs from the original's. Few mutants are, and tests kill most others sooner than
+        the original is compiled."""
+        return all(digest(self._objects / output) == self._original(output) for output in self._compiled)
 
     def _original(self, output):
         state = digest(self._base.build_folder / output)
@@ -64,10 +68,10 @@ class Variant:
         return memory.read_text()
 
     def program(self, path):
-        """Of the mutant; None where nothing in it has changed."""
+        """Of the mutant; None where the file is no part of it."""
         program = self._base.program(path)
         parts = [output for output in self._dependents if output in program.direct or output in program.archived]
-        changed = {output: str(self._object(output)) for output in parts if self._object(output)}
+        changed = {output: str(self._object(output)) for output in parts}
         if not changed:
             return None
         linked = self._programs / path

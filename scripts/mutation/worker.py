@@ -73,7 +73,6 @@ class Worker:
         return {"outcome": outcome, "by": test, "seconds": round(time.monotonic() - began, 1)}
 
     def _outcome(self, mutant, slow):
-        changed = False
         try:
             self._variant.begin(mutant.file, mutant.applied((self._base.source / mutant.file).read_text()))
             programs = {}
@@ -82,15 +81,14 @@ class Worker:
                     programs[check.path] = self._variant.program(check.path)
                 if programs[check.path] is None:
                     continue
-                changed = True
                 failure = self._failure(check, programs[check.path], tests)
                 if failure:
                     return KILLED, failure
+            if not slow and self._variant.is_identical():
+                return IDENTICAL, ""
         except NotCompiled:
             return NOT_COMPILED, ""
-        if slow:
-            return SURVIVED, ""
-        return (WAITING if changed else IDENTICAL), ""
+        return (SURVIVED if slow else WAITING), ""
 
     def _jobs(self, file, slow):
         """(check, tests): those that noticed mutants of this file, those named like it, then the others, the quickest first."""
@@ -105,11 +103,10 @@ class Worker:
     def _rank(self, file, test, seconds):
         if test in self._killers.get(file, []):
             return (0, 0)
+        far = not checks.is_near(file, test)
         if seconds > QUICK_S:
-            return (3, seconds)
-        if checks.is_near(file, test):
-            return (1, 0)
-        return (2, seconds > INSTANT_S)
+            return (2 + far, seconds)
+        return (2, seconds > INSTANT_S) if far else (1, 0)
 
     def _failure(self, check, path, tests):
         outcome, output = self._run(check, path, tests)
