@@ -1,4 +1,5 @@
-// The limits and defaults of mien_tracker_config that mien.h documents: each limit is accepted, and the next value beyond it is not.
+// The limits and defaults of mien_tracker_config that mien.h documents: each limit is accepted, and
+// the next value beyond it is not.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +16,7 @@ namespace {
 class ConfigLimits : public testing::Test {
  protected:
   template <typename Value>
-  mien_status with(Value Config::* field, Value value) const {
+  mien_status with(Value Config::*field, Value value) const {
     Config config = blob_config(basenet_, proposal_);
     config.accept_probability = 1.0f;
     config.lose_probability = 0.0f;
@@ -31,7 +32,7 @@ class ConfigLimits : public testing::Test {
 
 TEST_F(ConfigLimits, OfIntegers) {
   struct Field {
-    std::int32_t Config::* field;
+    std::int32_t Config::*field;
     std::int32_t low, high;
   };
   const std::vector<Field> fields = {{&Config::lose_after_frames, 1, 1000},
@@ -50,7 +51,7 @@ TEST_F(ConfigLimits, OfIntegers) {
 
 TEST_F(ConfigLimits, OfFloats) {
   struct Field {
-    float Config::* field;
+    float Config::*field;
     float low, high;
   };
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -65,7 +66,8 @@ TEST_F(ConfigLimits, OfFloats) {
     EXPECT_EQ(with(f.field, f.low), MIEN_OK) << number;
     EXPECT_EQ(with(f.field, f.high), MIEN_OK) << number;
     // The library takes denormal numbers for zero.
-    const float below = f.low == 0.0f ? -std::numeric_limits<float>::min() : std::nextafter(f.low, 0.0f);
+    const float below =
+        f.low == 0.0f ? -std::numeric_limits<float>::min() : std::nextafter(f.low, 0.0f);
     EXPECT_EQ(with(f.field, below), MIEN_ERROR_OUT_OF_RANGE) << number;
     EXPECT_EQ(with(f.field, std::nextafter(f.high, kInfinity)), MIEN_ERROR_OUT_OF_RANGE) << number;
     EXPECT_EQ(with(f.field, std::nanf("")), MIEN_ERROR_OUT_OF_RANGE) << number;
