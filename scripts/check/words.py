@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Prepares scripts/check/words.sh: writes the settings of cspell and textlint, and copies of the pages without code.
+"""Prepares scripts/check/words.sh: writes the settings of cspell and textlint, and copies without code: of pages their prose, of sources their comments.
 
 usage: words.py FOLDER FILE...
 Terms come from docs/glossary.md, known words from there and from scripts/check/words.txt. Copies keep their line numbers.
@@ -14,6 +14,8 @@ GLOSSARY = Path("docs/glossary.md")
 WORDS = Path("scripts/check/words.txt")
 IN_CODE_FONT = re.compile(r"`([^`]+)`")
 FENCE = re.compile(r"(?ms)^[ ]*```.*?^[ ]*```[ ]*$")
+COMMENTS = {(".h", ".hpp", ".c", ".cpp", ".inc", ".js", ".mjs", ".ts"): re.compile(r"(?<![:\"'\w/])//[^\n]*|/\*.*?\*/", re.S),
+            (".py", ".sh", ".cmake", "CMakeLists.txt"): re.compile(r"(?m)(?<![^\s])#[^\n]*|\"{3}.*?\"{3}", re.S)}
 INLINE_CODE = re.compile(r"`(?:[^`\n]|\n(?!\n))+`")
 NOT_PROSE = [re.compile(pattern) for pattern in (r"<!--.*?-->", r"(?<=\])\([^)\n]*\)", r"https?://\S+", r"(?m)^    .*$", r"</?[a-z][^>\n]*>")]
 
@@ -48,6 +50,23 @@ def prose(text):
     return text
 
 
+def comments(text, pattern):
+    """The text with everything but comments blanked."""
+    kept, end = [], 0
+    for match in pattern.finditer(text):
+        kept += [re.sub(r"\S", " ", text[end:match.start()]), re.sub(r"^(//+|#+|/\*+)|\*/$|(?m:^\s*\*(?= ))", lambda m: " " * len(m.group()), match.group())]
+        end = match.end()
+    return "".join(kept) + re.sub(r"\S", " ", text[end:])
+
+
+def copy_of(file, content):
+    """(name, text) of the copy for the tools, which read Markdown and plain text."""
+    for endings, pattern in COMMENTS.items():
+        if file.endswith(endings):
+            return file + ".txt", prose(comments(content, pattern))
+    return file, prose(without_words_to_avoid(content) if Path(file) == GLOSSARY else content)
+
+
 def without_words_to_avoid(text):
     return re.sub(r"(?m)^(\|[^|\n]*\|[^|\n]*\|)[^|\n]*\|$", r"\1 |", text)
 
@@ -64,10 +83,10 @@ def main(folder, files):
     (folder / "cspell.json").write_text(json.dumps(spelling, indent=2))
     (folder / ".textlintrc.json").write_text(json.dumps(rules, indent=2))
     for file in files:
-        content = Path(file).read_text()
-        copy = folder / "text" / file
+        name, text = copy_of(file, Path(file).read_text())
+        copy = folder / "text" / name
         copy.parent.mkdir(parents=True, exist_ok=True)
-        copy.write_text(prose(without_words_to_avoid(content) if Path(file) == GLOSSARY else content))
+        copy.write_text(text)
 
 
 if __name__ == "__main__":

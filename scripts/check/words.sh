@@ -2,7 +2,7 @@
 # Checks spelling (cspell), terms (textlint), prose (write-good), and that files and tests named in the pages exist. Terms come from
 # docs/glossary.md, known words from there and from scripts/check/words.txt.
 # usage: scripts/check/words.sh            the pages that COVERED names
-#        scripts/check/words.sh FILE...    these pages
+#        scripts/check/words.sh FILE...    these pages, and the comments of these sources
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . scripts/check/npm.sh
@@ -11,8 +11,9 @@ cd "$(dirname "$0")/../.."
 COVERED=('*.md' :!docs/results/soak.md)
 
 files=("$@")
-[ $# -gt 0 ] || mapfile -t files < <(git ls-files "${COVERED[@]}" | grep '\.md$')
-scripts/check/page_names.py "${files[@]}"
+[ $# -gt 0 ] || mapfile -t files < <(git ls-files "${COVERED[@]}")
+mapfile -t pages < <(printf '%s\n' "${files[@]}" | grep '\.md$')
+[ ${#pages[@]} -eq 0 ] || scripts/check/page_names.py "${pages[@]}"
 
 if ! install_check_tools; then
   echo "SKIPPED: words: cspell, textlint and write-good could not be installed from npm" >&2
@@ -23,6 +24,7 @@ work=build/words
 modules=$PWD/scripts/check/npm/node_modules
 rm -rf "$work"
 scripts/check/words.py "$work" "${files[@]}"
+mapfile -t copies < <(cd "$work" && find text -type f)
 ln -s "$modules" "$work/node_modules"  # where textlint looks for its rules
 cd "$work"
 
@@ -48,8 +50,8 @@ done
 
 failed=0
 for tool in cspell textlint write-good; do
-  run $tool "${files[@]/#/text/}" >findings || failed=1
-  sed -n "s|^$PWD/||; s|^text/||; /:/p" findings
+  run $tool "${copies[@]}" >findings || failed=1
+  sed -n "s|^$PWD/||; s|^text/||; s|\.txt:|:|; /:/p" findings
 done
 [ $failed -eq 1 ] || echo "words: ${#files[@]} files are clean"
 exit $failed
