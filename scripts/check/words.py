@@ -17,7 +17,8 @@ FENCE = re.compile(r"(?ms)^[ ]*```.*?^[ ]*```[ ]*$")
 COMMENTS = {(".h", ".hpp", ".c", ".cpp", ".inc", ".js", ".mjs", ".ts"): re.compile(r"(?<![:\"'\w/])//[^\n]*|/\*.*?\*/", re.S),
             (".py", ".sh", ".cmake", "CMakeLists.txt"): re.compile(r"(?m)(?<![^\s])#[^\n]*|\"{3}.*?\"{3}", re.S)}
 INLINE_CODE = re.compile(r"`(?:[^`\n]|\n(?!\n))+`")
-NOT_PROSE = [re.compile(pattern) for pattern in (r"<!--.*?-->", r"(?<=\])\([^)\n]*\)", r"https?://\S+", r"(?m)^    .*$", r"</?[a-z][^>\n]*>")]
+INDENTED_CODE = re.compile(r"(?m)^    .*$")
+NOT_PROSE = [re.compile(pattern) for pattern in (r"<!--.*?-->", r"(?<=\])\([^)\n]*\)", r"https?://\S+", r"</?[a-z][^>\n]*>")]
 
 
 def glossary_rows(text):
@@ -64,6 +65,7 @@ def copy_of(file, content):
     for endings, pattern in COMMENTS.items():
         if file.endswith(endings):
             return file + ".txt", prose(comments(content, pattern))
+    content = INDENTED_CODE.sub(lambda match: re.sub(r"\S", " ", match.group()), content)
     return file, prose(without_words_to_avoid(content) if Path(file) == GLOSSARY else content)
 
 

@@ -7,7 +7,7 @@ set -euo pipefail
 cd "$(dirname "$0")/../.."
 . scripts/check/npm.sh
 
-# Patterns of git ls-files. soak.md has a table of a test program.
+# Patterns of git ls-files, of pages and of sources, whose comments count. soak.md has a table of a test program.
 COVERED=('*.md' :!docs/results/soak.md)
 
 files=("$@")
