@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <initializer_list>
 #include <utility>
@@ -83,7 +84,10 @@ class RandomNetwork {
     const Index x = pick();
     const Map& map = twin.value(x);
     const bool is_vector = map.h == 1 && map.w == 1;
-    const int choice = between(0, 11);
+    const int choice = between(0, 14);
+    if (choice >= 12) {
+      return add_converted(x);
+    }
     if (choice >= 10) {
       return add_part(x);
     }
@@ -158,6 +162,82 @@ class RandomNetwork {
                        static_cast<std::uint16_t>(map.w > 2)};
     const auto kept = static_cast<std::uint32_t>(map.c - first);
     note(twin.slice(x, static_cast<std::uint16_t>(first), kept, margins), {x});
+  }
+
+  // A layer that only converted networks have.
+  void add_converted(Index x) {
+    const Map& map = twin.value(x);
+    switch (between(0, 4)) {
+      case 0:
+        return note(add_resize(x), {x});
+      case 1:
+        return note(add_rearrange(x, map), {x});
+      case 2:
+        return note(twin.normalize(x, 0.9f), {x});
+      case 3:
+        return note(add_curve(x), {x});
+      default:
+        return add_combination(x, map);
+    }
+  }
+
+  Index add_resize(Index x) {
+    const auto grid = static_cast<formats::ResizeGrid>(between(0, 2));
+    const auto sampling = static_cast<formats::ResizeSampling>(between(0, 4));
+    const auto height = between(1u, 15u);
+    return twin.resize(x, height, between(1u, 15u), grid, sampling);
+  }
+
+  Index add_rearrange(Index x, const Map& map) {
+    std::array<std::size_t, 3> sizes = {map.h, map.w, map.c};
+    std::swap(sizes[0], sizes[between(std::size_t{0}, std::size_t{2})]);
+    std::swap(sizes[1], sizes[between(std::size_t{1}, std::size_t{2})]);
+    const auto order = static_cast<formats::ReadingOrder>(between(0, 5));
+    return twin.rearrange(
+        x, order,
+        {static_cast<std::uint32_t>(sizes[0]), static_cast<std::uint32_t>(sizes[1]),
+         static_cast<std::uint32_t>(sizes[2])});
+  }
+
+  Index add_curve(Index x) {
+    const LayerActivation kinds[] = {LayerActivation::kHardSwish, LayerActivation::kSwish,
+                                     LayerActivation::kGelu, LayerActivation::kGeluTanh,
+                                     LayerActivation::kErf};
+    return activated(x, kinds[between(0, 4)]);
+  }
+
+  Index activated(Index x, LayerActivation kind) {
+    Options options;
+    options.activation = kind;
+    return twin.activation(x, options);
+  }
+
+  // x times, by or plus the nearest value that is as large or broadcast, x itself at worst. A
+  // factor lies in 0 .. 1, a divisor in 1/e .. e.
+  void add_combination(Index x, const Map& map) {
+    const auto fits = [](std::size_t size, std::size_t whole) {
+      return size == whole || size == 1;
+    };
+    Index other = twin.last();
+    while (other > 1 && !(fits(twin.value(other).h, map.h) && fits(twin.value(other).w, map.w) &&
+                          fits(twin.value(other).c, map.c))) {
+      --other;
+    }
+    const Map& b = twin.value(other);
+    other = fits(b.h, map.h) && fits(b.w, map.w) && fits(b.c, map.c) ? other : x;
+    const int kind = between(0, 2);
+    if (kind == 0) {
+      return note(twin.broadcast_add(x, other), {x, other});
+    }
+    const Index bounded =
+        activated(other, kind == 1 ? LayerActivation::kSigmoid : LayerActivation::kTanh);
+    note(bounded, {other});
+    if (kind == 1) {
+      return note(twin.multiply(x, bounded), {x, bounded});
+    }
+    const Index divisor = activated(bounded, LayerActivation::kExp);
+    note(divisor, {bounded});
+    note(twin.divide(x, divisor), {x, divisor});
   }
 
   void promote(Index value) {

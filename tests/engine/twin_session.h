@@ -67,7 +67,8 @@ inline void expect_map(const engine::Session& session, std::uint32_t output, con
 
 // Runs both for some steps with an arena that holds nothing but NaNs before each.
 inline void expect_twins_agree(const formats::MienWriter& writer, const std::string& name,
-                               TwinNetwork& twin, std::uint32_t cpu_mask, int steps = 3) {
+                               TwinNetwork& twin, std::uint32_t cpu_mask, int steps = 3,
+                               double slack = 1) {
   OwnedSession engine(finished(writer), name, {}, cpu_mask);
   ASSERT_EQ(engine.status, engine::Status::kOk) << engine::message(engine.status);
   twin.reset();
@@ -79,7 +80,7 @@ inline void expect_twins_agree(const formats::MienWriter& writer, const std::str
     const std::vector<Map> want = twin.run(input);
     for (std::uint32_t i = 0; i < twin.outputs().size(); ++i) {
       ASSERT_NO_FATAL_FAILURE(
-          expect_map(*engine.session, i, want[twin.outputs()[i]], twin_tolerance(cpu_mask)))
+          expect_map(*engine.session, i, want[twin.outputs()[i]], slack * twin_tolerance(cpu_mask)))
           << "step " << step;
     }
   }
