@@ -22,8 +22,9 @@ import atheris  # noqa: E402
 import numpy as np  # noqa: E402
 import onnx  # noqa: E402
 
-with atheris.instrument_imports(include=["onnx_to_mien", "activations", "arithmetic", "constants", "dense", "graph", "layers", "mien_file", "model", "moves",
-                                        "operands", "operators", "over_time", "pieces", "refusal", "resize", "tensors", "translator", "windows"]):
+with atheris.instrument_imports(include=["onnx_to_mien", "activations", "arithmetic", "constants", "dense", "evaluation", "graph", "layers", "mien_file", "model",
+                                        "moves", "operands", "operators", "over_time", "pieces", "precision", "refusal", "resize", "tensors", "translator",
+                                        "windows"]):
     import graph
     import onnx_to_mien
     import refusal

@@ -35,15 +35,16 @@ def product(t, x, weight, bias):
     if len(rows.at) <= max(t.steps, 1):
         y = t.whole(t.dense(t.rows(rows), weight, bias), len(rows.at))
         return y.moved(lambda part: part.reshape(*x.shape[:-1], len(weight)))
-    return at_every_pixel(t, rows, weight, bias).moved(lambda part: part.reshape(*x.shape[:-1], len(weight)))
+    return at_every_pixel(t, rows, x.shape[-3:-1], weight, bias).moved(lambda part: part.reshape(*x.shape[:-1], len(weight)))
 
 
-def at_every_pixel(t, rows, weight, bias):
-    """[h * w, n] times weight [out, n] -> [h * w, out]"""
+def at_every_pixel(t, rows, shape, weight, bias):
+    """[h * w, n] times weight [out, n] -> [h * w, out]. The rows are the pixels of a map, else of one of that shape."""
     numbers = rows.layer_numbers()
     require(len(numbers) > 0, "it reads nothing but constants")
     h, w, _ = t.real(numbers[0]).shape
-    require(len(rows.at) == h * w, f"{len(rows.at)} vectors of a map of {h} x {w}")
+    if len(rows.at) != h * w:
+        h, w = shape if len(shape) == 2 and shape[0] * shape[1] == len(rows.at) else (len(rows.at), 1)
     x = rows.moved(lambda part: part.T.reshape(1, -1, h, w))
     y = conv_over_map(t, x, weight[:, :, None, None], bias, 1, [1, 1], (0, 0, 0, 0))
     return y.moved(lambda part: part.reshape(len(weight), -1).T)

@@ -75,6 +75,7 @@ class Conversion:
         values.update(graph.constants)
         self.state_names = {}
         for name in others:
+            require(name not in graph.whole_numbers, f"input {name!r} is a whole number, which no layer reads; say which with --value {name}=NUMBER")
             values[name] = self.make_state(name, [n or 1 for n in shapes.get(name, graph.inputs[name])])
         self.run(values)
         self.take_outputs(values)

@@ -8,6 +8,7 @@ from onnx import numpy_helper
 from refusal import Refused, require
 
 OPSETS = range(9, 29)
+WHOLE_NUMBERS = (onnx.TensorProto.INT32, onnx.TensorProto.INT64, onnx.TensorProto.BOOL)
 MOST_EXTERNAL_BYTES = 1 << 31
 # What the attributes that operators read are; in a file they may be anything.
 KINDS = {
@@ -108,7 +109,17 @@ class Graph(Body):
         self.producer = f"{model.producer_name} {model.producer_version}".strip()
         super().__init__(graph, path.parent)
         self.inputs = {i.name: dimensions(i) for i in graph.input if i.name not in self.constants}
+        self.whole_numbers = {i.name for i in graph.input if i.type.tensor_type.elem_type in WHOLE_NUMBERS}
         require(self.inputs, "the graph has no input")
+
+    def fix(self, name, number):
+        """An input becomes a constant."""
+        shape = self.inputs.pop(name)
+        require(self.inputs, f"input {name!r} is the only one")
+        require(all(n in (None, 1) for n in shape), f"input {name!r}: not a single number (got a shape {shape})")
+        kind = np.int64 if name in self.whole_numbers else np.float32
+        require(kind is np.float32 or number == int(number), f"input {name!r}: not a whole number (got {number})")
+        self.constants[name] = np.full([1] * len(shape), number, kind)
 
     def puts_channels_first(self):
         """Whether it reads its input with channels last."""

@@ -108,7 +108,7 @@ def concat(t, node):
 
 def pad(t, node):
     x, mode = node.inputs[0], node.attributes.get("mode", "constant")
-    require(mode == "constant", f"padding of mode {mode!r}")
+    require(mode == "constant", f"padding of mode {mode!r}; zeros are possible: pad the input in your program and export the model without it")
     if t.opset < 11:
         amounts, value = node.attributes["pads"], node.attributes.get("value", 0.0)
     else:

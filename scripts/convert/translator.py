@@ -291,13 +291,15 @@ class Translator:
         return layer, steps, back
 
     def arranged_alike(self, given, channel_axis=None):
-        """The same for tensors of which the first is the largest, and the others have ones where they are broadcast."""
+        """The same for tensors of which the first is the largest, and the others have ones where they are broadcast. Elements of the first are
+        rearranged only where nothing else helps."""
         given, refusal = [self.settled(tensor) for tensor in given], None
         shape = given[0].shape
-        for rearranges in (False, True):
+        for first, others in ((False, False), (False, True), (True, True)):
             for groups in self.arrangements(shape, channel_axis):
                 try:
-                    layers = [self.as_map(tensor.moved(lambda part, groups=groups: grouped(part, groups)), rearranges) for tensor in given]
+                    layers = [self.as_map(tensor.moved(lambda part, groups=groups: grouped(part, groups)), others if i else first)
+                              for i, tensor in enumerate(given)]
                 except Refused as error:
                     refusal = refusal or error
                     continue

@@ -2,6 +2,8 @@
 import contextlib
 import io
 import json
+import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -11,6 +13,11 @@ import numpy as np  # noqa: E402
 import onnx_to_mien  # noqa: E402
 
 PROGRAM = sys.argv[1]
+MODULES = Path(os.environ.get("MIEN_CACHE", Path.home() / ".cache/mien")) / "peers"
+
+
+def runtime_is_here():
+    return shutil.which("node") and (MODULES / "node_modules/onnxruntime-node").is_dir()
 
 
 def convert(arguments):
@@ -55,3 +62,31 @@ def difference(got, wanted):
     if got.size != wanted.size:
         return f"{got.size} numbers, not {wanted.size}"
     return float(np.abs(got.reshape(-1) - wanted.reshape(-1)).max() / max(np.abs(wanted).max(), 1e-3))
+
+
+class Runtime:
+    """ONNX Runtime, all jobs in one process."""
+
+    def __init__(self, folder):
+        self.folder, self.jobs = folder, []
+
+    def add(self, model, steps, feedback):
+        """steps: arrays by name, one after another."""
+        number, described = len(self.jobs), []
+        for at, step in enumerate(steps):
+            described.append({})
+            for name, array in step.items():
+                path = self.folder / f"{number}.{at}.{name}.f32"
+                path.write_bytes(np.ascontiguousarray(array, np.float32).tobytes())
+                described[-1][name] = {"file": str(path), "shape": list(array.shape)}
+        self.jobs.append({"model": str(model), "steps": described, "feedback": feedback, "out": str(self.folder / str(number))})
+
+    def run(self):
+        (self.folder / "jobs.json").write_text(json.dumps(self.jobs))
+        done = subprocess.run(["node", Path(__file__).resolve().parent / "onnxruntime_run.mjs", MODULES, self.folder / "jobs.json"], capture_output=True, text=True,
+                              check=True)
+        return json.loads(done.stdout)
+
+    def outputs(self, number):
+        paths = sorted((path for path in self.folder.glob(f"{number}.*") if path.suffix[1:].isdigit()), key=lambda path: int(path.suffix[1:]))
+        return [np.frombuffer(path.read_bytes(), np.float32) for path in paths]

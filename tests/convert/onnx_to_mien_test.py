@@ -4,7 +4,8 @@
 usage: onnx_to_mien_test.py MIEN_PROGRAM      exit 77: Python's onnx package is missing here
 ONNX Runtime is the npm package that scripts/peers/install_onnxruntime.sh fetches. What cannot be compared here is said on standard output.
 """
-import json
+import contextlib
+import io
 import os
 import resource
 import shutil
@@ -23,53 +24,24 @@ try:
     import onnx
     import operator_cases
     import random_graphs
-    from conversion import PROGRAM, answered, convert, difference, time_axis
+    from conversion import PROGRAM, Runtime, answered, convert, difference, runtime_is_here, time_axis
 except ModuleNotFoundError as missing:
     print("skipped: no Python module", missing.name, "here; scripts/setup.sh convert installs it")
     sys.exit(77)
 try:
     import torch
 
+    import modern_networks
     import network_cases
 except ModuleNotFoundError as missing:
     torch = None
     print("NOT TESTED: networks exported by PyTorch, for want of the Python module", missing.name)
 
-MODULES = Path(os.environ.get("MIEN_CACHE", Path.home() / ".cache/mien")) / "peers"
-RUNTIME = shutil.which("node") and (MODULES / "node_modules/onnxruntime-node").is_dir()
-if not RUNTIME:
+if not runtime_is_here():
     print("NOT COMPARED: operators with ONNX Runtime; scripts/peers/install_onnxruntime.sh fetches it")
 RANDOM_GRAPHS = int(os.environ.get("MIEN_RANDOM_GRAPHS", 60))
 # Of the largest value. Weights of the operator cases are exact in fp16; a network's are rounded to 11 bits.
 OPERATOR_TOLERANCE, ROUNDED_TOLERANCE = 2e-5, 2e-3
-
-
-class Runtime:
-    """ONNX Runtime, all jobs in one process."""
-
-    def __init__(self, folder):
-        self.folder, self.jobs = folder, []
-
-    def add(self, model, steps, feedback):
-        """steps: arrays by name, one after another."""
-        number, described = len(self.jobs), []
-        for at, step in enumerate(steps):
-            described.append({})
-            for name, array in step.items():
-                path = self.folder / f"{number}.{at}.{name}.f32"
-                path.write_bytes(np.ascontiguousarray(array, np.float32).tobytes())
-                described[-1][name] = {"file": str(path), "shape": list(array.shape)}
-        self.jobs.append({"model": str(model), "steps": described, "feedback": feedback, "out": str(self.folder / str(number))})
-
-    def run(self):
-        (self.folder / "jobs.json").write_text(json.dumps(self.jobs))
-        done = subprocess.run(["node", HERE / "onnxruntime_run.mjs", MODULES, self.folder / "jobs.json"], capture_output=True, text=True,
-                              check=True)
-        return json.loads(done.stdout)
-
-    def outputs(self, number):
-        paths = sorted((path for path in self.folder.glob(f"{number}.*") if path.suffix[1:].isdigit()), key=lambda path: int(path.suffix[1:]))
-        return [np.frombuffer(path.read_bytes(), np.float32) for path in paths]
 
 
 class Folder(unittest.TestCase):
@@ -108,7 +80,7 @@ class Operators(Folder):
             if case.answer:
                 with self.subTest(case.name):
                     self.assertLess(difference(answers[-1][0], case.answer(case, steps[0]["x"])), ROUNDED_TOLERANCE)
-        if not RUNTIME:
+        if not runtime_is_here():
             return
         failures = runtime.run()
         for number, (case, answer) in enumerate(zip(cases, answers)):
@@ -177,7 +149,7 @@ class Networks(Folder):
             begin = {state: np.zeros(shape) for state, shape in states.items()}
             outputs = [o.name for o in onnx.load(str(model)).graph.output]
             runtime.add(model, [{"x": step["x"].numpy(), **begin} for step in steps], dict(zip(states, outputs[1:])))
-        if not RUNTIME:
+        if not runtime_is_here():
             return
         failures = runtime.run()
         self.assertEqual(failures, {})
@@ -187,6 +159,33 @@ class Networks(Folder):
                     error = difference(answer, want)
                     print(f"{name}: {error:.1e} of the largest value off ONNX Runtime")
                     self.assertLess(error, ROUNDED_TOLERANCE)
+
+    def test_networks_of_today(self):
+        """As PyTorch exports them by default, too, where its exporter of today is."""
+        ways = [False] + [True] * modern_networks.has_default_export()
+        if len(ways) == 1:
+            print("NOT TESTED: PyTorch's default export, for want of onnxscript or PyTorch 2.5")
+        for by_default in ways:
+            torch.manual_seed(6)
+            for name, network in modern_networks.networks():
+                with self.subTest(name, by_default=by_default):
+                    self.check_network_of_today(name, network, by_default)
+
+    def check_network_of_today(self, name, network, by_default):
+        model = self.folder / f"{name}.onnx"
+        with warnings.catch_warnings(), contextlib.redirect_stdout(io.StringIO()):
+            warnings.simplefilter("ignore")
+            modern_networks.exported(network, str(model), by_default)
+        status, _ = convert([model, "-o", model.with_suffix(".mien")])
+        self.assertEqual(status, 0)
+        x = torch.randn(modern_networks.SHAPE)
+        with torch.no_grad():
+            wanted = network(x).numpy()
+        got, = answered(self.folder, model.with_suffix(".mien"), x.numpy())
+        self.assertLess(difference(got, wanted), 1e-3)
+        if by_default:
+            self.assertGreaterEqual(onnx.load(str(model)).opset_import[0].version, 18)
+            self.assertTrue(model.with_suffix(".onnx.data").exists())
 
     def pytorch(self, network, steps, states):
         with torch.no_grad():
@@ -232,6 +231,37 @@ class Program(Folder):
                           constants={"w": operator_cases.weights(60, 3)})
         status, _ = convert([path, "-o", self.folder / "any.mien", "--any-size"])
         self.assertIn("Gemm 'the_gemm': net: fully_connected in a network of any size", status)
+
+    def with_a_rate(self, shape):
+        """A model that doubles its input when its second input, a whole number, is 16000, and else triples it."""
+        case = operator_cases.Case("net", [operator_cases.node("Equal", "rate k", "same"), operator_cases.node("Where", "same two three", "factor"),
+                                           operator_cases.node("Mul", "x factor")], {"x": [1, 3, 4, 5]},
+                                   constants={"k": np.int64(16000), "two": np.float32(2), "three": np.float32(3)})
+        model = case.model()
+        model.graph.input.append(onnx.helper.make_tensor_value_info("rate", onnx.TensorProto.INT64, shape))
+        path = self.folder / "rate.onnx"
+        path.write_bytes(model.SerializeToString())
+        return path
+
+    def test_an_input_that_is_a_number_becomes_a_constant(self):
+        x = np.random.default_rng(1).standard_normal((3, 4, 5)).astype(np.float32)
+        for shape in ([], [1]):
+            for rate, factor in ((16000, 2), (8000, 3)):
+                status, _ = convert([self.with_a_rate(shape), "-o", self.folder / "y.mien", "--value", f"rate={rate}"])
+                self.assertEqual(status, 0)
+                np.testing.assert_allclose(answered(self.folder, self.folder / "y.mien", x)[0], factor * x, rtol=1e-6)
+
+    def test_an_input_that_is_a_number_and_is_not_given(self):
+        for arguments, refusal in (((), "input 'rate' is a whole number, which no layer reads; say which with --value rate=NUMBER"),
+                                   (("--value", "rate=0.5"), "input 'rate': not a whole number (got 0.5)"),
+                                   (("--value", "none=1"), "no input 'none'; there is x, rate"),
+                                   (("--value", "x=1"), "input 'x': not a single number (got a shape [1, 3, 4, 5])")):
+            with self.subTest(refusal):
+                self.assertIn(refusal, convert([self.with_a_rate([]), "-o", self.folder / "y.mien", *arguments])[0])
+                self.assertFalse((self.folder / "y.mien").exists())
+        with contextlib.redirect_stderr(io.StringIO()) as said:
+            self.assertEqual(convert([self.with_a_rate([]), "-o", self.folder / "y.mien", "--value", "rate"])[0], 2)
+        self.assertIn("'rate' is not INPUT=NUMBER", said.getvalue())
 
     def test_files_that_are_none(self):
         (self.folder / "text.onnx").write_text("not a network")
