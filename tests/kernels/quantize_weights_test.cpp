@@ -52,7 +52,7 @@ void check(const kernels::Entry& entry, int reduction, float bias, bool is_signe
   const std::vector<std::uint16_t> weights = random_weights(reduction, bias);
   std::vector<std::int16_t> pairs(weights.size());
   float scales[kOutputs];
-  const QuantizeWeightsArgs args{weights.data(), pairs.data(), scales,    reduction / 8,
+  const QuantizeWeightsArgs args{weights.data(), pairs.data(), scales,   reduction / 8,
                                  kOutBlocks,     32767,        is_signed};
   reinterpret_cast<kernels::Kernel<QuantizeWeightsArgs>>(entry.function)(args);
   for (const Reach& one : reaches(pairs, reduction)) {

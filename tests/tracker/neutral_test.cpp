@@ -132,8 +132,7 @@ TEST(Calibration, OfAStillFaceLeavesNothing) {
     }
     EXPECT_NEAR(counted, kCaptureFrames, 1);
     for (int i = 0; i < MIEN_CONTROL_COUNT; ++i) {
-      const float left =
-          std::max(0.0f, (raw.controls[i] - Neutral::kMax)) / (1 - Neutral::kMax);
+      const float left = std::max(0.0f, (raw.controls[i] - Neutral::kMax)) / (1 - Neutral::kMax);
       EXPECT_NEAR(result.controls[i], left, 0.02f) << i;
     }
     std::uint32_t captured = 0;
