@@ -213,7 +213,7 @@ class XmlParser {
     if (!decode(end, found)) {
       return false;
     }
-    last_->text += trimmed(found);
+    last_->text += trimmed(found, kBlanks);
     return true;
   }
 

@@ -1,0 +1,129 @@
+// Tags of XML, and where they and their faults are.
+#include "formats/animation/xml.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "formats/animation/fault.h"
+
+namespace mien::formats {
+namespace {
+
+using testing::ElementsAre;
+
+std::vector<XmlTag> tags_of(const std::string& text) {
+  std::vector<XmlTag> tags;
+  Fault fault;
+  const auto keep = [&tags](const XmlTag& tag) {
+    tags.push_back(tag);
+    return true;
+  };
+  EXPECT_TRUE(parse_xml(text, keep, fault)) << describe(fault);
+  return tags;
+}
+
+std::string fault_of(const std::string& text) {
+  Fault fault;
+  const auto keep = [](const XmlTag&) { return true; };
+  return parse_xml(text, keep, fault) ? "none" : describe(fault);
+}
+
+std::string repeated(const std::string& text, std::size_t times) {
+  std::string all;
+  for (std::size_t i = 0; i < times; ++i) {
+    all += text;
+  }
+  return all;
+}
+
+std::string attributes(std::size_t count) {
+  std::string all;
+  for (std::size_t i = 0; i < count; ++i) {
+    all += " a" + std::string(i, 'a') + "='1'";
+  }
+  return all;
+}
+
+TEST(Xml, TagsKnowTheirPlace) {
+  std::vector<std::string> places;
+  for (const XmlTag& tag : tags_of("<?xml?>\n <a>\n\n<b/>text\n  </a>\n")) {
+    places.push_back((tag.closes ? "/" : "") + tag.name + " " + std::to_string(tag.line) + ":" +
+                     std::to_string(tag.column));
+  }
+  EXPECT_THAT(places, ElementsAre("a 2:2", "b 4:1", "/b 4:1", "/a 5:3"));
+}
+
+TEST(Xml, AnEmptyElementIsTwoTags) {
+  const std::vector<XmlTag> tags = tags_of("<a><b c='1'/> x </a>");
+  ASSERT_EQ(tags.size(), 4u);
+  EXPECT_EQ(tags[1].attributes.size(), 1u);
+  EXPECT_FALSE(tags[1].closes);
+  EXPECT_TRUE(tags[2].closes);
+  EXPECT_TRUE(tags[2].attributes.empty());
+  EXPECT_EQ(tags[1].text, "");
+  EXPECT_EQ(tags[2].text, "x");
+}
+
+TEST(Xml, NamesHaveLettersDigitsAndFourSigns) {
+  for (const char c : std::string("azAZ09_-.:")) {
+    EXPECT_EQ(tags_of(std::string("<") + c + "/>")[0].name, std::string(1, c));
+  }
+  for (const char c : std::string("`{@[;/,^")) {
+    EXPECT_NE(fault_of(std::string("<a") + c + "></a" + c + ">"), "none") << c;
+  }
+}
+
+TEST(Xml, TextHasNoBlanksAroundItAndGoesOnBehindAComment) {
+  const std::vector<XmlTag> tags =
+      tags_of("<a>\t\r\n x  y \n<!-- <b> -->\tz&amp;&lt;&gt;&quot;&apos;</a>");
+  ASSERT_EQ(tags.size(), 2u);
+  EXPECT_EQ(tags[0].text, "x  yz&<>\"'");
+}
+
+TEST(Xml, TakesSixtyFourElementsAndAttributes) {
+  EXPECT_EQ(tags_of(repeated("<a>", 64) + repeated("</a>", 64)).size(), 128u);
+  EXPECT_EQ(fault_of(repeated("<a>", 64) + "<b/>"), "line 1, column 193: too deeply nested");
+  EXPECT_EQ(tags_of("<a" + attributes(64) + "/>")[0].attributes.size(), 64u);
+  EXPECT_EQ(fault_of("<a" + attributes(65) + "/>").substr(0, 7), "line 1,");
+}
+
+TEST(Xml, FaultsSayWhere) {
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"\n x", "line 2, column 2: a tag has to be here"},
+      {"<a/>\n<?xml", "line 2, column 1: ?> is missing"},
+      {"<a>\n<!-- ->", "line 2, column 1: --> is missing"},
+      {"<a>\n<>", "line 2, column 2: a tag's name has to be here"},
+      {"<a/>\n <b/>", "line 2, column 2: a second outermost element"},
+      {"<a>\n\n</b>", "line 3, column 1: </b> closes nothing"},
+      {"<a>\n", "line 2, column 1: <a> is not closed"},
+      {"<a></a\n x>", "line 2, column 2: '>' has to be here"},
+      {"<a\n '1'>", "line 2, column 2: an attribute or '>' has to be here"},
+      {"<a\n b c>", "line 2, column 4: '=' has to be here"},
+      {"<a b=\n1>", "line 2, column 1: a quotation mark has to be here"},
+      {"<a b='1'\nb='2'>", "line 2, column 3: 'b' is there twice"},
+      {"<a b=\n 'x>", "line 2, column 2: a quotation mark has no other"},
+      {"<a b='\n&amp;&auml;'>", "line 2, column 6: an entity that is not known"},
+      {"<a>\n &amp</a>", "line 2, column 2: an entity that is not known"},
+      {"<a/>\n\n  x", "line 3, column 3: text outside the outermost element"}};
+  for (const auto& [text, fault] : cases) {
+    EXPECT_EQ(fault_of(text), fault) << text;
+  }
+}
+
+TEST(Xml, ReadingEndsWhereTheVisitorSaysSo) {
+  for (const std::size_t most : {1u, 2u, 3u}) {
+    std::size_t visited = 0;
+    Fault fault;
+    const auto some = [&](const XmlTag&) { return ++visited < most; };
+    EXPECT_FALSE(parse_xml("<a><b/></a>", some, fault));
+    EXPECT_EQ(visited, most);
+  }
+}
+
+}  // namespace
+}  // namespace mien::formats
