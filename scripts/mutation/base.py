@@ -41,7 +41,8 @@ class Base:
                 path.unlink()
         whole_files = f"-DCMAKE_PROJECT_INCLUDE={pathlib.Path(__file__).parent / 'whole_files.cmake'}"
         environment = dict(os.environ, CCACHE_BASEDIR=str(self.source))
-        for command in (["cmake", *OPTIONS, whole_files], ["ninja", "-C", self.build_folder, *targets]):
+        configure = [] if (self.build_folder / "build.ninja").is_file() else [["cmake", *OPTIONS, whole_files]]
+        for command in (*configure, ["ninja", "-C", self.build_folder, *targets]):
             subprocess.run(command, cwd=self.source, env=environment, check=True, stdout=subprocess.DEVNULL)
         self._read_commands()
         self._read_dependencies()
