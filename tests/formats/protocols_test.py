@@ -85,6 +85,19 @@ def eyes_of(frame):
     return look("Left", "eyeLookOutLeft", "eyeLookInLeft"), look("Right", "eyeLookInRight", "eyeLookOutRight")
 
 
+def openseeface_features(control):
+    share = lambda value: min(max(value, -1), 1)
+    eyes, brows, corners, widths = [], [], [], []
+    for side in "Left", "Right":
+        of = lambda name, side=side: control(name + side)
+        inner = control("browInnerUp")
+        eyes.append(of("eyeWide") - of("eyeBlink"))
+        brows += [share(of("browDown") - inner), share((inner + of("browOuterUp")) / 2 - of("browDown")), share(of("browOuterUp") - inner)]
+        widths.append(share(max(of("mouthSmile"), of("mouthStretch")) - control("mouthPucker")))
+        corners += [share(of("mouthSmile") - of("mouthFrown")), widths[-1]]
+    return [*eyes, *brows, *corners, max(0, control("jawOpen") - control("mouthClose")), sum(widths) / 2]
+
+
 class Protocols(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -186,8 +199,7 @@ class Protocols(unittest.TestCase):
                 self.near(a, b, 1e-5)
             features = got["features"]
             self.assertTrue(all(-1 <= f <= 1 for f in features))
-            self.near(features[:2], [control("eyeWide" + s) - control("eyeBlink" + s) for s in ("Left", "Right")])
-            self.near(features[12:13], [max(0, control("jawOpen") - control("mouthClose"))])
+            self.near(features, openseeface_features(control))
             if "head" in frame and number % 20 == 0:  # which takes long
                 self.check_openseeface_space(frame, got)
 
@@ -219,7 +231,30 @@ class Protocols(unittest.TestCase):
         x, y, z = got["euler"]
         self.near([(z - 90) % 360, (x + 180) % 360 % 360, y], [0, 0, 0], 1e-4)  # as OpenSee.cs of Unity reads them
         tx, ty, tz = got["translation"]
-        self.assertGreater(-tz, 0)
+        self.near([tz * 0.14], [-0.7 + 0.118], 1e-6)  # the tip of the nose before the middle of the head
+
+    # All landmarks are in the middle of the picture, so that what is left of a point is its depth.
+    def test_openseeface_depths_are_those_of_a_face(self):
+        frame = {"t_ns": 0, "controls": {}, "head": STRAIGHT, "position_m": [0, 0, -0.7], "box": [320, 240, 0, 0]}
+        (packet,), = packets_of("osf", [frame])
+        depths = [-z * 0.14 for _, _, z in decode.openseeface(packet)["points"]]  # before the tip of the nose, metres
+        contours = {"jaw": range(17), "right brow": range(17, 22), "left brow": range(22, 27), "nose": range(27, 31),
+                    "nostrils": range(31, 36), "right eye": range(36, 42), "left eye": range(42, 48), "lips": range(48, 58),
+                    "inside": range(58, 66)}
+        for name, contour in contours.items():
+            for a, b in zip(contour, contour[1:]):
+                self.assertLess(abs(depths[a] - depths[b]), 0.0185, (name, a))
+        self.assertTrue(all(-0.11 < depth <= 1e-9 for depth in depths[:68]))
+        self.assertEqual(depths[27:31], sorted(depths[27:31]))
+        mirrored = [(i, 16 - i) for i in range(8)] + [(17 + i, 26 - i) for i in range(5)] + [(31, 35), (32, 34)]
+        mirrored += [(36, 45), (37, 44), (38, 43), (39, 42), (40, 47), (41, 46), (48, 52), (49, 51), (53, 57), (54, 56)]
+        mirrored += [(58, 62), (59, 61), (63, 65), (66, 67)]
+        for a, b in mirrored:
+            self.assertAlmostEqual(depths[a], depths[b], 6, (a, b))
+        lip, chin, pupil, corners = depths[50], depths[8], depths[66], depths[36:42:3]
+        self.assertTrue(chin < lip and pupil > min(corners) and pupil < depths[38] + 0.01)
+        for eyeball in depths[68:70]:  # behind the middle of the corners
+            self.assertAlmostEqual(eyeball, sum(corners) / 2 - 0.385 * abs(corners[0] - corners[1]), 6)
 
 
 if __name__ == "__main__":
