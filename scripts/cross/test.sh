@@ -33,11 +33,11 @@ esac
 elsewhere='ConformanceProgram|conformance\.|package|convert|train|apps|formats\.(locale|protocols)|Kernels/Conformance'
 # Without --full, under an emulator, tests that take more than a tenth of a second natively and so many seconds under emulation: long streams
 # and clips, which other machines run. What stays has at least one test of every part, and one with the trained networks.
-slow='Allocation\.OneBy|Calibration\.|Equivariance\.|FrontEnd\.BlocksDoNotMatter|Images\.(OfEverySize|FourK)|Levels\.|Reset\.'
-slow+='|Resampler\.(Blocks|Counts|Passes|Stops)|SeveralFaces\.[^AR]|SeveralFaces\.AStranger|Soak\.|AudioClock\.Follows|Timestamps\.Any'
-slow+='|Following\.(AcceptsMore|AFaceKeeps|ANewSize|DecodersBeginAnewWhen|FindsDiscs|Follows|Loses|Searches)|Trained\.([^T]|TheFace)|TrainedLevels\.'
-slow+='|Interleavings\.|Trackers\.MayBeMade|Camera\.|Microphone\.|Clocks\.|FloatState\.Denormals'
-slow+='|Voice\.(Blocks|IsHeard|IsMixed|LetsGo|Survives|TakesOver)'
+slow='Allocation\.CreateAllocatesOnce|Calibration\.|Equivariance\.|FrontEnd\.FeaturesDoNotDependOnBlockSize|Images\.(MayHaveAnySize|MayBeFourK)'
+slow+='|Levels\.|Reset\.|Resampler\.(Outputs?|Passes|Attenuates)|SeveralFaces\.([^DRT]|DetectsNew|TracksAtMost|TheOlder)|Soak\.|AudioClock\.Follows'
+slow+='|Timestamps\.Any|Tracking\.(AcceptsMore|FaceKeeps|NewSize|DetectionResets|DetectsDiscs|DetectsLess|SearchInterval|TracksA|Loses)|Trained\.[^T]'
+slow+='|TrainedLevels\.|Interleavings\.|Trackers\.MayBeCreated|Camera\.|Microphone\.|Clocks\.|FloatState\.ResultsDoNotDependOnDenormals'
+slow+='|AudioTrack\.(Accepts|Acts|Fades|Mixes|Replaces|ResultsDoNot)'
 
 scripts/setup.sh build $packages_of
 build=build/cross/$target

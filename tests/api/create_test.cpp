@@ -31,9 +31,9 @@ class Create : public testing::Test {
   Config config_ = blob_config(basenet_, proposal_);
 };
 
-TEST_F(Create, DefaultsWork) { EXPECT_EQ(create(), MIEN_OK); }
+TEST_F(Create, SucceedsWithDefaults) { EXPECT_EQ(create(), MIEN_OK); }
 
-TEST_F(Create, NullArguments) {
+TEST_F(Create, RejectsNullArguments) {
   mien_tracker* tracker = nullptr;
   std::size_t bytes = 1;
   EXPECT_EQ(mien_tracker_create(nullptr, &tracker), MIEN_ERROR_NULL_ARGUMENT);
@@ -68,7 +68,7 @@ TEST_F(Create, NullArguments) {
   EXPECT_EQ(create_with([](Config& c) { c.proposal = nullptr; }), MIEN_ERROR_NULL_ARGUMENT);
 }
 
-TEST_F(Create, ValuesOutOfRange) {
+TEST_F(Create, RejectsValuesOutOfRange) {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   const auto refused = [&](auto change) { return create_with(change) == MIEN_ERROR_OUT_OF_RANGE; };
   for (float bad : {-0.1f, 1.1f, kNan}) {
@@ -104,7 +104,7 @@ TEST_F(Create, ValuesOutOfRange) {
   }
 }
 
-TEST_F(Create, LevelsOfDetailByTheWeightsThereAre) {
+TEST_F(Create, LevelsOfDetailDependOnTheWeights) {
   const AlignedBytes hifinet = blob_hifinet();
   const auto with_hifinet = [&](Config& c) {
     c.hifinet = hifinet.get().data();
@@ -150,14 +150,14 @@ TEST_F(Create, LevelsOfDetailByTheWeightsThereAre) {
   }
 }
 
-TEST_F(Create, CpuMask) {
+TEST_F(Create, RejectsCpuMasksWithoutATier) {
   EXPECT_EQ(create_with([](Config& c) { c.cpu_mask = 0; }), MIEN_ERROR_UNSUPPORTED_CPU);
   EXPECT_EQ(create_with([](Config& c) { c.cpu_mask = ~mien_cpu_tiers(); }),
             MIEN_ERROR_UNSUPPORTED_CPU);
   EXPECT_EQ(create_with([](Config& c) { c.cpu_mask = MIEN_CPU_REF; }), MIEN_OK);
 }
 
-TEST_F(Create, WrongWeights) {
+TEST_F(Create, RejectsInvalidWeights) {
   std::vector<std::byte> bytes(basenet_.get().begin(), basenet_.get().end());
   const auto status_of = [&](const std::vector<std::byte>& file) {
     const AlignedBytes aligned(file);
@@ -185,7 +185,7 @@ TEST_F(Create, WrongWeights) {
             MIEN_ERROR_ALIGNMENT);
 }
 
-TEST_F(Create, WeightsOfAnotherShape) {
+TEST_F(Create, RejectsWeightsOfAnotherShape) {
   const auto status_of = [&](const BlobOptions& options) {
     const AlignedBytes file = blob_basenet(options);
     return create_with([&](Config& c) {
@@ -206,7 +206,7 @@ TEST_F(Create, WeightsOfAnotherShape) {
   EXPECT_EQ(status_of(head), MIEN_ERROR_WEIGHTS_INCOMPLETE);
 }
 
-TEST_F(Create, StructSizeOfOtherVersions) {
+TEST_F(Create, AcceptsConfigurationsOfOtherVersions) {
   EXPECT_EQ(create_with([](Config& c) { c.struct_size = 0; }), MIEN_ERROR_STRUCT_SIZE);
   EXPECT_EQ(
       create_with([](Config& c) { c.struct_size = offsetof(mien_tracker_config, allocator) - 1; }),
@@ -227,7 +227,7 @@ TEST_F(Create, StructSizeOfOtherVersions) {
   mien_tracker_destroy(tracker);
 }
 
-TEST_F(Create, ResultStructsOfOtherVersions) {
+TEST_F(Create, AcceptsResultsOfOtherVersions) {
   Tracker tracker;
   ASSERT_EQ(tracker.create(config_), MIEN_OK);
   const Buffer disc(disc_picture(160.0f, 120.0f, 70.0f), {});
@@ -262,7 +262,7 @@ TEST_F(Create, ResultStructsOfOtherVersions) {
   EXPECT_EQ(tracker.get_result(tiny), MIEN_ERROR_STRUCT_SIZE);
 }
 
-TEST_F(Create, InTheCallersMemory) {
+TEST_F(Create, WorksInTheCallersMemory) {
   mien_status status = MIEN_ERROR_INTERNAL;
   const std::size_t bytes = required_bytes(config_, status);
   ASSERT_EQ(status, MIEN_OK);
@@ -294,7 +294,7 @@ TEST_F(Create, InTheCallersMemory) {
   EXPECT_EQ(memory[bytes], std::byte{0xAA});
 }
 
-TEST_F(Create, ManyTimes) {
+TEST_F(Create, WorksManyTimes) {
   for (int i = 0; i < 200; ++i) {
     ASSERT_EQ(create(), MIEN_OK);
   }

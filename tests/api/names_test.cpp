@@ -13,7 +13,7 @@
 namespace mien::tests {
 namespace {
 
-TEST(Names, EveryStatusOfTheHeaderHasItsOwnMessage) {
+TEST(Names, EveryStatusHasItsOwnMessage) {
   std::ifstream header(MIEN_SOURCE_DIR "/include/mien/mien.h");
   std::stringstream text;
   text << header.rdbuf();
@@ -57,7 +57,7 @@ TEST(Names, Controls) {
   }
 }
 
-TEST(Names, LandmarksAreThoseOfTheTable) {
+TEST(Names, LandmarkCountMatchesTheTable) {
   std::ifstream table(MIEN_SOURCE_DIR "/models/landmarks.json");
   std::stringstream text;
   text << table.rdbuf();

@@ -34,7 +34,7 @@ class CNetwork : public testing::Test {
   mien_network* network = nullptr;
 };
 
-TEST_F(CNetwork, RunsInTenLinesOfC) {
+TEST_F(CNetwork, RunsFromC) {
   const std::vector<float> image = golden("encoder_input"), want = golden("encoder_output");
   std::vector<float> features(want.size());
   ASSERT_EQ(mien_c_network(config.file, config.file_bytes, image.data(),
@@ -45,7 +45,7 @@ TEST_F(CNetwork, RunsInTenLinesOfC) {
   }
 }
 
-TEST_F(CNetwork, TakesTheFirstWithoutAName) {
+TEST_F(CNetwork, DefaultsToTheFirstNetwork) {
   ASSERT_EQ(create(nullptr), MIEN_OK);
   mien_shape shape{};
   EXPECT_NE(mien_network_input(network, &shape), nullptr);
@@ -66,7 +66,7 @@ TEST_F(CNetwork, RunsOnLargerMaps) {
   EXPECT_EQ(mien_network_output(network, -1, &shape), nullptr);
 }
 
-TEST_F(CNetwork, RemembersUntilReset) {
+TEST_F(CNetwork, KeepsStateUntilReset) {
   ASSERT_EQ(create("temporal"), MIEN_OK);
   const std::vector<float> inputs = golden("temporal_input");
   const auto step = [&] {
@@ -81,13 +81,13 @@ TEST_F(CNetwork, RemembersUntilReset) {
   EXPECT_EQ(step(), first);
 }
 
-TEST_F(CNetwork, HalfPrecisionHasToBeAskedFor) {
+TEST_F(CNetwork, ExcludesHalfPrecisionByDefault) {
   mien_network_config fresh;
   mien_network_config_default(&fresh);
   EXPECT_EQ(fresh.cpu_mask, MIEN_CPU_ALL & ~MIEN_CPU_HALF);
 }
 
-TEST_F(CNetwork, SaysWhatIsWrong) {
+TEST_F(CNetwork, ReportsErrors) {
   EXPECT_EQ(create("nobody"), MIEN_ERROR_WEIGHTS_INCOMPLETE);
   EXPECT_EQ(network, nullptr);
   config.height = 30;
@@ -113,7 +113,7 @@ TEST_F(CNetwork, SaysWhatIsWrong) {
   EXPECT_EQ(mien_network_create(&config, nullptr), MIEN_ERROR_NULL_ARGUMENT);
 }
 
-TEST_F(CNetwork, NullIsHarmless) {
+TEST_F(CNetwork, AcceptsNull) {
   mien_network_config_default(nullptr);
   mien_network_destroy(nullptr);
   mien_network_reset(nullptr);
@@ -123,7 +123,7 @@ TEST_F(CNetwork, NullIsHarmless) {
   EXPECT_EQ(mien_network_output(nullptr, 0, nullptr), nullptr);
 }
 
-TEST_F(CNetwork, AsksTheAllocatorOnceAndGivesItBack) {
+TEST_F(CNetwork, AllocatesOnceAndReleases) {
   struct Counts {
     int allocations = 0, releases = 0;
     bool empty = false;

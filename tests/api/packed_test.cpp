@@ -43,7 +43,7 @@ class Packed : public testing::Test {
   }();
 };
 
-TEST_F(Packed, ComeOutAsTheyWent) {
+TEST_F(Packed, UnpacksTheOriginalBytes) {
   ASSERT_EQ(size_of(packed), MIEN_OK);
   ASSERT_EQ(unpacked_bytes, original.size());
   ASSERT_EQ(unpack(packed, unpacked_bytes), MIEN_OK);
@@ -57,7 +57,7 @@ TEST_F(Packed, ComeOutAsTheyWent) {
   mien_network_destroy(network);
 }
 
-TEST_F(Packed, MayLieAnywhere) {
+TEST_F(Packed, AcceptsAnyAlignment) {
   Bytes shifted(1, std::byte{1});
   shifted.insert(shifted.end(), packed.begin(), packed.end());
   ASSERT_EQ(mien_unpack(shifted.data() + 1, packed.size(), memory.data(), original.size()),
@@ -65,14 +65,14 @@ TEST_F(Packed, MayLieAnywhere) {
   EXPECT_EQ(std::memcmp(memory.data(), original.data(), original.size()), 0);
 }
 
-TEST_F(Packed, LeaveMemoryBehindTheFileAlone) {
+TEST_F(Packed, KeepsMemoryBehindTheFile) {
   ASSERT_EQ(unpack(packed, memory.size()), MIEN_OK);
   EXPECT_EQ(std::memcmp(memory.data(), original.data(), original.size()), 0);
   EXPECT_TRUE(std::all_of(memory.begin() + static_cast<std::ptrdiff_t>(original.size()),
                           memory.end(), [](std::byte b) { return b == kBefore; }));
 }
 
-TEST_F(Packed, RefuseWrongArguments) {
+TEST_F(Packed, RejectsInvalidArguments) {
   EXPECT_EQ(mien_unpacked_bytes(nullptr, 1, &unpacked_bytes), MIEN_ERROR_NULL_ARGUMENT);
   EXPECT_EQ(mien_unpacked_bytes(packed.data(), packed.size(), nullptr), MIEN_ERROR_NULL_ARGUMENT);
   EXPECT_EQ(mien_unpack(nullptr, 1, memory.data(), memory.size()), MIEN_ERROR_NULL_ARGUMENT);
@@ -85,7 +85,7 @@ TEST_F(Packed, RefuseWrongArguments) {
   EXPECT_TRUE(memory_is(kBefore));
 }
 
-TEST_F(Packed, SayWhatIsWrongWithThem) {
+TEST_F(Packed, ReportsErrors) {
   const auto expect = [&](const Bytes& bytes, mien_status status) {
     unpacked_bytes = 7;
     EXPECT_EQ(size_of(bytes), status);
@@ -109,7 +109,7 @@ TEST_F(Packed, SayWhatIsWrongWithThem) {
   expect(longer, MIEN_ERROR_WEIGHTS_MALFORMED);
 }
 
-TEST_F(Packed, LeaveNothingHalfDone) {
+TEST_F(Packed, ZeroesTheFileOnError) {
   Bytes bytes = packed;
   bytes.back() ^= std::byte{1};
   EXPECT_EQ(size_of(bytes), MIEN_OK);

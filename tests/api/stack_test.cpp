@@ -12,7 +12,7 @@
 namespace mien::tests {
 namespace {
 
-TEST(Stack, IsAsSmallAsTheHeaderSays) {
+TEST(Stack, StaysWithinTheDocumentedLimits) {
   const AlignedBytes basenet = blob_basenet();
   const AlignedBytes proposal = blob_proposal();
   const AlignedBytes hifinet = blob_hifinet();
@@ -48,7 +48,7 @@ TEST(Stack, IsAsSmallAsTheHeaderSays) {
   EXPECT_TRUE(result.has_face());
 }
 
-TEST(Stack, IsEnoughToUnpackWeights) {
+TEST(Stack, SufficesToUnpackWeights) {
   AlignedBuffer packed = read_file(MIEN_SOURCE_DIR "/tests/golden/packed/accept/small.packed");
   AlignedBuffer file(4096);
   mien_status status = MIEN_ERROR_INTERNAL;

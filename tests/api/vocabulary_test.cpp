@@ -72,7 +72,7 @@ TEST(Vocabulary, SizesAndNames) {
   }
 }
 
-TEST(Vocabulary, ArkitIsTheControls) {
+TEST(Vocabulary, ArkitEqualsTheControls) {
   Controls controls;
   std::mt19937 random(1);
   std::generate(controls.begin(), controls.end(),
@@ -114,7 +114,7 @@ TEST(Vocabulary, RobloxHasTheOrderOfItsEnum) {
   EXPECT_EQ(name(49), "TongueUp");
 }
 
-TEST(Vocabulary, RobloxMixesWhatHasOneName) {
+TEST(Vocabulary, RobloxCombinesControls) {
   constexpr int kRoblox = MIEN_VOCABULARY_ROBLOX;
   const Controls looks = with({{"eyeLookOutLeft", 0.8f}, {"eyeLookInRight", 0.4f}});
   EXPECT_FLOAT_EQ(value_of(kRoblox, looks, "EyesLookLeft"), 0.6f);
@@ -132,7 +132,7 @@ TEST(Vocabulary, RobloxMixesWhatHasOneName) {
 }
 
 // Exchanging left and right of the controls exchanges the names' sides and nothing else.
-TEST(Vocabulary, SidesAreTheSubjects) {
+TEST(Vocabulary, LeftAndRightAreTheSubjects) {
   const auto mirrored = [](std::string name) {
     for (const auto& [from, to] : {std::pair{"Left", "Right"}, {"Right", "Left"}}) {
       const std::size_t at = name.find(from);
@@ -159,7 +159,7 @@ TEST(Vocabulary, SidesAreTheSubjects) {
   }
 }
 
-TEST(Vocabulary, EveryValueLiesBetweenNoughtAndOne) {
+TEST(Vocabulary, ValuesAreBetweenZeroAndOne) {
   for (const float all : {0.0f, 0.5f, 1.0f, -3.0f, 40.0f}) {
     Controls controls;
     controls.fill(all);
@@ -172,7 +172,7 @@ TEST(Vocabulary, EveryValueLiesBetweenNoughtAndOne) {
 }
 
 // By the functions that `mien track --format visemes` has, too.
-TEST(Vocabulary, VisemesAreThoseOfTheFormats) {
+TEST(Vocabulary, VisemesMatchTheFileFormats) {
   constexpr int kVisemes = MIEN_VOCABULARY_VISEMES;
   EXPECT_EQ(value_of(kVisemes, {}, "sil"), 1.0f);
   for (std::size_t i = 1; i < formats::kVisemeCount; ++i) {
@@ -200,7 +200,7 @@ TEST(Vocabulary, VisemesAreThoseOfTheFormats) {
   }
 }
 
-TEST(Vocabulary, VisemesAreDrivenByTheirLeadingControls) {
+TEST(Vocabulary, VisemesNeedTheirLeadingControls) {
   const auto driven = [](std::initializer_list<const char*> controls) {
     std::uint64_t supported = 0;
     for (const char* name : controls) {
@@ -225,7 +225,7 @@ TEST(Vocabulary, SupportFollowsTheControls) {
   EXPECT_EQ(mien_vocabulary_supported(MIEN_VOCABULARY_VRM1, both), 1u);
 }
 
-TEST(Vocabulary, RefusesWhatDoesNotFit) {
+TEST(Vocabulary, RejectsInvalidArguments) {
   float controls[MIEN_CONTROL_COUNT] = {}, values[52];
   EXPECT_EQ(mien_vocabulary_values(MIEN_VOCABULARY_VRM0, controls, values, 12),
             MIEN_ERROR_OUT_OF_RANGE);

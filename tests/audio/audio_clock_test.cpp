@@ -21,7 +21,7 @@ double seconds_of_block(std::int64_t block) {
   return static_cast<double>(block) * static_cast<double>(kBlock) / kRate;
 }
 
-TEST(AudioClock, CountsSamplesWhereTimestampsAreExact) {
+TEST(AudioClock, CountsSamplesIfTimestampsAreExact) {
   AudioClock clock;
   EXPECT_EQ(clock.advance(5'000'000'000, kBlock, kRate), Flow::kBreak) << "the beginning";
   for (std::int64_t block = 1; block < 1000; ++block) {
@@ -30,7 +30,7 @@ TEST(AudioClock, CountsSamplesWhereTimestampsAreExact) {
   EXPECT_EQ(clock.time_ns(2.5), 7'500'000'000);
 }
 
-TEST(AudioClock, FollowsAClockThatIsFastOrSlowForHours) {
+TEST(AudioClock, FollowsAFastOrSlowClockForHours) {
   for (const double skew : {-50e-6, 50e-6, 200e-6}) {
     AudioClock clock;
     double worst_ns = 0.0;
@@ -46,7 +46,7 @@ TEST(AudioClock, FollowsAClockThatIsFastOrSlowForHours) {
   }
 }
 
-TEST(AudioClock, EvensOutTimestampsThatTremble) {
+TEST(AudioClock, SmoothsJitterOfTimestamps) {
   AudioClock clock;
   std::mt19937 engine(1);
   std::uniform_int_distribution<std::int64_t> tremble(-10'000'000, 10'000'000);
@@ -58,7 +58,7 @@ TEST(AudioClock, EvensOutTimestampsThatTremble) {
   }
 }
 
-TEST(AudioClock, HopsOverAGapAndBackAtOnce) {
+TEST(AudioClock, JumpsOverAGapAndBackAtOnce) {
   for (const std::int64_t gap : {30'000'000, 400'000'000, -30'000'000, -400'000'000}) {
     AudioClock clock;
     (void)clock.advance(0, kBlock, kRate);
@@ -69,7 +69,7 @@ TEST(AudioClock, HopsOverAGapAndBackAtOnce) {
 }
 
 // Whatever the rate, the gap, and how far the clock was pulled before: no error adds up.
-TEST(AudioClock, AfterAHopTimesAreExactlyThoseOfTheTimestamps) {
+TEST(AudioClock, MatchesTimestampsExactlyAfterAJump) {
   for (const std::int32_t rate : {11025, 44100, 48000}) {
     AudioClock clock;
     std::mt19937 engine(7);
@@ -91,7 +91,7 @@ TEST(AudioClock, AfterAHopTimesAreExactlyThoseOfTheTimestamps) {
   }
 }
 
-TEST(AudioClock, BeginsAnewAfterALongGap) {
+TEST(AudioClock, RestartsAfterALongGap) {
   for (const std::int64_t gap : {501'000'000LL, 3'600'000'000'000LL, -501'000'000LL}) {
     AudioClock clock;
     (void)clock.advance(0, kBlock, kRate);
@@ -100,7 +100,7 @@ TEST(AudioClock, BeginsAnewAfterALongGap) {
   }
 }
 
-TEST(AudioClock, TakesAnyTimestamp) {
+TEST(AudioClock, AcceptsAnyTimestamp) {
   constexpr std::int64_t kLowest = std::numeric_limits<std::int64_t>::min();
   constexpr std::int64_t kHighest = std::numeric_limits<std::int64_t>::max();
   for (const std::int64_t start : {kLowest, kHighest, std::int64_t{-1}, std::int64_t{0}}) {

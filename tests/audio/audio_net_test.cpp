@@ -58,7 +58,7 @@ class AudioNetOfTier : public testing::TestWithParam<std::uint32_t> {
   AudioNet net_;
 };
 
-TEST_P(AudioNetOfTier, AnswersAsPyTorchDoes) {
+TEST_P(AudioNetOfTier, MatchesPyTorch) {
   const std::vector<float> features = golden("audionet_input.f32");
   const std::vector<float> controls = golden("audionet_controls.f32");
   const std::vector<float> activity = golden("audionet_activity.f32");

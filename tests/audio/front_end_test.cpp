@@ -59,7 +59,7 @@ std::vector<Features> features_of(std::span<const float> samples, std::int32_t r
   return features_of(samples, rate, [] { return std::size_t{100000}; });
 }
 
-TEST(Pcm, AllLayoutsOfTheSameSoundAreOne) {
+TEST(Pcm, AllLayoutsGiveTheSameSamples) {
   constexpr std::size_t kFrames = 50;
   std::vector<float> left(kFrames), right(kFrames), both;
   std::vector<std::int16_t> shorts;
@@ -85,7 +85,7 @@ TEST(Pcm, AllLayoutsOfTheSameSoundAreOne) {
   }
 }
 
-TEST(Pcm, WhatIsNoSoundIsSilenceOrFullScale) {
+TEST(Pcm, InvalidSamplesBecomeSilenceOrFullScale) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   const float given[] = {std::nanf(""), kInfinity, -kInfinity, 7.0f, -7.0f, 1e-40f, 0.5f};
   const float wanted[] = {0.0f, 0.0f, 0.0f, 1.0f, -1.0f, 0.0f, 0.5f};
@@ -94,7 +94,7 @@ TEST(Pcm, WhatIsNoSoundIsSilenceOrFullScale) {
   EXPECT_TRUE(std::equal(mono.begin(), mono.end(), wanted));
 }
 
-TEST(FrontEnd, BlocksDoNotMatter) {
+TEST(FrontEnd, FeaturesDoNotDependOnBlockSize) {
   for (unsigned seed = 0; seed < 200; ++seed) {
     conformance::RandomValues random(seed);
     const std::int32_t rates[] = {8000, 11025, 16000, 22050, 44100, 48000, 96000, 192000};
@@ -109,7 +109,7 @@ TEST(FrontEnd, BlocksDoNotMatter) {
   }
 }
 
-TEST(FrontEnd, KeepsFiveWindowsAndBeginsWithSilence) {
+TEST(FrontEnd, KeepsFiveWindowsAndStartsWithSilence) {
   const std::vector<Features> steps = features_of(noise(16000));
   ASSERT_GE(steps.size(), 60u);
   const std::vector<Features> quiet = features_of(std::vector<float>(16000));
@@ -121,7 +121,7 @@ TEST(FrontEnd, KeepsFiveWindowsAndBeginsWithSilence) {
   }
 }
 
-TEST(FrontEnd, AConstantOffsetIsForgotten) {
+TEST(FrontEnd, RemovesAConstantOffset) {
   const std::vector<float> sound = noise(32000);
   std::vector<float> shifted = sound;
   for (float& sample : shifted) {
@@ -133,7 +133,7 @@ TEST(FrontEnd, AConstantOffsetIsForgotten) {
   }
 }
 
-TEST(FrontEnd, AnotherRateSoundsTheSame) {
+TEST(FrontEnd, FeaturesDoNotDependOnTheRate) {
   const auto tones = [](std::int32_t rate) {
     std::vector<float> out(static_cast<std::size_t>(rate));
     for (std::size_t n = 0; n < out.size(); ++n) {
@@ -156,7 +156,7 @@ TEST(FrontEnd, AnotherRateSoundsTheSame) {
   }
 }
 
-TEST(FrontEnd, AClickIsWhereTheStepSaysItIs) {
+TEST(FrontEnd, StepTimeMatchesAClick) {
   constexpr std::size_t kAt = 8000;
   std::vector<float> sound(16000);
   sound[kAt] = 1.0f;

@@ -37,7 +37,7 @@ class MfccOfTier : public testing::TestWithParam<std::uint32_t> {
   Mfcc mfcc_;
 };
 
-TEST_P(MfccOfTier, AreThoseOfTheDefinition) {
+TEST_P(MfccOfTier, MatchTheDefinition) {
   const std::vector<float> input = golden("mfcc_input.f32"), wanted = golden("mfcc_output.f32");
   ASSERT_EQ(input.size(), kSignals * kWindows * kWindowSamples);
   ASSERT_EQ(wanted.size(), kSignals * kWindows * kCoefficients);
@@ -57,7 +57,7 @@ TEST_P(MfccOfTier, AreThoseOfTheDefinition) {
   }
 }
 
-TEST_P(MfccOfTier, ResetForgetsTheWindowBefore) {
+TEST_P(MfccOfTier, ResetDiscardsThePreviousWindow) {
   const std::vector<float> input = golden("mfcc_input.f32");
   const Coefficients first = analyse(input.data());
   EXPECT_NE(analyse(input.data()), first);

@@ -81,7 +81,7 @@ TEST(Resampler, PassesTonesUnchangedAndInTime) {
   }
 }
 
-TEST(Resampler, StopsWhatWouldAlias) {
+TEST(Resampler, AttenuatesAliases) {
   for (const std::int32_t rate : kRates) {
     for (double hz = 8000.0; hz < rate / 2.0; hz *= 1.07) {
       const std::vector<float> got =
@@ -91,7 +91,7 @@ TEST(Resampler, StopsWhatWouldAlias) {
   }
 }
 
-TEST(Resampler, BlocksDoNotMatter) {
+TEST(Resampler, OutputDoesNotDependOnBlockSize) {
   conformance::RandomValues random(1);
   for (const std::int32_t rate : kRates) {
     const std::vector<float> input = random.plain(20000);
@@ -106,7 +106,7 @@ TEST(Resampler, BlocksDoNotMatter) {
   }
 }
 
-TEST(Resampler, ASecondStreamIsAsTheFirst) {
+TEST(Resampler, SecondStreamMatchesTheFirst) {
   for (const std::int32_t rate : {11025, 44100, 37813}) {
     const std::vector<float> input = tone(440.0, rate, 1000);
     Resampler resampler;
@@ -123,7 +123,7 @@ TEST(Resampler, ASecondStreamIsAsTheFirst) {
   }
 }
 
-TEST(Resampler, CountsExactly) {
+TEST(Resampler, OutputsTheExactNumberOfSamples) {
   for (const std::int32_t rate : {11025, 44100, 37813}) {
     const std::vector<float> minute(static_cast<std::size_t>(60 * rate), 0.5f);
     Resampler resampler;
@@ -134,7 +134,7 @@ TEST(Resampler, CountsExactly) {
   }
 }
 
-TEST(Resampler, AConstantStaysOne) {
+TEST(Resampler, ConstantStaysConstant) {
   for (const std::int32_t rate : kRates) {
     const std::vector<float> got =
         resampled(std::vector<float>(static_cast<std::size_t>(rate / 4), 0.7f), rate);

@@ -60,7 +60,7 @@ struct CountingAllocator {
   }
 };
 
-TEST(Allocation, OneByTheCallersAllocatorAndNoneAfterCreate) {
+TEST(Allocation, CreateAllocatesOnceAndLaterCallsDoNot) {
   const AlignedBytes basenet = blob_basenet();
   const AlignedBytes hifinet = blob_hifinet();
   const AlignedBytes proposal = blob_proposal();
@@ -104,7 +104,7 @@ TEST(Allocation, OneByTheCallersAllocatorAndNoneAfterCreate) {
   EXPECT_EQ(allocator.released, 1);
 }
 
-TEST(Allocation, RequiredBytesIsWhatCreateTakes) {
+TEST(Allocation, CreateAllocatesRequiredBytes) {
   const AlignedBytes basenet = blob_basenet();
   const AlignedBytes proposal = blob_proposal();
   CountingAllocator allocator;
@@ -118,7 +118,7 @@ TEST(Allocation, RequiredBytesIsWhatCreateTakes) {
   EXPECT_EQ(allocator.bytes, bytes);
 }
 
-TEST(Allocation, AnAllocatorWithoutMemoryIsAStatus) {
+TEST(Allocation, ReportsOutOfMemory) {
   const AlignedBytes basenet = blob_basenet();
   const AlignedBytes proposal = blob_proposal();
   Config config = blob_config(basenet, proposal);

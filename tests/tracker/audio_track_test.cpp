@@ -40,7 +40,7 @@ const Picture& nothing() {
   return picture;
 }
 
-TEST(AudioTrack, NeedsWeightsForIt) {
+TEST(AudioTrack, IsDisabledWithoutWeights) {
   BlobTracker blob({}, [](mien_tracker_config& config) { config.audionet = nullptr; });
   const Sound sound = Sound().add(0.1, kLoud);
   EXPECT_EQ(blob.tracker().push_audio(sound.all(), 0), MIEN_ERROR_NO_AUDIONET);
@@ -49,7 +49,7 @@ TEST(AudioTrack, NeedsWeightsForIt) {
   EXPECT_EQ(blob.tracker().advance(0), MIEN_OK) << "a frame without an image is always possible";
 }
 
-TEST(AudioTrack, RefusesOtherWeights) {
+TEST(AudioTrack, RejectsOtherWeights) {
   const AlignedBytes basenet = blob_basenet();
   const AlignedBytes proposal = blob_proposal();
   Config config = blob_config(basenet, proposal);
@@ -59,7 +59,7 @@ TEST(AudioTrack, RefusesOtherWeights) {
   EXPECT_EQ(tracker.create(config), MIEN_ERROR_WEIGHTS_INCOMPLETE);
 }
 
-TEST(AudioTrack, NamesWhatIsWrongWithTheSound) {
+TEST(AudioTrack, ReportsEachInvalidField) {
   BlobTracker blob;
   const Sound sound = Sound().add(0.1, kLoud);
   const auto status_with = [&](auto change) {
@@ -90,7 +90,7 @@ TEST(AudioTrack, NamesWhatIsWrongWithTheSound) {
 }
 
 // Some microphones deliver empty blocks, with any time and rate.
-TEST(AudioTrack, ABlockWithoutSamplesChangesNothing) {
+TEST(AudioTrack, EmptyBlocksHaveNoEffect) {
   const auto empty_block = [](BlobTracker& blob, bool queued, std::int64_t pts_ns) {
     Audio empty;
     empty.sample_rate = 48000;
@@ -115,7 +115,7 @@ TEST(AudioTrack, ABlockWithoutSamplesChangesNothing) {
   }
 }
 
-TEST(AudioTrack, ChecksWeightsOfTheMix) {
+TEST(AudioTrack, ValidatesMixingWeights) {
   BlobTracker blob;
   EXPECT_EQ(blob.tracker().set_mix(0, 1.0f, 0.0f), MIEN_OK);
   EXPECT_EQ(blob.tracker().set_mix(-1, 1.0f, 0.0f), MIEN_ERROR_OUT_OF_RANGE);
@@ -124,7 +124,7 @@ TEST(AudioTrack, ChecksWeightsOfTheMix) {
   EXPECT_EQ(blob.tracker().set_mix(0, 0.0f, std::nanf("")), MIEN_ERROR_OUT_OF_RANGE);
 }
 
-TEST(AudioTrack, AloneItMovesTheMouth) {
+TEST(AudioTrack, MovesTheMouthWithoutVideo) {
   BlobTracker blob;
   EXPECT_EQ(blob.advance().voice_activity, 0.0f);
   const Sound sound = Sound().add(1.0, kLoud).add(1.0, 0.0f);
@@ -144,7 +144,7 @@ TEST(AudioTrack, AloneItMovesTheMouth) {
   EXPECT_TRUE(result.supports(static_cast<int>(kJawOpen)));
 }
 
-TEST(AudioTrack, SilenceLeavesThePictureAlone) {
+TEST(AudioTrack, SilenceDoesNotChangeVideoControls) {
   BlobTracker output, deaf;
   const Sound silence = Sound().add(2.0, 0.0f);
   ASSERT_EQ(output.tracker().push_audio(silence.all(), 0), MIEN_OK);
@@ -157,7 +157,7 @@ TEST(AudioTrack, SilenceLeavesThePictureAlone) {
 }
 
 // Loud enough to speak, not so loud that everything is at its end.
-TEST(AudioTrack, IsMixedByTheFormula) {
+TEST(AudioTrack, MixesAsDocumented) {
   BlobTracker both = unfiltered(), seen = unfiltered(), output = unfiltered();
   const Sound sound = Sound().add(3.5, 0.01f);
   ASSERT_EQ(both.tracker().push_audio(sound.all(), 0), MIEN_OK);
@@ -182,7 +182,7 @@ TEST(AudioTrack, IsMixedByTheFormula) {
   }
 }
 
-TEST(AudioTrack, IsAsStrongAsOneWants) {
+TEST(AudioTrack, VoiceStrengthScalesControls) {
   const auto with_strength = [](float strength) {
     return [=](mien_tracker_config& config) {
       config.voice_strength = strength;
@@ -214,7 +214,7 @@ TEST(AudioTrack, IsAsStrongAsOneWants) {
   }
 }
 
-TEST(AudioTrack, WeightsCanBeSet) {
+TEST(AudioTrack, SetMixChangesWeightsUntilReset) {
   BlobTracker blob = unfiltered(), seen = unfiltered();
   ASSERT_EQ(blob.tracker().set_mix(static_cast<int>(kJawOpen), 0.0f, 1.0f), MIEN_OK);
   const Sound sound = Sound().add(1.5, kLoud);
@@ -247,7 +247,7 @@ int frames_until_heard(BlobTracker& blob, std::int64_t begin_ns, std::int64_t of
   return -1;
 }
 
-TEST(AudioTrack, IsHeardWithinAFrameOfItsTime) {
+TEST(AudioTrack, ActsWithinAFrameOfItsTimestamp) {
   for (int later = 0; later < 10; ++later) {
     BlobTracker blob = unfiltered();
     (void)blob.advance();
@@ -259,7 +259,7 @@ TEST(AudioTrack, IsHeardWithinAFrameOfItsTime) {
   }
 }
 
-TEST(AudioTrack, AnOffsetMovesIt) {
+TEST(AudioTrack, OffsetDelaysAudio) {
   for (const int frames : {-6, 0, 6}) {
     BlobTracker blob = unfiltered();
     (void)blob.advance();
@@ -294,7 +294,7 @@ class Steps {
 // Full opening of a jaw within two frames is fast speech; a jump is more.
 constexpr float kJump = 0.35f;
 
-TEST(AudioTrack, TakesOverFromALostFaceWithoutAJump) {
+TEST(AudioTrack, ReplacesALostFaceWithoutAJump) {
   BlobTracker blob;
   const Sound sound = Sound().add(3.9, kLoud);
   ASSERT_EQ(blob.tracker().push_audio(sound.all(), 0), MIEN_OK);
@@ -308,7 +308,7 @@ TEST(AudioTrack, TakesOverFromALostFaceWithoutAJump) {
 }
 
 // Controls of speech that one level leaves to the sound and the other does not.
-TEST(AudioTrack, HandsOverBetweenLevelsWithoutAJump) {
+TEST(AudioTrack, CrossfadesBetweenLevelsWithoutAJump) {
   const AlignedBytes blind = [] {
     BlobOptions options;
     options.supported_controls = 1;
@@ -337,7 +337,7 @@ TEST(AudioTrack, HandsOverBetweenLevelsWithoutAJump) {
   }
 }
 
-TEST(AudioTrack, LetsGoWithoutAJumpWhenTheSoundStops) {
+TEST(AudioTrack, FadesWithoutAJumpWhenAudioEnds) {
   BlobTracker blob;
   const Sound sound = Sound().add(1.0, kLoud);
   ASSERT_EQ(blob.tracker().push_audio(sound.all(), 0), MIEN_OK);
@@ -353,7 +353,7 @@ TEST(AudioTrack, LetsGoWithoutAJumpWhenTheSoundStops) {
   EXPECT_EQ(blob.result().voice_activity, 0.0f);
 }
 
-TEST(AudioTrack, ACameraThatGivesNothingLosesTheFaceNotTheVoice) {
+TEST(AudioTrack, ContinuesWithoutImages) {
   BlobTracker blob;
   const Sound sound = Sound().add(3.0, kLoud);
   ASSERT_EQ(blob.tracker().push_audio(sound.all(), 0), MIEN_OK);
@@ -386,7 +386,7 @@ std::vector<Result> animation(const Sound& sound, NextSize next_size) {
   return results;
 }
 
-TEST(AudioTrack, BlocksDoNotMatter) {
+TEST(AudioTrack, ResultsDoNotDependOnBlockSize) {
   for (const int rate : {8000, 16000, 44100, 48000}) {
     const Sound sound = Sound(rate).add(0.3, kLoud).add(0.3, 0.0f).add(1.0, 0.01f);
     const auto whole = animation(sound, [&] { return sound.size(); });
@@ -399,7 +399,7 @@ TEST(AudioTrack, BlocksDoNotMatter) {
   }
 }
 
-TEST(AudioTrack, ResetForgetsIt) {
+TEST(AudioTrack, ResetRestoresTheInitialState) {
   BlobTracker used, fresh;
   const Sound sound = Sound().add(1.0, kLoud);
   const Buffer image(disc(), {});
@@ -419,7 +419,7 @@ TEST(AudioTrack, ResetForgetsIt) {
   }
 }
 
-TEST(AudioTrack, ResetForgetsWhatWasHeard) {
+TEST(AudioTrack, ResetDiscardsEarlierAudio) {
   BlobTracker blob = unfiltered();
   ASSERT_EQ(blob.tracker().push_audio(Sound().add(1.0, kLoud).all(), 0), MIEN_OK);
   for (int frame = 0; frame < 15; ++frame) {
@@ -430,7 +430,7 @@ TEST(AudioTrack, ResetForgetsWhatWasHeard) {
   EXPECT_EQ(blob.advance().voice_activity, 0.0f);
 }
 
-TEST(AudioTrack, SurvivesAnySamplesAndTimes) {
+TEST(AudioTrack, AcceptsAnySamplesAndTimestamps) {
   BlobTracker blob;
   std::mt19937 engine(5);
   std::vector<float> samples(4000);

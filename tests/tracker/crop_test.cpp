@@ -38,7 +38,7 @@ double squared_error(const std::vector<Point>& shape, const std::vector<Point>& 
   return sum;
 }
 
-TEST(Crop, MiddleIsTheCentreAndCornersTurnClockwise) {
+TEST(Crop, RotatesClockwiseAboutItsCentre) {
   const Crop crop = {{100.0f, 50.0f}, 20.0f, static_cast<float>(M_PI / 2)};
   const Point middle = crop_to_image(crop)({0.5f, 0.5f});
   EXPECT_NEAR(middle.x, 100.0f, 1e-4f);
@@ -49,7 +49,7 @@ TEST(Crop, MiddleIsTheCentreAndCornersTurnClockwise) {
   EXPECT_NEAR(top_left.y, 40.0f, 1e-4f);
 }
 
-TEST(FitCrop, FindsTheSimilarityThatPlacedTheTemplate) {
+TEST(FitCrop, RecoversTheSimilarityOfTheTemplate) {
   std::mt19937 random(7);
   std::uniform_real_distribution<float> unit(-1.0f, 1.0f);
   for (unsigned trial = 0; trial < 200; ++trial) {
@@ -66,7 +66,7 @@ TEST(FitCrop, FindsTheSimilarityThatPlacedTheTemplate) {
   }
 }
 
-TEST(FitCrop, NoNeighbourFitsNoisyPointsBetter) {
+TEST(FitCrop, MinimizesTheErrorOfNoisyPoints) {
   const std::vector<Point> shape = random_points(175, 1);
   std::vector<Point> noisy = placed(shape, {{300.0f, 200.0f}, 120.0f, 0.4f});
   std::mt19937 random(2);
@@ -89,7 +89,7 @@ TEST(FitCrop, NoNeighbourFitsNoisyPointsBetter) {
   }
 }
 
-TEST(FitCrop, RefusesPointsWithoutAnAnswer) {
+TEST(FitCrop, RejectsDegenerateAndNonFinitePoints) {
   const std::vector<Point> shape = random_points(175, 3);
   const Crop before = {{1.0f, 2.0f}, 3.0f, 0.5f};
   Crop crop = before;
@@ -105,7 +105,7 @@ TEST(FitCrop, RefusesPointsWithoutAnAnswer) {
   EXPECT_EQ(crop.center.x, before.center.x);
 }
 
-TEST(Affine, ComposeIsOneAfterTheOther) {
+TEST(Affine, ComposeAppliesInnerThenOuter) {
   const Affine outer = {2, 1, 3, -1, 4, 5};
   const Affine inner = {0.5f, -2, 7, 1, 3, -6};
   const Point p = {1.25f, -3.5f};

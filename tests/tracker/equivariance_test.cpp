@@ -57,14 +57,14 @@ void expect_close(const Result& a, const Result& b, float pixels, float share) {
   }
 }
 
-TEST(Equivariance, InterleavedFormatsAreTheSamePicture) {
+TEST(Equivariance, InterleavedFormatsGiveTheSameResult) {
   const Result rgb = after_frames({});
   for (mien_image_format format : {MIEN_IMAGE_BGR, MIEN_IMAGE_RGBA, MIEN_IMAGE_BGRA}) {
     expect_close(after_frames({.format = format}), rgb, 1e-3f, 1e-4f);
   }
 }
 
-TEST(Equivariance, YuvIsTheSamePictureUpToChromaDetail) {
+TEST(Equivariance, YuvMatchesRgbUpToChromaDetail) {
   const Result rgb = after_frames({});
   for (mien_image_format format : {MIEN_IMAGE_NV12, MIEN_IMAGE_NV21, MIEN_IMAGE_I420}) {
     for (bool full_range : {true, false}) {
@@ -87,7 +87,7 @@ TEST(Equivariance, LayoutsOfTheSameYuvAgreeExactly) {
   }
 }
 
-TEST(Equivariance, GreyIsGreyInEveryFormat) {
+TEST(Equivariance, GreyGivesTheSameResultInEveryFormat) {
   const Result rgb = after_frames({}, true);
   for (mien_image_format format : {MIEN_IMAGE_GRAY8, MIEN_IMAGE_NV12, MIEN_IMAGE_I420}) {
     for (bool full_range : {true, false}) {
@@ -98,7 +98,7 @@ TEST(Equivariance, GreyIsGreyInEveryFormat) {
   }
 }
 
-TEST(Equivariance, ColourIsNotIgnored) {
+TEST(Equivariance, ColourAffectsControls) {
   const Result colour = after_frames({});
   const Result grey = after_frames({}, true);
   float difference = 0.0f;
@@ -108,7 +108,7 @@ TEST(Equivariance, ColourIsNotIgnored) {
   EXPECT_GT(difference, 1e-4f) << "or the tests above see nothing of channel order";
 }
 
-TEST(Equivariance, StridesChangeNothing) {
+TEST(Equivariance, StridesDoNotMatter) {
   for (mien_image_format format :
        {MIEN_IMAGE_GRAY8, MIEN_IMAGE_RGB, MIEN_IMAGE_BGRA, MIEN_IMAGE_NV12, MIEN_IMAGE_I420}) {
     SCOPED_TRACE(format);
@@ -119,7 +119,7 @@ TEST(Equivariance, StridesChangeNothing) {
   }
 }
 
-TEST(Equivariance, RotatedBuffersAreTurnedUpright) {
+TEST(Equivariance, RotatedBuffersMatchUprightOnes) {
   for (mien_image_format format : {MIEN_IMAGE_RGB, MIEN_IMAGE_GRAY8}) {
     const Result upright = after_frames({.format = format});
     for (int rotation : {90, 180, 270}) {
@@ -144,7 +144,7 @@ void set_region(mien_image& image, const Layout& layout, int width, int height,
   image.region[3] = scene[on_side ? 2 : 3];
 }
 
-TEST(Equivariance, RegionsAreTheImageCutDownToThem) {
+TEST(Equivariance, RegionsMatchCroppedImages) {
   constexpr int kWhole[2] = {300, 220};
   constexpr int kRegion[4] = {60, 42, 152, 112};
   // Seen by one camera, of which (x, y) is the first pixel.
@@ -186,7 +186,7 @@ TEST(Equivariance, RegionsAreTheImageCutDownToThem) {
 }
 
 // Cut in the scene, a mirrored region shows what the same region shows that is not.
-TEST(Equivariance, RegionsOfMirroredImages) {
+TEST(Equivariance, RegionsOfMirroredImagesMatchPlainOnes) {
   constexpr int kRegion[4] = {40, 12, 90, 90};
   const auto result_of = [&](const Layout& layout) {
     BlobTracker tracker;
@@ -213,7 +213,7 @@ TEST(Equivariance, RegionsOfMirroredImages) {
 }
 
 // Somebody moves it along with the face.
-TEST(Equivariance, RegionsMayMoveWhileAFaceIsFollowed) {
+TEST(Equivariance, RegionsMayMoveDuringTracking) {
   BlobTracker tracker;
   const Buffer buffer(disc_picture(160.0f, 120.0f, 60.0f), {});
   Result result;
@@ -230,7 +230,7 @@ TEST(Equivariance, RegionsMayMoveWhileAFaceIsFollowed) {
 }
 
 // Memory holds the region alone, as the address sanitizer sees; the image claims more around it.
-TEST(Equivariance, NothingOutsideOfARegionIsRead) {
+TEST(Equivariance, PixelsOutsideTheRegionAreNotRead) {
   for (mien_image_format format : {MIEN_IMAGE_RGBA, MIEN_IMAGE_NV21, MIEN_IMAGE_I420}) {
     const Layout layout = {.format = format, .row_padding_bytes = 40};
     const Buffer buffer(disc_picture(50.0f, 50.0f, 50.0f, 100, 100), layout);
@@ -254,7 +254,7 @@ TEST(Equivariance, NothingOutsideOfARegionIsRead) {
   }
 }
 
-TEST(Equivariance, MirroredBuffersShowTheSameSubject) {
+TEST(Equivariance, MirroredBuffersGiveTheSameAnimation) {
   const Result plain = after_frames({});
   for (int rotation : {0, 90, 180, 270}) {
     SCOPED_TRACE(rotation);
@@ -269,7 +269,7 @@ TEST(Equivariance, MirroredBuffersShowTheSameSubject) {
 
 // The tracker sees the head at the place where the disc is: projecting its origin gives the crop's
 // point that the decoder named.
-TEST(Equivariance, FocalLengthScalesDistanceOnly) {
+TEST(Equivariance, FocalLengthScalesOnlyDistance) {
   const Buffer buffer(scene(0), {});
   mien_image image = buffer.image();
   image.focal_length_px = 200.0f;

@@ -59,7 +59,7 @@ void expect_same(const std::vector<Result>& got, const std::vector<Result>& expe
   }
 }
 
-TEST(FloatState, RoundingOfTheCallerChangesNothing) {
+TEST(FloatState, ResultsDoNotDependOnTheRoundingMode) {
   const std::vector<Result> expected = animate();
   for (const int rounding : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
     ASSERT_EQ(std::fesetround(rounding), 0);
@@ -70,7 +70,7 @@ TEST(FloatState, RoundingOfTheCallerChangesNothing) {
   }
 }
 
-TEST(FloatState, StickyFlagsAreLeftAlone) {
+TEST(FloatState, StickyFlagsAreRestored) {
   BlobTracker blob({}, [](mien_tracker_config& config) { config.audio_queue_samples = 4096; });
   mien_tracker* const tracker = blob.tracker().get();
   const Buffer disc(disc_picture(150.0f, 110.0f, 70.0f), {});
@@ -105,7 +105,7 @@ TEST(FloatState, StickyFlagsAreLeftAlone) {
 }
 
 #if defined(__x86_64__)
-TEST(FloatState, DenormalsAndTrapsOfTheCallerChangeNothing) {
+TEST(FloatState, ResultsDoNotDependOnDenormalsOrTraps) {
   constexpr unsigned kFlushToZero = 0x8000, kDenormalsAreZero = 0x40, kMaskOfInvalid = 0x80,
                      kMaskOfAll = 0x1F80;
   const std::vector<Result> expected = animate();

@@ -134,7 +134,7 @@ Prediction perceive(const Case& c) {
           std::log(c.camera.focal_px / distance * 0.2f / c.crop.side)};
 }
 
-TEST(HeadPose, ComesBackFromAPerfectPrediction) {
+TEST(HeadPose, DecodesAnExactPrediction) {
   std::mt19937 random(1);
   for (int trial = 0; trial < 500; ++trial) {
     const Case c = random_case(random);
@@ -147,7 +147,7 @@ TEST(HeadPose, ComesBackFromAPerfectPrediction) {
   }
 }
 
-TEST(HeadPose, ColumnsOfAnyLengthAndSlantAreOrthonormalised) {
+TEST(HeadPose, OrthonormalizesColumns) {
   std::mt19937 random(2);
   const Case c = random_case(random);
   Prediction p = perceive(c);
@@ -160,7 +160,7 @@ TEST(HeadPose, ColumnsOfAnyLengthAndSlantAreOrthonormalised) {
   EXPECT_LT(difference(pose.rotation, c.pose.rotation), 1e-5f);
 }
 
-TEST(HeadPose, HeadTurnedWithTheCropIsTheIdentityInTheMiddle) {
+TEST(HeadPose, FrontalHeadAtTheImageCentreHasNoRotation) {
   const Camera camera = {500.0f, {320.0f, 240.0f}};
   const Prediction frontal = {1, 0, 0, 0, 1, 0, 0, 0, 0};
   HeadPose pose;
@@ -172,7 +172,7 @@ TEST(HeadPose, HeadTurnedWithTheCropIsTheIdentityInTheMiddle) {
   EXPECT_NEAR(euler_angles(pose.rotation).roll, -0.3f, 1e-6f);
 }
 
-TEST(HeadPose, RefusesWhatIsNoPose) {
+TEST(HeadPose, RejectsImplausiblePredictions) {
   const Camera camera = {500.0f, {320.0f, 240.0f}};
   const Crop crop = {{300.0f, 200.0f}, 100.0f, 0.1f};
   const Prediction good = {1, 0, 0, 0, 1, 0, 0, 0, 0};
@@ -196,7 +196,7 @@ TEST(HeadPose, RefusesWhatIsNoPose) {
   EXPECT_EQ(pose.translation[2], 3.0f);
 }
 
-TEST(EulerAngles, ComposeBackAndHaveTheDocumentedSigns) {
+TEST(EulerAngles, RoundTripWithTheDocumentedSigns) {
   std::mt19937 random(3);
   for (int trial = 0; trial < 500; ++trial) {
     const Matrix3 r = random_rotation(random);
@@ -212,7 +212,7 @@ TEST(EulerAngles, ComposeBackAndHaveTheDocumentedSigns) {
   EXPECT_NEAR(euler_angles(about(2, 0.3f)).roll, 0.3f, 1e-6f);
 }
 
-TEST(Quaternion, IsUnitWithPositiveWAndTheSameRotation) {
+TEST(Quaternion, IsAUnitQuaternionWithNonNegativeW) {
   std::mt19937 random(4);
   for (int trial = 0; trial < 500; ++trial) {
     const Matrix3 r = random_rotation(random);

@@ -70,7 +70,7 @@ TEST(ImageView, RotationIsClockwise) {
 }
 
 // Two columns of the buffer are three of the scene, whose height stays.
-TEST(ImageView, PixelsThatAreNotSquareAreStretched) {
+TEST(ImageView, StretchesNonSquarePixels) {
   mien_image image = image_of(MIEN_IMAGE_GRAY8, 40, 30);
   image.pixel_aspect = 1.5f;
   image.region[0] = 10;
@@ -100,7 +100,7 @@ TEST(ImageView, PixelsThatAreNotSquareAreStretched) {
   EXPECT_FLOAT_EQ(view.buffer_pixels_per_pixel, 1.5f);
 }
 
-TEST(ImageView, PixelAspectsAreWithinLimits) {
+TEST(ImageView, ChecksTheRangeOfPixelAspect) {
   mien_image image = image_of(MIEN_IMAGE_GRAY8, 4, 2);
   for (float good : {0.0f, 0.1f, 1.0f, 10.0f}) {
     image.pixel_aspect = good;
@@ -113,7 +113,7 @@ TEST(ImageView, PixelAspectsAreWithinLimits) {
   }
 }
 
-TEST(ImageView, RegionsLieWithinTheImage) {
+TEST(ImageView, ChecksThatTheRegionLiesInTheImage) {
   const auto status_with = [](mien_image_format format, std::initializer_list<int> region) {
     mien_image image = image_of(format, 4, 2);
     std::copy(region.begin(), region.end(), image.region);
@@ -140,7 +140,7 @@ TEST(ImageView, RegionsLieWithinTheImage) {
   EXPECT_EQ(status_with(MIEN_IMAGE_I420, {0, 1, 2, 1}), MIEN_ERROR_IMAGE_REGION);
 }
 
-TEST(ImageView, YuvIsOfAKnownKind) {
+TEST(ImageView, RejectsUnknownYuvMatrices) {
   mien_image image = image_of(MIEN_IMAGE_NV12, 4, 2);
   image.yuv_matrix = MIEN_YUV_BT709;
   EXPECT_EQ(status_of(image), MIEN_OK);
@@ -148,7 +148,7 @@ TEST(ImageView, YuvIsOfAKnownKind) {
   EXPECT_EQ(status_of(image), MIEN_ERROR_IMAGE_FORMAT);
 }
 
-TEST(ImageView, CameraFromFieldOfViewOrFromTheCaller) {
+TEST(ImageView, CameraComesFromFieldOfViewOrCaller) {
   mien_image image = image_of(MIEN_IMAGE_GRAY8, 400, 200);
   image.rotation = 90;
   EXPECT_FLOAT_EQ(viewed(image).camera.focal_px, 100.0f / std::tan(kFov / 2));
@@ -162,7 +162,7 @@ TEST(ImageView, CameraFromFieldOfViewOrFromTheCaller) {
   expect_point(viewed(image).camera.principal, 110.0f, 210.0f);
 }
 
-TEST(ImageView, RefusesWhatIsNoImage) {
+TEST(ImageView, RejectsInvalidImages) {
   ImageView view;
   EXPECT_EQ(view_image(nullptr, kFov, view), MIEN_ERROR_NULL_ARGUMENT);
   const auto refused = [](auto&& change) {
@@ -197,7 +197,7 @@ TEST(ImageView, RefusesWhatIsNoImage) {
   }
 }
 
-TEST(ImageView, UnusedPlanesMayBeAnything) {
+TEST(ImageView, IgnoresUnusedPlanes) {
   mien_image image = image_of(MIEN_IMAGE_NV12, 5, 3);
   image.planes[2] = nullptr;
   image.row_stride_bytes[2] = 0;
@@ -206,7 +206,7 @@ TEST(ImageView, UnusedPlanesMayBeAnything) {
   EXPECT_EQ(status_of(image), MIEN_ERROR_IMAGE_STRIDE);
 }
 
-TEST(ImageView, ShortStructGetsDefaultsLongOneIsAccepted) {
+TEST(ImageView, AcceptsShorterAndLongerStructs) {
   mien_image image = image_of(MIEN_IMAGE_GRAY8, 8, 4);
   image.rotation = 77;  // behind the end of what struct_size covers
   image.struct_size = offsetof(mien_image, chroma_pixel_stride_bytes);

@@ -140,7 +140,7 @@ Result result_of(const mien_tracker* tracker) {
   return result;
 }
 
-TEST(Interleavings, GiveTheBitsOfAStraightReplay) {
+TEST(Interleavings, GiveTheSameBitsAsAReplay) {
   const auto small_search = [](mien_tracker_config& config) { config.proposal_size = 48; };
   BlobTracker disturbed({}, small_search), replayed({}, small_search), another({}, small_search);
   std::uint64_t face_frames = 0;

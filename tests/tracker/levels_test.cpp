@@ -20,7 +20,7 @@ BlobTracker tracker_at(std::int32_t lod) {
   return BlobTracker({}, [lod](mien_tracker_config& config) { config.lod = lod; });
 }
 
-TEST(Levels, EncodersRunWhenTheTableSays) {
+TEST(Levels, EncodersRunOnTheDocumentedFrames) {
   const std::uint64_t runs[4][2] = {{1, 0}, {2, 0}, {2, 1}, {2, 2}};  // on even frames, on odd ones
   for (std::int32_t lod = 1; lod <= 4; ++lod) {
     BlobTracker tracker = tracker_at(lod);
@@ -36,7 +36,7 @@ TEST(Levels, EncodersRunWhenTheTableSays) {
   }
 }
 
-TEST(Levels, ControlsMoveOnEveryFrame) {
+TEST(Levels, ControlsChangeOnEveryFrame) {
   for (std::int32_t lod = 1; lod <= 4; ++lod) {
     BlobTracker tracker = tracker_at(lod);
     Result before = tracker.push(circling_disc(0));
@@ -48,7 +48,7 @@ TEST(Levels, ControlsMoveOnEveryFrame) {
   }
 }
 
-TEST(Levels, FromTwoOnControlsAreHiFiNets) {
+TEST(Levels, ControlsComeFromHiFiNetFromLevelTwo) {
   BlobTracker one = tracker_at(1), two = tracker_at(2), four = tracker_at(4);
   Result last[3];
   for (int frame = 0; frame < 60; ++frame) {
@@ -61,7 +61,7 @@ TEST(Levels, FromTwoOnControlsAreHiFiNets) {
   EXPECT_LT(largest_step(last[1], last[2]), 0.01f) << "the same picture again and again";
 }
 
-TEST(Levels, FromTwoOnHiFiNetRefinesTheLandmarks) {
+TEST(Levels, HiFiNetRefinesLandmarksFromLevelTwo) {
   BlobTracker one = tracker_at(1);
   for (const std::int32_t lod : {2, 3, 4}) {
     BlobTracker refined = tracker_at(lod);
@@ -79,7 +79,7 @@ TEST(Levels, FromTwoOnHiFiNetRefinesTheLandmarks) {
   }
 }
 
-TEST(Levels, ChangingThemNeverMakesAControlJump) {
+TEST(Levels, ChangesDoNotMakeControlsJump) {
   for (const auto& [from, to] : {std::pair{1, 4}, {4, 1}, {2, 3}, {3, 2}, {1, 2}, {4, 2}, {2, 4}}) {
     BlobTracker tracker = tracker_at(from);
     Result before;
@@ -106,7 +106,7 @@ TEST(Levels, ChangingThemNeverMakesAControlJump) {
   }
 }
 
-TEST(Levels, AfterAChangeTheTrackerIsAsOneThatAlwaysWasThere) {
+TEST(Levels, ChangedTrackerConvergesToAnUnchangedOne) {
   for (const std::int32_t to : {1, 3}) {
     BlobTracker changed = tracker_at(to == 1 ? 4 : 1), always = tracker_at(to);
     Result a, b;
@@ -136,7 +136,7 @@ BlobTracker tracker_with_few_at_level_1(std::int32_t lod) {
   });
 }
 
-TEST(Levels, WhatIsNotSupportedIsZeroWhileOneFadesOut) {
+TEST(Levels, UnsupportedControlsAreZeroDuringACrossfade) {
   BlobTracker tracker = tracker_with_few_at_level_1(4);
   int frame = 0;
   for (; frame < 30; ++frame) {
@@ -155,7 +155,7 @@ TEST(Levels, WhatIsNotSupportedIsZeroWhileOneFadesOut) {
   EXPECT_EQ(before.supported_controls, 1u);
 }
 
-TEST(Levels, GoingUpRefinesTheLandmarksAtOnce) {
+TEST(Levels, LandmarksAreRefinedAtOnceAfterRaisingTheLevel) {
   for (const std::int32_t to : {2, 3, 4}) {
     for (const int frames : {1, 2}) {  // then one on which BaseNet may rest, or not
       BlobTracker tracker = tracker_at(1), always = tracker_at(to);
@@ -173,7 +173,7 @@ TEST(Levels, GoingUpRefinesTheLandmarksAtOnce) {
 }
 
 // Features from before a stay at level 1 are too old to animate with.
-TEST(Levels, ComingBackFromLevelOneHiFiNetLooksAtTheFirstImage) {
+TEST(Levels, HiFiNetRunsOnTheFirstImageAfterLevelOne) {
   for (const std::int32_t back_to : {2, 3, 4}) {
     for (const int frames_at_one : {7, 8}) {  // BaseNet rests on every other one
       BlobTracker tracker = tracker_at(4);
@@ -192,7 +192,7 @@ TEST(Levels, ComingBackFromLevelOneHiFiNetLooksAtTheFirstImage) {
   }
 }
 
-TEST(Levels, ThoseWithoutWeightsAreRefused) {
+TEST(Levels, RejectsLevelsWithoutWeights) {
   const auto without = [](mien_tracker_config& config) {
     config.hifinet = nullptr;
     config.hifinet_bytes = 0;
@@ -205,7 +205,7 @@ TEST(Levels, ThoseWithoutWeightsAreRefused) {
   EXPECT_EQ(tracker.push(circling_disc(0)).lod, 1);
 }
 
-TEST(Levels, ResetReturnsToTheConfiguredOne) {
+TEST(Levels, ResetRestoresTheConfiguredLevel) {
   BlobTracker tracker = tracker_at(3);
   (void)tracker.push(circling_disc(0));
   ASSERT_EQ(tracker.tracker().set_lod(1), MIEN_OK);
@@ -214,7 +214,7 @@ TEST(Levels, ResetReturnsToTheConfiguredOne) {
   EXPECT_EQ(tracker.push(circling_disc(2)).lod, 3);
 }
 
-TEST(Levels, ResetForgetsHowBusyTheMachineWas) {
+TEST(Levels, ResetDiscardsMeasuredLoad) {
   BlobTracker tracker({}, [](mien_tracker_config& config) {
     static std::uint64_t now = 0;
     config.clock_user = &now;
@@ -245,7 +245,7 @@ BlobTracker timed_tracker(Clock& clock, std::int32_t lod) {
   });
 }
 
-TEST(Levels, AutomaticGoesOnFromTheLevelBeforeAndKnowsNothingOfIt) {
+TEST(Levels, AutomaticStartsAtThePreviousLevelWithoutItsCost) {
   Clock clock;
   BlobTracker tracker = timed_tracker(clock, 4);
   clock.step_ns = 50'000'000;  // much too long
@@ -265,7 +265,7 @@ TEST(Levels, AutomaticGoesOnFromTheLevelBeforeAndKnowsNothingOfIt) {
 }
 
 // A frame of another size is searched whole, which says nothing of what a followed one takes.
-TEST(Levels, AutomaticJudgesFollowedFramesAlone) {
+TEST(Levels, AutomaticMeasuresOnlyFramesWithATrackedFace) {
   Clock clock;
   BlobTracker tracker = timed_tracker(clock, 0);
   clock.step_ns = 50'000'000;
@@ -289,7 +289,7 @@ std::int32_t settled(tracker::LevelGovernor& governor, const float (&ms)[4], flo
   return governor.level();
 }
 
-TEST(LevelGovernor, SettlesOnTheHighestLevelThatFits) {
+TEST(LevelGovernor, ChoosesTheHighestLevelThatFits) {
   const float ms[] = {3.0f, 15.5f, 18.0f, 30.5f};
   const struct {
     float budget;
@@ -306,7 +306,7 @@ TEST(LevelGovernor, SettlesOnTheHighestLevelThatFits) {
 constexpr float kGrowth[] = {5.9f, 1.2f, 1.7f};
 
 // A level that would only just fit into the budget would be left again at the next hiccup.
-TEST(LevelGovernor, GoesUpOnlyWhereThereIsRoomToSpare) {
+TEST(LevelGovernor, RaisesTheLevelOnlyWithHeadroom) {
   constexpr float kBudgetMs = 20.0f;
   for (std::int32_t level = 1; level <= 3; ++level) {
     for (const float share_of_budget : {0.80f, 0.84f, 0.86f, 0.95f}) {
@@ -322,14 +322,14 @@ TEST(LevelGovernor, GoesUpOnlyWhereThereIsRoomToSpare) {
   }
 }
 
-TEST(LevelGovernor, ReturnsWhenTheLoadIsGone) {
+TEST(LevelGovernor, RaisesTheLevelAgainWhenTheLoadFalls) {
   const float busy[] = {9.0f, 46.0f, 54.0f, 91.0f}, calm[] = {3.0f, 15.5f, 18.0f, 30.5f};
   tracker::LevelGovernor governor(40.0f, 4);
   EXPECT_EQ(settled(governor, busy, 20.0f), 1);
   EXPECT_EQ(settled(governor, calm, 20.0f), 4);
 }
 
-TEST(LevelGovernor, NeverChangesTwiceWithinTwoSeconds) {
+TEST(LevelGovernor, ChangesAtMostOnceInTwoSeconds) {
   tracker::LevelGovernor governor(20.0f, 4);
   float since = 100.0f;
   std::int32_t level = governor.level();

@@ -31,7 +31,7 @@ Controls without_rest(Neutral& neutral, float value) {
   return controls;
 }
 
-TEST(Neutral, ChangesNothingUntilItIsCaptured) {
+TEST(Neutral, HasNoEffectUntilCaptured) {
   Neutral neutral;
   EXPECT_EQ(without_rest(neutral, 0.3f), all(0.3f));
   neutral.capture();
@@ -44,7 +44,7 @@ TEST(Neutral, ChangesNothingUntilItIsCaptured) {
   EXPECT_FALSE(neutral.is_being_captured());
 }
 
-TEST(Neutral, RestBecomesZeroAndOneStaysOne) {
+TEST(Neutral, MapsNeutralToZeroAndOneToOne) {
   Neutral neutral;
   neutral.set(all(0.25f));
   EXPECT_EQ(without_rest(neutral, 0.1f)[0], 0.0f);
@@ -53,7 +53,7 @@ TEST(Neutral, RestBecomesZeroAndOneStaysOne) {
   EXPECT_EQ(without_rest(neutral, 1.0f)[0], 1.0f);
 }
 
-TEST(Neutral, WhatIsSetKeepsTheBounds) {
+TEST(Neutral, ClampsSetValues) {
   Neutral neutral;
   neutral.set(all(0.9f));
   EXPECT_EQ(neutral.levels()[0], Neutral::kMax);
@@ -61,7 +61,7 @@ TEST(Neutral, WhatIsSetKeepsTheBounds) {
   EXPECT_EQ(neutral.levels()[0], 0.0f);
 }
 
-TEST(Neutral, BlinksAndTheFirstFramesDoNotCount) {
+TEST(Neutral, IgnoresBlinksAndTheFirstFrames) {
   Neutral neutral;
   neutral.capture();
   for (int frame = 0; frame < kCaptureFrames; ++frame) {
@@ -71,7 +71,7 @@ TEST(Neutral, BlinksAndTheFirstFramesDoNotCount) {
   EXPECT_NEAR(neutral.levels()[0], 0.2f, 1e-5f);
 }
 
-TEST(Neutral, AGrimaceDoesNotCostHalfTheRange) {
+TEST(Neutral, LimitsNeutralValues) {
   Neutral neutral;
   neutral.capture();
   for (int frame = 0; frame < kCaptureFrames; ++frame) {
@@ -81,7 +81,7 @@ TEST(Neutral, AGrimaceDoesNotCostHalfTheRange) {
   EXPECT_NEAR(without_rest(neutral, 0.8f)[0], 0.5f, 1e-6f);
 }
 
-TEST(Neutral, RestartingForgetsWhatWasSeenButNotWhatWasCaptured) {
+TEST(Neutral, RestartDiscardsFramesButKeepsTheEarlierCapture) {
   Neutral neutral;
   neutral.set(all(0.1f));
   neutral.restart();
@@ -116,7 +116,7 @@ std::array<std::byte, MIEN_NEUTRAL_BYTES> saved(BlobTracker& tracker, std::uint3
   return file;
 }
 
-TEST(Calibration, OfAStillFaceLeavesNothing) {
+TEST(Calibration, RemovesTheControlsOfAStillFace) {
   for (const std::int32_t lod : {1, 4}) {
     BlobTracker tracker = unfiltered(lod);
     Result raw;
@@ -141,7 +141,7 @@ TEST(Calibration, OfAStillFaceLeavesNothing) {
   }
 }
 
-TEST(Calibration, SavedAndLoadedActsTheSame) {
+TEST(Calibration, SavedAndLoadedHasTheSameEffect) {
   BlobTracker first = unfiltered(1), second = unfiltered(1), plain = unfiltered(1);
   ASSERT_EQ(first.tracker().capture_neutral(), MIEN_OK);
   for (int frame = 0; frame < 60; ++frame) {
@@ -165,7 +165,7 @@ TEST(Calibration, SavedAndLoadedActsTheSame) {
   EXPECT_GT(difference, 0.05f) << "something was at rest";
 }
 
-TEST(Calibration, ResetForgetsIt) {
+TEST(Calibration, ResetDiscardsIt) {
   BlobTracker tracker = unfiltered(1), fresh = unfiltered(1);
   ASSERT_EQ(tracker.tracker().capture_neutral(), MIEN_OK);
   for (int frame = 0; frame < 60; ++frame) {
@@ -179,7 +179,7 @@ TEST(Calibration, ResetForgetsIt) {
 class CalibrationAtLevel : public testing::TestWithParam<std::int32_t> {};
 INSTANTIATE_TEST_SUITE_P(Levels, CalibrationAtLevel, testing::Values(1, 2, 4));
 
-TEST_P(CalibrationAtLevel, WaitsForAFaceAndBeginsAnewWhenItIsLost) {
+TEST_P(CalibrationAtLevel, WaitsForAFaceAndRestartsWhenItIsLost) {
   const std::uint32_t done = GetParam() == 1 ? 1u : 2u;
   BlobTracker tracker = unfiltered(GetParam());
   ASSERT_EQ(tracker.tracker().capture_neutral(), MIEN_OK);
@@ -201,7 +201,7 @@ TEST_P(CalibrationAtLevel, WaitsForAFaceAndBeginsAnewWhenItIsLost) {
 }
 
 // A capture that nobody waits for any more would take whatever is shown for a rest.
-TEST(Calibration, GoesOnAtTheLevelThatTheTrackerGoesOverTo) {
+TEST(Calibration, RestartsAtTheNewLevel) {
   for (const auto& [from, to] : {std::pair{1, 4}, {4, 1}}) {
     BlobTracker tracker = unfiltered(from);
     (void)tracker.push(disc(0));
@@ -225,7 +225,7 @@ TEST(Calibration, GoesOnAtTheLevelThatTheTrackerGoesOverTo) {
   }
 }
 
-TEST(Calibration, WhatCannotBeIsRefused) {
+TEST(Calibration, RejectsInvalidCallsAndFiles) {
   BlobTracker tracker = unfiltered(1), several = unfiltered(1, 2);
   std::array<std::byte, MIEN_NEUTRAL_BYTES> file = {};
   std::uint32_t captured = 0;

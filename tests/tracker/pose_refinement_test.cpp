@@ -66,7 +66,7 @@ class PoseRefinement : public testing::Test {
                            {0.07f, -0.02f, -0.66f}};
 };
 
-TEST_F(PoseRefinement, AStepGoesMostOfTheWay) {
+TEST_F(PoseRefinement, OneStepRemovesMostOfTheError) {
   HeadPose pose = guess_;
   refine_head_pose(head_, landmarks_, kCamera, pose);
   EXPECT_LT(angle_between(pose.rotation, true_.rotation),
@@ -76,7 +76,7 @@ TEST_F(PoseRefinement, AStepGoesMostOfTheWay) {
 }
 
 // The price of a turn counts from where a step begins, so many steps end at the truth.
-TEST_F(PoseRefinement, StepsEndAtThePoseThatWasSeen) {
+TEST_F(PoseRefinement, StepsConvergeToTheTruePose) {
   HeadPose pose = guess_;
   for (int i = 0; i < 30; ++i) {
     refine_head_pose(head_, landmarks_, kCamera, pose);
@@ -85,7 +85,7 @@ TEST_F(PoseRefinement, StepsEndAtThePoseThatWasSeen) {
   EXPECT_LT(distance(pose.translation, true_.translation), 1e-4f);
 }
 
-TEST_F(PoseRefinement, TheTruePoseStays) {
+TEST_F(PoseRefinement, KeepsTheTruePose) {
   HeadPose pose = true_;
   refine_head_pose(head_, landmarks_, kCamera, pose);
   EXPECT_LT(angle_between(pose.rotation, true_.rotation), 1e-3f);
@@ -93,14 +93,14 @@ TEST_F(PoseRefinement, TheTruePoseStays) {
 }
 
 // A head whose points are all at its origin tells nothing of how it is turned.
-TEST_F(PoseRefinement, WhatPointsDoNotTellStaysAsItWas) {
+TEST_F(PoseRefinement, KeepsRotationThatPointsDoNotDetermine) {
   const std::array<float, kHeadPoints> nothing = {};
   HeadPose pose = guess_;
   refine_head_pose(nothing, seen(nothing, true_), kCamera, pose);
   EXPECT_LT(angle_between(pose.rotation, guess_.rotation), 1e-3f);
 }
 
-TEST_F(PoseRefinement, APoseWithoutAStepStaysBitForBit) {
+TEST_F(PoseRefinement, KeepsThePoseBitForBitWithoutAValidStep) {
   const auto expect_untouched = [&](HeadPoints head, const Landmarks& landmarks,
                                     const HeadPose& before) {
     HeadPose pose = before;

@@ -24,7 +24,7 @@ Result push_region(BlobTracker& tracker, const Region& region, float x, float y)
 }
 
 // A face at every edge of a region in every corner of the image.
-TEST(Region, FacesAreFoundAndFollowedAnywhereInIt) {
+TEST(Region, FacesAreDetectedAndTrackedAnywhereInIt) {
   for (const int left : {0, 420}) {
     for (const int top : {0, 260}) {
       const Region region = {left, top, 200, 180};
@@ -49,7 +49,7 @@ TEST(Region, FacesAreFoundAndFollowedAnywhereInIt) {
 }
 
 // The tracker never claims to follow a face that is not in the region any more.
-TEST(Region, AFaceThatLeavesItIsLost) {
+TEST(Region, LosesAFaceThatLeavesIt) {
   const Region region = {300, 200, 200, 180};
   constexpr float kSide = kDiscDiameter / kDiscPerCrop;
   constexpr float kStep = 3.0f;

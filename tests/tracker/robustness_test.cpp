@@ -19,7 +19,7 @@ Picture moving_disc(int frame) {
   return disc_picture(100.0f + 2.0f * x, 120.0f, 50.0f + x / 2.0f);
 }
 
-TEST(Reset, IsBitForBitAFreshTracker) {
+TEST(Reset, IsBitIdenticalToANewTracker) {
   BlobTracker used;
   for (int i = 0; i < 23; ++i) {
     (void)used.push(moving_disc(i));
@@ -34,7 +34,7 @@ TEST(Reset, IsBitForBitAFreshTracker) {
   }
 }
 
-TEST(Reset, TwoTrackersDoNotKnowEachOther) {
+TEST(Reset, TrackersDoNotAffectEachOther) {
   BlobTracker alone;
   BlobTracker first;
   BlobTracker second;
@@ -46,7 +46,7 @@ TEST(Reset, TwoTrackersDoNotKnowEachOther) {
   }
 }
 
-TEST(Timestamps, AnyValueIsFine) {
+TEST(Timestamps, AnyValueIsAccepted) {
   constexpr std::int64_t kLowest = std::numeric_limits<std::int64_t>::min();
   constexpr std::int64_t kHighest = std::numeric_limits<std::int64_t>::max();
   const Buffer disc(disc_picture(160.0f, 120.0f, 70.0f), {});
@@ -71,7 +71,7 @@ TEST(Timestamps, AnyValueIsFine) {
   EXPECT_EQ(tracker.result().frames, 400u);
 }
 
-TEST(Timestamps, RepeatedOnesStillTrack) {
+TEST(Timestamps, TrackingContinuesWhenTheyRepeat) {
   BlobTracker tracker;
   for (int i = 0; i < 10; ++i) {
     const Buffer buffer(moving_disc(i), {});
@@ -82,7 +82,7 @@ TEST(Timestamps, RepeatedOnesStillTrack) {
   EXPECT_EQ(tracker.result().proposal_runs, 1u);
 }
 
-TEST(Images, OfEverySizeInOneStream) {
+TEST(Images, MayHaveAnySizeInOneStream) {
   BlobTracker tracker;
   std::mt19937 random(3);
   for (int i = 0; i < 60; ++i) {
@@ -104,7 +104,7 @@ TEST(Images, OfEverySizeInOneStream) {
   }
 }
 
-TEST(Images, ANewSizeIsSearchedAnewOnTheSameFrame) {
+TEST(Images, NewSizeStartsDetectionOnTheSameFrame) {
   BlobTracker tracker;
   (void)tracker.push(disc_picture(160.0f, 120.0f, 70.0f, 320, 240));
   const Result result = tracker.push(disc_picture(320.0f, 240.0f, 140.0f, 640, 480));
@@ -113,7 +113,7 @@ TEST(Images, ANewSizeIsSearchedAnewOnTheSameFrame) {
   EXPECT_FALSE(result.flags & MIEN_RESULT_CUT);
 }
 
-TEST(Images, ANewSizeEndsTheSearchOfTheOldOne) {
+TEST(Images, NewSizeCancelsARunningDetection) {
   BlobTracker tracker;
   (void)tracker.push(Picture(320, 240));  // searched at once
   (void)tracker.push(Picture(320, 240));  // the first share of a search
@@ -122,7 +122,7 @@ TEST(Images, ANewSizeEndsTheSearchOfTheOldOne) {
   EXPECT_EQ(result.proposal_runs, 3u);
 }
 
-TEST(Images, FourK) {
+TEST(Images, MayBeFourK) {
   BlobTracker tracker;
   const Buffer buffer(disc_picture(2600.0f, 900.0f, 700.0f, 3840, 2160),
                       {.format = MIEN_IMAGE_NV12});
@@ -132,7 +132,7 @@ TEST(Images, FourK) {
   EXPECT_NEAR(result.box[1] + result.box[3] / 2, 900.0f, 20.0f);
 }
 
-TEST(Images, BlackWhiteAndNoiseWhileEverythingIsAFace) {
+TEST(Images, BlackWhiteAndNoiseGiveValidResults) {
   BlobOptions everything;
   everything.face_bias = 1000.0f;
   BlobTracker tracker(everything);
@@ -147,7 +147,7 @@ TEST(Images, BlackWhiteAndNoiseWhileEverythingIsAFace) {
   }
 }
 
-TEST(Images, RefusedOnesLeaveTheTrackerAsItWas) {
+TEST(Images, InvalidOnesDoNotChangeTheTracker) {
   BlobTracker disturbed;
   BlobTracker steady;
   for (int i = 0; i < 8; ++i) {
@@ -162,7 +162,7 @@ TEST(Images, RefusedOnesLeaveTheTrackerAsItWas) {
 }
 
 // The caller's memory may be gone or overwritten as soon as push returns.
-TEST(Images, AreReadDuringThePushOnly) {
+TEST(Images, AreReadOnlyDuringTheCall) {
   BlobTracker keeping;
   BlobTracker freeing;
   const Picture picture = disc_picture(160.0f, 120.0f, 70.0f);

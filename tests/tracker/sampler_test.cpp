@@ -114,7 +114,7 @@ int grey(int, int) { return 128; }
 // Pixels between samples of a crop, from one that is enlarged to one that is made much smaller.
 constexpr float kDistances[] = {0.7f, 1.0f, 1.4f, 2.3f, 3.7f, 5.1f, 7.3f, 11.6f};
 
-TEST(Sampler, ColourLiesWhereTheImageHasIt) {
+TEST(Sampler, KeepsThePositionOfColour) {
   // A colour sample is the mean of 2 x 2 pixels, so that sample c lies at pixel 2 c + 1.
   const auto blue_at = [](float pixel) { return 128 + 1.772f * ((pixel - 1) / 2 - 128); };
   for (const std::int32_t format : {MIEN_IMAGE_NV12, MIEN_IMAGE_NV21, MIEN_IMAGE_I420}) {
@@ -133,7 +133,7 @@ TEST(Sampler, ColourLiesWhereTheImageHasIt) {
   }
 }
 
-TEST(Sampler, BrightnessLiesWhereTheImageHasIt) {
+TEST(Sampler, KeepsThePositionOfBrightness) {
   const auto ramp = [](int at) { return std::clamp(at - 128, 0, 255); };
   const Scene across(
       MIEN_IMAGE_GRAY8, [&](int column, int) { return ramp(column); }, grey);
@@ -151,7 +151,7 @@ TEST(Sampler, BrightnessLiesWhereTheImageHasIt) {
 
 // Stripes as wide as half a box vanish in it; without the box they would show as a pattern that is
 // not there. Until samples are 1.5 boxes apart they can be seen.
-TEST(Sampler, AveragesWhatIsTooFineToBeSampled) {
+TEST(Sampler, AveragesPatternsAboveTheSamplingLimit) {
   for (const int width : {1, 2, 4}) {
     const auto stripes = [width](int column, int) { return column / width % 2 == 0 ? 28 : 228; };
     const Scene luma(MIEN_IMAGE_GRAY8, stripes, grey);

@@ -43,7 +43,7 @@ std::vector<float> noise(std::size_t count) {
   return samples;
 }
 
-TEST(Camera, TurnedInTheHandIsFoundAtOnce) {
+TEST(Camera, DetectsAtOnceAfterRotation) {
   BlobTracker tracker;
   for (int i = 0; i < 24; ++i) {
     const Layout layout = {.rotation = 90 * (i / 3 % 4), .mirrored = i % 2 == 1};
@@ -55,7 +55,7 @@ TEST(Camera, TurnedInTheHandIsFoundAtOnce) {
   }
 }
 
-TEST(Camera, AnotherFormatOfTheSameSizeIsNoInterruption) {
+TEST(Camera, FormatChangesDoNotInterruptTracking) {
   BlobTracker tracker;
   for (int i = 0; i < 40; ++i) {
     const Result result =
@@ -68,7 +68,7 @@ TEST(Camera, AnotherFormatOfTheSameSizeIsNoInterruption) {
   EXPECT_EQ(tracker.result().proposal_runs, 1u);
 }
 
-TEST(Camera, WhiteAndBlackFramesLoseTheFaceAndBringNone) {
+TEST(Camera, WhiteAndBlackFramesLoseTheFace) {
   for (const float diameter : {0.0f, 2000.0f}) {
     BlobTracker tracker;
     (void)tracker.push(disc());
@@ -99,7 +99,7 @@ TEST(Camera, MayDropUpToThreeHundredFrames) {
   EXPECT_EQ(tracker.result().proposal_runs, 1u) << "the face never moved";
 }
 
-TEST(Camera, OfAnyRateFadesWithinTheSameTime) {
+TEST(Camera, FadeTimeDoesNotDependOnTheFrameRate) {
   for (const int rate : {5, 12, 15, 24, 25, 30, 60, 90, 120}) {
     BlobTracker tracker({}, [](mien_tracker_config& config) { config.lose_after_frames = 1; });
     const Buffer seen(disc_picture(64.0f, 48.0f, 35.0f, 128, 96), {}), empty(Picture(128, 96), {});
@@ -126,7 +126,7 @@ TEST(Camera, OfAnyRateFadesWithinTheSameTime) {
 }
 
 // Nothing depends on when the clock began: not near any number that timers overflow at.
-TEST(Clocks, OfAnyOriginGiveTheSameBits) {
+TEST(Clocks, OriginDoesNotChangeTheBits) {
   const std::int64_t milli = 1'000'000, micro = 1'000;
   const std::int64_t origins[] = {(std::int64_t{1} << 31) * milli,
                                   (std::int64_t{1} << 32) * micro,
@@ -160,7 +160,7 @@ TEST(Clocks, OfAnyOriginGiveTheSameBits) {
   }
 }
 
-TEST(Microphone, ConstantClippedAndBrokenSoundIsHarmless) {
+TEST(Microphone, ConstantClippedAndInvalidSamplesAreHarmless) {
   const float not_a_number = std::nanf(""), infinite = std::numeric_limits<float>::infinity();
   for (const float value : {1.0f, -1.0f, 30.0f, not_a_number, infinite, -infinite, 1e-42f, 3e38f}) {
     BlobTracker tracker;
@@ -180,7 +180,7 @@ TEST(Microphone, ConstantClippedAndBrokenSoundIsHarmless) {
   }
 }
 
-TEST(Microphone, AnHourOfSilenceIsForgottenAtTheFirstSound) {
+TEST(Microphone, ReactsAtOnceAfterAnHourOfSilence) {
   BlobTracker tracker;
   constexpr std::int32_t kRate = 8000;
   const std::vector<float> silence(kRate, 0.0f), voice = noise(kRate);
@@ -202,7 +202,7 @@ TEST(Microphone, AnHourOfSilenceIsForgottenAtTheFirstSound) {
   EXPECT_GT(activity_at(3600.35), 0.9f);
 }
 
-TEST(Microphone, MayBecomeAnotherOneAtAnyTime) {
+TEST(Microphone, MayChangeItsFormatAtAnyTime) {
   struct Kind {
     std::int32_t rate, channels;
     bool planar, int16;
@@ -238,7 +238,7 @@ TEST(Microphone, MayBecomeAnotherOneAtAnyTime) {
   EXPECT_GT(quietest, 0.7f) << "one voice all along";
 }
 
-TEST(Trackers, OnThreadsOfTheirOwnAnswerAsAlone) {
+TEST(Trackers, GiveTheSameResultsOnSeveralThreads) {
   const auto animate = [] {
     BlobTracker tracker;
     const std::vector<float> sound = noise(1600);
@@ -266,7 +266,7 @@ TEST(Trackers, OnThreadsOfTheirOwnAnswerAsAlone) {
 
 // In the same memory again and again, and by the allocator now and then; weights are checked each
 // time.
-TEST(Trackers, MayBeMadeManyTimes) {
+TEST(Trackers, MayBeCreatedManyTimes) {
   constexpr int kTimes = MIEN_CREATE_TIMES;
   const AlignedBytes basenet = blob_basenet(), proposal = blob_proposal();
   Config config = blob_config(basenet, proposal);

@@ -53,7 +53,7 @@ std::vector<Result> tracked(const std::vector<Result>& results) {
   return kept;
 }
 
-TEST(SeveralFaces, AllOfAPictureAreFoundAtOnce) {
+TEST(SeveralFaces, DetectsAllFacesOfTheFirstImage) {
   SeveralTracker tracker(3);
   const std::vector<Result> results = tracker.push_all({{60, 120}, {160, 80}, {260, 170}});
   ASSERT_EQ(results.size(), 3u);
@@ -69,7 +69,7 @@ TEST(SeveralFaces, AllOfAPictureAreFoundAtOnce) {
   EXPECT_EQ(places, (std::set<int>{6, 16, 26}));
 }
 
-TEST(SeveralFaces, NoMoreThanWereAskedFor) {
+TEST(SeveralFaces, TracksAtMostMaxFaces) {
   for (std::int32_t most = 1; most <= 3; ++most) {
     SeveralTracker tracker(most);
     for (int frame = 0; frame < 40; ++frame) {
@@ -96,7 +96,7 @@ TEST(SeveralFaces, IdsStayWithTheirFaces) {
   }
 }
 
-TEST(SeveralFaces, NewcomersAreFoundWithinTheTurnsOfOneRound) {
+TEST(SeveralFaces, DetectsNewFacesWithinOneRoundOfTiles) {
   for (const Disc newcomer : {Disc{250, 60, 24}, Disc{240, 150, 60}, Disc{200, 120, 110}}) {
     SeveralTracker tracker(2);
     const Disc first = {50, 120, 45};
@@ -115,7 +115,7 @@ TEST(SeveralFaces, NewcomersAreFoundWithinTheTurnsOfOneRound) {
   }
 }
 
-TEST(SeveralFaces, OneDiscIsNeverTwoFaces) {
+TEST(SeveralFaces, OneDiscIsOneFace) {
   SeveralTracker tracker(4);
   for (int frame = 0; frame < 100; ++frame) {
     const float x = 160 + 70 * std::sin(0.04f * static_cast<float>(frame));
@@ -124,7 +124,7 @@ TEST(SeveralFaces, OneDiscIsNeverTwoFaces) {
 }
 
 // A child's face next to one close to the camera: half of the larger crop lies between them.
-TEST(SeveralFaces, ASmallFaceCloseToALargeOneIsAFaceOfItsOwn) {
+TEST(SeveralFaces, TracksASmallFaceBesideALargeOne) {
   const Disc large = {110, 120, 100}, small = {183, 120, 20};
   SeveralTracker tracker(2);
   for (int frame = 0; frame < 40; ++frame) {
@@ -135,7 +135,7 @@ TEST(SeveralFaces, ASmallFaceCloseToALargeOneIsAFaceOfItsOwn) {
   }
 }
 
-TEST(SeveralFaces, OneThatLeavesFadesAndIsForgotten) {
+TEST(SeveralFaces, FacesThatLeaveFadeAndAreForgotten) {
   SeveralTracker tracker(2);
   ASSERT_EQ(tracker.push_all({{80, 120}, {240, 120}}).size(), 2u);
   std::vector<Result> results;
@@ -152,7 +152,7 @@ TEST(SeveralFaces, OneThatLeavesFadesAndIsForgotten) {
   EXPECT_TRUE(results[0].has_face());
 }
 
-TEST(SeveralFaces, OneThatComesBackSoonKeepsItsId) {
+TEST(SeveralFaces, FacesThatReturnSoonKeepTheirId) {
   SeveralTracker tracker(2);
   const std::vector<Result> before = tracker.push_all({{80, 120}, {240, 120}});
   ASSERT_EQ(before.size(), 2u);
@@ -168,7 +168,7 @@ TEST(SeveralFaces, OneThatComesBackSoonKeepsItsId) {
   EXPECT_EQ(after[middle_x(after[0]) < 160 ? 0 : 1].face_id, id);
 }
 
-TEST(SeveralFaces, AStrangerGetsAnIdOfItsOwn) {
+TEST(SeveralFaces, ANewFaceGetsANewId) {
   SeveralTracker tracker(1);
   EXPECT_EQ(tracker.push_all({{80, 120}})[0].face_id, 1u);
   for (int frame = 0; frame < 10; ++frame) {
@@ -181,7 +181,7 @@ TEST(SeveralFaces, AStrangerGetsAnIdOfItsOwn) {
   EXPECT_EQ(tracker.push_until_found(discs({{250, 120}})).face_id, 3u) << "after a long time";
 }
 
-TEST(SeveralFaces, TwoThatMeetAreOneAndTheOlderStays) {
+TEST(SeveralFaces, TheOlderOfTwoThatMeetStays) {
   SeveralTracker tracker(2);
   std::vector<Result> results = tracker.push_all({{80, 120}, {240, 120}});
   ASSERT_EQ(results.size(), 2u);
@@ -194,7 +194,7 @@ TEST(SeveralFaces, TwoThatMeetAreOneAndTheOlderStays) {
 }
 
 // What one face shows does not depend on who else is there.
-TEST(SeveralFaces, FacesDoNotDisturbEachOther) {
+TEST(SeveralFaces, FacesDoNotAffectEachOther) {
   for (const std::int32_t lod : {1, 2, 4}) {
     SeveralTracker alone(1, lod), together(2, lod);
     for (int frame = 0; frame < 30; ++frame) {
@@ -210,7 +210,7 @@ TEST(SeveralFaces, FacesDoNotDisturbEachOther) {
   }
 }
 
-TEST(SeveralFaces, ResetBeginsAnew) {
+TEST(SeveralFaces, ResetRemovesAllFaces) {
   SeveralTracker tracker(2);
   (void)tracker.push_all({{80, 120}, {240, 120}});
   ASSERT_EQ(tracker.tracker().reset(), MIEN_OK);
@@ -218,7 +218,7 @@ TEST(SeveralFaces, ResetBeginsAnew) {
   EXPECT_EQ(tracker.push_all({{80, 120}})[0].face_id, 1u);
 }
 
-TEST(SeveralFaces, IndexesThatAreNoneAreRefused) {
+TEST(SeveralFaces, RejectsInvalidIndices) {
   SeveralTracker tracker(2);
   Result result;
   EXPECT_EQ(tracker.tracker().get_face(0, result), MIEN_ERROR_OUT_OF_RANGE);
@@ -231,7 +231,7 @@ TEST(SeveralFaces, IndexesThatAreNoneAreRefused) {
   EXPECT_EQ(mien_tracker_face_count(nullptr), 0);
 }
 
-TEST(Tiles, HoldEveryWindowWhole) {
+TEST(Tiles, EveryWindowLiesWithinOneTile) {
   for (const auto& [width, height, side] :
        {std::tuple{160.0f, 90.0f, 57.0f}, {160.0f, 160.0f, 57.0f}, {40.0f, 90.0f, 57.0f}}) {
     const tracker::Tiles tiles({{}, width, height}, side, 12.0f);

@@ -37,12 +37,12 @@ double sum(const std::vector<float>& values, std::size_t channel) {
   return total;
 }
 
-TEST(Shrink, SameSizeIsTheSamePicture) {
+TEST(Shrink, SameSizeCopiesTheImage) {
   const std::vector<float> picture = random_picture(20);
   EXPECT_EQ(shrunk(picture, 20, 20), picture);
 }
 
-TEST(Shrink, HalvesAreMeansOfFour) {
+TEST(Shrink, HalvingTakesTheMeanOfFourPixels) {
   const std::vector<float> picture = random_picture(12);
   const std::vector<float> half = shrunk(picture, 12, 6);
   for (std::size_t i = 0; i < 6; ++i) {
@@ -69,7 +69,7 @@ TEST(Shrink, KeepsTheMean) {
   }
 }
 
-TEST(Shrink, KeepsPlaces) {
+TEST(Shrink, KeepsPositions) {
   // A ramp stays a ramp: pixel centres map to pixel centres.
   std::vector<float> ramp(3 * 40 * 40);
   for (std::size_t i = 0; i < ramp.size(); ++i) {

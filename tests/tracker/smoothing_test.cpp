@@ -50,7 +50,7 @@ float rise(const std::vector<float>& curve) {
   return 1e9f;
 }
 
-TEST(Smoothing, BlinksKeepTheirPeakAndTheirTime) {
+TEST(Smoothing, BlinksKeepTheirPeakAndTiming) {
   for (int closing = 2; closing <= 4; ++closing) {
     for (int held = 0; held <= 1; ++held) {
       const std::vector<float> seen = blink(closing, held, closing + 1), shown = smoothed(seen);
@@ -60,7 +60,7 @@ TEST(Smoothing, BlinksKeepTheirPeakAndTheirTime) {
   }
 }
 
-TEST(Smoothing, CalmsTrembling) {
+TEST(Smoothing, ReducesJitter) {
   std::mt19937 random(1);
   std::normal_distribution<float> noise(0.0f, 0.01f);
   std::vector<float> seen(3000);
@@ -77,13 +77,13 @@ TEST(Smoothing, CalmsTrembling) {
   EXPECT_NEAR(shown.back(), 0.4f, 0.03f);
 }
 
-TEST(Smoothing, ArrivesAndStays) {
+TEST(Smoothing, ConvergesToTheInput) {
   std::vector<float> seen(120, 1.0f);
   seen[0] = 0.98f;
   EXPECT_NEAR(smoothed(seen).back(), 1.0f, 1e-3f);
 }
 
-TEST(Smoothing, PointsInAnySizeOfPictureAlike) {
+TEST(Smoothing, PointsDoNotDependOnTheImageSize) {
   const Point from = {10.0f, 20.0f}, step = {0.5f, -0.25f};
   for (const float size : {1.0f, 8.0f}) {
     Point shown = {size * from.x, size * from.y};
@@ -94,7 +94,7 @@ TEST(Smoothing, PointsInAnySizeOfPictureAlike) {
   }
 }
 
-TEST(Smoothing, PosesStayRotationsOnTheShorterWay) {
+TEST(Smoothing, PosesStayRotationsAndTakeTheShorterWay) {
   HeadPose shown, seen;
   const float angle = 3.0f;
   seen.rotation = matrix({0.0f, std::sin(angle / 2), 0.0f, std::cos(angle / 2)});
@@ -114,7 +114,7 @@ TEST(Smoothing, PosesStayRotationsOnTheShorterWay) {
 }
 
 // Where the head looks matters nothing, not even over the place where angles begin anew.
-TEST(Smoothing, PosesTurnedToTheBackAreSmoothedAlike) {
+TEST(Smoothing, PosesDoNotDependOnTheDirection) {
   const auto turned = [](float angle) {
     return matrix({0.0f, std::sin(angle / 2), 0.0f, std::cos(angle / 2)});
   };
@@ -147,7 +147,7 @@ void expect_shown(const char* signal, std::initializer_list<Step> steps, Smooth 
   }
 }
 
-TEST(Smoothing, ShowsLargeStepsAtOnceAndSmallOnesSlowly) {
+TEST(Smoothing, PassesLargeStepsAndSlowsSmallOnes) {
   expect_shown("control", {{0.002f, 0.30f}, {0.01f, 0.52f}, {0.1f, 0.89f}, {0.3f, 0.96f}},
                [](float size) {
                  float shown = 0.0f;

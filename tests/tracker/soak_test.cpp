@@ -8,7 +8,7 @@
 namespace mien::tests {
 namespace {
 
-TEST(Soak, PictureAndSoundStayTogether) {
+TEST(Soak, AudioAndVideoStaySynchronized) {
   for (const double skew : {50e-6, -50e-6}) {
     const SoakReport report = soak(
         {.seconds = 150, .skew = skew, .seconds_between_gaps = 15, .seconds_between_rates = 22});
@@ -28,7 +28,7 @@ TEST(Soak, PictureAndSoundStayTogether) {
   }
 }
 
-TEST(Times, NoPercentileLiesAboveTheWorst) {
+TEST(Times, PercentilesAreAtMostTheMaximum) {
   for (int i = 0; i < 100; ++i) {
     const double us = 100.0 + 0.1 * i;
     Times times;
@@ -38,7 +38,7 @@ TEST(Times, NoPercentileLiesAboveTheWorst) {
   }
 }
 
-TEST(Times, PercentilesAreWithinAHundredthOfTheSortedOnes) {
+TEST(Times, PercentilesAreAccurateToOnePercent) {
   Times times;
   for (int i = 1; i <= 10000; ++i) {
     times.add(10.0 * i);

@@ -63,7 +63,7 @@ TEST(Speech, EveryOutputOfAudioNetMovesItsOwnControl) {
   }
 }
 
-TEST(Speech, LipsCloseNoFurtherThanTheJawIsOpen) {
+TEST(Speech, MouthCloseIsAtMostJawOpen) {
   for (const float jaw : {0.0f, 0.25f, 0.5f}) {
     std::array<float, kSpeechOutputs> outputs = {};
     outputs[kJawOutput] = jaw;
@@ -116,7 +116,7 @@ Turns turns_with(float attack_ms, float release_ms) {
   return turns;
 }
 
-TEST(Speech, ComesWithTheAttackTimeAndGoesWithTheReleaseTime) {
+TEST(Speech, FollowsAttackAndReleaseTimes) {
   const Turns at_once = turns_with(0.0f, 0.0f);
   EXPECT_NEAR(at_once.rises_ms, 500.0, 40.0);
   EXPECT_NEAR(at_once.falls_ms, 1500.0, 40.0);
@@ -127,7 +127,7 @@ TEST(Speech, ComesWithTheAttackTimeAndGoesWithTheReleaseTime) {
   }
 }
 
-TEST(Speech, AShortGapInTheAudioIsBridgedAndALongOneIsSilence) {
+TEST(Speech, BridgesShortGapsAndFadesInLongOnes) {
   for (const int gap_ms : {100, 250, 400, 480}) {
     BlobTracker tracker = with_times(0.0f, 0.0f);
     const Sound sound = Sound().add(0.5, 0.5f);
@@ -142,7 +142,7 @@ TEST(Speech, AShortGapInTheAudioIsBridgedAndALongOneIsSilence) {
   }
 }
 
-TEST(Speech, AQueueThatWasReadHasAllItsRoomAgain) {
+TEST(Speech, QueueIsEmptyAfterAFrame) {
   constexpr std::int32_t kRoom = 4096;
   BlobTracker tracker({}, [](mien_tracker_config& config) { config.audio_queue_samples = kRoom; });
   const Sound sound = Sound().add(0.256, 0.5f);
@@ -157,7 +157,7 @@ TEST(Speech, AQueueThatWasReadHasAllItsRoomAgain) {
 }
 
 // A face that is lost gives its mouth to the voice: how much of jawOpen is the voice's.
-TEST(Speech, TakesTheMouthOfALostFaceWithinATenthOfASecond) {
+TEST(Speech, ReplacesALostFaceWithinATenthOfASecond) {
   const auto mix = [](BlobTracker& tracker) {
     return tracker.tracker().set_mix(static_cast<int>(kJaw), 0.25f, 0.0f);
   };

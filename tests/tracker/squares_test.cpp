@@ -29,7 +29,7 @@ std::vector<Detection> random_candidates(std::size_t count, unsigned seed) {
   return detections;
 }
 
-TEST(SuppressNonMaxima, KeepsExactlyTheUnbeaten) {
+TEST(SuppressNonMaxima, KeepsExactlyTheMaxima) {
   for (unsigned seed = 0; seed < 50; ++seed) {
     const std::vector<Detection> all = random_candidates(60, seed);
     std::vector<Detection> list = all;
@@ -53,7 +53,7 @@ TEST(SuppressNonMaxima, KeepsExactlyTheUnbeaten) {
   }
 }
 
-TEST(SuppressNonMaxima, OneAndNone) {
+TEST(SuppressNonMaxima, HandlesEmptyAndEqualInput) {
   std::vector<Detection> none;
   EXPECT_EQ(suppress_non_maxima(none, 0.5f), 0u);
   std::vector<Detection> twins(2, Detection{{{1, 1}, 1}, 0.9f});

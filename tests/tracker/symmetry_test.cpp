@@ -30,12 +30,12 @@ Controls evened(Controls controls, std::uint64_t supported = kAll) {
   return controls;
 }
 
-TEST(Sides, WhatIsToldApartStaysAsItIs) {
+TEST(Symmetry, LargeDifferencesStay) {
   EXPECT_EQ(evened(smile(0.7f, 0.6f)), smile(0.7f, 0.6f));
   EXPECT_EQ(evened(smile(0.0f, kSymmetryThreshold)), smile(0.0f, kSymmetryThreshold));
 }
 
-TEST(Sides, SmallDifferencesShrinkAroundTheirMean) {
+TEST(Symmetry, SmallDifferencesShrinkAroundTheirMean) {
   for (const float apart : {-0.04f, -0.01f, 0.0f, 0.02f, 0.049f}) {
     const Controls even = evened(smile(0.5f + apart / 2, 0.5f - apart / 2));
     EXPECT_NEAR(even[kLeft] + even[kRight], 1.0f, 1e-6f);
@@ -43,7 +43,7 @@ TEST(Sides, SmallDifferencesShrinkAroundTheirMean) {
   }
 }
 
-TEST(Sides, NoControlMovesFarNorOutOfItsRange) {
+TEST(Symmetry, ControlsChangeLittleAndStayInRange) {
   for (int thousandth = 0; thousandth <= 1000; ++thousandth) {
     const float right = static_cast<float>(thousandth) / 1000;
     const Controls even = evened(smile(0.01f, right));
@@ -54,7 +54,7 @@ TEST(Sides, NoControlMovesFarNorOutOfItsRange) {
   }
 }
 
-TEST(Sides, WhatIsAtRestNeverGoesBelowIt) {
+TEST(Symmetry, ControlsNeverLeaveZeroToOne) {
   float right = kSymmetryThreshold;
   while (right > 0.04f) {
     right = std::nextafter(right, 0.0f);
@@ -64,7 +64,7 @@ TEST(Sides, WhatIsAtRestNeverGoesBelowIt) {
   }
 }
 
-TEST(Sides, EveryPairOfSidesIsOneAndNothingElse) {
+TEST(Symmetry, AppliesToPairsOnly) {
   for (std::size_t i = 0; i < kControls; ++i) {
     Controls controls{};
     controls[i] = 0.02f;
@@ -78,7 +78,7 @@ TEST(Sides, EveryPairOfSidesIsOneAndNothingElse) {
   }
 }
 
-TEST(Sides, OneThatIsNotDrivenDoesNotCount) {
+TEST(Symmetry, IgnoresPairsThatAreNotSupported) {
   EXPECT_EQ(evened(smile(0.02f, 0.0f), kAll & ~(std::uint64_t{1} << kRight)), smile(0.02f, 0.0f));
 }
 

@@ -44,7 +44,7 @@ BlobTracker with_queue(std::int32_t samples) {
                      [=](mien_tracker_config& config) { config.audio_queue_samples = samples; });
 }
 
-TEST(AudioQueue, WhatWaitedIsHeardAsWhatWasPushed) {
+TEST(AudioQueue, GivesTheSameResultAsPushAudio) {
   const std::vector<float> samples = noise();
   BlobTracker queued = with_queue(8192), pushed = with_queue(0);
   std::size_t first = 0, blocks = 0;
@@ -62,7 +62,7 @@ TEST(AudioQueue, WhatWaitedIsHeardAsWhatWasPushed) {
   EXPECT_GT(result.voice_activity, 0.0f);
 }
 
-TEST(AudioQueue, SaysWhenItIsFull) {
+TEST(AudioQueue, ReportsWhenItIsFull) {
   const std::vector<float> samples = noise();
   BlobTracker tracker = with_queue(1000);  // 1024
   EXPECT_EQ(tracker.tracker().queue_audio(block_of(samples, 0, 1025), 0),
@@ -84,7 +84,7 @@ TEST(AudioQueue, SaysWhenItIsFull) {
   }
 }
 
-TEST(AudioQueue, EveryBlockLiesInOnePieceOfTheRing) {
+TEST(AudioQueue, BlocksAreContiguousInTheRing) {
   constexpr std::int32_t kRoom = 64;
   tracker::AudioQueue queue;
   engine::Arena measure;
@@ -114,7 +114,7 @@ TEST(AudioQueue, EveryBlockLiesInOnePieceOfTheRing) {
   }
 }
 
-TEST(AudioQueue, IsThereOnlyWhenAskedFor) {
+TEST(AudioQueue, ExistsOnlyIfConfigured) {
   const std::vector<float> samples = noise();
   BlobTracker none = with_queue(0);
   EXPECT_EQ(none.tracker().queue_audio(block_of(samples, 0, 1), 0), MIEN_ERROR_AUDIO_QUEUE_FULL);
@@ -129,7 +129,7 @@ TEST(AudioQueue, IsThereOnlyWhenAskedFor) {
   EXPECT_EQ(mien_tracker_queue_audio(nullptr, &wrong, 0), MIEN_ERROR_NULL_ARGUMENT);
 }
 
-TEST(AudioQueue, ResetForgetsWhatWaits) {
+TEST(AudioQueue, ResetDiscardsQueuedAudio) {
   const std::vector<float> samples = noise();
   BlobTracker tracker = with_queue(16384);
   ASSERT_EQ(tracker.tracker().queue_audio(block_of(samples, 0, 16000), 0), MIEN_OK);
@@ -137,7 +137,7 @@ TEST(AudioQueue, ResetForgetsWhatWaits) {
   EXPECT_EQ(tracker.advance().voice_activity, 0.0f);
 }
 
-TEST(AudioQueue, OutOfRange) {
+TEST(AudioQueue, RejectsCapacityOutOfRange) {
   const AlignedBytes basenet = blob_basenet(), proposal = blob_proposal();
   Config config = blob_config(basenet, proposal);
   for (const std::int32_t samples : {-1, (1 << 22) + 1}) {
@@ -149,7 +149,7 @@ TEST(AudioQueue, OutOfRange) {
 
 // The answers at the end are those of one thread: nothing is lost, doubled or read before it is
 // there.
-TEST(AudioQueue, BetweenTwoThreads) {
+TEST(AudioQueue, WorksBetweenTwoThreads) {
   const std::vector<float> samples = noise();
   BlobTracker tracker = with_queue(4096), alone = with_queue(0);
   std::atomic<bool> done = false;
@@ -187,7 +187,7 @@ TEST(AudioQueue, BetweenTwoThreads) {
   EXPECT_NEAR(tracker.result().voice_activity, alone.result().voice_activity, 1e-3f);
 }
 
-TEST(Trackers, AreIndependentOfEachOther) {
+TEST(Trackers, AreIndependentAcrossThreads) {
   const Buffer picture(disc_picture(160.0f, 120.0f, 70.0f), {});
   std::vector<Result> results(4);
   std::vector<std::thread> threads;

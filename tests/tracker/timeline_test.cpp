@@ -17,7 +17,7 @@ Timeline::Step step(std::int64_t from, std::int64_t to) {
   return timeline.advance(to);
 }
 
-TEST(Timeline, OrdinarySteps) {
+TEST(Timeline, MeasuresSteps) {
   EXPECT_FLOAT_EQ(step(0, 40 * kMs).seconds, 0.04f);
   EXPECT_FALSE(step(0, 40 * kMs).cut);
   EXPECT_FLOAT_EQ(step(-20 * kMs, 20 * kMs).seconds, 0.04f);
@@ -35,7 +35,7 @@ TEST(Timeline, FirstAndRepeatedCountAsOneThirtieth) {
   }
 }
 
-TEST(Timeline, JumpsAreCutsOfBoundedLength) {
+TEST(Timeline, JumpsAreDiscontinuitiesOfBoundedLength) {
   for (auto [from, to] : {std::pair<std::int64_t, std::int64_t>{0, -1},
                           {0, 1000 * kMs + 1},
                           {kLowest, kHighest},

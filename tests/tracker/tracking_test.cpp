@@ -20,7 +20,7 @@ void expect_box_on_disc(const Result& result, float x, float y, float diameter) 
   EXPECT_EQ(result.box[2], result.box[3]);
 }
 
-TEST(Following, NothingBeforeTheFirstImage) {
+TEST(Tracking, ResultIsEmptyBeforeTheFirstImage) {
   BlobTracker tracker;
   const Result result = tracker.result();
   EXPECT_EQ(result.status, MIEN_FACE_SEARCHING);
@@ -30,7 +30,7 @@ TEST(Following, NothingBeforeTheFirstImage) {
   }
 }
 
-TEST(Following, FindsDiscsOfAllSizesEverywhere) {
+TEST(Tracking, DetectsDiscsOfAllSizesEverywhere) {
   for (float diameter : {20.0f, 33.0f, 60.0f, 110.0f, 160.0f}) {
     for (float x : {0.5f, 0.35f, 0.7f}) {
       SCOPED_TRACE(testing::Message() << diameter << " at " << x);
@@ -46,7 +46,7 @@ TEST(Following, FindsDiscsOfAllSizesEverywhere) {
 }
 
 // At this size the last band of the largest picture overlaps the one before.
-TEST(Following, FindsSmallDiscsInEveryBand) {
+TEST(Tracking, DetectsSmallDiscsInEveryBand) {
   constexpr float kSmall = 21.0f;  // no size of the search but the largest sees it
   for (float y = 30.0f; y < 230.0f; y += 12.0f) {
     BlobTracker tracker({}, [](mien_tracker_config& config) { config.proposal_size = 100; });
@@ -60,13 +60,13 @@ TEST(Following, FindsSmallDiscsInEveryBand) {
 // one.
 constexpr float kTooSure = 1.0f;
 
-TEST(Following, TheFirstImageIsSearchedThoroughly) {
+TEST(Tracking, DetectionOnTheFirstImageIsThorough) {
   BlobTracker tracker({},
                       [](mien_tracker_config& config) { config.proposal_threshold = kTooSure; });
   EXPECT_TRUE(tracker.push(disc_picture(160.0f, 120.0f, 70.0f)).flags & MIEN_RESULT_FOUND);
 }
 
-TEST(Following, EverySecondSearchAfterThatIsThorough) {
+TEST(Tracking, EverySecondLaterDetectionIsThorough) {
   BlobTracker tracker({},
                       [](mien_tracker_config& config) { config.proposal_threshold = kTooSure; });
   tracker.push(Picture(320, 240));
@@ -74,7 +74,7 @@ TEST(Following, EverySecondSearchAfterThatIsThorough) {
   EXPECT_EQ(result.proposal_runs, 3u) << "the empty image's, a quick one, the thorough one";
 }
 
-TEST(Following, LandmarksSurroundTheDisc) {
+TEST(Tracking, LandmarksSurroundTheDisc) {
   BlobTracker tracker;
   const Result result = tracker.push(disc_picture(150.0f, 110.0f, 70.0f));
   float x = 0.0f;
@@ -89,7 +89,7 @@ TEST(Following, LandmarksSurroundTheDisc) {
   EXPECT_NEAR((highest - lowest) / result.box[3], 0.8f, 0.03f);
 }
 
-TEST(Following, FollowsAMovingGrowingDiscWithoutProposingAgain) {
+TEST(Tracking, TracksAMovingGrowingDiscWithoutDetection) {
   BlobTracker tracker;
   Result result;
   for (int i = 0; i < 90; ++i) {
@@ -110,7 +110,7 @@ TEST(Following, FollowsAMovingGrowingDiscWithoutProposingAgain) {
   EXPECT_EQ(result.face_frames, 90u);
 }
 
-TEST(Following, EncoderRestsOnAlternateFrames) {
+TEST(Tracking, EncoderRunsOnAlternateFrames) {
   BlobTracker tracker;
   const Picture picture = disc_picture(160.0f, 120.0f, 70.0f);
   const std::uint64_t acquiring = tracker.push(picture).encoder_runs;
@@ -122,7 +122,7 @@ TEST(Following, EncoderRestsOnAlternateFrames) {
   EXPECT_EQ(tracker.result().encoder_runs, acquiring + 10);
 }
 
-TEST(Following, DecodersRunOnEveryFrame) {
+TEST(Tracking, DecodersRunOnEveryFrame) {
   BlobTracker tracker;
   const Picture picture = disc_picture(160.0f, 120.0f, 70.0f);
   Result before = tracker.push(picture);
@@ -134,7 +134,7 @@ TEST(Following, DecodersRunOnEveryFrame) {
   }
 }
 
-TEST(Following, LosesAFaceOnlyAfterSeveralMissesAndThenFades) {
+TEST(Tracking, LosesAFaceAfterSeveralMissesAndThenFades) {
   BlobTracker tracker({}, [](mien_tracker_config& config) { config.lose_after_frames = 4; });
   const Picture disc = disc_picture(160.0f, 120.0f, 70.0f);
   const Picture nothing(320, 240);
@@ -164,7 +164,7 @@ TEST(Following, LosesAFaceOnlyAfterSeveralMissesAndThenFades) {
   expect_sane(result);
 }
 
-TEST(Following, ShortMissesGoUnnoticed) {
+TEST(Tracking, SurvivesSingleMisses) {
   BlobTracker tracker;
   const Picture disc = disc_picture(160.0f, 120.0f, 70.0f);
   for (int i = 0; i < 30; ++i) {
@@ -175,7 +175,7 @@ TEST(Following, ShortMissesGoUnnoticed) {
   EXPECT_EQ(tracker.result().proposal_runs, 1u);
 }
 
-TEST(Following, FindsTheFaceAgainElsewhere) {
+TEST(Tracking, DetectsTheFaceAgainElsewhere) {
   BlobTracker tracker;
   for (int i = 0; i < 5; ++i) {
     (void)tracker.push(disc_picture(80.0f, 80.0f, 60.0f));
@@ -188,7 +188,7 @@ TEST(Following, FindsTheFaceAgainElsewhere) {
   EXPECT_EQ(result.proposal_runs, 2u);
 }
 
-TEST(Following, ACutLosesAndFindsOnTheSameFrame) {
+TEST(Tracking, DiscontinuityLosesAndDetectsOnTheSameFrame) {
   BlobTracker tracker;
   for (int i = 0; i < 4; ++i) {
     (void)tracker.push(disc_picture(80.0f, 80.0f, 60.0f));
@@ -200,7 +200,7 @@ TEST(Following, ACutLosesAndFindsOnTheSameFrame) {
   expect_box_on_disc(result, 250.0f, 170.0f, 50.0f);
 }
 
-TEST(Following, ACutWithoutAnImageIsSearchedOnTheNext) {
+TEST(Tracking, DiscontinuityWithoutAnImageStartsDetectionOnTheNext) {
   for (const std::int32_t lod : {1, 4}) {
     BlobTracker tracker({}, [=](mien_tracker_config& config) { config.lod = lod; });
     for (int i = 0; i < 4; ++i) {
@@ -214,7 +214,7 @@ TEST(Following, ACutWithoutAnImageIsSearchedOnTheNext) {
   }
 }
 
-TEST(Following, ANewSizeIsSearchedAtOnceHoweverLongThereWasNobody) {
+TEST(Tracking, NewSizeStartsDetectionAtOnceAfterAnyTimeWithoutAFace) {
   for (int empty = 28; empty < 38; ++empty) {
     BlobTracker tracker;
     for (int i = 0; i < empty; ++i) {
@@ -225,7 +225,7 @@ TEST(Following, ANewSizeIsSearchedAtOnceHoweverLongThereWasNobody) {
 }
 
 // The same scene, as another size of picture or another camera shows it.
-TEST(Following, AFaceKeepsItsIdWhenTheImageChangesItsSize) {
+TEST(Tracking, FaceKeepsItsIdWhenTheImageSizeChanges) {
   for (const float scale : {0.5f, 2.0f, 3.0f}) {
     for (const std::int32_t faces : {1, 2}) {
       BlobTracker tracker({}, [=](mien_tracker_config& config) { config.max_faces = faces; });
@@ -245,7 +245,7 @@ TEST(Following, AFaceKeepsItsIdWhenTheImageChangesItsSize) {
   }
 }
 
-TEST(Following, AnotherPlaceOfAnotherSizeIsAStranger) {
+TEST(Tracking, FaceAtAnotherPlaceAfterASizeChangeGetsANewId) {
   BlobTracker tracker;
   (void)tracker.push(disc_picture(80.0f, 80.0f, 40.0f));
   const Result result = tracker.push(disc_picture(80.0f, 80.0f, 90.0f, 1280, 960));
@@ -254,7 +254,7 @@ TEST(Following, AnotherPlaceOfAnotherSizeIsAStranger) {
 }
 
 // More frames of output than images: each image shows the face, whatever lies between.
-TEST(Following, FramesWithoutImagesDoNotLoseAFaceThatEveryImageShows) {
+TEST(Tracking, FramesWithoutImagesDoNotLoseAVisibleFace) {
   for (std::int32_t lod = 1; lod <= 4; ++lod) {
     BlobTracker tracker({}, [=](mien_tracker_config& config) { config.lod = lod; });
     (void)tracker.push(disc_picture(160.0f, 120.0f, 70.0f));
@@ -267,7 +267,7 @@ TEST(Following, FramesWithoutImagesDoNotLoseAFaceThatEveryImageShows) {
   }
 }
 
-TEST(Following, DecodersBeginAnewAfterACut) {
+TEST(Tracking, DiscontinuityResetsTheDecoders) {
   const Buffer disc(disc_picture(160.0f, 120.0f, 70.0f), {});
   const auto distance = [](const Result& a, const Result& b) {
     float largest = 0.0f;
@@ -288,7 +288,7 @@ TEST(Following, DecodersBeginAnewAfterACut) {
   EXPECT_LT(distance(cut, first), 0.005f);
 }
 
-TEST(Following, DecodersBeginAnewWhenAFaceIsFound) {
+TEST(Tracking, DetectionResetsTheDecoders) {
   const Picture disc = disc_picture(160.0f, 120.0f, 70.0f);
   const auto above_lowest = [](mien_tracker_config& config) { config.lod = 2; };
   BlobTracker fresh({}, above_lowest);  // where all faces are aligned equally often
@@ -306,7 +306,7 @@ TEST(Following, DecodersBeginAnewWhenAFaceIsFound) {
   EXPECT_TRUE(std::equal(again.controls, again.controls + MIEN_CONTROL_COUNT, first.controls));
 }
 
-TEST(Following, SearchesLessOftenAfterAWhile) {
+TEST(Tracking, DetectsLessOftenAfterAWhile) {
   BlobTracker tracker({}, [](mien_tracker_config& config) { config.search_interval = 30; });
   const Picture nothing(64, 48);
   const auto searches = [&](int frames) {
@@ -328,14 +328,14 @@ TEST(Following, SearchesLessOftenAfterAWhile) {
   EXPECT_EQ(tracker.result().status, MIEN_FACE_SEARCHING);
 }
 
-TEST(Following, SearchesAllTheTimeWhenAskedTo) {
+TEST(Tracking, SearchIntervalOfOneDetectsOnEveryFrame) {
   BlobTracker tracker({}, [](mien_tracker_config& config) { config.search_interval = 1; });
   for (int frame = 0; frame < 60; ++frame) {
     EXPECT_TRUE(tracker.push(Picture(64, 48)).flags & MIEN_RESULT_PROPOSAL_RAN) << frame;
   }
 }
 
-TEST(Following, NoFrameButTheFirstPaysForAWholeSearch) {
+TEST(Tracking, OnlyTheFirstFrameRunsAWholeDetection) {
   BlobTracker tracker;
   const Result first = tracker.push(Picture(320, 240));
   EXPECT_EQ(first.proposal_runs, 1u);
@@ -347,7 +347,7 @@ TEST(Following, NoFrameButTheFirstPaysForAWholeSearch) {
 }
 
 // However it is spread, a search of a picture that stands still finds what one at once finds.
-TEST(Following, ASearchInSharesFindsTheSameAsOneAtOnce) {
+TEST(Tracking, DetectionInSharesFindsTheSameAsInOneFrame) {
   for (const float diameter : {20.0f, 47.0f, 150.0f}) {
     const Picture disc = disc_picture(211.0f, 103.0f, diameter);
     BlobTracker at_once, spread;
@@ -360,7 +360,7 @@ TEST(Following, ASearchInSharesFindsTheSameAsOneAtOnce) {
   }
 }
 
-TEST(Following, WhatBaseNetRefusesIsNoFace) {
+TEST(Tracking, BaseNetRejectsDetections) {
   BlobOptions never;
   never.face_bias = -1000.0f;
   BlobTracker tracker(never);
@@ -370,7 +370,7 @@ TEST(Following, WhatBaseNetRefusesIsNoFace) {
   EXPECT_LT(result.face_probability, 0.01f);
 }
 
-TEST(Following, WhatRNetRefusesIsNotJudged) {
+TEST(Tracking, DetectionsThatRNetRejectsAreNotEncoded) {
   BlobTracker tracker({}, [](mien_tracker_config& config) { config.proposal_threshold = 0.0f; });
   EXPECT_EQ(tracker.push(Picture(320, 240)).encoder_runs, 0u);
 }
@@ -389,7 +389,7 @@ float most_refused(const Picture& picture, float refine_bias) {
 }
 
 // What would do to follow a face does not do to begin with one, unless the proposal is sure of it.
-TEST(Following, AcceptsMoreStrictlyThanItFollows) {
+TEST(Tracking, AcceptsMoreStrictlyThanItTracks) {
   mien_tracker_config config;
   mien_tracker_config_default(&config);
   const Picture disc = disc_picture(160.0f, 120.0f, 70.0f);
@@ -400,7 +400,7 @@ TEST(Following, AcceptsMoreStrictlyThanItFollows) {
   EXPECT_GE(most_refused(disc, 100.0f), config.lose_probability) << "but not any face";
 }
 
-TEST(Following, UnsupportedControlsStayZero) {
+TEST(Tracking, UnsupportedControlsStayZero) {
   BlobOptions some;
   some.supported_controls = 0x5;
   BlobTracker tracker(some);
@@ -414,7 +414,7 @@ TEST(Following, UnsupportedControlsStayZero) {
   }
 }
 
-TEST(Following, StagesAreTimedByTheCallersClock) {
+TEST(Tracking, StagesAreTimedByTheCallersClock) {
   BlobTracker tracker({}, [](mien_tracker_config& config) {
     static std::uint64_t now = 0;
     config.clock_user = &now;

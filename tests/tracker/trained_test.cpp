@@ -131,7 +131,7 @@ class TrainedLevels : public Trained {
   std::unique_ptr<AlignedBytes> hifinet_;
 };
 
-TEST_F(Trained, TracksTheClipAndRarelyProposes) {
+TEST_F(Trained, TracksTheClipWithFewDetections) {
   const std::vector<Result> results = track(frames_);
   const Result& last = results.back();
   EXPECT_GE(static_cast<double>(last.face_frames), 0.98 * static_cast<double>(last.frames));
@@ -139,7 +139,7 @@ TEST_F(Trained, TracksTheClipAndRarelyProposes) {
   EXPECT_GT(last.supported_controls, 0u);
 }
 
-TEST_F(Trained, SomethingHappensInTheFace) {
+TEST_F(Trained, ControlsMove) {
   const std::vector<Result> results = track(frames_);
   std::array<float, MIEN_CONTROL_COUNT> lowest;
   std::array<float, MIEN_CONTROL_COUNT> highest;
@@ -175,7 +175,7 @@ constexpr std::size_t kChangeEvery = MIEN_CHANGE_EVERY;  // frames
 
 // At the switch, and while the controls go over, no step is larger than what the second before had,
 // or than what the face does then anyway, as a tracker shows that always was at either level.
-TEST_F(TrainedLevels, ChangingThemNeverMakesAControlJump) {
+TEST_F(TrainedLevels, ChangesDoNotMakeControlsJump) {
   std::array<std::vector<Result>, 5> always;
   for (int lod = 1; lod <= 4; ++lod) {
     always[static_cast<std::size_t>(lod)] = track_at({{0, lod}});
@@ -197,7 +197,7 @@ TEST_F(TrainedLevels, ChangingThemNeverMakesAControlJump) {
 
 // Far less than what controls of a face at rest do from frame to frame, 0.003. Measured: 0.0002 on
 // average, 0.01 at most.
-TEST_F(TrainedLevels, HalfPrecisionShowsInNoControl) {
+TEST_F(TrainedLevels, HalfPrecisionHardlyChangesControls) {
   if ((mien_cpu_tiers() & MIEN_CPU_HALF) == 0) {
     GTEST_SKIP() << "skipped: no tier of half precision on this CPU";
   }
@@ -218,7 +218,7 @@ TEST_F(TrainedLevels, HalfPrecisionShowsInNoControl) {
 }
 
 // All networks, with the memory that the weights are in left out.
-TEST_F(TrainedLevels, OneFaceTakesLessThanSixMegabytes) {
+TEST_F(TrainedLevels, OneFaceUsesLessThanSixMegabytes) {
   mien_status status = MIEN_OK;
   const std::size_t bytes = required_bytes(config(1), status);
   ASSERT_EQ(status, MIEN_OK);
@@ -228,7 +228,7 @@ TEST_F(TrainedLevels, OneFaceTakesLessThanSixMegabytes) {
 
 // Forehead, chin and eye corners lie where they do in an upright face, and the head is in front of
 // the camera.
-TEST_F(Trained, TheFaceIsUprightAndInFront) {
+TEST_F(Trained, FaceIsUprightAndInFrontOfTheCamera) {
   const Result result = track(frames_)[frames_.size() / 2];
   ASSERT_TRUE(result.has_face());
   EXPECT_LT(result.translation[2], -0.1f);
@@ -243,7 +243,7 @@ TEST_F(Trained, TheFaceIsUprightAndInFront) {
   }
 }
 
-TEST_F(Trained, AMirroredClipThatSaysSoGivesTheSameAnimation) {
+TEST_F(Trained, MirroredClipGivesTheSameAnimation) {
   const std::vector<Result> plain = track(frames_);
   const std::vector<Result> mirrored = track(decode("hflip,"), true);
   ASSERT_EQ(plain.size(), mirrored.size());
