@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Simulates hours of video and audio from devices with different clocks and lost blocks -> docs/results/soak.md
-# usage: scripts/evaluate/soak.sh [HOURS]     default 24: 2.6 million frames, 5.4 million steps of sound
+# usage: scripts/evaluate/soak.sh [HOURS]     default 24: 2.6 million frames, 5.4 million audio steps
 # Exit status 0 only when all is as it must be. A minute of it is Soak.AudioAndVideoStaySynchronized, of every test run.
 set -euo pipefail
 cd "$(dirname "$0")/../.."

@@ -1,4 +1,4 @@
-/* A C program sees all of the interface. Called by c_program_test.cpp. */
+/* Uses the API from C. Called by c_program_test.cpp and network_test.cpp. */
 #include <mien/mien.h>
 #include <string.h>
 
@@ -28,7 +28,7 @@ int mien_c_program(void) {
   return strcmp(mien_control_name(17), "jawOpen") == 0 ? 0 : 4;
 }
 
-/* As include/mien/engine.h has it. */
+/* The example of include/mien/engine.h. */
 int mien_c_network(const void* file, size_t file_bytes, const float* image, size_t image_bytes,
                    float* features) {
   mien_network_config config;

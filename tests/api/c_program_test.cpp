@@ -1,3 +1,4 @@
+// Runs c_program.c.
 #include <gtest/gtest.h>
 
 extern "C" int mien_c_program(void);

@@ -1,4 +1,4 @@
-// Creating, configuring, refusing and destroying.
+// Tests of creating trackers: configuration, rejected arguments, memory and struct versions.
 #include <gtest/gtest.h>
 
 #include <cstddef>
@@ -70,29 +70,29 @@ TEST_F(Create, RejectsNullArguments) {
 
 TEST_F(Create, RejectsValuesOutOfRange) {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-  const auto refused = [&](auto change) { return create_with(change) == MIEN_ERROR_OUT_OF_RANGE; };
+  const auto rejected = [&](auto change) { return create_with(change) == MIEN_ERROR_OUT_OF_RANGE; };
   for (float bad : {-0.1f, 1.1f, kNan}) {
-    EXPECT_TRUE(refused([&](Config& c) { c.accept_probability = bad; })) << bad;
-    EXPECT_TRUE(refused([&](Config& c) { c.lose_probability = bad; })) << bad;
-    EXPECT_TRUE(refused([&](Config& c) { c.proposal_threshold = bad; })) << bad;
-    EXPECT_TRUE(refused([&](Config& c) { c.refine_threshold = bad; })) << bad;
+    EXPECT_TRUE(rejected([&](Config& c) { c.accept_probability = bad; })) << bad;
+    EXPECT_TRUE(rejected([&](Config& c) { c.lose_probability = bad; })) << bad;
+    EXPECT_TRUE(rejected([&](Config& c) { c.proposal_threshold = bad; })) << bad;
+    EXPECT_TRUE(rejected([&](Config& c) { c.refine_threshold = bad; })) << bad;
   }
-  EXPECT_TRUE(refused([](Config& c) {
+  EXPECT_TRUE(rejected([](Config& c) {
     c.accept_probability = 0.6f;
     c.lose_probability = 0.61f;
   }));
   for (float bad : {0.0f, 3.2f, kNan}) {
-    EXPECT_TRUE(refused([&](Config& c) { c.horizontal_fov = bad; })) << bad;
+    EXPECT_TRUE(rejected([&](Config& c) { c.horizontal_fov = bad; })) << bad;
   }
   for (int bad : {0, -1, 100'000}) {
-    EXPECT_TRUE(refused([&](Config& c) { c.lose_after_frames = bad; })) << bad;
-    EXPECT_TRUE(refused([&](Config& c) { c.search_interval = bad; })) << bad;
-    EXPECT_TRUE(refused([&](Config& c) { c.proposal_size = bad; })) << bad;
+    EXPECT_TRUE(rejected([&](Config& c) { c.lose_after_frames = bad; })) << bad;
+    EXPECT_TRUE(rejected([&](Config& c) { c.search_interval = bad; })) << bad;
+    EXPECT_TRUE(rejected([&](Config& c) { c.proposal_size = bad; })) << bad;
   }
   for (int bad : {0, -1, MIEN_MAX_FACES + 1}) {
-    EXPECT_TRUE(refused([&](Config& c) { c.max_faces = bad; })) << bad;
+    EXPECT_TRUE(rejected([&](Config& c) { c.max_faces = bad; })) << bad;
   }
-  EXPECT_TRUE(refused([](Config& c) {
+  EXPECT_TRUE(rejected([](Config& c) {
     c.allocator.allocate = [](void*, std::size_t, std::size_t) -> void* { return nullptr; };
   })) << "half an allocator";
   for (int lod : {-1, 2, 4}) {
@@ -211,7 +211,7 @@ TEST_F(Create, AcceptsConfigurationsOfOtherVersions) {
   EXPECT_EQ(
       create_with([](Config& c) { c.struct_size = offsetof(mien_tracker_config, allocator) - 1; }),
       MIEN_ERROR_STRUCT_SIZE);
-  // What lies behind the end of an older struct is not looked at.
+  // Fields beyond the end of an older struct are ignored.
   EXPECT_EQ(create_with([](Config& c) {
               c.struct_size = offsetof(mien_tracker_config, allocator);
               c.lod = 99;
@@ -275,7 +275,7 @@ TEST_F(Create, WorksInTheCallersMemory) {
   EXPECT_EQ(mien_tracker_create_in(&config_, memory + 8, bytes, &tracker), MIEN_ERROR_ALIGNMENT);
   EXPECT_EQ(tracker, nullptr);
 
-  BlobTracker elsewhere;
+  BlobTracker reference;
   {
     Tracker inside;
     ASSERT_EQ(inside.create_in(config_, {memory, bytes}), MIEN_OK);
@@ -284,7 +284,7 @@ TEST_F(Create, WorksInTheCallersMemory) {
       Result result;
       ASSERT_EQ(inside.push_video(disc.image(), i * kFrameNs), MIEN_OK);
       ASSERT_EQ(inside.get_result(result), MIEN_OK);
-      const Result other = elsewhere.push(disc.image(), i * kFrameNs);
+      const Result other = reference.push(disc.image(), i * kFrameNs);
       EXPECT_EQ(std::memcmp(&result, &other, sizeof(mien_result)), 0);
     }
   }

@@ -1,3 +1,4 @@
+// Tests of names, counts, versions and status messages.
 #include <gtest/gtest.h>
 #include <mien/mien.hpp>
 
@@ -49,7 +50,7 @@ TEST(Names, Controls) {
   for (int i = 0; i < 52; ++i) {
     EXPECT_TRUE(names.insert(control_name(i)).second);
   }
-  for (std::string_view name : names) {  // what has a left has a right
+  for (std::string_view name : names) {  // each left control has a right one
     if (name.ends_with("Left")) {
       const std::string right = std::string(name.substr(0, name.size() - 4)) + "Right";
       EXPECT_TRUE(names.contains(right)) << name;
@@ -101,7 +102,7 @@ TEST(Names, Tiers) {
   EXPECT_EQ(std::uint32_t{MIEN_CPU_HALF}, kernels::kHalfTiers);
   EXPECT_EQ(mien_cpu_tier_name(0), nullptr);
   EXPECT_EQ(mien_cpu_tier_name(MIEN_CPU_REF | MIEN_CPU_AVX2), nullptr);
-  EXPECT_EQ(mien_cpu_tier_name(MIEN_CPU_FUSED), nullptr);  // no tier
+  EXPECT_EQ(mien_cpu_tier_name(MIEN_CPU_FUSED), nullptr);  // not a tier
   EXPECT_FALSE(mien_cpu_tiers() & MIEN_CPU_FUSED);
   EXPECT_EQ(mien_cpu_tier_name(0x80000000u), nullptr);
 }

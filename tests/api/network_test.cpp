@@ -1,4 +1,4 @@
-// Networks of the user's own through the C interface, on those of apps/conformance/golden.
+// Tests of custom networks through the C API, with the networks of apps/conformance/golden.
 #include <gtest/gtest.h>
 #include <mien/mien.h>
 

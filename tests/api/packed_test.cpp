@@ -1,4 +1,4 @@
-// Packed weights through the C interface.
+// Tests of packed weights through the C API.
 #include <gtest/gtest.h>
 #include <mien/mien.h>
 
@@ -25,8 +25,8 @@ class Packed : public testing::Test {
   mien_status size_of(const Bytes& bytes) {
     return mien_unpacked_bytes(bytes.data(), bytes.size(), &unpacked_bytes);
   }
-  mien_status unpack(const Bytes& bytes, std::size_t space) {
-    return mien_unpack(bytes.data(), bytes.size(), memory.data(), space);
+  mien_status unpack(const Bytes& bytes, std::size_t file_bytes) {
+    return mien_unpack(bytes.data(), bytes.size(), memory.data(), file_bytes);
   }
   [[nodiscard]] bool memory_is(std::byte value) const {
     return std::ranges::all_of(memory, [&](std::byte b) { return b == value; });

@@ -1,4 +1,4 @@
-// What include/mien/mien.h says about the stack, measured.
+// Measures the use of the stack against the limits of include/mien/mien.h.
 #include "tests/engine/painted_stack.h"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ TEST(Stack, StaysWithinTheDocumentedLimits) {
   const auto push = [&](std::int64_t pts_ns) {
     return stack_of([&] { status = tracker.push_video(frame.image(), pts_ns); });
   };
-  for (std::int64_t i = 0; i < 3; ++i) {  // the first searches, the others follow
+  for (std::int64_t i = 0; i < 3; ++i) {  // the first runs detection, the others track
     EXPECT_LT(push(i * kFrameNs), 16u * 1024) << i;
     ASSERT_EQ(status, MIEN_OK);
   }

@@ -1,4 +1,4 @@
-// Names and orders as their owners have them, and what they are made of.
+// Tests of other vocabularies: names, order, and values computed from controls.
 #include <gtest/gtest.h>
 #include <mien/mien.h>
 
@@ -85,8 +85,7 @@ TEST(Vocabulary, ArkitEqualsTheControls) {
   }
 }
 
-// By the alphabet, but for _neutral in front: jawOpen comes before jawRight, mouthPress before
-// mouthPucker.
+// Alphabetical after _neutral: jawOpen before jawRight, mouthPress before mouthPucker.
 TEST(Vocabulary, MediaPipeIsSorted) {
   std::vector<std::string> names;
   for (int i = 1; i < 52; ++i) {
@@ -125,13 +124,13 @@ TEST(Vocabulary, RobloxCombinesControls) {
   const Controls brows = with({{"browDownLeft", 0.9f}, {"browDownRight", 0.3f}});
   EXPECT_EQ(value_of(kRoblox, brows, "Corrugator"), 0.3f);
   EXPECT_EQ(value_of(kRoblox, brows, "LeftBrowLowerer"), 0.9f);
-  const std::uint64_t driven = mien_vocabulary_supported(kRoblox, kAllControls);
-  for (const char* silent : {"FlatPucker", "TongueUp", "TongueDown"}) {
-    EXPECT_EQ(driven >> index_of(kRoblox, silent) & 1u, 0u) << silent;
+  const std::uint64_t supported_names = mien_vocabulary_supported(kRoblox, kAllControls);
+  for (const char* unsupported : {"FlatPucker", "TongueUp", "TongueDown"}) {
+    EXPECT_EQ(supported_names >> index_of(kRoblox, unsupported) & 1u, 0u) << unsupported;
   }
 }
 
-// Exchanging left and right of the controls exchanges the names' sides and nothing else.
+// Swapping left and right of the controls swaps left and right of the names.
 TEST(Vocabulary, LeftAndRightAreTheSubjects) {
   const auto mirrored = [](std::string name) {
     for (const auto& [from, to] : {std::pair{"Left", "Right"}, {"Right", "Left"}}) {
@@ -171,7 +170,7 @@ TEST(Vocabulary, ValuesAreBetweenZeroAndOne) {
   }
 }
 
-// By the functions that `mien track --format visemes` has, too.
+// `mien track --format visemes` uses the same functions.
 TEST(Vocabulary, VisemesMatchTheFileFormats) {
   constexpr int kVisemes = MIEN_VOCABULARY_VISEMES;
   EXPECT_EQ(value_of(kVisemes, {}, "sil"), 1.0f);
@@ -201,7 +200,7 @@ TEST(Vocabulary, VisemesMatchTheFileFormats) {
 }
 
 TEST(Vocabulary, VisemesNeedTheirLeadingControls) {
-  const auto driven = [](std::initializer_list<const char*> controls) {
+  const auto supported_visemes = [](std::initializer_list<const char*> controls) {
     std::uint64_t supported = 0;
     for (const char* name : controls) {
       supported |= 1ull << control(name);
@@ -209,9 +208,9 @@ TEST(Vocabulary, VisemesNeedTheirLeadingControls) {
     return mien_vocabulary_supported(MIEN_VOCABULARY_VISEMES, supported);
   };
   const auto bit = [](const char* name) { return 1ull << index_of(MIEN_VOCABULARY_VISEMES, name); };
-  EXPECT_EQ(driven({"mouthPucker"}), bit("sil") | bit("RR") | bit("ou"));
-  EXPECT_EQ(driven({"mouthPressLeft"}), 0u) << "PP presses both sides";
-  EXPECT_EQ(driven({"mouthPressLeft", "mouthPressRight"}), bit("sil") | bit("PP"));
+  EXPECT_EQ(supported_visemes({"mouthPucker"}), bit("sil") | bit("RR") | bit("ou"));
+  EXPECT_EQ(supported_visemes({"mouthPressLeft"}), 0u) << "PP presses both sides";
+  EXPECT_EQ(supported_visemes({"mouthPressLeft", "mouthPressRight"}), bit("sil") | bit("PP"));
   EXPECT_EQ(mien_vocabulary_supported(MIEN_VOCABULARY_VISEMES, kAllControls), 0x7fffu);
 }
 

@@ -1,4 +1,4 @@
-// The time of samples: clocks that differ, timestamps that tremble, gaps, any number.
+// Tests of the time of samples: clock skew, jitter, gaps, and extreme timestamps.
 #include "audio/audio_clock.h"
 
 #include <gtest/gtest.h>
@@ -49,10 +49,10 @@ TEST(AudioClock, FollowsAFastOrSlowClockForHours) {
 TEST(AudioClock, SmoothsJitterOfTimestamps) {
   AudioClock clock;
   std::mt19937 engine(1);
-  std::uniform_int_distribution<std::int64_t> tremble(-10'000'000, 10'000'000);
+  std::uniform_int_distribution<std::int64_t> jitter(-10'000'000, 10'000'000);
   (void)clock.advance(0, kBlock, kRate);
   for (std::int64_t block = 1; block < 6000; ++block) {
-    ASSERT_EQ(clock.advance(block * kBlockNs + tremble(engine), kBlock, kRate), Flow::kSteady);
+    ASSERT_EQ(clock.advance(block * kBlockNs + jitter(engine), kBlock, kRate), Flow::kSteady);
     const auto truth = static_cast<double>(block * kBlockNs);
     EXPECT_NEAR(static_cast<double>(clock.time_ns(seconds_of_block(block))), truth, 2e6);
   }
@@ -68,7 +68,7 @@ TEST(AudioClock, JumpsOverAGapAndBackAtOnce) {
   }
 }
 
-// Whatever the rate, the gap, and how far the clock was pulled before: no error adds up.
+// Errors do not accumulate, at any rate, gap and earlier correction.
 TEST(AudioClock, MatchesTimestampsExactlyAfterAJump) {
   for (const std::int32_t rate : {11025, 44100, 48000}) {
     AudioClock clock;
@@ -111,7 +111,7 @@ TEST(AudioClock, AcceptsAnyTimestamp) {
       (void)clock.time_ns(1e6);
     }
   }
-  // Over the end of the numbers as anywhere.
+  // Timestamps may wrap around.
   AudioClock clock;
   (void)clock.advance(kHighest - kBlockNs + 1, kBlock, kRate);
   EXPECT_EQ(clock.advance(kLowest, kBlock, kRate), Flow::kSteady);

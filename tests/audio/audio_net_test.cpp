@@ -1,4 +1,4 @@
-// AudioNet of models/audionet.mien against PyTorch's answers to the same features
+// Compares models/audionet.mien with PyTorch's outputs for the same features
 // (scripts/train/voice/golden.py).
 #include "audio/audio_net.h"
 
@@ -38,7 +38,7 @@ class AudioNetOfTier : public testing::TestWithParam<std::uint32_t> {
  protected:
   void SetUp() override {
     if (!std::ifstream(kModel)) {
-      GTEST_SKIP() << "skipped: no trained model here";
+      GTEST_SKIP() << "skipped: models/audionet.mien is not available";
     }
     const std::span<const std::byte> file = file_.get();
     ASSERT_EQ(engine::open_model(file.data(), file.size(), model_), MIEN_OK);

@@ -1,4 +1,4 @@
-// The way from the caller's samples to features: formats, what no number is, blocks, offsets, time.
+// Tests of the conversion of samples to features: formats, invalid samples, blocks, offset, time.
 #include "audio/front_end.h"
 
 #include <gtest/gtest.h>
@@ -88,10 +88,10 @@ TEST(Pcm, AllLayoutsGiveTheSameSamples) {
 TEST(Pcm, InvalidSamplesBecomeSilenceOrFullScale) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   const float given[] = {std::nanf(""), kInfinity, -kInfinity, 7.0f, -7.0f, 1e-40f, 0.5f};
-  const float wanted[] = {0.0f, 0.0f, 0.0f, 1.0f, -1.0f, 0.0f, 0.5f};
+  const float expected[] = {0.0f, 0.0f, 0.0f, 1.0f, -1.0f, 0.0f, 0.5f};
   std::vector<float> mono(std::size(given));
   to_mono({SampleFormat::kFloat32, false, 1, std::size(given), {given}}, 0, mono);
-  EXPECT_TRUE(std::equal(mono.begin(), mono.end(), wanted));
+  EXPECT_TRUE(std::equal(mono.begin(), mono.end(), expected));
 }
 
 TEST(FrontEnd, FeaturesDoNotDependOnBlockSize) {
@@ -101,9 +101,9 @@ TEST(FrontEnd, FeaturesDoNotDependOnBlockSize) {
     const std::int32_t rate =
         seed % 2 == 0 ? rates[seed / 2 % std::size(rates)] : random.between(8000, 192000);
     const std::vector<float> sound = noise(static_cast<std::size_t>(rate / 5), 0.5f, seed);
-    const int largest = seed % 10 == 0 ? 1 : random.between(1, 3000);
+    const int max_block = seed % 10 == 0 ? 1 : random.between(1, 3000);
     ASSERT_EQ(features_of(sound, rate,
-                          [&] { return static_cast<std::size_t>(random.between(1, largest)); }),
+                          [&] { return static_cast<std::size_t>(random.between(1, max_block)); }),
               features_of(sound, rate))
         << "seed " << seed << ", rate " << rate;
   }
@@ -148,7 +148,8 @@ TEST(FrontEnd, FeaturesDoNotDependOnTheRate) {
   for (const std::int32_t rate : {44100, 48000, 37813}) {
     const std::vector<Features> got = features_of(tones(rate), rate);
     for (std::size_t k = 10; k < std::min(got.size(), want.size()); ++k) {
-      // The first coefficients; the last ones tell of bands that hold nothing but rounding.
+      // Only the first coefficients: the last ones depend on bands that contain only rounding
+      // errors.
       for (std::size_t i = 0; i < 6; ++i) {
         ASSERT_NEAR(got[k][i], want[k][i], 0.6f) << rate << " step " << k << " coefficient " << i;
       }
@@ -164,7 +165,7 @@ TEST(FrontEnd, StepTimeMatchesAClick) {
   const Features quiet = steps[10];
   double sum = 0.0, count = 0.0;
   for (std::size_t k = 0; k < steps.size(); ++k) {
-    if (std::abs(steps[k][2 * audio::kCoefficients] - quiet[0]) > 1.0f) {  // the middle window
+    if (std::abs(steps[k][2 * audio::kCoefficients] - quiet[0]) > 1.0f) {  // the centre window
       sum += FrontEnd::seconds_of_step(static_cast<std::int64_t>(k));
       count += 1.0;
     }

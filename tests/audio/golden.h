@@ -1,4 +1,4 @@
-// Numbers of tests/golden/audio/.
+// Reads reference values from tests/golden/audio/.
 #pragma once
 
 #include <cstring>

@@ -1,4 +1,4 @@
-// MFCCs against those of tests/golden/audio/make_mfcc.py, which knows only the definition.
+// Compares MFCCs with those of tests/golden/audio/make_mfcc.py, which implements the definition.
 #include "audio/mfcc.h"
 
 #include <gtest/gtest.h>
@@ -38,15 +38,15 @@ class MfccOfTier : public testing::TestWithParam<std::uint32_t> {
 };
 
 TEST_P(MfccOfTier, MatchTheDefinition) {
-  const std::vector<float> input = golden("mfcc_input.f32"), wanted = golden("mfcc_output.f32");
+  const std::vector<float> input = golden("mfcc_input.f32"), expected = golden("mfcc_output.f32");
   ASSERT_EQ(input.size(), kSignals * kWindows * kWindowSamples);
-  ASSERT_EQ(wanted.size(), kSignals * kWindows * kCoefficients);
+  ASSERT_EQ(expected.size(), kSignals * kWindows * kCoefficients);
   for (std::size_t w = 0; w < kSignals * kWindows; ++w) {
     if (w % kWindows == 0) {
       mfcc_.reset();
     }
     const Coefficients got = analyse(input.data() + w * kWindowSamples);
-    const float* want = wanted.data() + w * kCoefficients;
+    const float* want = expected.data() + w * kCoefficients;
     double largest = 0.0;
     for (std::size_t i = 0; i < kCoefficients; ++i) {
       largest = std::max(largest, std::abs(static_cast<double>(want[i])));

@@ -1,4 +1,4 @@
-// What the resampler passes, what it stops, and that blocks and hours do not matter to it.
+// Tests of the resampler: passband, stopband, block sizes and the number of samples.
 #include "audio/resampler.h"
 
 #include <gtest/gtest.h>
@@ -54,7 +54,7 @@ std::vector<float> resampled(std::span<const float> input, std::int32_t rate) {
 
 double decibel(double amplitude) { return 20.0 * std::log10(amplitude + 1e-12); }
 
-// Largest value once the filter is past the beginning.
+// Largest value after the filter's transient.
 double largest(const std::vector<float>& values) {
   double found = 0.0;
   for (std::size_t i = 100; i < values.size(); ++i) {
@@ -129,8 +129,8 @@ TEST(Resampler, OutputsTheExactNumberOfSamples) {
     Resampler resampler;
     ASSERT_TRUE(resampler.init(kernels::detect_cpu()));
     resampler.start(rate);
-    const double late = resampler.delay_seconds() * kOutputRate;
-    EXPECT_NEAR(static_cast<double>(resampled(minute, rate).size()), 60 * kOutputRate - late, 1.0);
+    const double delay = resampler.delay_seconds() * kOutputRate;
+    EXPECT_NEAR(static_cast<double>(resampled(minute, rate).size()), 60 * kOutputRate - delay, 1.0);
   }
 }
 

@@ -1,4 +1,4 @@
-// Counts every allocation of the process: pushing images must make none.
+// Counts every allocation of the process: calls after create must not allocate.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -80,7 +80,7 @@ TEST(Allocation, CreateAllocatesOnceAndLaterCallsDoNot) {
     const long before_create = allocations;
     Tracker tracker;
     ASSERT_EQ(tracker.create(config), MIEN_OK);
-    EXPECT_EQ(allocations, before_create) << "nothing but the caller's allocator";
+    EXPECT_EQ(allocations, before_create) << "only the caller's allocator";
     EXPECT_EQ(allocator.allocated, 1);
 
     const long before = allocations;
@@ -123,7 +123,7 @@ TEST(Allocation, ReportsOutOfMemory) {
   const AlignedBytes proposal = blob_proposal();
   Config config = blob_config(basenet, proposal);
   config.allocator.allocate = [](void*, std::size_t, std::size_t) -> void* { return nullptr; };
-  config.allocator.release = [](void*, void*) { FAIL() << "there was nothing to release"; };
+  config.allocator.release = [](void*, void*) { FAIL() << "nothing was allocated"; };
   mien_tracker* tracker = nullptr;
   EXPECT_EQ(mien_tracker_create(&config, &tracker), MIEN_ERROR_OUT_OF_MEMORY);
   EXPECT_EQ(tracker, nullptr);

@@ -1,4 +1,4 @@
-// Audio for tests.
+// Reproducible audio for tests.
 #pragma once
 
 #include <mien/mien.hpp>
@@ -13,11 +13,11 @@
 namespace mien::tests {
 
 // A reproducible sequence of noise and silence.
-class Sound {
+class TestAudio {
  public:
-  explicit Sound(int rate = 16000) : rate_(rate) {}
+  explicit TestAudio(int rate = 16000) : rate_(rate) {}
 
-  Sound& add(double seconds, float amplitude) {
+  TestAudio& add(double seconds, float amplitude) {
     std::uniform_real_distribution<float> noise(-amplitude, amplitude);
     const auto count = static_cast<std::size_t>(std::llround(seconds * rate_));
     for (std::size_t i = 0; i < count; ++i) {

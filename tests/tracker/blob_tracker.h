@@ -1,4 +1,4 @@
-// A tracker for discs, and what it says about pictures.
+// A tracker with the test networks of blob_weights.h, which track discs.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ inline Config blob_config(const AlignedBytes& basenet, const AlignedBytes& propo
   return config;
 }
 
-// With ears.
+// With audio.
 inline Config blob_config(const AlignedBytes& basenet, const AlignedBytes& proposal,
                           const AlignedBytes& hifinet, const AlignedBytes& audionet) {
   Config config = blob_config(basenet, proposal, hifinet);
@@ -50,7 +50,7 @@ class BlobTracker {
     EXPECT_EQ(tracker_.create(config), MIEN_OK);
   }
 
-  // The next frame, 1/30 s after the last.
+  // Pushes the next image, 1/30 s after the previous frame.
   Result push(const mien_image& image) {
     pts_ns_ += kFrameNs;
     return push(image, pts_ns_);
@@ -64,18 +64,19 @@ class BlobTracker {
     return push(Buffer(picture, layout).image());
   }
 
-  // The same image again and again, until a search that is spread over several has found the face.
+  // Pushes the same image until a detection, which may be spread over several images, finds the
+  // face.
   Result push_until_found(const Picture& picture) {
-    constexpr int kLongest = 40;
+    constexpr int kMaxImages = 40;
     Result result = push(picture);
-    for (int i = 1; !result.has_face() && i < kLongest; ++i) {
+    for (int i = 1; !result.has_face() && i < kMaxImages; ++i) {
       result = push(picture);
     }
     EXPECT_TRUE(result.flags & MIEN_RESULT_FOUND);
     return result;
   }
 
-  // The same without an image.
+  // Outputs the next frame without an image.
   Result advance() {
     pts_ns_ += kFrameNs;
     EXPECT_EQ(tracker_.advance(pts_ns_), MIEN_OK);
@@ -106,7 +107,7 @@ inline Picture disc_picture(float x, float y, float diameter, int width = 320, i
   return picture;
 }
 
-// Of a control between two results.
+// The largest difference of a control between two results.
 inline float largest_step(const Result& a, const Result& b) {
   float largest = 0.0f;
   for (int i = 0; i < MIEN_CONTROL_COUNT; ++i) {
@@ -115,8 +116,8 @@ inline float largest_step(const Result& a, const Result& b) {
   return largest;
 }
 
-// Every number of the result is finite and in its range.
-inline void expect_sane(const Result& result) {
+// Checks that all numbers of the result are finite and in range.
+inline void expect_valid(const Result& result) {
   EXPECT_GE(result.status, MIEN_FACE_SEARCHING);
   EXPECT_LE(result.status, MIEN_FACE_LOST);
   const auto unit = [](float value) { return value >= 0.0f && value <= 1.0f; };

@@ -1,3 +1,4 @@
+// Writes the weight files of blob_weights.h.
 #include "tests/tracker/blob_weights.h"
 
 #include <algorithm>
@@ -33,8 +34,8 @@ enum Feature : std::uint32_t { kCentroidX, kCentroidY, kArea, kMeaningful };
 class Random {
  public:
   explicit Random(unsigned seed) : engine_(seed) {}
-  // By the polar method (Marsaglia 1962): what std::normal_distribution gives differs between
-  // standard libraries, and what tests expect of these networks does with it.
+  // Uses the polar method (Marsaglia 1962), because std::normal_distribution differs between
+  // standard libraries, and the expected values of tests depend on these networks.
   float normal(float deviation) {
     if (has_other_) {
       has_other_ = false;
@@ -93,14 +94,15 @@ LayerOptions activated(formats::LayerActivation activation, float alpha = 0.0f) 
 AlignedBytes finished(const MienWriter& writer) {
   std::vector<std::byte> file;
   const formats::Validation validation = writer.finish(&file);
-  if (validation.status != formats::FileStatus::kOk) {  // then no test means anything
+  if (validation.status != formats::FileStatus::kOk) {  // no test is meaningful then
     std::fprintf(stderr, "blob_weights: %s\n", formats::message(validation.status));
     std::abort();
   }
   return AlignedBytes(file);
 }
 
-// Points on an ellipse-like spiral around the middle, 0.8 high: no symmetry to hide behind.
+// Points on an elliptic spiral around the centre, 0.8 high. Without symmetry, so that tests detect
+// exchanged coordinates.
 Array landmark_template() {
   return filled({kLandmarks, 2}, [](std::size_t i) {
     const auto point = static_cast<float>(i / 2);
@@ -110,7 +112,7 @@ Array landmark_template() {
   });
 }
 
-// Area of the right disc, in cells.
+// Area of a disc in a correct crop, in cells.
 float nominal_area() {
   const float radius = kDiscPerCrop / 2 * kCrop / kStep;
   return static_cast<float>(M_PI) * radius * radius;
@@ -156,7 +158,8 @@ void add_encoder(MienWriter& writer, const BlobOptions& options, Random& random)
   network.output(network.fully_connected(grid, mixing, std::vector<float>(options.features, 0.0f)));
 }
 
-// template moved with the centroid and scaled with the area: area 1 + 2 e is scale 1 + e.
+// The template, moved with the centroid and scaled with the area: an area of 1 + 2 e means a scale
+// of 1 + e.
 void add_landmarks(MienWriter& writer, const BlobOptions& options) {
   NetworkWriter& network = writer.network("landmarks", {1, 1, options.features});
   const Array shape = landmark_template();
@@ -175,7 +178,7 @@ void add_landmarks(MienWriter& writer, const BlobOptions& options) {
   network.output(network.fully_connected(NetworkWriter::kInput, weight, bias));
 }
 
-// The template itself, a little aside.
+// The template, shifted by kRefinedBy.
 void add_refined_landmarks(MienWriter& writer, const BlobOptions& options) {
   NetworkWriter& network = writer.network("landmarks", {1, 1, options.features});
   std::vector<float> bias = landmark_template().values;
@@ -186,7 +189,7 @@ void add_refined_landmarks(MienWriter& writer, const BlobOptions& options) {
   network.output(network.fully_connected(NetworkWriter::kInput, weight, bias));
 }
 
-// Half an area and more is a face.
+// At least half of the nominal area is a face.
 void add_face_probability(MienWriter& writer, const BlobOptions& options) {
   NetworkWriter& network = writer.network("face_probability", {1, 1, options.features});
   const Array weight =
@@ -201,7 +204,7 @@ void add_decoder(MienWriter& writer, const std::string& name, const BlobOptions&
                  Random& random) {
   constexpr std::uint32_t kWidth = 16;
   NetworkWriter& network = writer.network(name, {1, 1, options.features});
-  // One draw after the other: compilers differ in the order of a call's arguments.
+  // Draws in separate statements, because compilers evaluate arguments in different orders.
   const std::vector<float> conv_bias = random.normals(kWidth, 0.1f);
   const Array taps = random_array({kWidth, options.features, 2}, 0.05f, random);
   const std::vector<float> gate_bias = random.normals(4 * kWidth, 0.3f);
@@ -224,8 +227,8 @@ void add_controls_decoder(MienWriter& writer, const BlobOptions& options, Random
                   }));
 }
 
-// Window of 12 x 12 cells of `cell` pixels: the middle 8 x 8 bright, the rest dark, is the face;
-// logit 16 for a perfect one, -8 for anything flat.
+// A window of 12 x 12 cells of `cell` pixels. A face has bright 8 x 8 cells in the centre and a
+// dark border: logit 16 for a perfect face, -8 for a uniform window.
 void add_window_network(MienWriter& writer, const std::string& name, std::uint16_t cell,
                         bool any_size, float bias) {
   constexpr std::uint32_t kCells = 12;
@@ -249,7 +252,7 @@ void add_window_network(MienWriter& writer, const std::string& name, std::uint16
                  return 0.0f;
                }
                const bool bright = inside(i % kCells) && inside(i / kCells);
-               return bright ? 1.0f / 64.0f : -1.0f / 80.0f;  // sums to 2 for the perfect face
+               return bright ? 1.0f / 64.0f : -1.0f / 80.0f;  // sums to 2 for a perfect face
              }),
       std::vector<float>(8, 0.0f), every_other);
   const Array logit = filled({1, 8}, [](std::size_t i) { return i == 0 ? 12.0f : 0.0f; });
@@ -263,14 +266,14 @@ constexpr std::uint32_t kEmbedding = 80;
 constexpr std::uint32_t kSpeechControls = kSpeechOutputs;
 
 // Embedding 0 is the loudness: -0.85 for silence, about 1 for noise at a third of full scale.
-void add_ear(MienWriter& writer, Random& random) {
-  constexpr std::uint32_t kCoefficients = 26, kHeard = 5 * kCoefficients;
+void add_audio_encoder(MienWriter& writer, Random& random) {
+  constexpr std::uint32_t kCoefficients = 26, kAudioFeatures = 5 * kCoefficients;
   constexpr std::size_t kMiddle = 2 * kCoefficients;  // c0 of the middle window
-  NetworkWriter& network = writer.network("encoder", {1, 1, kHeard});
+  NetworkWriter& network = writer.network("encoder", {1, 1, kAudioFeatures});
   std::vector<float> bias(kEmbedding, 0.0f);
   bias[0] = 1.5f;
-  const Array weight = filled({kEmbedding, kHeard}, [&](std::size_t i) {
-    if (i < kHeard) {
+  const Array weight = filled({kEmbedding, kAudioFeatures}, [&](std::size_t i) {
+    if (i < kAudioFeatures) {
       return i == kMiddle ? 0.025f : 0.0f;
     }
     return random.normal(0.003f);
@@ -284,7 +287,7 @@ void add_speech(MienWriter& writer, Random& random) {
   bias[0] = 0.0f;
   const Array weight = filled({kSpeechControls, kEmbedding, 2}, [&](std::size_t i) {
     if (i < 2 * kEmbedding) {
-      return i == 1 ? 1.0f : 0.0f;  // jawOpen is the present loudness
+      return i == 1 ? 1.0f : 0.0f;  // jawOpen is the current loudness
     }
     return random.normal(0.05f);
   });
@@ -308,7 +311,7 @@ void add_activity(MienWriter& writer) {
       network.softmax(network.fully_connected(NetworkWriter::kInput, weight, {0.0f, 0.0f})));
 }
 
-// Names are not known here: the mouth's are those of the 52 that sound is given.
+// Indices of the controls that audio drives.
 void add_mix(MienWriter& writer) {
   constexpr std::size_t kJawOpen = 17;
   constexpr std::size_t kMouth[] = {14, 18, 19, 20, 29, 30, 31, 32, 33,
@@ -321,8 +324,8 @@ void add_mix(MienWriter& writer) {
     }
     return array;
   };
-  writer.constant("mix_audio", weights(kJawByEar, kMouthByEar, 0.0f));
-  writer.constant("mix_video", weights(kMouthByEye, kMouthByEye, 1.0f));
+  writer.constant("mix_audio", weights(kJawAudioWeight, kMouthAudioWeight, 0.0f));
+  writer.constant("mix_video", weights(kMouthVideoWeight, kMouthVideoWeight, 1.0f));
 }
 
 }  // namespace
@@ -373,7 +376,7 @@ AlignedBytes blob_hifinet(const BlobOptions& options) {
 AlignedBytes blob_audionet() {
   Random random(77);
   MienWriter writer;
-  add_ear(writer, random);
+  add_audio_encoder(writer, random);
   add_speech(writer, random);
   add_activity(writer);
   add_mix(writer);
@@ -383,7 +386,7 @@ AlignedBytes blob_audionet() {
 AlignedBytes blob_audionet(std::span<const float, kSpeechOutputs> controls) {
   Random random(77);
   MienWriter writer;
-  add_ear(writer, random);
+  add_audio_encoder(writer, random);
   add_constant_speech(writer, controls);
   add_activity(writer);
   add_mix(writer);

@@ -1,3 +1,4 @@
+// Tests of crops: fitting to landmarks and the map to the image.
 #include "tracker/geometry/crop.h"
 
 #include <gtest/gtest.h>
@@ -76,7 +77,7 @@ TEST(FitCrop, MinimizesTheErrorOfNoisyPoints) {
   }
   Crop best;
   ASSERT_TRUE(fit_crop(shape, noisy, best));
-  const double least = squared_error(shape, noisy, best);
+  const double min_error = squared_error(shape, noisy, best);
   for (int axis = 0; axis < 4; ++axis) {
     for (float step : {-0.5f, 0.5f}) {
       Crop other = best;
@@ -84,7 +85,7 @@ TEST(FitCrop, MinimizesTheErrorOfNoisyPoints) {
       other.center.y += axis == 1 ? step : 0.0f;
       other.side += axis == 2 ? step : 0.0f;
       other.roll += axis == 3 ? step / 60.0f : 0.0f;
-      EXPECT_GT(squared_error(shape, noisy, other), least);
+      EXPECT_GT(squared_error(shape, noisy, other), min_error);
     }
   }
 }

@@ -1,4 +1,4 @@
-// The same scene, delivered in every way a camera may deliver it.
+// The same scene gives the same result in every format, layout, rotation and region.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace mien::tests {
 namespace {
 
-constexpr int kWidth = 151;  // odd on purpose
+constexpr int kWidth = 151;  // odd, to test chroma subsampling
 constexpr int kHeight = 113;
 
 Picture scene(int frame) {
@@ -35,7 +35,7 @@ Result after_frames(const Layout& layout, bool grey = false) {
   return result;
 }
 
-void expect_same(const Result& a, const Result& b) {
+void expect_identical(const Result& a, const Result& b) {
   EXPECT_EQ(std::memcmp(&a, &b, sizeof(mien_result)), 0);
 }
 
@@ -105,7 +105,7 @@ TEST(Equivariance, ColourAffectsControls) {
   for (int i = 0; i < MIEN_CONTROL_COUNT; ++i) {
     difference = std::max(difference, std::abs(colour.controls[i] - grey.controls[i]));
   }
-  EXPECT_GT(difference, 1e-4f) << "or the tests above see nothing of channel order";
+  EXPECT_GT(difference, 1e-4f) << "the tests above must be able to detect a wrong channel order";
 }
 
 TEST(Equivariance, StridesDoNotMatter) {
@@ -113,9 +113,10 @@ TEST(Equivariance, StridesDoNotMatter) {
        {MIEN_IMAGE_GRAY8, MIEN_IMAGE_RGB, MIEN_IMAGE_BGRA, MIEN_IMAGE_NV12, MIEN_IMAGE_I420}) {
     SCOPED_TRACE(format);
     const Result tight = after_frames({.format = format});
-    expect_same(after_frames({.format = format, .row_padding_bytes = 13}), tight);
-    expect_same(after_frames({.format = format, .bottom_up = true}), tight);
-    expect_same(after_frames({.format = format, .row_padding_bytes = 7, .bottom_up = true}), tight);
+    expect_identical(after_frames({.format = format, .row_padding_bytes = 13}), tight);
+    expect_identical(after_frames({.format = format, .bottom_up = true}), tight);
+    expect_identical(after_frames({.format = format, .row_padding_bytes = 7, .bottom_up = true}),
+                     tight);
   }
 }
 
@@ -129,10 +130,10 @@ TEST(Equivariance, RotatedBuffersMatchUprightOnes) {
   }
 }
 
-// The region {x, y, width, height} of an upright scene, as the buffer has it.
+// Converts the region {x, y, width, height} of the upright scene to the buffer.
 void set_region(mien_image& image, const Layout& layout, int width, int height,
                 const int (&scene)[4]) {
-  const bool on_side = layout.rotation % 180 != 0;
+  const bool sideways = layout.rotation % 180 != 0;
   const int x = layout.mirrored ? width - scene[0] - scene[2] : scene[0];
   const int right = width - x - scene[2], bottom = height - scene[1] - scene[3];
   const int from_left[] = {x, scene[1], right, bottom};
@@ -140,14 +141,14 @@ void set_region(mien_image& image, const Layout& layout, int width, int height,
   const int turns = layout.rotation / 90;
   image.region[0] = from_left[turns];
   image.region[1] = from_top[turns];
-  image.region[2] = scene[on_side ? 3 : 2];
-  image.region[3] = scene[on_side ? 2 : 3];
+  image.region[2] = scene[sideways ? 3 : 2];
+  image.region[3] = scene[sideways ? 2 : 3];
 }
 
 TEST(Equivariance, RegionsMatchCroppedImages) {
   constexpr int kWhole[2] = {300, 220};
   constexpr int kRegion[4] = {60, 42, 152, 112};
-  // Seen by one camera, of which (x, y) is the first pixel.
+  // The image of one camera, starting at pixel (x, y).
   const auto image_of = [](const Buffer& buffer, int x, int y) {
     mien_image image = buffer.image();
     image.focal_length_px = 250.0f;
@@ -161,7 +162,7 @@ TEST(Equivariance, RegionsMatchCroppedImages) {
       SCOPED_TRACE(testing::Message() << format << ", " << rotation);
       const Layout layout = {.format = format, .rotation = rotation, .row_padding_bytes = 5};
       BlobTracker whole, part;
-      Result of_whole, of_part;
+      Result whole_result, part_result;
       for (int frame = 0; frame < 7; ++frame) {
         Picture picture(kWhole[0], kWhole[1]);
         picture.disc(250.0f, 150.0f, 75.0f);  // outside, and larger
@@ -169,23 +170,23 @@ TEST(Equivariance, RegionsMatchCroppedImages) {
         const Buffer buffer(picture, layout);
         mien_image image = image_of(buffer, 0, 0);
         set_region(image, layout, kWhole[0], kWhole[1], kRegion);
-        of_whole = whole.push(image);
+        whole_result = whole.push(image);
         const Buffer cut(picture.part(kRegion[0], kRegion[1], kRegion[2], kRegion[3]), layout);
-        of_part = part.push(image_of(cut, kRegion[0], kRegion[1]));
+        part_result = part.push(image_of(cut, kRegion[0], kRegion[1]));
       }
-      ASSERT_EQ(of_whole.status, MIEN_FACE_TRACKING);
-      of_part.box[0] += kRegion[0];
-      of_part.box[1] += kRegion[1];
-      for (auto& point : of_part.landmarks) {
+      ASSERT_EQ(whole_result.status, MIEN_FACE_TRACKING);
+      part_result.box[0] += kRegion[0];
+      part_result.box[1] += kRegion[1];
+      for (auto& point : part_result.landmarks) {
         point[0] += kRegion[0];
         point[1] += kRegion[1];
       }
-      expect_close(of_whole, of_part, 0.01f, 1e-3f);
+      expect_close(whole_result, part_result, 0.01f, 1e-3f);
     }
   }
 }
 
-// Cut in the scene, a mirrored region shows what the same region shows that is not.
+// A mirrored region of the scene shows the same as the unmirrored region.
 TEST(Equivariance, RegionsOfMirroredImagesMatchPlainOnes) {
   constexpr int kRegion[4] = {40, 12, 90, 90};
   const auto result_of = [&](const Layout& layout) {
@@ -212,7 +213,7 @@ TEST(Equivariance, RegionsOfMirroredImagesMatchPlainOnes) {
   }
 }
 
-// Somebody moves it along with the face.
+// The caller moves the region with the face.
 TEST(Equivariance, RegionsMayMoveDuringTracking) {
   BlobTracker tracker;
   const Buffer buffer(disc_picture(160.0f, 120.0f, 60.0f), {});
@@ -225,11 +226,12 @@ TEST(Equivariance, RegionsMayMoveDuringTracking) {
   }
   EXPECT_TRUE(result.has_face());
   EXPECT_EQ(result.face_id, 1u);
-  EXPECT_EQ(result.proposal_runs, 1u) << "it was never lost";
+  EXPECT_EQ(result.proposal_runs, 1u) << "the face was never lost";
   EXPECT_NEAR(result.box[0] + result.box[2] / 2, 160.0f, 12.0f);
 }
 
-// Memory holds the region alone, as the address sanitizer sees; the image claims more around it.
+// The memory contains only the region, which the address sanitizer checks; the image claims a
+// border around it.
 TEST(Equivariance, PixelsOutsideTheRegionAreNotRead) {
   for (mien_image_format format : {MIEN_IMAGE_RGBA, MIEN_IMAGE_NV21, MIEN_IMAGE_I420}) {
     const Layout layout = {.format = format, .row_padding_bytes = 40};
@@ -267,8 +269,7 @@ TEST(Equivariance, MirroredBuffersGiveTheSameAnimation) {
   }
 }
 
-// The tracker sees the head at the place where the disc is: projecting its origin gives the crop's
-// point that the decoder named.
+// A longer focal length moves the head away along the same ray.
 TEST(Equivariance, FocalLengthScalesOnlyDistance) {
   const Buffer buffer(scene(0), {});
   mien_image image = buffer.image();

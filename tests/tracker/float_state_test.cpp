@@ -1,4 +1,4 @@
-// The caller's floating-point state: what it is changes no answer, and no call changes it.
+// The caller's floating-point state does not affect results, and calls do not change it.
 #include <gtest/gtest.h>
 
 #include <cfenv>
@@ -15,35 +15,34 @@
 namespace mien::tests {
 namespace {
 
-// What a caller has, made in the usual state.
-struct Material {
+// Inputs, created in the default state.
+struct Inputs {
   AlignedBytes basenet = blob_basenet(), hifinet = blob_hifinet(), proposal = blob_proposal(),
                audionet = blob_audionet();
   Buffer disc{disc_picture(150.0f, 110.0f, 70.0f), {}}, nothing{Picture(320, 240), {}};
   std::vector<float> sound = std::vector<float>(1600);
 
-  Material() {
+  Inputs() {
     for (std::size_t i = 0; i < sound.size(); ++i) {
       sound[i] = static_cast<float>(i % 17) / 17.0f - 0.5f;
     }
   }
 };
 
-// From create to destroy in the state that the caller has set.
+// Runs a tracker from create to destroy in the current state.
 std::vector<Result> animate() {
-  static const Material material;
-  Config config =
-      blob_config(material.basenet, material.proposal, material.hifinet, material.audionet);
+  static const Inputs inputs;
+  Config config = blob_config(inputs.basenet, inputs.proposal, inputs.hifinet, inputs.audionet);
   config.lod = 4;
   Tracker tracker;
   EXPECT_EQ(tracker.create(config), MIEN_OK);
   Audio audio;
-  audio.frames = material.sound.size();
-  audio.samples[0] = material.sound.data();
+  audio.frames = inputs.sound.size();
+  audio.samples[0] = inputs.sound.data();
   std::vector<Result> results(40);
   for (std::size_t i = 0; i < results.size(); ++i) {
     const std::int64_t pts_ns = static_cast<std::int64_t>(i) * kFrameNs;
-    const Buffer& scene = i < 28 ? material.disc : material.nothing;
+    const Buffer& scene = i < 28 ? inputs.disc : inputs.nothing;
     EXPECT_EQ(tracker.push_audio(audio, pts_ns), MIEN_OK);
     EXPECT_EQ(i % 4 == 3 ? tracker.advance(pts_ns) : tracker.push_video(scene.image(), pts_ns),
               MIEN_OK);
@@ -64,7 +63,7 @@ TEST(FloatState, ResultsDoNotDependOnTheRoundingMode) {
   for (const int rounding : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
     ASSERT_EQ(std::fesetround(rounding), 0);
     const std::vector<Result> results = animate();
-    EXPECT_EQ(std::fegetround(), rounding) << "it is the caller's again";
+    EXPECT_EQ(std::fegetround(), rounding) << "restored";
     ASSERT_EQ(std::fesetround(FE_TONEAREST), 0);
     expect_same(results, expected);
   }
@@ -110,24 +109,25 @@ TEST(FloatState, ResultsDoNotDependOnDenormalsOrTraps) {
                      kMaskOfAll = 0x1F80;
   const std::vector<Result> expected = animate();
   const Buffer disc(disc_picture(150.0f, 110.0f, 70.0f), {});
-  const unsigned usual = _mm_getcsr();
-  for (const unsigned state : {usual | kFlushToZero | kDenormalsAreZero, usual & ~kFlushToZero}) {
+  const unsigned default_state = _mm_getcsr();
+  for (const unsigned state :
+       {default_state | kFlushToZero | kDenormalsAreZero, default_state & ~kFlushToZero}) {
     _mm_setcsr(state);
     const std::vector<Result> results = animate();
     EXPECT_EQ(_mm_getcsr() & ~0x3Fu, state & ~0x3Fu);
-    _mm_setcsr(usual);
+    _mm_setcsr(default_state);
     expect_same(results, expected);
   }
-  // All traps set: one rounding inside would end the program.
+  // With all traps enabled, an inexact operation inside would end the program.
   BlobTracker tracker;
-  _mm_setcsr((usual & ~kMaskOfAll & ~0x3Fu));
+  _mm_setcsr((default_state & ~kMaskOfAll & ~0x3Fu));
   const mien_status pushed = mien_tracker_push_video(tracker.tracker().get(), &disc.image(), 1);
   const mien_status advanced = mien_tracker_advance(tracker.tracker().get(), 2);
   const unsigned after = _mm_getcsr();
-  _mm_setcsr(usual);
+  _mm_setcsr(default_state);
   EXPECT_EQ(pushed, MIEN_OK);
   EXPECT_EQ(advanced, MIEN_OK);
-  EXPECT_EQ(after & kMaskOfInvalid, 0u) << "the traps are the caller's again";
+  EXPECT_EQ(after & kMaskOfInvalid, 0u) << "the traps are restored";
 }
 #endif
 

@@ -1,3 +1,4 @@
+// Tests of decoding and converting head poses.
 #include "tracker/geometry/head_pose.h"
 
 #include <gtest/gtest.h>
@@ -69,7 +70,7 @@ float difference(const Matrix3& a, const Matrix3& b) {
   return largest;
 }
 
-// Minimal rotation between unit vectors by two reflections: another way than the library's.
+// The smallest rotation between unit vectors, as two reflections: independent of the library.
 Matrix3 shortest_rotation(const Vector3& from, const Vector3& to) {
   const Vector3 h = {from[0] + to[0], from[1] + to[1], from[2] + to[2]};
   const float hh = h[0] * h[0] + h[1] * h[1] + h[2] * h[2];
@@ -108,8 +109,8 @@ Case random_case(std::mt19937& random) {
   return c;
 }
 
-// What a perfect decoder would say about a head in front of the camera: the definition, forwards.
-Prediction perceive(const Case& c) {
+// The exact prediction for a head in front of the camera, by the definition.
+Prediction exact_prediction(const Case& c) {
   const float u = (c.crop.center.x - c.camera.principal.x) / c.camera.focal_px;
   const float v = (c.camera.principal.y - c.crop.center.y) / c.camera.focal_px;
   const float length = std::sqrt(u * u + v * v + 1);
@@ -139,7 +140,7 @@ TEST(HeadPose, DecodesAnExactPrediction) {
   for (int trial = 0; trial < 500; ++trial) {
     const Case c = random_case(random);
     HeadPose pose;
-    ASSERT_TRUE(decode_head_pose(perceive(c), c.crop, c.camera, pose));
+    ASSERT_TRUE(decode_head_pose(exact_prediction(c), c.crop, c.camera, pose));
     EXPECT_LT(difference(pose.rotation, c.pose.rotation), 2e-5f);
     for (std::size_t i = 0; i < 3; ++i) {
       EXPECT_NEAR(pose.translation[i], c.pose.translation[i], 2e-4f);
@@ -150,7 +151,7 @@ TEST(HeadPose, DecodesAnExactPrediction) {
 TEST(HeadPose, OrthonormalizesColumns) {
   std::mt19937 random(2);
   const Case c = random_case(random);
-  Prediction p = perceive(c);
+  Prediction p = exact_prediction(c);
   for (std::size_t i = 0; i < 3; ++i) {
     p[3 + i] = 0.3f * p[3 + i] + 0.2f * p[i];
     p[i] *= 7.0f;
@@ -167,7 +168,7 @@ TEST(HeadPose, FrontalHeadAtTheImageCentreHasNoRotation) {
   ASSERT_TRUE(decode_head_pose(frontal, {{320.0f, 240.0f}, 100.0f, 0.0f}, camera, pose));
   EXPECT_LT(difference(pose.rotation, HeadPose().rotation), 1e-6f);
   EXPECT_NEAR(pose.translation[2], -1.0f, 1e-6f);  // 500 px * 0.2 m / 100 px
-  // Turned clockwise on the screen is a negative rotation about z, which points at the viewer.
+  // A clockwise rotation on the screen is negative about z, which points to the viewer.
   ASSERT_TRUE(decode_head_pose(frontal, {{320.0f, 240.0f}, 100.0f, 0.3f}, camera, pose));
   EXPECT_NEAR(euler_angles(pose.rotation).roll, -0.3f, 1e-6f);
 }
@@ -178,21 +179,21 @@ TEST(HeadPose, RejectsImplausiblePredictions) {
   const Prediction good = {1, 0, 0, 0, 1, 0, 0, 0, 0};
   HeadPose pose;
   pose.translation = {1, 2, 3};
-  const auto refused = [&](std::size_t index, float value) {
+  const auto rejected = [&](std::size_t index, float value) {
     Prediction p = good;
     p[index] = value;
     return !decode_head_pose(p, crop, camera, pose);
   };
-  EXPECT_TRUE(refused(0, 0.0f)) << "no first column";
-  EXPECT_TRUE(refused(4, 0.0f)) << "no second column";
+  EXPECT_TRUE(rejected(0, 0.0f)) << "no first column";
+  EXPECT_TRUE(rejected(4, 0.0f)) << "no second column";
   for (std::size_t i = 0; i < good.size(); ++i) {
-    EXPECT_TRUE(refused(i, std::numeric_limits<float>::quiet_NaN())) << i;
-    EXPECT_TRUE(refused(i, -std::numeric_limits<float>::infinity())) << i;
+    EXPECT_TRUE(rejected(i, std::numeric_limits<float>::quiet_NaN())) << i;
+    EXPECT_TRUE(rejected(i, -std::numeric_limits<float>::infinity())) << i;
   }
   EXPECT_FALSE(decode_head_pose(Prediction{1, 0, 0, 2, 0, 0, 0, 0, 0}, crop, camera, pose))
-      << "columns in one line";
-  EXPECT_TRUE(refused(6, 1e9f)) << "too far to the side";
-  EXPECT_TRUE(refused(8, -30.0f)) << "too far away";
+      << "collinear columns";
+  EXPECT_TRUE(rejected(6, 1e9f)) << "too far to the side";
+  EXPECT_TRUE(rejected(8, -30.0f)) << "too far away";
   EXPECT_EQ(pose.translation[2], 3.0f);
 }
 

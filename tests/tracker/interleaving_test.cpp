@@ -1,5 +1,4 @@
-// Calls in any order: what a tracker answers depends on what it was given since the last reset, and
-// on nothing else.
+// Random sequences of calls: results depend only on the valid inputs since the last reset.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -15,7 +14,7 @@ namespace {
 constexpr unsigned kInterleavings = MIEN_INTERLEAVINGS;
 constexpr int kCalls = 12;
 
-// A call that changes what a tracker knows; the same every time it is made.
+// A repeatable call that changes the state of a tracker.
 using Call = std::function<void(mien_tracker*)>;
 
 class Calls {
@@ -54,7 +53,7 @@ class Calls {
   }
 
   static const std::vector<Buffer>& buffers() {
-    static const std::vector<Buffer> made = [] {
+    static const std::vector<Buffer> buffers = [] {
       std::vector<Buffer> all;
       for (const float x : {40.0f, 47.0f, 60.0f}) {
         all.emplace_back(disc_picture(x, 36.0f, 30.0f, 96, 72), Layout());
@@ -64,7 +63,7 @@ class Calls {
       all.emplace_back(disc_picture(50.0f, 30.0f, 30.0f, 96, 72), Layout{.rotation = 90});
       return all;
     }();
-    return made;
+    return buffers;
   }
 
   Call push_video() {
@@ -110,8 +109,8 @@ class Calls {
   std::int64_t now_ns_ = 0;
 };
 
-// Calls that leave no trace: refused ones, and those that only look.
-void distract(mien_tracker* tracker, std::size_t choice) {
+// Calls without effect: rejected and read-only ones.
+void call_without_effect(mien_tracker* tracker, std::size_t choice) {
   mien_image image;
   mien_image_default(&image);
   mien_audio audio;
@@ -155,7 +154,7 @@ TEST(Interleavings, GiveTheSameBitsAsAReplay) {
       }
       since_reset.push_back(calls.next());
       since_reset.back()(tracker);
-      distract(tracker, calls.below(4));
+      call_without_effect(tracker, calls.below(4));
       if (i % 4 == 0) {
         others.next()(another.tracker().get());
       }
@@ -170,7 +169,7 @@ TEST(Interleavings, GiveTheSameBitsAsAReplay) {
     ASSERT_EQ(std::memcmp(&got, &expected, sizeof(mien_result)), 0) << "seed " << seed;
     face_frames += expected.face_frames;
   }
-  EXPECT_GT(face_frames, kInterleavings) << "a test of trackers that see nothing would be none";
+  EXPECT_GT(face_frames, kInterleavings) << "the test must track faces";
 }
 
 }  // namespace

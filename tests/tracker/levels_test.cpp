@@ -1,4 +1,4 @@
-// Levels of detail: what runs when, and that nobody sees the change.
+// Tests of the levels of detail: which encoders run when, and changes without a jump.
 #include "tracker/encoders/levels.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ BlobTracker tracker_at(std::int32_t lod) {
 }
 
 TEST(Levels, EncodersRunOnTheDocumentedFrames) {
-  const std::uint64_t runs[4][2] = {{1, 0}, {2, 0}, {2, 1}, {2, 2}};  // on even frames, on odd ones
+  const std::uint64_t runs[4][2] = {{1, 0}, {2, 0}, {2, 1}, {2, 2}};  // on even and odd frames
   for (std::int32_t lod = 1; lod <= 4; ++lod) {
     BlobTracker tracker = tracker_at(lod);
     Result before = tracker.push(circling_disc(0));
@@ -58,7 +58,7 @@ TEST(Levels, ControlsComeFromHiFiNetFromLevelTwo) {
     last[2] = four.push(still);
   }
   EXPECT_GT(largest_step(last[0], last[2]), 0.02f);
-  EXPECT_LT(largest_step(last[1], last[2]), 0.01f) << "the same picture again and again";
+  EXPECT_LT(largest_step(last[1], last[2]), 0.01f) << "the same image on every frame";
 }
 
 TEST(Levels, HiFiNetRefinesLandmarksFromLevelTwo) {
@@ -122,7 +122,7 @@ TEST(Levels, ChangedTrackerConvergesToAnUnchangedOne) {
   }
 }
 
-// BaseNet drives the first control only.
+// BaseNet predicts only the first control.
 BlobTracker tracker_with_few_at_level_1(std::int32_t lod) {
   static const AlignedBytes few = [] {
     BlobOptions options;
@@ -157,25 +157,24 @@ TEST(Levels, UnsupportedControlsAreZeroDuringACrossfade) {
 
 TEST(Levels, LandmarksAreRefinedAtOnceAfterRaisingTheLevel) {
   for (const std::int32_t to : {2, 3, 4}) {
-    for (const int frames : {1, 2}) {  // then one on which BaseNet may rest, or not
+    for (const int frames : {1, 2}) {  // the next is an alternate frame or not
       BlobTracker tracker = tracker_at(1), always = tracker_at(to);
       for (int frame = 0; frame < frames; ++frame) {
         (void)tracker.push(circling_disc(0));
         (void)always.push(circling_disc(0));
       }
       ASSERT_EQ(tracker.tracker().set_lod(to), MIEN_OK);
-      const Result gone_up = tracker.push(circling_disc(0)),
-                   refined = always.push(circling_disc(0));
-      const float coarse_by = kRefinedBy * refined.box[2];
-      EXPECT_GT(gone_up.landmarks[0][0], refined.landmarks[0][0] - 0.5f * coarse_by) << to;
+      const Result raised = tracker.push(circling_disc(0)), refined = always.push(circling_disc(0));
+      const float shift = kRefinedBy * refined.box[2];
+      EXPECT_GT(raised.landmarks[0][0], refined.landmarks[0][0] - 0.5f * shift) << to;
     }
   }
 }
 
-// Features from before a stay at level 1 are too old to animate with.
+// Features from before a time at level 1 are too old for the decoder.
 TEST(Levels, HiFiNetRunsOnTheFirstImageAfterLevelOne) {
   for (const std::int32_t back_to : {2, 3, 4}) {
-    for (const int frames_at_one : {7, 8}) {  // BaseNet rests on every other one
+    for (const int frames_at_one : {7, 8}) {  // BaseNet runs on every second one
       BlobTracker tracker = tracker_at(4);
       for (int frame = 0; frame < 10; ++frame) {
         (void)tracker.push(circling_disc(0));
@@ -229,7 +228,7 @@ TEST(Levels, ResetDiscardsMeasuredLoad) {
   EXPECT_EQ(tracker.push(circling_disc(0)).lod, 4);
 }
 
-// Each call of the clock, of which a frame has more the more it does, is as long as this.
+// A clock that advances by step_ns with each call. A frame with more work calls it more often.
 struct Clock {
   std::uint64_t now = 0, step_ns = 0;
 };
@@ -248,7 +247,7 @@ BlobTracker timed_tracker(Clock& clock, std::int32_t lod) {
 TEST(Levels, AutomaticStartsAtThePreviousLevelWithoutItsCost) {
   Clock clock;
   BlobTracker tracker = timed_tracker(clock, 4);
-  clock.step_ns = 50'000'000;  // much too long
+  clock.step_ns = 50'000'000;  // far above the budget
   int frame = 0;
   for (; frame < 300; ++frame) {
     EXPECT_EQ(tracker.push(circling_disc(frame)).lod, 4);
@@ -264,7 +263,7 @@ TEST(Levels, AutomaticStartsAtThePreviousLevelWithoutItsCost) {
   EXPECT_EQ(tracker.push(circling_disc(frame)).lod, 2);
 }
 
-// A frame of another size is searched whole, which says nothing of what a followed one takes.
+// The detection after a change of size does not count as the cost of a tracked frame.
 TEST(Levels, AutomaticMeasuresOnlyFramesWithATrackedFace) {
   Clock clock;
   BlobTracker tracker = timed_tracker(clock, 0);
@@ -279,7 +278,7 @@ TEST(Levels, AutomaticMeasuresOnlyFramesWithATrackedFace) {
   }
 }
 
-// Milliseconds of a frame on each level, as a governor would measure them.
+// The level after `seconds` of frames that take `ms` milliseconds at each level.
 std::int32_t settled(tracker::LevelGovernor& governor, const float (&ms)[4], float seconds) {
   for (float t = 0.0f; t < seconds; t += 1.0f / 30.0f) {
     const std::int32_t level = std::clamp(governor.level(), 1, 4);
@@ -294,18 +293,18 @@ TEST(LevelGovernor, ChoosesTheHighestLevelThatFits) {
   const struct {
     float budget;
     std::int32_t level;
-  } wanted[] = {{40.0f, 4}, {22.0f, 3}, {16.5f, 2}, {10.0f, 1}, {1.0f, 1}};
-  for (const auto& [budget, level] : wanted) {
+  } expected[] = {{40.0f, 4}, {22.0f, 3}, {16.5f, 2}, {10.0f, 1}, {1.0f, 1}};
+  for (const auto& [budget, level] : expected) {
     tracker::LevelGovernor governor(budget, 4);
     EXPECT_EQ(settled(governor, ms, 20.0f), level) << "budget " << budget;
-    EXPECT_EQ(settled(governor, ms, 20.0f), level) << "it stays";
+    EXPECT_EQ(settled(governor, ms, 20.0f), level) << "stable";
   }
 }
 
-// How much more a frame costs one level up.
+// Cost of the next level relative to this one.
 constexpr float kGrowth[] = {5.9f, 1.2f, 1.7f};
 
-// A level that would only just fit into the budget would be left again at the next hiccup.
+// A level that barely fits the budget would be left at the next slow frame.
 TEST(LevelGovernor, RaisesTheLevelOnlyWithHeadroom) {
   constexpr float kBudgetMs = 20.0f;
   for (std::int32_t level = 1; level <= 3; ++level) {

@@ -1,4 +1,4 @@
-// Calibration: what a face shows at rest is taken out, and a blink keeps its range.
+// Tests of neutral calibration: it removes controls at rest, and a blink keeps its range.
 #include "tracker/decoders/neutral.h"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ Controls all(float value) {
   return controls;
 }
 
-Controls without_rest(Neutral& neutral, float value) {
+Controls calibrated(Neutral& neutral, float value) {
   Controls controls = all(value);
   neutral.observe(controls);
   neutral.remove(controls);
@@ -33,13 +33,13 @@ Controls without_rest(Neutral& neutral, float value) {
 
 TEST(Neutral, HasNoEffectUntilCaptured) {
   Neutral neutral;
-  EXPECT_EQ(without_rest(neutral, 0.3f), all(0.3f));
+  EXPECT_EQ(calibrated(neutral, 0.3f), all(0.3f));
   neutral.capture();
   for (int frame = 0; frame < kCaptureFrames - 1; ++frame) {
-    EXPECT_EQ(without_rest(neutral, 0.3f), all(0.3f));
+    EXPECT_EQ(calibrated(neutral, 0.3f), all(0.3f));
   }
   EXPECT_FALSE(neutral.is_captured());
-  EXPECT_NEAR(without_rest(neutral, 0.3f)[0], 0.0f, 1e-5f) << "the last frame";
+  EXPECT_NEAR(calibrated(neutral, 0.3f)[0], 0.0f, 1e-5f) << "the last frame";
   EXPECT_TRUE(neutral.is_captured());
   EXPECT_FALSE(neutral.is_being_captured());
 }
@@ -47,10 +47,10 @@ TEST(Neutral, HasNoEffectUntilCaptured) {
 TEST(Neutral, MapsNeutralToZeroAndOneToOne) {
   Neutral neutral;
   neutral.set(all(0.25f));
-  EXPECT_EQ(without_rest(neutral, 0.1f)[0], 0.0f);
-  EXPECT_EQ(without_rest(neutral, 0.25f)[0], 0.0f);
-  EXPECT_NEAR(without_rest(neutral, 0.625f)[0], 0.5f, 1e-6f);
-  EXPECT_EQ(without_rest(neutral, 1.0f)[0], 1.0f);
+  EXPECT_EQ(calibrated(neutral, 0.1f)[0], 0.0f);
+  EXPECT_EQ(calibrated(neutral, 0.25f)[0], 0.0f);
+  EXPECT_NEAR(calibrated(neutral, 0.625f)[0], 0.5f, 1e-6f);
+  EXPECT_EQ(calibrated(neutral, 1.0f)[0], 1.0f);
 }
 
 TEST(Neutral, ClampsSetValues) {
@@ -66,7 +66,7 @@ TEST(Neutral, IgnoresBlinksAndTheFirstFrames) {
   neutral.capture();
   for (int frame = 0; frame < kCaptureFrames; ++frame) {
     const bool blinks = frame % 20 < 7;
-    (void)without_rest(neutral, frame < 10 ? 0.9f : blinks ? 1.0f : 0.2f);
+    (void)calibrated(neutral, frame < 10 ? 0.9f : blinks ? 1.0f : 0.2f);
   }
   EXPECT_NEAR(neutral.levels()[0], 0.2f, 1e-5f);
 }
@@ -75,30 +75,30 @@ TEST(Neutral, LimitsNeutralValues) {
   Neutral neutral;
   neutral.capture();
   for (int frame = 0; frame < kCaptureFrames; ++frame) {
-    (void)without_rest(neutral, 0.95f);
+    (void)calibrated(neutral, 0.95f);
   }
   EXPECT_EQ(neutral.levels()[0], Neutral::kMax);
-  EXPECT_NEAR(without_rest(neutral, 0.8f)[0], 0.5f, 1e-6f);
+  EXPECT_NEAR(calibrated(neutral, 0.8f)[0], 0.5f, 1e-6f);
 }
 
 TEST(Neutral, RestartDiscardsFramesButKeepsTheEarlierCapture) {
   Neutral neutral;
   neutral.set(all(0.1f));
   neutral.restart();
-  EXPECT_FALSE(neutral.is_being_captured()) << "there was nothing to restart";
+  EXPECT_FALSE(neutral.is_being_captured()) << "no capture was running";
   neutral.capture();
   for (int frame = 0; frame < kCaptureFrames - 1; ++frame) {
-    (void)without_rest(neutral, 0.5f);
+    (void)calibrated(neutral, 0.5f);
   }
   neutral.restart();
   for (int frame = 0; frame < kCaptureFrames; ++frame) {
     EXPECT_EQ(neutral.levels()[0], 0.1f);
-    (void)without_rest(neutral, 0.3f);
+    (void)calibrated(neutral, 0.3f);
   }
   EXPECT_NEAR(neutral.levels()[0], 0.3f, 1e-5f);
 }
 
-BlobTracker unfiltered(std::int32_t lod, std::int32_t max_faces = 1) {
+BlobTracker unsmoothed(std::int32_t lod, std::int32_t max_faces = 1) {
   return BlobTracker({}, [=](mien_tracker_config& config) {
     config.smoothing = 0;
     config.lod = lod;
@@ -118,7 +118,7 @@ std::array<std::byte, MIEN_NEUTRAL_BYTES> saved(BlobTracker& tracker, std::uint3
 
 TEST(Calibration, RemovesTheControlsOfAStillFace) {
   for (const std::int32_t lod : {1, 4}) {
-    BlobTracker tracker = unfiltered(lod);
+    BlobTracker tracker = unsmoothed(lod);
     Result raw;
     for (int frame = 0; frame < 40; ++frame) {
       raw = tracker.push(disc(0));
@@ -142,7 +142,7 @@ TEST(Calibration, RemovesTheControlsOfAStillFace) {
 }
 
 TEST(Calibration, SavedAndLoadedHasTheSameEffect) {
-  BlobTracker first = unfiltered(1), second = unfiltered(1), plain = unfiltered(1);
+  BlobTracker first = unsmoothed(1), second = unsmoothed(1), plain = unsmoothed(1);
   ASSERT_EQ(first.tracker().capture_neutral(), MIEN_OK);
   for (int frame = 0; frame < 60; ++frame) {
     (void)first.push(disc(frame));
@@ -162,11 +162,11 @@ TEST(Calibration, SavedAndLoadedHasTheSameEffect) {
       difference = std::max(difference, raw.controls[i] - a.controls[i]);
     }
   }
-  EXPECT_GT(difference, 0.05f) << "something was at rest";
+  EXPECT_GT(difference, 0.05f) << "the neutral face must have controls above 0";
 }
 
 TEST(Calibration, ResetDiscardsIt) {
-  BlobTracker tracker = unfiltered(1), fresh = unfiltered(1);
+  BlobTracker tracker = unsmoothed(1), fresh = unsmoothed(1);
   ASSERT_EQ(tracker.tracker().capture_neutral(), MIEN_OK);
   for (int frame = 0; frame < 60; ++frame) {
     (void)tracker.push(disc(0));
@@ -181,7 +181,7 @@ INSTANTIATE_TEST_SUITE_P(Levels, CalibrationAtLevel, testing::Values(1, 2, 4));
 
 TEST_P(CalibrationAtLevel, WaitsForAFaceAndRestartsWhenItIsLost) {
   const std::uint32_t done = GetParam() == 1 ? 1u : 2u;
-  BlobTracker tracker = unfiltered(GetParam());
+  BlobTracker tracker = unsmoothed(GetParam());
   ASSERT_EQ(tracker.tracker().capture_neutral(), MIEN_OK);
   const auto push = [&](const Picture& picture, int frames) {
     for (int frame = 0; frame < frames; ++frame) {
@@ -200,10 +200,10 @@ TEST_P(CalibrationAtLevel, WaitsForAFaceAndRestartsWhenItIsLost) {
   EXPECT_EQ(push(disc(0), 12), done);
 }
 
-// A capture that nobody waits for any more would take whatever is shown for a rest.
+// A capture that continued unnoticed would take any expression as neutral.
 TEST(Calibration, RestartsAtTheNewLevel) {
   for (const auto& [from, to] : {std::pair{1, 4}, {4, 1}}) {
-    BlobTracker tracker = unfiltered(from);
+    BlobTracker tracker = unsmoothed(from);
     (void)tracker.push(disc(0));
     ASSERT_EQ(tracker.tracker().capture_neutral(), MIEN_OK);
     for (int frame = 0; frame < 20; ++frame) {
@@ -226,7 +226,7 @@ TEST(Calibration, RestartsAtTheNewLevel) {
 }
 
 TEST(Calibration, RejectsInvalidCallsAndFiles) {
-  BlobTracker tracker = unfiltered(1), several = unfiltered(1, 2);
+  BlobTracker tracker = unsmoothed(1), several = unsmoothed(1, 2);
   std::array<std::byte, MIEN_NEUTRAL_BYTES> file = {};
   std::uint32_t captured = 0;
   EXPECT_EQ(several.tracker().capture_neutral(), MIEN_ERROR_SEVERAL_FACES);

@@ -1,3 +1,4 @@
+// Draws test images and converts them to the layouts of cameras.
 #include "tests/tracker/picture.h"
 
 #include <algorithm>
@@ -7,20 +8,19 @@
 namespace mien::tests {
 namespace {
 
-// Most of the time of the tracker's tests is drawing, so that this file avoids calls for each
-// pixel.
+// Avoids calls per pixel, because drawing dominates the time of the tracker's tests.
 std::uint8_t byte(float value) {
   return static_cast<std::uint8_t>(std::clamp(value, 0.0f, 255.0f) + 0.5f);
 }
 
-// The picture in the buffer's own orientation: mirrored, then turned back from upright.
-struct Turned {
+// The scene in the orientation of the buffer: mirrored, then rotated back from upright.
+struct Oriented {
   const Picture& scene;
   const Layout& layout;
 
-  [[nodiscard]] bool on_side() const { return layout.rotation % 180 != 0; }
-  [[nodiscard]] int width() const { return on_side() ? scene.height() : scene.width(); }
-  [[nodiscard]] int height() const { return on_side() ? scene.width() : scene.height(); }
+  [[nodiscard]] bool sideways() const { return layout.rotation % 180 != 0; }
+  [[nodiscard]] int width() const { return sideways() ? scene.height() : scene.width(); }
+  [[nodiscard]] int height() const { return sideways() ? scene.width() : scene.height(); }
   [[nodiscard]] const std::uint8_t* pixel(int x, int y) const {
     int upright_x = x;
     int upright_y = y;
@@ -38,16 +38,16 @@ struct Turned {
   }
 };
 
-// Shares of red and blue in luma.
-struct Shares {
+// Weights of red and blue in luma.
+struct LumaWeights {
   float red, blue;
 };
-Shares shares_of(mien_yuv_matrix matrix) {
-  return matrix == MIEN_YUV_BT709 ? Shares{0.2126f, 0.0722f} : Shares{0.299f, 0.114f};
+LumaWeights luma_weights(mien_yuv_matrix matrix) {
+  return matrix == MIEN_YUV_BT709 ? LumaWeights{0.2126f, 0.0722f} : LumaWeights{0.299f, 0.114f};
 }
 
 float luma(const std::uint8_t* rgb, bool full_range, mien_yuv_matrix matrix = MIEN_YUV_BT601) {
-  const Shares s = shares_of(matrix);
+  const LumaWeights s = luma_weights(matrix);
   const float y = s.red * rgb[0] + (1.0f - s.red - s.blue) * rgb[1] + s.blue * rgb[2];
   return full_range ? y : 16.0f + y * 219.0f / 255.0f;
 }
@@ -56,8 +56,8 @@ struct Chroma {
   std::uint8_t u, v;
 };
 
-Chroma chroma(const Turned& picture, int cx, int cy, const Layout& layout) {
-  const Shares s = shares_of(layout.yuv_matrix);
+Chroma chroma(const Oriented& picture, int cx, int cy, const Layout& layout) {
+  const LumaWeights s = luma_weights(layout.yuv_matrix);
   float u = 0.0f;
   float v = 0.0f;
   for (int k = 0; k < 4; ++k) {
@@ -128,7 +128,7 @@ Picture::Picture(int width, int height)
 }
 
 void Picture::disc(float center_x, float center_y, float diameter) {
-  const float reach = diameter / 2 + 0.5f;  // of what it covers at all
+  const float reach = diameter / 2 + 0.5f;  // of the anti-aliased edge
   const auto first = [reach](float center) {
     return static_cast<int>(std::max(0.0f, std::floor(center - reach)));
   };
@@ -140,7 +140,7 @@ void Picture::disc(float center_x, float center_y, float diameter) {
       const float dx = static_cast<float>(x) + 0.5f - center_x;
       const float dy = static_cast<float>(y) + 0.5f - center_y;
       const float cover = std::clamp(reach - std::sqrt(dx * dx + dy * dy), 0.0f, 1.0f);
-      // Not one colour: its left is warmer and its top darker.
+      // The colour varies: warmer on the left, darker at the top.
       const float colour[3] = {240.0f - 15.0f * dx / diameter, 230.0f + 20.0f * dy / diameter,
                                180.0f + 45.0f * dx / diameter};
       for (int c = 0; c < 3; ++c) {
@@ -170,7 +170,7 @@ Picture Picture::part(int x, int y, int width, int height) const {
 }
 
 Buffer::Buffer(const Picture& scene, const Layout& layout) {
-  const Turned picture = {scene, layout};
+  const Oriented picture = {scene, layout};
   mien_image_default(&image_);
   image_.format = layout.format;
   image_.width = picture.width();
@@ -181,9 +181,10 @@ Buffer::Buffer(const Picture& scene, const Layout& layout) {
   image_.yuv_matrix = layout.yuv_matrix;
   const int pixel_bytes = bytes_per_pixel(layout.format);
   add_plane(0, image_.width * pixel_bytes, image_.height, layout);
-  const bool as_it_is = layout.format == MIEN_IMAGE_RGB && layout.rotation == 0 && !layout.mirrored;
+  const bool unchanged =
+      layout.format == MIEN_IMAGE_RGB && layout.rotation == 0 && !layout.mirrored;
   for (int y = 0; y < image_.height; ++y) {
-    if (as_it_is) {
+    if (unchanged) {
       std::copy_n(scene.pixel(0, y), 3 * image_.width, at(0, 0, y));
       continue;
     }
@@ -214,7 +215,8 @@ Buffer::Buffer(const Picture& scene, const Layout& layout) {
   }
 }
 
-// Exactly as many bytes as rows with their padding need: the last row has none.
+// Allocates no byte after the last row, which has no padding, so that sanitizers find reads beyond
+// it.
 void Buffer::add_plane(int plane, int row_bytes, int rows, const Layout& layout) {
   const int stride = row_bytes + layout.row_padding_bytes;
   planes_[plane].assign(static_cast<std::size_t>(stride * (rows - 1) + row_bytes), 0xAA);

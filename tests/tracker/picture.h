@@ -1,4 +1,4 @@
-// Pictures for tests, and the many ways a camera may lay them out in memory.
+// Test images, and the layouts in which cameras deliver them.
 #pragma once
 
 #include <mien/mien.h>
@@ -8,10 +8,10 @@
 
 namespace mien::tests {
 
-// RGB, upright, as the scene is.
+// An upright, unmirrored RGB image.
 class Picture {
  public:
-  Picture(int width, int height);  // dark, with a faint coloured texture
+  Picture(int width, int height);  // dark with a weak coloured texture
   // A soft-edged bright disc.
   void disc(float center_x, float center_y, float diameter);
   void grey();                // removes colour
@@ -44,7 +44,7 @@ struct Layout {
   int chroma_pixel_stride = 1;  // I420
 };
 
-// The scene as this camera delivers it; `image()` undoes nothing, it only describes.
+// The scene in the given layout; `image()` describes it.
 class Buffer {
  public:
   Buffer(const Picture& scene, const Layout& layout);

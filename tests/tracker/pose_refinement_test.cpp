@@ -1,3 +1,4 @@
+// Tests of the refinement of head poses by landmarks.
 #include "tracker/geometry/pose_refinement.h"
 
 #include <gtest/gtest.h>
@@ -15,10 +16,10 @@ constexpr Camera kCamera = {500.0f, {320.0f, 240.0f}};
 
 std::array<float, kHeadPoints> head_points() {
   std::mt19937 random(7);
-  std::uniform_real_distribution<float> anywhere(-0.08f, 0.08f);
+  std::uniform_real_distribution<float> coordinate(-0.08f, 0.08f);
   std::array<float, kHeadPoints> points = {};
   for (float& value : points) {
-    value = anywhere(random);
+    value = coordinate(random);
   }
   return points;
 }
@@ -33,7 +34,7 @@ Matrix3 about_x(float angle) {
   return {{{1, 0, 0}, {0, c, -s}, {0, s, c}}};
 }
 
-Landmarks seen(HeadPoints head, const HeadPose& pose) {
+Landmarks projected(HeadPoints head, const HeadPose& pose) {
   Landmarks landmarks;
   for (std::size_t i = 0; i < kLandmarks; ++i) {
     const Vector3 at_rest = {head[3 * i], head[3 * i + 1], head[3 * i + 2]};
@@ -61,7 +62,7 @@ class PoseRefinement : public testing::Test {
  protected:
   const std::array<float, kHeadPoints> head_ = head_points();
   const HeadPose true_ = {product(about_y(0.4f), about_x(-0.2f)), {0.05f, -0.03f, -0.6f}};
-  const Landmarks landmarks_ = seen(head_, true_);
+  const Landmarks landmarks_ = projected(head_, true_);
   const HeadPose guess_ = {product(product(about_y(0.1f), about_x(0.08f)), true_.rotation),
                            {0.07f, -0.02f, -0.66f}};
 };
@@ -75,7 +76,7 @@ TEST_F(PoseRefinement, OneStepRemovesMostOfTheError) {
             0.25f * distance(guess_.translation, true_.translation));
 }
 
-// The price of a turn counts from where a step begins, so many steps end at the truth.
+// The penalty for rotation starts anew with each step, so that many steps converge to the truth.
 TEST_F(PoseRefinement, StepsConvergeToTheTruePose) {
   HeadPose pose = guess_;
   for (int i = 0; i < 30; ++i) {
@@ -92,35 +93,35 @@ TEST_F(PoseRefinement, KeepsTheTruePose) {
   EXPECT_LT(distance(pose.translation, true_.translation), 1e-5f);
 }
 
-// A head whose points are all at its origin tells nothing of how it is turned.
+// Points that all lie at the head's origin do not determine its rotation.
 TEST_F(PoseRefinement, KeepsRotationThatPointsDoNotDetermine) {
   const std::array<float, kHeadPoints> nothing = {};
   HeadPose pose = guess_;
-  refine_head_pose(nothing, seen(nothing, true_), kCamera, pose);
+  refine_head_pose(nothing, projected(nothing, true_), kCamera, pose);
   EXPECT_LT(angle_between(pose.rotation, guess_.rotation), 1e-3f);
 }
 
 TEST_F(PoseRefinement, KeepsThePoseBitForBitWithoutAValidStep) {
-  const auto expect_untouched = [&](HeadPoints head, const Landmarks& landmarks,
+  const auto expect_unchanged = [&](HeadPoints head, const Landmarks& landmarks,
                                     const HeadPose& before) {
     HeadPose pose = before;
     refine_head_pose(head, landmarks, kCamera, pose);
     EXPECT_EQ(pose.rotation, before.rotation);
     EXPECT_EQ(pose.translation, before.translation);
   };
-  expect_untouched({}, landmarks_, guess_);
+  expect_unchanged({}, landmarks_, guess_);
   Landmarks broken = landmarks_;
   broken[3].x = std::numeric_limits<float>::quiet_NaN();
-  expect_untouched(head_, broken, guess_);
+  expect_unchanged(head_, broken, guess_);
   broken[3].x = std::numeric_limits<float>::infinity();
-  expect_untouched(head_, broken, guess_);
+  expect_unchanged(head_, broken, guess_);
   broken[3].x = 1e25f;  // the step is finite, its square is not
-  expect_untouched(head_, broken, guess_);
-  broken[3].x = 1e12f;  // all is finite, but nearer to the stars than to the camera
-  expect_untouched(head_, broken, guess_);
+  expect_unchanged(head_, broken, guess_);
+  broken[3].x = 1e12f;  // finite, but an implausible distance
+  expect_unchanged(head_, broken, guess_);
   HeadPose behind = guess_;
-  behind.translation[2] = -0.05f;  // some of the points are behind the camera
-  expect_untouched(head_, landmarks_, behind);
+  behind.translation[2] = -0.05f;  // some points are behind the camera
+  expect_unchanged(head_, landmarks_, behind);
 }
 
 }  // namespace

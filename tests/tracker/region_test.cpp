@@ -1,4 +1,4 @@
-// Faces in a region of a larger image, wherever the region lies.
+// Tests of tracking in a region of a larger image.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -39,7 +39,7 @@ TEST(Region, FacesAreDetectedAndTrackedAnywhereInIt) {
             result = push_region(tracker, region, scene_x, scene_y);
           }
           ASSERT_TRUE(result.has_face());
-          EXPECT_EQ(result.proposal_runs, 1u) << "it was never lost";
+          EXPECT_EQ(result.proposal_runs, 1u) << "the face was never lost";
           EXPECT_NEAR(result.box[0] + result.box[2] / 2, scene_x, 2.0f);
           EXPECT_NEAR(result.box[1] + result.box[3] / 2, scene_y, 2.0f);
         }
@@ -48,7 +48,7 @@ TEST(Region, FacesAreDetectedAndTrackedAnywhereInIt) {
   }
 }
 
-// The tracker never claims to follow a face that is not in the region any more.
+// The tracker does not track a face outside the region.
 TEST(Region, LosesAFaceThatLeavesIt) {
   const Region region = {300, 200, 200, 180};
   constexpr float kSide = kDiscDiameter / kDiscPerCrop;

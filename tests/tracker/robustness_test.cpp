@@ -1,4 +1,4 @@
-// Streams that are not what one hopes for.
+// Tests with unusual streams: sizes, timestamps and invalid images.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -10,7 +10,7 @@
 namespace mien::tests {
 namespace {
 
-bool same(const Result& a, const Result& b) {
+bool identical(const Result& a, const Result& b) {
   return std::memcmp(&a, &b, sizeof(mien_result)) == 0;
 }
 
@@ -26,11 +26,11 @@ TEST(Reset, IsBitIdenticalToANewTracker) {
   }
   ASSERT_EQ(used.tracker().reset(), MIEN_OK);
   BlobTracker fresh;
-  EXPECT_TRUE(same(used.result(), fresh.result()));
+  EXPECT_TRUE(identical(used.result(), fresh.result()));
   for (int i = 0; i < 23; ++i) {
     const std::int64_t pts = 1000 + i * kFrameNs;
     const Buffer buffer(moving_disc(3 * i), {});
-    EXPECT_TRUE(same(used.push(buffer.image(), pts), fresh.push(buffer.image(), pts))) << i;
+    EXPECT_TRUE(identical(used.push(buffer.image(), pts), fresh.push(buffer.image(), pts))) << i;
   }
 }
 
@@ -42,7 +42,7 @@ TEST(Reset, TrackersDoNotAffectEachOther) {
     const Picture picture = moving_disc(i);
     const Result result = first.push(picture);
     (void)second.push(moving_disc(20 + 2 * i));
-    EXPECT_TRUE(same(alone.push(picture), result)) << i;
+    EXPECT_TRUE(identical(alone.push(picture), result)) << i;
   }
 }
 
@@ -66,7 +66,7 @@ TEST(Timestamps, AnyValueIsAccepted) {
     pts = choices[random() % std::size(choices)];
     const Result result = tracker.push(random() % 3 == 0 ? nothing.image() : disc.image(), pts);
     EXPECT_EQ(result.pts_ns, pts);
-    expect_sane(result);
+    expect_valid(result);
   }
   EXPECT_EQ(tracker.result().frames, 400u);
 }
@@ -96,11 +96,11 @@ TEST(Images, MayHaveAnySizeInOneStream) {
     }
     const auto format = static_cast<mien_image_format>(random() % (MIEN_IMAGE_I420 + 1));
     const int rotation = 90 * static_cast<int>(random() % 4);
-    expect_sane(tracker.push(picture, {.format = format,
-                                       .rotation = rotation,
-                                       .mirrored = random() % 2 == 0,
-                                       .row_padding_bytes = static_cast<int>(random() % 5),
-                                       .bottom_up = random() % 2 == 0}));
+    expect_valid(tracker.push(picture, {.format = format,
+                                        .rotation = rotation,
+                                        .mirrored = random() % 2 == 0,
+                                        .row_padding_bytes = static_cast<int>(random() % 5),
+                                        .bottom_up = random() % 2 == 0}));
   }
 }
 
@@ -115,8 +115,8 @@ TEST(Images, NewSizeStartsDetectionOnTheSameFrame) {
 
 TEST(Images, NewSizeCancelsARunningDetection) {
   BlobTracker tracker;
-  (void)tracker.push(Picture(320, 240));  // searched at once
-  (void)tracker.push(Picture(320, 240));  // the first share of a search
+  (void)tracker.push(Picture(320, 240));  // whole detection
+  (void)tracker.push(Picture(320, 240));  // first share of a detection
   const Result result = tracker.push(disc_picture(320.0f, 240.0f, 140.0f, 640, 480));
   EXPECT_EQ(result.status, MIEN_FACE_TRACKING);
   EXPECT_EQ(result.proposal_runs, 3u);
@@ -143,7 +143,7 @@ TEST(Images, BlackWhiteAndNoiseGiveValidResults) {
     } else if (i % 3 == 1) {
       picture.disc(80.0f, 60.0f, i % 2 == 0 ? 1000.0f : 50.0f);
     }
-    expect_sane(tracker.push(picture));
+    expect_valid(tracker.push(picture));
   }
 }
 
@@ -156,8 +156,8 @@ TEST(Images, InvalidOnesDoNotChangeTheTracker) {
     wrong.width = -5;
     const Result before = disturbed.result();
     EXPECT_EQ(disturbed.tracker().push_video(wrong, 0), MIEN_ERROR_IMAGE_SIZE);
-    EXPECT_TRUE(same(before, disturbed.result()));
-    EXPECT_TRUE(same(disturbed.push(buffer.image()), steady.push(buffer.image())));
+    EXPECT_TRUE(identical(before, disturbed.result()));
+    EXPECT_TRUE(identical(disturbed.push(buffer.image()), steady.push(buffer.image())));
   }
 }
 
@@ -176,7 +176,7 @@ TEST(Images, AreReadOnlyDuringTheCall) {
       std::memset(const_cast<void*>(scrapped.image().planes[0]), 0xFF,
                   static_cast<std::size_t>(320 * 240 * 3));
     }
-    EXPECT_TRUE(same(a, b)) << i;
+    EXPECT_TRUE(identical(a, b)) << i;
   }
 }
 

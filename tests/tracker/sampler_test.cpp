@@ -1,5 +1,5 @@
-// Crops as networks see them: colours and brightness lie where the image has them, and patterns too
-// fine for a crop are averaged, not aliased.
+// Tests of warped crops: colour and brightness keep their positions, and patterns too fine for a
+// crop are averaged instead of aliased.
 #include "tracker/image/sampler.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ constexpr std::size_t kCropValues = 3 * std::size_t{kSamples} * kSamples;
 
 using Value = std::function<int(int column, int row)>;
 
-// A square image of a format with a grey plane, and colour planes half its size.
+// A square image with a luma plane and, depending on the format, chroma planes of half its size.
 class Scene {
  public:
   Scene(std::int32_t format, const Value& luma, const Value& u)
@@ -79,7 +79,7 @@ struct Rgb {
   float red, green, blue;  // 0..255
 };
 
-// A crop in the middle of the scene, its samples so many pixels apart, row by row.
+// The samples of a crop at the centre of the scene, row by row, `pixels_apart` pixels apart.
 std::vector<Rgb> cut(const Scene& scene, float pixels_apart) {
   ImageView view;
   EXPECT_EQ(view_image(&scene.image(), 1.0f, view), MIEN_OK);
@@ -111,7 +111,7 @@ float range_of(const std::vector<Rgb>& samples, float Rgb::*channel) {
 
 int grey(int, int) { return 128; }
 
-// Pixels between samples of a crop, from one that is enlarged to one that is made much smaller.
+// Distances between samples in pixels, from upscaling to strong downscaling.
 constexpr float kDistances[] = {0.7f, 1.0f, 1.4f, 2.3f, 3.7f, 5.1f, 7.3f, 11.6f};
 
 TEST(Sampler, KeepsThePositionOfColour) {
@@ -149,8 +149,8 @@ TEST(Sampler, KeepsThePositionOfBrightness) {
   }
 }
 
-// Stripes as wide as half a box vanish in it; without the box they would show as a pattern that is
-// not there. Until samples are 1.5 boxes apart they can be seen.
+// A box averages out stripes of half its width; without it they would alias. Up to a distance
+// of 1.5 boxes between samples they are visible.
 TEST(Sampler, AveragesPatternsAboveTheSamplingLimit) {
   for (const int width : {1, 2, 4}) {
     const auto stripes = [width](int column, int) { return column / width % 2 == 0 ? 28 : 228; };

@@ -1,4 +1,4 @@
-// What happens to cameras and microphones in people's hands, one test each.
+// Tests of situations with cameras and microphones in real use.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::int64_t kSecondNs = 1'000'000'000;
 
-bool same(const Result& a, const Result& b) {
+bool identical(const Result& a, const Result& b) {
   return std::memcmp(&a, &b, sizeof(mien_result)) == 0;
 }
 
@@ -32,7 +32,7 @@ Audio block_of(const std::vector<float>& samples, std::int32_t rate, std::int32_
   return audio;
 }
 
-// Loud noise, or what `value` says.
+// Loud noise.
 std::vector<float> noise(std::size_t count) {
   std::vector<float> samples(count);
   std::uint32_t state = 1;
@@ -51,7 +51,7 @@ TEST(Camera, DetectsAtOnceAfterRotation) {
     ASSERT_EQ(result.status, MIEN_FACE_TRACKING) << i;
     EXPECT_NEAR(result.box[0] + result.box[2] / 2, 160.0f, 3.0f) << i;
     EXPECT_NEAR(result.box[1] + result.box[3] / 2, 120.0f, 3.0f) << i;
-    expect_sane(result);
+    expect_valid(result);
   }
 }
 
@@ -77,7 +77,7 @@ TEST(Camera, WhiteAndBlackFramesLoseTheFace) {
       blank.disc(160.0f, 120.0f, diameter);
     }
     for (int i = 0; i < 60; ++i) {
-      expect_sane(tracker.push(blank));
+      expect_valid(tracker.push(blank));
     }
     EXPECT_EQ(tracker.result().status, MIEN_FACE_LOST) << diameter;
     EXPECT_EQ(tracker.push_until_found(disc()).status, MIEN_FACE_TRACKING);
@@ -94,9 +94,9 @@ TEST(Camera, MayDropUpToThreeHundredFrames) {
     ASSERT_EQ(after.status, MIEN_FACE_TRACKING) << dropped;
     EXPECT_EQ((after.flags & MIEN_RESULT_CUT) != 0, (dropped + 1) * kFrameNs > kSecondNs)
         << dropped;
-    expect_sane(after);
+    expect_valid(after);
   }
-  EXPECT_EQ(tracker.result().proposal_runs, 1u) << "the face never moved";
+  EXPECT_EQ(tracker.result().proposal_runs, 1u) << "the face did not move";
 }
 
 TEST(Camera, FadeTimeDoesNotDependOnTheFrameRate) {
@@ -107,7 +107,7 @@ TEST(Camera, FadeTimeDoesNotDependOnTheFrameRate) {
     const auto mass = [&](const mien_image& image, double seconds) {
       for (int i = 0; i < std::lround(seconds * rate); ++i) {
         pts_ns += kSecondNs / rate;
-        expect_sane(tracker.push(image, pts_ns));
+        expect_valid(tracker.push(image, pts_ns));
       }
       const Result result = tracker.result();
       float sum = 0.0f;
@@ -125,7 +125,7 @@ TEST(Camera, FadeTimeDoesNotDependOnTheFrameRate) {
   }
 }
 
-// Nothing depends on when the clock began: not near any number that timers overflow at.
+// Results do not depend on the clock's origin, also near values at which timers overflow.
 TEST(Clocks, OriginDoesNotChangeTheBits) {
   const std::int64_t milli = 1'000'000, micro = 1'000;
   const std::int64_t origins[] = {(std::int64_t{1} << 31) * milli,
@@ -141,7 +141,7 @@ TEST(Clocks, OriginDoesNotChangeTheBits) {
   const auto animate = [&](std::int64_t origin) {
     BlobTracker tracker;
     std::vector<Result> results;
-    for (int i = -15; i < 15; ++i) {  // the number itself lies in the middle
+    for (int i = -15; i < 15; ++i) {  // the origin is in the middle
       const std::int64_t pts_ns = origin + i * kFrameNs;
       EXPECT_EQ(tracker.tracker().push_audio(block_of(sound, 48000), pts_ns), MIEN_OK);
       Result result = tracker.push(buffer.image(), pts_ns);
@@ -155,7 +155,7 @@ TEST(Clocks, OriginDoesNotChangeTheBits) {
   for (const std::int64_t origin : origins) {
     const std::vector<Result> results = animate(origin);
     for (std::size_t i = 0; i < results.size(); ++i) {
-      ASSERT_TRUE(same(results[i], expected[i])) << "origin " << origin << ", frame " << i;
+      ASSERT_TRUE(identical(results[i], expected[i])) << "origin " << origin << ", frame " << i;
     }
   }
 }
@@ -167,16 +167,16 @@ TEST(Microphone, ConstantClippedAndInvalidSamplesAreHarmless) {
     const std::vector<float> block(1600, value);
     for (int i = 0; i < 30; ++i) {
       EXPECT_EQ(tracker.tracker().push_audio(block_of(block, 48000), tracker.now_ns()), MIEN_OK);
-      expect_sane(tracker.push(disc()));
+      expect_valid(tracker.push(disc()));
     }
     const std::vector<float> voice = noise(48000);
     EXPECT_EQ(tracker.tracker().push_audio(block_of(voice, 48000), tracker.now_ns()), MIEN_OK);
     Result result;
     for (int i = 0; i < 20; ++i) {
       result = tracker.push(disc());
-      expect_sane(result);
+      expect_valid(result);
     }
-    EXPECT_GT(result.voice_activity, 0.5f) << "after " << value << " a voice is heard as ever";
+    EXPECT_GT(result.voice_activity, 0.5f) << "speech after samples of " << value;
   }
 }
 
@@ -192,7 +192,7 @@ TEST(Microphone, ReactsAtOnceAfterAnHourOfSilence) {
   ASSERT_EQ(tracker.tracker().push_audio(block_of(voice, kRate), 3600 * kSecondNs), MIEN_OK);
   const auto activity_at = [&](double seconds) {
     EXPECT_EQ(tracker.tracker().advance(std::llround(seconds * 1e9)), MIEN_OK);
-    expect_sane(tracker.result());
+    expect_valid(tracker.result());
     return tracker.result().voice_activity;
   };
   EXPECT_LT(activity_at(3599.9), 0.1f);
@@ -232,10 +232,10 @@ TEST(Microphone, MayChangeItsFormatAtAnyTime) {
     }
     ASSERT_EQ(tracker.tracker().push_audio(audio, tracker.now_ns()), MIEN_OK);
     const Result result = tracker.push(disc());
-    expect_sane(result);
+    expect_valid(result);
     quietest = i > 30 ? std::min(quietest, result.voice_activity) : quietest;
   }
-  EXPECT_GT(quietest, 0.7f) << "one voice all along";
+  EXPECT_GT(quietest, 0.7f) << "uninterrupted speech";
 }
 
 TEST(Trackers, GiveTheSameResultsOnSeveralThreads) {
@@ -259,13 +259,12 @@ TEST(Trackers, GiveTheSameResultsOnSeveralThreads) {
   for (const auto& one : results) {
     ASSERT_EQ(one.size(), alone.size());
     for (std::size_t i = 0; i < alone.size(); ++i) {
-      ASSERT_TRUE(same(one[i], alone[i])) << i;
+      ASSERT_TRUE(identical(one[i], alone[i])) << i;
     }
   }
 }
 
-// In the same memory again and again, and by the allocator now and then; weights are checked each
-// time.
+// Creates in the same memory, and sometimes with the allocator.
 TEST(Trackers, MayBeCreatedManyTimes) {
   constexpr int kTimes = MIEN_CREATE_TIMES;
   const AlignedBytes basenet = blob_basenet(), proposal = blob_proposal();

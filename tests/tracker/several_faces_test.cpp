@@ -1,4 +1,4 @@
-// Several faces at once, with discs as the faces: ids, newcomers, and those who leave.
+// Tests of several faces, with discs as faces: ids, new faces, and faces that leave.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -38,7 +38,7 @@ class SeveralTracker : public BlobTracker {
     std::vector<Result> results(static_cast<std::size_t>(tracker().face_count()));
     for (std::size_t i = 0; i < results.size(); ++i) {
       EXPECT_EQ(tracker().get_face(static_cast<std::int32_t>(i), results[i]), MIEN_OK);
-      expect_sane(results[i]);
+      expect_valid(results[i]);
     }
     return results;
   }
@@ -70,11 +70,11 @@ TEST(SeveralFaces, DetectsAllFacesOfTheFirstImage) {
 }
 
 TEST(SeveralFaces, TracksAtMostMaxFaces) {
-  for (std::int32_t most = 1; most <= 3; ++most) {
-    SeveralTracker tracker(most);
+  for (std::int32_t max_faces = 1; max_faces <= 3; ++max_faces) {
+    SeveralTracker tracker(max_faces);
     for (int frame = 0; frame < 40; ++frame) {
       EXPECT_EQ(tracker.push_all({{60, 120}, {160, 80}, {260, 170}, {60, 210, 30}}).size(),
-                static_cast<std::size_t>(most));
+                static_cast<std::size_t>(max_faces));
     }
   }
 }
@@ -111,7 +111,7 @@ TEST(SeveralFaces, DetectsNewFacesWithinOneRoundOfTiles) {
     const Result result = tracker.push_all({first, newcomer})[1];
     EXPECT_NEAR(middle_x(result), newcomer.x, 0.05f * newcomer.diameter);
     EXPECT_EQ(result.face_id, 2u);
-    EXPECT_EQ(result.proposal_runs, 1u) << "the whole image was searched once";
+    EXPECT_EQ(result.proposal_runs, 1u) << "one detection in the whole image";
   }
 }
 
@@ -123,7 +123,7 @@ TEST(SeveralFaces, OneDiscIsOneFace) {
   }
 }
 
-// A child's face next to one close to the camera: half of the larger crop lies between them.
+// A small face beside one close to the camera: half of the larger crop lies between them.
 TEST(SeveralFaces, TracksASmallFaceBesideALargeOne) {
   const Disc large = {110, 120, 100}, small = {183, 120, 20};
   SeveralTracker tracker(2);
@@ -142,7 +142,7 @@ TEST(SeveralFaces, FacesThatLeaveFadeAndAreForgotten) {
   for (int frame = 0; frame < 12; ++frame) {
     results = tracker.push_all({{240, 120}});
   }
-  ASSERT_EQ(results.size(), 2u) << "it still fades";
+  ASSERT_EQ(results.size(), 2u) << "the lost face still fades";
   ASSERT_EQ(tracked(results).size(), 1u);
   EXPECT_NEAR(middle_x(tracked(results)[0]), 240, 3);
   for (int frame = 0; frame < 70; ++frame) {
@@ -193,7 +193,7 @@ TEST(SeveralFaces, TheOlderOfTwoThatMeetStays) {
   EXPECT_EQ(tracked(results)[0].face_id, 1u);
 }
 
-// What one face shows does not depend on who else is there.
+// The animation of a face does not depend on other faces.
 TEST(SeveralFaces, FacesDoNotAffectEachOther) {
   for (const std::int32_t lod : {1, 2, 4}) {
     SeveralTracker alone(1, lod), together(2, lod);

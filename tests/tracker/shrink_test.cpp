@@ -1,3 +1,4 @@
+// Tests of downscaling.
 #include "tracker/image/shrink.h"
 
 #include <gtest/gtest.h>
@@ -58,7 +59,7 @@ TEST(Shrink, HalvingTakesTheMeanOfFourPixels) {
   }
 }
 
-// Area averaging neither loses nor gains light, whatever the ratio.
+// Area averaging keeps the mean at any ratio.
 TEST(Shrink, KeepsTheMean) {
   for (auto [from, to] : {std::pair{160, 113}, {113, 80}, {14, 12}, {17, 12}, {24, 1}, {5, 5}}) {
     const std::vector<float> picture = random_picture(from);

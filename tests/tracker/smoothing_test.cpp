@@ -1,3 +1,4 @@
+// Tests of the smoothing of controls, landmarks and head poses.
 #include "tracker/decoders/smoothing.h"
 
 #include <gtest/gtest.h>
@@ -18,14 +19,14 @@ constexpr float kFrame = 1.0f / 30.0f;
 std::vector<float> smoothed(const std::vector<float>& curve) {
   std::vector<float> out;
   float shown = curve[0];
-  for (const float seen : curve) {
-    smooth_controls({&seen, 1}, kFrame, {&shown, 1});
+  for (const float raw : curve) {
+    smooth_controls({&raw, 1}, kFrame, {&shown, 1});
     out.push_back(shown);
   }
   return out;
 }
 
-// Minimum-jerk closing and opening, as few frames as a fast blink takes.
+// Minimum-jerk closing and opening, with the number of frames of a fast blink.
 std::vector<float> blink(int closing, int held, int opening) {
   const auto ease = [](float t) { return t * t * t * (10 - 15 * t + 6 * t * t); };
   std::vector<float> curve(5, 0.0f);
@@ -40,7 +41,7 @@ std::vector<float> blink(int closing, int held, int opening) {
   return curve;
 }
 
-// Frames at which a curve rises through one half.
+// The frame, with fraction, at which a curve rises above one half.
 float rise(const std::vector<float>& curve) {
   for (std::size_t i = 1; i < curve.size(); ++i) {
     if (curve[i] >= 0.5f) {
@@ -53,9 +54,9 @@ float rise(const std::vector<float>& curve) {
 TEST(Smoothing, BlinksKeepTheirPeakAndTiming) {
   for (int closing = 2; closing <= 4; ++closing) {
     for (int held = 0; held <= 1; ++held) {
-      const std::vector<float> seen = blink(closing, held, closing + 1), shown = smoothed(seen);
+      const std::vector<float> raw = blink(closing, held, closing + 1), shown = smoothed(raw);
       EXPECT_GE(*std::ranges::max_element(shown), 0.95f) << closing << " frames, held " << held;
-      EXPECT_LT(rise(shown) - rise(seen), 0.5f);
+      EXPECT_LT(rise(shown) - rise(raw), 0.5f);
     }
   }
 }
@@ -63,9 +64,9 @@ TEST(Smoothing, BlinksKeepTheirPeakAndTiming) {
 TEST(Smoothing, ReducesJitter) {
   std::mt19937 random(1);
   std::normal_distribution<float> noise(0.0f, 0.01f);
-  std::vector<float> seen(3000);
-  std::ranges::generate(seen, [&] { return 0.4f + noise(random); });
-  const std::vector<float> shown = smoothed(seen);
+  std::vector<float> raw(3000);
+  std::ranges::generate(raw, [&] { return 0.4f + noise(random); });
+  const std::vector<float> shown = smoothed(raw);
   const auto travel = [](const std::vector<float>& curve) {
     float sum = 0.0f;
     for (std::size_t i = 1; i < curve.size(); ++i) {
@@ -73,58 +74,58 @@ TEST(Smoothing, ReducesJitter) {
     }
     return sum;
   };
-  EXPECT_LT(travel(shown), 0.5f * travel(seen));
+  EXPECT_LT(travel(shown), 0.5f * travel(raw));
   EXPECT_NEAR(shown.back(), 0.4f, 0.03f);
 }
 
 TEST(Smoothing, ConvergesToTheInput) {
-  std::vector<float> seen(120, 1.0f);
-  seen[0] = 0.98f;
-  EXPECT_NEAR(smoothed(seen).back(), 1.0f, 1e-3f);
+  std::vector<float> raw(120, 1.0f);
+  raw[0] = 0.98f;
+  EXPECT_NEAR(smoothed(raw).back(), 1.0f, 1e-3f);
 }
 
 TEST(Smoothing, PointsDoNotDependOnTheImageSize) {
   const Point from = {10.0f, 20.0f}, step = {0.5f, -0.25f};
   for (const float size : {1.0f, 8.0f}) {
     Point shown = {size * from.x, size * from.y};
-    const Point seen = {size * (from.x + step.x), size * (from.y + step.y)};
-    smooth_points({&seen, 1}, 100.0f * size, kFrame, {&shown, 1});
+    const Point raw = {size * (from.x + step.x), size * (from.y + step.y)};
+    smooth_points({&raw, 1}, 100.0f * size, kFrame, {&shown, 1});
     EXPECT_NEAR((shown.x / size - from.x) / step.x, (shown.y / size - from.y) / step.y, 1e-4f);
     EXPECT_NEAR(shown.x / size, 10.3f, 0.1f);
   }
 }
 
 TEST(Smoothing, PosesStayRotationsAndTakeTheShorterWay) {
-  HeadPose shown, seen;
+  HeadPose shown, raw;
   const float angle = 3.0f;
-  seen.rotation = matrix({0.0f, std::sin(angle / 2), 0.0f, std::cos(angle / 2)});
-  seen.translation = {0.1f, 0.0f, -0.5f};
+  raw.rotation = matrix({0.0f, std::sin(angle / 2), 0.0f, std::cos(angle / 2)});
+  raw.translation = {0.1f, 0.0f, -0.5f};
   for (int i = 0; i < 200; ++i) {
-    smooth_pose(seen, kFrame, shown);
+    smooth_pose(raw, kFrame, shown);
     const Quaternion q = quaternion(shown.rotation);
     EXPECT_NEAR(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w, 1.0f, 1e-4f);
     EXPECT_GE(q.y, 0.0f);
   }
   for (std::size_t row = 0; row < 3; ++row) {
     for (std::size_t column = 0; column < 3; ++column) {
-      EXPECT_NEAR(shown.rotation[row][column], seen.rotation[row][column], 2e-3f);
+      EXPECT_NEAR(shown.rotation[row][column], raw.rotation[row][column], 2e-3f);
     }
-    EXPECT_NEAR(shown.translation[row], seen.translation[row], 2e-3f);
+    EXPECT_NEAR(shown.translation[row], raw.translation[row], 2e-3f);
   }
 }
 
-// Where the head looks matters nothing, not even over the place where angles begin anew.
+// Smoothing does not depend on the direction of the head, also where angles wrap around.
 TEST(Smoothing, PosesDoNotDependOnTheDirection) {
-  const auto turned = [](float angle) {
+  const auto rotation_by = [](float angle) {
     return matrix({0.0f, std::sin(angle / 2), 0.0f, std::cos(angle / 2)});
   };
   for (const float from : {0.0f, static_cast<float>(M_PI) - 0.05f}) {
-    HeadPose shown, seen;
-    shown.rotation = turned(from);
-    seen.rotation = turned(from + 0.1f);
-    smooth_pose(seen, kFrame, shown);
+    HeadPose shown, raw;
+    shown.rotation = rotation_by(from);
+    raw.rotation = rotation_by(from + 0.1f);
+    smooth_pose(raw, kFrame, shown);
     const float share = kRotationSmoothing.share(0.1f, kFrame);
-    const HeadPose expected = {turned(from + share * 0.1f), {}};
+    const HeadPose expected = {rotation_by(from + share * 0.1f), {}};
     for (std::size_t row = 0; row < 3; ++row) {
       for (std::size_t column = 0; column < 3; ++column) {
         EXPECT_NEAR(shown.rotation[row][column], expected.rotation[row][column], 1e-3f) << from;
@@ -133,7 +134,7 @@ TEST(Smoothing, PosesDoNotDependOnTheDirection) {
   }
 }
 
-// Share of a step that is visible on the first frame after it, at 30 frames per second.
+// Fraction of a step that is visible on the first frame after it, at 30 frames per second.
 struct Step {
   float size;
   float shown;
@@ -154,26 +155,26 @@ TEST(Smoothing, PassesLargeStepsAndSlowsSmallOnes) {
                  smooth_controls({&size, 1}, kFrame, {&shown, 1});
                  return shown;
                });
-  // In sides of the crop, which is 1 pixel wide here.
+  // In sides of the crop, which is 1 pixel here.
   expect_shown("landmark", {{0.0005f, 0.33f}, {0.002f, 0.52f}, {0.02f, 0.89f}, {0.06f, 0.96f}},
                [](float size) {
-                 const Point seen = {0.6f * size, 0.8f * size};
+                 const Point raw = {0.6f * size, 0.8f * size};
                  Point shown = {0.0f, 0.0f};
-                 smooth_points({&seen, 1}, 1.0f, kFrame, {&shown, 1});
+                 smooth_points({&raw, 1}, 1.0f, kFrame, {&shown, 1});
                  return std::hypot(shown.x, shown.y);
                });
   expect_shown("position in metres", {{0.001f, 0.29f}, {0.01f, 0.56f}, {0.1f, 0.91f}},
                [](float size) {
-                 HeadPose seen, shown;
-                 seen.translation = {0.0f, 0.6f * size, -0.8f * size};
-                 smooth_pose(seen, kFrame, shown);
+                 HeadPose raw, shown;
+                 raw.translation = {0.0f, 0.6f * size, -0.8f * size};
+                 smooth_pose(raw, kFrame, shown);
                  return std::hypot(shown.translation[1], shown.translation[2]);
                });
   expect_shown("rotation in radians", {{0.003f, 0.37f}, {0.01f, 0.56f}, {0.1f, 0.91f}},
                [](float size) {
-                 HeadPose seen, shown;
-                 seen.rotation = matrix({0.0f, std::sin(size / 2), 0.0f, std::cos(size / 2)});
-                 smooth_pose(seen, kFrame, shown);
+                 HeadPose raw, shown;
+                 raw.rotation = matrix({0.0f, std::sin(size / 2), 0.0f, std::cos(size / 2)});
+                 smooth_pose(raw, kFrame, shown);
                  return euler_angles(shown.rotation).yaw;
                });
 }

@@ -1,3 +1,4 @@
+// Simulates audio and video devices for the soak test.
 #include "tests/tracker/soak.h"
 
 #include <time.h>
@@ -17,8 +18,8 @@ namespace mien::tests {
 namespace {
 
 constexpr double kFrameSeconds = 1.0 / 30.0;
-constexpr double kBurstPeriod = 1.37;  // no multiple of a frame, a block or a window
-constexpr double kBurstReach = 0.3;    // seconds to either side of its middle
+constexpr double kBurstPeriod = 1.37;  // not a multiple of a frame, block or window
+constexpr double kBurstReach = 0.3;    // seconds on each side of its centre
 constexpr double kBlockSeconds = 0.01;
 constexpr double kStepSeconds = 0.016;
 constexpr std::array<std::int32_t, 4> kRates = {48000, 44100, 16000, 8000};
@@ -34,7 +35,7 @@ std::size_t resident_bytes() {
   return static_cast<std::size_t>(resident) * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
 }
 
-// What else runs on the machine is none of the tracker's business.
+// CPU time of the thread, which does not include other programs.
 double processor_us() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
@@ -47,7 +48,7 @@ double middle_of_burst(std::int64_t burst) {
   return (static_cast<double>(burst) + 0.5) * kBurstPeriod;
 }
 
-// Noise that swells and fades, straight in decibels: what hears its loudness sees a smooth hill.
+// Noise whose level rises and falls linearly in decibels, so that its loudness is a symmetric peak.
 class BurstNoise {
  public:
   explicit BurstNoise(unsigned seed) : engine_(seed) {}
@@ -55,11 +56,11 @@ class BurstNoise {
   float at(double seconds) {
     const double middle =
         middle_of_burst(static_cast<std::int64_t>(std::floor(seconds / kBurstPeriod)));
-    const double away = std::abs(seconds - middle) / kBurstReach;
-    if (away >= 1.0) {
+    const double distance = std::abs(seconds - middle) / kBurstReach;
+    if (distance >= 1.0) {
       return 0.0f;
     }
-    return noise_(engine_) * static_cast<float>(std::exp(-1.0 - 8.0 * away));
+    return noise_(engine_) * static_cast<float>(std::exp(-1.0 - 8.0 * distance));
   }
 
  private:
@@ -67,13 +68,13 @@ class BurstNoise {
   std::uniform_real_distribution<float> noise_{-1.0f, 1.0f};
 };
 
-// The microphone: blocks one after the other on its own clock.
+// A microphone that delivers consecutive blocks on its own clock.
 class Microphone {
  public:
   Microphone(const SoakPlan& plan, BlobTracker& blob)
       : plan_(plan), blob_(blob), engine_(plan.seed), noise_(plan.seed + 1) {}
 
-  // All blocks that end before `seconds`.
+  // Pushes all blocks that end before `seconds`.
   void record_until(double seconds) {
     while (now_ + kBlockSeconds < seconds) {
       block();
@@ -87,7 +88,7 @@ class Microphone {
 
  private:
   void block() {
-    misbehave();
+    inject_faults();
     const std::int32_t rate = kRates[rate_];
     const double per_sample = 1.0 / (rate * (1.0 + plan_.skew));
     samples_.resize(static_cast<std::size_t>(kBlockSeconds * rate));
@@ -98,13 +99,13 @@ class Microphone {
     audio.sample_rate = rate;
     audio.frames = samples_.size();
     audio.samples[0] = samples_.data();
-    const double tremble = plan_.tremble_s * uniform(-1.0, 1.0);
-    EXPECT_EQ(blob_.tracker().push_audio(audio, ns(now_ + tremble)), MIEN_OK);
+    const double jitter = plan_.jitter_s * uniform(-1.0, 1.0);
+    EXPECT_EQ(blob_.tracker().push_audio(audio, ns(now_ + jitter)), MIEN_OK);
     now_ += static_cast<double>(samples_.size()) * per_sample;
     recorded_s_ += kBlockSeconds;
   }
 
-  void misbehave() {
+  void inject_faults() {
     if (now_ > next_gap_) {
       const double lost = std::exp(uniform(std::log(0.03), std::log(3.0)));
       now_ += lost;
@@ -139,7 +140,7 @@ class Microphone {
   int rate_changes_ = 0;
 };
 
-// Where the middle of each burst shows.
+// Measures at which time the centre of each burst appears.
 class BurstMeter {
  public:
   explicit BurstMeter(SoakReport& report) : report_(report) {}
@@ -161,7 +162,7 @@ class BurstMeter {
       const double error_ms = 1000.0 * moment_ / weight_;
       ++report_.bursts;
       report_.mean_error_ms += (error_ms - report_.mean_error_ms) / report_.bursts;
-      report_.largest_error_ms = std::max(report_.largest_error_ms, std::abs(error_ms));
+      report_.max_error_ms = std::max(report_.max_error_ms, std::abs(error_ms));
     }
     weight_ = moment_ = 0.0;
   }
@@ -172,7 +173,7 @@ class BurstMeter {
   double moment_ = 0.0;
 };
 
-// The straight line nearest to points that come one by one.
+// Linear regression of points that are added one by one.
 class Line {
  public:
   void add(double x, double y) {
@@ -189,7 +190,7 @@ class Line {
   double count_ = 0.0, mean_x_ = 0.0, mean_y_ = 0.0, squares_ = 0.0, products_ = 0.0;
 };
 
-bool is_sane(const Result& result) {
+bool is_valid(const Result& result) {
   const auto unit = [](float value) { return value >= 0.0f && value <= 1.0f; };
   const auto finite = [](float value) { return std::isfinite(value); };
   const float* landmarks = &result.landmarks[0][0];
@@ -214,19 +215,20 @@ SoakReport soak(const SoakPlan& plan) {
   Times times;
   Line memory;
   const auto frames = static_cast<std::int64_t>(plan.seconds / kFrameSeconds);
-  const std::int64_t settled = frames / 10, between_looks = std::max<std::int64_t>(frames / 500, 1);
+  const std::int64_t settled = frames / 10,
+                     sample_interval = std::max<std::int64_t>(frames / 500, 1);
   for (; report.frames < frames; ++report.frames) {
     const double seconds = static_cast<double>(report.frames) * kFrameSeconds;
     microphone.record_until(seconds + 0.1);
-    const bool is_away = report.frames % 3000 < 120;
-    const mien_image& image = (is_away ? nothing : face).image();
+    const bool is_hidden = report.frames % 3000 < 120;
+    const mien_image& image = (is_hidden ? nothing : face).image();
     const double began_us = processor_us();
     const mien_status pushed = blob.tracker().push_video(image, ns(seconds));
     const double took_us = processor_us() - began_us;
     EXPECT_EQ(pushed, MIEN_OK);
     const Result result = blob.result();
     meter.frame(seconds, result.voice_activity, microphone.disturbed_at());
-    report.insane_results += is_sane(result) ? 0 : 1;
+    report.invalid_results += is_valid(result) ? 0 : 1;
     report.faces_found += (result.flags & MIEN_RESULT_FOUND) != 0 ? 1 : 0;
     report.last_face_id = std::max(report.last_face_id, result.face_id);
     report.frames_with_face = static_cast<std::int64_t>(result.face_frames);
@@ -234,7 +236,7 @@ SoakReport soak(const SoakPlan& plan) {
       continue;
     }
     times.add(took_us);
-    if ((report.frames - settled) % between_looks == 0) {
+    if ((report.frames - settled) % sample_interval == 0) {
       const std::size_t resident = resident_bytes();
       report.resident_bytes_early =
           report.frames == settled ? resident : report.resident_bytes_early;
@@ -246,7 +248,7 @@ SoakReport soak(const SoakPlan& plan) {
   report.median_us = times.percentile(0.5);
   report.p999_us = times.percentile(0.999);
   report.worst_us = times.worst();
-  report.steps_of_sound = static_cast<std::int64_t>(microphone.recorded_s() / kStepSeconds);
+  report.audio_steps = static_cast<std::int64_t>(microphone.recorded_s() / kStepSeconds);
   report.gaps = microphone.gaps();
   report.rate_changes = microphone.rate_changes();
   return report;

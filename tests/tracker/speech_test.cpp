@@ -1,4 +1,4 @@
-// What a listener would notice about lip sync: which controls move, how far, when, and how fast.
+// Tests of lip sync: which controls audio moves, how far, when, and how fast.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,8 +27,8 @@ constexpr std::array<std::string_view, kSpeechOutputs> kOutputs = {
     "mouthUpperUpRight", "tongueOut"};
 constexpr std::size_t kJawOutput = 0, kCloseOutput = 2;
 
-// Loud audio, and nothing smoothed: what AudioNet says is what the result shows.
-Result shown_for(std::span<const float, kSpeechOutputs> outputs) {
+// The result for loud audio without smoothing: exactly AudioNet's outputs.
+Result result_for(std::span<const float, kSpeechOutputs> outputs) {
   const AlignedBytes audionet = blob_audionet(outputs);
   BlobTracker tracker({}, [&](mien_tracker_config& config) {
     config.audionet = audionet.get().data();
@@ -36,7 +36,7 @@ Result shown_for(std::span<const float, kSpeechOutputs> outputs) {
     config.smoothing = 0;
     config.voice_attack_ms = config.voice_release_ms = 0.0f;
   });
-  const Sound sound = Sound().add(1.0, 0.5f);
+  const TestAudio sound = TestAudio().add(1.0, 0.5f);
   EXPECT_EQ(tracker.tracker().push_audio(sound.all(), 0), MIEN_OK);
   Result result;
   for (int frame = 0; frame < 15; ++frame) {
@@ -51,9 +51,9 @@ TEST(Speech, EveryOutputOfAudioNetMovesItsOwnControl) {
     std::array<float, kSpeechOutputs> outputs = {};
     outputs[output] = 0.75f;
     if (output == kCloseOutput) {
-      outputs[kJawOutput] = 1.0f;  // lips can only meet where the jaw has parted them
+      outputs[kJawOutput] = 1.0f;  // mouthClose is limited to jawOpen
     }
-    const Result result = shown_for(outputs);
+    const Result result = result_for(outputs);
     for (int i = 0; i < MIEN_CONTROL_COUNT; ++i) {
       const std::string_view name = mien_control_name(i);
       const bool jaw_as_well = output == kCloseOutput && name == "jawOpen";
@@ -68,7 +68,7 @@ TEST(Speech, MouthCloseIsAtMostJawOpen) {
     std::array<float, kSpeechOutputs> outputs = {};
     outputs[kJawOutput] = jaw;
     outputs[kCloseOutput] = 0.9f;
-    const Result result = shown_for(outputs);
+    const Result result = result_for(outputs);
     EXPECT_NEAR(result.controls[kJaw], jaw, 0.01f);
     EXPECT_LE(result.controls[control_named("mouthClose")], result.controls[kJaw] + 1e-6f);
   }
@@ -82,7 +82,7 @@ BlobTracker with_times(float attack_ms, float release_ms) {
   });
 }
 
-// Advances to `time_ms`, every 10 ms.
+// Advances to `time_ms` in steps of 10 ms.
 Result advance_to(BlobTracker& tracker, std::int64_t time_ms) {
   std::int64_t now = tracker.now_ns() / kMs;
   for (; now + 10 <= time_ms; now += 10) {
@@ -91,50 +91,50 @@ Result advance_to(BlobTracker& tracker, std::int64_t time_ms) {
   return tracker.result();
 }
 
-struct Turns {
+struct Transitions {
   double rises_ms = 0.0;  // above 1 - 1/e
   double falls_ms = 0.0;  // below 1/e
 };
 
-// When the voice comes and goes for a second of noise after half a second of silence.
-Turns turns_with(float attack_ms, float release_ms) {
+// When voice activity rises and falls, for a second of noise after half a second of silence.
+Transitions transitions_with(float attack_ms, float release_ms) {
   BlobTracker tracker = with_times(attack_ms, release_ms);
-  const Sound sound = Sound().add(0.5, 0.0f).add(1.0, 0.5f).add(2.0, 0.0f);
+  const TestAudio sound = TestAudio().add(0.5, 0.0f).add(1.0, 0.5f).add(2.0, 0.0f);
   EXPECT_EQ(tracker.tracker().push_audio(sound.all(), 0), MIEN_OK);
-  const float risen = 1.0f - std::exp(-1.0f), fallen = std::exp(-1.0f);
-  Turns turns;
+  const float high = 1.0f - std::exp(-1.0f), low = std::exp(-1.0f);
+  Transitions transitions;
   for (std::int64_t ms = 10; ms < 3400; ms += 10) {
     EXPECT_EQ(tracker.tracker().advance(ms * kMs), MIEN_OK);
     const float activity = tracker.result().voice_activity;
-    if (turns.rises_ms == 0.0 && activity > risen) {
-      turns.rises_ms = static_cast<double>(ms);
+    if (transitions.rises_ms == 0.0 && activity > high) {
+      transitions.rises_ms = static_cast<double>(ms);
     }
-    if (turns.rises_ms != 0.0 && turns.falls_ms == 0.0 && activity < fallen) {
-      turns.falls_ms = static_cast<double>(ms);
+    if (transitions.rises_ms != 0.0 && transitions.falls_ms == 0.0 && activity < low) {
+      transitions.falls_ms = static_cast<double>(ms);
     }
   }
-  return turns;
+  return transitions;
 }
 
 TEST(Speech, FollowsAttackAndReleaseTimes) {
-  const Turns at_once = turns_with(0.0f, 0.0f);
+  const Transitions at_once = transitions_with(0.0f, 0.0f);
   EXPECT_NEAR(at_once.rises_ms, 500.0, 40.0);
   EXPECT_NEAR(at_once.falls_ms, 1500.0, 40.0);
   for (const auto& [attack_ms, release_ms] : {std::pair{50.0f, 400.0f}, {200.0f, 60.0f}}) {
-    const Turns turns = turns_with(attack_ms, release_ms);
-    EXPECT_NEAR(turns.rises_ms - at_once.rises_ms, attack_ms, 25.0) << attack_ms;
-    EXPECT_NEAR(turns.falls_ms - at_once.falls_ms, release_ms, 40.0) << release_ms;
+    const Transitions transitions = transitions_with(attack_ms, release_ms);
+    EXPECT_NEAR(transitions.rises_ms - at_once.rises_ms, attack_ms, 25.0) << attack_ms;
+    EXPECT_NEAR(transitions.falls_ms - at_once.falls_ms, release_ms, 40.0) << release_ms;
   }
 }
 
 TEST(Speech, BridgesShortGapsAndFadesInLongOnes) {
   for (const int gap_ms : {100, 250, 400, 480}) {
     BlobTracker tracker = with_times(0.0f, 0.0f);
-    const Sound sound = Sound().add(0.5, 0.5f);
+    const TestAudio sound = TestAudio().add(0.5, 0.5f);
     ASSERT_EQ(tracker.tracker().push_audio(sound.all(), 0), MIEN_OK);
     ASSERT_EQ(tracker.tracker().push_audio(sound.all(), (500 + gap_ms) * kMs), MIEN_OK);
     EXPECT_GT(advance_to(tracker, 400).voice_activity, 0.9f) << gap_ms;
-    // The last window of the first part ends up to 40 ms before it.
+    // The last window of the first part ends up to 40 ms before its end.
     const Result in_gap = advance_to(tracker, 500 + gap_ms - 60);
     EXPECT_EQ(in_gap.voice_activity > 0.9f, gap_ms == 100) << gap_ms;
     EXPECT_EQ(in_gap.voice_activity < 0.1f, gap_ms != 100) << gap_ms;
@@ -143,10 +143,11 @@ TEST(Speech, BridgesShortGapsAndFadesInLongOnes) {
 }
 
 TEST(Speech, QueueIsEmptyAfterAFrame) {
-  constexpr std::int32_t kRoom = 4096;
-  BlobTracker tracker({}, [](mien_tracker_config& config) { config.audio_queue_samples = kRoom; });
-  const Sound sound = Sound().add(0.256, 0.5f);
-  ASSERT_EQ(sound.size(), std::size_t{kRoom});
+  constexpr std::int32_t kCapacity = 4096;
+  BlobTracker tracker({},
+                      [](mien_tracker_config& config) { config.audio_queue_samples = kCapacity; });
+  const TestAudio sound = TestAudio().add(0.256, 0.5f);
+  ASSERT_EQ(sound.size(), std::size_t{kCapacity});
   for (int round = 0; round < 5; ++round) {
     const std::int64_t now_ns = tracker.now_ns();
     ASSERT_EQ(tracker.tracker().queue_audio(sound.all(), now_ns), MIEN_OK) << round;
@@ -156,20 +157,20 @@ TEST(Speech, QueueIsEmptyAfterAFrame) {
   }
 }
 
-// A face that is lost gives its mouth to the voice: how much of jawOpen is the voice's.
+// Measures the share of audio in jawOpen after a face is lost.
 TEST(Speech, ReplacesALostFaceWithinATenthOfASecond) {
   const auto mix = [](BlobTracker& tracker) {
     return tracker.tracker().set_mix(static_cast<int>(kJaw), 0.25f, 0.0f);
   };
   BlobTracker tracker = with_times(0.0f, 0.0f);
   ASSERT_EQ(mix(tracker), MIEN_OK);
-  const Sound sound = Sound().add(3.5, 0.5f);
+  const TestAudio sound = TestAudio().add(3.5, 0.5f);
   ASSERT_EQ(tracker.tracker().push_audio(sound.all(), 0), MIEN_OK);
   const Picture face = disc_picture(160.0f, 120.0f, 70.0f);
   for (int frame = 0; frame < 40; ++frame) {
     (void)tracker.push(face);
   }
-  // With a face the voice counts a quarter; without one it counts fully.
+  // The audio weight is 0.25 with a face and 1 without.
   EXPECT_NEAR(tracker.result().controls[kJaw], 0.25f, 0.02f);
   while (tracker.result().status == MIEN_FACE_TRACKING) {
     (void)tracker.advance();

@@ -1,3 +1,4 @@
+// Tests of overlap and non-maximum suppression.
 #include "tracker/detection/squares.h"
 
 #include <gtest/gtest.h>
@@ -41,7 +42,8 @@ TEST(SuppressNonMaxima, KeepsExactlyTheMaxima) {
         EXPECT_LE(intersection_over_union(list[i].square, list[j].square), 0.4f);
       }
     }
-    for (const Detection& detection : all) {  // kept, or beaten by a kept one with a better score
+    // Each is kept, or suppressed by a kept one with a higher score.
+    for (const Detection& detection : all) {
       bool explained = false;
       for (std::size_t i = 0; i < kept && !explained; ++i) {
         const bool same = list[i].score == detection.score;

@@ -1,5 +1,5 @@
-// One thread that has sound beside one that has pictures, and many trackers side by side. Built
-// under the thread sanitizer, too.
+// Tests with an audio thread beside a video thread, and with trackers on several threads. The
+// thread sanitizer runs them as well.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -76,7 +76,8 @@ TEST(AudioQueue, ReportsWhenItIsFull) {
   }
   EXPECT_EQ(blocks, 64);
   (void)tracker.advance();
-  for (int i = 0; i < 100; ++i) {  // half of it always fits, wherever the last one ended
+  for (int i = 0; i < 100;
+       ++i) {  // half of the capacity always fits, wherever the last block ended
     ASSERT_EQ(
         tracker.tracker().queue_audio(block_of(samples, 0, static_cast<std::size_t>(412 + i)), 0),
         MIEN_OK);
@@ -85,19 +86,19 @@ TEST(AudioQueue, ReportsWhenItIsFull) {
 }
 
 TEST(AudioQueue, BlocksAreContiguousInTheRing) {
-  constexpr std::int32_t kRoom = 64;
+  constexpr std::int32_t kCapacity = 64;
   tracker::AudioQueue queue;
   engine::Arena measure;
-  queue.load(kRoom, measure);
+  queue.load(kCapacity, measure);
   alignas(engine::Arena::kAlignment) std::byte memory[8192];
   ASSERT_LE(measure.need().total_bytes(), sizeof memory);
   engine::Arena arena(memory, measure.need());
-  queue.load(kRoom, arena);
+  queue.load(kCapacity, arena);
   const std::vector<float> samples = noise();
   const void* ring = nullptr;
   std::uint32_t next = 0;
   for (std::uint32_t frames :
-       {16u, 16u, 16u, 17u, 47u, 30u, 30u, 5u}) {  // to the end, and one beyond it
+       {16u, 16u, 16u, 17u, 47u, 30u, 30u, 5u}) {  // up to the end, and one beyond
     tracker::AudioView sound;
     sound.rate = kRate;
     sound.pcm = {audio::SampleFormat::kFloat32, false, 1, frames, {samples.data()}};
@@ -108,8 +109,8 @@ TEST(AudioQueue, BlocksAreContiguousInTheRing) {
     ring = ring == nullptr ? output.channel[0] : ring;
     const auto begin = static_cast<std::uint32_t>(static_cast<const float*>(output.channel[0]) -
                                                   static_cast<const float*>(ring));
-    EXPECT_EQ(begin, next + frames <= kRoom ? next : 0u) << frames;
-    next = (begin + frames) % kRoom;
+    EXPECT_EQ(begin, next + frames <= kCapacity ? next : 0u) << frames;
+    next = (begin + frames) % kCapacity;
     queue.pop(block);
   }
 }
@@ -118,11 +119,12 @@ TEST(AudioQueue, ExistsOnlyIfConfigured) {
   const std::vector<float> samples = noise();
   BlobTracker none = with_queue(0);
   EXPECT_EQ(none.tracker().queue_audio(block_of(samples, 0, 1), 0), MIEN_ERROR_AUDIO_QUEUE_FULL);
-  BlobTracker deaf({}, [](mien_tracker_config& config) {
+  BlobTracker without_audio({}, [](mien_tracker_config& config) {
     config.audionet = nullptr;
     config.audio_queue_samples = 1000;
   });
-  EXPECT_EQ(deaf.tracker().queue_audio(block_of(samples, 0, 1), 0), MIEN_ERROR_NO_AUDIONET);
+  EXPECT_EQ(without_audio.tracker().queue_audio(block_of(samples, 0, 1), 0),
+            MIEN_ERROR_NO_AUDIONET);
   Audio wrong = block_of(samples, 0, 1);
   wrong.sample_rate = 1;
   EXPECT_EQ(with_queue(100).tracker().queue_audio(wrong, 0), MIEN_ERROR_AUDIO_RATE);
@@ -147,8 +149,8 @@ TEST(AudioQueue, RejectsCapacityOutOfRange) {
   }
 }
 
-// The answers at the end are those of one thread: nothing is lost, doubled or read before it is
-// there.
+// The final result equals that of one thread: no sample is lost, repeated or read before it is
+// written.
 TEST(AudioQueue, WorksBetweenTwoThreads) {
   const std::vector<float> samples = noise();
   BlobTracker tracker = with_queue(4096), alone = with_queue(0);
@@ -176,7 +178,7 @@ TEST(AudioQueue, WorksBetweenTwoThreads) {
   for (std::size_t first = 0; first < samples.size(); first += 128) {
     ASSERT_EQ(alone.tracker().push_audio(block_of(samples, first, 128), time_ns(first)), MIEN_OK);
   }
-  // Far from any frame so far, both begin anew with all that was heard.
+  // At a time far from earlier frames, both results depend only on the audio.
   const std::int64_t end_ns = kSeconds * 1'000'000'000LL - 100'000'000;
   for (BlobTracker* one : {&tracker, &alone}) {
     for (int i = 0; i < 90; ++i) {

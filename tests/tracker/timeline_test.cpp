@@ -1,3 +1,4 @@
+// Tests of time steps and discontinuities.
 #include "tracker/timeline.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Percentiles of very many times without keeping them.
+// Percentiles of many times without storing them.
 #pragma once
 
 #include <algorithm>
@@ -9,22 +9,22 @@
 
 namespace mien::tests {
 
-// Counts microseconds in classes that are one part in a hundred wide.
+// A histogram of microseconds with bins of 1 % width.
 class Times {
  public:
   void add(double us) {
-    const double place = std::log(std::max(us, 1.0)) / kWidth;
-    ++counts_[std::min(static_cast<std::size_t>(place), counts_.size() - 1)];
+    const double bin = std::log(std::max(us, 1.0)) / kWidth;
+    ++counts_[std::min(static_cast<std::size_t>(bin), counts_.size() - 1)];
     ++count_;
     worst_ = std::max(worst_, us);
   }
 
-  [[nodiscard]] double percentile(double share) const {
-    auto left = static_cast<std::int64_t>(share * static_cast<double>(count_));
+  [[nodiscard]] double percentile(double fraction) const {
+    auto left = static_cast<std::int64_t>(fraction * static_cast<double>(count_));
     for (std::size_t i = 0; i < counts_.size(); ++i) {
       left -= counts_[i];
       if (left < 0) {
-        // The middle of the slowest one's class may lie above it.
+        // The centre of the bin may exceed the maximum.
         return std::min(std::exp((static_cast<double>(i) + 0.5) * kWidth), worst_);
       }
     }

@@ -1,4 +1,4 @@
-// Finding, following, losing and finding again, with a disc as the face.
+// Tests of detection, tracking and loss, with a disc as the face.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -40,14 +40,14 @@ TEST(Tracking, DetectsDiscsOfAllSizesEverywhere) {
       EXPECT_TRUE(result.flags & MIEN_RESULT_FOUND);
       EXPECT_TRUE(result.flags & MIEN_RESULT_PROPOSAL_RAN);
       EXPECT_GT(result.face_probability, 0.9f);
-      expect_sane(result);
+      expect_valid(result);
     }
   }
 }
 
-// At this size the last band of the largest picture overlaps the one before.
+// With this size the last band of the largest pyramid level overlaps the previous one.
 TEST(Tracking, DetectsSmallDiscsInEveryBand) {
-  constexpr float kSmall = 21.0f;  // no size of the search but the largest sees it
+  constexpr float kSmall = 21.0f;  // only the largest pyramid level detects it
   for (float y = 30.0f; y < 230.0f; y += 12.0f) {
     BlobTracker tracker({}, [](mien_tracker_config& config) { config.proposal_size = 100; });
     const Result result = tracker.push(disc_picture(150.0f, y, kSmall));
@@ -56,22 +56,22 @@ TEST(Tracking, DetectsSmallDiscsInEveryBand) {
   }
 }
 
-// P-Net is never so sure of a disc: only a thorough search, which asks for a quarter of it, finds
-// one.
-constexpr float kTooSure = 1.0f;
+// P-Net's score of a disc is below this threshold: only thorough detection, with a quarter of it,
+// finds a disc.
+constexpr float kUnreachableThreshold = 1.0f;
 
 TEST(Tracking, DetectionOnTheFirstImageIsThorough) {
-  BlobTracker tracker({},
-                      [](mien_tracker_config& config) { config.proposal_threshold = kTooSure; });
+  BlobTracker tracker(
+      {}, [](mien_tracker_config& config) { config.proposal_threshold = kUnreachableThreshold; });
   EXPECT_TRUE(tracker.push(disc_picture(160.0f, 120.0f, 70.0f)).flags & MIEN_RESULT_FOUND);
 }
 
 TEST(Tracking, EverySecondLaterDetectionIsThorough) {
-  BlobTracker tracker({},
-                      [](mien_tracker_config& config) { config.proposal_threshold = kTooSure; });
+  BlobTracker tracker(
+      {}, [](mien_tracker_config& config) { config.proposal_threshold = kUnreachableThreshold; });
   tracker.push(Picture(320, 240));
   const Result result = tracker.push_until_found(disc_picture(160.0f, 120.0f, 70.0f));
-  EXPECT_EQ(result.proposal_runs, 3u) << "the empty image's, a quick one, the thorough one";
+  EXPECT_EQ(result.proposal_runs, 3u) << "that of the empty image, a fast one, a thorough one";
 }
 
 TEST(Tracking, LandmarksSurroundTheDisc) {
@@ -103,7 +103,7 @@ TEST(Tracking, TracksAMovingGrowingDiscWithoutDetection) {
         std::hypot(result.box[0] + result.box[2] / 2 - x, result.box[1] + result.box[3] / 2 - y),
         0.12f * result.box[2])
         << i;
-    expect_sane(result);
+    expect_valid(result);
   }
   EXPECT_EQ(result.proposal_runs, 1u);
   EXPECT_EQ(result.frames, 90u);
@@ -113,13 +113,13 @@ TEST(Tracking, TracksAMovingGrowingDiscWithoutDetection) {
 TEST(Tracking, EncoderRunsOnAlternateFrames) {
   BlobTracker tracker;
   const Picture picture = disc_picture(160.0f, 120.0f, 70.0f);
-  const std::uint64_t acquiring = tracker.push(picture).encoder_runs;
-  EXPECT_GE(acquiring, 2u);
+  const std::uint64_t initial_runs = tracker.push(picture).encoder_runs;
+  EXPECT_GE(initial_runs, 2u);
   for (int i = 1; i <= 20; ++i) {
     const bool runs = i % 2 == 0;
     EXPECT_EQ((tracker.push(picture).flags & MIEN_RESULT_ENCODER_RAN) != 0, runs) << i;
   }
-  EXPECT_EQ(tracker.result().encoder_runs, acquiring + 10);
+  EXPECT_EQ(tracker.result().encoder_runs, initial_runs + 10);
 }
 
 TEST(Tracking, DecodersRunOnEveryFrame) {
@@ -129,7 +129,7 @@ TEST(Tracking, DecodersRunOnEveryFrame) {
   for (int i = 0; i < 4; ++i) {
     const Result after = tracker.push(picture);
     EXPECT_FALSE(std::equal(after.controls, after.controls + MIEN_CONTROL_COUNT, before.controls))
-        << "the recurrent state must have moved";
+        << "the recurrent state must change";
     before = after;
   }
 }
@@ -140,7 +140,7 @@ TEST(Tracking, LosesAFaceAfterSeveralMissesAndThenFades) {
   const Picture nothing(320, 240);
   Result shown;
   for (int i = 0; i < 3; ++i) {
-    shown = tracker.push(disc);  // the next image is a judged one after an even number
+    shown = tracker.push(disc);  // after an odd number the encoder runs on the next image
   }
   int held = 0;
   Result result = tracker.push(nothing);
@@ -153,7 +153,7 @@ TEST(Tracking, LosesAFaceAfterSeveralMissesAndThenFades) {
   EXPECT_GE(held, 3);
   EXPECT_LE(held, 4);
   EXPECT_EQ(result.status, MIEN_FACE_LOST);
-  EXPECT_EQ(result.box[0], shown.box[0]) << "the last place is kept";
+  EXPECT_EQ(result.box[0], shown.box[0]) << "the last position is kept";
   const float mass = std::accumulate(result.controls, result.controls + MIEN_CONTROL_COUNT, 0.0f);
   ASSERT_GT(mass, 1.0f);
   for (int i = 0; i < 30; ++i) {
@@ -161,14 +161,14 @@ TEST(Tracking, LosesAFaceAfterSeveralMissesAndThenFades) {
   }
   const float left = std::accumulate(result.controls, result.controls + MIEN_CONTROL_COUNT, 0.0f);
   EXPECT_NEAR(left / mass, std::exp(-4.0f), 1e-3f) << "one second at 0.25 s";
-  expect_sane(result);
+  expect_valid(result);
 }
 
 TEST(Tracking, SurvivesSingleMisses) {
   BlobTracker tracker;
   const Picture disc = disc_picture(160.0f, 120.0f, 70.0f);
   for (int i = 0; i < 30; ++i) {
-    const bool hidden = i % 3 == 2;  // always a judged one
+    const bool hidden = i % 3 == 2;  // always a frame on which the encoder runs
     const Result result = tracker.push(hidden ? Picture(320, 240) : disc);
     EXPECT_EQ(result.status, MIEN_FACE_TRACKING) << i;
   }
@@ -224,7 +224,7 @@ TEST(Tracking, NewSizeStartsDetectionAtOnceAfterAnyTimeWithoutAFace) {
   }
 }
 
-// The same scene, as another size of picture or another camera shows it.
+// The same scene with another image size.
 TEST(Tracking, FaceKeepsItsIdWhenTheImageSizeChanges) {
   for (const float scale : {0.5f, 2.0f, 3.0f}) {
     for (const std::int32_t faces : {1, 2}) {
@@ -253,7 +253,7 @@ TEST(Tracking, FaceAtAnotherPlaceAfterASizeChangeGetsANewId) {
   EXPECT_EQ(result.face_id, 2u);
 }
 
-// More frames of output than images: each image shows the face, whatever lies between.
+// More frames than images: every image shows the face.
 TEST(Tracking, FramesWithoutImagesDoNotLoseAVisibleFace) {
   for (std::int32_t lod = 1; lod <= 4; ++lod) {
     BlobTracker tracker({}, [=](mien_tracker_config& config) { config.lod = lod; });
@@ -291,19 +291,20 @@ TEST(Tracking, DiscontinuityResetsTheDecoders) {
 TEST(Tracking, DetectionResetsTheDecoders) {
   const Picture disc = disc_picture(160.0f, 120.0f, 70.0f);
   const auto above_lowest = [](mien_tracker_config& config) { config.lod = 2; };
-  BlobTracker fresh({}, above_lowest);  // where all faces are aligned equally often
+  BlobTracker fresh({}, above_lowest);  // where every detection has the same number of alignments
   const Result first = fresh.push(disc);
   BlobTracker used({}, above_lowest);
   for (int i = 0; i < 7; ++i) {
     (void)used.push(disc);
   }
-  Result again;
+  Result found_again;
   for (int i = 0; i < 8; ++i) {
-    again = used.push(Picture(320, 240));
+    found_again = used.push(Picture(320, 240));
   }
-  ASSERT_EQ(again.status, MIEN_FACE_LOST);
-  again = used.push_until_found(disc);
-  EXPECT_TRUE(std::equal(again.controls, again.controls + MIEN_CONTROL_COUNT, first.controls));
+  ASSERT_EQ(found_again.status, MIEN_FACE_LOST);
+  found_again = used.push_until_found(disc);
+  EXPECT_TRUE(
+      std::equal(found_again.controls, found_again.controls + MIEN_CONTROL_COUNT, first.controls));
 }
 
 TEST(Tracking, DetectsLessOftenAfterAWhile) {
@@ -311,20 +312,21 @@ TEST(Tracking, DetectsLessOftenAfterAWhile) {
   const Picture nothing(64, 48);
   const auto searches = [&](int frames) {
     const std::uint64_t before = tracker.result().proposal_runs;
-    int at_work = 0;
+    int frames_with_detection = 0;
     for (int i = 0; i < frames; ++i) {
-      at_work += (tracker.push(nothing).flags & MIEN_RESULT_PROPOSAL_RAN) != 0 ? 1 : 0;
+      frames_with_detection +=
+          (tracker.push(nothing).flags & MIEN_RESULT_PROPOSAL_RAN) != 0 ? 1 : 0;
     }
-    return std::pair(tracker.result().proposal_runs - before, at_work);
+    return std::pair(tracker.result().proposal_runs - before, frames_with_detection);
   };
-  EXPECT_EQ(searches(1), (std::pair<std::uint64_t, int>(1, 1))) << "the first is done at once";
-  const auto [eagerly, eager_frames] = searches(29);
-  EXPECT_EQ(eager_frames, 29) << "one after the other";
-  EXPECT_GE(eagerly, 2u);
-  EXPECT_LE(eagerly, 10u) << "each is spread over several frames";
-  const auto [calmly, calm_frames] = searches(300);
-  EXPECT_EQ(calmly, 10u);
-  EXPECT_LT(calm_frames, 200);
+  EXPECT_EQ(searches(1), (std::pair<std::uint64_t, int>(1, 1))) << "the first runs on one image";
+  const auto [detections_early, early_frames] = searches(29);
+  EXPECT_EQ(early_frames, 29) << "one after the other";
+  EXPECT_GE(detections_early, 2u);
+  EXPECT_LE(detections_early, 10u) << "each is spread over several images";
+  const auto [detections_late, late_frames] = searches(300);
+  EXPECT_EQ(detections_late, 10u);
+  EXPECT_LT(late_frames, 200);
   EXPECT_EQ(tracker.result().status, MIEN_FACE_SEARCHING);
 }
 
@@ -343,10 +345,10 @@ TEST(Tracking, OnlyTheFirstFrameRunsAWholeDetection) {
   while (tracker.push(Picture(320, 240)).proposal_runs < 3 && frames < 50) {
     ++frames;
   }
-  EXPECT_GE(frames, 4) << "the second search took several frames";
+  EXPECT_GE(frames, 4) << "the second detection took several images";
 }
 
-// However it is spread, a search of a picture that stands still finds what one at once finds.
+// A detection that is spread over equal images finds the same as one on a single image.
 TEST(Tracking, DetectionInSharesFindsTheSameAsInOneFrame) {
   for (const float diameter : {20.0f, 47.0f, 150.0f}) {
     const Picture disc = disc_picture(211.0f, 103.0f, diameter);
@@ -366,7 +368,7 @@ TEST(Tracking, BaseNetRejectsDetections) {
   BlobTracker tracker(never);
   const Result result = tracker.push(disc_picture(160.0f, 120.0f, 70.0f));
   EXPECT_EQ(result.status, MIEN_FACE_SEARCHING);
-  EXPECT_GT(result.encoder_runs, 0u) << "it was proposed and judged";
+  EXPECT_GT(result.encoder_runs, 0u) << "it was detected and encoded";
   EXPECT_LT(result.face_probability, 0.01f);
 }
 
@@ -375,8 +377,8 @@ TEST(Tracking, DetectionsThatRNetRejectsAreNotEncoded) {
   EXPECT_EQ(tracker.push(Picture(320, 240)).encoder_runs, 0u);
 }
 
-// The face probability that does not do any more, when the proposal is as sure as this.
-float most_refused(const Picture& picture, float refine_bias) {
+// The highest face probability that is rejected, with this bias of the detector score.
+float max_rejected_probability(const Picture& picture, float refine_bias) {
   BlobOptions doubtful;
   doubtful.refine_bias = refine_bias;
   Result result = BlobTracker(doubtful).push(picture);
@@ -388,16 +390,17 @@ float most_refused(const Picture& picture, float refine_bias) {
   return result.face_probability;
 }
 
-// What would do to follow a face does not do to begin with one, unless the proposal is sure of it.
+// Tracking starts only above the probability that keeps it, unless the detector score is high.
 TEST(Tracking, AcceptsMoreStrictlyThanItTracks) {
   mien_tracker_config config;
   mien_tracker_config_default(&config);
   const Picture disc = disc_picture(160.0f, 120.0f, 70.0f);
-  const float of_doubtful = most_refused(disc, 0.0f), of_clear = most_refused(disc, 5.0f);
-  EXPECT_GT(of_doubtful, config.lose_probability);
-  EXPECT_LT(of_clear, of_doubtful);
-  EXPECT_LT(of_clear, config.accept_probability);
-  EXPECT_GE(most_refused(disc, 100.0f), config.lose_probability) << "but not any face";
+  const float with_low_score = max_rejected_probability(disc, 0.0f),
+              with_high_score = max_rejected_probability(disc, 5.0f);
+  EXPECT_GT(with_low_score, config.lose_probability);
+  EXPECT_LT(with_high_score, with_low_score);
+  EXPECT_LT(with_high_score, config.accept_probability);
+  EXPECT_GE(max_rejected_probability(disc, 100.0f), config.lose_probability) << "the lower limit";
 }
 
 TEST(Tracking, UnsupportedControlsStayZero) {
@@ -431,7 +434,7 @@ TEST(Tracking, StagesAreTimedByTheCallersClock) {
     EXPECT_GT(result.stage_ns[stage], 0u) << mien_stage_name(stage);
   }
   EXPECT_EQ(result.stage_ns[MIEN_STAGE_COUNT], 0u);
-  result = tracker.push(picture);  // the encoder rests
+  result = tracker.push(picture);  // an alternate frame
   EXPECT_EQ(result.stage_ns[MIEN_STAGE_SOUND], 0u);
   EXPECT_EQ(result.stage_ns[MIEN_STAGE_PROPOSAL], 0u);
   EXPECT_EQ(result.stage_ns[MIEN_STAGE_ENCODER], 0u);

@@ -1,4 +1,4 @@
-// The trained networks on the clip that ships with the repository.
+// Tests of the trained networks on tests/data/demo.mp4.
 #include <gtest/gtest.h>
 #include <mien/mien.hpp>
 
@@ -79,7 +79,7 @@ class Trained : public testing::Test {
       const auto pts = static_cast<std::int64_t>(i) * 1'000'000'000 / kFps;
       EXPECT_EQ(tracker.push_video(image, pts), MIEN_OK);
       EXPECT_EQ(tracker.get_result(results[i]), MIEN_OK);
-      expect_sane(results[i]);
+      expect_valid(results[i]);
     }
     return results;
   }
@@ -111,7 +111,7 @@ class TrainedLevels : public Trained {
     return config;
   }
 
-  // The clip at the levels of `plan`, the first from frame 0 on.
+  // Tracks the clip at the levels of `plan`, which starts at frame 0.
   std::vector<Result> track_at(const std::vector<Switch>& plan,
                                std::uint32_t cpu_mask = MIEN_CPU_ALL) const {
     Tracker tracker;
@@ -151,13 +151,13 @@ TEST_F(Trained, ControlsMove) {
       highest[i] = std::max(highest[i], result.controls[i]);
     }
   }
-  // Of the clip's larger motions, those that these weights claim to drive.
+  // Controls with large motions in the clip, if these weights predict them.
   for (const std::size_t control : {std::size_t{17}, std::size_t{0}}) {
     const char* name = mien_control_name(static_cast<std::int32_t>(control));
     if (results.back().supports(static_cast<std::int32_t>(control))) {
       EXPECT_GT(highest[control] - lowest[control], 0.2f) << name;
     } else {
-      std::printf("not looked at: these weights do not drive %s\n", name);
+      std::printf("not tested: these weights do not predict %s\n", name);
     }
   }
 }
@@ -173,8 +173,8 @@ float largest_step(const std::vector<Result>& results, std::size_t begin, std::s
 
 constexpr std::size_t kChangeEvery = MIEN_CHANGE_EVERY;  // frames
 
-// At the switch, and while the controls go over, no step is larger than what the second before had,
-// or than what the face does then anyway, as a tracker shows that always was at either level.
+// During a crossfade no step is larger than in the second before, or than the face's own motion at
+// that time, measured with trackers that stay at either level.
 TEST_F(TrainedLevels, ChangesDoNotMakeControlsJump) {
   std::array<std::vector<Result>, 5> always;
   for (int lod = 1; lod <= 4; ++lod) {
@@ -185,18 +185,19 @@ TEST_F(TrainedLevels, ChangesDoNotMakeControlsJump) {
       const std::vector<Result> changed = track_at({{0, from}, {at, to}});
       const std::size_t end = at + 5 * kFps / 2;
       const float before = largest_step(changed, at - kFps, at);
-      const float anyway = std::max(largest_step(always[static_cast<std::size_t>(from)], at, end),
-                                    largest_step(always[static_cast<std::size_t>(to)], at, end));
-      // A fifth more: at another level the leaving decoder's encoder runs on other frames, so that
-      // it shows a blink in other steps than either of these trackers. Measured: 1.11 at most.
-      EXPECT_LE(largest_step(changed, at, end), 1.2f * std::max(before, anyway) + 1e-3f)
+      const float natural = std::max(largest_step(always[static_cast<std::size_t>(from)], at, end),
+                                     largest_step(always[static_cast<std::size_t>(to)], at, end));
+      // With a tolerance of 1.2: at another level the encoder of the decoder that fades out runs on
+      // other frames, so that a blink has other steps than in these trackers. Measured: at
+      // most 1.11.
+      EXPECT_LE(largest_step(changed, at, end), 1.2f * std::max(before, natural) + 1e-3f)
           << from << " to " << to << " at frame " << at;
     }
   }
 }
 
-// Far less than what controls of a face at rest do from frame to frame, 0.003. Measured: 0.0002 on
-// average, 0.01 at most.
+// The difference is far below the change of controls of a face at rest from frame to frame, 0.003.
+// Measured: 0.0002 on average, at most 0.01.
 TEST_F(TrainedLevels, HalfPrecisionHardlyChangesControls) {
   if ((mien_cpu_tiers() & MIEN_CPU_HALF) == 0) {
     GTEST_SKIP() << "skipped: no tier of half precision on this CPU";
@@ -211,13 +212,13 @@ TEST_F(TrainedLevels, HalfPrecisionHardlyChangesControls) {
       largest = std::max(largest, difference);
     }
   }
-  EXPECT_GT(total, 0.0) << "the same tier twice";
+  EXPECT_GT(total, 0.0) << "both runs used the same tier";
   EXPECT_LT(total / static_cast<double>(half.size() * MIEN_CONTROL_COUNT), 5e-4);
   EXPECT_LT(largest, 0.03);
   std::printf("largest difference %.4f\n", largest);
 }
 
-// All networks, with the memory that the weights are in left out.
+// All networks, without the memory of the weight files.
 TEST_F(TrainedLevels, OneFaceUsesLessThanSixMegabytes) {
   mien_status status = MIEN_OK;
   const std::size_t bytes = required_bytes(config(1), status);
@@ -226,8 +227,7 @@ TEST_F(TrainedLevels, OneFaceUsesLessThanSixMegabytes) {
   std::printf("%zu bytes\n", bytes);
 }
 
-// Forehead, chin and eye corners lie where they do in an upright face, and the head is in front of
-// the camera.
+// Landmarks lie around the box, and the head is upright in front of the camera.
 TEST_F(Trained, FaceIsUprightAndInFrontOfTheCamera) {
   const Result result = track(frames_)[frames_.size() / 2];
   ASSERT_TRUE(result.has_face());

@@ -1,4 +1,4 @@
-// Allocates memory with the caller's callbacks, or with operator new if there are none.
+// Allocates memory with the caller's callbacks, or with operator new without them.
 #pragma once
 
 #include <mien/mien.h>

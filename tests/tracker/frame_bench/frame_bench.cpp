@@ -1,6 +1,8 @@
-// How long a frame takes at level 4: one line of JSON. The same source runs natively and as
-// WebAssembly, so that the two can take turns on the same frames.
+// Measures the time of a frame at level 4 and prints one line of JSON. The same source runs as
+// WebAssembly, so that both can be compared on the same frames.
+//
 // usage: mien_frame_bench MODELS FRAMES WIDTH HEIGHT TIER
+//
 // FRAMES: raw NV12 of video range. The frames are pushed three times; the first time warms up.
 #include <mien/mien.hpp>
 
@@ -40,7 +42,7 @@ std::vector<char> read_file(const std::string& path) {
   return bytes;
 }
 
-// Aligned as weight files have to be.
+// A weight file in aligned memory.
 class Weights {
  public:
   explicit Weights(const std::string& path) {
@@ -67,7 +69,7 @@ std::uint32_t tier_of(const std::string& name) {
       return bit;
     }
   }
-  fail("tier '" + name + "' is not to be had here");
+  fail("tier '" + name + "' is not available here");
 }
 
 struct Clip {
@@ -92,7 +94,7 @@ struct Clip {
   }
 };
 
-// Of every frame the fastest round, ms.
+// The time of the fastest round for every frame, sorted, ms.
 std::vector<double> frame_times(mien::Tracker& tracker, const Clip& clip, double& controls) {
   std::vector<double> fastest(clip.frames(), 1e9);
   for (int round = 0; round < kRounds; ++round) {

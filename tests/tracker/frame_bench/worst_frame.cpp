@@ -1,10 +1,10 @@
-// What a frame costs at worst, while a face is followed, goes and comes back: a line of Markdown
-// for each level.
+// Measures the slowest frames while a face is tracked, disappears and returns. Prints a line of
+// Markdown for each level.
 // usage: mien_worst_frame MODELS FRAMES WIDTH HEIGHT [ROUNDS]
-// FRAMES: raw NV12 of video range with a face on every frame. Again and again it is looked at for
-// 240 frames, then hidden for 60: upside down, which a proposal has to look at closely, too.
-// All of it is replayed a few times, and the least time of each frame counts: the tracker does the
-// same work each time, other programs on the machine do not.
+// FRAMES: raw NV12 of video range with a face on every frame. The face is visible for 240 frames
+// and hidden for 60 in turn: then the image is upside down, which is as expensive for detection.
+// The minimum of several replays counts for each frame, because the tracker does the same work each
+// time and other programs on the machine do not.
 #include <time.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ constexpr int kShown = 240;
 constexpr int kHidden = 60;
 constexpr int kReplays = 5;
 
-// Aligned as weight files have to be.
+// A file in memory aligned for weights.
 class File {
  public:
   explicit File(const std::string& path) {
@@ -47,8 +47,7 @@ class File {
   std::span<const std::byte> bytes_;
 };
 
-// Time that this thread had a processor: what else runs on the machine is none of the tracker's
-// business.
+// CPU time of the thread, which does not include other programs.
 double processor_us() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
@@ -95,7 +94,7 @@ Times run(mien::Tracker& tracker, const File& clip, int width, int height, int r
     if (pushed != MIEN_OK || tracker.get_result(result) != MIEN_OK) {
       std::abort();
     }
-    if (i > 0) {  // the first is searched whole, on purpose
+    if (i > 0) {  // the first runs a whole detection
       times.all_us.push_back(spent_us);
     }
     missed = hidden || result.has_face() ? missed : missed + 1;
@@ -107,16 +106,15 @@ Times run(mien::Tracker& tracker, const File& clip, int width, int height, int r
   return times;
 }
 
-Times least_of_replays(mien::Tracker& tracker, const File& clip, int width, int height,
-                       int rounds) {
-  Times least = run(tracker, clip, width, height, rounds);
+Times min_of_replays(mien::Tracker& tracker, const File& clip, int width, int height, int rounds) {
+  Times min = run(tracker, clip, width, height, rounds);
   for (int replay = 1; replay < kReplays; ++replay) {
     tracker.reset();
     const std::vector<double> again = run(tracker, clip, width, height, rounds).all_us;
-    std::transform(again.begin(), again.end(), least.all_us.begin(), least.all_us.begin(),
+    std::transform(again.begin(), again.end(), min.all_us.begin(), min.all_us.begin(),
                    [](double a, double b) { return std::min(a, b); });
   }
-  return least;
+  return min;
 }
 
 }  // namespace
@@ -144,7 +142,7 @@ int main(int argc, char** argv) {
       return 1;
     }
     const Times times =
-        least_of_replays(tracker, clip, width, height, argc > 5 ? std::atoi(argv[5]) : 20);
+        min_of_replays(tracker, clip, width, height, argc > 5 ? std::atoi(argv[5]) : 20);
     double sum = 0.0;
     for (const double frames : times.found_after) {
       sum += frames;
