@@ -1,4 +1,4 @@
-// What every function throws; `status` is the mien_status of mien.h, where there is one.
+// The error of all functions; `status` is the mien_status of mien.h, if the error has one.
 export class MienError extends Error {
   constructor(message, status) {
     super(message);

@@ -1,4 +1,4 @@
-// Where the fields of the structs of mien.h lie in the memory of a 32-bit machine. Each is [offset, kind, count].
+// Layout of the structs of mien.h on a 32-bit machine. Each field is [offset, kind, count].
 import {MienError} from './error.js';
 
 export const fields = {
@@ -28,7 +28,7 @@ export const fields = {
     height: [20, 'i32'], width: [24, 'i32']},
 };
 
-// sizeof, which the module says too: a header that has grown is noticed when the module is loaded.
+// sizeof. Loading compares it with the module's, so that a changed header is detected.
 export const structBytes = {image: 100, audio: 88, tracker_config: 148, result: 1928, network_config: 72};
 
 const kinds = {
@@ -40,8 +40,8 @@ const kinds = {
 
 export const outOfRange = -3;  // MIEN_ERROR_OUT_OF_RANGE
 
-// Every number on its way into the module passes here. JavaScript itself would cut off what does not fit, and make 0 of NaN. The
-// module judges what floats mean.
+// Checks every number for the module, because JavaScript truncates values out of range and converts NaN to 0. The module checks
+// the ranges of floats.
 export function number(kind, value, name) {
   const {least, most} = kinds[kind], taken = ['number', 'bigint', 'boolean'].includes(typeof value);
   if (!taken) throw new MienError(`${name}: not a number (got ${typeof value})`, outOfRange);
@@ -51,7 +51,7 @@ export function number(kind, value, name) {
   throw new MienError(`${name}: number out of range (got ${value}, expected a whole number from ${least} to ${most})`, outOfRange);
 }
 
-// One struct at `address` in `memory`, which may grow in between.
+// One struct at `address` in `memory`, which may grow between accesses.
 export class Struct {
   constructor(memory, name, address) {
     Object.assign(this, {memory, fields: fields[name], address});
@@ -63,7 +63,7 @@ export class Struct {
     new DataView(this.memory.buffer)[set](this.address + offset + index * bytes, number(kind, value, field), true);
   }
 
-  // `names`: what callers say to what the field is called; what they leave out stays.
+  // `names`: names of callers to names of fields; missing values do not change.
   fill(names, values) {
     for (const [name, field] of Object.entries(names)) {
       if (values[name] !== undefined) this.set(field, values[name]);

@@ -1,20 +1,20 @@
-// Types of mien.js. Words, units and ranges are those of mien.h, which says more.
+// Types of mien.js. Terms, units and ranges are those of mien.h, which documents them.
 
 export type ImageFormat = 'gray8' | 'rgb' | 'bgr' | 'rgba' | 'bgra' | 'nv12' | 'nv21' | 'i420';
 export type FaceStatus = 'searching' | 'tracking' | 'lost';
 export type StageName = 'proposal' | 'warp' | 'encoder' | 'heads' | 'decoders' | 'sound';
 export type LevelOfDetail = 0 | 1 | 2 | 3 | 4;
 export type Bytes = ArrayBuffer | ArrayBufferView;
-/** Nanoseconds on one clock for pictures and sound. */
+/** Nanoseconds on one clock for images and audio. */
 export type Nanoseconds = bigint | number;
 
-/** Thrown by everything; `status` is the mien_status, where there is one. */
+/** The error of all functions; `status` is the mien_status, if the error has one. */
 export class MienError extends Error {
   readonly status?: number;
   constructor(message: string, status?: number);
 }
 
-/** Weight files, copied into the module. Levels of detail 2 to 4 need `hifinet`, sound needs `audionet`. */
+/** Weight files, copied into the module. Levels of detail 2 to 4 need `hifinet`, audio needs `audionet`. */
 export interface TrackerWeights {
   basenet: Bytes;
   proposal: Bytes;
@@ -22,7 +22,7 @@ export interface TrackerWeights {
   audionet?: Bytes;
 }
 
-/** What is left out takes the default of mien_tracker_config_default. */
+/** Missing fields have the defaults of mien_tracker_config_default. */
 export interface TrackerConfig extends TrackerWeights {
   lod?: LevelOfDetail;
   cpuMask?: number;
@@ -39,11 +39,11 @@ export interface TrackerConfig extends TrackerWeights {
   maxFaces?: number;
   voiceAttackMs?: number;
   voiceReleaseMs?: number;
-  /** What the sound says of the mouth, times this, 0..4. */
+  /** Factor of the controls predicted from audio, 0..4. */
   voiceStrength?: number;
 }
 
-/** `data` with the planes behind each other and no padding (an ImageData is one), or `planes`. `format` is 'rgba' unless said. */
+/** `data` with the planes one after another and no padding (for example an ImageData), or `planes`. The default of `format` is 'rgba'. */
 export interface Image {
   format?: ImageFormat;
   width: number;
@@ -56,21 +56,21 @@ export interface Image {
   rotation?: 0 | 90 | 180 | 270;
   mirrored?: boolean;
   fullRange?: boolean;
-  /** YUV is that of BT.709; else BT.601. */
+  /** YUV uses BT.709; otherwise BT.601. */
   bt709?: boolean;
-  /** x, y, width, height in its pixels, before it is turned: nothing else is looked at. */
+  /** Region of interest: x, y, width, height in pixels of the buffer before rotation; nothing outside it is read. */
   region?: [number, number, number, number];
   focalLengthPx?: number;
   principalX?: number;
   principalY?: number;
-  /** Width of a pixel / its height, 0.1 to 10; results are in square pixels: the upright picture keeps its height. */
+  /** Width of a pixel / its height, 0.1 to 10; results are in square pixels: the upright image keeps its height. */
   pixelAspect?: number;
 }
 
 export interface Result {
   status: FaceStatus;
   ptsNs: bigint;
-  /** Bit i: control i is driven. */
+  /** Bit i: control i is supported. */
   supportedControls: bigint;
   faceProbability: number;
   voiceActivity: number;
@@ -114,7 +114,7 @@ export class Tracker {
   saveNeutral(): {file: Uint8Array; captured: number};
   loadNeutral(file: Bytes): void;
   reset(): void;
-  /** Gives all its memory back; nothing else may be called afterwards. */
+  /** Releases all memory; no other call is allowed afterwards. */
   destroy(): void;
 }
 

@@ -1,5 +1,5 @@
-// mien in JavaScript: the functions of mien.h around the WebAssembly module, with its words. Runs in pages, in workers and in
-// Node, and needs nothing else. mien.d.ts says what everything takes and gives.
+// mien for JavaScript: the functions of mien.h on the WebAssembly module. Runs in pages, workers and Node, without dependencies.
+// mien.d.ts documents the API.
 import {MienError} from './error.js';
 import {Struct, structBytes} from './layout.js';
 import {Network} from './network.js';
@@ -17,7 +17,7 @@ async function compile(source) {
   return WebAssembly.compile(await response.arrayBuffer());
 }
 
-// What the module asks of its host.
+// Functions that the module imports.
 function host(memoryOf) {
   const clock_time_get = (_clock, _precision, address) => {
     new DataView(memoryOf().buffer).setBigUint64(address, BigInt(Math.round(performance.now() * 1e6)), true);
@@ -60,7 +60,7 @@ export class Mien {
   createTracker(config) { return new Tracker(this, config); }
   createNetwork(config) { return new Network(this, config); }
 
-  // Beneath: the module's memory. Each is released by the address that allocate gave.
+  // Internal: the module's memory. Release takes the address from allocate.
   allocate(bytes) {
     const block = this.exports.malloc(bytes + alignment + 4);
     if (!block) throw new MienError('out of memory', -6);

@@ -1,8 +1,8 @@
-// Networks of one's own, as in mien.h.
+// Custom networks of mien.h.
 import {MienError} from './error.js';
 import {number} from './layout.js';
 
-// Input and output are views of the module's memory, to be asked for anew each time.
+// Input and output are views of the module's memory; request them again after each creation of an object.
 export class Network {
   constructor(mien, config) {
     this.mien = mien;

@@ -8,7 +8,7 @@ const faceStatus = ['searching', 'tracking', 'lost'];
 const defaultMask = 0xffffffff;  // MIEN_CPU_ALL
 // MIEN_ERROR_*
 const wrong = {argument: -1, format: -60, size: -61, stride: -62, plane: -63, samples: -66};
-// "Float32Array" and the like, of arrays of another window or worker too; undefined: it is none.
+// The name of the type, such as "Float32Array", also for arrays of another window or worker; undefined if it is not a typed array.
 const kindOf = data => (ArrayBuffer.isView(data) ? data[Symbol.toStringTag] : undefined);
 const isBytes = data => ['Uint8Array', 'Uint8ClampedArray'].includes(kindOf(data));
 
@@ -17,7 +17,7 @@ function nanoseconds(time, name = 'ptsNs') {
   return number('i64', typeof time === 'bigint' ? time : BigInt(Math.round(time)), name);
 }
 
-// Memory of the module that is as large as was ever asked for.
+// Memory of the module, kept at the largest size requested so far.
 class Buffer {
   constructor(mien) { Object.assign(this, {mien, address: 0, bytes: 0}); }
 
@@ -151,7 +151,7 @@ export class Tracker {
     this.call('push_video', this.image.address, nanoseconds(ptsNs));
   }
 
-  // One buffer with the planes behind each other.
+  // One buffer with the planes one after another.
   split(data, sizes) {
     if (!isBytes(data)) throw new MienError('data: neither Uint8Array nor Uint8ClampedArray', wrong.plane);
     let offset = 0;

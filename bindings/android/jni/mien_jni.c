@@ -1,5 +1,5 @@
-/* org.mien.Native over mien.h. Java has checked that buffers and arrays are as large as what is
- * read of them. */
+/* The functions of org.mien.Native on mien.h. The Java classes have checked the sizes of buffers
+ * and arrays. */
 #include <jni.h>
 #include <mien/mien.h>
 #include <string.h>
@@ -166,10 +166,10 @@ NATIVE(jint, advance)(UNUSED_CLASS, jlong tracker, jlong time_ns) {
   return mien_tracker_advance(tracker_of(tracker), time_ns);
 }
 
-typedef mien_status (*Hearing)(mien_tracker*, const mien_audio*, int64_t);
+typedef mien_status (*AudioFunction)(mien_tracker*, const mien_audio*, int64_t);
 
-static jint hear(JNIEnv* env, jlong tracker, jfloatArray samples, jint frames, jint channels,
-                 jint sample_rate, jlong time_ns, Hearing hearing) {
+static jint with_audio(JNIEnv* env, jlong tracker, jfloatArray samples, jint frames, jint channels,
+                       jint sample_rate, jlong time_ns, AudioFunction function) {
   mien_audio audio;
   jfloat* place = (*env)->GetPrimitiveArrayCritical(env, samples, NULL);
   if (place == NULL) return MIEN_ERROR_OUT_OF_MEMORY;
@@ -178,7 +178,7 @@ static jint hear(JNIEnv* env, jlong tracker, jfloatArray samples, jint frames, j
   audio.channels = channels;
   audio.frames = (size_t)frames;
   audio.samples[0] = place;
-  const mien_status status = hearing(tracker_of(tracker), &audio, time_ns);
+  const mien_status status = function(tracker_of(tracker), &audio, time_ns);
   (*env)->ReleasePrimitiveArrayCritical(env, samples, place, JNI_ABORT);
   return status;
 }
@@ -187,16 +187,16 @@ NATIVE(jint, pushAudio)
 (UNUSED_CLASS, jlong tracker, jfloatArray samples, jint frames, jint channels, jint sample_rate,
  jlong time_ns) {
   (void)unused;
-  return hear(env, tracker, samples, frames, channels, sample_rate, time_ns,
-              mien_tracker_push_audio);
+  return with_audio(env, tracker, samples, frames, channels, sample_rate, time_ns,
+                    mien_tracker_push_audio);
 }
 
 NATIVE(jint, queueAudio)
 (UNUSED_CLASS, jlong tracker, jfloatArray samples, jint frames, jint channels, jint sample_rate,
  jlong time_ns) {
   (void)unused;
-  return hear(env, tracker, samples, frames, channels, sample_rate, time_ns,
-              mien_tracker_queue_audio);
+  return with_audio(env, tracker, samples, frames, channels, sample_rate, time_ns,
+                    mien_tracker_queue_audio);
 }
 
 NATIVE(jint, setAudioOffset)(UNUSED_CLASS, jlong tracker, jlong offset_ns) {
@@ -316,7 +316,7 @@ NATIVE(void, networkShape)(UNUSED_CLASS, jlong network, jint index, jintArray sh
   (*env)->SetIntArrayRegion(env, shape, 0, 3, numbers);
 }
 
-/* Where a number of [channels][pixels] lies in a map whose channels lie together by `step`. */
+/* Index of a value of [channels][pixels] in a map with blocks of `step` channels. */
 static size_t place_in(int32_t channel, int32_t pixel, int32_t pixels, int32_t step) {
   return ((size_t)(channel / step) * (size_t)pixels + (size_t)pixel) * (size_t)step +
          (size_t)(channel % step);

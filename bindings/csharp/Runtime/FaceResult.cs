@@ -6,10 +6,10 @@ namespace Mien
 {
     public enum FaceStatus
     {
-        /// <summary>No face since the beginning.</summary>
+        /// <summary>No face since the start or reset.</summary>
         Searching = 0,
         Tracking = 1,
-        /// <summary>The face is gone: its last place stays, its controls fade.</summary>
+        /// <summary>The face is lost: it keeps its last position, and its controls fade.</summary>
         Lost = 2,
     }
 
@@ -32,7 +32,7 @@ namespace Mien
 
         public float this[string name] { get { return array[Number(name)]; } }
 
-        /// <summary>Names of those that are driven at this level of detail; the others are always 0.</summary>
+        /// <summary>Names of the controls that this level of detail predicts; the others are 0.</summary>
         public IEnumerable<string> Supported { get { return Names.Where((name, i) => (supported >> i & 1) != 0); } }
 
         /// <summary>A copy, in the order of Names.</summary>
@@ -41,7 +41,7 @@ namespace Mien
             return (float[])array.Clone();
         }
 
-        /// <summary>The same face in other words, in the order of their names.</summary>
+        /// <summary>The controls in another vocabulary, in the order of its names.</summary>
         public float[] To(Vocabulary vocabulary)
         {
             var values = new float[vocabulary.Names().Count];
@@ -72,7 +72,7 @@ namespace Mien
         public float Roll { get; internal set; }
     }
 
-    /// <summary>One face on one frame. It owns what it says: keep as many as you like.</summary>
+    /// <summary>One face on one frame. Owns its data.</summary>
     public sealed class FaceResult
     {
         readonly Native.mien_result raw;
@@ -84,21 +84,21 @@ namespace Mien
 
         public FaceStatus Status { get { return (FaceStatus)raw.status; } }
         public bool HasFace { get { return Status == FaceStatus.Tracking; } }
-        /// <summary>Of the picture, seconds.</summary>
+        /// <summary>Timestamp of the frame, seconds.</summary>
         public double Time { get { return raw.pts_ns / 1e9; } }
-        /// <summary>Counts the faces found, from 1; 0 before any.</summary>
+        /// <summary>Number of the face, from 1 in the order of detection; 0 before the first.</summary>
         public int FaceId { get { return (int)raw.face_id; } }
         /// <summary>The level of detail of this frame, 1..4.</summary>
         public int Lod { get { return raw.lod; } }
         public float FaceProbability { get { return raw.face_probability; } }
-        /// <summary>0..1: how much somebody speaks; 0 without sound.</summary>
+        /// <summary>0..1: voice activity; 0 without audio.</summary>
         public float VoiceActivity { get { return raw.voice_activity; } }
-        /// <summary>Whether this frame counts for Tracker.Calibrate.</summary>
+        /// <summary>Whether this frame contributes to Tracker.Calibrate.</summary>
         public bool IsCapturingNeutral { get { return (raw.flags & Native.CapturingNeutral) != 0; } }
-        /// <summary>x, y, width, height in pixels of the upright picture.</summary>
+        /// <summary>x, y, width, height in pixels of the upright image.</summary>
         public float[] Box { get { return (float[])raw.box.Clone(); } }
         public Controls Controls { get { return new Controls(raw.controls, raw.supported_controls); } }
-        /// <summary>175 times x, y in pixels of the upright picture.</summary>
+        /// <summary>175 points x, y in pixels of the upright image.</summary>
         public float[] Landmarks { get { return (float[])raw.landmarks.Clone(); } }
 
         public Pose Pose

@@ -15,37 +15,37 @@ namespace Mien
         I420 = 7,
     }
 
-    /// <summary>A picture that somebody else owns: it is read where it lies, never copied. Set what is not the default.</summary>
+    /// <summary>An image in the caller's memory, read without a copy.</summary>
     public sealed class Image
     {
         public PixelFormat Format;
         public int Width, Height;
-        /// <summary>Degrees clockwise that make it upright: 0, 90, 180, 270.</summary>
+        /// <summary>Clockwise rotation to upright: 0, 90, 180, 270 degrees.</summary>
         public int Rotation;
-        /// <summary>A mirror image of the scene, a selfie.</summary>
+        /// <summary>The image mirrors the scene (selfie camera).</summary>
         public bool Mirrored;
-        /// <summary>Of grey and YUV: luma is 0..255; else 16..235.</summary>
+        /// <summary>Grey and YUV: luma 0..255; otherwise video range, 16..235.</summary>
         public bool FullRange = true;
-        /// <summary>YUV is that of BT.709; else BT.601.</summary>
+        /// <summary>YUV uses BT.709; otherwise BT.601.</summary>
         public bool Bt709;
-        /// <summary>x, y, width, height in its pixels, all that is looked at; null: everything.</summary>
+        /// <summary>Region of interest: x, y, width, height in pixels of the buffer before rotation; null: the whole image.</summary>
         public int[] Region;
-        /// <summary>In pixels of the upright picture; 0: not known.</summary>
+        /// <summary>In pixels of the upright image; 0: unknown.</summary>
         public float FocalLengthPx;
-        /// <summary>In the upright picture; both 0: its centre.</summary>
+        /// <summary>Principal point in the upright image; both 0: its centre.</summary>
         public float PrincipalX, PrincipalY;
-        /// <summary>Width of a pixel / its height, 0.1 to 10. Results are in square pixels: the upright picture keeps its height.</summary>
+        /// <summary>Width of a pixel / its height, 0.1 to 10. Results are in square pixels: the upright image keeps its height.</summary>
         public float PixelAspect = 1f;
         /// <summary>I420: bytes from one sample of U or V to the next; 0 means 1.</summary>
         public int ChromaPixelStrideBytes;
-        /// <summary>Bottom row first in memory, as Unity's textures have it; of one plane. Native planes then begin with that row, too.</summary>
+        /// <summary>The bottom row comes first in memory, as in Unity's textures; one plane only. Native planes start with that row as well.</summary>
         public bool BottomUp;
 
         byte[] array;
         IntPtr[] planes;
         int[] strides;
 
-        /// <summary>Rows without gaps, planes one behind the other.</summary>
+        /// <summary>Rows without padding, planes one after another.</summary>
         public Image(PixelFormat format, int width, int height, byte[] pixels)
         {
             if (pixels == null) throw new ArgumentNullException("pixels");
@@ -55,7 +55,7 @@ namespace Mien
             array = pixels;
         }
 
-        /// <summary>Planes of native memory, as cameras and textures give it, which has to stay during Tracker.Track.</summary>
+        /// <summary>Planes in native memory, as from cameras and textures; must stay valid during Tracker.Track.</summary>
         public Image(PixelFormat format, int width, int height, IntPtr[] planes, int[] rowStrideBytes)
         {
             if (planes == null) throw new ArgumentNullException("planes");
@@ -68,7 +68,7 @@ namespace Mien
             strides = rowStrideBytes;
         }
 
-        /// <summary>Tells `look` where the pixels lie; they stay there meanwhile.</summary>
+        /// <summary>Calls `look` with the layout of the pixels, which are pinned meanwhile.</summary>
         internal void Described(Action<Native.mien_image> look)
         {
             Native.mien_image raw;
@@ -126,7 +126,7 @@ namespace Mien
                 throw new ArgumentException("a picture of " + Width + " x " + Height + " " + Format + " has " + first + " bytes, not " + array.Length);
         }
 
-        /// <summary>mien.h wants the top row's first byte, and a negative way to the next row.</summary>
+        /// <summary>mien.h expects the first byte of the top row, and a negative stride.</summary>
         void BeginAtTheTop(ref Native.mien_image raw)
         {
             if (Format >= PixelFormat.Nv12) throw new ArgumentException("YUV is not taken bottom-up");

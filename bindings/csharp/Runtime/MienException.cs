@@ -2,7 +2,7 @@ using System;
 
 namespace Mien
 {
-    /// <summary>What the library answers: mien_status of mien.h.</summary>
+    /// <summary>Statuses of the library: mien_status of mien.h.</summary>
     public enum Status
     {
         Ok = 0,
@@ -44,7 +44,7 @@ namespace Mien
         NeutralDamaged = -82,
     }
 
-    /// <summary>The library refused; the message is its own.</summary>
+    /// <summary>An error of the library, with its message.</summary>
     public sealed class MienException : Exception
     {
         public Status Status { get; private set; }

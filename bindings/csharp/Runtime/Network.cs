@@ -13,15 +13,15 @@ namespace Mien
         public float[] Values { get; internal set; }
     }
 
-    /// <summary>A network of your own, of a weight file that scripts/convert/onnx_to_mien.py made. Used by one thread at a time.</summary>
+    /// <summary>A custom network of a weight file, for example from scripts/convert/onnx_to_mien.py. One thread at a time may use it.</summary>
     public sealed class Network : IDisposable
     {
-        const int Block = 8;       // channels that lie together
-        const int Interleaved = 4; // an input of up to so many channels lies as a picture does
+        const int Block = 8;       // channels stored together
+        const int Interleaved = 4; // an input of up to this number of channels is stored as an image
 
         readonly NetworkHandle handle;
 
-        /// <summary>name: of the network in the file; null: its first. height, width: for networks that take several; 0: as declared.</summary>
+        /// <summary>name: of the network in the file; null: its first. height, width: for networks that accept several; 0: the declared size.</summary>
         public Network(Model model, string name = null, int height = 0, int width = 0)
         {
             if (model == null) throw new ArgumentNullException("model");
@@ -46,10 +46,10 @@ namespace Mien
             InputShape = Of(shape);
         }
 
-        /// <summary>What Run takes; it has no values.</summary>
+        /// <summary>Shape of the input, without values.</summary>
         public Map InputShape { get; private set; }
 
-        /// <summary>One run, one step of a network over time. [channels][height][width] goes in, every output comes out so.</summary>
+        /// <summary>Runs the network once, one step of a temporal network. Input and outputs are [channels][height][width].</summary>
         public Map[] Run(float[] input)
         {
             int pixels = InputShape.Height * InputShape.Width;
@@ -67,7 +67,7 @@ namespace Mien
             return Enumerable.Range(0, Native.mien_network_output_count(handle)).Select(Output).ToArray();
         }
 
-        /// <summary>Puts what a network over time remembers back to a stream's beginning.</summary>
+        /// <summary>Resets the state of temporal layers to the start of a stream.</summary>
         public void Reset()
         {
             Native.mien_network_reset(handle);
@@ -86,7 +86,7 @@ namespace Mien
             int pixels = map.Height * map.Width;
             var blocks = new float[Blocks(map) * pixels * Block];
             Marshal.Copy(place, blocks, 0, blocks.Length);
-            GC.KeepAlive(handle); // a collector that sees nobody use it any more would give back what is copied here
+            GC.KeepAlive(handle); // otherwise the collector could release the memory that is copied here
             map.Values = new float[map.Channels * pixels];
             for (int channel = 0; channel < map.Channels; ++channel)
                 for (int pixel = 0; pixel < pixels; ++pixel)

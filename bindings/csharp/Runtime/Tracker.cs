@@ -4,31 +4,31 @@ using System.Runtime.InteropServices;
 
 namespace Mien
 {
-    /// <summary>What a tracker is asked for.</summary>
+    /// <summary>Options of a tracker.</summary>
     public sealed class TrackerOptions
     {
-        /// <summary>Level of detail, 1 (cheapest) to 4; 0: as high as BudgetMs a frame allows.</summary>
+        /// <summary>Level of detail, 1 (fastest) to 4 (most accurate); 0: automatic, the highest within BudgetMs per frame.</summary>
         public int Lod;
-        /// <summary>Faces followed at once, 1..8.</summary>
+        /// <summary>Maximum number of faces, 1..8.</summary>
         public int MaxFaces = 1;
-        /// <summary>Whether it can hear.</summary>
+        /// <summary>Whether to use audio.</summary>
         public bool Sound = true;
-        /// <summary>Of what hardly moves.</summary>
+        /// <summary>Smooths controls, landmarks and pose while they hardly move.</summary>
         public bool Smoothing = true;
         public float BudgetMs = 10;
-        /// <summary>Of the upright picture, radians, where pictures do not say a focal length; 0: 60 degrees.</summary>
+        /// <summary>Horizontal field of view of the upright image, for images without a focal length, in radians; 0: 60 degrees.</summary>
         public float HorizontalFov;
-        /// <summary>Room for sound that another thread brings (Tracker.QueueAudio).</summary>
+        /// <summary>Capacity of the audio queue (Tracker.QueueAudio), in samples of one channel; 0: no queue.</summary>
         public int AudioQueueSamples;
-        /// <summary>What the sound says of the mouth, times this, 0..4.</summary>
+        /// <summary>Factor of the controls predicted from audio, 0..4.</summary>
         public float VoiceStrength = 1;
     }
 
-    /// <summary>Follows faces through a stream of pictures, and hears a voice. Used by one thread at a time, but for QueueAudio.</summary>
+    /// <summary>Tracks faces in a stream of images and audio. One thread at a time may use it, except for QueueAudio.</summary>
     public sealed class Tracker : IDisposable
     {
         delegate ulong Clock(IntPtr user);
-        static readonly Clock clock = ReadClock; // kept, since the library keeps what is made of it
+        static readonly Clock clock = ReadClock; // kept alive, because the library keeps a pointer to it
         static readonly IntPtr clockPlace = Marshal.GetFunctionPointerForDelegate(clock);
 
         readonly TrackerHandle handle;
@@ -51,12 +51,12 @@ namespace Mien
             config.audio_queue_samples = options.AudioQueueSamples;
             config.voice_strength = options.VoiceStrength;
             if (options.HorizontalFov != 0) config.horizontal_fov = options.HorizontalFov;
-            if (options.Lod == 0) config.clock_ns = clockPlace; // it has to know what a frame takes
+            if (options.Lod == 0) config.clock_ns = clockPlace; // needs a clock to measure frames
             Native.Check(Native.mien_tracker_create(ref config, out handle));
             handle.Keeps = kept;
         }
 
-        /// <summary>Tracks one picture and tells of the face known longest. time: of the picture, seconds, on any clock.</summary>
+        /// <summary>Tracks one image and returns the result of the face with the lowest id. time: timestamp of the image in seconds, on any clock.</summary>
         public FaceResult Track(Image image, double time)
         {
             if (image == null) throw new ArgumentNullException("image");
@@ -64,14 +64,14 @@ namespace Mien
             return Result();
         }
 
-        /// <summary>A frame of output without a picture: for sound alone.</summary>
+        /// <summary>Outputs a frame without an image, for audio without video.</summary>
         public FaceResult Advance(double time)
         {
             Native.Check(Native.mien_tracker_advance(handle, Native.Nanoseconds(time)));
             return Result();
         }
 
-        /// <summary>Of the last picture, of the face known longest.</summary>
+        /// <summary>The result of the latest frame, of the face with the lowest id.</summary>
         public FaceResult Result()
         {
             Native.mien_result raw;
@@ -80,7 +80,7 @@ namespace Mien
             return new FaceResult(raw);
         }
 
-        /// <summary>Of the last picture, every face known.</summary>
+        /// <summary>The results of all known faces on the latest frame.</summary>
         public FaceResult[] Faces()
         {
             var faces = new FaceResult[Native.mien_tracker_face_count(handle)];
@@ -94,27 +94,27 @@ namespace Mien
             return faces;
         }
 
-        /// <summary>Hears samples of -1..1, channels in turns; time is that of the first.</summary>
+        /// <summary>Processes interleaved samples of -1..1; time is the timestamp of the first, in seconds.</summary>
         public void PushAudio(float[] samples, double time, int sampleRate = 48000, int channels = 1)
         {
             Described(samples, sampleRate, channels, raw =>
                 Native.Check(Native.mien_tracker_push_audio(handle, ref raw, Native.Nanoseconds(time))));
         }
 
-        /// <summary>The same from another thread, for the next frame; Status.AudioQueueFull when there is no room.</summary>
+        /// <summary>Queues audio from another thread for the next frame; Status.AudioQueueFull if the queue is full.</summary>
         public void QueueAudio(float[] samples, double time, int sampleRate = 48000, int channels = 1)
         {
             Described(samples, sampleRate, channels, raw =>
                 Native.Check(Native.mien_tracker_queue_audio(handle, ref raw, Native.Nanoseconds(time))));
         }
 
-        /// <summary>Sound pushed from now on belongs to pictures that much later.</summary>
+        /// <summary>Delays audio relative to the images, for audio pushed from now on.</summary>
         public void SetAudioOffset(double seconds)
         {
             Native.Check(Native.mien_tracker_set_audio_offset(handle, Native.Nanoseconds(seconds)));
         }
 
-        /// <summary>How much sound and picture count for a control while somebody speaks, each 0..1.</summary>
+        /// <summary>Weights of audio and video for a control during speech, each 0..1.</summary>
         public void SetMix(string control, float audio, float video)
         {
             Native.Check(Native.mien_tracker_set_mix(handle, Controls.Number(control), audio, video));
@@ -125,13 +125,13 @@ namespace Mien
             Native.Check(Native.mien_tracker_set_lod(handle, lod));
         }
 
-        /// <summary>Captures, over the next 55 frames with a face, what it shows when it is neutral, to be taken out from then on.</summary>
+        /// <summary>Captures a person's neutral controls over the next 55 frames with a face, and removes them from later frames.</summary>
         public void Calibrate()
         {
             Native.Check(Native.mien_tracker_capture_neutral(handle));
         }
 
-        /// <summary>What was captured, to be kept.</summary>
+        /// <summary>The captured neutral values as a file.</summary>
         public byte[] SaveNeutral()
         {
             var file = new byte[Native.NeutralBytes];
@@ -146,7 +146,7 @@ namespace Mien
             Native.Check(Native.mien_tracker_load_neutral(handle, file, new UIntPtr((uint)file.Length)));
         }
 
-        /// <summary>Forgets everything seen and heard.</summary>
+        /// <summary>Resets the tracker to its state after creation.</summary>
         public void Reset()
         {
             Native.Check(Native.mien_tracker_reset(handle));
@@ -163,7 +163,7 @@ namespace Mien
             bytes = model == null ? UIntPtr.Zero : model.Bytes;
         }
 
-        static void Described(float[] samples, int sampleRate, int channels, Action<Native.mien_audio> hear)
+        static void Described(float[] samples, int sampleRate, int channels, Action<Native.mien_audio> use)
         {
             if (samples == null) throw new ArgumentNullException("samples");
             Native.mien_audio raw;
@@ -175,7 +175,7 @@ namespace Mien
             try
             {
                 raw.samples[0] = pin.AddrOfPinnedObject();
-                hear(raw);
+                use(raw);
             }
             finally
             {

@@ -4,7 +4,7 @@ using System.Linq;
 
 namespace Mien
 {
-    /// <summary>The words of a house for a face.</summary>
+    /// <summary>Names of controls in another standard.</summary>
     public enum Vocabulary
     {
         Arkit = 0,
@@ -22,7 +22,7 @@ namespace Mien
                 Enumerable.Range(0, Native.mien_vocabulary_size(vocabulary))
                     .Select(i => Native.Text(Native.mien_vocabulary_name(vocabulary, i))).ToArray())).ToArray();
 
-        /// <summary>In their order, written as their owner does.</summary>
+        /// <summary>The names in order, spelled as in the standard.</summary>
         public static ReadOnlyCollection<string> Names(this Vocabulary vocabulary)
         {
             return names[(int)vocabulary];

@@ -4,10 +4,10 @@ using System.Runtime.InteropServices;
 
 namespace Mien
 {
-    /// <summary>A weight file in memory, where the library wants it. Trackers and networks may share one, and keep it as long as they need.</summary>
+    /// <summary>A weight file in aligned memory. Trackers and networks may share one and keep it alive.</summary>
     public sealed class Model
     {
-        // Memory of its own, since the collector moves managed arrays; given back when no object knows it any more.
+        // Native memory, because the collector moves managed arrays; released by the finalizer.
         readonly IntPtr room;
         internal readonly IntPtr Place;
         internal readonly UIntPtr Bytes;
@@ -32,19 +32,19 @@ namespace Mien
         }
     }
 
-    /// <summary>What trackers know. They may share one.</summary>
+    /// <summary>The weights of trackers. Several trackers may share them.</summary>
     public sealed class Weights
     {
-        /// <summary>Landmarks, and level of detail 1.</summary>
+        /// <summary>For tracking and level of detail 1.</summary>
         public Model BaseNet;
-        /// <summary>Finds faces.</summary>
+        /// <summary>For detection.</summary>
         public Model Proposal;
         /// <summary>Levels of detail 2 to 4; may be null.</summary>
         public Model HiFiNet;
-        /// <summary>Hears; may be null.</summary>
+        /// <summary>For audio; may be null.</summary>
         public Model AudioNet;
 
-        /// <summary>The files of a folder: basenet.mien and proposal.mien, and the others where they are.</summary>
+        /// <summary>The files of a folder: basenet.mien and proposal.mien, and hifinet.mien and audionet.mien if present.</summary>
         public static Weights Open(string folder)
         {
             Func<string, Model> optional = name => File.Exists(Path.Combine(folder, name)) ? Model.Open(Path.Combine(folder, name)) : null;

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws the head's axes into the pictures of a film: project() is how a head pose comes back into the picture. Needs opencv-python.
+"""Draws the head's axes into the frames of a video: project() maps a head pose to the image. Needs opencv-python.
 
 usage: pose_axes.py FILE [--frame N] --save PICTURE.jpg
 """
@@ -23,7 +23,7 @@ def rotation_matrix(quaternion):
 
 def project(points, pose, width, height, focal_length_px=None):
     """Points [n,3] in head space, metres, as pixels [n,2] of the upright picture, which is not mirrored."""
-    focal = focal_length_px or width / 2 / math.tan(math.radians(60) / 2)  # what mien assumes where nobody knows
+    focal = focal_length_px or width / 2 / math.tan(math.radians(60) / 2)  # mien's default for unknown cameras
     x, y, z = (np.asarray(points) @ rotation_matrix(pose.rotation).T + pose.translation).T
     return np.stack([width / 2 + focal * x / -z, height / 2 - focal * y / -z], 1)
 

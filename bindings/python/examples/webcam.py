@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws what the tracker sees on a camera's picture, until q is pressed. Needs opencv-python.
+"""Draws the tracker's result onto a camera's image, until q is pressed. Needs opencv-python.
 
 usage: webcam.py [CAMERA or FILE] [--frames N] [--save PICTURE.png]
 """

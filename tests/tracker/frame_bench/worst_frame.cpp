@@ -109,7 +109,7 @@ Times run(mien::Tracker& tracker, const File& clip, int width, int height, int r
 Times min_of_replays(mien::Tracker& tracker, const File& clip, int width, int height, int rounds) {
   Times min = run(tracker, clip, width, height, rounds);
   for (int replay = 1; replay < kReplays; ++replay) {
-    tracker.reset();
+    (void)tracker.reset();
     const std::vector<double> again = run(tracker, clip, width, height, rounds).all_us;
     std::transform(again.begin(), again.end(), min.all_us.begin(), min.all_us.begin(),
                    [](double a, double b) { return std::min(a, b); });

@@ -1,7 +1,7 @@
 """Facial animation from a camera and a microphone, on the CPU.
 
     with mien.Tracker() as tracker:
-        result = tracker.track(frame, time_s)          # a BGR picture, as OpenCV has it
+        result = tracker.track(frame, time_s)          # a BGR image, as in OpenCV
         print(result.controls["jawOpen"], result.pose.yaw)
 """
 

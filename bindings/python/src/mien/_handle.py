@@ -1,4 +1,4 @@
-"""Objects of the C library. Each belongs to one Python object, in the process that made it."""
+"""Objects of the C library. Each belongs to one Python object, in the process that created it."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ if hasattr(os, "register_at_fork"):
 
 
 class Handle:
-    """Two of one C object would destroy it twice: it cannot be copied or pickled. After a fork it can only be closed."""
+    """Cannot be copied or pickled, because two owners would destroy the C object twice. After a fork it can only be closed."""
 
-    _kind = ""  # as messages and the C functions call it
+    _kind = ""  # name in messages and C functions
 
     def __init__(self) -> None:
         self._handle = c_void_p()
@@ -41,7 +41,7 @@ class Handle:
         return self._handle
 
     def close(self) -> None:
-        """Gives the memory back, and wipes it. Nothing else may be called then."""
+        """Overwrites the memory with zeros and releases it. No other call is allowed afterwards."""
         handle, self._handle = self._handle, c_void_p()
         function(f"mien_{self._kind}_destroy")(handle)
 

@@ -1,4 +1,4 @@
-"""The C library as ctypes sees it: structs and functions of mien.h. tests/test_abi.py holds them against the header."""
+"""The C library in ctypes: structs and functions of mien.h. tests/test_abi.py compares them with the header."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ PROGRAM = PACKAGE / ("mien.exe" if sys.platform == "win32" else "mien")
 
 
 class Struct(Structure):
-    """Every number that is assigned has to fit its field. Assign arrays as a whole: their elements are not checked one by one."""
+    """Checks that every assigned number fits its field. Assign arrays as a whole, because elements are not checked."""
 
     _checks: dict[str, Check] = {}
     _array_checks: dict[str, Check] = {}
@@ -211,7 +211,7 @@ FUNCTIONS: dict[str, tuple[Any, Sequence[Any]]] = {
 
 
 def _path() -> Path:
-    """The library of this package, or what MIEN_LIBRARY names."""
+    """The library of this package, or the one that MIEN_LIBRARY names."""
     name = {"win32": "libmien.dll", "darwin": "libmien.dylib"}.get(sys.platform, "libmien.so")
     return Path(os.environ.get("MIEN_LIBRARY", PACKAGE / name))
 
@@ -233,7 +233,7 @@ def function(name: str) -> Callable[..., Any]:
 
 
 def text(name: str, *arguments: int) -> Optional[str]:
-    """What a function answers that returns a C string."""
+    """The result of a function that returns a C string."""
     answer = cast(Optional[bytes], function(name)(*arguments))
     return None if answer is None else answer.decode("ascii")
 

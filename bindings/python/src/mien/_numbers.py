@@ -1,4 +1,4 @@
-"""Numbers on their way into C. ctypes cuts those that do not fit; here they are errors."""
+"""Range checks of numbers for C: ctypes truncates those that do not fit."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def _out_of_range(name: str, value: object, least: object, most: object) -> Exce
 
 
 def check_of(kind: Any) -> Optional[Check]:
-    """What makes a Python number fit for a C type, or raises; None: the type is no number."""
+    """The function that converts a Python number to a C type, or raises; None: not a type of numbers."""
     if kind is c_float:
         return _real
     if kind not in _LIMITS:

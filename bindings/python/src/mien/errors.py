@@ -1,4 +1,4 @@
-"""One exception for each status of the C library; all are MienError. Their text is the library's own."""
+"""One exception for each status of the C library; all are MienError. Their messages are those of the library."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Whole files: what ffmpeg can read goes in, a row for each frame comes out. The `mien` program, which the package holds, reads them."""
+"""Files: a row per frame of any file that ffmpeg can read. The package's `mien` program reads them."""
 
 from __future__ import annotations
 
@@ -31,13 +31,13 @@ def track_file(
     audio_track: int = 1,
     rotation: Optional[Literal[0, 90, 180, 270]] = None,
 ) -> Iterator[Row]:
-    """A row for every frame of a video with its own time, video and audio together; of a file without video 30 a second.
+    """A row for every frame of a video, from video and audio together; 30 rows per second for a file without video.
 
     A row has time_s, status, face_id, face_probability, voice_activity, x, y, width, height (the face's box), pitch, yaw, roll,
-    tx, ty, tz, and the 52 controls by name. Needs ffmpeg and ffprobe, which comes with it. The file is read while the rows are taken:
-    one that is damaged or ends early is a MienError after its last good row, and what is odd about one is a warning.
+    tx, ty, tz, and the 52 controls by name. Needs ffmpeg and ffprobe. The file is read while rows are taken: a damaged or truncated
+    file raises MienError after its last valid row; other problems are warnings.
 
-    audio_track: which is heard, from 1. rotation: degrees clockwise that make the video upright, in place of what the file says.
+    audio_track: number of the audio track, from 1. rotation: clockwise rotation to upright in degrees, instead of the file's own.
     """
     if not Path(path).is_file():
         raise FileNotFoundError(f"no file {str(path)!r}")
@@ -56,7 +56,7 @@ def columns(rows: Iterable[Row]) -> dict[str, npt.NDArray[np.generic]]:
 
 def _rows(arguments: list[str]) -> Iterator[Row]:
     command = [str(PROGRAM), "track", "--quiet", "--models", str(MODELS), "--format", "jsonl", "-o", "-", *arguments]
-    with tempfile.TemporaryFile() as said:  # a pipe that nobody reads would fill up, and hold it
+    with tempfile.TemporaryFile() as said:  # a pipe that is not read would fill up and block the program
         try:
             process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=said)
         except OSError as error:
@@ -67,7 +67,7 @@ def _rows(arguments: list[str]) -> Iterator[Row]:
                 if line.endswith(b"\n"):
                     yield _row(json.loads(line))
             status = process.wait()
-        finally:  # wherever this is left, be it because nobody wants more
+        finally:  # also if the caller stops iterating
             process.stdout.close()
             process.kill()
             process.wait()

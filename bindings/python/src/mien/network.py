@@ -1,4 +1,4 @@
-"""Networks of your own: weight files that `python -m mien.convert` made of ONNX files."""
+"""Custom networks: weight files that `python -m mien.convert` makes from ONNX files."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from .errors import check
 from .weights import Model, opened
 
 Floats = npt.NDArray[np.float32]
-_BLOCK = 8  # channels that lie together
-_INTERLEAVED = 4  # an input of up to so many channels lies as a picture does
+_BLOCK = 8  # channels stored together
+_INTERLEAVED = 4  # an input of up to this number of channels is stored as an image
 
 
 class Shape(NamedTuple):
@@ -25,10 +25,10 @@ class Shape(NamedTuple):
 
 
 class Network(Handle):
-    """A network of a weight file, ready to run. Used by one thread at a time.
+    """A network of a weight file. One thread at a time may use it.
 
     model: a path, or the file's bytes. name: of the network; default: the file's first.
-    size: (height, width) of the input, for networks that take several.
+    size: (height, width) of the input, for networks that accept several.
     """
 
     _kind = "network"
@@ -51,11 +51,11 @@ class Network(Handle):
         self._input = _floats_at(place, h * w * c if self._picture else -(-c // _BLOCK) * h * w * _BLOCK)
 
     def run(self, array: npt.ArrayLike) -> list[Floats]:
-        """One run: every output as [channels, height, width], or [channels] of a vector.
+        """Runs the network once. Returns every output as [channels, height, width], or [channels] for a vector.
 
-        array: [channels, height, width], or [channels] of a vector, or [channels, width] of a map of one row. Axes of 1 may be
-        in front, and one axis of steps, one run each: outputs then have the steps in front. Another shape raises ValueError, also
-        where the number of elements is right.
+        array: [channels, height, width], or [channels] for a vector, or [channels, width] for a map of one row. Leading axes of 1
+        are allowed, and one leading axis of steps with one run each: outputs then have the same leading axis. Other shapes raise
+        ValueError, even with the right number of elements.
         """
         given = np.asarray(array, np.float32)
         front = given.shape[: given.ndim - self._item_axes(given.shape)]
@@ -66,7 +66,7 @@ class Network(Handle):
         return [np.stack(outputs) for outputs in zip(*(self._step(step) for step in maps))]
 
     def _item_axes(self, shape: tuple[int, ...]) -> int:
-        """How many of the last axes hold one input. Sizes have to match: an input in another order is an error, not other numbers."""
+        """Number of trailing axes of one input. Sizes must match, so that a wrong order of axes is an error."""
         c, h, w = self.input_shape
         items = [(c, h, w)] + ([(c,)] if h == w == 1 else [(c, w)] if h == 1 else [])
         for item in items:
@@ -100,7 +100,7 @@ class Network(Handle):
         return np.array(map_[:, 0, 0] if h == w == 1 else map_)
 
     def reset(self) -> None:
-        """Puts what a network over time remembers back to a stream's beginning."""
+        """Resets the state of temporal layers to the start of a stream."""
         if self._handle:
             function("mien_network_reset")(self._open())
 

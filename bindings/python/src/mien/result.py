@@ -1,4 +1,4 @@
-"""What a tracker says about one face on one frame."""
+"""The result of a tracker for one face on one frame."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ Floats = npt.NDArray[np.float32]
 
 
 class FaceStatus(enum.IntEnum):
-    SEARCHING = 0  #: no face since the beginning
+    SEARCHING = 0  #: no face since the start or reset
     TRACKING = 1
-    LOST = 2  #: the face is gone: its last place stays, its controls fade
+    LOST = 2  #: the face is lost: it keeps its last position, and its controls fade
 
 
 class Controls(Mapping[str, float]):
@@ -44,11 +44,11 @@ class Controls(Mapping[str, float]):
 
     @property
     def supported(self) -> frozenset[str]:
-        """Those that are driven at this level of detail; the others are always 0."""
+        """The controls that this level of detail predicts; the others are 0."""
         return frozenset(name for name, i in CONTROL_NUMBERS.items() if self._supported >> i & 1)
 
     def to(self, vocabulary: str) -> dict[str, float]:
-        """The same face in another vocabulary, one of VOCABULARIES."""
+        """The controls in another vocabulary, one of VOCABULARIES."""
         names = vocabulary_names(vocabulary)
         controls = np.ascontiguousarray(self.array, np.float32)
         if controls.shape != (CONTROL_COUNT,):
@@ -69,7 +69,7 @@ class Pose(NamedTuple):
 
 
 class Result:
-    """One face on one frame. It owns its memory: keep as many as you like. Arrays are views of it."""
+    """One face on one frame. Owns its memory; arrays are views of it."""
 
     __slots__ = ("_raw",)
 
@@ -95,7 +95,7 @@ class Result:
 
     @property
     def face_id(self) -> int:
-        """Counts the faces found, from 1; 0 before any."""
+        """Number of the face, from 1 in the order of detection; 0 before the first."""
         return int(self._raw.face_id)
 
     @property
@@ -109,17 +109,17 @@ class Result:
 
     @property
     def voice_activity(self) -> float:
-        """0..1: how much somebody speaks; 0 without sound."""
+        """0..1: voice activity; 0 without audio."""
         return float(self._raw.voice_activity)
 
     @property
     def is_capturing_neutral(self) -> bool:
-        """Whether this frame counts for Tracker.calibrate."""
+        """Whether this frame contributes to Tracker.calibrate."""
         return bool(self._raw.flags & 0x10)
 
     @property
     def box(self) -> Floats:
-        """x, y, width, height in pixels of the upright picture."""
+        """x, y, width, height in pixels of the upright image."""
         return self._floats("box", 4)
 
     @property
@@ -128,7 +128,7 @@ class Result:
 
     @property
     def landmarks(self) -> Floats:
-        """[175, 2]: x, y in pixels of the upright picture."""
+        """[175, 2]: x, y in pixels of the upright image."""
         return self._floats("landmarks", 2 * LANDMARK_COUNT).reshape(LANDMARK_COUNT, 2)
 
     @property

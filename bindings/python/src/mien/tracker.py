@@ -1,4 +1,4 @@
-"""Trackers: pictures and sound in, results out."""
+"""Trackers: images and audio in, results out."""
 
 from __future__ import annotations
 
@@ -23,19 +23,19 @@ Samples = Union[npt.NDArray[np.float32], npt.NDArray[np.int16]]
 Color = Literal["bgr", "rgb", "nv12", "nv21", "i420"]
 Lod = Literal["auto", 1, 2, 3, 4]
 
-# mien_image_format by color and bytes a pixel.
+# mien_image_format by color and bytes per pixel.
 _PACKED = {("gray", 1): 0, ("rgb", 3): 1, ("bgr", 3): 2, ("rgb", 4): 3, ("bgr", 4): 4}
 _YUV = {"nv12": 5, "nv21": 6, "i420": 7}
 
 
 class Tracker(Handle):
-    """Follows faces through a stream of pictures, and hears a voice. Used by one thread at a time, but for queue_audio.
+    """Tracks faces in a stream of images and audio. One thread at a time may use it, except for queue_audio.
 
-    lod: level of detail, 1 (cheapest) to 4, or "auto": as high as budget_ms a frame allows.
-    max_faces: 1..8. sound: whether it can hear. smoothing: of what hardly moves.
-    horizontal_fov: of the upright picture, radians; default 60 degrees.
-    audio_queue_samples: room for sound that another thread brings (queue_audio).
-    voice_strength: what the sound says of the mouth, times this, 0 to 4.
+    lod: level of detail, 1 (fastest) to 4 (most accurate), or "auto": the highest within budget_ms per frame.
+    max_faces: 1..8. sound: whether to use audio. smoothing: of controls, landmarks and pose that hardly move.
+    horizontal_fov: horizontal field of view of the upright image, radians; default 60 degrees.
+    audio_queue_samples: capacity of the audio queue (queue_audio), in samples of one channel; 0: no queue.
+    voice_strength: factor of the controls predicted from audio, 0 to 4.
     models: a folder with other weights than the package's own.
     """
 
@@ -58,7 +58,7 @@ class Tracker(Handle):
         folder = MODELS if models is None else Path(models)
         config = TrackerConfig()
         function("mien_tracker_config_default")(byref(config))
-        # They have to stay as long as the tracker does.
+        # They must outlive the tracker.
         self._weights = {
             name: mapped(folder / f"{name}.mien")
             for name in ("basenet", "proposal", "hifinet", "audionet")
@@ -77,13 +77,13 @@ class Tracker(Handle):
         config.voice_strength = voice_strength
         if horizontal_fov is not None:
             config.horizontal_fov = horizontal_fov
-        if lod == "auto":  # needs a clock to know what a frame takes
+        if lod == "auto":  # needs a clock to measure frames
             self._clock = _CLOCK
             config.clock_ns = ctypes.cast(_CLOCK, c_void_p)
         check(function("mien_tracker_create")(byref(config), byref(self._handle)))
         self._push_video = function("mien_tracker_push_video")
         self._get_result = function("mien_tracker_get_result")
-        self._facts: tuple[Any, ...] = ()  # about pictures, as self._image has them
+        self._facts: tuple[Any, ...] = ()  # of the images described by self._image
         self._image = Image()
         function("mien_image_default")(byref(self._image))
 
@@ -102,21 +102,21 @@ class Tracker(Handle):
         principal_point: tuple[float, float] = (0.0, 0.0),
         pixel_aspect: float = 1.0,
     ) -> Result:
-        """Tracks one picture and tells of the face known longest.
+        """Tracks one image and returns the result of the face with the lowest id.
 
-        frame: uint8, [height, width] grey, [height, width, 3 or 4] in the order `color` ("bgr" or "rgb"), or, as OpenCV lays
-            YUV out, [height * 3 / 2, width] of "nv12", "nv21" or "i420". Read where it lies, never copied; rows may be apart
-            (a part of a larger picture), or bottom-up (frame[::-1]), but pixels of a row may not.
-        time_s: of the picture, on any clock.
-        rotation: degrees clockwise that make it upright. mirrored: a selfie.
-        region: x, y, width, height in pixels of the frame: all that is looked at.
-        pixel_aspect: width of a pixel / its height, 0.1 to 10; results are in square pixels: the upright picture keeps its height.
+        frame: uint8, [height, width] grey, [height, width, 3 or 4] in the order `color` ("bgr" or "rgb"), or, in
+            OpenCV's layout of YUV, [height * 3 / 2, width] of "nv12", "nv21" or "i420". Read without a copy. Rows may have
+            gaps (a part of a larger image) or be bottom-up (frame[::-1]); pixels of a row must be contiguous.
+        time_s: timestamp of the image in seconds, on any clock.
+        rotation: clockwise rotation to upright, degrees. mirrored: the image mirrors the scene (selfie camera).
+        region: x, y, width, height in pixels of the frame; nothing outside it is read.
+        pixel_aspect: width of a pixel / its height, 0.1 to 10; results are in square pixels: the upright image keeps its height.
         """
         image = self._image
         _describe(image, frame, color)
         place = _NOWHERE if region is None else tuple(region)
         facts = (rotation, mirrored, full_range, bt709, place, focal_length_px, *principal_point, pixel_aspect)
-        if facts != self._facts:  # which most frames share, and to check them takes longer than to compare
+        if facts != self._facts:  # most frames have equal facts, and comparing is faster than checking
             self._facts = ()
             image.rotation = rotation
             image.mirrored = bool(mirrored)
@@ -130,12 +130,12 @@ class Tracker(Handle):
         return self.result()
 
     def advance(self, time_s: float) -> Result:
-        """A frame of output without a picture: for sound alone."""
+        """Outputs a frame without an image, for audio without video."""
         check(function("mien_tracker_advance")(self._open(), nanoseconds(time_s)))
         return self.result()
 
     def result(self) -> Result:
-        """Of the last picture, of the face known longest."""
+        """The result of the latest frame, of the face with the lowest id."""
         raw = TrackerResult(_RESULT_BYTES)
         status = self._get_result(self._open(), raw)
         if status != 0:
@@ -143,7 +143,7 @@ class Tracker(Handle):
         return Result(raw)
 
     def faces(self) -> list[Result]:
-        """Of the last picture, every face known."""
+        """The results of all known faces on the latest frame."""
         count = function("mien_tracker_face_count")(self._open())
         return [self._face(i) for i in range(count)]
 
@@ -153,30 +153,30 @@ class Tracker(Handle):
         return Result(raw)
 
     def push_audio(self, samples: Samples, time_s: float, sample_rate: int = 48000) -> None:
-        """Hears float32 (-1..1) or int16 samples, [n] or [n, channels]; time_s is that of the first."""
+        """Processes float32 (-1..1) or int16 samples, [n] or [n, channels]; time_s is the timestamp of the first."""
         check(function("mien_tracker_push_audio")(self._open(), byref(_audio(samples, sample_rate)), nanoseconds(time_s)))
 
     def queue_audio(self, samples: Samples, time_s: float, sample_rate: int = 48000) -> None:
-        """The same from another thread, for the next frame; errors.AudioQueueFullError when there is no room."""
+        """Queues audio from another thread for the next frame; errors.AudioQueueFullError if the queue is full."""
         check(function("mien_tracker_queue_audio")(self._open(), byref(_audio(samples, sample_rate)), nanoseconds(time_s)))
 
     def set_audio_offset(self, seconds: float) -> None:
-        """Sound pushed from now on belongs to pictures that much later."""
+        """Delays audio relative to the images, for audio pushed from now on."""
         check(function("mien_tracker_set_audio_offset")(self._open(), nanoseconds(seconds, "seconds")))
 
     def set_mix(self, control: str, audio: float, video: float) -> None:
-        """How much sound and picture count for a control while somebody speaks, each 0..1."""
+        """Weights of audio and video for a control during speech, each 0..1."""
         check(function("mien_tracker_set_mix")(self._open(), CONTROL_NUMBERS[control], audio, video))
 
     def set_lod(self, lod: Lod) -> None:
         check(function("mien_tracker_set_lod")(self._open(), 0 if lod == "auto" else lod))
 
     def calibrate(self) -> None:
-        """Captures, over the next 55 frames with a face, what it shows when it is neutral, to be taken out from then on."""
+        """Captures a person's neutral controls over the next 55 frames with a face, and removes them from later frames."""
         check(function("mien_tracker_capture_neutral")(self._open()))
 
     def save_neutral(self) -> bytes:
-        """What was captured, to be kept."""
+        """The captured neutral values as a file."""
         data = (ctypes.c_char * NEUTRAL_BYTES)()
         captured = c_uint32()
         check(function("mien_tracker_save_neutral")(self._open(), data, NEUTRAL_BYTES, byref(captured)))
@@ -186,7 +186,7 @@ class Tracker(Handle):
         check(function("mien_tracker_load_neutral")(self._open(), data, len(data)))
 
     def reset(self) -> None:
-        """Forgets everything seen and heard."""
+        """Resets the tracker to its state after creation."""
         check(function("mien_tracker_reset")(self._open()))
 
 
@@ -205,7 +205,7 @@ _CLOCK = _ClockFunction(_monotonic_ns)
 
 
 def _describe(image: Image, frame: Frame, color: str) -> None:
-    """Tells where the frame's pixels lie."""
+    """The address and layout of the frame's pixels."""
     if not isinstance(frame, np.ndarray) or frame.dtype != np.uint8:
         kind = f"an array of {frame.dtype}" if isinstance(frame, np.ndarray) else f"a {type(frame).__name__}"
         raise TypeError(f"a frame is a numpy array of uint8, not {kind}")

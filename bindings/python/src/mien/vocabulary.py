@@ -1,4 +1,4 @@
-"""Names of what a face does, in the library's own order and in those of others."""
+"""Names of controls, ARKit's and those of other vocabularies."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ __all__ = ["CONTROL_NAMES", "LANDMARK_COUNT", "VOCABULARIES", "vocabulary_names"
 CONTROL_NAMES: tuple[str, ...] = tuple(text("mien_control_name", i) or "" for i in range(CONTROL_COUNT))
 CONTROL_NUMBERS: Mapping[str, int] = MappingProxyType({name: i for i, name in enumerate(CONTROL_NAMES)})
 
-# As mien_vocabulary numbers them.
+# In the order of mien_vocabulary.
 VOCABULARIES: tuple[str, ...] = ("arkit", "mediapipe", "roblox", "vrm0", "vrm1", "visemes")
 
 

@@ -1,4 +1,4 @@
-"""Weight files, mapped into memory: nothing is copied, and processes share them."""
+"""Weight files, mapped into memory without a copy and shared between processes."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ Model = Union[str, Path, bytes]
 
 def mapped(path: Path) -> Bytes:
     with open(path, "rb") as file:
-        if path.stat().st_size == 0:  # which cannot be mapped
+        if path.stat().st_size == 0:  # cannot be mapped
             raise WeightsTruncatedError
         try:
             pages = mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)
@@ -31,7 +31,7 @@ def mapped(path: Path) -> Bytes:
 
 
 def aligned(data: bytes) -> Bytes:
-    """A copy that lies as the library wants it."""
+    """A copy with the alignment that the library needs."""
     if not data:
         raise WeightsTruncatedError
     room = np.empty(len(data) + ALIGNMENT, np.uint8)

@@ -3,7 +3,7 @@ use std::marker::PhantomData;
 use crate::image::number;
 use crate::Error;
 
-/// A block of sound that somebody else owns, of any length.
+/// An audio block of any length in the caller's memory.
 #[derive(Clone, Copy)]
 pub struct Audio<'a> {
     raw: mien_sys::mien_audio,
@@ -11,7 +11,7 @@ pub struct Audio<'a> {
 }
 
 impl<'a> Audio<'a> {
-    /// -1..1, `channels` of them in turns; their mean is heard.
+    /// -1..1, interleaved; the tracker uses the mean of the `channels`.
     pub fn float(samples: &'a [f32], channels: usize, sample_rate: u32) -> Result<Self, Error> {
         Self::of(0, samples.as_ptr().cast(), samples.len(), channels, sample_rate)
     }
@@ -22,7 +22,7 @@ impl<'a> Audio<'a> {
     }
 
     fn of(format: i32, place: *const std::ffi::c_void, samples: usize, channels: usize, sample_rate: u32) -> Result<Self, Error> {
-        // Safety: plain numbers and pointers, which the library fills in.
+        // Safety: plain numbers and pointers, which the library initializes.
         let mut raw: mien_sys::mien_audio = unsafe { std::mem::zeroed() };
         unsafe { mien_sys::mien_audio_default(&mut raw) };
         raw.format = format;

@@ -3,14 +3,14 @@ use std::{fmt, io};
 
 macro_rules! statuses {
     ($($name:ident = $number:literal),* $(,)?) => {
-        /// What the library answers when it cannot: `MIEN_ERROR_*` of `mien.h`.
-        #[allow(missing_docs)] // their text says it
+        /// Errors of the library: `MIEN_ERROR_*` of `mien.h`.
+        #[allow(missing_docs)] // their messages describe them
         #[non_exhaustive]
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
         pub enum Status { $($name),*, Unknown(i32) }
 
         impl Status {
-            /// All that this version knows.
+            /// All statuses of this version.
             pub const ALL: &'static [Status] = &[$(Status::$name),*];
 
             /// As in `mien.h`.
@@ -41,20 +41,20 @@ impl fmt::Display for Status {
     }
 }
 
-/// Everything that can go wrong.
+/// Errors of this crate.
 #[non_exhaustive]
 #[derive(Debug)]
 pub enum Error {
-    /// The library refused.
+    /// An error of the library.
     Status(Status),
-    /// What was given does not fit together, which this crate notices before the library has it.
+    /// Invalid input that this crate detects before it calls the library.
     Input(String),
     /// A weight file could not be read.
     File(PathBuf, io::Error),
 }
 
 impl Error {
-    /// The library's, where it was the library.
+    /// The status of the library, if the error comes from it.
     pub fn status(&self) -> Option<Status> {
         match self {
             Error::Status(status) => Some(*status),

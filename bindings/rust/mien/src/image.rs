@@ -2,7 +2,7 @@ use std::ffi::c_void;
 
 use crate::Error;
 
-/// How far a picture has to be turned clockwise to be upright.
+/// Clockwise rotation of an image to upright.
 #[allow(missing_docs)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Rotation {
@@ -13,7 +13,7 @@ pub enum Rotation {
     Clockwise270,
 }
 
-/// A part of a picture, in its pixels, before it is turned.
+/// A region of an image, in pixels of the buffer before rotation.
 #[allow(missing_docs)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Region {
@@ -23,51 +23,51 @@ pub struct Region {
     pub height: i32,
 }
 
-/// A picture that somebody else owns: it is read where it lies, never copied.
+/// An image in the caller's memory, read without a copy.
 ///
-/// Each maker takes width and height, and for every plane its bytes and the bytes from one row to the next. What does not fit into the
-/// bytes is an error.
+/// Constructors take width and height, and for each plane its bytes and the bytes from one row to the next. Planes that are too short are
+/// an error.
 #[derive(Clone, Copy)]
 pub struct Image<'a> {
     raw: mien_sys::mien_image,
     owner: std::marker::PhantomData<&'a [u8]>,
 }
 
-/// A plane: its bytes, bytes a row, and how many of a row are read.
+/// A plane: its bytes, bytes per row, and bytes of a row that are read.
 type Plane<'a> = (&'a [u8], usize, usize);
 
 impl<'a> Image<'a> {
-    /// 1 byte a pixel.
+    /// 1 byte per pixel.
     pub fn gray(width: usize, height: usize, bytes: &'a [u8], row_bytes: usize) -> Result<Self, Error> {
         Self::of(0, width, height, &[(bytes, row_bytes, width)])
     }
 
-    /// 3 bytes a pixel.
+    /// 3 bytes per pixel.
     pub fn rgb(width: usize, height: usize, bytes: &'a [u8], row_bytes: usize) -> Result<Self, Error> {
         Self::of(1, width, height, &[(bytes, row_bytes, width.saturating_mul(3))])
     }
 
-    /// 3 bytes a pixel.
+    /// 3 bytes per pixel.
     pub fn bgr(width: usize, height: usize, bytes: &'a [u8], row_bytes: usize) -> Result<Self, Error> {
         Self::of(2, width, height, &[(bytes, row_bytes, width.saturating_mul(3))])
     }
 
-    /// 4 bytes a pixel, of which the last is ignored.
+    /// 4 bytes per pixel; the last is ignored.
     pub fn rgba(width: usize, height: usize, bytes: &'a [u8], row_bytes: usize) -> Result<Self, Error> {
         Self::of(3, width, height, &[(bytes, row_bytes, width.saturating_mul(4))])
     }
 
-    /// 4 bytes a pixel, of which the last is ignored.
+    /// 4 bytes per pixel; the last is ignored.
     pub fn bgra(width: usize, height: usize, bytes: &'a [u8], row_bytes: usize) -> Result<Self, Error> {
         Self::of(4, width, height, &[(bytes, row_bytes, width.saturating_mul(4))])
     }
 
-    /// Luma, and U and V in turns.
+    /// Luma, then U and V interleaved.
     pub fn nv12(width: usize, height: usize, y: (&'a [u8], usize), uv: (&'a [u8], usize)) -> Result<Self, Error> {
         Self::of(5, width, height, &[(y.0, y.1, width), (uv.0, uv.1, chroma(width).saturating_mul(2))])
     }
 
-    /// Luma, and V and U in turns.
+    /// Luma, then V and U interleaved.
     pub fn nv21(width: usize, height: usize, y: (&'a [u8], usize), vu: (&'a [u8], usize)) -> Result<Self, Error> {
         Self::of(6, width, height, &[(y.0, y.1, width), (vu.0, vu.1, chroma(width).saturating_mul(2))])
     }
@@ -90,7 +90,7 @@ impl<'a> Image<'a> {
     }
 
     fn of(format: i32, width: usize, height: usize, planes: &[Plane<'a>]) -> Result<Self, Error> {
-        // Safety: plain numbers and pointers, which the library fills in.
+        // Safety: plain numbers and pointers, which the library initializes.
         let mut raw: mien_sys::mien_image = unsafe { std::mem::zeroed() };
         unsafe { mien_sys::mien_image_default(&mut raw) };
         raw.format = format;
@@ -108,42 +108,42 @@ impl<'a> Image<'a> {
         Ok(Image { raw, owner: std::marker::PhantomData })
     }
 
-    /// To be turned before it is looked at.
+    /// Sets the rotation to upright.
     #[must_use]
     pub fn rotated(mut self, rotation: Rotation) -> Self {
         self.raw.rotation = 90 * rotation as i32;
         self
     }
 
-    /// A mirror image of the scene, a selfie.
+    /// The image mirrors the scene (selfie camera).
     #[must_use]
     pub fn mirrored(mut self) -> Self {
         self.raw.mirrored = 1;
         self
     }
 
-    /// Of grey and YUV: luma is 16..235, as films have it; else 0..255.
+    /// Grey and YUV: video range, luma 16..235; otherwise 0..255.
     #[must_use]
     pub fn video_range(mut self) -> Self {
         self.raw.full_range = 0;
         self
     }
 
-    /// YUV is that of BT.709; else BT.601.
+    /// YUV uses BT.709; otherwise BT.601.
     #[must_use]
     pub fn bt709(mut self) -> Self {
         self.raw.yuv_matrix = 1;
         self
     }
 
-    /// Nothing else is looked at.
+    /// Sets the region of interest; nothing outside it is read.
     #[must_use]
     pub fn region(mut self, region: Region) -> Self {
         self.raw.region = [region.x, region.y, region.width, region.height];
         self
     }
 
-    /// What is known of the camera, in pixels of the upright picture; a principal point of 0, 0 is the centre.
+    /// Focal length and principal point in pixels of the upright image; a principal point of 0, 0 means the centre.
     #[must_use]
     pub fn camera(mut self, focal_length_px: f32, principal_point: (f32, f32)) -> Self {
         self.raw.focal_length_px = focal_length_px;
@@ -151,7 +151,7 @@ impl<'a> Image<'a> {
         self
     }
 
-    /// Width of a pixel / its height, 0.1 to 10. Results are in square pixels: the upright picture keeps its height.
+    /// Width of a pixel / its height, 0.1 to 10. Results are in square pixels: the upright image keeps its height.
     #[must_use]
     pub fn pixel_aspect(mut self, aspect: f32) -> Self {
         self.raw.pixel_aspect = aspect;
@@ -163,7 +163,7 @@ impl<'a> Image<'a> {
     }
 }
 
-/// Of so many pixels.
+/// Sets the size in pixels.
 fn chroma(side: usize) -> usize {
     side / 2 + side % 2
 }

@@ -28,7 +28,7 @@ pub fn version() -> &'static str {
     unsafe { vocabulary::text(mien_sys::mien_version()) }.unwrap_or_default()
 }
 
-/// `as` would make the largest number of what does not fit, and 0 of what is no number.
+/// `as` would saturate out-of-range numbers and convert NaN to 0.
 fn nanoseconds(seconds: f64) -> Result<i64, Error> {
     const END: f64 = 9_223_372_036_854_775_808.0; // 2^63
     let ns = (seconds * 1e9).round();

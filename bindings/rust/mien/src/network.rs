@@ -4,8 +4,8 @@ use crate::error::check;
 use crate::image::number;
 use crate::{Error, Model};
 
-const BLOCK: usize = 8; // channels that lie together
-const INTERLEAVED: usize = 4; // an input of up to so many channels lies as a picture does
+const BLOCK: usize = 8; // channels stored together
+const INTERLEAVED: usize = 4; // an input of up to this number of channels is stored as an image
 
 /// Of a map.
 #[allow(missing_docs)]
@@ -31,21 +31,21 @@ impl Shape {
     }
 }
 
-/// A network of your own, of a weight file that `scripts/convert/onnx_to_mien.py` made, ready to run.
+/// A custom network of a weight file, for example from `scripts/convert/onnx_to_mien.py`.
 pub struct Network {
     raw: *mut mien_sys::mien_network,
     input_shape: Shape,
     _model: Model,
 }
 
-// Safety: used by one thread at a time, whichever.
+// Safety: any thread may use it, one at a time.
 unsafe impl Send for Network {}
 
 impl Network {
-    /// `name`: of the network in the file; its first where `None`. `size`: height and width, for networks that take several.
+    /// `name`: of the network in the file; its first where `None`. `size`: height and width, for networks that accept several.
     pub fn new(model: &Model, name: Option<&str>, size: Option<(usize, usize)>) -> Result<Network, Error> {
         let name = name.map(CString::new).transpose().map_err(|_| Error::Input("a name with a zero in it".into()))?;
-        // Safety: plain numbers and pointers, which the library fills in.
+        // Safety: plain numbers and pointers, which the library initializes.
         let mut config: mien_sys::mien_network_config = unsafe { std::mem::zeroed() };
         unsafe { mien_sys::mien_network_config_default(&mut config) };
         (config.file, config.file_bytes) = (model.place(), model.bytes());
@@ -60,12 +60,12 @@ impl Network {
         Ok(Network { raw, input_shape: Shape::of(shape), _model: model.clone() })
     }
 
-    /// What [`run`](Network::run) takes.
+    /// Shape of the input of [`run`](Network::run).
     pub fn input_shape(&self) -> Shape {
         self.input_shape
     }
 
-    /// One run, one step of a network over time. `[channels][height][width]` goes in, every output comes out so, with its shape.
+    /// Runs the network once, one step of a temporal network. Input and outputs are `[channels][height][width]`; outputs come with their shapes.
     pub fn run(&mut self, input: &[f32]) -> Result<Vec<(Shape, Vec<f32>)>, Error> {
         let shape = self.input_shape;
         if input.len() != shape.size() {
@@ -75,7 +75,7 @@ impl Network {
         let picture = shape.channels <= INTERLEAVED && pixels > 1;
         let step = if picture { shape.channels } else { BLOCK };
         let elements = if picture { shape.size() } else { shape.blocks() * pixels * BLOCK };
-        // Safety: so many numbers are there (mien/engine.h, Layout), and nobody else has them.
+        // Safety: the buffer has this size (mien/engine.h, Layout) and no other reference.
         let to = unsafe { std::slice::from_raw_parts_mut(mien_sys::mien_network_input(self.raw, std::ptr::null_mut()), elements) };
         for (channel, plane) in input.chunks_exact(pixels).enumerate() {
             let first = channel / step * pixels * step + channel % step;
@@ -91,13 +91,13 @@ impl Network {
         let place = unsafe { mien_sys::mien_network_output(self.raw, index, &mut raw) };
         let shape = Shape::of(raw);
         let pixels = shape.height * shape.width;
-        // Safety: so many numbers are there, until the next run.
+        // Safety: the buffer has this size and is valid until the next run.
         let from = unsafe { std::slice::from_raw_parts(place, shape.blocks() * pixels * BLOCK) };
         let of_channel = |channel| (0..pixels).map(move |pixel| from[(channel / BLOCK * pixels + pixel) * BLOCK + channel % BLOCK]);
         (shape, (0..shape.channels).flat_map(of_channel).collect())
     }
 
-    /// Puts what a network over time remembers back to a stream's beginning.
+    /// Resets the state of temporal layers to the start of a stream.
     pub fn reset(&mut self) {
         unsafe { mien_sys::mien_network_reset(self.raw) }
     }
@@ -105,7 +105,7 @@ impl Network {
 
 impl Drop for Network {
     fn drop(&mut self) {
-        // Safety: made by mien_network_create, and nobody else has it.
+        // Safety: created by mien_network_create, without another owner.
         unsafe { mien_sys::mien_network_destroy(self.raw) }
     }
 }

@@ -5,11 +5,11 @@ use crate::vocabulary::{control_names, control_number, Vocabulary};
 /// Whether there is a face.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FaceStatus {
-    /// None since the beginning.
+    /// No face since the start or reset.
     Searching,
-    /// It is followed.
+    /// The face is tracked.
     Tracking,
-    /// It is gone: its last place stays, its controls fade.
+    /// The face is lost: it keeps its last position, and its controls fade.
     Lost,
 }
 
@@ -22,7 +22,7 @@ pub struct Controls {
 }
 
 impl Controls {
-    /// By ARKit name; `None` where there is no such control.
+    /// By ARKit name; `None` for an unknown name.
     pub fn get(&self, name: &str) -> Option<f32> {
         control_number(name).map(|i| self.array[i])
     }
@@ -32,16 +32,16 @@ impl Controls {
         control_names().zip(self.array.iter().copied())
     }
 
-    /// Names of those that are driven at this level of detail; the others are always 0.
+    /// Names of the controls that this level of detail predicts; the others are 0.
     pub fn supported(&self) -> impl Iterator<Item = &'static str> + '_ {
         control_names().enumerate().filter(|(i, _)| self.supported >> i & 1 != 0).map(|(_, name)| name)
     }
 
-    /// The same face in other words, in the order of [`Vocabulary::names`].
+    /// The controls in another vocabulary, in the order of [`Vocabulary::names`].
     pub fn to(&self, vocabulary: Vocabulary) -> Vec<f32> {
         let mut values = vec![0.0; vocabulary.names().len()];
         let count = values.len() as i32;
-        // Safety: both arrays are as long as the library has to have them.
+        // Safety: both arrays have the lengths that the library expects.
         let status = unsafe { mien_sys::mien_vocabulary_values(vocabulary as i32, self.array.as_ptr(), values.as_mut_ptr(), count) };
         debug_assert_eq!(status, mien_sys::MIEN_OK);
         values
@@ -76,7 +76,7 @@ pub struct FaceResult(pub(crate) mien_sys::mien_result);
 
 impl FaceResult {
     pub(crate) fn empty() -> FaceResult {
-        // Safety: plain numbers, which the library fills in.
+        // Safety: plain numbers, which the library initializes.
         let mut raw: mien_sys::mien_result = unsafe { std::mem::zeroed() };
         unsafe { mien_sys::mien_result_default(&mut raw) };
         FaceResult(raw)
@@ -91,17 +91,17 @@ impl FaceResult {
         }
     }
 
-    /// Whether it is followed.
+    /// Whether the face is tracked.
     pub fn has_face(&self) -> bool {
         self.status() == FaceStatus::Tracking
     }
 
-    /// Of the picture, seconds.
+    /// Timestamp of the frame, seconds.
     pub fn time_s(&self) -> f64 {
         self.0.pts_ns as f64 / 1e9
     }
 
-    /// Counts the faces found, from 1; 0 before any.
+    /// Number of the face, from 1 in the order of detection; 0 before the first.
     pub fn face_id(&self) -> u32 {
         self.0.face_id
     }
@@ -111,22 +111,22 @@ impl FaceResult {
         self.0.lod
     }
 
-    /// 0..1, of the crop judged last.
+    /// 0..1, of the latest crop.
     pub fn face_probability(&self) -> f32 {
         self.0.face_probability
     }
 
-    /// 0..1: how much somebody speaks; 0 without sound.
+    /// 0..1: voice activity; 0 without audio.
     pub fn voice_activity(&self) -> f32 {
         self.0.voice_activity
     }
 
-    /// Whether this frame counts for [`Tracker::calibrate`](crate::Tracker::calibrate).
+    /// Whether this frame contributes to [`Tracker::calibrate`](crate::Tracker::calibrate).
     pub fn is_capturing_neutral(&self) -> bool {
         self.0.flags & mien_sys::MIEN_RESULT_CAPTURING_NEUTRAL != 0
     }
 
-    /// x, y, width, height in pixels of the upright picture.
+    /// x, y, width, height in pixels of the upright image.
     pub fn bounds(&self) -> [f32; 4] {
         self.0.r#box
     }
@@ -136,12 +136,12 @@ impl FaceResult {
         Controls { array: self.0.controls, supported: self.0.supported_controls }
     }
 
-    /// x, y in pixels of the upright picture.
+    /// x, y in pixels of the upright image.
     pub fn landmarks(&self) -> &[[f32; 2]; mien_sys::MIEN_LANDMARK_COUNT] {
         &self.0.landmarks
     }
 
-    /// Where the head is.
+    /// The head pose.
     pub fn pose(&self) -> Pose {
         let raw = &self.0;
         Pose { rotation: raw.rotation, translation: raw.translation, pitch: raw.pitch, yaw: raw.yaw, roll: raw.roll }

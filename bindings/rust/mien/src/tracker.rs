@@ -11,10 +11,10 @@ use crate::{nanoseconds, Audio, Error, FaceResult, Image, Weights};
 /// Level of detail.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Lod {
-    /// As high as `Options::budget_ms` a frame allows.
+    /// Automatic: the highest level within `Options::budget_ms` per frame.
     #[default]
     Auto,
-    /// 1, the cheapest, to 4.
+    /// 1 (fastest) to 4 (most accurate).
     Level(u8),
 }
 
@@ -28,22 +28,22 @@ impl Lod {
     }
 }
 
-/// What a tracker is asked for.
+/// Options of a tracker.
 #[derive(Clone, Debug)]
 pub struct Options {
     /// Level of detail.
     pub lod: Lod,
-    /// Faces followed at once, 1..8.
+    /// Maximum number of faces, 1..8.
     pub max_faces: i32,
-    /// Of what hardly moves.
+    /// Smooths controls, landmarks and pose while they hardly move.
     pub smoothing: bool,
     /// For [`Lod::Auto`].
     pub budget_ms: f32,
-    /// Of the upright picture, radians, where pictures do not say a focal length; 60 degrees where `None`.
+    /// Horizontal field of view of the upright image, for images without a focal length, in radians; `None`: 60 degrees.
     pub horizontal_fov: Option<f32>,
-    /// Room for sound that another thread brings ([`Tracker::audio_queue`]), in samples.
+    /// Capacity of the audio queue ([`Tracker::audio_queue`]), in samples of one channel; 0: no queue.
     pub audio_queue_samples: i32,
-    /// What the sound says of the mouth, times this, 0..4.
+    /// Factor of the controls predicted from audio, 0..4.
     pub voice_strength: f32,
 }
 
@@ -61,24 +61,24 @@ impl Default for Options {
     }
 }
 
-/// The library's tracker. Ends when neither tracker nor queue is left.
+/// The library's tracker. Destroyed when both tracker and queue are dropped.
 struct Handle {
     raw: *mut mien_sys::mien_tracker,
-    _weights: Weights, // which have to stay as long
+    _weights: Weights, // kept alive as long as this object
 }
 
-// Safety: Tracker and AudioQueue call as the library lets two threads call: all else from one at a time, queue_audio from another.
+// Safety: the library allows queue_audio on one thread while another uses the tracker.
 unsafe impl Send for Handle {}
 unsafe impl Sync for Handle {}
 
 impl Drop for Handle {
     fn drop(&mut self) {
-        // Safety: made by mien_tracker_create, and nobody else has it.
+        // Safety: created by mien_tracker_create, without another owner.
         unsafe { mien_sys::mien_tracker_destroy(self.raw) }
     }
 }
 
-/// Follows faces through a stream of pictures, and hears a voice. May go from thread to thread.
+/// Tracks faces in a stream of images and audio. May move between threads.
 pub struct Tracker {
     handle: Arc<Handle>,
     queue_taken: bool,
@@ -93,7 +93,7 @@ extern "C" fn clock_ns(_: *mut c_void) -> u64 {
 impl Tracker {
     /// A tracker, of the best that the weights allow.
     pub fn new(weights: &Weights, options: Options) -> Result<Tracker, Error> {
-        // Safety: plain numbers and pointers, which the library fills in.
+        // Safety: plain numbers and pointers, which the library initializes.
         let mut config: mien_sys::mien_tracker_config = unsafe { std::mem::zeroed() };
         unsafe { mien_sys::mien_tracker_config_default(&mut config) };
         (config.basenet, config.basenet_bytes) = (weights.basenet.place(), weights.basenet.bytes());
@@ -119,27 +119,27 @@ impl Tracker {
         Ok(Tracker { handle, queue_taken: false, _one_thread: PhantomData })
     }
 
-    /// Tracks one picture and tells of the face known longest. `time_s`: of the picture, on any clock.
+    /// Tracks one image and returns the result of the face with the lowest id. `time_s`: timestamp of the image in seconds, on any clock.
     pub fn track(&mut self, image: &Image, time_s: f64) -> Result<FaceResult, Error> {
-        // Safety: what the image describes was held against what it borrows.
+        // Safety: the constructors checked the sizes of the borrowed planes.
         check(unsafe { mien_sys::mien_tracker_push_video(self.handle.raw, image.raw(), nanoseconds(time_s)?) })?;
         self.result()
     }
 
-    /// A frame of output without a picture: for sound alone.
+    /// Outputs a frame without an image, for audio without video.
     pub fn advance(&mut self, time_s: f64) -> Result<FaceResult, Error> {
         check(unsafe { mien_sys::mien_tracker_advance(self.handle.raw, nanoseconds(time_s)?) })?;
         self.result()
     }
 
-    /// Of the last picture, of the face known longest.
+    /// The result of the latest frame, of the face with the lowest id.
     pub fn result(&self) -> Result<FaceResult, Error> {
         let mut result = FaceResult::empty();
         check(unsafe { mien_sys::mien_tracker_get_result(self.handle.raw, &mut result.0) })?;
         Ok(result)
     }
 
-    /// Of the last picture, every face known.
+    /// The results of all known faces on the latest frame.
     pub fn faces(&self) -> Result<Vec<FaceResult>, Error> {
         let count = unsafe { mien_sys::mien_tracker_face_count(self.handle.raw) };
         let face = |i| {
@@ -150,39 +150,39 @@ impl Tracker {
         (0..count).map(face).collect()
     }
 
-    /// Hears a block of sound. `time_s`: of its first sample, on the clock of the pictures.
+    /// Processes an audio block. `time_s`: timestamp of its first sample in seconds, on the clock of the images.
     pub fn push_audio(&mut self, audio: &Audio, time_s: f64) -> Result<(), Error> {
         check(unsafe { mien_sys::mien_tracker_push_audio(self.handle.raw, audio.raw(), nanoseconds(time_s)?) })
     }
 
-    /// The end for the thread of a microphone; there is one, and only where `Options::audio_queue_samples` made room.
+    /// The writing end of the audio queue, for a microphone's thread; available once, if `Options::audio_queue_samples` is not 0.
     pub fn audio_queue(&mut self) -> Option<AudioQueue> {
         let first = !std::mem::replace(&mut self.queue_taken, true);
         first.then(|| AudioQueue { handle: Arc::clone(&self.handle), _one_thread: PhantomData })
     }
 
-    /// Sound pushed from now on belongs to pictures that much later.
+    /// Delays audio relative to the images, for audio pushed from now on.
     pub fn set_audio_offset(&mut self, seconds: f64) -> Result<(), Error> {
         check(unsafe { mien_sys::mien_tracker_set_audio_offset(self.handle.raw, nanoseconds(seconds)?) })
     }
 
-    /// How much sound and picture count for a control while somebody speaks, each 0..1.
+    /// Weights of audio and video for a control during speech, each 0..1.
     pub fn set_mix(&mut self, control: &str, audio: f32, video: f32) -> Result<(), Error> {
         let number = control_number(control).ok_or_else(|| Error::Input(format!("no control {control:?}")))?;
         check(unsafe { mien_sys::mien_tracker_set_mix(self.handle.raw, number as i32, audio, video) })
     }
 
-    /// From the next picture on.
+    /// Takes effect from the next image on.
     pub fn set_lod(&mut self, lod: Lod) -> Result<(), Error> {
         check(unsafe { mien_sys::mien_tracker_set_lod(self.handle.raw, lod.number()) })
     }
 
-    /// Captures, over the next 55 frames with a face, what it shows when it is neutral, to be taken out from then on.
+    /// Captures a person's neutral controls over the next 55 frames with a face, and removes them from later frames.
     pub fn calibrate(&mut self) -> Result<(), Error> {
         check(unsafe { mien_sys::mien_tracker_capture_neutral(self.handle.raw) })
     }
 
-    /// What was captured, to be kept.
+    /// The captured neutral values as a file.
     pub fn save_neutral(&self) -> Result<Vec<u8>, Error> {
         let mut file = vec![0; mien_sys::MIEN_NEUTRAL_BYTES];
         let place = file.as_mut_ptr().cast();
@@ -190,25 +190,25 @@ impl Tracker {
         Ok(file)
     }
 
-    /// Takes over what was saved.
+    /// Restores saved neutral values.
     pub fn load_neutral(&mut self, file: &[u8]) -> Result<(), Error> {
         check(unsafe { mien_sys::mien_tracker_load_neutral(self.handle.raw, file.as_ptr().cast(), file.len()) })
     }
 
-    /// Forgets everything seen and heard.
+    /// Resets the tracker to its state after creation.
     pub fn reset(&mut self) -> Result<(), Error> {
         check(unsafe { mien_sys::mien_tracker_reset(self.handle.raw) })
     }
 }
 
-/// Where a microphone's real-time thread leaves its sound: neither waits nor allocates. The tracker hears it with its next frame.
+/// The audio queue for a microphone's real-time thread: neither waits nor allocates. The tracker processes the audio with its next frame.
 pub struct AudioQueue {
     handle: Arc<Handle>,
     _one_thread: PhantomData<Cell<()>>,
 }
 
 impl AudioQueue {
-    /// As [`Tracker::push_audio`]. [`Status::AudioQueueFull`](crate::Status::AudioQueueFull): there is no room, nothing was taken.
+    /// As [`Tracker::push_audio`]. [`Status::AudioQueueFull`](crate::Status::AudioQueueFull): the queue is full, nothing was queued.
     pub fn push(&mut self, audio: &Audio, time_s: f64) -> Result<(), Error> {
         check(unsafe { mien_sys::mien_tracker_queue_audio(self.handle.raw, audio.raw(), nanoseconds(time_s)?) })
     }

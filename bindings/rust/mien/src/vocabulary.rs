@@ -1,14 +1,14 @@
 use std::ffi::CStr;
 use std::os::raw::c_char;
 
-/// The words of other houses for the same face.
+/// Names of controls in other standards.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Vocabulary {
-    /// 52: the controls as they are.
+    /// 52: the controls unchanged.
     Arkit,
-    /// 52: _neutral, always 0, and 51 by the alphabet.
+    /// 52: _neutral (always 0), then 51 alphabetically.
     MediaPipe,
-    /// 50: FACS of Roblox' FaceControls.
+    /// 50: FACS of Roblox's FaceControls.
     Roblox,
     /// 11 of VRM 0.
     Vrm0,
@@ -19,11 +19,11 @@ pub enum Vocabulary {
 }
 
 impl Vocabulary {
-    /// Every one.
+    /// All vocabularies.
     pub const ALL: [Vocabulary; 6] =
         [Vocabulary::Arkit, Vocabulary::MediaPipe, Vocabulary::Roblox, Vocabulary::Vrm0, Vocabulary::Vrm1, Vocabulary::Visemes];
 
-    /// Its names in their order, written as their owner does.
+    /// The names in order, spelled as in the standard.
     pub fn names(self) -> impl ExactSizeIterator<Item = &'static str> {
         // Safety: static strings of ASCII.
         let size = unsafe { mien_sys::mien_vocabulary_size(self as i32) };
@@ -41,7 +41,7 @@ pub(crate) fn control_number(name: &str) -> Option<usize> {
 }
 
 /// # Safety
-/// Null, or a string that stays.
+/// Null, or a static string.
 pub(crate) unsafe fn text(place: *const c_char) -> Option<&'static str> {
     if place.is_null() {
         return None;

@@ -8,7 +8,7 @@ use crate::Error;
 #[derive(Clone, Copy)]
 struct Line([u8; mien_sys::MIEN_ALIGNMENT]);
 
-/// A weight file in memory, where the library wants it. Cheap to clone: clones share the bytes.
+/// A weight file in aligned memory. Cheap to clone: clones share the bytes.
 #[derive(Clone)]
 pub struct Model {
     lines: Arc<[Line]>,
@@ -29,7 +29,7 @@ impl Model {
         read().map_err(|error| Error::file(path, error))
     }
 
-    /// Copies bytes that lie anywhere.
+    /// Copies bytes of any alignment.
     pub fn from_bytes(data: &[u8]) -> Model {
         let mut model = Model::room(data.len());
         model.bytes_mut().copy_from_slice(data);
@@ -44,7 +44,7 @@ impl Model {
     fn bytes_mut(&mut self) -> &mut [u8] {
         let bytes = self.bytes;
         let lines = Arc::get_mut(&mut self.lines).expect("a model that is being made has one owner");
-        // Safety: lines are bytes without gaps, and there are enough of them.
+        // Safety: lines are bytes without padding, and their size suffices.
         unsafe { std::slice::from_raw_parts_mut(lines.as_mut_ptr().cast(), bytes) }
     }
 
@@ -57,21 +57,21 @@ impl Model {
     }
 }
 
-/// What trackers know. Cheap to clone: trackers share the bytes.
+/// The weights of trackers. Cheap to clone: trackers share the bytes.
 #[derive(Clone)]
 pub struct Weights {
-    /// Landmarks, and level of detail 1.
+    /// For tracking and level of detail 1.
     pub basenet: Model,
-    /// Finds faces.
+    /// For detection.
     pub proposal: Model,
     /// Levels of detail 2 to 4.
     pub hifinet: Option<Model>,
-    /// Hears.
+    /// For audio.
     pub audionet: Option<Model>,
 }
 
 impl Weights {
-    /// The files of a folder, `models/` of the repository: basenet.mien and proposal.mien, and the others where they are.
+    /// The files of a folder, `models/` of the repository: basenet.mien and proposal.mien, and hifinet.mien and audionet.mien if present.
     pub fn open(folder: impl AsRef<Path>) -> Result<Weights, Error> {
         let folder = folder.as_ref();
         let wanted = |name: &str| Model::open(folder.join(name));

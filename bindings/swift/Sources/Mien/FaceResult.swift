@@ -1,10 +1,10 @@
 import CMien
 
 public enum FaceStatus: Int32 {
-  /// No face since the beginning.
+  /// No face since the start or reset.
   case searching = 0
   case tracking
-  /// The face is gone: its last place stays, its controls fade.
+  /// The face is lost: it keeps its last position, and its controls fade.
   case lost
 }
 
@@ -24,22 +24,22 @@ public struct FaceResult {
 
   public var status: FaceStatus { FaceStatus(rawValue: raw.status) ?? .searching }
   public var hasFace: Bool { status == .tracking }
-  /// Of the picture, seconds.
+  /// Timestamp of the frame, seconds.
   public var time: Double { Double(raw.pts_ns) / 1e9 }
-  /// Counts the faces found, from 1; 0 before any.
+  /// Number of the face, from 1 in the order of detection; 0 before the first.
   public var faceId: UInt32 { raw.face_id }
   /// The level of detail of this frame, 1...4.
   public var lod: Int32 { raw.lod }
   public var faceProbability: Float { raw.face_probability }
-  /// 0...1: how much somebody speaks; 0 without sound.
+  /// 0...1: voice activity; 0 without audio.
   public var voiceActivity: Float { raw.voice_activity }
-  /// Whether this frame counts for `Tracker.calibrate`.
+  /// Whether this frame contributes to `Tracker.calibrate`.
   public var isCapturingNeutral: Bool { raw.flags & 0x10 != 0 }
-  /// x, y, width, height in pixels of the upright picture.
+  /// x, y, width, height in pixels of the upright image.
   public var box: SIMD4<Float> { SIMD4(raw.box.0, raw.box.1, raw.box.2, raw.box.3) }
   public var controls: Controls { Controls(array: floats(of: raw.controls), supportedBits: raw.supported_controls) }
 
-  /// 175 of them, in pixels of the upright picture.
+  /// 175 of them, in pixels of the upright image.
   public var landmarks: [SIMD2<Float>] {
     let all = floats(of: raw.landmarks)
     return stride(from: 0, to: all.count, by: 2).map { SIMD2(all[$0], all[$0 + 1]) }
@@ -52,7 +52,7 @@ public struct FaceResult {
   }
 }
 
-/// Arrays of C are tuples here.
+/// C arrays are tuples in Swift.
 private func floats<T>(of tuple: T) -> [Float] {
   withUnsafeBytes(of: tuple) { Array($0.bindMemory(to: Float.self)) }
 }

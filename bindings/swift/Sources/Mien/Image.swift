@@ -1,10 +1,10 @@
 import CMien
 
-/// A picture that somebody else owns: it is read where it lies, never copied.
+/// An image in the caller's memory, read without a copy.
 public struct Image {
   var raw = mien_image()
 
-  /// Planes as `mien_image` of `mien.h` wants them, which have to stay during `Tracker.track`.
+  /// Planes as in `mien_image` of `mien.h`; must stay valid during `Tracker.track`.
   public init(
     format: mien_image_format, width: Int, height: Int, planes: [UnsafeRawPointer?], rowBytes: [Int], chromaPixelStride: Int = 0
   ) {
@@ -19,42 +19,42 @@ public struct Image {
     raw.chroma_pixel_stride_bytes = Int32(exactly: chromaPixelStride) ?? refused
   }
 
-  /// Degrees clockwise that make it upright: 0, 90, 180, 270.
+  /// Clockwise rotation to upright: 0, 90, 180, 270 degrees.
   public var rotation: Int32 {
     get { raw.rotation }
     set { raw.rotation = newValue }
   }
 
-  /// A mirror image of the scene, a selfie.
+  /// The image mirrors the scene (selfie camera).
   public var mirrored: Bool {
     get { raw.mirrored != 0 }
     set { raw.mirrored = newValue ? 1 : 0 }
   }
 
-  /// Of grey and YUV: luma is 0...255; else 16...235.
+  /// Grey and YUV: luma 0...255; otherwise video range, 16...235.
   public var fullRange: Bool {
     get { raw.full_range != 0 }
     set { raw.full_range = newValue ? 1 : 0 }
   }
 
-  /// YUV is that of BT.709; else BT.601.
+  /// YUV uses BT.709; otherwise BT.601.
   public var bt709: Bool {
     get { raw.yuv_matrix != 0 }
     set { raw.yuv_matrix = newValue ? 1 : 0 }
   }
 
-  /// x, y, width, height in its pixels: nothing else is looked at.
+  /// Region of interest: x, y, width, height in pixels of the buffer before rotation; nothing outside it is read.
   public mutating func setRegion(x: Int32, y: Int32, width: Int32, height: Int32) {
     raw.region = (x, y, width, height)
   }
 
-  /// Width of a pixel / its height, 0.1...10. Results are in square pixels: the upright picture keeps its height.
+  /// Width of a pixel / its height, 0.1...10. Results are in square pixels: the upright image keeps its height.
   public var pixelAspect: Float {
     get { raw.pixel_aspect == 0 ? 1 : raw.pixel_aspect }
     set { raw.pixel_aspect = newValue }
   }
 
-  /// In pixels of the upright picture; 0: not known.
+  /// In pixels of the upright image; 0: unknown.
   public var focalLength: Float {
     get { raw.focal_length_px }
     set { raw.focal_length_px = newValue }

@@ -1,10 +1,10 @@
 import CMien
 
-/// What goes wrong.
+/// Errors of this package.
 public enum MienError: Error, CustomStringConvertible {
-  /// The library refused; `status` is `mien_status` of `mien.h`.
+  /// An error of the library; `status` is `mien_status` of `mien.h`.
   case status(Int32)
-  /// What was given does not fit together.
+  /// Invalid input that this package detects before it calls the library.
   case input(String)
 
   public var description: String {

@@ -1,29 +1,29 @@
 import CMien
 import Foundation
 
-/// What a tracker is asked for.
+/// Options of a tracker.
 public struct TrackerOptions {
-  /// Level of detail, 1 (cheapest) to 4; 0: as high as `budgetMs` a frame allows.
+  /// Level of detail, 1 (fastest) to 4 (most accurate); 0: automatic, the highest within `budgetMs` per frame.
   public var lod: Int32 = 0
-  /// Faces followed at once, 1...8.
+  /// Maximum number of faces, 1...8.
   public var maxFaces: Int32 = 1
-  /// Of what hardly moves.
+  /// Smooths controls, landmarks and pose while they hardly move.
   public var smoothing = true
   public var budgetMs: Float = 10
-  /// Of the upright picture, radians, where pictures do not say a focal length; nil: 60 degrees.
+  /// Horizontal field of view of the upright image, for images without a focal length, in radians; nil: 60 degrees.
   public var horizontalFov: Float?
-  /// Room for sound that another thread brings (`Tracker.queueAudio`).
+  /// Capacity of the audio queue (`Tracker.queueAudio`), in samples of one channel; 0: no queue.
   public var audioQueueSamples: Int32 = 0
-  /// What the sound says of the mouth, times this, 0...4.
+  /// Factor of the controls predicted from audio, 0...4.
   public var voiceStrength: Float = 1
 
   public init() {}
 }
 
-/// Follows faces through a stream of pictures, and hears a voice. Used by one thread at a time, but for `queueAudio`.
+/// Tracks faces in a stream of images and audio. One thread at a time may use it, except for `queueAudio`.
 public final class Tracker {
   private let handle: OpaquePointer
-  private let weights: Weights  // which have to stay as long
+  private let weights: Weights  // kept alive as long as this object
 
   public init(weights: Weights, options: TrackerOptions = TrackerOptions()) throws {
     var config = mien_tracker_config()
@@ -52,20 +52,20 @@ public final class Tracker {
 
   deinit { mien_tracker_destroy(handle) }
 
-  /// Tracks one picture and tells of the face known longest. `time`: of the picture, seconds, on any clock.
+  /// Tracks one image and returns the result of the face with the lowest id. `time`: timestamp of the image in seconds, on any clock.
   public func track(_ image: Image, at time: Double) throws -> FaceResult {
     var raw = image.raw
     try check(mien_tracker_push_video(handle, &raw, nanoseconds(time)))
     return try result()
   }
 
-  /// A frame of output without a picture: for sound alone.
+  /// Outputs a frame without an image, for audio without video.
   public func advance(to time: Double) throws -> FaceResult {
     try check(mien_tracker_advance(handle, nanoseconds(time)))
     return try result()
   }
 
-  /// Of the last picture, of the face known longest.
+  /// The result of the latest frame, of the face with the lowest id.
   public func result() throws -> FaceResult {
     var raw = mien_result()
     mien_result_default(&raw)
@@ -73,7 +73,7 @@ public final class Tracker {
     return FaceResult(raw: raw)
   }
 
-  /// Of the last picture, every face known.
+  /// The results of all known faces on the latest frame.
   public func faces() throws -> [FaceResult] {
     try (0..<mien_tracker_face_count(handle)).map { index in
       var raw = mien_result()
@@ -83,24 +83,24 @@ public final class Tracker {
     }
   }
 
-  /// Hears samples of -1...1, channels in turns; `time` is that of the first.
+  /// Processes interleaved samples of -1...1; `time` is the timestamp of the first, in seconds.
   public func pushAudio(_ samples: UnsafeBufferPointer<Float>, channels: Int32 = 1, sampleRate: Int32 = 48000, at time: Double) throws {
     var audio = described(samples, channels, sampleRate)
     try check(mien_tracker_push_audio(handle, &audio, nanoseconds(time)))
   }
 
-  /// The same from a real-time thread, for the next frame. It neither waits nor allocates, unless there is no room and it throws.
+  /// Queues audio from a real-time thread for the next frame. Neither waits nor allocates, except to throw if the queue is full.
   public func queueAudio(_ samples: UnsafeBufferPointer<Float>, channels: Int32 = 1, sampleRate: Int32 = 48000, at time: Double) throws {
     var audio = described(samples, channels, sampleRate)
     try check(mien_tracker_queue_audio(handle, &audio, nanoseconds(time)))
   }
 
-  /// Sound pushed from now on belongs to pictures that much later.
+  /// Delays audio relative to the images, for audio pushed from now on.
   public func setAudioOffset(_ seconds: Double) throws {
     try check(mien_tracker_set_audio_offset(handle, nanoseconds(seconds)))
   }
 
-  /// How much sound and picture count for a control while somebody speaks, each 0...1.
+  /// Weights of audio and video for a control during speech, each 0...1.
   public func setMix(_ control: String, audio: Float, video: Float) throws {
     guard let number = Controls.names.firstIndex(of: control) else { throw MienError.input("no control '\(control)'") }
     try check(mien_tracker_set_mix(handle, Int32(number), audio, video))
@@ -108,10 +108,10 @@ public final class Tracker {
 
   public func setLod(_ lod: Int32) throws { try check(mien_tracker_set_lod(handle, lod)) }
 
-  /// Captures, over the next 55 frames with a face, what it shows when it is neutral, to be taken out from then on.
+  /// Captures a person's neutral controls over the next 55 frames with a face, and removes them from later frames.
   public func calibrate() throws { try check(mien_tracker_capture_neutral(handle)) }
 
-  /// What was captured, to be kept.
+  /// The captured neutral values as a file.
   public func saveNeutral() throws -> Data {
     var file = [UInt8](repeating: 0, count: Int(MIEN_NEUTRAL_BYTES))
     try check(mien_tracker_save_neutral(handle, &file, file.count, nil))
@@ -123,7 +123,7 @@ public final class Tracker {
     try check(mien_tracker_load_neutral(handle, bytes, bytes.count))
   }
 
-  /// Forgets everything seen and heard.
+  /// Resets the tracker to its state after creation.
   public func reset() throws { try check(mien_tracker_reset(handle)) }
 }
 

@@ -1,7 +1,7 @@
 import CMien
 import Foundation
 
-/// A weight file in memory, where the library wants it. Trackers may share one.
+/// A weight file in aligned memory. Trackers may share one.
 public final class Model {
   let bytes: UnsafeMutableRawBufferPointer
 
@@ -20,9 +20,9 @@ public final class Model {
   deinit { bytes.deallocate() }
 }
 
-/// What trackers know. They may share one.
+/// The weights of trackers. Several trackers may share them.
 public struct Weights {
-  /// Landmarks, and level of detail 1; finds faces; levels of detail 2 to 4; hears.
+  /// Tracking and level of detail 1; detection; levels of detail 2 to 4; audio.
   public var basenet, proposal: Model
   public var hifinet, audionet: Model?
 
@@ -30,7 +30,7 @@ public struct Weights {
     (self.basenet, self.proposal, self.hifinet, self.audionet) = (basenet, proposal, hifinet, audionet)
   }
 
-  /// The files of a folder: basenet.mien and proposal.mien, and the others where they are.
+  /// The files of a folder: basenet.mien and proposal.mien, and hifinet.mien and audionet.mien if present.
   public init(folder: URL) throws {
     let file = { (name: String) in folder.appendingPathComponent("\(name).mien") }
     let optional = { (name: String) -> Model? in

@@ -23,7 +23,7 @@ public final class Controls {
         return array[number(name)];
     }
 
-    /** Whether it is driven at this level of detail; else it is always 0. */
+    /** Whether this level of detail predicts it; otherwise it is always 0. */
     public boolean isSupported(String name) {
         return (supported >> number(name) & 1) != 0;
     }
@@ -33,7 +33,7 @@ public final class Controls {
         return array.clone();
     }
 
-    /** The same face in other words, in the order of their names. */
+    /** The controls in another vocabulary, in the order of its names. */
     public float[] to(Vocabulary vocabulary) {
         float[] values = new float[vocabulary.names.size()];
         MienException.check(Native.vocabularyValues(vocabulary.ordinal(), array, values));

@@ -2,23 +2,23 @@ package org.mien;
 
 import java.util.Arrays;
 
-/** One face on one frame. It owns what it says: keep as many as you like. */
+/** One face on one frame. Owns its data. */
 public final class FaceResult {
     private static final int CAPTURING_NEUTRAL = 0x10;
 
-    /** Of a face. */
+    /** Status of a face. */
     public enum Status {
-        /** None since the beginning. */
+        /** No face since the start or reset. */
         SEARCHING,
         TRACKING,
-        /** It is gone: its last place stays, its controls fade. */
+        /** The face is lost: it keeps its last position, and its controls fade. */
         LOST
     }
 
     private final long[] longs = new long[Native.LONGS];
     private final float[] floats = new float[Native.FLOATS];
 
-    /** index: of the face, -1: of the one known longest. */
+    /** index of the face; -1: the face with the lowest id. */
     FaceResult(long tracker, int index) {
         MienException.check(Native.result(tracker, index, longs, floats));
     }
@@ -31,12 +31,12 @@ public final class FaceResult {
         return status() == Status.TRACKING;
     }
 
-    /** Of the picture. */
+    /** Timestamp of the frame. */
     public long timeNs() {
         return longs[Native.TIME_NS];
     }
 
-    /** Counts the faces found, from 1; 0 before any. */
+    /** Number of the face, from 1 in the order of detection; 0 before the first. */
     public int faceId() {
         return (int) longs[Native.FACE_ID];
     }
@@ -50,17 +50,17 @@ public final class FaceResult {
         return floats[Native.FACE_PROBABILITY];
     }
 
-    /** 0..1: how much somebody speaks; 0 without sound. */
+    /** 0..1: voice activity; 0 without audio. */
     public float voiceActivity() {
         return floats[Native.VOICE_ACTIVITY];
     }
 
-    /** Whether this frame counts for Tracker.calibrate. */
+    /** Whether this frame contributes to Tracker.calibrate. */
     public boolean isCapturingNeutral() {
         return (longs[Native.FLAGS] & CAPTURING_NEUTRAL) != 0;
     }
 
-    /** x, y, width, height in pixels of the upright picture. */
+    /** x, y, width, height in pixels of the upright image. */
     public float[] box() {
         return part(Native.BOX, Native.ROTATION);
     }
@@ -69,7 +69,7 @@ public final class FaceResult {
         return new Controls(part(Native.CONTROLS, Native.LANDMARKS), longs[Native.SUPPORTED]);
     }
 
-    /** 175 times x, y in pixels of the upright picture. */
+    /** 175 points x, y in pixels of the upright image. */
     public float[] landmarks() {
         return part(Native.LANDMARKS, Native.FLOATS);
     }

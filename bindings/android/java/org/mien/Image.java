@@ -2,9 +2,9 @@ package org.mien;
 
 import java.nio.ByteBuffer;
 
-/** A picture that somebody else owns: it is read where it lies. */
+/** An image in the caller's memory, read without a copy. */
 public final class Image {
-    /** Of pixels. */
+    /** Pixel format. */
     public enum Format { GRAY8, RGB, BGR, RGBA, BGRA, NV12, NV21, I420 }
 
     final ByteBuffer[] planes = new ByteBuffer[3];
@@ -25,7 +25,7 @@ public final class Image {
         this.chromaPixelStride = chromaPixelStride;
     }
 
-    /** Rows without gaps, planes one behind the other: NV21 as Android's older camera gives it, bitmaps as bytes. */
+    /** Rows without padding, planes one after another: NV21 of Android's older camera, or bitmaps as bytes. */
     public static Image of(Format format, int width, int height, byte[] pixels) {
         Image image = new Image(format, width, height, pixels, 0);
         long bytes = 0;
@@ -39,7 +39,7 @@ public final class Image {
         return image;
     }
 
-    /** Direct buffers, each from its position on. */
+    /** Direct buffers, each starting at its position. */
     public static Image of(Format format, int width, int height, ByteBuffer[] planes, int[] rowStrides) {
         return of(format, width, height, planes, rowStrides, 0);
     }
@@ -65,37 +65,37 @@ public final class Image {
         return image;
     }
 
-    /** Degrees clockwise that make it upright: 0, 90, 180, 270. */
+    /** Clockwise rotation to upright: 0, 90, 180, 270 degrees. */
     public Image rotated(int degrees) {
         rotation = degrees;
         return this;
     }
 
-    /** A mirror image of the scene, a selfie. */
+    /** The image mirrors the scene (selfie camera). */
     public Image mirrored() {
         mirrored = true;
         return this;
     }
 
-    /** Of grey and YUV: luma is 16..235, as films have it; else 0..255. */
+    /** Grey and YUV: video range, luma 16..235; otherwise 0..255. */
     public Image videoRange() {
         videoRange = true;
         return this;
     }
 
-    /** YUV is that of BT.709; else BT.601. */
+    /** YUV uses BT.709; otherwise BT.601. */
     public Image bt709() {
         bt709 = true;
         return this;
     }
 
-    /** In pixels of the buffer, before it is turned: nothing else is looked at. */
+    /** Region of interest, in pixels of the buffer before rotation; nothing outside it is read. */
     public Image region(int x, int y, int regionWidth, int regionHeight) {
         region = new int[] {x, y, regionWidth, regionHeight};
         return this;
     }
 
-    /** What is known of the camera, in pixels of the upright picture; a principal point of 0, 0 is the centre. */
+    /** Focal length and principal point in pixels of the upright image; a principal point of 0, 0 means the centre. */
     public Image camera(float focalLengthPx, float principalX, float principalY) {
         camera[0] = focalLengthPx;
         camera[1] = principalX;
@@ -117,7 +117,7 @@ public final class Image {
         return plane == 0 ? height : (height + 1L) / 2;
     }
 
-    /** What is read of each. */
+    /** Bytes of a row that are read. */
     private long rowBytes(int plane) {
         long chroma = (width + 1L) / 2;
         switch (format) {

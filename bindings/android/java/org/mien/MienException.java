@@ -1,6 +1,6 @@
 package org.mien;
 
-/** The library refused; the message is its own. */
+/** An error of the library, with its message. */
 public final class MienException extends RuntimeException {
     private static final long serialVersionUID = 1;
 

@@ -6,7 +6,7 @@ import java.nio.ByteBuffer;
 import java.nio.channels.FileChannel;
 import java.nio.file.Path;
 
-/** A weight file in memory, where the library wants it. Trackers and networks may share one. */
+/** A weight file in aligned memory. Trackers and networks may share one. */
 public final class Model {
     private static final int ALIGNMENT = 64;
 
@@ -16,14 +16,14 @@ public final class Model {
         this.bytes = bytes;
     }
 
-    /** Maps a file: nothing is copied. */
+    /** Maps a file without a copy. */
     public static Model open(Path path) throws IOException {
         try (FileChannel channel = FileChannel.open(path)) {
             return new Model(channel.map(FileChannel.MapMode.READ_ONLY, 0, channel.size()));
         }
     }
 
-    /** Reads a stream to its end, for instance an asset of an Android application. */
+    /** Reads a stream to its end, for example an asset of an Android application. */
     public static Model read(InputStream stream) throws IOException {
         java.io.ByteArrayOutputStream all = new java.io.ByteArrayOutputStream();
         byte[] some = new byte[1 << 16];
@@ -33,7 +33,7 @@ public final class Model {
         return of(all.toByteArray());
     }
 
-    /** Copies what lies anywhere. */
+    /** Copies bytes of any alignment. */
     public static Model of(byte[] data) {
         ByteBuffer room = ByteBuffer.allocateDirect(data.length + ALIGNMENT);
         int first = (int) ((ALIGNMENT - Native.address(room) % ALIGNMENT) % ALIGNMENT);

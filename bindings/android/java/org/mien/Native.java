@@ -2,13 +2,13 @@ package org.mien;
 
 import java.nio.ByteBuffer;
 
-/** jni/mien_jni.c, which speaks mien.h. What takes a handle trusts it, and that buffers are as large as said. */
+/** The functions of jni/mien_jni.c, which calls mien.h. They trust handles and the sizes of buffers. */
 final class Native {
     static {
         System.loadLibrary("mien_jni");
     }
 
-    /** What result() writes where. */
+    /** Indices of the values that result() writes. */
     static final int STATUS = 0, TIME_NS = 1, SUPPORTED = 2, LOD = 3, FLAGS = 4, FACE_ID = 5, LONGS = 6;
     static final int FACE_PROBABILITY = 0, VOICE_ACTIVITY = 1, BOX = 2, ROTATION = 6, PITCH = 10, YAW = 11, ROLL = 12, TRANSLATION = 13,
             CONTROLS = 16, LANDMARKS = 68, FLOATS = 418;
@@ -25,14 +25,14 @@ final class Native {
 
     static native long address(ByteBuffer buffer);
 
-    /** handle[0] is the tracker's. integers: lod, maxFaces, smoothing, audioQueueSamples. floats: budgetMs, horizontalFov (0: default),
+    /** handle[0] receives the tracker. integers: lod, maxFaces, smoothing, audioQueueSamples. floats: budgetMs, horizontalFov (0: default),
      *  voiceStrength. */
     static native int createTracker(ByteBuffer basenet, ByteBuffer proposal, ByteBuffer hifinet, ByteBuffer audionet, int[] integers,
             float[] floats, long[] handle);
 
     static native void destroyTracker(long tracker);
 
-    /** Planes are direct buffers, or the picture is in `array`. integers: Image.integers(); floats: focal length, principal x, y. */
+    /** Planes are direct buffers, or the image is in `array`. integers: Image.integers(); floats: focal length, principal x, y. */
     static native int pushVideo(long tracker, ByteBuffer plane0, ByteBuffer plane1, ByteBuffer plane2, byte[] array, int[] integers,
             float[] floats, long timeNs);
 
@@ -50,7 +50,7 @@ final class Native {
 
     static native int faceCount(long tracker);
 
-    /** index -1: of the face known longest. */
+    /** index -1: the face with the lowest id. */
     static native int result(long tracker, int index, long[] longs, float[] floats);
 
     static native int captureNeutral(long tracker);

@@ -1,11 +1,11 @@
 package org.mien;
 
-/** A network of your own, of a weight file that scripts/convert/onnx_to_mien.py made. Has to be closed. */
+/** A custom network of a weight file, for example from scripts/convert/onnx_to_mien.py. Must be closed. */
 public final class Network implements AutoCloseable {
-    private final Model model; // which has to stay as long
+    private final Model model; // kept alive as long as this object
     private long handle;
 
-    /** A map, [channels][height][width]. */
+    /** A map: [channels][height][width]. */
     public static final class Map {
         public final int channels, height, width;
         public final float[] values;
@@ -23,7 +23,7 @@ public final class Network implements AutoCloseable {
         this(model, null, 0, 0);
     }
 
-    /** name: of the network in the file; null: its first. height, width: for networks that take several sizes; 0: as declared. */
+    /** name: of the network in the file; null: its first. height, width: for networks that accept several sizes; 0: the declared size. */
     public Network(Model model, String name, int height, int width) {
         this.model = model;
         long[] made = new long[1];
@@ -31,14 +31,14 @@ public final class Network implements AutoCloseable {
         handle = made[0];
     }
 
-    /** What run takes: channels, height, width. */
+    /** Shape of the input: channels, height, width. */
     public synchronized int[] inputShape() {
         int[] shape = new int[3];
         Native.networkShape(open(), -1, shape);
         return shape;
     }
 
-    /** One run, one step of a network over time. [channels][height][width] goes in, every output comes out so. */
+    /** Runs the network once, one step of a temporal network. Input and outputs are [channels][height][width]. */
     public synchronized Map[] run(float[] input) {
         int[] shape = inputShape();
         if (input.length != shape[0] * shape[1] * shape[2]) {
@@ -54,7 +54,7 @@ public final class Network implements AutoCloseable {
         return outputs;
     }
 
-    /** Puts what a network over time remembers back to a stream's beginning. */
+    /** Resets the state of temporal layers to the start of a stream. */
     public synchronized void reset() {
         Native.resetNetwork(open());
     }

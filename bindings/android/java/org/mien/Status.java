@@ -1,6 +1,6 @@
 package org.mien;
 
-/** What the library answers: mien_status of mien.h. */
+/** Statuses of the library: mien_status of mien.h. */
 public enum Status {
     OK(0),
     NULL_ARGUMENT(-1),
@@ -39,7 +39,7 @@ public enum Status {
     NEUTRAL_FORMAT(-80),
     NEUTRAL_VERSION(-81),
     NEUTRAL_DAMAGED(-82),
-    /** Of a library that is newer than this. */
+    /** A status of a newer library. */
     UNKNOWN(Integer.MIN_VALUE);
 
     /** As in mien.h. */

@@ -5,33 +5,33 @@ import java.util.List;
 import java.util.Objects;
 
 /**
- * Follows faces through a stream of pictures, and hears a voice. Has to be closed. Its methods exclude each other, but for queueAudio, which
- * waits for nothing but close.
+ * Tracks faces in a stream of images and audio. Must be closed. Its methods are synchronized, except queueAudio, which only waits for
+ * close.
  */
 public final class Tracker implements AutoCloseable {
     private static final int NEUTRAL_BYTES = 448;
 
-    /** What a tracker is asked for. */
+    /** Options of a tracker. */
     public static final class Options {
-        /** Level of detail, 1 (cheapest) to 4; 0: as high as budgetMs a frame allows. */
+        /** Level of detail, 1 (fastest) to 4 (most accurate); 0: automatic, the highest within budgetMs per frame. */
         public int lod = 0;
-        /** Faces followed at once, 1..8. */
+        /** Maximum number of faces, 1..8. */
         public int maxFaces = 1;
-        /** Whether it can hear. */
+        /** Whether to use audio. */
         public boolean sound = true;
-        /** Of what hardly moves. */
+        /** Smooths controls, landmarks and pose while they hardly move. */
         public boolean smoothing = true;
         public float budgetMs = 10;
-        /** Of the upright picture, radians, where pictures do not say a focal length; 0: 60 degrees. */
+        /** Horizontal field of view of the upright image, for images without a focal length, in radians; 0: 60 degrees. */
         public float horizontalFov = 0;
-        /** Room for sound that another thread brings (queueAudio). */
+        /** Capacity of the audio queue (queueAudio), in samples of one channel; 0: no queue. */
         public int audioQueueSamples = 0;
-        /** What the sound says of the mouth, times this, 0..4. */
+        /** Factor of the controls predicted from audio, 0..4. */
         public float voiceStrength = 1;
     }
 
     private final Object queue = new Object();
-    private final Weights weights; // which have to stay as long
+    private final Weights weights; // kept alive as long as this object
     private long handle;
 
     public Tracker(Weights weights) {
@@ -47,25 +47,25 @@ public final class Tracker implements AutoCloseable {
         handle = made[0];
     }
 
-    /** Tracks one picture and tells of the face known longest. timeNs: of the picture, on any clock. */
+    /** Tracks one image and returns the result of the face with the lowest id. timeNs: timestamp of the image, on any clock. */
     public synchronized FaceResult track(Image image, long timeNs) {
         MienException.check(Native.pushVideo(open(), image.planes[0], image.planes[1], image.planes[2], image.array, image.integers(),
                 image.camera, timeNs));
         return result();
     }
 
-    /** A frame of output without a picture: for sound alone. */
+    /** Outputs a frame without an image, for audio without video. */
     public synchronized FaceResult advance(long timeNs) {
         MienException.check(Native.advance(open(), timeNs));
         return result();
     }
 
-    /** Of the last picture, of the face known longest. */
+    /** The result of the latest frame, of the face with the lowest id. */
     public synchronized FaceResult result() {
         return new FaceResult(open(), -1);
     }
 
-    /** Of the last picture, every face known. */
+    /** The results of all known faces on the latest frame. */
     public synchronized List<FaceResult> faces() {
         List<FaceResult> faces = new ArrayList<>();
         for (int i = 0; i < Native.faceCount(open()); ++i) {
@@ -74,24 +74,24 @@ public final class Tracker implements AutoCloseable {
         return faces;
     }
 
-    /** Hears samples of -1..1, channels in turns; timeNs is that of the first. */
+    /** Processes interleaved samples of -1..1; timeNs is the timestamp of the first. */
     public synchronized void pushAudio(float[] samples, int channels, int sampleRate, long timeNs) {
         MienException.check(Native.pushAudio(open(), samples, frames(samples, channels), channels, sampleRate, timeNs));
     }
 
-    /** The same from another thread, for the next frame; Status.AUDIO_QUEUE_FULL when there is no room. */
+    /** Queues audio from another thread for the next frame; Status.AUDIO_QUEUE_FULL if the queue is full. */
     public void queueAudio(float[] samples, int channels, int sampleRate, long timeNs) {
         synchronized (queue) {
             MienException.check(Native.queueAudio(open(), samples, frames(samples, channels), channels, sampleRate, timeNs));
         }
     }
 
-    /** Sound pushed from now on belongs to pictures that much later. */
+    /** Delays audio relative to the images, for audio pushed from now on. */
     public synchronized void setAudioOffset(long offsetNs) {
         MienException.check(Native.setAudioOffset(open(), offsetNs));
     }
 
-    /** How much sound and picture count for a control while somebody speaks, each 0..1. */
+    /** Weights of audio and video for a control during speech, each 0..1. */
     public synchronized void setMix(String control, float audio, float video) {
         MienException.check(Native.setMix(open(), Controls.number(control), audio, video));
     }
@@ -100,12 +100,12 @@ public final class Tracker implements AutoCloseable {
         MienException.check(Native.setLod(open(), lod));
     }
 
-    /** Captures, over the next 55 frames with a face, what it shows when it is neutral, to be taken out from then on. */
+    /** Captures a person's neutral controls over the next 55 frames with a face, and removes them from later frames. */
     public synchronized void calibrate() {
         MienException.check(Native.captureNeutral(open()));
     }
 
-    /** What was captured, to be kept. */
+    /** The captured neutral values as a file. */
     public synchronized byte[] saveNeutral() {
         byte[] file = new byte[NEUTRAL_BYTES];
         MienException.check(Native.saveNeutral(open(), file));
@@ -117,12 +117,12 @@ public final class Tracker implements AutoCloseable {
         MienException.check(Native.loadNeutral(open(), file));
     }
 
-    /** Forgets everything seen and heard. */
+    /** Resets the tracker to its state after creation. */
     public synchronized void reset() {
         MienException.check(Native.reset(open()));
     }
 
-    /** Gives the memory back, and wipes it. Nothing else may be called then. */
+    /** Overwrites the memory with zeros and releases it. No other call is allowed afterwards. */
     @Override
     public synchronized void close() {
         synchronized (queue) {

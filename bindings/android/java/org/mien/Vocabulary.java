@@ -4,11 +4,11 @@ import java.util.ArrayList;
 import java.util.Collections;
 import java.util.List;
 
-/** The words of a house for a face. */
+/** Names of controls in another standard. */
 public enum Vocabulary {
     ARKIT, MEDIAPIPE, ROBLOX, VRM0, VRM1, VISEMES;
 
-    /** In their order, written as their owner does. */
+    /** The names in order, spelled as in the standard. */
     public final List<String> names;
 
     Vocabulary() {

@@ -4,15 +4,15 @@ import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
 
-/** What trackers know. They may share one. */
+/** The weights of trackers. Several trackers may share them. */
 public final class Weights {
     final Model basenet, proposal, hifinet, audionet;
 
     /**
-     * @param basenet landmarks, and level of detail 1
-     * @param proposal finds faces
+     * @param basenet for tracking and level of detail 1
+     * @param proposal for detection
      * @param hifinet levels of detail 2 to 4; may be null
-     * @param audionet hears; may be null
+     * @param audionet for audio; may be null
      */
     public Weights(Model basenet, Model proposal, Model hifinet, Model audionet) {
         this.basenet = basenet;
@@ -21,7 +21,7 @@ public final class Weights {
         this.audionet = audionet;
     }
 
-    /** The files of a folder: basenet.mien and proposal.mien, and the others where they are. */
+    /** The files of a folder: basenet.mien and proposal.mien, and hifinet.mien and audionet.mien if present. */
     public static Weights open(Path folder) throws IOException {
         return new Weights(Model.open(folder.resolve("basenet.mien")), Model.open(folder.resolve("proposal.mien")),
                 optional(folder.resolve("hifinet.mien")), optional(folder.resolve("audionet.mien")));
