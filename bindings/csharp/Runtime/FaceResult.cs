@@ -52,7 +52,7 @@ namespace Mien
         internal static int Number(string name)
         {
             int number = Names.IndexOf(name);
-            if (number < 0) throw new KeyNotFoundException("no control '" + name + "'");
+            if (number < 0) throw new KeyNotFoundException("control: unknown (got '" + name + "')");
             return number;
         }
     }

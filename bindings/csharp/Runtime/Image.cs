@@ -60,7 +60,7 @@ namespace Mien
         {
             if (planes == null) throw new ArgumentNullException("planes");
             if (rowStrideBytes == null) throw new ArgumentNullException("rowStrideBytes");
-            if (planes.Length > 3 || rowStrideBytes.Length > 3) throw new ArgumentException("a picture has three planes at most");
+            if (planes.Length > 3 || rowStrideBytes.Length > 3) throw new ArgumentException("planes: too many (expected at most 3)");
             Format = format;
             Width = width;
             Height = height;
@@ -68,8 +68,8 @@ namespace Mien
             strides = rowStrideBytes;
         }
 
-        /// <summary>Calls `look` with the layout of the pixels, which are pinned meanwhile.</summary>
-        internal void Described(Action<Native.mien_image> look)
+        /// <summary>Calls `use` with the layout of the pixels, which are pinned meanwhile.</summary>
+        internal void Use(Action<Native.mien_image> use)
         {
             Native.mien_image raw;
             Native.mien_image_default(out raw);
@@ -85,22 +85,22 @@ namespace Mien
             raw.principal_y = PrincipalY;
             raw.pixel_aspect = PixelAspect;
             raw.chroma_pixel_stride_bytes = ChromaPixelStrideBytes;
-            if (Region != null && Region.Length != 4) throw new ArgumentException("a region is x, y, width, height, not " + Region.Length + " numbers");
+            if (Region != null && Region.Length != 4) throw new ArgumentException("Region: wrong length (got " + Region.Length + ", expected 4)");
             if (Region != null) Region.CopyTo(raw.region, 0);
             if (array == null)
             {
                 planes.CopyTo(raw.planes, 0);
                 strides.CopyTo(raw.row_stride_bytes, 0);
-                if (BottomUp) BeginAtTheTop(ref raw);
-                look(raw);
+                if (BottomUp) FlipRows(ref raw);
+                use(raw);
                 return;
             }
             var pin = GCHandle.Alloc(array, GCHandleType.Pinned);
             try
             {
-                LieOneBehindTheOther(ref raw, pin.AddrOfPinnedObject());
-                if (BottomUp) BeginAtTheTop(ref raw);
-                look(raw);
+                SetContiguousPlanes(ref raw, pin.AddrOfPinnedObject());
+                if (BottomUp) FlipRows(ref raw);
+                use(raw);
             }
             finally
             {
@@ -108,7 +108,7 @@ namespace Mien
             }
         }
 
-        void LieOneBehindTheOther(ref Native.mien_image raw, IntPtr place)
+        void SetContiguousPlanes(ref Native.mien_image raw, IntPtr place)
         {
             long chromaWidth = ((long)Width + 1) / 2, chromaHeight = ((long)Height + 1) / 2;
             long chromaRow = Format == PixelFormat.I420 ? (chromaWidth - 1) * Math.Max(ChromaPixelStrideBytes, 1) + 1 : 2 * chromaWidth;
@@ -123,13 +123,13 @@ namespace Mien
                 first += stride * rows[i];
             }
             if (array.Length < first)
-                throw new ArgumentException("a picture of " + Width + " x " + Height + " " + Format + " has " + first + " bytes, not " + array.Length);
+                throw new ArgumentException("pixels: too short for " + Width + " x " + Height + " " + Format + " (got " + array.Length + " bytes, expected " + first + ")");
         }
 
         /// <summary>mien.h expects the first byte of the top row, and a negative stride.</summary>
-        void BeginAtTheTop(ref Native.mien_image raw)
+        void FlipRows(ref Native.mien_image raw)
         {
-            if (Format >= PixelFormat.Nv12) throw new ArgumentException("YUV is not taken bottom-up");
+            if (Format >= PixelFormat.Nv12) throw new ArgumentException("BottomUp: not supported for YUV");
             raw.planes[0] = new IntPtr(raw.planes[0].ToInt64() + (Height - 1L) * raw.row_stride_bytes[0]);
             raw.row_stride_bytes[0] = -raw.row_stride_bytes[0];
         }

@@ -165,7 +165,7 @@ namespace Mien
         }
     }
 
-    /// <summary>The library's tracker: ends when nobody uses it any more, during a call of another thread never.</summary>
+    /// <summary>The library's tracker, destroyed when it is no longer used, never during a call of another thread.</summary>
     internal sealed class TrackerHandle : SafeHandle
     {
         internal object Keeps; // what it reads during calls

@@ -54,10 +54,10 @@ namespace Mien
         {
             int pixels = InputShape.Height * InputShape.Width;
             if (input == null || input.Length != pixels * InputShape.Channels)
-                throw new ArgumentException("an input of " + InputShape.Channels + " x " + InputShape.Height + " x " + InputShape.Width + " is taken");
-            bool picture = InputShape.Channels <= Interleaved && pixels > 1;
-            int step = picture ? InputShape.Channels : Block;
-            var laidOut = new float[picture ? input.Length : Blocks(InputShape) * pixels * Block];
+                throw new ArgumentException("input: wrong length (expected " + InputShape.Channels + " x " + InputShape.Height + " x " + InputShape.Width + ")");
+            bool interleaved = InputShape.Channels <= Interleaved && pixels > 1;
+            int step = interleaved ? InputShape.Channels : Block;
+            var laidOut = new float[interleaved ? input.Length : Blocks(InputShape) * pixels * Block];
             for (int channel = 0; channel < InputShape.Channels; ++channel)
                 for (int pixel = 0; pixel < pixels; ++pixel)
                     laidOut[(channel / step * pixels + pixel) * step + channel % step] = input[channel * pixels + pixel];

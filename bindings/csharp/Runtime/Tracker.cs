@@ -60,7 +60,7 @@ namespace Mien
         public FaceResult Track(Image image, double time)
         {
             if (image == null) throw new ArgumentNullException("image");
-            image.Described(raw => Native.Check(Native.mien_tracker_push_video(handle, ref raw, Native.Nanoseconds(time))));
+            image.Use(raw => Native.Check(Native.mien_tracker_push_video(handle, ref raw, Native.Nanoseconds(time))));
             return Result();
         }
 
@@ -97,14 +97,14 @@ namespace Mien
         /// <summary>Processes interleaved samples of -1..1; time is the timestamp of the first, in seconds.</summary>
         public void PushAudio(float[] samples, double time, int sampleRate = 48000, int channels = 1)
         {
-            Described(samples, sampleRate, channels, raw =>
+            UseAudio(samples, sampleRate, channels, raw =>
                 Native.Check(Native.mien_tracker_push_audio(handle, ref raw, Native.Nanoseconds(time))));
         }
 
         /// <summary>Queues audio from another thread for the next frame; Status.AudioQueueFull if the queue is full.</summary>
         public void QueueAudio(float[] samples, double time, int sampleRate = 48000, int channels = 1)
         {
-            Described(samples, sampleRate, channels, raw =>
+            UseAudio(samples, sampleRate, channels, raw =>
                 Native.Check(Native.mien_tracker_queue_audio(handle, ref raw, Native.Nanoseconds(time))));
         }
 
@@ -163,7 +163,7 @@ namespace Mien
             bytes = model == null ? UIntPtr.Zero : model.Bytes;
         }
 
-        static void Described(float[] samples, int sampleRate, int channels, Action<Native.mien_audio> use)
+        static void UseAudio(float[] samples, int sampleRate, int channels, Action<Native.mien_audio> use)
         {
             if (samples == null) throw new ArgumentNullException("samples");
             Native.mien_audio raw;

@@ -8,15 +8,15 @@ namespace Mien
     public sealed class Model
     {
         // Native memory, because the collector moves managed arrays; released by the finalizer.
-        readonly IntPtr room;
+        readonly IntPtr memory;
         internal readonly IntPtr Place;
         internal readonly UIntPtr Bytes;
 
         public Model(byte[] data)
         {
             if (data == null) throw new ArgumentNullException("data");
-            room = Marshal.AllocHGlobal(data.Length + Native.Alignment);
-            Place = new IntPtr((room.ToInt64() + Native.Alignment - 1) / Native.Alignment * Native.Alignment);
+            memory = Marshal.AllocHGlobal(data.Length + Native.Alignment);
+            Place = new IntPtr((memory.ToInt64() + Native.Alignment - 1) / Native.Alignment * Native.Alignment);
             Bytes = new UIntPtr((uint)data.Length);
             Marshal.Copy(data, 0, Place, data.Length);
         }
@@ -28,7 +28,7 @@ namespace Mien
 
         ~Model()
         {
-            Marshal.FreeHGlobal(room);
+            Marshal.FreeHGlobal(memory);
         }
     }
 

@@ -22,37 +22,37 @@ def rotation_matrix(quaternion):
 
 
 def project(points, pose, width, height, focal_length_px=None):
-    """Points [n,3] in head space, metres, as pixels [n,2] of the upright picture, which is not mirrored."""
+    """Points [n,3] in head space, metres, as pixels [n,2] of the upright image, which is not mirrored."""
     focal = focal_length_px or width / 2 / math.tan(math.radians(60) / 2)  # mien's default for unknown cameras
     x, y, z = (np.asarray(points) @ rotation_matrix(pose.rotation).T + pose.translation).T
     return np.stack([width / 2 + focal * x / -z, height / 2 - focal * y / -z], 1)
 
 
-def draw(picture, pose):
-    height, width = picture.shape[:2]
+def draw(image, pose):
+    height, width = image.shape[:2]
     points = project([[0, 0, 0], *(np.eye(3) * AXIS_M)], pose, width, height).round().astype(int)
     for (name, color), end in zip(COLORS.items(), points[1:]):
-        cv2.arrowedLine(picture, tuple(map(int, points[0])), tuple(map(int, end)), color, 3, cv2.LINE_AA, tipLength=0.12)
-        cv2.putText(picture, name, tuple(map(int, end + (6, -6))), cv2.FONT_HERSHEY_SIMPLEX, 0.8, color, 2, cv2.LINE_AA)
+        cv2.arrowedLine(image, tuple(map(int, points[0])), tuple(map(int, end)), color, 3, cv2.LINE_AA, tipLength=0.12)
+        cv2.putText(image, name, tuple(map(int, end + (6, -6))), cv2.FONT_HERSHEY_SIMPLEX, 0.8, color, 2, cv2.LINE_AA)
 
 
 def main():
     parser = argparse.ArgumentParser()
-    parser.add_argument("film")
+    parser.add_argument("video")
     parser.add_argument("--frame", type=int, default=30)
     parser.add_argument("--save", required=True)
     options = parser.parse_args()
-    film, result = cv2.VideoCapture(options.film), None
+    video, result = cv2.VideoCapture(options.video), None
     with mien.Tracker(lod=1, sound=False) as tracker:
         for _ in range(options.frame + 1):
-            there, picture = film.read()
+            there, image = video.read()
             if not there:
-                raise SystemExit(f"pose_axes.py: {options.film} has no frame {options.frame}")
-            result = tracker.track(picture, film.get(cv2.CAP_PROP_POS_MSEC) / 1000)
+                raise SystemExit(f"pose_axes.py: {options.video} has no frame {options.frame}")
+            result = tracker.track(image, video.get(cv2.CAP_PROP_POS_MSEC) / 1000)
     if not result.has_face:
         raise SystemExit(f"pose_axes.py: no face on frame {options.frame}")
-    draw(picture, result.pose)
-    cv2.imwrite(options.save, picture)
+    draw(image, result.pose)
+    cv2.imwrite(options.save, image)
     print(f"pitch {result.pose.pitch:.2f}, yaw {result.pose.yaw:.2f}, roll {result.pose.roll:.2f} rad, {-result.pose.translation[2]:.2f} m away")
 
 

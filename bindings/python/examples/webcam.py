@@ -21,19 +21,19 @@ def draw(frame, result):
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("source", nargs="?", default="0")
-    parser.add_argument("--frames", type=int, default=0, help="stop after so many")
-    parser.add_argument("--save", help="write the last picture there and show no window")
+    parser.add_argument("--frames", type=int, default=0, help="stop after this number of frames")
+    parser.add_argument("--save", help="write the last image there and show no window")
     options = parser.parse_args()
     camera = cv2.VideoCapture(int(options.source) if options.source.isdigit() else options.source)
     if not camera.isOpened():
-        raise SystemExit(f"webcam.py: no pictures from {options.source}")
+        raise SystemExit(f"webcam.py: no images from {options.source}")
     start, count, frame = time.monotonic(), 0, None
     with mien.Tracker(lod="auto") as tracker:
         while options.frames == 0 or count < options.frames:
-            there, picture = camera.read()
+            there, image = camera.read()
             if not there:
                 break
-            frame, count = picture, count + 1
+            frame, count = image, count + 1
             # A file is read faster than it plays.
             at = camera.get(cv2.CAP_PROP_POS_MSEC) / 1000 if not options.source.isdigit() else time.monotonic() - start
             result = tracker.track(frame, at)

@@ -112,7 +112,7 @@ def test_after_a_fork_there_is_an_error_and_the_parent_goes_on(tracker, network)
     def uses():
         for call in (lambda: tracker.track(PICTURE, 0), tracker.result, tracker.reset, tracker.faces,
                      lambda: network.run(np.zeros(network.input_shape, np.float32)), network.reset):
-            with pytest.raises(mien.MienError, match="made before a fork"):
+            with pytest.raises(mien.MienError, match="created before a fork"):
                 call()
         tracker.close()
         network.close()
@@ -132,5 +132,5 @@ def test_results_may_be_copied(tracker):
 def test_controls_of_another_size_are_none(tracker):
     controls = tracker.track(PICTURE, 0).controls
     controls.array = controls.array[:3]
-    with pytest.raises(ValueError, match=r"array: there are 52 controls \(got an array of shape \(3,\)\)"):
+    with pytest.raises(ValueError, match=r"array: wrong shape \(got \(3,\), expected \(52,\)\)"):
         controls.to("arkit")

@@ -52,7 +52,7 @@ def test_other_vocabularies(bgr):
     assert controls.to("roblox")["JawDrop"] == pytest.approx(controls["jawOpen"])
     assert controls.to("mediapipe")["mouthPucker"] == pytest.approx(controls["mouthPucker"])
     assert [len(mien.vocabulary_names(name)) for name in mien.VOCABULARIES] == [52, 52, 50, 11, 11, 15]
-    with pytest.raises(ValueError, match="no vocabulary 'klingon'; there is arkit"):
+    with pytest.raises(ValueError, match=r"vocabulary: unknown \(got 'klingon', expected one of arkit"):
         controls.to("klingon")
 
 
@@ -104,7 +104,7 @@ def test_yuv_is_the_same_picture_but_for_chroma(frames, bgr, color, bt709):
     close(tracked([laid_out(p) for p in frames[:20]], color=color, bt709=bt709)[-1], bgr[-1], 1.0, 0.05)
 
 
-def test_a_region_is_all_that_is_seen(frames, bgr):
+def test_only_the_region_is_read(frames, bgr):
     x, y, width, height = (int(n) for n in bgr[-1].box)
     region = (max(x - 60, 0), max(y - 60, 0), min(width + 120, 640 - max(x - 60, 0)), min(height + 120, 480 - max(y - 60, 0)))
     inside = tracked(frames[:20], region=region)[-1]
@@ -113,7 +113,7 @@ def test_a_region_is_all_that_is_seen(frames, bgr):
     assert not tracked(frames[:20], region=(0, 0, 40, 40))[-1].has_face
 
 
-def test_pictures_are_not_copied(frames, monkeypatch):
+def test_frames_are_not_copied(frames, monkeypatch):
     tracker, seen = Tracker(1, sound=False), []
     push = tracker._push_video
     monkeypatch.setattr(tracker, "_push_video", lambda handle, image, ns: seen.append(image.planes[0]) or push(handle, image, ns))
@@ -123,17 +123,17 @@ def test_pictures_are_not_copied(frames, monkeypatch):
 
 
 @pytest.mark.parametrize("frame, options, kind, text", [
-    (np.zeros((4, 4, 3), np.float32), {}, TypeError, "uint8, not an array of float32"),
-    ([[0]], {}, TypeError, "not a list"),
-    (np.zeros((4, 4, 2), np.uint8), {}, ValueError, r"shape \(4, 4, 2\)"),
-    (np.zeros((4, 8, 3), np.uint8)[:, ::2], {}, ValueError, "pixels of a row lie apart"),
-    (np.zeros((4, 8, 3), np.uint8)[..., ::-1], {}, ValueError, "bytes of a pixel lie apart"),
-    (np.zeros((5, 8), np.uint8), {"color": "nv12"}, ValueError, "contiguous array"),
+    (np.zeros((4, 4, 3), np.float32), {}, TypeError, "got an array of float32, expected .* uint8"),
+    ([[0]], {}, TypeError, "got a list"),
+    (np.zeros((4, 4, 2), np.uint8), {}, ValueError, r"got \(4, 4, 2\)"),
+    (np.zeros((4, 8, 3), np.uint8)[:, ::2], {}, ValueError, "pixels of a row not contiguous"),
+    (np.zeros((4, 8, 3), np.uint8)[..., ::-1], {}, ValueError, "bytes of a pixel not contiguous"),
+    (np.zeros((5, 8), np.uint8), {"color": "nv12"}, ValueError, "expected contiguous"),
     (np.zeros((0, 8, 3), np.uint8), {}, errors.ImageSizeError, "width, height"),
     (np.zeros((4, 8, 3), np.uint8), {"rotation": 45}, errors.ImageRotationError, "0, 90, 180 or 270"),
     (np.zeros((4, 8, 3), np.uint8), {"region": (4, 0, 8, 4)}, errors.ImageRegionError, "region of interest"),
 ])
-def test_frames_that_are_none(frame, options, kind, text):
+def test_invalid_frames_are_rejected(frame, options, kind, text):
     with Tracker(1, sound=False) as tracker:
         with pytest.raises(kind, match=text):
             tracker.track(frame, 0, **options)
@@ -203,7 +203,7 @@ def test_kinds_of_sound():
     with mien.Tracker(1) as tracker:
         with pytest.raises(TypeError, match="float32 or int16"):
             tracker.push_audio(sound.astype(np.float64), 0)
-        with pytest.raises(ValueError, match="lie apart"):
+        with pytest.raises(ValueError, match="not contiguous"):
             tracker.push_audio(sound[::2], 0)
         with pytest.raises(errors.AudioRateError):
             tracker.push_audio(sound, 0, 100)

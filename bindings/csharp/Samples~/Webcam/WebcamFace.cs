@@ -35,7 +35,7 @@ public sealed class WebcamFace : MonoBehaviour
         }
         var image = new Mien.Image(PixelFormat.Rgba, camera.width, camera.height, bytes)
         {
-            BottomUp = true, // as Unity has its pictures
+            BottomUp = true, // as in Unity's textures
             Rotation = camera.videoRotationAngle,
         };
         FaceResult result = tracker.Track(image, Time.realtimeSinceStartupAsDouble);

@@ -31,13 +31,13 @@ class Handle:
 
     def __init__(self) -> None:
         self._handle = c_void_p()
-        self._made_after = _forks
+        self._fork_count = _forks
 
     def _open(self) -> c_void_p:
         if not self._handle:
             raise MienError(f"the {self._kind} is closed")
-        if self._made_after != _forks:
-            raise MienError(f"the {self._kind} was made before a fork: make one in each process")
+        if self._fork_count != _forks:
+            raise MienError(f"the {self._kind} was created before a fork; create one in each process")
         return self._handle
 
     def close(self) -> None:
@@ -56,4 +56,4 @@ class Handle:
             self.close()
 
     def __reduce_ex__(self, protocol: Any) -> NoReturn:
-        raise TypeError(f"a {self._kind} cannot be copied or pickled: make another one")
+        raise TypeError(f"a {self._kind} cannot be copied or pickled; create another one")

@@ -56,9 +56,9 @@ def columns(rows: Iterable[Row]) -> dict[str, npt.NDArray[np.generic]]:
 
 def _rows(arguments: list[str]) -> Iterator[Row]:
     command = [str(PROGRAM), "track", "--quiet", "--models", str(MODELS), "--format", "jsonl", "-o", "-", *arguments]
-    with tempfile.TemporaryFile() as said:  # a pipe that is not read would fill up and block the program
+    with tempfile.TemporaryFile() as log:  # a pipe that is not read would fill up and block the program
         try:
-            process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=said)
+            process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=log)
         except OSError as error:
             raise MienError(f"{PROGRAM} cannot be run: {error.strerror}") from error
         assert process.stdout is not None
@@ -71,13 +71,13 @@ def _rows(arguments: list[str]) -> Iterator[Row]:
             process.stdout.close()
             process.kill()
             process.wait()
-        said.seek(0)
-        lines = said.read().decode("utf-8", "replace").splitlines()
-        for line_said in lines:
-            if line_said.startswith(_NOTE):
-                warnings.warn(line_said[len(_NOTE) :], stacklevel=2)
+        log.seek(0)
+        lines = log.read().decode("utf-8", "replace").splitlines()
+        for message in lines:
+            if message.startswith(_NOTE):
+                warnings.warn(message[len(_NOTE) :], stacklevel=2)
         if status != 0:
-            complaints = [line_said for line_said in lines if not line_said.startswith(_NOTE)]
+            complaints = [message for message in lines if not message.startswith(_NOTE)]
             raise MienError(" ".join(complaints).replace("mien: ", "", 1) or f"{PROGRAM.name} ended with {status}")
 
 

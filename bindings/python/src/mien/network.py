@@ -47,8 +47,8 @@ class Network(Handle):
         place = function("mien_network_input")(self._handle, byref(shape))
         self.input_shape = Shape(shape.channels, shape.height, shape.width)
         c, h, w = self.input_shape
-        self._picture = c <= _INTERLEAVED and h * w > 1
-        self._input = _floats_at(place, h * w * c if self._picture else -(-c // _BLOCK) * h * w * _BLOCK)
+        self._interleaved = c <= _INTERLEAVED and h * w > 1
+        self._input = _floats_at(place, h * w * c if self._interleaved else -(-c // _BLOCK) * h * w * _BLOCK)
 
     def run(self, array: npt.ArrayLike) -> list[Floats]:
         """Runs the network once. Returns every output as [channels, height, width], or [channels] for a vector.
@@ -80,7 +80,7 @@ class Network(Handle):
         handle = self._open()
         c, h, w = self.input_shape
         map_ = array.reshape(c, h, w)
-        if self._picture:
+        if self._interleaved:
             self._input[:] = map_.transpose(1, 2, 0).reshape(-1)
         else:
             blocks = self._input.reshape(-1, h, w, _BLOCK)

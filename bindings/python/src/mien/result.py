@@ -52,7 +52,7 @@ class Controls(Mapping[str, float]):
         names = vocabulary_names(vocabulary)
         controls = np.ascontiguousarray(self.array, np.float32)
         if controls.shape != (CONTROL_COUNT,):
-            raise ValueError(f"array: there are {CONTROL_COUNT} controls (got an array of shape {controls.shape})")
+            raise ValueError(f"array: wrong shape (got {controls.shape}, expected ({CONTROL_COUNT},))")
         values = np.empty(len(names), np.float32)
         check(function("mien_vocabulary_values")(number_of(vocabulary), controls.ctypes.data, values.ctypes.data, len(names)))
         return dict(zip(names, values.tolist()))

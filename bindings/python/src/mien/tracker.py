@@ -208,7 +208,7 @@ def _describe(image: Image, frame: Frame, color: str) -> None:
     """The address and layout of the frame's pixels."""
     if not isinstance(frame, np.ndarray) or frame.dtype != np.uint8:
         kind = f"an array of {frame.dtype}" if isinstance(frame, np.ndarray) else f"a {type(frame).__name__}"
-        raise TypeError(f"a frame is a numpy array of uint8, not {kind}")
+        raise TypeError(f"frame: wrong type (got {kind}, expected a numpy array of uint8)")
     if color in _YUV:
         _describe_yuv(image, frame, color)
         return
@@ -219,21 +219,21 @@ def _describe(image: Image, frame: Frame, color: str) -> None:
         channels = frame.shape[2]
         form = _PACKED[color, channels]
         if frame.size > 0 and strides[2] != 1:
-            raise ValueError("the bytes of a pixel lie apart; numpy.ascontiguousarray(frame) puts them together")
+            raise ValueError("frame: bytes of a pixel not contiguous; pass numpy.ascontiguousarray(frame)")
     else:
-        raise ValueError(f"a frame of shape {frame.shape} with color={color!r} is no picture; docstring of Tracker.track lists what is")
+        raise ValueError(f"frame: unsupported shape (got {frame.shape} with color={color!r}, expected one of Tracker.track's docstring)")
     if frame.size > 0 and frame.shape[1] > 1 and strides[1] != channels:
-        raise ValueError("the pixels of a row lie apart; numpy.ascontiguousarray(frame) puts them together")
+        raise ValueError("frame: pixels of a row not contiguous; pass numpy.ascontiguousarray(frame)")
     image.format = form
     image.height, image.width = frame.shape[0], frame.shape[1]
     image.planes[0] = frame.__array_interface__["data"][0]
-    # NumPy leaves the stride of a single row to chance.
+    # The stride of a single row is arbitrary in NumPy.
     image.row_stride_bytes = (strides[0] if image.height > 1 else image.width * channels, 0, 0)
 
 
 def _describe_yuv(image: Image, frame: Frame, color: str) -> None:
     if frame.ndim != 2 or not frame.flags.c_contiguous or frame.shape[0] % 3 or frame.shape[1] % 2:
-        raise ValueError(f"{color} is a contiguous array [height * 3 / 2, width] of even sizes, not {frame.shape}")
+        raise ValueError(f"frame: wrong shape for {color} (got {frame.shape}, expected contiguous [height * 3 / 2, width], even sizes)")
     height, width = frame.shape[0] * 2 // 3, frame.shape[1]
     first = frame.__array_interface__["data"][0]
     chroma = first + height * width
@@ -247,9 +247,9 @@ def _describe_yuv(image: Image, frame: Frame, color: str) -> None:
 def _audio(samples: Samples, sample_rate: int) -> Audio:
     formats = {np.dtype(np.float32): 0, np.dtype(np.int16): 1}
     if not isinstance(samples, np.ndarray) or samples.dtype not in formats:
-        raise TypeError("samples are a numpy array of float32 or int16")
+        raise TypeError("samples: wrong type (expected a numpy array of float32 or int16)")
     if samples.ndim not in (1, 2):
-        raise ValueError(f"samples of shape {samples.shape}: [n] or [n, channels] is taken")
+        raise ValueError(f"samples: wrong shape (got {samples.shape}, expected [n] or [n, channels])")
     channels = 1 if samples.ndim == 1 else samples.shape[1]
     audio = Audio()
     function("mien_audio_default")(byref(audio))
@@ -264,5 +264,5 @@ def _audio(samples: Samples, sample_rate: int) -> Audio:
         for i in range(channels):
             audio.samples[i] = samples.ctypes.data + i * samples.strides[1]
     else:
-        raise ValueError("the samples lie apart; numpy.ascontiguousarray(samples) puts them together")
+        raise ValueError("samples: not contiguous; pass numpy.ascontiguousarray(samples)")
     return audio

@@ -18,7 +18,7 @@ VOCABULARIES: tuple[str, ...] = ("arkit", "mediapipe", "roblox", "vrm0", "vrm1",
 
 def number_of(vocabulary: str) -> int:
     if vocabulary not in VOCABULARIES:
-        raise ValueError(f"no vocabulary {vocabulary!r}; there is {', '.join(VOCABULARIES)}")
+        raise ValueError(f"vocabulary: unknown (got {vocabulary!r}, expected one of {', '.join(VOCABULARIES)})")
     return VOCABULARIES.index(vocabulary)
 
 

@@ -26,7 +26,7 @@ def mapped(path: Path) -> Bytes:
         except OSError as error:
             if error.errno != errno.ENOMEM:
                 raise
-            raise OutOfMemoryError(f"{path}: there is no room to map it") from error
+            raise OutOfMemoryError(f"{path}: cannot be mapped: out of memory") from error
         return np.frombuffer(pages, np.uint8)
 
 
@@ -34,9 +34,9 @@ def aligned(data: bytes) -> Bytes:
     """A copy with the alignment that the library needs."""
     if not data:
         raise WeightsTruncatedError
-    room = np.empty(len(data) + ALIGNMENT, np.uint8)
-    first = -room.ctypes.data % ALIGNMENT
-    copy = room[first : first + len(data)]
+    memory = np.empty(len(data) + ALIGNMENT, np.uint8)
+    first = -memory.ctypes.data % ALIGNMENT
+    copy = memory[first : first + len(data)]
     copy[:] = np.frombuffer(data, np.uint8)
     return copy
 

@@ -100,7 +100,7 @@ impl<'a> Image<'a> {
             let rows = if i == 0 { height } else { chroma(height) };
             let need = rows.saturating_sub(1).saturating_mul(row_bytes).saturating_add(read);
             if rows > 0 && bytes.len() < need {
-                return Err(Error::Input(format!("plane {i} has {} bytes, and {need} of it would be read", bytes.len())));
+                return Err(Error::Input(format!("plane {i}: too short (got {} bytes, expected {need})", bytes.len())));
             }
             raw.planes[i] = bytes.as_ptr().cast::<c_void>();
             raw.row_stride_bytes[i] = number(row_bytes)?;

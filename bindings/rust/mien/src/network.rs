@@ -72,9 +72,9 @@ impl Network {
             return Err(Error::Input(format!("{} numbers for an input of {shape:?}", input.len())));
         }
         let pixels = shape.height * shape.width;
-        let picture = shape.channels <= INTERLEAVED && pixels > 1;
-        let step = if picture { shape.channels } else { BLOCK };
-        let elements = if picture { shape.size() } else { shape.blocks() * pixels * BLOCK };
+        let interleaved = shape.channels <= INTERLEAVED && pixels > 1;
+        let step = if interleaved { shape.channels } else { BLOCK };
+        let elements = if interleaved { shape.size() } else { shape.blocks() * pixels * BLOCK };
         // Safety: the buffer has this size (mien/engine.h, Layout) and no other reference.
         let to = unsafe { std::slice::from_raw_parts_mut(mien_sys::mien_network_input(self.raw, std::ptr::null_mut()), elements) };
         for (channel, plane) in input.chunks_exact(pixels).enumerate() {

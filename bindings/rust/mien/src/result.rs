@@ -51,7 +51,7 @@ impl Controls {
 impl Index<&str> for Controls {
     type Output = f32;
     fn index(&self, name: &str) -> &f32 {
-        &self.array[control_number(name).unwrap_or_else(|| panic!("no control {name:?}"))]
+        &self.array[control_number(name).unwrap_or_else(|| panic!("control: unknown (got {name:?})"))]
     }
 }
 

@@ -168,7 +168,7 @@ impl Tracker {
 
     /// Weights of audio and video for a control during speech, each 0..1.
     pub fn set_mix(&mut self, control: &str, audio: f32, video: f32) -> Result<(), Error> {
-        let number = control_number(control).ok_or_else(|| Error::Input(format!("no control {control:?}")))?;
+        let number = control_number(control).ok_or_else(|| Error::Input(format!("control: unknown (got {control:?})")))?;
         check(unsafe { mien_sys::mien_tracker_set_mix(self.handle.raw, number as i32, audio, video) })
     }
 

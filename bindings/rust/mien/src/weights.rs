@@ -22,7 +22,7 @@ impl Model {
         let read = || {
             let mut file = fs::File::open(path)?;
             let bytes = usize::try_from(file.metadata()?.len()).map_err(|_| std::io::ErrorKind::OutOfMemory)?;
-            let mut model = Model::room(bytes);
+            let mut model = Model::zeroed(bytes);
             file.read_exact(model.bytes_mut())?;
             Ok(model)
         };
@@ -31,12 +31,12 @@ impl Model {
 
     /// Copies bytes of any alignment.
     pub fn from_bytes(data: &[u8]) -> Model {
-        let mut model = Model::room(data.len());
+        let mut model = Model::zeroed(data.len());
         model.bytes_mut().copy_from_slice(data);
         model
     }
 
-    fn room(bytes: usize) -> Model {
+    fn zeroed(bytes: usize) -> Model {
         let lines = vec![Line([0; mien_sys::MIEN_ALIGNMENT]); bytes / mien_sys::MIEN_ALIGNMENT + 1];
         Model { lines: lines.into(), bytes }
     }

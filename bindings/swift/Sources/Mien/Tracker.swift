@@ -102,7 +102,7 @@ public final class Tracker {
 
   /// Weights of audio and video for a control during speech, each 0...1.
   public func setMix(_ control: String, audio: Float, video: Float) throws {
-    guard let number = Controls.names.firstIndex(of: control) else { throw MienError.input("no control '\(control)'") }
+    guard let number = Controls.names.firstIndex(of: control) else { throw MienError.input("control: unknown (got '\(control)')") }
     try check(mien_tracker_set_mix(handle, Int32(number), audio, video))
   }
 

@@ -43,7 +43,7 @@ public final class Controls {
     static int number(String name) {
         int number = NAMES.indexOf(name);
         if (number < 0) {
-            throw new IllegalArgumentException("no control '" + name + "'");
+            throw new IllegalArgumentException("control: unknown (got '" + name + "')");
         }
         return number;
     }

@@ -34,7 +34,7 @@ public final class Image {
             bytes += image.rowBytes(i) * image.rows(i);
         }
         if (pixels.length < bytes) {
-            throw new IllegalArgumentException("a picture of " + width + " x " + height + " " + format + " has " + bytes + " bytes, not " + pixels.length);
+            throw new IllegalArgumentException("pixels: too short for " + width + " x " + height + " " + format + " (got " + pixels.length + " bytes, expected " + bytes + ")");
         }
         return image;
     }
@@ -53,12 +53,12 @@ public final class Image {
         Image image = new Image(format, width, height, null, chromaPixelStride);
         for (int i = 0; i < planesOf(format); ++i) {
             if (!planes[i].isDirect()) {
-                throw new IllegalArgumentException("plane " + i + " is no direct buffer");
+                throw new IllegalArgumentException("planes: plane " + i + " is not a direct buffer");
             }
             image.rowStrides[i] = rowStrides[i];
             long bytes = (image.rows(i) - 1) * rowStrides[i] + image.rowBytes(i);
             if (rowStrides[i] < 0 || image.rows(i) > 0 && planes[i].remaining() < bytes) {
-                throw new IllegalArgumentException("plane " + i + " has " + planes[i].remaining() + " bytes, and " + bytes + " of it would be read");
+                throw new IllegalArgumentException("planes: plane " + i + " is too short (got " + planes[i].remaining() + " bytes, expected " + bytes + ")");
             }
             image.planes[i] = planes[i].slice();
         }

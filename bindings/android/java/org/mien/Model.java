@@ -35,10 +35,10 @@ public final class Model {
 
     /** Copies bytes of any alignment. */
     public static Model of(byte[] data) {
-        ByteBuffer room = ByteBuffer.allocateDirect(data.length + ALIGNMENT);
-        int first = (int) ((ALIGNMENT - Native.address(room) % ALIGNMENT) % ALIGNMENT);
-        room.position(first).limit(first + data.length);
-        ByteBuffer bytes = room.slice();
+        ByteBuffer memory = ByteBuffer.allocateDirect(data.length + ALIGNMENT);
+        int first = (int) ((ALIGNMENT - Native.address(memory) % ALIGNMENT) % ALIGNMENT);
+        memory.position(first).limit(first + data.length);
+        ByteBuffer bytes = memory.slice();
         bytes.put(data).rewind();
         return new Model(bytes);
     }

@@ -42,7 +42,7 @@ public final class Network implements AutoCloseable {
     public synchronized Map[] run(float[] input) {
         int[] shape = inputShape();
         if (input.length != shape[0] * shape[1] * shape[2]) {
-            throw new IllegalArgumentException(input.length + " numbers for an input of " + shape[0] + " x " + shape[1] + " x " + shape[2]);
+            throw new IllegalArgumentException("input: wrong length (got " + input.length + ", expected " + shape[0] + " x " + shape[1] + " x " + shape[2] + ")");
         }
         MienException.check(Native.runNetwork(handle, input));
         Map[] outputs = new Map[Native.networkOutputs(handle)];
