@@ -45,7 +45,7 @@ void combine_maps(const CombineArgs& args) {
   }
 }
 
-void combine_any(const CombineArgs& args) {
+inline void combine_any(const CombineArgs& args) {
   switch (args.kind) {
     case Combination::kProduct:
       return combine_maps<Combination::kProduct>(args);

@@ -8,7 +8,7 @@
 namespace mien::kernels {
 namespace {
 
-constexpr int kBlockLanes = 8;
+inline constexpr int kBlockLanes = 8;
 
 // Before a loop whose iterations do not depend on one another, whatever the compiler can prove.
 // clang warns where sanitizers or the optimization level keep it from making vectors, which is no

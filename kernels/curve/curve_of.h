@@ -95,7 +95,7 @@ void curve_map(const CurveArgs& a) {
   clear_unused_lanes(a.y, a.pixels, a.channels);
 }
 
-void curve_any(const CurveArgs& a) {
+inline void curve_any(const CurveArgs& a) {
   switch (a.kind) {
     case Curve::kHardSwish:
       return curve_map<Curve::kHardSwish>(a);

@@ -60,7 +60,7 @@ class NormalizedPixel {
   std::int32_t channels_;
 };
 
-void normalize_any(const NormalizeArgs& a) {
+inline void normalize_any(const NormalizeArgs& a) {
   for (std::int32_t p = 0; p < a.pixels; ++p) {
     const NormalizedPixel pixel(a, p);
     const float mean = pixel.mean();

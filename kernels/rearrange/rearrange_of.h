@@ -52,7 +52,7 @@ class Output {
   std::ptrdiff_t plane_;
 };
 
-void rearrange_any(const RearrangeArgs& a) {
+inline void rearrange_any(const RearrangeArgs& a) {
   const Strides from(a);
   Output to(a);
   for (std::int32_t i = 0; i < from.size(a.order[0]); ++i) {

@@ -68,20 +68,20 @@ class Walk {
 using Lanes = float[kBlockLanes];
 
 // Output and input do not overlap, which the compiler cannot know: what is made waits in registers.
-void put(const Lanes& made, float* y) {
+inline void put(const Lanes& made, float* y) {
   for (int i = 0; i < kBlockLanes; ++i) {
     y[i] = made[i];
   }
 }
 
-void weigh(const float* a, const float* b, float share, Lanes& made) {
+inline void weigh(const float* a, const float* b, float share, Lanes& made) {
   for (int i = 0; i < kBlockLanes; ++i) {
     made[i] = a[i] * (1.0f - share) + b[i] * share;
   }
 }
 
-void resize_pixel(const float* above, const float* below, const Between& row, const Between& column,
-                  float* y) {
+inline void resize_pixel(const float* above, const float* below, const Between& row,
+                         const Between& column, float* y) {
   const std::ptrdiff_t left = std::ptrdiff_t{column.low} * kBlockLanes;
   const std::ptrdiff_t right = std::ptrdiff_t{column.high} * kBlockLanes;
   Lanes up, down, made;
@@ -92,7 +92,7 @@ void resize_pixel(const float* above, const float* below, const Between& row, co
 }
 
 // The nearest pixel is copied, not weighted with nothing: that is exact for whatever it holds.
-void copy_pixel(const float* x, const Between& column, float* y) {
+inline void copy_pixel(const float* x, const Between& column, float* y) {
   Lanes made;
   const float* from = x + std::ptrdiff_t{column.low} * kBlockLanes;
   for (int i = 0; i < kBlockLanes; ++i) {
@@ -101,7 +101,7 @@ void copy_pixel(const float* x, const Between& column, float* y) {
   put(made, y);
 }
 
-void resize_any(const ResizeArgs& a) {
+inline void resize_any(const ResizeArgs& a) {
   const std::ptrdiff_t row_elems = std::ptrdiff_t{a.in_w} * kBlockLanes;
   const std::ptrdiff_t in_plane = a.in_h * row_elems;
   const std::ptrdiff_t out_plane = std::ptrdiff_t{a.out_h} * a.out_w * kBlockLanes;
