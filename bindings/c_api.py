@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Says what mien.h declares, one fact a line, for bindings that repeat it to be held against.
+"""Prints the declarations of mien.h, one fact per line. Tests of the bindings compare their own declarations with it.
 
-usage: bindings/c_api.py [TARGET]      TARGET: the machine whose layouts they are, as clang calls it; default: this one. Needs clang.
+usage: bindings/c_api.py [TARGET]      TARGET: clang's name of the platform whose struct layouts are printed; default: this one. Needs clang.
 
   struct NAME BYTES          field STRUCT.MEMBER OFFSET      function NAME ARGUMENTS
   status NAME NUMBER         enum NAME NUMBER                constant NAME VALUE
@@ -22,7 +22,7 @@ def members(body):
 
 
 def layouts(target, text):
-    """What only a compiler knows. It says so in its output: nothing has to run."""
+    """Sizes and offsets, read from the compiler's output, so that no program runs."""
     names, lines = [], [f'#include "{HEADER}"']
     for struct, body in re.findall(r"typedef struct (\w+) \{(.*?)\n\} \1;", text, re.S):
         facts = [(f"struct {struct}", f"sizeof({struct})")]

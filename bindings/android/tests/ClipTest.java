@@ -29,9 +29,9 @@ public final class ClipTest {
         }
         weights = Weights.open(MODELS);
         reference = tracked(ClipTest::rgb, 1);
-        Test[] tests = {ClipTest::numbersAreTheHeaders, ClipTest::aFaceIsFollowed, ClipTest::controlsSpeakEveryVocabulary,
-            ClipTest::everyLayoutIsTheSamePicture, ClipTest::whatIsWrongIsSaid, ClipTest::soundMayComeFromAnotherThread,
-            ClipTest::calibrationAndReset, ClipTest::networksOfOnesOwn};
+        Test[] tests = {ClipTest::constantsMatchTheHeader, ClipTest::tracksAFace, ClipTest::convertsControlsToEveryVocabulary,
+            ClipTest::everyLayoutGivesTheSameResult, ClipTest::reportsErrors, ClipTest::acceptsAudioFromAnotherThread,
+            ClipTest::calibrationAndReset, ClipTest::runsCustomNetworks};
         for (Test test : tests) {
             test.run();
         }
@@ -88,7 +88,7 @@ public final class ClipTest {
         }
     }
 
-    static void numbersAreTheHeaders() throws IOException {
+    static void constantsMatchTheHeader() throws IOException {
         int statuses = 0;
         for (String line : Files.readAllLines(Paths.get(System.getenv("MIEN_C_API")))) {
             String[] fact = line.split(" ");
@@ -107,7 +107,7 @@ public final class ClipTest {
         require(statuses + 1 == Status.values().length, "all of them, and UNKNOWN");
     }
 
-    static void aFaceIsFollowed() {
+    static void tracksAFace() {
         require(reference.hasFace() && reference.status() == FaceResult.Status.TRACKING, "a face");
         require(reference.faceId() == 1 && reference.lod() == 1 && reference.timeNs() == 300_000_000L, "which and when");
         require(reference.faceProbability() > 0.9f && reference.voiceActivity() == 0, "how sure");
@@ -120,7 +120,7 @@ public final class ClipTest {
         require(tracked(ClipTest::rgb, 4).lod() == 4, "a level");
     }
 
-    static void controlsSpeakEveryVocabulary() {
+    static void convertsControlsToEveryVocabulary() {
         Controls controls = reference.controls();
         require(Controls.NAMES.get(17).equals("jawOpen") && controls.get(17) == controls.get("jawOpen"), "by name");
         require(controls.isSupported("jawOpen") && !controls.isSupported("eyeLookUpLeft"), "what is driven");
@@ -169,7 +169,7 @@ public final class ClipTest {
         return buffer;
     }
 
-    static void everyLayoutIsTheSamePicture() {
+    static void everyLayoutGivesTheSameResult() {
         same(frame -> Image.of(Image.Format.RGB, WIDTH, HEIGHT, new ByteBuffer[] {direct(frame, 0)}, new int[] {3 * WIDTH}), 0, 0);
         same(frame -> {
             byte[] turned = new byte[FRAME_BYTES];
@@ -188,7 +188,7 @@ public final class ClipTest {
         same(frame -> rgb(frame).region((int) box[0] - 40, (int) box[1] - 40, (int) box[2] + 80, (int) box[3] + 80), 4, 0.2f);
     }
 
-    static void whatIsWrongIsSaid() throws IOException {
+    static void reportsErrors() throws IOException {
         thrown(IllegalArgumentException.class, () -> Image.of(Image.Format.RGB, WIDTH, HEIGHT, new byte[FRAME_BYTES - 1]));
         thrown(IllegalArgumentException.class, () -> Image.of(Image.Format.GRAY8, 4, 4, new ByteBuffer[] {ByteBuffer.allocate(16)}, new int[] {4}));
         thrown(IllegalArgumentException.class,
@@ -212,7 +212,7 @@ public final class ClipTest {
         thrown(IllegalStateException.class, () -> closed.queueAudio(new float[1], 1, 16000, 0));
     }
 
-    static void soundMayComeFromAnotherThread() throws InterruptedException {
+    static void acceptsAudioFromAnotherThread() throws InterruptedException {
         float[] sound = new float[32000];
         for (int i = 0; i < sound.length; ++i) {
             double t = i / 16000.0, sum = 0;
@@ -266,7 +266,7 @@ public final class ClipTest {
         }
     }
 
-    static void networksOfOnesOwn() throws IOException {
+    static void runsCustomNetworks() throws IOException {
         Model model = Model.of(Files.readAllBytes(MODELS.resolve("proposal.mien")));
         try (Network network = new Network(model, "rnet", 0, 0)) {
             require(Arrays.equals(network.inputShape(), new int[] {3, 24, 24}), "its input");

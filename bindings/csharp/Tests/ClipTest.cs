@@ -34,7 +34,7 @@ class ClipTest
             return frames.Take(10).Select((frame, i) => tracker.Track(image(frame), i / Rate)).ToArray();
     }
 
-    public void AFaceIsFollowed()
+    public void TracksAFace()
     {
         Assert.That(reference.HasFace && reference.FaceProbability > 0.9f, "a face");
         Assert.Equal(FaceStatus.Tracking, reference.Status);
@@ -48,7 +48,7 @@ class ClipTest
         Assert.Equal(4, Tracked(Rgb, 4).Last().Lod);
     }
 
-    public void ControlsSpeakEveryVocabulary()
+    public void ConvertsControlsToEveryVocabulary()
     {
         Controls controls = reference.Controls;
         Assert.Equal("jawOpen", Controls.Names[17]);
@@ -68,7 +68,7 @@ class ClipTest
         Assert.Near(reference.Controls.ToArray(), last.Controls.ToArray(), share);
     }
 
-    public void EveryLayoutIsTheSamePicture()
+    public void EveryLayoutGivesTheSameResult()
     {
         Same(frame => new Image(PixelFormat.Bgra, Width, Height,
             Enumerable.Range(0, Width * Height * 4).Select(i => i % 4 == 3 ? (byte)7 : frame[i / 4 * 3 + 2 - i % 4]).ToArray()), 1e-3f, 1e-4f);
@@ -81,7 +81,7 @@ class ClipTest
             { Region = new[] { (int)reference.Box[0] - 40, (int)reference.Box[1] - 40, (int)reference.Box[2] + 80, (int)reference.Box[3] + 80 } }, 4, 0.2f);
     }
 
-    public void NativeMemoryIsReadWhereItLies()
+    public void ReadsNativeMemoryWithoutACopy()
     {
         NativeMemoryIsRead(false);
     }
@@ -104,7 +104,7 @@ class ClipTest
         Marshal.FreeHGlobal(memory);
     }
 
-    public void WhatIsWrongIsSaid()
+    public void ReportsErrors()
     {
         using (var tracker = new Tracker(weights, new TrackerOptions { Lod = 1, Sound = false }))
         {
@@ -136,7 +136,7 @@ class ClipTest
         Assert.Throws<ObjectDisposedException>(() => closed.Track(Rgb(frames[0]), 0));
     }
 
-    public void SoundMayComeFromAnotherThread()
+    public void AcceptsAudioFromAnotherThread()
     {
         float[] sound = Enumerable.Range(0, 32000).Select(i => i / 16000.0).Select(t => (float)(
             0.25 * Enumerable.Range(1, 24).Sum(k => Math.Sin(2 * Math.PI * 120 * k * t) / k) * Math.Max(Math.Sin(2 * Math.PI * 4 * t), 0))).ToArray();
@@ -189,7 +189,7 @@ class ClipTest
         }
     }
 
-    public void NetworksOfOnesOwn()
+    public void RunsCustomNetworks()
     {
         Model model = Model.Open(Path.Combine(models, "proposal.mien"));
         using (var network = new Network(model, "rnet"))

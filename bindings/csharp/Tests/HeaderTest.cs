@@ -17,7 +17,7 @@ class HeaderTest
         return header.Where(fact => fact[0] == kind);
     }
 
-    public void StructsLieAsInTheHeader()
+    public void StructLayoutsMatchTheHeader()
     {
         var said = new List<string>();
         foreach (Type type in typeof(Native).GetNestedTypes(BindingFlags.NonPublic).Where(type => type.IsValueType))
@@ -30,7 +30,7 @@ class HeaderTest
         Assert.Equal("", string.Join(", ", said.Except(expected)));
     }
 
-    public void FunctionsAreInTheHeaderWithAsManyArguments()
+    public void FunctionsMatchTheHeader()
     {
         var functions = Facts("function").ToDictionary(fact => fact[1], fact => int.Parse(fact[2]));
         foreach (MethodInfo method in typeof(Native).GetMethods(BindingFlags.NonPublic | BindingFlags.Static).Where(m => m.Name.StartsWith("mien_")))
@@ -40,7 +40,7 @@ class HeaderTest
         }
     }
 
-    public void NumbersAreTheHeaders()
+    public void ConstantsMatchTheHeader()
     {
         Func<string, string> bare = name => name.Replace("_", "").ToLowerInvariant();
         var statuses = Enum.GetValues(typeof(Status)).Cast<Status>().ToDictionary(s => bare(s == Status.Ok ? "MIEN_OK" : "MIEN_ERROR_" + s), s => (int)s);

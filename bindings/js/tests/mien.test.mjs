@@ -37,7 +37,7 @@ test('names come in the order of the C API', () => {
   assert.equal(mien.landmarkCount, 175);
 });
 
-test('the jaw of the clip is followed with picture and sound', () => {
+test('video and audio move the jaw', () => {
   const tracker = mien.createTracker({...weights, lod: 4}), count = 120;
   const sound = ffmpeg('-f', 'f32le', '-ac', '1', '-ar', '16000', '-vn');
   const samples = new Float32Array(sound.buffer.slice(sound.byteOffset, sound.byteOffset + sound.length));
@@ -56,7 +56,7 @@ test('the jaw of the clip is followed with picture and sound', () => {
   tracker.destroy();
 });
 
-test('formats of the same picture give the same face', () => {
+test('formats of the same image give the same result', () => {
   const results = [['rgba', 'rgba', 4], ['i420', 'yuv420p', 1.5], ['bgra', 'bgra', 4]].map(([format, pixels, bytes]) => {
     const tracker = mien.createTracker({...weights, lod: 1});
     frames(pixels, width * height * bytes, 5).forEach((data, i) =>
@@ -69,7 +69,7 @@ test('formats of the same picture give the same face', () => {
   for (const box of results) box.forEach((value, i) => assert.ok(Math.abs(value - results[0][i]) < 3, `${value} and ${results[0][i]}`));
 });
 
-test('a region is all that is seen', () => {
+test('only the region is read', () => {
   const track = region => {
     const tracker = mien.createTracker({...weights, lod: 1});
     frames('rgba', width * height * 4, 5).forEach((data, i) => tracker.pushVideo({width, height, data, region}, i * frameNs));
@@ -83,7 +83,7 @@ test('a region is all that is seen', () => {
   assert.equal(track([0, 0, 40, 40]).status, 'searching');
 });
 
-test('structs lie as the header says', {skip: !process.env.MIEN_C_API32 && 'MIEN_C_API32 is not set'}, () => {
+test('struct layouts match the header', {skip: !process.env.MIEN_C_API32 && 'MIEN_C_API32 is not set'}, () => {
   const facts = readFileSync(process.env.MIEN_C_API32, 'utf8').split('\n').map(line => line.split(' '));
   const said = Object.fromEntries(facts.filter(([kind]) => kind === 'field' || kind === 'struct').map(([, name, value]) => [name, Number(value)]));
   for (const [struct, members] of Object.entries(fields)) {
@@ -92,7 +92,7 @@ test('structs lie as the header says', {skip: !process.env.MIEN_C_API32 && 'MIEN
   }
 });
 
-test('what is wrong is said with its status', () => {
+test('errors have a status', () => {
   const fails = (status, action) => assert.throws(action, error => error instanceof MienError && error.status === status, `status ${status}`);
   fails(-20, () => mien.createTracker({...weights, basenet: new Uint8Array(4096)}));
   fails(-1, () => mien.createTracker({proposal: weights.proposal}));
@@ -116,7 +116,7 @@ test('what is wrong is said with its status', () => {
   hearing.destroy();
 });
 
-test('numbers that do not fit and arrays of another type never reach the module', () => {
+test('numbers out of range and arrays of another type are rejected', () => {
   const fails = (status, action) => assert.throws(action, error => error instanceof MienError && error.status === status, `${status}: ${action}`);
   const far = 2 ** 32, data = new Uint8Array(64 * 48 * 4), image = {width: 64, height: 48, data};
   for (const option of ['lod', 'maxFaces', 'cpuMask', 'loseAfterFrames']) fails(-3, () => mien.createTracker({...weights, [option]: far + 1}));
@@ -157,7 +157,7 @@ test('numbers that do not fit and arrays of another type never reach the module'
   tracker.destroy();
 });
 
-test('what was destroyed is an error, not memory of others', () => {
+test('use after destroy is an error', () => {
   const gone = action => assert.throws(action, error => error instanceof MienError && error.status === -1);
   const tracker = mien.createTracker({...weights, lod: 1});
   tracker.destroy();
@@ -174,7 +174,7 @@ test('what was destroyed is an error, not memory of others', () => {
   gone(() => network.output(0));
 });
 
-test('a neutral face is captured, saved and taken over', () => {
+test('a neutral face is captured, saved and loaded', () => {
   const tracker = mien.createTracker({...weights, lod: 2}), [data] = frames('rgba', width * height * 4, 1);
   tracker.captureNeutral();
   for (let i = 0; i < 70; ++i) tracker.pushVideo({width, height, data}, i * frameNs);
@@ -187,7 +187,7 @@ test('a neutral face is captured, saved and taken over', () => {
   for (const one of [tracker, other]) one.destroy();
 });
 
-test('trackers give their memory back', () => {
+test('trackers release their memory', () => {
   const pages = () => mien.memory.buffer.byteLength;
   mien.createTracker({...weights, lod: 4}).destroy();
   const before = pages();

@@ -30,7 +30,7 @@ const imageData = {width: 640, height: 480, data: new Uint8ClampedArray(readFile
 const samples = new Float32Array(new Uint8Array(readFileSync('sound.f32')).buffer), timeNs = 0;
 `;
 
-test('the example tracks the face of a picture', () => {
+test('the example tracks the face of an image', () => {
   install();
   decode('frame.rgba', '-frames:v', '1', '-pix_fmt', 'rgba', '-f', 'rawvideo');
   decode('sound.f32', '-vn', '-t', '0.1', '-f', 'f32le', '-ac', '1', '-ar', '48000');

@@ -26,13 +26,13 @@ def facts():
     return said
 
 
-def test_structs_lie_as_in_the_header(facts):
+def test_struct_layouts_match_the_header(facts):
     fields = {f"{name}.{field[0]}": getattr(struct, field[0]).offset for name, struct in _library.STRUCTS.items() for field in struct._fields_}
     assert fields == facts["field"]
     assert {name: ctypes.sizeof(struct) for name, struct in _library.STRUCTS.items()} == facts["struct"]
 
 
-def test_every_function_is_in_the_header_with_as_many_arguments(facts):
+def test_functions_match_the_header(facts):
     for name, (_, arguments) in _library.FUNCTIONS.items():
         assert len(arguments) == facts["function"][name], name
 

@@ -10,7 +10,7 @@ import pytest
 from mien._library import MODELS, PROGRAM
 
 
-def test_a_film(clip):
+def test_a_video(clip):
     rows = list(mien.track_file(clip))
     assert len(rows) > 60 and set(mien.CONTROL_NAMES) < set(rows[0])
     assert sum(row["status"] == "tracking" for row in rows) > 0.9 * len(rows)
@@ -20,7 +20,7 @@ def test_a_film(clip):
     assert table["status"].dtype.kind == "U"
 
 
-def test_it_is_read_while_rows_are_taken(clip):
+def test_the_file_is_read_while_rows_are_taken(clip):
     rows = mien.track_file(clip, lod=1, sound=False)
     assert next(rows)["time_s"] == 0
     rows.close()
@@ -41,21 +41,21 @@ def ffmpeg(*options):
     subprocess.run(["ffmpeg", "-v", "error", *map(str, options)], check=True)
 
 
-def test_a_voice(tmp_path):
+def test_an_audio_file(tmp_path):
     rows = list(mien.track_file(voice(tmp_path)))
     assert len(rows) == 30 and all(row["status"] == "searching" for row in rows)
     with pytest.raises(mien.MienError, match="no video"):
         list(mien.track_file(tmp_path / "voice.wav", sound=False))
 
 
-def test_a_cover_is_no_film(tmp_path):
+def test_cover_art_is_not_a_video(tmp_path):
     song = tmp_path / "song.flac"
     cover = ["-f", "lavfi", "-i", "color=red:size=64x64:rate=1:duration=1"]
     ffmpeg("-i", voice(tmp_path), *cover, "-map", "0", "-map", "1", "-c:v", "png", "-disposition:v", "attached_pic", song)
     assert len(list(mien.track_file(song))) == 30
 
 
-def test_a_voice_that_begins_late(tmp_path, clip):
+def test_audio_that_starts_late(tmp_path, clip):
     speech, film = tmp_path / "speech.wav", tmp_path / "late.mp4"
     ffmpeg("-i", clip, "-vn", "-t", "2", speech)
     black = ["-f", "lavfi", "-i", "color=black:size=64x64:rate=30:duration=3"]
@@ -65,7 +65,7 @@ def test_a_voice_that_begins_late(tmp_path, clip):
     assert np.abs(np.subtract(heard[1][:90], [0] * 30 + heard[0])).max() < 0.2
 
 
-def test_damaged_films(tmp_path, clip):
+def test_damaged_videos(tmp_path, clip):
     for container in ("mp4", "mkv"):
         whole, damaged = tmp_path / f"whole.{container}", tmp_path / f"damaged.{container}"
         ffmpeg("-i", clip, "-c", "copy", "-movflags", "faststart", whole)
@@ -81,7 +81,7 @@ def test_damaged_films(tmp_path, clip):
     assert len(list(mien.track_file(cut, lod=1))) >= 30
 
 
-def test_errors_of_a_decoder_are_a_warning(tmp_path, clip):
+def test_decoding_errors_are_warnings(tmp_path, clip):
     whole, damaged = tmp_path / "whole.mp4", tmp_path / "damaged.mp4"
     ffmpeg("-i", clip, "-an", "-t", "2", "-c", "copy", whole)
     data = bytearray(whole.read_bytes())
@@ -98,7 +98,7 @@ def test_errors_of_a_decoder_are_a_warning(tmp_path, clip):
     assert len(rows) > 40
 
 
-def test_what_ffmpeg_says_is_handed_on(tmp_path, clip, monkeypatch):
+def test_messages_of_ffmpeg_are_passed_on(tmp_path, clip, monkeypatch):
     program = tmp_path / "ffmpeg"
     program.write_text(f'#!/bin/sh\n{shutil.which("ffmpeg")} "$@"\necho "it fell ill" >&2\nexit 3\n')
     program.chmod(0o755)
@@ -120,7 +120,7 @@ ODD = {
 
 
 @pytest.mark.parametrize("name", ODD)
-def test_rows_are_those_of_the_program(tmp_path, clip, name):
+def test_rows_match_the_program(tmp_path, clip, name):
     film, curves = tmp_path / name, tmp_path / "curves.csv"
     ffmpeg("-t", "1", "-i", clip, *ODD[name], film)
     subprocess.run([PROGRAM, "track", "--quiet", "--models", MODELS, film, "-o", curves], check=True)
@@ -134,7 +134,7 @@ def test_rows_are_those_of_the_program(tmp_path, clip, name):
         assert row["width"] == pytest.approx(float(other["w"] or 0), abs=1e-3)
 
 
-def test_the_video_may_be_turned(tmp_path, clip):
+def test_the_video_may_be_rotated(tmp_path, clip):
     turned = tmp_path / "turned.mp4"
     ffmpeg("-t", "1", "-i", clip, "-vf", "transpose=cclock", "-c:v", "libx264", turned)
     rows = list(mien.track_file(turned, rotation=90, sound=False))
@@ -149,7 +149,7 @@ def test_a_name_is_a_name(tmp_path, monkeypatch):
     assert len(list(mien.track_file("10:30.wav"))) == 30
 
 
-def test_what_is_no_film(tmp_path, monkeypatch):
+def test_files_without_video_are_rejected(tmp_path, monkeypatch):
     with pytest.raises(FileNotFoundError, match="nowhere"):
         mien.track_file(tmp_path / "nowhere.mp4")
     (tmp_path / "text.mp4").write_text("no film")

@@ -38,7 +38,7 @@ def convert(*arguments):
 
 
 @pytest.mark.parametrize("channels", [3, 11])  # interleaved, and in blocks of 8
-def test_a_converted_network_answers_as_it_should(tmp_path, channels):
+def test_a_converted_network_gives_the_expected_output(tmp_path, channels):
     weight = convolution(tmp_path / "net.onnx", channels)
     done = convert(tmp_path / "net.onnx", "-o", tmp_path / "net.mien")
     assert done.returncode == 0, done.stderr
@@ -59,7 +59,7 @@ def test_a_converted_network_answers_as_it_should(tmp_path, channels):
         network.run(x)
 
 
-def test_what_is_refused(tmp_path):
+def test_invalid_input_is_rejected(tmp_path):
     graph = helper.make_graph([helper.make_node("Sin", ["x"], ["y"], name="the_sin")], "g",
                               [helper.make_tensor_value_info("x", TensorProto.FLOAT, [1, 3])],
                               [helper.make_tensor_value_info("y", TensorProto.FLOAT, [1, 3])])

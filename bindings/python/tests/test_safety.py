@@ -25,7 +25,7 @@ def network():
 
 
 @pytest.mark.parametrize("stride", [2**31, 2**32, 2**32 + 192, -(2**31) - 1, 2**62])
-def test_rows_that_are_too_far_apart_for_c(tracker, stride):
+def test_row_strides_out_of_range(tracker, stride):
     frame = np.lib.stride_tricks.as_strided(PICTURE, (2, 64, 3), (stride, 3, 1))
     with pytest.raises(errors.OutOfRangeError, match="row_stride_bytes: number out of range"):
         tracker.track(frame, 0)
@@ -37,7 +37,7 @@ def test_the_stride_of_a_single_row_does_not_matter(tracker):
 
 
 @pytest.mark.parametrize("time_s", [1e10, -1e10, 2.0**63, float("inf"), float("-inf"), float("nan")])
-def test_times_that_are_none(tracker, time_s):
+def test_invalid_times_are_rejected(tracker, time_s):
     samples = np.zeros(160, np.float32)
     for call in (lambda: tracker.track(PICTURE, time_s), lambda: tracker.advance(time_s), lambda: tracker.push_audio(samples, time_s),
                  lambda: tracker.queue_audio(samples, time_s), lambda: tracker.set_audio_offset(time_s)):
@@ -48,7 +48,7 @@ def test_times_that_are_none(tracker, time_s):
 
 @pytest.mark.parametrize("options", [
     {"max_faces": 2**32 + 1}, {"lod": 2**32 + 1}, {"audio_queue_samples": 2**32 + 16000}, {"max_faces": -(2**32) + 1}, {"budget_ms": 1e39}])
-def test_options_that_c_would_cut(options):
+def test_options_out_of_range(options):
     with pytest.raises(errors.OutOfRangeError, match=f"{next(iter(options))}: number out of range"):
         Tracker(**options)
 
@@ -56,12 +56,12 @@ def test_options_that_c_would_cut(options):
 @pytest.mark.parametrize("options", [
     {"rotation": 2**32}, {"region": (0, 0, 2**32 + 64, 48)}, {"region": (-(2**32), 0, 64, 48)}, {"focal_length_px": 1e39},
     {"principal_point": (1e39, 0.0)}])
-def test_facts_about_a_picture_that_c_would_cut(tracker, options):
+def test_image_fields_out_of_range(tracker, options):
     with pytest.raises(errors.OutOfRangeError, match="number out of range"):
         tracker.track(PICTURE, 0, **options)
 
 
-def test_arguments_that_c_would_cut(tracker):
+def test_arguments_out_of_range(tracker):
     with pytest.raises(errors.OutOfRangeError, match="argument 2 of mien_tracker_set_lod"):
         tracker.set_lod(2**32 + 1)
     with pytest.raises(errors.OutOfRangeError, match="sample_rate"):
@@ -72,7 +72,7 @@ def test_arguments_that_c_would_cut(tracker):
         tracker.set_lod(1.5)
 
 
-def test_whole_numbers_may_be_numpys(tracker):
+def test_numpy_integers_are_accepted(tracker):
     tracker.set_lod(np.int64(1))
     assert not tracker.track(PICTURE, np.float32(0), rotation=np.int64(90), mirrored=np.bool_(True), region=np.array([0, 0, 64, 48])).has_face
 
@@ -88,7 +88,7 @@ def test_every_number_of_every_struct_is_checked():
 
 
 @pytest.mark.parametrize("kind", ["tracker", "network"])
-def test_what_c_owns_cannot_be_copied(request, kind):
+def test_c_objects_cannot_be_copied(request, kind):
     made = request.getfixturevalue(kind)
     for double in (copy.copy, copy.deepcopy, pickle.dumps):
         with pytest.raises(TypeError, match=f"a {kind} cannot be copied or pickled"):
@@ -108,7 +108,7 @@ def in_child(body):
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork here")
-def test_after_a_fork_there_is_an_error_and_the_parent_goes_on(tracker, network):
+def test_a_fork_is_an_error_in_the_child_only(tracker, network):
     def uses():
         for call in (lambda: tracker.track(PICTURE, 0), tracker.result, tracker.reset, tracker.faces,
                      lambda: network.run(np.zeros(network.input_shape, np.float32)), network.reset):
@@ -129,7 +129,7 @@ def test_results_may_be_copied(tracker):
     assert copy.deepcopy(result).time_s == 1
 
 
-def test_controls_of_another_size_are_none(tracker):
+def test_controls_of_another_size_are_rejected(tracker):
     controls = tracker.track(PICTURE, 0).controls
     controls.array = controls.array[:3]
     with pytest.raises(ValueError, match=r"array: wrong shape \(got \(3,\), expected \(52,\)\)"):

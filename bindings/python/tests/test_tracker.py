@@ -20,7 +20,7 @@ def bgr(frames):
     return tracked(frames[:20])
 
 
-def test_a_face_is_followed(bgr, frames):
+def test_a_face_is_tracked(bgr, frames):
     result = bgr[-1]
     assert result.status is mien.FaceStatus.TRACKING and result.has_face
     assert result.face_id == 1 and result.lod == 1
@@ -56,7 +56,7 @@ def test_other_vocabularies(bgr):
         controls.to("klingon")
 
 
-def test_results_keep_what_they_say(bgr):
+def test_results_own_their_data(bgr):
     assert bgr[0].time_s == 0 and bgr[5].time_s == pytest.approx(5 / RATE)
     assert not np.array_equal(bgr[3].landmarks, bgr[13].landmarks)
 
@@ -66,7 +66,7 @@ def close(a, b, pixels, share):
     np.testing.assert_allclose(a.controls.array, b.controls.array, atol=share)
 
 
-def test_every_layout_is_the_same_picture(frames, bgr):
+def test_every_layout_gives_the_same_result(frames, bgr):
     some, last = frames[:20], bgr[-1]
     alpha = np.full((*some.shape[:3], 1), 7, np.uint8)
     close(tracked(some[..., ::-1].copy(), color="rgb")[-1], last, 1e-3, 1e-4)
@@ -94,7 +94,7 @@ def yuv(picture, bt709=False):
 
 @pytest.mark.parametrize("color", ["nv12", "nv21", "i420"])
 @pytest.mark.parametrize("bt709", [False, True])
-def test_yuv_is_the_same_picture_but_for_chroma(frames, bgr, color, bt709):
+def test_yuv_matches_bgr_up_to_chroma(frames, bgr, color, bt709):
     def laid_out(picture):
         y, u, v = yuv(picture, bt709)
         if color == "i420":
@@ -170,7 +170,7 @@ def voice(seconds=2.0, rate=16000):
     return (0.25 * buzz * np.maximum(np.sin(2 * np.pi * 4 * t), 0)).astype(np.float32)
 
 
-def test_sound_moves_the_mouth_and_may_come_from_another_thread(clip):
+def test_audio_moves_the_mouth_from_any_thread(clip):
     sound = voice()
     with mien.Tracker(1, audio_queue_samples=48000) as pushed, mien.Tracker(1, audio_queue_samples=48000) as queued:
         pushed.push_audio(sound, 0, 16000)
@@ -189,7 +189,7 @@ def test_sound_moves_the_mouth_and_may_come_from_another_thread(clip):
             pushed.set_mix("jawOpen", 2.0, 1.0)
 
 
-def test_kinds_of_sound():
+def test_audio_formats():
     sound = voice(0.5)
     stereo = np.stack([sound, sound], 1)
     answers = []
@@ -250,7 +250,7 @@ def test_other_weights(tmp_path):
         mien.Tracker(1, sound=False, models=tmp_path)
 
 
-def test_many_trackers_come_and_go():
+def test_many_trackers_are_created_and_closed():
     for _ in range(50):
         mien.Tracker(1, sound=False)
     assert ctypes.sizeof(ctypes.c_void_p) == 8

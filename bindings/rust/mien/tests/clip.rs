@@ -48,7 +48,7 @@ fn near(a: &FaceResult, b: &FaceResult, pixels: f32, share: f32) {
 }
 
 #[test]
-fn a_face_is_followed_and_speaks_every_vocabulary() {
+fn tracks_a_face_and_converts_to_every_vocabulary() {
     let results = tracked(level(1), frames()[..20].iter().map(|frame| rgb(frame)));
     let last = results.last().unwrap();
     assert!(last.has_face() && last.status() == FaceStatus::Tracking);
@@ -71,7 +71,7 @@ fn a_face_is_followed_and_speaks_every_vocabulary() {
 }
 
 #[test]
-fn every_layout_is_the_same_picture() {
+fn every_layout_gives_the_same_result() {
     let some = &frames()[..10];
     let reference = tracked(level(1), some.iter().map(|frame| rgb(frame))).pop().unwrap();
     let bgra: Vec<Vec<u8>> = some.iter().map(|frame| frame.chunks_exact(3).flat_map(|p| [p[2], p[1], p[0], 9]).collect()).collect();
@@ -100,7 +100,7 @@ fn every_layout_is_the_same_picture() {
 }
 
 #[test]
-fn what_is_wrong_is_said() {
+fn reports_errors() {
     let frame = &frames()[0];
     let weights = weights();
     assert!(Image::rgb(WIDTH, HEIGHT, &frame[1..], WIDTH * 3).is_err(), "nothing beyond the bytes is read");
@@ -142,7 +142,7 @@ fn voice() -> Vec<f32> {
 }
 
 #[test]
-fn sound_may_come_from_another_thread() {
+fn accepts_audio_from_another_thread() {
     let sound = voice();
     let options = || Options { audio_queue_samples: 48000, ..level(1) };
     let mut pushed = Tracker::new(&weights(), options()).unwrap();
@@ -190,7 +190,7 @@ fn calibration_reset_and_threads() {
 }
 
 #[test]
-fn times_that_do_not_fit_are_errors() {
+fn rejects_times_out_of_range() {
     let mut tracker = Tracker::new(&weights(), Options { audio_queue_samples: 16000, ..level(1) }).unwrap();
     let sound = [0.0; 160];
     let sound = Audio::float(&sound, 1, 16000).unwrap();
@@ -211,7 +211,7 @@ fn times_that_do_not_fit_are_errors() {
 }
 
 #[test]
-fn networks_of_ones_own() {
+fn runs_custom_networks() {
     let model = Model::open(format!("{REPOSITORY}/models/proposal.mien")).unwrap();
     let mut network = Network::new(&model, Some("rnet"), None).unwrap();
     let shape = network.input_shape();

@@ -17,7 +17,7 @@ macro_rules! layout {
 }
 
 #[test]
-fn everything_is_as_in_the_header() {
+fn declarations_match_the_header() {
     let path = std::env::var("MIEN_C_API").expect("MIEN_C_API names what bindings/c_api.py wrote");
     let header = std::fs::read_to_string(path).unwrap();
     let mut said = BTreeSet::new();

@@ -10,7 +10,7 @@ final class TrackerTests: XCTestCase {
     URL(fileURLWithPath: try XCTUnwrap(ProcessInfo.processInfo.environment[name], "\(name) is not set"))
   }
 
-  func testAFaceIsFollowed() throws {
+  func testTracksAFace() throws {
     var options = TrackerOptions()
     options.lod = 1
     let tracker = try Tracker(weights: try Weights(folder: path("MIEN_MODELS")), options: options)
@@ -30,7 +30,7 @@ final class TrackerTests: XCTestCase {
     XCTAssertEqual(Vocabulary.allCases.map { $0.names.count }, [52, 52, 50, 11, 11, 15])
   }
 
-  func testWhatIsWrongIsSaid() throws {
+  func testReportsErrors() throws {
     let broken = Weights(basenet: Model(Data(count: 640)), proposal: Model(Data(count: 640)))
     XCTAssertThrowsError(try Tracker(weights: broken)) { XCTAssertEqual("\($0)", "\(MienError.status(-20))") }
   }
