@@ -77,12 +77,12 @@ class Base:
                 if output in self._sources and not name.startswith(".."):
                     self._dependents.setdefault(name, []).append(output)
 
-    def dependents(self, file):
-        """Objects of the library that hold the file; that with the same name as a header first. Programs and tests are left as they are: they
-        take long to compile, and expect of the library what the original header says."""
+    def dependents(self, file, tests_too):
+        """Objects that hold the file; that with the same name as a header first. Of the library, and of tests, which take long to compile."""
         stem = os.path.splitext(file)[0] + ".cpp"
-        outputs = [output for output in self._dependents.get(file, []) if self._sources[output].startswith(FOLDERS)]
-        return sorted(outputs, key=lambda output: (self._sources[output] != stem, output))
+        folders = (*FOLDERS, "tests/") if tests_too else FOLDERS
+        outputs = [output for output in self._dependents.get(file, []) if output.startswith(folders)]
+        return sorted(outputs, key=lambda output: (self._sources[output] != stem, output.startswith("tests/"), output))
 
     def source_of(self, output):
         return self._sources[output]

@@ -21,7 +21,7 @@ class Variant:
         self._overlay, self._objects, self._programs = (folder / name for name in ("source", "objects", "programs"))
         self._compiled, self._file = set(), ""
 
-    def begin(self, file, text):
+    def begin(self, file, text, tests_too):
         for folder in (self._overlay, self._objects, self._programs):
             shutil.rmtree(folder, ignore_errors=True)
             folder.mkdir(parents=True)
@@ -29,7 +29,7 @@ class Variant:
         path = self._overlay / file
         path.parent.mkdir(parents=True)
         path.write_text(text)
-        self._dependents = self._base.dependents(file)
+        self._dependents = self._base.dependents(file, tests_too)
         if self._dependents:
             self._object(self._dependents[0])
 

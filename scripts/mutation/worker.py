@@ -73,10 +73,14 @@ class Worker:
         return {"outcome": outcome, "by": test, "seconds": round(time.monotonic() - began, 1)}
 
     def _outcome(self, mutant, slow):
+        text = mutant.applied((self._base.source / mutant.file).read_text())
+        # What is inline in a header is part of the tests as well: where the library alone survives, they are compiled anew.
+        tests_too = slow and mutant.file.endswith(".h")
+        jobs = [*(self._jobs(mutant.file, slow=False) if tests_too else []), *self._jobs(mutant.file, slow)]
         try:
-            self._variant.begin(mutant.file, mutant.applied((self._base.source / mutant.file).read_text()))
+            self._variant.begin(mutant.file, text, tests_too)
             programs = {}
-            for check, tests in self._jobs(mutant.file, slow):
+            for check, tests in jobs:
                 if check.path not in programs:
                     programs[check.path] = self._variant.program(check.path)
                 if programs[check.path] is None:
