@@ -44,7 +44,7 @@ std::string bytes_of(std::u16string_view text, bool big) {
   return bytes;
 }
 
-std::string read(std::string_view bytes) {
+std::string utf8_of(std::string_view bytes) {
   std::string converted;
   std::string_view text;
   Fault fault;
@@ -53,25 +53,25 @@ std::string read(std::string_view bytes) {
 
 TEST(TextEncoding, Utf16BecomesUtf8InEitherByteOrder) {
   for (const Character& character : kCharacters) {
-    EXPECT_EQ(read("\xFE\xFF" + bytes_of(character.utf16, true)), character.utf8);
-    EXPECT_EQ(read("\xFF\xFE" + bytes_of(character.utf16, false)), character.utf8);
+    EXPECT_EQ(utf8_of("\xFE\xFF" + bytes_of(character.utf16, true)), character.utf8);
+    EXPECT_EQ(utf8_of("\xFF\xFE" + bytes_of(character.utf16, false)), character.utf8);
   }
 }
 
 TEST(TextEncoding, WithoutAMarkTwoAsciiCharactersTellTheByteOrder) {
   for (const bool big : {false, true}) {
-    EXPECT_EQ(read(bytes_of(u"{}\u00e4", big)), "{}\xC3\xA4");
-    EXPECT_EQ(read(bytes_of(u"{}", big)), "{}");
-    EXPECT_EQ(read(bytes_of(u"{", big)), bytes_of(u"{", big)) << "one is not enough";
-    EXPECT_EQ(read(bytes_of(u"{\u0100", big)), bytes_of(u"{\u0100", big));
+    EXPECT_EQ(utf8_of(bytes_of(u"{}\u00e4", big)), "{}\xC3\xA4");
+    EXPECT_EQ(utf8_of(bytes_of(u"{}", big)), "{}");
+    EXPECT_EQ(utf8_of(bytes_of(u"{", big)), bytes_of(u"{", big)) << "one is not enough";
+    EXPECT_EQ(utf8_of(bytes_of(u"{\u0100", big)), bytes_of(u"{\u0100", big));
   }
 }
 
 TEST(TextEncoding, Utf8IsTakenAsItIsWithoutItsMark) {
-  EXPECT_EQ(read("\xEF\xBB\xBF{}"), "{}");
-  EXPECT_EQ(read("{}"), "{}");
-  EXPECT_EQ(read("\xEF\xBB\xBF"), "");
-  EXPECT_EQ(read(""), "");
+  EXPECT_EQ(utf8_of("\xEF\xBB\xBF{}"), "{}");
+  EXPECT_EQ(utf8_of("{}"), "{}");
+  EXPECT_EQ(utf8_of("\xEF\xBB\xBF"), "");
+  EXPECT_EQ(utf8_of(""), "");
 }
 
 TEST(TextEncoding, FaultsOfUtf16SayAtWhichByte) {
@@ -81,10 +81,10 @@ TEST(TextEncoding, FaultsOfUtf16SayAtWhichByte) {
       {u"ab\xdbff\xd800", "byte 6: " + half}, {u"ab\xdc00", "byte 6: " + half},
       {u"a\xdfff\xdc00", "byte 4: " + half},  {u"ab\xd800\xe000", "byte 6: " + half}};
   for (const auto& [text, fault] : cases) {
-    EXPECT_EQ(read("\xFE\xFF" + bytes_of(text, true)), fault);
-    EXPECT_EQ(read("\xFF\xFE" + bytes_of(text, false)), fault);
+    EXPECT_EQ(utf8_of("\xFE\xFF" + bytes_of(text, true)), fault);
+    EXPECT_EQ(utf8_of("\xFF\xFE" + bytes_of(text, false)), fault);
   }
-  EXPECT_EQ(read("\xFE\xFF\0a\0"sv), "byte 4: UTF-16 ends within a character");
+  EXPECT_EQ(utf8_of("\xFE\xFF\0a\0"sv), "byte 4: UTF-16 ends within a character");
 }
 
 TEST(JsonText, EveryHexadecimalDigitCounts) {

@@ -17,7 +17,7 @@ using Visemes = std::array<double, kVisemeCount>;
 using Controls = std::array<double, kControlCount>;
 using Values = std::vector<std::pair<std::string, double>>;
 
-Visemes visemes(const Values& values) {
+Visemes visemes_at(const Values& values) {
   Visemes made{};
   for (const auto& [name, value] : values) {
     made[index_of(name, kVisemeNames)] = value;
@@ -26,7 +26,7 @@ Visemes visemes(const Values& values) {
 }
 
 // A name without a side stands for both; other controls of the mouth are at rest.
-Controls mouth(const Values& values) {
+Controls mouth_of(const Values& values) {
   Controls made = controls_of_visemes(Visemes{});
   for (const auto& [name, value] : values) {
     for (const std::string side : {"", "Left", "Right"}) {
@@ -39,7 +39,7 @@ Controls mouth(const Values& values) {
   return made;
 }
 
-void expect_equal(const Controls& made, const Controls& wanted, const std::string& what) {
+void expect_mouth(const Controls& made, const Controls& wanted, const std::string& what) {
   for (std::size_t i = 0; i < kControlCount; ++i) {
     EXPECT_EQ(driven(made[i]), driven(wanted[i])) << what << kArkitNames[i];
     EXPECT_NEAR(or_zero(made[i]), or_zero(wanted[i]), 1e-12) << what << kArkitNames[i];
@@ -76,20 +76,20 @@ TEST(Visemes, EachIsAMouth) {
       {"ou", {{"jawOpen", 0.14}, {"mouthPucker", 0.75}, {"mouthFunnel", 0.15}}}};
   ASSERT_EQ(poses.size(), kVisemeCount);
   for (const auto& [viseme, pose] : poses) {
-    expect_equal(controls_of_visemes(visemes({{viseme, 1.0}})), mouth(pose), viseme + " ");
+    expect_mouth(controls_of_visemes(visemes_at({{viseme, 1.0}})), mouth_of(pose), viseme + " ");
   }
-  expect_equal(controls_of_visemes(visemes({{"aa", 0.5}, {"ih", 0.25}, {"sil", 0.25}})),
-               mouth({{"jawOpen", 0.375},
-                      {"mouthLowerDown", 0.1},
-                      {"mouthUpperUp", 0.05},
-                      {"mouthSmile", 0.1125}}),
+  expect_mouth(controls_of_visemes(visemes_at({{"aa", 0.5}, {"ih", 0.25}, {"sil", 0.25}})),
+               mouth_of({{"jawOpen", 0.375},
+                         {"mouthLowerDown", 0.1},
+                         {"mouthUpperUp", 0.05},
+                         {"mouthSmile", 0.1125}}),
                "mixed ");
-  expect_equal(controls_of_visemes(visemes({{"aa", 1.0}, {"oh", 1.0}})),
-               mouth({{"jawOpen", 1.0},
-                      {"mouthLowerDown", 0.2},
-                      {"mouthUpperUp", 0.1},
-                      {"mouthFunnel", 0.5},
-                      {"mouthPucker", 0.1}}),
+  expect_mouth(controls_of_visemes(visemes_at({{"aa", 1.0}, {"oh", 1.0}})),
+               mouth_of({{"jawOpen", 1.0},
+                         {"mouthLowerDown", 0.2},
+                         {"mouthUpperUp", 0.1},
+                         {"mouthFunnel", 0.5},
+                         {"mouthPucker", 0.1}}),
                "at most 1 ");
 }
 
@@ -110,17 +110,17 @@ TEST(Visemes, OnlyTheMouthIsDriven) {
 }
 
 TEST(Visemes, OneSideOfTheMouthCountsHalf) {
-  Controls controls = mouth({{"jawOpen", 0.2}, {"mouthSmile", 0.45}});
+  Controls controls = mouth_of({{"jawOpen", 0.2}, {"mouthSmile", 0.45}});
   controls[index_of("mouthSmileLeft", kArkitNames)] = 0.9;
   controls[index_of("mouthSmileRight", kArkitNames)] = kNoNumber;
   EXPECT_NEAR(visemes_of(controls)[index_of("ih", kVisemeNames)], 1.0, 1e-9);
 }
 
 TEST(Visemes, WhatLacksToOneIsSilenceAndMoreIsBroughtDown) {
-  const Visemes half = visemes_of(mouth({{"jawOpen", 0.1}, {"mouthSmile", 0.225}}));
+  const Visemes half = visemes_of(mouth_of({{"jawOpen", 0.1}, {"mouthSmile", 0.225}}));
   EXPECT_NEAR(half[index_of("ih", kVisemeNames)], 0.5, 1e-9);
   EXPECT_NEAR(half[0], 0.5, 1e-9);
-  const Visemes twice = visemes_of(mouth({{"jawOpen", 0.4}, {"mouthSmile", 0.9}}));
+  const Visemes twice = visemes_of(mouth_of({{"jawOpen", 0.4}, {"mouthSmile", 0.9}}));
   EXPECT_NEAR(twice[index_of("ih", kVisemeNames)], 1.0, 1e-9);
   EXPECT_EQ(twice[0], 0.0);
 }
@@ -144,20 +144,21 @@ TEST(Visemes, TheControlThatLeadsAPose) {
 TEST(Visemes, MouthShapesAreThoseOfTheStrongestViseme) {
   const std::string shapes = "XAGHBBBBBEDCBEF";
   for (std::size_t i = 0; i < kVisemeCount; ++i) {
-    EXPECT_EQ(mouth_shape_of(visemes({{std::string(kVisemeNames[i]), 1.0}})), shapes[i])
+    EXPECT_EQ(mouth_shape_of(visemes_at({{std::string(kVisemeNames[i]), 1.0}})), shapes[i])
         << kVisemeNames[i];
   }
-  EXPECT_EQ(mouth_shape_of(visemes({{"sil", 0.75}, {"aa", 0.25}})), 'D');
-  EXPECT_EQ(mouth_shape_of(visemes({{"sil", 0.76}, {"aa", 0.24}})), 'X');
-  EXPECT_EQ(mouth_shape_of(visemes({{"PP", 0.3}, {"oh", 0.4}, {"ou", 0.3}})), 'E');
-  EXPECT_EQ(mouth_shape_of(visemes({{"PP", 0.5}, {"ou", 0.5}})), 'A') << "the first of equal ones";
+  EXPECT_EQ(mouth_shape_of(visemes_at({{"sil", 0.75}, {"aa", 0.25}})), 'D');
+  EXPECT_EQ(mouth_shape_of(visemes_at({{"sil", 0.76}, {"aa", 0.24}})), 'X');
+  EXPECT_EQ(mouth_shape_of(visemes_at({{"PP", 0.3}, {"oh", 0.4}, {"ou", 0.3}})), 'E');
+  EXPECT_EQ(mouth_shape_of(visemes_at({{"PP", 0.5}, {"ou", 0.5}})), 'A')
+      << "the first of equal ones";
   EXPECT_EQ(mouth_shape_of(Visemes{}), 'X');
   const std::string names[] = {"PP", "DD", "E", "aa", "oh", "ou", "FF", "TH", "sil"};
   for (std::size_t i = 0; i < kMouthShapes.size(); ++i) {
-    EXPECT_EQ(visemes_of_mouth_shape(kMouthShapes[i]), visemes({{names[i], 1.0}}))
+    EXPECT_EQ(visemes_of_mouth_shape(kMouthShapes[i]), visemes_at({{names[i], 1.0}}))
         << kMouthShapes[i];
   }
-  EXPECT_EQ(visemes_of_mouth_shape('Q'), visemes({{"sil", 1.0}})) << "no shape";
+  EXPECT_EQ(visemes_of_mouth_shape('Q'), visemes_at({{"sil", 1.0}})) << "no shape";
 }
 
 }  // namespace

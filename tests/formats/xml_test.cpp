@@ -16,7 +16,7 @@ namespace {
 
 using testing::ElementsAre;
 
-std::vector<XmlTag> tags_of(const std::string& text) {
+std::vector<XmlTag> xml_tags(const std::string& text) {
   std::vector<XmlTag> tags;
   Fault fault;
   const auto keep = [&tags](const XmlTag& tag) {
@@ -27,13 +27,13 @@ std::vector<XmlTag> tags_of(const std::string& text) {
   return tags;
 }
 
-std::string fault_of(const std::string& text) {
+std::string xml_fault(const std::string& text) {
   Fault fault;
   const auto keep = [](const XmlTag&) { return true; };
   return parse_xml(text, keep, fault) ? "none" : describe(fault);
 }
 
-std::string repeated(const std::string& text, std::size_t times) {
+std::string tags_repeated(const std::string& text, std::size_t times) {
   std::string all;
   for (std::size_t i = 0; i < times; ++i) {
     all += text;
@@ -41,7 +41,7 @@ std::string repeated(const std::string& text, std::size_t times) {
   return all;
 }
 
-std::string attributes(std::size_t count) {
+std::string numbered_attributes(std::size_t count) {
   std::string all;
   for (std::size_t i = 0; i < count; ++i) {
     all += " a" + std::string(i, 'a') + "='1'";
@@ -51,7 +51,7 @@ std::string attributes(std::size_t count) {
 
 TEST(Xml, TagsKnowTheirPlace) {
   std::vector<std::string> places;
-  for (const XmlTag& tag : tags_of("<?xml?>\n <a>\n\n<b/>text\n  </a>\n")) {
+  for (const XmlTag& tag : xml_tags("<?xml?>\n <a>\n\n<b/>text\n  </a>\n")) {
     places.push_back((tag.closes ? "/" : "") + tag.name + " " + std::to_string(tag.line) + ":" +
                      std::to_string(tag.column));
   }
@@ -59,7 +59,7 @@ TEST(Xml, TagsKnowTheirPlace) {
 }
 
 TEST(Xml, AnEmptyElementIsTwoTags) {
-  const std::vector<XmlTag> tags = tags_of("<a><b c='1'/> x </a>");
+  const std::vector<XmlTag> tags = xml_tags("<a><b c='1'/> x </a>");
   ASSERT_EQ(tags.size(), 4u);
   EXPECT_EQ(tags[1].attributes.size(), 1u);
   EXPECT_FALSE(tags[1].closes);
@@ -71,25 +71,25 @@ TEST(Xml, AnEmptyElementIsTwoTags) {
 
 TEST(Xml, NamesHaveLettersDigitsAndFourSigns) {
   for (const char c : std::string("azAZ09_-.:")) {
-    EXPECT_EQ(tags_of(std::string("<") + c + "/>")[0].name, std::string(1, c));
+    EXPECT_EQ(xml_tags(std::string("<") + c + "/>")[0].name, std::string(1, c));
   }
   for (const char c : std::string("`{@[;/,^")) {
-    EXPECT_NE(fault_of(std::string("<a") + c + "></a" + c + ">"), "none") << c;
+    EXPECT_NE(xml_fault(std::string("<a") + c + "></a" + c + ">"), "none") << c;
   }
 }
 
 TEST(Xml, TextHasNoBlanksAroundItAndGoesOnBehindAComment) {
   const std::vector<XmlTag> tags =
-      tags_of("<a>\t\r\n x  y \n<!-- <b> -->\tz&amp;&lt;&gt;&quot;&apos;</a>");
+      xml_tags("<a>\t\r\n x  y \n<!-- <b> -->\tz&amp;&lt;&gt;&quot;&apos;</a>");
   ASSERT_EQ(tags.size(), 2u);
   EXPECT_EQ(tags[0].text, "x  yz&<>\"'");
 }
 
 TEST(Xml, TakesSixtyFourElementsAndAttributes) {
-  EXPECT_EQ(tags_of(repeated("<a>", 64) + repeated("</a>", 64)).size(), 128u);
-  EXPECT_EQ(fault_of(repeated("<a>", 64) + "<b/>"), "line 1, column 193: too deeply nested");
-  EXPECT_EQ(tags_of("<a" + attributes(64) + "/>")[0].attributes.size(), 64u);
-  EXPECT_EQ(fault_of("<a" + attributes(65) + "/>").substr(0, 7), "line 1,");
+  EXPECT_EQ(xml_tags(tags_repeated("<a>", 64) + tags_repeated("</a>", 64)).size(), 128u);
+  EXPECT_EQ(xml_fault(tags_repeated("<a>", 64) + "<b/>"), "line 1, column 193: too deeply nested");
+  EXPECT_EQ(xml_tags("<a" + numbered_attributes(64) + "/>")[0].attributes.size(), 64u);
+  EXPECT_EQ(xml_fault("<a" + numbered_attributes(65) + "/>").substr(0, 7), "line 1,");
 }
 
 TEST(Xml, FaultsSayWhere) {
@@ -111,7 +111,7 @@ TEST(Xml, FaultsSayWhere) {
       {"<a>\n &amp</a>", "line 2, column 2: an entity that is not known"},
       {"<a/>\n\n  x", "line 3, column 3: text outside the outermost element"}};
   for (const auto& [text, fault] : cases) {
-    EXPECT_EQ(fault_of(text), fault) << text;
+    EXPECT_EQ(xml_fault(text), fault) << text;
   }
 }
 
