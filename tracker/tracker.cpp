@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 namespace mien::tracker {
@@ -18,6 +19,11 @@ struct Pace {
 };
 constexpr Pace kPace = {4, 2, true};
 constexpr Pace kPaceLowest = {1, 1, false};  // frames are cheap there, and none may stutter
+
+// Faces are detected within some 30 degrees of these rolls (radians), and of an upright image.
+constexpr float kEighth = 0.78539816f;
+constexpr std::array<float, 7> kRolls = {2 * kEighth, -2 * kEighth, kEighth,    -kEighth,
+                                         3 * kEighth, -3 * kEighth, 4 * kEighth};
 
 Pace pace_at(std::int32_t level) { return level == kLowestLevel ? kPaceLowest : kPace; }
 
@@ -86,8 +92,13 @@ mien_status Tracker::push(const mien_image* image, std::int64_t pts_ns) {
   const bool begins = !tracked || new_scene || pace_at(frame.level).begins_at_loss;
   const bool due = begins && faces_.tracked() == 0 && (detection_is_due() || new_scene);
   const bool searched = due || state_.search.stage != Search::Stage::kIdle;
-  if (searched) {
-    search(frame, new_scene);
+  if (searched && new_scene) {
+    search_all_rolls(frame);
+  } else if (searched) {
+    search(frame, false);
+    if (faces_.tracked() == 0) {
+      detect_large(frame);
+    }
   } else if (faces_.tracked() > 0 && faces_.has_free_slot()) {
     detect_in_tile(frame);
   }
@@ -161,12 +172,9 @@ void Tracker::track(Frame& frame) {
 void Tracker::search(Frame& frame, bool whole) {
   Search& search = state_.search;
   if (search.stage == Search::Stage::kIdle) {
-    search = Search();
-    search.stage = Search::Stage::kProposing;
-    // Hard faces need a thorough search; every second one stays quick for a face that comes back.
-    const bool thorough = whole || state_.searches % 2 == 1;
-    state_.searches += whole ? 0 : 1;
-    proposal_.begin(frame.view, thorough);
+    // Hard faces need a thorough search; the others are quick, for a face that comes back.
+    begin_search(frame, state_.searches % 4 == 1, next_roll());
+    ++state_.searches;
     ++state_.proposal_runs;
   }
   if (search.stage == Search::Stage::kProposing) {
@@ -174,6 +182,32 @@ void Tracker::search(Frame& frame, bool whole) {
   } else {
     judge(frame, whole);
   }
+}
+
+void Tracker::search_all_rolls(Frame& frame) {
+  ++state_.proposal_runs;
+  begin_search(frame, true, 0.0f);
+  search(frame, true);
+  for (std::size_t i = 0; i < kRolls.size() && faces_.tracked() == 0; ++i) {
+    begin_search(frame, false, kRolls[i]);
+    search(frame, true);
+  }
+}
+
+void Tracker::begin_search(Frame& frame, bool thorough, float roll) {
+  state_.search = Search();
+  state_.search.stage = Search::Stage::kProposing;
+  proposal_.begin(frame.view, thorough, roll);
+}
+
+// The first detection after a loss is at the roll of the lost face. Of every four, two are upright.
+float Tracker::next_roll() const {
+  const std::uint32_t n = state_.searches;
+  if (n == 0) {
+    const float lost = faces_.first().is_known() ? faces_.first().roll() : 0.0f;
+    return std::abs(lost) > kEighth / 2 ? lost : 0.0f;
+  }
+  return n % 4 < 2 ? 0.0f : kRolls[(n / 4 * 2 + n % 2) % kRolls.size()];
 }
 
 void Tracker::propose(Frame& frame, bool whole) {
@@ -207,6 +241,7 @@ void Tracker::judge(Frame& frame, bool whole) {
     if (faces_.add_face(frame, search.proposed[search.judged++], alignments)) {
       state_.frames_without_face = 0;
       state_.searches = 0;
+      state_.rolls = 0;
     }
   } while (whole && search.judged < search.count && faces_.has_free_slot());
   if (search.judged == search.count || !faces_.has_free_slot()) {
@@ -223,12 +258,36 @@ void Tracker::detect_in_tile(Frame& frame) {
         proposal_.detect_in_tile(frame.view, state_.turn % proposal_.turns(frame.view), found));
     ++state_.turn;
   }
+  add_first(frame, found, pace_at(frame.level).alignments);
+}
+
+void Tracker::detect_large(Frame& frame) {
+  std::array<Detection, kGlanced> memory;
+  std::span<Detection> found = memory;
+  const std::size_t i = state_.rolls++ % (kRolls.size() + 1);
+  {
+    const StageTimer::Scope timed(timer_, MIEN_STAGE_PROPOSAL);
+    found = found.first(proposal_.detect_large(frame.view, i == 0 ? 0.0f : kRolls[i - 1], found));
+  }
+  add_first(frame, found, (i == 0 ? pace_at(frame.level) : kPace).alignments);
+}
+
+// The first of the detections that is not a tracked face.
+void Tracker::add_first(Frame& frame, std::span<const Detection> found, int alignments) {
   const auto newcomer = std::find_if(found.begin(), found.end(), [&](const Detection& detection) {
     return !faces_.is_taken(detection.square);
   });
-  if (newcomer != found.end()) {
-    (void)faces_.add_face(frame, *newcomer, pace_at(frame.level).alignments);
+  if (newcomer != found.end() && faces_.add_face(frame, *newcomer, alignments)) {
+    restart_detection();
   }
+}
+
+// A face was found: the next detection begins anew.
+void Tracker::restart_detection() {
+  state_.search.stage = Search::Stage::kIdle;
+  state_.frames_without_face = 0;
+  state_.searches = 0;
+  state_.rolls = 0;
 }
 
 bool Tracker::detection_is_due() {

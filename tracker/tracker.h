@@ -69,7 +69,8 @@ class Tracker {
     bool cut_without_image = false;        // the film was, since the image before
     std::int32_t frames_without_face = 0;  // frames in a row with nothing found
     std::uint32_t searches = 0;            // begun since then
-    std::uint32_t turn = 0;                // of glances
+    std::uint32_t turn = 0;                // of detect_in_tile
+    std::uint32_t rolls = 0;               // tried by detect_large since there is no face
     // Totals.
     std::uint64_t frames = 0;
     std::uint64_t face_frames = 0;
@@ -79,14 +80,23 @@ class Tracker {
 
   [[nodiscard]] std::int32_t level() const { return lod_ == 0 ? governor_.level() : lod_; }
   void track(Frame& frame);
-  // A share of a search, or one from its beginning to its end.
+  // One share of a detection, or all of it.
   void search(Frame& frame, bool whole);
+  // All of it at every roll, until a face is found.
+  void search_all_rolls(Frame& frame);
+  void begin_search(Frame& frame, bool thorough, float roll);
+  // Roll of the next detection, radians.
+  [[nodiscard]] float next_roll() const;
   void propose(Frame& frame, bool whole);
   // What was proposed: the next, or all. Ends the search when there is no more.
   void judge(Frame& frame, bool whole);
   // Counts the frames on which a face is searched.
   [[nodiscard]] bool detection_is_due();
   void detect_in_tile(Frame& frame);
+  // Large faces at one roll, another on each frame.
+  void detect_large(Frame& frame);
+  void restart_detection();
+  void add_first(Frame& frame, std::span<const Detection> found, int alignments);
   // What every frame of output ends with.
   void finish(Frame& frame, std::int64_t pts_ns, std::uint32_t flags);
   void publish(const Frame& frame, std::int64_t pts_ns, std::uint32_t flags);

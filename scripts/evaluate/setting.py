@@ -7,7 +7,7 @@ import torch
 from program import Program
 
 PARTS = ("synthetic", "ablation", "levels", "response", "leakage", "pictures", "wild", "clips", "following", "voice", "sound_and_picture",
-         "yardstick", "amplitude")  # modules evaluate_PART
+         "yardstick", "amplitude", "orientation")  # modules evaluate_PART
 NETWORKS = {"LOD1": "basenet", "LOD4": "hifinet"}  # whose controls a level answers with; levels 2 and 3 are LOD4's with fewer frames
 
 

@@ -298,7 +298,7 @@ TEST(Tracking, DetectionResetsTheDecoders) {
     (void)used.push(disc);
   }
   Result found_again;
-  for (int i = 0; i < 8; ++i) {
+  for (int i = 0; i < 11; ++i) {  // then the next roll of the detector is 0
     found_again = used.push(Picture(320, 240));
   }
   ASSERT_EQ(found_again.status, MIEN_FACE_LOST);

@@ -227,6 +227,39 @@ TEST_F(TrainedLevels, OneFaceUsesLessThanSixMegabytes) {
   std::printf("%zu bytes\n", bytes);
 }
 
+// Radians, -pi..pi.
+float wrapped(float angle) { return std::remainder(angle, 2.0f * 3.14159265f); }
+
+// As the first image, and as a face that enters an empty scene: then within a second.
+TEST_F(Trained, FacesTurnedByAnyAngleAreTracked) {
+  const float upright = track({frames_.front()}).back().roll;
+  for (const int degrees : {60, 90, 135, 180, -45, -90, -150}) {
+    const std::vector<Frame> turned =
+        decode("trim=end_frame=30,rotate=" + std::to_string(degrees) + "*PI/180:fillcolor=gray,");
+    const std::vector<Frame> first = {turned.front()};
+    std::vector<Frame> enters(5, Frame(turned.front().size(), 128));
+    enters.insert(enters.end(), turned.begin(), turned.begin() + kFps);
+    for (const std::vector<Frame>& frames : {first, enters}) {
+      const Result result = track(frames).back();
+      ASSERT_TRUE(result.has_face()) << degrees << " of " << frames.size();
+      const float turn = wrapped(result.roll - upright) * 180.0f / 3.14159265f;
+      // A clockwise turn of the image is a negative roll.
+      EXPECT_NEAR(std::remainder(turn + static_cast<float>(degrees), 360.0f), 0.0f, 10.0f)
+          << degrees << " of " << frames.size();
+    }
+  }
+}
+
+TEST_F(Trained, AFaceLostWhileTurnedIsFoundAtItsAngle) {
+  std::vector<Frame> frames = decode("trim=end_frame=30,rotate=PI/2:fillcolor=gray,");
+  std::vector<Frame> clip = frames;
+  clip.insert(clip.end(), 10, Frame(frames.front().size(), 128));
+  clip.insert(clip.end(), frames.begin(), frames.end());
+  const std::vector<Result> results = track(clip);
+  EXPECT_FALSE(results[39].has_face());
+  EXPECT_TRUE(results.back().has_face());
+}
+
 // Landmarks lie around the box, and the head is upright in front of the camera.
 TEST_F(Trained, FaceIsUprightAndInFrontOfTheCamera) {
   const Result result = track(frames_)[frames_.size() / 2];

@@ -43,8 +43,23 @@ std::span<float> take_floats(engine::Arena& arena, std::size_t count) {
   return {reinterpret_cast<float*>(memory.data()), memory.size() / sizeof(float)};
 }
 
-Square canvas_of(const ImageView& view) {
-  return {view.region.center(), view.region.longer_side()};
+// The square around the region that is turned by `roll`.
+Crop canvas_of(const ImageView& view, float roll) {
+  const float c = std::abs(std::cos(roll)), s = std::abs(std::sin(roll));
+  const float width = view.region.width, height = view.region.height;
+  const float side = std::max(c * width + s * height, s * width + c * height);
+  return {view.region.center(), side, roll};
+}
+
+// From coordinates in which the canvas is upright.
+Crop to_image(const Crop& canvas, const Square& square) {
+  if (canvas.roll == 0.0f) {
+    return {square.center, square.side, 0.0f};
+  }
+  const float c = std::cos(canvas.roll), s = std::sin(canvas.roll);
+  const float x = square.center.x - canvas.center.x, y = square.center.y - canvas.center.y;
+  return {
+      {canvas.center.x + c * x - s * y, canvas.center.y + s * x + c * y}, square.side, canvas.roll};
 }
 
 }  // namespace
@@ -71,6 +86,10 @@ mien_status MtcnnDetector::load(const mien_tracker_config& config, const Models&
                  : small_[small_count_++].load(model, {"pnet", {side, side, 3}, {1, 3}},
                                                config.cpu_mask, arena);
   }
+  if (status == MIEN_OK && large_count_ > 0) {
+    const std::int32_t side = large_[large_count_ - 1].side;
+    status = medium_.load(model, {"pnet", {side, side, 3}, {1, 3}}, config.cpu_mask, arena);
+  }
   const engine::NetworkForm rnet = {"rnet", {kRefineSide, kRefineSide, 3}, {1, 3}};
   return status == MIEN_OK ? rnet_.load(model, rnet, config.cpu_mask, arena) : status;
 }
@@ -91,10 +110,11 @@ mien_status MtcnnDetector::load_large(const mien_tracker_config& config, const e
   return status;
 }
 
-void MtcnnDetector::begin(const ImageView& view, bool thorough) {
+void MtcnnDetector::begin(const ImageView& view, bool thorough, float roll) {
   search_ = {};
-  search_.canvas = canvas_of(view);
+  search_.canvas = canvas_of(view, roll);
   search_.threshold = proposal_threshold_ * (thorough ? kThorough : 1.0f);
+  search_.detections = detections_;
 }
 
 bool MtcnnDetector::go_on(const ImageView& view) {
@@ -108,45 +128,77 @@ bool MtcnnDetector::go_on(const ImageView& view) {
   }
   if (search_.size == large_count_) {
     ++search_.size;
-    engine::Network& first = small_.front();
-    if (large_count_ == 0) {
-      sampler_.cut_black(view, search_.canvas, first.input_shape().w, first.input());
-    } else {
-      const LargeSize& last = large_[large_count_ - 1];
-      shrink(last.picture, last.side, first.input(), first.input_shape().w, row_);
-    }
-    scan_small_sizes(0, 1);
+    make_small_picture(view);
+    scan_small_sizes(search_, 0, 1);
     return true;
   }
   if (search_.size == large_count_ + 1) {
     ++search_.size;
-    scan_small_sizes(1, small_count_);
-    end_scan(kRefined);
+    make_small_picture(view);  // detect_large may have used its memory
+    scan_small_sizes(search_, 1, small_count_);
+    end_scan(search_, kRefined);
   } else {
-    refine(view, kRefinedPerShare);
+    refine(search_, view, kRefinedPerShare);
   }
   return search_.seen_again < search_.scanned;
 }
 
+void MtcnnDetector::make_small_picture(const ImageView& view) {
+  engine::Network& first = small_.front();
+  if (large_count_ == 0) {
+    sampler_.cut_black(view, search_.canvas, first.input_shape().w, first.input());
+  } else {
+    const LargeSize& last = large_[large_count_ - 1];
+    shrink(last.picture, last.side, first.input(), first.input_shape().w, row_);
+  }
+}
+
 std::size_t MtcnnDetector::detect_in_tile(const ImageView& view, std::uint32_t turn,
                                           std::span<Detection> detections) {
-  begin(view, false);
-  std::size_t sizes = small_count_;
   for (std::size_t i = 0; i < large_count_; ++i) {
     const Tiles tiles = tiles_of(view, large_[i]);
     if (turn < tiles.count()) {
-      search_.canvas = tiles.square(turn);
-      sizes = 1;
-      break;
+      const Square tile = tiles.square(turn);
+      Search search = part({tile.center, tile.side, 0.0f});
+      engine::Network& first = small_.front();
+      sampler_.cut_black(view, search.canvas, first.input_shape().w, first.input());
+      scan_small_sizes(search, 0, 1);
+      return finish(search, view, detections);
     }
     turn -= tiles.count();
   }
+  return detect_large(view, 0.0f, detections);
+}
+
+std::size_t MtcnnDetector::detect_large(const ImageView& view, float roll,
+                                        std::span<Detection> detections) {
+  Search search = part(canvas_of(view, roll));
   engine::Network& first = small_.front();
-  sampler_.cut_black(view, search_.canvas, first.input_shape().w, first.input());
-  scan_small_sizes(0, sizes);
-  end_scan(detections.size());
-  refine(view, detections.size());
-  return found(detections);
+  if (large_count_ == 0) {
+    sampler_.cut_black(view, search.canvas, first.input_shape().w, first.input());
+  } else {
+    const std::int32_t side = medium_.input_shape().w;
+    sampler_.cut_black(view, search.canvas, side, medium_.input());
+    shrink(medium_.input(), side, first.input(), first.input_shape().w, row_);
+    scan(search, medium_);
+  }
+  scan_small_sizes(search, 0, small_count_);
+  return finish(search, view, detections);
+}
+
+MtcnnDetector::Search MtcnnDetector::part(const Crop& canvas) {
+  Search search;
+  search.canvas = canvas;
+  search.threshold = proposal_threshold_;
+  search.detections = few_detections_;
+  return search;
+}
+
+std::size_t MtcnnDetector::finish(Search& search, const ImageView& view,
+                                  std::span<Detection> detections) {
+  end_scan(search, detections.size());
+  refine(search, view, detections.size());
+  return found(search, detections);
 }
 
 std::uint32_t MtcnnDetector::turns(const ImageView& view) const {
@@ -157,20 +209,27 @@ std::uint32_t MtcnnDetector::turns(const ImageView& view) const {
 }
 
 Tiles MtcnnDetector::tiles_of(const ImageView& view, const LargeSize& size) const {
-  const float pixels = canvas_of(view).side / static_cast<float>(size.side);
+  const float pixels = canvas_of(view, 0.0f).side / static_cast<float>(size.side);
   const auto side = static_cast<float>(small_.front().input_shape().w);
   return {view.region, side * pixels, kWindow * pixels};
 }
 
-std::size_t MtcnnDetector::found(std::span<Detection> found) {
-  const std::span<Detection> refined = std::span(detections_).first(search_.refined);
+std::size_t MtcnnDetector::found(std::span<Detection> detections) {
+  return found(search_, detections);
+}
+
+std::size_t MtcnnDetector::found(const Search& search, std::span<Detection> found) {
+  const std::span<Detection> refined = search.detections.first(search.refined);
   const std::span<Detection> faces = refined.first(suppress_non_maxima(refined, kOverlapRefined));
   // Of several faces the largest comes first, unless R-Net is much less sure of it.
   std::sort(faces.begin(), faces.end(), [](const Detection& a, const Detection& b) {
     return a.score * a.square.side > b.score * b.square.side;
   });
   const std::size_t count = std::min(found.size(), faces.size());
-  std::copy_n(faces.begin(), count, found.begin());
+  for (std::size_t i = 0; i < count; ++i) {
+    const Crop crop = to_image(search.canvas, faces[i].square);
+    found[i] = {{crop.center, crop.side}, faces[i].score, crop.roll};
+  }
   return count;
 }
 
@@ -183,7 +242,7 @@ void MtcnnDetector::make_picture(const ImageView& view) {
     shrink(larger.picture, larger.side, size.picture, size.side, row_);
   }
   search_.has_picture = true;
-  best_ = none_yet();
+  best_ = none_yet(search_);
 }
 
 void MtcnnDetector::scan_band() {
@@ -195,17 +254,17 @@ void MtcnnDetector::scan_band() {
   const std::span<float> input = size.band.input();
   std::copy_n(size.picture.subspan(offset, input.size()).begin(), input.size(), input.begin());
   size.band.run();
-  collect(size.band, size.side, search_.cell_row - first, search_.cell_row, best_);
+  collect(search_, size.band, size.side, search_.cell_row - first, search_.cell_row, best_);
   search_.cell_row = first + rows;
   if (search_.cell_row == size.cell_rows) {
-    keep(best_);
+    keep(search_, best_);
     ++search_.size;
     search_.has_picture = false;
     search_.cell_row = 0;
   }
 }
 
-void MtcnnDetector::scan_small_sizes(std::size_t first, std::size_t end) {
+void MtcnnDetector::scan_small_sizes(Search& search, std::size_t first, std::size_t end) {
   for (std::size_t i = first; i < end; ++i) {
     engine::Network& pnet = small_[i];
     const std::int32_t side = pnet.input_shape().w;
@@ -213,29 +272,33 @@ void MtcnnDetector::scan_small_sizes(std::size_t first, std::size_t end) {
       engine::Network& larger = small_[i - 1];
       shrink(larger.input(), larger.input_shape().w, pnet.input(), side, row_);
     }
-    pnet.run();
-    BestDetections best = none_yet();
-    collect(pnet, side, 0, 0, best);
-    keep(best);
+    scan(search, pnet);
   }
 }
 
-BestDetections MtcnnDetector::none_yet() {
-  return BestDetections(std::span<Detection>(detections_).subspan(search_.scanned, kPerSize));
+void MtcnnDetector::scan(Search& search, engine::Network& pnet) {
+  pnet.run();
+  BestDetections best = none_yet(search);
+  collect(search, pnet, pnet.input_shape().w, 0, 0, best);
+  keep(search, best);
 }
 
-void MtcnnDetector::keep(const BestDetections& best) {
-  search_.scanned += suppress_non_maxima(best.kept(), kOverlapInSize);
+BestDetections MtcnnDetector::none_yet(const Search& search) {
+  return BestDetections(search.detections.subspan(search.scanned, kPerSize));
 }
 
-void MtcnnDetector::end_scan(std::size_t most) {
-  const std::span<Detection> all = std::span(detections_).first(search_.scanned);
-  search_.scanned = std::min(suppress_non_maxima(all, kOverlapOfSizes), most);
+void MtcnnDetector::keep(Search& search, const BestDetections& best) {
+  search.scanned += suppress_non_maxima(best.kept(), kOverlapInSize);
 }
 
-void MtcnnDetector::collect(const engine::Network& pnet, std::int32_t side, std::int32_t first,
-                            std::int32_t at, BestDetections& best) const {
-  const Square& canvas = search_.canvas;
+void MtcnnDetector::end_scan(Search& search, std::size_t count) {
+  const std::span<Detection> all = search.detections.first(search.scanned);
+  search.scanned = std::min(suppress_non_maxima(all, kOverlapOfSizes), count);
+}
+
+void MtcnnDetector::collect(const Search& search, const engine::Network& pnet, std::int32_t side,
+                            std::int32_t first, std::int32_t at, BestDetections& best) {
+  const Crop& canvas = search.canvas;
   const float pixels = canvas.side / static_cast<float>(side);
   const float left = canvas.center.x - canvas.side / 2;
   const float top = canvas.center.y - canvas.side / 2;
@@ -246,7 +309,7 @@ void MtcnnDetector::collect(const engine::Network& pnet, std::int32_t side, std:
   const float* regression = pnet.output(1).data() + skipped;
   for (std::int32_t y = at; y < at + cells.h - first; ++y) {
     for (std::int32_t x = 0; x < cells.w; ++x, face += 8, regression += 8) {
-      if (!(face[0] >= search_.threshold)) {
+      if (!(face[0] >= search.threshold)) {
         continue;
       }
       const Square window = {{left + (kStride * static_cast<float>(x) + kWindowMiddle) * pixels,
@@ -254,27 +317,27 @@ void MtcnnDetector::collect(const engine::Network& pnet, std::int32_t side, std:
                              kWindow * pixels};
       const Square square = regressed(window, regression);
       if (is_usable(square)) {
-        best.offer({square, face[0]});
+        best.offer({square, face[0], canvas.roll});
       }
     }
   }
 }
 
-void MtcnnDetector::refine(const ImageView& view, std::size_t most) {
-  for (; most > 0 && search_.seen_again < search_.scanned; --most, ++search_.seen_again) {
-    Detection detection = detections_[search_.seen_again];
-    if (refine(view, detection)) {
-      detections_[search_.refined++] = detection;
+void MtcnnDetector::refine(Search& search, const ImageView& view, std::size_t count) {
+  for (; count > 0 && search.seen_again < search.scanned; --count, ++search.seen_again) {
+    Detection detection = search.detections[search.seen_again];
+    if (refine(search.canvas, view, detection)) {
+      search.detections[search.refined++] = detection;
     }
   }
 }
 
-bool MtcnnDetector::refine(const ImageView& view, Detection& detection) {
-  sampler_.cut_black(view, detection.square, kRefineSide, rnet_.input());
+bool MtcnnDetector::refine(const Crop& canvas, const ImageView& view, Detection& detection) {
+  sampler_.cut_black(view, to_image(canvas, detection.square), kRefineSide, rnet_.input());
   rnet_.run();
   const float score = rnet_.output(0)[0];
   const Square square = regressed(detection.square, rnet_.output(1).data());
-  detection = {square, score};
+  detection = {square, score, canvas.roll};
   return score >= refine_threshold_ && is_usable(square);
 }
 

@@ -26,13 +26,15 @@ class MtcnnDetector final : public FaceDetector {
 
   // Shares: the picture of one of the larger sizes; of P-Net a band of it, or the largest
   // or all others of the smaller sizes; of R-Net some of the candidates.
-  void begin(const ImageView& view, bool thorough) override;
+  void begin(const ImageView& view, bool thorough, float roll) override;
   [[nodiscard]] bool go_on(const ImageView& view) override;
   [[nodiscard]] std::size_t found(std::span<Detection> found) override;
 
   // The larger sizes of the pyramid are looked at in tiles, one a turn, the smaller ones together.
   [[nodiscard]] std::size_t detect_in_tile(const ImageView& view, std::uint32_t turn,
                                            std::span<Detection> found) override;
+  [[nodiscard]] std::size_t detect_large(const ImageView& view, float roll,
+                                         std::span<Detection> found) override;
   [[nodiscard]] std::uint32_t turns(const ImageView& view) const override;
 
  private:
@@ -51,7 +53,7 @@ class MtcnnDetector final : public FaceDetector {
 
   // Where a search is.
   struct Search {
-    Square canvas;
+    Crop canvas;
     float threshold = 1.0f;      // of P-Net
     std::size_t size = 0;        // of the pyramid, that P-Net looks at next
     bool has_picture = false;    // of that size
@@ -59,6 +61,7 @@ class MtcnnDetector final : public FaceDetector {
     std::size_t scanned = 0;     // candidates of P-Net
     std::size_t seen_again = 0;  // of these, by R-Net
     std::size_t refined = 0;     // of these, kept
+    std::span<Detection> detections;
   };
 
   [[nodiscard]] mien_status load_large(const mien_tracker_config& config,
@@ -68,18 +71,25 @@ class MtcnnDetector final : public FaceDetector {
   void make_picture(const ImageView& view);
   void scan_band();
   // Those from `first` on; the very first has its picture.
-  void scan_small_sizes(std::size_t first, std::size_t end);
+  void scan_small_sizes(Search& search, std::size_t first, std::size_t end);
+  // Fills the input of the largest of the small sizes.
+  void make_small_picture(const ImageView& view);
+  [[nodiscard]] Search part(const Crop& canvas);
+  void scan(Search& search, engine::Network& pnet);
+  [[nodiscard]] std::size_t finish(Search& search, const ImageView& view,
+                                   std::span<Detection> found);
   // Of one size of the pyramid, the candidates so far.
-  [[nodiscard]] BestDetections none_yet();
-  void keep(const BestDetections& best);
+  [[nodiscard]] static BestDetections none_yet(const Search& search);
+  static void keep(Search& search, const BestDetections& best);
   // P-Net's windows that look like faces, from row `first` of its output on, which is row `at` of
   // the windows of all of the canvas, seen at `side` pixels.
-  void collect(const engine::Network& pnet, std::int32_t side, std::int32_t first, std::int32_t at,
-               BestDetections& best) const;
+  static void collect(const Search& search, const engine::Network& pnet, std::int32_t side,
+                      std::int32_t first, std::int32_t at, BestDetections& best);
   // Candidates of different sizes for one face become one.
-  void end_scan(std::size_t most);
-  void refine(const ImageView& view, std::size_t most);
-  [[nodiscard]] bool refine(const ImageView& view, Detection& detection);
+  static void end_scan(Search& search, std::size_t count);
+  void refine(Search& search, const ImageView& view, std::size_t count);
+  [[nodiscard]] bool refine(const Crop& canvas, const ImageView& view, Detection& detection);
+  [[nodiscard]] static std::size_t found(const Search& search, std::span<Detection> found);
 
   Sampler sampler_;
   std::span<float> row_;  // scratch, of the largest size
@@ -89,10 +99,12 @@ class MtcnnDetector final : public FaceDetector {
   std::size_t large_count_ = 0;
   std::array<engine::Network, kMaxSmall> small_;  // P-Net on each of the sizes of a tile and below
   std::size_t small_count_ = 0;
+  engine::Network medium_;  // P-Net on the smallest of the larger sizes, for detect_large
   engine::Network rnet_;
-  Search search_;
+  Search search_;            // the one that goes on in shares
   BestDetections best_{{}};  // of the size that P-Net is looking at
   std::array<Detection, (kMaxLarge + kMaxSmall)* kPerSize> detections_ = {};
+  std::array<Detection, (kMaxSmall + 1)* kPerSize> few_detections_ = {};  // of a part
 };
 
 }  // namespace mien::tracker

@@ -11,6 +11,7 @@ namespace mien::tracker {
 struct Detection {
   Square square;
   float score = 0.0f;  // 0..1
+  float roll = 0.0f;   // radians clockwise, of the search that found it
 };
 
 // Common area of two squares over the area of their union, 0..1; 0 when either is empty.

@@ -15,7 +15,10 @@ constexpr float kPresenceSeconds = 0.1f;
 constexpr float kFaded = 1e-4f;         // a control below is 0
 constexpr float kSmallestFace = 0.02f;  // crop sides, in longer sides of the image
 constexpr float kLargestFace = 4.0f;
-constexpr float kSayOfProposal = 0.4f;  // beside BaseNet's, whether a face is there
+constexpr float kDetectorScoreWeight = 0.4f;  // beside the face probability's log-odds
+// Added to the log-odds that a detection at a roll needs: places without a face are searched at
+// several rolls, and any of them may look like a face.
+constexpr float kRolledMargin = 0.5f;
 
 // Whether a crop can still show something of a face in the image.
 bool is_plausible(const Crop& crop, const ImageView& view) {
@@ -36,9 +39,11 @@ float log_odds(float probability) {
   return std::log(p / (1.0f - p));
 }
 
-// What BaseNet and the proposal say together: their mistakes are not the same.
-float agreed(float probability, float score) {
-  return 1.0f / (1.0f + std::exp(-log_odds(probability) - kSayOfProposal * log_odds(score)));
+// What face probability and detector score say together: their mistakes differ.
+float combined(float face_probability, const Detection& detection) {
+  const float margin = detection.roll == 0.0f ? 0.0f : kRolledMargin;
+  return 1.0f / (1.0f + std::exp(margin - log_odds(face_probability) -
+                                 kDetectorScoreWeight * log_odds(detection.score)));
 }
 
 }  // namespace
@@ -53,7 +58,7 @@ void Face::reset(std::int32_t level) {
 }
 
 bool Face::find(Frame& frame, const Detection& detection, int alignments, Encoding& encoding) {
-  Crop crop = {detection.square.center, detection.square.side, 0.0f};
+  Crop crop = {detection.square.center, detection.square.side, detection.roll};
   for (int i = 0; i <= alignments; ++i) {
     if (!is_plausible(crop, frame.view) || !encode(frame, crop, encoding)) {
       return false;
@@ -63,7 +68,7 @@ bool Face::find(Frame& frame, const Detection& detection, int alignments, Encodi
     }
   }
   return encoding.face_probability >= config_.lose_probability &&
-         agreed(encoding.face_probability, detection.score) >= config_.accept_probability;
+         combined(encoding.face_probability, detection) >= config_.accept_probability;
 }
 
 bool Face::start_tracking(Frame& frame, const Encoding& encoding, std::uint32_t id) {

@@ -59,6 +59,8 @@ class Face {
   [[nodiscard]] float seconds_lost() const { return state_.seconds_lost; }
   // Where it is, or was last.
   [[nodiscard]] Square square() const { return {state_.crop.center, state_.crop.side}; }
+  // Of its crop, radians clockwise.
+  [[nodiscard]] float roll() const { return state_.crop.roll; }
   [[nodiscard]] Neutral& neutral(std::int32_t level) { return decoders_.neutral(level); }
   [[nodiscard]] const Neutral& neutral(std::int32_t level) const {
     return decoders_.neutral(level);

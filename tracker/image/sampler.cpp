@@ -2,6 +2,7 @@
 #include "tracker/image/sampler.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace mien::tracker {
 namespace {
@@ -100,22 +101,21 @@ void Sampler::cut(const ImageView& view, const Crop& crop, const Raster& raster,
   warp_(args);
 }
 
-void Sampler::cut_black(const ImageView& view, const Square& square, std::int32_t samples,
+void Sampler::cut_black(const ImageView& view, const Crop& crop, std::int32_t samples,
                         std::span<float> out) const {
-  cut(view, {square.center, square.side, 0.0f}, {samples, samples, 1.0f}, out);
-  const float pixels_per_sample = square.side / static_cast<float>(samples);
-  const auto at = [&](float center, std::int32_t index) {
-    return center - square.side / 2 + (static_cast<float>(index) + 0.5f) * pixels_per_sample;
+  cut(view, crop, {samples, samples, 1.0f}, out);
+  const float c = std::cos(crop.roll), s = std::sin(crop.roll);
+  const float pixels_per_sample = crop.side / static_cast<float>(samples);
+  const auto offset = [&](std::int32_t index) {
+    return (static_cast<float>(index) + 0.5f) * pixels_per_sample - crop.side / 2;
   };
-  const auto inside = [](float value, float begin, float length) {
-    return value >= begin && value <= begin + length;
-  };
-  const Rect& visible = view.region;
+  const Rect& region = view.region;
   float* pixel = out.data();
   for (std::int32_t i = 0; i < samples; ++i) {
-    const bool row_inside = inside(at(square.center.y, i), visible.corner.y, visible.height);
     for (std::int32_t j = 0; j < samples; ++j, pixel += 3) {
-      if (!row_inside || !inside(at(square.center.x, j), visible.corner.x, visible.width)) {
+      const float x = crop.center.x + c * offset(j) - s * offset(i) - region.corner.x;
+      const float y = crop.center.y + s * offset(j) + c * offset(i) - region.corner.y;
+      if (!(x >= 0.0f && x <= region.width && y >= 0.0f && y <= region.height)) {
         std::fill(pixel, pixel + 3, kBlack);
       }
     }

@@ -36,8 +36,8 @@ class Sampler {
   void cut(const ImageView& view, const Crop& crop, const Raster& raster,
            std::span<float> out) const;
 
-  // Writes an upright square as [samples][samples][3]; black outside the image.
-  void cut_black(const ImageView& view, const Square& square, std::int32_t samples,
+  // Writes the whole crop as [samples][samples][3]; black outside the image.
+  void cut_black(const ImageView& view, const Crop& crop, std::int32_t samples,
                  std::span<float> out) const;
 
  private:
