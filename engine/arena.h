@@ -1,5 +1,5 @@
-// Hands out pieces of one block of memory. Without a block it only adds up what would be needed:
-// the same code measures and lays out.
+// Allocates ranges of one memory block in sequence. Without a block it only adds up the bytes, so
+// that the same code measures and lays out.
 #pragma once
 
 #include <algorithm>
@@ -13,30 +13,30 @@ class Arena {
   static constexpr std::size_t kAlignment = 64;
 
   struct Need {
-    std::size_t own_bytes = 0;     // of all pieces taken
-    std::size_t shared_bytes = 0;  // of the largest piece shared
+    std::size_t own_bytes = 0;     // sum of all calls of take
+    std::size_t shared_bytes = 0;  // maximum of all calls of share
     [[nodiscard]] std::size_t total_bytes() const { return own_bytes + shared_bytes; }
   };
 
-  Arena() = default;  // measures
+  Arena() = default;  // only measures
 
-  // `memory` has at least need.total_bytes() and is kAlignment-aligned.
-  Arena(std::byte* memory, const Need& need) : memory_(memory), room_(need) {}
+  // `memory` must have need.total_bytes() bytes and be kAlignment-aligned.
+  Arena(std::byte* memory, const Need& need) : memory_(memory), capacity_(need) {}
 
   [[nodiscard]] bool measuring() const { return memory_ == nullptr; }
   [[nodiscard]] const Need& need() const { return need_; }
 
-  // `bytes` bytes, kAlignment-aligned; nothing when measuring or when there is no room left.
+  // A range of `bytes` bytes, kAlignment-aligned; empty when measuring or when the block is full.
   [[nodiscard]] std::span<std::byte> take(std::size_t bytes) {
     const std::size_t offset = need_.own_bytes;
     need_.own_bytes += aligned(bytes);
-    return piece(offset, bytes, need_.own_bytes <= room_.own_bytes);
+    return piece(offset, bytes, need_.own_bytes <= capacity_.own_bytes);
   }
 
-  // The same bytes for everybody who asks.
+  // Like take, but every call returns the same memory.
   [[nodiscard]] std::span<std::byte> share(std::size_t bytes) {
     need_.shared_bytes = std::max(need_.shared_bytes, aligned(bytes));
-    return piece(room_.own_bytes, bytes, need_.shared_bytes <= room_.shared_bytes);
+    return piece(capacity_.own_bytes, bytes, need_.shared_bytes <= capacity_.shared_bytes);
   }
 
  private:
@@ -50,7 +50,7 @@ class Arena {
   }
 
   std::byte* memory_ = nullptr;
-  Need room_;
+  Need capacity_;
   Need need_;
 };
 

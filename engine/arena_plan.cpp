@@ -1,3 +1,4 @@
+// Places maps in the arena by first fit.
 #include "engine/arena_plan.h"
 
 namespace mien::engine {
@@ -25,7 +26,7 @@ void ArenaPlan::drop_expired(std::uint32_t now) {
   count_ = kept;
 }
 
-// The lowest `begin` where so many bytes are free; returns which of the live maps comes next.
+// Finds the lowest `begin` with `bytes` free bytes; returns the index of the live map behind it.
 std::uint32_t ArenaPlan::lowest_gap(std::size_t bytes, std::size_t& begin) const {
   begin = 0;
   for (std::uint32_t i = 0; i < count_; ++i) {

@@ -1,5 +1,5 @@
-// Where the intermediate maps of a network lie in one arena: maps that are never alive together may
-// share it.
+// Places the intermediate maps of a network in one arena. Maps whose lifetimes do not overlap may
+// share memory.
 #pragma once
 
 #include <cstddef>
@@ -15,14 +15,14 @@ inline constexpr std::size_t kArenaAlignment = 64;
   return (bytes + kArenaAlignment - 1) / kArenaAlignment * kArenaAlignment;
 }
 
-// Places one map after another, each as low as those still alive allow.
+// Places maps one by one, each at the lowest offset that is free during its lifetime.
 class ArenaPlan {
  public:
-  // The offset, a multiple of kArenaAlignment, of a map that is written at step `born` and read for
-  // the last time at step `dies` (>= born). `born` never descends; at most kMaxLayers calls.
+  // Returns the offset, a multiple of kArenaAlignment, of a map that step `born` writes and step
+  // `dies` (>= born) reads last. `born` must not decrease; at most kMaxLayers calls.
   std::size_t place(std::size_t bytes, std::uint32_t born, std::uint32_t dies);
 
-  // Of the arena, a multiple of kArenaAlignment.
+  // Size of the arena, a multiple of kArenaAlignment.
   [[nodiscard]] std::size_t bytes() const { return bytes_; }
 
  private:
@@ -34,7 +34,7 @@ class ArenaPlan {
   void drop_expired(std::uint32_t now);
   [[nodiscard]] std::uint32_t lowest_gap(std::size_t bytes, std::size_t& begin) const;
 
-  Map live_[formats::kMaxLayers];  // by offset
+  Map live_[formats::kMaxLayers];  // sorted by offset
   std::uint32_t count_ = 0;
   std::size_t bytes_ = 0;
 };

@@ -1,3 +1,4 @@
+// Chooses tile sizes and tiers for fused inverted residual blocks.
 #include "engine/fused_block.h"
 
 #include <algorithm>
@@ -12,11 +13,11 @@ using formats::LayerActivation;
 
 namespace {
 
-// A band for the second-level cache, a strip for the first, which has 48 KB where it is new.
+// A band fits the second-level cache, a strip the first, which has 48 KB on current CPUs.
 constexpr std::int64_t kBandBytes = std::int64_t{256} * 1024;
 constexpr std::int64_t kStripBytes = std::int64_t{36} * 1024;
 
-// So many channels that their sums fill the registers: fewer pixels, more channels.
+// The number of channels whose sums fill the registers: the fewer pixels, the more channels.
 std::int32_t channels_at_once(std::size_t pixels) {
   return pixels <= 6 ? 64 : pixels <= 9 ? 48 : 32;
 }
@@ -46,9 +47,9 @@ BlockTiling tile_block(const formats::LayerRecord& depthwise_layer, const Shape&
       (depthwise_output.w - 1) * depthwise_layer.stride_width + depthwise_layer.kernel_width);
   const std::size_t strip_row =
       static_cast<std::size_t>(t.strip_channels) * static_cast<std::size_t>(t.strip_w);
-  const std::int64_t more = (rows_in(kStripBytes, strip_row) - kernel_h) / stride_h;
+  const std::int64_t extra = (rows_in(kStripBytes, strip_row) - kernel_h) / stride_h;
   t.strip_rows = kernel_h + stride_h * static_cast<std::int32_t>(
-                                           std::clamp<std::int64_t>(more, 0, t.band_rows - 1));
+                                           std::clamp<std::int64_t>(extra, 0, t.band_rows - 1));
   t.band_elems = band_row * static_cast<std::size_t>(t.band_rows);
   t.strip_elems = strip_row * static_cast<std::size_t>(t.strip_rows);
   const std::int32_t rows = std::min(hidden.h, (t.band_rows - 1) * stride_h + kernel_h);

@@ -1,3 +1,4 @@
+// Opens weight files and validates the shapes of their networks.
 #include "engine/model.h"
 
 namespace mien::engine {
@@ -10,23 +11,23 @@ const char* message(Status status) {
     case Status::kOk:
       return "ok";
     case Status::kBadFile:
-      return "the weight file breaks a rule of its format";
+      return "the weight file violates its format";
     case Status::kNoSuchNetwork:
-      return "the weight file has no network or constant of that name and size";
+      return "the weight file has no network or constant with that name and size";
     case Status::kShapeMismatch:
-      return "a layer's declared shape is not what its input gives";
+      return "a layer's declared output shape does not match its input";
     case Status::kWrongInput:
-      return "the network does not run on an input of that shape";
+      return "the network does not accept an input of that shape";
     case Status::kUnsupportedLayout:
       return "a layer other than a convolution reads the interleaved image";
     case Status::kNoKernel:
       return "no allowed tier has a kernel for a layer";
     case Status::kMemoryTooSmall:
-      return "the memory given is too small";
+      return "the caller's memory is too small";
     case Status::kMisaligned:
-      return "the memory given is not aligned";
+      return "the caller's memory is not aligned";
     case Status::kTooLarge:
-      return "the network's maps would be too large on an input of that shape";
+      return "the network's maps are too large for an input of that shape";
     case Status::kOutOfMemory:
       return "out of memory";
   }

@@ -1,4 +1,4 @@
-// A weight file whose networks have been checked, shape by shape. Owns nothing.
+// A validated weight file with consistent layer shapes. Owns no memory.
 #pragma once
 
 #include <cstddef>
@@ -16,16 +16,16 @@ class Model {
  public:
   Model() = default;
 
-  // `bytes` must outlive the model and stay as they are. On kBadFile `fault` tells which rule of
-  // the format is broken where; it may be nullptr. On error *this is left empty.
+  // `bytes` must outlive the model unchanged. On kBadFile, `fault` (may be nullptr) receives the
+  // violated rule and its offset. On error *this is empty.
   Status open(std::span<const std::byte> bytes, formats::Validation* fault = nullptr);
 
   [[nodiscard]] const formats::FileView& file() const { return file_; }
-  // nullptr if there is none of that name.
+  // nullptr if the file has no network with that name.
   [[nodiscard]] const formats::NetworkRecord* network(std::string_view name) const {
     return file_.find_network(name);
   }
-  // A constant of fp32 numbers of exactly this many elements.
+  // Finds an fp32 constant with exactly `elems` elements.
   Status constant(std::string_view name, std::size_t elems, std::span<const float>& values) const;
 
  private:
@@ -34,18 +34,18 @@ class Model {
 
 [[nodiscard]] Shape input_shape(const formats::NetworkRecord& network);
 
-// Walks the layers of a network on a given input, shape by shape.
+// Infers the shapes of a network's layers in order, for a given input.
 class ShapeWalk {
  public:
   ShapeWalk(std::span<const formats::LayerRecord> layers, const Shape& input);
 
-  // Advances to the next layer; false at the end or on a mismatch (see status).
+  // Advances to the next layer; returns false at the end or on a mismatch (see status).
   bool next();
   [[nodiscard]] Status status() const { return status_; }
-  [[nodiscard]] std::uint32_t index() const { return index_; }  // of the current layer
+  [[nodiscard]] std::uint32_t index() const { return index_; }  // current layer
   [[nodiscard]] const Shape& shape_of(std::uint32_t value) const { return shapes_[value]; }
   [[nodiscard]] const Shape& input() const;   // of the current layer
-  [[nodiscard]] const Shape& second() const;  // its second input, or its first if it has none
+  [[nodiscard]] const Shape& second() const;  // second input; the first if there is none
   [[nodiscard]] const Shape& output() const { return shapes_[index_ + 1]; }
 
  private:

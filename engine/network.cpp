@@ -1,3 +1,4 @@
+// Loads networks and maps engine errors to mien_status.
 #include "engine/network.h"
 
 namespace mien::engine {
@@ -46,8 +47,8 @@ mien_status status_of(Status status) {
   }
 }
 
-// Whether the network, whose layers are known to fit together, has the outputs expected. Its shapes
-// take 12 KB of the stack, and inlined they would still lie there while a session is made.
+// Whether the network, whose shapes are already validated, has the expected outputs. Not inlined,
+// because its 12 KB of shapes would stay on the stack while a session is created.
 [[gnu::noinline]] bool outputs_fit(const Model& model, const formats::NetworkRecord& network,
                                    const NetworkForm& form) {
   ShapeWalk walk(model.file().layers(network), form.input);

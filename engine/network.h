@@ -1,4 +1,4 @@
-// One network of a weight file, ready to run in its user's memory.
+// One network of a weight file, ready to run in the caller's memory.
 #pragma once
 
 #include <mien/mien.h>
@@ -15,24 +15,24 @@
 
 namespace mien::engine {
 
-// What its user expects of a network.
+// The shapes that the caller expects of a network.
 struct NetworkForm {
   std::string_view name;
   Shape input;
-  std::array<std::int32_t, 2> output_channels;  // 0: no such output; all outputs have one h and w
+  std::array<std::int32_t, 2> output_channels;  // 0: no such output; all outputs share h and w
 };
 
 class Network {
  public:
-  // Takes from `arena` what the network needs; only measures when the arena does. Networks of one
-  // arena share the memory of their intermediate maps, so they run in turns.
+  // Takes the network's memory from `arena`; only measures if the arena does. All networks of an
+  // arena share the memory of their intermediate maps, so only one may run at a time.
   [[nodiscard]] mien_status load(const Model& model, const NetworkForm& form,
                                  std::uint32_t cpu_mask, Arena& arena);
 
-  // The rest is for loaded networks.
+  // The following require a loaded network.
   void reset() { session_->reset(); }
   void run() { session_->run(); }
-  // A vector in, the first output's vector out.
+  // Copies a vector to the input, runs, and returns the first output.
   std::span<const float> run(std::span<const float> vector) {
     std::copy(vector.begin(), vector.end(), session_->input().begin());
     session_->run();

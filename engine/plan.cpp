@@ -1,3 +1,4 @@
+// Infers shapes, fuses layers and places maps before a session is created.
 #include "engine/plan.h"
 
 #include "engine/arena_plan.h"
@@ -77,7 +78,7 @@ Status Plan::infer(const Shape& input) {
   for (std::uint32_t i = 0; i < output_count(); ++i) {
     values_[output(i)].is_output = true;
   }
-  // The layers fit together at the declared size; at this one they do not.
+  // The shapes are consistent for the declared input, so this input is the cause.
   return walk.status() == Status::kOk ? Status::kOk : Status::kWrongInput;
 }
 
@@ -90,17 +91,17 @@ void Plan::note_reads(std::uint32_t layer) {
   }
 }
 
-// Sums of sizes that pass cannot overflow, whatever else a session holds.
+// Ensures that sums of sizes do not overflow, including the session's other memory.
 Status Plan::check_size() const {
   std::uint64_t elems = 0;
   for (std::uint32_t i = 0; i <= layer_count(); ++i) {
-    // At most what an LSTM takes: its output, its state and its gates.
+    // The maximum is an LSTM's: output, state and gates.
     elems += std::uint64_t{7} * blocked_elems(values_[i].shape);
   }
   return elems <= SIZE_MAX / 2 / sizeof(float) ? Status::kOk : Status::kTooLarge;
 }
 
-// A pointwise layer adds the residual itself when nothing else looks at its result.
+// A pointwise layer adds the residual itself if only the addition reads its output.
 void Plan::fuse_additions() {
   step_count_ = layer_count();
   for (std::uint32_t i = 1; i < layer_count(); ++i) {
@@ -114,14 +115,14 @@ void Plan::fuse_additions() {
   }
 }
 
-// The next layer alone looks at the result of this one, and a fused block can hold it.
+// Whether only the next layer reads this layer's output and a fused block supports its activation.
 bool Plan::has_single_fusable_consumer(std::uint32_t layer) const {
   const Value& value = values_[layer + 1];
   return layer + 1 < layer_count() && layers_[layer + 1].input == layer + 1 && value.readers == 1 &&
          !value.is_output && fuses(layers_[layer]);
 }
 
-// Depthwise and pointwise layers behind each other, with the pointwise layer before if there is.
+// Fuses each depthwise layer with the next pointwise layer and, if possible, the previous one.
 void Plan::fuse_blocks() {
   for (std::uint32_t i = 0; i + 1 < layer_count(); ++i) {
     const bool is_windowed =
@@ -178,14 +179,14 @@ std::size_t Plan::state_elems(std::uint32_t layer) const {
   }
 }
 
-// Blocks with longer sums are computed in fp32. Without an expanding layer both are the same value.
+// Longer sums are computed in fp32. Without an expand layer, x and hidden are the same value.
 bool Plan::is_quantized(std::uint32_t layer, std::uint32_t depthwise_layer) const {
   const std::uint32_t x = layers_[layer].input, hidden = layers_[depthwise_layer].input;
   return quantizes_weights_ && values_[x].shape.c <= kernels::kQuantizedWeightsMaxInputs &&
          values_[hidden].shape.c <= kernels::kQuantizedWeightsMaxInputs;
 }
 
-// Whether the block's input is copied at 16 bits a value before it is expanded.
+// Whether the block's input is copied to 16 bits per value before the expand layer.
 bool Plan::has_half_input(std::uint32_t layer, std::uint32_t depthwise_layer) const {
   if (layer == depthwise_layer || quantizes_weights_) {
     return layer < depthwise_layer && is_quantized(layer, depthwise_layer);
@@ -236,7 +237,7 @@ std::size_t Plan::scratch_elems() const {
   return most;
 }
 
-// Maps in between go to the arena; input, outputs and state stay with the session.
+// Puts intermediate maps into the arena; input, outputs and state belong to the session.
 void Plan::place_maps() {
   ArenaPlan arena;
   for (std::uint32_t i = 0; i < layer_count(); ++i) {

@@ -1,5 +1,5 @@
-// What a session needs to know before it has memory: every value's shape and lifetime, which layers
-// run together, and where the maps in between lie in the arena.
+// Plans a session before it has memory: the shape and lifetime of every value, the layers that run
+// fused, and the places of intermediate maps in the arena.
 #pragma once
 
 #include <cstddef>
@@ -13,22 +13,22 @@
 namespace mien::engine {
 
 struct SessionRequest {
-  const Model* model = nullptr;  // its bytes must outlive the session
+  const Model* model = nullptr;  // the bytes of its file must outlive the session
   std::string_view network;
-  Shape input;                          // all zero: as the file declares it
-  std::uint32_t cpu_mask = 0xFFFFFFFF;  // tiers that may be used, and kernels::kFusedBlocks
+  Shape input;                          // all zero: the declared shape
+  std::uint32_t cpu_mask = 0xFFFFFFFF;  // allowed tiers and kernels::kFusedBlocks
 };
 
-// Large: a thread that makes sessions needs some 70 KB of stack.
+// Large: creating a session needs about 70 KB of stack.
 class Plan {
  public:
-  // kWrongInput when the network does not run on request.input, kTooLarge when a map would exceed
-  // formats::kMaxMapElems or all of them half of the address space.
+  // Returns kWrongInput if the network does not accept request.input, kTooLarge if a map exceeds
+  // formats::kMaxMapElems or all maps exceed half of the address space.
   Status make(const SessionRequest& request);
 
   struct Value {
     Shape shape;
-    std::uint32_t last_use = 0;  // layer
+    std::uint32_t last_use = 0;  // index of the last layer that reads the value
     std::uint32_t readers = 0;
     bool is_output = false;
     bool in_arena = false;
@@ -39,39 +39,38 @@ class Plan {
     return static_cast<std::uint32_t>(layers_.size());
   }
   [[nodiscard]] const formats::LayerRecord& layer(std::uint32_t i) const { return layers_[i]; }
-  // 0 is the network's input, k the output of its k-th layer.
+  // Value 0 is the network's input, value k the output of the k-th layer.
   [[nodiscard]] const Value& value(std::uint32_t i) const { return values_[i]; }
   [[nodiscard]] std::uint32_t output_count() const { return network_->output_count; }
   [[nodiscard]] std::uint32_t output(std::uint32_t i) const {
     return formats::output_value(*network_, i);
   }
 
-  // A layer before performs this one too.
+  // An earlier layer's step computes this layer.
   [[nodiscard]] bool is_fused_into_previous(std::uint32_t layer) const {
     return parts_[layer] != Part::kStep;
   }
-  // The addition that a layer performs besides, as a layer; kNoIndex if none.
+  // The addition fused into this layer, as a layer index; kNoIndex if there is none.
   [[nodiscard]] std::uint32_t fused_addition(std::uint32_t layer) const;
   // The depthwise layer of the inverted residual block that begins with this layer; kNoIndex if
-  // none. The block's last layer is the next.
+  // there is no block. The next layer is the block's last.
   [[nodiscard]] std::uint32_t fused_depthwise(std::uint32_t layer) const;
-  // How the block divides its work.
   [[nodiscard]] BlockTiling tiling(std::uint32_t layer) const;
-  // Layers of the step that begins with this layer.
+  // Number of layers of the step that begins with this layer.
   [[nodiscard]] std::uint32_t step_layers(std::uint32_t layer) const;
   [[nodiscard]] std::uint32_t step_count() const { return step_count_; }
 
-  // Floats.
+  // Sizes in floats.
   [[nodiscard]] std::size_t input_elems() const;
   [[nodiscard]] std::size_t state_elems(std::uint32_t layer) const;
   [[nodiscard]] std::size_t state_elems() const { return state_elems_; }
 
-  // What the step that begins with this layer, and all steps, keep of weights in another form.
+  // Bytes of quantized weights of the step that begins with this layer, and of all steps.
   [[nodiscard]] std::size_t weights_bytes(std::uint32_t layer) const;
   [[nodiscard]] std::size_t weights_bytes() const { return weights_bytes_; }
 
   [[nodiscard]] std::size_t arena_bytes() const { return arena_bytes_; }
-  // In the arena, for the step that runs: an LSTM's gates, a fused block's bands.
+  // Scratch of the running step in the arena: an LSTM's gates, a fused block's bands.
   [[nodiscard]] std::size_t scratch_offset() const { return scratch_offset_; }
 
  private:
@@ -88,12 +87,12 @@ class Plan {
   [[nodiscard]] std::size_t scratch_elems() const;
   [[nodiscard]] std::size_t scratch_elems(std::uint32_t layer) const;
 
-  bool uses_half_precision_ = false;  // fused blocks are computed in half precision
-  bool quantizes_weights_ = false;    // and their weights, unless they are too many, in fixed point
+  bool uses_half_precision_ = false;  // in fused blocks
+  bool quantizes_weights_ = false;    // in fused blocks, up to kQuantizedWeightsMaxInputs
   const formats::NetworkRecord* network_ = nullptr;
   std::span<const formats::LayerRecord> layers_;
   Value values_[formats::kMaxLayers + 1];
-  // Of a step: its beginning, an addition at its end, or what else is fused with those before.
+  // A layer's part in a step: it begins one, is a fused addition, or is fused otherwise.
   enum class Part : std::uint8_t { kStep, kAddition, kInside };
   Part parts_[formats::kMaxLayers] = {};
   std::uint32_t step_count_ = 0;

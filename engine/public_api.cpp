@@ -1,4 +1,4 @@
-// include/mien/engine.h on top of Model and Session.
+// Implements include/mien/engine.h with Model and Session.
 #include <mien/engine.h>
 
 #include <cstdlib>
@@ -123,7 +123,7 @@ const formats::TensorRecord* constant_at(const formats::FileView& file, std::int
   return nullptr;
 }
 
-#ifdef _WIN32  // its C library has no aligned_alloc
+#ifdef _WIN32  // no aligned_alloc in its C library
 void* aligned_memory(std::size_t alignment, std::size_t bytes) {
   return _aligned_malloc(bytes, alignment);
 }
@@ -163,7 +163,7 @@ const char* message(EngineStatus status) {
 
 WeightFile::WeightFile() {
   static_assert(sizeof(Model) <= sizeof model_ && alignof(Model) <= 8);
-  // Copying and destroying a WeightFile does the same to its bytes.
+  // WeightFile copies and destroys the model as plain bytes.
   static_assert(std::is_trivially_copyable_v<Model> && std::is_trivially_destructible_v<Model>);
   new (model_) Model();
 }
@@ -281,7 +281,7 @@ EngineStatus NetworkRunner::create_in(const WeightFile& file, std::string_view n
                                       std::span<std::byte> arena) {
   release();
   Session* made = nullptr;
-  const kernels::FloatMode ours;  // weights may be rounded here
+  const kernels::FloatMode ours;  // because init may quantize weights
   const engine::Status status =
       Session::init(request_of(model_in(file.model_), network, options), session, arena, made);
   session_ = made;
@@ -370,7 +370,7 @@ std::int64_t run_fma_loop(std::uint32_t cpu_mask, std::int64_t rounds) {
   std::int64_t macs = 0;
   const kernels::FloatMode ours;
   loop({sums, rounds, &macs});
-  // The sums are looked at, so the work cannot be left out.
+  // Using the sums keeps the compiler from removing the loop.
   return sums[0] > -1e30f ? macs : 0;
 }
 

@@ -1,3 +1,4 @@
+// Lays out sessions in memory and runs them.
 #include "engine/session.h"
 
 #include <cstring>
@@ -10,7 +11,7 @@ namespace mien::engine {
 
 static_assert(kSessionAlignment == kArenaAlignment);
 
-// Lays a planned session out in memory.
+// Lays out a planned session in memory.
 class SessionBuilder {
  public:
   explicit SessionBuilder(const Plan& plan) : plan_(plan) {}
@@ -26,11 +27,11 @@ class SessionBuilder {
   Status make_steps(const SessionRequest& request, float* scratch, Session& session);
 
   const Plan& plan_;
-  std::byte* free_ = nullptr;  // the memory not yet taken
+  std::byte* free_ = nullptr;  // start of the unused memory
   float* maps_[formats::kMaxLayers + 1] = {};
 };
 
-// In the order in which they are taken.
+// Adds up the sizes in the order in which build takes them.
 SessionSize SessionBuilder::size() const {
   std::size_t bytes = aligned(sizeof(Session)) + aligned(plan_.step_count() * sizeof(Step)) +
                       aligned(plan_.input_elems() * sizeof(float));
@@ -83,7 +84,7 @@ void SessionBuilder::place_values(Session& session, std::span<std::byte> arena) 
     const std::uint32_t value = plan_.output(i);
     const Shape& shape = plan_.value(value).shape;
     const std::span<float> own = take_floats(blocked_elems(shape));
-    // A value may be two outputs; both are the same memory.
+    // If a value is two outputs, both share the memory.
     maps_[value] = maps_[value] == nullptr ? own.data() : maps_[value];
     session.outputs_[i] = {maps_[value], own.size()};
     session.output_shapes_[i] = shape;

@@ -1,5 +1,5 @@
-// A network made ready to run: kernels chosen, memory laid out. Running it is a flat loop over
-// steps, without allocation, lock, exception or I/O.
+// A network ready to run, with kernels chosen and memory laid out. Running it is a loop over steps,
+// without allocation, lock, exception or I/O.
 #pragma once
 
 #include <cstddef>
@@ -15,43 +15,41 @@ struct Step;
 inline constexpr std::size_t kSessionAlignment = 64;
 
 struct SessionSize {
-  std::size_t session_bytes = 0;  // steps, input, outputs, temporal state
-  std::size_t arena_bytes = 0;    // intermediate maps; may be shared by sessions that run in turns
+  std::size_t session_bytes = 0;  // steps, input, outputs, temporal state, quantized weights
+  std::size_t arena_bytes = 0;    // intermediate maps; shareable by sessions that never run at once
 };
 
-// Does not look for kernels: Session::init may still answer kNoKernel.
+// Computes sizes without looking up kernels: Session::init may still return kNoKernel.
 Status session_size(const SessionRequest& request, SessionSize& size);
 
 class Session {
  public:
-  // Builds a session in `memory` (session_bytes) with intermediate maps in `arena` (arena_bytes),
-  // both kSessionAlignment-aligned and the caller's. Nothing has to be destroyed. On error
-  // `session` is nullptr.
+  // Creates a session in `memory` (session_bytes) with intermediate maps in `arena` (arena_bytes),
+  // both kSessionAlignment-aligned. There is nothing to destroy. On error `session` is nullptr.
   static Status init(const SessionRequest& request, std::span<std::byte> memory,
                      std::span<std::byte> arena, Session*& session);
 
-  // [h][w][c] if the shape is interleaved, else in blocks with unused lanes zero, as they are at
-  // first.
+  // [h][w][c] if the shape is interleaved, else blocked with zeros in unused lanes. Zero at first.
   [[nodiscard]] std::span<float> input() const { return input_; }
   [[nodiscard]] const Shape& input_shape() const { return input_shape_; }
 
   void run();
 
-  // What `run` does, one after another, for those who want to time each part.
+  // `run` in parts, to time each step.
   [[nodiscard]] std::uint32_t step_count() const { return step_count_; }
   void run_step(std::uint32_t i);
-  // Layers that step i performs: `count` of them from `first` on.
+  // The layers first .. first + count - 1 that step i computes.
   struct StepLayers {
     std::uint32_t first, count;
   };
   [[nodiscard]] StepLayers step_layers(std::uint32_t i) const;
 
-  // In blocks; valid until the next run of this session.
+  // Outputs are blocked and valid until the next run of this session.
   [[nodiscard]] std::uint32_t output_count() const { return output_count_; }
   [[nodiscard]] std::span<const float> output(std::uint32_t i) const { return outputs_[i]; }
   [[nodiscard]] const Shape& output_shape(std::uint32_t i) const { return output_shapes_[i]; }
 
-  // Temporal state to that of a stream's beginning.
+  // Sets the temporal state to zero.
   void reset();
 
  private:

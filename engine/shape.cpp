@@ -1,3 +1,4 @@
+// Shape inference and cost of each layer operation.
 #include "engine/shape.h"
 
 namespace mien::engine {
@@ -9,14 +10,14 @@ namespace {
 
 LayerOp op_of(const LayerRecord& layer) { return static_cast<LayerOp>(layer.op); }
 
-// Positions of a window along one axis, 0 if it does not fit once.
+// Number of window positions along one axis, 0 if the window does not fit.
 std::int32_t windows(std::int32_t size, std::int32_t kernel, std::int32_t stride,
                      std::int32_t padding, bool ceil_mode) {
-  const std::int32_t room = size + padding - kernel;
-  if (room < 0) {
+  const std::int32_t travel = size + padding - kernel;
+  if (travel < 0) {
     return 0;
   }
-  return (room + (ceil_mode ? stride - 1 : 0)) / stride + 1;
+  return (travel + (ceil_mode ? stride - 1 : 0)) / stride + 1;
 }
 
 Shape windowed(const LayerRecord& l, const Shape& input, std::int32_t channels) {
@@ -26,7 +27,7 @@ Shape windowed(const LayerRecord& l, const Shape& input, std::int32_t channels) 
           channels};
 }
 
-// The last window of a pool must begin on the map or its leading padding, not beyond.
+// The last window of a pool must begin on the map or its leading padding.
 bool pool_windows_hold_values(const LayerRecord& l, const Shape& input, const Shape& output) {
   return (output.h - 1) * l.stride_height < input.h + l.pad_top &&
          (output.w - 1) * l.stride_width < input.w + l.pad_left;
@@ -43,7 +44,7 @@ bool is_broadcast(const Shape& b, const Shape& a) {
   return is_broadcast(b.h, a.h) && is_broadcast(b.w, a.w) && is_broadcast(b.c, a.c);
 }
 
-// A factor of 0 stands for the declared size. Too large a product is too large a map.
+// A factor of 0 selects the declared size. The product saturates, which fails is_allowed.
 std::int32_t resized(std::int32_t size, std::int32_t factor, std::uint32_t declared) {
   const std::int64_t all = factor == 0 ? std::int64_t{declared} : std::int64_t{size} * factor;
   return static_cast<std::int32_t>(all <= INT32_MAX ? all : INT32_MAX);

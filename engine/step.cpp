@@ -1,3 +1,4 @@
+// Translates layers to kernels and their arguments.
 #include "engine/step.h"
 
 #include <cstring>
@@ -34,12 +35,12 @@ Activation kind_of(LayerActivation activation) {
       return Activation::kTanh;
     case LayerActivation::kClamp01:
       return Activation::kClamp01;
-    default:  // curves, which only layers of their own have
+    default:  // curves, which only activation layers have
       return Activation::kNone;
   }
 }
 
-// False where an activation is none of the curves.
+// Sets `curve` and returns true if the activation is a curve.
 bool is_curve(LayerActivation activation, Curve& curve) {
   switch (activation) {
     case LayerActivation::kHardSwish:
@@ -102,7 +103,7 @@ std::int32_t vector_elems(const Shape& shape) {
 
 std::int32_t pixels(const Shape& shape) { return static_cast<std::int32_t>(shape.pixels()); }
 
-// What conv2d, depthwise and max_pool have in common.
+// Sets the window fields that conv2d, depthwise and max_pool share.
 template <class Args>
 void set_windows(const LayerRecord& l, const Shape& x, const Shape& y, Args& args) {
   args.in_h = x.h;
@@ -117,7 +118,7 @@ void set_windows(const LayerRecord& l, const Shape& x, const Shape& y, Args& arg
   args.pad_left = l.pad_left;
 }
 
-// The centre slice of `residual` as large as `y`.
+// Adds the centre slice of `residual` with the size of `y`.
 template <class Args>
 void set_residual(const Shape& residual, const Shape& y, const float* data, Args& args) {
   args.residual = data;
@@ -249,7 +250,7 @@ kernels::InvertedResidualArgs::Weights StepMaker::weights(std::uint32_t layer) c
   return {halves(l.weights), halves(l.bias), activation(l), nullptr, nullptr};
 }
 
-// Layers `layer` .. slide + 1, and the addition behind them if it is fused.
+// Arguments for layers `layer` .. depthwise_layer + 1, and for the next addition if it is fused.
 kernels::InvertedResidualArgs StepMaker::block(std::uint32_t layer,
                                                std::uint32_t depthwise_layer) const {
   const LayerRecord& l = plan_.layer(depthwise_layer);
@@ -283,10 +284,10 @@ kernels::InvertedResidualArgs StepMaker::block(std::uint32_t layer,
   return args;
 }
 
-// Rounded once, here.
+// Rounds the weights once, at creation.
 Status StepMaker::quantize_weights(std::byte* to, kernels::InvertedResidualArgs& args) const {
-  const auto fix = kernels::find<kernels::QuantizeWeightsArgs>(cpu_mask_);
-  if (fix == nullptr) {
+  const auto quantize = kernels::find<kernels::QuantizeWeightsArgs>(cpu_mask_);
+  if (quantize == nullptr) {
     return Status::kNoKernel;
   }
   const auto layer = [&](kernels::InvertedResidualArgs::Weights& weights, std::int32_t in_c,
@@ -298,9 +299,9 @@ Status StepMaker::quantize_weights(std::byte* to, kernels::InvertedResidualArgs&
     one.scales =
         reinterpret_cast<float*>(one.pairs + std::ptrdiff_t{one.in_blocks} * one.out_blocks * 64);
     one.weights = weights.weights;
-    one.most = of_map ? kernels::kQuantizedMapMax : kernels::kQuantizedBandMax;
+    one.max_value = of_map ? kernels::kQuantizedMapMax : kernels::kQuantizedBandMax;
     one.is_signed = of_map;
-    fix(one);
+    quantize(one);
     weights.pairs = one.pairs;
     weights.scales = one.scales;
     to += quantized_weights_bytes(in_c, out_c);

@@ -1,4 +1,4 @@
-// One kernel with its arguments: what a session runs, one after another.
+// A step of a session: one kernel and its arguments.
 #pragma once
 
 #include <cstddef>
@@ -13,27 +13,27 @@ namespace mien::engine {
 struct Step {
   static constexpr std::size_t kArgsBytes = sizeof(kernels::InvertedResidualArgs);  // the largest
   kernels::AnyKernel kernel;
-  void (*call)(const Step&);               // knows the type of both
-  std::uint32_t first_layer, layer_count;  // that it performs
+  void (*call)(const Step&);               // casts kernel and args to their types
+  std::uint32_t first_layer, layer_count;  // layers that the step computes
   alignas(8) std::byte args[kArgsBytes];
 };
 
-// Turns layers into steps, once the maps have their places.
+// Creates steps from layers, after the plan has placed the maps.
 class StepMaker {
  public:
-  // `maps`: one for every value, nullptr where no step touches it. `scratch`: where the plan has
-  // it.
+  // `maps`: one pointer per value, nullptr if no step accesses it. `scratch`: at
+  // Plan::scratch_offset.
   StepMaker(const Plan& plan, const formats::FileView& file, std::uint32_t cpu_mask,
             float* const* maps, float* scratch)
       : plan_(plan), file_(file), cpu_mask_(cpu_mask), maps_(maps), scratch_(scratch) {}
 
-  // A step's own: Plan::state_elems floats, Plan::weights_bytes bytes.
+  // Memory of one step: Plan::state_elems floats and Plan::weights_bytes bytes.
   struct Memory {
     float* state;
     std::byte* weights;
   };
 
-  // kNoKernel if no tier has one.
+  // Returns kNoKernel if no allowed tier has a kernel.
   Status make(std::uint32_t layer, const Memory& own, Step& step) const;
 
  private:
@@ -48,7 +48,7 @@ class StepMaker {
   [[nodiscard]] const std::uint16_t* halves(std::uint32_t tensor) const;
   [[nodiscard]] kernels::ActivationSpec activation(const formats::LayerRecord& layer) const;
 
-  // What every layer with weights and an activation has in common; the rest is zero.
+  // Sets the fields common to all layers with weights and an activation; the rest is zero.
   template <class Args>
   [[nodiscard]] Args weighted(const formats::LayerRecord& layer, Map x, Map y) const;
 

@@ -1,3 +1,4 @@
+// Byte sources for C streams and spans.
 #include "formats/byte_source.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Where stream parsers get their bytes: a pipe, a file, a span.
+// The byte source of stream parsers: a pipe, a file or a span.
 #pragma once
 
 #include <cstddef>
@@ -8,15 +8,15 @@
 namespace mien::formats {
 
 struct ByteSource {
-  // Fills `into` as far as there are bytes and returns how many; fewer than asked only at the end.
+  // Fills `into` and returns the number of bytes; less than into.size() only at the end.
   std::size_t (*read)(void* context, std::span<std::byte> into);
   void* context;
 };
 
-// Reads the stream; it stays the caller's and must stay open.
+// Reads the stream, which remains the caller's and must stay open.
 ByteSource file_source(std::FILE* file);
 
-// Reads the span that `remaining` points to and shortens it from the front.
+// Reads the span at `remaining` and removes the bytes read from its front.
 ByteSource span_source(std::span<const std::byte>* remaining);
 
 }  // namespace mien::formats

@@ -1,4 +1,5 @@
-// Arithmetic on numbers from a file. An overflow poisons the value, and the poison stays.
+// Overflow-checked arithmetic on numbers from a file. An overflow makes all further results
+// invalid.
 #pragma once
 
 #include <cstdint>
@@ -7,10 +8,11 @@ namespace mien::formats {
 
 class Checked {
  public:
-  constexpr Checked(std::uint64_t value) : value_(value) {}  // NOLINT: numbers are Checked numbers
+  constexpr Checked(std::uint64_t value)
+      : value_(value) {}  // NOLINT: implicit conversion is intended
 
   [[nodiscard]] constexpr bool valid() const { return valid_; }
-  // The number, or 2^64 - 1 after an overflow, which no limit admits.
+  // The number, or 2^64 - 1 after an overflow, which exceeds every limit.
   [[nodiscard]] constexpr std::uint64_t value() const { return valid_ ? value_ : UINT64_MAX; }
 
   friend constexpr Checked operator+(Checked a, Checked b) {
@@ -28,9 +30,9 @@ class Checked {
 
  private:
   static constexpr Checked make(std::uint64_t value, bool valid) {
-    Checked made(value);
-    made.valid_ = valid;
-    return made;
+    Checked result(value);
+    result.valid_ = valid;
+    return result;
   }
 
   std::uint64_t value_;

@@ -1,3 +1,4 @@
+// Reads and skips bytes while counting them.
 #include "formats/counted_source.h"
 
 #include <algorithm>
@@ -11,7 +12,7 @@ std::size_t CountedSource::read(std::span<std::byte> into) {
   return bytes;
 }
 
-// By reading: a pipe cannot seek.
+// Reads instead of seeking, because pipes cannot seek.
 bool CountedSource::skip(std::uint64_t bytes) {
   std::array<std::byte, 4096> skipped;
   while (bytes > 0) {

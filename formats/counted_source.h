@@ -1,4 +1,4 @@
-// A byte source that knows how far it was read.
+// A byte source that counts the bytes read.
 #pragma once
 
 #include <cstddef>
@@ -17,10 +17,10 @@ class CountedSource {
   // Bytes read and skipped so far.
   [[nodiscard]] std::uint64_t position() const { return position_; }
 
-  // As ByteSource::read: fewer bytes than asked only at the end.
+  // Like ByteSource::read: less than into.size() only at the end.
   [[nodiscard]] std::size_t read(std::span<std::byte> into);
 
-  // False if the source ends before that.
+  // Returns false if the source ends earlier.
   [[nodiscard]] bool skip(std::uint64_t bytes);
 
  private:

@@ -1,3 +1,4 @@
+// Formats cells and quotes text.
 #include "formats/csv_row.h"
 
 #include <array>

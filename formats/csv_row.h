@@ -1,5 +1,5 @@
-// One line of a CSV file, whatever the locale: floats take the fewest digits that read back the
-// same.
+// Writes one line of a CSV file, independent of the locale, with the shortest decimal digits that
+// read back as the same number.
 #pragma once
 
 #include <cstddef>
@@ -11,18 +11,18 @@ namespace mien::formats {
 
 class CsvRow {
  public:
-  static constexpr std::size_t kMaxNumberBytes = 25;  // one cell of a number with its comma
+  static constexpr std::size_t kMaxNumberBytes = 25;  // a number with its comma
 
-  // Writes into `buffer`, the caller's, which must outlive the row.
+  // Writes to `buffer`, which must outlive the row.
   explicit CsvRow(std::span<char> buffer) : buffer_(buffer) {}
 
   void add(std::int64_t value);
-  void add(float value);             // not finite: an empty cell
-  void add(double value);            // not finite: an empty cell
-  void add(std::string_view value);  // quoted where RFC 4180 asks for it
+  void add(float value);             // writes an empty cell unless finite
+  void add(double value);            // writes an empty cell unless finite
+  void add(std::string_view value);  // quoted if RFC 4180 requires it
   void add_empty();
 
-  // The line with its '\n', or nothing at all where the buffer was too small. Starts a new row.
+  // Returns the line with its '\n', or nothing if the buffer is too small. Starts a new row.
   [[nodiscard]] std::string_view finish();
 
  private:

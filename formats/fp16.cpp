@@ -1,3 +1,4 @@
+// Half-precision conversion.
 #include "formats/fp16.h"
 
 #include <bit>
@@ -22,11 +23,11 @@ std::uint16_t fp16_from_float(float value) {
     return static_cast<std::uint16_t>(sign | 0x7c00);
   }
   if (magnitude < kSmallestNormal) {
-    // Multiples of 2^-24: the sum's last bit is 2^-24, so the addition rounds as wanted.
+    // Multiples of 2^-24: the last bit of the sum is 2^-24, so that the addition rounds correctly.
     const float sum = magnitude + 0.5f;
     return static_cast<std::uint16_t>(sign | (std::bit_cast<std::uint32_t>(sum) - 0x3f000000));
   }
-  // Rebias the exponent from 127 to 15 and round 13 bits away, half to even.
+  // Rebias the exponent from 127 to 15 and round 13 bits off, half to even.
   const std::uint32_t rebiased = (bits & 0x7fffffff) - (112u << 23);
   const std::uint32_t rounded = rebiased + 0xfff + (rebiased >> 13 & 1);
   return static_cast<std::uint16_t>(sign | rounded >> 13);

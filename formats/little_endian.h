@@ -1,4 +1,4 @@
-// Numbers that files store with their lowest byte first, wherever in memory they begin.
+// Little-endian numbers in files, at any alignment.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +6,7 @@
 
 namespace mien::formats {
 
-// Reads sizeof(Unsigned) bytes from `bytes` on.
+// Reads sizeof(Unsigned) bytes at `bytes`.
 template <typename Unsigned>
 [[nodiscard]] constexpr Unsigned load_little(const std::byte* bytes) {
   Unsigned value = 0;

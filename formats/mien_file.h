@@ -1,4 +1,4 @@
-// Reading a weight file in place: one validating pass, no allocation, no copy.
+// Reads a weight file in place: one validating pass, without allocation or copy.
 #pragma once
 
 #include <cstddef>
@@ -40,22 +40,22 @@ enum class FileStatus : std::int32_t {
   kBadReference = 63,
   kBadShape = 64,
   kBadKernel = 65,
-  kBadTensor = 66,  // a layer's tensor has other dimensions than its op asks for
+  kBadTensor = 66,  // a tensor's dimensions do not match the layer's op
   kUnusedTensor = 67,
 };
 
-// One line of English, static.
+// A static string of one line.
 [[nodiscard]] const char* message(FileStatus status);
 
 struct Validation {
   FileStatus status = FileStatus::kOk;
-  std::uint64_t offset = 0;  // where in the file the fault was found, bytes
+  std::uint64_t offset = 0;  // position of the fault in the file, bytes
 };
 
 class FileView;
 
-// Checks every rule of docs/format.md. Only on kOk is `view` set; it refers to `bytes`, which must
-// outlive it and stay as they are.
+// Checks every rule of docs/format.md. Sets `view` only on kOk; it refers to `bytes`, which must
+// outlive it unchanged.
 [[nodiscard]] Validation open(std::span<const std::byte> bytes, FileView& view);
 
 class FileView {
@@ -78,7 +78,7 @@ class FileView {
   [[nodiscard]] std::size_t file_bytes() const { return bytes_.size(); }
   [[nodiscard]] std::uint64_t checksum() const { return checksum_; }
 
-  // nullptr where there is none of that name.
+  // nullptr if there is none with that name.
   [[nodiscard]] const NetworkRecord* find_network(std::string_view name) const;
   [[nodiscard]] const TensorRecord* find_constant(std::string_view name) const;
 

@@ -1,3 +1,4 @@
+// Assembles the sections of a weight file.
 #include <algorithm>
 #include <cstring>
 #include <utility>
@@ -19,7 +20,7 @@ void align(std::vector<std::byte>* file) {
   file->resize((file->size() + kFileAlignment - 1) / kFileAlignment * kFileAlignment);
 }
 
-// The reader wants the file aligned, which a vector of bytes is not.
+// Copies the file to aligned memory, which the reader requires.
 Validation validated(std::span<const std::byte> file) {
   struct alignas(kFileAlignment) Line {
     std::byte bytes[kFileAlignment];
@@ -65,7 +66,7 @@ struct FileSections {
   std::vector<TensorRecord> tensors;
   std::vector<MetadataRecord> metadata;
   std::string strings;
-  std::vector<std::byte> data;  // of the tensors, whose offsets count from its start
+  std::vector<std::byte> data;  // data of the tensors, whose offsets count from its start
 
   StringRef add_string(const std::string& string) {
     const StringRef ref = {static_cast<std::uint32_t>(strings.size()),
@@ -88,7 +89,7 @@ struct FileSections {
 
 namespace {
 
-// The smallest that networks and layers need.
+// The lowest minor version that the networks and layers allow.
 std::uint16_t minor_version_of(const FileSections& sections) {
   std::uint16_t version = 0;
   for (const NetworkRecord& network : sections.networks) {
@@ -142,7 +143,7 @@ std::vector<std::byte> assembled(FileSections sections) {
 
 }  // namespace
 
-// Networks and layers in order; says what is wrong with the first network at fault.
+// Adds networks and layers in order; returns the error of the first invalid network.
 FileStatus MienWriter::add_networks(FileSections* sections) const {
   for (const NetworkWriter& network : networks_) {
     if (const FileStatus status = network.status(); status != FileStatus::kOk) {

@@ -1,5 +1,5 @@
-// The byte layout of weight files (.mien), version 1.2. docs/format.md is the specification; this
-// header spells its tables out. All numbers are little-endian; numbers once used are never reused.
+// The byte layout of weight files (.mien), version 1.2, as specified in docs/format.md. All numbers
+// are little-endian; enumerators are never reused.
 #pragma once
 
 #include <bit>
@@ -7,8 +7,7 @@
 #include <cstdint>
 
 static_assert(std::endian::native == std::endian::little,
-              "mien reads weight files in place, and their numbers are little-endian: there is no "
-              "mien for big-endian machines");
+              "mien requires a little-endian machine, because it reads weight files in place");
 
 namespace mien::formats {
 
@@ -17,10 +16,10 @@ inline constexpr std::uint16_t kMajorVersion = 1;
 inline constexpr std::uint16_t kMinorVersion = 2;
 inline constexpr std::uint32_t kEndianTag = 0x01020304;
 
-// Sections and tensors begin at multiples of this, and so does the file in memory.
+// Alignment of sections, of tensors, and of the file in memory.
 inline constexpr std::size_t kFileAlignment = 64;
 
-// Limits. They keep every sum of a valid file far from 2^63.
+// Limits, which keep every sum in a valid file far below 2^63.
 inline constexpr std::uint32_t kMaxNetworks = 64;
 inline constexpr std::uint32_t kMaxLayers = 1024;
 inline constexpr std::uint32_t kMaxTensors = 4096;
@@ -31,9 +30,10 @@ inline constexpr std::uint32_t kMaxValueBytes = 4096;
 inline constexpr std::uint32_t kMaxRank = 4;
 inline constexpr std::uint32_t kMaxDim = 1u << 20;
 inline constexpr std::uint64_t kMaxFileBytes = std::uint64_t{1} << 31;
-inline constexpr std::uint64_t kMaxMapElems = std::uint64_t{1} << 28;  // of one blocked map
+inline constexpr std::uint64_t kMaxMapElems = std::uint64_t{1} << 28;  // per blocked map
 inline constexpr std::uint32_t kMaxOutputs = 14;
-inline constexpr std::uint32_t kMaxWideOutputs = 4;  // as many are 32-bit numbers
+inline constexpr std::uint32_t kMaxWideOutputs =
+    4;  // up to this many outputs are stored as 32-bit numbers
 inline constexpr std::uint16_t kMaxKernel = 15;
 inline constexpr std::uint16_t kMaxStride = 15;
 
@@ -50,10 +50,10 @@ enum class LayerOp : std::uint16_t {
   kAdd = 8,
   kActivation = 9,
   kSoftmax = 10,
-  kGlobalAveragePool = 11,  // this and what follows: since version 1.1
+  kGlobalAveragePool = 11,  // this and the following: since version 1.1
   kConcat = 12,
   kSlice = 13,
-  kMultiply = 14,  // this and what follows: since version 1.2
+  kMultiply = 14,  // this and the following: since version 1.2
   kDivide = 15,
   kBroadcastAdd = 16,
   kResize = 17,
@@ -70,7 +70,7 @@ enum class LayerActivation : std::uint16_t {
   kSigmoid = 5,
   kTanh = 6,
   kClamp01 = 7,
-  kHardSwish = 8,  // this and what follows: since version 1.2, of kActivation alone
+  kHardSwish = 8,  // this and the following: since version 1.2, kActivation only
   kSwish = 9,
   kGelu = 10,
   kGeluTanh = 11,
@@ -96,8 +96,8 @@ struct FileHeader {
   std::uint32_t metadata_count;
   std::uint32_t string_bytes;
   std::uint64_t total_bytes;
-  std::uint64_t data_offset;  // of the first tensor
-  std::uint64_t checksum;     // XXH64, seed 0, of the whole file with this field 0
+  std::uint64_t data_offset;  // start of the first tensor
+  std::uint64_t checksum;     // XXH64 of the whole file with this field 0, seed 0
 };
 
 struct StringRef {
@@ -112,8 +112,8 @@ struct NetworkRecord {
   std::uint32_t first_layer;
   std::uint32_t layer_count;
   std::uint32_t output_count;
-  // Values of the network (see LayerRecord), unused ones 0. Up to kMaxWideOutputs of them are
-  // 32-bit numbers and take two places each: output_value reads, output_place says where they are.
+  // Values of the network (see LayerRecord), unused ones 0. Up to kMaxWideOutputs outputs are
+  // 32-bit numbers in two elements each: output_value reads them, output_place is their index.
   std::uint16_t outputs[kMaxOutputs];
 };
 [[nodiscard]] constexpr std::uint32_t output_place(std::uint32_t output_count, std::uint32_t i) {
@@ -122,28 +122,28 @@ struct NetworkRecord {
 [[nodiscard]] constexpr std::uint32_t output_value(const NetworkRecord& network, std::uint32_t i) {
   return network.outputs[output_place(network.output_count, i)];
 }
-// Runs on every map at least as large as the declared one.
+// kAnySize: the network accepts every input at least as large as the declared one.
 inline constexpr std::uint32_t kAnySize = 1;
 
-// The values of a network are numbered: 0 is its input, k the output of its k-th layer.
+// A network's values are numbered: 0 is its input, k the output of its k-th layer.
 struct LayerRecord {
   std::uint16_t op;
   std::uint16_t activation;
-  std::uint32_t input;                    // a value smaller than this layer's own
-  std::uint32_t second_input;             // of ops that take two, else kNoIndex
-  std::uint32_t height, width, channels;  // of the output, at the network's declared input size
+  std::uint32_t input;                    // an earlier value
+  std::uint32_t second_input;             // for ops with two inputs, else kNoIndex
+  std::uint32_t height, width, channels;  // output shape for the declared input
   std::uint16_t kernel_height, kernel_width;
-  std::uint16_t stride_height, stride_width;               // of kResize: see format.md
-  std::uint16_t pad_top, pad_left, pad_bottom, pad_right;  // of kSlice: rows, columns cut off
-  std::uint16_t flags;          // kCeilMode; of kResize and kRearrange: see below
-  std::uint16_t first_channel;  // of kSlice, else 0
+  std::uint16_t stride_height, stride_width;               // kResize: see format.md
+  std::uint16_t pad_top, pad_left, pad_bottom, pad_right;  // kSlice: rows and columns removed
+  std::uint16_t flags;          // kCeilMode; kResize and kRearrange: see below
+  std::uint16_t first_channel;  // kSlice, else 0
   float alpha;
   std::uint32_t weights, bias, slopes;  // tensors, or kNoIndex
   std::uint32_t reserved_tail;
 };
-inline constexpr std::uint16_t kCeilMode = 1;  // pooling: a last, partly filled window counts
+inline constexpr std::uint16_t kCeilMode = 1;  // pooling: includes a last, partly filled window
 
-// flags of kResize: a ResizeGrid and, times 4, a ResizeSampling.
+// Flags of kResize: ResizeGrid + kResizeGrids * ResizeSampling.
 enum class ResizeGrid : std::uint16_t { kHalfPixel = 0, kAsymmetric = 1, kAlignCorners = 2 };
 enum class ResizeSampling : std::uint16_t {
   kRoundHalfDown = 0,
@@ -158,7 +158,7 @@ inline constexpr std::uint16_t kResizeGrids = 4;
                                     kResizeGrids * static_cast<std::uint16_t>(sampling));
 }
 
-// flags of kRearrange: in which order the input is read, the outermost axis first.
+// Flags of kRearrange: the order in which the input is read, outermost axis first.
 enum class ReadingOrder : std::uint16_t {
   kRowColumnChannel = 0,
   kRowChannelColumn = 1,
@@ -169,12 +169,12 @@ enum class ReadingOrder : std::uint16_t {
 };
 
 struct TensorRecord {
-  StringRef name;  // empty unless it is a constant
+  StringRef name;  // empty except for constants
   std::uint16_t type;
   std::uint16_t rank;
   std::uint32_t reserved;
   std::uint32_t dims[kMaxRank];  // unused ones 0
-  std::uint64_t offset;          // from the file's beginning
+  std::uint64_t offset;          // from the start of the file
   std::uint64_t bytes;
   std::uint32_t reserved_tail[4];
 };

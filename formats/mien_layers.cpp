@@ -1,3 +1,4 @@
+// Rules, shapes and tensors per layer operation.
 #include "formats/mien_layers.h"
 
 #include <algorithm>
@@ -14,12 +15,12 @@ bool is_windowed(LayerOp op) {
   return op == LayerOp::kConv2d || op == LayerOp::kDepthwise || op == LayerOp::kMaxPool;
 }
 
-// Take a vector and have no meaning for maps of another size.
+// Ops whose input is a vector, which therefore need a declared size.
 bool takes_vector(LayerOp op) { return op == LayerOp::kCausalConv || op == LayerOp::kLstm; }
 
 bool has_fixed_input(LayerOp op) { return takes_vector(op) || op == LayerOp::kFullyConnected; }
 
-// Has no meaning for maps of another size than declared.
+// Whether the layer requires the declared input size.
 bool has_fixed_size(const LayerRecord& layer) {
   const bool resizes_to =
       op_of(layer) == LayerOp::kResize && (layer.stride_height == 0 || layer.stride_width == 0);
@@ -30,7 +31,7 @@ bool chooses_channels(LayerOp op) {
   return has_fixed_input(op) || op == LayerOp::kConv2d || op == LayerOp::kPointwise;
 }
 
-// The others are cells, which have their own nonlinearity, or choose, add and move values.
+// Other ops have their own nonlinearity, or only select, add or move values.
 bool may_activate(LayerOp op) {
   return chooses_channels(op) ? op != LayerOp::kLstm
                               : op == LayerOp::kDepthwise || op == LayerOp::kActivation;
@@ -48,16 +49,15 @@ FileStatus check_activation(const LayerRecord& layer, std::uint16_t minor_versio
   }
   const bool has_alpha =
       activation_of(layer) == LayerActivation::kLeakyRelu || op_of(layer) == LayerOp::kNormalize;
-  // As bits, which are in the order of the numbers from +0 on, and behind them are NaNs and what
-  // has a sign: as numbers denormal ones would be zero or not as the caller's floating-point state
-  // has it.
+  // Compared as bits, which are ordered like the values from +0 on, with NaNs and negative values
+  // above: a comparison of floats would depend on the caller's treatment of denormal numbers.
   const auto alpha = std::bit_cast<std::uint32_t>(layer.alpha);
   const bool below_one = alpha < std::bit_cast<std::uint32_t>(1.0f);
   const bool admitted_alpha = has_alpha ? alpha > 0 && below_one : alpha == 0;
   return admitted_alpha ? FileStatus::kOk : FileStatus::kBadActivation;
 }
 
-// Padding is smaller than the kernel so that no window sees padding alone.
+// Padding must be smaller than the kernel, so that no window contains only padding.
 bool window_allowed(std::uint16_t kernel, std::uint16_t stride, std::uint16_t before,
                     std::uint16_t after) {
   return kernel >= 1 && kernel <= kMaxKernel && stride >= 1 && stride <= kMaxStride &&
@@ -101,8 +101,8 @@ bool geometry_allowed(const LayerRecord& layer) {
          window_allowed(layer.kernel_width, layer.stride_width, layer.pad_left, layer.pad_right);
 }
 
-// Windows of `kernel` elements every `stride` on `before + size + after`; 0 where not one fits, or
-// where the one that ceil mode adds would begin behind the map.
+// Number of windows of `kernel` elements every `stride` on `before + size + after`; 0 if none fits,
+// or if the window that ceil mode adds would begin after the map.
 std::uint64_t window_count(std::uint64_t size, std::uint64_t kernel, std::uint64_t stride,
                            std::uint64_t before, std::uint64_t after, bool ceil_mode) {
   const std::uint64_t padded = before + size + after;
@@ -122,7 +122,7 @@ ValueShape depthwise_shape(const LayerRecord& layer, ValueShape input) {
           op_of(layer) == LayerOp::kConv2d ? layer.channels : input.channels};
 }
 
-// What is left of `size` elements without its margins; 0 if nothing.
+// `size` without its margins; 0 if nothing remains.
 std::uint64_t cut(std::uint64_t size, std::uint64_t before, std::uint64_t after) {
   return size > before + after ? size - before - after : 0;
 }
@@ -165,7 +165,7 @@ ValueShape rearranged_shape(const LayerRecord& layer, ValueShape input) {
              : ValueShape{};
 }
 
-// b is at least as large as a, by an even number of rows and columns.
+// Whether b is at least as large as a, by an even number of rows and columns.
 bool has_centre_slice(ValueShape a, ValueShape b) {
   return a.channels == b.channels && b.height >= a.height && b.width >= a.width &&
          (b.height - a.height) % 2 == 0 && (b.width - a.width) % 2 == 0;
@@ -175,7 +175,7 @@ constexpr std::uint64_t kPanel = 16;
 constexpr std::uint64_t kBlock = 8;
 constexpr std::size_t kElementBytes = 2;
 
-// Looks at runs of elements of one tensor until one is not zero.
+// Searches runs of elements of a tensor for one that is not zero.
 class Search {
  public:
   explicit Search(std::span<const std::byte> tensor) : tensor_(tensor), found_(tensor.size()) {}
@@ -195,12 +195,12 @@ class Search {
   std::size_t found_;
 };
 
-// One panel: `first` is its first element, `width` its outputs, of which `used` are.
+// A panel: index of its first element, number of outputs, number of used outputs.
 struct Panel {
   std::uint64_t first, width, used;
 };
 
-// Only the last block of a map has unused channels: some of each of its pixels.
+// Only the last block of a map has unused channels, at each of its pixels.
 void look_at_inputs(const TensorLanes& lanes, const Panel& panel, Search& search) {
   const std::uint64_t used = lanes.map_channels % kBlock;
   if (used == 0) {
@@ -243,7 +243,7 @@ LayerTensor weights_of(const LayerRecord& layer, ValueShape input) {
               {outputs, kPanel, blocked * pixels, 1, pixels, channels}};
     case LayerOp::kCausalConv:
       return {{3, {out, 2, blocked}}, {outputs, kPanel, 2 * blocked, 2, 1, channels}};
-    case LayerOp::kLstm:  // of its own output no lane is unused
+    case LayerOp::kLstm:  // its own output has no unused lane
       return {{2, {4 * out, blocked + out}},
               {4 * outputs, kPanel, blocked + outputs, 1, 1, channels}};
     case LayerOp::kMaxPool:
@@ -273,7 +273,7 @@ FileStatus check_outputs(const NetworkRecord& network, std::uint16_t minor_versi
   if (count == 0 || count > kMaxOutputs || version_needed(network) > minor_version) {
     return FileStatus::kBadNetwork;
   }
-  const std::uint32_t width = output_place(count, 1);  // places of one
+  const std::uint32_t width = output_place(count, 1);  // elements per output
   for (place = 0; place < kMaxOutputs; ++place) {
     const std::uint32_t value = network.outputs[place];
     const bool used = place % width == 0 && place / width < count;

@@ -1,5 +1,5 @@
-// What each layer operation of a weight file may look like, its output's shape, the tensors it
-// owns, and what of these has to be zero.
+// The rules for each layer operation of a weight file: allowed fields, output shape, tensors, and
+// the padding in them that must be zero.
 #pragma once
 
 #include <cstddef>
@@ -21,23 +21,22 @@ struct TensorDims {
   std::uint64_t dim[kMaxRank] = {};
 };
 
-// Weights are padded to whole panels and blocks. What no channel owns of them is zero, and kernels
-// compute it along or leave it out, as suits them: of anything else they would make different
-// answers.
+// Weights are padded to whole panels and blocks. The padding must be zero, because some kernels
+// include it in their sums and others do not.
 
-// How the elements of a layer's tensor lie, all of them fp16: [panel][step][output of the panel].
+// Layout of a layer's fp16 tensor: [panel][step][output of the panel].
 struct TensorLanes {
-  std::uint64_t outputs = 0;  // that are used; the tensor has padded8 of them
-  std::uint64_t panel = 0;    // most outputs side by side; the last panel may have 8
-  std::uint64_t steps = 0;    // of the reduction, for each output
-  std::uint64_t maps = 0;     // that the reduction begins with, in blocks; 0 if none has blocks
-  std::uint64_t pixels = 0;   // of each map
-  std::uint64_t map_channels = 0;  // that are used, of padded8
+  std::uint64_t outputs = 0;       // used outputs; the tensor has padded8 of them
+  std::uint64_t panel = 0;         // outputs per panel; the last panel may have 8
+  std::uint64_t steps = 0;         // length of each output's reduction
+  std::uint64_t maps = 0;          // blocked maps at the start of the reduction
+  std::uint64_t pixels = 0;        // per map
+  std::uint64_t map_channels = 0;  // used channels of a map, which has padded8 of them
 };
 
 struct LayerTensor {
   TensorDims dims;
-  TensorLanes lanes;  // count if it has dims
+  TensorLanes lanes;  // only valid with dims
 };
 
 struct LayerTensors {
@@ -55,13 +54,13 @@ struct LayerTensors {
   return {layer.height, layer.width, layer.channels};
 }
 
-// Whether the op reads a second value.
+// Whether the op has two inputs.
 [[nodiscard]] constexpr bool takes_two(LayerOp op) {
   return op == LayerOp::kAdd || op == LayerOp::kConcat || op == LayerOp::kMultiply ||
          op == LayerOp::kDivide || op == LayerOp::kBroadcastAdd;
 }
 
-// The minor version of the format that a layer needs.
+// The minor version of the format that a layer requires.
 [[nodiscard]] constexpr std::uint16_t version_needed(LayerOp op) {
   return op >= LayerOp::kMultiply ? 2 : op >= LayerOp::kGlobalAveragePool ? 1 : 0;
 }
@@ -73,21 +72,21 @@ struct LayerTensors {
   return activation > 0 ? activation : version_needed(op_of(layer));
 }
 
-// The same of a network's own record.
+// The minor version of the format that a network's record requires.
 [[nodiscard]] constexpr std::uint16_t version_needed(const NetworkRecord& network) {
   return network.output_count > kMaxWideOutputs ? 2 : 0;
 }
 
-// Whether outputs are the right number of values of the network, and nothing is beside them.
-// `place`: of the field at fault in NetworkRecord::outputs; kNoIndex where it is their count.
+// Checks that outputs are distinct values of the network and that unused elements are zero.
+// `place`: index of the wrong element of NetworkRecord::outputs; kNoIndex if the count is wrong.
 [[nodiscard]] FileStatus check_outputs(const NetworkRecord& network, std::uint16_t minor_version,
                                        std::uint32_t& place);
 
-// All dimensions in 1..kMaxDim and the map, blocked, within kMaxMapElems.
+// Whether all dimensions are in 1..kMaxDim and the blocked map is within kMaxMapElems.
 [[nodiscard]] bool shape_allowed(ValueShape shape);
 
-// Fields by themselves: op, activation, references below `value`, kernel, strides, padding.
-// `minor_version`: the file's.
+// Checks a layer's fields: op, activation, references below `value`, kernel, strides, padding.
+// `minor_version`: that of the file.
 [[nodiscard]] FileStatus check_layer(const LayerRecord& layer, std::uint32_t value,
                                      std::uint32_t network_flags, std::uint16_t minor_version);
 

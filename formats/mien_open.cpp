@@ -1,4 +1,4 @@
-// The validating pass over a weight file, front to back, by the sections of docs/format.md.
+// The validating pass over a weight file, section by section in the order of docs/format.md.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -27,9 +27,9 @@ bool is_zero(const Field& field) {
   return all_zero(std::as_bytes(std::span(&field, 1)));
 }
 
-// No element has all bits of `exponent` set, as infinities and NaNs have: adding its lowest bit
-// carries out of those alone, into the sign. 64 bits at a time, to the end: valid files are read
-// whole anyway.
+// Infinities and NaNs have all bits of `exponent` set: adding its lowest bit carries into the sign
+// only for these. Processes 64 bits at a time without early exit, because valid files are read to
+// the end in any case.
 template <class Word>
 bool all_finite(std::span<const std::byte> data, Word exponent) {
   constexpr std::size_t kStep = sizeof(std::uint64_t);
@@ -54,7 +54,7 @@ DataType type_of(const TensorRecord& tensor) { return static_cast<DataType>(tens
 
 std::uint64_t element_bytes(DataType type) { return type == DataType::kFloat16 ? 2 : 4; }
 
-// Every step returns false after noting what failed where.
+// Each step returns false after it has recorded the fault and its position.
 class Validator {
  public:
   explicit Validator(std::span<const std::byte> bytes) : bytes_(bytes) {}
@@ -76,7 +76,7 @@ class Validator {
     result_ = {status, offset};
     return false;
   }
-  // `field` lies in the file.
+  // `field` must lie in the file.
   template <class Field>
   bool fail_at(FileStatus status, const Field& field) {
     const auto* at = reinterpret_cast<const std::byte*>(&field);
@@ -115,11 +115,11 @@ class Validator {
   [[nodiscard]] ValueShape value_shape(const NetworkRecord& network, std::uint32_t value) const;
 
   std::span<const std::byte> bytes_;
-  std::uint64_t next_byte_ = 0;    // behind the sections and tensors checked so far
-  std::uint64_t next_string_ = 0;  // the same in the string section
+  std::uint64_t next_byte_ = 0;    // end of the sections and tensors checked so far
+  std::uint64_t next_string_ = 0;  // likewise in the string section
   std::uint32_t next_layer_ = 0;
   std::uint32_t next_tensor_ = 0;
-  std::uint16_t version_needed_ = 0;  // minor, by the layers so far
+  std::uint16_t version_needed_ = 0;  // minor version, from the layers so far
   Validation result_;
 };
 
@@ -264,7 +264,7 @@ bool Validator::metadata() {
   return true;
 }
 
-// Strings lie in the order of the records that own them, so that none overlaps or hides.
+// Strings must be in the order of their records, so that they neither overlap nor leave gaps.
 bool Validator::string(const StringRef& ref) {
   if (ref.offset != next_string_ || ref.bytes > string_section.size() - next_string_) {
     return fail_at(FileStatus::kHole, ref);
@@ -283,7 +283,7 @@ bool Validator::name(const StringRef& ref) {
   return true;
 }
 
-// Empty names do not count.
+// Ignores empty names.
 template <class Record>
 bool Validator::unique(std::span<const Record> records, StringRef Record::*name) {
   const auto text = [&](const Record& record) {
@@ -337,7 +337,7 @@ bool Validator::dims(const TensorRecord& record) {
     }
     bytes = used ? bytes * dim : bytes;
   }
-  // An overflow reads as 2^64 - 1, more than any file has.
+  // An overflow reads as 2^64 - 1, which exceeds every file size.
   if (bytes.value() != record.bytes || bytes.value() > kMaxFileBytes) {
     return fail_at(FileStatus::kBadTensorBytes, record.bytes);
   }
@@ -428,7 +428,7 @@ bool Validator::layer(const NetworkRecord& network, std::uint32_t index) {
          layer_tensor(record.slopes, tensors.slopes);
 }
 
-// Layers' tensors come first, in the order of their use, so that each belongs to one layer.
+// Layers' tensors come first, in the order of use, so that each belongs to one layer.
 bool Validator::layer_tensor(const std::uint32_t& index, const LayerTensor& tensor) {
   const TensorDims& dims = tensor.dims;
   if (dims.rank == 0) {

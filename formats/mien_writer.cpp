@@ -1,3 +1,4 @@
+// Builds networks layer by layer.
 #include "formats/mien_writer.h"
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 namespace mien::formats {
 namespace {
 
-// Whether the array is [dims..., 1, 1, ...] and not empty.
+// Whether the array has the shape [dims..., 1, 1, ...] and is not empty.
 bool has_shape(const Array& array, std::initializer_list<std::uint64_t> dims) {
   if (array.shape.size() < dims.size() || array.values.empty() ||
       array.values.size() != count_of(array.shape)) {
@@ -72,7 +73,7 @@ NetworkWriter::Layer NetworkWriter::begin(LayerOp op, LayerIndex x, const LayerO
 
 void NetworkWriter::set_window(LayerRecord* record, std::uint32_t kernel_h, std::uint32_t kernel_w,
                                const LayerOptions& options) {
-  // Too large a kernel must not become a small one.
+  // Saturates, so that a kernel that is too large does not become a valid one.
   record->kernel_height = static_cast<std::uint16_t>(std::min(kernel_h, 0xffffu));
   record->kernel_width = static_cast<std::uint16_t>(std::min(kernel_w, 0xffffu));
   record->stride_height = options.stride_y;
@@ -80,7 +81,7 @@ void NetworkWriter::set_window(LayerRecord* record, std::uint32_t kernel_h, std:
   set_margins(record, options.padding);
 }
 
-// Checks what the format says about the layer and gives it its shape.
+// Checks the layer against the format and computes its shape.
 bool NetworkWriter::place(LayerRecord* record) {
   const auto value = static_cast<std::uint32_t>(layers_.size() + 1);
   const FileStatus status = check_layer(*record, value, record_.flags, kMinorVersion);
@@ -99,7 +100,7 @@ bool NetworkWriter::place(LayerRecord* record) {
   return require(shape_allowed(output), FileStatus::kBadShape) && status_ == FileStatus::kOk;
 }
 
-// A layer at fault is kept, so that the values behind it keep their numbers; finish() reports it.
+// Keeps invalid layers, so that later values keep their numbers; finish() reports the error.
 LayerIndex NetworkWriter::append(Layer layer, const Halves& weights, std::vector<float> bias,
                                  const LayerOptions& options) {
   if (place(&layer.record)) {
@@ -118,7 +119,7 @@ LayerIndex NetworkWriter::append(Layer layer, const Halves& weights, std::vector
   return static_cast<LayerIndex>(layers_.size());
 }
 
-// `dims` of rank 0 is no tensor.
+// `dims` of rank 0 stands for no tensor.
 NetworkWriter::Tensor NetworkWriter::tensor(const TensorDims& dims, const Halves& halves) {
   if (dims.rank == 0) {
     return {};

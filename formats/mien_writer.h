@@ -1,5 +1,5 @@
-// Writes .mien files, for tools and tests; not part of the library. Same bytes for the same input
-// as scripts/train/mien_file.py.
+// Writes .mien files, for tools and tests; not part of the library. scripts/train/mien_file.py
+// writes the same bytes for the same input.
 #pragma once
 
 #include <cstddef>
@@ -35,19 +35,19 @@ struct Padding {
 
 struct LayerOptions {
   LayerActivation activation = LayerActivation::kNone;
-  float alpha = 0;            // of kLeakyRelu, of normalize
-  std::vector<float> slopes;  // of kPrelu, one per output channel
+  float alpha = 0;            // kLeakyRelu and normalize only
+  std::vector<float> slopes;  // kPrelu only, one per output channel
   std::uint16_t stride_y = 1;
   std::uint16_t stride_x = 1;
   Padding padding{};
-  bool ceil_mode = false;  // of max_pool
+  bool ceil_mode = false;  // max_pool only
 };
 
 class MienWriter;
-struct FileSections;  // the file on its way
+struct FileSections;  // the sections of a file in progress
 
-// Adds layers in order. Every function returns the new layer's value. Arguments that do not fit
-// together are reported by MienWriter::finish(). An empty bias is a bias of zeros.
+// Adds layers in sequence. Every function returns the value of the new layer. MienWriter::finish()
+// reports inconsistent arguments. An empty bias stands for zeros.
 class NetworkWriter {
  public:
   static constexpr LayerIndex kInput = 0;
@@ -82,13 +82,13 @@ class NetworkWriter {
   // `channels` channels from `first_channel` on, without the rows and columns of options.padding
   LayerIndex slice(LayerIndex x, std::uint16_t first_channel, std::uint32_t channels,
                    const LayerOptions& options = {});
-  // a times, divided by, plus b, which is as high, wide and deep as a or 1 in any of the three
+  // a * b, a / b and a + b; each dimension of b is that of a or 1
   LayerIndex multiply(LayerIndex a, LayerIndex b, const LayerOptions& options = {});
   LayerIndex divide(LayerIndex a, LayerIndex b, const LayerOptions& options = {});
   LayerIndex broadcast_add(LayerIndex a, LayerIndex b, const LayerOptions& options = {});
   LayerIndex resize(LayerIndex x, std::uint32_t height, std::uint32_t width, ResizeGrid grid,
                     ResizeSampling sampling, const LayerOptions& options = {});
-  // the elements of x, read in that order, as a map of that shape
+  // the elements of x, read in `order`, as a map of the given shape
   LayerIndex rearrange(LayerIndex x, ReadingOrder order, InputShape shape,
                        const LayerOptions& options = {});
   // mean 0 and variance 1 of the channels of each pixel; options.alpha is added to the variance
@@ -105,7 +105,7 @@ class NetworkWriter {
   };
   struct Layer {
     LayerRecord record;
-    Tensor weights, bias, slopes;  // no data: the layer has none
+    Tensor weights, bias, slopes;  // empty data: no such tensor
   };
   NetworkWriter(std::string name, InputShape input, bool any_size);
 
@@ -128,7 +128,7 @@ class NetworkWriter {
   NetworkRecord record_{};
   std::vector<LayerIndex> outputs_;
   std::vector<Layer> layers_;
-  FileStatus status_ = FileStatus::kOk;  // the first fault
+  FileStatus status_ = FileStatus::kOk;  // the first error
 };
 
 class MienWriter {
@@ -138,7 +138,7 @@ class MienWriter {
   void constant(std::string name, const Array& array, DataType type = DataType::kFloat32);
   void metadata(const std::string& key, std::string value);
 
-  // The whole file. What is handed out with kOk validates; else `*file` is empty.
+  // Returns the whole file, which is valid, on kOk; else `*file` is empty.
   [[nodiscard]] Validation finish(std::vector<std::byte>* file) const;
 
  private:

@@ -1,3 +1,4 @@
+// Reads and writes neutral files.
 #include "formats/neutral_file.h"
 
 #include <algorithm>
@@ -13,7 +14,7 @@ namespace {
 constexpr std::string_view kMagic = "MIENNEUT";
 constexpr std::uint32_t kMajor = 1;
 constexpr std::uint32_t kControls = 52;
-constexpr std::size_t kMajorAt = 8;  // u16, then the minor one, which readers ignore
+constexpr std::size_t kMajorAt = 8;  // u16; the minor version follows, which readers ignore
 constexpr std::size_t kControlsAt = 12;
 constexpr std::size_t kCapturedAt = 16;
 constexpr std::size_t kLevelsAt = 24;

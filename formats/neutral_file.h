@@ -1,4 +1,4 @@
-// Neutral files: what a person's face shows at rest, for the next time. docs/format.md has the
+// Neutral files store a person's neutral calibration for the next run. docs/format.md specifies the
 // layout.
 #pragma once
 
@@ -8,11 +8,11 @@
 
 namespace mien::formats {
 
-inline constexpr std::size_t kNeutralLevels = 104;  // 52 controls of two decoders
+inline constexpr std::size_t kNeutralLevels = 104;  // 52 controls of each of two decoders
 inline constexpr std::size_t kNeutralFileBytes = 448;
 
 struct NeutralFile {
-  std::uint32_t captured = 0;         // bit i: the 52 levels of decoder i are
+  std::uint32_t captured = 0;         // bit i: the 52 levels of decoder i are valid
   float levels[kNeutralLevels] = {};  // 0..1
 };
 
@@ -20,12 +20,12 @@ enum class NeutralFileError {
   kNone,
   kNotANeutralFile,
   kVersion,
-  kDamaged,  // truncated or too long, wrong checksum, or a level that is none
+  kDamaged,  // wrong size, wrong checksum, or a level out of range
 };
 
 void write_neutral_file(const NeutralFile& neutral, std::span<std::byte, kNeutralFileBytes> bytes);
 
-// On an error `neutral` stays as it was.
+// `neutral` is unchanged on error.
 [[nodiscard]] NeutralFileError read_neutral_file(std::span<const std::byte> bytes,
                                                  NeutralFile& neutral);
 

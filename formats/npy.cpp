@@ -1,3 +1,4 @@
+// Parses .npy headers and writes one.
 #include "formats/npy.h"
 
 #include <algorithm>
@@ -13,7 +14,7 @@ namespace {
 constexpr std::string_view kMagic = "\x93NUMPY";
 constexpr std::size_t kPreambleBytes = 8;  // magic and version
 
-// Walks over the header: a Python dictionary of three keys in any order.
+// Parses the header: a Python dictionary with three keys in any order.
 class Dictionary {
  public:
   explicit Dictionary(std::string_view text) : left_(text) {}
@@ -80,7 +81,7 @@ class Dictionary {
       if (!number(&array->dims[array->rank++])) {
         return NpyStatus::kBadHeader;
       }
-      // One dimension is written with a comma, as Python writes a tuple of one.
+      // Python writes a tuple of one element with a comma.
       if (!take(',') && (!next_is(')') || array->rank == 1)) {
         return NpyStatus::kBadHeader;
       }
@@ -95,7 +96,7 @@ class Dictionary {
     return error == std::errc();
   }
 
-  // What stands between quotes; nothing where there are none.
+  // The text between quotes; empty if there is none.
   std::string_view quoted() {
     skip_space();
     if (left_.empty() || (left_[0] != '\'' && left_[0] != '"')) {
@@ -131,7 +132,7 @@ class Dictionary {
   bool descr_ = false, order_ = false, shape_ = false;
 };
 
-// Splits the file behind its preamble; version 1 has 2 bytes of length, later ones 4.
+// Splits the file after its preamble: version 1 has a length of 2 bytes, later versions of 4.
 NpyStatus split(std::span<const std::byte> file, std::string_view* header,
                 std::span<const std::byte>* data) {
   const std::size_t length_bytes = std::to_integer<int>(file[6]) == 1 ? 2 : 4;
@@ -203,19 +204,19 @@ const char* message(NpyStatus status) {
     case NpyStatus::kBadSignature:
       return "not a .npy file";
     case NpyStatus::kUnsupportedVersion:
-      return "a version of .npy other than 1.0, 2.0 and 3.0";
+      return "version: unsupported (expected 1.0, 2.0 or 3.0)";
     case NpyStatus::kBadHeader:
-      return "the header is malformed";
+      return "header: malformed";
     case NpyStatus::kUnsupportedType:
-      return "the elements are neither little-endian float32 nor float64";
+      return "descr: unsupported element type (expected little-endian float32 or float64)";
     case NpyStatus::kFortranOrder:
-      return "the array is in Fortran order; numpy.ascontiguousarray makes one in C order";
+      return "fortran_order: unsupported (expected C order, see numpy.ascontiguousarray)";
     case NpyStatus::kBadShape:
-      return "more than 8 dimensions, or more than 2^32 elements";
+      return "shape: more than 8 dimensions or 2^32 elements";
     case NpyStatus::kTruncated:
-      return "the file ends inside the array";
+      return "truncated inside the array";
     case NpyStatus::kTrailingBytes:
-      return "there are bytes after the array";
+      return "trailing bytes after the array";
   }
   return "unknown status";
 }

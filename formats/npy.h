@@ -1,5 +1,5 @@
-// NumPy's .npy arrays of floating-point numbers, versions 1 to 3 (NumPy enhancement proposal 1 and
-// numpy.lib.format).
+// Reads and writes NumPy's .npy files of floating-point arrays, versions 1 to 3 (NumPy enhancement
+// proposal 1 and numpy.lib.format).
 #pragma once
 
 #include <cstddef>
@@ -32,19 +32,19 @@ struct NpyArray {
   NpyType type = NpyType::kFloat32;
   std::uint32_t rank = 0;
   std::uint64_t dims[kMaxNpyRank] = {};  // outermost first; may be 0
-  std::span<const std::byte> data;       // little-endian, C order, inside the file's bytes; any
-                                         // alignment
+  std::span<const std::byte> data;       // little-endian, C order, inside the file's bytes;
+                                         // unaligned
 
   [[nodiscard]] std::span<const std::uint64_t> shape() const { return {dims, rank}; }
   [[nodiscard]] std::uint64_t elems() const;
-  // Element i < elems(); float64 is rounded to float.
+  // Element i < elems(), rounded to float.
   [[nodiscard]] float value(std::uint64_t i) const;
 };
 
-// `file` is one whole array. On failure `*array` is empty.
+// `file` must be one complete array. `*array` is empty on failure.
 [[nodiscard]] NpyStatus read_npy(std::span<const std::byte> file, NpyArray* array);
 
-// The bytes before the elements of a float32 array in C order, version 1.0.
+// The header of a float32 array in C order, version 1.0.
 inline constexpr std::size_t kNpyHeaderBytes = 256;
 struct NpyHeader {
   char bytes[kNpyHeaderBytes];

@@ -1,4 +1,4 @@
-// rANS (Duda 2013) with static tables for the low and the high bytes of 16-bit numbers.
+// rANS decoder (Duda 2013) with static tables for the low and the high bytes of 16-bit numbers.
 #include "formats/packed_file.h"
 
 #include <algorithm>
@@ -21,10 +21,10 @@ constexpr std::size_t kUnpackedBytesAt = 24;
 constexpr std::size_t kHeaderBytes = 32;
 
 constexpr std::size_t kSymbols = 256;
-constexpr std::uint32_t kSlots = 4096;      // of a table
-constexpr std::uint32_t kLowest = 0x10000;  // state of a coder that knows nothing
+constexpr std::uint32_t kSlots = 4096;      // slots of a table
+constexpr std::uint32_t kLowest = 0x10000;  // initial state of a coder
 constexpr std::size_t kMaxBlockBytes = 65536;
-constexpr std::size_t kMinPackedBlockBytes = 80;  // its size, tables of one byte each, and states
+constexpr std::size_t kMinPackedBlockBytes = 80;  // size field, minimal tables, and states
 
 struct Table {
   std::uint8_t symbol[kSlots];
@@ -56,7 +56,7 @@ class Unpacker {
   }
 
  private:
-  // 0 where there are no bytes left, which is noted.
+  // Returns 0 and sets missing_ if no bytes are left.
   template <class Number>
   Number take() {
     if (left_.size() < sizeof(Number)) {
@@ -90,7 +90,7 @@ class Unpacker {
     return next == kSlots;
   }
 
-  // A state stays below 2^32, and in [kLowest, 2^32) between symbols.
+  // A state stays below 2^32, and between symbols in [kLowest, 2^32).
   std::byte next(const Table& table, std::uint32_t& state) {
     const std::uint32_t slot = state % kSlots;
     const std::uint8_t symbol = table.symbol[slot];
@@ -123,8 +123,8 @@ class Unpacker {
     return low == kLowest && high == kLowest ? PackedStatus::kOk : PackedStatus::kBadState;
   }
 
-  std::span<const std::byte> left_;  // not read yet
-  bool missing_ = false;             // more was asked for than there was
+  std::span<const std::byte> left_;  // unread bytes
+  bool missing_ = false;             // a read exceeded the data
   Table low_, high_;
 };
 
@@ -149,7 +149,7 @@ PackedStatus unpacked_bytes(std::span<const std::byte> packed, std::size_t& byte
     return size > packed.size() ? PackedStatus::kTruncated : PackedStatus::kTrailingBytes;
   }
   const auto unpacked = load_little<std::uint64_t>(packed.data() + kUnpackedBytesAt);
-  // Nobody has to find memory for more than so many blocks can fill.
+  // Bounds the memory of the caller by what the file's blocks can fill.
   const std::uint64_t blocks = (size - kHeaderBytes) / kMinPackedBlockBytes;
   if (unpacked == 0 || unpacked % kFileAlignment != 0 || unpacked > kMaxFileBytes ||
       unpacked > blocks * kMaxBlockBytes) {

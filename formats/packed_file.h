@@ -1,5 +1,5 @@
-// Packed weight files: a .mien file without what it repeats, for programs that carry their weights.
-// docs/format.md has the layout, scripts/package/pack_weights.py makes them.
+// Packed weight files: compressed .mien files for programs that embed their weights. docs/format.md
+// specifies the layout; scripts/package/pack_weights.py creates them.
 #pragma once
 
 #include <cstddef>
@@ -16,21 +16,22 @@ enum class PackedStatus : std::int32_t {
   kNotPacked = 3,
   kUnsupportedVersion = 4,
   kReservedNotZero = 5,
-  kBadSize = 6,    // of what it is unpacked to
-  kWrongSize = 7,  // of the memory that it is unpacked to
+  kBadSize = 6,    // unpacked size out of range
+  kWrongSize = 7,  // the memory does not have the unpacked size
   // blocks
-  kBadBlock = 20,  // its size
+  kBadBlock = 20,  // size of a block
   kBadTable = 21,
-  kBadState = 22,  // of a coder, at the beginning or the end
+  kBadState = 22,  // of a decoder, at the start or the end
   kBytesMissing = 23,
   kBytesLeft = 24,
 };
 
-// Checks the header. Only on kOk is `bytes` set: how many there are unpacked, at most 2^31.
+// Checks the header. On kOk, `bytes` receives the unpacked size, at most 2^31; else it is
+// unchanged.
 [[nodiscard]] PackedStatus unpacked_bytes(std::span<const std::byte> packed, std::size_t& bytes);
 
-// Fills `file`, which has exactly unpacked_bytes and does not overlap `packed`. If a block is found
-// to be broken on the way, `file` is zeros.
+// Unpacks to `file`, which has exactly unpacked_bytes and must not overlap `packed`. If a block is
+// malformed, `file` is all zeros.
 [[nodiscard]] PackedStatus unpack(std::span<const std::byte> packed, std::span<std::byte> file);
 
 }  // namespace mien::formats

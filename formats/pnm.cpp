@@ -1,3 +1,4 @@
+// Parses PGM and PPM images.
 #include "formats/pnm.h"
 
 #include <optional>
@@ -12,12 +13,12 @@ bool is_space(std::byte byte) {
 
 bool is_digit(std::byte byte) { return byte >= std::byte{'0'} && byte <= std::byte{'9'}; }
 
-// Walks over the header's tokens.
+// Reads the tokens of the header.
 class Header {
  public:
   explicit Header(std::span<const std::byte> file) : file_(file) {}
 
-  // A decimal number up to `limit` behind white space and comments.
+  // A decimal number up to `limit` after white space and comments.
   std::optional<std::uint32_t> number(std::uint32_t limit) {
     if (!skip_space()) {
       return std::nullopt;
@@ -33,7 +34,7 @@ class Header {
     return at_ > first ? std::optional(value) : std::nullopt;
   }
 
-  // What lies behind the single white space that ends the header.
+  // The bytes after the single white space that ends the header.
   std::optional<std::span<const std::byte>> rest() const {
     if (at_ >= file_.size() || !is_space(file_[at_])) {
       return std::nullopt;
@@ -42,7 +43,7 @@ class Header {
   }
 
  private:
-  // False where there is none. A comment runs from '#' to the end of its line.
+  // Returns false without any. A comment extends from '#' to the end of its line.
   bool skip_space() {
     const std::size_t first = at_;
     bool comment = false;
@@ -57,7 +58,7 @@ class Header {
   }
 
   std::span<const std::byte> file_;
-  std::size_t at_ = 2;  // behind the signature
+  std::size_t at_ = 2;  // after the signature
 };
 
 std::uint32_t channels_of(std::span<const std::byte> file) {
@@ -76,15 +77,15 @@ const char* message(PnmStatus status) {
     case PnmStatus::kBadSignature:
       return "not a binary PGM or PPM image";
     case PnmStatus::kBadHeader:
-      return "the image header is malformed";
+      return "image header: malformed";
     case PnmStatus::kBadSize:
-      return "width or height is out of range";
+      return "width or height: out of range (expected 1 to 16384)";
     case PnmStatus::kUnsupportedDepth:
-      return "the maximum value is not 255";
+      return "maximum value: unsupported (expected 255)";
     case PnmStatus::kTruncated:
-      return "the file ends inside the image";
+      return "truncated inside the image";
     case PnmStatus::kTrailingBytes:
-      return "there are bytes after the image";
+      return "trailing bytes after the image";
   }
   return "unknown status";
 }

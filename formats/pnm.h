@@ -1,4 +1,4 @@
-// Netpbm images, binary and 8 bits: PGM (P5) and PPM (P6).
+// Reads Netpbm images, binary with 8 bits: PGM (P5) and PPM (P6).
 #pragma once
 
 #include <cstddef>
@@ -25,11 +25,11 @@ inline constexpr std::uint32_t kMaxImageSide = 16384;  // pixels
 struct PnmImage {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
-  std::uint32_t channels = 0;         // 1: grey, 3: red, green, blue
+  std::uint32_t channels = 0;         // 1: grey; 3: red, green, blue
   std::span<const std::byte> pixels;  // [height][width][channels], inside the file's bytes
 };
 
-// `file` is one whole image with maximum value 255. On failure `*image` is empty.
+// `file` must be one complete image with maximum value 255. `*image` is empty on failure.
 [[nodiscard]] PnmStatus read_pnm(std::span<const std::byte> file, PnmImage* image);
 
 }  // namespace mien::formats

@@ -1,3 +1,4 @@
+// Checks characters of names and texts.
 #include "formats/text.h"
 
 #include <cstdint>
@@ -9,8 +10,8 @@ bool is_name_character(char c) {
   return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '.' || c == '/';
 }
 
-// First bytes of a character, how many follow, and the range of the second: the rows of RFC 3629's
-// grammar, which leave out overlong forms, surrogates and numbers above U+10FFFF.
+// First byte of a character, number of following bytes, and the range of the second: the rows of
+// RFC 3629's grammar, which exclude overlong forms, surrogates and numbers above U+10FFFF.
 struct Sequence {
   std::uint8_t first_low, first_high;
   std::uint8_t followers;
@@ -26,7 +27,7 @@ std::uint8_t byte_at(std::string_view text, std::size_t i) {
   return static_cast<std::uint8_t>(text[i]);
 }
 
-// Bytes of the character that the text begins with, 0 where it begins with none.
+// Bytes of the first character of the text, 0 if it is not valid UTF-8.
 std::size_t character_bytes(std::string_view text) {
   const std::uint8_t first = byte_at(text, 0);
   for (const Sequence& row : kSequences) {
@@ -44,8 +45,8 @@ std::size_t character_bytes(std::string_view text) {
   return 0;
 }
 
-// Of Unicode's control characters, which are C0, delete and C1, text has tab and line feed alone.
-// The last are two bytes long: U+0080 to U+009F.
+// Unicode's control characters (C0, delete and C1) except tab and line feed. C1 are two bytes long:
+// U+0080 to U+009F.
 bool is_control(std::string_view text) {
   const std::uint8_t c = byte_at(text, 0);
   return c == 0xc2 ? byte_at(text, 1) < 0xa0 : c == 0x7f || (c < 0x20 && c != '\t' && c != '\n');

@@ -1,4 +1,4 @@
-// What names and texts of a weight file may hold.
+// Validates names and texts of weight files.
 #pragma once
 
 #include <string_view>
@@ -8,8 +8,8 @@ namespace mien::formats {
 // One or more of a-z 0-9 _ . /
 [[nodiscard]] bool is_name(std::string_view text);
 
-// UTF-8 (RFC 3629) without control characters (U+0000 to U+001F, U+007F to U+009F) but tab and line
-// feed.
+// UTF-8 (RFC 3629) without control characters (U+0000 to U+001F, U+007F to U+009F) except tab and
+// line feed.
 [[nodiscard]] bool is_text(std::string_view text);
 
 }  // namespace mien::formats

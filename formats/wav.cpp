@@ -1,3 +1,4 @@
+// Reads samples and names faults.
 #include "formats/wav.h"
 
 #include <algorithm>
@@ -13,47 +14,48 @@ const char* message(WavStatus status) {
     case WavStatus::kOk:
       return "ok";
     case WavStatus::kEnd:
-      return "end of the sound";
+      return "end of the audio";
     case WavStatus::kBadSignature:
       return "not a RIFF, RF64 or BW64 file";
     case WavStatus::kNotWave:
-      return "a RIFF file, but not of sound (WAVE)";
+      return "RIFF form type: unsupported (expected WAVE)";
     case WavStatus::kTruncatedHeader:
-      return "the file ends inside a chunk before the samples";
+      return "truncated inside a chunk before the samples";
     case WavStatus::kBadSizes64:
-      return "an RF64 or BW64 file without a whole ds64 chunk at its begin";
+      return "ds64 chunk: missing or incomplete at the start of an RF64 or BW64 file";
     case WavStatus::kNoFormat:
-      return "the file has no fmt chunk";
+      return "fmt chunk: missing";
     case WavStatus::kSecondFormat:
-      return "a second fmt chunk";
+      return "fmt chunk: duplicate";
     case WavStatus::kDataBeforeFormat:
-      return "the data chunk comes before the fmt chunk";
+      return "data chunk: before the fmt chunk";
     case WavStatus::kNoData:
-      return "the file has no data chunk";
+      return "data chunk: missing";
     case WavStatus::kBadFormatSize:
-      return "the fmt chunk is shorter than 16 bytes";
+      return "fmt chunk: too short (expected at least 16 bytes)";
     case WavStatus::kBadExtensionSize:
-      return "the fmt chunk is too short for the extensible format";
+      return "fmt chunk: too short for the extensible format";
     case WavStatus::kUnsupportedCoding:
-      return "the samples are neither PCM nor IEEE float";
+      return "format tag: unsupported (expected PCM or IEEE float)";
     case WavStatus::kUnsupportedSubFormat:
-      return "the sub-format is neither PCM nor IEEE float";
+      return "sub-format: unsupported (expected PCM or IEEE float)";
     case WavStatus::kBadChannels:
-      return "the number of channels is not 1..8";
+      return "channels: out of range (expected 1 to 8)";
     case WavStatus::kBadRate:
-      return "the sample rate is not 8000..192000 Hz";
+      return "sample rate: out of range (expected 8000 to 192000 Hz)";
     case WavStatus::kBadBits:
-      return "the bits of a sample are not 8, 16, 24 or 32 (PCM), 32 or 64 (IEEE float)";
+      return "bits per sample: unsupported (expected 8, 16, 24 or 32 for PCM, 32 or 64 for IEEE "
+             "float)";
     case WavStatus::kBadBlockAlign:
-      return "the block alignment is not the bytes of one sample of each channel";
+      return "block alignment: wrong (expected the bytes of one sample of each channel)";
     case WavStatus::kBadValidBits:
-      return "more valid bits than a sample has";
+      return "valid bits: more than bits per sample";
     case WavStatus::kTruncatedData:
-      return "the file ends before its data chunk does";
+      return "truncated inside the data chunk";
     case WavStatus::kPartialFrame:
-      return "the samples end inside a frame";
+      return "truncated inside a frame";
     case WavStatus::kBufferTooSmall:
-      return "the buffer is smaller than a frame";
+      return "buffer too small for a frame";
   }
   return "unknown status";
 }
@@ -89,7 +91,7 @@ WavStatus WavReader::read(std::span<float> interleaved, std::size_t& frames_read
   return frames_read > 0 ? WavStatus::kOk : end_;
 }
 
-// The frames that `samples` asks for, or the first ones of them, or all that are left: how many.
+// Reads up to samples.size() samples in complete frames; returns the number of frames.
 std::size_t WavReader::read_block(std::span<float> samples) {
   std::array<std::byte, 4096> block;
   const std::size_t frame_bytes = format_.frame_bytes();

@@ -1,17 +1,16 @@
-// Sound of WAV files, from a stream: PCM of 8, 16, 24 and 32 bits, IEEE float of 32 and 64 bits.
+// Reads audio from WAV streams: PCM of 8, 16, 24 and 32 bits, IEEE float of 32 and 64 bits.
 //
 // Formats: RIFF WAVE (IBM, Microsoft: Multimedia Programming Interface and Data Specifications 1.0,
 // 1991); WAVE_FORMAT_EXTENSIBLE (Microsoft: Multiple Channel Audio Data and WAVE Files, 2001,
-// revised 2007); sizes above 4 GiB as RF64 (EBU Tech 3306) and BW64 (ITU-R BS.2088) have them.
+// revised 2007); sizes above 4 GiB as in RF64 (EBU Tech 3306) and BW64 (ITU-R BS.2088).
 //
-// What files in the wild ask for (docs/wav.md says more):
-// * Chunks that are neither `fmt ` nor `data` are skipped. Reading stops at the end of the first
-//   data chunk; what follows it stays in the source.
-// * A data chunk of unknown length, as pipes have it, lasts to the end of the source: one of
-//   0xFFFFFFFF bytes or of a size that sox or arecord makes up, or of 0 bytes where the RIFF chunk
-//   is not said to go on behind it.
-// * Otherwise the size of the RIFF chunk counts for nothing, nor do bytes per second, the channel
-//   mask, and how many bits of a sample are valid (they are its upper ones).
+// Deviations of real files (docs/wav.md has more):
+// * Chunks other than `fmt ` and `data` are skipped. Reading stops at the end of the first data
+//   chunk; the bytes after it stay in the source.
+// * A data chunk of unknown size, as written to pipes, lasts to the end of the source: its size is
+//   0xFFFFFFFF, a placeholder of sox or arecord, or 0 if the RIFF chunk does not continue after it.
+// * Otherwise the size of the RIFF chunk is ignored, as are bytes per second, the channel mask, and
+//   the number of valid bits of a sample (its upper ones).
 //
 //   WavReader reader;
 //   WavStatus status = reader.open(file_source(file));
@@ -21,7 +20,7 @@
 //     use(std::span(samples).first(frames * reader.format().channels));
 //   }
 //   if (status != WavStatus::kEnd) {
-//     complain(message(status), reader.fault_offset());
+//     report(message(status), reader.fault_offset());
 //   }
 #pragma once
 
@@ -57,14 +56,14 @@ enum class WavStatus : std::uint8_t {
   kBadBits = 16,
   kBadBlockAlign = 17,
   kBadValidBits = 18,
-  // while reading; the whole frames before the fault were delivered
+  // while reading; complete frames before the fault were returned
   kTruncatedData = 19,
   kPartialFrame = 20,
   kBufferTooSmall = 21,
 };
 inline constexpr std::uint8_t kWavStatusCount = 22;
 
-// One line of English, static.
+// A static string of one line.
 [[nodiscard]] const char* message(WavStatus status);
 
 inline constexpr std::uint32_t kMaxWavChannels = 8;
@@ -76,33 +75,32 @@ enum class WavCoding : std::uint8_t { kPcm, kFloat };
 struct WavFormat {
   std::uint32_t sample_rate = 0;  // frames per second, kLowestWavRate..kHighestWavRate
   std::uint32_t channels = 0;     // 1..kMaxWavChannels
-  std::uint32_t bits = 0;         // of a stored sample; kPcm: 8, 16, 24, 32; kFloat: 32, 64
+  std::uint32_t bits = 0;         // per stored sample; kPcm: 8, 16, 24, 32; kFloat: 32, 64
   WavCoding coding = WavCoding::kPcm;
-  std::optional<std::uint64_t> frames;  // as the file declares; none if it does not know
+  std::optional<std::uint64_t> frames;  // as declared; empty if unknown
 
   [[nodiscard]] std::size_t frame_bytes() const { return std::size_t{channels} * bits / 8; }
 };
 
 class WavReader {
  public:
-  // Reads up to the first sample. On failure the reader has a format of zeros and no frames.
+  // Reads up to the first sample. On failure, the format is all zeros and there are no frames.
   [[nodiscard]] WavStatus open(ByteSource source);
 
   [[nodiscard]] const WavFormat& format() const { return format_; }
 
-  // Writes the next frames into `interleaved`, [frames][channels], as many as whole ones fit there;
-  // fewer only before the end. kOk if that is at least one; then and only then is `frames_read`
-  // above zero. Afterwards kEnd, or kTruncatedData, or kPartialFrame, however often it is asked.
+  // Reads as many complete frames as fit into `interleaved`, [frames][channels]; fewer only before
+  // the end. Returns kOk if `frames_read` is at least one. At the end it returns kEnd,
+  // kTruncatedData or kPartialFrame with `frames_read` 0, on every further call.
   //
-  // Full scale is -1..1: unsigned 8 bits give (x - 128) / 128, other PCM of n bits x / 2^(n-1),
-  // fp32 what it is, bit for bit. These are exact, but for what fp32 cannot hold: PCM of 32 bits
-  // and fp64 are rounded to nearest (the largest 32-bit sample to 1, fp64 beyond fp32 to infinity).
-  // Floats beyond full scale, infinities and NaNs are passed on: whoever listens has to mind them.
+  // Full scale is -1..1: unsigned 8 bits become (x - 128) / 128, other PCM of n bits x / 2^(n-1),
+  // fp32 is copied bit by bit. All conversions are exact, except that 32-bit PCM and fp64 are
+  // rounded to nearest (the largest 32-bit sample to 1, fp64 beyond fp32 to infinity). Floats
+  // beyond full scale, infinities and NaN are passed through; the caller must handle them.
   [[nodiscard]] WavStatus read(std::span<float> interleaved, std::size_t& frames_read);
 
-  // Where the fault lies of which open() or read() spoke last, in bytes from where the source
-  // began: the field, the chunk, the partial frame, or the source's end. kBufferTooSmall has no
-  // place.
+  // Position of the last fault of open() or read(), in bytes from the start of the source: the
+  // field, the chunk, the partial frame, or the end. kBufferTooSmall has no position.
   [[nodiscard]] std::uint64_t fault_offset() const { return fault_offset_; }
 
  private:

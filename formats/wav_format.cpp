@@ -1,3 +1,4 @@
+// Parses the fmt chunk.
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -12,8 +13,8 @@ constexpr std::uint16_t kPcmTag = 1;
 constexpr std::uint16_t kFloatTag = 3;
 constexpr std::uint16_t kExtensibleTag = 0xfffe;
 
-// Of WAVEFORMATEX and WAVEFORMATEXTENSIBLE, bytes. Bytes per second (8) and the channel mask (20)
-// are not looked at: they are wrong in many files and say nothing that matters here.
+// Byte offsets in WAVEFORMATEX and WAVEFORMATEXTENSIBLE. Bytes per second (8) and the channel mask
+// (20) are ignored: many files have wrong values, and the reader does not need them.
 constexpr std::size_t kTagAt = 0;
 constexpr std::size_t kChannelsAt = 2;
 constexpr std::size_t kRateAt = 4;
@@ -31,7 +32,7 @@ std::uint16_t field16(Body body, std::size_t at) {
   return load_little<std::uint16_t>(body.subspan(at, 2).data());
 }
 
-// A sub-format is a tag followed by this: xxxxxxxx-0000-0010-8000-00AA00389B71.
+// The GUID of a sub-format is a tag followed by this: xxxxxxxx-0000-0010-8000-00AA00389B71.
 bool is_tag_guid(Body body) {
   constexpr std::array<std::uint8_t, 14> kRest = {0,    0,    0,    0,    0x10, 0,    0x80,
                                                   0x00, 0x00, 0xaa, 0x00, 0x38, 0x9b, 0x71};
@@ -64,7 +65,7 @@ bool bits_allowed(WavCoding coding, std::uint32_t bits) {
   return bits == 8 || bits == 16 || bits == 24 || bits == 32;
 }
 
-// The numbers, once the coding is known.
+// Checks the numeric fields for a known coding.
 WavFault check_fields(Body body, const WavFormat& format) {
   if (format.channels < 1 || format.channels > kMaxWavChannels) {
     return {WavStatus::kBadChannels, kChannelsAt};
@@ -102,7 +103,7 @@ WavFault parse_wav_format(Body body, std::uint32_t chunk_bytes, WavFormat& forma
   if (fields.status != WavStatus::kOk) {
     return fields;
   }
-  // Zero is what writers put there that leave the question open.
+  // Zero stands for an unspecified number of valid bits.
   if (extensible && field16(body, kValidBitsAt) > format.bits) {
     return {WavStatus::kBadValidBits, kValidBitsAt};
   }

@@ -1,3 +1,4 @@
+// Finds the fmt and data chunks.
 #include "formats/wav_header.h"
 
 #include <algorithm>
@@ -10,11 +11,11 @@ namespace mien::formats {
 namespace {
 
 constexpr std::uint32_t kUnknown32 = 0xffffffff;
-// What sox (in whole frames) and arecord write where they cannot seek back to the size.
-constexpr std::uint32_t kMadeUp[] = {0x7ffff000, 0x7fffff00};
+// Placeholders of sox (rounded down to whole frames) and arecord when they cannot seek back.
+constexpr std::uint32_t kPlaceholders[] = {0x7ffff000, 0x7fffff00};
 
-bool is_made_up(std::uint64_t bytes, std::size_t frame_bytes) {
-  return std::any_of(std::begin(kMadeUp), std::end(kMadeUp), [&](std::uint32_t size) {
+bool is_placeholder(std::uint64_t bytes, std::size_t frame_bytes) {
+  return std::any_of(std::begin(kPlaceholders), std::end(kPlaceholders), [&](std::uint32_t size) {
     return bytes == size || bytes == size - size % frame_bytes;
   });
 }
@@ -29,8 +30,8 @@ constexpr std::uint32_t id(const char (&name)[5]) {
 
 struct Chunk {
   std::uint32_t name = 0;
-  std::uint32_t bytes = 0;  // of its body
-  std::uint64_t at = 0;     // where its 8 bytes of header begin
+  std::uint32_t bytes = 0;  // size of the body
+  std::uint64_t at = 0;     // offset of the 8-byte chunk header
 };
 
 class HeaderReader {
@@ -50,8 +51,8 @@ class HeaderReader {
   WavFault read_format(const Chunk& chunk);
   WavFault begin_data(const Chunk& chunk);
 
-  // The first bytes of a chunk into `body`, the others to nowhere. A body of odd size has a byte of
-  // padding behind it.
+  // Reads the first bytes of a chunk into `body` and skips the others. A body of odd size is
+  // followed by a padding byte.
   WavFault read_body(const Chunk& chunk, std::span<std::byte> body) {
     const std::size_t kept = std::min<std::size_t>(chunk.bytes, body.size());
     const std::uint64_t rest = std::uint64_t{chunk.bytes} - kept + chunk.bytes % 2;
@@ -65,9 +66,9 @@ class HeaderReader {
 
   CountedSource& source_;
   WavHeader& header_;
-  bool formatted_ = false;  // had a fmt chunk
+  bool formatted_ = false;  // a fmt chunk was read
   std::uint64_t riff_bytes_ = 0;
-  std::uint64_t data_bytes64_ = kUnknownWavBytes;  // what 0xFFFFFFFF stands for
+  std::uint64_t data_bytes64_ = kUnknownWavBytes;  // the size for 0xFFFFFFFF
 };
 
 WavFault HeaderReader::read_start() {
@@ -89,7 +90,7 @@ WavFault HeaderReader::read_start() {
   return wide ? read_sizes64() : WavFault{};
 }
 
-// ds64 holds the sizes of the RIFF chunk, the data chunk and a few others that nobody needs here.
+// ds64 holds the sizes of the RIFF chunk, of the data chunk, and of others that are not needed.
 WavFault HeaderReader::read_sizes64() {
   constexpr std::uint32_t kSizes64Bytes = 28;
   Chunk chunk;
@@ -154,10 +155,10 @@ WavFault HeaderReader::begin_data(const Chunk& chunk) {
     return {WavStatus::kDataBeforeFormat, chunk.at};
   }
   std::uint64_t bytes = chunk.bytes == kUnknown32 ? data_bytes64_ : chunk.bytes;
-  // Writers that cannot seek leave a zero. A chunk without samples has others behind it in the RIFF
-  // chunk, whose size counts from byte 8 on; or else it makes no difference.
+  // Writers that cannot seek leave a zero. An empty data chunk is different: other chunks follow it
+  // in the RIFF chunk, whose size counts from byte 8.
   const bool goes_on = riff_bytes_ != kUnknownWavBytes && riff_bytes_ > source_.position() - 8;
-  if ((bytes == 0 && !goes_on) || is_made_up(bytes, header_.format.frame_bytes())) {
+  if ((bytes == 0 && !goes_on) || is_placeholder(bytes, header_.format.frame_bytes())) {
     bytes = kUnknownWavBytes;
   }
   header_.data_bytes = bytes;

@@ -1,4 +1,4 @@
-// What a WAV file says before its first sample.
+// Parses the part of a WAV file before its first sample.
 #pragma once
 
 #include <cstddef>
@@ -22,14 +22,14 @@ struct WavFault {
   std::uint64_t offset = 0;  // bytes, see WavReader::fault_offset
 };
 
-// Leaves `source` before the first sample. `header` counts on kOk only.
+// Leaves `source` at the first sample. `header` is only valid on kOk.
 [[nodiscard]] WavFault read_wav_header(CountedSource& source, WavHeader& header);
 
-// What of a fmt chunk has a meaning here, the zeros behind a shorter one included.
+// Relevant bytes of a fmt chunk; a shorter chunk is padded with zeros.
 inline constexpr std::size_t kWavFormatBytes = 40;
 
-// The body of a fmt chunk of `chunk_bytes`, of which `body` holds the first ones. Offsets are from
-// the begin of the body; sets all of `format` but its frames.
+// Parses a fmt chunk of `chunk_bytes`, whose first bytes are in `body`. Offsets count from the
+// start of the body. Sets all of `format` except `frames`.
 [[nodiscard]] WavFault parse_wav_format(std::span<const std::byte, kWavFormatBytes> body,
                                         std::uint32_t chunk_bytes, WavFormat& format);
 

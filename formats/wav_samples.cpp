@@ -1,3 +1,4 @@
+// Converts each sample type to float.
 #include "formats/wav_samples.h"
 
 #include <bit>
@@ -16,7 +17,8 @@ float from_int16(const std::byte* stored) {
          0x1p15f;
 }
 
-// In the upper bytes of 32 bits, where the sign is the sign; 24 bits are what fp32 holds.
+// Shifts the sample to the upper bytes of 32 bits to extend its sign; fp32 represents 24 bits
+// exactly.
 float from_int24(const std::byte* stored) {
   const std::uint32_t low = load_little<std::uint16_t>(stored);
   const std::uint32_t bits = low << 8 | std::to_integer<std::uint32_t>(stored[2]) << 24;

@@ -1,4 +1,4 @@
-// Stored samples of WAV files -> floats, as WavReader::read has them.
+// Converts stored samples of WAV files to floats, as specified at WavReader::read.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace mien::formats {
 
-// `stored` holds samples.size() samples of the format, which is one that WavReader accepts.
+// `stored` holds samples.size() samples of a format that WavReader accepts.
 void convert_wav_samples(const WavFormat& format, std::span<const std::byte> stored,
                          std::span<float> samples);
 

@@ -1,3 +1,4 @@
+// Reorders, pads and rounds weights.
 #include "formats/weight_packing.h"
 
 #include <algorithm>
@@ -10,10 +11,10 @@ namespace {
 constexpr std::size_t kPanel = 16;
 constexpr std::size_t kBlock = 8;
 
-// As padded8 of the format, of what is in memory.
+// padded8 for sizes in memory.
 std::size_t padded(std::size_t n) { return (n + kBlock - 1) / kBlock * kBlock; }
 
-// `count` elements from `first` every `step`, then zeros to a multiple of 8.
+// `count` elements from `first` on, `step` apart, then zeros to a multiple of 8.
 void append_padded(ReductionOrder* order, std::size_t first, std::size_t count, std::size_t step) {
   for (std::size_t i = 0; i < padded(count); ++i) {
     order->push_back(i < count ? first + i * step : kZero);

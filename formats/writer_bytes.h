@@ -1,4 +1,4 @@
-// Floats and records as bytes, for the files that write weight files.
+// Byte views and records for the writer of weight files.
 #pragma once
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// XXH64 in one pass.
 #include "formats/xxhash64.h"
 
 #include <bit>

@@ -8,7 +8,7 @@
 
 namespace mien::formats {
 
-// Hash with seed 0 of `bytes`, those of [hole, hole + 8) taken as zero.
+// Hash of `bytes` with seed 0, with the bytes [hole, hole + 8) read as zero.
 [[nodiscard]] std::uint64_t xxhash64_with_hole(std::span<const std::byte> bytes, std::size_t hole);
 
 }  // namespace mien::formats

@@ -1,3 +1,4 @@
+// Parses headers and reads frames.
 #include "formats/y4m.h"
 
 #include <algorithm>
@@ -12,12 +13,12 @@ namespace {
 struct Line {
   std::array<char, kMaxY4mHeaderBytes> text;
   std::size_t bytes = 0;
-  bool ended = false;  // by a newline, which is not part of the text
+  bool ended = false;  // by a newline, which `text` excludes
 
   std::string_view view() const { return {text.data(), bytes}; }
 };
 
-// Byte by byte: what follows the line must stay in the stream.
+// Reads byte by byte, because the bytes after the line must stay in the stream.
 Line read_line(const ByteSource& source) {
   Line line;
   std::byte next{};
@@ -31,7 +32,7 @@ Line read_line(const ByteSource& source) {
   return line;
 }
 
-// Digits only: no sign, no space, no overflow.
+// Accepts digits only: no sign, no space, no overflow.
 std::optional<std::uint32_t> parse_number(std::string_view digits, std::uint32_t limit) {
   std::uint32_t value = 0;
   const char* end = digits.data() + digits.size();
@@ -58,7 +59,7 @@ bool parse_rate(std::string_view text, Y4mHeader* header) {
   return header->rate_num != 0 && header->rate_den != 0;
 }
 
-// "0:0" says that it is not known, and what is no ratio says no more.
+// "0:0" means unknown; malformed ratios are treated the same.
 void parse_aspect(std::string_view text, Y4mHeader* header) {
   constexpr std::uint32_t kMaxTerm = 0x7fffffff;
   const std::size_t colon = text.find(':');
@@ -76,7 +77,7 @@ bool parse_colour(std::string_view name, Y4mColour* colour) {
     std::string_view name;
     Y4mColour colour;
   };
-  // The 4:2:0 kinds differ in where chroma samples lie, by half a pixel at most.
+  // The variants of 4:2:0 differ in the position of chroma samples, by at most half a pixel.
   constexpr Known kKnown[] = {{"420", Y4mColour::k420},      {"420jpeg", Y4mColour::k420},
                               {"420mpeg2", Y4mColour::k420}, {"420paldv", Y4mColour::k420},
                               {"422", Y4mColour::k422},      {"444", Y4mColour::k444},
@@ -90,7 +91,7 @@ bool parse_colour(std::string_view name, Y4mColour* colour) {
   return false;
 }
 
-// Interlacing and comments do not change how frames are stored.
+// Ignores interlacing and comments, which do not affect how frames are stored.
 Y4mStatus parse_parameter(std::string_view parameter, Y4mHeader* header) {
   const std::string_view value = parameter.substr(1);
   switch (parameter.front()) {
@@ -159,23 +160,23 @@ const char* message(Y4mStatus status) {
     case Y4mStatus::kBadSignature:
       return "not a YUV4MPEG2 stream";
     case Y4mStatus::kHeaderTooLong:
-      return "the stream header is too long";
+      return "stream header: too long";
     case Y4mStatus::kTruncatedHeader:
-      return "the stream ends inside its header";
+      return "truncated inside the stream header";
     case Y4mStatus::kBadSize:
-      return "width or height is missing or out of range";
+      return "width or height: missing or out of range (expected 1 to 16384)";
     case Y4mStatus::kBadRate:
-      return "the frame rate is missing or not a positive fraction";
+      return "frame rate: missing or not a positive fraction";
     case Y4mStatus::kUnsupportedColour:
-      return "the colour format is not 8-bit 4:2:0, 4:2:2, 4:4:4 or mono";
+      return "colour format: unsupported (expected 8-bit 4:2:0, 4:2:2, 4:4:4 or mono)";
     case Y4mStatus::kBadParameter:
-      return "unknown parameter in the stream header";
+      return "stream header: unknown parameter";
     case Y4mStatus::kBadFrameHeader:
-      return "a frame does not begin with FRAME";
+      return "frame header: malformed (expected FRAME)";
     case Y4mStatus::kTruncatedFrame:
-      return "the stream ends inside a frame";
+      return "truncated inside a frame";
     case Y4mStatus::kBufferTooSmall:
-      return "the buffer is smaller than a frame";
+      return "buffer too small for a frame";
   }
   return "unknown status";
 }
@@ -240,7 +241,7 @@ Y4mStatus Y4mReader::read_frame(std::span<std::byte> frame) {
   if (line.bytes == 0 && !line.ended) {
     return Y4mStatus::kEnd;
   }
-  // A frame cannot change size or colour; its parameters say how fields are shown.
+  // A frame cannot change size or colour format; its parameters describe interlacing.
   if (!line.ended || (line.view() != "FRAME" && !line.view().starts_with("FRAME "))) {
     return Y4mStatus::kBadFrameHeader;
   }

@@ -1,3 +1,4 @@
+// Detects the tiers that the CPU supports.
 #include "kernels/tier.h"
 
 #include <atomic>
@@ -10,7 +11,7 @@
 #endif
 #if defined(__APPLE__) && defined(MIEN_HAVE_NEONFP16)
 extern "C" int sysctlbyname(const char* name, void* value, std::size_t* bytes, void* next,
-                            std::size_t next_bytes);  // as sys/sysctl.h has it
+                            std::size_t next_bytes);  // declared as in sys/sysctl.h
 #endif
 
 namespace mien::kernels {
@@ -58,7 +59,8 @@ std::uint32_t ask_cpu() {
   }
 #endif
 #ifdef MIEN_HAVE_NEON32
-  // Bits of the Linux kernel's asm/hwcap.h for ARM. VFPv4 brings multiply-adds and half precision.
+  // Bits of the Linux kernel's asm/hwcap.h for ARM. VFPv4 adds fused multiply-add and half
+  // precision.
   constexpr unsigned long kHwcapNeon = 1ul << 12, kHwcapVfpv4 = 1ul << 16;
   constexpr unsigned long kWanted = kHwcapNeon | kHwcapVfpv4;
   if ((getauxval(AT_HWCAP) & kWanted) == kWanted) {
@@ -66,7 +68,7 @@ std::uint32_t ask_cpu() {
   }
 #endif
 #ifdef MIEN_HAVE_WASM
-  mask |= bit(Tier::kWasm);  // an engine without SIMD128 would have refused the whole module
+  mask |= bit(Tier::kWasm);  // engines without SIMD128 reject the whole module
 #endif
   return mask;
 }
@@ -74,8 +76,9 @@ std::uint32_t ask_cpu() {
 }  // namespace
 
 std::uint32_t detect_cpu() {
-  // Every kernel that is looked up asks, and in virtual machines CPUID takes tens of microseconds.
-  // Two threads that come first find the same. Bit 30 is no tier: the CPU was asked.
+  // Cached, because every kernel lookup asks and CPUID takes tens of microseconds in virtual
+  // machines. Racing threads store the same value. Bit 30, which is not a tier, marks a valid
+  // value.
   constexpr std::uint32_t kAsked = 1u << 30;
   static constinit std::atomic<std::uint32_t> answer = 0;
   std::uint32_t mask = answer.load(std::memory_order_relaxed);

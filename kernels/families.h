@@ -1,4 +1,4 @@
-// The argument structs of all families, and the declarations of all kernels.
+// The argument structs of all kernel families and the declarations of all kernels.
 #pragma once
 
 #include "kernels/activation/activation.h"

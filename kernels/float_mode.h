@@ -1,10 +1,10 @@
-// The floating-point state that arithmetic runs in, whatever the caller's is.
+// The floating-point state in which the library computes, independent of the caller's.
 #pragma once
 
 #include <cstdint>
 
 #if defined(__i386__) && !defined(__SSE2_MATH__)
-#error "mien on 32-bit x86 takes -msse2 -mfpmath=sse: the x87 rounds to another precision"
+#error "mien requires -msse2 -mfpmath=sse on 32-bit x86: the x87 rounds to another precision"
 #endif
 #if defined(__SSE2_MATH__) || defined(_M_X64)
 #include <xmmintrin.h>
@@ -12,10 +12,10 @@
 
 namespace mien::kernels {
 
-// While it lives: round to nearest, trap nothing, take denormal numbers for zero, which else cost a
-// hundred times the time of others in what fades out. So results do not depend on the caller's
-// state, and the caller finds it as it was, sticky flags included. Costs tens of cycles; of the
-// calling thread alone.
+// While an object lives, the calling thread rounds to nearest, traps nothing and treats denormal
+// numbers as zero, because arithmetic on them takes about a hundred times as long. Results
+// therefore do not depend on the caller's state, which the destructor restores, sticky flags
+// included. Costs tens of cycles.
 class FloatMode {
  public:
   FloatMode() : callers_(get()) { set(kOurs); }
@@ -25,12 +25,13 @@ class FloatMode {
 
  private:
 #if defined(__i386__)
-  // Of SSE, and of the x87, which the C library's functions compute on: 14 words of 16 bits.
+  // State of SSE and of the x87, which functions of the C library use: 14 words of 16 bits.
   struct State {
     std::uint32_t mxcsr;
     std::uint16_t x87[14];
   };
-  // As below; all exceptions masked, 64 bits of precision, no flag set, all registers empty.
+  // MXCSR as below; x87: all exceptions masked, 64 bits of precision, no flag set, no register
+  // used.
   static constexpr State kOurs = {0x1F80u | 0x8000u | 0x0040u, {0x037F, 0, 0, 0, 0xFFFF}};
   static State get() {
     State state{_mm_getcsr(), {}};
@@ -62,14 +63,14 @@ class FloatMode {
   }
 #elif defined(__arm__) && defined(__ARM_FP)
   using State = std::uint32_t;
-  static constexpr State kOurs = std::uint32_t{1} << 24;  // FPSCR.FZ, as NEON always has it
+  static constexpr State kOurs = std::uint32_t{1} << 24;  // FPSCR.FZ, which NEON always implies
   static State get() {
     State state = 0;
     asm volatile("vmrs %0, fpscr" : "=r"(state));
     return state;
   }
   static void set(State state) { asm volatile("vmsr fpscr, %0" ::"r"(state)); }
-#else  // WebAssembly has no such state, other machines no tier but the reference
+#else  // WebAssembly has no such state; other machines only have the reference tier
   using State = int;
   static constexpr State kOurs = 0;
   static State get() { return 0; }

@@ -1,3 +1,4 @@
+// Builds the table of kernels from kernels.inc and looks kernels up.
 #include "kernels/registry.h"
 
 #include "kernels/families.h"
@@ -5,7 +6,7 @@
 namespace mien::kernels {
 namespace {
 
-// kernels.inc spells tiers as namespaces; these names turn them into numbers.
+// kernels.inc names tiers like namespaces; these constants map the names to Tier.
 namespace tier_of {
 constexpr Tier ref [[maybe_unused]] = Tier::kRef;
 constexpr Tier avx2 [[maybe_unused]] = Tier::kAvx2;

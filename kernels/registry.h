@@ -1,5 +1,5 @@
-// Every kernel there is. kernels.inc lists them; dispatch, conformance tests and benchmarks read it
-// here.
+// Lists every kernel in this build, from kernels.inc, for dispatch, conformance tests and
+// benchmarks.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace mien::kernels {
 
-// A kernel takes its family's argument struct, which names its family (Args::kFamily).
+// A kernel receives its family's argument struct, which has the family's name (Args::kFamily).
 template <class Args>
 using Kernel = void (*)(const Args&);
 
@@ -24,7 +24,7 @@ struct Entry {
 
 [[nodiscard]] std::span<const Entry> all_kernels();
 
-// The best kernel of a family among the tiers of `cpu_mask` that this CPU has; nullptr if none.
+// The best kernel of a family among the tiers of `cpu_mask` that this CPU supports; else nullptr.
 [[nodiscard]] const Entry* find_entry(std::string_view family, std::uint32_t cpu_mask);
 [[nodiscard]] AnyKernel find_any(std::string_view family, std::uint32_t cpu_mask);
 

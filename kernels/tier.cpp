@@ -1,3 +1,4 @@
+// Names of the tiers.
 #include "kernels/tier.h"
 
 namespace mien::kernels {

@@ -1,5 +1,5 @@
-# The source files of each tier, relative to this folder. Every family has a file for ref; a tier has
-# files for the families that it makes faster.
+# Lists the source files of each tier, relative to this folder. Every family has a reference kernel; a tier has kernels
+# for the families that it accelerates.
 set(mien_tier_families
   activation causal_conv concat conv2d depthwise fma_peak fully_connected global_average_pool image
   lstm matrix_vector max_pool pointwise power_spectrum residual_add slice softmax)
@@ -27,7 +27,7 @@ function(mien_tier_sources tier output)
     set(families ${mien_${tier}_families})
   endif()
   set(file ${tier})
-  if(tier MATCHES "^neon")  # one source for all of them: kernels/common/neon.h
+  if(tier MATCHES "^neon")  # all NEON tiers share a source (kernels/common/neon.h)
     set(file neon)
   endif()
   list(TRANSFORM families APPEND /${file}.cpp)

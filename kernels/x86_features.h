@@ -1,8 +1,8 @@
-// What this x86-64 CPU has of what tiers need, and its system saves when threads take turns.
+// Detects the instruction sets of an x86-64 CPU whose registers the operating system saves.
 // Source: Intel SDM, volume 1, 14.3 and 15.2 to 15.4, and volume 2, CPUID and XGETBV.
 //
-// Compilers have __builtin_cpu_supports, which asks their run-time library, and knows less the
-// older they are: clang 14 nothing of F16C and of AVX-512 FP16. In Zig's it says no to everything.
+// __builtin_cpu_supports is not enough: older compilers do not know all features (clang 14 lacks
+// F16C and AVX-512 FP16), and Zig's run-time library reports none.
 #pragma once
 
 #include <cpuid.h>
@@ -12,14 +12,14 @@
 namespace mien::kernels {
 
 struct X86Features {
-  bool avx2 = false;        // and FMA, F16C
+  bool avx2 = false;        // also FMA and F16C
   bool avx512 = false;      // F, BW, DQ, VL, and avx2
-  bool avx512fp16 = false;  // and avx512, as the next
-  bool avx512vnni = false;
+  bool avx512fp16 = false;  // implies avx512
+  bool avx512vnni = false;  // implies avx512
 };
 
-// The registers that the system saves; only where CPUID has OSXSAVE. The instruction itself, since
-// intrinsics for it want options of the compiler.
+// The register sets that the operating system saves. Requires OSXSAVE. Inline assembly, because the
+// intrinsic requires a compiler option.
 inline std::uint32_t x86_saved_registers() {
   std::uint32_t low = 0, high = 0;
   __asm__ volatile("xgetbv" : "=a"(low), "=d"(high) : "c"(0));
@@ -33,10 +33,10 @@ constexpr bool all_set(std::uint32_t word, Bits... bits) {
 
 inline X86Features x86_features() {
   constexpr std::uint32_t kVectors = 0x6;  // SSE, AVX
-#ifdef __APPLE__  // saves the rest as soon as a thread first uses it, and does not say so before
+#ifdef __APPLE__  // saves the rest from a thread's first use on, and only then reports it
   constexpr std::uint32_t kAllVectors = kVectors;
 #else
-  constexpr std::uint32_t kAllVectors = 0xe6;  // masks and upper halves, too
+  constexpr std::uint32_t kAllVectors = 0xe6;  // also masks and upper halves
 #endif
   std::uint32_t eax = 0, ebx = 0, ecx = 0, edx = 0;
   X86Features features;

@@ -1,3 +1,4 @@
+// Error bounds of activations.
 #include "apps/conformance/approx.h"
 
 #include <algorithm>
@@ -7,14 +8,14 @@ namespace {
 
 using kernels::Activation;
 
-// Own errors of a kernel's exponential functions, in units of rounding: an exponential of 2 ulp, a
-// sum, a quotient; and 1 - 2 / (exp(2x) + 1) from |x| = 0.2 on cancels to a fifth.
+// Errors of a kernel's own exponential functions, in units of rounding: an exponential of 2 ulp, a
+// sum and a quotient; for |x| >= 0.2, 1 - 2 / (exp(2x) + 1) cancels to no less than a fifth.
 constexpr double kSigmoidUnits = 8.0;
 constexpr double kTanhUnits = 20.0;
 
-// Of a function that grows: its values at both ends of what x may be.
+// For a monotonic function: evaluates both ends of the interval of x.
 template <class Function>
-Approx growing(Function f, Approx x) {
+Approx monotonic(Function f, Approx x) {
   const double y = f(x.value);
   return {y, std::max(f(x.value + x.error) - y, y - f(x.value - x.error))};
 }
@@ -29,19 +30,19 @@ Approx scaled_below_zero(Approx x, double slope) {
 }
 
 Approx clamped(Approx x, double low, double high) {
-  return growing([=](double v) { return std::clamp(v, low, high); }, x);
+  return monotonic([=](double v) { return std::clamp(v, low, high); }, x);
 }
 
 }  // namespace
 
 Approx sigmoid(Approx x) {
   const auto f = [](double v) { return 1.0 / (1.0 + std::exp(-v)); };
-  return with_own_error(growing(f, x), kSigmoidUnits);
+  return with_own_error(monotonic(f, x), kSigmoidUnits);
 }
 
 Approx tanh(Approx x) {
   const auto f = [](double v) { return std::tanh(v); };
-  return with_own_error(growing(f, x), kTanhUnits);
+  return with_own_error(monotonic(f, x), kTanhUnits);
 }
 
 Approx activated(Approx x, const kernels::ActivationSpec& activation, double slope) {

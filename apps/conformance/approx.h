@@ -1,8 +1,8 @@
-// Numbers as exact arithmetic gives them, each with how far a kernel that computes in fp32, in
-// whatever order, may be from it. Errors are followed to first order. A sum of n products errs by
-// c u sum|x w|, not by c u |sum x w| (Higham, Accuracy and Stability of Numerical Algorithms,
-// chapter 3), and c grows with the root of n, for roundings go both ways (Higham & Mary, A New
-// Approach to Probabilistic Rounding Error Analysis, 2019).
+// Exact values with bounds on the error of a kernel that computes in fp32, in any order. Errors are
+// propagated to first order. A sum of n products has an error of c u sum|x w|, not c u |sum x w|
+// (Higham, Accuracy and Stability of Numerical Algorithms, chapter 3), and c grows with the root of
+// n, because roundings partly cancel (Higham & Mary, A New Approach to Probabilistic Rounding Error
+// Analysis, 2019).
 #pragma once
 
 #include <algorithm>
@@ -13,35 +13,34 @@
 
 namespace mien::conformance {
 
-inline constexpr double kUnit = 0x1p-24;  // rounding unit of fp32
-// c of a few operations; sum_factor: of a sum.
+inline constexpr double kUnit = 0x1p-24;  // unit roundoff of fp32
+// c for a few operations, and for a sum of `terms` terms.
 inline constexpr double kSumFactor = 8.0;
 [[nodiscard]] inline double sum_factor(int terms) {
   return kSumFactor + 2.0 * std::sqrt(static_cast<double>(terms));
 }
-// Denormal numbers may be flushed to zero: what is lost with each of them at most.
+// Denormal numbers may be flushed to zero: the maximum error per flushed number.
 inline constexpr double kFlushed = 0x1p-126;
 
-// How a kernel multiplies and adds up.
+// How a kernel multiplies and accumulates.
 struct Arithmetic {
-  double unit;     // of rounding
-  double flushed;  // what is lost at most with a number near zero
-  int chunk;       // as many products are added up like this, then such sums in fp32
-  // Factors of products are first rounded to integers of 16 bits, which steps make numbers.
+  double unit;     // unit roundoff
+  double flushed;  // maximum error of a number near zero
+  int chunk;       // number of products per partial sum; partial sums are added in fp32
+  // Factors of products are first quantized to 16-bit integers.
   bool is_quantized = false;
 };
 inline constexpr Arithmetic kSingleArithmetic{kUnit, kFlushed, std::numeric_limits<int>::max()};
-// fp16: 11 bits, denormals kept. A value of x is rounded to them, each multiply-add is, and so is
-// what lies between the layers of a block. Weights are fp16 anyway. Within a chunk errors grow as
-// in any sum, with the root of its length; sums of chunks are added in fp32, so that a long sum is
-// no worse, by its magnitude, than a chunk. The longest that a kernel may take for one: 16 bits
-// lose no more than 1/80 of a chunk's magnitude then, and the way to fp32 costs one multiply-add in
-// ten.
+// fp16: 11 bits, denormals kept. Values of x, multiply-adds and the maps between the layers of a
+// block are rounded to fp16; weights are fp16 already. Within a chunk, errors grow with the root of
+// its length. Chunks are added in fp32, so the relative error of a long sum is no worse. 64 is the
+// maximum chunk of a kernel: its error is at most 1/80 of its magnitude, and the conversion to fp32
+// costs one operation per ten multiply-adds.
 inline constexpr Arithmetic kHalfArithmetic{0x1p-11, 0x1p-24, 64};
-// Sums of integers are exact, all else is fp32; what the steps are a family's cases say.
-inline constexpr Arithmetic kFixedArithmetic{kUnit, kFlushed, std::numeric_limits<int>::max(),
-                                             true};
-// Of a sum that becomes fp16 in the end.
+// Integer sums are exact, everything else is fp32. The cases of a family compute the scales.
+inline constexpr Arithmetic kQuantizedArithmetic{kUnit, kFlushed, std::numeric_limits<int>::max(),
+                                                 true};
+// For sums that become fp16 in the end.
 [[nodiscard]] inline Arithmetic in_one_chunk(Arithmetic by) {
   by.chunk = std::numeric_limits<int>::max();
   return by;
@@ -52,16 +51,16 @@ struct Approx {
   double error = 0.0;
 };
 
-// Of floats that are copied or converted without rounding.
+// For floats that are copied or converted without rounding.
 [[nodiscard]] inline Approx exact(double value) { return {value, 0.0}; }
 
-// Of floats that are compared: nothing is rounded, but vector units that know no denormal numbers,
-// such as ARMv7's, take them for zero.
+// For floats that are only compared: they are not rounded, but vector units without denormal
+// numbers, such as ARMv7's, replace these by zero.
 [[nodiscard]] inline Approx compared(double value) {
   return {value, std::abs(value) < kFlushed ? kFlushed : 0.0};
 }
 
-// The result of one more operation, in fp32 if nothing else is said.
+// The result of one more operation, by default in fp32.
 [[nodiscard]] inline Approx rounded(Approx x, const Arithmetic& by = kSingleArithmetic) {
   return {x.value, x.error + by.unit * std::abs(x.value) + by.flushed};
 }
@@ -98,7 +97,7 @@ class Sum {
 
 [[nodiscard]] Approx sigmoid(Approx x);
 [[nodiscard]] Approx tanh(Approx x);
-// `slope`: of a PReLU, for the channel.
+// `slope`: the PReLU slope of the channel.
 [[nodiscard]] Approx activated(Approx x, const kernels::ActivationSpec& activation, double slope);
 
 }  // namespace mien::conformance

@@ -1,3 +1,4 @@
+// Measures kernels and the peak of each tier.
 #include "apps/conformance/benchmark.h"
 
 #include <algorithm>
@@ -12,8 +13,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kSeconds = 0.03;        // for one figure
-constexpr double kShortestBatch = 5e-6;  // what a clock can tell apart, many times over
+constexpr double kSeconds = 0.03;        // per measurement
+constexpr double kShortestBatch = 5e-6;  // many times the resolution of the clock
 
 double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
@@ -27,7 +28,7 @@ double seconds_of(const std::function<void()>& work, int calls) {
   return seconds_since(begin);
 }
 
-// The buffers of a case side by side, each at a multiple of 64 bytes as the engine lays them out.
+// The buffers of a case, each aligned to 64 bytes as in the engine.
 class Workbench {
  public:
   explicit Workbench(const Case& test) {
@@ -36,14 +37,14 @@ class Workbench {
       bytes += lines(one) * sizeof(Line);
     }
     memory_ = std::make_unique<Line[]>(bytes / sizeof(Line));
-    Places places;
+    Addresses addresses;
     Line* at = memory_.get();
     for (const Buffer& one : test.buffers) {
       std::copy(one.content.begin(), one.content.end(), at->bytes);
-      places.add(at->bytes);
+      addresses.add(at->bytes);
       at += lines(one);
     }
-    arguments_ = test.bind(places);
+    arguments_ = test.bind(addresses);
   }
   [[nodiscard]] const Arguments& arguments() const { return arguments_; }
 

@@ -1,4 +1,4 @@
-// How fast a kernel or a network is, and how fast it could be.
+// Measures the speed of kernels and networks, and the peak of the CPU.
 #pragma once
 
 #include <cstdint>
@@ -9,13 +9,13 @@
 
 namespace mien::conformance {
 
-// Of a loop of fused multiply-adds in registers on one tier, in GFLOP/s; 0 if the tier has none.
+// Peak of fused multiply-adds in registers on one tier, in GFLOP/s; 0 if the tier has none.
 [[nodiscard]] double peak_gflops(kernels::Tier tier);
 
-// The least time of many calls of `work`, which does `macs` multiply-accumulates.
+// The minimum time of many calls of `work`, which performs `macs` multiply-accumulates.
 [[nodiscard]] Timing timed(const std::function<void()>& work, std::uint64_t macs, double peak);
 
-// Of the family's typical case. The kernel is known to work.
+// Times the family's typical case. The kernel must have passed its checks.
 [[nodiscard]] Timing time_kernel(const kernels::Entry& entry, double peak);
 
 }  // namespace mien::conformance

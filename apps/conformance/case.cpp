@@ -1,3 +1,4 @@
+// Buffers of cases and the table of families.
 #include "apps/conformance/case.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// One call of a kernel: its buffers, how they become arguments, and what should come out.
+// A test case of a kernel: its buffers, how they become arguments, and the expected results.
 #pragma once
 
 #include <cstddef>
@@ -20,17 +20,17 @@ enum class Element : std::uint8_t { kByte, kHalf, kInt16, kFloat, kInt64 };
 [[nodiscard]] std::size_t element_bytes(Element element);
 
 enum class Role : std::uint8_t {
-  kRead,     // must be afterwards what it was before
-  kWritten,  // begins as NaNs: every element has to be written, and none read
-  kUpdated,  // read and written: state, or a kernel in place
-  kScratch,  // begins as NaNs; may be anything afterwards
+  kRead,     // must not change
+  kWritten,  // initially NaN: the kernel must write every element and read none
+  kUpdated,  // read and written: state, or an in-place kernel
+  kScratch,  // initially NaN; any content afterwards
 };
 
 struct Buffer {
   Element element;
   Role role;
-  std::vector<std::byte> content;  // at the beginning
-  std::vector<Approx> expected;    // of kWritten and kUpdated, one for each element
+  std::vector<std::byte> content;  // initial content
+  std::vector<Approx> expected;    // for kWritten and kUpdated, one per element
 };
 
 [[nodiscard]] Buffer reads(const std::vector<float>& values);
@@ -58,38 +58,40 @@ void call(kernels::AnyKernel kernel, const Arguments& packed) {
   reinterpret_cast<kernels::Kernel<Args>>(kernel)(*reinterpret_cast<const Args*>(packed.bytes));
 }
 
-// Where the buffers of a case lie in one call of it.
-class Places {
+// The addresses of a case's buffers during a call.
+class Addresses {
  public:
-  void add(std::byte* at) { places_.push_back(at); }
-  [[nodiscard]] float* floats(std::size_t i) const { return reinterpret_cast<float*>(places_[i]); }
+  void add(std::byte* at) { addresses_.push_back(at); }
+  [[nodiscard]] float* floats(std::size_t i) const {
+    return reinterpret_cast<float*>(addresses_[i]);
+  }
   [[nodiscard]] std::uint16_t* halves(std::size_t i) const {
-    return reinterpret_cast<std::uint16_t*>(places_[i]);
+    return reinterpret_cast<std::uint16_t*>(addresses_[i]);
   }
   [[nodiscard]] std::uint8_t* bytes(std::size_t i) const {
-    return reinterpret_cast<std::uint8_t*>(places_[i]);
+    return reinterpret_cast<std::uint8_t*>(addresses_[i]);
   }
   [[nodiscard]] std::int16_t* int16s(std::size_t i) const {
-    return reinterpret_cast<std::int16_t*>(places_[i]);
+    return reinterpret_cast<std::int16_t*>(addresses_[i]);
   }
   [[nodiscard]] std::int64_t* int64s(std::size_t i) const {
-    return reinterpret_cast<std::int64_t*>(places_[i]);
+    return reinterpret_cast<std::int64_t*>(addresses_[i]);
   }
 
  private:
-  std::vector<std::byte*> places_;
+  std::vector<std::byte*> addresses_;
 };
 
 struct Case {
-  std::string shape;  // for people: "5x7x24 to 40, relu6"
+  std::string shape;  // description: "5x7x24 to 40, relu6"
   std::vector<Buffer> buffers;
-  std::function<Arguments(const Places&)> bind;
+  std::function<Arguments(const Addresses&)> bind;
   void (*call)(kernels::AnyKernel, const Arguments&);
-  std::uint64_t macs = 0;  // multiply-accumulates; 0 where the kernel does something else
+  std::uint64_t macs = 0;  // multiply-accumulates; 0 if the kernel has none
 };
 
-// A case of the family whose arguments these are: a random one, and one of the size that networks
-// use most, which is timed. families/ defines both for every family; a family of
+// A random case of the family with these arguments, and one of the size that is most frequent in
+// networks, which is timed. families/ defines both for every family; a family of
 // kernels/kernels.inc without them does not link.
 template <class Args>
 [[nodiscard]] Case random_case(RandomValues& random);
@@ -110,7 +112,7 @@ struct Family {
   Case (*typical_case)(RandomValues&);
 };
 
-// nullptr: kernels/kernels.inc has no reference kernel of that name.
+// nullptr if kernels/kernels.inc has no reference kernel with that name.
 [[nodiscard]] const Family* find_family(std::string_view name);
 
 }  // namespace mien::conformance

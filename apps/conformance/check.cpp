@@ -1,3 +1,4 @@
+// Runs a case and compares the results.
 #include "apps/conformance/check.h"
 
 #include <algorithm>
@@ -14,23 +15,23 @@ namespace {
 
 using Contents = std::vector<std::vector<std::byte>>;
 
-// One call of a kernel on buffers of its own.
+// One call of a kernel with its own buffers.
 class Trial {
  public:
-  Trial(const Case& test, Place place) : test_(test) {
-    Places places;
+  Trial(const Case& test, Placement place) : test_(test) {
+    Addresses addresses;
     for (const Buffer& one : test.buffers) {
       memory_.push_back(
           std::make_unique<GuardedBuffer>(one.content, element_bytes(one.element), place));
       if (one.role == Role::kWritten || one.role == Role::kScratch) {
         count_as_unwritten({memory_.back()->data(), one.content.size()});
       }
-      places.add(memory_.back()->data());
+      addresses.add(memory_.back()->data());
     }
-    arguments_ = test.bind(places);
+    arguments_ = test.bind(addresses);
   }
 
-  // What the kernel did wrong, besides its results.
+  // Runs the kernel; returns faults other than wrong results.
   Finding run(kernels::AnyKernel kernel) {
     kernel_ = kernel;
     const char* crash = run_guarded([](void* self) { static_cast<Trial*>(self)->call(); }, this);
@@ -38,12 +39,12 @@ class Trial {
       return {Fault::kCrashes, crash};
     }
     if (changed_registers_ != 0) {
-      return {Fault::kClobbersRegister, "does not preserve " + register_names(changed_registers_)};
+      return {Fault::kClobbersRegister, "does not restore " + register_names(changed_registers_)};
     }
     for (std::size_t i = 0; i < memory_.size(); ++i) {
       const std::string which = "buffer " + std::to_string(i);
       if (!memory_[i]->border_intact()) {
-        return {Fault::kTouchesBorder, "writes beside " + which};
+        return {Fault::kTouchesBorder, "writes outside " + which};
       }
       if (test_.buffers[i].role == Role::kRead && contents(i) != test_.buffers[i].content) {
         return {Fault::kChangesInput, "changes " + which};
@@ -104,7 +105,7 @@ double element(Element kind, const std::vector<std::byte>& bytes, std::size_t i)
   return 0.0;
 }
 
-// An error of infinity is none where infinity was expected. A NaN is always wrong.
+// 0 for equal infinities; infinity for NaN.
 double share_of_bound(double got, double want, double bound) {
   if (got == want) {
     return 0.0;
@@ -124,24 +125,25 @@ std::string difference(std::size_t buffer, std::size_t index, double got, double
   return text;
 }
 
-// Compares all results with the double reference.
+// Compares all results with the double-precision reference.
 void compare(const Case& test, const Contents& results, Finding& finding) {
   for (std::size_t b = 0; b < results.size(); ++b) {
     const Buffer& buffer = test.buffers[b];
     for (std::size_t i = 0; i < buffer.expected.size(); ++i) {
       const double got = element(buffer.element, results[b], i);
       const Approx& want = buffer.expected[i];
-      const double share = share_of_bound(got, want.value, want.error);
-      if (!(share <= 1.0) && finding.fault == Fault::kNone) {
+      const double relative_error = share_of_bound(got, want.value, want.error);
+      if (!(relative_error <= 1.0) && finding.fault == Fault::kNone) {
         finding.fault = Fault::kWrongResult;
         finding.text = difference(b, i, got, want.value, want.error);
       }
-      finding.worst_share = std::max(finding.worst_share, std::isnan(share) ? HUGE_VAL : share);
+      finding.worst_share =
+          std::max(finding.worst_share, std::isnan(relative_error) ? HUGE_VAL : relative_error);
     }
   }
 }
 
-// Compares two kernels: each may be off by the bound.
+// Compares two kernels, either of which may be off by the bound.
 void compare_kernels(const Case& test, const Contents& results, const Contents& reference,
                      Finding& finding) {
   for (std::size_t b = 0; b < results.size() && finding.fault == Fault::kNone; ++b) {
@@ -185,13 +187,13 @@ const char* name(Fault fault) {
 
 Finding check(const Case& test, kernels::AnyKernel kernel, kernels::AnyKernel reference) {
   double worst_share = 0.0;
-  for (const Place place : kPlaces) {
+  for (const Placement place : kPlacements) {
     Trial trial(test, place);
     Finding finding = trial.run(kernel);
     if (finding.fault == Fault::kNone) {
       compare(test, trial.results(), finding);
     }
-    if (finding.fault == Fault::kNone && reference != nullptr && place == Place::kAtEnd) {
+    if (finding.fault == Fault::kNone && reference != nullptr && place == Placement::kAtEnd) {
       Trial of_reference(test, place);
       if (of_reference.run(reference).fault == Fault::kNone) {
         compare_kernels(test, trial.results(), of_reference.results(), finding);

@@ -1,4 +1,4 @@
-// Runs one case on a kernel and says what is wrong with it.
+// Runs one case on a kernel and reports the first fault.
 #pragma once
 
 #include <cstdint>
@@ -10,23 +10,23 @@ namespace mien::conformance {
 
 enum class Fault : std::uint8_t {
   kNone,
-  kWrongResult,       // beyond the bound of the double reference
-  kDiffersFromRef,    // beyond both bounds of the reference kernel
-  kTouchesBorder,     // writes beside a buffer
-  kChangesInput,      // writes to a buffer it may only read
-  kClobbersRegister,  // does not preserve what the calling convention asks for
-  kCrashes,           // among them: reads or writes beyond a guard page
-  kNoCases,           // a kernel of a family that has no cases here
+  kWrongResult,       // outside the bound around the double-precision reference
+  kDiffersFromRef,    // outside twice the bound around the reference kernel
+  kTouchesBorder,     // writes outside a buffer
+  kChangesInput,      // writes to a read-only buffer
+  kClobbersRegister,  // does not preserve a register that the calling convention requires
+  kCrashes,           // also on access beyond a guard page
+  kNoCases,           // the kernel's family has no cases
 };
 [[nodiscard]] const char* name(Fault fault);  // "wrong result"
 
 struct Finding {
   Fault fault = Fault::kNone;
-  std::string text;          // the first thing that is wrong: where, what instead of what
-  double worst_share = 0.0;  // of the bound, the largest error of all
+  std::string text;          // the first fault: location, actual and expected value
+  double worst_share = 0.0;  // largest error relative to its bound
 };
 
-// `reference`: nullptr, or the family's reference kernel, whose results are compared, too.
+// `reference`: the family's reference kernel, to compare with as well, or nullptr.
 [[nodiscard]] Finding check(const Case& test, kernels::AnyKernel kernel,
                             kernels::AnyKernel reference);
 

@@ -1,3 +1,4 @@
+// Catches crashes with signals or structured exceptions.
 #include "apps/conformance/crash_guard.h"
 
 #include <cfenv>
@@ -24,7 +25,7 @@ thread_local const char* volatile cause = nullptr;
 const char* name_of(DWORD code) {
   switch (code) {
     case EXCEPTION_ACCESS_VIOLATION:
-      return "access violation: touches memory that is not its own";
+      return "access violation: invalid memory access";
     case EXCEPTION_ILLEGAL_INSTRUCTION:
     case EXCEPTION_PRIV_INSTRUCTION:
       return "illegal instruction";
@@ -41,7 +42,7 @@ const char* name_of(DWORD code) {
   }
 }
 
-// Goes on where run_guarded took down its registers.
+// Resumes where run_guarded saved its registers.
 LONG CALLBACK on_exception(EXCEPTION_POINTERS* pointers) {
   const char* known = name_of(pointers->ExceptionRecord->ExceptionCode);
   if (known == nullptr || way_back == nullptr) {
@@ -64,7 +65,7 @@ const char* run_guarded(void (*body)(void*), void* context) {
   CONTEXT here;
   cause = nullptr;
   RtlCaptureContext(&here);
-  if (cause == nullptr) {  // not yet, or never
+  if (cause == nullptr) {  // before or without a crash
     way_back = &here;
     body(context);
   }
@@ -95,7 +96,7 @@ thread_local sigjmp_buf way_back;
 thread_local volatile sig_atomic_t guarded = 0;
 
 void on_signal(int number) {
-  if (guarded == 0) {  // a fault of this program: let the system have it
+  if (guarded == 0) {  // a crash of this program itself: default handling
     signal(number, SIG_DFL);
     raise(number);
     return;
@@ -106,9 +107,9 @@ void on_signal(int number) {
 const char* name_of(int number) {
   switch (number) {
     case SIGSEGV:
-      return "SIGSEGV: touches memory that is not its own";
+      return "SIGSEGV: invalid memory access";
     case SIGBUS:
-      return "SIGBUS: touches memory that is not there, or not aligned";
+      return "SIGBUS: unmapped or misaligned memory access";
     case SIGILL:
       return "SIGILL: illegal instruction";
     case SIGFPE:
@@ -122,8 +123,8 @@ const char* name_of(int number) {
   }
 }
 
-// Handlers on a stack of their own, for a kernel may have lost its own, and only while they are
-// needed: a sanitizer has handlers, too.
+// Installs handlers, on a stack of their own because a kernel may have corrupted its stack, and
+// only while needed because sanitizers also have handlers.
 class Handlers {
  public:
   Handlers() : stack_(std::make_unique<char[]>(kStackBytes)) {

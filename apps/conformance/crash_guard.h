@@ -1,13 +1,13 @@
-// Runs code that may die, and lives on.
+// Runs code that may crash and continues afterwards.
 #pragma once
 
 namespace mien::conformance {
 
-// False where the system tells nobody about faults (WebAssembly): there a crash ends the run.
+// False if the system does not report crashes (WebAssembly); a crash then ends the program.
 [[nodiscard]] bool can_catch_crashes();
 
-// Calls body(context). nullptr if it came back, else what it died of: "SIGSEGV: ...". The floating
-// point environment is as before then; destructors of what `body` was doing have not run.
+// Calls body(context). Returns nullptr, or the cause of the crash: "SIGSEGV: ...". After a crash
+// the floating-point environment is restored, but destructors of `body` have not run.
 [[nodiscard]] const char* run_guarded(void (*body)(void*), void* context);
 
 }  // namespace mien::conformance

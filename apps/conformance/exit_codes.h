@@ -1,4 +1,4 @@
-// Exit codes of mien-conformance: a contract, documented in docs/conformance.md. Numbers are never
+// Exit codes of mien-conformance: a contract, documented in docs/conformance.md. Values are never
 // reused.
 #pragma once
 
@@ -6,13 +6,13 @@ namespace mien::conformance {
 
 enum ExitCode : int {
   kExitOk = 0,
-  kExitFailures = 1,  // a kernel or a network is wrong; of --self-test: a planted fault was missed
-  kExitUsage = 2,     // unknown option, bad value
-  kExitNothing = 3,   // nothing matches --filter and --tier
-  kExitTrimmed = 4,   // this build has no reference kernels
-  kExitUnsupportedTier = 5,  // this CPU or this build lacks the tier asked for
+  kExitFailures = 1,         // a check failed; with --self-test: a faulty kernel was not detected
+  kExitUsage = 2,            // wrong usage
+  kExitNothing = 3,          // nothing matches --filter and --tier
+  kExitTrimmed = 4,          // this build has no reference kernels
+  kExitUnsupportedTier = 5,  // this CPU or build lacks the requested tier
   kExitOutput = 6,           // the JSON file cannot be written
-  kExitInternal = 7,         // a fault of the program itself
+  kExitInternal = 7,         // internal error
   kExitModel = 8             // a weight file is missing, damaged, or of another version
 };
 

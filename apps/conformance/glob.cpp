@@ -1,8 +1,9 @@
+// Glob matching.
 #include "apps/conformance/glob.h"
 
 namespace mien::conformance {
 
-// On a mismatch the last star takes one character more.
+// On a mismatch, the last star consumes one more character.
 bool matches(std::string_view glob, std::string_view name) {
   std::size_t g = 0, n = 0, after_star = std::string_view::npos, taken = 0;
   while (n < name.size()) {

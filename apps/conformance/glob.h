@@ -1,11 +1,11 @@
-// Names by pattern.
+// Matches names with glob patterns.
 #pragma once
 
 #include <string_view>
 
 namespace mien::conformance {
 
-// `*` stands for any characters, `?` for one.
+// `*` matches any characters, `?` exactly one.
 [[nodiscard]] bool matches(std::string_view glob, std::string_view name);
 
 }  // namespace mien::conformance

@@ -1,3 +1,4 @@
+// The table of embedded networks.
 #include "apps/conformance/golden.h"
 
 #include "apps/conformance/golden_bytes.h"

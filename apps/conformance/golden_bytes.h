@@ -1,4 +1,4 @@
-// The files of golden/, as embed_golden.cmake puts them into the program.
+// The files of golden/, embedded by embed_golden.cmake.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +6,7 @@
 namespace mien::conformance {
 
 struct Embedded {
-  const unsigned char* data;  // at a multiple of 64
+  const unsigned char* data;  // 64-byte aligned
   std::size_t bytes;
 };
 

@@ -1,4 +1,4 @@
-// Memory between two pages that may not be touched, from the system.
+// Allocates memory between two inaccessible pages.
 #pragma once
 
 #include <cstddef>
@@ -6,9 +6,9 @@
 
 namespace mien::conformance {
 
-// `bytes` rounded up to whole pages, where there are pages to protect; else to 64. Throws
+// `bytes` is rounded up to whole pages, or to 64 on systems without page protection. Throws
 // std::bad_alloc.
-[[nodiscard]] std::span<std::byte> make_guarded_room(std::size_t bytes);
-void release_guarded_room(std::span<std::byte> room);
+[[nodiscard]] std::span<std::byte> make_guarded_memory(std::size_t bytes);
+void release_guarded_memory(std::span<std::byte> memory);
 
 }  // namespace mien::conformance

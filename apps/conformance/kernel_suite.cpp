@@ -1,3 +1,4 @@
+// Checks kernels on random cases.
 #include "apps/conformance/kernel_suite.h"
 
 #include <algorithm>
@@ -17,7 +18,7 @@ std::string where(std::uint64_t seed, const RandomValues& random) {
 }  // namespace
 
 const Arithmetic& arithmetic_of(kernels::Tier tier) {
-  return tier == kernels::Tier::kAvx512Vnni ? kFixedArithmetic
+  return tier == kernels::Tier::kAvx512Vnni ? kQuantizedArithmetic
          : kernels::is_half(tier)           ? kHalfArithmetic
                                             : kSingleArithmetic;
 }
@@ -25,7 +26,8 @@ const Arithmetic& arithmetic_of(kernels::Tier tier) {
 Finding check_kernel(const kernels::Entry& entry, std::uint64_t seed, int& cases) {
   const Family* family = find_family(entry.family);
   if (family == nullptr) {
-    return {Fault::kNoCases, "add apps/conformance/families/" + std::string(entry.family) + ".cpp"};
+    return {Fault::kNoCases,
+            "missing apps/conformance/families/" + std::string(entry.family) + ".cpp"};
   }
   const kernels::AnyKernel reference =
       entry.tier == kernels::Tier::kRef ? nullptr : reference_of(entry.family);

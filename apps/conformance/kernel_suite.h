@@ -1,4 +1,4 @@
-// Kernels of the registry, each on many cases.
+// Checks kernels of the registry on many cases.
 #pragma once
 
 #include <cstdint>
@@ -10,14 +10,13 @@ namespace mien::conformance {
 
 inline constexpr int kCasesPerSeed = 40;
 
-// How kernels of a tier may count where their family allows for less than fp32.
+// The arithmetic that kernels of a tier may use in families that allow less precision than fp32.
 [[nodiscard]] const Arithmetic& arithmetic_of(kernels::Tier tier);
 
-// The cases of one seed; stops at the first that is not right. `cases` counts on.
+// Checks the cases of one seed, up to the first failure. Adds their number to `cases`.
 [[nodiscard]] Finding check_kernel(const kernels::Entry& entry, std::uint64_t seed, int& cases);
 
-// Whether the registry has a reference kernel for every family: without, there is nothing to hold
-// the others against.
+// Whether the registry has a reference kernel for every family, which the other tiers need.
 [[nodiscard]] bool has_all_references();
 
 }  // namespace mien::conformance

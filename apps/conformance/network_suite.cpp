@@ -1,3 +1,4 @@
+// Checks networks step by step.
 #include "apps/conformance/network_suite.h"
 
 #include <algorithm>
@@ -16,12 +17,12 @@
 namespace mien::conformance {
 namespace {
 
-// Of the largest answer of an output. Both sides see the same fp16 weights and keep activations in
-// fp32; sums in another order differ by this much at the end of a deep network.
+// Tolerance relative to the largest output. Both sides use the same fp16 weights and fp32
+// activations; another order of summation causes this difference at the end of a deep network.
 constexpr double kTolerance = 5e-6;
-// Tiers of half precision round what lies between layers to 11 bits, and sums on the way: some 1e-3
-// of the largest in a layer. Of forty layers in a row they add up by their squares to 0.7e-2; the
-// worst of thousands of answers is several times as far off. Measured: 1.4e-2.
+// Half-precision tiers round maps between layers to 11 bits, and sums on the way: about 1e-3 of a
+// layer's maximum. Over forty layers this adds up by squares to 0.7e-2; the worst of thousands of
+// outputs deviates several times as much. Measured: 1.4e-2.
 constexpr double kHalfTolerance = 3e-2;
 constexpr std::size_t kSteps = 4;
 
@@ -59,7 +60,7 @@ std::size_t elements(const TensorShape& shape) {
          static_cast<std::size_t>(shape.channels);
 }
 
-// Where element i of [h][w][c] lies in a map of blocks.
+// Index of element i of [h][w][c] in a blocked map.
 std::size_t in_blocks(const TensorShape& shape, std::size_t i) {
   const auto channels = static_cast<std::size_t>(shape.channels);
   const auto pixels =
@@ -75,7 +76,7 @@ void set_input(NetworkRunner& runner, std::span<const float> values) {
   }
 }
 
-// Appends one output; false if a lane that holds no channel is not zero.
+// Appends one output; returns false if an unused lane is not zero.
 bool take_output(const NetworkRunner& runner, std::int32_t output, std::vector<float>& values) {
   const TensorShape shape = runner.output_shape(output);
   std::vector<float> blocks(runner.output(output).begin(), runner.output(output).end());
@@ -87,7 +88,7 @@ bool take_output(const NetworkRunner& runner, std::int32_t output, std::vector<f
   return std::all_of(blocks.begin(), blocks.end(), [](float one) { return one == 0.0f; });
 }
 
-// One pass over all steps.
+// Runs all steps once.
 Finding run_once(NetworkRunner& runner, Steps& steps) {
   const std::size_t input = elements(runner.input_shape());
   steps.outputs.assign(static_cast<std::size_t>(runner.output_count()), {});
@@ -101,7 +102,7 @@ Finding run_once(NetworkRunner& runner, Steps& steps) {
     for (std::int32_t i = 0; i < runner.output_count(); ++i) {
       if (!take_output(runner, i, steps.outputs[static_cast<std::size_t>(i)])) {
         return {Fault::kWrongResult,
-                "a lane of output " + std::to_string(i) + " that holds no channel is not zero"};
+                "output " + std::to_string(i) + ": an unused lane is not zero"};
       }
     }
   }
@@ -111,7 +112,7 @@ Finding run_once(NetworkRunner& runner, Steps& steps) {
 Finding compare(const std::vector<float>& got, const std::vector<float>& want, std::size_t output,
                 double tolerance, Fault fault) {
   if (got.size() != want.size()) {
-    return {fault, "output " + std::to_string(output) + " has another size"};
+    return {fault, "output " + std::to_string(output) + " differs in size"};
   }
   double largest = 0.0;
   for (const float one : want) {
@@ -120,15 +121,16 @@ Finding compare(const std::vector<float>& got, const std::vector<float>& want, s
   Finding finding;
   for (std::size_t i = 0; i < want.size(); ++i) {
     const double error = std::abs(static_cast<double>(got[i]) - static_cast<double>(want[i]));
-    const double share = got[i] == want[i] ? 0.0 : error / (tolerance * largest);
-    if (!(share <= 1.0) && finding.fault == Fault::kNone) {
+    const double relative_error = got[i] == want[i] ? 0.0 : error / (tolerance * largest);
+    if (!(relative_error <= 1.0) && finding.fault == Fault::kNone) {
       char text[160];
       std::snprintf(text, sizeof text, "output %zu, element %zu: %.9g instead of %.9g +- %.2g",
                     output, i, static_cast<double>(got[i]), static_cast<double>(want[i]),
                     tolerance * largest);
       finding = {fault, text};
     }
-    finding.worst_share = std::max(finding.worst_share, std::isnan(share) ? HUGE_VAL : share);
+    finding.worst_share =
+        std::max(finding.worst_share, std::isnan(relative_error) ? HUGE_VAL : relative_error);
   }
   return finding;
 }
@@ -174,7 +176,7 @@ std::vector<Network> Network::find_all(const std::string& models) {
     if (!models.empty()) {
       throw;
     }
-    return networks;  // a device may have the program alone
+    return networks;  // a device may only have the program
   }
   if (folder.empty()) {  // MIEN_MODELS=
     return networks;
@@ -189,8 +191,7 @@ bool Network::has_cases(kernels::Tier tier) const {
   return golden_ != nullptr || tier != kernels::Tier::kRef;
 }
 
-// What a tier lacks, those before it do. The reference runs layer by layer, the others as they are
-// used.
+// Other tiers supply the kernels that a tier lacks. The reference tier runs without fused blocks.
 EngineStatus Network::create(kernels::Tier tier, const TensorShape& input,
                              NetworkRunner& runner) const {
   NetworkRunner::Options options;
@@ -215,27 +216,27 @@ Finding Network::run(kernels::Tier tier, Steps& steps) const {
     finding = run_once(runner, steps);
   }
   if (finding.fault == Fault::kNone && steps.outputs != first) {
-    finding = {Fault::kWrongResult, "answers differently after a reset"};
+    finding = {Fault::kWrongResult, "output differs after a reset"};
   }
   return finding;
 }
 
 Finding Network::prepare(std::uint64_t seed) {
-  if (!wanted_.inputs.empty() && (golden_ != nullptr || wanted_seed_ == seed)) {
+  if (!expected_.inputs.empty() && (golden_ != nullptr || expected_seed_ == seed)) {
     return {};
   }
-  wanted_ = {};
-  wanted_seed_ = seed;
+  expected_ = {};
+  expected_seed_ = seed;
   if (golden_ == nullptr) {
-    wanted_.inputs = random_inputs(input_, seed);
-    Finding finding = run(kernels::Tier::kRef, wanted_);
+    expected_.inputs = random_inputs(input_, seed);
+    Finding finding = run(kernels::Tier::kRef, expected_);
     finding.text = "ref: " + finding.text;
     return finding;
   }
-  wanted_.inputs.assign(golden_->inputs.begin(), golden_->inputs.end());
+  expected_.inputs.assign(golden_->inputs.begin(), golden_->inputs.end());
   for (const std::span<const float> output : golden_->outputs) {
     if (!output.empty()) {
-      wanted_.outputs.emplace_back(output.begin(), output.end());
+      expected_.outputs.emplace_back(output.begin(), output.end());
     }
   }
   return {};
@@ -244,15 +245,15 @@ Finding Network::prepare(std::uint64_t seed) {
 Finding Network::check(kernels::Tier tier, std::uint64_t seed, int& cases) {
   ++cases;
   Finding finding = prepare(seed);
-  Steps got{wanted_.inputs, {}};
+  Steps got{expected_.inputs, {}};
   if (finding.fault == Fault::kNone) {
     finding = run(tier, got);
   }
   const Fault fault = golden_ != nullptr ? Fault::kWrongResult : Fault::kDiffersFromRef;
   const double tolerance = kernels::is_half(tier) ? kHalfTolerance : kTolerance;
   double worst_share = 0.0;
-  for (std::size_t i = 0; i < wanted_.outputs.size() && finding.fault == Fault::kNone; ++i) {
-    finding = compare(got.outputs[i], wanted_.outputs[i], i, tolerance, fault);
+  for (std::size_t i = 0; i < expected_.outputs.size() && finding.fault == Fault::kNone; ++i) {
+    finding = compare(got.outputs[i], expected_.outputs[i], i, tolerance, fault);
     finding.worst_share = worst_share = std::max(worst_share, finding.worst_share);
   }
   if (finding.fault != Fault::kNone && golden_ == nullptr) {
@@ -264,7 +265,7 @@ Finding Network::check(kernels::Tier tier, std::uint64_t seed, int& cases) {
 Timing Network::time(kernels::Tier tier, double peak) const {
   NetworkRunner runner;
   if (create(tier, input_, runner) != EngineStatus::kOk) {
-    throw std::runtime_error(name_ + " cannot be made");
+    throw std::runtime_error(name_ + " cannot be created");
   }
   std::mt19937 random(1);
   std::uniform_real_distribution<float> values(-1.0f, 1.0f);

@@ -1,5 +1,5 @@
-// Whole networks: those built in against what PyTorch made of them, those in weight files against
-// the reference tier.
+// Checks whole networks: built-in ones against PyTorch's outputs, those of weight files against the
+// reference tier.
 #pragma once
 
 #include <mien/engine.h>
@@ -23,7 +23,7 @@ class NetworkFile {
   [[nodiscard]] virtual const WeightFile& view() const = 0;
 };
 
-// What goes in and what comes out, one step after another, all maps as [h][w][c].
+// Inputs and outputs of all steps, concatenated; all maps as [h][w][c].
 struct Steps {
   std::vector<float> inputs;
   std::vector<std::vector<float>> outputs;
@@ -31,12 +31,12 @@ struct Steps {
 
 class Network {
  public:
-  // The built-in networks and, where weight files are found, all of theirs. `models`: a folder;
-  // empty: where `mien` looks for it. Throws Failure if the folder was named and has no models.
+  // The built-in networks and those of weight files. `models`: a folder; empty: where `mien` looks
+  // for models, if there are any. Throws Failure if a named folder has no models.
   static std::vector<Network> find_all(const std::string& models);
 
   [[nodiscard]] const std::string& name() const { return name_; }  // "network/basenet_encoder"
-  // The reference tier is not held against itself.
+  // False for the reference tier of a network that is compared with it.
   [[nodiscard]] bool has_cases(kernels::Tier tier) const;
 
   [[nodiscard]] Finding check(kernels::Tier tier, std::uint64_t seed, int& cases);
@@ -50,18 +50,18 @@ class Network {
 
   [[nodiscard]] EngineStatus create(kernels::Tier tier, const TensorShape& input,
                                     NetworkRunner& runner) const;
-  // Runs all steps twice, with a reset between, and fills in the outputs.
+  // Runs all steps twice, with a reset in between, and stores the outputs.
   [[nodiscard]] Finding run(kernels::Tier tier, Steps& steps) const;
-  // Sees to it that wanted_ is that of the seed.
+  // Computes expected_ for the seed, unless it is already.
   [[nodiscard]] Finding prepare(std::uint64_t seed);
 
   std::shared_ptr<const NetworkFile> file_;
   std::string network_, name_;
-  TensorShape input_;  // as declared
+  TensorShape input_;  // the declared shape
   std::uint64_t macs_ = 0;
-  const GoldenNetwork* golden_;  // nullptr: none
-  Steps wanted_;                 // of wanted_seed_, once there are any
-  std::uint64_t wanted_seed_ = 0;
+  const GoldenNetwork* golden_;  // nullptr: compare with the reference tier
+  Steps expected_;               // expected outputs for expected_seed_; empty at first
+  std::uint64_t expected_seed_ = 0;
 };
 
 }  // namespace mien::conformance

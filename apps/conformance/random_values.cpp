@@ -1,3 +1,4 @@
+// Random sizes, values and packed weights.
 #include "apps/conformance/random_values.h"
 
 #include <algorithm>
@@ -43,10 +44,10 @@ int RandomValues::between(int low, int high) {
   return std::uniform_int_distribution<int>(low, high)(random_);
 }
 
-int RandomValues::size(int most) {
+int RandomValues::size(int max) {
   constexpr int kTiles[] = {4, 6, 8, 12, 16, 24, 32, 48, 64};
   constexpr int kPrimes[] = {2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53, 59, 61};
-  int size = between(1, most);
+  int size = between(1, max);
   switch (between(0, 3)) {
     case 0:
     case 1:
@@ -59,10 +60,10 @@ int RandomValues::size(int most) {
     default:
       break;
   }
-  return size <= most ? size : between(1, most);
+  return size <= max ? size : between(1, max);
 }
 
-// Pairs of nearly the same size and opposite sign.
+// Pairs of values with nearly equal magnitude and opposite sign.
 float RandomValues::cancelling() {
   const float step = static_cast<float>(between(0, 8));
   const float size = is_half() ? 64.0f + step * 0x1p-6f : 4096.0f + step * 0x1p-11f;

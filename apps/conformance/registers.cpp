@@ -1,3 +1,4 @@
+// Calls the register check of this calling convention.
 #include "apps/conformance/registers.h"
 
 #include "apps/conformance/registers_abi.h"

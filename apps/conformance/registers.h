@@ -1,4 +1,4 @@
-// Whether a kernel leaves the registers alone that its caller owns.
+// Checks that a kernel preserves callee-saved registers.
 #pragma once
 
 #include <cstdint>
@@ -6,12 +6,12 @@
 
 namespace mien::conformance {
 
-// The convention checked: "x86-64 System V: rbx, rbp, ..."; nullptr where there is no check.
+// The calling convention: "x86-64 System V: rbx, rbp, ..."; nullptr if there is no check for it.
 [[nodiscard]] const char* register_convention();
 
-// Calls kernel(args) with known values in all registers that it has to preserve. The result has a
-// bit for each that came back changed, 0 if none did; they are the caller's again in any case.
-// Only where register_convention() is not nullptr.
+// Calls kernel(args) with known values in all callee-saved registers. The result has a bit for each
+// register that the kernel changed; the caller's values are restored in any case. Requires that
+// register_convention() is not nullptr.
 [[nodiscard]] std::uint32_t call_checked(void (*kernel)(), const void* args);
 
 // "rbx, mxcsr"

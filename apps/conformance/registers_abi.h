@@ -1,6 +1,5 @@
-/* Which calling convention the register check of this build is for; none where there is no assembly
-   for it (WebAssembly, which has no registers, and everything not listed). Read by C++ and by the
-   assembler. */
+/* Selects the calling convention of the register check; none without assembly for it (WebAssembly,
+   which has no registers, and all other targets). Included by C++ and assembly. */
 #ifndef MIEN_CONFORMANCE_REGISTERS_ABI_H
 #define MIEN_CONFORMANCE_REGISTERS_ABI_H
 

@@ -1,3 +1,4 @@
+// Prints the table and writes JSON.
 #include "apps/conformance/report.h"
 
 #include <mien/mien.h>
@@ -25,7 +26,7 @@ std::vector<std::string> tiers_here() {
   return names;
 }
 
-const char* yes_or_no(bool yes) { return yes ? "yes" : "not checked here"; }
+const char* yes_or_no(bool yes) { return yes ? "yes" : "not supported here"; }
 
 std::string timing_text(const std::optional<Timing>& timing) {
   if (!timing) {
@@ -73,7 +74,7 @@ void print_header(std::uint64_t seed, int repeat) {
     tiers += " " + one;
   }
   const char* convention = register_convention();
-  std::printf("mien %s; tiers:%s; seed %llu, %d of them\n", mien_version(), tiers.c_str(),
+  std::printf("mien %s; tiers:%s; seed %llu, %d seeds\n", mien_version(), tiers.c_str(),
               static_cast<unsigned long long>(seed), repeat);
   std::printf("guard pages: %s; crashes: %s; registers: %s\n", yes_or_no(have_guard_pages()),
               yes_or_no(can_catch_crashes()),

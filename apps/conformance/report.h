@@ -1,4 +1,4 @@
-// What a run found out, as a table for people and as JSON for machines.
+// The results of a run, as a table and as JSON.
 #pragma once
 
 #include <cstdint>
@@ -12,9 +12,9 @@
 namespace mien::conformance {
 
 struct Timing {
-  double seconds = 0.0;     // of one call, the least of many
-  double gflops = 0.0;      // 0 where nothing is multiplied and added
-  double peak_share = 0.0;  // of the tier's measured peak
+  double seconds = 0.0;     // minimum of many calls
+  double gflops = 0.0;      // 0 without multiply-adds
+  double peak_share = 0.0;  // relative to the tier's measured peak
 };
 
 struct Row {
@@ -28,16 +28,16 @@ struct Row {
 struct Report {
   std::uint64_t seed = 1;
   int repeat = 1;
-  std::map<std::string, double> peak_gflops;  // by tier, where it was measured
+  std::map<std::string, double> peak_gflops;  // by tier, if measured
   std::vector<Row> rows;
-  double seconds = 0.0;  // of the whole run
+  double seconds = 0.0;  // duration of the run
 
   [[nodiscard]] int failures() const;
 };
 
-// The lines above the table: tiers, seed, and what can be checked on this system.
+// Prints the lines above the table: tiers, seed, and the checks that this system supports.
 void print_header(std::uint64_t seed, int repeat);
-// Rows as they come.
+// Prints a row of the table.
 void print_row(const Row& row);
 void print_summary(const Report& report);
 

@@ -1,3 +1,4 @@
+// Selects, checks and times kernels and networks.
 #include "apps/conformance/run.h"
 
 #include <chrono>
@@ -31,12 +32,20 @@ std::optional<Tier> tier_by_name(const std::string& wanted) {
   return std::nullopt;
 }
 
+std::string tier_names() {
+  std::string names;
+  for (std::uint32_t tier = 0; tier < kernels::kTierCount; ++tier) {
+    names += std::string(" ") + kernels::name(static_cast<Tier>(tier));
+  }
+  return names;
+}
+
 struct NetworkOnTier {
   Network network;
   Tier tier;
 };
 
-// What matches the options, in the order of the registry.
+// The kernels and networks that match the options, in the order of the registry.
 struct Selection {
   std::vector<Tier> tiers;
   std::vector<kernels::Entry> kernels;
@@ -125,7 +134,7 @@ class Run {
     }
   }
 
-  // What is wrong is not timed.
+  // Failed kernels are not timed.
   template <class Check, class Time>
   void add(const std::string& name, Tier tier, Check check, Time time) {
     Row row;
@@ -165,18 +174,19 @@ bool write(const std::string& path, const std::string& text) {
 ExitCode run(const Options& options) {
   if (!has_all_references()) {
     return fail(kExitTrimmed,
-                "this build has no reference kernels (MIEN_TRIM_REF) to hold others against");
+                "this build has no reference kernels (got MIEN_TRIM_REF=ON, expected OFF)");
   }
   std::uint32_t tiers = kernels::detect_cpu();
   if (!options.tier.empty()) {
     const std::optional<Tier> tier = tier_by_name(options.tier);
     if (!tier) {
-      return fail(kExitUsage, "tier '" + options.tier + "': no such tier");
+      return fail(kExitUsage,
+                  "--tier: unknown tier (got " + options.tier + ", expected" + tier_names() + ")");
     }
     tiers &= kernels::bit(*tier);
     if (tiers == 0) {
       return fail(kExitUnsupportedTier,
-                  "tier '" + options.tier + "': not on this CPU or in this build");
+                  "--tier: not supported by this CPU or build (got " + options.tier + ")");
     }
   }
   if (options.self_test) {
@@ -184,7 +194,7 @@ ExitCode run(const Options& options) {
   }
   Selection selection = select(options, tiers);
   if (selection.empty()) {
-    return fail(kExitNothing, "nothing matches '" + options.filter + "'");
+    return fail(kExitNothing, "--filter: no match (got '" + options.filter + "')");
   }
   if (options.list) {
     list(selection);

@@ -1,4 +1,4 @@
-// The run that the options ask for.
+// Runs the checks that the options select.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ struct Options {
   std::uint64_t seed = 1;
   int repeat = 1;
   std::string json;    // empty: none; "-": standard output
-  std::string models;  // empty: where `mien` looks
+  std::string models;  // empty: where `mien` looks for models
 };
 
 [[nodiscard]] ExitCode run(const Options& options);

@@ -1,9 +1,10 @@
+// Checks the faulty kernels and reports misses.
 #include "apps/conformance/self_test.h"
 
 #include <cstdio>
 
+#include "apps/conformance/faulty_kernels.h"
 #include "apps/conformance/kernel_suite.h"
-#include "apps/conformance/planted_faults.h"
 #include "apps/conformance/terminal.h"
 
 namespace mien::conformance {
@@ -11,25 +12,25 @@ namespace {
 
 constexpr std::uint64_t kSeed = 1;
 
-Finding found_in(const PlantedFault& planted) {
-  // Any tier but the reference: results are compared with the reference's, too.
-  const kernels::Entry entry{planted.family, kernels::Tier::kAvx2, planted.kernel};
+Finding found_in(const FaultyKernel& faulty) {
+  // Any tier other than the reference, so that results are also compared with the reference kernel.
+  const kernels::Entry entry{faulty.family, kernels::Tier::kAvx2, faulty.kernel};
   int cases = 0;
   return check_kernel(entry, kSeed, cases);
 }
 
-// Whether the checks said what they should.
-bool report(const PlantedFault& planted) {
+// Whether the checks report the expected fault.
+bool report(const FaultyKernel& faulty) {
   const Colours& colour = colours();
-  if (!planted.detectable) {
-    std::printf("%-36s %s%-18s%s\n", planted.name, colour.faint, "not checked here", colour.end);
+  if (!faulty.detectable) {
+    std::printf("%-36s %s%-18s%s\n", faulty.name, colour.faint, "not supported here", colour.end);
     return true;
   }
-  const Finding finding = found_in(planted);
-  const bool caught = finding.fault == planted.expected;
-  std::printf("%-36s %s%-18s%s %s\n", planted.name, caught ? colour.good : colour.bad,
+  const Finding finding = found_in(faulty);
+  const bool caught = finding.fault == faulty.expected;
+  std::printf("%-36s %s%-18s%s %s\n", faulty.name, caught ? colour.good : colour.bad,
               name(finding.fault), colour.end,
-              caught ? "" : (std::string("expected: ") + name(planted.expected)).c_str());
+              caught ? "" : (std::string("expected: ") + name(faulty.expected)).c_str());
   return caught;
 }
 
@@ -37,11 +38,11 @@ bool report(const PlantedFault& planted) {
 
 int self_test() {
   int missed = 0;
-  std::printf("%-36s %s\n", "planted", "noticed");
-  for (const PlantedFault& planted : planted_faults()) {
-    missed += report(planted) ? 0 : 1;
+  std::printf("%-36s %s\n", "faulty", "noticed");
+  for (const FaultyKernel& faulty : faulty_kernels()) {
+    missed += report(faulty) ? 0 : 1;
   }
-  std::printf("%zu planted, %d missed\n", planted_faults().size(), missed);
+  std::printf("%zu faulty kernels, %d missed\n", faulty_kernels().size(), missed);
   return missed;
 }
 

@@ -1,10 +1,10 @@
-// The checks themselves are checked.
+// Tests the checks themselves.
 #pragma once
 
 namespace mien::conformance {
 
-// Runs the planted faults through the same cases as every kernel and prints what was noticed.
-// The number that was missed, or noticed as something else.
+// Checks faulty kernels with the cases of their family and prints the results. Returns the number
+// of kernels whose fault was not detected, or detected as another one.
 [[nodiscard]] int self_test();
 
 }  // namespace mien::conformance

@@ -1,3 +1,4 @@
+// Detects whether standard output shows colours.
 #include "apps/conformance/terminal.h"
 
 #include <cstdlib>

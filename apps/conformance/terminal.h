@@ -1,4 +1,4 @@
-// Colours, where somebody sees them.
+// Colours for terminals.
 #pragma once
 
 namespace mien::conformance {
@@ -7,7 +7,7 @@ struct Colours {
   const char *good = "", *bad = "", *faint = "", *end = "";
 };
 
-// None when standard output is no terminal, or NO_COLOR is set (https://no-color.org).
+// Empty if standard output is not a terminal or NO_COLOR is set (https://no-color.org).
 [[nodiscard]] const Colours& colours();
 
 }  // namespace mien::conformance

@@ -1,6 +1,5 @@
-// Memory that a test has filled and that counts as written by nobody, where clang's memory
-// sanitizer watches: filled with NaNs it is noticed only if they reach a result, and a maximum or a
-// mask can drop them.
+// Marks initialized memory as uninitialized for clang's memory sanitizer. NaNs alone only show if
+// they reach a result; a maximum or a mask can drop them.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,7 @@
-// Bring your own network: load a weight file (.mien, docs/format.md) and run one of its networks.
-// scripts/convert/onnx_to_mien.py makes such files of ONNX files (docs/convert.md). In C++:
+// The C++ interface for custom networks: opens a weight file (.mien, docs/format.md) and runs one
+// of its networks. scripts/convert/onnx_to_mien.py converts ONNX files (docs/convert.md).
+//
+// In C++:
 //
 //   mien::WeightFile file;
 //   if (file.open(bytes) != mien::EngineStatus::kOk) return;  // std::span<const std::byte>
@@ -11,7 +13,7 @@
 //     use(runner.output(0));  // std::span<const float>
 //   }
 //
-// Through the C interface (mien/mien.h):
+// In C (mien/mien.h):
 //
 //   mien_network_config config;
 //   mien_network_config_default(&config);
@@ -24,22 +26,22 @@
 //   }
 //   mien_network_destroy(network);
 //
-// `bytes` must be MIEN_ALIGNMENT-aligned (a mapped file is) and outlive everything made from it.
+// Lifetime: `bytes` must be MIEN_ALIGNMENT-aligned (a mapped file is) and must outlive every object
+// created from it.
 //
-// Layout: an input of up to 4 channels and more than one pixel is [h][w][c]; every other map is
-// stored in blocks of 8 channels, [ceil(c/8)][h][w][8], unused lanes zero. A vector of n values is
-// therefore n floats, rounded up to a multiple of 8.
+// Layout: an input of at most 4 channels and more than one pixel is [h][w][c]. Every other map is
+// stored in blocks of 8 channels, [ceil(c/8)][h][w][8], with unused lanes zero. A vector of n
+// values is therefore n floats, rounded up to a multiple of 8.
 //
-// Temporal layers (causal convolution, LSTM) keep what they need of earlier inputs in the runner:
-// one `run` is one step of the stream. The LSTM's state is flushed to zero below 1e-30, so that
-// silence does not end in denormal numbers, which are slow.
+// State: temporal layers (causal convolution, LSTM) keep their state in the runner; one `run` is
+// one step of the stream. LSTM state below 1e-30 is flushed to zero, because denormal numbers are
+// slow.
 //
-// Threads: objects of these classes may be used by one thread at a time; runners of one file are
-// independent of each other. `run` and `reset` neither allocate nor lock, and nothing here throws,
-// prints or does I/O.
+// Threads: one thread at a time may use an object; runners of one file are independent. `run` and
+// `reset` neither allocate nor lock. Nothing here throws, prints or does I/O.
 //
-// Stack: making a runner, required_memory and WeightFile::network take some 70 KB, opening a file
-// and WeightFile::layer some 13 KB, `run` about 1 KB.
+// Stack: create, required_memory and WeightFile::network use about 70 KB, WeightFile::open and
+// WeightFile::layer about 13 KB, `run` about 1 KB.
 #pragma once
 
 #include <mien/mien.h>
@@ -51,77 +53,84 @@
 
 namespace mien {
 
-// Numbers are never reused.
+// Result of a call. Values are never reused.
 enum class [[nodiscard]] EngineStatus : std::int32_t{
     kOk = 0,
-    kBadFile = 1,            // the weight file breaks a rule of its format
-    kNoSuchNetwork = 2,      // the file has no network of that name
-    kShapeMismatch = 3,      // a layer's declared output is not what its input gives
-    kWrongInput = 4,         // the network does not run on that input shape
+    kBadFile = 1,            // the weight file violates its format; see WeightFile::fault
+    kNoSuchNetwork = 2,      // the file has no network with that name
+    kShapeMismatch = 3,      // a layer's declared output shape does not match its input
+    kWrongInput = 4,         // the network does not accept the input shape
     kUnsupportedLayout = 5,  // a layer other than a convolution reads the interleaved image
-    kNoKernel = 6,  // no allowed tier has a kernel for a layer, or MIEN_TRIM_LAYERS left it out
-    kMemoryTooSmall = 7,  // the caller's memory is less than required_memory
+    kNoKernel = 6,  // no allowed tier has a kernel for a layer, or MIEN_TRIM_LAYERS excludes it
+    kMemoryTooSmall = 7,  // the caller's memory is smaller than required_memory
     kMisaligned = 8,      // the caller's memory is not MIEN_ALIGNMENT-aligned
-    kTooLarge = 9,        // a map of that input shape would be beyond 2^28 floats
-    kOutOfMemory = 10,    // the allocator returned nothing
+    kTooLarge = 9,        // a map would exceed 2^28 floats on that input shape
+    kOutOfMemory = 10,    // the allocator returned NULL
 };
 
-// One line of English, static.
+// Returns a static string of one line that describes the status.
 [[nodiscard]] MIEN_API const char* message(EngineStatus status);
 
+// Shape of a map: rows, columns, channels.
 struct TensorShape {
   std::int32_t height = 0, width = 0, channels = 0;
   friend bool operator==(const TensorShape&, const TensorShape&) = default;
 };
 
+// Describes a network of a file.
 struct NetworkInfo {
   std::string_view name;
   TensorShape input;
-  bool any_size = false;  // also runs on larger maps
+  bool any_size = false;  // also accepts larger inputs
   std::int32_t layers = 0;
   std::int32_t outputs = 0;
   std::uint64_t parameters = 0;
-  std::uint64_t macs = 0;          // multiply-accumulates of one run at the declared size
-  std::uint64_t weight_bytes = 0;  // as stored
-  std::uint64_t session_bytes = 0, arena_bytes = 0;  // of a runner with default options
+  std::uint64_t macs = 0;          // multiply-accumulates per run on the declared input
+  std::uint64_t weight_bytes = 0;  // in the file
+  std::uint64_t session_bytes = 0, arena_bytes = 0;  // RunnerMemory with default options
 };
 
+// Describes a layer of a network.
 struct LayerInfo {
   const char* op = "";
   const char* activation = "";
   TensorShape output;
-  std::int32_t input = 0;          // 0: the network's input, k: the output of its k-th layer
-  std::int32_t second_input = -1;  // the same; -1: none
+  std::int32_t input = 0;          // 0: the network's input, k: the output of the k-th layer
+  std::int32_t second_input = -1;  // likewise; -1: none
   std::int32_t kernel[2] = {0, 0}, stride[2] = {0, 0};  // h, w
-  // Top, left, bottom, right. Of a slice: rows and columns that it leaves out.
+  // Top, left, bottom, right. For a slice: the rows and columns that it removes.
   std::int32_t padding[4] = {0, 0, 0, 0};
-  std::int32_t first_channel = 0;  // of a slice
+  std::int32_t first_channel = 0;  // slice only
   std::uint64_t parameters = 0;
-  std::uint64_t macs = 0;
+  std::uint64_t macs = 0;  // multiply-accumulates per run on the declared input
 };
 
+// A key and its value from the file's metadata.
 struct MetadataInfo {
   std::string_view key, value;
 };
 
+// Describes a named constant of a file.
 struct ConstantInfo {
   std::string_view name;
-  const char* type = "";
+  const char* type = "";  // "fp16" or "fp32"
   std::span<const std::uint32_t> dims;
 };
 
-// A validated view of a weight file. Does not own the bytes, nor what the infos refer to.
+// A validated view of a weight file. It owns neither the bytes nor the strings of the infos.
 class MIEN_API WeightFile {
  public:
   WeightFile();
 
-  // `bytes`: aligned to MIEN_ALIGNMENT; must outlive this object and everything made from it. On
-  // kBadFile, `fault` and `fault_offset` say what is wrong where in the file.
+  // Validates a file in memory.
+  // `bytes`: MIEN_ALIGNMENT-aligned; must outlive this object and every object created from it.
+  // Returns kOk; kBadFile (fault() describes the violation at byte fault_offset());
+  // kShapeMismatch, kUnsupportedLayout or kTooLarge if a network is inconsistent.
   EngineStatus open(std::span<const std::byte> bytes);
   [[nodiscard]] const char* fault() const { return fault_; }
   [[nodiscard]] std::uint64_t fault_offset() const { return fault_offset_; }
 
-  // Of a file that was opened. Indices run from 0 to the count, less one.
+  // The following require an open file. Indices are in [0, count).
   [[nodiscard]] std::int32_t network_count() const;
   [[nodiscard]] NetworkInfo network(std::int32_t index) const;
   [[nodiscard]] LayerInfo layer(std::int32_t network, std::int32_t index) const;
@@ -138,13 +147,13 @@ class MIEN_API WeightFile {
   alignas(8) std::byte model_[128];
 };
 
-// What a runner needs, in bytes.
+// Memory of a runner, in bytes.
 struct RunnerMemory {
-  std::size_t session = 0;  // its input, outputs, temporal state: its own
-  std::size_t arena = 0;    // maps in between: runners that run in turns may share one
+  std::size_t session = 0;  // input, outputs and temporal state; not shared
+  std::size_t arena = 0;    // intermediate maps; runners that never run at once may share it
 };
 
-// One network ready to run, in memory of its own or of the caller's.
+// One network, ready to run, in memory from an allocator or from the caller.
 class MIEN_API NetworkRunner {
  public:
   NetworkRunner() = default;
@@ -153,32 +162,36 @@ class MIEN_API NetworkRunner {
   NetworkRunner& operator=(const NetworkRunner&) = delete;
 
   struct Options {
-    TensorShape input = {};  // all zero: as declared
-    // Tiers that may be used, MIEN_CPU_FUSED. Half precision has to be asked for: nobody knows how
-    // large the values of a network become.
+    TensorShape input = {};  // all zero: the declared shape
+    // Allowed tiers and MIEN_CPU_FUSED. Half precision is opt-in, because the values of an
+    // arbitrary network are unbounded.
     std::uint32_t cpu_mask = MIEN_CPU_ALL & ~MIEN_CPU_HALF;
-    mien_allocator allocator = {};  // callbacks NULL: the C library's
+    mien_allocator allocator = {};  // callbacks NULL: the C library's allocator
   };
-  // On error the runner is left empty, and nothing stays allocated.
+  // Prepares a network to run; allocates its memory.
+  // Returns kOk; kNoSuchNetwork, kWrongInput, kTooLarge, kNoKernel or kOutOfMemory. On error the
+  // runner is empty and owns no memory.
   EngineStatus create(const WeightFile& file, std::string_view network, const Options& options);
   EngineStatus create(const WeightFile& file, std::string_view network) {
     return create(file, network, Options());
   }
 
-  // The same in the caller's memory, both parts MIEN_ALIGNMENT-aligned, which must outlive the
-  // runner. The allocator is not called.
+  // Like create, but in the caller's memory, which must outlive the runner; calls no allocator.
+  // `session`, `arena`: MIEN_ALIGNMENT-aligned, with at least the sizes of required_memory.
+  // Also returns kMemoryTooSmall or kMisaligned.
   EngineStatus create_in(const WeightFile& file, std::string_view network, const Options& options,
                          std::span<std::byte> session, std::span<std::byte> arena);
-  // How large these must be at least.
+  // Computes the sizes that create_in requires.
+  // Returns kOk, kNoSuchNetwork, kWrongInput or kTooLarge.
   static EngineStatus required_memory(const WeightFile& file, std::string_view network,
                                       const Options& options, RunnerMemory& memory);
 
-  // The following need a runner that was created.
-  [[nodiscard]] std::span<float> input();  // zeros at first
+  // The following require a runner that was created.
+  [[nodiscard]] std::span<float> input();  // zero after creation
   [[nodiscard]] TensorShape input_shape() const;
   void run();
-  // `run` in parts, to time each: running step 0 .. step_count() - 1 once each, in this order, is
-  // one `run`. A step performs one layer, or several where they are fused.
+  // `run` in parts, to time each: a call of run_step for 0 .. step_count() - 1 in this order equals
+  // one `run`. A step computes one layer, or several fused layers.
   struct StepLayers {
     std::int32_t first = 0, count = 0;
   };
@@ -186,20 +199,21 @@ class MIEN_API NetworkRunner {
   [[nodiscard]] StepLayers step_layers(std::int32_t step) const;
   void run_step(std::int32_t step);
   [[nodiscard]] std::int32_t output_count() const;
-  [[nodiscard]] std::span<const float> output(std::int32_t index) const;  // until the next run
+  [[nodiscard]] std::span<const float> output(
+      std::int32_t index) const;  // valid until the next run
   [[nodiscard]] TensorShape output_shape(std::int32_t index) const;
-  void reset();  // temporal state to that of a stream's beginning
+  void reset();  // returns the temporal state to zero
 
  private:
   void release();
 
   void* session_ = nullptr;
-  void* memory_ = nullptr;  // nullptr if it is the caller's
+  void* memory_ = nullptr;  // nullptr for memory of the caller
   mien_allocator allocator_ = {};
 };
 
-// Runs a loop of fused multiply-adds in registers, `rounds` times, on the best tier of the mask;
-// returns how many it did. A benchmark times this to know the peak.
+// Runs `rounds` rounds of fused multiply-adds in registers on the best tier of the mask and returns
+// the number of multiply-adds. Benchmarks time it to measure the peak.
 MIEN_API std::int64_t run_fma_loop(std::uint32_t cpu_mask, std::int64_t rounds);
 
 }  // namespace mien

@@ -1,4 +1,4 @@
-// Activations: fused into the kernel before them, or by themselves.
+// Activations, fused into the previous kernel or as a layer of their own.
 //
 //   relu(x) = max(x, 0)          relu6(x) = min(max(x, 0), 6)
 //   leaky_relu(x) = x > 0 ? x : alpha x       prelu(x) = x > 0 ? x : slope[channel] x
@@ -23,11 +23,11 @@ enum class Activation : std::uint8_t {
 
 struct ActivationSpec {
   Activation kind = Activation::kNone;
-  float alpha = 0.0f;                     // of kLeakyRelu
-  const std::uint16_t* slopes = nullptr;  // fp16 [ceil(c/8) * 8], of kPrelu
+  float alpha = 0.0f;                     // kLeakyRelu only
+  const std::uint16_t* slopes = nullptr;  // fp16 [ceil(c/8) * 8], kPrelu only
 };
 
-// y = activation(x) on a feature map [ceil(c/8)][pixels][8]; y may be x. Lanes >= c become 0.
+// y = activation(x) on a map [ceil(c/8)][pixels][8]; y may be x. Lanes >= c become 0.
 struct ActivateArgs {
   static constexpr std::string_view kFamily = "activate";
   const float* x;

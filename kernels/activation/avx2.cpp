@@ -1,3 +1,4 @@
+// The avx2 tier of activate.
 #include "kernels/common/avx2.h"
 #include "kernels/families.h"
 

@@ -1,3 +1,4 @@
+// The neon and neon32 tiers of activate.
 #include "kernels/common/neon_activation.h"
 #include "kernels/families.h"
 

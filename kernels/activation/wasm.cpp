@@ -1,3 +1,4 @@
+// The wasm tier of activate.
 #include "kernels/common/wasm_activation.h"
 #include "kernels/families.h"
 

@@ -1,3 +1,4 @@
+// The avx2 tier of causal_conv.
 #include "kernels/common/avx2_matvec.h"
 #include "kernels/families.h"
 

@@ -1,3 +1,4 @@
+// The avx512 tier of causal_conv.
 #include "kernels/common/avx512_matvec.h"
 #include "kernels/families.h"
 

@@ -1,9 +1,9 @@
 // One step of a causal convolution over time with kernel 2: y_t = act(W [x_{t-1}; x_t] + b).
 //
-// x: [in_elems], a multiple of 8. previous: [in_elems], x of the step before, zeros at the
-// beginning of a stream; replaced by x. y: [ceil(out_c/8) * 8], elements >= out_c become 0. No two
-// of them overlap. Weights: fp16 panels of 16 outputs, [panel][2 in_elems][16], the previous
-// input's first; the last panel is 8 wide when ceil(out_c/8) is odd.
+// x: [in_elems], a multiple of 8. previous: [in_elems], x of the previous step, initially zeros;
+// replaced by x. y: [ceil(out_c/8) * 8], elements >= out_c become 0. None of them may overlap.
+// Weights: fp16 panels of 16 outputs, [panel][2 in_elems][16], those of `previous` first; the last
+// panel is 8 wide if ceil(out_c/8) is odd.
 #pragma once
 
 #include <cstdint>

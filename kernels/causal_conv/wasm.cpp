@@ -1,3 +1,4 @@
+// The wasm tier of causal_conv.
 #include "kernels/common/wasm_matvec.h"
 #include "kernels/families.h"
 

@@ -1,3 +1,4 @@
+// The avx2 tier of combine.
 #include "kernels/combine/combine_of.h"
 
 #include "kernels/families.h"

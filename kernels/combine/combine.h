@@ -1,7 +1,7 @@
-// Two maps element by element: y = a * b, a / b or a + b.
+// Element-wise operations on two maps: y = a * b, a / b or a + b.
 //
-// a, y: [h, w, c], b: as they are, but of one row, one column or one channel where repeats_* say
-// so; in blocks of 8 channels. y may be a. Lanes beyond the channels become zero.
+// a, y: [h, w, c]; b: the same, or with a single row, column or channel that repeats_* broadcast.
+// In blocks of 8 channels. y may be a. Lanes beyond the channels become 0.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ struct CombineArgs {
   float* y;
   Combination kind;
   std::int32_t h, w, channels;
-  bool repeats_rows, repeats_columns, repeats_channels;  // of b
+  bool repeats_rows, repeats_columns, repeats_channels;  // broadcast b
 };
 
 }  // namespace mien::kernels

@@ -1,5 +1,5 @@
-// The loop of all tiers, which the compiler makes vectors of: 8 channels are independent. Each tier
-// has a copy with internal linkage, so that no code of one is merged with that of another.
+// The loop shared by all tiers, which compilers vectorize over the 8 channels of a block. Internal
+// linkage gives each tier its own copy.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 namespace mien::kernels {
 namespace {
 
-// kStep: 8 where b has a block for each pixel, 0 where one block serves a row.
+// kStep: 8 if b has a block per pixel, 0 if one block applies to the whole row.
 template <Combination kKind>
 void combine_row(const float* a, const float* b, float* y, std::int32_t width, std::int32_t b_step,
                  bool one_channel, std::int32_t lanes) {

@@ -1,3 +1,4 @@
+// The neon and neon32 tiers of combine.
 #include "kernels/combine/combine_of.h"
 
 #include "kernels/families.h"

@@ -1,3 +1,4 @@
+// The wasm tier of combine.
 #include "kernels/combine/combine_of.h"
 
 #include "kernels/families.h"

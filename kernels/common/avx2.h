@@ -1,5 +1,5 @@
-// What the AVX2 kernels share. Everything has internal linkage: no code compiled for AVX2 may be
-// merged with code for every CPU.
+// Helpers shared by the AVX2 kernels. All have internal linkage, so that the linker cannot merge
+// code for AVX2 with code for every CPU.
 #pragma once
 
 #include <immintrin.h>
@@ -24,7 +24,7 @@ inline Vec load_half(const std::uint16_t* at) {
 
 [[maybe_unused]] inline std::int32_t blocks_of(std::int32_t channels) { return (channels + 7) / 8; }
 
-// 1 in the lanes of a block that hold channels, 0 in those beyond.
+// All bits set in the lanes of a block that hold channels, 0 in the others.
 [[maybe_unused]] inline Vec lane_mask(std::int32_t block, std::int32_t channels) {
   const Vec lane = _mm256_setr_ps(0, 1, 2, 3, 4, 5, 6, 7);
   return _mm256_cmp_ps(lane, _mm256_set1_ps(static_cast<float>(channels - block * kLanes)),
@@ -56,7 +56,7 @@ inline Vec load_half(const std::uint16_t* at) {
   return _mm256_div_ps(one, _mm256_add_ps(one, exp(_mm256_sub_ps(_mm256_setzero_ps(), x))));
 }
 
-// 1 - 2 / (exp(2x) + 1); near zero, where that cancels, x - x^3/3 + 2x^5/15 - 17x^7/315.
+// 1 - 2 / (exp(2x) + 1), or near zero, because of cancellation, x - x^3/3 + 2x^5/15 - 17x^7/315.
 [[maybe_unused]] inline Vec tanh(Vec x) {
   const Vec one = _mm256_set1_ps(1.0f);
   const Vec large = _mm256_sub_ps(
@@ -71,12 +71,12 @@ inline Vec load_half(const std::uint16_t* at) {
   return _mm256_blendv_ps(large, small, _mm256_cmp_ps(magnitude, _mm256_set1_ps(0.2f), _CMP_LT_OQ));
 }
 
-// min(max(x, low), high) is what most activations are.
+// Most activations are min(max(x, low), high).
 struct Clamp {
   float low, high;
 };
 
-// False when the activation is something else; the clamp then lets everything pass.
+// Returns false for other activations; `clamp` is then infinite.
 [[maybe_unused]] inline bool is_clamp(const ActivationSpec& activation, Clamp& clamp) {
   constexpr float kInfinity = __builtin_inff();
   clamp = {-kInfinity, kInfinity};
@@ -97,7 +97,7 @@ struct Clamp {
   }
 }
 
-// The activation of one block of channels; `mask` as of lane_mask.
+// Applies the activation to block `block` of a map with `channels` channels.
 [[maybe_unused]] inline Vec activated(Vec x, const ActivationSpec& activation, std::int32_t block,
                                       std::int32_t channels) {
   const Vec zero = _mm256_setzero_ps();
@@ -114,7 +114,7 @@ struct Clamp {
     case Activation::kPrelu:
       return _mm256_blendv_ps(_mm256_mul_ps(x, load_half(activation.slopes + block * kLanes)), x,
                               _mm256_cmp_ps(x, zero, _CMP_GT_OQ));
-    case Activation::kSigmoid:  // the only one that does not keep the unused lanes at zero
+    case Activation::kSigmoid:  // the only one that maps 0 in unused lanes to another value
       return _mm256_and_ps(sigmoid(x), lane_mask(block, channels));
     case Activation::kTanh:
       return tanh(x);

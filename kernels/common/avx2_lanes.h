@@ -1,4 +1,4 @@
-// Channels that do not begin with a block: eight neighbours out of two blocks.
+// Loads eight consecutive channels that span two blocks.
 #pragma once
 
 #include "kernels/common/avx2.h"
@@ -20,7 +20,7 @@ class LaneShift {
     from_high_ = _mm256_castsi256_ps(_mm256_cmpgt_epi32(from, _mm256_set1_epi32(7)));
   }
 
-  // The lanes `lanes` .. `lanes` + 7 of `low` and `high` in a row.
+  // Lanes `lanes` .. `lanes` + 7 of the concatenation of `low` and `high`.
   [[nodiscard]] Vec apply(Vec low, Vec high) const {
     return _mm256_blendv_ps(_mm256_permutevar8x32_ps(low, order_),
                             _mm256_permutevar8x32_ps(high, order_), from_high_);

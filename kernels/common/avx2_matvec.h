@@ -1,4 +1,4 @@
-// Matrix times vector on packed panels: fully connected layers, causal convolutions, LSTM gates.
+// Matrix-vector product on packed panels, for fully connected, causal convolution and LSTM layers.
 #pragma once
 
 #include "kernels/common/avx2.h"
@@ -18,7 +18,7 @@ struct PanelSums {
       }
     }
   }
-  // n is a multiple of 4. Returns the weights that follow.
+  // n must be a multiple of 4. Returns the address of the next weights.
   const std::uint16_t* add(const float* x, std::int32_t n, const std::uint16_t* w) {
     for (std::int32_t k = 0; k < n; k += 4) {
       for (int u = 0; u < 4; ++u, w += kVecs * kLanes) {

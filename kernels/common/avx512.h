@@ -1,5 +1,5 @@
-// What the AVX-512 kernels share. Everything has internal linkage: no code compiled for AVX-512 may
-// be merged with code for every CPU.
+// Helpers shared by the AVX-512 kernels. All have internal linkage, so that the linker cannot merge
+// code for AVX-512 with code for every CPU.
 #pragma once
 
 #include <immintrin.h>
@@ -11,7 +11,7 @@
 
 namespace mien::kernels::avx512 {
 
-constexpr std::int32_t kBlock = 8;   // channels of a block of activations
+constexpr std::int32_t kBlock = 8;   // channels of a block of a map
 constexpr std::int32_t kPanel = 16;  // output channels of a panel of weights: one vector
 
 namespace {
@@ -20,7 +20,7 @@ using Vec = __m512;
 
 [[maybe_unused]] inline std::int32_t blocks_of(std::int32_t channels) { return (channels + 7) / 8; }
 
-// The first `count` lanes, 0 to 16.
+// Mask of the first `count` lanes, 0 to 16.
 [[maybe_unused]] inline __mmask16 first_lanes(std::int32_t count) {
   return count >= kPanel ? __mmask16{0xFFFF} : static_cast<__mmask16>((1u << count) - 1);
 }
@@ -29,12 +29,12 @@ using Vec = __m512;
   return _mm512_cvtph_ps(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(at)));
 }
 
-// Reads only the lanes of the mask; the others are 0.
+// Loads only the lanes of the mask; the others are 0.
 [[maybe_unused]] inline Vec load_half(const std::uint16_t* at, __mmask16 lanes) {
   return _mm512_cvtph_ps(_mm256_maskz_loadu_epi16(lanes, at));
 }
 
-// Two blocks of a map as one vector, and back. Of one block alone the upper half is 0 and is not
+// Loads and stores two blocks of a map as one vector. If not `both`, the upper half is 0 and is not
 // stored.
 [[maybe_unused]] inline Vec load_blocks(const float* at, std::ptrdiff_t plane, bool both) {
   const Vec low = _mm512_castps256_ps512(_mm256_loadu_ps(at));
@@ -71,7 +71,7 @@ using Vec = __m512;
   return _mm512_div_ps(one, _mm512_add_ps(one, exp(_mm512_sub_ps(_mm512_setzero_ps(), x))));
 }
 
-// 1 - 2 / (exp(2x) + 1); near zero, where that cancels, x - x^3/3 + 2x^5/15 - 17x^7/315.
+// 1 - 2 / (exp(2x) + 1), or near zero, because of cancellation, x - x^3/3 + 2x^5/15 - 17x^7/315.
 [[maybe_unused]] inline Vec tanh(Vec x) {
   const Vec one = _mm512_set1_ps(1.0f);
   const Vec large = _mm512_sub_ps(
@@ -86,12 +86,12 @@ using Vec = __m512;
   return _mm512_mask_blend_ps(near, large, small);
 }
 
-// min(max(x, low), high) is what most activations are.
+// Most activations are min(max(x, low), high).
 struct Clamp {
   float low, high;
 };
 
-// False when the activation is something else; the clamp then lets everything pass.
+// Returns false for other activations; `clamp` is then infinite.
 [[maybe_unused]] inline bool is_clamp(const ActivationSpec& activation, Clamp& clamp) {
   constexpr float kInfinity = __builtin_inff();
   clamp = {-kInfinity, kInfinity};
@@ -112,7 +112,7 @@ struct Clamp {
   }
 }
 
-// The activation of up to 16 channels from `channel` on, `lanes` of them; the other lanes become 0.
+// Applies the activation to the channels from `channel` on in `lanes`; the other lanes become 0.
 [[maybe_unused]] inline Vec activated(Vec x, const ActivationSpec& activation, std::int32_t channel,
                                       __mmask16 lanes) {
   const __mmask16 positive = _mm512_cmp_ps_mask(x, _mm512_setzero_ps(), _CMP_GT_OQ);

@@ -1,4 +1,4 @@
-// Matrix times vector on packed panels: fully connected layers, causal convolutions, LSTM gates.
+// Matrix-vector product on packed panels, for fully connected, causal convolution and LSTM layers.
 #pragma once
 
 #include "kernels/common/avx512.h"
@@ -13,12 +13,12 @@ struct TwoParts {
   std::int32_t second_elems;
 };
 
-// Sums of kPanels panels at once, each in two parts, which hides the latency of the multiply-adds.
+// Sums of kPanels panels at once, each split in two to hide the latency of multiply-adds.
 template <int kPanels>
 struct PanelSums {
   Vec sum[2][kPanels];
 
-  // n is a multiple of 8; `panel_elems` from one panel of weights to the next.
+  // n must be a multiple of 8; `panel_elems` is the distance between panels of weights.
   void add(const float* x, std::int32_t n, const std::uint16_t* w, std::ptrdiff_t panel_elems) {
     for (std::int32_t k = 0; k < n; k += 4, w += 4 * kPanel) {
 #pragma GCC unroll 4
@@ -34,7 +34,7 @@ struct PanelSums {
   }
 };
 
-// The panel of 8 that comes last: two elements of the sum at once.
+// A last panel of 8 outputs: adds two elements at once.
 inline Vec half_panel_sum(const float* x, std::int32_t n, const std::uint16_t* w, Vec sum) {
   Vec other = _mm512_setzero_ps();
   const auto two = [x](std::int32_t k) {

@@ -1,4 +1,4 @@
-// What kernels share that are written once for all tiers, as plain loops over the 8 channels of a
+// Helpers for kernels that are written once for all tiers, as plain loops over the 8 channels of a
 // block.
 #pragma once
 
@@ -10,9 +10,8 @@ namespace {
 
 inline constexpr int kBlockLanes = 8;
 
-// Before a loop whose iterations do not depend on one another, whatever the compiler can prove.
-// clang warns where sanitizers or the optimization level keep it from making vectors, which is no
-// fault.
+// Marks a loop whose iterations are independent, even where the compiler cannot prove it. The
+// warning is off because sanitizers and low optimization levels legitimately prevent vectorization.
 #ifdef __clang__
 #pragma clang diagnostic ignored "-Wpass-failed"
 #define MIEN_INDEPENDENT _Pragma("clang loop vectorize(assume_safety)")
@@ -20,7 +19,7 @@ inline constexpr int kBlockLanes = 8;
 #define MIEN_INDEPENDENT _Pragma("GCC ivdep")
 #endif
 
-// Channels of a block that exist; the others become zero.
+// Stores the first `lanes` values of a block and sets the others to zero.
 [[maybe_unused]] inline void store_lanes(const float (&values)[kBlockLanes], std::int32_t lanes,
                                          float* y) {
   for (int i = 0; i < kBlockLanes; ++i) {
@@ -32,7 +31,7 @@ inline constexpr int kBlockLanes = 8;
   return (channels + kBlockLanes - 1) / kBlockLanes;
 }
 
-// In the last block of a map.
+// Sets the unused lanes of a map's last block to zero.
 [[maybe_unused]] inline void clear_unused_lanes(float* map, std::int32_t pixels,
                                                 std::int32_t channels) {
   const std::int32_t used = channels % kBlockLanes;

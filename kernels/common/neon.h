@@ -1,7 +1,7 @@
-// What the NEON kernels share. Their sources are compiled once per ARM tier, each time with
-// MIEN_TIER as the name of that tier's namespace: neon (AArch64: 32 registers of 4 floats, products
-// by lane) and neon32 (ARMv7 with VFPv4: 16 registers, no fused product by lane). Everything has
-// internal linkage: no code of one tier may be merged with that of another.
+// Helpers shared by the NEON kernels. Their sources are compiled once per ARM tier, with MIEN_TIER
+// as the tier's namespace: neon (AArch64: 32 registers of 4 floats, multiply by lane) and neon32
+// (ARMv7 with VFPv4: 16 registers, no fused multiply by lane). All have internal linkage, so that
+// the linker cannot merge code of different tiers.
 #pragma once
 
 #include <arm_neon.h>
@@ -11,13 +11,13 @@
 
 #include "kernels/activation/activation.h"
 
-// The instructions of AArch64. Tests define it where they emulate them on another machine.
+// AArch64 instructions. Tests that emulate them on other machines define MIEN_NEON64 themselves.
 #ifdef __aarch64__
 #define MIEN_NEON64
 #endif
 
-// Before a loop over vectors: gcc unrolls loops that no other encloses too late to keep the arrays
-// they walk in registers. clang needs no telling.
+// Precedes an innermost loop over vectors: gcc otherwise unrolls it too late to keep the arrays in
+// registers. clang does not need it.
 #ifdef __clang__
 #define MIEN_UNROLLED
 #else
@@ -27,7 +27,7 @@
 namespace mien::kernels::MIEN_TIER {
 
 constexpr std::int32_t kLanes = 4;   // floats of a vector
-constexpr std::int32_t kBlock = 8;   // channels of a block of activations
+constexpr std::int32_t kBlock = 8;   // channels of a block of a map
 constexpr std::int32_t kPanel = 16;  // output channels of a panel of weights
 
 namespace {
@@ -78,7 +78,7 @@ template <int kLane>
 inline Vec fma_lane(Vec sum, Vec a, Vec b) {
   return vmlaq_lane_f32(sum, a, kLane < 2 ? vget_low_f32(b) : vget_high_f32(b), kLane % 2);
 }
-// The estimate has 8 bits; every step of Newton's method doubles them.
+// The estimate has 8 correct bits; each Newton step doubles them.
 [[maybe_unused]] inline Vec divide(Vec a, Vec b) {
   Vec reciprocal = vrecpeq_f32(b);
   for (int step = 0; step < 3; ++step) {
@@ -86,7 +86,7 @@ inline Vec fma_lane(Vec sum, Vec a, Vec b) {
   }
   return vmulq_f32(a, reciprocal);
 }
-[[maybe_unused]] inline Vec square_root(Vec x) {  // no vector instruction has one
+[[maybe_unused]] inline Vec square_root(Vec x) {  // ARMv7 has no vector instruction
   float lanes[kLanes];
   vst1q_f32(lanes, x);
   for (float& lane : lanes) {
@@ -94,7 +94,7 @@ inline Vec fma_lane(Vec sum, Vec a, Vec b) {
   }
   return vld1q_f32(lanes);
 }
-// Of numbers that a 32-bit integer can hold.
+// For values within the range of a 32-bit integer.
 [[maybe_unused]] inline Vec floor(Vec x) {
   const Vec truncated = vcvtq_f32_s32(vcvtq_s32_f32(x));
   const uint32x4_t one = vreinterpretq_u32_f32(splat(1.0f));
@@ -125,7 +125,7 @@ inline Vec fma_lane(Vec sum, Vec a, Vec b) {
   return (channels + kBlock - 1) / kBlock;
 }
 
-// Set in the lanes of channels first .. first + 3 that exist.
+// Mask of the lanes of channels first .. first + 3 that exist.
 [[maybe_unused]] inline uint32x4_t lane_mask(std::int32_t first, std::int32_t channels) {
   static constexpr std::int32_t kOrder[kLanes] = {0, 1, 2, 3};
   return vcltq_s32(vld1q_s32(kOrder), vdupq_n_s32(channels - first));

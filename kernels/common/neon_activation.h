@@ -30,7 +30,7 @@ namespace {
   return divide(splat(1.0f), vaddq_f32(splat(1.0f), exp(vnegq_f32(x))));
 }
 
-// 1 - 2 / (exp(2x) + 1); near zero, where that cancels, x - x^3/3 + 2x^5/15 - 17x^7/315.
+// 1 - 2 / (exp(2x) + 1), or near zero, because of cancellation, x - x^3/3 + 2x^5/15 - 17x^7/315.
 [[maybe_unused]] inline Vec tanh(Vec x) {
   const Vec one = splat(1.0f);
   const Vec large = vsubq_f32(one, divide(splat(2.0f), vaddq_f32(exp(vaddq_f32(x, x)), one)));
@@ -43,7 +43,7 @@ namespace {
   return vbslq_f32(vcltq_f32(vabsq_f32(x), splat(0.2f)), small, large);
 }
 
-// What is done to four channels from `first` on, besides clamping.
+// Applies an activation other than a clamp to four channels from `first` on.
 inline Vec curved(Vec x, const ActivationSpec& activation, std::int32_t first,
                   std::int32_t channels) {
   const uint32x4_t positive = vcgtq_f32(x, splat(0.0f));
@@ -52,7 +52,7 @@ inline Vec curved(Vec x, const ActivationSpec& activation, std::int32_t first,
       return vbslq_f32(positive, x, vmulq_f32(x, splat(activation.alpha)));
     case Activation::kPrelu:
       return vbslq_f32(positive, x, vmulq_f32(x, load_half(activation.slopes + first)));
-    case Activation::kSigmoid:  // the only one that does not keep the unused lanes at zero
+    case Activation::kSigmoid:  // the only one that maps 0 in unused lanes to another value
       return only(lane_mask(first, channels), sigmoid(x));
     case Activation::kTanh:
       return tanh(x);
@@ -61,7 +61,7 @@ inline Vec curved(Vec x, const ActivationSpec& activation, std::int32_t first,
   }
 }
 
-// On [pixels][vectors][4] in place. Out of line, so that the sums around it stay in registers.
+// In place on [pixels][vectors][4]. Not inlined, so that the caller's sums stay in registers.
 [[maybe_unused, gnu::noinline]] inline void curve(float* values, std::int32_t vectors,
                                                   std::ptrdiff_t pixels,
                                                   const ActivationSpec& activation,
@@ -74,8 +74,8 @@ inline Vec curved(Vec x, const ActivationSpec& activation, std::int32_t first,
   }
 }
 
-// An activation made ready for tiles [pixels][vectors] of sums. All that clamp have a range, the
-// others an infinite one and a curve.
+// An activation prepared for tiles [pixels][vectors] of sums: a range for clamps, otherwise an
+// infinite range and a curve.
 class Activator {
  public:
   Activator(const ActivationSpec& activation, std::int32_t channels)
@@ -97,19 +97,19 @@ class Activator {
 
   [[nodiscard]] Vec clamped(Vec x) const { return vminq_f32(vmaxq_f32(x, low_), high_); }
 
-  // What remains to be done to a block whose values are clamped: in place.
+  // Applies the curve, if any, to clamped values of a block in place.
   void curve_block(float* values, std::ptrdiff_t pixels, std::int32_t block) const {
     curve(values, kBlock / kLanes, pixels, activation_, block * kBlock, channels_);
   }
 
-  // sums[p][v] are channels first + 4 v .. + 3.
+  // sums[p][v] holds channels first + 4 v .. first + 4 v + 3.
   template <int kPixels, int kVecs>
   [[gnu::always_inline]] void apply(Vec (&sums)[kPixels][kVecs], std::int32_t first) const {
     MIEN_UNROLLED for (auto& pixel : sums) {
       MIEN_UNROLLED for (Vec& one : pixel) { one = clamped(one); }
     }
     if (curves_) {
-      float copy[kPixels * kVecs * kLanes];  // in memory, so that the sums need not be
+      float copy[kPixels * kVecs * kLanes];  // so that the sums themselves stay in registers
       MIEN_UNROLLED for (int i = 0; i < kPixels * kVecs; ++i) {
         vst1q_f32(copy + i * kLanes, sums[i / kVecs][i % kVecs]);
       }

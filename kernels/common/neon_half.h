@@ -1,11 +1,11 @@
-// Half precision on NEON (ARMv8.2 with FP16): vectors of 8 numbers.
+// Half precision on NEON (ARMv8.2 with FP16): vectors of 8 values.
 #pragma once
 
 #include "kernels/common/neon.h"
 
 namespace mien::kernels::MIEN_TIER {
 
-using Half = std::uint16_t;  // fp16 as it lies in memory
+using Half = std::uint16_t;  // fp16 bits
 constexpr std::int32_t kHalves = 8;
 
 namespace {
@@ -21,19 +21,19 @@ using HalfVec = float16x8_t;
 [[maybe_unused]] inline HalfVec splat_halves(float x) {
   return vdupq_n_f16(static_cast<float16_t>(x));
 }
-[[maybe_unused]] inline HalfVec narrowed(Pair x) {
+[[maybe_unused]] inline HalfVec to_half(Pair x) {
   return vcvt_high_f16_f32(vcvt_f16_f32(x.low), x.high);
 }
 [[maybe_unused]] inline Pair widened(HalfVec x) {
   return {vcvt_f32_f16(vget_low_f16(x)), vcvt_high_f32_f16(x)};
 }
-// Infinities and what is no number become the largest of their sign, or of either.
+// Replaces infinities and NaN by the largest finite value, with the sign of an infinity.
 [[maybe_unused]] inline HalfVec finite(HalfVec x) {
   const HalfVec largest = splat_halves(65504.0f);
   return vmaxnmq_f16(vminnmq_f16(x, largest), vnegq_f16(largest));
 }
-// a * b[kLane], and sum + that. gcc 12 would copy the lane to all of a register first. Emulated,
-// they are what the intrinsics are.
+// a * b[kLane], and sum + a * b[kLane]. Inline assembly, because gcc 12 first copies the lane to a
+// whole register. Emulation uses the intrinsics.
 template <int kLane>
 inline HalfVec multiply_lane(HalfVec a, HalfVec b) {
 #if defined(__clang__) || !defined(__aarch64__)

@@ -1,6 +1,6 @@
-// The sums of a panel of outputs over a vector of inputs: products of 8 inputs in half precision,
-// such sums in fp32. More products at a time would save little, and these are layers whose answers
-// are seen.
+// Sums of a panel of outputs over a vector of inputs: groups of 8 inputs in half precision, the
+// sums of the groups in fp32. Larger groups would save little time and lose accuracy in these
+// layers, which produce the visible output.
 #pragma once
 
 #include "kernels/common/neon_half.h"
@@ -16,7 +16,7 @@ struct PanelSums {
   [[gnu::always_inline]] explicit PanelSums(const Half* bias) {
     MIEN_UNROLLED for (int v = 0; v < kVecs; ++v) { sum[v] = load_half(bias + v * kLanes); }
   }
-  // Products of even inputs and of odd ones, so that two chains hide each other's latency.
+  // Even and odd inputs have separate sums, so that two dependency chains hide the latency.
   using Products = HalfVec[2][kHalfVecs];
   template <int kLane>
   [[gnu::always_inline]] static void add_input(HalfVec x, const Half* w, Products& products) {
@@ -29,10 +29,10 @@ struct PanelSums {
       one = kLane < 2 ? multiply_lane<kLane>(row[v], x) : fma_lane<kLane>(one, row[v], x);
     }
   }
-  // n is a multiple of 8. Returns the weights that follow.
+  // n must be a multiple of 8. Returns the address of the next weights.
   [[gnu::always_inline]] const Half* add(const float* x, std::int32_t n, const Half* w) {
     for (std::int32_t k = 0; k < n; k += kHalves, w += kHalves * kHalfVecs * kHalves) {
-      const HalfVec eight = narrowed(load_pair(x + k));
+      const HalfVec eight = to_half(load_pair(x + k));
       Products products = {};
       add_input<0>(eight, w, products);
       add_input<1>(eight, w, products);

@@ -1,4 +1,4 @@
-// Channels that do not begin with a block: eight neighbours out of two blocks.
+// Loads eight consecutive channels that span two blocks.
 #pragma once
 
 #include "kernels/common/neon.h"
@@ -10,12 +10,12 @@ inline Pair load_pair_or_zero(const float* map, std::ptrdiff_t at) {
   return map == nullptr ? Pair{splat(0.0f), splat(0.0f)} : load_pair(map + at);
 }
 
-// In every lane the one of the two that is not zero, bit by bit.
+// Bitwise or: in each lane the operand that is not zero.
 [[maybe_unused]] inline Vec either(Vec a, Vec b) {
   return vreinterpretq_f32_u32(vorrq_u32(vreinterpretq_u32_f32(a), vreinterpretq_u32_f32(b)));
 }
 
-// Lanes `first` .. `first` + 7 of `low` and `high` in a row; `first` in 0..7.
+// Lanes `first` .. `first` + 7 of the concatenation of `low` and `high`; `first` in 0..7.
 inline Pair shifted(Pair low, Pair high, std::int32_t first) {
   float both[2 * kBlock];
   store_pair(both, low);

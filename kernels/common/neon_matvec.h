@@ -1,4 +1,4 @@
-// Matrix times vector on packed panels: fully connected layers, causal convolutions, LSTM gates.
+// Matrix-vector product on packed panels, for fully connected, causal convolution and LSTM layers.
 #pragma once
 
 #include "kernels/common/neon_activation.h"
@@ -18,7 +18,7 @@ struct TwoParts {
   std::int32_t second_elems;
 };
 
-// kVecs vectors of outputs.
+// Computes kVecs vectors of outputs.
 template <int kVecs>
 [[gnu::noinline]] void matvec_panel(const TwoParts& x, const std::uint16_t* weights,
                                     const std::uint16_t* bias, const Activator& activator,

@@ -1,4 +1,4 @@
-// The sums of a panel of outputs over a vector of inputs.
+// Sums of a panel of outputs over a vector of inputs.
 #pragma once
 
 #include "kernels/common/neon_weights.h"
@@ -26,7 +26,7 @@ struct PanelSums {
       one = fma_lane<kLane>(one, row[v], x);
     }
   }
-  // n is a multiple of 4. Returns the weights that follow.
+  // n must be a multiple of 4. Returns the address of the next weights.
   [[gnu::always_inline]] const std::uint16_t* add(const float* x, std::int32_t n,
                                                   const std::uint16_t* w) {
     constexpr std::ptrdiff_t kFourRows = std::ptrdiff_t{kLanes} * kVecs * kLanes;

@@ -1,18 +1,18 @@
-// Weights of a panel for the tiles of sums: fp16 as they are stored, or widened once for all tiles
-// where there are several.
+// Weights of a panel for tiles of sums: fp16 as stored, or converted to fp32 once for several
+// tiles.
 #pragma once
 
 #include "kernels/common/neon.h"
 
 namespace mien::kernels::MIEN_TIER {
 
-// Of weights widened at a time: on the stack, which a session's run keeps small.
+// fp32 weights per conversion; they are on the stack, which must stay small.
 constexpr std::int32_t kWidenedElems = 1280;
 
 namespace {
 
-// Tiles are kVecs vectors of output channels wide: 4 (a whole panel) or 2 (half of it). How many
-// pixels fit into the registers besides depends on how many of these there are.
+// A tile is kVecs vectors of output channels wide: 4 (a panel) or 2 (half a panel). The number of
+// pixels per tile depends on kVecs and on the number of registers.
 #ifdef MIEN_NEON64
 template <int kVecs>
 constexpr int kTilePixels = kVecs == 4 ? 5 : 9;
@@ -21,7 +21,7 @@ template <int kVecs>
 constexpr int kTilePixels = kVecs == 4 ? 2 : 4;
 #endif
 
-// One row of weights, those of one input: kVecs vectors.
+// Loads the weights of one input: kVecs vectors.
 template <int kVecs>
 [[gnu::always_inline]] inline void load_row(const float* at, Vec (&row)[kVecs]) {
   MIEN_UNROLLED for (int v = 0; v < kVecs; ++v) { row[v] = vld1q_f32(at + v * kLanes); }
@@ -35,8 +35,7 @@ template <int kVecs>
   }
 }
 
-// Where a tile's weights begin, and how far its rows are apart: in a panel of 16 or 8, or side by
-// side when widened.
+// fp16 weights of a tile: their start and the distance between rows, which is 16 or 8 in a panel.
 struct Halves {
   const std::uint16_t* first;
   std::int32_t stride;
@@ -55,7 +54,7 @@ struct Widened {
   }
 };
 
-// The rows of `weights` side by side in `space`.
+// Converts `rows` rows of `weights` to fp32, contiguously in `space`.
 template <int kVecs>
 inline Widened widen(const Halves& weights, std::ptrdiff_t rows, float* space) {
   const std::uint16_t* from = weights.first;
@@ -69,8 +68,8 @@ inline Widened widen(const Halves& weights, std::ptrdiff_t rows, float* space) {
   return {space};
 }
 
-// sums[p][v] += x[p][k] w[k][v] over the 4 inputs k that lie together in x, those of one pixel
-// `step` floats after those of the last.
+// sums[p][v] += x[p][k] w[k][v] for the 4 contiguous inputs k of x. Pixels of x are `step` floats
+// apart.
 template <int kLane, int kPixels, int kVecs>
 [[gnu::always_inline]] inline void add_input(const Vec (&row)[kVecs], const Vec (&x)[kPixels],
                                              Vec (&sums)[kPixels][kVecs]) {
@@ -80,7 +79,7 @@ template <int kLane, int kPixels, int kVecs>
     }
   }
 }
-// In kParts partial sums, each of which has every kParts-th input.
+// The same in kParts partial sums, each of every kParts-th input.
 template <int kParts, int kPixels, int kVecs, class T>
 [[gnu::always_inline]] inline void add_four_inputs(const float* x, std::ptrdiff_t step, const T* w,
                                                    std::ptrdiff_t row_elems,

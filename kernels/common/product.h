@@ -1,5 +1,5 @@
-// Panels of weights times pixels: what pointwise layers, fused or not, are made of. One function of
-// each tier, since its register tiles are many.
+// Panels of weights times pixels, the core of pointwise layers and fused blocks. One function per
+// tier, because each has many register tiles.
 #pragma once
 
 #include <cstddef>
@@ -7,9 +7,9 @@
 
 namespace mien::kernels {
 
-constexpr std::ptrdiff_t kChannels = 8;  // of a block of a map
+constexpr std::ptrdiff_t kChannels = 8;  // channels of a block of a map
 
-// Where pixel after pixel lies, row after row.
+// Layout of pixels in rows.
 struct PixelRows {
   std::ptrdiff_t pixel_elems;  // from one pixel to the next
   std::ptrdiff_t half_elems;   // from the lower 8 channels of a panel to the upper 8

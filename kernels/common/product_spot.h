@@ -1,4 +1,4 @@
-// Where a tile of a product begins, for tiers whose tiles store one pixel after another.
+// Start of a tile of a product, for tiers whose tiles store pixels one by one.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 namespace mien::kernels {
 namespace {
 
-// One pixel after another.
+// Iterates over pixels in rows.
 class Cursor {
  public:
   Cursor(const PixelRows& rows, std::int32_t pixel)
@@ -36,7 +36,7 @@ class Cursor {
   const PixelRows* rows_;
 };
 
-// Some pixels of the panels from `panel` on. A tile moves it behind those it made.
+// Position of a tile: a panel and a pixel. Each tile advances it past its own pixels.
 struct Spot {
   Spot(const ProductArgs& args, std::int32_t first_panel, std::int32_t pixel)
       : a(args),

@@ -1,10 +1,10 @@
-// What products of several tiers have in common.
+// Helpers shared by the products of several tiers.
 #pragma once
 
 namespace mien::kernels {
 namespace {
 
-// Few sums are split into partial ones: eight at least hide the latency of the multiply-adds.
+// Number of partial sums per sum: at least eight sums hide the latency of multiply-adds.
 constexpr int partial_sums(int sums) { return sums >= 8 ? 1 : sums >= 4 ? 2 : 4; }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// What the reference kernels share: weights, activations and addressing, in double.
+// Helpers shared by the reference kernels: weights, activations and addressing, in double
+// precision.
 #pragma once
 
 #include <algorithm>
@@ -11,12 +12,12 @@
 
 namespace mien::kernels::ref {
 
-inline constexpr std::int32_t kBlock = 8;   // channels of a block of activations
+inline constexpr std::int32_t kBlock = 8;   // channels of a block of a map
 inline constexpr std::int32_t kPanel = 16;  // output channels of a panel of weights
 
 [[nodiscard]] inline std::int32_t blocks_of(std::int32_t channels) { return (channels + 7) / 8; }
 
-// IEEE 754 binary16 to a number: sign, 5 bits of exponent, 10 of fraction.
+// Converts IEEE 754 binary16: sign, 5 bits of exponent, 10 bits of fraction.
 [[nodiscard]] inline float half_to_float(std::uint16_t half) {
   const std::uint32_t sign = (half & 0x8000u) << 16;
   const std::uint32_t exponent = (half >> 10) & 0x1Fu;
@@ -29,7 +30,7 @@ inline constexpr std::int32_t kPanel = 16;  // output channels of a panel of wei
   return std::bit_cast<float>(sign | (widened << 23) | (fraction << 13));
 }
 
-// Weight of output o and reduction index k of panels packed as [panel][reduction][16 or 8].
+// Weight of output o and reduction index k in panels packed as [panel][reduction][16 or 8].
 [[nodiscard]] inline double panel_weight(const std::uint16_t* weights, std::int32_t outputs,
                                          std::ptrdiff_t reduction, std::int32_t o,
                                          std::ptrdiff_t k) {
@@ -62,7 +63,7 @@ inline constexpr std::int32_t kPanel = 16;  // output channels of a panel of wei
   return x;
 }
 
-// Offset in floats of channel c of a pixel in a map of blocks.
+// Offset in floats of channel c of a pixel in a blocked map.
 [[nodiscard]] inline std::ptrdiff_t blocked(std::int32_t c, std::ptrdiff_t pixel,
                                             std::ptrdiff_t pixels) {
   return (c / kBlock * pixels + pixel) * kBlock + c % kBlock;

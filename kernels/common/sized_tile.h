@@ -1,6 +1,6 @@
-// Register tiles come in a few sizes. A row of pixels is made of tiles of one size and, at its end,
-// a smaller one, which overlaps the one before if none fits: making a pixel twice costs less than
-// code for every size.
+// Register tiles come in a few sizes. A row of pixels consists of tiles of one size and a smaller
+// one at its end, which overlaps the previous tile if no size fits: computing a pixel twice costs
+// less than code for every size.
 #pragma once
 
 #include <cstddef>
@@ -15,8 +15,8 @@ struct SizedTile {
   Run run;
 };
 
-// `count` tiles `each` from the first pixel on, then `last`, unless its run is nullptr, for those
-// pixels that end with the last.
+// `count` tiles of `each` from the first pixel on, then `last`, unless its run is nullptr, aligned
+// to the last pixel.
 template <class Run>
 struct Tiling {
   SizedTile<Run> each;
@@ -24,12 +24,12 @@ struct Tiling {
   SizedTile<Run> last;
 };
 
-// As few tiles for `pixels` pixels as the largest would do, of the smallest size. `sizes`: upwards;
-// the first is at most `pixels`.
+// Chooses the smallest tile size that needs as few tiles for `pixels` pixels as the largest.
+// `sizes` ascend; the first is at max_pixels `pixels`.
 template <class Run, std::size_t kCount>
 Tiling<Run> tiling_of(const SizedTile<Run> (&sizes)[kCount], std::int32_t pixels) {
-  const std::int32_t most = sizes[kCount - 1].pixels;
-  const std::int32_t tiles = (pixels + most - 1) / most;
+  const std::int32_t max_pixels = sizes[kCount - 1].pixels;
+  const std::int32_t tiles = (pixels + max_pixels - 1) / max_pixels;
   const std::int32_t wanted = (pixels + tiles - 1) / tiles;
   const SizedTile<Run>* each = sizes;
   while (each->pixels < wanted && each[1].pixels <= pixels) {

@@ -1,6 +1,6 @@
-// What the WebAssembly kernels share: vectors of 4 floats (SIMD128), no fused multiply-add, no
-// conversion from fp16. Everything has internal linkage: no code of one tier may be merged with
-// that of another.
+// Helpers shared by the WebAssembly kernels: vectors of 4 floats (SIMD128), no fused multiply-add,
+// no fp16 conversion. All have internal linkage, so that the linker cannot merge code of different
+// tiers.
 #pragma once
 
 #include <wasm_simd128.h>
@@ -13,7 +13,7 @@
 namespace mien::kernels::wasm {
 
 constexpr std::int32_t kLanes = 4;   // floats of a vector
-constexpr std::int32_t kBlock = 8;   // channels of a block of activations
+constexpr std::int32_t kBlock = 8;   // channels of a block of a map
 constexpr std::int32_t kPanel = 16;  // output channels of a panel of weights
 
 namespace {
@@ -30,17 +30,17 @@ using Vec = v128_t;
   return wasm_f32x4_add(sum, wasm_f32x4_mul(a, b));
 }
 
-// The larger and the smaller of two; x where one is not a number. The operators that WebAssembly
-// calls pmax and pmin are one instruction on every CPU, its max and min are not.
+// Maximum and minimum; x if one is NaN. WebAssembly's pmax and pmin are one instruction on every
+// CPU, unlike its max and min.
 [[maybe_unused]] inline Vec at_least(Vec x, Vec low) { return wasm_f32x4_pmax(x, low); }
 [[maybe_unused]] inline Vec at_most(Vec x, Vec high) { return wasm_f32x4_pmin(x, high); }
 
 // x where the mask is set, 0 elsewhere.
 [[maybe_unused]] inline Vec only(Vec mask, Vec x) { return wasm_v128_and(mask, x); }
 
-// Four finite halves, denormals too: with the fields of a half moved to where those of a float
-// are, and sign bits removed from the exponent that the shift has left there, a float is too small
-// by the difference of the biases, 2^112.
+// Loads four finite fp16 values, denormal or not: after the fields of a half move to those of a
+// float and the shifted sign bits are cleared from the exponent, the float is too small by the
+// difference of the exponent biases, 2^112.
 [[maybe_unused]] inline Vec load_half(const std::uint16_t* at) {
   const Vec fields = wasm_i32x4_shl(wasm_i32x4_load16x4(at), 13);
   const Vec small = wasm_v128_and(fields, wasm_i32x4_splat(static_cast<int>(0x8FFFE000u)));
@@ -51,7 +51,7 @@ using Vec = v128_t;
   return (channels + kBlock - 1) / kBlock;
 }
 
-// Set in the lanes of channels first .. first + 3 that exist.
+// Mask of the lanes of channels first .. first + 3 that exist.
 [[maybe_unused]] inline Vec lane_mask(std::int32_t first, std::int32_t channels) {
   return wasm_i32x4_lt(wasm_i32x4_make(0, 1, 2, 3), wasm_i32x4_splat(channels - first));
 }

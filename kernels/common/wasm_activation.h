@@ -9,8 +9,8 @@ namespace mien::kernels::wasm {
 namespace {
 
 // exp(x) to 2 ulp on [-87, 88], clamped outside: 2^n e^r with r in [-ln2/2, ln2/2], a polynomial of
-// degree 6 (Cephes expf by S. Moshier). Adding 1.5 * 2^23 rounds to an integer n and leaves it in
-// the lowest bits.
+// degree 6 (Cephes expf by S. Moshier). Adding 1.5 * 2^23 rounds to an integer n, in the lowest
+// bits.
 [[maybe_unused]] inline Vec exp(Vec x) {
   x = at_most(at_least(x, splat(-87.0f)), splat(88.0f));
   const Vec shift = splat(12582912.0f);
@@ -34,7 +34,7 @@ namespace {
   return wasm_f32x4_div(one, wasm_f32x4_add(one, exp(wasm_f32x4_neg(x))));
 }
 
-// 1 - 2 / (exp(2x) + 1); near zero, where that cancels, x - x^3/3 + 2x^5/15 - 17x^7/315.
+// 1 - 2 / (exp(2x) + 1), or near zero, because of cancellation, x - x^3/3 + 2x^5/15 - 17x^7/315.
 [[maybe_unused]] inline Vec tanh(Vec x) {
   const Vec one = splat(1.0f);
   const Vec denominator = wasm_f32x4_add(exp(wasm_f32x4_add(x, x)), one);
@@ -48,7 +48,7 @@ namespace {
   return wasm_v128_bitselect(small, large, wasm_f32x4_lt(wasm_f32x4_abs(x), splat(0.2f)));
 }
 
-// What is done to four channels from `first` on, besides clamping.
+// Applies an activation other than a clamp to four channels from `first` on.
 inline Vec curved(Vec x, const ActivationSpec& activation, std::int32_t first,
                   std::int32_t channels) {
   const Vec positive = wasm_f32x4_gt(x, splat(0.0f));
@@ -58,7 +58,7 @@ inline Vec curved(Vec x, const ActivationSpec& activation, std::int32_t first,
     case Activation::kPrelu:
       return wasm_v128_bitselect(x, wasm_f32x4_mul(x, load_half(activation.slopes + first)),
                                  positive);
-    case Activation::kSigmoid:  // the only one that does not keep the unused lanes at zero
+    case Activation::kSigmoid:  // the only one that maps 0 in unused lanes to another value
       return only(lane_mask(first, channels), sigmoid(x));
     case Activation::kTanh:
       return tanh(x);
@@ -67,8 +67,8 @@ inline Vec curved(Vec x, const ActivationSpec& activation, std::int32_t first,
   }
 }
 
-// On [pixels][4] in place, pixels `step` floats apart. Out of line: it is large, and the sums
-// around a call would not stay in registers.
+// In place on [pixels][4], pixels `step` floats apart. Not inlined: it is large, and the caller's
+// sums would not stay in registers.
 [[maybe_unused, gnu::noinline]] inline void curve(float* values, std::ptrdiff_t pixels,
                                                   std::ptrdiff_t step,
                                                   const ActivationSpec& activation,
@@ -78,7 +78,7 @@ inline Vec curved(Vec x, const ActivationSpec& activation, std::int32_t first,
   }
 }
 
-// An activation made ready. All that clamp have a range, the others an infinite one and a curve.
+// A prepared activation: a range for clamps, otherwise an infinite range and a curve.
 class Activator {
  public:
   Activator(const ActivationSpec& activation, std::int32_t channels)
@@ -100,7 +100,7 @@ class Activator {
 
   [[nodiscard]] Vec clamped(Vec x) const { return at_most(at_least(x, low_), high_); }
 
-  // What remains to be done to values that are clamped: in place, as `curve`.
+  // Applies the curve, if any, to clamped values in place; arguments as for `curve`.
   void curve_channels(float* values, std::ptrdiff_t pixels, std::int32_t first) const {
     if (curves_) {
       curve(values, pixels, kBlock, activation_, first, channels_);

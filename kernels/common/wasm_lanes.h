@@ -1,4 +1,4 @@
-// Channels that do not begin with a block: eight neighbours out of two blocks.
+// Loads eight consecutive channels that span two blocks.
 #pragma once
 
 #include "kernels/common/wasm.h"
@@ -6,14 +6,14 @@
 namespace mien::kernels::wasm {
 namespace {
 
-// The 8 floats of a block at `at`; zeros where there is none.
+// Copies the 8 floats of a block at `at`, or zeros if `at` is nullptr.
 [[maybe_unused]] inline void copy_block(float* to, const float* at) {
   for (std::int32_t lane = 0; lane < kBlock; lane += kLanes) {
     store(to + lane, at == nullptr ? splat(0.0f) : load(at + lane));
   }
 }
 
-// Two blocks side by side; any 8 lanes in a row can be loaded.
+// Two adjacent blocks, from which any 8 consecutive lanes can be loaded.
 struct TwoBlocks {
   float lanes[2 * kBlock];
 

@@ -1,4 +1,4 @@
-// Matrix times vector on packed panels: fully connected layers, causal convolutions, LSTM gates.
+// Matrix-vector product on packed panels, for fully connected, causal convolution and LSTM layers.
 #pragma once
 
 #include "kernels/common/wasm_activation.h"
@@ -14,8 +14,8 @@ struct TwoParts {
   std::int32_t second_elems;
 };
 
-// n is a multiple of 8. Returns the weights that follow. Widening takes longer than a sum's
-// latency, so one sum per vector is enough.
+// n must be a multiple of 8. Returns the address of the next weights. One sum per vector is enough,
+// because converting weights takes longer than the latency of an addition.
 template <int kVecs>
 inline const std::uint16_t* add_inputs(const float* x, std::int32_t n, const std::uint16_t* w,
                                        Vec (&sums)[1][kVecs]) {
@@ -27,7 +27,7 @@ inline const std::uint16_t* add_inputs(const float* x, std::int32_t n, const std
   return w;
 }
 
-// kVecs vectors of outputs, a whole panel.
+// Computes kVecs vectors of outputs, one panel.
 template <int kVecs>
 inline void matvec_panel(const TwoParts& x, const std::uint16_t* weights, const std::uint16_t* bias,
                          const Activator& activator, std::int32_t first, float* y) {

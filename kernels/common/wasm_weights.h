@@ -1,5 +1,5 @@
-// Weights of a panel for the tiles of sums: fp16 as they are stored, or widened once for all tiles
-// where there are several.
+// Weights of a panel for tiles of sums: fp16 as stored, or converted to fp32 once for several
+// tiles.
 #pragma once
 
 #include "kernels/common/wasm.h"
@@ -7,8 +7,8 @@
 namespace mien::kernels::wasm {
 namespace {
 
-// Where the weights of kVecs vectors of outputs begin, and how far apart those of successive inputs
-// are: a panel is 16 or 8 wide, widened weights lie side by side.
+// fp16 weights of kVecs vectors of outputs: their start and the distance between inputs, which is
+// 16 or 8 in a panel.
 struct Halves {
   const std::uint16_t* first;
   std::int32_t stride;
@@ -30,8 +30,8 @@ struct Widened {
 [[maybe_unused]] inline Vec load_weights(const std::uint16_t* at) { return load_half(at); }
 [[maybe_unused]] inline Vec load_weights(const float* at) { return load(at); }
 
-// On the stack, 16 KB of it: enough for two vectors of a product of 512 inputs, the most that the
-// published encoders have.
+// fp32 weights per conversion, 16 KB on the stack: enough for two vectors of a product of 512
+// inputs, the maximum of the published encoders.
 inline constexpr std::int32_t kWidenedElems = 4096;
 
 template <int kVecs>
@@ -52,7 +52,7 @@ template <int kVecs>
   return {space};
 }
 
-// sums[p][v] += x[p] w[v], where x[p] is `step` floats after x[p - 1].
+// sums[p][v] += x[p] w[v], with pixels of x `step` floats apart.
 template <int kPixels, int kVecs, class T>
 inline void add_input(const float* x, std::ptrdiff_t step, const T* w,
                       Vec (&sums)[kPixels][kVecs]) {

@@ -1,3 +1,4 @@
+// The avx2 tier of concat.
 #include <cstring>
 
 #include "kernels/common/avx2_lanes.h"
@@ -5,8 +6,8 @@
 
 namespace mien::kernels::avx2 {
 
-// Where a fills its last block, blocks of b follow as they are; else every block that b has a part
-// in takes its lanes from two blocks of b, or from the last of a and the first of b.
+// If the channels of a fill its last block, the blocks of b are copied as they are. Otherwise each
+// further block takes lanes from two blocks of b, or from the last of a and the first of b.
 void concat(const ConcatArgs& a) {
   const std::ptrdiff_t plane = std::ptrdiff_t{a.pixels} * kLanes;
   const std::int32_t whole = a.a_channels / kLanes, used = a.a_channels % kLanes;

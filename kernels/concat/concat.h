@@ -1,8 +1,8 @@
-// The channels of a, then those of b, at every pixel.
+// Concatenates the channels of a and b at every pixel.
 //
 // a: [pixels, a_channels], b: [pixels, b_channels], y: [pixels, a_channels + b_channels], in blocks
-// of 8 channels, y overlapping neither. Lanes beyond the channels of a and b are zero, and so are
-// those of y.
+// of 8 channels; y overlaps neither. Lanes beyond the channels of a and b must be 0; those of y
+// become 0.
 #pragma once
 
 #include <cstdint>

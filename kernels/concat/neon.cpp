@@ -1,3 +1,4 @@
+// The neon and neon32 tiers of concat.
 #include <cstring>
 
 #include "kernels/common/neon_lanes.h"
@@ -5,8 +6,8 @@
 
 namespace mien::kernels::MIEN_TIER {
 
-// Where a fills its last block, blocks of b follow as they are; else every block that b has a part
-// in takes its lanes from two blocks of b, or from the last of a and the first of b.
+// If the channels of a fill its last block, the blocks of b are copied as they are. Otherwise each
+// further block takes lanes from two blocks of b, or from the last of a and the first of b.
 void concat(const ConcatArgs& a) {
   const std::ptrdiff_t plane = std::ptrdiff_t{a.pixels} * kBlock;
   const std::int32_t whole = a.a_channels / kBlock, used = a.a_channels % kBlock;
@@ -26,7 +27,7 @@ void concat(const ConcatArgs& a) {
     const float* high = second < b_blocks ? a.b + second * plane : nullptr;
     for (std::ptrdiff_t p = 0; p < plane; p += kBlock) {
       Pair y = shifted(load_pair_or_zero(low, p), load_pair_or_zero(high, p), kBlock - used);
-      if (low == nullptr) {  // where one of them has channels, the other has zeros
+      if (low == nullptr) {  // each lane is zero in one of the two
         const Pair from_a = load_pair(a.a + whole * plane + p);
         y = {either(y.low, from_a.low), either(y.high, from_a.high)};
       }

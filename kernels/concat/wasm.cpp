@@ -1,3 +1,4 @@
+// The wasm tier of concat.
 #include <cstring>
 
 #include "kernels/common/wasm_lanes.h"
@@ -16,8 +17,8 @@ const float* pixel_at(const float* block, std::ptrdiff_t p) {
 
 }  // namespace
 
-// Where a fills its last block, blocks of b follow as they are; else every block that b has a part
-// in takes its lanes from two blocks of b, or from the last of a and the first of b.
+// If the channels of a fill its last block, the blocks of b are copied as they are. Otherwise each
+// further block takes lanes from two blocks of b, or from the last of a and the first of b.
 void concat(const ConcatArgs& a) {
   const std::ptrdiff_t plane = std::ptrdiff_t{a.pixels} * kBlock;
   const std::int32_t whole = a.a_channels / kBlock, used = a.a_channels % kBlock;
@@ -39,7 +40,7 @@ void concat(const ConcatArgs& a) {
       const TwoBlocks from_b(pixel_at(low, p), pixel_at(high, p));
       for (std::int32_t lane = 0; lane < kBlock; lane += kLanes) {
         Vec y = load(from_b.lanes + kBlock - used + lane);
-        if (block == whole) {  // where one of them has channels, the other has zeros
+        if (block == whole) {  // each lane is zero in one of the two
           y = wasm_v128_or(y, load(a.a + whole * plane + p + lane));
         }
         store(a.y + block * plane + p + lane, y);

@@ -1,5 +1,5 @@
-// Tiles of up to 6 output pixels of a row x 16 output channels where the whole windows lie inside
-// the map; the last tile of a row overlaps the one before. Pixels at the border one at a time.
+// Where whole windows lie inside the map: tiles of up to 6 output pixels of a row x 16 output
+// channels, the last of a row overlapping the previous one. Border pixels one at a time.
 #include <algorithm>
 #include <utility>
 
@@ -20,11 +20,11 @@ Range inside(std::int32_t origin, std::int32_t kernel, std::int32_t size) {
 // Output columns [first, last) whose whole window lies inside the map.
 Range whole_windows(const Conv2dArgs& a) {
   const std::int32_t first = std::min(a.out_w, (a.pad_left + a.stride_w - 1) / a.stride_w);
-  const std::int32_t room = a.in_w + a.pad_left - a.kernel_w;
-  return {first, room < 0 ? first : std::clamp(room / a.stride_w + 1, first, a.out_w)};
+  const std::int32_t last_start = a.in_w + a.pad_left - a.kernel_w;
+  return {first, last_start < 0 ? first : std::clamp(last_start / a.stride_w + 1, first, a.out_w)};
 }
 
-// Output channels from `block` on: two blocks of 8, or one at the end.
+// Output channels from `block` on: two blocks of 8, or a single last block.
 struct Panel {
   const Conv2dArgs& a;
   const std::uint16_t* weights;
@@ -41,7 +41,8 @@ struct Windows {
 template <int kPixels, int kVecs>
 using Sums = Vec[kPixels][kVecs];
 
-// `count` consecutive floats of x, of pixels kStep floats apart; kStep 0: `step`.
+// Adds `count` consecutive floats of x for pixels kStep floats apart, or `step` apart if kStep is
+// 0.
 template <int kPixels, int kVecs, int kStep>
 inline const std::uint16_t* add_run(const float* x, std::int32_t count, std::ptrdiff_t step,
                                     const std::uint16_t* w, Sums<kPixels, kVecs>& sum) {
@@ -76,7 +77,7 @@ void tile(const Panel& t, const Windows& at) {
   const std::ptrdiff_t step = std::ptrdiff_t{a.stride_w} * a.x_pixel_elems;
   const std::ptrdiff_t plane = std::ptrdiff_t{a.in_h} * a.in_w * kLanes;
   const std::int32_t top = at.oy * a.stride_h - a.pad_top, left = at.ox * a.stride_w - a.pad_left;
-  // Interleaved, neighbouring columns are neighbours in memory and in the weights.
+  // In interleaved maps, adjacent columns are contiguous in memory and in the weights.
   const bool runs_on = a.x_pixel_elems == a.in_c;
   const std::int32_t columns = runs_on ? at.xs.last - at.xs.first : 1;
   for (std::int32_t ky = at.ys.first; ky < at.ys.last; ++ky) {
@@ -102,7 +103,7 @@ void tile(const Panel& t, const Windows& at) {
   }
 }
 
-// Activations other than clamps, on `count` pixels that a tile has just stored.
+// Applies activations other than clamps to the `count` pixels that a tile has stored.
 void finish(const Panel& t, const Windows& at, std::int32_t blocks, std::int32_t count) {
   const Conv2dArgs& a = t.a;
   const std::ptrdiff_t plane = std::ptrdiff_t{a.out_h} * a.out_w * kLanes;
@@ -130,16 +131,16 @@ SizedTile smallest_of(std::int32_t pixels, std::int32_t wanted,
   return best;
 }
 
-// The tile for a row of `pixels`: the smallest that needs no more of them than the largest would.
+// Chooses the smallest tile that covers a row of `pixels` with as few tiles as the largest.
 template <int kVecs, int kStep>
 SizedTile tile_for(std::int32_t pixels) {
-  constexpr std::int32_t kMost = 6;
-  const std::int32_t tiles = (pixels + kMost - 1) / kMost;
+  constexpr std::int32_t kMax = 6;
+  const std::int32_t tiles = (pixels + kMax - 1) / kMax;
   return smallest_of<kVecs, kStep>(pixels, (pixels + tiles - 1) / tiles,
-                                   std::integer_sequence<int, 2, 4, kMost>());
+                                   std::integer_sequence<int, 2, 4, kMax>());
 }
 
-// Steps known to the compiler: interleaved images of 3 channels, and blocks.
+// Compile-time steps for interleaved images of 3 channels and for blocks.
 template <int kVecs>
 SizedTile tile_for(const Conv2dArgs& a, std::int32_t pixels) {
   switch (kVecs == 2 ? a.stride_w * a.x_pixel_elems : 0) {

@@ -1,6 +1,5 @@
-// Tiles of output pixels of a row x one panel (up to 16 pixels) or two (up to 12) where the whole
-// windows lie inside the map; the last tile of a row overlaps the one before. Pixels at the border
-// one at a time.
+// Where whole windows lie inside the map: tiles of up to 16 output pixels of a row x one panel or
+// 12 x two panels, the last of a row overlapping the previous one. Border pixels one at a time.
 #include <algorithm>
 #include <utility>
 
@@ -21,11 +20,11 @@ Range inside(std::int32_t origin, std::int32_t kernel, std::int32_t size) {
 // Output columns [first, last) whose whole window lies inside the map.
 Range whole_windows(const Conv2dArgs& a) {
   const std::int32_t first = std::min(a.out_w, (a.pad_left + a.stride_w - 1) / a.stride_w);
-  const std::int32_t room = a.in_w + a.pad_left - a.kernel_w;
-  return {first, room < 0 ? first : std::clamp(room / a.stride_w + 1, first, a.out_w)};
+  const std::int32_t last_start = a.in_w + a.pad_left - a.kernel_w;
+  return {first, last_start < 0 ? first : std::clamp(last_start / a.stride_w + 1, first, a.out_w)};
 }
 
-// Output blocks of 8 channels from `block` on: four (two panels), two or one.
+// Output channels from `block` on, in blocks of 8: four (two panels), two or one.
 struct Panels {
   const Conv2dArgs& a;
   const std::uint16_t* weights;
@@ -42,13 +41,14 @@ struct Windows {
 template <int kPixels, int kVecs>
 using Sums = Vec[kPixels][kVecs];
 
-// kWidth 8: of the last block, which is alone.
+// kWidth is 8 for a single last block.
 template <int kWidth>
 Vec weights_at(const std::uint16_t* w) {
   return kWidth == kPanel ? load_half(w) : load_half(w, 0xFF);
 }
 
-// `count` consecutive floats of x, of pixels kStep floats apart; kStep 0: `step`.
+// Adds `count` consecutive floats of x for pixels kStep floats apart, or `step` apart if kStep is
+// 0.
 template <int kPixels, int kVecs, int kStep, int kWidth>
 inline const std::uint16_t* add_run(const float* x, std::int32_t count, std::ptrdiff_t step,
                                     const std::uint16_t* w, std::ptrdiff_t panel,
@@ -93,7 +93,7 @@ void tile(const Panels& t, const Windows& at) {
   const std::ptrdiff_t w_row = std::ptrdiff_t{a.kernel_w} * a.in_c * kWidth;
   std::int32_t rows = at.ys.last - at.ys.first;
   if (a.x_pixel_elems == a.in_c) {
-    // Interleaved, neighbouring columns are neighbours in memory and in the weights.
+    // In interleaved maps, adjacent columns are contiguous in memory and in the weights.
     const std::int32_t count = (at.xs.last - at.xs.first) * a.in_c;
     for (; rows > 0; --rows, x += row, w += w_row) {
       add_run<kPixels, kVecs, kStep, kWidth>(x, count, step, w, panel, sum);
@@ -122,7 +122,7 @@ void tile(const Panels& t, const Windows& at) {
   }
 }
 
-// Activations other than clamps, on `count` pixels that a tile has just stored.
+// Applies activations other than clamps to the `count` pixels that a tile has stored.
 void finish(const Panels& t, const Windows& at, std::int32_t count) {
   const Conv2dArgs& a = t.a;
   const std::ptrdiff_t plane = std::ptrdiff_t{a.out_h} * a.out_w * kBlock;
@@ -158,18 +158,17 @@ SizedTile smallest_of(std::int32_t pixels, std::int32_t wanted,
 using UpTo12 = std::integer_sequence<int, 4, 12>;
 using UpTo16 = std::integer_sequence<int, 4, 8, 14, 16>;
 
-// The tile for a row of `pixels`: the smallest that needs no more of them than the largest would.
+// Chooses the smallest tile that covers a row of `pixels` with as few tiles as the largest.
 template <int kStep>
 SizedTile tile_for(bool two_panels, std::int32_t pixels) {
-  const std::int32_t most = two_panels ? 12 : 16;
-  const std::int32_t tiles = (pixels + most - 1) / most;
+  const std::int32_t max_pixels = two_panels ? 12 : 16;
+  const std::int32_t tiles = (pixels + max_pixels - 1) / max_pixels;
   const std::int32_t wanted = (pixels + tiles - 1) / tiles;
   return two_panels ? smallest_of<2, kStep>(pixels, wanted, UpTo12())
                     : smallest_of<1, kStep>(pixels, wanted, UpTo16());
 }
 
-// Steps known to the compiler: those of the project's networks, interleaved images of 3 channels
-// and blocks.
+// Compile-time steps for mien's own networks: interleaved images of 3 channels, and blocks.
 SizedTile tile_for(const Conv2dArgs& a, std::int32_t blocks, std::int32_t pixels) {
   const bool two_panels = blocks > 2;
   if (blocks == 1) {

@@ -1,12 +1,12 @@
-// Convolution in two dimensions with a small kernel, and a fused activation.
+// Two-dimensional convolution with a small kernel and a fused activation.
 //
 //   y[oy, ox, o] = act(bias[o] + sum over ky, kx, i of w[o, ky, kx, i] x[oy s + ky - pad, ox s + kx
 //   - pad, i])
 //
-// where x is zero outside the map. x: [h, w, c], either in blocks of 8 channels or interleaved (one
-// block whose pixel pitch is c). y: [out_h, out_w, out_c] in blocks; lanes >= out_c become 0. x and
-// y do not overlap. Weights: fp16 panels of 16 output channels, [panel][ky][kx][i][16]; the last
-// panel is 8 wide when ceil(out_c/8) is odd.
+// where x is zero outside the map. x: [h, w, c], either in blocks of 8 channels or interleaved with
+// a pixel pitch of c. y: [out_h, out_w, out_c] in blocks; lanes >= out_c become 0. x and y must not
+// overlap. Weights: fp16 panels of 16 output channels, [panel][ky][kx][i][16]; the last panel is 8
+// wide if ceil(out_c/8) is odd.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ struct Conv2dArgs {
   float* y;
   ActivationSpec activation;
   std::int32_t in_h, in_w, in_c;
-  std::int32_t x_pixel_elems;  // 8 in blocks, in_c interleaved
+  std::int32_t x_pixel_elems;  // 8 if in blocks, in_c if interleaved
   std::int32_t out_h, out_w, out_c;
   std::int32_t kernel_h, kernel_w;
   std::int32_t stride_h, stride_w;

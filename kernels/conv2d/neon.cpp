@@ -1,6 +1,6 @@
-// Register tiles as in the pointwise kernel where the whole windows lie inside the map, single
-// pixels at its border. A window is summed run by run: inputs that lie together in x, as their
-// weights do; of interleaved maps that is a whole row of the window.
+// Register tiles as in the pointwise kernel where whole windows lie inside the map, single pixels
+// at its border. A window is a series of runs: inputs that are contiguous in x and whose weights
+// are contiguous. In interleaved maps a run is a whole row of the window.
 #include <algorithm>
 
 #include "kernels/common/neon_activation.h"
@@ -21,8 +21,8 @@ Range inside(std::int32_t origin, std::int32_t kernel, std::int32_t size) {
 // Output columns whose whole window lies inside the map.
 Range whole_windows(const Conv2dArgs& a) {
   const std::int32_t first = std::min(a.out_w, (a.pad_left + a.stride_w - 1) / a.stride_w);
-  const std::int32_t room = a.in_w + a.pad_left - a.kernel_w;
-  return {first, room < 0 ? first : std::clamp(room / a.stride_w + 1, first, a.out_w)};
+  const std::int32_t last_start = a.in_w + a.pad_left - a.kernel_w;
+  return {first, last_start < 0 ? first : std::clamp(last_start / a.stride_w + 1, first, a.out_w)};
 }
 
 template <class Source>
@@ -30,10 +30,10 @@ struct Outputs {
   const Conv2dArgs& a;
   const Activator& activator;
   Source weights;
-  std::int32_t channel;  // first
+  std::int32_t channel;  // first channel
 };
 
-// `count` inputs from x on, of pixels `step` apart.
+// Adds `count` inputs from x on, for pixels `step` floats apart.
 template <int kPixels, int kVecs, class T>
 [[gnu::always_inline]] inline void add_run(const float* x, std::ptrdiff_t step, std::int32_t count,
                                            const T* w, std::ptrdiff_t row_elems,
@@ -98,8 +98,8 @@ template <int kPixels, int kVecs, class Source>
 
 template <int kVecs, class Source>
 void row(const Outputs<Source>& out, std::int32_t oy) {
-  constexpr int kMost = kTilePixels<kVecs>;
-  constexpr int kSome = (kMost + 1) / 2;
+  constexpr int kMax = kTilePixels<kVecs>;
+  constexpr int kSome = (kMax + 1) / 2;
   const Conv2dArgs& a = out.a;
   const Range ys = inside(oy * a.stride_h - a.pad_top, a.kernel_h, a.in_h);
   const Range whole = whole_windows(a);
@@ -112,8 +112,8 @@ void row(const Outputs<Source>& out, std::int32_t oy) {
     }
   };
   singly(whole.first);
-  for (; ox + kMost <= whole.last; ox += kMost) {
-    tile<kMost, kVecs>(out, oy, ox, ys, all);
+  for (; ox + kMax <= whole.last; ox += kMax) {
+    tile<kMax, kVecs>(out, oy, ox, ys, all);
   }
   for (; ox + kSome <= whole.last; ox += kSome) {
     tile<kSome, kVecs>(out, oy, ox, ys, all);

@@ -1,6 +1,6 @@
-// Register tiles as in the pointwise kernel where the whole windows lie inside the map, single
-// pixels at its border. A window is summed run by run: inputs that lie together in x, as their
-// weights do; of interleaved maps that is a whole row of the window.
+// Register tiles as in the pointwise kernel where whole windows lie inside the map, single pixels
+// at its border. A window is a series of runs: inputs that are contiguous in x and whose weights
+// are contiguous. In interleaved maps a run is a whole row of the window.
 #include <algorithm>
 
 #include "kernels/common/wasm_activation.h"
@@ -10,7 +10,7 @@
 namespace mien::kernels::wasm {
 namespace {
 
-constexpr int kVecs = 2;  // a block
+constexpr int kVecs = 2;  // one block
 constexpr int kMaxPixels = 5;
 constexpr int kSomePixels = 3;
 
@@ -25,8 +25,8 @@ Range inside(std::int32_t origin, std::int32_t kernel, std::int32_t size) {
 // Output columns whose whole window lies inside the map.
 Range whole_windows(const Conv2dArgs& a) {
   const std::int32_t first = std::min(a.out_w, (a.pad_left + a.stride_w - 1) / a.stride_w);
-  const std::int32_t room = a.in_w + a.pad_left - a.kernel_w;
-  return {first, room < 0 ? first : std::clamp(room / a.stride_w + 1, first, a.out_w)};
+  const std::int32_t last_start = a.in_w + a.pad_left - a.kernel_w;
+  return {first, last_start < 0 ? first : std::clamp(last_start / a.stride_w + 1, first, a.out_w)};
 }
 
 template <class Source>
@@ -34,7 +34,7 @@ struct Outputs {
   const Conv2dArgs& a;
   const Activator& activator;
   Source weights;
-  std::int32_t channel;  // first
+  std::int32_t channel;  // first channel
 };
 
 template <int kPixels>
@@ -49,7 +49,7 @@ inline void store_sums(const Conv2dArgs& a, const Activator& activator, std::int
   }
 }
 
-// The inputs of one row of the window that lie together: `pixels` of them, or one at a time.
+// The runs of one row of the window: `pixels` pixels long, or one pixel each.
 struct Runs {
   std::int32_t count, elems;
 
@@ -59,7 +59,7 @@ struct Runs {
     elems = interleaved ? pixels * a.in_c : a.in_c;
     longest = interleaved ? elems : kBlock;
   }
-  std::int32_t longest;  // then x goes on in the next block
+  std::int32_t longest;  // maximum; x then continues in the next block
 };
 
 // Output pixels ox .. ox + kPixels - 1 of row oy, over kernel rows `ys` and columns `xs`.

@@ -1,3 +1,4 @@
+// The avx2 tier of curve.
 #include "kernels/curve/curve_of.h"
 
 #include "kernels/families.h"

@@ -1,4 +1,4 @@
-// Functions of each element that only layers of their own have, no kernel fuses them:
+// Element-wise functions that no other kernel fuses:
 //
 //   hard_swish(x) = x min(max(x + 3, 0), 6) / 6        swish(x) = x / (1 + exp(-x))
 //   gelu(x) = x (1 + erf(x / sqrt 2)) / 2              erf(x), exp(x), sqrt(x)

@@ -1,5 +1,5 @@
-// The loop of all tiers, which the compiler makes vectors of: 8 channels are independent. Each tier
-// has a copy with internal linkage.
+// The loop shared by all tiers, which compilers vectorize over the 8 channels of a block. Internal
+// linkage gives each tier its own copy.
 #pragma once
 
 #include "kernels/common/lanes.h"
@@ -14,8 +14,8 @@ inline float limited(float x, float low, float high) {
 }
 
 // exp(x) to 2 ulp on [-87, 88], clamped outside: 2^n e^r with r in [-ln2/2, ln2/2], a polynomial of
-// degree 6 (Cephes expf by S. Moshier). Adding 1.5 * 2^23 rounds to an integer n and leaves it in
-// the lowest bits.
+// degree 6 (Cephes expf by S. Moshier). Adding 1.5 * 2^23 rounds to an integer n, in the lowest
+// bits.
 inline float exp_of(float x) {
   x = limited(x, -87.0f, 88.0f);
   const float shifted = x * 1.44269504f + 12582912.0f;
@@ -32,7 +32,7 @@ inline float exp_of(float x) {
   return p * __builtin_bit_cast(float, power);
 }
 
-// 1 - erf(z) of z >= 0 to 1.5e-7 (Abramowitz & Stegun 7.1.26).
+// 1 - erf(z) for z >= 0, to 1.5e-7 (Abramowitz & Stegun 7.1.26).
 inline float erfc_of(float z) {
   const float t = 1.0f / (1.0f + 0.3275911f * z);
   float p = 1.061405429f;
@@ -43,7 +43,7 @@ inline float erfc_of(float z) {
   return p * t * exp_of(-z * z);
 }
 
-// Near zero, where 1 - erfc cancels, the series.
+// Uses the power series near zero, where 1 - erfc cancels.
 inline float erf_of(float x) {
   const float z = x < 0.0f ? -x : x, s = x * x;
   float p = -1.0f / 1320.0f;
@@ -58,7 +58,7 @@ inline float erf_of(float x) {
 
 inline float gelu_of(float x) {
   const float z = (x < 0.0f ? -x : x) * 0.707106781f;
-  const float beyond = 0.5f * erfc_of(z);  // of the normal distribution, beyond |x|
+  const float beyond = 0.5f * erfc_of(z);  // tail of the normal distribution beyond |x|
   return x * (x < 0.0f ? beyond : 1.0f - beyond);
 }
 
@@ -86,8 +86,8 @@ inline float curve_of(float x) {
   }
 }
 
-// One loop over all elements, so that the compiler need not see that 8 of them are a vector. In
-// place too they are independent, which it cannot know.
+// One loop over all elements, so that the compiler need not recognize blocks of 8 as vectors. The
+// iterations are independent even if y is x, which the compiler cannot know.
 template <Curve kKind>
 void curve_map(const CurveArgs& a) {
   const std::ptrdiff_t elems = std::ptrdiff_t{blocks_for(a.channels)} * a.pixels * kBlockLanes;

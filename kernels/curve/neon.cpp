@@ -1,3 +1,4 @@
+// The neon and neon32 tiers of curve.
 #include "kernels/curve/curve_of.h"
 
 #include "kernels/families.h"

@@ -1,3 +1,4 @@
+// The reference kernel of curve.
 #include "kernels/common/ref.h"
 #include "kernels/families.h"
 

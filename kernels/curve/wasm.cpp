@@ -1,3 +1,4 @@
+// The wasm tier of curve.
 #include "kernels/curve/curve_of.h"
 
 #include "kernels/families.h"

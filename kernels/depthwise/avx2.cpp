@@ -1,5 +1,5 @@
-// One block of channels at a time, its weights in registers for 3x3; four output pixels at once
-// inside the map, one at a time where the window leaves it.
+// One block of channels at a time, with 3x3 weights in registers; four output pixels at once where
+// whole windows lie inside the map, one at a time elsewhere.
 #include <algorithm>
 
 #include "kernels/common/avx2.h"
@@ -20,12 +20,13 @@ Rows inside(std::int32_t origin, std::int32_t kernel, std::int32_t size) {
 Rows whole_windows(std::int32_t outputs, std::int32_t stride, std::int32_t pad, std::int32_t kernel,
                    std::int32_t size) {
   const std::int32_t first = std::min(outputs, (pad + stride - 1) / stride);
-  const std::int32_t room = size + pad - kernel;
-  const std::int32_t last = room < 0 ? first : std::clamp(room / stride + 1, first, outputs);
+  const std::int32_t last_start = size + pad - kernel;
+  const std::int32_t last =
+      last_start < 0 ? first : std::clamp(last_start / stride + 1, first, outputs);
   return {first, last};
 }
 
-// What is the same for all pixels of one block of channels.
+// Parameters common to all pixels of a block of channels.
 struct Block {
   const DepthwiseArgs& a;
   std::int32_t index;

@@ -1,10 +1,11 @@
-// Depthwise convolution: each channel by itself, with a small kernel and a fused activation.
+// Depthwise convolution: one small filter per channel and a fused activation.
 //
 //   y[oy, ox, c] = act(bias[c] + sum over ky, kx of w[c, ky, kx] x[oy s + ky - pad, ox s + kx -
 //   pad, c])
 //
 // where x is zero outside the map. x: [h, w, c] and y: [out_h, out_w, c] in blocks of 8 channels,
-// not overlapping. Weights: fp16 [ceil(c/8)][ky][kx][8]. Lanes >= c of x are 0 and stay so.
+// not overlapping. Weights: fp16 [ceil(c/8)][ky][kx][8]. Lanes >= c of x must be 0; those of y
+// become 0.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
-// 3x3 windows that lie inside the map go by the tiles of neon_window.h. Small maps with padding are
-// copied to the stack with it, so that all of their windows do; other windows that leave the map
-// are summed one output at a time.
+// 3x3 windows inside the map use the tiles of neon_window.h. Small maps are copied with their
+// padding to the stack, so that all windows lie inside the copy; other windows that exceed the map
+// are computed one output at a time.
 #include <algorithm>
 
 #include "kernels/common/neon_activation.h"
@@ -23,12 +23,13 @@ Range inside(std::int32_t origin, std::int32_t kernel, std::int32_t size) {
 Range whole_windows(std::int32_t outputs, std::int32_t stride, std::int32_t pad,
                     std::int32_t kernel, std::int32_t size) {
   const std::int32_t first = std::min(outputs, (pad + stride - 1) / stride);
-  const std::int32_t room = size + pad - kernel;
-  const std::int32_t last = room < 0 ? first : std::clamp(room / stride + 1, first, outputs);
+  const std::int32_t last_start = size + pad - kernel;
+  const std::int32_t last =
+      last_start < 0 ? first : std::clamp(last_start / stride + 1, first, outputs);
   return {first, last};
 }
 
-// What is the same for all outputs of Floats::kVecs vectors of channels.
+// Parameters common to all outputs of Floats::kVecs vectors of channels.
 struct Channels {
   const DepthwiseArgs& a;
   const float* x;
@@ -46,7 +47,7 @@ struct Channels {
                  channel % kBlock,
              kLanes, args.bias + channel, kLanes, activator.low(), activator.high()) {}
 
-  // Of output (oy, ox), and of the first input in its window.
+  // Address of output (oy, ox), and of the first input in its window.
   [[nodiscard]] float* output(std::int32_t oy, std::int32_t ox) const {
     return y + (std::ptrdiff_t{oy} * a.out_w + ox) * kBlock;
   }

@@ -1,12 +1,12 @@
-// 3x3 windows that lie inside the map, 2x2 outputs at a time: the weights of the channels in
-// registers, every input loaded once. Numbers are Floats, or Halves (common/neon_half.h).
+// 3x3 windows inside the map, computed as tiles of 2x2 outputs: the weights of the channels stay in
+// registers, and every input is loaded once. Values are Floats or Halves (common/neon_half.h).
 #pragma once
 
 #include "kernels/common/neon.h"
 
 namespace mien::kernels::MIEN_TIER {
 
-constexpr int kMaxOutputs = 4;  // of a tile
+constexpr int kMaxOutputs = 4;  // outputs of a tile
 
 namespace {
 
@@ -14,7 +14,7 @@ struct Floats {
   using Value = float;
   using Vec = MIEN_TIER::Vec;
   static constexpr int kLanes = MIEN_TIER::kLanes;
-// Vectors of channels that are worked on together: their 9 weights fill half of the registers.
+// Number of channel vectors computed together: their 9 weights fill half of the registers.
 #ifdef MIEN_NEON64
   static constexpr int kVecs = 2;
 #else
@@ -28,14 +28,14 @@ struct Floats {
   static Vec clamped(Vec x, Vec low, Vec high) { return vminq_f32(vmaxq_f32(x, low), high); }
 };
 
-// What is the same for all outputs of kVecs vectors of channels.
+// Parameters common to all outputs of kVecs vectors of channels.
 template <class N>
 struct Taps {
   const std::uint16_t* weights;  // [kernel_h][kernel_w][8]
-  std::ptrdiff_t vec_elems;      // from those of one vector to those of the next
+  std::ptrdiff_t vec_elems;      // distance between vectors
   typename N::Vec low, high;
-  // Once for every sum of a tile: to load it costs no time, to copy it from register to register
-  // would, as the units that multiply do that.
+  // One copy per sum of a tile: a load costs no time, but a copy between registers would occupy the
+  // units that multiply.
   typename N::Value biases[kMaxOutputs * N::kVecs * N::kLanes];
 
   Taps(const std::uint16_t* first_weights, std::ptrdiff_t weights_vec_elems,
@@ -48,7 +48,7 @@ struct Taps {
   }
 };
 
-// The parameters of 3x3 windows, in registers but for the bias.
+// The parameters of 3x3 windows, in registers except for the bias.
 template <class N>
 struct Window {
   typename N::Vec w[9][N::kVecs];
@@ -73,9 +73,9 @@ struct Rows {
   std::ptrdiff_t y_row;
 };
 
-// The same address, of which gcc knows nothing: it would keep each sum of it and a stride in a
-// register of its own, and run out of them. clang does not, and unrolls no loop with assembler in
-// it.
+// Returns the same address, opaque to gcc, which would otherwise keep each sum of the address and a
+// stride in its own register and run out of registers. clang does not, and it does not unroll loops
+// that contain inline assembly.
 template <class T>
 [[gnu::always_inline]] inline T* opaque(T* at) {
 #ifndef __clang__
@@ -84,7 +84,7 @@ template <class T>
   return at;
 }
 
-// Each input goes to the sums of all outputs whose windows it lies in.
+// Adds each input to the sums of all outputs whose windows contain it.
 template <class N, int kRows, int kColumns, int kStride, int kXPixel, int kYPixel>
 [[gnu::always_inline]] inline void tile(const Window<N>& window, const typename N::Value* x,
                                         std::ptrdiff_t x_row, typename N::Value* y,
@@ -121,7 +121,7 @@ template <class N, int kRows, int kColumns, int kStride, int kXPixel, int kYPixe
   }
 }
 
-// kRows rows of `columns` outputs.
+// Computes kRows rows of `columns` outputs.
 template <class N, int kRows, int kStride, int kXPixel, int kYPixel>
 [[gnu::noinline]] void whole_outputs(const Taps<N>& taps, const Rows<N>& at, std::int32_t columns) {
   const Window<N> window(taps);
@@ -138,7 +138,7 @@ template <class N, int kRows, int kStride, int kXPixel, int kYPixel>
   }
 }
 
-// `rows` rows of `columns` outputs.
+// Computes `rows` rows of `columns` outputs.
 template <class N, int kStride, int kXPixel, int kYPixel>
 void all_whole_outputs(const Taps<N>& taps, Rows<N> at, std::int32_t rows, std::int32_t columns) {
   for (; rows >= 2; rows -= 2, at.x += 2 * kStride * at.x_row, at.y += 2 * at.y_row) {

@@ -1,4 +1,4 @@
-// Small maps whose windows reach beyond them, with zeros around: every window is whole then.
+// Copies small maps with zero padding, so that every window lies inside the copy.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 namespace mien::kernels {
 namespace {
 
-// A block of 8 channels of a map with its padding, on the stack: up to kMaxPixels.
+// A block of 8 channels of a map with its padding, on the stack: up to kMaxPixels pixels.
 template <std::int32_t kMaxPixels>
 class Padded {
  public:

@@ -1,6 +1,6 @@
-// Four channels at a time. 3x3 windows that lie inside the map are computed four outputs of a row
-// at once; other windows one output at a time. Small maps with padding are copied to the stack with
-// it, so that all of their windows lie inside.
+// Four channels at a time. 3x3 windows inside the map are computed four outputs of a row at once,
+// others one at a time. Small maps are copied with their padding to the stack, so that all windows
+// lie inside the copy.
 #include <algorithm>
 
 #include "kernels/common/wasm_activation.h"
@@ -22,12 +22,13 @@ Range inside(std::int32_t origin, std::int32_t kernel, std::int32_t size) {
 Range whole_windows(std::int32_t outputs, std::int32_t stride, std::int32_t pad,
                     std::int32_t kernel, std::int32_t size) {
   const std::int32_t first = std::min(outputs, (pad + stride - 1) / stride);
-  const std::int32_t room = size + pad - kernel;
-  const std::int32_t last = room < 0 ? first : std::clamp(room / stride + 1, first, outputs);
+  const std::int32_t last_start = size + pad - kernel;
+  const std::int32_t last =
+      last_start < 0 ? first : std::clamp(last_start / stride + 1, first, outputs);
   return {first, last};
 }
 
-// What is the same for all outputs of four channels.
+// Parameters common to all outputs of four channels.
 struct Channels {
   const DepthwiseArgs& a;
   Vec low, high;
@@ -47,7 +48,7 @@ struct Channels {
     y = a.y + block * a.out_h * a.out_w * kBlock + lane;
     weights = a.weights + block * a.kernel_h * a.kernel_w * kBlock + lane;
   }
-  // Of output (oy, ox), and of the first input in its window.
+  // Address of output (oy, ox), and of the first input in its window.
   [[nodiscard]] float* output(std::int32_t oy, std::int32_t ox) const {
     return y + (std::ptrdiff_t{oy} * a.out_w + ox) * kBlock;
   }
@@ -79,8 +80,8 @@ void edge_outputs(const Channels& ch, std::int32_t oy, std::int32_t first, std::
   }
 }
 
-// Outputs at y .. whose windows begin at x. Each input goes to the sums of all of them that it lies
-// in the windows of.
+// Outputs from y on, whose windows begin at x. Adds each input to the sums of all outputs whose
+// windows contain it.
 template <int kColumns, int kStride>
 inline void tile(const Channels& ch, const Vec (&w)[9], const float* x, float* y) {
   const std::ptrdiff_t x_row = std::ptrdiff_t{ch.a.in_w} * kBlock;

@@ -1,10 +1,11 @@
+// The avx2 tier of fma_peak.
 #include "kernels/common/avx2.h"
 #include "kernels/families.h"
 
 namespace mien::kernels::avx2 {
 
 void fma_peak(const FmaPeakArgs& a) {
-  constexpr int kSums = 12;  // two a cycle, five cycles each
+  constexpr int kSums = 12;  // throughput 2 per cycle, latency up to 5 cycles, and spare
   Vec sum[kSums];
   for (int k = 0; k < kSums; ++k) {
     sum[k] = _mm256_set1_ps(static_cast<float>(k));

@@ -1,10 +1,11 @@
+// The avx512 tier of fma_peak.
 #include "kernels/common/avx512.h"
 #include "kernels/families.h"
 
 namespace mien::kernels::avx512 {
 
 void fma_peak(const FmaPeakArgs& a) {
-  constexpr int kSums = 16;  // two a cycle, four cycles each, and room
+  constexpr int kSums = 16;  // throughput 2 per cycle, latency 4 cycles, and spare
   Vec sum[kSums];
   for (int k = 0; k < kSums; ++k) {
     sum[k] = _mm512_set1_ps(static_cast<float>(k % 8));

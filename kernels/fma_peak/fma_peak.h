@@ -1,5 +1,5 @@
-// As many fused multiply-adds as the tier can do, on registers alone: what a benchmark holds its
-// figures against. y receives sums that depend on all of them, so that none can be left out.
+// Runs as many fused multiply-adds as the tier can, in registers only: the peak with which
+// benchmarks compare. y receives sums that depend on all of them, so that none is optimized away.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ struct FmaPeakArgs {
   static constexpr std::string_view kFamily = "fma_peak";
   float* y;  // [8]
   std::int64_t rounds;
-  std::int64_t* macs;  // receives the number of multiply-adds done
+  std::int64_t* macs;  // receives the number of multiply-adds
 };
 
 }  // namespace mien::kernels

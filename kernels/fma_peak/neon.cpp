@@ -1,12 +1,13 @@
+// The neon and neon32 tiers of fma_peak.
 #include "kernels/common/neon.h"
 #include "kernels/families.h"
 
 namespace mien::kernels::MIEN_TIER {
 
-// Products by lane, as the convolutions take them. Sums grow by a thousandth each time.
+// Products by lane, as in the convolutions. Sums grow by a thousandth in each round.
 void fma_peak(const FmaPeakArgs& a) {
 #ifdef MIEN_NEON64
-  constexpr int kSums = 24;  // four a cycle, up to five cycles each
+  constexpr int kSums = 24;  // throughput 4 per cycle, latency up to 5 cycles, and spare
 #else
   constexpr int kSums = 12;
 #endif

@@ -1,13 +1,15 @@
+// The neonfp16 tier of fma_peak.
 #include "kernels/common/neon_half.h"
 #include "kernels/families.h"
 
 namespace mien::kernels::neonfp16 {
 
-// As neon.cpp, of 8 lanes.
+// Like neon.cpp, with vectors of 8 lanes.
 void fma_peak(const FmaPeakArgs& a) {
   constexpr int kSums = 24;
   HalfVec sum[kSums];
-  // Out of the arguments: from constants fp16 soon comes to rest, which a compiler may notice.
+  // Derived from the arguments: with constants, fp16 sums soon converge, which a compiler may
+  // notice.
   const auto first = static_cast<float>(a.rounds % 512) * 1e-3f;
   MIEN_UNROLLED for (int k = 0; k < kSums; ++k) {
     sum[k] = splat_halves(first + 0.1f * static_cast<float>(k));

@@ -1,8 +1,9 @@
+// The reference kernel of fma_peak.
 #include "kernels/families.h"
 
 namespace mien::kernels::ref {
 
-// In double, as the other reference kernels sum.
+// In double precision, like the other reference kernels.
 void fma_peak(const FmaPeakArgs& a) {
   double sum[8] = {1, 2, 3, 4, 5, 6, 7, 8};
   for (std::int64_t i = 0; i < a.rounds; ++i) {

@@ -1,11 +1,12 @@
+// The wasm tier of fma_peak.
 #include "kernels/common/wasm.h"
 #include "kernels/families.h"
 
 namespace mien::kernels::wasm {
 
-// Products and sums: SIMD128 has no fused multiply-add.
+// Multiplies, then adds: SIMD128 has no fused multiply-add.
 void fma_peak(const FmaPeakArgs& a) {
-  constexpr int kSums = 12;  // one a cycle, up to nine cycles each
+  constexpr int kSums = 12;  // throughput 1 per cycle, latency up to 9 cycles, and spare
   Vec sum[kSums];
   for (int k = 0; k < kSums; ++k) {
     sum[k] = splat(static_cast<float>(k));

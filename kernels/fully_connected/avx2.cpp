@@ -1,3 +1,4 @@
+// The avx2 tier of fully_connected.
 #include "kernels/common/avx2_matvec.h"
 #include "kernels/families.h"
 

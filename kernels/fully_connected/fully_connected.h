@@ -1,8 +1,8 @@
 // Fully connected layer: y = act(W x + b).
 //
-// x: [in_elems], a flat map or vector with its zero lanes, so in_elems is a multiple of 8.
-// y: [ceil(out_c/8) * 8], elements >= out_c become 0; not overlapping x. Weights: fp16 panels of 16
-// outputs, [panel][in_elems][16]; the last panel is 8 wide when ceil(out_c/8) is odd.
+// x: [in_elems], a vector or a flattened map including its unused lanes; in_elems is a multiple of
+// 8. y: [ceil(out_c/8) * 8], elements >= out_c become 0; must not overlap x. Weights: fp16 panels
+// of 16 outputs, [panel][in_elems][16]; the last panel is 8 wide if ceil(out_c/8) is odd.
 #pragma once
 
 #include <cstdint>

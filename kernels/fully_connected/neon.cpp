@@ -1,3 +1,4 @@
+// The neon and neon32 tiers of fully_connected.
 #include "kernels/common/neon_matvec.h"
 #include "kernels/families.h"
 

@@ -1,3 +1,4 @@
+// The wasm tier of fully_connected.
 #include "kernels/common/wasm_matvec.h"
 #include "kernels/families.h"
 

@@ -1,3 +1,4 @@
+// The avx2 tier of global_average_pool.
 #include "kernels/common/avx2.h"
 #include "kernels/families.h"
 #include "kernels/global_average_pool/parts.h"

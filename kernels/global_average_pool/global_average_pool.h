@@ -1,8 +1,8 @@
-// Mean of a whole map: y[c] = sum over all pixels of x[p, c] / pixels, per channel.
+// Mean over all pixels: y[c] = sum over p of x[p, c] / pixels, per channel.
 //
-// x: [pixels, c] in blocks of 8 channels, y: [c]; not overlapping. Lanes >= c of x are zero, and so
-// are those of y. However large the map, the mean errs by no more than that of some hundred pixels
-// in fp32.
+// x: [pixels, c] in blocks of 8 channels, y: [c]; not overlapping. Lanes >= c of x must be 0; those
+// of y become 0. The error does not grow with the map: it is at most that of some hundred pixels in
+// fp32.
 #pragma once
 
 #include <cstdint>

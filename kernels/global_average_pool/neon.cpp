@@ -1,3 +1,4 @@
+// The neon and neon32 tiers of global_average_pool.
 #include "kernels/common/neon.h"
 #include "kernels/families.h"
 #include "kernels/global_average_pool/parts.h"
@@ -5,7 +6,7 @@
 namespace mien::kernels::MIEN_TIER {
 namespace {
 
-// Four sums of each vector hide the latency of additions.
+// Four sums per vector hide the latency of additions.
 void sum_of_part(const float* x, std::int32_t pixels, float (&part)[8]) {
   constexpr int kSums = 4;
   Vec low[kSums], high[kSums];

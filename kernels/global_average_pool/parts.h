@@ -1,5 +1,5 @@
-// Sums of a whole map in fp32 lose digits as they grow, until what is added no longer counts. So
-// maps are summed up by parts, and the parts in double.
+// Long sums in fp32 lose precision, up to ignoring further terms. Maps are therefore summed in
+// parts, and the parts are added in double precision.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 inline constexpr std::int32_t kPartPixels = 256;
 
-// Of a block of 8 channels.
+// Sums the parts of a block of 8 channels.
 class TotalOfParts {
  public:
   void add(const float (&part)[8]) {
@@ -32,7 +32,7 @@ class TotalOfParts {
   double sums_[8] = {};
 };
 
-// `sum_of_part` puts the sum of so many pixels of a block, at most kPartPixels, into 8 floats.
+// `sum_of_part` writes the sums of up to kPartPixels pixels of a block to 8 floats.
 template <class SumOfPart>
 void mean_by_parts(const GlobalAveragePoolArgs& a, SumOfPart sum_of_part) {
   const float* x = a.x;

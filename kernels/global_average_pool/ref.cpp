@@ -1,3 +1,4 @@
+// The reference kernel of global_average_pool.
 #include "kernels/common/ref.h"
 #include "kernels/families.h"
 

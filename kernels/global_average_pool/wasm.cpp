@@ -1,3 +1,4 @@
+// The wasm tier of global_average_pool.
 #include "kernels/common/wasm.h"
 #include "kernels/families.h"
 #include "kernels/global_average_pool/parts.h"

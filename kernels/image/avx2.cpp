@@ -1,3 +1,4 @@
+// The avx2 tier of warp.
 #include "kernels/common/avx2.h"
 #include "kernels/families.h"
 #include "kernels/image/tiles.h"
@@ -22,7 +23,7 @@ struct Simd {
   static Vec max(Vec a, Vec b) { return _mm256_max_ps(a, b); }
   static Vec floor(Vec x) { return _mm256_floor_ps(x); }
   static Ints equal(Vec a, Vec b) { return _mm256_castps_si256(_mm256_cmp_ps(a, b, _CMP_EQ_OQ)); }
-  // A comparison with what is not a number is false.
+  // Comparisons with NaN are false.
   static Vec finite_or_0(Vec x) {
     const Vec magnitude = _mm256_andnot_ps(_mm256_set1_ps(-0.0f), x);
     return _mm256_and_ps(x, _mm256_cmp_ps(magnitude, _mm256_set1_ps(3.0e38f), _CMP_LE_OQ));
@@ -32,23 +33,23 @@ struct Simd {
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(at), x);
   }
 
-  // A neighbour's in the low half of 32 bits, the next one's in the high half.
-  using Shares = Ints;
-  static Shares shares_of(Vec across) {
-    const Ints next = to_ints(_mm256_mul_ps(across, splat(tiles::kWhole)));
+  // The weight of a sample in the low 16 bits, that of the next sample in the high 16 bits.
+  using Weights = Ints;
+  static Weights weights_of(Vec across) {
+    const Ints next = to_ints(_mm256_mul_ps(across, splat(tiles::kOne)));
     const Ints both = _mm256_sub_epi32(_mm256_slli_epi32(next, 16), next);
-    return _mm256_add_epi32(both, _mm256_set1_epi32(tiles::kWhole));
+    return _mm256_add_epi32(both, _mm256_set1_epi32(tiles::kOne));
   }
-  static Vec gather(const std::uint16_t* base, Ints index, Shares shares) {
-    // The mask, that of all, is computed, and what is kept where it is 0 is named: else a compiler
-    // takes any register for it, and each gather waits for what was in there.
+  static Vec gather(const std::uint16_t* base, Ints index, Weights weights) {
+    // A masked gather with an explicit source and a mask of all lanes that is computed, because
+    // otherwise the compiler uses any register as the source and each gather depends on it.
     const Ints all = _mm256_cmpgt_epi32(index, _mm256_set1_epi32(-1));
     const Ints pairs = _mm256_mask_i32gather_epi32(
         _mm256_setzero_si256(), reinterpret_cast<const int*>(base), index, all, 2);
-    return _mm256_cvtepi32_ps(_mm256_madd_epi16(pairs, shares));
+    return _mm256_cvtepi32_ps(_mm256_madd_epi16(pairs, weights));
   }
 
-  // Each third vector of the result has every third number of each colour.
+  // The lanes of each output vector hold every third value of each colour.
   static void store_rgb(float* at, Vec r, Vec g, Vec b) {
     const auto third = [&](int first, Vec x, Vec y, Vec z) {
       const Vec xy = _mm256_blend_ps(x, y, 0b10010010);

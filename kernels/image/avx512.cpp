@@ -1,11 +1,11 @@
-// Neighbours of 16 places that lie close together are picked out of rows that were loaded whole: a
-// gather takes longer than several rows.
+// Neighbours of 16 close positions are permuted out of whole rows, because a gather takes longer
+// than loading several rows.
 #include "kernels/common/avx512.h"
 #include "kernels/families.h"
 #include "kernels/image/tiles.h"
 
-// Rows are loaded with what lies beyond them, which may be numbers that nobody wrote and is never
-// picked. clang's memory sanitizer does not follow single numbers through a permutation.
+// Row loads may extend beyond a row to uninitialized values that are never used. clang's memory
+// sanitizer does not track single lanes through a permutation.
 #ifdef __has_feature
 #if __has_feature(memory_sanitizer)
 #define MIEN_LOADS_BEYOND __attribute__((no_sanitize("memory")))
@@ -39,30 +39,30 @@ struct Simd {
   static Ints equal(Vec a, Vec b) {
     return _mm512_movm_epi32(_mm512_cmp_ps_mask(a, b, _CMP_EQ_OQ));
   }
-  // A comparison with what is not a number is false.
+  // Comparisons with NaN are false.
   static Vec finite_or_0(Vec x) {
     return _mm512_maskz_mov_ps(_mm512_cmp_ps_mask(_mm512_abs_ps(x), splat(3.0e38f), _CMP_LE_OQ), x);
   }
   static Ints to_ints(Vec x) { return _mm512_cvtps_epi32(x); }
   static void store(std::int32_t* at, Ints x) { _mm512_storeu_si512(at, x); }
 
-  // A neighbour's in the low half of 32 bits, the next one's in the high half.
-  using Shares = Ints;
-  static Shares shares_of(Vec across) {
-    const Ints next = to_ints(_mm512_mul_ps(across, splat(tiles::kWhole)));
+  // The weight of a sample in the low 16 bits, that of the next sample in the high 16 bits.
+  using Weights = Ints;
+  static Weights weights_of(Vec across) {
+    const Ints next = to_ints(_mm512_mul_ps(across, splat(tiles::kOne)));
     const Ints both = _mm512_sub_epi32(_mm512_slli_epi32(next, 16), next);
-    return _mm512_add_epi32(both, _mm512_set1_epi32(tiles::kWhole));
+    return _mm512_add_epi32(both, _mm512_set1_epi32(tiles::kOne));
   }
 
-  // Places of a vector lie on a line, so that the ends are the first and the last.
+  // The positions of a vector lie on a line, so its first and last lanes are the extremes.
   struct Ends {
-    std::int32_t least, most;
+    std::int32_t low, high;
     Ends() = default;
     explicit Ends(Ints x) {
       const std::int32_t first = _mm512_cvtsi512_si32(x);
       const std::int32_t last = _mm_extract_epi32(_mm512_extracti32x4_epi32(x, 3), 3);
-      least = std::min(first, last);
-      most = std::max(first, last);
+      low = std::min(first, last);
+      high = std::max(first, last);
     }
   };
 
@@ -70,12 +70,12 @@ struct Simd {
    public:
     Neighbours() = default;
     Neighbours(Vec column, Vec row, std::int32_t stride, Vec across)
-        : rows_(to_ints(row)), shares_(shares_of(across)), stride_(stride), height_(rows_) {
+        : rows_(to_ints(row)), weights_(weights_of(across)), stride_(stride), height_(rows_) {
       const Ints columns = to_ints(column);
       const Ends width(columns);
-      is_close_ = width.most - width.least < kLoaded - 1 && height_.most - height_.least < kMaxRows;
-      first_ = is_close_ ? height_.least * stride + width.least : 0;
-      const Ints from = _mm512_sub_epi32(columns, _mm512_set1_epi32(width.least));
+      is_close_ = width.high - width.low < kLoaded - 1 && height_.high - height_.low < kMaxRows;
+      first_ = is_close_ ? height_.low * stride + width.low : 0;
+      const Ints from = _mm512_sub_epi32(columns, _mm512_set1_epi32(width.low));
       order_ = is_close_ ? _mm512_add_epi32(_mm512_or_si512(from, _mm512_slli_epi32(from, 16)),
                                             _mm512_set1_epi32(1 << 16))
                          : to_ints(fma(column, row, splat(static_cast<float>(stride))));
@@ -99,24 +99,24 @@ struct Simd {
     }
 
    private:
-    static constexpr std::int32_t kLoaded = 32;   // numbers of a row
-    static constexpr std::int32_t kMaxRows = 20;  // take longer than two gathers
+    static constexpr std::int32_t kLoaded = 32;   // samples of a row
+    static constexpr std::int32_t kMaxRows = 20;  // more take longer than two gathers
 
-    // Row after row gives its sums to the places below it, and to those above the next.
+    // Interpolates each row once: below the positions in this row, above those in the next.
     template <int kCount>
     MIEN_LOADS_BEYOND void pick(const std::uint16_t* const* copies, Ints* above,
                                 Ints* below) const {
       for (int c = 0; c < kCount; ++c) {
         above[c] = below[c] = _mm512_setzero_si512();
       }
-      Ints number = _mm512_set1_epi32(height_.least);
+      Ints number = _mm512_set1_epi32(height_.low);
       __mmask16 before = 0;
       std::ptrdiff_t at = first_;
-      for (std::int32_t i = height_.least; i <= height_.most + 1; ++i, at += stride_) {
+      for (std::int32_t i = height_.low; i <= height_.high + 1; ++i, at += stride_) {
         const __mmask16 here = _mm512_cmpeq_epi32_mask(rows_, number);
         for (int c = 0; c < kCount; ++c) {
           const Ints row = _mm512_loadu_si512(copies[c] + at);
-          const Ints sums = _mm512_madd_epi16(_mm512_permutexvar_epi16(order_, row), shares_);
+          const Ints sums = _mm512_madd_epi16(_mm512_permutexvar_epi16(order_, row), weights_);
           below[c] = _mm512_mask_mov_epi32(below[c], before, sums);
           above[c] = _mm512_mask_mov_epi32(above[c], here, sums);
         }
@@ -125,18 +125,18 @@ struct Simd {
       }
     }
     [[nodiscard]] Ints gather(const std::uint16_t* base) const {
-      return _mm512_madd_epi16(_mm512_i32gather_epi32(order_, base, 2), shares_);
+      return _mm512_madd_epi16(_mm512_i32gather_epi32(order_, base, 2), weights_);
     }
 
-    Ints rows_, shares_;
-    Ints order_;  // of pairs in what is loaded, or where in a copy they are
+    Ints rows_, weights_;
+    Ints order_;  // permutation of the loaded pairs, or their index in a copy
     std::int32_t stride_, first_;
     Ends height_;
     bool is_close_;
   };
 
   static void store_rgb(float* at, Vec r, Vec g, Vec b) {
-    // Where red and green go, then blue among them, for each third.
+    // Places red and green, then blue, in each third of the output.
     const auto third = [&](int first, Ints red_green, Ints blue) {
       const Vec rg = _mm512_permutex2var_ps(r, red_green, g);
       _mm512_storeu_ps(at + first, _mm512_permutex2var_ps(rg, blue, b));

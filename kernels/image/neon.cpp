@@ -1,3 +1,4 @@
+// The neon and neon32 tiers of warp.
 #include "kernels/common/neon.h"
 #include "kernels/families.h"
 #include "kernels/image/tiles.h"
@@ -23,20 +24,20 @@ struct Simd {
   static Vec max(Vec a, Vec b) { return vmaxq_f32(a, b); }
   static Vec floor(Vec x) { return MIEN_TIER::floor(x); }
   static Ints equal(Vec a, Vec b) { return vreinterpretq_s32_u32(vceqq_f32(a, b)); }
-  // A comparison with what is not a number is false.
+  // Comparisons with NaN are false.
   static Vec finite_or_0(Vec x) { return only(vcleq_f32(vabsq_f32(x), splat(3.0e38f)), x); }
   static Ints to_ints(Vec x) { return vcvtq_s32_f32(x); }
   static void store(std::int32_t* at, Ints x) { vst1q_s32(at, x); }
 
-  struct Shares {
+  struct Weights {
     uint16x4_t here, next;
   };
-  static Shares shares_of(Vec across) {
-    const Vec rounded = fma(splat(0.5f), across, splat(tiles::kWhole));
+  static Weights weights_of(Vec across) {
+    const Vec rounded = fma(splat(0.5f), across, splat(tiles::kOne));
     const uint16x4_t next = vmovn_u32(vcvtq_u32_f32(rounded));
-    return {vsub_u16(vdup_n_u16(tiles::kWhole), next), next};
+    return {vsub_u16(vdup_n_u16(tiles::kOne), next), next};
   }
-  static Vec gather(const std::uint16_t* base, Ints index, Shares shares) {
+  static Vec gather(const std::uint16_t* base, Ints index, Weights weights) {
     const auto pair = [&](std::int32_t i) {
       std::uint32_t both;
       __builtin_memcpy(&both, base + i, sizeof both);
@@ -46,8 +47,8 @@ struct Simd {
     pairs = vsetq_lane_u32(pair(vgetq_lane_s32(index, 1)), pairs, 1);
     pairs = vsetq_lane_u32(pair(vgetq_lane_s32(index, 2)), pairs, 2);
     pairs = vsetq_lane_u32(pair(vgetq_lane_s32(index, 3)), pairs, 3);
-    const uint32x4_t here = vmull_u16(vmovn_u32(pairs), shares.here);
-    return vcvtq_f32_u32(vmlal_u16(here, vshrn_n_u32(pairs, 16), shares.next));
+    const uint32x4_t here = vmull_u16(vmovn_u32(pairs), weights.here);
+    return vcvtq_f32_u32(vmlal_u16(here, vshrn_n_u32(pairs, 16), weights.next));
   }
 
   static void store_rgb(float* at, Vec r, Vec g, Vec b) {

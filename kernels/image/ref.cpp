@@ -1,3 +1,4 @@
+// The reference kernel of warp.
 #include "kernels/common/ref.h"
 #include "kernels/families.h"
 
@@ -8,12 +9,12 @@ struct Rgb {
   double r = 0, g = 0, b = 0;
 };
 
-// A plane as it is sampled.
+// A plane, its reduction and how to sample it.
 struct Channel {
   Plane plane;
   std::int32_t width, height;  // samples of the plane
   std::int32_t box;
-  double samples_per_pixel;  // of the plane, before it is made smaller
+  double samples_per_pixel;  // of the full plane
 
   [[nodiscard]] double byte_at(std::int32_t x, std::int32_t y) const {
     x = std::clamp(x, 0, width - 1);
@@ -21,7 +22,7 @@ struct Channel {
     return plane.data[y * plane.row_bytes + x * plane.pixel_bytes];
   }
 
-  // Mean of the box in column c and row r of boxes.
+  // Mean of the box in column c and row r.
   [[nodiscard]] double mean(std::int32_t c, std::int32_t r) const {
     double sum = 0.0;
     for (std::int32_t i = 0; i < box; ++i) {
@@ -32,8 +33,7 @@ struct Channel {
     return sum / (box * box);
   }
 
-  // Everything outside repeats the border, so places beyond it by more than two boxes are all the
-  // same.
+  // Position in boxes. Positions more than two boxes beyond the border are equivalent.
   [[nodiscard]] double place(double coordinate, std::int32_t size) const {
     const double small = coordinate * samples_per_pixel / box;
     return std::clamp(small, -2.0, static_cast<double>(size) / box + 2.0) - 0.5;
@@ -50,7 +50,7 @@ struct Channel {
   }
 };
 
-// Byte `first` of the pixels of an image without chroma planes.
+// The channel at byte `first` of each pixel of a packed image.
 Channel packed(const WarpArgs& a, std::int32_t first) {
   Plane plane = a.plane[0];
   plane.data += first;

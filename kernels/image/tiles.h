@@ -1,20 +1,19 @@
-// The warp of tiers with vectors: tile by tile, each from a small copy of what it needs of the
-// image. The copy is made of sums of boxes, 16 bits each, with the border repeated, so that two
-// neighbours are one load of 32 bits that is always inside. Everything has internal linkage: no
-// code of one tier may be merged with that of another.
+// The warp of tiers with SIMD, tile by tile. For each tile it copies the needed part of the image
+// as sums of boxes, 16 bits each, with the border repeated, so that two neighbours are one 32-bit
+// load that is always in bounds. All has internal linkage: the linker cannot merge code of
+// different tiers.
 //
-// `Simd` is what a tier has: vectors of kLanes floats and integers,
+// A tier supplies `Simd`, with vectors of kLanes floats and integers:
 //   Vec, Ints; splat, load, count_from(first), fma(sum, a, b), sub, min, max, floor
-//   finite_or_0(Vec); equal(Vec, Vec): 0 where not; to_ints(Vec); store(std::int32_t*, Ints)
-//   Shares; shares_of(Vec): of neighbours that a place lies between, in parts of kWhole
-//   Neighbours(column, row, stride, across): where between numbers of a copy with so many in a row,
-//     and above and below them; rows_of<kCount>(copies): of each copy the sum of a number's and the
-//     next one's share, of the upper row and the lower
+//   finite_or_0(Vec); equal(Vec, Vec): 0 if different; to_ints(Vec); store(std::int32_t*, Ints)
+//   Weights; weights_of(Vec): the interpolation weights of two neighbours, in units of 1 / kOne
+//   Neighbours(column, row, stride, across): the four neighbours of positions in a copy with
+//     `stride` samples per row; rows_of<kCount>(copies): interpolates the upper and the lower row
 //   store_rgb(float*, Vec, Vec, Vec): kLanes pixels, interleaved
-// and of kSums numbers of 16 bits,
+// and with vectors of kSums 16-bit integers:
 //   Sums; load_sums, store_sums, add_sums
 //   bytes(at): at[i]; byte_pairs(at): at[2 i] + at[2 i + 1]; even_bytes(at): at[2 i]
-//   pairs(a, b), evens(a, b): the same of the numbers in a and b, each below 2^15
+//   pairs(a, b), evens(a, b): the same for the integers in a and b, each below 2^15
 #pragma once
 
 #include <algorithm>
@@ -25,29 +24,29 @@
 
 namespace mien::kernels::tiles {
 
-// Of the output: wide, since each row of a copy costs something. A tile that needs more of the
-// image than there is room for is halved.
+// Size of a tile of the output: wide, because each row of a copy has a fixed cost. A tile whose
+// part of the image exceeds the buffers is halved.
 constexpr std::int32_t kTileRows = 24, kTileColumns = 112;
-constexpr std::int32_t kMaxSums = 832;    // of a row, before it is made smaller
-constexpr std::int32_t kPiece = 5;        // vectors of a row at a time
-constexpr std::int32_t kMaxWaiting = 13;  // parts of a tile: one for each time it is halved
+constexpr std::int32_t kMaxSums = 832;    // samples of an image row before the boxes are summed
+constexpr std::int32_t kRowVecs = 5;      // vectors of a row computed together
+constexpr std::int32_t kMaxPending = 13;  // parts of a tile: one per halving
 constexpr std::int32_t kMaxBox = 8;
-constexpr std::int32_t kMaxStep = 3;  // numbers from one pixel to the next when rows are summed
-constexpr std::int32_t kSpare = 64;   // vectors may go on beyond what they are asked for
-constexpr std::int32_t kMaxSamples = kWarpSampleElems - 3 * kSpare;  // of a copy of all channels
-constexpr std::int32_t kWhole = 1 << 14;  // its products with sums of boxes fit into 32 bits
+constexpr std::int32_t kMaxStep = 3;   // samples per pixel when rows are summed
+constexpr std::int32_t kPadding = 64;  // samples that vectors may write beyond the end
+constexpr std::int32_t kMaxSamples = kWarpSampleElems - 3 * kPadding;  // of all channels' copies
+constexpr std::int32_t kOne = 1 << 14;  // weight 1.0; its product with a sum of a box fits 32 bits
 
 namespace {
 
-// One number of a pixel: where it is, and how it is made smaller.
+// A channel of the image: its plane and the mapping from output to boxes.
 struct Channel {
   Plane plane;
   std::int32_t width, height;  // samples of the plane
   std::int32_t box;
-  // Between which boxes output (row i, column j) lies:
+  // Position in boxes of output (row i, column j):
   //   x = across[0] (j + 0.5) + across[1] (i + 0.5) + across[2], y = down[0] (j + 0.5) + ...
   float across[3], down[3];
-  // Beyond the border by more than two boxes everything is the same.
+  // Positions more than two boxes beyond the border are equivalent.
   float end_x, end_y;
 
   Channel() = default;
@@ -69,64 +68,64 @@ struct Channel {
   }
 };
 
-// Of the outputs, ends excluded.
+// A rectangle of outputs, ends excluded.
 struct Tile {
   std::int32_t top, bottom, left, right;
 
   [[nodiscard]] bool is_one() const { return bottom - top == 1 && right - left == 1; }
   [[nodiscard]] bool is_wide() const { return right - left > bottom - top; }
-  [[nodiscard]] std::int32_t middle() const {
+  [[nodiscard]] std::int32_t centre() const {
     return is_wide() ? (left + right) / 2 : (top + bottom) / 2;
   }
   [[nodiscard]] Tile first_half() const {
-    return is_wide() ? Tile{top, bottom, left, middle()} : Tile{top, middle(), left, right};
+    return is_wide() ? Tile{top, bottom, left, centre()} : Tile{top, centre(), left, right};
   }
   [[nodiscard]] Tile second_half() const {
-    return is_wide() ? Tile{top, bottom, middle(), right} : Tile{middle(), bottom, left, right};
+    return is_wide() ? Tile{top, bottom, centre(), right} : Tile{centre(), bottom, left, right};
   }
 };
 
-// Of the boxes of a channel.
+// A rectangle of boxes of a channel.
 struct Window {
   std::int32_t left = 0, top = 0, columns = 0, rows = 0;
 
   Window() = default;
-  // Ends included; a bilinear sample needs the next box too.
+  // Ends included; a bilinear sample also needs the next box.
   Window(std::int32_t from_x, std::int32_t to_x, std::int32_t from_y, std::int32_t to_y)
       : left(from_x), top(from_y), columns(to_x - from_x + 2), rows(to_y - from_y + 2) {}
 
   [[nodiscard]] std::int32_t samples() const { return rows * columns; }
 };
 
-// Sums of boxes to what the network reads: rows of red, green and blue; the last number of a row is
-// added. What comes out is kept between low and high.
-struct Mixing {
-  float weights[3][4];  // the sums come in parts of kWhole
+// The transform from sums of boxes to the output: rows for red, green and blue, whose last column
+// is added. The result is clamped to low..high.
+struct ColourTransform {
+  float weights[3][4];  // sums are scaled by kOne
   float low, high;
 };
 
-inline Mixing mixing_of(const WarpArgs& a) {
-  const auto share = [](std::int32_t box) {
-    return 1.0f / (static_cast<float>(box * box) * static_cast<float>(kWhole));
+inline ColourTransform colour_transform(const WarpArgs& a) {
+  const auto scale = [](std::int32_t box) {
+    return 1.0f / (static_cast<float>(box * box) * static_cast<float>(kOne));
   };
   const bool has_luma = a.format == PixelFormat::kGray8 || a.format == PixelFormat::kYuv420;
-  const bool half_input = has_luma && !a.full_range;
-  const float contrast = half_input ? 255.0f / 219.0f : 1.0f;
-  const float black = half_input ? -16.0f * contrast : 0.0f;
-  const float of_first = contrast * share(a.box);
-  const float colour = (half_input ? 255.0f / 224.0f : 1.0f);
+  const bool limited_range = has_luma && !a.full_range;
+  const float contrast = limited_range ? 255.0f / 219.0f : 1.0f;
+  const float black = limited_range ? -16.0f * contrast : 0.0f;
+  const float of_first = contrast * scale(a.box);
+  const float colour = (limited_range ? 255.0f / 224.0f : 1.0f);
   const auto number = [](double value) { return static_cast<float>(value); };
   const YuvMatrix& m = a.yuv_matrix;
   const float of_u[3] = {0.0f, number(m.green_of_u), number(m.blue_of_u)};
   const float of_v[3] = {number(m.red_of_v), number(m.green_of_v), 0.0f};
-  Mixing mixing{};
+  ColourTransform transform{};
   for (std::int32_t c = 0; c < 3; ++c) {
-    float* w = mixing.weights[c];
+    float* w = transform.weights[c];
     w[3] = black;
     if (a.format == PixelFormat::kYuv420) {
       w[0] = of_first;
-      w[1] = of_u[c] * colour * share(a.chroma_box);
-      w[2] = of_v[c] * colour * share(a.chroma_box);
+      w[1] = of_u[c] * colour * scale(a.chroma_box);
+      w[2] = of_v[c] * colour * scale(a.chroma_box);
       w[3] -= 128.0f * colour * (of_u[c] + of_v[c]);
     } else {
       w[has_luma ? 0 : c] = of_first;
@@ -137,13 +136,13 @@ inline Mixing mixing_of(const WarpArgs& a) {
     w[3] += a.offset;
   }
   const float ends[2] = {a.offset, 255.0f * a.scale + a.offset};
-  mixing.low = std::min(ends[0], ends[1]);
-  mixing.high = std::max(ends[0], ends[1]);
-  return mixing;
+  transform.low = std::min(ends[0], ends[1]);
+  transform.high = std::max(ends[0], ends[1]);
+  return transform;
 }
 
-// The Neighbours of tiers that gather each pair of numbers:
-//   gather(const std::uint16_t* base, Ints index, Shares)
+// `Neighbours` for tiers that gather each pair of samples:
+//   gather(const std::uint16_t* base, Ints index, Weights)
 template <class Simd>
 class Gathered {
  public:
@@ -152,27 +151,27 @@ class Gathered {
   Gathered() = default;
   Gathered(Vec column, Vec row, std::int32_t stride, Vec across)
       : index_(Simd::to_ints(Simd::fma(column, row, Simd::splat(static_cast<float>(stride))))),
-        shares_(Simd::shares_of(across)),
+        weights_(Simd::weights_of(across)),
         stride_(stride) {}
 
   template <int kCount>
   void rows_of(const std::uint16_t* const* copies, Vec* upper, Vec* lower) const {
     for (int c = 0; c < kCount; ++c) {
-      upper[c] = Simd::gather(copies[c], index_, shares_);
-      lower[c] = Simd::gather(copies[c] + stride_, index_, shares_);
+      upper[c] = Simd::gather(copies[c], index_, weights_);
+      lower[c] = Simd::gather(copies[c] + stride_, index_, weights_);
     }
   }
 
  private:
   typename Simd::Ints index_;
-  typename Simd::Shares shares_;
+  typename Simd::Weights weights_;
   std::int32_t stride_;
 };
 
 template <class Simd>
 class Warp {
  public:
-  explicit Warp(const WarpArgs& args) : a_(args), mixing_(mixing_of(args)) {
+  explicit Warp(const WarpArgs& args) : a_(args), transform_(colour_transform(args)) {
     const std::int32_t chroma_width = (args.image_width + 1) / 2;
     const std::int32_t chroma_height = (args.image_height + 1) / 2;
     const auto packed = [&](std::int32_t first) {
@@ -215,17 +214,17 @@ class Warp {
  private:
   using Vec = typename Simd::Vec;
 
-  // In boxes.
-  struct Place {
+  // A position in boxes.
+  struct Point {
     Vec x, y;
   };
 
-  // Outputs in one row, of a channel.
+  // The outputs of one row, for one channel.
   struct Line {
     Vec x, y, step_x, step_y;
   };
 
-  // Between which boxes, and where between them.
+  // The box up and left of a position, and the fractions to the next box.
   struct Position {
     Vec column, row, across, down;
   };
@@ -239,31 +238,31 @@ class Warp {
             Simd::splat(channel.down[0])};
   }
 
-  // `middles`: of columns.
-  [[nodiscard]] static Place place(const Line& line, Vec middles) {
-    return {Simd::fma(line.x, middles, line.step_x), Simd::fma(line.y, middles, line.step_y)};
+  // `centres`: columns of pixel centres.
+  [[nodiscard]] static Point point(const Line& line, Vec centres) {
+    return {Simd::fma(line.x, centres, line.step_x), Simd::fma(line.y, centres, line.step_y)};
   }
 
-  [[nodiscard]] static Position position(const Place& place, const Channel& channel) {
+  [[nodiscard]] static Position position(const Point& point, const Channel& channel) {
     const auto within = [](Vec coordinate, float end) {
-      const Vec kept = Simd::min(Simd::max(coordinate, Simd::splat(-2.0f)), Simd::splat(end));
-      return Simd::sub(kept, Simd::splat(0.5f));
+      const Vec clamped = Simd::min(Simd::max(coordinate, Simd::splat(-2.0f)), Simd::splat(end));
+      return Simd::sub(clamped, Simd::splat(0.5f));
     };
-    const Vec x = within(place.x, channel.end_x), y = within(place.y, channel.end_y);
+    const Vec x = within(point.x, channel.end_x), y = within(point.y, channel.end_y);
     const Vec column = Simd::floor(x), row = Simd::floor(y);
     return {column, row, Simd::sub(x, column), Simd::sub(y, row)};
   }
 
-  // A tile, or part after part of it where it needs too much of the image.
+  // Warps a tile, split into parts if its part of the image exceeds the buffers.
   void warp_tile(const Tile& tile) {
-    Tile waiting[kMaxWaiting] = {tile};
+    Tile pending[kMaxPending] = {tile};
     for (std::int32_t count = 1; count > 0;) {
-      const Tile part = waiting[--count];
+      const Tile part = pending[--count];
       if (copy(part)) {
         warp_copied(part);
       } else {
-        waiting[count++] = part.second_half();
-        waiting[count++] = part.first_half();
+        pending[count++] = part.second_half();
+        pending[count++] = part.first_half();
       }
     }
   }
@@ -278,20 +277,20 @@ class Warp {
     }
   }
 
-  // False when the tile needs more of the image than there is room for.
+  // Copies the part of the image that the tile needs; returns false if it exceeds the buffers.
   [[nodiscard]] bool copy(const Tile& tile) {
     for (std::int32_t c = 0; c < count_; ++c) {
-      // The third channel lies where the second does, and most often that where the first does.
+      // The third channel has the grid of the second, which usually has that of the first.
       if (c == 2 || (c == 1 && !has_own_grid_)) {
         windows_[c] = windows_[c - 1];
         continue;
       }
-      Place upper = corners(channels_[c], tile, tile.top);
-      Place lower = corners(channels_[c], tile, tile.bottom - 1);
+      Point upper = corners(channels_[c], tile, tile.top);
+      Point lower = corners(channels_[c], tile, tile.bottom - 1);
       if (tile.is_one()) {
         upper = lower = finite(upper);
       } else if (!all_finite(upper) || !all_finite(lower)) {
-        return false;  // between numbers that are finite all are, and in order
+        return false;  // between finite corners all positions are finite and ordered
       }
       windows_[c] = window(position(upper, channels_[c]), position(lower, channels_[c]));
     }
@@ -304,7 +303,7 @@ class Warp {
     return true;
   }
 
-  // Finds room for the copies. Coordinates are below 2^16, so that all products fit.
+  // Assigns buffers to the copies. Coordinates are below 2^16, so that products do not overflow.
   [[nodiscard]] bool lay_out() {
     std::int32_t used = 0;
     for (std::int32_t c = 0; c < count_; ++c) {
@@ -315,7 +314,7 @@ class Warp {
           window.columns * channel.box * step > kMaxSums || used + window.samples() > kMaxSamples) {
         return false;
       }
-      copies_[c] = a_.samples + used + c * kSpare;
+      copies_[c] = a_.samples + used + c * kPadding;
       used += window.samples();
     }
     return true;
@@ -323,25 +322,25 @@ class Warp {
 
   [[nodiscard]] bool has_chroma() const { return a_.format == PixelFormat::kYuv420; }
 
-  // Left and right end of a row of the tile in the first two lanes.
-  [[nodiscard]] static Place corners(const Channel& channel, const Tile& tile, std::int32_t i) {
-    float middles[Simd::kLanes];
-    std::fill_n(middles, Simd::kLanes, static_cast<float>(tile.right) - 0.5f);
-    middles[0] = static_cast<float>(tile.left) + 0.5f;
-    return place(line(channel, i), Simd::load(middles));
+  // Positions of the left and right end of a row of the tile, in the first two lanes.
+  [[nodiscard]] static Point corners(const Channel& channel, const Tile& tile, std::int32_t i) {
+    float centres[Simd::kLanes];
+    std::fill_n(centres, Simd::kLanes, static_cast<float>(tile.right) - 0.5f);
+    centres[0] = static_cast<float>(tile.left) + 0.5f;
+    return point(line(channel, i), Simd::load(centres));
   }
 
-  [[nodiscard]] static Place finite(const Place& at) {
+  [[nodiscard]] static Point finite(const Point& at) {
     return {Simd::finite_or_0(at.x), Simd::finite_or_0(at.y)};
   }
 
-  [[nodiscard]] static bool all_finite(const Place& at) {
-    std::int32_t same[2][Simd::kLanes];
-    // A number that is not finite differs from what becomes of it.
-    const Place finite_at = finite(at);
-    Simd::store(same[0], Simd::equal(at.x, finite_at.x));
-    Simd::store(same[1], Simd::equal(at.y, finite_at.y));
-    return (same[0][0] & same[0][1] & same[1][0] & same[1][1]) != 0;
+  [[nodiscard]] static bool all_finite(const Point& at) {
+    std::int32_t unchanged[2][Simd::kLanes];
+    // finite() changes values that are not finite.
+    const Point finite_at = finite(at);
+    Simd::store(unchanged[0], Simd::equal(at.x, finite_at.x));
+    Simd::store(unchanged[1], Simd::equal(at.y, finite_at.y));
+    return (unchanged[0][0] & unchanged[0][1] & unchanged[1][0] & unchanged[1][1]) != 0;
   }
 
   [[nodiscard]] static Window window(const Position& upper, const Position& lower) {
@@ -355,7 +354,7 @@ class Warp {
     return Window(x.first, x.second, y.first, y.second);
   }
 
-  // Row by row of boxes. Vectors may write beyond a row: the next one comes after it.
+  // Writes the copy row by row. Vectors may write beyond a row, which the next row then overwrites.
   void fill(const Channel& channel, const Window& window, std::uint16_t* samples) {
     const std::int32_t count = window.columns * channel.box;
     const std::int32_t begin = window.left * channel.box;
@@ -365,20 +364,21 @@ class Warp {
     for (std::int32_t r = 0; r < window.rows; ++r) {
       const Rows rows = rows_of(channel, (window.top + r) * channel.box, first);
       std::uint16_t* row = samples + std::ptrdiff_t{r} * window.columns;
-      const auto room = [&](std::int32_t n) { return n == window.columns ? row : sums_; };
+      const auto buffer = [&](std::int32_t n) { return n == window.columns ? row : sums_; };
       std::int32_t n = count;
       if (inside && channel.box > 1 && channel.plane.pixel_bytes == 1) {
         n /= 2;
-        sum_rows<2>(rows.at, channel.box, n, count, room(n), BytePairs());
+        sum_rows<2>(rows.at, channel.box, n, count, buffer(n), BytePairs());
       } else {
-        sum_columns(rows.at, channel, last - first + 1, inside ? room(n) : sums_);
+        sum_columns(rows.at, channel, last - first + 1, inside ? buffer(n) : sums_);
         if (!inside) {
-          repeat_border(std::clamp(first - begin, 0, count - 1), last - first + 1, count, room(n));
+          repeat_border(std::clamp(first - begin, 0, count - 1), last - first + 1, count,
+                        buffer(n));
         }
       }
       while (n > window.columns) {
         n /= 2;
-        halve(n, room(n), [](auto a, auto b) { return Simd::pairs(a, b); });
+        halve(n, buffer(n), [](auto a, auto b) { return Simd::pairs(a, b); });
       }
     }
   }
@@ -387,7 +387,7 @@ class Warp {
     const std::uint8_t* at[kMaxBox];
   };
 
-  // Those of a row of boxes, from column `first` on.
+  // The image rows of a row of boxes, from column `first` on.
   [[nodiscard]] static Rows rows_of(const Channel& channel, std::int32_t top, std::int32_t first) {
     Rows rows{};
     for (std::int32_t i = 0; i < channel.box; ++i) {
@@ -398,7 +398,7 @@ class Warp {
     return rows;
   }
 
-  // Kinds of numbers in a row of bytes: kSums of them at a time, or one.
+  // Ways to read samples from a row of bytes: kSums at a time, or one.
   struct Bytes {
     static auto several(const std::uint8_t* at) { return Simd::bytes(at); }
     static std::int32_t one(const std::uint8_t* at) { return at[0]; }
@@ -412,11 +412,11 @@ class Warp {
     static std::int32_t one(const std::uint8_t* at) { return at[0] + at[1]; }
   };
 
-  // Of as many columns, over the rows of a box.
+  // Sums each of `columns` columns over the rows of a box.
   void sum_columns(const std::uint8_t* const* rows, const Channel& channel, std::int32_t columns,
                    std::uint16_t* sums) {
     constexpr std::ptrdiff_t kMaxNear = 4;
-    if (channel.plane.pixel_bytes > kMaxNear) {  // a row may have more bytes than 32 bits can count
+    if (channel.plane.pixel_bytes > kMaxNear) {  // byte offsets in a row may exceed 32 bits
       return sum_far_columns(rows, channel, columns, sums);
     }
     const auto step = static_cast<std::int32_t>(channel.plane.pixel_bytes);
@@ -438,19 +438,18 @@ class Warp {
     }
   }
 
-  // n sums over `count` rows, of numbers that lie kBytes apart. No more than `bytes` of a row are
-  // read.
-  template <std::int32_t kBytes, class Numbers>
+  // n sums over `count` rows of samples kBytes apart. Reads at most `bytes` bytes of a row.
+  template <std::int32_t kBytes, class Reader>
   static void sum_rows(const std::uint8_t* const* rows, std::int32_t count, std::int32_t n,
-                       std::int32_t bytes, std::uint16_t* sums, Numbers numbers) {
+                       std::int32_t bytes, std::uint16_t* sums, Reader reader) {
     const auto sum = [&](std::int32_t i) {
-      auto total = numbers.several(rows[0] + kBytes * i);
+      auto total = reader.several(rows[0] + kBytes * i);
       for (std::int32_t row = 1; row < count; ++row) {
-        total = Simd::add_sums(total, numbers.several(rows[row] + kBytes * i));
+        total = Simd::add_sums(total, reader.several(rows[row] + kBytes * i));
       }
       Simd::store_sums(sums + i, total);
     };
-    const std::int32_t last = bytes / kBytes - Simd::kSums;  // where there are still so many
+    const std::int32_t last = bytes / kBytes - Simd::kSums;  // last index with kSums samples
     std::int32_t i = 0;
     for (; i <= last; i += Simd::kSums) {
       sum(i);
@@ -462,15 +461,15 @@ class Warp {
     for (; i < n; ++i) {
       std::int32_t total = 0;
       for (std::int32_t row = 0; row < count; ++row) {
-        total += numbers.one(rows[row] + kBytes * i);
+        total += reader.one(rows[row] + kBytes * i);
       }
       sums[i] = static_cast<std::uint16_t>(total);
     }
   }
 
-  // Makes n numbers of twice as many in sums_.
-  template <class Of>
-  void halve(std::int32_t n, std::uint16_t* to, Of of) {
+  // Combines pairs of sums_ into n sums.
+  template <class Combine>
+  void halve(std::int32_t n, std::uint16_t* to, Combine of) {
     for (std::int32_t i = 0; i < n; i += Simd::kSums) {
       const std::uint16_t* both = sums_ + std::ptrdiff_t{2} * i;
       Simd::store_sums(to + i, of(Simd::load_sums(both), Simd::load_sums(both + Simd::kSums)));
@@ -488,7 +487,7 @@ class Warp {
     }
   }
 
-  // Puts the `inside` first sums behind `left` copies of the first, and fills up with the last.
+  // Moves the first `inside` sums behind `left` copies of the first and fills up with the last.
   void repeat_border(std::int32_t left, std::int32_t inside, std::int32_t count,
                      std::uint16_t* to) const {
     const std::uint16_t first = sums_[0], last = sums_[inside - 1];
@@ -497,24 +496,23 @@ class Warp {
     std::fill(to + left + inside, to + std::max(count, left + inside), last);
   }
 
-  // Where in a copy, and where between there and its neighbours.
+  // A position in a copy, with its neighbours and the fraction to the lower row.
   struct Spot {
     typename Simd::Neighbours neighbours;
     Vec down;
   };
 
-  // Of the first channel, and of those of another grid.
+  // The positions in the grids of the first channel and of chroma.
   struct Spots {
     Spot first, chroma;
   };
 
-  // `colour(spots, rgb)` tells what is there. The places of several vectors come first: one after
-  // the other they and the colours are a chain of instructions too long for a CPU to begin the
-  // next.
+  // `colour(spots, rgb)` computes the colours. Positions of several vectors come first, because one
+  // vector's position and colour form a dependency chain too long for out-of-order execution.
   template <class Colour>
   void warp_rows(const Tile& tile, Colour colour) {
-    constexpr std::int32_t kColumns = kPiece * Simd::kLanes;
-    Spots spots[kPiece];
+    constexpr std::int32_t kColumns = kRowVecs * Simd::kLanes;
+    Spots spots[kRowVecs];
     for (std::int32_t i = tile.top; i < tile.bottom; ++i) {
       for (std::int32_t left = tile.left; left < tile.right; left += kColumns) {
         const std::int32_t right = std::min(left + kColumns, tile.right);
@@ -530,7 +528,7 @@ class Warp {
     }
   }
 
-  // The last vector of a row overlaps the one before.
+  // The last vector of a row overlaps the previous one.
   [[nodiscard]] static std::int32_t column(const Tile& tile, std::int32_t next) {
     return std::max(std::min(next, tile.right - Simd::kLanes), tile.left);
   }
@@ -540,11 +538,11 @@ class Warp {
     const Line first = line(channels_[0], i), chroma = line(channels_[1], i);
     for (std::int32_t next = left; next < right; next += Simd::kLanes) {
       const auto j = static_cast<float>(column(tile, next));
-      const Vec middles =
+      const Vec centres =
           Simd::min(Simd::count_from(j + 0.5f), Simd::splat(static_cast<float>(tile.right) - 0.5f));
       const auto at = [&](const Line& line) {
-        const Place middle = place(line, middles);
-        return tile.is_one() ? finite(middle) : middle;
+        const Point centre = point(line, centres);
+        return tile.is_one() ? finite(centre) : centre;
       };
       find(at(first), 0, spots->first);
       if (has_own_grid_) {
@@ -554,8 +552,8 @@ class Warp {
     }
   }
 
-  void find(const Place& place, std::int32_t c, Spot& spot) const {
-    const Position at = position(place, channels_[c]);
+  void find(const Point& point, std::int32_t c, Spot& spot) const {
+    const Position at = position(point, channels_[c]);
     const Window& window = windows_[c];
     const auto from = [](Vec coordinate, std::int32_t first) {
       return Simd::sub(coordinate, Simd::splat(static_cast<float>(first)));
@@ -565,7 +563,7 @@ class Warp {
     spot.down = at.down;
   }
 
-  // As many pixels as are left of a row.
+  // Stores up to `left` pixels.
   static void store(const Vec rgb[3], float* y, std::int32_t left) {
     if (left >= Simd::kLanes) {
       return Simd::store_rgb(y, rgb[0], rgb[1], rgb[2]);
@@ -578,7 +576,7 @@ class Warp {
   void gray(const Spots& at, Vec rgb[3]) const {
     Vec y;
     sample<1>(at.first, 0, &y);
-    rgb[0] = rgb[1] = rgb[2] = kept(mixed(0, 0, y, shift(0)));
+    rgb[0] = rgb[1] = rgb[2] = clamped(weighted(0, 0, y, shift(0)));
   }
 
   void from_yuv(const Spots& at, Vec rgb[3]) const {
@@ -590,27 +588,27 @@ class Warp {
       sample<3>(at.first, 0, yuv);
     }
     const Vec y = yuv[0], u = yuv[1], v = yuv[2];
-    rgb[0] = kept(mixed(0, 2, v, mixed(0, 0, y, shift(0))));
-    rgb[1] = kept(mixed(1, 2, v, mixed(1, 1, u, mixed(1, 0, y, shift(1)))));
-    rgb[2] = kept(mixed(2, 1, u, mixed(2, 0, y, shift(2))));
+    rgb[0] = clamped(weighted(0, 2, v, weighted(0, 0, y, shift(0))));
+    rgb[1] = clamped(weighted(1, 2, v, weighted(1, 1, u, weighted(1, 0, y, shift(1)))));
+    rgb[2] = clamped(weighted(2, 1, u, weighted(2, 0, y, shift(2))));
   }
 
   void from_packed(const Spots& at, Vec rgb[3]) const {
     sample<3>(at.first, 0, rgb);
     for (std::int32_t c = 0; c < 3; ++c) {
-      rgb[c] = mixed(c, c, rgb[c], shift(c));
+      rgb[c] = weighted(c, c, rgb[c], shift(c));
     }
   }
 
-  [[nodiscard]] Vec shift(std::int32_t c) const { return Simd::splat(mixing_.weights[c][3]); }
-  [[nodiscard]] Vec mixed(std::int32_t c, std::int32_t of, Vec sample, Vec sum) const {
-    return Simd::fma(sum, sample, Simd::splat(mixing_.weights[c][of]));
+  [[nodiscard]] Vec shift(std::int32_t c) const { return Simd::splat(transform_.weights[c][3]); }
+  [[nodiscard]] Vec weighted(std::int32_t c, std::int32_t of, Vec sample, Vec sum) const {
+    return Simd::fma(sum, sample, Simd::splat(transform_.weights[c][of]));
   }
-  [[nodiscard]] Vec kept(Vec value) const {
-    return Simd::min(Simd::max(value, Simd::splat(mixing_.low)), Simd::splat(mixing_.high));
+  [[nodiscard]] Vec clamped(Vec value) const {
+    return Simd::min(Simd::max(value, Simd::splat(transform_.low)), Simd::splat(transform_.high));
   }
 
-  // Sums of kCount channels from the first on, each bilinear between four.
+  // Bilinear samples of kCount channels from `first` on.
   template <int kCount>
   void sample(const Spot& spot, std::int32_t first, Vec* sums) const {
     Vec upper[kCount], lower[kCount];
@@ -621,13 +619,13 @@ class Warp {
   }
 
   const WarpArgs& a_;
-  const Mixing mixing_;
+  const ColourTransform transform_;
   std::int32_t count_ = 3;
-  bool has_own_grid_ = false;  // chroma
+  bool has_own_grid_ = false;  // chroma has another grid than luma
   Channel channels_[3] = {};
   Window windows_[3] = {};
   std::uint16_t* copies_[3] = {};
-  alignas(64) std::uint16_t sums_[kMaxSums + kSpare];
+  alignas(64) std::uint16_t sums_[kMaxSums + kPadding];
 };
 
 }  // namespace

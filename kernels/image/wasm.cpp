@@ -1,3 +1,4 @@
+// The wasm tier of warp.
 #include "kernels/common/wasm.h"
 #include "kernels/families.h"
 #include "kernels/image/tiles.h"
@@ -22,31 +23,31 @@ struct Simd {
   static Vec max(Vec a, Vec b) { return at_least(a, b); }
   static Vec floor(Vec x) { return wasm_f32x4_floor(x); }
   static Ints equal(Vec a, Vec b) { return wasm_f32x4_eq(a, b); }
-  // A comparison with what is not a number is false.
+  // Comparisons with NaN are false.
   static Vec finite_or_0(Vec x) {
     return only(wasm_f32x4_le(wasm_f32x4_abs(x), splat(3.0e38f)), x);
   }
-  // Of numbers below 2^22, to the nearest: adding 1.5 * 2^23 leaves the integer in the lowest bits,
-  // where a conversion is many instructions on most CPUs.
+  // Rounds values below 2^22 to the nearest integer: adding 1.5 * 2^23 leaves it in the lowest
+  // bits, whereas a conversion takes many instructions on most CPUs.
   static Ints to_ints(Vec x) {
     const Vec shift = splat(12582912.0f);
     return wasm_i32x4_sub(wasm_f32x4_add(x, shift), shift);
   }
   static void store(std::int32_t* at, Ints x) { wasm_v128_store(at, x); }
 
-  // A neighbour's in the low half of 32 bits, the next one's in the high half.
-  using Shares = v128_t;
-  static Shares shares_of(Vec across) {
-    const Ints next = to_ints(wasm_f32x4_mul(across, splat(tiles::kWhole)));
+  // The weight of a sample in the low 16 bits, that of the next sample in the high 16 bits.
+  using Weights = v128_t;
+  static Weights weights_of(Vec across) {
+    const Ints next = to_ints(wasm_f32x4_mul(across, splat(tiles::kOne)));
     const Ints both = wasm_i32x4_sub(wasm_i32x4_shl(next, 16), next);
-    return wasm_i32x4_add(both, wasm_i32x4_splat(tiles::kWhole));
+    return wasm_i32x4_add(both, wasm_i32x4_splat(tiles::kOne));
   }
-  static Vec gather(const std::uint16_t* base, Ints index, Shares shares) {
+  static Vec gather(const std::uint16_t* base, Ints index, Weights weights) {
     v128_t pairs = wasm_v128_load32_zero(base + wasm_i32x4_extract_lane(index, 0));
     pairs = wasm_v128_load32_lane(base + wasm_i32x4_extract_lane(index, 1), pairs, 1);
     pairs = wasm_v128_load32_lane(base + wasm_i32x4_extract_lane(index, 2), pairs, 2);
     pairs = wasm_v128_load32_lane(base + wasm_i32x4_extract_lane(index, 3), pairs, 3);
-    return wasm_f32x4_convert_i32x4(wasm_i32x4_dot_i16x8(pairs, shares));
+    return wasm_f32x4_convert_i32x4(wasm_i32x4_dot_i16x8(pairs, weights));
   }
 
   static void store_rgb(float* at, Vec r, Vec g, Vec b) {

@@ -1,4 +1,4 @@
-// The depthwise part takes 8 channels at once: half of a panel.
+// The avx2 tier of inverted_residual. Its depthwise part computes 8 channels at once: half a panel.
 #include "kernels/common/avx2.h"
 #include "kernels/families.h"
 #include "kernels/inverted_residual/depthwise_rows.h"
@@ -25,7 +25,7 @@ struct Window {
   }
 };
 
-// `half` 0: the lower 8 channels of the panel, 1: the upper.
+// `half` 0: the lower 8 channels of the panel; 1: the upper 8.
 void depthwise_half(const InvertedResidualArgs& a, const DepthwisePart<float>& s,
                     std::int32_t half) {
   const std::ptrdiff_t taps = std::ptrdiff_t{a.kernel_h} * a.kernel_w;

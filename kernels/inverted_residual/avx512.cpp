@@ -1,4 +1,4 @@
-// The depthwise part takes 16 channels at once: a panel.
+// The avx512 tier of inverted_residual. Its depthwise part computes 16 channels at once: a panel.
 #include "kernels/common/avx512.h"
 #include "kernels/families.h"
 #include "kernels/inverted_residual/avx512_depthwise.h"

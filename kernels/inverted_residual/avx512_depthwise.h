@@ -1,4 +1,4 @@
-// Depthwise weights of a whole panel, for the tiers with vectors of 16 floats.
+// Depthwise weights of a whole panel, for tiers with vectors of 16 floats.
 #pragma once
 
 #include "kernels/common/avx512.h"
@@ -7,7 +7,7 @@
 namespace mien::kernels::avx512 {
 namespace {
 
-// Of one tap; zeros where the upper 8 channels do not exist.
+// The weights of one tap; 0 for the upper 8 channels if these do not exist.
 inline Vec weights_at(const InvertedResidualArgs& a, const DepthwisePart<float>& s,
                       std::int32_t tap) {
   const std::ptrdiff_t taps = std::ptrdiff_t{a.kernel_h} * a.kernel_w;

@@ -1,4 +1,5 @@
-// Strips and bands in half precision, 32 channels of a pixel together: a vector.
+// The avx512fp16 tier of inverted_residual: strips and bands in half precision, 32 channels per
+// panel.
 #include "kernels/common/avx512.h"
 #include "kernels/families.h"
 #include "kernels/inverted_residual/depthwise_rows.h"
@@ -15,7 +16,7 @@ __m512i joined(__m256i low, __m256i high) {
   return _mm512_inserti64x4(_mm512_castsi256_si512(low), high, 1);
 }
 
-// 8 fp16 of each of up to 4 blocks, `step` apart.
+// Loads 8 fp16 values of each of up to 4 blocks, `step` apart.
 Vec load_blocks(const Half* at, std::ptrdiff_t step, std::int32_t blocks) {
   const auto block = [&](std::int32_t i) {
     return i < blocks ? _mm_loadu_si128(reinterpret_cast<const __m128i*>(at + i * step))
@@ -25,8 +26,8 @@ Vec load_blocks(const Half* at, std::ptrdiff_t step, std::int32_t blocks) {
       joined(_mm256_set_m128i(block(1), block(0)), _mm256_set_m128i(block(3), block(2))));
 }
 
-// The same of floats.
-Vec narrowed(const float* at, std::ptrdiff_t step, std::int32_t blocks) {
+// Loads and converts the same number of floats.
+Vec to_half(const float* at, std::ptrdiff_t step, std::int32_t blocks) {
   const auto pair = [&](std::int32_t i) {
     return i < blocks ? _mm512_cvtxps_ph(avx512::load_blocks(at + i * step, step, i + 1 < blocks))
                       : _mm256_setzero_ph();
@@ -61,7 +62,7 @@ struct Tier {
   static constexpr std::int32_t kPanel = kHalves;
 
   static void half_input(const float* x, std::ptrdiff_t plane, std::int32_t blocks, Half* y) {
-    _mm512_storeu_ph(y, narrowed(x, plane, blocks));
+    _mm512_storeu_ph(y, to_half(x, plane, blocks));
   }
 
   static void depthwise(const InvertedResidualArgs& a, const DepthwisePart<Half>& s, Half* y) {

@@ -1,6 +1,7 @@
-// Register tiles of up to 14 pixels x 2 vectors of 32 outputs, 9 x 3 or 6 x 4: as many sums as
-// there are registers for. Of 16 outputs that are left a vector holds two elements of the sum each,
-// of 8 four: that many values of x are broadcast together, and weights are put in that order.
+// Register tiles of up to 14 pixels x 2 vectors of 32 outputs, 9 x 3 or 6 x 4, limited by the
+// number of registers. For 16 remaining outputs each vector holds two elements of the sum per
+// output, for 8 four: that many values of x are broadcast together, and weights are permuted
+// accordingly.
 #include "kernels/inverted_residual/half_product.h"
 
 #include <immintrin.h>
@@ -18,37 +19,37 @@ using Vec = __m512h;
 constexpr int kMaxVecs = 4;
 constexpr int kMaxSums = 28;  // pixels times vectors of a tile
 constexpr std::int32_t kPanel = 16;
-static_assert(kSumsElems == kMaxSums * kHalves * 3 / 2);  // in fp32, and in fp16
+static_assert(kSumsElems == kMaxSums * kHalves * 3 / 2);  // fp32 and fp16
 
 Vec load(const Half* at) { return _mm512_loadu_ph(at); }
 Vec set(float value) { return _mm512_set1_ph(static_cast<_Float16>(value)); }
 
-// What a vector of sums stands for.
+// Contents of a vector of sums.
 enum class Lanes {
   k32,     // 32 outputs, two panels of weights
-  kSome,   // the same, of which some do not exist
+  kSome,   // the same, but some of them do not exist
   kPairs,  // 16 outputs, even and odd elements of the sum: one panel
   kQuads,  // 8 outputs, four elements: the last panel, of 8
 };
 
-// Some products of one tile.
+// A part of the products of one tile.
 struct Job {
   const Half* x;
   std::ptrdiff_t x_panel;
   std::int32_t in_blocks;
-  const Half* w;            // of the first panel
-  std::ptrdiff_t panel;     // from one panel of weights to the next
+  const Half* w;            // first panel of weights
+  std::ptrdiff_t panel;     // distance between panels of weights
   std::int32_t out_blocks;  // kSome: 1 to 3
-  const Half* begin;        // the sums begin with these, [vecs][32]
+  const Half* begin;        // initial sums, [vecs][32]
   Vec low, high;
-  // Where sums go: vectors `y_vec` apart, pixels 32, and `gap` more after each row of which the
-  // first pixel is number `column`.
+  // Output: vectors are `y_vec` apart, pixels 32, with an additional `gap` after each row. The
+  // first pixel is in column `column`.
   Half* y;
   std::ptrdiff_t y_vec, gap;
-  std::int32_t column, row_pixels;  // 0: there is but one row
+  std::int32_t column, row_pixels;  // row_pixels 0: a single row
 };
 
-// How many elements of the sum a vector holds side by side.
+// Number of elements of a sum in a vector.
 template <Lanes kLanes>
 constexpr int kAtOnce = kLanes == Lanes::kPairs   ? 2
                         : kLanes == Lanes::kQuads ? 4
@@ -62,7 +63,7 @@ Vec joined(__m256i low, __m256i high) {
   return _mm512_castsi512_ph(_mm512_inserti64x4(_mm512_castsi256_si512(low), high, 1));
 }
 
-// w0 of all outputs, then w1 of them, .. -> w0, w1, .. of the first output, then of the second.
+// Reorders w0 of all outputs, w1 of all outputs, .. to w0, w1, .. of each output.
 template <Lanes kLanes>
 __m512i side_by_side() {
   if constexpr (kLanes == Lanes::kPairs) {
@@ -74,7 +75,7 @@ __m512i side_by_side() {
   }
 }
 
-// Weights of elements k .. k + kAtOnce - 1 of the sum, for the outputs of vector `vec`.
+// Loads the weights of elements k .. k + kAtOnce - 1 of the sum, for the outputs of vector `vec`.
 template <Lanes kLanes>
 Vec weights_at(const Job& j, int vec, std::ptrdiff_t k) {
   if constexpr (kLanes == Lanes::k32) {
@@ -188,7 +189,7 @@ Tiles tiles_of(Lanes lanes, std::int32_t vecs, std::int32_t pixels) {
   }
 }
 
-// run(tile, its first pixel).
+// Calls run(tile, its first pixel) for each tile.
 template <class Run>
 void for_each_tile(const Tiles& tiles, std::int32_t pixels, Run run) {
   for (std::int32_t i = 0; i < tiles.count; ++i) {
@@ -199,15 +200,15 @@ void for_each_tile(const Tiles& tiles, std::int32_t pixels, Run run) {
   }
 }
 
-// Vectors of outputs that are computed together when `left` of them are left. Tiles of three
-// vectors have nine pixels and no other number.
+// Number of output vectors to compute together when `left` remain. Tiles of three vectors exist
+// only with nine pixels.
 std::int32_t vecs_together(std::int32_t pixels, std::int32_t left) {
   const std::int32_t at_once = pixels <= 6 ? 4 : pixels == 9 ? 3 : 2;
   const std::int32_t vecs = std::min(at_once, left);
   return vecs == 3 && pixels != 9 ? 2 : vecs;
 }
 
-// Outputs that are made together.
+// Outputs computed together.
 struct Group {
   std::int32_t block, blocks;
   Lanes lanes;
@@ -225,7 +226,7 @@ Job job_of(const HalfProduct& a, const Group& g) {
   return job;
 }
 
-// Whole vectors, then what is left.
+// Iterates over whole vectors, then the rest.
 template <class Run>
 void for_each_group(const HalfProduct& a, bool splits, Run run) {
   std::int32_t block = 0;
@@ -247,7 +248,7 @@ void for_each_group(const HalfProduct& a, bool splits, Run run) {
   }
 }
 
-// The biases of a group, where its vectors have their outputs; the other lanes are 0.
+// Loads the biases of a group into the first lanes of its outputs; the other lanes are 0.
 void load_bias(const HalfProduct& a, const Group& g, Half* to) {
   const std::int32_t step = g.lanes == Lanes::kPairs ? 2 : g.lanes == Lanes::kQuads ? 4 : 1;
   std::fill(to, to + g.vecs() * kHalves, Half{0});
@@ -277,7 +278,7 @@ void expand_group(const HalfProduct& a, const StripRows& to, const Group& g) {
                 });
 }
 
-// A vector of sums, in fp32.
+// A vector of sums in fp32.
 struct Sums {
   __m512 low, high;
 };
@@ -286,7 +287,7 @@ Sums widened(const Half* at) {
   return {_mm512_cvtxph_ps(_mm256_loadu_ph(at)), _mm512_cvtxph_ps(_mm256_loadu_ph(at + 16))};
 }
 
-// Neighbours added up: those of `low`, then those of `high`.
+// Sums of adjacent lanes: those of `low`, then those of `high`.
 __m512 sums_of_pairs(const Sums& s) {
   const __m512i even = _mm512_set_epi32(30, 28, 26, 24, 22, 20, 18, 16, 14, 12, 10, 8, 6, 4, 2, 0);
   const __m512i odd = _mm512_set_epi32(31, 29, 27, 25, 23, 21, 19, 17, 15, 13, 11, 9, 7, 5, 3, 1);
@@ -294,13 +295,13 @@ __m512 sums_of_pairs(const Sums& s) {
                        _mm512_permutex2var_ps(s.low, odd, s.high));
 }
 
-// Sums of a tile in fp32, and those of the last few products, one vector of outputs after another.
+// fp32 sums of a tile, and fp16 sums of the last products, by vectors of outputs.
 struct Totals {
   float* sums;    // [vecs][pixels][32]
-  Half* partial;  // the same
+  Half* partial;  // likewise
 };
 
-// Adds the last products to one vector of sums. They are the first if `is_first`.
+// Adds the fp16 sums to one vector of sums, or returns them alone if `is_first`.
 Sums total_of(const Totals& t, std::ptrdiff_t at, bool is_first) {
   Sums sums = widened(t.partial + at);
   if (!is_first) {
@@ -318,7 +319,7 @@ void keep(const Totals& t, std::ptrdiff_t elems, bool is_first) {
   }
 }
 
-// Where the pixels of a tile belong, for outputs from `block` on.
+// The output pixels of a tile, for outputs from `block` on.
 struct Place {
   const MapRows& to;
   std::int32_t pixel, pixels, block;

@@ -1,5 +1,5 @@
-// Strips are fp32; what is expanded and what is projected are integers of 16 bits: the map in steps
-// of its largest value, the band, which the depthwise layer's clamp bounds, in steps of that bound.
+// The avx512vnni tier of inverted_residual. Strips are fp32; the inputs of expand and project are
+// 16-bit integers: the map scaled by its largest magnitude, the band by the bound of its clamp.
 #include "kernels/common/avx512.h"
 #include "kernels/families.h"
 #include "kernels/inverted_residual/avx512_depthwise.h"
@@ -12,18 +12,18 @@ namespace {
 
 using avx512::Vec;
 
-// The band in fixed point: clamps from 0 to `high` become 0 to kBandMost.
-float band_steps(float high) { return static_cast<float>(kQuantizedBandMax) / high; }
+// Factor that quantizes the band: its range 0..high becomes 0..kQuantizedBandMax.
+float band_factor(float high) { return static_cast<float>(kQuantizedBandMax) / high; }
 
 Vec weights_at(const InvertedResidualArgs& a, const DepthwisePart<float>& s, std::int32_t tap) {
-  return _mm512_mul_ps(avx512::weights_at(a, s, tap), _mm512_set1_ps(band_steps(s.clamp.high)));
+  return _mm512_mul_ps(avx512::weights_at(a, s, tap), _mm512_set1_ps(band_factor(s.clamp.high)));
 }
 
-// Sums of steps of the band.
+// Computes quantized values of the band.
 struct Window {
   using Value = float;
   using Vec = avx512vnni::Vec;
-  // 8 integers of the band take the place of 4 floats.
+  // 8 integers of the band occupy the memory of 4 floats.
   static constexpr std::ptrdiff_t kStrip = kFloatPanel, kBand = kStripBlock / 2;
 
   const InvertedResidualArgs& a;
@@ -57,19 +57,19 @@ void depthwise_rows(const InvertedResidualArgs& a, const DepthwisePart<float>& s
                       both,
                       _mm512_mul_ps(avx512::load_half(a.depthwise.bias + s.block * kStripBlock,
                                                       both ? 0xFFFF : 0xFF),
-                                    _mm512_set1_ps(band_steps(s.clamp.high))),
+                                    _mm512_set1_ps(band_factor(s.clamp.high))),
                       _mm512_set1_ps(kQuantizedBandMax)};
   DepthwiseRows<Window>::run(
       window, s.rows, s.x,
       a.band + s.block * plane + std::ptrdiff_t{s.row} * a.out_w * Window::kBand);
 }
 
-// `elems`: a multiple of 8.
+// Largest magnitude, at least 2^-64. `elems` must be a multiple of 8.
 float largest_of(const float* x, std::ptrdiff_t elems) {
-  constexpr int kAtOnce = 4;  // each waits for the one before
+  constexpr int kAtOnce = 4;  // independent, because each maximum waits for the previous one
   Vec largest[kAtOnce];
   for (Vec& one : largest) {
-    one = _mm512_set1_ps(0x1p-64f);  // what is far smaller is taken for 0
+    one = _mm512_set1_ps(0x1p-64f);  // far smaller values become 0
   }
   const auto take = [&](Vec& one, Vec values) { one = _mm512_max_ps(one, _mm512_abs_ps(values)); };
   for (; elems >= 16 * kAtOnce; elems -= 16 * kAtOnce, x += 16 * kAtOnce) {
@@ -87,10 +87,10 @@ float largest_of(const float* x, std::ptrdiff_t elems) {
   return _mm512_reduce_max_ps(largest[0]);
 }
 
-void to_fixed(const float* x, std::ptrdiff_t elems, Vec per_step, std::int16_t* y) {
+void quantize(const float* x, std::ptrdiff_t elems, Vec inverse_scale, std::int16_t* y) {
   for (; elems > 0; elems -= 16, x += 16, y += 16) {
     const __mmask16 lanes = elems >= 16 ? 0xFFFF : 0xFF;
-    const Vec values = _mm512_mul_ps(_mm512_maskz_loadu_ps(lanes, x), per_step);
+    const Vec values = _mm512_mul_ps(_mm512_maskz_loadu_ps(lanes, x), inverse_scale);
     _mm256_mask_storeu_epi16(y, lanes, _mm512_cvtsepi32_epi16(_mm512_cvtps_epi32(values)));
   }
 }
@@ -113,10 +113,10 @@ class QuantizedStrips {
     }
     first_row_ = first;
     plane_elems_ = std::ptrdiff_t{rows} * a_.in_w * kStripBlock;
-    const Vec per_step = _mm512_set1_ps(static_cast<float>(kQuantizedMapMax) / largest_);
+    const Vec inverse_scale = _mm512_set1_ps(static_cast<float>(kQuantizedMapMax) / largest_);
     const float* x = a_.x + std::ptrdiff_t{first} * a_.in_w * kStripBlock;
     for (std::int32_t block = 0; block < (a_.in_c + 7) / 8; ++block) {
-      to_fixed(x + block * map_plane(), plane_elems_, per_step, map_ + block * plane_elems_);
+      quantize(x + block * map_plane(), plane_elems_, inverse_scale, map_ + block * plane_elems_);
     }
   }
 
@@ -129,7 +129,7 @@ class QuantizedStrips {
     product.x_scale = largest_ / static_cast<float>(kQuantizedMapMax);
     product.pairs = a_.expand.pairs + channel * product.to.in_blocks * kStripBlock;
     product.scales = a_.expand.scales + channel;
-    multiply_fixed_to_strip(product);
+    multiply_quantized_to_strip(product);
   }
 
   void copy(const StripPart& part, std::int32_t row, std::int32_t rows, float* y) const {
@@ -148,7 +148,7 @@ class QuantizedStrips {
         clamp_of(a_.depthwise.activation).high / static_cast<float>(kQuantizedBandMax);
     product.pairs = a_.project.pairs;
     product.scales = a_.project.scales;
-    multiply_fixed_to_map(product);
+    multiply_quantized_to_map(product);
   }
 
  private:
@@ -157,7 +157,7 @@ class QuantizedStrips {
   }
 
   const InvertedResidualArgs& a_;
-  std::int16_t* map_;  // from row `first_row_` on
+  std::int16_t* map_;  // starts with row `first_row_`
   std::int32_t first_row_ = 0;
   std::ptrdiff_t plane_elems_ = 0;
   float largest_ = 0.0f;

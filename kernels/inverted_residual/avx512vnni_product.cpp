@@ -1,6 +1,6 @@
-// Register tiles of up to 13 pixels x 2 panels, 9 x 3 or 6 x 4, as avx512's, with two elements of
-// the sum in each lane. A last panel of 8 takes four elements at once, two in the even lanes and
-// two in the odd.
+// Register tiles of up to 13 pixels x 2 panels, 9 x 3 or 6 x 4, as in avx512_product.cpp, with two
+// elements of the sum in each lane. A last panel of 8 takes four elements at once, two in the even
+// lanes and two in the odd.
 #include <algorithm>
 
 #include "kernels/common/avx512.h"
@@ -17,12 +17,11 @@ using avx512::kPanel;
 using avx512::Vec;
 using Sum = __m512i;
 
-constexpr std::int32_t kPairElems = 2 * kPanel;  // of a vector of weights
+constexpr std::int32_t kPairElems = 2 * kPanel;  // weights per vector
 
-// Where sums of a tile go, once they are numbers. A tile has a copy of its own: to the compiler a
-// vector that is stored may change anything in memory.
+// Output positions of a tile. Each tile has its own copy, which stores cannot alias.
 
-// Rows of a strip: a panel is 16 numbers, and there is no residual.
+// Rows of a strip: panels of 16 floats, without residual.
 class StripRows {
  public:
   StripRows(const ProductArgs& to, std::int32_t panel, std::int32_t pixel)
@@ -48,7 +47,7 @@ class StripRows {
   std::int32_t column_, columns_;
 };
 
-// Pixels of a map, of which those of a row follow those of the row before.
+// Contiguous rows of pixels of a map, with an optional residual.
 class MapRows {
  public:
   MapRows(const ProductArgs& to, std::int32_t panel, std::int32_t pixel)
@@ -98,7 +97,7 @@ class MapRows {
   std::int32_t column_ = 0, columns_ = 0;
 };
 
-// Some pixels of the panels from `panel` on. A tile moves it behind those it made.
+// Position of a tile: a panel and a pixel. Each tile advances it past its own pixels.
 template <class Rows>
 struct QuantizedSpot {
   QuantizedSpot(const QuantizedProduct& product, std::int32_t first_panel, std::int32_t pixel)
@@ -112,7 +111,7 @@ struct QuantizedSpot {
   Rows to;
 };
 
-// kCount: 1 or 2 pairs, in every lane or in every two.
+// Broadcasts 1 pair to every lane, or 2 pairs to every two lanes.
 template <int kCount>
 Sum broadcast(const std::int16_t* x) {
   if constexpr (kCount == 1) {
@@ -126,50 +125,50 @@ Sum broadcast(const std::int16_t* x) {
   }
 }
 
-// Lanes 2i and 2i + 1 added up, i = 0 .. 7.
+// Sums of lanes 2i and 2i + 1, i = 0 .. 7.
 __m256i sums_of_two(Sum v) {
   v = _mm512_add_epi32(v, _mm512_srli_epi64(v, 32));
   return _mm512_cvtepi64_epi32(v);
 }
 
-// Sums become numbers.
+// Converts integer sums to results.
 template <int kVecs>
 struct Finish {
-  Vec low, high, step[kVecs], bias[kVecs];
+  Vec low, high, scale[kVecs], bias[kVecs];
 
   Finish(const QuantizedProduct& a, std::int32_t panel)
       : low(_mm512_set1_ps(a.to.low)), high(_mm512_set1_ps(a.to.high)) {
     for (int v = 0; v < kVecs; ++v) {
       const std::ptrdiff_t channel = std::ptrdiff_t{panel + v} * kPanel;
-      step[v] = _mm512_mul_ps(_mm512_loadu_ps(a.scales + channel), _mm512_set1_ps(a.x_scale));
+      scale[v] = _mm512_mul_ps(_mm512_loadu_ps(a.scales + channel), _mm512_set1_ps(a.x_scale));
       bias[v] = avx512::load_half(a.to.bias + channel);
     }
   }
   template <class Rows>
   void store(const Rows& to, int v, Sum sum) const {
-    const Vec y = _mm512_fmadd_ps(_mm512_cvtepi32_ps(sum), step[v], bias[v]);
+    const Vec y = _mm512_fmadd_ps(_mm512_cvtepi32_ps(sum), scale[v], bias[v]);
     to.store(v, _mm512_min_ps(high, _mm512_max_ps(low, y)));
   }
 };
 
-// The same of the last 8.
+// The same for a last panel of 8.
 struct HalfFinish {
-  __m256 low, high, step, bias;
+  __m256 low, high, scale, bias;
 
   HalfFinish(const QuantizedProduct& a, std::int32_t panel)
       : low(_mm256_set1_ps(a.to.low)), high(_mm256_set1_ps(a.to.high)) {
     const std::ptrdiff_t channel = std::ptrdiff_t{panel} * kPanel;
-    step = _mm256_mul_ps(_mm256_loadu_ps(a.scales + channel), _mm256_set1_ps(a.x_scale));
+    scale = _mm256_mul_ps(_mm256_loadu_ps(a.scales + channel), _mm256_set1_ps(a.x_scale));
     bias = _mm512_castps512_ps256(avx512::load_half(a.to.bias + channel, 0xFF));
   }
   template <class Rows>
   void store(const Rows& to, int, Sum sum) const {
-    const __m256 y = _mm256_fmadd_ps(_mm256_cvtepi32_ps(sums_of_two(sum)), step, bias);
+    const __m256 y = _mm256_fmadd_ps(_mm256_cvtepi32_ps(sums_of_two(sum)), scale, bias);
     to.store_half(_mm256_min_ps(high, _mm256_max_ps(low, y)));
   }
 };
 
-// kCount pairs at once.
+// Adds kCount pairs at once.
 template <int kPixels, int kVecs, int kCount, class Finish, class Rows>
 void multiply(QuantizedSpot<Rows>& s, const std::int16_t* w) {
   constexpr int kStep = 2 * kCount;
@@ -296,7 +295,7 @@ void multiply_to(const QuantizedProduct& a) {
 
 }  // namespace
 
-void multiply_fixed_to_strip(const QuantizedProduct& a) { multiply_to<StripRows>(a); }
-void multiply_fixed_to_map(const QuantizedProduct& a) { multiply_to<MapRows>(a); }
+void multiply_quantized_to_strip(const QuantizedProduct& a) { multiply_to<StripRows>(a); }
+void multiply_quantized_to_map(const QuantizedProduct& a) { multiply_to<MapRows>(a); }
 
 }  // namespace mien::kernels::avx512vnni

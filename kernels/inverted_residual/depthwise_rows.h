@@ -1,14 +1,14 @@
-// The depthwise part of tiers that have a vector for the channels of a strip's panel, or for half
-// of them: rows of outputs in parts of up to 8 pixels. Such a tier brings a Window:
+// The depthwise part of a fused block, for tiers with a vector for the channels of a panel or of
+// half a panel: rows of outputs in groups of up to 8 pixels. A tier supplies a Window:
 //
-//   Value, Vec                the strip's and the band's numbers, and several of them
-//   kStrip, kBand             values from one pixel to the next, in both
+//   Value, Vec                the element type of strip and band, and a vector of it
+//   kStrip, kBand             distance in values between pixels of the strip and of the band
 //   a                         the block's arguments
-//   x_row_elems               from row to row of the strip
-//   bias                      where all sums begin
+//   x_row_elems               distance between rows of the strip
+//   bias                      initial value of all sums
 //   load(const Value*), fma(Vec sum, Vec value, Vec weight)
 //   weight(tap)
-//   store(Vec sum, Value*)    clamps it
+//   store(Vec sum, Value*)    clamps and stores
 #pragma once
 
 #include <utility>
@@ -23,7 +23,7 @@ class DepthwiseRows {
  public:
   using Value = typename Window::Value;
 
-  // `rows` rows of the strip from `x` on to rows of the band, from `y` on.
+  // Computes `rows` rows of the band at `y` from the strip at `x`.
   static void run(const Window& m, std::int32_t rows, const Value* x, Value* y) {
     const bool is_3x3 = m.a.kernel_h == 3 && m.a.kernel_w == 3;
     const Rows all = !is_3x3             ? &any_rows
@@ -39,8 +39,8 @@ class DepthwiseRows {
   static constexpr int kMaxPixels = 8;
   using Sizes = std::make_integer_sequence<int, kMaxPixels>;
 
-  // Parts of the size, the larger of equally good ones, with which the fewest pixels are made: the
-  // last part of a row overlaps the one before.
+  // Chooses the group size with the fewest computed pixels, the larger if equal; the last group of
+  // a row overlaps the previous one.
   template <int kStride, int... kLess>
   static Rows rows_of(std::int32_t w, std::integer_sequence<int, kLess...>) {
     static constexpr Rows kAll[] = {&rows_3x3<kLess + 1, kStride>...};
@@ -52,8 +52,7 @@ class DepthwiseRows {
     return kAll[best - 1];
   }
 
-  // The window and its weights are copies: to a compiler, what is stored may change anything in
-  // memory.
+  // Takes the window by value, so that stores cannot alias it.
   template <int kPixels, int kStride>
   static void rows_3x3(const Window& window, std::int32_t rows, const Value* x, Value* y) {
     const Window m = window;
@@ -95,7 +94,7 @@ class DepthwiseRows {
     }
   }
 
-  // Any kernel and stride, one pixel at a time.
+  // Any kernel size and stride, one pixel at a time.
   static void any_rows(const Window& m, std::int32_t rows, const Value* x, Value* y) {
     for (; rows > 0; --rows, x += m.a.stride_h * m.x_row_elems) {
       for (std::int32_t ox = 0; ox < m.a.out_w; ++ox, y += Window::kBand) {

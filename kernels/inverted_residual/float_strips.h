@@ -1,6 +1,6 @@
-// What tiers that compute in fp32 do with strips, but for the depthwise part. Such a tier brings
-//   multiply(const ProductArgs&)   expands and projects
-//   load(x, y)                     8 floats from x to y
+// The strips of tiers that compute in fp32, except for the depthwise part. A tier supplies
+//   multiply(const ProductArgs&)   computes expand and project
+//   load(x, y)                     copies 8 floats from x to y
 #pragma once
 
 #include "kernels/common/product.h"
@@ -9,9 +9,9 @@
 namespace mien::kernels {
 namespace {
 
-inline constexpr std::int32_t kFloatPanel = 16;  // channels that lie together in a strip of floats
+inline constexpr std::int32_t kFloatPanel = 16;  // channels per panel of a strip
 
-// Where the band has the first pixel of a slide, lower 8 channels, and from them to the next 8.
+// The lower 8 channels of the first pixel of a depthwise part in the band; distance of the upper 8.
 inline std::ptrdiff_t band_plane(const InvertedResidualArgs& a, const DepthwisePart<float>& s) {
   return std::ptrdiff_t{s.band_rows} * a.out_w * kStripBlock;
 }
@@ -20,7 +20,7 @@ inline std::ptrdiff_t band_plane(const InvertedResidualArgs& a, const DepthwiseP
   return a.band + s.block * band_plane(a, s) + std::ptrdiff_t{s.row} * a.out_w * kStripBlock;
 }
 
-// Rows of the map, from `row` on, expanded to rows of the strip from `y` on.
+// Arguments to expand rows of the map from `row` on to rows of the strip at `y`.
 inline ProductArgs expansion(const InvertedResidualArgs& a, const StripPart& part, std::int32_t row,
                              std::int32_t rows, float* y) {
   const StripClamp clamp = clamp_of(a.expand.activation);
@@ -43,7 +43,7 @@ inline ProductArgs expansion(const InvertedResidualArgs& a, const StripPart& par
   return product;
 }
 
-// `rows` rows of the band to those of the result from `first` on.
+// Arguments to project `rows` rows of the band to output rows from `first` on.
 inline ProductArgs projection(const InvertedResidualArgs& a, std::int32_t first,
                               std::int32_t rows) {
   const StripClamp clamp = clamp_of(a.project.activation);
@@ -72,7 +72,7 @@ inline ProductArgs projection(const InvertedResidualArgs& a, std::int32_t first,
   return product;
 }
 
-// Rows of the map to rows of the strip. `load(x, y)`: 8 floats from x to y.
+// Copies rows of the map to rows of the strip. `load(x, y)` copies 8 floats from x to y.
 template <class Load>
 void copy_rows(const InvertedResidualArgs& a, const StripPart& part, std::int32_t row,
                std::int32_t rows, float* y, Load load) {

@@ -1,5 +1,5 @@
-// Panels of weights times pixels in half precision: what a fused block expands and projects with in
-// tiers that have such arithmetic. A panel of pixels has as many channels as the tier's strip.
+// Panels of weights times pixels in half precision, for expand and project in tiers with fp16
+// arithmetic. A panel of pixels has as many channels as a panel of the tier's strip.
 #pragma once
 
 #include <cstddef>
@@ -7,28 +7,28 @@
 
 namespace mien::kernels {
 
-using Half = std::uint16_t;  // fp16 as it lies in memory
+using Half = std::uint16_t;  // fp16 bits
 
 //   y[p, o] = min(max(bias[o] + sum over i of w[o, i] x[p, i], low), high)
 struct HalfProduct {
   const Half* x;  // panels of [pixels][channels of a panel]
   std::ptrdiff_t x_panel_elems;
-  std::int32_t in_blocks;  // of 8 channels
+  std::int32_t in_blocks;  // blocks of 8 channels
   std::int32_t pixels;
-  const Half* weights;  // panels of 16 outputs, as of pointwise.h
+  const Half* weights;  // panels of 16 outputs, see pointwise.h
   const Half* bias;     // [out_blocks * 8]
   std::int32_t out_blocks;
   float low, high;
 };
 
-// Where the pixels of a strip lie: [panel][row][column][channels of a panel].
+// Output pixels in a strip: [panel][row][column][channels of a panel].
 struct StripRows {
   Half* y;
   std::ptrdiff_t panel_elems, row_elems;
   std::int32_t row_pixels;
 };
 
-// Where the pixels of a map lie: blocks of 8 of [pixel][8]; and what is added to them, row by row.
+// Output pixels in a map, in blocks [pixel][8], and the residual to add row by row.
 struct MapRows {
   float* y;
   std::ptrdiff_t plane_elems;
@@ -37,12 +37,12 @@ struct MapRows {
   std::int32_t row_pixels;
 };
 
-// To a strip, sums stay in half precision: at most kHalfMaxExpandInputs products. To a map, sums of
-// up to kHalfSum products do, and these are added up in fp32.
+// multiply_to_strip sums in half precision, at most kHalfMaxExpandInputs products. multiply_to_map
+// sums up to kHalfSum products in half precision and adds these sums in fp32.
 inline constexpr std::int32_t kHalfSum = 64;
 
 namespace avx512fp16 {
-inline constexpr std::int32_t kHalves = 32;  // in a vector: a panel
+inline constexpr std::int32_t kHalves = 32;  // lanes of a vector: one panel
 // `scratch`: [kSumsElems].
 inline constexpr std::int32_t kSumsElems = 1344;
 void multiply_to_strip(const HalfProduct& product, const StripRows& to);

@@ -1,8 +1,8 @@
-// What tiers that compute in half precision do with strips. Such a tier brings
-//   kPanel                          channels that lie together in strips and bands
-//   narrow(x, plane, blocks, y)     a pixel of a map, up to a panel of its blocks, `plane` apart
-//   slide(args, Slide, y)           the depthwise part, to rows of the band
-//   multiply_to_strip(product, to), multiply_to_map(product, to, wide)
+// The strips of tiers that compute in half precision. A tier supplies
+//   kPanel                            channels per panel of strips and bands
+//   half_input(x, plane, blocks, y)   converts a pixel: up to a panel of blocks, `plane` floats
+//   apart depthwise(args, part, y)          computes rows of the band multiply_to_strip(product,
+//   to), multiply_to_map(product, to, fp32_weights)
 #pragma once
 
 #include "kernels/inverted_residual/half_product.h"
@@ -11,7 +11,7 @@
 namespace mien::kernels {
 namespace {
 
-// The map in half precision and the band: [panel][pixel][kPanel].
+// The block's input in half precision and the band: [panel][pixel][kPanel].
 template <class Tier>
 class HalfStrips {
  public:
@@ -36,8 +36,8 @@ class HalfStrips {
     x_panel_elems_ = std::ptrdiff_t{rows} * a_.in_w * kPanel;
     const std::int32_t blocks = blocks_of(a_.in_c);
     for (std::int32_t block = 0; block < blocks; block += kBlocks) {
-      narrow_row(block, blocks - block, first, rows * a_.in_w,
-                 x_ + block / kBlocks * x_panel_elems_);
+      convert_row(block, blocks - block, first, rows * a_.in_w,
+                  x_ + block / kBlocks * x_panel_elems_);
     }
   }
 
@@ -60,8 +60,8 @@ class HalfStrips {
   void copy(const StripPart& part, std::int32_t row, std::int32_t rows, Half* y) const {
     for (std::int32_t block = 0; block < part.count; block += kBlocks) {
       for (std::int32_t i = 0; i < rows; ++i) {
-        narrow_row(part.first + block, part.count - block, row + i, a_.in_w,
-                   y + block / kBlocks * part.panel_elems + i * part.row_elems);
+        convert_row(part.first + block, part.count - block, row + i, a_.in_w,
+                    y + block / kBlocks * part.panel_elems + i * part.row_elems);
       }
     }
   }
@@ -98,13 +98,13 @@ class HalfStrips {
   }
 
  private:
-  static constexpr std::int32_t kBlocks = kPanel / kStripBlock;  // of a panel
+  static constexpr std::int32_t kBlocks = kPanel / kStripBlock;  // blocks per panel
 
   static std::int32_t blocks_of(std::int32_t channels) { return (channels + 7) / kStripBlock; }
 
-  // `pixels` pixels from the beginning of a row of the map on, up to a panel of them.
-  void narrow_row(std::int32_t block, std::int32_t blocks, std::int32_t row, std::int32_t pixels,
-                  Half* y) const {
+  // Converts up to a panel of blocks of `pixels` pixels, from the start of a map row on.
+  void convert_row(std::int32_t block, std::int32_t blocks, std::int32_t row, std::int32_t pixels,
+                   Half* y) const {
     const std::ptrdiff_t plane = std::ptrdiff_t{a_.in_h} * a_.in_w * kStripBlock;
     const float* x = a_.x + block * plane + std::ptrdiff_t{row} * a_.in_w * kStripBlock;
     for (std::int32_t p = 0; p < pixels; ++p, x += kStripBlock, y += kPanel) {
@@ -113,7 +113,7 @@ class HalfStrips {
   }
 
   const InvertedResidualArgs& a_;
-  Half* x_;  // from row `first_row_` on
+  Half* x_;  // starts with row `first_row_`
   Half* band_;
   std::int32_t first_row_ = 0;
   std::ptrdiff_t x_panel_elems_ = 0;

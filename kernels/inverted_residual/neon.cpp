@@ -1,3 +1,4 @@
+// The neon and neon32 tiers of inverted_residual.
 #include "kernels/families.h"
 #include "kernels/inverted_residual/float_strips.h"
 #include "kernels/inverted_residual/neon_depthwise.h"
@@ -5,7 +6,7 @@
 namespace mien::kernels::MIEN_TIER {
 namespace {
 
-// kVecs vectors of channels from `channel` of the panel on.
+// Computes kVecs vectors of channels from `channel` of the panel on.
 void depthwise_channels(const InvertedResidualArgs& a, const DepthwisePart<float>& s,
                         std::int32_t channel) {
   const std::int32_t half = channel / kBlock, lane = channel % kBlock;

@@ -1,5 +1,6 @@
-// The depthwise part of a fused block on NEON: 3x3 windows by the tiles of the depthwise kernel,
-// others one pixel at a time. The strip has kPanel channels of a pixel together, the band kYPixel.
+// The depthwise part of a fused block on NEON: 3x3 windows with the tiles of the depthwise kernel,
+// others one pixel at a time. A pixel has kPanel contiguous channels in the strip, kYPixel in the
+// band.
 #pragma once
 
 #include "kernels/depthwise/neon_window.h"

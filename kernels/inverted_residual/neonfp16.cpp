@@ -1,4 +1,5 @@
-// Strips and bands in half precision, 16 channels of a pixel together: two vectors.
+// The neonfp16 tier of inverted_residual: strips and bands in half precision, 16 channels per
+// panel.
 #include "kernels/common/neon_half.h"
 #include "kernels/families.h"
 #include "kernels/inverted_residual/half_strips.h"
@@ -23,13 +24,13 @@ struct Tier {
   static constexpr std::int32_t kPanel = neonfp16::kPanel;
 
   static void half_input(const float* x, std::ptrdiff_t plane, std::int32_t blocks, Half* y) {
-    store_halves(y, narrowed(load_pair(x)));
-    store_halves(y + kHalves, narrowed(load_pair(x + (blocks > 1 ? plane : 0))));
+    store_halves(y, to_half(load_pair(x)));
+    store_halves(y + kHalves, to_half(load_pair(x + (blocks > 1 ? plane : 0))));
   }
 
   static void depthwise(const InvertedResidualArgs& a, const DepthwisePart<Half>& s, Half* y) {
     const std::ptrdiff_t taps_elems = std::ptrdiff_t{a.kernel_h} * a.kernel_w * kBlock;
-    const bool both = s.blocks > 1;  // else the upper vector is computed like the lower, for nobody
+    const bool both = s.blocks > 1;  // otherwise the upper vector is unused
     const Taps<Halves> taps(a.depthwise.weights + s.block * taps_elems, both ? taps_elems : 0,
                             a.depthwise.bias + std::ptrdiff_t{s.block} * kBlock, both ? kBlock : 0,
                             splat_halves(s.clamp.low), splat_halves(s.clamp.high));

@@ -1,5 +1,5 @@
-// Register tiles of up to 9 pixels x 16 outputs, or x 8 of a last block. Weights are taken as they
-// are stored, products by lane: nothing is widened, no input is ever broadcast.
+// Register tiles of up to 9 pixels x 16 outputs, or x 8 for a last block. fp16 weights are used as
+// stored, multiplied by lane: nothing is converted to fp32, and no input is broadcast.
 #include "kernels/inverted_residual/half_product.h"
 
 #include <algorithm>
@@ -18,10 +18,10 @@ struct Job {
   std::ptrdiff_t x_panel;
   std::int32_t in_blocks;
   const Half* w;      // [in][outputs]
-  const Half* begin;  // the sums begin with these, [outputs]
+  const Half* begin;  // initial sums, [outputs]
   float low, high;
-  // Where sums go: pixels 16 apart, and `gap` more after each row of which the first pixel is
-  // number `column`.
+  // Output: pixels are 16 apart, with an additional `gap` after each row. The first pixel is in
+  // column `column`.
   Half* y;
   std::ptrdiff_t gap;
   std::int32_t column, row_pixels;
@@ -38,7 +38,7 @@ template <int kLane, int kPixels, int kVecs>
   }
 }
 
-// A block of 8 inputs, in kParts partial sums.
+// Adds a block of 8 inputs, in kParts partial sums.
 template <int kParts, int kPixels, int kVecs>
 [[gnu::always_inline]] inline void add_block(const Half* x, const Half* w,
                                              HalfVec (&sums)[kParts][kPixels][kVecs]) {
@@ -62,7 +62,7 @@ template <int kPixels, int kVecs>
     const int part = i / (kPixels * kVecs), p = i / kVecs % kPixels, v = i % kVecs;
     sums[part][p][v] = part == 0 ? load_halves(j.begin + v * kHalves) : splat_halves(0.0f);
   }
-  // From the lower 8 channels of a panel to the upper, and from there to the next panel.
+  // Distances from the lower 8 channels of a panel to the upper, and from there to the next panel.
   std::ptrdiff_t step = kHalves, next_step = j.x_panel - kHalves;
   const Half *x = j.x, *w = j.w;
   for (std::int32_t left = j.in_blocks; left > 0; --left, w += kBlock * kVecs * kHalves) {
@@ -95,7 +95,7 @@ struct Tile {
   void (*run)(const Job&);
 };
 
-// Of `pixels` pixels all tiles are one size: the last overlaps the one before, if need be.
+// All tiles of `pixels` pixels have one size; if necessary, the last overlaps the previous one.
 template <int kVecs, int... kSizes>
 Tile tile_of(std::int32_t pixels, std::integer_sequence<int, kSizes...>) {
   const std::int32_t tiles = (pixels + kMaxPixels - 1) / kMaxPixels;
@@ -152,7 +152,7 @@ void expand_group(const HalfProduct& a, const StripRows& to, const Group& g) {
   }
 }
 
-// Sums of one tile, [pixels][16]: of the last few products, and of all before.
+// Sums of a tile, [pixels][16]: fp16 sums of the last products, and fp32 sums of all previous ones.
 struct Totals {
   Half partial[kMaxPixels * kPanel];
   float sums[kMaxPixels * kPanel];
@@ -174,7 +174,7 @@ void add_partial(Totals& totals, std::int32_t pixels, std::int32_t blocks) {
   }
 }
 
-// The pixels from `first` on of one block.
+// Stores the pixels from `first` on of one block.
 void finish(const HalfProduct& a, const MapRows& to, std::int32_t block, std::int32_t first,
             std::int32_t pixels, const float* sums) {
   const Vec low = splat(a.low), high = splat(a.high);

@@ -1,5 +1,5 @@
-// Panels of weights times pixels in fixed point: 16 bits multiplied, 32 bits added up. What a fused
-// block expands and projects with in tiers that have such arithmetic.
+// Panels of quantized weights times quantized pixels, for expand and project: products of 16-bit
+// integers, summed in 32 bits.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@ namespace mien::kernels {
 
 //   y[p, o] = min(max(bias[o] + sum over i of w[o, i] x[p, i], low), high) + r[p, o]
 //
-// where w[o, i] = steps[o] pairs[o, i], as quantize_weights.h has them, and x[p, i] = x_step
-// values[p, i]. Of `to` everything counts but x, weights and wide, to a strip the residual neither.
+// where w[o, i] = scales[o] pairs[o, i] (quantize_weights.h) and x[p, i] = x_scale values[p, i].
+// `to.x`, `to.weights` and `to.fp32_weights` are ignored, and to a strip also `to.residual`.
 struct QuantizedProduct {
   ProductArgs to;
   const std::int16_t* values;  // [in_blocks] blocks of 8 channels of [pixels]
@@ -22,8 +22,8 @@ struct QuantizedProduct {
 };
 
 namespace avx512vnni {
-void multiply_fixed_to_strip(const QuantizedProduct& product);
-void multiply_fixed_to_map(const QuantizedProduct& product);
+void multiply_quantized_to_strip(const QuantizedProduct& product);
+void multiply_quantized_to_map(const QuantizedProduct& product);
 }  // namespace avx512vnni
 
 }  // namespace mien::kernels

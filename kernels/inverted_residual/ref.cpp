@@ -1,4 +1,4 @@
-// One row of the result at a time; what a channel is expanded to is kept for one window's height.
+// Computes one output row at a time, and expands each channel for the height of one window.
 #include "kernels/common/ref.h"
 #include "kernels/families.h"
 
@@ -20,7 +20,7 @@ float expanded(const InvertedResidualArgs& a, std::int32_t y, std::int32_t x, st
   return static_cast<float>(activated(sum, a.expand.activation, c));
 }
 
-// Kernel rows of channel c that output row oy looks at, into the strip: [kernel_h][in_w].
+// Expands the rows of channel c that output row oy reads, into the strip: [kernel_h][in_w].
 void expand_rows(const InvertedResidualArgs& a, std::int32_t oy, std::int32_t c) {
   for (std::int32_t ky = 0; ky < a.kernel_h; ++ky) {
     const std::int32_t y = oy * a.stride_h + ky - a.pad_top;

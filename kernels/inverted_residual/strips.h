@@ -1,15 +1,15 @@
-// The order of work of a fused block, the same for every tier: bands, in them strips of channels,
-// in these rows. A tier brings what it does with them:
+// The loops of a fused block, common to all tiers: over bands, over strips of channels in a band,
+// and over rows in a strip. A tier supplies the operations:
 //
-//   Value      what strips and bands are made of: float, or std::uint16_t for fp16
-//   kPanel     channels that lie together in a strip
+//   Value      element type of strips and bands: float, or std::uint16_t for fp16
+//   kPanel     contiguous channels in a strip
 //   Tier(args)
-//   begin(first, rows)                    those rows of the map are about to be expanded
-//   expand(part, row, rows, to), copy(..) rows of the map to rows of the strip
-//   slide(Slide)                          rows of one panel of the strip to rows of the band
-//   project(first, rows)                  the band to these rows of the result
+//   begin(first, rows)                    called before these rows of the map are expanded
+//   expand(part, row, rows, to), copy(..) write rows of the strip from rows of the map
+//   depthwise(part)                       writes rows of the band from one panel of the strip
+//   project(first, rows)                  writes these output rows from the band
 //
-// Everything has internal linkage: each tier compiles its own.
+// All has internal linkage: each tier compiles its own copy.
 #pragma once
 
 #include <algorithm>
@@ -39,20 +39,20 @@ inline StripClamp clamp_of(const ActivationSpec& activation) {
   }
 }
 
-// Blocks of 8 channels that are in the strip together, and the size of a panel of it.
+// The blocks of 8 channels in the strip, and the strip's layout.
 struct StripPart {
   std::int32_t first, count;
   std::ptrdiff_t row_elems, panel_elems;
 };
 
-// Rows of outputs from one panel: what the depthwise part of a tier needs to know.
+// Arguments of the depthwise part: rows of outputs from one panel of the strip.
 template <class Value>
 struct DepthwisePart {
   const Value* x;              // the strip's first row; pixels are kPanel values apart
-  std::ptrdiff_t x_row_elems;  // from row to row
-  std::int32_t block, blocks;  // first block of 8 channels; how many of them there are
-  std::int32_t row, rows;      // of the band, to be written
-  std::int32_t band_rows;      // that the band has now
+  std::ptrdiff_t x_row_elems;  // distance between rows
+  std::int32_t block, blocks;  // first block of 8 channels; number of blocks
+  std::int32_t row, rows;      // rows of the band to write
+  std::int32_t band_rows;      // rows of the current band
   StripClamp clamp;
 };
 
@@ -90,7 +90,8 @@ class InvertedResidual {
     }
   }
 
-  // `rows` rows of the band from output row `first` on, `step` blocks of channels at a time.
+  // Computes `rows` rows of the band from output row `first` on, `step` blocks of channels at a
+  // time.
   void make_band(std::int32_t first, std::int32_t rows, std::int32_t step) {
     const std::int32_t blocks = (a_.hidden_c + kStripBlock - 1) / kStripBlock;
     const std::int32_t top = first * a_.stride_h - a_.pad_top;
@@ -103,10 +104,10 @@ class InvertedResidual {
     tier_.project(first, rows);
   }
 
-  // The strip moves down as it goes.
+  // Computes the band's rows for one part, moving the strip downwards.
   void make_strips(const StripPart& part, std::int32_t first, std::int32_t rows) {
     const std::int32_t at_once = (a_.strip_rows - a_.kernel_h) / a_.stride_h + 1;
-    std::int32_t known = 0;  // rows of the strip that are made already
+    std::int32_t known = 0;  // rows of the strip that are already computed
     for (std::int32_t row = 0; row < rows; row += at_once) {
       const std::int32_t count = std::min(at_once, rows - row);
       const std::int32_t needed = (count - 1) * a_.stride_h + a_.kernel_h;
@@ -125,7 +126,7 @@ class InvertedResidual {
     }
   }
 
-  // Strip rows [from, to), of which row 0 is row `top` of the map.
+  // Fills strip rows [from, to), where row 0 is row `top` of the map.
   void fill(const StripPart& part, std::int32_t top, std::int32_t from, std::int32_t to) {
     const std::int32_t first = std::clamp(-top, from, to);
     const std::int32_t last = std::clamp(a_.in_h - top, first, to);
@@ -141,7 +142,7 @@ class InvertedResidual {
     }
   }
 
-  // The last `count` of `rows` strip rows become the first.
+  // Moves the last `count` of `rows` strip rows to the beginning.
   void keep_last(const StripPart& part, std::int32_t rows, std::int32_t count) {
     for (std::int32_t panel = 0; panel < panels_of(part); ++panel) {
       Value* strip = strip_ + panel * panel_elems_;

@@ -1,3 +1,4 @@
+// The avx2 tier of lstm.
 #include "kernels/common/avx2_matvec.h"
 #include "kernels/families.h"
 

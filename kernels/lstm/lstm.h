@@ -1,12 +1,12 @@
-// One step of a long short-term memory cell (Hochreiter & Schmidhuber 1997, with forget gate).
+// One step of an LSTM cell (Hochreiter & Schmidhuber 1997, with forget gate).
 //
 //   i, f, o = sigmoid(W [x; h] + b), g = tanh(W [x; h] + b)
 //   c <- f c + i g,   h <- o tanh(c),   y = h
 //
-// x: [in_elems], a multiple of 8; h, c: [hidden], hidden a multiple of 8, zeros at the beginning of
-// a stream; y: [hidden]; gates: scratch [4 hidden]. No two of them overlap. Weights: fp16 panels of
-// 16 outputs, [panel][in_elems + hidden][16], outputs in the order i, f, g, o. c and h are flushed
-// to zero below 1e-30: in silence they would decay into denormals, which are slow.
+// x: [in_elems], a multiple of 8; h, c: [hidden], hidden a multiple of 8, initially zeros; y:
+// [hidden]; gates: scratch [4 hidden]. None of them may overlap. Weights: fp16 panels of 16
+// outputs, [panel][in_elems + hidden][16], outputs in the order i, f, g, o. c and h below 1e-30
+// become 0: otherwise silence would let them decay into denormal numbers, which are slow.
 #pragma once
 
 #include <cstdint>

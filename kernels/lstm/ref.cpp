@@ -1,3 +1,4 @@
+// The reference kernel of lstm.
 #include "kernels/common/ref.h"
 #include "kernels/families.h"
 

@@ -1,3 +1,4 @@
+// The wasm tier of lstm.
 #include "kernels/common/wasm_matvec.h"
 #include "kernels/families.h"
 

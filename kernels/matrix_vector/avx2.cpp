@@ -1,3 +1,4 @@
+// The avx2 tier of matrix_vector.
 #include "kernels/common/avx2.h"
 #include "kernels/families.h"
 
@@ -11,7 +12,7 @@ float sum_of_lanes(Vec v) {
   return _mm256_cvtss_f32(v);
 }
 
-// Rows of W at once: as many independent sums, and x is loaded once for all.
+// Rows of W computed together: their sums are independent, and x is loaded once for all of them.
 template <int kRows>
 void rows_times_vector(const float* w, const float* x, std::int32_t columns, float* y) {
   Vec sum[kRows];

@@ -1,4 +1,4 @@
-// Matrix times vector in fp32: y = W x. For filters and transforms, whose factors fp16 would spoil.
+// Matrix-vector product in fp32: y = W x. For filters and transforms that need more than fp16.
 //
 // weights: [rows, columns]; x: [columns]; y: [rows], not overlapping. Any sizes, no padding.
 #pragma once

@@ -1,10 +1,11 @@
+// The neon and neon32 tiers of matrix_vector.
 #include "kernels/common/neon.h"
 #include "kernels/families.h"
 
 namespace mien::kernels::MIEN_TIER {
 namespace {
 
-// Rows of W at once: as many independent sums, and x is loaded once for all.
+// Rows of W computed together: their sums are independent, and x is loaded once for all of them.
 template <int kRows>
 void rows_times_vector(const float* w, const float* x, std::int32_t columns, float* y) {
   Vec sum[kRows];

@@ -1,3 +1,4 @@
+// The reference kernel of matrix_vector.
 #include <cstddef>
 
 #include "kernels/families.h"

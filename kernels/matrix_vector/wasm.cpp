@@ -1,10 +1,11 @@
+// The wasm tier of matrix_vector.
 #include "kernels/common/wasm.h"
 #include "kernels/families.h"
 
 namespace mien::kernels::wasm {
 namespace {
 
-// The `count` floats that are left, 1..3, and zeros: nothing beyond them is read.
+// Loads the last `count` floats, 1..3, filled up with zeros; does not read beyond them.
 Vec load_rest(const float* at, std::int32_t count) {
   Vec rest = wasm_v128_load32_zero(at);
   if (count > 1) {
@@ -16,7 +17,7 @@ Vec load_rest(const float* at, std::int32_t count) {
   return rest;
 }
 
-// Rows of W at once: as many independent sums, and x is loaded once for all.
+// Rows of W computed together: their sums are independent, and x is loaded once for all of them.
 template <int kRows>
 void rows_times_vector(const float* w, const float* x, std::int32_t columns, float* y) {
   Vec sum[kRows];

@@ -1,3 +1,4 @@
+// The avx2 tier of max_pool.
 #include <algorithm>
 #include <limits>
 

@@ -1,7 +1,7 @@
-// Largest value of each window: y[oy, ox, c] = max over the window of x, per channel.
+// Maximum of each window: y[oy, ox, c] = max over the window of x, per channel.
 //
 // x: [h, w, c], y: [out_h, out_w, c] in blocks of 8 channels, not overlapping. Windows are clipped
-// at the map's border; every window must hold at least one value.
+// to the map; every window must contain at least one value.
 #pragma once
 
 #include <cstdint>

@@ -1,3 +1,4 @@
+// The neon and neon32 tiers of max_pool.
 #include <algorithm>
 #include <limits>
 
@@ -8,7 +9,7 @@ namespace mien::kernels::MIEN_TIER {
 namespace {
 
 struct Range {
-  std::int32_t first, last;  // rows or columns [first, last) of a window that the map has
+  std::int32_t first, last;  // rows or columns [first, last) of a window inside the map
 };
 
 Range window(std::int32_t output, std::int32_t stride, std::int32_t pad, std::int32_t kernel,

@@ -1,3 +1,4 @@
+// The reference kernel of max_pool.
 #include <limits>
 
 #include "kernels/common/ref.h"

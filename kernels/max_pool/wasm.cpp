@@ -1,3 +1,4 @@
+// The wasm tier of max_pool.
 #include <algorithm>
 #include <limits>
 
@@ -8,7 +9,7 @@ namespace mien::kernels::wasm {
 namespace {
 
 struct Window {
-  std::int32_t top, bottom, left, right;  // of the map: [top, bottom) x [left, right)
+  std::int32_t top, bottom, left, right;  // part inside the map: [top, bottom) x [left, right)
 };
 
 Window window_of(const MaxPoolArgs& a, std::int32_t oy, std::int32_t ox) {
@@ -17,7 +18,7 @@ Window window_of(const MaxPoolArgs& a, std::int32_t oy, std::int32_t ox) {
           std::min(left + a.kernel_w, a.in_w)};
 }
 
-// Of four channels, the first of which is x.
+// Maximum of four channels, from x on.
 Vec window_max(const MaxPoolArgs& a, const float* x, const Window& window) {
   Vec largest = splat(-std::numeric_limits<float>::infinity());
   for (std::int32_t iy = window.top; iy < window.bottom; ++iy) {

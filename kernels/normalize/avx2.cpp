@@ -1,3 +1,4 @@
+// The avx2 tier of normalize.
 #include "kernels/normalize/normalize_of.h"
 
 #include "kernels/families.h"

@@ -1,3 +1,4 @@
+// The neon and neon32 tiers of normalize.
 #include "kernels/normalize/normalize_of.h"
 
 #include "kernels/families.h"

@@ -1,4 +1,4 @@
-// Mean 0 and variance 1 of the channels of each pixel: y_c = (x_c - mean) / sqrt(variance +
+// Normalizes the channels of each pixel to mean 0, variance 1: y_c = (x_c - mean) / sqrt(variance +
 // epsilon).
 //
 // x, y: [pixels, c] in blocks of 8 channels; y may be x. Lanes >= c become 0.

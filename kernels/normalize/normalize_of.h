@@ -1,5 +1,5 @@
-// The loop of all tiers, which the compiler makes vectors of: 8 channels are independent. Each tier
-// has a copy with internal linkage.
+// The loop shared by all tiers, which compilers vectorize over the 8 channels of a block. Internal
+// linkage gives each tier its own copy.
 #pragma once
 
 #include "kernels/common/lanes.h"

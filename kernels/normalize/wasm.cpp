@@ -1,3 +1,4 @@
+// The wasm tier of normalize.
 #include "kernels/normalize/normalize_of.h"
 
 #include "kernels/families.h"

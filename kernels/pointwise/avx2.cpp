@@ -1,3 +1,4 @@
+// The avx2 tier of pointwise.
 #include "kernels/common/avx2.h"
 #include "kernels/families.h"
 #include "kernels/pointwise/product_of.h"

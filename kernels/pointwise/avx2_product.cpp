@@ -1,5 +1,5 @@
 // Register tiles of up to 6 pixels x 16 output channels, or 12 x 8 for a last panel of 8: 12 sums,
-// so that a value of x and the weights serve several of them.
+// so that values of x and weights are reused.
 #include <algorithm>
 
 #include "kernels/common/avx2.h"
@@ -68,8 +68,8 @@ void tile(Spot& s, const Weight* w) {
   s.x += kPixels * kLanes;
 }
 
-// Onto the `pixels` that a tile has just stored from `y` on: once here is less code than in every
-// tile.
+// Adds the residual to the `pixels` that a tile has stored from `y` on. A separate pass needs less
+// code than every tile.
 void add_residual(Spot& s, Cursor y, std::int32_t blocks, std::int32_t pixels) {
   const ProductArgs& a = s.a;
   for (std::int32_t p = 0; p < pixels; ++p, y.advance(), s.residual.advance()) {
@@ -90,7 +90,7 @@ Tiling<Run<Weight>> one_of(std::int32_t pixels) {
   return tiling_of(kTiles, pixels);
 }
 
-// Where weights are widened there are pixels for several tiles.
+// Weights are converted to fp32 only if there are pixels for several tiles.
 template <int kVecs>
 Tiling<Run<float>> tiles_of(std::int32_t pixels, const float*) {
   return kVecs == 2 ? one_of<2, float, 4, 5, 6>(pixels) : one_of<1, float, 7, 9, 12>(pixels);

@@ -1,3 +1,4 @@
+// The avx512 tier of pointwise.
 #include <algorithm>
 
 #include "kernels/common/avx512.h"
@@ -9,8 +10,8 @@ namespace {
 
 constexpr std::int32_t kFewPixels = 12;
 
-// Sums of a few pixels and one panel go through the stack to their activation, and then to a
-// residual.
+// Applies the activation and then the residual to sums of a few pixels and one panel, which are on
+// the stack.
 void finish(const PointwiseArgs& a, const float* sums, std::int32_t block, std::int32_t pixel,
             std::int32_t count) {
   const std::ptrdiff_t plane = plane_of(a), residual_plane = residual_plane_of(a);

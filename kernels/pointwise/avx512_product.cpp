@@ -1,6 +1,6 @@
-// Register tiles of up to 13 pixels x 2 panels, 9 x 3 or 6 x 4: as many sums as there are registers
-// for, so that a value of x and a vector of weights serve several of them. A last panel of 8 takes
-// two elements of the sum at once, one in the even lanes and one in the odd.
+// Register tiles of up to 13 pixels x 2 panels, 9 x 3 or 6 x 4, limited by the number of registers,
+// so that values of x and weights are reused. A last panel of 8 takes two elements of the sum at
+// once, one in the even lanes and one in the odd.
 #include "kernels/common/product.h"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ Vec pair_at(const float* x) {
   return _mm512_castsi512_ps(_mm512_set1_epi64(pair));
 }
 
-// w0 of 8 outputs, then w1 of them -> w0, w1 of the first output, of the second, ..
+// Reorders w0 of 8 outputs, w1 of 8 outputs to w0, w1 of each output.
 Vec interleaved(Vec w) {
   const __m512i order = _mm512_setr_epi32(0, 8, 1, 9, 2, 10, 3, 11, 4, 12, 5, 13, 6, 14, 7, 15);
   return _mm512_permutexvar_ps(order, w);
@@ -33,14 +33,14 @@ Vec interleaved(Vec w) {
 Vec pairs_at(const std::uint16_t* w) { return interleaved(load_half(w)); }
 Vec pairs_at(const float* w) { return _mm512_loadu_ps(w); }
 
-// Lanes 2i and 2i + 1 added up, i = 0 .. 7.
+// Sums of lanes 2i and 2i + 1, i = 0 .. 7.
 __m256 sums_of_pairs(Vec v) {
   v = _mm512_add_ps(v, _mm512_permute_ps(v, 0xB1));
   const __m512i even = _mm512_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14, 0, 2, 4, 6, 8, 10, 12, 14);
   return _mm512_castps512_ps256(_mm512_permutexvar_ps(even, v));
 }
 
-// The end of a tile with a residual.
+// Stores a tile with a residual.
 template <int kPixels, int kVecs>
 void store_sum(Spot& s, const Vec (&sum)[kPixels][kVecs]) {
   const ProductArgs& a = s.a;
@@ -60,8 +60,7 @@ void store_sum(Spot& s, const Vec (&sum)[kPixels][kVecs]) {
   s.x += kPixels * kBlock;
 }
 
-// Whether tiles add the residual themselves: those for many pixels do. In every tile it would be
-// too much code.
+// Whether tiles add the residual themselves. Only those with many pixels do, to limit code size.
 template <class Weight>
 constexpr bool adds_inside(std::int32_t panels) {
   return std::is_same_v<Weight, float> && panels > 0;
@@ -170,7 +169,8 @@ void half_tile(Spot& s, const Weight* w) {
   s.x += kPixels * kBlock;
 }
 
-// Onto the `pixels` that a tile has just stored from `y` on. `panels` 0: the last panel of 8.
+// Adds the residual to the `pixels` that a tile has stored from `y` on. `panels` 0: last panel
+// of 8.
 void add_residual(Spot& s, Cursor y, std::int32_t panels, std::int32_t pixels) {
   const ProductArgs& a = s.a;
   const bool both = panels > 0;

@@ -1,3 +1,4 @@
+// The neon and neon32 tiers of pointwise.
 #include "kernels/common/neon_activation.h"
 #include "kernels/families.h"
 #include "kernels/pointwise/product_of.h"

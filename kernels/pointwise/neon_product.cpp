@@ -1,6 +1,6 @@
-// Register tiles of pixels x 16 output channels where the panel's weights, widened to fp32 once,
-// fit into the space there is; else of twice as many pixels x 8 channels. Products are taken by
-// lane: no input is ever broadcast.
+// Register tiles of pixels x 16 output channels if the panel's weights, converted to fp32 once, fit
+// the buffer; otherwise of twice as many pixels x 8 channels. Products are by lane: no input is
+// broadcast.
 #include <algorithm>
 #include <type_traits>
 #include <utility>
@@ -12,7 +12,7 @@
 namespace mien::kernels::MIEN_TIER {
 namespace {
 
-// One pixel after another.
+// Iterates over pixels in rows.
 struct Cursor {
   std::ptrdiff_t at;
   std::int32_t column;
@@ -29,12 +29,12 @@ struct Cursor {
   }
 };
 
-// Output channels of one tile's width.
+// A sweep over the pixels for one tile width of output channels.
 struct Sweep {
   const ProductArgs& a;
   const std::uint16_t* bias;
-  float* y;               // of the first pixel
-  const float* residual;  // of the first pixel; nullptr: none
+  float* y;               // first pixel
+  const float* residual;  // first pixel; nullptr: none
 };
 
 template <int kPixels, int kVecs, class Source>
@@ -51,7 +51,7 @@ template <int kPixels, int kVecs, class Source>
     add_four_inputs(x + kLanes, kBlock, w + kLanes * row, row, sums);
     x += a.x_plane_elems;
   }
-  // Copies, which stores cannot change: they stay in registers.
+  // Copies, which stores cannot alias, stay in registers.
   const Vec low = splat(a.low), high = splat(a.high);
   const PixelRows rows = a.y_rows;
   float* const y = s.y;
@@ -71,7 +71,8 @@ template <int kPixels, int kVecs, class Source>
   }
 }
 
-// Onto the `pixels` that a tile has just stored: once here is less code than in every tile.
+// Adds the residual to the `pixels` that a tile has stored. A separate pass needs less code than
+// every tile.
 template <int kVecs>
 void add_residual(const Sweep& s, std::int32_t first, std::int32_t pixels) {
   const PixelRows y_rows = s.a.y_rows, residual_rows = s.a.residual_rows;
@@ -92,7 +93,7 @@ struct Tile {
   void (*run)(const Sweep&, const Source&, std::int32_t first);
 };
 
-// The sizes of tiles there are. Weights are widened for several tiles, of which none is smaller
+// The available tile sizes. Weights are converted only for several tiles, none of which is smaller
 // than half of the largest.
 template <int... kPixels>
 using Sizes = std::integer_sequence<int, kPixels...>;
@@ -106,7 +107,7 @@ using WidenedSizes = std::conditional_t<kVecs == 4, Sizes<1, 2>, Sizes<2, 3, 4>>
 using HalvesSizes = Sizes<1, 2, 3, 4>;
 #endif
 
-// Of `pixels` pixels all tiles are one size: the last overlaps the one before, if need be.
+// All tiles of `pixels` pixels have one size; if necessary, the last overlaps the previous one.
 template <int kVecs, class Source, int... kSizes>
 Tile<Source> tile_of(std::int32_t pixels, Sizes<kSizes...>) {
   const std::int32_t tiles = (pixels + kTilePixels<kVecs> - 1) / kTilePixels<kVecs>;
@@ -127,7 +128,7 @@ Tile<Halves> tile_for(std::int32_t pixels, const Halves&) {
   return tile_of<kVecs, Halves>(pixels, HalvesSizes());
 }
 
-// Output channels from `block` on.
+// Computes output channels from `block` on.
 template <int kVecs, class Source>
 void sweep(const ProductArgs& a, std::int32_t block, const Source& weights) {
   const auto begin = [block](const PixelRows& rows) {
@@ -145,7 +146,7 @@ void sweep(const ProductArgs& a, std::int32_t block, const Source& weights) {
   }
 }
 
-// Room for weights in fp32.
+// Buffer for weights in fp32.
 struct Space {
   float* first;
   std::ptrdiff_t elems;

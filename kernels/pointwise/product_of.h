@@ -1,4 +1,4 @@
-// A pointwise layer as a product of panels of weights and pixels.
+// Expresses a pointwise layer as a product of panels of weights and pixels.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ inline std::ptrdiff_t residual_plane_of(const PointwiseArgs& a) {
   return std::ptrdiff_t{a.residual_h} * a.residual_w * kChannels;
 }
 
-// What is added to a pixel of the first block.
+// Address of the residual for a pixel of the first block.
 inline const float* residual_at(const PointwiseArgs& a, std::int32_t pixel) {
   const std::ptrdiff_t y = pixel / a.w + a.residual_top, x = pixel % a.w + a.residual_left;
   return a.residual + (y * a.residual_w + x) * kChannels;
@@ -48,16 +48,16 @@ struct SumsOfBlock {
   float* sums;  // [pixels][8]
   std::int32_t block, first, pixels;
 
-  // Where they belong.
+  // Address of their output.
   [[nodiscard]] float* y() const { return a.y + block * plane_of(a) + first * kChannels; }
-  // What is added to pixel `p` of them.
+  // Address of the residual for pixel `p` of these.
   [[nodiscard]] const float* residual(std::int32_t p) const {
     return residual_at(a, first + p) + block * residual_plane_of(a);
   }
 };
 
-// A product whose sums go through the stack, to an activation that does more than clamp. `finish`
-// is given one SumsOfBlock after another.
+// A product with an activation other than a clamp. Its sums go through the stack, and `finish` is
+// called with each SumsOfBlock.
 template <std::int32_t kMaxPixels, class Multiply, class Finish>
 void product_by_parts(const PointwiseArgs& a, ProductArgs product, Multiply multiply,
                       Finish finish) {

@@ -1,7 +1,7 @@
-// Register tiles of pixels x vectors of 4 output channels. WebAssembly has no product by lane, so
-// every input is broadcast, and widening a weight costs as much as two multiply-adds. Where a
-// panel's weights fit into a small buffer they are widened once for all tiles; elsewhere tiles are
-// narrow and have many pixels, so that a weight is widened for many of them.
+// Register tiles of pixels x vectors of 4 output channels. WebAssembly has no multiply by lane, so
+// every input is broadcast, and converting a weight to fp32 costs as much as two multiply-adds. If
+// a panel's weights fit a small buffer, they are converted once for all tiles. Otherwise tiles are
+// narrow and have many pixels, so that each converted weight serves many of them.
 #include "kernels/common/wasm_activation.h"
 #include "kernels/common/wasm_weights.h"
 #include "kernels/families.h"
@@ -9,7 +9,7 @@
 namespace mien::kernels::wasm {
 namespace {
 
-// Of 16 registers the sums take ten, and the others weights, an input, and a product.
+// Of 16 registers, the sums use ten; the others hold weights, an input and a product.
 constexpr int kNarrowPixels = 10;  // x 1 vector
 constexpr int kWidePixels = 5;     // x 2 vectors
 constexpr int kFewPixels = 2;      // x 4 vectors
@@ -61,7 +61,7 @@ template <int kPixels, int kVecs, class Source>
   store_sums(a, activator, target, sums);
 }
 
-// What tiles leave to do: curves, and residuals, which come after them.
+// Applies what tiles leave out: curves, then residuals.
 void curve_and_add(const PointwiseArgs& a, const Activator& activator, std::int32_t channel) {
   const std::int32_t pixels = a.h * a.w;
   float* y = a.y + std::ptrdiff_t{channel / kBlock} * pixels * kBlock + channel % kBlock;
@@ -71,42 +71,42 @@ void curve_and_add(const PointwiseArgs& a, const Activator& activator, std::int3
   }
 }
 
-// The tile of `pixels` pixels, kLeast .. kMost.
-template <int kLeast, int kMost, int kVecs, class Source>
+// Runs the tile of `pixels` pixels, kMin .. kMax.
+template <int kMin, int kMax, int kVecs, class Source>
 void tile_of(const PointwiseArgs& a, const Activator& activator, const Source& weights,
              const Target& target, std::int32_t pixels) {
-  if constexpr (kLeast < kMost) {
-    if (pixels < kMost) {
-      return tile_of<kLeast, kMost - 1, kVecs>(a, activator, weights, target, pixels);
+  if constexpr (kMin < kMax) {
+    if (pixels < kMax) {
+      return tile_of<kMin, kMax - 1, kVecs>(a, activator, weights, target, pixels);
     }
   }
-  tile<kMost, kVecs>(a, activator, weights, target);
+  tile<kMax, kVecs>(a, activator, weights, target);
 }
 
-// Tiles of nearly equal size, all of them at least kLeast pixels.
-template <int kLeast, int kMost, int kVecs, class Source>
+// Splits the pixels into tiles of nearly equal size, each with at least kMin pixels.
+template <int kMin, int kMax, int kVecs, class Source>
 void all_pixels(const PointwiseArgs& a, const Activator& activator, const Source& weights,
                 std::int32_t channel) {
   const std::int32_t pixels = a.h * a.w;
   std::int32_t pixel = 0;
-  for (std::int32_t left = (pixels + kMost - 1) / kMost; left > 0; --left) {
+  for (std::int32_t left = (pixels + kMax - 1) / kMax; left > 0; --left) {
     const std::int32_t count = (pixels - pixel + left - 1) / left;
-    tile_of<kLeast, kMost, kVecs>(a, activator, weights, {channel, pixel}, count);
+    tile_of<kMin, kMax, kVecs>(a, activator, weights, {channel, pixel}, count);
     pixel += count;
   }
 }
 
-// kVecs vectors of outputs from `channel` on, for more pixels than one tile has: each has at least
-// half of them.
-template <int kMost, int kVecs>
+// Computes kVecs vectors of outputs from `channel` on, for more pixels than one tile has: each tile
+// has at least half of the maximum.
+template <int kMax, int kVecs>
 void widened_outputs(const PointwiseArgs& a, const Activator& activator, const Halves& weights,
                      std::int32_t channel) {
   float space[kWidenedElems];
   const Widened widened = widen<kVecs>(weights, blocks_of(a.in_c) * kBlock, space);
-  all_pixels<(kMost + 1) / 2, kMost, kVecs>(a, activator, widened, channel);
+  all_pixels<(kMax + 1) / 2, kMax, kVecs>(a, activator, widened, channel);
 }
 
-// A block of outputs, whose weights begin at `weights`.
+// Computes a block of outputs with the given weights.
 void block_of_outputs(const PointwiseArgs& a, const Activator& activator, const Halves& weights,
                       std::int32_t channel) {
   const std::ptrdiff_t rows = std::ptrdiff_t{blocks_of(a.in_c)} * kBlock;

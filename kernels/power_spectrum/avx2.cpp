@@ -1,3 +1,4 @@
+// The avx2 tier of power_spectrum.
 #include "kernels/common/avx2.h"
 #include "kernels/families.h"
 #include "kernels/power_spectrum/real_transform.h"

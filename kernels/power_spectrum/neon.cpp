@@ -1,3 +1,4 @@
+// The neon and neon32 tiers of power_spectrum.
 #include "kernels/common/neon.h"
 #include "kernels/families.h"
 #include "kernels/power_spectrum/real_transform.h"

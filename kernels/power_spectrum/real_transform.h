@@ -1,11 +1,10 @@
-// The power spectrum of tiers with vectors. The real signal as one of n/2 complex numbers, z_j =
-// x_2j
-// + i x_2j+1 (Cooley, Lewis, Welch 1970). Their transform has two steps: with j = lanes r + lane
-// and k = p + rows q, each lane is transformed by itself over r, its results are turned by e^(-2 pi
-// i lane p / (n/2)), and a transform over the lanes, which a transposition has made rows, gives q.
-// Everything has internal linkage: no code of one tier may be merged with that of another.
+// The power spectrum of tiers with SIMD. It treats the real signal as n/2 complex numbers, z_j =
+// x_2j + i x_2j+1 (Cooley, Lewis, Welch 1970), and transforms these in two passes: with j = lanes r
+// + lane and k = p + rows q, it transforms each lane over r, multiplies the results by e^(-2 pi i
+// lane p / (n/2)), transposes, and transforms over the lanes, which are now rows, to obtain q. All
+// has internal linkage: the linker cannot merge code of different tiers.
 //
-// `Simd` is what a tier has: vectors of kLanes floats,
+// A tier supplies `Simd`, with vectors of kLanes floats:
 //   Vec; splat, load, store, add, sub, mul
 //   add_product(sum, a, b), subtract_product(sum, a, b)
 //   deinterleave(const float*, Vec& even, Vec& odd): of 2 kLanes floats
@@ -25,8 +24,8 @@ class RealTransform {
  public:
   explicit RealTransform(const PowerSpectrumArgs& args) : a_(args), half_(args.n / 2) {}
 
-  // The spectrum of x at k comes from that of z at k and at half - k: of the even places its sum,
-  // of the odd ones its difference, turned.
+  // Computes the spectrum of x at k from that of z at k and half - k: even samples give the sum,
+  // odd samples the rotated difference.
   void power() {
     transform();
     const Vec quarter = Simd::splat(0.25f);
@@ -65,7 +64,7 @@ class RealTransform {
     Simd::deinterleave(x, pairs.re, pairs.im);
     return pairs;
   }
-  // The numbers that end at `last`, backwards.
+  // The kLanes floats that end at `last`, reversed.
   static Vec before(const float* last) {
     return Simd::reversed(Simd::load(last - Simd::kLanes + 1));
   }
@@ -75,7 +74,7 @@ class RealTransform {
     const float* at = a_.twiddles + std::ptrdiff_t{2} * turn;
     return {Simd::splat(at[0]), Simd::splat(at[1])};
   }
-  // The same of turns 0, step, 2 step ..
+  // The same for the turns 0, step, 2 step ..
   [[nodiscard]] Complex lanes(std::int32_t step) const {
     float re[Simd::kLanes], im[Simd::kLanes];
     for (std::ptrdiff_t lane = 0; lane < Simd::kLanes; ++lane) {
@@ -94,7 +93,7 @@ class RealTransform {
     return out;
   }
 
-  // Rows in bit-reversed order -> their transform (Cooley, Tukey 1965).
+  // Transforms rows that are in bit-reversed order (Cooley, Tukey 1965).
   void transform_rows(Complex* rows, std::int32_t count) const {
     for (std::int32_t half = 1; half < count; half *= 2) {
       for (std::int32_t p = 0; p < half; ++p) {
@@ -148,7 +147,7 @@ class RealTransform {
     im_[half_] = im_[0];
   }
 
-  // z_0 .. z_(half-1) and z_half = z_0, transformed.
+  // The transform of z: z_0 .. z_(half-1) and z_half = z_0.
   alignas(64) float re_[PowerSpectrumArgs::kLargest / 2 + Simd::kLanes] = {};
   alignas(64) float im_[PowerSpectrumArgs::kLargest / 2 + Simd::kLanes] = {};
   const PowerSpectrumArgs& a_;

@@ -1,10 +1,11 @@
+// The reference kernel of power_spectrum.
 #include <cstddef>
 
 #include "kernels/families.h"
 
 namespace mien::kernels::ref {
 
-// The sum as it is written: n is small.
+// The definition, evaluated directly: n is small.
 void power_spectrum(const PowerSpectrumArgs& a) {
   for (std::int32_t k = 0; k <= a.n / 2; ++k) {
     double re = 0.0;

@@ -1,3 +1,4 @@
+// The wasm tier of power_spectrum.
 #include "kernels/common/wasm.h"
 #include "kernels/families.h"
 #include "kernels/power_spectrum/real_transform.h"

@@ -1,3 +1,4 @@
+// The avx512vnni tier of quantize_weights.
 #include "kernels/common/avx512.h"
 #include "kernels/families.h"
 #include "kernels/quantize_weights/quantized_scale.h"
@@ -9,7 +10,7 @@ using avx512::kBlock;
 using avx512::kPanel;
 using avx512::Vec;
 
-// The weights of up to 16 outputs.
+// A panel: the weights of up to 16 outputs.
 struct Panel {
   const std::uint16_t* weights;
   std::int32_t width;  // 16 or 8
@@ -34,21 +35,21 @@ Vec scales_of(const QuantizeWeightsArgs& a, const Panel& panel) {
                        _mm512_mul_ps(largest, _mm512_set1_ps(kScaleOfLargest)));
 }
 
-// Elements k and k + 1 of the sum, of each output.
-__m512i pair_at(const Panel& panel, std::int32_t k, Vec per_step) {
+// Quantized elements k and k + 1 of the sum, for each output.
+__m512i pair_at(const Panel& panel, std::int32_t k, Vec inverse_scale) {
   const auto fixed = [&](std::int32_t i) {
-    return _mm512_cvtps_epi32(_mm512_mul_ps(panel.at(i), per_step));
+    return _mm512_cvtps_epi32(_mm512_mul_ps(panel.at(i), inverse_scale));
   };
   return _mm512_mask_blend_epi16(0xAAAAAAAA, fixed(k), _mm512_slli_epi32(fixed(k + 1), 16));
 }
 
-void write_pairs(const Panel& panel, Vec per_step, std::int16_t* pairs) {
+void write_pairs(const Panel& panel, Vec inverse_scale, std::int16_t* pairs) {
   const __m512i order = _mm512_setr_epi32(0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23);
   const std::int32_t at_once = 2 * kPanel / panel.width;
   for (std::int32_t k = 0; k < panel.reduction; k += at_once, pairs += 2 * kPanel) {
-    __m512i pair = pair_at(panel, k, per_step);
+    __m512i pair = pair_at(panel, k, inverse_scale);
     if (panel.width < kPanel) {
-      pair = _mm512_permutex2var_epi32(pair, order, pair_at(panel, k + 2, per_step));
+      pair = _mm512_permutex2var_epi32(pair, order, pair_at(panel, k + 2, inverse_scale));
     }
     _mm512_storeu_si512(pairs, pair);
   }

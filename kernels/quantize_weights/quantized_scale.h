@@ -1,4 +1,4 @@
-// How large the steps of weights in fixed point have to be.
+// Lower bounds of the scales of quantized weights (quantize_weights.h).
 #pragma once
 
 #include "kernels/quantize_weights/quantize_weights.h"
@@ -6,13 +6,13 @@
 namespace mien::kernels {
 namespace {
 
-// Times the largest magnitude among the weights: they go into 16 bits.
+// Times the largest magnitude of the weights: keeps q within 16 bits.
 inline constexpr float kScaleOfLargest = 1.0f / 32767.0f;
 
-// Times what values can make of the weights.
+// Times the sum of magnitudes s: keeps sums within 32 bits.
 inline float scale_of_reach(const QuantizeWeightsArgs& a) {
-  const double most = a.most, rounding = 0.5 * 8.0 * a.in_blocks * most;
-  return static_cast<float>(most / (0x1p31 * (1.0 - 0x1p-10) - rounding));
+  const double max = a.max_value, rounding = 0.5 * 8.0 * a.in_blocks * max;
+  return static_cast<float>(max / (0x1p31 * (1.0 - 0x1p-10) - rounding));
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+// The reference kernel of quantize_weights.
 #include "kernels/common/ref.h"
 #include "kernels/families.h"
 #include "kernels/quantize_weights/quantized_scale.h"
@@ -25,11 +26,11 @@ double step_of(const Weights& w, std::int32_t o) {
                   largest * static_cast<double>(kScaleOfLargest));
 }
 
-// Where q[o, k] is.
+// Index of q[o, k] in `pairs`.
 std::ptrdiff_t place(const Weights& w, std::int32_t o, std::int32_t k) {
   const std::int32_t first = o / kPanel * kPanel;
   const std::int32_t width = std::min(kPanel, w.a.out_blocks * kBlock - first);
-  const std::int32_t together = 2 * kPanel / width;  // elements of the sum
+  const std::int32_t together = 2 * kPanel / width;  // adjacent elements of the sum
   return std::ptrdiff_t{first} * w.reduction() + std::ptrdiff_t{k} / together * 2 * kPanel +
          (o - first) * together + k % together;
 }

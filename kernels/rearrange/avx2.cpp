@@ -1,3 +1,4 @@
+// The avx2 tier of rearrange.
 #include "kernels/rearrange/rearrange_of.h"
 
 #include "kernels/families.h"

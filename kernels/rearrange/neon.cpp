@@ -1,3 +1,4 @@
+// The neon and neon32 tiers of rearrange.
 #include "kernels/rearrange/rearrange_of.h"
 
 #include "kernels/families.h"

@@ -1,8 +1,8 @@
-// The elements of x in another arrangement: read in `order`, the outermost axis first, they are the
-// elements of y row by row, pixel by pixel, channel by channel.
+// Rearranges the elements of x: read in `order`, outermost axis first, they are the elements of y
+// by rows, columns and channels.
 //
-// x: [in_h, in_w, in_c], y: [out_h, out_w, out_c], as many elements, in blocks of 8 channels, not
-// overlapping. Lanes beyond the channels of y become zero.
+// x: [in_h, in_w, in_c], y: [out_h, out_w, out_c] with the same number of elements, in blocks of 8
+// channels, not overlapping. Lanes beyond the channels of y become 0.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// The loop of all tiers: both maps are walked once, in the order of the elements. Each tier has a
-// copy with internal linkage.
+// The loop shared by all tiers: one pass over both maps in the order of the elements. Internal
+// linkage gives each tier its own copy.
 #pragma once
 
 #include "kernels/common/lanes.h"
@@ -8,8 +8,8 @@
 namespace mien::kernels {
 namespace {
 
-// How far apart elements are in memory that follow one another along an axis; along channels within
-// a block, with another distance from block to block.
+// Distances in memory between consecutive elements along an axis; channels have one distance within
+// a block and another between blocks.
 class Strides {
  public:
   explicit Strides(const RearrangeArgs& a) : sizes_{a.in_h, a.in_w, a.in_c} {
@@ -29,7 +29,7 @@ class Strides {
   std::ptrdiff_t strides_[2] = {}, block_ = 0;
 };
 
-// Writes elements one after the other.
+// Writes elements in sequence.
 class Output {
  public:
   explicit Output(const RearrangeArgs& a)

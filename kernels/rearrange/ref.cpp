@@ -1,3 +1,4 @@
+// The reference kernel of rearrange.
 #include "kernels/common/ref.h"
 #include "kernels/families.h"
 
@@ -9,7 +10,7 @@ void rearrange(const RearrangeArgs& a) {
   const std::ptrdiff_t out_pixels = std::ptrdiff_t{a.out_h} * a.out_w;
   for (std::int32_t c = 0; c < blocks_of(a.out_c) * kBlock; ++c) {
     for (std::ptrdiff_t p = 0; p < out_pixels; ++p) {
-      std::ptrdiff_t rest = p * a.out_c + c;  // the element's number
+      std::ptrdiff_t rest = p * a.out_c + c;  // the element's index
       std::ptrdiff_t at[3] = {};
       for (int i = 2; i >= 0; --i) {
         const auto axis = static_cast<std::size_t>(a.order[i]);

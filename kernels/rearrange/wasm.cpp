@@ -1,3 +1,4 @@
+// The wasm tier of rearrange.
 #include "kernels/rearrange/rearrange_of.h"
 
 #include "kernels/families.h"

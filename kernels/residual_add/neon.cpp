@@ -1,3 +1,4 @@
+// The neon and neon32 tiers of residual_add.
 #include "kernels/common/neon.h"
 #include "kernels/families.h"
 

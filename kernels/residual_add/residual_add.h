@@ -1,6 +1,6 @@
-// y = x + the slice of r that begins at (top, left).
+// y = x + the slice of r at (top, left).
 //
-// x, y: [h, w, c], r: [residual_h, residual_w, c], in blocks of 8 channels. y may be x, or r when
+// x, y: [h, w, c], r: [residual_h, residual_w, c], in blocks of 8 channels. y may be x, or r if
 // both have the same size.
 #pragma once
 

@@ -1,3 +1,4 @@
+// The wasm tier of residual_add.
 #include "kernels/common/wasm.h"
 #include "kernels/families.h"
 

@@ -1,3 +1,4 @@
+// The neon and neon32 tiers of resize.
 #include "kernels/resize/resize_of.h"
 
 #include "kernels/families.h"

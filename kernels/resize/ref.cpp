@@ -1,10 +1,11 @@
+// The reference kernel of resize.
 #include "kernels/common/ref.h"
 #include "kernels/families.h"
 
 namespace mien::kernels::ref {
 namespace {
 
-// As a fraction, so that halves are halves.
+// A position as a fraction, so that halves are exact.
 struct Place {
   std::int64_t above, below;  // numerator, denominator
 };
@@ -43,12 +44,12 @@ std::int32_t nearest(Sampling sampling, Place at, std::int32_t in) {
   return static_cast<std::int32_t>(std::clamp(row, std::int64_t{0}, std::int64_t{in} - 1));
 }
 
-struct Between {
+struct Neighbours {
   std::int32_t low, high;
-  double share;  // of high
+  double weight;  // weight of `high`
 };
 
-Between between(const ResizeArgs& a, std::int32_t i, std::int32_t in, std::int32_t out) {
+Neighbours between(const ResizeArgs& a, std::int32_t i, std::int32_t in, std::int32_t out) {
   const Place at = place(a.grid, i, in, out);
   if (a.sampling != Sampling::kBilinear) {
     const std::int32_t row = nearest(a.sampling, at, in);
@@ -67,16 +68,16 @@ void resize(const ResizeArgs& a) {
   const std::ptrdiff_t out_pixels = std::ptrdiff_t{a.out_h} * a.out_w;
   for (std::int32_t c = 0; c < blocks_of(a.channels) * kBlock; ++c) {
     for (std::int32_t oy = 0; oy < a.out_h; ++oy) {
-      const Between row = between(a, oy, a.in_h, a.out_h);
+      const Neighbours row = between(a, oy, a.in_h, a.out_h);
       for (std::int32_t ox = 0; ox < a.out_w; ++ox) {
-        const Between column = between(a, ox, a.in_w, a.out_w);
+        const Neighbours column = between(a, ox, a.in_w, a.out_w);
         const auto at = [&](std::int32_t y, std::int32_t x) {
           return static_cast<double>(a.x[blocked(c, std::ptrdiff_t{y} * a.in_w + x, in_pixels)]);
         };
         const auto along = [&](std::int32_t y) {
-          return at(y, column.low) * (1.0 - column.share) + at(y, column.high) * column.share;
+          return at(y, column.low) * (1.0 - column.weight) + at(y, column.high) * column.weight;
         };
-        const double value = along(row.low) * (1.0 - row.share) + along(row.high) * row.share;
+        const double value = along(row.low) * (1.0 - row.weight) + along(row.high) * row.weight;
         a.y[blocked(c, std::ptrdiff_t{oy} * a.out_w + ox, out_pixels)] = static_cast<float>(value);
       }
     }

@@ -1,13 +1,13 @@
-// A map in another size. Output row i of out_h (columns likewise) shows where in the input, of in_h
-// rows:
+// Resizes a map. Row i of out_h output rows (columns likewise) samples the in_h input rows at the
+// position
 //
 //   half pixel      (i + 1/2) in_h / out_h - 1/2
 //   asymmetric      i in_h / out_h
 //   align corners   i (in_h - 1) / (out_h - 1), 0 where out_h is 1
 //
-// It is the nearest row, that place rounded as `sampling` says, or between two rows in proportion
-// to their distances, along both axes (bilinear); no row beyond the first and last. Places are
-// exact fractions.
+// The sample is the nearest row, with the position rounded by `sampling`, or the linear
+// interpolation of two rows along both axes (bilinear). Positions are clamped to the first and last
+// row and computed as exact fractions.
 //
 // x: [in_h, in_w, c], y: [out_h, out_w, c], in blocks of 8 channels, not overlapping.
 #pragma once

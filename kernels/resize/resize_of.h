@@ -1,5 +1,5 @@
-// The loop of all tiers, which the compiler makes vectors of: 8 channels are independent. Each tier
-// has a copy with internal linkage.
+// The loop shared by all tiers, which compilers vectorize over the 8 channels of a block. Internal
+// linkage gives each tier its own copy.
 #pragma once
 
 #include "kernels/common/lanes.h"
@@ -8,14 +8,14 @@
 namespace mien::kernels {
 namespace {
 
-// Two rows (or columns) and how much the second counts.
-struct Between {
+// Two rows (or columns) and the weight of the second.
+struct Neighbours {
   std::int32_t low, high;
-  float share;
+  float weight;
 };
 
-// Walks over the output's rows (or columns). All ways of rounding are the floor of a fraction whose
-// numerator grows by the same step from row to row: no division but the first.
+// Iterates over the output's rows (or columns). Every rounding is the floor of a fraction whose
+// numerator grows by a constant from row to row, so that only the first row needs a division.
 class Walk {
  public:
   Walk(Grid grid, Sampling sampling, std::int32_t in, std::int32_t out) : last_(in - 1) {
@@ -43,7 +43,7 @@ class Walk {
     rest_ = first - row_ * below_;
   }
 
-  [[nodiscard]] Between place() const {
+  [[nodiscard]] Neighbours place() const {
     const std::int64_t inside = row_ < 0 ? 0 : row_ < last_ ? row_ : last_;
     const auto row = static_cast<std::int32_t>(inside);
     if (!bilinear_ || row_ < 0 || row_ >= last_) {
@@ -59,46 +59,46 @@ class Walk {
   }
 
  private:
-  std::int64_t step_ = 0, below_ = 1;  // numerator's step, denominator
-  std::int64_t row_ = 0, rest_ = 0;    // the fraction is row + rest / below
+  std::int64_t step_ = 0, below_ = 1;  // numerator's increment, denominator
+  std::int64_t row_ = 0, rest_ = 0;    // the fraction is row_ + rest_ / below_
   std::int64_t last_;
   bool bilinear_ = false;
 };
 
 using Lanes = float[kBlockLanes];
 
-// Output and input do not overlap, which the compiler cannot know: what is made waits in registers.
-inline void put(const Lanes& made, float* y) {
+// Stores results from registers, because the compiler cannot know that x and y do not overlap.
+inline void put(const Lanes& result, float* y) {
   for (int i = 0; i < kBlockLanes; ++i) {
-    y[i] = made[i];
+    y[i] = result[i];
   }
 }
 
-inline void weigh(const float* a, const float* b, float share, Lanes& made) {
+inline void interpolate(const float* a, const float* b, float weight, Lanes& result) {
   for (int i = 0; i < kBlockLanes; ++i) {
-    made[i] = a[i] * (1.0f - share) + b[i] * share;
+    result[i] = a[i] * (1.0f - weight) + b[i] * weight;
   }
 }
 
-inline void resize_pixel(const float* above, const float* below, const Between& row,
-                         const Between& column, float* y) {
+inline void resize_pixel(const float* above, const float* below, const Neighbours& row,
+                         const Neighbours& column, float* y) {
   const std::ptrdiff_t left = std::ptrdiff_t{column.low} * kBlockLanes;
   const std::ptrdiff_t right = std::ptrdiff_t{column.high} * kBlockLanes;
-  Lanes up, down, made;
-  weigh(above + left, above + right, column.share, up);
-  weigh(below + left, below + right, column.share, down);
-  weigh(up, down, row.share, made);
-  put(made, y);
+  Lanes up, down, result;
+  interpolate(above + left, above + right, column.weight, up);
+  interpolate(below + left, below + right, column.weight, down);
+  interpolate(up, down, row.weight, result);
+  put(result, y);
 }
 
-// The nearest pixel is copied, not weighted with nothing: that is exact for whatever it holds.
-inline void copy_pixel(const float* x, const Between& column, float* y) {
-  Lanes made;
+// Copies the nearest pixel; multiplying by weights 1 and 0 would not preserve NaN and infinity.
+inline void copy_pixel(const float* x, const Neighbours& column, float* y) {
+  Lanes result;
   const float* from = x + std::ptrdiff_t{column.low} * kBlockLanes;
   for (int i = 0; i < kBlockLanes; ++i) {
-    made[i] = from[i];
+    result[i] = from[i];
   }
-  put(made, y);
+  put(result, y);
 }
 
 inline void resize_any(const ResizeArgs& a) {
@@ -107,10 +107,10 @@ inline void resize_any(const ResizeArgs& a) {
   const std::ptrdiff_t out_plane = std::ptrdiff_t{a.out_h} * a.out_w * kBlockLanes;
   Walk rows(a.grid, a.sampling, a.in_h, a.out_h);
   for (std::int32_t oy = 0; oy < a.out_h; ++oy, rows.next()) {
-    const Between row = rows.place();
+    const Neighbours row = rows.place();
     Walk columns(a.grid, a.sampling, a.in_w, a.out_w);
     for (std::int32_t ox = 0; ox < a.out_w; ++ox, columns.next()) {
-      const Between column = columns.place();
+      const Neighbours column = columns.place();
       const float* x = a.x;
       float* y = a.y + (std::ptrdiff_t{oy} * a.out_w + ox) * kBlockLanes;
       for (std::int32_t block = 0; block < blocks_for(a.channels); ++block) {

@@ -1,3 +1,4 @@
+// The wasm tier of resize.
 #include "kernels/resize/resize_of.h"
 
 #include "kernels/families.h"

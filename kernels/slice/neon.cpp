@@ -1,9 +1,10 @@
+// The neon and neon32 tiers of slice.
 #include "kernels/common/neon_lanes.h"
 #include "kernels/families.h"
 
 namespace mien::kernels::MIEN_TIER {
 
-// A block of y holds lanes of two blocks of x, unless the slice begins with a block.
+// A block of y takes lanes from two blocks of x, unless the slice begins at a block boundary.
 void slice(const SliceArgs& a) {
   const std::ptrdiff_t plane = std::ptrdiff_t{a.in_h} * a.in_w * kBlock;
   const std::int32_t shift = a.first_channel % kBlock;

@@ -1,3 +1,4 @@
+// The reference kernel of slice.
 #include "kernels/common/ref.h"
 #include "kernels/families.h"
 

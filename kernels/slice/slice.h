@@ -1,4 +1,4 @@
-// A part of a map: y[oy, ox, c] = x[top + oy, left + ox, first_channel + c].
+// Extracts a part of a map: y[oy, ox, c] = x[top + oy, left + ox, first_channel + c].
 //
 // x: [in_h, in_w, at least first_channel + channels], y: [h, w, channels], in blocks of 8 channels,
 // not overlapping. Lanes beyond the channels of y become zero.

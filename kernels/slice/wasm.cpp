@@ -1,9 +1,10 @@
+// The wasm tier of slice.
 #include "kernels/common/wasm_lanes.h"
 #include "kernels/families.h"
 
 namespace mien::kernels::wasm {
 
-// A block of y holds lanes of two blocks of x, unless the slice begins with a block.
+// A block of y takes lanes from two blocks of x, unless the slice begins at a block boundary.
 void slice(const SliceArgs& a) {
   const std::ptrdiff_t plane = std::ptrdiff_t{a.in_h} * a.in_w * kBlock;
   const std::int32_t shift = a.first_channel % kBlock;

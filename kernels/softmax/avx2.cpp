@@ -1,3 +1,4 @@
+// The avx2 tier of softmax.
 #include <limits>
 
 #include "kernels/common/avx2.h"

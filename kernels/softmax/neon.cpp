@@ -1,3 +1,4 @@
+// The neon and neon32 tiers of softmax.
 #include <limits>
 
 #include "kernels/common/neon_activation.h"
@@ -6,7 +7,7 @@
 namespace mien::kernels::MIEN_TIER {
 namespace {
 
-// One pixel; its blocks are `plane` floats apart.
+// One pixel, whose blocks are `plane` floats apart.
 class Pixel {
  public:
   Pixel(const SoftmaxArgs& a, std::int32_t index)
@@ -24,7 +25,7 @@ class Pixel {
     }
     return largest_lane(best);
   }
-  // y = exp(x - top); returns their sum.
+  // Stores y = exp(x - top) and returns the sum.
   float exponentials(float top) const {
     Vec sum = splat(0.0f);
     for (std::int32_t c = 0; c < padded_; c += kLanes) {

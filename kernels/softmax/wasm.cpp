@@ -1,3 +1,4 @@
+// The wasm tier of softmax.
 #include <limits>
 
 #include "kernels/common/wasm_activation.h"
@@ -6,7 +7,7 @@
 namespace mien::kernels::wasm {
 namespace {
 
-// One pixel; its blocks are `plane` floats apart.
+// One pixel, whose blocks are `plane` floats apart.
 class Pixel {
  public:
   Pixel(const SoftmaxArgs& a, std::int32_t index)
@@ -16,7 +17,7 @@ class Pixel {
         x_(a.x + std::ptrdiff_t{index} * kBlock),
         y_(a.y + std::ptrdiff_t{index} * kBlock) {}
 
-  // In all lanes, as the sum below.
+  // The maximum, and below the sum, in all lanes.
   [[nodiscard]] Vec largest() const {
     const Vec lowest = splat(-std::numeric_limits<float>::infinity());
     Vec best = lowest;
@@ -25,7 +26,7 @@ class Pixel {
     }
     return across(best, at_least);
   }
-  // y = exp(x - top); returns their sum.
+  // Stores y = exp(x - top) and returns the sum.
   [[nodiscard]] Vec exponentials(Vec top) const {
     Vec sum = splat(0.0f);
     for (std::int32_t c = 0; c < padded_; c += kLanes) {

@@ -169,7 +169,7 @@ TEST_F(ProgramRun, InputsThatAreNoArrayOfTheNetwork) {
   expect_one_line(run_on(save("x.npy", {{}, {1.0f}}), end), 3, "an array of shape ()");
   std::ofstream(path("cut.npy"), std::ios::binary)
       << contents(save("x.npy", {{12}, std::vector<float>(12)})).substr(0, 300);
-  expect_one_line(run_on(path("cut.npy"), end), 3, "the file ends inside the array");
+  expect_one_line(run_on(path("cut.npy"), end), 3, "truncated inside the array");
   const std::string small = save("small.npy", {{3, 11, 12}, std::vector<float>(396)});
   expect_one_line(
       run_on(small, "--network pnet --output " + path("y.npy") + " --output " + path("z.npy")), 3,

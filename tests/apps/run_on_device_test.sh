@@ -57,7 +57,7 @@ for device in adb adb:here ssh:board; do
   if "$program" --list --filter softmax | grep -qv ' ref$'; then  # the reference is not held against itself
     expect 0 "network/proposal" "$script" "$device" "$program" --list --filter 'network/*'
   fi
-  expect 3 "nothing matches 'two words'" "$script" "$device" "$program" --filter 'two words'
+  expect 3 "no match (got 'two words')" "$script" "$device" "$program" --filter 'two words'
   expect 0 "0 failed" "$script" "$device" "$program" --filter 'lstm' --json "$work/lstm.json"
   grep -q '"name": "lstm"' "$work/lstm.json"
   rm "$work/lstm.json"
@@ -66,7 +66,7 @@ done
 
 if [ "$(uname -m)" = x86_64 ]; then
   expect 0 "cpu Haswell" "$script" qemu:Haswell "$program" --filter 'softmax'
-  expect 2 "no such tier" "$script" qemu "$program" --tier mmx
+  expect 2 "unknown tier" "$script" qemu "$program" --tier mmx
 fi
 
 touch "$work/phone/unplugged"

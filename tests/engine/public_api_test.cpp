@@ -248,7 +248,7 @@ TEST_F(Engine, DescribesTheFile) {
 TEST_F(Engine, TellsWhereAFileIsBroken) {
   bytes.span()[8] = std::byte{9};  // the major version
   EXPECT_EQ(file.open(bytes.span()), EngineStatus::kBadFile);
-  EXPECT_STREQ(file.fault(), "a version of the format that is not supported");
+  EXPECT_STREQ(file.fault(), "unsupported version of the format");
   EXPECT_EQ(file.fault_offset(), 8u);
   EXPECT_EQ(file.network_count(), 0);
   EXPECT_EQ(file.open(bytes.span().subspan(8)), EngineStatus::kBadFile);

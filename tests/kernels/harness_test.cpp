@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "apps/conformance/crash_guard.h"
+#include "apps/conformance/faulty_kernels.h"
 #include "apps/conformance/guarded_buffer.h"
 #include "apps/conformance/kernel_suite.h"
-#include "apps/conformance/planted_faults.h"
 
 namespace mien::tests {
 namespace {
@@ -13,9 +13,9 @@ namespace {
 using namespace conformance;  // NOLINT: the test is about nothing else
 using testing::HasSubstr;
 
-class Planted : public testing::TestWithParam<PlantedFault> {};
+class Faulty : public testing::TestWithParam<FaultyKernel> {};
 
-TEST_P(Planted, IsNoticedWithOtherSeedsToo) {
+TEST_P(Faulty, IsNoticedWithOtherSeedsToo) {
   if (!GetParam().detectable) {
     GTEST_SKIP() << "cannot be noticed on this system";
   }
@@ -27,8 +27,8 @@ TEST_P(Planted, IsNoticedWithOtherSeedsToo) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Faults, Planted,
-                         testing::ValuesIn(planted_faults().begin(), planted_faults().end()),
+INSTANTIATE_TEST_SUITE_P(Faults, Faulty,
+                         testing::ValuesIn(faulty_kernels().begin(), faulty_kernels().end()),
                          [](const auto& test) {
                            std::string name = test.param.name;
                            for (char& one : name) {
@@ -86,7 +86,7 @@ TEST(CrashGuard, ComesBackFromOneCrashAfterAnother) {
 
 TEST(GuardedBuffer, BordersAreOnBothSides) {
   const std::vector<std::byte> content(24, std::byte{1});
-  GuardedBuffer buffer(content, 4, Place::kUnaligned);
+  GuardedBuffer buffer(content, 4, Placement::kUnaligned);
   EXPECT_EQ(reinterpret_cast<std::uintptr_t>(buffer.data()) % 64, 4u);
   EXPECT_TRUE(buffer.border_intact());
   for (const int at : {-1, 24, -68, 200}) {

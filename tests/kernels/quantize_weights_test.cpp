@@ -34,7 +34,7 @@ struct Reach {
     largest = std::max(largest, std::abs(q));
   }
   [[nodiscard]] std::int64_t sum(const QuantizeWeightsArgs& a) const {
-    return (a.is_signed ? above + below : std::max(above, below)) * a.most;
+    return (a.is_signed ? above + below : std::max(above, below)) * a.max_value;
   }
 };
 

@@ -1,3 +1,4 @@
+// Cases of activate, with the expected results.
 #include "apps/conformance/families/common.h"
 
 namespace mien::conformance {
@@ -19,9 +20,9 @@ Case make(RandomValues& random, int pixels, int channels, bool in_place,
   } else {
     test.buffers = {reads(activation.slopes), writes(Element::kFloat, y), reads(x)};
   }
-  test.bind = [=](const Places& places) {
-    return arguments(ActivateArgs{places.floats(in_place ? 1 : 2), places.floats(1),
-                                  activation.spec(places.halves(0)), pixels, channels});
+  test.bind = [=](const Addresses& buffers) {
+    return arguments(ActivateArgs{buffers.floats(in_place ? 1 : 2), buffers.floats(1),
+                                  activation.spec(buffers.halves(0)), pixels, channels});
   };
   test.call = call<ActivateArgs>;
   return test;

@@ -1,3 +1,4 @@
+// Cases of causal_conv, with the expected results.
 #include "apps/conformance/families/dense.h"
 
 namespace mien::conformance {
@@ -31,10 +32,10 @@ Case make(RandomValues& random, int in_elems, int out_c, const RandomActivation&
                   reads(bias),
                   reads(activation.slopes),
                   writes(Element::kFloat, expected_map(out_c, 1, at))};
-  test.bind = [=](const Places& places) {
-    return arguments(CausalConvArgs{places.floats(0), places.floats(1), places.halves(2),
-                                    places.halves(3), places.floats(5),
-                                    activation.spec(places.halves(4)), in_elems, out_c});
+  test.bind = [=](const Addresses& buffers) {
+    return arguments(CausalConvArgs{buffers.floats(0), buffers.floats(1), buffers.halves(2),
+                                    buffers.halves(3), buffers.floats(5),
+                                    activation.spec(buffers.halves(4)), in_elems, out_c});
   };
   test.call = call<CausalConvArgs>;
   test.macs = 2 * static_cast<std::uint64_t>(in_elems) * static_cast<std::uint64_t>(out_c);

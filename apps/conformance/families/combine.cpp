@@ -1,3 +1,4 @@
+// Cases of combine, with the expected results.
 #include <algorithm>
 
 #include "apps/conformance/families/common.h"
@@ -12,15 +13,15 @@ struct Repeats {
   bool rows, columns, channels;
 };
 
-// Of a product that does not leave fp32, or a quotient that does not.
+// Scales b so that the product or quotient does not overflow fp32.
 float moderate(float b, Combination kind) {
-  constexpr float kMost = 1e8f;
-  const float limited = std::clamp(b, -kMost, kMost);
+  constexpr float kMax = 1e8f;
+  const float limited = std::clamp(b, -kMax, kMax);
   const bool divides = kind == Combination::kQuotient;
   return divides ? (limited < 0 ? limited - 0.5f : limited + 0.5f) : limited;
 }
 
-// ARMv7 divides by an estimate, which Newton's method has made exact to some units.
+// ARMv7 divides with an estimate that Newton's method refines to a few units.
 Approx quotient(double a, double b) {
   constexpr double kUnits = 4.0;
   const double flushed = std::abs(a) < kFlushed ? kFlushed / std::abs(b) : 0.0;
@@ -62,9 +63,9 @@ Case make(RandomValues& random, int h, int w, int channels, Combination kind, Re
   } else {
     test.buffers = {reads(b), writes(Element::kFloat, y), reads(a)};
   }
-  test.bind = [=](const Places& places) {
-    return arguments(CombineArgs{places.floats(in_place ? 1 : 2), places.floats(0),
-                                 places.floats(1), kind, h, w, channels, repeats.rows,
+  test.bind = [=](const Addresses& buffers) {
+    return arguments(CombineArgs{buffers.floats(in_place ? 1 : 2), buffers.floats(0),
+                                 buffers.floats(1), kind, h, w, channels, repeats.rows,
                                  repeats.columns, repeats.channels});
   };
   test.call = call<CombineArgs>;

@@ -1,3 +1,4 @@
+// Helpers for the cases of several families.
 #include "apps/conformance/families/common.h"
 
 #include <algorithm>
@@ -17,7 +18,7 @@ double panel_weight(const std::vector<std::uint16_t>& panels, int outputs, int r
   return widened(panels[as_size(first * reduction + k * width + o - first)]);
 }
 
-// Slopes as training finds them; a slope of 65504 would leave fp32 behind.
+// Slopes as in trained networks; a slope of 65504 would overflow fp32.
 RandomActivation::RandomActivation(RandomValues& random, int channels)
     : kind(static_cast<Activation>(random.between(0, 7))), alpha(0.1f) {
   for (int c = 0; c < padded(channels); ++c) {

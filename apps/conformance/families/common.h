@@ -1,4 +1,4 @@
-// What the cases of several families share: packed weights, blocks of channels, activations.
+// Helpers for the cases of several families: packed weights, blocked maps, activations.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace mien::conformance {
 
 [[nodiscard]] inline int padded(int channels) { return (channels + 7) / 8 * 8; }
 
-// Where a channel of a pixel lies in a map of blocks.
+// Index of a channel of a pixel in a blocked map.
 [[nodiscard]] inline std::size_t blocked(int channel, int pixel, int pixels) {
   return as_size((channel / 8 * pixels + pixel) * 8 + channel % 8);
 }
@@ -26,7 +26,7 @@ struct RandomActivation {
   RandomActivation() = default;  // none
   RandomActivation(RandomValues& random, int channels);
 
-  // With the slopes where they lie in a call.
+  // `slopes`: their address during the call.
   [[nodiscard]] kernels::ActivationSpec spec(const std::uint16_t* slopes) const;
   [[nodiscard]] Approx operator()(Approx x, int channel) const;
   [[nodiscard]] const char* name() const;
@@ -36,7 +36,7 @@ struct RandomActivation {
   std::vector<std::uint16_t> slopes;
 };
 
-// Every element of a map of blocks: `at(channel, pixel)` where there is a channel, 0 elsewhere.
+// A blocked map: `at(channel, pixel)` for every channel, 0 in unused lanes.
 template <class Function>
 [[nodiscard]] std::vector<Approx> expected_map(int channels, int pixels, Function at) {
   std::vector<Approx> map(as_size(padded(channels) * pixels));
@@ -48,7 +48,7 @@ template <class Function>
   return map;
 }
 
-// A window that slides over a map, as all layers that have one describe it.
+// The window of convolutions, depthwise layers and pools.
 struct Window {
   int in_h, in_w, out_h, out_w, kernel_h, kernel_w, stride_h, stride_w, pad_top, pad_left;
 
@@ -56,7 +56,7 @@ struct Window {
   static Window random(RandomValues& random, int largest_kernel, int largest_stride);
   [[nodiscard]] int in_pixels() const { return in_h * in_w; }
   [[nodiscard]] int out_pixels() const { return out_h * out_w; }
-  // Calls f(index in the kernel, pixel of the map) for the part of a window that lies in the map.
+  // Calls f(index in the kernel, pixel of the map) for the part of a window inside the map.
   template <class Function>
   void for_each(int out_pixel, Function f) const {
     for (int ky = 0; ky < kernel_h; ++ky) {
@@ -86,9 +86,9 @@ void set_window(const Window& window, Args& args) {
   args.pad_left = window.pad_left;
 }
 
-// A map that a slice is taken out of, larger than the slice by a prime here and there.
+// A map that is larger than a slice of it, sometimes by a prime.
 struct ResidualSlice {
-  int h = 0, w = 0, top = 0, left = 0;  // of the whole map; where the slice begins
+  int h = 0, w = 0, top = 0, left = 0;  // size of the map; start of the slice
 
   static ResidualSlice random(RandomValues& random, int slice_h, int slice_w);
   [[nodiscard]] int pixels() const { return h * w; }

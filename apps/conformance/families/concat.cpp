@@ -1,3 +1,4 @@
+// Cases of concat, with the expected results.
 #include "apps/conformance/families/common.h"
 
 namespace mien::conformance {
@@ -17,8 +18,8 @@ Case make(RandomValues& random, int pixels, int a_channels, int b_channels) {
                std::to_string(b_channels) + " channels";
   test.buffers = {reads(a), reads(b),
                   writes(Element::kFloat, expected_map(a_channels + b_channels, pixels, at))};
-  test.bind = [=](const Places& places) {
-    return arguments(ConcatArgs{places.floats(0), places.floats(1), places.floats(2), pixels,
+  test.bind = [=](const Addresses& buffers) {
+    return arguments(ConcatArgs{buffers.floats(0), buffers.floats(1), buffers.floats(2), pixels,
                                 a_channels, b_channels});
   };
   test.call = call<ConcatArgs>;

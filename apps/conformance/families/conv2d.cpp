@@ -1,3 +1,4 @@
+// Cases of conv2d, with the expected results.
 #include "apps/conformance/families/common.h"
 
 namespace mien::conformance {
@@ -32,13 +33,13 @@ Case make(RandomValues& random, const Window& window, int in_c, int out_c, bool 
                activation.name();
   test.buffers = {reads(x), reads(weights), reads(bias), reads(activation.slopes),
                   writes(Element::kFloat, expected_map(out_c, out_pixels, at))};
-  test.bind = [=](const Places& places) {
+  test.bind = [=](const Addresses& buffers) {
     Conv2dArgs args{};
-    args.x = places.floats(0);
-    args.weights = places.halves(1);
-    args.bias = places.halves(2);
-    args.y = places.floats(4);
-    args.activation = activation.spec(places.halves(3));
+    args.x = buffers.floats(0);
+    args.weights = buffers.halves(1);
+    args.bias = buffers.halves(2);
+    args.y = buffers.floats(4);
+    args.activation = activation.spec(buffers.halves(3));
     set_window(window, args);
     args.in_c = in_c;
     args.x_pixel_elems = interleaved ? in_c : 8;

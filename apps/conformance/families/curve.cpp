@@ -1,3 +1,4 @@
+// Cases of curve, with the expected results.
 #include <algorithm>
 
 #include "apps/conformance/families/common.h"
@@ -8,15 +9,15 @@ namespace {
 using kernels::Curve;
 using kernels::CurveArgs;
 
-// erf and exponentials of a kernel are right to some units of what they are multiplied by: near
-// zero an error of 1.5e-7, which is 2.5 units.
+// Error of a kernel's erf and exponential, in units of the factor that they multiply: near zero it
+// is 1.5e-7, which is 2.5 units.
 constexpr double kCurveUnits = 12.0;
 
 double exponential(double x) { return std::exp(std::clamp(x, -87.0, 88.0)); }
 
 Approx with_error(double y, double error) { return rounded({y, error + 2 * kFlushed}); }
 
-// What exp makes of its argument's rounding, and of the limits of the argument.
+// Bounds the effect of the rounding and the clamping of the argument of exp.
 Approx divided_by_exponential(double x, double u) {
   const double y = x / (1.0 + std::exp(-u));
   const double units = kCurveUnits + std::min(std::abs(u), 200.0) * 4.0;
@@ -49,7 +50,7 @@ Approx curved(Curve kind, double x) {
 
 Case make(RandomValues& random, int pixels, int channels, Curve kind, bool in_place) {
   std::vector<float> x = random.map(pixels, channels);
-  if (kind == Curve::kSqrt) {  // of nothing negative
+  if (kind == Curve::kSqrt) {  // requires non-negative arguments
     std::transform(x.begin(), x.end(), x.begin(), [](float one) { return std::abs(one); });
   }
   const std::vector<Approx> y = expected_map(channels, pixels, [&](int c, int p) {
@@ -64,9 +65,9 @@ Case make(RandomValues& random, int pixels, int channels, Curve kind, bool in_pl
   } else {
     test.buffers = {writes(Element::kFloat, y), reads(x)};
   }
-  test.bind = [=](const Places& places) {
+  test.bind = [=](const Addresses& buffers) {
     return arguments(
-        CurveArgs{places.floats(in_place ? 0 : 1), places.floats(0), kind, pixels, channels});
+        CurveArgs{buffers.floats(in_place ? 0 : 1), buffers.floats(0), kind, pixels, channels});
   };
   test.call = call<CurveArgs>;
   return test;

@@ -1,12 +1,11 @@
-// A row of outputs from packed panels: what fully connected layers and their kin add up.
+// Outputs of packed panels, for fully connected, causal convolution and LSTM layers.
 #pragma once
 
 #include "apps/conformance/families/common.h"
 
 namespace mien::conformance {
 
-// bias[o] + sum of inputs times panel weights; `inputs`: one after another, as the panels hold
-// them.
+// bias[o] + sum of inputs times panel weights; `inputs` are in the order of the panels.
 [[nodiscard]] inline Approx dense_output(const std::vector<float>& inputs,
                                          const std::vector<std::uint16_t>& panels,
                                          const std::vector<std::uint16_t>& bias, int outputs, int o,

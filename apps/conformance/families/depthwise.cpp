@@ -1,3 +1,4 @@
+// Cases of depthwise, with the expected results.
 #include "apps/conformance/families/common.h"
 
 namespace mien::conformance {
@@ -11,7 +12,7 @@ Case make(RandomValues& random, const Window& window, int channels,
   const int taps = window.kernel_h * window.kernel_w;
   const std::vector<float> x = random.map(in_pixels, channels);
   const std::vector<std::uint16_t> bias = random.bias(channels);
-  // [block][tap][8]: as a map of blocks, whose unused lanes need not be zero.
+  // [block][tap][8]: like a blocked map, but unused lanes need not be zero.
   const std::vector<std::uint16_t> weights = random.halves(padded(channels) * taps);
 
   const auto at = [&](int c, int out_pixel) {
@@ -26,13 +27,13 @@ Case make(RandomValues& random, const Window& window, int channels,
   test.shape = window.text() + ", " + std::to_string(channels) + " channels, " + activation.name();
   test.buffers = {reads(x), reads(weights), reads(bias), reads(activation.slopes),
                   writes(Element::kFloat, expected_map(channels, out_pixels, at))};
-  test.bind = [=](const Places& places) {
+  test.bind = [=](const Addresses& buffers) {
     DepthwiseArgs args{};
-    args.x = places.floats(0);
-    args.weights = places.halves(1);
-    args.bias = places.halves(2);
-    args.y = places.floats(4);
-    args.activation = activation.spec(places.halves(3));
+    args.x = buffers.floats(0);
+    args.weights = buffers.halves(1);
+    args.bias = buffers.halves(2);
+    args.y = buffers.floats(4);
+    args.activation = activation.spec(buffers.halves(3));
     args.channels = channels;
     set_window(window, args);
     return arguments(args);
@@ -42,7 +43,7 @@ Case make(RandomValues& random, const Window& window, int channels,
   return test;
 }
 
-// Networks slide nothing but 3x3, so most cases do.
+// Mostly 3x3, like all depthwise layers of mien's networks.
 Window random_window(RandomValues& random) {
   Window window = Window::random(random, 5, 2);
   while (random.case_number() % 3 != 0 && (window.kernel_h != 3 || window.kernel_w != 3)) {

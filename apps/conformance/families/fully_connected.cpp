@@ -1,3 +1,4 @@
+// Cases of fully_connected, with the expected results.
 #include "apps/conformance/families/dense.h"
 
 namespace mien::conformance {
@@ -16,9 +17,9 @@ Case make(RandomValues& random, int in_elems, int out_c, const RandomActivation&
   test.shape = std::to_string(in_elems) + " to " + std::to_string(out_c) + ", " + activation.name();
   test.buffers = {reads(x), reads(weights), reads(bias), reads(activation.slopes),
                   writes(Element::kFloat, expected_map(out_c, 1, at))};
-  test.bind = [=](const Places& places) {
-    return arguments(FullyConnectedArgs{places.floats(0), places.halves(1), places.halves(2),
-                                        places.floats(4), activation.spec(places.halves(3)),
+  test.bind = [=](const Addresses& buffers) {
+    return arguments(FullyConnectedArgs{buffers.floats(0), buffers.halves(1), buffers.halves(2),
+                                        buffers.floats(4), activation.spec(buffers.halves(3)),
                                         in_elems, out_c});
   };
   test.call = call<FullyConnectedArgs>;

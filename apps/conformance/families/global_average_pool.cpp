@@ -1,3 +1,4 @@
+// Cases of global_average_pool, with the expected results.
 #include "apps/conformance/families/common.h"
 
 namespace mien::conformance {
@@ -5,7 +6,7 @@ namespace {
 
 using kernels::GlobalAveragePoolArgs;
 
-// Of a large map a mean is as good as that of so many pixels.
+// The error of a large map's mean is that of this number of pixels.
 constexpr int kMaxRoundings = 512;
 
 Case make(const std::vector<float>& x, int pixels, int channels) {
@@ -21,15 +22,15 @@ Case make(const std::vector<float>& x, int pixels, int channels) {
   Case test;
   test.shape = std::to_string(pixels) + " pixels, " + std::to_string(channels) + " channels";
   test.buffers = {reads(x), writes(Element::kFloat, expected_map(channels, 1, mean))};
-  test.bind = [=](const Places& places) {
-    return arguments(GlobalAveragePoolArgs{places.floats(0), places.floats(1), pixels, channels});
+  test.bind = [=](const Addresses& buffers) {
+    return arguments(GlobalAveragePoolArgs{buffers.floats(0), buffers.floats(1), pixels, channels});
   };
   test.call = call<GlobalAveragePoolArgs>;
   return test;
 }
 
-// Each channel has one value: roundings of their sum go the same way then, and what a sum that has
-// grown large loses with every addition shows.
+// Each channel has one value, so that the roundings of its sum have the same sign and the loss of
+// every addition to a large sum shows.
 std::vector<float> even_map(RandomValues& random, int pixels, int channels) {
   std::vector<float> x(as_size(pixels * padded(channels)));
   for (int c = 0; c < channels; ++c) {

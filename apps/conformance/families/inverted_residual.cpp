@@ -1,7 +1,8 @@
+// Cases of inverted_residual, with the expected results.
 #include <algorithm>
 #include <iterator>
 
-#include "apps/conformance/families/fixed_point.h"
+#include "apps/conformance/families/quantized_weights.h"
 
 namespace mien::conformance {
 namespace {
@@ -9,26 +10,25 @@ namespace {
 using kernels::Activation;
 using kernels::InvertedResidualArgs;
 
-// How the work is divided must not show in the result.
+// The division of the work, which must not affect the result.
 struct Tiling {
   int band_rows, strip_channels, strip_rows, strip_w;
 };
 
 struct Shape {
   Window window;
-  int in_c, hidden_c, out_c;  // in_c 0: nothing is expanded
+  int in_c, hidden_c, out_c;  // in_c 0: no expand layer
   Tiling tiling;
 };
 
 constexpr int kLongCases = 8;  // every eighth case has long sums
 
-// The engine makes none for longer sums.
-bool has_fixed_weights(const Shape& s) {
+// The engine does not quantize longer sums.
+bool has_quantized_weights(const Shape& s) {
   return std::max(s.in_c, s.hidden_c) <= kernels::kQuantizedWeightsMaxInputs;
 }
 
-// What the block computes its inner sums with: a tier in fp16 takes fp32 for a block with long
-// ones.
+// Arithmetic of the block's inner sums: fp16 tiers use fp32 for blocks with long sums.
 Arithmetic block_arithmetic(const Arithmetic& tier, const Shape& of) {
   const bool short_sums =
       kernels::has_short_half_sums(of.in_c, of.window.kernel_h, of.window.kernel_w);
@@ -40,13 +40,13 @@ struct Activations {
   RandomActivation expand, depthwise, project;
 };
 
-// Steps in fp32 are not quite those that halves are taken of here.
-constexpr double kHalfStep = 0.5 * (1.0 + 0x1p-12);
+// The kernel's fp32 scales differ slightly from those used here.
+constexpr double kHalfScale = 0.5 * (1.0 + 0x1p-12);
 
-// A sum of products whose factors err already.
-class ErringSum {
+// A sum of products of inexact factors.
+class InexactSum {
  public:
-  explicit ErringSum(const Arithmetic& by) : sum_(by) {}
+  explicit InexactSum(const Arithmetic& by) : sum_(by) {}
   void add(const Approx& x, double w = 1.0, double w_error = 0.0) {
     sum_.add(x.value, w);
     error_ += x.error * (std::abs(w) + w_error) + std::abs(x.value) * w_error;
@@ -61,14 +61,14 @@ class ErringSum {
   double error_ = 0.0;
 };
 
-// The layers one after another; maps in blocks, as [channel block][pixel][8].
+// The three layers in sequence; blocked maps [channel block][pixel][8].
 struct Layers {
   Shape shape;
-  Arithmetic sums, inner_sums;  // the latter of what is expanded and slid
+  Arithmetic sums, inner_sums;  // inner_sums: expand and depthwise
   std::vector<float> x;
   std::vector<std::uint16_t> w1, b1, w2, b2, w3, b3;
-  FixedPoint fixed1, fixed3;  // of w1 and w3
-  bool is_quantized = false;  // what is expanded and projected is in fixed point
+  QuantizedWeights quantized1, quantized3;  // w1 and w3
+  bool is_quantized = false;                // expand and project are quantized
 
   Layers(RandomValues& random, const Shape& of)
       : shape(of),
@@ -84,38 +84,38 @@ struct Layers {
       b1 = random.bias(of.hidden_c);
     }
     if (random.is_half()) {
-      make_room(0x1p-8f);
+      scale_input(0x1p-8f);
     } else if (random.pattern() == Pattern::kHuge) {
-      make_room(1e-12f);
+      scale_input(1e-12f);
     }
     quantize_weights(of);
   }
 
   void quantize_weights(const Shape& of) {
-    if (!has_fixed_weights(of)) {
+    if (!has_quantized_weights(of)) {
       return;
     }
-    fixed3 = FixedPoint(w3, of.out_c, of.hidden_c, kernels::kQuantizedBandMax, false);
+    quantized3 = QuantizedWeights(w3, of.out_c, of.hidden_c, kernels::kQuantizedBandMax, false);
     if (of.in_c > 0) {
-      fixed1 = FixedPoint(w1, of.hidden_c, of.in_c, kernels::kQuantizedMapMax, true);
+      quantized1 = QuantizedWeights(w1, of.hidden_c, of.in_c, kernels::kQuantizedMapMax, true);
     }
   }
 
-  // Half a step: what rounding takes from a value, or from a weight of output o.
+  // Half a scale: the rounding error of a value, or of a weight of output o.
   [[nodiscard]] double x_error() const {
     float largest = 0x1p-64f;
     for (const float one : x) {
       largest = std::max(largest, std::abs(one));
     }
-    return is_quantized ? static_cast<double>(largest) / kernels::kQuantizedMapMax * kHalfStep
+    return is_quantized ? static_cast<double>(largest) / kernels::kQuantizedMapMax * kHalfScale
                         : 0.0;
   }
   [[nodiscard]] double depthwise_error(const RandomActivation& activation) const {
-    const double most = activation.kind == Activation::kClamp01 ? 1.0 : 6.0;
-    return is_quantized ? most / kernels::kQuantizedBandMax * kHalfStep : 0.0;
+    const double max = activation.kind == Activation::kClamp01 ? 1.0 : 6.0;
+    return is_quantized ? max / kernels::kQuantizedBandMax * kHalfScale : 0.0;
   }
-  [[nodiscard]] double weight_error(const FixedPoint& fixed, int o) const {
-    return is_quantized ? static_cast<double>(fixed.scales[as_size(o)]) * kHalfStep : 0.0;
+  [[nodiscard]] double weight_error(const QuantizedWeights& quantized, int o) const {
+    return is_quantized ? static_cast<double>(quantized.scales[as_size(o)]) * kHalfScale : 0.0;
   }
 
   void make_positive() {
@@ -130,17 +130,17 @@ struct Layers {
     quantize_weights(shape);
   }
 
-  // Makes `largest` the largest value of the expansion.
+  // Scales x so that the largest value of the expansion is `largest`.
   void scale_expansion(double largest) {
     double now = 0x1p-126;
     for (const Approx& one : expanded({})) {
       now = std::max(now, std::abs(one.value));
     }
-    make_room(static_cast<float>(largest / now));
+    scale_input(static_cast<float>(largest / now));
   }
 
-  // Three layers in a row take huge numbers beyond any type, whatever the kernel does.
-  void make_room(float factor) {
+  // Used to keep huge values within range: three layers would overflow any type.
+  void scale_input(float factor) {
     for (float& one : x) {
       one *= factor;
     }
@@ -153,12 +153,12 @@ struct Layers {
       if (shape.in_c == 0) {
         return exact(static_cast<double>(x[blocked(c, p, pixels)]));
       }
-      ErringSum sum(inner_sums);
+      InexactSum sum(inner_sums);
       sum.add(exact(widened(b1[as_size(c)])));
       for (int i = 0; i < shape.in_c; ++i) {
         sum.add({static_cast<double>(x[blocked(i, p, pixels)]), error},
                 panel_weight(w1, shape.hidden_c, padded(shape.in_c), c, i),
-                weight_error(fixed1, c));
+                weight_error(quantized1, c));
       }
       return activation(sum.total(), c);
     });
@@ -169,7 +169,7 @@ struct Layers {
     const Window& window = shape.window;
     const int taps = window.kernel_h * window.kernel_w;
     return expected_map(shape.hidden_c, window.out_pixels(), [&](int c, int p) {
-      ErringSum sum(inner_sums);
+      InexactSum sum(inner_sums);
       sum.add(exact(widened(b2[as_size(c)])));
       window.for_each(p, [&](int tap, int pixel) {
         sum.add(fp32_weights[blocked(c, pixel, window.in_pixels())],
@@ -179,15 +179,16 @@ struct Layers {
     });
   }
 
-  // `error`: of what is slid, besides.
+  // `error`: additional error of the depthwise output.
   [[nodiscard]] Approx projected(const std::vector<Approx>& half_input, double error, int o,
                                  int p) const {
-    ErringSum sum(sums);
+    InexactSum sum(sums);
     sum.add(exact(widened(b3[as_size(o)])));
     for (int c = 0; c < shape.hidden_c; ++c) {
       const Approx& s = half_input[blocked(c, p, shape.window.out_pixels())];
       sum.add({s.value, s.error + error},
-              panel_weight(w3, shape.out_c, padded(shape.hidden_c), o, c), weight_error(fixed3, o));
+              panel_weight(w3, shape.out_c, padded(shape.hidden_c), o, c),
+              weight_error(quantized3, o));
     }
     return sum.total();
   }
@@ -227,11 +228,11 @@ InvertedResidualArgs sizes(const Shape& s) {
   return args;
 }
 
-int narrow_rows(const Shape& s) {
+int half_input_rows(const Shape& s) {
   return std::min(s.window.in_h, (s.tiling.band_rows - 1) * s.window.stride_h + s.window.kernel_h);
 }
 
-// Only what is bounded can be in fixed point.
+// Quantization requires a bounded activation.
 bool is_bounded(const RandomActivation& activation) {
   return activation.kind == Activation::kRelu6 || activation.kind == Activation::kClamp01;
 }
@@ -239,7 +240,7 @@ bool is_bounded(const RandomActivation& activation) {
 Case make(RandomValues& random, Layers layers, const Activations& activations,
           const ResidualSlice* slice) {
   const Shape shape = layers.shape;
-  layers.is_quantized = random.arithmetic().is_quantized && has_fixed_weights(shape) &&
+  layers.is_quantized = random.arithmetic().is_quantized && has_quantized_weights(shape) &&
                         is_bounded(activations.depthwise);
   const std::vector<float> residual =
       slice != nullptr ? random.map(slice->pixels(), shape.out_c) : std::vector<float>();
@@ -260,32 +261,33 @@ Case make(RandomValues& random, Layers layers, const Activations& activations,
       scratch(as_size((shape.hidden_c + 15) / 16 * 16 * t.band_rows * shape.window.out_w)),
       scratch(as_size(t.strip_channels * t.strip_rows * t.strip_w)),
       scratch(as_size(kernels::kInvertedResidualFp32WeightElems)),
-      scratch(as_size((shape.in_c + 31) / 32 * 16 * narrow_rows(shape) * shape.window.in_w)),
+      scratch(as_size((shape.in_c + 31) / 32 * 16 * half_input_rows(shape) * shape.window.in_w)),
       writes(Element::kFloat, expected(layers, activations, slice, residual)),
-      reads(layers.fixed1.pairs),
-      reads(layers.fixed1.scales),
-      reads(layers.fixed3.pairs),
-      reads(layers.fixed3.scales)};
+      reads(layers.quantized1.pairs),
+      reads(layers.quantized1.scales),
+      reads(layers.quantized3.pairs),
+      reads(layers.quantized3.scales)};
   const ResidualSlice taken = slice != nullptr ? *slice : ResidualSlice();
-  test.bind = [=](const Places& places) {
+  test.bind = [=](const Addresses& buffers) {
     InvertedResidualArgs args = sizes(shape);
-    args.x = places.floats(0);
-    const bool fixed = has_fixed_weights(shape);
-    args.expand = {shape.in_c == 0 ? nullptr : places.halves(1), places.halves(2),
-                   activations.expand.spec(nullptr), fixed ? places.int16s(13) : nullptr,
-                   fixed ? places.floats(14) : nullptr};
-    args.depthwise = {places.halves(3), places.halves(4), activations.depthwise.spec(nullptr),
+    args.x = buffers.floats(0);
+    const bool quantized = has_quantized_weights(shape);
+    args.expand = {shape.in_c == 0 ? nullptr : buffers.halves(1), buffers.halves(2),
+                   activations.expand.spec(nullptr), quantized ? buffers.int16s(13) : nullptr,
+                   quantized ? buffers.floats(14) : nullptr};
+    args.depthwise = {buffers.halves(3), buffers.halves(4), activations.depthwise.spec(nullptr),
                       nullptr, nullptr};
-    args.project = {places.halves(5), places.halves(6), activations.project.spec(nullptr),
-                    fixed ? places.int16s(15) : nullptr, fixed ? places.floats(16) : nullptr};
+    args.project = {buffers.halves(5), buffers.halves(6), activations.project.spec(nullptr),
+                    quantized ? buffers.int16s(15) : nullptr,
+                    quantized ? buffers.floats(16) : nullptr};
     if (taken.h > 0) {
-      set_residual(taken, places.floats(7), args);
+      set_residual(taken, buffers.floats(7), args);
     }
-    args.band = places.floats(8);
-    args.strip = places.floats(9);
-    args.fp32_weights = places.floats(10);
-    args.half_input = places.floats(11);
-    args.y = places.floats(12);
+    args.band = buffers.floats(8);
+    args.strip = buffers.floats(9);
+    args.fp32_weights = buffers.floats(10);
+    args.half_input = buffers.floats(11);
+    args.y = buffers.floats(12);
     return arguments(args);
   };
   test.call = call<InvertedResidualArgs>;
@@ -310,8 +312,7 @@ Tiling random_tiling(RandomValues& random, const Window& w) {
           w.kernel_h + w.stride_h * random.between(0, 3), least_strip_w(w) + random.between(0, 1)};
 }
 
-// Sums as long as a tier in fp16 keeps them, one longer, the longest in fixed point, and longer
-// ones.
+// Sums at the maximum length for fp16, one longer, the maximum for quantization, and longer ones.
 Shape long_shape(RandomValues& random) {
   const Window one_tap{2, 2, 2, 2, 1, 1, 1, 1, 0, 0}, many_taps{13, 5, 1, 1, 13, 5, 1, 1, 0, 0};
   struct Sums {
@@ -329,8 +330,8 @@ Shape long_shape(RandomValues& random) {
           random_tiling(random, sums.window)};
 }
 
-// Terms of one sign are what a running sum in few bits loses most of. Nothing is clamped, so that
-// nothing is hidden, but where tiers in fixed point need it.
+// Terms of one sign lose most in a running sum of low precision. No clamp hides errors, except
+// where quantized tiers require one.
 Case long_case(RandomValues& random) {
   const Shape shape = long_shape(random);
   Layers layers(random, shape);

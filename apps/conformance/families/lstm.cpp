@@ -1,3 +1,4 @@
+// Cases of lstm, with the expected results.
 #include "apps/conformance/families/dense.h"
 
 namespace mien::conformance {
@@ -7,7 +8,7 @@ using kernels::LstmArgs;
 
 Approx flushed(Approx x) { return {x.value, x.error + static_cast<double>(kernels::kLstmFlush)}; }
 
-// A cell's memory is a mean of what went in: near [-1, 1], wherever the inputs are.
+// Cell state: an average of gate values, near [-1, 1] for any input.
 std::vector<float> state(RandomValues& random, int count) {
   std::vector<float> values(static_cast<std::size_t>(count));
   for (float& one : values) {
@@ -20,7 +21,7 @@ struct Step {
   std::vector<Approx> c, h;
 };
 
-// `gate(o)`: what output o of the gates is before its activation.
+// `gate(o)`: output o of the gates before its activation.
 template <class Gate>
 Step one_step(int hidden, const std::vector<float>& c, Gate gate) {
   Step step;
@@ -53,10 +54,10 @@ Case make(RandomValues& random, int in_elems, int hidden) {
                   reads(bias),
                   writes(Element::kFloat, step.h),
                   scratch(as_size(4 * hidden))};
-  test.bind = [=](const Places& places) {
-    return arguments(LstmArgs{places.floats(0), places.floats(1), places.floats(2),
-                              places.halves(3), places.halves(4), places.floats(5),
-                              places.floats(6), in_elems, hidden});
+  test.bind = [=](const Addresses& buffers) {
+    return arguments(LstmArgs{buffers.floats(0), buffers.floats(1), buffers.floats(2),
+                              buffers.halves(3), buffers.halves(4), buffers.floats(5),
+                              buffers.floats(6), in_elems, hidden});
   };
   test.call = call<LstmArgs>;
   test.macs = static_cast<std::uint64_t>(in_elems + hidden) * as_size(4 * hidden);

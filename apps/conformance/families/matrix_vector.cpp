@@ -1,3 +1,4 @@
+// Cases of matrix_vector, with the expected results.
 #include "apps/conformance/families/common.h"
 
 namespace mien::conformance {
@@ -5,8 +6,8 @@ namespace {
 
 using kernels::MatrixVectorArgs;
 
-// Both factors are floats: their product has to stay one.
-std::vector<float> tamed(std::vector<float> values) {
+// Limits magnitudes so that products do not overflow fp32.
+std::vector<float> limited(std::vector<float> values) {
   for (float& one : values) {
     one = std::abs(one) > 1e15f ? one * 1e-13f : one;
   }
@@ -14,8 +15,8 @@ std::vector<float> tamed(std::vector<float> values) {
 }
 
 Case make(RandomValues& random, int rows, int columns) {
-  const std::vector<float> weights = tamed(random.plain(rows * columns)),
-                           x = tamed(random.plain(columns));
+  const std::vector<float> weights = limited(random.plain(rows * columns)),
+                           x = limited(random.plain(columns));
   std::vector<Approx> y;
   for (int row = 0; row < rows; ++row) {
     Sum sum;
@@ -27,9 +28,9 @@ Case make(RandomValues& random, int rows, int columns) {
   Case test;
   test.shape = times(rows, columns);
   test.buffers = {reads(weights), reads(x), writes(Element::kFloat, y)};
-  test.bind = [=](const Places& places) {
+  test.bind = [=](const Addresses& buffers) {
     return arguments(
-        MatrixVectorArgs{places.floats(0), places.floats(1), places.floats(2), rows, columns});
+        MatrixVectorArgs{buffers.floats(0), buffers.floats(1), buffers.floats(2), rows, columns});
   };
   test.call = call<MatrixVectorArgs>;
   test.macs = static_cast<std::uint64_t>(rows) * static_cast<std::uint64_t>(columns);

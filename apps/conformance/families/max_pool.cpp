@@ -1,3 +1,4 @@
+// Cases of max_pool, with the expected results.
 #include <algorithm>
 #include <limits>
 
@@ -21,10 +22,10 @@ Case make(RandomValues& random, const Window& window, int channels) {
   Case test;
   test.shape = window.text() + ", " + std::to_string(channels) + " channels";
   test.buffers = {reads(x), writes(Element::kFloat, expected_map(channels, out_pixels, at))};
-  test.bind = [=](const Places& places) {
+  test.bind = [=](const Addresses& buffers) {
     MaxPoolArgs args{};
-    args.x = places.floats(0);
-    args.y = places.floats(1);
+    args.x = buffers.floats(0);
+    args.y = buffers.floats(1);
     args.channels = channels;
     set_window(window, args);
     return arguments(args);
@@ -33,7 +34,7 @@ Case make(RandomValues& random, const Window& window, int channels) {
   return test;
 }
 
-// Every window has to hold something, the last one too, which may be cut.
+// Every window must contain a value, also the last one, which may be clipped.
 Window random_window(RandomValues& random) {
   Window window{};
   window.kernel_h = random.between(1, 3);

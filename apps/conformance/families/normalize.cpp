@@ -1,3 +1,4 @@
+// Cases of normalize, with the expected results.
 #include <algorithm>
 
 #include "apps/conformance/families/common.h"
@@ -7,8 +8,7 @@ namespace {
 
 using kernels::NormalizeArgs;
 
-// One pixel. Its mean errs as any sum; that error is in each difference, and squared in the
-// variance.
+// One pixel. The error of its mean enters every difference, and its square the variance.
 std::vector<Approx> normalized(const std::vector<double>& x, double epsilon) {
   const auto count = static_cast<double>(x.size());
   Sum sum;
@@ -25,9 +25,10 @@ std::vector<Approx> normalized(const std::vector<double>& x, double epsilon) {
   }
   error += sum_factor(static_cast<int>(x.size())) * kUnit * variance;
   const double scale = 1.0 / std::sqrt(variance + epsilon);
-  const double most = 1.0 / std::sqrt(std::max(variance - error, 0.0) + epsilon);
-  const double least = 1.0 / std::sqrt(variance + error + epsilon);
-  const double scale_error = std::max(most - scale, scale - least) + kSumFactor * kUnit * scale;
+  const double largest_scale = 1.0 / std::sqrt(std::max(variance - error, 0.0) + epsilon);
+  const double smallest_scale = 1.0 / std::sqrt(variance + error + epsilon);
+  const double scale_error =
+      std::max(largest_scale - scale, scale - smallest_scale) + kSumFactor * kUnit * scale;
   std::vector<Approx> y;
   for (const double one : x) {
     const double difference = one - mean.value;
@@ -40,7 +41,7 @@ std::vector<Approx> normalized(const std::vector<double>& x, double epsilon) {
 
 Case make(RandomValues& random, int pixels, int channels, float epsilon, bool in_place) {
   std::vector<float> x = random.map(pixels, channels);
-  for (float& one : x) {  // squares have to be numbers
+  for (float& one : x) {  // squares must not overflow
     one = std::clamp(one, -1e15f, 1e15f);
   }
   std::vector<Approx> y(x.size());
@@ -62,8 +63,8 @@ Case make(RandomValues& random, int pixels, int channels, float epsilon, bool in
   } else {
     test.buffers = {writes(Element::kFloat, y), reads(x)};
   }
-  test.bind = [=](const Places& places) {
-    return arguments(NormalizeArgs{places.floats(in_place ? 0 : 1), places.floats(0), epsilon,
+  test.bind = [=](const Addresses& buffers) {
+    return arguments(NormalizeArgs{buffers.floats(in_place ? 0 : 1), buffers.floats(0), epsilon,
                                    pixels, channels});
   };
   test.call = call<NormalizeArgs>;

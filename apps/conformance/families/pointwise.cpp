@@ -1,3 +1,4 @@
+// Cases of pointwise, with the expected results.
 #include "apps/conformance/families/common.h"
 
 namespace mien::conformance {
@@ -36,19 +37,19 @@ Case make(RandomValues& random, const Size& size, const RandomActivation& activa
                   reads(bias),     reads(activation.slopes),
                   reads(residual), writes(Element::kFloat, expected_map(out_c, pixels, at))};
   const ResidualSlice taken = slice != nullptr ? *slice : ResidualSlice();
-  test.bind = [=](const Places& places) {
+  test.bind = [=](const Addresses& buffers) {
     PointwiseArgs args{};
-    args.x = places.floats(0);
-    args.weights = places.halves(1);
-    args.bias = places.halves(2);
-    args.y = places.floats(5);
-    args.activation = activation.spec(places.halves(3));
+    args.x = buffers.floats(0);
+    args.weights = buffers.halves(1);
+    args.bias = buffers.halves(2);
+    args.y = buffers.floats(5);
+    args.activation = activation.spec(buffers.halves(3));
     args.h = h;
     args.w = w;
     args.in_c = in_c;
     args.out_c = out_c;
     if (taken.h > 0) {
-      set_residual(taken, places.floats(4), args);
+      set_residual(taken, buffers.floats(4), args);
     }
     return arguments(args);
   };

@@ -1,3 +1,4 @@
+// Cases of power_spectrum, with the expected results.
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -19,7 +20,7 @@ std::vector<float> twiddles(int n) {
   return values;
 }
 
-// Squares have to stay floats.
+// Limits magnitudes so that squares do not overflow fp32.
 std::vector<float> signal(RandomValues& random, int n) {
   std::vector<float> values = random.plain(n);
   for (float& one : values) {
@@ -28,8 +29,8 @@ std::vector<float> signal(RandomValues& random, int n) {
   return values;
 }
 
-// The transform as it is written, in double. A fast one in fp32 takes log2 n stages, each of which
-// rounds, and factors that are rounded themselves; all of it is relative to sum|x|.
+// The definition in double precision. A fast transform in fp32 has log2 n stages, each of which
+// rounds, and rounded factors; all errors are relative to sum|x|.
 Approx power(const std::vector<float>& x, int k) {
   const int n = static_cast<int>(x.size());
   std::complex<double> sum;
@@ -54,8 +55,8 @@ Case make(RandomValues& random, int n) {
   Case test;
   test.shape = std::to_string(n) + " samples";
   test.buffers = {reads(x), reads(twiddles(n)), writes(Element::kFloat, y)};
-  test.bind = [=](const Places& places) {
-    return arguments(PowerSpectrumArgs{places.floats(0), places.floats(1), places.floats(2), n});
+  test.bind = [=](const Addresses& buffers) {
+    return arguments(PowerSpectrumArgs{buffers.floats(0), buffers.floats(1), buffers.floats(2), n});
   };
   test.call = call<PowerSpectrumArgs>;
   return test;

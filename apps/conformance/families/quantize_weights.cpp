@@ -1,6 +1,7 @@
+// Cases of quantize_weights, with the expected results.
 #include <cmath>
 
-#include "apps/conformance/families/fixed_point.h"
+#include "apps/conformance/families/quantized_weights.h"
 
 namespace mien::conformance {
 namespace {
@@ -15,7 +16,7 @@ struct Panels {
   }
 };
 
-double scale_of(const Panels& w, int o, int most, bool is_signed) {
+double scale_of(const Panels& w, int o, int max_value, bool is_signed) {
   double positive = 0.0, negative = 0.0, largest = 0.0;
   for (int k = 0; k < w.reduction; ++k) {
     const double one = w.at(o, k);
@@ -23,12 +24,12 @@ double scale_of(const Panels& w, int o, int most, bool is_signed) {
     largest = std::max(largest, std::abs(one));
   }
   const double sum = is_signed ? positive + negative : std::max(positive, negative);
-  const double room = 0x1p31 * (1.0 - 0x1p-10) - w.reduction * 0.5 * most;
-  return std::max(largest / 32767.0, sum * most / room);
+  const double limit = 0x1p31 * (1.0 - 0x1p-10) - w.reduction * 0.5 * max_value;
+  return std::max(largest / 32767.0, sum * max_value / limit);
 }
 
-// Where pairs have element k of output o's sum.
-std::size_t place(const Panels& w, int o, int k) {
+// Index of element k of output o's sum in `pairs`.
+std::size_t index_of(const Panels& w, int o, int k) {
   const int width = w.outputs - o / 16 * 16 < 16 ? 8 : 16, together = 32 / width;
   return as_size(o / 16 * 16 * w.reduction + k / together * 32 + o % 16 * together + k % together);
 }
@@ -36,8 +37,9 @@ std::size_t place(const Panels& w, int o, int k) {
 std::vector<Approx> expected_scales(const std::vector<float>& scales, int reduction) {
   std::vector<Approx> all;
   all.reserve(scales.size());
-  for (const float step : scales) {
-    all.push_back({static_cast<double>(step), static_cast<double>(step) * kUnit * (reduction + 8)});
+  for (const float scale : scales) {
+    all.push_back(
+        {static_cast<double>(scale), static_cast<double>(scale) * kUnit * (reduction + 8)});
   }
   return all;
 }
@@ -46,23 +48,24 @@ std::vector<Approx> expected_pairs(const std::vector<double>& quotients) {
   std::vector<Approx> all;
   all.reserve(quotients.size());
   for (const double one : quotients) {
-    // Steps in fp32 are not those of double.
+    // fp32 scales differ from those in double precision.
     all.push_back({one, one == 0.0 ? 0.0 : 0.5 + std::abs(one) * 0x1p-15});
   }
   return all;
 }
 
-Case make(RandomValues& random, int inputs, int outputs, bool is_signed, int most) {
+Case make(RandomValues& random, int inputs, int outputs, bool is_signed, int max_value) {
   const std::vector<std::uint16_t> panels = random.panels(outputs, padded(inputs));
-  const FixedPoint fixed(panels, outputs, inputs, most, is_signed);
+  const QuantizedWeights quantized(panels, outputs, inputs, max_value, is_signed);
   Case test;
   test.shape = std::to_string(inputs) + " to " + std::to_string(outputs) + ", up to " +
-               std::to_string(most) + (is_signed ? " of both signs" : "");
-  test.buffers = {reads(panels), writes(Element::kInt16, expected_pairs(fixed.quotients)),
-                  writes(Element::kFloat, expected_scales(fixed.scales, padded(inputs)))};
-  test.bind = [=](const Places& places) {
-    return arguments(QuantizeWeightsArgs{places.halves(0), places.int16s(1), places.floats(2),
-                                         padded(inputs) / 8, padded(outputs) / 8, most, is_signed});
+               std::to_string(max_value) + (is_signed ? ", signed" : "");
+  test.buffers = {reads(panels), writes(Element::kInt16, expected_pairs(quantized.quotients)),
+                  writes(Element::kFloat, expected_scales(quantized.scales, padded(inputs)))};
+  test.bind = [=](const Addresses& buffers) {
+    return arguments(QuantizeWeightsArgs{buffers.halves(0), buffers.int16s(1), buffers.floats(2),
+                                         padded(inputs) / 8, padded(outputs) / 8, max_value,
+                                         is_signed});
   };
   test.call = call<QuantizeWeightsArgs>;
   return test;
@@ -70,17 +73,17 @@ Case make(RandomValues& random, int inputs, int outputs, bool is_signed, int mos
 
 }  // namespace
 
-FixedPoint::FixedPoint(const std::vector<std::uint16_t>& panels, int outputs, int inputs, int most,
-                       bool is_signed)
+QuantizedWeights::QuantizedWeights(const std::vector<std::uint16_t>& panels, int outputs,
+                                   int inputs, int max_value, bool is_signed)
     : quotients(panels.size()), pairs(panels.size()) {
   const Panels w{panels, padded(outputs), padded(inputs)};
   for (int o = 0; o < w.outputs; ++o) {
-    const double step = scale_of(w, o, most, is_signed);
-    scales.push_back(static_cast<float>(step));
+    const double scale = scale_of(w, o, max_value, is_signed);
+    scales.push_back(static_cast<float>(scale));
     for (int k = 0; k < w.reduction; ++k) {
-      const double quotient = step > 0.0 ? w.at(o, k) / step : 0.0;
-      quotients[place(w, o, k)] = quotient;
-      pairs[place(w, o, k)] = static_cast<std::uint16_t>(std::lround(quotient));
+      const double quotient = scale > 0.0 ? w.at(o, k) / scale : 0.0;
+      quotients[index_of(w, o, k)] = quotient;
+      pairs[index_of(w, o, k)] = static_cast<std::uint16_t>(std::lround(quotient));
     }
   }
 }

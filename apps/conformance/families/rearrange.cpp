@@ -1,3 +1,4 @@
+// Cases of rearrange, with the expected results.
 #include <algorithm>
 
 #include "apps/conformance/families/common.h"
@@ -44,10 +45,10 @@ Case make(RandomValues& random, Size in, Size out, const Axis (&order)[3]) {
                std::to_string(out.c) + ", order " + std::to_string(axis(0)) +
                std::to_string(axis(1)) + std::to_string(axis(2));
   test.buffers = {reads(x), writes(Element::kFloat, y)};
-  test.bind = [=](const Places& places) {
+  test.bind = [=](const Addresses& buffers) {
     RearrangeArgs args = shared;
-    args.x = places.floats(0);
-    args.y = places.floats(1);
+    args.x = buffers.floats(0);
+    args.y = buffers.floats(1);
     return arguments(args);
   };
   test.call = call<RearrangeArgs>;
@@ -58,7 +59,7 @@ Case make(RandomValues& random, Size in, Size out, const Axis (&order)[3]) {
 
 template <>
 Case random_case<RearrangeArgs>(RandomValues& random) {
-  // Both maps are made of the same factors.
+  // Both shapes are products of the same factors.
   const int factors[] = {random.between(1, 5), random.between(1, 5), random.between(1, 5),
                          random.size(9)};
   int in[3] = {1, 1, 1}, out[3] = {1, 1, 1};

@@ -1,3 +1,4 @@
+// Cases of residual_add, with the expected results.
 #include "apps/conformance/families/common.h"
 
 namespace mien::conformance {
@@ -22,14 +23,14 @@ Case make(RandomValues& random, int h, int w, int channels, const ResidualSlice&
   } else {
     test.buffers = {reads(residual), writes(Element::kFloat, y), reads(x)};
   }
-  test.bind = [=](const Places& places) {
+  test.bind = [=](const Addresses& buffers) {
     ResidualAddArgs args{};
-    args.x = places.floats(in_place ? 1 : 2);
-    args.y = places.floats(1);
+    args.x = buffers.floats(in_place ? 1 : 2);
+    args.y = buffers.floats(1);
     args.channels = channels;
     args.h = h;
     args.w = w;
-    set_residual(slice, places.floats(0), args);
+    set_residual(slice, buffers.floats(0), args);
     return arguments(args);
   };
   test.call = call<ResidualAddArgs>;

@@ -1,3 +1,4 @@
+// Cases of resize, with the expected results.
 #include <algorithm>
 
 #include "apps/conformance/families/common.h"
@@ -9,8 +10,8 @@ using kernels::Grid;
 using kernels::ResizeArgs;
 using kernels::Sampling;
 
-// In double: sizes are so small that fractions other than halves stay clear of them.
-double place(Grid grid, int i, int in, int out) {
+// In double precision: sizes are so small that only exact halves are near a half.
+double position(Grid grid, int i, int in, int out) {
   const double scale = static_cast<double>(in) / out;
   switch (grid) {
     case Grid::kHalfPixel:
@@ -23,7 +24,7 @@ double place(Grid grid, int i, int in, int out) {
   return out > 1 ? static_cast<double>(i) * (in - 1) / (out - 1) : 0.0;
 }
 
-double rounded_place(Sampling sampling, double at) {
+double rounded_position(Sampling sampling, double at) {
   constexpr double kTiny = 1e-9;
   switch (sampling) {
     case Sampling::kRoundHalfDown:
@@ -42,11 +43,12 @@ double rounded_place(Sampling sampling, double at) {
 
 struct Along {
   int low, high;
-  double share;
+  double weight;
 };
 
 Along along(Grid grid, Sampling sampling, int i, int in, int out) {
-  const double at = std::clamp(rounded_place(sampling, place(grid, i, in, out)), 0.0, in - 1.0);
+  const double at =
+      std::clamp(rounded_position(sampling, position(grid, i, in, out)), 0.0, in - 1.0);
   const int low = static_cast<int>(at);
   return {low, std::min(low + 1, in - 1), at - low};
 }
@@ -68,11 +70,11 @@ Case make(RandomValues& random, const Maps& maps, Grid grid, Sampling sampling) 
       return exact(pixel(row.low, column.low));
     }
     Sum sum;
-    sum.add(pixel(row.low, column.low), (1 - row.share) * (1 - column.share));
-    sum.add(pixel(row.low, column.high), (1 - row.share) * column.share);
-    sum.add(pixel(row.high, column.low), row.share * (1 - column.share));
-    sum.add(pixel(row.high, column.high), row.share * column.share);
-    // A share is rounded relative to 1, not to itself.
+    sum.add(pixel(row.low, column.low), (1 - row.weight) * (1 - column.weight));
+    sum.add(pixel(row.low, column.high), (1 - row.weight) * column.weight);
+    sum.add(pixel(row.high, column.low), row.weight * (1 - column.weight));
+    sum.add(pixel(row.high, column.high), row.weight * column.weight);
+    // The rounding error of a weight is relative to 1, not to the weight.
     double largest = 0.0;
     for (const int y : {row.low, row.high}) {
       for (const int z : {column.low, column.high}) {
@@ -88,8 +90,8 @@ Case make(RandomValues& random, const Maps& maps, Grid grid, Sampling sampling) 
                std::to_string(maps.channels) + ", grid " + std::to_string(static_cast<int>(grid)) +
                ", sampling " + std::to_string(static_cast<int>(sampling));
   test.buffers = {reads(x), writes(Element::kFloat, expected_map(maps.channels, out_pixels, at))};
-  test.bind = [=](const Places& places) {
-    return arguments(ResizeArgs{places.floats(0), places.floats(1), maps.in_h, maps.in_w,
+  test.bind = [=](const Addresses& buffers) {
+    return arguments(ResizeArgs{buffers.floats(0), buffers.floats(1), maps.in_h, maps.in_w,
                                 maps.out_h, maps.out_w, maps.channels, grid, sampling});
   };
   test.call = call<ResizeArgs>;
@@ -101,7 +103,7 @@ Case make(RandomValues& random, const Maps& maps, Grid grid, Sampling sampling) 
 template <>
 Case random_case<ResizeArgs>(RandomValues& random) {
   Maps maps{random.between(1, 9), random.size(12), 0, 0, random.size(20)};
-  const bool whole = random.coin();  // a whole number of times as large, where halves are likely
+  const bool whole = random.coin();  // an integer factor, for which halves are likely
   maps.out_h = whole ? maps.in_h * random.between(1, 4) : random.between(1, 20);
   maps.out_w = whole ? maps.in_w * random.between(1, 4) : random.size(26);
   const auto grid = static_cast<Grid>(random.between(0, 2));

@@ -1,3 +1,4 @@
+// Cases of slice, with the expected results.
 #include "apps/conformance/families/common.h"
 
 namespace mien::conformance {
@@ -17,8 +18,8 @@ Case make(RandomValues& random, int h, int w, int channels, const ResidualSlice&
   test.shape = times(h, w) + "x" + std::to_string(channels) + " of " + times(slice.h, slice.w) +
                "x" + std::to_string(in_channels) + " from channel " + std::to_string(first_channel);
   test.buffers = {reads(x), writes(Element::kFloat, expected_map(channels, pixels, at))};
-  test.bind = [=](const Places& places) {
-    return arguments(SliceArgs{places.floats(0), places.floats(1), slice.h, slice.w, slice.top,
+  test.bind = [=](const Addresses& buffers) {
+    return arguments(SliceArgs{buffers.floats(0), buffers.floats(1), slice.h, slice.w, slice.top,
                                slice.left, first_channel, h, w, channels});
   };
   test.call = call<SliceArgs>;

@@ -1,3 +1,4 @@
+// Cases of softmax, with the expected results.
 #include <algorithm>
 
 #include "apps/conformance/families/common.h"
@@ -7,8 +8,8 @@ namespace {
 
 using kernels::SoftmaxArgs;
 
-// The difference is rounded before the exponential, whose own error is 2 ulp; a kernel may clamp it
-// at -87. That may be far below what counts, and then only the flush is left of it.
+// The difference is rounded before the exponential, which has an error of 2 ulp and may be clamped
+// at -87. If the exact value is far smaller, only the flush error remains.
 Approx exponential(double x, double largest) {
   constexpr double kOwnUnits = 8.0;
   const double y = std::exp(x - largest);
@@ -16,8 +17,8 @@ Approx exponential(double x, double largest) {
   return {y, kUnit * units * y + 2 * kFlushed};
 }
 
-// One pixel's shares.
-std::vector<Approx> shares(const std::vector<double>& x) {
+// The softmax of one pixel.
+std::vector<Approx> softmax_of(const std::vector<double>& x) {
   const double largest = *std::max_element(x.begin(), x.end());
   Approx sum;
   for (const double one : x) {
@@ -28,8 +29,8 @@ std::vector<Approx> shares(const std::vector<double>& x) {
   std::vector<Approx> y;
   for (const double one : x) {
     const Approx power = exponential(one, largest);
-    const double share = power.value / sum.value;
-    y.push_back(rounded({share, (power.error + share * sum.error) / sum.value}));
+    const double quotient = power.value / sum.value;
+    y.push_back(rounded({quotient, (power.error + quotient * sum.error) / sum.value}));
   }
   return y;
 }
@@ -43,7 +44,7 @@ Case make(RandomValues& random, int pixels, int channels, bool in_place) {
     for (int c = 0; c < channels; ++c) {
       pixel.push_back(static_cast<double>(x[blocked(c, p, pixels)]));
     }
-    const std::vector<Approx> parts = shares(pixel);
+    const std::vector<Approx> parts = softmax_of(pixel);
     for (int c = 0; c < channels; ++c) {
       y[blocked(c, p, pixels)] = parts[static_cast<std::size_t>(c)];
     }
@@ -56,9 +57,9 @@ Case make(RandomValues& random, int pixels, int channels, bool in_place) {
   } else {
     test.buffers = {writes(Element::kFloat, y), reads(x)};
   }
-  test.bind = [=](const Places& places) {
+  test.bind = [=](const Addresses& buffers) {
     return arguments(
-        SoftmaxArgs{places.floats(in_place ? 0 : 1), places.floats(0), pixels, channels});
+        SoftmaxArgs{buffers.floats(in_place ? 0 : 1), buffers.floats(0), pixels, channels});
   };
   test.call = call<SoftmaxArgs>;
   return test;

@@ -1,3 +1,4 @@
+// Cases of warp, with the expected results.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -13,7 +14,7 @@ using kernels::WarpArgs;
 
 constexpr int kFormats = 6;
 
-// A plane of an image, none of whose rows is followed by more than its stride asks for.
+// A plane of an image without bytes beyond those that its stride requires.
 struct TestPlane {
   int width = 1, height = 1, pixel_bytes = 1, row_bytes = 1;
   bool bottom_up = false;
@@ -43,7 +44,7 @@ struct TestPlane {
         offset(std::clamp(x, 0, width - 1), std::clamp(y, 0, height - 1)) + channel;
     return bytes[static_cast<std::size_t>(at)];
   }
-  // Mean of the pixels of a box, counted in boxes.
+  // Mean of the box in column x and row y.
   [[nodiscard]] double mean(int x, int y, int channel, int box) const {
     double sum = 0.0;
     for (int row = y * box; row < (y + 1) * box; ++row) {
@@ -69,7 +70,7 @@ struct Transform {
   float scale, offset;
 };
 
-// A place in the picture, and how far off a kernel's may be: coordinates are computed in fp32.
+// A coordinate in the image with the error bound of its computation in fp32.
 struct Coordinate {
   double value, error;
 };
@@ -86,15 +87,15 @@ Coordinate coordinate(const float* row, double j, double i) {
   return {finite ? value : 0.0, finite ? kSumFactor * kUnit * magnitude : 0.0};
 }
 
-// Between the centres of four boxes, with the error that those of the coordinates make of it: along
-// an axis a bilinear sample changes by at most 255 a box. Across, a kernel may round its place to
+// Bilinear sample of four boxes. Its error bound includes those of the coordinates: the sample
+// changes by at most 255 per box along an axis, and a kernel may round the horizontal position to
 // parts of 2^14. `shrink`: pixels of the image per sample of the plane.
 Approx bilinear(const TestPlane& plane, int channel, Coordinate x, Coordinate y, int shrink,
                 int box) {
-  constexpr double kRoom = 2.0;  // beyond the border everything is the same
-  const double step = shrink * box, across = plane.width, down = plane.height;
-  const double px = std::clamp(x.value / step, -kRoom, across / box + kRoom) - 0.5;
-  const double py = std::clamp(y.value / step, -kRoom, down / box + kRoom) - 0.5;
+  constexpr double kMargin = 2.0;  // positions further beyond the border are equivalent
+  const double box_pixels = shrink * box, across = plane.width, down = plane.height;
+  const double px = std::clamp(x.value / box_pixels, -kMargin, across / box + kMargin) - 0.5;
+  const double py = std::clamp(y.value / box_pixels, -kMargin, down / box + kMargin) - 0.5;
   const int x0 = static_cast<int>(std::floor(px)), y0 = static_cast<int>(std::floor(py));
   const double fx = px - x0, fy = py - y0;
   const auto at = [&](int column, int row) {
@@ -103,7 +104,7 @@ Approx bilinear(const TestPlane& plane, int channel, Coordinate x, Coordinate y,
   const double top = (1 - fx) * at(0, 0) + fx * at(1, 0);
   const double bottom = (1 - fx) * at(0, 1) + fx * at(1, 1);
   constexpr double kRounding = 1.0 / (1 << 15);
-  const double moved = std::min(1.0, (x.error + y.error) / step + kRounding +
+  const double moved = std::min(1.0, (x.error + y.error) / box_pixels + kRounding +
                                          kSumFactor * kUnit * (plane.width + plane.height + 8));
   return {(1 - fy) * top + fy * bottom, 255.0 * moved};
 }
@@ -192,11 +193,11 @@ Case make(const Picture& picture, const Transform& transform) {
   }
   test.buffers.push_back(writes(Element::kFloat, expected(picture, transform)));
   test.buffers.push_back(scratch(kernels::kWarpSampleElems / 2));
-  test.bind = [=](const Places& places) {
+  test.bind = [=](const Addresses& buffers) {
     WarpArgs args{};
     args.format = picture.format;
     for (std::size_t i = 0; i < 3; ++i) {
-      args.plane[i] = picture.planes[i].at(places.bytes(i));
+      args.plane[i] = picture.planes[i].at(buffers.bytes(i));
     }
     args.full_range = picture.full_range;
     args.yuv_matrix = picture.bt709 ? kernels::kBt709 : kernels::kBt601;
@@ -205,12 +206,12 @@ Case make(const Picture& picture, const Transform& transform) {
     std::copy(std::begin(transform.matrix), std::end(transform.matrix), args.matrix);
     args.box = transform.box;
     args.chroma_box = transform.chroma_box;
-    args.y = places.floats(3);
+    args.y = buffers.floats(3);
     args.width = transform.width;
     args.height = transform.height;
     args.scale = transform.scale;
     args.offset = transform.offset;
-    args.samples = reinterpret_cast<std::uint16_t*>(places.floats(4));
+    args.samples = reinterpret_cast<std::uint16_t*>(buffers.floats(4));
     return arguments(args);
   };
   test.call = call<WarpArgs>;
@@ -234,7 +235,7 @@ Picture random_picture(RandomValues& random, PixelFormat format, int width, int 
   const int pixel = bytes_per_pixel(format);
   const bool flipped = random.coin();
   Picture picture{format, random.coin(), random.coin(), width, height, {}};
-  // The last pixel's fourth byte, which nobody needs, is not there.
+  // The unused fourth byte of the last pixel is missing.
   picture.planes[0] = TestPlane(random, width, height, pixel, std::min(pixel, 3), flipped);
   if (format == PixelFormat::kYuv420) {
     const int chroma_w = (width + 1) / 2, chroma_h = (height + 1) / 2;
@@ -244,8 +245,8 @@ Picture random_picture(RandomValues& random, PixelFormat format, int width, int 
   return picture;
 }
 
-// Some are far away or mean nothing.
-float odd_number(RandomValues& random) {
+// Some are far outside the image or not finite.
+float unusual_value(RandomValues& random) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   constexpr float kOdd[] = {
       1e30f, -1e30f, kInfinity, -kInfinity, 3e9f, -3e9f, std::numeric_limits<float>::quiet_NaN()};
@@ -260,7 +261,7 @@ Transform random_transform(RandomValues& random) {
   transform.matrix[2] = static_cast<float>(random.between(-50, 80));
   transform.matrix[5] = static_cast<float>(random.between(-50, 80));
   if (random.case_number() % 4 == 3) {
-    transform.matrix[random.between(0, 5)] = odd_number(random);
+    transform.matrix[random.between(0, 5)] = unusual_value(random);
   }
   transform.box = 1 << random.between(0, 3);
   transform.chroma_box = 1 << random.between(0, 3);
@@ -281,7 +282,7 @@ Case random_case<WarpArgs>(RandomValues& random) {
   return make(picture, random_transform(random));
 }
 
-// The crop of the first encoder, out of a camera's image.
+// The crop of the first encoder, from a camera image.
 template <>
 Case typical_case<WarpArgs>(RandomValues& random) {
   return make(random_picture(random, PixelFormat::kYuv420, 640, 480),

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes mini.mien and what PyTorch makes of the same fp16 weights, for tests/engine/golden_test.cpp.
+"""Writes mini.mien and PyTorch's outputs for the same fp16 weights, for tests/engine/golden_test.cpp.
 
 Small networks with random weights that use every kind of layer, built by the very functions that export the trained ones; a second
 "file" with the same interface evaluates them in PyTorch instead of writing them.  usage: make_golden.py
@@ -17,7 +17,7 @@ import export  # noqa: E402
 import networks  # noqa: E402
 from mien_file import MienFile  # noqa: E402
 
-STEPS = 6  # of the temporal network
+STEPS = 6  # steps of the temporal network
 
 
 def rounded(values):
@@ -25,7 +25,7 @@ def rounded(values):
 
 
 class EagerNetwork:
-    """The interface of mien_file's networks, evaluated at once. Values are tensors [1,c,h,w]."""
+    """Evaluates layers directly, with the interface of mien_file's networks. Values are tensors [1,c,h,w]."""
 
     def __init__(self, x):
         self.input, self.outputs, self.state = x, [], {}
@@ -92,7 +92,7 @@ class EagerFile:
 
 
 def mini_encoder():
-    """Every kind of block: t = 1 and more, strided, padded and not, with and without residual."""
+    """Every kind of block: t = 1 and larger, with and without stride, padding and residual."""
     torch.manual_seed(1)
     encoder = networks.Encoder([(1, 1, False, 16), (2, 2, False, 8), (3, 1, True, 8), (2, 1, True, 8)], 5)
     for module in encoder.modules():

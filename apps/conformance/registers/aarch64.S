@@ -1,5 +1,5 @@
-// Procedure call standard for the Arm 64-bit architecture, 6.1: x19 to x29, the lower halves of v8 to
-// v15 and the modes in fpcr belong to the caller.
+// Procedure call standard for the Arm 64-bit architecture, 6.1: the callee must preserve x19 to x29,
+// the lower halves of v8 to v15 and the modes in fpcr.
 #include "apps/conformance/registers_abi.h"
 #ifdef MIEN_REGISTERS_AARCH64
 
@@ -8,7 +8,7 @@
     .globl MIEN_SYMBOL(mien_call_checked)
 #ifdef __ELF__
     .hidden mien_call_checked
-    .hidden mien_right_kernel
+    .hidden mien_correct_kernel
     .type mien_call_checked, %function
 #endif
 // uint32_t mien_call_checked(void (*kernel)(), const void* args)
@@ -104,7 +104,7 @@ MIEN_SYMBOL(mien_call_checked):
     ldp x29, x30, [sp], #176
     ret
 
-// Kernels for the self-test: do what they should and lose a register of their caller's.
+// Kernels for the self-test: correct, except that they change a callee-saved register.
     .p2align 2
     .globl MIEN_SYMBOL(mien_loses_general_register)
     .globl MIEN_SYMBOL(mien_loses_vector_register)
@@ -116,11 +116,11 @@ MIEN_SYMBOL(mien_call_checked):
 #endif
 MIEN_SYMBOL(mien_loses_general_register):
     mov x21, #1
-    b MIEN_SYMBOL(mien_right_kernel)
+    b MIEN_SYMBOL(mien_correct_kernel)
 
 MIEN_SYMBOL(mien_loses_vector_register):
     movi d9, #0
-    b MIEN_SYMBOL(mien_right_kernel)
+    b MIEN_SYMBOL(mien_correct_kernel)
 
 #endif
 #ifdef __ELF__

@@ -1,5 +1,5 @@
-// Procedure call standard for the Arm architecture, 6.1: r4 to r11, d8 to d15 and the modes in fpscr
-// belong to the caller.
+// Procedure call standard for the Arm architecture, 6.1: the callee must preserve r4 to r11, d8 to
+// d15 and the modes in fpscr.
 #include "apps/conformance/registers_abi.h"
 #ifdef MIEN_REGISTERS_ARM
 
@@ -10,7 +10,7 @@
     .p2align 2
     .globl mien_call_checked
     .hidden mien_call_checked
-    .hidden mien_right_kernel
+    .hidden mien_correct_kernel
     .type mien_call_checked, %function
 // uint32_t mien_call_checked(void (*kernel)(), const void* args)
 mien_call_checked:
@@ -83,13 +83,13 @@ mien_call_checked:
     pop {r4-r11, pc}
     .ltorg
 
-// Kernels for the self-test: do what they should and lose a register of their caller's.
+// Kernels for the self-test: correct, except that they change a callee-saved register.
     .globl mien_loses_general_register
     .hidden mien_loses_general_register
     .type mien_loses_general_register, %function
 mien_loses_general_register:
     mov r6, #1
-    b mien_right_kernel
+    b mien_correct_kernel
 
     .globl mien_loses_vector_register
     .hidden mien_loses_vector_register
@@ -97,7 +97,7 @@ mien_loses_general_register:
 mien_loses_vector_register:
     mov r1, #1
     vmov d9, r1, r1
-    b mien_right_kernel
+    b mien_correct_kernel
 
 #endif
 #ifdef __ELF__

@@ -1,5 +1,5 @@
-// System V ABI for x86-64, 3.2.1: rbx, rbp, r12 to r15, the direction flag and the control bits of
-// mxcsr and of the x87 belong to the caller.
+// System V ABI for x86-64, 3.2.1: the callee must preserve rbx, rbp, r12 to r15, the direction flag
+// and the control bits of mxcsr and of the x87.
 #include "apps/conformance/registers_abi.h"
 #ifdef MIEN_REGISTERS_SYSV
 
@@ -9,7 +9,7 @@
     .globl MIEN_SYMBOL(mien_call_checked)
 #ifdef __ELF__
     .hidden mien_call_checked
-    .hidden mien_right_kernel
+    .hidden mien_correct_kernel
     .type mien_call_checked, @function
 #endif
 // uint32_t mien_call_checked(void (*kernel)(), const void* args)
@@ -86,7 +86,7 @@ MIEN_SYMBOL(mien_call_checked):
     pop %rbx
     ret
 
-// A kernel for the self-test: does what it should and loses a register of its caller's.
+// A kernel for the self-test: correct, except that it changes a callee-saved register.
     .globl MIEN_SYMBOL(mien_loses_general_register)
 #ifdef __ELF__
     .hidden mien_loses_general_register
@@ -94,7 +94,7 @@ MIEN_SYMBOL(mien_call_checked):
 #endif
 MIEN_SYMBOL(mien_loses_general_register):
     mov $1, %r12d
-    jmp MIEN_SYMBOL(mien_right_kernel)
+    jmp MIEN_SYMBOL(mien_correct_kernel)
 
 #endif
 #ifdef __ELF__

@@ -1,5 +1,5 @@
-// Windows x64 calling convention: rbx, rbp, rdi, rsi, r12 to r15, xmm6 to xmm15, the direction flag
-// and the control bits of mxcsr and of the x87 belong to the caller.
+// Windows x64 calling convention: the callee must preserve rbx, rbp, rdi, rsi, r12 to r15, xmm6 to
+// xmm15, the direction flag and the control bits of mxcsr and of the x87.
 #include "apps/conformance/registers_abi.h"
 #ifdef MIEN_REGISTERS_WIN64
 
@@ -153,16 +153,16 @@ mien_call_checked:
     pop %rbx
     ret
 
-// Kernels for the self-test: do what they should and lose a register of their caller's.
+// Kernels for the self-test: correct, except that they change a callee-saved register.
     .globl mien_loses_general_register
 mien_loses_general_register:
     mov $1, %r12d
-    jmp mien_right_kernel
+    jmp mien_correct_kernel
 
     .globl mien_loses_vector_register
 mien_loses_vector_register:
     pxor %xmm6, %xmm6
-    jmp mien_right_kernel
+    jmp mien_correct_kernel
 
 #endif
 #ifdef __ELF__
