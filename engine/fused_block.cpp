@@ -62,8 +62,8 @@ bool fuses_blocks(std::uint32_t cpu_mask) {
   const kernels::Entry* fused =
       kernels::find_entry(kernels::InvertedResidualArgs::kFamily, cpu_mask);
   const kernels::Entry* plain = kernels::find_entry(kernels::PointwiseArgs::kFamily, cpu_mask);
-  const bool wanted = (cpu_mask & kernels::kFusedBlocks) != 0;
-  return wanted && fused != nullptr && plain != nullptr &&
+  const bool allowed = (cpu_mask & kernels::kFusedBlocks) != 0;
+  return allowed && fused != nullptr && plain != nullptr &&
          kernels::rank(fused->tier) >= kernels::rank(plain->tier);
 }
 

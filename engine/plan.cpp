@@ -229,12 +229,12 @@ BlockTiling Plan::tiling(std::uint32_t layer) const {
 }
 
 std::size_t Plan::scratch_elems() const {
-  std::size_t most = 0;
+  std::size_t max = 0;
   for (std::uint32_t i = 0; i < layer_count(); ++i) {
     const std::size_t elems = scratch_elems(i);
-    most = elems > most ? elems : most;
+    max = elems > max ? elems : max;
   }
-  return most;
+  return max;
 }
 
 // Puts intermediate maps into the arena; input, outputs and state belong to the session.

@@ -280,11 +280,11 @@ EngineStatus NetworkRunner::create_in(const WeightFile& file, std::string_view n
                                       const Options& options, std::span<std::byte> session,
                                       std::span<std::byte> arena) {
   release();
-  Session* made = nullptr;
+  Session* created = nullptr;
   const kernels::FloatMode ours;  // because init may quantize weights
   const engine::Status status =
-      Session::init(request_of(model_in(file.model_), network, options), session, arena, made);
-  session_ = made;
+      Session::init(request_of(model_in(file.model_), network, options), session, arena, created);
+  session_ = created;
   return to_public(status);
 }
 

@@ -67,12 +67,12 @@ Status SessionBuilder::build(const SessionRequest& request, std::span<std::byte>
   }
   std::memset(memory.data(), 0, needed.session_bytes);
   free_ = memory.data();
-  auto* made = new (take(sizeof(Session))) Session();
-  made->steps_ = reinterpret_cast<Step*>(take(plan_.step_count() * sizeof(Step)));
-  place_values(*made, arena);
+  auto* created = new (take(sizeof(Session))) Session();
+  created->steps_ = reinterpret_cast<Step*>(take(plan_.step_count() * sizeof(Step)));
+  place_values(*created, arena);
   auto* scratch = reinterpret_cast<float*>(arena.data() + plan_.scratch_offset());
-  const Status status = make_steps(request, scratch, *made);
-  session = status == Status::kOk ? made : nullptr;
+  const Status status = make_steps(request, scratch, *created);
+  session = status == Status::kOk ? created : nullptr;
   return status;
 }
 

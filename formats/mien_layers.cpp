@@ -183,7 +183,7 @@ class Search {
   [[nodiscard]] bool done() const { return found_ < tensor_.size(); }
   [[nodiscard]] std::size_t found() const { return found_; }
 
-  void look_at(std::uint64_t first, std::uint64_t count) {
+  void run(std::uint64_t first, std::uint64_t count) {
     const auto end = static_cast<std::size_t>((first + count) * kElementBytes);
     for (auto at = static_cast<std::size_t>(first * kElementBytes); at < end && !done(); ++at) {
       found_ = tensor_[at] != std::byte{0} ? at / kElementBytes * kElementBytes : found_;
@@ -201,7 +201,7 @@ struct Panel {
 };
 
 // Only the last block of a map has unused channels, at each of its pixels.
-void look_at_inputs(const TensorLanes& lanes, const Panel& panel, Search& search) {
+void search_inputs(const TensorLanes& lanes, const Panel& panel, Search& search) {
   const std::uint64_t used = lanes.map_channels % kBlock;
   if (used == 0) {
     return;
@@ -210,14 +210,14 @@ void look_at_inputs(const TensorLanes& lanes, const Panel& panel, Search& search
   for (std::uint64_t map = 0; map < lanes.maps; ++map) {
     std::uint64_t step = (map * channels + channels - kBlock) * lanes.pixels;
     for (std::uint64_t pixel = 0; pixel < lanes.pixels; ++pixel, step += kBlock) {
-      search.look_at(panel.first + (step + used) * panel.width, (kBlock - used) * panel.width);
+      search.run(panel.first + (step + used) * panel.width, (kBlock - used) * panel.width);
     }
   }
 }
 
-void look_at_outputs(const TensorLanes& lanes, const Panel& panel, Search& search) {
+void search_outputs(const TensorLanes& lanes, const Panel& panel, Search& search) {
   for (std::uint64_t step = 0; panel.used < panel.width && step < lanes.steps; ++step) {
-    search.look_at(panel.first + step * panel.width + panel.used, panel.width - panel.used);
+    search.run(panel.first + step * panel.width + panel.used, panel.width - panel.used);
   }
 }
 
@@ -322,11 +322,11 @@ FileStatus check_layer(const LayerRecord& layer, std::uint32_t value, std::uint3
 
 ValueShape output_shape(const LayerRecord& layer, ValueShape input, ValueShape second) {
   const LayerOp op = op_of(layer);
-  const bool refused = (takes_vector(op) && (input.height != 1 || input.width != 1)) ||
+  const bool invalid = (takes_vector(op) && (input.height != 1 || input.width != 1)) ||
                        (op == LayerOp::kLstm && layer.channels % 8 != 0) ||
                        (op == LayerOp::kAdd && !has_centre_slice(input, second)) ||
                        (broadcasts(op) && !is_broadcast(second, input));
-  if (refused) {
+  if (invalid) {
     return {};
   }
   if (is_windowed(op)) {
@@ -370,8 +370,8 @@ std::size_t find_filled(const TensorLanes& lanes, std::span<const std::byte> ten
   for (std::uint64_t output = 0; output < padded && !search.done(); output += lanes.panel) {
     const std::uint64_t width = std::min(lanes.panel, padded - output);
     const Panel panel{output * lanes.steps, width, std::min(width, lanes.outputs - output)};
-    look_at_inputs(lanes, panel, search);
-    look_at_outputs(lanes, panel, search);
+    search_inputs(lanes, panel, search);
+    search_outputs(lanes, panel, search);
   }
   return search.found();
 }

@@ -90,25 +90,23 @@ struct LayerTensors {
 [[nodiscard]] FileStatus check_layer(const LayerRecord& layer, std::uint32_t value,
                                      std::uint32_t network_flags, std::uint16_t minor_version);
 
-// The output of a checked layer for these inputs, its declared height and width aside, which count
-// where inputs leave them open; `second` counts for ops that take two. Zeros where the layer cannot
-// take such inputs.
+// The output shape of a checked layer for these inputs. Ignores the declared height and width,
+// except for ops whose inputs do not determine them. `second`: only for ops with two inputs. Zeros
+// if the layer does not accept the inputs.
 [[nodiscard]] ValueShape output_shape(const LayerRecord& layer, ValueShape input,
                                       ValueShape second);
 
-// Of kResize, rows or columns: how many times as large the output is, 0 where that is no whole
-// number.
+// kResize: the factor from input to output rows or columns; 0 if it is not a whole number.
 [[nodiscard]] constexpr std::uint16_t resize_factor(std::uint64_t from, std::uint64_t to) {
-  constexpr std::uint64_t kMost = 0xFFFF;
-  return from != 0 && to % from == 0 && to / from <= kMost ? static_cast<std::uint16_t>(to / from)
-                                                           : std::uint16_t{0};
+  constexpr std::uint64_t kMax = 0xFFFF;
+  return from != 0 && to % from == 0 && to / from <= kMax ? static_cast<std::uint16_t>(to / from)
+                                                          : std::uint16_t{0};
 }
 
 // The tensors of a checked layer with this input.
 [[nodiscard]] LayerTensors tensors_of(const LayerRecord& layer, ValueShape input);
 
-// Offset in bytes of an element that no channel owns and that is not +0; the tensor's size if there
-// is none.
+// Offset in bytes of a padding element that is not +0; the tensor's size if there is none.
 [[nodiscard]] std::size_t find_filled(const TensorLanes& lanes, std::span<const std::byte> tensor);
 
 }  // namespace mien::formats

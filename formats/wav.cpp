@@ -80,13 +80,13 @@ WavStatus WavReader::read(std::span<float> interleaved, std::size_t& frames_read
   if (end_ != WavStatus::kOk) {
     return end_;
   }
-  const std::size_t room = interleaved.size() / format_.channels;
-  if (room == 0) {
+  const std::size_t capacity = interleaved.size() / format_.channels;
+  if (capacity == 0) {
     return WavStatus::kBufferTooSmall;
   }
-  while (frames_read < room && end_ == WavStatus::kOk) {
+  while (frames_read < capacity && end_ == WavStatus::kOk) {
     const std::size_t first = frames_read * format_.channels;
-    frames_read += read_block(interleaved.subspan(first, room * format_.channels - first));
+    frames_read += read_block(interleaved.subspan(first, capacity * format_.channels - first));
   }
   return frames_read > 0 ? WavStatus::kOk : end_;
 }

@@ -66,7 +66,7 @@ class HeaderReader {
 
   CountedSource& source_;
   WavHeader& header_;
-  bool formatted_ = false;  // a fmt chunk was read
+  bool has_format_ = false;  // a fmt chunk was read
   std::uint64_t riff_bytes_ = 0;
   std::uint64_t data_bytes64_ = kUnknownWavBytes;  // the size for 0xFFFFFFFF
 };
@@ -128,7 +128,7 @@ WavFault HeaderReader::next_chunk(Chunk& chunk) {
   chunk.at = source_.position();
   const std::size_t bytes = source_.read(start);
   if (bytes == 0) {
-    return {formatted_ ? WavStatus::kNoData : WavStatus::kNoFormat, chunk.at};
+    return {has_format_ ? WavStatus::kNoData : WavStatus::kNoFormat, chunk.at};
   }
   chunk.name = load_little<std::uint32_t>(&start[0]);
   chunk.bytes = load_little<std::uint32_t>(&start[4]);
@@ -136,7 +136,7 @@ WavFault HeaderReader::next_chunk(Chunk& chunk) {
 }
 
 WavFault HeaderReader::read_format(const Chunk& chunk) {
-  if (formatted_) {
+  if (has_format_) {
     return {WavStatus::kSecondFormat, chunk.at};
   }
   const std::uint64_t body_at = source_.position();
@@ -145,13 +145,13 @@ WavFault HeaderReader::read_format(const Chunk& chunk) {
   if (read.status != WavStatus::kOk) {
     return read;
   }
-  formatted_ = true;
+  has_format_ = true;
   const WavFault parsed = parse_wav_format(body, chunk.bytes, header_.format);
   return {parsed.status, body_at + parsed.offset};
 }
 
 WavFault HeaderReader::begin_data(const Chunk& chunk) {
-  if (!formatted_) {
+  if (!has_format_) {
     return {WavStatus::kDataBeforeFormat, chunk.at};
   }
   std::uint64_t bytes = chunk.bytes == kUnknown32 ? data_bytes64_ : chunk.bytes;

@@ -182,9 +182,9 @@ const char* message(Y4mStatus status) {
 }
 
 double Y4mHeader::pixel_aspect() const {
-  constexpr double kLeast = 0.1, kMost = 10.0;
-  const double said = aspect_den == 0 ? 1.0 : static_cast<double>(aspect_num) / aspect_den;
-  return said >= kLeast && said <= kMost ? said : 1.0;
+  constexpr double kMin = 0.1, kMax = 10.0;
+  const double aspect = aspect_den == 0 ? 1.0 : static_cast<double>(aspect_num) / aspect_den;
+  return aspect >= kMin && aspect <= kMax ? aspect : 1.0;
 }
 
 std::uint32_t Y4mHeader::chroma_width() const {

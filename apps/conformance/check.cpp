@@ -106,22 +106,22 @@ double element(Element kind, const std::vector<std::byte>& bytes, std::size_t i)
 }
 
 // 0 for equal infinities; infinity for NaN.
-double share_of_bound(double got, double want, double bound) {
-  if (got == want) {
+double share_of_bound(double got, double expected, double bound) {
+  if (got == expected) {
     return 0.0;
   }
-  const double error = std::abs(got - want);
+  const double error = std::abs(got - expected);
   if (bound > 0.0) {
     return error <= bound ? error / bound : std::max(error / bound, 1.001);
   }
   return HUGE_VAL;
 }
 
-std::string difference(std::size_t buffer, std::size_t index, double got, double want,
+std::string difference(std::size_t buffer, std::size_t index, double got, double expected,
                        double bound) {
   char text[160];
   std::snprintf(text, sizeof text, "buffer %zu, element %zu: %.9g instead of %.9g +- %.2g", buffer,
-                index, got, want, bound);
+                index, got, expected, bound);
   return text;
 }
 
@@ -131,11 +131,11 @@ void compare(const Case& test, const Contents& results, Finding& finding) {
     const Buffer& buffer = test.buffers[b];
     for (std::size_t i = 0; i < buffer.expected.size(); ++i) {
       const double got = element(buffer.element, results[b], i);
-      const Approx& want = buffer.expected[i];
-      const double relative_error = share_of_bound(got, want.value, want.error);
+      const Approx& expected = buffer.expected[i];
+      const double relative_error = share_of_bound(got, expected.value, expected.error);
       if (!(relative_error <= 1.0) && finding.fault == Fault::kNone) {
         finding.fault = Fault::kWrongResult;
-        finding.text = difference(b, i, got, want.value, want.error);
+        finding.text = difference(b, i, got, expected.value, expected.error);
       }
       finding.worst_share =
           std::max(finding.worst_share, std::isnan(relative_error) ? HUGE_VAL : relative_error);
@@ -150,11 +150,11 @@ void compare_kernels(const Case& test, const Contents& results, const Contents& 
     const Buffer& buffer = test.buffers[b];
     for (std::size_t i = 0; i < buffer.expected.size(); ++i) {
       const double got = element(buffer.element, results[b], i);
-      const double want = element(buffer.element, reference[b], i);
+      const double expected = element(buffer.element, reference[b], i);
       const double bound = 2.0 * buffer.expected[i].error;
-      if (!(share_of_bound(got, want, bound) <= 1.0)) {
+      if (!(share_of_bound(got, expected, bound) <= 1.0)) {
         finding.fault = Fault::kDiffersFromRef;
-        finding.text = difference(b, i, got, want, bound);
+        finding.text = difference(b, i, got, expected, bound);
         return;
       }
     }

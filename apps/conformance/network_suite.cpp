@@ -109,23 +109,23 @@ Finding run_once(NetworkRunner& runner, Steps& steps) {
   return {};
 }
 
-Finding compare(const std::vector<float>& got, const std::vector<float>& want, std::size_t output,
-                double tolerance, Fault fault) {
-  if (got.size() != want.size()) {
+Finding compare(const std::vector<float>& got, const std::vector<float>& expected,
+                std::size_t output, double tolerance, Fault fault) {
+  if (got.size() != expected.size()) {
     return {fault, "output " + std::to_string(output) + " differs in size"};
   }
   double largest = 0.0;
-  for (const float one : want) {
+  for (const float one : expected) {
     largest = std::max(largest, std::abs(static_cast<double>(one)));
   }
   Finding finding;
-  for (std::size_t i = 0; i < want.size(); ++i) {
-    const double error = std::abs(static_cast<double>(got[i]) - static_cast<double>(want[i]));
-    const double relative_error = got[i] == want[i] ? 0.0 : error / (tolerance * largest);
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    const double error = std::abs(static_cast<double>(got[i]) - static_cast<double>(expected[i]));
+    const double relative_error = got[i] == expected[i] ? 0.0 : error / (tolerance * largest);
     if (!(relative_error <= 1.0) && finding.fault == Fault::kNone) {
       char text[160];
       std::snprintf(text, sizeof text, "output %zu, element %zu: %.9g instead of %.9g +- %.2g",
-                    output, i, static_cast<double>(got[i]), static_cast<double>(want[i]),
+                    output, i, static_cast<double>(got[i]), static_cast<double>(expected[i]),
                     tolerance * largest);
       finding = {fault, text};
     }

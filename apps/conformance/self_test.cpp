@@ -38,7 +38,7 @@ bool report(const FaultyKernel& faulty) {
 
 int self_test() {
   int missed = 0;
-  std::printf("%-36s %s\n", "faulty", "noticed");
+  std::printf("%-36s %s\n", "kernel", "result");
   for (const FaultyKernel& faulty : faulty_kernels()) {
     missed += report(faulty) ? 0 : 1;
   }

@@ -15,16 +15,16 @@ template <Combination kKind>
 void combine_row(const float* a, const float* b, float* y, std::int32_t width, std::int32_t b_step,
                  bool one_channel, std::int32_t lanes) {
   for (std::int32_t p = 0; p < width; ++p, a += kBlockLanes, b += b_step, y += kBlockLanes) {
-    float other[kBlockLanes], made[kBlockLanes];
+    float other[kBlockLanes], result[kBlockLanes];
     for (int i = 0; i < kBlockLanes; ++i) {
       other[i] = one_channel ? b[0] : b[i];
     }
     for (int i = 0; i < kBlockLanes; ++i) {
-      made[i] = kKind == Combination::kProduct    ? a[i] * other[i]
-                : kKind == Combination::kQuotient ? a[i] / other[i]
-                                                  : a[i] + other[i];
+      result[i] = kKind == Combination::kProduct    ? a[i] * other[i]
+                  : kKind == Combination::kQuotient ? a[i] / other[i]
+                                                    : a[i] + other[i];
     }
-    store_lanes(made, lanes, y);
+    store_lanes(result, lanes, y);
   }
 }
 

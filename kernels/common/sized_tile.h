@@ -30,9 +30,9 @@ template <class Run, std::size_t kCount>
 Tiling<Run> tiling_of(const SizedTile<Run> (&sizes)[kCount], std::int32_t pixels) {
   const std::int32_t max_pixels = sizes[kCount - 1].pixels;
   const std::int32_t tiles = (pixels + max_pixels - 1) / max_pixels;
-  const std::int32_t wanted = (pixels + tiles - 1) / tiles;
+  const std::int32_t min_pixels = (pixels + tiles - 1) / tiles;
   const SizedTile<Run>* each = sizes;
-  while (each->pixels < wanted && each[1].pixels <= pixels) {
+  while (each->pixels < min_pixels && each[1].pixels <= pixels) {
     ++each;
   }
   const std::int32_t left = pixels % each->pixels;

@@ -121,11 +121,11 @@ struct SizedTile {
 };
 
 template <int kVecs, int kStep, int... kPixels>
-SizedTile smallest_of(std::int32_t pixels, std::int32_t wanted,
+SizedTile smallest_of(std::int32_t pixels, std::int32_t min_pixels,
                       std::integer_sequence<int, kPixels...>) {
   SizedTile best{1, &tile<1, kVecs, kStep>};
   const auto consider = [&](SizedTile one) {
-    best = one.pixels <= pixels && best.pixels < wanted ? one : best;
+    best = one.pixels <= pixels && best.pixels < min_pixels ? one : best;
   };
   (consider({kPixels, &tile<kPixels, kVecs, kStep>}), ...);
   return best;

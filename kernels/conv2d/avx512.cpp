@@ -145,11 +145,11 @@ struct SizedTile {
 };
 
 template <int kVecs, int kStep, int... kPixels>
-SizedTile smallest_of(std::int32_t pixels, std::int32_t wanted,
+SizedTile smallest_of(std::int32_t pixels, std::int32_t min_pixels,
                       std::integer_sequence<int, kPixels...>) {
   SizedTile best{1, &tile<1, kVecs, kStep>};
   const auto consider = [&](SizedTile one) {
-    best = one.pixels <= pixels && best.pixels < wanted ? one : best;
+    best = one.pixels <= pixels && best.pixels < min_pixels ? one : best;
   };
   (consider({kPixels, &tile<kPixels, kVecs, kStep>}), ...);
   return best;
@@ -163,9 +163,9 @@ template <int kStep>
 SizedTile tile_for(bool two_panels, std::int32_t pixels) {
   const std::int32_t max_pixels = two_panels ? 12 : 16;
   const std::int32_t tiles = (pixels + max_pixels - 1) / max_pixels;
-  const std::int32_t wanted = (pixels + tiles - 1) / tiles;
-  return two_panels ? smallest_of<2, kStep>(pixels, wanted, UpTo12())
-                    : smallest_of<1, kStep>(pixels, wanted, UpTo16());
+  const std::int32_t min_pixels = (pixels + tiles - 1) / tiles;
+  return two_panels ? smallest_of<2, kStep>(pixels, min_pixels, UpTo12())
+                    : smallest_of<1, kStep>(pixels, min_pixels, UpTo16());
 }
 
 // Compile-time steps for mien's own networks: interleaved images of 3 channels, and blocks.

@@ -99,26 +99,26 @@ template <int kPixels, int kVecs, class Source>
 template <int kVecs, class Source>
 void row(const Outputs<Source>& out, std::int32_t oy) {
   constexpr int kMax = kTilePixels<kVecs>;
-  constexpr int kSome = (kMax + 1) / 2;
+  constexpr int kSmaller = (kMax + 1) / 2;
   const Conv2dArgs& a = out.a;
   const Range ys = inside(oy * a.stride_h - a.pad_top, a.kernel_h, a.in_h);
   const Range whole = whole_windows(a);
   const Range all{0, a.kernel_w};
   std::int32_t ox = 0;
-  const auto singly = [&](std::int32_t end) {
+  const auto single_pixels = [&](std::int32_t end) {
     for (; ox < end; ++ox) {
       const Range xs = inside(ox * a.stride_w - a.pad_left, a.kernel_w, a.in_w);
       tile<1, kVecs>(out, oy, ox, ys, xs);
     }
   };
-  singly(whole.first);
+  single_pixels(whole.first);
   for (; ox + kMax <= whole.last; ox += kMax) {
     tile<kMax, kVecs>(out, oy, ox, ys, all);
   }
-  for (; ox + kSome <= whole.last; ox += kSome) {
-    tile<kSome, kVecs>(out, oy, ox, ys, all);
+  for (; ox + kSmaller <= whole.last; ox += kSmaller) {
+    tile<kSmaller, kVecs>(out, oy, ox, ys, all);
   }
-  singly(a.out_w);
+  single_pixels(a.out_w);
 }
 
 template <int kVecs, class Source>

@@ -98,20 +98,20 @@ void row(const Outputs<Source>& out, std::int32_t oy) {
   const Range whole = whole_windows(a);
   const Range all{0, a.kernel_w};
   std::int32_t ox = 0;
-  const auto singly = [&](std::int32_t end) {
+  const auto single_pixels = [&](std::int32_t end) {
     for (; ox < end; ++ox) {
       const Range xs = inside(ox * a.stride_w - a.pad_left, a.kernel_w, a.in_w);
       tile<1>(out, oy, ox, ys, xs);
     }
   };
-  singly(whole.first);
+  single_pixels(whole.first);
   for (; ox + kMaxPixels <= whole.last; ox += kMaxPixels) {
     tile<kMaxPixels>(out, oy, ox, ys, all);
   }
   for (; ox + kSomePixels <= whole.last; ox += kSomePixels) {
     tile<kSomePixels>(out, oy, ox, ys, all);
   }
-  singly(a.out_w);
+  single_pixels(a.out_w);
 }
 
 template <class Source>

@@ -20,7 +20,7 @@ class Padded {
     columns_ = std::min(a.in_w, inner_.in_w - a.pad_left);
     std::fill_n(map_, inner_.in_h * inner_.in_w * kChannels, 0.0f);
   }
-  static bool serves(const DepthwiseArgs& a) {
+  static bool accepts(const DepthwiseArgs& a) {
     const std::int32_t h = (a.out_h - 1) * a.stride_h + a.kernel_h;
     const std::int32_t w = (a.out_w - 1) * a.stride_w + a.kernel_w;
     const bool leaves = a.pad_top > 0 || a.pad_left > 0 || h > a.in_h || w > a.in_w;

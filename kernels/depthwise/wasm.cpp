@@ -173,7 +173,7 @@ void depthwise(const DepthwiseArgs& a) {
   const Activator activator(a.activation, a.channels);
   const std::ptrdiff_t plane = std::ptrdiff_t{a.in_h} * a.in_w * kBlock;
   const std::int32_t blocks = blocks_of(a.channels);
-  if (InStack::serves(a)) {
+  if (InStack::accepts(a)) {
     InStack padded(a);
     for (std::int32_t block = 0; block < blocks; ++block) {
       one_block(padded.args(), activator, block, padded.filled(a.x + block * plane));

@@ -55,11 +55,11 @@ struct Simd {
       const Vec xy = _mm256_blend_ps(x, y, 0b10010010);
       _mm256_storeu_ps(at + first, _mm256_blend_ps(xy, z, 0b00100100));
     };
-    const auto spread = [](Vec x, Ints order) { return _mm256_permutevar8x32_ps(x, order); };
+    const auto permute = [](Vec x, Ints order) { return _mm256_permutevar8x32_ps(x, order); };
     const Ints red = _mm256_setr_epi32(0, 3, 6, 1, 4, 7, 2, 5);
     const Ints green = _mm256_setr_epi32(5, 0, 3, 6, 1, 4, 7, 2);
     const Ints blue = _mm256_setr_epi32(2, 5, 0, 3, 6, 1, 4, 7);
-    r = spread(r, red), g = spread(g, green), b = spread(b, blue);
+    r = permute(r, red), g = permute(g, green), b = permute(b, blue);
     third(0, r, g, b);
     third(8, b, r, g);
     third(16, g, b, r);

@@ -44,10 +44,10 @@ class DepthwiseRows {
   template <int kStride, int... kLess>
   static Rows rows_of(std::int32_t w, std::integer_sequence<int, kLess...>) {
     static constexpr Rows kAll[] = {&rows_3x3<kLess + 1, kStride>...};
-    const auto made = [w](std::int32_t size) { return (w + size - 1) / size * size; };
+    const auto computed = [w](std::int32_t size) { return (w + size - 1) / size * size; };
     std::int32_t best = std::min(w, kMaxPixels);
     for (std::int32_t size = best; size > kMaxPixels / 2; --size) {
-      best = made(size) < made(best) ? size : best;
+      best = computed(size) < computed(best) ? size : best;
     }
     return kAll[best - 1];
   }

@@ -99,10 +99,10 @@ struct Tile {
 template <int kVecs, int... kSizes>
 Tile tile_of(std::int32_t pixels, std::integer_sequence<int, kSizes...>) {
   const std::int32_t tiles = (pixels + kMaxPixels - 1) / kMaxPixels;
-  const std::int32_t wanted = (pixels + tiles - 1) / tiles;
+  const std::int32_t min_pixels = (pixels + tiles - 1) / tiles;
   Tile best{1, &tile<1, kVecs>};
   const auto consider = [&](Tile one) {
-    best = one.pixels <= pixels && best.pixels < wanted ? one : best;
+    best = one.pixels <= pixels && best.pixels < min_pixels ? one : best;
   };
   (consider({kSizes, &tile<kSizes, kVecs>}), ...);
   return best;

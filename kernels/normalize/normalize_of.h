@@ -25,11 +25,11 @@ class NormalizedPixel {
   }
   void write(float mean, float scale) const {
     for (std::int32_t first = 0; first < channels_; first += kBlockLanes) {
-      float made[kBlockLanes];
+      float result[kBlockLanes];
       for (int i = 0; i < kBlockLanes; ++i) {
-        made[i] = (block(x_, first)[i] - mean) * scale;
+        result[i] = (block(x_, first)[i] - mean) * scale;
       }
-      store_lanes(made, channels_ - first, block(y_, first));
+      store_lanes(result, channels_ - first, block(y_, first));
     }
   }
 

@@ -111,10 +111,10 @@ using HalvesSizes = Sizes<1, 2, 3, 4>;
 template <int kVecs, class Source, int... kSizes>
 Tile<Source> tile_of(std::int32_t pixels, Sizes<kSizes...>) {
   const std::int32_t tiles = (pixels + kTilePixels<kVecs> - 1) / kTilePixels<kVecs>;
-  const std::int32_t wanted = (pixels + tiles - 1) / tiles;
+  const std::int32_t min_pixels = (pixels + tiles - 1) / tiles;
   Tile<Source> best{};
   const auto consider = [&](Tile<Source> one) {
-    best = one.pixels <= pixels && best.pixels < wanted ? one : best;
+    best = one.pixels <= pixels && best.pixels < min_pixels ? one : best;
   };
   (consider({kSizes, &tile<kSizes, kVecs, Source>}), ...);
   return best;

@@ -36,9 +36,9 @@ void softmax(const SoftmaxArgs& a) {
     Vec sum = _mm256_setzero_ps();
     for (std::int32_t b = 0; b < blocks; ++b) {
       const Vec power = exp(_mm256_sub_ps(_mm256_loadu_ps(x + b * plane), top));
-      const Vec kept = _mm256_and_ps(power, lane_mask(b, a.channels));
-      sum = sum_of(sum, kept);
-      _mm256_storeu_ps(y + b * plane, kept);
+      const Vec masked = _mm256_and_ps(power, lane_mask(b, a.channels));
+      sum = sum_of(sum, masked);
+      _mm256_storeu_ps(y + b * plane, masked);
     }
     const Vec total = _mm256_set1_ps(across(sum, sum_of));
     for (std::int32_t b = 0; b < blocks; ++b) {

@@ -30,9 +30,9 @@ class Pixel {
     Vec sum = splat(0.0f);
     for (std::int32_t c = 0; c < padded_; c += kLanes) {
       const Vec power = exp(vsubq_f32(vld1q_f32(x_ + at(c)), splat(top)));
-      const Vec kept = only(lane_mask(c, channels_), power);
-      sum = vaddq_f32(sum, kept);
-      vst1q_f32(y_ + at(c), kept);
+      const Vec masked = only(lane_mask(c, channels_), power);
+      sum = vaddq_f32(sum, masked);
+      vst1q_f32(y_ + at(c), masked);
     }
     return sum_of_lanes(sum);
   }

@@ -16,8 +16,8 @@ void softmax(const SoftmaxArgs& a) {
     }
     for (std::int32_t c = 0; c < blocks_of(a.channels) * kBlock; ++c) {
       const std::ptrdiff_t at = blocked(c, p, a.pixels);
-      const double share = std::exp(static_cast<double>(a.x[at]) - largest) / sum;
-      a.y[at] = c < a.channels ? static_cast<float>(share) : 0.0f;
+      const double value = std::exp(static_cast<double>(a.x[at]) - largest) / sum;
+      a.y[at] = c < a.channels ? static_cast<float>(value) : 0.0f;
     }
   }
 }

@@ -31,9 +31,9 @@ class Pixel {
     Vec sum = splat(0.0f);
     for (std::int32_t c = 0; c < padded_; c += kLanes) {
       const Vec power = exp(wasm_f32x4_sub(load(x_ + at(c)), top));
-      const Vec kept = only(lane_mask(c, channels_), power);
-      sum = wasm_f32x4_add(sum, kept);
-      store(y_ + at(c), kept);
+      const Vec masked = only(lane_mask(c, channels_), power);
+      sum = wasm_f32x4_add(sum, masked);
+      store(y_ + at(c), masked);
     }
     return sum_of_lanes(sum);
   }

@@ -14,7 +14,7 @@ struct Repeats {
 };
 
 // Scales b so that the product or quotient does not overflow fp32.
-float moderate(float b, Combination kind) {
+float limited(float b, Combination kind) {
   constexpr float kMax = 1e8f;
   const float limited = std::clamp(b, -kMax, kMax);
   const bool divides = kind == Combination::kQuotient;
@@ -47,7 +47,7 @@ Case make(RandomValues& random, int h, int w, int channels, Combination kind, Re
   const int b_channels = repeats.channels ? 1 : channels;
   const std::vector<float> a = random.map(pixels, channels);
   std::vector<float> b = random.map(b_h * b_w, b_channels);
-  std::transform(b.begin(), b.end(), b.begin(), [&](float x) { return moderate(x, kind); });
+  std::transform(b.begin(), b.end(), b.begin(), [&](float x) { return limited(x, kind); });
   const std::vector<Approx> y = expected_map(channels, pixels, [&](int c, int p) {
     const int b_pixel = (repeats.rows ? 0 : p / w) * b_w + (repeats.columns ? 0 : p % w);
     const float other = b[blocked(repeats.channels ? 0 : c, b_pixel, b_h * b_w)];

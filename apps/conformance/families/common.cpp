@@ -67,9 +67,9 @@ std::string Window::text() const {
 }
 
 ResidualSlice ResidualSlice::random(RandomValues& random, int slice_h, int slice_w) {
-  constexpr int kMore[] = {0, 0, 1, 2, 3, 5, 7, 11, 13};
+  constexpr int kExtra[] = {0, 0, 1, 2, 3, 5, 7, 11, 13};
   const auto more = [&] {
-    return kMore[random.between(0, static_cast<int>(std::size(kMore)) - 1)];
+    return kExtra[random.between(0, static_cast<int>(std::size(kExtra)) - 1)];
   };
   ResidualSlice slice;
   slice.top = more();

@@ -303,13 +303,13 @@ RandomActivation random_clamp(RandomValues& random) {
   return activation;
 }
 
-int least_strip_w(const Window& w) {
+int min_strip_w(const Window& w) {
   return std::max(w.pad_left + w.in_w, (w.out_w - 1) * w.stride_w + w.kernel_w);
 }
 
 Tiling random_tiling(RandomValues& random, const Window& w) {
   return {random.between(1, w.out_h), 16 * random.between(1, 4),
-          w.kernel_h + w.stride_h * random.between(0, 3), least_strip_w(w) + random.between(0, 1)};
+          w.kernel_h + w.stride_h * random.between(0, 3), min_strip_w(w) + random.between(0, 1)};
 }
 
 // Sums at the maximum length for fp16, one longer, the maximum for quantization, and longer ones.

@@ -56,7 +56,7 @@ struct TestPlane {
   }
 };
 
-struct Picture {
+struct Image {
   PixelFormat format;
   bool full_range;
   bool bt709;
@@ -117,20 +117,20 @@ Approx clamped(double value, double error) {
   return {std::clamp(value, 0.0, 255.0), std::min(error, 255.0)};
 }
 
-Approx luma_of(const Picture& picture, const Transform& transform, Coordinate x, Coordinate y) {
-  const Approx sample = bilinear(picture.planes[0], 0, x, y, 1, transform.box);
+Approx luma_of(const Image& image, const Transform& transform, Coordinate x, Coordinate y) {
+  const Approx sample = bilinear(image.planes[0], 0, x, y, 1, transform.box);
   constexpr double kGain = 255.0 / 219.0;
-  return picture.full_range ? sample : Approx{(sample.value - 16.0) * kGain, sample.error * kGain};
+  return image.full_range ? sample : Approx{(sample.value - 16.0) * kGain, sample.error * kGain};
 }
 
-Colour yuv_colour(const Picture& picture, const Transform& transform, Coordinate x, Coordinate y) {
-  const double gain = picture.full_range ? 1.0 : 255.0 / 224.0;
-  const Approx luma = luma_of(picture, transform, x, y);
-  const Approx u = bilinear(picture.planes[1], 0, x, y, 2, transform.chroma_box);
-  const Approx v = bilinear(picture.planes[2], 0, x, y, 2, transform.chroma_box);
+Colour yuv_colour(const Image& image, const Transform& transform, Coordinate x, Coordinate y) {
+  const double gain = image.full_range ? 1.0 : 255.0 / 224.0;
+  const Approx luma = luma_of(image, transform, x, y);
+  const Approx u = bilinear(image.planes[1], 0, x, y, 2, transform.chroma_box);
+  const Approx v = bilinear(image.planes[2], 0, x, y, 2, transform.chroma_box);
   constexpr double kSd[3][2] = {{0.0, 1.402}, {-0.344136, -0.714136}, {1.772, 0.0}};
   constexpr double kHd[3][2] = {{0.0, 1.5748}, {-0.187324, -0.468124}, {1.8556, 0.0}};
-  const auto& matrix = picture.bt709 ? kHd : kSd;
+  const auto& matrix = image.bt709 ? kHd : kSd;
   Colour colour;
   for (int c = 0; c < 3; ++c) {
     const double of_u = matrix[c][0] * gain, of_v = matrix[c][1] * gain;
@@ -140,40 +140,38 @@ Colour yuv_colour(const Picture& picture, const Transform& transform, Coordinate
   return colour;
 }
 
-Colour colour_at(const Picture& picture, const Transform& transform, Coordinate x, Coordinate y) {
+Colour colour_at(const Image& image, const Transform& transform, Coordinate x, Coordinate y) {
   Colour colour;
-  switch (picture.format) {
+  switch (image.format) {
     case PixelFormat::kYuv420:
-      return yuv_colour(picture, transform, x, y);
+      return yuv_colour(image, transform, x, y);
     case PixelFormat::kGray8: {
-      const Approx luma = luma_of(picture, transform, x, y);
+      const Approx luma = luma_of(image, transform, x, y);
       colour.channel[0] = colour.channel[1] = colour.channel[2] = clamped(luma.value, luma.error);
       return colour;
     }
     default: {
-      const bool reversed =
-          picture.format == PixelFormat::kBgr || picture.format == PixelFormat::kBgra;
+      const bool reversed = image.format == PixelFormat::kBgr || image.format == PixelFormat::kBgra;
       for (int c = 0; c < 3; ++c) {
-        colour.channel[c] =
-            bilinear(picture.planes[0], reversed ? 2 - c : c, x, y, 1, transform.box);
+        colour.channel[c] = bilinear(image.planes[0], reversed ? 2 - c : c, x, y, 1, transform.box);
       }
       return colour;
     }
   }
 }
 
-Colour output_sample(const Picture& picture, const Transform& transform, double i, double j) {
-  return colour_at(picture, transform, coordinate(transform.matrix, j, i),
+Colour output_sample(const Image& image, const Transform& transform, double i, double j) {
+  return colour_at(image, transform, coordinate(transform.matrix, j, i),
                    coordinate(transform.matrix + 3, j, i));
 }
 
-std::vector<Approx> expected(const Picture& picture, const Transform& transform) {
+std::vector<Approx> expected(const Image& image, const Transform& transform) {
   std::vector<Approx> y;
   const auto scale = static_cast<double>(transform.scale);
   const auto offset = static_cast<double>(transform.offset);
   for (int i = 0; i < transform.height; ++i) {
     for (int j = 0; j < transform.width; ++j) {
-      for (const Approx& one : output_sample(picture, transform, i + 0.5, j + 0.5).channel) {
+      for (const Approx& one : output_sample(image, transform, i + 0.5, j + 0.5).channel) {
         const double rounding = kSumFactor * kUnit * (255.0 * scale + std::abs(offset));
         y.push_back({one.value * scale + offset, one.error * scale + rounding});
       }
@@ -182,27 +180,27 @@ std::vector<Approx> expected(const Picture& picture, const Transform& transform)
   return y;
 }
 
-Case make(const Picture& picture, const Transform& transform) {
+Case make(const Image& image, const Transform& transform) {
   Case test;
-  test.shape = "format " + std::to_string(static_cast<int>(picture.format)) + ", " +
-               times(picture.height, picture.width) + " to " +
+  test.shape = "format " + std::to_string(static_cast<int>(image.format)) + ", " +
+               times(image.height, image.width) + " to " +
                times(transform.height, transform.width) + ", boxes of " +
                std::to_string(transform.box) + " and " + std::to_string(transform.chroma_box);
-  for (const TestPlane& plane : picture.planes) {
+  for (const TestPlane& plane : image.planes) {
     test.buffers.push_back(reads(plane.bytes));
   }
-  test.buffers.push_back(writes(Element::kFloat, expected(picture, transform)));
+  test.buffers.push_back(writes(Element::kFloat, expected(image, transform)));
   test.buffers.push_back(scratch(kernels::kWarpSampleElems / 2));
   test.bind = [=](const Addresses& buffers) {
     WarpArgs args{};
-    args.format = picture.format;
+    args.format = image.format;
     for (std::size_t i = 0; i < 3; ++i) {
-      args.plane[i] = picture.planes[i].at(buffers.bytes(i));
+      args.plane[i] = image.planes[i].at(buffers.bytes(i));
     }
-    args.full_range = picture.full_range;
-    args.yuv_matrix = picture.bt709 ? kernels::kBt709 : kernels::kBt601;
-    args.image_width = picture.width;
-    args.image_height = picture.height;
+    args.full_range = image.full_range;
+    args.yuv_matrix = image.bt709 ? kernels::kBt709 : kernels::kBt601;
+    args.image_width = image.width;
+    args.image_height = image.height;
     std::copy(std::begin(transform.matrix), std::end(transform.matrix), args.matrix);
     args.box = transform.box;
     args.chroma_box = transform.chroma_box;
@@ -231,18 +229,18 @@ int bytes_per_pixel(PixelFormat format) {
   }
 }
 
-Picture random_picture(RandomValues& random, PixelFormat format, int width, int height) {
+Image random_image(RandomValues& random, PixelFormat format, int width, int height) {
   const int pixel = bytes_per_pixel(format);
   const bool flipped = random.coin();
-  Picture picture{format, random.coin(), random.coin(), width, height, {}};
+  Image image{format, random.coin(), random.coin(), width, height, {}};
   // The unused fourth byte of the last pixel is missing.
-  picture.planes[0] = TestPlane(random, width, height, pixel, std::min(pixel, 3), flipped);
+  image.planes[0] = TestPlane(random, width, height, pixel, std::min(pixel, 3), flipped);
   if (format == PixelFormat::kYuv420) {
     const int chroma_w = (width + 1) / 2, chroma_h = (height + 1) / 2;
-    picture.planes[1] = TestPlane(random, chroma_w, chroma_h, random.between(1, 2), 1, false);
-    picture.planes[2] = TestPlane(random, chroma_w, chroma_h, random.between(1, 2), 1, flipped);
+    image.planes[1] = TestPlane(random, chroma_w, chroma_h, random.between(1, 2), 1, false);
+    image.planes[2] = TestPlane(random, chroma_w, chroma_h, random.between(1, 2), 1, flipped);
   }
-  return picture;
+  return image;
 }
 
 // Some are far outside the image or not finite.
@@ -278,14 +276,14 @@ template <>
 Case random_case<WarpArgs>(RandomValues& random) {
   const auto format = static_cast<PixelFormat>(random.case_number() % kFormats);
   const int width = random.size(40), height = random.size(40);
-  const Picture picture = random_picture(random, format, width, height);
-  return make(picture, random_transform(random));
+  const Image image = random_image(random, format, width, height);
+  return make(image, random_transform(random));
 }
 
 // The crop of the first encoder, from a camera image.
 template <>
 Case typical_case<WarpArgs>(RandomValues& random) {
-  return make(random_picture(random, PixelFormat::kYuv420, 640, 480),
+  return make(random_image(random, PixelFormat::kYuv420, 640, 480),
               {{3.0f, 0.3f, 150.0f, -0.3f, 3.0f, 120.0f}, 2, 1, 65, 65, 1.0f / 127.5f, -1.0f});
 }
 
