@@ -1,6 +1,6 @@
 // The warp of tiers with SIMD, tile by tile. For each tile it copies the needed part of the image
 // as sums of boxes, 16 bits each, with the border repeated, so that two neighbours are one 32-bit
-// load that is always in bounds. All has internal linkage: the linker cannot merge code of
+// load that is always in bounds. All code has internal linkage: the linker cannot merge code of
 // different tiers.
 //
 // A tier supplies `Simd`, with vectors of kLanes floats and integers:

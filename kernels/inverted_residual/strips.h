@@ -9,7 +9,7 @@
 //   depthwise(part)                       writes rows of the band from one panel of the strip
 //   project(first, rows)                  writes these output rows from the band
 //
-// All has internal linkage: each tier compiles its own copy.
+// All code has internal linkage: each tier compiles its own copy.
 #pragma once
 
 #include <algorithm>

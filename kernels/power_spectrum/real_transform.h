@@ -2,7 +2,7 @@
 // x_2j + i x_2j+1 (Cooley, Lewis, Welch 1970), and transforms these in two passes: with j = lanes r
 // + lane and k = p + rows q, it transforms each lane over r, multiplies the results by e^(-2 pi i
 // lane p / (n/2)), transposes, and transforms over the lanes, which are now rows, to obtain q. All
-// has internal linkage: the linker cannot merge code of different tiers.
+// code has internal linkage: the linker cannot merge code of different tiers.
 //
 // A tier supplies `Simd`, with vectors of kLanes floats:
 //   Vec; splat, load, store, add, sub, mul
