@@ -4,10 +4,10 @@ import math
 import torch
 
 from networks import ControlsDecoder
-from whitening import Whitening
+from whitening import FLOOR, Whitening
 from whole_files import whole
 
-WARM_UP = 200   # steps over which the learning rate rises
+WARM_UP = 200   # steps over which the learning rate rises, a fifth of all at most
 AT_END = 0.01   # share of the learning rate that is left
 
 
@@ -22,12 +22,12 @@ class Run:
         self.args, self.step, self.start = args, 0, start
         self.decoder = ControlsDecoder(features)
         self.optimiser = torch.optim.AdamW(self.decoder.parameters(), lr=args.rate, weight_decay=1e-3, betas=(0.9, 0.98))
-        self.known = torch.load(args.out) if args.out.exists() else None
+        self.known = torch.load(args.out, map_location=next(self.decoder.parameters()).device) if args.out.exists() else None
 
-    def begin(self, samples):
-        """Features [n,features] to whiten by, unless there is a checkpoint."""
+    def begin(self, samples, floor=FLOOR):
+        """Features [n,features] to whiten by, unless there is a checkpoint; `floor` as in whitening.py."""
         if self.known is None:
-            self.whitening = Whitening.of(samples.float())
+            self.whitening = Whitening.of(samples.float(), floor)
             if self.start:
                 self.decoder.load_state_dict(self.whitening.unfold(self.start))
             return
@@ -37,7 +37,8 @@ class Run:
     def rate(self):
         """Rises, then falls along a cosine."""
         done = min(self.step / self.args.steps, 1.0)
-        return self.args.rate * min(1.0, self.step / WARM_UP) * (AT_END + (1 - AT_END) * (0.5 + 0.5 * math.cos(math.pi * done)))
+        rise = min(1.0, self.step / min(WARM_UP, max(self.args.steps // 5, 1)))
+        return self.args.rate * rise * (AT_END + (1 - AT_END) * (0.5 + 0.5 * math.cos(math.pi * done)))
 
     def answer(self, features):
         return self.decoder(self.whitening(features), self.whitening.start(self.decoder, len(features)))[0]
@@ -54,8 +55,8 @@ class Run:
         return loss.item()
 
     def state(self):
-        """Of a decoder of plain features."""
-        return self.whitening.fold(self.decoder.state_dict())
+        """Of a decoder of plain features, on the CPU."""
+        return {name: value.cpu() for name, value in self.whitening.fold(self.decoder.state_dict()).items()}
 
     def save(self, **more):
         with whole(self.args.out) as out:

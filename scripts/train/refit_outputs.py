@@ -3,8 +3,8 @@
 
 usage: refit_outputs.py --network basenet|hifinet --decoders DECODERS.pt --out OUT.pt      after stream_features.py and portrait_stream.py
 Eyelids and smiles follow the portraits, where a closed eye is 1 for everybody (eyelids.py) and a smile is as wide as the teacher says; on
-renders they keep to what they answered before, times a gain. All other controls that move less than the true ones on rendered training
-people get a gain, around what they answer to faces at rest.
+renders they keep to what they answered before, times a gain. All other controls that follow the truth and move less than it on rendered
+validation people get a gain, around what they answer to faces at rest. Neutral portraits get no more than NEUTRAL on average.
 """
 import argparse
 from dataclasses import dataclass
@@ -19,10 +19,13 @@ from eyelids import closures
 from networks import FACE_NETWORKS, ControlsDecoder
 from paths import cache
 from shown import shown
+from train_decoders import of_stride
 from whole_files import whole
 
-AIM, MOST = 0.85, 1.4     # deviation over the true one that gains aim at, and the largest gain
-FURTHEST = 1.2            # the same that a control may reach on renders because portraits ask for it
+AIM, MOST = 0.9, 1.4      # deviation over the true one that gains aim at, and the largest gain
+LEAST = 0.5               # correlation with the truth on renders, below which a gain would magnify little but noise
+FURTHEST = 1.1            # deviation over the true one that a control may reach on renders because portraits ask for it
+NEUTRAL = 0.095           # largest mean answer to neutral training portraits
 AT_REST = 0.08            # a face is at rest where nothing is above this
 STILL = 8                 # frames that a portrait is shown for
 RIDGE = 1e-6
@@ -38,7 +41,7 @@ class Weights:
     gain: float
 
 
-EYELIDS = Weights(portraits=1, renders=0, keep=0.7, gain=1.1)
+EYELIDS = Weights(portraits=1, renders=0, keep=0.7, gain=0.8)
 SMILES = Weights(portraits=1, renders=0, keep=3, gain=1.25)
 KEPT_ON_PORTRAITS = 0.02  # share of `keep` there
 
@@ -53,7 +56,7 @@ class Parts:
         frames = slice(-1, None) if still else slice(None)
         self.hidden = torch.cat([hidden, torch.ones(*hidden.shape[:2], 1)], 2)[:, frames].flatten(0, 1)
         self.controls, self.seen = (data[k][:, frames].flatten(0, 1).float() for k in ("controls", "visible"))
-        self.closed = closures(data["points"][:, frames].flatten(0, 1).float())
+        self.closed = closures(data["points"][:, frames].flatten(0, 1).float()) if still else None
 
     def square(self, control):
         """Second moments of the states [97,97] where a control can be seen."""
@@ -65,12 +68,13 @@ class Parts:
 
 @torch.no_grad()
 def parts_of(state, stream, network):
-    """(renders, portraits) as the decoder's last layer sees them."""
+    """(training renders, training portraits, validation renders) as the decoder's last layer sees them."""
     decoder = ControlsDecoder()
     decoder.load_state_dict(state)
     decoder.eval().output = nn.Identity()
     return (Parts(decoder, stream_features.load(stream / "train", network), False),
-            Parts(decoder, stream_features.load(stream / "portraits_train", network), True))
+            Parts(decoder, stream_features.load(stream / "portraits_train", network), True),
+            Parts(decoder, of_stride(stream_features.load(stream / "val", network), 1), False))
 
 
 def solved(before, control, wanted, renders, portraits, weights):
@@ -83,13 +87,27 @@ def solved(before, control, wanted, renders, portraits, weights):
     return torch.linalg.solve(left, right)
 
 
-def at_rest(layer, renders, portraits):
-    """The larger of what rendered faces at rest and portraits that the teacher takes for neutral get, [52]."""
-    still = renders.controls.amax(1) < AT_REST
+def neutral(portraits):
+    """Which portraits the teacher takes for neutral."""
     watched = [INDEX[name] for name in ("jawOpen", "mouthSmileLeft", "mouthSmileRight", "mouthPucker")]
-    neutral = (portraits.controls[:, watched].amax(1) < AT_REST) & (portraits.closed.amax(1) < AT_REST)
-    answers = lambda parts, rows: shown(parts.hidden[rows] @ layer.T).mean(0)
-    return torch.maximum(answers(renders, still), answers(portraits, neutral))
+    return (portraits.controls[:, watched].amax(1) < AT_REST) & (portraits.closed.amax(1) < AT_REST)
+
+
+def mean_answer(layer, parts, rows):
+    return shown(parts.hidden[rows] @ layer.T).mean(0)
+
+
+def at_rest(layer, renders, portraits):
+    """The larger of what rendered faces at rest and neutral portraits get, [52]."""
+    return torch.maximum(mean_answer(layer, renders, renders.controls.amax(1) < AT_REST), mean_answer(layer, portraits, neutral(portraits)))
+
+
+def quieted(layer, portraits):
+    """The layer with lower biases where neutral portraits get more than NEUTRAL."""
+    out, rows = layer.clone(), neutral(portraits)
+    for _ in range(3):  # answers stop at 0, so that their mean falls by less than the bias
+        out[:, -1] -= (mean_answer(out, portraits, rows) - NEUTRAL).clamp(min=0)
+    return out
 
 
 def deviation_of(layer, parts):
@@ -97,9 +115,17 @@ def deviation_of(layer, parts):
     return shown(parts.hidden @ layer.T).std(0).clamp(min=SMALLEST)
 
 
-def gains(layer, renders, most):
-    """What brings every control near to its true deviation on renders, [52], from 1 to `most`."""
-    return (AIM * renders.controls.std(0) / deviation_of(layer, renders)).clamp(1, most)
+def correlation(layer, renders):
+    """Of the answers with the truth on renders, [52]."""
+    told, truth = (x - x.mean(0) for x in (shown(renders.hidden @ layer.T), renders.controls))
+    return (told * truth).mean(0) / (told.square().mean(0) * truth.square().mean(0)).sqrt().clamp(min=SMALLEST ** 2)
+
+
+def gains(layer, renders, rest, most):
+    """What brings every control near to its true deviation on renders, [52], from 1 to `most`; 1 where it does not follow the truth, or
+    where faces at rest get so much, `rest` [52], that the gain would be taken back."""
+    wanted = (AIM * renders.controls.std(0) / deviation_of(layer, renders)).clamp(1, most)
+    return torch.where((correlation(layer, renders) < LEAST) | (rest > NEUTRAL), 1, wanted)
 
 
 def portrait_gain(layer, control, wanted, renders, portraits):
@@ -117,16 +143,18 @@ def followers(portraits):
         yield smile, portraits.controls[:, smile], SMILES
 
 
-def refitted(layer, renders, portraits, most=MOST):
-    """The output layer [52,97], bias last, in place of `layer`; `most` is the largest gain of controls that do not follow portraits."""
-    out, gain = layer.clone(), gains(layer, renders, most)
+def refitted(layer, renders, portraits, others=None, most=MOST):
+    """The output layer [52,97], bias last, in place of `layer`. `others`: renders of people that nothing was learned from, whose deviations
+    the gains bring near to the true ones; `most` is the largest gain of controls that do not follow portraits."""
+    others = others or renders
+    out, gain = layer.clone(), gains(layer, others, at_rest(layer, renders, portraits), most)
     for control, wanted, weights in followers(portraits):
         out[control] = solved(layer[control], control, wanted, renders, portraits, weights)
-        gain[control] = portrait_gain(out, control, wanted, renders, portraits)
+        gain[control] = portrait_gain(out, control, wanted, others, portraits)
     rest = at_rest(out, renders, portraits)
     out *= gain[:, None]
     out[:, -1] -= (gain - 1) * rest
-    return out
+    return quieted(out, portraits)
 
 
 def main():
@@ -134,8 +162,7 @@ def main():
     parser.add_argument("--network", choices=FACE_NETWORKS, required=True)
     parser.add_argument("--decoders", type=Path, required=True)
     parser.add_argument("--out", type=Path, required=True)
-    parser.add_argument("--most", type=float, default=MOST, help="largest gain of what does not follow the portraits; 1 leaves it as it is, "
-                        "which is better for BaseNet: what it tells of faint controls is mostly noise")
+    parser.add_argument("--most", type=float, default=MOST, help="largest gain of controls that do not follow the portraits")
     parser.add_argument("--stream", type=Path, default=cache() / "stream")
     args = parser.parse_args()
     torch.set_num_threads(1)

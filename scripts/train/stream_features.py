@@ -96,7 +96,7 @@ def load(folder, network, most=None):
     """Stored tracks of a network joined, as train_decoders.py takes them; the first `most` shards only."""
     parts = []
     for path in sorted(Path(folder).glob("*.pt"))[:most]:
-        stored = torch.load(path)
+        stored = torch.load(path, map_location="cpu")
         parts.append({"features": stored[network], **{k: stored[k] for k in KEPT if k in stored}})
     return {k: torch.cat([part[k] for part in parts]) for k in parts[0]}
 

@@ -93,7 +93,7 @@ class TeacherTask:
         self.args = args
         spread, follow = followed(data["controls"].flatten(0, 1).float(), HINTING)
         weight = follow * importance(args.frowns) / (spread + 0.05)
-        self.weight, self.line = weight / weight.mean(), Line(len(CONTROLS), "cpu")
+        self.weight, self.line = weight / weight.mean(), Line(len(CONTROLS), weight.device)
 
     def loss(self, output, batch, mask):
         target = batch["controls"]
@@ -173,7 +173,7 @@ class Held:
 
 def of_portraits(data, args, cuts=0.0):
     """Rare expressions are drawn more often, as in phase 1."""
-    return Held(data, args, rarity(data["controls"][:, 0].float().numpy()), cuts)
+    return Held(data, args, rarity(data["controls"][:, 0].float().cpu().numpy()), cuts)
 
 
 def stream(table, rows):

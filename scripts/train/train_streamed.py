@@ -3,7 +3,8 @@
 
 usage: train_streamed.py --network basenet|hifinet --steps N --out CHECKPOINT [--start-from DECODERS]
 Renders teach values, differences from frame to frame, and concordance; portraits teach what the teacher says, smiles, jaw and eyelids on
-its scale and the others on a scale of their own. Goes on where it was stopped; shards that have appeared by then are learned from, too.
+its scale and the others on a scale of their own. What else --start-from knows is in the checkpoint, too,
+as export.py asks. Goes on where it was stopped; shards that have appeared by then are learned from, too.
 """
 import argparse
 import time
@@ -20,7 +21,8 @@ from expressions import CONTROLS, INDEX
 from losses import censored, importance, unevenness
 from networks import FACE_NETWORKS, FEATURES
 from paths import cache
-from train_decoders import Held, TeacherTask, arguments, of_portraits, temporal_loss
+from train_decoders import Held, TeacherTask, arguments, noisy, of_portraits, spread_of, temporal_loss
+from whitening import FLOOR
 
 ABSOLUTE = [INDEX[name] for name in ("jawOpen", "mouthSmileLeft", "mouthSmileRight")]  # on the teacher's own scale
 BLINKS = [INDEX["eyeBlinkLeft"], INDEX["eyeBlinkRight"]]
@@ -106,25 +108,32 @@ def options():
     parser.add_argument("--joined", type=int, default=2, help="tracks of a stream")
     parser.add_argument("--portraits", type=int, default=48, help="streams of portraits")
     parser.add_argument("--rate", type=float, default=2e-3)
-    parser.add_argument("--noise", type=float, default=0.0, help="of whitened features, in deviations")
-    parser.add_argument("--velocity", type=float, default=0.05)
+    parser.add_argument("--noise", type=float, default=0.3, help="of features, in deviations: with it few people are learned from, not by heart")
+    parser.add_argument("--floor", type=float, default=FLOOR, help="of whitening, as a share of the mean variance (whitening.py)")
+    parser.add_argument("--velocity", type=float, default=0.1)
     parser.add_argument("--acceleration", type=float, default=0.02)
     parser.add_argument("--concordance", type=float, default=0.05, help="weight of what keeps the amplitude")
     parser.add_argument("--sides", type=float, default=1.0, help="weight of which side of a pair moves")
     parser.add_argument("--teacher", type=float, default=0.5, help="weight of what the teacher says of portraits")
     parser.add_argument("--absolute", type=float, default=0.5, help="weight of smiles, jaw and eyelids of portraits")
     parser.add_argument("--keep-every", type=int, help="keep what there is after every so many steps, as OUT_STEP.pt")
+    parser.add_argument("--minutes", type=float, help="stop after so many, wherever it is")
+    parser.add_argument("--device", default="cpu", help="cuda, for an accelerator")
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--seed", type=int, default=0)
     return parser
 
 
+def on(device, tensors):
+    return {name: value.to(device) for name, value in tensors.items()}
+
+
 def lessons_of(args):
     """[(source, task)]"""
-    moving = stream_features.load(args.stream / "train", args.network, args.shards)
+    moving = on(args.device, stream_features.load(args.stream / "train", args.network, args.shards))
     lessons = [(Tracks(moving, args.batch, args.joined), RenderTask(moving["controls"], args))]
     if args.portraits:
-        still = stream_features.load(args.stream / "portraits_train", args.network)
+        still = on(args.device, stream_features.load(args.stream / "portraits_train", args.network))
         lessons.append((Portraits.of(still, args), PortraitTask(still, args)))
     return lessons
 
@@ -132,30 +141,31 @@ def lessons_of(args):
 def main():
     args = options().parse_args()
     torch.set_num_threads(args.threads)
+    if args.device != "cpu":
+        torch.set_default_device(args.device)
     args.out.parent.mkdir(parents=True, exist_ok=True)
-    start = torch.load(args.start_from)["controls_decoder"] if args.start_from else None
-    run, lessons = Run(args, FEATURES, start), lessons_of(args)
+    known = torch.load(args.start_from, map_location="cpu") if args.start_from else {}
+    start = known.pop("controls_decoder", None)
+    run, lessons = Run(args, FEATURES, start and on(args.device, start)), lessons_of(args)
     print(f"{len(lessons[0][0].data['features'])} tracks of renders", flush=True)
-    run.begin(torch.cat([source.data["features"][:, ::5].flatten(0, 1) for source, _ in lessons]))
+    run.begin(torch.cat([source.data["features"][:, ::5].flatten(0, 1) for source, _ in lessons]), args.floor)
+    noise = args.noise * spread_of(lessons[0][0].data["features"])[1]
 
     def lesson(source, task):
         batch, mask = source.batch()
-        features = batch["features"]
-        if args.noise:
-            features = features + args.noise * torch.randn_like(features) @ torch.linalg.inv(run.whitening.matrix)
-        return task.loss(run.answer(features), batch, mask)
+        return task.loss(run.answer(noisy(batch["features"], noise)), batch, mask)
 
     total, began = 0.0, time.time()
-    while run.step < args.steps:
+    while run.step < args.steps and not (args.minutes and time.time() - began > 60 * args.minutes):
         total += run.advance(sum(lesson(*pair) for pair in lessons))
         if run.step % 100 == 0:
             print(f"step {run.step} loss {total / 100:.5f} {time.time() - began:.0f} s", flush=True)
             total = 0.0
         if args.keep_every and run.step % args.keep_every == 0:
-            torch.save({"controls_decoder": run.state()}, args.out.with_stem(f"{args.out.stem}_{run.step}"))
+            torch.save({**known, "controls_decoder": run.state()}, args.out.with_stem(f"{args.out.stem}_{run.step}"))
         if run.step % 200 == 0:
-            run.save()
-    run.save()
+            run.save(**known)
+    run.save(**known)
 
 
 if __name__ == "__main__":

@@ -82,6 +82,25 @@ class Refit(unittest.TestCase):
         still = renders.controls.amax(1) == 0
         self.assertLess(float(answers[still].abs().max()), 0.05)
 
+    def test_what_does_not_follow_the_truth_gets_no_gain(self):
+        layer, renders, portraits = self.made(0.7)
+        funnel = INDEX["mouthFunnel"]
+        layer[funnel] = 0
+        layer[funnel, 60] = 0.1  # of noise
+        after = refit.refitted(layer, renders, portraits)
+        self.assertTrue(torch.equal(after[funnel], layer[funnel]))
+
+    def test_neutral_portraits_get_little(self):
+        layer, renders, portraits = self.made(1.0)
+        brow = INDEX["browDownLeft"]
+        layer[brow, -1] = 0.3
+        rows = refit.neutral(portraits)
+        self.assertGreater(int(rows.sum()), 100)
+        after = refit.quieted(layer, portraits)
+        self.assertLess(float(refit.mean_answer(after, portraits, rows).max()), refit.NEUTRAL + 0.01)
+        others = [i for i in range(len(CONTROLS)) if i != brow]
+        self.assertTrue(torch.equal(after[others], layer[others]))
+
     def test_what_moves_enough_is_left_alone(self):
         layer, renders, portraits = self.made(1.0)
         after = refit.refitted(layer, renders, portraits)

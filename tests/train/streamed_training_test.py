@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Training on streamed features: it goes on where it was stopped, and what it leaves is a decoder of plain features."""
+import os
 import subprocess
 import sys
 import tempfile
@@ -10,6 +11,7 @@ import torch
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scripts/train"))
+import pack_features  # noqa: E402
 import stream_features  # noqa: E402
 import train_streamed  # noqa: E402
 from networks import ControlsDecoder  # noqa: E402
@@ -57,6 +59,57 @@ class Streamed(unittest.TestCase):
         batch, mask = train_streamed.Tracks(data, 2, 3).batch()
         self.assertEqual(tuple(batch["features"].shape), (2, 15, 3))
         self.assertEqual(mask[0, :, 0].tolist(), [0.5, 1, 1, 1, 1] + [0, 1, 1, 1, 1] * 2)
+
+
+class Packed(unittest.TestCase):
+    """What travels to an accelerator, and back; here the accelerator is the CPU."""
+
+    def on_gpu(self, folder, *arguments):
+        asked = {"MIEN_CACHE": folder, "PYTHON": sys.executable, "DEVICE": "cpu", "STEPS": "6", "OPTIONS": "--batch 3 --portraits 4"}
+        command = [ROOT / "scripts/train/on_gpu.sh", *arguments]
+        return subprocess.run([str(c) for c in command], env={**os.environ, **asked}, capture_output=True, text=True)
+
+    def test_trains_from_the_packed_file_to_decoders_that_can_be_exported(self):
+        torch.manual_seed(2)
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            shard(folder / "stream/train/00000.pt", 6, 10)
+            shard(folder / "stream/portraits_train/00000.pt", 40, 2)
+            for arguments in (("pack", "basenet", folder), ("train", "basenet", folder, folder / "out")):
+                done = self.on_gpu(name, *arguments)
+                self.assertEqual(done.returncode, 0, done.stderr)
+            files = sorted(path.name for path in (folder / "out").iterdir())
+            known = torch.load(folder / "out/basenet_decoders.pt")
+        self.assertEqual(files, ["basenet_decoders.pt", *(f"basenet_decoders_{step}.pt" for step in range(1, 7))])
+        self.assertEqual(known["step"], 6)
+        self.assertEqual(len(known["supported"]), 52)
+        self.assertIn("pose_decoder", known)
+
+    def test_what_is_packed_comes_back_but_for_a_rounding(self):
+        torch.manual_seed(3)
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            shard(folder / "train/00000.pt", 6, 10)
+            shard(folder / "portraits_train/00000.pt", 40, 2)
+            for command in (["pack", "--stream", name, folder / "x.npz"], ["unpack", folder / "x.npz", folder / "back"]):
+                subprocess.run([sys.executable, ROOT / "scripts/train/pack_features.py", command[0], "--network", "hifinet",
+                                *map(str, command[1:])], check=True, capture_output=True)
+            for kind, frames in (("train", slice(None)), ("portraits_train", slice(-1, None))):
+                before, after = (stream_features.load(f / kind, "hifinet") for f in (folder, folder / "back"))
+                for field, most in (("features", 0.03), ("controls", 0.003), ("visible", 0.003)):
+                    apart = (before[field][:, frames].float() - after[field].float()).abs().max()
+                    self.assertLess(float(apart), most, f"{kind}, {field}")
+            self.assertTrue(torch.equal(before["points"][:, -1:], after["points"]))
+
+    def test_one_track_of_each_sequence(self):
+        rows = pack_features.one_of_each(4 * stream_features.SHARD)
+        size = stream_features.SHARD
+        self.assertEqual(rows.tolist(), [*range(size), *range(3 * size, 4 * size)])
+
+    def test_unknown_commands_are_refused(self):
+        done = self.on_gpu("/nowhere", "fetch", "basenet", "/nowhere")
+        self.assertEqual(done.returncode, 64)
+        self.assertIn("expected pack or train", done.stderr)
 
 
 if __name__ == "__main__":
