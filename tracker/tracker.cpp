@@ -264,10 +264,14 @@ void Tracker::detect_in_tile(Frame& frame) {
 void Tracker::detect_large(Frame& frame) {
   std::array<Detection, kGlanced> memory;
   std::span<Detection> found = memory;
-  const std::size_t i = state_.rolls++ % (kRolls.size() + 1);
+  const std::size_t i = state_.rolls % (kRolls.size() + 1);
+  // Every second time round the rolls lie between those of the first.
+  const float between = state_.rolls / (kRolls.size() + 1) % 2 == 0 ? 0.0f : kEighth / 2;
+  const float roll = i == 0 ? 0.0f : kRolls[i - 1] + between;
+  ++state_.rolls;
   {
     const StageTimer::Scope timed(timer_, MIEN_STAGE_PROPOSAL);
-    found = found.first(proposal_.detect_large(frame.view, i == 0 ? 0.0f : kRolls[i - 1], found));
+    found = found.first(proposal_.detect_large(frame.view, roll, found));
   }
   add_first(frame, found, (i == 0 ? pace_at(frame.level) : kPace).alignments);
 }

@@ -38,9 +38,10 @@ bool is_usable(const Square& square) {
   return is_finite(square.center) && std::isfinite(square.side) && square.side > 0.0f;
 }
 
-std::span<float> take_floats(engine::Arena& arena, std::size_t count) {
-  const std::span<std::byte> memory = arena.take(count * sizeof(float));
-  return {reinterpret_cast<float*>(memory.data()), memory.size() / sizeof(float)};
+template <class T>
+std::span<T> take(engine::Arena& arena, std::size_t count) {
+  const std::span<std::byte> memory = arena.take(count * sizeof(T));
+  return {reinterpret_cast<T*>(memory.data()), memory.size() / sizeof(T)};
 }
 
 // The square around the region that is turned by `roll`.
@@ -71,7 +72,9 @@ mien_status MtcnnDetector::load(const mien_tracker_config& config, const Models&
   }
   proposal_threshold_ = config.proposal_threshold;
   refine_threshold_ = config.refine_threshold;
-  row_ = take_floats(arena, 3 * static_cast<std::size_t>(config.proposal_size));
+  detections_ = take<Detection>(arena, (kMaxLarge + kMaxSmall) * kPerSize);
+  few_detections_ = take<Detection>(arena, (kMaxSmall + 1) * kPerSize);
+  row_ = take<float>(arena, 3 * static_cast<std::size_t>(config.proposal_size));
   const engine::Model& model = models.proposal;
   mien_status status = MIEN_OK;
   large_count_ = small_count_ = 0;
@@ -99,7 +102,7 @@ mien_status MtcnnDetector::load_large(const mien_tracker_config& config, const e
   LargeSize& size = large_[large_count_++];
   const auto floats = 3 * static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
   size.side = side;
-  size.picture = take_floats(arena, floats);
+  size.picture = take<float>(arena, floats);
   // Windows lie two rows apart, so every band begins at an even one.
   const std::int32_t rows = std::min(std::max(kSharePixels / side, kMinRows), side) / 2 * 2;
   const mien_status status =

@@ -101,10 +101,10 @@ class MtcnnDetector final : public FaceDetector {
   std::size_t small_count_ = 0;
   engine::Network medium_;  // P-Net on the smallest of the larger sizes, for detect_large
   engine::Network rnet_;
-  Search search_;            // the one that goes on in shares
-  BestDetections best_{{}};  // of the size that P-Net is looking at
-  std::array<Detection, (kMaxLarge + kMaxSmall)* kPerSize> detections_ = {};
-  std::array<Detection, (kMaxSmall + 1)* kPerSize> few_detections_ = {};  // of a part
+  Search search_;                        // the one that goes on in shares
+  BestDetections best_{{}};              // of the size that P-Net is looking at
+  std::span<Detection> detections_;      // of the search in shares, in the arena
+  std::span<Detection> few_detections_;  // of a part of the image, in the arena
 };
 
 }  // namespace mien::tracker
