@@ -137,12 +137,12 @@ void check_ifacialmocap(const formats::Frame& frame, std::string_view datagram) 
 }
 
 void check_openseeface(const formats::Frame& frame, Bytes& bytes) {
-  formats::OpenSeeFacePicture picture{
+  formats::OpenSeeFaceImage image{
       number(bytes), number(bytes), 1.0 + std::abs(number(bytes)), {}, {}};
-  for (formats::PicturePoint& point : picture.landmarks) {
+  for (formats::ImagePoint& point : image.landmarks) {
     point = {number(bytes), number(bytes)};
   }
-  const std::string packet = formats::openseeface_packet(frame, picture, number(bytes));
+  const std::string packet = formats::openseeface_packet(frame, image, number(bytes));
   require(packet.size() == formats::kOpenSeeFaceBytes);
 }
 
@@ -150,7 +150,7 @@ void check_live_link(const formats::Frame& frame, Bytes& bytes) {
   const formats::LiveLinkSubject subject{std::string(36, '0'), std::string(name_of(bytes))};
   const std::string packet = formats::live_link_packet(frame, subject, number(bytes));
   const std::size_t head = 62 + subject.name.size(), values = kValues * sizeof(float);
-  const bool nothing = formats::shows_nothing(frame);
+  const bool nothing = formats::is_blank(frame);
   require(packet.size() == (nothing ? head : head + values));
   require(packet[head - 1] == (nothing ? 0 : static_cast<char>(kValues)));
 }

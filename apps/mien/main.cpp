@@ -1,5 +1,5 @@
-// mien: facial animation from video and sound. docs/cli.md describes the verbs, options and exit
-// codes.
+// The program mien: facial animation from video and audio. docs/cli.md describes its verbs, options
+// and exit codes.
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -15,9 +15,10 @@
 
 namespace {
 
-// CLI11 makes its validators before main, where nobody could catch that there is no memory, and
-// some of its functions let no exception through. Until the command line is read (program.cpp).
-[[gnu::constructor(101)]] void end_without_memory() {
+// Ends the program if an allocation fails before the command line is parsed. CLI11 creates its
+// validators before main, where nothing catches std::bad_alloc, and some of its functions are
+// noexcept. program.cpp removes the handler.
+[[gnu::constructor(101)]] void install_out_of_memory_handler() {
   std::set_new_handler([] {
     std::fputs("mien: no memory\n", stderr);
     std::_Exit(mien::app::kExitInternal);

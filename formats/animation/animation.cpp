@@ -1,3 +1,4 @@
+// Selects readers and writers by format, and detects formats.
 #include "formats/animation/animation.h"
 
 #include <algorithm>
@@ -15,7 +16,7 @@
 namespace mien::formats {
 namespace {
 
-// Of the first line of a table.
+// Detects the kind of table from its first line.
 AnimationFormat table_kind(std::string_view text) {
   CsvTable table(text);
   Fault ignored;
@@ -37,7 +38,7 @@ AnimationFormat table_kind(std::string_view text) {
   return AnimationFormat::kCsv;
 }
 
-// A time and a mouth shape, and so no header of a table whose cells are separated by tabs.
+// A time and a mouth shape, unlike the header of a table separated by tabs.
 bool is_cue(std::string_view line) {
   const std::size_t tab = line.find('\t');
   double time_s = 0.0;

@@ -1,3 +1,4 @@
+// Encodes and decodes base64.
 #include "formats/animation/base64.h"
 
 #include <array>

@@ -1,4 +1,4 @@
-// Base64 (RFC 4648), as data: URIs have it.
+// Base64 (RFC 4648), as in data: URIs.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@ namespace mien::formats {
 
 [[nodiscard]] std::string base64(std::string_view bytes);
 
-// False, and `bytes` as it was, for what is no base64 with its padding.
+// Returns false and leaves `bytes` unchanged if `text` is not padded base64.
 [[nodiscard]] bool parse_base64(std::string_view text, std::string& bytes);
 
 }  // namespace mien::formats

@@ -1,3 +1,4 @@
+// Writes BVH.
 #include "formats/animation/bvh.h"
 
 #include <array>
@@ -64,7 +65,7 @@ class BvhWriter : public WholeClipWriter {
     return text;
   }
 
-  double metres_;  // of one unit
+  double metres_;  // per unit
 };
 
 }  // namespace

@@ -1,9 +1,7 @@
-// Head motion as BVH: one joint, Head, with position (BVH itself has no unit of length) and
-// rotation (degrees, in the order y, x, z, which is that of Angles). Frames without a head hold the
-// last.
+// Head motion as BVH: one joint, Head, with position (BVH has no unit of length) and rotation
+// (degrees, in the order y, x, z, as in Angles). Frames without a head repeat the last one.
 //
-// BVH knows one time between frames and no time of the first: frames that do not lie evenly are
-// brought to even steps.
+// BVH has one time step and no start time, so frames with uneven times are resampled.
 #pragma once
 
 #include <memory>
@@ -18,10 +16,9 @@ namespace mien::formats {
 
 [[nodiscard]] std::unique_ptr<AnimationWriter> bvh_writer(LengthUnit unit);
 
-// Any skeleton: where a joint called Head, or one whose name ends so, stands and looks in the
-// world, or the root without such a one. Which unit lengths have without bvh_unit the distance from
-// the root to the head shows, or the length of the head; a note says so. On a fault `clip` stays as
-// it was.
+// Reads the motion of a joint in world space: the one whose name is or ends in "Head", or else the
+// root. Without bvh_unit, the distance from root to head, or the length of the head, determines the
+// unit, and a note names it. Leaves `clip` unchanged on failure.
 [[nodiscard]] bool read_bvh(std::string_view text, const ReadOptions& options, Clip& clip,
                             Fault& fault);
 

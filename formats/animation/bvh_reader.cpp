@@ -1,3 +1,4 @@
+// Reads BVH.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,12 +15,12 @@ namespace {
 
 constexpr double kDegreesInRadian = 180.0 / std::numbers::pi;
 constexpr std::int64_t kMaxFrames = 10'000'000;
-// How far a skeleton may be from the usual size.
+// Largest factor between the size of a skeleton and the typical size.
 constexpr double kTolerance = 3.2;
 
 using Vec3 = std::array<double, 3>;
 
-// Words of the text, each with its place.
+// The words of a text with their positions.
 class Words {
  public:
   explicit Words(std::string_view text) : text_(text) {}
@@ -44,7 +45,7 @@ class Words {
 
   [[nodiscard]] std::size_t line() const { return word_line_; }
 
-  // At the last word.
+  // Reports an error at the last word.
   bool fail_here(std::string what, Fault& fault) const {
     return fail(fault, word_line_, word_column_, std::move(what));
   }
@@ -63,14 +64,14 @@ struct Channel {
 };
 
 struct Joint {
-  std::size_t parent;  // its own index: the root
+  std::size_t parent;  // the root refers to itself
   std::string name;
   Vec3 offset;
   Vec3 end;                         // of its last end site
-  std::optional<std::size_t> link;  // where it stands between head and root
+  std::optional<std::size_t> link;  // index in the chain from head to root
 };
 
-// Of a joint in a frame.
+// The pose of a joint in a frame.
 struct Pose {
   Quaternion turn = {0.0, 0.0, 0.0, 1.0};
   Vec3 move{};
@@ -111,7 +112,7 @@ class BvhReader {
   bool expect(std::string_view wanted) {
     const std::string_view word = words_.next();
     return same_name(word, wanted) ||
-           words_.fail_here(quoted(wanted) + " is expected instead of " + quoted(word), fault_);
+           words_.fail_here("expected " + quoted(wanted) + " (got " + quoted(word) + ")", fault_);
   }
 
   bool number(double& value) {
@@ -121,7 +122,7 @@ class BvhReader {
 
   bool vector(Vec3& value) { return number(value[0]) && number(value[1]) && number(value[2]); }
 
-  // From its name to its '}'.
+  // Reads a joint from its name to its '}'.
   bool read_joint(std::size_t parent, int depth) {
     constexpr int kMaxDepth = 100;
     if (depth > kMaxDepth) {
@@ -146,7 +147,7 @@ class BvhReader {
           return false;
         }
       } else {
-        return words_.fail_here("JOINT, End or '}' is expected instead of " + quoted(word), fault_);
+        return words_.fail_here("expected JOINT, End or '}' (got " + quoted(word) + ")", fault_);
       }
     }
     return true;
@@ -156,7 +157,8 @@ class BvhReader {
     std::int64_t count = 0;
     const std::string_view word = words_.next();
     if (!parse_number(word, count) || count < 0 || count > 6) {
-      return words_.fail_here(quoted(word) + " is not a number of channels", fault_);
+      return words_.fail_here(
+          "invalid number of channels (got " + quoted(word) + ", expected 0 to 6)", fault_);
     }
     for (std::int64_t i = 0; i < count; ++i) {
       const std::string_view name = words_.next();
@@ -164,7 +166,7 @@ class BvhReader {
       const bool moves = name.size() == 9 && same_name(name.substr(1), "position");
       const std::size_t axis = name.empty() ? 3 : std::string_view("xyz").find(to_lower(name[0]));
       if ((!rotates && !moves) || axis > 2) {
-        return words_.fail_here(quoted(name) + " is not a channel", fault_);
+        return words_.fail_here("unknown channel " + quoted(name), fault_);
       }
       channels_.push_back({joint, axis, rotates});
     }
@@ -194,29 +196,29 @@ class BvhReader {
   }
 
   void find_unit(Clip& clip) {
-    const std::optional<LengthUnit> shown = shown_unit();
+    const std::optional<LengthUnit> shown = detected_unit();
     const LengthUnit unit = options_.bvh_unit.value_or(shown.value_or(LengthUnit::kMetres));
     metres_ = metres(unit);
     if (!options_.bvh_unit) {
       clip.notes.push_back(std::string("positions: ") + name(unit) + ", " +
-                           (shown ? "as the size of the skeleton shows" : "the usual unit") +
+                           (shown ? "detected from the size of the skeleton" : "default") +
                            " (--from-bvh-unit)");
     }
   }
 
-  // Inches are never seen: a skeleton in inches could be a small one in centimetres.
-  [[nodiscard]] std::optional<LengthUnit> shown_unit() const {
+  // Inches are never detected: a skeleton in inches may be a small one in centimetres.
+  [[nodiscard]] std::optional<LengthUnit> detected_unit() const {
     double length = 0.0;
     for (const std::size_t joint : chain_) {
       length += joint != 0 ? norm(joints_[joint].offset) : 0.0;
     }
-    // Of an adult, from the hips to the head 0.6 m, and a head 0.1 to 0.25 m: half of the way to
-    // the next unit, either way.
-    const double usual_m = length > 0.0 ? 0.6 : 0.15;
+    // Adults have 0.6 m from hips to head, and a head of 0.1 to 0.25 m. The tolerance is half of
+    // the distance to the next unit in both directions.
+    const double typical_m = length > 0.0 ? 0.6 : 0.15;
     length = length > 0.0 ? length : norm(joints_[head_].end);
     for (const LengthUnit unit :
          {LengthUnit::kMetres, LengthUnit::kCentimetres, LengthUnit::kMillimetres}) {
-      const double ratio = length * metres(unit) / usual_m;
+      const double ratio = length * metres(unit) / typical_m;
       if (ratio > 1.0 / kTolerance && ratio < kTolerance) {
         return unit;
       }
@@ -234,31 +236,31 @@ class BvhReader {
     std::int64_t count = 0;
     const std::string_view word = words_.next();
     if (!parse_number(word, count) || count < 1 || count > kMaxFrames) {
-      return words_.fail_here(quoted(word) + " is not a number of frames", fault_);
+      return words_.fail_here("invalid number of frames (got " + quoted(word) + ")", fault_);
     }
     double step_s = 0.0;
     if (!expect("Frame") || !expect("Time:") || !number(step_s)) {
       return false;
     }
     if (step_s <= 0.0 || step_s > 3600.0) {
-      return words_.fail_here("the time of a frame is out of range", fault_);
+      return words_.fail_here("frame time out of range", fault_);
     }
     for (std::int64_t i = 0; i < count; ++i) {
       Frame frame;
       frame.number = i;
       if (!time_of(static_cast<double>(i) * step_s, kSecond_ns, frame.time_ns)) {
-        return words_.fail_here("the frames last too long", fault_);
+        return words_.fail_here("duration out of range", fault_);
       }
       if (!read_pose(frame) || !add_frame(clip, frame, words_.line(), fault_)) {
         return false;
       }
     }
     return words_.next().empty() ||
-           words_.fail_here("there is more than " + std::to_string(count) + " frames", fault_);
+           words_.fail_here("more than " + std::to_string(count) + " frames", fault_);
   }
 
-  // Only the joints between root and head count, so that the time of a frame depends on how many
-  // numbers it has, not on how many joints there are.
+  // Reads only the joints between root and head, so that time depends on the number of values, not
+  // of joints.
   bool read_pose(Frame& frame) {
     std::vector<Pose> poses(chain_.size());
     bool moved = false;
@@ -281,7 +283,7 @@ class BvhReader {
       }
       turn = product(poses[link].turn, turn);
     }
-    // A root in our own order says its angles itself, to the digit.
+    // A root with our rotation order has the exact angles.
     const Vec3& own = poses.front().degrees;
     frame.head = own_order_ ? Angles{own[0] / kDegreesInRadian, own[1] / kDegreesInRadian,
                                      own[2] / kDegreesInRadian}
@@ -310,8 +312,8 @@ class BvhReader {
   std::vector<Channel> channels_;
   std::size_t head_ = 0;
   std::vector<std::size_t> chain_;  // from the head to the root
-  bool own_order_ = false;          // whether the head is the root and turns about y, x, z
-  double metres_ = 1.0;             // of one unit
+  bool own_order_ = false;          // the head is the root and rotates about y, x, z
+  double metres_ = 1.0;             // per unit
 };
 
 }  // namespace
@@ -346,7 +348,7 @@ const char* name(LengthUnit unit) {
 
 bool read_bvh(std::string_view text, const ReadOptions& options, Clip& clip, Fault& fault) {
   Clip read;
-  read.frames.limit_bytes(most_clip_bytes(text.size()));
+  read.frames.limit_bytes(max_clip_bytes(text.size()));
   if (!BvhReader(text, options, fault).read(read)) {
     return false;
   }

@@ -1,3 +1,4 @@
+// Times and memory limits of clips.
 #include "formats/animation/clip.h"
 
 #include <cmath>
@@ -18,8 +19,8 @@ const char* name(FaceState state) {
 }
 
 double Frame::time_ms() const {
-  // A double has room for the nanoseconds of 104 days. Of more, milliseconds and what is left do,
-  // and their sum is rounded once.
+  // A double represents nanoseconds exactly up to 104 days. For larger times, milliseconds and the
+  // remainder are exact, and their sum is rounded once.
   constexpr std::int64_t kExact = std::int64_t{1} << 53;
   if (time_ns >= -kExact && time_ns <= kExact) {
     return static_cast<double>(time_ns) / static_cast<double>(kMillisecond_ns);
@@ -30,9 +31,9 @@ double Frame::time_ms() const {
 }
 
 bool time_of(double units, std::int64_t unit_ns, std::int64_t& time_ns) {
-  const std::int64_t most = kLastTime_ns / unit_ns;
+  const std::int64_t max_units = kLastTime_ns / unit_ns;
   const double whole = std::trunc(units);
-  if (!(std::abs(whole) <= static_cast<double>(most))) {  // nor is a NaN a time
+  if (!(std::abs(whole) <= static_cast<double>(max_units))) {  // also rejects NaN
     return false;
   }
   const std::int64_t rest = std::llround((units - whole) * static_cast<double>(unit_ns));
@@ -65,7 +66,7 @@ bool evenly_spaced(const FrameSequence& frames) {
   return true;
 }
 
-std::size_t most_clip_bytes(std::size_t input_bytes) {
+std::size_t max_clip_bytes(std::size_t input_bytes) {
   constexpr std::size_t kAlways = std::size_t{40} << 20, kInputs = 4;
   return kAlways + kInputs * input_bytes;
 }

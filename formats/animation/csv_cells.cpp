@@ -1,3 +1,4 @@
+// Finds columns by name and parses cells.
 #include "formats/animation/csv_cells.h"
 
 #include <algorithm>
@@ -10,7 +11,7 @@ namespace mien::formats {
 
 namespace {
 
-// Whatever the case.
+// Compares without case.
 bool before(std::string_view a, std::string_view b) {
   return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(),
                                       [](char x, char y) { return to_lower(x) < to_lower(y); });
@@ -20,7 +21,7 @@ bool before(std::string_view a, std::string_view b) {
 
 bool CsvHeader::read(CsvTable& table, Fault& fault) {
   if (!table.next_row(fault)) {
-    return !fault.what.empty() ? false : fail(fault, 1, 1, "is empty");
+    return !fault.what.empty() ? false : fail(fault, 1, 1, "empty file");
   }
   columns_ = table.size();
   for (std::size_t i = 0; i < columns_; ++i) {
@@ -30,14 +31,14 @@ bool CsvHeader::read(CsvTable& table, Fault& fault) {
       names_.append(cell).append("\n");
     }
   }
-  // Of equal names the first column comes first, so that the fault is the second's.
+  // Among equal names the first column comes first, so that the fault refers to the second.
   std::stable_sort(sorted_.begin(), sorted_.end(),
                    [this](const Name& a, const Name& b) { return before(text(a), text(b)); });
   const auto twice = std::adjacent_find(
       sorted_.begin(), sorted_.end(),
       [this](const Name& a, const Name& b) { return same_name(text(a), text(b)); });
   return twice == sorted_.end() ||
-         table.fail_at(twice[1].column, "column " + quoted(text(*twice)) + " appears twice", fault);
+         table.fail_at(twice[1].column, "duplicate column " + quoted(text(*twice)), fault);
 }
 
 std::string_view CsvHeader::text(const Name& name) const {
@@ -61,8 +62,8 @@ std::string_view CsvHeader::name(std::size_t column) const {
 bool check_width(const CsvTable& table, const CsvHeader& header, Fault& fault) {
   return table.size() == header.size() ||
          table.fail_at(table.size() - 1,
-                       "the row has " + std::to_string(table.size()) + " cells, the header " +
-                           std::to_string(header.size()),
+                       "wrong number of cells (got " + std::to_string(table.size()) +
+                           ", expected " + std::to_string(header.size()) + ")",
                        fault);
 }
 

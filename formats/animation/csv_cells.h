@@ -1,4 +1,4 @@
-// What readers of tables share: columns by name, numbers with their place in a fault.
+// Columns by name and numbers with positions, for readers of tables.
 #pragma once
 
 #include <cstddef>
@@ -14,11 +14,11 @@ namespace mien::formats {
 
 using Column = std::optional<std::size_t>;
 
-// The header of a table: which column has which name, whatever the case. Columns are sorted by
-// their names, so that any number of them is read in nearly linear time.
+// The header of a table. Names ignore case. Columns are sorted by name, so reading any number of
+// them takes nearly linear time.
 class CsvHeader {
  public:
-  // Reads the first row. False where there is none, or a name stands there twice.
+  // Reads the first row. Returns false if it is missing or has duplicate names.
   [[nodiscard]] bool read(CsvTable& table, Fault& fault);
 
   [[nodiscard]] std::size_t size() const { return columns_; }
@@ -32,28 +32,28 @@ class CsvHeader {
 
   [[nodiscard]] std::string_view text(const Name& name) const;
 
-  std::string names_;         // each with '\n' behind it; no name has one inside
-  std::vector<Name> sorted_;  // those that are not empty
+  std::string names_;         // each followed by '\n', which no name contains
+  std::vector<Name> sorted_;  // non-empty names
   std::size_t columns_ = 0;
 };
 
-// Whether the row has as many cells as the header.
+// Whether the row has the same number of cells as the header.
 [[nodiscard]] bool check_width(const CsvTable& table, const CsvHeader& header, Fault& fault);
 
-// The number of a cell; nothing for an empty cell and for a column that is not there. False where
-// the cell is no number.
+// Reads a number; nothing for an empty cell or a missing column. Returns false if the cell is not a
+// number.
 [[nodiscard]] bool read_cell(CsvTable& table, const CsvHeader& header, Column column,
                              std::optional<double>& value, Fault& fault);
 
-// The same of what has to lie in 0..1; kNoNumber where there is nothing.
+// The same for numbers in 0..1; kNoNumber for an empty cell or a missing column.
 [[nodiscard]] bool read_share(CsvTable& table, const CsvHeader& header, Column column,
                               double& value, Fault& fault);
 
-// The same of what files of others may exaggerate: brought into 0..1, and counted.
+// The same for files of other programs, which may exceed 0..1: clamps and counts such values.
 [[nodiscard]] bool read_clamped(CsvTable& table, const CsvHeader& header, Column column,
                                 double& value, std::int64_t& out_of_range, Fault& fault);
 
-// Into 0..1, and counted where it was not there.
+// Clamps to 0..1, and counts values outside.
 [[nodiscard]] double into_range(double value, std::int64_t& out_of_range);
 
 }  // namespace mien::formats

@@ -1,3 +1,4 @@
+// Splits tables into rows and cells.
 #include "formats/animation/csv_table.h"
 
 #include <algorithm>
@@ -10,7 +11,7 @@ namespace {
 
 std::string_view first_line(std::string_view text) { return text.substr(0, text.find('\n')); }
 
-// Text in quotation marks does not count.
+// Ignores text in quotation marks.
 char separator_of(std::string_view line) {
   std::size_t commas = 0, semicolons = 0, tabs = 0;
   bool in_quotes = false;
@@ -59,7 +60,7 @@ bool CsvTable::split(Fault& fault) {
       starts_.push_back(static_cast<std::uint32_t>(i + 1));
     }
   }
-  return !in_quotes || fail(fault, line_, opened, "this quotation mark is not closed");
+  return !in_quotes || fail(fault, line_, opened, "unterminated quotation mark");
 }
 
 std::string_view CsvTable::raw(std::size_t i) const {

@@ -1,6 +1,6 @@
-// Tables as text (RFC 4180, cells of one line), read row by row, knowing where they are. CR LF and
-// empty lines at the end are what spreadsheets make, and no fault; nor are semicolons or tabs
-// between cells, with commas within numbers.
+// Tables as text (RFC 4180, cells of one line), read row by row with positions. Accepts CR LF and
+// empty lines at the end, as spreadsheets write them, and semicolons or tabs as separators with
+// decimal commas.
 #pragma once
 
 #include <cstddef>
@@ -13,26 +13,26 @@
 
 namespace mien::formats {
 
-// Where the cells of a row begin, counted in bytes: 4 bytes a cell, since a row may be all of a
-// file. A deque grows without a copy of what it has.
+// Byte offsets of the cells of a row: 4 bytes each, because a row may be the whole file. A deque
+// grows without copying.
 using CellStarts = std::deque<std::uint32_t>;
 
 class CsvTable {
  public:
-  // The first line tells what separates cells: the most frequent of comma, semicolon, and tab.
+  // The separator is the most frequent of comma, semicolon and tab in the first line.
   explicit CsvTable(std::string_view text);
 
-  // False at the end, and where a quotation mark is not closed: then `fault` says so.
+  // Returns false at the end, and with a fault if a quotation mark is unterminated.
   [[nodiscard]] bool next_row(Fault& fault);
 
   [[nodiscard]] std::size_t size() const { return starts_.size(); }
   // Without quotation marks. Valid until the next call of any function.
   [[nodiscard]] std::string_view cell(std::size_t i);
-  // False, and `value` as it was, where the cell is not a finite number.
+  // Returns false and leaves `value` unchanged if the cell is not a finite number.
   [[nodiscard]] bool number(std::size_t i, double& value);
   [[nodiscard]] std::size_t line() const { return line_; }
 
-  // Of a cell of this row, or of the row itself where it has no such cell.
+  // Reports an error at a cell of this row, or at the row if the cell does not exist.
   [[nodiscard]] bool fail_at(std::size_t i, const std::string& what, Fault& fault) const;
 
  private:

@@ -1,3 +1,4 @@
+// Reads and writes curves as CSV.
 #include "formats/animation/curves_csv.h"
 
 #include <algorithm>
@@ -21,7 +22,7 @@ constexpr std::array<std::string_view, 3> kAngleNames = {"pitch_rad", "yaw_rad",
 constexpr std::array<std::string_view, 3> kPositionNames = {"tx_m", "ty_m", "tz_m"};
 constexpr std::array kStates = {FaceState::kSearching, FaceState::kTracking, FaceState::kLost};
 
-// Room for the longest row: each cell a number or a short word.
+// Buffer for the longest row; each cell is a number or a short word.
 class Row : public CsvRow {
  public:
   Row() : CsvRow(room_) {}
@@ -46,7 +47,7 @@ Names names_of(Weights weights) {
   return {};
 }
 
-// In the order of names_of; of what the file was read from where it had them.
+// Weights in the order of names_of, from the original vocabulary if the frame has it.
 std::vector<double> weights_of(const Frame& frame, Weights weights) {
   if (weights == Weights::kControls) {
     return {frame.controls.begin(), frame.controls.end()};
@@ -147,33 +148,34 @@ class CurvesReader {
       }
     }
     return fault_.what.empty() &&
-           (!clip.frames.empty() || fail(fault_, table_.line() + 1, 1, "there are no frames"));
+           (!clip.frames.empty() || fail(fault_, table_.line() + 1, 1, "no frames"));
   }
 
  private:
   bool find_columns() {
     time_ = header_.find("t_ms");
     if (!time_) {
-      return table_.fail_at(0, "there is no column t_ms", fault_);
+      return table_.fail_at(0, "t_ms: missing column", fault_);
     }
-    std::size_t most = 0;
+    std::size_t max_count = 0;
     for (const Weights candidate : {Weights::kControls, Weights::kFacs, Weights::kVisemes}) {
       std::size_t there = 0;
       for (const std::string_view name : names_of(candidate)) {
         there += header_.find(name) ? 1 : 0;
       }
-      if (there > most) {
-        most = there;
+      if (there > max_count) {
+        max_count = there;
         weights_ = candidate;
       }
     }
     for (const std::string_view name : names_of(weights_)) {
       columns_.push_back(header_.find(name));
     }
-    return most > 0 || table_.fail_at(0,
-                                      "there is no column of a control (eyeBlinkLeft ... "
-                                      "tongueOut), of a unit of Roblox, or of a viseme",
-                                      fault_);
+    return max_count > 0 ||
+           table_.fail_at(
+               0,
+               "no column with a control (eyeBlinkLeft ... tongueOut), a Roblox unit or a viseme",
+               fault_);
   }
 
   bool read_frame(Frame& frame) {
@@ -192,7 +194,7 @@ class CurvesReader {
       return false;
     }
     if (!t_ms) {
-      return table_.fail_at(*time_, "t_ms: is empty", fault_);
+      return table_.fail_at(*time_, "t_ms: empty", fault_);
     }
     return time_of(*t_ms, kMillisecond_ns, frame.time_ns) ||
            table_.fail_at(*time_, "t_ms: " + quoted(table_.cell(*time_)) + " is out of range",
@@ -201,7 +203,7 @@ class CurvesReader {
 
   bool goes_on(const FrameSequence& before, const Frame& frame) {
     return before.empty() || frame.time_ns >= before.last_time_ns() ||
-           table_.fail_at(*time_, "t_ms: goes back in time", fault_);
+           table_.fail_at(*time_, "t_ms: decreasing time", fault_);
   }
 
   bool read_integer(std::string_view name, std::int64_t& value) {
@@ -211,7 +213,7 @@ class CurvesReader {
       return true;
     }
     return table_.fail_at(
-        *column, std::string(name) + ": " + quoted(table_.cell(*column)) + " is not a whole number",
+        *column, std::string(name) + ": " + quoted(table_.cell(*column)) + " is not an integer",
         fault_);
   }
 
@@ -226,13 +228,13 @@ class CurvesReader {
         return true;
       }
     }
-    return table_.fail_at(
-        *column,
-        "status: " + quoted(table_.cell(*column)) + " is none of searching, tracking, lost",
-        fault_);
+    return table_.fail_at(*column,
+                          "status: " + quoted(table_.cell(*column)) +
+                              " is unknown, expected searching, tracking or lost",
+                          fault_);
   }
 
-  // All of them or none.
+  // All columns or none.
   template <std::size_t N>
   bool read_all(const std::array<std::string_view, N>& names,
                 std::optional<std::array<double, N>>& values) {
@@ -305,7 +307,7 @@ std::unique_ptr<AnimationWriter> curves_csv_writer(Weights weights, bool several
 
 bool read_curves_csv(std::string_view text, Clip& clip, Fault& fault) {
   Clip read;
-  read.frames.limit_bytes(most_clip_bytes(text.size()));
+  read.frames.limit_bytes(max_clip_bytes(text.size()));
   if (!CurvesReader(text, fault).read(read)) {
     return false;
   }

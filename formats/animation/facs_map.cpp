@@ -1,3 +1,4 @@
+// Converts between ARKit's controls and Roblox's units.
 #include "formats/animation/facs_map.h"
 
 #include <algorithm>
@@ -8,7 +9,7 @@
 namespace mien::formats {
 namespace {
 
-// Where one of the two is not driven the other stands alone.
+// If one control is unknown, the other one counts.
 double joined(double a, double b, Join join) {
   if (!driven(a) || !driven(b)) {
     return driven(a) ? a : b;

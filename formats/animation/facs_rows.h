@@ -1,4 +1,4 @@
-// Roblox's units and ARKit's controls, as a table that readers, writers and the library share.
+// The table of Roblox's units and ARKit's controls, shared by readers, writers and the library.
 #pragma once
 
 #include <cstddef>
@@ -10,12 +10,12 @@ namespace mien::formats {
 
 enum class Join : std::uint8_t { kMean, kMax, kMin };
 
-// How the units of Roblox are made of ARKit's controls. A unit is the mean, largest or smallest of
-// one control or two. Back, a control is the mean of the units that it is a part of; the smallest
-// (Corrugator) says nothing that the others do not.
+// How a unit of Roblox is derived from ARKit's controls: as the mean, maximum or minimum of one or
+// two controls. In the other direction a control is the mean of its units; the minimum (Corrugator)
+// adds no information and is ignored.
 struct FacsRow {
   std::size_t unit;
-  std::size_t first, second;  // equal: one control alone
+  std::size_t first, second;  // equal: a single control
   Join join = Join::kMean;
 };
 

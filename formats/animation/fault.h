@@ -1,4 +1,4 @@
-// What is wrong with a file that was to be read, and where.
+// The reason and position of a failed read.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +8,8 @@
 namespace mien::formats {
 
 struct Fault {
-  std::size_t line = 0;    // from 1; 0: of a binary file
-  std::size_t column = 0;  // bytes from 1; of a binary file the byte from 0
+  std::size_t line = 0;    // from 1; 0: a binary file
+  std::size_t column = 0;  // in bytes from 1; in a binary file, the offset from 0
   std::string what;
 };
 
@@ -22,7 +22,7 @@ struct Fault {
          fault.what;
 }
 
-// Fills in the fault and says no, for `return fail(...)`.
+// Sets the fault and returns false, for `return fail(...)`.
 [[nodiscard]] inline bool fail(Fault& fault, std::size_t line, std::size_t column,
                                std::string what) {
   fault = {line, column, std::move(what)};

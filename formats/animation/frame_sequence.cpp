@@ -1,3 +1,4 @@
+// Encodes frames as differences to the previous one.
 #include "formats/animation/frame_sequence.h"
 
 #include <algorithm>
@@ -12,23 +13,23 @@
 namespace mien::formats {
 namespace {
 
-// Of one frame: three numbers of 64 bits, 7 bits a byte, and 18 groups.
+// Per frame: three 64-bit varints and 18 groups.
 constexpr std::size_t kMaxBytes = 3 * 10 + 18 * (2 + 8 * 8);
-constexpr std::size_t kFirstBlock = 256, kLargestBlock = std::size_t{1} << 16;
+constexpr std::size_t kFirstBlock = 256, kMaxBlock = std::size_t{1} << 16;
 
-// Where in the slots things are.
+// Indices of slots.
 constexpr std::size_t kKindAt = 0, kFaceAt = 1, kLodAt = 2, kProbabilityAt = 3, kVoiceAt = 4,
                       kBoxAt = 5, kHeadAt = 9, kPositionAt = 12, kEyesAt = 15, kControlsAt = 21,
                       kFacsAt = kControlsAt + kControlCount, kVisemesAt = kFacsAt + kFacsCount;
 
-// Bits of the first slot; mouth shape and state stand above them.
+// Bits of the first slot; mouth shape and state use the bits above.
 constexpr std::uint64_t kHasBox = 1, kHasHead = 2, kHasPosition = 4, kHasEyes = 8, kHasFacs = 16,
                         kHasVisemes = 32, kDerived = 64, kStep = 128;
 constexpr unsigned kShapeShift = 8, kStateShift = 16;
 
 std::uint64_t bits(double value) { return std::bit_cast<std::uint64_t>(value); }
 
-// What the controls come to that were made of a vocabulary; all 0 where there is none.
+// Controls derived from a vocabulary; all 0 without one.
 std::array<double, kControlCount> derived(const Frame& frame) {
   if (frame.mouth_shape != 0) {
     return controls_of_visemes(visemes_of_mouth_shape(frame.mouth_shape));
@@ -50,7 +51,7 @@ bool is_derived(const Frame& frame) {
   return std::memcmp(wanted.data(), frame.controls.data(), sizeof wanted) == 0;
 }
 
-// Numbers with at most nine decimals, as files have them, in 4 bytes.
+// Numbers with at most nine decimals, which are typical for files, take 4 bytes.
 constexpr double kBillion = 1e9;
 bool has_nine_decimals(std::uint64_t slot, std::int32_t& billionths) {
   const auto value = std::bit_cast<double>(slot);
@@ -69,7 +70,7 @@ std::int64_t unzigzag(std::uint64_t value) {
   return static_cast<std::int64_t>(value >> 1 ^ (~(value & 1) + 1));
 }
 
-// Numbers of frames may be any of 64 bits: taken modulo 2^64.
+// Frame numbers may be any 64-bit value, so arithmetic is modulo 2^64.
 std::int64_t difference(std::int64_t a, std::int64_t b) {
   return std::bit_cast<std::int64_t>(static_cast<std::uint64_t>(a) - static_cast<std::uint64_t>(b));
 }
@@ -144,7 +145,7 @@ FrameSequence::FrameSequence(const std::vector<Frame>& frames) {
   }
 }
 
-// What a frame does not have keeps the slots that it had before.
+// Absent data keep the slots of the previous frame.
 void FrameSequence::put(const Frame& frame, State& state) {
   auto& slots = state.slots;
   state.number = frame.number;
@@ -217,8 +218,8 @@ void FrameSequence::take(const State& state, Frame& frame) {
   }
 }
 
-// Number and time, which groups of slots differ, and of each of these which slots differ, which of
-// them take 4 bytes, and their values.
+// Encodes number and time, the groups that differ, in each group the slots that differ, those of
+// them with 4 bytes, and their values.
 std::string FrameSequence::packed(const State& before, const State& state) {
   std::string bytes;
   bytes.reserve(kMaxBytes);
@@ -245,12 +246,12 @@ bool FrameSequence::add(const Frame& frame) {
   State state = last_;
   put(frame, state);
   const std::string bytes = packed(last_, state);
-  if (bytes.size() > most_bytes_ - std::min(bytes_, most_bytes_)) {
+  if (bytes.size() > max_bytes_ - std::min(bytes_, max_bytes_)) {
     return false;
   }
   if (blocks_.empty() || blocks_.back().capacity() - blocks_.back().size() < bytes.size()) {
     const std::size_t next = blocks_.empty() ? kFirstBlock : 2 * blocks_.back().capacity();
-    blocks_.emplace_back().reserve(std::max(std::min(next, kLargestBlock), bytes.size()));
+    blocks_.emplace_back().reserve(std::max(std::min(next, kMaxBlock), bytes.size()));
   }
   blocks_.back() += bytes;
   bytes_ += bytes.size();

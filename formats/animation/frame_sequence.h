@@ -1,7 +1,7 @@
-// Frames in little memory: each as what differs from the one before it. A Frame has 700 bytes, and
-// a line of a file may have four.
+// Frames in little memory: each is stored as the difference to the previous one. A Frame has 700
+// bytes, but a line of a file may have four.
 //
-// Frames are read in their order only; any number of iterators may be under way at once.
+// Frames can only be read in order; any number of iterators may be active.
 #pragma once
 
 #include <array>
@@ -22,18 +22,18 @@ class FrameSequence {
   FrameSequence() = default;
   explicit FrameSequence(const std::vector<Frame>& frames);
 
-  // How much memory add() may take at most; no limit without it.
-  void limit_bytes(std::size_t most) { most_bytes_ = most; }
+  // Limits the memory of add(); unlimited by default.
+  void limit_bytes(std::size_t max_bytes) { max_bytes_ = max_bytes; }
 
-  // False, and nothing added, where the limit would be exceeded.
+  // Returns false and adds nothing if the limit would be exceeded.
   [[nodiscard]] bool add(const Frame& frame);
-  // The same of a sequence without a limit.
+  // The same for a sequence without a limit.
   void push_back(const Frame& frame) { static_cast<void>(add(frame)); }
 
   [[nodiscard]] bool empty() const { return size_ == 0; }
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] std::size_t bytes() const { return bytes_; }
-  // Of a sequence that is not empty.
+  // Requires a non-empty sequence.
   [[nodiscard]] std::int64_t first_time_ns() const { return first_time_ns_; }
   [[nodiscard]] std::int64_t last_time_ns() const { return last_.time_ns; }
 
@@ -43,12 +43,12 @@ class FrameSequence {
 
   [[nodiscard]] std::vector<Frame> unpacked() const;
 
-  // Visits all frames, and gives their memory back on the way. Nothing is left then.
+  // Visits all frames and frees their memory meanwhile. The sequence is empty afterwards.
   template <class Visit>
   void consume(Visit visit);
 
  private:
-  // All numbers of a frame but number and time; those of groups of 8 are packed together.
+  // All numbers of a frame except number and time, in groups of 8.
   static constexpr std::size_t kGroups = 18;
   static constexpr std::size_t kSlots = 8 * kGroups;
 
@@ -67,7 +67,7 @@ class FrameSequence {
   std::int64_t first_time_ns_ = 0;
   std::size_t size_ = 0;
   std::size_t bytes_ = 0;
-  std::size_t most_bytes_ = std::numeric_limits<std::size_t>::max();
+  std::size_t max_bytes_ = std::numeric_limits<std::size_t>::max();
 };
 
 class FrameSequence::Iterator {
@@ -78,7 +78,7 @@ class FrameSequence::Iterator {
   Iterator() = default;
   explicit Iterator(const FrameSequence& frames) : frames_(&frames), left_(frames.size_) { read(); }
 
-  // Until the next step.
+  // Valid until the next step.
   const Frame& operator*() const { return frame_; }
   const Frame* operator->() const { return &frame_; }
   Iterator& operator++() {
@@ -89,7 +89,7 @@ class FrameSequence::Iterator {
   void operator++(int) { ++*this; }
   friend bool operator==(const Iterator& at, std::default_sentinel_t) { return at.left_ == 0; }
 
-  // How many blocks lie behind.
+  // The number of blocks already read.
   [[nodiscard]] std::size_t block() const { return block_; }
 
  private:

@@ -1,3 +1,4 @@
+// Reads and writes JSON lines.
 #include "formats/animation/frames_jsonl.h"
 
 #include <algorithm>
@@ -28,7 +29,7 @@ std::string json_angles(const Angles& angles) {
          ",\"roll_rad\":" + shortest(angles.roll);
 }
 
-// Those that are driven, by their names.
+// Supported controls by name.
 std::string json_weights(std::span<const double> values, std::span<const std::string_view> names) {
   std::string text = "{";
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -45,7 +46,7 @@ class FramesJsonlWriter : public AnimationWriter {
   std::string frame(const Frame& frame) override { return frame_json(frame) + "\n"; }
 };
 
-// One object of a line.
+// Reads the object of a line.
 class ObjectReader {
  public:
   ObjectReader(const JsonValue& object, Fault& fault) : object_(object), fault_(fault) {}
@@ -66,16 +67,16 @@ class ObjectReader {
   bool read_time(std::int64_t& time_ns) {
     const std::optional<JsonValue> found = object_.find("t_ns");
     if (!found) {
-      return object_.fail_here("the frame has no t_ns", fault_);
+      return object_.fail_here("t_ns: missing", fault_);
     }
     return read_integer("t_ns", time_ns) &&
-           (time_allowed(time_ns) || found->fail_here("t_ns: is out of range", fault_));
+           (time_allowed(time_ns) || found->fail_here("t_ns: out of range", fault_));
   }
 
   bool read_integer(std::string_view key, std::int64_t& value) {
     const std::optional<JsonValue> found = object_.find(key);
     return !found || found->integer(value) ||
-           found->fail_here(std::string(key) + ": is not a whole number", fault_);
+           found->fail_here(std::string(key) + ": expected an integer", fault_);
   }
 
   bool read_share(std::string_view key, double& value) {
@@ -85,7 +86,7 @@ class ObjectReader {
 
   bool share(const JsonValue& found, std::string_view key, double& value) {
     if (!found.is(Kind::kNumber) || found.number() < 0.0 || found.number() > 1.0) {
-      return found.fail_here(std::string(key) + ": is not a number in 0..1", fault_);
+      return found.fail_here(std::string(key) + ": expected a number in 0..1", fault_);
     }
     value = found.number();
     return true;
@@ -103,7 +104,7 @@ class ObjectReader {
         return true;
       }
     }
-    return found->fail_here("status: is none of searching, tracking, lost", fault_);
+    return found->fail_here("status: expected searching, tracking or lost", fault_);
   }
 
   template <std::size_t N>
@@ -123,7 +124,7 @@ class ObjectReader {
       read[count++] = item.number();
     }
     if (!good || count != N) {
-      return found->fail_here(std::string(key) + ": is not " + std::to_string(N) + " numbers",
+      return found->fail_here(std::string(key) + ": expected " + std::to_string(N) + " numbers",
                               fault_);
     }
     values = read;
@@ -140,7 +141,7 @@ class ObjectReader {
     for (std::size_t i = 0; i < 3; ++i) {
       const std::optional<JsonValue> part = found->find(kKeys[i]);
       if (!part || !part->is(Kind::kNumber)) {
-        return found->fail_here("pitch_rad, yaw_rad and roll_rad have to be here", fault_);
+        return found->fail_here("pitch_rad, yaw_rad and roll_rad are required", fault_);
       }
       *parts[i] = part->number();
     }
@@ -158,7 +159,7 @@ class ObjectReader {
       return false;
     }
     if (!left || !right) {
-      return found->fail_here("eyes: left and right have to be here", fault_);
+      return found->fail_here("eyes: left and right are required", fault_);
     }
     frame.eyes = {*left, *right};
     return true;
@@ -172,14 +173,14 @@ class ObjectReader {
       return true;
     }
     if (!found->is(Kind::kObject)) {
-      return found->fail_here(std::string(key) + ": is not an object", fault_);
+      return found->fail_here(std::string(key) + ": expected an object", fault_);
     }
     const JsonValue::Items members = found->items();
     for (auto at = members.begin(); at != members.end(); ++at) {
       const std::string name = at.key().text();
       const std::size_t which = index_of(name, names);
       if (which == N) {
-        return (*at).fail_here(std::string(key) + ": there is no " + quoted(name), fault_);
+        return (*at).fail_here(std::string(key) + ": unknown name " + quoted(name), fault_);
       }
       if (!share(*at, name, values[which])) {
         return false;
@@ -205,7 +206,7 @@ class ObjectReader {
     }
     const std::string said = found->text();
     if (said.size() != 1 || kMouthShapes.find(said[0]) == kMouthShapes.npos) {
-      return found->fail_here("mouth_shape: is none of A to H and X", fault_);
+      return found->fail_here("mouth_shape: expected A to H or X", fault_);
     }
     shape = said[0];
     return true;
@@ -217,7 +218,7 @@ class ObjectReader {
 
 bool read_object(const JsonValue& object, Frame& frame, Fault& fault) {
   return object.is(Kind::kObject) ? ObjectReader(object, fault).read(frame)
-                                  : object.fail_here("is not an object", fault);
+                                  : object.fail_here("expected an object", fault);
 }
 
 }  // namespace
@@ -271,7 +272,7 @@ std::unique_ptr<AnimationWriter> frames_jsonl_writer() {
 
 bool read_frames_jsonl(std::string_view text, Clip& clip, Fault& fault) {
   Clip read;
-  read.frames.limit_bytes(most_clip_bytes(text.size()));
+  read.frames.limit_bytes(max_clip_bytes(text.size()));
   JsonDocument document;
   std::size_t line = 0;
   while (!text.empty()) {
@@ -287,14 +288,14 @@ bool read_frames_jsonl(std::string_view text, Clip& clip, Fault& fault) {
       return false;
     }
     if (!read.frames.empty() && frame.time_ns < read.frames.last_time_ns()) {
-      return document.root().find("t_ns")->fail_here("t_ns: goes back in time", fault);
+      return document.root().find("t_ns")->fail_here("t_ns: decreasing time", fault);
     }
     if (!add_frame(read, frame, line, fault)) {
       return false;
     }
   }
   if (read.frames.empty()) {
-    return fail(fault, line + 1, 1, "there are no frames");
+    return fail(fault, line + 1, 1, "no frames");
   }
   clip = std::move(read);
   return true;

@@ -1,4 +1,4 @@
-// JSON lines: one object a frame, which holds everything a Frame does; docs/cli.md describes it.
+// JSON lines: one object per frame with all data of a Frame; docs/cli.md describes it.
 #pragma once
 
 #include <memory>
@@ -11,12 +11,12 @@
 
 namespace mien::formats {
 
-// One object without a line feed: also what a network sender puts into a packet.
+// One object without a line feed, also used for network packets.
 [[nodiscard]] std::string frame_json(const Frame& frame);
 
 [[nodiscard]] std::unique_ptr<AnimationWriter> frames_jsonl_writer();
 
-// t_ns has to be in every object; unknown keys are passed over. On a fault `clip` stays as it was.
+// Every object must have t_ns; unknown keys are ignored. Leaves `clip` unchanged on failure.
 [[nodiscard]] bool read_frames_jsonl(std::string_view text, Clip& clip, Fault& fault);
 
 }  // namespace mien::formats

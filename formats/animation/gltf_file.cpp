@@ -1,3 +1,4 @@
+// Reads documents, buffers and accessors of glTF.
 #include "formats/animation/gltf_file.h"
 
 #include <bit>
@@ -26,7 +27,7 @@ bool fail_at_byte(std::size_t byte, const char* what, Fault& fault) {
   return fail(fault, 0, byte, what);
 }
 
-// Of a name in a URI: %20 is a blank.
+// Decodes a URI: %20 is a space.
 std::string percent_decoded(std::string_view text) {
   constexpr std::string_view kDigits = "0123456789abcdef";
   std::string decoded;
@@ -44,7 +45,7 @@ std::string percent_decoded(std::string_view text) {
   return decoded;
 }
 
-// What compresses buffer views; other extensions change nothing that is read here.
+// Extensions that compress buffer views. Other extensions do not affect the data read here.
 constexpr std::string_view kCompressions[] = {"EXT_meshopt_compression", "KHR_meshopt_compression"};
 
 }  // namespace
@@ -84,17 +85,17 @@ bool GltfFile::split(std::string_view bytes, std::string_view& json) {
     return fail_at_byte(bytes.size(), "the file ends within its header", fault_);
   }
   if (u32(bytes, 4) != 2) {
-    return fail_at_byte(4, "is not version 2 of glTF", fault_);
+    return fail_at_byte(4, "expected glTF version 2", fault_);
   }
   if (u32(bytes, 8) != bytes.size()) {
-    return fail_at_byte(8, "says that the file has another length", fault_);
+    return fail_at_byte(8, "wrong file length", fault_);
   }
   if (u32(bytes, 16) != kJson) {
     return fail_at_byte(16, "the first chunk is not JSON", fault_);
   }
   const std::size_t json_bytes = u32(bytes, 12);
   if (json_bytes > bytes.size() - 20) {
-    return fail_at_byte(12, "the chunk does not fit into the file", fault_);
+    return fail_at_byte(12, "the chunk exceeds the file", fault_);
   }
   json = bytes.substr(20, json_bytes);
   const std::size_t next = 20 + json_bytes;
@@ -102,13 +103,13 @@ bool GltfFile::split(std::string_view bytes, std::string_view& json) {
     return true;
   }
   if (u32(bytes, next) > bytes.size() - next - 8) {
-    return fail_at_byte(next, "the chunk does not fit into the file", fault_);
+    return fail_at_byte(next, "the chunk exceeds the file", fault_);
   }
   chunk_ = bytes.substr(next + 8, u32(bytes, next));
   return true;
 }
 
-// Those that others refer to by their numbers, so that none has to be counted through again.
+// Lists whose items are referenced by index, collected once so that lookups take constant time.
 void GltfFile::find_lists() {
   for (const char* name : {"accessors", "bufferViews", "buffers", "meshes", "nodes"}) {
     Items& items = lists_[name];
@@ -128,17 +129,17 @@ std::optional<std::size_t> GltfFile::index(const JsonValue& from, std::string_vi
   const std::optional<JsonValue> found = from.find(key);
   std::int64_t i = -1;
   if (!found || !found->integer(i)) {
-    static_cast<void>(from.fail_here(std::string(key) + ": has to be here", fault_));
+    static_cast<void>(from.fail_here(std::string(key) + ": missing", fault_));
     return std::nullopt;
   }
   if (i < 0 || static_cast<std::uint64_t>(i) >= list(of).size()) {
-    static_cast<void>(found->fail_here(std::string(key) + ": there is no such one", fault_));
+    static_cast<void>(found->fail_here(std::string(key) + ": invalid index", fault_));
     return std::nullopt;
   }
   return static_cast<std::size_t>(i);
 }
 
-// 0 where there is none; false where it is no number of bytes or elements.
+// 0 if absent. Returns false if it is not a number of bytes or elements.
 bool GltfFile::count(const JsonValue& from, std::string_view key, std::size_t& value) {
   value = 0;
   const std::optional<JsonValue> found = from.find(key);
@@ -148,7 +149,7 @@ bool GltfFile::count(const JsonValue& from, std::string_view key, std::size_t& v
     return true;
   }
   if (!found->integer(read) || read < 0 || read > kMost) {
-    return found->fail_here(std::string(key) + ": is out of range", fault_);
+    return found->fail_here(std::string(key) + ": out of range", fault_);
   }
   value = static_cast<std::size_t>(read);
   return true;
@@ -173,15 +174,15 @@ bool GltfFile::component_type(const JsonValue& accessor, GltfNumbers& numbers) {
       numbers.component_bytes_ = 2;
       break;
     default:
-      return accessor.fail_here(
-          "componentType: only 5126 (float) and normalized 5120 to 5123 are read", fault_);
+      return accessor.fail_here("componentType: expected 5126 (float) or normalized 5120 to 5123",
+                                fault_);
   }
-  return whole || accessor.fail_here("componentType: whole numbers have to be normalized", fault_);
+  return whole || accessor.fail_here("componentType: integers must be normalized", fault_);
 }
 
 bool GltfFile::numbers(const JsonValue& accessor, std::size_t width, GltfNumbers& numbers) {
   if (accessor.find("sparse")) {
-    return accessor.fail_here("sparse accessors are not read", fault_);
+    return accessor.fail_here("sparse accessors are not supported", fault_);
   }
   const std::optional<std::size_t> view = index(accessor, "bufferView", "bufferViews");
   std::size_t offset = 0, stride = 0;
@@ -193,7 +194,7 @@ bool GltfFile::numbers(const JsonValue& accessor, std::size_t width, GltfNumbers
     return false;
   }
   numbers.width_ = width;
-  // Elements of whole numbers begin at a multiple of their size alone: only matrices are padded.
+  // Elements are aligned to the component size; only matrices have padding.
   const std::size_t element_bytes = numbers.component_bytes_ * width;
   numbers.stride_ = stride == 0 ? element_bytes : stride;
   const std::uint64_t needed =
@@ -201,7 +202,7 @@ bool GltfFile::numbers(const JsonValue& accessor, std::size_t width, GltfNumbers
           ? 0
           : std::uint64_t{numbers.elements_ - 1} * numbers.stride_ + element_bytes;
   if (numbers.stride_ < element_bytes || offset + needed > bytes.size()) {
-    return accessor.fail_here("the data of the accessor does not fit into its buffer", fault_);
+    return accessor.fail_here("the accessor exceeds its buffer", fault_);
   }
   numbers.bytes_ = bytes.substr(std::min(offset, bytes.size()));
   for (std::size_t i = 0; i < numbers.size(); ++i) {
@@ -217,7 +218,7 @@ bool GltfFile::view_bytes(const JsonValue& view, std::string_view& bytes) {
   for (const std::string_view name : kCompressions) {
     if (extensions && extensions->find(name)) {
       return view.fail_here("bufferView: compressed with " + std::string(name) +
-                                ", which is not read; export the animation without it",
+                                ", which is not supported; export the animation without it",
                             fault_);
     }
   }
@@ -228,7 +229,7 @@ bool GltfFile::view_bytes(const JsonValue& view, std::string_view& bytes) {
     return false;
   }
   if (std::uint64_t{offset} + size > bytes.size()) {
-    return view.fail_here("the data of the accessor does not fit into its buffer", fault_);
+    return view.fail_here("the accessor exceeds its buffer", fault_);
   }
   bytes = bytes.substr(offset, size);
   return true;
@@ -257,14 +258,14 @@ bool GltfFile::load(const JsonValue& buffer, const JsonValue& uri, std::string& 
   if (text.starts_with("data:")) {
     const std::size_t comma = text.find(kBase64);
     return (comma != text.npos && parse_base64(text.substr(comma + kBase64.size()), data)) ||
-           uri.fail_here("uri: is not base64", fault_);
+           uri.fail_here("uri: invalid base64", fault_);
   }
   std::size_t bytes = 0;
   if (!count(buffer, "byteLength", bytes)) {
     return false;
   }
   const std::string name = percent_decoded(text);
-  std::string why = "there is no folder to look for it in";
+  std::string why = "no folder to search";
   return (options_.load_beside && options_.load_beside(name, bytes, data, why)) ||
          uri.fail_here("uri: " + quoted(name) + ": " + why, fault_);
 }

@@ -1,4 +1,4 @@
-// A glTF file: its document, and numbers where they lie in its buffers.
+// A glTF file: its document and the numbers in its buffers.
 #pragma once
 
 #include <cstddef>
@@ -15,11 +15,11 @@
 
 namespace mien::formats {
 
-// Numbers of an accessor, read one by one: floats, or whole numbers that stand for -1..1 or 0..1.
+// The numbers of an accessor, read one by one: floats, or integers that represent -1..1 or 0..1.
 class GltfNumbers {
  public:
   [[nodiscard]] std::size_t size() const { return elements_ * width_; }
-  // As files state it: a float with the fewest digits that are the same float.
+  // A float with the fewest digits that identify it, as in text files.
   [[nodiscard]] float operator[](std::size_t i) const;
 
  private:
@@ -32,22 +32,22 @@ class GltfNumbers {
 
 class GltfFile {
  public:
-  // Both have to outlive this, and so has `bytes`.
+  // Both arguments and `bytes` must outlive this object.
   GltfFile(const ReadOptions& options, Fault& fault) : options_(options), fault_(fault) {}
 
-  // A .glb, or the JSON of a .gltf.
+  // Reads a .glb, or the JSON of a .gltf.
   [[nodiscard]] bool read(std::string_view bytes);
 
   [[nodiscard]] JsonValue root() const { return document_.root(); }
 
-  // The item of the list `of` of the document that the number `key` of `from` says.
+  // The index in the document's list `of` that the member `key` of `from` contains.
   [[nodiscard]] std::optional<std::size_t> index(const JsonValue& from, std::string_view key,
                                                  std::string_view of);
   [[nodiscard]] const JsonValue& item(std::string_view of, std::size_t i) const {
     return list(of)[i];
   }
 
-  // Of an accessor whose elements have `width` components.
+  // The numbers of an accessor with `width` components per element.
   [[nodiscard]] bool numbers(const JsonValue& accessor, std::size_t width, GltfNumbers& numbers);
 
  private:
@@ -67,7 +67,7 @@ class GltfFile {
   JsonDocument document_;
   std::optional<std::string_view> chunk_;  // of a .glb
   std::map<std::string, Items, std::less<>> lists_;
-  // Of the buffers that are read: of the others nobody asks for the data.
+  // Loaded on demand; unused buffers are never loaded.
   std::map<std::size_t, std::string> loaded_;
 };
 

@@ -1,3 +1,4 @@
+// Reads animations from glTF files.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -25,13 +26,13 @@ std::size_t control_of(std::string_view name) {
   return index_of(whole, kArkitNames);
 }
 
-// Keys of one channel: `width` numbers at each time.
+// The keys of a channel: `width` numbers at each time.
 struct Track {
   GltfNumbers times;
   GltfNumbers values;
-  std::size_t width = 0;  // 0: there is no such channel
-  bool cubic = false;     // a value has a tangent before and one behind
-  bool step = false;      // a value holds until the next
+  std::size_t width = 0;  // 0: no such channel
+  bool cubic = false;     // each value is between its two tangents
+  bool step = false;      // each value is held until the next
 
   [[nodiscard]] std::size_t in_key() const { return width * (cubic ? 3 : 1); }
   [[nodiscard]] double value(std::size_t key, std::size_t i) const {
@@ -39,7 +40,7 @@ struct Track {
   }
 };
 
-// The first key at a time or behind it.
+// The first key at or after `time`.
 std::size_t lower_bound(const GltfNumbers& times, float time) {
   std::size_t begin = 0, end = times.size();
   while (begin < end) {
@@ -68,14 +69,14 @@ class GltfReader {
     }
     const std::optional<JsonValue> animations = list(file_.root(), "animations");
     if (!animations || animations->empty()) {
-      return file_.root().fail_here("there is no animation", fault_);
+      return file_.root().fail_here("no animation", fault_);
     }
     const JsonValue animation = *animations->items().begin();
     return read_channels(animation) && read_extras(animation) && make_frames(animation, clip);
   }
 
  private:
-  // Keys of a sampler; of cubic splines their values, without tangents.
+  // Reads the keys of a sampler; of cubic splines the values without tangents.
   bool read_sampler(const JsonValue& sampler, std::size_t width, std::size_t parts, Track& track) {
     const std::optional<std::size_t> input = file_.index(sampler, "input", "accessors");
     const std::optional<std::size_t> output =
@@ -91,7 +92,7 @@ class GltfReader {
     const std::size_t keys = track.times.size();
     if (keys == 0 || track.values.size() != keys * track.in_key()) {
       return file_.item("accessors", *output)
-          .fail_here("the values are not as many as the times ask for", fault_);
+          .fail_here("the number of values does not match the number of times", fault_);
     }
     bool ascending = true;
     for (std::size_t i = 1; i < keys; ++i) {
@@ -101,7 +102,7 @@ class GltfReader {
     if (!ascending || !time_of(decimal(track.times[0]), kSecond_ns, first_ns) ||
         !time_of(decimal(track.times[keys - 1]), kSecond_ns, last_ns)) {
       return file_.item("accessors", *input)
-          .fail_here("times have to ascend, and to be times", fault_);
+          .fail_here("times must increase and be in range", fault_);
     }
     return true;
   }
@@ -129,7 +130,7 @@ class GltfReader {
       }
     }
     return weights_.width > 0 || head_turns_.width > 0 || head_moves_.width > 0 ||
-           animation.fail_here("neither weights of a face nor a head are animated", fault_);
+           animation.fail_here("neither face weights nor a head are animated", fault_);
   }
 
   bool read_channel(const JsonValue& target, const JsonValue& sampler) {
@@ -165,7 +166,7 @@ class GltfReader {
     if (!index) {
       return false;
     }
-    // Each mesh is looked at once, however many channels move it.
+    // Checks each mesh once, however many channels animate it.
     if (other_meshes_.size() <= *index) {
       other_meshes_.resize(*index + 1);
     }
@@ -176,7 +177,7 @@ class GltfReader {
     const std::optional<JsonValue> extras = mesh.find("extras");
     const std::optional<JsonValue> names = extras ? list(*extras, "targetNames") : std::nullopt;
     if (!names || names->empty()) {
-      return mesh.fail_here("the mesh has no extras.targetNames", fault_);
+      return mesh.fail_here("extras.targetNames: missing", fault_);
     }
     bool any = false;
     std::vector<std::size_t> targets;
@@ -201,10 +202,10 @@ class GltfReader {
     ours_ = true;
     const std::optional<JsonValue> start = ours->find("start_ns");
     if (start && !start->integer(start_ns_)) {
-      return start->fail_here("start_ns: is not a whole number", fault_);
+      return start->fail_here("start_ns: expected an integer", fault_);
     }
     if (start && !time_allowed(start_ns_)) {
-      return start->fail_here("start_ns: is out of range", fault_);
+      return start->fail_here("start_ns: out of range", fault_);
     }
     const std::optional<JsonValue> states = ours->find("states");
     states_ = states ? states->text() : "";
@@ -230,7 +231,8 @@ class GltfReader {
       frame.number = static_cast<std::int64_t>(i);
       std::int64_t since_ns = 0;
       const bool is_time = time_of(decimal(times[i]), kSecond_ns, since_ns);
-      frame.time_ns = start_ns_ + since_ns;  // both are allowed, and so it fits
+      frame.time_ns =
+          start_ns_ + since_ns;  // both are within the limits, so the sum does not overflow
       if (!is_time || !time_allowed(frame.time_ns)) {
         return animation.fail_here("the times of frames are out of range", fault_);
       }
@@ -267,7 +269,7 @@ class GltfReader {
     }
   }
 
-  // Between which keys a time lies. In files of this program what has no key is not there.
+  // Finds the keys around a time. In files of this program, data without a key are absent.
   [[nodiscard]] bool find_keys(const Track& track, float time, std::size_t& before,
                                std::size_t& after, double& share) const {
     if (track.width == 0) {
@@ -321,8 +323,8 @@ class GltfReader {
 
   GltfFile file_;
   Fault& fault_;
-  std::vector<std::size_t> targets_;  // control of each morph target; kControlCount: another
-  std::vector<bool> other_meshes_;    // those that are no face
+  std::vector<std::size_t> targets_;  // control of each morph target; kControlCount: none
+  std::vector<bool> other_meshes_;    // those without face targets
   Track weights_, head_turns_, head_moves_;
   std::array<Track, 2> eye_turns_;
   bool ours_ = false;
@@ -335,7 +337,7 @@ class GltfReader {
 
 bool read_gltf(std::string_view bytes, const ReadOptions& options, Clip& clip, Fault& fault) {
   Clip read;
-  read.frames.limit_bytes(most_clip_bytes(bytes.size()));
+  read.frames.limit_bytes(max_clip_bytes(bytes.size()));
   if (!GltfReader(options, fault).read(bytes, read)) {
     return false;
   }

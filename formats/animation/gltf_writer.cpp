@@ -1,3 +1,4 @@
+// Writes animations as glTF.
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -39,7 +40,7 @@ class List {
   std::size_t count_ = 0;
 };
 
-// What one channel animates: a key at each of some frames.
+// The keys of an animated channel, at some of the frames.
 class Channel {
  public:
   Channel(int node, const char* path, const char* type) : node_(node), path_(path), type_(type) {}
@@ -70,7 +71,7 @@ class Channel {
   std::string times_, values_;
 };
 
-// Turns of a node, each on the shorter way from the one before.
+// Rotations of a node, each with the sign nearest to the previous one.
 class Turns {
  public:
   explicit Turns(int node) : channel(node, "rotation", "VEC4") {}
@@ -101,7 +102,7 @@ class Document {
     Channel weights(kFace, "weights", "SCALAR"), moves(kHead, "translation", "VEC3");
     Turns head(kHead), left(kLeftEye), right(kRightEye);
     for (const Frame& frame : frames) {
-      // Keys have to ascend, as fp32.
+      // Keys must increase as fp32.
       const std::int64_t since = frame.time_ns - frames.first_time_ns();
       const auto second = static_cast<float>(static_cast<double>(since) * 1e-9);
       if (weights.keys() > 0 && second <= weights.last()) {
@@ -130,7 +131,7 @@ class Document {
     add_triangle();
   }
 
-  // `buffer_uri` is empty where the buffer is a chunk of the file.
+  // `buffer_uri` is empty if the buffer is a chunk of the file.
   [[nodiscard]] std::string json(const std::string& buffer_uri) const {
     std::string names;
     for (const std::string_view name : kArkitNames) {
@@ -187,7 +188,7 @@ class Document {
                           "\",\"count\":" + std::to_string(count) + bounds + "}");
   }
 
-  // All digits of the fp32, so that it is the same number whoever reads it.
+  // All digits of the fp32, so that every reader gets the same number.
   static std::string exact(float value) { return shortest(static_cast<double>(value)); }
 
   void add_channel(const Channel& channel) {
@@ -235,8 +236,8 @@ class Document {
   }
 
   std::int64_t start_ns_ = 0;
-  std::string states_;  // a letter for each key of the weights
-  bool holds_ = true;   // all of them
+  std::string states_;  // one letter per key of the weights
+  bool holds_ = true;   // for all frames
   std::array<bool, kControlCount> driven_{};
   std::string bytes_;
   List accessors_, views_, samplers_, channels_;

@@ -1,3 +1,4 @@
+// Values of JSON documents.
 #include "formats/animation/json.h"
 
 #include <algorithm>
@@ -27,7 +28,7 @@ JsonValue::Kind JsonValue::kind() const {
   }
 }
 
-// From the value's first byte on; of a number or a string no further than its last.
+// The text from the first byte of the value on; for a number or a string, up to its last byte.
 std::string_view JsonValue::raw() const {
   const std::string_view rest = document_->text_.substr(document_->nodes_[node_].begin);
   return is(Kind::kString)   ? rest.substr(0, json_string_bytes(rest))

@@ -1,7 +1,6 @@
-// JSON (RFC 8259) with the place of each value, so that a reader can say not only that something is
-// wrong but where: no JSON library in use tells the line and column of a value that it has read.
-// Values stay in the text; a value takes 8 bytes, and has at least two bytes of text. Duplicate
-// keys are a fault.
+// A JSON parser (RFC 8259) that knows the position of each value, so that errors have a line and a
+// column, which no common JSON library provides. Values refer to the text; a value takes 8 bytes,
+// and has at least two bytes of text. Duplicate keys are an error.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +16,7 @@ namespace mien::formats {
 
 class JsonDocument;
 
-// A value of a document, which has to outlive it. Cheap to copy.
+// A value of a document, which must outlive it. Cheap to copy.
 class JsonValue {
  public:
   enum class Kind : std::uint8_t { kNull, kBoolean, kNumber, kString, kArray, kObject };
@@ -25,18 +24,17 @@ class JsonValue {
   [[nodiscard]] Kind kind() const;
   [[nodiscard]] bool is(Kind wanted) const { return kind() == wanted; }
   [[nodiscard]] bool truth() const;        // whether it is `true`
-  [[nodiscard]] double number() const;     // 0 of what is no number
-  [[nodiscard]] std::string text() const;  // of a string what it says, of others nothing
-  // The same where nothing is escaped, without a copy.
+  [[nodiscard]] double number() const;     // 0 if it is not a number
+  [[nodiscard]] std::string text() const;  // the content of a string; empty for other kinds
+  // The same without a copy, if the string has no escapes.
   [[nodiscard]] std::optional<std::string_view> plain_text() const;
-  // A whole number of 64 bits, exactly.
+  // Reads an exact 64-bit integer.
   [[nodiscard]] bool integer(std::int64_t& value) const;
 
-  // The member of an object; nothing where there is none, and of what is no object. Takes time for
-  // every member.
+  // The member of an object; nothing if it is absent or this is not an object. Takes linear time.
   [[nodiscard]] std::optional<JsonValue> find(std::string_view key) const;
 
-  // Values of an array, or of an object, one after the other.
+  // The values of an array or an object, in order.
   class Items;
   [[nodiscard]] Items items() const;
   [[nodiscard]] bool empty() const;
@@ -56,19 +54,19 @@ class JsonValue {
 
 class JsonDocument {
  public:
-  // One value and nothing but blanks around it. `text` has to outlive the document. `first_line` is
-  // the line that the text begins with.
+  // Parses a single value, surrounded by whitespace only. `text` must outlive the document.
+  // `first_line` is the line number of its start.
   [[nodiscard]] bool parse(std::string_view text, Fault& fault, std::size_t first_line = 1);
 
-  // Of a document that was parsed.
+  // Requires a parsed document.
   [[nodiscard]] JsonValue root() const { return {*this, 0}; }
 
  private:
   friend class JsonParser;
   friend class JsonValue;
 
-  // Where in the text a value begins, and which node comes behind all that is in it. An object has
-  // keys and values in turn.
+  // The offset of a value, and the node after all values inside it. In an object, keys and values
+  // alternate.
   struct Node {
     std::uint32_t begin, end;
   };
@@ -77,7 +75,7 @@ class JsonDocument {
 
   std::string_view text_;
   std::size_t first_line_ = 1;
-  std::deque<Node> nodes_;  // grows without a copy
+  std::deque<Node> nodes_;  // grows without copying
 };
 
 class JsonValue::Items {
@@ -85,7 +83,9 @@ class JsonValue::Items {
   class Iterator {
    public:
     JsonValue operator*() const { return {*document_, value()}; }
-    [[nodiscard]] JsonValue key() const { return {*document_, node_}; }  // of an object's member
+    [[nodiscard]] JsonValue key() const {
+      return {*document_, node_};
+    }  // the key of an object's member
     Iterator& operator++();
     bool operator==(const Iterator& other) const { return node_ == other.node_; }
 
@@ -113,7 +113,7 @@ class JsonValue::Items {
   bool keys_;
 };
 
-// The text as a JSON string, in its quotation marks.
+// A JSON string with quotation marks.
 [[nodiscard]] std::string json_string(std::string_view text);
 
 }  // namespace mien::formats

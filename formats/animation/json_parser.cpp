@@ -1,3 +1,4 @@
+// Parses JSON.
 #include <algorithm>
 #include <limits>
 #include <utility>
@@ -22,11 +23,11 @@ class JsonParser {
       return false;
     }
     skip_blanks();
-    return at_ == text_.size() || stop("nothing is expected here any more");
+    return at_ == text_.size() || stop("trailing characters");
   }
 
  private:
-  static constexpr int kMaxDepth = 64;  // arrays and objects inside each other
+  static constexpr int kMaxDepth = 64;  // of arrays and objects
 
   [[nodiscard]] bool stop(const char* what) const { return document_.fail_at(at_, what, fault_); }
 
@@ -50,7 +51,7 @@ class JsonParser {
   bool parse(int depth) {
     skip_blanks();
     if (at_ == text_.size()) {
-      return stop("a value is missing");
+      return stop("expected a value");
     }
     const std::uint32_t node = begin_node();
     const bool good = parse_value(depth);
@@ -86,7 +87,7 @@ class JsonParser {
     do {
       skip_blanks();
       if (at_ == text_.size() || text_[at_] != '"') {
-        return stop("a key in quotation marks is missing");
+        return stop("expected a key in quotation marks");
       }
       begin_node();
       if (!parse_string()) {
@@ -94,14 +95,14 @@ class JsonParser {
       }
       skip_blanks();
       if (!take(':')) {
-        return stop("':' is missing");
+        return stop("expected ':'");
       }
       if (!parse(depth + 1)) {
         return false;
       }
       skip_blanks();
     } while (take(','));
-    return take('}') || stop("',' or '}' is missing");
+    return take('}') || stop("expected ',' or '}'");
   }
 
   bool parse_array(int depth) {
@@ -116,12 +117,12 @@ class JsonParser {
       }
       skip_blanks();
     } while (take(','));
-    return take(']') || stop("',' or ']' is missing");
+    return take(']') || stop("expected ',' or ']'");
   }
 
   bool parse_word(std::string_view word) {
     if (text_.substr(at_, word.size()) != word) {
-      return stop("is no value");
+      return stop("invalid value");
     }
     at_ += word.size();
     return true;
@@ -151,7 +152,7 @@ class JsonParser {
     double number = 0.0;
     if (!good || !parse_number(text_.substr(begin, at_ - begin), number)) {
       at_ = begin;
-      return stop("is no value");
+      return stop("invalid value");
     }
     return true;
   }
@@ -176,10 +177,10 @@ class JsonParser {
         at_ += bytes;
       }
     }
-    return stop("the string does not end");
+    return stop("unterminated string");
   }
 
-  // By sorted hashes, so that an object of any size takes nearly linear time.
+  // Sorts hashes, so that an object of any size takes nearly linear time.
   bool keys_differ(std::uint32_t object) {
     keys_.clear();
     const JsonValue::Items members = JsonValue(document_, object).items();
@@ -198,7 +199,7 @@ class JsonParser {
     return true;
   }
 
-  // Of keys with the same hash: few, unless somebody has chosen them so.
+  // Compares keys with equal hashes: few, except in malicious files.
   bool texts_differ(std::vector<std::uint64_t>::iterator begin,
                     std::vector<std::uint64_t>::iterator end) {
     std::sort(begin, end, [this](std::uint64_t a, std::uint64_t b) {
@@ -207,7 +208,7 @@ class JsonParser {
     });
     const auto twice = std::adjacent_find(
         begin, end, [this](std::uint64_t a, std::uint64_t b) { return compare(a, b) == 0; });
-    return twice == end || key(twice[1]).fail_here("this key appears twice", fault_);
+    return twice == end || key(twice[1]).fail_here("duplicate key", fault_);
   }
 
   // FNV-1a, 32 bits.
@@ -221,7 +222,7 @@ class JsonParser {
     return static_cast<std::uint32_t>(value);
   }
 
-  // The node stands in the lower half.
+  // The lower half of the entry is the node.
   [[nodiscard]] JsonValue key(std::uint64_t entry) const {
     return {document_, static_cast<std::uint32_t>(entry & 0xFFFFFFFF)};
   }
@@ -231,7 +232,7 @@ class JsonParser {
     return plain && other ? plain->compare(*other) : key(a).text().compare(key(b).text());
   }
 
-  std::vector<std::uint64_t> keys_;  // of the object that was read last: a hash and a node each
+  std::vector<std::uint64_t> keys_;  // of the last object: hash and node each
   JsonDocument& document_;
   std::string_view text_;
   std::size_t at_ = 0;

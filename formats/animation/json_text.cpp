@@ -1,3 +1,4 @@
+// Escapes of JSON strings.
 #include "formats/animation/json_text.h"
 
 #include <cstdint>
@@ -42,7 +43,7 @@ std::size_t json_string_bytes(std::string_view text) {
 
 std::size_t json_escape_bytes(std::string_view text, const char*& wrong) {
   if (text.empty() || (text[0] != 'u' && kLetters.find(text[0]) == kLetters.npos)) {
-    wrong = "no such escape";
+    wrong = "unknown escape sequence";
     return 0;
   }
   if (text[0] != 'u') {
@@ -50,7 +51,7 @@ std::size_t json_escape_bytes(std::string_view text, const char*& wrong) {
   }
   const std::optional<std::uint32_t> code = hex4(text.substr(1));
   if (!code) {
-    wrong = "four hexadecimal digits are missing";
+    wrong = "expected four hexadecimal digits";
     return 0;
   }
   if (!is_high(*code) && !is_low(*code)) {
@@ -58,7 +59,7 @@ std::size_t json_escape_bytes(std::string_view text, const char*& wrong) {
   }
   const auto low = text.substr(5).starts_with("\\u") ? hex4(text.substr(7)) : std::nullopt;
   if (!is_high(*code) || !low || !is_low(*low)) {
-    wrong = "half a surrogate pair";
+    wrong = "unpaired surrogate";
     return 0;
   }
   return 11;

@@ -1,4 +1,4 @@
-// Strings of JSON as they stand in a text.
+// Strings in JSON text.
 #pragma once
 
 #include <cstddef>
@@ -7,19 +7,19 @@
 
 namespace mien::formats {
 
-// Of a good string that the text begins with, with its quotation marks.
+// The length of the valid string at the start of the text, including quotation marks.
 [[nodiscard]] std::size_t json_string_bytes(std::string_view text);
 
-// Without its quotation marks.
+// The string without its quotation marks.
 [[nodiscard]] constexpr std::string_view json_inside(std::string_view string) {
   return string.substr(1, string.size() - 2);
 }
 
-// What good escapes in it mean.
+// Decodes valid escapes.
 [[nodiscard]] std::string json_unescaped(std::string_view inside);
 
-// How many bytes the escape takes that the text begins with, behind its '\'; 0 and what is wrong
-// where it is no good one.
+// The length of the escape at the start of the text, without its '\'. Returns 0 and the reason if
+// it is invalid.
 [[nodiscard]] std::size_t json_escape_bytes(std::string_view text, const char*& wrong);
 
 }  // namespace mien::formats

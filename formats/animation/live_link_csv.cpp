@@ -1,3 +1,4 @@
+// Writes CSV of Live Link Face.
 #include "formats/animation/live_link_csv.h"
 
 #include <array>
@@ -31,7 +32,7 @@ std::string two_digits(std::int64_t value) {
   return std::string(value < 10 ? "0" : "").append(std::to_string(value));
 }
 
-// Of a day: hours begin anew after 24, and count back from there before 0.
+// Within a day: hours restart after 24, and negative times count back from 24.
 std::string timecode(std::int64_t time_ns, double fps) {
   constexpr std::int64_t kSecond = 1'000'000'000;
   constexpr std::int64_t kDay = 86400;
@@ -69,7 +70,7 @@ class LiveLinkCsvWriter : public AnimationWriter {
 
   std::string frame(const Frame& frame) override {
     std::string line = timecode(frame.time_ns, options_.timecode_fps);
-    if (shows_nothing(frame)) {
+    if (is_blank(frame)) {
       return line + ",0" + std::string(kValues, ',') + "\n";
     }
     line.append(",").append(std::to_string(kValues));
@@ -127,7 +128,7 @@ std::array<double, kRotationCount> live_link_rotations(const Frame& frame, Rotat
   return rotations;
 }
 
-bool shows_nothing(const Frame& frame) {
+bool is_blank(const Frame& frame) {
   for (const double value : frame.controls) {
     if (or_zero(value) != 0.0) {
       return false;

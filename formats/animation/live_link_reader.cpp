@@ -1,3 +1,4 @@
+// Reads CSV of Live Link Face.
 #include "formats/animation/live_link_reader.h"
 
 #include <algorithm>
@@ -16,8 +17,8 @@
 namespace mien::formats {
 namespace {
 
-// HH:MM:SS:FF.mmm; some have a ';' before the frames, or no thousandths. Without a bound of the
-// frames, which only their rate has.
+// Parses HH:MM:SS:FF.mmm; some files have a ';' before the frames, or no thousandths. The frame
+// rate, which limits the frames, is checked elsewhere.
 bool parse_timecode(std::string_view text, Timecode& timecode) {
   std::string_view rest = trimmed(text);
   std::array<double, 4> parts{};
@@ -29,7 +30,7 @@ bool parse_timecode(std::string_view text, Timecode& timecode) {
     }
     rest.remove_prefix(std::min(rest.size(), end + 1));
   }
-  // -1: a timecode, but no time of a day.
+  // -1: a timecode, but not a time of day.
   const bool of_a_day = parts[0] <= 99.0 && parts[1] < 60.0 && parts[2] < 60.0;
   timecode = {of_a_day ? std::llround(parts[0] * 3600.0 + parts[1] * 60.0 + parts[2]) : -1,
               parts[3]};
@@ -54,8 +55,7 @@ class LiveLinkReader {
       }
       last_ns_ = frame.time_ns;
     }
-    return fault_.what.empty() &&
-           (last_ns_ || fail(fault_, table_.line() + 1, 1, "there are no frames"));
+    return fault_.what.empty() && (last_ns_ || fail(fault_, table_.line() + 1, 1, "no frames"));
   }
 
  private:
@@ -64,7 +64,7 @@ class LiveLinkReader {
     count_ = header_.find("BlendshapeCount");
     if (!time_ || !count_) {
       return table_.fail_at(
-          0, std::string("there is no column ") + (time_ ? "BlendshapeCount" : "Timecode"), fault_);
+          0, std::string("missing column ") + (time_ ? "BlendshapeCount" : "Timecode"), fault_);
     }
     bool any = false;
     for (std::size_t i = 0; i < kControlCount; ++i) {
@@ -74,11 +74,11 @@ class LiveLinkReader {
     for (std::size_t i = 0; i < kRotationCount; ++i) {
       rotations_[i] = header_.find(kRotationNames[i]);
     }
-    return any || table_.fail_at(0, "there is no column of a blend shape", fault_);
+    return any || table_.fail_at(0, "no column with a blend shape", fault_);
   }
 
-  // Takes from all rows what the options leave open. What is wrong with a row is found again, and
-  // said, when it is read.
+  // Detects the units that the options leave open from all rows. Errors in rows are reported later,
+  // when they are read.
   void find_units(Clip& clip) {
     TimecodeRate rate;
     AngleUnit angle;
@@ -95,14 +95,12 @@ class LiveLinkReader {
     fps_ = fps.value;
     unit_ = unit.value;
     if (!options_.timecode_fps) {
-      clip.notes.push_back("timecode: " + shortest(fps_) + " frames a second, " +
-                           (fps.seen ? "as the file shows" : "the usual rate") +
-                           " (--from-llf-fps)");
+      clip.notes.push_back("timecode: " + shortest(fps_) + " frames per second, " +
+                           (fps.detected ? "detected" : "default") + " (--from-llf-fps)");
     }
     if (!options_.rotation && angle.matters()) {
       clip.notes.push_back(std::string("rotations: ") + name(unit_) + ", " +
-                           (unit.seen ? "as the file shows" : "the usual unit") +
-                           " (--from-llf-rot)");
+                           (unit.detected ? "detected" : "default") + " (--from-llf-rot)");
     }
   }
 
@@ -151,7 +149,7 @@ class LiveLinkReader {
 
   bool read_count(std::int64_t& count) {
     if (*count_ >= table_.size() || !parse_number(table_.cell(*count_), count) || count < 0) {
-      return table_.fail_at(*count_, "BlendshapeCount: is not a count", fault_);
+      return table_.fail_at(*count_, "BlendshapeCount: invalid count", fault_);
     }
     return true;
   }
@@ -160,22 +158,23 @@ class LiveLinkReader {
     if (*time_ >= table_.size() || trimmed(table_.cell(*time_)).empty()) {
       const double row = static_cast<double>(frame.number) / fps_;
       if (!time_of(row, kSecond_ns, frame.time_ns)) {
-        return table_.fail_at(*time_, "Timecode: is out of range", fault_);
+        return table_.fail_at(*time_, "Timecode: out of range", fault_);
       }
     } else if (!read_timecode(frame.time_ns)) {
       return false;
     }
-    // Past midnight the hours begin anew: as many days later as bring it nearest.
+    // After midnight the hours restart: adds the days that bring the time nearest to the previous
+    // one.
     constexpr std::int64_t kHalfADay = 43200 * kSecond_ns;
     const std::int64_t back_ns = last_ns_ ? *last_ns_ - frame.time_ns : 0;
     if (back_ns > kHalfADay) {
       frame.time_ns += (back_ns + kHalfADay - 1) / (2 * kHalfADay) * (2 * kHalfADay);
     }
     if (!time_allowed(frame.time_ns)) {
-      return table_.fail_at(*time_, "Timecode: is out of range", fault_);
+      return table_.fail_at(*time_, "Timecode: out of range", fault_);
     }
     return !last_ns_ || frame.time_ns >= *last_ns_ ||
-           table_.fail_at(*time_, "Timecode: goes back in time", fault_);
+           table_.fail_at(*time_, "Timecode: decreasing time", fault_);
   }
 
   bool read_timecode(std::int64_t& time_ns) {
@@ -185,7 +184,7 @@ class LiveLinkReader {
       return table_.fail_at(*time_, said + " is not HH:MM:SS:FF.mmm", fault_);
     }
     if (timecode.second < 0) {
-      return table_.fail_at(*time_, said + " is no time of a day", fault_);
+      return table_.fail_at(*time_, said + " is not a time of day", fault_);
     }
     if (timecode.frame >= fps_) {
       return table_.fail_at(
@@ -255,7 +254,7 @@ class LiveLinkReader {
 bool read_live_link_csv(std::string_view text, const ReadOptions& options, Clip& clip,
                         Fault& fault) {
   Clip read;
-  read.frames.limit_bytes(most_clip_bytes(text.size()));
+  read.frames.limit_bytes(max_clip_bytes(text.size()));
   if (!LiveLinkReader(text, options, fault).read(read)) {
     return false;
   }

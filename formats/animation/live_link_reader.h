@@ -1,4 +1,4 @@
-// Files of Live Link Face.
+// Reads files of Live Link Face.
 #pragma once
 
 #include <string_view>
@@ -9,10 +9,10 @@
 
 namespace mien::formats {
 
-// Columns are found by name, so that older files (camel case, right eye first, BlendShapeCount) are
-// read, too. Rows of count 0 may be shorter. Without a timecode, rows are 1/fps apart. What the
-// options leave open the whole file has to show, and a note of the clip says what it shows. Angles
-// of more than half a turn are a fault.
+// Columns are found by name, so older files (camel case, right eye first, BlendShapeCount) are
+// accepted. Rows with count 0 may be shorter. Without a timecode, rows are 1/fps apart. Units that
+// the options leave open are detected from the whole file, and a note names them. Angles above half
+// a turn are an error.
 [[nodiscard]] bool read_live_link_csv(std::string_view text, const ReadOptions& options, Clip& clip,
                                       Fault& fault);
 

@@ -1,3 +1,4 @@
+// Detects frame rates and units of angles.
 #include "formats/animation/live_link_units.h"
 
 #include <algorithm>
@@ -8,22 +9,22 @@ namespace mien::formats {
 namespace {
 
 constexpr std::array kRates = {24.0, 25.0, 30.0, 48.0, 50.0, 60.0};
-constexpr double kUsualRate = 60.0;
-constexpr std::size_t kEnoughSteps = 5;
+constexpr double kDefaultRate = 60.0;
+constexpr std::size_t kMinSteps = 5;
 
 constexpr double kHalfTurn = std::numbers::pi;
-// A head that turns or nods further does not show its face.
-constexpr double kWidestTurn_rad = 2.1;
-// From one row to the next, as the usual step.
-constexpr double kFastestTurn_rad = 0.35;
-constexpr std::size_t kEnoughTurns = 10;
+// Beyond this, a head no longer shows its face.
+constexpr double kMaxAngle_rad = 2.1;
+// Largest typical step between rows.
+constexpr double kMaxStep_rad = 0.35;
+constexpr std::size_t kMinHeadSteps = 10;
 
-// How far an eye turns while eyeLook... goes from 0 to 1, in radians; measured on captures.
+// Rotation of an eye in radians while eyeLook... goes from 0 to 1; measured on captures.
 constexpr double kEyeTurn_rad = 0.485;
 constexpr double kMinLook = 0.1;
 constexpr double kMinCorrelation = 0.9;
 
-// Which of two is nearer on a logarithmic scale.
+// Which of two values is nearer on a logarithmic scale.
 bool nearer_to_first(double value, double first, double second) {
   return value * value < first * second ? first < second : second < first;
 }
@@ -61,10 +62,10 @@ Guess<double> TimecodeRate::rate() const {
   const auto* const possible =
       std::find_if(kRates.begin(), kRates.end(), [this](double rate) { return largest_ < rate; });
   if (possible == kRates.end()) {
-    return {kUsualRate, false};
+    return {kDefaultRate, false};
   }
-  if (steps_.size() < kEnoughSteps || before_.size() == 0) {
-    return {kUsualRate, false};
+  if (steps_.size() < kMinSteps || before_.size() == 0) {
+    return {kDefaultRate, false};
   }
   const double shown = before_.median() + steps_.median();
   const auto* const best = std::min_element(possible, kRates.end(), [shown](double a, double b) {
@@ -102,7 +103,7 @@ void AngleUnit::add(const Rotations& rotations, const std::array<double, kContro
   eyes_[3].add(look(control("eyeLookUpRight"), control("eyeLookDownRight")), rotations[7]);
 }
 
-// What the line of the eyes that fits best says, in the file's unit.
+// The slope of the best fitting eye, in the file's unit.
 std::optional<double> AngleUnit::eye_turn() const {
   double best = kMinCorrelation;
   std::optional<double> turn;
@@ -118,8 +119,8 @@ std::optional<double> AngleUnit::eye_turn() const {
 }
 
 Guess<RotationUnit> AngleUnit::unit() const {
-  const bool too_far = largest_ > kWidestTurn_rad || largest_roll_ > kHalfTurn * (1.0 + 1e-6);
-  const bool too_fast = steps_.size() >= kEnoughTurns && steps_.median() > kFastestTurn_rad;
+  const bool too_far = largest_ > kMaxAngle_rad || largest_roll_ > kHalfTurn * (1.0 + 1e-6);
+  const bool too_fast = steps_.size() >= kMinHeadSteps && steps_.median() > kMaxStep_rad;
   if (too_far || too_fast) {
     return {RotationUnit::kDegrees, true};
   }

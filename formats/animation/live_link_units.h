@@ -1,5 +1,5 @@
-// Which frame rate and which unit of angles a file of Live Link Face has: the file does not say it,
-// but its values show it.
+// Detects the frame rate and the unit of angles of a Live Link Face file from its values, because
+// the file does not specify them.
 #pragma once
 
 #include <array>
@@ -22,17 +22,17 @@ struct Timecode {
 template <class Value>
 struct Guess {
   Value value;
-  bool seen;  // false: nothing shows it, and this is what is usual
+  bool detected;  // false: the value is the default
 };
 
-// Counts values in bins of equal width from 0 on, so that a median takes no memory for each value.
+// Counts values in bins of equal width from 0 on, so that a median needs constant memory.
 class Histogram {
  public:
   Histogram(double width, std::size_t bins) : width_(width), counts_(bins) {}
 
-  void add(double value);  // nothing where it has no bin
+  void add(double value);  // ignored outside the bins
   [[nodiscard]] std::size_t size() const { return size_; }
-  [[nodiscard]] double median() const;  // the middle of its bin; of at least one value
+  [[nodiscard]] double median() const;  // the centre of its bin; requires at least one value
 
  private:
   double width_;
@@ -40,38 +40,38 @@ class Histogram {
   std::size_t size_ = 0;
 };
 
-// Sees all timecodes of a file in turn.
+// Processes all timecodes of a file in order.
 class TimecodeRate {
  public:
   void add(const Timecode& timecode);
 
-  // One of the usual rates, larger than every frame number. Where a second begins, the last frame
-  // number before it and the usual step between rows show how many frames a second has.
+  // A common rate larger than every frame number. At the start of a second, the last frame number
+  // before it and the typical step between rows determine the number of frames per second.
   [[nodiscard]] Guess<double> rate() const;
 
  private:
   std::optional<Timecode> last_;
   double largest_ = 0.0;
-  Histogram steps_{0.01, 6000};    // between rows of one second, frames
-  Histogram before_{0.01, 10000};  // how much a number falls at the beginning of a second, frames
+  Histogram steps_{0.01, 6000};    // frames between rows within a second
+  Histogram before_{0.01, 10000};  // decrease of the frame number at the start of a second
 };
 
 // Of a row, in the order of kRotationNames.
 using Rotations = std::array<std::optional<double>, kRotationCount>;
 
-// Sees the rotations of all rows and the controls beside them.
+// Processes rotations and controls of all rows.
 class AngleUnit {
  public:
   void add(const Rotations& rotations, const std::array<double, kControlCount>& controls);
 
-  // Degrees where angles or steps are too large for radians. Elsewhere the eyes tell: how far they
-  // turn for how much of eyeLook... is known.
+  // Degrees if angles or steps are too large for radians. Otherwise the eyes decide: their rotation
+  // for a given eyeLook... is known.
   [[nodiscard]] Guess<RotationUnit> unit() const;
   // Whether any angle differs from 0.
   [[nodiscard]] bool matters() const { return largest_ > 0.0 || largest_roll_ > 0.0; }
 
  private:
-  // Of a line through 0: sums of its points.
+  // A line through 0, as sums over its points.
   struct Line {
     double xx = 0.0, xy = 0.0, yy = 0.0, largest = 0.0;
     void add(double x, const std::optional<double>& y);
@@ -81,9 +81,9 @@ class AngleUnit {
 
   std::array<Line, 4> eyes_;  // yaw, pitch of left and right
   Rotations last_;
-  double largest_ = 0.0;  // of all but roll
+  double largest_ = 0.0;  // of all angles except roll
   double largest_roll_ = 0.0;
-  Histogram steps_{0.01, 1000};  // of the head, from row to row
+  Histogram steps_{0.01, 1000};  // of the head, between rows
 };
 
 }  // namespace mien::formats

@@ -1,4 +1,4 @@
-// What formats have no place for.
+// Determines the data that formats omit.
 #include <algorithm>
 #include <cmath>
 
@@ -31,20 +31,20 @@ bool differ(const Angles& a, const Angles& b) {
   return differ(a.pitch, b.pitch) || differ(a.yaw, b.yaw) || differ(a.roll, b.roll);
 }
 
-// Eyes that look elsewhere than the controls say.
-bool has_eyes_of_its_own(const Frame& frame) {
+// Eyes with rotations that differ from the controls.
+bool has_own_eye_rotation(const Frame& frame) {
   const auto looked = gaze(frame.controls);
   const std::array<Angles, 2> derived = looked.value_or(std::array<Angles, 2>());
   return frame.eyes &&
          (differ((*frame.eyes)[0], derived[0]) || differ((*frame.eyes)[1], derived[1]));
 }
 
-bool shows_a_control(const Frame& frame) {
+bool has_control(const Frame& frame) {
   return std::any_of(frame.controls.begin(), frame.controls.end(),
                      [](double value) { return or_zero(value) != 0.0; });
 }
 
-bool all_driven(const Frame& frame) {
+bool has_all_controls(const Frame& frame) {
   return std::all_of(frame.controls.begin(), frame.controls.end(), driven);
 }
 
@@ -57,21 +57,21 @@ std::vector<LossCheck> checks_of(Format format) {
          return driven(frame.face_probability) || driven(frame.voice_activity) || frame.lod != 0 ||
                 frame.box.has_value();
        }},
-      {table || gltf, "the state of tracking",
+      {table || gltf, "tracking state",
        [](const Frame& frame) { return frame.state == FaceState::kLost; }},
-      {!cues, "the turn of the head", [](const Frame& frame) { return frame.head.has_value(); }},
-      {!cues && format != Format::kLiveLink, "the place of the head",
+      {!cues, "head rotation", [](const Frame& frame) { return frame.head.has_value(); }},
+      {!cues && format != Format::kLiveLink, "head position",
        [](const Frame& frame) { return frame.position_m.has_value(); }},
-      {gltf || format == Format::kLiveLink, "how the eyes are turned", has_eyes_of_its_own},
-      {weights, "the controls", shows_a_control},
-      {format != Format::kVisemes, "all but the mouth", shows_a_control},
-      {format == Format::kRoblox, "Roblox's units, but as controls",
+      {gltf || format == Format::kLiveLink, "eye rotation", has_own_eye_rotation},
+      {weights, "the controls", has_control},
+      {format != Format::kVisemes, "controls other than those of the mouth", has_control},
+      {format == Format::kRoblox, "Roblox units (written as controls)",
        [](const Frame& frame) { return !frame.facs.empty(); }},
-      {format == Format::kVisemes || cues, "visemes, but as controls",
+      {format == Format::kVisemes || cues, "visemes (written as controls)",
        [](const Frame& frame) { return !frame.visemes.empty(); }},
-      {!cues, "times before 0: the first cue is at 0",
+      {!cues, "times before 0 (the first cue is at 0)",
        [](const Frame& frame) { return frame.time_ns < 0; }},
-      {cues, "mouth shapes, but as controls",
+      {cues, "mouth shapes (written as controls)",
        [](const Frame& frame) { return frame.mouth_shape != 0; }},
   };
 }
@@ -97,7 +97,7 @@ void Losses::add(const Frame& frame) {
     }
   }
   if (format_ == Format::kLiveLink) {
-    gaps_ = gaps_ || (shows_a_control(frame) && !all_driven(frame));
+    gaps_ = gaps_ || (has_control(frame) && !has_all_controls(frame));
   }
 }
 
@@ -118,10 +118,10 @@ std::vector<std::string> Losses::found(bool evenly_spaced) const {
     lost.push_back("parts of " + names);
   }
   if (gaps_) {
-    lost.emplace_back("which controls nothing drives: they become 0");
+    lost.emplace_back("which controls are unsupported (they become 0)");
   }
   if (format_ == Format::kBvh && !evenly_spaced) {
-    lost.emplace_back("the frames' own times: they become even");
+    lost.emplace_back("frame times (they become even)");
   }
   return lost;
 }

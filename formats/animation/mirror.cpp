@@ -1,3 +1,4 @@
+// Exchanges left and right.
 #include "formats/animation/mirror.h"
 
 #include <string>
@@ -20,21 +21,21 @@ Angles mirrored(const Angles& angles) { return {angles.pitch, -angles.yaw, -angl
 }  // namespace
 
 Frame mirrored(const Frame& frame) {
-  Frame made = frame;
+  Frame result = frame;
   for (std::size_t i = 0; i < kControlCount; ++i) {
-    made.controls[partner(i)] = frame.controls[i];
+    result.controls[partner(i)] = frame.controls[i];
   }
   if (frame.head) {
-    made.head = mirrored(*frame.head);
+    result.head = mirrored(*frame.head);
   }
   if (frame.position_m) {
-    (*made.position_m)[0] = -(*frame.position_m)[0];
+    (*result.position_m)[0] = -(*frame.position_m)[0];
   }
   if (frame.eyes) {
-    made.eyes = {mirrored((*frame.eyes)[1]), mirrored((*frame.eyes)[0])};
+    result.eyes = {mirrored((*frame.eyes)[1]), mirrored((*frame.eyes)[0])};
   }
-  made.facs.clear();
-  return made;
+  result.facs.clear();
+  return result;
 }
 
 }  // namespace mien::formats

@@ -1,12 +1,12 @@
-// A face as a mirror shows it.
+// Mirrors a face.
 #pragma once
 
 #include "formats/animation/clip.h"
 
 namespace mien::formats {
 
-// Left and right exchanged in controls, eyes, and the head's turn and place; units of other
-// vocabularies are left out. The box stays where it is in the picture.
+// Exchanges left and right in controls, eyes, and head pose. Drops values of other vocabularies,
+// and keeps the box.
 [[nodiscard]] Frame mirrored(const Frame& frame);
 
 }  // namespace mien::formats

@@ -1,3 +1,4 @@
+// Converts numbers to text and back.
 #include "formats/animation/numbers.h"
 
 #include <array>
@@ -9,10 +10,10 @@
 namespace mien::formats {
 namespace {
 
-// Room for the largest double in fixed notation with all the decimals that anyone here prints.
+// Digits of the largest double in fixed notation with all decimals used here.
 constexpr std::size_t kMaxDigits = 400;
 
-// All of it.
+// Requires the whole text to be a number.
 template <class Number>
 bool read(std::string_view digits, Number& value) {
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
@@ -20,7 +21,7 @@ bool read(std::string_view digits, Number& value) {
 }
 
 #ifndef __cpp_lib_to_chars
-// Apple's library reads no double so. The program sets no locale.
+// Apple's library does not parse doubles this way. The program sets no locale.
 template <>
 bool read(std::string_view digits, double& value) {
   const std::string text(digits);
@@ -58,7 +59,7 @@ std::string fixed(double value, int decimals) {
   }
   std::string text(digits.data(), end);
   if (text.find_first_not_of("-0.") == std::string::npos && text.starts_with('-')) {
-    text.erase(0, 1);  // nothing has no sign
+    text.erase(0, 1);  // zero has no sign
   }
   return text;
 }

@@ -1,4 +1,4 @@
-// Numbers as text, whatever the locale.
+// Numbers as text, independent of the locale.
 #pragma once
 
 #include <cstdint>
@@ -7,23 +7,23 @@
 
 namespace mien::formats {
 
-// The fewest digits that read back the same.
+// The fewest digits that restore the same double.
 [[nodiscard]] std::string shortest(double value);
 
 [[nodiscard]] std::string fixed(double value, int decimals);
 
-// The double nearest to the fewest decimal digits that read back as this float, so that a float is
-// written with these digits wherever it goes, and is itself again when it is narrowed.
+// The double nearest to the fewest decimal digits that restore this float. It is written with these
+// digits, and narrowing restores the float.
 [[nodiscard]] double decimal(float value);
 
-// The whole text, blanks around it aside, as one finite number. False, and `value` as it was,
-// where it is none.
+// Parses the whole text, except surrounding blanks, as a finite number. Returns false and leaves
+// `value` unchanged otherwise.
 [[nodiscard]] bool parse_number(std::string_view text, double& value);
 [[nodiscard]] bool parse_number(std::string_view text, std::int64_t& value);
 
 [[nodiscard]] std::string_view trimmed(std::string_view text, std::string_view blanks = " \t");
 
-// For a message: in quotation marks, shortened where it is long, unprintable bytes as '?'.
+// For messages: in quotation marks, shortened if long, with '?' for unprintable bytes.
 [[nodiscard]] std::string quoted(std::string_view text);
 
 }  // namespace mien::formats

@@ -1,4 +1,4 @@
-// What files do not say of themselves, and where to find what lies beside them.
+// Options for readers: data that files do not contain, and a loader for other files.
 #pragma once
 
 #include <cstddef>
@@ -12,23 +12,23 @@
 
 namespace mien::formats {
 
-// Of positions in BVH files.
+// Unit of positions in BVH files.
 enum class LengthUnit : std::uint8_t { kMetres, kCentimetres, kMillimetres, kInches };
 [[nodiscard]] double metres(LengthUnit unit);
 [[nodiscard]] const char* name(LengthUnit unit);  // "metres", ... Static.
 
-// Reads the first `bytes` bytes of a file beside the one that names it. False, with the reason,
-// where that cannot be done.
+// Reads the first `bytes` bytes of a file beside the one that refers to it. Returns false with the
+// reason on failure.
 using LoadBeside = std::function<bool(const std::string& name, std::size_t bytes, std::string& data,
                                       std::string& why)>;
 
 struct ReadOptions {
-  // Of Live Link Face; nothing: as the file shows it.
+  // Live Link Face; default: detected.
   std::optional<RotationUnit> rotation;
   std::optional<double> timecode_fps;  // 1..100
-  // Of BVH; nothing: as the size of the skeleton shows it.
+  // BVH; default: detected from the size of the skeleton.
   std::optional<LengthUnit> bvh_unit;
-  // For buffers of glTF; none: buffers in other files are refused.
+  // Buffers of glTF; empty: buffers in other files are rejected.
   LoadBeside load_beside;
 };
 

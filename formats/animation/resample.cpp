@@ -1,3 +1,4 @@
+// Interpolates frames.
 #include "formats/animation/resample.h"
 
 #include <cmath>
@@ -94,12 +95,12 @@ std::optional<Frame> Resampler::next() {
 }
 
 FrameSequence resampled(const FrameSequence& frames, double fps, std::int64_t origin_ns) {
-  FrameSequence made;
+  FrameSequence result;
   Resampler resampler(frames, fps, origin_ns);
   while (const auto frame = resampler.next()) {
-    made.push_back(*frame);
+    result.push_back(*frame);
   }
-  return made;
+  return result;
 }
 
 }  // namespace mien::formats

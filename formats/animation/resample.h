@@ -1,4 +1,4 @@
-// A clip at other times.
+// Resamples a clip to even times.
 #pragma once
 
 #include <cstdint>
@@ -8,24 +8,24 @@
 
 namespace mien::formats {
 
-// Frames 1/fps apart, counted from `origin_ns`, which is a time that is allowed and not after the
-// first frame, and from the first to the last frame; of one face. Values lie on the straight line
-// between their neighbours, the head on the shorter way; what only one neighbour has, and states
-// and mouth shapes, are those of the frame before. At the time of a frame stands that frame,
-// exactly.
+// Frames of one face, 1/fps apart, counted from `origin_ns`, which must be allowed and not after
+// the first frame, and between the first and the last frame. Values are interpolated linearly,
+// rotations along the shorter way. Data that only one neighbour has, states and mouth shapes are
+// those of the frame before. At the time of a frame, the result equals that frame.
 class Resampler {
  public:
-  // `frames` has to outlive this.
+  // `frames` must outlive this.
   Resampler(const FrameSequence& frames, double fps, std::int64_t origin_ns);
 
-  // The next one, which has as many steps behind it as its number says; nothing at the end.
+  // The next frame, whose number is its number of steps from the origin; nothing at the end.
   [[nodiscard]] std::optional<Frame> next();
 
-  // How many next() will give at most; more than there are numbers for count as infinite.
+  // The maximum number of frames of next(); infinity if it is too large for frame numbers.
   [[nodiscard]] static double count(const FrameSequence& frames, double fps);
 
  private:
-  // Since the origin, of step k. All of a clip fits, but not all that may follow.
+  // Time of step k since the origin. Valid for all frames of a clip, but steps after it may
+  // overflow.
   [[nodiscard]] std::int64_t since_origin(std::int64_t k) const;
 
   const FrameSequence& frames_;

@@ -1,3 +1,4 @@
+// Writes mouth cues.
 #include "formats/animation/rhubarb.h"
 
 #include <algorithm>
@@ -14,7 +15,7 @@
 namespace mien::formats {
 namespace {
 
-constexpr std::int64_t kShortest_ns = 80'000'000;
+constexpr std::int64_t kMinCue_ns = 80'000'000;
 
 struct Cue {
   std::int64_t begin_ns;
@@ -36,12 +37,12 @@ void add(std::vector<Cue>& cues, const Cue& cue) {
   }
 }
 
-// A whole second, so that it is allowed in hundredths and in frames, too, and with a frame behind
+// A whole second, so that it is representable in hundredths and frames as well, with a frame after
 // it.
 constexpr std::int64_t kLastCue_ns = kLastTime_ns - kLastTime_ns % kSecond_ns;
 
-// Rhubarb counts from the beginning of the sound, and has nothing before it: a clip that begins
-// earlier is moved to there.
+// Rhubarb counts from the start of the audio and has no negative times, so a clip that starts
+// earlier is shifted.
 class Clock {
  public:
   explicit Clock(const FrameSequence& frames)
@@ -54,21 +55,21 @@ class Clock {
   std::int64_t begin_ns_;
 };
 
-// Cues as a file had them: the last frame is where they end.
+// Cues as read from a file: the last frame is their end.
 Cues cues_as_read(const FrameSequence& frames) {
   const Clock clock(frames);
-  Cues made;
+  Cues result;
   std::size_t left = frames.size();
   for (const Frame& frame : frames) {
     if (--left > 0) {
-      add(made.cues, {clock.at(frame.time_ns), frame.mouth_shape});
+      add(result.cues, {clock.at(frame.time_ns), frame.mouth_shape});
     }
   }
-  made.end_ns = clock.at(frames.last_time_ns());
-  return made;
+  result.end_ns = clock.at(frames.last_time_ns());
+  return result;
 }
 
-char shape_seen(const Frame& frame) {
+char shape_of(const Frame& frame) {
   if (frame.mouth_shape != 0) {
     return frame.mouth_shape;
   }
@@ -78,27 +79,27 @@ char shape_seen(const Frame& frame) {
   return mouth_shape_of(visemes_of(frame.controls));
 }
 
-Cues cues_seen(const FrameSequence& frames) {
+Cues cues_from_visemes(const FrameSequence& frames) {
   const Clock clock(frames);
-  Cues made;
+  Cues result;
   if (frames.first_time_ns() > 0) {
-    add(made.cues, {0, 'X'});
+    add(result.cues, {0, 'X'});
   }
   for (const Frame& frame : frames) {
-    add(made.cues, {clock.at(frame.time_ns), shape_seen(frame)});
+    add(result.cues, {clock.at(frame.time_ns), shape_of(frame)});
   }
-  // At most twice what is allowed, which still fits.
+  // At most twice the allowed range, which does not overflow.
   const double step_ns = std::min(mean_step_s(frames) * 1e9, static_cast<double>(kLastCue_ns));
   const std::int64_t end_ns = clock.at(frames.last_time_ns()) + std::llround(step_ns);
-  made.end_ns = std::min(end_ns, kLastCue_ns);
+  result.end_ns = std::min(end_ns, kLastCue_ns);
   std::vector<Cue> lasting;
-  for (std::size_t i = 0; i < made.cues.size(); ++i) {
-    if (lasting.empty() || made.end_of(i) - made.cues[i].begin_ns >= kShortest_ns) {
-      add(lasting, made.cues[i]);
+  for (std::size_t i = 0; i < result.cues.size(); ++i) {
+    if (lasting.empty() || result.end_of(i) - result.cues[i].begin_ns >= kMinCue_ns) {
+      add(lasting, result.cues[i]);
     }
   }
-  made.cues = std::move(lasting);
-  return made;
+  result.cues = std::move(lasting);
+  return result;
 }
 
 Cues cues_of(const FrameSequence& frames) {
@@ -109,7 +110,7 @@ Cues cues_of(const FrameSequence& frames) {
   for (const Frame& frame : frames) {
     read = read && frame.mouth_shape != 0;
   }
-  return read && frames.size() > 1 ? cues_as_read(frames) : cues_seen(frames);
+  return read && frames.size() > 1 ? cues_as_read(frames) : cues_from_visemes(frames);
 }
 
 std::string seconds(std::int64_t time_ns) { return fixed(static_cast<double>(time_ns) * 1e-9, 2); }
@@ -170,7 +171,7 @@ class RhubarbWriter : public WholeClipWriter {
     return text + "  </mouthCues>\n</rhubarbResult>\n";
   }
 
-  // Of cues that begin in the same frame the first counts, as Rhubarb has it.
+  // Of cues that start in the same frame the first one counts, as in Rhubarb.
   static std::string dat(const Cues& cues) {
     std::string text = std::string(kDatHead) + "\n";
     std::int64_t last = 0;

@@ -1,6 +1,6 @@
-// Mouth cues as Rhubarb Lip Sync writes them: which of nine mouth shapes is seen from when on. As
-// TSV ("0.00\tX", the last line says when the sound ends), JSON, XML, and as the switch data of
-// Moho and OpenToonz (.dat: "1 X", frames from 1 on, 24 a second as Rhubarb has them by default).
+// Mouth cues of Rhubarb Lip Sync: the times at which each of nine mouth shapes starts. Forms are
+// TSV ("0.00\tX", the last line is the end of the audio), JSON, XML, and switch data of Moho and
+// OpenToonz (.dat: "1 X", frames from 1 on, 24 per second as Rhubarb's default).
 #pragma once
 
 #include <cstdint>
@@ -16,16 +16,16 @@ namespace mien::formats {
 
 enum class RhubarbForm : std::uint8_t { kTsv, kJson, kXml, kDat };
 
-// Shapes are those of the frames where they have some, else the shape of the strongest viseme
-// (visemes.h); of the latter, none lasts less than 0.08 s: it goes to the one before.
-// Cues count from the beginning of the sound, at 0; of a clip that begins before, from its own.
-// `audio_file` is named in JSON and XML.
+// Uses the shapes of the frames if they have any, else the shape of the strongest viseme
+// (visemes.h). Of the latter, none is shorter than 0.08 s: shorter ones are merged into the
+// previous one. Cues count from the start of the audio at 0, or from the start of the clip if it is
+// earlier. JSON and XML contain `audio_file`.
 [[nodiscard]] std::unique_ptr<AnimationWriter> rhubarb_writer(RhubarbForm form,
                                                               const std::string& audio_file);
 
-// A frame for each cue, which lasts until the next; the last one, an X, is where the sound ends.
-// The form is seen from the text; a .dat may also have the names of Preston Blair's mouths. On a
-// fault `clip` stays as it was.
+// Reads one frame per cue, held until the next; the last one, an X, is the end of the audio. The
+// text determines the form; a .dat may also have Preston Blair's names. Leaves `clip` unchanged on
+// failure.
 [[nodiscard]] bool read_rhubarb(std::string_view text, Clip& clip, Fault& fault);
 
 }  // namespace mien::formats

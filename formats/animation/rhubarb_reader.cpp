@@ -1,3 +1,4 @@
+// Reads mouth cues.
 #include <algorithm>
 #include <optional>
 #include <string>
@@ -13,23 +14,23 @@
 namespace mien::formats {
 namespace {
 
-constexpr const char* kNoShape = "is none of the shapes A to H and X";
-constexpr const char* kBack = "goes back in time";
-constexpr const char* kNoCues = "mouthCues: there are no cues";
+constexpr const char* kNoShape = "unknown mouth shape, expected A to H or X";
+constexpr const char* kDecreasingTime = "decreasing time";
+constexpr const char* kNoCues = "mouthCues: no cues";
 
-// Without blanks and ends of lines around it.
+// Without surrounding blanks and line ends.
 std::string_view stripped(std::string_view text) { return trimmed(text, " \t\r\n"); }
 
 bool is_shape(std::string_view text) {
   return text.size() == 1 && kMouthShapes.find(text[0]) != kMouthShapes.npos;
 }
 
-// Rhubarb counts from the beginning of the sound.
+// Rhubarb counts from the start of the audio.
 bool cue_time(double seconds, std::int64_t& time_ns) {
   return seconds >= 0.0 && time_of(seconds, kSecond_ns, time_ns);
 }
 
-// `line` is for the fault of a clip that takes too much memory.
+// `line` is reported if the clip takes too much memory.
 bool add_cue(Clip& clip, std::int64_t begin_ns, char shape, std::size_t line, Fault& fault) {
   Frame frame;
   frame.number = static_cast<std::int64_t>(clip.frames.size());
@@ -39,13 +40,12 @@ bool add_cue(Clip& clip, std::int64_t begin_ns, char shape, std::size_t line, Fa
   return add_frame(clip, frame, line, fault);
 }
 
-// Cues that say where they end, in turn. Where one does not begin at the end of the one before it,
-// the mouth rests in between.
+// Consecutive cues with end times. In gaps between them the mouth rests.
 class Intervals {
  public:
   Intervals(Clip& clip, Fault& fault) : clip_(clip), fault_(fault) {}
 
-  // False with a fault, which has no place where the times go back.
+  // Returns false with a fault, without a position if times decrease.
   bool add(std::int64_t begin_ns, std::int64_t end_ns, char shape) {
     if (!clip_.frames.empty() && begin_ns > end_ns_ && !add_cue(clip_, end_ns_, 'X', 1, fault_)) {
       return false;
@@ -67,8 +67,7 @@ class Intervals {
 bool time_in(const JsonValue& cue, std::string_view key, std::int64_t& time_ns, Fault& fault) {
   const std::optional<JsonValue> found = cue.find(key);
   return (found && found->is(JsonValue::Kind::kNumber) && cue_time(found->number(), time_ns)) ||
-         found.value_or(cue).fail_here(std::string(key) + ": a time in seconds has to be here",
-                                       fault);
+         found.value_or(cue).fail_here(std::string(key) + ": expected a time in seconds", fault);
 }
 
 bool read_cue(const JsonValue& cue, Intervals& intervals, Fault& fault) {
@@ -77,7 +76,7 @@ bool read_cue(const JsonValue& cue, Intervals& intervals, Fault& fault) {
     return false;
   }
   if (intervals.goes_back(begin_ns, end_ns)) {
-    return cue.fail_here(kBack, fault);
+    return cue.fail_here(kDecreasingTime, fault);
   }
   const std::optional<JsonValue> shape = cue.find("value");
   const std::string text = shape ? shape->text() : "";
@@ -126,7 +125,7 @@ class RhubarbXml {
     if (line_ == 0) {
       line_ = tag.line;
       column_ = tag.column;
-      return tag.name == "rhubarbResult" || tag.fail_here("rhubarbResult has to be here", fault_);
+      return tag.name == "rhubarbResult" || tag.fail_here("expected rhubarbResult", fault_);
     }
     if (!tag.closes && tag.name == "soundFile" && !has_audio_) {
       has_audio_ = true;
@@ -141,27 +140,28 @@ class RhubarbXml {
       return false;
     }
     if (intervals_.goes_back(begin_ns, end_ns)) {
-      return cue.fail_here(kBack, fault_);
+      return cue.fail_here(kDecreasingTime, fault_);
     }
-    return is_shape(cue.text) ? intervals_.add(begin_ns, end_ns, cue.text[0])
-                              : cue.fail_here(quoted(cue.text) + " " + kNoShape, fault_);
+    return is_shape(cue.text)
+               ? intervals_.add(begin_ns, end_ns, cue.text[0])
+               : cue.fail_here(std::string(kNoShape) + " (got " + quoted(cue.text) + ")", fault_);
   }
 
   bool time_in(const XmlTag& cue, std::string_view key, std::int64_t& time_ns) {
     const std::string* found = cue.find(key);
     double time_s = 0.0;
     return (found != nullptr && parse_number(*found, time_s) && cue_time(time_s, time_ns)) ||
-           cue.fail_here(std::string(key) + ": a time in seconds has to be here", fault_);
+           cue.fail_here(std::string(key) + ": expected a time in seconds", fault_);
   }
 
   Clip& clip_;
   Fault& fault_;
   Intervals intervals_;
-  std::size_t line_ = 0, column_ = 0;  // of the outermost element
+  std::size_t line_ = 0, column_ = 0;  // of the root element
   bool has_audio_ = false;
 };
 
-// One after the other, without its end.
+// Lines one by one, without line ends.
 class Lines {
  public:
   explicit Lines(std::string_view text) : rest_(text) {}
@@ -204,17 +204,17 @@ bool read_tsv(std::string_view text, Clip& clip, Fault& fault) {
       return fail(fault, lines.number(), at + 1, kNoShape);
     }
     if (!clip.frames.empty() && begin_ns < clip.frames.last_time_ns()) {
-      return fail(fault, lines.number(), 1, kBack);
+      return fail(fault, lines.number(), 1, kDecreasingTime);
     }
     if (!add_cue(clip, begin_ns, row[tab + 1], lines.number(), fault)) {
       return false;
     }
   }
-  return clip.frames.size() > 1 || fail(fault, lines.number() + 1, 1, "there are no cues");
+  return clip.frames.size() > 1 || fail(fault, lines.number() + 1, 1, "no cues");
 }
 
-// 0 where it is neither one of Rhubarb's letters nor, with `blair`, what it calls them after
-// Preston Blair.
+// Returns 0 if the name is neither one of Rhubarb's letters nor, with `blair`, one of Preston
+// Blair's names.
 char dat_shape(std::string_view name, bool blair) {
   constexpr std::pair<std::string_view, char> kPrestonBlair[] = {
       {"MBP", 'A'}, {"etc", 'B'}, {"E", 'C'}, {"AI", 'D'},  {"O", 'E'},
@@ -227,8 +227,8 @@ char dat_shape(std::string_view name, bool blair) {
   return !blair && is_shape(name) ? name[0] : '\0';
 }
 
-// Whether this is the name of one of Preston Blair's mouths. "E" is in both alphabets: then the
-// rest of the file tells, which has a rest or an X at its end.
+// Whether this is one of Preston Blair's names. "E" is in both alphabets, so the rest of the file
+// decides: it ends with "rest" or X.
 bool named_after_blair(std::string_view name, std::string_view rest) {
   return name == "E" ? stripped(rest).ends_with("rest") : !is_shape(name);
 }
@@ -240,7 +240,7 @@ bool read_dat(std::string_view text, Clip& clip, Fault& fault) {
   for (std::string_view line; lines.next(line);) {
     const std::string_view row = stripped(line);
     if (lines.number() == 1 || row.empty()) {
-      continue;  // the first is what it was known by
+      continue;  // the first line identifies the format
     }
     const std::size_t space = std::min(row.find(' '), row.size());
     std::int64_t frame = 0;
@@ -254,17 +254,17 @@ bool read_dat(std::string_view text, Clip& clip, Fault& fault) {
     const char shape = dat_shape(name, *blair);
     if (shape == '\0') {
       return fail(fault, lines.number(), std::min(space + 1, row.size()) + 1,
-                  "is no mouth of Rhubarb's or Preston Blair's");
+                  "unknown mouth shape, expected a name of Rhubarb or Preston Blair");
     }
     if (frame <= last) {
-      return fail(fault, lines.number(), 1, kBack);
+      return fail(fault, lines.number(), 1, kDecreasingTime);
     }
     last = frame;
     if (!add_cue(clip, dat_time(frame), shape, lines.number(), fault)) {
       return false;
     }
   }
-  return clip.frames.size() > 1 || fail(fault, lines.number() + 1, 1, "there are no cues");
+  return clip.frames.size() > 1 || fail(fault, lines.number() + 1, 1, "no cues");
 }
 
 bool read_form(std::string_view text, Clip& clip, Fault& fault) {
@@ -279,7 +279,7 @@ bool read_form(std::string_view text, Clip& clip, Fault& fault) {
 
 bool read_rhubarb(std::string_view text, Clip& clip, Fault& fault) {
   Clip read;
-  read.frames.limit_bytes(most_clip_bytes(text.size()));
+  read.frames.limit_bytes(max_clip_bytes(text.size()));
   if (!read_form(text, read, fault)) {
     return false;
   }

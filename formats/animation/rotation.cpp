@@ -1,3 +1,4 @@
+// Converts between angles and quaternions.
 #include "formats/animation/rotation.h"
 
 #include <algorithm>
@@ -6,7 +7,7 @@
 namespace mien::formats {
 namespace {
 
-constexpr double kGazeRadians = 0.485;  // of a control at 1
+constexpr double kGazeRadians = 0.485;  // rotation at a control of 1
 
 double dot(const Quaternion& a, const Quaternion& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
@@ -53,7 +54,7 @@ Angles between(const Angles& a, const Angles& b, double share) {
   const Quaternion from = quaternion(a);
   Quaternion to = quaternion(b);
   double cosine = dot(from, to);
-  if (cosine < 0.0) {  // the same rotation the other way round
+  if (cosine < 0.0) {  // the same rotation with the opposite sign
     for (double& part : to) {
       part = -part;
     }

@@ -1,3 +1,4 @@
+// Detects and converts Unicode encodings.
 #include "formats/animation/text_encoding.h"
 
 #include <cstddef>
@@ -14,8 +15,8 @@ struct Found {
   std::size_t mark_bytes;
 };
 
-// Whether the first two characters are ASCII, each with a byte of 0; `character` is which of the
-// two bytes is not 0.
+// Whether the first two characters are ASCII in UTF-16; `character` is the index of the non-zero
+// byte.
 bool ascii_in_pairs(std::string_view bytes, std::size_t character) {
   const std::size_t zero = 1 - character;
   return bytes.size() >= 4 && bytes[character] != '\0' && bytes[character + 2] != '\0' &&
@@ -56,7 +57,7 @@ class Utf16 {
     char32_t low = 0;
     if (is_low_surrogate(code) ||
         (is_high_surrogate(code) && (at_end() || !unit(low, fault) || !is_low_surrogate(low)))) {
-      return fail(fault, 0, begin, "half a surrogate pair of UTF-16");
+      return fail(fault, 0, begin, "unpaired UTF-16 surrogate");
     }
     code = low != 0 ? 0x10000 + ((code - 0xD800) << 10) + (low - 0xDC00) : code;
     return true;
@@ -65,7 +66,7 @@ class Utf16 {
  private:
   bool unit(char32_t& value, Fault& fault) {
     if (bytes_.size() - at_ < 2) {
-      return fail(fault, 0, at_, "UTF-16 ends within a character");
+      return fail(fault, 0, at_, "truncated UTF-16 character");
     }
     const auto first = static_cast<unsigned char>(bytes_[at_]);
     const auto second = static_cast<unsigned char>(bytes_[at_ + 1]);

@@ -1,4 +1,4 @@
-// Text as UTF-8, in whatever encoding of Unicode a file has it.
+// Converts text from any Unicode encoding to UTF-8.
 #pragma once
 
 #include <string>
@@ -8,9 +8,9 @@
 
 namespace mien::formats {
 
-// UTF-8 with or without a byte order mark; UTF-16 with one, or without where the first two
-// characters are ASCII. `text` is part of `bytes`, or of `converted` where that was needed. False,
-// with a fault, for what is no UTF-16.
+// Accepts UTF-8 with or without a byte order mark, and UTF-16 with one, or without if the first two
+// characters are ASCII. `text` refers to `bytes`, or to `converted` after a conversion. Returns
+// false with a fault for invalid UTF-16.
 [[nodiscard]] bool to_utf8(std::string_view bytes, std::string& converted, std::string_view& text,
                            Fault& fault);
 

@@ -1,3 +1,4 @@
+// Converts between controls, visemes and mouth shapes.
 #include "formats/animation/visemes.h"
 
 #include <algorithm>
@@ -10,9 +11,9 @@
 namespace mien::formats {
 namespace {
 
-constexpr std::size_t kPoses = kVisemeCount - 1;  // all but silence
+constexpr std::size_t kPoses = kVisemeCount - 1;  // all except silence
 
-// One control of a pose; both sides of the face where `right` is another.
+// A control of a pose; `right` differs from `left` for controls of both sides.
 struct Part {
   std::size_t left, right;
   double value;
@@ -44,24 +45,25 @@ constexpr Part kMouth[] = {kJaw,        kClose,      kFunnel,  kPucker, kRollLow
 constexpr Part operator*(double value, const Part& part) { return {part.left, part.right, value}; }
 
 constexpr std::size_t kParts = std::size(kMouth);
-using Pose = std::array<double, kParts>;  // of each part of kMouth
+using Pose = std::array<double, kParts>;  // one value per part of kMouth
 
 constexpr bool has_sides(const Part& part) { return part.left != part.right; }
 
 template <std::size_t N>
 constexpr Pose pose(const Part (&parts)[N]) {
-  Pose made{};
+  Pose result{};
   for (std::size_t i = 0; i < kParts; ++i) {
     for (const Part& part : parts) {
-      made[i] += part.left == kMouth[i].left ? part.value : 0.0;
+      result[i] += part.left == kMouth[i].left ? part.value : 0.0;
     }
   }
-  return made;
+  return result;
 }
 
-// Our own, after how the articulators move (International Phonetic Association's chart); in the
-// order of kVisemeNames, without silence. No two are alike, so that a mixture can be told apart.
-constexpr std::array<Pose, kPoses> kPoseOf = {
+// Our own poses, after the movement of articulators (chart of the International Phonetic
+// Association), in the order of kVisemeNames without silence. All are linearly independent, so that
+// mixtures are unique.
+constexpr std::array<Pose, kPoses> kPoseOfViseme = {
     pose({0.5 * kPress, 0.35 * kRollLower, 0.35 * kRollUpper, 0.1 * kClose}),            // PP
     pose({0.55 * kRollLower, 0.3 * kUpperUp, 0.06 * kJaw}),                              // FF
     pose({0.5 * kTongue, 0.18 * kJaw, 0.2 * kLowerDown}),                                // TH
@@ -79,27 +81,28 @@ constexpr std::array<Pose, kPoses> kPoseOf = {
 };
 
 // In the order of kVisemeNames.
-constexpr std::string_view kShapeOf = "XAGHBBBBBEDCBEF";
+constexpr std::string_view kShapeOfViseme = "XAGHBBBBBEDCBEF";
 constexpr std::string_view kVisemeOfShape[] = {"PP", "DD", "E",  "aa", "oh",
                                                "ou", "FF", "TH", "sil"};
 
 using Weights = std::array<double, kPoses>;
 using Chosen = std::array<bool, kPoses>;
 
-// The normal equations of the poses: how alike any two are.
+// The normal equations of the poses: products of all pairs.
 constexpr std::array<Weights, kPoses> kGram = [] {
   std::array<Weights, kPoses> products{};
   for (std::size_t i = 0; i < kPoses; ++i) {
     for (std::size_t j = 0; j < kPoses; ++j) {
       for (std::size_t k = 0; k < kParts; ++k) {
-        products[i][j] += kPoseOf[i][k] * kPoseOf[j][k] * (has_sides(kMouth[k]) ? 2.0 : 1.0);
+        products[i][j] +=
+            kPoseOfViseme[i][k] * kPoseOfViseme[j][k] * (has_sides(kMouth[k]) ? 2.0 : 1.0);
       }
     }
   }
   return products;
 }();
 
-// Least squares over the chosen poses alone, the others 0: Cholesky, since the poses are not alike.
+// Least squares over the chosen poses, with others 0, by Cholesky decomposition.
 Weights solve(const Weights& target, const Chosen& chosen) {
   std::array<std::size_t, kPoses> index{};
   std::size_t n = 0;
@@ -136,14 +139,14 @@ Weights solve(const Weights& target, const Chosen& chosen) {
   return solution;
 }
 
-// Non-negative least squares, Lawson and Hanson (Solving Least Squares Problems, 1974, chapter 23).
-// `mouth`: of each part the sum of its sides.
+// Non-negative least squares (Lawson and Hanson, Solving Least Squares Problems, 1974, chapter 23).
+// `mouth`: the sum of both sides of each part.
 Weights mixture(const Pose& mouth) {
   constexpr double kTolerance = 1e-12;
   constexpr int kMaxSteps = 10 * static_cast<int>(kPoses);
   Weights target{}, weights{};
   for (std::size_t i = 0; i < kPoses; ++i) {
-    target[i] = std::inner_product(mouth.begin(), mouth.end(), kPoseOf[i].begin(), 0.0);
+    target[i] = std::inner_product(mouth.begin(), mouth.end(), kPoseOfViseme[i].begin(), 0.0);
   }
   Chosen chosen{};
   for (int step = 0; step < kMaxSteps; ++step) {
@@ -164,7 +167,7 @@ Weights mixture(const Pose& mouth) {
     }
     chosen[best] = true;
     for (Weights wanted = solve(target, chosen);; wanted = solve(target, chosen)) {
-      double way = 1.0;  // towards what is wanted, as far as nothing becomes negative
+      double way = 1.0;  // step towards the solution, limited so that no weight becomes negative
       for (std::size_t i = 0; i < kPoses; ++i) {
         if (chosen[i] && wanted[i] <= 0.0) {
           way = std::min(way, weights[i] / (weights[i] - wanted[i]));
@@ -219,9 +222,9 @@ std::array<std::size_t, 2> leading_controls(std::size_t viseme) {
   if (viseme == 0 || viseme > kPoses) {
     return {kControlCount, kControlCount};
   }
-  const Pose& moved = kPoseOf[viseme - 1];
-  const auto most = std::max_element(moved.begin(), moved.end()) - moved.begin();
-  const Part& part = kMouth[static_cast<std::size_t>(most)];
+  const Pose& moved = kPoseOfViseme[viseme - 1];
+  const auto largest = std::max_element(moved.begin(), moved.end()) - moved.begin();
+  const Part& part = kMouth[static_cast<std::size_t>(largest)];
   return {part.left, part.right};
 }
 
@@ -235,7 +238,7 @@ std::array<double, kControlCount> controls_of_visemes(
   for (std::size_t i = 0; i < kParts; ++i) {
     double sum = 0.0;
     for (std::size_t k = 0; k < kPoses; ++k) {
-      sum += or_zero(visemes[k + 1]) * kPoseOf[k][i];
+      sum += or_zero(visemes[k + 1]) * kPoseOfViseme[k][i];
     }
     controls[kMouth[i].left] = controls[kMouth[i].right] = std::min(sum, 1.0);
   }
@@ -251,7 +254,7 @@ char mouth_shape_of(std::span<const double, kVisemeCount> visemes) {
     }
   }
   const bool silent = or_zero(visemes[0]) > kSilent || strongest == 0 || visemes[strongest] == 0.0;
-  return silent ? 'X' : kShapeOf[strongest];
+  return silent ? 'X' : kShapeOfViseme[strongest];
 }
 
 std::array<double, kVisemeCount> visemes_of_mouth_shape(char shape) {

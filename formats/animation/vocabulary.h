@@ -1,7 +1,7 @@
-// The names of animation values in every vocabulary that is read, written or sent, in their own
-// orders; left and right are the subject's. Never exchange values by index between two of them.
+// Names of animation values in every supported vocabulary, each in its own order; left and right
+// are the subject's. Never exchange values by index between vocabularies.
 //
-// Writers use the casing given here; readers ask `index_of`, which ignores case.
+// Writers use this spelling; readers use `index_of`, which ignores case.
 #pragma once
 
 #include <array>
@@ -11,22 +11,22 @@
 
 namespace mien::formats {
 
-// A number that a frame does not have: a control that nothing drives.
+// An unknown number, such as an unsupported control.
 inline constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
-// Whether anything drives the control.
+// Whether the control is supported.
 [[nodiscard]] constexpr bool driven(double value) { return value == value; }
 
-// For formats that have a number for everything: 0 where nothing drives it.
+// For formats without unknown values: unsupported controls are 0.
 [[nodiscard]] constexpr double or_zero(double value) { return driven(value) ? value : 0.0; }
 
 inline constexpr std::size_t kControlCount = 52;
-inline constexpr std::size_t kRotationCount = 9;  // of head and eyes in Live Link Face
+inline constexpr std::size_t kRotationCount = 9;  // head and eyes in Live Link Face
 inline constexpr std::size_t kFacsCount = 50;
 inline constexpr std::size_t kVisemeCount = 15;
 
-// ARKit's 52 in the order of Apple's Live Link wire format (Epic's EARFaceBlendShape), which is the
-// order of this project's controls. Live Link Face writes them with a capital first letter.
+// ARKit's 52 controls in the order of Apple's Live Link wire format (Epic's EARFaceBlendShape),
+// which is the order of this project's controls. Live Link Face capitalizes the first letter.
 inline constexpr std::array<std::string_view, kControlCount> kArkitNames = {
     "eyeBlinkLeft",      "eyeLookDownLeft",    "eyeLookInLeft",
     "eyeLookOutLeft",    "eyeLookUpLeft",      "eyeSquintLeft",
@@ -47,12 +47,12 @@ inline constexpr std::array<std::string_view, kControlCount> kArkitNames = {
     "cheekSquintRight",  "noseSneerLeft",      "noseSneerRight",
     "tongueOut"};
 
-// What follows the controls in Live Link Face's files and packets.
+// The values after the controls in Live Link Face's files and packets.
 inline constexpr std::array<std::string_view, kRotationCount> kRotationNames = {
     "HeadYaw",     "HeadPitch",   "HeadRoll",      "LeftEyeYaw",  "LeftEyePitch",
     "LeftEyeRoll", "RightEyeYaw", "RightEyePitch", "RightEyeRoll"};
 
-// MediaPipe's kBlendshapeNames (face_blendshapes_graph.cc): alphabetical, with a neutral one, and
+// MediaPipe's kBlendshapeNames (face_blendshapes_graph.cc): alphabetical, with a neutral entry,
 // without tongueOut.
 inline constexpr std::array<std::string_view, 52> kMediaPipeNames = {
     "_neutral",         "browDownLeft",      "browDownRight",      "browInnerUp",
@@ -69,8 +69,8 @@ inline constexpr std::array<std::string_view, 52> kMediaPipeNames = {
     "mouthSmileLeft",   "mouthSmileRight",   "mouthStretchLeft",   "mouthStretchRight",
     "mouthUpperUpLeft", "mouthUpperUpRight", "noseSneerLeft",      "noseSneerRight"};
 
-// Roblox's FacsActionUnit, in the order of the enum: NoseWrinkler comes before InnerBrowRaiser on
-// the left, behind it on the right.
+// Roblox's FacsActionUnit in the order of the enum: NoseWrinkler precedes InnerBrowRaiser on the
+// left, and follows it on the right.
 inline constexpr std::array<std::string_view, kFacsCount> kFacsNames = {"ChinRaiserUpperLip",
                                                                         "ChinRaiser",
                                                                         "FlatPucker",
@@ -122,13 +122,13 @@ inline constexpr std::array<std::string_view, kFacsCount> kFacsNames = {"ChinRai
                                                                         "TongueOut",
                                                                         "TongueUp"};
 
-// What Roblox's level of detail 1 (FACSDataLod) is left with.
+// The units of Roblox's level of detail 1 (FACSDataLod).
 inline constexpr std::array<std::string_view, 6> kFacsLevel1Names = {
     "JawDrop", "RightEyeClosed", "LeftEyeClosed", "RightLipCornerPuller", "LeftLipCornerPuller",
     "Pucker"};
 
-// Visemes of OVR LipSync and OpenXR, in their order. Ready Player Me puts "viseme_" in front and
-// calls E, ih, oh, ou E, I, O, U.
+// Visemes of OVR LipSync and OpenXR, in their order. Ready Player Me prepends "viseme_" and names
+// E, ih, oh, ou E, I, O, U.
 inline constexpr std::array<std::string_view, kVisemeCount> kVisemeNames = {
     "sil", "PP", "FF", "TH", "DD", "kk", "CH", "SS", "nn", "RR", "aa", "E", "ih", "oh", "ou"};
 inline constexpr std::array<std::string_view, kVisemeCount> kReadyPlayerMeNames = {
@@ -136,7 +136,7 @@ inline constexpr std::array<std::string_view, kVisemeCount> kReadyPlayerMeNames 
     "viseme_kk",  "viseme_CH", "viseme_SS", "viseme_nn", "viseme_RR",
     "viseme_aa",  "viseme_E",  "viseme_I",  "viseme_O",  "viseme_U"};
 
-// Expressions that avatars have: VRM 0.x as the VMC protocol sends them, VRM 1.0.
+// Expressions of avatars: VRM 0.x as in the VMC protocol, and VRM 1.0.
 inline constexpr std::array<std::string_view, 17> kVrm0Names = {
     "Neutral", "A",   "I",      "U",        "E",        "O",         "Blink",   "Joy",    "Angry",
     "Sorrow",  "Fun", "LookUp", "LookDown", "LookLeft", "LookRight", "Blink_L", "Blink_R"};
@@ -164,7 +164,7 @@ inline constexpr std::string_view kMouthShapes = "ABCDEFGHX";
   return true;
 }
 
-// Where in a vocabulary a name stands, whatever its case; the vocabulary's size where it does not.
+// The index of a name in a vocabulary, ignoring case; the size of the vocabulary if it is absent.
 template <std::size_t N>
 [[nodiscard]] constexpr std::size_t index_of(std::string_view name,
                                              const std::array<std::string_view, N>& names) {
@@ -175,7 +175,7 @@ template <std::size_t N>
   return i;
 }
 
-// The index of a name that is known to be there: anything else does not compile.
+// The index of an existing name; other names do not compile.
 consteval std::size_t control(std::string_view name) {
   std::size_t i = 0;
   while (kArkitNames[i] != name) {

@@ -1,4 +1,4 @@
-// How every format is written: frame by frame, text or bytes as they come.
+// An interface for writers, frame by frame.
 #pragma once
 
 #include <string>
@@ -11,13 +11,13 @@ class AnimationWriter {
  public:
   virtual ~AnimationWriter() = default;
 
-  // Each returns what is to be appended to the file, nothing where the format has to wait.
+  // Each function returns bytes to append to the file; empty if the writer needs more frames.
   [[nodiscard]] virtual std::string begin() { return {}; }
   [[nodiscard]] virtual std::string frame(const Frame& frame) = 0;
   [[nodiscard]] virtual std::string finish() { return {}; }
 };
 
-// For formats that have to know all frames before their first byte.
+// For formats that need all frames before their first byte.
 class WholeClipWriter : public AnimationWriter {
  public:
   [[nodiscard]] std::string frame(const Frame& frame) final {

@@ -1,3 +1,4 @@
+// Parses simple XML.
 #include "formats/animation/xml.h"
 
 #include <algorithm>
@@ -31,28 +32,28 @@ class XmlParser {
   bool parse() {
     skip_blanks();
     while (at_ < text_.size()) {
-      const bool fine = follows("<?") || follows("<!--") ? skip_what_says_nothing() : tag();
+      const bool fine = follows("<?") || follows("<!--") ? skip_declarations_and_comments() : tag();
       if (!fine || !take_text()) {
         return false;
       }
     }
     if (!open_.empty()) {
-      return wrong("<" + open_.back() + "> is not closed");
+      return fail_here("<" + open_.back() + "> is not closed");
     }
-    return last_ ? visit_(*last_) : wrong("there is no element");
+    return last_ ? visit_(*last_) : fail_here("no element");
   }
 
  private:
-  static constexpr std::size_t kMost = 64;  // elements inside each other, attributes of one
+  static constexpr std::size_t kMaxNesting = 64;  // maximum nesting, and attributes per element
 
-  // The tag before it has all its text now.
+  // Passes on the previous tag, whose text is now complete.
   bool add(XmlTag tag) {
     const bool goes_on = !last_ || visit_(*last_);
     last_ = std::move(tag);
     return goes_on;
   }
 
-  bool wrong(std::string what) {
+  bool fail_here(std::string what) {
     XmlTag here;
     place(here);
     return here.fail_here(std::move(what), fault_);
@@ -64,12 +65,12 @@ class XmlParser {
 
   void skip_blanks() { at_ = std::min(text_.find_first_not_of(kBlanks, at_), text_.size()); }
 
-  // <?xml ...?> and comments.
-  bool skip_what_says_nothing() {
+  // Skips <?xml ...?> and comments.
+  bool skip_declarations_and_comments() {
     const std::string_view end = follows("<?") ? "?>" : "-->";
     const std::size_t found = text_.find(end, at_ + 2);
     if (found == text_.npos) {
-      return wrong(std::string(end) + " is missing");
+      return fail_here("expected " + std::string(end));
     }
     at_ = found + end.size();
     return true;
@@ -87,22 +88,22 @@ class XmlParser {
     XmlTag tag;
     place(tag);
     if (!follows("<")) {
-      return wrong("a tag has to be here");
+      return fail_here("expected a tag");
     }
     ++at_;
     tag.closes = follows("/");
     at_ += tag.closes ? 1 : 0;
     tag.name = name();
     if (tag.name.empty()) {
-      return wrong("a tag's name has to be here");
+      return fail_here("expected a tag name");
     }
     if (open_.empty() && last_) {
-      return tag.fail_here("a second outermost element", fault_);
+      return tag.fail_here("second root element", fault_);
     }
     return tag.closes ? close(tag) : open(tag);
   }
 
-  // Goes on counting lines where it stopped the last time.
+  // Counts lines from the last position on.
   void place(XmlTag& tag) {
     for (; counted_ < at_; ++counted_) {
       if (text_[counted_] == '\n') {
@@ -117,11 +118,11 @@ class XmlParser {
   bool close(XmlTag& tag) {
     skip_blanks();
     if (!follows(">")) {
-      return wrong("'>' has to be here");
+      return fail_here("expected '>'");
     }
     ++at_;
     if (open_.empty() || open_.back() != tag.name) {
-      return tag.fail_here("</" + tag.name + "> closes nothing", fault_);
+      return tag.fail_here("unexpected closing tag </" + tag.name + ">", fault_);
     }
     open_.pop_back();
     return add(std::move(tag));
@@ -137,7 +138,7 @@ class XmlParser {
     }
     const bool empty = follows("/>");
     at_ += empty ? 2 : 1;
-    if (open_.size() == kMost) {
+    if (open_.size() == kMaxNesting) {
       return tag.fail_here("too deeply nested", fault_);
     }
     if (!empty) {
@@ -154,22 +155,22 @@ class XmlParser {
     const std::string key = name();
     skip_blanks();
     if (key.empty() || !follows("=")) {
-      return wrong(key.empty() ? "an attribute or '>' has to be here" : "'=' has to be here");
+      return fail_here(key.empty() ? "expected an attribute or '>'" : "expected '='");
     }
     ++at_;
     skip_blanks();
     if (!follows("\"") && !follows("'")) {
-      return wrong("a quotation mark has to be here");
+      return fail_here("expected a quotation mark");
     }
-    if (tag.attributes.size() == kMost) {
-      return wrong("more than " + std::to_string(kMost) + " attributes");
+    if (tag.attributes.size() == kMaxNesting) {
+      return fail_here("more than " + std::to_string(kMaxNesting) + " attributes");
     }
     if (tag.find(key) != nullptr) {
-      return wrong(quoted(key) + " is there twice");
+      return fail_here("duplicate attribute " + quoted(key));
     }
     const std::size_t end = text_.find(text_[at_], at_ + 1);
     if (end == text_.npos) {
-      return wrong("a quotation mark has no other");
+      return fail_here("unterminated attribute value");
     }
     ++at_;
     std::string value;
@@ -181,7 +182,7 @@ class XmlParser {
     return true;
   }
 
-  // From here to `end`.
+  // Decodes entities from here to `end`.
   bool decode(std::size_t end, std::string& into) {
     while (at_ < end) {
       if (text_[at_] != '&') {
@@ -191,7 +192,7 @@ class XmlParser {
       const auto* known = std::find_if(kEntities.begin(), kEntities.end(),
                                        [&](const Entity& each) { return follows(each.written); });
       if (known == kEntities.end()) {
-        return wrong("an entity that is not known");
+        return fail_here("unknown entity");
       }
       into += known->character;
       at_ += known->written.size();
@@ -199,7 +200,7 @@ class XmlParser {
     return true;
   }
 
-  // Up to the next tag.
+  // Reads text up to the next tag.
   bool take_text() {
     const std::size_t end = std::min(text_.find('<', at_), text_.size());
     skip_blanks();
@@ -207,7 +208,7 @@ class XmlParser {
       return true;
     }
     if (open_.empty()) {
-      return wrong("text outside the outermost element");
+      return fail_here("text outside the root element");
     }
     std::string found;
     if (!decode(end, found)) {

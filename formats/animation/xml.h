@@ -1,5 +1,5 @@
-// The tags of an XML document one by one, for readers of simple ones: elements, attributes and text
-// in UTF-8, no document types, no entities but those of XML itself.
+// A parser for simple XML documents, tag by tag: elements, attributes and text in UTF-8, without
+// document types and with XML's own entities only.
 #pragma once
 
 #include <cstddef>
@@ -17,11 +17,11 @@ struct XmlTag {
   std::string name;
   bool closes = false;  // </name>
   std::vector<std::pair<std::string, std::string>> attributes;
-  std::string text;  // between it and the next tag, without blanks around it
+  std::string text;  // up to the next tag, without surrounding blanks
   std::size_t line = 0;
   std::size_t column = 0;
 
-  // Nothing where there is no such attribute. Valid as long as the tag.
+  // nullptr if there is no such attribute. Valid as long as the tag.
   [[nodiscard]] const std::string* find(std::string_view attribute) const;
 
   [[nodiscard]] bool fail_here(std::string what, Fault& fault) const {
@@ -29,16 +29,16 @@ struct XmlTag {
   }
 };
 
-// What is done with a tag; false ends the reading.
+// Returns false to stop reading.
 using XmlVisit = std::function<bool(const XmlTag& tag)>;
 
-// Visits each tag once its text is known, so that only one is in memory. False, with a fault, for
-// what is no such document: elements have to be closed in turn, and nothing but blanks stands
-// outside the outermost. An empty element gives two tags. More than 64 elements inside each other,
-// or attributes of one, are a fault.
+// Visits each tag when its text is complete, so that only one tag is in memory. Returns false with
+// a fault for invalid documents: elements must be closed in order, and only whitespace may be
+// outside the root. An empty element gives two tags. More than 64 nested elements, or 64 attributes
+// per element, are an error.
 [[nodiscard]] bool parse_xml(std::string_view text, const XmlVisit& visit, Fault& fault);
 
-// The text as it stands in a document.
+// Escapes text for XML.
 [[nodiscard]] std::string xml_text(std::string_view text);
 
 }  // namespace mien::formats

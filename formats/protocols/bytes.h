@@ -1,4 +1,4 @@
-// Numbers as packets carry them, appended to what a packet is so far.
+// Appends numbers to packets.
 #pragma once
 
 #include <bit>

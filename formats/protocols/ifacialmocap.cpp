@@ -1,3 +1,4 @@
+// Formats iFacialMocap packets.
 #include "formats/protocols/ifacialmocap.h"
 
 #include <cmath>
@@ -12,7 +13,8 @@ namespace {
 constexpr std::string_view kVersion2 = "|sendDataVersion=v2";
 constexpr int kDegreeDecimals = 4, kMetreDecimals = 6;
 
-// "eyeBlink_L" for eyeBlinkLeft; jawLeft and mouthLeft are directions, not sides, and stay.
+// "eyeBlink_L" for eyeBlinkLeft; jawLeft and mouthLeft are directions, not sides, and stay
+// unchanged.
 std::string name_of(std::string_view arkit) {
   for (const std::string_view side : {std::string_view("Left"), std::string_view("Right")}) {
     const std::string_view stem =
@@ -24,7 +26,7 @@ std::string name_of(std::string_view arkit) {
   return std::string(arkit);
 }
 
-std::string turn(const Angles& angles) {
+std::string rotation_text(const Angles& angles) {
   constexpr double kDegrees = 180.0 / std::numbers::pi;
   return fixed(kDegrees * angles.pitch, kDegreeDecimals) + "," +
          fixed(kDegrees * (0.0 - angles.yaw), kDegreeDecimals) + "," +
@@ -48,12 +50,12 @@ std::string ifacialmocap_text(const Frame& frame, char separator) {
     text.append(std::to_string(std::lround(100.0 * or_zero(frame.controls[i])))) += '|';
   }
   const auto eyes = frame.eyes ? frame.eyes : gaze(frame.controls);
-  text.append("=head#").append(turn(frame.head.value_or(Angles())));
+  text.append("=head#").append(rotation_text(frame.head.value_or(Angles())));
   for (const double metres : frame.position_m.value_or(std::array<double, 3>{})) {
     text.append(",").append(fixed(metres, kMetreDecimals));
   }
-  text.append("|rightEye#").append(turn(eyes ? (*eyes)[1] : Angles()));
-  text.append("|leftEye#").append(turn(eyes ? (*eyes)[0] : Angles()));
+  text.append("|rightEye#").append(rotation_text(eyes ? (*eyes)[1] : Angles()));
+  text.append("|leftEye#").append(rotation_text(eyes ? (*eyes)[0] : Angles()));
   return text + "|";
 }
 

@@ -1,5 +1,5 @@
-// iFacialMocap over UDP, port 49983, as a phone speaks it (ifacialmocap.com/for-developer): whoever
-// says the hello gets a stream of text.
+// iFacialMocap over UDP, port 49983, in the role of the phone (ifacialmocap.com/for-developer): a
+// receiver that sends a hello gets a stream of text.
 #pragma once
 
 #include <optional>
@@ -13,12 +13,12 @@ namespace mien::formats {
 inline constexpr std::string_view kIfacialmocapHello =
     "iFacialMocap_sahuasouryya9218sauhuiayeta91555dy3719";
 
-// What stands between names and values for whoever sent this: '-', or '&' where the hello asks for
-// version 2; nothing where it is no hello.
+// The separator between names and values for the sender of a hello: '-', or '&' if it requests
+// version 2; nothing if the datagram is not a hello.
 [[nodiscard]] std::optional<char> ifacialmocap_separator(std::string_view datagram);
 
-// Names as "eyeBlink_L", values 0..100 in whole numbers, then head, right and left eye in degrees:
-// x as our pitch, y against our yaw, z as our roll; the head's place in metres, camera space.
+// Names such as "eyeBlink_L" and integer values 0..100, then head, right and left eye in degrees: x
+// is our pitch, y our negative yaw, z our roll; then the head position in metres, camera space.
 [[nodiscard]] std::string ifacialmocap_text(const Frame& frame, char separator);
 
 }  // namespace mien::formats

@@ -1,3 +1,4 @@
+// Writes Live Link Face packets.
 #include "formats/protocols/live_link.h"
 
 #include <cmath>
@@ -23,7 +24,7 @@ void append_frame_time(std::string& packet, double time_s) {
   append_big(packet, static_cast<std::uint32_t>(whole));
   append_big_float(packet, frames - whole);
   append_big(packet, kFramesPerSecond);
-  append_big(packet, std::uint32_t{1});  // the frame rate's denominator
+  append_big(packet, std::uint32_t{1});  // denominator of the frame rate
 }
 
 }  // namespace
@@ -34,7 +35,7 @@ std::string live_link_packet(const Frame& frame, const LiveLinkSubject& subject,
   append_text(packet, subject.device_id);
   append_text(packet, subject.name);
   append_frame_time(packet, time_s);
-  if (shows_nothing(frame)) {
+  if (is_blank(frame)) {
     append_big(packet, std::uint8_t{0});
     return packet;
   }

@@ -1,5 +1,5 @@
-// Live Link Face's packets, version 6: UDP port 11111, big-endian. Epic documents none of it; the
-// layout is that of captured packets.
+// Packets of Live Link Face, version 6: UDP port 11111, big-endian. Epic does not document them;
+// the layout follows captured packets.
 #pragma once
 
 #include <string>
@@ -11,12 +11,12 @@ namespace mien::formats {
 
 struct LiveLinkSubject {
   std::string device_id;  // 36 characters, a UUID
-  std::string name;       // how Unreal lists it, UTF-8
+  std::string name;       // displayed by Unreal, UTF-8
   RotationUnit rotation = RotationUnit::kRadians;
 };
 
-// `time_s`: of the day, which becomes a frame's number at 60 a second, of at most 32 bits. A frame
-// that shows nothing says so with a count of 0.
+// `time_s` is the time of day; the packet contains it as a 32-bit frame number at 60 per second. A
+// blank frame has count 0.
 [[nodiscard]] std::string live_link_packet(const Frame& frame, const LiveLinkSubject& subject,
                                            double time_s);
 

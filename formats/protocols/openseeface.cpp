@@ -1,3 +1,4 @@
+// Computes 3D points and features of OpenSeeFace.
 #include "formats/protocols/openseeface.h"
 
 #include <algorithm>
@@ -16,7 +17,7 @@ using Vector = std::array<double, 3>;
 using Matrix = std::array<Vector, 3>;  // rows
 
 constexpr double kMetresPerUnit = 0.14;  // the width of a face
-constexpr std::size_t kPoints = 66;      // iBUG's without the outer corners of the mouth
+constexpr std::size_t kPoints = 66;      // iBUG's points without the outer corners of the mouth
 constexpr std::size_t kNoseTip = 30;
 
 constexpr std::array<std::size_t, kPoints> kIbugPoints = [] {
@@ -30,7 +31,7 @@ constexpr std::array<std::size_t, kPoints> kIbugPoints = [] {
   return points;
 }();
 
-// How far an average face's landmarks lie before the middle between its ears, metres.
+// Distance of an average face's landmarks in front of the centre between its ears, metres.
 constexpr std::array<double, kPoints> kDepths = {
     0.010, 0.012, 0.016, 0.024, 0.038, 0.056, 0.072, 0.084, 0.090,         // jaw, from the right
     0.084, 0.072, 0.056, 0.038, 0.024, 0.016, 0.012, 0.010,                //
@@ -41,7 +42,7 @@ constexpr std::array<double, kPoints> kDepths = {
     0.098, 0.103, 0.104, 0.103, 0.098, 0.096, 0.101, 0.103, 0.101, 0.096,  // outer lips
     0.088, 0.098, 0.100, 0.098, 0.088, 0.098, 0.100, 0.098};               // inner lips
 constexpr double kPupilDepth = 0.079;
-// An eyeball's centre behind its corners, in distances between these.
+// The centre of an eyeball behind its corners, relative to the distance between them.
 constexpr double kEyeballDepth = 0.385;
 
 double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
@@ -53,9 +54,9 @@ Matrix matrix(const Angles& angles) {
            {2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)}}};
 }
 
-// The head in OpenSeeFace's spaces. Its model has x to the subject's right, its camera x up, y to
-// the picture's left, z towards the viewer; of both, one is left-handed. Since its solver knows
-// proper rotations only, what it finds has its depth turned round, and receivers count on that.
+// The head in OpenSeeFace's spaces. Its model has x to the subject's right; its camera has x up, y
+// to the left of the image, z towards the viewer. One of the two is left-handed. Its solver knows
+// proper rotations only, so its result has an inverted depth, which receivers expect.
 struct Head {
   Matrix rotation;      // ours, head to camera
   Vector place;         // ours, metres
@@ -79,29 +80,30 @@ struct Head {
     return head;
   }
 
-  // Where the ray through a point of the picture is so far before the middle of the head.
-  [[nodiscard]] Vector on_face(const PicturePoint& point, const OpenSeeFacePicture& picture,
+  // The point on the ray through an image point that is at the given depth in front of the centre
+  // of the head.
+  [[nodiscard]] Vector on_face(const ImagePoint& point, const OpenSeeFaceImage& image,
                                double depth) const {
-    const Vector ray = {(point[0] - picture.width / 2) / picture.focal_length_px,
-                        (picture.height / 2 - point[1]) / picture.focal_length_px, -1.0};
+    const Vector ray = {(point[0] - image.width / 2) / image.focal_length_px,
+                        (image.height / 2 - point[1]) / image.focal_length_px, -1.0};
     const Vector forward = {rotation[0][2], rotation[1][2], rotation[2][2]};
-    constexpr double kTooSlanted = 0.2;  // of a face that is seen from its side
+    constexpr double kMinSlant = 0.2;  // for faces in profile
     const double slant = dot(forward, ray);
     const double far =
-        std::abs(slant) > kTooSlanted ? (depth + dot(forward, place)) / slant : -place[2];
+        std::abs(slant) > kMinSlant ? (depth + dot(forward, place)) / slant : -place[2];
     return to_head({far * ray[0], far * ray[1], far * ray[2]});
   }
 };
 
-// Before it is brought to the tip of the nose: right, up, out of the face.
-std::vector<Vector> points_in_depth(const Head& head, const OpenSeeFacePicture& picture) {
+// Before the tip of the nose becomes the origin: right, up, out of the face.
+std::vector<Vector> points_3d(const Head& head, const OpenSeeFaceImage& image) {
   std::vector<Vector> points;
   points.reserve(kPoints + 4);
   for (std::size_t i = 0; i < kPoints; ++i) {
-    points.push_back(head.on_face(picture.landmarks[kIbugPoints[i]], picture, kDepths[i]));
+    points.push_back(head.on_face(image.landmarks[kIbugPoints[i]], image, kDepths[i]));
   }
-  for (const PicturePoint& pupil : picture.pupils) {
-    points.push_back(head.on_face(pupil, picture, kPupilDepth));
+  for (const ImagePoint& pupil : image.pupils) {
+    points.push_back(head.on_face(pupil, image, kPupilDepth));
   }
   for (const auto [outer, inner] : {std::array{36, 39}, std::array{45, 42}}) {
     const Vector& a = points[static_cast<std::size_t>(outer)];
@@ -114,8 +116,8 @@ std::vector<Vector> points_in_depth(const Head& head, const OpenSeeFacePicture& 
 }
 
 Quaternion raw_quaternion(const Matrix& m) {
-  // Of the four ways to take a quaternion from a matrix the one that divides by the largest part;
-  // it is that of the transposed matrix, as OpenSeeFace has it.
+  // Of the four ways to convert a matrix to a quaternion, uses the one that divides by the largest
+  // component. The result is that of the transposed matrix, as in OpenSeeFace.
   Quaternion q;
   if (m[2][2] < 0) {
     q = m[0][0] > m[1][1] ? Quaternion{1 + m[0][0] - m[1][1] - m[2][2], m[0][1] + m[1][0],
@@ -135,7 +137,7 @@ Quaternion raw_quaternion(const Matrix& m) {
   return q;
 }
 
-// R = Rz Ry Rx in degrees, x, y, z: what OpenCV's RQDecomp3x3 gives.
+// R = Rz Ry Rx in degrees, x, y, z, as in OpenCV's RQDecomp3x3.
 Vector raw_euler(const Matrix& m) {
   constexpr double kDegrees = 180.0 / std::numbers::pi;
   return {kDegrees * std::atan2(m[2][1], m[2][2]),
@@ -143,8 +145,8 @@ Vector raw_euler(const Matrix& m) {
           kDegrees * std::atan2(m[1][0], m[0][0])};
 }
 
-// In their order: eyes, then of each side steepness, height and quirk of the brow, then height and
-// width of each corner of the mouth, then the mouth.
+// In OpenSeeFace's order: eyes, then for each side steepness, height and quirk of the brow, then
+// height and width of each corner of the mouth, then the mouth.
 std::array<double, 14> features(const Frame& frame) {
   const auto value = [&](std::size_t which) { return or_zero(frame.controls[which]); };
   const auto signed_share = [](double x) { return std::clamp(x, -1.0, 1.0); };
@@ -189,34 +191,34 @@ void append_floats(std::string& packet, std::span<const double> values) {
 
 }  // namespace
 
-std::string openseeface_packet(const Frame& frame, const OpenSeeFacePicture& picture,
+std::string openseeface_packet(const Frame& frame, const OpenSeeFaceImage& image,
                                double unix_time_s) {
   const Head head(frame);
-  std::vector<Vector> points = points_in_depth(head, picture);
+  std::vector<Vector> points = points_3d(head, image);
   const Vector nose = points[kNoseTip];
   std::string packet;
   append_little_double(packet, unix_time_s);
   append_little(packet, static_cast<std::uint32_t>(frame.face_id));
-  append_floats(packet, std::array{picture.width, picture.height});
+  append_floats(packet, std::array{image.width, image.height});
   append_floats(packet, std::array{1.0 - or_zero(frame.controls[control("eyeBlinkRight")]),
                                    1.0 - or_zero(frame.controls[control("eyeBlinkLeft")])});
   append_little(packet, static_cast<std::uint8_t>(frame.head.has_value()));
-  append_little_float(packet, 0.0);  // how badly their model fits; there is nothing to fit
+  append_little_float(packet, 0.0);  // fit error of their model; there is no fit
   append_floats(packet, raw_quaternion(head.raw_rotation));
   append_floats(packet, raw_euler(head.raw_rotation));
-  Vector tip = head.place;  // of the nose, in the camera's space
+  Vector tip = head.place;  // of the nose, in camera space
   for (std::size_t i = 0; i < 3; ++i) {
     tip[i] = (tip[i] + dot(head.rotation[i], nose)) / kMetresPerUnit;
   }
   append_floats(packet, std::array{tip[1], -tip[0], tip[2]});
   append_floats(packet, std::vector<double>(kPoints + 2, or_zero(frame.face_probability)));
   for (const std::size_t i : kIbugPoints) {
-    append_floats(packet, picture.landmarks[i]);
+    append_floats(packet, image.landmarks[i]);
   }
-  for (const PicturePoint& pupil : picture.pupils) {
+  for (const ImagePoint& pupil : image.pupils) {
     append_floats(packet, pupil);
   }
-  for (const Vector& point : points) {  // their x is ours turned round; they send -y and -z
+  for (const Vector& point : points) {  // their x is our negative x; they send -y and -z
     append_floats(packet, std::array{(nose[0] - point[0]) / kMetresPerUnit,
                                      (nose[1] - point[1]) / kMetresPerUnit,
                                      (nose[2] - point[2]) / kMetresPerUnit});

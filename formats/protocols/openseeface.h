@@ -1,5 +1,5 @@
-// OpenSeeFace's packets (facetracker.py), which VSeeFace and others take: UDP port 11573,
-// little-endian, 1785 bytes a face.
+// Packets of OpenSeeFace (facetracker.py), which VSeeFace and others receive: UDP port 11573,
+// little-endian, 1785 bytes per face.
 #pragma once
 
 #include <array>
@@ -12,23 +12,23 @@ namespace mien::formats {
 
 inline constexpr std::size_t kOpenSeeFaceBytes = 1785;
 
-using PicturePoint = std::array<double, 2>;  // x, y in pixels of the upright picture
+using ImagePoint = std::array<double, 2>;  // x, y in pixels of the upright image
 
-struct OpenSeeFacePicture {
-  double width = 0.0, height = 0.0;        // pixels
-  double focal_length_px = 1.0;            // above 0; the principal point is the centre
-  std::array<PicturePoint, 68> landmarks;  // iBUG's order (300-W)
-  std::array<PicturePoint, 2> pupils;      // right, left
+struct OpenSeeFaceImage {
+  double width = 0.0, height = 0.0;      // pixels
+  double focal_length_px = 1.0;          // above 0; the principal point is the centre
+  std::array<ImagePoint, 68> landmarks;  // iBUG's order (300-W)
+  std::array<ImagePoint, 2> pupils;      // right, left
 };
 
-// Of a frame with a face: head and position_m count as 0 where they are missing.
+// Requires a frame with a face; missing head and position_m count as 0.
 //
-// Where OpenSeeFace fits a face model into the picture we have a head already. Points in depth are
-// where the rays through the landmarks meet the surface of an average head; like OpenSeeFace's own
-// they stand in the head, in widths of a face, from the tip of the nose. Its features are relative
-// to what a face mostly shows; ours are made of controls. Turn and place are written in the turned
-// and mirrored camera space that its receivers undo.
-[[nodiscard]] std::string openseeface_packet(const Frame& frame, const OpenSeeFacePicture& picture,
+// OpenSeeFace fits a face model to the image, but here the head pose is known. 3D points are
+// intersections of the rays through the landmarks with the surface of an average head. As in
+// OpenSeeFace, they are in head space, in units of the face width, relative to the tip of the nose.
+// OpenSeeFace's features are relative to a person's typical values; ours are derived from controls.
+// Rotation and position use the rotated and mirrored camera space that receivers undo.
+[[nodiscard]] std::string openseeface_packet(const Frame& frame, const OpenSeeFaceImage& image,
                                              double unix_time_s);
 
 }  // namespace mien::formats

@@ -1,3 +1,4 @@
+// Writes opentrack packets.
 #include "formats/protocols/opentrack.h"
 
 #include <numbers>

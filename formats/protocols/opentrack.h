@@ -7,8 +7,8 @@
 
 namespace mien::formats {
 
-// x, y, z in centimetres, yaw, pitch, roll in degrees, in the directions of camera space (clip.h);
-// zeros where the frame has no head.
+// x, y, z in centimetres, yaw, pitch, roll in degrees, with the directions of camera space
+// (clip.h); zeros for a frame without a head.
 [[nodiscard]] std::string opentrack_packet(const Frame& frame);
 
 }  // namespace mien::formats

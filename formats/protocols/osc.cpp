@@ -1,3 +1,4 @@
+// Encodes Open Sound Control.
 #include "formats/protocols/osc.h"
 
 #include "formats/protocols/bytes.h"
@@ -5,7 +6,7 @@
 namespace mien::formats {
 namespace {
 
-// Ended by a NUL and filled up with more of them to a multiple of 4.
+// Terminated by NUL and padded with NUL to a multiple of 4.
 void append_string(std::string& packet, std::string_view text) {
   packet.append(text).append(4 - text.size() % 4, '\0');
 }
@@ -22,7 +23,7 @@ struct AppendArgument {
 std::string empty_bundle() {
   std::string bundle;
   append_string(bundle, "#bundle");
-  append_big(bundle, std::uint64_t{1});  // the time tag for "at once"
+  append_big(bundle, std::uint64_t{1});  // the time tag for "immediately"
   return bundle;
 }
 
@@ -42,14 +43,13 @@ std::string osc_message(std::string_view address, std::span<const OscArgument> a
   return message;
 }
 
-std::vector<std::string> osc_bundles(std::span<const std::string> messages,
-                                     std::size_t most_bytes) {
+std::vector<std::string> osc_bundles(std::span<const std::string> messages, std::size_t max_bytes) {
   const std::string empty = empty_bundle();
   std::vector<std::string> bundles;
   for (const std::string& message : messages) {
     const std::size_t bytes = sizeof(std::uint32_t) + message.size();
     if (bundles.empty() ||
-        (bundles.back().size() + bytes > most_bytes && bundles.back().size() > empty.size())) {
+        (bundles.back().size() + bytes > max_bytes && bundles.back().size() > empty.size())) {
       bundles.push_back(empty);
     }
     append_big(bundles.back(), static_cast<std::uint32_t>(message.size()));

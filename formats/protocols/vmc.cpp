@@ -1,3 +1,4 @@
+// Writes VMC packets.
 #include "formats/protocols/vmc.h"
 
 #include "formats/animation/rotation.h"
@@ -23,7 +24,7 @@ std::vector<std::string> vmc_packets(const VmcFrame& frame) {
                               static_cast<std::int32_t>(frame.tracking)}),
       message("/VMC/Ext/T", {narrow(frame.seconds)})};
   if (frame.head) {
-    // x turns round on the way from our head space, which has the subject's left there.
+    // x is negated, because our head space has the subject's left there
     const auto [x, y, z, w] = quaternion(*frame.head);
     messages.push_back(
         message("/VMC/Ext/Bone/Pos", {std::string_view("Head"), 0.0f, 0.0f, 0.0f, narrow(x),

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""scripts/batch_ray.py: what is done when, and with Ray (PyPI), where it is there, a cluster of two workers of which one is killed half-way.
+"""Tests of scripts/batch_ray.py: order of work, and with Ray (PyPI), if available, a cluster of two workers, one of which is killed.
 
 usage: batch_ray_test.py
-The program is a stand-in that takes its time, so that there is a half-way, and that notes each file it did.
+A slow fake replaces the program and records each file.
 """
 import importlib.util
 import json
@@ -24,7 +24,7 @@ specification = importlib.util.spec_from_file_location("batch_ray", SCRIPT)
 batch_ray = importlib.util.module_from_spec(specification)
 specification.loader.exec_module(batch_ray)
 
-# As `mien track`: whole files appear under their names; ends with 3 for a file that is none. `begun` and `done` note what it did.
+# Like `mien track`: complete files appear under their names; exits with 3 for an invalid file. Records its work in `begun` and `done`.
 STAND_IN = f"#!{sys.executable}\n" + """import os, sys, time
 source, log = sys.argv[2], os.environ["STAND_IN_LOG"]
 note = lambda what: open(log, "a").write(f"{what} {os.path.basename(source)} {os.getppid()}\\n")
@@ -61,16 +61,16 @@ class BatchRay(unittest.TestCase):
         with open(self.path("log")) as file:
             return [line.split() for line in file if line.startswith(what)]
 
-    def test_the_lists_are_those_of_the_program(self):
+    def test_lists_match_the_program(self):
         with open(os.path.join(ROOT, "apps/mien/tracking/batch.cpp")) as file:
             source = file.read()
         self.assertEqual(re.findall(r'"(\.\w+)"', source[source.index("kRecordings"):source.index("};")]), batch_ray.RECORDINGS)
         with open(os.path.join(ROOT, "formats/animation/animation.h")) as file:
             self.assertEqual(dict(re.findall(r'\{AnimationFormat::\w+, "([\w-]+)", "([.\w]+)"', file.read())), batch_ray.ENDINGS)
 
-    def test_what_is_done_stays_done(self):
+    def test_finished_files_are_skipped(self):
         name = batch_ray.recordings(self.path("in"), self.path("in/below"))
-        self.assertEqual(len(name), FILES // 2, "outputs are no inputs")
+        self.assertEqual(len(name), FILES // 2, "outputs are not inputs")
         job = {"input": self.path("in/00.mp4"), "formats": ["csv", "glb"], "outputs": [self.path("out/a.csv"), self.path("out/a.glb")]}
         self.assertEqual(batch_ray.track(job, self.path("program"), [])["outcome"], "done")
         self.assertEqual(batch_ray.track(job, self.path("program"), [])["outcome"], "done before")
@@ -80,7 +80,7 @@ class BatchRay(unittest.TestCase):
         os.utime(self.path("in/00.mp4"), (later, later))
         self.assertFalse(batch_ray.is_done(job))
 
-    def test_a_failure_is_an_answer(self):
+    def test_failures_are_reported(self):
         open(self.path("in/bad.mp4"), "w").close()
         job = {"input": self.path("in/bad.mp4"), "formats": ["csv"], "outputs": [self.path("out/bad.csv")]}
         done = batch_ray.track(job, self.path("program"), [])
@@ -88,7 +88,7 @@ class BatchRay(unittest.TestCase):
         self.assertIn("bad.mp4: no video", done["failure"])
 
     @unittest.skipUnless(importlib.util.find_spec("ray"), "SKIPPED: batches were NOT run on a cluster: no ray (PyPI) here")
-    def test_a_worker_is_killed_half_way(self):
+    def test_a_killed_worker_is_replaced(self):
         from ray.cluster_utils import Cluster
         open(self.path("in/bad.mp4"), "w").close()
         cluster = Cluster(initialize_head=True, head_node_args={"num_cpus": 0})
@@ -120,7 +120,7 @@ class BatchRay(unittest.TestCase):
                     self.assertEqual(file.read(), "curves\n", name)
         done = sorted(name for _, name, _ in self.log("done"))
         self.assertEqual(done, sorted(os.path.basename(name) for name in rows if name != "bad.mp4"), "each exactly once")
-        self.assertEqual(len(self.log("begun")), FILES + 1, "what was killed began anew")
+        self.assertEqual(len(self.log("begun")), FILES + 1, "the killed file was restarted")
         second = subprocess.run(command, capture_output=True, text=True, timeout=600)
         self.assertEqual({row["outcome"] for row in json.loads(second.stdout)}, {"done before", "failed"})
 

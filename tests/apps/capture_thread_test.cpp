@@ -1,5 +1,4 @@
-// The thread of cameras and microphones, with devices that come and go as the test wants. Meant to
-// be run under ThreadSanitizer, too.
+// Tests of the capture thread with scripted devices. Also runs under ThreadSanitizer.
 #include "apps/mien/live/capture_thread.h"
 
 #include <gmock/gmock.h>
@@ -17,9 +16,9 @@ using testing::SizeIs;
 struct Number {
   int value = 0;
 };
-std::int64_t lasts_ns(const Number& /*number*/) { return 5'000'000; }
+std::int64_t duration_ns(const Number& /*number*/) { return 5'000'000; }
 
-// Numbers 0, 1, 2, one each 10 ms; then it is damaged, if it is to be.
+// Numbers 0, 1, 2 at intervals of 10 ms; optionally damaged afterwards.
 struct File {
   bool damaged = false;
   int at = 0;
@@ -34,8 +33,8 @@ struct File {
   }
 };
 
-// What all devices of a test do: the n-th that is opened gives the n-th list, and then waits to be
-// interrupted or is gone.
+// The script of all devices of a test: the n-th opened device returns the n-th list, then waits for
+// an interruption or fails.
 struct World {
   struct Life {
     std::vector<int> gives;
@@ -76,7 +75,7 @@ class Device {
     changed_.notify_all();
   }
 
-  static std::string reason() { return "it is gone"; }
+  static std::string reason() { return "it has failed"; }
 
  private:
   World::Life life_;
@@ -90,7 +89,7 @@ class Listener : public CaptureThread<File, Device, Number> {
  public:
   struct Taken {
     int value;
-    std::int64_t time_ns, there_ns;
+    std::int64_t time_ns, arrival_ns;
   };
 
   explicit Listener(std::unique_ptr<File> file, bool waits = false)
@@ -101,7 +100,7 @@ class Listener : public CaptureThread<File, Device, Number> {
   explicit Listener(const std::string& name) : CaptureThread(name, nullptr, true) {}
   ~Listener() override { stop(); }
 
-  // Waits for it, 20 s at most.
+  // Waits up to 20 s.
   bool comes(const std::function<bool(const Listener&)>& what) {
     std::unique_lock lock(mutex_);
     return changed_.wait_for(lock, std::chrono::seconds(20), [&] { return what(*this); });
@@ -118,10 +117,10 @@ class Listener : public CaptureThread<File, Device, Number> {
   }
 
  private:
-  void take(const Number& number, std::int64_t time_ns, std::int64_t there_ns) override {
+  void take(const Number& number, std::int64_t time_ns, std::int64_t arrival_ns) override {
     {
       const std::lock_guard lock(mutex_);
-      taken_.push_back({number.value, time_ns, there_ns});
+      taken_.push_back({number.value, time_ns, arrival_ns});
     }
     changed_.notify_all();
   }
@@ -133,19 +132,19 @@ auto took(std::size_t count) {
   return [count](const Listener& listener) { return listener.taken().size() == count; };
 }
 
-TEST(CaptureThread, AFileComesAsIfItHappened) {
+TEST(CaptureThread, AFilePlaysInRealTime) {
   Listener listener(std::make_unique<File>());
   const std::int64_t begin_ns = steady_now_ns() + 20'000'000;
   listener.start(begin_ns);
   ASSERT_TRUE(listener.comes(&Listener::has_ended));
-  EXPECT_GE(steady_now_ns(), begin_ns + 25'000'000) << "the last is there when it is over";
+  EXPECT_GE(steady_now_ns(), begin_ns + 25'000'000) << "the last one has arrived at the end";
   EXPECT_THAT(listener.values(), ElementsAre(0, 1, 2));
   for (const Listener::Taken& each : listener.taken()) {
     EXPECT_EQ(each.time_ns, begin_ns + each.value * 10'000'000);
-    EXPECT_GE(each.there_ns, each.time_ns + 5'000'000);
+    EXPECT_GE(each.arrival_ns, each.time_ns + 5'000'000);
   }
   EXPECT_FALSE(listener.has_failed());
-  EXPECT_THAT(listener.trouble(), IsEmpty());
+  EXPECT_THAT(listener.error(), IsEmpty());
 }
 
 TEST(CaptureThread, ADamagedFileEndsWithAFailure) {
@@ -154,25 +153,25 @@ TEST(CaptureThread, ADamagedFileEndsWithAFailure) {
   ASSERT_TRUE(listener.comes(&Listener::has_ended));
   EXPECT_THAT(listener.values(), ElementsAre(0, 1, 2));
   EXPECT_TRUE(listener.has_failed());
-  EXPECT_EQ(listener.trouble(), "damaged");
+  EXPECT_EQ(listener.error(), "damaged");
 }
 
-TEST(CaptureThread, ADeviceThatGoesIsOpenedAnew) {
+TEST(CaptureThread, ADeviceThatFailsIsReopened) {
   Listener listener(Lives{{.gives = {7}}, {}, {.gives = {8}, .stays = true}});
   listener.start(0);
   ASSERT_TRUE(listener.comes(took(1)));
   ASSERT_TRUE(listener.comes(took(2)));
   EXPECT_THAT(listener.values(), ElementsAre(7, 8));
-  EXPECT_FALSE(listener.has_failed()) << "it was there";
-  EXPECT_THAT(listener.trouble(), IsEmpty());
+  EXPECT_FALSE(listener.has_failed()) << "the device has worked";
+  EXPECT_THAT(listener.error(), IsEmpty());
 }
 
-TEST(CaptureThread, ADeviceThatWasNeverThereFailsOrIsWaitedFor) {
+TEST(CaptureThread, AMissingDeviceFailsOrIsRetried) {
   {
     Listener needed(Lives{});
     needed.start(0);
     ASSERT_TRUE(needed.comes(&Listener::has_failed));
-    EXPECT_EQ(needed.trouble(), "it: it is gone");
+    EXPECT_EQ(needed.error(), "it: it has failed");
   }
   Listener waiting(Lives{{}, {.gives = {1}, .stays = true}}, true);
   waiting.start(0);
@@ -180,31 +179,31 @@ TEST(CaptureThread, ADeviceThatWasNeverThereFailsOrIsWaitedFor) {
   EXPECT_FALSE(waiting.has_failed());
 }
 
-TEST(CaptureThread, ANameThatIsNotUnderstoodIsSaidAtOnce) {
+TEST(CaptureThread, AnInvalidNameFailsAtOnce) {
   Listener listener("nonsense");
   EXPECT_THROW(listener.start(0), Failure);
 }
 
-TEST(CaptureThread, ASilentDeviceIsOpenedAnewWithTheReason) {
+TEST(CaptureThread, ASilentDeviceIsReopenedWithTheReason) {
   Listener listener(Lives{{.gives = {1}, .stays = true}, {.gives = {2}, .stays = true}});
   listener.start(0);
   ASSERT_TRUE(listener.comes(took(1)));
   listener.restart("it is silent");
-  while (listener.trouble().empty()) {
+  while (listener.error().empty()) {
     std::this_thread::yield();
   }
-  EXPECT_EQ(listener.trouble(), "it: it is silent");
+  EXPECT_EQ(listener.error(), "it: it is silent");
   ASSERT_TRUE(listener.comes(took(2)));
-  EXPECT_THAT(listener.trouble(), IsEmpty());
+  EXPECT_THAT(listener.error(), IsEmpty());
 }
 
-TEST(CaptureThread, StopsWhateverItWaitsFor) {
+TEST(CaptureThread, StopsDuringEveryWait) {
   const auto far_ns = steady_now_ns() + 3'600'000'000'000;
   { Listener(std::make_unique<File>()).start(far_ns); }
   { Listener(Lives{{.gives = {}, .stays = true}}, true).start(0); }
   Listener gone(Lives{{.gives = {1}}});
   gone.start(0);
-  ASSERT_TRUE(gone.comes(took(1)));  // and stops while it waits for the next time
+  ASSERT_TRUE(gone.comes(took(1)));  // and stops while it waits to retry
   EXPECT_THAT(gone.values(), SizeIs(1));
 }
 

@@ -1,4 +1,4 @@
-"""Chromium without a window, driven over the DevTools protocol through two pipes."""
+"""Headless Chromium, controlled by the DevTools protocol through two pipes."""
 import json
 import os
 import select
@@ -14,7 +14,7 @@ def find():
 
 
 class Chromium:
-    """A browser with one tab. What the pages log, throw and request is collected in `complaints` and `requests`."""
+    """A browser with one tab. Collects logs and exceptions of pages in `complaints`, and their requests in `requests`."""
 
     def __init__(self, program):
         self.profile = tempfile.mkdtemp(prefix="mien_chromium_")
@@ -59,7 +59,7 @@ class Chromium:
         data = json.dumps(message).encode() + b"\0"
         while data:
             data = data[os.write(self.outbox, data):]
-        deadline = time.monotonic() + 60  # of the answer: events may go on and on
+        deadline = time.monotonic() + 60  # for the reply, because the stream of events is unbounded
         while True:
             answer = self.receive(deadline)
             if answer.get("id") == self.number:
@@ -89,7 +89,7 @@ class Chromium:
             self.complaints.append(event["exceptionDetails"])
         elif method == "Log.entryAdded" and event["entry"]["level"] in ("warning", "error"):
             if "GPU stall due to ReadPixels" in event["entry"]["text"]:
-                return  # said of every WebGL canvas where there is no graphics card
+                return  # reported for every WebGL canvas without a GPU
             self.complaints.append(event["entry"]["text"])
         elif method == "Runtime.consoleAPICalled":
             self.complaints.append(event["args"])
@@ -102,7 +102,7 @@ class Chromium:
             self.receive(deadline)
 
     def evaluate(self, expression):
-        """The value of JavaScript, awaited where it is a promise; raises where that throws."""
+        """The value of JavaScript code, awaited if it is a promise; raises if the code throws."""
         answer = self.send("Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True, userGesture=True)
         if "exceptionDetails" in answer:
             raise RuntimeError(answer["exceptionDetails"]["exception"].get("description", expression))

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The page of `mien compare` as a person meets it, in Chromium without a window.
+"""Tests of the page of `mien compare` in headless Chromium.
 
 usage: compare_page_test.py MIEN_PROGRAM      exit code 77: skipped, a program is missing
 """
@@ -16,7 +16,7 @@ import unittest
 import chromium
 
 FRAMES, FPS, SIZE = 30, 25, (64, 48)
-HOSTILE = "<!--<script>'\".csv"  # a name that must not disturb the page around it
+HOSTILE = "<!--<script>'\".csv"  # must be escaped in the page
 MIEN = None
 
 
@@ -27,7 +27,7 @@ def control_names():
 
 
 def write_curves(path, values, names):
-    """values: name -> function of the frame's number."""
+    """values: name -> function of the frame number."""
     columns = ["t_ms", "pitch_rad", "yaw_rad", "roll_rad", *names]
     with open(path, "w", encoding="ascii") as file:
         print(",".join(columns), file=file)
@@ -92,7 +92,7 @@ class ComparePage(unittest.TestCase):
     def seek(self, t_ms):
         self.scrub_to(t_ms)
         self.wait(f"Math.abs(player.clock.time_ms - {t_ms}) < 2 && !document.getElementById('video').seeking", "seeking")
-        # Two frames later the faces of that time are drawn.
+        # Faces are drawn within two frames.
         self.run_js("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done(true))))")
 
     def press(self, selector):
@@ -102,16 +102,16 @@ class ComparePage(unittest.TestCase):
         return self.run_js(f"study.left === '{which}' ? 'left' : 'right'")
 
     def snapshot(self, side):
-        """A face's pixels, as a short text that changes with them."""
+        """A hash of a face's pixels."""
         return self.run_js(f"document.getElementById('face-{side}').toDataURL()")
 
-    def test_asks_nobody_for_anything(self):
+    def test_makes_no_network_requests(self):
         for page in ("plain.html", "video.html"):
             self.open(page)
             self.seek(400)
             self.assertEqual([url for url in self.browser.requests if not url.startswith(("file:", "blob:", "data:"))], [])
 
-    def test_seeks_before_the_first_frame_is_drawn(self):  # which a busy machine draws late
+    def test_seeks_before_the_first_frame_is_drawn(self):  # which may be late on a busy machine
         script = self.browser.send("Page.addScriptToEvaluateOnNewDocument", source="window.requestAnimationFrame = () => 0;")
         self.addCleanup(self.browser.send, "Page.removeScriptToEvaluateOnNewDocument", identifier=script["identifier"])
         self.open("plain.html")
@@ -140,7 +140,7 @@ class ComparePage(unittest.TestCase):
             return count;
           };
         })()""")
-        # One answer for each face: processors that draw it and are busy with other things take their time.
+        # One call per face, because software rendering on a busy machine is slow.
         changed = lambda change: self.run_js(f"changed(face => {{ {change}; }})")
         found = {name: changed(f"face.controls.{name} = 1") for name in self.run_js("data.controls")}
         found |= {angle: changed(f"face.{angle} = 0.3") for angle in ("pitch", "yaw", "roll")}
@@ -148,13 +148,13 @@ class ComparePage(unittest.TestCase):
         self.assertEqual(len(found), 52 + 3)
         for name, count in found.items():
             self.assertGreater(count["left"] + count["right"], 60, name)
-            # The subject's left is on the picture's right. Lips hang together, so theirs is a matter of more or less.
+            # The subject's left is on the right of the image. Lips are connected, so their sides are compared by amount.
             if name.endswith("Left") and not name.startswith(("jaw", "mouthLeft")):
                 self.assertGreater(count["right"], 2 * count["left"], name)
             if name.endswith("Right") and not name.startswith(("jaw", "mouthRight")):
                 self.assertGreater(count["left"], 2 * count["right"], name)
 
-    def test_the_face_follows_its_file(self):
+    def test_the_face_shows_its_file(self):
         for page in ("plain.html", "video.html"):
             self.open(page)
             still, moving = self.side_of("a"), self.side_of("b")
@@ -163,26 +163,26 @@ class ComparePage(unittest.TestCase):
             self.seek(1000)
             self.assertEqual(self.snapshot(still), before[still])
             self.assertNotEqual(self.snapshot(moving), before[moving])
-            self.assertEqual(self.run_js("faceAt(data.b, 399).controls.eyeBlinkLeft"), 0)  # a frame stands until the next
+            self.assertEqual(self.run_js("faceAt(data.b, 399).controls.eyeBlinkLeft"), 0)  # a frame is held until the next
             self.assertEqual(self.run_js("faceAt(data.b, 400).controls.eyeBlinkLeft"), 1)
 
-    def test_the_video_plays_and_leads_the_clock(self):
+    def test_the_video_plays_and_sets_the_clock(self):
         self.open("video.html")
         video = "document.getElementById('video')"
         self.wait(f"{video}.readyState >= 2", "the video does not load")
         self.assertEqual(self.run_js(f"[{video}.videoWidth, {video}.videoHeight]"), list(SIZE))
         self.assertFalse(self.run_js("document.getElementById('video-figure').hidden"))
-        self.run_js("player.clock.setRate(0.25)")  # or a busy machine finds it at its end
+        self.run_js("player.clock.setRate(0.25)")  # otherwise a busy machine may miss the whole video
         self.press("#play")
         self.wait("player.clock.time_ms > 100", "the video does not play")
-        # Pauses; or, where a busy machine finds it at its end already, begins anew.
+        # Pauses, or restarts if the video has already ended on a busy machine.
         self.assertTrue(self.run_js("""(() => {
           const before = player.clock.playing;
           document.querySelector('#play').click();
           return before !== player.clock.playing;
         })()"""))
 
-    def test_without_a_video_the_page_keeps_time(self):
+    def test_without_a_video_the_page_has_a_clock(self):
         self.open("plain.html")
         self.assertTrue(self.run_js("document.getElementById('video-figure').hidden"))
         self.press("#play")
@@ -192,16 +192,16 @@ class ComparePage(unittest.TestCase):
         time.sleep(0.1)
         self.assertEqual(self.run_js("player.clock.time_ms"), stopped)
 
-    def test_the_order_is_drawn_by_lot(self):
+    def test_the_order_is_random(self):
         lots = set()
-        for _ in range(40):  # by chance alike once in 5e11 runs
+        for _ in range(40):  # fails by chance once in 5e11 runs
             self.open("plain.html")
             lots.add(self.run_js("study.left"))
             if len(lots) == 2:
                 return
         self.fail(f"the left face was {lots} 40 times")
 
-    def test_nothing_tells_the_files_apart_before_the_vote_is_over(self):
+    def test_files_are_anonymous_until_the_vote_ends(self):
         self.open("plain.html")
         shown = self.run_js("document.body.innerText")
         self.assertNotIn(".csv", shown)
@@ -211,13 +211,13 @@ class ComparePage(unittest.TestCase):
         self.assertIn("still.csv", self.run_js("document.body.innerText"))
         self.assertTrue(self.run_js("[...document.querySelectorAll('#votes button')].every(button => button.disabled)"))
 
-    def test_votes_are_exported_under_the_names_of_the_files(self):
+    def test_votes_are_exported_with_file_names(self):
         self.open("plain.html")
         downloads = tempfile.mkdtemp(dir=self.folder)
         self.browser.save_downloads(downloads)
         sides = {"left": self.run_js("study.left").upper(), "right": self.run_js("study.right").upper()}
         for group, choice in (("eyes", "left"), ("jaw", "right"), ("brows", "same"), ("lips", "left"), ("lips", "right"),
-                              ("head", "left"), ("head", "left")):  # changed once, taken back once
+                              ("head", "left"), ("head", "left")):  # one changed, one removed
             self.press(f"[data-group={group}][data-choice={choice}]")
         self.run_js("document.getElementById('participant').value = 'No. 7'")
         self.press("#export")
@@ -252,7 +252,7 @@ class ComparePage(unittest.TestCase):
           canvas.dispatchEvent(new MouseEvent('click', {clientX: box.x + box.width / 2, clientY: box.y + 5}));
         })()""")
         middle = self.run_js("(data.start_ms + data.end_ms) / 2")
-        self.wait(f"Math.abs(player.clock.time_ms - {middle}) < 5", "a click on a curve does not go there")
+        self.wait(f"Math.abs(player.clock.time_ms - {middle}) < 5", "a click on a curve does not seek")
         self.wait("Math.abs(parseFloat(document.querySelector('.cursor').style.left) - 50) < 1", "the cursor does not follow")
 
 

@@ -1,4 +1,4 @@
-# mien-conformance as people run it.
+# mien-conformance as a program.
 if(NOT TARGET mien_conformance_program)  # built without it: MIEN_BUILD_CONFORMANCE
   return()
 endif()
@@ -13,8 +13,8 @@ target_compile_definitions(conformance_program_test PRIVATE
 
 add_test(NAME conformance.self_test COMMAND mien_conformance_program --self-test)
 
-# The program with a library that lacks the reference, as MIEN_TRIM_REF builds it: it has to refuse, and
-# everything else has to do without.
+# The program with a library without the reference tier (MIEN_TRIM_REF): it must report an error, and
+# everything else must work without it.
 get_target_property(tiers mien_kernels INTERFACE_SOURCES)
 list(FILTER tiers EXCLUDE REGEX mien_kernels_ref)
 if(tiers)

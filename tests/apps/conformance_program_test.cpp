@@ -1,4 +1,4 @@
-// mien-conformance as people run it: options, tables, JSON and exit codes.
+// Tests of mien-conformance as a program: options, tables, JSON and exit codes.
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
@@ -15,7 +15,7 @@ using testing::Not;
 
 class ConformanceProgram : public Program {};
 
-TEST_F(ConformanceProgram, ChecksWhatMatches) {
+TEST_F(ConformanceProgram, ChecksMatchingKernels) {
   const Outcome outcome = run("--filter 'max_*'");
   EXPECT_EQ(outcome.code, 0) << outcome.errors;
   EXPECT_THAT(outcome.output, HasSubstr("max_pool"));
@@ -45,7 +45,7 @@ TEST_F(ConformanceProgram, OneTierOnly) {
   EXPECT_THAT(outcome.output, Not(HasSubstr("avx2")));
 }
 
-TEST_F(ConformanceProgram, JsonHasWhatTheTableHas) {
+TEST_F(ConformanceProgram, JsonHasTheResultsOfTheTable) {
   const Outcome outcome =
       run("--bench --tier ref --filter 'ma*' --repeat 2 --seed 9 --json " + path("result.json"));
   ASSERT_EQ(outcome.code, 0) << outcome.errors;
@@ -67,7 +67,7 @@ TEST_F(ConformanceProgram, JsonHasWhatTheTableHas) {
   }
 }
 
-TEST_F(ConformanceProgram, JsonToStandardOutputIsAllThatIsThere) {
+TEST_F(ConformanceProgram, JsonOnStandardOutputIsTheOnlyOutput) {
   const Outcome outcome = run("--filter softmax --json -");
   ASSERT_EQ(outcome.code, 0);
   EXPECT_EQ(json::parse(outcome.output)["results"][0]["name"], "softmax");
@@ -106,7 +106,7 @@ TEST_F(ConformanceProgram, ExitCodes) {
   EXPECT_EQ(run("--version").code, 0);
 }
 
-TEST_F(ConformanceProgram, ATrimmedBuildRefuses) {
+TEST_F(ConformanceProgram, ATrimmedBuildFails) {
 #ifdef MIEN_TRIMMED_PROGRAM
   const std::string command = "'" MIEN_TRIMMED_PROGRAM "' 2>" + path("errors");
   EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 4);

@@ -1,8 +1,8 @@
-"""How time and memory of mien convert grow with its input: twice the input takes at most 2.3 times as long, and the memory is at most 8 times
-the input and 64 MB. Ordinary files and the worst ones that come to mind, of every format.
+"""Tests of the time and memory of mien convert: twice the input takes at most 2.3 times as long, and memory is at most 8 times the input
+plus 64 MB. Typical and worst-case files of every format.
 
 usage: convert_size_test.py MIEN_PROGRAM [time]
-Without "time", as under sanitizers, only that everything is read.
+Without "time", for example under sanitizers, it only checks that all files are read.
 """
 import json
 import os
@@ -18,7 +18,7 @@ PROGRAM = sys.argv[1]
 del sys.argv[1:]
 SIZE = 2 << 20 if TIMED else 1 << 16  # bytes of the smaller file
 MOST_GROWTH = 2.3
-RUNS = 15 # the fastest counts; no more are made than it takes
+RUNS = 15 # the fastest counts; stops at the first sufficient one
 
 
 def repeated(text, size):
@@ -26,7 +26,7 @@ def repeated(text, size):
 
 
 def numbered(template, size):
-    """As many of template % i, joined, as fit."""
+    """As many joined copies of template % i as fit."""
     count = size // len(template % size)
     return "".join(template % i for i in range(count))
 
@@ -37,7 +37,7 @@ def columns(size):
 
 
 def gltf(keys=1, **more):
-    """A face whose weights have `keys` keys; a member more for each of `more`."""
+    """A face whose weights have `keys` keys; `more` adds members."""
     times, weights = struct.pack(f"<{keys}f", *range(keys)), struct.pack(f"<{keys}f", *[i % 2 for i in range(keys)])
     data = times + weights
     document = {
@@ -130,7 +130,7 @@ ARKIT += "mouthShrugLower mouthShrugUpper browInnerUp cheekPuff tongueOut".split
 
 
 def measured(*words):
-    """Seconds of processor time, bytes of memory at most, exit code, what it said."""
+    """Seconds of CPU time, peak memory in bytes, exit code, output."""
     with tempfile.TemporaryFile() as said:
         child = subprocess.Popen([PROGRAM, "convert", *words], stdout=subprocess.DEVNULL, stderr=said)
         _, status, used = os.wait4(child.pid, 0)
@@ -146,7 +146,7 @@ class Sizes(unittest.TestCase):
         self.folder = folder.name
 
     def file(self, name, make, *arguments):
-        """What make(*arguments) returns; made by a process of its own, since a program starts with the memory peak of what starts it."""
+        """The result of make(*arguments), computed in another process, because a child inherits the peak memory of its parent."""
         path = os.path.join(self.folder, name)
         child = os.fork()
         if child == 0:
@@ -158,7 +158,7 @@ class Sizes(unittest.TestCase):
         return path
 
     def check(self, single, double, *more):
-        """Time and memory of two files, the second twice as large."""
+        """Time and memory for two files; the second is twice as large."""
         fastest = [float("inf")] * 2
         for _ in range(RUNS):
             for i, path in enumerate((single, double)):
@@ -185,16 +185,16 @@ class Sizes(unittest.TestCase):
             return "".join(json.dumps(line) + "\n" for line in lines)
         self.check(self.file("single", faces, 20), self.file("double", faces, 40), "--fps", "100" if TIMED else "1")
 
-    def test_all_faces_together_have_a_limit(self):
+    def test_the_total_of_all_faces_is_limited(self):
         lines = [{"t_ns": int(t * 1e9), "face_id": face} for t in (0, 5000) for face in range(1, 41)]
         path = self.file("faces.jsonl", lambda: "".join(json.dumps(line) + "\n" for line in lines))
         _, _, code, said = measured(path, "-", "--to", "csv", "--fps", "100")
         self.assertEqual(code, 2)
-        self.assertIn("--fps: these would be more than ten million frames", said)
+        self.assertIn("--fps: more than ten million frames", said)
         path = self.file("crowd.jsonl", numbered, '{"t_ns":0,"face_id":%d}\n', 100000)
         _, _, code, said = measured(path, "-", "--to", "csv", "--fps", "10")
         self.assertEqual(code, 2)
-        self.assertIn("--fps: there are more than 1000 faces; choose one with --face", said)
+        self.assertIn("--fps: more than 1000 faces; select one with --face", said)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
-"""Files of mien convert, read and made by code of its own: written from the descriptions of the formats, sharing nothing with the program.
+"""Tests of mien convert with independent readers and writers, based on the descriptions of the formats.
 
 usage: convert_test.py MIEN_PROGRAM [FRAMES]
-10 000 random frames, or so many, go through every format, in both directions, and have to come back to the digits that the format prints.
+Converts FRAMES random frames (default 10 000) to every format and back; all must keep the precision of the format.
 """
 import base64
 import csv
@@ -27,7 +27,7 @@ mouthPucker mouthLeft mouthRight mouthSmileLeft mouthSmileRight mouthFrownLeft m
 mouthStretchLeft mouthStretchRight mouthRollLower mouthRollUpper mouthShrugLower mouthShrugUpper mouthPressLeft mouthPressRight
 mouthLowerDownLeft mouthLowerDownRight mouthUpperUpLeft mouthUpperUpRight browDownLeft browDownRight browInnerUp browOuterUpLeft
 browOuterUpRight cheekPuff cheekSquintLeft cheekSquintRight noseSneerLeft noseSneerRight tongueOut""".split()
-# The header of a real take.
+# The header of a real recording.
 LIVE_LINK = (
     "Timecode,BlendshapeCount,EyeBlinkLeft,EyeLookDownLeft,EyeLookInLeft,EyeLookOutLeft,EyeLookUpLeft,EyeSquintLeft,EyeWideLeft,"
     "EyeBlinkRight,EyeLookDownRight,EyeLookInRight,EyeLookOutRight,EyeLookUpRight,EyeSquintRight,EyeWideRight,JawForward,JawRight,JawLeft,"
@@ -42,7 +42,7 @@ RightDimpler RightLipCornerDown RightLowerLipDepressor RightLipCornerPuller Righ
 Corrugator LeftBrowLowerer LeftOuterBrowRaiser LeftNoseWrinkler LeftInnerBrowRaiser RightBrowLowerer RightOuterBrowRaiser
 RightInnerBrowRaiser RightNoseWrinkler EyesLookDown EyesLookLeft EyesLookUp EyesLookRight LeftCheekRaiser LeftEyeUpperLidRaiser
 LeftEyeClosed RightCheekRaiser RightEyeUpperLidRaiser RightEyeClosed TongueDown TongueOut TongueUp""".split()
-# ARKit of each unit: alone, the mean, the largest or the smallest.
+# ARKit controls of each unit: a single one, the mean, the maximum or the minimum.
 ONE_TO_ONE = """LeftEyeClosed=eyeBlinkLeft RightEyeClosed=eyeBlinkRight LeftEyeUpperLidRaiser=eyeWideLeft RightEyeUpperLidRaiser=eyeWideRight
 JawDrop=jawOpen JawLeft=jawLeft JawRight=jawRight LipsTogether=mouthClose Funneler=mouthFunnel Pucker=mouthPucker MouthLeft=mouthLeft
 MouthRight=mouthRight LeftLipCornerPuller=mouthSmileLeft RightLipCornerPuller=mouthSmileRight LeftLipCornerDown=mouthFrownLeft
@@ -163,14 +163,14 @@ class Convert(unittest.TestCase):
     def frames_of(self, name):
         return [json.loads(line) for line in self.read(name).splitlines()]
 
-    # Comes back as what it was, through itself: text for text.
+    # Reading and writing gives the same text.
     def assert_stable(self, name, *more):
         again = "again." + name
         self.convert(name, again, *more)
         self.assertEqual(self.read(again), self.read(name))
 
-    def test_json_lines_hold_everything(self):
-        self.assertNotIn("left out", self.convert("source.jsonl", "all.jsonl"))
+    def test_json_lines_store_everything(self):
+        self.assertNotIn("omitted", self.convert("source.jsonl", "all.jsonl"))
         for before, after in zip(self.frames, self.frames_of("all.jsonl"), strict=True):
             if "head" in after:
                 q = after["head"].pop("q")
@@ -182,7 +182,7 @@ class Convert(unittest.TestCase):
 
     def test_csv(self):
         said = self.convert("source.jsonl", "curves.csv")
-        self.assertIn("left out: how the eyes are turned", said)
+        self.assertIn("omitted: eye rotation", said)
         rows = list(csv.DictReader(self.read("curves.csv").splitlines()))
         for frame, row in zip(self.frames, rows, strict=True):
             self.assertEqual(round(float(row["t_ms"]) * 1e6), frame["t_ns"])
@@ -219,16 +219,16 @@ class Convert(unittest.TestCase):
                 for joint, wanted in angles.items():
                     for axis, sign in (("Yaw", 1), ("Pitch", -1), ("Roll", 1)):
                         self.assertAlmostEqual(float(row[joint + axis]), sign * scale * wanted[axis.lower() + "_rad"], delta=1e-10 * 0.51 + 1e-13)
-            self.assert_stable(name, "--llf-rot", unit)  # the file beside it says in which unit it is
+            self.assert_stable(name, "--llf-rot", unit)  # the JSON file beside it has the unit
         os.remove(self.path("deg.llf.csv.json"))
         self.convert("deg.llf.csv", "told.llf.csv", "--from-llf-rot", "deg", "--llf-rot", "deg")
         self.assertEqual(self.read("told.llf.csv"), self.read("deg.llf.csv"))
 
-    def test_live_link_face_in_the_wild(self):
+    def test_live_link_face_of_other_programs(self):
         older = ("timecode,blendShapeCount,eyeBlinkRight,jawRight,jawLeft\r\n"
                  "14:03:52:28.207,61,0.25,0.5,0.75\r\n14:03:52:29.207,0\r\n14:03:53:00.000,61,0,0,1.25\r\n")
         self.write("older.csv", older)
-        self.assertIn("1 values beyond 0..1", self.convert("older.csv", "older.jsonl"))
+        self.assertIn("1 values clamped to 0..1", self.convert("older.csv", "older.jsonl"))
         first, none, last = self.frames_of("older.jsonl")
         self.assertEqual(first["controls"], {"eyeBlinkRight": 0.25, "jawRight": 0.5, "jawLeft": 0.75})
         self.assertAlmostEqual(first["t_ns"] * 1e-9, 14 * 3600 + 3 * 60 + 52 + 28.207 / 60, places=8)
@@ -288,7 +288,7 @@ class Convert(unittest.TestCase):
         self.assertEqual(len(data), document["buffers"][0]["byteLength"])
         self.check_gltf(document, data, few)
 
-    def test_gltf_comes_back(self):
+    def test_gltf_round_trips(self):
         self.convert("source.jsonl", "back.glb")
         self.convert("back.glb", "back.jsonl")
         kept, last = [], -1.0
@@ -309,9 +309,9 @@ class Convert(unittest.TestCase):
         _, b = glb_chunks(again)
         self.assertEqual(len(a), len(b))
         differ = [abs(x - y) for x, y in zip(struct.unpack(f"<{len(a) // 4}f", a), struct.unpack(f"<{len(b) // 4}f", b))]
-        self.assertLess(max(differ), 1e-6)  # turns go over angles, the rest is the same
+        self.assertLess(max(differ), 1e-6)  # rotations are converted to angles; the rest is equal
 
-    def test_gltf_of_others(self):
+    def test_gltf_of_other_programs(self):
         times, weights = struct.pack("<2f", 0, 1), struct.pack("<4f", 0, 1, 0.5, 0.25)
         turn = struct.pack("<8f", 0, 0, 0, 1, 0, math.sin(0.25), 0, math.cos(0.25))
         data = times + weights + turn
@@ -346,7 +346,7 @@ class Convert(unittest.TestCase):
                 "animations": [{"samplers": [{"input": 0, "output": 1}],
                                 "channels": [{"sampler": 0, "target": {"node": 0, "path": "weights"}}]}]}, data
 
-    def test_gltf_with_its_data_beside_it(self):
+    def test_gltf_with_external_data(self):
         os.makedirs(self.path("scene/parts"))
         for uri, name in (("data.bin", "data.bin"), ("parts/my%20data.bin", "parts/my data.bin"), ("./parts/%e4%bd%a0.bin", "parts/\u4f60.bin")):
             document, data = self.gltf_document(uri)
@@ -362,10 +362,10 @@ class Convert(unittest.TestCase):
         with open(self.path("scene/short.bin"), "wb") as file:
             file.write(data[:-1])
         os.mkfifo(self.path("scene/pipe.bin"))
-        for uri, why in (("../outside.bin", "is not in the folder of the file"), ("parts/../../outside.bin", "is not in the folder of the file"),
-                         (outside, "is not in the folder of the file"), ("file://" + outside, "is not in the folder of the file"),
-                         ("none.bin", "no such file"), ("short.bin", f"is shorter than {len(data)} bytes"), ("parts", "is no file"),
-                         ("pipe.bin", "is no file")):
+        for uri, why in (("../outside.bin", "not in the folder of the file"), ("parts/../../outside.bin", "not in the folder of the file"),
+                         (outside, "not in the folder of the file"), ("file://" + outside, "not in the folder of the file"),
+                         ("none.bin", "no such file"), ("short.bin", f"shorter than {len(data)} bytes"), ("parts", "not a regular file"),
+                         ("pipe.bin", "not a regular file")):
             self.write("scene/bad.gltf", json.dumps(self.gltf_document(uri)[0]))
             code, said = self.refused("scene/bad.gltf", "bad.jsonl")
             self.assertEqual(code, 3)
@@ -373,13 +373,13 @@ class Convert(unittest.TestCase):
         done = subprocess.run([PROGRAM, "convert", "-", self.path("bad.jsonl")], capture_output=True, text=True,
                               input=json.dumps(self.gltf_document("data.bin")[0]))
         self.assertEqual(done.returncode, 3)
-        self.assertIn("uri: 'data.bin': there is no folder to look for it in", done.stderr)
+        self.assertIn("uri: 'data.bin': no folder to search", done.stderr)
 
-    def test_gltf_that_is_compressed(self):
+    def test_compressed_gltf(self):
         for weight_type in (5121, 5122, 5123):
             document, data = self.gltf_document("data:;base64,", weight_type)
             document["buffers"][0]["uri"] += base64.b64encode(data).decode()
-            # What is not animated may be compressed: it is not looked at.
+            # Data that are not animated may be compressed, because they are not read.
             document["extensionsRequired"] = ["KHR_draco_mesh_compression", "KHR_texture_basisu", "KHR_mesh_quantization"]
             document["meshes"][0]["primitives"] = [{"extensions": {"KHR_draco_mesh_compression": {"bufferView": 7}}}]
             document["images"] = [{"bufferView": 9, "mimeType": "image/ktx2"}]
@@ -394,7 +394,7 @@ class Convert(unittest.TestCase):
             self.write("packed.gltf", json.dumps(document))
             code, said = self.refused("packed.gltf", "packed.jsonl")
             self.assertEqual(code, 3)
-            self.assertIn(f"bufferView: compressed with {extension}, which is not read; export the animation without it", said)
+            self.assertIn(f"bufferView: compressed with {extension}, which is not supported; export the animation without it", said)
 
     def test_cues_hold_in_gltf(self):
         self.write("cues.tsv", "0.00\tX\n1.00\tD\n2.00\tX\n3.00\tX\n")
@@ -429,7 +429,7 @@ class Convert(unittest.TestCase):
         self.assertEqual([c for c in channels if "rotation" in c], ["Yrotation", "Xrotation", "Zrotation"])  # the order of R = Ry Rx Rz
         self.assert_stable("head.bvh")
 
-    def test_bvh_of_a_whole_body(self):
+    def test_bvh_with_a_whole_body(self):
         self.write("body.bvh", """HIERARCHY
 ROOT Hips
 {
@@ -457,12 +457,12 @@ Frame Time: 0.04
 """)
         self.convert("body.bvh", "body.jsonl")
         frame, = self.frames_of("body.jsonl")
-        # Hips turn z to x, the neck x to y (roll), the head turns back about its own y: by hand, R = Ry(90) Rz(90) Ry(-90).
+        # Hips rotate z to x, the neck x to y (roll), the head back about its own y: R = Ry(90) Rz(90) Ry(-90).
         wanted = [[1, 0, 0], [0, 0, -1], [0, 1, 0]]
         for row, expected in zip(rotation_matrix(frame["head"]), wanted):
             for a, b in zip(row, expected):
                 self.assertAlmostEqual(a, b, places=9)
-        # The head sits half a unit along the neck's turned y, which is -x of the hips and so z of the world.
+        # The head is half a unit along the neck's rotated y, which is -x of the hips and z of the world.
         for a, b in zip(frame["position_m"], [1, 3, 3.5]):
             self.assertAlmostEqual(a, b, places=9)
 
@@ -478,7 +478,7 @@ Frame Time: 0.04
                 else:
                     self.assertEqual(row[unit], "", unit)
         self.assert_stable("units.roblox.csv")
-        # Through controls it comes back the same where it came from controls.
+        # Values derived from controls round-trip through controls.
         self.convert("units.roblox.csv", "units.csv")
         self.convert("units.csv", "twice.roblox.csv")
         for a, b in zip(rows, csv.DictReader(self.read("twice.roblox.csv").splitlines()), strict=True):
@@ -488,7 +488,7 @@ Frame Time: 0.04
         self.assertEqual(list(small[0])[-6:], ["JawDrop", "RightEyeClosed", "LeftEyeClosed", "RightLipCornerPuller", "LeftLipCornerPuller", "Pucker"])
         self.assertEqual([row["JawDrop"] for row in small], [row["JawDrop"] for row in rows])
 
-    def test_units_of_roblox_itself_are_kept(self):
+    def test_roblox_units_are_kept(self):
         rng = random.Random(2)
         rows = [[str(i), str(i * 40)] + [repr(random_share(rng)) for _ in FACS] for i in range(FRAMES)]
         self.write("own.roblox.csv", "\n".join(",".join(row) for row in [["frame", "t_ms"] + FACS] + rows) + "\n")
@@ -507,7 +507,7 @@ Frame Time: 0.04
             self.assertAlmostEqual(sum(float(row[v]) for v in VISEMES), 1, places=9)
             self.assertGreaterEqual(min(float(row[v]) for v in VISEMES), 0)
         self.assert_stable("mouth.visemes.csv")
-        # Random mixtures become poses of a mouth, and these the same mixtures.
+        # Random mixtures of visemes are converted to controls and back.
         rng = random.Random(3)
         mixtures = []
         for _ in range(FRAMES):
@@ -550,7 +550,7 @@ Frame Time: 0.04
         self.assert_stable("cues.xml")
         self.convert("cues.xml", "back.tsv")
         self.assertEqual(self.read("back.tsv"), self.read("cues.tsv"))
-        # Of cues in one frame of 24 a second the first counts.
+        # The first cue within a frame of 1/24 s counts.
         self.convert("cues.tsv", "cues.dat")
         switches, last = ["MohoSwitch1"], 0
         for h, shape in cues:
@@ -559,7 +559,7 @@ Frame Time: 0.04
                 switches.append(f"{last} {shape}")
         switches.append(f"{max(hundredths * 24 // 100 + 1, last + 1)} X")
         self.assertEqual(self.read("cues.dat").splitlines(), switches)
-        self.convert("cues.dat", "again.dat")  # equal shapes behind each other became one
+        self.convert("cues.dat", "again.dat")  # consecutive equal shapes are merged
         merged = [row for i, row in enumerate(switches) if i < 2 or i == len(switches) - 1 or row.split()[1] != switches[i - 1].split()[1]]
         self.assertEqual(self.read("again.dat").splitlines(), merged)
         self.assert_stable("again.dat")
@@ -574,20 +574,20 @@ Frame Time: 0.04
         self.convert("a.xml", "a.rhubarb.json")
         self.assertEqual(json.loads(self.read("a.rhubarb.json"))["metadata"]["soundFile"], 'a & <b> "')
 
-    def test_xml_and_switch_data_that_are_none(self):
+    def test_invalid_xml_and_switch_data(self):
         head = "<rhubarbResult>\n <mouthCues>\n  "
         tail = "\n </mouthCues>\n</rhubarbResult>\n"
         for text, place, word in (
-                (head + '<mouthCue start="1" end="x">D</mouthCue>' + tail, (3, 3), "end: a time in seconds has to be here"),
-                (head + '<mouthCue start="2" end="1">D</mouthCue>' + tail, (3, 3), "goes back in time"),
-                (head + '<mouthCue start="0" end="1">Q</mouthCue>' + tail, (3, 3), "'Q' is none of the shapes"),
-                (head + tail, (1, 1), "there are no cues"), ("<html></html>", (1, 1), "rhubarbResult has to be here"),
-                (head + "<mouthCue></rhubarbResult>", (3, 13), "closes nothing"), (head, (3, 3), "<mouthCues> is not closed"),
-                (head + '<mouthCue start="0" start="1"/>' + tail, (3, 29), "'start' is there twice"),
-                (head + "<mouthCue start=0/>" + tail, (3, 19), "a quotation mark has to be here"), (head + "&nbsp;", (3, 3), "an entity"),
-                ("<rhubarbResult/>x", (1, 17), "text outside"), ("<!-- no end", (1, 1), "--> is missing"), ("<", (1, 2), "a tag's name"),
-                ("MohoSwitch1\n0 X\n", (2, 1), "'0' is not a frame"), ("MohoSwitch1\n1 X\n1 D\n", (3, 1), "goes back in time"),
-                ("MohoSwitch1\n1 nothing\n", (2, 3), "is no mouth"), ("MohoSwitch1\n1 X\n", (3, 1), "there are no cues")):
+                (head + '<mouthCue start="1" end="x">D</mouthCue>' + tail, (3, 3), "end: expected a time in seconds"),
+                (head + '<mouthCue start="2" end="1">D</mouthCue>' + tail, (3, 3), "decreasing time"),
+                (head + '<mouthCue start="0" end="1">Q</mouthCue>' + tail, (3, 3), "unknown mouth shape, expected A to H or X (got 'Q')"),
+                (head + tail, (1, 1), "no cues"), ("<html></html>", (1, 1), "expected rhubarbResult"),
+                (head + "<mouthCue></rhubarbResult>", (3, 13), "unexpected closing tag"), (head, (3, 3), "<mouthCues> is not closed"),
+                (head + '<mouthCue start="0" start="1"/>' + tail, (3, 29), "duplicate attribute 'start'"),
+                (head + "<mouthCue start=0/>" + tail, (3, 19), "expected a quotation mark"), (head + "&nbsp;", (3, 3), "unknown entity"),
+                ("<rhubarbResult/>x", (1, 17), "text outside"), ("<!-- no end", (1, 1), "expected -->"), ("<", (1, 2), "a tag name"),
+                ("MohoSwitch1\n0 X\n", (2, 1), "'0' is not a frame"), ("MohoSwitch1\n1 X\n1 D\n", (3, 1), "decreasing time"),
+                ("MohoSwitch1\n1 nothing\n", (2, 3), "unknown mouth shape"), ("MohoSwitch1\n1 X\n", (3, 1), "no cues")):
             self.write("bad.txt", text)
             done = subprocess.run([PROGRAM, "convert", self.path("bad.txt"), self.path("never.csv"), "--quiet"], capture_output=True, text=True)
             self.assertEqual(done.returncode, 3, text)
@@ -596,7 +596,7 @@ Frame Time: 0.04
             self.assertFalse(os.path.exists(self.path("never.csv")))
 
     def test_shapes_and_poses(self):
-        # Shapes become poses, and the poses show the same shapes: where they last.
+        # Shapes are converted to controls and back; those that last long enough are kept.
         self.write("slow.tsv", "0.00\tX\n0.50\tD\n1.00\tA\n1.50\tF\n2.00\tG\n2.50\tE\n3.00\tC\n3.50\tB\n4.00\tH\n4.50\tX\n5.00\tX\n")
         self.convert("slow.tsv", "slow.csv", "--fps", "100")
         self.convert("slow.csv", "slow.back.tsv")
@@ -617,7 +617,7 @@ Frame Time: 0.04
                 wanted = a["controls"][name] + share * (b["controls"][name] - a["controls"][name])
                 self.assertAlmostEqual(frame["controls"][name], wanted, places=12)
 
-    def test_the_report_is_json_whatever_files_are_called(self):
+    def test_the_report_is_json_for_any_file_name(self):
         with open(self.path("plain.csv"), "w") as file:
             file.write("t_ms,jawOpen\n0,0\n40,0.5\n")
         names = [os.fsencode(self.path(name)) + b"-\xff.csv" for name in ("in", "out")]
@@ -632,7 +632,7 @@ Frame Time: 0.04
         frames = [{"t_ns": 40000000 * i, "frame": i, "face_id": face, "controls": {"jawOpen": face / 4}} for i in range(20) for face in (1, 2)
                   if face == 1 or i >= 5]
         self.write("two.jsonl", "".join(json.dumps(frame) + "\n" for frame in frames))
-        self.assertNotIn("left out", self.convert("two.jsonl", "two.csv"))
+        self.assertNotIn("omitted", self.convert("two.jsonl", "two.csv"))
         rows = list(csv.DictReader(self.read("two.csv").splitlines()))
         self.assertEqual([(int(r["frame"]), int(r["face_id"]), float(r["jawOpen"])) for r in rows],
                          [(f["frame"], f["face_id"], f["controls"]["jawOpen"]) for f in frames])
@@ -650,8 +650,8 @@ Frame Time: 0.04
         rows += [f"10:00:{i // 25:02}:{i % 25:02}.000,61,0,20.0,-8.5,3.0" for i in range(75)]
         self.write("phone.csv", "\n".join(rows) + "\n")
         said = self.convert("phone.csv", "phone.jsonl")
-        self.assertIn("timecode: 25 frames a second, as the file shows (--from-llf-fps)", said)
-        self.assertIn("rotations: degrees, as the file shows (--from-llf-rot)", said)
+        self.assertIn("timecode: 25 frames per second, detected (--from-llf-fps)", said)
+        self.assertIn("rotations: degrees, detected (--from-llf-rot)", said)
         frames = self.frames_of("phone.jsonl")
         self.assertEqual([frame["t_ns"] - frames[0]["t_ns"] for frame in frames], [40000000 * i for i in range(75)])
         self.assertEqual(self.convert("phone.csv", "phone.jsonl", "--quiet"), "")
@@ -665,12 +665,12 @@ Frame Time: 0.04
         self.write("one.jsonl", json.dumps({"t_ns": 0, "position_m": [0.5, 0.25, -1], "head": {"pitch_rad": 0, "yaw_rad": 0, "roll_rad": 0}}) + "\n")
         self.assertNotIn("positions", self.convert("one.jsonl", "cm.bvh", "--bvh-unit", "cm"))
         self.assertIn("\n50.000000 25.000000 -100.000000 ", self.read("cm.bvh"))
-        self.assertIn("positions: centimetres, as the size of the skeleton shows (--from-bvh-unit)", self.convert("cm.bvh", "cm.jsonl"))
+        self.assertIn("positions: centimetres, detected from the size of the skeleton (--from-bvh-unit)", self.convert("cm.bvh", "cm.jsonl"))
         self.assertEqual(self.frames_of("cm.jsonl")[0]["position_m"], [0.5, 0.25, -1])
         self.assertNotIn("positions", self.convert("cm.bvh", "m.jsonl", "--from-bvh-unit", "m"))
         self.assertEqual(self.frames_of("m.jsonl")[0]["position_m"], [50, 25, -100])
 
-    def test_an_unknown_ending_is_no_format(self):
+    def test_unknown_endings_are_rejected(self):
         self.write("one.csv", "t_ms,jawOpen\n0,0\n")
         for name in ("x.fbx", "x.txt", "x.csv.gz", "x.json", "x.v2"):
             code, said = self.refused("one.csv", name)
@@ -682,22 +682,22 @@ Frame Time: 0.04
         self.convert("one.csv", "no_ending")
         self.assertTrue(self.read("no_ending").startswith("frame,t_ms,"))
 
-    def test_faults_are_named_with_their_place(self):
+    def test_errors_have_a_position(self):
         faults = {
             "t_ms,jawOpen\n0,0\n40,lots\n": "line 3, column 4: jawOpen: 'lots' is not a number",
             "Timecode,BlendshapeCount,JawOpen\n00:00:00:00.000,61,0\nnever,61,0\n": "line 3, column 1: Timecode: 'never' is not HH:MM:SS:FF.mmm",
             "Timecode,BlendshapeCount,JawOpen\n00:00:00:61.000,61,0\n": "line 2, column 1: Timecode: '00:00:00:61.000' has more frames than a second of 60 (--from-llf-fps)",
-            '{"t_ns":0,"controls":{}}\n{"t_ns":1,"controls":{"jawOpen":"x"}}\n': "line 2, column 33: jawOpen: is not a number in 0..1",
-            '{"t_ns":0}\n{"t_ns":1,}\n': "line 2, column 11: a key in quotation marks is missing",
+            '{"t_ns":0,"controls":{}}\n{"t_ns":1,"controls":{"jawOpen":"x"}}\n': "line 2, column 33: jawOpen: expected a number in 0..1",
+            '{"t_ns":0}\n{"t_ns":1,}\n': "line 2, column 11: expected a key in quotation marks",
             "HIERARCHY\nROOT a\n{\nOFFSET 0 0 zero\n": "line 4, column 12: 'zero' is not a number",
             "t_ms,JawDrop,Pucker\n0,0,0\n40,0,-1\n": "line 3, column 6: Pucker: '-1' is not in 0..1",
             "t_ms,sil,PP\n0,1,0\n40,,much\n": "line 3, column 5: PP: 'much' is not a number",
-            "0.00\tX\n0.10\tQ\n0.20\tX\n": "line 2, column 6: is none of the shapes A to H and X",
-            "0.00\tX\n0.10\n": "line 2, column 5: is none of the shapes A to H and X",
+            "0.00\tX\n0.10\tQ\n0.20\tX\n": "line 2, column 6: unknown mouth shape, expected A to H or X",
+            "0.00\tX\n0.10\n": "line 2, column 5: unknown mouth shape, expected A to H or X",
             '{"mouthCues":[\n{"start":0,"end":1,"value":"X"},\n{"start":1,"end":"2","value":"D"}]}':
-                "line 3, column 18: end: a time in seconds has to be here",
-            '{"asset":{},\n"animations":[]}': "line 1, column 1: there is no animation",
-            "glTF\1\0\0\0" + 12 * "\0": "byte 4: is not version 2 of glTF",
+                "line 3, column 18: end: expected a time in seconds",
+            '{"asset":{},\n"animations":[]}': "line 1, column 1: no animation",
+            "glTF\1\0\0\0" + 12 * "\0": "byte 4: expected glTF version 2",
         }
         for text, wanted in faults.items():
             self.write("bad", text)

@@ -1,4 +1,4 @@
-// Curves are read by the names of their columns; what is wrong with a file is said with its place.
+// Tests of reading curves: columns are found by name, and errors have a position.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -45,7 +45,7 @@ TEST(CurvesFile, ColumnsAreFoundByName) {
   EXPECT_EQ(curves[0].head->roll, -0.3);
 }
 
-TEST(CurvesFile, EmptyCellsAreNotDriven) {
+TEST(CurvesFile, EmptyCellsAreUnsupportedControls) {
   const Curves curves = parse_curves(
       "t_ms,pitch_rad,yaw_rad,roll_rad,eyeBlinkLeft,jawOpen\n"
       "0,,,,,0.25\n"
@@ -60,7 +60,7 @@ TEST(CurvesFile, EmptyCellsAreNotDriven) {
   EXPECT_TRUE(std::isnan(curves[1].controls[kJawOpen]));
 }
 
-TEST(CurvesFile, SpreadsheetsMayHaveSavedIt) {
+TEST(CurvesFile, ReadsFilesSavedBySpreadsheets) {
   const Curves curves = parse_curves(
       "\xEF\xBB\xBFt_ms,\"jawOpen\",\"a \"\"note\"\", quoted\"\r\n0,\"0.5\",\"x,y\"\r\n\r\n",
       "x.csv");
@@ -74,29 +74,29 @@ TEST(CurvesFile, SmallFloatsAreNumbers) {
   EXPECT_EQ(curves[1].controls[kJawOpen], 1e-45);
 }
 
-TEST(CurvesFile, FaultsAreNamedWithTheirPlace) {
-  EXPECT_EQ(complaint(""), "x.csv: line 1, column 1: is empty");
-  EXPECT_EQ(complaint("t_ms,jawOpen\n"), "x.csv: line 2, column 1: there are no frames");
-  EXPECT_EQ(complaint("jawOpen\n0\n"), "x.csv: line 1, column 1: there is no column t_ms");
+TEST(CurvesFile, FaultsHaveAPosition) {
+  EXPECT_EQ(complaint(""), "x.csv: line 1, column 1: empty file");
+  EXPECT_EQ(complaint("t_ms,jawOpen\n"), "x.csv: line 2, column 1: no frames");
+  EXPECT_EQ(complaint("jawOpen\n0\n"), "x.csv: line 1, column 1: t_ms: missing column");
   EXPECT_EQ(complaint("t_ms,frame\n0,0\n"),
-            "x.csv: line 1, column 1: there is no column of a control (eyeBlinkLeft ... "
-            "tongueOut), of a unit of Roblox, or of a viseme");
+            "x.csv: line 1, column 1: no column with a control (eyeBlinkLeft ... "
+            "tongueOut), a Roblox unit or a viseme");
   EXPECT_EQ(complaint("t_ms,jawOpen,jawOpen\n0,0,0\n"),
-            "x.csv: line 1, column 14: column 'jawOpen' appears twice");
+            "x.csv: line 1, column 14: duplicate column 'jawOpen'");
   EXPECT_EQ(complaint("t_ms,jawOpen\n0,0\n1\n"),
-            "x.csv: line 3, column 1: the row has 1 cells, the header 2");
+            "x.csv: line 3, column 1: wrong number of cells (got 1, expected 2)");
   EXPECT_EQ(complaint("t_ms,jawOpen\n0,\"0\n"),
-            "x.csv: line 2, column 3: this quotation mark is not closed");
-  EXPECT_EQ(complaint("t_ms,jawOpen\n0,0\n,0\n"), "x.csv: line 3, column 1: t_ms: is empty");
+            "x.csv: line 2, column 3: unterminated quotation mark");
+  EXPECT_EQ(complaint("t_ms,jawOpen\n0,0\n,0\n"), "x.csv: line 3, column 1: t_ms: empty");
   EXPECT_EQ(complaint("t_ms,jawOpen\n5,0\n4,0\n"),
-            "x.csv: line 3, column 1: t_ms: goes back in time");
+            "x.csv: line 3, column 1: t_ms: decreasing time");
   EXPECT_EQ(complaint("t_ms,jawOpen\n0,half\n"),
             "x.csv: line 2, column 3: jawOpen: 'half' is not a number");
   EXPECT_EQ(complaint("t_ms,pitch_rad,yaw_rad,roll_rad,jawOpen\n0,30,0,0,0\n"),
             "x.csv: line 2, column 3: pitch_rad: more than a full turn; angles are in radians");
 }
 
-TEST(CurvesFile, ValuesLieWithinTheirRange) {
+TEST(CurvesFile, ValuesMustBeInRange) {
   for (const char* value : {"nan", "inf", "0x1", "1,5", "1e999", "1.01", "-0.1", "50", "0.5;"}) {
     EXPECT_NE(complaint("t_ms,jawOpen\n0," + std::string(value) + "\n"), "none") << value;
   }
@@ -104,7 +104,7 @@ TEST(CurvesFile, ValuesLieWithinTheirRange) {
             "x.csv: line 2, column 3: jawOpen: '50' is not in 0..1");
 }
 
-TEST(CurvesFile, NoTextBreaksIt) {
+TEST(CurvesFile, SurvivesAnyText) {
   const std::string whole =
       "t_ms,\"jawOpen\",pitch_rad,yaw_rad,roll_rad\n0,0.5,0,0,0\n33,0.6,0,0,0\n";
   for (std::size_t size = 0; size <= whole.size(); ++size) {
@@ -117,8 +117,8 @@ TEST(CurvesFile, NoTextBreaksIt) {
   }
 }
 
-// A file of Live Link Face says neither its unit nor the rate of its timecode.
-TEST(CurvesFile, WhatLiesBesideALiveLinkFaceFileCounts) {
+// A Live Link Face file has neither its unit nor the rate of its timecode.
+TEST(CurvesFile, ReadsUnitsFromTheFileBesideALiveLinkFaceFile) {
   const std::string file = testing::TempDir() + "mien_" + std::to_string(getpid()) + ".csv";
   std::ofstream(file) << "Timecode,BlendshapeCount,JawOpen,HeadYaw,HeadPitch,HeadRoll\n"
                          "00:00:00:00.000,61,0,90,0,0\n00:00:00:12.000,61,0,90,0,0\n";
@@ -133,7 +133,7 @@ TEST(CurvesFile, WhatLiesBesideALiveLinkFaceFileCounts) {
   EXPECT_NEAR(curves[1].t_ms - curves[0].t_ms, 500.0, 1e-6);
 }
 
-TEST(CurvesFile, ThereHasToBeAFile) {
+TEST(CurvesFile, AMissingFileFails) {
   EXPECT_THROW(app::read_curves("/nowhere/x.csv", true), app::Failure);
   EXPECT_THROW(app::read_curves("/", true), app::Failure);
 }

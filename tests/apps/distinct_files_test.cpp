@@ -1,4 +1,4 @@
-// An output that is an input is rejected, whatever name or link leads to it.
+// Tests that an output cannot be an input under any name or link.
 #include "apps/mien/outputs/distinct_files.h"
 
 #include <gtest/gtest.h>
@@ -43,7 +43,7 @@ class DistinctFiles : public testing::Test {
   fs::path folder_ = fs::temp_directory_path() / ("mien_distinct_" + std::to_string(getpid()));
 };
 
-TEST_F(DistinctFiles, TheSameFileUnderAnyName) {
+TEST_F(DistinctFiles, RejectsTheSameFileUnderAnyName) {
   for (const char* name : {"a", "./below/../a", "link", "link_to_link", "hard", "below/up/a"}) {
     EXPECT_TRUE(rejected(path("a"), path(name))) << name;
     EXPECT_TRUE(rejected(path(name), path("a"))) << name;
@@ -51,14 +51,16 @@ TEST_F(DistinctFiles, TheSameFileUnderAnyName) {
   EXPECT_TRUE(rejected(path("a"), fs::relative(path("a")).string()));
 }
 
-TEST_F(DistinctFiles, OtherFilesOfTheSameContent) {
+TEST_F(DistinctFiles, AcceptsOtherFilesWithTheSameContent) {
   EXPECT_FALSE(rejected(path("a"), path("b.csv")));
   EXPECT_FALSE(rejected(path("a"), path("below/a")));
   EXPECT_FALSE(rejected("rtsp://camera/a", path("a")));
   EXPECT_FALSE(rejected(path("not there"), path("not there")));
 }
 
-TEST_F(DistinctFiles, DevicesMayBeBoth) { EXPECT_FALSE(rejected("/dev/null", "/dev/null")); }
+TEST_F(DistinctFiles, ADeviceMayBeInputAndOutput) {
+  EXPECT_FALSE(rejected("/dev/null", "/dev/null"));
+}
 
 }  // namespace
 }  // namespace mien::app

@@ -1,5 +1,5 @@
-/* Preloaded: the allocation number MIEN_FAIL_AT fails, from 1; MIEN_COUNT_TO: a file that is told
- * how many there were. */
+/* A preloaded malloc. Allocation number MIEN_FAIL_AT, counted from 1, fails. The number of
+ * allocations is written to the file MIEN_COUNT_TO. */
 #include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>

@@ -1,4 +1,4 @@
-"""The program while the machine around it fails: outputs are whole or absent, and it says what is wrong.
+"""Tests of the program on a failing machine: outputs are complete or absent, and errors are reported.
 usage: faults_test.py MIEN FAILING_MALLOC [all]      all: every allocation fails once, which takes minutes"""
 import os
 import pathlib
@@ -51,7 +51,7 @@ class Faults(unittest.TestCase):
         self.assertEqual([path.name for path in self.folder.iterdir() if name in path.name], [])
 
     def test_full_disk_leaves_no_output(self):
-        """No file may grow beyond a limit, which is what a full disk looks like to a program."""
+        """A limit on file sizes simulates a full disk."""
         whole = len(self.whole())
         for limit in (0, 1, 4096, whole - 1):
             def small_disk(limit=limit):
@@ -68,14 +68,14 @@ class Faults(unittest.TestCase):
         self.assertEqual(failed.returncode, OUTPUT_FAILED)
         self.assertIn(b"standard output", failed.stderr)
 
-    def test_a_device_stays_one(self):
-        """A file put in the place of /dev/null would break the whole machine."""
+    def test_a_device_is_not_replaced(self):
+        """Replacing /dev/null by a file would break the whole machine."""
         self.assertEqual(self.mien("-o", "/dev/null").returncode, 0)
         self.assertTrue(pathlib.Path("/dev/null").is_char_device())
         self.assertEqual(list(pathlib.Path("/dev").glob(".partial*")), [])
 
-    def test_a_reader_that_goes_away_ends_the_work(self):
-        """More frames than a pipe holds: the writer has to notice."""
+    def test_a_closed_reader_ends_the_program(self):
+        """More frames than a pipe holds, so that the writer notices."""
         endless = self.folder / "long.y4m"
         head, _, frames = clip().partition(b"\n")
         endless.write_bytes(head + b"\n" + frames * 40)
@@ -85,11 +85,11 @@ class Faults(unittest.TestCase):
         process.stdout.close()
         errors = process.stderr.read()
         process.stderr.close()
-        self.assertEqual((process.wait(timeout=120), errors), (0, b""), "nobody reads on, which is no error")
+        self.assertEqual((process.wait(timeout=120), errors), (0, b""), "a closed reader is not an error")
         self.assertLess(time.monotonic() - began, 100)
 
     def test_short_reads_and_interruptions_change_nothing(self):
-        """Input that comes in bits through a pipe, while the process is stopped and continued: read and poll come back early."""
+        """Small writes to a pipe while the process is stopped and continued: read and poll return early."""
         expected, dice = self.whole(), random.Random(1)
         process = subprocess.Popen(self.arguments("-o", self.folder / "out.csv", source="-"), stdin=subprocess.PIPE)
         rest = clip()
@@ -112,16 +112,16 @@ class Faults(unittest.TestCase):
         for _ in range(15):
             cut = dice.randrange(1, len(whole))
             if cut >= head and (cut - head) % frame == 0:
-                continue  # a shorter video, and a whole one
+                continue  # a shorter but complete video
             failed = self.mien("-o", self.folder / "out.csv", source="-", input=whole[:cut])
             self.assertIn(failed.returncode, (TRUNCATED, NO_VIDEO), cut)
             self.assert_no_output()
 
-    def test_input_that_cannot_be_read_is_no_empty_one(self):
-        """The first page of a process's memory can be opened and not read, as a damaged disk."""
+    def test_unreadable_input_is_an_error(self):
+        """/proc/self/mem can be opened but not read at offset 0, like a file on a damaged disk."""
         failed = subprocess.run([MIEN, "convert", "/proc/self/mem", str(self.folder / "out.csv")], capture_output=True, timeout=120)
         self.assertEqual(failed.returncode, NO_INPUT)
-        self.assertEqual(failed.stderr, b"mien: /proc/self/mem: cannot be read to its end\n")
+        self.assertEqual(failed.stderr, b"mien: /proc/self/mem: read error before the end of the file\n")
         self.assert_no_output()
 
     def test_killed_at_any_moment_outputs_are_whole_or_absent(self):
@@ -141,10 +141,10 @@ class Faults(unittest.TestCase):
                 self.assertEqual(out.read_bytes(), whole)
                 out.unlink()
         self.assertGreater(killed, 3, "most should have been killed in the middle")
-        self.assertEqual(self.mien("-o", out).returncode, 0, "what is left behind is in nobody's way")
+        self.assertEqual(self.mien("-o", out).returncode, 0, "leftovers do not disturb the next run")
         self.assertEqual(out.read_bytes(), whole)
 
-    def test_a_batch_killed_at_any_moment_goes_on_where_it_was(self):
+    def test_a_killed_batch_continues(self):
         whole, dice = self.whole(), random.Random(4)
         clips, out = self.folder / "clips", self.folder / "curves"
         clips.mkdir()
@@ -176,7 +176,7 @@ class Faults(unittest.TestCase):
 
     @unittest.skipUnless(shutil.which("ffmpeg"), "no ffmpeg here")
     def test_a_decoder_that_dies_leaves_no_output(self):
-        """ffmpeg decodes some of the video, then is killed, fails, or only ends."""
+        """ffmpeg decodes a part of the video, then is killed, fails, or exits."""
         real = shutil.which("ffmpeg")
         fakes = self.folder / "bin"
         fakes.mkdir()
@@ -205,7 +205,7 @@ class Faults(unittest.TestCase):
 
     @unittest.skipUnless(FAILING_MALLOC != "-", "the sanitizers' heap cannot be replaced")
     def test_the_nth_allocation_fails(self):
-        """Whichever it is, the program ends by itself, with an output that is whole or none."""
+        """For every n, the program exits by itself, with a complete output or none."""
         out, count = self.folder / "out", self.folder / "count"
         model = SOURCE / "models/proposal.mien"
         verbs = {"inspect": [MIEN, "inspect", str(model)], "track": self.arguments("-o", out, "--duration", "0.2")}

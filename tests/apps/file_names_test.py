@@ -1,5 +1,5 @@
-"""Names of files are names: whatever they hold, no option, protocol or pattern of ffmpeg's, and nothing that a file refers to is
-fetched from anywhere but files. usage: file_names_test.py MIEN"""
+"""Tests that file names are never interpreted as options, protocols or patterns of ffmpeg, and that references in files lead to files only.
+usage: file_names_test.py MIEN"""
 import pathlib
 import shutil
 import socket
@@ -27,8 +27,8 @@ class Names(unittest.TestCase):
         return subprocess.run([MIEN, "track", "--quiet", "--models", str(SOURCE / "models"), "--lod", "1", *more],
                               capture_output=True, cwd=self.folder, timeout=120, **options)
 
-    def test_any_name_is_read(self):
-        """As a video and as its sound."""
+    def test_any_name_can_be_read(self):
+        """As a video and as its audio."""
         expected = None
         for name in NAMES:
             (self.folder / name).symlink_to(self.clip)
@@ -39,7 +39,7 @@ class Names(unittest.TestCase):
         self.assertEqual(expected.count(b"\n"), 7)
         self.assertFalse((self.folder / "harmed").exists())
 
-    def test_any_name_is_written(self):
+    def test_any_name_can_be_written(self):
         for name in NAMES[1:]:
             curves = name + ".csv"
             done = self.track("made.mp4", f"--overlay={name}", "-o" + curves)
@@ -49,7 +49,7 @@ class Names(unittest.TestCase):
         self.assertFalse((self.folder / "harmed").exists())
         self.assertEqual([path.name for path in self.folder.iterdir() if path.name.startswith(".partial")], [])
 
-    def test_what_a_file_refers_to_is_not_fetched(self):
+    def test_references_are_not_fetched(self):
         server = socket.create_server(("127.0.0.1", 0))
         self.addCleanup(server.close)
         asked = []
@@ -73,7 +73,7 @@ class Names(unittest.TestCase):
             self.assertNotEqual(self.track(file.name, "--mode", "audio").returncode, 0)
         self.assertEqual(asked, [])
         subprocess.run(["ffprobe", "-v", "quiet", "-protocol_whitelist", "file,http,tcp", "-i", str(playlist)], timeout=120)
-        self.assertNotEqual(asked, [], "who is asked has to notice")
+        self.assertNotEqual(asked, [], "the server must detect requests")
 
 
 if __name__ == "__main__":

@@ -1,5 +1,5 @@
-// What others make of our glTF: Khronos' validator finds no error and no warning, and three.js plays it.
-// usage: gltf_test.mjs MIEN_PROGRAM PACKAGES        PACKAGES as scripts/peers/install_gltf.sh has fetched them
+// Tests of our glTF with other programs: Khronos' validator reports no error and no warning, and three.js plays it.
+// usage: gltf_test.mjs MIEN_PROGRAM PACKAGES        PACKAGES fetched by scripts/peers/install_gltf.sh
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import fs from 'node:fs';

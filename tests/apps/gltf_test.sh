@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# usage: gltf_test.sh MIEN_PROGRAM        fetches the packages of gltf_test.mjs and runs it; 77: there is no node, or no way to them
+# usage: gltf_test.sh MIEN_PROGRAM        fetches the packages of gltf_test.mjs and runs it; exit code 77: node or the packages are not available
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 command -v node >/dev/null || { echo "skipped: no node here"; exit 77; }

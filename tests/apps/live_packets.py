@@ -1,6 +1,6 @@
-"""Packets of face protocols, decoded by what is written of them, and by nothing of the program.
+"""Independent decoders for packets of face protocols, based on their documentation.
 
-Each function takes bytes and raises ValueError for what its protocol does not allow.
+Each function takes bytes and raises ValueError if the protocol does not permit them.
 """
 import struct
 
@@ -24,7 +24,7 @@ def require(condition, what):
 def osc_string(data, at):
     end = data.index(b"\0", at)
     following = (end // 4 + 1) * 4
-    require(following <= len(data) and not any(data[end:following]), "string not filled up with zeros")
+    require(following <= len(data) and not any(data[end:following]), "string not padded with zeros")
     return data[at:end].decode(), following
 
 
@@ -51,7 +51,7 @@ def osc(data):
             argument, = struct.unpack_from({"i": ">i", "f": ">f"}[tag], data, at)
             at += 4
         arguments.append(argument)
-    require(at == len(data), "bytes behind the arguments")
+    require(at == len(data), "bytes after the arguments")
     return [(address, arguments)]
 
 
@@ -60,7 +60,7 @@ def vmc(packets):
     frame = {"blends": {}, "head": None}
     messages = []
     for packet in packets:
-        require(len(packet) <= 1500 and packet.startswith(b"#bundle\0"), "not a bundle of 1500 bytes")
+        require(len(packet) <= 1500 and packet.startswith(b"#bundle\0"), "not a bundle of at most 1500 bytes")
         messages += osc(packet)
     require(messages[-1] == ("/VMC/Ext/Blend/Apply", []), "blends are not applied")
     for address, arguments in messages[:-1]:
@@ -96,7 +96,7 @@ def live_link(packet):
     count, = take("B")
     require(count in (0, 61), "count")
     values = take(f"{count}f")
-    require(at == len(packet), "bytes behind the values")
+    require(at == len(packet), "bytes after the values")
     return {"device": device, "subject": subject, "time_s": (frame + part) / 60, "values": values}
 
 

@@ -1,4 +1,4 @@
-// Parts of `mien live` by themselves.
+// Tests of the parts of `mien live`.
 #include <gmock/gmock.h>
 #include <unistd.h>
 
@@ -22,7 +22,7 @@ using formats::Frame;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-TEST(Destination, IsTakenApart) {
+TEST(Destination, ParsesUrls) {
   Destination destination = parse_destination("vmc://[::1]:39540/?names=camel&x=a%20b");
   EXPECT_EQ(destination.scheme, "vmc");
   EXPECT_EQ(destination.host, "::1");
@@ -34,20 +34,20 @@ TEST(Destination, IsTakenApart) {
   EXPECT_NO_THROW(destination.require_all_taken());
 }
 
-TEST(Destination, SaysWhatIsWrong) {
-  for (const auto& [text, wanted] : {std::pair{"127.0.0.1:1", "is no destination"},
-                                     {"vmc://h:0", "'0' is no port"},
-                                     {"vmc://h:", "'' is no port"},
-                                     {"vmc://h:12a", "'12a' is no port"},
-                                     {"vmc://h:65536", "is no port"},
+TEST(Destination, NamesTheError) {
+  for (const auto& [text, wanted] : {std::pair{"127.0.0.1:1", "expected a URL such as"},
+                                     {"vmc://h:0", "invalid port (got '0'"},
+                                     {"vmc://h:", "invalid port (got ''"},
+                                     {"vmc://h:12a", "invalid port (got '12a'"},
+                                     {"vmc://h:65536", "invalid port"},
                                      {"vmc://a:b:1", "IPv6"},
                                      {"vmc://[::1", "'['"},
                                      {"vmc://[::1]1", "'['"},
-                                     {"vmc://h?names", "is not NAME=VALUE"},
-                                     {"vmc://h?a=1&a=2", "is there twice"},
+                                     {"vmc://h?names", "expected NAME=VALUE"},
+                                     {"vmc://h?a=1&a=2", "duplicate option 'a'"},
                                      {"vmc://h?a=%4", "hexadecimal"},
                                      {"vmc://h?a=%00", "hexadecimal"},
-                                     {"vmc://h?=1", "is not NAME=VALUE"}}) {
+                                     {"vmc://h?=1", "expected NAME=VALUE"}}) {
     try {
       static_cast<void>(parse_destination(text));
       FAIL() << text;
@@ -66,7 +66,7 @@ addrinfo address_of(int family, addrinfo* next) {
   return address;
 }
 
-// Many receivers listen on 127.0.0.1 alone, and many systems say "localhost" is ::1 first.
+// Many receivers listen on 127.0.0.1 only, but many systems resolve "localhost" to ::1 first.
 TEST(UdpSocket, PrefersAnAddressOfIpv4) {
   addrinfo second_v4 = address_of(AF_INET, nullptr), first_v4 = address_of(AF_INET, &second_v4);
   addrinfo last_v6 = address_of(AF_INET6, nullptr), next_v6 = address_of(AF_INET6, &last_v6);
@@ -92,10 +92,10 @@ TEST(UdpSocket, ReachesThisMachineByItsName) {
 
 constexpr std::int64_t kMs = 1'000'000;
 
-TEST(SampleClock, TellsWhenSamplesWereRecordedThatComeLate) {
+TEST(SampleClock, EstimatesRecordingTimesOfLateSamples) {
   SampleClock clock(16000);
   std::int64_t worst = 0;
-  for (int block = 0; block < 1000; ++block) {  // of 10 ms, some of which wait up to 30 ms
+  for (int block = 0; block < 1000; ++block) {  // of 10 ms; some are up to 30 ms late
     const std::int64_t recorded = block * 10 * kMs;
     const std::int64_t late = (block * 7 % 4) * 10 * kMs;
     const std::int64_t told = clock.time_of(160, recorded + 10 * kMs + late);
@@ -106,14 +106,14 @@ TEST(SampleClock, TellsWhenSamplesWereRecordedThatComeLate) {
 
 TEST(SampleClock, FollowsAnotherClock) {
   SampleClock clock(16000);
-  for (int block = 0; block < 60000; ++block) {  // ten minutes of a card that is 0.01 % slow
+  for (int block = 0; block < 60000; ++block) {  // ten minutes of a sound card that is 0.01 % slow
     const auto recorded = static_cast<std::int64_t>(block * 10.001 * kMs);
     const std::int64_t told = clock.time_of(160, recorded + 10 * kMs);
     ASSERT_LT(std::abs(told - recorded), 5 * kMs) << block;
   }
 }
 
-TEST(SampleClock, BeginsAnewAfterAGap) {
+TEST(SampleClock, RestartsAfterAGap) {
   SampleClock clock(16000);
   EXPECT_EQ(clock.time_of(160, 10 * kMs), 0);
   EXPECT_EQ(clock.time_of(160, 20 * kMs), 10 * kMs);
@@ -132,7 +132,7 @@ Frame frame(std::int64_t ms, FaceState state, double jaw, double yaw) {
   return made;
 }
 
-TEST(Easing, LeavesATrackedFaceAlone) {
+TEST(Easing, DoesNotChangeATrackedFace) {
   Easing easing;
   for (int i = 0; i < 30; ++i) {
     const Frame shown = easing.next(frame(i * 33, FaceState::kTracking, 0.1 * (i % 10), 0.3));
@@ -141,7 +141,7 @@ TEST(Easing, LeavesATrackedFaceAlone) {
   }
 }
 
-TEST(Easing, HoldsThenEasesAndWelcomesWithoutAJump) {
+TEST(Easing, HoldsThenEasesWithoutJumps) {
   Easing easing;
   static_cast<void>(easing.next(frame(0, FaceState::kTracking, 0.8, 0.5)));
   double jaw = 0.8, yaw = 0.5;
@@ -170,12 +170,12 @@ TEST(Easing, HoldsThenEasesAndWelcomesWithoutAJump) {
   EXPECT_EQ(yaw, -0.4);
 }
 
-TEST(Easing, SaysNothingOfAHeadThatWasNeverSeen) {
+TEST(Easing, HasNoHeadBeforeTheFirstFace) {
   Easing easing;
   EXPECT_FALSE(easing.next(frame(0, FaceState::kSearching, 0.0, 0.0)).head.has_value());
 }
 
-TEST(Mirror, TwiceIsTheSame) {
+TEST(Mirror, TwiceIsTheIdentity) {
   Frame face = frame(0, FaceState::kTracking, 0.5, 0.25);
   face.controls[control("mouthLeft")] = 0.75;
   face.controls[control("eyeBlinkRight")] = 1.0;
@@ -198,7 +198,7 @@ auto device(CaptureKind kind, const std::string& name, const std::string& descri
                         testing::Field(&Device::description, description));
 }
 
-TEST(DeviceLists, AreReadAsEverySystemWritesThem) {
+TEST(DeviceLists, AreParsedForEverySystem) {
   using enum CaptureKind;
   EXPECT_THAT(parse_avfoundation(
                   "[AVFoundation indev @ 0x7f] AVFoundation video devices:\n"

@@ -1,4 +1,4 @@
-"""`mien live` with a file in place of the camera, and receivers that share nothing with its senders.
+"""Tests of `mien live` with a file as the camera, and independent receivers.
 
 usage: live_test.py MIEN_PROGRAM SOURCE_FOLDER
 """
@@ -31,7 +31,7 @@ HELLO = b"iFacialMocap_sahuasouryya9218sauhuiayeta91555dy3719"
 
 
 class Receiver:
-    """Keeps all datagrams that come to a port, by default one of its own."""
+    """Keeps all datagrams received at a port, by default a free one."""
 
     def __init__(self, port=0):
         self.socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
@@ -76,7 +76,7 @@ class Live(unittest.TestCase):
         return os.path.join(self.folder, name)
 
     def start(self, *arguments, **more):
-        """A process that does not outlive its test, nor a minute and a half, however it ends; nor do those it starts."""
+        """A process that, with its children, is killed after its test or after 90 s."""
         process = subprocess.Popen(*arguments, start_new_session=True, **more)
 
         def kill():
@@ -107,7 +107,7 @@ class Live(unittest.TestCase):
             stats = json.load(file)
         self.assertEqual(stats["frames"], len(frames))
         self.assertEqual(stats["dropped_packets"], 0)
-        self.assertGreater(len(frames), 20)  # of 240; how many depends on the machine
+        self.assertGreater(len(frames), 20)  # of 240; depends on the machine
         self.assertEqual(sorted(f["t_ns"] for f in frames), [f["t_ns"] for f in frames])
         tracked = [f for f in frames if f["status"] == "tracking"]
         self.assertGreater(len(tracked), len(frames) / 2)
@@ -130,7 +130,7 @@ class Live(unittest.TestCase):
             inside = [x - w < u < x + 2 * w and y - h < v < y + 2 * h for u, v in osf["landmarks"]]
             self.assertTrue(all(inside))
             self.assertGreater(-osf["translation"][2], 1)
-            eyes = [osf["landmarks"][i] for i in (36, 45)]  # the subject's right one is on the picture's left
+            eyes = [osf["landmarks"][i] for i in (36, 45)]  # the subject's right eye is on the left of the image
             self.assertLess(eyes[0][0], eyes[1][0])
         bundles, whole = [], []
         for packet in got["vmc"]:
@@ -145,7 +145,7 @@ class Live(unittest.TestCase):
         self.check_jaw(frames)
 
     def check_jaw(self, frames):
-        """It follows the true one, wherever in the clip the first frame stands."""
+        """The curve follows the reference, wherever in the clip the first frame is."""
         with open(SOURCE + "/tests/data/demo_truth.csv") as file:
             truth = [float(row["jawOpen"]) for row in csv.DictReader(file)]
         first = frames[0]["t_ns"]
@@ -173,7 +173,7 @@ class Live(unittest.TestCase):
                 self.assertEqual((frame["controls"], frame["position_m"]), (before["controls"], before["position_m"]))
             passed = (frame["t_ns"] - previous["t_ns"]) * 1e-9
             for name, value in frame["controls"].items():
-                self.assertLessEqual(abs(value - previous["controls"][name]), 1.6 * passed + 1e-6, name)  # of 1 in 1 s, smoothly
+                self.assertLessEqual(abs(value - previous["controls"][name]), 1.6 * passed + 1e-6, name)  # 1 in 1 s, smoothly
             for angle in ("pitch_rad", "yaw_rad", "roll_rad"):
                 self.assertLessEqual(abs(frame["head"][angle] - previous["head"][angle]), 2.5 * passed + 1e-6)
         self.assertGreater(frames[-1]["t_ns"] * 1e-9 - first_s, 1.6)
@@ -181,7 +181,7 @@ class Live(unittest.TestCase):
         self.assertLess(max(abs(frames[-1]["head"][a]) for a in ("pitch_rad", "yaw_rad", "roll_rad")), 1e-6)
         self.assertEqual(frames[-1]["position_m"], before["position_m"])
 
-    def test_a_camera_that_vanishes_is_taken_up_again(self):
+    def test_a_lost_camera_is_reopened(self):
         ffmpeg("-t", "2", "-i", CLIP, "-an", "-c", "copy", "-f", "mpegts", self.path("clip.ts"))
         with open(self.path("clip.ts"), "rb") as file:
             film = file.read()
@@ -190,16 +190,16 @@ class Live(unittest.TestCase):
         connections = []
 
         def serve():
-            for film_is_over in (True, False):
+            for video_is_over in (True, False):
                 try:
                     connection, _ = server.accept()
                     connections.append(connection)
                     connection.sendall(film)
-                    while not film_is_over:  # at the pace of a camera, for it may be slow to be noticed
+                    while not video_is_over:  # at the rate of a camera, because detection may be slow
                         for start in range(0, len(film), 4096):
                             connection.sendall(film[start:start + 4096])
                             time.sleep(0.05)
-                except OSError:  # the test is over
+                except OSError:  # the test has ended
                     pass
                 connection.close()
         threading.Thread(target=serve, daemon=True).start()
@@ -207,18 +207,18 @@ class Live(unittest.TestCase):
         live = self.start(command("--camera", f"tcp://127.0.0.1:{server.getsockname()[1]}", "--mic", "none", "--lod", 1,
                                   "--send", f"jsonl://:{receiver.port}"), stderr=subprocess.PIPE, text=True)
         said = ""
-        while "it is back" not in said and live.poll() is None:
+        while "recovered" not in said and live.poll() is None:
             said += live.stderr.readline()
         live.send_signal(signal.SIGINT)
         said += live.communicate(timeout=60)[1]
         self.assertEqual(live.returncode, 0, said)
-        self.assertRegex(said, r"tcp://127.0.0.1:\d+: .*; waiting for it\n")
-        self.assertRegex(said, r"frames \d+ in .* s, with a face \d+, dropped pictures \d+")
+        self.assertRegex(said, r"tcp://127.0.0.1:\d+: .*; retrying\n")
+        self.assertRegex(said, r"\d+ frames in .* s, \d+ with a face, dropped \d+ images")
         self.assertEqual(len(connections), 2)
         states = [json.loads(packet)["status"] for packet in receiver.packets()]
         self.assertIn("tracking", states)
 
-    def test_statistics_do_not_overwrite_the_clip_that_plays(self):
+    def test_statistics_do_not_overwrite_the_clip(self):
         shutil.copy(CLIP, self.path("clip.mp4"))
         os.symlink(self.path("clip.mp4"), self.path("stats"))
         done = run("--camera", "test:" + self.path("clip.mp4"), "--mic", "none", "--duration", 1, "--stats", self.path("stats"))
@@ -226,14 +226,14 @@ class Live(unittest.TestCase):
         with open(CLIP, "rb") as clip, open(self.path("clip.mp4"), "rb") as played:
             self.assertEqual(clip.read(), played.read())
 
-    def test_ctrl_c_before_the_first_picture(self):
-        """A terminal sends it to ffmpeg, too, which ends with a complaint."""
+    def test_ctrl_c_before_the_first_image(self):
+        """A terminal also sends it to ffmpeg, which ends with an error."""
         server = socket.create_server(("127.0.0.1", 0))
         self.addCleanup(server.close)
         live = self.start(command("--camera", f"tcp://127.0.0.1:{server.getsockname()[1]}", "--mic", "none", "--lod", 1,
                                   "--quiet", "--stats", self.path("stats")), stderr=subprocess.PIPE, text=True)
         server.settimeout(60)
-        connection, _ = server.accept()  # and nothing is sent
+        connection, _ = server.accept()  # and sends nothing
         self.addCleanup(connection.close)
         time.sleep(0.5)
         os.killpg(live.pid, signal.SIGINT)
@@ -242,8 +242,8 @@ class Live(unittest.TestCase):
         with open(self.path("stats")) as file:
             self.assertEqual(json.load(file)["frames_with_face"], 0)
 
-    def test_a_neutral_face_of_a_stream_is_captured_in_one_go(self):
-        """It is opened to see what is in it, and once to be watched: what it gave cannot be had again."""
+    def test_neutral_calibration_reads_a_stream_once(self):
+        """The stream is opened to probe it, and once to read it, because its content cannot be repeated."""
         ffmpeg("-t", "6", "-i", CLIP, "-an", "-c", "copy", "-f", "mpegts", self.path("clip.ts"))
         with open(self.path("clip.ts"), "rb") as file:
             film = file.read()
@@ -267,8 +267,8 @@ class Live(unittest.TestCase):
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertEqual(len(opened), 2)
 
-    def test_receivers_that_fail_stop_nothing_and_are_counted(self):
-        """The system refuses every packet to one, nobody is at the second's port until half-way, and the third gets all."""
+    def test_failing_receivers_are_counted_and_stop_nothing(self):
+        """The system rejects all packets to the first receiver, the second one starts half-way, and the third one gets all."""
         late_port, receiver = free_port(), self.receiver()
         live = self.start(command("--camera", "test:" + CLIP, "--mic", "none", "--lod", 1, "--stats", self.path("stats"),
                                   "--send", "jsonl://255.255.255.255:9999", "--send", f"jsonl://:{late_port}",
@@ -285,20 +285,20 @@ class Live(unittest.TestCase):
         self.assertEqual(live.returncode, 0, said)
         with open(self.path("stats")) as file:
             stats = json.load(file)
-        self.assertEqual(stats["dropped_packets"], stats["frames"], "those to the first")
+        self.assertEqual(stats["dropped_packets"], stats["frames"], "those to the first receiver")
         packets, late_packets = [first, *receiver.packets()], [late_first, *late.packets()]
         self.assertEqual(len(packets), stats["frames"])
         self.assertLess(len(late_packets), len(packets))
         self.assertEqual(late_packets, packets[-len(late_packets):])
 
-    def test_hellos_of_iFacialMocap_and_what_is_none(self):
+    def test_valid_and_invalid_hellos_of_iFacialMocap(self):
         port, stranger = free_port(), self.receiver()
         live = self.start(command("--camera", "test:" + CLIP, "--mic", "none", "--lod", 1, "--quiet", "--send", f"ifm://:{port}"))
         clients = [self.receiver(), self.receiver()]
         rng = random.Random(7)
         texts = [[], []]
         for turn in range(60):
-            for _ in range(50):  # a flood, of all that is nearly a hello and much that is not
+            for _ in range(50):  # a flood of almost valid and invalid hellos
                 wrong = rng.choice((b"", HELLO[:-1], HELLO.lower(), HELLO + b"x", HELLO + b"|sendDataVersion=v3", b"\0" + HELLO, HELLO + b"\0" * 9000,
                                     rng.randbytes(rng.randrange(1500)), rng.randbytes(60000)))
                 stranger.socket.sendto(wrong, ("127.0.0.1", port))
@@ -324,7 +324,7 @@ class Live(unittest.TestCase):
         head = subprocess.run(["bash", "-c", lines + " | head -2; echo ${PIPESTATUS[0]}"], capture_output=True, text=True, timeout=60)
         self.assertEqual((head.stdout.splitlines()[-1], head.stderr), ("0", ""))
         self.assertEqual(json.loads(head.stdout.splitlines()[1])["status"] in ("searching", "tracking"), True)
-        # A reader that sleeps finds little that is old, and whole lines.
+        # A slow reader gets few old lines, and all are complete.
         slow = self.start(["bash", "-c", lines + f" --duration 4 --stats {self.path('stats')}"], stdout=subprocess.PIPE)
         slow.wait(timeout=60)
         text = slow.stdout.read()
@@ -335,7 +335,7 @@ class Live(unittest.TestCase):
         with open(self.path("stats")) as file:
             self.assertGreater(json.load(file)["dropped_packets"], 10)
 
-    def test_devices_of_ffmpeg_are_seen_and_heard(self):
+    def test_devices_of_ffmpeg(self):
         receiver = self.receiver()
         done = run("--camera", f"lavfi:movie='{CLIP}'", "--mic", f"lavfi:amovie='{CLIP}'", "--duration", 7, "--send", f"jsonl://:{receiver.port}")
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -343,7 +343,7 @@ class Live(unittest.TestCase):
         self.assertIn("tracking", {f["status"] for f in frames})
         self.assertGreater(max(f["vad"] for f in frames), 0.5)
 
-    def test_sound_alone_moves_the_mouth(self):
+    def test_audio_alone_moves_the_mouth(self):
         receiver = self.receiver()
         done = run("--camera", "none", "--mic", "test:" + CLIP, "--send", f"jsonl://:{receiver.port}", "--quiet")
         self.assertEqual((done.returncode, done.stderr), (0, b""))
@@ -377,25 +377,25 @@ class Live(unittest.TestCase):
         os.write(master, b"c")
         until(r"calibrating: look neutral")
         os.write(master, b"q")
-        until(r"(?s)\x1b\[\?1049l.*frames \d+ in")
+        until(r"(?s)\x1b\[\?1049l.*\d+ frames in")
         self.assertEqual(live.wait(timeout=60), 0)
         os.close(master)
 
-    def test_what_is_wrong_is_named(self):
+    def test_errors_are_named(self):
         for arguments, code, wanted in (
-                (["--send", "foo://x"], 2, "there is no 'foo://'; there are vmc://"),
-                (["--send", "localhost"], 2, "is no destination"),
-                (["--send", "vmc://h:99999"], 2, "'99999' is no port"),
-                (["--send", "vmc://?names=upper"], 2, "not 'upper'"),
-                (["--send", "osf://?names=vrm0"], 2, "there is no option 'names' for osf"),
+                (["--send", "foo://x"], 2, "unknown protocol 'foo://', supported are vmc://"),
+                (["--send", "localhost"], 2, "expected a URL such as"),
+                (["--send", "vmc://h:99999"], 2, "invalid port (got '99999', expected 1 to 65535)"),
+                (["--send", "vmc://?names=upper"], 2, "unknown vocabulary 'upper'"),
+                (["--send", "osf://?names=vrm0"], 2, "unknown option 'names' for osf"),
                 (["--send", "vmc://::1"], 2, "IPv6"),
-                (["--send", "jsonl://"], 2, "names no port"),
-                (["--send", "llf://?rot=gon"], 2, "not 'gon'"),
-                (["--send", "llf://nowhere.invalid"], 7, "there is no host 'nowhere.invalid'"),
-                (["--camera", "none", "--mic", "none"], 2, "there is nothing to track"),
+                (["--send", "jsonl://"], 2, "expected a port"),
+                (["--send", "llf://?rot=gon"], 2, "got 'gon'"),
+                (["--send", "llf://nowhere.invalid"], 7, "unknown host 'nowhere.invalid'"),
+                (["--camera", "none", "--mic", "none"], 2, "no input to track"),
                 (["--camera", "test:/nowhere.mp4"], 3, "/nowhere.mp4: no such file"),
-                (["--camera", "/dev/video99", "--mic", "none"], 3, "/dev/video99: no picture: "),
-                (["--camera", "gopher://x", "--mic", "none"], 2, "no protocol 'gopher'")):
+                (["--camera", "/dev/video99", "--mic", "none"], 3, "/dev/video99: no image: "),
+                (["--camera", "gopher://x", "--mic", "none"], 2, "unknown protocol 'gopher'")):
             done = run(*(arguments if "--camera" in arguments else ["--camera", "test:" + CLIP, *arguments]), text=True)
             self.assertEqual(done.returncode, code, (arguments, done.stderr))
             self.assertIn(wanted, done.stderr)
@@ -416,7 +416,7 @@ class Live(unittest.TestCase):
         gone = track(f"http://127.0.0.1:{server.server_port}/gone.mp4")
         self.assertEqual(gone.returncode, 3)
         self.assertIn("/gone.mp4: cannot be opened", gone.stderr)
-        # What comes over the network may not lead to files of this machine.
+        # Network content must not lead to files of this machine.
         playlist = self.path("list.m3u8")
         with open(playlist, "w") as file:
             file.write(f"#EXTM3U\n#EXT-X-TARGETDURATION:8\n#EXTINF:8,\nfile://{CLIP}\n#EXT-X-ENDLIST\n")

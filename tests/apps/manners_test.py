@@ -1,4 +1,4 @@
-"""What the program says of itself: help, manual page, completions and docs/cli.md know the same verbs and options.
+"""Tests that help, manual page, completions and docs/cli.md have the same verbs and options.
 
 usage: manners_test.py MIEN_PROGRAM DOCS
 """
@@ -29,7 +29,7 @@ def options(verb):
 
 
 class Manners(unittest.TestCase):
-    def test_every_verb_has_examples_with_options_that_it_has(self):
+    def test_every_verb_has_valid_examples(self):
         self.assertGreaterEqual(len(verbs()), 9)
         for verb in verbs():
             text = run(verb, "--help").stdout
@@ -40,7 +40,7 @@ class Manners(unittest.TestCase):
                     for option in re.findall(r"(?<= )--?[a-z][-a-z]*", line.split(" | ")[0].split(" && ")[0]):
                         self.assertIn(option, options(verb) + ["-l"], line)
 
-    def test_the_documentation_knows_every_option(self):
+    def test_the_documentation_has_every_option(self):
         with open(DOCS + "/cli.md") as file:
             documented = file.read()
         for verb in verbs():
@@ -48,7 +48,7 @@ class Manners(unittest.TestCase):
             for option in options(verb):
                 self.assertIsNotNone(re.search(re.escape(option) + r"(?![-a-z])", documented), f"{verb} {option}")
 
-    def test_the_manual_page_knows_every_option(self):
+    def test_the_manual_page_has_every_option(self):
         page = run("manual").stdout
         self.assertTrue(page.startswith(".TH MIEN 1"))
         for verb in verbs():
@@ -102,16 +102,16 @@ class Manners(unittest.TestCase):
             self.assertEqual(json.loads(done.stdout), {"input": clip, "output": made, "levels": levels})
             self.assertEqual(done.stderr, "")
 
-    def test_what_was_mistyped(self):
-        for arguments, wanted in ((["trak"], "mien: 'trak' is no verb; did you mean 'track'?\n"), (["cmopare", "a"], "'compare'"),
-                                  (["track", "--lood", "3", "x"], "mien: track: there is no option '--lood'; did you mean '--lod'?\n"),
-                                  (["--verson"], "'--version'"), (["xyzzy"], "mien: 'xyzzy' is no verb\n")):
+    def test_typing_errors_get_a_suggestion(self):
+        for arguments, wanted in ((["trak"], "mien: unknown verb 'trak'; did you mean 'track'?\n"), (["cmopare", "a"], "'compare'"),
+                                  (["track", "--lood", "3", "x"], "mien: track: unknown option '--lood'; did you mean '--lod'?\n"),
+                                  (["--verson"], "'--version'"), (["xyzzy"], "mien: unknown verb 'xyzzy'\n")):
             done = run(*arguments)
             self.assertEqual(done.returncode, 2)
             self.assertIn(wanted, done.stderr)
         self.assertEqual(run("convert", "/nowhere.csv", "-", "--quiet").returncode, 3)
 
-    def test_a_closed_standard_output_is_no_error(self):
+    def test_a_closed_standard_output_is_not_an_error(self):
         rows = "t_ms,jawOpen\n" + "".join(f"{i},0.5\n" for i in range(100000))
         command = f"'{PROGRAM}' convert - - --to csv --quiet | head -1; echo ${{PIPESTATUS[0]}}"
         done = subprocess.run(["bash", "-c", command], input=rows, capture_output=True, text=True, timeout=60)
@@ -120,8 +120,8 @@ class Manners(unittest.TestCase):
         self.assertEqual(full.returncode, 7)
         self.assertIn("standard output: cannot be written", full.stderr)
 
-    def test_all_that_is_printed_is_written_or_said_not_to_be(self):
-        """Whoever is not there any more is no failure; a full disk is."""
+    def test_failed_output_is_reported(self):
+        """A closed reader is not an error; a full disk is."""
         source = os.path.join(DOCS, "..")
         models = os.path.join(source, "models")
         with tempfile.TemporaryDirectory() as folder:
@@ -151,8 +151,8 @@ class Manners(unittest.TestCase):
                     done = subprocess.run([PROGRAM, *arguments], stdout=gone, stderr=subprocess.PIPE, text=True, timeout=120)
                 self.assertEqual((done.returncode, [line for line in done.stderr.splitlines() if line.startswith("mien:")]), (0, []), arguments)
 
-    def test_numbers_that_are_none(self):
-        """Of every option that is a number."""
+    def test_invalid_numbers(self):
+        """For every option with a number."""
         tried = 0
         for verb in verbs():
             for option in re.findall(r"^\s+(--[a-z][-a-z]*) (?:N|X|S|MS|MB|DEGREES)\b", run(verb, "--help").stdout, re.M):

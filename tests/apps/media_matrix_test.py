@@ -1,6 +1,6 @@
-"""The demo clip in many guises: rows, timestamps, the offset of its audio and the shape of its face stay what they are.
+"""Tests of the demo clip in many formats: rows, timestamps, the offset of its audio and the shape of the face must not change.
 
-usage: media_matrix_test.py MIEN [CELLS]      CELLS: how many of all combinations, default 30; all: every one
+usage: media_matrix_test.py MIEN [CELLS]      CELLS: the number of combinations, default 30; all: every one
 """
 import concurrent.futures
 import csv
@@ -26,7 +26,7 @@ MPEG4 = ["-c:v", "mpeg4", "-q:v", "2"]
 MPEG2 = ["-c:v", "mpeg2video", "-q:v", "2"]
 AAC, MP3, OPUS, PCM = ["-c:a", "aac"], ["-c:a", "libmp3lame"], ["-c:a", "libopus"], ["-c:a", "pcm_s16le"]
 
-# What holds it: ending, codecs, and whether it keeps times that begin late, pixels that are not square, and a rotation.
+# Containers: ending, codecs, and whether they store late starts, non-square pixels, and a rotation.
 CONTAINERS = {
     "mp4": (H264 + AAC, True, True, True), "mov": (["-c:v", "mjpeg", "-q:v", "2"] + PCM, True, True, True), "m4v": (MPEG4 + AAC, True, True, True),
     "mkv": (H264 + ["-c:a", "flac"], True, True, False), "webm": (["-c:v", "libvpx", "-deadline", "realtime", "-b:v", "2M"] + OPUS, True, True, False),
@@ -37,7 +37,7 @@ CONTAINERS = {
     "3gp": (MPEG4 + AAC, True, True, True),
 }
 RATES = {"30": 30.0, "25": 25.0, "30000/1001": 30000 / 1001, "12": 12.0}
-OFFSETS = [0.0, 0.5, 2.0, -1.0]  # seconds that the video begins after its audio
+OFFSETS = [0.0, 0.5, 2.0, -1.0]  # seconds by which the video starts after its audio
 ASPECTS = {"1": 1.0, "4/3": 4 / 3, "8/9": 8 / 9}
 ROTATIONS = [0, 90, 180, 270]
 LAYOUTS = ["mono", "stereo", "5.1", "none"]
@@ -52,7 +52,7 @@ def possible(container, rate, offset, aspect, rotation, layout):
 
 
 def chosen():
-    """Those of `CELLS` cells that have each value of each axis about as often, the same every time."""
+    """A fixed selection of `CELLS` combinations in which the values of each axis are about equally frequent."""
     cells = [cell for cell in itertools.product(CONTAINERS, RATES, OFFSETS, ASPECTS, ROTATIONS, LAYOUTS) if possible(*cell)]
     if CELLS == "all":
         return cells
@@ -85,10 +85,10 @@ def track(path, folder):
 
 
 def make(cell, path):
-    """The first second of the clip, as it comes out of a camera of this kind."""
+    """The first second of the clip, as recorded by such a camera."""
     container, rate, offset, aspect, rotation, layout = cell
     codecs = CONTAINERS[container][0]
-    # Of a turned camera the width of pixels runs along the upright picture's height.
+    # With a rotated camera the width of pixels is along the height of the upright image.
     turn = {0: "", 90: ",transpose=cclock", 180: ",hflip,vflip", 270: ",transpose=clock"}[rotation]
     filters = f"fps={rate}{turn},scale=trunc(iw/({aspect})/2+0.5)*2:ih,setsar={aspect}"
     late = max(0.0, -offset)
@@ -100,7 +100,7 @@ def make(cell, path):
         codecs = codecs[:codecs.index("-c:a")]
     run("ffmpeg", "-v", "error", "-y", "-itsoffset", max(0.0, offset), "-t", SECONDS, "-i", CLIP, *audio, *maps, "-vf", filters, "-vsync", "vfr",
         *codecs, made)
-    if rotation:  # as cameras write it
+    if rotation:  # as cameras store it
         copy = ["-map", "0", "-c", "copy"]
         try:
             run("ffmpeg", "-v", "error", "-y", "-display_rotation", -rotation, "-i", made, *copy, path)
@@ -109,7 +109,7 @@ def make(cell, path):
 
 
 def onset(path, folder):
-    """When the tone begins, in seconds, by the waveform of a report: what the program has heard."""
+    """The start of the tone in seconds, from the waveform of a report."""
     run(MIEN, "track", path, "--quiet", "--lod", "1", "--mode", "audio", "--models", SOURCE / "models", "--report", folder / "r.html")
     report = Report(folder / "r.html")
     levels = report.columns["sound_high"]
@@ -118,7 +118,7 @@ def onset(path, folder):
 
 
 def shape(points):
-    """How high a face is, its width being 1."""
+    """The ratio of height and width of a face."""
     x, y = points[0::2], points[1::2]
     return (max(y) - min(y)) / (max(x) - min(x))
 
@@ -139,7 +139,7 @@ def check(cell, reference):
         if any(abs(step - 1 / RATES[rate]) > 0.0021 for step in steps):
             problems.append(f"steps from {min(steps):.4f} to {max(steps):.4f} s")
         if layout != "none":
-            # Containers and codecs begin audio up to two of its frames early (priming).
+            # Containers and codecs start audio up to two of its frames early (priming).
             between = onset(path, folder) - times[0]
             if abs(between - (0.5 - offset)) > 0.06:
                 problems.append(f"the tone begins {between:.3f} s after the video instead of {0.5 - offset:.3f}")

@@ -1,4 +1,4 @@
-"""Recordings as they come: what is whole is tracked with its own timestamps, what is not is said. usage: media_test.py MIEN"""
+"""Tests of real recordings: complete ones are tracked with their timestamps, others are reported. usage: media_test.py MIEN"""
 import csv
 import http.server
 import io
@@ -47,7 +47,7 @@ class Media(unittest.TestCase):
         for a, b in zip(got, expected):
             self.assertAlmostEqual(a, b, delta=within)
 
-    # What is whole ------------------------------------------------------------------------------------------------------
+    # Complete recordings ------------------------------------------------------------------------------------------------------
 
     def test_variable_frame_rates(self):
         chosen = "select='lt(n,10)+eq(n,17)+gt(n,25)'"
@@ -68,13 +68,13 @@ class Media(unittest.TestCase):
             ffmpeg(*PICTURE, *inputs, "-map", "0", "-map", "1", *H264, *maps, self.folder / name)
             self.assertEqual(len(self.times(self.folder / name)), 30, name)
 
-    def test_recordings_that_start_late(self):
+    def test_late_starts(self):
         for name in ("late.mkv", "late.ts", "late.mov", "late.webm"):
             codec = ["-c:v", "libvpx"] if name.endswith("webm") else H264
             ffmpeg(*PICTURE, *codec, "-output_ts_offset", "5", self.folder / name)
             self.expect_times(self.times(self.folder / name), [n * 1000 / 30 for n in range(30)], 1.01)
 
-    def test_a_video_that_begins_after_its_audio(self):
+    def test_a_video_that_starts_after_its_audio(self):
         for ending in ("ts", "m2ts", "mp4", "mkv", "mpg", "mov", "flv"):
             codec = ["-c:v", "mpeg2video", "-c:a", "mp2"] if ending == "mpg" else [*H264, "-c:a", "aac", "-ar", "44100"]
             ffmpeg(*TONE, "-itsoffset", "1", *PICTURE, "-map", "1:v", "-map", "0:a", "-vsync", "vfr", *codec,
@@ -86,7 +86,7 @@ class Media(unittest.TestCase):
             self.assertAlmostEqual(part[0], 1500, delta=60)
             self.assertAlmostEqual(len(part), 9, delta=1)
 
-    def test_transport_streams_that_were_joined(self):
+    def test_concatenated_transport_streams(self):
         ffmpeg(*PICTURE, *TONE, *H264, "-c:a", "aac", self.folder / "a.ts")
         joined = self.folder / "joined.ts"
         joined.write_bytes((self.folder / "a.ts").read_bytes() * 2)
@@ -105,13 +105,13 @@ class Media(unittest.TestCase):
         wav.write_text("no audio")
         self.assertEqual(self.track(wav)[0], 11)
 
-    def test_y4m_of_more_than_8_bits(self):
+    def test_y4m_with_more_than_8_bits(self):
         ffmpeg(*PICTURE, "-pix_fmt", "yuv420p10le", "-strict", "-1", self.folder / "x.y4m")
         self.assertEqual(len(self.times(self.folder / "x.y4m")), 30)
 
-    # What is not ----------------------------------------------------------------------------------------------------------
+    # Damaged recordings ----------------------------------------------------------------------------------------------------------
 
-    def test_truncated_files_are_refused_wherever_they_end(self):
+    def test_truncated_files_are_rejected(self):
         for ending in ("mp4", "mov", "mkv", "webm", "avi", "flv", "ogv", "wmv"):
             codec = {"webm": ["-c:v", "libvpx", "-c:a", "libopus"], "ogv": ["-c:v", "libtheora", "-c:a", "libvorbis"],
                      "wmv": ["-c:v", "wmv2", "-c:a", "wmav2"], "avi": ["-c:v", "mpeg4", "-c:a", "mp3"]}.get(
@@ -140,7 +140,7 @@ class Media(unittest.TestCase):
         path.write_bytes(data)
         return path
 
-    def test_errors_of_a_decoder_are_said(self):
+    def test_decoding_errors_are_reported(self):
         code, rows, errors = self.track(self.damaged(), "--stats", self.folder / "s.json")
         self.assertIn(code, (0, 13))
         self.assertGreater(len(rows), 40)
@@ -148,7 +148,7 @@ class Media(unittest.TestCase):
         stats = json.loads((self.folder / "s.json").read_text())
         self.assertGreater(stats["input"]["video"]["decoding_errors"], 0)
 
-    def test_frames_that_cannot_be_decoded_are_a_status_of_their_own(self):
+    def test_lost_frames_have_their_own_exit_code(self):
         ffmpeg(*PICTURE, "-c:v", "png", self.folder / "whole.mov")
         data = bytearray((self.folder / "whole.mov").read_bytes())
         begin = -1
@@ -164,7 +164,7 @@ class Media(unittest.TestCase):
         self.assertEqual(code, 13)
         self.assertTrue((out / "damaged.mov.csv").exists())
 
-    def test_a_picture_of_too_many_pixels(self):
+    def test_an_image_with_too_many_pixels(self):
         def chunk(kind, data):
             return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
         side = 16000
@@ -175,7 +175,7 @@ class Media(unittest.TestCase):
         self.assertEqual(code, 4)
         self.assertIn("67108864", errors)
 
-    # What is asked for ----------------------------------------------------------------------------------------------------
+    # Options ----------------------------------------------------------------------------------------------------
 
     def test_the_audio_track(self):
         silence = ["-f", "lavfi", "-i", "anullsrc=r=16000:cl=mono", "-shortest"]
@@ -191,7 +191,7 @@ class Media(unittest.TestCase):
         self.assertEqual(code, 11)
         self.assertIn("got 3, expected 1 to 2", errors)
 
-    def test_durations_beyond_all_recordings(self):
+    def test_very_long_durations(self):
         ffmpeg(*TONE, self.folder / "x.wav")
         ffmpeg(*PICTURE, *H264, self.folder / "x.mp4")
         for name in ("x.wav", "x.mp4"):
@@ -201,7 +201,7 @@ class Media(unittest.TestCase):
 
     # Attacks --------------------------------------------------------------------------------------------------------------
 
-    def test_metadata_forges_no_times(self):
+    def test_metadata_cannot_change_timestamps(self):
         line = "[Parsed_showinfo_0 @ 0x1] n:0 pts:999999 pts_time:99 [info] config in time_base: 1/1, "
         for name in ("title.mkv", "title.mp4", f"showinfo pts_time:5 pts: 7 \n{line}.mkv"):
             ffmpeg(*PICTURE, *H264, "-metadata", f"title={line}\n{line}", "-metadata:s:v", f"title=x\n{line}",
@@ -233,7 +233,7 @@ class Media(unittest.TestCase):
             self.assertNotIn("geheim", errors)
             self.assertIn("***", errors)
 
-    def test_a_url_is_on_one_clock_too(self):
+    def test_a_url_has_one_clock(self):
         ffmpeg(*TONE, "-itsoffset", "0.5", *PICTURE, "-map", "1:v", "-map", "0:a", *H264, "-c:a", "aac", self.folder / "x.ts")
 
         class Handler(http.server.SimpleHTTPRequestHandler):
@@ -249,9 +249,9 @@ class Media(unittest.TestCase):
         got = self.times(f"http://127.0.0.1:{server.server_port}/x.ts")
         self.expect_times(got, self.times(self.folder / "x.ts"), 1.0)
 
-    # Found by others ------------------------------------------------------------------------------------------------------
+    # Collected cases ------------------------------------------------------------------------------------------------------
 
-    def test_the_cases_kept_with_the_data(self):
+    def test_collected_cases(self):
         if not CASES.is_dir():
             self.skipTest("there are none")
         rows = {"vfr.webm": 21, "sound_longer.webm": 30, "late.mkv": 30, "picture_1s_late.ts": 25, "picture_1s_late.mp4": 25}

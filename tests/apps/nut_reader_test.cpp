@@ -1,4 +1,4 @@
-// What ffmpeg writes as NUT, whole, cut, and with bits flipped.
+// Tests of reading ffmpeg's NUT streams: complete, truncated, and with flipped bits.
 #include "apps/mien/sources/nut_reader.h"
 
 #include <gtest/gtest.h>
@@ -44,7 +44,7 @@ const char* const kBoth =
     "-f lavfi -i testsrc=size=8x6:rate=30000/1001:duration=1 -f lavfi -i sine=duration=1 -map 0:v "
     "-map 1:a -c:v rawvideo -pix_fmt rgb24 -ac 1 -ar 16000 -c:a pcm_s16le";
 
-TEST(NutReader, FindsPacketsAndTheirTimes) {
+TEST(NutReader, ReadsPacketsAndTimestamps) {
   const std::vector<std::byte> bytes = made_by_ffmpeg(kBoth);
   if (bytes.empty()) {
     GTEST_SKIP() << "skipped: no ffmpeg here";
@@ -66,7 +66,7 @@ TEST(NutReader, FindsPacketsAndTheirTimes) {
   EXPECT_NEAR(static_cast<double>(samples), 16000.0, 1.0);
 }
 
-// A time base of more than a second, and times of a day.
+// Time bases above a second, and times of a day.
 TEST(NutReader, TimesOfSlowStreamsAreExact) {
   const std::vector<std::byte> bytes =
       made_by_ffmpeg("-f lavfi -i color=s=4x4:r=3/10000 -frames:v 30 -c:v rawvideo -pix_fmt rgb24");
@@ -80,7 +80,7 @@ TEST(NutReader, TimesOfSlowStreamsAreExact) {
   }
 }
 
-TEST(NutReader, CutAnywhereItGivesWholePacketsAlone) {
+TEST(NutReader, GivesOnlyCompletePacketsOfATruncatedStream) {
   const std::vector<std::byte> bytes = made_by_ffmpeg(kBoth);
   if (bytes.empty()) {
     GTEST_SKIP() << "skipped: no ffmpeg here";

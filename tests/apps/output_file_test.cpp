@@ -1,4 +1,4 @@
-// Files that appear whole, and of which no two are written at once.
+// Tests of output files: they appear complete, and each has one writer.
 #include "apps/mien/outputs/output_file.h"
 
 #include <gtest/gtest.h>
@@ -48,13 +48,13 @@ bool refused(const std::string& path) {
     const OutputFile second(path);
   } catch (const Failure& failure) {
     EXPECT_EQ(failure.code(), kExitUsage);
-    EXPECT_EQ(failure.what(), path + ": is to be written twice");
+    EXPECT_EQ(failure.what(), path + ": duplicate output path");
     return true;
   }
   return false;
 }
 
-TEST_F(OutputFiles, OneOfAFileAtOnceWhateverItIsCalled) {
+TEST_F(OutputFiles, RejectsASecondOutputToTheSameFileUnderAnyName) {
   {
     OutputFile first(path("below/a"));
     EXPECT_TRUE(refused(path("below/a")));
@@ -71,20 +71,20 @@ TEST_F(OutputFiles, OneOfAFileAtOnceWhateverItIsCalled) {
   EXPECT_EQ(files(), std::vector<std::string>{"a"});
 }
 
-// What is replaced is the link, not what it leads to.
-TEST_F(OutputFiles, ALinkToAFileIsAnother) {
+// Replaces the link, not its target.
+TEST_F(OutputFiles, ALinkToAFileIsADifferentOutput) {
   std::ofstream(path("a")) << "before";
   fs::create_symlink(path("a"), path("b"));
   const OutputFile first(path("a"));
   EXPECT_FALSE(refused(path("b")));
 }
 
-TEST_F(OutputFiles, DevicesTakeWhatComes) {
+TEST_F(OutputFiles, WritesToDevices) {
   const OutputFile first("/dev/null");
   EXPECT_FALSE(refused("/dev/null"));
 }
 
-TEST_F(OutputFiles, OneThatCannotBePublishedLeavesNothing) {
+TEST_F(OutputFiles, AFailedPublicationLeavesNothing) {
   {
     OutputFile file(path("below"));
     EXPECT_THROW(file.finish(), Failure);
@@ -102,7 +102,7 @@ std::string contents(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// With and without a name while it is written.
+// With a nameless and a named temporary file.
 constexpr TemporaryFile::Ending kEndings[] = {TemporaryFile::Ending::kAny,
                                               TemporaryFile::Ending::kOfDestination};
 
@@ -144,7 +144,7 @@ TEST_F(OutputFiles, KeepTheOwnerOfAFileTheyReplace) {
   }
 }
 
-TEST_F(OutputFiles, NewOnesHaveTheUsualMode) {
+TEST_F(OutputFiles, NewFilesHaveTheDefaultMode) {
   const mode_t before = umask(027);
   for (const TemporaryFile::Ending ending : kEndings) {
     write_file(path("a"), ending);
@@ -154,7 +154,7 @@ TEST_F(OutputFiles, NewOnesHaveTheUsualMode) {
   umask(before);
 }
 
-// Whoever may not read the file that is replaced may not read the new one before its time either.
+// The new file must not be readable earlier than allowed for the replaced file.
 TEST_F(OutputFiles, APrivateFileIsPrivateWhileItIsReplaced) {
   std::ofstream(path("a")) << "before";
   chmod(path("a").c_str(), 0600);
@@ -185,7 +185,7 @@ TEST_F(OutputFiles, NamesMayBeAsLongAsTheFileSystemAllows) {
   }
 }
 
-TEST_F(OutputFiles, ALinkInTheirPlaceIsReplacedAndNotFollowed) {
+TEST_F(OutputFiles, ALinkInTheirPlaceIsReplaced) {
   for (const TemporaryFile::Ending ending : kEndings) {
     std::ofstream(path("victim")) << "before";
     fs::create_symlink(path("victim"), path("a"));
@@ -197,8 +197,8 @@ TEST_F(OutputFiles, ALinkInTheirPlaceIsReplacedAndNotFollowed) {
   }
 }
 
-// Another program put something else under the temporary name, which another user's could be.
-TEST_F(OutputFiles, ATemporaryFileThatWasExchangedIsNotPublished) {
+// Another program replaced the temporary file, possibly one of another user.
+TEST_F(OutputFiles, AnExchangedTemporaryFileIsNotPublished) {
   {
     PartialFile file(path("a"), TemporaryFile::Ending::kOfDestination);
     fs::remove(file.name());
@@ -210,7 +210,7 @@ TEST_F(OutputFiles, ATemporaryFileThatWasExchangedIsNotPublished) {
   EXPECT_EQ(contents(path("victim")), "before");
 }
 
-// A file in the place of /dev/stdout would be the end of that name for all programs.
+// Replacing /dev/stdout would destroy that name for all programs.
 TEST_F(OutputFiles, NamesOfOpenFilesAreWrittenTo) {
   std::ofstream(path("a")) << "before";
   std::FILE* const opened = std::fopen(path("a").c_str(), "r+");
@@ -224,7 +224,7 @@ TEST_F(OutputFiles, NamesOfOpenFilesAreWrittenTo) {
   EXPECT_EQ(contents(path("a")), "after");
 }
 
-TEST_F(OutputFiles, ThreadsGetOneOfAFileToo) {
+TEST_F(OutputFiles, OnlyOneThreadCanWriteAFile) {
   std::atomic<int> open = 0, most = 0, written = 0;
   const auto write = [&] {
     for (int i = 0; i < 200; ++i) {

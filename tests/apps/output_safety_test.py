@@ -1,6 +1,6 @@
-"""Outputs of the program while others write the same file, and while signals end it.
+"""Tests of outputs while other processes write the same file, and while signals end the program.
 
-usage: output_safety_test.py MIEN [full] [TEST]...      full: 1,000 pairs of processes, and 200 of each signal, which take half an hour
+usage: output_safety_test.py MIEN [full] [TEST]...      full: 1,000 pairs of processes, and 200 runs per signal, which take half an hour
 """
 import base64
 import collections
@@ -32,7 +32,7 @@ def clip(frames: int, shift: int = 0) -> bytes:
 
 
 def processes_that_name(folder: pathlib.Path) -> list[str]:
-    """Children of the program that live on. Linux alone lists them like this."""
+    """Surviving children of the program (Linux only)."""
     found = []
     for entry in pathlib.Path("/proc").glob("[0-9]*"):
         try:
@@ -45,7 +45,7 @@ def processes_that_name(folder: pathlib.Path) -> list[str]:
 
 
 def has_unnamed_files(folder: pathlib.Path) -> bool:
-    """Whether the file system has files that vanish with the process that writes them."""
+    """Whether the file system has files that disappear with their process."""
     try:
         os.close(os.open(folder, os.O_TMPFILE | os.O_RDWR))
     except (AttributeError, OSError):
@@ -76,7 +76,7 @@ class OutputSafety(unittest.TestCase):
         return time.monotonic() - began
 
     def race(self, name, commands, pairs):
-        """Whoever ends last has its file there."""
+        """The last process to end determines the file."""
         out = self.out / name
         whole = []
         for command in commands:
@@ -111,7 +111,7 @@ class OutputSafety(unittest.TestCase):
             "out.csv": [self.track(path, "-o", self.out / "out.csv") for path in clips],
             "out.glb": [[MIEN, "convert", "--quiet", path, self.out / "out.glb"] for path in curves],
         }
-        if HAVE_FFMPEG:  # a video without a name while it is written, and one with a temporary name
+        if HAVE_FFMPEG:  # a nameless temporary video, and one with a temporary name
             for name in ("out.mp4", "out.nut"):
                 races[name] = [self.track(path, "-o", os.devnull, "--overlay", self.out / name) for path in clips]
         share = {"out.csv": 0.4, "out.glb": 0.4, "out.mp4": 0.1, "out.nut": 0.1}
@@ -140,7 +140,7 @@ class OutputSafety(unittest.TestCase):
                 self.assertEqual(content, whole[path.name], path.name)
 
     def end_after(self, seconds, number, command, whole):
-        """Half of the time all of the group gets the signal, as from a terminal."""
+        """In half of the runs the whole process group gets the signal, as from a terminal."""
         process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, start_new_session=True)
         time.sleep(seconds)
         if self.dice.random() < 0.5:
@@ -149,7 +149,7 @@ class OutputSafety(unittest.TestCase):
             process.send_signal(number)
         process.communicate(timeout=300)
         known = set(whole) | {"stats.json", "report.html"}
-        self.assertLessEqual(set(self.files()), known, "something is left behind")
+        self.assertLessEqual(set(self.files()), known, "leftover files")
         self.assert_whole_or_absent(whole)
         self.assertEqual(processes_that_name(self.folder), [])
         return process.returncode
@@ -158,18 +158,18 @@ class OutputSafety(unittest.TestCase):
         source = self.inputs / "clip.y4m"
         source.write_bytes(clip(60))
         whole, usual = {}, 0.0
-        for _ in range(4):  # both kinds of video
+        for _ in range(4):  # both kinds of temporary video
             usual = self.run_whole(self.track(source, *self.outputs()))
             whole.update({path.name: path.read_bytes() for path in self.out.iterdir() if path.suffix not in (".json", ".html")})
         ends = collections.Counter()
         for _ in range(KILLS):
             for path in self.out.iterdir():
-                if self.dice.random() < 0.7:  # what stays is replaced, or stays whole
+                if self.dice.random() < 0.7:  # existing files are replaced, or stay complete
                     path.unlink()
             seconds = self.dice.uniform(0, 1.2 * usual)
             end = self.end_after(seconds, number, self.track(source, *self.outputs()), whole)
             ends[end] += 1
-            if end == 0:  # so that the last moments are among those that are tried, however busy the machine is
+            if end == 0:  # includes the last moments of a run, however busy the machine is
                 usual *= 0.97
             elif seconds > usual:
                 usual *= 1.1
@@ -187,7 +187,7 @@ class OutputSafety(unittest.TestCase):
         self.check_signal(signal.SIGHUP)
 
     def test_an_ignored_signal_stays_ignored(self):
-        """As by nohup."""
+        """As under nohup."""
         source = self.inputs / "clip.y4m"
         source.write_bytes(clip(60))
         usual = self.run_whole(self.track(source, "-o", self.out / "out.csv"))
@@ -197,9 +197,9 @@ class OutputSafety(unittest.TestCase):
         process.send_signal(signal.SIGHUP)
         self.assertEqual(process.wait(timeout=300), 0)
 
-    def test_kill_9_leaves_nothing_where_the_file_system_helps(self):
+    def test_kill_9_leaves_nothing_if_the_file_system_supports_it(self):
         if not has_unnamed_files(self.out):
-            self.skipTest("no files without a name here")
+            self.skipTest("no nameless files on this file system")
         source = self.inputs / "clip.y4m"
         source.write_bytes(clip(60))
         command = self.track(source, "-o", self.out / "out.csv", "--landmarks", self.out / "landmarks.csv",
@@ -217,7 +217,7 @@ class OutputSafety(unittest.TestCase):
             self.assert_whole_or_absent(whole)
 
     def test_a_prepared_link_is_not_followed(self):
-        """Of any name that was ever that of a temporary file, and of the output itself."""
+        """Links at all earlier names of temporary files, and at the output itself."""
         source, victim = self.inputs / "clip.y4m", self.folder / "victim"
         source.write_bytes(clip(3))
         victim.write_text("mine")
@@ -244,7 +244,7 @@ class OutputSafety(unittest.TestCase):
 
 
 class SameFile(unittest.TestCase):
-    """No verb writes over what it reads."""
+    """No verb overwrites its input."""
 
     WRONG_USAGE = 2
 
@@ -261,7 +261,7 @@ class SameFile(unittest.TestCase):
         self.array.write_bytes(b"\x93NUMPY\x01\x00")
 
     def names_of(self, path):
-        """As it is called, through a link, by a link to a link, as a hard link."""
+        """Its own name, a link, a link to a link, a hard link."""
         link, again, hard = (self.folder / f"{name}{path.suffix}" for name in ("link", "again", "hard"))
         link.symlink_to(path)
         again.symlink_to(link)
@@ -282,7 +282,7 @@ class SameFile(unittest.TestCase):
 
     def test_track(self):
         quietly = ("--quiet", "--lod", "1", "--models", self.models)
-        target = pathlib.Path(str(self.clip))  # another object than the input: that alone is renamed
+        target = pathlib.Path(str(self.clip))  # differs from the input, which is renamed
         for option in ("-o", "--landmarks", "--overlay", "--report", "--stats"):
             more = ("--format", "csv") if option == "-o" else ()
             self.assert_rejected(target, "track", self.clip, option, target, *more, *quietly)
@@ -309,15 +309,15 @@ class SameFile(unittest.TestCase):
         notes.write_text("{}")
         self.assert_rejected(notes, "convert", self.curves, notes, "--to", "csv")
 
-    def test_a_file_that_the_input_refers_to(self):
+    def test_a_file_referenced_by_the_input(self):
         scene, numbers = self.folder / "scene.gltf", self.folder / "scene.bin"
         subprocess.run([MIEN, "convert", "--quiet", self.curves, scene], check=True)
         document = json.loads(scene.read_text())
         numbers.write_bytes(base64.b64decode(document["buffers"][0]["uri"].partition(",")[2]))
         document["buffers"][0]["uri"] = numbers.name
         scene.write_text(json.dumps(document))
-        if b"is not read" in subprocess.run([MIEN, "convert", "--quiet", scene, self.folder / "new.csv"], capture_output=True).stderr:
-            self.skipTest("the program reads no file that another one refers to")
+        if b"is not supported" in subprocess.run([MIEN, "convert", "--quiet", scene, self.folder / "new.csv"], capture_output=True).stderr:
+            self.skipTest("the program reads no referenced files")
         (self.folder / "new.csv").unlink()
         self.assert_rejected(numbers, "convert", scene, numbers, "--to", "csv")
 
@@ -337,7 +337,7 @@ class SameFile(unittest.TestCase):
                                  "--output", target)
 
     def test_standard_streams(self):
-        """`mien convert - - < x >> x` would read what it writes."""
+        """`mien convert - - < x >> x` would read its own output."""
         with open(self.curves, "rb") as source, open(self.curves, "ab") as target:
             done = subprocess.run([MIEN, "convert", "-", "-"], stdin=source, stdout=target, stderr=subprocess.PIPE, timeout=120)
         self.assertEqual(done.returncode, self.WRONG_USAGE, done.stderr)

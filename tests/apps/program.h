@@ -1,4 +1,4 @@
-// The program as its users run it.
+// Runs the program like a user.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Sound on the command line: what is listened to, and what is said when that cannot be.
+// Tests of audio on the command line.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -14,7 +14,7 @@
 namespace mien::tests {
 namespace {
 
-// The repository's models, with ears that hear nothing but loudness.
+// The repository's models, with an audio network that responds to loudness only.
 class ProgramSound : public Program {
  protected:
   void SetUp() override {
@@ -40,7 +40,7 @@ void put(std::string& bytes, Value value) {
   bytes.append(raw.begin(), raw.end());
 }
 
-// One channel of 16 bits: silence, with a buzz in the second quarter.
+// One channel of 16 bits: silence, with a tone in the second quarter.
 void write_wav(const std::string& path, int seconds, std::uint32_t rate = 16000) {
   const std::uint32_t frames = static_cast<std::uint32_t>(seconds) * rate;
   std::string bytes = "RIFF";
@@ -112,7 +112,7 @@ TEST_F(ProgramSound, AWavGivesThirtyRowsASecond) {
   expect_buzz(curve, 1000, 2000);
 }
 
-TEST_F(ProgramSound, AWavMayComeThroughAPipe) {
+TEST_F(ProgramSound, ReadsAWavFromAPipe) {
   MIEN_NEEDS("trained model", have_models());
   add_ears();
   write_wav(path("voice.wav"), 2);
@@ -129,7 +129,7 @@ TEST_F(ProgramSound, AWavMayComeThroughAPipe) {
   EXPECT_EQ(run("track - --mode audio" + models()).code, 11) << "an empty pipe";
 }
 
-TEST_F(ProgramSound, TheRangeCounts) {
+TEST_F(ProgramSound, RespectsTheTimeRange) {
   MIEN_NEEDS("trained model", have_models());
   add_ears();
   write_wav(path("voice.wav"), 4, 44100);
@@ -141,7 +141,7 @@ TEST_F(ProgramSound, TheRangeCounts) {
   expect_buzz(curve, 1000, 2000);
 }
 
-TEST_F(ProgramSound, BesideAVideoItKeepsItsTime) {
+TEST_F(ProgramSound, StaysInSyncWithTheVideo) {
   MIEN_NEEDS("trained model", have_models());
   MIEN_NEEDS("ffmpeg", have_ffmpeg());
   add_ears();
@@ -159,7 +159,7 @@ TEST_F(ProgramSound, BesideAVideoItKeepsItsTime) {
   }
 }
 
-TEST_F(ProgramSound, TheOwnTrackOfAVideoIsHeard) {
+TEST_F(ProgramSound, UsesTheAudioTrackOfAVideo) {
   MIEN_NEEDS("trained model", have_models());
   MIEN_NEEDS("ffmpeg", have_ffmpeg());
   add_ears();
@@ -177,7 +177,7 @@ TEST_F(ProgramSound, TheOwnTrackOfAVideoIsHeard) {
   }
 }
 
-TEST_F(ProgramSound, WithoutEarsAVideoIsLookedAtAlone) {
+TEST_F(ProgramSound, WithoutAudioWeightsAVideoIsTrackedAlone) {
   MIEN_NEEDS("trained model", have_models());
   MIEN_NEEDS("ffmpeg", have_ffmpeg());
   EXPECT_EQ(run("track " + kClip + " --duration 0.5" + models()).code, 0);
@@ -185,7 +185,7 @@ TEST_F(ProgramSound, WithoutEarsAVideoIsLookedAtAlone) {
   EXPECT_EQ(run("track " + kClip + " --mode audio" + models()).code, 8);
 }
 
-TEST_F(ProgramSound, WhatCannotBeHeardIsSaid) {
+TEST_F(ProgramSound, MissingAudioIsAnError) {
   MIEN_NEEDS("trained model", have_models());
   MIEN_NEEDS("ffmpeg", have_ffmpeg());
   add_ears();
@@ -213,7 +213,7 @@ TEST_F(ProgramSound, WhatCannotBeHeardIsSaid) {
   EXPECT_EQ(code(path("voice.wav")), 5);
 }
 
-TEST_F(ProgramSound, BenchTimesHearing) {
+TEST_F(ProgramSound, BenchMeasuresAudio) {
   MIEN_NEEDS("trained model", have_models());
   add_ears();
   const Outcome done = run("bench --sound --json --models " + folder_.string());

@@ -1,4 +1,4 @@
-// Folders of videos: every file done once, failures at the end, what is done stays done.
+// Tests of folders: every file is processed once, and a stopped run continues.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -25,7 +25,7 @@ class ProgramBatch : public Program {
   }
 };
 
-TEST_F(ProgramBatch, EveryFileIsDoneOnce) {
+TEST_F(ProgramBatch, ProcessesEveryFileOnce) {
   MIEN_NEEDS("trained model", have_models());
   MIEN_NEEDS("ffmpeg", have_ffmpeg());
   const Outcome first = track("--jobs 2 --format csv --format glb");
@@ -39,7 +39,7 @@ TEST_F(ProgramBatch, EveryFileIsDoneOnce) {
       << "the same as by itself";
   const auto written = fs::last_write_time(path("out/a.mp4.csv"));
 
-  // Killed half-way: one output is missing, another was never finished.
+  // As if killed: one output is missing, another one is incomplete.
   fs::remove(path("out/below/b.MP4.glb"));
   const Outcome second = track("--format csv --format glb");
   EXPECT_EQ(second.code, 0) << second.errors;
@@ -48,13 +48,13 @@ TEST_F(ProgramBatch, EveryFileIsDoneOnce) {
   EXPECT_EQ(fs::last_write_time(path("out/a.mp4.csv")), written);
   EXPECT_TRUE(fs::exists(path("out/below/b.MP4.glb")));
 
-  // A newer recording is another one.
+  // A newer recording is processed again.
   fs::last_write_time(path("in/a.mp4"), written + std::chrono::seconds(5));
   const Outcome third = track("");
   EXPECT_NE(third.output.find("a.mp4        done  "), std::string::npos) << third.output;
 }
 
-TEST_F(ProgramBatch, OneFailureStopsNothingAndIsNamed) {
+TEST_F(ProgramBatch, AFailureIsReportedAndStopsNothing) {
   MIEN_NEEDS("trained model", have_models());
   MIEN_NEEDS("ffmpeg", have_ffmpeg());
   std::ofstream(path("in/0.mp4")) << "no video";
@@ -67,8 +67,8 @@ TEST_F(ProgramBatch, OneFailureStopsNothingAndIsNamed) {
   EXPECT_FALSE(fs::exists(path("out/0.mp4.csv")));
 }
 
-// What a link leads to lies elsewhere; what is made of it does not.
-TEST_F(ProgramBatch, LinksAreRecordingsOfTheirOwnNames) {
+// The target of a link is elsewhere, but its outputs belong to the link's name.
+TEST_F(ProgramBatch, LinksAreRecordingsWithTheirOwnNames) {
   MIEN_NEEDS("trained model", have_models());
   MIEN_NEEDS("ffmpeg", have_ffmpeg());
   fs::create_directory(path("archive"));

@@ -1,4 +1,4 @@
-// `mien run` on the networks of apps/conformance/golden, and on arrays that are none.
+// Tests of `mien run` with the networks of apps/conformance/golden, and with invalid arrays.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -72,7 +72,7 @@ std::vector<float> channels_first(const std::vector<float>& map, std::size_t cha
   return turned;
 }
 
-TEST_F(ProgramRun, AnswersAsPyTorchDid) {
+TEST_F(ProgramRun, MatchesPyTorch) {
   const std::vector<float> image = golden_floats("encoder_input");
   const std::string input = save("x.npy", {{1, 3, 27, 27}, channels_first(image, 3)});
   for (const char* tier : {"ref", "avx2"}) {
@@ -88,7 +88,7 @@ TEST_F(ProgramRun, AnswersAsPyTorchDid) {
   }
 }
 
-TEST_F(ProgramRun, TakesChannelsLast) {
+TEST_F(ProgramRun, AcceptsChannelsLast) {
   const std::string input = save("x.npy", {{27, 27, 3}, golden_floats("encoder_input")});
   const Outcome done = run_on(input, "--network encoder --layout hwc --output " + path("y.npy"));
   ASSERT_EQ(done.code, 0) << done.errors;
@@ -96,7 +96,7 @@ TEST_F(ProgramRun, TakesChannelsLast) {
   expect_near(load("y.npy").values, golden_floats("encoder_output"));
 }
 
-TEST_F(ProgramRun, RunsAStreamOverTheAxisInFrontAndEveryStreamFromItsBeginning) {
+TEST_F(ProgramRun, RunsTimeStepsAndResetsBetweenStreams) {
   std::vector<float> steps = golden_floats("temporal_input");
   const std::vector<float> want = golden_floats("temporal_output");
   const std::uint64_t count = steps.size() / 12;
@@ -118,7 +118,7 @@ TEST_F(ProgramRun, RunsAStreamOverTheAxisInFrontAndEveryStreamFromItsBeginning) 
       std::equal(both.values.begin(), both.values.begin() + half, both.values.begin() + half));
 }
 
-TEST_F(ProgramRun, RunsOnLargerMapsWithAnOutputEach) {
+TEST_F(ProgramRun, RunsOnLargerMapsWithSeveralOutputs) {
   const std::string input = save("x.npy", {{3, 14, 20}, std::vector<float>(3 * 14 * 20, 0.5f)});
   const Outcome done =
       run_on(input, "--network pnet --output " + path("a.npy") + " --output " + path("b.npy"));
@@ -147,26 +147,26 @@ TEST_F(ProgramRun, WrongUsage) {
   EXPECT_EQ(run("run").code, 2);
   EXPECT_EQ(run_on(input, "").code, 2);
   EXPECT_EQ(run_on(input, output + " --network temporal --layout nhwc").code, 2);
-  expect_one_line(run_on(input, output), 2, "--network: encoder, pnet, temporal");
+  expect_one_line(run_on(input, output), 2, "expected one of encoder, pnet, temporal");
   expect_one_line(run_on(input, output + " --network nobody"), 2, "--network");
-  expect_one_line(run_on(input, output + output + " --network temporal"), 2, "has 1 outputs");
-  expect_one_line(run_on(input, output + " --network temporal --tier x"), 2, "no such tier");
+  expect_one_line(run_on(input, output + output + " --network temporal"), 2, "(got 2, expected 1)");
+  expect_one_line(run_on(input, output + " --network temporal --tier x"), 2, "unknown tier");
   const std::string map = save("map.npy", {{3, 12, 12}, std::vector<float>(432)});
-  expect_one_line(run_on(map, output + output + " --network pnet"), 2, "is to be written twice");
+  expect_one_line(run_on(map, output + output + " --network pnet"), 2, "duplicate output path");
   EXPECT_FALSE(fs::exists(path("y.npy")));
   EXPECT_TRUE(std::none_of(
       fs::directory_iterator(folder_), fs::directory_iterator(),
       [](const auto& entry) { return entry.path().filename().string().starts_with(".partial"); }));
 }
 
-TEST_F(ProgramRun, InputsThatAreNoArrayOfTheNetwork) {
+TEST_F(ProgramRun, RejectsInvalidInputs) {
   const std::string end = "--network temporal --output " + path("y.npy");
   expect_one_line(run_on(path("nothing.npy"), end), 3, "cannot be opened");
   expect_one_line(run_on(folder_.string(), end), 3, "cannot be");
   expect_one_line(run_on(kModel, end), 3, "not a .npy file");
   expect_one_line(run_on(save("x.npy", {{3, 13}, std::vector<float>(39)}), end), 3,
-                  "an array of shape (3, 13); its last axes should be (12)");
-  expect_one_line(run_on(save("x.npy", {{}, {1.0f}}), end), 3, "an array of shape ()");
+                  "wrong shape (got (3, 13), expected as last axes (12))");
+  expect_one_line(run_on(save("x.npy", {{}, {1.0f}}), end), 3, "wrong shape (got ()");
   std::ofstream(path("cut.npy"), std::ios::binary)
       << contents(save("x.npy", {{12}, std::vector<float>(12)})).substr(0, 300);
   expect_one_line(run_on(path("cut.npy"), end), 3, "truncated inside the array");
@@ -183,7 +183,7 @@ TEST_F(ProgramRun, TransposedInputsAreRejected) {
   for (const Shape& shape : {Shape{27, 27, 3}, Shape{27, 3, 27}, Shape{1, 27, 27, 3},
                              Shape{3 * 27 * 27}, Shape{1, 3, 27 * 27}}) {
     expect_one_line(run_on(save("x.npy", {shape, values}), end), 3,
-                    "its last axes should be (3, 27, 27)");
+                    "expected as last axes (3, 27, 27)");
   }
   const std::string large = save("large.npy", {{20, 14, 3}, std::vector<float>(840)});
   expect_one_line(
@@ -192,7 +192,7 @@ TEST_F(ProgramRun, TransposedInputsAreRejected) {
   EXPECT_FALSE(fs::exists(path("y.npy")));
 }
 
-TEST_F(ProgramRun, ModelsAndOutputsThatAreNone) {
+TEST_F(ProgramRun, RejectsInvalidModelsAndOutputs) {
   const std::string input = save("x.npy", {{12}, std::vector<float>(12)});
   std::ofstream(path("bad.mien")) << "not a weight file";
   expect_one_line(

@@ -1,4 +1,4 @@
-// The program as its users meet it: exit codes, one line on stderr, no half-written file.
+// Tests of the program: exit codes, one line on stderr, no incomplete files.
 #include "tests/apps/program.h"
 
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ TEST_F(Program, DamagedModel) {
   EXPECT_NE(failed.errors.find("bad.mien"), std::string::npos);
 }
 
-TEST_F(Program, InputsThatAreNoVideo) {
+TEST_F(Program, RejectsInputsWithoutVideo) {
   MIEN_NEEDS("trained model", have_models());
   MIEN_NEEDS("ffmpeg", have_ffmpeg());
   EXPECT_EQ(run("track " + path("nothing.mp4") + models()).code, 3);
@@ -52,13 +52,13 @@ TEST_F(Program, FfmpegMissing) {
   EXPECT_EQ(run("track " + kClip + models(), "PATH=/nowhere").code, 6);
 }
 
-TEST_F(Program, LevelsOfDetailThatAreNone) {
+TEST_F(Program, RejectsUnknownLevelsOfDetail) {
   EXPECT_EQ(run("track " + kClip + " --lod 5").code, 2);
   EXPECT_EQ(run("track " + kClip + " --lod auto --budget-ms 0").code, 2);
 }
 
-// Two outputs of one name, however it is spelled, would be written into one file.
-TEST_F(Program, OneFileForTwoOutputsIsRefusedBeforeAnyIsWritten) {
+// Two outputs with the same file, however its name is written, would overwrite each other.
+TEST_F(Program, DuplicateOutputsAreRejectedBeforeAnyIsWritten) {
   MIEN_NEEDS("trained model", have_models());
   MIEN_NEEDS("ffmpeg", have_ffmpeg());
   fs::create_directory(path("folder"));
@@ -69,7 +69,7 @@ TEST_F(Program, OneFileForTwoOutputsIsRefusedBeforeAnyIsWritten) {
     const Outcome failed =
         run("track " + kClip + " --duration 0.2 --lod 1 --quiet " + outputs + models(), in);
     EXPECT_EQ(failed.code, 2) << outputs << ": " << failed.errors;
-    EXPECT_NE(failed.errors.find(": is to be written twice"), std::string::npos) << failed.errors;
+    EXPECT_NE(failed.errors.find(": duplicate output path"), std::string::npos) << failed.errors;
     EXPECT_EQ(contents(path("folder/a.csv")), "before") << outputs;
     for (const auto& entry : fs::recursive_directory_iterator(folder_)) {
       const std::string name = entry.path().filename().string();
@@ -101,8 +101,8 @@ TEST_F(Program, OutputThatCannotBeWritten) {
   EXPECT_EQ(lines(failed.errors), 1u) << failed.errors;
 }
 
-// ffmpeg says times in seconds, some of its releases with six digits: what is late would be coarse.
-TEST_F(Program, TimesOfLongRecordingsAreExact) {
+// ffmpeg prints times in seconds, some versions with six digits, so late times would be inexact.
+TEST_F(Program, TimestampsOfLongRecordingsAreExact) {
   MIEN_NEEDS("trained model", have_models());
   MIEN_NEEDS("ffmpeg", have_ffmpeg());
   ASSERT_EQ(
@@ -134,9 +134,9 @@ TEST_F(Program, TruncatedVideoLeavesNoOutput) {
   }
 }
 
-// Cut without being encoded anew, an MP4 begins with frames that its edit list leaves out, and may
-// lack some in front of its last one.
-TEST_F(Program, CutVideosAreWholeUnlessTheyAreTruncated) {
+// An MP4 cut without re-encoding starts with frames that its edit list hides, and may lack frames
+// before its last one.
+TEST_F(Program, VideosCutWithoutReencodingAreComplete) {
   MIEN_NEEDS("trained model", have_models());
   MIEN_NEEDS("ffmpeg", have_ffmpeg());
   const auto cut = [&](const std::string& start, const std::string& duration) {
@@ -209,8 +209,8 @@ double depth(const std::string& json_lines) {
   return -z;
 }
 
-// Half the width is seen under half the field of view, so the same face is further away.
-TEST_F(Program, TheFieldOfViewSaysHowFarAwayAFaceIs) {
+// Half of the width has half of the field of view, so the same face is further away.
+TEST_F(Program, TheFieldOfViewDeterminesTheDistance) {
   MIEN_NEEDS("trained model", have_models());
   MIEN_NEEDS("ffmpeg", have_ffmpeg());
   const auto distance = [&](const std::string& option) {
@@ -219,7 +219,7 @@ TEST_F(Program, TheFieldOfViewSaysHowFarAwayAFaceIs) {
     EXPECT_EQ(done.code, 0) << done.errors;
     return depth(done.output);
   };
-  // The face, which is what is seen, lies before the head's origin: a little less than the
+  // The visible face is in front of the head's origin, so the ratio is slightly below that of the
   // tangents.
   const double ratio = distance(" --fov 30") / distance("");
   EXPECT_GT(ratio, 1.8);
@@ -228,7 +228,7 @@ TEST_F(Program, TheFieldOfViewSaysHowFarAwayAFaceIs) {
   EXPECT_EQ(run("track " + kClip + " --fov 180").code, 2);
 }
 
-TEST_F(Program, CapturesTheNeutralFaceAndTakesItOut) {
+TEST_F(Program, CapturesAndAppliesNeutralCalibration) {
   MIEN_NEEDS("trained model", have_models());
   MIEN_NEEDS("ffmpeg", have_ffmpeg());
   const std::string file = path("me.neutral");
@@ -250,8 +250,8 @@ TEST_F(Program, CapturesTheNeutralFaceAndTakesItOut) {
   EXPECT_EQ(run(track + " --neutral " + path("nothing")).code, 3);
 }
 
-// Standard input cannot be opened at its beginning again for the second of two captures.
-TEST_F(Program, CapturesTheNeutralFaceOfAStream) {
+// Standard input cannot be reopened for the second of two captures.
+TEST_F(Program, CapturesNeutralCalibrationFromAStream) {
   MIEN_NEEDS("trained model", have_models());
   MIEN_NEEDS("ffmpeg", have_ffmpeg());
   ASSERT_EQ(std::system(("ffmpeg -v error -t 6 -i " + kClip +
@@ -265,7 +265,7 @@ TEST_F(Program, CapturesTheNeutralFaceOfAStream) {
   const Outcome tracked =
       run("track " + path("clip.y4m") + " --quiet --neutral " + path("me.neutral") + models());
   EXPECT_EQ(tracked.code, 0) << tracked.errors;
-  // Seen twice, a file may be half as long.
+  // A file, which is read twice, may be half as long.
   EXPECT_EQ(run("neutral " + path("clip.y4m") + " --duration 2.5 -o " + path("b") + models()).code,
             0);
 }
@@ -283,7 +283,7 @@ TEST_F(Program, Y4mNeedsNoFfmpegAndGivesTheSameFrames) {
   EXPECT_NE(done.output.find("tracking"), std::string::npos);
 }
 
-TEST_F(Program, BenchTimesNetworksAgainstThePeak) {
+TEST_F(Program, BenchComparesNetworksWithThePeak) {
   MIEN_NEEDS("trained model", have_models());
   const Outcome done = run("bench --model basenet_pose_decoder --tier ref --json" + models());
   ASSERT_EQ(done.code, 0) << done.errors;
@@ -294,7 +294,7 @@ TEST_F(Program, BenchTimesNetworksAgainstThePeak) {
   EXPECT_EQ(run("bench --model nobody" + models()).code, 2);
 }
 
-TEST_F(Program, BenchOfAClipFollowsTheFaceAndProposesAnew) {
+TEST_F(Program, BenchOfAClipComparesTrackingWithDetection) {
   MIEN_NEEDS("trained model", have_models());
   MIEN_NEEDS("ffmpeg", have_ffmpeg());
   ASSERT_EQ(
@@ -310,7 +310,7 @@ TEST_F(Program, BenchOfAClipFollowsTheFaceAndProposesAnew) {
   EXPECT_EQ(run("bench --clip " + path("nowhere.y4m") + models()).code, 3);
 }
 
-TEST_F(Program, BenchOfLevelsTimesEachStage) {
+TEST_F(Program, BenchOfLevelsMeasuresEachStage) {
   MIEN_NEEDS("trained model", have_models());
   MIEN_NEEDS("ffmpeg", have_ffmpeg());
   const Outcome done = run("bench --json --rounds 2 --levels " + kClip + models());
@@ -321,7 +321,7 @@ TEST_F(Program, BenchOfLevelsTimesEachStage) {
   EXPECT_EQ(run("bench --levels " + path("nowhere.mp4") + models()).code, 3);
 }
 
-TEST_F(Program, CompareMakesOneWholePage) {
+TEST_F(Program, CompareWritesACompletePage) {
   std::ofstream(path("a.csv")) << "t_ms,jawOpen\n0,0\n40,0.5\n80,0.5\n";
   std::ofstream(path("b.csv")) << "t_ms,jawOpen,more\n1,0.25,x\n41,0.25,y\n";
   const std::string files = "compare " + path("a.csv") + " " + path("b.csv") + " -o ";
@@ -338,7 +338,7 @@ TEST_F(Program, CompareMakesOneWholePage) {
   EXPECT_EQ(run(files + path("page.html") + " --quiet").output, "");
 }
 
-TEST_F(Program, CompareFailsWithOneLineAndNoPage) {
+TEST_F(Program, CompareFailsWithOneLineAndWithoutAPage) {
   std::ofstream(path("a.csv")) << "t_ms,jawOpen\n0,0\n40,0.5\n";
   std::ofstream(path("bad.csv")) << "t_ms,jawOpen\n0,0\n40,lots\n";
   std::ofstream(path("late.csv")) << "t_ms,jawOpen\n5000,0\n5040,0\n";
@@ -365,7 +365,7 @@ TEST_F(Program, CompareFailsWithOneLineAndNoPage) {
   }
 }
 
-TEST_F(Program, CompareRefusesVideosThatAreNoneOrTruncated) {
+TEST_F(Program, CompareRejectsInvalidAndTruncatedVideos) {
   MIEN_NEEDS("ffmpeg", have_ffmpeg());
   std::ofstream(path("a.csv")) << "t_ms,jawOpen\n0,0\n7900,0.5\n";
   ASSERT_EQ(std::system(("ffmpeg -v error -i " + kClip + " -c copy -an -movflags +faststart " +

@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
-"""How long a report takes to open, in Chromium without a window.
+"""Measures how long a report takes to open in headless Chromium.
 
-usage: report_opening.py [--times N] PAGE.html...        the median of N openings (default: 5), all of the clock, in ms from the navigation on
+usage: report_opening.py [--times N] PAGE.html...        the median of N runs (default: 5), in ms since the navigation
 
-`curves` is when curves are drawn, `seen` when the browser puts the picture with them on the screen, `face` when the face is drawn, too,
-which takes long where WebGL is drawn by the processor, `whole` when the clip plays; `pause` is the longest time from `seen` to `whole` in
-which the page does not move. These depend on what else the machine does; `processor`, which the page's main thread needs until curves are
-drawn and everything is parsed, hardly does.
+`curves`: curves are drawn; `seen`: the browser displays them; `face`: the face is drawn, which is slow with software WebGL; `whole`: the
+clip plays; `pause`: the longest interval between `seen` and `whole` without a new frame. All of these depend on the load of the machine.
+`processor`, the CPU time of the page's main thread until curves are drawn and everything is parsed, hardly does.
 """
 import argparse
 import json
@@ -16,13 +15,13 @@ import time
 
 import chromium
 
-# Notes when the browser makes pictures of the page.
+# Records when the browser draws the page.
 FRAMES = """{
   const made = window.picturesMade = [];
   const note = () => { made.push(performance.now()); requestAnimationFrame(note); };
   requestAnimationFrame(note);
 }"""
-# The page stops when its curves are there: what follows waits for a timer of no time.
+# Stops the page after its curves: everything that follows waits for a timer of 0 ms.
 STOP = "window.setTimeout = (real => (work, ms, ...more) => ms === undefined && !window.goesOn ? (window.stopped = work) : real(work, ms, ...more))(setTimeout);"
 TIMES = """(() => {
   const {curves_ms: curves, opened_ms: face, whole_ms: whole} = report;
@@ -37,7 +36,7 @@ def wait(browser, condition):
 
 
 def opened(page, script, condition, ask):
-    """What is asked of a new browser that has opened the page with a script before it, when the condition holds."""
+    """The value of an expression in a new browser that has opened the page after a script, once a condition holds."""
     browser = chromium.Chromium(chromium.find())
     try:
         browser.send("Performance.enable", timeDomain="threadTicks")

@@ -1,4 +1,4 @@
-"""A report of `mien track --report`, taken apart by code that shares nothing with the program: as docs/cli.md describes it."""
+"""An independent parser for pages of `mien track --report`, based on docs/cli.md."""
 import base64
 import hashlib
 import html.parser
@@ -9,7 +9,7 @@ import zlib
 
 
 class Blocks(html.parser.HTMLParser):
-    """The contents of the page's script and style elements by their ids, and every attribute of the page."""
+    """The script and style elements of the page by id, and every attribute of the page."""
 
     def __init__(self, text):
         super().__init__(convert_charrefs=True)
@@ -56,13 +56,13 @@ class Report:
             steps = summed(struct.unpack_from(f"<{count}{'hi'[size == 4]}", packed, at), 8 * size)
             self.columns[column["name"]] = [None if size == 2 and step == -32768 else step * column["unit"] for step in steps]
             at += size * count
-        assert at == len(packed), "bytes that no column says anything of"
+        assert at == len(packed), "bytes without a column"
 
     def frames(self):
         return len(self.columns["t_ms"])
 
     def landmarks(self):
-        """[frame][point] of pixels; None where there is no face."""
+        """[frame][point] in pixels; None without a face."""
         packed, count, unit = unpack(self.page.blocks["landmarks"]), self.frames(), self.data["landmark_unit"]
         coordinates = [summed(struct.unpack_from(f"<{count}h", packed, 2 * count * i), 16) for i in range(2 * self.data["landmarks"])]
         return [[None if x[i] == -32768 else (x[i] * unit, y[i] * unit) for x, y in zip(coordinates[::2], coordinates[1::2])]
@@ -72,7 +72,7 @@ class Report:
         return unpack(self.page.blocks["export-" + name])
 
     def allowed(self, kind):
-        """The hashes that the page's policy names for scripts or styles."""
+        """The hashes of scripts or styles in the page's policy."""
         return re.findall(r"'(sha256-[^']*)'", re.search(kind + r"-src ([^;]*)", self.page.policy)[1])
 
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""`mien track --report`: what is in the page, and the page as a person meets it, in Chromium without a window.
+"""Tests of `mien track --report`: the data of the page, and the page in headless Chromium.
 
 usage: report_test.py MIEN_PROGRAM      exit code 77: skipped, ffmpeg or the weights are missing
 """
@@ -22,7 +22,7 @@ import report_page
 MIEN = None
 SOURCE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 CLIP = os.path.join(SOURCE, "tests", "data", "demo.mp4")
-HOSTILE = "<!--<script>'\"&.mp4"  # a name that must not disturb the page around it
+HOSTILE = "<!--<script>'\"&.mp4"  # must be escaped in the page
 FRAMES, FPS, BLACK = 45, 30, range(15, 24)  # of the clip; frames without a face
 EXPORTS = {"csv": ".csv", "jsonl": ".jsonl", "llf": ".llf.csv", "gltf": ".gltf", "glb": ".glb", "bvh": ".bvh", "roblox": ".roblox.csv",
            "visemes": ".visemes.csv", "rhubarb": ".tsv", "rhubarb-json": ".rhubarb.json", "rhubarb-xml": ".xml", "rhubarb-dat": ".dat"}
@@ -37,7 +37,7 @@ def ffmpeg(*arguments):
 
 
 class Folder:
-    """What all tests look at, made once."""
+    """Files shared by all tests."""
 
     path = None
 
@@ -101,7 +101,7 @@ class Contents(unittest.TestCase):
                     for ours, value in zip(point, row[1 + 2 * k:3 + 2 * k]):
                         self.assertAlmostEqual(ours, float(value), delta=0.51 * self.report.data["landmark_unit"])
 
-    def test_every_export_is_what_the_program_writes(self):
+    def test_exports_equal_the_files_of_the_program(self):
         self.assertEqual([export["format"] for export in self.report.data["exports"]], list(EXPORTS))
         for export in self.report.data["exports"]:
             written = Folder.bytes("x" + EXPORTS[export["format"]])
@@ -109,7 +109,7 @@ class Contents(unittest.TestCase):
             self.assertEqual(export["bytes"], len(written))
             self.assertEqual(export["file"], HOSTILE.removesuffix(".mp4") + EXPORTS[export["format"]])
 
-    def test_sound_and_stages(self):
+    def test_audio_and_stages(self):
         sound = subprocess.run(["ffmpeg", "-nostdin", "-v", "error", "-i", Folder.file(HOSTILE), "-ac", "1", "-ar", "16000", "-f", "s16le", "-"],
                                check=True, capture_output=True, timeout=60).stdout
         samples = memoryview(sound).cast("h")
@@ -147,29 +147,29 @@ class Contents(unittest.TestCase):
                                  capture_output=True, timeout=60).stdout
         self.assertGreater(max(memoryview(samples).cast("h")), 100, "the second track, not the silent first")
 
-    def test_names_disturb_nothing_and_nothing_is_loaded(self):
+    def test_names_are_escaped_and_nothing_is_loaded(self):
         self.assertEqual(self.report.data["name"], HOSTILE)
-        self.assertEqual(Folder.said, b"", "no curves on standard output beside a report")
+        self.assertEqual(Folder.said, b"", "no curves on standard output with a report")
         for tag, name, value in self.report.page.attributes:
             if name in ("src", "href"):
                 self.assertEqual((tag, value), ("link", "data:,"))
             self.assertFalse(name.startswith("on"), (tag, name))
             self.assertNotEqual(name, "style")
 
-    def test_only_this_script_and_this_style_may_run(self):
+    def test_the_policy_permits_only_this_script_and_style(self):
         blocks = self.report.page.blocks
         self.assertEqual(self.report.allowed("script"), [report_page.hash_of(blocks["script"])])
         self.assertEqual(self.report.allowed("style"), [report_page.hash_of(blocks["style"])])
         self.assertIn("default-src 'none'", self.report.page.policy)
         self.assertNotIn("unsafe", self.report.page.policy)
 
-    def test_a_large_clip_lies_beside_the_page(self):
+    def test_a_large_clip_is_stored_beside_the_page(self):
         mien("track", Folder.file(HOSTILE), "--duration", "0.2", "--quiet", "--report", Folder.file("b#side.html"), "--report-clip-mb", "0.001")
         beside = report_page.Report(Folder.file("b#side.html"))
         self.assertEqual((beside.data["clip"], beside.data["clip_file"], beside.page.blocks["clip"]), ("beside", "b#side.html.mp4", ""))
         self.assertTrue(Folder.bytes("b#side.html.mp4"))
 
-    def test_sound_alone_and_a_stream(self):
+    def test_audio_only_and_a_stream(self):
         ffmpeg("-i", Folder.file(HOSTILE), "-vn", Folder.file("voice.wav"))
         mien("track", Folder.file("voice.wav"), "--report", Folder.file("voice.html"), "--quiet")
         voice = report_page.Report(Folder.file("voice.html"))
@@ -181,7 +181,7 @@ class Contents(unittest.TestCase):
         stream = report_page.Report(Folder.file("stream.html"))
         self.assertEqual((stream.data["clip"], stream.data["name"], stream.frames()), ("none", "-", 6))
 
-    def test_what_cannot_be(self):
+    def test_invalid_requests(self):
         for arguments, code, word in ((["--max-faces", "2"], 2, "one face"), ([], 7, "cannot be written")):
             page = Folder.file("no such folder/x.html") if not arguments else Folder.file("x.html")
             with self.assertRaises(subprocess.CalledProcessError) as failed:
@@ -245,7 +245,7 @@ class Page(unittest.TestCase):
         self.js("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done(true))))")
 
     def drawn(self, canvas, first=""):
-        """How many pixels of a canvas are no longer empty, after `first`: WebGL keeps what it drew until the browser has seen it."""
+        """The number of non-empty pixels of a canvas after `first`, because WebGL keeps its content only until the browser displays it."""
         return self.js(f"""(() => {{
           {first}
           const canvas = document.querySelector('{canvas}'), {{width, height}} = canvas;
@@ -253,7 +253,7 @@ class Page(unittest.TestCase):
           copy.drawImage(canvas, 0, 0);
           return copy.getImageData(0, 0, width, height).data.filter((value, i) => i % 4 === 3 && value).length; }})()""")
 
-    def test_shows_the_take(self):
+    def test_shows_the_recording(self):
         self.open()
         self.assertEqual(self.js("document.title"), HOSTILE + " – mien report")
         self.assertEqual(self.js("document.querySelector('h1').textContent"), HOSTILE)
@@ -269,7 +269,7 @@ class Page(unittest.TestCase):
         self.assertEqual(self.drawn("#overlay"), 0)
         self.assertTrue(self.js("document.getElementById('face').classList.contains('absent')"))
 
-    def test_numbers_are_those_of_the_curves(self):
+    def test_values_equal_the_curves(self):
         self.open()
         rows = list(csv.DictReader(Folder.bytes("x.csv").decode().splitlines()))
         for i in (0, 7, FRAMES - 1):
@@ -277,7 +277,7 @@ class Page(unittest.TestCase):
             self.assertEqual(self.js("report.take.frameAt(report.player.clock.time_ms)"), i)
             self.assertAlmostEqual(float(self.js("document.querySelector('[data-lane=jaw] b').textContent")), float(rows[i]["jawOpen"]), delta=0.006)
 
-    def test_pyramids_know_every_stretch(self):
+    def test_pyramids_give_the_range_of_every_interval(self):
         self.open()
         self.assertEqual(self.js("""(() => {
           const steps = Int16Array.from({length: 3000}, (_, i) => (i * 7919 % 2003 < 100 ? none : i * 104729 % 30011 - 15000));
@@ -308,7 +308,7 @@ class Page(unittest.TestCase):
         self.assertTrue(self.js("report.view.whole"))
         self.press("n")
         start = self.js("report.losses[0].start_ms")
-        self.wait(f"Math.abs(report.player.clock.time_ms - {start}) < 2", "where the face was lost")
+        self.wait(f"Math.abs(report.player.clock.time_ms - {start}) < 2", "the time at which the face was lost")
         self.press("End")
         self.press("p")
         self.press("Home")
@@ -318,7 +318,7 @@ class Page(unittest.TestCase):
         self.wait("report.player.clock.time_ms > 50", "plays")
         self.press(" ")
         self.assertFalse(self.js("report.player.clock.playing"))
-        # Every control can be reached and pressed by Tab and Enter.
+        # Tab and Enter reach and activate every control.
         self.js("document.querySelector('[data-name=mouthFunnel]').focus()")
         self.browser.send("Input.dispatchKeyEvent", type="keyDown", key="Enter", code="Enter", windowsVirtualKeyCode=13, text="\r")
         self.browser.send("Input.dispatchKeyEvent", type="keyUp", key="Enter", code="Enter", windowsVirtualKeyCode=13)
@@ -336,7 +336,7 @@ class Page(unittest.TestCase):
         x, y = where["left"] + where["width"] / 2, where["top"] + 20
         for kind in ("mousePressed", "mouseReleased"):
             self.browser.send("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", clickCount=1)
-        self.wait("Math.abs(report.player.clock.time_ms - (data.start_ms + data.end_ms) / 2) < 5", "a press on a curve goes there")
+        self.wait("Math.abs(report.player.clock.time_ms - (data.start_ms + data.end_ms) / 2) < 5", "a click on a curve seeks")
         self.browser.send("Input.dispatchMouseEvent", type="mouseWheel", x=x, y=y, deltaX=0, deltaY=-300, modifiers=2)
         self.wait("report.view.length_ms < 0.5 * (data.end_ms - data.start_ms)", "the wheel with Ctrl zooms")
         self.assertAlmostEqual(self.js("(report.view.start_ms + report.view.end_ms) / 2"), self.js("(data.start_ms + data.end_ms) / 2"), delta=30)
@@ -383,7 +383,7 @@ class Page(unittest.TestCase):
         self.assertTrue(self.js("report.player.clock instanceof VideoClock"))
         os.remove(Folder.file("large #1.html.mp4"))
         self.open("large #1.html".replace("#", "%23").replace(" ", "%20"))
-        self.assertIn("should lie beside it, as large #1.html.mp4. It is not there.", self.js("document.getElementById('clip-note').textContent"))
+        self.assertIn("expected as large #1.html.mp4 beside it.", self.js("document.getElementById('clip-note').textContent"))
         self.assertTrue(self.js("report.player.clock instanceof PageClock"))
         self.browser.complaints[:] = [text for text in self.browser.complaints if "ERR_FILE_NOT_FOUND" not in str(text)]
 

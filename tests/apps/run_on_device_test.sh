@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# scripts/run_on_device.sh with an adb, an ssh and a qemu that are this very machine, in folders of their own.
+# Tests of scripts/run_on_device.sh with fake adb, ssh and qemu that use folders of this machine.
 # usage: run_on_device_test.sh MIEN_CONFORMANCE
 set -euo pipefail
 source_dir=$(cd "$(dirname "$0")/../.." && pwd)
@@ -13,7 +13,7 @@ cp "$source_dir/models/proposal.mien" "$work/models/" 2>/dev/null || true
 export PHONE=$work/phone MIEN_MODELS=$work/models
 export PATH=$work/bin:$PATH
 
-# adb: /data/local/tmp is a folder here. As on old devices, the exit code of a shell command is lost.
+# adb: /data/local/tmp is a local folder. As on old devices, the exit code of a shell command is lost.
 cat >"$work/bin/adb" <<'ADB'
 #!/usr/bin/env bash
 [ "$1" != -s ] || { [ "$2" = here ] || exit 1; shift 2; }
@@ -54,7 +54,7 @@ expect() {  # exit code, text in the output, command...
 
 for device in adb adb:here ssh:board; do
   expect 0 "softmax" "$script" "$device" "$program" --filter 'softmax'
-  if "$program" --list --filter softmax | grep -qv ' ref$'; then  # the reference is not held against itself
+  if "$program" --list --filter softmax | grep -qv ' ref$'; then  # the reference is not compared with itself
     expect 0 "network/proposal" "$script" "$device" "$program" --list --filter 'network/*'
   fi
   expect 3 "no match (got 'two words')" "$script" "$device" "$program" --filter 'two words'
@@ -62,7 +62,7 @@ for device in adb adb:here ssh:board; do
   grep -q '"name": "lstm"' "$work/lstm.json"
   rm "$work/lstm.json"
 done
-[ -z "$(ls "$work/phone")" ] || { echo "something stays on the phone" >&2; exit 1; }
+[ -z "$(ls "$work/phone")" ] || { echo "files remain on the phone" >&2; exit 1; }
 
 if [ "$(uname -m)" = x86_64 ]; then
   expect 0 "cpu Haswell" "$script" qemu:Haswell "$program" --filter 'softmax'

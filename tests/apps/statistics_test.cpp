@@ -1,4 +1,4 @@
-// Matching of frames and statistics, on numbers worked out by hand.
+// Tests of matching and statistics with values computed by hand.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ Curves curves_at(const std::vector<double>& times_ms) {
   return curves;
 }
 
-// Ten frames a second.
+// Ten frames per second.
 Curves curves_of(const std::vector<double>& values) {
   Curves curves = curves_at(std::vector<double>(values.size()));
   for (std::size_t i = 0; i < curves.size(); ++i) {
@@ -67,7 +67,7 @@ TEST(Matching, OneFileStartsLaterOrHasAGap) {
               ElementsAre(Pair(1, 0), Pair(3, 1)));
 }
 
-TEST(Matching, TwoRatesMeetAtTheSlowerOne) {
+TEST(Matching, DifferentRatesMatchAtTheSlowerOne) {
   const Curves fast = curves_at({0, 20, 40, 60, 80}), slow = curves_at({0, 40, 80});
   EXPECT_THAT(pairs(fast, slow), ElementsAre(Pair(0, 0), Pair(2, 1), Pair(4, 2)));
   EXPECT_THAT(pairs(slow, fast), ElementsAre(Pair(0, 0), Pair(1, 2), Pair(2, 4)));
@@ -104,7 +104,7 @@ TEST(Statistics, OfKnownNumbers) {
   EXPECT_NEAR(d.jitter_b, 0.3 / 4, 1e-12);
 }
 
-TEST(Statistics, OnlyWhereBothDrive) {
+TEST(Statistics, OnlyWhereBothFilesHaveTheControl) {
   const Differences found =
       differences(curves_of({0.5, kNan, 0.5, 0.5}), curves_of({0.25, 0.9, kNan, 0.75}));
   const Difference& d = found.controls[kControl];
@@ -116,7 +116,7 @@ TEST(Statistics, OnlyWhereBothDrive) {
   EXPECT_EQ(found.all.frames, 2u);
 }
 
-TEST(Statistics, CorrelationOfWhatMovesTogetherAndAgainst) {
+TEST(Statistics, CorrelationOfEqualAndOppositeMovement) {
   const Curves up = curves_of({0.1, 0.4, 0.2, 0.3});
   EXPECT_NEAR(*differences(up, curves_of({0.3, 0.9, 0.5, 0.7})).all.correlation, 1.0, 1e-12);
   EXPECT_NEAR(*differences(up, curves_of({0.9, 0.6, 0.8, 0.7})).all.correlation, -1.0, 1e-12);
@@ -135,8 +135,8 @@ TEST(Statistics, AllIsOverControlsAndFrames) {
   EXPECT_FALSE(found.all.correlation);
 }
 
-// The numbers of the self-test of scripts/evaluate/metrics.py.
-TEST(Statistics, JitterIsThatOfTheEvaluation) {
+// The values of the self-test of scripts/evaluate/metrics.py.
+TEST(Statistics, JitterMatchesTheEvaluation) {
   EXPECT_EQ(app::jitter({0, 0, 0, 0, 0, 0}), 0.0);
   EXPECT_EQ(app::jitter({0, 1, 2, 3, 4, 5}), 0.0);
   EXPECT_NEAR(app::jitter({0, 1, 0, 1, 0, 1}), 4.0 / 6, 1e-12);
@@ -144,7 +144,7 @@ TEST(Statistics, JitterIsThatOfTheEvaluation) {
   EXPECT_EQ(app::jitter({}), 0.0);
 }
 
-TEST(Statistics, JitterStartsAnewAfterAnInterruption) {
+TEST(Statistics, JitterRestartsAfterAGap) {
   EXPECT_EQ(app::jitter({0, 1, kNan, 0, 1}), 0.0);
   EXPECT_NEAR(app::jitter({0, 1, 0, kNan, 5, 6}), 1.0 / 5, 1e-12);
 }
@@ -156,18 +156,18 @@ TEST(Statistics, HeadPoseInDegrees) {
   b[0].head = {-20 * degree, 0, 0};
   a[1].head = {0, 179 * degree, 0};
   b[1].head = {0, -171 * degree, 0};
-  a[2].head = {0, 0, 0};  // and none in B
+  a[2].head = {0, 0, 0};  // and no head in B
   const app::HeadDifference head = differences(a, b).head;
   EXPECT_EQ(head.frames, 2u);
   EXPECT_NEAR(head.pitch.mean_abs_deg, 15.0, 1e-9);
-  EXPECT_NEAR(head.yaw.mean_abs_deg, 5.0, 1e-9) << "the shorter way round";
+  EXPECT_NEAR(head.yaw.mean_abs_deg, 5.0, 1e-9) << "the smaller angle";
   EXPECT_NEAR(head.roll.mean_abs_deg, 0.0, 1e-9);
   EXPECT_NEAR(head.rotation.mean_abs_deg, 20.0, 1e-9);
   EXPECT_NEAR(head.rotation.max_abs_deg.value, 30.0, 1e-9);
   EXPECT_EQ(head.rotation.max_abs_deg.t_ms, 0.0);
 }
 
-// Ry(a) Rx(b) against no rotation: cos(angle / 2) = cos(a / 2) cos(b / 2).
+// Ry(a) Rx(b) against the identity: cos(angle / 2) = cos(a / 2) cos(b / 2).
 TEST(Statistics, HeadRotationIsOneAngle) {
   Curves a = curves_of({0}), b = a;
   a[0].head = {0.4, 0.6, 0};
@@ -185,7 +185,7 @@ TEST(Base64, VectorsOfRfc4648) {
   EXPECT_EQ(formats::base64("\xFB\xFF\xFE"), "+//+");
 }
 
-TEST(ComparePage, NamesOfFilesCannotLeaveTheirPlace) {
+TEST(ComparePage, FileNamesAreEscaped) {
   app::Comparison comparison;
   comparison.a = {"</script><script>alert(1)", curves_of({0, 1})};
   comparison.b = {"@VIDEO@ @DATA@ \xFF", curves_of({0, 1})};

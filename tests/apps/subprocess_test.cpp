@@ -1,4 +1,4 @@
-// Children that do nothing, that talk too much, and that go away.
+// Tests of child processes that hang, print too much, or fail.
 #include "apps/mien/system/subprocess.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ constexpr int kKilled = 128 + SIGKILL;
 
 std::vector<std::string> shell(const std::string& script) { return {"sh", "-c", script}; }
 
-TEST(Subprocess, GivesWhatTheChildWrites) {
+TEST(Subprocess, ReadsTheOutputOfTheChild) {
   Subprocess child(shell("printf abc; sleep 0.1; printf def; printf wrong >&2; exit 3"),
                    Subprocess::Pipe::kFromChild, 60s);
   EXPECT_EQ(child.read_all(), "abcdef");
@@ -24,16 +24,16 @@ TEST(Subprocess, GivesWhatTheChildWrites) {
   EXPECT_EQ(child.take_errors(), "wrong");
 }
 
-TEST(Subprocess, AChildThatGivesNothingIsEnded) {
+TEST(Subprocess, ASilentChildIsKilled) {
   const auto began = Clock::now();
   Subprocess child(shell("printf abc; exec sleep 300"), Subprocess::Pipe::kFromChild, 200ms);
   EXPECT_EQ(child.read_all(), "abc");
   EXPECT_EQ(child.finish(), kKilled);
   EXPECT_LT(Clock::now() - began, 100s);
-  EXPECT_NE(child.take_errors().find("'sh' did nothing for 0.2"), std::string::npos);
+  EXPECT_NE(child.take_errors().find("'sh' was inactive for 0.2"), std::string::npos);
 }
 
-TEST(Subprocess, AChildThatTakesNothingIsEnded) {
+TEST(Subprocess, AChildThatReadsNothingIsKilled) {
   const std::vector<std::byte> more_than_a_pipe_holds(1 << 22);
   const auto began = Clock::now();
   Subprocess child(shell("exec sleep 300"), Subprocess::Pipe::kToChild, 200ms);
@@ -42,7 +42,7 @@ TEST(Subprocess, AChildThatTakesNothingIsEnded) {
   EXPECT_LT(Clock::now() - began, 100s);
 }
 
-TEST(Subprocess, TalkOnStandardErrorBlocksNeitherDirection) {
+TEST(Subprocess, OutputOnStandardErrorBlocksNeitherDirection) {
   const std::string talk = "head -c 300000 /dev/zero | tr '\\0' x >&2; ";
   Subprocess writer(shell(talk + "printf done"), Subprocess::Pipe::kFromChild, 60s);
   EXPECT_EQ(writer.read_all(), "done");
@@ -55,18 +55,18 @@ TEST(Subprocess, TalkOnStandardErrorBlocksNeitherDirection) {
   EXPECT_EQ(reader.take_errors().substr(300000), "1048576\n");
 }
 
-TEST(Subprocess, AChildThatClosesStdoutAndGoesOnIsEnded) {
+TEST(Subprocess, AChildThatClosesStdoutAndContinuesIsKilled) {
   const auto began = Clock::now();
   Subprocess child(shell("printf abc; exec >&-; exec sleep 300"), Subprocess::Pipe::kFromChild,
                    200ms);
   EXPECT_EQ(child.read_all(), "abc");
   EXPECT_EQ(child.finish(), kKilled);
   EXPECT_LT(Clock::now() - began, 100s);
-  EXPECT_NE(child.take_errors().find("'sh' did nothing for 0.2"), std::string::npos);
+  EXPECT_NE(child.take_errors().find("'sh' was inactive for 0.2"), std::string::npos);
 }
 
 // A grandchild that inherited stderr.
-TEST(Subprocess, WhoHoldsStderrOpenIsNotWaitedFor) {
+TEST(Subprocess, DoesNotWaitForAnotherProcessThatHoldsStderr) {
   const auto began = Clock::now();
   Subprocess child(shell("printf wrong >&2; sleep 30 >/dev/null & exit 3"),
                    Subprocess::Pipe::kFromChild, 60s);
@@ -76,7 +76,7 @@ TEST(Subprocess, WhoHoldsStderrOpenIsNotWaitedFor) {
   EXPECT_LT(Clock::now() - began, 25s);
 }
 
-TEST(Subprocess, AChildThatWentAwayTakesNothing) {
+TEST(Subprocess, WritingToAnEndedChildFails) {
   signal(SIGPIPE, SIG_IGN);  // as the program does
   const std::vector<std::byte> much(1 << 22);
   Subprocess child(shell("exit 5"), Subprocess::Pipe::kToChild, 60s);

@@ -1,4 +1,4 @@
-"""The program built for Windows, under Wine, beside the one of this machine.
+"""Tests of the program built for Windows, under Wine, against the program of this machine.
 
 usage: windows_test.py MIEN_EXE MIEN FOLDER_OF_FFMPEG_EXE          scripts/cross/windows.sh
 """
@@ -21,11 +21,11 @@ EXE, MIEN, FFMPEG = (str(pathlib.Path(path).resolve()) for path in sys.argv[1:4]
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 MODELS = str(SOURCE / "models")
 CLIP = str(SOURCE / "tests/data/demo.mp4")
-# Controls are 0 to 1, angles radians, positions metres. Of the same pictures, what is left are two C libraries' mathematics.
+# Controls are 0 to 1, angles in radians, positions in metres. For equal images only the C libraries differ.
 SAME_PICTURES = 1e-4
-# Two versions of ffmpeg, which may make RGB of YUV each in its own way; 1.1e-5 was measured.
+# Two versions of ffmpeg, which may convert YUV to RGB differently; 1.1e-5 was measured.
 OTHER_FFMPEG = 1e-3
-# Windows knows no names with < > : " | ? * \ or what cannot be seen.
+# Windows does not permit < > : " | ? * \ or control characters in names.
 NAMES = ["two words.mp4", "-clip.mp4", "--help.mp4", "Ünï 顔 😀.mp4", "it's 50%d (1) & more ^.mp4", "[0v],x=y;.mp4", "%PATH%.mp4"]
 
 
@@ -34,7 +34,7 @@ def environment(path):
 
 
 def windows(*arguments, path=FFMPEG, **more):
-    """Into files, not pipes: processes of Wine's own, which a program may start, keep those open."""
+    """Uses files, not pipes, because Wine's own processes keep pipes open."""
     with tempfile.TemporaryFile() as output, tempfile.TemporaryFile() as errors:
         done = subprocess.run(["wine", EXE, *arguments], stdout=output, stderr=errors, timeout=300, env=environment(path), **more)
         output.seek(0)
@@ -60,7 +60,7 @@ class Windows(unittest.TestCase):
         return done.stdout
 
     def differ(self, ours, theirs):
-        """The largest difference of two CSVs of the same frames, and where; boxes count in widths of the face."""
+        """The largest difference between two CSVs of the same frames, and its position; boxes are relative to the width of the face."""
         self.assertEqual([list(row) for row in ours], [list(row) for row in theirs])
         largest = (0.0, "")
         for a, b in zip(ours, theirs, strict=True):
@@ -79,13 +79,13 @@ class Windows(unittest.TestCase):
         inspect = ("inspect", "--json", MODELS + "/basenet.mien")
         self.assertEqual(self.succeeds(windows(*inspect)), here(*inspect).stdout)
 
-    def test_track_gives_what_it_gives_here(self):
+    def test_track_matches_this_machine(self):
         track = ("track", CLIP, "--quiet", "--models", MODELS, "--tier", "avx2", "--lod", "4")
         largest = self.differ(rows(self.succeeds(windows(*track))), rows(here(*track).stdout))
         print(f"demo.mp4, each with its own ffmpeg: largest difference {largest[0]:.2g} ({largest[1]})")
         self.assertLess(largest[0], OTHER_FFMPEG)
 
-    def test_the_same_pictures_give_the_same(self):
+    def test_equal_images_give_equal_results(self):
         y4m, wav = str(self.folder / "clip.y4m"), str(self.folder / "clip.wav")
         subprocess.run(["ffmpeg", "-v", "error", "-i", CLIP, "-t", "2", "-pix_fmt", "yuv420p", y4m, "-t", "2", wav], check=True)
         track = ("track", "--audio", wav, "--quiet", "--models", MODELS, "--tier", "avx2", "--lod", "4")
@@ -102,7 +102,7 @@ class Windows(unittest.TestCase):
         more = {"--landmarks": "points.csv", "--overlay": "over.mp4"}
         options = [word for option, name in more.items() for word in (option, str(self.folder / name))]
         options += [word for name in made for word in ("-o", name)]
-        (self.folder / "a.csv").write_text("that was there before")
+        (self.folder / "a.csv").write_text("previous content")
         self.succeeds(windows("track", CLIP, "--duration", "1", "--quiet", "--models", MODELS, *options))
         self.assertEqual(sorted(path.name for path in self.folder.iterdir()),
                          sorted(["a.csv", "a.glb", "a.jsonl", "a.llf.csv", "a.llf.csv.json", "a.bvh", *more.values()]))
@@ -111,7 +111,7 @@ class Windows(unittest.TestCase):
         self.assertEqual(len((self.folder / "a.jsonl").read_text().splitlines()), 30)
         for path in self.folder.iterdir():
             self.assertGreater(path.stat().st_size, 30, path)
-        # Of the same curves the program of this machine makes the same animation.
+        # The program of this machine converts the curves to the same animation.
         converted = self.folder / "converted.bvh"
         here("convert", made[2], str(converted))
         self.assertEqual(converted.read_bytes(), (self.folder / "a.bvh").read_bytes())
@@ -183,13 +183,13 @@ class Windows(unittest.TestCase):
                 pass
         said = json.loads(pathlib.Path(stats).read_text())
         self.assertEqual(said["frames"], len(packets))
-        self.assertGreater(len(packets), 20)  # of 240; how many depends on the machine
+        self.assertGreater(len(packets), 20)  # of 240; depends on the machine
         self.assertEqual([line.encode() for line in done.stdout.decode().split("\n")[:-1]], packets)
         tracked = [packet for packet in map(json.loads, packets) if packet["status"] == "tracking"]
         self.assertGreater(len(tracked), len(packets) / 2)
         self.assertGreater(max(packet["controls"]["jawOpen"] for packet in tracked), 0.2)
 
-    def test_live_ends_where_nobody_reads(self):
+    def test_live_ends_without_a_reader(self):
         process = subprocess.Popen(["wine", EXE, "live", "--camera", "test:" + CLIP, "--send", "-", "--quiet", "--models", MODELS],
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=environment(FFMPEG))
         self.addCleanup(process.kill)
@@ -198,10 +198,10 @@ class Windows(unittest.TestCase):
         self.assertEqual((process.wait(120), process.stderr.read()), (0, b""))
         process.stderr.close()
 
-    def test_faults_have_names(self):
+    def test_errors_are_named(self):
         no_ffmpeg = windows("track", CLIP, "--models", MODELS, path="/nowhere")
         self.assertEqual((no_ffmpeg.returncode, no_ffmpeg.stderr.decode().splitlines()),
-                         (6, ["mien: cannot run 'ffprobe': it is neither beside mien nor on PATH"]))
+                         (6, ["mien: cannot run 'ffprobe': neither beside mien nor on PATH"]))
         (self.folder / "broken.mp4").write_bytes(b"no video")
         for arguments, code, words in [
                 (("track", "missing.mp4"), 3, "missing.mp4: no such file"),
@@ -210,7 +210,7 @@ class Windows(unittest.TestCase):
                 (("track", CLIP, "-o", "no/folder.csv"), 7, "no/folder.csv: cannot be written: No such file"),
                 (("track", CLIP, "--overlay", "no/folder.mp4"), 7, "no/folder.mp4: cannot be written: "),
                 (("inspect", "missing.mien"), 8, "missing.mien: cannot be opened"),
-                (("live", "--camera", "test:" + CLIP, "--send", "vmc://no.such.host.invalid"), 7, "there is no host")]:
+                (("live", "--camera", "test:" + CLIP, "--send", "vmc://no.such.host.invalid"), 7, "unknown host")]:
             done = windows(*arguments, cwd=self.folder, path=FFMPEG)
             self.assertEqual(done.returncode, code, (arguments, done.stderr))
             self.assertIn(words, done.stderr.decode())

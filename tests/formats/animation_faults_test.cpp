@@ -1,5 +1,4 @@
-// What readers of animations say of each fault that they know, and what they make of files that
-// others wrote.
+// Tests of every error message of the animation readers, and of files by other programs.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -19,35 +18,35 @@ namespace {
 
 using testing::HasSubstr;
 
-// What is said of a file, nothing if it was read.
-std::string said_of(AnimationFormat format, const std::string& text, Clip* clip = nullptr) {
+// The error message for a file; empty if it was read.
+std::string error_of(AnimationFormat format, const std::string& text, Clip* clip = nullptr) {
   Clip read;
   Fault fault;
   const bool good = read_animation(format, text, {}, read, fault);
   EXPECT_EQ(good, fault.what.empty());
-  EXPECT_TRUE(good || read.frames.empty()) << "nothing is taken over";
+  EXPECT_TRUE(good || read.frames.empty()) << "the clip stays unchanged";
   if (clip != nullptr) {
     *clip = read;
   }
   return fault.what;
 }
 
-struct Fall {
+struct InvalidFile {
   std::string text;
-  std::string says;
+  std::string error;
 };
 
-void expect_falls(AnimationFormat format, const std::vector<Fall>& falls) {
-  for (const Fall& fall : falls) {
-    EXPECT_THAT(said_of(format, fall.text), HasSubstr(fall.says)) << fall.text;
+void expect_errors(AnimationFormat format, const std::vector<InvalidFile>& files) {
+  for (const InvalidFile& file : files) {
+    EXPECT_THAT(error_of(format, file.text), HasSubstr(file.error)) << file.text;
   }
 }
 
-// A change to a good file.
+// A change of a valid file.
 struct Change {
   std::string from;
   std::string to;
-  std::string says;  // nothing: it is as good as before
+  std::string error;  // empty: the file stays valid
 };
 
 std::string changed(std::string text, const std::string& from, const std::string& to) {
@@ -58,55 +57,55 @@ std::string changed(std::string text, const std::string& from, const std::string
 
 void expect_changes(AnimationFormat format, const std::string& good,
                     const std::vector<Change>& changes) {
-  EXPECT_EQ(said_of(format, good), "");
+  EXPECT_EQ(error_of(format, good), "");
   for (const Change& change : changes) {
-    const std::string said = said_of(format, changed(good, change.from, change.to));
-    if (change.says.empty()) {
-      EXPECT_EQ(said, "") << change.from << " -> " << change.to;
+    const std::string error = error_of(format, changed(good, change.from, change.to));
+    if (change.error.empty()) {
+      EXPECT_EQ(error, "") << change.from << " -> " << change.to;
     } else {
-      EXPECT_THAT(said, HasSubstr(change.says)) << change.from << " -> " << change.to;
+      EXPECT_THAT(error, HasSubstr(change.error)) << change.from << " -> " << change.to;
     }
   }
 }
 
 TEST(AnimationFaults, Jsonl) {
   const auto with = [](const std::string& member) { return "{\"t_ns\":0," + member + "}\n"; };
-  expect_falls(AnimationFormat::kJsonl,
-               {{"", "there are no frames"},
-                {"[1]", "is not an object"},
-                {"{\"frame\":1}", "the frame has no t_ns"},
-                {"{\"t_ns\":\"0\"}", "t_ns: is not a whole number"},
-                {"{\"t_ns\":5}\n{\"t_ns\":4}", "t_ns: goes back in time"},
-                {with("\"frame\":1.5"), "frame: is not a whole number"},
-                {with("\"face_id\":\"a\""), "face_id: is not a whole number"},
-                {with("\"lod\":0.5"), "lod: is not a whole number"},
-                {with("\"status\":\"gone\""), "status: is none of"},
-                {with("\"status\":1"), "status: is none of"},
-                {with("\"face_prob\":2"), "face_prob: is not a number in 0..1"},
-                {with("\"face_prob\":-1"), "face_prob: is not a number in 0..1"},
-                {with("\"vad\":\"x\""), "vad: is not a number in 0..1"},
-                {with("\"box\":[1,2,3]"), "box: is not 4 numbers"},
-                {with("\"box\":[1,2,3,null]"), "box: is not 4 numbers"},
-                {with("\"box\":1"), "box: is not 4 numbers"},
-                {with("\"head\":{}"), "pitch_rad, yaw_rad and roll_rad have to be here"},
-                {with("\"head\":{\"pitch_rad\":true}"), "pitch_rad, yaw_rad and roll_rad"},
-                {with("\"position_m\":[1]"), "position_m: is not 3 numbers"},
-                {with("\"eyes\":{}"), "eyes: left and right have to be here"},
-                {with("\"eyes\":{\"left\":{\"pitch_rad\":0,\"yaw_rad\":0,\"roll_rad\":0}}"),
-                 "eyes: left and right have to be here"},
-                {with("\"eyes\":{\"left\":{}}"), "pitch_rad, yaw_rad and roll_rad"},
-                {with("\"eyes\":{\"right\":{}}"), "pitch_rad, yaw_rad and roll_rad"},
-                {with("\"controls\":[]"), "controls: is not an object"},
-                {with("\"controls\":{\"nobody\":1}"), "controls: there is no 'nobody'"},
-                {with("\"controls\":{\"jawOpen\":2}"), "jawOpen: is not a number in 0..1"},
-                {with("\"facs\":{\"JawDrop\":null}"), "JawDrop: is not a number in 0..1"},
-                {with("\"visemes\":3"), "visemes: is not an object"},
-                {with("\"mouth_shape\":\"Z\""), "mouth_shape: is none of"},
-                {with("\"mouth_shape\":\"AB\""), "mouth_shape: is none of"},
-                {with("\"mouth_shape\":1"), "mouth_shape: is none of"}});
+  expect_errors(AnimationFormat::kJsonl,
+                {{"", "no frames"},
+                 {"[1]", "expected an object"},
+                 {"{\"frame\":1}", "t_ns: missing"},
+                 {"{\"t_ns\":\"0\"}", "t_ns: expected an integer"},
+                 {"{\"t_ns\":5}\n{\"t_ns\":4}", "t_ns: decreasing time"},
+                 {with("\"frame\":1.5"), "frame: expected an integer"},
+                 {with("\"face_id\":\"a\""), "face_id: expected an integer"},
+                 {with("\"lod\":0.5"), "lod: expected an integer"},
+                 {with("\"status\":\"gone\""), "status: expected"},
+                 {with("\"status\":1"), "status: expected"},
+                 {with("\"face_prob\":2"), "face_prob: expected a number in 0..1"},
+                 {with("\"face_prob\":-1"), "face_prob: expected a number in 0..1"},
+                 {with("\"vad\":\"x\""), "vad: expected a number in 0..1"},
+                 {with("\"box\":[1,2,3]"), "box: expected 4 numbers"},
+                 {with("\"box\":[1,2,3,null]"), "box: expected 4 numbers"},
+                 {with("\"box\":1"), "box: expected 4 numbers"},
+                 {with("\"head\":{}"), "pitch_rad, yaw_rad and roll_rad are required"},
+                 {with("\"head\":{\"pitch_rad\":true}"), "pitch_rad, yaw_rad and roll_rad"},
+                 {with("\"position_m\":[1]"), "position_m: expected 3 numbers"},
+                 {with("\"eyes\":{}"), "eyes: left and right are required"},
+                 {with("\"eyes\":{\"left\":{\"pitch_rad\":0,\"yaw_rad\":0,\"roll_rad\":0}}"),
+                  "eyes: left and right are required"},
+                 {with("\"eyes\":{\"left\":{}}"), "pitch_rad, yaw_rad and roll_rad"},
+                 {with("\"eyes\":{\"right\":{}}"), "pitch_rad, yaw_rad and roll_rad"},
+                 {with("\"controls\":[]"), "controls: expected an object"},
+                 {with("\"controls\":{\"nobody\":1}"), "controls: unknown name 'nobody'"},
+                 {with("\"controls\":{\"jawOpen\":2}"), "jawOpen: expected a number in 0..1"},
+                 {with("\"facs\":{\"JawDrop\":null}"), "JawDrop: expected a number in 0..1"},
+                 {with("\"visemes\":3"), "visemes: expected an object"},
+                 {with("\"mouth_shape\":\"Z\""), "mouth_shape: expected"},
+                 {with("\"mouth_shape\":\"AB\""), "mouth_shape: expected"},
+                 {with("\"mouth_shape\":1"), "mouth_shape: expected"}});
 }
 
-TEST(AnimationFaults, JsonlOfEverything) {
+TEST(AnimationFaults, JsonlWithAllFields) {
   const std::string line =
       R"({"t_ns":7,"frame":3,"status":"lost","face_id":2,"face_prob":0.5,"lod":4,"vad":0.25,)"
       R"("box":[1,2,3,4],"head":{"pitch_rad":1,"yaw_rad":0,"roll_rad":0},"position_m":[1,2,3],)"
@@ -114,7 +113,7 @@ TEST(AnimationFaults, JsonlOfEverything) {
       R"("right":{"pitch_rad":0,"yaw_rad":0,"roll_rad":1}},"controls":{"jawOpen":1},)"
       R"("facs":{"JawDrop":0.5},"visemes":{"sil":1},"mouth_shape":"B"})";
   Clip clip;
-  EXPECT_EQ(said_of(AnimationFormat::kJsonl, " \r\n" + line + "\n\n", &clip), "");
+  EXPECT_EQ(error_of(AnimationFormat::kJsonl, " \r\n" + line + "\n\n", &clip), "");
   ASSERT_EQ(clip.frames.size(), 1u);
   const Frame frame = clip.frames.unpacked()[0];
   EXPECT_EQ(frame.state, FaceState::kLost);
@@ -123,7 +122,7 @@ TEST(AnimationFaults, JsonlOfEverything) {
   EXPECT_EQ(frame.mouth_shape, 'B');
   const std::string written = animation_writer(AnimationFormat::kJsonl, {})->frame(frame);
   Clip again;
-  EXPECT_EQ(said_of(AnimationFormat::kJsonl, written, &again), "");
+  EXPECT_EQ(error_of(AnimationFormat::kJsonl, written, &again), "");
   EXPECT_EQ(animation_writer(AnimationFormat::kJsonl, {})->frame(again.frames.unpacked().at(0)),
             written);
 }
@@ -183,36 +182,36 @@ std::string gltf_of(const std::vector<float>& numbers) {
 }
 
 TEST(AnimationFaults, Gltf) {
-  const std::string no_such = "there is no such one", range = "is out of range";
-  const std::string fits = "does not fit into its buffer";
+  const std::string no_such = "invalid index", range = "out of range";
+  const std::string fits = "exceeds its buffer";
   expect_changes(
       AnimationFormat::kGltf, gltf_of(gltf_numbers()),
       {{"{\"asset", "[{\"asset", "',' or ']'"},
-       {"\"animations\"", "\"nothing\"", "there is no animation"},
-       {"\"animations\":[", "\"animations\":[],\"other\":[", "there is no animation"},
-       {"\"animations\":[", "\"animations\":{},\"other\":[", "there is no animation"},
+       {"\"animations\"", "\"nothing\"", "no animation"},
+       {"\"animations\":[", "\"animations\":[],\"other\":[", "no animation"},
+       {"\"animations\":[", "\"animations\":{},\"other\":[", "no animation"},
        {"\"uri\"", "\"url\"", "the buffer has no data in this file"},
-       {"\"data:", "\"file:", "there is no folder to look for it in"},
-       {";base64,", ";base32,", "uri: is not base64"},
-       {";base64,", ";base64,?", "uri: is not base64"},
+       {"\"data:", "\"file:", "no folder to search"},
+       {";base64,", ";base32,", "uri: invalid base64"},
+       {";base64,", ";base64,?", "uri: invalid base64"},
        {"\"bufferView\":0", "\"bufferView\":9", no_such},
        {"\"bufferView\":0", "\"bufferView\":-1", no_such},
-       {"\"bufferView\":0,", "", "bufferView: has to be here"},
-       {"\"bufferView\":0", "\"bufferView\":0.5", "bufferView: has to be here"},
+       {"\"bufferView\":0,", "", "bufferView: missing"},
+       {"\"bufferView\":0", "\"bufferView\":0.5", "bufferView: missing"},
        {"\"bufferViews\"", "\"views\"", no_such},
        {"\"buffer\":0", "\"buffer\":1", no_such},
-       {"\"componentType\":5126", "\"componentType\":5123", "whole numbers have to be normalized"},
-       {"\"componentType\":5126", "\"componentType\":5125", "only 5126 (float)"},
-       {"\"componentType\":5126", "\"componentType\":\"x\"", "only 5126 (float)"},
+       {"\"componentType\":5126", "\"componentType\":5123", "integers must be normalized"},
+       {"\"componentType\":5126", "\"componentType\":5125", "expected 5126 (float)"},
+       {"\"componentType\":5126", "\"componentType\":\"x\"", "expected 5126 (float)"},
        {"{\"buffer\":0,", "{\"extensions\":{\"EXT_meshopt_compression\":{}},\"buffer\":0,",
         "compressed with EXT_meshopt_compression"},
        {"\"count\":2", "\"count\":-2", range},
        {"\"count\":2", "\"count\":5000000000", range},
        {"\"count\":2", "\"count\":2,\"byteOffset\":-4", range},
        {"\"count\":2", "\"count\":2,\"byteOffset\":4", fits},
-       {"\"count\":2", "\"count\":2,\"sparse\":{}", "sparse accessors are not read"},
-       {"\"count\":2", "\"count\":0", "not as many as the times ask for"},
-       {"\"count\":4", "\"count\":3", "not as many as the times ask for"},
+       {"\"count\":2", "\"count\":2,\"sparse\":{}", "sparse accessors are not supported"},
+       {"\"count\":2", "\"count\":0", "does not match the number of times"},
+       {"\"count\":4", "\"count\":3", "does not match the number of times"},
        {"\"count\":4", "\"count\":40", fits},
        {"\"byteOffset\":8", "\"byteOffset\":-8", range},
        {"\"byteLength\":8", "\"byteLength\":-8", range},
@@ -223,7 +222,7 @@ TEST(AnimationFaults, Gltf) {
        {"\"input\":0", "\"input\":7", no_such},
        {"\"output\":1", "\"output\":7", no_such},
        {"\"output\":1", "\"output\":1,\"interpolation\":\"STEP\"", ""},
-       {"\"output\":1", "\"output\":1,\"interpolation\":\"CUBICSPLINE\"", "not as many"},
+       {"\"output\":1", "\"output\":1,\"interpolation\":\"CUBICSPLINE\"", "does not match"},
        {"\"channels\"", "\"canals\"", "no channels or samplers"},
        {"\"samplers\"", "\"samples\"", "no channels or samplers"},
        {"\"sampler\":0", "\"sampler\":-1", "no sampler or target"},
@@ -239,14 +238,14 @@ TEST(AnimationFaults, Gltf) {
        {"\"name\":\"the_Head\"", "\"title\":\"head\"", ""},
        {"\"path\":\"rotation\"", "\"path\":\"scale\"", ""},
        {"\"mesh\":0", "\"mesh\":1", no_such},
-       {"\"extras\"", "\"more\"", "the mesh has no extras.targetNames"},
-       {"\"targetNames\":[", "\"targetNames\":[],\"x\":[", "the mesh has no extras.targetNames"},
+       {"\"extras\"", "\"more\"", "extras.targetNames: missing"},
+       {"\"targetNames\":[", "\"targetNames\":[],\"x\":[", "extras.targetNames: missing"},
        {"\"jawOpen\",\"mouthSmile_L\"", "\"a\",\"b\"", ""},
        {"\"samplers\"", "\"extras\":{},\"samplers\"", ""},
        {"\"samplers\"", "\"extras\":{\"mien\":{\"start_ns\":\"x\"}},\"samplers\"",
-        "start_ns: is not a whole number"},
+        "start_ns: expected an integer"},
        {"\"samplers\"", "\"extras\":{\"mien\":{\"start_ns\":9000000000000000000}},\"samplers\"",
-        "start_ns: is out of range"},
+        "start_ns: out of range"},
        {"\"samplers\"",
         "\"extras\":{\"mien\":{\"start_ns\":5,\"states\":\"sl\",\"not_driven\":[\"jawOpen\","
         "\"nobody\"]}},\"samplers\"",
@@ -259,27 +258,27 @@ TEST(AnimationFaults, GltfWithOtherNumbers) {
     numbers[which] = number;
     return gltf_of(numbers);
   };
-  expect_falls(AnimationFormat::kGltf,
-               {{with(1, -1), "times have to ascend"},
-                {with(1, 0), "times have to ascend"},
-                {with(1, 5e9f), "times have to ascend"},
-                {with(0, -5e9f), "times have to ascend"},
-                {with(3, std::numeric_limits<float>::infinity()), "is not a finite number"}});
-  EXPECT_EQ(said_of(AnimationFormat::kGltf, with(9, 0.0f)), "");
-  // Nothing of a face: neither weights nor a head.
+  expect_errors(AnimationFormat::kGltf,
+                {{with(1, -1), "times must increase"},
+                 {with(1, 0), "times must increase"},
+                 {with(1, 5e9f), "times must increase"},
+                 {with(0, -5e9f), "times must increase"},
+                 {with(3, std::numeric_limits<float>::infinity()), "is not a finite number"}});
+  EXPECT_EQ(error_of(AnimationFormat::kGltf, with(9, 0.0f)), "");
+  // Neither weights nor a head.
   const std::string eyes = changed(
       changed(gltf_of(gltf_numbers()), "\"path\":\"weights\"", "\"path\":\"x\""), "the_Head", "x");
-  EXPECT_THAT(said_of(AnimationFormat::kGltf, eyes),
-              HasSubstr("neither weights of a face nor a head are animated"));
-  // A head that only moves.
+  EXPECT_THAT(error_of(AnimationFormat::kGltf, eyes),
+              HasSubstr("neither face weights nor a head are animated"));
+  // A head with translation only.
   Clip clip;
   const std::string moves =
       changed(changed(gltf_of(gltf_numbers()), "\"path\":\"weights\"", "\"path\":\"x\""),
               "\"path\":\"rotation\"", "\"path\":\"translation\"");
-  EXPECT_EQ(said_of(AnimationFormat::kGltf,
-                    changed(moves, "2,\"componentType\":5126,\"count\":2",
-                            "2,\"componentType\":5126,\"count\":2"),
-                    &clip),
+  EXPECT_EQ(error_of(AnimationFormat::kGltf,
+                     changed(moves, "2,\"componentType\":5126,\"count\":2",
+                             "2,\"componentType\":5126,\"count\":2"),
+                     &clip),
             "");
   ASSERT_EQ(clip.frames.size(), 2u);
   EXPECT_TRUE(clip.frames.unpacked()[1].position_m);
@@ -302,16 +301,16 @@ TEST(AnimationFaults, Glb) {
            body;
   };
   constexpr std::uint32_t kJson = 0x4E4F534A, kBin = 0x004E4942;
-  expect_falls(AnimationFormat::kGlb,
-               {{"glTF", "the file ends within its header"},
-                {file(1, 0, kJson, 4, ""), "is not version 2 of glTF"},
-                {file(2, 1, kJson, 4, ""), "another length"},
-                {file(2, 0, kBin, 4, ""), "the first chunk is not JSON"},
-                {file(2, 0, kJson, 5, ""), "the chunk does not fit"},
-                {file(2, 0, kJson, 4, word(9) + word(kBin)), "the chunk does not fit"},
-                {file(2, 0, kJson, 4, word(0) + word(kBin)), "there is no animation"},
-                {file(2, 0, kJson, 4, word(0) + word(7)), "there is no animation"},
-                {file(2, 0, kJson, 4, ""), "there is no animation"}});
+  expect_errors(AnimationFormat::kGlb,
+                {{"glTF", "the file ends within its header"},
+                 {file(1, 0, kJson, 4, ""), "expected glTF version 2"},
+                 {file(2, 1, kJson, 4, ""), "wrong file length"},
+                 {file(2, 0, kBin, 4, ""), "the first chunk is not JSON"},
+                 {file(2, 0, kJson, 5, ""), "the chunk exceeds the file"},
+                 {file(2, 0, kJson, 4, word(9) + word(kBin)), "the chunk exceeds the file"},
+                 {file(2, 0, kJson, 4, word(0) + word(kBin)), "no animation"},
+                 {file(2, 0, kJson, 4, word(0) + word(7)), "no animation"},
+                 {file(2, 0, kJson, 4, ""), "no animation"}});
 }
 
 std::string repeated(const std::string& text, int count) {
@@ -346,41 +345,41 @@ TEST(AnimationFaults, Xml) {
   EXPECT_EQ(*tags[0].find("Z"), "\"'");
   EXPECT_EQ(tags[0].find("a"), nullptr);
   EXPECT_EQ(tags[0].text, "x & y");
-  for (const auto& [text, says] : std::vector<std::pair<std::string, std::string>>{
-           {"", "there is no element"},
-           {"x", "a tag has to be here"},
-           {"<?xml", "?> is missing"},
-           {"<!-- x", "--> is missing"},
-           {"< >", "a tag's name has to be here"},
-           {"<a></a><b></b>", "a second outermost element"},
-           {"</a>", "</a> closes nothing"},
-           {"<a></b>", "</b> closes nothing"},
-           {"<a></a x>", "'>' has to be here"},
+  for (const auto& [text, error] : std::vector<std::pair<std::string, std::string>>{
+           {"", "no element"},
+           {"x", "expected a tag"},
+           {"<?xml", "expected ?>"},
+           {"<!-- x", "expected -->"},
+           {"< >", "expected a tag name"},
+           {"<a></a><b></b>", "second root element"},
+           {"</a>", "unexpected closing tag </a>"},
+           {"<a></b>", "unexpected closing tag </b>"},
+           {"<a></a x>", "expected '>'"},
            {"<a>", "<a> is not closed"},
            {"<a", "an attribute or '>'"},
            {"<a \"b\">", "an attribute or '>'"},
-           {"<a b>", "'=' has to be here"},
-           {"<a b=c>", "a quotation mark has to be here"},
-           {"<a b='1' b='2'>", "is there twice"},
-           {"<a b='1>", "a quotation mark has no other"},
-           {"<a b='&x;'>", "an entity that is not known"},
-           {"<a>&x;</a>", "an entity that is not known"},
-           {"<a></a>b", "text outside the outermost element"},
+           {"<a b>", "expected '='"},
+           {"<a b=c>", "expected a quotation mark"},
+           {"<a b='1' b='2'>", "duplicate attribute"},
+           {"<a b='1>", "unterminated attribute value"},
+           {"<a b='&x;'>", "unknown entity"},
+           {"<a>&x;</a>", "unknown entity"},
+           {"<a></a>b", "text outside the root element"},
            {repeated("<a>", 65), "too deeply nested"},
            {"<a " + attributes(65) + "/>", "more than 64 attributes"}}) {
     EXPECT_FALSE(parse_xml(text, keep, fault)) << text;
-    EXPECT_THAT(fault.what, HasSubstr(says)) << text;
+    EXPECT_THAT(fault.what, HasSubstr(error)) << text;
   }
   EXPECT_EQ(xml_text("a<&>\"'b"), "a&lt;&amp;&gt;&quot;&apos;b");
 }
 
 TEST(AnimationFaults, Rhubarb) {
-  const std::string time = "a time in seconds has to be here", none = "there are no cues",
-                    back = "goes back in time", shape = "none of the shapes";
+  const std::string time = "expected a time in seconds", none = "no cues", back = "decreasing time",
+                    shape = "unknown mouth shape";
   const auto cue = [](const std::string& what) { return "{\"mouthCues\":[{" + what + "}]}"; };
-  expect_falls(
+  expect_errors(
       AnimationFormat::kRhubarbJson,
-      {{"{", "a key in quotation marks is missing"},
+      {{"{", "expected a key in quotation marks"},
        {"{}", none},
        {"{\"mouthCues\":[]}", none},
        {"{\"mouthCues\":1}", none},
@@ -397,44 +396,44 @@ TEST(AnimationFaults, Rhubarb) {
   const auto tag = [](const std::string& attributes, const std::string& text) {
     return "<rhubarbResult><mouthCue " + attributes + ">" + text + "</mouthCue></rhubarbResult>";
   };
-  expect_falls(AnimationFormat::kRhubarbXml, {{"<a", "an attribute or '>'"},
-                                              {"<a/>", "rhubarbResult has to be here"},
-                                              {"<rhubarbResult/>", none},
-                                              {tag("", "A"), "start: " + time},
-                                              {tag("start='x'", "A"), "start: " + time},
-                                              {tag("start='-1'", "A"), "start: " + time},
-                                              {tag("start='1e10'", "A"), "start: " + time},
-                                              {tag("start='1'", "A"), "end: " + time},
-                                              {tag("start='1' end='0'", "A"), back},
-                                              {tag("start='0' end='1'", "Z"), shape}});
-  expect_falls(AnimationFormat::kRhubarb, {{"0\tA\n", none},
-                                           {"x\tA\n", "is not a time"},
-                                           {"-1\tA\n", "is not a time"},
-                                           {"1e10\tA\n", "is not a time"},
-                                           {"0\n", shape},
-                                           {"0\tZ\n", shape},
-                                           {"1\tA\n0\tX\n", back}});
-  EXPECT_EQ(said_of(AnimationFormat::kRhubarb, "0\tA\r\n\n1\tX"), "");
+  expect_errors(AnimationFormat::kRhubarbXml, {{"<a", "an attribute or '>'"},
+                                               {"<a/>", "expected rhubarbResult"},
+                                               {"<rhubarbResult/>", none},
+                                               {tag("", "A"), "start: " + time},
+                                               {tag("start='x'", "A"), "start: " + time},
+                                               {tag("start='-1'", "A"), "start: " + time},
+                                               {tag("start='1e10'", "A"), "start: " + time},
+                                               {tag("start='1'", "A"), "end: " + time},
+                                               {tag("start='1' end='0'", "A"), back},
+                                               {tag("start='0' end='1'", "Z"), shape}});
+  expect_errors(AnimationFormat::kRhubarb, {{"0\tA\n", none},
+                                            {"x\tA\n", "is not a time"},
+                                            {"-1\tA\n", "is not a time"},
+                                            {"1e10\tA\n", "is not a time"},
+                                            {"0\n", shape},
+                                            {"0\tZ\n", shape},
+                                            {"1\tA\n0\tX\n", back}});
+  EXPECT_EQ(error_of(AnimationFormat::kRhubarb, "0\tA\r\n\n1\tX"), "");
   const std::string dat = "MohoSwitch1\n";
-  expect_falls(AnimationFormat::kRhubarbDat, {{dat, none},
-                                              {dat + "x A", "is not a frame"},
-                                              {dat + "0 A", "is not a frame"},
-                                              {dat + "999999999999 A", "is not a frame"},
-                                              {dat + "1 Z", "is no mouth"},
-                                              {dat + "1", "is no mouth"},
-                                              {dat + "2 A\n2 X", back},
-                                              {dat + "1 MBP\n2 A", "is no mouth"},
-                                              {dat + "1 A\n2 rest", "is no mouth"}});
+  expect_errors(AnimationFormat::kRhubarbDat, {{dat, none},
+                                               {dat + "x A", "is not a frame"},
+                                               {dat + "0 A", "is not a frame"},
+                                               {dat + "999999999999 A", "is not a frame"},
+                                               {dat + "1 Z", "unknown mouth shape"},
+                                               {dat + "1", "unknown mouth shape"},
+                                               {dat + "2 A\n2 X", back},
+                                               {dat + "1 MBP\n2 A", "unknown mouth shape"},
+                                               {dat + "1 A\n2 rest", "unknown mouth shape"}});
   Clip clip;
-  EXPECT_EQ(said_of(AnimationFormat::kRhubarbDat, dat + "1 E\r\n\n3 MBP\n9 rest\n", &clip), "");
+  EXPECT_EQ(error_of(AnimationFormat::kRhubarbDat, dat + "1 E\r\n\n3 MBP\n9 rest\n", &clip), "");
   EXPECT_EQ(clip.frames.unpacked().at(0).mouth_shape, 'C') << "Preston Blair's E";
-  EXPECT_EQ(said_of(AnimationFormat::kRhubarbDat, dat + "1 E\n3 A\n9 X\n", &clip), "");
+  EXPECT_EQ(error_of(AnimationFormat::kRhubarbDat, dat + "1 E\n3 A\n9 X\n", &clip), "");
   EXPECT_EQ(clip.frames.unpacked().at(0).mouth_shape, 'E');
 }
 
-TEST(AnimationFaults, RhubarbIsMadeOfWhatThereIs) {
+TEST(AnimationFaults, RhubarbUsesShapesOrVisemes) {
   Clip clip;
-  EXPECT_EQ(said_of(AnimationFormat::kRhubarb, "0\tA\n0.5\tD\n1\tX\n", &clip), "");
+  EXPECT_EQ(error_of(AnimationFormat::kRhubarb, "0\tA\n0.5\tD\n1\tX\n", &clip), "");
   clip.audio_file = "a & \"b\"";
   for (const AnimationFormat format :
        {AnimationFormat::kRhubarb, AnimationFormat::kRhubarbJson, AnimationFormat::kRhubarbXml,
@@ -444,7 +443,7 @@ TEST(AnimationFaults, RhubarbIsMadeOfWhatThereIs) {
     for (const bool as_read : {true, false}) {
       std::vector<Frame> frames = clip.frames.unpacked();
       if (!as_read) {
-        frames[1].mouth_shape = 0;  // then all are looked at anew
+        frames[1].mouth_shape = 0;  // so all shapes are recomputed
         frames[1].visemes.assign(15, 0.0);
         frames[1].visemes[0] = 1.0;
         frames[0].time_ns += 10'000'000;
@@ -457,11 +456,11 @@ TEST(AnimationFaults, RhubarbIsMadeOfWhatThereIs) {
       }
       text += writer->finish();
       Clip back;
-      EXPECT_EQ(said_of(format, text, &back), "") << text;
+      EXPECT_EQ(error_of(format, text, &back), "") << text;
       EXPECT_EQ(back.frames.unpacked().at(0).mouth_shape, as_read ? 'A' : 'X') << text;
     }
     const auto empty = animation_writer(format, options);
-    EXPECT_THAT(said_of(format, empty->begin() + empty->finish()), HasSubstr("there are no cues"));
+    EXPECT_THAT(error_of(format, empty->begin() + empty->finish()), HasSubstr("no cues"));
   }
 }
 
@@ -472,38 +471,38 @@ TEST(AnimationFaults, Bvh) {
       "CHANNELS 3 Zrotation Xrotation Yrotation\nEnd Site {\nOFFSET 0 0 "
       "0\n}\n}\n}\nMOTION\nFrames: 2\nFrame Time: 0.5\n0 0 0 90 0 0\n1 2 3 0 0 90\n";
   expect_changes(AnimationFormat::kBvh, good,
-                 {{"HIERARCHY", "HIGHARCHY", "'HIERARCHY' is expected"},
-                  {"ROOT", "TOOT", "'ROOT' is expected"},
-                  {"{", "(", "'{' is expected"},
-                  {"OFFSET", "ONSET", "'OFFSET' is expected"},
+                 {{"HIERARCHY", "HIGHARCHY", "expected 'HIERARCHY'"},
+                  {"ROOT", "TOOT", "expected 'ROOT'"},
+                  {"{", "(", "expected '{'"},
+                  {"OFFSET", "ONSET", "expected 'OFFSET'"},
                   {"OFFSET 1", "OFFSET x", "is not a number"},
                   {"1 2 3", "1 x 3", "is not a number"},
                   {"1 2 3", "1 2 x", "is not a number"},
-                  {"CHANNELS", "CANALS", "'CHANNELS' is expected"},
-                  {"CHANNELS 3", "CHANNELS 7", "is not a number of channels"},
-                  {"CHANNELS 3", "CHANNELS -1", "is not a number of channels"},
-                  {"CHANNELS 3", "CHANNELS x", "is not a number of channels"},
-                  {"Xposition", "Xpositiom", "is not a channel"},
-                  {"Xposition", "Wposition", "is not a channel"},
-                  {"Xposition", "Xpos", "is not a channel"},
-                  {"JOINT", "POINT", "JOINT, End or '}' is expected"},
-                  {"End Site", "End Sight", "'Site' is expected"},
-                  {"Site {", "Site (", "'{' is expected"},
-                  {"OFFSET 0 0 0", "ONSET 0 0 0", "'OFFSET' is expected"},
+                  {"CHANNELS", "CANALS", "expected 'CHANNELS'"},
+                  {"CHANNELS 3", "CHANNELS 7", "invalid number of channels"},
+                  {"CHANNELS 3", "CHANNELS -1", "invalid number of channels"},
+                  {"CHANNELS 3", "CHANNELS x", "invalid number of channels"},
+                  {"Xposition", "Xpositiom", "unknown channel"},
+                  {"Xposition", "Wposition", "unknown channel"},
+                  {"Xposition", "Xpos", "unknown channel"},
+                  {"JOINT", "POINT", "expected JOINT, End or '}'"},
+                  {"End Site", "End Sight", "expected 'Site'"},
+                  {"Site {", "Site (", "expected '{'"},
+                  {"OFFSET 0 0 0", "ONSET 0 0 0", "expected 'OFFSET'"},
                   {"OFFSET 0 0 0", "OFFSET 0 0 x", "is not a number"},
-                  {"OFFSET 0 0 0\n}", "OFFSET 0 0 0 ]", "'}' is expected"},
+                  {"OFFSET 0 0 0\n}", "OFFSET 0 0 0 ]", "expected '}'"},
                   {"OFFSET 0 1 0", "OFFSET x", "is not a number"},
-                  {"MOTION", "NOTION", "'MOTION' is expected"},
-                  {"Frames:", "Games:", "'Frames:' is expected"},
-                  {"Frames: 2", "Frames: 0", "is not a number of frames"},
-                  {"Frames: 2", "Frames: x", "is not a number of frames"},
-                  {"Frames: 2", "Frames: 99999999999", "is not a number of frames"},
-                  {"Frame Time", "Fame Time", "'Frame' is expected"},
-                  {"Time:", "Dime:", "'Time:' is expected"},
+                  {"MOTION", "NOTION", "expected 'MOTION'"},
+                  {"Frames:", "Games:", "expected 'Frames:'"},
+                  {"Frames: 2", "Frames: 0", "invalid number of frames"},
+                  {"Frames: 2", "Frames: x", "invalid number of frames"},
+                  {"Frames: 2", "Frames: 99999999999", "invalid number of frames"},
+                  {"Frame Time", "Fame Time", "expected 'Frame'"},
+                  {"Time:", "Dime:", "expected 'Time:'"},
                   {"0.5", "x", "is not a number"},
-                  {"0.5", "0", "the time of a frame is out of range"},
-                  {"0.5", "4000", "the time of a frame is out of range"},
-                  {"Frames: 2", "Frames: 1", "there is more than 1 frames"},
+                  {"0.5", "0", "frame time out of range"},
+                  {"0.5", "4000", "frame time out of range"},
+                  {"Frames: 2", "Frames: 1", "more than 1 frames"},
                   {"Frames: 2", "Frames: 3", "is not a number"},
                   {"TheHead", "Neck", ""},
                   {"TheHead", "ead", ""}});
@@ -511,20 +510,20 @@ TEST(AnimationFaults, Bvh) {
   for (int i = 0; i < 200; ++i) {
     deep += " JOINT b { OFFSET 0 0 0 CHANNELS 0";
   }
-  expect_falls(AnimationFormat::kBvh,
-               {{deep, "too deeply nested"},
-                {"HIERARCHY ROOT a { OFFSET 0 0 0 CHANNELS 0 }", "no joint has a channel"},
-                {"HIERARCHY ROOT a { OFFSET 0 0 0 CHANNELS 1", "is not a channel"}});
+  expect_errors(AnimationFormat::kBvh,
+                {{deep, "too deeply nested"},
+                 {"HIERARCHY ROOT a { OFFSET 0 0 0 CHANNELS 0 }", "no joint has a channel"},
+                 {"HIERARCHY ROOT a { OFFSET 0 0 0 CHANNELS 1", "unknown channel"}});
   Clip clip;
-  EXPECT_EQ(said_of(AnimationFormat::kBvh, good, &clip), "");
+  EXPECT_EQ(error_of(AnimationFormat::kBvh, good, &clip), "");
   EXPECT_NEAR(clip.frames.unpacked().at(0).head->roll, 1.5707963, 1e-6);
   EXPECT_NEAR((*clip.frames.unpacked().at(1).position_m)[1], 5.0, 1e-9)
       << "2 + 2 of the hips, 1 of the head";
-  // No joint moves, and the head is the root in another order of axes.
+  // No joint moves, and the head is the root with another order of axes.
   const std::string still =
       "HIERARCHY ROOT head { OFFSET 0 0 0 CHANNELS 2 Xrotation Yrotation } MOTION Frames: 1 Frame "
       "Time: 1 0 90";
-  EXPECT_EQ(said_of(AnimationFormat::kBvh, still, &clip), "");
+  EXPECT_EQ(error_of(AnimationFormat::kBvh, still, &clip), "");
   EXPECT_FALSE(clip.frames.unpacked().at(0).position_m);
   EXPECT_NEAR(clip.frames.unpacked().at(0).head->yaw, 1.5707963, 1e-6);
 }
@@ -536,15 +535,15 @@ TEST(AnimationFaults, Csv) {
       "1,2,10,lost,0.5,4,0.25,1,2,3,4,0.1,0.2,0.3,5,6,7,0.75\n";
   const std::string share = "0..1";
   expect_changes(AnimationFormat::kCsv, good,
-                 {{"t_ms", "t_us", "there is no column t_ms"},
-                  {"jawOpen", "mawOpen", "there is no column of a control"},
-                  {"1,2,10", "1,2,", "t_ms: is empty"},
+                 {{"t_ms", "t_us", "t_ms: missing column"},
+                  {"jawOpen", "mawOpen", "no column with a control"},
+                  {"1,2,10", "1,2,", "t_ms: empty"},
                   {"1,2,10", "1,2,x", "t_ms"},
-                  {"1,2,10", "1,2,1e13", "is out of range"},
-                  {"1,2,10", "1.5,2,10", "frame: '1.5' is not a whole number"},
-                  {"1,2,10", "1,x,10", "face_id: 'x' is not a whole number"},
-                  {",4,0.25", ",0.4,0.25", "lod: '0.4' is not a whole number"},
-                  {"lost", "last", "is none of searching"},
+                  {"1,2,10", "1,2,1e13", "out of range"},
+                  {"1,2,10", "1.5,2,10", "frame: '1.5' is not an integer"},
+                  {"1,2,10", "1,x,10", "face_id: 'x' is not an integer"},
+                  {",4,0.25", ",0.4,0.25", "lod: '0.4' is not an integer"},
+                  {"lost", "last", "is unknown, expected searching"},
                   {"0.5,", "5,", "face_prob"},
                   {"0.25", "25", "vad"},
                   {",1,2,3,4,", ",1,2,x,4,", "w"},
@@ -556,14 +555,14 @@ TEST(AnimationFaults, Csv) {
                   {"0.1,", ",", ""},
                   {"0.75\n", "0.75,1\n", "cell"},
                   {"0.75\n", "0.75\n1,2,9,lost,0.5,4,0.25,1,2,3,4,0.1,0.2,0.3,5,6,7,0.75\n",
-                   "t_ms: goes back in time"}});
-  EXPECT_THAT(said_of(AnimationFormat::kCsv, good.substr(0, good.find('\n') + 1)),
-              HasSubstr("there are no frames"));
-  EXPECT_EQ(said_of(AnimationFormat::kRoblox, "t_ms,JawDrop\n1,0.5\n"), "");
-  expect_falls(AnimationFormat::kVisemes, {{"t_ms,sil\n1,2\n", "sil"}});
-  // Every form of the table, for one face and several.
+                   "t_ms: decreasing time"}});
+  EXPECT_THAT(error_of(AnimationFormat::kCsv, good.substr(0, good.find('\n') + 1)),
+              HasSubstr("no frames"));
+  EXPECT_EQ(error_of(AnimationFormat::kRoblox, "t_ms,JawDrop\n1,0.5\n"), "");
+  expect_errors(AnimationFormat::kVisemes, {{"t_ms,sil\n1,2\n", "sil"}});
+  // All forms of the table, for one face and several.
   Clip clip;
-  EXPECT_EQ(said_of(AnimationFormat::kCsv, good, &clip), "");
+  EXPECT_EQ(error_of(AnimationFormat::kCsv, good, &clip), "");
   for (const AnimationFormat format :
        {AnimationFormat::kCsv, AnimationFormat::kRoblox, AnimationFormat::kVisemes}) {
     WriteOptions options;
@@ -572,7 +571,7 @@ TEST(AnimationFaults, Csv) {
     const auto writer = animation_writer(format, options);
     const std::string text = writer->begin() + writer->frame(clip.frames.unpacked()[0]);
     Clip back;
-    EXPECT_EQ(said_of(format, text, &back), "") << text;
+    EXPECT_EQ(error_of(format, text, &back), "") << text;
     EXPECT_EQ(back.frames.unpacked().at(0).face_id, 2);
     EXPECT_EQ(back.frames.unpacked().at(0).lod, 4);
     const auto again = animation_writer(format, options);
@@ -586,30 +585,30 @@ TEST(AnimationFaults, LiveLink) {
       "0.3\n00:00:02;00,61,0.5,,0.2,0.3\n";
   const std::string form = "is not HH:MM:SS:FF.mmm";
   expect_changes(AnimationFormat::kLiveLink, good,
-                 {{"Timecode", "Dimecode", "there is no column Timecode"},
-                  {"BlendshapeCount", "Blend", "there is no column BlendshapeCount"},
-                  {"JawOpen", "MawOpen", "there is no column of a blend shape"},
+                 {{"Timecode", "Dimecode", "missing column Timecode"},
+                  {"BlendshapeCount", "Blend", "missing column BlendshapeCount"},
+                  {"JawOpen", "MawOpen", "no column with a blend shape"},
                   {"00:00:01:30.500", "00:00:01", form},
                   {"00:00:01:30.500", "00:00:x:30", form},
                   {"00:00:01:30.500", "00:00:-1:30", form},
                   {"00:00:01:30.500", "00:00:1.5:30", form},
-                  {"00:00:01:30.500", "00:61:01:30", "is no time of a day"},
-                  {"00:00:01:30.500", "00:00:60:30", "is no time of a day"},
-                  {"00:00:01:30.500", "100:00:01:30", "is no time of a day"},
+                  {"00:00:01:30.500", "00:61:01:30", "is not a time of day"},
+                  {"00:00:01:30.500", "00:00:60:30", "is not a time of day"},
+                  {"00:00:01:30.500", "100:00:01:30", "is not a time of day"},
                   {"00:00:01:30.500", "00:00:01:60", "has more frames than a second of 60"},
-                  {"00:00:02;00", "00:00:00:00", "Timecode: goes back in time"},
-                  {",61,0.5,0.1", ",x,0.5,0.1", "BlendshapeCount: is not a count"},
-                  {",61,0.5,0.1", ",-1,0.5,0.1", "BlendshapeCount: is not a count"},
+                  {"00:00:02;00", "00:00:00:00", "Timecode: decreasing time"},
+                  {",61,0.5,0.1", ",x,0.5,0.1", "BlendshapeCount: invalid count"},
+                  {",61,0.5,0.1", ",-1,0.5,0.1", "BlendshapeCount: invalid count"},
                   {"0.5,0.1", "x,0.1", "JawOpen"},
                   {"0.5,0.1", "0.5,x", "HeadYaw"},
                   {"0.5,0.1,0.2", "0.5,0.1", "cell"},
                   {",61,0.5,0.1", ",0,0.5,0.1", ""},
                   {"00:00:01:30.500", "", ""},
                   {"00:00:01:30.500", "23:59:59:00", ""}});
-  EXPECT_THAT(said_of(AnimationFormat::kLiveLink, good.substr(0, good.find('\n') + 1)),
-              HasSubstr("there are no frames"));
+  EXPECT_THAT(error_of(AnimationFormat::kLiveLink, good.substr(0, good.find('\n') + 1)),
+              HasSubstr("no frames"));
   Clip clip;
-  EXPECT_EQ(said_of(AnimationFormat::kLiveLink, good, &clip), "");
+  EXPECT_EQ(error_of(AnimationFormat::kLiveLink, good, &clip), "");
   for (const RotationUnit unit :
        {RotationUnit::kRadians, RotationUnit::kDegreesBy180, RotationUnit::kDegrees}) {
     WriteOptions options;
@@ -634,12 +633,12 @@ TEST(AnimationFaults, LiveLink) {
 TEST(AnimationFaults, TimesOutOfRange) {
   const auto jsonl = [](const std::string& time) { return "{\"t_ns\":" + time + "}\n"; };
   for (const char* last : {"4611686018427387903", "-4611686018427387903"}) {
-    EXPECT_EQ(said_of(AnimationFormat::kJsonl, jsonl(last)), "");
+    EXPECT_EQ(error_of(AnimationFormat::kJsonl, jsonl(last)), "");
   }
-  const std::string range = "is out of range", seconds = "a time in seconds has to be here";
+  const std::string range = "out of range", seconds = "expected a time in seconds";
   for (const char* far : {"4611686018427387904", "-4611686018427387904", "9223372036854775807",
                           "-9223372036854775808"}) {
-    expect_falls(AnimationFormat::kJsonl, {{jsonl(far), "t_ns: " + range}});
+    expect_errors(AnimationFormat::kJsonl, {{jsonl(far), "t_ns: " + range}});
     expect_changes(AnimationFormat::kGltf, gltf_of(gltf_numbers()),
                    {{"\"samplers\"",
                      "\"extras\":{\"mien\":{\"start_ns\":" + std::string(far) + "}},\"samplers\"",
@@ -651,35 +650,37 @@ TEST(AnimationFaults, TimesOutOfRange) {
         "the times of frames are out of range"}});
   const auto csv = [](const std::string& time) { return "t_ms,jawOpen\n" + time + ",0\n"; };
   for (const char* far : {"4611686018428", "-4611686018428", "1e300", "-1e300"}) {
-    expect_falls(AnimationFormat::kCsv, {{csv(far), "t_ms: '" + std::string(far) + "' " + range}});
+    expect_errors(AnimationFormat::kCsv,
+                  {{csv(far), "t_ms: '" + std::string(far) + "' is " + range}});
   }
   for (const char* near : {"4611686018427", "-4611686018427", "1e12", "-1e12"}) {
-    EXPECT_EQ(said_of(AnimationFormat::kCsv, csv(near)), "");
+    EXPECT_EQ(error_of(AnimationFormat::kCsv, csv(near)), "");
   }
   const auto cue = [](const std::string& end) {
     return R"({"mouthCues":[{"start":0,"end":)" + end + R"(,"value":"A"}]})";
   };
-  EXPECT_EQ(said_of(AnimationFormat::kRhubarb, "0\tA\n4611686018.42\tX\n"), "");
-  EXPECT_EQ(said_of(AnimationFormat::kRhubarbJson, cue("4611686018.42")), "");
-  expect_falls(AnimationFormat::kRhubarb,
-               {{"0\tA\n4611686018.43\tX\n", "is not a time"}, {"-1\tA\n0\tX\n", "is not a time"}});
-  expect_falls(AnimationFormat::kRhubarbJson,
-               {{cue("4611686018.43"), seconds}, {cue("-0.01"), seconds}, {cue("1e300"), seconds}});
-  EXPECT_EQ(said_of(AnimationFormat::kRhubarbDat, "MohoSwitch1\n1 A\n110680464443 X\n"), "");
+  EXPECT_EQ(error_of(AnimationFormat::kRhubarb, "0\tA\n4611686018.42\tX\n"), "");
+  EXPECT_EQ(error_of(AnimationFormat::kRhubarbJson, cue("4611686018.42")), "");
+  expect_errors(AnimationFormat::kRhubarb, {{"0\tA\n4611686018.43\tX\n", "is not a time"},
+                                            {"-1\tA\n0\tX\n", "is not a time"}});
+  expect_errors(
+      AnimationFormat::kRhubarbJson,
+      {{cue("4611686018.43"), seconds}, {cue("-0.01"), seconds}, {cue("1e300"), seconds}});
+  EXPECT_EQ(error_of(AnimationFormat::kRhubarbDat, "MohoSwitch1\n1 A\n110680464443 X\n"), "");
   for (const char* far : {"110680464444", "9223372036854775807"}) {
-    expect_falls(AnimationFormat::kRhubarbDat,
-                 {{"MohoSwitch1\n1 A\n" + std::string(far) + " X\n", "is not a frame"}});
+    expect_errors(AnimationFormat::kRhubarbDat,
+                  {{"MohoSwitch1\n1 A\n" + std::string(far) + " X\n", "is not a frame"}});
   }
 }
 
-// Past midnight hours begin anew: here more often than there is room for.
-TEST(AnimationFaults, LiveLinkOfTooManyDays) {
+// After midnight hours restart: here more often than times permit.
+TEST(AnimationFaults, LiveLinkWithTooManyDays) {
   constexpr std::size_t kDays = 53377;
   std::string text = "Timecode,BlendshapeCount,JawOpen\n";
   for (std::size_t day = 0; day < kDays; ++day) {
     text += "00:00:00:00,0\n11:00:00:00,0\n22:00:00:00,0\n";
   }
-  EXPECT_EQ(said_of(AnimationFormat::kLiveLink, text), "Timecode: is out of range");
+  EXPECT_EQ(error_of(AnimationFormat::kLiveLink, text), "Timecode: out of range");
 }
 
 TEST(AnimationFaults, NamesOfFormats) {
@@ -697,7 +698,7 @@ TEST(AnimationFaults, NamesOfFormats) {
   EXPECT_EQ(format_by_content(" \n"), AnimationFormat::kCsv);
   EXPECT_EQ(format_by_content("a\tb,c"), AnimationFormat::kCsv);
   EXPECT_EQ(format_by_content("\"a"), AnimationFormat::kCsv)
-      << "a table that cannot be read is one all the same";
+      << "an unreadable table is still detected as one";
 }
 
 }  // namespace

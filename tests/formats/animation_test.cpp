@@ -1,5 +1,5 @@
-// What formats of animated faces have in common: nothing breaks their readers, faults have a place,
-// and what is derived has the properties it should have.
+// Tests of properties that all animation formats share: readers survive any input, errors have a
+// position, and derived values are consistent.
 #include "formats/animation/animation.h"
 
 #include <gmock/gmock.h>
@@ -60,7 +60,7 @@ std::string written(const Clip& clip, AnimationFormat format) {
   return text + writer->finish();
 }
 
-TEST(Animation, EndingsAndContentSayTheFormat) {
+TEST(Animation, EndingAndContentDetermineTheFormat) {
   const Clip clip = random_clip(20, 1);
   for (const FormatName& known : kFormatNames) {
     EXPECT_EQ(format_named(known.name), known.format);
@@ -74,7 +74,7 @@ TEST(Animation, EndingsAndContentSayTheFormat) {
     EXPECT_FALSE(read.frames.empty());
   }
   EXPECT_EQ(format_by_ending("clip.mp4"), std::nullopt);
-  EXPECT_EQ(format_by_ending(".csv"), std::nullopt) << "a hidden file, not an ending";
+  EXPECT_EQ(format_by_ending(".csv"), std::nullopt) << "a hidden file without an ending";
 }
 
 std::string read_and_written(const std::string& text, AnimationFormat format) {
@@ -84,11 +84,11 @@ std::string read_and_written(const std::string& text, AnimationFormat format) {
   return written(read, format);
 }
 
-TEST(Animation, AByteOrderMarkIsPassedOver) {
+TEST(Animation, AByteOrderMarkIsIgnored) {
   const Clip clip = random_clip(5, 9);
   for (const FormatName& known : kFormatNames) {
     if (known.format == AnimationFormat::kGlb) {
-      continue;  // no text
+      continue;  // not a text format
     }
     const std::string text = written(clip, known.format);
     const std::string marked = "\xEF\xBB\xBF" + text;
@@ -108,8 +108,8 @@ Clip clip_from(std::int64_t begin_ns) {
   return clip;
 }
 
-// Of 1970, of a camera that began before the sound, and of a clip.
-TEST(Animation, WhatIsWrittenOfAnyTimeIsReadAgain) {
+// Nanoseconds since 1970, a camera that started before the audio, and a clip.
+TEST(Animation, TimesOfAnyOriginRoundTrip) {
   constexpr std::int64_t kSince1970_ns = 1'700'000'000'033'250'000;
   for (const std::int64_t begin_ns : {kSince1970_ns, std::int64_t{-500'000'000}, std::int64_t{0}}) {
     const Clip clip = clip_from(begin_ns);
@@ -142,8 +142,8 @@ TEST(Animation, TimesKeepTheirDigits) {
             "MohoSwitch1\n40800000002 A\n40800000003 X\n");
 }
 
-// Cues count from the beginning of the sound: a clip that begins before is moved to there, which
-// is said.
+// Cues count from the start of the audio; a clip that starts earlier is shifted, and a loss is
+// reported.
 TEST(Animation, CuesBeginAtZero) {
   const Clip clip = clip_from(-500'000'000), moved = clip_from(0);
   for (const AnimationFormat format :
@@ -155,8 +155,8 @@ TEST(Animation, CuesBeginAtZero) {
   }
 }
 
-// Whatever times are allowed, no writer leaves 64 bits, and all come to an end.
-TEST(Animation, TimesAsFarApartAsMayBe) {
+// Writers neither overflow nor hang for any allowed times.
+TEST(Animation, WritersAcceptTheLargestTimes) {
   constexpr std::int64_t kLast = kLastTime_ns;
   for (const std::vector<std::int64_t>& times :
        std::vector<std::vector<std::int64_t>>{{-kLast, 0, kLast},
@@ -180,7 +180,7 @@ TEST(Animation, TimesAsFarApartAsMayBe) {
         SCOPED_TRACE(known.name);
         const std::string text = written(clip, known.format);
         static_cast<void>(losses(clip, known.format));
-        // Those that count from their first frame on, or have times of a day, say no to these.
+        // Formats that count from the first frame, or store times of day, reject these.
         if (known.format != AnimationFormat::kGltf && known.format != AnimationFormat::kGlb &&
             known.format != AnimationFormat::kBvh && known.format != AnimationFormat::kLiveLink) {
           read_and_written(text, known.format);
@@ -190,8 +190,8 @@ TEST(Animation, TimesAsFarApartAsMayBe) {
   }
 }
 
-// A line of the text and a byte of it, its end included, or where the next line would be; of a
-// binary file, or of UTF-16, a byte, or a place in its JSON.
+// A position in the text: a byte of a line, including its end, or the start of the next line. In a
+// binary file or UTF-16: a byte, or a position in its JSON.
 void expect_place(const Fault& fault, AnimationFormat format, const std::string& text) {
   SCOPED_TRACE(std::string(name(format)) + ": " + describe(fault));
   if (format == AnimationFormat::kGlb || fault.line == 0) {
@@ -209,9 +209,9 @@ void expect_place(const Fault& fault, AnimationFormat format, const std::string&
   EXPECT_LE(fault.column, std::min(text.find('\n', begin), text.size()) - begin + 1);
 }
 
-// Every format: cut anywhere, and with any byte changed, a file is read or refused with a place in
-// it.
-TEST(Animation, NoBytesBreakAReader) {
+// For every format, a file truncated anywhere or with any changed byte is read or rejected with a
+// position.
+TEST(Animation, ReadersSurviveAnyBytes) {
   const Clip clip = random_clip(3, 2);
   for (const FormatName& known : kFormatNames) {
     const std::string whole = written(clip, known.format);
@@ -228,7 +228,7 @@ TEST(Animation, NoBytesBreakAReader) {
           if (!read_animation(known.format, text, {}, read, fault)) {
             EXPECT_FALSE(fault.what.empty()) << known.name;
             expect_place(fault, known.format, text);
-            EXPECT_TRUE(read.frames.empty()) << "nothing is taken over";
+            EXPECT_TRUE(read.frames.empty()) << "the clip stays unchanged";
           }
         }
       }
@@ -236,23 +236,23 @@ TEST(Animation, NoBytesBreakAReader) {
   }
 }
 
-TEST(Animation, LossesAreSaid) {
+TEST(Animation, LossesAreReported) {
   Clip clip = random_clip(2, 3);
   EXPECT_THAT(losses(clip, AnimationFormat::kCsv), IsEmpty());
   EXPECT_THAT(losses(clip, AnimationFormat::kGlb), IsEmpty());
-  EXPECT_THAT(losses(clip, AnimationFormat::kLiveLink), ElementsAre("the place of the head"));
+  EXPECT_THAT(losses(clip, AnimationFormat::kLiveLink), ElementsAre("head position"));
   EXPECT_THAT(losses(clip, AnimationFormat::kBvh), Contains("the controls"));
   EXPECT_THAT(losses(clip, AnimationFormat::kRoblox), Contains(HasSubstr("jawForward")));
-  EXPECT_THAT(losses(clip, AnimationFormat::kRhubarb), Contains("the turn of the head"));
+  EXPECT_THAT(losses(clip, AnimationFormat::kRhubarb), Contains("head rotation"));
   std::vector<Frame> frames = clip.frames.unpacked();
   const auto lost = [&frames, &clip](AnimationFormat format) {
     clip.frames = FrameSequence(frames);
     return losses(clip, format);
   };
   frames[0].eyes = gaze(frames[0].controls);
-  EXPECT_THAT(lost(AnimationFormat::kCsv), IsEmpty()) << "the controls say as much";
+  EXPECT_THAT(lost(AnimationFormat::kCsv), IsEmpty()) << "the controls contain it";
   frames[0].eyes = {Angles{0.3, 0.2, 0.1}, Angles{}};
-  EXPECT_THAT(lost(AnimationFormat::kCsv), ElementsAre("how the eyes are turned"));
+  EXPECT_THAT(lost(AnimationFormat::kCsv), ElementsAre("eye rotation"));
   frames[1].voice_activity = 0.5;
   EXPECT_THAT(lost(AnimationFormat::kGltf), Contains(HasSubstr("voice activity")));
   EXPECT_THAT(lost(AnimationFormat::kJsonl), IsEmpty());
@@ -263,7 +263,7 @@ TEST(Animation, LossesAreSaid) {
   EXPECT_THAT(lost(AnimationFormat::kBvh), Contains(HasSubstr("become even")));
 }
 
-TEST(Animation, FloatsKeepTheirDigitsAndThemselves) {
+TEST(Animation, FloatsRoundTrip) {
   std::mt19937 random(4);
   for (int i = 0; i < 300000; ++i) {
     const auto value = std::bit_cast<float>(static_cast<std::uint32_t>(random()));
@@ -275,7 +275,7 @@ TEST(Animation, FloatsKeepTheirDigitsAndThemselves) {
   EXPECT_EQ(fixed(-1e-12, 3), "0.000");
 }
 
-TEST(Animation, NumbersAreWhole) {
+TEST(Animation, NumbersMustBeComplete) {
   double value = 7.0;
   for (const char* text :
        {"", " ", "nan", "inf", "-inf", "0x1", "1,5", "1e999", "1 2", "+1", "."}) {
@@ -299,14 +299,14 @@ TEST(Animation, Base64) {
   EXPECT_EQ(back, "x");
 }
 
-TEST(Animation, JsonIsReadStrictly) {
+TEST(Animation, JsonIsParsedStrictly) {
   JsonDocument document;
   Fault fault;
   ASSERT_TRUE(document.parse(
       R"( {"a":[1,-2.5e1,true,null],"b":"\u00e4\ud83d\ude00\n","\u0063":{}} )", fault));
   const JsonValue root = document.root();
   EXPECT_EQ(root.find("b")->text(), "\xC3\xA4\xF0\x9F\x98\x80\n");
-  EXPECT_TRUE(root.find("c")->empty()) << "a key may be escaped";
+  EXPECT_TRUE(root.find("c")->empty()) << "keys may have escapes";
   EXPECT_FALSE(root.find("d"));
   std::vector<JsonValue::Kind> kinds;
   for (const JsonValue item : root.find("a")->items()) {
@@ -341,14 +341,14 @@ TEST(Animation, JsonIsReadStrictly) {
   }
   EXPECT_FALSE(document.parse(std::string(1000, '['), fault));
   EXPECT_FALSE(document.parse("{\"a\":\n [1,\n  x]}", fault));
-  EXPECT_EQ(describe(fault), "line 3, column 3: is no value");
+  EXPECT_EQ(describe(fault), "line 3, column 3: invalid value");
   std::int64_t large = 0;
   ASSERT_TRUE(document.parse("9007199254740993", fault));
   EXPECT_TRUE(document.root().integer(large));
-  EXPECT_EQ(large, 9007199254740993) << "more than a double can tell";
+  EXPECT_EQ(large, 9007199254740993) << "more than a double can represent";
 }
 
-TEST(Animation, RotationsComeBack) {
+TEST(Animation, RotationsRoundTrip) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> angle(-3.1, 3.1), pitch(-1.57, 1.57);
   for (int i = 0; i < 10000; ++i) {
@@ -366,10 +366,10 @@ TEST(Animation, RotationsComeBack) {
     EXPECT_EQ(there.roll, 0.0);
   }
   EXPECT_NEAR(between({0, 3.0, 0}, {0, -3.0, 0}, 0.5).yaw, std::acos(-1.0), 1e-9)
-      << "the shorter way leads over half a turn";
+      << "the shorter way crosses half a turn";
 }
 
-TEST(Animation, FacsMapKeepsWhatBothKnow) {
+TEST(Animation, FacsMapKeepsCommonValues) {
   const Clip clip = random_clip(1000, 6);
   for (const Frame& frame : clip.frames) {
     const auto facs = facs_of(frame.controls);
@@ -381,7 +381,7 @@ TEST(Animation, FacsMapKeepsWhatBothKnow) {
       EXPECT_EQ(back[i], frame.controls[i]) << same;
     }
     EXPECT_FALSE(driven(back[control("jawForward")]));
-    // Once more, nothing changes: idempotent.
+    // Idempotent: repeating the conversion changes nothing.
     const auto again = facs_of(controls_of_facs(facs_of(back)));
     const auto once = facs_of(back);
     for (std::size_t i = 0; i < kFacsCount; ++i) {
@@ -441,8 +441,7 @@ TEST(Animation, APoseIsItsOwnViseme) {
   EXPECT_EQ(mouth_shape_of(visemes_of(nothing.controls)), 'X');
 }
 
-// No mixture nearer to a mouth can be had by changing the weight of any pose: what least squares
-// promises.
+// No change of a single weight brings the mixture nearer to the mouth, as least squares guarantees.
 TEST(Animation, VisemesAreTheNearestMixture) {
   const Clip clip = random_clip(300, 8);
   for (const Frame& frame : clip.frames) {
@@ -454,7 +453,7 @@ TEST(Animation, VisemesAreTheNearestMixture) {
     }
     EXPECT_NEAR(sum, 1.0, 1e-12);
     if (visemes[0] == 0.0) {
-      continue;  // brought down to 1
+      continue;  // normalized to 1
     }
     const auto distance = [&](const std::array<double, kVisemeCount>& weights) {
       const auto pose = controls_of_visemes(weights);
@@ -476,7 +475,7 @@ TEST(Animation, VisemesAreTheNearestMixture) {
   }
 }
 
-TEST(Animation, ResampledAtItsOwnTimesIsTheSame) {
+TEST(Animation, ResamplingAtTheSameTimesIsTheIdentity) {
   const Clip clip = random_clip(50, 9);
   const std::vector<Frame> same = resampled(clip.frames, 25.0, 0).unpacked();
   const std::vector<Frame> frames = clip.frames.unpacked();
@@ -494,7 +493,7 @@ TEST(Animation, ResampledAtItsOwnTimesIsTheSame) {
       << "the first grid time after 120 ms";
 }
 
-TEST(Animation, VocabulariesHaveNoNameTwice) {
+TEST(Animation, VocabulariesHaveNoDuplicates) {
   const auto check = [](const auto& names) {
     for (std::size_t i = 0; i < names.size(); ++i) {
       EXPECT_EQ(index_of(names[i], names), i) << names[i];

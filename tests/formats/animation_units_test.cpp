@@ -1,4 +1,4 @@
-// Files of animations in other units, separators and encodings than ours, and cues with gaps.
+// Tests of animations in other units, separators and encodings, and of cues with gaps.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -59,7 +59,7 @@ std::string timecode(int second, double frame) {
 
 const std::string kTimes = "Timecode,BlendshapeCount,JawOpen\n";
 
-// Rows that are captured `captured` times a second and counted `rate` frames a second.
+// Rows captured at `captured` frames per second, with a timecode of `rate` frames per second.
 std::string take(double rate, double captured, int count) {
   std::string text = kTimes;
   for (int i = 0; i < count; ++i) {
@@ -70,7 +70,7 @@ std::string take(double rate, double captured, int count) {
   return text;
 }
 
-TEST(LiveLinkTimecode, TheLargestFrameNumberShowsTheRate) {
+TEST(LiveLinkTimecode, TheLargestFrameNumberDeterminesTheRate) {
   for (const double rate : {24.0, 25.0, 30.0, 48.0, 50.0, 60.0}) {
     for (const double captured : {rate, 60.0, rate / 2.0}) {
       const Clip clip = read(AnimationFormat::kLiveLink, take(rate, captured, 180));
@@ -78,28 +78,28 @@ TEST(LiveLinkTimecode, TheLargestFrameNumberShowsTheRate) {
         ASSERT_NEAR(time - 36e6, 1000.0 * static_cast<double>(i++) / captured, 0.05)
             << rate << " captured at " << captured;
       }
-      EXPECT_THAT(clip.notes, ElementsAre(HasSubstr("as the file shows (--from-llf-fps)")));
+      EXPECT_THAT(clip.notes, ElementsAre(HasSubstr("detected (--from-llf-fps)")));
     }
   }
 }
 
-TEST(LiveLinkTimecode, RowsThatAreMissingChangeNothing) {
+TEST(LiveLinkTimecode, MissingRowsChangeNothing) {
   std::string text = kTimes;
   for (int i = 0; i < 199; ++i) {
-    if (i % 7 != 3 && i % 30 != 29) {  // the last of every second, too
+    if (i % 7 != 3 && i % 30 != 29) {  // including the last of every second
       text += timecode(i / 30, i % 30) + ",61,0.5\n";
     }
   }
   EXPECT_NEAR(times_ms(read(AnimationFormat::kLiveLink, text)).back() - 36e6, 198 / 0.03, 1e-3);
 }
 
-TEST(LiveLinkTimecode, OfTooFewRowsIsTheUsualOne) {
+TEST(LiveLinkTimecode, TooFewRowsHaveTheDefaultRate) {
   const Clip clip = read(AnimationFormat::kLiveLink, take(30.0, 30.0, 20));
   EXPECT_NEAR(times_ms(clip).back() - 36e6, 1000.0 * 19 / 60, 1e-3);
-  EXPECT_THAT(clip.notes, ElementsAre(HasSubstr("60 frames a second, the usual rate")));
+  EXPECT_THAT(clip.notes, ElementsAre(HasSubstr("60 frames per second, default")));
 }
 
-TEST(LiveLinkTimecode, IsWhatOneSaysItIs) {
+TEST(LiveLinkTimecode, AnOptionOverridesDetection) {
   ReadOptions options;
   options.timecode_fps = 50.0;
   const Clip clip = read(AnimationFormat::kLiveLink, take(30.0, 30.0, 60), options);
@@ -112,7 +112,7 @@ TEST(LiveLinkTimecode, IsWhatOneSaysItIs) {
               HasSubstr("more frames than a second of 60 (--from-llf-fps)"));
 }
 
-// One row: controls of the gaze, and the nine rotations in some unit.
+// One row: gaze controls, and the nine rotations in some unit.
 struct Row {
   double look_up;
   std::array<double, 3> head, eye;  // yaw, pitch, roll
@@ -155,7 +155,7 @@ TEST(LiveLinkAngles, AreDegreesWhereTheyAreTooLargeForRadians) {
     const std::vector<Row> rows = moving(head_rad, 0.0);
     const Clip clip = read(AnimationFormat::kLiveLink, angles(rows, kDegrees));
     EXPECT_NEAR(clip.frames.unpacked().at(25).head->yaw, rows[25].head[0], 1e-6);
-    EXPECT_THAT(clip.notes, Contains("rotations: degrees, as the file shows (--from-llf-rot)"));
+    EXPECT_THAT(clip.notes, Contains("rotations: degrees, detected (--from-llf-rot)"));
   }
 }
 
@@ -169,7 +169,7 @@ TEST(LiveLinkAngles, AreDegreesWhereStepsAreTooLargeForRadians) {
       0.5 / kDegrees, 1e-6);
 }
 
-TEST(LiveLinkAngles, TheEyesShowTheUnit) {
+TEST(LiveLinkAngles, TheEyesDetermineTheUnit) {
   const std::vector<Row> rows = moving(0.02, 0.6);
   for (const double scale : {1.0, 1.0 / std::numbers::pi, kDegrees}) {
     const Clip clip = read(AnimationFormat::kLiveLink, angles(rows, scale));
@@ -178,11 +178,11 @@ TEST(LiveLinkAngles, TheEyesShowTheUnit) {
   }
 }
 
-TEST(LiveLinkAngles, WithoutAnySignAreRadians) {
+TEST(LiveLinkAngles, DefaultToRadians) {
   const std::vector<Row> rows = moving(0.5, 0.0);
   const Clip clip = read(AnimationFormat::kLiveLink, angles(rows, 1.0));
   EXPECT_NEAR(clip.frames.unpacked().at(30).head->yaw, rows[30].head[0], 1e-6);
-  EXPECT_THAT(clip.notes, Contains("rotations: radians, the usual unit (--from-llf-rot)"));
+  EXPECT_THAT(clip.notes, Contains("rotations: radians, default (--from-llf-rot)"));
 }
 
 TEST(LiveLinkAngles, BeyondHalfATurnAreAFault) {
@@ -213,7 +213,7 @@ TEST(Tables, AreReadWithAnySeparator) {
     const Clip clip = read(AnimationFormat::kCsv, with(curves, ",", separator));
     EXPECT_EQ(clip.frames.unpacked().at(1).controls[control("jawOpen")], 0.5);
   }
-  // As spreadsheets write them where a comma stands before the decimals.
+  // As spreadsheets write them with decimal commas.
   EXPECT_EQ(
       read(AnimationFormat::kCsv, "t_ms;jawOpen\n0;0,25\n40,5;1\n").frames.unpacked().at(1).time_ns,
       40'500'000);
@@ -238,11 +238,11 @@ TEST(Encodings, Utf16IsReadLikeUtf8) {
     EXPECT_EQ(
         read(AnimationFormat::kJsonl, mark + utf16(text, big)).frames.unpacked().at(1).time_ns, 2);
     EXPECT_THAT(fault_of(AnimationFormat::kJsonl, mark + utf16(text, big) + "x"),
-                HasSubstr("UTF-16 ends within a character"));
+                HasSubstr("truncated UTF-16 character"));
   }
 }
 
-TEST(Encodings, Utf16HasAllOfUnicode) {
+TEST(Encodings, Utf16CoversAllOfUnicode) {
   const auto cues = [](const std::string& sound) {
     return R"({"metadata":{"soundFile":")" + sound +
            R"("},"mouthCues":[{"start":0,"end":1,"value":"A"}]})";
@@ -264,17 +264,17 @@ std::string motion(const std::string& neck, const std::string& tip, const std::s
          " 0\n}\n}\n}\nMOTION\nFrames: 1\nFrame Time: 0.04\n" + position + " 0 0 0\n";
 }
 
-TEST(BvhUnits, TheSizeOfTheSkeletonShowsThem) {
+TEST(BvhUnits, TheSizeOfTheSkeletonDeterminesThem) {
   const struct {
     const char *neck, *tip, *position;
     double place_m;
     const char* unit;
   } files[] = {
-      {"0.6", "0.1", "2 0 0", 2.0, "positions: metres, as the size"},
-      {"62.5", "15", "200 0 0", 2.0, "positions: centimetres, as the size"},
-      {"600", "150", "2000 0 0", 2.0, "positions: millimetres, as the size"},
-      {"0", "15", "200 0 0", 2.0, "positions: centimetres, as the size"},
-      {"0", "0", "2 0 0", 2.0, "positions: metres, the usual unit (--from-bvh-unit)"},
+      {"0.6", "0.1", "2 0 0", 2.0, "positions: metres, detected from the size"},
+      {"62.5", "15", "200 0 0", 2.0, "positions: centimetres, detected from the size"},
+      {"600", "150", "2000 0 0", 2.0, "positions: millimetres, detected from the size"},
+      {"0", "15", "200 0 0", 2.0, "positions: centimetres, detected from the size"},
+      {"0", "0", "2 0 0", 2.0, "positions: metres, default (--from-bvh-unit)"},
   };
   for (const auto& file : files) {
     const Clip clip = read(AnimationFormat::kBvh, motion(file.neck, file.tip, file.position));
@@ -288,7 +288,7 @@ TEST(BvhUnits, TheSizeOfTheSkeletonShowsThem) {
   EXPECT_THAT(clip.notes, IsEmpty());
 }
 
-TEST(BvhUnits, AreWrittenAsAskedFor) {
+TEST(BvhUnits, AreWrittenAsRequested) {
   Frame frame;
   frame.position_m = {0.5, 0.25, -1.5};
   frame.head = Angles();

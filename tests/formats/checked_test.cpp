@@ -1,3 +1,4 @@
+// Tests of checked arithmetic, checksums and text checks.
 #include "formats/checked.h"
 
 #include <gtest/gtest.h>
@@ -8,8 +9,8 @@
 namespace mien::formats {
 namespace {
 
-#ifdef __SIZEOF_INT128__  // what it is held against; 32-bit machines have none
-TEST(Checked, KnowsWhenASumOrProductWrapped) {
+#ifdef __SIZEOF_INT128__  // the reference for comparison; 32-bit machines lack it
+TEST(Checked, DetectsOverflowOfSumsAndProducts) {
   constexpr std::uint64_t kMax = UINT64_MAX;
   const std::uint64_t values[] = {
       0,          1,          2,         63,       64,  1ull << 31, 1ull << 32, (1ull << 32) - 1,
@@ -56,7 +57,7 @@ TEST(Xxhash64, PublishedValues) {
   EXPECT_EQ(hash_of("Nobody inspects the spammish repetition"), 0xFBCEA83C8A378BF1u);
 }
 
-TEST(Xxhash64, TheHoleCountsAsZero) {
+TEST(Xxhash64, TheChecksumFieldCountsAsZero) {
   std::string text(200, 'x');
   std::string zeroed = text;
   zeroed.replace(56, 8, 8, '\0');

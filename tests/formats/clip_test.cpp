@@ -1,4 +1,4 @@
-// Times of an animation, however far from 0.
+// Tests of animation times far from 0.
 #include "formats/animation/clip.h"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 namespace mien::formats {
 namespace {
 
-TEST(Clip, TimesBeforeZeroAreAsExactAsThoseAfter) {
+TEST(Clip, NegativeTimesAreExact) {
   std::mt19937_64 random(6);
   std::uniform_int_distribution<std::int64_t> time(std::int64_t{1} << 53, kLastTime_ns);
   for (int i = 0; i < 1000; ++i) {

@@ -1,3 +1,4 @@
+// Tests of CSV rows.
 #include "formats/csv_row.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +28,7 @@ TEST(CsvRow, WritesCells) {
   EXPECT_EQ(row.finish(), "\n");
 }
 
-TEST(CsvRow, QuotesWhatRfc4180Asks) {
+TEST(CsvRow, QuotesAsRfc4180Requires) {
   std::array<char, 200> buffer;
   CsvRow row(buffer);
   row.add(std::string_view("a,b"));
@@ -37,7 +38,7 @@ TEST(CsvRow, QuotesWhatRfc4180Asks) {
   EXPECT_EQ(row.finish(), "\"a,b\",\"say \"\"x\"\"\",\"two\nlines\",\n");
 }
 
-TEST(CsvRow, NumbersThatAreNoneAreEmpty) {
+TEST(CsvRow, UnknownNumbersAreEmpty) {
   std::array<char, 200> buffer;
   CsvRow row(buffer);
   row.add(std::numeric_limits<float>::quiet_NaN());
@@ -54,7 +55,7 @@ Number read_back(const std::string& row) {
   return value;
 }
 
-TEST(CsvRow, FloatsReadBackTheSame) {
+TEST(CsvRow, FloatsRoundTrip) {
   std::mt19937 random(1);
   std::array<char, CsvRow::kMaxNumberBytes + 1> buffer;
   std::size_t longest = 0;
@@ -87,10 +88,10 @@ TEST(CsvRow, DoublesAndIntegersFitTheirCell) {
   EXPECT_EQ(row.finish(), "-9223372036854775808\n");
 }
 
-TEST(CsvRow, TooSmallABufferGivesNothingAndNeverWritesBehindIt) {
+TEST(CsvRow, ATooSmallBufferIsEmptyAndNotExceeded) {
   const std::string whole = "-12,0.25,text\n";
   for (std::size_t size = 0; size <= whole.size(); ++size) {
-    std::string buffer(size, '\xaa');  // the sanitizer watches its end
+    std::string buffer(size, '\xaa');  // the address sanitizer checks its end
     CsvRow row(buffer);
     row.add(std::int64_t{-12});
     row.add(0.25f);

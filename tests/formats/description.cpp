@@ -1,3 +1,4 @@
+// Creates weight files from JSON descriptions.
 #include "tests/formats/description.h"
 
 #include <fstream>

@@ -1,4 +1,4 @@
-// Writes the file that a JSON description asks for with the C++ writer, as
+// Creates weight files from JSON descriptions with the C++ writer, as
 // tests/golden/format/describe.py does with the Python writer.
 #pragma once
 

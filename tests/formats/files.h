@@ -1,4 +1,4 @@
-// Files and aligned bytes for tests of the weight format.
+// Files and aligned memory for tests of the weight format.
 #pragma once
 
 #include <algorithm>
@@ -16,8 +16,8 @@ namespace mien::formats {
 
 inline constexpr const char* kPython = "/usr/bin/python3";
 
-// Bytes that begin at a multiple of 64, in an allocation that ends where they end, so that the
-// address sanitizer sees every read behind them.
+// Memory aligned to 64 bytes, whose allocation ends with the data, so that the address sanitizer
+// detects every read beyond it.
 class AlignedBytes {
  public:
   explicit AlignedBytes(std::span<const std::byte> bytes);
@@ -38,17 +38,17 @@ std::vector<std::string> files_in(const std::string& folder, const std::string& 
 
 void fix_checksum(std::span<std::byte> file);
 
-// Reads the file; on success walks over everything that the view hands out.
+// Reads a file; on success visits everything that the view provides.
 Validation open_copy(std::span<const std::byte> file);
 
-// The name that a list gives a status; empty where it gives none.
+// The name of a status in a list; empty if it is absent.
 template <class Status, std::size_t n>
 std::string name_in(const std::pair<Status, const char*> (&names)[n], Status status) {
   const auto* found = std::ranges::find(names, status, &std::pair<Status, const char*>::first);
   return found != std::end(names) ? found->second : "";
 }
 
-// Enumerator's name, such as "kBadOp".
+// Name of the enumerator, such as "kBadOp".
 std::string status_name(FileStatus status);
 
 // The lines that second_reader.py prints for the file.

@@ -1,3 +1,4 @@
+// Tests of fp16 conversions.
 #include "formats/fp16.h"
 
 #include <gtest/gtest.h>
@@ -9,7 +10,7 @@
 namespace mien::formats {
 namespace {
 
-// By the definition: sign, 5 bits of exponent, 10 bits of fraction.
+// By definition: sign, 5 bits of exponent, 10 bits of fraction.
 double value_of(std::uint32_t half) {
   const int exponent = static_cast<int>(half >> 10 & 31);
   const double fraction = half & 1023;
@@ -20,7 +21,7 @@ double value_of(std::uint32_t half) {
 
 constexpr bool is_finite(std::uint32_t half) { return (half & 0x7c00) != 0x7c00; }
 
-TEST(Fp16, AllFiniteHalvesThereAndBack) {
+TEST(Fp16, AllFiniteHalvesRoundTrip) {
   for (std::uint32_t half = 0; half < 0x10000; ++half) {
     if (is_finite(half)) {
       const float value = float_from_fp16(static_cast<std::uint16_t>(half));

@@ -1,3 +1,4 @@
+// Tests of the compressed frame sequence.
 #include "formats/animation/frame_sequence.h"
 
 #include <gmock/gmock.h>
@@ -51,7 +52,7 @@ class RandomFrames {
                                       std::numeric_limits<std::int64_t>::max()};
     return below(3) == 0 ? kEnds[below(5)] : std::bit_cast<std::int64_t>(random_());
   }
-  // Also what has nine decimals or is close to that, and any bits: signed zeros, NaNs.
+  // Also values with nine decimals, values close to these, and arbitrary bits: signed zeros, NaNs.
   double value() {
     switch (below(6)) {
       case 0:
@@ -70,7 +71,7 @@ class RandomFrames {
   }
   Angles turn() { return {value(), value(), value()}; }
 
-  // Of a vocabulary: controls that come from it, and others.
+  // Values of a vocabulary: controls derived from it, and others.
   void made(Frame& frame) {
     const std::uint64_t kind = below(5);
     if (kind == 0) {
@@ -132,7 +133,7 @@ std::vector<std::uint64_t> bits(const Frame& frame) {
   return bits;
 }
 
-TEST(FrameSequence, GivesBackEveryBit) {
+TEST(FrameSequence, RestoresEveryBit) {
   RandomFrames random(1);
   std::vector<Frame> frames;
   FrameSequence sequence;
@@ -153,7 +154,7 @@ TEST(FrameSequence, GivesBackEveryBit) {
   EXPECT_EQ(sequence.begin(), FrameSequence::end());
 }
 
-TEST(FrameSequence, TakesLittleForFramesThatSayLittle) {
+TEST(FrameSequence, SparseFramesTakeLittleMemory) {
   FrameSequence sequence;
   Frame frame;
   for (int i = 0; i < 1000; ++i) {
@@ -162,10 +163,10 @@ TEST(FrameSequence, TakesLittleForFramesThatSayLittle) {
     frame.controls[control("jawOpen")] = i % 2;
     sequence.push_back(frame);
   }
-  EXPECT_LE(sequence.bytes(), 16'000u) << "Frames have 700,000";
+  EXPECT_LE(sequence.bytes(), 16'000u) << "Frames take 700,000";
 }
 
-TEST(FrameSequence, KeepsToItsLimit) {
+TEST(FrameSequence, RespectsItsLimit) {
   RandomFrames random(2);
   FrameSequence sequence;
   sequence.limit_bytes(50'000);
@@ -176,7 +177,7 @@ TEST(FrameSequence, KeepsToItsLimit) {
   EXPECT_GT(added, 50u);
   EXPECT_EQ(sequence.size(), added);
   EXPECT_LE(sequence.bytes(), 50'000u);
-  EXPECT_EQ(sequence.unpacked().size(), added) << "what was there stays";
+  EXPECT_EQ(sequence.unpacked().size(), added) << "existing frames remain";
 }
 
 }  // namespace

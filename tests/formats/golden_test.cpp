@@ -1,5 +1,4 @@
-// Golden files: what must be accepted and what refused, by both readers, and written by both
-// writers with the same bytes.
+// Tests of golden files: both readers accept or reject them, and both writers write the same bytes.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -14,7 +13,7 @@
 namespace mien::formats {
 namespace {
 
-// What the second reader says: file -> status and description.
+// Output of the second reader: file -> status and description.
 std::map<std::string, std::string> second_reader(const std::string& folder) {
   const std::string output = output_of(std::string(kPython) + " " + golden_folder() +
                                        "second_reader.py " + golden_folder() + folder + "/*.mien");
@@ -40,7 +39,7 @@ TEST(GoldenFiles, AreAccepted) {
   }
 }
 
-TEST(GoldenFiles, AreRefusedForTheRightReasonAtTheRightPlace) {
+TEST(GoldenFiles, AreRejectedForTheRightReasonAtTheRightOffset) {
   std::ifstream expected(golden_folder() + "reject/expected.txt");
   std::set<std::string> statuses;
   std::size_t count = 0;
@@ -52,7 +51,7 @@ TEST(GoldenFiles, AreRefusedForTheRightReasonAtTheRightPlace) {
     statuses.insert(status);
   }
   EXPECT_EQ(count, files_in(golden_folder() + "reject", ".mien").size());
-  // Every status but kOk and kMisaligned, which no file can show.
+  // All statuses except kOk and kMisaligned, which no file can cause.
   std::set<std::string> all;
   for (int i = 0; i < 256; ++i) {
     all.insert(status_name(static_cast<FileStatus>(i)));
@@ -77,7 +76,7 @@ TEST(GoldenFiles, SecondReaderAgreesOnAllAcceptedFiles) {
   }
 }
 
-TEST(GoldenFiles, SecondReaderAgreesOnAllRefusedFiles) {
+TEST(GoldenFiles, SecondReaderAgreesOnAllRejectedFiles) {
   if (!std::filesystem::exists(kPython)) {
     GTEST_SKIP() << "no " << kPython;
   }
@@ -128,7 +127,7 @@ TEST(FileStatus, EveryStatusHasItsOwnMessage) {
       messages.insert(message(status));
       ++count;
     }
-    // The message table and the list of names know the same numbers.
+    // The message table and the list of names have the same numbers.
     EXPECT_EQ(status_name(status).empty(), std::string(message(status)) == "unknown status") << i;
   }
   EXPECT_EQ(messages.size(), count);

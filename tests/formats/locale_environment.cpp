@@ -1,6 +1,6 @@
-// Programs that the library is a part of may have a locale in which a half is 0,5: MIEN_TEST_LOCALE
-// names one that all tests run in. A C library without such locales (musl has none) ends the
-// program with 77, which CTest calls skipped.
+// Host programs may use a locale with decimal commas: all tests run in the locale of
+// MIEN_TEST_LOCALE. A C library without locales (musl) ends the program with 77, which CTest
+// reports as skipped.
 #include <gtest/gtest.h>
 
 #include <clocale>
@@ -15,7 +15,7 @@ class LocaleOfTheProgram : public testing::Environment {
  public:
   void SetUp() override {
     if (const char* name = std::getenv("MIEN_TEST_LOCALE"); name != nullptr) {
-      std::locale::global(std::locale(name));  // C's, too
+      std::locale::global(std::locale(name));  // also that of C
 #ifndef __GLIBC__
       if (std::strcmp(std::localeconv()->decimal_point, ".") == 0) {
         std::puts("skipped: this C library writes a half as 0.5 in every locale");

@@ -1,4 +1,5 @@
-// Files broken in every small way are refused with a status; what stays legal is consistent.
+// Tests of weight files with small damage: they are rejected with a status, or are valid and
+// consistent.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -21,7 +22,7 @@ TEST(Malformed, TruncatedAtEveryByte) {
   }
 }
 
-TEST(Malformed, TruncatedAtEveryLineWithItsSizeMadeRight) {
+TEST(Malformed, TruncatedAtEveryLineWithACorrectSize) {
   const auto file = every_op();
   for (std::size_t size = sizeof(FileHeader); size < file.size(); size += 4) {
     AlignedBytes cut({file.data(), size});
@@ -32,7 +33,7 @@ TEST(Malformed, TruncatedAtEveryLineWithItsSizeMadeRight) {
   }
 }
 
-TEST(Malformed, BytesBehindTheEnd) {
+TEST(Malformed, BytesAfterTheEnd) {
   for (const std::size_t more : {1u, 63u, 64u, 4096u}) {
     auto file = small();
     file.resize(file.size() + more);
@@ -54,7 +55,7 @@ TEST(Malformed, EveryBitOfTheFileFlipped) {
   }
 }
 
-TEST(Malformed, EveryHeaderBitFlippedWithTheChecksumMadeRight) {
+TEST(Malformed, EveryHeaderBitFlippedWithACorrectChecksum) {
   auto file = every_op();
   constexpr std::size_t kFields = offsetof(FileHeader, checksum);
   for (std::size_t bit = 0; bit < 8 * kFields; ++bit) {
@@ -66,8 +67,8 @@ TEST(Malformed, EveryHeaderBitFlippedWithTheChecksumMadeRight) {
   }
 }
 
-// Alphas, weights and the letters of names may change and stay legal; that is all.
-TEST(Malformed, EveryBitOfTheRecordsFlippedWithTheChecksumMadeRight) {
+// Only alphas, weights and letters of names may change in a valid file.
+TEST(Malformed, EveryBitOfTheRecordsFlippedWithACorrectChecksum) {
   auto file = small();
   FileHeader header;
   std::memcpy(&header, file.data(), sizeof header);
@@ -84,8 +85,8 @@ TEST(Malformed, EveryBitOfTheRecordsFlippedWithTheChecksumMadeRight) {
   EXPECT_LT(accepted, 8 * strings / 20);
 }
 
-// Denormal numbers are none to a caller that takes them for zero, and bits all the same.
-TEST(Malformed, AlphasAreJudgedByTheirBits) {
+// Callers may flush denormals to zero, so alphas are compared by their bits.
+TEST(Malformed, AlphasAreCheckedByTheirBits) {
   constexpr std::size_t kLeakyAlpha = 192 + 44, kOtherAlpha = kLeakyAlpha + 64;  // of small.mien
   const auto status_with = [](std::size_t at, std::uint32_t bits) {
     auto file = small();
@@ -125,8 +126,7 @@ std::vector<Integer> boundary_values() {
   return values;
 }
 
-// Writes each boundary value over the integer of that size at each multiple of it, whatever field
-// that is.
+// Writes each boundary value over every aligned integer of its size, whatever field it is.
 template <class Integer>
 void try_boundaries(std::size_t begin, std::size_t end) {
   const auto original = small();
@@ -168,7 +168,7 @@ TEST(Malformed, MisalignedMemory) {
   EXPECT_EQ(open(bytes.get().subspan(1), view).status, FileStatus::kMisaligned);
 }
 
-TEST(Malformed, AViewOfARefusedFileIsEmptiedEvenIfItWasInUse) {
+TEST(Malformed, AViewIsClearedAfterARejectedFile) {
   const auto file = small();
   AlignedBytes good(file);
   FileView view;

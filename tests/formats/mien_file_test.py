@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tests of the Python writer that golden files cannot make: inputs of other kinds, refusals, files on disk."""
+"""Tests of the Python writer beyond golden files: other kinds of inputs, rejected inputs, files on disk."""
 import os
 import sys
 import tempfile
@@ -108,13 +108,13 @@ class Refusals(unittest.TestCase):
         self.refused(file)
         self.refused(lambda: net.output(0))
         net.output(1)
-        self.refused(file)  # nobody uses layer 2
+        self.refused(file)  # layer 2 is unused
         any_size = MienFile().network("n", (4, 4, 1), any_size=True)
         self.refused(lambda: any_size.fully_connected(0, [[1.0] * 16]))
 
 
 class Disk(unittest.TestCase):
-    def test_a_refused_file_leaves_the_old_one_and_nothing_else(self):
+    def test_a_rejected_file_leaves_only_the_old_one(self):
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "a.mien"
             file_with().write(path)

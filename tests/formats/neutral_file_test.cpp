@@ -1,3 +1,4 @@
+// Tests of neutral files.
 #include "formats/neutral_file.h"
 
 #include <gtest/gtest.h>
@@ -33,7 +34,7 @@ Bytes written(const NeutralFile& neutral) {
   return bytes;
 }
 
-TEST(NeutralFile, ComesBackAsItWasWritten) {
+TEST(NeutralFile, RoundTrips) {
   NeutralFile back;
   ASSERT_EQ(formats::read_neutral_file(written(sample()), back), NeutralFileError::kNone);
   EXPECT_EQ(back.captured, 2u);
@@ -42,27 +43,27 @@ TEST(NeutralFile, ComesBackAsItWasWritten) {
   }
 }
 
-// The layout of docs/format.md, so that files of today can be read tomorrow.
+// The layout of docs/format.md, so that files remain readable.
 TEST(NeutralFile, IsLaidOutAsDocumented) {
   const Bytes bytes = written(sample());
   EXPECT_EQ(std::memcmp(bytes.data(), "MIENNEUT\1\0\0\0\64\0\0\0\2\0\0\0\0\0\0\0", 24), 0);
   float second = 0.0f;
-  std::memcpy(&second, bytes.data() + 28, sizeof second);  // little-endian, as the machine
+  std::memcpy(&second, bytes.data() + 28, sizeof second);  // little-endian, like the machine
   EXPECT_EQ(second, sample().levels[1]);
 }
 
-TEST(NeutralFile, AnyChangedByteIsNoticed) {
+TEST(NeutralFile, AnyChangedByteIsDetected) {
   for (std::size_t i = 0; i < kNeutralFileBytes; ++i) {
     Bytes bytes = written(sample());
     bytes[i] ^= std::byte{0x10};
     NeutralFile back;
     back.captured = 77;
     EXPECT_NE(formats::read_neutral_file(bytes, back), NeutralFileError::kNone) << i;
-    EXPECT_EQ(back.captured, 77u) << "nothing is taken over";
+    EXPECT_EQ(back.captured, 77u) << "the output stays unchanged";
   }
 }
 
-TEST(NeutralFile, SaysWhatIsWrong) {
+TEST(NeutralFile, NamesTheError) {
   const Bytes good = written(sample());
   NeutralFile back;
   const std::span<const std::byte> all = good;
@@ -70,7 +71,7 @@ TEST(NeutralFile, SaysWhatIsWrong) {
     EXPECT_EQ(formats::read_neutral_file(all.first(size), back),
               size < 8 ? NeutralFileError::kNotANeutralFile : NeutralFileError::kDamaged);
   }
-  std::array<std::byte, kNeutralFileBytes + 8> longer = {};  // with a checksum of all that is right
+  std::array<std::byte, kNeutralFileBytes + 8> longer = {};  // with a valid checksum
   std::copy(good.begin(), good.end(), longer.begin());
   const std::size_t at = kNeutralFileBytes - sizeof(std::uint64_t);
   const std::uint64_t sum = formats::xxhash64_with_hole(longer, at);

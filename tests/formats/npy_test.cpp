@@ -1,4 +1,4 @@
-// NumPy's arrays: what numpy.save writes is read, and everything else refused for the right reason.
+// Tests of NumPy arrays: files of numpy.save are read, others are rejected with the right reason.
 #include "formats/npy.h"
 
 #include <gtest/gtest.h>
@@ -47,7 +47,7 @@ NpyStatus status_of(const std::string& bytes) {
   NpyArray array;
   const NpyStatus status = read(bytes, &array);
   const bool empty = array.rank == 0 && array.data.empty();
-  EXPECT_TRUE(status == NpyStatus::kOk || empty) << "something is left of a refused file";
+  EXPECT_TRUE(status == NpyStatus::kOk || empty) << "a rejected file leaves data";
   return status;
 }
 
@@ -85,7 +85,7 @@ TEST(Npy, ReadsScalarsAndEmptyArrays) {
   EXPECT_EQ(status_of(floats("(1, 1, 1, 1, 1, 1, 1, 1)", 1)), NpyStatus::kOk);
 }
 
-TEST(Npy, TakesTheHeaderAsPythonWould) {
+TEST(Npy, ParsesTheHeaderLikePython) {
   const std::string data = raw(std::vector<float>(2));
   for (const char* header :
        {"{'shape': (2,), 'fortran_order': False, 'descr': '<f4'}",
@@ -95,7 +95,7 @@ TEST(Npy, TakesTheHeaderAsPythonWould) {
   }
 }
 
-TEST(Npy, RefusesOtherFiles) {
+TEST(Npy, RejectsOtherFiles) {
   EXPECT_EQ(status_of(""), NpyStatus::kBadSignature);
   EXPECT_EQ(status_of("PK\3\4 an archive of arrays"), NpyStatus::kBadSignature);
   EXPECT_EQ(status_of(file(dictionary("<f4", "False", "()"), raw(std::vector<float>(1)), 4)),
@@ -107,7 +107,7 @@ TEST(Npy, RefusesOtherFiles) {
             NpyStatus::kFortranOrder);
 }
 
-TEST(Npy, RefusesHeadersThatAreMalformed) {
+TEST(Npy, RejectsMalformedHeaders) {
   for (const char* header :
        {"", "{", "{}", "[]", "{'descr': '<f4', 'fortran_order': False}",
         "{'descr': '<f4', 'descr': '<f4', 'fortran_order': False, 'shape': ()}",
@@ -127,14 +127,14 @@ TEST(Npy, RefusesHeadersThatAreMalformed) {
   }
 }
 
-TEST(Npy, RefusesShapesThatAreTooLarge) {
+TEST(Npy, RejectsShapesThatAreTooLarge) {
   EXPECT_EQ(status_of(floats("(1, 1, 1, 1, 1, 1, 1, 1, 1)", 1)), NpyStatus::kBadShape);
   EXPECT_EQ(status_of(floats("(4294967297,)", 1)), NpyStatus::kBadShape);
   EXPECT_EQ(status_of(floats("(4294967296, 4294967296)", 1)), NpyStatus::kBadShape);
   EXPECT_EQ(status_of(floats("(18446744073709551615, 2)", 1)), NpyStatus::kBadShape);
 }
 
-TEST(Npy, RefusesFilesOfAnotherSize) {
+TEST(Npy, RejectsFilesOfAnotherSize) {
   const std::string whole = floats("(2, 3)", 6);
   for (std::size_t size = 8; size < whole.size(); ++size) {
     EXPECT_EQ(status_of(whole.substr(0, size)), NpyStatus::kTruncated) << size;
@@ -159,7 +159,7 @@ TEST(Npy, ReadsWhatItWrites) {
     EXPECT_EQ(std::vector(array.shape().begin(), array.shape().end()), shape);
     EXPECT_EQ(header.bytes[sizeof header.bytes - 1], '\n');
   }
-  // As many digits as there can be.
+  // The maximum number of digits.
   const std::vector<std::uint64_t> most(kMaxNpyRank, kLarge);
   const NpyHeader header = npy_header(most);
   EXPECT_NE(std::string(header.bytes, sizeof header.bytes).find(", )}"), std::string::npos);

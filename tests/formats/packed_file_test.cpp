@@ -1,5 +1,5 @@
-// Packed weight files: what was packed comes out byte for byte, and what is broken in any small way
-// is refused or fails the checksum of the file that comes out.
+// Tests of packed weight files: unpacking restores every byte, and damage is rejected or fails the
+// checksum of the result.
 #include "formats/packed_file.h"
 
 #include <gtest/gtest.h>
@@ -45,7 +45,7 @@ std::string packed_status_name(PackedStatus status) {
   return name_in(kNames, status);
 }
 
-// The status, and what came out into memory that was not zero before.
+// The status, and the result in memory that was not zero before.
 PackedStatus unpack_copy(std::span<const std::byte> packed, Bytes* file) {
   AlignedBytes copy(packed);
   std::size_t bytes = 0;
@@ -69,7 +69,7 @@ Bytes with(Bytes packed, std::size_t at, Number number) {
   return packed;
 }
 
-// name -> status, by the reader in Python, which leaves what it unpacked in `out`.
+// name -> status of the Python reader, which writes the result to `out`.
 std::map<std::string, std::string> second_reader(const std::string& kind, const std::string& out) {
   std::istringstream lines(output_of(std::string(kPython) + " " + folder() + "second_unpacker.py " +
                                      out + " " + folder() + kind + "/*.packed"));
@@ -95,7 +95,7 @@ TEST(PackedFiles, GoldenOnesAreUnpacked) {
   }
 }
 
-TEST(PackedFiles, GoldenOnesAreRefusedForTheRightReason) {
+TEST(PackedFiles, GoldenOnesAreRejectedForTheRightReason) {
   std::ifstream expected(folder() + "reject/expected.txt");
   std::set<std::string> statuses;
   std::size_t count = 0;
@@ -109,7 +109,7 @@ TEST(PackedFiles, GoldenOnesAreRefusedForTheRightReason) {
   for (int i = 0; i < 256; ++i) {
     all.insert(packed_status_name(static_cast<PackedStatus>(i)));
   }
-  for (const char* other : {"", "kOk", "kWrongSize"}) {  // which no file can show
+  for (const char* other : {"", "kOk", "kWrongSize"}) {  // which no file can cause
     all.erase(other);
   }
   EXPECT_EQ(statuses, all);
@@ -140,7 +140,7 @@ void pack(const std::string& path, const std::string& packed) {
             " " + packed);
 }
 
-TEST(PackedFiles, ShippedWeightsComeOutAsTheyWent) {
+TEST(PackedFiles, ShippedWeightsRoundTrip) {
   if (!std::filesystem::exists(kPython)) {
     GTEST_SKIP() << "no " << kPython;
   }
@@ -172,7 +172,7 @@ TEST(PackedFiles, TruncatedAtEveryByte) {
   }
 }
 
-TEST(PackedFiles, BytesBehindTheEnd) {
+TEST(PackedFiles, BytesAfterTheEnd) {
   for (const std::size_t more : {1u, 2u, 63u, 4096u}) {
     Bytes packed = small_packed();
     packed.resize(packed.size() + more);
@@ -182,7 +182,7 @@ TEST(PackedFiles, BytesBehindTheEnd) {
   }
 }
 
-TEST(PackedFiles, EveryBitFlippedIsNoticedAtTheLatestByTheFileThatComesOut) {
+TEST(PackedFiles, EveryFlippedBitIsDetectedByTheUnpackedFileAtTheLatest) {
   Bytes packed = small_packed();
   std::size_t refused = 0;
   for (std::size_t bit = 0; bit < 8 * packed.size(); ++bit) {
@@ -195,11 +195,11 @@ TEST(PackedFiles, EveryBitFlippedIsNoticedAtTheLatestByTheFileThatComesOut) {
     }
     packed[bit / 8] ^= std::byte(1 << bit % 8);
   }
-  // A slot that became that of another byte with as many leaves the states as they were.
+  // Exchanging slots of equally frequent bytes keeps the states unchanged.
   EXPECT_GT(refused, 8 * packed.size() * 9 / 10);
 }
 
-TEST(PackedFiles, HostileSizesAreRefusedBeforeAnybodyLooksForMemory) {
+TEST(PackedFiles, HostileSizesAreRejectedBeforeAllocation) {
   const Bytes packed = small_packed();
   const std::uint64_t most = (packed.size() - kHeaderBytes) / 80 * 65536;
   for (const std::uint64_t size : {std::uint64_t{0}, std::uint64_t{1}, std::uint64_t{63}, most + 64,
@@ -212,7 +212,7 @@ TEST(PackedFiles, HostileSizesAreRefusedBeforeAnybodyLooksForMemory) {
   EXPECT_EQ(status_of(with(packed, kUnpackedBytesAt, most)), PackedStatus::kBytesMissing);
 }
 
-TEST(PackedFiles, MemoryOfAnotherSizeIsRefused) {
+TEST(PackedFiles, MemoryOfAnotherSizeIsRejected) {
   const Bytes packed = small_packed();
   std::size_t bytes = 0;
   ASSERT_EQ(unpacked_bytes(packed, bytes), PackedStatus::kOk);

@@ -1,3 +1,4 @@
+// Tests of PNM images.
 #include "formats/pnm.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +15,7 @@ struct Result {
   PnmImage image;
 };
 
-// From a copy whose end the sanitizer watches.
+// Reads a copy whose end the address sanitizer checks.
 Result read(const std::string& text) {
   const auto bytes = std::as_bytes(std::span(text));
   const std::vector<std::byte> copy(bytes.begin(), bytes.end());
@@ -43,12 +44,12 @@ TEST(Pnm, ReadsGreyAndColour) {
   EXPECT_EQ(grey.image.channels, 1u);
 }
 
-TEST(Pnm, PixelsMayLookLikeWhiteSpaceAndComments) {
+TEST(Pnm, PixelsMayLookLikeWhitespaceAndComments) {
   EXPECT_EQ(read("P5 2 1 255 # ").status, PnmStatus::kOk);
   EXPECT_EQ(read("P5 2 1 255\n\n\n").status, PnmStatus::kOk);
 }
 
-TEST(Pnm, RefusesEverythingElse) {
+TEST(Pnm, RejectsEverythingElse) {
   EXPECT_EQ(read("").status, PnmStatus::kBadSignature);
   EXPECT_EQ(read("P").status, PnmStatus::kBadSignature);
   EXPECT_EQ(read("P3 1 1 255 0").status, PnmStatus::kBadSignature);

@@ -1,7 +1,6 @@
-// Packets of frames, for decoders that share nothing with the encoders.
-// usage: protocol_packets PROTOCOL < FRAMES.jsonl    for each frame, little-endian: how many
-// packets,
-//                                                    then of each how many bytes, and these
+// Writes packets of frames, for decoders that share no code with the encoders.
+// usage: protocol_packets PROTOCOL < FRAMES.jsonl
+// Output per frame, little-endian: the number of packets, then for each its size and its bytes.
 #include <cstdio>
 #include <functional>
 #include <iostream>
@@ -42,16 +41,16 @@ Packets live_link(const Frame& frame) {
 // Landmarks on a diagonal of the box.
 Packets openseeface(const Frame& frame) {
   const auto [x, y, width, height] = frame.box.value_or(std::array<double, 4>{});
-  OpenSeeFacePicture picture;
-  picture.width = 640;
-  picture.height = 480;
-  picture.focal_length_px = 500;
-  for (std::size_t i = 0; i < picture.landmarks.size(); ++i) {
+  OpenSeeFaceImage image;
+  image.width = 640;
+  image.height = 480;
+  image.focal_length_px = 500;
+  for (std::size_t i = 0; i < image.landmarks.size(); ++i) {
     const double share = static_cast<double>(i) / 67.0;
-    picture.landmarks[i] = {x + share * width, y + (1.0 - share) * height};
+    image.landmarks[i] = {x + share * width, y + (1.0 - share) * height};
   }
-  picture.pupils = {PicturePoint{x, y}, PicturePoint{x + width, y}};
-  return {openseeface_packet(frame, picture, seconds(frame))};
+  image.pupils = {ImagePoint{x, y}, ImagePoint{x + width, y}};
+  return {openseeface_packet(frame, image, seconds(frame))};
 }
 
 const std::map<std::string, std::function<Packets(const Frame&)>> kProtocols = {

@@ -1,4 +1,4 @@
-"""10 000 random frames of every protocol, decoded by code that shares nothing with the encoders.
+"""Tests of every protocol with 10 000 random frames and independent decoders.
 
 usage: protocols_test.py PROTOCOL_PACKETS
 """
@@ -123,7 +123,7 @@ class Protocols(unittest.TestCase):
         self.assertTrue(one("vmc")[-1].endswith(b"\0\0\0\x1c" b"/VMC/Ext/Blend/Apply\0\0\0\0" b",\0\0\0"))
         self.assertEqual(one("llf"), [b"\6" b"\0\0\0\x24" + b"A" * 36 + b"\0\0\0\7M\xc3\xbcller" b"\0\0\0\x3c" b"\0\0\0\0" b"\0\0\0\x3c" b"\0\0\0\1" b"\x3d"
                                       b"\x3f\x80\0\0" + bytes(51 * 4) + b"\x3f\0\0\0" + bytes(8 * 4)])
-        self.assertEqual(len(one("llf")[0]), 312 + 1)  # the name of 6 letters has 7 bytes
+        self.assertEqual(len(one("llf")[0]), 312 + 1)  # the name with 6 letters takes 7 bytes
         self.assertTrue(one("ifm")[0].startswith(b"eyeBlink_L-100|eyeLookDown_L-0|"))
         self.assertTrue(one("ifm2")[0].startswith(b"eyeBlink_L&100|eyeLookDown_L&0|"))
         self.assertIn(b"|tongueOut-0|=head#0.0000,-28.6479,0.0000,0.000000,0.000000,-0.500000|rightEye#0.0000,", one("ifm")[0])
@@ -143,7 +143,7 @@ class Protocols(unittest.TestCase):
             self.assertEqual(list(got["blends"]), ARKIT)
             self.near(list(got["blends"].values()), [frame["controls"].get(name, 0.0) for name in ARKIT])
             self.assertEqual(got["head"] is None, "head" not in frame)
-            if "head" in frame:  # the same turn in a space whose x points the other way
+            if "head" in frame:  # the same rotation in a space with opposite x
                 self.assertEqual(got["head"][:3], [0, 0, 0])
                 turned = of_quaternion(*got["head"][3:])
                 wanted = matrix(frame["head"])
@@ -185,7 +185,7 @@ class Protocols(unittest.TestCase):
                       [math.degrees(head[key]) for key in ("yaw_rad", "pitch_rad", "roll_rad")], 1e-12)
 
     def test_openseeface(self):
-        dropped = {48, 54}  # of iBUG's 68
+        dropped = {48, 54}  # of iBUG's 68 points
         for number, (frame, (packet,)) in enumerate(zip(self.frames, packets_of("osf", self.frames))):
             got = decode.openseeface(packet)
             control = lambda name: frame["controls"].get(name, 0.0)
@@ -200,18 +200,18 @@ class Protocols(unittest.TestCase):
             features = got["features"]
             self.assertTrue(all(-1 <= f <= 1 for f in features))
             self.near(features, openseeface_features(control))
-            if "head" in frame and number % 20 == 0:  # which takes long
+            if "head" in frame and number % 20 == 0:  # because it is slow
                 self.check_openseeface_space(frame, got)
 
-    # By what receivers do with it, and by what OpenSeeFace's solver promises: a proper rotation whose picture is that of the head.
+    # Checks against receivers, and against the guarantee of OpenSeeFace's solver: a proper rotation whose projection is that of the head.
     def check_openseeface_space(self, frame, got):
         head, (x, y, z, w) = matrix(frame["head"]), got["quaternion"]
-        raw = of_quaternion(-x, -y, -z, w)  # theirs is of the matrix transposed
-        up, left = [-head[1][0], head[1][1], head[1][2]], [head[0][0], -head[0][1], -head[0][2]]  # of its axes right, up, out
+        raw = of_quaternion(-x, -y, -z, w)  # theirs is that of the transposed matrix
+        up, left = [-head[1][0], head[1][1], head[1][2]], [head[0][0], -head[0][1], -head[0][2]]  # axes right, up, out
         self.near(raw[0] + raw[1], up + left, 1e-5)
         a, b, c = [math.radians(e) for e in got["euler"]]
         self.near(sum(times(turn(0, 1, c), turn(2, 0, b), turn(1, 2, a)), []), sum(raw, []), 1e-4)
-        # Points in depth, seen by a camera, are the landmarks again.
+        # Projecting the 3D points gives the landmarks.
         unit, focal = 0.14, 500
         tx, ty, tz = got["translation"]
         nose = [-ty * unit, tx * unit, tz * unit]
@@ -229,9 +229,9 @@ class Protocols(unittest.TestCase):
         (packet,), = packets_of("osf", [frame])
         got = decode.openseeface(packet)
         x, y, z = got["euler"]
-        self.near([(z - 90) % 360, (x + 180) % 360 % 360, y], [0, 0, 0], 1e-4)  # as OpenSee.cs of Unity reads them
+        self.near([(z - 90) % 360, (x + 180) % 360 % 360, y], [0, 0, 0], 1e-4)  # as OpenSee.cs in Unity reads them
         tx, ty, tz = got["translation"]
-        self.near([tz * 0.14], [-0.7 + 0.118], 1e-6)  # the tip of the nose before the middle of the head
+        self.near([tz * 0.14], [-0.7 + 0.118], 1e-6)  # the tip of the nose in front of the centre of the head
 
     # All landmarks are in the middle of the picture, so that what is left of a point is its depth.
     def test_openseeface_depths_are_those_of_a_face(self):

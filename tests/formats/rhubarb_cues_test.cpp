@@ -1,4 +1,4 @@
-// Mouth cues made of an animation: which shapes last long enough to become one.
+// Tests of mouth cues derived from an animation: the duration that a shape needs.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -11,7 +11,8 @@ namespace {
 
 constexpr std::int64_t kStep_ns = 10'000'000;
 
-// 'D' for a fifth of a second, another shape for a while, and 'D' again, 100 frames per second.
+// 'D' for a fifth of a second, another shape for `frames` frames, and 'D' again, at 100 frames per
+// second.
 std::string cues_with_shape_for(int frames, RhubarbForm form) {
   const auto writer = rhubarb_writer(form, "speech.wav");
   std::string text = writer->begin();
@@ -26,7 +27,7 @@ std::string cues_with_shape_for(int frames, RhubarbForm form) {
   for (int number = 0; number < 40; ++number) {
     add(number, number >= 20 && number < 20 + frames ? 'F' : 'D');
   }
-  add(40, '\0');  // as of an animation: a file of cues is written as it was read
+  add(40, '\0');  // makes it an animation: a file of cues would be written as it was read
   return text + writer->finish();
 }
 
@@ -47,7 +48,7 @@ TEST(RhubarbCues, AShapeNeedsEightyMillisecondsToBecomeACue) {
   }
 }
 
-// The shape before goes on where a short one is left out.
+// The previous shape continues in place of a short one.
 TEST(RhubarbCues, AShortShapeLeavesNoGap) {
   EXPECT_EQ(cues_with_shape_for(4, RhubarbForm::kTsv).substr(0, 12), "0.00\tD\n0.41\t");
 }

@@ -1,4 +1,4 @@
-// Text in the encodings of Unicode, and the escapes of JSON.
+// Tests of Unicode encodings and JSON escapes.
 #include "formats/animation/text_encoding.h"
 
 #include <gtest/gtest.h>
@@ -75,7 +75,7 @@ TEST(TextEncoding, Utf8IsTakenAsItIsWithoutItsMark) {
 }
 
 TEST(TextEncoding, FaultsOfUtf16SayAtWhichByte) {
-  const std::string half = "half a surrogate pair of UTF-16";
+  const std::string half = "unpaired UTF-16 surrogate";
   const std::vector<std::pair<std::u16string, std::string>> cases = {
       {u"ab\xd800", "byte 6: " + half},       {u"ab\xd800z", "byte 6: " + half},
       {u"ab\xdbff\xd800", "byte 6: " + half}, {u"ab\xdc00", "byte 6: " + half},
@@ -84,7 +84,7 @@ TEST(TextEncoding, FaultsOfUtf16SayAtWhichByte) {
     EXPECT_EQ(utf8_of("\xFE\xFF" + bytes_of(text, true)), fault);
     EXPECT_EQ(utf8_of("\xFF\xFE" + bytes_of(text, false)), fault);
   }
-  EXPECT_EQ(utf8_of("\xFE\xFF\0a\0"sv), "byte 4: UTF-16 ends within a character");
+  EXPECT_EQ(utf8_of("\xFE\xFF\0a\0"sv), "byte 4: truncated UTF-16 character");
 }
 
 TEST(JsonText, EveryHexadecimalDigitCounts) {
@@ -103,8 +103,8 @@ TEST(JsonText, EveryHexadecimalDigitCounts) {
 }
 
 TEST(JsonText, SaysWhatIsWrongWithAnEscape) {
-  const std::string no_such = "no such escape", digits = "four hexadecimal digits are missing",
-                    half = "half a surrogate pair";
+  const std::string no_such = "unknown escape sequence",
+                    digits = "expected four hexadecimal digits", half = "unpaired surrogate";
   const std::vector<std::pair<std::string_view, std::string>> cases = {
       {"", no_such},         {"q", no_such},         {"U0041", no_such},     {"u", digits},
       {"u123", digits},      {"u123g", digits},      {"u 123", digits},      {"ud800", half},

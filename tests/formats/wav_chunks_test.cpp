@@ -1,3 +1,4 @@
+// Tests of WAV chunks.
 #include "formats/wav.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +12,7 @@
 namespace mien::formats {
 namespace {
 
-// The place of a field in simple() files, bytes.
+// The offset of a field in simple() files.
 constexpr std::uint64_t kFmtAt = 12;
 constexpr std::uint64_t kFmtBodyAt = 20;
 
@@ -161,7 +162,7 @@ TEST(WavChunks, OrderOfChunks) {
   expect_refused(riff({fmt, wav_chunk("fact", "abcd"), fmt, data}), WavStatus::kSecondFormat,
                  after_fmt + 12);
   expect_refused(riff({wav_chunk("LIST", fmt + data)}), WavStatus::kNoFormat, 12 + 8 + 36);
-  // One data chunk is what is read, whatever follows.
+  // Only the first data chunk is read.
   for (const std::string& behind : {data, fmt, wav_chunk("LIST", "odd"), std::string("trash")}) {
     const Heard heard = hear(riff({fmt, data, behind}));
     EXPECT_EQ(heard.ended, WavStatus::kEnd);

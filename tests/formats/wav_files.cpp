@@ -1,3 +1,4 @@
+// Creates and reads WAV files for tests.
 #include "tests/formats/wav_files.h"
 
 #include <gtest/gtest.h>
@@ -32,7 +33,7 @@ std::string fmt_body(const FmtFields& fields) {
   if (fields.sub_format) {
     body += little(fields.extension_bytes, 2);
     body += little(fields.valid_bits.value_or(fields.bits), 2);
-    body += little(0, 4);  // channel mask: no speakers named
+    body += little(0, 4);  // channel mask: no speakers
     body += little(*fields.sub_format, 2) + fields.guid_rest;
   }
   return body;
@@ -58,7 +59,7 @@ std::string simple(const FmtFields& fields, std::string_view data) {
 }
 
 Heard hear(const std::string& file, const std::function<std::size_t()>& block_frames) {
-  // In memory of its exact size, so that the address sanitizer sees every read behind it.
+  // In memory of exact size, so that the address sanitizer detects every read beyond it.
   const std::vector<char> exact(file.begin(), file.end());
   std::span<const std::byte> left = std::as_bytes(std::span(exact));
   WavReader reader;
@@ -89,7 +90,7 @@ Heard hear(const std::string& file, const std::function<std::size_t()>& block_fr
   heard.fault_offset = reader.fault_offset();
   EXPECT_LE(heard.fault_offset, file.size());
   std::vector<float> frame(channels);
-  EXPECT_EQ(reader.read(frame, frames), heard.ended) << "the end stays the end";
+  EXPECT_EQ(reader.read(frame, frames), heard.ended) << "the end is permanent";
   EXPECT_EQ(frames, 0u);
   return heard;
 }

@@ -1,3 +1,4 @@
+// Tests of sizes in WAV files.
 #include "formats/wav.h"
 
 #include <gtest/gtest.h>
@@ -11,17 +12,17 @@
 namespace mien::formats {
 namespace {
 
-// simple() with these sizes instead of the right ones.
+// simple() with these sizes.
 std::string with_sizes(std::uint32_t riff_bytes, std::uint32_t data_bytes,
                        const std::string& data) {
   return "RIFF" + little(riff_bytes, 4) + "WAVE" + wav_chunk("fmt ", fmt_body({})) + "data" +
          little(data_bytes, 4) + data;
 }
 
-TEST(WavSizes, UnknownSizesLastToTheEnd) {
+TEST(WavSizes, UnknownSizesExtendToTheEnd) {
   const std::string data(30000, 'x');
   constexpr std::uint32_t kUnknown = 0xffffffff;
-  // Before the data chunk's body lie 36 bytes that the RIFF chunk's size counts.
+  // 36 bytes before the body of the data chunk count to the size of the RIFF chunk.
   for (const std::uint32_t riff_bytes : {0u, 8u, 36u, kUnknown}) {
     for (const std::uint32_t data_bytes : {0u, 0x7ffff000u, 0x7fffff00u, kUnknown}) {
       const Heard heard = hear(with_sizes(riff_bytes, data_bytes, data));
@@ -38,7 +39,7 @@ TEST(WavSizes, UnknownSizesLastToTheEnd) {
   EXPECT_EQ(hear(with_sizes(36 + 30000, kUnknown, data)).samples.size(), 15000u);
 }
 
-TEST(WavSizes, MadeUpSizesAreOfWholeFrames) {
+TEST(WavSizes, PlaceholderSizesAreRoundedToFrames) {
   FmtFields stereo24;
   stereo24.channels = 2;
   stereo24.bits = 24;
@@ -51,7 +52,7 @@ TEST(WavSizes, MadeUpSizesAreOfWholeFrames) {
   }
 }
 
-TEST(WavSizes, AChunkMayHaveNoSamples) {
+TEST(WavSizes, AChunkMayBeEmpty) {
   const Heard heard = hear(with_sizes(36 + 12, 0, wav_chunk("LIST", "abcd")));
   EXPECT_EQ(heard.opened, WavStatus::kOk);
   EXPECT_EQ(heard.format.frames, std::optional<std::uint64_t>(0));
@@ -60,7 +61,7 @@ TEST(WavSizes, AChunkMayHaveNoSamples) {
   EXPECT_TRUE(hear(with_sizes(37, 0, "abcd")).samples.empty()) << "one byte says so";
 }
 
-TEST(WavSizes, TheSizeOfTheRiffChunkCountsForNothing) {
+TEST(WavSizes, TheSizeOfTheRiffChunkIsIgnored) {
   for (const std::uint32_t size : {0u, 1u, 4u, 40u, 0x7fffffffu, 0x80000000u, 0xffffffffu}) {
     const Heard heard = hear(with_sizes(size, 4, "abcdefgh"));
     EXPECT_EQ(heard.samples.size(), 2u) << size;
@@ -75,7 +76,7 @@ TEST(WavSizes, SizesOfTheDataChunk) {
     WavStatus ended;
     std::uint64_t fault_offset;
   };
-  // There are 9 bytes, of samples of 2 bytes.
+  // There are 9 bytes, with samples of 2 bytes.
   for (const Case& c :
        {Case{1, 0, WavStatus::kPartialFrame, 44}, Case{2, 1, WavStatus::kEnd, 46},
         Case{3, 1, WavStatus::kPartialFrame, 46}, Case{8, 4, WavStatus::kEnd, 52},
@@ -97,7 +98,7 @@ TEST(WavSizes, ReadsTheSizesOfRf64) {
   Heard heard = hear(rf64(1000, 4, fmt + data));
   EXPECT_EQ(heard.samples.size(), 2u);
   EXPECT_EQ(heard.ended, WavStatus::kEnd);
-  // A size of 32 bits that is one counts.
+  // A valid 32-bit size is used.
   heard = hear(rf64(1000, 4, fmt + wav_chunk("data", "abcdef")));
   EXPECT_EQ(heard.samples.size(), 3u);
   for (const std::uint64_t size :
@@ -120,7 +121,7 @@ TEST(WavSizes, ReadsTheSizesOfRf64) {
   EXPECT_EQ(hear(broadcast).samples.size(), 2u);
 }
 
-TEST(WavSizes, RefusesBadSizesOfRf64) {
+TEST(WavSizes, RejectsBadSizesOfRf64) {
   const std::string start = "RF64" + little(0xffffffff, 4) + "WAVE";
   const std::string rest = wav_chunk("fmt ", fmt_body({})) + wav_chunk("data", "abcd");
   expect_refused(start + rest, WavStatus::kBadSizes64, 12);
@@ -133,13 +134,13 @@ TEST(WavSizes, RefusesBadSizesOfRf64) {
   }
   expect_refused(start + "ds64" + little(28, 4) + std::string(27, '\0'),
                  WavStatus::kTruncatedHeader, 12 + 8 + 27);
-  // With a table of other chunks' sizes, which is skipped.
+  // With a table of sizes of other chunks, which is skipped.
   const std::string table =
       little(0, 8) + little(4, 8) + little(0, 8) + little(1, 4) + "axml" + little(0x100000000, 8);
   EXPECT_EQ(hear(start + wav_chunk("ds64", table) + rest).samples.size(), 2u);
 }
 
-TEST(WavSizes, AnyByteOfTheHeaderMayBeAnything) {
+TEST(WavSizes, SurvivesAnyHeaderByte) {
   FmtFields fields;
   fields.sub_format = 1;
   fields.bits = 8;

@@ -1,3 +1,4 @@
+// Tests of WAV samples.
 #include "formats/wav.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +19,7 @@
 namespace mien::formats {
 namespace {
 
-// A stored sample and the float that it should become.
+// A stored sample and the float it represents.
 struct Stored {
   std::string bytes;
   float value;
@@ -36,7 +37,7 @@ Stored any_sample(WavCoding coding, int bits, std::mt19937_64& random) {
     return pcm(bits, value);
   }
   if (bits == 32) {
-    const auto value = static_cast<std::uint32_t>(random());  // NaNs and infinities among them
+    const auto value = static_cast<std::uint32_t>(random());  // including NaNs and infinities
     return {little(value, 4), std::bit_cast<float>(value)};
   }
   const double value = std::uniform_real_distribution<double>(-2, 2)(random);
@@ -102,11 +103,11 @@ TEST(Wav, PcmExtremesAreExact) {
             bits_of({-1.0f, -0x1p-31f, 1.0f - 0x1p-24f, 1.0f}));
 }
 
-TEST(Wav, FloatsArriveAsTheyAre) {
+TEST(Wav, FloatsAreUnchanged) {
   FmtFields fields;
   fields.tag = 3;
   fields.bits = 32;
-  // Quiet and signalling NaN, infinities, -0, the least number, far beyond full scale.
+  // Quiet and signalling NaN, infinities, -0, the smallest number, values far above full scale.
   const std::vector<std::uint32_t> patterns = {0x7fc00001, 0x7f800001, 0xff800000, 0x7f800000,
                                                0x80000000, 0x00000001, 0x7f7fffff};
   std::string data;
@@ -134,7 +135,7 @@ TEST(Wav, ValidBitsAreTheUpperOnes) {
   EXPECT_EQ(hear(simple(fields, little(0x40000000, 4))).samples, bits_of({0.5f}));
 }
 
-// Chunks of even and odd size around 7 frames of stereo.
+// Chunks of even and odd size around 7 stereo frames.
 std::string golden() {
   FmtFields fields;
   fields.channels = 2;
@@ -188,7 +189,7 @@ TEST(Wav, BlockSizesDoNotMatter) {
   }
 }
 
-TEST(Wav, RoomForPartOfAFrameStaysUnused) {
+TEST(Wav, SpaceForPartOfAFrameStaysUnused) {
   std::span<const std::byte> left;
   const std::string file = golden();
   left = std::as_bytes(std::span(file));
@@ -205,7 +206,7 @@ TEST(Wav, RoomForPartOfAFrameStaysUnused) {
   EXPECT_EQ(samples[4], 9.0f);
 }
 
-TEST(Wav, WhatFollowsTheSamplesStaysInTheSource) {
+TEST(Wav, DoesNotReadBeyondTheSamples) {
   const std::string file = simple({}, "abcd") + "behind";
   std::span<const std::byte> left = std::as_bytes(std::span(file));
   WavReader reader;
@@ -233,7 +234,7 @@ TEST(Wav, ReadsFromAFile) {
   std::fclose(file);
 }
 
-TEST(Wav, AReaderMayBeOpenedAgain) {
+TEST(Wav, AReaderCanBeReopened) {
   WavReader reader;
   std::size_t frames = 0;
   std::vector<float> samples(20);

@@ -1,4 +1,4 @@
-// Where packed weights lie, and what the writer refuses.
+// Tests of weight packing, and of inputs that the writer rejects.
 #include "formats/mien_writer.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@
 namespace mien::formats {
 namespace {
 
-// 1, 2, 3, ... : exact in fp16 up to 2048, and no two the same.
+// 1, 2, 3, ...: exact in fp16 up to 2048, and all different.
 Array counting(std::vector<std::uint32_t> shape) {
   Array array{std::move(shape), {}};
   std::size_t count = 1;
@@ -27,7 +27,7 @@ Array counting(std::vector<std::uint32_t> shape) {
   return array;
 }
 
-// A file of one network, its layers' tensors as floats.
+// A file with one network whose tensors are given as floats.
 class Written {
  public:
   Written(InputShape input, const std::function<LayerIndex(NetworkWriter&)>& build) {
@@ -113,7 +113,7 @@ TEST(Packing, FullyConnectedFollowsTheBlocksOfTheMap) {
   }
 }
 
-TEST(Packing, CausalConvTakesThePreviousInputFirst) {
+TEST(Packing, CausalConvReadsThePreviousInputFirst) {
   const Array weight = counting({3, 5, 2});
   const Written file({1, 1, 5}, [&](NetworkWriter& net) { return net.causal_conv(0, weight, {}); });
   const auto packed = file.tensor(0);
@@ -125,7 +125,7 @@ TEST(Packing, CausalConvTakesThePreviousInputFirst) {
   }
 }
 
-TEST(Packing, LstmJoinsInputAndState) {
+TEST(Packing, LstmConcatenatesInputAndState) {
   const Array ih = counting({32, 3});
   Array hh = counting({32, 8});
   for (float& value : hh.values) {
@@ -165,7 +165,7 @@ FileStatus status_of(InputShape input, const std::function<void(NetworkWriter&)>
   return validation.status;
 }
 
-TEST(Writer, RefusesWhatDoesNotFit) {
+TEST(Writer, RejectsInvalidShapes) {
   using Net = NetworkWriter;
   LayerOptions padded;
   padded.padding = {3, 0, 0, 0};
@@ -197,7 +197,7 @@ TEST(Writer, RefusesWhatDoesNotFit) {
             FileStatus::kBadTensor);
   EXPECT_EQ(status_of(map, [&](Net& n) { n.output(n.add(0, 0, relu)); }),
             FileStatus::kBadActivation);
-  LayerOptions sparse;  // whose last window would begin behind the map
+  LayerOptions sparse;  // whose last window would start beyond the map
   sparse.stride_y = sparse.stride_x = 4;
   EXPECT_EQ(status_of(map, [&](Net& n) { n.output(n.max_pool(0, 2, 2, sparse)); }),
             FileStatus::kOk);
@@ -205,7 +205,7 @@ TEST(Writer, RefusesWhatDoesNotFit) {
   EXPECT_EQ(status_of(map, [&](Net& n) { n.output(n.max_pool(0, 2, 2, sparse)); }),
             FileStatus::kBadShape);
   for (const auto& [right, bottom] : {std::pair<std::uint16_t, std::uint16_t>{1, 0}, {0, 1}}) {
-    LayerOptions narrower;  // by one row or column, of which there is no half
+    LayerOptions narrower;  // one row or column less, which cannot be halved
     narrower.padding = {0, 0, bottom, right};
     EXPECT_EQ(status_of(map, [&](Net& n) { n.output(n.add(n.slice(0, 0, 8, narrower), 0)); }),
               FileStatus::kBadShape);
@@ -231,7 +231,7 @@ TEST(Writer, RefusesWhatDoesNotFit) {
             FileStatus::kBadKernel);
 }
 
-TEST(Writer, RefusesWeightsThatFp16CannotHold) {
+TEST(Writer, RejectsWeightsBeyondFp16) {
   const auto with = [](float value) {
     return status_of({1, 1, 1}, [&](NetworkWriter& n) {
       n.output(n.pointwise(0, Array{{1, 1}, {value}}, {}));
@@ -242,7 +242,7 @@ TEST(Writer, RefusesWeightsThatFp16CannotHold) {
   EXPECT_EQ(with(std::numeric_limits<float>::quiet_NaN()), FileStatus::kNonFinite);
 }
 
-TEST(Writer, RefusesBadNamesConstantsAndTexts) {
+TEST(Writer, RejectsInvalidNamesConstantsAndTexts) {
   const auto with = [](const std::function<void(MienWriter&)>& change) {
     MienWriter writer;
     NetworkWriter& net = writer.network("net", {1, 1, 1});

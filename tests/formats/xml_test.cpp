@@ -1,4 +1,4 @@
-// Tags of XML, and where they and their faults are.
+// Tests of XML tags and the positions of errors.
 #include "formats/animation/xml.h"
 
 #include <gmock/gmock.h>
@@ -94,22 +94,22 @@ TEST(Xml, TakesSixtyFourElementsAndAttributes) {
 
 TEST(Xml, FaultsSayWhere) {
   const std::vector<std::pair<std::string, std::string>> cases = {
-      {"\n x", "line 2, column 2: a tag has to be here"},
-      {"<a/>\n<?xml", "line 2, column 1: ?> is missing"},
-      {"<a>\n<!-- ->", "line 2, column 1: --> is missing"},
-      {"<a>\n<>", "line 2, column 2: a tag's name has to be here"},
-      {"<a/>\n <b/>", "line 2, column 2: a second outermost element"},
-      {"<a>\n\n</b>", "line 3, column 1: </b> closes nothing"},
+      {"\n x", "line 2, column 2: expected a tag"},
+      {"<a/>\n<?xml", "line 2, column 1: expected ?>"},
+      {"<a>\n<!-- ->", "line 2, column 1: expected -->"},
+      {"<a>\n<>", "line 2, column 2: expected a tag name"},
+      {"<a/>\n <b/>", "line 2, column 2: second root element"},
+      {"<a>\n\n</b>", "line 3, column 1: unexpected closing tag </b>"},
       {"<a>\n", "line 2, column 1: <a> is not closed"},
-      {"<a></a\n x>", "line 2, column 2: '>' has to be here"},
-      {"<a\n '1'>", "line 2, column 2: an attribute or '>' has to be here"},
-      {"<a\n b c>", "line 2, column 4: '=' has to be here"},
-      {"<a b=\n1>", "line 2, column 1: a quotation mark has to be here"},
-      {"<a b='1'\nb='2'>", "line 2, column 3: 'b' is there twice"},
-      {"<a b=\n 'x>", "line 2, column 2: a quotation mark has no other"},
-      {"<a b='\n&amp;&auml;'>", "line 2, column 6: an entity that is not known"},
-      {"<a>\n &amp</a>", "line 2, column 2: an entity that is not known"},
-      {"<a/>\n\n  x", "line 3, column 3: text outside the outermost element"}};
+      {"<a></a\n x>", "line 2, column 2: expected '>'"},
+      {"<a\n '1'>", "line 2, column 2: expected an attribute or '>'"},
+      {"<a\n b c>", "line 2, column 4: expected '='"},
+      {"<a b=\n1>", "line 2, column 1: expected a quotation mark"},
+      {"<a b='1'\nb='2'>", "line 2, column 3: duplicate attribute 'b'"},
+      {"<a b=\n 'x>", "line 2, column 2: unterminated attribute value"},
+      {"<a b='\n&amp;&auml;'>", "line 2, column 6: unknown entity"},
+      {"<a>\n &amp</a>", "line 2, column 2: unknown entity"},
+      {"<a/>\n\n  x", "line 3, column 3: text outside the root element"}};
   for (const auto& [text, fault] : cases) {
     EXPECT_EQ(xml_fault(text), fault) << text;
   }

@@ -1,3 +1,4 @@
+// Tests of Y4M video.
 #include "formats/y4m.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +26,7 @@ Y4mStatus open_text(const std::string& text, Y4mHeader* header = nullptr) {
   return status;
 }
 
-// Status of the first thing that is not a frame.
+// Status of the first read that does not return a frame.
 Y4mStatus read_all(const std::string& text, int* frames) {
   std::span<const std::byte> left = std::as_bytes(std::span(text));
   Y4mReader reader;
@@ -37,7 +38,7 @@ Y4mStatus read_all(const std::string& text, int* frames) {
   return status;
 }
 
-TEST(Y4m, SaysTheAspectOfItsPixels) {
+TEST(Y4m, ReadsThePixelAspectRatio) {
   const auto aspect = [](const char* parameter) {
     Y4mHeader header;
     const std::string text = std::string("YUV4MPEG2 W2 H2 F25:1 ") + parameter + "\n";
@@ -66,7 +67,7 @@ TEST(Y4m, ReadsTheHeader) {
   EXPECT_EQ(header.colour, Y4mColour::k420);
   EXPECT_TRUE(header.full_range);
   EXPECT_EQ(header.frame_bytes(), 640u * 480 * 3 / 2);
-  // 4:2:0 is the default, the order of parameters is free.
+  // 4:2:0 is the default, and the order of parameters is free.
   ASSERT_EQ(open_text("YUV4MPEG2  F25:1 H2 W2\n", &header), Y4mStatus::kOk);
   EXPECT_EQ(header.colour, Y4mColour::k420);
   EXPECT_FALSE(header.full_range);
@@ -84,7 +85,7 @@ TEST(Y4m, OddSidesRoundChromaUp) {
   EXPECT_EQ(bytes_with("mono"), 15u);
 }
 
-TEST(Y4m, RefusesBadHeaders) {
+TEST(Y4m, RejectsBadHeaders) {
   EXPECT_EQ(open_text(""), Y4mStatus::kBadSignature);
   EXPECT_EQ(open_text("RIFF\n"), Y4mStatus::kBadSignature);
   EXPECT_EQ(open_text("YUV4MPEG2W1 H1 F1:1\n"), Y4mStatus::kBadSignature);
@@ -123,7 +124,7 @@ TEST(Y4m, ReadsFramesToTheEnd) {
   EXPECT_EQ(read_all(head + "\n", &frames), Y4mStatus::kBadFrameHeader);
 }
 
-TEST(Y4m, PixelsArriveAsTheyAre) {
+TEST(Y4m, PixelsAreUnchanged) {
   const std::string text = "YUV4MPEG2 W2 H2 F1:1\nFRAME\nabcdef";
   std::span<const std::byte> left = std::as_bytes(std::span(text));
   Y4mReader reader;

@@ -1,3 +1,4 @@
+// Measures audio processing in blocks of 16 ms.
 #include "apps/mien/bench/audio_bench.h"
 
 #include <algorithm>
@@ -17,13 +18,13 @@ using Clock = std::chrono::steady_clock;
 constexpr std::int64_t kStepNs = 16'000'000;
 constexpr int kSteps = 4000;
 
-// Of one step of 16 ms: resampler, features, encoder, both decoders.
-struct HearingTime {
+// One block of 16 ms: resampler, features, encoder, both decoders.
+struct AudioTime {
   std::int32_t rate;
   double min_us, median_us, p95_us;
 };
 
-HearingTime time_hearing(Tracker& tracker, std::int32_t rate) {
+AudioTime time_audio(Tracker& tracker, std::int32_t rate) {
   std::mt19937 engine(1);
   std::normal_distribution<float> noise(0.0f, 0.1f);
   std::vector<float> samples(static_cast<std::size_t>(rate * kStepNs / 1'000'000'000));
@@ -52,7 +53,7 @@ void bench_audio(const BenchOptions& options) {
   LoadedTracker loaded({.models = options.models, .tier = options.tier, .sound = true});
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   for (const std::int32_t rate : {16000, 44100, 48000}) {
-    const HearingTime time = time_hearing(loaded.tracker, rate);
+    const AudioTime time = time_audio(loaded.tracker, rate);
     json.push_back({{"sample_rate", time.rate},
                     {"min_us", time.min_us},
                     {"median_us", time.median_us},

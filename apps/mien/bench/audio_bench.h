@@ -1,4 +1,4 @@
-// `mien bench --sound`: what hearing costs, from samples to controls.
+// Implements `mien bench --sound`, which measures audio processing from samples to controls.
 #pragma once
 
 #include "apps/mien/bench/bench.h"

@@ -1,3 +1,4 @@
+// Measures networks and prints the results.
 #include "apps/mien/bench/bench.h"
 
 #include <mien/engine.h>
@@ -30,7 +31,7 @@ struct Figures {
   std::string tier;
   std::uint64_t macs;
   double min_ms, median_ms, p95_ms;
-  double gflops;  // of the median; one multiply-accumulate is two operations
+  double gflops;  // from the median; a multiply-accumulate counts as two operations
   double peak_fraction;
   std::vector<StepTime> steps;  // with --layers
 };
@@ -53,7 +54,7 @@ std::vector<std::string> tiers_to_time(const std::string& chosen) {
   return tiers;
 }
 
-// The best of several short loops: a longer one would meet an interruption.
+// The best of several short loops, because a long one is more likely to be interrupted.
 double peak_gflops(const std::string& tier) {
   constexpr std::int64_t kRounds = 100'000;
   double best = 0.0;
@@ -93,7 +94,7 @@ Figures time_network(const Subject& subject, const std::string& tier, double pea
   return figures;
 }
 
-// "basenet.mien" and its network "encoder" are timed as basenet_encoder.
+// The network "encoder" of "basenet.mien" has the name basenet_encoder.
 std::string bench_name(const std::filesystem::path& path, std::string_view network) {
   return name_of(path.stem()) + "_" + std::string(network);
 }
@@ -160,7 +161,7 @@ void bench(const BenchOptions& options) {
   if (!options.levels.empty()) {
     return bench_levels(options);
   }
-  if (options.sound) {
+  if (options.audio) {
     return bench_audio(options);
   }
   std::map<std::string, double> peaks;
@@ -172,7 +173,7 @@ void bench(const BenchOptions& options) {
     time_file(path, options, peaks, results);
   }
   if (results.empty()) {
-    throw Failure(kExitUsage, "--model " + options.model + ": no such network");
+    throw Failure(kExitUsage, "--model: unknown network '" + options.model + "'");
   }
   options.json ? print_json(peaks, results) : print_table(peaks, results);
 }

@@ -1,4 +1,4 @@
-// `mien bench`: time of each network, of the tracker on a clip, or of sound, on one core.
+// Implements `mien bench`, which measures networks, tracking and audio processing on one core.
 #pragma once
 
 #include <string>
@@ -7,14 +7,14 @@ namespace mien::app {
 
 struct BenchOptions {
   std::string model;  // empty: all
-  std::string tier;   // empty: all this CPU has
+  std::string tier;   // empty: all tiers of this CPU
   std::string models;
-  std::string clip;      // not empty: the tracker on it
-  std::string levels;    // not empty: a clip, a frame of which is timed at each level
-  int rounds = 30;       // of that clip: of each frame the fastest time counts
-  bool sound = false;    // time hearing
-  bool unfused = false;  // layer by layer
-  bool layers = false;   // each step of a network too
+  std::string clip;      // not empty: measure tracking of this video
+  std::string levels;    // not empty: measure each level of detail on this video
+  int rounds = 30;       // with `levels`: repetitions per frame, of which the fastest counts
+  bool audio = false;    // measure audio processing
+  bool unfused = false;  // run networks layer by layer
+  bool layers = false;   // measure each layer or group of fused layers
   bool json = false;
 };
 

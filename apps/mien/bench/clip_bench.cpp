@@ -1,3 +1,4 @@
+// Compares tracking with detection on every frame.
 #include "apps/mien/bench/clip_bench.h"
 
 #include <algorithm>
@@ -18,11 +19,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Milliseconds of every frame, of two trackers that take turns.
+// Milliseconds per frame of two trackers that alternate.
 struct FrameTimes {
   std::vector<double> followed;
   std::vector<double> proposed;
-  std::uint64_t proposal_runs = 0;  // of the following one
+  std::uint64_t proposal_runs = 0;  // of the tracker without resets
 };
 
 double time_ms(Tracker& tracker, const mien_image& image, std::int64_t pts_ns,
@@ -92,11 +93,11 @@ void bench_clip(const BenchOptions& options) {
     std::printf("%s\n", json_text(json).c_str());
     return;
   }
-  std::printf("%zu frames, the proposal ran %llu times\n", times.followed.size(),
+  std::printf("%zu frames, %llu with detection\n", times.followed.size(),
               static_cast<unsigned long long>(times.proposal_runs));
   print_row("followed", followed);
-  print_row("proposed on every frame", proposed);
-  std::printf("following is %.1f times as fast\n", speedup);
+  print_row("detection on every frame", proposed);
+  std::printf("tracking is %.1f times as fast\n", speedup);
 }
 
 }  // namespace mien::app

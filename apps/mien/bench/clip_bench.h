@@ -1,4 +1,4 @@
-// `mien bench --clip`: what following a face saves over searching it on every frame.
+// Implements `mien bench --clip`, which compares tracking with detection on every frame.
 #pragma once
 
 #include "apps/mien/bench/bench.h"

@@ -1,3 +1,4 @@
+// Measures the layers of a network.
 #include "apps/mien/bench/layer_bench.h"
 
 #include <algorithm>

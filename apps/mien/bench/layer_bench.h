@@ -1,4 +1,4 @@
-// Time of each step of a network: of a layer, or of several that run fused.
+// Measures each step of a network: a layer, or several fused layers.
 #pragma once
 
 #include <mien/engine.h>
@@ -16,12 +16,12 @@ struct StepTime {
   TensorShape output;
   std::uint64_t macs;
   double min_us, median_us;
-  double gflops;  // of the median; one multiply-accumulate is two operations
+  double gflops;  // from the median; a multiply-accumulate counts as two operations
   double peak_fraction;
 };
 
-// Times every step inside whole runs, so that it meets the caches as it does in use. `network` is
-// the index in `file` of what `runner` runs; `peak` in GFLOP/s.
+// Measures every step inside whole runs, so that caches behave as in use. `network` is the index in
+// `file` of the network that `runner` runs; `peak` is in GFLOP/s.
 std::vector<StepTime> time_steps(const WeightFile& file, std::int32_t network,
                                  NetworkRunner& runner, double peak);
 

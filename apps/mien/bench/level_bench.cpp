@@ -1,3 +1,4 @@
+// Measures each level of detail, stage by stage.
 #include "apps/mien/bench/level_bench.h"
 
 #include <mien/engine.h>
@@ -27,12 +28,12 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kFrames = 60;
 constexpr int kMaxStarts = 20;
-constexpr int kTurns = 33;  // of all networks, for each round
+constexpr int kRepetitions = 33;  // repetitions of all networks per round
 constexpr std::int64_t kFrameNs = 33'333'333;
 constexpr std::int32_t kSoundRate = 16'000;
-constexpr int kHighest = 4;
+constexpr int kMaxLevel = 4;
 
-// What runs on a frame of the highest level.
+// A network that runs on a frame of the highest level.
 struct Part {
   const char* file;
   const char* network;
@@ -64,8 +65,8 @@ struct Level {
 
 struct LevelTimes {
   double start_ms = 0.0;
-  double networks_us = 0.0;  // of the highest level, each run again and again
-  double in_turn_us = 0.0;   // one after the other, as in a frame: they share the caches
+  double networks_us = 0.0;  // of the highest level, each repeated by itself
+  double sequence_us = 0.0;  // in sequence as in a frame, so they share the caches
   std::vector<Level> levels;
 
   [[nodiscard]] double highest_us() const { return levels.back().frame.whole; }
@@ -83,18 +84,18 @@ LoadedTracker::Options tracker_options(const BenchOptions& options, int lod) {
           .unfused = options.unfused};
 }
 
-// From the files, in the system's cache, to a tracker.
+// From files in the system's cache to a tracker.
 double fastest_start_ms(const BenchOptions& options) {
   double fastest = 1e9;
   for (int i = 0; i < std::min(kMaxStarts, options.rounds); ++i) {
     const auto begin = Clock::now();
-    const LoadedTracker loaded(tracker_options(options, kHighest));
+    const LoadedTracker loaded(tracker_options(options, kMaxLevel));
     fastest = std::min(fastest, us_since(begin) * 1e-3);
   }
   return fastest;
 }
 
-// One of them, ready to run.
+// A network ready to run.
 struct Network {
   Blob blob;
   WeightFile file;
@@ -127,18 +128,18 @@ void time_networks(const BenchOptions& options, LevelTimes& report) {
     networks.push_back(std::make_unique<Network>(part, options));
     report.networks_us += network_times_ms(networks.back()->runner).front() * 1e3;
   }
-  for (int turn = 0; turn < kTurns * options.rounds; ++turn) {
+  for (int turn = 0; turn < kRepetitions * options.rounds; ++turn) {
     for (const auto& network : networks) {
       network->run();
     }
   }
   for (const auto& network : networks) {
-    report.in_turn_us += network->fastest_us;
+    report.sequence_us += network->fastest_us;
   }
 }
 
-// The sound of one frame, so that there is something to mix; it is not timed.
-void hear(Tracker& tracker, std::int64_t pts_ns) {
+// Pushes the audio of one frame, so that there is audio to mix; not measured.
+void push_audio(Tracker& tracker, std::int64_t pts_ns) {
   static const std::vector<float> hum(kSoundRate / 30, 0.01f);
   Audio audio;
   audio.sample_rate = kSoundRate;
@@ -147,14 +148,14 @@ void hear(Tracker& tracker, std::int64_t pts_ns) {
   check(tracker.push_audio(audio, pts_ns), "bench");
 }
 
-// Of every frame on which no face had to be searched.
+// Measures every frame without detection.
 std::vector<FrameTime> one_round(LoadedTracker& loaded, const Nv12Clip& clip) {
   std::vector<FrameTime> times;
   check(loaded.tracker.reset(), "bench");
   for (std::size_t i = 0; i < clip.frames(); ++i) {
     const std::int64_t pts_ns = static_cast<std::int64_t>(i) * kFrameNs;
     if (loaded.audionet) {
-      hear(loaded.tracker, pts_ns);
+      push_audio(loaded.tracker, pts_ns);
     }
     const mien_image image = clip.frame(i);
     const auto begin = Clock::now();
@@ -195,7 +196,7 @@ FrameTime mean_frame(int lod, const Nv12Clip& clip, const BenchOptions& options)
     }
   }
   if (fastest.empty()) {
-    throw Failure(kExitNoVideo, options.levels + ": no face in it");
+    throw Failure(kExitNoVideo, options.levels + ": no face");
   }
   return mean(fastest);
 }
@@ -205,7 +206,7 @@ LevelTimes measure(const BenchOptions& options) {
   LevelTimes report;
   report.start_ms = fastest_start_ms(options);
   time_networks(options, report);
-  for (int lod = 1; lod <= kHighest; ++lod) {
+  for (int lod = 1; lod <= kMaxLevel; ++lod) {
     report.levels.push_back({lod, mean_frame(lod, clip, options)});
   }
   return report;
@@ -215,7 +216,7 @@ void print_json(const LevelTimes& report) {
   nlohmann::ordered_json json = {{"start_ms", report.start_ms},
                                  {"networks_of_highest_us", report.networks_us},
                                  {"highest_of_networks", report.highest_us() / report.networks_us},
-                                 {"networks_in_turn_us", report.in_turn_us}};
+                                 {"networks_in_turn_us", report.sequence_us}};
   for (const Level& level : report.levels) {
     nlohmann::ordered_json stages;
     for (std::size_t i = 0; i < level.frame.stages.size(); ++i) {
@@ -230,7 +231,7 @@ void print_json(const LevelTimes& report) {
 }
 
 void print_table(const LevelTimes& report) {
-  std::printf("start-up %.2f ms\n", report.start_ms);
+  std::printf("start-up: %.2f ms\n", report.start_ms);
   std::printf("%5s %10s %9s", "level", "mean us", "of 4");
   for (std::int32_t stage = MIEN_STAGE_WARP; stage <= MIEN_STAGE_DECODERS; ++stage) {
     std::printf(" %9s", mien_stage_name(stage));
@@ -244,10 +245,11 @@ void print_table(const LevelTimes& report) {
     }
     std::printf("\n");
   }
-  std::printf("the networks of level 4, each by itself: %.1f us; a frame takes %.2f times that\n",
-              report.networks_us, report.highest_us() / report.networks_us);
-  std::printf("one after the other: %.1f us; a frame takes %.2f times that\n", report.in_turn_us,
-              report.highest_us() / report.in_turn_us);
+  std::printf(
+      "networks of level 4, each repeated by itself: %.1f us; a frame takes %.2f times as long\n",
+      report.networks_us, report.highest_us() / report.networks_us);
+  std::printf("networks in sequence: %.1f us; a frame takes %.2f times as long\n",
+              report.sequence_us, report.highest_us() / report.sequence_us);
 }
 
 }  // namespace

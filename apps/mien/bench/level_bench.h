@@ -1,5 +1,5 @@
-// `mien bench --levels`: what a frame costs at each level of detail, stage by stage, and how much
-// of that is the networks; and how long a tracker takes to be made.
+// Implements `mien bench --levels`, which measures a frame at each level of detail, stage by stage,
+// its networks, and the creation of a tracker.
 #pragma once
 
 #include "apps/mien/bench/bench.h"

@@ -1,3 +1,4 @@
+// Measures a network run by run.
 #include "apps/mien/bench/network_times.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// How long a network takes, run after run.
+// Measures the time of a network.
 #pragma once
 
 #include <mien/engine.h>

@@ -1,3 +1,4 @@
+// Decodes a video to NV12 with ffmpeg.
 #include "apps/mien/bench/nv12_clip.h"
 
 #include "apps/mien/sources/ffmpeg.h"
@@ -8,17 +9,19 @@
 
 namespace mien::app {
 
-Nv12Clip::Nv12Clip(const std::string& input, std::size_t most) : bytes_(most * kFrameBytes) {
-  require_video(input);  // says what is wrong with it better than the decoder
+Nv12Clip::Nv12Clip(const std::string& input, std::size_t max_frames)
+    : bytes_(max_frames * kFrameBytes) {
+  require_video(input);  // its messages are clearer than those of the decoder
   const std::string size = std::to_string(kWidth) + ":" + std::to_string(kHeight);
   std::vector<std::string> command = {"ffmpeg", "-nostdin", "-v", "error"};
   const std::vector<std::string> file = input_arguments(input);
   command.insert(command.end(), file.begin(), file.end());
-  command.insert(command.end(),
-                 {"-map", "0:v:0", "-vf",
-                  "scale=" + size + ":force_original_aspect_ratio=decrease,pad=" + size + ":-1:-1",
-                  "-frames:v", std::to_string(most), "-pix_fmt", "nv12", "-f", "rawvideo", "-"});
-  Subprocess decoder(command, Subprocess::Pipe::kFromChild, patience_with(input));
+  command.insert(
+      command.end(),
+      {"-map", "0:v:0", "-vf",
+       "scale=" + size + ":force_original_aspect_ratio=decrease,pad=" + size + ":-1:-1",
+       "-frames:v", std::to_string(max_frames), "-pix_fmt", "nv12", "-f", "rawvideo", "-"});
+  Subprocess decoder(command, Subprocess::Pipe::kFromChild, timeout_of(input));
   const std::size_t got = decoder.read(bytes_);
   if (decoder.finish() != 0 || got == 0 || got % kFrameBytes != 0) {
     throw Failure(kExitNoVideo, input + ": cannot be decoded: " + last_line(decoder.take_errors()));

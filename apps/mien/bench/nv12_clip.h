@@ -1,4 +1,4 @@
-// A clip in memory as a camera would deliver it, so that nothing but the tracker is timed.
+// A video in memory as NV12, as cameras deliver it, so that measurements exclude decoding.
 #pragma once
 
 #include <mien/mien.h>
@@ -11,10 +11,11 @@ namespace mien::app {
 
 class Nv12Clip {
  public:
-  static constexpr int kWidth = 640, kHeight = 480;  // pixels; other shapes get black borders
+  static constexpr int kWidth = 640,
+                       kHeight = 480;  // pixels; other aspect ratios get black borders
 
-  // The first `most` frames of whatever ffmpeg reads. Throws Failure.
-  Nv12Clip(const std::string& input, std::size_t most);
+  // Decodes the first `max_frames` frames. Throws Failure.
+  Nv12Clip(const std::string& input, std::size_t max_frames);
 
   [[nodiscard]] std::size_t frames() const { return bytes_.size() / kFrameBytes; }
   [[nodiscard]] mien_image frame(std::size_t index) const;

@@ -1,3 +1,4 @@
+// Options of all verbs that write animations.
 #include "apps/mien/command_line/animation_options.h"
 
 #include <map>
@@ -25,15 +26,16 @@ CLI::Validator length_units() {
 
 void add_writing_options(CLI::App& verb, formats::WriteOptions& options) {
   verb.add_option("--llf-rot", options.live_link.rotation,
-                  "rotations of Live Link Face: rad (default), norm180 (degrees / 180) or deg")
+                  "unit of Live Link Face rotations: rad (default), norm180 (degrees / 180) or deg")
       ->transform(rotation_units());
   verb.add_option("--llf-fps", options.live_link.timecode_fps,
-                  "frames in a second of its timecode; default 60")
+                  "frames per second of the Live Link Face timecode, 1 to 100 (default 60)")
       ->check(finite(CLI::Range(1.0, 100.0)));
-  verb.add_option("--bvh-unit", options.bvh_unit, "positions of BVH: m (default), cm, mm or in")
+  verb.add_option("--bvh-unit", options.bvh_unit,
+                  "unit of BVH positions: m (default), cm, mm or in")
       ->transform(length_units());
   verb.add_option("--roblox-lod", options.roblox_level_1,
-                  "units of Roblox: 0 (all 50, default) or the 6 of its level of detail 1")
+                  "Roblox action units: 0 (all 50, default) or 1 (the 6 of its level of detail 1)")
       ->transform(CLI::CheckedTransformer(std::map<std::string, bool>{{"0", false}, {"1", true}}));
 }
 

@@ -7,13 +7,13 @@
 
 namespace mien::app {
 
-// Takes the names of units of Live Link Face's rotations.
+// Parses the names of rotation units: rad, norm180, deg.
 CLI::Validator rotation_units();
 
-// Takes the names of units of positions.
+// Parses the names of length units: m, cm, mm, in.
 CLI::Validator length_units();
 
-// --llf-rot, --llf-fps, --roblox-lod, --bvh-unit.
+// Adds --llf-rot, --llf-fps, --bvh-unit and --roblox-lod.
 void add_writing_options(CLI::App& verb, formats::WriteOptions& options);
 
 }  // namespace mien::app

@@ -1,3 +1,4 @@
+// Options of `mien compare`.
 #include "apps/mien/command_line/verbs.h"
 
 #include <memory>
@@ -7,14 +8,16 @@
 namespace mien::app {
 
 void add_compare(CLI::App& program) {
-  auto* verb = program.add_subcommand("compare", "Make a page to judge two files of curves by");
+  auto* verb = program.add_subcommand("compare",
+                                      "Create a page to compare two animations of the same video");
   auto options = std::make_shared<CompareOptions>();
-  verb->add_option("A", options->a, "curves (.csv)")->required();
-  verb->add_option("B", options->b, "curves of the same video (.csv)")->required();
-  verb->add_option("--video", options->video, "the video that they were made from");
+  verb->add_option("A", options->a, "first animation, in any format")->required();
+  verb->add_option("B", options->b, "second animation of the same video, in any format")
+      ->required();
+  verb->add_option("--video", options->video, "the video of both animations");
   verb->add_option("-o", options->page, "the page (.html)")->required();
-  verb->add_flag("--json", options->json, "the summary as JSON");
-  verb->add_flag("--quiet", options->quiet, "no summary");
+  verb->add_flag("--json", options->json, "print the summary as JSON");
+  verb->add_flag("--quiet", options->quiet, "print no summary");
   verb->callback([options] { compare(*options); });
 }
 

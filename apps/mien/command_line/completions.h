@@ -1,4 +1,4 @@
-// What shells complete the words of this program by.
+// Generates completions for bash, zsh and fish.
 #pragma once
 
 #include <string>

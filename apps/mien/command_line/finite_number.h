@@ -1,4 +1,4 @@
-// What CLI11 does not check of real numbers.
+// A validator for real numbers that rejects NaN and infinity, which CLI11 accepts.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -7,18 +7,18 @@
 
 namespace mien::app {
 
-// The limits, for all options that are real numbers: NaN is neither below a limit nor above one,
-// and so within all of CLI11's.
+// Adds a check for finite values to `limits`. Every option with a real number needs it: NaN passes
+// all limits of CLI11, because it is neither below nor above one.
 inline CLI::Validator finite(const CLI::Validator& limits) {
-  CLI::Validator made = limits;
-  made.operation([limits](std::string& text) {
+  CLI::Validator result = limits;
+  result.operation([limits](std::string& text) {
     double value = 0.0;
     if (CLI::detail::lexical_cast(text, value) && !std::isfinite(value)) {
-      return "'" + text + "' is no number that could be meant";
+      return "'" + text + "' is not a finite number";
     }
     return limits(text);
   });
-  return made;
+  return result;
 }
 
 }  // namespace mien::app

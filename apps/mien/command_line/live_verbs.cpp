@@ -1,3 +1,4 @@
+// Options of `mien live` and `mien devices`.
 #include <memory>
 
 #include "apps/mien/command_line/finite_number.h"
@@ -10,43 +11,45 @@ namespace mien::app {
 
 void add_live(CLI::App& program) {
   auto* verb = program.add_subcommand(
-      "live", "Track the face before a camera, and send it to other programs as it moves");
+      "live", "Track the face in front of a camera and send it to other programs");
   auto options = std::make_shared<LiveOptions>();
   verb->add_option("--camera", options->camera,
-                   "number or name of a camera, a URL (rtsp, http, udp, ...), test:FILE for a file "
-                   "as if it happened, or none; default: the first");
-  verb->add_option("--mic", options->microphone,
-                   "name of a microphone, a URL, test:FILE, or none; default: the first, or the "
-                   "sound of the camera's test:FILE, and none beside a URL");
+                   "number or name of a camera, a URL (rtsp, http, udp, ...), test:FILE to play a "
+                   "file in real time, or none (default: the first camera)");
+  verb->add_option(
+      "--mic", options->microphone,
+      "name of a microphone, a URL, test:FILE, or none (default: the first microphone, or the "
+      "audio of the camera's test:FILE; none if the camera is a URL)");
   verb->add_option("--send", options->destinations,
-                   "where to, as often as wanted: vmc://HOST:PORT, llf://, ifm://, osf://, "
-                   "opentrack://, jsonl://, or - for JSON lines on standard output; HOST is this "
-                   "machine unless said (default: nothing is sent)")
+                   "destination, repeatable: vmc://HOST:PORT, llf://, ifm://, osf://, "
+                   "opentrack://, jsonl://, or - for JSON lines on standard output; HOST defaults "
+                   "to this machine (default: no destination)")
       ->expected(1)
       ->take_all();
-  verb->add_flag("--mirror", options->mirror, "left and right exchanged, as in a mirror");
+  verb->add_flag("--mirror", options->mirror, "exchange left and right");
   verb->add_option("--av-offset-ms", options->av_offset_ms,
-                   "the sound belongs to pictures so much later than it comes")
+                   "the audio belongs to images that are this much later; negative: earlier")
       ->check(finite(CLI::Range(-10000.0, 10000.0)));
   add_voice_strength(*verb, *options);
   add_field_of_view(*verb, *options);
   add_level_options(*verb, *options);
-  verb->add_flag("--no-filter", options->unfiltered, "controls as the networks answer");
-  verb->add_option("--neutral", options->neutral, "what the face shows at rest, by `mien neutral`");
+  verb->add_flag("--no-filter", options->unfiltered,
+                 "no smoothing: the output of the decoders on each frame");
+  verb->add_option("--neutral", options->neutral, "neutral calibration, written by `mien neutral`");
   verb->add_option("--tier", options->tier, "kernel tier: ref, avx2, avx512, ...");
   verb->add_option("--models", options->models, "folder of the model files");
-  verb->add_option("--duration", options->duration_s, "seconds until it ends by itself")
+  verb->add_option("--duration", options->duration_s, "end after this number of seconds")
       ->check(finite(CLI::PositiveNumber));
-  verb->add_option("--stats", options->stats, "counts and times as JSON, at the end");
+  verb->add_option("--stats", options->stats, "counts and times as JSON, written at the end");
   verb->add_flag("--quiet", options->quiet, "no screen, no summary");
   verb->callback([options] { live(*options); });
 }
 
 void add_devices(CLI::App& program) {
   auto* verb = program.add_subcommand("devices",
-                                      "List the cameras and microphones that `mien live` can take");
+                                      "List the cameras and microphones that `mien live` can use");
   auto json = std::make_shared<bool>(false);
-  verb->add_flag("--json", *json, "as JSON");
+  verb->add_flag("--json", *json, "print JSON");
   verb->callback([json] { print_devices(*json); });
 }
 

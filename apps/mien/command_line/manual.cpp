@@ -1,3 +1,4 @@
+// Generates the manual page from the command line as data.
 #include "apps/mien/command_line/manual.h"
 
 #include "apps/mien/system/exit_codes.h"
@@ -5,64 +6,65 @@
 namespace mien::app {
 namespace {
 
-// Backslashes and leading dots mean something to troff, and '-' would become a hyphen.
-std::string plain(const std::string& text) {
-  std::string made;
+// Escapes text for troff: backslashes and leading dots are commands, and '-' would become a hyphen.
+std::string troff_escaped(const std::string& text) {
+  std::string result;
   for (const char c : text) {
     if (c == '\\') {
-      made += "\\e";
+      result += "\\e";
     } else if (c == '-') {
-      made += "\\-";
+      result += "\\-";
     } else {
-      made += c;
+      result += c;
     }
   }
-  return made.starts_with('.') || made.starts_with('\'') ? "\\&" + made : made;
+  return result.starts_with('.') || result.starts_with('\'') ? "\\&" + result : result;
 }
 
 std::string tagged(const std::string& tag, const std::string& text) {
-  return ".TP\n" + tag + "\n" + plain(text) + "\n";
+  return ".TP\n" + tag + "\n" + troff_escaped(text) + "\n";
 }
 
-// A long list of values may be broken between two of them.
+// Permits line breaks between the values of a long list.
 std::string breakable(const std::string& values) {
-  std::string made;
+  std::string result;
   for (const char c : values) {
-    made += c;
+    result += c;
     if (c == '|') {
-      made += "\\:";
+      result += "\\:";
     }
   }
-  return made;
+  return result;
 }
 
 std::string option_tag(const OptionText& option) {
   std::string tag = "\\fB";
   for (std::size_t i = 0; i < option.names.size(); ++i) {
-    tag += (i == 0 ? "" : "\\fR, \\fB") + plain(option.names[i]);
+    tag += (i == 0 ? "" : "\\fR, \\fB") + troff_escaped(option.names[i]);
   }
   tag += "\\fR";
-  return option.value.empty() ? tag : tag + " \\fI" + breakable(plain(option.value)) + "\\fR";
+  return option.value.empty() ? tag
+                              : tag + " \\fI" + breakable(troff_escaped(option.value)) + "\\fR";
 }
 
 }  // namespace
 
 std::string manual_page(const std::vector<VerbText>& verbs, const std::string& description,
                         const std::string& version) {
-  std::string page = ".TH MIEN 1 \"\" \"mien " + plain(version) +
-                     "\" \"User Commands\"\n.SH NAME\nmien \\- " + plain(description) +
+  std::string page = ".TH MIEN 1 \"\" \"mien " + troff_escaped(version) +
+                     "\" \"User Commands\"\n.SH NAME\nmien \\- " + troff_escaped(description) +
                      "\n.SH SYNOPSIS\n";
   for (const VerbText& verb : verbs) {
     page += ".B mien " + verb.name + "\n[options]";
     for (const OptionText& argument : verb.arguments) {
-      page += " \\fI" + plain(argument.names.front()) + "\\fR";
+      page += " \\fI" + troff_escaped(argument.names.front()) + "\\fR";
     }
     page += "\n.br\n";
   }
   for (const VerbText& verb : verbs) {
-    page += ".SH MIEN " + verb.name + "\n" + plain(verb.description) + ".\n";
+    page += ".SH MIEN " + verb.name + "\n" + troff_escaped(verb.description) + ".\n";
     for (const OptionText& argument : verb.arguments) {
-      page += tagged("\\fI" + plain(argument.names.front()) + "\\fR", argument.description);
+      page += tagged("\\fI" + troff_escaped(argument.names.front()) + "\\fR", argument.description);
     }
     for (const OptionText& option : verb.options) {
       page += tagged(option_tag(option), option.description);
@@ -70,7 +72,7 @@ std::string manual_page(const std::vector<VerbText>& verbs, const std::string& d
     if (!verb.examples.empty()) {
       page += ".PP\nExamples:\n.PP\n.nf\n.RS\n";
       for (const std::string& example : verb.examples) {
-        page += plain(example) + "\n";
+        page += troff_escaped(example) + "\n";
       }
       page += ".RE\n.fi\n";
     }

@@ -1,4 +1,4 @@
-// The manual page.
+// Generates the manual page from the command line as data.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace mien::app {
 
-// As troff with the macros of man(7).
+// Returns the page as troff with the macros of man(7).
 std::string manual_page(const std::vector<VerbText>& verbs, const std::string& description,
                         const std::string& version);
 

@@ -1,3 +1,4 @@
+// Options of `mien inspect` and `mien run`.
 #include "apps/mien/command_line/verbs.h"
 
 #include <map>
@@ -9,10 +10,10 @@
 namespace mien::app {
 
 void add_inspect(CLI::App& program) {
-  auto* verb = program.add_subcommand("inspect", "Print what is in a weight file");
+  auto* verb = program.add_subcommand("inspect", "Print the networks and layers of a weight file");
   auto options = std::make_shared<InspectOptions>();
   verb->add_option("FILE", options->file, "weight file (.mien)")->required();
-  verb->add_flag("--json", options->json, "as JSON");
+  verb->add_flag("--json", options->json, "print JSON");
   verb->callback([options] { inspect(*options); });
 }
 
@@ -20,11 +21,14 @@ void add_run(CLI::App& program) {
   auto* verb = program.add_subcommand("run", "Run a network of a weight file on an array");
   auto options = std::make_shared<RunOptions>();
   verb->add_option("MODEL", options->model, "weight file (.mien)")->required();
-  verb->add_option("--input", options->input, "array (.npy); axes in front of a map count steps")
+  verb->add_option("--input", options->input,
+                   "input (.npy); the last axis before those of the network counts time steps")
       ->required();
-  verb->add_option("--output", options->outputs, "array (.npy), once for each output")->required();
-  verb->add_option("--network", options->network, "which of several networks");
-  verb->add_option("--layout", options->layout, "of maps: chw (default) or hwc")
+  verb->add_option("--output", options->outputs, "result (.npy), once per output of the network")
+      ->required();
+  verb->add_option("--network", options->network,
+                   "name of the network; required if the file has several");
+  verb->add_option("--layout", options->layout, "axis order of maps: chw (default) or hwc")
       ->transform(CLI::CheckedTransformer(std::map<std::string, MapLayout>{
           {"chw", MapLayout::kChannelsFirst}, {"hwc", MapLayout::kChannelsLast}}));
   verb->add_option("--tier", options->tier, "kernel tier: ref, avx2, avx512, ...");

@@ -1,3 +1,4 @@
+// Builds the command line, parses it and runs the verb.
 #include "apps/mien/command_line/program.h"
 
 #include <mien/mien.h>
@@ -16,10 +17,10 @@
 namespace mien::app {
 
 int run_program(int argc, char** argv) {
-  CLI::App program("Facial animation from video and sound, in real time, on a CPU", "mien");
+  CLI::App program("Facial animation from video and audio, in real time, on a CPU", "mien");
   program.set_version_flag("--version", mien_version());
   program.require_subcommand(1);
-  program.allow_windows_style_options(false);  // "/x" is a file everywhere
+  program.allow_windows_style_options(false);  // "/x" is a file on all systems
   add_track(program);
   add_live(program);
   add_devices(program);
@@ -32,19 +33,19 @@ int run_program(int argc, char** argv) {
   add_completion(program);
   add_manual(program);
   finish_help(program);
-  // From here on a failure to allocate is one like all others (main.cpp).
+  // From here on a failed allocation throws; before, it ends the program (main.cpp).
   program.parse_complete_callback([] { std::set_new_handler(nullptr); });
-  const std::string complaint = complaint_about({argv + 1, argv + argc}, program);
-  if (!complaint.empty()) {
-    throw Failure(kExitUsage, complaint);
+  const std::string usage_error = find_usage_error({argv + 1, argv + argc}, program);
+  if (!usage_error.empty()) {
+    throw Failure(kExitUsage, usage_error);
   }
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    std::ostringstream help, complaints;
-    const int code = program.exit(error, help, complaints);
+    std::ostringstream help, errors;
+    const int code = program.exit(error, help, errors);
     std::fputs(help.str().c_str(), stdout);
-    std::fputs(shown_lines(complaints.str()).c_str(), stderr);
+    std::fputs(shown_lines(errors.str()).c_str(), stderr);
     return code == 0 ? kExitOk : kExitUsage;
   }
   return kExitOk;

@@ -1,9 +1,9 @@
-// The command line as a whole.
+// The command line of the program.
 #pragma once
 
 namespace mien::app {
 
-// Does what the arguments ask for and returns the exit code. Throws Failure.
+// Runs the verb that the arguments select. Returns the exit code. Throws Failure.
 int run_program(int argc, char** argv);
 
 }  // namespace mien::app

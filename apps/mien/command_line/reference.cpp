@@ -1,3 +1,4 @@
+// Describes the command line as data, and suggests the nearest verb or option for a typing error.
 #include "apps/mien/command_line/reference.h"
 
 #include <algorithm>
@@ -10,7 +11,7 @@ namespace {
 constexpr const char* kFormats =
     "csv|jsonl|llf|gltf|glb|bvh|roblox|visemes|rhubarb|rhubarb-json|rhubarb-xml|rhubarb-dat";
 
-// What a value is called; an option has the same one in all verbs.
+// The placeholder of each option's value. An option has the same one in all verbs.
 const std::map<std::string, std::string>& value_names() {
   static const std::map<std::string, std::string> names = {
       {"-o", "FILE"},
@@ -126,7 +127,7 @@ OptionText text_of(const CLI::Option& option) {
   return text;
 }
 
-// Insertions, deletions, replacements and exchanges of neighbours (Damerau, 1964).
+// Edit distance of insertions, deletions, replacements and transpositions (Damerau, 1964).
 std::size_t distance(const std::string& a, const std::string& b) {
   std::vector<std::vector<std::size_t>> cost(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
   for (std::size_t i = 0; i <= a.size(); ++i) {
@@ -147,16 +148,16 @@ std::size_t distance(const std::string& a, const std::string& b) {
 
 std::string with_suggestion(const std::string& what, const std::string& typed,
                             const std::vector<std::string>& known) {
-  const std::string meant = nearest(typed, known);
-  return meant.empty() ? what : what + "; did you mean '" + meant + "'?";
+  const std::string suggestion = nearest(typed, known);
+  return suggestion.empty() ? what : what + "; did you mean '" + suggestion + "'?";
 }
 
-bool looks_like_an_option(const std::string& word) {
+bool is_option(const std::string& word) {
   return word.size() > 1 && word[0] == '-' &&
          (word[1] == '-' ? word.size() > 2 : word[1] < '0' || word[1] > '9') && word[1] != '.';
 }
 
-// "--lod=3" is --lod, "-ofile" is -o.
+// The name without the value: "--lod=3" is --lod, "-ofile" is -o.
 std::string option_name(const std::string& word) {
   return word[1] == '-' ? word.substr(0, word.find('=')) : word.substr(0, 2);
 }
@@ -189,7 +190,7 @@ void finish_help(CLI::App& program) {
       verb->footer(footer(commands->second));
     }
   }
-  program.footer("`mien VERB --help` says more of a verb, `mien manual` everything.");
+  program.footer("`mien VERB --help` describes a verb, `mien manual` prints the whole manual.");
 }
 
 std::vector<VerbText> verbs_of(const CLI::App& program) {
@@ -225,26 +226,26 @@ std::vector<std::string> choices(const OptionText& option) {
 
 std::string nearest(const std::string& typed, const std::vector<std::string>& known) {
   std::string best;
-  std::size_t least = std::max<std::size_t>(1, typed.size() / 3) + 1;
+  std::size_t min_steps = std::max<std::size_t>(1, typed.size() / 3) + 1;
   for (const std::string& candidate : known) {
     const std::size_t steps = distance(typed, candidate);
-    if (steps < least) {
-      least = steps;
+    if (steps < min_steps) {
+      min_steps = steps;
       best = candidate;
     }
   }
   return best;
 }
 
-std::string complaint_about(const std::vector<std::string>& arguments, const CLI::App& program) {
+std::string find_usage_error(const std::vector<std::string>& arguments, const CLI::App& program) {
   if (arguments.empty()) {
     return {};
   }
   const std::string& first = arguments.front();
   std::vector<std::string> names = option_names(program);
-  if (looks_like_an_option(first)) {
+  if (is_option(first)) {
     const bool known = std::find(names.begin(), names.end(), option_name(first)) != names.end();
-    return known ? "" : with_suggestion("there is no option '" + first + "'", first, names);
+    return known ? "" : with_suggestion("unknown option '" + first + "'", first, names);
   }
   names.clear();
   const CLI::App* verb = nullptr;
@@ -253,18 +254,18 @@ std::string complaint_about(const std::vector<std::string>& arguments, const CLI
     verb = candidate->get_name() == first ? candidate : verb;
   }
   if (verb == nullptr) {
-    return with_suggestion("'" + first + "' is no verb", first, names);
+    return with_suggestion("unknown verb '" + first + "'", first, names);
   }
   names = option_names(*verb);
   for (const std::string& word : arguments) {
     if (word == "--") {
       break;
     }
-    if (looks_like_an_option(word) &&
+    if (is_option(word) &&
         std::find(names.begin(), names.end(), option_name(word)) == names.end()) {
       const std::string name = option_name(word);
       std::string what = first;
-      what.append(": there is no option '").append(name).append("'");
+      what.append(": unknown option '").append(name).append("'");
       return with_suggestion(what, name, names);
     }
   }

@@ -1,5 +1,5 @@
-// The command line as data: what --help, the manual page, completions and suggestions are all made
-// of.
+// The command line as data. --help, the manual page, completions and suggestions are generated from
+// it.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -9,31 +9,31 @@
 namespace mien::app {
 
 struct OptionText {
-  std::vector<std::string> names;  // "-o", "--format"; of an argument its word
-  std::string value;               // "FILE", "rad|norm180|deg"; empty: takes none
+  std::vector<std::string> names;  // "-o", "--format"; for an argument its name
+  std::string value;               // "FILE", "rad|norm180|deg"; empty for a flag
   std::string description;
 };
 
 struct VerbText {
   std::string name, description;
-  std::vector<OptionText> arguments;  // in their order
+  std::vector<OptionText> arguments;  // in the order of the command line
   std::vector<OptionText> options;
-  std::vector<std::string> examples;  // whole commands
+  std::vector<std::string> examples;  // complete commands
 };
 
-// Says for every option what its value is called, and puts examples below each verb's help.
+// Sets the placeholder of every option's value, and appends the examples to each verb's help.
 void finish_help(CLI::App& program);
 
 std::vector<VerbText> verbs_of(const CLI::App& program);
 
-// The values of "rad|norm180|deg"; none for "FILE".
+// Splits "rad|norm180|deg" into its values. Empty for "FILE".
 std::vector<std::string> choices(const OptionText& option);
 
-// Of those the one that was probably meant, or nothing.
+// Returns the name in `known` with the smallest edit distance to `typed`, or "" if none is close.
 std::string nearest(const std::string& typed, const std::vector<std::string>& known);
 
-// What is wrong with a word that is no verb or no option, with the nearest that is one; nothing
-// where all are known. For the arguments behind the program's name.
-std::string complaint_about(const std::vector<std::string>& arguments, const CLI::App& program);
+// Returns a message about the first unknown verb or option, with the nearest known name, or "" if
+// all are known. `arguments` are those after the program's name.
+std::string find_usage_error(const std::vector<std::string>& arguments, const CLI::App& program);
 
 }  // namespace mien::app

@@ -1,3 +1,4 @@
+// Options of `mien completion` and `mien manual`.
 #include <mien/mien.h>
 
 #include <cstdio>
@@ -10,7 +11,7 @@
 namespace mien::app {
 
 void add_completion(CLI::App& program) {
-  auto* verb = program.add_subcommand("completion", "Print what a shell completes words by");
+  auto* verb = program.add_subcommand("completion", "Print completions for a shell");
   auto shell = std::make_shared<std::string>();
   verb->add_option("SHELL", *shell, "bash, zsh or fish")
       ->required()
@@ -25,7 +26,7 @@ void add_completion(CLI::App& program) {
 }
 
 void add_manual(CLI::App& program) {
-  auto* verb = program.add_subcommand("manual", "Print the manual page, for man");
+  auto* verb = program.add_subcommand("manual", "Print the manual page");
   verb->callback([&program] {
     std::fputs(manual_page(verbs_of(program), program.get_description(), mien_version()).c_str(),
                stdout);

@@ -1,5 +1,4 @@
-// Options of a tracker that more than one verb has. `Options` has the members that they are read
-// to.
+// Options for trackers, shared by several verbs. `Options` is a struct with the members they set.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -13,25 +12,27 @@ namespace mien::app {
 template <typename Options>
 void add_voice_strength(CLI::App& verb, Options& options) {
   verb.add_option("--voice-strength", options.voice_strength,
-                  "what the sound says of the mouth, times this (default 1)")
+                  "factor on the controls predicted from audio, 0 to 4 (default 1)")
       ->check(finite(CLI::Range(0.0, 4.0)));
 }
 
 template <typename Options>
 void add_field_of_view(CLI::App& verb, Options& options) {
   verb.add_option("--fov", options.fov_degrees,
-                  "horizontal field of view of the camera, degrees (default 60); distances and the "
-                  "head's pose depend on it")
+                  "horizontal field of view of the camera in degrees, 1 to 170 (default 60); "
+                  "distance and head pose depend on it")
       ->check(finite(CLI::Range(1.0, 170.0)));
 }
 
 template <typename Options>
 void add_level_options(CLI::App& verb, Options& options) {
   verb.add_option("--lod", options.lod,
-                  "level of detail: 1 (cheapest) to 4, or auto; default: the highest there is")
+                  "level of detail: 1 (cheapest) to 4, or auto (default: the highest that the "
+                  "models support)")
       ->transform(CLI::CheckedTransformer(
           std::map<std::string, int>{{"1", 1}, {"2", 2}, {"3", 3}, {"4", 4}, {"auto", 0}}));
-  verb.add_option("--budget-ms", options.budget_ms, "of --lod auto: time per frame on average")
+  verb.add_option("--budget-ms", options.budget_ms,
+                  "with --lod auto: mean time per frame in milliseconds (default 10)")
       ->check(finite(CLI::Range(0.01, 1e6)));
 }
 

@@ -1,4 +1,4 @@
-// The verbs of the program: each with its options, and what it calls when it is parsed.
+// The verbs of the program. Each function adds one verb with its options and its callback.
 #pragma once
 
 #include <CLI/CLI.hpp>

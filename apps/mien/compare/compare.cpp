@@ -1,3 +1,4 @@
+// Compares two animations and prints a summary.
 #include "apps/mien/compare/compare.h"
 
 #include <algorithm>
@@ -19,9 +20,9 @@ namespace mien::app {
 namespace {
 
 constexpr std::size_t kPrintedControls = 6;
-constexpr double kLastFrameMs = 1000.0 / 30.0;  // how long the last frame is shown
+constexpr double kLastFrameMs = 1000.0 / 30.0;  // duration of the last frame
 
-// Names without folders, where these tell the two apart.
+// Uses names without folders if they differ.
 void name_files(const CompareOptions& options, Comparison& comparison) {
   comparison.a.name = name_of(path_of(options.a).filename());
   comparison.b.name = name_of(path_of(options.b).filename());
@@ -40,7 +41,7 @@ Comparison compare_files(const CompareOptions& options) {
   b = read_curves(options.b, options.quiet);
   const std::vector<FramePair> pairs = match_frames(a, b);
   if (pairs.empty()) {
-    throw Failure(kExitNoInput, options.a + ", " + options.b + ": no frames at the same times");
+    throw Failure(kExitNoInput, options.a + ", " + options.b + ": no frames at matching times");
   }
   comparison.differences = differences(a, b, pairs);
   comparison.start_ms = std::min(a.front().t_ms, b.front().t_ms);
@@ -63,7 +64,7 @@ void print_difference(const char* name, const Difference& d) {
               d.jitter_b);
 }
 
-// The controls that both files drive, those that differ most first.
+// The controls in both files, sorted by decreasing difference.
 std::vector<std::size_t> by_difference(const Differences& found) {
   std::vector<std::size_t> order(found.controls.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -76,11 +77,11 @@ std::vector<std::size_t> by_difference(const Differences& found) {
 
 void print_head(const HeadDifference& head) {
   if (head.frames == 0) {
-    std::printf("head pose: in no matched frame of both\n");
+    std::printf("head pose: none in matched frames of both files\n");
     return;
   }
   std::printf(
-      "head pose: %.2f degrees apart on average, %.2f at most (at %.2f s);"
+      "head pose: mean difference %.2f degrees, maximum %.2f (at %.2f s);"
       " pitch %.2f, yaw %.2f, roll %.2f\n",
       head.rotation.mean_abs_deg, head.rotation.max_abs_deg.value,
       head.rotation.max_abs_deg.t_ms * 1e-3, head.pitch.mean_abs_deg, head.yaw.mean_abs_deg,
@@ -111,10 +112,10 @@ void print_summary(const Comparison& comparison) {
 void compare(const CompareOptions& options) {
   require_distinct_files({options.a, options.b, options.video}, {options.page});
   Comparison comparison = compare_files(options);
-  OutputFile file(options.page);  // before the work that would be lost on a page that cannot be
+  OutputFile file(options.page);  // opened first, so that an unwritable page fails before the work
   if (!options.video.empty()) {
-    comparison.video = web_video({.picture = options.video,
-                                  .sound = options.video,
+    comparison.video = web_video({.video = options.video,
+                                  .audio = options.video,
                                   .audio_track = 1,
                                   .rotation = std::nullopt,
                                   .start_s = comparison.start_ms * 1e-3,

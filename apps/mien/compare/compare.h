@@ -1,4 +1,4 @@
-// `mien compare`: two files of curves go in, a page to judge them by comes out.
+// Implements `mien compare`, which creates a page to compare two animations.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@ struct CompareOptions {
   std::string a, b;
   std::string video;  // empty: none
   std::string page;
-  bool json = false;  // the summary
+  bool json = false;  // print the summary
   bool quiet = false;
 };
 

@@ -1,10 +1,10 @@
-// Curves and statistics, shown once the vote is over.
+// Curves and statistics, shown after the vote.
 
-// As the style has them, in the light or in the dark.
+// The colours of the current style, light or dark.
 const styleColor = name => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`);
 const degrees = radians => radians === null ? null : radians * 180 / Math.PI;
 
-// What can be charted: a name, the values of both files, and the range of the axis.
+// A curve: its name, the values of both files, and the range of its axis.
 function chartable(name) {
   const k = data.controls.indexOf(name);
   if (k >= 0) return {name, low: 0, high: 1, values: file => file.controls[k]};
@@ -59,7 +59,7 @@ class Chart {
     }
   }
 
-  // The line is interrupted where the file has no value.
+  // Missing values interrupt the line.
   drawCurve(ctx, file, color) {
     const values = this.of.values(file);
     if (!values) return;
@@ -87,7 +87,7 @@ function cells(d) {
           fixed(d.mean_a, 3), fixed(d.mean_b, 3), fixed(d.jitter_a, 5), fixed(d.jitter_b, 5), String(d.frames)];
 }
 
-// Angles in degrees; what a head pose has no figure for stays empty.
+// Angles in degrees. Columns that do not exist for head poses stay empty.
 function angleCells(d, frames) {
   if (!frames) return cells({frames: 0});
   return [fixed(d.mean_abs_deg, 2) + '°', fixed(d.max_abs_deg, 1) + '°', fixed(d.max_at_ms / 1000, 2),
@@ -106,9 +106,9 @@ class Results {
     const {matched_frames: matched, head} = this.differences;
     const note = document.getElementById('results-note');
     note.textContent = `A: ${data.a.name}, ${data.a.t_ms.length} frames. B: ${data.b.name}, ${data.b.t_ms.length} frames. ` +
-      `${matched} frames matched by time. A click on a curve goes there; a click on a row below shows or hides its curve.`;
+      `${matched} frames match in time. Click a curve to seek; click a row below to show or hide its curve.`;
     document.getElementById('head-note').textContent = head.frames ?
-      `The heads are turned ${fixed(head.rotation.mean_abs_deg, 2)}° from each other on average, ${fixed(head.rotation.max_abs_deg, 1)}° at most.` :
+      `The mean angle between both heads is ${fixed(head.rotation.mean_abs_deg, 2)}°, the maximum ${fixed(head.rotation.max_abs_deg, 1)}°.` :
       'No matched frame has a head pose in both files.';
     this.fillTable();
     for (const name of this.mostDifferent(3)) this.toggle(name);

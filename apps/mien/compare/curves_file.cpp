@@ -1,3 +1,4 @@
+// Reads animations of any format as curves.
 #include "apps/mien/compare/curves_file.h"
 
 #include "apps/mien/sources/animation_file.h"

@@ -1,4 +1,4 @@
-// What two files are compared by, whatever their format.
+// Curves of an animation, for comparison.
 #pragma once
 
 #include <mien/mien.h>
@@ -19,19 +19,19 @@ struct HeadAngles {
 
 struct CurvesFrame {
   double t_ms = 0.0;
-  std::optional<HeadAngles> head;                     // nothing: no face
-  std::array<double, MIEN_CONTROL_COUNT> controls{};  // 0..1; NaN where not driven
+  std::optional<HeadAngles> head;                     // empty without a face
+  std::array<double, MIEN_CONTROL_COUNT> controls{};  // 0..1; NaN if the file does not have it
 };
 
 using Curves = std::vector<CurvesFrame>;
 
-// At least one frame, times that do not go back. Throws Failure(kExitNoInput) naming line and
-// column. `name` is what the message calls the file.
+// Requires at least one frame and non-decreasing times. Throws Failure(kExitNoInput) with line and
+// column. Messages refer to the file as `name`.
 Curves parse_curves(std::string_view text, const std::string& name,
                     const formats::ReadOptions& options = {});
 
-// Also what lies beside a file of Live Link Face counts; what was taken for granted is printed,
-// unless `quiet`. Throws Failure(kExitNoInput).
+// Also reads the JSON file beside a Live Link Face file. Prints assumed units unless `quiet`.
+// Throws Failure(kExitNoInput).
 Curves read_curves(const std::string& path, bool quiet);
 
 }  // namespace mien::app

@@ -1,6 +1,6 @@
-// How to look things up in what the program put into the page.
+// Access to the data that the program embeds in the page.
 
-// Index of the last frame that has begun by `t_ms`; -1 before the first.
+// The index of the last frame at or before `t_ms`; -1 before the first.
 function frameIndex(file, t_ms) {
   const rounding_ms = 0.5;
   let low = 0, high = file.t_ms.length;
@@ -16,8 +16,8 @@ const neutralFace = () => ({
   pitch: 0, yaw: 0, roll: 0, present: true,
 });
 
-// A face to draw. Nothing is interpolated or smoothed: each frame stands until the next one, as in
-// the video. What a file does not drive rests at 0.
+// The face to draw at a time. Frames are held until the next one and not smoothed, as in a video.
+// Controls that a file does not have are 0.
 function faceAt(file, t_ms) {
   const face = neutralFace();
   const i = frameIndex(file, t_ms);

@@ -1,3 +1,4 @@
+// Converts differences to JSON.
 #include "apps/mien/compare/differences_json.h"
 
 namespace mien::app {
@@ -55,7 +56,7 @@ ordered_json file_json(const ComparedFile& file) {
 ordered_json summary_json(const Comparison& comparison) {
   ordered_json summary = {{"a", file_json(comparison.a)}, {"b", file_json(comparison.b)}};
   summary.update(differences_json(comparison.differences));
-  ordered_json controls = ordered_json::object();  // those that both files drive
+  ordered_json controls = ordered_json::object();  // those in both files
   for (std::size_t i = 0; i < MIEN_CONTROL_COUNT; ++i) {
     if (comparison.differences.controls[i].frames > 0) {
       controls[mien_control_name(static_cast<std::int32_t>(i))] = summary["controls"][i];

@@ -1,4 +1,4 @@
-// Differences as JSON, of the page and of `mien compare --json`.
+// Differences as JSON, for the page and `mien compare --json`.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -10,7 +10,7 @@ namespace mien::app {
 // Controls are a list in the order of the C API.
 nlohmann::ordered_json differences_json(const Differences& differences);
 
-// What docs/cli.md says of `mien compare --json`.
+// The summary of `mien compare --json`, described in docs/cli.md.
 nlohmann::ordered_json summary_json(const Comparison& comparison);
 
 }  // namespace mien::app

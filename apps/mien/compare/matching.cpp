@@ -1,3 +1,4 @@
+// Matches frames by time.
 #include "apps/mien/compare/matching.h"
 
 #include <algorithm>
@@ -6,7 +7,7 @@
 namespace mien::app {
 namespace {
 
-constexpr double kUsualFrameMs = 1000.0 / 30.0;
+constexpr double kDefaultFrameMs = 1000.0 / 30.0;
 
 double median_interval_ms(const Curves& curves) {
   std::vector<double> intervals;
@@ -14,7 +15,7 @@ double median_interval_ms(const Curves& curves) {
     intervals.push_back(curves[i].t_ms - curves[i - 1].t_ms);
   }
   if (intervals.empty()) {
-    return kUsualFrameMs;
+    return kDefaultFrameMs;
   }
   const auto middle = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
   std::nth_element(intervals.begin(), middle, intervals.end());

@@ -1,4 +1,4 @@
-// Which frame of one file of curves belongs to which of another.
+// Matches frames of two animations by time.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +12,8 @@ struct FramePair {
   std::size_t a, b;
 };
 
-// Frames that are each other's nearest in time and less than half a frame of the slower file
-// apart, in order of time. No frame is in two pairs, and exchanging the files changes nothing.
+// Pairs of frames that are nearest to each other and closer than half a frame of the slower file,
+// in order of time. Each frame is in at most one pair. The result is symmetric in both files.
 std::vector<FramePair> match_frames(const Curves& a, const Curves& b);
 
 }  // namespace mien::app

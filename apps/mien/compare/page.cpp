@@ -1,3 +1,4 @@
+// Fills the page of `mien compare` with data.
 #include "apps/mien/compare/page.h"
 
 #include <cmath>
@@ -13,7 +14,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// What the eye can tell, and a fraction of the bytes. Not finite: null.
+// Rounds to visible precision to save space. Non-finite values become null.
 ordered_json rounded(double value, double steps_per_unit) {
   if (!std::isfinite(value)) {
     return nullptr;

@@ -1,4 +1,4 @@
-// The page of `mien compare`: one HTML file that needs nothing else.
+// The page of `mien compare`: one self-contained HTML file.
 #pragma once
 
 #include <string>
@@ -15,11 +15,11 @@ struct ComparedFile {
 struct Comparison {
   ComparedFile a, b;
   Differences differences;
-  double start_ms = 0.0, end_ms = 0.0;  // of the time that the page plays
-  std::string video;                    // MP4 whose time 0 is start_ms; empty: none
+  double start_ms = 0.0, end_ms = 0.0;  // the time range that the page plays
+  std::string video;                    // MP4 that starts at start_ms; empty: none
 };
 
-// Throws Failure(kExitInternal) when the page built into the program is not whole.
+// Throws Failure(kExitInternal) if the embedded page is incomplete.
 std::string compare_page(const Comparison& comparison);
 
 }  // namespace mien::app

@@ -1,17 +1,17 @@
-// Puts the parts together.
+// Connects the parts of the page.
 
 document.getElementById('introduction').textContent =
   (document.getElementById('video-data').textContent.trim() ?
-    'Two trackers have seen this video; each face is what one of them made of it. ' :
-    'Each face is what one of two trackers made of the same video. ') +
-  'The order is drawn by lot and stays hidden until you export your votes. ' +
+    'Two trackers processed this video; each face shows the output of one of them. ' :
+    'Each face shows the output of one of two trackers on the same video. ') +
+  'The order is random and stays hidden until you export your votes. ' +
   "The faces are not mirrored: the person's left is on your right.";
 
 const results = new Results(t_ms => player.seek(t_ms));
 const study = new Study(() => results.open());
 const canvases = ['left', 'right'].map(side => ({side, canvas: document.getElementById(`face-${side}`), shown: ''}));
 
-// A face is drawn when it changes, so that a page at rest costs nothing.
+// Draws a face only when it changes, so that an idle page uses no CPU.
 function showFaces(t_ms) {
   for (const place of canvases) {
     const face = faceAt(study.fileOn(place.side), t_ms);
@@ -28,7 +28,7 @@ const player = new Player(t_ms => {
   results.show(t_ms);
 });
 
-// The embedded video, where there is one.
+// The embedded video, if there is one.
 async function openVideo() {
   const blob = await blobOf('video-data', 'video/mp4');
   if (!blob) return;

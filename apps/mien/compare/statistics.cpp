@@ -1,3 +1,4 @@
+// Computes differences, correlation and jitter of matched frames.
 #include "apps/mien/compare/statistics.h"
 
 #include <algorithm>
@@ -7,12 +8,12 @@
 namespace mien::app {
 namespace {
 
-// Deviations below this are rounding: such a curve does not move.
+// Smaller deviations are rounding errors of a constant curve.
 constexpr double kMinSpread = 1e-9;
 
 int sign(double value) { return (value > 0.0) - (value < 0.0); }
 
-// One control in both files; NaN in both where either does not drive it.
+// One control of both files; NaN in both if either file lacks a value.
 struct Series {
   std::vector<double> a, b, t_ms;
 };
@@ -130,7 +131,7 @@ Quaternion rotation(const HeadAngles& head) {
 
 double degrees(double radians) { return radians * 180.0 / std::numbers::pi; }
 
-// The shorter way round.
+// The smaller of both angles between two rotations.
 double apart_deg(double a, double b) {
   return degrees(std::abs(std::remainder(a - b, 2.0 * std::numbers::pi)));
 }
@@ -174,7 +175,7 @@ double jitter(const std::vector<double>& values) {
   double sum = 0.0, frames = 0.0;
   double step = std::nan(""), last = std::nan("");
   for (const double value : values) {
-    const double next_step = value - last;  // NaN after an interruption
+    const double next_step = value - last;  // NaN after a gap
     if (!std::isnan(next_step) && !std::isnan(step) && sign(next_step) != sign(step)) {
       sum += std::abs(next_step);
     }

@@ -1,15 +1,15 @@
-// The blind vote. Which file is on which side is drawn by lot when the page opens and not shown
-// until the vote is over; what has been voted then stays.
+// The blind vote. A random draw assigns files to sides when the page opens. The sides are hidden
+// until the vote ends; afterwards votes cannot change.
 
 const groups = [
   ...controlGroups,
   {key: 'head', title: 'Head', hint: 'turning, nodding, tilting', of: null},
-  {key: 'overall', title: 'Overall', hint: 'the face as a whole: likeness, timing, calm', of: /./},
+  {key: 'overall', title: 'Overall', hint: 'the face as a whole: likeness, timing, steadiness', of: /./},
 ];
 
 const drawLots = () => (crypto.getRandomValues(new Uint8Array(1))[0] & 1 ? ['a', 'b'] : ['b', 'a']);
 
-// There is nothing to judge in what neither file animates.
+// Groups that neither file animates have no vote.
 function isAnimated(group) {
   return [data.a, data.b].some(file => group.of === null ? hasHead(file) :
     data.controls.some(name => group.of.test(name) && drives(file, name)));
@@ -45,7 +45,7 @@ class Study {
     return row;
   }
 
-  // A second press takes a vote back.
+  // A second click removes a vote.
   vote(key, choice) {
     if (this.votes[key] === choice) delete this.votes[key]; else this.votes[key] = choice;
     for (const button of document.querySelectorAll(`[data-group="${key}"]`)) {

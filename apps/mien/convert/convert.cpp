@@ -1,3 +1,4 @@
+// Converts animations and reports omitted data.
 #include "apps/mien/convert/convert.h"
 
 #include <algorithm>
@@ -23,7 +24,8 @@ using formats::Clip;
 using formats::Frame;
 using formats::FrameSequence;
 
-// How many frames each face has. Frames without an id belong to whoever comes next.
+// The number of frames of each face. Frames without an id belong to the face of the following
+// frame.
 using Faces = std::map<std::int64_t, std::size_t>;
 
 Faces count_faces(const FrameSequence& frames) {
@@ -34,16 +36,16 @@ Faces count_faces(const FrameSequence& frames) {
   return faces;
 }
 
-std::size_t count_named(const Faces& faces) { return faces.size() - (faces.contains(0) ? 1 : 0); }
+std::size_t count_with_id(const Faces& faces) { return faces.size() - (faces.contains(0) ? 1 : 0); }
 
-std::int64_t most_seen(const Faces& faces) {
+std::int64_t most_frequent(const Faces& faces) {
   const auto most = std::max_element(faces.begin(), faces.end(), [](const auto& a, const auto& b) {
     return std::pair(a.first != 0, a.second) < std::pair(b.first != 0, b.second);
   });
   return most->first;
 }
 
-// The frames of one face, and those without any.
+// The frames of face `id`, and those without a face.
 FrameSequence only(FrameSequence frames, std::int64_t id) {
   FrameSequence kept;
   frames.consume([&](const Frame& frame) {
@@ -54,28 +56,28 @@ FrameSequence only(FrameSequence frames, std::int64_t id) {
   return kept;
 }
 
-// Leaves one face where one was asked for, or the format holds no more, and says so.
+// Keeps one face if one was requested or the format supports one only, and records the omission.
 void choose_face(Clip& clip, const ConvertOptions& options, formats::AnimationFormat format,
                  std::vector<std::string>& lost) {
   const Faces faces = count_faces(clip.frames);
   if (options.face && !faces.contains(*options.face)) {
-    throw Failure(kExitUsage, "--face: there is no face " + std::to_string(*options.face) + " in " +
-                                  options.input);
+    throw Failure(kExitUsage,
+                  "--face: unknown face " + std::to_string(*options.face) + " in " + options.input);
   }
-  const bool too_many = count_named(faces) > 1 && !formats::holds_several_faces(format);
+  const bool too_many = count_with_id(faces) > 1 && !formats::holds_several_faces(format);
   if (options.face || too_many) {
-    const std::int64_t id = options.face.value_or(most_seen(faces));
+    const std::int64_t id = options.face.value_or(most_frequent(faces));
     clip.frames = only(std::move(clip.frames), id);
     if (!options.face) {
-      lost.push_back("all faces but " + std::to_string(id) + ", the one seen most (--face)");
+      lost.push_back("all faces but " + std::to_string(id) + ", the most frequent one (--face)");
     }
   }
   if (clip.out_of_range > 0) {
-    lost.push_back(std::to_string(clip.out_of_range) + " values beyond 0..1 were brought there");
+    lost.push_back(std::to_string(clip.out_of_range) + " values clamped to 0..1");
   }
 }
 
-// Writes the frames of a clip and empties it.
+// Writes the frames of a clip and clears it.
 class ClipWriter {
  public:
   ClipWriter(const AnimationTarget& target, const formats::WriteOptions& options)
@@ -128,11 +130,11 @@ void report(const ConvertOptions& options, formats::AnimationFormat format, cons
   print_notes(options.input, clip);
   std::fprintf(stderr, "%s: %zu frames\n", shown(options.output).c_str(), frames);
   for (const std::string& what : lost) {
-    std::fprintf(stderr, "  left out: %s\n", shown(what).c_str());
+    std::fprintf(stderr, "  omitted: %s\n", shown(what).c_str());
   }
 }
 
-// `beside`: gets the names of other files that the input refers to, when they are read.
+// `beside` receives the names of other files that the input refers to, when they are read.
 formats::ReadOptions reading_options(const ConvertOptions& options,
                                      std::vector<std::string>& beside) {
   formats::ReadOptions reading = read_options_for(options.input);
@@ -154,14 +156,14 @@ formats::ReadOptions reading_options(const ConvertOptions& options,
 }  // namespace
 
 void convert(const ConvertOptions& options) {
-  AnimationOptions asked;
-  asked.files = {options.output};
-  asked.writing = options.writing;
-  asked.format_option = "--to";
+  AnimationOptions animation;
+  animation.files = {options.output};
+  animation.writing = options.writing;
+  animation.format_option = "--to";
   if (!options.to.empty()) {
-    asked.formats = {options.to};
+    animation.formats = {options.to};
   }
-  const AnimationTarget target = targets(asked).front();
+  const AnimationTarget target = targets(animation).front();
   require_distinct_files({options.input, live_link_notes_of(options.input)}, files_of(target));
   std::optional<formats::AnimationFormat> from;
   if (!options.from.empty()) {
@@ -175,7 +177,7 @@ void convert(const ConvertOptions& options) {
   choose_face(clip, options, target.format, lost);
   formats::WriteOptions writing = options.writing;
   writing.several_faces =
-      count_named(count_faces(clip.frames)) > 0 && formats::holds_several_faces(target.format);
+      count_with_id(count_faces(clip.frames)) > 0 && formats::holds_several_faces(target.format);
   writing.audio_file = clip.audio_file;
   std::optional<EvenFrames> even;
   if (options.fps) {

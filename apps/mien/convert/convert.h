@@ -1,4 +1,4 @@
-// `mien convert`: animated faces from one format to another, and to another frame rate.
+// Implements `mien convert`, which converts animations between formats and frame rates.
 #pragma once
 
 #include <cstdint>
@@ -12,16 +12,16 @@ namespace mien::app {
 struct ConvertOptions {
   std::string input;     // "-": standard input
   std::string output;    // "-": standard output
-  std::string from, to;  // names of formats; empty: as the file says
-  // Of INPUT; none: as files beside it or its content say.
+  std::string from, to;  // format names; empty: selected by the files
+  // Units of INPUT; default: from a file beside it, or detected.
   std::optional<formats::RotationUnit> from_rotation;
   std::optional<double> from_timecode_fps;
   std::optional<formats::LengthUnit> from_bvh_unit;
   formats::WriteOptions writing;
-  std::optional<double> fps;  // none: the frames' own times
+  std::optional<double> fps;  // default: the timestamps of the frames
   std::optional<std::int64_t> face;
   bool quiet = false;
-  bool json = false;  // the report on standard error
+  bool json = false;  // print the report to standard error as JSON
 };
 
 // Throws Failure.

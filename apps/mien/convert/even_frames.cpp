@@ -1,3 +1,4 @@
+// Merges resampled faces in order of time.
 #include "apps/mien/convert/even_frames.h"
 
 #include <algorithm>
@@ -26,7 +27,7 @@ EvenFrames::EvenFrames(FrameSequence frames, double fps) {
     count += formats::Resampler::count(part, fps);
   }
   if (!(count <= kMaxFrames)) {
-    throw Failure(kExitUsage, "--fps: these would be more than ten million frames");
+    throw Failure(kExitUsage, "--fps: more than ten million frames");
   }
   for (const FrameSequence& part : parts_) {
     faces_.push_back({formats::Resampler(part, fps, first_ns), Frame()});
@@ -34,13 +35,13 @@ EvenFrames::EvenFrames(FrameSequence frames, double fps) {
   }
 }
 
-// Frames without an id belong to the only face that has one, if there is only one.
+// Frames without an id belong to the only face with an id, if there is exactly one.
 void EvenFrames::split(FrameSequence frames) {
   std::map<std::int64_t, std::size_t> ids;
   for (const Frame& frame : frames) {
     ids.try_emplace(frame.face_id, 0);
     if (ids.size() > kMaxFaces) {
-      throw Failure(kExitUsage, "--fps: there are more than 1000 faces; choose one with --face");
+      throw Failure(kExitUsage, "--fps: more than 1000 faces; select one with --face");
     }
   }
   if (ids.size() - (ids.contains(0) ? 1 : 0) <= 1) {
@@ -57,8 +58,8 @@ void EvenFrames::split(FrameSequence frames) {
 void EvenFrames::take_next(std::size_t face) {
   if (std::optional<Frame> next = faces_[face].resampler.next()) {
     faces_[face].frame = *std::move(next);
-    waiting_.push_back(face);
-    std::push_heap(waiting_.begin(), waiting_.end(),
+    heap_.push_back(face);
+    std::push_heap(heap_.begin(), heap_.end(),
                    [this](std::size_t a, std::size_t b) { return later(a, b); });
   }
 }
@@ -68,13 +69,13 @@ bool EvenFrames::later(std::size_t a, std::size_t b) const {
 }
 
 std::optional<Frame> EvenFrames::next() {
-  if (waiting_.empty()) {
+  if (heap_.empty()) {
     return std::nullopt;
   }
-  std::pop_heap(waiting_.begin(), waiting_.end(),
+  std::pop_heap(heap_.begin(), heap_.end(),
                 [this](std::size_t a, std::size_t b) { return later(a, b); });
-  const std::size_t face = waiting_.back();
-  waiting_.pop_back();
+  const std::size_t face = heap_.back();
+  heap_.pop_back();
   const Frame frame = faces_[face].frame;
   take_next(face);
   return frame;

@@ -1,4 +1,5 @@
-// A clip at even times, each face by itself, one frame after the other: never all in memory.
+// Resamples a clip to even times. Faces are independent, and frames are computed one by one, so the
+// result never occupies memory as a whole.
 #pragma once
 
 #include <cstddef>
@@ -12,27 +13,28 @@ namespace mien::app {
 
 class EvenFrames {
  public:
-  // Throws Failure(kExitUsage) for more than ten million frames, or 1000 faces, in the whole clip.
+  // Throws Failure(kExitUsage) for more than ten million frames in total, or 1000 faces.
   EvenFrames(formats::FrameSequence frames, double fps);
   EvenFrames(const EvenFrames&) = delete;
   EvenFrames& operator=(const EvenFrames&) = delete;
 
-  // In the order of their times, those of one time in the order of their faces; nothing at the end.
+  // Returns frames in order of time, then of faces; nothing at the end.
   [[nodiscard]] std::optional<formats::Frame> next();
 
  private:
   struct Face {
     formats::Resampler resampler;
-    formats::Frame frame;  // its next
+    formats::Frame frame;  // its next frame
   };
 
   void split(formats::FrameSequence frames);
   void take_next(std::size_t face);
   [[nodiscard]] bool later(std::size_t a, std::size_t b) const;
 
-  std::deque<formats::FrameSequence> parts_;  // of each face; resamplers refer to them
+  std::deque<formats::FrameSequence> parts_;  // one per face; resamplers refer to them
   std::deque<Face> faces_;
-  std::vector<std::size_t> waiting_;  // faces that have a next frame: a heap, the earliest on top
+  std::vector<std::size_t>
+      heap_;  // a heap of the faces that have a next frame; the earliest is on top
 };
 
 }  // namespace mien::app

@@ -1,3 +1,4 @@
+// Keeps the latest image of a camera.
 #include "apps/mien/live/camera.h"
 
 #include <algorithm>
@@ -27,8 +28,8 @@ Plane plane_of(const mien_image& image, int plane) {
   return {(height + 1) / 2, ((width + 1) / 2 - 1) * step + 1};
 }
 
-// Of the formats that video sources give: RGB, I420, GRAY8.
-void copy(const mien_image& image, Picture& into) {
+// Copies the formats that video sources provide: RGB, I420, GRAY8.
+void copy(const mien_image& image, CameraImage& into) {
   into.image = image;
   std::size_t offsets[3] = {}, bytes = 0;
   for (int i = 0; i < 3; ++i) {
@@ -56,7 +57,7 @@ Camera::Camera(const std::string& name)
                     name.starts_with(kTest) ? open_video(name.substr(kTest.size()), {}) : nullptr,
                     false) {
   if (file_is_empty()) {
-    throw Failure(kExitNoVideo, name + ": has no picture");
+    throw Failure(kExitNoVideo, name + ": no image");
   }
 }
 
@@ -66,23 +67,23 @@ void Camera::start(std::int64_t begin_ns) {
   }
 }
 
-const Picture* Camera::newest(std::int64_t until_ns) {
+const CameraImage* Camera::newest(std::int64_t until_ns) {
   std::unique_lock lock(mutex_);
-  changed_.wait_until(lock, steady_point(until_ns), [&] { return fresh_ || failure_ || ended_; });
+  changed_.wait_until(lock, steady_point(until_ns), [&] { return has_new_ || failure_ || ended_; });
   if (failure_) {
     std::rethrow_exception(failure_);
   }
-  if (!fresh_) {
+  if (!has_new_) {
     return nullptr;
   }
-  fresh_ = false;
-  std::swap(taken_, waiting_);
-  return &taken_;
+  has_new_ = false;
+  std::swap(reading_, latest_);
+  return &reading_;
 }
 
 bool Camera::ended() {
   const std::lock_guard lock(mutex_);
-  return ended_ && !fresh_;
+  return ended_ && !has_new_;
 }
 
 std::uint64_t Camera::dropped() {
@@ -90,15 +91,15 @@ std::uint64_t Camera::dropped() {
   return dropped_;
 }
 
-void Camera::take(const mien_image& image, std::int64_t time_ns, std::int64_t there_ns) {
-  copy(image, filling_);
-  filling_.time_ns = time_ns;
-  filling_.there_ns = there_ns;
+void Camera::take(const mien_image& image, std::int64_t time_ns, std::int64_t arrival_ns) {
+  copy(image, writing_);
+  writing_.time_ns = time_ns;
+  writing_.arrival_ns = arrival_ns;
   {
     const std::lock_guard lock(mutex_);
-    std::swap(filling_, waiting_);
-    dropped_ += fresh_ ? 1 : 0;
-    fresh_ = true;
+    std::swap(writing_, latest_);
+    dropped_ += has_new_ ? 1 : 0;
+    has_new_ = true;
   }
   changed_.notify_all();
 }

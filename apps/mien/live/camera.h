@@ -1,5 +1,5 @@
-// The newest picture of a camera. Pictures that nobody has taken when the next one comes are
-// dropped: whoever is slow sees fewer pictures, and never old ones.
+// The latest image of a camera. An image that is not taken before the next one arrives is dropped,
+// so a slow consumer gets fewer images, but no late ones.
 #pragma once
 
 #include <mien/mien.h>
@@ -14,39 +14,40 @@
 
 namespace mien::app {
 
-struct Picture {
-  mien_image image;  // points into pixels
+struct CameraImage {
+  mien_image image;  // refers to pixels
   std::vector<std::byte> pixels;
-  std::int64_t time_ns = 0;   // on the steady clock, when it was taken
-  std::int64_t there_ns = 0;  // when it was here: later, where decoding was late
+  std::int64_t time_ns = 0;     // capture time on the steady clock
+  std::int64_t arrival_ns = 0;  // arrival time: later if decoding was late
 };
 
 class Camera : public CaptureThread<VideoSource, LiveVideo, mien_image> {
  public:
-  // "none": no pictures; "test:FILE": those of a file, as if they happened; else a device or a URL.
-  // Throws Failure when a file gives no picture.
+  // "none": no images; "test:FILE": a file in real time; otherwise a device or a URL. Throws
+  // Failure if a file has no image.
   explicit Camera(const std::string& name);
   ~Camera() override { stop(); }
 
   void start(std::int64_t begin_ns);
 
-  // The newest that was not taken yet, waited for until then; nullptr when there is none. Valid
-  // until the next call. Throws what made the camera fail before it gave any.
-  const Picture* newest(std::int64_t until_ns);
+  // Returns the latest image not taken yet, and waits for it until `until_ns`; nullptr if there is
+  // none. Valid until the next call. Rethrows the failure of a camera that never delivered an
+  // image.
+  const CameraImage* newest(std::int64_t until_ns);
 
-  // No more pictures will come: the file has ended.
+  // Whether the file has ended and its last image was taken.
   [[nodiscard]] bool ended();
   [[nodiscard]] std::uint64_t dropped();
 
  private:
-  void take(const mien_image& image, std::int64_t time_ns, std::int64_t there_ns) override;
+  void take(const mien_image& image, std::int64_t time_ns, std::int64_t arrival_ns) override;
 
-  Picture waiting_;  // it and what follows: the mutex's
-  bool fresh_ = false;
+  CameraImage latest_;  // guarded by the mutex, as the following two
+  bool has_new_ = false;
   std::uint64_t dropped_ = 0;
 
-  Picture filling_;  // of the camera's thread
-  Picture taken_;    // of the taker's
+  CameraImage writing_;  // used by the camera's thread
+  CameraImage reading_;  // used by the caller's thread
 };
 
 }  // namespace mien::app

@@ -1,5 +1,5 @@
-// What cameras and microphones have in common: a thread that waits for what they give. That of a
-// file comes as if it happened; a device that is gone is opened anew every second.
+// A thread that receives blocks from a camera, a microphone or a file. Files play in real time; a
+// device that fails is reopened every second.
 #pragma once
 
 #include <mien/mien.h>
@@ -22,27 +22,27 @@
 
 namespace mien::app {
 
-// What a name of a file that is replayed begins with.
+// The prefix of a file that is played as a device.
 inline constexpr std::string_view kTest = "test:";
 
 inline std::chrono::steady_clock::time_point steady_point(std::int64_t time_ns) {
   return std::chrono::steady_clock::time_point(std::chrono::nanoseconds(time_ns));
 }
 
-// How long it takes until all of it is there.
-inline std::int64_t lasts_ns(const mien_image& /*image*/) { return 0; }
-inline std::int64_t lasts_ns(const Audio& block) {
+// The time from the capture of the first to the last sample.
+inline std::int64_t duration_ns(const mien_image& /*image*/) { return 0; }
+inline std::int64_t duration_ns(const Audio& block) {
   return static_cast<std::int64_t>(block.frames) * 1'000'000'000 / block.sample_rate;
 }
 
-// File and Device give Blocks by `next`.
+// File and Device provide `next`, which returns blocks.
 template <typename File, typename Device, typename Block>
 class CaptureThread {
  public:
   CaptureThread(const CaptureThread&) = delete;
   CaptureThread& operator=(const CaptureThread&) = delete;
 
-  // A file's time 0 is this. A device is opened; throws Failure when its name is not understood.
+  // Starts the thread. `begin_ns` is time 0 of a file. Throws Failure for an invalid device name.
   void start(std::int64_t begin_ns) {
     if (file_) {
       thread_ = std::thread([this, begin_ns] { replay(begin_ns); });
@@ -52,31 +52,31 @@ class CaptureThread {
     }
   }
 
-  // Why nothing comes at present; empty while something does.
-  [[nodiscard]] std::string trouble() {
+  // The reason why no blocks arrive; empty while they do.
+  [[nodiscard]] std::string error() {
     const std::lock_guard lock(mutex_);
-    return trouble_;
+    return error_;
   }
 
-  // Opens a device anew, because it is silent.
+  // Reopens a silent device.
   void restart(const std::string& why) {
     const std::lock_guard lock(mutex_);
-    if (device_ && trouble_.empty()) {
+    if (device_ && error_.empty()) {
       restart_reason_ = why;
       device_->interrupt();
     }
   }
 
  protected:
-  // `file` is null for a device. One that is not there from the beginning is waited for, or is a
-  // failure: a mistake, not a cable that fell out.
-  CaptureThread(std::string name, std::unique_ptr<File> file, bool waits_from_the_beginning)
-      : name_(std::move(name)), file_(std::move(file)), waits_(waits_from_the_beginning) {
+  // `file` is null for a device. `retry_first` decides whether a device that cannot be opened at
+  // first is retried or is a failure: probably a typing error, not a loose cable.
+  CaptureThread(std::string name, std::unique_ptr<File> file, bool retry_first)
+      : name_(std::move(name)), file_(std::move(file)), retries_(retry_first) {
     more_ = file_ && file_->next(block_, block_ns_);
   }
   virtual ~CaptureThread() = default;
 
-  // Called by whoever inherits, before it is gone.
+  // Must be called by derived destructors.
   void stop() {
     {
       const std::lock_guard lock(mutex_);
@@ -91,21 +91,21 @@ class CaptureThread {
     }
   }
 
-  // In the thread: what was captured at that time, and was here at that.
-  virtual void take(const Block& block, std::int64_t time_ns, std::int64_t there_ns) = 0;
+  // Called in the thread with each block, its capture time and its arrival time.
+  virtual void take(const Block& block, std::int64_t time_ns, std::int64_t arrival_ns) = 0;
 
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] bool file_is_empty() const { return file_ && !more_; }
 
-  std::mutex mutex_;  // of all below
+  std::mutex mutex_;  // guards the members below
   std::condition_variable changed_;
-  bool ended_ = false;  // no more will come
+  bool ended_ = false;  // no more blocks will come
   std::exception_ptr failure_;
 
  private:
   static constexpr std::int64_t kRetryNs = 1'000'000'000;
 
-  // False when it is to end.
+  // Returns false if the thread must stop.
   bool sleep_until(std::int64_t time_ns) {
     std::unique_lock lock(mutex_);
     return !changed_.wait_until(lock, steady_point(time_ns), [&] { return stopping_; });
@@ -113,24 +113,24 @@ class CaptureThread {
 
   void replay(std::int64_t begin_ns) {
     std::exception_ptr failure;
-    std::string trouble;
+    std::string error;
     try {
       for (; more_; more_ = file_->next(block_, block_ns_)) {
-        const std::int64_t due_ns = begin_ns + block_ns_ + lasts_ns(block_);
-        const std::int64_t there_ns = std::max(due_ns, steady_now_ns());
+        const std::int64_t due_ns = begin_ns + block_ns_ + duration_ns(block_);
+        const std::int64_t arrival_ns = std::max(due_ns, steady_now_ns());
         if (!sleep_until(due_ns)) {
           break;
         }
-        take(block_, begin_ns + block_ns_, there_ns);
+        take(block_, begin_ns + block_ns_, arrival_ns);
       }
     } catch (const Failure& failed) {
       failure = std::current_exception();
-      trouble = failed.what();
+      error = failed.what();
     }
     {
       const std::lock_guard lock(mutex_);
       failure_ = failure;
-      trouble_ = trouble;
+      error_ = error;
       ended_ = true;
     }
     changed_.notify_all();
@@ -141,7 +141,7 @@ class CaptureThread {
     }
   }
 
-  // From opening it until it is gone. False when it is not to be waited for.
+  // Opens the device and reads it until it fails. Returns false if it must not be retried.
   bool capture_once() {
     std::exception_ptr failure;
     std::string reason;
@@ -150,7 +150,7 @@ class CaptureThread {
         return false;
       }
       while (device_->next(block_, block_ns_)) {
-        note_there();
+        note_delivery();
         take(block_, block_ns_, block_ns_);
       }
       reason = name_ + ": " + device_->reason();
@@ -158,21 +158,22 @@ class CaptureThread {
       failure = std::current_exception();
       reason = failed.what();
     }
-    std::unique_ptr<Device> gone;  // which may take its time, without the lock
+    std::unique_ptr<Device>
+        failed_device;  // destroyed without the lock, because that may take time
     {
       const std::lock_guard lock(mutex_);
-      gone = std::move(device_);
-      trouble_ = restart_reason_.empty() ? reason : name_ + ": " + restart_reason_;
+      failed_device = std::move(device_);
+      error_ = restart_reason_.empty() ? reason : name_ + ": " + restart_reason_;
       restart_reason_.clear();
-      if (!waits_) {
+      if (!retries_) {
         failure_ = failure ? failure : std::make_exception_ptr(Failure(kExitNoInput, reason));
       }
     }
     changed_.notify_all();
-    return waits_;
+    return retries_;
   }
 
-  // False when it is to end.
+  // Returns false if the thread must stop.
   bool open() {
     const std::lock_guard lock(mutex_);
     if (!device_) {
@@ -181,22 +182,23 @@ class CaptureThread {
     return !stopping_;
   }
 
-  void note_there() {
+  void note_delivery() {
     const std::lock_guard lock(mutex_);
-    trouble_.clear();
-    waits_ = true;
+    error_.clear();
+    retries_ = true;
   }
 
   std::string name_;
-  std::unique_ptr<File> file_;      // of test:FILE
-  Block block_;                     // the file's next, or the device's newest; of the thread
-  std::int64_t block_ns_ = 0;       // its time
-  bool more_ = false;               // of the file
-  bool waits_;                      // for a device that is not there
-  bool stopping_ = false;           // the mutex's
-  std::string trouble_;             // the mutex's
-  std::string restart_reason_;      // the mutex's
-  std::unique_ptr<Device> device_;  // the mutex's; made and gone by the thread alone
+  std::unique_ptr<File> file_;  // of test:FILE
+  Block block_;  // the next of the file, or the latest of the device; used by the thread only
+  std::int64_t block_ns_ = 0;   // its timestamp
+  bool more_ = false;           // the file has more blocks
+  bool retries_;                // retry a device that cannot be opened
+  bool stopping_ = false;       // guarded by the mutex
+  std::string error_;           // guarded by the mutex
+  std::string restart_reason_;  // guarded by the mutex
+  std::unique_ptr<Device>
+      device_;  // guarded by the mutex; created and destroyed by the thread only
   std::thread thread_;
 };
 

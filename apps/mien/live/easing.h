@@ -1,4 +1,4 @@
-// What is shown of a face that comes and goes: it never jumps.
+// Smooth transitions when a face is lost or found.
 #pragma once
 
 #include <cstdint>
@@ -8,22 +8,22 @@
 
 namespace mien::app {
 
-// A lost face is held for half a second and then eases within a second to what the tracker says
-// without one: its mouth as the sound has it, everything else at rest, the head straight where it
-// was last. A face that is found again is eased to within a fifth of a second.
+// Holds a lost face for half a second, then eases within a second to the tracker's output without a
+// face: the mouth follows the audio, other controls rest, and the head is straight at its last
+// position. When a face is found, eases to it within a fifth of a second.
 class Easing {
  public:
-  Easing() { shown_.state = formats::FaceState::kSearching; }
-  // Frames in the order of their times.
+  Easing() { output_.state = formats::FaceState::kSearching; }
+  // Returns the frame to display. Frames must be in order of time.
   formats::Frame next(const formats::Frame& tracked);
 
  private:
   void change(formats::FaceState state, std::int64_t now_ns);
   [[nodiscard]] double share(std::int64_t now_ns) const;
 
-  std::optional<formats::Frame> from_;  // what was shown when the state changed
-  formats::Frame shown_;                // before any: of a face that is searched
-  bool seen_ = false;                   // there was a face
+  std::optional<formats::Frame> from_;  // the output when the state changed
+  formats::Frame output_;               // the last output; searching before the first
+  bool had_face_ = false;               // a face was tracked before
   std::int64_t changed_ns_ = 0;
 };
 

@@ -1,3 +1,4 @@
+// Runs live tracking: capture, track, send, draw.
 #include "apps/mien/live/live.h"
 
 #include <algorithm>
@@ -12,7 +13,7 @@
 #include "apps/mien/live/camera.h"
 #include "apps/mien/live/easing.h"
 #include "apps/mien/live/microphone.h"
-#include "apps/mien/live/picture_points.h"
+#include "apps/mien/live/openseeface_points.h"
 #include "apps/mien/live/screen.h"
 #include "apps/mien/live/statistics.h"
 #include "apps/mien/outputs/distinct_files.h"
@@ -34,9 +35,9 @@ namespace {
 
 constexpr const char* kNone = "none";
 constexpr std::int64_t kFrameNs = 1'000'000'000 / 30;
-constexpr std::int64_t kGlanceNs = 50'000'000;     // at the keyboard, while no picture comes
-constexpr std::int64_t kPatienceNs = 500'000'000;  // then frames come without pictures
-constexpr std::int64_t kSilentNs = 5'000'000'000;  // then the camera is opened anew
+constexpr std::int64_t kKeyPollNs = 50'000'000;        // interval of keyboard polls without images
+constexpr std::int64_t kImageTimeoutNs = 500'000'000;  // then frames are output without images
+constexpr std::int64_t kRestartNs = 5'000'000'000;     // then the camera is reopened
 constexpr std::int64_t kRedrawNs = 100'000'000;
 constexpr std::int32_t kQueuedSamples = 16000;
 
@@ -44,8 +45,8 @@ std::string file_played_by(const std::string& device) {
   return device.starts_with(kTest) ? device.substr(kTest.size()) : "";
 }
 
-// What is heard unless --mic says so: the sound of the file that plays the camera, or the first
-// microphone beside a camera of this machine.
+// The default of --mic: the audio of the file played as the camera, or the first microphone if the
+// camera is a device of this machine.
 std::string microphone_of(const LiveOptions& options, const std::string& camera) {
   if (options.microphone) {
     return *options.microphone;
@@ -64,7 +65,7 @@ double time_of_day_s() {
   const std::time_t seconds = std::chrono::system_clock::to_time_t(now);
   const double part =
       std::chrono::duration<double>(now - std::chrono::system_clock::from_time_t(seconds)).count();
-  const std::tm* local = std::localtime(&seconds);  // of one thread
+  const std::tm* local = std::localtime(&seconds);  // safe, because only one thread calls it
   return 3600.0 * local->tm_hour + 60.0 * local->tm_min + local->tm_sec + part;
 }
 
@@ -81,7 +82,7 @@ class Live {
         camera_(camera_name_),
         mirror_(options.mirror),
         automatic_(options.lod == 0) {
-    shown_.state = formats::FaceState::kSearching;
+    last_frame_.state = formats::FaceState::kSearching;
     require_distinct_files(
         {file_played_by(camera_name_), file_played_by(microphone_name_), options.neutral},
         {options.stats});
@@ -90,7 +91,7 @@ class Live {
             microphone_name_);
       microphone_ = std::make_unique<Microphone>(microphone_name_, loaded_.tracker);
     } else if (camera_name_ == kNone) {
-      throw Failure(kExitUsage, "--camera none, --mic none: there is nothing to track");
+      throw Failure(kExitUsage, "--camera none, --mic none: no input to track");
     }
     if (!options.neutral.empty()) {
       load_neutral(options.neutral, loaded_.tracker);
@@ -104,7 +105,7 @@ class Live {
     catch_interrupts();
     keyboard_ = std::make_unique<Keyboard>();
     page_ = options_.quiet ? nullptr : std::make_unique<Page>();
-    begin_ns_ = last_picture_ns_ = steady_now_ns();
+    begin_ns_ = last_image_ns_ = steady_now_ns();
     camera_.start(begin_ns_);
     if (microphone_) {
       microphone_->start(begin_ns_);
@@ -119,8 +120,8 @@ class Live {
   }
 
  private:
-  // Ctrl-C in a terminal ends ffmpeg, too: that a camera gives nothing any more is no failure then.
-  const Picture* newest(std::int64_t until_ns) {
+  // Ctrl-C in a terminal also ends ffmpeg; the resulting camera failure is ignored.
+  const CameraImage* newest(std::int64_t until_ns) {
     try {
       return camera_.newest(until_ns);
     } catch (const Failure&) {
@@ -131,39 +132,39 @@ class Live {
     }
   }
 
-  // False at the end of a file, and when it was interrupted while it waited.
+  // Returns false at the end of a file, and if interrupted.
   bool step() {
     const std::int64_t now_ns = steady_now_ns();
-    const bool pictures = camera_name_ != kNone && now_ns - last_picture_ns_ < kPatienceNs;
+    const bool has_images = camera_name_ != kNone && now_ns - last_image_ns_ < kImageTimeoutNs;
     const std::int64_t due_ns =
-        pictures ? last_picture_ns_ + kPatienceNs : last_output_ns_ + kFrameNs;
-    const Picture* picture = newest(std::min(due_ns, now_ns + kGlanceNs));
-    if (picture == nullptr && interrupted()) {
+        has_images ? last_image_ns_ + kImageTimeoutNs : last_output_ns_ + kFrameNs;
+    const CameraImage* image = newest(std::min(due_ns, now_ns + kKeyPollNs));
+    if (image == nullptr && interrupted()) {
       return false;
     }
-    if (picture != nullptr) {
-      last_picture_ns_ = steady_now_ns();
-      check(loaded_.tracker.push_video(picture->image, picture->time_ns), camera_name_);
-      output(picture);
+    if (image != nullptr) {
+      last_image_ns_ = steady_now_ns();
+      check(loaded_.tracker.push_video(image->image, image->time_ns), camera_name_);
+      output(image);
     } else if (camera_.ended() || (camera_name_ == kNone && microphone_->ended())) {
       return false;
     } else if (steady_now_ns() >= due_ns) {
       check(loaded_.tracker.advance(steady_now_ns()), camera_name_);
       output(nullptr);
     }
-    if (had_image_ && now_ns - std::max(last_picture_ns_, last_restart_ns_) > kSilentNs) {
+    if (had_image_ && now_ns - std::max(last_image_ns_, last_restart_ns_) > kRestartNs) {
       last_restart_ns_ = now_ns;
-      camera_.restart("no picture for 5 s; it is opened anew");
+      camera_.restart("no image for 5 s; reopening");
     }
     return true;
   }
 
-  void output(const Picture* picture) {
+  void output(const CameraImage* image) {
     Result result;
     check(loaded_.tracker.get_result(result), camera_name_);
-    if (picture != nullptr) {
+    if (image != nullptr) {
       had_image_ = true;
-      outgoing_.picture = openseeface_picture(result, picture->image, options_.fov_degrees);
+      outgoing_.image = openseeface_image(result, image->image, options_.fov_degrees);
     }
     const std::int64_t now_ns = steady_now_ns();
     outgoing_.frame = easing_.next(frame_of(number_++, result));
@@ -172,10 +173,10 @@ class Live {
         std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
     outgoing_.time_of_day_s = time_of_day_s();
     if (mirror_) {
-      Outgoing turned = outgoing_;
-      turned.frame = formats::mirrored(outgoing_.frame);
-      turned.picture = mirrored(outgoing_.picture);
-      send(turned);
+      Outgoing mirrored_outgoing = outgoing_;
+      mirrored_outgoing.frame = formats::mirrored(outgoing_.frame);
+      mirrored_outgoing.image = mirrored(outgoing_.image);
+      send(mirrored_outgoing);
     } else {
       send(outgoing_);
     }
@@ -183,17 +184,17 @@ class Live {
     level_ = result.lod;
     calibrating_ = (result.flags & MIEN_RESULT_CAPTURING_NEUTRAL) != 0;
     statistics_.frame(result, last_output_ns_,
-                      picture != nullptr ? last_output_ns_ - picture->there_ns : -1);
+                      image != nullptr ? last_output_ns_ - image->arrival_ns : -1);
   }
 
   void send(const Outgoing& outgoing) {
     for (const std::unique_ptr<Sender>& sender : senders_) {
       dropped_packets_ += sender->send(outgoing) ? 0 : 1;
     }
-    shown_ = outgoing.frame;
+    last_frame_ = outgoing.frame;
   }
 
-  // Whether there is anybody to work for: a pipe's reader may have gone.
+  // Whether a sender still has a receiver: the reader of a pipe may have closed it.
   [[nodiscard]] bool wanted() const {
     return senders_.empty() || std::any_of(senders_.begin(), senders_.end(),
                                            [](const auto& sender) { return sender->wanted(); });
@@ -218,7 +219,7 @@ class Live {
     }
   }
 
-  // A level without weights stays a key that does nothing.
+  // Ignores a level without weights.
   void set_level(int level) {
     if (loaded_.tracker.set_lod(level) == MIEN_OK) {
       automatic_ = level == 0;
@@ -231,27 +232,26 @@ class Live {
       return;
     }
     last_draw_ns_ = now_ns;
-    const std::string camera = camera_.trouble();
-    const std::string microphone = microphone_ ? microphone_->trouble() : "";
-    if (page_ && page_->there()) {
+    const std::string camera = camera_.error();
+    const std::string microphone = microphone_ ? microphone_->error() : "";
+    if (page_ && page_->is_terminal()) {
       page_->draw(screen_text(screen_state(camera, microphone), statistics_));
     } else if (page_) {
-      say_once(camera, said_of_camera_);
-      say_once(microphone, said_of_microphone_);
+      print_if_changed(camera, printed_camera_error_);
+      print_if_changed(microphone, printed_microphone_error_);
     }
   }
 
   [[nodiscard]] ScreenState screen_state(const std::string& camera,
                                          const std::string& microphone) const {
     ScreenState state;
-    state.camera = shown(camera.empty() ? camera_name_ : camera + "; waiting for it");
-    state.microphone =
-        shown(microphone.empty() ? microphone_name_ : microphone + "; waiting for it");
+    state.camera = shown(camera.empty() ? camera_name_ : camera + "; retrying");
+    state.microphone = shown(microphone.empty() ? microphone_name_ : microphone + "; retrying");
     for (const std::unique_ptr<Sender>& sender : senders_) {
       const std::string more = sender->state();
       state.receivers.push_back(shown(sender->name() + (more.empty() ? "" : ", " + more)));
     }
-    state.frame = shown_;
+    state.frame = last_frame_;
     state.level = level_;
     state.automatic = automatic_;
     state.mirrored = mirror_;
@@ -261,14 +261,14 @@ class Live {
     return state;
   }
 
-  // Where there is no screen, what went wrong is a line when it goes wrong.
-  static void say_once(const std::string& trouble, std::string& said) {
-    if (trouble != said && !trouble.empty()) {
-      std::fprintf(stderr, "%s; waiting for it\n", shown(trouble).c_str());
-    } else if (trouble != said) {
-      std::fputs("it is back\n", stderr);
+  // Without a screen, prints errors when they change.
+  static void print_if_changed(const std::string& error, std::string& printed) {
+    if (error != printed && !error.empty()) {
+      std::fprintf(stderr, "%s; retrying\n", shown(error).c_str());
+    } else if (error != printed) {
+      std::fputs("recovered\n", stderr);
     }
-    said = trouble;
+    printed = error;
   }
 
   void finish() {
@@ -290,8 +290,8 @@ class Live {
     }
     if (!options_.quiet) {
       std::fprintf(stderr,
-                   "frames %llu in %.1f s, with a face %llu, dropped pictures %llu, packets %llu\n"
-                   "picture to sent: median %.1f ms, 99 %% within %.1f ms\n",
+                   "%llu frames in %.1f s, %llu with a face, dropped %llu images and %llu "
+                   "packets\nlatency from image to packet: median %.1f ms, 99 %% within %.1f ms\n",
                    static_cast<unsigned long long>(statistics_.frames()), seconds,
                    static_cast<unsigned long long>(statistics_.face_frames()),
                    static_cast<unsigned long long>(camera_.dropped()),
@@ -304,20 +304,20 @@ class Live {
   std::string camera_name_, microphone_name_;
   LoadedTracker loaded_;
   mutable Camera camera_;
-  std::unique_ptr<Microphone> microphone_;  // none: nothing is heard
+  std::unique_ptr<Microphone> microphone_;  // null: no audio
   std::vector<std::unique_ptr<Sender>> senders_;
   std::unique_ptr<Keyboard> keyboard_;
   std::unique_ptr<Page> page_;
   Easing easing_;
   LiveStatistics statistics_;
   Outgoing outgoing_;
-  formats::Frame shown_;
+  formats::Frame last_frame_;
   bool mirror_, automatic_, calibrating_ = false, quit_ = false, had_image_ = false;
   int level_ = 0;
   std::int64_t number_ = 0, begin_ns_ = 0;
-  std::int64_t last_picture_ns_ = 0, last_output_ns_ = 0, last_draw_ns_ = 0, last_restart_ns_ = 0;
+  std::int64_t last_image_ns_ = 0, last_output_ns_ = 0, last_draw_ns_ = 0, last_restart_ns_ = 0;
   std::uint64_t dropped_packets_ = 0;
-  std::string said_of_camera_, said_of_microphone_;
+  std::string printed_camera_error_, printed_microphone_error_;
 };
 
 }  // namespace

@@ -1,4 +1,5 @@
-// `mien live`: a camera and a microphone go in, other programs get the face as it moves.
+// Implements `mien live`: tracks a camera and a microphone, and sends the results to other
+// programs.
 #pragma once
 
 #include <optional>
@@ -9,12 +10,12 @@ namespace mien::app {
 
 struct LiveOptions {
   std::string camera;                     // empty: the first of this machine
-  std::optional<std::string> microphone;  // none: what belongs to the camera
+  std::optional<std::string> microphone;  // default: the microphone that belongs to the camera
   std::vector<std::string> destinations;  // empty: nothing is sent
-  std::string neutral;                    // file to take into account
-  std::string stats;                      // file; empty: none
+  std::string neutral;                    // neutral file; empty: none
+  std::string stats;                      // path; empty: none
   std::string models, tier;
-  std::optional<int> lod;  // 0: automatic; none: the highest that there are weights for
+  std::optional<int> lod;  // 0: automatic; default: the highest level with weights
   float budget_ms = 10.0f;
   double av_offset_ms = 0.0;
   float voice_strength = 1.0f;
@@ -25,7 +26,7 @@ struct LiveOptions {
   bool quiet = false;
 };
 
-// Until it is told to end, or a file has ended. Throws Failure.
+// Runs until interrupted or until a file ends. Throws Failure.
 void live(const LiveOptions& options);
 
 }  // namespace mien::app

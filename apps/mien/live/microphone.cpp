@@ -1,3 +1,4 @@
+// Queues audio for a tracker.
 #include "apps/mien/live/microphone.h"
 
 namespace mien::app {
@@ -13,8 +14,8 @@ bool Microphone::ended() {
   return ended_;
 }
 
-// A queue that is full means that nobody asks for pictures; what is missing then is a gap.
-void Microphone::take(const Audio& block, std::int64_t time_ns, std::int64_t /*there_ns*/) {
+// The queue is full if the tracker processes no images. The dropped audio becomes a gap.
+void Microphone::take(const Audio& block, std::int64_t time_ns, std::int64_t /*arrival_ns*/) {
   const mien_status status = tracker_.queue_audio(block, time_ns);
   if (status != MIEN_OK && status != MIEN_ERROR_AUDIO_QUEUE_FULL) {
     throw Failure(kExitInternal, name() + ": " + message(status));

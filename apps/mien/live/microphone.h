@@ -1,4 +1,4 @@
-// A microphone, heard by a tracker from a thread of its own.
+// A microphone that feeds a tracker from its own thread.
 #pragma once
 
 #include <cstdint>
@@ -12,17 +12,17 @@ namespace mien::app {
 
 class Microphone : public CaptureThread<AudioSource, LiveSound, Audio> {
  public:
-  // "test:FILE": the sound of a file, as if it happened; else a device or a URL, which is waited
-  // for. The tracker has room for half a second (mien_tracker_config.audio_queue_samples) and
-  // outlives this. Throws Failure when a file has no sound.
+  // "test:FILE": the audio of a file in real time; otherwise a device or a URL, which is retried.
+  // The tracker must have a queue of half a second (mien_tracker_config.audio_queue_samples) and
+  // must outlive this object. Throws Failure if a file has no audio.
   Microphone(const std::string& name, Tracker& tracker);
   ~Microphone() override { stop(); }
 
-  // No more will come: the file has ended.
+  // Whether the file has ended.
   [[nodiscard]] bool ended();
 
  private:
-  void take(const Audio& block, std::int64_t time_ns, std::int64_t there_ns) override;
+  void take(const Audio& block, std::int64_t time_ns, std::int64_t arrival_ns) override;
 
   Tracker& tracker_;
 };

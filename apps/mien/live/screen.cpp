@@ -1,3 +1,4 @@
+// Formats the screen of `mien live`.
 #include "apps/mien/live/screen.h"
 
 #include <algorithm>
@@ -16,7 +17,7 @@ constexpr std::size_t kLabelColumns = 12;
 constexpr std::size_t kNameColumns = 16;
 constexpr std::size_t kBarCells = 20;
 
-// Those that tell most, in two columns, left of a person on the left as a mirror has it.
+// The main controls in two columns; the person's left is on the left, as in a mirror.
 constexpr std::array<std::array<std::string_view, 2>, 7> kBars = {{
     {"eyeBlinkLeft", "eyeBlinkRight"},
     {"browDownLeft", "browDownRight"},
@@ -28,8 +29,8 @@ constexpr std::array<std::array<std::string_view, 2>, 7> kBars = {{
 }};
 
 std::string padded(std::string_view text, std::size_t columns) {
-  std::string made(text.substr(0, columns));
-  return made + std::string(columns - made.size(), ' ');
+  std::string result(text.substr(0, columns));
+  return result + std::string(columns - result.size(), ' ');
 }
 
 std::string bar(double value) {
@@ -92,18 +93,17 @@ std::string screen_text(const ScreenState& state, const LiveStatistics& statisti
     text += labelled("sends to", receiver);
   }
   if (state.receivers.empty()) {
-    text += labelled("sends to", "nobody");
+    text += labelled("sends to", "no receiver");
   }
-  text +=
-      labelled("frames", formats::fixed(statistics.frames_per_second(), 1) +
-                             " a second, dropped: " + std::to_string(state.dropped_images) +
-                             " pictures, " + std::to_string(state.dropped_packets) + " packets");
+  text += labelled("frames", formats::fixed(statistics.frames_per_second(), 1) +
+                                 " per second, dropped: " + std::to_string(state.dropped_images) +
+                                 " images, " + std::to_string(state.dropped_packets) + " packets");
   text += labelled("level", std::to_string(state.level) + (state.automatic ? " (automatic)" : "") +
                                 (state.mirrored ? ", mirrored" : ""));
-  text += labelled("a frame", times(statistics));
-  text += labelled("delay", formats::fixed(statistics.latency().quantile(0.5), 1) +
-                                " ms from picture to packet, 99 % within " +
-                                formats::fixed(statistics.latency().quantile(0.99), 1) + " ms");
+  text += labelled("frame", times(statistics));
+  text += labelled("latency", formats::fixed(statistics.latency().quantile(0.5), 1) +
+                                  " ms from image to packet, 99 % within " +
+                                  formats::fixed(statistics.latency().quantile(0.99), 1) + " ms");
   text +=
       labelled("face", state.calibrating ? "calibrating: look neutral" : face_line(state.frame));
   text += labelled("voice", bar(formats::or_zero(state.frame.voice_activity)));

@@ -1,4 +1,4 @@
-// What `mien live` shows of itself, as lines of text.
+// The screen of `mien live` as text.
 #pragma once
 
 #include <cstdint>
@@ -11,16 +11,16 @@
 namespace mien::app {
 
 struct ScreenState {
-  std::string camera, microphone;      // what they are, or why there is nothing of them
-  std::vector<std::string> receivers;  // a line each
-  formats::Frame frame;                // as it is sent
-  int level = 0;                       // that runs
+  std::string camera, microphone;      // name, or the reason why there is no input
+  std::vector<std::string> receivers;  // one line each
+  formats::Frame frame;                // as sent
+  int level = 0;                       // current level of detail
   bool automatic = false, mirrored = false, calibrating = false;
-  std::uint64_t dropped_images = 0;  // since the beginning
+  std::uint64_t dropped_images = 0;  // since the start
   std::uint64_t dropped_packets = 0;
 };
 
-// Lines of 80 columns at most, each with its line feed.
+// Lines of at most 80 columns, each with a line feed.
 [[nodiscard]] std::string screen_text(const ScreenState& state, const LiveStatistics& statistics);
 
 }  // namespace mien::app

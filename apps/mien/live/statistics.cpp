@@ -1,3 +1,4 @@
+// Statistics of a live run.
 #include "apps/mien/live/statistics.h"
 
 #include <algorithm>
@@ -7,7 +8,7 @@ namespace mien::app {
 namespace {
 
 constexpr std::int64_t kStepNs = 100'000;
-constexpr double kNewFrame = 0.05;  // its share in an average
+constexpr double kNewFrame = 0.05;  // weight of a new frame in a moving average
 
 }  // namespace
 
@@ -29,12 +30,12 @@ double Histogram::quantile(double share) const {
   return 0.0;
 }
 
-void LiveStatistics::frame(const Result& result, std::int64_t now_ns, std::int64_t waited_ns) {
+void LiveStatistics::frame(const Result& result, std::int64_t now_ns, std::int64_t latency_ns) {
   ++frames_;
   face_frames_ += result.has_face() ? 1 : 0;
   if (last_ns_ != 0) {
     const double rate = 1e9 / static_cast<double>(std::max<std::int64_t>(now_ns - last_ns_, 1));
-    // Of intervals, not of rates, the mean says how many came.
+    // The mean of intervals, not of rates, gives the true frame rate.
     fps_ = fps_ == 0.0 ? rate : 1.0 / ((1.0 - kNewFrame) / fps_ + kNewFrame / rate);
   }
   last_ns_ = now_ns;
@@ -42,8 +43,8 @@ void LiveStatistics::frame(const Result& result, std::int64_t now_ns, std::int64
     const double ms = static_cast<double>(result.stage_ns[stage]) * 1e-6;
     stage_ms_[stage] += kNewFrame * (ms - stage_ms_[stage]);
   }
-  if (waited_ns >= 0) {
-    latency_.add(waited_ns);
+  if (latency_ns >= 0) {
+    latency_.add(latency_ns);
   }
 }
 

@@ -1,4 +1,4 @@
-// Numbers about a live run, in memory that does not grow.
+// Statistics of a live run, with constant memory.
 #pragma once
 
 #include <array>
@@ -9,11 +9,11 @@
 
 namespace mien::app {
 
-// Of times in steps of 0.1 ms, up to 1 s.
+// A histogram of times in steps of 0.1 ms up to 1 s.
 class Histogram {
  public:
   void add(std::int64_t ns);
-  // In ms, 0 of nothing. `share`: 0.5 for the median.
+  // In ms; 0 if empty. `share`: 0.5 for the median.
   [[nodiscard]] double quantile(double share) const;
   [[nodiscard]] std::uint64_t count() const { return count_; }
 
@@ -24,8 +24,8 @@ class Histogram {
 
 class LiveStatistics {
  public:
-  // `waited_ns`: from when its picture was there until it was sent; negative where it had none.
-  void frame(const Result& result, std::int64_t now_ns, std::int64_t waited_ns);
+  // `latency_ns`: time from the arrival of the image to its packet; negative without an image.
+  void frame(const Result& result, std::int64_t now_ns, std::int64_t latency_ns);
 
   [[nodiscard]] double frames_per_second() const { return fps_; }
   [[nodiscard]] double stage_ms(int stage) const {
@@ -38,7 +38,7 @@ class LiveStatistics {
  private:
   std::uint64_t frames_ = 0, face_frames_ = 0;
   std::int64_t last_ns_ = 0;
-  double fps_ = 0.0;  // both of about the last second
+  double fps_ = 0.0;  // as the next member, an average over about a second
   std::array<double, MIEN_STAGE_COUNT> stage_ms_{};
   Histogram latency_;
 };

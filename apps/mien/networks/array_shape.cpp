@@ -1,3 +1,4 @@
+// Matches the axes of an array with the shape of a network's input.
 #include "apps/mien/networks/array_shape.h"
 
 #include <algorithm>
@@ -23,14 +24,14 @@ ArrayShape::ArrayShape(std::span<const std::uint64_t> dims, const NetworkInfo& n
     : dims_(dims.begin(), dims.end()), map_(network.input), layout_(layout) {
   const TensorShape& in = network.input;
   const bool vector = in.height == 1 && in.width == 1;
-  wanted_ = text(vector ? std::vector{u64(in.channels)} : axes(in)) +
-            (network.any_size ? " or larger" : "");
+  expected_ = text(vector ? std::vector{u64(in.channels)} : axes(in)) +
+              (network.any_size ? " or larger" : "");
   fits_ = take(axes(in)) || (network.any_size && take_larger(in)) ||
           (vector && take({u64(in.channels)}));
   if (!fits_ && in.height == 1 && !vector) {
     const std::uint64_t c = u64(in.channels), w = u64(in.width);
-    without_rows_ = layout == MapLayout::kChannelsFirst ? take({c, w}) : take({w, c});
-    fits_ = without_rows_;
+    single_row_ = layout == MapLayout::kChannelsFirst ? take({c, w}) : take({w, c});
+    fits_ = single_row_;
   }
 }
 
@@ -39,7 +40,7 @@ std::vector<std::uint64_t> ArrayShape::axes(const TensorShape& map) const {
   return layout_ == MapLayout::kChannelsFirst ? std::vector{c, h, w} : std::vector{h, w, c};
 }
 
-// Whether the last axes are `item`; the others are in front.
+// Whether the last axes equal `item`; the axes before them become front_.
 bool ArrayShape::take(const std::vector<std::uint64_t>& item) {
   if (dims_.size() < item.size() || !std::equal(item.rbegin(), item.rend(), dims_.rbegin())) {
     return false;
@@ -64,7 +65,7 @@ bool ArrayShape::take_larger(const TensorShape& declared) {
 }
 
 std::string ArrayShape::mismatch() const {
-  return "an array of shape " + text(dims_) + "; its last axes should be " + wanted_;
+  return "wrong shape (got " + text(dims_) + ", expected as last axes " + expected_ + ")";
 }
 
 std::uint64_t ArrayShape::steps() const {
@@ -75,13 +76,13 @@ std::uint64_t ArrayShape::steps() const {
   return all;
 }
 
-std::uint64_t ArrayShape::steps_of_a_stream() const { return front_.empty() ? 1 : front_.back(); }
+std::uint64_t ArrayShape::steps_per_stream() const { return front_.empty() ? 1 : front_.back(); }
 
 std::vector<std::uint64_t> ArrayShape::output(const TensorShape& map) const {
   std::vector<std::uint64_t> item = axes(map);
   if (map.height == 1 && map.width == 1) {
     item = {u64(map.channels)};
-  } else if (without_rows_ && map.height == 1) {
+  } else if (single_row_ && map.height == 1) {
     item.erase(item.begin() + (layout_ == MapLayout::kChannelsFirst ? 1 : 0));
   }
   item.insert(item.begin(), front_.begin(), front_.end());

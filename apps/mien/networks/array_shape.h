@@ -1,5 +1,5 @@
-// How the axes of an array are a network's maps: [c] or, of maps larger than 1x1, [c][h][w] (or
-// [h][w][c]) come last; axes in front of them count streams and, the last one, steps.
+// The axes of an array as maps of a network: [c] for vectors, or [c][h][w] (or [h][w][c]) for maps,
+// are the last axes. The axes before them count streams, and the last of these counts time steps.
 #pragma once
 
 #include <mien/engine.h>
@@ -18,11 +18,11 @@ class ArrayShape {
   ArrayShape(std::span<const std::uint64_t> dims, const NetworkInfo& network, MapLayout layout);
 
   [[nodiscard]] bool fits() const { return fits_; }
-  [[nodiscard]] std::string mismatch() const;  // where it does not fit
+  [[nodiscard]] std::string mismatch() const;  // the error message if the array does not fit
   [[nodiscard]] const TensorShape& map() const { return map_; }
   [[nodiscard]] std::uint64_t steps() const;
-  [[nodiscard]] std::uint64_t steps_of_a_stream() const;
-  // Of the array of an output: the same axes in front.
+  [[nodiscard]] std::uint64_t steps_per_stream() const;
+  // The shape of the array of an output: it has the same axes before the map.
   [[nodiscard]] std::vector<std::uint64_t> output(const TensorShape& map) const;
 
  private:
@@ -34,8 +34,8 @@ class ArrayShape {
   std::vector<std::uint64_t> front_;
   TensorShape map_;
   MapLayout layout_;
-  std::string wanted_;
-  bool without_rows_ = false;  // a map of one row came as [c][w]
+  std::string expected_;
+  bool single_row_ = false;  // a map with one row, given as [c][w]
   bool fits_ = false;
 };
 

@@ -1,3 +1,4 @@
+// Prints the content of a weight file as text or JSON.
 #include "apps/mien/networks/inspect.h"
 
 #include <mien/engine.h>

@@ -1,4 +1,4 @@
-// `mien inspect`: what is in a weight file.
+// Implements `mien inspect`, which prints the content of a weight file.
 #pragma once
 
 #include <string>

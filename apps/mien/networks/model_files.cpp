@@ -1,3 +1,4 @@
+// Finds and reads weight files.
 #include "apps/mien/networks/model_files.h"
 
 #include <algorithm>
@@ -18,7 +19,7 @@ Blob::Blob(const std::string& path, ExitCode code) {
   if (!file) {
     throw Failure(code, path + ": cannot be opened");
   }
-  const std::streamoff end = file.tellg();  // of a folder, the largest number there is
+  const std::streamoff end = file.tellg();  // for a folder: the largest number
   std::error_code ignored;
   if (end < 0 || fs::is_directory(path_of(path), ignored)) {
     throw Failure(code, path + ": cannot be read");
@@ -50,7 +51,7 @@ std::string models_directory(const std::string& chosen) {
       break;
     }
   }
-  throw Failure(kExitModel, "no model files found; give --models DIR or set MIEN_MODELS");
+  throw Failure(kExitModel, "--models: no model files found; use --models DIR or set MIEN_MODELS");
 }
 
 std::vector<fs::path> weight_files(const std::string& folder) {

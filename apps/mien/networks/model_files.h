@@ -1,4 +1,4 @@
-// The weight files beside the program or the source tree.
+// Finds weight files beside the program or the source tree, and reads them.
 #pragma once
 
 #include <cstddef>
@@ -10,10 +10,10 @@
 
 namespace mien::app {
 
-// A whole file in memory, aligned as the library asks for.
+// A file in memory, aligned as the library requires.
 class Blob {
  public:
-  // Throws Failure with the code when there is no such file.
+  // Throws Failure with `code` if the file cannot be read.
   explicit Blob(const std::string& path, ExitCode code = kExitModel);
   const void* data() const { return words_.data(); }
   std::size_t size() const { return size_; }
@@ -26,10 +26,11 @@ class Blob {
   std::size_t size_ = 0;
 };
 
-// `chosen` if given; else $MIEN_MODELS; else `models` beside the program, above it, or installed.
+// `chosen` if not empty; else $MIEN_MODELS; else `models` beside the program, above it, or
+// installed.
 std::string models_directory(const std::string& chosen);
 
-// All weight files of a folder, by name. Throws Failure(kExitModel) if there is none.
+// All weight files of a folder, sorted by name. Throws Failure(kExitModel) if there are none.
 std::vector<std::filesystem::path> weight_files(const std::string& folder);
 
 }  // namespace mien::app

@@ -1,3 +1,4 @@
+// Runs a network on each map of an array.
 #include "apps/mien/networks/run.h"
 
 #include <mien/engine.h>
@@ -32,8 +33,9 @@ NetworkInfo chosen_network(const WeightFile& file, const RunOptions& options) {
       return file.network(i);
     }
   }
-  throw Failure(kExitUsage, options.model + ": choose one of its networks with --network: " +
-                                network_names(file));
+  throw Failure(kExitUsage, "--network: unknown network in " + options.model + " (got '" +
+                                options.network + "', expected one of " + network_names(file) +
+                                ")");
 }
 
 void open_model(const Blob& blob, const std::string& path, WeightFile& file) {
@@ -55,10 +57,10 @@ formats::NpyArray read_array(const Blob& blob, const std::string& path) {
   return array;
 }
 
-// Where element (y, x, c) of a map lies in an array of its shape.
-class Places {
+// The index of element (y, x, c) in an array of a map.
+class ElementIndex {
  public:
-  Places(const TensorShape& shape, MapLayout layout) {
+  ElementIndex(const TensorShape& shape, MapLayout layout) {
     const auto h = static_cast<std::size_t>(shape.height);
     const auto w = static_cast<std::size_t>(shape.width);
     const auto c = static_cast<std::size_t>(shape.channels);
@@ -80,7 +82,7 @@ struct MapSize {
       : pixels(static_cast<std::size_t>(shape.height) * static_cast<std::size_t>(shape.width)),
         channels(static_cast<std::size_t>(shape.channels)) {}
   [[nodiscard]] std::size_t elems() const { return pixels * channels; }
-  // In blocks of 8 channels; include/mien/engine.h.
+  // The index in the engine's layout, blocks of 8 channels; see include/mien/engine.h.
   [[nodiscard]] std::size_t blocked(std::size_t pixel, std::size_t channel) const {
     return (channel / 8 * pixels + pixel) * 8 + channel % 8;
   }
@@ -91,7 +93,7 @@ void set_input(const formats::NpyArray& array, std::uint64_t step, MapLayout lay
                NetworkRunner& runner) {
   const TensorShape shape = runner.input_shape();
   const MapSize size(shape);
-  const Places places(shape, layout);
+  const ElementIndex places(shape, layout);
   const bool interleaved = size.channels <= 4 && size.pixels > 1;
   const std::span<float> input = runner.input();
   for (std::size_t p = 0; p < size.pixels; ++p) {
@@ -106,7 +108,7 @@ void write_output(const NetworkRunner& runner, std::int32_t index, MapLayout lay
                   OutputFile& file) {
   const TensorShape shape = runner.output_shape(index);
   const MapSize size(shape);
-  const Places places(shape, layout);
+  const ElementIndex places(shape, layout);
   std::vector<float> values(size.elems());
   for (std::size_t p = 0; p < size.pixels; ++p) {
     for (std::size_t c = 0; c < size.channels; ++c) {
@@ -121,12 +123,12 @@ void write_header(const std::vector<std::uint64_t>& shape, OutputFile& file) {
   file.write({header.bytes, sizeof header.bytes});
 }
 
-// Every stream from the beginning: all axes but the last in front of the maps count streams, the
-// last one time.
+// Resets the network at the start of each stream. Of the axes before the map, the last counts time
+// steps and the others count streams.
 void run_steps(const formats::NpyArray& array, const ArrayShape& shape, MapLayout layout,
                NetworkRunner& runner, std::deque<OutputFile>& files) {
   for (std::uint64_t step = 0; step < shape.steps(); ++step) {
-    if (step % shape.steps_of_a_stream() == 0) {
+    if (step % shape.steps_per_stream() == 0) {
       runner.reset();
     }
     set_input(array, step, layout, runner);
@@ -145,8 +147,9 @@ void run_network(const RunOptions& options) {
   open_model(model, options.model, file);
   const NetworkInfo network = chosen_network(file, options);
   if (static_cast<std::size_t>(network.outputs) != options.outputs.size()) {
-    throw Failure(kExitUsage, "the network has " + std::to_string(network.outputs) +
-                                  " outputs: give --output once for each");
+    throw Failure(kExitUsage, "--output: wrong number of arrays (got " +
+                                  std::to_string(options.outputs.size()) + ", expected " +
+                                  std::to_string(network.outputs) + ")");
   }
   require_distinct_files({options.model, options.input}, options.outputs);
   const formats::NpyArray array = read_array(data, options.input);

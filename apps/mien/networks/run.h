@@ -1,4 +1,4 @@
-// `mien run`: a network of a weight file on arrays.
+// Implements `mien run`, which runs a network of a weight file on arrays.
 #pragma once
 
 #include <string>

@@ -1,3 +1,4 @@
+// Selects kernel tiers by name.
 #include "apps/mien/networks/tiers.h"
 
 #include <mien/mien.h>
@@ -17,11 +18,12 @@ std::uint32_t cpu_mask(const std::string& name, bool unfused) {
       continue;
     }
     if ((mien_cpu_tiers() & tier) == 0) {
-      throw Failure(kExitUnsupportedTier, "tier '" + name + "': not on this CPU or in this build");
+      throw Failure(kExitUnsupportedTier,
+                    "--tier: '" + name + "' is not available on this CPU or not compiled in");
     }
     return (2 * tier - 1) | fused;
   }
-  throw Failure(kExitUsage, "tier '" + name + "': no such tier");
+  throw Failure(kExitUsage, "--tier: unknown tier '" + name + "'");
 }
 
 }  // namespace mien::app

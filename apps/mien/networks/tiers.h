@@ -6,9 +6,9 @@
 
 namespace mien::app {
 
-// The CPU mask for `name`; all tiers when it is empty. The tiers before it stay allowed, so that a
-// kernel that the tier lacks is still found. `unfused`: each layer by
-// itself. Throws Failure when this CPU cannot run the tier.
+// The CPU mask for the tier `name`, or for all tiers if it is empty. Lower tiers stay enabled for
+// kernels that the tier lacks. `unfused` runs networks layer by layer. Throws Failure if this CPU
+// cannot run the tier.
 std::uint32_t cpu_mask(const std::string& name, bool unfused = false);
 
 }  // namespace mien::app

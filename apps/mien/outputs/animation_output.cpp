@@ -1,3 +1,4 @@
+// Selects animation formats and writes animations.
 #include "apps/mien/outputs/animation_output.h"
 
 #include <cerrno>
@@ -66,30 +67,33 @@ AnimationFormat format_asked_for(const std::string& name) {
   if (const auto format = formats::format_named(name)) {
     return *format;
   }
-  throw Failure(kExitUsage, "'" + name + "' is no format; there are " + format_names());
+  throw Failure(kExitUsage,
+                "unknown format '" + name + "', supported formats are " + format_names());
 }
 
 std::vector<AnimationTarget> targets(const AnimationOptions& options) {
   const std::vector<std::string> files =
       options.files.empty() ? std::vector<std::string>{kStandardOutput} : options.files;
   if (!options.formats.empty() && options.formats.size() != files.size()) {
-    throw Failure(kExitUsage, "--format has to be given once for each -o, or not at all");
+    throw Failure(kExitUsage, "--format: expected once per -o, or not at all");
   }
-  std::vector<AnimationTarget> made;
+  std::vector<AnimationTarget> selected;
   for (std::size_t i = 0; i < files.size(); ++i) {
-    made.push_back({files[i], options.formats.empty() ? format_of(files[i], options.format_option)
-                                                      : format_asked_for(options.formats[i])});
+    selected.push_back({files[i], options.formats.empty()
+                                      ? format_of(files[i], options.format_option)
+                                      : format_asked_for(options.formats[i])});
     for (std::size_t k = 0; k < i; ++k) {
-      if (made[k].file == files[i]) {
-        throw Failure(kExitUsage, files[i] + ": is to be written twice");
+      if (selected[k].file == files[i]) {
+        throw Failure(kExitUsage, files[i] + ": duplicate output path");
       }
     }
-    if (options.writing.several_faces && !formats::holds_several_faces(made.back().format)) {
-      throw Failure(kExitUsage, files[i] + ": " + std::string(formats::name(made.back().format)) +
-                                    " holds one face; follow one, or write .jsonl and convert it");
+    if (options.writing.several_faces && !formats::holds_several_faces(selected.back().format)) {
+      throw Failure(kExitUsage,
+                    files[i] + ": " + std::string(formats::name(selected.back().format)) +
+                        " supports a single face; track one face, or write .jsonl and convert it");
     }
   }
-  return made;
+  return selected;
 }
 
 std::vector<std::string> files_of(const AnimationTarget& target) {

@@ -1,4 +1,4 @@
-// Files of an animated face, in whatever format.
+// Writes animations in any supported format.
 #pragma once
 
 #include <memory>
@@ -13,12 +13,12 @@ namespace mien::app {
 
 inline constexpr const char* kStandardOutput = "-";
 
-// What a person says of an animation that is to be written.
+// Options of animations to write.
 struct AnimationOptions {
-  std::vector<std::string> files;    // none: standard output
-  std::vector<std::string> formats;  // names of them; none: by the files' endings
+  std::vector<std::string> files;    // empty: standard output
+  std::vector<std::string> formats;  // format names; empty: selected by the endings of `files`
   formats::WriteOptions writing;
-  const char* format_option = "--format";  // for messages
+  const char* format_option = "--format";  // the option's name in messages
 };
 
 struct AnimationTarget {
@@ -26,33 +26,33 @@ struct AnimationTarget {
   formats::AnimationFormat format;
 };
 
-// One for each file. A file without an ending, as a device or a pipe, is CSV. Throws
-// Failure(kExitUsage) where it cannot be told what is meant.
+// One target per file. A file without an ending, such as a device or a pipe, is CSV. Throws
+// Failure(kExitUsage) for an unknown format or a duplicate file.
 std::vector<AnimationTarget> targets(const AnimationOptions& options);
 
-// Throws Failure(kExitUsage) where there is no such format.
+// Throws Failure(kExitUsage) for an unknown format.
 formats::AnimationFormat format_asked_for(const std::string& name);
 
-// The files that are written for it, the animation first.
+// The files written for a target, the animation first.
 std::vector<std::string> files_of(const AnimationTarget& target);
 
 class AnimationOutput {
  public:
-  // Throws Failure(kExitOutput), as the others.
+  // All functions throw Failure(kExitOutput) if writing fails.
   AnimationOutput(const AnimationTarget& target, const formats::WriteOptions& options);
 
   void frame(const formats::Frame& frame);
   void finish();
 
-  // Whether there is anybody to write for: a reader of standard output may have gone.
+  // False after the reader of standard output has closed it.
   [[nodiscard]] bool wanted() const { return wanted_; }
 
  private:
   void write(const std::string& text);
 
   std::unique_ptr<formats::AnimationWriter> writer_;
-  std::unique_ptr<OutputFile> file_;    // none: standard output
-  std::unique_ptr<OutputFile> beside_;  // what the file itself cannot say
+  std::unique_ptr<OutputFile> file_;    // null: standard output
+  std::unique_ptr<OutputFile> beside_;  // units that the format does not contain
   bool wanted_ = true;
 };
 

@@ -1,3 +1,4 @@
+// Draws points, lines, text and images.
 #include "apps/mien/outputs/canvas.h"
 
 #include <algorithm>
@@ -54,7 +55,7 @@ Color pixel(const mien_image& image, int x, int y) {
   return {rgb[0], rgb[1], rgb[2]};
 }
 
-// The pixel of `pixels` that each of `places` shows.
+// For each of `places` output pixels, the index of the input pixel it shows.
 std::vector<int> spread(int pixels, int places, bool backwards) {
   std::vector<int> shown(static_cast<std::size_t>(places));
   for (int i = 0; i < places; ++i) {

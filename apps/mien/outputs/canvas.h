@@ -1,4 +1,4 @@
-// An RGB picture to draw on.
+// An RGB image to draw on.
 #pragma once
 
 #include <mien/mien.h>
@@ -19,8 +19,8 @@ class Canvas {
   int height() const { return height_; }
   const std::vector<unsigned char>& rgb() const { return rgb_; }
 
-  // Copies an RGB, I420 or grey image to the top left corner, upright (mien_image.rotation), as
-  // width x height pixels.
+  // Copies an RGB, I420 or grey image to the top left corner, rotated upright (mien_image.rotation)
+  // and scaled to width x height pixels.
   void paste(const mien_image& image, int width, int height);
   void fill(int x, int y, int width, int height, Color color);
   void dot(float x, float y, float radius, Color color);

@@ -1,3 +1,4 @@
+// Compares files by identity.
 #include "apps/mien/outputs/distinct_files.h"
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// No output may be an input.
+// Protects inputs from being overwritten.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@ namespace mien::app {
 
 // Throws Failure(kExitUsage) if an output is the same file as an input, also through a link or
 // under another name. "-" is standard input or output; empty names and URLs are skipped. Every verb
-// that writes a file calls this before it writes anything.
+// must call this before it writes a file.
 void require_distinct_files(const std::vector<std::string>& inputs,
                             const std::vector<std::string>& outputs);
 

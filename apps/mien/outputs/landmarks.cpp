@@ -1,3 +1,4 @@
+// Formats rows of landmarks.
 #include "apps/mien/outputs/landmarks.h"
 
 #include <array>
@@ -9,7 +10,7 @@ namespace {
 
 using formats::CsvRow;
 
-// Room for the longest row, that of the landmarks: each cell a number or a short word.
+// Buffer for the longest row; each cell is a number or a short word.
 class Row : public CsvRow {
  public:
   Row() : CsvRow(room_) {}

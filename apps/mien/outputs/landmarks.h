@@ -7,7 +7,7 @@
 
 namespace mien::app {
 
-// Of one face, or of several: these have a column more, and a row for each face of a frame.
+// With several faces, the file has a column face_id and one row per face and frame.
 enum class Faces { kOne, kSeveral };
 
 std::string landmark_header(Faces faces);

@@ -1,3 +1,4 @@
+// Publishes output files when they are complete.
 #include "apps/mien/outputs/output_file.h"
 
 #include <cerrno>
@@ -15,8 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// /dev/stdout, /dev/fd/3 and /proc/self/fd/3 are names of open files, whatever these are. Another
-// file in their place would change what they mean to all programs.
+// /dev/stdout, /dev/fd/3 and /proc/self/fd/3 are names of open files. Replacing them would change
+// their meaning for all programs.
 bool names_descriptor(const std::string& path) {
   std::error_code unknown;
   const std::string folder = name_of(fs::weakly_canonical(path_of(path).parent_path(), unknown));
@@ -29,7 +30,7 @@ bool is_special(const std::string& path) {
   return fs::exists(status) && (fs::is_other(status) || names_descriptor(path));
 }
 
-// A link in a folder's name is followed, one in the place of the file itself is replaced.
+// Follows links in folder names, but not a link in place of the file, which is replaced.
 std::string target_of(const std::string& path) {
   std::error_code unknown;
   const fs::path whole = fs::absolute(path_of(path), unknown);
@@ -38,7 +39,7 @@ std::string target_of(const std::string& path) {
 }
 
 struct Targets {
-  std::mutex mutex;  // the files of a folder are written by several threads
+  std::mutex mutex;  // several threads write the files of a folder
   std::set<std::string> names;
 };
 
@@ -68,7 +69,7 @@ PartialFile::PartialFile(const std::string& path, TemporaryFile::Ending ending)
   {
     const std::scoped_lock lock(open_targets().mutex);
     if (!open_targets().names.insert(target_).second) {
-      throw Failure(kExitUsage, path + ": is to be written twice");
+      throw Failure(kExitUsage, path + ": duplicate output path");
     }
   }
   std::error_code error;
@@ -96,17 +97,17 @@ void write_standard_output(std::string_view text, bool& wanted) {
   if (written && (!text.empty() || std::fflush(stdout) == 0)) {
     return;
   }
-  if (!reader_has_gone()) {
+  if (!reader_has_closed()) {
     fail_standard_output();
   }
   wanted = false;
-  std::clearerr(stdout);  // known, and not to be found again at the end
+  std::clearerr(stdout);  // handled, so finish_standard_output must not report it again
 }
 
 void finish_standard_output() {
-  // Where nothing is left to write, errno still says why an earlier write failed.
+  // errno still has the reason of an earlier failed write.
   const bool failed_before = std::ferror(stdout) != 0;
-  if ((std::fflush(stdout) != 0 || failed_before) && !reader_has_gone()) {
+  if ((std::fflush(stdout) != 0 || failed_before) && !reader_has_closed()) {
     fail_standard_output();
   }
 }

@@ -1,4 +1,4 @@
-// Files that appear under their names only when they are whole.
+// Output files that appear under their names only when they are complete.
 #pragma once
 
 #include <cstdio>
@@ -11,17 +11,17 @@
 
 namespace mien::app {
 
-// A temporary file that replaces the file at `path` when that is whole.
+// A temporary file that replaces the file at `path` when it is published.
 class PartialFile {
  public:
-  // Throws Failure(kExitUsage) if this program is already writing the same file, under whatever
-  // name, and Failure(kExitOutput) if the file cannot be created.
+  // Throws Failure(kExitUsage) if this program already writes the same file, under any name, and
+  // Failure(kExitOutput) if the file cannot be created.
   PartialFile(const std::string& path, TemporaryFile::Ending ending);
-  ~PartialFile();  // removes it unless it was published
+  ~PartialFile();  // removes the file unless it was published
   PartialFile(const PartialFile&) = delete;
   PartialFile& operator=(const PartialFile&) = delete;
 
-  // Under which other programs can open it.
+  // A path by which other programs can open it.
   [[nodiscard]] const std::string& name() const { return file_->name(); }
   [[nodiscard]] std::FILE* open() { return file_->open(); }
   // Throws Failure(kExitOutput).
@@ -33,17 +33,17 @@ class PartialFile {
   std::optional<TemporaryFile> file_;
 };
 
-// Writes and flushes; `wanted` becomes false where the reader has gone, which is no failure:
-// nothing is written then any more. Throws Failure(kExitOutput) for all else that goes wrong.
+// Writes and flushes. Sets `wanted` to false if the reader has closed standard output, which is not
+// an error; later calls write nothing. Throws Failure(kExitOutput) for other failures.
 void write_standard_output(std::string_view text, bool& wanted);
 
-// At the end of the program: throws Failure(kExitOutput) unless all that was printed, by whatever
-// function, has been written, or its reader has gone.
+// Must be called at the end of the program. Throws Failure(kExitOutput) unless everything printed,
+// by any function, has been written, or the reader has closed.
 void finish_standard_output();
 
 class OutputFile {
  public:
-  // Throws Failure(kExitOutput) when it cannot be created, and what PartialFile throws.
+  // Throws Failure(kExitOutput) if the file cannot be created, and what PartialFile throws.
   explicit OutputFile(const std::string& path);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
@@ -55,7 +55,7 @@ class OutputFile {
   [[noreturn]] void fail();
 
   std::string path_;
-  // None where the path is no file but a device or a pipe, in whose place none may be put.
+  // Empty if the path is a device or a pipe, which must not be replaced.
   std::optional<PartialFile> partial_;
   std::FILE* file_ = nullptr;
 };

@@ -1,3 +1,4 @@
+// Distributes the results of a frame to all outputs.
 #include "apps/mien/outputs/outputs.h"
 
 #include <algorithm>
@@ -11,19 +12,19 @@
 namespace mien::app {
 namespace {
 
-// Nothing is written to standard output unasked when there is a report to look at.
+// With a report, an animation on standard output must be requested explicitly.
 bool wants_animation(const TrackOptions& options) {
   return options.report.empty() || !options.animation.files.empty() ||
          !options.animation.formats.empty();
 }
 
-// What a page could not read again is not shown in it.
+// A report cannot show input that can be read only once.
 std::string file_or_none(const std::string& input) { return input == kStandardOutput ? "" : input; }
 
 ReportOptions report_options(const TrackOptions& options, const VideoInfo& info) {
   return {.page = options.report,
-          .picture = info.width > 0 ? file_or_none(options.input) : "",
-          .sound = file_or_none(options.audio.empty() ? options.input : options.audio),
+          .video = info.width > 0 ? file_or_none(options.input) : "",
+          .audio = file_or_none(options.audio.empty() ? options.input : options.audio),
           .audio_track = options.audio_track,
           .rotation = options.rotation,
           .largest_clip_bytes = options.report_clip_mb * 1e6,
@@ -82,7 +83,7 @@ AudioFeed::Listener Outputs::listener() {
     return {};
   }
   return [this](const Audio& block, std::int64_t pts_ns) {
-    report_->hear(block, pts_ns + audio_offset_ns_);
+    report_->push_audio(block, pts_ns + audio_offset_ns_);
   };
 }
 

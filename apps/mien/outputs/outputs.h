@@ -1,4 +1,4 @@
-// What `mien track` writes for every frame.
+// The outputs of `mien track`.
 #pragma once
 
 #include <cstdint>
@@ -22,16 +22,17 @@ namespace mien::app {
 
 class Outputs {
  public:
-  // `info` of the video; its size is 0 where there is no picture.
+  // `info`: the size is 0 without video.
   Outputs(const TrackOptions& options, const VideoInfo& info, const VideoRange& range);
-  // `image` is nullptr where there is none.
+  // `image` is nullptr without video.
   void frame(std::int64_t number, const mien_image* image, std::span<const Result> faces);
   void finish(const StageTimes& times);
 
-  // Who wants to hear what the tracker hears; none: nobody. Not beyond this object's life.
+  // Receives the audio that the tracker receives; empty if no output needs it. Must not be used
+  // after this object is destroyed.
   [[nodiscard]] AudioFeed::Listener listener();
 
-  // False when the only output was standard output and its reader has gone.
+  // False if the only output was standard output and its reader has closed it.
   [[nodiscard]] bool wanted() const;
 
  private:

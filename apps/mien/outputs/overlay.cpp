@@ -1,3 +1,4 @@
+// Draws landmarks, boxes, head axes and bars of controls.
 #include "apps/mien/outputs/overlay.h"
 
 #include <algorithm>
@@ -14,24 +15,24 @@ constexpr int kHeaderHeight = 24;
 constexpr int kLabelWidth = 132;
 constexpr Color kBackground{24, 26, 32};
 constexpr Color kBar{90, 190, 120};
-constexpr Color kBarRoom{48, 52, 62};
+constexpr Color kBarBackground{48, 52, 62};
 constexpr Color kInk{225, 228, 235};
 constexpr Color kFaint{110, 115, 128};
 constexpr Color kPoint{80, 255, 120};
 constexpr Color kBox{255, 200, 60};
 
-int least_height() { return kHeaderHeight + kRowHeight * mien_control_count() + 6; }
+int min_height() { return kHeaderHeight + kRowHeight * mien_control_count() + 6; }
 
-int enlargement(int height) { return std::max(1, least_height() * 4 / 5 / height); }
+int scale_for(int height) { return std::max(1, min_height() * 4 / 5 / height); }
 
 }  // namespace
 
 Overlay::Overlay(int width, int height)
     : width_(width),
       height_(height),
-      scale_(enlargement(height)),
+      scale_(scale_for(height)),
       panel_x_(width * scale_),
-      canvas_(width * scale_ + kPanelWidth, std::max(height * scale_, least_height())) {}
+      canvas_(width * scale_ + kPanelWidth, std::max(height * scale_, min_height())) {}
 
 const Canvas& Overlay::draw(const mien_image& image, std::span<const Result> faces) {
   canvas_.fill(0, 0, canvas_.width(), canvas_.height(), kBackground);
@@ -60,7 +61,7 @@ void Overlay::draw_face(const Result& result) {
   }
 }
 
-// The head's axes, from the middle of the box: x red, y green, z blue.
+// Draws the head's axes from the centre of the box: x red, y green, z blue.
 void Overlay::draw_pose(const Result& result) {
   const auto scale = static_cast<float>(scale_);
   const float qx = result.rotation[0], qy = result.rotation[1], qz = result.rotation[2],
@@ -92,7 +93,7 @@ void Overlay::draw_controls(const Result& result) {
     const bool supported = result.supports(i);
     canvas_.text(panel_x_ + 6, y, mien_control_name(i), supported ? kInk : kFaint);
     if (supported) {
-      canvas_.fill(panel_x_ + kLabelWidth, y, kBarWidth, kRowHeight - 2, kBarRoom);
+      canvas_.fill(panel_x_ + kLabelWidth, y, kBarWidth, kRowHeight - 2, kBarBackground);
       const float filled = std::clamp(result.controls[i], 0.0f, 1.0f) * kBarWidth;
       canvas_.fill(panel_x_ + kLabelWidth, y, static_cast<int>(filled), kRowHeight - 2, kBar);
     }

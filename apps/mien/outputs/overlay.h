@@ -1,4 +1,4 @@
-// Draws what was tracked beside and over the picture.
+// Draws results over and beside an image.
 #pragma once
 
 #include <mien/mien.hpp>
@@ -11,11 +11,11 @@ namespace mien::app {
 
 class Overlay {
  public:
-  // For frames of this size; small ones are drawn enlarged.
+  // The size of the images; small ones are enlarged.
   Overlay(int width, int height);
   int width() const { return canvas_.width(); }
   int height() const { return canvas_.height(); }
-  // All faces; the controls are those of the first.
+  // Draws all faces, and the controls of the first.
   const Canvas& draw(const mien_image& image, std::span<const Result> faces);
 
  private:
@@ -23,7 +23,7 @@ class Overlay {
   void draw_pose(const Result& result);
   void draw_controls(const Result& result);
 
-  int width_, height_;  // of the upright picture
+  int width_, height_;  // of the upright image
   int scale_;
   int panel_x_;
   Canvas canvas_;

@@ -1,3 +1,4 @@
+// Converts results to animation frames.
 #include "apps/mien/outputs/result_frame.h"
 
 #include "formats/animation/numbers.h"
@@ -32,7 +33,7 @@ formats::Frame frame_of(std::int64_t number, const Result& result) {
   frame.face_probability = decimal(result.face_probability);
   frame.voice_activity = decimal(result.voice_activity);
   frame.lod = result.lod;
-  if (result.has_face()) {  // without, they are where the face was last
+  if (result.has_face()) {  // without a face they are those of the last one
     const float* box = result.box;
     const float* place = result.translation;
     frame.box = {decimal(box[0]), decimal(box[1]), decimal(box[2]), decimal(box[3])};

@@ -1,4 +1,4 @@
-// What the tracker answers as a frame of an animation.
+// Converts a result of the tracker to a frame of an animation.
 #pragma once
 
 #include <cstdint>

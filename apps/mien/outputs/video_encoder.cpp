@@ -1,3 +1,4 @@
+// Runs ffmpeg as an encoder with a constant frame rate.
 #include "apps/mien/outputs/video_encoder.h"
 
 #include <algorithm>
@@ -16,7 +17,8 @@ struct Muxer {
   std::string_view ending, name;
 };
 
-// What ffmpeg chooses for the usual endings. Told the format it can write a file without a name.
+// ffmpeg's default formats for common endings. With an explicit format, ffmpeg can write to a file
+// without an ending.
 constexpr std::array<Muxer, 5> kMuxers = {
     {{".mp4", "mp4"}, {".mov", "mov"}, {".mkv", "matroska"}, {".avi", "avi"}, {".ts", "mpegts"}}};
 
@@ -70,7 +72,8 @@ std::vector<std::string> encode_command(const std::string& partial_path, std::st
     command.insert(command.end(), {"-f", std::string(muxer)});
   }
   command.push_back(output_file(partial_path));
-  if (!audio_from.empty()) {  // so that time 0 is that of the recording, not of its audio
+  if (!audio_from.empty()) {  // reads the video, so that time 0 is the start of the recording, not
+                              // of its audio
     command.insert(command.end(), {"-map", "1:v:0", "-c", "copy", "-f", "null", "-"});
   }
   return command;
@@ -86,7 +89,7 @@ VideoEncoder::VideoEncoder(const std::string& path, int width, int height, doubl
       partial_(path, needed_ending(path)),
       encoder_(encode_command(partial_.name(), muxer_of(path), width, height, fps, audio_from,
                               audio_track, range),
-               Subprocess::Pipe::kToChild, Subprocess::kPatience) {}
+               Subprocess::Pipe::kToChild, Subprocess::kTimeout) {}
 
 void VideoEncoder::fail() {
   std::string reason = encoder_.take_errors();
@@ -94,31 +97,32 @@ void VideoEncoder::fail() {
   throw Failure(kExitOutput, path_ + ": cannot be written: " + reason);
 }
 
-// The picture is shown until the time of the next; the first from the beginning on.
+// Repeats the previous image until the time of this one. The first image is shown from the start.
 void VideoEncoder::write(const std::vector<unsigned char>& rgb, std::int64_t time_ns) {
-  constexpr double kLongestGapS = 600.0;  // of timestamps that jump, no more is filled
+  constexpr double kMaxGapS =
+      600.0;  // limits the number of repeated images after a timestamp discontinuity
   const double due = (static_cast<double>(time_ns) * 1e-9 - start_s_) * fps_;
   const auto shown = static_cast<double>(frames_);
-  const double until = std::min(due + 0.5, shown + kLongestGapS * fps_);
-  if (shown_.empty()) {
-    shown_ = rgb;
+  const double until = std::min(due + 0.5, shown + kMaxGapS * fps_);
+  if (last_image_.empty()) {
+    last_image_ = rgb;
   }
   while (static_cast<double>(frames_) + 1.0 <= until) {
     send();
   }
-  shown_ = rgb;
+  last_image_ = rgb;
 }
 
 void VideoEncoder::send() {
   ++frames_;
-  if (!encoder_.write(std::as_bytes(std::span(shown_)))) {
+  if (!encoder_.write(std::as_bytes(std::span(last_image_)))) {
     encoder_.finish();
     fail();
   }
 }
 
 void VideoEncoder::finish() {
-  if (!shown_.empty()) {
+  if (!last_image_.empty()) {
     send();
   }
   if (encoder_.finish() != 0) {

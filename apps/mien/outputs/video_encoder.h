@@ -1,4 +1,4 @@
-// Video files, through the ffmpeg program.
+// Encodes video files with the ffmpeg program.
 #pragma once
 
 #include <cstdint>
@@ -11,14 +11,14 @@
 
 namespace mien::app {
 
-// Encodes RGB frames of one size as H.264 (or what the name's ending asks for), with the sound of
-// `audio_from` when that has any. The file appears under its name only when `finish` succeeds.
+// Encodes RGB frames of one size as H.264 (or the format of the name's ending), with the audio of
+// `audio_from` if it has any. The file appears under its name only when `finish` succeeds.
 class VideoEncoder {
  public:
   VideoEncoder(const std::string& path, int width, int height, double fps,
                const std::string& audio_from, int audio_track, const VideoRange& range);
-  // Width * height * 3 bytes, and when it is shown. The video has a constant frame rate: pictures
-  // are repeated or left out, so that they stay beside the sound.
+  // `rgb` has width * height * 3 bytes; `time_ns` is its timestamp. The video has a constant frame
+  // rate: images are repeated or dropped to stay in sync with the audio.
   void write(const std::vector<unsigned char>& rgb, std::int64_t time_ns);
   void finish();
 
@@ -30,9 +30,10 @@ class VideoEncoder {
   std::string path_;
   double fps_;
   double start_s_;
-  std::int64_t frames_ = 0;           // written
-  std::vector<unsigned char> shown_;  // since the last that was written
-  PartialFile partial_;               // before what writes it, and so removed when that has ended
+  std::int64_t frames_ = 0;                // written
+  std::vector<unsigned char> last_image_;  // the latest image
+  PartialFile
+      partial_;  // declared before the encoder, so that it is removed after ffmpeg has ended
   Subprocess encoder_;
 };
 

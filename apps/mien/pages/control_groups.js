@@ -1,4 +1,4 @@
-// Controls that belong together, in the order in which they are shown.
+// Groups of controls, in display order.
 
 const controlGroups = [
   {key: 'eyes', title: 'Eyes', hint: 'blinks, squinting, widening', of: /^eye(Blink|Squint|Wide)/},

@@ -1,9 +1,9 @@
-# Writes a C++ source with a page put together from its parts, and says in the page which style and which script a browser may take:
-# those whose hashes it names, and no other.
+# Assembles a page from its parts and writes it as a C++ source. The page's content security policy permits only the style and script
+# with these hashes.
 # usage: cmake -DNAME=kPage -DPAGE=page.html -DSTYLES=a.css,b.css -DSCRIPTS=a.js,b.js -DOUTPUT=page.cpp -P embed.cmake
 cmake_minimum_required(VERSION 3.22)  # old policies would expand the marks as variables
 
-# Sets `result` to the contents of files, a list with commas.
+# Sets `result` to the contents of files, given as a comma-separated list.
 function(read_all result files)
   set(all "")
   string(REPLACE "," ";" files "${files}")
@@ -14,12 +14,12 @@ function(read_all result files)
   set(${result} "${all}" PARENT_SCOPE)
 endfunction()
 
-# Sets `result` to the text's SHA-256 as Content-Security-Policy has it, in base64.
+# Sets `result` to the SHA-256 of the text in base64, as Content-Security-Policy requires.
 function(hash_of result text)
   set(digits "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/")
   string(SHA256 hex "${text}")
   set(base64 "")
-  foreach(at RANGE 0 60 6)  # 3 bytes a time; of the 32 the last two are by themselves
+  foreach(at RANGE 0 60 6)  # 3 bytes per step; the last step has two
     string(SUBSTRING "${hex}00" ${at} 6 three_bytes)
     foreach(shift 18 12 6 0)
       math(EXPR digit "(0x${three_bytes} >> ${shift}) & 63")

@@ -1,23 +1,22 @@
-// The face of the project (apps/web/avatar), drawn on a canvas of its own and copied to where it is wanted, so that all faces
-// of a page are one and the same.
+// Draws the avatar (apps/web/avatar). One hidden canvas renders it for all faces of a page.
 
-let artist;
+let avatar;
 
 function drawFace(ctx, face) {
   const {width, height} = ctx.canvas;
   try {
-    artist ??= new Avatar(document.createElement('canvas'));
+    avatar ??= new Avatar(document.createElement('canvas'));
   } catch (problem) {
     return drawSentence(ctx, problem.message);
   }
-  const {canvas} = artist.renderer;
+  const {canvas} = avatar.renderer;
   if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, {width, height});
-  artist.draw(face);
+  avatar.draw(face);
   ctx.clearRect(0, 0, width, height);
   ctx.drawImage(canvas, 0, 0);
 }
 
-// Instead of a face, where there can be none.
+// Shows an error message instead of a face.
 function drawSentence(ctx, text) {
   const {width, height} = ctx.canvas;
   ctx.clearRect(0, 0, width, height);

@@ -1,3 +1,4 @@
+// Deflates and encodes data for pages.
 #include "apps/mien/pages/packed_text.h"
 
 #include <zlib.h>
@@ -40,10 +41,10 @@ void PackedText::deflate_all(int flush) {
 }
 
 void PackedText::write(std::string_view bytes) {
-  constexpr std::size_t kMost = std::size_t{1} << 30;  // what one call can be told
+  constexpr std::size_t kMaxBytes = std::size_t{1} << 30;  // limit of one zlib call
   bytes_ += bytes.size();
   while (!bytes.empty()) {
-    const std::string_view part = bytes.substr(0, std::min(bytes.size(), kMost));
+    const std::string_view part = bytes.substr(0, std::min(bytes.size(), kMaxBytes));
     stream_->z.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(part.data()));
     stream_->z.avail_in = static_cast<uInt>(part.size());
     deflate_all(Z_NO_FLUSH);

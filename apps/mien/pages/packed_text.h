@@ -1,4 +1,4 @@
-// Bytes as text that a page unpacks with DecompressionStream('deflate').
+// Compressed data as text, which a page unpacks with DecompressionStream('deflate').
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace mien::app {
 
-// Takes bytes as they come, and keeps only what they are packed into.
+// Compresses bytes as they arrive and keeps only the result.
 class PackedText {
  public:
   PackedText();
@@ -18,10 +18,10 @@ class PackedText {
 
   void write(std::string_view bytes);
 
-  // How many were written.
+  // The number of bytes written.
   [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
 
-  // All that was written, deflated (RFC 1950), in base64. Nothing is written after that.
+  // Returns everything written, deflated (RFC 1950), in base64. Nothing can be written afterwards.
   [[nodiscard]] std::string finish();
 
  private:

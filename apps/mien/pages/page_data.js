@@ -1,4 +1,5 @@
-// What the program put into the page. `data` has `start_ms` and `end_ms`, the time that the page plays.
+// The data that the program embeds in the page. `data.start_ms` and `data.end_ms` are the time
+// range that the page plays.
 
 const mix = (a, b, t) => a + (b - a) * t;
 const data = JSON.parse(document.getElementById('data').textContent);
@@ -11,8 +12,8 @@ function bytesOf(base64) {
   return bytes;
 }
 
-// What a large block of base64 holds, as a Blob, read in parts: a page must not stand still for long. Nothing where there is no such
-// block, or an empty one.
+// Decodes a large block of base64 to a Blob, in parts to keep the page responsive. Returns null if
+// the block is absent or empty.
 async function blobOf(id, type) {
   const base64 = blockText(id), part = 1 << 20, parts = [];
   if (!base64) return null;

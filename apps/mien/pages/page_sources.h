@@ -1,5 +1,4 @@
-// Pages before their data, put together by embed.cmake: the marks of what is still to come are in
-// them, as @DATA@.
+// Pages assembled by embed.cmake. They contain marks such as @DATA@ for data.
 #pragma once
 
 namespace mien::app {

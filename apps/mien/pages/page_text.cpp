@@ -1,3 +1,4 @@
+// Inserts data into pages.
 #include "apps/mien/pages/page_text.h"
 
 #include <string_view>
@@ -7,7 +8,7 @@
 
 namespace mien::app {
 
-// Outside strings JSON has no '<', and in a string the escape means the same.
+// '<' occurs only inside JSON strings, where it can be escaped.
 std::string script_text(const nlohmann::ordered_json& json) {
   const std::string text = json_text(json, -1);
   std::string safe;
@@ -29,7 +30,7 @@ std::string filled(const char* page, const std::vector<Insertion>& insertions) {
   for (const Insertion& insertion : insertions) {
     const std::size_t at = rest.find(insertion.mark);
     if (at == std::string_view::npos) {
-      throw Failure(kExitInternal, "the page has no " + insertion.mark);
+      throw Failure(kExitInternal, "page: missing mark " + insertion.mark);
     }
     whole.append(rest.substr(0, at)).append(insertion.text);
     rest.remove_prefix(at + insertion.mark.size());

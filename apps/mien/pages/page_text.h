@@ -1,4 +1,4 @@
-// What is put into pages.
+// Inserts data into pages.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -8,8 +8,7 @@
 
 namespace mien::app {
 
-// JSON that can stand in a script element, whatever names are in it: nothing there ends the
-// element.
+// JSON for a script element. It is escaped, so that no text in it ends the element.
 std::string script_text(const nlohmann::ordered_json& json);
 
 struct Insertion {
@@ -17,8 +16,8 @@ struct Insertion {
   std::string text;
 };
 
-// The page with the texts in the places of their marks, which follow each other as they do in the
-// page. Throws Failure(kExitInternal) when one is missing.
+// Replaces marks with texts. The marks must be in the order in which they occur in the page. Throws
+// Failure(kExitInternal) if one is missing.
 std::string filled(const char* page, const std::vector<Insertion>& insertions);
 
 }  // namespace mien::app

@@ -1,5 +1,5 @@
-// One clock for everything that moves: the video's where there is one, else the page's own.
-// Times are those of the curves, in milliseconds.
+// The clock of a page: that of the video if there is one, else its own. Times are in milliseconds,
+// as in the curves.
 
 class PageClock {
   constructor() { this.at_ms = data.start_ms; this.rate = 1; this.playing = false; }
@@ -38,7 +38,7 @@ class Player {
     requestAnimationFrame(tick);
   }
 
-  // From now on the video's time is that of the page.
+  // Uses the time of the video from now on.
   follow(video) {
     const {time_ms, playing} = this.clock;
     this.clock = new VideoClock(video);
@@ -49,14 +49,14 @@ class Player {
 
   connect() {
     const scrub = this.element('scrub');
-    this.showRange();  // or what is sought before the first frame is cut off at 100
+    this.showRange();  // otherwise the range limits an early seek to 100
     scrub.addEventListener('input', () => this.seek(Number(scrub.value)));
     this.element('play').addEventListener('click', () => this.toggle());
     this.element('speed').addEventListener('change', event => this.clock.setRate(Number(event.target.value)));
     document.addEventListener('keydown', event => this.key(event));
   }
 
-  // Space plays and pauses, the arrows step by a frame, unless a field is being filled in.
+  // Space plays and pauses, arrows step by a frame, unless a form field has the focus.
   key(event) {
     if (event.target.closest?.('input, select, button, summary') || event.ctrlKey || event.altKey || event.metaKey) return;
     const steps = {ArrowLeft: -1, ArrowRight: 1};

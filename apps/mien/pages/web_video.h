@@ -1,4 +1,4 @@
-// A recording as a page in a browser wants it.
+// Transcodes a recording for a page in a browser.
 #pragma once
 
 #include <optional>
@@ -9,15 +9,15 @@
 namespace mien::app {
 
 struct WebVideo {
-  std::string picture;          // file; empty: none
-  std::string sound;            // file; empty, or without sound: none
+  std::string video;            // file; empty: none
+  std::string audio;            // file; empty, or a file without audio: none
   int audio_track = 1;          // of `sound`; the first is 1
-  std::optional<int> rotation;  // degrees clockwise, instead of what the file says
+  std::optional<int> rotation;  // degrees clockwise; overrides the file
   double start_s = 0.0, duration_s = 0.0;
 };
 
-// H.264 in MP4, at most 640 square pixels a side, with sound, its own frame times, and a key frame
-// a second to seek to. Made by ffmpeg, which leaves it in `file`, too. Throws Failure.
-std::string web_video(const WebVideo& wanted, const PartialFile& file);
+// H.264 in MP4 with at most 640 square pixels per side, with audio, the original timestamps, and a
+// keyframe per second for seeking. ffmpeg writes it to `file`; returns its content. Throws Failure.
+std::string web_video(const WebVideo& request, const PartialFile& file);
 
 }  // namespace mien::app

@@ -1,9 +1,9 @@
-// Drawing on canvases whose x is time.
+// Draws on canvases whose x axis is time.
 
-// As the style has it, in the light or in the dark.
+// The colours of the current style, light or dark.
 const styleColor = name => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 
-// As many pixels as the screen shows; nothing where the canvas is not seen.
+// Sets the size of a canvas to physical pixels. Returns null if the canvas is hidden.
 function fitted(canvas) {
   const ratio = devicePixelRatio || 1, width = Math.round(canvas.clientWidth * ratio), height = Math.round(canvas.clientHeight * ratio);
   if (!width || !height) return null;
@@ -13,7 +13,7 @@ function fitted(canvas) {
   return {ctx, width, height, ratio};
 }
 
-// The first frame at or after each pixel column's beginning, one more than there are columns.
+// The first frame at or after the start of each pixel column, one more than there are columns.
 function framesAtPixels(take, view, width) {
   const first = new Int32Array(width + 1);
   for (let x = 0, i = take.firstFrom(view.start_ms); x <= width; ++x) {
@@ -24,7 +24,7 @@ function framesAtPixels(take, view, width) {
   return first;
 }
 
-// Many frames to a pixel: what they span, joined to the frame before.
+// Draws many frames per pixel: their range, joined to the previous frame.
 function traceSpans(ctx, series, first, height) {
   const scale = series.column.unit * series.scale;
   let open = false;
@@ -39,7 +39,7 @@ function traceSpans(ctx, series, first, height) {
   }
 }
 
-// Few: from frame to frame. The line is interrupted where there is no value.
+// Draws few frames: from frame to frame. Missing values interrupt the line.
 function traceFrames(ctx, series, take, view, width, height) {
   let open = false;
   const last = Math.min(take.frames - 1, take.firstFrom(view.end_ms));
@@ -64,7 +64,7 @@ function drawSeries({ctx, width, ratio}, series, take, view, first, height) {
   ctx.globalAlpha = 1;
 }
 
-// The sound around the middle of `top` to `bottom`, as loud as it gets.
+// Draws the waveform between `top` and `bottom`, scaled to its maximum.
 class Wave {
   constructor(take) {
     const [low, high] = ['sound_low', 'sound_high'].map(name => take.column(name).steps);
@@ -86,7 +86,7 @@ class Wave {
   }
 }
 
-// A step of time that leaves room for its labels.
+// An interval of time labels that do not overlap.
 const niceStep_ms = least => [1, 2, 5, 10, 20, 50, 100, 200, 500, 1e3, 2e3, 5e3, 1e4, 15e3, 3e4, 6e4, 12e4, 3e5, 6e5, 18e5, 36e5]
   .find(step => step >= least) ?? 72e5;
 

@@ -1,8 +1,9 @@
-// The clip, and what was tracked drawn over it.
+// The clip with landmarks, box and head axes drawn over it.
 
 const pointColor = '#50ff78', boxColor = '#ffc83c', axisColors = ['#ff5050', '#50ff50', '#5a8cff'];
 
-// Where the head's axes point to in the picture, x to the right and y up: right-handed, R = Ry(yaw) Rx(pitch) Rz(roll).
+// Directions of the head's axes in the image, x to the right and y up: right-handed, R = Ry(yaw)
+// Rx(pitch) Rz(roll).
 function headAxes(pitch, yaw, roll) {
   const [cp, sp, cy, sy, cr, sr] = [pitch, yaw, roll].flatMap(angle => [Math.cos(angle), Math.sin(angle)]);
   return [[cy * cr + sy * sp * sr, cp * sr], [sy * sp * cr - cy * sr, cp * cr], [sy * cp, -sp]];
@@ -22,13 +23,13 @@ class Clip {
     new ResizeObserver(() => this.draw()).observe(this.canvas);
   }
 
-  // Ends when there is a video that plays, or none.
+  // Resolves when the video can play, or when there is none.
   async open(player) {
     await this.openLandmarks();
-    if (data.clip === 'none') return this.say('the picture was not kept: the input could be read only once');
+    if (data.clip === 'none') return this.say('no video: the input could be read only once');
     const blob = await blobOf('clip', 'video/mp4');
     const missing = data.clip === 'beside' ?
-      `The clip is too large for this page and should lie beside it, as ${data.clip_file}. It is not there.` : 'This browser cannot play the clip.';
+      `The clip is missing. It is too large for this page; expected as ${data.clip_file} beside it.` : 'This browser cannot play the clip.';
     this.video.src = blob ? URL.createObjectURL(blob) : encodeURIComponent(data.clip_file);
     const playable = await new Promise(done => {
       this.video.addEventListener('loadedmetadata', () => done(true), {once: true});

@@ -1,3 +1,4 @@
+// Encodes columns as differences of integers.
 #include "apps/mien/report/columns.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// Numbers of a report: columns of whole steps, each value less the one before, which a page reads
-// without parsing. docs/cli.md describes them.
+// Numeric columns of a report: differences of integers, which a page reads without parsing.
+// docs/cli.md describes them.
 #pragma once
 
 #include <cstdint>
@@ -12,17 +12,16 @@ namespace mien::app {
 
 class Columns {
  public:
-  // Values in steps of `unit`, 16 bits each: those beyond are brought to the nearest, those that
-  // are no number stay none.
+  // Adds values as 16-bit multiples of `unit`. Values out of range are clamped; NaN stays NaN.
   void add(const std::string& name, double unit, const std::vector<double>& values);
 
-  // Times, whatever they are, 32 bits each. Go before all others.
+  // Adds times of any size as 32-bit integers. Must precede all other columns.
   void add_times(const std::string& name, double unit_ms, const std::vector<double>& times_ms);
 
-  // [{"name":..,"unit":..,"bytes":2|4,"count":..}], in their order.
+  // [{"name":..,"unit":..,"bytes":2|4,"count":..}], in the order of addition.
   [[nodiscard]] const nlohmann::ordered_json& list() const { return list_; }
 
-  // All of them, little-endian, one behind the other. Not packed: so a page has them at once.
+  // All columns in sequence, little-endian. Not compressed, so that the page can read them at once.
   [[nodiscard]] const std::string& bytes() const { return bytes_; }
 
  private:
@@ -32,13 +31,13 @@ class Columns {
   std::string bytes_;
 };
 
-// What stands for no number.
+// Stands for NaN.
 inline constexpr std::int16_t kNoStep = INT16_MIN;
 
-// In whole steps of `unit`.
+// As a multiple of `unit`.
 [[nodiscard]] std::int16_t steps(double value, double unit);
 
-// The column in little-endian bytes, each value less the one before.
+// The column as little-endian bytes, each value as the difference to the previous one.
 [[nodiscard]] std::string differences_of(const std::vector<std::int16_t>& column);
 
 }  // namespace mien::app

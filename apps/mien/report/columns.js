@@ -1,13 +1,13 @@
-// The numbers of the take: columns of whole steps, one value for each frame (or for each short while of sound).
+// Numeric columns of the report: integers, one per frame (or per interval of audio).
 
-const none = -32768;  // stands for no number
+const none = -32768;  // stands for a missing value
 
 async function inflated(id) {
   const blob = await blobOf(id);
   return blob && new Response(blob.stream().pipeThrough(new DecompressionStream('deflate'))).arrayBuffer();
 }
 
-// Differences to values, in place; typed arrays overflow as the writer's numbers do.
+// Converts differences to values, in place. Typed arrays overflow like the integers of the writer.
 function summed(differences) {
   for (let i = 1; i < differences.length; ++i) differences[i] += differences[i - 1];
   return differences;
@@ -20,7 +20,7 @@ class Column {
 }
 
 class Take {
-  // `columns`: what the page's data says of them, in the order of their bytes.
+  // `columns`: their description in the page's data, in the order of their bytes.
   constructor(columns, buffer) {
     this.columns = new Map();
     let at = 0;
@@ -36,7 +36,7 @@ class Take {
   column(name) { return this.columns.get(name); }
   get frames() { return this.t_ms.length; }
 
-  // Index of the first frame from `t_ms` on.
+  // The index of the first frame at or after `t_ms`.
   firstFrom(t_ms) {
     let low = 0, high = this.t_ms.length;
     while (low < high) {
@@ -46,6 +46,6 @@ class Take {
     return low;
   }
 
-  // Index of the frame that is seen at `t_ms`; -1 before the first. Players round times.
+  // The index of the frame displayed at `t_ms`; -1 before the first. Players round times.
   frameAt(t_ms) { return this.firstFrom(t_ms + 0.6) - 1; }
 }

@@ -1,4 +1,4 @@
-// Every export, unpacked when it is asked for.
+// Downloads of all exports, unpacked on demand.
 
 const sizeText = bytes => (bytes >= 1e6 ? `${(bytes / 1e6).toFixed(1)}\u00a0MB` : `${Math.max(1, Math.round(bytes / 1e3))}\u00a0kB`);
 

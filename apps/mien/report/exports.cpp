@@ -1,3 +1,4 @@
+// Writes animations in all formats.
 #include "apps/mien/report/exports.h"
 
 #include "apps/mien/pages/packed_text.h"

@@ -1,4 +1,4 @@
-// The animation in every format there is, for a page to offer.
+// The animation in all formats, for download from a page.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -11,14 +11,14 @@ namespace mien::app {
 
 struct Exports {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();  // docs/cli.md describes it
-  std::string blocks;  // script elements that hold the files, packed
+  std::string blocks;  // script elements with the compressed files
 };
 
-// Files are called `stem` and their format's ending.
+// The names of files are `stem` and the format's ending.
 Exports exports_of(const std::vector<formats::Frame>& frames, const formats::WriteOptions& writing,
                    const std::string& stem);
 
-// A script element that holds text; the text is base64.
+// A script element with base64 text.
 std::string block(const std::string& id, const std::string& base64);
 
 }  // namespace mien::app

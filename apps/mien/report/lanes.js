@@ -1,5 +1,5 @@
-// A lane for each group of curves, one below the other, all of the same time. A press goes there; the wheel with Ctrl and two fingers
-// zoom, the wheel sideways moves.
+// Groups of curves, one lane each, over a common time axis. A click seeks; Ctrl and the wheel or
+// two fingers zoom; the wheel sideways scrolls.
 
 class Lane {
   constructor(lane, take) {
@@ -20,7 +20,7 @@ class Lane {
 
   get shown() { return this.lane.series.filter(series => series.shown); }
 
-  // After a switch was pressed.
+  // Called after a switch changed.
   update() {
     const {shown} = this;
     this.element.hidden = !shown.length;
@@ -102,7 +102,7 @@ class Lanes {
     this.show(this.t_ms ?? data.start_ms);
   }
 
-  // Once, before the next picture, however often it was asked for.
+  // Redraws once before the next frame, however often it is requested.
   redraw() {
     if (this.asked) return;
     this.asked = true;
@@ -159,7 +159,7 @@ class Lanes {
     this.pinch(before, [...this.fingers.values()]);
   }
 
-  // The times under both fingers stay there.
+  // Keeps the times under both fingers.
   pinch([a, b], [c, d]) {
     const held = this.timeOf((a + b) / 2);
     this.view.zoom(Math.max(1, Math.abs(d - c)) / Math.max(1, Math.abs(b - a)), held);

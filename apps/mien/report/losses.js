@@ -1,9 +1,9 @@
-// Where there was no face: stretches of frames that were searched or lost.
+// Intervals without a face, in the states searching or lost.
 
 const statusNames = ['searching', 'tracking', 'lost'];
 
 function findLosses(take) {
-  if (!data.width) return [];  // nobody looked
+  if (!data.width) return [];  // no video
   const {steps} = take.column('status'), losses = [];
   for (let i = 0; i < steps.length; ++i) {
     if (statusNames[steps[i]] === 'tracking') continue;
@@ -16,7 +16,7 @@ function findLosses(take) {
 
 function showLosses(losses, take, go) {
   const frames = losses.reduce((sum, {from, to}) => sum + to - from, 0), share = 100 * frames / Math.max(1, take.frames);
-  document.getElementById('losses-note').textContent = !data.width ? 'There was no picture.' :
+  document.getElementById('losses-note').textContent = !data.width ? 'No video.' :
     losses.length ? `In ${frames} of ${take.frames} frames (${share.toFixed(1)} %), ${losses.length} times.` : 'Every frame has a face.';
   document.getElementById('losses').append(...losses.map(loss => {
     const item = document.createElement('li'), button = Object.assign(document.createElement('button'), {type: 'button'});

@@ -1,4 +1,4 @@
-// The whole clip at a glance: its sound, where there was no face, and which part of it the curves show.
+// An overview of the whole clip: audio, intervals without a face, and the visible range.
 
 class Overview {
   constructor(take, view, losses, seek) {

@@ -1,16 +1,16 @@
-// Puts the parts together: first what there is to see, then what is large.
+// Connects the parts of the page: first the visible ones, then the large ones.
 
 document.title = `${data.name} – mien report`;
 document.getElementById('name').textContent = data.name;
 
-const report = {};  // the parts, once they are there
+const report = {};  // parts of the page, once created
 
 function showFacts(take) {
   const {steps} = take.column('status'), faces = steps.filter(step => statusNames[step] === 'tracking').length;
   const levels = [...new Set(take.column('lod').steps)].filter(lod => lod > 0).sort();
   document.getElementById('facts').textContent = [
     timeText(data.end_ms - data.start_ms), `${take.frames} frames`,
-    data.width ? `a face in ${Math.round(100 * faces / Math.max(1, take.frames))} %` : 'sound alone',
+    data.width ? `a face in ${Math.round(100 * faces / Math.max(1, take.frames))} %` : 'audio only',
     data.width ? `${data.width} × ${data.height}` : '', levels.length ? `level of detail ${levels.join(', ')}` : '', data.program,
   ].filter(Boolean).join(' · ');
 }
@@ -21,7 +21,7 @@ function faceOf(take, i) {
   return {controls: Object.fromEntries(controlNames.map(name => [name, value(name)])), pitch: value('pitch'), yaw: value('yaw'), roll: value('roll')};
 }
 
-// Straight on its canvas, not by drawFace, so that nothing has to wait until it is drawn.
+// Draws on its own canvas instead of drawFace, so that nothing waits for it.
 class FaceView {
   constructor(take) {
     Object.assign(this, {take, canvas: document.getElementById('face'), note: document.getElementById('face-note'), trouble: ''});
@@ -34,12 +34,12 @@ class FaceView {
   show(i) {
     const status = statusNames[this.take.column('status').at(i)] ?? 'searching';
     this.canvas.classList.toggle('absent', data.width > 0 && status !== 'tracking');
-    this.note.textContent = this.trouble || (data.width && status !== 'tracking' ? status : 'what was tracked');
+    this.note.textContent = this.trouble || (data.width && status !== 'tracking' ? status : 'tracked face');
     this.avatar?.draw(faceOf(this.take, i));
   }
 }
 
-// To the stretch, with a little of what lies around it.
+// Zooms to an interval, with some time around it.
 function goTo({start_ms, end_ms}) {
   const {view, player} = report;
   if (!view.whole) view.set(start_ms - (end_ms - start_ms), 3 * (end_ms - start_ms));
@@ -63,7 +63,7 @@ function connectKeys() {
   document.addEventListener('keydown', event => {
     const action = actions[event.key.length === 1 ? event.key.toLowerCase() : event.key];
     if (!action || event.ctrlKey || event.altKey || event.metaKey || event.target.closest?.('input, select')) return;
-    if (event.key.startsWith('Page') && view.whole) return;  // the page turns
+    if (event.key.startsWith('Page') && view.whole) return;  // lets the page scroll
     action();
     event.preventDefault();
   });
@@ -81,7 +81,8 @@ function showWindow(view) {
   document.getElementById('window').textContent = view.whole ? '' : `${timeText(view.start_ms)} – ${timeText(view.end_ms)}`;
 }
 
-// Without a pause until the curves are drawn: the browser would read all that is large behind the script first.
+// Draws the curves without a pause: otherwise the browser would first parse the large blocks after
+// the script.
 async function open() {
   const take = report.take = new Take(data.columns, bytesOf(blockText('columns')).buffer);
   const losses = report.losses = findLosses(take), view = report.view = new View(data.start_ms, data.end_ms);
@@ -111,7 +112,7 @@ async function open() {
   lanes.draw();
   overview.draw();
   report.curves_ms = performance.now();
-  await new Promise(done => requestAnimationFrame(() => setTimeout(done)));  // the curves are seen before the face is made
+  await new Promise(done => requestAnimationFrame(() => setTimeout(done)));  // shows the curves before the avatar is created
   report.face = face = new FaceView(take);
   player.show();
   report.opened_ms = performance.now();

@@ -1,5 +1,5 @@
-// The smallest and the largest value of any stretch of a column, without looking at all of it: as each level has those of eight values
-// of the level below, a curve of any length is drawn in the time that its pixels take.
+// The minimum and maximum of any range of a column in logarithmic time: each level has those of
+// eight values of the level below. Drawing time depends on pixels, not on the length of a curve.
 
 const branching = 8;
 
@@ -19,7 +19,7 @@ class Pyramid {
     while (this.levels.at(-1).low.length > branching) this.levels.push(coarser(this.levels.at(-1)));
   }
 
-  // Of the values from index `from` to before `to`; null where there is none.
+  // The range of the values from index `from` to before `to`; null if it is empty.
   range(from, to) {
     let least = 32767, most = none;
     const look = (level, i) => {

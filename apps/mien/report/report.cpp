@@ -1,3 +1,4 @@
+// Collects the data of a report and writes its page.
 #include "apps/mien/report/report.h"
 
 #include <algorithm>
@@ -17,7 +18,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr double kFine = 1e-4;  // steps of controls, shares and radians
+constexpr double kResolution = 1e-4;  // resolution of controls, shares and radians
 constexpr double kMillimetre = 1e-3;
 constexpr std::size_t kCoordinates = std::size_t{MIEN_LANDMARK_COUNT} * 2;
 
@@ -34,9 +35,9 @@ void add_head(Columns& columns, const std::vector<formats::Frame>& frames) {
       return frame.head ? (*frame.head).*of : formats::kNoNumber;
     });
   };
-  columns.add("pitch", kFine, angle(&formats::Angles::pitch));
-  columns.add("yaw", kFine, angle(&formats::Angles::yaw));
-  columns.add("roll", kFine, angle(&formats::Angles::roll));
+  columns.add("pitch", kResolution, angle(&formats::Angles::pitch));
+  columns.add("yaw", kResolution, angle(&formats::Angles::yaw));
+  columns.add("roll", kResolution, angle(&formats::Angles::roll));
   const char* const names[] = {"x_m", "y_m", "z_m"};
   for (std::size_t i = 0; i < 3; ++i) {
     columns.add(names[i], kMillimetre, column_of(frames, [i](const formats::Frame& frame) {
@@ -56,7 +57,7 @@ void add_box(Columns& columns, const std::vector<formats::Frame>& frames, double
 
 void add_controls(Columns& columns, const std::vector<formats::Frame>& frames) {
   for (std::size_t i = 0; i < formats::kControlCount; ++i) {
-    columns.add(mien_control_name(static_cast<std::int32_t>(i)), kFine,
+    columns.add(mien_control_name(static_cast<std::int32_t>(i)), kResolution,
                 column_of(frames, [i](const formats::Frame& frame) { return frame.controls[i]; }));
   }
 }
@@ -75,9 +76,9 @@ ordered_json stages_json(const StageTimes& times) {
 std::string clip_beside(const std::string& page) { return page + ".mp4"; }
 
 Report::Report(const ReportOptions& options) : options_(options), file_(options.page) {
-  // Fine enough to be drawn, and in 16 bits also where a face reaches beyond the picture.
+  // Fine enough for display, and within 16 bits even if a face extends beyond the image.
   landmark_unit_ = std::max({options.width, options.height, 1}) / 8192.0;
-  if (!options.picture.empty() || !options.sound.empty()) {
+  if (!options.video.empty() || !options.audio.empty()) {
     clip_file_.emplace(clip_beside(options.page), TemporaryFile::Ending::kAny);
   }
 }
@@ -111,10 +112,10 @@ Columns Report::columns() const {
   columns.add("status", 1.0, column_of(frames_, [](const formats::Frame& frame) {
                 return static_cast<double>(frame.state);
               }));
-  columns.add("face_probability", kFine, column_of(frames_, [](const formats::Frame& frame) {
+  columns.add("face_probability", kResolution, column_of(frames_, [](const formats::Frame& frame) {
                 return frame.face_probability;
               }));
-  columns.add("voice_activity", kFine,
+  columns.add("voice_activity", kResolution,
               column_of(frames_, [](const formats::Frame& frame) { return frame.voice_activity; }));
   columns.add("lod", 1.0, column_of(frames_, [](const formats::Frame& frame) {
                 return static_cast<double>(frame.lod);
@@ -149,8 +150,8 @@ Report::Clip Report::clip() {
   if (!clip_file_ || frames_.empty()) {
     return {};
   }
-  std::string video = web_video({.picture = options_.picture,
-                                 .sound = options_.sound,
+  std::string video = web_video({.video = options_.video,
+                                 .audio = options_.audio,
                                  .audio_track = options_.audio_track,
                                  .rotation = options_.rotation,
                                  .start_s = start_ms() * 1e-3,

@@ -1,4 +1,5 @@
-// `mien track --report`: one page with the clip, the face, the curves and all exports.
+// Implements `mien track --report`: a page with the clip, the animated face, curves and all
+// exports.
 #pragma once
 
 #include <cstdint>
@@ -18,32 +19,33 @@ namespace mien::app {
 
 struct ReportOptions {
   std::string page;                  // file
-  std::string picture, sound;        // files that the clip is made of; empty: none
+  std::string video, audio;          // files for the clip; empty: none
   int audio_track = 1;               // of `sound`; the first is 1
-  std::optional<int> rotation;       // degrees clockwise, instead of what `picture` says
-  double largest_clip_bytes = 64e6;  // a larger one lies beside the page
-  std::string name;                  // of what was tracked
-  int width = 0, height = 0;         // of the picture, pixels
+  std::optional<int> rotation;       // degrees clockwise; overrides `picture`
+  double largest_clip_bytes = 64e6;  // a larger clip is stored beside the page
+  std::string name;                  // of the input
+  int width = 0, height = 0;         // of the image, pixels
   formats::WriteOptions writing;
 };
 
-// The file beside a page that holds the clip if that is too large for the page.
+// The file for a clip that is too large for the page.
 std::string clip_beside(const std::string& page);
 
 class Report {
  public:
-  explicit Report(const ReportOptions& options);  // throws Failure(kExitOutput), as the others
+  explicit Report(
+      const ReportOptions& options);  // throws Failure(kExitOutput), as the other functions
 
   void frame(const formats::Frame& frame, const Result& result);
-  void hear(const Audio& block, std::int64_t pts_ns) { waveform_.hear(block, pts_ns); }
+  void push_audio(const Audio& block, std::int64_t pts_ns) { waveform_.push_audio(block, pts_ns); }
 
-  // Makes the clip, too: throws what `web_video` throws.
+  // Also transcodes the clip; throws what `web_video` throws.
   void finish(const StageTimes& times);
 
  private:
   struct Clip {
-    std::string bytes;   // MP4 that goes into the page
-    std::string beside;  // name of the file in the page's folder that it went to instead
+    std::string bytes;   // MP4 for the page
+    std::string beside;  // or its file name in the page's folder
   };
 
   [[nodiscard]] double start_ms() const;
@@ -54,12 +56,13 @@ class Report {
   [[nodiscard]] nlohmann::ordered_json facts(const StageTimes& times, const Clip& clip) const;
 
   ReportOptions options_;
-  OutputFile file_;  // before the work that would be lost on a page that cannot be
-  std::optional<PartialFile> clip_file_;  // so, too; none: there is no clip
+  OutputFile file_;  // opened first, so that an unwritable page fails before the work
+  std::optional<PartialFile> clip_file_;  // likewise; empty: no clip
   std::vector<formats::Frame> frames_;
-  std::vector<double> took_ms_;          // each frame
-  std::vector<std::int16_t> landmarks_;  // [frames][MIEN_LANDMARK_COUNT * 2], in `landmark_unit`s
-  double landmark_unit_ = 1.0;           // pixels
+  std::vector<double> took_ms_;  // per frame
+  std::vector<std::int16_t>
+      landmarks_;               // [frames][MIEN_LANDMARK_COUNT * 2], multiples of landmark_unit_
+  double landmark_unit_ = 1.0;  // pixels
   Waveform waveform_;
 };
 

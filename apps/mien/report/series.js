@@ -1,9 +1,9 @@
-// What can be drawn: every series has a lane, a colour and a switch.
+// All curves: each series has a lane, a colour and a switch.
 
 const hues = 8;  // --hue-0 ... of the style
 
 class Series {
-  // `scale`: from the column's values to those shown.
+  // `scale`: factor from the column's values to displayed values.
   constructor(name, column, {hue, paler = false, scale = 1, shown = false, unit = ''}) {
     Object.assign(this, {name, column, hue, paler, scale, shown, unit});
   }
@@ -17,14 +17,14 @@ class Series {
     const text = value?.toFixed(this.unit === '°' ? 0 : 2);
     return value === null ? '–' : text.replace(/^-(?=[0.]*$)/, '') + this.unit;  // no -0
   }
-  // Of all values.
+  // The range of all values.
   get range() {
     const found = this.pyramid.range(0, this.column.steps.length);
     return found?.map(step => step * this.column.unit * this.scale) ?? [0, 1];
   }
 }
 
-// The same hue for left and right, the right one paler.
+// Left and right have the same hue; the right one is paler.
 function controlSeries(take, names, main) {
   const bases = [];
   return names.map(name => {
@@ -37,32 +37,32 @@ function controlSeries(take, names, main) {
 const mainControls = /^(eyeBlink|browInnerUp|jawOpen|mouthSmile|mouthPucker|mouthClose)/;
 const fixedRange = () => [0, 1];
 
-// As wide as what is shown needs, at least `least` and with 0 in the middle.
+// The range of displayed values, at least `least`, symmetric around 0.
 const balanced = least => shown => {
   const reach = Math.max(least, ...shown.flatMap(series => series.range.map(Math.abs))) * 1.1;
   return [-reach, reach];
 };
-// Of times: the few that are far longer than all others leave the picture.
+// For times: a few outliers are outside the range.
 function mostOf([series]) {
   const sorted = series.column.steps.slice().sort();
   return [0, Math.max(0.1, 1.5 * sorted[Math.floor(0.99 * (sorted.length - 1))] * series.column.unit)];
 }
 
-// Lanes in their order: a title, series, and the range of the axis.
+// Lanes in display order: title, series, and the range of the axis.
 function makeLanes(take) {
   const of = (name, column, options) => new Series(name, take.column(column), options);
   const degrees = {scale: 180 / Math.PI, unit: '°', shown: true};
   const lanes = [
-    {key: 'sound', title: 'Sound', wave: true, range: fixedRange, digits: 1,
+    {key: 'sound', title: 'Audio', wave: true, range: fixedRange, digits: 1,
       series: [of('voice activity', 'voice_activity', {hue: 1, shown: true})]},
     {key: 'head', title: 'Head', range: balanced(10), digits: 0, unit: '°',
       series: ['pitch', 'yaw', 'roll'].map((name, hue) => of(name, name, {hue, ...degrees}))},
-    {key: 'place', title: 'Place of the head', range: balanced(0.05), digits: 2, unit: ' m',
+    {key: 'place', title: 'Head position', range: balanced(0.05), digits: 2, unit: ' m',
       series: ['x', 'y', 'z'].map((name, hue) => of(`${name}, metres`, `${name}_m`, {hue, unit: ' m'}))},
     ...controlGroups.map(({key, title, of: pattern}) => ({key, title, range: fixedRange, digits: 1,
       series: controlSeries(take, controlNames.filter(name => pattern.test(name)), mainControls)})),
     {key: 'tracker', title: 'Tracker', range: fixedRange, digits: 1, series: [of('face probability', 'face_probability', {hue: 0})]},
-    {key: 'time', title: 'Time a frame took', range: mostOf, digits: 1, unit: ' ms', series: [of('milliseconds', 'took_ms', {hue: 5, unit: ' ms'})]},
+    {key: 'time', title: 'Time per frame', range: mostOf, digits: 1, unit: ' ms', series: [of('milliseconds', 'took_ms', {hue: 5, unit: ' ms'})]},
   ];
   for (const lane of lanes) lane.series = lane.series.filter(series => !series.column.empty);
   const hasSound = take.column('sound_low').steps.length > 0;

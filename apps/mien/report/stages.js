@@ -1,4 +1,4 @@
-// What the tracker spent its time on.
+// The time of each stage of the tracker.
 
 function showStages() {
   const table = document.getElementById('stages'), {frame, ...stages} = data.stages;

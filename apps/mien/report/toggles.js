@@ -1,4 +1,4 @@
-// A switch for every series, which also shows its value at the time.
+// A switch per series, which also shows its current value.
 
 class Toggles {
   constructor(lanes) {
@@ -7,7 +7,7 @@ class Toggles {
     document.getElementById('toggles').append(...lanes.lanes.map(({lane}) => this.group(lane)));
     for (const button of document.querySelectorAll('#presets button')) button.addEventListener('click', () => this.preset(button.dataset.preset));
     const undriven = controlNames.filter(name => !lanes.series.some(series => series.name === name));
-    document.getElementById('undriven').textContent = undriven.length ? `Nothing drives ${undriven.join(', ')}.` : '';
+    document.getElementById('undriven').textContent = undriven.length ? `Unsupported controls: ${undriven.join(', ')}.` : '';
     this.usual = lanes.series.filter(series => series.shown);
   }
 

@@ -1,4 +1,4 @@
-// Which time the curves show.
+// The time range that the curves show.
 
 const shortest_ms = 200;
 
@@ -18,7 +18,7 @@ class View {
     for (const listener of this.listeners) listener();
   }
 
-  // What is seen at `at_ms` stays where it is.
+  // Keeps the value at `at_ms` in place.
   zoom(factor, at_ms) {
     const length = Math.max(shortest_ms, this.length_ms / factor);
     this.set(at_ms - (at_ms - this.start_ms) * length / this.length_ms, length);
@@ -29,7 +29,7 @@ class View {
   share(t_ms) { return (t_ms - this.start_ms) / this.length_ms; }
   timeAt(share) { return mix(this.start_ms, this.end_ms, share); }
 
-  // Turns the page when the time has left the view.
+  // Scrolls by a page when the current time leaves the range.
   keep(t_ms) {
     if (t_ms < this.start_ms || t_ms > this.end_ms) this.set(t_ms - 0.1 * this.length_ms, this.length_ms);
   }

@@ -1,10 +1,11 @@
+// Reduces audio to a waveform.
 #include "apps/mien/report/waveform.h"
 
 #include <algorithm>
 
 namespace mien::app {
 
-void Waveform::hear(const Audio& block, std::int64_t pts_ns) {
+void Waveform::push_audio(const Audio& block, std::int64_t pts_ns) {
   if (empty()) {
     start_ns_ = pts_ns;
   }

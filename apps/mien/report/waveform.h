@@ -1,5 +1,4 @@
-// How loud a sound is over time, to be drawn: the lowest and the highest sample of each short
-// while.
+// A waveform for display: the minimum and maximum sample of each interval.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +11,8 @@ class Waveform {
  public:
   static constexpr std::int64_t kBinNs = 10'000'000;
 
-  // Blocks as a AudioSource has them, of which the first channel counts; gaps stay silent.
-  void hear(const Audio& block, std::int64_t pts_ns);
+  // Takes blocks of an AudioSource and uses their first channel. Gaps are silent.
+  void push_audio(const Audio& block, std::int64_t pts_ns);
 
   [[nodiscard]] bool empty() const { return low_.empty(); }
   [[nodiscard]] std::int64_t start_ns() const { return start_ns_; }        // of the first bin

@@ -1,3 +1,4 @@
+// Converts frames to named expressions.
 #include "apps/mien/senders/blend_names.h"
 
 #include <mien/mien.h>
@@ -28,8 +29,8 @@ BlendNames::BlendNames(const std::string& vocabularies, const Destination& desti
     begin = end + 1;
     const std::optional<int> number = number_of(name);
     if (!number) {
-      destination.fail("names are of pascal, camel, vrm0, vrm1, with commas between them, not '" +
-                       name + "'");
+      destination.fail("names: unknown vocabulary '" + name +
+                       "', supported are pascal, camel, vrm0, vrm1, separated by commas");
     }
     Vocabulary vocabulary{*number, {}};
     for (std::int32_t i = 0; i < mien_vocabulary_size(*number); ++i) {
@@ -52,7 +53,7 @@ std::span<const formats::NamedValue> BlendNames::values(const formats::Frame& fr
     std::vector<float> values(vocabulary.names.size());
     if (mien_vocabulary_values(vocabulary.number, controls.data(), values.data(),
                                static_cast<std::int32_t>(values.size())) != MIEN_OK) {
-      throw Failure(kExitInternal, "a vocabulary that is none");
+      throw Failure(kExitInternal, "unknown vocabulary");
     }
     for (std::size_t i = 0; i < values.size(); ++i) {
       values_.push_back({vocabulary.names[i], double{values[i]}});

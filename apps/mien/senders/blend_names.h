@@ -1,4 +1,4 @@
-// What avatars call their expressions.
+// Names of expressions in the vocabularies of avatars.
 #pragma once
 
 #include <span>
@@ -12,16 +12,16 @@ namespace mien::app {
 
 class BlendNames {
  public:
-  // Of pascal, camel, vrm0, vrm1 as many as wanted, with commas between them. Throws Failure.
+  // `vocabularies`: names of pascal, camel, vrm0, vrm1, separated by commas. Throws Failure.
   BlendNames(const std::string& vocabularies, const Destination& destination);
 
-  // Valid until the next call.
+  // The values of all vocabularies, valid until the next call.
   std::span<const formats::NamedValue> values(const formats::Frame& frame);
 
  private:
   struct Vocabulary {
     int number = 0;                  // a mien_vocabulary
-    std::vector<std::string> names;  // as they are sent
+    std::vector<std::string> names;  // as sent
   };
   std::vector<Vocabulary> vocabularies_;
   std::vector<formats::NamedValue> values_;

@@ -1,3 +1,4 @@
+// Parses the URLs of --send.
 #include "apps/mien/senders/destination.h"
 
 #include <charconv>
@@ -9,22 +10,22 @@ namespace mien::app {
 namespace {
 
 std::string unescaped(std::string_view text, const Destination& destination) {
-  std::string made;
+  std::string result;
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (text[i] != '%') {
-      made += text[i];
+      result += text[i];
       continue;
     }
     unsigned char byte = 0;
     const std::string_view digits = text.substr(i + 1, 2);
     const auto parsed = std::from_chars(digits.data(), digits.data() + digits.size(), byte, 16);
     if (digits.size() != 2 || parsed.ptr != digits.data() + 2 || byte == 0) {
-      destination.fail("'%' needs two hexadecimal digits behind it");
+      destination.fail("expected two hexadecimal digits after '%'");
     }
-    made += static_cast<char>(byte);
+    result += static_cast<char>(byte);
     i += 2;
   }
-  return made;
+  return result;
 }
 
 void read_options(std::string_view query, Destination& destination) {
@@ -33,12 +34,12 @@ void read_options(std::string_view query, Destination& destination) {
     query.remove_prefix(std::min(query.size(), option.size() + 1));
     const std::size_t equals = option.find('=');
     if (equals == 0 || equals == std::string_view::npos) {
-      destination.fail(std::string(option) + ": is not NAME=VALUE");
+      destination.fail(std::string(option) + ": expected NAME=VALUE");
     }
     const std::string name(option.substr(0, equals));
     if (!destination.options.emplace(name, unescaped(option.substr(equals + 1), destination))
              .second) {
-      destination.fail("'" + name + "' is there twice");
+      destination.fail("duplicate option '" + name + "'");
     }
   }
 }
@@ -48,14 +49,14 @@ void read_place(std::string_view place, Destination& destination) {
   if (place.starts_with('[')) {
     const std::size_t end = place.find(']');
     if (end == std::string_view::npos || (end + 1 < place.size() && place[end + 1] != ':')) {
-      destination.fail("'[' and ']' go around an address");
+      destination.fail("expected an address in '[' and ']'");
     }
     destination.host = place.substr(1, end - 1);
     colon = end + 1 < place.size() ? end + 1 : std::string_view::npos;
   } else {
     destination.host = place.substr(0, colon);
     if (destination.host.find(':') != std::string::npos) {
-      destination.fail("an address of IPv6 goes into '[' and ']'");
+      destination.fail("expected an IPv6 address in '[' and ']'");
     }
   }
   if (colon != std::string_view::npos) {
@@ -65,14 +66,14 @@ void read_place(std::string_view place, Destination& destination) {
 
 }  // namespace
 
-std::string Destination::take(const std::string& option, const std::string& otherwise) {
+std::string Destination::take(const std::string& option, const std::string& default_value) {
   const auto found = options.extract(option);
-  return found.empty() ? otherwise : found.mapped();
+  return found.empty() ? default_value : found.mapped();
 }
 
 void Destination::require_all_taken() const {
   if (!options.empty()) {
-    fail("there is no option '" + options.begin()->first + "' for " + scheme);
+    fail("unknown option '" + options.begin()->first + "' for " + scheme);
   }
 }
 
@@ -85,7 +86,7 @@ Destination parse_destination(const std::string& text) {
   destination.text = text;
   const std::size_t slashes = text.find("://");
   if (slashes == std::string::npos) {
-    destination.fail("is no destination; an example is vmc://127.0.0.1:39539");
+    destination.fail("expected a URL such as vmc://127.0.0.1:39539");
   }
   destination.scheme = text.substr(0, slashes);
   std::string_view rest = std::string_view(text).substr(slashes + 3);
@@ -105,7 +106,7 @@ std::uint16_t parse_port(const std::string& digits, const Destination& destinati
   std::uint16_t port = 0;
   const auto parsed = std::from_chars(digits.data(), digits.data() + digits.size(), port);
   if (parsed.ec != std::errc() || parsed.ptr != digits.data() + digits.size() || port == 0) {
-    destination.fail("'" + digits + "' is no port; they are 1 to 65535");
+    destination.fail("invalid port (got '" + digits + "', expected 1 to 65535)");
   }
   return port;
 }

@@ -1,4 +1,4 @@
-// A phone with iFacialMocap, played: it streams to whoever says hello.
+// Emulates a phone with iFacialMocap, which streams to every program that sends it a hello.
 #pragma once
 
 #include <memory>
@@ -8,8 +8,8 @@
 
 namespace mien::app {
 
-// The destination is where it listens, 127.0.0.1:49983 unless it says something else; "to" is
-// streamed to without a hello. Throws Failure.
+// Listens at the destination, by default 127.0.0.1:49983. The option "to" names a receiver that
+// needs no hello. Throws Failure.
 std::unique_ptr<Sender> ifacialmocap_sender(const Destination& destination);
 
 }  // namespace mien::app

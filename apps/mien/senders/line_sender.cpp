@@ -1,3 +1,4 @@
+// Sends JSON lines.
 #include "apps/mien/senders/line_sender.h"
 
 #include "apps/mien/outputs/output_file.h"
@@ -12,7 +13,7 @@ class LineSender : public Sender {
   LineSender() : Sender("-") { shorten_standard_output(); }
 
   bool send(const Outgoing& outgoing) override {
-    if (!standard_output_has_room()) {
+    if (!standard_output_is_writable()) {
       return false;
     }
     write_standard_output(formats::frame_json(outgoing.frame) + "\n", wanted_);

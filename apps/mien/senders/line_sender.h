@@ -7,7 +7,7 @@
 
 namespace mien::app {
 
-// Whole lines, each as soon as there is room for it: a reader that is slow misses some.
+// Writes complete lines without waiting: a slow reader misses lines.
 std::unique_ptr<Sender> line_sender();
 
 }  // namespace mien::app

@@ -1,3 +1,4 @@
+// Sends VMC, Live Link, OpenSeeFace, OpenTrack and JSON packets.
 #include "apps/mien/senders/packet_sender.h"
 
 #include <utility>
@@ -15,14 +16,14 @@ namespace {
 
 constexpr const char* kThisMachine = "127.0.0.1";
 
-// `Packets` makes the datagrams of a frame.
+// `Packets` creates the datagrams of a frame.
 template <class Packets>
 class PacketSender : public Sender {
  public:
-  PacketSender(const Destination& destination, std::uint16_t usual_port, Packets packets)
+  PacketSender(const Destination& destination, std::uint16_t default_port, Packets packets)
       : Sender(destination.text),
         socket_(UdpSocket::to(destination.host.empty() ? kThisMachine : destination.host,
-                              destination.port == 0 ? usual_port : destination.port,
+                              destination.port == 0 ? default_port : destination.port,
                               "--send " + destination.text)),
         packets_(std::move(packets)) {}
 
@@ -40,10 +41,10 @@ class PacketSender : public Sender {
 };
 
 template <class Packets>
-std::unique_ptr<Sender> sender(const Destination& destination, std::uint16_t usual_port,
+std::unique_ptr<Sender> sender(const Destination& destination, std::uint16_t default_port,
                                Packets packets) {
   destination.require_all_taken();
-  return std::make_unique<PacketSender<Packets>>(destination, usual_port, std::move(packets));
+  return std::make_unique<PacketSender<Packets>>(destination, default_port, std::move(packets));
 }
 
 using Datagrams = std::vector<std::string>;
@@ -55,13 +56,13 @@ formats::RotationUnit rotation_unit(const std::string& name, const Destination& 
            : name == "deg" ? RotationUnit::kDegrees
                            : RotationUnit::kDegreesBy180;
   }
-  destination.fail("rot is rad, norm180 or deg, not '" + name + "'");
+  destination.fail("rot: expected rad, norm180 or deg (got '" + name + "')");
 }
 
 }  // namespace
 
-std::unique_ptr<Sender> vmc_sender(const Destination& asked_for) {
-  Destination destination = asked_for;
+std::unique_ptr<Sender> vmc_sender(const Destination& requested) {
+  Destination destination = requested;
   constexpr std::uint16_t kMarionette = 39539;
   BlendNames names(destination.take("names", "vrm0,pascal"), destination);
   return sender(
@@ -72,15 +73,15 @@ std::unique_ptr<Sender> vmc_sender(const Destination& asked_for) {
       });
 }
 
-std::unique_ptr<Sender> live_link_sender(const Destination& asked_for) {
-  Destination destination = asked_for;
+std::unique_ptr<Sender> live_link_sender(const Destination& requested) {
+  Destination destination = requested;
   constexpr std::uint16_t kLiveLinkFace = 11111;
-  // Unreal tells devices apart by it; one machine of ours is one device.
+  // Unreal distinguishes devices by this id; each machine is one device.
   formats::LiveLinkSubject subject{destination.take("id", "6D69656E-0000-4000-8000-000000000001"),
                                    destination.take("subject", "mien"),
                                    {}};
   if (subject.device_id.size() != 36) {
-    destination.fail("id is a UUID of 36 characters, not '" + subject.device_id + "'");
+    destination.fail("id: expected a UUID of 36 characters (got '" + subject.device_id + "')");
   }
   subject.rotation = rotation_unit(destination.take("rot", "rad"), destination);
   return sender(destination, kLiveLinkFace, [subject](const Outgoing& outgoing) {
@@ -88,7 +89,7 @@ std::unique_ptr<Sender> live_link_sender(const Destination& asked_for) {
   });
 }
 
-// Its receivers know that a face is lost by packets that do not come, and ease by themselves.
+// OpenSeeFace receivers detect a lost face by missing packets, and ease by themselves.
 std::unique_ptr<Sender> openseeface_sender(const Destination& destination) {
   constexpr std::uint16_t kOpenSeeFace = 11573;
   return sender(destination, kOpenSeeFace, [](const Outgoing& outgoing) {
@@ -96,21 +97,21 @@ std::unique_ptr<Sender> openseeface_sender(const Destination& destination) {
       return Datagrams();
     }
     return Datagrams{
-        formats::openseeface_packet(outgoing.frame, outgoing.picture, outgoing.unix_time_s)};
+        formats::openseeface_packet(outgoing.frame, outgoing.image, outgoing.unix_time_s)};
   });
 }
 
 std::unique_ptr<Sender> opentrack_sender(const Destination& destination) {
   constexpr std::uint16_t kOpentrack = 4242;
   return sender(destination, kOpentrack, [](const Outgoing& outgoing) {
-    // A head that was never seen is nowhere, which is not the same as at the camera.
+    // Before the first face the pose is unknown, which differs from a head at the camera.
     return outgoing.frame.head ? Datagrams{formats::opentrack_packet(outgoing.frame)} : Datagrams();
   });
 }
 
 std::unique_ptr<Sender> json_sender(const Destination& destination) {
   if (destination.port == 0) {
-    destination.fail("names no port");
+    destination.fail("expected a port");
   }
   return sender(destination, destination.port, [](const Outgoing& outgoing) {
     return Datagrams{formats::frame_json(outgoing.frame)};

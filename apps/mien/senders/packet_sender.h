@@ -1,4 +1,4 @@
-// Senders whose every frame is one or more datagrams to one place.
+// Senders that send each frame as one or more datagrams.
 #pragma once
 
 #include <memory>
@@ -8,7 +8,7 @@
 
 namespace mien::app {
 
-// Each throws Failure, also for options that it does not have.
+// All throw Failure, also for unknown options.
 std::unique_ptr<Sender> vmc_sender(const Destination& destination);
 std::unique_ptr<Sender> live_link_sender(const Destination& destination);
 std::unique_ptr<Sender> openseeface_sender(const Destination& destination);

@@ -1,3 +1,4 @@
+// Selects the sender of a destination.
 #include "apps/mien/senders/sender.h"
 
 #include <array>
@@ -36,7 +37,7 @@ std::unique_ptr<Sender> open_sender(const std::string& destination) {
     }
     known.append(scheme.name).append("://, ");
   }
-  parsed.fail("there is no '" + parsed.scheme + "://'; there are " + known + "and -");
+  parsed.fail("unknown protocol '" + parsed.scheme + "://', supported are " + known + "and -");
 }
 
 }  // namespace mien::app

@@ -1,5 +1,5 @@
-// Results of a live face go out, each frame as it is there. What cannot go at once is dropped:
-// nothing that is late is any use.
+// An interface for sending the results of live tracking. Packets that cannot be sent at once are
+// dropped, because late packets are useless.
 #pragma once
 
 #include <cstdint>
@@ -11,13 +11,13 @@
 
 namespace mien::app {
 
-// A frame as it is sent.
+// A frame to send.
 struct Outgoing {
-  formats::Frame frame;                 // of a lost face held, then eased to rest
-  formats::OpenSeeFacePicture picture;  // meaningful while the frame's state is tracking
+  formats::Frame frame;             // of a lost face: held, then eased to rest
+  formats::OpenSeeFaceImage image;  // valid only in the state tracking
   double since_start_s = 0.0;
   double unix_time_s = 0.0;
-  double time_of_day_s = 0.0;  // local
+  double time_of_day_s = 0.0;  // local time
 };
 
 class Sender {
@@ -27,21 +27,21 @@ class Sender {
   Sender(const Sender&) = delete;
   Sender& operator=(const Sender&) = delete;
 
-  // False where something of it was dropped. Throws Failure(kExitOutput) when there is no more use
-  // in sending.
+  // Returns false if packets were dropped. Throws Failure(kExitOutput) if sending has become
+  // impossible.
   virtual bool send(const Outgoing& outgoing) = 0;
 
-  // False once nobody takes it any more.
+  // False after the reader has closed.
   [[nodiscard]] virtual bool wanted() const { return true; }
-  // A line for the screen about who takes it; empty: nothing to say.
+  // A line for the screen about the receivers; may be empty.
   [[nodiscard]] virtual std::string state() const { return {}; }
-  [[nodiscard]] const std::string& name() const { return name_; }  // as it was asked for
+  [[nodiscard]] const std::string& name() const { return name_; }  // as given by the user
 
  private:
   std::string name_;
 };
 
-// What --send names: a URL, or "-" for JSON lines on standard output. Throws Failure.
+// Opens the destination of --send: a URL, or "-" for JSON lines on standard output. Throws Failure.
 std::unique_ptr<Sender> open_sender(const std::string& destination);
 
 }  // namespace mien::app

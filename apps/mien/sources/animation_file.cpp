@@ -1,3 +1,4 @@
+// Reads animation files and the Live Link Face notes beside them.
 #include "apps/mien/sources/animation_file.h"
 
 #include <algorithm>
@@ -16,7 +17,7 @@
 namespace mien::app {
 namespace {
 
-// Beyond this a size that a file system states is not trusted before the bytes are there.
+// Larger sizes reported by a file system are not reserved in advance, because they may be wrong.
 constexpr std::uintmax_t kMaxReserved = std::uintmax_t{1} << 32;
 
 // `size` is the expected number of bytes, 0 if it is unknown.
@@ -28,30 +29,30 @@ std::string rest_of(std::istream& stream, const std::string& name, std::size_t s
     text.append(block, 0, static_cast<std::size_t>(stream.gcount()));
   }
   if (stream.bad()) {
-    throw Failure(kExitNoInput, name + ": cannot be read to its end");
+    throw Failure(kExitNoInput, name + ": read error before the end of the file");
   }
   return text;
 }
 
-// Files of other folders, and what is no file, are not read: the one that names them may come from
-// anywhere.
+// Rejects files outside `folder` and everything that is not a regular file: the animation that
+// names them may be untrusted.
 bool load(const std::filesystem::path& folder, const std::string& name, std::size_t bytes,
           std::string& data, std::string& why) {
   const std::filesystem::path relative = path_of(name);
   const bool leaves = relative.is_absolute() || relative.has_root_path() ||
                       std::find(relative.begin(), relative.end(), "..") != relative.end();
   if (leaves || name.find(':') != std::string::npos) {
-    why = "is not in the folder of the file";
+    why = "not in the folder of the file";
     return false;
   }
   std::error_code error;
   const std::filesystem::path whole = folder / relative;
   if (!std::filesystem::is_regular_file(whole, error)) {
-    why = std::filesystem::exists(whole, error) ? "is no file" : "no such file";
+    why = std::filesystem::exists(whole, error) ? "not a regular file" : "no such file";
     return false;
   }
   if (std::filesystem::file_size(whole, error) < bytes || error) {
-    why = "is shorter than " + std::to_string(bytes) + " bytes";
+    why = "shorter than " + std::to_string(bytes) + " bytes";
     return false;
   }
   data.resize(bytes);
@@ -63,7 +64,7 @@ bool load(const std::filesystem::path& folder, const std::string& name, std::siz
   return true;
 }
 
-// FILE.json beside FILE, where it is ours.
+// Reads units from FILE.json beside FILE, if mien wrote it.
 void read_live_link_notes(const std::string& path, formats::ReadOptions& options) {
   const std::string beside = live_link_notes_of(path);
   std::error_code ignored;
@@ -82,7 +83,9 @@ void read_live_link_notes(const std::string& path, formats::ReadOptions& options
   const nlohmann::json fps = notes.value("timecode_fps", nlohmann::json());
   if (unit == units.end() || !fps.is_number() || fps.get<double>() < 1.0 ||
       fps.get<double>() > 100.0) {
-    throw Failure(kExitNoInput, beside + ": is damaged");
+    throw Failure(
+        kExitNoInput,
+        beside + ": damaged, expected rotation rad, norm180 or deg and timecode_fps 1 to 100");
   }
   options.rotation = unit->second;
   options.timecode_fps = fps.get<double>();

@@ -1,3 +1,4 @@
+// Feeds audio to a tracker ahead of its video frames.
 #include "apps/mien/sources/audio_source.h"
 
 #include <algorithm>
@@ -9,15 +10,15 @@
 namespace mien::app {
 namespace {
 
-// The middle of AudioNet's windows is heard 42 ms late.
+// The tracker needs audio ahead of a frame, because AudioNet's windows are centred 42 ms earlier.
 constexpr std::int64_t kAheadNs = 100'000'000;
 
-float peak_of(const Audio& block) {
+float peak_amplitude(const Audio& block) {
   const std::span<const float> samples(static_cast<const float*>(block.samples[0]),
                                        block.frames * static_cast<std::size_t>(block.channels));
   float peak = 0.0f;
   for (const float sample : samples) {
-    peak = std::max(peak, std::abs(sample));  // what is no number is passed over
+    peak = std::max(peak, std::abs(sample));  // std::max ignores NaN
   }
   return peak;
 }
@@ -39,7 +40,7 @@ void AudioFeed::hear_until(std::int64_t pts_ns, Tracker& tracker) {
     if (listener_) {
       listener_(block, block_ns);
     }
-    peak_ = std::max(peak_, peak_of(block));
+    peak_ = std::max(peak_, peak_amplitude(block));
     end_ns_ =
         block_ns + static_cast<std::int64_t>(block.frames) * 1'000'000'000 / block.sample_rate;
   }

@@ -1,3 +1,4 @@
+// Maps device names to arguments of ffmpeg's input devices.
 #include "apps/mien/sources/capture.h"
 
 #include <algorithm>
@@ -9,13 +10,13 @@
 namespace mien::app {
 namespace {
 
-// One of ffmpeg's input devices.
+// An input device of ffmpeg.
 struct Interface {
   CaptureKind kind;
   std::string_view name;
-  std::string_view before, after;      // around a device's name
-  std::string_view number_before;      // where the name is a number
-  std::vector<std::string> arguments;  // so that it does not hold back what it has
+  std::string_view before, after;      // text around a device's name
+  std::string_view number_before;      // text before a device's number
+  std::vector<std::string> arguments;  // options that disable its buffering
 };
 
 const std::vector<Interface>& interfaces() {
@@ -39,8 +40,8 @@ const std::vector<Interface>& interfaces() {
   return all;
 }
 
-// The interface of this system that needs no name.
-std::string_view own_interface(CaptureKind kind) {
+// The default interface of this system.
+std::string_view default_interface(CaptureKind kind) {
 #if defined(__APPLE__)
   static_cast<void>(kind);
   return "avfoundation";
@@ -76,32 +77,34 @@ std::string default_device(CaptureKind kind) {
 
 std::vector<std::string> capture_arguments(CaptureKind kind, const std::string& device) {
   if (is_url(device)) {
-    // What arrives while the stream is probed is a burst of old pictures, of which the newest wins;
-    // "-fflags nobuffer" would throw it away up to the next whole picture.
+    // While ffmpeg probes a stream, a burst of old images arrives; the newest of them is used.
+    // "-fflags nobuffer" would discard images until the next keyframe.
     std::vector<std::string> arguments = {"-flags", "low_delay"};
     const std::vector<std::string> input = input_arguments(device);
     arguments.insert(arguments.end(), input.begin(), input.end());
     return arguments;
   }
   if (device.empty()) {
-    throw Failure(kExitUsage, kind == CaptureKind::kCamera ? "--camera: names no camera"
-                                                           : "--mic: names no microphone");
+    throw Failure(kExitUsage, kind == CaptureKind::kCamera
+                                  ? "--camera: expected a device (got an empty name)"
+                                  : "--mic: expected a device (got an empty name)");
   }
   std::string_view name = device;
   const std::size_t colon = name.find(':');
-  const Interface* by = nullptr;
+  const Interface* selected = nullptr;
   if (colon != std::string_view::npos) {
-    by = interface_named(kind, name.substr(0, colon));
+    selected = interface_named(kind, name.substr(0, colon));
   }
-  if (by != nullptr) {
+  if (selected != nullptr) {
     name.remove_prefix(colon + 1);
   } else {
-    by = interface_named(kind, own_interface(kind));
+    selected = interface_named(kind, default_interface(kind));
   }
-  std::vector<std::string> arguments = {"-f", std::string(by->name)};
-  arguments.insert(arguments.end(), by->arguments.begin(), by->arguments.end());
-  const std::string_view before = is_number(name) ? by->number_before : by->before;
-  arguments.insert(arguments.end(), {"-i", std::string(before).append(name).append(by->after)});
+  std::vector<std::string> arguments = {"-f", std::string(selected->name)};
+  arguments.insert(arguments.end(), selected->arguments.begin(), selected->arguments.end());
+  const std::string_view before = is_number(name) ? selected->number_before : selected->before;
+  arguments.insert(arguments.end(),
+                   {"-i", std::string(before).append(name).append(selected->after)});
   return arguments;
 }
 

@@ -1,4 +1,4 @@
-// Cameras and microphones by name, as ffmpeg is to open them.
+// Maps names of cameras and microphones to arguments of ffmpeg.
 #pragma once
 
 #include <string>
@@ -8,12 +8,12 @@ namespace mien::app {
 
 enum class CaptureKind { kCamera, kMicrophone };
 
-// What --camera and --mic name when nobody does: the first of this machine.
+// The default of --camera and --mic: the first device of this machine.
 [[nodiscard]] std::string default_device(CaptureKind kind);
 
-// ffmpeg's arguments for a device or a URL. A device is a name of this system's own interface (a
-// number or a path of Video4Linux, a source of PulseAudio), or one of another interface behind its
-// name and a colon: "alsa:hw:1". Throws Failure(kExitUsage).
+// ffmpeg's arguments for a device or a URL. A device is a name in this system's default interface
+// (a number or path of Video4Linux, a source of PulseAudio), or "INTERFACE:NAME" for another
+// interface: "alsa:hw:1". Throws Failure(kExitUsage).
 [[nodiscard]] std::vector<std::string> capture_arguments(CaptureKind kind,
                                                          const std::string& device);
 

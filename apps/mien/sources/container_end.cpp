@@ -1,3 +1,4 @@
+// Compares sizes in the structure of media files with the size of the file.
 #include "apps/mien/sources/container_end.h"
 
 #include <algorithm>
@@ -27,7 +28,7 @@ class File {
 
   [[nodiscard]] std::uint64_t size() const { return size_; }
 
-  // Fewer bytes at the end of the file.
+  // Returns fewer bytes at the end of the file.
   std::string at(std::uint64_t position, std::size_t bytes) {
     std::string text(bytes, '\0');
     stream_.clear();
@@ -55,12 +56,12 @@ std::uint64_t little_endian(std::string_view bytes) {
   return big_endian(reversed);
 }
 
-// `bytes` from `position` on; what is beyond all files counts as too long, too.
+// Whether `bytes` from `position` on exceed the file. The subtraction avoids an overflow.
 bool beyond(const File& file, std::uint64_t position, std::uint64_t bytes) {
   return position > file.size() || bytes > file.size() - position;
 }
 
-// ISO 14496-12: size of 32 bits, type, and a size of 64 bits where the first is 1.
+// MP4 (ISO 14496-12): 32-bit size, type, and a 64-bit size if the first is 1.
 bool mp4_ends_early(File& file) {
   constexpr std::array kNeeded = {"mdat"sv, "moov"sv, "moof"sv};
   for (std::uint64_t position = 0; position < file.size();) {
@@ -73,7 +74,7 @@ bool mp4_ends_early(File& file) {
     if (size == 1 && head.size() == 16) {
       size = big_endian(view.substr(8));
     }
-    if (size < 8) {  // 0: to the end of the file
+    if (size < 8) {  // 0: the box extends to the end of the file
       return false;
     }
     if (beyond(file, position, size)) {
@@ -86,7 +87,7 @@ bool mp4_ends_early(File& file) {
 
 struct EbmlSize {
   std::uint64_t value = 0;
-  std::size_t bytes = 0;  // of the number itself; 0: none, or not known
+  std::size_t bytes = 0;  // length of the number itself; 0: no number, or unknown size
 };
 
 EbmlSize ebml_size(std::string_view text) {
@@ -103,7 +104,7 @@ EbmlSize ebml_size(std::string_view text) {
   return value == mask ? EbmlSize{} : EbmlSize{value, bytes};
 }
 
-// RFC 8794: a header, and the segment behind it.
+// Matroska (RFC 8794): a header, then the segment.
 bool matroska_ends_early(File& file) {
   const std::string head = file.at(0, 12);
   const EbmlSize header = ebml_size(std::string_view(head).substr(4));
@@ -134,7 +135,7 @@ bool avi_ends_early(File& file) {
   return false;
 }
 
-// Tags of 11 bytes and their data, each followed by its length.
+// FLV: tags of 11 bytes and their data, each followed by its length.
 bool flv_ends_early(File& file) {
   const std::string head = file.at(0, 9);
   std::uint64_t position = head.size() < 9 ? file.size() : big_endian(head.substr(5)) + 4;
@@ -152,7 +153,7 @@ bool flv_ends_early(File& file) {
   return false;
 }
 
-// RFC 3533: the last page is whole.
+// Ogg (RFC 3533): the last page must be complete.
 bool ogg_ends_early(File& file) {
   constexpr std::size_t kLargestPage = 27 + 255 + 255 * 255;
   const std::uint64_t position = file.size() > kLargestPage ? file.size() - kLargestPage : 0;
@@ -172,7 +173,7 @@ bool ogg_ends_early(File& file) {
   return beyond(file, position + page, bytes);
 }
 
-// Objects: 16 bytes that say which, and 8 of their size. The second has the packets.
+// ASF: objects with a 16-byte id and an 8-byte size. The second object has the packets.
 bool asf_ends_early(File& file) {
   const std::uint64_t header = little_endian(file.at(16, 8));
   const std::string data = file.at(header, 24);

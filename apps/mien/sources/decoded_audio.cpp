@@ -1,3 +1,4 @@
+// Converts decoded audio packets to blocks of fp32 samples.
 #include "apps/mien/sources/decoded_audio.h"
 
 #include <algorithm>
@@ -12,10 +13,10 @@ namespace {
 constexpr double kRate = 16000.0;
 constexpr std::size_t kSampleBytes = 2;
 
-// Samples before that time; a block has at most `most`.
-std::size_t samples_before(double seconds, std::size_t most) {
+// The number of samples before `seconds`, at most `max`.
+std::size_t samples_before(double seconds, std::size_t max) {
   return static_cast<std::size_t>(
-      std::clamp(std::round(seconds * kRate), 0.0, static_cast<double>(most)));
+      std::clamp(std::round(seconds * kRate), 0.0, static_cast<double>(max)));
 }
 
 }  // namespace
@@ -34,7 +35,7 @@ void DecodedAudio::convert(std::size_t first, std::size_t last) {
   }
 }
 
-// Only what lies in the range.
+// Returns only samples within the range.
 bool DecodedAudio::next(Audio& block, std::int64_t& pts_ns) {
   while (decoder_->next(stream_, packet_)) {
     const std::size_t there = packet_.data.size() / kSampleBytes;
@@ -53,7 +54,7 @@ bool DecodedAudio::next(Audio& block, std::int64_t& pts_ns) {
       block.samples[0] = samples_.data();
       const double seconds = packet_.time_s + static_cast<double>(first) / kRate;
       pts_ns = std::llround(seconds * 1e9);
-      heard_ = true;
+      has_output_ = true;
       return true;
     }
   }
@@ -65,7 +66,7 @@ void DecodedAudio::at_end() const {
   const std::string& last = decoder_->damage().last;
   const std::string reason = last.empty() ? "" : ": " + last;
   if (decoder_->failed() || decoder_->ended_early()) {
-    throw Failure(heard_ || decoder_->ended_early() ? kExitTruncated : kExitNoSound,
+    throw Failure(has_output_ || decoder_->ended_early() ? kExitTruncated : kExitNoSound,
                   input_ + ": the audio is damaged or truncated" + reason);
   }
 }

@@ -1,4 +1,4 @@
-// Sound that ffmpeg decodes: one channel of 16 kHz.
+// Audio decoded by ffmpeg: one channel at 16 kHz.
 #pragma once
 
 #include <memory>
@@ -12,12 +12,12 @@ namespace mien::app {
 
 class DecodedAudio : public AudioSource {
  public:
-  // `stream`: its number in what the decoder writes.
+  // `stream`: index in the output of the decoder.
   DecodedAudio(std::string input, const VideoRange& range, std::shared_ptr<Decoder> decoder,
-               std::size_t stream);  // of 0 the decoder is this one's own
+               std::size_t stream);  // 0: the decoder has no other stream
 
   bool next(Audio& block, std::int64_t& pts_ns) override;
-  // What a decoder of both complains of is the video's.
+  // A decoder of video and audio reports its errors as those of the video.
   [[nodiscard]] Damage damage() const override {
     return stream_ == 0 ? decoder_->damage() : Damage();
   }
@@ -32,7 +32,7 @@ class DecodedAudio : public AudioSource {
   std::size_t stream_;
   NutPacket packet_;
   std::vector<float> samples_;
-  bool heard_ = false;
+  bool has_output_ = false;
 };
 
 }  // namespace mien::app

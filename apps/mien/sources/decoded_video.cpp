@@ -1,3 +1,4 @@
+// Converts decoded video packets to images.
 #include "apps/mien/sources/decoded_video.h"
 
 #include <cmath>
@@ -16,7 +17,7 @@ DecodedVideo::DecodedVideo(std::string input, const VideoRange& range, const Vid
       stream_(stream) {}
 
 bool DecodedVideo::next_in_range(std::int64_t& pts_ns) {
-  constexpr double kRounding = 1e-6;  // ffmpeg's times of a range are in microseconds
+  constexpr double kRounding = 1e-6;  // ffmpeg rounds the times of a range to microseconds
   while (decoder_->next(stream_, packet_)) {
     const double time_s = packet_.time_s - range_.start_s;
     if (range_.duration_s && time_s >= *range_.duration_s - kRounding) {
@@ -34,15 +35,15 @@ bool DecodedVideo::next_in_range(std::int64_t& pts_ns) {
 bool DecodedVideo::next(mien_image& image, std::int64_t& pts_ns) {
   if (!next_in_range(pts_ns)) {
     if (frames_ == 0) {
-      throw Failure(kExitNoVideo, input_ + ": no picture in the range");
+      throw Failure(kExitNoVideo, input_ + ": no image in the range");
     }
     return false;
   }
   const std::size_t bytes =
       static_cast<std::size_t>(info_.width) * static_cast<std::size_t>(info_.height) * 3;
   if (packet_.data.size() != bytes) {
-    throw Failure(kExitInternal, input_ + ": ffmpeg: a picture of " +
-                                     std::to_string(packet_.data.size()) + " bytes (expected " +
+    throw Failure(kExitInternal, input_ + ": ffmpeg: wrong image size (got " +
+                                     std::to_string(packet_.data.size()) + " bytes, expected " +
                                      std::to_string(bytes) + ")");
   }
   mien_image_default(&image);

@@ -1,4 +1,4 @@
-// Frames that ffmpeg decodes: upright, of square pixels, RGB, at their own times.
+// Video decoded by ffmpeg: upright RGB images with square pixels and their own timestamps.
 #pragma once
 
 #include <memory>
@@ -11,7 +11,7 @@ namespace mien::app {
 
 class DecodedVideo : public VideoSource {
  public:
-  // `stream`: its number in what the decoder writes.
+  // `stream`: index in the output of the decoder.
   DecodedVideo(std::string input, const VideoRange& range, const VideoInfo& info,
                std::shared_ptr<Decoder> decoder, std::size_t stream);
 

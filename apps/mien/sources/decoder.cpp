@@ -1,3 +1,4 @@
+// Runs ffmpeg as a decoder and collects its packets and errors.
 #include "apps/mien/sources/decoder.h"
 
 #include <algorithm>
@@ -13,10 +14,10 @@
 namespace mien::app {
 namespace {
 
-constexpr int kDecodingErrors = 69;  // ffmpeg's exit status by -max_error_rate
-constexpr double kOffsetS = 1000.0;  // so that no timestamp is below 0, which NUT has none of
-// Of a stream that is not being read while another one is empty.
-constexpr std::size_t kMaxWaitingBytes = std::size_t{1} << 29;
+constexpr int kDecodingErrors = 69;  // ffmpeg's exit status with -max_error_rate
+constexpr double kOffsetS = 1000.0;  // keeps timestamps positive, because NUT has no negative ones
+// Limit for packets of one stream that queue while the decoder reads ahead for another.
+constexpr std::size_t kMaxQueuedBytes = std::size_t{1} << 29;
 
 std::vector<std::string> command_of(const std::string& input, double seek_s,
                                     const std::vector<std::string>& input_options,
@@ -36,8 +37,8 @@ std::vector<std::string> command_of(const std::string& input, double seek_s,
   return command;
 }
 
-// What demuxers say of a file that is cut.
-bool says_truncated(std::string_view log) {
+// Whether a demuxer reports a truncated file.
+bool reports_truncation(std::string_view log) {
   constexpr std::array<std::string_view, 2> kWords = {": partial file", "File ended prematurely"};
   return std::any_of(kWords.begin(), kWords.end(), [&](std::string_view words) {
     return log.find(words) != std::string_view::npos;
@@ -52,48 +53,48 @@ Decoder::Decoder(const std::string& input, double seek_s,
     : input_(input),
       seek_s_(seek_s),
       process_(command_of(input, seek_s, input_options, output), Subprocess::Pipe::kFromChild,
-               patience_with(input)),
+               timeout_of(input)),
       reader_({&Decoder::read_process, &process_}, kOffsetS),
-      waiting_(streams) {}
+      queues_(streams) {}
 
-void Decoder::keep(NutPacket& packet) {
-  if (packet.stream < waiting_.size() && waiting_bytes_ + packet.data.size() <= kMaxWaitingBytes) {
-    waiting_bytes_ += packet.data.size();
-    waiting_[packet.stream].push_back(std::exchange(packet, {}));
+void Decoder::enqueue(NutPacket& packet) {
+  if (packet.stream < queues_.size() && queued_bytes_ + packet.data.size() <= kMaxQueuedBytes) {
+    queued_bytes_ += packet.data.size();
+    queues_[packet.stream].push_back(std::exchange(packet, {}));
   }
 }
 
 bool Decoder::next(std::size_t stream, NutPacket& packet) {
-  std::deque<NutPacket>& waiting = waiting_[stream];
-  while (waiting.empty() && !ended_) {
+  std::deque<NutPacket>& queue = queues_[stream];
+  while (queue.empty() && !ended_) {
     const NutStatus status = reader_.next(packet);
     packet.time_s += seek_s_;
-    collect_complaints();
+    collect_errors();
     if (status != NutStatus::kOk) {
       finish(status == NutStatus::kEnd);
     } else if (packet.stream == stream) {
       return true;
     } else {
-      keep(packet);
+      enqueue(packet);
     }
   }
-  if (waiting.empty()) {
+  if (queue.empty()) {
     return false;
   }
-  packet = std::move(waiting.front());
-  waiting.pop_front();
-  waiting_bytes_ -= packet.data.size();
+  packet = std::move(queue.front());
+  queue.pop_front();
+  queued_bytes_ -= packet.data.size();
   return true;
 }
 
-// Line by line, for there may be any number of them.
-void Decoder::collect_complaints() {
+// Counts errors line by line. Their number is unbounded, so only the last is kept.
+void Decoder::collect_errors() {
   log_ += process_.take_errors();
   std::size_t begin = 0;
   for (std::size_t end = log_.find('\n'); end != std::string::npos; end = log_.find('\n', begin)) {
     damage_.last = log_.substr(begin, end - begin);
     ++damage_.complaints;
-    truncated_ = truncated_ || says_truncated(damage_.last);
+    truncated_ = truncated_ || reports_truncation(damage_.last);
     begin = end + 1;
   }
   log_.erase(0, begin);
@@ -102,7 +103,7 @@ void Decoder::collect_complaints() {
 void Decoder::finish(bool whole) {
   ended_ = true;
   const int status = process_.finish();
-  log_ += process_.take_errors() + "\n";  // the last line may lack its end
+  log_ += process_.take_errors() + "\n";  // the last line may not end with a newline
   std::erase_if(log_, [](char c) { return c == '\r'; });
   while (log_.ends_with("\n\n")) {
     log_.pop_back();
@@ -110,7 +111,7 @@ void Decoder::finish(bool whole) {
   if (log_ == "\n") {
     log_.clear();
   }
-  collect_complaints();
+  collect_errors();
   failed_ = !whole || (status != 0 && status != kDecodingErrors);
   truncated_ = truncated_ || (!is_url(input_) && ends_early(input_));
   damage_.frames_lost = status == kDecodingErrors;
@@ -123,13 +124,13 @@ std::vector<std::string> video_output(int index, const std::string& time_base,
                                       "-filter:v", filter,
                                       "-c:v",      "rawvideo",
                                       "-pix_fmt",  "rgb24"};
-  if (!time_base.empty()) {  // else ffmpeg rounds times to those of a constant frame rate
+  if (!time_base.empty()) {  // otherwise ffmpeg rounds timestamps to a constant frame rate
     options.insert(options.end(), {"-enc_time_base:v", time_base});
   }
   return options;
 }
 
-// Gaps are filled with silence.
+// Fills gaps with silence.
 std::vector<std::string> audio_output(int index, const std::string& filter) {
   return {"-map",      "0:" + std::to_string(index),
           "-filter:a", filter + "aresample=async=1",

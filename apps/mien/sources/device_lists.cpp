@@ -1,3 +1,4 @@
+// Parses device lists of operating systems and ffmpeg.
 #include "apps/mien/sources/device_lists.h"
 
 #include <algorithm>
@@ -28,7 +29,7 @@ void each_line(std::string_view text, Take take) {
   }
 }
 
-// Behind ffmpeg's own "[AVFoundation indev @ 0x7f8] ".
+// The message after ffmpeg's prefix "[AVFoundation indev @ 0x7f8] ".
 std::string_view message_of(std::string_view line) {
   const std::size_t end = line.find("] ");
   return line.starts_with('[') && end != std::string_view::npos ? line.substr(end + 2) : line;
@@ -52,7 +53,7 @@ std::vector<Device> video4linux(const std::string& folder) {
   return found;
 }
 
-// "01-00: USB Audio : USB Audio : playback 1 : capture 1"
+// Lines such as "01-00: USB Audio : USB Audio : playback 1 : capture 1".
 std::vector<Device> parse_alsa(std::string_view text) {
   std::vector<Device> found;
   each_line(text, [&](std::string_view line) {
@@ -70,7 +71,7 @@ std::vector<Device> parse_alsa(std::string_view text) {
   return found;
 }
 
-// "* alsa_input.usb [Microphone] (audio)", monitors of what is played among them.
+// Lines such as "* alsa_input.usb [Microphone] (audio)". Monitors of outputs are skipped.
 std::vector<Device> parse_pulse(std::string_view text) {
   std::vector<Device> found;
   each_line(text, [&](std::string_view line) {
@@ -89,7 +90,7 @@ std::vector<Device> parse_pulse(std::string_view text) {
   return found;
 }
 
-// "AVFoundation video devices:", then "[0] FaceTime HD Camera".
+// "AVFoundation video devices:", then lines such as "[0] FaceTime HD Camera".
 std::vector<Device> parse_avfoundation(std::string_view text) {
   std::vector<Device> found;
   std::optional<CaptureKind> kind;
@@ -108,7 +109,8 @@ std::vector<Device> parse_avfoundation(std::string_view text) {
   return found;
 }
 
-// "\"Integrated Camera\" (video)", or below "DirectShow audio devices" where ffmpeg is older.
+// Lines such as "\"Integrated Camera\" (video)"; older ffmpeg prints them below "DirectShow audio
+// devices".
 std::vector<Device> parse_dshow(std::string_view text) {
   std::vector<Device> found;
   std::optional<CaptureKind> section;

@@ -1,4 +1,4 @@
-// Lists of cameras and microphones as systems and ffmpeg have them.
+// Parses lists of cameras and microphones.
 #pragma once
 
 #include <string>
@@ -12,19 +12,17 @@ namespace mien::app {
 struct Device {
   CaptureKind kind;
   std::string name;         // for --camera or --mic
-  std::string description;  // for people
+  std::string description;  // for display
 };
 
-// What ffmpeg says of the interfaces of other systems: "-list_devices true" of avfoundation and
-// dshow, and "-sources pulse".
+// Parse ffmpeg's lists: "-list_devices true" of avfoundation and dshow, and "-sources pulse".
 std::vector<Device> parse_avfoundation(std::string_view text);
 std::vector<Device> parse_dshow(std::string_view text);
 std::vector<Device> parse_pulse(std::string_view text);
 
-// Of Video4Linux, by `folder`: /sys/class/video4linux. Those of a camera that give no pictures but
-// data about them are left out.
+// Lists Video4Linux cameras; `folder` is /sys/class/video4linux. Skips metadata devices.
 std::vector<Device> video4linux(const std::string& folder);
-// Of ALSA, by its list: /proc/asound/pcm.
+// Parses ALSA's list, /proc/asound/pcm.
 std::vector<Device> parse_alsa(std::string_view text);
 
 }  // namespace mien::app

@@ -1,3 +1,4 @@
+// Lists the cameras and microphones of this machine.
 #include "apps/mien/sources/devices.h"
 
 #include <algorithm>
@@ -20,8 +21,8 @@ using enum CaptureKind;
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// All that ffmpeg says, which is an error where all that was asked for is a list.
-[[maybe_unused]] std::string ffmpeg_says(const std::vector<std::string>& arguments) {
+// ffmpeg's messages. Listing devices ends with an error status, which is expected.
+[[maybe_unused]] std::string ffmpeg_messages(const std::vector<std::string>& arguments) {
   std::vector<std::string> command = {"ffmpeg", "-hide_banner", "-nostdin"};
   command.insert(command.end(), arguments.begin(), arguments.end());
   Subprocess ffmpeg(command, Subprocess::Pipe::kFromChild);
@@ -42,12 +43,13 @@ std::vector<Device> devices() {
   std::vector<Device> all;
 #if defined(__APPLE__)
   append(all, parse_avfoundation(
-                  ffmpeg_says({"-f", "avfoundation", "-list_devices", "true", "-i", ""})));
+                  ffmpeg_messages({"-f", "avfoundation", "-list_devices", "true", "-i", ""})));
 #elif defined(_WIN32)
-  append(all, parse_dshow(ffmpeg_says({"-f", "dshow", "-list_devices", "true", "-i", "dummy"})));
+  append(all,
+         parse_dshow(ffmpeg_messages({"-f", "dshow", "-list_devices", "true", "-i", "dummy"})));
 #else
   append(all, video4linux("/sys/class/video4linux"));
-  append(all, parse_pulse(ffmpeg_says({"-sources", "pulse"})));
+  append(all, parse_pulse(ffmpeg_messages({"-sources", "pulse"})));
   append(all, parse_alsa(contents("/proc/asound/pcm")));
 #endif
   return all;

@@ -1,4 +1,4 @@
-// `mien devices`: which cameras and microphones there are.
+// Implements `mien devices`, which lists cameras and microphones.
 #pragma once
 
 #include <vector>

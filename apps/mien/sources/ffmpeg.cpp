@@ -1,3 +1,4 @@
+// Helpers for calls of ffmpeg.
 #include "apps/mien/sources/ffmpeg.h"
 
 namespace mien::app {

@@ -1,3 +1,4 @@
+// Opens inputs, and selects between the readers of this program and ffmpeg.
 #include "apps/mien/sources/input.h"
 
 #include <algorithm>
@@ -26,14 +27,14 @@ Arguments input_options(const InputOptions& options) {
   return options.rotation ? Arguments{"-noautorotate"} : Arguments();
 }
 
-// Where in an input ffmpeg begins. It may miss the last frame before that which can be
-// decoded by itself, as in MPEG-TS, so it begins earlier.
+// The time that ffmpeg seeks to. It may miss the last keyframe before the range, as in MPEG-TS, so
+// it starts earlier.
 double seek_s(const VideoRange& range) {
   constexpr double kEarlierS = 10.0;
   return std::max(0.0, range.start_s - kEarlierS);
 }
 
-// Leaves out what lies before the range; `filter`: "trim" or "atrim".
+// A filter that removes everything before the range; `filter` is "trim" or "atrim".
 std::string trimmed(const char* filter, const VideoRange& range) {
   constexpr double kRounding = 1e-6;
   const double before = range.start_s - seek_s(range);
@@ -43,7 +44,7 @@ std::string trimmed(const char* filter, const VideoRange& range) {
 
 std::string audio_filter(const InputOptions& options) { return trimmed("atrim", options.range); }
 
-// Square pixels of one size, even where the size changes within the video.
+// Square pixels of one size, even if the size changes within the video.
 std::string video_filter(const VideoTrack& track, const InputOptions& options) {
   const DisplaySize size = display_size(track, options.rotation);
   return trimmed("trim", options.range) + rotation_filter(options.rotation.value_or(0)) +
@@ -56,15 +57,15 @@ VideoInfo info_of(const VideoTrack& track, const InputOptions& options) {
           track.frames, track.pixel_aspect, options.rotation.value_or(track.rotation)};
 }
 
-// The other streams. Containers without a start time of their own (MPEG-TS) begin at 0 with the
-// first stream that is read: all processes that read an input read the same streams.
-Arguments clock_outputs(const Recording& recording, int but) {
+// Outputs that read and discard the other streams. Containers without a start time (MPEG-TS) start
+// at 0 with the first stream that is read, so all processes must read the same streams.
+Arguments discard_outputs(const Recording& recording, int except) {
   Arguments arguments;
-  if (recording.video && recording.video->index != but) {
+  if (recording.video && recording.video->index != except) {
     arguments = clock_output(recording.video->index);
   }
   for (const AudioTrack& track : recording.audio) {
-    if (track.index != but) {
+    if (track.index != except) {
       arguments = joined(arguments, clock_output(track.index));
     }
   }
@@ -78,13 +79,13 @@ Input::Input(std::string name) : name_(std::move(name)) {
     const std::string refusal = y4m_refusal(name_);
     kind_ = Kind::kY4m;
     if (!refusal.empty()) {
-      probe_instead(kExitNoVideo, "not a Y4M video: " + refusal);
+      probe_or_fail(kExitNoVideo, "not a Y4M video: " + refusal);
     }
   } else if (is_wav(name_)) {
     const std::string refusal = wav_refusal(name_);
     kind_ = Kind::kWav;
     if (!refusal.empty()) {
-      probe_instead(kExitNoSound, "no audio that can be read: " + refusal);
+      probe_or_fail(kExitNoSound, "audio cannot be read: " + refusal);
     }
   } else {
     probe();
@@ -96,8 +97,8 @@ void Input::probe() {
   recording_ = probe_recording(name_);
 }
 
-// What the name promises is not in the file, or not in a way that needs no ffmpeg.
-void Input::probe_instead(ExitCode code, const std::string& refusal) {
+// Falls back to ffmpeg if the content does not match the file name, or if only ffmpeg can read it.
+void Input::probe_or_fail(ExitCode code, const std::string& refusal) {
   try {
     probe();
   } catch (const Failure& failure) {
@@ -111,22 +112,22 @@ int Input::audio_index(int track) const {
   const auto tracks = static_cast<int>(audio_tracks());
   if (track < 1 || track > tracks) {
     throw Failure(kExitNoSound, tracks == 0
-                                    ? name_ + ": has no audio"
-                                    : "--audio-track: " + name_ + " has no such track (got " +
+                                    ? name_ + ": no audio"
+                                    : "--audio-track: no such track in " + name_ + " (got " +
                                           std::to_string(track) + ", expected 1 to " +
                                           std::to_string(tracks) + ")");
   }
   return kind_ == Kind::kFfmpeg ? recording_.audio[static_cast<std::size_t>(track - 1)].index : 0;
 }
 
-// Two processes, and each reads at its own pace: one that wrote both would have to hold back
-// pictures wherever audio begins late.
-Input::Opened Input::open_apart(const InputOptions& options, bool video, bool sound) const {
+// Uses two processes, each with its own pace: one process would have to queue images if audio
+// starts late.
+Input::Opened Input::open_separately(const InputOptions& options, bool video, bool audio) const {
   Opened opened;
   const auto decoder = [&](const Arguments& output, int index) {
     return std::make_shared<Decoder>(
         name_, seek_s(options.range), input_options(options),
-        joined(joined(output, nut_output()), clock_outputs(recording_, index)), 1);
+        joined(joined(output, nut_output()), discard_outputs(recording_, index)), 1);
   };
   if (video) {
     const VideoTrack& track = *recording_.video;
@@ -136,7 +137,7 @@ Input::Opened Input::open_apart(const InputOptions& options, bool video, bool so
                 track.index),
         0);
   }
-  if (sound) {
+  if (audio) {
     const int index = audio_index(options.audio_track);
     opened.sound = std::make_unique<DecodedAudio>(
         name_, options.range, decoder(audio_output(index, audio_filter(options)), index), 0);
@@ -144,7 +145,7 @@ Input::Opened Input::open_apart(const InputOptions& options, bool video, bool so
   return opened;
 }
 
-// One process: two connections to a live stream would begin at different times.
+// Uses one process: two connections to a live stream would start at different times.
 Input::Opened Input::open_together(const InputOptions& options) const {
   const VideoTrack& track = *recording_.video;
   const Arguments both =
@@ -159,11 +160,11 @@ Input::Opened Input::open_together(const InputOptions& options) const {
   return opened;
 }
 
-Input::Opened Input::open(const InputOptions& options, bool video, bool sound) const {
+Input::Opened Input::open(const InputOptions& options, bool video, bool audio) const {
   if (video && !has_video()) {
-    throw Failure(kExitNoVideo, name_ + ": has no video stream");
+    throw Failure(kExitNoVideo, name_ + ": no video stream");
   }
-  if (sound) {
+  if (audio) {
     static_cast<void>(audio_index(options.audio_track));
   }
   if (kind_ == Kind::kY4m) {
@@ -172,8 +173,8 @@ Input::Opened Input::open(const InputOptions& options, bool video, bool sound) c
   if (kind_ == Kind::kWav) {
     return {nullptr, open_wav(name_, options.range)};
   }
-  return video && sound && is_url(name_) ? open_together(options)
-                                         : open_apart(options, video, sound);
+  return video && audio && is_url(name_) ? open_together(options)
+                                         : open_separately(options, video, audio);
 }
 
 std::unique_ptr<VideoSource> open_video(const std::string& input, const InputOptions& options) {

@@ -1,4 +1,4 @@
-// A file, a stream on standard input, or a URL, and what it holds.
+// An input of the program: a file, standard input, or a URL.
 #pragma once
 
 #include <memory>
@@ -13,7 +13,7 @@ namespace mien::app {
 
 class Input {
  public:
-  // Throws Failure where there is no such file, or neither video nor audio in it.
+  // Throws Failure if the file does not exist or has neither video nor audio.
   explicit Input(std::string name);
 
   [[nodiscard]] const std::string& name() const { return name_; }
@@ -27,21 +27,21 @@ class Input {
     std::unique_ptr<VideoSource> video;
     std::unique_ptr<AudioSource> sound;
   };
-  // What is asked for of both, on one clock. Throws Failure where it is not there.
-  [[nodiscard]] Opened open(const InputOptions& options, bool video, bool sound) const;
+  // Opens video and audio, as requested, on one clock. Throws Failure if one is missing.
+  [[nodiscard]] Opened open(const InputOptions& options, bool video, bool audio) const;
 
  private:
   enum class Kind { kY4m, kWav, kFfmpeg };
 
   void probe();
-  void probe_instead(ExitCode code, const std::string& refusal);
+  void probe_or_fail(ExitCode code, const std::string& refusal);
   [[nodiscard]] int audio_index(int track) const;
-  [[nodiscard]] Opened open_apart(const InputOptions& options, bool video, bool sound) const;
+  [[nodiscard]] Opened open_separately(const InputOptions& options, bool video, bool audio) const;
   [[nodiscard]] Opened open_together(const InputOptions& options) const;
 
   std::string name_;
   Kind kind_ = Kind::kFfmpeg;
-  Recording recording_;  // of kFfmpeg
+  Recording recording_;  // only for kFfmpeg
 };
 
 }  // namespace mien::app

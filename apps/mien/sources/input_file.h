@@ -1,4 +1,4 @@
-// A file that is read without ffmpeg, or standard input.
+// Opens files that are read without ffmpeg, or standard input.
 #pragma once
 
 #include <cstdio>
@@ -21,7 +21,7 @@ struct CloseInput {
 };
 using InputFile = std::unique_ptr<std::FILE, CloseInput>;
 
-// As messages name it.
+// The name of an input in messages.
 [[nodiscard]] inline std::string input_label(const std::string& name) {
   return name == kStandardInput ? "standard input" : name;
 }
@@ -34,7 +34,7 @@ using InputFile = std::unique_ptr<std::FILE, CloseInput>;
   return file;
 }
 
-// A pipe's bytes can be read only once.
+// False for pipes, whose bytes can be read only once.
 [[nodiscard]] inline bool can_be_read_again(const std::string& name) {
   std::error_code unknown;
   return name != kStandardInput && std::filesystem::is_regular_file(path_of(name), unknown);

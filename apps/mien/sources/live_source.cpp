@@ -1,3 +1,4 @@
+// Captures video and audio with ffmpeg.
 #include "apps/mien/sources/live_source.h"
 
 #include <algorithm>
@@ -28,9 +29,9 @@ std::size_t read_process(void* context, std::span<std::byte> into) {
   return static_cast<Subprocess*>(context)->read(into);
 }
 
-std::string reason_of(Subprocess& decoder) {
+std::string error_of(Subprocess& decoder) {
   const std::string line = last_line(decoder.take_errors());
-  return line.empty() ? "it gives nothing any more" : line;
+  return line.empty() ? "no more data" : line;
 }
 
 }  // namespace
@@ -44,7 +45,7 @@ LiveVideo::LiveVideo(const std::string& camera)
 
 void LiveVideo::open() {
   if (reader_.open({read_process, &decoder_}) != formats::Y4mStatus::kOk) {
-    throw Failure(kExitNoInput, camera_ + ": no picture: " + reason());
+    throw Failure(kExitNoInput, camera_ + ": no image: " + reason());
   }
   frame_.resize(reader_.header().frame_bytes());
 }
@@ -61,7 +62,7 @@ bool LiveVideo::next(mien_image& image, std::int64_t& pts_ns) {
   return true;
 }
 
-std::string LiveVideo::reason() { return reason_of(decoder_); }
+std::string LiveVideo::reason() { return error_of(decoder_); }
 
 LiveSound::LiveSound(const std::string& microphone)
     : microphone_(microphone),
@@ -86,6 +87,6 @@ bool LiveSound::next(Audio& block, std::int64_t& pts_ns) {
   return true;
 }
 
-std::string LiveSound::reason() { return reason_of(decoder_); }
+std::string LiveSound::reason() { return error_of(decoder_); }
 
 }  // namespace mien::app

@@ -1,5 +1,5 @@
-// Pictures and sound as they happen, from a camera, a microphone or a network. Times are those of
-// arrival on the steady clock, in nanoseconds.
+// Video and audio from a camera, a microphone or a network, in real time. Timestamps are arrival
+// times on the steady clock, in nanoseconds.
 #pragma once
 
 #include <chrono>
@@ -15,22 +15,22 @@
 
 namespace mien::app {
 
-// Of the clock that live times are on.
+// The current time on the clock of live timestamps.
 [[nodiscard]] inline std::int64_t steady_now_ns() {
   return std::chrono::steady_clock::now().time_since_epoch() / std::chrono::nanoseconds(1);
 }
 
 class LiveVideo {
  public:
-  // Begins to open it. Throws Failure.
+  // Starts to open the camera. Throws Failure.
   explicit LiveVideo(const std::string& camera);
 
-  // Waits for the next picture, which is valid until the next call. False once the camera is gone.
-  // Throws Failure(kExitNoInput) when there is not even a first.
+  // Waits for the next image, which is valid until the next call. Returns false after the camera
+  // has ended. Throws Failure(kExitNoInput) if there is no first image.
   bool next(mien_image& image, std::int64_t& pts_ns);
   // Ends a wait from another thread.
   void interrupt() { decoder_.interrupt(); }
-  // What the decoder last complained of.
+  // The last error of the decoder.
   std::string reason();
 
  private:
@@ -46,7 +46,7 @@ class LiveSound {
  public:
   explicit LiveSound(const std::string& microphone);  // throws Failure
 
-  // Waits for the next block, which is valid until the next call. False once there are no more.
+  // Waits for the next block, which is valid until the next call. Returns false at the end.
   bool next(Audio& block, std::int64_t& pts_ns);
   void interrupt() { decoder_.interrupt(); }
   std::string reason();

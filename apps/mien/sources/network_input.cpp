@@ -1,3 +1,4 @@
+// Restricts each URL to the network protocols that it needs.
 #include "apps/mien/sources/network_input.h"
 
 #include <array>
@@ -11,7 +12,7 @@ namespace {
 
 struct Protocol {
   std::string_view name;
-  std::string_view needs;  // itself and others, as ffmpeg calls them
+  std::string_view needs;  // ffmpeg's names of this and the underlying protocols
 };
 
 constexpr std::array<Protocol, 11> kProtocols = {{
@@ -52,12 +53,12 @@ std::vector<std::string> input_arguments(const std::string& input) {
     }
     known.append(known.empty() ? "" : ", ").append(protocol.name);
   }
-  throw Failure(kExitUsage,
-                input + ": there is no protocol '" + std::string(scheme) + "'; there are " + known);
+  throw Failure(kExitUsage, input + ": unknown protocol '" + std::string(scheme) +
+                                "', supported protocols are " + known);
 }
 
-std::chrono::milliseconds patience_with(const std::string& input) {
-  return is_url(input) ? Subprocess::kEndless : Subprocess::kPatience;
+std::chrono::milliseconds timeout_of(const std::string& input) {
+  return is_url(input) ? Subprocess::kNoTimeout : Subprocess::kTimeout;
 }
 
 }  // namespace mien::app

@@ -1,4 +1,4 @@
-// Inputs that come over a network: "rtsp://camera/stream".
+// Inputs from a network: "rtsp://camera/stream".
 #pragma once
 
 #include <chrono>
@@ -9,13 +9,12 @@ namespace mien::app {
 
 [[nodiscard]] bool is_url(const std::string& input);
 
-// What ffmpeg and ffprobe are given for an input. A file's name names a file, whatever it holds,
-// and what the file refers to is looked for among files alone. A URL may lead to the protocols of
-// the network that it needs and never to files. Throws Failure(kExitUsage) for a protocol that is
-// not taken.
+// ffmpeg's and ffprobe's arguments for an input. A file name always names a file, and a playlist
+// can refer to files only. A URL can use the network protocols that it needs, but no files. Throws
+// Failure(kExitUsage) for an unsupported protocol.
 [[nodiscard]] std::vector<std::string> input_arguments(const std::string& input);
 
-// How long ffmpeg may give nothing of an input: what comes over a network may pause.
-[[nodiscard]] std::chrono::milliseconds patience_with(const std::string& input);
+// The timeout for an ffmpeg that outputs nothing: endless for network inputs, which may pause.
+[[nodiscard]] std::chrono::milliseconds timeout_of(const std::string& input);
 
 }  // namespace mien::app

@@ -1,3 +1,4 @@
+// Reads NUT streams. Every size and index of the stream is checked, and memory is limited.
 #include "apps/mien/sources/nut_reader.h"
 
 #include <algorithm>
@@ -12,7 +13,7 @@ namespace {
 
 constexpr std::string_view kSignature{"nut/multimedia container\0", 25};
 
-// Of packets that are no frames; all begin with 'N'.
+// Start codes of packets that are not frames. All begin with 'N'.
 constexpr std::uint64_t kMainHeader = 0x4E4D7A561F5F04ADu;
 constexpr std::uint64_t kStreamHeader = 0x4E5311405BF2F9DBu;
 constexpr std::uint64_t kSyncpoint = 0x4E4BE4ADEECA4569u;
@@ -30,10 +31,10 @@ enum Flag : std::uint64_t {
   kInvalid = 1u << 13,
 };
 
-constexpr std::uint64_t kLargestHeader = 1u << 20;  // bytes; ffmpeg's have some hundreds
-constexpr std::uint64_t kLargestFrame = std::uint64_t{1} << 30;
+constexpr std::uint64_t kMaxHeaderBytes = 1u << 20;  // bytes; ffmpeg's have some hundreds
+constexpr std::uint64_t kMaxFrameBytes = std::uint64_t{1} << 30;
 constexpr std::uint64_t kMaxStreams = 16;
-constexpr std::int64_t kLastTimestamp = std::int64_t{1} << 61;
+constexpr std::int64_t kMaxTimestamp = std::int64_t{1} << 61;
 
 bool fits(std::int64_t value) { return value > 0 && value <= INT32_MAX; }
 
@@ -83,14 +84,14 @@ std::int64_t NutReader::signed_number() {
 
 std::vector<std::byte> NutReader::text() {
   const std::uint64_t length = number();
-  damaged_ = damaged_ || length > kLargestHeader;
+  damaged_ = damaged_ || length > kMaxHeaderBytes;
   std::vector<std::byte> bytes(damaged_ ? 0 : static_cast<std::size_t>(length));
   read(bytes);
   return bytes;
 }
 
 bool NutReader::skip(std::uint64_t bytes) {
-  if (bytes > kLargestHeader) {
+  if (bytes > kMaxHeaderBytes) {
     damaged_ = true;
     return false;
   }
@@ -132,14 +133,14 @@ NutStatus NutReader::next(NutPacket& packet) {
 }
 
 bool NutReader::read_header_packet(std::uint8_t first) {
-  constexpr std::uint64_t kLongPacket = 4096;  // from there on its length has a checksum
+  constexpr std::uint64_t kLongPacket = 4096;  // longer packets have a checksum after their length
   constexpr std::uint64_t kChecksumBytes = 4;
   std::uint64_t kind = first;
   for (int i = 0; i < 7; ++i) {
     kind = kind << 8 | byte();
   }
   const std::uint64_t length = number();
-  if (length < kChecksumBytes || length > kLargestHeader ||
+  if (length < kChecksumBytes || length > kMaxHeaderBytes ||
       (length > kLongPacket && !skip(kChecksumBytes))) {
     return false;
   }
@@ -190,8 +191,8 @@ void NutReader::read_main_header() {
   }
 }
 
-// The table of frame codes is written as runs; a run repeats what the one before it does not
-// change.
+// The table of frame codes consists of runs. A run repeats the fields of the previous one that it
+// does not change.
 void NutReader::read_codes() {
   FrameCode run;
   for (std::size_t i = 0; i < codes_.size() && !at_end_ && !damaged_;) {
@@ -205,7 +206,7 @@ void NutReader::read_codes() {
     damaged_ = damaged_ || run.size > run.size_factor;
     std::uint64_t count = fields > 5 ? number() : damaged_ ? 0 : run.size_factor - run.size;
     if (fields > 6) {
-      signed_number();  // time of a match, of no use here
+      signed_number();  // match time, unused
     }
     run.header = fields > 7 ? number() : run.header;
     for (std::uint64_t j = 8; j < fields && !at_end_; ++j) {
@@ -277,7 +278,7 @@ double NutReader::seconds(const Stream& stream) const {
 }
 
 bool NutReader::read_frame(std::uint8_t code, NutPacket& packet) {
-  constexpr std::uint64_t kLargestWithHeader = 4096;
+  constexpr std::uint64_t kMaxBytesWithHeader = 4096;
   FrameCode frame = codes_[code];
   if ((frame.flags & kInvalid) != 0) {
     return false;
@@ -291,7 +292,7 @@ bool NutReader::read_frame(std::uint8_t code, NutPacket& packet) {
     return false;
   }
   Stream& stream = streams_[frame.stream];
-  if (std::abs(stream.last) > kLastTimestamp || std::abs(frame.step) > kLastTimestamp) {
+  if (std::abs(stream.last) > kMaxTimestamp || std::abs(frame.step) > kMaxTimestamp) {
     return false;
   }
   stream.last =
@@ -308,12 +309,12 @@ bool NutReader::read_frame(std::uint8_t code, NutPacket& packet) {
   if ((frame.flags & kChecksum) != 0) {
     skip(4);
   }
-  if (std::max({high, frame.size_factor, frame.size}) > kLargestFrame) {
+  if (std::max({high, frame.size_factor, frame.size}) > kMaxFrameBytes) {
     return false;
   }
   const std::uint64_t size = frame.size + frame.size_factor * high;
-  const std::uint64_t used = size > kLargestWithHeader ? 0 : header_number;
-  if (size > kLargestFrame || used >= headers_.size() || (frame.flags & kSideData) != 0) {
+  const std::uint64_t used = size > kMaxBytesWithHeader ? 0 : header_number;
+  if (size > kMaxFrameBytes || used >= headers_.size() || (frame.flags & kSideData) != 0) {
     return false;
   }
   const std::vector<std::byte>& header = headers_[static_cast<std::size_t>(used)];
@@ -325,7 +326,7 @@ bool NutReader::read_frame(std::uint8_t code, NutPacket& packet) {
   return read_data(header, static_cast<std::size_t>(size), packet.data);
 }
 
-// In parts, so that a size that is not true takes no more memory than there are bytes.
+// Reads in parts, so that a wrong size allocates no more memory than there is data.
 bool NutReader::read_data(std::span<const std::byte> header, std::size_t size,
                           std::vector<std::byte>& data) {
   constexpr std::size_t kPart = std::size_t{1} << 24;

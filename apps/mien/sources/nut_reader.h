@@ -1,6 +1,6 @@
-// NUT streams as ffmpeg writes them: packets of raw video and audio with their timestamps
-// (libavformat's nut; specification: https://ffmpeg.org/nut.html). No metadata of an input can
-// change a timestamp in it.
+// Reads NUT streams as ffmpeg writes them: packets of raw video and audio with timestamps
+// (specification: https://ffmpeg.org/nut.html). Metadata of the input cannot change these
+// timestamps.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ class NutReader {
   // `offset_s` was added to all timestamps (ffmpeg's -output_ts_offset).
   NutReader(formats::ByteSource source, double offset_s) : source_(source), offset_s_(offset_s) {}
 
-  // Reads up to the next packet, whose data replaces that of `packet`.
+  // Reads the next packet and replaces the data of `packet`.
   [[nodiscard]] NutStatus next(NutPacket& packet);
 
  private:
@@ -36,16 +36,16 @@ class NutReader {
   };
   struct Stream {
     TimeBase unit;
-    unsigned shift = 0;  // bits of a timestamp that is not written in full
+    unsigned shift = 0;  // number of bits of an abbreviated timestamp
     std::int64_t last = 0;
   };
-  // What a frame's first byte stands for.
+  // The fields that the first byte of a frame stands for.
   struct FrameCode {
     std::uint64_t flags = 0;
     std::size_t stream = 0;
     std::uint64_t size_factor = 1;
     std::uint64_t size = 0;
-    std::int64_t step = 0;  // from the timestamp before
+    std::int64_t step = 0;  // difference to the previous timestamp
     std::uint64_t reserved = 0;
     std::uint64_t header = 0;
   };
@@ -54,7 +54,7 @@ class NutReader {
   std::uint8_t byte();
   std::uint64_t number();         // variable length
   std::int64_t signed_number();   // variable length
-  std::vector<std::byte> text();  // with its length before it
+  std::vector<std::byte> text();  // prefixed by its length
   bool skip(std::uint64_t bytes);
 
   NutStatus open();
@@ -71,11 +71,11 @@ class NutReader {
   formats::ByteSource source_;
   double offset_s_;
   bool opened_ = false;
-  bool at_end_ = false;  // fewer bytes came than were asked for
+  bool at_end_ = false;  // the source returned fewer bytes than requested
   bool damaged_ = false;
   std::vector<TimeBase> units_;
   std::vector<Stream> streams_;
-  std::vector<std::vector<std::byte>> headers_;  // that frames leave out
+  std::vector<std::vector<std::byte>> headers_;  // omitted in frames
   std::array<FrameCode, 256> codes_{};
 };
 

@@ -1,3 +1,4 @@
+// Describes the streams of an input with ffprobe.
 #include "apps/mien/sources/recording.h"
 
 #include <mien/mien.h>
@@ -21,13 +22,13 @@ using nlohmann::json;
 
 constexpr double kMinPixelAspect = 0.1, kMaxPixelAspect = 10.0;
 
-// No titles and other texts of the input.
+// Excludes titles and other text of the input.
 constexpr const char* kEntries =
     "stream=index,codec_type,codec_name,width,height,sample_aspect_ratio,time_base,avg_frame_rate,"
     "nb_frames,duration,sample_rate:stream_disposition=attached_pic:stream_side_data=rotation:"
     "format=duration";
 
-// ffprobe writes some numbers as strings, and "N/A" where it has none.
+// ffprobe writes some numbers as strings, and "N/A" for unknown values.
 double number(const json& object, const char* key) {
   const auto found = object.find(key);
   if (found == object.end()) {
@@ -42,7 +43,7 @@ std::string text(const json& object, const char* key) {
   return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
-// "30000/1001" or "4:3"; 0 where it says nothing.
+// Parses "30000/1001" or "4:3". Returns 0 for an unknown ratio.
 double ratio(const std::string& written) {
   const std::size_t sign = written.find_first_of("/:");
   const double numerator = std::atof(written.c_str());
@@ -64,7 +65,7 @@ int rotation_of(const json& stream) {
   return clockwise % 360;
 }
 
-// Pixels are taken to be square where the aspect ratio is missing or invalid.
+// Pixels are assumed to be square if the aspect ratio is missing or invalid.
 double pixel_aspect_of(const json& stream) {
   const double said = ratio(text(stream, "sample_aspect_ratio"));
   return said >= kMinPixelAspect && said <= kMaxPixelAspect ? said : 1.0;
@@ -91,25 +92,24 @@ VideoTrack video_track(const json& stream, const json& format) {
   return track;
 }
 
-json run_ffprobe(const std::string& input, std::string& complaint) {
+json run_ffprobe(const std::string& input, std::string& error) {
   std::vector<std::string> command = {
       "ffprobe",       "-v",     "error", "-max_pixels", std::to_string(kMaxPixels),
       "-show_entries", kEntries, "-of",   "json"};
   const std::vector<std::string> source = input_arguments(input);
   command.insert(command.end(), source.begin(), source.end());
-  Subprocess ffprobe(command, Subprocess::Pipe::kFromChild, patience_with(input));
+  Subprocess ffprobe(command, Subprocess::Pipe::kFromChild, timeout_of(input));
   const std::string answer = ffprobe.read_all();
   const int status = ffprobe.finish();
-  complaint = last_line(ffprobe.take_errors());
+  error = last_line(ffprobe.take_errors());
   json found = json::parse(answer, nullptr, false);
   if (status == 0 && found.is_object()) {
     return found;
   }
   if (is_url(input)) {
-    throw Failure(kExitNoInput, input + ": cannot be opened: " + complaint);
+    throw Failure(kExitNoInput, input + ": cannot be opened: " + error);
   }
-  throw Failure(kExitNoVideo,
-                input + ": neither video nor audio that ffmpeg can read: " + complaint);
+  throw Failure(kExitNoVideo, input + ": neither video nor audio that ffmpeg can read: " + error);
 }
 
 void require_file(const std::string& input) {
@@ -125,20 +125,20 @@ void require_file(const std::string& input) {
   }
 }
 
-void check_size(const VideoTrack& track, const std::string& input, const std::string& complaint) {
+void check_size(const VideoTrack& track, const std::string& input, const std::string& error) {
   if (track.width <= 0 || track.height <= 0) {
-    throw Failure(kExitNoVideo, input + ": the size of the picture is unknown" +
-                                    (complaint.empty() ? "" : ": " + complaint));
+    throw Failure(kExitNoVideo,
+                  input + ": unknown image size" + (error.empty() ? "" : ": " + error));
   }
   const DisplaySize size = display_size(track, {});
   const std::int64_t pixels =
       std::max(std::int64_t{track.width} * track.height, std::int64_t{size.width} * size.height);
   if (pixels > kMaxPixels ||
       std::max({size.width, size.height, track.width, track.height}) > MIEN_MAX_IMAGE_SIDE) {
-    throw Failure(kExitNoVideo,
-                  input + ": the picture is too large (got " + std::to_string(track.width) + "x" +
-                      std::to_string(track.height) + ", at most " + std::to_string(kMaxPixels) +
-                      " pixels and " + std::to_string(MIEN_MAX_IMAGE_SIDE) + " a side)");
+    throw Failure(kExitNoVideo, input + ": image too large (got " + std::to_string(track.width) +
+                                    "x" + std::to_string(track.height) + ", expected at most " +
+                                    std::to_string(kMaxPixels) + " pixels and " +
+                                    std::to_string(MIEN_MAX_IMAGE_SIDE) + " per side)");
   }
 }
 
@@ -155,8 +155,8 @@ DisplaySize display_size(const VideoTrack& track, std::optional<int> rotation) {
 
 Recording probe_recording(const std::string& input) {
   require_file(input);
-  std::string complaint;
-  const json found = run_ffprobe(input, complaint);
+  std::string error;
+  const json found = run_ffprobe(input, error);
   const json format = found.value("format", json::object());
   Recording recording;
   for (const json& stream : found.value("streams", json::array())) {
@@ -164,20 +164,20 @@ Recording probe_recording(const std::string& input) {
     const json disposition = stream.value("disposition", json::object());
     if (kind == "video" && !recording.video && number(disposition, "attached_pic") == 0.0) {
       recording.video = video_track(stream, format);
-      check_size(*recording.video, input, complaint);
+      check_size(*recording.video, input, error);
     } else if (kind == "audio" && number(stream, "sample_rate") > 0.0) {
       recording.audio.push_back({whole(number(stream, "index")), text(stream, "codec_name")});
     }
   }
   if (!recording.video && recording.audio.empty()) {
-    throw Failure(kExitNoVideo, input + ": has neither video nor audio");
+    throw Failure(kExitNoVideo, input + ": neither video nor audio");
   }
   return recording;
 }
 
 void require_video(const std::string& input) {
   if (!probe_recording(input).video) {
-    throw Failure(kExitNoVideo, input + ": has no video stream");
+    throw Failure(kExitNoVideo, input + ": no video stream");
   }
 }
 

@@ -1,4 +1,4 @@
-// What an input holds, as ffprobe describes it.
+// The streams of an input, as ffprobe describes them.
 #pragma once
 
 #include <cstdint>
@@ -8,19 +8,19 @@
 
 namespace mien::app {
 
-// More pixels than this are refused before they are decoded: 8192 x 8192.
+// Larger images are rejected before they are decoded: 8192 x 8192 pixels.
 inline constexpr std::int64_t kMaxPixels = std::int64_t{1} << 26;
 
 struct VideoTrack {
   int index = 0;  // among all streams
   std::string codec;
-  int width = 0;  // pixels as coded
+  int width = 0;  // coded pixels
   int height = 0;
-  double pixel_aspect = 1.0;  // width of a coded pixel / its height
+  double pixel_aspect = 1.0;  // width / height of a coded pixel
   int rotation = 0;           // degrees clockwise that make it upright
-  std::string time_base;      // of its timestamps, as ffmpeg writes it: "1/15360"
+  std::string time_base;      // of its timestamps, in ffmpeg's notation: "1/15360"
   double fps = 30.0;
-  std::optional<std::int64_t> frames;  // an estimate; nothing is decided by it
+  std::optional<std::int64_t> frames;  // an estimate, for display only
 };
 
 struct AudioTrack {
@@ -29,8 +29,8 @@ struct AudioTrack {
 };
 
 struct Recording {
-  std::optional<VideoTrack> video;  // the first; a cover image does not count
-  std::vector<AudioTrack> audio;    // those that ffmpeg knows how to decode
+  std::optional<VideoTrack> video;  // the first; cover images do not count
+  std::vector<AudioTrack> audio;    // those that ffmpeg can decode
 };
 
 struct DisplaySize {
@@ -38,15 +38,15 @@ struct DisplaySize {
   int height = 0;
 };
 
-// Of the upright picture in square pixels: the height stays, the width follows the pixel aspect.
-// `rotation` replaces that of the track.
+// The size of the upright image in square pixels: the height stays, the width follows the pixel
+// aspect ratio. `rotation` overrides that of the track.
 [[nodiscard]] DisplaySize display_size(const VideoTrack& track, std::optional<int> rotation);
 
-// Throws Failure where there is no such file, where ffprobe cannot read it, and where it has
-// neither video nor audio.
+// Throws Failure if the file does not exist, if ffprobe cannot read it, or if it has neither video
+// nor audio.
 [[nodiscard]] Recording probe_recording(const std::string& input);
 
-// Throws Failure where an input has no video that ffmpeg can read.
+// Throws Failure if ffmpeg can read no video in the input.
 void require_video(const std::string& input);
 
 }  // namespace mien::app

@@ -1,17 +1,16 @@
-// When samples were recorded that come in bursts.
+// Timestamps for samples that arrive in bursts.
 #pragma once
 
 #include <cstdint>
 
 namespace mien::app {
 
-// Counts samples, and lets the bursts that come first
-// say how far the count is behind the clock.
+// Counts samples. The earliest bursts correct the offset between the count and the clock.
 class SampleClock {
  public:
   explicit SampleClock(int sample_rate) : sample_rate_(sample_rate) {}
 
-  // The time of the first of `samples` that have just come.
+  // The timestamp of the first of `samples` samples that arrived at `now_ns`.
   std::int64_t time_of(std::int64_t samples, std::int64_t now_ns);
 
  private:

@@ -1,4 +1,4 @@
-// Frames of a video, whatever they come from.
+// An interface for the video of an input.
 #pragma once
 
 #include <mien/mien.h>
@@ -11,11 +11,11 @@
 namespace mien::app {
 
 struct VideoInfo {
-  int width = 0;   // square pixels of the upright picture
-  int height = 0;  // square pixels of the upright picture
+  int width = 0;   // square pixels of the upright image
+  int height = 0;  // square pixels of the upright image
   double fps = 30.0;
-  std::optional<std::int64_t> frames;  // an estimate, for progress alone
-  double pixel_aspect = 1.0;           // of the coded picture: width of a pixel / its height
+  std::optional<std::int64_t> frames;  // an estimate, for the progress bar
+  double pixel_aspect = 1.0;           // width / height of a coded pixel
   int rotation = 0;                    // degrees clockwise that made it upright
 };
 
@@ -24,18 +24,18 @@ struct VideoRange {
   std::optional<double> duration_s;
 };
 
-// Of what an input holds, what is read, and how.
+// The part of an input to read, and how.
 struct InputOptions {
   VideoRange range;
-  std::optional<int> rotation;  // degrees clockwise; none: as the input says
+  std::optional<int> rotation;  // degrees clockwise; default: from the input
   int audio_track = 1;          // the first is 1
 };
 
-// What a decoder complained of that it could pass over.
+// Errors that a decoder reported and survived.
 struct Damage {
   std::int64_t complaints = 0;
   bool frames_lost = false;
-  std::string last;  // of the complaints
+  std::string last;  // last error
 };
 
 // Reads frame by frame. The image of `next` stays valid until the next call.
@@ -44,15 +44,15 @@ class VideoSource {
   virtual ~VideoSource() = default;
   virtual const VideoInfo& info() const = 0;
 
-  // False at the end of the video. Throws Failure when the video is truncated.
+  // Returns false at the end of the video. Throws Failure if the video is truncated.
   virtual bool next(mien_image& image, std::int64_t& pts_ns) = 0;
 
-  // So far.
+  // Decoding errors until now.
   [[nodiscard]] virtual Damage damage() const { return {}; }
 };
 
-// "-" is a Y4M stream on stdin, a name ending in .y4m a Y4M file unless ffmpeg alone can read it;
-// everything else goes through ffmpeg. Throws Failure.
+// Opens "-" as a Y4M stream on standard input, and .y4m files without ffmpeg if possible. Other
+// inputs go through ffmpeg. Throws Failure.
 std::unique_ptr<VideoSource> open_video(const std::string& input, const InputOptions& options);
 
 }  // namespace mien::app

@@ -1,3 +1,4 @@
+// Reads audio from WAV files.
 #include "apps/mien/sources/wav_audio.h"
 
 #include <algorithm>
@@ -19,15 +20,15 @@ using formats::WavStatus;
 
 constexpr std::size_t kBlockFrames = 1024;
 
-std::string refusal(const WavReader& reader, WavStatus status) {
+std::string error_message(const WavReader& reader, WavStatus status) {
   return std::string(formats::message(status)) + ", at byte " +
          std::to_string(reader.fault_offset());
 }
 
-// No number of seconds is too large for it.
+// Clamped, because any number of seconds may be given.
 std::int64_t frames_in(double seconds, std::uint32_t rate) {
-  constexpr double kMost = 1e15;
-  return std::llround(std::clamp(seconds * rate, 0.0, kMost));
+  constexpr double kMaxFrames = 1e15;
+  return std::llround(std::clamp(seconds * rate, 0.0, kMaxFrames));
 }
 
 class WavAudio : public AudioSource {
@@ -37,7 +38,7 @@ class WavAudio : public AudioSource {
     const WavStatus status = reader_.open(formats::file_source(file_.get()));
     if (status != WavStatus::kOk) {
       throw Failure(kExitNoSound,
-                    name_ + ": no audio that can be read: " + refusal(reader_, status));
+                    name_ + ": audio cannot be read: " + error_message(reader_, status));
     }
     const WavFormat& format = reader_.format();
     samples_.resize(kBlockFrames * format.channels);
@@ -73,7 +74,7 @@ class WavAudio : public AudioSource {
     if (status != WavStatus::kOk && status != WavStatus::kEnd) {
       const double seconds = static_cast<double>(frames_) / reader_.format().sample_rate;
       throw Failure(kExitTruncated, name_ + ": audio damaged after " + std::to_string(seconds) +
-                                        " s: " + refusal(reader_, status));
+                                        " s: " + error_message(reader_, status));
     }
     return status == WavStatus::kOk;
   }
@@ -98,7 +99,7 @@ std::string wav_refusal(const std::string& path) {
   }
   WavReader reader;
   const WavStatus status = reader.open(formats::file_source(file.get()));
-  return status == WavStatus::kOk ? std::string() : refusal(reader, status);
+  return status == WavStatus::kOk ? std::string() : error_message(reader, status);
 }
 
 std::unique_ptr<AudioSource> open_wav(const std::string& input, const VideoRange& range) {

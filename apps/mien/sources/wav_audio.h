@@ -10,8 +10,8 @@ namespace mien::app {
 
 [[nodiscard]] bool is_wav(const std::string& input);  // by its name
 
-// Why a WAV file cannot be read without ffmpeg; empty where it can. Throws Failure where there is
-// no such file.
+// The reason why only ffmpeg can read a WAV file, or "" if this program can. Throws Failure if the
+// file does not exist.
 [[nodiscard]] std::string wav_refusal(const std::string& path);
 
 std::unique_ptr<AudioSource> open_wav(const std::string& input, const VideoRange& range);

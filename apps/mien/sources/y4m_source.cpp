@@ -1,3 +1,4 @@
+// Reads images from Y4M files.
 #include "apps/mien/sources/y4m_source.h"
 
 #include <cmath>
@@ -86,7 +87,7 @@ bool Y4mSource::next(mien_image& image, std::int64_t& pts_ns) {
 
 }  // namespace
 
-// 4:2:2 and 4:4:4 are read as 4:2:0 by stepping over the chroma samples in between.
+// Reads 4:2:2 and 4:4:4 as 4:2:0 by skipping chroma samples.
 mien_image y4m_image(const formats::Y4mHeader& header, const std::byte* frame) {
   const auto width = static_cast<int>(header.width), height = static_cast<int>(header.height);
   mien_image image;

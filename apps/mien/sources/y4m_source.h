@@ -12,11 +12,11 @@ namespace mien::app {
 
 [[nodiscard]] bool is_y4m(const std::string& input);  // by its name; "-" is standard input
 
-// Why a Y4M file cannot be read without ffmpeg; empty where it can. Throws Failure where there is
-// no such file.
+// The reason why only ffmpeg can read a Y4M file, or "" if this program can. Throws Failure if the
+// file does not exist.
 [[nodiscard]] std::string y4m_refusal(const std::string& path);
 
-// The frame that a reader with this header has read, which the image points into.
+// An image that refers to the pixels of a frame with this header.
 mien_image y4m_image(const formats::Y4mHeader& header, const std::byte* frame);
 
 std::unique_ptr<VideoSource> open_y4m(const std::string& input, const InputOptions& options);

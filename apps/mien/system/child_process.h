@@ -1,5 +1,5 @@
-// A running program and the pipes to it, as the operating system has them: posix/ and win32/ have
-// one each.
+// A running program and its pipes, as the operating system provides them. posix/ and win32/ have
+// one implementation each.
 #pragma once
 
 #include <chrono>
@@ -16,31 +16,31 @@ class ChildProcess {
  public:
   enum class Pipe { kToChild, kFromChild };
 
-  // Starts arguments[0], found on PATH, with only these pipes of ours. Throws
-  // Failure(kExitNoFfmpeg) when the program is not there.
+  // Starts arguments[0], found on PATH; the child inherits only these pipes. Throws
+  // Failure(kExitNoFfmpeg) if the program does not exist.
   static std::unique_ptr<ChildProcess> start(const std::vector<std::string>& arguments, Pipe pipe);
 
-  // Whoever was not waited for is ended.
+  // Kills the child unless `wait` has returned its status.
   virtual ~ChildProcess() = default;
 
-  // One transfer of as many bytes as the pipe has, or takes, and how many that were; 0: the child
-  // closed its end; none: neither here nor on stderr anything happened for so long, below 0 being
-  // for ever. What the child says on stderr is taken meanwhile: blocked on that, it would never get
-  // on with the other.
+  // One transfer of as many bytes as the pipe holds or accepts. Returns their number, 0 if the
+  // child closed its end, or nothing if neither this pipe nor stderr had activity within the
+  // timeout (negative: none). The functions read stderr meanwhile, because a child that blocks on
+  // stderr never serves the other pipe.
   virtual std::optional<std::size_t> read(std::span<std::byte> bytes,
-                                          std::chrono::milliseconds patience) = 0;
+                                          std::chrono::milliseconds timeout) = 0;
   virtual std::optional<std::size_t> write(std::span<const std::byte> bytes,
-                                           std::chrono::milliseconds patience) = 0;
+                                           std::chrono::milliseconds timeout) = 0;
   virtual void close_pipe() = 0;
 
-  // Ends the child; also from another thread, until `wait` was called.
+  // Kills the child. Other threads may call it until `wait` is called.
   virtual void kill() = 0;
 
-  // Returns the exit status, 128 + signal when killed; none: it still runs after so long, below 0
-  // being for ever. What else holds its stderr open is not waited for.
-  virtual std::optional<int> wait(std::chrono::milliseconds patience) = 0;
+  // Returns the exit status, 128 + signal if killed, or nothing if the child still runs after the
+  // timeout (negative: none). Does not wait for other processes that hold its stderr open.
+  virtual std::optional<int> wait(std::chrono::milliseconds timeout) = 0;
 
-  // What the child has said on stderr so far and nobody has taken.
+  // Returns and clears the text that the child has written to stderr.
   virtual std::string take_errors() = 0;
 };
 

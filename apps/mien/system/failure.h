@@ -1,4 +1,4 @@
-// One failure of the program: what to print on stderr, and the exit code.
+// An exception with a message for standard error and an exit code.
 #pragma once
 
 #include <stdexcept>
@@ -12,7 +12,7 @@ namespace mien::app {
 
 class Failure : public std::runtime_error {
  public:
-  // `details`: lines of their own.
+  // `details` are printed on lines of their own.
   Failure(ExitCode code, const std::string& message, std::vector<std::string> details = {})
       : std::runtime_error(message), code_(code), details_(std::move(details)) {}
   ExitCode code() const { return code_; }

@@ -1,11 +1,9 @@
-// Ctrl-C, and being asked to end, as something to look at between two pieces of work; posix/ and
-// win32/ have one each.
+// Polls for Ctrl-C and termination signals. posix/ and win32/ have one implementation each.
 #pragma once
 
 namespace mien::app {
 
-// From then on SIGINT, SIGTERM and SIGHUP, or Ctrl-C and Ctrl-Break, do nothing but make
-// `interrupted` true.
+// From then on SIGINT, SIGTERM and SIGHUP, or Ctrl-C and Ctrl-Break, only set `interrupted`.
 void catch_interrupts();
 [[nodiscard]] bool interrupted();
 

@@ -1,4 +1,4 @@
-// JSON that is printed: UTF-8 whatever the names of files hold.
+// Prints JSON as valid UTF-8, whatever bytes file names contain.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -6,7 +6,7 @@
 
 namespace mien::app {
 
-// `indent` below 0: in one line.
+// A negative `indent` prints one line.
 [[nodiscard]] inline std::string json_text(const nlohmann::ordered_json& json, int indent = 1) {
   return json.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }

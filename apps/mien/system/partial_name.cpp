@@ -1,3 +1,4 @@
+// Generates unpredictable names of temporary files.
 #include "apps/mien/system/partial_name.h"
 
 #include <random>

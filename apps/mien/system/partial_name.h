@@ -5,7 +5,7 @@
 
 namespace mien::app {
 
-// ".partial-", 80 random bits, and `ending` unless that is too long for one.
+// Returns ".partial-", 80 random bits, and `ending` unless it is too long for a file ending.
 [[nodiscard]] std::string partial_name(const std::string& ending);
 
 }  // namespace mien::app

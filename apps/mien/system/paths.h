@@ -1,5 +1,5 @@
-// Names of files are UTF-8 in all of the program; a std::filesystem::path made of a std::string
-// takes that for something else on Windows.
+// Conversions of paths. File names are UTF-8 in the whole program, but std::filesystem::path takes
+// a std::string for another encoding on Windows.
 #pragma once
 
 #include <filesystem>

@@ -1,11 +1,11 @@
-// Where this program itself lies; posix/ and win32/ have one each.
+// The path of this program. posix/ and win32/ have one implementation each.
 #pragma once
 
 #include <filesystem>
 
 namespace mien::app {
 
-// Empty where that is not known.
+// Empty if unknown.
 std::filesystem::path program_path();
 
 }  // namespace mien::app

@@ -1,4 +1,4 @@
-// A progress line on stderr, drawn only on a terminal.
+// A progress line on standard error, drawn only on a terminal.
 #pragma once
 
 #include <chrono>
@@ -9,15 +9,15 @@ namespace mien::app {
 
 class Progress {
  public:
-  // `unit`: what is counted, in the plural; static.
+  // `unit`: the plural of the counted unit, a static string.
   Progress(bool quiet, std::optional<std::int64_t> total, const char* unit = "frames");
   ~Progress();
   void update(std::int64_t done) { update(done, done); }
-  // Where the speed is that of something else than what is counted.
+  // `frames` determines the displayed speed if `done` counts something else.
   void update(std::int64_t done, std::int64_t frames);
 
  private:
-  bool shown_;
+  bool enabled_;
   std::optional<std::int64_t> total_;
   const char* unit_;
   std::chrono::steady_clock::time_point started_;

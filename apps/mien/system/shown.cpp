@@ -1,3 +1,4 @@
+// Escapes text and removes credentials from it.
 #include "apps/mien/system/shown.h"
 
 #include <algorithm>
@@ -8,7 +9,7 @@
 namespace mien::app {
 namespace {
 
-constexpr std::string_view kHidden = "***";
+constexpr std::string_view kReplacement = "***";
 constexpr std::string_view kEndsUrl = " \t\r\n'\"<>";
 
 bool is_secret(std::string key) {
@@ -22,43 +23,43 @@ bool is_secret(std::string key) {
          });
 }
 
-// "a=1&password=2" with the secret values hidden.
-std::string hidden_values(std::string_view query) {
-  std::string made;
+// "a=1&password=2" with its secret values replaced.
+std::string redacted_values(std::string_view query) {
+  std::string result;
   while (!query.empty()) {
     const std::size_t end = std::min(query.find_first_of("&;"), query.size());
     const std::string_view parameter = query.substr(0, end);
     const std::size_t equals = parameter.find('=');
     if (equals != std::string_view::npos && is_secret(std::string(parameter.substr(0, equals)))) {
-      made.append(parameter.substr(0, equals + 1)).append(kHidden);
+      result.append(parameter.substr(0, equals + 1)).append(kReplacement);
     } else {
-      made.append(parameter);
+      result.append(parameter);
     }
-    made.append(query.substr(end, 1));
+    result.append(query.substr(end, 1));
     query.remove_prefix(std::min(end + 1, query.size()));
   }
-  return made;
+  return result;
 }
 
-// What follows "://".
-std::string hidden_url(std::string_view rest) {
+// The part of a URL after "://".
+std::string redacted_url(std::string_view rest) {
   const std::size_t authority = std::min(rest.find_first_of("/?#"), rest.size());
-  // A password that is not percent-encoded may hold a '/': what is before an '@' counts as the
-  // user's.
+  // A password that is not percent-encoded may contain a '/', so everything before an '@' belongs
+  // to the user information.
   std::size_t at = rest.substr(0, authority).rfind('@');
   if (at == std::string_view::npos) {
     const std::size_t colon = rest.substr(0, authority).find(':');
     const std::size_t later = rest.substr(0, rest.find('?')).rfind('@');
     at = colon != std::string_view::npos && later != std::string_view::npos ? later : at;
   }
-  std::string made;
+  std::string result;
   if (at != std::string_view::npos) {
-    made.append(kHidden).append("@");
+    result.append(kReplacement).append("@");
     rest.remove_prefix(at + 1);
   }
   const std::size_t query = std::min(rest.find('?'), rest.size());
-  made.append(rest.substr(0, query)).append(rest.substr(query, 1));
-  return made + hidden_values(rest.substr(std::min(query + 1, rest.size())));
+  result.append(rest.substr(0, query)).append(rest.substr(query, 1));
+  return result + redacted_values(rest.substr(std::min(query + 1, rest.size())));
 }
 
 struct Character {
@@ -91,45 +92,45 @@ Character utf8(std::string_view text) {
 
 bool is_control(std::uint32_t code) { return code < 0x20 || (code >= 0x7F && code < 0xA0); }
 
-bool turns_writing(std::uint32_t code) {
+bool changes_text_direction(std::uint32_t code) {
   return (code >= 0x202A && code <= 0x202E) || (code >= 0x2066 && code <= 0x2069) ||
          code == 0x200E || code == 0x200F || code == 0x2028 || code == 0x2029;
 }
 
 std::string escaped(std::string_view text, bool lines) {
-  std::string made;
+  std::string result;
   while (!text.empty()) {
     const Character next = utf8(text);
     std::array<char, 12> code{};
     if (next.valid && lines && next.code == '\n') {
-      made += '\n';
+      result += '\n';
     } else if (!next.valid || is_control(next.code)) {
       std::snprintf(code.data(), code.size(), "\\x%02x", static_cast<unsigned>(next.code));
-      made += code.data();
-    } else if (turns_writing(next.code)) {
+      result += code.data();
+    } else if (changes_text_direction(next.code)) {
       std::snprintf(code.data(), code.size(), "\\u%04x", static_cast<unsigned>(next.code));
-      made += code.data();
+      result += code.data();
     } else {
-      made.append(text.substr(0, next.bytes));
+      result.append(text.substr(0, next.bytes));
     }
     text.remove_prefix(next.bytes);
   }
-  return made;
+  return result;
 }
 
 }  // namespace
 
 std::string without_credentials(std::string_view text) {
   constexpr std::string_view kScheme = "://";
-  std::string made;
+  std::string result;
   for (std::size_t at = text.find(kScheme); at != std::string_view::npos; at = text.find(kScheme)) {
-    made.append(text.substr(0, at + kScheme.size()));
+    result.append(text.substr(0, at + kScheme.size()));
     text.remove_prefix(at + kScheme.size());
     const std::size_t end = std::min(text.find_first_of(kEndsUrl), text.size());
-    made += hidden_url(text.substr(0, end));
+    result += redacted_url(text.substr(0, end));
     text.remove_prefix(end);
   }
-  return made.append(text);
+  return result.append(text);
 }
 
 std::string shown(std::string_view text) { return escaped(without_credentials(text), false); }

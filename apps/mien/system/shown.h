@@ -1,4 +1,4 @@
-// Text of others (names of files, URLs, what ffmpeg said) as it may be printed.
+// Makes untrusted text (file names, URLs, messages of ffmpeg) safe to print.
 #pragma once
 
 #include <string>
@@ -6,14 +6,13 @@
 
 namespace mien::app {
 
-// User names and passwords of URLs, and values of their parameters that look like secrets, become
-// "***".
+// Replaces user names and passwords in URLs, and parameters that look like secrets, with "***".
 [[nodiscard]] std::string without_credentials(std::string_view text);
 
-// Without credentials, and in one line that a terminal only shows: control characters, those that
-// turn the direction of writing, and what is no UTF-8 become "\x1b" or "\u202e".
+// Removes credentials and returns one line. Control characters, characters that change the text
+// direction, and invalid UTF-8 become "\x1b" or "\u202e".
 [[nodiscard]] std::string shown(std::string_view text);
-// The same of a text that has lines of its own.
+// The same for text with several lines.
 [[nodiscard]] std::string shown_lines(std::string_view text);
 
 }  // namespace mien::app

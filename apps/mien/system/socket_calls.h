@@ -1,4 +1,4 @@
-// What sockets of the two families of systems do not have in common.
+// Socket functions that differ between POSIX and Windows.
 #pragma once
 
 #ifdef _WIN32
@@ -9,15 +9,15 @@
 
 namespace mien::app::sockets {
 
-void start();  // once or more, before all else
+void start();  // must be called first; repeated calls are allowed
 void close(Handle handle);
-void prepare(Handle handle);  // so that it never waits, no child has it, and nothing sent is an
-                              // error of what is received
+void prepare(Handle handle);  // non-blocking, not inherited, and errors of sent packets do not fail
+                              // later receives
 std::string last_error();
-std::string name_error(int error);  // of getaddrinfo
+std::string name_error(int error);  // for errors of getaddrinfo
 
-// Of what getaddrinfo found, the address to take: the first of IPv4, on which most receivers listen
-// alone, even where the system would rather have the name's other ones; else the first.
+// Selects an address from the result of getaddrinfo: the first IPv4 address if there is one,
+// because most receivers listen on IPv4 only; otherwise the first.
 const addrinfo& preferred(const addrinfo& found);
 
 }  // namespace mien::app::sockets

@@ -1,18 +1,18 @@
-// Standard input and output as bytes for other programs; posix/ and win32/ have one each.
+// Standard input and output as byte streams. posix/ and win32/ have one implementation each.
 #pragma once
 
 namespace mien::app {
 
-// At the start of the program: bytes pass unchanged, text is UTF-8, and a reader that goes away
-// makes writes fail rather than end the program.
+// Must be called at the start: bytes pass unchanged, text is UTF-8, and writing to a closed pipe
+// fails instead of ending the program.
 void prepare_standard_streams();
 
-// Whether that is why the last write to standard output failed.
-[[nodiscard]] bool reader_has_gone();
+// Whether the last write to standard output failed because the reader closed the pipe.
+[[nodiscard]] bool reader_has_closed();
 
-// Makes as little as possible wait in a pipe between us and a reader.
+// Minimizes the buffer of the pipe to the reader, for latency.
 void shorten_standard_output();
 // Whether a line can be written without waiting for the reader.
-[[nodiscard]] bool standard_output_has_room();
+[[nodiscard]] bool standard_output_is_writable();
 
 }  // namespace mien::app

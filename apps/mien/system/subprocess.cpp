@@ -1,3 +1,4 @@
+// Runs ffmpeg and ffprobe with timeouts.
 #include "apps/mien/system/subprocess.h"
 
 #include <array>
@@ -7,26 +8,26 @@
 namespace mien::app {
 
 Subprocess::Subprocess(const std::vector<std::string>& arguments, Pipe pipe,
-                       std::chrono::milliseconds patience)
+                       std::chrono::milliseconds timeout)
     : name_(arguments[0]),
-      patience_(patience),
-      last_patience_(pipe == Pipe::kToChild       ? kPatienceWithOutput
-                     : patience < patience.zero() ? kPatience
-                                                  : patience),
+      timeout_(timeout),
+      final_timeout_(pipe == Pipe::kToChild     ? kOutputTimeout
+                     : timeout < timeout.zero() ? kTimeout
+                                                : timeout),
       child_(ChildProcess::start(arguments, pipe)) {}
 
-void Subprocess::lose_patience(std::chrono::milliseconds after) {
+void Subprocess::kill_after_timeout(std::chrono::milliseconds after) {
   child_->kill();
-  errors_ += child_->take_errors() + "[error] '" + name_ + "' did nothing for " +
+  errors_ += child_->take_errors() + "[error] '" + name_ + "' was inactive for " +
              std::to_string(std::chrono::duration<double>(after).count()) + " s\n";
 }
 
 std::size_t Subprocess::read(std::span<std::byte> bytes) {
   std::size_t done = 0;
   while (done < bytes.size()) {
-    const std::optional<std::size_t> n = child_->read(bytes.subspan(done), patience_);
+    const std::optional<std::size_t> n = child_->read(bytes.subspan(done), timeout_);
     if (!n) {
-      lose_patience(patience_);
+      kill_after_timeout(timeout_);
     }
     if (n.value_or(0) == 0) {
       break;
@@ -50,9 +51,9 @@ std::string Subprocess::read_all() {
 
 bool Subprocess::write(std::span<const std::byte> bytes) {
   while (!bytes.empty()) {
-    const std::optional<std::size_t> n = child_->write(bytes, patience_);
+    const std::optional<std::size_t> n = child_->write(bytes, timeout_);
     if (!n) {
-      lose_patience(patience_);
+      kill_after_timeout(timeout_);
     }
     if (n.value_or(0) == 0) {
       return false;
@@ -66,10 +67,10 @@ void Subprocess::interrupt() { child_->kill(); }
 
 int Subprocess::finish() {
   child_->close_pipe();
-  std::optional<int> status = child_->wait(last_patience_);
+  std::optional<int> status = child_->wait(final_timeout_);
   if (!status) {
-    lose_patience(last_patience_);
-    status = child_->wait(kEndless);
+    kill_after_timeout(final_timeout_);
+    status = child_->wait(kNoTimeout);
   }
   return *status;
 }

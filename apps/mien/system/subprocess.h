@@ -1,4 +1,4 @@
-// Another program connected by pipes. Used for ffmpeg and ffprobe.
+// Runs another program (ffmpeg or ffprobe) connected by a pipe.
 #pragma once
 
 #include <chrono>
@@ -16,44 +16,43 @@ class Subprocess {
  public:
   using Pipe = ChildProcess::Pipe;
 
-  // How long a child that reads or writes files may do nothing.
-  static constexpr std::chrono::seconds kPatience{60};
-  // How long a child may take that has all of its input: it may have a file to move about.
-  static constexpr std::chrono::minutes kPatienceWithOutput{30};
-  static constexpr std::chrono::milliseconds kEndless{-1};
+  // Maximum inactivity of a child that reads or writes files.
+  static constexpr std::chrono::seconds kTimeout{60};
+  // Maximum time of a child after the end of its input: it may have to move a large file.
+  static constexpr std::chrono::minutes kOutputTimeout{30};
+  static constexpr std::chrono::milliseconds kNoTimeout{-1};
 
   // Starts arguments[0], found on PATH. kFromChild connects the child's stdout, kToChild its stdin;
-  // stderr is always collected. Throws Failure(kExitNoFfmpeg) when the program is not there. A
-  // child from which `read`, or for which `write`, waits longer than `patience` is killed.
+  // stderr is always collected. Throws Failure(kExitNoFfmpeg) if the program does not exist. The
+  // child is killed if `read` or `write` waits for it longer than `timeout`.
   Subprocess(const std::vector<std::string>& arguments, Pipe pipe,
-             std::chrono::milliseconds patience = kEndless);
+             std::chrono::milliseconds timeout = kNoTimeout);
   Subprocess(const Subprocess&) = delete;
   Subprocess& operator=(const Subprocess&) = delete;
 
-  // Reads until `bytes` is full or the child closes its end; returns how many bytes came.
+  // Reads until `bytes` is full or the child closes its end. Returns the number of bytes read.
   std::size_t read(std::span<std::byte> bytes);
   std::string read_all();
 
-  // False when the child has gone away.
+  // Returns false if the child has closed its end.
   bool write(std::span<const std::byte> bytes);
 
-  // Makes the child end, whatever it does, so that a read in another thread returns; not once
-  // `finish` was called.
+  // Kills the child, so that a read in another thread returns. Must not be called after `finish`.
   void interrupt();
 
-  // Closes the pipe and waits. Returns the exit status, 128 + signal when killed, as a child is
-  // that does not end.
+  // Closes the pipe and waits. Returns the exit status, or 128 + signal if the child was killed.
+  // Kills a child that does not end.
   int finish();
 
-  // What the child has said on stderr so far and nobody has taken; empties it.
+  // Returns and clears the text that the child has written to stderr.
   std::string take_errors();
 
  private:
-  void lose_patience(std::chrono::milliseconds after);
+  void kill_after_timeout(std::chrono::milliseconds after);
 
   const std::string name_;
-  const std::chrono::milliseconds patience_;
-  const std::chrono::milliseconds last_patience_;  // once the pipe is closed
+  const std::chrono::milliseconds timeout_;
+  const std::chrono::milliseconds final_timeout_;  // after the pipe is closed
   const std::unique_ptr<ChildProcess> child_;
   std::string errors_;
 };

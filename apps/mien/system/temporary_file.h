@@ -1,4 +1,4 @@
-// A file in the making, in the folder of the file that it will become; posix/ and win32/ have one
+// A temporary file in the folder of its destination. posix/ and win32/ have one implementation
 // each.
 #pragma once
 
@@ -11,25 +11,26 @@ namespace mien::app {
 
 class TemporaryFile {
  public:
-  // Other programs choose the format of a file by the ending of its name.
+  // kOfDestination keeps the ending, because other programs select the format by it.
   enum class Ending { kAny, kOfDestination };
 
-  // Creates the file exclusively: without a name where the file system allows that and `ending`
-  // does not matter, so that nothing is left behind however the program ends; otherwise under an
-  // unpredictable name. `error` says why it failed.
+  // Creates the file exclusively. If the file system permits and `ending` is kAny, the file has no
+  // name, so it disappears however the program ends; otherwise it has an unpredictable name.
+  // `error` receives the reason of a failure.
   TemporaryFile(const std::string& destination, Ending ending, std::error_code& error);
-  ~TemporaryFile();  // removes it unless it was published
+  ~TemporaryFile();  // removes the file unless it was published
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
 
-  // Under which this and other programs can open it.
+  // A path by which this and other programs can open it.
   [[nodiscard]] const std::string& name() const;
 
-  // A stream to it. The caller closes it before `publish`. nullptr: errno says why.
+  // A stream to the file. The caller closes it before `publish`. Returns nullptr with errno on
+  // failure.
   [[nodiscard]] std::FILE* open();
 
-  // Moves it to its destination. Replaces a file that is there, and takes over that file's mode and
-  // owner; replaces a symbolic link rather than what it leads to.
+  // Moves the file to its destination. Replaces an existing file and keeps its mode and owner.
+  // Replaces a symbolic link, not its target.
   [[nodiscard]] std::error_code publish();
 
  private:

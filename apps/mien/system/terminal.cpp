@@ -1,24 +1,25 @@
+// Draws pages on a terminal.
 #include "apps/mien/system/terminal.h"
 
 #include <cstdio>
 
 namespace mien::app {
 
-// Another screen, without a cursor; and back.
-Page::Page() : there_(error_is_terminal()) {
-  if (there_) {
+// Switches to the alternate screen and hides the cursor; the destructor restores both.
+Page::Page() : is_terminal_(error_is_terminal()) {
+  if (is_terminal_) {
     std::fputs("\033[?1049h\033[?25l", stderr);
   }
 }
 
 Page::~Page() {
-  if (there_) {
+  if (is_terminal_) {
     std::fputs("\033[?25h\033[?1049l", stderr);
   }
 }
 
 void Page::draw(const std::string& lines) {
-  if (!there_) {
+  if (!is_terminal_) {
     return;
   }
   std::string text = "\033[H";

@@ -1,5 +1,5 @@
-// The terminal as a screen and a keyboard. posix/ and win32/ have the keyboard and the question,
-// each.
+// The terminal as a screen and a keyboard. posix/ and win32/ implement the keyboard and the
+// terminal check.
 #pragma once
 
 #include <memory>
@@ -8,19 +8,19 @@
 
 namespace mien::app {
 
-// Whether standard error is a terminal; if so it takes escape sequences from then on.
+// Whether standard error is a terminal. If so, it interprets escape sequences from now on.
 [[nodiscard]] bool error_is_terminal();
 
-// Keys as they are pressed, without waiting for a line. The terminal is as it was afterwards.
+// Reads single keys without waiting for a line. The destructor restores the terminal.
 class Keyboard {
  public:
-  // Of standard input; none where that is no terminal.
+  // Reads standard input; inactive if that is not a terminal.
   Keyboard();
   ~Keyboard();
   Keyboard(const Keyboard&) = delete;
   Keyboard& operator=(const Keyboard&) = delete;
 
-  // The next key that was pressed and not taken yet; does not wait.
+  // Returns the next key, if one was pressed. Does not wait.
   std::optional<char> pressed();
 
  private:
@@ -28,19 +28,19 @@ class Keyboard {
   std::unique_ptr<Settings> before_;
 };
 
-// A page of lines on standard error in place of what was there, which comes back afterwards.
+// A page of text on standard error. The destructor restores the previous content.
 class Page {
  public:
-  Page();  // of nothing where standard error is no terminal
+  Page();  // inactive if standard error is not a terminal
   ~Page();
   Page(const Page&) = delete;
   Page& operator=(const Page&) = delete;
 
-  [[nodiscard]] bool there() const { return there_; }
+  [[nodiscard]] bool is_terminal() const { return is_terminal_; }
   void draw(const std::string& lines);
 
  private:
-  bool there_;
+  bool is_terminal_;
 };
 
 }  // namespace mien::app

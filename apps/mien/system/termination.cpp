@@ -1,3 +1,4 @@
+// The list of resources to clean up.
 #include "apps/mien/system/termination.h"
 
 namespace mien::app {
@@ -7,23 +8,23 @@ Leftover* newest = nullptr;
 
 }  // namespace
 
-void TerminationLock::add(Leftover& one) {
-  one.older_ = newest;
-  newest = &one;
+void TerminationLock::add(Leftover& leftover) {
+  leftover.older_ = newest;
+  newest = &leftover;
 }
 
-void TerminationLock::remove(Leftover& one) {
+void TerminationLock::remove(Leftover& leftover) {
   for (Leftover** at = &newest; *at != nullptr; at = &(*at)->older_) {
-    if (*at == &one) {
-      *at = one.older_;
+    if (*at == &leftover) {
+      *at = leftover.older_;
       return;
     }
   }
 }
 
 void TerminationLock::discard_all() noexcept {
-  for (Leftover* one = newest; one != nullptr; one = one->older_) {
-    one->discard();
+  for (Leftover* leftover = newest; leftover != nullptr; leftover = leftover->older_) {
+    leftover->discard();
   }
 }
 

@@ -1,16 +1,17 @@
-// Cleaning up when the user or the system ends the program; posix/ and win32/ have one each.
+// Cleanup when the user or the system ends the program. posix/ and win32/ have one implementation
+// each.
 #pragma once
 
 namespace mien::app {
 
-// Something that must not outlive the program: a temporary file or a child process.
+// A resource that must not outlive the program: a temporary file or a child process.
 class Leftover {
  public:
   Leftover() = default;
   Leftover(const Leftover&) = delete;
   Leftover& operator=(const Leftover&) = delete;
 
-  // Called in a signal handler: may use nothing but async-signal-safe functions.
+  // Called in a signal handler: only async-signal-safe functions are allowed.
   virtual void discard() noexcept = 0;
 
  protected:
@@ -21,8 +22,8 @@ class Leftover {
   Leftover* older_ = nullptr;
 };
 
-// While a thread holds the lock, the program is not ended by a signal, and no other thread holds
-// it. Create a leftover and add it under one lock, so that no signal comes between the two.
+// While a thread holds the lock, no signal ends the program, and no other thread holds it. Create a
+// leftover and add it under one lock, so that no signal arrives in between.
 class TerminationLock {
  public:
   TerminationLock();
@@ -30,11 +31,11 @@ class TerminationLock {
   TerminationLock(const TerminationLock&) = delete;
   TerminationLock& operator=(const TerminationLock&) = delete;
 
-  void add(Leftover& one);
-  void remove(Leftover& one);  // does nothing if it was not added
+  void add(Leftover& leftover);
+  void remove(Leftover& leftover);  // no effect if it was not added
 
-  // The newest first: a child ends before the file it writes is removed. The caller holds the lock,
-  // and never gives it back.
+  // Discards in reverse order: a child ends before the file that it writes is removed. The caller
+  // must hold the lock and must not release it.
   static void discard_all() noexcept;
 };
 

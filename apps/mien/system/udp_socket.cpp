@@ -1,3 +1,4 @@
+// UDP sockets on both families of systems.
 #include "apps/mien/system/udp_socket.h"
 
 #include <cstring>
@@ -14,9 +15,9 @@ struct FreeAddresses {
 };
 
 sockaddr_storage storage(const UdpAddress& address) {
-  sockaddr_storage made = {};
-  std::memcpy(&made, address.bytes.data(), address.bytes.size());
-  return made;
+  sockaddr_storage result = {};
+  std::memcpy(&result, address.bytes.data(), address.bytes.size());
+  return result;
 }
 
 UdpAddress packed(const sockaddr_storage& address, socklen_t bytes) {
@@ -75,7 +76,7 @@ UdpSocket::UdpSocket(const std::string& host, std::uint16_t port, const std::str
   const int error = getaddrinfo(host.c_str(), std::to_string(port).c_str(), &hints, &found);
   if (error != 0) {
     throw Failure(kExitOutput,
-                  what + ": there is no host '" + host + "': " + sockets::name_error(error));
+                  what + ": unknown host '" + host + "': " + sockets::name_error(error));
   }
   const std::unique_ptr<addrinfo, FreeAddresses> addresses(found);
   const addrinfo& address = sockets::preferred(*found);
@@ -88,8 +89,8 @@ UdpSocket::UdpSocket(const std::string& host, std::uint16_t port, const std::str
     if (handle_ >= 0) {
       sockets::close(handle);
     }
-    throw Failure(kExitOutput, what + ": port " + std::to_string(port) + " of '" + host +
-                                   "' cannot be taken: " + reason);
+    throw Failure(kExitOutput, what + ": cannot bind port " + std::to_string(port) + " of '" +
+                                   host + "': " + reason);
   }
   sockets::prepare(handle);
 }
@@ -114,8 +115,8 @@ bool UdpSocket::send(std::string_view packet, const UdpAddress& to) {
          static_cast<std::make_signed_t<sockets::Length>>(packet.size());
 }
 
-std::optional<Datagram> UdpSocket::receive(std::size_t most_bytes) {
-  std::string bytes(most_bytes, '\0');
+std::optional<Datagram> UdpSocket::receive(std::size_t max_bytes) {
+  std::string bytes(max_bytes, '\0');
   sockaddr_storage from = {};
   socklen_t length = sizeof from;
   const auto got = ::recvfrom(static_cast<sockets::Handle>(handle_), bytes.data(),

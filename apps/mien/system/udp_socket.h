@@ -1,4 +1,4 @@
-// Datagrams to and from other programs and machines. Nothing here waits.
+// UDP sockets. No function waits.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace mien::app {
 
-// Of the kind that the operating system's functions take, kept as bytes; none: empty.
+// The operating system's socket address as bytes; empty: no address.
 struct UdpAddress {
   std::string bytes;
 
@@ -19,27 +19,28 @@ struct UdpAddress {
 };
 
 struct Datagram {
-  std::string bytes;  // as far as `most_bytes` reach
+  std::string bytes;  // truncated to `max_bytes`
   UdpAddress from;
 };
 
 class UdpSocket {
  public:
-  // Sends to this host. Throws Failure(kExitOutput), which begins with `what`, when there is none.
+  // Opens a socket that sends to a host. Throws Failure(kExitOutput) with the prefix `what` if the
+  // host is unknown.
   static UdpSocket to(const std::string& host, std::uint16_t port, const std::string& what);
-  // Is sent to at this address of ours, port 0 being any. Throws likewise.
+  // Opens a socket that receives at a local address; port 0 selects a free one. Throws likewise.
   static UdpSocket at(const std::string& host, std::uint16_t port, const std::string& what);
 
   UdpSocket(UdpSocket&& other) noexcept;
   UdpSocket& operator=(UdpSocket&&) = delete;
   ~UdpSocket();
 
-  // False when it could not be sent at once.
+  // Returns false if the packet could not be sent at once.
   bool send(std::string_view packet) { return send(packet, peer_); }
   bool send(std::string_view packet, const UdpAddress& to);
 
-  // The next that waits; a longer one is cut to `most_bytes`.
-  std::optional<Datagram> receive(std::size_t most_bytes);
+  // Returns the next received packet, truncated to `max_bytes`.
+  std::optional<Datagram> receive(std::size_t max_bytes);
 
  private:
   UdpSocket(const std::string& host, std::uint16_t port, const std::string& what, bool bound);

@@ -1,3 +1,4 @@
+// Child processes on POSIX systems.
 #include "apps/mien/system/child_process.h"
 
 #include <fcntl.h>
@@ -27,19 +28,20 @@ struct PipeEnds {
   int write_end;
 };
 
-// Of no child; that pipes are born as that all at once, not every system can.
+// Children inherit neither end. Not every system can create pipes with that flag.
 PipeEnds make_pipe() {
   std::array<int, 2> ends{};
   if (pipe(ends.data()) != 0) {
-    throw Failure(kExitInternal, std::string("cannot make a pipe: ") + std::strerror(errno));
+    throw Failure(kExitInternal, std::string("cannot create a pipe: ") + std::strerror(errno));
   }
   fcntl(ends[0], F_SETFD, FD_CLOEXEC);
   fcntl(ends[1], F_SETFD, FD_CLOEXEC);
   return {ends[0], ends[1]};
 }
 
-// Children of two threads would inherit each other's pipes, and never see their end.
-std::mutex one_start_at_a_time;
+// Serializes starts: children of two threads would inherit each other's pipes and never see their
+// end.
+std::mutex start_mutex;
 
 pid_t spawn(const std::vector<std::string>& arguments, int child_stdin, int child_stdout,
             int child_stderr) {
@@ -63,7 +65,7 @@ pid_t spawn(const std::vector<std::string>& arguments, int child_stdin, int chil
   connect(child_stdout, STDOUT_FILENO);
   connect(child_stderr, STDERR_FILENO);
 
-  // This thread holds the lock that blocks signals; the child shall not inherit that.
+  // This thread holds a lock that blocks signals; the child must not inherit the mask.
   posix_spawnattr_t attributes;
   sigset_t none;
   sigemptyset(&none);
@@ -89,16 +91,16 @@ class PosixChild final : public ChildProcess, private Leftover {
   PosixChild& operator=(const PosixChild&) = delete;
 
   std::optional<std::size_t> read(std::span<std::byte> bytes,
-                                  std::chrono::milliseconds patience) override {
-    return transfer([&] { return ::read(pipe_, bytes.data(), bytes.size()); }, POLLIN, patience);
+                                  std::chrono::milliseconds timeout) override {
+    return transfer([&] { return ::read(pipe_, bytes.data(), bytes.size()); }, POLLIN, timeout);
   }
   std::optional<std::size_t> write(std::span<const std::byte> bytes,
-                                   std::chrono::milliseconds patience) override {
-    return transfer([&] { return ::write(pipe_, bytes.data(), bytes.size()); }, POLLOUT, patience);
+                                   std::chrono::milliseconds timeout) override {
+    return transfer([&] { return ::write(pipe_, bytes.data(), bytes.size()); }, POLLOUT, timeout);
   }
   void close_pipe() override;
   void kill() override { ::kill(pid_, SIGKILL); }
-  std::optional<int> wait(std::chrono::milliseconds patience) override;
+  std::optional<int> wait(std::chrono::milliseconds timeout) override;
   std::string take_errors() override {
     drain_errors();
     return std::exchange(errors_, {});
@@ -107,8 +109,8 @@ class PosixChild final : public ChildProcess, private Leftover {
  private:
   template <class Transfer>
   std::optional<std::size_t> transfer(Transfer once, short event,
-                                      std::chrono::milliseconds patience);
-  bool wait_for(short event, std::chrono::milliseconds patience);
+                                      std::chrono::milliseconds timeout);
+  bool wait_for(short event, std::chrono::milliseconds timeout);
   void drain_errors();
   void discard() noexcept override;
   int reap();
@@ -120,7 +122,7 @@ class PosixChild final : public ChildProcess, private Leftover {
 };
 
 PosixChild::PosixChild(const std::vector<std::string>& arguments, Pipe pipe) {
-  const std::lock_guard<std::mutex> alone(one_start_at_a_time);
+  const std::lock_guard<std::mutex> alone(start_mutex);
   const PipeEnds data = make_pipe();
   const PipeEnds errors = make_pipe();
   const bool from_child = pipe == Pipe::kFromChild;
@@ -177,12 +179,12 @@ void PosixChild::drain_errors() {
   }
 }
 
-// False when nothing happens with either pipe.
-bool PosixChild::wait_for(short event, std::chrono::milliseconds patience) {
+// Returns false if neither pipe has activity within the timeout.
+bool PosixChild::wait_for(short event, std::chrono::milliseconds timeout) {
   std::array<pollfd, 2> waiting{pollfd{pipe_, event, 0}, pollfd{errors_pipe_, POLLIN, 0}};
   int happened = -1;
   do {
-    happened = poll(waiting.data(), waiting.size(), static_cast<int>(patience.count()));
+    happened = poll(waiting.data(), waiting.size(), static_cast<int>(timeout.count()));
   } while (happened < 0 && errno == EINTR);
   if (waiting[1].revents != 0) {
     drain_errors();
@@ -192,14 +194,14 @@ bool PosixChild::wait_for(short event, std::chrono::milliseconds patience) {
 
 template <class Transfer>
 std::optional<std::size_t> PosixChild::transfer(Transfer once, short event,
-                                                std::chrono::milliseconds patience) {
+                                                std::chrono::milliseconds timeout) {
   for (;;) {
     const ssize_t n = once();
     if (n >= 0) {
       return static_cast<std::size_t>(n);
     }
     if (errno == EAGAIN) {
-      if (!wait_for(event, patience)) {
+      if (!wait_for(event, timeout)) {
         return std::nullopt;
       }
     } else if (errno != EINTR) {
@@ -208,14 +210,15 @@ std::optional<std::size_t> PosixChild::transfer(Transfer once, short event,
   }
 }
 
-// In the signal handler. The child has gone when this returns, and creates no file any more.
+// Called in a signal handler. After it returns, the child has ended and creates no files.
 void PosixChild::discard() noexcept {
   ::kill(pid_, SIGKILL);
   while (waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) {
   }
 }
 
-// Gives the process id back under the lock: `discard` must not meet the id of another process.
+// Clears the process id under the lock, so that `discard` never kills another process with the same
+// id.
 int PosixChild::reap() {
   TerminationLock lock;
   int status = 0;
@@ -226,12 +229,12 @@ int PosixChild::reap() {
   return status;
 }
 
-// No call of POSIX waits for a child and for a pipe: it is asked again and again, first at once.
-std::optional<int> PosixChild::wait(std::chrono::milliseconds patience) {
+// POSIX has no call that waits for a child and a pipe, so this polls with growing pauses.
+std::optional<int> PosixChild::wait(std::chrono::milliseconds timeout) {
   constexpr int kLongestNapMs = 20;
   const auto began = std::chrono::steady_clock::now();
   for (int nap_ms = 0;; nap_ms = std::min(nap_ms + 1, kLongestNapMs)) {
-    pollfd waiting{errors_pipe_, POLLIN, 0};  // none is passed over
+    pollfd waiting{errors_pipe_, POLLIN, 0};  // poll ignores a closed pipe (-1)
     poll(&waiting, 1, nap_ms);
     drain_errors();
     siginfo_t ended = {};
@@ -241,7 +244,7 @@ std::optional<int> PosixChild::wait(std::chrono::milliseconds patience) {
       const int status = reap();
       return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     }
-    if (patience >= patience.zero() && std::chrono::steady_clock::now() - began > patience) {
+    if (timeout >= timeout.zero() && std::chrono::steady_clock::now() - began > timeout) {
       return std::nullopt;
     }
   }

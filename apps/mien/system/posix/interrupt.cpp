@@ -1,3 +1,4 @@
+// Interrupts on POSIX systems.
 #include "apps/mien/system/interrupt.h"
 
 #include <signal.h>
@@ -16,7 +17,7 @@ void catch_interrupts() {
   signal(SIGTERM, catch_signal);
   struct sigaction hangup = {};
   sigaction(SIGHUP, nullptr, &hangup);
-  if (hangup.sa_handler != SIG_IGN) {  // nohup
+  if (hangup.sa_handler != SIG_IGN) {  // ignored under nohup
     signal(SIGHUP, catch_signal);
   }
 }

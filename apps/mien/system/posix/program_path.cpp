@@ -1,3 +1,4 @@
+// The path of this program on POSIX systems.
 #include "apps/mien/system/program_path.h"
 
 #ifdef __APPLE__

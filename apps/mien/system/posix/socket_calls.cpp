@@ -1,3 +1,4 @@
+// Socket functions on POSIX systems.
 #include "apps/mien/system/socket_calls.h"
 
 #include <fcntl.h>

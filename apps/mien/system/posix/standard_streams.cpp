@@ -1,3 +1,4 @@
+// Standard streams on POSIX systems.
 #include "apps/mien/system/standard_streams.h"
 
 #include <fcntl.h>
@@ -11,18 +12,18 @@ namespace mien::app {
 
 void prepare_standard_streams() { signal(SIGPIPE, SIG_IGN); }
 
-bool reader_has_gone() { return errno == EPIPE; }
+bool reader_has_closed() { return errno == EPIPE; }
 
 void shorten_standard_output() {
 #ifdef F_SETPIPE_SZ
-  // A pipe holds 64 KB unless told otherwise, which is a second of lines that are late.
-  constexpr int kMinBytes = 8192;
-  fcntl(STDOUT_FILENO, F_SETPIPE_SZ, kMinBytes);
+  // A pipe holds 64 KB by default, a second of lines, and thus of latency.
+  constexpr int kPipeBytes = 8192;
+  fcntl(STDOUT_FILENO, F_SETPIPE_SZ, kPipeBytes);
 #endif
 }
 
-// A pipe that can be written to takes a page at once, which is more than a line has.
-bool standard_output_has_room() {
+// A writable pipe accepts at least a page, more than a line needs.
+bool standard_output_is_writable() {
   pollfd room{STDOUT_FILENO, POLLOUT, 0};
   return poll(&room, 1, 0) != 0;
 }

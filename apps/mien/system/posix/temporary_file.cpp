@@ -1,3 +1,4 @@
+// Temporary files on POSIX systems, without a name where possible (O_TMPFILE).
 #include "apps/mien/system/temporary_file.h"
 
 #include <fcntl.h>
@@ -14,11 +15,11 @@
 namespace mien::app {
 namespace {
 
-constexpr int kAttempts = 100;  // at an unused name
+constexpr int kAttempts = 100;  // to find an unused name
 
 std::error_code last_error() { return {errno, std::generic_category()}; }
 
-// The file at this place; none for anything but a regular file.
+// The attributes of a regular file; nothing for other files and if there is none.
 std::optional<struct stat> file_at(const std::string& name) {
   struct stat found = {};
   if (lstat(name.c_str(), &found) != 0 || !S_ISREG(found.st_mode)) {
@@ -27,7 +28,8 @@ std::optional<struct stat> file_at(const std::string& name) {
   return found;
 }
 
-// The group that the file has now gets no more than everybody if it is not the group from before.
+// Keeps the mode and owner of the replaced file. If the group cannot be kept, the new group gets
+// only the permissions of others.
 void take_over_mode_and_owner(int file, const struct stat& replaced) {
   if (fchown(file, replaced.st_uid, replaced.st_gid) != 0 &&
       fchown(file, static_cast<uid_t>(-1), replaced.st_gid) != 0) {
@@ -59,12 +61,12 @@ struct TemporaryFile::Native final : Leftover {
 
   void discard() noexcept override { unlink(name.c_str()); }
 
-  // Only the owner may read a replacement until it has the replaced file's mode.
+  // Only the owner can read a replacement until it has the mode of the replaced file.
   [[nodiscard]] mode_t mode() const { return replaced ? 0600 : 0666; }
   [[nodiscard]] std::string partial(const std::string& ending) const {
-    std::string made = folder;
-    made.append("/").append(partial_name(ending));
-    return made;
+    std::string result = folder;
+    result.append("/").append(partial_name(ending));
+    return result;
   }
 
   bool create_without_name();
@@ -73,7 +75,7 @@ struct TemporaryFile::Native final : Leftover {
   [[nodiscard]] std::error_code move_named() const;
 
   std::string destination, folder;
-  std::string name;  // to open it by
+  std::string name;  // opens the file
   std::optional<struct stat> replaced;
   int file = -1;
   bool named = false;
@@ -101,14 +103,15 @@ bool TemporaryFile::Native::create_without_name() {
     return false;
   }
   name = name_of_descriptor(std::to_string(getpid()).c_str(), file);
-  if (access(name.c_str(), F_OK) != 0) {  // without /proc it could never get a name
+  if (access(name.c_str(), F_OK) != 0) {  // without /proc the file could never get a name
     close(file);
     file = -1;
   }
   return file >= 0;
 }
 
-// A link replaces nothing: where there is a file, the new one first gets a name of its own.
+// link() does not replace a file, so if the destination exists, the new file first gets a temporary
+// name.
 std::error_code TemporaryFile::Native::link_without_name() const {
   const std::error_code error = link_file(file, destination);
   if (error != std::errc::file_exists) {

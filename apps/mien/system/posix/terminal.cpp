@@ -1,3 +1,4 @@
+// Keyboard input on POSIX systems.
 #include "apps/mien/system/terminal.h"
 
 #include <poll.h>
@@ -18,7 +19,7 @@ Keyboard::Keyboard() {
     return;
   }
   before_ = std::make_unique<Settings>(settings);
-  settings.of_terminal.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);  // Ctrl-C still is one
+  settings.of_terminal.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);  // Ctrl-C still interrupts
   tcsetattr(STDIN_FILENO, TCSANOW, &settings.of_terminal);
 }
 

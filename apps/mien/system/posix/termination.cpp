@@ -1,3 +1,4 @@
+// Cleanup on signals on POSIX systems.
 #include "apps/mien/system/termination.h"
 
 #include <sched.h>
@@ -11,13 +12,13 @@ namespace {
 
 constexpr std::array kEndingSignals = {SIGINT, SIGTERM, SIGHUP};
 
-// A mutex cannot be locked in a signal handler. This flag can: whoever holds it has blocked the
-// signals, so the handler never waits for the thread that it interrupted.
-std::atomic_flag held;
-sigset_t mask_of_holder;
+// Signal handlers cannot lock a mutex, but can wait for this flag: a thread that holds it has
+// blocked the signals, so the handler never waits for the thread that it interrupted.
+std::atomic_flag lock_flag;
+sigset_t previous_mask;
 
 void acquire() {
-  while (held.test_and_set(std::memory_order_acquire)) {
+  while (lock_flag.test_and_set(std::memory_order_acquire)) {
     sched_yield();
   }
 }
@@ -32,7 +33,8 @@ sigset_t ending_signals() {
 }
 
 void clean_up_and_end(int number) {
-  acquire();  // for good: whatever another thread created now would be left behind
+  acquire();  // never released: resources that other threads create from now on would not be
+              // cleaned up
   TerminationLock::discard_all();
   signal(number, SIG_DFL);
   raise(number);  // takes effect when the handler returns
@@ -45,12 +47,12 @@ TerminationLock::TerminationLock() {
   sigset_t before;
   pthread_sigmask(SIG_BLOCK, &ending, &before);
   acquire();
-  mask_of_holder = before;
+  previous_mask = before;
 }
 
 TerminationLock::~TerminationLock() {
-  const sigset_t before = mask_of_holder;
-  held.clear(std::memory_order_release);
+  const sigset_t before = previous_mask;
+  lock_flag.clear(std::memory_order_release);
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
 }
 

@@ -1,3 +1,4 @@
+// Child processes on Windows.
 #include "apps/mien/system/child_process.h"
 
 #include <windows.h>
@@ -16,7 +17,7 @@
 namespace mien::app {
 namespace {
 
-constexpr UINT kKilled = 128 + 9;  // as of a child that SIGKILL ended
+constexpr UINT kKilled = 128 + 9;  // the status of a child killed by SIGKILL
 
 struct Close {
   using pointer = HANDLE;
@@ -28,17 +29,17 @@ std::string last_error() {
   return std::system_category().message(static_cast<int>(GetLastError()));
 }
 
-// Standard C++ makes UTF-16 of UTF-8 as of paths.
+// Converts UTF-8 to UTF-16 through std::filesystem::path.
 std::wstring wide(const std::string& text) { return path_of(text).wstring(); }
 
 Handle checked(HANDLE handle, const char* what) {
   if (handle == nullptr || handle == INVALID_HANDLE_VALUE) {
-    throw Failure(kExitInternal, std::string("cannot make ") + what + ": " + last_error());
+    throw Failure(kExitInternal, std::string("cannot create ") + what + ": " + last_error());
   }
   return Handle(handle);
 }
 
-// What the child may have of us; it has only what is listed besides.
+// An inheritable handle. The child inherits only the handles of its list.
 Handle open_for_child(const std::wstring& name, DWORD access) {
   SECURITY_ATTRIBUTES inherited{sizeof(SECURITY_ATTRIBUTES), nullptr, TRUE};
   return checked(CreateFileW(name.c_str(), access, FILE_SHARE_READ | FILE_SHARE_WRITE, &inherited,
@@ -46,7 +47,7 @@ Handle open_for_child(const std::wstring& name, DWORD access) {
                  "an end of a pipe");
 }
 
-// Our end of a pipe. A transfer is begun, and its end is an event that can be waited for.
+// Our end of a pipe. Transfers are asynchronous; an event signals their end.
 class PipeEnd {
  public:
   PipeEnd() : ended_(checked(CreateEventW(nullptr, TRUE, FALSE, nullptr), "an event")) {}
@@ -54,12 +55,12 @@ class PipeEnd {
   PipeEnd(const PipeEnd&) = delete;
   PipeEnd& operator=(const PipeEnd&) = delete;
 
-  // Returns the child's end. Only pipes with a name can be waited for.
+  // Returns the child's end. Only named pipes support asynchronous transfers.
   Handle open(bool from_child) {
     constexpr DWORD kBytes = 1 << 16;
-    static std::atomic<unsigned> made = 0;
+    static std::atomic<unsigned> result = 0;
     const std::wstring name = L"\\\\.\\pipe\\mien-" + std::to_wstring(GetCurrentProcessId()) +
-                              L"-" + std::to_wstring(made++);
+                              L"-" + std::to_wstring(result++);
     const DWORD access = from_child ? PIPE_ACCESS_INBOUND : PIPE_ACCESS_OUTBOUND;
     pipe_ = checked(CreateNamedPipeW(
                         name.c_str(), access | FILE_FLAG_OVERLAPPED | FILE_FLAG_FIRST_PIPE_INSTANCE,
@@ -79,7 +80,7 @@ class PipeEnd {
 
   [[nodiscard]] HANDLE ended() const { return ended_.get(); }
 
-  // How many bytes the transfer moved that has ended; 0: the child closed its end.
+  // The number of bytes of the finished transfer; 0: the child closed its end.
   std::size_t moved() {
     DWORD bytes = 0;
     open_ = open_ && GetOverlappedResult(pipe_.get(), &transfer_, &bytes, TRUE) != 0;
@@ -126,27 +127,26 @@ class PipeEnd {
   bool open_ = true;
 };
 
-// As the C library of the child takes it apart again: backslashes are themselves but before a
-// quote.
+// Quotes an argument for the C library of the child: backslashes are special only before a quote.
 std::wstring quoted(const std::wstring& argument) {
-  std::wstring made = L"\"";
+  std::wstring result = L"\"";
   std::size_t backslashes = 0;
   for (const wchar_t c : argument) {
     if (c == L'"') {
-      made.append(backslashes + 1, L'\\');
+      result.append(backslashes + 1, L'\\');
     }
     backslashes = c == L'\\' ? backslashes + 1 : 0;
-    made += c;
+    result += c;
   }
-  return made.append(backslashes, L'\\') + L'"';
+  return result.append(backslashes, L'\\') + L'"';
 }
 
 std::wstring command_line(const std::vector<std::string>& arguments) {
-  std::wstring made;
+  std::wstring result;
   for (const std::string& argument : arguments) {
-    made += quoted(wide(argument)) + L' ';
+    result += quoted(wide(argument)) + L' ';
   }
-  return made;
+  return result;
 }
 
 std::wstring environment_variable(const wchar_t* name) {
@@ -155,8 +155,8 @@ std::wstring environment_variable(const wchar_t* name) {
   return value;
 }
 
-// Beside this program, as people put it there, or on PATH; not in the current folder, where anybody
-// may have put one.
+// Searches the folder of this program, then PATH. Excludes the current folder, where an attacker
+// may have put a program.
 std::wstring find_program(const std::string& name) {
   const std::wstring folders =
       program_path().parent_path().wstring() + L';' + environment_variable(L"PATH");
@@ -164,13 +164,13 @@ std::wstring find_program(const std::string& name) {
   const DWORD length = SearchPathW(folders.c_str(), wide(name).c_str(), L".exe",
                                    static_cast<DWORD>(found.size()), found.data(), nullptr);
   if (length == 0) {
-    throw Failure(kExitNoFfmpeg,
-                  "cannot run '" + name + "': it is neither beside mien nor on PATH");
+    throw Failure(kExitNoFfmpeg, "cannot run '" + name + "': neither beside mien nor on PATH");
   }
   return {found.data(), length};
 }
 
-// What a child inherits: these handles, and nothing that another thread makes meanwhile.
+// Restricts inheritance to these handles, and excludes handles that another thread creates
+// meanwhile.
 class Inheritance {
  public:
   explicit Inheritance(std::span<HANDLE> handles) {
@@ -205,14 +205,14 @@ Handle spawn(const std::vector<std::string>& arguments, std::array<HANDLE, 3> st
   start.lpAttributeList = inheritance.list();
   const std::wstring program = find_program(arguments[0]);
   std::wstring line = command_line(arguments);
-  PROCESS_INFORMATION made = {};
+  PROCESS_INFORMATION result = {};
   if (CreateProcessW(program.c_str(), line.data(), nullptr, nullptr, TRUE,
                      EXTENDED_STARTUPINFO_PRESENT | CREATE_NO_WINDOW, nullptr, nullptr,
-                     &start.StartupInfo, &made) == 0) {
+                     &start.StartupInfo, &result) == 0) {
     throw Failure(kExitNoFfmpeg, "cannot run '" + arguments[0] + "': " + last_error());
   }
-  CloseHandle(made.hThread);
-  return Handle(made.hProcess);
+  CloseHandle(result.hThread);
+  return Handle(result.hProcess);
 }
 
 class Win32Child final : public ChildProcess, private Leftover {
@@ -228,25 +228,25 @@ class Win32Child final : public ChildProcess, private Leftover {
   Win32Child& operator=(const Win32Child&) = delete;
 
   std::optional<std::size_t> read(std::span<std::byte> bytes,
-                                  std::chrono::milliseconds patience) override {
+                                  std::chrono::milliseconds timeout) override {
     pipe_.begin_read(bytes);
-    return wait_for_pipe(patience);
+    return wait_for_pipe(timeout);
   }
   std::optional<std::size_t> write(std::span<const std::byte> bytes,
-                                   std::chrono::milliseconds patience) override {
+                                   std::chrono::milliseconds timeout) override {
     pipe_.begin_write(bytes);
-    return wait_for_pipe(patience);
+    return wait_for_pipe(timeout);
   }
   void close_pipe() override { pipe_.close(); }
   void kill() override { TerminateProcess(process_.get(), kKilled); }
-  std::optional<int> wait(std::chrono::milliseconds patience) override;
+  std::optional<int> wait(std::chrono::milliseconds timeout) override;
   std::string take_errors() override {
     drain_errors();
     return std::exchange(errors_, {});
   }
 
  private:
-  std::optional<std::size_t> wait_for_pipe(std::chrono::milliseconds patience);
+  std::optional<std::size_t> wait_for_pipe(std::chrono::milliseconds timeout);
   void collect_errors();
   void drain_errors();
   void discard() noexcept override {
@@ -260,7 +260,7 @@ class Win32Child final : public ChildProcess, private Leftover {
   }
 
   Handle process_;
-  std::array<std::byte, 4096> buffer_{};  // of errors_pipe_, which is always being read
+  std::array<std::byte, 4096> buffer_{};  // receives errors_pipe_, which is always being read
   PipeEnd pipe_;
   PipeEnd errors_pipe_;
   std::string errors_;
@@ -278,7 +278,7 @@ Win32Child::Win32Child(const std::vector<std::string>& arguments, Pipe pipe) {
   errors_pipe_.begin_read(buffer_);
 }
 
-// Its lines end as text of Windows does.
+// Converts the line ends of Windows.
 void Win32Child::collect_errors() {
   errors_.append(reinterpret_cast<const char*>(buffer_.data()), errors_pipe_.moved());
   std::erase(errors_, '\r');
@@ -287,20 +287,20 @@ void Win32Child::collect_errors() {
   }
 }
 
-// What has come so far.
+// Reads the available bytes.
 void Win32Child::drain_errors() {
   while (errors_pipe_.open() && WaitForSingleObject(errors_pipe_.ended(), 0) == WAIT_OBJECT_0) {
     collect_errors();
   }
 }
 
-// Pipes are at their end when the child is: whoever else has inherited them may live on.
-std::optional<std::size_t> Win32Child::wait_for_pipe(std::chrono::milliseconds patience) {
+// Pipes end with the child, because other processes that inherited them may live on.
+std::optional<std::size_t> Win32Child::wait_for_pipe(std::chrono::milliseconds timeout) {
   const std::array<HANDLE, 3> ends = {pipe_.ended(), process_.get(), errors_pipe_.ended()};
   for (;;) {
-    // Below 0 is INFINITE. An end that is closed would be waited for in vain.
+    // A negative timeout is INFINITE. Closed ends are excluded, because they never signal.
     const DWORD happened = WaitForMultipleObjects(errors_pipe_.open() ? 3 : 2, ends.data(), FALSE,
-                                                  static_cast<DWORD>(patience.count()));
+                                                  static_cast<DWORD>(timeout.count()));
     if (happened == WAIT_OBJECT_0) {
       return pipe_.moved();
     }
@@ -319,13 +319,13 @@ std::optional<std::size_t> Win32Child::wait_for_pipe(std::chrono::milliseconds p
   }
 }
 
-std::optional<int> Win32Child::wait(std::chrono::milliseconds patience) {
+std::optional<int> Win32Child::wait(std::chrono::milliseconds timeout) {
   const std::array<HANDLE, 2> ends = {process_.get(), errors_pipe_.ended()};
   DWORD happened = WAIT_OBJECT_0 + 1;
   while (happened == WAIT_OBJECT_0 + 1) {
-    // Below 0 is INFINITE.
+    // A negative timeout is INFINITE.
     happened = WaitForMultipleObjects(errors_pipe_.open() ? 2 : 1, ends.data(), FALSE,
-                                      static_cast<DWORD>(patience.count()));
+                                      static_cast<DWORD>(timeout.count()));
     if (happened == WAIT_OBJECT_0 + 1) {
       collect_errors();
     }

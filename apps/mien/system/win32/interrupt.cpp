@@ -1,3 +1,4 @@
+// Interrupts on Windows.
 #include "apps/mien/system/interrupt.h"
 
 #include <windows.h>
@@ -9,7 +10,7 @@ namespace {
 
 std::atomic<bool> caught = false;
 
-// In a thread of its own.
+// Called on a separate thread.
 BOOL WINAPI catch_event(DWORD event) {
   const bool asks_to_end = event == CTRL_C_EVENT || event == CTRL_BREAK_EVENT;
   if (asks_to_end) {

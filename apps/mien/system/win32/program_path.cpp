@@ -1,3 +1,4 @@
+// The path of this program on Windows.
 #include "apps/mien/system/program_path.h"
 
 #include <windows.h>

@@ -1,3 +1,4 @@
+// Socket functions on Windows.
 #include "apps/mien/system/socket_calls.h"
 
 #include <mswsock.h>
@@ -16,7 +17,7 @@ void start() {
 
 void close(Handle handle) { closesocket(handle); }
 
-// Windows says where something was received that what was sent before found nobody.
+// By default, Windows reports an unreachable receiver as an error of the next receive.
 void prepare(Handle handle) {
   u_long on = 1;
   ioctlsocket(handle, FIONBIO, &on);

@@ -1,3 +1,4 @@
+// Standard streams on Windows.
 #include "apps/mien/system/standard_streams.h"
 
 #include <windows.h>
@@ -16,7 +17,7 @@ UINT code_page_before = 0;
 
 }  // namespace
 
-// The console stays as it is set when the program has ended, and is set back.
+// The console keeps its code page after the program ends, so it is restored.
 void prepare_standard_streams() {
   _setmode(_fileno(stdin), _O_BINARY);
   _setmode(_fileno(stdout), _O_BINARY);
@@ -26,16 +27,16 @@ void prepare_standard_streams() {
   }
 }
 
-// The C library knows one of the three errors by name.
-bool reader_has_gone() {
+// The C library maps only one of the three errors to errno.
+bool reader_has_closed() {
   const unsigned long system_error = _doserrno;
   const bool closed = system_error == ERROR_NO_DATA || system_error == ERROR_PIPE_NOT_CONNECTED;
   return errno == EPIPE || (errno == EINVAL && closed);
 }
 
-// Windows' pipes hold 4 KB and do not say how much room they have: a reader that is late is waited
-// for.
+// Pipes of Windows hold 4 KB and do not report their free space, so writing waits for a slow
+// reader.
 void shorten_standard_output() {}
-bool standard_output_has_room() { return true; }
+bool standard_output_is_writable() { return true; }
 
 }  // namespace mien::app

@@ -1,3 +1,4 @@
+// Temporary files on Windows.
 #include "apps/mien/system/temporary_file.h"
 
 #include <windows.h>
@@ -14,13 +15,13 @@
 namespace mien::app {
 namespace {
 
-constexpr int kAttempts = 100;  // at an unused name
-// A file that is open can be removed only if whoever opened it agreed.
+constexpr int kAttempts = 100;  // to find an unused name
+// An open file can be removed only if it was opened with these flags.
 constexpr DWORD kShared = FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE;
 
 std::error_code last_error() { return {static_cast<int>(GetLastError()), std::system_category()}; }
 
-// Keeps the access list, attributes and creation time of a file that is replaced.
+// Keeps the access list, attributes and creation time of a replaced file.
 bool move_file(const std::filesystem::path& from, const std::filesystem::path& to) {
   const DWORD attributes = GetFileAttributesW(to.c_str());
   const bool replaces =

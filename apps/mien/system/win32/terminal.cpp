@@ -1,3 +1,4 @@
+// Keyboard input on Windows.
 #include "apps/mien/system/terminal.h"
 
 #include <windows.h>
@@ -13,7 +14,7 @@ bool error_is_terminal() {
          SetConsoleMode(error, mode | ENABLE_VIRTUAL_TERMINAL_PROCESSING) != 0;
 }
 
-// The console needs no setting for single keys; that there are settings says that it is one.
+// The console needs no setting for single keys; the existence of settings indicates a console.
 struct Keyboard::Settings {};
 
 Keyboard::Keyboard() {

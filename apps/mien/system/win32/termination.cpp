@@ -1,3 +1,4 @@
+// Cleanup on console events on Windows.
 #include "apps/mien/system/termination.h"
 
 #include <windows.h>
@@ -9,9 +10,10 @@ namespace {
 
 std::mutex mutex;
 
-// Runs in a thread of its own. What follows is what the system does with the event.
+// Called on a separate thread. Afterwards the system handles the event.
 BOOL WINAPI clean_up(DWORD) {
-  mutex.lock();  // for good: whatever another thread created now would be left behind
+  mutex.lock();  // never released: resources that other threads create from now on would not be
+                 // cleaned up
   TerminationLock::discard_all();
   return FALSE;
 }

@@ -1,4 +1,5 @@
-#include "apps/mien/live/picture_points.h"
+// Maps landmarks to the 68 points of iBUG.
+#include "apps/mien/live/openseeface_points.h"
 
 #include <cmath>
 #include <cstddef>
@@ -8,7 +9,7 @@
 namespace mien::app {
 namespace {
 
-// iBUG's 68 points among ours: "ibug68" of models/landmarks.json.
+// Indices of iBUG's 68 points among our landmarks: "ibug68" of models/landmarks.json.
 constexpr std::array<std::size_t, 68> kIbug = {
     169, 167, 166, 164, 163, 162, 160, 158, 157, 156, 154, 152, 151, 150, 148, 147, 145,
     42,  43,  44,  45,  46,  51,  50,  49,  48,  47,  88,  90,  92,  93,  63,  62,  95,
@@ -16,10 +17,10 @@ constexpr std::array<std::size_t, 68> kIbug = {
     104, 105, 106, 109, 116, 115, 114, 113, 112, 119, 123, 124, 125, 129, 135, 134, 133};
 constexpr std::array<std::size_t, 2> kPupils = {32, 37};  // right_iris_0, left_iris_0
 
-// Of iBUG's points the one on the other side of the face.
+// The mirrored counterpart of an iBUG point.
 std::size_t partner(std::size_t point) {
   struct Group {
-    std::size_t first, last, sum;  // partners add up to the sum
+    std::size_t first, last, sum;  // the sum of the indices of both counterparts
   };
   constexpr Group kGroups[] = {{0, 16, 16},   {17, 26, 43},  {31, 35, 66}, {36, 39, 81},
                                {42, 45, 81},  {40, 41, 87},  {46, 47, 87}, {48, 54, 102},
@@ -32,38 +33,38 @@ std::size_t partner(std::size_t point) {
   return point;  // the ridge of the nose
 }
 
-formats::PicturePoint point_of(const Result& result, std::size_t landmark) {
+formats::ImagePoint point_of(const Result& result, std::size_t landmark) {
   return {double{result.landmarks[landmark][0]}, double{result.landmarks[landmark][1]}};
 }
 
 }  // namespace
 
-formats::OpenSeeFacePicture openseeface_picture(const Result& result, const mien_image& image,
-                                                float fov_degrees) {
-  formats::OpenSeeFacePicture picture;
-  picture.width = image.width;
-  picture.height = image.height;
+formats::OpenSeeFaceImage openseeface_image(const Result& result, const mien_image& image,
+                                            float fov_degrees) {
+  formats::OpenSeeFaceImage points;
+  points.width = image.width;
+  points.height = image.height;
   const double half_the_view = double{fov_degrees} / 2 * std::numbers::pi / 180;
-  picture.focal_length_px = picture.width / 2 / std::tan(half_the_view);
+  points.focal_length_px = points.width / 2 / std::tan(half_the_view);
   for (std::size_t i = 0; i < kIbug.size(); ++i) {
-    picture.landmarks[i] = point_of(result, kIbug[i]);
+    points.landmarks[i] = point_of(result, kIbug[i]);
   }
   for (std::size_t i = 0; i < kPupils.size(); ++i) {
-    picture.pupils[i] = point_of(result, kPupils[i]);
+    points.pupils[i] = point_of(result, kPupils[i]);
   }
-  return picture;
+  return points;
 }
 
-formats::OpenSeeFacePicture mirrored(const formats::OpenSeeFacePicture& picture) {
-  const auto turned = [&](const formats::PicturePoint& point) {
-    return formats::PicturePoint{picture.width - point[0], point[1]};
+formats::OpenSeeFaceImage mirrored(const formats::OpenSeeFaceImage& image) {
+  const auto flipped = [&](const formats::ImagePoint& point) {
+    return formats::ImagePoint{image.width - point[0], point[1]};
   };
-  formats::OpenSeeFacePicture made = picture;
-  for (std::size_t i = 0; i < picture.landmarks.size(); ++i) {
-    made.landmarks[partner(i)] = turned(picture.landmarks[i]);
+  formats::OpenSeeFaceImage result = image;
+  for (std::size_t i = 0; i < image.landmarks.size(); ++i) {
+    result.landmarks[partner(i)] = flipped(image.landmarks[i]);
   }
-  made.pupils = {turned(picture.pupils[1]), turned(picture.pupils[0])};
-  return made;
+  result.pupils = {flipped(image.pupils[1]), flipped(image.pupils[0])};
+  return result;
 }
 
 }  // namespace mien::app

@@ -1,0 +1,19 @@
+// Landmarks of a result in the order of OpenSeeFace.
+#pragma once
+
+#include <mien/mien.h>
+
+#include <mien/mien.hpp>
+
+#include "formats/protocols/openseeface.h"
+
+namespace mien::app {
+
+// The focal length follows from the horizontal field of view.
+formats::OpenSeeFaceImage openseeface_image(const Result& result, const mien_image& image,
+                                            float fov_degrees);
+
+// The mirrored landmarks.
+formats::OpenSeeFaceImage mirrored(const formats::OpenSeeFaceImage& image);
+
+}  // namespace mien::app
