@@ -98,7 +98,7 @@ def main(words):
     jobs = [{"file": name, "input": os.path.join(folder, name), "formats": formats,
              "outputs": [os.path.join(out, name + ENDINGS[each]) for each in formats]} for name in recordings(folder, out)]
     if not jobs:
-        sys.exit(f"{folder}: there is no video and no sound in this folder")
+        sys.exit(f"{folder}: no video and no audio in this folder")
     before = [job | {"outcome": "done before"} for job in jobs if is_done(job)]
     waiting = [job for job in jobs if not is_done(job)]
     with contextlib.redirect_stdout(sys.stderr):  # where Ray says that a worker died; standard output is the table's

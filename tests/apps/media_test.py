@@ -183,7 +183,7 @@ class Media(unittest.TestCase):
         ffmpeg(*PICTURE, *silence[:4], *TONE, "-map", "0", "-map", "1", "-map", "2", "-t", "1", *H264, "-c:a", "flac", both)
         code, _, errors = self.track(both)
         self.assertEqual(code, 0)
-        self.assertIn("audio track 1 is silent; --audio-track takes another of the 2", errors)
+        self.assertIn("audio track 1 is silent; --audio-track selects one of 2", errors)
         code, _, errors = self.track(both, "--audio-track", "2", "--stats", self.folder / "s.json")
         self.assertEqual((code, errors), (0, ""))
         self.assertGreater(json.loads((self.folder / "s.json").read_text())["input"]["audio"]["peak"], 0.05)

@@ -51,14 +51,14 @@ std::string utf8_of(std::string_view bytes) {
   return to_utf8(bytes, converted, text, fault) ? std::string(text) : describe(fault);
 }
 
-TEST(TextEncoding, Utf16BecomesUtf8InEitherByteOrder) {
+TEST(TextEncoding, Utf16IsConvertedInEitherByteOrder) {
   for (const Character& character : kCharacters) {
     EXPECT_EQ(utf8_of("\xFE\xFF" + bytes_of(character.utf16, true)), character.utf8);
     EXPECT_EQ(utf8_of("\xFF\xFE" + bytes_of(character.utf16, false)), character.utf8);
   }
 }
 
-TEST(TextEncoding, WithoutAMarkTwoAsciiCharactersTellTheByteOrder) {
+TEST(TextEncoding, WithoutAMarkTwoAsciiCharactersDetermineTheByteOrder) {
   for (const bool big : {false, true}) {
     EXPECT_EQ(utf8_of(bytes_of(u"{}\u00e4", big)), "{}\xC3\xA4");
     EXPECT_EQ(utf8_of(bytes_of(u"{}", big)), "{}");
@@ -67,14 +67,14 @@ TEST(TextEncoding, WithoutAMarkTwoAsciiCharactersTellTheByteOrder) {
   }
 }
 
-TEST(TextEncoding, Utf8IsTakenAsItIsWithoutItsMark) {
+TEST(TextEncoding, Utf8IsUnchangedExceptForItsMark) {
   EXPECT_EQ(utf8_of("\xEF\xBB\xBF{}"), "{}");
   EXPECT_EQ(utf8_of("{}"), "{}");
   EXPECT_EQ(utf8_of("\xEF\xBB\xBF"), "");
   EXPECT_EQ(utf8_of(""), "");
 }
 
-TEST(TextEncoding, FaultsOfUtf16SayAtWhichByte) {
+TEST(TextEncoding, ErrorsOfUtf16HaveAnOffset) {
   const std::string half = "unpaired UTF-16 surrogate";
   const std::vector<std::pair<std::u16string, std::string>> cases = {
       {u"ab\xd800", "byte 6: " + half},       {u"ab\xd800z", "byte 6: " + half},
@@ -102,7 +102,7 @@ TEST(JsonText, EveryHexadecimalDigitCounts) {
   EXPECT_EQ(json_unescaped("\\ud800\\uDC00 \\u0041"), "\xF0\x90\x80\x80 A");
 }
 
-TEST(JsonText, SaysWhatIsWrongWithAnEscape) {
+TEST(JsonText, NamesTheErrorOfAnEscape) {
   const std::string no_such = "unknown escape sequence",
                     digits = "expected four hexadecimal digits", half = "unpaired surrogate";
   const std::vector<std::pair<std::string_view, std::string>> cases = {

@@ -93,7 +93,7 @@ TEST(Visemes, EachIsAMouth) {
                "at most 1 ");
 }
 
-TEST(Visemes, OnlyTheMouthIsDriven) {
+TEST(Visemes, OnlyControlsOfTheMouthAreSet) {
   std::size_t count = 0;
   for (const double control : controls_of_visemes(Visemes{})) {
     count += driven(control) ? 1 : 0;
@@ -116,7 +116,7 @@ TEST(Visemes, OneSideOfTheMouthCountsHalf) {
   EXPECT_NEAR(visemes_of(controls)[index_of("ih", kVisemeNames)], 1.0, 1e-9);
 }
 
-TEST(Visemes, WhatLacksToOneIsSilenceAndMoreIsBroughtDown) {
+TEST(Visemes, SilenceIsTheRemainderAndLargerSumsAreNormalized) {
   const Visemes half = visemes_of(mouth_of({{"jawOpen", 0.1}, {"mouthSmile", 0.225}}));
   EXPECT_NEAR(half[index_of("ih", kVisemeNames)], 0.5, 1e-9);
   EXPECT_NEAR(half[0], 0.5, 1e-9);
@@ -125,7 +125,7 @@ TEST(Visemes, WhatLacksToOneIsSilenceAndMoreIsBroughtDown) {
   EXPECT_EQ(twice[0], 0.0);
 }
 
-TEST(Visemes, TheControlThatLeadsAPose) {
+TEST(Visemes, TheLeadingControlOfAPose) {
   const std::string_view leading[] = {
       "mouthPressLeft",  "mouthRollLower", "tongueOut",        "mouthLowerDownLeft",
       "mouthDimpleLeft", "mouthFunnel",    "mouthStretchLeft", "mouthShrugUpper",

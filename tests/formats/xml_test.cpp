@@ -49,7 +49,7 @@ std::string numbered_attributes(std::size_t count) {
   return all;
 }
 
-TEST(Xml, TagsKnowTheirPlace) {
+TEST(Xml, TagsHaveAPosition) {
   std::vector<std::string> places;
   for (const XmlTag& tag : xml_tags("<?xml?>\n <a>\n\n<b/>text\n  </a>\n")) {
     places.push_back((tag.closes ? "/" : "") + tag.name + " " + std::to_string(tag.line) + ":" +
@@ -78,21 +78,21 @@ TEST(Xml, NamesHaveLettersDigitsAndFourSigns) {
   }
 }
 
-TEST(Xml, TextHasNoBlanksAroundItAndGoesOnBehindAComment) {
+TEST(Xml, TextIsTrimmedAndContinuesAfterAComment) {
   const std::vector<XmlTag> tags =
       xml_tags("<a>\t\r\n x  y \n<!-- <b> -->\tz&amp;&lt;&gt;&quot;&apos;</a>");
   ASSERT_EQ(tags.size(), 2u);
   EXPECT_EQ(tags[0].text, "x  yz&<>\"'");
 }
 
-TEST(Xml, TakesSixtyFourElementsAndAttributes) {
+TEST(Xml, AcceptsSixtyFourElementsAndAttributes) {
   EXPECT_EQ(xml_tags(tags_repeated("<a>", 64) + tags_repeated("</a>", 64)).size(), 128u);
   EXPECT_EQ(xml_fault(tags_repeated("<a>", 64) + "<b/>"), "line 1, column 193: too deeply nested");
   EXPECT_EQ(xml_tags("<a" + numbered_attributes(64) + "/>")[0].attributes.size(), 64u);
   EXPECT_EQ(xml_fault("<a" + numbered_attributes(65) + "/>").substr(0, 7), "line 1,");
 }
 
-TEST(Xml, FaultsSayWhere) {
+TEST(Xml, ErrorsHaveAPosition) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"\n x", "line 2, column 2: expected a tag"},
       {"<a/>\n<?xml", "line 2, column 1: expected ?>"},
@@ -115,7 +115,7 @@ TEST(Xml, FaultsSayWhere) {
   }
 }
 
-TEST(Xml, ReadingEndsWhereTheVisitorSaysSo) {
+TEST(Xml, TheVisitorCanStopReading) {
   for (const std::size_t most : {1u, 2u, 3u}) {
     std::size_t visited = 0;
     Fault fault;

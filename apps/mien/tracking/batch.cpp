@@ -1,3 +1,4 @@
+// Tracks all recordings of a folder with several threads.
 #include "apps/mien/tracking/batch.h"
 
 #include <algorithm>
@@ -32,7 +33,7 @@ enum class Outcome { kWaiting, kDone, kDoneBefore, kFailed };
 struct Job {
   std::string input;
   std::string name;                  // within the folder
-  std::vector<std::string> outputs;  // animations, and the report behind them
+  std::vector<std::string> outputs;  // animations, then the report
   Outcome outcome = Outcome::kWaiting;
   TrackSummary summary;
   double seconds = 0.0;
@@ -86,14 +87,14 @@ std::vector<Job> find_jobs(const BatchOptions& options) {
     for (auto entry = fs::recursive_directory_iterator(path_of(options.folder));
          entry != fs::recursive_directory_iterator(); ++entry) {
       if (entry->is_directory() && fs::weakly_canonical(entry->path()) == out) {
-        entry.disable_recursion_pending();  // what lies there is no input
+        entry.disable_recursion_pending();  // its files are outputs
       }
       if (!entry->is_regular_file() || !is_recording(name_of(entry->path()))) {
         continue;
       }
       Job job;
       job.input = name_of(entry->path());
-      // As it is called: what a link leads to may lie anywhere, and so would its outputs.
+      // The name of a link, not of its target, so that outputs are in the folder as well.
       job.name = name_of(entry->path().lexically_relative(path_of(options.folder)));
       for (const std::string& ending : wanted) {
         job.outputs.push_back(name_of(path_of(options.out) / path_of(job.name + ending)));
@@ -104,13 +105,13 @@ std::vector<Job> find_jobs(const BatchOptions& options) {
     throw Failure(kExitNoInput, options.folder + ": " + error.code().message());
   }
   if (jobs.empty()) {
-    throw Failure(kExitNoInput, options.folder + ": there is no video and no sound in this folder");
+    throw Failure(kExitNoInput, options.folder + ": no video and no audio in this folder");
   }
   std::sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) { return a.name < b.name; });
   return jobs;
 }
 
-// Several threads, one line on the terminal.
+// A progress line that several threads update.
 class SharedProgress {
  public:
   SharedProgress(bool quiet, std::size_t files)

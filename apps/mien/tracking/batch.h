@@ -1,4 +1,4 @@
-// `mien track DIR --out DIR`: all videos and sounds of a folder, several at once.
+// Implements `mien track DIR --out DIR`, which tracks all recordings of a folder in parallel.
 #pragma once
 
 #include <string>
@@ -8,22 +8,22 @@
 namespace mien::app {
 
 struct BatchOptions {
-  TrackOptions each;  // but for its input, its outputs and its word about them
+  TrackOptions each;  // except input, outputs and messages
   std::string folder;
-  std::string out;       // made where it is not there
-  int jobs = 0;          // files at once; 0: as many as there are cores
-  bool reports = false;  // a page of each, too
-  bool again = false;    // also what is done already
-  bool json = false;     // the summary
+  std::string out;       // created if missing
+  int jobs = 0;          // files at a time; 0: one per core
+  bool reports = false;  // write a report for each file as well
+  bool again = false;    // process files with existing outputs as well
+  bool json = false;     // print the summary as JSON
 };
 
-// Whether the name's ending is one of a video or a sound that a folder is searched for.
+// Whether the ending of a name is that of a video or audio file.
 bool is_recording(const std::string& path);
 
-// Tracks every recording in the folder and below it, into files of the same names with the format's
-// ending behind them: a/b.mp4 becomes OUT/a/b.mp4.csv, and .html for reports. Files whose outputs
-// are all there, and newer, are done already. Ends with a table on standard output; throws
-// Failure(kExitSomeFailed) when that names a file that failed.
+// Tracks every recording in the folder and its subfolders. Outputs have the same names with the
+// ending of the format: a/b.mp4 becomes OUT/a/b.mp4.csv, or .html for reports. Skips files whose
+// outputs exist and are newer. Prints a table to standard output. Throws Failure(kExitSomeFailed)
+// if a file failed.
 void track_folder(const BatchOptions& options);
 
 }  // namespace mien::app

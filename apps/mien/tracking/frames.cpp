@@ -1,3 +1,4 @@
+// Reads the frames of `mien track` and feeds them to the tracker.
 #include "apps/mien/tracking/frames.h"
 
 #include <algorithm>
@@ -36,7 +37,7 @@ Senses choose(const TrackOptions& options) {
     return senses;
   }
   if (options.audio == kStandardInput && options.input == kStandardInput) {
-    throw Failure(kExitUsage, "--audio -: standard input is the video's already");
+    throw Failure(kExitUsage, "--audio: standard input is already used for video");
   }
   if (options.mode != Mode::kAudio || options.audio.empty()) {
     senses.input.emplace(options.input);
@@ -53,7 +54,7 @@ Senses choose(const TrackOptions& options) {
   const bool there = has_audio(senses, options);
   const bool demanded = options.mode != Mode::kAny || !senses.video || !options.audio.empty();
   if (demanded && !there) {
-    throw Failure(kExitNoSound, source + ": has no audio");
+    throw Failure(kExitNoSound, source + ": no audio");
   }
   if (demanded || (there && has_audionet(options.models))) {
     senses.sound = source;
@@ -104,8 +105,7 @@ std::string Frames::silence_note() const {
   const std::size_t tracks = audio_tracks();
   std::string note =
       senses_.sound + ": audio track " + std::to_string(options_.audio_track) + " is silent";
-  return tracks > 1 ? note + "; --audio-track takes another of the " + std::to_string(tracks)
-                    : note;
+  return tracks > 1 ? note + "; --audio-track selects one of " + std::to_string(tracks) : note;
 }
 
 MediaReport Frames::report() const {
@@ -123,7 +123,7 @@ MediaReport Frames::report() const {
       report.notes.push_back(damage_note(options_.input, "video", damage));
     }
     if (damage.frames_lost) {
-      report.lost = options_.input + ": pictures could not be decoded: " + damage.last;
+      report.lost = options_.input + ": frames could not be decoded: " + damage.last;
     }
   }
   if (sound_) {

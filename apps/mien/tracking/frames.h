@@ -1,5 +1,5 @@
-// The frames that `mien track` tracks: those of a video with what is heard beside them, or 30 a
-// second as long as there is sound.
+// The frames of `mien track`: those of a video with its audio, or 30 per second for the length of
+// the audio.
 #pragma once
 
 #include <cstdint>
@@ -17,24 +17,24 @@
 
 namespace mien::app {
 
-// What is looked at and listened to.
+// The inputs to read.
 struct Senses {
-  std::optional<Input> input;  // none: nothing of it is read
-  std::optional<Input> audio;  // another input with the sound
+  std::optional<Input> input;  // empty: not read
+  std::optional<Input> audio;  // a separate input with audio
   bool video = false;
-  std::string sound;  // where from; empty: nowhere
+  std::string sound;  // name of the input with audio; empty: no audio
 };
 
-// Throws Failure where what was asked for is not there.
+// Throws Failure if a requested stream is missing.
 [[nodiscard]] Senses choose(const TrackOptions& options);
 
-// Seconds beyond all recordings are brought to what fits every count.
+// Very large numbers of seconds are clamped, so that they fit every count.
 [[nodiscard]] VideoRange range_of(const TrackOptions& options);
 
-// What is to be said of the input once it was read.
+// Notes about the input after reading it.
 struct MediaReport {
   std::vector<std::string> notes;
-  std::string lost;                // pictures or sound that could not be decoded; empty: none
+  std::string lost;                // a message about frames that could not be decoded; empty: none
   nlohmann::ordered_json as_json;  // for --stats
 };
 
@@ -52,7 +52,7 @@ class Frames {
 
   void set_listener(AudioFeed::Listener listener);
 
-  // Tracks the next one. False at the end.
+  // Tracks the next frame. Returns false at the end.
   bool next();
 
  private:

@@ -1,3 +1,4 @@
+// Loads weights and creates a tracker.
 #include "apps/mien/tracking/loaded_tracker.h"
 
 #include <array>
@@ -83,7 +84,7 @@ void check(mien_status status, const std::string& where) {
 
 void load_neutral(const std::string& path, Tracker& tracker) {
   std::ifstream file(path, std::ios::binary);
-  std::array<char, MIEN_NEUTRAL_BYTES + 1> bytes;  // one more, to notice what is too long
+  std::array<char, MIEN_NEUTRAL_BYTES + 1> bytes;  // one more, to detect a file that is too long
   file.read(bytes.data(), bytes.size());
   if (file.bad() || file.gcount() == 0) {
     throw Failure(kExitNoInput, path + ": cannot be read");

@@ -1,4 +1,4 @@
-// A tracker with the weights it runs on.
+// A tracker with its weights.
 #pragma once
 
 #include <cstddef>
@@ -15,34 +15,34 @@ struct LoadedTracker {
   struct Options {
     std::string models;          // folder; empty: see models_directory
     std::string tier;            // empty: the best of this CPU
-    std::optional<int> lod = 1;  // 0: automatic; none: the highest that there are weights for
+    std::optional<int> lod = 1;  // 0: automatic; default: the highest with weights
     float budget_ms = 10.0f;
     bool unfiltered = false;
     int max_faces = 1;
-    bool sound = false;    // it is to hear
-    bool unfused = false;  // networks run layer by layer
+    bool sound = false;    // accept audio
+    bool unfused = false;  // run networks layer by layer
     float voice_strength = 1.0f;
     float fov_degrees = 60.0f;
-    std::int32_t queued_samples = 0;  // room for sound that another thread brings
+    std::int32_t queued_samples = 0;  // size of the queue for audio from another thread
   };
 
   // Throws Failure.
   explicit LoadedTracker(const Options& options);
 
   Blob basenet, proposal;
-  std::optional<Blob> hifinet;   // where there is one
-  std::optional<Blob> audionet;  // if it is to hear
+  std::optional<Blob> hifinet;   // if present
+  std::optional<Blob> audionet;  // if the tracker accepts audio
   Tracker tracker;
-  std::size_t tracker_bytes = 0;  // memory of the tracker, the weights not counted
+  std::size_t tracker_bytes = 0;  // memory of the tracker without weights
 };
 
-// Throws a Failure that names `where` unless all is well.
+// Throws a Failure that names `where` if `status` is an error.
 void check(mien_status status, const std::string& where);
 
-// Whether the folder of the models has one for sound.
+// Whether the folder of models has audionet.mien.
 bool has_audionet(const std::string& models);
 
-// Takes over a file of `mien neutral`. Throws Failure.
+// Loads a neutral file into the tracker. Throws Failure.
 void load_neutral(const std::string& path, Tracker& tracker);
 
 }  // namespace mien::app

@@ -1,3 +1,4 @@
+// Captures neutral calibration from a video.
 #include "apps/mien/tracking/neutral.h"
 
 #include <array>
@@ -28,7 +29,7 @@ std::unique_ptr<VideoSource> open(const NeutralOptions& options) {
   return open_video(options.input, {{options.start_s, options.duration_s}, {}, 1});
 }
 
-// What comes over a network may be a file, too, and then says how many frames it has.
+// A URL may lead to a file, which can be read again; then its number of frames is known.
 bool can_be_shown_again(const std::string& input, const VideoSource& video) {
   if (is_url(input)) {
     return video.info().frames.has_value();
@@ -37,7 +38,7 @@ bool can_be_shown_again(const std::string& input, const VideoSource& video) {
   return input != kStandardInput && std::filesystem::is_regular_file(path_of(input), unknown);
 }
 
-// Plays the video on until the tracker has captured what bit `wanted` stands for.
+// Continues the video until the tracker has captured the calibration of bit `wanted`.
 NeutralBytes capture(const NeutralOptions& options, VideoSource& video, Tracker& tracker,
                      std::uint32_t wanted) {
   check(tracker.capture_neutral(), options.input);
@@ -50,7 +51,7 @@ NeutralBytes capture(const NeutralOptions& options, VideoSource& video, Tracker&
     check(tracker.save_neutral(file, captured), options.input);
   }
   if ((captured & wanted) == 0) {
-    throw Failure(kExitNoFace, options.input + ": no 55 frames in a row show a face");
+    throw Failure(kExitNoFace, options.input + ": fewer than 55 frames in a row show a face");
   }
   return file;
 }
@@ -83,7 +84,7 @@ void neutral(const NeutralOptions& options) {
         {"levels", loaded.hifinet ? std::vector<int>{1, 2, 3, 4} : std::vector<int>{1}}};
     std::printf("%s\n", json_text(done).c_str());
   } else if (!options.quiet) {
-    std::fprintf(stderr, "%s: for %s\n", shown(options.output).c_str(),
+    std::fprintf(stderr, "%s: neutral calibration for %s\n", shown(options.output).c_str(),
                  loaded.hifinet ? "all levels of detail" : "level of detail 1");
   }
 }

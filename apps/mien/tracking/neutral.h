@@ -1,4 +1,4 @@
-// `mien neutral`: what a person's face shows at rest, captured from a video.
+// Implements `mien neutral`, which captures neutral calibration from a video.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@ struct NeutralOptions {
   std::string models;
   double start_s = 0.0;
   std::optional<double> duration_s;
-  bool json = false;  // what was captured
+  bool json = false;  // print a summary as JSON
   bool quiet = false;
 };
 

@@ -1,3 +1,4 @@
+// Collects stage times.
 #include "apps/mien/tracking/stage_times.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Tracks one input and writes its outputs.
 #include "apps/mien/tracking/track.h"
 
 #include <algorithm>
@@ -54,7 +55,7 @@ void write_stats(OutputFile& file, const Result& last, const StageTimes& times,
 }
 
 void print_summary(const Result& last, const StageTimes& times) {
-  std::fprintf(stderr, "frames %llu, with a face %llu, the proposal ran %llu times\n",
+  std::fprintf(stderr, "%llu frames, %llu with a face, %llu with detection\n",
                static_cast<unsigned long long>(last.frames),
                static_cast<unsigned long long>(last.face_frames),
                static_cast<unsigned long long>(last.proposal_runs));
@@ -64,7 +65,7 @@ void print_summary(const Result& last, const StageTimes& times) {
   }
 }
 
-// Of all faces there are; of none while one is searched for.
+// The results of all faces; one result without a face while searching.
 std::vector<Result> results(const Tracker& tracker, const std::string& where) {
   std::vector<Result> faces(static_cast<std::size_t>(std::max(1, tracker.face_count())));
   check(tracker.get_result(faces.front()), where);
@@ -101,9 +102,8 @@ TrackSummary track(const TrackOptions& options) {
   const VideoRange range = range_of(options);
   const Senses senses = choose(options);
   if (!senses.video && (!options.overlay.empty() || options.rotation)) {
-    throw Failure(kExitUsage, options.overlay.empty()
-                                  ? "--rotate: there is no video to rotate"
-                                  : "--overlay: there is no video to draw over");
+    throw Failure(kExitUsage, options.overlay.empty() ? "--rotate: no video to rotate"
+                                                      : "--overlay: no video to draw on");
   }
   LoadedTracker loaded({options.models, options.tier, options.lod, options.budget_ms,
                         options.unfiltered, options.max_faces, !senses.sound.empty(),
@@ -114,7 +114,8 @@ TrackSummary track(const TrackOptions& options) {
   require_distinct_files(inputs_of(options), outputs_of(options));
   Frames frames(options, senses, loaded.tracker);
   Outputs outputs(options, frames.info(), range);
-  std::optional<OutputFile> stats;  // before the work that would be lost
+  std::optional<OutputFile>
+      stats;  // opened first, so that an unwritable file fails before the work
   if (!options.stats.empty()) {
     stats.emplace(options.stats);
   }

@@ -1,4 +1,4 @@
-// `mien track`: video and sound go in, curves come out.
+// Implements `mien track`, which tracks video and audio and writes animations.
 #pragma once
 
 #include <cstdint>
@@ -11,27 +11,27 @@
 
 namespace mien::app {
 
-// What of picture and sound is taken: kAny what there is, the others just that.
+// The streams to use: kAny uses everything available, the others require theirs.
 enum class Mode { kAny, kBoth, kVideo, kAudio };
 
 struct TrackOptions {
   std::string input;
   AnimationOptions animation;
-  std::string landmarks;  // empty: none; so for the others
+  std::string landmarks;  // path; empty: none, as for the next members
   std::string overlay;
   std::string report;
-  double report_clip_mb = 64.0;  // a larger clip lies beside the report
-  std::string audio;             // file with the sound; empty: the input
+  double report_clip_mb = 64.0;  // a larger clip is stored beside the report
+  std::string audio;             // file with the audio; empty: the input
   Mode mode = Mode::kAny;
-  double av_offset_ms = 0.0;  // that the sound is late by
+  double av_offset_ms = 0.0;  // by which the audio is early
   float voice_strength = 1.0f;
   float fov_degrees = 60.0f;
   std::string stats;
-  std::string neutral;  // file to take into account
+  std::string neutral;  // neutral file; empty: none
   std::string tier;
-  bool unfused = false;  // networks run layer by layer
+  bool unfused = false;  // run networks layer by layer
   std::string models;
-  std::optional<int> lod;  // 0: automatic; none: the highest that there are weights for
+  std::optional<int> lod;  // 0: automatic; default: the highest with weights
   float budget_ms = 10.0f;
   bool unfiltered = false;
   int max_faces = 1;
@@ -40,14 +40,14 @@ struct TrackOptions {
   int audio_track = 1;          // the first is 1
   std::optional<int> rotation;  // degrees clockwise that make the video upright
   bool quiet = false;
-  std::function<void()> after_frame;  // called after each; none: nothing
+  std::function<void()> after_frame;  // called after each frame; may be empty
 };
 
 struct TrackSummary {
   std::uint64_t frames = 0;
   std::uint64_t face_frames = 0;
-  std::string lost;                // of the input that could not be decoded; empty: nothing
-  std::vector<std::string> notes;  // that were printed
+  std::string lost;                // a message about frames that could not be decoded; empty: none
+  std::vector<std::string> notes;  // printed notes
 };
 
 // Throws Failure.
