@@ -182,7 +182,7 @@ class Contents(unittest.TestCase):
         self.assertEqual((stream.data["clip"], stream.data["name"], stream.frames()), ("none", "-", 6))
 
     def test_invalid_requests(self):
-        for arguments, code, word in ((["--max-faces", "2"], 2, "one face"), ([], 7, "cannot be written")):
+        for arguments, code, word in ((["--max-faces", "2"], 2, "a single face"), ([], 7, "cannot be written")):
             page = Folder.file("no such folder/x.html") if not arguments else Folder.file("x.html")
             with self.assertRaises(subprocess.CalledProcessError) as failed:
                 mien("track", CLIP, "--report", page, *arguments)
