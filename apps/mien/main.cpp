@@ -9,6 +9,7 @@
 #include "apps/mien/command_line/program.h"
 #include "apps/mien/outputs/output_file.h"
 #include "apps/mien/system/failure.h"
+#include "apps/mien/system/out_of_memory.h"
 #include "apps/mien/system/shown.h"
 #include "apps/mien/system/standard_streams.h"
 #include "apps/mien/system/termination.h"
@@ -19,10 +20,7 @@ namespace {
 // validators before main, where nothing catches std::bad_alloc, and some of its functions are
 // noexcept. program.cpp removes the handler.
 [[gnu::constructor(101)]] void install_out_of_memory_handler() {
-  std::set_new_handler([] {
-    std::fputs("mien: no memory\n", stderr);
-    std::_Exit(mien::app::kExitInternal);
-  });
+  std::set_new_handler(mien::app::end_without_memory);
 }
 
 }  // namespace

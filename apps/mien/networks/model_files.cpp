@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "apps/mien/system/failure.h"
+#include "apps/mien/system/out_of_memory.h"
 #include "apps/mien/system/paths.h"
 #include "apps/mien/system/program_path.h"
 
@@ -57,6 +58,7 @@ std::string models_directory(const std::string& chosen) {
 std::vector<fs::path> weight_files(const std::string& folder) {
   std::vector<fs::path> files;
   std::error_code ignored;
+  const OutOfMemoryGuard guard;  // the iterator of libstdc++ allocates in a noexcept function
   for (const auto& entry : fs::directory_iterator(path_of(folder), ignored)) {
     if (entry.path().extension() == ".mien") {
       files.push_back(entry.path());

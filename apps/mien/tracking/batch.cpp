@@ -14,6 +14,7 @@
 
 #include "apps/mien/system/failure.h"
 #include "apps/mien/system/json_text.h"
+#include "apps/mien/system/out_of_memory.h"
 #include "apps/mien/system/paths.h"
 #include "apps/mien/system/progress.h"
 #include "apps/mien/system/shown.h"
@@ -83,6 +84,7 @@ std::vector<Job> find_jobs(const BatchOptions& options) {
   }
   const fs::path out = fs::weakly_canonical(path_of(options.out));
   std::vector<Job> jobs;
+  const OutOfMemoryGuard guard;  // the iterator of libstdc++ allocates in a noexcept function
   try {
     for (auto entry = fs::recursive_directory_iterator(path_of(options.folder));
          entry != fs::recursive_directory_iterator(); ++entry) {

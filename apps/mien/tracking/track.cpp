@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "apps/mien/networks/model_files.h"
@@ -114,8 +115,8 @@ TrackSummary track(const TrackOptions& options) {
   require_distinct_files(inputs_of(options), outputs_of(options));
   Frames frames(options, senses, loaded.tracker);
   Outputs outputs(options, frames.info(), range);
-  std::optional<OutputFile>
-      stats;  // opened first, so that an unwritable file fails before the work
+  // Opened first, so that an unwritable file fails before the work.
+  std::optional<OutputFile> stats;
   if (!options.stats.empty()) {
     stats.emplace(options.stats);
   }
@@ -135,8 +136,8 @@ TrackSummary track(const TrackOptions& options) {
       }
     }
   }
+  MediaReport media = frames.report();  // before the outputs are published: an allocation may fail
   outputs.finish(times);
-  const MediaReport media = frames.report();
   if (stats) {
     write_stats(*stats, last, times, loaded.tracker_bytes, media);
   }
@@ -146,7 +147,7 @@ TrackSummary track(const TrackOptions& options) {
   if (!options.quiet) {
     print_summary(last, times);
   }
-  return {last.frames, last.face_frames, media.lost, media.notes};
+  return {last.frames, last.face_frames, std::move(media.lost), std::move(media.notes)};
 }
 
 }  // namespace mien::app
