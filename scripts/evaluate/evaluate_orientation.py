@@ -61,8 +61,8 @@ def markdown(report):
     lines = ["# Faces at any orientation", "", "For everyone whose faces are not upright.", ""] + out.prose(f"""Share of turned faces correctly detected relative
         to upright ones, at the worst roll: as the first image {out.by_level(levels, lambda r: f"{100 * worst(r[FIRST]):.0f} %")}; within a second of
         entering an empty scene {out.by_level(levels, lambda r: f"{100 * worst(r[ENTERS]):.0f} %")}.""")
-    lines += out.prose(f"""The data are {report['portraits']} held-out portraits, each turned about its middle in a plain image of {SIZE} x {SIZE} pixels of
-        which it takes half. A correct detection has a mean landmark error below {100 * CORRECT:.0f} % of the distance between the pupils.""")
+    lines += out.prose(f"""The data are {report['portraits']} held-out portraits, each turned about its middle and half as large as the plain image of
+        {SIZE} x {SIZE} pixels. A correct detection has a mean landmark error below {100 * CORRECT:.0f} % of the distance between the pupils.""")
     header = ["roll, degrees", *(f"{how}, {out.level(name)}" for name in levels for how in (FIRST, ENTERS))]
     rows = [[str(roll), *(f"{100 * found[how][str(roll)]:.0f} %" for found in levels.values() for how in (FIRST, ENTERS))] for roll in ROLLS]
     return "\n".join(lines + out.table(header, rows))
