@@ -18,7 +18,7 @@ import unittest
 
 MIEN = sys.argv[1]
 FULL = "full" in sys.argv[2:]
-PAIRS, KILLS = (1000, 200) if FULL else (30, 12)
+PAIRS, KILLS = (1000, 200) if FULL else (12, 8)
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 WIDTH, HEIGHT = 64, 48
 HAVE_FFMPEG = shutil.which("ffmpeg") is not None
@@ -156,7 +156,7 @@ class OutputSafety(unittest.TestCase):
 
     def check_signal(self, number):
         source = self.inputs / "clip.y4m"
-        source.write_bytes(clip(60))
+        source.write_bytes(clip(20))
         whole, usual = {}, 0.0
         for _ in range(4):  # both kinds of temporary video
             usual = self.run_whole(self.track(source, *self.outputs()))
@@ -189,7 +189,7 @@ class OutputSafety(unittest.TestCase):
     def test_an_ignored_signal_stays_ignored(self):
         """As under nohup."""
         source = self.inputs / "clip.y4m"
-        source.write_bytes(clip(60))
+        source.write_bytes(clip(20))
         usual = self.run_whole(self.track(source, "-o", self.out / "out.csv"))
         process = subprocess.Popen(self.track(source, "-o", self.out / "out.csv"),
                                    preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))
@@ -201,7 +201,7 @@ class OutputSafety(unittest.TestCase):
         if not has_unnamed_files(self.out):
             self.skipTest("no nameless files on this file system")
         source = self.inputs / "clip.y4m"
-        source.write_bytes(clip(60))
+        source.write_bytes(clip(20))
         command = self.track(source, "-o", self.out / "out.csv", "--landmarks", self.out / "landmarks.csv",
                              *(["--overlay", self.out / "out.mp4"] if HAVE_FFMPEG else []))
         usual = self.run_whole(command)
