@@ -8,6 +8,7 @@
 
 #include "apps/mien/sources/decoded_audio.h"
 #include "apps/mien/sources/decoded_video.h"
+#include "apps/mien/sources/ffmpeg.h"
 #include "apps/mien/sources/network_input.h"
 #include "apps/mien/sources/wav_audio.h"
 #include "apps/mien/sources/y4m_source.h"
