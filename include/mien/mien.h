@@ -178,14 +178,18 @@ MIEN_API const char* mien_control_name(int32_t control);
 
 /** Names of facial controls in other blendshape standards. */
 typedef enum mien_vocabulary {
-  MIEN_VOCABULARY_ARKIT = 0, /**< 52: the controls unchanged */
-  MIEN_VOCABULARY_MEDIAPIPE =
-      1,                      /**< 52: _neutral (always 0), then 51 alphabetically; no tongueOut */
-  MIEN_VOCABULARY_ROBLOX = 2, /**< 50: FACS of Roblox's FaceControls, in the order of its enum */
-  MIEN_VOCABULARY_VRM0 = 3,   /**< 11: Joy Angry Sorrow Fun A I U E O Blink_L Blink_R */
-  MIEN_VOCABULARY_VRM1 = 4, /**< 11: happy angry sad relaxed aa ih ou ee oh blinkLeft blinkRight */
-  MIEN_VOCABULARY_VISEMES =
-      5 /**< 15 of OVR LipSync: sil PP FF TH DD kk CH SS nn RR aa E ih oh ou */
+  /** 52: the controls unchanged */
+  MIEN_VOCABULARY_ARKIT = 0,
+  /** 52: _neutral (always 0), then 51 alphabetically; no tongueOut */
+  MIEN_VOCABULARY_MEDIAPIPE = 1,
+  /** 50: FACS of Roblox's FaceControls, in the order of its enum */
+  MIEN_VOCABULARY_ROBLOX = 2,
+  /** 11: Joy Angry Sorrow Fun A I U E O Blink_L Blink_R */
+  MIEN_VOCABULARY_VRM0 = 3,
+  /** 11: happy angry sad relaxed aa ih ou ee oh blinkLeft blinkRight */
+  MIEN_VOCABULARY_VRM1 = 4,
+  /** 15 of OVR LipSync: sil PP FF TH DD kk CH SS nn RR aa E ih oh ou */
+  MIEN_VOCABULARY_VISEMES = 5
 } mien_vocabulary;
 
 /** Number of names in a vocabulary.
