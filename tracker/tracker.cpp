@@ -239,9 +239,7 @@ void Tracker::judge(Frame& frame, bool whole) {
   const int alignments = (whole ? kPace : pace_at(frame.level)).alignments;
   do {
     if (faces_.add_face(frame, search.proposed[search.judged++], alignments)) {
-      state_.frames_without_face = 0;
-      state_.searches = 0;
-      state_.rolls = 0;
+      restart_rolls();
     }
   } while (whole && search.judged < search.count && faces_.has_free_slot());
   if (search.judged == search.count || !faces_.has_free_slot()) {
@@ -282,13 +280,12 @@ void Tracker::add_first(Frame& frame, std::span<const Detection> found, int alig
     return !faces_.is_taken(detection.square);
   });
   if (newcomer != found.end() && faces_.add_face(frame, *newcomer, alignments)) {
-    restart_detection();
+    state_.search.stage = Search::Stage::kIdle;
+    restart_rolls();
   }
 }
 
-// A face was found: the next detection begins anew.
-void Tracker::restart_detection() {
-  state_.search.stage = Search::Stage::kIdle;
+void Tracker::restart_rolls() {
   state_.frames_without_face = 0;
   state_.searches = 0;
   state_.rolls = 0;

@@ -95,7 +95,8 @@ class Tracker {
   void detect_in_tile(Frame& frame);
   // Large faces at one roll, another on each frame.
   void detect_large(Frame& frame);
-  void restart_detection();
+  // A face was found: the next detection begins like the first after a loss.
+  void restart_rolls();
   void add_first(Frame& frame, std::span<const Detection> found, int alignments);
   // What every frame of output ends with.
   void finish(Frame& frame, std::int64_t pts_ns, std::uint32_t flags);

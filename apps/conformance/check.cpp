@@ -143,7 +143,7 @@ void compare(const Case& test, const Contents& results, Finding& finding) {
   }
 }
 
-// Compares two kernels, either of which may be off by the bound.
+// Compares two kernels. Both may be off by the bound.
 void compare_kernels(const Case& test, const Contents& results, const Contents& reference,
                      Finding& finding) {
   for (std::size_t b = 0; b < results.size() && finding.fault == Fault::kNone; ++b) {

@@ -146,10 +146,14 @@ bool MtcnnDetector::go_on(const ImageView& view) {
   return search_.seen_again < search_.scanned;
 }
 
+void MtcnnDetector::cut(const ImageView& view, const Crop& crop, engine::Network& network) const {
+  sampler_.cut_black(view, crop, network.input_shape().w, network.input());
+}
+
 void MtcnnDetector::make_small_picture(const ImageView& view) {
   engine::Network& first = small_.front();
   if (large_count_ == 0) {
-    sampler_.cut_black(view, search_.canvas, first.input_shape().w, first.input());
+    cut(view, search_.canvas, first);
   } else {
     const LargeSize& last = large_[large_count_ - 1];
     shrink(last.picture, last.side, first.input(), first.input_shape().w, row_);
@@ -163,8 +167,7 @@ std::size_t MtcnnDetector::detect_in_tile(const ImageView& view, std::uint32_t t
     if (turn < tiles.count()) {
       const Square tile = tiles.square(turn);
       Search search = part({tile.center, tile.side, 0.0f});
-      engine::Network& first = small_.front();
-      sampler_.cut_black(view, search.canvas, first.input_shape().w, first.input());
+      cut(view, search.canvas, small_.front());
       scan_small_sizes(search, 0, 1);
       return finish(search, view, detections);
     }
@@ -178,11 +181,10 @@ std::size_t MtcnnDetector::detect_large(const ImageView& view, float roll,
   Search search = part(canvas_of(view, roll));
   engine::Network& first = small_.front();
   if (large_count_ == 0) {
-    sampler_.cut_black(view, search.canvas, first.input_shape().w, first.input());
+    cut(view, search.canvas, first);
   } else {
-    const std::int32_t side = medium_.input_shape().w;
-    sampler_.cut_black(view, search.canvas, side, medium_.input());
-    shrink(medium_.input(), side, first.input(), first.input_shape().w, row_);
+    cut(view, search.canvas, medium_);
+    shrink(medium_.input(), medium_.input_shape().w, first.input(), first.input_shape().w, row_);
     scan(search, medium_);
   }
   scan_small_sizes(search, 0, small_count_);
@@ -320,7 +322,7 @@ void MtcnnDetector::collect(const Search& search, const engine::Network& pnet, s
                              kWindow * pixels};
       const Square square = regressed(window, regression);
       if (is_usable(square)) {
-        best.offer({square, face[0], canvas.roll});
+        best.offer({square, face[0]});
       }
     }
   }
@@ -336,11 +338,11 @@ void MtcnnDetector::refine(Search& search, const ImageView& view, std::size_t co
 }
 
 bool MtcnnDetector::refine(const Crop& canvas, const ImageView& view, Detection& detection) {
-  sampler_.cut_black(view, to_image(canvas, detection.square), kRefineSide, rnet_.input());
+  cut(view, to_image(canvas, detection.square), rnet_);
   rnet_.run();
   const float score = rnet_.output(0)[0];
   const Square square = regressed(detection.square, rnet_.output(1).data());
-  detection = {square, score, canvas.roll};
+  detection = {square, score};
   return score >= refine_threshold_ && is_usable(square);
 }
 

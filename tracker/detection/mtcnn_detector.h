@@ -72,6 +72,8 @@ class MtcnnDetector final : public FaceDetector {
   void scan_band();
   // Those from `first` on; the very first has its picture.
   void scan_small_sizes(Search& search, std::size_t first, std::size_t end);
+  // Fills the square input of the network with the crop.
+  void cut(const ImageView& view, const Crop& crop, engine::Network& network) const;
   // Fills the input of the largest of the small sizes.
   void make_small_picture(const ImageView& view);
   [[nodiscard]] Search part(const Crop& canvas);

@@ -29,8 +29,8 @@ std::vector<float> signal(RandomValues& random, int n) {
   return values;
 }
 
-// The definition in double precision. A fast transform in fp32 has log2 n stages, each of which
-// rounds, and rounded factors; all errors are relative to sum|x|.
+// The definition in double precision. A fast transform in fp32 has log2 n stages that
+// round, and rounded factors; all errors are relative to sum|x|.
 Approx power(const std::vector<float>& x, int k) {
   const int n = static_cast<int>(x.size());
   std::complex<double> sum;

@@ -11,7 +11,7 @@ struct BenchOptions {
   std::string models;
   std::string clip;      // not empty: measure tracking of this video
   std::string levels;    // not empty: measure each level of detail on this video
-  int rounds = 30;       // with `levels`: repetitions per frame, of which the fastest counts
+  int rounds = 30;       // with `levels`: repetitions per frame; the fastest counts
   bool audio = false;    // measure audio processing
   bool unfused = false;  // run networks layer by layer
   bool layers = false;   // measure each layer or group of fused layers

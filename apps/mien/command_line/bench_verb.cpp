@@ -21,7 +21,7 @@ void add_bench(CLI::App& program) {
                      ->excludes(model)
                      ->excludes(clip);
   verb->add_option("--rounds", options->rounds,
-                   "with --levels: repetitions per frame, of which the fastest counts (default 30)")
+                   "with --levels: repetitions per frame; the fastest counts (default 30)")
       ->needs(levels)
       ->check(CLI::Range(1, 10'000))
       ->capture_default_str();
