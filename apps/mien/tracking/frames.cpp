@@ -110,15 +110,10 @@ std::string Frames::silence_note() const {
 
 MediaReport Frames::report() const {
   MediaReport report;
-  report.as_json = nlohmann::ordered_json::object();
   if (video_) {
-    const VideoInfo& info = video_->info();
     const Damage damage = video_->damage();
-    report.as_json["video"] = {{"width", info.width},
-                               {"height", info.height},
-                               {"pixel_aspect", info.pixel_aspect},
-                               {"rotation", info.rotation},
-                               {"decoding_errors", damage.complaints}};
+    report.video = video_->info();
+    report.video_decoding_errors = damage.complaints;
     if (damage.complaints > 0) {
       report.notes.push_back(damage_note(options_.input, "video", damage));
     }
@@ -128,10 +123,7 @@ MediaReport Frames::report() const {
   }
   if (sound_) {
     const Damage damage = sound_->damage();
-    report.as_json["audio"] = {{"track", options_.audio_track},
-                               {"tracks", audio_tracks()},
-                               {"peak", sound_->peak()},
-                               {"decoding_errors", damage.complaints}};
+    report.audio = {options_.audio_track, audio_tracks(), sound_->peak(), damage.complaints};
     if (damage.complaints > 0) {
       report.notes.push_back(damage_note(senses_.sound, "audio", damage));
     }

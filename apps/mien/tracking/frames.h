@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <memory>
 #include <mien/mien.hpp>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,11 +30,21 @@ struct Senses {
 // Very large numbers of seconds are clamped, so that they fit every count.
 [[nodiscard]] VideoRange range_of(const TrackOptions& options);
 
-// Notes about the input after reading it.
+// The decoded audio track.
+struct AudioInfo {
+  int track = 0;
+  std::size_t tracks = 0;  // of the input
+  float peak = 0;          // largest sample, 0..1
+  std::int64_t decoding_errors = 0;
+};
+
+// Notes about the input after reading it. It holds no JSON: destroying JSON allocates, and aborts the program when that fails.
 struct MediaReport {
   std::vector<std::string> notes;
-  std::string lost;                // a message about frames that could not be decoded; empty: none
-  nlohmann::ordered_json as_json;  // for --stats
+  std::string lost;  // a message about frames that could not be decoded; empty: none
+  std::optional<VideoInfo> video;
+  std::int64_t video_decoding_errors = 0;
+  std::optional<AudioInfo> audio;
 };
 
 class Frames {

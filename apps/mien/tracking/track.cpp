@@ -37,6 +37,24 @@ void add_times(StageTimes& times, const Result& result) {
   times.add("frame", static_cast<std::int64_t>(whole));
 }
 
+nlohmann::ordered_json json_of(const MediaReport& media) {
+  nlohmann::ordered_json input = nlohmann::ordered_json::object();
+  if (media.video) {
+    input["video"] = {{"width", media.video->width},
+                      {"height", media.video->height},
+                      {"pixel_aspect", media.video->pixel_aspect},
+                      {"rotation", media.video->rotation},
+                      {"decoding_errors", media.video_decoding_errors}};
+  }
+  if (media.audio) {
+    input["audio"] = {{"track", media.audio->track},
+                      {"tracks", media.audio->tracks},
+                      {"peak", media.audio->peak},
+                      {"decoding_errors", media.audio->decoding_errors}};
+  }
+  return input;
+}
+
 void write_stats(OutputFile& file, const Result& last, const StageTimes& times,
                  std::size_t tracker_bytes, const MediaReport& media) {
   nlohmann::ordered_json stats;
@@ -45,7 +63,7 @@ void write_stats(OutputFile& file, const Result& last, const StageTimes& times,
   stats["proposal_runs"] = last.proposal_runs;
   stats["encoder_runs"] = last.encoder_runs;
   stats["tracker_bytes"] = tracker_bytes;
-  stats["input"] = media.as_json;
+  stats["input"] = json_of(media);
   stats["stages"] = nlohmann::ordered_json::object();
   for (const auto& [stage, time] : times.summary()) {
     stats["stages"][stage] = {

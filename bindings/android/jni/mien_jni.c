@@ -126,11 +126,11 @@ NATIVE(jint, pushVideo)
  jintArray integers, jfloatArray floats, jlong time_ns) {
   mien_image image;
   jint integer[kIntegers];
-  jfloat camera[3];
+  jfloat real[4]; /* in the order of Image.floats */
   jbyte* pixels = NULL;
   (void)unused;
   (*env)->GetIntArrayRegion(env, integers, 0, kIntegers, integer);
-  (*env)->GetFloatArrayRegion(env, floats, 0, 3, camera);
+  (*env)->GetFloatArrayRegion(env, floats, 0, 4, real);
   mien_image_default(&image);
   image.format = integer[kFormat];
   image.width = integer[kWidth];
@@ -142,9 +142,10 @@ NATIVE(jint, pushVideo)
   image.full_range = integer[kFullRange];
   image.yuv_matrix = integer[kMatrix];
   memcpy(image.region, integer + kRegion, sizeof image.region);
-  image.focal_length_px = camera[0];
-  image.principal_x = camera[1];
-  image.principal_y = camera[2];
+  image.focal_length_px = real[0];
+  image.principal_x = real[1];
+  image.principal_y = real[2];
+  image.pixel_aspect = real[3];
   if (array == NULL) {
     image.planes[0] = place_of(env, plane0);
     image.planes[1] = place_of(env, plane1);

@@ -15,7 +15,7 @@ public final class Image {
     private int rotation;
     private boolean mirrored, videoRange, bt709;
     private int[] region = new int[4];
-    final float[] camera = new float[3];
+    final float[] floats = {0, 0, 0, 1};  // focal length, principal point, pixel aspect
 
     private Image(Format format, int width, int height, byte[] array, int chromaPixelStride) {
         this.format = format;
@@ -97,9 +97,15 @@ public final class Image {
 
     /** Focal length and principal point in pixels of the upright image; a principal point of 0, 0 means the centre. */
     public Image camera(float focalLengthPx, float principalX, float principalY) {
-        camera[0] = focalLengthPx;
-        camera[1] = principalX;
-        camera[2] = principalY;
+        floats[0] = focalLengthPx;
+        floats[1] = principalX;
+        floats[2] = principalY;
+        return this;
+    }
+
+    /** Width / height of a pixel of the buffer, 0.1 to 10: 4/3 for HDV of 1440 x 1080. Results are in square pixels: the upright image keeps its height. */
+    public Image pixelAspect(float widthOverHeight) {
+        floats[3] = widthOverHeight;
         return this;
     }
 

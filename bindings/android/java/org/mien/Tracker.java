@@ -50,7 +50,7 @@ public final class Tracker implements AutoCloseable {
     /** Tracks one image and returns the result of the face with the lowest id. timeNs: timestamp of the image, on any clock. */
     public synchronized FaceResult track(Image image, long timeNs) {
         MienException.check(Native.pushVideo(open(), image.planes[0], image.planes[1], image.planes[2], image.array, image.integers(),
-                image.camera, timeNs));
+                image.floats, timeNs));
         return result();
     }
 
