@@ -348,7 +348,7 @@ class Convert(unittest.TestCase):
 
     def test_gltf_with_external_data(self):
         os.makedirs(self.path("scene/parts"))
-        for uri, name in (("data.bin", "data.bin"), ("parts/my%20data.bin", "parts/my data.bin"), ("./parts/%e4%bd%a0.bin", "parts/\u4f60.bin")):
+        for uri, name in (("data.bin", "data.bin"), ("parts/my%20data.bin", "parts/my data.bin"), ("$41%.bin", "$41%.bin"), ("./parts/%e4%bd%a0.bin", "parts/\u4f60.bin")):
             document, data = self.gltf_document(uri)
             with open(self.path("scene/" + name), "wb") as file:
                 file.write(data + b"more")

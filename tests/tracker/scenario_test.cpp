@@ -68,6 +68,16 @@ TEST(Camera, FormatChangesDoNotInterruptTracking) {
   EXPECT_EQ(tracker.result().proposal_runs, 1u);
 }
 
+// A camera that switches between 640 x 480 and 320 x 240 shows the same face.
+TEST(Camera, ResolutionChangesKeepTheFacesId) {
+  BlobTracker tracker;
+  EXPECT_EQ(tracker.push_until_found(disc_picture(80, 60, 60)).face_id, 1u);
+  EXPECT_EQ(tracker.push_until_found(disc_picture(160, 120, 120, 640, 480)).face_id, 1u);
+  EXPECT_EQ(tracker.push_until_found(disc_picture(80, 60, 60)).face_id, 1u);
+  (void)tracker.push_until_found(disc_picture(160, 120, 120, 640, 480));
+  EXPECT_EQ(tracker.push_until_found(disc_picture(185, 60, 60)).face_id, 2u) << "too far away";
+}
+
 TEST(Camera, WhiteAndBlackFramesLoseTheFace) {
   for (const float diameter : {0.0f, 2000.0f}) {
     BlobTracker tracker;

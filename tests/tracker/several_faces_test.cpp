@@ -231,6 +231,14 @@ TEST(SeveralFaces, RejectsInvalidIndices) {
   EXPECT_EQ(mien_tracker_face_count(nullptr), 0);
 }
 
+TEST(Tiles, CoverAnAreaAnywhereInTheImage) {
+  const tracker::Tiles tiles({{100, 200}, 60, 40}, 40, 10);
+  ASSERT_EQ(tiles.count(), 2u);
+  EXPECT_EQ(tiles.square(0).center.x, 120);
+  EXPECT_EQ(tiles.square(1).center.x, 140);
+  EXPECT_EQ(tiles.square(1).center.y, 220);
+}
+
 TEST(Tiles, EveryWindowLiesWithinOneTile) {
   for (const auto& [width, height, side] :
        {std::tuple{160.0f, 90.0f, 57.0f}, {160.0f, 160.0f, 57.0f}, {40.0f, 90.0f, 57.0f}}) {

@@ -276,6 +276,33 @@ TEST_F(Trained, FaceIsUprightAndInFrontOfTheCamera) {
   }
 }
 
+// The image of `v` under a unit quaternion x, y, z, w.
+std::array<float, 3> rotated(const float (&q)[4], const std::array<float, 3>& v) {
+  const auto cross = [&](const std::array<float, 3>& a) {
+    return std::array<float, 3>{q[1] * a[2] - q[2] * a[1], q[2] * a[0] - q[0] * a[2],
+                                q[0] * a[1] - q[1] * a[0]};
+  };
+  const std::array<float, 3> once = cross(v), twice = cross(once);
+  return {v[0] + 2 * (q[3] * once[0] + twice[0]), v[1] + 2 * (q[3] * once[1] + twice[1]),
+          v[2] + 2 * (q[3] * once[2] + twice[2])};
+}
+
+TEST_F(Trained, AnglesAndQuaternionAreTheSameRotation) {
+  float largest[3] = {};
+  for (const Result& result : track(frames_)) {
+    const std::array<float, 3> forward = rotated(result.rotation, {0, 0, 1}),
+                               right = rotated(result.rotation, {1, 0, 0});
+    EXPECT_NEAR(std::asin(-forward[1]), result.pitch, 1e-3f);
+    EXPECT_NEAR(std::atan2(forward[0], forward[2]), result.yaw, 1e-3f);
+    EXPECT_NEAR(right[1] / std::cos(result.pitch), std::sin(result.roll), 1e-3f);
+    const float angles[3] = {result.pitch, result.yaw, result.roll};
+    for (int i = 0; i < 3; ++i) {
+      largest[i] = std::max(largest[i], std::abs(angles[i]));
+    }
+  }
+  EXPECT_GT(*std::min_element(largest, largest + 3), 0.01f) << "every angle moves";
+}
+
 TEST_F(Trained, MirroredClipGivesTheSameAnimation) {
   const std::vector<Result> plain = track(frames_);
   const std::vector<Result> mirrored = track(decode("hflip,"), true);

@@ -38,7 +38,8 @@ struct AudioInfo {
   std::int64_t decoding_errors = 0;
 };
 
-// Notes about the input after reading it. It holds no JSON: destroying JSON allocates, and aborts the program when that fails.
+// Notes about the input after reading it. It holds no JSON: destroying JSON allocates, and aborts
+// the program when that fails.
 struct MediaReport {
   std::vector<std::string> notes;
   std::string lost;  // a message about frames that could not be decoded; empty: none
