@@ -5,6 +5,7 @@
 #include <random>
 
 #include "engine/arena_plan.h"
+#include "formats/mien_writer.h"
 #include "tests/engine/mini_model.h"
 
 namespace mien::tests {
@@ -22,6 +23,22 @@ TEST(Session, TellsWhatIsWrong) {
   EXPECT_EQ(MiniSession("pnet", {31, 31, 4}).status, Status::kWrongInput);
   EXPECT_EQ(MiniSession("encoder", {}, 0).status, Status::kNoKernel);
   EXPECT_EQ(MiniSession("encoder").status, Status::kOk);
+}
+
+// At 5 x 5 the second window begins at 4. At 8 x 8 a third one would begin beyond the map.
+TEST(Session, RejectsSizesAtWhichAPoolingWindowIsEmpty) {
+  formats::MienWriter writer;
+  formats::NetworkWriter& network = writer.network("net", {5, 5, 8}, true);
+  formats::LayerOptions options;
+  options.stride_y = options.stride_x = 4;
+  options.ceil_mode = true;
+  network.output(network.max_pool(0, 2, 2, options));
+  std::vector<std::byte> file;
+  ASSERT_EQ(writer.finish(&file).status, formats::FileStatus::kOk);
+  EXPECT_EQ(OwnedSession(AlignedBuffer(file), "net", {5, 5, 8}).status, Status::kOk);
+  EXPECT_EQ(OwnedSession(AlignedBuffer(file), "net", {9, 9, 8}).status, Status::kOk);
+  EXPECT_EQ(OwnedSession(AlignedBuffer(file), "net", {8, 5, 8}).status, Status::kWrongInput);
+  EXPECT_EQ(OwnedSession(AlignedBuffer(file), "net", {5, 8, 8}).status, Status::kWrongInput);
 }
 
 TEST(Session, AsksForItsMemory) {

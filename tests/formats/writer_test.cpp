@@ -193,6 +193,11 @@ TEST(Writer, RejectsInvalidShapes) {
                         n.output(n.pointwise(0, Array{{3, 8}, {1}}, {}));
                       }),
             FileStatus::kBadTensor);
+  EXPECT_EQ(status_of(map,
+                      [&](Net& n) {
+                        n.output(n.pointwise(0, Array{{3, 8}, std::vector<float>(25)}, {}));
+                      }),
+            FileStatus::kBadTensor);
   EXPECT_EQ(status_of(map, [&](Net& n) { n.output(n.pointwise(0, Array{}, {})); }),
             FileStatus::kBadTensor);
   EXPECT_EQ(status_of(map, [&](Net& n) { n.output(n.add(0, 0, relu)); }),
