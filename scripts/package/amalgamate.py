@@ -89,36 +89,54 @@ INCLUDE = re.compile(r'^#include ([<"])([^>"]+)[>"]')
 
 
 class Text:
-    """Sources one behind the other, every header of ours in its place once, those of the system first."""
+    """Concatenated sources. Each of our headers appears in place once; unconditional system headers move to the front.
 
-    def __init__(self):
-        self.system, self.lines, self.seen = [], [], set()
+    An include under #if stays there, and so do the includes of the header that it names: `<cpuid.h>` exists on x86 only. Such a header
+    gets an include guard, because it may be needed again under another condition or under none.
+    """
 
-    def add(self, path, rename):
-        """The file at `path`, by `rename` (None: as it is), which is given each line of code."""
-        self.lines.append(f"// {path.relative_to(ROOT)}")
+    def __init__(self, root=ROOT):
+        self.root, self.system, self.lines = root, [], []
+        self.seen, self.guarded = set(), set()
+
+    def add(self, path, rename, conditional=False):
+        """Appends the file at `path`. `rename` (or None) maps each line of code."""
+        self.lines.append(f"// {path.relative_to(self.root)}")
         conditions = 0
         for line in path.read_text().splitlines():
-            conditions += line.startswith("#if")
-            conditions -= line.startswith("#endif")
+            conditions += bool(re.match(r"\s*#\s*if", line))
+            conditions -= bool(re.match(r"\s*#\s*endif", line))
             include = INCLUDE.match(line)
             if include:
-                self.include(line, *include.groups(), conditions > 0)
+                self.include(line, *include.groups(), conditional or conditions > 0)
             elif line != "#pragma once":
                 self.lines.append(rename(line) if rename else line)
 
     def include(self, line, kind, name, conditional):
         if name == "mien/mien.h":
-            return  # in front of all
+            return  # at the front of every file
         if kind == "<" and not name.startswith("mien/"):
             if conditional:
                 self.lines.append(line)
             elif line not in self.system:
                 self.system.append(line)
             return
-        path = ROOT / "include" / name if kind == "<" else ROOT / name
-        if path.suffix == ".inc" or path not in self.seen:  # a list is read wherever it is asked for
+        path = self.root / "include" / name if kind == "<" else self.root / name
+        if path.suffix == ".inc":  # a list is included wherever it is needed
+            self.add(path, None, conditional)
+        elif path not in self.seen:
+            self.add_header(path, conditional)
+
+    def add_header(self, path, conditional):
+        if not conditional:
             self.seen.add(path)
+        if conditional or path in self.guarded:
+            self.guarded.add(path)
+            guard = "MIEN_" + re.sub(r"\W", "_", str(path.relative_to(self.root))).upper()
+            self.lines += [f"#ifndef {guard}", f"#define {guard}"]
+            self.add(path, None, conditional)
+            self.lines.append(f"#endif  // {guard}")
+        else:
             self.add(path, None)
 
 
