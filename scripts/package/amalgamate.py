@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the whole library as mien.h, mien.cpp and one mien_TIER.cpp a tier, to be dropped into any project.
+"""Writes the whole library as mien.h, mien.hpp, mien.cpp and one mien_TIER.cpp a tier, to be dropped into any project.
 
 usage: scripts/package/amalgamate.py [-o FOLDER]      default: build/amalgamation
 
@@ -231,14 +231,22 @@ def tier_file(version, tier):
     return lines + ["#endif"]
 
 
+def headers():
+    """The public headers as mien/NAME, which find each other without an include path, and mien.h and mien.hpp, which include them."""
+    files = {}
+    for path in sorted((ROOT / "include/mien").iterdir()):
+        files[f"mien/{path.name}"] = re.sub(r"#include <mien/(.*)>", r'#include "\1"', path.read_text()).splitlines()
+    return files | {name: [f'#include "mien/{name}"'] for name in ("mien.h", "mien.hpp")}
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("-o", "--output", type=Path, default=ROOT / "build/amalgamation", metavar="FOLDER")
     folder = parser.parse_args().output
     version = re.search(r"^project\(mien VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text(), re.M)[1]
-    files = {"mien.h": (ROOT / "include/mien/mien.h").read_text().splitlines(), "mien.cpp": core_file(version)}
+    files = headers() | {"mien.cpp": core_file(version)}
     files |= {f"mien_{tier.name}.cpp": tier_file(version, tier) for tier in TIERS}
-    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "mien").mkdir(parents=True, exist_ok=True)
     for name, lines in files.items():
         (folder / name).write_text("\n".join(lines) + "\n")
     print(f"{folder}: {len(files)} files, {sum((folder / name).stat().st_size for name in files)} bytes")

@@ -2,7 +2,9 @@
 
 usage: amalgamate_test.py
 """
+import os
 import pathlib
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -74,6 +76,17 @@ class Library(unittest.TestCase):
                     if line in ("#include <cpuid.h>", "#include <sys/auxv.h>", "#include <immintrin.h>", "#include <arm_neon.h>",
                                 "#include <wasm_simd128.h>", "#include <xmmintrin.h>"):
                         self.assertTrue(stack, f"{path.name}: {line}")
+
+    def test_headers_are_found_with_and_without_an_include_path(self):
+        with tempfile.TemporaryDirectory() as folder:
+            sys.argv = ["amalgamate.py", "-o", folder + "/mien_sources"]
+            amalgamate.main()
+            for text, options in (('#include "mien_sources/mien.hpp"', []), ("#include <mien/mien.hpp>", ["-Imien_sources"]),
+                                  ("#include <mien/mien.h>\n#include <mien.h>", ["-Imien_sources"])):
+                app = text + "\nint main() { return mien_version_api() == MIEN_API_VERSION ? 0 : 1; }\n"
+                done = subprocess.run([os.environ.get("CXX", "c++"), "-std=c++20", "-fsyntax-only", *options, "-x", "c++", "-"],
+                                      input=app, text=True, capture_output=True, cwd=folder)
+                self.assertEqual((done.returncode, done.stderr), (0, ""), text)
 
 
 if __name__ == "__main__":
