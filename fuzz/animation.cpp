@@ -1,5 +1,5 @@
 // The bytes are an animated face: of the format that their content says, and of every other.
-#include "formats/animation/animation.h"
+#include "apps/animation/animation.h"
 
 #include <string_view>
 

@@ -1,6 +1,6 @@
 // Any cells into rows of any length: nothing is written beyond the buffer, and a row is whole or
 // nothing.
-#include "formats/csv_row.h"
+#include "apps/animation/csv_row.h"
 
 #include <string_view>
 #include <vector>

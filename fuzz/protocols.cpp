@@ -7,11 +7,11 @@
 #include <string_view>
 #include <vector>
 
-#include "formats/protocols/ifacialmocap.h"
-#include "formats/protocols/live_link.h"
-#include "formats/protocols/openseeface.h"
-#include "formats/protocols/opentrack.h"
-#include "formats/protocols/vmc.h"
+#include "apps/protocols/ifacialmocap.h"
+#include "apps/protocols/live_link.h"
+#include "apps/protocols/openseeface.h"
+#include "apps/protocols/opentrack.h"
+#include "apps/protocols/vmc.h"
 #include "fuzz/bytes.h"
 #include "fuzz/target.h"
 

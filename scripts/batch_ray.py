@@ -16,7 +16,7 @@ import subprocess
 import sys
 import time
 
-# As in apps/mien/tracking/batch.cpp and formats/animation/animation.h.
+# As in apps/mien/tracking/batch.cpp and apps/animation/animation.h.
 RECORDINGS = (".3gp .aac .avi .flac .flv .m4a .m4v .mkv .mov .mp3 .mp4 .mpeg .mpg .mts .oga .ogg .ogv .opus .ts .wav .webm .wma .wmv "
               ".y4m").split()
 ENDINGS = {"csv": ".csv", "jsonl": ".jsonl", "llf": ".llf.csv", "gltf": ".gltf", "glb": ".glb", "bvh": ".bvh", "roblox": ".roblox.csv",

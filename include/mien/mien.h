@@ -208,7 +208,7 @@ MIEN_API const char* mien_vocabulary_name(int32_t vocabulary, int32_t index);
  *  A name without left and right gets the mean of both sides; vocabulary_tables.h has all rules.
  *  The conversion is exact for MediaPipe and nearly exact for Roblox; vowels and emotions of VRM
  *  are approximations. Visemes are the mixture of mouth poses that is closest to the mouth
- *  (formats/animation/visemes.h), as in `mien track --format visemes`; their sum is 1. Names
+ *  (formats/vocabulary/visemes.h), as in `mien track --format visemes`; their sum is 1. Names
  *  without a corresponding control (FlatPucker, TongueUp, TongueDown, Fun, relaxed) are 0.
  *
  *  @param      vocabulary  mien_vocabulary

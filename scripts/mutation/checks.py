@@ -37,8 +37,8 @@ PROTOCOLS = Check("protocol_packets", "tests/formats/protocol_packets", "tests/f
 
 # By folder, the longest name that fits; the nearest tests first.
 PLAN = {
-    "formats/protocols": [PROTOCOLS],
-    "formats/animation": [FORMATS, CONVERT, COMPARE],
+    "apps/protocols": [PROTOCOLS],
+    "apps/animation": [FORMATS, CONVERT, COMPARE],
     "formats": [FORMATS, CONVERT, *ENGINE, *API],
     "engine": [*ENGINE, *API, AUDIO, GEOMETRY, TRACKER, *OF_TRACKERS],
     "audio": [AUDIO, TRACKER, *OF_TRACKERS],

@@ -10,7 +10,7 @@ from universalmutator import mutator
 
 from .plausible import Filter
 
-FOLDERS = ("tracker", "audio", "engine", "formats")
+FOLDERS = ("tracker", "audio", "engine", "formats", "apps/animation", "apps/protocols")
 RULES = ["universal.rules", "c_like.rules", "cpp.rules"]
 
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "formats/animation/visemes.h"
+#include "formats/vocabulary/visemes.h"
 
 namespace mien::tests {
 namespace {

@@ -65,7 +65,7 @@ class BatchRay(unittest.TestCase):
         with open(os.path.join(ROOT, "apps/mien/tracking/batch.cpp")) as file:
             source = file.read()
         self.assertEqual(re.findall(r'"(\.\w+)"', source[source.index("kRecordings"):source.index("};")]), batch_ray.RECORDINGS)
-        with open(os.path.join(ROOT, "formats/animation/animation.h")) as file:
+        with open(os.path.join(ROOT, "apps/animation/animation.h")) as file:
             self.assertEqual(dict(re.findall(r'\{AnimationFormat::\w+, "([\w-]+)", "([.\w]+)"', file.read())), batch_ray.ENDINGS)
 
     def test_finished_files_are_skipped(self):

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "apps/animation/mirror.h"
 #include "apps/mien/live/easing.h"
 #include "apps/mien/senders/destination.h"
 #include "apps/mien/sources/device_lists.h"
@@ -11,7 +12,6 @@
 #include "apps/mien/system/failure.h"
 #include "apps/mien/system/socket_calls.h"
 #include "apps/mien/system/udp_socket.h"
-#include "formats/animation/mirror.h"
 
 namespace mien::app {
 namespace {

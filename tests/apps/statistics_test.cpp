@@ -6,9 +6,9 @@
 #include <numbers>
 #include <vector>
 
+#include "apps/animation/base64.h"
 #include "apps/mien/compare/page.h"
 #include "apps/mien/compare/statistics.h"
-#include "formats/animation/base64.h"
 
 namespace mien::tests {
 namespace {

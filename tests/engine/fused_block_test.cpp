@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "engine/fused_block.h"
 #include "kernels/families.h"
 #include "kernels/registry.h"
 #include "tests/engine/twin_session.h"
@@ -97,6 +98,30 @@ TEST(FusedBlocks, TakeFewerStepsAndLessMemory) {
     EXPECT_LT(fused.session->step_count(), plain.session->step_count());
     EXPECT_LT(fused.size.arena_bytes, plain.size.arena_bytes);
   }
+}
+
+// Tiles of a 3 x 3 depthwise layer with one row and column of padding around the map.
+engine::BlockTiling tiling_of(engine::Shape hidden, std::uint16_t stride) {
+  formats::LayerRecord depthwise{};
+  depthwise.kernel_height = depthwise.kernel_width = 3;
+  depthwise.stride_height = depthwise.stride_width = stride;
+  depthwise.pad_top = depthwise.pad_left = depthwise.pad_bottom = depthwise.pad_right = 1;
+  const engine::Shape output = {(hidden.h - 1) / stride + 1, (hidden.w - 1) / stride + 1, hidden.c};
+  return engine::tile_block(depthwise, hidden, output, 0);
+}
+
+TEST(FusedBlocks, TilesCoverSmallMapsAndFitTheCachesOtherwise) {
+  const engine::BlockTiling whole = tiling_of({4, 4, 32}, 1);
+  EXPECT_EQ(whole.band_rows, 4);
+  EXPECT_EQ(whole.strip_rows, 6) << "no higher than the band needs";
+  const engine::BlockTiling parts = tiling_of({56, 56, 96}, 2);
+  EXPECT_EQ(parts.band_rows, 24);
+  EXPECT_LE(parts.band_elems * sizeof(float), 256u * 1024);
+  EXPECT_EQ(parts.strip_rows, 5);
+  EXPECT_LE(parts.strip_elems * sizeof(float), 36u * 1024);
+  EXPECT_EQ(tiling_of({2, 3, 96}, 1).strip_channels, 64);
+  EXPECT_EQ(tiling_of({3, 3, 96}, 1).strip_channels, 48);
+  EXPECT_EQ(tiling_of({2, 5, 96}, 1).strip_channels, 32);
 }
 
 TEST(FusedBlocks, EveryLayerIsInOneStep) {

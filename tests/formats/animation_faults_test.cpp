@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "formats/animation/animation.h"
-#include "formats/animation/base64.h"
-#include "formats/animation/json.h"
-#include "formats/animation/xml.h"
+#include "apps/animation/animation.h"
+#include "apps/animation/base64.h"
+#include "apps/animation/json.h"
+#include "apps/animation/xml.h"
 
 namespace mien::formats {
 namespace {

@@ -1,6 +1,6 @@
 // Tests of properties that all animation formats share: readers survive any input, errors have a
 // position, and derived values are consistent.
-#include "formats/animation/animation.h"
+#include "apps/animation/animation.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,14 +10,14 @@
 #include <random>
 #include <string>
 
-#include "formats/animation/base64.h"
-#include "formats/animation/facs_map.h"
-#include "formats/animation/frames_jsonl.h"
-#include "formats/animation/json.h"
-#include "formats/animation/numbers.h"
-#include "formats/animation/resample.h"
-#include "formats/animation/rotation.h"
-#include "formats/animation/visemes.h"
+#include "apps/animation/base64.h"
+#include "apps/animation/facs_map.h"
+#include "apps/animation/frames_jsonl.h"
+#include "apps/animation/json.h"
+#include "apps/animation/numbers.h"
+#include "apps/animation/resample.h"
+#include "apps/animation/rotation.h"
+#include "formats/vocabulary/visemes.h"
 
 namespace mien::formats {
 namespace {

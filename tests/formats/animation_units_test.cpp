@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "formats/animation/animation.h"
-#include "formats/animation/live_link_units.h"
-#include "formats/animation/numbers.h"
+#include "apps/animation/animation.h"
+#include "apps/animation/live_link_units.h"
+#include "apps/animation/numbers.h"
 
 namespace mien::formats {
 namespace {

@@ -1,5 +1,5 @@
 // Tests of animation times far from 0.
-#include "formats/animation/clip.h"
+#include "apps/animation/clip.h"
 
 #include <gtest/gtest.h>
 

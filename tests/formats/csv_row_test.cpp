@@ -1,5 +1,5 @@
 // Tests of CSV rows.
-#include "formats/csv_row.h"
+#include "apps/animation/csv_row.h"
 
 #include <gtest/gtest.h>
 

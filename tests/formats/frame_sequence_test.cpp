@@ -1,5 +1,5 @@
 // Tests of the compressed frame sequence.
-#include "formats/animation/frame_sequence.h"
+#include "apps/animation/frame_sequence.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,8 +10,8 @@
 #include <random>
 #include <vector>
 
-#include "formats/animation/facs_map.h"
-#include "formats/animation/visemes.h"
+#include "apps/animation/facs_map.h"
+#include "formats/vocabulary/visemes.h"
 
 namespace mien::formats {
 namespace {

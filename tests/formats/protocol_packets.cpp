@@ -9,14 +9,14 @@
 #include <string>
 #include <vector>
 
-#include "formats/animation/fault.h"
-#include "formats/animation/frames_jsonl.h"
-#include "formats/protocols/bytes.h"
-#include "formats/protocols/ifacialmocap.h"
-#include "formats/protocols/live_link.h"
-#include "formats/protocols/openseeface.h"
-#include "formats/protocols/opentrack.h"
-#include "formats/protocols/vmc.h"
+#include "apps/animation/fault.h"
+#include "apps/animation/frames_jsonl.h"
+#include "apps/protocols/bytes.h"
+#include "apps/protocols/ifacialmocap.h"
+#include "apps/protocols/live_link.h"
+#include "apps/protocols/openseeface.h"
+#include "apps/protocols/opentrack.h"
+#include "apps/protocols/vmc.h"
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "formats/animation/rhubarb.h"
+#include "apps/animation/rhubarb.h"
 
 namespace mien::formats {
 namespace {

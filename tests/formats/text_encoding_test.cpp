@@ -1,5 +1,5 @@
 // Tests of Unicode encodings and JSON escapes.
-#include "formats/animation/text_encoding.h"
+#include "apps/animation/text_encoding.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "formats/animation/fault.h"
-#include "formats/animation/json_text.h"
+#include "apps/animation/fault.h"
+#include "apps/animation/json_text.h"
 
 namespace mien::formats {
 namespace {

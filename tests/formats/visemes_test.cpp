@@ -1,5 +1,5 @@
 // The mouths that visemes stand for, and the visemes and mouth shapes of a mouth.
-#include "formats/animation/visemes.h"
+#include "formats/vocabulary/visemes.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Tests of XML tags and the positions of errors.
-#include "formats/animation/xml.h"
+#include "apps/animation/xml.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "formats/animation/fault.h"
+#include "apps/animation/fault.h"
 
 namespace mien::formats {
 namespace {

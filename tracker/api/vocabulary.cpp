@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <span>
 
-#include "formats/animation/visemes.h"
+#include "formats/vocabulary/visemes.h"
 #include "kernels/float_mode.h"
 #include "tracker/api/vocabulary_tables.h"
 

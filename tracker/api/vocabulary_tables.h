@@ -1,7 +1,7 @@
 // Other vocabularies as rows: a name, and how it is computed from the 52 controls. Names come from
-// formats/animation/vocabulary.h, and Roblox's rows from facs_rows.h, as in the file formats. Where
-// a standard does not define the conversion, the rows are the project's choice. Visemes are
-// mixtures instead of rows: formats/animation/visemes.h.
+// formats/vocabulary/vocabulary.h, and Roblox's rows from facs_rows.h, as in the file formats.
+// Where a standard does not define the conversion, the rows are the project's choice. Visemes are
+// mixtures instead of rows: formats/vocabulary/visemes.h.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 #include <span>
 #include <string_view>
 
-#include "formats/animation/facs_rows.h"
+#include "formats/vocabulary/facs_rows.h"
 #include "tracker/decoders/controls.h"
 
 namespace mien::tracker {

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <string_view>
 
-#include "formats/animation/vocabulary.h"
+#include "formats/vocabulary/vocabulary.h"
 
 namespace mien::tracker {
 

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "formats/animation/animation.h"
+#include "apps/animation/animation.h"
 
 namespace mien::app {
 

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "apps/animation/base64.h"
 #include "apps/mien/compare/differences_json.h"
 #include "apps/mien/pages/page_sources.h"
 #include "apps/mien/pages/page_text.h"
-#include "formats/animation/base64.h"
 
 namespace mien::app {
 namespace {

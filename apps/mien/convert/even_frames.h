@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "formats/animation/resample.h"
+#include "apps/animation/resample.h"
 
 namespace mien::app {
 

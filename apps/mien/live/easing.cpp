@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "formats/animation/rotation.h"
+#include "apps/animation/rotation.h"
 
 namespace mien::app {
 namespace {

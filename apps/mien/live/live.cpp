@@ -10,6 +10,7 @@
 #include <mien/mien.hpp>
 #include <nlohmann/json.hpp>
 
+#include "apps/animation/mirror.h"
 #include "apps/mien/live/camera.h"
 #include "apps/mien/live/easing.h"
 #include "apps/mien/live/microphone.h"
@@ -28,7 +29,6 @@
 #include "apps/mien/system/shown.h"
 #include "apps/mien/system/terminal.h"
 #include "apps/mien/tracking/loaded_tracker.h"
-#include "formats/animation/mirror.h"
 
 namespace mien::app {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <mien/mien.hpp>
 
-#include "formats/protocols/openseeface.h"
+#include "apps/protocols/openseeface.h"
 
 namespace mien::app {
 

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <string_view>
 
-#include "formats/animation/numbers.h"
+#include "apps/animation/numbers.h"
 
 namespace mien::app {
 namespace {

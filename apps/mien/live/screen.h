@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/animation/clip.h"
 #include "apps/mien/live/statistics.h"
-#include "formats/animation/clip.h"
 
 namespace mien::app {
 

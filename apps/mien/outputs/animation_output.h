@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/animation/animation.h"
 #include "apps/mien/outputs/output_file.h"
-#include "formats/animation/animation.h"
 
 namespace mien::app {
 

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "formats/csv_row.h"
+#include "apps/animation/csv_row.h"
 
 namespace mien::app {
 namespace {

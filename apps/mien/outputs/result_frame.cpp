@@ -1,7 +1,7 @@
 // Converts results to animation frames.
 #include "apps/mien/outputs/result_frame.h"
 
-#include "formats/animation/numbers.h"
+#include "apps/animation/numbers.h"
 
 namespace mien::app {
 namespace {

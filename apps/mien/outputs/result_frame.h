@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <mien/mien.hpp>
 
-#include "formats/animation/clip.h"
+#include "apps/animation/clip.h"
 
 namespace mien::app {
 

@@ -7,7 +7,7 @@
 #include <array>
 #include <new>
 
-#include "formats/animation/base64.h"
+#include "apps/animation/base64.h"
 
 namespace mien::app {
 

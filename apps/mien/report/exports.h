@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "formats/animation/animation.h"
+#include "apps/animation/animation.h"
 
 namespace mien::app {
 

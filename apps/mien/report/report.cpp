@@ -5,13 +5,13 @@
 #include <cmath>
 #include <numeric>
 
+#include "apps/animation/base64.h"
 #include "apps/mien/pages/packed_text.h"
 #include "apps/mien/pages/page_sources.h"
 #include "apps/mien/pages/page_text.h"
 #include "apps/mien/pages/web_video.h"
 #include "apps/mien/report/exports.h"
 #include "apps/mien/system/paths.h"
-#include "formats/animation/base64.h"
 
 namespace mien::app {
 namespace {

@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
+#include "apps/animation/animation.h"
 #include "apps/mien/outputs/output_file.h"
 #include "apps/mien/report/columns.h"
 #include "apps/mien/report/waveform.h"
 #include "apps/mien/tracking/stage_times.h"
-#include "formats/animation/animation.h"
 
 namespace mien::app {
 

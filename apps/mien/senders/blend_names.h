@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "apps/mien/senders/destination.h"
-#include "formats/protocols/vmc.h"
+#include "apps/protocols/vmc.h"
 
 namespace mien::app {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "apps/mien/system/udp_socket.h"
-#include "formats/protocols/ifacialmocap.h"
+#include "apps/protocols/ifacialmocap.h"
 
 namespace mien::app {
 namespace {

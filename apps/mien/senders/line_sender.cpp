@@ -1,9 +1,9 @@
 // Sends JSON lines.
 #include "apps/mien/senders/line_sender.h"
 
+#include "apps/animation/frames_jsonl.h"
 #include "apps/mien/outputs/output_file.h"
 #include "apps/mien/system/standard_streams.h"
-#include "formats/animation/frames_jsonl.h"
 
 namespace mien::app {
 namespace {

@@ -4,12 +4,12 @@
 #include <utility>
 #include <vector>
 
+#include "apps/animation/frames_jsonl.h"
 #include "apps/mien/senders/blend_names.h"
 #include "apps/mien/system/udp_socket.h"
-#include "formats/animation/frames_jsonl.h"
-#include "formats/protocols/live_link.h"
-#include "formats/protocols/opentrack.h"
-#include "formats/protocols/vmc.h"
+#include "apps/protocols/live_link.h"
+#include "apps/protocols/opentrack.h"
+#include "apps/protocols/vmc.h"
 
 namespace mien::app {
 namespace {

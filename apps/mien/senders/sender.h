@@ -6,8 +6,8 @@
 #include <memory>
 #include <string>
 
-#include "formats/animation/clip.h"
-#include "formats/protocols/openseeface.h"
+#include "apps/animation/clip.h"
+#include "apps/protocols/openseeface.h"
 
 namespace mien::app {
 

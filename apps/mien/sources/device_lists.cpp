@@ -7,7 +7,7 @@
 #include <iterator>
 #include <optional>
 
-#include "formats/animation/numbers.h"
+#include "apps/animation/numbers.h"
 
 namespace mien::app {
 namespace {

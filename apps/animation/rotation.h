@@ -1,0 +1,31 @@
+// Rotations between the ways in which formats write them.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "apps/animation/clip.h"
+
+namespace mien::formats {
+
+using Quaternion = std::array<double, 4>;  // x, y, z, w; unit length
+
+[[nodiscard]] Quaternion quaternion(const Angles& angles);
+
+// Pitch in -pi/2..pi/2, the others in -pi..pi; roll is 0 where yaw and roll are one (pitch of 90
+// degrees). The quaternion need not have unit length, but must not be 0.
+[[nodiscard]] Angles angles(const Quaternion& q);
+
+// First b, then a.
+[[nodiscard]] Quaternion product(const Quaternion& a, const Quaternion& b);
+
+// The shorter way from a to b, share 0..1 of it.
+[[nodiscard]] Angles between(const Angles& a, const Angles& b, double share);
+
+// Where the eyes look as the controls say, left and right; nothing unless one of the eight is
+// driven. 1 is 0.485 rad, as in a Live Link Face capture: eyeLookDown 0.39 with an eye pitch of
+// -0.189.
+[[nodiscard]] std::optional<std::array<Angles, 2>> gaze(
+    const std::array<double, kControlCount>& controls);
+
+}  // namespace mien::formats

@@ -1,0 +1,23 @@
+// Packets of Live Link Face, version 6: UDP port 11111, big-endian. Epic does not document them;
+// the layout follows captured packets.
+#pragma once
+
+#include <string>
+
+#include "apps/animation/clip.h"
+#include "apps/animation/live_link_csv.h"
+
+namespace mien::formats {
+
+struct LiveLinkSubject {
+  std::string device_id;  // 36 characters, a UUID
+  std::string name;       // displayed by Unreal, UTF-8
+  RotationUnit rotation = RotationUnit::kRadians;
+};
+
+// `time_s` is the time of day; the packet contains it as a 32-bit frame number at 60 per second. A
+// blank frame has count 0.
+[[nodiscard]] std::string live_link_packet(const Frame& frame, const LiveLinkSubject& subject,
+                                           double time_s);
+
+}  // namespace mien::formats

@@ -1,0 +1,23 @@
+// Writes opentrack packets.
+#include "apps/protocols/opentrack.h"
+
+#include <numbers>
+
+#include "apps/protocols/bytes.h"
+
+namespace mien::formats {
+
+std::string opentrack_packet(const Frame& frame) {
+  constexpr double kCentimetres = 100.0, kDegrees = 180.0 / std::numbers::pi;
+  std::string packet;
+  for (const double metres : frame.position_m.value_or(std::array<double, 3>{})) {
+    append_little_double(packet, kCentimetres * metres);
+  }
+  const Angles head = frame.head.value_or(Angles());
+  for (const double angle : {head.yaw, head.pitch, head.roll}) {
+    append_little_double(packet, kDegrees * angle);
+  }
+  return packet;
+}
+
+}  // namespace mien::formats
