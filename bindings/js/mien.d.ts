@@ -8,6 +8,23 @@ export type Bytes = ArrayBuffer | ArrayBufferView;
 /** Nanoseconds on one clock for images and audio. */
 export type Nanoseconds = bigint | number;
 
+/** ARKit's names of the controls. */
+export type ControlName =
+  | 'eyeBlinkLeft' | 'eyeLookDownLeft' | 'eyeLookInLeft' | 'eyeLookOutLeft' | 'eyeLookUpLeft' | 'eyeSquintLeft' | 'eyeWideLeft'
+  | 'eyeBlinkRight' | 'eyeLookDownRight' | 'eyeLookInRight' | 'eyeLookOutRight' | 'eyeLookUpRight' | 'eyeSquintRight' | 'eyeWideRight'
+  | 'jawForward' | 'jawLeft' | 'jawRight' | 'jawOpen' | 'mouthClose' | 'mouthFunnel' | 'mouthPucker' | 'mouthLeft' | 'mouthRight'
+  | 'mouthSmileLeft' | 'mouthSmileRight' | 'mouthFrownLeft' | 'mouthFrownRight' | 'mouthDimpleLeft' | 'mouthDimpleRight' | 'mouthStretchLeft'
+  | 'mouthStretchRight' | 'mouthRollLower' | 'mouthRollUpper' | 'mouthShrugLower' | 'mouthShrugUpper' | 'mouthPressLeft' | 'mouthPressRight'
+  | 'mouthLowerDownLeft' | 'mouthLowerDownRight' | 'mouthUpperUpLeft' | 'mouthUpperUpRight' | 'browDownLeft' | 'browDownRight' | 'browInnerUp'
+  | 'browOuterUpLeft' | 'browOuterUpRight' | 'cheekPuff' | 'cheekSquintLeft' | 'cheekSquintRight' | 'noseSneerLeft' | 'noseSneerRight'
+  | 'tongueOut';
+
+/** Groups of landmarks; mien_landmark_group of mien.h describes them. */
+export type LandmarkGroupName =
+  | 'right_eye_lower' | 'left_eye_lower' | 'right_eye_upper' | 'left_eye_upper' | 'right_iris' | 'left_iris' | 'right_brow_upper'
+  | 'left_brow_upper' | 'right_brow_lower' | 'left_brow_lower' | 'right_nose_side' | 'left_nose_side' | 'right_cheek' | 'left_cheek'
+  | 'nose_bridge' | 'midline' | 'lips_outer_upper' | 'lips_outer_lower' | 'lips_inner_upper' | 'lips_inner_lower' | 'face_oval';
+
 /** The error of all functions; `status` is the mien_status, if the error has one. */
 export class MienError extends Error {
   readonly status?: number;
@@ -86,7 +103,7 @@ export interface Result {
   roll: number;
   /** Metres. */
   translation: Float32Array;
-  /** 52, each 0..1, in the order of Mien.controlNames. */
+  /** 52, each 0..1, in the order of Mien.controlNames: controls[mien.control.jawOpen]. */
   controls: Float32Array;
   /** x, y of 175 points in pixels of the upright image. */
   landmarks: Float32Array;
@@ -109,7 +126,7 @@ export class Tracker {
   getFace(index: number): Result;
   setLod(lod: LevelOfDetail): void;
   setAudioOffset(offsetNs: Nanoseconds): void;
-  setMix(control: string | number, audioWeight: number, videoWeight: number): void;
+  setMix(control: ControlName | number, audioWeight: number, videoWeight: number): void;
   captureNeutral(): void;
   saveNeutral(): {file: Uint8Array; captured: number};
   loadNeutral(file: Bytes): void;
@@ -143,7 +160,11 @@ export class Network {
 export class Mien {
   private constructor();
   readonly version: string;
-  readonly controlNames: string[];
+  readonly controlNames: ControlName[];
+  /** Index of each control: controls[mien.control.jawOpen]. */
+  readonly control: Readonly<Record<ControlName, number>>;
+  /** Index of each group's first landmark, and number of its landmarks. */
+  readonly landmarkGroups: Readonly<Record<LandmarkGroupName, {readonly first: number; readonly count: number}>>;
   readonly stageNames: StageName[];
   readonly landmarkCount: number;
   createTracker(config: TrackerConfig): Tracker;

@@ -45,8 +45,21 @@ export class Mien {
     const names = (count, of) => Array.from({length: count}, (_, i) => this.text(of(i)));
     this.version = this.text(exports.mien_version());
     this.controlNames = names(exports.mien_control_count(), exports.mien_control_name);
+    this.control = Object.freeze(Object.fromEntries(this.controlNames.map((name, i) => [name, i])));
+    this.landmarkGroups = Object.freeze(Object.fromEntries(this.readLandmarkGroups()));
     this.stageNames = names(6, exports.mien_stage_name);
     this.landmarkCount = exports.mien_landmark_count();
+  }
+
+  // [name, {first, count}] of each group.
+  readLandmarkGroups() {
+    const groups = [], first = this.allocate(4);
+    for (let group = 0, name; (name = this.text(this.exports.mien_landmark_group_name(group))) !== null; ++group) {
+      const count = this.exports.mien_landmark_group_range(group, first);
+      groups.push([name, Object.freeze({first: new DataView(this.memory.buffer).getInt32(first, true), count})]);
+    }
+    this.release(first);
+    return groups;
   }
 
   checkLayout(name) {

@@ -171,8 +171,65 @@ MIEN_API const char* mien_cpu_tier_name(uint32_t tier);
 
 /* Names ---------------------------------------------------------------------------------------- */
 
-/** ARKit name of a control in lowerCamelCase, in the order of Apple's Live Link wire format.
- *  @param control  0..MIEN_CONTROL_COUNT - 1
+/** Controls: indices into mien_result.controls, and bits of mien_result.supported_controls. ARKit's
+ *  blendshapes in the order of Apple's Live Link wire format; left and right are the subject's. */
+typedef enum mien_control {
+  MIEN_CONTROL_EYE_BLINK_LEFT = 0,
+  MIEN_CONTROL_EYE_LOOK_DOWN_LEFT = 1,
+  MIEN_CONTROL_EYE_LOOK_IN_LEFT = 2,
+  MIEN_CONTROL_EYE_LOOK_OUT_LEFT = 3,
+  MIEN_CONTROL_EYE_LOOK_UP_LEFT = 4,
+  MIEN_CONTROL_EYE_SQUINT_LEFT = 5,
+  MIEN_CONTROL_EYE_WIDE_LEFT = 6,
+  MIEN_CONTROL_EYE_BLINK_RIGHT = 7,
+  MIEN_CONTROL_EYE_LOOK_DOWN_RIGHT = 8,
+  MIEN_CONTROL_EYE_LOOK_IN_RIGHT = 9,
+  MIEN_CONTROL_EYE_LOOK_OUT_RIGHT = 10,
+  MIEN_CONTROL_EYE_LOOK_UP_RIGHT = 11,
+  MIEN_CONTROL_EYE_SQUINT_RIGHT = 12,
+  MIEN_CONTROL_EYE_WIDE_RIGHT = 13,
+  MIEN_CONTROL_JAW_FORWARD = 14,
+  MIEN_CONTROL_JAW_LEFT = 15,
+  MIEN_CONTROL_JAW_RIGHT = 16,
+  MIEN_CONTROL_JAW_OPEN = 17,
+  MIEN_CONTROL_MOUTH_CLOSE = 18,
+  MIEN_CONTROL_MOUTH_FUNNEL = 19,
+  MIEN_CONTROL_MOUTH_PUCKER = 20,
+  MIEN_CONTROL_MOUTH_LEFT = 21,
+  MIEN_CONTROL_MOUTH_RIGHT = 22,
+  MIEN_CONTROL_MOUTH_SMILE_LEFT = 23,
+  MIEN_CONTROL_MOUTH_SMILE_RIGHT = 24,
+  MIEN_CONTROL_MOUTH_FROWN_LEFT = 25,
+  MIEN_CONTROL_MOUTH_FROWN_RIGHT = 26,
+  MIEN_CONTROL_MOUTH_DIMPLE_LEFT = 27,
+  MIEN_CONTROL_MOUTH_DIMPLE_RIGHT = 28,
+  MIEN_CONTROL_MOUTH_STRETCH_LEFT = 29,
+  MIEN_CONTROL_MOUTH_STRETCH_RIGHT = 30,
+  MIEN_CONTROL_MOUTH_ROLL_LOWER = 31,
+  MIEN_CONTROL_MOUTH_ROLL_UPPER = 32,
+  MIEN_CONTROL_MOUTH_SHRUG_LOWER = 33,
+  MIEN_CONTROL_MOUTH_SHRUG_UPPER = 34,
+  MIEN_CONTROL_MOUTH_PRESS_LEFT = 35,
+  MIEN_CONTROL_MOUTH_PRESS_RIGHT = 36,
+  MIEN_CONTROL_MOUTH_LOWER_DOWN_LEFT = 37,
+  MIEN_CONTROL_MOUTH_LOWER_DOWN_RIGHT = 38,
+  MIEN_CONTROL_MOUTH_UPPER_UP_LEFT = 39,
+  MIEN_CONTROL_MOUTH_UPPER_UP_RIGHT = 40,
+  MIEN_CONTROL_BROW_DOWN_LEFT = 41,
+  MIEN_CONTROL_BROW_DOWN_RIGHT = 42,
+  MIEN_CONTROL_BROW_INNER_UP = 43,
+  MIEN_CONTROL_BROW_OUTER_UP_LEFT = 44,
+  MIEN_CONTROL_BROW_OUTER_UP_RIGHT = 45,
+  MIEN_CONTROL_CHEEK_PUFF = 46,
+  MIEN_CONTROL_CHEEK_SQUINT_LEFT = 47,
+  MIEN_CONTROL_CHEEK_SQUINT_RIGHT = 48,
+  MIEN_CONTROL_NOSE_SNEER_LEFT = 49,
+  MIEN_CONTROL_NOSE_SNEER_RIGHT = 50,
+  MIEN_CONTROL_TONGUE_OUT = 51
+} mien_control;
+
+/** ARKit name of a control, in lowerCamelCase.
+ *  @param control  mien_control
  *  @return static string ("eyeBlinkLeft" .. "tongueOut"); NULL outside the range */
 MIEN_API const char* mien_control_name(int32_t control);
 
@@ -231,6 +288,50 @@ MIEN_API uint64_t mien_vocabulary_supported(int32_t vocabulary, uint64_t support
 MIEN_API int32_t mien_control_count(void);
 /** Number of landmarks of the library. @return MIEN_LANDMARK_COUNT at its build time */
 MIEN_API int32_t mien_landmark_count(void);
+
+/** Groups of landmarks. Each is a range of indices into mien_result.landmarks, in the order of
+ *  models/landmarks.json; together they are all landmarks. Left and right are the subject's. */
+typedef enum mien_landmark_group {
+  /** 9: outer to inner corner along the lower lid, with both corners */
+  MIEN_LANDMARKS_RIGHT_EYE_LOWER = 0,
+  MIEN_LANDMARKS_LEFT_EYE_LOWER = 1,   /**< 9 */
+  MIEN_LANDMARKS_RIGHT_EYE_UPPER = 2,  /**< 7: the upper lid between the corners, outer to inner */
+  MIEN_LANDMARKS_LEFT_EYE_UPPER = 3,   /**< 7 */
+  MIEN_LANDMARKS_RIGHT_IRIS = 4,       /**< 5: centre, nasal, top, temporal, bottom */
+  MIEN_LANDMARKS_LEFT_IRIS = 5,        /**< 5 */
+  MIEN_LANDMARKS_RIGHT_BROW_UPPER = 6, /**< 5: upper edge, outer to inner */
+  MIEN_LANDMARKS_LEFT_BROW_UPPER = 7,  /**< 5 */
+  MIEN_LANDMARKS_RIGHT_BROW_LOWER = 8, /**< 5: lower edge, outer to inner */
+  MIEN_LANDMARKS_LEFT_BROW_LOWER = 9,  /**< 5 */
+  MIEN_LANDMARKS_RIGHT_NOSE_SIDE = 10, /**< 8: nostril and side of the nose */
+  MIEN_LANDMARKS_LEFT_NOSE_SIDE = 11,  /**< 8 */
+  MIEN_LANDMARKS_RIGHT_CHEEK = 12,     /**< 5 */
+  MIEN_LANDMARKS_LEFT_CHEEK = 13,      /**< 5 */
+  MIEN_LANDMARKS_NOSE_BRIDGE = 14,     /**< 8: from between the eyes to below the tip */
+  MIEN_LANDMARKS_MIDLINE = 15,         /**< 3: forehead, between the brows, chin */
+  /** 11: right to left corner along the upper edge, with both corners */
+  MIEN_LANDMARKS_LIPS_OUTER_UPPER = 16,
+  /** 9: right to left along the lower edge, without the corners */
+  MIEN_LANDMARKS_LIPS_OUTER_LOWER = 17,
+  MIEN_LANDMARKS_LIPS_INNER_UPPER = 18, /**< 11: the same for the inner edge of the upper lip */
+  MIEN_LANDMARKS_LIPS_INNER_LOWER = 19, /**< 9: the same for the inner edge of the lower lip */
+  /** 36: from the top of the forehead over the left side and round the chin; 6..30 are the jaw line
+   */
+  MIEN_LANDMARKS_FACE_OVAL = 20
+} mien_landmark_group;
+
+#define MIEN_LANDMARK_GROUP_COUNT 21
+
+/** Name of a group of landmarks.
+ *  @param group  mien_landmark_group
+ *  @return static string ("right_eye_lower" .. "face_oval"); NULL outside the range */
+MIEN_API const char* mien_landmark_group_name(int32_t group);
+
+/** Landmarks of a group.
+ *  @param      group  mien_landmark_group
+ *  @param[out] first  index of the group's first landmark; 0 outside the range; may be NULL
+ *  @return number of landmarks in the group; 0 outside the range */
+MIEN_API int32_t mien_landmark_group_range(int32_t group, int32_t* first);
 
 /* Image ---------------------------------------------------------------------------------------- */
 

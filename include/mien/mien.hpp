@@ -23,6 +23,13 @@ inline std::string_view control_name(std::int32_t control) {
   return name != nullptr ? name : std::string_view();
 }
 
+/// See mien_landmark_group_name.
+/// @return empty outside 0..MIEN_LANDMARK_GROUP_COUNT - 1
+inline std::string_view landmark_group_name(std::int32_t group) {
+  const char* name = mien_landmark_group_name(group);
+  return name != nullptr ? name : std::string_view();
+}
+
 /// An image, initialized by mien_image_default.
 struct Image : mien_image {
   Image() : mien_image() { mien_image_default(this); }
@@ -57,6 +64,16 @@ struct Result : mien_result {
   /// @return whether the control is predicted (supported_controls)
   [[nodiscard]] bool supports(std::int32_t control) const {
     return ((supported_controls >> control) & 1u) != 0;
+  }
+  /// @param control  which control
+  /// @return 0..1; 0 if it is not supported
+  [[nodiscard]] float control(mien_control control) const { return controls[control]; }
+  /// @param group  which landmarks
+  /// @return x and y of each landmark of the group, in pixels of the upright image
+  [[nodiscard]] std::span<const float[2]> landmarks_of(mien_landmark_group group) const {
+    std::int32_t first = 0;
+    const std::int32_t count = mien_landmark_group_range(group, &first);
+    return {landmarks + first, static_cast<std::size_t>(count)};
   }
 };
 

@@ -243,7 +243,7 @@ TEST_F(Create, AcceptsResultsOfOtherVersions) {
   EXPECT_EQ(older.translation[2], whole.translation[2]);
   unsigned char untouched[sizeof(float)];
   std::memset(untouched, 0x5A, sizeof untouched);
-  EXPECT_EQ(std::memcmp(&older.controls[0], untouched, sizeof untouched), 0);
+  EXPECT_EQ(std::memcmp(older.controls, untouched, sizeof untouched), 0);
 
   struct {
     mien_result result;

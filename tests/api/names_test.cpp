@@ -5,19 +5,51 @@
 #include <algorithm>
 #include <cctype>
 #include <fstream>
+#include <regex>
 #include <set>
 #include <sstream>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "kernels/tier.h"
 
 namespace mien::tests {
 namespace {
 
-TEST(Names, EveryStatusHasItsOwnMessage) {
-  std::ifstream header(MIEN_SOURCE_DIR "/include/mien/mien.h");
+std::string text_of(const std::string& path) {
+  std::ifstream file(MIEN_SOURCE_DIR "/" + path);
   std::stringstream text;
-  text << header.rdbuf();
+  text << file.rdbuf();
+  return text.str();
+}
+
+// {"EYE_BLINK_LEFT", 0}, ...: the enumerators of the header that begin with `prefix`.
+std::vector<std::pair<std::string, int>> enumerators(const std::string& prefix) {
+  const std::string header = text_of("include/mien/mien.h");
+  const std::regex enumerator(prefix + "([A-Z0-9_]+) = ([0-9]+)");
+  std::vector<std::pair<std::string, int>> found;
+  for (std::sregex_iterator at(header.begin(), header.end(), enumerator), end; at != end; ++at) {
+    found.emplace_back((*at)[1], std::stoi((*at)[2]));
+  }
+  return found;
+}
+
+// "eyeBlinkLeft" to "EYE_BLINK_LEFT".
+std::string upper_snake_case(std::string_view name) {
+  std::string upper;
+  for (const char c : name) {
+    if (std::isupper(static_cast<unsigned char>(c)) != 0) {
+      upper += '_';
+    }
+    upper += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  }
+  return upper;
+}
+
+TEST(Names, EveryStatusHasItsOwnMessage) {
+  std::stringstream text(text_of("include/mien/mien.h"));
   std::set<int> numbers;
   std::set<std::string> messages;
   std::string line;
@@ -42,8 +74,8 @@ TEST(Names, EveryStatusHasItsOwnMessage) {
 TEST(Names, Controls) {
   ASSERT_EQ(mien_control_count(), 52);
   EXPECT_EQ(control_name(0), "eyeBlinkLeft");
-  EXPECT_EQ(control_name(17), "jawOpen");
-  EXPECT_EQ(control_name(51), "tongueOut");
+  EXPECT_EQ(control_name(MIEN_CONTROL_JAW_OPEN), "jawOpen");
+  EXPECT_EQ(control_name(MIEN_CONTROL_TONGUE_OUT), "tongueOut");
   EXPECT_EQ(mien_control_name(-1), nullptr);
   EXPECT_EQ(mien_control_name(52), nullptr);
   std::set<std::string_view> names;
@@ -58,17 +90,56 @@ TEST(Names, Controls) {
   }
 }
 
-TEST(Names, LandmarkCountMatchesTheTable) {
-  std::ifstream table(MIEN_SOURCE_DIR "/models/landmarks.json");
-  std::stringstream text;
-  text << table.rdbuf();
-  const std::string json = text.str();
-  int points = 0;
-  for (std::size_t at = json.find("\"name\""); at != std::string::npos;
-       at = json.find("\"name\"", at + 1)) {
-    ++points;
+TEST(Names, EachControlHasItsEnumerator) {
+  const auto controls = enumerators("MIEN_CONTROL_");
+  ASSERT_EQ(controls.size(), 52u);
+  for (const auto& [name, number] : controls) {
+    EXPECT_EQ(name, upper_snake_case(control_name(number)));
   }
-  EXPECT_EQ(points, mien_landmark_count());
+}
+
+// The table of all landmarks names each "group_number".
+TEST(Names, LandmarkGroupsMatchTheTable) {
+  const std::string json = text_of("models/landmarks.json");
+  const std::regex name(R"re("name": "(\w+)_(\d+)")re");
+  std::sregex_iterator point(json.begin(), json.end(), name);
+  int landmark = 0;
+  for (std::int32_t group = 0; group < MIEN_LANDMARK_GROUP_COUNT; ++group) {
+    std::int32_t first = -1;
+    const std::int32_t count = mien_landmark_group_range(group, &first);
+    EXPECT_EQ(mien_landmark_group_range(group, nullptr), count);
+    EXPECT_EQ(first, landmark);
+    for (std::int32_t i = 0; i < count; ++i, ++landmark, ++point) {
+      ASSERT_NE(point, std::sregex_iterator());
+      EXPECT_EQ((*point)[1].str(), landmark_group_name(group));
+      EXPECT_EQ((*point)[2].str(), std::to_string(i));
+    }
+  }
+  EXPECT_EQ(point, std::sregex_iterator());
+  EXPECT_EQ(landmark, mien_landmark_count());
+  for (const std::int32_t group : {-1, MIEN_LANDMARK_GROUP_COUNT}) {
+    std::int32_t first = -1;
+    EXPECT_EQ(mien_landmark_group_range(group, &first), 0);
+    EXPECT_EQ(first, 0);
+    EXPECT_EQ(mien_landmark_group_name(group), nullptr);
+  }
+}
+
+TEST(Names, EachLandmarkGroupHasItsEnumerator) {
+  const auto groups = enumerators("MIEN_LANDMARKS_");
+  ASSERT_EQ(groups.size(), std::size_t{MIEN_LANDMARK_GROUP_COUNT});
+  for (const auto& [name, number] : groups) {
+    EXPECT_EQ(name, upper_snake_case(landmark_group_name(number)));
+  }
+}
+
+TEST(Names, ResultsFindControlsAndLandmarksByName) {
+  Result result;
+  result.controls[MIEN_CONTROL_JAW_OPEN] = 0.5f;
+  EXPECT_EQ(result.control(MIEN_CONTROL_JAW_OPEN), 0.5f);
+  const auto iris = result.landmarks_of(MIEN_LANDMARKS_LEFT_IRIS);
+  ASSERT_EQ(iris.size(), 5u);
+  EXPECT_EQ(iris.data(), result.landmarks + 37);
 }
 
 TEST(Names, StatusAndStages) {

@@ -256,7 +256,7 @@ TEST(Animation, LossesAreReported) {
   frames[1].voice_activity = 0.5;
   EXPECT_THAT(lost(AnimationFormat::kGltf), Contains(HasSubstr("voice activity")));
   EXPECT_THAT(lost(AnimationFormat::kJsonl), IsEmpty());
-  frames[1].controls[3] = kNoNumber;
+  frames[1].controls[index_of("eyeLookOutLeft", kArkitNames)] = kNoNumber;
   EXPECT_THAT(lost(AnimationFormat::kLiveLink), Contains(HasSubstr("become 0")));
   frames[1].time_ns += 10'000'000'000;
   frames.push_back(frames[1]);
@@ -486,7 +486,8 @@ TEST(Animation, ResamplingAtTheSameTimesIsTheIdentity) {
   const std::vector<Frame> twice = resampled(clip.frames, 50.0, 0).unpacked();
   ASSERT_EQ(twice.size(), 99u);
   EXPECT_EQ(frame_json(twice[0]).substr(20), frame_json(same[0]).substr(20));
-  EXPECT_NEAR(twice[1].controls[0], (same[0].controls[0] + same[1].controls[0]) / 2.0, 1e-15);
+  EXPECT_NEAR(twice[1].controls.front(),
+              (same[0].controls.front() + same[1].controls.front()) / 2.0, 1e-15);
   EXPECT_TRUE(resampled(FrameSequence(), 25.0, 0).empty());
   const FrameSequence later({frames.begin() + 3, frames.end()});
   EXPECT_EQ(resampled(later, 10.0, 0).first_time_ns(), 200'000'000)

@@ -409,9 +409,9 @@ TEST(Tracking, UnsupportedControlsStayZero) {
   BlobTracker tracker(some);
   const Result result = tracker.push(disc_picture(160.0f, 120.0f, 70.0f));
   EXPECT_EQ(result.supported_controls, 0x5u);
-  EXPECT_TRUE(result.supports(2));
-  EXPECT_FALSE(result.supports(1));
-  EXPECT_GT(result.controls[0], 0.0f);
+  EXPECT_TRUE(result.supports(MIEN_CONTROL_EYE_LOOK_IN_LEFT));
+  EXPECT_FALSE(result.supports(MIEN_CONTROL_EYE_LOOK_DOWN_LEFT));
+  EXPECT_GT(result.control(MIEN_CONTROL_EYE_BLINK_LEFT), 0.0f);
   for (int i = 0; i < MIEN_CONTROL_COUNT; ++i) {
     EXPECT_TRUE(result.supports(i) || result.controls[i] == 0.0f) << i;
   }

@@ -2,11 +2,23 @@
 #include <mien/mien.h>
 
 #include <cstdint>
+#include <iterator>
 
 #include "kernels/tier.h"
 #include "tracker/decoders/controls.h"
+#include "tracker/encoders/landmarks.h"
 
 static_assert(MIEN_CONTROL_COUNT == mien::tracker::kControls);
+static_assert(MIEN_LANDMARK_GROUP_COUNT == std::size(mien::tracker::kLandmarkGroups));
+
+namespace {
+
+const mien::tracker::LandmarkGroup* landmark_group(int32_t group) {
+  return group >= 0 && group < MIEN_LANDMARK_GROUP_COUNT ? mien::tracker::kLandmarkGroups + group
+                                                         : nullptr;
+}
+
+}  // namespace
 
 const char* mien_version(void) { return MIEN_VERSION; }
 
@@ -27,6 +39,19 @@ const char* mien_cpu_tier_name(uint32_t tier) {
 const char* mien_control_name(int32_t control) {
   const bool known = control >= 0 && control < mien::tracker::kControls;
   return known ? mien::tracker::kControlNames[static_cast<std::size_t>(control)] : nullptr;
+}
+
+const char* mien_landmark_group_name(int32_t group) {
+  const mien::tracker::LandmarkGroup* found = landmark_group(group);
+  return found != nullptr ? found->name : nullptr;
+}
+
+int32_t mien_landmark_group_range(int32_t group, int32_t* first) {
+  const mien::tracker::LandmarkGroup* found = landmark_group(group);
+  if (first != nullptr) {
+    *first = found != nullptr ? found->first : 0;
+  }
+  return found != nullptr ? found->count : 0;
 }
 
 int32_t mien_control_count(void) { return MIEN_CONTROL_COUNT; }

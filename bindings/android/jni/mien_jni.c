@@ -30,6 +30,15 @@ NATIVE(jstring, statusString)(UNUSED_CLASS, jint status) {
   return (*env)->NewStringUTF(env, mien_status_string((mien_status)status));
 }
 
+NATIVE(jintArray, landmarkGroup)(UNUSED_CLASS, jint group) {
+  jint range[2];
+  jintArray array = (*env)->NewIntArray(env, 2);
+  (void)unused;
+  range[1] = mien_landmark_group_range(group, &range[0]);
+  if (array != NULL) (*env)->SetIntArrayRegion(env, array, 0, 2, range);
+  return array;
+}
+
 NATIVE(jint, vocabularySize)(UNUSED_CLASS, jint vocabulary) {
   (void)env, (void)unused;
   return mien_vocabulary_size(vocabulary);

@@ -89,7 +89,7 @@ public final class ClipTest {
     }
 
     static void constantsMatchTheHeader() throws IOException {
-        int statuses = 0;
+        int statuses = 0, landmarks = 0;
         for (String line : Files.readAllLines(Paths.get(System.getenv("MIEN_C_API")))) {
             String[] fact = line.split(" ");
             if (fact[0].equals("status")) {
@@ -100,11 +100,20 @@ public final class ClipTest {
                 require(Image.Format.valueOf(fact[1].substring("MIEN_IMAGE_".length())).ordinal() == Integer.parseInt(fact[2]), line);
             } else if (fact[1].startsWith("MIEN_VOCABULARY_")) {
                 require(Vocabulary.valueOf(fact[1].substring("MIEN_VOCABULARY_".length())).ordinal() == Integer.parseInt(fact[2]), line);
+            } else if (fact[1].startsWith("MIEN_CONTROL_") && fact[0].equals("enum")) {
+                Control control = Control.valueOf(fact[1].substring("MIEN_CONTROL_".length()));
+                require(control.ordinal() == Integer.parseInt(fact[2]), line);
+                require(Controls.NAMES.get(control.ordinal()).replaceAll("([A-Z])", "_$1").toUpperCase().equals(control.name()), line);
+            } else if (fact[1].startsWith("MIEN_LANDMARKS_")) {
+                LandmarkGroup group = LandmarkGroup.valueOf(fact[1].substring("MIEN_LANDMARKS_".length()));
+                require(group.ordinal() == Integer.parseInt(fact[2]) && group.first == landmarks, line);
+                landmarks += group.count;
             } else if (fact[1].startsWith("MIEN_FACE_")) {
                 require(FaceResult.Status.valueOf(fact[1].substring("MIEN_FACE_".length())).ordinal() == Integer.parseInt(fact[2]), line);
             }
         }
         require(statuses + 1 == Status.values().length, "all of them, and UNKNOWN");
+        require(landmarks == 175, "groups cover all landmarks");
     }
 
     static void tracksAFace() {

@@ -30,6 +30,8 @@ namespace Mien
         /// <summary>In the order of Names.</summary>
         public float this[int control] { get { return array[control]; } }
 
+        public float this[Control control] { get { return array[(int)control]; } }
+
         public float this[string name] { get { return array[Number(name)]; } }
 
         /// <summary>Names of the controls that this level of detail predicts; the others are 0.</summary>
@@ -100,6 +102,15 @@ namespace Mien
         public Controls Controls { get { return new Controls(raw.controls, raw.supported_controls); } }
         /// <summary>175 points x, y in pixels of the upright image.</summary>
         public float[] Landmarks { get { return (float[])raw.landmarks.Clone(); } }
+
+        /// <summary>The landmarks of a group, x, y in pixels of the upright image.</summary>
+        public float[] LandmarksOf(LandmarkGroup group)
+        {
+            int first, count = Native.mien_landmark_group_range((int)group, out first);
+            var points = new float[2 * count];
+            Array.Copy(raw.landmarks, 2 * first, points, 0, points.Length);
+            return points;
+        }
 
         public Pose Pose
         {

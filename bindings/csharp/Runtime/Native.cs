@@ -114,6 +114,7 @@ namespace Mien
 
         [DllImport(Library)] internal static extern IntPtr mien_status_string(int status);
         [DllImport(Library)] internal static extern IntPtr mien_version();
+        [DllImport(Library)] internal static extern int mien_landmark_group_range(int group, out int first);
         [DllImport(Library)] internal static extern int mien_vocabulary_size(int vocabulary);
         [DllImport(Library)] internal static extern IntPtr mien_vocabulary_name(int vocabulary, int index);
         [DllImport(Library)] internal static extern int mien_vocabulary_values(int vocabulary, [In] float[] controls, [Out] float[] values, int count);

@@ -51,8 +51,8 @@ class ClipTest
     public void ConvertsControlsToEveryVocabulary()
     {
         Controls controls = reference.Controls;
-        Assert.Equal("jawOpen", Controls.Names[17]);
-        Assert.Equal(controls[17], controls["jawOpen"]);
+        Assert.Equal("jawOpen", Controls.Names[(int)Control.JawOpen]);
+        Assert.Equal(controls[Control.JawOpen], controls["jawOpen"]);
         Assert.That(controls.Supported.Contains("jawOpen") && !controls.Supported.Contains("eyeLookUpLeft"), "what is driven");
         Assert.Near(controls.ToArray(), controls.To(Vocabulary.Arkit), 0);
         Assert.Equal(controls["jawOpen"], controls.To(Vocabulary.Roblox)[Vocabulary.Roblox.Names().IndexOf("JawDrop")]);

@@ -46,9 +46,14 @@ class HeaderTest
         var statuses = Enum.GetValues(typeof(Status)).Cast<Status>().ToDictionary(s => bare(s == Status.Ok ? "MIEN_OK" : "MIEN_ERROR_" + s), s => (int)s);
         foreach (string[] fact in Facts("status")) Assert.Equal(int.Parse(fact[2]), statuses[bare(fact[1])]);
         Assert.Equal(Facts("status").Count(), statuses.Count);
-        foreach (Type type in new[] { typeof(PixelFormat), typeof(Vocabulary), typeof(FaceStatus) })
+        var prefixes = new Dictionary<Type, string>
         {
-            string prefix = type == typeof(PixelFormat) ? "MIEN_IMAGE_" : type == typeof(Vocabulary) ? "MIEN_VOCABULARY_" : "MIEN_FACE_";
+            { typeof(PixelFormat), "MIEN_IMAGE_" }, { typeof(Vocabulary), "MIEN_VOCABULARY_" }, { typeof(FaceStatus), "MIEN_FACE_" },
+            { typeof(Control), "MIEN_CONTROL_" }, { typeof(LandmarkGroup), "MIEN_LANDMARKS_" },
+        };
+        foreach (Type type in prefixes.Keys)
+        {
+            string prefix = prefixes[type];
             var expected = Facts("enum").Where(fact => fact[1].StartsWith(prefix)).Select(fact => bare(fact[1]) + fact[2]);
             var said = Enum.GetValues(type).Cast<object>().Select(value => bare(prefix + value) + (int)value);
             Assert.Equal(string.Join(" ", expected), string.Join(" ", said));

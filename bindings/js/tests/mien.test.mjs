@@ -32,9 +32,16 @@ function correlation(a, b) {
 
 test('names come in the order of the C API', () => {
   assert.equal(mien.controlNames.length, 52);
-  assert.equal(mien.controlNames[17], 'jawOpen');
+  assert.equal(mien.controlNames[mien.control.jawOpen], 'jawOpen');
   assert.deepEqual(mien.stageNames, ['proposal', 'warp', 'encoder', 'heads', 'decoders', 'sound']);
   assert.equal(mien.landmarkCount, 175);
+  const groups = Object.values(mien.landmarkGroups);
+  assert.equal(groups.length, 21);
+  assert.equal(groups.reduce((next, {first, count}) => (assert.equal(first, next), next + count), 0), 175);
+  const types = readFileSync(`${root}bindings/js/mien.d.ts`, 'utf8');
+  const declared = type => [...types.match(new RegExp(`type ${type} =([^;]*)`))[1].matchAll(/'(\w+)'/g)].map(([, name]) => name);
+  assert.deepEqual(declared('ControlName'), mien.controlNames);
+  assert.deepEqual(declared('LandmarkGroupName'), Object.keys(mien.landmarkGroups));
 });
 
 test('video and audio move the jaw', () => {
@@ -52,7 +59,7 @@ test('video and audio move the jaw', () => {
   assert.equal(last.lod, 4);
   assert.equal(last.frames, BigInt(count));
   assert.ok(last.stageNs.encoder > 0, 'stages are timed');
-  assert.ok(correlation(jaw.map(({controls}) => controls[17]), truth('jawOpen').slice(0, count)) > 0.8);
+  assert.ok(correlation(jaw.map(({controls}) => controls[mien.control.jawOpen]), truth('jawOpen').slice(0, count)) > 0.8);
   tracker.destroy();
 });
 

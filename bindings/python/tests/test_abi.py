@@ -57,6 +57,17 @@ def test_constants():
     assert mien.__version__ == "0.1.0"
 
 
+@pytest.mark.parametrize("kind, prefix", [(mien.Control, "MIEN_CONTROL_"), (mien.LandmarkGroup, "MIEN_LANDMARKS_")])
+def test_enums_match_the_header(facts, kind, prefix):
+    expected = {name[len(prefix) :]: number for name, number in facts["enum"].items() if name.startswith(prefix)}
+    assert {member.name: member.value for member in kind} == expected
+
+
+def test_landmark_groups_cover_all_landmarks():
+    indices = [index for group in mien.LandmarkGroup for index in group.landmarks]
+    assert indices == list(range(mien.LANDMARK_COUNT))
+
+
 def test_the_package_is_small():
     files = {path: path.stat().st_size for path in Path(mien.__file__).parent.rglob("*") if path.is_file() and "__pycache__" not in str(path)}
     program = sum(size for path, size in files.items() if path.name in ("mien", "mien.exe", "third_party.txt"))

@@ -38,7 +38,9 @@ def test_a_face_is_tracked(bgr, frames):
 def test_controls_are_a_mapping_and_an_array(bgr):
     controls = bgr[-1].controls
     assert list(controls) == list(mien.CONTROL_NAMES) and len(controls) == 52
-    assert mien.CONTROL_NAMES[17] == "jawOpen" and controls["jawOpen"] == controls.array[17]
+    jaw = mien.Control.JAW_OPEN
+    assert mien.CONTROL_NAMES[jaw] == "jawOpen" and controls["jawOpen"] == controls[jaw] == controls.array[jaw]
+    assert len(result.landmarks_of(mien.LandmarkGroup.LEFT_IRIS)) == 5
     assert controls.array.dtype == np.float32 and controls.array.shape == (52,)
     assert dict(controls)["eyeBlinkLeft"] == controls["eyeBlinkLeft"]
     assert "jawOpen" in controls.supported and "eyeLookUpLeft" not in controls.supported

@@ -11,13 +11,15 @@ from .media import Row, columns, track_file
 from .network import Network, Shape, run
 from .result import Controls, FaceStatus, Pose, Result
 from .tracker import Tracker
-from .vocabulary import CONTROL_NAMES, LANDMARK_COUNT, VOCABULARIES, vocabulary_names
+from .vocabulary import CONTROL_NAMES, LANDMARK_COUNT, VOCABULARIES, Control, LandmarkGroup, vocabulary_names
 
 __all__ = [
     "CONTROL_NAMES",
+    "Control",
     "Controls",
     "FaceStatus",
     "LANDMARK_COUNT",
+    "LandmarkGroup",
     "MienError",
     "Network",
     "Pose",

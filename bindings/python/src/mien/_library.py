@@ -177,6 +177,8 @@ FUNCTIONS: dict[str, tuple[Any, Sequence[Any]]] = {
     "mien_status_string": (c_char_p, [Status]),
     "mien_version": (c_char_p, []),
     "mien_control_name": (c_char_p, [c_int32]),
+    "mien_landmark_group_name": (c_char_p, [c_int32]),
+    "mien_landmark_group_range": (c_int32, [c_int32, POINTER(c_int32)]),
     "mien_vocabulary_size": (c_int32, [c_int32]),
     "mien_vocabulary_name": (c_char_p, [c_int32, c_int32]),
     "mien_vocabulary_values": (Status, [c_int32, c_void_p, c_void_p, c_int32]),

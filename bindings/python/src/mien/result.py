@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import enum
-from typing import Any, Iterator, Mapping, NamedTuple
+from typing import Any, Iterator, Mapping, NamedTuple, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from ._library import CONTROL_COUNT, LANDMARK_COUNT, TrackerResult, function
 from .errors import check
-from .vocabulary import CONTROL_NAMES, CONTROL_NUMBERS, number_of, vocabulary_names
+from .vocabulary import CONTROL_NAMES, CONTROL_NUMBERS, Control, LandmarkGroup, number_of, vocabulary_names
 
 Floats = npt.NDArray[np.float32]
 
@@ -22,7 +22,7 @@ class FaceStatus(enum.IntEnum):
 
 
 class Controls(Mapping[str, float]):
-    """52 animation weights, 0..1, by ARKit name; `array` has them in the order of CONTROL_NAMES."""
+    """52 animation weights, 0..1, by ARKit name or Control; `array` has them in the order of CONTROL_NAMES."""
 
     __slots__ = ("array", "_supported")
 
@@ -30,8 +30,8 @@ class Controls(Mapping[str, float]):
         self.array = array
         self._supported = supported
 
-    def __getitem__(self, name: str) -> float:
-        return float(self.array[CONTROL_NUMBERS[name]])
+    def __getitem__(self, name: Union[str, Control]) -> float:
+        return float(self.array[name if isinstance(name, Control) else CONTROL_NUMBERS[name]])
 
     def __iter__(self) -> Iterator[str]:
         return iter(CONTROL_NAMES)
@@ -130,6 +130,11 @@ class Result:
     def landmarks(self) -> Floats:
         """[175, 2]: x, y in pixels of the upright image."""
         return self._floats("landmarks", 2 * LANDMARK_COUNT).reshape(LANDMARK_COUNT, 2)
+
+    def landmarks_of(self, group: LandmarkGroup) -> Floats:
+        """[n, 2]: the landmarks of a group, for example LandmarkGroup.LEFT_IRIS."""
+        indices = LandmarkGroup(group).landmarks
+        return self.landmarks[indices.start : indices.stop]
 
     @property
     def pose(self) -> Pose:

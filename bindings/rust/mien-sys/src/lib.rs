@@ -160,6 +160,8 @@ extern "C" {
     pub fn mien_cpu_tiers() -> u32;
     pub fn mien_cpu_tier_name(tier: u32) -> *const c_char;
     pub fn mien_control_name(control: i32) -> *const c_char;
+    pub fn mien_landmark_group_name(group: i32) -> *const c_char;
+    pub fn mien_landmark_group_range(group: i32, first: *mut i32) -> i32;
     pub fn mien_vocabulary_size(vocabulary: i32) -> i32;
     pub fn mien_vocabulary_name(vocabulary: i32, index: i32) -> *const c_char;
     pub fn mien_vocabulary_values(vocabulary: i32, controls: *const f32, values: *mut f32, count: i32) -> mien_status;

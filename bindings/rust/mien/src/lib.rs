@@ -16,7 +16,7 @@ pub use image::{Image, Region, Rotation};
 pub use network::{Network, Shape};
 pub use result::{Controls, FaceResult, FaceStatus, Pose};
 pub use tracker::{AudioQueue, Lod, Options, Tracker};
-pub use vocabulary::{control_names, Vocabulary};
+pub use vocabulary::{control_names, Control, LandmarkGroup, Vocabulary};
 pub use weights::{Model, Weights};
 
 /// Landmarks of a face, two numbers each.

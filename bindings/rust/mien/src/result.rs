@@ -1,6 +1,6 @@
 use std::ops::Index;
 
-use crate::vocabulary::{control_names, control_number, Vocabulary};
+use crate::vocabulary::{control_names, control_number, Control, LandmarkGroup, Vocabulary};
 
 /// Whether there is a face.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -13,7 +13,7 @@ pub enum FaceStatus {
     Lost,
 }
 
-/// 52 animation weights, 0..1. `controls["jawOpen"]` asks by ARKit name.
+/// 52 animation weights, 0..1. `controls["jawOpen"]` and `controls[Control::JawOpen]` ask for one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Controls {
     /// In the order of [`control_names`].
@@ -52,6 +52,13 @@ impl Index<&str> for Controls {
     type Output = f32;
     fn index(&self, name: &str) -> &f32 {
         &self.array[control_number(name).unwrap_or_else(|| panic!("control: unknown (got {name:?})"))]
+    }
+}
+
+impl Index<Control> for Controls {
+    type Output = f32;
+    fn index(&self, control: Control) -> &f32 {
+        &self.array[control as usize]
     }
 }
 
@@ -134,6 +141,11 @@ impl FaceResult {
     /// The animation weights.
     pub fn controls(&self) -> Controls {
         Controls { array: self.0.controls, supported: self.0.supported_controls }
+    }
+
+    /// The landmarks of a group, x, y in pixels of the upright image.
+    pub fn landmarks_of(&self, group: LandmarkGroup) -> &[[f32; 2]] {
+        &self.0.landmarks[group.range()]
     }
 
     /// x, y in pixels of the upright image.

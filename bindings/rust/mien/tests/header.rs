@@ -16,6 +16,23 @@ macro_rules! layout {
     )*};
 }
 
+fn upper_snake_case(name: &str) -> String {
+    let mut upper = String::new();
+    for (i, c) in name.chars().enumerate() {
+        if c.is_uppercase() && i > 0 {
+            upper.push('_');
+        }
+        upper.extend(c.to_uppercase());
+    }
+    upper
+}
+
+#[test]
+fn landmark_groups_cover_all_landmarks() {
+    let indices: Vec<usize> = mien::LandmarkGroup::ALL.iter().flat_map(|group| group.range()).collect();
+    assert_eq!(indices, (0..mien::LANDMARK_COUNT).collect::<Vec<_>>());
+}
+
 #[test]
 fn declarations_match_the_header() {
     let path = std::env::var("MIEN_C_API").expect("MIEN_C_API names what bindings/c_api.py wrote");
@@ -52,6 +69,16 @@ fn declarations_match_the_header() {
                 if let Some(from) = declared.find(&format!("pub const {name}: usize = ")) {
                     assert!(declared[from..].contains(&format!("= {value};")), "{line}");
                 }
+            }
+            ["enum", name, number] if name.starts_with("MIEN_CONTROL_") => {
+                let control = mien::Control::ALL[number.parse::<usize>().unwrap()];
+                assert_eq!(upper_snake_case(&format!("{control:?}")), &name["MIEN_CONTROL_".len()..]);
+                assert_eq!(upper_snake_case(control.name()), &name["MIEN_CONTROL_".len()..]);
+            }
+            ["enum", name, number] if name.starts_with("MIEN_LANDMARKS_") => {
+                let group = mien::LandmarkGroup::ALL[number.parse::<usize>().unwrap()];
+                assert_eq!(upper_snake_case(&format!("{group:?}")), &name["MIEN_LANDMARKS_".len()..]);
+                assert_eq!(group.name().to_uppercase(), &name["MIEN_LANDMARKS_".len()..]);
             }
             ["status", _, number] => {
                 let known = mien::Status::ALL.iter().any(|status| status.number().to_string() == number);

@@ -45,6 +45,9 @@ public struct FaceResult {
     return stride(from: 0, to: all.count, by: 2).map { SIMD2(all[$0], all[$0 + 1]) }
   }
 
+  /// The landmarks of a group, in pixels of the upright image.
+  public func landmarks(of group: LandmarkGroup) -> [SIMD2<Float>] { Array(landmarks[group.range]) }
+
   public var pose: Pose {
     let (r, t) = (raw.rotation, raw.translation)
     return Pose(

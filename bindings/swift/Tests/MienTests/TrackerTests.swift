@@ -25,8 +25,11 @@ final class TrackerTests: XCTestCase {
     let result = try tracker.result()
     XCTAssertTrue(result.hasFace)
     XCTAssertEqual(result.landmarks.count, 175)
-    XCTAssertEqual(Controls.names[17], "jawOpen")
-    XCTAssertEqual(result.controls["jawOpen"], result.controls.array[17])
+    XCTAssertEqual(Control.allCases.map(\.name), Controls.names)
+    XCTAssertEqual(Control.allCases.map { "\($0)" }, Controls.names)
+    XCTAssertEqual(result.controls["jawOpen"], result.controls[.jawOpen])
+    XCTAssertEqual(LandmarkGroup.allCases.flatMap(\.range), Array(0..<175))
+    XCTAssertEqual(result.landmarks(of: .leftIris).count, 5)
     XCTAssertEqual(Vocabulary.allCases.map { $0.names.count }, [52, 52, 50, 11, 11, 15])
   }
 

@@ -19,6 +19,10 @@ public final class Controls {
         return array[control];
     }
 
+    public float get(Control control) {
+        return array[control.ordinal()];
+    }
+
     public float get(String name) {
         return array[number(name)];
     }

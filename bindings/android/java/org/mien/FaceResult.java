@@ -74,6 +74,11 @@ public final class FaceResult {
         return part(Native.LANDMARKS, Native.FLOATS);
     }
 
+    /** The landmarks of a group, x, y in pixels of the upright image. */
+    public float[] landmarksOf(LandmarkGroup group) {
+        return part(Native.LANDMARKS + 2 * group.first, Native.LANDMARKS + 2 * (group.first + group.count));
+    }
+
     /** Head to camera, x to the right, y up, z towards the viewer: unit quaternion x, y, z, w. */
     public float[] rotation() {
         return part(Native.ROTATION, Native.PITCH);

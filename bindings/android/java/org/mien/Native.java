@@ -17,6 +17,9 @@ final class Native {
 
     static native String statusString(int status);
 
+    /** First landmark and number of landmarks. */
+    static native int[] landmarkGroup(int group);
+
     static native int vocabularySize(int vocabulary);
 
     static native String vocabularyName(int vocabulary, int index);
