@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <random>
 
+#include "apps/animation/resample.h"
+
 namespace mien::formats {
 namespace {
 
@@ -18,6 +20,15 @@ TEST(Clip, NegativeTimesAreExact) {
     before.time_ns = -after.time_ns;
     EXPECT_EQ(before.time_ms(), -after.time_ms()) << after.time_ns;
   }
+}
+
+TEST(Resampler, CountsTheFramesOfAClip) {
+  Frame first, last;
+  first.time_ns = 1'000'000'000;
+  last.time_ns = 3'000'000'000;
+  EXPECT_EQ(Resampler::count(FrameSequence({first, last}), 30.0), 61.0);
+  EXPECT_EQ(Resampler::count(FrameSequence({first}), 30.0), 1.0);
+  EXPECT_EQ(Resampler::count(FrameSequence(), 30.0), 0.0);
 }
 
 }  // namespace

@@ -79,8 +79,9 @@ struct Rgb {
   float red, green, blue;  // 0..255
 };
 
-// The samples of a crop at the centre of the scene, row by row, `pixels_apart` pixels apart.
-std::vector<Rgb> cut(const Scene& scene, float pixels_apart) {
+// Calls `use` with a sampler and a view of the scene.
+template <typename Use>
+void with_sampler(const Scene& scene, Use use) {
   ImageView view;
   EXPECT_EQ(view_image(&scene.image(), 1.0f, view), MIEN_OK);
   Sampler sampler;
@@ -92,9 +93,16 @@ std::vector<Rgb> cut(const Scene& scene, float pixels_apart) {
   std::vector<Line> memory(measured.need().total_bytes() / sizeof(Line) + 1);
   engine::Arena arena(memory.data()->bytes, measured.need());
   EXPECT_TRUE(sampler.init(kernels::detect_cpu(), arena));
+  use(sampler, view);
+}
+
+// The samples of a crop at the centre of the scene, row by row, `pixels_apart` pixels apart.
+std::vector<Rgb> cut(const Scene& scene, float pixels_apart) {
   std::vector<float> picture(kCropValues);
-  const Crop crop = {{kMiddle, kMiddle}, pixels_apart * kSamples, 0.0f};
-  sampler.cut(view, crop, {kSamples, kSamples, 1.0f}, picture);
+  with_sampler(scene, [&](const Sampler& sampler, const ImageView& view) {
+    const Crop crop = {{kMiddle, kMiddle}, pixels_apart * kSamples, 0.0f};
+    sampler.cut(view, crop, {kSamples, kSamples, 1.0f}, picture);
+  });
   std::vector<Rgb> samples;
   for (std::size_t i = 0; i < picture.size(); i += 3) {
     const auto value = [&](std::size_t channel) { return (picture[i + channel] + 1) * 127.5f; };
@@ -161,6 +169,24 @@ TEST(Sampler, AveragesPatternsAboveTheSamplingLimit) {
     EXPECT_LT(range_of(cut(luma, 1.02f * limit), &Rgb::green), 0.1f) << width;
     EXPECT_GT(range_of(cut(colour, 2 * 0.98f * limit), &Rgb::blue), 60.0f) << width;
     EXPECT_LT(range_of(cut(colour, 2 * 1.02f * limit), &Rgb::blue), 0.1f) << width;
+  }
+}
+
+// Half of each crop lies beside the white image: its left half upright, its lower half turned.
+TEST(Sampler, PixelsBesideTheImageAreBlack) {
+  const Scene white(MIEN_IMAGE_GRAY8, [](int, int) { return 255; }, {});
+  for (const bool turned : {false, true}) {
+    std::vector<float> picture(kCropValues);
+    with_sampler(white, [&](const Sampler& sampler, const ImageView& view) {
+      const Crop crop = {{0.0f, kMiddle}, 64.0f, turned ? 1.5707963f : 0.0f};
+      sampler.cut_black(view, crop, kSamples, picture);
+    });
+    for (std::size_t i = 0; i < picture.size(); ++i) {
+      const std::size_t row = i / 3 / kSamples, column = i / 3 % kSamples;
+      const bool outside = turned ? row >= kSamples / 2 : column < kSamples / 2;
+      ASSERT_NEAR(picture[i], outside ? -1.0f : 1.0f, 0.01f)
+          << "row " << row << ", column " << column << (turned ? " turned" : "");
+    }
   }
 }
 
