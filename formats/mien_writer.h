@@ -1,4 +1,4 @@
-// Writes .mien files, for tools and tests; not part of the library. scripts/train/mien_file.py
+// Writes .mien files, for tools and tests; not part of the library. scripts/mien_convert/weight_file.py
 // writes the same bytes for the same input.
 #pragma once
 

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Fuzzes scripts/convert with atheris: whatever the ONNX file, it becomes a weight file or is refused in one line. scripts/fuzz_convert.sh
+"""Fuzzes scripts/mien_convert with atheris: whatever the ONNX file, it becomes a weight file or is refused in one line.
+scripts/fuzz_convert.sh
 
 usage: onnx_converter.py --seeds FOLDER                      writes the graphs of tests/convert/operator_cases.py there
        onnx_converter.py [libFuzzer's options] FOLDER...
@@ -14,30 +15,26 @@ import sys
 import tempfile
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[1]
-sys.path[:0] = [str(ROOT / "scripts/convert"), str(ROOT / "scripts/train"), str(ROOT / "tests/convert")]
-MEMORY = 1 << 30  # who needs more of it for a small file has not looked at its sizes
+import atheris
+import numpy as np
+import onnx
 
-import atheris  # noqa: E402
-import numpy as np  # noqa: E402
-import onnx  # noqa: E402
+with atheris.instrument_imports(include=["mien_convert"]):
+    from mien_convert import errors, graph, onnx_to_mien
+    from mien_convert.constants import FUNCTIONS
+    from mien_convert.operators import OPERATORS
 
-with atheris.instrument_imports(include=["onnx_to_mien", "activations", "arithmetic", "constants", "dense", "evaluation", "graph", "layers", "mien_file", "model",
-                                        "moves", "operands", "operators", "over_time", "pieces", "precision", "refusal", "resize", "tensors", "translator",
-                                        "windows"]):
-    import graph
-    import onnx_to_mien
-    import refusal
-    from constants import FUNCTIONS
-    from operators import OPERATORS
+MEMORY = 1 << 30  # more for a small file means that its sizes were not checked
 
-# A sixteenth of what users may have: the largest maps take seconds each, in which no code is reached that smaller ones do not reach.
-refusal.MOST_NUMBERS >>= 4
+# A sixteenth of what users may have: the largest maps take seconds each, in which no code is reached that smaller ones
+# do not reach.
+errors.MOST_NUMBERS >>= 4
 graph.MOST_IN_ALL >>= 4
 
 OPERATOR_NAMES = sorted({*OPERATORS, *FUNCTIONS, "Constant", "If", "Sin"})
-NUMBERS = (0, 1, 2, 3, 4, 7, 15, 16, 64, 255, -1, -2, 1 << 20, 1 << 31, (1 << 31) - 1, -(1 << 31), 1 << 40, (1 << 63) - 1, -(1 << 63))
-TYPES = range(0, 17)
+NUMBERS = (0, 1, 2, 3, 4, 7, 15, 16, 64, 255, -1, -2, 1 << 20, 1 << 31, (1 << 31) - 1, -(1 << 31),
+           1 << 40, (1 << 63) - 1, -(1 << 63))
+TYPES = range(17)
 
 
 class Edits:
@@ -47,8 +44,10 @@ class Edits:
         self.graph, self.opsets, self.choice = model.graph, model.opset_import, choice
 
     def one(self):
-        edits = [self.dimension, self.attribute, self.attribute, self.node, self.node, self.inputs, self.inputs, self.weights, self.opset]
-        with contextlib.suppress(ValueError, IndexError, TypeError):  # there is nothing of the kind, or the number does not fit
+        edits = [self.dimension, self.attribute, self.attribute, self.node, self.node, self.inputs, self.inputs,
+                 self.weights, self.opset]
+        # there is nothing of the kind, or the number does not fit
+        with contextlib.suppress(ValueError, IndexError, TypeError):
             self.choice.choice(edits)()
 
     def any_of(self, repeated):
@@ -58,7 +57,8 @@ class Edits:
         return self.choice.choice(NUMBERS)
 
     def names(self):
-        return [name for node in self.graph.node for name in (*node.input, *node.output)] + [x.name for x in self.graph.input] + [""]
+        return [name for node in self.graph.node
+                for name in (*node.input, *node.output)] + [x.name for x in self.graph.input] + [""]
 
     def changed(self, numbers):
         at = self.choice.randrange(len(numbers) + 1)
@@ -87,7 +87,8 @@ class Edits:
         if kind == 0:
             attribute.type = self.choice.randrange(12)
         elif kind == 1:
-            attribute.name = self.choice.choice(("pads", "axis", "axes", "strides", "group", "value", "perm", "mode", "to"))
+            attribute.name = self.choice.choice(("pads", "axis", "axes", "strides", "group", "value", "perm", "mode",
+                                                 "to"))
         elif kind == 2:
             attribute.f = self.choice.choice((0.0, -1.0, 1e30, float("inf"), float("nan")))
         elif attribute.type == onnx.AttributeProto.INTS:
@@ -163,13 +164,14 @@ def convert(data):
                 onnx_to_mien.main([str(model), "-o", str(output)])
         except SystemExit as stop:
             if not isinstance(stop.code, str) or "\n" in stop.code or output.exists():
-                raise RuntimeError(f"refused with {stop.code!r}, output {'there' if output.exists() else 'not there'}") from stop
+                raise RuntimeError(
+                    f"refused with {stop.code!r}, output {'there' if output.exists() else 'not there'}") from stop
 
 
 @functools.cache
 def let_go_of_comparisons():
-    """atheris 3.0.0 keeps what comparisons gave: True and False cost nothing, but arrays are gigabytes within minutes. To be called by
-    the target, because atheris.Fuzz() puts its own function there before."""
+    """atheris 3.0.0 keeps what comparisons gave: True and False cost nothing, but arrays are gigabytes within minutes.
+    To be called by the target, because atheris.Fuzz() puts its own function there before."""
     traced = atheris._trace_cmp
     operators = (operator.lt, operator.le, operator.eq, operator.ne, operator.gt, operator.ge)  # as in dis.cmp_op
 

@@ -1,12 +1,15 @@
 #!/usr/bin/env python3
-"""Tracks every recording of a folder on the machines of a Ray cluster: `mien track DIR --out DIR` for archives beyond one machine.
+"""Tracks every recording of a folder on the machines of a Ray cluster: `mien track DIR --out DIR` for archives beyond
+one machine.
 
-usage: batch_ray.py DIR --out DIR [--format NAME]... [--address ADDRESS] [--mien PROGRAM] [--cpus N] [--json] [-- OPTIONS OF mien track]
+usage: batch_ray.py DIR --out DIR [--format NAME]... [--address ADDRESS] [--mien PROGRAM] [--cpus N] [--json]
+       [-- OPTIONS OF mien track]
 
-Needs `ray` (PyPI), and folders and program under the same names on all machines. ADDRESS is that of a cluster (`auto`: the one this
-machine belongs to); without it Ray starts on this machine alone. As with `mien track`: a/b.mp4 becomes OUT/a/b.mp4.csv, a file whose
-outputs are all there and newer than it is done already, files appear under their names when they are whole, and what fails is named at
-the end (exit code 12) and stops nothing. A worker that dies is replaced and its file begun anew, unless it was done: each is done once.
+Needs `ray` (PyPI), and folders and program under the same names on all machines. ADDRESS is that of a cluster (`auto`:
+the one this machine belongs to); without it Ray starts on this machine alone. As with `mien track`: a/b.mp4 becomes
+OUT/a/b.mp4.csv, a file whose outputs are all there and newer than it is done already, files appear under their names
+when they are whole, and what fails is named at the end (exit code 12) and stops nothing. A worker that dies is replaced
+and its file begun anew, unless it was done: each is done once.
 """
 import argparse
 import contextlib
@@ -17,10 +20,14 @@ import sys
 import time
 
 # As in apps/mien/tracking/batch.cpp and apps/animation/animation.h.
-RECORDINGS = (".3gp .aac .avi .flac .flv .m4a .m4v .mkv .mov .mp3 .mp4 .mpeg .mpg .mts .oga .ogg .ogv .opus .ts .wav .webm .wma .wmv "
+RECORDINGS = (
+    ".3gp .aac .avi .flac .flv .m4a .m4v .mkv .mov .mp3 .mp4 .mpeg .mpg .mts .oga .ogg .ogv .opus .ts .wav .webm .wma "
+    ".wmv "
               ".y4m").split()
-ENDINGS = {"csv": ".csv", "jsonl": ".jsonl", "llf": ".llf.csv", "gltf": ".gltf", "glb": ".glb", "bvh": ".bvh", "roblox": ".roblox.csv",
-           "visemes": ".visemes.csv", "rhubarb": ".tsv", "rhubarb-json": ".rhubarb.json", "rhubarb-xml": ".xml", "rhubarb-dat": ".dat"}
+ENDINGS = {"csv": ".csv", "jsonl": ".jsonl", "llf": ".llf.csv", "gltf": ".gltf", "glb": ".glb", "bvh": ".bvh",
+           "roblox": ".roblox.csv",
+           "visemes": ".visemes.csv", "rhubarb": ".tsv", "rhubarb-json": ".rhubarb.json", "rhubarb-xml": ".xml",
+           "rhubarb-dat": ".dat"}
 RETRIES = 5  # of a file whose worker died
 SOME_FAILED = 12
 # A program whose worker was killed must not go on beside the one that begins its file anew.
@@ -32,7 +39,8 @@ def recordings(folder, out):
     names = []
     for path, folders, files in os.walk(folder):
         folders[:] = [name for name in folders if os.path.realpath(os.path.join(path, name)) != os.path.realpath(out)]
-        names += [os.path.relpath(os.path.join(path, name), folder) for name in files if os.path.splitext(name)[1].lower() in RECORDINGS]
+        names += [os.path.relpath(os.path.join(path, name), folder) for name in files
+                  if os.path.splitext(name)[1].lower() in RECORDINGS]
     return sorted(names)
 
 
@@ -47,7 +55,8 @@ def track(job, program, options):
     if is_done(job):
         return job | {"outcome": "done before"}
     os.makedirs(os.path.dirname(job["outputs"][0]), exist_ok=True)
-    outputs = [word for output, name in zip(job["outputs"], job["formats"]) for word in ("-o", output, "--format", name)]
+    outputs = [word for output, name in zip(job["outputs"], job["formats"])
+               for word in ("-o", output, "--format", name)]
     command = [*DIE_WITH_WORKER, program, "track", job["input"], *outputs, "--quiet", *options]
     done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True)
     if done.returncode != 0:
@@ -96,7 +105,8 @@ def main(words):
     formats = arguments.format or ["csv"]
     folder, out = os.path.abspath(arguments.folder), os.path.abspath(arguments.out)
     jobs = [{"file": name, "input": os.path.join(folder, name), "formats": formats,
-             "outputs": [os.path.join(out, name + ENDINGS[each]) for each in formats]} for name in recordings(folder, out)]
+             "outputs": [os.path.join(out, name + ENDINGS[each]) for each in formats]}
+            for name in recordings(folder, out)]
     if not jobs:
         sys.exit(f"{folder}: no video and no audio in this folder")
     before = [job | {"outcome": "done before"} for job in jobs if is_done(job)]
@@ -104,7 +114,8 @@ def main(words):
     with contextlib.redirect_stdout(sys.stderr):  # where Ray says that a worker died; standard output is the table's
         finished = sorted(before + (run_all(waiting, arguments) if waiting else []), key=lambda job: job["file"])
     if arguments.json:
-        print(json.dumps([{key: value for key, value in job.items() if key not in ("input", "formats")} for job in finished], indent=1))
+        print(json.dumps([{key: value for key, value in job.items() if key not in ("input", "formats")}
+                          for job in finished], indent=1))
     else:
         for job in finished:
             print(f"{job['outcome']:12} {job['file']}")

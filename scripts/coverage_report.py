@@ -2,8 +2,8 @@
 """Sums up coverage by folder and compares it with the goals.
 
 usage: coverage_report.py EXPORT.json UNCOVERED.txt REPORT.md      (see coverage.sh)
-EXPORT.json is llvm-cov's. UNCOVERED.txt becomes a line for every stretch of lines and every side of a branch that nothing ran;
-in REPORT.md the table is put anew. Exit status 0 only when the bars are met.
+EXPORT.json is llvm-cov's. UNCOVERED.txt becomes a line for every stretch of lines and every side of a branch that
+nothing ran; in REPORT.md the table is put anew. Exit status 0 only when the bars are met.
 """
 import json
 import os
@@ -44,7 +44,8 @@ def rooms_of(path):
 
 
 def uncovered_lines(segments):
-    """Stretches of lines whose regions nobody entered; a segment is [line, column, count, has a count, begins a region, is a gap]."""
+    """Stretches of lines whose regions nobody entered; a segment is [line, column, count, has a count, begins a region,
+    is a gap]."""
     for here, following in zip(segments, segments[1:]):
         if here[3] and not here[2] and here[4] and not here[5]:
             yield here[0], following[0]
@@ -73,7 +74,8 @@ def main(export, uncovered, report):
         if path.parts[0] not in LIBRARY or tier_of(path) in left_out:
             continue
         sides = list(uncovered_sides(file["branches"]))
-        remarks += [f"{path}:{a}: not run{f' (to {b})' if b != a else ''}" for a, b in uncovered_lines(file["segments"])]
+        remarks += [f"{path}:{a}: not run{f' (to {b})' if b != a else ''}"
+                    for a, b in uncovered_lines(file["segments"])]
         remarks += [f"{path}:{line}:{column}: {what}" for line, column, what in sides]
         for room in rooms_of(path):
             sums = rooms.setdefault(room, {"lines": [0, 0], "branches": [0, 0]})
@@ -86,9 +88,13 @@ def main(export, uncovered, report):
     for room in sorted(set(rooms) - {"the library", "parsers"}) + ["the library", "parsers"]:
         parts = rooms[room]["lines"], rooms[room]["branches"]
         rows.append(f"| {room} | " + " | ".join(f"{p[0]} of {p[1]} | {percent(p):.1f}" for p in parts) + " |")
-    met = percent(rooms["the library"]["lines"]) >= LINES_OF_LIBRARY and percent(rooms["parsers"]["branches"]) >= BRANCHES_OF_PARSERS
-    rows += ["", f"Goals: lines of the library {LINES_OF_LIBRARY:.0f} %, branches of parsers {BRANCHES_OF_PARSERS:.0f} %: {'met' if met else 'missed'}.",
-             f"Excluded tiers, which this CPU lacks: {', '.join(left_out) or 'none'}; tiers of other machines are not compiled."]
+    met = percent(rooms["the library"]["lines"]) >= LINES_OF_LIBRARY and percent(
+        rooms["parsers"]["branches"]) >= BRANCHES_OF_PARSERS
+    rows += ["",
+             f"Goals: lines of the library {LINES_OF_LIBRARY:.0f} %, branches of parsers {BRANCHES_OF_PARSERS:.0f} %: "
+             f"{'met' if met else 'missed'}.",
+             f"Excluded tiers, which this CPU lacks: {', '.join(left_out) or 'none'}; tiers of other machines are not "
+             "compiled."]
     text = Path(report).read_text()
     before, rest = text.split(BEGIN)
     Path(report).write_text("\n".join([before + BEGIN, *rows, END + rest.split(END)[1]]))

@@ -13,5 +13,5 @@ cmake --build --preset release --target mien_program
 
 build/release/apps/mien/mien track tests/data/demo.mp4 -o "$out/demo.csv" --landmarks "$out/demo_landmarks.csv" \
   --overlay "$out/demo.mp4" --stats "$out/demo_stats.json"
-python3 scripts/evaluate/compare_truth.py "$out/demo.csv" tests/data/demo_truth.csv
+python3 scripts/measure/compare_truth.py "$out/demo.csv" tests/data/demo_truth.csv
 echo "curves: $out/demo.csv   landmarks: $out/demo_landmarks.csv   video: $out/demo.mp4"

@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 """Adds a run of a fuzz target to a tally, and makes the table of a page of all runs.
 
-usage: scripts/fuzz_tally.py TALLY.json PAGE.md [TARGET RUNS "USER SYSTEM"]     processor time in seconds; without: the table alone
+usage: scripts/fuzz_tally.py TALLY.json PAGE.md
+       [TARGET RUNS "USER SYSTEM"]     processor time in seconds; without: the table alone
 """
 import json
 import pathlib
@@ -26,7 +27,8 @@ def main():
         done["seconds"] = round(done["seconds"] + sum(map(float, used.split())), 1)
         pathlib.Path(path).write_text(json.dumps(tally, indent=1) + "\n")
     text = pathlib.Path(page).read_text()
-    pathlib.Path(page).write_text(re.sub(r"\| target \|.*?(?=\n\n)", lambda _: table(tally), text, count=1, flags=re.DOTALL))
+    pathlib.Path(page).write_text(re.sub(r"\| target \|.*?(?=\n\n)", lambda _: table(tally), text, count=1,
+                                         flags=re.DOTALL))
 
 
 if __name__ == "__main__":

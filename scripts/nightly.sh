@@ -29,10 +29,10 @@ step made_100000_times build/release/tests/tracker/tracker_scenario_test --gtest
 step every_allocation /usr/bin/python3 tests/apps/faults_test.py build/release/apps/mien/mien build/release/tests/apps/libmien_failing_malloc.so all
 step output_safety /usr/bin/python3 tests/apps/output_safety_test.py build/release/apps/mien/mien full
 step media_matrix /usr/bin/python3 tests/apps/media_matrix_test.py build/release/apps/mien/mien 400
-step public_models /usr/bin/python3 tests/convert/public_models_test.py build/release/apps/mien/mien
-step killed_training /usr/bin/python3 tests/train/killed_training_test.py
-step worst_frame scripts/evaluate/worst_frame.sh
-step soak scripts/evaluate/soak.sh
+step public_models env PYTHONPATH=scripts /usr/bin/python3 tests/convert/public_models_test.py build/release/apps/mien/mien
+step killed_training env PYTHONPATH=scripts /usr/bin/python3 tests/train/killed_training_test.py
+step worst_frame scripts/measure/worst_frame.sh
+step soak scripts/measure/soak.sh
 step memcheck scripts/valgrind.sh 3
 step realtime scripts/rtsan.sh
 step coverage scripts/coverage.sh

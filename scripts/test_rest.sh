@@ -62,13 +62,14 @@ part() {  # minutes that it takes two processors without caches, name, command
   echo "== $2 took $((SECONDS - began)) s"
 }
 part 1 "supply chain" scripts/check/supply_chain.sh
-part 2 Python bindings/python/test.sh
+part 2 "Python binding" bindings/python/test.sh
 part 1 Rust binding rust rust
 part 1 "C#" binding csharp csharp
 part 1 Java binding android java
 part 1 Swift bindings/swift/test.sh  # no compiler for it is in Debian; JavaScript: the page
 part 1 documentation scripts/site.sh
 part 1 words scripts/check/words.sh
+part 1 Python scripts/check/python.sh
 part 1 "batches on a cluster" cluster
 part 1 "binary interface" scripts/check/abi.sh
 part 2 threads threads

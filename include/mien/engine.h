@@ -1,5 +1,5 @@
 // The C++ interface for custom networks: opens a weight file (.mien, docs/format.md) and runs one
-// of its networks. scripts/convert/onnx_to_mien.py converts ONNX files (docs/convert.md).
+// of its networks. scripts/mien_convert converts ONNX files (docs/convert.md).
 //
 // In C++:
 //

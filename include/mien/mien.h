@@ -862,7 +862,7 @@ MIEN_API MIEN_NODISCARD mien_status mien_tracker_load_neutral(mien_tracker* trac
 
 /* Custom networks ------------------------------------------------------------------------------ */
 
-/** Any network of a weight file, for example one that scripts/convert/onnx_to_mien.py converted.
+/** Any network of a weight file, for example one that scripts/mien_convert converted.
  *  mien/engine.h documents the memory layout of maps and the state of temporal layers, with an
  *  example in C and C++. One thread at a time may use a network. */
 typedef struct mien_network mien_network;

@@ -49,7 +49,8 @@ def unknown(tree, page):
 
 def main(pages):
     tree = Tree()
-    missing = [f"{page}:{number}: {name}: no such file or test" for page in pages for number, name in unknown(tree, page)]
+    missing = [f"{page}:{number}: {name}: no such file or test" for page in pages
+               for number, name in unknown(tree, page)]
     print("\n".join(missing), end="\n" if missing else "", file=sys.stderr)
     return bool(missing)
 

@@ -60,8 +60,10 @@ def main():
     names = {preset["name"] for kind in ("configurePresets", "buildPresets", "testPresets") for preset in presets[kind]}
     workflows = tracked(".github/workflows/*.yml")
     yaml_files = tracked(".github/*.yml", "CITATION.cff", ".pre-commit-config.yaml")
-    json_files = tracked("CMakePresets.json", ".devcontainer/*.json", "*package.json", ".textlintrc.json", "*cspell.json")
-    named = [*workflows, Path("CONTRIBUTING.md"), Path(".pre-commit-config.yaml"), Path(".devcontainer/devcontainer.json")]
+    json_files = tracked("CMakePresets.json", ".devcontainer/*.json", "*package.json", ".textlintrc.json",
+                         "*cspell.json")
+    named = [*workflows, Path("CONTRIBUTING.md"), Path(".pre-commit-config.yaml"),
+             Path(".devcontainer/devcontainer.json")]
     errors = [
         *parse_errors(yaml_files, yaml.safe_load),
         *parse_errors(json_files, json.loads),

@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
-"""clang-tidy, as .clang-tidy says, on every file of which it has not been right already, includes and options being the same.
+"""clang-tidy, as .clang-tidy says, on every file of which it has not been right already, includes and options being the
+same.
 
 usage: scripts/check/tidy.py BUILD_DIR [FOLDER|PATTERN.cpp...]      BUILD_DIR has compile_commands.json
-Without any, what people run: the library and the programs. The tests include GoogleTest, which takes ten seconds a file, so they
-are checked when named: scripts/check/tidy.py build/tidy tests fuzz. What was right is remembered in $XDG_CACHE_HOME/mien/tidy.
+Without any, what people run: the library and the programs. The tests include GoogleTest, which takes ten seconds a
+file, so they are checked when named: scripts/check/tidy.py build/tidy tests fuzz. What was right is remembered in
+$XDG_CACHE_HOME/mien/tidy.
 """
 import argparse
 import concurrent.futures
@@ -54,8 +56,8 @@ class Tidy:
         done = REMEMBERED / self.key(self.entries[file])
         if done.exists():
             return ""
-        found = subprocess.run(["clang-tidy", "-p", str(self.build), "--quiet", file], cwd=ROOT, stdout=subprocess.PIPE,
-                               stderr=subprocess.PIPE, text=True)
+        found = subprocess.run(["clang-tidy", "-p", str(self.build), "--quiet", file], cwd=ROOT, capture_output=True,
+                               text=True)
         if found.returncode == 0 and not found.stdout:
             REMEMBERED.mkdir(parents=True, exist_ok=True)
             done.touch()

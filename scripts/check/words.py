@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
-"""Prepares scripts/check/words.sh: writes the settings of cspell and textlint, and copies without code: of pages their prose, of sources their comments.
+"""Prepares scripts/check/words.sh: writes the settings of cspell and textlint, and copies without code: of pages their
+prose, of sources their comments.
 
 usage: words.py FOLDER FILE...
-Terms come from docs/glossary.md, known words from there and from scripts/check/words.txt. Copies keep their line numbers.
+Terms come from docs/glossary.md, known words from there and from scripts/check/words.txt. Copies keep their line
+numbers.
 """
 import itertools
 import json
@@ -14,11 +16,13 @@ GLOSSARY = Path("docs/glossary.md")
 WORDS = Path("scripts/check/words.txt")
 IN_CODE_FONT = re.compile(r"`([^`]+)`")
 FENCE = re.compile(r"(?ms)^[ ]*```.*?^[ ]*```[ ]*$")
-COMMENTS = {(".h", ".hpp", ".c", ".cpp", ".inc", ".js", ".mjs", ".ts"): re.compile(r"(?<![:\"'\w/])//[^\n]*|/\*.*?\*/", re.S),
+COMMENTS = {(".h", ".hpp", ".c", ".cpp", ".inc", ".js", ".mjs", ".ts"): re.compile(r"(?<![:\"'\w/])//[^\n]*|/\*.*?\*/",
+                                                                                   re.S),
             (".py", ".sh", ".cmake", "CMakeLists.txt"): re.compile(r"(?m)(?<![^\s])#[^\n]*|\"{3}.*?\"{3}", re.S)}
 INLINE_CODE = re.compile(r"`(?:[^`\n]|\n(?!\n))+`")
 INDENTED_CODE = re.compile(r"(?m)^    .*$")
-NOT_PROSE = [re.compile(pattern) for pattern in (r"<!--.*?-->", r"(?<=\])\([^)\n]*\)", r"https?://\S+", r"</?[a-z][^>\n]*>")]
+NOT_PROSE = [re.compile(pattern)
+             for pattern in (r"<!--.*?-->", r"(?<=\])\([^)\n]*\)", r"https?://\S+", r"</?[a-z][^>\n]*>")]
 
 
 def glossary_rows(text):
@@ -41,7 +45,8 @@ def terminology(rows):
 
 
 def prose(text):
-    """The text with code, links' targets and comments blanked. A number stands for inline code, so that no word seems repeated."""
+    """The text with code, links' targets and comments blanked. A number stands for inline code, so that no word seems
+    repeated."""
     blank = lambda match: re.sub(r"\S", " ", match.group())
     numbers = itertools.cycle(range(10, 100))
     number = lambda match: str(next(numbers)) + blank(match)[2:]
@@ -55,7 +60,8 @@ def comments(text, pattern):
     """The text with everything but comments blanked."""
     kept, end = [], 0
     for match in pattern.finditer(text):
-        kept += [re.sub(r"\S", " ", text[end:match.start()]), re.sub(r"^(//+|#+|/\*+)|\*/$|(?m:^\s*\*(?= ))", lambda m: " " * len(m.group()), match.group())]
+        kept += [re.sub(r"\S", " ", text[end:match.start()]),
+                 re.sub(r"^(//+|#+|/\*+)|\*/$|(?m:^\s*\*(?= ))", lambda m: " " * len(m.group()), match.group())]
         end = match.end()
     return "".join(kept) + re.sub(r"\S", " ", text[end:])
 

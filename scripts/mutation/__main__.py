@@ -24,14 +24,18 @@ GOAL = 300  # mutants that compile and change the machine code
 
 def options():
     parser = argparse.ArgumentParser(prog="scripts/mutate.sh", description=__doc__.splitlines()[0])
-    parser.add_argument("--count", type=int, default=GOAL, help=f"mutants that compile and change the machine code (default {GOAL})")
+    parser.add_argument("--count", type=int, default=GOAL,
+                        help=f"mutants that compile and change the machine code (default {GOAL})")
     parser.add_argument("--seed", type=int, default=1, help="of the sample (default 1)")
     parser.add_argument("--workers", type=int, default=1, help="mutants at a time (default 1)")
     parser.add_argument("--results", type=pathlib.Path, default=WORK / "results.jsonl",
-                        help="what is known so far: a run goes on where the last one ended (default build/mutate/results.jsonl)")
-    parser.add_argument("--again", action="store_true", help="try mutants again that survived, since there are more tests now")
+                        help="what is known so far: a run goes on where the last one ended (default "
+                             "build/mutate/results.jsonl)")
+    parser.add_argument("--again", action="store_true",
+                        help="try mutants again that survived, since there are more tests now")
     parser.add_argument("--only", nargs="+", metavar="FILE", help="mutants of these files alone")
-    parser.add_argument("--report", action="store_true", help="run nothing; write docs/results/mutations.md from the results")
+    parser.add_argument("--report", action="store_true",
+                        help="run nothing; write docs/results/mutations.md from the results")
     return parser.parse_args()
 
 
@@ -44,8 +48,8 @@ class Results:
         self.by_key = {result["key"]: result for result in map(json.loads, lines)}
 
     def add(self, mutant, outcome):
-        result = {"key": mutant.key, "file": mutant.file, "line": mutant.line, "before": mutant.before.strip(), "after": mutant.after.strip(),
-                  **outcome}
+        result = {"key": mutant.key, "file": mutant.file, "line": mutant.line, "before": mutant.before.strip(),
+                  "after": mutant.after.strip(), **outcome}
         with self._lock:
             self.by_key[mutant.key] = result
             with self._path.open("a") as file:
@@ -54,11 +58,13 @@ class Results:
 
 
 class Sample:
-    """The first mutants of an order that are any, handed out one by one: all of them to the quick tests, then what is left to the slow ones."""
+    """The first mutants of an order that are any, handed out one by one: all of them to the quick tests, then what is
+    left to the slow ones."""
 
     def __init__(self, order, results, count, again):
         self._order, self._results, self._count = order, results, count
-        self._again = {key for key, result in results.by_key.items() if again and result["outcome"] in (SURVIVED, WAITING)}
+        self._again = {key for key, result in results.by_key.items()
+                       if again and result["outcome"] in (SURVIVED, WAITING)}
         self._next, self._lock, self._running, self._handed = 0, threading.Lock(), 0, set()
 
     def take(self):
@@ -115,7 +121,8 @@ def run(sample, results, files, workers):
     base.prepare(sorted({check.target for check in needed}))
     times, failures = Times(base, print), []
     times.measure(needed)
-    threads = [threading.Thread(target=work_through, args=(number, base, times, sample, results, failures)) for number in range(workers)]
+    threads = [threading.Thread(target=work_through, args=(number, base, times, sample, results, failures))
+               for number in range(workers)]
     for thread in threads:
         thread.start()
     for thread in threads:
@@ -133,11 +140,15 @@ def test_seconds():
 def write_page(known, argued, generated, seed):
     text = PAGE.read_text()
     head = text[:text.index("<!-- results -->")]
-    commit = subprocess.run(["git", "rev-parse", "--short=10", "HEAD"], cwd=ROOT, check=True, capture_output=True, text=True).stdout.strip()
+    commit = subprocess.run(["git", "rev-parse", "--short=10", "HEAD"], cwd=ROOT, check=True, capture_output=True,
+                            text=True).stdout.strip()
     valid = sum(result["outcome"] in (KILLED, SURVIVED, WAITING) for result in known)
     minutes = sum(result["seconds"] for result in known) / 60
-    opening = (f"<!-- results -->\n\nCommit {commit}, seed {seed}: {len(known):,} of {generated:,} generated mutants were tried; {valid} of "
-               f"them compile and change the machine code. That took {minutes:.0f} minutes. All tests that a mutant can face take "
+    opening = (
+        f"<!-- results -->\n\nCommit {commit}, seed {seed}: {len(known):,} of {generated:,} generated mutants were "
+        f"tried; {valid} of "
+               f"them compile and change the machine code. That took {minutes:.0f} minutes. All tests that a mutant "
+               "can face take "
                f"{test_seconds():.0f} s of one processor together.\n")
     if valid < GOAL:
         opening += f"\nThe run is not complete: `scripts/mutate.sh` continues it up to {GOAL}.\n"

@@ -1,4 +1,5 @@
-"""The original: a copy of the sources, its build, and what the build knows: compile commands, dependencies, and which objects make a program."""
+"""The original: a copy of the sources, its build, and what the build knows: compile commands, dependencies, and which
+objects make a program."""
 import dataclasses
 import hashlib
 import json
@@ -32,12 +33,14 @@ class Base:
 
     def prepare(self, targets):
         """Brings the copy to the state of the root, and builds it."""
-        listed = subprocess.run(["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"], cwd=self.root, check=True, capture_output=True, text=True).stdout
+        listed = subprocess.run(["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"], cwd=self.root,
+                                check=True, capture_output=True, text=True).stdout
         names = {name for name in listed.split("\0") if name and (self.root / name).is_file()}
         for name in names:
             self._copy(name)
         for path in self.source.rglob("*"):
-            if path.is_file() and self.source / "build" not in path.parents and str(path.relative_to(self.source)) not in names:
+            if path.is_file() and self.source / "build" not in path.parents and str(
+                path.relative_to(self.source)) not in names:
                 path.unlink()
         whole_files = f"-DCMAKE_PROJECT_INCLUDE={pathlib.Path(__file__).parent / 'whole_files.cmake'}"
         environment = dict(os.environ, CCACHE_BASEDIR=str(self.source))
@@ -56,7 +59,8 @@ class Base:
             to_path.chmod(from_path.stat().st_mode)
 
     def _ninja(self, tool):
-        return subprocess.run(["ninja", "-C", self.build_folder, "-t", tool], check=True, stdout=subprocess.PIPE, text=True).stdout
+        return subprocess.run(["ninja", "-C", self.build_folder, "-t", tool], check=True, stdout=subprocess.PIPE,
+                              text=True).stdout
 
     def _read_commands(self):
         entries = json.loads(self._ninja("compdb"))
@@ -64,7 +68,8 @@ class Base:
         self._sources = {}
         for entry in entries:
             if entry["output"].endswith(".o"):
-                self._sources[entry["output"]] = os.path.relpath(os.path.join(self.build_folder, entry["file"]), self.source)
+                self._sources[entry["output"]] = os.path.relpath(os.path.join(self.build_folder, entry["file"]),
+                                                                 self.source)
 
     def _read_dependencies(self):
         """Objects by the file that they are made of, directly or through #include."""
@@ -78,7 +83,8 @@ class Base:
                     self._dependents.setdefault(name, []).append(output)
 
     def dependents(self, file, tests_too):
-        """Objects that hold the file; that with the same name as a header first. Of the library, and of tests, which take long to compile."""
+        """Objects that hold the file; that with the same name as a header first. Of the library, and of tests, which
+        take long to compile."""
         stem = os.path.splitext(file)[0] + ".cpp"
         folders = (*FOLDERS, "tests/") if tests_too else FOLDERS
         outputs = [output for output in self._dependents.get(file, []) if output.startswith(folders)]

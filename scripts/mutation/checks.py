@@ -25,7 +25,8 @@ def program(folder, name):
 
 
 FORMATS = program("formats", "formats_test")
-ENGINE = [program("engine", "engine_test"), program("engine", "engine_allocation_test"), program("engine", "engine_stack_test")]
+ENGINE = [program("engine", "engine_test"), program("engine", "engine_allocation_test"),
+          program("engine", "engine_stack_test")]
 API = [program("api", "api_test"), program("api", "api_stack_test")]
 AUDIO = program("audio", "audio_test")
 GEOMETRY = program("tracker", "tracker_geometry_test")
@@ -68,8 +69,8 @@ def stop_all():
 def run(command, seconds, folder):
     """(exit status or "timeout", output). `seconds` of a processor: how busy the machine is does not matter."""
     limits = ["prlimit", f"--cpu={int(seconds)}", f"--as={MEMORY}", "--core=0"]
-    with subprocess.Popen([*limits, *command], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, cwd=folder,
-                          start_new_session=True) as process:
+    with subprocess.Popen([*limits, *command], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT, cwd=folder, start_new_session=True) as process:
         running.add(process)
         try:
             output, _ = process.communicate(timeout=20 * seconds)

@@ -1,4 +1,5 @@
-"""Which mutants may compile: most of what universalmutator generates from C++ does not, and nobody needs a compiler to see it."""
+"""Which mutants may compile: most of what universalmutator generates from C++ does not, and nobody needs a compiler to
+see it."""
 import os
 import re
 
@@ -7,7 +8,8 @@ def words(text):
     return set(re.findall(r"[A-Za-z_]\w*", text))
 
 
-NEW_WORDS = words("break continue min max begin end any_of all_of none_of min_element max_element front_inserter back_inserter")
+NEW_WORDS = words(
+    "break continue min max begin end any_of all_of none_of min_element max_element front_inserter back_inserter")
 OPERATORS = set("+ - * / % < > <= >= == != && || & | ^ << >> = += -= *= /= %= &= |= ^= <<= >>= ++ -- ! ~ ->".split())
 PAIRS = ("()", "[]", "{}")
 DECLARATION = re.compile(r"(const|constexpr|static|inline|auto|using|explicit|virtual|template|friend|\[\[|#)"
@@ -39,8 +41,10 @@ def number_fits(now, ahead, behind):
 
 
 def operator_fits(was, now, ahead, behind):
-    """Between spaces an operator has two operands; otherwise it is a template's bracket, a reference, a pointer or a sign."""
-    more_ahead, more_behind = (re.search(pattern, text)[0] for pattern, text in ((r"[-+*/%<>=!&|]*$", ahead), (r"^[-+*/%<>=!&|]*", behind)))
+    """Between spaces an operator has two operands; otherwise it is a template's bracket, a reference, a pointer or a
+    sign."""
+    more_ahead, more_behind = (re.search(pattern, text)[0]
+                               for pattern, text in ((r"[-+*/%<>=!&|]*$", ahead), (r"^[-+*/%<>=!&|]*", behind)))
     ahead, behind = ahead[:len(ahead) - len(more_ahead)], behind[len(more_behind):]
     was, now = more_ahead + was + more_behind, more_ahead + now + more_behind
     if ahead[-1:] == "'":
@@ -76,7 +80,8 @@ def is_statement(code, ahead):
     """Whether the line may be left out: all of a statement that declares nothing, or an operand."""
     if code.endswith(("&&", "||")):
         return True
-    return code.endswith(";") and not DECLARATION.match(code) and (not ahead or ahead.endswith((";", "{", "}", ":", ">")))
+    return code.endswith(";") and not DECLARATION.match(code) and (not ahead
+                                                                   or ahead.endswith((";", "{", "}", ":", ">")))
 
 
 def kind_of(text):
@@ -122,10 +127,12 @@ class Filter:
     def passes(self, number, before, after):
         """`number`: of the line, from 1."""
         code, changed = without_comments(before), without_comments(after)
-        if not code.strip() or code == changed or balance(code) != balance(changed) or not words(changed) - words(code) <= NEW_WORDS:
+        if not code.strip() or code == changed or balance(code) != balance(changed) or not words(changed) - words(
+            code) <= NEW_WORDS:
             return False
         if changed.count("\n") > code.count("\n"):
-            return code.rstrip().endswith((";", "{")) and may_stop(changed.split()[-1].rstrip(";"), self._scopes[number - 1])
+            return code.rstrip().endswith((";", "{")) and may_stop(changed.split()[-1].rstrip(";"),
+                                                                   self._scopes[number - 1])
         if not changed.strip():
             return is_statement(code.strip(), self._ahead(number))
         return fits(code, changed)

@@ -43,10 +43,13 @@ def table(results, argued):
             outcome = SURVIVED
         for name in (folder_of(result["file"]), "all"):
             counts[name][outcome] += 1
-    rows = ["| folder | killed | survived | share | argued equivalent | same machine code | does not compile |", "|---|---|---|---|---|---|---|"]
+    rows = ["| folder | killed | survived | share | argued equivalent | same machine code | does not compile |",
+            "|---|---|---|---|---|---|---|"]
     for name in sorted(counts, key=lambda name: (name == "all", name)):
         count = counts[name]
-        rows.append(f"| {name} | {count[KILLED]} | {count[SURVIVED]} | {share(count[KILLED], count[SURVIVED])} | {count['equivalent']} | "
+        rows.append(
+            f"| {name} | {count[KILLED]} | {count[SURVIVED]} | {share(count[KILLED], count[SURVIVED])} | "
+            f"{count['equivalent']} | "
                     f"{count[IDENTICAL]} | {count[NOT_COMPILED]} |")
     return rows
 
@@ -54,9 +57,12 @@ def table(results, argued):
 def listed(title, results, last):
     if not results:
         return []
-    rows = [f"| `{result['file']}`, line {result['line']} | {code(result['before'])} | {code(result['after'])} | {last(result)} |"
+    rows = [
+        f"| `{result['file']}`, line {result['line']} | {code(result['before'])} | {code(result['after'])} | "
+        f"{last(result)} |"
             for result in results]
-    return ["", f"## {title}", "", f"| where | code | mutant | {'reason' if 'quivalent' in title else 'test'} |", "|---|---|---|---|", *rows]
+    return ["", f"## {title}", "", f"| where | code | mutant | {'reason' if 'quivalent' in title else 'test'} |",
+            "|---|---|---|---|", *rows]
 
 
 def page(results, argued, opening):

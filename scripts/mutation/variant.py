@@ -1,11 +1,13 @@
-"""Builds one mutant: the objects that hold the changed file, and programs with these objects in the place of the original ones."""
+"""Builds one mutant: the objects that hold the changed file, and programs with these objects in the place of the
+original ones."""
 import os
 import shutil
 import subprocess
 
 from .base import digest
 
-# For mutants and for what they are compared with. Code that is optimized little is sooner compiled, and shows more differences.
+# For mutants and for what they are compared with. Code that is optimized little is sooner compiled, and shows more
+# differences.
 LIKE_EACH_OTHER = ["-O1", "-w", "-frandom-seed=mien"]
 
 
@@ -40,8 +42,8 @@ class Variant:
         words = self._base.compile_command(output)
         include = [f"-I{overlay}"] if overlay else []
         command = [words[0], *include, *words[1:], *LIKE_EACH_OTHER, "-o", str(to_path), "-c", str(source)]
-        done = subprocess.run(command, cwd=self._base.build_folder, env=dict(os.environ, CCACHE_DISABLE="1"), check=False,
-                              stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        done = subprocess.run(command, cwd=self._base.build_folder, env=dict(os.environ, CCACHE_DISABLE="1"),
+                              check=False, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         if done.returncode != 0:
             raise NotCompiled
 
@@ -53,8 +55,8 @@ class Variant:
         return path
 
     def is_identical(self):
-        """Whether none of the objects that were needed differs from the original's. Few mutants are, and tests kill most others sooner than
-        the original is compiled."""
+        """Whether none of the objects that were needed differs from the original's. Few mutants are, and tests kill
+        most others sooner than the original is compiled."""
         return all(digest(self._objects / output) == self._original(output) for output in self._compiled)
 
     def _original(self, output):
@@ -78,11 +80,13 @@ class Variant:
         linked.parent.mkdir(parents=True, exist_ok=True)
         direct = {self._base.source_of(output) for output in program.direct}
         # Ahead of all: the linker takes no second definition from a library, nor of an inline function from a test.
-        ahead = [path for output, path in changed.items() if output not in program.direct and self._base.source_of(output) not in direct]
+        ahead = [path for output, path in changed.items()
+                 if output not in program.direct and self._base.source_of(output) not in direct]
         compiler, *words = [changed.get(word, word) for word in program.command]
         words[words.index("-o") + 1] = str(linked)
         command = [compiler, *ahead, *words, "-fuse-ld=gold"]
-        done = subprocess.run(command, cwd=self._base.build_folder, check=False, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        done = subprocess.run(command, cwd=self._base.build_folder, check=False, stdout=subprocess.DEVNULL,
+                              stderr=subprocess.DEVNULL)
         if done.returncode != 0:
             raise NotCompiled
         return linked

@@ -74,7 +74,8 @@ class Worker:
 
     def _outcome(self, mutant, slow):
         text = mutant.applied((self._base.source / mutant.file).read_text())
-        # What is inline in a header is part of the tests as well: where the library alone survives, they are compiled anew.
+        # What is inline in a header is part of the tests as well: where the library alone survives, they are compiled
+        # anew.
         tests_too = slow and mutant.file.endswith(".h")
         jobs = [*(self._jobs(mutant.file, slow=False) if tests_too else []), *self._jobs(mutant.file, slow)]
         try:
@@ -95,7 +96,8 @@ class Worker:
         return (SURVIVED if slow else WAITING), ""
 
     def _jobs(self, file, slow):
-        """(check, tests): those that noticed mutants of this file, those named like it, then the others, the quickest first."""
+        """(check, tests): those that noticed mutants of this file, those named like it, then the others, the quickest
+        first."""
         jobs = []
         for check in checks.checks_of(file):
             tests = [test for test, seconds in self._times[check].items() if (seconds > QUICK_S) == slow]

@@ -46,8 +46,7 @@ if(MIEN_PYTHON_WHEEL)
   install(PROGRAMS $<TARGET_FILE:mien_program> DESTINATION mien COMPONENT python)  # what track_file runs
   install(FILES apps/third_party.txt DESTINATION mien COMPONENT python)
   install(DIRECTORY models/ DESTINATION mien/models COMPONENT python)
-  install(DIRECTORY scripts/convert/ DESTINATION mien/_convert COMPONENT python FILES_MATCHING PATTERN *.py)
-  install(FILES scripts/train/mien_file.py scripts/train/whole_files.py DESTINATION mien/_convert COMPONENT python)
+  install(DIRECTORY scripts/mien_convert/ DESTINATION mien/_convert COMPONENT python FILES_MATCHING PATTERN *.py)
 endif()
 
 configure_package_config_file(scripts/package/mienConfig.cmake.in mienConfig.cmake

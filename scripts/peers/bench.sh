@@ -9,6 +9,7 @@ cd "$(dirname "$0")/../.."
 rounds=${1:-7}
 documents=("${@:2}")
 [ ${#documents[@]} -gt 0 ] || documents=(peers performance)
+export PYTHONPATH=$PWD/scripts:$PWD/bindings/python/src
 export MIEN_DATA=${MIEN_DATA:-$PWD/../shared/data}
 work=${MIEN_CACHE:-$HOME/.cache/mien}/peers
 python=$work/venv/bin/python

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Times networks that export_onnx.py wrote in one engine on one thread, as JSON.  usage: engines.py ENGINE DIR
 
-An engine that is not installed is an error; a network that it has no file of is left out; an answer other than PyTorch's is an error.
+An engine that is not installed is an error; a network that it has no file of is left out; an answer other than
+PyTorch's is an error.
 """
 import json
 import sys
@@ -31,7 +32,8 @@ def onnxruntime(stem, inputs):
 def openvino(precision):
     def engine(stem, inputs):
         import openvino as ov
-        settings = {"INFERENCE_NUM_THREADS": 1, "NUM_STREAMS": 1, "PERFORMANCE_HINT": "LATENCY", "INFERENCE_PRECISION_HINT": precision}
+        settings = {"INFERENCE_NUM_THREADS": 1, "NUM_STREAMS": 1, "PERFORMANCE_HINT": "LATENCY",
+                    "INFERENCE_PRECISION_HINT": precision}
         request = ov.Core().compile_model(f"{stem}.onnx", "CPU", settings).create_infer_request()
         for name, x in inputs.items():
             request.set_tensor(name, ov.Tensor(x))
@@ -65,7 +67,8 @@ def litert(stem, inputs):
     interpreter = Interpreter(f"{stem}.tflite", num_threads=1)
     interpreter.allocate_tensors()
     (image,) = inputs.values()
-    interpreter.set_tensor(interpreter.get_input_details()[0]["index"], np.ascontiguousarray(image.transpose(0, 2, 3, 1)))
+    interpreter.set_tensor(interpreter.get_input_details()[0]["index"],
+                           np.ascontiguousarray(image.transpose(0, 2, 3, 1)))
     return interpreter.invoke, lambda: interpreter.get_tensor(interpreter.get_output_details()[0]["index"])
 
 
@@ -82,7 +85,8 @@ def pytorch(stem, inputs):
     return run, lambda: run().numpy()
 
 
-OPENVINO = ["openvino/libs/libopenvino.so.*", "openvino/libs/libopenvino_intel_cpu_plugin.so", "openvino/libs/libopenvino_onnx_frontend.so.*"]
+OPENVINO = ["openvino/libs/libopenvino.so.*", "openvino/libs/libopenvino_intel_cpu_plugin.so",
+            "openvino/libs/libopenvino_onnx_frontend.so.*"]
 # name: (how to run it, what it reads, how exact it has to be, its package, what a program ships of it)
 ENGINES = {
     "onnxruntime": (onnxruntime, ".onnx", EXACT, "onnxruntime", ["onnxruntime/capi/libonnxruntime.so.*"]),
@@ -104,7 +108,7 @@ def shipped_bytes(package, patterns):
 def timed(run):
     """Sorted times in ms."""
     times = []
-    for i in range(WARM_UP + RUNS):
+    for _ in range(WARM_UP + RUNS):
         begin = time.perf_counter_ns()
         run()
         times.append((time.perf_counter_ns() - begin) / 1e6)
@@ -125,10 +129,12 @@ def main():
         run()
         difference = float(np.abs(np.ravel(output()) - answer).max() / np.abs(answer).max())
         if not difference <= tolerance:
-            sys.exit(f"engines.py: {engine} answers something else of {file.stem}: off by {difference:.2g} of the largest")
+            sys.exit(
+                f"engines.py: {engine} answers something else of {file.stem}: off by {difference:.2g} of the largest")
         times = timed(run)
         networks[file.stem] = {"min_ms": times[0], "median_ms": times[RUNS // 2], "difference": difference}
-    print(json.dumps({"version": distribution(package).version, "bytes": shipped_bytes(package, files), "networks": networks}))
+    print(json.dumps({"version": distribution(package).version, "bytes": shipped_bytes(package, files),
+                      "networks": networks}))
 
 
 if __name__ == "__main__":

@@ -11,9 +11,8 @@ import numpy as np
 import torch
 from torch import nn
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "train"))
-from networks import BaseNetEncoder, HiFiNetEncoder, folded  # noqa: E402
-from voice import audio_net  # noqa: E402
+from mien_training.audio import audio_net
+from mien_training.networks.architectures import BaseNetEncoder, HiFiNetEncoder, folded
 
 
 class EncoderStep(nn.Module):
@@ -47,10 +46,12 @@ def clamp_once(network):
 
 def networks():
     """name -> (network, shapes of its inputs by name)"""
-    decoder_inputs = {"embedding": (1, 1, audio_net.EMBEDDING), "hidden": (1, 1, audio_net.HIDDEN), "cell": (1, 1, audio_net.HIDDEN)}
+    decoder_inputs = {"embedding": (1, 1, audio_net.EMBEDDING), "hidden": (1, 1, audio_net.HIDDEN),
+                      "cell": (1, 1, audio_net.HIDDEN)}
     remembered = zip(("first", "second", "third"), [audio_net.FEATURES] + audio_net.WIDTHS)
     state = {"hidden": (1, 1, audio_net.WIDTHS[-1]), "cell": (1, 1, audio_net.WIDTHS[-1])}
-    encoder_inputs = {"features": (1, 1, audio_net.FEATURES), **{name: (1, width, 1) for name, width in remembered}, **state}
+    encoder_inputs = {"features": (1, 1, audio_net.FEATURES), **{name: (1, width, 1) for name, width in remembered},
+                      **state}
     return {
         "basenet_encoder": (clamp_once(folded(BaseNetEncoder())), {"image": (1, 3, 65, 65)}),
         "hifinet_encoder": (clamp_once(folded(HiFiNetEncoder())), {"image": (1, 3, 129, 109)}),

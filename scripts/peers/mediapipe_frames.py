@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Times MediaPipe's face landmarker, with blendshapes and head pose, on the frames of a clip, as JSON.  usage: mediapipe_frames.py CLIP TASK_FILE
+"""Times MediaPipe's face landmarker, with blendshapes and head pose, on the frames of a clip, as JSON.  usage:
+mediapipe_frames.py CLIP TASK_FILE
 
 It follows the face from frame to frame, as mien does. A process of one processor makes its threads one.
 """
@@ -19,14 +20,17 @@ ROUNDS = 5  # of each frame the fastest counts, as in `mien bench --levels`
 
 
 def frames(clip):
-    command = ["ffmpeg", "-nostdin", "-v", "error", "-i", clip, "-s", f"{WIDTH}x{HEIGHT}", "-pix_fmt", "rgb24", "-f", "rawvideo", "-"]
+    command = ["ffmpeg", "-nostdin", "-v", "error", "-i", clip, "-s", f"{WIDTH}x{HEIGHT}", "-pix_fmt", "rgb24", "-f",
+               "rawvideo", "-"]
     data = subprocess.run(command, check=True, stdout=subprocess.PIPE).stdout
-    return [mp.Image(image_format=mp.ImageFormat.SRGB, data=np.array(f)) for f in np.frombuffer(data, np.uint8).reshape(-1, HEIGHT, WIDTH, 3)]
+    return [mp.Image(image_format=mp.ImageFormat.SRGB, data=np.array(f))
+            for f in np.frombuffer(data, np.uint8).reshape(-1, HEIGHT, WIDTH, 3)]
 
 
 def main():
     clip, task = sys.argv[1:]
-    options = vision.FaceLandmarkerOptions(base_options=BaseOptions(model_asset_path=task), running_mode=vision.RunningMode.VIDEO,
+    options = vision.FaceLandmarkerOptions(base_options=BaseOptions(model_asset_path=task),
+                                           running_mode=vision.RunningMode.VIDEO,
                                            output_face_blendshapes=True, output_facial_transformation_matrixes=True)
     pictures, times, faces = frames(clip), [], 0
     with vision.FaceLandmarker.create_from_options(options) as landmarker:
@@ -38,7 +42,8 @@ def main():
     fastest = np.reshape(times, (ROUNDS, -1)).min(0)
     package = distribution("mediapipe")
     shipped = package.locate_file("mediapipe/tasks/c/libmediapipe.so").stat().st_size + Path(task).stat().st_size
-    print(json.dumps({"version": package.version, "bytes": shipped, "faces": faces / len(times), "mean_us": fastest.mean(), "median_us": np.median(times)}))
+    print(json.dumps({"version": package.version, "bytes": shipped, "faces": faces / len(times),
+                      "mean_us": fastest.mean(), "median_us": np.median(times)}))
 
 
 if __name__ == "__main__":

@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
-"""Writes an encoder's ONNX file as a LiteRT one: convolutions, clamps to 0..6, additions, crops.  usage: onnx_to_tflite.py IN.onnx OUT.tflite
+"""Writes an encoder's ONNX file as a LiteRT one: convolutions, clamps to 0..6, additions, crops.  usage:
+onnx_to_tflite.py IN.onnx OUT.tflite
 
-No converter that PyPI has reads ONNX without TensorFlow, and these are seven operators. Maps become channels-last; clamps become a part
-of the convolution, crops one operator, padding that LiteRT cannot name (symmetric, at a stride) an operator before the convolution.
+No converter that PyPI has reads ONNX without TensorFlow, and these are seven operators. Maps become channels-last;
+clamps become a part of the convolution, crops one operator, padding that LiteRT cannot name (symmetric, at a stride) an
+operator before the convolution.
 """
 import sys
 
@@ -29,7 +31,8 @@ class Writer:
             buffer = len(self.model.buffers)
             self.model.buffers.append(schema.BufferT(data=np.frombuffer(data.tobytes(), np.uint8)))
         index = len(self.graph.tensors)
-        self.graph.tensors.append(schema.TensorT(shape=list(shape), type=TYPES[np.dtype(kind)], buffer=buffer, name=f"t{index}"))
+        self.graph.tensors.append(schema.TensorT(shape=list(shape), type=TYPES[np.dtype(kind)], buffer=buffer,
+                                                 name=f"t{index}"))
         return index
 
     def constant(self, values, kind):
@@ -56,18 +59,22 @@ class Writer:
             x = self.pad(x, pads)
             pads = [0, 0, 0, 0]
         n, h, w, _ = self.shape(x)
-        shape = (n, *((a + before + after - k) // s + 1 for a, before, after, k, s in zip((h, w), pads[:2], pads[2:], size, strides)), len(weights))
+        shape = (n, *((a + before + after - k) // s + 1
+                      for a, before, after, k, s in zip((h, w), pads[:2], pads[2:], size, strides)), len(weights))
         weights = weights.transpose(3, 1, 2, 0) if sliding else weights
         options = (schema.DepthwiseConv2DOptionsT(depthMultiplier=1) if sliding else schema.Conv2DOptionsT())
         options.padding = schema.Padding.SAME if same else schema.Padding.VALID
         options.strideH, options.strideW = strides
-        kind = (OPERATOR.DEPTHWISE_CONV_2D, OPTIONS.DepthwiseConv2DOptions) if sliding else (OPERATOR.CONV_2D, OPTIONS.Conv2DOptions)
-        return self.operator(kind[0], [x, self.constant(weights, np.float32), self.constant(bias, np.float32)], shape, options, kind[1])
+        kind = (OPERATOR.DEPTHWISE_CONV_2D, OPTIONS.DepthwiseConv2DOptions) if sliding else (OPERATOR.CONV_2D,
+                                                                                             OPTIONS.Conv2DOptions)
+        return self.operator(kind[0], [x, self.constant(weights, np.float32), self.constant(bias, np.float32)], shape,
+                             options, kind[1])
 
     def pad(self, x, pads):
         amounts = np.array([[0, 0], [pads[0], pads[2]], [pads[1], pads[3]], [0, 0]])
         shape = np.array(self.shape(x)) + amounts.sum(1)
-        return self.operator(OPERATOR.PAD, [x, self.constant(amounts, np.int32)], shape.tolist(), schema.PadOptionsT(), OPTIONS.PadOptions)
+        return self.operator(OPERATOR.PAD, [x, self.constant(amounts, np.int32)], shape.tolist(), schema.PadOptionsT(),
+                             OPTIONS.PadOptions)
 
     def crop(self, x, axis, start, end):
         begin, shape = [0, 0, 0, 0], list(self.shape(x))

@@ -5,7 +5,6 @@ usage: peers.py WORK_DIR ROUNDS OUT_DIR MEASURED...
        peers.py --page OUT_DIR          only writes the page from OUT_DIR/peers.json
 """
 import json
-import os
 import statistics
 import sys
 from pathlib import Path
@@ -38,11 +37,13 @@ def networks(runs):
     theirs = {engine: runs.load(engine) for engine in ENGINES if engine in runs.measured}
     report = []
     for name in dict.fromkeys(r["name"] for r in ours[0]["results"]):
-        peers = {e: least([run["networks"][name] for run in rows]) for e, rows in theirs.items() if name in rows[0]["networks"]}
+        peers = {e: least([run["networks"][name] for run in rows]) for e, rows in theirs.items()
+                 if name in rows[0]["networks"]}
         if not peers:
             continue
         tiers = {r["tier"] for r in ours[0]["results"] if r["name"] == name} - {"ref"}
-        mine = {tier: least([r for run in ours for r in run["results"] if (r["name"], r["tier"]) == (name, tier)]) for tier in sorted(tiers)}
+        mine = {tier: least([r for run in ours for r in run["results"] if (r["name"], r["tier"]) == (name, tier)])
+                for tier in sorted(tiers)}
         report.append({"network": name, "mien": mine, "peers": peers})
     return report
 
@@ -53,7 +54,8 @@ def fastest(times):
 
 def frames(runs):
     """Of both the fastest of each frame, and the mean of these; the least of the rounds."""
-    levels = {level["lod"]: min(run["levels"][i]["mean_us"] for run in runs.load("levels")) for i, level in enumerate(runs.load("levels")[0]["levels"])}
+    levels = {level["lod"]: min(run["levels"][i]["mean_us"] for run in runs.load("levels"))
+              for i, level in enumerate(runs.load("levels")[0]["levels"])}
     theirs = runs.load("mediapipe")
     return {"mien_us": levels, "mediapipe_us": min(r["mean_us"] for r in theirs), "mediapipe_faces": theirs[0]["faces"]}
 
@@ -61,9 +63,11 @@ def frames(runs):
 def sound(runs):
     steps = [next(s for s in run if s["sample_rate"] == 16000) for run in runs.load("sound")]
     theirs, per_second = runs.load("voice_silero"), 16000 / 256
-    return {"mien": {"min_us": per_second * min(s["min_us"] for s in steps), "median_us": per_second * statistics.median(s["median_us"] for s in steps),
+    return {"mien": {"min_us": per_second * min(s["min_us"] for s in steps),
+                     "median_us": per_second * statistics.median(s["median_us"] for s in steps),
                      "heard": runs.load("voice_mien", 1)[0]["heard"]},
-            "silero": {"min_us": min(r["second_min_us"] for r in theirs), "median_us": statistics.median(r["second_median_us"] for r in theirs),
+            "silero": {"min_us": min(r["second_min_us"] for r in theirs),
+                       "median_us": statistics.median(r["second_median_us"] for r in theirs),
                        "heard": theirs[0]["heard"]}}
 
 
@@ -72,17 +76,20 @@ def shipped(runs):
     weights = lambda *names: sum((ROOT / f"models/{name}.mien").stat().st_size for name in names)
     library = (ROOT / "build/release/tracker/libmien.so").stat().st_size
     rows = [["mien, level 1: library and weights", "", library + weights("basenet", "proposal")],
-            ["mien, all levels and sound: library and weights", "", library + weights("basenet", "proposal", "hifinet", "audionet")]]
+            ["mien, all levels and sound: library and weights", "",
+             library + weights("basenet", "proposal", "hifinet", "audionet")]]
     engines = [n for n in ENGINES if n in runs.measured and n not in LESS_EXACT]
     for name in engines + [n for n in OTHERS if n in runs.measured]:
         run = runs.load(name, 1)[0]
-        what = {"mediapipe": "MediaPipe: library and model", "voice_silero": "Silero VAD: network alone"}.get(name, f"{ENGINES.get(name)}: library alone")
+        what = {"mediapipe": "MediaPipe: library and model",
+                "voice_silero": "Silero VAD: network alone"}.get(name, f"{ENGINES.get(name)}: library alone")
         rows.append([what, run["version"], run["bytes"]])
     return rows
 
 
 def table(header, rows):
-    return ["| " + " | ".join(header) + " |", "|" + "---|" * len(header)] + ["| " + " | ".join(row) + " |" for row in rows] + [""]
+    return ["| " + " | ".join(header) + " |",
+            "|" + "---|" * len(header)] + ["| " + " | ".join(row) + " |" for row in rows] + [""]
 
 
 def met(right):
@@ -92,10 +99,15 @@ def met(right):
 def network_lines(report):
     engines = [e for e in ENGINES if any(e in row["peers"] for row in report)]
     show = lambda t: f"{t['min_ms']:.4f}" if t else ""
-    lines = ["## Networks", "", "Fastest run in ms, with checked results; [peers.json](peers.json) has medians. LiteRT runs the encoders only, because `onnx_to_tflite.py` does not "
+    lines = ["## Networks", "",
+             "Fastest run in ms, with checked results; [peers.json](peers.json) has medians. LiteRT runs the encoders "
+             "only, because `onnx_to_tflite.py` does not "
              "convert LSTMs.", ""]
-    lines += table(["network", *(ENGINES[e] for e in engines)], [[r["network"], *(show(r["peers"].get(e)) for e in engines)] for r in report])
-    lines += ["The next table has ratios of minima to the fastest peer in fp32 and to the fastest of all; below 1 mien is faster. Peers use all vector instructions "
+    lines += table(["network", *(ENGINES[e] for e in engines)], [[
+        r["network"], *(show(r["peers"].get(e)) for e in engines)] for r in report])
+    lines += [
+        "The next table has ratios of minima to the fastest peer in fp32 and to the fastest of all; below 1 mien is "
+        "faster. Peers use all vector instructions "
               "of the processor in every row.", ""]
     rows = []
     for r in report:
@@ -105,9 +117,12 @@ def network_lines(report):
         for tier in tiers:
             t = r["mien"][tier]
             ratios = [t["min_ms"] / r["peers"][e]["min_ms"] for e in (full, of_all)]
-            rows.append([r["network"], tier, show(t), f"{ratios[0]:.2f} of {ENGINES[full]}", f"{ratios[1]:.2f} of {ENGINES[of_all]}"])
+            rows.append([r["network"], tier, show(t), f"{ratios[0]:.2f} of {ENGINES[full]}",
+                         f"{ratios[1]:.2f} of {ENGINES[of_all]}"])
     lines += table(["network", "mien's tier", "mien", "of the fastest in fp32", "of the fastest"], rows)
-    lines += [f"* {name}: the goal is at most {BARS[name]} of the fastest peer, by minima and by medians: {met(max(ratios) <= BARS[name])}."
+    lines += [
+        f"* {name}: the goal is at most {BARS[name]} of the fastest peer, by minima and by medians: "
+        f"{met(max(ratios) <= BARS[name])}."
               for name, (_, _, ratios) in best_ratios(report).items()]
     return lines + [""]
 
@@ -118,7 +133,8 @@ def best_ratios(report):
     for r in report:
         if r["network"] in BARS:
             peer, tier = fastest(r["peers"]), fastest(r["mien"])
-            found[r["network"]] = tier, peer, [r["mien"][tier][k] / r["peers"][peer][k] for k in ("min_ms", "median_ms")]
+            found[r["network"]] = tier, peer, [r["mien"][tier][k] / r["peers"][peer][k]
+                                               for k in ("min_ms", "median_ms")]
     return found
 
 
@@ -126,8 +142,11 @@ def frame_lines(report):
     levels = {int(level): us for level, us in report["mien_us"].items()}
     rows = [[str(level), f"{us:.0f}", f"{report['mediapipe_us'] / us:.1f}"] for level, us in levels.items()]
     best = report["mediapipe_us"] / levels[4]
-    return ["## Frames", "", "The demo clip, 640 x 480, with one tracked face: mien from NV12 with audio, MediaPipe Face Landmarker from RGB "
-            f"with blendshapes and head pose, which finds the face in {100 * report['mediapipe_faces']:.0f} % of the frames. Mean over frames of the fastest pass, of 30 of mien and 5 of "
+    return ["## Frames", "",
+            "The demo clip, 640 x 480, with one tracked face: mien from NV12 with audio, MediaPipe Face Landmarker "
+            "from RGB "
+            f"with blendshapes and head pose, which finds the face in {100 * report['mediapipe_faces']:.0f} % of the "
+            "frames. Mean over frames of the fastest pass, of 30 of mien and 5 of "
             f"MediaPipe. MediaPipe takes {report['mediapipe_us']:.0f} us.", "",
             *table(["level", "us", "times as fast as MediaPipe"], rows),
             f"* Level 4: the goal is {BAR_FRAMES} times as fast: {met(best >= BAR_FRAMES)}.", ""]
@@ -140,13 +159,18 @@ def decibels(ratio):
 def sound_lines(report):
     ratios = list(report["mien"]["heard"])
     name = {"mien": "mien: resampler, features, AudioNet, both decoders", "silero": "Silero VAD in ONNX Runtime"}
-    rows = [[name[who], f"{r['min_us']:.0f} / {r['median_us']:.0f}", *(f"{r['heard'][k]['area']:.3f}" for k in ratios)] for who, r in report.items()]
+    rows = [[name[who], f"{r['min_us']:.0f} / {r['median_us']:.0f}", *(f"{r['heard'][k]['area']:.3f}" for k in ratios)]
+            for who, r in report.items()]
     shifts = {who: " / ".join(f"{r['heard'][k]['shift_ms']:.0f}" for k in ratios) for who, r in report.items()}
     seconds = report["mien"]["heard"]["clean"]["seconds"]
     better = [k for k in ratios if report["silero"]["heard"][k]["area"] > report["mien"]["heard"][k]["area"]]
-    return ["## Audio", "", f"Time per second of audio at 16 kHz, minimum / median in us, and area under ROC of voice activity on {seconds:.0f} s of held-out speakers "
-            "in held-out noises. The truth is the energy of clean speech, which mien's network was trained for and Silero's was not; mien's time includes the controls "
-            f"of the mouth. Each is compared at its best delay in ms: mien {shifts['mien']}, Silero {shifts['silero']}.", "",
+    return ["## Audio", "",
+            f"Time per second of audio at 16 kHz, minimum / median in us, and area under ROC of voice activity on "
+            f"{seconds:.0f} s of held-out speakers "
+            "in held-out noises. The truth is the energy of clean speech, which mien's network was trained for and "
+            "Silero's was not; mien's time includes the controls "
+            f"of the mouth. Each is compared at its best delay in ms: mien {shifts['mien']}, "
+            f"Silero {shifts['silero']}.", "",
             *table(["", "us per second", *map(decibels, ratios)], rows),
             f"* Silero detects speech better at: {', '.join(map(decibels, better)) or 'none'}.", ""]
 
@@ -154,28 +178,34 @@ def sound_lines(report):
 def in_short(report):
     """How fast, on which data."""
     found = best_ratios(report["networks"]).items()
-    text = "; ".join(f"{name} takes {ratios[0]:.2f} times as long as with the fastest other engine ({ENGINES[peer]})" for name, (_, peer, ratios) in found)
+    text = "; ".join(f"{name} takes {ratios[0]:.2f} times as long as with the fastest other engine ({ENGINES[peer]})"
+                     for name, (_, peer, ratios) in found)
     if "frames" in report:
         frames = report["frames"]
-        text += f"; a frame at level 4 is {frames['mediapipe_us'] / {int(k): v for k, v in frames['mien_us'].items()}[4]:.0f} times as fast as MediaPipe"
+        level_4_us = {int(k): v for k, v in frames["mien_us"].items()}[4]
+        text += f"; a frame at level 4 is {frames['mediapipe_us'] / level_4_us:.0f} times as fast as MediaPipe"
     return text
 
 
 def page(report):
     lines = ["# Speed compared with other engines and trackers", "", "For users who choose an engine or a tracker.", "",
-             f"{in_short(report)}. The data are the networks of `models/`, the demo clip and held-out speech. One thread each, {report['rounds']} rounds in turns on one machine "
-             f"({report['processor']}; load {report['load']:.0f}), by `scripts/peers/bench.sh`. Only ratios carry over to similar processors. "
+             f"{in_short(report)}. The data are the networks of `models/`, the demo clip and held-out speech. One "
+             f"thread each, {report['rounds']} rounds in turns on one machine "
+             f"({report['processor']}; load {report['load']:.0f}), by `scripts/peers/bench.sh`. Only ratios carry over "
+             "to similar processors. "
              "[Speed](performance.md) has the tier in half precision.", ""]
     lines += network_lines(report["networks"])
     lines += frame_lines(report["frames"]) if "frames" in report else []
     lines += sound_lines(report["sound"]) if "sound" in report else []
     lines += ["## Sizes", "", "Files of the packages for x86-64 Linux, not stripped; engines without a network.", ""]
-    lines += table(["", "version", "MB"], [[what, version, f"{size / MILLION:.1f}" if size else "-"] for what, version, size in report["shipped"]])
+    lines += table(["", "version", "MB"], [[what, version, f"{size / MILLION:.1f}" if size else "-"]
+                                           for what, version, size in report["shipped"]])
     return "\n".join(lines).rstrip() + "\n"
 
 
 def measure(runs):
-    report = {"rounds": runs.rounds, "processor": processor(), "load": float((runs.work / "load").read_text().split()[2]), "networks": networks(runs), "shipped": shipped(runs)}
+    report = {"rounds": runs.rounds, "processor": processor(), "load": float((runs.work / "load").read_text().split()[
+        2]), "networks": networks(runs), "shipped": shipped(runs)}
     if "mediapipe" in runs.measured:
         report["frames"] = frames(runs)
     if "voice_silero" in runs.measured:

@@ -40,14 +40,16 @@ def measure(work, rounds):
         rows.append(row)
     heard = [{"sample_rate": s["sample_rate"], "min_us": min(run[i]["min_us"] for run in sound),
               "median_us": min(run[i]["median_us"] for run in sound)} for i, s in enumerate(sound[0])]
-    return {"rounds": rounds, "peak_gflops": peak, "networks": rows, "sound_step": heard, "frames": frames(load(work, "levels", rounds))}
+    return {"rounds": rounds, "peak_gflops": peak, "networks": rows, "sound_step": heard,
+            "frames": frames(load(work, "levels", rounds))}
 
 
 def frames(runs):
     """Of each level the fastest round."""
     networks = min(run["networks_of_highest_us"] for run in runs)
     in_turn = min(run["networks_in_turn_us"] for run in runs)
-    levels = [min((run["levels"][i] for run in runs), key=lambda level: level["mean_us"]) for i in range(len(runs[0]["levels"]))]
+    levels = [min((run["levels"][i] for run in runs), key=lambda level: level["mean_us"])
+              for i in range(len(runs[0]["levels"]))]
     return {"start_ms": min(run["start_ms"] for run in runs), "networks_of_highest_us": networks,
             "highest_of_networks": levels[-1]["mean_us"] / networks,
             "networks_in_turn_us": in_turn, "highest_of_networks_in_turn": levels[-1]["mean_us"] / in_turn,
@@ -55,7 +57,8 @@ def frames(runs):
 
 
 def table(header, rows):
-    return ["| " + " | ".join(header) + " |", "|" + "---|" * len(header)] + ["| " + " | ".join(row) + " |" for row in rows]
+    return ["| " + " | ".join(header) + " |",
+            "|" + "---|" * len(header)] + ["| " + " | ".join(row) + " |" for row in rows]
 
 
 def widest(figures):
@@ -66,26 +69,40 @@ def widest(figures):
 def to_text(figures):
     levels = ", ".join(f"level {f['lod']} {f['mean_us']:.0f} us" for f in figures["frames"]["levels"])
     lines = ["# Speed", "", "For developers of kernels, and for users who plan a budget.", "",
-             f"A tracked frame of 640 x 480 pixels takes: {levels}. One thread, minima of {figures['rounds']} rounds in turns with [other engines](peers.md) on one machine, by "
-             "`scripts/peers/bench.sh`; only ratios carry over to other machines. `avx512fp16` and `avx512vnni` compute the encoders' blocks "
-             "[with 16 bits](../architecture.md#half-precision) and the rest as `avx512`. The peak is that of a loop of fused multiply-adds in registers in the same run, in "
-             f"GFLOP/s: {', '.join(f'{tier} {peak:.0f}' for tier, peak in figures['peak_gflops'].items())}.", "", "## Networks", "",
-             "*Of unfused*: time relative to `mien bench --unfused`. Small networks have the last tier only; [performance.json](performance.json) has all.", ""]
+             f"A tracked frame of 640 x 480 pixels takes: {levels}. One thread, minima of {figures['rounds']} rounds "
+             "in turns with [other engines](peers.md) on one machine, by "
+             "`scripts/peers/bench.sh`; only ratios carry over to other machines. `avx512fp16` and `avx512vnni` "
+             "compute the encoders' blocks "
+             "[with 16 bits](../architecture.md#half-precision) and the rest as `avx512`. The peak is that of a loop "
+             "of fused multiply-adds in registers in the same run, in "
+             f"GFLOP/s: {', '.join(f'{tier} {peak:.0f}' for tier, peak in figures['peak_gflops'].items())}.", "",
+             "## Networks", "",
+             "*Of unfused*: time relative to `mien bench --unfused`. Small networks have the last tier only; "
+             "[performance.json](performance.json) has all.", ""]
     shown = [r for r in figures["networks"] if r["macs"] > 1e6 or r["tier"] == widest(figures)]
     lines += table(("network", "tier", "MACs", "us", "of the peak", "of unfused", "of ONNX Runtime"),
-                   [(r["network"], r["tier"], f"{r['macs']:,}", f"{r['min_us']:.1f}", f"{100 * r['peak_share']:.0f} %", f"{r['to_unfused']:.2f}",
+                   [(r["network"], r["tier"], f"{r['macs']:,}", f"{r['min_us']:.1f}", f"{100 * r['peak_share']:.0f} %",
+                     f"{r['to_unfused']:.2f}",
                      f"{r['to_onnxruntime']:.2f}" if "to_onnxruntime" in r else "") for r in shown])
-    lines += ["", "## Audio", "", "16 ms of audio, from samples to controls: resampler, features, encoder, both decoders (`mien bench --sound`).", ""]
+    lines += ["", "## Audio", "",
+              "16 ms of audio, from samples to controls: resampler, features, encoder, both decoders (`mien bench "
+              "--sound`).", ""]
     lines += table(("sample rate", "us, minimum", "us, median"),
-                   [(str(s["sample_rate"]), f"{s['min_us']:.1f}", f"{s['median_us']:.1f}") for s in figures["sound_step"]])
-    lines += ["", "## A frame", "", "Mean over tracked frames of the demo clip, 640 x 480 NV12, with audio (`mien bench --levels`); us.", ""]
+                   [(str(s["sample_rate"]), f"{s['min_us']:.1f}", f"{s['median_us']:.1f}")
+                    for s in figures["sound_step"]])
+    lines += ["", "## A frame", "",
+              "Mean over tracked frames of the demo clip, 640 x 480 NV12, with audio (`mien bench --levels`); us.", ""]
     stages = ("warp", "encoder", "heads", "decoders")
     lines += table(("level", "frame", "of level 4", *stages),
-                   [(str(f["lod"]), f"{f['mean_us']:.0f}", f"{f['of_highest']:.2f}", *(f"{f['stages_us'][s]:.1f}" for s in stages))
+                   [(str(f["lod"]), f"{f['mean_us']:.0f}", f"{f['of_highest']:.2f}",
+                     *(f"{f['stages_us'][s]:.1f}" for s in stages))
                     for f in figures["frames"]["levels"]])
     f = figures["frames"]
-    lines += ["", f"The networks of level 4 take {f['networks_of_highest_us']:.0f} us if each is repeated, with its weights in the cache, and "
-              f"{f['networks_in_turn_us']:.0f} us in sequence, as in a frame; a frame takes {f['highest_of_networks']:.2f} and {f['highest_of_networks_in_turn']:.2f} times that. "
+    lines += ["",
+              f"The networks of level 4 take {f['networks_of_highest_us']:.0f} us if each is repeated, with its "
+              "weights in the cache, and "
+              f"{f['networks_in_turn_us']:.0f} us in sequence, as in a frame; a frame takes "
+              f"{f['highest_of_networks']:.2f} and {f['highest_of_networks_in_turn']:.2f} times that. "
               f"Creating a tracker from the weight files takes {f['start_ms']:.1f} ms."]
     return "\n".join(lines) + "\n"
 

@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
-"""How well mien and Silero VAD find the speech of voice_sets.py, and what Silero's takes, as JSON.  usage: voice_scores.py mien|silero DIR
+"""How well mien and Silero VAD find the speech of voice_sets.py, and what Silero's takes, as JSON.  usage:
+voice_scores.py mien|silero DIR
 
-Of mien the library that MIEN_LIBRARY names, with the weights of models/: voice_activity as the network says it, without the attack and
-release that spread it. Both answers may be shifted by some windows against the truth; the best shift counts.
+Of mien the library that MIEN_LIBRARY names, with the weights of models/: voice_activity as the network says it, without
+the attack and release that spread it. Both answers may be shifted by some windows against the truth; the best shift
+counts.
 """
 import ctypes
 import json
@@ -13,9 +15,9 @@ from pathlib import Path
 
 import numpy as np
 
+from mien_training.evaluate import metrics
+
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "scripts/evaluate"), str(ROOT / "bindings/python/src")]
-import metrics  # noqa: E402
 
 RATE, WINDOW = 16000, 256
 WINDOW_NS = WINDOW * 10 ** 9 // RATE
@@ -37,7 +39,8 @@ class Silero:
     def scores(self, sound):
         """One for each window."""
         state, context, said = np.zeros((2, 1, 128), np.float32), np.zeros(self.CONTEXT, np.float32), []
-        for chunk in np.resize(np.pad(sound, (0, -len(sound) % self.CHUNK)), (-(-len(sound) // self.CHUNK), self.CHUNK)):
+        for chunk in np.resize(np.pad(sound, (0, -len(sound) % self.CHUNK)), (-(-len(sound) // self.CHUNK),
+                                                                              self.CHUNK)):
             heard = np.concatenate([context, chunk])[None]
             begin = time.perf_counter_ns()
             probability, state = self.session.run(None, {"input": heard, "state": state, "sr": self.RATE})
@@ -49,7 +52,8 @@ class Silero:
     def report(self):
         us = np.array(self.times) / 1e3
         return {"version": version("silero-vad"), "bytes": self.file.stat().st_size,
-                "second_min_us": float(us.min() * RATE / self.CHUNK), "second_median_us": float(np.median(us) * RATE / self.CHUNK)}
+                "second_min_us": float(us.min() * RATE / self.CHUNK),
+                "second_median_us": float(np.median(us) * RATE / self.CHUNK)}
 
 
 class Mien:
@@ -108,7 +112,8 @@ def main():
     heard = {}
     for ratio in ("clean", "20", "5"):
         data = np.load(directory / f"voice_{ratio}.npz")
-        sounds, truths = ([data[name] for name in sorted(data.files) if name.startswith(kind)] for kind in ("sound", "truth"))
+        sounds, truths = ([data[name] for name in sorted(data.files) if name.startswith(kind)]
+                          for kind in ("sound", "truth"))
         area, shift = best_shift([who.scores(s) for s in sounds], truths)
         heard[ratio] = {"area": area, "shift_ms": shift * WINDOW * 1000 / RATE, "seconds": sum(map(len, sounds)) / RATE}
     print(json.dumps({**who.report(), "heard": heard}))

@@ -1,17 +1,17 @@
 #!/usr/bin/env python3
-"""Held-out speech in held-out noise, as docs/results/voice.md has it, for voice_scores.py.  usage: voice_sets.py OUT_DIR
+"""Held-out speech in held-out noise, as docs/results/audio.md has it, for voice_scores.py.  usage: voice_sets.py
+OUT_DIR
 
-voice_RATIO.npz: sound_I, f32 at 16 kHz, and truth_I, bool of each window of 16 ms. Decodes the recordings when that was not done yet.
+voice_RATIO.npz: sound_I, f32 at 16 kHz, and truth_I, bool of each window of 16 ms. Decodes the recordings when that was
+not done yet.
 """
 import sys
 from pathlib import Path
 
 import numpy as np
 
-ROOT = Path(__file__).resolve().parents[1]
-sys.path[:0] = [str(ROOT / "evaluate"), str(ROOT / "train")]
-import voice_activity  # noqa: E402
-from voice import corpus  # noqa: E402
+from mien_training.audio import corpus
+from mien_training.evaluate import audio_activity
 
 RATIOS = {"clean": None, "20": 20, "5": 5}
 
@@ -22,7 +22,7 @@ def main():
             corpus.decode_group(group)
     for name, ratio in RATIOS.items():
         arrays = {}
-        for i, (sound, truth) in enumerate(voice_activity.heard("test", ratio)):
+        for i, (sound, truth) in enumerate(audio_activity.heard("test", ratio)):
             arrays[f"sound_{i:03}"], arrays[f"truth_{i:03}"] = np.float32(sound), truth
         np.savez(Path(sys.argv[1]) / f"voice_{name}.npz", **arrays)
 

@@ -1,4 +1,5 @@
-"""What the tests of the converter have in common: converting, running, comparing. The program is their first argument."""
+"""What the tests of the converter have in common: converting, running, comparing. The program is their first
+argument."""
 import contextlib
 import io
 import json
@@ -8,9 +9,9 @@ import subprocess
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts/convert"))
-import numpy as np  # noqa: E402
-import onnx_to_mien  # noqa: E402
+import numpy as np
+
+from mien_convert import onnx_to_mien
 
 PROGRAM = sys.argv[1]
 MODULES = Path(os.environ.get("MIEN_CACHE", Path.home() / ".cache/mien")) / "peers"
@@ -34,7 +35,8 @@ def convert(arguments):
 def answered(folder, model, x, layout="chw", network=()):
     """What `mien run` makes of x: one array for each output."""
     np.save(folder / "x.npy", np.ascontiguousarray(x))
-    info = json.loads(subprocess.run([PROGRAM, "inspect", model, "--json"], check=True, capture_output=True, text=True).stdout)
+    info = json.loads(subprocess.run([PROGRAM, "inspect", model, "--json"], check=True, capture_output=True,
+                                     text=True).stdout)
     paths = [folder / f"y{i}.npy" for i in range(output_count(info, network))]
     command = [PROGRAM, "run", model, "--input", folder / "x.npy", "--layout", layout, *network]
     for path in paths:
@@ -52,7 +54,8 @@ def output_count(info, network):
 
 def time_axis(model):
     """Of the first input, if the network is one of steps: the converter notes it."""
-    info = json.loads(subprocess.run([PROGRAM, "inspect", model, "--json"], check=True, capture_output=True, text=True).stdout)
+    info = json.loads(subprocess.run([PROGRAM, "inspect", model, "--json"], check=True, capture_output=True,
+                                     text=True).stdout)
     note = next(value for key, value in info["metadata"].items() if key.endswith(".onnx"))
     return int(note.rsplit("time axis ", 1)[1]) if "time axis " in note else None
 
@@ -79,14 +82,17 @@ class Runtime:
                 path = self.folder / f"{number}.{at}.{name}.f32"
                 path.write_bytes(np.ascontiguousarray(array, np.float32).tobytes())
                 described[-1][name] = {"file": str(path), "shape": list(array.shape)}
-        self.jobs.append({"model": str(model), "steps": described, "feedback": feedback, "out": str(self.folder / str(number))})
+        self.jobs.append({"model": str(model), "steps": described, "feedback": feedback,
+                          "out": str(self.folder / str(number))})
 
     def run(self):
         (self.folder / "jobs.json").write_text(json.dumps(self.jobs))
-        done = subprocess.run(["node", Path(__file__).resolve().parent / "onnxruntime_run.mjs", MODULES, self.folder / "jobs.json"], capture_output=True, text=True,
+        done = subprocess.run(["node", Path(__file__).resolve().parent / "onnxruntime_run.mjs", MODULES,
+                               self.folder / "jobs.json"], capture_output=True, text=True,
                               check=True)
         return json.loads(done.stdout)
 
     def outputs(self, number):
-        paths = sorted((path for path in self.folder.glob(f"{number}.*") if path.suffix[1:].isdigit()), key=lambda path: int(path.suffix[1:]))
+        paths = sorted((path for path in self.folder.glob(f"{number}.*") if path.suffix[1:].isdigit()),
+                       key=lambda path: int(path.suffix[1:]))
         return [np.frombuffer(path.read_bytes(), np.float32) for path in paths]

@@ -1,9 +1,9 @@
-"""Small networks of the kinds that are exported today: like ResNet-18, MobileNetV3 and ConvNeXt, with random weights."""
+"""Small networks of the kinds that are exported today: like ResNet-18, MobileNetV3 and ConvNeXt, with random
+weights."""
 import torch
 import torch.nn.functional as F
-from torch import nn
-
 from network_cases import conv_norm, with_statistics
+from torch import nn
 
 SHAPE = (1, 3, 64, 48)
 
@@ -13,7 +13,8 @@ class BasicBlock(nn.Module):
 
     def __init__(self, a, b, stride):
         super().__init__()
-        self.body = nn.Sequential(nn.Conv2d(a, b, 3, stride, 1, bias=False), nn.BatchNorm2d(b), nn.ReLU(inplace=True), conv_norm(b, b, 3, activation=False))
+        self.body = nn.Sequential(nn.Conv2d(a, b, 3, stride, 1, bias=False), nn.BatchNorm2d(b), nn.ReLU(inplace=True),
+                                  conv_norm(b, b, 3, activation=False))
         self.shortcut = conv_norm(a, b, 1, stride, activation=False) if stride > 1 or a != b else nn.Identity()
 
     def forward(self, x):
@@ -40,7 +41,8 @@ class MobileBlock(nn.Module):
 
     def __init__(self, a, hidden, b, kernel, stride, activation):
         super().__init__()
-        self.body = nn.Sequential(conv_norm(a, hidden, activation=False), activation(), conv_norm(hidden, hidden, kernel, stride, hidden, False), activation(),
+        self.body = nn.Sequential(conv_norm(a, hidden, activation=False), activation(),
+                                  conv_norm(hidden, hidden, kernel, stride, hidden, False), activation(),
                                   SqueezeExcitation(hidden), conv_norm(hidden, b, activation=False))
         self.residual = stride == 1 and a == b
 
@@ -49,9 +51,10 @@ class MobileBlock(nn.Module):
 
 
 def mobilenet_v3():
-    blocks = [MobileBlock(16, 16, 16, 3, 2, nn.ReLU), MobileBlock(16, 72, 24, 3, 2, nn.ReLU), MobileBlock(24, 96, 24, 5, 1, nn.Hardswish)]
-    return nn.Sequential(conv_norm(3, 16, 3, 2, activation=False), nn.Hardswish(), *blocks, nn.AdaptiveAvgPool2d(1), nn.Flatten(),
-                         nn.Linear(24, 64), nn.Hardswish(), nn.Dropout(0.2), nn.Linear(64, 20))
+    blocks = [MobileBlock(16, 16, 16, 3, 2, nn.ReLU), MobileBlock(16, 72, 24, 3, 2, nn.ReLU),
+              MobileBlock(24, 96, 24, 5, 1, nn.Hardswish)]
+    return nn.Sequential(conv_norm(3, 16, 3, 2, activation=False), nn.Hardswish(), *blocks, nn.AdaptiveAvgPool2d(1),
+                         nn.Flatten(), nn.Linear(24, 64), nn.Hardswish(), nn.Dropout(0.2), nn.Linear(64, 20))
 
 
 class ConvNeXtBlock(nn.Module):
@@ -73,7 +76,8 @@ class ChannelNorm(nn.LayerNorm):
 
 
 def convnext():
-    layers = [nn.Conv2d(3, 24, 4, 4), ChannelNorm(24), ConvNeXtBlock(24), ConvNeXtBlock(24), ChannelNorm(24), nn.Conv2d(24, 48, 2, 2), ConvNeXtBlock(48)]
+    layers = [nn.Conv2d(3, 24, 4, 4), ChannelNorm(24), ConvNeXtBlock(24), ConvNeXtBlock(24), ChannelNorm(24),
+              nn.Conv2d(24, 48, 2, 2), ConvNeXtBlock(48)]
     return nn.Sequential(*layers, nn.AdaptiveAvgPool2d(1), nn.Flatten(), nn.LayerNorm(48), nn.Linear(48, 20))
 
 
@@ -82,7 +86,8 @@ def networks():
 
 
 def has_default_export():
-    """Whether PyTorch's exporter of today is here, whose default is an opset of 18 or more and weights in a file of their own."""
+    """Whether PyTorch's exporter of today is here, whose default is an opset of 18 or more and weights in a file of
+    their own."""
     try:
         import onnxscript  # noqa: F401
     except ModuleNotFoundError:

@@ -1,14 +1,11 @@
 """Networks that PyTorch exports: MobileNetV2-like, MTCNN-like, and the project's own."""
-import sys
-from pathlib import Path
 
 import torch
 import torch.nn.functional as F
 from torch import nn
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts/train"))
-import networks  # noqa: E402
-from voice import audio_net  # noqa: E402
+from mien_training.audio import audio_net
+from mien_training.networks import architectures
 
 STEPS = 20
 
@@ -23,7 +20,8 @@ class InvertedResidual(nn.Module):
         super().__init__()
         hidden = a * expansion
         expand = [conv_norm(a, hidden)] if expansion > 1 else []
-        self.body = nn.Sequential(*expand, conv_norm(hidden, hidden, 3, stride, hidden), conv_norm(hidden, b, activation=False))
+        self.body = nn.Sequential(*expand, conv_norm(hidden, hidden, 3, stride, hidden),
+                                  conv_norm(hidden, b, activation=False))
         self.residual = stride == 1 and a == b
 
     def forward(self, x):
@@ -36,7 +34,8 @@ class MobileNetV2(nn.Module):
     def __init__(self, classes=30):
         super().__init__()
         layers, channels = [conv_norm(3, 12, 3, 2)], 12
-        for expansion, width, count, stride in ((1, 8, 1, 1), (6, 8, 2, 2), (6, 12, 3, 2), (6, 20, 4, 2), (6, 32, 3, 1), (6, 52, 3, 2), (6, 104, 1, 1)):
+        for expansion, width, count, stride in ((1, 8, 1, 1), (6, 8, 2, 2), (6, 12, 3, 2), (6, 20, 4, 2), (
+            6, 32, 3, 1), (6, 52, 3, 2), (6, 104, 1, 1)):
             for i in range(count):
                 layers.append(InvertedResidual(channels, width, stride if i == 0 else 1, expansion))
                 channels = width
@@ -68,8 +67,8 @@ class PNet(nn.Module):
 
     def __init__(self):
         super().__init__()
-        self.body = nn.Sequential(nn.Conv2d(3, 10, 3), nn.PReLU(10), nn.MaxPool2d(2, 2, ceil_mode=True), nn.Conv2d(10, 16, 3), nn.PReLU(16),
-                                  nn.Conv2d(16, 32, 3), nn.PReLU(32))
+        self.body = nn.Sequential(nn.Conv2d(3, 10, 3), nn.PReLU(10), nn.MaxPool2d(2, 2, ceil_mode=True),
+                                  nn.Conv2d(10, 16, 3), nn.PReLU(16), nn.Conv2d(16, 32, 3), nn.PReLU(32))
         self.score, self.box = nn.Conv2d(32, 2, 1), nn.Conv2d(32, 4, 1)
 
     def forward(self, x):
@@ -101,7 +100,8 @@ def r_net():
 
 
 def o_net():
-    return RefiningNet([*conv_prelu(3, 32, 3, 3), *conv_prelu(32, 64, 3, 3), *conv_prelu(64, 64, 3, 2), *conv_prelu(64, 128, 2)], 256, (2, 4, 10))
+    return RefiningNet([*conv_prelu(3, 32, 3, 3), *conv_prelu(32, 64, 3, 3), *conv_prelu(64, 64, 3, 2),
+                        *conv_prelu(64, 128, 2)], 256, (2, 4, 10))
 
 
 class WithoutState(nn.Module):
@@ -127,7 +127,8 @@ class EncoderStep(nn.Module):
         return (embedding, *following, *state)
 
 
-ENCODER_STATES = {"first": (1, 130, 1), "second": (1, 104, 1), "third": (1, 96, 1), "hidden": (1, 1, 96), "cell": (1, 1, 96)}
+ENCODER_STATES = {"first": (1, 130, 1), "second": (1, 104, 1), "third": (1, 96, 1), "hidden": (1, 1, 96),
+                  "cell": (1, 1, 96)}
 
 
 def with_statistics(network):
@@ -155,12 +156,13 @@ def networks_to_export():
     yield "p_net", PNet(), {"x": (1, 3, 31, 40)}, 11, True, {}
     yield "r_net", r_net(), {"x": (1, 3, 24, 24)}, 12, True, {}
     yield "o_net", o_net(), {"x": (1, 3, 48, 48)}, 14, True, {}
-    yield "basenet", networks.BaseNetEncoder(), {"x": (1, 3, 65, 65)}, 13, True, {}
-    yield "hifinet", networks.HiFiNetEncoder(), {"x": (1, 3, 129, 109)}, 17, True, {}
-    yield "own_p_net", networks.PNet(), {"x": (1, 3, 24, 36)}, 13, True, {}
-    yield "own_r_net", networks.RNet(), {"x": (1, 3, 24, 24)}, 13, True, {}
-    yield "controls_decoder", WithoutState(networks.ControlsDecoder(), nn.Hardtanh(0, 1)), {"x": (1, STEPS, 256)}, 13, True, {}
-    yield "pose_decoder", WithoutState(networks.PoseDecoder()), {"x": (1, STEPS, 256)}, 16, True, {}
+    yield "basenet", architectures.BaseNetEncoder(), {"x": (1, 3, 65, 65)}, 13, True, {}
+    yield "hifinet", architectures.HiFiNetEncoder(), {"x": (1, 3, 129, 109)}, 17, True, {}
+    yield "own_p_net", architectures.PNet(), {"x": (1, 3, 24, 36)}, 13, True, {}
+    yield "own_r_net", architectures.RNet(), {"x": (1, 3, 24, 24)}, 13, True, {}
+    yield "controls_decoder", WithoutState(architectures.ControlsDecoder(),
+                                           nn.Hardtanh(0, 1)), {"x": (1, STEPS, 256)}, 13, True, {}
+    yield "pose_decoder", WithoutState(architectures.PoseDecoder()), {"x": (1, STEPS, 256)}, 16, True, {}
     yield "audionet_encoder", WithoutState(audio_net.Encoder()), {"x": (1, STEPS, 130)}, 13, True, {}
     yield "audionet_encoder_step", EncoderStep(), {"x": (1, 1, 130), **ENCODER_STATES}, 13, True, ENCODER_STATES
     yield "audionet_controls", WithoutState(audio_net.controls_decoder(), nn.Hardtanh(0, 1)), stream, 11, True, {}

@@ -1,6 +1,8 @@
-"""A graph of ONNX computed with numpy alone: what the converter's answers are held against where ONNX Runtime is not there.
+"""A graph of ONNX computed with numpy alone: what the converter's answers are held against where ONNX Runtime is not
+there.
 
-Only the operators of arithmetic_cases.py, in the forms that it writes, from ONNX's documentation; shares no code with the converter.
+Only the operators of arithmetic_cases.py, in the forms that it writes, from ONNX's documentation; shares no code with
+the converter.
 """
 import math
 
@@ -28,7 +30,8 @@ def conv(inputs, a, *_):
     x = np.pad(x, ((0, 0), (0, 0), (pads[0], pads[2]), (pads[1], pads[3])))
     windows = np.lib.stride_tricks.sliding_window_view(x, w.shape[2:], (2, 3))[:, :, ::strides[0], ::strides[1]]
     n = w.shape[0] // groups
-    parts = [np.einsum("bchwij,ocij->bohw", windows[:, g * w.shape[1]:(g + 1) * w.shape[1]], w[g * n:(g + 1) * n]) for g in range(groups)]
+    parts = [np.einsum("bchwij,ocij->bohw", windows[:, g * w.shape[1]:(g + 1) * w.shape[1]], w[g * n:(g + 1) * n])
+             for g in range(groups)]
     return np.concatenate(parts, 1) + (b[0].reshape(1, -1, 1, 1) if b else 0)
 
 
@@ -43,7 +46,8 @@ def erf(x):
 
 def gelu(inputs, a, *_):
     x = inputs[0]
-    inner = np.tanh(math.sqrt(2 / math.pi) * (x + 0.044715 * x ** 3)) if a.get("approximate") == "tanh" else erf(x / math.sqrt(2))
+    inner = np.tanh(math.sqrt(2 / math.pi)
+                    * (x + 0.044715 * x ** 3)) if a.get("approximate") == "tanh" else erf(x / math.sqrt(2))
     return x * (1 + inner) / 2
 
 
@@ -64,7 +68,8 @@ def normalized(inputs, a, *_):
 
 
 def split(inputs, a, opset, outputs):
-    sizes = inputs[1].tolist() if len(inputs) > 1 else a.get("split") or [inputs[0].shape[a["axis"]] // outputs] * outputs
+    sizes = inputs[1].tolist() if len(inputs) > 1 else a.get("split") or [
+        inputs[0].shape[a["axis"]] // outputs] * outputs
     return np.split(inputs[0], np.cumsum(sizes)[:-1], a["axis"])
 
 
@@ -92,7 +97,8 @@ def place(i, old, new, mode):
     return (i + 0.5) * old / new - 0.5
 
 
-ROUNDINGS = {"round_prefer_floor": lambda v: math.ceil(v - 0.5 - 1e-9), "round_prefer_ceil": lambda v: math.floor(v + 0.5 + 1e-9),
+ROUNDINGS = {"round_prefer_floor": lambda v: math.ceil(v - 0.5 - 1e-9),
+             "round_prefer_ceil": lambda v: math.floor(v + 0.5 + 1e-9),
              "floor": lambda v: math.floor(v + 1e-9), "ceil": lambda v: math.ceil(v - 1e-9)}
 
 
@@ -114,27 +120,31 @@ def resize(inputs, a, opset, _):
         scales, sizes, mode, rounding = inputs[1], None, "asymmetric", "floor"
     else:
         scales, sizes = (*inputs[2:], None)[:2]
-        mode, rounding = a.get("coordinate_transformation_mode", "half_pixel"), a.get("nearest_mode", "round_prefer_floor")
+        mode, rounding = a.get("coordinate_transformation_mode", "half_pixel"), a.get("nearest_mode",
+                                                                                      "round_prefer_floor")
     sizes = [int(n) for n in sizes] if sizes is not None else [int(round(n * s)) for n, s in zip(x.shape, scales)]
     rows, columns = (matrix(x.shape[axis], sizes[axis], linear, mode, rounding) for axis in (2, 3))
     return np.einsum("ih,bchw,jw->bcij", rows, x, columns)
 
 
 OPERATORS = {
-    "Conv": conv, "Clip": clip, "Gelu": gelu, "Softmax": softmax, "ReduceMean": mean, "LayerNormalization": normalized, "Split": split,
-    "Slice": sliced, "Pad": padded, "Resize": resize, "Upsample": resize,
-    "Relu": lambda i, *_: np.maximum(i[0], 0), "Sigmoid": lambda i, *_: 1 / (1 + np.exp(-i[0])), "Tanh": lambda i, *_: np.tanh(i[0]),
-    "Exp": lambda i, *_: np.exp(i[0]), "Sqrt": lambda i, *_: np.sqrt(i[0]), "Erf": lambda i, *_: erf(i[0]), "Abs": lambda i, *_: np.abs(i[0]),
-    "Pow": lambda i, *_: i[0] ** i[1], "Reciprocal": lambda i, *_: 1 / i[0],
+    "Conv": conv, "Clip": clip, "Gelu": gelu, "Softmax": softmax, "ReduceMean": mean, "LayerNormalization": normalized,
+    "Split": split, "Slice": sliced, "Pad": padded, "Resize": resize, "Upsample": resize,
+    "Relu": lambda i, *_: np.maximum(i[0], 0), "Sigmoid": lambda i, *_: 1 / (1 + np.exp(-i[0])), "Tanh": lambda i,
+    *_: np.tanh(i[0]),
+    "Exp": lambda i, *_: np.exp(i[0]), "Sqrt": lambda i, *_: np.sqrt(i[0]), "Erf": lambda i, *_: erf(i[0]),
+    "Abs": lambda i, *_: np.abs(i[0]), "Pow": lambda i, *_: i[0] ** i[1], "Reciprocal": lambda i, *_: 1 / i[0],
     "Max": lambda i, *_: np.maximum(*i), "Min": lambda i, *_: np.minimum(*i),
     "Elu": lambda i, a, *_: np.where(i[0] < 0, a.get("alpha", 1.0) * (np.exp(i[0]) - 1), i[0]),
     "Swish": lambda i, a, *_: i[0] / (1 + np.exp(-a.get("alpha", 1.0) * i[0])),
     "HardSwish": lambda i, *_: i[0] * np.clip(i[0] + 3, 0, 6) / 6,
     "HardSigmoid": lambda i, a, *_: np.clip(a.get("alpha", 0.2) * i[0] + a.get("beta", 0.5), 0, 1),
-    "Mul": lambda i, *_: i[0] * i[1], "Add": lambda i, *_: i[0] + i[1], "Sub": lambda i, *_: i[0] - i[1], "Div": lambda i, *_: i[0] / i[1],
-    "GlobalAveragePool": lambda i, *_: i[0].mean((2, 3), keepdims=True), "ReduceSum": lambda i, *_: i[0].sum(tuple(i[1]), keepdims=True),
+    "Mul": lambda i, *_: i[0] * i[1], "Add": lambda i, *_: i[0] + i[1], "Sub": lambda i, *_: i[0] - i[1],
+    "Div": lambda i, *_: i[0] / i[1],
+    "GlobalAveragePool": lambda i, *_: i[0].mean((2, 3), keepdims=True), "ReduceSum": lambda i,
+    *_: i[0].sum(tuple(i[1]), keepdims=True),
     "Transpose": lambda i, a, *_: i[0].transpose(a["perm"]), "Concat": lambda i, a, *_: np.concatenate(i, a["axis"]),
     "Reshape": lambda i, *_: i[0].reshape([i[0].shape[k] if n == 0 else int(n) for k, n in enumerate(i[1])]),
-    "Flatten": lambda i, *_: i[0].reshape(len(i[0]), -1), "Tile": lambda i, *_: np.tile(*i), "MatMul": lambda i, *_: i[0] @ i[1],
-    "Identity": lambda i, *_: i[0],
+    "Flatten": lambda i, *_: i[0].reshape(len(i[0]), -1), "Tile": lambda i, *_: np.tile(*i), "MatMul": lambda i,
+    *_: i[0] @ i[1], "Identity": lambda i, *_: i[0],
 }

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""ONNX's own tests of single nodes: each converts and answers as ONNX says, or is refused in one line that gives the reason.
+"""ONNX's own tests of single nodes: each converts and answers as ONNX says, or is refused in one line that gives the
+reason.
 
 usage: onnx_node_test.py MIEN_PROGRAM      exit 77: Python's onnx package, or the tests, are missing here
 fetch_node_tests.sh beside this file fetches the tests.
@@ -12,7 +13,6 @@ import unittest
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE))
 try:
     import numpy as np
     import onnx
@@ -34,7 +34,8 @@ TOLERANCE = 2e-3  # of the largest value: weights are rounded to 11 bits
 def arrays(folder, kind):
     def read(path):
         return numpy_helper.to_array(onnx.load_tensor(str(path))).astype(np.float32)
-    return [read(path) for path in sorted(folder.glob(f"test_data_set_0/{kind}_*.pb"), key=lambda p: int(p.stem.split("_")[1]))]
+    return [read(path)
+            for path in sorted(folder.glob(f"test_data_set_0/{kind}_*.pb"), key=lambda p: int(p.stem.split("_")[1]))]
 
 
 class NodeTests(unittest.TestCase):

@@ -2,7 +2,8 @@
 """Converts generated ONNX files, runs them with `mien run`, and holds the answers against ONNX Runtime's and PyTorch's.
 
 usage: onnx_to_mien_test.py MIEN_PROGRAM      exit 77: Python's onnx package is missing here
-ONNX Runtime is the npm package that scripts/peers/install_onnxruntime.sh fetches. What cannot be compared here is said on standard output.
+ONNX Runtime is the npm package that scripts/peers/install_onnxruntime.sh fetches. What cannot be compared here is said
+on standard output.
 """
 import contextlib
 import io
@@ -16,23 +17,20 @@ import unittest
 import warnings
 from pathlib import Path
 
-HERE = Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE), str(HERE.parents[1] / "scripts/convert")]
 try:
-    import numpy as np
     import arithmetic_cases
+    import numpy as np
     import onnx
     import operator_cases
     import random_graphs
-    from conversion import PROGRAM, Runtime, answered, convert, difference, runtime_is_here, time_axis
+    from conversion import Runtime, answered, convert, difference, runtime_is_here, time_axis
 except ModuleNotFoundError as missing:
     print("skipped: no Python module", missing.name, "here; scripts/setup.sh convert installs it")
     sys.exit(77)
 try:
-    import torch
-
     import modern_networks
     import network_cases
+    import torch
 except ModuleNotFoundError as missing:
     torch = None
     print("NOT TESTED: networks exported by PyTorch, for want of the Python module", missing.name)
@@ -68,7 +66,8 @@ class Operators(Folder):
             with self.subTest(case.name):
                 status, _ = convert([model, "-o", model.with_suffix(".mien"), *case.arguments])
                 self.assertEqual(status, 0)
-            steps = [{name: random.standard_normal(shape).astype(np.float32) for name, shape in case.shapes.items() if name not in case.feedback}
+            steps = [{name: random.standard_normal(shape).astype(np.float32) for name, shape in case.shapes.items()
+                      if name not in case.feedback}
                      for _ in range(case.steps)]
             begin = {name: np.zeros(case.shapes[name], np.float32) for name in case.feedback}
             runtime.add(model, [{**step, **begin} for step in steps], case.feedback)
@@ -204,7 +203,8 @@ class Networks(Folder):
 class Program(Folder):
     def model(self, name="net", nodes=None, shapes=None, **options):
         path = self.folder / f"{name}.onnx"
-        onnx.save(operator_cases.Case("net", nodes or [operator_cases.node("Relu", "x")], shapes or {"x": [1, 3, 4, 5]}, **options).model(),
+        onnx.save(operator_cases.Case("net", nodes or [operator_cases.node("Relu", "x")], shapes or {"x": [1, 3, 4, 5]},
+                                      **options).model(),
                   str(path))
         return path
 
@@ -218,11 +218,14 @@ class Program(Folder):
         np.testing.assert_allclose(y, np.tanh(x), atol=1e-6)
 
     def test_any_size(self):
-        path = self.model(nodes=[operator_cases.node("Conv", "x w", "t"), operator_cases.node("GlobalAveragePool", "t", "y")],
-                          shapes={"x": [1, 3, None, None]}, constants={"w": operator_cases.weights(5, 3, 3, 3)}, outputs=("t", "y"))
+        path = self.model(nodes=[operator_cases.node("Conv", "x w", "t"),
+                                 operator_cases.node("GlobalAveragePool", "t", "y")],
+                          shapes={"x": [1, 3, None, None]}, constants={"w": operator_cases.weights(5, 3, 3, 3)},
+                          outputs=("t", "y"))
         status, _ = convert([path, "-o", self.folder / "any.mien", "--shape", "1,3,4,5", "--any-size"])
         self.assertEqual(status, 0)
-        t, y = answered(self.folder, self.folder / "any.mien", np.random.default_rng(1).standard_normal((3, 9, 12)).astype(np.float32))
+        t, y = answered(self.folder, self.folder / "any.mien",
+                        np.random.default_rng(1).standard_normal((3, 9, 12)).astype(np.float32))
         self.assertEqual(t.shape, (5, 7, 10))
         np.testing.assert_allclose(y, t.mean((1, 2)), atol=1e-6)
 
@@ -234,7 +237,8 @@ class Program(Folder):
 
     def with_a_rate(self, shape):
         """A model that doubles its input when its second input, a whole number, is 16000, and else triples it."""
-        case = operator_cases.Case("net", [operator_cases.node("Equal", "rate k", "same"), operator_cases.node("Where", "same two three", "factor"),
+        case = operator_cases.Case("net", [operator_cases.node("Equal", "rate k", "same"),
+                                           operator_cases.node("Where", "same two three", "factor"),
                                            operator_cases.node("Mul", "x factor")], {"x": [1, 3, 4, 5]},
                                    constants={"k": np.int64(16000), "two": np.float32(2), "three": np.float32(3)})
         model = case.model()
@@ -252,7 +256,9 @@ class Program(Folder):
                 np.testing.assert_allclose(answered(self.folder, self.folder / "y.mien", x)[0], factor * x, rtol=1e-6)
 
     def test_an_input_that_is_a_number_and_is_not_given(self):
-        for arguments, refusal in (((), "input 'rate' is a whole number, which no layer reads; say which with --value rate=NUMBER"),
+        for arguments, refusal in (((),
+                                    "input 'rate' is a whole number, which no layer reads; say which with --value "
+                                    "rate=NUMBER"),
                                    (("--value", "rate=0.5"), "input 'rate': not a whole number (got 0.5)"),
                                    (("--value", "none=1"), "no input 'none'; there is x, rate"),
                                    (("--value", "x=1"), "input 'x': not a single number (got a shape [1, 3, 4, 5])")):
@@ -266,7 +272,8 @@ class Program(Folder):
     def test_files_that_are_none(self):
         (self.folder / "text.onnx").write_text("not a network")
         (self.folder / "empty.onnx").write_bytes(b"")
-        (self.folder / "half.onnx").write_bytes(self.model().read_bytes() + b"\x0c")  # of which protobuf reads what comes before
+        # of which protobuf reads what comes before
+        (self.folder / "half.onnx").write_bytes(self.model().read_bytes() + b"\x0c")
         for name in ("text", "empty", "half"):
             status, _ = convert([self.folder / f"{name}.onnx", "-o", self.folder / "y.mien"])
             self.assertIn("not an ONNX file", status)
@@ -278,7 +285,8 @@ class Program(Folder):
         for nodes in ([operator_cases.node("Concat", "x x")], [operator_cases.node("Relu", "")],
                       [operator_cases.node("Conv", "x w", group=0)]):
             with self.subTest(nodes[0].op_type):
-                status, _ = convert([self.model(nodes=nodes, constants={"w": operator_cases.weights(5, 3, 1, 1)}), "-o", self.folder / "y.mien"])
+                status, _ = convert([self.model(nodes=nodes, constants={"w": operator_cases.weights(5, 3, 1, 1)}), "-o",
+                                     self.folder / "y.mien"])
                 self.assertIsInstance(status, str)
                 self.assertIn(f"{nodes[0].op_type} 'the_{nodes[0].op_type.lower()}'", status)
                 self.assertEqual(len(status.splitlines()), 1)
@@ -303,7 +311,8 @@ class Program(Folder):
         (self.folder / "here/weights.bin").write_bytes(data)
         x = np.random.default_rng(1).standard_normal((3, 4, 5)).astype(np.float32)
         want = np.einsum("oi,ihw->ohw", np.frombuffer(data, np.float32).reshape(5, 3), x)
-        for external in ({"location": "weights.bin", "offset": 16, "length": len(data)}, {"location": "here/weights.bin"}):
+        for external in ({"location": "weights.bin", "offset": 16,
+                          "length": len(data)}, {"location": "here/weights.bin"}):
             with self.subTest(external):
                 self.assertEqual(self.with_external_weights(**external)[1], 0)
                 y, = answered(self.folder, self.folder / "y.mien", x)
@@ -312,10 +321,15 @@ class Program(Folder):
     def test_weights_in_another_file_that_is_not_there_or_not_theirs(self):
         (self.folder / "short.bin").write_bytes(bytes(59))
         os.symlink("/etc/passwd", self.folder / "link.bin")
-        for external, refusal in (({"location": "../../etc/passwd"}, "outside the model's folder"), ({"location": "/etc/passwd"}, "outside the model"),
-                                  ({"location": "link.bin"}, "outside the model"), ({"location": "none.bin"}, "no file 'none.bin' beside the model"),
-                                  ({"location": "."}, "no file '.'"), ({"location": "short.bin", "length": 60}, "too short (got 59 bytes, expected 60)"),
-                                  ({"location": "short.bin", "offset": 1 << 62, "length": 60}, "too short"), ({"location": "short.bin"}, "malformed")):
+        for external, refusal in (({"location": "../../etc/passwd"},
+                                   "outside the model's folder"), ({"location": "/etc/passwd"}, "outside the model"),
+                                  ({"location": "link.bin"}, "outside the model"), ({"location": "none.bin"},
+                                                                                    "no file 'none.bin' beside the "
+                                                                                    "model"),
+                                  ({"location": "."}, "no file '.'"), ({"location": "short.bin", "length": 60},
+                                                                       "too short (got 59 bytes, expected 60)"),
+                                  ({"location": "short.bin", "offset": 1 << 62, "length": 60},
+                                   "too short"), ({"location": "short.bin"}, "malformed")):
             with self.subTest(external):
                 _, status = self.with_external_weights(**external)
                 self.assertIsInstance(status, str)
@@ -325,11 +339,13 @@ class Program(Folder):
                 self.assertFalse((self.folder / "y.mien").exists())
 
     def test_as_a_program(self):
-        program = [sys.executable, str(HERE.parents[1] / "scripts/convert/onnx_to_mien.py")]
-        done = subprocess.run([*program, str(self.model()), "-o", str(self.folder / "y.mien")], capture_output=True, text=True)
+        program = [sys.executable, "-m", "mien_convert"]
+        done = subprocess.run([*program, str(self.model()), "-o", str(self.folder / "y.mien")], capture_output=True,
+                              text=True)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         refused = self.model("bad", [operator_cases.node("Sin", "x")])
-        done = subprocess.run([*program, str(refused), "-o", str(self.folder / "z.mien")], capture_output=True, text=True)
+        done = subprocess.run([*program, str(refused), "-o", str(self.folder / "z.mien")], capture_output=True,
+                              text=True)
         self.assertEqual(done.returncode, 1)
         self.assertEqual(done.stderr.count("\n"), 1)
         self.assertIn("Sin 'the_sin': the engine has no such layer (opset 13); replace it by", done.stderr)
@@ -348,11 +364,13 @@ class Program(Folder):
     def test_too_little_memory_is_said_in_a_line(self):
         """Wherever it ends: a map of 16 million numbers, from what holds no input to what nearly does."""
         large = self.folder / "large.onnx"
-        large.write_bytes(operator_cases.Case("net", [operator_cases.node("Relu", "x")], {"x": [1, 64, 512, 512]}).model().SerializeToString())
-        program = [sys.executable, str(HERE.parents[1] / "scripts/convert/onnx_to_mien.py"), str(large), "-o", str(self.folder / "y.mien")]
+        large.write_bytes(operator_cases.Case(
+            "net", [operator_cases.node("Relu", "x")], {"x": [1, 64, 512, 512]}).model().SerializeToString())
+        program = [sys.executable, "-m", "mien_convert", str(large), "-o", str(self.folder / "y.mien")]
         for megabytes in (250, 400, 550):
             room = (megabytes << 20,) * 2
-            done = subprocess.run(program, capture_output=True, text=True, env={**os.environ, "OPENBLAS_NUM_THREADS": "1"},
+            done = subprocess.run(program, capture_output=True, text=True,
+                                  env={**os.environ, "OPENBLAS_NUM_THREADS": "1"},
                                   preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, room))
             self.assertEqual((done.returncode, done.stderr.count("\n")), (1, 1), done.stderr)
             self.assertIn("it takes more memory than there is", done.stderr)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Whether layers are kept precise where fp16 is too coarse for their weights, only there, and whether the converter's own evaluation of a
-network answers as the engine does.
+"""Whether layers are kept precise where fp16 is too coarse for their weights, only there, and whether the converter's
+own evaluation of a network answers as the engine does.
 
 usage: precision_test.py MIEN_PROGRAM      exit 77: Python's onnx package is missing here
 """
@@ -13,20 +13,20 @@ from pathlib import Path
 from unittest import mock
 
 HERE = Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE), str(HERE.parents[1] / "scripts/convert")]
 try:
-    import numpy as np
     import arithmetic_cases
+    import numpy as np
     import onnx
     import operator_cases
-    import precision
     import random_graphs
     from conversion import answered, convert, difference
-    from evaluation import rounded, value_of
-    from graph import converted
-    from layers import MienFile
-    from model import Graph
     from operator_cases import Case, node
+
+    from mien_convert import precision
+    from mien_convert.evaluation import rounded, value_of
+    from mien_convert.graph import converted
+    from mien_convert.model import Graph
+    from mien_convert.weight_file import MienFile
 except ModuleNotFoundError as missing:
     print("skipped: no Python module", missing.name, "here; scripts/setup.sh convert installs it")
     sys.exit(77)
@@ -67,12 +67,14 @@ def copies(channels, kernel=1):
 def differences(channels):
     """FINE times the first half minus the second: what is small of what is large."""
     weight = np.concatenate([FINE * np.eye(channels), -np.eye(channels)], 1).astype(np.float32)
-    return {"a": copies(channels), "b": weight.reshape(channels, 2 * channels, 1, 1), "c": np.zeros(channels, np.float32)}
+    return {"a": copies(channels), "b": weight.reshape(channels, 2 * channels, 1, 1),
+            "c": np.zeros(channels, np.float32)}
 
 
 def pair(*more, **options):
     """Two convolutions of which only the second needs more than fp16."""
-    return Case("pair", [node("Conv", "x a", "t"), node("Conv", "t b c", "y" if not more else "u"), *more], {"x": [1, 3, 6, 5]},
+    return Case("pair", [node("Conv", "x a", "t"), node("Conv", "t b c", "y" if not more else "u"),
+                         *more], {"x": [1, 3, 6, 5]},
                 constants=differences(3), **options)
 
 
@@ -93,7 +95,9 @@ class Layers(Folder):
         case = pair()
         _, large, report = self.converted(case)
         _, small, plain = self.converted(case, "--fp16-only")
-        self.assertRegex(report, r"kept precise by a second layer each \(\+42 bytes, \+0.0 million multiplications\): Conv 'the_conv'\n")
+        self.assertRegex(report,
+                         r"kept precise by a second layer each \(\+42 bytes, \+0.0 million multiplications\): Conv "
+                         r"'the_conv'\n")
         self.assertGreater(large, small + 42)
         self.assertNotIn("kept precise", plain)
         before, = re.findall(r"; (\S+) with --fp16-only", report)
@@ -119,14 +123,16 @@ class Layers(Folder):
 
     def test_a_bias(self):
         case = Case("bias", [node("Conv", "x w b", "t"), node("Softmax", "t", axis=1)], {"x": [1, 3, 6, 5]},
-                    constants={"w": np.full((3, 3, 1, 1), 2.0 ** -14, np.float32), "b": np.array([2048.7, 2048, 2049.2], np.float32)})
+                    constants={"w": np.full((3, 3, 1, 1), 2.0 ** -14, np.float32),
+                               "b": np.array([2048.7, 2048, 2049.2], np.float32)})
         logits = 2.0 ** -14 * self.x.sum(0, keepdims=True) + np.array([0.7, 0, 1.2]).reshape(3, 1, 1)
         want = np.exp(logits) / np.exp(logits).sum(0)
         self.assertLess(self.error(case, self.x, want), 1e-3)
         self.assertGreater(self.error(case, self.x, want, "--fp16-only"), 0.05)
 
     def test_a_depthwise_layer(self):
-        case = Case("depthwise", [node("Conv", "x w", "t", group=3, pads=[1, 1, 1, 1]), node("Sub", "t x")], {"x": [1, 3, 6, 5]},
+        case = Case("depthwise", [node("Conv", "x w", "t", group=3, pads=[1, 1, 1, 1]),
+                                  node("Sub", "t x")], {"x": [1, 3, 6, 5]},
                     constants={"w": np.pad(np.full((3, 1, 1, 1), FINE, np.float32), ((0, 0), (0, 0), (1, 1), (1, 1)))})
         want = (FINE - 1) * self.x
         self.assertLess(self.error(case, self.x, want), 1e-3)
@@ -135,7 +141,8 @@ class Layers(Folder):
     def test_layers_of_a_stream(self):
         weight = np.zeros((4, 4, 2), np.float32)
         weight[:, :, 1] = FINE * np.eye(4)
-        case = Case("stream", [node("Conv", "x w", "t", pads=[1, 0]), node("Sub", "t x")], {"x": [1, 4, 9]}, constants={"w": weight})
+        case = Case("stream", [node("Conv", "x w", "t", pads=[1, 0]), node("Sub", "t x")], {"x": [1, 4, 9]},
+                    constants={"w": weight})
         x = np.random.default_rng(3).standard_normal((9, 4)).astype(np.float32)
         self.assertLess(self.error(case, x, (FINE - 1) * x), 1e-3)
         self.assertGreater(self.error(case, x, (FINE - 1) * x, "--fp16-only"), 0.1)
@@ -147,7 +154,8 @@ class Layers(Folder):
 
     def test_in_any_order_as_many_are_kept_as_it_takes(self):
         """The search for an order is left out where it takes long."""
-        with mock.patch.object(precision, "MOST_WORK", 2 * precision.INPUTS * 1000), mock.patch.object(precision, "work", lambda layer: 1000):
+        with mock.patch.object(precision, "MOST_WORK",
+                               2 * precision.INPUTS * 1000), mock.patch.object(precision, "work", lambda layer: 1000):
             self.assertLess(self.error(pair(), self.x, (FINE - 1) * self.x), 1e-3)
 
 

@@ -2,8 +2,8 @@
 """Converts every ONNX file of a folder and compares the answers to noise with ONNX Runtime's: a line for each.
 
 usage: public_models_test.py MIEN_PROGRAM [FOLDER]      default: $MIEN_ONNX_MODELS, else ~/.cache/mien/onnx_models
-Exit status 1: an answer is off by more than 1e-3 of the largest value, or a refusal does not say why. 77: no folder or no ONNX Runtime (npm
-package, scripts/peers/install_onnxruntime.sh).
+Exit status 1: an answer is off by more than 1e-3 of the largest value, or a refusal does not say why. 77: no folder or
+no ONNX Runtime (npm package, scripts/peers/install_onnxruntime.sh).
 """
 import os
 import sys
@@ -46,13 +46,15 @@ def check(path, folder):
     wrong = len(got) != len(wanted) or any(isinstance(error, str) or error > ALLOWED for error in errors)
     worst = max((error for error in errors if not isinstance(error, str)), default=0)
     layers = report.split(" layers")[0].split()[-1]
-    return not wrong, f"{worst:.1e} of the largest value off, {layers} layers, {network.stat().st_size} bytes" + (f" WRONG {errors}" if wrong else "")
+    return not wrong, f"{worst:.1e} of the largest value off, {layers} layers, {network.stat().st_size} bytes" + (
+        f" WRONG {errors}" if wrong else "")
 
 
 def main():
     models = sorted(FOLDER.glob("*.onnx")) if FOLDER.is_dir() else []
     if not models or not runtime_is_here():
-        print(f"skipped: no ONNX file in {FOLDER}" if not models else "skipped: ONNX Runtime; scripts/peers/install_onnxruntime.sh fetches it")
+        print(f"skipped: no ONNX file in {FOLDER}" if not models
+              else "skipped: ONNX Runtime; scripts/peers/install_onnxruntime.sh fetches it")
         sys.exit(77)
     right = 0
     for path in models:

@@ -1,4 +1,5 @@
-"""ONNX graphs drawn by chance: chains of convolutions of every kind, blocks, pools, sums and joins, with one to three outputs.
+"""ONNX graphs drawn by chance: chains of convolutions of every kind, blocks, pools, sums and joins, with one to three
+outputs.
 
 Only what docs/convert.md says is taken: whatever is refused of these, or answers other than ONNX Runtime, is a fault.
 """
@@ -42,10 +43,11 @@ class Graph:
         c, h, w = self.maps[self.last]
         kh, kw = min(kernel, h), min(kernel, w)
         pads = [self.pick(0, kh - 1), self.pick(0, kw - 1), self.pick(0, kh - 1), self.pick(0, kw - 1)]
-        rows, columns = ((n + before + after - k) // stride + 1 for n, k, before, after in ((h, kh, pads[0], pads[2]), (w, kw, pads[1], pads[3])))
+        rows, columns = ((n + before + after - k) // stride + 1
+                         for n, k, before, after in ((h, kh, pads[0], pads[2]), (w, kw, pads[1], pads[3])))
         inputs = [weights(channels, 1 if depthwise else c, kh, kw)] + [weights(channels)] * self.pick(0, 1)
-        self.add("Conv", [self.last], (channels, rows, columns), inputs, kernel_shape=[kh, kw], strides=[stride, stride], pads=pads,
-                 group=c if depthwise else 1)
+        self.add("Conv", [self.last], (channels, rows, columns), inputs, kernel_shape=[kh, kw],
+                 strides=[stride, stride], pads=pads, group=c if depthwise else 1)
 
     def conv(self):
         self.convolve(self.pick(1, 24), (1, 1, 2, 3, 3, 5)[self.pick(0, 5)], self.pick(1, 2))
@@ -60,7 +62,8 @@ class Graph:
         if self.pick(0, 3) == 0:
             c = self.maps[self.last][0]
             positive = [self.random.uniform(0.5, 2, c).astype(np.float32) for _ in range(2)]
-            self.add("BatchNormalization", [self.last], self.maps[self.last], [positive[0], weights(c), weights(c), positive[1]])
+            self.add("BatchNormalization", [self.last],
+                     self.maps[self.last], [positive[0], weights(c), weights(c), positive[1]])
             self.folds += 1
 
     def block(self):
@@ -69,8 +72,8 @@ class Graph:
         wide, stride = c * self.pick(1, 4), self.pick(1, 2)
         self.add("Conv", [self.last], (wide, h, w), [weights(wide, c, 1, 1), weights(wide)])
         self.relu6()
-        self.add("Conv", [self.last], (wide, -(-h // stride), -(-w // stride)), [weights(wide, 1, 3, 3), weights(wide)], group=wide,
-                 strides=[stride, stride], pads=[1, 1, 1, 1])
+        self.add("Conv", [self.last], (wide, -(-h // stride), -(-w // stride)), [weights(wide, 1, 3, 3), weights(wide)],
+                 group=wide, strides=[stride, stride], pads=[1, 1, 1, 1])
         self.relu6()
         out = c if self.pick(0, 1) else self.pick(1, 24)
         self.add("Conv", [self.last], (out, *self.maps[self.last][1:]), [weights(out, wide, 1, 1), weights(out)])
@@ -80,7 +83,8 @@ class Graph:
     def pool(self):
         c, h, w = self.maps[self.last]
         size, stride = min(self.pick(2, 3), h, w), self.pick(1, 2)
-        self.add("MaxPool", [self.last], (c, (h - size) // stride + 1, (w - size) // stride + 1), kernel_shape=[size, size], strides=[stride, stride])
+        self.add("MaxPool", [self.last], (c, (h - size) // stride + 1, (w - size) // stride + 1),
+                 kernel_shape=[size, size], strides=[stride, stride])
 
     def join(self):
         """A sum or a concatenation with an earlier map that fits."""
@@ -120,4 +124,5 @@ def graphs(count, seed=1):
     for i in range(count):
         graph = Graph((seed, i))
         outputs = graph.grow()
-        yield Case(f"random_{i}", graph.nodes, {"x": [1, *graph.shape]}, outputs, constants=graph.constants, rounds=graph.folds)
+        yield Case(f"random_{i}", graph.nodes, {"x": [1, *graph.shape]}, outputs, constants=graph.constants,
+                   rounds=graph.folds)

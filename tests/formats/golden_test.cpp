@@ -105,7 +105,7 @@ TEST(Writers, PythonWritesTheGoldenBytes) {
   for (const std::string& path : files_in(golden_folder() + "descriptions", ".json")) {
     const std::string stem = std::filesystem::path(path).stem().string();
     const std::string written = testing::TempDir() + "mien_" + stem + ".mien";
-    output_of(std::string(kPython) + " " + golden_folder() + "describe.py " + path + " " + written);
+    output_of(std::string(kPythonCommand) + golden_folder() + "describe.py " + path + " " + written);
     EXPECT_TRUE(read_file(written) == read_file(golden_folder() + "accept/" + stem + ".mien"));
     std::filesystem::remove(written);
   }
@@ -115,7 +115,7 @@ TEST(Writers, PythonWriterPassesItsOwnTests) {
   if (!std::filesystem::exists(kPython)) {
     GTEST_SKIP() << "no " << kPython;
   }
-  output_of(std::string(kPython) + " " MIEN_SOURCE_DIR "/tests/formats/mien_file_test.py 2>&1");
+  output_of(std::string(kPythonCommand) + MIEN_SOURCE_DIR "/tests/formats/mien_file_test.py 2>&1");
 }
 
 TEST(FileStatus, EveryStatusHasItsOwnMessage) {

@@ -1,14 +1,12 @@
 #!/usr/bin/env python3
 """Tests of the Python writer beyond golden files: other kinds of inputs, rejected inputs, files on disk."""
 import os
-import sys
 import tempfile
 import unittest
 from array import array
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).parents[2] / "scripts/train"))
-from mien_file import MienFile, xxhash64  # noqa: E402
+from mien_convert.weight_file import MienFile, xxhash64
 
 WEIGHT = [[0.5, -1.25, 3.0], [1e-7, 65504.0, -0.1]]
 

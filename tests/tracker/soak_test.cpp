@@ -1,4 +1,4 @@
-// A short soak test; scripts/evaluate/soak.sh runs the long one.
+// A short soak test; scripts/measure/soak.sh runs the long one.
 #include "tests/tracker/soak.h"
 
 #include <gtest/gtest.h>

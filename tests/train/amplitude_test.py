@@ -1,19 +1,18 @@
 #!/usr/bin/env python3
 """Amplitude: how it is measured, what a closed eye is, and that a refitted output layer gives it back."""
-import sys
 import unittest
 from pathlib import Path
 
 import numpy as np
 import torch
 
+from mien_training.data import eyelids
+from mien_training.data import landmark_points as lp
+from mien_training.data.expressions import CONTROLS, INDEX
+from mien_training.evaluate import evaluate_amplitude as measured
+from mien_training.phase2 import refit_outputs as refit
+
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "scripts/train"), str(ROOT / "scripts/evaluate")]
-import evaluate_amplitude as measured  # noqa: E402
-import eyelids  # noqa: E402
-import landmark_points as lp  # noqa: E402
-import refit_outputs as refit  # noqa: E402
-from expressions import CONTROLS, INDEX  # noqa: E402
 
 torch.set_num_threads(1)
 
@@ -41,7 +40,7 @@ class Eyelids(unittest.TestCase):
     def face(self, height):
         """Landmarks of eyes of width 1 whose lids are `height` apart."""
         points = torch.zeros(175, 2)
-        for outer, inner in ((263, 362), (33, 133)):
+        for inner in (362, 133):
             points[lp.POSITION[inner], 0] = 1
         for _, pairs in eyelids.EYES.values():
             for upper, _ in pairs:

@@ -1,13 +1,10 @@
 #!/usr/bin/env python3
-"""Tests of scripts/train/augment.py."""
-import sys
+"""Tests of mien_training.data.augment."""
 import unittest
-from pathlib import Path
 
 import torch
 
-sys.path.insert(0, str(Path(__file__).parents[2] / "scripts/train"))
-import augment  # noqa: E402
+from mien_training.data import augment
 
 
 def generator(seed=3):
@@ -20,8 +17,8 @@ def pictures(count=64):
 
 class Photometric(unittest.TestCase):
     def test_pictures_stay_pictures(self):
-        for operation in (augment.colour, augment.coloured_light, augment.badly_exposed, augment.strange_light, augment.low_light,
-                          augment.photometric):
+        for operation in (augment.colour, augment.coloured_light, augment.badly_exposed, augment.strange_light,
+                          augment.low_light, augment.photometric):
             with self.subTest(operation.__name__):
                 result = operation(pictures(), generator())
                 self.assertEqual(result.shape, pictures().shape)

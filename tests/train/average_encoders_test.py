@@ -3,9 +3,9 @@ import unittest
 
 import torch
 
-from average_encoders import measure_norms
-from blend_decoders import between
-from networks import BaseNet, ConvNorm
+from mien_training.networks.architectures import BaseNet, ConvNorm
+from mien_training.phase1.average_encoders import measure_norms
+from mien_training.phase2.blend_decoders import between
 
 
 class AverageEncoders(unittest.TestCase):
@@ -23,7 +23,8 @@ class AverageEncoders(unittest.TestCase):
         pictures = torch.rand(6, 3, network.framing.height, network.framing.width) * 2 - 1
         measure_norms(network.encoder, pictures)
         seen = []
-        hooks = [m[1].register_forward_pre_hook(lambda norm, inputs: seen.append((norm, inputs[0]))) for m in network.encoder.modules()
+        hooks = [m[1].register_forward_pre_hook(lambda norm, inputs: seen.append((norm, inputs[0])))
+                 for m in network.encoder.modules()
                  if isinstance(m, ConvNorm)]
         with torch.no_grad():
             network.encoder.eval()(pictures)

@@ -12,33 +12,33 @@ from pathlib import Path
 import numpy as np
 import torch
 
+from mien_training.data import portrait_duplicates
+from mien_training.data.expressions import CONTROLS, INDEX
+from mien_training.evaluate import (
+    evaluate_ablation,
+    evaluate_clips,
+    evaluate_images,
+    evaluate_leakage,
+    evaluate_levels,
+    evaluate_response,
+    evaluate_wild,
+    probes,
+    program,
+    report,
+    summary,
+    targets,
+    teacher,
+)
+from mien_training.networks.architectures import FEATURES, ControlsDecoder
+from mien_training.phase1.losses import soft_clamp
+from mien_training.phase2 import reduce_delay, train_decoders
+
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "scripts/train"), str(ROOT / "scripts/evaluate")]
-import bars  # noqa: E402
-import evaluate_ablation  # noqa: E402
-import evaluate_clips  # noqa: E402
-import evaluate_leakage  # noqa: E402
-import evaluate_levels  # noqa: E402
-import evaluate_pictures  # noqa: E402
-import evaluate_response  # noqa: E402
-import evaluate_wild  # noqa: E402
-import evaluate_yardstick  # noqa: E402
-import hasten_decoders  # noqa: E402
-import portrait_twins  # noqa: E402
-import probes  # noqa: E402
-import program  # noqa: E402
-import report  # noqa: E402
-import summary  # noqa: E402
-import teacher  # noqa: E402
-import train_decoders  # noqa: E402
-from expressions import CONTROLS, INDEX  # noqa: E402
-from losses import soft_clamp  # noqa: E402
-from networks import FEATURES, ControlsDecoder  # noqa: E402
 
 torch.set_num_threads(1)  # tests run beside each other
 
 
-def answers(plan, gain=1.0):
+def decode(plan, gain=1.0):
     """What a perfect tracker, times `gain`, reads on three identities."""
     shown = np.stack(plan.controls)[plan.order]
     row = evaluate_response.read(gain * shown, plan)
@@ -46,7 +46,7 @@ def answers(plan, gain=1.0):
 
 
 class Wild(unittest.TestCase):
-    def answers(self, people=40):
+    def decode(self, people=40):
         generator = np.random.default_rng(3)
         made = evaluate_wild.Answers.__new__(evaluate_wild.Answers)
         made.theirs = generator.random((people, len(CONTROLS)))
@@ -56,7 +56,7 @@ class Wild(unittest.TestCase):
         return made
 
     def test_groups_are_told_apart(self):
-        answers, group = self.answers(), np.repeat(["A", "B"], 20)
+        answers, group = self.decode(), np.repeat(["A", "B"], 20)
         answers.controls[20:, INDEX["jawOpen"]] *= -1
         answers.error[:5], answers.error[20] = np.inf, 0.2
         found = answers.by(group)
@@ -64,9 +64,10 @@ class Wild(unittest.TestCase):
         self.assertEqual(found["B"], {"pictures": 20, "found": 0.95, "error": 0.05, "correlation": 0.0})
 
     def test_nobody_found_has_no_error(self):
-        answers = self.answers()
+        answers = self.decode()
         answers.error[:] = np.inf
-        self.assertEqual(answers.summary(np.ones(40, bool)), {"pictures": 40, "found": 0.0, "error": None, "correlation": None})
+        self.assertEqual(answers.summary(np.ones(40, bool)), {"pictures": 40, "found": 0.0, "error": None,
+                                                              "correlation": None})
 
 
 class Decoders(unittest.TestCase):
@@ -103,30 +104,31 @@ class Decoders(unittest.TestCase):
     def test_in_the_end_is_what_held_frames_come_to(self):
         torch.manual_seed(1)
         decoder, features = ControlsDecoder().eval(), torch.randn(3, 2, FEATURES)
-        told = hasten_decoders.in_the_end(decoder, features)
+        told = reduce_delay.settled_output(decoder, features)
         with torch.no_grad():
-            held = decoder(features[1, 0].expand(1, hasten_decoders.SETTLED, -1))[0][0, -1]
+            held = decoder(features[1, 0].expand(1, reduce_delay.SETTLED, -1))[0][0, -1]
         self.assertTrue(torch.allclose(told[1, 0], soft_clamp(held), atol=1e-6))
 
     def test_what_is_late_is_told_from_what_is_wrong(self):
         truth = torch.zeros(1, 60, 2)
         truth[0, 20:24] = 1.0  # a blink
         late = truth.roll(2, 1) + 0.3
-        aim = hasten_decoders.without_lag(late, truth)
+        aim = reduce_delay.without_lag(late, truth)
         self.assertLess((aim - truth - 0.3).abs().max().item(), 0.25)  # it is 1 where the late one is not there yet
-        self.assertTrue(torch.allclose(hasten_decoders.without_lag(truth + 0.3, truth), truth + 0.3, atol=1e-6))
+        self.assertTrue(torch.allclose(reduce_delay.without_lag(truth + 0.3, truth), truth + 0.3, atol=1e-6))
 
     def test_hastened_decoders_are_earlier(self):
         torch.manual_seed(1)
         args = train_decoders.arguments(steps=60, rate=1e-3, batch=8, velocity=0, acceleration=0)
         decoder = ControlsDecoder().eval()
-        data = {"features": torch.randn(30, 2, FEATURES), "controls": torch.zeros(30, 2, 52), "pose": torch.zeros(30, 2, 9),
-                "visible": torch.ones(30, 2, 52)}
-        data["controls"] = hasten_decoders.in_the_end(decoder, data["features"])
+        data = {"features": torch.randn(30, 2, FEATURES), "controls": torch.zeros(30, 2, 52),
+                "pose": torch.zeros(30, 2, 9), "visible": torch.ones(30, 2, 52)}
+        data["controls"] = reduce_delay.settled_output(decoder, data["features"])
         at_cuts = data["features"][:, 0].view(1, 30, FEATURES)
-        wrong = lambda: (soft_clamp(train_decoders.answers(decoder, at_cuts)) - data["controls"][:, 0]).abs()[:, 1:].mean().item()
+        wrong = lambda: (soft_clamp(train_decoders.decode(decoder, at_cuts))
+                         - data["controls"][:, 0]).abs()[:, 1:].mean().item()
         before = wrong()
-        hasten_decoders.learn(decoder, [train_decoders.Held(data, args, cuts=0.5)], torch.ones(52), args)
+        reduce_delay.learn(decoder, [train_decoders.Held(data, args, cuts=0.5)], torch.ones(52), args)
         self.assertLess(wrong(), 0.7 * before)
 
 
@@ -136,9 +138,10 @@ class Twins(unittest.TestCase):
         big = np.uint8(np.kron(rng.integers(0, 200, (12, 12)), np.ones((20, 20))))
         points = np.float32([[0, 0], [239, 239]])
         half = np.uint8(big.reshape(120, 2, 120, 2).mean((1, 3)) * 0.8 + 30)
-        one, same, other = (portrait_twins.small(p, q) for p, q in ((big, points), (half, points / 2), (big[::-1].copy(), points)))
-        self.assertEqual(portrait_twins.alike(np.stack([one, other]), same[None]).tolist(), [True, False])
-        self.assertFalse(portrait_twins.alike(one[None], np.zeros((0, len(one)), np.float32)).any())
+        one, same, other = (portrait_duplicates.small(p, q)
+                            for p, q in ((big, points), (half, points / 2), (big[::-1].copy(), points)))
+        self.assertEqual(portrait_duplicates.alike(np.stack([one, other]), same[None]).tolist(), [True, False])
+        self.assertFalse(portrait_duplicates.alike(one[None], np.zeros((0, len(one)), np.float32)).any())
 
 
 class Probes(unittest.TestCase):
@@ -172,13 +175,13 @@ class Probes(unittest.TestCase):
 
 class Response(unittest.TestCase):
     def test_perfect_answers(self):
-        scores = evaluate_response.scores(answers(probes.control_plan()))
+        scores = evaluate_response.scores(decode(probes.control_plan()))
         self.assertEqual((52, 52), (scores["reached_0.6"], scores["others_below_0.15"]))
         np.testing.assert_array_equal(scores["matrix"], np.eye(52))
         self.assertEqual({1.0}, {w["share"] for w in scores["winks"].values()})
 
     def test_weak_answers_and_cross_talk_are_seen(self):
-        found = answers(probes.control_plan(), 0.5)
+        found = decode(probes.control_plan(), 0.5)
         found["jawOpen", "alone"][:, INDEX["mouthFunnel"]] = 0.4
         scores = evaluate_response.scores(found)
         self.assertEqual(0, scores["reached_0.6"])
@@ -187,7 +190,7 @@ class Response(unittest.TestCase):
         self.assertEqual({0.0}, {w["share"] for w in scores["winks"].values()})
 
     def test_controls_that_are_not_driven_are_left_out(self):
-        found = answers(probes.control_plan())
+        found = decode(probes.control_plan())
         for values in found.values():
             values[:, INDEX["tongueOut"]] = np.nan
         scores = evaluate_response.scores(found)
@@ -213,7 +216,8 @@ class Levels(unittest.TestCase):
         self.assertEqual({"error": 0.25, "controls": 10}, evaluate_levels.difference(a, b))
 
     def test_fastest_round_without_the_search(self):
-        stats = lambda ms, frames: {"frames": frames, "stages": {"frame": {"total_ms": ms * frames + 20}, "proposal": {"total_ms": 20}}}
+        stats = lambda ms, frames: {"frames": frames,
+                                    "stages": {"frame": {"total_ms": ms * frames + 20}, "proposal": {"total_ms": 20}}}
         tracked = lambda ms, frames: program.Tracked(None, None, stats(ms, frames))
         rounds = [[tracked(2, 10), tracked(4, 30)], [tracked(3, 10), tracked(3, 30)]]
         self.assertAlmostEqual((2 * 10 + 3 * 30) / 40, evaluate_levels.cost(rounds))
@@ -258,7 +262,7 @@ class Video(unittest.TestCase):
 class Groups(unittest.TestCase):
     def test_lost_faces_count_but_have_no_error(self):
         error, chosen = np.array([0.1, np.nan, 0.3, 0.5]), np.array([True, True, True, False])
-        table = evaluate_pictures.by_group(error, {"near": chosen, "none": np.zeros(4, bool)})
+        table = evaluate_images.by_group(error, {"near": chosen, "none": np.zeros(4, bool)})
         self.assertEqual({"near": {"pictures": 3, "lost": 1, "error": 0.2}}, table)
 
 
@@ -268,14 +272,14 @@ class Reports(unittest.TestCase):
         self.assertEqual(table, json.loads(report.dump(table)))
 
     def test_bars(self):
-        bar = bars.Bar("leakage", "drift", "<=", 0.1, bars.at(bars.at, "largest"))
+        bar = targets.Bar("leakage", "drift", "<=", 0.1, targets.at(targets.at, "largest"))
         cells = summary.line(bar, {"leakage": {"LOD1": {"largest": 0.2}, "LOD4": {"largest": 0.05}}})
         self.assertEqual(["drift", "<= 0.1", "0.20 **missed**", "0.05 met"], cells)
         self.assertEqual("-", summary.line(bar, {})[2])
 
     def test_a_control_that_should_be_driven_is_missed(self):
         results = lambda spread: {"LOD1": {"controls": {"jawOpen": {"spread": spread, "correlation": None}}}}
-        bar = bars.Bar("clips", "jawOpen", ">=", 0.9, bars.agreement("jawOpen", bars.at))
+        bar = targets.Bar("clips", "jawOpen", ">=", 0.9, targets.agreement("jawOpen", targets.at))
         self.assertEqual("not driven **missed**", summary.line(bar, {"clips": results(0.1)})[2])
         self.assertEqual("-", summary.line(bar, {"clips": results(0.001)})[2])
 
@@ -291,12 +295,12 @@ class Missing(unittest.TestCase):
             models = Path(folder) / "models"
             models.mkdir()
             environment = {**os.environ, "MIEN_DATA": folder, "MIEN_CACHE": folder}
-            run = subprocess.run([sys.executable, ROOT / "scripts/evaluate/evaluate.py", "--mien", sys.executable, "--models", models,
-                                  "--out", f"{folder}/out"], env=environment, capture_output=True, text=True)
+            run = subprocess.run([sys.executable, "-m", "mien_training.evaluate", "--mien", sys.executable, "--models",
+                                  models, "--out", f"{folder}/out"], env=environment, capture_output=True, text=True)
             self.assertEqual(3, run.returncode, run.stderr)
             page = Path(folder, "out/README.md").read_text()
-            for said in ("clips of real people are absent", "rig pack is absent", "portraits are absent", "no train*.pt",
-                         "no synthetic test sequences", "HiFiNet is not trained yet"):
+            for said in ("clips of real people are absent", "rig pack is absent", "portraits are absent",
+                         "no train*.pt", "no synthetic test sequences", "HiFiNet is not trained yet"):
                 self.assertIn(said, page)
                 self.assertIn(said, run.stderr)
 

@@ -1,14 +1,11 @@
 #!/usr/bin/env python3
 """Random expressions and curves: within what a face can do, smooth, balanced, and the same from the same seed."""
 import functools
-import sys
 import unittest
-from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts/train"))
-import expressions as e  # noqa: E402
+from mien_training.data import expressions as e
 
 FRAMES = 90
 
@@ -56,7 +53,8 @@ class Expressions(unittest.TestCase):
         uneven = lambda c: np.abs(c[:, e.PAIRED_LEFT] - c[:, e.PAIRED_RIGHT])
         smile = e.PAIRED.index("mouthSmile")
         for pair, before, after in zip(e.PAIRED, (uneven(straight) > 0.3).mean(0), (uneven(leaning) > 0.3).mean(0)):
-            self.assertGreaterEqual(after, 0 if pair in ("jaw", "mouth") or pair.startswith("eyeLook") else 1.2 * before, pair)
+            self.assertGreaterEqual(after,
+                                    0 if pair in ("jaw", "mouth") or pair.startswith("eyeLook") else 1.2 * before, pair)
         lean = (leaning[:, e.PAIRED_LEFT[smile]] - leaning[:, e.PAIRED_RIGHT[smile]]).mean()
         self.assertLess(abs(lean), 0.02, "to both sides alike")
 
@@ -67,7 +65,8 @@ class Expressions(unittest.TestCase):
         np.testing.assert_allclose(faces.mean(0), faces.mean(0)[e.MIRROR], atol=0.02)
         needs_jaw = (faces[:, [e.INDEX["tongueOut"], e.INDEX["mouthClose"]]] > 0).any(1)
         mouth = [i for i, n in enumerate(e.CONTROLS) if n.startswith(("jaw", "mouth", "cheekPuff", "tongue"))]
-        units = [{e.CONTROLS[i].removesuffix("Left").removesuffix("Right") for i in mouth if face[i] > 0} for face in faces[~needs_jaw]]
+        units = [{e.CONTROLS[i].removesuffix("Left").removesuffix("Right") for i in mouth if face[i] > 0}
+                 for face in faces[~needs_jaw]]
         self.assertLessEqual(max(map(len, units)), 1)
         blink = np.sort(faces[:, [e.INDEX["eyeBlinkLeft"], e.INDEX["eyeBlinkRight"]]], 1)
         self.assertGreater(((blink[:, 0] == 0) & (blink[:, 1] > 0)).mean(), 0.05, "one eye alone")

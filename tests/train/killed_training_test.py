@@ -1,4 +1,5 @@
-"""Training that is killed at any moment goes on from its last checkpoint. Needs the data packs, and pictures that leg.sh has made."""
+"""Training that is killed at any moment goes on from its last checkpoint. Needs the data packs, and pictures that
+continue_training.sh has made."""
 import os
 import random
 import shutil
@@ -9,9 +10,7 @@ import time
 import unittest
 from pathlib import Path
 
-SCRIPTS = Path(__file__).resolve().parents[2] / "scripts/train"
-sys.path.insert(0, str(SCRIPTS))
-from paths import cache, data  # noqa: E402
+from mien_training.paths import cache, data
 
 try:
     import torch
@@ -19,7 +18,8 @@ except ModuleNotFoundError:
     print("skipped: no Python module torch here", file=sys.stderr)
     sys.exit(77)
 
-NEEDED = [data() / "faces_wild", cache() / "faces/misplaced.npy", cache() / "synthetic/train_stills", cache() / "synthetic/val_stills"]
+NEEDED = [data() / "faces_wild", cache() / "faces/misplaced.npy", cache() / "synthetic/train_stills",
+          cache() / "synthetic/val_stills"]
 FACES = 24 * 120
 
 
@@ -27,8 +27,8 @@ class KilledTraining(unittest.TestCase):
     def test_goes_on_from_its_last_checkpoint(self):
         name = Path(tempfile.mkdtemp(prefix="killed_", dir=cache() / "runs")).name
         self.addCleanup(shutil.rmtree, cache() / "runs" / name)
-        train = [sys.executable, str(SCRIPTS / "train_encoder.py"), "--name", name, "--batch", "24", "--report-every", "240", "--resume",
-                 "--samples", str(FACES)]
+        train = [sys.executable, "-m", "mien_training.phase1.train_encoder", "--name", name, "--batch", "24",
+                 "--report-every", "240", "--resume", "--samples", str(FACES)]
         last, dice, seen = cache() / "runs" / name / "last.pt", random.Random(2), []
         for _ in range(5):
             process = subprocess.Popen(train, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)

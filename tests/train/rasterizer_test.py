@@ -1,16 +1,13 @@
 #!/usr/bin/env python3
 """The renderer's rasterizer on squares whose picture is known: where they are, which hides which, what can be seen."""
 import os
-import sys
 import tempfile
 import unittest
-from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts/train"))
 os.environ.setdefault("MIEN_CACHE", tempfile.mkdtemp())
-from renderer import native  # noqa: E402
+from mien_training.renderer import native
 
 SIZE, FOCAL = 64, 64.0
 BLUE = np.array([0, 0, 1], np.float32)
@@ -41,7 +38,8 @@ def render(squares, points=np.zeros((0, 3), np.float32), tolerance=0.5):
         materials.append(made)
     parts = [native.Part(k, 0, 2, k, native.OPAQUE, 0, 0) for k in range(len(squares))]
     fill = lambda kind, items: (kind * len(items))(*items)
-    scene = native.Scene(fill(native.Mesh, meshes), fill(native.Part, parts), fill(native.Material, materials), len(squares), len(squares))
+    scene = native.Scene(fill(native.Mesh, meshes), fill(native.Part, parts), fill(native.Material, materials),
+                         len(squares), len(squares))
     for colour in range(3):
         scene.light.irradiance[10 * colour + 9] = 1.0
     scene.light.exposure = 1.0

@@ -1,14 +1,13 @@
 #!/usr/bin/env python3
-"""Tests of scripts/train/round_weights.py, and that the weights that are shipped were rounded by it."""
+"""Tests of mien_training.networks.round_weights, and that the weights that are shipped were rounded by it."""
 import struct
-import sys
 import unittest
 from pathlib import Path
 
+from mien_convert.weight_file import MienFile, sealed
+from mien_training.networks.round_weights import FEW_WEIGHTS, rounded, rounded_number
+
 ROOT = Path(__file__).parents[2]
-sys.path.insert(0, str(ROOT / "scripts/train"))
-from mien_file import MienFile, sealed  # noqa: E402
-from round_weights import FEW_WEIGHTS, rounded, rounded_number  # noqa: E402
 
 
 def number(value):
@@ -21,7 +20,8 @@ def value(number):
 
 class Numbers(unittest.TestCase):
     def test_ties_go_to_even(self):
-        for before, after in ((1 + 1 / 128, 1 + 1 / 128), (1 + 1 / 256, 1), (1 + 3 / 256, 1 + 2 / 128), (1 + 5 / 256, 1 + 2 / 128),
+        for before, after in ((1 + 1 / 128, 1 + 1 / 128), (1 + 1 / 256, 1), (1 + 3 / 256, 1 + 2 / 128), (1 + 5 / 256,
+                                                                                                         1 + 2 / 128),
                               (1 + 5 / 1024, 1 + 1 / 128), (1 + 3 / 1024, 1), (2 - 1 / 1024, 2), (2 - 1 / 256, 2)):
             self.assertEqual(value(rounded_number(number(before))), after)
             self.assertEqual(value(rounded_number(number(-before))), -after)
@@ -52,7 +52,8 @@ class Numbers(unittest.TestCase):
 def file_of(outputs):
     file = MienFile()
     net = file.network("net", (1, 1, 64))
-    net.output(net.pointwise(net.input, [[(64 * o + i) / 7919 for i in range(64)] for o in range(outputs)], [0.1] * outputs))
+    net.output(
+        net.pointwise(net.input, [[(64 * o + i) / 7919 for i in range(64)] for o in range(outputs)], [0.1] * outputs))
     file.constant("third", [1 / 3], "fp16")
     file.metadata["name"] = "x"
     return file.to_bytes()
@@ -75,7 +76,8 @@ class Files(unittest.TestCase):
         files = sorted((ROOT / "models").glob("*.mien"))
         self.assertGreaterEqual(len(files), 4)
         for path in files:
-            self.assertTrue(rounded(path.read_bytes()) == path.read_bytes(), f"{path.name}: scripts/train/round_weights.py was not run")
+            self.assertTrue(rounded(path.read_bytes()) == path.read_bytes(),
+                            f"{path.name}: mien_training.networks.round_weights was not run")
 
 
 if __name__ == "__main__":

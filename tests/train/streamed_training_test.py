@@ -9,13 +9,11 @@ from pathlib import Path
 
 import torch
 
+from mien_training.networks.architectures import ControlsDecoder
+from mien_training.phase2 import pack_features, stream_features, train_streamed
+from mien_training.phase2.whitening import Whitening
+
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "scripts/train"))
-import pack_features  # noqa: E402
-import stream_features  # noqa: E402
-import train_streamed  # noqa: E402
-from networks import ControlsDecoder  # noqa: E402
-from whitening import Whitening  # noqa: E402
 
 torch.set_num_threads(1)
 
@@ -32,8 +30,8 @@ def shard(path, tracks, frames):
 class Streamed(unittest.TestCase):
     def train(self, folder, steps):
         out = Path(folder) / "decoders.pt"
-        command = [sys.executable, ROOT / "scripts/train/train_streamed.py", "--network", "hifinet", "--stream", folder, "--out", out,
-                   "--steps", str(steps), "--batch", "3", "--portraits", "4"]
+        command = [sys.executable, "-m", "mien_training.phase2.train_streamed", "--network", "hifinet", "--stream",
+                   folder, "--out", out, "--steps", str(steps), "--batch", "3", "--portraits", "4"]
         subprocess.run([str(c) for c in command], check=True, capture_output=True)
         return torch.load(out)
 
@@ -48,7 +46,8 @@ class Streamed(unittest.TestCase):
         self.assertFalse(torch.equal(first["white"]["output.bias"], second["white"]["output.bias"]))
         whitening = Whitening(second["mean"], second["matrix"])
         plain, white = ControlsDecoder(), ControlsDecoder()
-        plain.load_state_dict(second["controls_decoder"]), white.load_state_dict(second["white"])
+        plain.load_state_dict(second["controls_decoder"])
+        white.load_state_dict(second["white"])
         x = torch.randn(2, 7, 256)
         with torch.no_grad():
             apart = plain(x)[0] - white(whitening(x), whitening.start(white, 2))[0]
@@ -65,8 +64,9 @@ class Packed(unittest.TestCase):
     """What travels to an accelerator, and back; here the accelerator is the CPU."""
 
     def on_gpu(self, folder, *arguments):
-        asked = {"MIEN_CACHE": folder, "PYTHON": sys.executable, "DEVICE": "cpu", "STEPS": "6", "OPTIONS": "--batch 3 --portraits 4"}
-        command = [ROOT / "scripts/train/on_gpu.sh", *arguments]
+        asked = {"MIEN_CACHE": folder, "PYTHON": sys.executable, "DEVICE": "cpu", "STEPS": "6",
+                 "OPTIONS": "--batch 3 --portraits 4"}
+        command = [ROOT / "scripts/mien_training/phase2/on_gpu.sh", *arguments]
         return subprocess.run([str(c) for c in command], env={**os.environ, **asked}, capture_output=True, text=True)
 
     def test_trains_from_the_packed_file_to_decoders_that_can_be_exported(self):
@@ -91,9 +91,10 @@ class Packed(unittest.TestCase):
             folder = Path(name)
             shard(folder / "train/00000.pt", 6, 10)
             shard(folder / "portraits_train/00000.pt", 40, 2)
-            for command in (["pack", "--stream", name, folder / "x.npz"], ["unpack", folder / "x.npz", folder / "back"]):
-                subprocess.run([sys.executable, ROOT / "scripts/train/pack_features.py", command[0], "--network", "hifinet",
-                                *map(str, command[1:])], check=True, capture_output=True)
+            for command in (["pack", "--stream", name, folder / "x.npz"], ["unpack", folder / "x.npz",
+                                                                           folder / "back"]):
+                subprocess.run([sys.executable, "-m", "mien_training.phase2.pack_features", command[0], "--network",
+                                "hifinet", *map(str, command[1:])], check=True, capture_output=True)
             for kind, frames in (("train", slice(None)), ("portraits_train", slice(-1, None))):
                 before, after = (stream_features.load(f / kind, "hifinet") for f in (folder, folder / "back"))
                 for field, most in (("features", 0.03), ("controls", 0.003), ("visible", 0.003)):

@@ -1,21 +1,19 @@
 #!/usr/bin/env python3
 """Writes mini.mien and PyTorch's outputs for the same fp16 weights, for tests/engine/golden_test.cpp.
 
-Small networks with random weights that use every kind of layer, built by the very functions that export the trained ones; a second
-"file" with the same interface evaluates them in PyTorch instead of writing them.  usage: make_golden.py
+Small networks with random weights that use every kind of layer, built by the very functions that export the trained
+ones; a second "file" with the same interface evaluates them in PyTorch instead of writing them.  usage: make_golden.py
 """
-import sys
 from pathlib import Path
 
 import numpy as np
 import torch
 import torch.nn.functional as F
 
+from mien_convert.weight_file import MienFile
+from mien_training.networks import architectures, export
+
 HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parents[2] / "scripts/train"))
-import export  # noqa: E402
-import networks  # noqa: E402
-from mien_file import MienFile  # noqa: E402
 
 STEPS = 6  # steps of the temporal network
 
@@ -31,7 +29,8 @@ class EagerNetwork:
         self.input, self.outputs, self.state = x, [], {}
 
     def activated(self, y, activation, alpha=0.0, slopes=None):
-        functions = {"none": lambda v: v, "relu6": F.relu6, "sigmoid": torch.sigmoid, "clamp01": lambda v: v.clamp(0, 1),
+        functions = {"none": lambda v: v, "relu6": F.relu6, "sigmoid": torch.sigmoid,
+                     "clamp01": lambda v: v.clamp(0, 1),
                      "leaky_relu": lambda v: F.leaky_relu(v, alpha), "tanh": torch.tanh, "relu": F.relu,
                      "prelu": lambda v: F.prelu(v, rounded(slopes))}
         return functions[activation](y)
@@ -39,7 +38,8 @@ class EagerNetwork:
     def slide(self, x, weight, bias, stride, padding, groups, activation, slopes):
         top, left, bottom, right = padding
         x = F.pad(x, (left, right, top, bottom))
-        return self.activated(F.conv2d(x, rounded(weight), rounded(bias), stride, groups=groups), activation, slopes=slopes)
+        return self.activated(F.conv2d(x, rounded(weight), rounded(bias), stride, groups=groups), activation,
+                              slopes=slopes)
 
     def conv2d(self, x, weight, bias, stride=1, padding=(0, 0, 0, 0), activation="none", slopes=None):
         return self.slide(x, weight, bias, stride, padding, 1, activation, slopes)
@@ -94,7 +94,7 @@ class EagerFile:
 def mini_encoder():
     """Every kind of block: t = 1 and larger, with and without stride, padding and residual."""
     torch.manual_seed(1)
-    encoder = networks.Encoder([(1, 1, False, 16), (2, 2, False, 8), (3, 1, True, 8), (2, 1, True, 8)], 5)
+    encoder = architectures.Encoder([(1, 1, False, 16), (2, 2, False, 8), (3, 1, True, 8), (2, 1, True, 8)], 5)
     for module in encoder.modules():
         if isinstance(module, torch.nn.BatchNorm2d):
             module.running_mean.normal_(0, 0.2)
@@ -121,7 +121,8 @@ def temporal_layers(rng):
 
 
 def add_temporal(net, layers):
-    x = net.causal_conv(net.input, layers["conv"], layers["conv_bias"], activation="leaky_relu", alpha=networks.LEAK)
+    x = net.causal_conv(net.input, layers["conv"], layers["conv_bias"], activation="leaky_relu",
+                        alpha=architectures.LEAK)
     x = net.lstm(x, layers["ih"], layers["hh"], layers["gates"])
     net.output(net.fully_connected(x, layers["out"], layers["out_bias"], activation="clamp01"))
 
@@ -138,7 +139,7 @@ def image(rng, side):
 def main():
     rng = np.random.default_rng(1)
     torch.manual_seed(2)
-    encoder, pnet, rnet, layers = mini_encoder(), networks.PNet(), networks.RNet(), temporal_layers(rng)
+    encoder, pnet, _, layers = mini_encoder(), architectures.PNet(), architectures.RNet(), temporal_layers(rng)
     file = MienFile()
     side = 27
     with torch.no_grad():

@@ -13,7 +13,7 @@ namespace Mien
         public float[] Values { get; internal set; }
     }
 
-    /// <summary>A custom network of a weight file, for example from scripts/convert/onnx_to_mien.py. One thread at a time may use it.</summary>
+    /// <summary>A custom network of a weight file, for example converted from ONNX. One thread at a time may use it.</summary>
     public sealed class Network : IDisposable
     {
         const int Block = 8;       // channels stored together

@@ -10,8 +10,7 @@ from array import array
 from math import prod
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).parents[3] / "scripts/train"))
-from mien_file import MienFile  # noqa: E402
+from mien_convert.weight_file import MienFile
 
 
 class Numbers:

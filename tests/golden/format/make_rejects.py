@@ -2,12 +2,11 @@
 """Writes reject/: accept/small.mien, parts.mien, every_op.mien or arithmetic.mien with one rule broken in each, the checksum made right again, and reject/expected.txt
 with lines "file status offset"."""
 import struct
-import sys
 from pathlib import Path
 
+from mien_convert.weight_file import xxhash64
+
 HERE = Path(__file__).parent
-sys.path.insert(0, str(HERE.parents[2] / "scripts/train"))
-from mien_file import xxhash64  # noqa: E402
 
 BASE = (HERE / "accept/small.mien").read_bytes()
 NETWORKS, LAYERS, TENSORS, METADATA, STRINGS, DATA = 64, 192, 448, 1024, 1056, 1088

@@ -1,15 +1,14 @@
 #!/usr/bin/env python3
 """Writes accept/: files of ../format/accept, and many zeros in blocks of the largest size, packed; and reject/: small.packed with one
-rule broken in each, and reject/expected.txt with lines "file status"."""
+rule broken in each, and reject/expected.txt with lines "file status". Needs PYTHONPATH=scripts."""
 import struct
-import sys
 import tempfile
 from pathlib import Path
 
+from mien_convert.weight_file import MienFile
+from package.pack_weights import packed, table
+
 HERE = Path(__file__).parent
-sys.path[:0] = [str(HERE.parents[2] / "scripts/train"), str(HERE.parents[2] / "scripts/package")]
-from mien_file import MienFile  # noqa: E402
-from pack_weights import packed, table  # noqa: E402
 
 FORMAT = HERE.parent / "format/accept"
 SMALL = packed((FORMAT / "small.mien").read_bytes())

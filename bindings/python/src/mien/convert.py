@@ -1,23 +1,17 @@
-"""python -m mien.convert MODEL.onnx -o MODEL.mien: the converter of scripts/convert. Needs the extra mien[convert]."""
+"""python -m mien.convert MODEL.onnx -o MODEL.mien: the converter of scripts/mien_convert. Needs the extra mien[convert]."""
 
 from __future__ import annotations
 
 import importlib
 import importlib.util
-import sys
 from typing import Optional, Sequence
-
-from ._library import PACKAGE
 
 
 def main(arguments: Optional[Sequence[str]] = None) -> None:
     """As the command line; SystemExit with one line that says why, where a file is refused."""
     if importlib.util.find_spec("onnx") is None:
         raise SystemExit("mien.convert: needs Python's onnx: pip install 'mien[convert]'")
-    folder = str(PACKAGE / "_convert")
-    if folder not in sys.path:
-        sys.path.insert(0, folder)
-    importlib.import_module("onnx_to_mien").main(arguments)
+    importlib.import_module("mien._convert.onnx_to_mien").main(arguments)
 
 
 if __name__ == "__main__":

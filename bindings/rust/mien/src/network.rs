@@ -31,7 +31,7 @@ impl Shape {
     }
 }
 
-/// A custom network of a weight file, for example from `scripts/convert/onnx_to_mien.py`.
+/// A custom network of a weight file, for example converted from ONNX.
 pub struct Network {
     raw: *mut mien_sys::mien_network,
     input_shape: Shape,

@@ -1,6 +1,6 @@
 package org.mien;
 
-/** A custom network of a weight file, for example from scripts/convert/onnx_to_mien.py. Must be closed. */
+/** A custom network of a weight file, for example converted from ONNX. Must be closed. */
 public final class Network implements AutoCloseable {
     private final Model model; // kept alive as long as this object
     private long handle;

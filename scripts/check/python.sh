@@ -1,0 +1,17 @@
+#!/usr/bin/env bash
+# Lints Python with ruff (rules: scripts/pyproject.toml) and limits the size of scripts/.
+# usage: scripts/check/python.sh [--fix]
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+CHECKED=(scripts tests/convert tests/train apps/conformance fuzz)
+LINES=19900  # of code in scripts/
+
+scripts/check/code_size.py "$LINES"
+scripts/check/python_statements.py "${CHECKED[@]}"
+python=build/ruff/bin/python
+[ -x $python ] || python3 -m venv build/ruff
+if ! $python -m pip install --quiet --disable-pip-version-check -r scripts/check/ruff_requirements.txt; then
+  echo "SKIPPED: Python: ruff could not be installed from PyPI" >&2
+  exit 0
+fi
+build/ruff/bin/ruff check --config scripts/pyproject.toml --no-cache "$@" "${CHECKED[@]}"

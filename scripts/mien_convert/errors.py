@@ -1,0 +1,29 @@
+"""What the converter says when it cannot go on."""
+import math
+
+MOST_NUMBERS = 1 << 24  # of one tensor: each takes up to 24 bytes here, and a file of 100 bytes may ask for any size
+MOST_IN_ALL = 1 << 27  # of all tensors of a graph: 3 GB, and seconds for each guess at what its axes mean
+
+
+class Refused(Exception):
+    """`progress`: how many nodes were taken before, -1 before the first, to tell which of several attempts came
+    furthest."""
+
+    def __init__(self, message, progress=-1):
+        super().__init__(message)
+        self.progress = progress
+
+
+def require(condition, message):
+    if not condition:
+        raise Refused(message)
+
+
+def in_a_line(error):
+    """What an exception says, for some of others say it in several lines."""
+    return " ".join(str(error).split())
+
+
+def require_room(*sizes):
+    require(math.prod(map(int, sizes)) <= MOST_NUMBERS,
+            f"a tensor {[int(n) for n in sizes]}: at most {MOST_NUMBERS} numbers")

@@ -1,0 +1,87 @@
+"""Tensors of an ONNX graph in terms of the engine's layers.
+
+For every element a tensor says which element of which layer it is, or that it is a constant: so whatever only moves
+elements around (Reshape, Transpose, Slice, Concat, Pad, ...) costs nothing until a layer needs them in another order
+than they have. An element is
+
+    scale * (element of a layer, or 0) + shift
+
+`at` numbers the element: layer << 32 | step * size + (channel * h + row) * w + column, NOTHING for a constant.
+"""
+import numpy as np
+
+from .errors import Refused, require, require_room
+
+NOTHING, FUTURE = -1, -2  # FUTURE: what a convolution over time makes of steps that have not come
+BITS = 32
+MASK = (1 << BITS) - 1
+
+
+class Tensor:
+    def __init__(self, at, scale=None, shift=None):
+        self.at = at
+        # Of one number, which takes no memory until somebody computes with it.
+        self.scale = np.broadcast_to(1.0, at.shape) if scale is None else scale
+        self.shift = np.broadcast_to(0.0, at.shape) if shift is None else shift
+
+    @property
+    def shape(self):
+        return self.at.shape
+
+    def moved(self, move):
+        """The same elements in another arrangement."""
+        return Tensor(move(self.at), move(self.scale), move(self.shift))
+
+    def constant(self):
+        """The numbers, if there is nothing else in it."""
+        return self.shift if (self.at == NOTHING).all() else None
+
+    def is_plain(self):
+        return not ((self.at >= 0) & ((self.scale != 1) | (self.shift != 0))).any()
+
+    def layer_numbers(self):
+        return [int(n) for n in np.unique(self.at[self.at >= 0] >> BITS)]
+
+
+def of_constant(values):
+    values = np.asarray(values, dtype=np.float64)
+    return Tensor(np.full(values.shape, NOTHING, np.int64), shift=values)
+
+
+def joined(tensors, axis):
+    require_room(sum(t.at.size for t in tensors))
+    return Tensor(*(np.concatenate([getattr(t, part) for t in tensors], axis) for part in ("at", "scale", "shift")))
+
+
+def elements(layer, steps=1):
+    """[steps, c, h, w]"""
+    h, w, c = layer.shape
+    return (layer.number << BITS) + np.arange(steps * layer.size, dtype=np.int64).reshape(steps, c, h, w)
+
+
+def per_channel(layer, at, values, neutral):
+    """Values given for elements of a layer as one for each of its channels."""
+    h, w, c = layer.shape
+    channel = (at & MASK) % layer.size // (h * w)
+    of_channel = np.full(c, neutral, np.float64)
+    of_channel[channel] = values  # the last of several, which all the others have to be
+    require((of_channel[channel] == values).all(), "its second operand is not one number for each channel")
+    return of_channel
+
+
+def along(array, other_axes, message):
+    """What is the same along those axes, without them."""
+    first = array[tuple(slice(0, 1) if axis in other_axes else slice(None) for axis in range(array.ndim))]
+    require((array == first).all(), message)
+    return first.reshape([n for axis, n in enumerate(array.shape) if axis not in other_axes])
+
+
+def zero_border(tensor):
+    """(top, left, bottom, right) rows and columns of zeros around what [1, c, h, w] holds, and the rest."""
+    empty = ((tensor.at == NOTHING) & (tensor.shift == 0)).all((0, 1))
+    rows, columns = np.flatnonzero(~empty.all(1)), np.flatnonzero(~empty.all(0))
+    if not len(rows):
+        raise Refused("it reads nothing but zeros")
+    top, left, bottom, right = rows[0], columns[0], rows[-1] + 1, columns[-1] + 1
+    border = int(top), int(left), int(empty.shape[0] - bottom), int(empty.shape[1] - right)
+    return border, tensor.moved(lambda part: part[:, :, top:bottom, left:right])

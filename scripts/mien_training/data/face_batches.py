@@ -1,0 +1,231 @@
+"""Batches for phase 1: windows of portraits, renders and images without a face, with labels."""
+from collections import namedtuple
+
+import numpy as np
+import torch
+from PIL import Image
+
+from mien_training.data import faces, head_pose
+from mien_training.data.crop_sampler import sample
+from mien_training.data.expressions import CONTROLS
+from mien_training.data.expressions import MIRROR as CONTROL_MIRROR
+from mien_training.data.faces import continued, window
+from mien_training.data.framing import BASENET
+from mien_training.data.landmark_points import MIRROR
+from mien_training.data.sequences import crop_to_image, fit_crop, template, to_window
+from mien_training.paths import cache, data
+from mien_training.renderer.assets import names
+
+# images f32 [n,3,height,width] in 0..1; landmarks [n,175,2] in crop coordinates; controls [n,52] and pose [n,9], the
+# teacher's on portraits; has_landmarks, has_controls (true ones) bool [n]; visible [n,175]; face [n]: 1 a face well
+# inside the crop, 0 none or misplaced
+Batch = namedtuple("Batch", "images landmarks controls pose visible has_landmarks has_controls face")
+
+
+NEAR_PROFILE_ODDS = 3  # heads turned far are few and hard
+
+
+def rarity(controls):
+    """How often to draw each face [n], from controls [n,52]: up to four times as often the further one of its controls
+    is from usual."""
+    usual, rare = np.median(controls, 0), np.percentile(controls, 99, 0)
+    moved = (controls - usual) / np.maximum(rare - usual, 0.1)
+    return 0.5 + 1.5 * np.clip(moved, 0, 1).max(1)
+
+
+class Portraits:
+    def __init__(self, split, framing=BASENET):
+        folder = cache() / "faces" / framing.folder(split)
+        self.images = np.load(folder / "images.npy", mmap_mode="r")
+        labels = np.load(folder / "labels.npz")
+        self.landmarks, self.crop = torch.from_numpy(labels["landmarks"]), torch.from_numpy(labels["crop"])
+        self.trust = torch.from_numpy(labels["trust"])
+        found = faces.Portraits(split)
+        self.controls, self.camera = torch.from_numpy(found.labels.controls), faces.camera_labels(found, framing)
+        self.odds = np.cumsum(rarity(found.labels.controls)
+                              * np.where(found.labels.near_profile(), NEAR_PROFILE_ODDS, 1))
+
+    def __len__(self):
+        return len(self.images)
+
+    def rows(self, rng, n):
+        i = np.searchsorted(self.odds, rng.uniform(0, self.odds[-1], n))
+        self.last = {name: value[i] for name, value in self.camera.items()}
+        return self.images[i], self.landmarks[i], self.crop[i], self.controls[i], self.trust[i, None].expand(-1, 175)
+
+
+class Rendered:
+    """All shards there are; `refresh` takes up those that came since."""
+
+    def __init__(self, *kinds, framing=BASENET):
+        self.kinds, self.window = [framing.folder(k) for k in kinds], framing.window
+        self.shards, self.known = [], set()
+        self.refresh()
+
+    def refresh(self):
+        for kind in self.kinds:
+            for folder in sorted((cache() / "synthetic" / kind).glob("shard_*")):
+                if folder not in self.known and (folder / "labels.npz").exists():
+                    self.known.add(folder)
+                    self.shards.append((np.load(folder / "images.npy", mmap_mode="r"),
+                                        dict(np.load(folder / "labels.npz"))))
+
+    def __len__(self):
+        return sum(len(images) for images, _ in self.shards)
+
+    def rows(self, rng, n):
+        parts = []
+        for images, labels in (self.shards[k] for k in rng.integers(0, len(self.shards), 4)):
+            i = np.sort(rng.integers(0, len(images), n // 4 + 1))
+            parts.append((
+                images[i], {k: torch.from_numpy(v[i]).float() for k, v in labels.items() if len(v) == len(images)}))
+        images = np.concatenate([p[0] for p in parts])[:n]
+        labels = {k: torch.cat([p[1][k] for p in parts])[:n] for k in parts[0][1]}
+        scale = self.window / labels["window"][:, None, 2:3]
+        landmarks = (labels["landmarks"] - labels["window"][:, None, :2]) * scale + self.window / 2
+        crop = to_window(labels["crop"], labels["window"], self.window)
+        self.last = labels  # what pose targets need beyond the common row, of the rows just drawn
+        return images, landmarks, crop, labels["controls"], labels["visibility"]
+
+
+class Backgrounds:
+    """Pieces of environments, those BaseNet took for a face, and portraits where the crop misses the face."""
+
+    def __init__(self, count=3000, seed=7):
+        self.rng = np.random.default_rng(seed)
+        paths = [data() / f"environments/{name}.jpg" for name in names("environments")]
+        # with the width of their border
+        self.pictures = [continued(np.asarray(Image.open(p).convert("RGB")), 0.4) for p in paths]
+        self.plain, middle = self.pieces(count), torch.tensor(BASENET.middle).expand(count, -1)
+        self.mistaken, self.mistaken_crop, self.mistakes = self.plain.copy(), middle.clone(), 0
+        self.misplaced = np.load(cache() / "faces/misplaced.npy", mmap_mode="r")
+
+    def pieces(self, count):
+        images = np.empty((count, BASENET.window, BASENET.window, 3), np.uint8)
+        for k in range(count):
+            picture, margin = self.pictures[self.rng.integers(len(self.pictures))]
+            side = np.exp(self.rng.uniform(np.log(60), np.log(400)))
+            inside = np.array(picture.shape[1::-1]) - 2 * margin
+            images[k] = window(picture, margin + self.rng.uniform(0, 1, 2) * inside, side)
+        return images
+
+    @torch.no_grad()
+    def mine(self, network, count=1500, alignments=2, believed=0.15):
+        """Lets the network align itself on new pieces, as the tracker does, and keeps what it then takes for a face."""
+        network.eval()
+        images = self.pieces(count)
+        crop = torch.tensor(BASENET.middle).expand(count, -1)
+        for _ in range(alignments + 1):
+            out = network((sample(images, crop, BASENET) * 2 - 1).to(next(network.parameters()).device))
+            face = torch.sigmoid(out["face"]).cpu()
+            self.remember(images, crop, (face > believed) & within(crop))
+            crop = fit_crop(template(), crop_to_image(crop, out["landmarks"].cpu()))
+        network.train()
+
+    def remember(self, images, crop, chosen):
+        """The newest mistakes replace the oldest."""
+        for i in torch.nonzero(chosen)[:, 0].tolist():
+            slot = self.mistakes % len(self.mistaken)
+            self.mistaken[slot], self.mistaken_crop[slot] = images[i], crop[i]
+            self.mistakes += 1
+
+    def rows(self, rng, n):
+        """A third each of plain pieces, mistakes and misplaced crops."""
+        a, b = rng.integers(0, len(self.plain), n // 3), rng.integers(0, max(1, min(self.mistakes, len(self.mistaken))),
+                                                                      n // 3)
+        c = rng.integers(0, len(self.misplaced), n - 2 * (n // 3))
+        images = np.concatenate([self.plain[a], self.mistaken[b], self.misplaced[np.sort(c)]])
+        middle = lambda k: torch.tensor(BASENET.middle).expand(k, -1)
+        crop = torch.cat([middle(len(a)), self.mistaken_crop[b], middle(len(c))])
+        return images, torch.zeros(n, 175, 2), crop, torch.zeros(n, len(CONTROLS)), torch.zeros(n, 175)
+
+
+def within(crop):
+    """Whether crops still lie in the window they began in."""
+    window = BASENET.window
+    away = (crop[:, :2] - window / 2).abs().amax(1) + crop[:, 2] / 2
+    return (away < 0.65 * window) & (crop[:, 2] > 0.3 * window)
+
+
+def jitter(crop, generator, roughness=1.0, wide_share=0.2):
+    """Crops as the tracker meets them: mostly nearly right, sometimes as rough as a proposal. All of it times
+    `roughness`."""
+    n = len(crop)
+    wide = (torch.rand(n, 1, generator=generator) < wide_share).float()
+    normal = torch.randn(n, 4, generator=generator) * torch.tensor([0.035, 0.035, 0.06, 0.08])
+    rough = (torch.rand(n, 4, generator=generator) * 2 - 1) * torch.tensor([0.14, 0.14, 0.28, 0.5])
+    d = torch.lerp(normal, rough, wide) * roughness
+    return torch.stack([crop[:, 0] + d[:, 0] * crop[:, 2], crop[:, 1] + d[:, 1] * crop[:, 2],
+                        crop[:, 2] * torch.exp(d[:, 2]), crop[:, 3] + d[:, 3]], 1)
+
+
+def misplace(crop, generator):
+    """Crops that show a face badly: shifted by half a side, or far too wide or too close."""
+    n = len(crop)
+    angle = torch.rand(n, generator=generator) * 6.2832
+    away = torch.empty(n).uniform_(0.5, 0.75, generator=generator)
+    shifted = torch.rand(n, generator=generator) < 0.6
+    scale = torch.where(torch.rand(n, generator=generator) < 0.5, 0.42, 2.3)
+    d = torch.where(shifted, away, 0.25 * away) * crop[:, 2]
+    return torch.stack([crop[:, 0] + d * torch.cos(angle), crop[:, 1] + d * torch.sin(angle),
+                        torch.where(shifted, crop[:, 2], crop[:, 2] * scale), crop[:, 3]], 1)
+
+
+def to_crop(crop, points):
+    return head_pose.rotate(points - crop[:, None, :2], -crop[:, None, 3]) / crop[:, None, 2:3] + 0.5
+
+
+def mirror(batch, generator):
+    """Flips half of the pictures, with everything that has a left and a right."""
+    flip = torch.rand(len(batch.images), generator=generator) < 0.5
+    choose = lambda a, b: torch.where(flip.view(-1, *[1] * (a.dim() - 1)), a, b)
+    pose_signs = torch.tensor([1.0, -1, -1, -1, 1, 1, -1, 1, 1])
+    return batch._replace(
+        images=batch.images.index_put((flip,), batch.images[flip].flip(3)),
+        landmarks=choose(torch.tensor([1.0, 0]) + batch.landmarks[:, MIRROR] * torch.tensor([-1.0, 1]),
+                         batch.landmarks),
+        controls=choose(batch.controls[:, CONTROL_MIRROR], batch.controls),
+        pose=choose(batch.pose * pose_signs, batch.pose),
+        visible=choose(batch.visible[:, MIRROR], batch.visible))
+
+
+class Mixture:
+    """Draws batches: shares of portraits, rendered faces and, for BaseNet, backgrounds and badly placed faces."""
+
+    def __init__(self, framing, portraits, rendered, backgrounds, seed, real_share=0.45, background_share=0.1,
+                 roughness=1.0):
+        self.framing = framing
+        self.portraits, self.rendered, self.backgrounds = portraits, rendered, backgrounds
+        self.rng, self.generator = np.random.default_rng(seed), torch.Generator().manual_seed(seed)
+        self.real_share, self.background_share, self.roughness = real_share, background_share, roughness
+
+    def batch(self, size, misplaced_share=0.04):
+        n_background = int(size * self.background_share) if self.backgrounds else 0
+        misplaced_share *= self.backgrounds is not None
+        n_real = size - n_background if not len(self.rendered) else int(size * self.real_share)
+        n_rendered = size - n_background - n_real
+        parts = [self.part(self.portraits, n_real, misplaced_share)]
+        if n_rendered:
+            parts.append(self.part(self.rendered, n_rendered, misplaced_share))
+        if n_background:
+            parts.append(self.part(self.backgrounds, n_background, 0))
+        whole = Batch(*(torch.cat(values) for values in zip(*parts)))
+        return mirror(whole, self.generator)
+
+    def part(self, source, n, misplaced_share):
+        images, landmarks, crop, controls, visible = source.rows(self.rng, n)
+        face, rendered = source is not self.backgrounds, isinstance(source, Rendered)
+        bad = torch.rand(n, generator=self.generator) < misplaced_share
+        used = torch.where(bad[:, None], misplace(crop, self.generator),
+                           jitter(crop, self.generator, self.roughness * self.framing.looseness))
+        good = ~bad & face
+        pose = self.pose_targets(source.last, used) if face else torch.zeros(n, 9)
+        return Batch(sample(images, used, self.framing), to_crop(used, landmarks), controls, pose, visible, good,
+                     good & rendered, good.float())
+
+    def pose_targets(self, labels, crop):
+        """Pose of rows as seen in these crops (window pixels -> camera pixels first)."""
+        scale = labels["window"][:, 2:3] / self.framing.window
+        camera = torch.cat([(crop[:, :2] - self.framing.window / 2) * scale + labels["window"][:, :2],
+                            crop[:, 2:3] * scale, crop[:, 3:]], 1)
+        return head_pose.to_crop(labels["rotation"], labels["translation"], labels["f_px"], labels["camera_wh"], camera)

@@ -1,0 +1,182 @@
+"""Renders labelled synthetic faces: stills, or sequences of --frames (90) at 30 frames a second.
+
+OUT/<split>_<kind>/shard_0000/images.npy is uint8 [n,window,window,3] RGB, with the window of the framing (framing.py).
+labels.npz has for each image: landmarks [n,175,2] in camera pixels; window [n,3] (cx, cy, side of the stored image in
+camera pixels); crop [n,4] (cx, cy, side, roll); controls [n,52]; rotation [n,3,3] and translation [n,3] (metres) of the
+head in camera space; f_px [n]; camera_wh [n,2]; visibility [n,175]; identity, sequence, frame [n]. The seed, the number
+of the shard and --frames determine a shard; finished shards are kept.
+"""
+import argparse
+import os
+from functools import partial
+from multiprocessing import Pool
+from pathlib import Path
+
+import numpy as np
+from tqdm import tqdm
+
+from mien_training.data import expressions
+from mien_training.data.framing import BASENET, FRAMINGS
+from mien_training.paths import cache
+from mien_training.renderer import background, camera, lighting, look, motion, props
+from mien_training.renderer.rig import Rig
+from mien_training.renderer.scene import Figure, Scene, Studio
+
+SPLITS, KINDS = ("train", "val", "test"), ("stills", "sequences")
+STILLS_PER_SHARD, SEQUENCES_PER_SHARD, FRAMES = 2000, 22, 90
+BATCH = 16          # heads blended together
+OCCLUDED = 0.15     # share of pictures with something in front of the face
+
+
+class Set:
+    """What stays the same while a face is filmed: camera, light, backdrop and an occluder or none."""
+
+    def __init__(self, rng, split, person):
+        environment = lighting.sample_environment(rng, split)
+        self.camera = camera.sample_camera(rng)
+        self.light = lighting.sample(rng, environment)
+        self.backdrop = background.sample(rng, environment, self.camera)
+        self.occluder = props.sample_occluder(rng, person.skin_colour()) if rng.random() < OCCLUDED else None
+        self.target, self.offset, self.lift = rng.integers(175), rng.normal(0, [4, 4, 0]), rng.uniform(2, 7)
+
+    def occluders(self, points, shift):
+        """The occluder in front of its landmark of points [175,3] (camera space, cm), moved by shift [3]."""
+        if self.occluder is None:
+            return ()
+        vertices, triangles, colour = self.occluder
+        near = points[self.target] * (1 - self.lift / np.linalg.norm(points[self.target]))
+        reach = max(vertices[:, 2].max(), 0)
+        return ((vertices + near + self.offset + shift + [0, 0, reach], triangles, colour),)
+
+
+def shoot(studio, framing, figure, vertices, place, pose, shift=np.zeros(3)):
+    """Picture and labels of one frame; `place` is a Set, `pose` (rotation, translation in cm)."""
+    crop = camera.fit_crop(place.camera.project(studio.rig.landmarks(vertices) @ pose[0].T + pose[1]))
+    window = np.array([*crop[:2], framing.window_crops * crop[2]])
+    return photograph(studio, window, framing.window, figure, vertices, place, pose, shift)
+
+
+def photograph(studio, window, pixels, figure, vertices, place, pose, shift=np.zeros(3)):
+    """The same for any window (cx, cy, side) of the camera's picture, as pixels x pixels."""
+    landmarks = studio.rig.landmarks(vertices)
+    points = landmarks @ pose[0].T + pose[1]
+    seen_at = place.camera.project(points)
+    view = place.camera.view(*(window[:2] - window[2] / 2), window[2], pixels, pixels)
+    scene = Scene(figure, vertices, *pose, landmarks, place.light, view, background.behind(place.backdrop, view),
+                  place.occluders(points, shift))
+    image, visible = studio.render(scene)
+    labels = dict(landmarks=np.float32(seen_at), window=np.float32(window), crop=np.float32(camera.fit_crop(seen_at)),
+                  rotation=np.float32(pose[0]), translation=np.float32(pose[1] / 100),
+                  f_px=np.float32(place.camera.f_px),
+                  camera_wh=np.int16([place.camera.width, place.camera.height]), visibility=visible)
+    return image, labels
+
+
+def stills(studio, framing, rng, split, first, perform, turned, count):
+    """Yields (image, labels) of `count` people numbered from `first`, a share of them `turned`; `perform` makes the
+    controls of several."""
+    for start in range(0, count, BATCH):
+        people = [look.sample(rng, split) for _ in range(min(BATCH, count - start))]
+        controls = perform(rng, len(people))
+        heads = studio.rig.identity(np.stack([p.identity for p in people]))
+        faces = heads + studio.rig.expression(controls)
+        for k, person in enumerate(people):
+            place = Set(rng, split, person)
+            pose = camera.pose_at(place.camera, studio.rig.landmarks(faces[k]), camera.sample_angles(rng, turned),
+                                  camera.sample_place(rng, place.camera))
+            image, labels = shoot(studio, framing, Figure(studio, person, heads[k]), faces[k], place, pose)
+            number = first + start + k
+            yield image, dict(labels, controls=controls[k], identity=number, sequence=number, frame=0)
+
+
+def sequence(studio, framing, rng, split, number, perform, frames):
+    """Yields (image, labels) of `frames` frames of one person; `perform` makes the controls of a sequence."""
+    person = look.sample(rng, split)
+    place = Set(rng, split, person)
+    head = studio.rig.identity(person.identity[None])[0]
+    figure = Figure(studio, person, head)
+    controls = perform(rng, frames)
+    rotations, translations, sweep = motion.head_poses(rng, place.camera, studio.rig.landmarks(head), frames)
+    for start in range(0, frames, BATCH):
+        faces = head + studio.rig.expression(controls[start:start + BATCH])
+        for k, vertices in enumerate(faces):
+            t = start + k
+            image, labels = shoot(studio, framing, figure, vertices, place, (rotations[t], translations[t]), sweep[t])
+            yield image, dict(labels, controls=controls[t], identity=number, sequence=number, frame=t)
+
+
+def frames_of_shard(studio, framing, args, shard, count, perform):
+    """Yields (image, labels); `count` is of stills or sequences in this shard."""
+    rng = np.random.default_rng([args.seed, SPLITS.index(args.split), KINDS.index(args.kind), shard])
+    if args.kind == "stills":
+        yield from stills(studio, framing, rng, args.split, shard * STILLS_PER_SHARD, perform, args.turned, count)
+    else:
+        for k in range(count):
+            yield from sequence(studio, framing, rng, args.split, shard * SEQUENCES_PER_SHARD + k, perform, args.frames)
+
+
+def write_shard(studio, framing, folder, args, shard, count, perform, position):
+    total = count * (args.frames if args.kind == "sequences" else 1)
+    source = frames_of_shard(studio, framing, args, shard, count, perform)
+    save(folder, tqdm(source, f"{folder.parent.name} {shard}", total, position=position, mininterval=5, leave=False))
+
+
+def save(folder, pictures):
+    """Writes the (image, labels) of a shard; a folder that is not whole never appears under its name."""
+    images, labels = zip(*pictures)
+    unfinished = folder.with_name(f".{folder.name}.{os.getpid()}")
+    unfinished.mkdir(parents=True, exist_ok=True)
+    np.save(unfinished / "images.npy", np.stack(images))
+    table = {k: np.stack([row[k] for row in labels]) for k in labels[0]}
+    for name in ("identity", "sequence", "frame"):
+        table[name] = table[name].astype(np.int32)
+    np.savez(unfinished / "labels.npz", **table)
+    unfinished.rename(folder)
+
+
+def work(job):
+    """Renders the shards of one worker, `job` = (arguments, worker number)."""
+    args, worker = job
+    per_shard = STILLS_PER_SHARD if args.kind == "stills" else SEQUENCES_PER_SHARD
+    studio, framing = None, FRAMINGS[args.framing]
+    perform = expressions.sample_sequence if args.kind == "sequences" else partial(
+        expressions.sample_stills, leaning=args.leaning, apart=args.apart)
+    for shard in range(worker, -(-args.count // per_shard), args.workers):
+        folder = args.out / framing.folder(f"{args.split}_{args.kind}") / f"shard_{shard:04d}"
+        if folder.exists():
+            continue
+        studio = studio or Studio(Rig())
+        count = min(per_shard, args.count - shard * per_shard)
+        write_shard(studio, framing, folder, args, shard, count, perform, worker)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--split", choices=SPLITS, required=True)
+    parser.add_argument("--kind", choices=KINDS, required=True)
+    parser.add_argument("--count", type=int, required=True, help="stills or sequences in all")
+    parser.add_argument("--framing", choices=FRAMINGS, default=BASENET.name)
+    parser.add_argument("--frames", type=int, default=FRAMES, help="of a sequence")
+    parser.add_argument("--leaning", type=float, default=0, help="share of stills whose expression leans to one side")
+    parser.add_argument("--apart", type=float, default=0,
+                        help="share of stills in which at most one unit of each region moves")
+    parser.add_argument("--turned", type=float, default=0, help="share of stills whose head looks far to one side")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--out", type=Path, default=cache() / "synthetic")
+    parser.add_argument("--data", type=Path, help="data packs, instead of MIEN_DATA")
+    parser.add_argument("--workers", type=int, default=1)
+    args = parser.parse_args()
+    if (args.leaning or args.apart or args.turned) and args.kind == "sequences":
+        parser.error("--leaning, --apart and --turned are for stills")
+    if args.data:
+        os.environ["MIEN_DATA"] = str(args.data.resolve())
+    jobs = [(args, worker) for worker in range(args.workers)]
+    if args.workers == 1:
+        work(jobs[0])
+    else:
+        with Pool(args.workers) as pool:
+            pool.map(work, jobs)
+
+
+if __name__ == "__main__":
+    main()

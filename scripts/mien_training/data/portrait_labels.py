@@ -1,0 +1,102 @@
+"""Portraits of the packs `faces` and `faces_wild`: the teacher's labels, and splits.
+
+A hash of the name holds out 12 % for test and 5 % for validation; of GRID, whose frames show few people, by speaker.
+People who are held out under another name are not used for training (portrait_duplicates.py).
+"""
+import functools
+import hashlib
+from dataclasses import dataclass
+
+import numpy as np
+
+from mien_training.data import portrait_duplicates
+from mien_training.data.expressions import CONTROLS
+from mien_training.paths import data
+
+PACKS = ("faces", "faces_wild")
+VALIDATION_SPEAKERS = ("GRID s5",)  # who is in the clips of the evaluation too
+GREY_GROUP = "members of Congress"   # what the group of the first pack's photographs is called here
+NEAR_PROFILE = np.radians(38)        # yaw from which on the teacher guesses half of a face
+
+
+@dataclass(frozen=True)
+class Labels:
+    name: np.ndarray         # str [n], of the picture's file
+    pack: np.ndarray         # str [n]
+    group: np.ndarray        # str [n]: ethnic group of FairFace, GRID's speaker, or where the picture comes from
+    age: np.ndarray          # str [n], a range of years, '' where unknown
+    sex: np.ndarray          # str [n], '' where unknown
+    size_wh: np.ndarray      # f32 [n,2] pixels
+    points: np.ndarray       # f32 [n,478,2] pixels
+    controls: np.ndarray     # f32 [n,52]; 0 where the teacher has none
+    rotation: np.ndarray     # f32 [n,3,3], camera space
+    translation: np.ndarray  # f32 [n,3] metres
+
+    def of(self, rows):
+        return Labels(*(getattr(self, field)[rows] for field in self.__dataclass_fields__))
+
+    def __len__(self):
+        return len(self.name)
+
+    def path(self, i):
+        return data() / str(self.pack[i]) / "img" / str(self.name[i])
+
+    def near_profile(self):
+        """bool [n]: heads turned so far that half of the labels are guesses."""
+        return np.abs(np.arctan2(self.rotation[:, 0, 2], self.rotation[:, 2, 2])) > NEAR_PROFILE
+
+
+def split_of(name, group=""):
+    if group.startswith("GRID"):
+        return "val" if group in VALIDATION_SPEAKERS else "train"
+    share = int(hashlib.sha256(str(name).encode()).hexdigest()[:8], 16) / 2 ** 32
+    return "test" if share < 0.12 else "val" if share < 0.17 else "train"
+
+
+def groups(table):
+    if "group" in table:
+        return [str(g) or str(n).partition("_")[0] for g, n in zip(table["group"], table["name"])]
+    return [GREY_GROUP if str(n).startswith("vv_") else "cc0" for n in table["name"]]
+
+
+def controls(table):
+    known = {str(name): column for column, name in enumerate(table["blendshape_names"])}
+    found = table["blendshapes"].astype(np.float32)
+    return np.stack([found[:, known[c]] if c in known else np.zeros(len(found), np.float32) for c in CONTROLS], 1)
+
+
+def read(pack):
+    table = np.load(data() / pack / "labels.npz")
+    size = table["size_wh"].astype(np.float32)
+    matrix = table["matrix_colmajor"].reshape(-1, 4, 4).transpose(0, 2, 1).astype(np.float32)
+    unknown = np.full(len(size), "")
+    age, sex = (table[key].astype(str) if key in table else unknown for key in ("age", "sex"))
+    return Labels(table["name"].astype(str), np.full(len(size), pack), np.array(groups(table)), age, sex, size,
+                  table["landmarks"][..., :2].astype(np.float32) * size[:, None], controls(table), matrix[:, :3, :3],
+                  matrix[:, :3, 3] / 100)
+
+
+def none():
+    text, numbers = np.zeros(0, str), lambda *shape: np.zeros((0, *shape), np.float32)
+    return Labels(*[text] * 5, numbers(2), numbers(478, 2), numbers(len(CONTROLS)), numbers(3, 3), numbers(3))
+
+
+@functools.lru_cache
+def every():
+    parts = [none()] + [read(pack) for pack in PACKS if (data() / pack / "labels.npz").exists()]
+    return Labels(*(np.concatenate([getattr(p, field) for p in parts]) for field in Labels.__dataclass_fields__))
+
+
+def of_split(split, packs=PACKS):
+    labels = every()
+    belongs = np.array([split_of(name, group) for name, group in zip(labels.name, labels.group)], str)
+    chosen = (belongs == split) & np.isin(labels.pack, packs)
+    if split == "train" and len(labels):
+        chosen &= ~np.isin(labels.name, list(portrait_duplicates.twins(labels, belongs)))
+    return labels.of(np.flatnonzero(chosen))
+
+
+def of_names(names):
+    labels = every()
+    row = {name: i for i, name in enumerate(labels.name)}
+    return labels.of([row[str(name)] for name in names])

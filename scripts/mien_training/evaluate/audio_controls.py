@@ -1,0 +1,154 @@
+"""Controls from audio compared with the video teacher's, and lips that must close and round."""
+import numpy as np
+import torch
+
+from mien_training.audio import align, corpus, espeak, labels, phonemes, teacher, visemes
+from mien_training.audio.features import RATE, features
+from mien_training.evaluate import audio_phonemes
+from mien_training.evaluate.audio_model import INDEX, SPEECH_CONTROLS
+from mien_training.paths import data
+
+COMPARED = ["jawOpen", "mouthClose", "mouthFunnel", "mouthPucker", "mouthRollUpper", "mouthLowerDownLeft"]
+LAGS = range(-5, 6)           # video frames
+SAID = {"whitehouse_obama_weekly": "the only people who don't want to disclose the truth are people with something to "
+                                   "hide"}
+OTHERS = ["grid_brbk7n", "grid_lbax4n", "grid_lbbc2a", "grid_id2_swwp2s", "hdtf_WDA_KatieHill",
+          "whitehouse_obama_weekly"]
+CLOSED_JAW, CLOSE, NEAR = 0.15, 0.1, 0.04
+OPEN_VOWELS = {phonemes.INDEX[p] for p in ("aa", "ae")}
+ROUND, ROUNDED = 0.15, {phonemes.INDEX[p] for p in ("uw", "w")}
+FUNNELLED = ROUNDED | {phonemes.INDEX[p] for p in ("ow", "oy", "ao")}
+
+
+def at_frames(model, sound, seconds):
+    """Controls at the times of video frames [frames,18]."""
+    times, controls, _ = model(np.concatenate([sound, np.zeros(4000, np.float32)]))
+    return np.stack([np.interp(seconds, times, c) for c in controls.T], 1)
+
+
+def correlation(a, b):
+    return float(np.corrcoef(a, b)[0, 1]) if a.std() > 1e-6 and b.std() > 1e-6 else float("nan")
+
+
+def best_lag(said, truth):
+    """Frames by which the answer comes too late, where all clips together correlate best."""
+    def at(lag):
+        pairs = [(s[max(lag, 0):len(s) + min(lag, 0)], t[max(-lag, 0):len(t) + min(-lag, 0)])
+                 for s, t in zip(said, truth)]
+        return correlation(*(np.concatenate(p) for p in zip(*pairs)))
+    return max(LAGS, key=at)
+
+
+def held_clips(model, name="av"):
+    """(answers, teacher's curves) of the clips of a group that were held out."""
+    group, out = corpus.Group(name), []
+    for sound in group.of(model.split):
+        curve = teacher.clips(name).get(sound.name)
+        if curve is not None:
+            seconds = np.arange(len(curve)) / teacher.FPS
+            out.append((at_frames(model, np.float32(group.samples(sound)) / 32768, seconds), curve))
+    return out
+
+
+def other_clips(model):
+    """{clip: (answers, teacher's curves)} of other people."""
+    out = {}
+    for name in OTHERS:
+        t = np.load(data() / f"clips/{name}.mediapipe.npz", allow_pickle=True)
+        curve = teacher.speech_controls(t["blendshapes"], t["blendshape_names"])
+        out[name] = at_frames(model, np.float32(corpus.decode(clip_path(name))) / 32768, t["t_ms"] / 1000), curve
+    return out
+
+
+def text_of(name):
+    """Words of a clip; none where nobody wrote them down. GRID's names are its sentences."""
+    if name.startswith("grid_"):
+        return audio_phonemes.grid_sentence(name.rsplit("_", 1)[1])
+    return SAID.get(name, "").split()
+
+
+@torch.no_grad()
+def from_right_phonemes(model, name, seconds):
+    """jawOpen as visemes have it from the text, aligned; None where the text is not known."""
+    words = [sum(espeak.words_to_phonemes(word), ()) for word in text_of(name)]
+    if not words:
+        return None
+    sound = np.float32(corpus.decode(clip_path(name))) / 32768
+    heard = torch.from_numpy(features(np.concatenate([sound, np.zeros(RATE // 10, np.float32)])))[None]
+    scores = torch.log_softmax(model.heads(model.encoder(heard)[0])[1][0], -1).numpy()
+    spoken = align.timed(scores, words, len(sound) / RATE)
+    return visemes.curves(spoken, seconds)[:, INDEX["jawOpen"]]
+
+
+def clip_path(name):
+    return next(p for p in (data() / "clips").glob(f"{name}.*") if p.suffix in (".mp4", ".mpg"))
+
+
+def of_clips(model, others):
+    """jawOpen of each clip beside the teacher's."""
+    report = {}
+    for name, (said, truth) in others.items():
+        seconds = np.load(data() / f"clips/{name}.mediapipe.npz")["t_ms"] / 1000
+        jaw, right = truth[:, INDEX["jawOpen"]], from_right_phonemes(model, name, seconds)
+        report[name] = {"said": correlation(said[:, INDEX["jawOpen"]], jaw),
+                        "lag": best_lag([said[:, INDEX["jawOpen"]]], [jaw]),
+                        "right phonemes": float("nan") if right is None else correlation(right, jaw)}
+    return report
+
+
+def measure(model):
+    others = other_clips(model) if model.split == "test" else {}
+    said = list(spoken_phonemes(model))
+    return {"held-out clips": agreement(held_clips(model)),
+            "other people": agreement(list(others.values()) or held_clips(model, "people")),
+            "clips": of_clips(model, others), "lips": lips(said), "strength": strength(said), "spread": spread(model)}
+
+
+def agreement(pairs):
+    """Per control: correlation over all frames, the mean of the clips' own, and the lag."""
+    said, truth = zip(*pairs)
+    report = {}
+    for c in COMPARED:
+        i = INDEX[c]
+        own = [correlation(s[:, i], t[:, i]) for s, t in pairs]
+        report[c] = {"all frames": correlation(np.concatenate(said)[:, i], np.concatenate(truth)[:, i]),
+                     "mean of clips": float(np.nanmean(own)),
+                     "lag": best_lag([s[:, i] for s in said], [t[:, i] for t in truth])}
+    return report
+
+
+def spoken_phonemes(model, most=None):
+    """(phoneme, controls [t,18] within 40 ms of its middle) of held-out synthetic voices."""
+    group, spoken = corpus.Group("synthetic"), labels.read("synthetic")
+    for sound in group.of(model.split)[:most]:
+        times, controls, _ = model(
+            np.concatenate([np.float32(group.samples(sound)) / 32768, np.zeros(4000, np.float32)]))
+        said = spoken[sound.name]
+        for label, a, b in zip(said.labels, said.starts, [*said.starts[1:], said.end]):
+            yield label, controls[np.abs(times - (a + b) / 2) <= NEAR]
+
+
+def lips(said):
+    """Shares of p, b, m at whose middle lips are closed; of open vowels with an open jaw; and of rounded lips. `said`:
+    a list of what spoken_phonemes gives."""
+    most = lambda name, chosen: [controls[:, INDEX[name]].max() for label, controls in said if label in chosen]
+    closed = [bool(((c[:, INDEX["jawOpen"]] < CLOSED_JAW) | (c[:, INDEX["mouthClose"]] > CLOSE)).any())
+              for label, c in said if label in phonemes.BILABIALS]
+    return {"closed for p b m": float(np.mean(closed)), "count": len(closed),
+            "open for aa ae": float(np.mean(np.array(most("jawOpen", OPEN_VOWELS)) > CLOSED_JAW)),
+            "rounded for uw w": float(np.mean(np.array(most("mouthPucker", ROUNDED)) > ROUND))}
+
+
+def strength(said):
+    """95th percentiles of what the mouth does where it should: whether the head speaks or mumbles."""
+    where = {"jawOpen": OPEN_VOWELS, "mouthPucker": ROUNDED, "mouthFunnel": FUNNELLED}
+    of = lambda name: np.concatenate([controls[:, INDEX[name]] for label, controls in said if label in where[name]])
+    return {name: float(np.percentile(of(name), 95)) for name in where}
+
+
+def spread(model):
+    """Mean and standard deviation of every control over held-out synthetic speech."""
+    group = corpus.Group("synthetic")
+    rows = np.concatenate([model(np.float32(group.samples(s)) / 32768)[1] for s in group.of(model.split)[:60]])
+    return {c: [float(rows[:, i].mean()), float(rows[:, i].std())]
+            for c, i in zip(SPEECH_CONTROLS, range(len(SPEECH_CONTROLS)))}

@@ -1,0 +1,56 @@
+"""Controls from audio, video and both on the demo clip, whose voice is held out, compared with the truth."""
+import csv
+
+import numpy as np
+
+from mien_training.evaluate import report as out
+from mien_training.evaluate.audio_model import SPEECH_CONTROLS
+from mien_training.evaluate.program import FPS
+from mien_training.evaluate.videos import DEMO
+
+MODES = {"picture": "video", "sound": "audio", "both": "av"}
+
+
+def truth():
+    with open(DEMO.with_name("demo_truth.csv"), newline="") as file:
+        rows = list(csv.DictReader(file))
+    return {c: np.array([float(row[c]) for row in rows]) for c in SPEECH_CONTROLS}
+
+
+def errors(program, lod):
+    """{mode: {control: mean absolute error}}; what is not driven rests at 0, as it would on a rig."""
+    exact, report = truth(), {}
+    for name, mode in MODES.items():
+        table = program.track(DEMO, lod, mode=mode).table
+        frames = np.rint(table["t_ms"] * FPS / 1000).astype(int)
+        known = frames < len(exact["jawOpen"])
+        report[name] = {c: float(np.abs(np.nan_to_num(table[c][known]) - exact[c][frames[known]]).mean())
+                        for c in SPEECH_CONTROLS}
+    return report
+
+
+def measure(setting):
+    return {name: errors(setting.program, lod) for name, lod in setting.levels("sound_and_picture").items()}
+
+
+SOURCES = {"picture": "video", "sound": "audio", "both": "both"}
+SHOWN = 0.02  # mean absolute error that makes a control worth a line
+
+
+def summary(report):
+    of = lambda by, mode, pick: out.number(pick(by[mode]))
+    mean, jaw = (lambda e: np.mean(list(e.values()))), (lambda e: e["jawOpen"])
+    told = lambda pick: out.by_level(
+        report, lambda by: ", ".join(f"{title} {of(by, mode, pick)}" for mode, title in SOURCES.items()))
+    return out.prose(
+        f"""Mean absolute error of all {len(SPEECH_CONTROLS)} controls of speech: {told(mean)}. jawOpen: {told(jaw)}.
+        The data are the demo clip, whose true controls are known and whose voice, a variant of eSpeak NG, was held
+        out.""")
+
+
+def markdown(report):
+    header = ["mean absolute error",
+              *(f"{out.level(level)}, {title}" for level in report for title in SOURCES.values())]
+    shown = [c for c in SPEECH_CONTROLS if max(by[mode][c] for by in report.values() for mode in MODES) >= SHOWN]
+    return out.table(
+        header, [[c, *(out.number(by[mode][c]) for by in report.values() for mode in MODES)] for c in shown])

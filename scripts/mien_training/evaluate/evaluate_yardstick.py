@@ -1,0 +1,74 @@
+"""The decoder of true landmarks and head poses: an upper bound for the controls decoder behind a perfect encoder.
+
+train_yardstick.py trains it on a stream that never repeats; the evaluation uses other people and sequences.
+"""
+import json
+
+import numpy as np
+import torch
+
+from mien_training.data.expressions import CONTROLS
+from mien_training.evaluate import metrics
+from mien_training.evaluate import report as out
+from mien_training.evaluate.inputs import Missing
+from mien_training.networks.architectures import ControlsDecoder
+from mien_training.paths import cache
+from mien_training.phase2 import landmark_stream
+from mien_training.phase2 import train_decoders as phase2
+
+SEQUENCES, FRAMES, SEED = 200, 90, 12345  # of the test
+SHOWN = 15  # controls on the page
+
+
+def trained():
+    """The decoder, and after how many steps and sequences."""
+    path = cache() / "runs/yardstick.pt"
+    if not path.exists():
+        raise Missing(f"{path.name} is absent: train_yardstick.py makes it (docs/training.md)")
+    known, decoder = torch.load(path), ControlsDecoder(landmark_stream.KNOWN)
+    decoder.load_state_dict(known["controls_decoder"])
+    return decoder.eval(), known["step"], known["sequences"]
+
+
+def ours(setting):
+    """{level: {control: correlation}} of the part `synthetic`, where it was measured."""
+    path = setting.out / "synthetic.json"
+    results = json.loads(path.read_text())["results"] if path.exists() else {}
+    return {level: r["program"]["correlation"] for level, r in results.items()}
+
+
+def measure(setting):
+    decoder, steps, sequences = trained()
+    features, controls = landmark_stream.batch(landmark_stream.PointRig(), np.random.default_rng(SEED), SEQUENCES,
+                                               FRAMES)
+    curves, truth = phase2.output_controls(phase2.decode(decoder, features)).numpy(), controls.numpy()
+    deviation = lambda values: values.reshape(-1, len(CONTROLS)).std(0)
+    table = lambda values: dict(zip(CONTROLS, out.rounded(values)))
+    return {"steps": steps, "trained_on": sequences, "sequences": SEQUENCES,
+            "facs_error": metrics.facs_error(curves, truth),
+            "constant_median": metrics.constant_errors(truth)["median"],
+            "correlation": table(metrics.correlations(curves, truth)),
+            "deviation_ratio": table(deviation(curves) / deviation(truth)), "ours": ours(setting)}
+
+
+def markdown(report):
+    levels, known, ratio = report["ours"], report["correlation"], report["deviation_ratio"]
+    enough = sum(v >= 0.5 for v in known.values())
+    lines = ["# Upper bound: a decoder with true landmarks", "",
+             "For trainers who ask which part of the networks limits accuracy.", ""]
+    lines += out.prose(
+        f"""The controls decoder reaches a mean correlation of {np.mean(list(known.values())):.2f} over all 52 controls
+        if it gets the true landmarks and head pose instead of features; {enough} controls reach 0.5. Its error is
+        {report["facs_error"] / report["constant_median"]:.2f} of the best constant's, and its median standard deviation
+        {np.median(list(ratio.values())):.2f} of the true one. What the program lacks beyond that is lost by the
+        encoders, or by decoders that saw few people.""")
+    lines += out.prose(
+        f"""`train_yardstick.py` trained it for {report["steps"]} steps on {report["trained_on"]} sequences of landmarks
+        without images; the test has {report["sequences"]} sequences of other people. The table lists the controls with
+        the largest loss, beside the program on [rendered people](synthetic.md).""")
+    of = lambda level, c: levels[level].get(c)
+    last = list(levels)[-1] if levels else None
+    lost = sorted((c for c in known if last and of(last, c) is not None), key=lambda c: of(last, c) - known[c])[:SHOWN]
+    return "\n".join(lines + out.table(["control", "true landmarks", *map(out.level, levels)],
+                                       [[c, out.number(known[c], 2), *(out.number(of(level, c), 2) for level in levels)]
+                                        for c in lost]))

@@ -1,0 +1,95 @@
+"""docs/results/README.md: every figure and its goal."""
+import json
+
+from mien_training.evaluate import controls_page, targets
+from mien_training.evaluate import report as out
+from mien_training.evaluate.controls_page import LEVELS, find
+from mien_training.evaluate.inputs import PARTS
+
+TITLES = {"synthetic": "Rendered people", "response": "Single controls", "leakage": "Turning faces",
+          "levels": "Levels of detail",
+          "clips": "Clips of real people", "images": "Single portraits", "wild": "Portraits in the wild",
+          "amplitude": "Amplitude"}
+
+
+def cell(bar, figure, level=None):
+    if figure is None:
+        return "-"
+    shown = "not driven" if figure == targets.NOT_DRIVEN else f"{figure:.{bar.digits}f}"
+    return f"{shown} {'met' if bar.met(figure, level) else '**missed**'}"
+
+
+def line(bar, results):
+    """Cells of a bar."""
+    cells = [cell(bar, bar.figure(results.get(bar.part, {}), level), level) for level in LEVELS]
+    return [bar.title, bar.shown(), *cells]
+
+
+def counts(results):
+    """A line for every level that was measured: the number of goals it meets."""
+    for level in LEVELS:
+        figures = [(bar, bar.figure(results.get(bar.part, {}), level)) for bar in targets.every()]
+        known = [bar.met(figure, level) for bar, figure in figures if figure is not None]
+        if known:
+            yield f"* {out.level(level)}: {sum(known)} of {len(known)} goals met."
+
+
+def in_short(results):
+    """How accurate, how fast, on which data."""
+    known = lambda digits, scale, *path: " and ".join(out.number(None if v is None else scale * v, digits) for v in (
+        find(results, *(level if p is None else p for p in path)) for level in LEVELS))
+    speed = ""
+    if frames := find(results, "peers", "frames"):
+        first, last = (frames["mien_us"][level] for level in ("1", "4"))
+        speed = f"""a frame takes {first / 1000:.3f} ms at level 1 and {last / 1000:.3f} ms at level 4 on one core
+            ({results["peers"]["processor"]}),
+            {frames["mediapipe_us"] / first:.0f} and {frames["mediapipe_us"] / last:.0f} times as fast as MediaPipe."""
+    return out.prose(
+        f"""**Accuracy** at level 1 and level 4. Rendered test people, whose controls are known: mean correlation
+        {known(2, 1, "synthetic", None, "program", "correlation_mean")} over
+        {known(0, 1, "synthetic", None, "program", "supported")} supported controls. Clips of real people, compared with
+        MediaPipe: jawOpen {known(2, 1, "clips", None, "controls", "jawOpen", "correlation")}, left smile
+        {known(2, 1, "clips", None, "controls", "mouthSmileLeft", "correlation")}, landmarks within
+        {known(1, 100, "clips", None, "all", "landmark_error_pupils")} % of the distance between the pupils, head pose
+        within {known(1, 1, "clips", None, "all", "pose_difference_deg")} degrees. Portraits in the wild: faces
+        correctly detected in {known(1, 100, "wild", "levels", None, "found")} %.""") + out.prose(
+            f"""**Speed**: {speed} [Comparison](peers.md).""") + out.prose("""**Data**: rendered people with
+        exact labels, clips and portraits of real people with labels of MediaPipe, held-out voices. None of it was used
+        for training, except as the [model card](../../models/README.md) states.""")
+
+
+def page(results, seconds, skipped, has_hifinet):
+    lines = ["# Results", "",
+             "For users who judge whether mien is good enough for them, and for developers who change it.", "",
+             *in_short(results)]
+    lines += out.prose(
+        """Level 1 uses BaseNet's controls and level 4 HiFiNet's, both with default settings. Most goals are those of
+        the published method or MediaPipe's own quality; two bounds are for level 1 and level 4. A dash: not measured,
+        constant in MediaPipe's output, or without a goal at this level.""")
+    if not has_hifinet:
+        lines += ["**HiFiNet is not trained yet**: levels 2 to 4 are unknown.", ""]
+    lines += [*counts(results), ""]
+    lines += out.prose("[Accuracy by control](controls.md) has the figures of each control.")
+    for part, title in TITLES.items():
+        rows = [line(bar, results) for bar in targets.every() if bar.part == part]
+        lines += [f"## [{title}]({part}.md)", "", *out.table(["figure", "goal", *map(out.level, LEVELS)], rows)]
+    if "audio" in results:
+        sound = [(bar, bar.figure(results["audio"], None)) for bar in targets.audio()]
+        rows = [[bar.title, bar.shown(), cell(bar, value)] for bar, value in sound]
+        lines += ["## [Audio](audio.md)", "", *out.table(["figure", "goal", "AudioNet"], rows)]
+    minutes = ", ".join(f"[{p}]({p}.md) {s / 60:.1f}" for p, s in seconds.items())
+    lines += out.prose(f"Made by `python3 -m mien_training.evaluate`. Minutes per part: {minutes}.")
+    if skipped:
+        lines += ["## Skipped in the last run", "", *(f"* {s}" for s in skipped), ""]
+    return "\n".join(lines)
+
+
+def write(folder, skipped, has_hifinet):
+    """Writes the page from the results of all parts that are there."""
+    stored = {part: json.loads((folder / f"{part}.json").read_text()) for part in PARTS
+              if (folder / f"{part}.json").exists()}
+    results, seconds = ({part: r[key] for part, r in stored.items()} for key in ("results", "seconds"))
+    if (folder / "peers.json").exists():
+        results["peers"] = json.loads((folder / "peers.json").read_text())
+    (folder / "controls.md").write_text(controls_page.page(results))
+    (folder / "README.md").write_text(page(results, seconds, skipped, has_hifinet))

@@ -1,0 +1,65 @@
+"""Checkpoints of the committed encoders for inference: exactly the weights of the files, with identity norms.
+
+usage: python3 -m mien_training.networks.shipped_checkpoints FOLDER
+Writes FOLDER/{basenet,hifinet}.pt and {basenet,hifinet}_decoders.pt for sequences.py, train_decoders.py and export.py.
+To continue the training of an encoder, warm_start.py creates norms that normalize.
+"""
+import argparse
+import math
+from pathlib import Path
+
+import torch
+
+from mien_convert.atomic_files import whole
+from mien_training.networks import weight_reader
+from mien_training.networks.architectures import FACE_NETWORKS
+from mien_training.networks.warm_start import decoders_of, in_order, weight_of
+from mien_training.networks.weight_reader import set_linear
+from mien_training.paths import ROOT
+
+
+def pass_on(norm, bias):
+    """A norm that only adds a bias."""
+    norm.running_mean.zero_()
+    norm.running_var.fill_(1)
+    norm.weight.fill_(math.sqrt(1 + norm.eps))
+    norm.bias.copy_(bias)
+
+
+@torch.no_grad()
+def network_of(path, name):
+    network, layers = FACE_NETWORKS[name]().eval(), weight_reader.networks(path)
+    encoder = iter([layer for layer in layers["encoder"] if layer.weight is not None])
+    for conv_norm in in_order(network.encoder):
+        layer = next(encoder)
+        conv_norm[0].weight.copy_(weight_of(layer, conv_norm[0]))
+        pass_on(conv_norm[1], layer.bias)
+    last, project = next(encoder), network.encoder.tail[2]
+    project.weight.copy_(weight_of(last, project))
+    project.bias.copy_(last.bias)
+    set_linear(network.landmarks, layers["landmarks"][0])
+    if "face_probability" in layers:
+        set_linear(network.face, layers["face_probability"][0])
+    return network
+
+
+def checkpoint(path, name):
+    """What sequences.py and export.py ask of a checkpoint of phase 1."""
+    return {"average": network_of(path, name).state_dict(), "samples": weight_reader.metadata(path)["encoder_samples"]}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("folder", type=Path)
+    parser.add_argument("--models", type=Path, default=ROOT / "models")
+    args = parser.parse_args()
+    args.folder.mkdir(parents=True, exist_ok=True)
+    for name in FACE_NETWORKS:
+        path = args.models / f"{name}.mien"
+        for suffix, content in (("", checkpoint(path, name)), ("_decoders", decoders_of(path))):
+            with whole(args.folder / f"{name}{suffix}.pt") as out:
+                torch.save(content, out)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,68 @@
+"""Training of a controls decoder on whitened features, resumable from its checkpoint."""
+import math
+
+import torch
+
+from mien_convert.atomic_files import whole
+from mien_training.networks.architectures import ControlsDecoder
+from mien_training.phase2.whitening import FLOOR, Whitening
+
+WARM_UP = 200   # steps over which the learning rate rises, a fifth of all at most
+AT_END = 0.01   # share of the learning rate that is left
+
+
+class Run:
+    """The decoder with its optimiser, and where they are kept.
+
+    args: out, steps, rate, seed. start: the state of a decoder of plain features to begin with, or None.
+    """
+
+    def __init__(self, args, features, start=None):
+        torch.manual_seed(args.seed)
+        self.args, self.step, self.start = args, 0, start
+        self.decoder = ControlsDecoder(features)
+        self.optimiser = torch.optim.AdamW(self.decoder.parameters(), lr=args.rate, weight_decay=1e-3,
+                                           betas=(0.9, 0.98))
+        self.known = torch.load(args.out,
+                                map_location=next(self.decoder.parameters()).device) if args.out.exists() else None
+
+    def begin(self, samples, floor=FLOOR):
+        """Features [n,features] to whiten by, unless there is a checkpoint; `floor` as in whitening.py."""
+        if self.known is None:
+            self.whitening = Whitening.of(samples.float(), floor)
+            if self.start:
+                self.decoder.load_state_dict(self.whitening.unfold(self.start))
+            return
+        self.decoder.load_state_dict(self.known["white"])
+        self.optimiser.load_state_dict(self.known["optimiser"])
+        self.whitening, self.step = Whitening(self.known["mean"], self.known["matrix"]), self.known["step"]
+
+    def rate(self):
+        """Rises, then falls along a cosine."""
+        done = min(self.step / self.args.steps, 1.0)
+        rise = min(1.0, self.step / min(WARM_UP, max(self.args.steps // 5, 1)))
+        return self.args.rate * rise * (AT_END + (1 - AT_END) * (0.5 + 0.5 * math.cos(math.pi * done)))
+
+    def answer(self, features):
+        return self.decoder(self.whitening(features), self.whitening.start(self.decoder, len(features)))[0]
+
+    def advance(self, loss):
+        """One step of the optimiser; the loss as a number."""
+        for group in self.optimiser.param_groups:
+            group["lr"] = self.rate()
+        self.optimiser.zero_grad()
+        loss.backward()
+        torch.nn.utils.clip_grad_norm_(self.decoder.parameters(), 1.0)
+        self.optimiser.step()
+        self.step += 1
+        return loss.item()
+
+    def state(self):
+        """Of a decoder of plain features, on the CPU."""
+        return {name: value.cpu() for name, value in self.whitening.fold(self.decoder.state_dict()).items()}
+
+    def save(self, **more):
+        with whole(self.args.out) as out:
+            torch.save({"controls_decoder": self.state(), "white": self.decoder.state_dict(),
+                        "optimiser": self.optimiser.state_dict(),
+                        "mean": self.whitening.mean, "matrix": self.whitening.matrix, "step": self.step, **more}, out)

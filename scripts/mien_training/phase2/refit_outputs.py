@@ -1,0 +1,183 @@
+"""Restores the amplitude of a controls decoder by solving for its output layer, which needs few rendered people.
+
+usage: python3 -m mien_training.phase2.refit_outputs --network basenet|hifinet --decoders DECODERS.pt --out OUT.pt
+Run stream_features.py and portrait_stream.py before. Eyelids and smiles follow the portraits, where a closed eye is 1
+for everyone (eyelids.py) and smiles are the teacher's; on renders their target is their previous output times a gain.
+Other controls that correlate with the truth and move less than it on rendered validation people get a gain around their
+output at rest. Neutral portraits get at most NEUTRAL on average.
+"""
+import argparse
+from dataclasses import dataclass
+from pathlib import Path
+
+import torch
+from torch import nn
+
+from mien_convert.atomic_files import whole
+from mien_training.data.expressions import INDEX
+from mien_training.data.eyelids import closures
+from mien_training.networks.architectures import FACE_NETWORKS, ControlsDecoder
+from mien_training.paths import cache
+from mien_training.phase2 import stream_features
+from mien_training.phase2.decoder_output import output_controls
+from mien_training.phase2.train_decoders import with_stride
+
+AIM, MOST = 0.9, 1.4      # deviation over the true one that gains aim at, and the largest gain
+LEAST = 0.5               # correlation with the truth on renders, below which a gain would magnify little but noise
+FURTHEST = 1.1            # deviation over the true one that a control may reach on renders because portraits ask for it
+NEUTRAL = 0.095           # largest mean answer to neutral training portraits
+AT_REST = 0.08            # a face is at rest where nothing is above this
+STILL = 8                 # frames that a portrait is shown for
+RIDGE = 1e-6
+SMALLEST = 1e-3           # deviation of a control that hardly answers
+
+
+@dataclass
+class Weights:
+    """What rows of the output layer are solved for."""
+    portraits: float  # to agree with the portraits' labels
+    renders: float    # to agree with the truth on renders
+    keep: float       # to answer `gain` times what they answered before
+    gain: float
+
+
+EYELIDS = Weights(portraits=1, renders=0, keep=0.7, gain=0.8)
+SMILES = Weights(portraits=1, renders=0, keep=3, gain=1.25)
+KEPT_ON_PORTRAITS = 0.02  # share of `keep` there
+
+
+class Parts:
+    """Hidden states with a 1 behind them, [frames,97], and targets [frames,52] of tracks of renders or of portraits."""
+
+    def __init__(self, decoder, data, still):
+        features = data["features"].float()
+        features = features[:, -1:].expand(-1, STILL, -1) if still else features
+        hidden = torch.cat([decoder(part)[0] for part in features.split(64)])
+        frames = slice(-1, None) if still else slice(None)
+        self.hidden = torch.cat([hidden, torch.ones(*hidden.shape[:2], 1)], 2)[:, frames].flatten(0, 1)
+        self.controls, self.seen = (data[k][:, frames].flatten(0, 1).float() for k in ("controls", "visible"))
+        self.closed = closures(data["points"][:, frames].flatten(0, 1).float()) if still else None
+
+    def square(self, control):
+        """Second moments of the states [97,97] where a control can be seen."""
+        return (self.hidden * self.seen[:, control:control + 1]).T @ self.hidden / self.seen[:, control].sum()
+
+    def product(self, control, target):
+        return (self.hidden * self.seen[:, control:control + 1]).T @ target / self.seen[:, control].sum()
+
+
+@torch.no_grad()
+def parts_of(state, stream, network):
+    """(training renders, training portraits, validation renders) as the decoder's last layer sees them."""
+    decoder = ControlsDecoder()
+    decoder.load_state_dict(state)
+    decoder.eval().output = nn.Identity()
+    return (Parts(decoder, stream_features.load(stream / "train", network), False),
+            Parts(decoder, stream_features.load(stream / "portraits_train", network), True),
+            Parts(decoder, with_stride(stream_features.load(stream / "val", network), 1), False))
+
+
+def solved(before, control, wanted, renders, portraits, weights):
+    """A row [97] of the output layer in place of `before`; wanted [portraits] is what portraits should give."""
+    on_renders, on_portraits = renders.square(control), portraits.square(control)
+    kept = weights.keep * on_renders + KEPT_ON_PORTRAITS * weights.keep * on_portraits
+    left = weights.renders * on_renders + weights.portraits * on_portraits + kept + RIDGE * torch.eye(len(before))
+    right = (weights.renders * renders.product(control, renders.controls[:, control])
+             + weights.portraits * portraits.product(control, wanted) + weights.gain * kept @ before)
+    return torch.linalg.solve(left, right)
+
+
+def neutral(portraits):
+    """Which portraits the teacher takes for neutral."""
+    watched = [INDEX[name] for name in ("jawOpen", "mouthSmileLeft", "mouthSmileRight", "mouthPucker")]
+    return (portraits.controls[:, watched].amax(1) < AT_REST) & (portraits.closed.amax(1) < AT_REST)
+
+
+def mean_answer(layer, parts, rows):
+    return output_controls(parts.hidden[rows] @ layer.T).mean(0)
+
+
+def at_rest(layer, renders, portraits):
+    """The larger of what rendered faces at rest and neutral portraits get, [52]."""
+    return torch.maximum(mean_answer(layer, renders, renders.controls.amax(1) < AT_REST),
+                         mean_answer(layer, portraits, neutral(portraits)))
+
+
+def quieted(layer, portraits):
+    """The layer with lower biases where neutral portraits get more than NEUTRAL."""
+    out, rows = layer.clone(), neutral(portraits)
+    for _ in range(3):  # answers stop at 0, so that their mean falls by less than the bias
+        out[:, -1] -= (mean_answer(out, portraits, rows) - NEUTRAL).clamp(min=0)
+    return out
+
+
+def deviation_of(layer, parts):
+    """Of the answers, [52]."""
+    return output_controls(parts.hidden @ layer.T).std(0).clamp(min=SMALLEST)
+
+
+def correlation(layer, renders):
+    """Of the answers with the truth on renders, [52]."""
+    told, truth = (x - x.mean(0) for x in (output_controls(renders.hidden @ layer.T), renders.controls))
+    return (told * truth).mean(0) / (told.square().mean(0) * truth.square().mean(0)).sqrt().clamp(min=SMALLEST ** 2)
+
+
+def gains(layer, renders, rest, most):
+    """What brings every control near to its true deviation on renders, [52], from 1 to `most`; 1 where it does not
+    follow the truth, or where faces at rest get so much, `rest` [52], that the gain would be taken back."""
+    wanted = (AIM * renders.controls.std(0) / deviation_of(layer, renders)).clamp(1, most)
+    return torch.where((correlation(layer, renders) < LEAST) | (rest > NEUTRAL), 1, wanted)
+
+
+def portrait_gain(layer, control, wanted, renders, portraits):
+    """What brings a control to the deviation that portraits should have, as far as renders stand it."""
+    on_portraits = wanted.std() / deviation_of(layer, portraits)[control]
+    on_renders = FURTHEST * renders.controls[:, control].std() / deviation_of(layer, renders)[control]
+    return torch.minimum(on_portraits, on_renders).clamp(1, MOST)
+
+
+def followers(portraits):
+    """(control, what portraits should give [portraits], Weights) of those that follow the portraits."""
+    for number, side in enumerate(("Left", "Right")):
+        smile = INDEX[f"mouthSmile{side}"]
+        yield INDEX[f"eyeBlink{side}"], portraits.closed[:, number], EYELIDS
+        yield smile, portraits.controls[:, smile], SMILES
+
+
+def refitted(layer, renders, portraits, others=None, most=MOST):
+    """The output layer [52,97], bias last, in place of `layer`. `others`: renders of people that nothing was learned
+    from, whose deviations the gains bring near to the true ones; `most` is the largest gain of controls that do not
+    follow portraits."""
+    others = others or renders
+    out, gain = layer.clone(), gains(layer, others, at_rest(layer, renders, portraits), most)
+    for control, wanted, weights in followers(portraits):
+        out[control] = solved(layer[control], control, wanted, renders, portraits, weights)
+        gain[control] = portrait_gain(out, control, wanted, others, portraits)
+    rest = at_rest(out, renders, portraits)
+    out *= gain[:, None]
+    out[:, -1] -= (gain - 1) * rest
+    return quieted(out, portraits)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--network", choices=FACE_NETWORKS, required=True)
+    parser.add_argument("--decoders", type=Path, required=True)
+    parser.add_argument("--out", type=Path, required=True)
+    parser.add_argument("--most", type=float, default=MOST,
+                        help="largest gain of controls that do not follow the portraits")
+    parser.add_argument("--stream", type=Path, default=cache() / "stream")
+    args = parser.parse_args()
+    torch.set_num_threads(1)
+    known = torch.load(args.decoders)
+    state = known["controls_decoder"]
+    parts = parts_of(state, args.stream, args.network)
+    layer = refitted(torch.cat([state["output.weight"], state["output.bias"][:, None]], 1), *parts, args.most)
+    known["controls_decoder"] = {**state, "output.weight": layer[:, :-1].contiguous(),
+                                 "output.bias": layer[:, -1].contiguous()}
+    with whole(args.out) as out:
+        torch.save(known, out)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,117 @@
+"""Trains the yardstick: the controls decoder of true landmarks and head poses, from landmark_stream.py.
+
+usage: python3 -m mien_training.phase2.train_yardstick --steps N [--out CHECKPOINT]
+It resumes; evaluate_yardstick.py evaluates the checkpoint.
+"""
+import argparse
+import time
+from pathlib import Path
+
+import numpy as np
+import torch
+
+from mien_training.data import expressions
+from mien_training.data import landmark_points as lp
+from mien_training.data.expressions import CONTROLS, MIRROR
+from mien_training.paths import cache
+from mien_training.phase1.losses import censored
+from mien_training.phase2 import landmark_stream
+from mien_training.phase2.amplitude_losses import discordance, discordance_within
+from mien_training.phase2.decoder_run import Run
+from mien_training.phase2.train_decoders import arguments, temporal_loss
+
+FRAMES = 90
+CONCORDANCE = 0.05   # weight of what keeps the amplitude, beside the error of values and differences
+POSE_MIRROR = torch.tensor([1.0, -1, -1, -1, 1, 1, -1, 1, 1])
+
+
+class Pool:
+    """Sequences of which some are replaced by new ones after every batch, so that each is drawn a few times."""
+
+    def __init__(self, rig, size, fresh, seed):
+        self.rig, self.fresh, self.rng, self.at = rig, fresh, np.random.default_rng(seed), 0
+        self.made = 0
+        self.features = torch.empty(size, FRAMES, landmark_stream.KNOWN, dtype=torch.float16)
+        self.controls = torch.empty(size, FRAMES, len(CONTROLS), dtype=torch.float16)
+        for _ in range(0, size, 64):
+            self.replace(min(64, size - self.at))
+
+    def replace(self, count):
+        features, controls = landmark_stream.batch(self.rig, self.rng, count, FRAMES, expressions.sample_lesson)
+        rows = (self.at + torch.arange(count)) % len(self.features)
+        self.features[rows], self.controls[rows] = features.half(), controls.half()
+        self.at = (self.at + count) % len(self.features)
+        self.made += count
+
+    def batch(self, count):
+        """Features and controls of `count` sequences, half of them mirrored."""
+        rows = torch.randint(len(self.features), (count,))
+        features, controls = self.features[rows].float(), self.controls[rows].float()
+        half = count // 2
+        features[:half], controls[:half] = mirrored(features[:half]), controls[:half][..., MIRROR]
+        self.replace(self.fresh)
+        return features, controls
+
+
+def mirrored(features):
+    """What landmark_stream.known is of the mirrored faces."""
+    points, pose = features[..., :-9].unflatten(-1, (-1, 2)), features[..., -9:]
+    template = landmark_stream.template()
+    points = (points + template - 0.5)[..., lp.MIRROR, :] * torch.tensor([-1.0, 1.0]) + 0.5 - template
+    return torch.cat([points.flatten(-2), pose * POSE_MIRROR], -1)
+
+
+class Task:
+    """Error of values and of differences, every control relative to its spread, and discordance."""
+
+    def __init__(self, controls, velocity, acceleration):
+        self.args = arguments(velocity=velocity, acceleration=acceleration)
+        weight = 1 / (controls.flatten(0, 1).float().std(0) + 0.05)
+        self.weight, self.seen = weight / weight.mean(), torch.ones(1, FRAMES, 1)
+        self.seen[:, :2] = 0.5
+
+    def loss(self, output, target):
+        ours, weight = censored(output, target), self.seen.expand(*target.shape)
+        within, over_all = discordance_within(ours, target, weight), discordance(ours, target, weight)
+        return temporal_loss(ours, target, self.weight * self.seen,
+                             self.args) + CONCORDANCE * (within + over_all).mean() / 2
+
+
+def options():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--out", type=Path, default=cache() / "runs/yardstick.pt")
+    parser.add_argument("--steps", type=int, default=8000)
+    parser.add_argument("--batch", type=int, default=64)
+    parser.add_argument("--pool", type=int, default=2500, help="sequences to draw from")
+    parser.add_argument("--fresh", type=int, default=10, help="of them replaced after every step")
+    parser.add_argument("--rate", type=float, default=4e-3)
+    parser.add_argument("--velocity", type=float, default=0.05)
+    parser.add_argument("--acceleration", type=float, default=0.01)
+    parser.add_argument("--threads", type=int, default=1)
+    parser.add_argument("--seed", type=int, default=0)
+    return parser
+
+
+def main():
+    args = options().parse_args()
+    torch.set_num_threads(args.threads)
+    args.out.parent.mkdir(parents=True, exist_ok=True)
+    run = Run(args, landmark_stream.KNOWN)
+    before = run.known["sequences"] if run.known else 0
+    pool = Pool(landmark_stream.PointRig(), args.pool, args.fresh, [args.seed, before])
+    run.begin(pool.features.flatten(0, 1)[::3])
+    task, total, began = Task(pool.controls, args.velocity, args.acceleration), 0.0, time.time()
+    while run.step < args.steps:
+        features, controls = pool.batch(args.batch)
+        total += run.advance(task.loss(run.answer(features), controls))
+        if run.step % 50 == 0:
+            print(f"step {run.step} sequences {before + pool.made} loss {total / 50:.5f} {time.time() - began:.0f} s",
+                  flush=True)
+            total = 0.0
+        if run.step % 200 == 0:
+            run.save(sequences=before + pool.made)
+    run.save(sequences=before + pool.made)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,1 @@
+"""Images of synthetic heads: a small CPU rasterizer and the scene."""

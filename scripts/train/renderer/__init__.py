@@ -1,1 +1,0 @@
-"""Pictures of synthetic heads: a small CPU rasterizer and what it draws."""
