@@ -42,7 +42,7 @@ cluster() (  # of this machine; Ray comes from PyPI. In a shell of its own, whos
   trap 'rm -rf "$folder"' EXIT
   python3 -m venv "$folder"
   "$folder/bin/pip" install --quiet 'ray==2.60.0'
-  "$folder/bin/python" tests/apps/batch_ray_test.py
+  "$folder/bin/python" tests/apps/track_on_ray_test.py
 )
 page() {  # what it is built and tested with comes from npm
   scripts/setup.sh web web-test

@@ -2,7 +2,7 @@
 """Tracks every recording of a folder on the machines of a Ray cluster: `mien track DIR --out DIR` for archives beyond
 one machine.
 
-usage: batch_ray.py DIR --out DIR [--format NAME]... [--address ADDRESS] [--mien PROGRAM] [--cpus N] [--json]
+usage: track_on_ray.py DIR --out DIR [--format NAME]... [--address ADDRESS] [--mien PROGRAM] [--cpus N] [--json]
        [-- OPTIONS OF mien track]
 
 Needs `ray` (PyPI), and folders and program under the same names on all machines. ADDRESS is that of a cluster (`auto`:
@@ -20,14 +20,11 @@ import sys
 import time
 
 # As in apps/mien/tracking/batch.cpp and apps/animation/animation.h.
-RECORDINGS = (
-    ".3gp .aac .avi .flac .flv .m4a .m4v .mkv .mov .mp3 .mp4 .mpeg .mpg .mts .oga .ogg .ogv .opus .ts .wav .webm .wma "
-    ".wmv "
-              ".y4m").split()
+RECORDINGS = (".3gp .aac .avi .flac .flv .m4a .m4v .mkv .mov .mp3 .mp4 .mpeg .mpg .mts .oga .ogg .ogv .opus .ts .wav "
+              ".webm .wma .wmv .y4m").split()
 ENDINGS = {"csv": ".csv", "jsonl": ".jsonl", "llf": ".llf.csv", "gltf": ".gltf", "glb": ".glb", "bvh": ".bvh",
-           "roblox": ".roblox.csv",
-           "visemes": ".visemes.csv", "rhubarb": ".tsv", "rhubarb-json": ".rhubarb.json", "rhubarb-xml": ".xml",
-           "rhubarb-dat": ".dat"}
+           "roblox": ".roblox.csv", "visemes": ".visemes.csv", "rhubarb": ".tsv", "rhubarb-json": ".rhubarb.json",
+           "rhubarb-xml": ".xml", "rhubarb-dat": ".dat"}
 RETRIES = 5  # of a file whose worker died
 SOME_FAILED = 12
 # A program whose worker was killed must not go on beside the one that begins its file anew.

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Tests of scripts/batch_ray.py: order of work, and with Ray (PyPI), if available, a cluster of two workers, one of which is killed.
+"""Tests of scripts/track_on_ray.py: order of work, and with Ray (PyPI), if available, a cluster of two workers, one of which is killed.
 
-usage: batch_ray_test.py
+usage: track_on_ray_test.py
 A slow fake replaces the program and records each file.
 """
 import importlib.util
@@ -18,11 +18,11 @@ import time
 import unittest
 
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
-SCRIPT = os.path.join(ROOT, "scripts", "batch_ray.py")
+SCRIPT = os.path.join(ROOT, "scripts", "track_on_ray.py")
 FILES = 12
-specification = importlib.util.spec_from_file_location("batch_ray", SCRIPT)
-batch_ray = importlib.util.module_from_spec(specification)
-specification.loader.exec_module(batch_ray)
+specification = importlib.util.spec_from_file_location("track_on_ray", SCRIPT)
+track_on_ray = importlib.util.module_from_spec(specification)
+specification.loader.exec_module(track_on_ray)
 
 # Like `mien track`: complete files appear under their names; exits with 3 for an invalid file. Records its work in `begun` and `done`.
 STAND_IN = f"#!{sys.executable}\n" + """import os, sys, time
@@ -64,26 +64,26 @@ class BatchRay(unittest.TestCase):
     def test_lists_match_the_program(self):
         with open(os.path.join(ROOT, "apps/mien/tracking/batch.cpp")) as file:
             source = file.read()
-        self.assertEqual(re.findall(r'"(\.\w+)"', source[source.index("kRecordings"):source.index("};")]), batch_ray.RECORDINGS)
+        self.assertEqual(re.findall(r'"(\.\w+)"', source[source.index("kRecordings"):source.index("};")]), track_on_ray.RECORDINGS)
         with open(os.path.join(ROOT, "apps/animation/animation.h")) as file:
-            self.assertEqual(dict(re.findall(r'\{AnimationFormat::\w+, "([\w-]+)", "([.\w]+)"', file.read())), batch_ray.ENDINGS)
+            self.assertEqual(dict(re.findall(r'\{AnimationFormat::\w+, "([\w-]+)", "([.\w]+)"', file.read())), track_on_ray.ENDINGS)
 
     def test_finished_files_are_skipped(self):
-        name = batch_ray.recordings(self.path("in"), self.path("in/below"))
+        name = track_on_ray.recordings(self.path("in"), self.path("in/below"))
         self.assertEqual(len(name), FILES // 2, "outputs are not inputs")
         job = {"input": self.path("in/00.mp4"), "formats": ["csv", "glb"], "outputs": [self.path("out/a.csv"), self.path("out/a.glb")]}
-        self.assertEqual(batch_ray.track(job, self.path("program"), [])["outcome"], "done")
-        self.assertEqual(batch_ray.track(job, self.path("program"), [])["outcome"], "done before")
+        self.assertEqual(track_on_ray.track(job, self.path("program"), [])["outcome"], "done")
+        self.assertEqual(track_on_ray.track(job, self.path("program"), [])["outcome"], "done before")
         os.remove(self.path("out/a.glb"))
-        self.assertEqual(batch_ray.track(job, self.path("program"), [])["outcome"], "done")
+        self.assertEqual(track_on_ray.track(job, self.path("program"), [])["outcome"], "done")
         later = time.time() + 5
         os.utime(self.path("in/00.mp4"), (later, later))
-        self.assertFalse(batch_ray.is_done(job))
+        self.assertFalse(track_on_ray.is_done(job))
 
     def test_failures_are_reported(self):
         open(self.path("in/bad.mp4"), "w").close()
         job = {"input": self.path("in/bad.mp4"), "formats": ["csv"], "outputs": [self.path("out/bad.csv")]}
-        done = batch_ray.track(job, self.path("program"), [])
+        done = track_on_ray.track(job, self.path("program"), [])
         self.assertEqual(done["outcome"], "failed")
         self.assertIn("bad.mp4: no video", done["failure"])
 
