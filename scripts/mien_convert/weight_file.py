@@ -17,6 +17,22 @@ import struct
 from array import array
 
 from .atomic_files import write_whole
+from .packing import (
+    FP16,
+    FP32,
+    MAX_DIM,
+    MAX_RANK,
+    Tensor,
+    depthwise_tensor,
+    flat_floats,
+    padded_order,
+    panels,
+    require,
+    round_up_8,
+    shaped,
+    vector,
+)
+from .xxhash64 import xxhash64
 
 OPS = {"conv2d": 1, "depthwise": 2, "pointwise": 3, "fully_connected": 4, "causal_conv": 5, "lstm": 6, "max_pool": 7,
        "add": 8, "activation": 9, "softmax": 10, "global_average_pool": 11, "concat": 12, "slice": 13, "multiply": 14,
@@ -32,7 +48,6 @@ PASSIVE = ("lstm", "max_pool", "add", "softmax", "global_average_pool", "concat"
 # minor version of the format
 SINCE = {"global_average_pool": 1, "concat": 1, "slice": 1,
          **dict.fromkeys((*TWO_SIZES, "resize", "rearrange", "normalize", *CURVES), 2)}
-FP16, FP32 = 1, 2
 NO_INDEX = 0xFFFFFFFF
 ANY_SIZE, CEIL_MODE = 1, 1
 ALIGNMENT = 64
@@ -45,7 +60,7 @@ GRIDS = ("half_pixel", "asymmetric", "align_corners")
 SAMPLINGS = ("round_half_down", "round_half_up", "floor", "ceil", "bilinear")
 READING_ORDERS = ("hwc", "hcw", "whc", "wch", "chw", "cwh")
 MAX_TEXT_BYTES, MAX_FILE_BYTES, MAX_MAP_ELEMS = 4096, 1 << 31, 1 << 28
-MAX_DIM, MAX_RANK, MAX_KERNEL, MAX_STRIDE = 1 << 20, 4, 15, 15
+MAX_KERNEL, MAX_STRIDE = 15, 15
 MAX_MARGIN = (1 << 16) - 1  # of a slice, and its first channel
 NAME = re.compile(r"[a-z0-9_./]{1,63}")
 
@@ -62,13 +77,13 @@ class MienFile:
         return network
 
     def constant(self, name, values, data_type="fp32"):
-        floats, shape = _floats(values)
-        _require(1 <= len(shape) <= MAX_RANK, f"constant {name}: rank {len(shape)}")
-        self._constants.append((_name(name), _Tensor(floats, shape, {"fp16": FP16, "fp32": FP32}[data_type])))
+        floats, shape = flat_floats(values)
+        require(1 <= len(shape) <= MAX_RANK, f"constant {name}: rank {len(shape)}")
+        self._constants.append((_name(name), Tensor(floats, shape, {"fp16": FP16, "fp32": FP32}[data_type])))
 
     def to_bytes(self):
         for names in [n.name for n in self._networks], [name for name, _ in self._constants]:
-            _require(len(set(names)) == len(names), f"duplicate name in {sorted(names)}")
+            require(len(set(names)) == len(names), f"duplicate name in {sorted(names)}")
         strings = _Strings()
         network_names = [strings.add(network.name) for network in self._networks]
         networks, layers, tensors = [], [], []
@@ -95,8 +110,8 @@ def sealed(file):
 def _assemble(minor_version, networks, layers, tensors, metadata, strings):
     counts = len(networks), len(layers), len(tensors), len(metadata)
     for count, limit in zip(counts, (MAX_NETWORKS, MAX_LAYERS, MAX_TENSORS, MAX_METADATA)):
-        _require(count <= limit, f"{count} records, at most {limit}")
-    _require(networks, "no network")
+        require(count <= limit, f"{count} records, at most {limit}")
+    require(networks, "no network")
     data_offset = _aligned(HEADER_BYTES + 64 * sum(counts[:3]) + 16 * len(metadata) + len(strings))
     records, data = [], bytearray()
     for name, tensor in tensors:
@@ -105,7 +120,7 @@ def _assemble(minor_version, networks, layers, tensors, metadata, strings):
     body = b"".join(networks + layers + records + metadata) + strings
     body += bytes(data_offset - HEADER_BYTES - len(body)) + data
     total = HEADER_BYTES + len(body)
-    _require(total <= MAX_FILE_BYTES, "file too large")
+    require(total <= MAX_FILE_BYTES, "file too large")
     header = struct.pack("<8s2H7I2Q", b"\x89MIEN\r\n\x1a", 1, minor_version, 0x01020304, HEADER_BYTES, *counts,
                          len(strings), total, data_offset)
     return sealed(header + bytes(8) + body)
@@ -118,59 +133,59 @@ class Network:
     def __init__(self, name, input, any_size):
         self.name, self.any_size = name, any_size
         self.layers, self.outputs, self.shapes = [], [], [tuple(input)]
-        _require(len(self.shapes[0]) == 3 and all(1 <= n <= MAX_DIM for n in self.shapes[0]), f"{name}: input {input}")
+        require(len(self.shapes[0]) == 3 and all(1 <= n <= MAX_DIM for n in self.shapes[0]), f"{name}: input {input}")
 
     def conv2d(self, x, weight, bias=None, stride=1, padding=0, **options):
         """weight [out, in, kernel_h, kernel_w], padding (top, left, bottom, right) or one number"""
-        values, (out, channels, kh, kw) = _shaped(weight, 4)
-        _require(channels == self._shape(x)[2], f"conv2d: weight for {channels} channels")
+        values, (out, channels, kh, kw) = shaped(weight, 4)
+        require(channels == self._shape(x)[2], f"conv2d: weight for {channels} channels")
         order = [c * kh * kw + position for position in range(kh * kw) for c in range(channels)]
         layer = _Layer("conv2d", [x], out, (kh, kw), stride, padding)
-        return self._dense(layer, values, (_round_up_8(out), kh, kw, channels), order, bias, options)
+        return self._dense(layer, values, (round_up_8(out), kh, kw, channels), order, bias, options)
 
     def depthwise(self, x, weight, bias=None, stride=1, padding=0, **options):
         """weight [channels, 1, kernel_h, kernel_w]"""
-        values, (channels, one, kh, kw) = _shaped(weight, 4)
-        _require(one == 1 and channels == self._shape(x)[2], f"depthwise: weight for {channels} channels")
+        values, (channels, one, kh, kw) = shaped(weight, 4)
+        require(one == 1 and channels == self._shape(x)[2], f"depthwise: weight for {channels} channels")
         layer = _Layer("depthwise", [x], channels, (kh, kw), stride, padding)
-        return self._add(layer, [_depthwise_tensor(values, channels, kh, kw), _vector(bias, channels)], options)
+        return self._add(layer, [depthwise_tensor(values, channels, kh, kw), vector(bias, channels)], options)
 
     def pointwise(self, x, weight, bias=None, **options):
         """weight [out, in] or [out, in, 1, 1]"""
-        values, (out, channels) = _shaped(weight, 2)
-        _require(channels == self._shape(x)[2], f"pointwise: weight for {channels} channels")
-        order = _padded_order(range(channels))
-        return self._dense(_Layer("pointwise", [x], out), values, (_round_up_8(out), len(order)), order, bias, options)
+        values, (out, channels) = shaped(weight, 2)
+        require(channels == self._shape(x)[2], f"pointwise: weight for {channels} channels")
+        order = padded_order(range(channels))
+        return self._dense(_Layer("pointwise", [x], out), values, (round_up_8(out), len(order)), order, bias, options)
 
     def fully_connected(self, x, weight, bias=None, **options):
         """weight [out, in * h * w]: inputs in the order channel, row, column, as PyTorch flattens a map"""
-        values, (out, inputs) = _shaped(weight, 2)
+        values, (out, inputs) = shaped(weight, 2)
         h, w, channels = self._shape(x)
-        _require(inputs == h * w * channels, f"fully_connected: weight for {inputs} inputs")
+        require(inputs == h * w * channels, f"fully_connected: weight for {inputs} inputs")
         order = [c * h * w + position if c < channels else None for block in range(0, channels, 8)
                  for position in range(h * w) for c in range(block, block + 8)]
-        return self._dense(_Layer("fully_connected", [x], out), values, (_round_up_8(out), len(order)), order, bias,
+        return self._dense(_Layer("fully_connected", [x], out), values, (round_up_8(out), len(order)), order, bias,
                            options)
 
     def causal_conv(self, x, weight, bias=None, **options):
         """weight [out, in, 2]: the previous input first, as in Conv1d"""
-        values, (out, channels, kernel) = _shaped(weight, 3)
-        _require(kernel == 2 and self._shape(x) == (1, 1, channels), f"causal_conv: weight for {channels} inputs")
-        order = _padded_order(range(0, 2 * channels, 2)) + _padded_order(range(1, 2 * channels, 2))
-        return self._dense(_Layer("causal_conv", [x], out), values, (_round_up_8(out), 2, len(order) // 2), order, bias,
+        values, (out, channels, kernel) = shaped(weight, 3)
+        require(kernel == 2 and self._shape(x) == (1, 1, channels), f"causal_conv: weight for {channels} inputs")
+        order = padded_order(range(0, 2 * channels, 2)) + padded_order(range(1, 2 * channels, 2))
+        return self._dense(_Layer("causal_conv", [x], out), values, (round_up_8(out), 2, len(order) // 2), order, bias,
                            options)
 
     def lstm(self, x, weight_ih, weight_hh, bias=None, **options):
         """weight_ih [4 hidden, in], weight_hh [4 hidden, hidden], gates i, f, g, o; bias [4 hidden], PyTorch's two
         added"""
-        ih, (rows, n) = _shaped(weight_ih, 2)
-        hh, (rows_hh, hidden) = _shaped(weight_hh, 2)
-        _require(rows == rows_hh == 4 * hidden and hidden % 8 == 0, f"lstm: hidden size {hidden}")
-        _require(self._shape(x) == (1, 1, n), f"lstm: weight for {n} inputs")
+        ih, (rows, n) = shaped(weight_ih, 2)
+        hh, (rows_hh, hidden) = shaped(weight_hh, 2)
+        require(rows == rows_hh == 4 * hidden and hidden % 8 == 0, f"lstm: hidden size {hidden}")
+        require(self._shape(x) == (1, 1, n), f"lstm: weight for {n} inputs")
         values = array("f")
         for row in range(rows):
             values += ih[row * n:(row + 1) * n] + hh[row * hidden:(row + 1) * hidden]
-        order = _padded_order(range(n)) + list(range(n, n + hidden))
+        order = padded_order(range(n)) + list(range(n, n + hidden))
         return self._dense(_Layer("lstm", [x], hidden), values, (rows, len(order)), order, bias, options)
 
     def max_pool(self, x, kernel, stride=None, padding=0, ceil_mode=False, **options):
@@ -209,7 +224,7 @@ class Network:
 
     def resize(self, x, height, width, grid, sampling, **options):
         """grid: one of GRIDS, sampling: one of SAMPLINGS"""
-        _require(grid in GRIDS and sampling in SAMPLINGS, f"resize: {grid}, {sampling}")
+        require(grid in GRIDS and sampling in SAMPLINGS, f"resize: {grid}, {sampling}")
         h, w, channels = self._shape(x)
         layer = _Layer("resize", [x], channels, stride=(_factor(h, height), _factor(w, width)))
         layer.flags, layer.declared = GRIDS.index(grid) + 4 * SAMPLINGS.index(sampling), (height, width)
@@ -217,7 +232,7 @@ class Network:
 
     def rearrange(self, x, order, shape, **options):
         """The elements of x, read in an order of READING_ORDERS (the outermost axis first), as a map (h, w, c)."""
-        _require(order in READING_ORDERS, f"rearrange: {order}")
+        require(order in READING_ORDERS, f"rearrange: {order}")
         layer = _Layer("rearrange", [x], shape[2])
         layer.flags, layer.declared = READING_ORDERS.index(order), tuple(shape[:2])
         return self._add(layer, [], options)
@@ -227,7 +242,7 @@ class Network:
         return self._add(_Layer("normalize", [x], self._shape(x)[2]), [], {"alpha": epsilon, **options})
 
     def activation(self, x, activation, **options):
-        _require(activation != "none", "activation: none")
+        require(activation != "none", "activation: none")
         return self._add(_Layer("activation", [x], self._shape(x)[2]), [], {"activation": activation, **options})
 
     def softmax(self, x, **options):
@@ -235,15 +250,15 @@ class Network:
         return self._add(_Layer("softmax", [x], self._shape(x)[2]), [], options)
 
     def output(self, x):
-        _require(1 <= x < len(self.shapes) and x not in self.outputs and len(self.outputs) < MAX_OUTPUTS,
+        require(1 <= x < len(self.shapes) and x not in self.outputs and len(self.outputs) < MAX_OUTPUTS,
                  f"{self.name}: output {x}")
         self.outputs.append(x)
 
     def record(self, name, first_layer):
         used = {x for layer in self.layers for x in layer.inputs} | set(self.outputs)
         for value in range(1, len(self.shapes)):
-            _require(value in used, f"{self.name}: nobody uses the output of layer {value}")
-        _require(self.outputs, f"{self.name}: no output")
+            require(value in used, f"{self.name}: nobody uses the output of layer {value}")
+        require(self.outputs, f"{self.name}: no output")
         outputs = self.outputs
         if len(outputs) <= MAX_WIDE_OUTPUTS:
             outputs = [place for value in outputs for place in (value, 0)]
@@ -257,13 +272,13 @@ class Network:
         return max([SINCE.get(name, 0) for name in names] + [2 if len(self.outputs) > MAX_WIDE_OUTPUTS else 0])
 
     def _shape(self, x):
-        _require(0 <= x < len(self.shapes), f"{self.name}: no value {x}")
+        require(0 <= x < len(self.shapes), f"{self.name}: no value {x}")
         return self.shapes[x]
 
     def _dense(self, layer, values, shape, order, bias, options):
-        """`shape`: dimensions of the packed weights, outputs first. `order`: see _panels."""
+        """`shape`: dimensions of the packed weights, outputs first. `order`: see panels."""
         outputs = 4 * layer.channels if layer.op == "lstm" else layer.channels
-        return self._add(layer, [_panels(values, outputs, order, shape), _vector(bias, outputs)], options)
+        return self._add(layer, [panels(values, outputs, order, shape), vector(bias, outputs)], options)
 
     def _add(self, layer, tensors, options):
         layer.set_activation(options)
@@ -271,7 +286,7 @@ class Network:
         layer.tensors = tensors
         one_size = layer.op in ("fully_connected", "causal_conv", "lstm",
                                 "rearrange") or layer.op == "resize" and 0 in layer.stride
-        _require(not self.any_size or not one_size,
+        require(not self.any_size or not one_size,
                  f"{self.name}: {layer.op} in a network of any size")
         self.layers.append(layer)
         self.shapes.append(layer.shape)
@@ -289,56 +304,56 @@ class _Layer:
         self.activation = options.pop("activation", "none")
         self.alpha = options.pop("alpha", 0.0)
         slopes = options.pop("slopes", None)
-        _require(not options, f"{self.op}: no option {sorted(options)}")
-        _require(self.activation in ACTIVATIONS or self.activation in CURVES and self.op == "activation",
+        require(not options, f"{self.op}: no option {sorted(options)}")
+        require(self.activation in ACTIVATIONS or self.activation in CURVES and self.op == "activation",
                  f"no activation {self.activation}")
-        _require(self.activation == "none" or self.op not in PASSIVE, f"{self.op} with {self.activation}")
+        require(self.activation == "none" or self.op not in PASSIVE, f"{self.op} with {self.activation}")
         has_alpha = self.activation == "leaky_relu" or self.op == "normalize"
-        _require(0 < self.alpha < 1 if has_alpha else self.alpha == 0, f"alpha {self.alpha}")
-        _require((slopes is not None) == (self.activation == "prelu"), f"{self.op}: slopes belong to prelu")
-        self.slopes = [_vector(slopes, self.channels)] if slopes is not None else []
+        require(0 < self.alpha < 1 if has_alpha else self.alpha == 0, f"alpha {self.alpha}")
+        require((slopes is not None) == (self.activation == "prelu"), f"{self.op}: slopes belong to prelu")
+        self.slopes = [vector(slopes, self.channels)] if slopes is not None else []
 
     def output_shape(self, shapes):
         h, w = (1, 1) if self.op in ("fully_connected", "global_average_pool") else shapes[0][:2]
         if self.op == "add":
             margins = [big - small for small, big in zip(*shapes)]
-            _require(margins[2] == 0 and all(m >= 0 and m % 2 == 0 for m in margins), f"add of {shapes}")
+            require(margins[2] == 0 and all(m >= 0 and m % 2 == 0 for m in margins), f"add of {shapes}")
         if self.op == "concat":
-            _require(shapes[0][:2] == shapes[1][:2], f"concat of {shapes}")
+            require(shapes[0][:2] == shapes[1][:2], f"concat of {shapes}")
         if self.op == "slice":
             h, w = self._cut(shapes[0])
         if self.op in TWO_SIZES:
-            _require(all(b in (a, 1) for a, b in zip(*shapes)), f"{self.op} of {shapes}")
+            require(all(b in (a, 1) for a, b in zip(*shapes)), f"{self.op} of {shapes}")
         if self.declared:
             h, w = self.declared
         if self.op == "rearrange":
-            _require(h * w * self.channels == math.prod(shapes[0]),
+            require(h * w * self.channels == math.prod(shapes[0]),
                      f"rearrange of {shapes[0]} as {(h, w, self.channels)}")
         if self.op in SLIDING:
             top, left, bottom, right = self.padding
             h = self._slide(h, self.kernel[0], self.stride[0], top, bottom)
             w = self._slide(w, self.kernel[1], self.stride[1], left, right)
-        _require(1 <= self.channels <= MAX_DIM and 1 <= h <= MAX_DIM and 1 <= w <= MAX_DIM
-                 and h * w * _round_up_8(self.channels) <= MAX_MAP_ELEMS, f"{self.op}: output {(h, w, self.channels)}")
+        require(1 <= self.channels <= MAX_DIM and 1 <= h <= MAX_DIM and 1 <= w <= MAX_DIM
+                 and h * w * round_up_8(self.channels) <= MAX_MAP_ELEMS, f"{self.op}: output {(h, w, self.channels)}")
         return h, w, self.channels
 
     def _cut(self, shape):
         """Output size of a slice."""
         (h, w, c), (top, left, bottom, right) = shape, self.padding
-        _require(all(0 <= n <= MAX_MARGIN for n in (*self.padding, self.first_channel)),
+        require(all(0 <= n <= MAX_MARGIN for n in (*self.padding, self.first_channel)),
                  f"slice without {self.padding}")
-        _require(top + bottom < h and left + right < w and 1 <= self.channels <= c - self.first_channel,
+        require(top + bottom < h and left + right < w and 1 <= self.channels <= c - self.first_channel,
                  f"slice of {shape}: {self.channels} channels from {self.first_channel}, without {self.padding}")
         return h - top - bottom, w - left - right
 
     def _slide(self, size, kernel, stride, before, after):
         """Output size of a window that slides over `size` elements."""
-        _require(1 <= kernel <= MAX_KERNEL and 1 <= stride <= MAX_STRIDE,
+        require(1 <= kernel <= MAX_KERNEL and 1 <= stride <= MAX_STRIDE,
                  f"{self.op}: kernel {kernel}, stride {stride}")
-        _require(0 <= before < kernel and 0 <= after < kernel, f"{self.op}: padding {before}, {after}")
-        _require(before + size + after >= kernel, f"{self.op}: kernel {kernel} on {size} elements")
+        require(0 <= before < kernel and 0 <= after < kernel, f"{self.op}: padding {before}, {after}")
+        require(before + size + after >= kernel, f"{self.op}: kernel {kernel} on {size} elements")
         last = (before + size + after - kernel + (stride - 1 if self.flags == CEIL_MODE else 0)) // stride
-        _require(last * stride < before + size, f"{self.op}: the last window would begin behind the map")
+        require(last * stride < before + size, f"{self.op}: the last window would begin behind the map")
         return last + 1
 
     def record(self, tensors):
@@ -350,21 +365,6 @@ class _Layer:
         return struct.pack("<2H2I3I8H2Hf4I", OPS[self.op], {**ACTIVATIONS, **CURVES}[self.activation],
                            *(self.inputs + [NO_INDEX])[:2], *self.shape, *self.kernel, *self.stride, *self.padding,
                            self.flags, self.first_channel, self.alpha, weights, bias, slopes, 0)
-
-
-class _Tensor:
-    def __init__(self, floats, shape, data_type):
-        _require(all(1 <= n <= MAX_DIM for n in shape), f"dimensions {shape}")
-        _require(all(map(math.isfinite, floats)), "a value is not a finite float")
-        self.shape, self.data_type = tuple(shape), data_type
-        try:
-            self.data = struct.pack(f"<{len(floats)}{'e' if data_type == FP16 else 'f'}", *floats)
-        except OverflowError as error:
-            raise ValueError("a weight is too large for fp16") from error
-
-    def record(self, name, offset):
-        dims = self.shape + (0,) * (MAX_RANK - len(self.shape))
-        return struct.pack("<2I2H4x4I2Q16x", *name, self.data_type, len(self.shape), *dims, offset, len(self.data))
 
 
 class _Strings:
@@ -387,120 +387,13 @@ def _factor(size, resized):
     return factor if rest == 0 and factor <= MAX_FACTOR else 0
 
 
-def xxhash64(data):
-    """XXH64 with seed 0."""
-    p1, p2, p3 = 0x9E3779B185EBCA87, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9
-    p4, p5 = 0x85EBCA77C2B2AE63, 0x27D4EB2F165667C5
-    mask = (1 << 64) - 1
-
-    def rotated(x, bits):
-        return (x << bits | x >> (64 - bits)) & mask
-
-    def mixed(lane, word):
-        return rotated((lane + word * p2) & mask, 31) * p1 & mask
-
-    lanes = [(p1 + p2) & mask, p2, 0, -p1 & mask]
-    stripes = len(data) // 32 * 4
-    words = struct.unpack_from(f"<{stripes}Q", data)
-    for index in range(4):
-        lane = lanes[index]
-        for word in words[index::4]:
-            lane = (lane + word * p2) & mask
-            lane = (lane << 31 | lane >> 33) * p1 & mask  # the multiplication drops what the shift pushed out
-        lanes[index] = lane
-    value = p5
-    if stripes:
-        value = sum(rotated(lane, bits) for lane, bits in zip(lanes, (1, 7, 12, 18))) & mask
-        for lane in lanes:
-            value = ((value ^ mixed(0, lane)) * p1 + p4) & mask
-    value = (value + len(data)) & mask
-    for at in range(8 * stripes, len(data) - 7, 8):
-        value = (rotated(value ^ mixed(0, struct.unpack_from("<Q", data, at)[0]), 27) * p1 + p4) & mask
-    at = len(data) // 8 * 8
-    if len(data) - at >= 4:
-        value = (rotated(value ^ struct.unpack_from("<I", data, at)[0] * p1 & mask, 23) * p2 + p3) & mask
-        at += 4
-    for byte in data[at:]:
-        value = rotated(value ^ byte * p5 & mask, 11) * p1 & mask
-    value = (value ^ value >> 33) * p2 & mask
-    value = (value ^ value >> 29) * p3 & mask
-    return value ^ value >> 32
-
-
-def _panels(values, outputs, order, shape):
-    """[outputs][row] -> panels of 16 outputs [panel][k][16]; `order` gives the row's element for each k, None a
-    zero."""
-    row, width = len(values) // outputs, _round_up_8(outputs)
-    padding = array("f", bytes(4 * (width - outputs)))
-    zeros = array("f", bytes(4 * width))
-    columns = [zeros if k is None else values[k::row] + padding for k in order]
-    packed = array("f")
-    for first in range(0, width, 16):
-        for column in columns:
-            packed += column[first:first + 16]
-    return _Tensor(packed, shape, FP16)
-
-
-def _depthwise_tensor(values, channels, kh, kw):
-    """[channels][kh][kw] -> [block][kh][kw][8]"""
-    taps = kh * kw
-    values = values + array("f", bytes(4 * taps * (_round_up_8(channels) - channels)))
-    packed = array("f")
-    for block in range(0, channels, 8):
-        for tap in range(taps):
-            packed += values[block * taps + tap:(block + 8) * taps:taps]
-    return _Tensor(packed, (_round_up_8(channels), kh, kw), FP16)
-
-
-def _vector(values, count):
-    """Bias or slopes, padded with zeros."""
-    floats = array("f", bytes(4 * count)) if values is None else _shaped(values, 1)[0]
-    _require(len(floats) == count, f"{len(floats)} values, not {count}")
-    return _Tensor(floats + array("f", bytes(4 * (_round_up_8(count) - count))), (_round_up_8(count),), FP16)
-
-
-def _padded_order(order):
-    return list(order) + [None] * (-len(order) % 8)
-
-
-def _shaped(values, rank):
-    """Flat floats and the shape without the ones behind `rank`."""
-    floats, shape = _floats(values)
-    _require(len(shape) >= rank and all(n == 1 for n in shape[rank:]), f"shape {shape}, rank {rank} wanted")
-    _require(len(floats) > 0, f"shape {shape} is empty")
-    return floats, shape[:rank]
-
-
-def _floats(values):
-    if isinstance(values, tuple) and len(values) == 2 and isinstance(values[0], array):
-        floats, shape = array("f", values[0]), tuple(values[1])
-    elif hasattr(values, "tolist"):
-        shape = tuple(values.shape)
-        floats = array("f", values.reshape(-1).tolist())
-    else:
-        shape, floats = _nested_shape(values), array("f", _flatten(values))
-    _require(len(floats) == math.prod(shape), f"{len(floats)} values in shape {shape}")
-    return floats, shape
-
-
-def _nested_shape(values):
-    return (len(values), *(_nested_shape(values[0]) if values else ())) if isinstance(values, (list, tuple)) else ()
-
-
-def _flatten(values):
-    if not isinstance(values, (list, tuple)):
-        return [values]
-    _require(len({_nested_shape(v) for v in values}) <= 1, "ragged array")
-    return [x for v in values for x in _flatten(v)]
-
-
 def _name(name):
-    _require(NAME.fullmatch(name), f"name {name!r}")
+    require(NAME.fullmatch(name), f"name {name!r}")
     return name
 
 
 def _text(text):
-    _require(len(text.encode()) <= MAX_TEXT_BYTES and not re.search(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]", text),
+    require(len(text.encode()) <= MAX_TEXT_BYTES and not re.search(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]", text),
              f"metadata {text[:40]!r}")
     return text
 
@@ -513,14 +406,5 @@ def _four(value):
     return tuple(value) if isinstance(value, (list, tuple)) else (value,) * 4
 
 
-def _round_up_8(n):
-    return -(-n // 8) * 8
-
-
 def _aligned(n):
     return -(-n // ALIGNMENT) * ALIGNMENT
-
-
-def _require(condition, message):
-    if not condition:
-        raise ValueError(message)

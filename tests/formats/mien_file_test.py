@@ -6,7 +6,8 @@ import unittest
 from array import array
 from pathlib import Path
 
-from mien_convert.weight_file import MienFile, xxhash64
+from mien_convert.weight_file import MienFile
+from mien_convert.xxhash64 import xxhash64
 
 WEIGHT = [[0.5, -1.25, 3.0], [1e-7, 65504.0, -0.1]]
 

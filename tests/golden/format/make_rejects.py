@@ -4,7 +4,7 @@ with lines "file status offset"."""
 import struct
 from pathlib import Path
 
-from mien_convert.weight_file import xxhash64
+from mien_convert.xxhash64 import xxhash64
 
 HERE = Path(__file__).parent
 
