@@ -4,7 +4,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 CHECKED=(scripts tests/convert tests/train apps/conformance fuzz)
-LINES=19900  # of code in scripts/
+LINES=20000  # of code in scripts/
 
 scripts/check/code_size.py "$LINES"
 scripts/check/python_statements.py "${CHECKED[@]}"

@@ -255,8 +255,9 @@ class Part:
     """A node that stands for a part of another."""
 
     def __init__(self, node, inputs, attributes=None):
-        self.inputs, self.outputs, self.attributes = inputs, node.outputs[
-            :1], node.attributes if attributes is None else attributes
+        self.inputs = inputs
+        self.outputs = node.outputs[:1]
+        self.attributes = node.attributes if attributes is None else attributes
 
 
 FUSED = {"Relu": (relu, ()), "Sigmoid": (sigmoid, ()), "Tanh": (tanh, ()), "LeakyRelu": (leaky_relu, ("alpha",)),

@@ -109,8 +109,8 @@ class Network(unittest.TestCase):
         self.assertEqual(set(SPEECH_CONTROLS), set(export.FROM_SOUND))
 
     def test_training_goes_on_from_the_file(self):
-        encoder, decoders = random_encoder(), {"controls": audio_net.controls_decoder(),
-                                               "activity": audio_net.activity_decoder()}
+        encoder = random_encoder()
+        decoders = {"controls": audio_net.controls_decoder(), "activity": audio_net.activity_decoder()}
         with tempfile.NamedTemporaryFile(suffix=".mien") as file:
             export.audionet(encoder, decoders, {"seconds_heard": 1}).write(file.name)
             read = weight_reader.networks(file.name)

@@ -142,8 +142,11 @@ class PhonemeBatches(Endless):
 
     def __init__(self, split, batch, seconds, seed, hard=1.0, shares=SHARES):
         super().__init__(seed)
-        self.speech, self.split, self.batch, self.seconds, self.hard = Speech(split,
-                                                                              shares), split, batch, seconds, hard
+        self.speech = Speech(split, shares)
+        self.split = split
+        self.batch = batch
+        self.seconds = seconds
+        self.hard = hard
 
     def make(self, rng):
         scenes = [noise_scene(rng, self.split, self.seconds) if rng.random() < NOISE_ALONE else

@@ -40,8 +40,9 @@ def coded(sound, bits_per_second):
     opus.opus_encoder_ctl(encoder, SET_BITRATE, ctypes.c_int(bits_per_second))
     opus.opus_encoder_ctl(encoder, GET_LOOKAHEAD, ctypes.byref(delay))
     frames = -(-(len(sound) + delay.value) // FRAME)
-    given, heard, packet = np.zeros(frames * FRAME, np.float32), np.zeros(frames * FRAME,
-                                                                          np.float32), np.zeros(MOST_BYTES, np.uint8)
+    given = np.zeros(frames * FRAME, np.float32)
+    heard = np.zeros(frames * FRAME, np.float32)
+    packet = np.zeros(MOST_BYTES, np.uint8)
     given[:len(sound)] = sound
     for at in range(0, len(given), FRAME):
         size = opus.opus_encode_float(encoder, pointer(given[at:], ctypes.c_float), FRAME,

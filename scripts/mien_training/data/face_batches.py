@@ -131,8 +131,8 @@ class Backgrounds:
 
     def rows(self, rng, n):
         """A third each of plain pieces, mistakes and misplaced crops."""
-        a, b = rng.integers(0, len(self.plain), n // 3), rng.integers(0, max(1, min(self.mistakes, len(self.mistaken))),
-                                                                      n // 3)
+        a = rng.integers(0, len(self.plain), n // 3)
+        b = rng.integers(0, max(1, min(self.mistakes, len(self.mistaken))), n // 3)
         c = rng.integers(0, len(self.misplaced), n - 2 * (n // 3))
         images = np.concatenate([self.plain[a], self.mistaken[b], self.misplaced[np.sort(c)]])
         middle = lambda k: torch.tensor(BASENET.middle).expand(k, -1)

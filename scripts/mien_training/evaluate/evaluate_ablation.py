@@ -38,8 +38,8 @@ DECODERS = {"without time": (phase2.FrameDecoder, 0, 0), "with time, causal": (C
 def learning_data(setting, network):
     """(moving, held) tensors that phase 2 learns from."""
     folder = setting.features.with_name(FRAMINGS[network].folder(setting.features.name))
-    moving, held = [*sorted(folder.glob("train*.pt")),
-                    *sorted(folder.glob("plain*.pt"))], sorted(folder.glob("held*.pt"))
+    moving = [*sorted(folder.glob("train*.pt")), *sorted(folder.glob("plain*.pt"))]
+    held = sorted(folder.glob("held*.pt"))
     if not moving:
         raise Missing(
             f"no train*.pt in the folder {folder.name} of features: make them with sequences.py (continue_training.sh)")

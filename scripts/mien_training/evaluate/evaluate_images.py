@@ -66,8 +66,8 @@ class Portraits:
         self.set = faces.Portraits("test", ("faces",))
         if not len(self.set):
             raise Missing("the portraits are absent: MIEN_DATA must name the folder of the data packs")
-        self.controls, self.rotation = self.set.labels.controls.astype(np.float64), self.set.labels.rotation.astype(
-            np.float64)
+        self.controls = self.set.labels.controls.astype(np.float64)
+        self.rotation = self.set.labels.rotation.astype(np.float64)
         self.controls[:, CONTROLS.index("tongueOut")] = np.nan  # the teacher does not know of it
         self.yaw = np.degrees(np.arctan2(self.rotation[:, 0, 2], self.rotation[:, 2, 2]))
 

@@ -211,8 +211,8 @@ class Trainer:
         self.mixture = face_batches.Mixture(self.framing, face_batches.Portraits("train", self.framing), self.rendered,
                                             backgrounds, seed,
                                          self.options.real_share)
-        self.val_real, self.val_rendered = face_batches.Portraits("val", self.framing), rendered("val_stills",
-                                                                                                 "val_sequences")
+        self.val_real = face_batches.Portraits("val", self.framing)
+        self.val_rendered = rendered("val_stills", "val_sequences")
         self.clips = clip_tracking.load() if self.rank == 0 else []
         eyes = template()[list(lp.OUTER_EYE_CORNERS)]
         self.losses = Losses(self.framing, float((eyes[0] - eyes[1]).norm()), self.device)

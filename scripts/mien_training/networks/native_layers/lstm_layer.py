@@ -42,8 +42,10 @@ class Fused(torch.autograd.Function):
     def backward(ctx, dy, _):
         x, weight_ih, weight_hh, gates, h, c = ctx.saved_tensors
         steps, batch, hidden = dy.shape
-        dh, dc, slopes, weight = dy.contiguous().clone(), dy.new_zeros(batch,
-                                                                       hidden), gates.clone(), weight_hh.contiguous()
+        dh = dy.contiguous().clone()
+        dc = dy.new_zeros(batch, hidden)
+        slopes = gates.clone()
+        weight = weight_hh.contiguous()
         native().lstm_backward(slopes.data_ptr(), weight.data_ptr(), steps, batch, hidden, c.data_ptr(), dh.data_ptr(),
                                dc.data_ptr())
         return ((slopes @ weight_ih).view_as(x), slopes.t() @ x.flatten(0, 1), slopes.t() @ h[:-1].flatten(0, 1),
