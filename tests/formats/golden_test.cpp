@@ -105,7 +105,8 @@ TEST(Writers, PythonWritesTheGoldenBytes) {
   for (const std::string& path : files_in(golden_folder() + "descriptions", ".json")) {
     const std::string stem = std::filesystem::path(path).stem().string();
     const std::string written = testing::TempDir() + "mien_" + stem + ".mien";
-    output_of(std::string(kPythonCommand) + golden_folder() + "describe.py " + path + " " + written);
+    output_of(std::string(kPythonCommand) + golden_folder() + "describe.py " + path + " " +
+              written);
     EXPECT_TRUE(read_file(written) == read_file(golden_folder() + "accept/" + stem + ".mien"));
     std::filesystem::remove(written);
   }

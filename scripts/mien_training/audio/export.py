@@ -23,9 +23,9 @@ from mien_training.networks.export import LICENCE, loaded, plain
 from mien_training.networks.round_weights import rounded
 from mien_training.paths import ROOT
 
-# What sound has to say of a control while somebody speaks and the picture shows it; video has the rest. Lips that meet
+# What sound has to say of a control while somebody speaks and the image shows it; video has the rest. Lips that meet
 # for a p are seen too late and too briefly at 30 frames a second, and sound knows of them. Little of all else as long
-# as sound knows one face: of other people's jaws it tells less than the picture does (docs/results/audio.md), and on a
+# as sound knows one face: of other people's jaws it tells less than the image does (docs/results/audio.md), and on a
 # smaller scale.
 FROM_SOUND = dict.fromkeys(SPEECH_CONTROLS, 0.2) | {"mouthClose": 0.4, "mouthPressLeft": 0.3, "mouthPressRight": 0.3,
                                                     "mouthRollLower": 0.3, "mouthRollUpper": 0.3}

@@ -8,7 +8,7 @@ import math
 import torch
 import torch.nn.functional as F
 
-STRANGE = 0.1  # share of pictures in light that nobody would choose
+STRANGE = 0.1  # share of images in light that nobody would choose
 
 
 def uniform(generator, n, low, high, channels=1):
@@ -25,7 +25,7 @@ def grey(x):
 
 
 def colour(x, g):
-    """Exposure, contrast, gamma, white balance, saturation; black-and-white and tinted pictures."""
+    """Exposure, contrast, gamma, white balance, saturation; black-and-white and tinted images."""
     n = len(x)
     saturation = uniform(g, n, 0.3, 1.5) * (1 - chosen(g, n, 0.2))  # some black and white
     tint = torch.exp(torch.randn(n, 3, 1, 1, generator=g) * 0.07)
@@ -38,7 +38,7 @@ def colour(x, g):
 
 
 def shade(x, g):
-    """A soft shadow or light across the picture: a ramp in a random direction."""
+    """A soft shadow or light across the image: a ramp in a random direction."""
     n, _, h, w = x.shape
     angle = uniform(g, n, 0, 2 * math.pi)
     ys, xs = torch.linspace(-1, 1, h).view(1, 1, h, 1), torch.linspace(-1, 1, w).view(1, 1, 1, w)
@@ -125,7 +125,7 @@ def jpeg(x, strength):
 
 
 def some(x, g, share, operation):
-    """Applies an operation to a random share of the pictures in place, in groups that share its parameters."""
+    """Applies an operation to a random share of the images in place, in groups that share its parameters."""
     rows = torch.nonzero(torch.rand(len(x), generator=g) < share)[:, 0]
     for group in rows.split(max(1, len(rows) // 4 + 1)):
         if len(group):
@@ -134,7 +134,7 @@ def some(x, g, share, operation):
 
 
 def share_of(x, g, share, operation):
-    """Applies an operation, which draws its own parameters per picture, to a random share of the pictures in place."""
+    """Applies an operation, which draws its own parameters per image, to a random share of the images in place."""
     rows = torch.nonzero(torch.rand(len(x), generator=g) < share)[:, 0]
     if len(rows):
         x[rows] = operation(x[rows], g)
@@ -163,7 +163,7 @@ def low_light(x, g, of_frame=None):
 
 
 def occlude(x, g):
-    """Half-planes, discs and bars of one colour over part of the picture."""
+    """Half-planes, discs and bars of one colour over part of the image."""
     n, _, h, w = x.shape
     ys, xs = torch.linspace(-1, 1, h).view(1, 1, h, 1), torch.linspace(-1, 1, w).view(1, 1, 1, w)
     angle, reach = uniform(g, n, 0, 2 * math.pi), uniform(g, n, 0.45, 1.1)
@@ -173,7 +173,7 @@ def occlude(x, g):
     half = torch.cos(angle) * xs + torch.sin(angle) * ys > reach
     bar = (torch.cos(angle) * (xs - cx / 2) + torch.sin(angle) * (ys - cy / 2)).abs() < uniform(g, n, 0.04, 0.15)
     mask = torch.where(kind < 0.5, disc, torch.where(kind < 0.8, half, bar)).float()
-    own = x.flatten(2)[..., torch.randint(h * w, (1,), generator=g)].unsqueeze(3)  # a colour of the picture itself
+    own = x.flatten(2)[..., torch.randint(h * w, (1,), generator=g)].unsqueeze(3)  # a colour of the image itself
     paint = torch.where(torch.rand(n, 1, 1, 1, generator=g) < 0.5, own, torch.rand(n, 3, 1, 1, generator=g))
     return torch.lerp(x, paint.expand_as(x), mask)
 
@@ -192,7 +192,7 @@ def degrade(x, g):
 
 
 def photometric(x, g, degraded=0.5):
-    """The whole chain, for pictures that have nothing to do with each other. A share stays sharp, for lids and lips."""
+    """The whole chain, for images that have nothing to do with each other. A share stays sharp, for lids and lips."""
     return share_of(lit(x, g), g, degraded, degrade)
 
 

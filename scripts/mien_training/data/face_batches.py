@@ -176,7 +176,7 @@ def to_crop(crop, points):
 
 
 def mirror(batch, generator):
-    """Flips half of the pictures, with everything that has a left and a right."""
+    """Flips half of the images, with everything that has a left and a right."""
     flip = torch.rand(len(batch.images), generator=generator) < 0.5
     choose = lambda a, b: torch.where(flip.view(-1, *[1] * (a.dim() - 1)), a, b)
     pose_signs = torch.tensor([1.0, -1, -1, -1, 1, 1, -1, 1, 1])

@@ -19,13 +19,13 @@ from mien_training.data.sequences import fit_crop, template
 from mien_training.paths import cache
 
 TEACHER_FOV = np.radians(63)  # vertical, of the camera that MediaPipe takes for granted (face_geometry)
-GUESSED = 0.3                 # trust in labels of blurred pictures
-# variance of the Laplacian of the face at BaseNet's scale, in that of the picture, below which it is
+GUESSED = 0.3                 # trust in labels of blurred images
+# variance of the Laplacian of the face at BaseNet's scale, in that of the image, below which it is
 BLURRED = 0.1
 
 
 class Portraits:
-    """(picture uint8 [h,w,3], box (cx, cy, side)) of one split."""
+    """(image uint8 [h,w,3], box (cx, cy, side)) of one split."""
 
     def __init__(self, split, packs=portrait_labels.PACKS):
         self.labels = portrait_labels.of_split(split, packs)
@@ -55,7 +55,7 @@ def camera_labels(found, framing):
 
 
 def continued(image, share=0.6):
-    """The picture with a blurred border of this share of its height around it, and the border's width: tight pictures
+    """The image with a blurred border of this share of its height around it, and the border's width: tight images
     end at a chin."""
     margin = int(share * image.shape[0])
     out = cv2.copyMakeBorder(image, *[margin] * 4, cv2.BORDER_REFLECT_101)
@@ -68,12 +68,12 @@ def continued(image, share=0.6):
 
 
 def leaves(image, centre, side):
-    """Whether a square is not wholly in the picture."""
+    """Whether a square is not wholly in the image."""
     return bool((centre < side / 2).any() or (centre + side / 2 > image.shape[1::-1]).any())
 
 
 def window(image, centre, side, pixels=BASENET.window):
-    """A square of the picture as [pixels,pixels,3]; what lies outside is a blur of what is near."""
+    """A square of the image as [pixels,pixels,3]; what lies outside is a blur of what is near."""
     if leaves(image, centre, side):
         image, margin = continued(image)
         centre = centre + margin

@@ -31,7 +31,7 @@ class Framing:
         return self.window / 2, self.window / 2, self.window / self.window_crops, 0.0
 
     def pixels_per_window(self, side):
-        """Stored pixels per pixel of the picture in which a crop has this side."""
+        """Stored pixels per pixel of the image in which a crop has this side."""
         return self.window / (self.window_crops * side)
 
     def folder(self, kind):

@@ -16,7 +16,7 @@ from mien_training.data import landmark_points as lp
 from mien_training.paths import ROOT, data
 
 TEMPLATE_HEIGHT = 0.80
-PUPIL, LIMBUS = (0.08, 0.1), (0.36, 0.4)  # rings of vertices by their distance from the middle of the iris picture
+PUPIL, LIMBUS = (0.08, 0.1), (0.36, 0.4)  # rings of vertices by their distance from the middle of the iris image
 CM_PER_M = 100.0
 # of the spline, cm: the jaw line's 68-landmark vertices are a choice of contour, not quite the same points
 SMOOTHING = 1.0
@@ -89,7 +89,7 @@ class RigSurface:
         self.graph = coo_matrix((length, edges.T), (n, n)).tocsr()
 
     def iris(self, side):
-        """Vertices of an iris and their offsets [n,2] from the middle of its picture."""
+        """Vertices of an iris and their offsets [n,2] from the middle of its image."""
         begin, end = self.regions[f"iris_{side}"]
         mine = (self.uv_vertices >= begin) & (self.uv_vertices < end)
         return self.uv_vertices[mine], self.uv[mine] - 0.5

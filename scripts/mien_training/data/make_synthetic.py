@@ -25,7 +25,7 @@ from mien_training.renderer.scene import Figure, Scene, Studio
 SPLITS, KINDS = ("train", "val", "test"), ("stills", "sequences")
 STILLS_PER_SHARD, SEQUENCES_PER_SHARD, FRAMES = 2000, 22, 90
 BATCH = 16          # heads blended together
-OCCLUDED = 0.15     # share of pictures with something in front of the face
+OCCLUDED = 0.15     # share of images with something in front of the face
 
 
 class Set:
@@ -57,7 +57,7 @@ def shoot(studio, framing, figure, vertices, place, pose, shift=np.zeros(3)):
 
 
 def photograph(studio, window, pixels, figure, vertices, place, pose, shift=np.zeros(3)):
-    """The same for any window (cx, cy, side) of the camera's picture, as pixels x pixels."""
+    """The same for any window (cx, cy, side) of the camera's image, as pixels x pixels."""
     landmarks = studio.rig.landmarks(vertices)
     points = landmarks @ pose[0].T + pose[1]
     seen_at = place.camera.project(points)

@@ -23,7 +23,7 @@ NEAR_PROFILE = np.radians(38)        # yaw from which on the teacher guesses hal
 class Labels:
     name: np.ndarray         # str [n], of the picture's file
     pack: np.ndarray         # str [n]
-    group: np.ndarray        # str [n]: ethnic group of FairFace, GRID's speaker, or where the picture comes from
+    group: np.ndarray        # str [n]: ethnic group of FairFace, GRID's speaker, or where the image comes from
     age: np.ndarray          # str [n], a range of years, '' where unknown
     sex: np.ndarray          # str [n], '' where unknown
     size_wh: np.ndarray      # f32 [n,2] pixels

@@ -31,7 +31,7 @@ def kinds(overlap):
 
 
 def cut(image, windows):
-    """Windows of a uint8 [h,w,3] picture, area-averaged to 24x24; outside the picture it is black, as in the canvas."""
+    """Windows of a uint8 [h,w,3] image, area-averaged to 24x24; outside the image it is black, as in the canvas."""
     picture = Image.fromarray(image)
     out = np.empty((len(windows), WINDOW, WINDOW, 3), np.uint8)
     for i, (cx, cy, side) in enumerate(windows):
@@ -56,7 +56,7 @@ def anywhere(rng, size_wh, count, smallest=16):
 
 
 def windows_of_face(rng, image, box, around=14, negatives=10):
-    """Cut windows, kinds and regression targets of one picture with one face."""
+    """Cut windows, kinds and regression targets of one image with one face."""
     size_wh = image.shape[1::-1]
     windows = np.vstack([near(rng, box, around), anywhere(rng, size_wh, negatives)])
     overlap = iou(windows, box)

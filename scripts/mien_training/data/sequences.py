@@ -46,7 +46,7 @@ class Sequences:
         return cls(images, {k: torch.from_numpy(np.concatenate([t[k] for t in tables])) for k in tables[0]})
 
     def held(self, frames):
-        """Every picture of these sequences as a face that holds still for some frames."""
+        """Every image of these sequences as a face that holds still for some frames."""
         images = [np.broadcast_to(i, (frames, *i.shape)) for sequence in self.images for i in sequence]
         hold = lambda v: v.flatten(0, 1).unsqueeze(1).expand(-1, frames, *v.shape[2:])
         return Sequences(images, {k: hold(v) for k, v in self.labels.items()})
@@ -250,7 +250,7 @@ def extract(view, sequences, passes, seed, strides=(1, 2), plain=False, mirrored
     Passes see the faces as they are and mirrored in turns, mirrored first if `mirrored`. Returns tensors with one row
     per track: features fp16 [m,frames,256], pose [m,frames,9], controls and visible [m,frames,52], crop [m,frames,4],
     stride [m], landmark_error [m,frames].
-    `plain` leaves the pictures as they are.
+    `plain` leaves the images as they are.
     """
     tracks, losses = [], 0
     for stride, number in itertools.product(strides, range(passes)):

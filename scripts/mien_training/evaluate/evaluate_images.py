@@ -19,7 +19,7 @@ from mien_training.evaluate.program import y4m
 from mien_training.paths import data
 from mien_training.renderer.assets import names
 
-FRAMES = 12     # a picture is shown for
+FRAMES = 12     # an image is shown for
 PLACES = 400
 YAWS = (0, 15, 30, 45, 90)
 TONE_YAW = 30   # degrees up to which faces count for skin tone: the pose must not speak for the skin
@@ -27,7 +27,7 @@ TONE_YAW = 30   # degrees up to which faces count for skin tone: the pose must n
 
 @dataclass
 class Answers:
-    """One row per picture: whether the right face was found on the first frame, and what the last frame says."""
+    """One row per image: whether the right face was found on the first frame, and what the last frame says."""
     found: list = field(default_factory=list)
     error: list = field(default_factory=list)      # of landmarks, in outer eye corner distances
     controls: list = field(default_factory=list)
@@ -50,7 +50,7 @@ def show(program, picture, lod, frames=FRAMES):
 
 
 def track_all(program, levels, pictures):
-    """{level: Answers} and the skin tones, of (picture, box, landmarks) triples."""
+    """{level: Answers} and the skin tones, of (image, box, landmarks) triples."""
     answers, tones = {name: Answers() for name in levels}, []
     for picture, box, points in pictures:
         tones.append(skin_tone.angle(skin_tone.cheeks(picture, points)))
@@ -77,13 +77,13 @@ class Portraits:
 
 
 def rendered():
-    """(pictures as of track_all, labels)."""
+    """(images as of track_all, labels)."""
     images, labels = probe_images.people()
     return zip(images, labels["crop"][:, :3], labels["landmarks"].astype(np.float64)), labels
 
 
 def by_group(error, groups):
-    """{group: pictures, mean error, how many were not found}, of the groups in the order given."""
+    """{group: images, mean error, how many were not found}, of the groups in the order given."""
     table = {}
     for name, chosen in groups.items():
         known = error[chosen][np.isfinite(error[chosen])]

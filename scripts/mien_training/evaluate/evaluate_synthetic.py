@@ -66,7 +66,7 @@ def score_networks(setting, network):
 
 
 def camera_pictures(images, window, camera_wh):
-    """Camera pictures RGB [n,h,w,3] of one sequence: the window where it was, around it a blur of itself."""
+    """Camera images RGB [n,h,w,3] of one sequence: the window where it was, around it a blur of itself."""
     width, height = (int(v) for v in camera_wh)
     pictures = np.empty((len(images), height, width, 3), np.uint8)
     for canvas, image, (cx, cy, side) in zip(pictures, images, window):

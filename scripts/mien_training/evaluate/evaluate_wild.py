@@ -16,12 +16,12 @@ from mien_training.evaluate.inputs import Missing
 
 CANVAS = (480, 640)     # height, width
 RIGHT = 0.15            # of the pupils' distance
-FEWEST = 20             # pictures of a group worth a line
+FEWEST = 20             # images of a group worth a line
 ETHNIC = ("Black", "East Asian", "Indian", "Latino Hispanic", "Middle Eastern", "Southeast Asian", "White")
 
 
 def pasted(picture, rng):
-    """The picture somewhere on a plain canvas, and where its corner (x, y) lies."""
+    """The image somewhere on a plain canvas, and where its corner (x, y) lies."""
     canvas = np.full((*CANVAS, 3), rng.integers(40, 216, 3), np.uint8)
     x, y = (int(rng.integers(0, room - size + 1)) for room, size in zip(CANVAS[::-1], picture.shape[1::-1]))
     canvas[y:y + picture.shape[0], x:x + picture.shape[1]] = picture

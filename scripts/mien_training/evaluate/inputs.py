@@ -49,7 +49,7 @@ class Setting:
         return self.checkpoints[network]
 
     def is_shipped(self, network):
-        """Whether the last bias of the controls decoder, and of a picture's encoder, are in the model file, as fp16."""
+        """Whether the last bias of the controls decoder, and of an image's encoder, are in the model file, as fp16."""
         encoder, decoders = (torch.load(p, map_location="cpu") for p in self.checkpoints[network])
         file = (self.program.models / f"{network}.mien").read_bytes()
         biases = [decoders["controls_decoder"]["output.bias"]]

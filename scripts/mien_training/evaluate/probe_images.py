@@ -21,7 +21,7 @@ from mien_training.renderer.scene import Figure, Studio
 
 SEED = 71
 IDENTITIES = 24
-PIXELS, SIDE = 256, 150.0    # of the picture; of the face's crop in it, at rest
+PIXELS, SIDE = 256, 150.0    # of the image; of the face's crop in it, at rest
 LENS = camera.Camera(PIXELS, PIXELS, PIXELS / 2 / np.tan(np.radians(20)))
 WINDOW = np.array([PIXELS / 2, PIXELS / 2, PIXELS])
 PEOPLE = 400                 # stills, each of a person of their own
@@ -53,7 +53,7 @@ def turned(studio, head, angles):
 
 
 def identity_pictures(studio, plan, number):
-    """Yields (image, labels) of the pictures of a plan, of identity `number`."""
+    """Yields (image, labels) of the images of a plan, of identity `number`."""
     figure, head, place = sitter(studio, np.random.default_rng([SEED, number]))
     for start in range(0, len(plan.controls), ms.BATCH):
         part = slice(start, start + ms.BATCH)
@@ -82,7 +82,7 @@ def folder_of(kind, number=0):
 
 
 def is_of(folder, plan):
-    """Whether a folder has the pictures of this plan, and not those of an earlier one."""
+    """Whether a folder has the images of this plan, and not those of an earlier one."""
     if not folder.exists():
         return False
     stored = np.load(folder / "labels.npz")

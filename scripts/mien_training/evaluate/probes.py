@@ -36,14 +36,14 @@ def control_targets():
 
 
 class Plan:
-    """controls [p,52] and angles [p,3] (yaw, pitch, roll in degrees) of the pictures; `order` of the video; `marks`:
+    """controls [p,52] and angles [p,3] (yaw, pitch, roll in degrees) of the images; `order` of the video; `marks`:
     the frames at which an answer is read."""
 
     def __init__(self):
         self.controls, self.angles, self.order, self.marks = [], [], [], {}
 
     def picture(self, controls=None, angles=(0, 0, 0)):
-        """Number of a new picture."""
+        """Number of a new image."""
         values = np.zeros(len(CONTROLS), np.float32)
         for name, value in (controls or {}).items():
             values[INDEX[name]] = value

@@ -43,7 +43,7 @@ class Program:
 
 
 def y4m(pictures, order=None):
-    """Pieces of a 4:2:0 full-range video of pictures uint8 [n,h,w,3] RGB, shown in `order`; odd sizes lose a line."""
+    """Pieces of a 4:2:0 full-range video of images uint8 [n,h,w,3] RGB, shown in `order`; odd sizes lose a line."""
     height, width = (v // 2 * 2 for v in pictures[0].shape[:2])
     yield f"YUV4MPEG2 W{width} H{height} F{FPS}:1 Ip A1:1 C420jpeg XCOLORRANGE=FULL\n".encode()
     frame = functools.lru_cache(None)(lambda k: b"FRAME\n" + planes(pictures[k][:height, :width]))
@@ -51,7 +51,7 @@ def y4m(pictures, order=None):
 
 
 def planes(picture):
-    """Luma and chroma of an RGB picture of even size, as bytes."""
+    """Luma and chroma of an RGB image of even size, as bytes."""
     height = len(picture)
     yuv = cv2.cvtColor(np.ascontiguousarray(picture), cv2.COLOR_RGB2YUV_I420).astype(np.float32)
     # OpenCV's conversion is of limited range: stretch luma and chroma to the full one.

@@ -11,11 +11,11 @@ from mien_training.data import landmark_points as lp
 # Lower bounds, degrees; the names are those of Chardon et al., "dark" below the last as by Del Bino and Bernerd (2013).
 GROUPS = {"very light": 55, "light": 41, "intermediate": 28, "tan": 10, "brown": -30, "dark": -90}
 NO_TONE = "black and white"
-GREY = 5.0  # of chroma, below which a picture counts as without colour
+GREY = 5.0  # of chroma, below which an image counts as without colour
 
 
 def cheeks(picture, points):
-    """Median colour f32 [2,3] (RGB 0..1) of each cheek of a picture uint8 [h,w,3]; points [175,2] in pixels."""
+    """Median colour f32 [2,3] (RGB 0..1) of each cheek of an image uint8 [h,w,3]; points [175,2] in pixels."""
     colours = []
     for side in lp.CHEEK:
         mask = np.zeros(picture.shape[:2], np.uint8)

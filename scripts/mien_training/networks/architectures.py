@@ -138,7 +138,7 @@ class Encoder(nn.Module):
         return self.tail[2](maps.float()).flatten(1)
 
     def frozen_maps(self, image):
-        """What the parts that do not learn make of the pictures."""
+        """What the parts that do not learn make of the images."""
         image = image.to(self.map_type).contiguous(memory_format=torch.channels_last)
         if not self.frozen:
             return image

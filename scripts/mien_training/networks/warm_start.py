@@ -48,7 +48,7 @@ def set_statistics(norm, maps):
 
 
 class Measure:
-    """Sets the norm behind a convolution when the first pictures come by, so that it passes on what the file's bias
+    """Sets the norm behind a convolution when the first images come by, so that it passes on what the file's bias
     would."""
 
     def __init__(self, conv_norm, layer):

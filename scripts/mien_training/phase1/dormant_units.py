@@ -5,7 +5,7 @@ at 0. On BaseNet after 1.3 million faces, 62 % of its 672 units were dormant.
 """
 import torch
 
-DORMANT = 0.002     # share of pictures a unit is on for
+DORMANT = 0.002     # share of images a unit is on for
 
 
 class Activity:

@@ -154,12 +154,12 @@ class Losses:
         return positional + 0.7 * openings.mean()
 
     def consistency(self, first, second, crop):
-        """Landmarks must move with the picture (Honari et al. 2018): `second` was seen in `crop` of the first's
-        picture."""
+        """Landmarks must move with the image (Honari et al. 2018): `second` was seen in `crop` of the first's
+        image."""
         return self.distance(second, to_crop(crop, self.framing.to_pixels(first))).mean()
 
     def told(self, batch):
-        """Which controls the pictures tell and the labels know, bool [n,52]: an eye's only where the eye can be
+        """Which controls the images tell and the labels know, bool [n,52]: an eye's only where the eye can be
         seen."""
         return (~self.of_eye | (batch.visible @ self.lids > 0.5)) & batch.has_controls[:, None]
 

@@ -42,7 +42,7 @@ WATCHED = ("jawOpen", "eyeBlinkLeft", "mouthPucker", "mouthSmileLeft", "browInne
 MEET_EVERY = 16                             # steps a process goes alone: it need not wait for a slower one each time
 REVIVE_EVERY, REVIVE_UNTIL = 512, 0.7       # steps; share of the run
 GENTLE_UNTIL, FULL_FROM = 0.55, 0.8         # of the run
-GENTLE, FULL = (0.1, 0.5), (0.2, 0.5)        # share of degraded pictures, roughness of crops
+GENTLE, FULL = (0.1, 0.5), (0.2, 0.5)        # share of degraded images, roughness of crops
 
 
 def keep_freed_memory():
@@ -145,7 +145,7 @@ def plot(history, path):
 
 
 def moved_views(framing, images, batch, generator, share=0.06):
-    """Some faces of the batch seen again, turned and scaled: (rows, pictures, crops in the first picture's pixels)."""
+    """Some faces of the batch seen again, turned and scaled: (rows, images, crops in the first picture's pixels)."""
     rows = torch.nonzero(batch.has_landmarks)[:, 0]
     rows = rows[torch.randperm(len(rows), generator=generator)[:int(share * len(images))]]
     n = len(rows)
@@ -230,7 +230,7 @@ class Trainer:
         return self.options.rate * warm * (0.5 + 0.5 * math.cos(math.pi * min(1.0, self.progress()))) + 1e-5
 
     def difficulty(self):
-        """Share of degraded pictures and roughness of crops: gentle until lids and brows are learned, then as cameras
+        """Share of degraded images and roughness of crops: gentle until lids and brows are learned, then as cameras
         are."""
         t = min(1.0, max(0.0, (self.progress() - GENTLE_UNTIL) / (FULL_FROM - GENTLE_UNTIL)))
         return tuple(a + (b - a) * t for a, b in zip(GENTLE, FULL))
@@ -328,7 +328,7 @@ def parse():
     parser.add_argument("--report-every", type=int, default=50_000)
     parser.add_argument("--real-share", type=float, default=0.2)
     parser.add_argument("--freeze", type=int, default=0, metavar="PARTS",
-                        help="of the encoder's body that do not learn, from the picture on")
+                        help="of the encoder's body that do not learn, from the image on")
     parser.add_argument("--plain", action="store_true", help="PyTorch's own layers and maps in fp32, to compare with")
     parser.add_argument("--through", metavar="DECODERS",
                         help="decoders that stay as they are, and that controls and pose are asked of")

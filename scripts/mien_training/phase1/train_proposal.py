@@ -103,7 +103,7 @@ def train(network, windows, samples, side, seed, history):
 
 
 def with_surroundings(image, box):
-    """Tight pictures end at the chin, which no camera's do: these get a blurred border."""
+    """Tight images end at the chin, which no camera's do: these get a blurred border."""
     if not leaves(image, box[:2], 1.3 * box[2]):
         return image, box
     image, margin = continued(image)
@@ -111,7 +111,7 @@ def with_surroundings(image, box):
 
 
 def pictures(rng, portrait_limit=None):
-    """(picture, box or None): portraits with their box, environments without a face."""
+    """(image, box or None): portraits with their box, environments without a face."""
     found = Portraits("train")
     order = rng.permutation(len(found))[:portrait_limit]
     for i in tqdm(order, desc="pictures", mininterval=5):
@@ -124,7 +124,7 @@ def pictures(rng, portrait_limit=None):
 
 
 def rendered(rng, limit):
-    """Windows of rendered faces: the stored picture is a square of 1.5 crop sides around the crop's centre."""
+    """Windows of rendered faces: the stored image is a square of 1.5 crop sides around the crop's centre."""
     shards = sorted((cache() / "synthetic/train_stills").glob("shard_*"))
     for shard in shards[:max(1, limit // 2000)]:
         images = np.load(shard / "images.npy", mmap_mode="r")
@@ -149,7 +149,7 @@ def first_windows(rng):
 
 
 def pyramid(image):
-    """The levels the tracker searches: the picture in a square canvas, made smaller again and again."""
+    """The levels the tracker searches: the image in a square canvas, made smaller again and again."""
     height, width = image.shape[:2]
     scale = CANVAS / max(height, width)
     while scale * max(height, width) >= 12:

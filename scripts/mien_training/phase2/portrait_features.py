@@ -19,7 +19,7 @@ from mien_training.paths import cache
 
 
 def portraits(split, framing):
-    """Sequences of one frame each, in pixels of the whole pictures."""
+    """Sequences of one frame each, in pixels of the whole images."""
     folder, found = cache() / "faces" / framing.folder(split), faces.Portraits(split)
     images = np.load(folder / "images.npy", mmap_mode="r")
     labels = {"landmarks": found.points, "crop": found.crops, "controls": found.labels.controls,

@@ -62,7 +62,7 @@ def names(kind, split="train"):
 
 
 def picture(path):
-    """uint8 [height,width,4] RGBA; a grey picture fills red, green and blue."""
+    """uint8 [height,width,4] RGBA; a grey image fills red, green and blue."""
     return np.array(Image.open(path).convert("RGBA"))
 
 

@@ -8,7 +8,7 @@ SHRINK = 2  # a backdrop has 1/SHRINK of the camera's pixels per axis
 
 
 def piece(rng, name, width, height):
-    """A random part of an environment's picture, not only its horizon."""
+    """A random part of an environment's image, not only its horizon."""
     whole = environment_picture(name)
     h = int(rng.uniform(0.2, 0.7) * whole.shape[0])
     w = min(int(h * width / height), whole.shape[1])
@@ -41,7 +41,7 @@ def noise(rng, width, height):
 
 
 def sample(rng, environment, camera):
-    """A backdrop for the whole camera picture, uint8 [height/SHRINK,width/SHRINK,3]."""
+    """A backdrop for the whole camera image, uint8 [height/SHRINK,width/SHRINK,3]."""
     width, height = camera.width // SHRINK, camera.height // SHRINK
     kind = rng.random()
     if kind < 0.75:

@@ -58,7 +58,7 @@ inline Vec3 transform(const float* pose, Vec3 p) {
           pose[8] * p.x + pose[9] * p.y + pose[10] * p.z + pose[11]};
 }
 
-// Projection of camera space to samples, `samples` of them per picture pixel and axis; nearness
+// Projection of camera space to samples, `samples` of them per image pixel and axis; nearness
 // 1/distance, 0 if behind.
 inline Projected project(const View& view, int samples, Vec3 p) {
   if (p.z > -1) return {0, 0, 0};

@@ -192,9 +192,9 @@ struct CornerUv {
   Uv mix(Vec3 w) const {
     return {w.x * a.u + w.y * b.u + w.z * c.u, w.x * a.v + w.y * b.v + w.z * c.v};
   }
-  // Half of the log of how much of the texture's area a picture pixel spans, `samples` grid samples
+  // Half of the log of how much of the texture's area an image pixel spans, `samples` grid samples
   // to a pixel and axis. With Texture::detail it is the mip level at which a texel is about half a
-  // picture pixel wide.
+  // image pixel wide.
   float span(const Edges& e, int samples) const {
     const float area = std::abs((b.u - a.u) * (c.v - a.v) - (c.u - a.u) * (b.v - a.v));
     return 0.5f * fast_log2(area * std::abs(e.inverse_area) * float(samples * samples) + 1e-14f);

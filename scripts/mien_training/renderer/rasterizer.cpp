@@ -13,7 +13,7 @@
 namespace mien::render {
 namespace {
 
-constexpr int kSamples = 2;  // per picture pixel and axis
+constexpr int kSamples = 2;  // per image pixel and axis
 // Samples of one part closer than this in depth count as one surface.
 constexpr float kSameSurfaceCm = 0.6f;
 
@@ -171,7 +171,7 @@ bool Renderer::one_surface(size_t first) const {
   return same;
 }
 
-// Notes the surfaces that a pixel shows, and puts what shows of the background into the picture.
+// Notes the surfaces that a pixel shows, and puts what shows of the background into the image.
 void Renderer::pixel(const Scene& scene, int x, int y, Vec3 background) {
   const size_t first = grid_.at(kSamples * x, kSamples * y);
   const size_t to = size_t(y) * size_t(scene.view.width) + size_t(x);
@@ -359,7 +359,7 @@ int renderer_add_texture(Renderer* renderer, const uint8_t* rgba, int width, int
   return int(renderer->textures.size()) - 1;
 }
 
-// Picture out [height,width,3] sRGB; visible [count] of points [count,3] (camera space, cm) with
+// Image out [height,width,3] sRGB; visible [count] of points [count,3] (camera space, cm) with
 // tolerance [count] (cm).
 void renderer_render(Renderer* renderer, const Scene* scene, uint8_t* out, const float* points,
                      const float* tolerance, int count, uint8_t* visible) {

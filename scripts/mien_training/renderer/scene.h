@@ -1,4 +1,4 @@
-// What a picture shows, as plain structs shared with ctypes (native.py mirrors them field by
+// What an image shows, as plain structs shared with ctypes (native.py mirrors them field by
 // field).
 #pragma once
 #include <cstdint>
@@ -31,10 +31,10 @@ struct Part {
 
 enum Mode : int32_t { kSkin, kInterior, kEye, kHair, kSolid, kLens, kLash };
 
-// Pictures that can be laid over one skin.
+// Images that can be laid over one skin.
 constexpr int32_t kOverlays = 6;
 
-// A picture laid over a rectangle of the skin: its red channel is the opacity of `colour`.
+// An image laid over a rectangle of the skin: its red channel is the opacity of `colour`.
 struct Overlay {
   int32_t texture;  // -1: none
   float rect[4];    // u0, v0, u1, v1
@@ -68,9 +68,9 @@ struct Light {
   float exposure;
 };
 
-// Picture pixel (x,y) = (u - x0, v - y0) * scale, (u,v) being pixels of the camera's picture.
+// Image pixel (x,y) = (u - x0, v - y0) * scale, (u,v) being pixels of the camera's image.
 struct View {
-  float f_px, centre_x, centre_y;  // of the camera's picture
+  float f_px, centre_x, centre_y;  // of the camera's image
   float x0, y0, scale;
   int32_t width, height;
 };

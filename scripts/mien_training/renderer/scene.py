@@ -44,7 +44,7 @@ class Studio:
         self.make_up = make_up.pictures(rig)
 
     def texture(self, *parts, wrap=False):
-        """Number of a picture of the rig pack, or of any file."""
+        """Number of an image of the rig pack, or of any file."""
         if parts not in self.textures:
             self.textures[parts] = self.rasterizer.add_texture(picture(pack(*parts)), wrap)
         return self.textures[parts]

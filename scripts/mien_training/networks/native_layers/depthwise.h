@@ -1,5 +1,5 @@
-// A 3x3 depthwise convolution of one picture, a vector of channels at a time, in fp32: what the
-// units of a block are made of. It goes through the picture row by row, and what it needs of the
+// A 3x3 depthwise convolution of one image, a vector of channels at a time, in fp32: what the
+// units of a block are made of. It goes through the image row by row, and what it needs of the
 // map before it is made when its turn comes, so that a few rows are all there ever is of it and
 // stay in the nearest cache.
 #pragma once

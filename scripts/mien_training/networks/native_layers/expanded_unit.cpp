@@ -2,7 +2,7 @@
 // channels to many, norm and ReLU6, a 3x3 depthwise convolution, norm and ReLU6. Maps are
 // [images][height][width][channels], fp32 or bfloat16; x has `narrow` channels, slid and y have
 // shape.channels. The expanded map, the largest of all, is never stored: a vector of channels of
-// one picture at a time are made from x, and again on the way back. Its moments follow from those
+// one image at a time are made from x, and again on the way back. Its moments follow from those
 // of x, since it is linear in x: mean z = W mean x, E[z z'] = W E[x x'] W'. So do the terms by
 // which they take part in the gradients. The expanding weights are of the map's type.
 #include "depthwise.h"
@@ -214,7 +214,7 @@ void backward(DepthwiseShape shape, std::size_t narrow, const T* dy, const T* x,
   Along<T> along_x(shape.height, shape.width, narrow), along_dz(1, shape.width, kLanes);
   const std::size_t vectors = along_x.vectors();
   std::vector<T> by_channel_dz(shape.width * kLanes);
-  std::vector<Lanes> towards_x(g.pixels() * vectors);  // the gradient by a picture of x
+  std::vector<Lanes> towards_x(g.pixels() * vectors);  // the gradient by an image of x
   Totals sums;
   std::vector<double> dweights(kTaps * shape.channels), products(shape.channels * narrow);
   for (std::size_t i = 0; i < shape.images; ++i) {
