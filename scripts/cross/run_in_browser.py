@@ -7,7 +7,7 @@ import sys
 import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tests" / "apps"))
-import chromium
+import chromium  # noqa: E402
 
 PAGE = """<!DOCTYPE html><meta charset="utf-8"><title>%(name)s</title><script>
 const lines = [];
