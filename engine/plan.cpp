@@ -115,11 +115,12 @@ void Plan::fuse_additions() {
   }
 }
 
-// Whether only the next layer reads this layer's output and a fused block supports its activation.
+// Whether only the next layer, which must exist, reads this layer's output, and a fused block
+// supports its activation.
 bool Plan::has_single_fusable_consumer(std::uint32_t layer) const {
   const Value& value = values_[layer + 1];
-  return layer + 1 < layer_count() && layers_[layer + 1].input == layer + 1 && value.readers == 1 &&
-         !value.is_output && fuses(layers_[layer]);
+  return layers_[layer + 1].input == layer + 1 && value.readers == 1 && !value.is_output &&
+         fuses(layers_[layer]);
 }
 
 // Fuses each depthwise layer with the next pointwise layer and, if possible, the previous one.

@@ -333,21 +333,21 @@ class Convert(unittest.TestCase):
         self.assertAlmostEqual(last["head"]["yaw_rad"], 0.5, places=6)
 
     def test_gltf_tracks_with_times_of_their_own(self):
-        """The head has keys at 0 and 1 s only; it is interpolated at the times of the weights."""
-        parts = [struct.pack("<3f", 0, 0.25, 1), struct.pack("<3f", 0, 0.75, 1), struct.pack("<2f", 0, 1),
+        """The head has keys at 0 and 1 s only; it is interpolated at the times of the weights. Unknown targets are ignored."""
+        parts = [struct.pack("<3f", 0, 0.25, 1), struct.pack("<6f", 0, 7, 0.75, 7, 1, 7), struct.pack("<2f", 0, 1),
                  struct.pack("<8f", 0, 0, 0, 1, 0, math.sin(0.25), 0, math.cos(0.25))]
         data, starts = b"".join(parts), [sum(map(len, parts[:i])) for i in range(len(parts))]
-        kinds = (("SCALAR", 3), ("SCALAR", 3), ("SCALAR", 2), ("VEC4", 2))
+        kinds = (("SCALAR", 3), ("SCALAR", 6), ("SCALAR", 2), ("VEC4", 2))
         document = {
             "asset": {"version": "2.0"}, "buffers": [{"byteLength": len(data), "uri": "data:;base64," + base64.b64encode(data).decode()}],
             "bufferViews": [{"buffer": 0, "byteOffset": start, "byteLength": len(part)} for start, part in zip(starts, parts)],
             "accessors": [{"bufferView": i, "componentType": 5126, "type": kind, "count": count} for i, (kind, count) in enumerate(kinds)],
-            "meshes": [{"primitives": [], "extras": {"targetNames": ["jawOpen"]}}], "nodes": [{"mesh": 0}, {"name": "Head"}],
+            "meshes": [{"primitives": [], "extras": {"targetNames": ["jawOpen", "browRoll"]}}], "nodes": [{"mesh": 0}, {"name": "Head"}],
             "animations": [{"samplers": [{"input": 0, "output": 1}, {"input": 2, "output": 3}],
                             "channels": [{"sampler": 0, "target": {"node": 0, "path": "weights"}},
                                          {"sampler": 1, "target": {"node": 1, "path": "rotation"}}]}]}
         self.write("times.gltf", json.dumps(document))
-        self.convert("times.gltf", "times.jsonl")
+        self.assertNotIn("clamped", self.convert("times.gltf", "times.jsonl"))
         frames = self.frames_of("times.jsonl")
         self.assertEqual([frame["t_ns"] for frame in frames], [0, 250_000_000, 1_000_000_000])
         self.assertEqual([frame["controls"]["jawOpen"] for frame in frames], [0, 0.75, 1])
