@@ -55,20 +55,25 @@ class Portraits:
 
 
 class Rendered:
-    """All shards there are; `refresh` takes up those that came since."""
+    """All shards there are; `refresh` takes up those that came since and drops those that were deleted."""
 
     def __init__(self, *kinds, framing=BASENET):
         self.kinds, self.window = [framing.folder(k) for k in kinds], framing.window
-        self.shards, self.known = [], set()
+        self.known = {}
         self.refresh()
 
     def refresh(self):
-        for kind in self.kinds:
-            for folder in sorted((cache() / "synthetic" / kind).glob("shard_*")):
-                if folder not in self.known and (folder / "labels.npz").exists():
-                    self.known.add(folder)
-                    self.shards.append((np.load(folder / "images.npy", mmap_mode="r"),
-                                        dict(np.load(folder / "labels.npz"))))
+        folders = [folder for kind in self.kinds for folder in sorted((cache() / "synthetic" / kind).glob("shard_*"))]
+        self.known = {folder: self.known.get(folder) or self.load(folder) for folder in folders}
+        self.shards = [shard for shard in self.known.values() if shard]
+
+    @staticmethod
+    def load(folder):
+        """(images, labels); None of a shard that another process deletes meanwhile."""
+        try:
+            return np.load(folder / "images.npy", mmap_mode="r"), dict(np.load(folder / "labels.npz"))
+        except FileNotFoundError:
+            return None
 
     def __len__(self):
         return sum(len(images) for images, _ in self.shards)

@@ -7,7 +7,9 @@ head in camera space; f_px [n]; camera_wh [n,2]; visibility [n,175]; identity, s
 of the shard and --frames determine a shard; finished shards are kept.
 """
 import argparse
+import itertools
 import os
+import shutil
 from functools import partial
 from multiprocessing import Pool
 from pathlib import Path
@@ -141,20 +143,39 @@ def work(job):
     studio, framing = None, FRAMINGS[args.framing]
     perform = expressions.sample_sequence if args.kind == "sequences" else partial(
         expressions.sample_stills, leaning=args.leaning, apart=args.apart)
-    for shard in range(worker, -(-args.count // per_shard), args.workers):
-        folder = args.out / framing.folder(f"{args.split}_{args.kind}") / f"shard_{shard:04d}"
+    place = args.out / framing.folder(f"{args.split}_{args.kind}")
+    for shard in numbers_of(args, per_shard, place, worker):
+        folder = place / f"shard_{shard:04d}"
         if folder.exists():
             continue
         studio = studio or Studio(Rig())
-        count = min(per_shard, args.count - shard * per_shard)
+        count = per_shard if args.keep else min(per_shard, args.count - shard * per_shard)
         write_shard(studio, framing, folder, args, shard, count, perform, worker)
+        delete_old(place, args.keep)
+
+
+def numbers_of(args, per_shard, place, worker):
+    """The shards of a worker: those of --count, or with --keep all that follow the last one there is."""
+    if not args.keep:
+        return range(worker, -(-args.count // per_shard), args.workers)
+    last = max((int(shard.name.split("_")[1]) for shard in place.glob("shard_*")), default=-1)
+    return itertools.count((last // args.workers + 1) * args.workers + worker, args.workers)
+
+
+def delete_old(place, keep):
+    """A process that has mapped the images of a deleted shard keeps them until it refreshes."""
+    for shard in sorted(place.glob("shard_*"))[:-keep] if keep else ():
+        shutil.rmtree(shard, ignore_errors=True)  # another worker may do the same
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--split", choices=SPLITS, required=True)
     parser.add_argument("--kind", choices=KINDS, required=True)
-    parser.add_argument("--count", type=int, required=True, help="stills or sequences in all")
+    amount = parser.add_mutually_exclusive_group(required=True)
+    amount.add_argument("--count", type=int, help="stills or sequences in all")
+    amount.add_argument("--keep", type=int, metavar="SHARDS",
+                        help="renders until it is stopped and deletes the oldest shards beyond so many")
     parser.add_argument("--framing", choices=FRAMINGS, default=BASENET.name)
     parser.add_argument("--frames", type=int, default=FRAMES, help="of a sequence")
     parser.add_argument("--leaning", type=float, default=0, help="share of stills whose expression leans to one side")
