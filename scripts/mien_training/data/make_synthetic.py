@@ -21,6 +21,7 @@ from mien_training.data import expressions
 from mien_training.data.framing import BASENET, FRAMINGS
 from mien_training.paths import cache
 from mien_training.renderer import background, camera, lighting, look, motion, props
+from mien_training.renderer.assets import note_missing_skins
 from mien_training.renderer.rig import Rig
 from mien_training.renderer.scene import Figure, Scene, Studio
 
@@ -191,6 +192,7 @@ def main():
         parser.error("--leaning, --apart and --turned are for stills")
     if args.data:
         os.environ["MIEN_DATA"] = str(args.data.resolve())
+    note_missing_skins(args.split)
     jobs = [(args, worker) for worker in range(args.workers)]
     if args.workers == 1:
         work(jobs[0])

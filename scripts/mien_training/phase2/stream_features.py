@@ -21,6 +21,7 @@ from mien_training.data.framing import HIFINET
 from mien_training.data.sequences import BaseNetView, HiFiNetView, Sequences, crop_to_image, extract
 from mien_training.networks.architectures import FEATURES
 from mien_training.paths import cache
+from mien_training.renderer.assets import note_missing_skins
 from mien_training.renderer.rig import Rig
 from mien_training.renderer.scene import Studio
 
@@ -113,6 +114,7 @@ def main():
     parser.add_argument("--seed", type=int, default=21)
     args = parser.parse_args()
     torch.set_num_threads(1)
+    note_missing_skins(args.split)
     with torch.no_grad():
         work(args, *map(int, args.worker.split("/")))
 

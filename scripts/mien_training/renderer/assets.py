@@ -6,6 +6,7 @@ name is <skin of the pack>+<portrait>, and they continue with that skin where th
 import functools
 import json
 import re
+import sys
 
 import numpy as np
 from PIL import Image
@@ -37,6 +38,13 @@ def portrait_skins():
     for name, group in zip(found, groups):
         out.setdefault(re.sub("^GRID.*", "GRID", group), []).append(name)
     return out
+
+
+def note_missing_skins(split):
+    """Says that training people get the pack's few skins only; a decoder of such people learns less."""
+    if split == "train" and not portrait_skins():
+        print("note: no skins of portraits in the cache, so all people have a skin of the rig's pack; "
+              "mien_training.renderer.portrait_fit and portrait_skins make them", file=sys.stderr, flush=True)
 
 
 def skin_file(name, tile):
