@@ -86,7 +86,7 @@ def not_negative(t, x):
 
 
 def clipped(t, x, low, high):
-    """By what activations there are: relu, relu6, and a clamp to 0..1 between a scaling there and back."""
+    """Uses the existing activations: relu, relu6, and a clamp to 0..1 between scalings."""
     if low == -math.inf and high == math.inf:
         return x
     if low == -math.inf:  # high - relu(high - x)

@@ -5,8 +5,8 @@ import os
 
 @contextlib.contextmanager
 def whole(path):
-    """A binary file to write. One process at a time may write to a path; what a killed one left beside it is
-    overwritten."""
+    """A binary file for writing that replaces `path` when it is complete. One process at a time may write to a path; it
+    overwrites the remains of a killed process."""
     partial = f"{os.fspath(path)}.partial"
     try:
         with open(partial, "wb") as out:

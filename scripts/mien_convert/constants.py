@@ -66,8 +66,8 @@ FUNCTIONS = {
 
 
 def evaluated(node, opset):
-    """An operator on constants by ONNX's own reference, if ONNX's own shape inference says that its results are not too
-    large."""
+    """An operator on constants, computed by ONNX's reference evaluator if ONNX's shape inference shows that its results
+    are not too large."""
     require(ReferenceEvaluator is not None,
             f"onnx {onnx.__version__} computes no constants: pip install 'onnx>=1.15', or fold constants before "
                                             "(onnxsim)")

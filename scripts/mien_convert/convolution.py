@@ -112,7 +112,7 @@ def conv_over_map(t, x, weight, bias, groups, strides, padding):
 
 
 def folded_into_conv(t, x, weight, bias, depthwise, padded):
-    """What waits to be scaled and shifted goes into the weights; a shift only where no zeros are read beside it."""
+    """Folds a pending scale and shift into the weights; a shift only if the layer reads no zeros beside the map."""
     if x.is_plain() or (x.at < 0).any():
         return t.settled(x), weight, bias
     try:
@@ -252,7 +252,7 @@ def fused_conv(t, node):
 
 
 class Part:
-    """A node that stands for a part of another."""
+    """A node that represents a part of another node."""
 
     def __init__(self, node, inputs, attributes=None):
         self.inputs = inputs

@@ -20,7 +20,7 @@ def require(condition, message):
 
 
 def in_a_line(error):
-    """What an exception says, for some of others say it in several lines."""
+    """The message of an exception as one line."""
     return " ".join(str(error).split())
 
 

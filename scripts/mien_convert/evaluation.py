@@ -21,7 +21,7 @@ def rounded(values):
 
 
 def in_two_parts(values):
-    """What the sum of two numbers of fp16 holds."""
+    """Rounded to a sum of two fp16 numbers."""
     high = rounded(values)
     return high + rounded(values - high)
 
@@ -32,7 +32,7 @@ def tensors_of(layer):
 
 
 def value_of(layer, inputs, weights_as, slopes_as):
-    """The functions say what becomes of its tensors."""
+    """The output of a layer; the functions transform its tensors."""
     options = {name: weights_as(value) if name in TENSORS else value for name, value in layer.options.items()}
     y = OPERATIONS[layer.op](*inputs, layer, **options)
     kind = layer.activation.get("activation")
@@ -45,7 +45,7 @@ def value_of(layer, inputs, weights_as, slopes_as):
 
 
 def windows(x, weight, stride, padding, fill=0.0):
-    """For each tap of a window: the taps' place and what lies under it, [n, H, W, c]."""
+    """For each tap of a window: its row and column, and the values under it, [n, H, W, c]."""
     top, left, bottom, right = padding
     kh, kw = weight
     h, w = window_count(x.shape[1], kh, stride[0], top, bottom), window_count(x.shape[2], kw, stride[1], left, right)

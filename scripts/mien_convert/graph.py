@@ -39,14 +39,14 @@ def operator_of(node):
 
 
 class Guess:
-    """What the axes of the input are: the time axis or None, and whether channels come last."""
+    """The meaning of the input axes: the time axis or None, and whether channels come last."""
 
     def __init__(self, time_axis=None, channels_last=False):
         self.time_axis, self.channels_last = time_axis, channels_last
 
 
 def guesses(graph, shape, time_axis):
-    """In the order in which they are tried. time_axis: None (any), -1 (no time), or what the user says."""
+    """Guesses in the order of trial. time_axis: None (any), -1 (no time), or the value that the user gives."""
     images = [Guess(None, True), Guess()] if len(shape) == 4 and shape[3] and shape[3] <= 4 < (shape[1] or 0) else [
         Guess(), Guess(None, True)]
     plain = images if len(shape) == 4 else [Guess()]
@@ -269,8 +269,8 @@ def same_elements(value, following, shape):
 
 
 def converted(graph, shapes, time_axis=None):
-    """The first guess that works, or what stopped the one that came furthest. One that has to rearrange its input is
-    taken for wrong if another works, where channels may be last."""
+    """The result of the first guess that works, or the error of the one that came furthest. If channels may be last, a
+    guess that must rearrange its input is rejected if another one works."""
     furthest = rearranging = None
     for guess in guesses(graph, shapes.get(next(iter(graph.inputs)), next(iter(graph.inputs.values()))), time_axis):
         try:

@@ -40,14 +40,14 @@ def slid(shape, kernel, stride, padding, channels):
 
 
 def identity_conv(x):
-    """The same map as a layer of its own, for what cannot read an interleaved image."""
+    """The same map as a separate layer, for layers that cannot read an interleaved image."""
     c = x.shape[2]
     return Layer("conv2d", [x], x.shape, x.node, weight=np.eye(c).reshape(c, c, 1, 1), bias=np.zeros(c), stride=(1, 1),
                  padding=(0, 0, 0, 0))
 
 
 class Network:
-    """What the passes work on: the layers that outputs need, in order."""
+    """The layers that outputs need, in order; passes transform it."""
 
     def __init__(self, source, outputs):
         self.source, self.outputs = source, list(outputs)
@@ -59,7 +59,7 @@ class Network:
             self.sort()
 
     def sort(self):
-        """Inputs before those who read them; whom nobody needs is gone."""
+        """Orders layers after their inputs, and removes layers without readers."""
         self.layers, done = [], {id(self.source)}
         pending = list(reversed(self.outputs))
         while pending:
@@ -87,7 +87,7 @@ class Network:
         self.outputs = [new if x is old else x for x in self.outputs]
 
     def merge_affines(self):
-        """Of two behind each other one is left, and none of those that change nothing."""
+        """Merges consecutive affine layers, and removes those that change nothing."""
         for layer in list(self.layers):
             if layer.op != "affine":
                 continue
@@ -101,7 +101,8 @@ class Network:
             self.sort()
 
     def fuse_curves(self):
-        """What exporters write as several operators: x sigmoid(x), x relu6(x + 3), x (1 + erf(x / sqrt 2))."""
+        """Merges activations that exporters write as several operators: x sigmoid(x), x relu6(x + 3), x (1 + erf(x /
+        sqrt 2))."""
         for layer in list(self.layers):
             if layer.op != "multiply" or layer.inputs[0].shape != layer.inputs[1].shape:
                 continue
@@ -130,7 +131,7 @@ class Network:
                 self.sort()
 
     def merge_activations(self):
-        """What clamps below at 0 needs no ReLU before it."""
+        """Removes a ReLU before a clamp at 0."""
         for layer in list(self.layers):
             before = layer.inputs[0]
             if layer.activation.get("activation") in ("relu", "relu6", "clamp01") and before.op == "activation" \
@@ -165,7 +166,7 @@ class Network:
                     layer.inputs[1] = layer.inputs[1].inputs[0]
 
     def merge_rearrangements(self):
-        """What is read in the order in which another has put it."""
+        """Merges consecutive rearrangements."""
         for layer in list(self.layers):
             before = layer.inputs[0]
             if layer.op == before.op == "rearrange" and layer.options["order"] == "hwc" and self.alone(before):
@@ -203,7 +204,7 @@ def is_uniform(layer, scale, shift):
 
 
 def activated_by(layer, kind):
-    """What an activation reads; None if it is another layer."""
+    """The input of an activation layer; None for another layer."""
     return layer.inputs[0] if layer.op == "activation" and layer.activation == {"activation": kind} else None
 
 

@@ -73,7 +73,7 @@ def array(proto, folder):
 
 
 def with_external_data(proto, folder):
-    """The same weights with the bytes that lie in a file beside the model's."""
+    """The same weights with the bytes of a file beside the model's."""
     entries = {entry.key: entry.value for entry in proto.external_data}
     name, location = f"weights {proto.name!r}", entries.get("location", "")
     path = (folder / location).resolve()

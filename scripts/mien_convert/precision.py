@@ -28,7 +28,7 @@ class Precision:
 
 
 def kept_precise(network, is_stream, allowed):
-    """Splits layers of a network where `allowed`; what was found."""
+    """Splits layers of a network where `allowed`; returns a report."""
     search = Search(network, is_stream)
     if not search.coarse:
         return Precision()
@@ -73,8 +73,8 @@ class Search:
         return Precision(before, after, candidates[:most])
 
     def ordered(self, candidates):
-        """First those without which the error is large, then by what keeping them precise brings and costs. The
-        cheapest come first where it takes too long to find that out."""
+        """Layers without which the error is large come first, then the others by benefit and cost. If that takes too
+        long to measure, the cheapest come first."""
         if len(candidates) / 2 * sum(map(work, self.layers)) > MOST_WORK:
             return sorted(candidates, key=work)
         one = slice(None) if self.is_stream else slice(1)
@@ -83,7 +83,7 @@ class Search:
                       key=lambda layer: (errors[id(layer)] <= AIM / 2, -errors[id(layer)] ** 2 / work(layer)))
 
     def error(self, coarse, precise, taken=slice(None)):
-        """Of the outputs for the inputs taken, when `coarse` layers have rounded weights, except those that are kept
+        """Error of the outputs for sample inputs if `coarse` layers have rounded weights, except those that are kept
         `precise`."""
         weights_as = {id(layer): rounded for layer in coarse} | {id(layer): in_two_parts for layer in precise}
         slopes_as = {id(layer): rounded for layer in coarse}

@@ -10,7 +10,7 @@ MOST_DELAYS = 1000  # of one convolution: each becomes a layer, of which a file 
 
 
 def conv_over_time(t, x, weight, bias, before, after, dilation):
-    """[1, c, t], steps of the stream between columns of what was before it and columns of what is after it."""
+    """[1, c, t], steps of the stream between columns of earlier and of later steps."""
     require(x.shape[0] == 1, f"a batch of {x.shape[0]}")
     reach = (weight.shape[2] - 1) * dilation
     require(0 <= reach <= MOST_DELAYS, f"a convolution that reaches back {reach} steps; at most {MOST_DELAYS}")

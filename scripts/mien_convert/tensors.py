@@ -70,7 +70,7 @@ def per_channel(layer, at, values, neutral):
 
 
 def along(array, other_axes, message):
-    """What is the same along those axes, without them."""
+    """The values that are constant along those axes, without the axes."""
     first = array[tuple(slice(0, 1) if axis in other_axes else slice(None) for axis in range(array.ndim))]
     require((array == first).all(), message)
     return first.reshape([n for axis, n in enumerate(array.shape) if axis not in other_axes])

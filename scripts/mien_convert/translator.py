@@ -88,7 +88,7 @@ class Translator:
                 tensors.per_channel(layer, tensor.at[mine], tensor.shift[mine], 0.0))
 
     def settled(self, tensor):
-        """The same with scale 1 and shift 0 but for constants: what waited becomes layers."""
+        """The same tensor with scale 1 and shift 0, except for constants: pending scales and shifts become layers."""
         if tensor.is_plain():
             return tensor
         if not self.steps and not self.is_per_channel(tensor):
@@ -134,7 +134,7 @@ class Translator:
         return sizes[np.maximum(at, 0) >> BITS]
 
     def one_step(self, at):
-        """[s, ...], the last steps of the stream -> what each step holds, as elements of step 0."""
+        """[s, ...], the last steps of the stream, to the values of each step as elements of step 0."""
         size = self.sizes(at)
         step = np.where(at >= 0, (at & MASK) // size, 0)
         at = np.where(at >= 0, at - step * size, at)
@@ -146,8 +146,8 @@ class Translator:
     # -- maps ------------------------------------------------------------
 
     def as_map(self, tensor, rearranges=True):
-        """[s, c, h, w] as one layer with exactly that map; makes slices and concatenations where it has to, and layers
-        that rearrange elements where that is not enough and `rearranges` allows it."""
+        """[s, c, h, w] as one layer with exactly that map. Adds slices and concatenations if necessary, and layers that
+        rearrange elements if these do not suffice and `rearranges` allows it."""
         tensor = self.settled(tensor)
         require(not (tensor.at == tensors.FUTURE).any(), "it reads steps that have not come")
         constant = tensor.at == NOTHING
@@ -197,7 +197,7 @@ class Translator:
         return number[bounds[:-1]].tolist(), bounds
 
     def place_of_block(self, layer, at):
-        """Where [c, h, w] begins, which has to be a part of the layer's map."""
+        """The position of [c, h, w], which must be a part of the layer's map."""
         h, w, c = layer.shape
         begin = first, y, x = [int(n) for n in np.unravel_index(int(at[0, 0, 0] & MASK), (c, h, w))]
         inside = all(b + n <= size for b, n, size in zip(begin, at.shape, (c, h, w)))
@@ -229,7 +229,7 @@ class Translator:
                           padding=(kh - 1, kw - 1, kh - 1, kw - 1))
 
     def rearranged(self, at):
-        """[c, h, w] of any elements, which have to be pieces of layers."""
+        """[c, h, w] of any elements, which must be pieces of layers."""
         c, h, w = at.shape
         try:
             pieces = self.pieces(at.transpose(1, 2, 0).reshape(-1))
@@ -298,8 +298,8 @@ class Translator:
         return layer, steps, back
 
     def arranged_alike(self, given, channel_axis=None):
-        """The same for tensors of which the first is the largest, and the others have ones where they are broadcast.
-        Elements of the first are rearranged only where nothing else helps."""
+        """The same for several tensors. The first is the largest; the others have size 1 where they are broadcast.
+        Elements of the first are rearranged only if nothing else helps."""
         given, refusal = [self.settled(tensor) for tensor in given], None
         shape = given[0].shape
         for first, others in ((False, False), (False, True), (True, True)):
@@ -325,7 +325,7 @@ class Translator:
     # -- dense layers ------------------------------------------------------------
 
     def rows(self, tensor):
-        """[r, n], each row a step: what a step holds, and the scales and shifts, all [n]."""
+        """[r, n], each row a step: the values of a step, and the scales and shifts, all [n]."""
         require(not (tensor.at == tensors.FUTURE).any(), "it reads steps that have not come")
         message = "the steps are scaled differently"
         return Tensor(self.one_step(tensor.at), tensors.along(tensor.scale, [0], message),

@@ -207,7 +207,8 @@ class Network:
         return self._add(_Layer("concat", [a, b], self._shape(a)[2] + self._shape(b)[2]), [], options)
 
     def slice(self, x, first_channel, channels, padding=0, **options):
-        """Channels from the first on, without so many rows and columns at the (top, left, bottom, right)"""
+        """`channels` channels from the first on, without the rows and columns of the padding (top, left, bottom, right)
+        """
         layer = _Layer("slice", [x], channels, padding=padding)
         layer.first_channel = first_channel
         return self._add(layer, [], options)

@@ -19,7 +19,7 @@ LETTERS = {"a": "ay", "z": "zed"}  # GRID's readers are British, and say A by it
 
 
 def words_of(group, name, text):
-    """Phonemes of each word that is said; none if nobody knows."""
+    """Phonemes of each spoken word; None if the words are unknown."""
     if group in corpus.SENTENCES:
         return [sum(espeak.words_to_phonemes(LETTERS.get(word, word)), ())
                 for word, _, _ in corpus.words_of_clip(group, name)]
@@ -70,7 +70,7 @@ def timed(scores, words, seconds):
 
 
 def spoken_of(path, said, seconds):
-    """Spoken, of the phoneme of every step; a new one begins where the path goes on."""
+    """Spoken from the phoneme of each step; a new one begins where the path advances."""
     changes = np.flatnonzero(np.diff(path, prepend=-1))
     starts = np.maximum((changes - 2) * STEP, 0)  # a step speaks of the middle of its windows
     return labels.Spoken([int(said[c]) for c in changes], [float(t) for t in starts], seconds)

@@ -83,7 +83,7 @@ class Decoder(nn.Module):
 
 
 class PhonemeHeads(nn.Module):
-    """In training only. `sequence`: log-probabilities for CTC, blank first; `frame`: scores of what is said at each
+    """Only for training. `sequence`: log-probabilities for CTC, blank first; `frame`: scores of the phoneme of each
     step."""
 
     def __init__(self):

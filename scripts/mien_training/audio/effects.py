@@ -13,7 +13,7 @@ from mien_training.audio.features import RATE
 
 
 def played(sound, speed):
-    """Resampled to be `speed` times as fast: pitch and formants move too, as of a smaller person."""
+    """Resampled to `speed` times the speed: pitch and formants change as well, as for a smaller person."""
     count = int(len(sound) / speed)
     return np.interp(np.arange(count) * speed, np.arange(len(sound)), sound).astype(np.float32)
 
@@ -114,7 +114,7 @@ def impulses(rng, count):
 
 
 def call(rng, count):
-    """A voice that says nothing: harmonics of a pitch that glides and trembles, as of animals, hinges and sirens."""
+    """Harmonics of a pitch that glides and trembles, as of animals, hinges and sirens."""
     t = np.arange(count, dtype=np.float32) / count
     octaves = rng.uniform(-1, 1) * t + rng.uniform(-0.7, 0.7) * np.sin(np.pi * t)
     octaves += rng.uniform(0, 0.05) * np.sin(2 * np.pi * rng.uniform(3, 12) * t * count / RATE)

@@ -124,7 +124,7 @@ def noise_scene(rng, split, seconds):
 
 
 class Endless(torch.utils.data.IterableDataset):
-    """What `make` makes, for ever, from a seed; each worker its own."""
+    """Endless output of `make` from a seed, which differs between workers."""
 
     def __init__(self, seed):
         self.seed = seed

@@ -59,7 +59,7 @@ def add_decoder(file, name, decoder, activation):
 
 
 class Folded:
-    """What the file says, in PyTorch: convolutions with all norms in them, weights as fp16 unless `exact`."""
+    """The network of the file in PyTorch: convolutions with all norms folded, weights in fp16 unless `exact`."""
 
     def __init__(self, encoder, decoders, exact=False):
         stored = (lambda v: v.detach()) if exact else (lambda v: v.detach().half().float())

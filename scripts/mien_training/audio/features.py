@@ -13,7 +13,7 @@ HIGH_PASS = 1 - 2 * np.pi * 20 / RATE
 
 
 def seconds_of_steps(steps):
-    """Of what time each of the first `steps` steps speaks: the middle of its five windows."""
+    """Time of each of the first `steps` steps: the centre of its five windows."""
     return (np.arange(steps) - 1.5) * STEP
 
 
@@ -38,7 +38,7 @@ def without_offset(sound):
 
 
 def mfcc(sound, warp=1.0):
-    """f32 [..., samples] -> f32 [..., windows, 26]; what does not fill a window is left out."""
+    """f32 [..., samples] -> f32 [..., windows, 26]; an incomplete window is left out."""
     sound = np.float32(sound)[..., :sound.shape[-1] // WINDOW * WINDOW]
     before = np.concatenate([np.zeros_like(sound[..., :1]), sound[..., :-1]], -1)
     window, bands, cosines = tables(warp)
@@ -59,6 +59,6 @@ def packed(coefficients):
 def features(sound, warp=1.0):
     """f32 [..., samples] in -1..1 at 16 kHz -> f32 [..., steps, 130]
 
-    `warp`, for training: as of a vocal tract that much longer (VTLP: Jaitly, Hinton 2013).
+    `warp`, for training: length of the vocal tract relative to the speaker's (VTLP: Jaitly, Hinton 2013).
     """
     return packed(mfcc(without_offset(np.clip(sound, -1, 1)), warp))

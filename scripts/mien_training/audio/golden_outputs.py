@@ -53,7 +53,7 @@ def run(layers, x):
 
 @torch.no_grad()
 def outputs(path, x):
-    """[n,t,130] -> embedding, controls, activity, by what the file says."""
+    """[n,t,130] -> embedding, controls and voice activity of the networks of a file."""
     networks = weight_reader.networks(path)
     embedding = run(networks["encoder"], x)
     return embedding, run(networks["controls_decoder"], embedding).clamp(0, 1), run(networks["activity_decoder"],

@@ -17,7 +17,7 @@ def phoneme_losses(sequence, frame, frames, said, lengths):
 
 
 def controls_loss(said, controls, weights, importance):
-    """Smooth L1 of position and of what changes from step to step, each control relative to its spread."""
+    """Smooth L1 of position and of the difference between steps, each control relative to its spread."""
     weight = weights * importance
     position = F.smooth_l1_loss(said, controls, beta=BETA, reduction="none")
     speed = F.smooth_l1_loss(said.diff(dim=1), controls.diff(dim=1), beta=SPEED_BETA, reduction="none")
@@ -25,7 +25,7 @@ def controls_loss(said, controls, weights, importance):
 
 
 def importance_of(controls):
-    """1/spread of each control, at most 20; jawOpen, which is what one sees most, three times."""
+    """1/spread of each control, at most 20; jawOpen, the most visible, three times."""
     out = 1 / controls.flatten(0, -2).std(0).clamp(min=0.05)
     out[SPEECH_CONTROLS.index("jawOpen")] *= 3
     return out / out.mean()

@@ -50,8 +50,8 @@ def variants():
 
 
 class Texts:
-    """Sentences from a seed: spans of what readers of the training set said, GRID-like, orders, and words nobody
-    knows."""
+    """Random sentences: parts of transcripts of the training set, sentences like those of GRID, commands, and invented
+    words."""
 
     def __init__(self, rng, held=False):
         self.rng, self.held = rng, held
@@ -68,8 +68,7 @@ class Texts:
         return " ".join(str(self.rng.choice(part)) for part in grammar)
 
     def unknown(self):
-        """Syllables of any consonants and vowels, in espeak-ng's phonemes: nothing can be guessed from what went
-        before."""
+        """Syllables of random consonants and vowels in espeak-ng's phonemes, which no context predicts."""
         words = []
         for _ in range(self.rng.integers(2, 6)):
             syllables = [str(self.rng.choice(CONSONANTS)) + ("'" if k == 0 else "") + str(self.rng.choice(VOWELS))
@@ -107,7 +106,7 @@ def say_flite(rng, texts, voice):
 
 
 def say_festival(rng, texts, voice):
-    """The same of Festival; its segments, too, end at their times."""
+    """The same with Festival; its segments end at their times as well."""
     text = re.sub(r"[^a-z' ]", "", texts.sample(False).lower())
     with tempfile.TemporaryDirectory() as out:
         script = f"""(voice_{voice}) (Parameter.set 'Duration_Stretch {rng.uniform(0.75, 1.35):.2f})
@@ -121,7 +120,7 @@ def say_festival(rng, texts, voice):
 
 
 def recorded_voices(split):
-    """(function, voice) of what is installed."""
+    """(function, voice) of the installed voices."""
     programs = (("flite", say_flite, FLITE_VOICES), ("festival", say_festival, FESTIVAL_VOICES))
     return [(say, voice) for program, say, voices in programs if shutil.which(program) for voice, s in voices.items()
             if s == split]

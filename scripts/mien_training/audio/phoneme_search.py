@@ -16,7 +16,7 @@ WEIGHT, BONUS = 0.3, 0.8   # of the n-grams' logarithm; for each phoneme: chosen
 
 
 def sentences():
-    """Phonemes of what training readers read, as transcribed or as heard."""
+    """Phonemes of the training readers, from transcripts or recognized."""
     train = {s.name for name in ("librispeech_text", "librispeech") for s in corpus.Group(name).of("train")}
     texts = [text for name, text in (corpus.transcripts() | corpus.heard("librispeech")).items() if name in train]
     return [[p for word in espeak.words_to_phonemes(text) for p in word] for text in texts]
@@ -24,7 +24,7 @@ def sentences():
 
 @functools.lru_cache(None)
 def likelihoods():
-    """log p [phoneme] * ORDER: of the last one after those before it; silence stands for the beginning."""
+    """log p [phoneme] * ORDER: of the last phoneme given those before it; silence stands for the beginning."""
     shape = (len(phonemes.NAMES),)
     counts = [np.zeros(shape * n) for n in range(1, ORDER + 1)]
     for said in sentences():

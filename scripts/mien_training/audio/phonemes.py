@@ -46,5 +46,5 @@ def of_flite(phone):
 
 
 def without_repeats(labels):
-    """What a frame-wise answer says: no silence, no repetition."""
+    """The phonemes of a framewise output, without silence and repetitions."""
     return [b for a, b in zip([SILENCE, *labels], labels) if b != a and b != SILENCE]

@@ -17,7 +17,7 @@ MISSING = 0.08  # how often one of the upper formants is left out
 
 
 def formant(rng, number, size):
-    """A line of a variant: frequency, strength and width in per cent of what the language has."""
+    """A line of a variant: frequency, strength and width in percent of the language's."""
     spread = {1: 0.22, 2: 0.13}.get(number, 0.1)
     frequency = 100 * size * np.exp(rng.normal(0, spread))
     strength = 100 * np.exp(rng.normal(0, 0.25))
@@ -58,7 +58,7 @@ def installed_data():
 
 
 def folder():
-    """Where eSpeak NG finds the made variant beside its own: a copy of its data."""
+    """A copy of eSpeak NG's data with the random variants."""
     out = corpus.folder() / "espeak"
     if not (out / "espeak-ng-data").exists():
         shutil.rmtree(out, ignore_errors=True)

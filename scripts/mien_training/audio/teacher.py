@@ -86,8 +86,7 @@ def clips(group="av"):
 
 @functools.lru_cache(None)
 def curves(group):
-    """{clip: Curve} of a group, to learn from: the jaw on one scale, within 0..1. None of groups that nobody saw
-    speaking."""
+    """{clip: Curve} of a group for training: the jaw on one scale, within 0..1. Empty for groups without video."""
     if group not in FOLDERS:
         return {}
     speaker = {s.name: s.speaker for s in corpus.Group(group).sounds}

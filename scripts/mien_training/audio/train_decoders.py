@@ -42,7 +42,7 @@ class Scenes(examples.Endless):
 
 
 class Pool:
-    """The latest scenes, as embeddings and what is to be learned from them."""
+    """The latest examples, as embeddings and targets."""
 
     def __init__(self, network, source, size):
         self.network, self.source, self.size, self.rows = network, iter(source), size, []

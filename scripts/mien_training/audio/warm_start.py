@@ -20,7 +20,7 @@ from mien_training.paths import ROOT
 
 
 def set_convolution(convolution, layer, x):
-    """x: [n, in, t] what the layer is given in training. Returns what it answers."""
+    """Sets a layer; x: [n, in, t], its input in training. Returns its output."""
     weight = split_causal(layer, convolution.convolution.in_channels)
     convolution.convolution.weight.copy_(weight)
     plain = convolution.convolution(x)

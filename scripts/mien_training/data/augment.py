@@ -49,7 +49,7 @@ def shade(x, g):
 
 
 def coloured_light(x, g):
-    """Light of about one colour, as on a stage: what is left is brightness, in that colour."""
+    """Light of nearly one colour, as on a stage: only brightness in that colour remains."""
     n = len(x)
     light = uniform(g, n, 0, 1, channels=3)
     light = light / light.amax(1, keepdim=True)
@@ -58,7 +58,7 @@ def coloured_light(x, g):
 
 
 def badly_exposed(x, g):
-    """Much too light, much too dark, or with next to no contrast, as through haze."""
+    """Much too bright, much too dark, or with little contrast, as in haze."""
     n, kind = len(x), torch.rand(len(x), 1, 1, 1, generator=g)
     light, dark = x * uniform(g, n, 1.3, 2.5) + uniform(g, n, 0, 0.3), x * uniform(g, n, 0.1, 0.5)
     faded = x * uniform(g, n, 0.15, 0.5) + uniform(g, n, 0, 0.5)
@@ -151,9 +151,9 @@ def noise(x, g):
 
 
 def low_light(x, g, of_frame=None):
-    """A dark room: the camera amplifies what it gets, its noise too (Poisson-Gaussian, Foi et al. 2008); colours fade.
+    """A dark room: the camera amplifies its signal and its noise (Poisson-Gaussian, Foi et al. 2008); colours fade.
 
-    The noise comes from the generator `of_frame`, if there is one.
+    The noise comes from the generator `of_frame`, if given.
     """
     n = len(x)
     grain, light, saturation = uniform(g, n, 0.05, 0.25) ** 2, uniform(g, n, 0.25, 1), uniform(g, n, 0.2, 1)
@@ -192,7 +192,7 @@ def degrade(x, g):
 
 
 def photometric(x, g, degraded=0.5):
-    """The whole chain, for images that have nothing to do with each other. A share stays sharp, for lids and lips."""
+    """All effects, for unrelated images. A share stays sharp, for eyelids and lips."""
     return share_of(lit(x, g), g, degraded, degrade)
 
 

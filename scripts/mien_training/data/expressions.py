@@ -100,7 +100,8 @@ def amplitude(rng):
 
 
 def asymmetry(rng):
-    """Gains (left, right): nearly equal mostly, clearly unequal or one-sided often enough that sides are told apart."""
+    """Gains (left, right): mostly nearly equal, but clearly unequal or one-sided often enough for networks to
+    distinguish sides."""
     kind = rng.random()
     if kind < 0.6:
         return 1 - rng.uniform(0, 0.08, 2)
@@ -129,7 +130,7 @@ def from_ranges(rng, ranges):
 
 
 def sparse_mouth(rng, units):
-    """A few random mouth units; those that need an open jaw get one."""
+    """A few random mouth units; opens the jaw for those that need it."""
     names, weights = list(MOUTH_UNITS), np.array(list(MOUTH_UNITS.values()))
     out = zeros()
     for unit in rng.choice(names, units, replace=False, p=weights / weights.sum()):
@@ -213,7 +214,7 @@ def both(stem):
 
 
 def legalise(c):
-    """Removes what a face cannot do; c f32[..., 52], every rule continuous so that curves stay smooth."""
+    """Removes what no face can do; c f32[..., 52]. Each rule is continuous, so curves stay smooth."""
     c = np.clip(c, 0, 1)
     get = lambda name: c[..., INDEX[name]].copy()
     opposites = [("jawLeft", "jawRight"), ("mouthLeft", "mouthRight")]
@@ -269,8 +270,7 @@ def sample_solo(rng):
 
 
 def sample_apart(rng):
-    """At most one unit of each region, mostly on one side, sometimes the gaze of one eye: what each looks like by
-    itself."""
+    """At most one unit of each region, mostly on one side, sometimes the gaze of one eye."""
     out = zeros()
     for units, share in APART:
         if rng.random() < share:
@@ -293,7 +293,7 @@ def sample_still(rng):
 
 
 def lean(rng, face):
-    """The same face on one side mostly, in some of its regions: sides are rarely told apart by chance."""
+    """The same face mostly on one side, in some of its regions."""
     face = face.copy()
     for region in LEANING:
         if rng.random() < 0.6:
@@ -371,7 +371,8 @@ def in_turn(rng, frames):
 
 
 def sample_sequence(rng, frames, fps=30, phone=0.0):
-    """A random performance, f32[frames,52]; a share `phone` of them follows what the phone recorded, eyes included."""
+    """A random performance, f32[frames,52]; a share `phone` of them uses recordings of an iPhone, including the eyes.
+    """
     if phone and rng.random() < phone and recordings.phone_takes(NAMES):
         return legalise(recordings.of_phone(rng, frames, fps, NAMES, MIRROR) + micro_motion(rng, frames))
     if rng.random() < ALONE:
@@ -399,15 +400,14 @@ def sample_sequence(rng, frames, fps=30, phone=0.0):
 
 
 def sample_posed(rng, frames, fps=30):
-    """A performance from still face to still face, many of which lean to one side or move one unit of each region
-    alone."""
+    """A performance between still faces, many of which lean to one side or move one unit of each region."""
     face = ease_through(rng, frames, lambda rng: sample_stills(rng, 1, LEANING_SHARE, APART_SHARE)[0], (2, 25), (3, 16),
                         rest=0.25)
     return legalise(np.maximum(face, blinks(rng, frames, fps)) + micro_motion(rng, frames))
 
 
 def sample_lesson(rng, frames, fps=30):
-    """What decoders learn from: of all kinds, f32[frames,52]."""
+    """A random performance of any kind for training decoders, f32[frames,52]."""
     if rng.random() < POSED:
         return sample_posed(rng, frames, fps)
     return sample_sequence(rng, frames, fps, PHONE)

@@ -55,7 +55,7 @@ class Portraits:
 
 
 class Rendered:
-    """All shards there are; `refresh` takes up those that came since and drops those that were deleted."""
+    """All existing shards; `refresh` adds new ones and drops deleted ones."""
 
     def __init__(self, *kinds, framing=BASENET):
         self.kinds, self.window = [framing.folder(k) for k in kinds], framing.window
@@ -116,7 +116,8 @@ class Backgrounds:
 
     @torch.no_grad()
     def mine(self, network, count=1500, alignments=2, believed=0.15):
-        """Lets the network align itself on new pieces, as the tracker does, and keeps what it then takes for a face."""
+        """Lets the network align itself on new pieces, as the tracker does, and keeps the pieces that it accepts as a
+        face."""
         network.eval()
         images = self.pieces(count)
         crop = torch.tensor(BASENET.middle).expand(count, -1)
@@ -165,7 +166,7 @@ def jitter(crop, generator, roughness=1.0, wide_share=0.2):
 
 
 def misplace(crop, generator):
-    """Crops that show a face badly: shifted by half a side, or far too wide or too close."""
+    """Crops that show a face badly: shifted by half a side, or much too wide or too close."""
     n = len(crop)
     angle = torch.rand(n, generator=generator) * 6.2832
     away = torch.empty(n).uniform_(0.5, 0.75, generator=generator)
@@ -195,7 +196,7 @@ def mirror(batch, generator):
 
 
 class Mixture:
-    """Draws batches: shares of portraits, rendered faces and, for BaseNet, backgrounds and badly placed faces."""
+    """Draws batches: shares of portraits, renders and, for BaseNet, backgrounds and misplaced faces."""
 
     def __init__(self, framing, portraits, rendered, backgrounds, seed, real_share=0.45, background_share=0.1,
                  roughness=1.0):

@@ -47,7 +47,7 @@ class Portraits:
 
 
 def camera_labels(found, framing):
-    """Where Portraits are in front of which camera, the teacher's word: tensors as of a rendered shard."""
+    """Position of the portraits in front of their camera according to the teacher: tensors as of a rendered shard."""
     window = np.concatenate([found.crops[:, :2], framing.window_crops * found.crops[:, 2:3]], 1)
     labels = {"rotation": found.labels.rotation, "translation": found.labels.translation,
               "f_px": found.size_wh[:, 1] / 2 / np.tan(TEACHER_FOV / 2), "camera_wh": found.size_wh, "window": window}
@@ -73,7 +73,7 @@ def leaves(image, centre, side):
 
 
 def window(image, centre, side, pixels=BASENET.window):
-    """A square of the image as [pixels,pixels,3]; what lies outside is a blur of what is near."""
+    """A square of the image as [pixels,pixels,3]; blurred where it exceeds the image."""
     if leaves(image, centre, side):
         image, margin = continued(image)
         centre = centre + margin
@@ -86,7 +86,7 @@ def window(image, centre, side, pixels=BASENET.window):
 
 
 def misplaced(crop, rng):
-    """Centre and side of a crop that misses its face: beside it, on the chest, a detail of it, or far too wide."""
+    """Centre and side of a crop that misses its face: beside it, on the chest, a detail of it, or much too wide."""
     kind, angle = rng.random(), rng.uniform(0, 2 * np.pi)
     side, away = crop[2] * np.exp(rng.uniform(-0.3, 0.3)), 0.15
     if kind < 0.45:
@@ -100,7 +100,7 @@ def misplaced(crop, rng):
 
 
 def blurred(face):
-    """Whether a window shows too little detail for labels to be believed."""
+    """Whether a window has too little detail for reliable labels."""
     grey = cv2.cvtColor(cv2.resize(face, (BASENET.window,) * 2, interpolation=cv2.INTER_AREA), cv2.COLOR_RGB2GRAY)
     middle = slice(BASENET.window // 4, -(BASENET.window // 4))
     return cv2.Laplacian(grey, cv2.CV_32F)[middle, middle].var() < BLURRED * grey[middle, middle].var()

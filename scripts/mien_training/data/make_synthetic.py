@@ -32,7 +32,7 @@ OCCLUDED = 0.15     # share of images with something in front of the face
 
 
 class Set:
-    """What stays the same while a face is filmed: camera, light, backdrop and an occluder or none."""
+    """Surroundings of a sequence: camera, light, backdrop and an optional occluder."""
 
     def __init__(self, rng, split, person):
         environment = lighting.sample_environment(rng, split)

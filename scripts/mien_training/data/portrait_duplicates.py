@@ -33,7 +33,7 @@ def alike(faces, others):
 
 
 def twins(labels, split):
-    """Names of training portraits to leave out; `split` [n] says of each of `labels` where it belongs."""
+    """Names of training portraits to leave out; `split` [n] is the split of each of `labels`."""
     path = cache() / "faces/twins.npy"
     if not path.exists():
         found = np.stack([small(cv2.imread(str(labels.path(i)), cv2.IMREAD_GRAYSCALE), labels.points[i])

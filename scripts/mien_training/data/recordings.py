@@ -53,7 +53,7 @@ def phone_takes(names):
 
 
 def replayed(clip, start, step, frames):
-    """Frames of a clip from `start` on, `step` frames apart, played to and fro when it is too short."""
+    """Frames of a clip from `start` on, `step` frames apart, played forwards and backwards if it is too short."""
     at = start + step * np.arange(frames)
     at = np.abs((at + len(clip) - 1) % (2 * (len(clip) - 1)) - (len(clip) - 1))
     low = np.floor(at).astype(int)

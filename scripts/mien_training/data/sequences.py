@@ -32,7 +32,7 @@ class Sequences:
 
     @classmethod
     def load(cls, folders):
-        """All whole sequences of some shards; images stay on disk until asked for."""
+        """All complete sequences of some shards; images stay on disk until they are read."""
         images, tables = [], []
         for folder in folders:
             stored = np.load(Path(folder) / "images.npy", mmap_mode="r")
@@ -98,8 +98,7 @@ def to_window(crop, window, pixels):
 
 
 def sample_crops(images, crop, framing=BASENET, taps=None):
-    """Nearly what a network sees in crops [n,4] (pixels of images f32 [n,3,h,w]); where they are large, means of taps x
-    taps."""
+    """Approximate crops [n,4] of the networks (pixels of images f32 [n,3,h,w]); large ones are means of taps x taps."""
     h, w = images.shape[-2:]
     taps = taps or int(np.clip(np.ceil(float(crop[:, 2].max()) / framing.pixels_per_crop / 1.5), 1, 8))
     rows, columns = framing.height * taps, framing.width * taps
@@ -133,7 +132,7 @@ def run(encoder, pictures):
 
 
 class BaseNetView:
-    """What BaseNet makes of a crop, as `track` wants it."""
+    """BaseNet's output for a crop, as `track` needs it."""
 
     def __init__(self, checkpoint):
         net = load(checkpoint, BaseNet())
@@ -207,7 +206,7 @@ def track(view, sequences, rows, spoil, generator, stride=1):
 
 
 def pose_targets(sequences, rows, crops):
-    """What the pose decoder should answer for these crops, [n,frames,9]."""
+    """Targets of the pose decoder for these crops, [n,frames,9]."""
     label = lambda name: sequences.label(name, rows)
     return head_pose.to_crop(label("rotation"), label("translation"), label("f_px"), label("camera_wh"), crops)
 
@@ -245,12 +244,11 @@ def untouched(x, frame):
 
 
 def extract(view, sequences, passes, seed, strides=(1, 2), plain=False, mirrored=False, batch=32):
-    """Tracks every sequence `passes` times with the encoder on every frame, and as often on alternate frames.
+    """Tracks each sequence `passes` times with the encoder on every frame, and as often on alternate frames.
 
-    Passes see the faces as they are and mirrored in turns, mirrored first if `mirrored`. Returns tensors with one row
-    per track: features fp16 [m,frames,256], pose [m,frames,9], controls and visible [m,frames,52], crop [m,frames,4],
-    stride [m], landmark_error [m,frames].
-    `plain` leaves the images as they are.
+    Passes alternate between original and mirrored faces, mirrored first if `mirrored`. Returns tensors with one row per
+    track: features fp16 [m,frames,256], pose [m,frames,9], controls and visible [m,frames,52], crop [m,frames,4],
+    stride [m], landmark_error [m,frames]. `plain` adds no camera effects.
     """
     tracks, losses = [], 0
     for stride, number in itertools.product(strides, range(passes)):

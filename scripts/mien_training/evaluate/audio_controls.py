@@ -31,7 +31,7 @@ def correlation(a, b):
 
 
 def best_lag(said, truth):
-    """Frames by which the answer comes too late, where all clips together correlate best."""
+    """Delay of the output in frames at the best correlation over all clips."""
     def at(lag):
         pairs = [(s[max(lag, 0):len(s) + min(lag, 0)], t[max(-lag, 0):len(t) + min(-lag, 0)])
                  for s, t in zip(said, truth)]
@@ -61,7 +61,7 @@ def other_clips(model):
 
 
 def text_of(name):
-    """Words of a clip; none where nobody wrote them down. GRID's names are its sentences."""
+    """Words of a clip; None without a transcript. The names of GRID encode its sentences."""
     if name.startswith("grid_"):
         return audio_phonemes.grid_sentence(name.rsplit("_", 1)[1])
     return SAID.get(name, "").split()
@@ -85,7 +85,7 @@ def clip_path(name):
 
 
 def of_clips(model, others):
-    """jawOpen of each clip beside the teacher's."""
+    """jawOpen of each clip compared with the teacher's."""
     report = {}
     for name, (said, truth) in others.items():
         seconds = np.load(data() / f"clips/{name}.mediapipe.npz")["t_ms"] / 1000
@@ -129,8 +129,8 @@ def spoken_phonemes(model, most=None):
 
 
 def lips(said):
-    """Shares of p, b, m at whose middle lips are closed; of open vowels with an open jaw; and of rounded lips. `said`:
-    a list of what spoken_phonemes gives."""
+    """Shares of p, b and m with closed lips at their centre, of open vowels with an open jaw, and of rounded lips.
+    `said`: a list of results of spoken_phonemes."""
     most = lambda name, chosen: [controls[:, INDEX[name]].max() for label, controls in said if label in chosen]
     closed = [bool(((c[:, INDEX["jawOpen"]] < CLOSED_JAW) | (c[:, INDEX["mouthClose"]] > CLOSE)).any())
               for label, c in said if label in phonemes.BILABIALS]
@@ -140,7 +140,7 @@ def lips(said):
 
 
 def strength(said):
-    """95th percentiles of what the mouth does where it should: whether the head speaks or mumbles."""
+    """95th percentiles of the controls of the mouth where they are expected."""
     where = {"jawOpen": OPEN_VOWELS, "mouthPucker": ROUNDED, "mouthFunnel": FUNNELLED}
     of = lambda name: np.concatenate([controls[:, INDEX[name]] for label, controls in said if label in where[name]])
     return {name: float(np.percentile(of(name), 95)) for name in where}

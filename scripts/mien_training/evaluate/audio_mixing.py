@@ -18,7 +18,7 @@ def truth():
 
 
 def errors(program, lod):
-    """{mode: {control: mean absolute error}}; what is not driven rests at 0, as it would on a rig."""
+    """{mode: {control: mean absolute error}}; controls that are not driven are 0, as on a rig."""
     exact, report = truth(), {}
     for name, mode in MODES.items():
         table = program.track(DEMO, lod, mode=mode).table

@@ -11,7 +11,7 @@ INDEX = {name: i for i, name in enumerate(SPEECH_CONTROLS)}
 
 
 class Model:
-    """`split`: of what was held out, val to decide by and test to report."""
+    """`split`: val for selection or test for results."""
 
     def __init__(self, encoder_path, decoders_path, split="test"):
         self.split = split

@@ -17,7 +17,7 @@ OF_THE_SPEAKER = "grid_bbaf2n"  # the one that phase 2 learns from
 
 
 def grid_sentence(code):
-    """What a clip of GRID says: its name is the sentence."""
+    """The sentence of a clip of GRID, which its name encodes."""
     return [LETTERS.get(c, c) if words is None else words[c] for c, words in zip(code, GRID_WORDS)]
 
 

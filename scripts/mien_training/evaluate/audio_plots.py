@@ -9,7 +9,7 @@ SHOWN = ["jawOpen", "mouthClose", "mouthPucker", "mouthFunnel", "mouthStretchLef
 
 
 def sentence(model):
-    """The first held-out clip: curves, the teacher's jaw, and what is said when."""
+    """The first held-out clip: curves, the teacher's jaw, and phonemes with times."""
     group, curves = corpus.Group("av"), teacher.clips()
     sound = next(s for s in group.of(model.split) if s.name in curves)
     times, controls, alpha = model(np.float32(group.samples(sound)) / 32768)

@@ -33,7 +33,7 @@ FEWEST = 96  # test sequences that say something about rare controls
 
 
 def slopes(predicted, truth):
-    """Slope of the line from the truth to what is predicted [52]; NaN where the truth is constant."""
+    """Slope of the regression of the prediction on the truth [52]; NaN where the truth is constant."""
     p, t = (a.reshape(-1, a.shape[-1]) - a.reshape(-1, a.shape[-1]).mean(0) for a in (predicted, truth))
     spread = (t * t).sum(0)
     return np.where(spread > 1e-6, (p * t).sum(0) / np.maximum(spread, 1e-6), np.nan)

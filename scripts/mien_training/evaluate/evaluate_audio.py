@@ -14,7 +14,7 @@ def measure(setting):
 
 
 def figures(model):
-    """Of the split of `model`; what needs no program."""
+    """Figures on the split of `model` that do not need the program."""
     return {"encoder_hours": model.heard / HOURS, "phonemes": audio_phonemes.measure(model),
             "activity": audio_activity.by_ratio(model),
             "noise": audio_activity.on_noise(model), "controls": audio_controls.measure(model)}

@@ -27,7 +27,7 @@ TONE_YAW = 30   # degrees up to which faces count for skin tone: the pose must n
 
 @dataclass
 class Answers:
-    """One row per image: whether the right face was found on the first frame, and what the last frame says."""
+    """One row per image: whether the right face is detected on the first frame, and the results of the last frame."""
     found: list = field(default_factory=list)
     error: list = field(default_factory=list)      # of landmarks, in outer eye corner distances
     controls: list = field(default_factory=list)
@@ -106,7 +106,7 @@ def grouped(answers, yaw, tones):
 
 
 def against_teacher(answers, portraits):
-    """Controls and head pose beside the teacher's, on the portraits that were found."""
+    """Controls and head pose compared with the teacher's, on detected portraits."""
     known = np.isfinite(answers.error)
     ours = np.array(answers.controls)[known]
     turn = teacher.pose_difference(np.array(answers.rotation)[known], portraits.rotation[known])

@@ -20,8 +20,8 @@ LONG_LOOPS = 11  # a stream this many sequences long shows whether the state dri
 
 
 def load_decoders(path):
-    """{name: decoder} of a checkpoint of train_decoders.py or warm_start.py, and the supported controls. HiFiNet's have
-    no pose, those that come from a model file nothing without time."""
+    """{name: decoder} of a checkpoint of train_decoders.py or warm_start.py, and the supported controls. HiFiNet has no
+    pose, checkpoints from a model file have no decoder without time."""
     checkpoint = torch.load(path, map_location="cpu")
     kinds = {"controls": ControlsDecoder, "frame": phase2.FrameDecoder, "pose": PoseDecoder}
     decoders = {name: kind() for name, kind in kinds.items() if f"{name}_decoder" in checkpoint}

@@ -29,7 +29,7 @@ def pasted(picture, rng):
 
 
 class Answers:
-    """What a level of detail makes of the portraits."""
+    """Results of a level of detail on the portraits."""
 
     def __init__(self, program, lod, portraits, seed=3):
         rng, errors, controls = np.random.default_rng(seed), [], []

@@ -33,7 +33,7 @@ def digest(paths):
 
 
 def of(setting, network, plain):
-    """What sequences.py makes of the test sequences: as rendered (`plain`), or through a poor camera."""
+    """Features of the test sequences: as rendered (`plain`), or with the effects of a poor camera."""
     encoders = [setting.checkpoint("basenet")[0]] + ([setting.checkpoint("hifinet")[0]] if network == "hifinet" else [])
     folders = shards(network)
     made_by = encoders if plain else [*encoders, Path(augment.__file__)]  # which says what a poor camera is

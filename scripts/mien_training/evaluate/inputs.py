@@ -13,7 +13,7 @@ NETWORKS = {"LOD1": "basenet", "LOD4": "hifinet"}
 
 
 class Missing(Exception):
-    """Something a part needs is not here; the text says what, and how to make it."""
+    """An input of a part is missing; the text says which, and how to create it."""
 
 
 @dataclass
@@ -36,7 +36,7 @@ class Setting:
         return {"LOD1": 1}
 
     def checkpoint(self, network):
-        """(encoder, decoders), which must be what the model file was made of."""
+        """(encoder, decoders), which must be those of the model file."""
         for path in self.checkpoints[network]:
             if not path.exists():
                 raise Missing(

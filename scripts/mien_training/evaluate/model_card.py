@@ -38,7 +38,7 @@ def tones(results):
 
 
 def write(folder):
-    """Replaces what stands between the comments, from the results in that folder, where it has both parts."""
+    """Replaces the text between the comments with the results in that folder, if it has both parts."""
     parts = [folder / "wild.json", folder / "images.json"]
     if not all(part.exists() for part in parts):
         return

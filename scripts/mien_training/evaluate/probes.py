@@ -16,7 +16,7 @@ YAW, PITCH, ANGLE_STEP, TURN = 40, 25, 5, 4  # degrees; frames on each step of a
 
 
 def companions():
-    """{control: what has to go with it on a real face}: eyes turn together, the tongue and mouthClose need an open
+    """{control: controls that accompany it on a real face}: eyes turn together, the tongue and mouthClose need an open
     jaw."""
     out = {"tongueOut": {"jawOpen": 0.6}, "mouthClose": {"jawOpen": 1.0}}
     for side, other in (("Left", "Right"), ("Right", "Left")):

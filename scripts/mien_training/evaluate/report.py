@@ -22,7 +22,7 @@ def prose(text):
 
 
 def number(value, digits=3):
-    """A figure for people; what was not measured is a dash."""
+    """A figure for a page; a dash if it was not measured."""
     return "-" if value is None or not np.isfinite(value) else f"{value:.{digits}f}"
 
 

@@ -18,10 +18,10 @@ def pose_difference(ours, theirs):
 
 
 def compare_controls(ours, theirs):
-    """{control: correlation, error after the best linear map, that of the teacher's mean, the teacher's spread}, of
+    """{control: correlation, error after the best linear map, error of the teacher's mean, the teacher's spread}, of
     [n,52] each.
 
-    All controls of the teacher's; those that mien does not drive have no correlation.
+    All controls of the teacher; those that mien does not drive have no correlation.
     """
     known = np.flatnonzero(np.isfinite(theirs).all(0))
     ours, theirs = ours[:, known], theirs[:, known]

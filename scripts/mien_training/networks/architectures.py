@@ -66,8 +66,9 @@ def folded(module):
 
 
 class Branch(torch.autograd.Function):
-    """A map for an inverted residual, and its centre for the addition. On the way back the centre's gradient is added
-    in place to the other, which nobody else holds; autograd would make a whole map of zeros around it first."""
+    """A map for an inverted residual, and its centre for the addition. The backward pass adds the gradient of the
+    centre in place to the other gradient, which has no other owner; autograd would first create a whole map of zeros.
+    """
 
     @staticmethod
     def forward(ctx, x, margin):
@@ -138,7 +139,7 @@ class Encoder(nn.Module):
         return self.tail[2](maps.float()).flatten(1)
 
     def frozen_maps(self, image):
-        """What the parts that do not learn make of the images."""
+        """Maps after the parts that do not learn."""
         image = image.to(self.map_type).contiguous(memory_format=torch.channels_last)
         if not self.frozen:
             return image
@@ -196,9 +197,8 @@ class FaceNetwork(nn.Module):
                 "sides": self.sides(features)}
 
     def use_decoders(self, decoders, learn=False):
-        """Trained decoders, {"controls_decoder": state, ...}, answer in place of the heads that exist in training only:
-        the encoder then learns what makes these right, and, where they do not `learn` with it, they need not be trained
-        again after it."""
+        """Trained decoders, {"controls_decoder": state, ...}, replace the heads that exist only in training. The
+        encoder then improves their output; if they do not `learn` as well, they need no new training."""
         for name, kind in (("controls", ControlsDecoder), ("pose", PoseDecoder)):
             if f"{name}_decoder" in decoders:
                 self.still[name] = StillDecoder(kind(), decoders[f"{name}_decoder"], learn)
@@ -268,7 +268,7 @@ class PoseDecoder(TemporalDecoder):
 
 
 class StillDecoder(nn.Module):
-    """What a trained decoder says of a face that holds still."""
+    """Output of a trained decoder for a constant stream."""
 
     FRAMES = 8
 

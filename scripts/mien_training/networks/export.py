@@ -78,7 +78,7 @@ def loaded(module, state):
 
 
 def start(name, encoder_path, decoders):
-    """A file with what BaseNet and HiFiNet have in common, and the network."""
+    """A file with the common parts of BaseNet and HiFiNet, and the network."""
     state = torch.load(encoder_path, map_location="cpu")
     net = loaded(architectures.FACE_NETWORKS[name](), state["average"])
     file = MienFile()

@@ -44,7 +44,7 @@ def network_of(path, name):
 
 
 def checkpoint(path, name):
-    """What sequences.py and export.py ask of a checkpoint of phase 1."""
+    """The fields of a checkpoint of phase 1 that sequences.py and export.py need."""
     return {"average": network_of(path, name).state_dict(), "samples": weight_reader.metadata(path)["encoder_samples"]}
 
 

@@ -42,14 +42,13 @@ def weight_of(layer, convolution):
 
 
 def set_statistics(norm, maps):
-    """The mean and variance of what a norm is given."""
+    """Sets mean and variance of a norm from its input."""
     norm.running_mean.copy_(maps.mean((0, 2, 3)))
     norm.running_var.copy_(maps.var((0, 2, 3)))
 
 
 class Measure:
-    """Sets the norm behind a convolution when the first images come by, so that it passes on what the file's bias
-    would."""
+    """Sets the norm behind a convolution from the first images, so its output has the bias of the file."""
 
     def __init__(self, conv_norm, layer):
         self.bias = layer.bias
@@ -114,7 +113,7 @@ def decoder_of(decoder, layers):
 
 
 def decoders_of(path):
-    """What train_decoders.py would have written, as far as export.py asks for it."""
+    """A checkpoint like that of train_decoders.py, with the fields that export.py needs."""
     layers, kinds = weight_reader.networks(path), {"controls_decoder": ControlsDecoder, "pose_decoder": PoseDecoder}
     return {**{name: decoder_of(kind(), layers[name]) for name, kind in kinds.items() if name in layers},
             "supported": weight_reader.constant(path, "control_supported")}

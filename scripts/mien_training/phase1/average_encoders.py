@@ -30,7 +30,7 @@ def training_pictures(framing):
 
 @torch.no_grad()
 def measure_norms(encoder, pictures):
-    """Every norm gets the mean and variance of what it is given of these images, and answers by them at once."""
+    """Sets mean and variance of each norm from its input for these images, in one pass."""
     measure = lambda norm, inputs: set_statistics(norm, inputs[0])
     hooks = [module[1].register_forward_pre_hook(measure) for module in encoder.modules()
              if isinstance(module, ConvNorm)]

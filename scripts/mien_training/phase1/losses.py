@@ -60,9 +60,9 @@ def soft_clamp(x):
 
 
 def censored(x, target):
-    """What of controls x is compared with their targets. Where a target is 0, all below 0 is right, and keeps a little
-    gradient, as all above 1 where it is 1 (Tobin 1958); elsewhere what lies beyond is as wrong as it looks. Clamped
-    there, too, controls of a person whose rest the decoder takes to be below 0 would hardly be learned, and stay at
+    """Controls x for comparison with their targets. Where a target is 0, all values below 0 are correct and keep a
+    small gradient; the same holds above 1 for targets of 1 (Tobin 1958). Elsewhere values outside 0..1 are errors: if
+    they were clamped, controls of people whose rest the decoder estimates below 0 would hardly learn, and would stay at
     0."""
     at_end = ((x < 0) & (target <= AT_END)) | ((x > 1) & (target >= 1 - AT_END))
     return torch.where(at_end, soft_clamp(x), x)

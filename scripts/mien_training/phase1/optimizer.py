@@ -13,12 +13,10 @@ NEWTON_SCHULZ = (3.4445, -4.7750, 2.0315)
 
 
 def orthogonal(matrices, steps=5):
-    """The nearest (semi-)orthogonal matrices to some [n,rows,columns], roughly: singular values end between 0.7 and
-    1.2.
+    """Approximate nearest (semi-)orthogonal matrices to some [n,rows,columns]: singular values end between 0.7 and 1.2.
 
-    Newton-Schulz steps x <- (a + b g + c g g) x with g = x x' are polynomials in the first g, so they are taken among
-    matrices of the shorter side, and x is multiplied once by what they come to: for sides of 1 to 4 that is little more
-    than half the work.
+    Newton-Schulz steps x <- (a + b g + c g g) x with g = x x' are polynomials in the first g, so they use matrices of
+    the shorter side, and one product with x at the end: for sides of 1 to 4 this is little more than half the work.
     """
     a, b, c = NEWTON_SCHULZ
     x = matrices / (matrices.norm(dim=(1, 2), keepdim=True) + 1e-7)

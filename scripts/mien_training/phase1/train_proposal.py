@@ -217,7 +217,7 @@ def refine(rnet, image, boxes):
 
 
 def train_pnet(pnet, options, history):
-    """Twice: on windows from anywhere, then on what it took for faces as well."""
+    """Twice: on random windows, then also on its own detections."""
     rng = np.random.default_rng(options.seed)
     windows = first_windows(rng)
     train(pnet, windows, options.samples // 2, 12, options.seed, history)

@@ -24,7 +24,7 @@ def discordance(predicted, target, weight):
 
 
 def discordance_within(predicted, target, weight):
-    """The same of what differs from frame to frame of one person."""
+    """The same for the differences between frames of one person."""
     p, t = centred(predicted, weight), centred(target, weight)
     total = weight.sum((0, 1)).clamp(min=1e-6)
     off, spread = (weight * (p - t) ** 2).sum((0, 1)), (weight * (p * p + t * t)).sum((0, 1))

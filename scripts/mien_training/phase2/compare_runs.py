@@ -28,7 +28,7 @@ def rendered_people(folder):
 
 
 def real_people(folder):
-    """Portraits that have held still, and whom the teacher knows nothing of weigh nothing."""
+    """Portraits as constant streams; those without labels of the teacher have no weight."""
     portraits = torch.load(folder / "portraits_val.pt")
     known = teacher_spread(portraits["controls"].flatten(0, 1).float())[1] > 0
     return {**portraits, "visible": portraits["visible"].float() * known}
@@ -42,7 +42,7 @@ def figures(parts):
 
 
 class People:
-    """What decoders answer on validation people."""
+    """Output of decoders on validation people."""
 
     def __init__(self, path, rendered, real, supported=None):
         """`supported` [52], where the checkpoint does not say."""

@@ -50,7 +50,7 @@ def template():
 
 
 def known(labels):
-    """What a decoder of true landmarks is given: f32 [...,KNOWN] of landmarks, crop, rotation, translation, f_px and
+    """Input of a decoder of true landmarks: f32 [...,KNOWN] from landmarks, crop, rotation, translation, f_px and
     camera_wh."""
     crops, points = labels["crop"].float(), labels["landmarks"].float()
     inside = to_crop(crops.flatten(0, 1), points.flatten(0, 1)).view_as(points) - template()

@@ -39,14 +39,14 @@ WEIGHT_DECAY = 1e-4
 
 
 def settled_output(decoder, features):
-    """What a decoder answers when every frame of features [m,frames,c] is held, [m,frames,52]."""
+    """Output of a decoder after SETTLED repetitions of each frame of features [m,frames,c], [m,frames,52]."""
     still = features.flatten(0, 1).unsqueeze(1)
     told = torch.cat([decode(decoder, part.expand(-1, SETTLED, -1))[:, -1] for part in still.split(4096)])
     return soft_clamp(told).unflatten(0, features.shape[:2])
 
 
 def low_pass(curves):
-    """Curves [m,frames,c] without what changes fast, by a window that looks as far ahead as back."""
+    """Curves [m,frames,c] smoothed by a symmetric window."""
     reach = int(3 * SLOW)
     window = torch.exp(-torch.arange(-reach, reach + 1) ** 2 / (2 * SLOW ** 2))
     lanes = F.pad(curves.transpose(1, 2), (reach, reach), mode="replicate")
@@ -55,7 +55,7 @@ def low_pass(curves):
 
 
 def without_lag(told, truth):
-    """The true motion, as far off the truth as what is told of it."""
+    """The true motion with the slow error of the prediction."""
     return truth + low_pass(told - truth)
 
 

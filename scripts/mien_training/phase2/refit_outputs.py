@@ -34,7 +34,7 @@ SMALLEST = 1e-3           # deviation of a control that hardly answers
 
 @dataclass
 class Weights:
-    """What rows of the output layer are solved for."""
+    """Weights of the terms for the rows of the output layer."""
     portraits: float  # to agree with the portraits' labels
     renders: float    # to agree with the truth on renders
     keep: float       # to answer `gain` times what they answered before
@@ -78,7 +78,7 @@ def parts_of(state, stream, network):
 
 
 def solved(before, control, wanted, renders, portraits, weights):
-    """A row [97] of the output layer in place of `before`; wanted [portraits] is what portraits should give."""
+    """A row [97] of the output layer in place of `before`; `wanted` [portraits] are the targets of the portraits."""
     on_renders, on_portraits = renders.square(control), portraits.square(control)
     kept = weights.keep * on_renders + KEPT_ON_PORTRAITS * weights.keep * on_portraits
     left = weights.renders * on_renders + weights.portraits * on_portraits + kept + RIDGE * torch.eye(len(before))
@@ -98,7 +98,7 @@ def mean_answer(layer, parts, rows):
 
 
 def at_rest(layer, renders, portraits):
-    """The larger of what rendered faces at rest and neutral portraits get, [52]."""
+    """The larger mean of rendered faces at rest and of neutral portraits, [52]."""
     return torch.maximum(mean_answer(layer, renders, renders.controls.amax(1) < AT_REST),
                          mean_answer(layer, portraits, neutral(portraits)))
 
@@ -123,21 +123,21 @@ def correlation(layer, renders):
 
 
 def gains(layer, renders, rest, most):
-    """What brings every control near to its true deviation on renders, [52], from 1 to `most`; 1 where it does not
-    follow the truth, or where faces at rest get so much, `rest` [52], that the gain would be taken back."""
+    """Gains that bring the deviation of each control near its true deviation on renders, [52], from 1 to `most`. 1 if
+    it does not correlate with the truth, or if faces at rest, `rest` [52], would exceed the limit."""
     wanted = (AIM * renders.controls.std(0) / deviation_of(layer, renders)).clamp(1, most)
     return torch.where((correlation(layer, renders) < LEAST) | (rest > NEUTRAL), 1, wanted)
 
 
 def portrait_gain(layer, control, wanted, renders, portraits):
-    """What brings a control to the deviation that portraits should have, as far as renders stand it."""
+    """The gain that brings a control to the target deviation of portraits, limited by the renders."""
     on_portraits = wanted.std() / deviation_of(layer, portraits)[control]
     on_renders = FURTHEST * renders.controls[:, control].std() / deviation_of(layer, renders)[control]
     return torch.minimum(on_portraits, on_renders).clamp(1, MOST)
 
 
 def followers(portraits):
-    """(control, what portraits should give [portraits], Weights) of those that follow the portraits."""
+    """(control, targets of the portraits [portraits], Weights) of controls that follow the portraits."""
     for number, side in enumerate(("Left", "Right")):
         smile = INDEX[f"mouthSmile{side}"]
         yield INDEX[f"eyeBlink{side}"], portraits.closed[:, number], EYELIDS

@@ -69,7 +69,7 @@ def points_seen(sequences, crops, mirrored):
 
 
 def kept(found):
-    """What of the tracks is stored: halves where that is enough."""
+    """The stored part of the tracks, in half precision where it suffices."""
     out = {k: found[k].half() if found[k].is_floating_point() else found[k] for k in KEPT}
     return {**out, **{name: found["features"][..., k * FEATURES:(k + 1) * FEATURES].half().clone()
                       for k, name in enumerate(NETWORKS)}}

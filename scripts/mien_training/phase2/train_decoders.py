@@ -61,8 +61,8 @@ def steps(x):
 
 def temporal_loss(predicted, target, weight, args, importance=1.0):
     """Weighted error of values and of frame differences, each squared up to a bound and linear beyond, and a small
-    price on second differences. The bound of differences is small, for a squared price would fall on blinks and spare
-    the trembling. `importance` counts for values alone: what matters most may move most freely."""
+    penalty of second differences. The bound of differences is small, because a squared penalty would reduce blinks and
+    keep jitter. `importance` applies to values only, so important controls may move freely."""
     w = torch.minimum(weight[:, 1:], weight[:, :-1])
     value = 2 * args.beta * (importance * weight
                              * F.smooth_l1_loss(predicted, target, beta=args.beta, reduction="none")).mean()
@@ -72,10 +72,11 @@ def temporal_loss(predicted, target, weight, args, importance=1.0):
 
 
 class ControlsTask:
-    """Loss of the controls, and of which side of a pair moves: rare ones weigh more, eyes nobody can see weigh nothing.
+    """Loss of the controls, and of the side of a pair that moves: rare controls have more weight, hidden eyes have
+    none.
 
-    The price of motion is `args.velocity` and `args.acceleration`; a decoder without time could only pay it by
-    answering less, so it learns values alone.
+    The penalty of motion is `args.velocity` and `args.acceleration`. A decoder without time could reduce it only by
+    smaller output, so it learns values only.
     """
 
     def __init__(self, data, args):
@@ -189,7 +190,7 @@ def stream(table, rows):
 
 
 def mean_and_deviation(features):
-    """(mean, deviation) [256] of every feature; those that hardly vary count as varying a little."""
+    """(mean, deviation) [256] of each feature; the deviation has a lower limit."""
     flat = features[::7].flatten(0, 1).float()
     spread = flat.std(0)
     return flat.mean(0), spread + 0.1 * spread.mean()
@@ -205,7 +206,7 @@ def normalise_input(layer, mean, spread):
 
 @torch.no_grad()
 def init_current_frame_bias(decoder):
-    """Lets a fresh temporal decoder begin as one that looks at the frame at hand; what came before it learns to use."""
+    """Initializes a temporal decoder to use mainly the current frame; it learns to use earlier ones."""
     for convolution in decoder.convolutions:
         convolution.weight *= torch.tensor([0.1, 1.4])  # of the frame before, of this one
     take_in, forget, _, let_out = decoder.lstm.bias_ih_l0.chunk(4)
@@ -224,7 +225,7 @@ def noisy(x, spread):
 
 
 def minimise(loss_of_step, decoder, args, name, weight_decay=1e-2):
-    """Fits a decoder by `args.steps` of AdamW to what each call of `loss_of_step` answers."""
+    """Fits a decoder with `args.steps` of AdamW to the results of `loss_of_step`."""
     optimiser = torch.optim.AdamW(decoder.parameters(), lr=args.rate, weight_decay=weight_decay)
     schedule = torch.optim.lr_scheduler.OneCycleLR(optimiser, args.rate, total_steps=args.steps, pct_start=0.1)
     decoder.train()
@@ -269,8 +270,8 @@ def train(decoder, lessons, args, name):
 
 @torch.no_grad()
 def average_with(decoder, start, share):
-    """Weights on the line to those it went on from: what is between is often better at what both have learned (Wortsman
-    et al. 2022, Robust fine-tuning of zero-shot models)."""
+    """Weighted mean with the weights at the start, which is often better than both (Wortsman et al. 2022, Robust
+    fine-tuning of zero-shot models)."""
     for name, value in decoder.state_dict().items():
         value.lerp_(start[name].to(value), share)
 
@@ -345,10 +346,10 @@ def agreement_with_teacher(decoder, portraits):
 def evaluate(decoders, data, supported=None, gaze=False, portraits=None, before=None):
     """(scores, supported): scores with the encoder on every frame and on alternate frames. `gaze`: may be supported.
 
-    Without `supported` the controls that correlate well enough on this data, in both modes and on both sides of the
-    face, are chosen; where the teacher knows a control, it may also do so as the mean of this data and `portraits`, or
-    follow the teacher on `portraits` closely. Less is asked of what was supported `before` [52]: nothing is taken from
-    users for chance.
+    Without `supported` this chooses the controls with sufficient correlation on this data, in both modes and on both
+    sides of the face. With `portraits` the mean of this data and of the correlation with the teacher may suffice, or a
+    high correlation with the teacher. Controls supported `before` [52] have a lower threshold, so none is lost by
+    chance.
     """
     parts = {"every frame": with_stride(data, 1), "alternate frames": with_stride(data, 2)}
     kinds = [k for k in ("controls", "frame") if k in decoders]
@@ -404,7 +405,7 @@ def options():
 
 
 def arguments(**changed):
-    """What `train` and the tasks ask for, for who is no command line."""
+    """Default options, with changes, for callers other than the command line."""
     return argparse.Namespace(**{action.dest: action.default for action in options()._actions} | changed)
 
 
@@ -439,7 +440,7 @@ def load_joined(paths):
 
 
 def save(path, known, supported, report):
-    """A checkpoint of what is known of decoders, {name: state}, and the scores beside it."""
+    """Writes a checkpoint {name: state}, and the scores beside it."""
     path.parent.mkdir(parents=True, exist_ok=True)
     with whole(path) as out:
         torch.save({**known, "supported": torch.from_numpy(supported.astype(np.float32))}, out)

@@ -79,8 +79,7 @@ class RenderTask:
 
 
 class PortraitTask:
-    """What the teacher says of portraits that hold still; smiles, jaw and eyelids as far as it says, eyelids by their
-    aperture."""
+    """The teacher's labels of constant portraits: absolute values for smiles and jaw, the aperture for eyelids."""
 
     def __init__(self, data, args):
         self.args, self.teacher = args, TeacherTask(data, arguments(teacher=args.teacher))

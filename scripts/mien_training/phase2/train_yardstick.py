@@ -26,7 +26,7 @@ POSE_MIRROR = torch.tensor([1.0, -1, -1, -1, 1, 1, -1, 1, 1])
 
 
 class Pool:
-    """Sequences of which some are replaced by new ones after every batch, so that each is drawn a few times."""
+    """A pool of sequences; each batch replaces some, so each is used a few times."""
 
     def __init__(self, rig, size, fresh, seed):
         self.rig, self.fresh, self.rng, self.at = rig, fresh, np.random.default_rng(seed), 0
@@ -54,7 +54,7 @@ class Pool:
 
 
 def mirrored(features):
-    """What landmark_stream.known is of the mirrored faces."""
+    """The input of landmark_stream.known for mirrored faces."""
     points, pose = features[..., :-9].unflatten(-1, (-1, 2)), features[..., -9:]
     template = landmark_stream.template()
     points = (points + template - 0.5)[..., lp.MIRROR, :] * torch.tensor([-1.0, 1.0]) + 0.5 - template

@@ -63,8 +63,7 @@ def towards(ray):
 
 
 def sample_angles(rng, turned=0):
-    """Yaw, pitch and roll; a share looks far to one side, where half of the face is hidden and what little is seen has
-    to do."""
+    """Yaw, pitch and roll; a share looks far to one side, where half of the face is hidden."""
     angles = np.clip(rng.normal(0, SPREAD), -LIMIT, LIMIT)
     if turned and rng.random() < turned:
         angles[0] = rng.choice([-1, 1]) * rng.uniform(*FAR)

@@ -47,7 +47,7 @@ def tile_points(rig):
 
 
 def filled(*outlines):
-    """What is inside an odd number of outlines."""
+    """The inside of outlines by the even-odd rule."""
     mask = np.zeros((TILE, TILE), np.uint8)
     cv2.fillPoly(mask, [np.int32(np.round(np.asarray(o) * 16)) for o in outlines], 255, cv2.LINE_AA, 4)
     return mask

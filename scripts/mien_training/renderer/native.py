@@ -99,7 +99,7 @@ def folds(ints, floats, begins, deepest):
 
 
 def darkened(made, posed, openness):
-    """Openness f32 [vertices] less what the folds of a posed head f32 [vertices,3] take, in place."""
+    """Openness f32 [vertices] minus the shade of the folds of a posed head f32 [vertices,3], in place."""
     load().renderer_darken(ctypes.byref(made), c_void_p(pointer(posed)), c_void_p(pointer(openness)))
     return openness
 

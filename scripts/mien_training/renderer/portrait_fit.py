@@ -71,7 +71,7 @@ def fit(model, target, teacher):
 
 
 def camera_pose(found):
-    """Translation [n,3] and focal length [n] of the perspective that `project` stands for."""
+    """Translation [n,3] and focal length [n] equivalent to the perspective of `project`."""
     f_px = found["scale"] * DISTANCE
     xy = found["shift"] * torch.tensor([1.0, -1.0]) / found["scale"][:, None]
     return torch.cat([xy, torch.full((len(xy), 1), -DISTANCE)], 1), f_px

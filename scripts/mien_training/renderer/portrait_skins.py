@@ -126,7 +126,7 @@ class Photograph:
 
 
 def is_dark(photo, landmarks):
-    """Whether the cheeks are of dark skin, as far as a colour photograph tells; landmarks [175,2] in pixels."""
+    """Whether a colour photograph shows dark skin on the cheeks; landmarks [175,2] in pixels."""
     cheeks = landmarks[[lp.POSITION[k] for k in lp.CHEEK[0] + lp.CHEEK[1]]]
     red, green, blue = np.median(photo.at(cheeks[None])[0], axis=0)
     brightness = (red + green + blue) / 3 / np.percentile(photo.linear.mean(2), 99)

@@ -37,7 +37,7 @@ class Rig:
         return self.combine(coefficients, self.identity_shapes) + self.neutral
 
     def expression(self, controls):
-        """What controls f32 [n,52] add to a head at rest, f32 [n,26719,3]."""
+        """Offsets of controls f32 [n,52] from the head at rest, f32 [n,26719,3]."""
         return self.combine(controls, self.control_shapes)
 
     def combine(self, weights, shapes):

@@ -39,7 +39,7 @@ def edges_of(triangles):
 
 
 class Skin:
-    """The skin of the face, as what can be pushed together."""
+    """The skin of the face as a mesh that can be compressed."""
 
     def __init__(self, triangles, count):
         self.count = count
