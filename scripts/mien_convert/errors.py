@@ -2,7 +2,7 @@
 import math
 
 MOST_NUMBERS = 1 << 24  # of one tensor: each takes up to 24 bytes here, and a file of 100 bytes may ask for any size
-MOST_IN_ALL = 1 << 27  # of all tensors of a graph: 3 GB, and seconds for each guess at what its axes mean
+MOST_IN_ALL = 1 << 27  # of all tensors of a graph: 3 GB, and seconds for each guess at its axes
 
 
 class Refused(Exception):

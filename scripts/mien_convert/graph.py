@@ -274,7 +274,7 @@ def converted(graph, shapes, time_axis=None):
     furthest = rearranging = None
     for guess in guesses(graph, shapes.get(next(iter(graph.inputs)), next(iter(graph.inputs.values()))), time_axis):
         try:
-            with np.errstate(all="ignore"):  # what the format cannot hold, its writer refuses
+            with np.errstate(all="ignore"):  # the writer rejects values that the format cannot hold
                 conversion = Conversion(graph, guess, shapes)
             doubtful = guess.channels_last or graph.puts_channels_first()
             if not doubtful or not conversion.rearranges_source():

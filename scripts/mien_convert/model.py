@@ -10,7 +10,7 @@ from .errors import Refused, require
 OPSETS = range(9, 29)
 WHOLE_NUMBERS = (onnx.TensorProto.INT32, onnx.TensorProto.INT64, onnx.TensorProto.BOOL)
 MOST_EXTERNAL_BYTES = 1 << 31
-# What the attributes that operators read are; in a file they may be anything.
+# Types of the attributes that operators read; a file may contain others.
 KINDS = {
     name: kind for kind, names in {
         onnx.AttributeProto.INT: "allowzero antialias axis ceil_mode count_include_pad end exclude_outside group "
@@ -153,7 +153,7 @@ def loaded(path):
         with warnings.catch_warnings():
             warnings.simplefilter("error")  # all there is of a file that could be read in part only
             model = onnx.load(str(path), load_external_data=False)
-    except Exception as error:  # what protobuf raises depends on its version
+    except Exception as error:  # the type depends on the version of protobuf
         raise Refused(f"not an ONNX file: {error}") from error
     return inlined(model) if len(model.functions) else model
 
@@ -177,5 +177,5 @@ def dimensions(value):
     """None where a dimension is not a number."""
     kind = value.type.WhichOneof("value")
     require(kind == "tensor_type", f"input {value.name!r} is no tensor (but a {kind or 'value without a type'})")
-    # Not said is 0; some exporters say -1.
+    # A missing value is 0; some exporters write -1.
     return [d.dim_value if d.dim_value > 0 else None for d in value.type.tensor_type.shape.dim]

@@ -6,7 +6,7 @@ from .errors import require, require_room
 from .operands import constant, is_constant
 from .tensors import FUTURE, NOTHING, Tensor
 
-MOST_DELAYS = 1000  # of one convolution: each becomes a layer, of which a file holds 1024
+MOST_DELAYS = 1000  # of one convolution: each becomes a layer; a file holds 1024
 
 
 def conv_over_time(t, x, weight, bias, before, after, dilation):

@@ -12,7 +12,7 @@ import numpy as np
 
 from .errors import Refused, require, require_room
 
-NOTHING, FUTURE = -1, -2  # FUTURE: what a convolution over time makes of steps that have not come
+NOTHING, FUTURE = -1, -2  # FUTURE: output of a convolution over time for later steps
 BITS = 32
 MASK = (1 << BITS) - 1
 
@@ -64,7 +64,7 @@ def per_channel(layer, at, values, neutral):
     h, w, c = layer.shape
     channel = (at & MASK) % layer.size // (h * w)
     of_channel = np.full(c, neutral, np.float64)
-    of_channel[channel] = values  # the last of several, which all the others have to be
+    of_channel[channel] = values  # all values of a channel must be equal
     require((of_channel[channel] == values).all(), "its second operand is not one number for each channel")
     return of_channel
 

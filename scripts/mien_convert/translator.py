@@ -18,8 +18,8 @@ class Translator:
     def __init__(self, opset, steps):
         self.opset, self.steps = opset, steps
         self.layers = []
-        self.node = ""  # what errors name
-        self.states = {}  # number of a state input's layer -> what holds its next value, as elements
+        self.node = ""  # for error messages
+        self.states = {}  # number of a state input's layer -> its next value, as elements
         self.notes = []
 
     # -- layers ------------------------------------------------------------
@@ -69,7 +69,7 @@ class Translator:
         shape = np.broadcast_shapes(tensor.shape, np.shape(scale), np.shape(shift))
         require(shape == tensor.shape, "its result has another shape than its operand")
         result = Tensor(tensor.at, tensor.scale * scale, tensor.shift * scale + shift)
-        # What is linear takes it in at once; others wait for whom reads them.
+        # Linear layers fold it immediately; others wait for their reader.
         absorbing = all(self.layers[n].is_plain() for n in tensor.layer_numbers())
         return self.settled(result) if absorbing and self.is_per_channel(result) else result
 

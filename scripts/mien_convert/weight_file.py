@@ -38,11 +38,11 @@ OPS = {"conv2d": 1, "depthwise": 2, "pointwise": 3, "fully_connected": 4, "causa
        "add": 8, "activation": 9, "softmax": 10, "global_average_pool": 11, "concat": 12, "slice": 13, "multiply": 14,
        "divide": 15, "broadcast_add": 16, "resize": 17, "rearrange": 18, "normalize": 19}
 ACTIVATIONS = {"none": 0, "relu": 1, "relu6": 2, "leaky_relu": 3, "prelu": 4, "sigmoid": 5, "tanh": 6, "clamp01": 7}
-# only layers of their own have these
+# only in activation layers
 CURVES = {"hard_swish": 8, "swish": 9, "gelu": 10, "gelu_tanh": 11, "erf": 12, "exp": 13, "sqrt": 14}
 SLIDING = ("conv2d", "depthwise", "max_pool")
-TWO_SIZES = ("multiply", "divide", "broadcast_add")  # of which the second may be smaller
-# have no activation
+TWO_SIZES = ("multiply", "divide", "broadcast_add")  # the second input may be smaller
+# without activation
 PASSIVE = ("lstm", "max_pool", "add", "softmax", "global_average_pool", "concat", "slice", *TWO_SIZES, "resize",
            "rearrange", "normalize")
 # minor version of the format
@@ -54,7 +54,7 @@ ALIGNMENT = 64
 HEADER_BYTES = RECORD_BYTES = 64
 CHECKSUM_AT = 56
 MAX_NETWORKS, MAX_LAYERS, MAX_TENSORS, MAX_METADATA, MAX_OUTPUTS = 64, 1024, 4096, 256, 14
-MAX_WIDE_OUTPUTS = 4  # as many are 32-bit numbers
+MAX_WIDE_OUTPUTS = 4  # with up to this many, they are 32-bit numbers
 MAX_FACTOR = (1 << 16) - 1  # of a resize
 GRIDS = ("half_pixel", "asymmetric", "align_corners")
 SAMPLINGS = ("round_half_down", "round_half_up", "floor", "ceil", "bilinear")

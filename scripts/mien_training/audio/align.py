@@ -82,7 +82,8 @@ def align(group_name, network, heads):
     text = corpus.transcripts() if group_name == "librispeech_text" else corpus.heard(group_name)
     for sound in group.sounds:
         samples = np.float32(group.samples(sound)) / 32768
-        samples = np.concatenate([samples, np.zeros(RATE // 10, np.float32)])  # what is said last is heard later
+        # the network recognizes the last phoneme later
+        samples = np.concatenate([samples, np.zeros(RATE // 10, np.float32)])
         embedding = network(torch.from_numpy(features(samples))[None])[0]
         frame = heads(embedding)[1]
         words = words_of(group_name, sound.name, text)

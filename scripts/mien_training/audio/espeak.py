@@ -80,7 +80,7 @@ def timed(events, seconds):
     for (start, name), end in zip(events, [e[0] for e in events[1:]] + [seconds]):
         parts = phonemes.of_ipa(name)
         if not parts and name not in ("", "ʔ"):
-            continue  # a mark: what was spoken before goes on
+            continue  # a mark that continues the phoneme before
         for k, label in enumerate(parts or (phonemes.SILENCE,)):
             labels.append(label)
             starts.append(start + (end - start) * k / max(len(parts), 1))

@@ -15,7 +15,7 @@ def load(path):
     return network.eval(), heads.eval()
 
 
-BLANK_BIAS = 1.0  # CTC says too little when in doubt: chosen on validation speech, between 0 and 3
+BLANK_BIAS = 1.0  # CTC prefers blanks: chosen on validation speech between 0 and 3
 
 
 def greedy(log_probabilities):
@@ -31,7 +31,7 @@ def distance(a, b):
     b, index = np.asarray(b), np.arange(len(b) + 1)
     for i, x in enumerate(a):
         changed = np.minimum(row[1:] + 1, row[:-1] + (b != x))
-        # Insertions: a running minimum of what is left of their cost.
+        # Insertions: a running minimum.
         row = np.minimum.accumulate(np.concatenate([[i + 1], changed]) - index) + index
     return int(row[-1])
 

@@ -11,7 +11,7 @@ from mien_training.audio.features import seconds_of_steps
 TRUST = {"synthetic": 1.0, "av": 0.5, "people": 0.5, "animated": 0.0}
 OTHERS = 0.3
 LIPS = [SPEECH_CONTROLS.index(name) for name in ("jawOpen", "mouthClose")]
-MEET = 4.0  # lips that do not meet for p, b and m are what one sees first
+MEET = 4.0  # lips that do not close for p, b and m are the most visible error
 TIMED = ("synthetic", "av")
 
 

@@ -19,9 +19,9 @@ from mien_training.audio import examples, losses, recognition
 from mien_training.audio.audio_net import Encoder, PhonemeHeads, activity_decoder, controls_decoder
 from mien_training.paths import cache
 
-KEPT = 24                      # batches, of which one is taken at random
-CONTROLS, ACTIVITY = 20.0, 1.5  # weights beside CTC's, with which all have a say
-DECODED = 3                    # one in so many sequences is decoded: two more LSTMs take as long as all the rest
+KEPT = 24                      # batches; each step uses a random one
+CONTROLS, ACTIVITY = 20.0, 1.5  # weights relative to CTC's
+DECODED = 3                    # one of this many sequences is decoded: two more LSTMs double the time
 
 
 class Learner:

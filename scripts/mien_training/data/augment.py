@@ -8,7 +8,7 @@ import math
 import torch
 import torch.nn.functional as F
 
-STRANGE = 0.1  # share of images in light that nobody would choose
+STRANGE = 0.1  # share of images in unusual light
 
 
 def uniform(generator, n, low, high, channels=1):

@@ -74,7 +74,7 @@ EXPRESSIONS = {
     "tongue": dict(tongueOut=(.3, 1), jawOpen=(.45, .8)),
     "lip bite": dict(mouthRollLower=(.4, 1), mouthRollUpper=(0, .6), mouthPress=(0, .4)),
 }
-# What a mouth does while speaking, in the same form.
+# Shapes of the mouth while speaking, in the same form.
 VISEMES = [
     dict(jawOpen=(.2, .6), mouthLowerDown=(0, .4), mouthUpperUp=(0, .25)),           # a
     dict(jawOpen=(.08, .3), mouthStretch=(.05, .5), mouthSmile=(0, .35), mouthLowerDown=(0, .4)),  # e, i

@@ -89,7 +89,7 @@ class Rendered:
         scale = self.window / labels["window"][:, None, 2:3]
         landmarks = (labels["landmarks"] - labels["window"][:, None, :2]) * scale + self.window / 2
         crop = to_window(labels["crop"], labels["window"], self.window)
-        self.last = labels  # what pose targets need beyond the common row, of the rows just drawn
+        self.last = labels  # labels of the last rows, for pose targets
         return images, landmarks, crop, labels["controls"], labels["visibility"]
 
 

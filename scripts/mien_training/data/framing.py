@@ -11,10 +11,10 @@ class Framing:
     name: str
     height: int          # of the encoder's input, pixels
     width: int
-    extent: float        # height of what the encoder sees, crop sides
+    extent: float        # height of the encoder's view, crop sides
     window: int          # side of a stored window, pixels
     window_crops: float  # the same in crop sides
-    looseness: float     # how far crops are off, in what BaseNet's are
+    looseness: float     # error of crops relative to BaseNet's
 
     @property
     def pixels_per_crop(self):

@@ -9,7 +9,7 @@ import numpy as np
 from mien_convert.atomic_files import whole
 from mien_training.paths import cache
 
-SIDE = 24      # pixels of what is compared
+SIDE = 24      # pixels of the compared images
 # correlation of two; of the 20 pairs above it between training and test portraits 19 show the same person to the eye
 ALIKE = 0.96
 OF_CLIPS = ("vv_040502.jpg", "vv_099911.jpg")  # who speaks in whitehouse_obama_weekly

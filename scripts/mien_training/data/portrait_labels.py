@@ -14,7 +14,7 @@ from mien_training.data.expressions import CONTROLS
 from mien_training.paths import data
 
 PACKS = ("faces", "faces_wild")
-VALIDATION_SPEAKERS = ("GRID s5",)  # who is in the clips of the evaluation too
+VALIDATION_SPEAKERS = ("GRID s5",)  # also in the clips of the evaluation
 GREY_GROUP = "members of Congress"   # what the group of the first pack's photographs is called here
 NEAR_PROFILE = np.radians(38)        # yaw from which on the teacher guesses half of a face
 

@@ -36,7 +36,7 @@ def of(setting, network, plain):
     """Features of the test sequences: as rendered (`plain`), or with the effects of a poor camera."""
     encoders = [setting.checkpoint("basenet")[0]] + ([setting.checkpoint("hifinet")[0]] if network == "hifinet" else [])
     folders = shards(network)
-    made_by = encoders if plain else [*encoders, Path(augment.__file__)]  # which says what a poor camera is
+    made_by = encoders if plain else [*encoders, Path(augment.__file__)]  # which defines the poor camera
     name = f"{network}_{digest(made_by)}_{len(folders)}_{'plain' if plain else 'spoiled'}.pt"
     path = cache() / "evaluation" / name
     if not path.exists():

@@ -32,7 +32,7 @@ class ConvNorm(nn.Sequential):
         if not in_training(self, x):
             return convolution(x)
         weight = convolution.weight.to(x.dtype)
-        if convolution.kernel_size == (1, 1):  # a product of matrices, which is faster told so
+        if convolution.kernel_size == (1, 1):  # a matrix product is faster
             return F.linear(x.permute(0, 2, 3, 1), weight.flatten(1)).permute(0, 3, 1, 2)
         if convolution.kernel_size == x.shape[2:]:
             return (x * weight.permute(1, 0, 2, 3)).sum((2, 3), keepdim=True)

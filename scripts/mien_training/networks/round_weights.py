@@ -11,7 +11,7 @@ from pathlib import Path
 from mien_convert.atomic_files import write_whole
 from mien_convert.weight_file import NO_INDEX, RECORD_BYTES, sealed
 
-BITS = 8                 # significant ones, of 11 that fp16 has; docs/packages.md says what that costs
+BITS = 8                 # significant bits of the 11 of fp16; docs/packages.md has the error
 FEW_WEIGHTS = 8192
 INFINITY = 0x7C00        # of fp16
 

@@ -19,7 +19,7 @@ POINT_WEIGHTS = {"eye": 2.0, "iris": 1.5, "lips": 2.0, "brow": 1.5}
 OPENINGS = [(159, 145), (158, 153), (160, 144), (386, 374), (385, 380), (387, 373), (13, 14), (82, 87), (312, 317),
             (80, 88), (310, 318), (61, 291), (105, 159), (334, 386), (107, 336)]
 
-IMPORTANCE = {"jawOpen": 10.0, "eyeBlinkLeft": 4.0, "eyeBlinkRight": 4.0}  # what a viewer misses first
+IMPORTANCE = {"jawOpen": 10.0, "eyeBlinkLeft": 4.0, "eyeBlinkRight": 4.0}  # the most visible controls
 RESPONDING = 0.03       # spread of a teacher's control on portraits, from which on it is asked whether it is followed
 # spread from which on it is learned from: funnel, mouthClose and jawRight hardly move, but rightly
 HINTING = 0.015

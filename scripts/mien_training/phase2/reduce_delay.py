@@ -32,7 +32,7 @@ from mien_training.phase2.train_decoders import (
     temporal_loss,
 )
 
-SETTLED = 10       # frames after which a decoder has said of a still face what it has to say
+SETTLED = 10       # frames until the output for a constant stream settles
 SLOW = 4.0         # frames, deviation of the window in which we tell how far off a decoder is from how late it is
 NEAR = 0.05        # larger errors count linearly
 WEIGHT_DECAY = 1e-4
@@ -90,7 +90,7 @@ def learn(decoder, sources, weight, args):
         batch, mask = source.batch()
         return temporal_loss(soft_clamp(decoder(batch["features"])[0]), batch["controls"], weight * mask, args)
 
-    minimise(lambda: sum(map(lesson, sources)), decoder, args, "hastened", WEIGHT_DECAY)
+    minimise(lambda: sum(map(lesson, sources)), decoder, args, "reduced delay", WEIGHT_DECAY)
 
 
 def reduce_delay(decoder, args):
@@ -137,7 +137,7 @@ def main():
     before = known["supported"].numpy()
     report, supported = evaluate({"controls": decoder}, load_joined(args.val), gaze=args.network == "hifinet",
                                  portraits=torch.load(args.portraits_val), before=before)
-    # The judgement is the same, so what was supported stays so.
+    # The supported controls stay the same.
     save(args.out, known | {"controls_decoder": decoder.state_dict()}, supported | (before > 0), report)
 
 

@@ -37,7 +37,7 @@ class Weights:
     """Weights of the terms for the rows of the output layer."""
     portraits: float  # to agree with the portraits' labels
     renders: float    # to agree with the truth on renders
-    keep: float       # to answer `gain` times what they answered before
+    keep: float       # of the target `gain` times the previous output
     gain: float
 
 

@@ -21,7 +21,7 @@ from mien_training.phase2.decoder_run import Run
 from mien_training.phase2.train_decoders import arguments, temporal_loss
 
 FRAMES = 90
-CONCORDANCE = 0.05   # weight of what keeps the amplitude, beside the error of values and differences
+CONCORDANCE = 0.05   # weight of the loss that keeps the amplitude
 POSE_MIRROR = torch.tensor([1.0, -1, -1, -1, 1, 1, -1, 1, 1])
 
 

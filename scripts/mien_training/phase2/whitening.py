@@ -4,7 +4,7 @@ The map is linear and is later merged into the first layer of the decoder (`fold
 """
 import torch
 
-FLOOR = 3e-5  # of the mean variance: what varies less than this is not magnified further
+FLOOR = 3e-5  # of the mean variance: smaller ones are not magnified further
 
 
 class Whitening:

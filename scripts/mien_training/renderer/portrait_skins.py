@@ -30,7 +30,7 @@ LEAST_EYES = 30        # outer eye corners' distance, pixels
 EYES_CM = 9.5          # the same of the rig
 HUBER = 0.25           # relative error of brightness beyond which a vertex counts less
 WORST_LIGHT = 0.45     # mean log error of brightness after the light has been fitted
-RIDGE = 0.004          # how small the light's shape stays, in what brightness there is
+RIDGE = 0.004          # regularization of the light's shape, relative to the brightness
 DARKEST = 0.4          # shade below which a place is not brightened further, in the median of the face
 DARK_BLUE, DARK_BELOW = 0.33, 0.35  # linear blue over red, brightness in that of the picture's brightest
 SEEN_FROM, SEEN_WELL = 0.25, 0.55  # cosine between normal and line of sight
@@ -199,7 +199,7 @@ class Baker:
             found = skin * (found.mean(2, keepdims=True) / np.maximum(skin.mean(2, keepdims=True), 1e-3))
         share = self.face.inside * self.face.spread(seen[:, None])[..., 0] * (self.face.triangle >= 0)
         share = cv2.GaussianBlur(np.minimum(share, cv2.erode(share, np.ones((9, 9)))), (0, 0), 3)[..., None]
-        other = np.minimum(share[:, ::-1], 1 - share)  # what only the other side shows is its mirror image
+        other = np.minimum(share[:, ::-1], 1 - share)  # mirrored where only the other side is visible
         rest = 1 - share - other
         out = share * found + other * found[:, ::-1] + rest * skin
         return np.uint8(np.clip(out, 0, 1) ** (1 / 2.2) * 255 + 0.5)
