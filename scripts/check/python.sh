@@ -4,7 +4,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 CHECKED=(scripts tests/convert tests/train apps/conformance fuzz)
-LINES=20000  # of code in scripts/
+LINES=20050  # of code in scripts/; lower it when the code shrinks
 
 scripts/check/code_size.py "$LINES"
 scripts/check/python_statements.py "${CHECKED[@]}"
@@ -14,4 +14,10 @@ if ! $python -m pip install --quiet --disable-pip-version-check -r scripts/check
   echo "SKIPPED: Python: ruff could not be installed from PyPI" >&2
   exit 0
 fi
-build/ruff/bin/ruff check --config scripts/pyproject.toml --no-cache "$@" "${CHECKED[@]}"
+ruff=(build/ruff/bin/ruff check --config scripts/pyproject.toml --no-cache)
+# A check that accepts an unused import does not work.
+if printf 'import os\n' | "${ruff[@]}" --quiet - >/dev/null; then
+  echo "check/python.sh: an unused import is not reported" >&2
+  exit 1
+fi
+"${ruff[@]}" "$@" "${CHECKED[@]}"
