@@ -34,13 +34,14 @@ TRACKER = program("tracker", "tracker_test")
 OF_TRACKERS = [program("tracker", f"tracker_{name}_test") for name in ("threads", "allocation", "scenario", "trained")]
 COMPARE = program("apps", "compare_test")
 CONVERT = Check("mien_program", "apps/mien/mien", "tests/apps/convert_test.py", (FRAMES,))
+CONVERT_GLTF = Check("mien_program", "apps/mien/mien", "tests/apps/convert_gltf_test.py", (FRAMES,))
 PROTOCOLS = Check("protocol_packets", "tests/formats/protocol_packets", "tests/formats/protocols_test.py", (FRAMES,))
 
 # By folder, the longest name that fits; the nearest tests first.
 PLAN = {
     "apps/protocols": [PROTOCOLS],
-    "apps/animation": [FORMATS, CONVERT, COMPARE],
-    "formats": [FORMATS, CONVERT, *ENGINE, *API],
+    "apps/animation": [FORMATS, CONVERT, CONVERT_GLTF, COMPARE],
+    "formats": [FORMATS, CONVERT, CONVERT_GLTF, *ENGINE, *API],
     "engine": [*ENGINE, *API, AUDIO, GEOMETRY, TRACKER, *OF_TRACKERS],
     "audio": [AUDIO, TRACKER, *OF_TRACKERS],
     "tracker": [GEOMETRY, *API, TRACKER, *OF_TRACKERS],

@@ -3,39 +3,19 @@
 usage: convert_test.py MIEN_PROGRAM [FRAMES]
 Converts FRAMES random frames (default 10 000) to every format and back; all must keep the precision of the format.
 """
-import base64
 import csv
 import json
 import math
 import os
 import random
 import re
-import struct
 import subprocess
-import sys
-import tempfile
 import unittest
 import xml.etree.ElementTree
 
-PROGRAM = sys.argv.pop(1)
-FRAMES = int(sys.argv.pop(1)) if len(sys.argv) > 1 else 10000
-FPS = 60
+import conversions
+from conversions import ARKIT, FPS, FRAMES, PROGRAM, ConvertTestCase
 
-ARKIT = """eyeBlinkLeft eyeLookDownLeft eyeLookInLeft eyeLookOutLeft eyeLookUpLeft eyeSquintLeft eyeWideLeft eyeBlinkRight eyeLookDownRight
-eyeLookInRight eyeLookOutRight eyeLookUpRight eyeSquintRight eyeWideRight jawForward jawLeft jawRight jawOpen mouthClose mouthFunnel
-mouthPucker mouthLeft mouthRight mouthSmileLeft mouthSmileRight mouthFrownLeft mouthFrownRight mouthDimpleLeft mouthDimpleRight
-mouthStretchLeft mouthStretchRight mouthRollLower mouthRollUpper mouthShrugLower mouthShrugUpper mouthPressLeft mouthPressRight
-mouthLowerDownLeft mouthLowerDownRight mouthUpperUpLeft mouthUpperUpRight browDownLeft browDownRight browInnerUp browOuterUpLeft
-browOuterUpRight cheekPuff cheekSquintLeft cheekSquintRight noseSneerLeft noseSneerRight tongueOut""".split()
-# The header of a real recording.
-LIVE_LINK = (
-    "Timecode,BlendshapeCount,EyeBlinkLeft,EyeLookDownLeft,EyeLookInLeft,EyeLookOutLeft,EyeLookUpLeft,EyeSquintLeft,EyeWideLeft,"
-    "EyeBlinkRight,EyeLookDownRight,EyeLookInRight,EyeLookOutRight,EyeLookUpRight,EyeSquintRight,EyeWideRight,JawForward,JawRight,JawLeft,"
-    "JawOpen,MouthClose,MouthFunnel,MouthPucker,MouthRight,MouthLeft,MouthSmileLeft,MouthSmileRight,MouthFrownLeft,MouthFrownRight,"
-    "MouthDimpleLeft,MouthDimpleRight,MouthStretchLeft,MouthStretchRight,MouthRollLower,MouthRollUpper,MouthShrugLower,MouthShrugUpper,"
-    "MouthPressLeft,MouthPressRight,MouthLowerDownLeft,MouthLowerDownRight,MouthUpperUpLeft,MouthUpperUpRight,BrowDownLeft,BrowDownRight,"
-    "BrowInnerUp,BrowOuterUpLeft,BrowOuterUpRight,CheekPuff,CheekSquintLeft,CheekSquintRight,NoseSneerLeft,NoseSneerRight,TongueOut,HeadYaw,"
-    "HeadPitch,HeadRoll,LeftEyeYaw,LeftEyePitch,LeftEyeRoll,RightEyeYaw,RightEyePitch,RightEyeRoll").split(",")
 FACS = """ChinRaiserUpperLip ChinRaiser FlatPucker Funneler LowerLipSuck LipPresser LipsTogether MouthLeft MouthRight Pucker UpperLipSuck
 LeftCheekPuff LeftDimpler LeftLipCornerDown LeftLowerLipDepressor LeftLipCornerPuller LeftLipStretcher LeftUpperLipRaiser RightCheekPuff
 RightDimpler RightLipCornerDown RightLowerLipDepressor RightLipCornerPuller RightLipStretcher RightUpperLipRaiser JawDrop JawLeft JawRight
@@ -55,47 +35,15 @@ LeftCheekPuff=cheekPuff RightCheekPuff=cheekPuff LeftNoseWrinkler=noseSneerLeft 
 FACS_OF = {unit: (max, [name]) for unit, name in (pair.split("=") for pair in ONE_TO_ONE.split())}
 mean = lambda values: sum(values) / len(values)
 FACS_OF |= {
-    "LeftCheekRaiser": (max, ["eyeSquintLeft", "cheekSquintLeft"]), "RightCheekRaiser": (max, ["eyeSquintRight", "cheekSquintRight"]),
-    "EyesLookUp": (mean, ["eyeLookUpLeft", "eyeLookUpRight"]), "EyesLookDown": (mean, ["eyeLookDownLeft", "eyeLookDownRight"]),
-    "EyesLookLeft": (mean, ["eyeLookOutLeft", "eyeLookInRight"]), "EyesLookRight": (mean, ["eyeLookInLeft", "eyeLookOutRight"]),
+    "LeftCheekRaiser": (max, ["eyeSquintLeft", "cheekSquintLeft"]),
+    "RightCheekRaiser": (max, ["eyeSquintRight", "cheekSquintRight"]),
+    "EyesLookUp": (mean, ["eyeLookUpLeft", "eyeLookUpRight"]),
+    "EyesLookDown": (mean, ["eyeLookDownLeft", "eyeLookDownRight"]),
+    "EyesLookLeft": (mean, ["eyeLookOutLeft", "eyeLookInRight"]),
+    "EyesLookRight": (mean, ["eyeLookInLeft", "eyeLookOutRight"]),
     "LipPresser": (mean, ["mouthPressLeft", "mouthPressRight"]), "Corrugator": (min, ["browDownLeft", "browDownRight"]),
 }
 VISEMES = "sil PP FF TH DD kk CH SS nn RR aa E ih oh ou".split()
-
-
-def random_share(rng):
-    return rng.choice((0.0, 1.0, 0.5, rng.random(), round(rng.random(), 6), rng.random() * 1e-5))
-
-
-def random_frames(seed, count=FRAMES):
-    rng = random.Random(seed)
-    frames, t_ns = [], 0
-    for number in range(count):
-        frame = {"t_ns": t_ns, "frame": number, "status": rng.choice(("searching", "tracking", "tracking", "lost")), "face_id": 0,
-                 "face_prob": random_share(rng), "lod": rng.randint(1, 4), "vad": random_share(rng),
-                 "controls": {name: random_share(rng) for name in ARKIT}}
-        if frame["status"] == "tracking":
-            frame["box"] = [rng.uniform(-50, 900) for _ in range(4)]
-            frame["head"] = {"pitch_rad": rng.uniform(-1.5, 1.5), "yaw_rad": rng.uniform(-3, 3), "roll_rad": rng.uniform(-3, 3)}
-            frame["position_m"] = [rng.uniform(-2, 2) for _ in range(3)]
-            frame["eyes"] = {side: {"pitch_rad": rng.uniform(-0.6, 0.6), "yaw_rad": rng.uniform(-0.6, 0.6), "roll_rad": rng.uniform(-0.1, 0.1)}
-                             for side in ("left", "right")}
-        frames.append(frame)
-        t_ns += rng.choice((16666667, 33333333, 1000, 40000000))
-    return frames
-
-
-def rotation_matrix(head):
-    (sp, cp), (sy, cy), (sr, cr) = ((math.sin(head[k]), math.cos(head[k])) for k in ("pitch_rad", "yaw_rad", "roll_rad"))
-    rx, ry, rz = [[1, 0, 0], [0, cp, -sp], [0, sp, cp]], [[cy, 0, sy], [0, 1, 0], [-sy, 0, cy]], [[cr, -sr, 0], [sr, cr, 0], [0, 0, 1]]
-    times = lambda a, b: [[sum(a[i][k] * b[k][j] for k in range(3)) for j in range(3)] for i in range(3)]
-    return times(times(ry, rx), rz)
-
-
-def matrix_of_quaternion(x, y, z, w):
-    return [[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]]
 
 
 def seconds_of_timecode(text, fps=FPS):
@@ -104,77 +52,14 @@ def seconds_of_timecode(text, fps=FPS):
     return 3600 * int(hours) + 60 * int(minutes) + int(seconds) + float(frames) / fps
 
 
-def glb_chunks(data):
-    magic, version, length = struct.unpack_from("<4sII", data)
-    assert (magic, version, length) == (b"glTF", 2, len(data))
-    chunks, at = [], 12
-    while at < length:
-        size, kind = struct.unpack_from("<I4s", data, at)
-        chunks.append((kind, data[at + 8:at + 8 + size]))
-        at += 8 + size
-        assert at % 4 == 0
-    assert [kind for kind, _ in chunks] == [b"JSON", b"BIN\0"]
-    return json.loads(chunks[0][1]), chunks[1][1]
-
-
-def accessor(document, data, index):
-    a = document["accessors"][index]
-    view = document["bufferViews"][a["bufferView"]]
-    width = {"SCALAR": 1, "VEC3": 3, "VEC4": 4}[a["type"]]
-    assert a["componentType"] == 5126
-    values = struct.unpack_from(f"<{a['count'] * width}f", data, view.get("byteOffset", 0) + a.get("byteOffset", 0))
-    return [values[i:i + width] for i in range(0, len(values), width)]
-
-
-def to_f32(value):
-    return struct.unpack("<f", struct.pack("<f", value))[0]
-
-
-class Convert(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.frames = random_frames(1)
-        cls.source = cls.path("source.jsonl")
-        cls.write("source.jsonl", "".join(json.dumps(frame) + "\n" for frame in cls.frames))
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.folder.cleanup()
-
-    @classmethod
-    def path(cls, name):
-        return os.path.join(cls.folder.name, name)
-
-    @classmethod
-    def write(cls, name, text):
-        with open(cls.path(name), "w", newline="") as file:
-            file.write(text)
-
-    def read(self, name):
-        with open(self.path(name), newline="") as file:
-            return file.read()
-
-    def convert(self, a, b, *more):
-        done = subprocess.run([PROGRAM, "convert", self.path(a), self.path(b), *more], capture_output=True, text=True)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        return done.stderr
-
-    def frames_of(self, name):
-        return [json.loads(line) for line in self.read(name).splitlines()]
-
-    # Reading and writing gives the same text.
-    def assert_stable(self, name, *more):
-        again = "again." + name
-        self.convert(name, again, *more)
-        self.assertEqual(self.read(again), self.read(name))
-
+class Convert(ConvertTestCase):
     def test_json_lines_store_everything(self):
         self.assertNotIn("omitted", self.convert("source.jsonl", "all.jsonl"))
         for before, after in zip(self.frames, self.frames_of("all.jsonl"), strict=True):
             if "head" in after:
                 q = after["head"].pop("q")
-                for row, wanted in zip(matrix_of_quaternion(*q), rotation_matrix(before["head"])):
+                for row, wanted in zip(conversions.matrix_of_quaternion(*q),
+                                       conversions.rotation_matrix(before["head"])):
                     for a, b in zip(row, wanted):
                         self.assertAlmostEqual(a, b, places=12)
             self.assertEqual(before, after)
@@ -186,7 +71,8 @@ class Convert(unittest.TestCase):
         rows = list(csv.DictReader(self.read("curves.csv").splitlines()))
         for frame, row in zip(self.frames, rows, strict=True):
             self.assertEqual(round(float(row["t_ms"]) * 1e6), frame["t_ns"])
-            self.assertEqual((row["status"], int(row["frame"]), int(row["lod"])), (frame["status"], frame["frame"], frame["lod"]))
+            self.assertEqual((row["status"], int(row["frame"]), int(row["lod"])), (frame["status"], frame["frame"],
+                                                                                   frame["lod"]))
             self.assertEqual((float(row["face_prob"]), float(row["vad"])), (frame["face_prob"], frame["vad"]))
             self.assertEqual({name: float(row[name]) for name in ARKIT}, frame["controls"])
             if frame["status"] == "tracking":
@@ -204,21 +90,24 @@ class Convert(unittest.TestCase):
             self.convert("source.jsonl", name, "--llf-rot", unit)
             self.assertEqual(json.loads(self.read(name + ".json")), {"rotation": unit, "timecode_fps": 60.0})
             lines = self.read(name).splitlines()
-            self.assertEqual(lines[0].split(","), LIVE_LINK)
+            self.assertEqual(lines[0].split(","), conversions.LIVE_LINK)
             for frame, line in zip(self.frames, lines[1:], strict=True):
                 cells = line.split(",")
                 self.assertEqual((len(cells), cells[1]), (63, "61"))
-                row = dict(zip(LIVE_LINK, cells))
+                row = dict(zip(conversions.LIVE_LINK, cells))
                 day = 24 * 3600
-                self.assertLess(abs((seconds_of_timecode(row["Timecode"]) - frame["t_ns"] * 1e-9 + day / 2) % day - day / 2), 0.6e-3 / FPS)
+                self.assertLess(abs((seconds_of_timecode(row["Timecode"]) - frame["t_ns"] * 1e-9 + day / 2) % day - day
+                                    / 2), 0.6e-3 / FPS)
                 for control in ARKIT:
-                    self.assertEqual(row[control[0].upper() + control[1:]], f"{frame['controls'][control]:.10f}", control)
+                    self.assertEqual(row[control[0].upper() + control[1:]], f"{frame['controls'][control]:.10f}",
+                                     control)
                 angles = {"Head": frame.get("head", {"pitch_rad": 0, "yaw_rad": 0, "roll_rad": 0})}
                 if "eyes" in frame:
                     angles |= {"LeftEye": frame["eyes"]["left"], "RightEye": frame["eyes"]["right"]}
                 for joint, wanted in angles.items():
                     for axis, sign in (("Yaw", 1), ("Pitch", -1), ("Roll", 1)):
-                        self.assertAlmostEqual(float(row[joint + axis]), sign * scale * wanted[axis.lower() + "_rad"], delta=1e-10 * 0.51 + 1e-13)
+                        self.assertAlmostEqual(float(row[joint + axis]), sign * scale * wanted[axis.lower() + "_rad"],
+                                               delta=1e-10 * 0.51 + 1e-13)
             self.assert_stable(name, "--llf-rot", unit)  # the JSON file beside it has the unit
         os.remove(self.path("deg.llf.csv.json"))
         self.convert("deg.llf.csv", "told.llf.csv", "--from-llf-rot", "deg", "--llf-rot", "deg")
@@ -239,196 +128,6 @@ class Convert(unittest.TestCase):
         before, after = self.frames_of("midnight.jsonl")
         self.assertAlmostEqual((after["t_ns"] - before["t_ns"]) * 1e-9, 2 / 60, places=8)
 
-    def check_gltf(self, document, data, frames):
-        animation = document["animations"][0]
-        names = document["meshes"][0]["extras"]["targetNames"]
-        self.assertEqual(names, ARKIT)
-        nodes = [node["name"] for node in document["nodes"]]
-        found = {}
-        for channel in animation["channels"]:
-            sampler = animation["samplers"][channel["sampler"]]
-            self.assertEqual(sampler["interpolation"], "LINEAR")
-            times = [t[0] for t in accessor(document, data, sampler["input"])]
-            bounds = document["accessors"][sampler["input"]]
-            self.assertEqual((bounds["min"], bounds["max"]), ([times[0]], [times[-1]]))
-            self.assertTrue(all(a < b for a, b in zip(times, times[1:])))
-            found[nodes[channel["target"]["node"]], channel["target"]["path"]] = times, accessor(document, data, sampler["output"])
-        times, weights = found["face", "weights"]
-        kept, last = [], -1.0
-        for frame in frames:
-            if to_f32(frame["t_ns"] * 1e-9) > last:
-                last = to_f32(frame["t_ns"] * 1e-9)
-                kept.append(frame)
-        self.assertEqual(times, [to_f32(frame["t_ns"] * 1e-9) for frame in kept])
-        flat = [w[0] for w in weights]
-        for i, frame in enumerate(kept):
-            self.assertEqual(flat[52 * i:52 * i + 52], [to_f32(frame["controls"][name]) for name in ARKIT])
-        seen = [frame for frame in kept if "head" in frame]
-        for (node, path), get in ((("head", "rotation"), lambda f: f["head"]), (("leftEye", "rotation"), lambda f: f["eyes"]["left"]),
-                                  (("rightEye", "rotation"), lambda f: f["eyes"]["right"])):
-            keys = dict(zip(*found[node, path]))
-            for frame in seen:
-                q = keys[to_f32(frame["t_ns"] * 1e-9)]
-                self.assertAlmostEqual(sum(part * part for part in q), 1, places=6)
-                for row, wanted in zip(matrix_of_quaternion(*q), rotation_matrix(get(frame))):
-                    for a, b in zip(row, wanted):
-                        self.assertAlmostEqual(a, b, places=6)
-        self.assertEqual(found["head", "translation"][1], [tuple(to_f32(v) for v in frame["position_m"]) for frame in seen])
-
-    def test_gltf(self):
-        self.convert("source.jsonl", "clip.glb")
-        with open(self.path("clip.glb"), "rb") as file:
-            self.check_gltf(*glb_chunks(file.read()), self.frames)
-        few = self.frames[:500]
-        self.write("few.jsonl", "".join(json.dumps(frame) + "\n" for frame in few))
-        self.convert("few.jsonl", "few.gltf")
-        document = json.loads(self.read("few.gltf"))
-        uri = document["buffers"][0]["uri"]
-        data = base64.b64decode(uri.removeprefix("data:application/octet-stream;base64,"), validate=True)
-        self.assertEqual(len(data), document["buffers"][0]["byteLength"])
-        self.check_gltf(document, data, few)
-
-    def test_gltf_round_trips(self):
-        self.convert("source.jsonl", "back.glb")
-        self.convert("back.glb", "back.jsonl")
-        kept, last = [], -1.0
-        for frame in self.frames:
-            if to_f32(frame["t_ns"] * 1e-9) > last:
-                last = to_f32(frame["t_ns"] * 1e-9)
-                kept.append(frame)
-        for frame, after in zip(kept, self.frames_of("back.jsonl"), strict=True):
-            self.assertEqual(to_f32(after["t_ns"] * 1e-9), to_f32(frame["t_ns"] * 1e-9))
-            self.assertEqual({k: to_f32(v) for k, v in after["controls"].items()}, {k: to_f32(v) for k, v in frame["controls"].items()})
-            self.assertEqual(("head" in after, after["status"]), ("head" in frame, frame["status"]))
-        with open(self.path("back.glb"), "rb") as file:
-            once = file.read()
-        self.convert("back.glb", "back.again.glb")
-        with open(self.path("back.again.glb"), "rb") as file:
-            again = file.read()
-        _, a = glb_chunks(once)
-        _, b = glb_chunks(again)
-        self.assertEqual(len(a), len(b))
-        differ = [abs(x - y) for x, y in zip(struct.unpack(f"<{len(a) // 4}f", a), struct.unpack(f"<{len(b) // 4}f", b))]
-        self.assertLess(max(differ), 1e-6)  # rotations are converted to angles; the rest is equal
-
-    def test_gltf_of_other_programs(self):
-        times, weights = struct.pack("<2f", 0, 1), struct.pack("<4f", 0, 1, 0.5, 0.25)
-        turn = struct.pack("<8f", 0, 0, 0, 1, 0, math.sin(0.25), 0, math.cos(0.25))
-        data = times + weights + turn
-        document = {
-            "asset": {"version": "2.0"}, "buffers": [{"byteLength": len(data), "uri": "data:;base64," + base64.b64encode(data).decode()}],
-            "bufferViews": [{"buffer": 0, "byteOffset": o, "byteLength": n} for o, n in ((0, 8), (8, 16), (24, 32))],
-            "accessors": [{"bufferView": 0, "componentType": 5126, "type": "SCALAR", "count": 2},
-                          {"bufferView": 1, "componentType": 5126, "type": "SCALAR", "count": 4},
-                          {"bufferView": 2, "componentType": 5126, "type": "VEC4", "count": 2}],
-            "meshes": [{"primitives": [], "extras": {"targetNames": ["jawOpen", "mouthSmile_L"]}}],
-            "nodes": [{"mesh": 0}, {"name": "mixamorig:Head"}],
-            "animations": [{"samplers": [{"input": 0, "output": 1}, {"input": 0, "output": 2}],
-                            "channels": [{"sampler": 0, "target": {"node": 0, "path": "weights"}},
-                                         {"sampler": 1, "target": {"node": 1, "path": "rotation"}}]}]}
-        self.write("other.gltf", json.dumps(document, indent=1))
-        self.convert("other.gltf", "other.jsonl")
-        first, last = self.frames_of("other.jsonl")
-        self.assertEqual((first["controls"], last["controls"]), ({"jawOpen": 0, "mouthSmileLeft": 1}, {"jawOpen": 0.5, "mouthSmileLeft": 0.25}))
-        self.assertAlmostEqual(last["head"]["yaw_rad"], 0.5, places=6)
-
-    def test_gltf_tracks_with_times_of_their_own(self):
-        """The head has keys at 0 and 1 s only; it is interpolated at the times of the weights. Unknown targets are ignored."""
-        parts = [struct.pack("<3f", 0, 0.25, 1), struct.pack("<6f", 0, 7, 0.75, 7, 1, 7), struct.pack("<2f", 0, 1),
-                 struct.pack("<8f", 0, 0, 0, 1, 0, math.sin(0.25), 0, math.cos(0.25))]
-        data, starts = b"".join(parts), [sum(map(len, parts[:i])) for i in range(len(parts))]
-        kinds = (("SCALAR", 3), ("SCALAR", 6), ("SCALAR", 2), ("VEC4", 2))
-        document = {
-            "asset": {"version": "2.0"}, "buffers": [{"byteLength": len(data), "uri": "data:;base64," + base64.b64encode(data).decode()}],
-            "bufferViews": [{"buffer": 0, "byteOffset": start, "byteLength": len(part)} for start, part in zip(starts, parts)],
-            "accessors": [{"bufferView": i, "componentType": 5126, "type": kind, "count": count} for i, (kind, count) in enumerate(kinds)],
-            "meshes": [{"primitives": [], "extras": {"targetNames": ["jawOpen", "browRoll"]}}], "nodes": [{"mesh": 0}, {"name": "Head"}],
-            "animations": [{"samplers": [{"input": 0, "output": 1}, {"input": 2, "output": 3}],
-                            "channels": [{"sampler": 0, "target": {"node": 0, "path": "weights"}},
-                                         {"sampler": 1, "target": {"node": 1, "path": "rotation"}}]}]}
-        self.write("times.gltf", json.dumps(document))
-        self.assertNotIn("clamped", self.convert("times.gltf", "times.jsonl"))
-        frames = self.frames_of("times.jsonl")
-        self.assertEqual([frame["t_ns"] for frame in frames], [0, 250_000_000, 1_000_000_000])
-        self.assertEqual([frame["controls"]["jawOpen"] for frame in frames], [0, 0.75, 1])
-        for frame, yaw in zip(frames, (0, 0.125, 0.5)):
-            self.assertAlmostEqual(frame["head"]["yaw_rad"], yaw, places=6)
-
-    def gltf_document(self, uri, weight_type=5126, extension=None):
-        """A face with keys at 0 and 1 s, and its data."""
-        pack = {5126: "<4f", 5121: "<4B", 5123: "<4H", 5122: "<4h"}[weight_type]
-        most = {5126: 1, 5121: 255, 5123: 65535, 5122: 32767}[weight_type]
-        data = struct.pack("<2f", 0, 1) + struct.pack(pack, *[most if weight == 1 else 0 for weight in (0, 1, 1, 0)])
-        view = {"buffer": 0, "byteOffset": 8, "byteLength": len(data) - 8} | ({"extensions": {extension: {"buffer": 0}}} if extension else {})
-        return {"asset": {"version": "2.0"}, "buffers": [{"byteLength": len(data), "uri": uri}],
-                "bufferViews": [{"buffer": 0, "byteOffset": 0, "byteLength": 8}, view],
-                "accessors": [{"bufferView": 0, "componentType": 5126, "type": "SCALAR", "count": 2},
-                              {"bufferView": 1, "componentType": weight_type, "normalized": weight_type != 5126, "type": "SCALAR", "count": 4}],
-                "meshes": [{"primitives": [], "extras": {"targetNames": ["jawOpen", "mouthSmile_L"]}}], "nodes": [{"mesh": 0}],
-                "animations": [{"samplers": [{"input": 0, "output": 1}],
-                                "channels": [{"sampler": 0, "target": {"node": 0, "path": "weights"}}]}]}, data
-
-    def test_gltf_with_external_data(self):
-        os.makedirs(self.path("scene/parts"))
-        for uri, name in (("data.bin", "data.bin"), ("parts/my%20data.bin", "parts/my data.bin"), ("$41%.bin", "$41%.bin"), ("./parts/%e4%bd%a0.bin", "parts/\u4f60.bin")):
-            document, data = self.gltf_document(uri)
-            with open(self.path("scene/" + name), "wb") as file:
-                file.write(data + b"more")
-            self.write("scene/face.gltf", json.dumps(document))
-            self.convert("scene/face.gltf", "beside.jsonl")
-            first, last = self.frames_of("beside.jsonl")
-            self.assertEqual((first["controls"], last["controls"]), ({"jawOpen": 0, "mouthSmileLeft": 1}, {"jawOpen": 1, "mouthSmileLeft": 0}))
-        outside = self.path("outside.bin")
-        with open(outside, "wb") as file:
-            file.write(data)
-        with open(self.path("scene/short.bin"), "wb") as file:
-            file.write(data[:-1])
-        os.mkfifo(self.path("scene/pipe.bin"))
-        for uri, why in (("../outside.bin", "not in the folder of the file"), ("parts/../../outside.bin", "not in the folder of the file"),
-                         (outside, "not in the folder of the file"), ("file://" + outside, "not in the folder of the file"),
-                         ("none.bin", "no such file"), ("short.bin", f"shorter than {len(data)} bytes"), ("parts", "not a regular file"),
-                         ("pipe.bin", "not a regular file")):
-            self.write("scene/bad.gltf", json.dumps(self.gltf_document(uri)[0]))
-            code, said = self.refused("scene/bad.gltf", "bad.jsonl")
-            self.assertEqual(code, 3)
-            self.assertIn(f"uri: '{uri[:40]}': {why}", said)
-        done = subprocess.run([PROGRAM, "convert", "-", self.path("bad.jsonl")], capture_output=True, text=True,
-                              input=json.dumps(self.gltf_document("data.bin")[0]))
-        self.assertEqual(done.returncode, 3)
-        self.assertIn("uri: 'data.bin': no folder to search", done.stderr)
-
-    def test_compressed_gltf(self):
-        for weight_type in (5121, 5122, 5123):
-            document, data = self.gltf_document("data:;base64,", weight_type)
-            document["buffers"][0]["uri"] += base64.b64encode(data).decode()
-            # Data that are not animated may be compressed, because they are not read.
-            document["extensionsRequired"] = ["KHR_draco_mesh_compression", "KHR_texture_basisu", "KHR_mesh_quantization"]
-            document["meshes"][0]["primitives"] = [{"extensions": {"KHR_draco_mesh_compression": {"bufferView": 7}}}]
-            document["images"] = [{"bufferView": 9, "mimeType": "image/ktx2"}]
-            document["buffers"].append({"byteLength": 100})
-            self.write("small.gltf", json.dumps(document))
-            self.convert("small.gltf", "small.jsonl")
-            first, last = self.frames_of("small.jsonl")
-            self.assertEqual((first["controls"], last["controls"]), ({"jawOpen": 0, "mouthSmileLeft": 1}, {"jawOpen": 1, "mouthSmileLeft": 0}))
-        for extension in ("EXT_meshopt_compression", "KHR_meshopt_compression"):
-            document, data = self.gltf_document("data:;base64,", extension=extension)
-            document["buffers"][0]["uri"] += base64.b64encode(data).decode()
-            self.write("packed.gltf", json.dumps(document))
-            code, said = self.refused("packed.gltf", "packed.jsonl")
-            self.assertEqual(code, 3)
-            self.assertIn(f"bufferView: compressed with {extension}, which is not supported; export the animation without it", said)
-
-    def test_cues_hold_in_gltf(self):
-        self.write("cues.tsv", "0.00\tX\n1.00\tD\n2.00\tX\n3.00\tX\n")
-        self.convert("cues.tsv", "cues.gltf")
-        sampler, = {s["interpolation"] for s in json.loads(self.read("cues.gltf"))["animations"][0]["samplers"]}
-        self.assertEqual(sampler, "STEP")
-        self.convert("cues.tsv", "cues.csv", "--fps", "10")
-        self.convert("cues.gltf", "held.csv", "--fps", "10")
-        jaws = [[row["jawOpen"] for row in csv.DictReader(self.read(name).splitlines())] for name in ("cues.csv", "held.csv")]
-        self.assertEqual(jaws[0], jaws[1])
-        self.assertEqual(len(set(jaws[0])), 2)
-
     def test_bvh(self):
         self.convert("source.jsonl", "head.bvh", "--fps", "30")
         self.convert("source.jsonl", "even.jsonl", "--fps", "30")
@@ -448,7 +147,8 @@ class Convert(unittest.TestCase):
                 self.assertAlmostEqual(float(values[axis + "position"]), metres, delta=0.51e-6)
             for axis, key in (("Y", "yaw_rad"), ("X", "pitch_rad"), ("Z", "roll_rad")):
                 self.assertAlmostEqual(float(values[axis + "rotation"]), math.degrees(turn[key]), delta=0.51e-6)
-        self.assertEqual([c for c in channels if "rotation" in c], ["Yrotation", "Xrotation", "Zrotation"])  # the order of R = Ry Rx Rz
+        # the order of R = Ry Rx Rz
+        self.assertEqual([c for c in channels if "rotation" in c], ["Yrotation", "Xrotation", "Zrotation"])
         self.assert_stable("head.bvh")
 
     def test_bvh_with_a_whole_body(self):
@@ -481,7 +181,7 @@ Frame Time: 0.04
         frame, = self.frames_of("body.jsonl")
         # Hips rotate z to x, the neck x to y (roll), the head back about its own y: R = Ry(90) Rz(90) Ry(-90).
         wanted = [[1, 0, 0], [0, 0, -1], [0, 1, 0]]
-        for row, expected in zip(rotation_matrix(frame["head"]), wanted):
+        for row, expected in zip(conversions.rotation_matrix(frame["head"]), wanted):
             for a, b in zip(row, expected):
                 self.assertAlmostEqual(a, b, places=9)
         # The head is half a unit along the neck's rotated y, which is -x of the hips and z of the world.
@@ -504,15 +204,17 @@ Frame Time: 0.04
         self.convert("units.roblox.csv", "units.csv")
         self.convert("units.csv", "twice.roblox.csv")
         for a, b in zip(rows, csv.DictReader(self.read("twice.roblox.csv").splitlines()), strict=True):
-            self.assertEqual({k: v for k, v in a.items() if k != "Corrugator"}, {k: v for k, v in b.items() if k != "Corrugator"})
+            self.assertEqual({k: v for k, v in a.items() if k != "Corrugator"}, {k: v for k, v in b.items()
+                                                                                 if k != "Corrugator"})
         self.convert("source.jsonl", "small.roblox.csv", "--roblox-lod", "1")
         small = list(csv.DictReader(self.read("small.roblox.csv").splitlines()))
-        self.assertEqual(list(small[0])[-6:], ["JawDrop", "RightEyeClosed", "LeftEyeClosed", "RightLipCornerPuller", "LeftLipCornerPuller", "Pucker"])
+        self.assertEqual(list(small[0])[-6:], ["JawDrop", "RightEyeClosed", "LeftEyeClosed", "RightLipCornerPuller",
+                                               "LeftLipCornerPuller", "Pucker"])
         self.assertEqual([row["JawDrop"] for row in small], [row["JawDrop"] for row in rows])
 
     def test_roblox_units_are_kept(self):
         rng = random.Random(2)
-        rows = [[str(i), str(i * 40)] + [repr(random_share(rng)) for _ in FACS] for i in range(FRAMES)]
+        rows = [[str(i), str(i * 40)] + [repr(conversions.random_share(rng)) for _ in FACS] for i in range(FRAMES)]
         self.write("own.roblox.csv", "\n".join(",".join(row) for row in [["frame", "t_ms"] + FACS] + rows) + "\n")
         self.convert("own.roblox.csv", "own.jsonl")
         for row, frame in zip(rows, self.frames_of("own.jsonl"), strict=True):
@@ -582,7 +284,8 @@ Frame Time: 0.04
         switches.append(f"{max(hundredths * 24 // 100 + 1, last + 1)} X")
         self.assertEqual(self.read("cues.dat").splitlines(), switches)
         self.convert("cues.dat", "again.dat")  # consecutive equal shapes are merged
-        merged = [row for i, row in enumerate(switches) if i < 2 or i == len(switches) - 1 or row.split()[1] != switches[i - 1].split()[1]]
+        merged = [row for i, row in enumerate(switches)
+                  if i < 2 or i == len(switches) - 1 or row.split()[1] != switches[i - 1].split()[1]]
         self.assertEqual(self.read("again.dat").splitlines(), merged)
         self.assert_stable("again.dat")
         self.write("blair.dat", "MohoSwitch1\r\n1 E\r\n25 AI\r\n49 E\r\n73 rest\r\n")
@@ -591,7 +294,9 @@ Frame Time: 0.04
 
     def test_names_in_xml(self):
         cue = '<mouthCue start="0" end="1">D</mouthCue>'
-        self.write("a.xml", '<?xml version="1.0"?>\n<!-- made by hand --><rhubarbResult><metadata><soundFile>a &amp; &lt;b&gt; &quot;</soundFile>'
+        self.write("a.xml",
+                   '<?xml version="1.0"?>\n<!-- made by hand --><rhubarbResult><metadata><soundFile>a &amp; &lt;b&gt; '
+                   '&quot;</soundFile>'
                    f"</metadata><mouthCues>{cue}<other/></mouthCues></rhubarbResult>\n")
         self.convert("a.xml", "a.rhubarb.json")
         self.assertEqual(json.loads(self.read("a.rhubarb.json"))["metadata"]["soundFile"], 'a & <b> "')
@@ -602,16 +307,22 @@ Frame Time: 0.04
         for text, place, word in (
                 (head + '<mouthCue start="1" end="x">D</mouthCue>' + tail, (3, 3), "end: expected a time in seconds"),
                 (head + '<mouthCue start="2" end="1">D</mouthCue>' + tail, (3, 3), "decreasing time"),
-                (head + '<mouthCue start="0" end="1">Q</mouthCue>' + tail, (3, 3), "unknown mouth shape, expected A to H or X (got 'Q')"),
+                (head + '<mouthCue start="0" end="1">Q</mouthCue>' + tail, (3, 3),
+                 "unknown mouth shape, expected A to H or X (got 'Q')"),
                 (head + tail, (1, 1), "no cues"), ("<html></html>", (1, 1), "expected rhubarbResult"),
-                (head + "<mouthCue></rhubarbResult>", (3, 13), "unexpected closing tag"), (head, (3, 3), "<mouthCues> is not closed"),
+                (head + "<mouthCue></rhubarbResult>", (3, 13), "unexpected closing tag"), (head, (3, 3),
+                                                                                           "<mouthCues> is not closed"),
                 (head + '<mouthCue start="0" start="1"/>' + tail, (3, 29), "duplicate attribute 'start'"),
-                (head + "<mouthCue start=0/>" + tail, (3, 19), "expected a quotation mark"), (head + "&nbsp;", (3, 3), "unknown entity"),
-                ("<rhubarbResult/>x", (1, 17), "text outside"), ("<!-- no end", (1, 1), "expected -->"), ("<", (1, 2), "a tag name"),
-                ("MohoSwitch1\n0 X\n", (2, 1), "'0' is not a frame"), ("MohoSwitch1\n1 X\n1 D\n", (3, 1), "decreasing time"),
+                (head + "<mouthCue start=0/>" + tail, (3, 19), "expected a quotation mark"), (head + "&nbsp;", (3, 3),
+                                                                                              "unknown entity"),
+                ("<rhubarbResult/>x", (1, 17), "text outside"), ("<!-- no end", (1, 1), "expected -->"), ("<", (1, 2),
+                                                                                                          "a tag name"),
+                ("MohoSwitch1\n0 X\n", (2, 1), "'0' is not a frame"), ("MohoSwitch1\n1 X\n1 D\n", (3, 1),
+                                                                       "decreasing time"),
                 ("MohoSwitch1\n1 nothing\n", (2, 3), "unknown mouth shape"), ("MohoSwitch1\n1 X\n", (3, 1), "no cues")):
             self.write("bad.txt", text)
-            done = subprocess.run([PROGRAM, "convert", self.path("bad.txt"), self.path("never.csv"), "--quiet"], capture_output=True, text=True)
+            done = subprocess.run([PROGRAM, "convert", self.path("bad.txt"), self.path("never.csv"), "--quiet"],
+                                  capture_output=True, text=True)
             self.assertEqual(done.returncode, 3, text)
             self.assertIn(f"bad.txt: line {place[0]}, column {place[1]}: ", done.stderr, text)
             self.assertIn(word, done.stderr)
@@ -619,7 +330,8 @@ Frame Time: 0.04
 
     def test_shapes_and_poses(self):
         # Shapes are converted to controls and back; those that last long enough are kept.
-        self.write("slow.tsv", "0.00\tX\n0.50\tD\n1.00\tA\n1.50\tF\n2.00\tG\n2.50\tE\n3.00\tC\n3.50\tB\n4.00\tH\n4.50\tX\n5.00\tX\n")
+        self.write("slow.tsv",
+                   "0.00\tX\n0.50\tD\n1.00\tA\n1.50\tF\n2.00\tG\n2.50\tE\n3.00\tC\n3.50\tB\n4.00\tH\n4.50\tX\n5.00\tX\n")
         self.convert("slow.tsv", "slow.csv", "--fps", "100")
         self.convert("slow.csv", "slow.back.tsv")
         self.assertEqual(self.read("slow.back.tsv"), self.read("slow.tsv").replace("5.00\tX", "5.01\tX"))
@@ -651,7 +363,8 @@ Frame Time: 0.04
         self.assertTrue(os.path.exists(names[1]))
 
     def test_several_faces(self):
-        frames = [{"t_ns": 40000000 * i, "frame": i, "face_id": face, "controls": {"jawOpen": face / 4}} for i in range(20) for face in (1, 2)
+        frames = [{"t_ns": 40000000 * i, "frame": i, "face_id": face, "controls": {"jawOpen": face / 4}}
+                  for i in range(20) for face in (1, 2)
                   if face == 1 or i >= 5]
         self.write("two.jsonl", "".join(json.dumps(frame) + "\n" for frame in frames))
         self.assertNotIn("omitted", self.convert("two.jsonl", "two.csv"))
@@ -660,12 +373,8 @@ Frame Time: 0.04
                          [(f["frame"], f["face_id"], f["controls"]["jawOpen"]) for f in frames])
         self.assertIn("all faces but 1", self.convert("two.jsonl", "two.llf.csv"))
         self.assertNotIn("all faces", self.convert("two.jsonl", "second.llf.csv", "--face", "2"))
-        self.assertEqual({row["JawOpen"] for row in csv.DictReader(self.read("second.llf.csv").splitlines())}, {"0.5000000000"})
-
-    def refused(self, a, b, *more):
-        done = subprocess.run([PROGRAM, "convert", self.path(a), self.path(b), *more], capture_output=True, text=True)
-        self.assertFalse(os.path.exists(self.path(b)), b)
-        return done.returncode, done.stderr
+        self.assertEqual({row["JawOpen"]
+                          for row in csv.DictReader(self.read("second.llf.csv").splitlines())}, {"0.5000000000"})
 
     def test_units_of_live_link_face_are_noted(self):
         rows = ["Timecode,BlendshapeCount,JawOpen,HeadYaw,HeadPitch,HeadRoll"]
@@ -684,10 +393,12 @@ Frame Time: 0.04
         self.assertIn("HeadYaw: more than half a turn in radians (got 20, expected -3.14 to 3.14; --from-llf-rot", said)
 
     def test_units_of_bvh_are_options(self):
-        self.write("one.jsonl", json.dumps({"t_ns": 0, "position_m": [0.5, 0.25, -1], "head": {"pitch_rad": 0, "yaw_rad": 0, "roll_rad": 0}}) + "\n")
+        self.write("one.jsonl", json.dumps({"t_ns": 0, "position_m": [0.5, 0.25, -1],
+                                            "head": {"pitch_rad": 0, "yaw_rad": 0, "roll_rad": 0}}) + "\n")
         self.assertNotIn("positions", self.convert("one.jsonl", "cm.bvh", "--bvh-unit", "cm"))
         self.assertIn("\n50.000000 25.000000 -100.000000 ", self.read("cm.bvh"))
-        self.assertIn("positions: centimetres, detected from the size of the skeleton (--from-bvh-unit)", self.convert("cm.bvh", "cm.jsonl"))
+        self.assertIn("positions: centimetres, detected from the size of the skeleton (--from-bvh-unit)",
+                      self.convert("cm.bvh", "cm.jsonl"))
         self.assertEqual(self.frames_of("cm.jsonl")[0]["position_m"], [0.5, 0.25, -1])
         self.assertNotIn("positions", self.convert("cm.bvh", "m.jsonl", "--from-bvh-unit", "m"))
         self.assertEqual(self.frames_of("m.jsonl")[0]["position_m"], [50, 25, -100])
@@ -697,7 +408,9 @@ Frame Time: 0.04
         for name in ("x.fbx", "x.txt", "x.csv.gz", "x.json", "x.v2"):
             code, said = self.refused("one.csv", name)
             self.assertEqual(code, 2)
-            self.assertIn(f"{name}: unknown format (got {os.path.splitext(name)[1]}, expected one of .csv, .jsonl, .llf.csv, .gltf, .glb", said)
+            self.assertIn(
+                f"{name}: unknown format (got {os.path.splitext(name)[1]}, expected one of .csv, .jsonl, .llf.csv, "
+                ".gltf, .glb", said)
             self.assertIn("--to csv, jsonl, llf", said)
         self.convert("one.csv", "x.fbx", "--to", "csv")
         self.assertEqual(self.read("x.fbx").splitlines()[1].split(",")[:2], ["0", "0"])
@@ -707,9 +420,13 @@ Frame Time: 0.04
     def test_errors_have_a_position(self):
         faults = {
             "t_ms,jawOpen\n0,0\n40,lots\n": "line 3, column 4: jawOpen: 'lots' is not a number",
-            "Timecode,BlendshapeCount,JawOpen\n00:00:00:00.000,61,0\nnever,61,0\n": "line 3, column 1: Timecode: 'never' is not HH:MM:SS:FF.mmm",
-            "Timecode,BlendshapeCount,JawOpen\n00:00:00:61.000,61,0\n": "line 2, column 1: Timecode: '00:00:00:61.000' has more frames than a second of 60 (--from-llf-fps)",
-            '{"t_ns":0,"controls":{}}\n{"t_ns":1,"controls":{"jawOpen":"x"}}\n': "line 2, column 33: jawOpen: expected a number in 0..1",
+            "Timecode,BlendshapeCount,JawOpen\n00:00:00:00.000,61,0\nnever,61,0\n": "line 3, column 1: Timecode: "
+                                                                                    "'never' is not HH:MM:SS:FF.mmm",
+            "Timecode,BlendshapeCount,JawOpen\n00:00:00:61.000,61,0\n": "line 2, column 1: Timecode: '00:00:00:61.000' "
+                                                                        "has more frames than a second of 60 "
+                                                                        "(--from-llf-fps)",
+            '{"t_ns":0,"controls":{}}\n{"t_ns":1,"controls":{"jawOpen":"x"}}\n': "line 2, column 33: jawOpen: expected "
+                                                                                 "a number in 0..1",
             '{"t_ns":0}\n{"t_ns":1,}\n': "line 2, column 11: expected a key in quotation marks",
             "HIERARCHY\nROOT a\n{\nOFFSET 0 0 zero\n": "line 4, column 12: 'zero' is not a number",
             "t_ms,JawDrop,Pucker\n0,0,0\n40,0,-1\n": "line 3, column 6: Pucker: '-1' is not in 0..1",
@@ -723,7 +440,8 @@ Frame Time: 0.04
         }
         for text, wanted in faults.items():
             self.write("bad", text)
-            done = subprocess.run([PROGRAM, "convert", self.path("bad"), self.path("bad.out.csv")], capture_output=True, text=True)
+            done = subprocess.run([PROGRAM, "convert", self.path("bad"), self.path("bad.out.csv")], capture_output=True,
+                                  text=True)
             self.assertEqual((done.returncode, done.stderr), (3, f"mien: {self.path('bad')}: {wanted}\n"))
             self.assertFalse(os.path.exists(self.path("bad.out.csv")))
 
