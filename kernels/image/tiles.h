@@ -20,6 +20,9 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "kernels/image/box_sums.h"
+#include "kernels/image/colour_transform.h"
+#include "kernels/image/tile_geometry.h"
 #include "kernels/image/warp.h"
 
 namespace mien::kernels::tiles {
@@ -27,119 +30,12 @@ namespace mien::kernels::tiles {
 // Size of a tile of the output: wide, because each row of a copy has a fixed cost. A tile whose
 // part of the image exceeds the buffers is halved.
 constexpr std::int32_t kTileRows = 24, kTileColumns = 112;
-constexpr std::int32_t kMaxSums = 832;    // samples of an image row before the boxes are summed
 constexpr std::int32_t kRowVecs = 5;      // vectors of a row computed together
 constexpr std::int32_t kMaxPending = 13;  // parts of a tile: one per halving
-constexpr std::int32_t kMaxBox = 8;
 constexpr std::int32_t kMaxStep = 3;   // samples per pixel when rows are summed
-constexpr std::int32_t kPadding = 64;  // samples that vectors may write beyond the end
 constexpr std::int32_t kMaxSamples = kWarpSampleElems - 3 * kPadding;  // of all channels' copies
-constexpr std::int32_t kOne = 1 << 14;  // weight 1.0; its product with a sum of a box fits 32 bits
 
 namespace {
-
-// A channel of the image: its plane and the mapping from output to boxes.
-struct Channel {
-  Plane plane;
-  std::int32_t width, height;  // samples of the plane
-  std::int32_t box;
-  // Position in boxes of output (row i, column j):
-  //   x = across[0] (j + 0.5) + across[1] (i + 0.5) + across[2], y = down[0] (j + 0.5) + ...
-  float across[3], down[3];
-  // Positions more than two boxes beyond the border are equivalent.
-  float end_x, end_y;
-
-  Channel() = default;
-  Channel(const Plane& of, std::int32_t columns, std::int32_t rows, std::int32_t size,
-          float samples_per_pixel, const float matrix[6])
-      : plane(of), width(columns), height(rows), box(size) {
-    const auto side = static_cast<float>(size);
-    for (std::int32_t k = 0; k < 3; ++k) {
-      across[k] = matrix[k] * (samples_per_pixel / side);
-      down[k] = matrix[3 + k] * (samples_per_pixel / side);
-    }
-    end_x = static_cast<float>(columns) / side + 2.0f;
-    end_y = static_cast<float>(rows) / side + 2.0f;
-  }
-
-  [[nodiscard]] bool has_grid_of(const Channel& other) const {
-    return std::equal(across, across + 3, other.across) && std::equal(down, down + 3, other.down) &&
-           end_x == other.end_x && end_y == other.end_y;
-  }
-};
-
-// A rectangle of outputs, ends excluded.
-struct Tile {
-  std::int32_t top, bottom, left, right;
-
-  [[nodiscard]] bool is_one() const { return bottom - top == 1 && right - left == 1; }
-  [[nodiscard]] bool is_wide() const { return right - left > bottom - top; }
-  [[nodiscard]] std::int32_t centre() const {
-    return is_wide() ? (left + right) / 2 : (top + bottom) / 2;
-  }
-  [[nodiscard]] Tile first_half() const {
-    return is_wide() ? Tile{top, bottom, left, centre()} : Tile{top, centre(), left, right};
-  }
-  [[nodiscard]] Tile second_half() const {
-    return is_wide() ? Tile{top, bottom, centre(), right} : Tile{centre(), bottom, left, right};
-  }
-};
-
-// A rectangle of boxes of a channel.
-struct Window {
-  std::int32_t left = 0, top = 0, columns = 0, rows = 0;
-
-  Window() = default;
-  // Ends included; a bilinear sample also needs the next box.
-  Window(std::int32_t from_x, std::int32_t to_x, std::int32_t from_y, std::int32_t to_y)
-      : left(from_x), top(from_y), columns(to_x - from_x + 2), rows(to_y - from_y + 2) {}
-
-  [[nodiscard]] std::int32_t samples() const { return rows * columns; }
-};
-
-// The transform from sums of boxes to the output: rows for red, green and blue, whose last column
-// is added. The result is clamped to low..high.
-struct ColourTransform {
-  float weights[3][4];  // sums are scaled by kOne
-  float low, high;
-};
-
-inline ColourTransform colour_transform(const WarpArgs& a) {
-  const auto scale = [](std::int32_t box) {
-    return 1.0f / (static_cast<float>(box * box) * static_cast<float>(kOne));
-  };
-  const bool has_luma = a.format == PixelFormat::kGray8 || a.format == PixelFormat::kYuv420;
-  const bool limited_range = has_luma && !a.full_range;
-  const float contrast = limited_range ? 255.0f / 219.0f : 1.0f;
-  const float black = limited_range ? -16.0f * contrast : 0.0f;
-  const float of_first = contrast * scale(a.box);
-  const float colour = (limited_range ? 255.0f / 224.0f : 1.0f);
-  const auto number = [](double value) { return static_cast<float>(value); };
-  const YuvMatrix& m = a.yuv_matrix;
-  const float of_u[3] = {0.0f, number(m.green_of_u), number(m.blue_of_u)};
-  const float of_v[3] = {number(m.red_of_v), number(m.green_of_v), 0.0f};
-  ColourTransform transform{};
-  for (std::int32_t c = 0; c < 3; ++c) {
-    float* w = transform.weights[c];
-    w[3] = black;
-    if (a.format == PixelFormat::kYuv420) {
-      w[0] = of_first;
-      w[1] = of_u[c] * colour * scale(a.chroma_box);
-      w[2] = of_v[c] * colour * scale(a.chroma_box);
-      w[3] -= 128.0f * colour * (of_u[c] + of_v[c]);
-    } else {
-      w[has_luma ? 0 : c] = of_first;
-    }
-    for (std::int32_t k = 0; k < 4; ++k) {
-      w[k] *= a.scale;
-    }
-    w[3] += a.offset;
-  }
-  const float ends[2] = {a.offset, 255.0f * a.scale + a.offset};
-  transform.low = std::min(ends[0], ends[1]);
-  transform.high = std::max(ends[0], ends[1]);
-  return transform;
-}
 
 // `Neighbours` for tiers that gather each pair of samples:
 //   gather(const std::uint16_t* base, Ints index, Weights)
@@ -298,7 +194,7 @@ class Warp {
       return false;
     }
     for (std::int32_t c = 0; c < count_; ++c) {
-      fill(channels_[c], windows_[c], copies_[c]);
+      sums_.fill(channels_[c], windows_[c], copies_[c]);
     }
     return true;
   }
@@ -352,148 +248,6 @@ class Warp {
     const auto x = std::minmax({columns[0][0], columns[0][1], columns[1][0], columns[1][1]});
     const auto y = std::minmax({rows[0][0], rows[0][1], rows[1][0], rows[1][1]});
     return Window(x.first, x.second, y.first, y.second);
-  }
-
-  // Writes the copy row by row. Vectors may write beyond a row, which the next row then overwrites.
-  void fill(const Channel& channel, const Window& window, std::uint16_t* samples) {
-    const std::int32_t count = window.columns * channel.box;
-    const std::int32_t begin = window.left * channel.box;
-    const std::int32_t first = std::clamp(begin, 0, channel.width - 1);
-    const std::int32_t last = std::clamp(begin + count - 1, 0, channel.width - 1);
-    const bool inside = last - first + 1 == count;
-    for (std::int32_t r = 0; r < window.rows; ++r) {
-      const Rows rows = rows_of(channel, (window.top + r) * channel.box, first);
-      std::uint16_t* row = samples + std::ptrdiff_t{r} * window.columns;
-      const auto buffer = [&](std::int32_t n) { return n == window.columns ? row : sums_; };
-      std::int32_t n = count;
-      if (inside && channel.box > 1 && channel.plane.pixel_bytes == 1) {
-        n /= 2;
-        sum_rows<2>(rows.at, channel.box, n, count, buffer(n), BytePairs());
-      } else {
-        sum_columns(rows.at, channel, last - first + 1, inside ? buffer(n) : sums_);
-        if (!inside) {
-          repeat_border(std::clamp(first - begin, 0, count - 1), last - first + 1, count,
-                        buffer(n));
-        }
-      }
-      while (n > window.columns) {
-        n /= 2;
-        halve(n, buffer(n), [](auto a, auto b) { return Simd::pairs(a, b); });
-      }
-    }
-  }
-
-  struct Rows {
-    const std::uint8_t* at[kMaxBox];
-  };
-
-  // The image rows of a row of boxes, from column `first` on.
-  [[nodiscard]] static Rows rows_of(const Channel& channel, std::int32_t top, std::int32_t first) {
-    Rows rows{};
-    for (std::int32_t i = 0; i < channel.box; ++i) {
-      rows.at[i] = channel.plane.data +
-                   std::clamp(top + i, 0, channel.height - 1) * channel.plane.row_bytes +
-                   first * channel.plane.pixel_bytes;
-    }
-    return rows;
-  }
-
-  // Ways to read samples from a row of bytes: kSums at a time, or one.
-  struct Bytes {
-    static auto several(const std::uint8_t* at) { return Simd::bytes(at); }
-    static std::int32_t one(const std::uint8_t* at) { return at[0]; }
-  };
-  struct EvenBytes {
-    static auto several(const std::uint8_t* at) { return Simd::even_bytes(at); }
-    static std::int32_t one(const std::uint8_t* at) { return at[0]; }
-  };
-  struct BytePairs {
-    static auto several(const std::uint8_t* at) { return Simd::byte_pairs(at); }
-    static std::int32_t one(const std::uint8_t* at) { return at[0] + at[1]; }
-  };
-
-  // Sums each of `columns` columns over the rows of a box.
-  void sum_columns(const std::uint8_t* const* rows, const Channel& channel, std::int32_t columns,
-                   std::uint16_t* sums) {
-    constexpr std::ptrdiff_t kMaxNear = 4;
-    if (channel.plane.pixel_bytes > kMaxNear) {  // byte offsets in a row may exceed 32 bits
-      return sum_far_columns(rows, channel, columns, sums);
-    }
-    const auto step = static_cast<std::int32_t>(channel.plane.pixel_bytes);
-    const std::int32_t bytes = (columns - 1) * step + 1;
-    switch (step) {
-      case 1:
-        return sum_rows<1>(rows, channel.box, columns, bytes, sums, Bytes());
-      case 2:
-        return sum_rows<2>(rows, channel.box, columns, bytes, sums, EvenBytes());
-      case 3:
-        sum_rows<1>(rows, channel.box, bytes, bytes, sums_, Bytes());
-        for (std::int32_t j = 0; j < columns; ++j) {
-          sums[j] = sums_[3 * j];
-        }
-        return;
-      default:
-        sum_rows<2>(rows, channel.box, 2 * columns - 1, bytes, sums_, EvenBytes());
-        return halve(columns, sums, [](auto a, auto b) { return Simd::evens(a, b); });
-    }
-  }
-
-  // n sums over `count` rows of samples kBytes apart. Reads at most `bytes` bytes of a row.
-  template <std::int32_t kBytes, class Reader>
-  static void sum_rows(const std::uint8_t* const* rows, std::int32_t count, std::int32_t n,
-                       std::int32_t bytes, std::uint16_t* sums, Reader reader) {
-    const auto sum = [&](std::int32_t i) {
-      auto total = reader.several(rows[0] + kBytes * i);
-      for (std::int32_t row = 1; row < count; ++row) {
-        total = Simd::add_sums(total, reader.several(rows[row] + kBytes * i));
-      }
-      Simd::store_sums(sums + i, total);
-    };
-    const std::int32_t last = bytes / kBytes - Simd::kSums;  // last index with kSums samples
-    std::int32_t i = 0;
-    for (; i <= last; i += Simd::kSums) {
-      sum(i);
-    }
-    if (last > 0 && i < n) {
-      sum(last);
-      i = last + Simd::kSums;
-    }
-    for (; i < n; ++i) {
-      std::int32_t total = 0;
-      for (std::int32_t row = 0; row < count; ++row) {
-        total += reader.one(rows[row] + kBytes * i);
-      }
-      sums[i] = static_cast<std::uint16_t>(total);
-    }
-  }
-
-  // Combines pairs of sums_ into n sums.
-  template <class Combine>
-  void halve(std::int32_t n, std::uint16_t* to, Combine of) {
-    for (std::int32_t i = 0; i < n; i += Simd::kSums) {
-      const std::uint16_t* both = sums_ + std::ptrdiff_t{2} * i;
-      Simd::store_sums(to + i, of(Simd::load_sums(both), Simd::load_sums(both + Simd::kSums)));
-    }
-  }
-
-  static void sum_far_columns(const std::uint8_t* const* rows, const Channel& channel,
-                              std::int32_t columns, std::uint16_t* sums) {
-    for (std::int32_t j = 0; j < columns; ++j) {
-      std::int32_t total = 0;
-      for (std::int32_t i = 0; i < channel.box; ++i) {
-        total += rows[i][j * channel.plane.pixel_bytes];
-      }
-      sums[j] = static_cast<std::uint16_t>(total);
-    }
-  }
-
-  // Moves the first `inside` sums behind `left` copies of the first and fills up with the last.
-  void repeat_border(std::int32_t left, std::int32_t inside, std::int32_t count,
-                     std::uint16_t* to) const {
-    const std::uint16_t first = sums_[0], last = sums_[inside - 1];
-    std::copy_backward(sums_, sums_ + inside, to + left + inside);
-    std::fill_n(to, left, first);
-    std::fill(to + left + inside, to + std::max(count, left + inside), last);
   }
 
   // A position in a copy, with its neighbours and the fraction to the lower row.
@@ -625,7 +379,7 @@ class Warp {
   Channel channels_[3] = {};
   Window windows_[3] = {};
   std::uint16_t* copies_[3] = {};
-  alignas(64) std::uint16_t sums_[kMaxSums + kPadding];
+  BoxSums<Simd> sums_;
 };
 
 }  // namespace
