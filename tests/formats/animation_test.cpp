@@ -1,23 +1,19 @@
 // Tests of properties that all animation formats share: readers survive any input, errors have a
-// position, and derived values are consistent.
+// position, times keep their digits, and losses are reported.
 #include "apps/animation/animation.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <bit>
-#include <cmath>
-#include <random>
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
+#include <vector>
 
-#include "apps/animation/base64.h"
-#include "apps/animation/facs_map.h"
-#include "apps/animation/frames_jsonl.h"
-#include "apps/animation/json.h"
-#include "apps/animation/numbers.h"
-#include "apps/animation/resample.h"
 #include "apps/animation/rotation.h"
-#include "formats/vocabulary/visemes.h"
+#include "tests/formats/random_clip.h"
 
 namespace mien::formats {
 namespace {
@@ -27,29 +23,6 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
-
-double share(std::mt19937& random) {
-  return std::uniform_int_distribution(0, 9)(random) == 0
-             ? 0.0
-             : std::uniform_real_distribution(0.0, 1.0)(random);
-}
-
-Clip random_clip(std::size_t count, unsigned seed) {
-  std::mt19937 random(seed);
-  Clip clip;
-  for (std::size_t i = 0; i < count; ++i) {
-    Frame frame;
-    frame.number = static_cast<std::int64_t>(i);
-    frame.time_ns = static_cast<std::int64_t>(i) * 40'000'000;
-    for (double& value : frame.controls) {
-      value = share(random);
-    }
-    frame.head = {share(random), share(random), -share(random)};
-    frame.position_m = {share(random), share(random), share(random)};
-    clip.frames.push_back(frame);
-  }
-  return clip;
-}
 
 std::string written(const Clip& clip, AnimationFormat format) {
   const auto writer = animation_writer(format, {});
@@ -261,259 +234,6 @@ TEST(Animation, LossesAreReported) {
   frames[1].time_ns += 10'000'000'000;
   frames.push_back(frames[1]);
   EXPECT_THAT(lost(AnimationFormat::kBvh), Contains(HasSubstr("become even")));
-}
-
-TEST(Animation, FloatsRoundTrip) {
-  std::mt19937 random(4);
-  for (int i = 0; i < 300000; ++i) {
-    const auto value = std::bit_cast<float>(static_cast<std::uint32_t>(random()));
-    if (std::isfinite(value)) {
-      EXPECT_EQ(static_cast<float>(decimal(value)), value);
-    }
-  }
-  EXPECT_EQ(shortest(decimal(0.1f)), "0.1");
-  EXPECT_EQ(fixed(-1e-12, 3), "0.000");
-}
-
-TEST(Animation, NumbersMustBeComplete) {
-  double value = 7.0;
-  for (const char* text :
-       {"", " ", "nan", "inf", "-inf", "0x1", "1,5", "1e999", "1 2", "+1", "."}) {
-    EXPECT_FALSE(parse_number(text, value)) << text;
-  }
-  EXPECT_EQ(value, 7.0);
-  EXPECT_TRUE(parse_number(" -1.5e1\t", value));
-  EXPECT_EQ(value, -15.0);
-}
-
-TEST(Animation, Base64) {
-  for (const std::string bytes : {"", "f", "fo", "foo", "foob", "\xFB\xFF\xFE"}) {
-    std::string back = "x";
-    EXPECT_TRUE(parse_base64(base64(bytes), back));
-    EXPECT_EQ(back, bytes);
-  }
-  std::string back = "x";
-  for (const char* bad : {"Z", "Zg=", "Zg", "Z===", "Zg==Zg==", "Zm9v\n", "Zm-v"}) {
-    EXPECT_FALSE(parse_base64(bad, back)) << bad;
-  }
-  EXPECT_EQ(back, "x");
-}
-
-TEST(Animation, JsonIsParsedStrictly) {
-  JsonDocument document;
-  Fault fault;
-  ASSERT_TRUE(document.parse(
-      R"( {"a":[1,-2.5e1,true,null],"b":"\u00e4\ud83d\ude00\n","\u0063":{}} )", fault));
-  const JsonValue root = document.root();
-  EXPECT_EQ(root.find("b")->text(), "\xC3\xA4\xF0\x9F\x98\x80\n");
-  EXPECT_TRUE(root.find("c")->empty()) << "keys may have escapes";
-  EXPECT_FALSE(root.find("d"));
-  std::vector<JsonValue::Kind> kinds;
-  for (const JsonValue item : root.find("a")->items()) {
-    kinds.push_back(item.kind());
-  }
-  using enum JsonValue::Kind;
-  EXPECT_THAT(kinds, ElementsAre(kNumber, kNumber, kBoolean, kNull));
-  EXPECT_EQ((*++root.find("a")->items().begin()).number(), -25.0);
-  for (const char* bad : {"",
-                          "{",
-                          "[1,]",
-                          "[1 2]",
-                          "{\"a\":1,}",
-                          "{'a':1}",
-                          "01",
-                          "1.",
-                          ".5",
-                          "-",
-                          "+1",
-                          "nul",
-                          "\"\\x\"",
-                          "\"\\ud800\"",
-                          "\"\\u12g4\"",
-                          "\"a",
-                          "\"\t\"",
-                          "{} {}",
-                          "{\"a\":1,\"a\":2}",
-                          "{\"a\":1,\"b\":2,\"\\u0061\":2}",
-                          "NaN",
-                          "1e999"}) {
-    EXPECT_FALSE(document.parse(bad, fault)) << bad;
-  }
-  EXPECT_FALSE(document.parse(std::string(1000, '['), fault));
-  EXPECT_FALSE(document.parse("{\"a\":\n [1,\n  x]}", fault));
-  EXPECT_EQ(describe(fault), "line 3, column 3: invalid value");
-  std::int64_t large = 0;
-  ASSERT_TRUE(document.parse("9007199254740993", fault));
-  EXPECT_TRUE(document.root().integer(large));
-  EXPECT_EQ(large, 9007199254740993) << "more than a double can represent";
-}
-
-TEST(Animation, RotationsRoundTrip) {
-  std::mt19937 random(5);
-  std::uniform_real_distribution<double> angle(-3.1, 3.1), pitch(-1.57, 1.57);
-  for (int i = 0; i < 10000; ++i) {
-    const Angles before = {pitch(random), angle(random), angle(random)};
-    const Angles after = angles(quaternion(before));
-    EXPECT_NEAR(after.pitch, before.pitch, 1e-6);
-    EXPECT_NEAR(after.yaw, before.yaw, 1e-6);
-    EXPECT_NEAR(after.roll, before.roll, 1e-6);
-  }
-  for (const double pole : {std::acos(0.0), -std::acos(0.0)}) {
-    const Quaternion q = quaternion({pole, 0.7, 0.0});
-    const Angles there = angles(q);
-    EXPECT_NEAR(there.pitch, pole, 1e-7);
-    EXPECT_NEAR(there.yaw, 0.7, 1e-6);
-    EXPECT_EQ(there.roll, 0.0);
-  }
-  EXPECT_NEAR(between({0, 3.0, 0}, {0, -3.0, 0}, 0.5).yaw, std::acos(-1.0), 1e-9)
-      << "the shorter way crosses half a turn";
-}
-
-TEST(Animation, FacsMapKeepsCommonValues) {
-  const Clip clip = random_clip(1000, 6);
-  for (const Frame& frame : clip.frames) {
-    const auto facs = facs_of(frame.controls);
-    const auto back = controls_of_facs(facs);
-    for (const std::string_view same :
-         {"eyeBlinkLeft", "jawOpen", "mouthClose", "mouthPucker", "mouthSmileRight", "browInnerUp",
-          "cheekPuff", "tongueOut"}) {
-      const std::size_t i = index_of(same, kArkitNames);
-      EXPECT_EQ(back[i], frame.controls[i]) << same;
-    }
-    EXPECT_FALSE(driven(back[control("jawForward")]));
-    // Idempotent: repeating the conversion changes nothing.
-    const auto again = facs_of(controls_of_facs(facs_of(back)));
-    const auto once = facs_of(back);
-    for (std::size_t i = 0; i < kFacsCount; ++i) {
-      EXPECT_EQ(driven(again[i]), driven(once[i]));
-      EXPECT_EQ(or_zero(again[i]), or_zero(once[i]));
-      EXPECT_TRUE(or_zero(once[i]) >= 0.0 && or_zero(once[i]) <= 1.0);
-    }
-  }
-}
-
-std::string mirrored(std::string_view name) {
-  std::string other(name);
-  const auto swap = [&](const std::string& a, const std::string& b) {
-    const std::size_t at = other.find(a);
-    if (at == std::string::npos) {
-      return false;
-    }
-    other.replace(at, a.size(), b);
-    return true;
-  };
-  if (!swap("Left", "Right")) {
-    swap("Right", "Left");
-  }
-  return other;
-}
-
-TEST(Animation, FacsMapCommutesWithTheMirror) {
-  const Clip clip = random_clip(100, 7);
-  for (const Frame& frame : clip.frames) {
-    std::array<double, kControlCount> turned{};
-    for (std::size_t i = 0; i < kControlCount; ++i) {
-      turned[index_of(mirrored(kArkitNames[i]), kArkitNames)] = frame.controls[i];
-    }
-    const auto facs = facs_of(frame.controls), of_turned = facs_of(turned);
-    for (std::size_t i = 0; i < kFacsCount; ++i) {
-      const std::size_t other = index_of(mirrored(kFacsNames[i]), kFacsNames);
-      ASSERT_LT(other, kFacsCount) << kFacsNames[i];
-      EXPECT_EQ(or_zero(of_turned[other]), or_zero(facs[i])) << kFacsNames[i];
-    }
-  }
-}
-
-TEST(Animation, APoseIsItsOwnViseme) {
-  for (std::size_t i = 0; i < kVisemeCount; ++i) {
-    std::array<double, kVisemeCount> one{};
-    one[i] = 1.0;
-    const auto back = visemes_of(controls_of_visemes(one));
-    for (std::size_t k = 0; k < kVisemeCount; ++k) {
-      EXPECT_NEAR(back[k], k == i ? 1.0 : 0.0, 1e-9) << kVisemeNames[i];
-    }
-  }
-  for (const char shape : kMouthShapes) {
-    EXPECT_EQ(mouth_shape_of(visemes_of_mouth_shape(shape)), shape);
-  }
-  Frame nothing;
-  EXPECT_FALSE(driven(visemes_of(nothing.controls)[0]));
-  EXPECT_EQ(mouth_shape_of(visemes_of(nothing.controls)), 'X');
-}
-
-// No change of a single weight brings the mixture nearer to the mouth, as least squares guarantees.
-TEST(Animation, VisemesAreTheNearestMixture) {
-  const Clip clip = random_clip(300, 8);
-  for (const Frame& frame : clip.frames) {
-    const auto visemes = visemes_of(frame.controls);
-    double sum = 0.0;
-    for (const double weight : visemes) {
-      EXPECT_GE(weight, 0.0);
-      sum += weight;
-    }
-    EXPECT_NEAR(sum, 1.0, 1e-12);
-    if (visemes[0] == 0.0) {
-      continue;  // normalized to 1
-    }
-    const auto distance = [&](const std::array<double, kVisemeCount>& weights) {
-      const auto pose = controls_of_visemes(weights);
-      double squares = 0.0;
-      for (std::size_t i = 0; i < kControlCount; ++i) {
-        squares +=
-            driven(pose[i]) ? (pose[i] - frame.controls[i]) * (pose[i] - frame.controls[i]) : 0;
-      }
-      return squares;
-    };
-    const double least = distance(visemes);
-    for (std::size_t i = 1; i < kVisemeCount; ++i) {
-      for (const double change : {-1e-3, 1e-3}) {
-        auto other = visemes;
-        other[i] = std::max(0.0, other[i] + change);
-        EXPECT_GE(distance(other), least - 1e-12);
-      }
-    }
-  }
-}
-
-TEST(Animation, ResamplingAtTheSameTimesIsTheIdentity) {
-  const Clip clip = random_clip(50, 9);
-  const std::vector<Frame> same = resampled(clip.frames, 25.0, 0).unpacked();
-  const std::vector<Frame> frames = clip.frames.unpacked();
-  ASSERT_EQ(same.size(), frames.size());
-  for (std::size_t i = 0; i < same.size(); ++i) {
-    EXPECT_EQ(frame_json(same[i]), frame_json(frames[i]));
-  }
-  const std::vector<Frame> twice = resampled(clip.frames, 50.0, 0).unpacked();
-  ASSERT_EQ(twice.size(), 99u);
-  EXPECT_EQ(frame_json(twice[0]).substr(20), frame_json(same[0]).substr(20));
-  EXPECT_NEAR(twice[1].controls.front(),
-              (same[0].controls.front() + same[1].controls.front()) / 2.0, 1e-15);
-  EXPECT_TRUE(resampled(FrameSequence(), 25.0, 0).empty());
-  const FrameSequence later({frames.begin() + 3, frames.end()});
-  EXPECT_EQ(resampled(later, 10.0, 0).first_time_ns(), 200'000'000)
-      << "the first grid time after 120 ms";
-}
-
-TEST(Animation, VocabulariesHaveNoDuplicates) {
-  const auto check = [](const auto& names) {
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      EXPECT_EQ(index_of(names[i], names), i) << names[i];
-      EXPECT_FALSE(names[i].empty());
-    }
-  };
-  check(kArkitNames);
-  check(kRotationNames);
-  check(kMediaPipeNames);
-  check(kFacsNames);
-  check(kFacsLevel1Names);
-  check(kVisemeNames);
-  check(kReadyPlayerMeNames);
-  check(kVrm0Names);
-  check(kVrm1Names);
-  for (const std::string_view name : kMediaPipeNames) {
-    EXPECT_TRUE(name == "_neutral" || index_of(name, kArkitNames) < kControlCount) << name;
-  }
-  EXPECT_THAT(kMediaPipeNames, Not(Contains("tongueOut")));
 }
 
 }  // namespace
