@@ -1,4 +1,4 @@
-// The bytes are an animated face: of the format that their content says, and of every other.
+// The bytes are an animation: in the format that their content indicates, and in every other.
 #include "apps/animation/animation.h"
 
 #include <string_view>
@@ -11,7 +11,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   formats::Clip clip;
   formats::Fault fault;
   if (formats::read_animation(formats::format_by_content(bytes), bytes, {}, clip, fault)) {
-    // What was read can be written, everywhere.
+    // An accepted animation can be written in every format.
     for (const formats::FormatName& known : formats::kFormatNames) {
       const auto writer = formats::animation_writer(known.format, {});
       std::size_t written = writer->begin().size();

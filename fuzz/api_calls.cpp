@@ -1,5 +1,5 @@
-// The bytes choose calls of the C interface and what they are given, right and wrong, for two
-// trackers; results are sane whatever came before, and what is refused leaves no trace.
+// The bytes choose calls of the C API with valid and invalid arguments, for two trackers. Results
+// are always valid, a rejected call changes nothing, and the trackers are independent.
 #include <mien/mien.h>
 
 #include <cstring>
@@ -21,7 +21,7 @@ mien_result result_of(const mien_tracker* tracker) {
   return result;
 }
 
-// Makes one call. False if it was refused.
+// Makes one call; returns false if the library rejects it.
 bool call(Bytes& choices, mien_tracker* tracker, std::int64_t pts_ns) {
   switch (choices.between(0, 11)) {
     case 0:
@@ -68,10 +68,10 @@ bool call(Bytes& choices, mien_tracker* tracker, std::int64_t pts_ns) {
   }
 }
 
-void encode(Bytes& choices, const mien_tracker* tracker) {
+void read_face(Bytes& choices, const mien_tracker* tracker) {
   const std::int32_t faces = mien_tracker_face_count(tracker);
   require(faces >= 0 && faces <= MIEN_MAX_FACES);
-  // As much of the result as another version of the header has, in memory of just that size.
+  // A result with the size of another version of the header, in memory of that size.
   std::vector<std::uint64_t> memory((sizeof(mien_result) + 64) / sizeof(std::uint64_t));
   auto* result = reinterpret_cast<mien_result*>(memory.data());
   result->struct_size = static_cast<std::uint32_t>(choices.between(0, sizeof(mien_result) + 64));
@@ -98,10 +98,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const mien_result before = result_of(tracker), of_other = result_of(other);
     const bool accepted = call(choices, tracker, pts_ns);
     const mien_result after = result_of(tracker), of_other_after = result_of(other);
-    mien::fuzz::require_sane(after);
+    mien::fuzz::require_valid(after);
     require(accepted || std::memcmp(&before, &after, sizeof before) == 0);
     require(std::memcmp(&of_other, &of_other_after, sizeof of_other) == 0);
-    encode(choices, tracker);
+    read_face(choices, tracker);
   }
   return 0;
 }

@@ -1,4 +1,4 @@
-// What a target takes from its input, as numbers in ranges: every input is a valid one.
+// Converts the input of a target to numbers in ranges, so that every input is valid.
 #pragma once
 
 #include <algorithm>
@@ -17,13 +17,13 @@ class Bytes {
   [[nodiscard]] bool empty() const { return left_.empty(); }
   [[nodiscard]] std::span<const std::uint8_t> rest() const { return left_; }
 
-  // At most so many of the next bytes, which stay.
-  [[nodiscard]] std::string_view text(std::int32_t most) const {
+  // Up to `max` of the next bytes, without consuming them.
+  [[nodiscard]] std::string_view text(std::int32_t max) const {
     return {reinterpret_cast<const char*>(left_.data()),
-            std::min(left_.size(), static_cast<std::size_t>(most))};
+            std::min(left_.size(), static_cast<std::size_t>(max))};
   }
 
-  // Zeros where there are no bytes left.
+  // Zeros if no bytes are left.
   template <class T>
   T take() {
     T value{};
@@ -35,7 +35,7 @@ class Bytes {
     return value;
   }
 
-  // low..high, from one byte, or two where the range asks for it.
+  // low..high, from one byte, or two if the range is larger than 256.
   std::int32_t between(std::int32_t low, std::int32_t high) {
     const auto range = static_cast<std::uint32_t>(high) - static_cast<std::uint32_t>(low) + 1;
     const std::uint32_t number = range <= 256 ? take<std::uint8_t>() : take<std::uint16_t>();
@@ -48,8 +48,9 @@ class Bytes {
     return choices[between(0, static_cast<std::int32_t>(n) - 1)];
   }
 
-  // A likely number more often than any: 0, 1, -1, limits, powers of two and their neighbours.
-  std::int32_t hostile() {
+  // Any number; in half of the cases a boundary value: 0, 1, -1, limits, powers of two and their
+  // neighbours.
+  std::int32_t any_int() {
     constexpr std::int32_t kNumbers[] = {0,       1,       -1,          2,          3,     16,
                                          255,     4096,    16384,       16385,      32767, 65536,
                                          1 << 24, 1 << 30, -2147483647, 2147483647, -16};
@@ -60,7 +61,7 @@ class Bytes {
   std::span<const std::uint8_t> left_;
 };
 
-// Stops the program, which a fuzzer keeps the input of.
+// Stops the program unless the condition holds; a fuzzer then stores the input.
 inline void require(bool condition) {
   if (!condition) {
     __builtin_trap();

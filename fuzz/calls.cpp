@@ -30,7 +30,7 @@ mien_tracker* make_tracker(std::int32_t max_faces) {
   return tracker;
 }
 
-void require_sane(const mien_result& result) {
+void require_valid(const mien_result& result) {
   const auto unit = [](float value) { return value >= 0.0f && value <= 1.0f; };
   require(result.status >= MIEN_FACE_SEARCHING && result.status <= MIEN_FACE_LOST);
   require(unit(result.face_probability) && unit(result.voice_activity));

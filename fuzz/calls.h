@@ -1,4 +1,4 @@
-// A tracker for targets, and what every answer of one has to be.
+// A tracker for targets, and a check of its results.
 #pragma once
 
 #include <mien/mien.h>
@@ -7,11 +7,11 @@
 
 namespace mien::fuzz {
 
-// With networks that see bright discs and hear loudness; of all levels, for `max_faces`. Never
-// fails.
+// Uses test networks that detect bright discs and convert loudness to controls. Supports all
+// levels. Never fails.
 [[nodiscard]] mien_tracker* make_tracker(std::int32_t max_faces = 1);
 
-// Stops the program where a number is not finite or out of its range.
-void require_sane(const mien_result& result);
+// Stops the program if a value is not finite or is out of range.
+void require_valid(const mien_result& result);
 
 }  // namespace mien::fuzz

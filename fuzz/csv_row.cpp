@@ -1,5 +1,5 @@
-// Any cells into rows of any length: nothing is written beyond the buffer, and a row is whole or
-// nothing.
+// Writes any cells into buffers of any size: nothing is written beyond the buffer, and a row is
+// complete or empty.
 #include "apps/animation/csv_row.h"
 
 #include <string_view>

@@ -1,4 +1,4 @@
-// The bytes are a CSV file of curves. What is accepted keeps the promises of its reader.
+// The bytes are a CSV file of curves. Accepted curves have finite, ordered times and valid values.
 #include <cmath>
 #include <string_view>
 

@@ -1,5 +1,5 @@
-// An image of any format, size, strides and rotation is refused, or its pixels can be cut out of it
-// anywhere.
+// An image of any format, size, strides and rotation is rejected, or crops at any place can be
+// sampled from it.
 #include "tracker/image/image_view.h"
 
 #include <cmath>
@@ -32,9 +32,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                                 std::abs(coordinate()) + 1e-3f,
                                 static_cast<float>(choices.between(0, 628)) / 100.0f};
     const tracker::Raster raster = {choices.between(1, 9), choices.between(1, 40), 1.0f};
-    std::vector<float> picture(static_cast<std::size_t>(3 * raster.rows * raster.columns));
-    sampler.cut(view, crop, raster, picture);
-    for (const float value : picture) {
+    std::vector<float> pixels(static_cast<std::size_t>(3 * raster.rows * raster.columns));
+    sampler.cut(view, crop, raster, pixels);
+    for (const float value : pixels) {
       fuzz::require(value >= -1.0001f && value <= 1.0001f);
     }
   }

@@ -1,6 +1,6 @@
-// The bytes choose a kernel and the shape of a call of it: every tier is held against the
-// reference, between guard pages. No bytes choose all kernels, so that one file of the corpus calls
-// them all, however many there come to be.
+// The bytes choose a kernel and its arguments. The kernel is compared with the reference kernel, in
+// memory between guard pages. An empty input runs all kernels, so that one file of the corpus
+// covers future kernels as well.
 #include <algorithm>
 #include <cstdio>
 

@@ -1,5 +1,5 @@
-// The bytes choose a valid network: each tier runs it fused and layer by layer, and both answer as
-// plain layers in double do.
+// The bytes choose a valid network. Each tier runs it fused and layer by layer, and both agree with
+// plain layers in double precision.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -16,7 +16,7 @@ namespace {
 
 using namespace mien;
 
-// Of the largest answer. Networks that a fuzzer chooses cancel more than those that the tests draw.
+// Relative to the largest output. Values cancel more in fuzzed networks than in those of the tests.
 constexpr double kTolerance = 2e-4;
 constexpr double kHalfTolerance = 0.2;
 

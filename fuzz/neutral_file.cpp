@@ -1,5 +1,5 @@
-// The bytes are a neutral file, as they are and with their checksum made right. What is accepted is
-// written back as it was.
+// The bytes are a neutral file, or changes of a valid one. An accepted file is unchanged after it
+// is written and read again.
 #include "formats/neutral_file.h"
 
 #include <cmath>
@@ -34,7 +34,7 @@ void read(std::span<const std::byte> bytes) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto bytes = std::as_bytes(std::span(data, size));
   read(bytes);
-  // A file that is right, with what the input says at a place that it says.
+  // A valid file in which the input overwrites bytes.
   mien::fuzz::Bytes choices(data, size);
   NeutralFile neutral;
   neutral.captured = choices.take<std::uint32_t>() % 4;

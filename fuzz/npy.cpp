@@ -1,4 +1,4 @@
-// The bytes are an array of NumPy. What is read, written again, is read as the same.
+// The bytes are a .npy file. An accepted array is unchanged after it is written and read again.
 #include "formats/npy.h"
 
 #include <bit>

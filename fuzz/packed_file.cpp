@@ -1,5 +1,5 @@
-// The bytes are a packed weight file, as they are and with its header made right, so that mutations
-// reach the blocks behind it.
+// The bytes are a packed weight file, unchanged and with a corrected header, so that mutations
+// reach the blocks after it.
 #include "formats/packed_file.h"
 
 #include <algorithm>
@@ -13,8 +13,8 @@ namespace {
 
 using namespace mien::formats;
 
-constexpr unsigned char kRight[] = {0x89, 'M', 'I', 'E', 'P', 0x0D, 0x0A, 0x1A,
-                                    1,    0,   0,   0,   0,   0,    0,    0};
+constexpr unsigned char kValidStart[] = {0x89, 'M', 'I', 'E', 'P', 0x0D, 0x0A, 0x1A,
+                                         1,    0,   0,   0,   0,   0,    0,    0};
 constexpr std::size_t kPackedBytesAt = 16;
 constexpr std::size_t kUnpackedBytesAt = 24;
 constexpr std::size_t kHeaderBytes = 32;
@@ -45,14 +45,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size < kHeaderBytes) {
     return 0;
   }
-  std::vector<std::byte> right(bytes.begin(), bytes.end());
-  std::memcpy(right.data(), kRight, sizeof kRight);
+  std::vector<std::byte> corrected(bytes.begin(), bytes.end());
+  std::memcpy(corrected.data(), kValidStart, sizeof kValidStart);
   const std::uint64_t packed_bytes = size;
-  std::memcpy(right.data() + kPackedBytesAt, &packed_bytes, sizeof packed_bytes);
+  std::memcpy(corrected.data() + kPackedBytesAt, &packed_bytes, sizeof packed_bytes);
   std::uint64_t unpacked = 0;
-  std::memcpy(&unpacked, right.data() + kUnpackedBytesAt, sizeof unpacked);
+  std::memcpy(&unpacked, corrected.data() + kUnpackedBytesAt, sizeof unpacked);
   unpacked = unpacked % kMaxUnpacked / 64 * 64;
-  std::memcpy(right.data() + kUnpackedBytesAt, &unpacked, sizeof unpacked);
-  read(right);
+  std::memcpy(corrected.data() + kUnpackedBytesAt, &unpacked, sizeof unpacked);
+  read(corrected);
   return 0;
 }

@@ -1,5 +1,5 @@
-// The bytes are a datagram that may greet the iFacialMocap sender, and say which face goes out by
-// every protocol: its datagrams are whole, as receivers read them.
+// The bytes are a datagram for the iFacialMocap sender, and a face that every protocol encodes. The
+// packets are complete when parsed as receivers do.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -21,7 +21,7 @@ using mien::fuzz::Bytes;
 using mien::fuzz::require;
 namespace formats = mien::formats;
 
-constexpr std::size_t kMaxBytes = 1500;  // of a datagram, unless one message is longer
+constexpr std::size_t kMaxBytes = 1500;  // maximum of a datagram, unless a single message is longer
 constexpr std::size_t kValues = formats::kControlCount + formats::kRotationCount;
 
 std::string_view name_of(Bytes& bytes) {
@@ -29,13 +29,13 @@ std::string_view name_of(Bytes& bytes) {
   return text.substr(0, text.find('\0'));
 }
 
-// 0..1, or none.
+// 0..1, or unknown.
 double control(Bytes& bytes) {
   const auto level = bytes.take<std::uint8_t>();
   return level == 255 ? formats::kNoNumber : level / 254.0;
 }
 
-// Up to a million, in steps of half a thousandth.
+// Up to a million, in steps of 1 / 2147.
 double number(Bytes& bytes) { return bytes.take<std::int32_t>() / 2147.0; }
 
 formats::Angles angles(Bytes& bytes) { return {number(bytes), number(bytes), number(bytes)}; }
@@ -60,7 +60,7 @@ formats::Frame frame_of(Bytes& bytes) {
   return frame;
 }
 
-// Reads a packet of OSC from its begin on.
+// Reads an OSC packet from its start.
 class OscReader {
  public:
   explicit OscReader(std::string_view packet) : left_(packet) {}
@@ -127,10 +127,11 @@ void check_vmc(const formats::Frame& frame, Bytes& bytes) {
 }
 
 void check_ifacialmocap(const formats::Frame& frame, std::string_view datagram) {
-  const std::optional<char> asked = formats::ifacialmocap_separator(datagram);
+  const std::optional<char> separator = formats::ifacialmocap_separator(datagram);
   const std::string hello(formats::kIfacialmocapHello);
-  require(asked.has_value() == (datagram == hello || datagram == hello + "|sendDataVersion=v2"));
-  const std::string text = formats::ifacialmocap_text(frame, asked.value_or('-'));
+  require(separator.has_value() ==
+          (datagram == hello || datagram == hello + "|sendDataVersion=v2"));
+  const std::string text = formats::ifacialmocap_text(frame, separator.value_or('-'));
   require(static_cast<std::size_t>(std::count(text.begin(), text.end(), '|')) ==
           formats::kControlCount + 3);
   require(text.find("nan") == std::string::npos && text.find("inf") == std::string::npos);

@@ -1,4 +1,5 @@
-// Reads everything a view of a weight file hands out, so that a sanitizer sees what lies outside.
+// Reads everything that a view of a weight file provides, so that a sanitizer detects accesses
+// outside the file.
 #pragma once
 
 #include <cstddef>
@@ -6,8 +7,8 @@
 
 namespace mien::fuzz {
 
-// `file` is copied to aligned memory that ends where it ends. Stops the program where a view breaks
-// a promise: an accepted file whose strings, tensors or references do not hold together.
+// Copies `file` to aligned memory of its exact size. Stops the program if the strings, tensors or
+// references of an accepted file are inconsistent.
 void read_all(std::span<const std::byte> file);
 
 }  // namespace mien::fuzz

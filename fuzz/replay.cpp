@@ -1,4 +1,4 @@
-// Runs a fuzz target over all files of folders without libFuzzer: usage: replay_NAME FOLDER...
+// Runs a fuzz target over all files of folders, without libFuzzer. usage: replay_NAME FOLDER...
 #include <dirent.h>
 
 #include <cstdio>
@@ -17,13 +17,13 @@ void replay(const std::string& path) {
   for (int byte = 0; file && (byte = std::fgetc(file.get())) != EOF;) {
     read.push_back(static_cast<std::uint8_t>(byte));
   }
-  // In memory of its exact size, so that the sanitizer sees every read behind it.
+  // In memory of its exact size, so that the sanitizer detects every read beyond it.
   const std::vector<std::uint8_t> bytes(read.begin(), read.end());
   LLVMFuzzerTestOneInput(bytes.data(), bytes.size());
 }
 
-// How many files there are. By the C library's functions: of what std::filesystem and streams do
-// inside the C++ library the memory sanitizer knows nothing.
+// Returns the number of files. Uses the C library, because the memory sanitizer does not see the
+// writes of std::filesystem and streams inside the C++ library.
 std::size_t replay_folder(const std::string& folder) {
   const std::unique_ptr<DIR, int (*)(DIR*)> files(opendir(folder.c_str()), &closedir);
   std::size_t count = 0;

@@ -5,7 +5,7 @@
 namespace mien::fuzz {
 namespace {
 
-constexpr std::int32_t kLargestSide = 97;
+constexpr std::int32_t kMaxSide = 97;
 
 struct Plane {
   std::int32_t row_bytes, rows;
@@ -25,12 +25,12 @@ void describe(const mien_image& image, Plane (&planes)[3]) {
   }
 }
 
-// In memory that ends with the last pixel of the last row, or begins there when bottom-up.
+// The memory ends with the last pixel of the last row; if bottom-up, the image starts there.
 void place(Bytes& choices, const Plane& plane, int index, std::vector<std::byte>& memory,
            mien_image& image) {
   if (plane.rows == 0) {
     image.planes[index] = choices.coin() ? nullptr : reinterpret_cast<const void*>(0x10);
-    image.row_stride_bytes[index] = choices.hostile();
+    image.row_stride_bytes[index] = choices.any_int();
     return;
   }
   const std::int32_t stride = plane.row_bytes + choices.between(0, 9);
@@ -44,7 +44,7 @@ void place(Bytes& choices, const Plane& plane, int index, std::vector<std::byte>
   image.row_stride_bytes[index] = bottom_up ? -stride : stride;
 }
 
-void spoil(Bytes& choices, mien_image& image) {
+void make_invalid(Bytes& choices, mien_image& image) {
   switch (choices.between(0, 6)) {
     case 0:
       image.format = choices.one_of({-1, 8, 2147483647});
@@ -76,8 +76,8 @@ mien_image take_image(Bytes& choices, std::vector<std::byte> (&memory)[3]) {
   mien_image image;
   mien_image_default(&image);
   image.format = choices.between(MIEN_IMAGE_GRAY8, MIEN_IMAGE_I420);
-  image.width = choices.between(1, kLargestSide);
-  image.height = choices.between(1, kLargestSide);
+  image.width = choices.between(1, kMaxSide);
+  image.height = choices.between(1, kMaxSide);
   image.chroma_pixel_stride_bytes = choices.between(0, 3);
   image.rotation = 90 * choices.between(0, 3);
   image.mirrored = choices.between(0, 1);
@@ -90,11 +90,11 @@ mien_image take_image(Bytes& choices, std::vector<std::byte> (&memory)[3]) {
     place(choices, planes[i], i, memory[i], image);
   }
   if (choices.between(0, 7) == 7) {
-    spoil(choices, image);
+    make_invalid(choices, image);
   }
-  if (choices.coin()) {  // of interest; right or beyond the picture
+  if (choices.coin()) {  // a region, which may exceed the image
     for (std::int32_t& number : image.region) {
-      number = choices.between(-1, kLargestSide);
+      number = choices.between(-1, kMaxSide);
     }
   }
   return image;

@@ -1,5 +1,5 @@
-// Images and sounds that an input describes: right ones in memory of their exact size, and wrong
-// ones.
+// Images and audio blocks that an input describes: valid ones in memory of their exact size, and
+// invalid ones.
 #pragma once
 
 #include <mien/mien.h>
@@ -11,8 +11,8 @@
 
 namespace mien::fuzz {
 
-// Right ones may be read whole; wrong ones have to be refused before a byte is read. `memory` is
-// theirs.
+// The library may read all of a valid one, and must reject an invalid one before it reads a byte.
+// `memory` holds the samples.
 [[nodiscard]] mien_image take_image(Bytes& choices, std::vector<std::byte> (&memory)[3]);
 [[nodiscard]] mien_audio take_audio(Bytes& choices, std::vector<std::byte>& memory);
 

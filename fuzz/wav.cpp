@@ -1,4 +1,4 @@
-// The bytes are a WAV file. Read frame by frame, it is the same as read at once.
+// The bytes are a WAV file. Reading it frame by frame and at once gives the same samples.
 #include "formats/wav.h"
 
 #include <bit>
@@ -49,7 +49,7 @@ AudioOutput process(std::span<const std::byte> file, std::size_t block_frames) {
   }
   output.fault_offset = reader.fault_offset();
   expect(output.fault_offset <= file.size() && output.status != WavStatus::kBufferTooSmall);
-  // There is what was declared, if nothing else is said.
+  // The number of samples is the declared one, unless the file is truncated.
   const std::size_t declared =
       format.channels * static_cast<std::size_t>(format.frames.value_or(0));
   const bool as_declared = !format.frames || output.samples.size() == declared;

@@ -1,5 +1,5 @@
-// The bytes are a weight file whose magic, version, size and checksum are made right first, so that
-// mutations reach the rules behind them.
+// The bytes are a weight file whose magic, version, size and checksum are corrected first, so that
+// mutations reach the later checks.
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
@@ -14,7 +14,7 @@ namespace {
 
 using mien::formats::FileHeader;
 
-void make_right(std::vector<std::byte>& file) {
+void correct_header(std::vector<std::byte>& file) {
   FileHeader header;
   std::memcpy(&header, file.data(), sizeof header);
   std::memcpy(header.magic, mien::formats::kMagic, sizeof header.magic);
@@ -34,7 +34,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto bytes = std::as_bytes(std::span(data, size));
   std::vector<std::byte> file(bytes.begin(), bytes.end());
   if (file.size() >= sizeof(FileHeader)) {
-    make_right(file);
+    correct_header(file);
   }
   mien::fuzz::read_all(file);
   return 0;
