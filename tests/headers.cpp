@@ -1,3 +1,2 @@
-// Nothing of its own: the headers that every test includes are compiled with this, once for all of
-// them.
+// Empty: provides the precompiled headers of all tests.
 int main() { return 0; }

@@ -103,6 +103,7 @@ class Manners(unittest.TestCase):
             self.assertEqual(done.stderr, "")
 
     def test_typing_errors_get_a_suggestion(self):
+        # cspell:ignore lood trak
         for arguments, wanted in ((["trak"], "mien: unknown verb 'trak'; did you mean 'track'?\n"), (["cmopare", "a"], "'compare'"),
                                   (["track", "--lood", "3", "x"], "mien: track: unknown option '--lood'; did you mean '--lod'?\n"),
                                   (["--verson"], "'--version'"), (["xyzzy"], "mien: unknown verb 'xyzzy'\n")):

@@ -253,7 +253,7 @@ class Media(unittest.TestCase):
 
     def test_collected_cases(self):
         if not CASES.is_dir():
-            self.skipTest("there are none")
+            self.skipTest("no collected cases")
         rows = {"vfr.webm": 21, "sound_longer.webm": 30, "late.mkv": 30, "picture_1s_late.ts": 25, "picture_1s_late.mp4": 25}
         for name, count in rows.items():
             got = self.times(CASES / name)

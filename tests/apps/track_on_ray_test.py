@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tests of scripts/track_on_ray.py: order of work, and with Ray (PyPI), if available, a cluster of two workers, one of which is killed.
+"""Tests of scripts/track_on_ray.py: order of work, and with Ray (PyPI), if available, a cluster of two workers, where one is killed.
 
 usage: track_on_ray_test.py
 A slow fake replaces the program and records each file.

@@ -1,5 +1,4 @@
-// In place of kernels/detect_cpu.cpp: every tier that is compiled in is emulated, so any CPU has
-// it.
+// Replaces kernels/detect_cpu.cpp: every compiled tier is emulated, so every CPU supports it.
 #include "kernels/registry.h"
 
 namespace mien::kernels {

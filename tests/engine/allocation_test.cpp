@@ -1,5 +1,5 @@
-// Running and resetting a session allocates nothing. Every way to the heap of this program and of
-// the library linked into it is counted: the linker sends calls of malloc and its kin here (--wrap)
+// Running and resetting a session allocates nothing. Counts every heap call of this program and of
+// the libraries linked into it: the linker redirects malloc and related functions here (--wrap),
 // and operator new is replaced.
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include "tests/engine/mini_model.h"
 
 namespace {
-// Atomic, as compilers take it that malloc and new change nothing that a program can see.
+// Atomic, because compilers assume that malloc and new change nothing that a program can see.
 std::atomic<long> heap_calls = 0;
 }  // namespace
 
@@ -64,20 +64,21 @@ void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std
 namespace mien::tests {
 namespace {
 
-// Goes through a volatile pointer, or the compiler would leave the pair of calls out.
+// Passes the pointer through a volatile one, so that the compiler does not remove the pair of
+// calls.
 template <class T>
-T* seen(T* pointer) {
-  T* volatile kept = pointer;
-  return kept;
+T* opaque(T* pointer) {
+  T* volatile result = pointer;
+  return result;
 }
 
 TEST(Allocation, IsNoticedByThisTest) {
   const long before = heap_calls;
-  std::free(seen(std::malloc(1)));
-  std::free(seen(std::calloc(1, 1)));
-  std::free(seen(std::aligned_alloc(64, 64)));
-  delete seen(new int);
-  delete seen(new CacheLine);
+  std::free(opaque(std::malloc(1)));
+  std::free(opaque(std::calloc(1, 1)));
+  std::free(opaque(std::aligned_alloc(64, 64)));
+  delete opaque(new int);
+  delete opaque(new CacheLine);
   EXPECT_EQ(heap_calls.load(), before + 10);
 }
 

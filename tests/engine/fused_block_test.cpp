@@ -1,5 +1,5 @@
-// Networks of inverted residual blocks, fused and layer by layer: every network that is published
-// here, and random ones, which plain layers answer too.
+// Runs networks of inverted residual blocks fused and layer by layer: all published networks, and
+// random ones that are compared with plain layers.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -50,7 +50,8 @@ void expect_same(const engine::Session& a, const engine::Session& b, double tole
   }
 }
 
-// The tiers that can run blocks fused, as masks that run layer by layer.
+// CPU masks of the tiers that can fuse blocks; without kFusedBlocks, so that they run layer by
+// layer.
 std::vector<std::uint32_t> fusing_tiers() {
   std::vector<std::uint32_t> masks;
   for (const kernels::Entry& entry : kernels::all_kernels()) {
@@ -135,8 +136,9 @@ TEST(FusedBlocks, EveryLayerIsInOneStep) {
   EXPECT_EQ(next, 44u);
 }
 
-// Neither fixed point nor fp16 has room for sums this long. Equal weights and equal inputs are the
-// worst case of both: the steps of fixed point are widest, and a running sum in fp16 stops growing.
+// Sums of this length exceed the precision of fixed point and fp16. Equal weights and equal inputs
+// are the worst case of both: the scales of fixed point are largest, and a running sum in fp16
+// stops growing.
 TEST(FusedBlocks, LongSumsAreNotRoundedAway) {
   const auto same = [](std::uint32_t outputs, std::uint32_t inputs) {
     const std::size_t count = std::size_t{outputs} * inputs;
@@ -171,8 +173,8 @@ TEST(FusedBlocks, LongSumsAreNotRoundedAway) {
   }
 }
 
-// Blocks as networks have them, and some that must not be fused: whose values somebody else reads
-// too, or whose activation is none of a block's.
+// Blocks as in published networks, and blocks that must not be fused: another layer reads their
+// intermediate values, or an activation is not one of a fused block's.
 class RandomBlocks {
  public:
   RandomBlocks(formats::NetworkWriter& writer, formats::InputShape input, unsigned seed)
@@ -227,11 +229,11 @@ class RandomBlocks {
   }
 
   std::mt19937 random_;
-  Index inside_ = 0;  // a value that a block would not keep
+  Index inside_ = 0;  // an intermediate value, which a fused block does not store
 };
 
-// Register tiles come in few sizes: every count of pixels and of vectors of channels must find one
-// that does not reach beyond the map.
+// Register tiles have few sizes. For every number of pixels and of channel vectors there must be
+// one that stays within the map.
 TEST(FusedBlocks, FewPixelsAgreeWithPlainLayersAtEveryWidth) {
   for (std::uint32_t channels = 16; channels <= 144; channels += 16) {
     for (std::uint32_t pixels = 1; pixels <= 10; ++pixels) {

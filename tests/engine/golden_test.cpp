@@ -1,5 +1,5 @@
-// The engine against PyTorch, on every tier this CPU has. Both see the same fp16 weights and sum in
-// fp32, in another order: the tolerance is relative to the largest answer.
+// Compares the engine with PyTorch, on every tier of this CPU. Both use the same fp16 weights and
+// fp32 sums in different order, so the tolerance is relative to the largest output.
 #include <gtest/gtest.h>
 
 #include <algorithm>

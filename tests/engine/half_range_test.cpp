@@ -1,6 +1,6 @@
-// No value of the published encoders can leave half precision, whatever they are shown: bounds from
-// the weights alone, with how each product and sum is rounded on its way. That is why the
-// tracker may run them on tiers that compute in fp16.
+// Proves that no value in the published encoders can exceed half precision, for any input: bounds
+// from the weights alone, including the rounding of each product and sum. Therefore the tracker may
+// run them on tiers that compute in fp16.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,14 +19,14 @@ using formats::LayerActivation;
 using formats::LayerOp;
 using formats::LayerRecord;
 
-constexpr double kLargestHalf = 65504.0;
-constexpr double kRounding = 0x1p-11;  // of one addition or multiplication in halves
+constexpr double kMaxHalf = 65504.0;
+constexpr double kRounding = 0x1p-11;  // relative, of one fp16 addition or multiplication
 constexpr double kInput = 1.0;         // crops are pixels from -1 to 1
 
-// The largest magnitude that each channel of a value may have.
+// The largest possible magnitude of each channel of a value.
 using Bounds = std::vector<double>;
 
-class Walk {
+class NetworkBounds {
  public:
   Walk(const formats::FileView& file, const formats::NetworkRecord& network)
       : file_(file),
@@ -36,7 +36,7 @@ class Walk {
       values_.push_back(out_of(layer));
     }
   }
-  // Of all sums on their way, in whatever order they are added up, and of all values.
+  // The maximum over all values and all partial sums, for any order of summation.
   [[nodiscard]] double largest() const { return largest_; }
 
  private:
@@ -78,7 +78,7 @@ class Walk {
                                          [&](std::size_t k) { return k < x.size() ? x[k] : 0.0; }),
                        x.size());
       default:
-        ADD_FAILURE() << "a layer that this test does not know";
+        ADD_FAILURE() << "unknown layer";
         return HUGE_VAL;
     }
   }
@@ -96,7 +96,7 @@ class Walk {
     return sum;
   }
 
-  // A bias and so many products, each rounded, added up in any order, every addition rounded.
+  // A bias plus this number of rounded products, added in any order, with every addition rounded.
   static double rounded(double sum, std::size_t products) {
     return sum * std::pow(1.0 + kRounding, static_cast<double>(products + 1));
   }
@@ -111,7 +111,7 @@ class Walk {
       case LayerActivation::kRelu:
         return bound;
       default:
-        ADD_FAILURE() << "an activation that this test does not know";
+        ADD_FAILURE() << "unknown activation";
         return HUGE_VAL;
     }
   }
@@ -145,7 +145,7 @@ TEST(HalfRange, PublishedEncodersStayWithinIt) {
       }
       const double largest = Walk(file, network).largest();
       RecordProperty(entry.path().stem().string(), std::to_string(largest));
-      EXPECT_LT(largest, kLargestHalf) << entry.path();
+      EXPECT_LT(largest, kMaxHalf) << entry.path();
       ++encoders;
     }
   }

@@ -1,4 +1,5 @@
-// Every layer operation of a file, alone in a network, against plain layers in double.
+// Compares every layer operation of the format, in a network of its own, with plain layers in
+// double.
 #include "tests/engine/twin_session.h"
 
 namespace mien::tests {
@@ -90,7 +91,8 @@ TEST(Layers, PointwiseWithAResidualOfItsOwnSizeAndWithACentreSlice) {
 
 TEST(Layers, AdditionsThatNoPointwiseLayerCanDo) {
   expect_layer({7, 7, 9}, [](TwinNetwork& net) { return net.add(net.depthwise(0, 3, 3), 0); });
-  // The pointwise result is the larger map, is read again, is both summands, is an output.
+  // The pointwise result is larger than the other summand, has another reader, is both summands, or
+  // is an output.
   expect_layer({7, 7, 9}, [](TwinNetwork& net) {
     return net.add(net.depthwise(0, 3, 3), net.pointwise(0, 9));
   });
@@ -205,7 +207,7 @@ TEST(Layers, CurvesThatNoOtherLayerHas) {
   });
 }
 
-// Of a map, one row, one column, one pixel; of all channels, of one.
+// The second operand is a map, one row, one column or one pixel, with all channels or one.
 TEST(Layers, ProductsQuotientsAndSumsWithMapsThatAreBroadcast) {
   for (const InputShape b :
        {InputShape{6, 7, 11}, {1, 7, 11}, {6, 1, 11}, {1, 1, 11}, {6, 7, 1}, {1, 1, 1}}) {

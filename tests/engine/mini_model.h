@@ -1,4 +1,4 @@
-// The small networks of apps/conformance/golden, and the numbers PyTorch made of them.
+// The small networks of apps/conformance/golden, and PyTorch's outputs of them.
 #pragma once
 
 #include <fstream>

@@ -19,7 +19,7 @@ struct alignas(64) CacheLine {
   std::byte bytes[64];
 };
 
-// Bytes at a multiple of 64.
+// Bytes at an address that is a multiple of 64.
 class AlignedBuffer {
  public:
   explicit AlignedBuffer(std::size_t bytes) : lines_((bytes + 63) / 64), size_(bytes) {}
@@ -52,7 +52,7 @@ class OwnedSession {
     }
   }
 
-  // Every float of the arena becomes a NaN: nothing in it may matter to the next run.
+  // Fills the arena with NaNs, because the next run must not depend on its content.
   void spoil_arena() {
     for (std::byte& one : arena_.span()) {
       one = std::byte{0xFF};

@@ -1,4 +1,4 @@
-// How much stack work takes: it is done by a thread whose stack was painted before.
+// Measures the use of the stack: runs work on a thread whose stack is filled with a pattern.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ inline void* call_work(void* work) {
   return nullptr;
 }
 
-// Bytes from the top of the stack to the deepest that was written to.
+// The number of bytes from the top of the stack to the lowest one that was written.
 inline std::size_t touched(std::function<void()> work) {
   const std::unique_ptr<void, void (*)(void*)> memory(std::aligned_alloc(4096, kPaintedBytes),
                                                       std::free);
@@ -39,7 +39,7 @@ inline std::size_t touched(std::function<void()> work) {
   return static_cast<std::size_t>(stack.end() - deepest);
 }
 
-// Without what a thread takes that does nothing.
+// Excludes the stack use of an empty thread.
 inline std::size_t stack_of(std::function<void()> work) {
   return touched(std::move(work)) - touched([] {});
 }

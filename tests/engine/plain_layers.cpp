@@ -62,7 +62,7 @@ Map filtered(const Map& x, std::size_t kernel_h, std::size_t kernel_w, std::size
           channels};
 }
 
-// Calls visit(ky, kx, y, x) for the positions of a window that lie on the map.
+// Calls visit(ky, kx, y, x) for the positions of a window that lie inside the map.
 template <class Visit>
 void for_window(const Map& map, std::size_t out_y, std::size_t out_x, std::size_t kernel_h,
                 std::size_t kernel_w, const LayerOptions& o, const Visit& visit) {

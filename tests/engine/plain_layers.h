@@ -1,5 +1,5 @@
-// Every layer operation once more, in double on plain [h][w][c] maps and with PyTorch's weights:
-// what the engine's answers are held against. Shares no code with the kernels.
+// Reference implementations of every layer operation, in double on plain [h][w][c] maps and with
+// PyTorch's weight layout. They share no code with the kernels.
 #pragma once
 
 #include <cstddef>
@@ -26,7 +26,7 @@ struct Map {
 
 using Bias = std::vector<float>;
 
-// Weight [out, in / groups, kh, kw]; as many groups as channels (depthwise) or one.
+// Weight [out, in / groups, kh, kw]; groups is the number of channels (depthwise) or one.
 Map plain_conv(const Map& x, const formats::Array& weight, const Bias& bias,
                const formats::LayerOptions& options);
 // Weight [out, c * h * w].
@@ -55,7 +55,7 @@ Map plain_concat(const Map& a, const Map& b);
 Map plain_slice(const Map& x, std::size_t first, std::size_t channels,
                 const formats::LayerOptions& options);
 
-// b may be of one row, column or channel.
+// b may have a single row, column or channel.
 Map plain_combine(const Map& a, const Map& b, double (*function)(double, double));
 Map plain_resize(const Map& x, std::size_t h, std::size_t w, formats::ResizeGrid grid,
                  formats::ResizeSampling sampling);

@@ -1,4 +1,4 @@
-// include/mien/engine.h, used as its users do.
+// Tests include/mien/engine.h, as users include it.
 #include <gtest/gtest.h>
 #include <mien/engine.h>
 
@@ -71,8 +71,8 @@ TEST_F(Engine, RunsStepByStepAsAtOnce) {
 }
 
 #if defined(FE_UPWARD) && !defined(__EMSCRIPTEN__)
-// Weights in fixed point are rounded when a runner is made.
-TEST(EngineFloatMode, IsOursWhenARunnerIsMade) {
+// A runner quantizes weights when it is created.
+TEST(EngineFloatMode, IsSetWhenARunnerIsCreated) {
   constexpr std::uint32_t kChannels = 64;
   constexpr std::size_t kWeights = std::size_t{kChannels} * kChannels;
   std::mt19937 random(2);
@@ -103,19 +103,20 @@ TEST(EngineFloatMode, IsOursWhenARunnerIsMade) {
   for (const int rounding : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
     NetworkRunner own, lent;
     std::fesetround(rounding);
-    const EngineStatus of_own = own.create(file, "net", options);
-    const EngineStatus of_lent = lent.create_in(file, "net", options, session.span(), arena.span());
+    const EngineStatus own_status = own.create(file, "net", options);
+    const EngineStatus lent_status =
+        lent.create_in(file, "net", options, session.span(), arena.span());
     EXPECT_EQ(std::fegetround(), rounding);
     std::fesetround(FE_TONEAREST);
-    ASSERT_EQ(of_own, EngineStatus::kOk);
-    ASSERT_EQ(of_lent, EngineStatus::kOk);
+    ASSERT_EQ(own_status, EngineStatus::kOk);
+    ASSERT_EQ(lent_status, EngineStatus::kOk);
     EXPECT_EQ(run(own, input), want);
     EXPECT_EQ(run(lent, input), want);
   }
 #ifdef __GLIBC__
   NetworkRunner runner;
   std::feclearexcept(FE_ALL_EXCEPT);
-  feenableexcept(FE_INEXACT | FE_UNDERFLOW);  // not all machines can, and the others trap nothing
+  feenableexcept(FE_INEXACT | FE_UNDERFLOW);  // not all machines support traps
   const EngineStatus status = runner.create(file, "net", options);
   const std::int64_t macs = run_fma_loop(~0u, 10);
   fedisableexcept(FE_ALL_EXCEPT);

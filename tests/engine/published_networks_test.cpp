@@ -1,5 +1,5 @@
-// The two image encoders are of the published size: multiply-accumulates to 1 % of table 3 of
-// Navarro et al. 2023. The exact counts are those that the design of the networks adds up to.
+// The two image encoders have the published size: their multiply-accumulates match table 3 of
+// Navarro et al. 2023 to 1 %. The exact counts follow from the architecture.
 #include <gtest/gtest.h>
 #include <mien/engine.h>
 
@@ -90,7 +90,7 @@ NetworkInfo info_of(const Encoder& encoder) {
   WeightFile file;
   EXPECT_EQ(file.open(aligned.span()), EngineStatus::kOk);
   NetworkInfo info = file.network(0);
-  info.name = {};  // it lies in the file
+  info.name = {};  // inside the file
   return info;
 }
 

@@ -1,4 +1,4 @@
-// A valid network of random layers, whose values live long and cross.
+// A valid network of random layers, whose values have long and overlapping lifetimes.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace mien::tests {
 
 class RandomNetwork {
  public:
-  // One of so many.
+  // Chooses an index below the given number.
   using Choose = std::function<std::size_t(std::size_t)>;
 
   RandomNetwork(formats::NetworkWriter& writer, formats::InputShape input, unsigned seed,
@@ -54,7 +54,7 @@ class RandomNetwork {
     return options;
   }
 
-  // Any value but the image; one that nothing has read yet more often than not.
+  // Any value except the image; preferably one without a reader.
   Index pick() {
     const std::vector<Index> loose = loose_ends();
     if (!loose.empty() && between(0, 2) > 0) {
@@ -129,7 +129,7 @@ class RandomNetwork {
     }
   }
 
-  // x + something that fits, the nearest first: it is often a residual around a pointwise layer.
+  // Adds the nearest value that fits; often a residual around a pointwise layer.
   bool add_sum(Index x) {
     for (Index other = twin.last(); other > 0; --other) {
       const Map &a = twin.value(x), &b = twin.value(other);
@@ -142,7 +142,7 @@ class RandomNetwork {
     return false;
   }
 
-  // Something beside x of the same size, or a part of it.
+  // Concatenates x with a value of the same size, or takes a part of x.
   void add_part(Index x) {
     const Map& map = twin.value(x);
     for (Index other = twin.last(); other > 0; --other) {
@@ -164,7 +164,7 @@ class RandomNetwork {
     note(twin.slice(x, static_cast<std::uint16_t>(first), kept, margins), {x});
   }
 
-  // A layer that only converted networks have.
+  // A layer type that only converted networks contain.
   void add_converted(Index x) {
     const Map& map = twin.value(x);
     switch (between(0, 4)) {
@@ -212,8 +212,8 @@ class RandomNetwork {
     return twin.activation(x, options);
   }
 
-  // x times, by or plus the nearest value that is as large or broadcast, x itself at worst. A
-  // factor lies in 0 .. 1, a divisor in 1/e .. e.
+  // Multiplies, divides or adds x and the nearest value of the same size or with axes to broadcast,
+  // possibly x itself. A factor is in 0..1, a divisor in 1/e..e.
   void add_combination(Index x, const Map& map) {
     const auto fits = [](std::size_t size, std::size_t whole) {
       return size == whole || size == 1;
@@ -248,7 +248,7 @@ class RandomNetwork {
     }
   }
 
-  // Every value must be read or be an output, of which there are at most four.
+  // Every value must be read or be an output; at most four outputs are possible.
   void gather_loose_ends() {
     while (loose_ends().size() > 2) {
       const Index a = loose_ends()[0], b = loose_ends()[1];

@@ -1,5 +1,5 @@
-// Random networks, whose values live long and cross: whatever the plan laid over something still
-// needed would come out wrong, for every value is random and the arena begins as NaNs.
+// Random networks whose values have long and overlapping lifetimes. If the plan overwrites a value
+// that is still needed, outputs differ, because all values are random and the arena starts as NaNs.
 #include <random>
 
 #include "tests/engine/random_network.h"
@@ -10,7 +10,7 @@ namespace {
 
 using formats::InputShape;
 
-// Values of random networks cancel one another.
+// Values of random networks cancel each other.
 constexpr double kSlack = 2;
 
 TEST(RandomNetworks, AgreeWithPlainLayers) {

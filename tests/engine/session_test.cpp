@@ -78,7 +78,7 @@ TEST(Model, RefusesADamagedFile) {
   EXPECT_EQ(fault.status, formats::FileStatus::kBadChecksum);
 }
 
-// Maps that are alive at the same step must not overlap; the arena must hold them all.
+// Maps with overlapping lifetimes must not overlap in memory, and the arena must contain all.
 TEST(ArenaPlan, LiveMapsNeverOverlap) {
   std::mt19937 random(3);
   const auto below = [&](std::uint32_t n) { return static_cast<std::uint32_t>(random() % n); };

@@ -1,4 +1,4 @@
-// What include/mien/engine.h says about the stack, measured.
+// Measures the stack use that include/mien/engine.h documents.
 #include <gtest/gtest.h>
 #include <mien/engine.h>
 

@@ -1,5 +1,5 @@
-// Temporal networks: a stream frame by frame is the stream as a whole, sessions do not disturb each
-// other, and nothing of a stream survives a reset.
+// Temporal networks: the outputs of a stream step by step equal those of the whole stream at once,
+// sessions are independent, and a reset clears all state.
 #include <algorithm>
 #include <cfloat>
 #include <cstring>
@@ -18,7 +18,7 @@ constexpr std::size_t kFrames = 40;
 
 using Frames = std::vector<std::vector<float>>;
 
-// The shape of the decoders: causal convolution, LSTM, fully connected.
+// The structure of the decoders: causal convolution, LSTM, fully connected.
 class Decoder {
  public:
   explicit Decoder(unsigned seed) : twin(writer.network("net", {1, 1, 20}), {1, 1, 20}, seed) {
@@ -56,8 +56,8 @@ Frames answers(Session& session, const std::vector<Map>& inputs) {
   return frames;
 }
 
-// A causal convolution over all frames at once, as training computes it: one window of two rows
-// that slides down the time axis, a row of zeros before the first.
+// A causal convolution over all frames at once, as in training: a window of two rows over the time
+// axis, with a row of zeros before the first.
 TEST(Streams, FrameByFrameIsTheConvolutionOfTheWholeStream) {
   constexpr std::uint32_t kInputs = 6, kOutputs = 5;
   std::mt19937 random(4);
@@ -87,7 +87,8 @@ TEST(Streams, FrameByFrameIsTheConvolutionOfTheWholeStream) {
     std::copy_n(whole.values.begin() + static_cast<std::ptrdiff_t>(t * kInputs), kInputs,
                 frame.values.begin());
     const std::vector<float> got = answer(*engine.session, frame);
-    for (std::size_t c = 0; c < kOutputs; ++c) {  // multiples of 1/256: exact in any order
+    for (std::size_t c = 0; c < kOutputs;
+         ++c) {  // multiples of 1/256, whose sums are exact in any order
       EXPECT_EQ(static_cast<double>(got[c]), want.at(t, 0, c)) << "frame " << t;
     }
   }
@@ -146,8 +147,8 @@ TEST(Streams, SessionsTakingTurnsInOneArenaDoNotDisturbEachOther) {
   }
 }
 
-// A cell that forgets half of its value each step goes to zero; unflushed it would pass through
-// the denormals, where every operation is many times slower.
+// A cell that halves its value in each step decays to zero. Without a flush it would become
+// denormal, and operations on denormal numbers are many times slower.
 TEST(Streams, FadingStateBecomesZeroNotDenormal) {
   constexpr std::uint32_t kHidden = 8;
   formats::MienWriter writer;

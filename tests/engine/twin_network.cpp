@@ -13,7 +13,7 @@ using formats::LayerActivation;
 TwinNetwork::TwinNetwork(formats::NetworkWriter& writer, formats::InputShape input, unsigned seed)
     : writer_(writer), random_(seed), probe_{Map(input.height, input.width, input.channels)} {}
 
-// Scaled so that maps keep the size of their input, and exact in fp16.
+// Scaled so that maps keep the magnitude of their input, and exact in fp16.
 Array TwinNetwork::weights(std::vector<std::uint32_t> shape, std::size_t fan_in) {
   Array array{std::move(shape), {}};
   std::size_t count = 1;

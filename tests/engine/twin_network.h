@@ -1,5 +1,4 @@
-// A network of random weights built twice: in a weight file, and as plain layers that answer what
-// the engine should.
+// A network with random weights, built twice: in a weight file, and of plain layers as a reference.
 #pragma once
 
 #include <functional>
@@ -17,10 +16,10 @@ class TwinNetwork {
   using Index = formats::LayerIndex;
   using Options = formats::LayerOptions;
 
-  // `writer` must outlive this.
+  // `writer` must outlive this object.
   TwinNetwork(formats::NetworkWriter& writer, formats::InputShape input, unsigned seed);
 
-  // Each returns the new layer's value. Random slopes are added where `options` asks for PReLU.
+  // Each returns the new layer's value. Adds random slopes if `options` has PReLU.
   Index conv2d(Index x, std::uint32_t outputs, std::uint32_t kernel_h, std::uint32_t kernel_w,
                Options options = {});
   Index depthwise(Index x, std::uint32_t kernel_h, std::uint32_t kernel_w, Options options = {});
@@ -44,13 +43,13 @@ class TwinNetwork {
   Index normalize(Index x, float epsilon);
   void output(Index x);
 
-  // Only the shape of it counts.
+  // Only its shape is meaningful.
   [[nodiscard]] const Map& value(Index x) const { return probe_[x]; }
   [[nodiscard]] Index last() const { return static_cast<Index>(evaluations_.size()); }
   [[nodiscard]] const std::vector<Index>& outputs() const { return outputs_; }
 
   Map random_input();
-  // One step: all values; carries the state of temporal layers on to the next.
+  // Runs one step and returns all values; keeps the state of temporal layers for the next step.
   std::vector<Map> run(const Map& input);
   void reset();
 

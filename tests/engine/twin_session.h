@@ -1,4 +1,4 @@
-// Engine and plain layers side by side.
+// Compares the engine with plain layers.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,11 +14,11 @@
 
 namespace mien::tests {
 
-// Of the largest value of a map. The engine keeps activations in fp32 and sums in another order;
-// the plain layers count in double throughout.
+// Relative to the largest value of a map. The engine keeps activations in fp32 and sums in another
+// order; plain layers use double throughout.
 inline constexpr double kTwinTolerance = 1e-5;
-// Where a tier computes in half precision: networks with random weights cancel more than trained
-// ones.
+// For tiers that compute in half precision: values cancel more in networks with random weights than
+// in trained ones.
 inline constexpr double kHalfTwinTolerance = 3e-2;
 inline double twin_tolerance(std::uint32_t cpu_mask) {
   return is_half(cpu_mask) ? kHalfTwinTolerance : kTwinTolerance;
@@ -42,7 +42,7 @@ inline void set_input(engine::Session& session, const Map& input) {
   }
 }
 
-// The same numbers, and nothing in the lanes beyond the last channel.
+// Expects the same values, and zeros in lanes without a channel.
 inline void expect_map(const engine::Session& session, std::uint32_t output, const Map& want,
                        double tolerance) {
   const engine::Shape shape = session.output_shape(output);
@@ -62,10 +62,10 @@ inline void expect_map(const engine::Session& session, std::uint32_t output, con
   for (const float one : session.output(output)) {
     total += std::abs(static_cast<double>(one));
   }
-  EXPECT_NEAR(total, used, 1e-12 * used) << "a lane that holds no channel is not zero";
+  EXPECT_NEAR(total, used, 1e-12 * used) << "a lane without a channel is not zero";
 }
 
-// Runs both for some steps with an arena that holds nothing but NaNs before each.
+// Runs both for a number of steps. Fills the arena with NaNs before each.
 inline void expect_twins_agree(const formats::MienWriter& writer, const std::string& name,
                                TwinNetwork& twin, std::uint32_t cpu_mask, int steps = 3,
                                double slack = 1) {
@@ -86,7 +86,7 @@ inline void expect_twins_agree(const formats::MienWriter& writer, const std::str
   }
 }
 
-// The tiers of this CPU: two masks each, layer by layer and fused.
+// The tiers of this CPU, with two masks each: layer by layer and fused.
 inline std::vector<std::uint32_t> tiers_here() {
   std::vector<std::uint32_t> masks;
   for (std::uint32_t tier = 0; tier < kernels::kTierCount; ++tier) {

@@ -122,14 +122,14 @@ TEST(Animation, RotationsRoundTrip) {
   std::uniform_real_distribution<double> angle(-3.1, 3.1), pitch(-1.57, 1.57);
   for (int i = 0; i < 10000; ++i) {
     const Angles before = {pitch(random), angle(random), angle(random)};
-    const Angles after = angles(quaternion(before));
+    const Angles after = formats::angles(quaternion(before));
     EXPECT_NEAR(after.pitch, before.pitch, 1e-6);
     EXPECT_NEAR(after.yaw, before.yaw, 1e-6);
     EXPECT_NEAR(after.roll, before.roll, 1e-6);
   }
   for (const double pole : {std::acos(0.0), -std::acos(0.0)}) {
     const Quaternion q = quaternion({pole, 0.7, 0.0});
-    const Angles there = angles(q);
+    const Angles there = formats::angles(q);
     EXPECT_NEAR(there.pitch, pole, 1e-7);
     EXPECT_NEAR(there.yaw, 0.7, 1e-6);
     EXPECT_EQ(there.roll, 0.0);

@@ -17,7 +17,7 @@ def main():
         if made.returncode > 1:  # 1: created, with warnings
             print("skipped: no description of a locale here:", made.stderr.strip())
             return 77
-        # The C library never frees data from LOCPATH, which counts as a leak.
+        # The C library never frees data from `LOCPATH`, which counts as a leak.
         environment = {**os.environ, "LOCPATH": folder, "MIEN_TEST_LOCALE": NAME, "ASAN_OPTIONS": "detect_leaks=0"}
         return subprocess.run([sys.argv[1], "--gtest_brief=1"], env=environment).returncode
 

@@ -128,6 +128,7 @@ class Checksum(unittest.TestCase):
     def test_published_values(self):
         self.assertEqual(xxhash64(b""), 0xEF46DB3751D8E999)
         self.assertEqual(xxhash64(b"abc"), 0x44BC2CF5AD770999)
+        # cspell:ignore spammish
         self.assertEqual(xxhash64(b"Nobody inspects the spammish repetition"), 0xFBCEA83C8A378BF1)
 
 

@@ -233,7 +233,7 @@ class Protocols(unittest.TestCase):
         tx, ty, tz = got["translation"]
         self.near([tz * 0.14], [-0.7 + 0.118], 1e-6)  # the tip of the nose in front of the centre of the head
 
-    # All landmarks are in the middle of the picture, so that what is left of a point is its depth.
+    # All landmarks are in the centre of the image, so that the remaining offset of a point is its depth.
     def test_openseeface_depths_are_those_of_a_face(self):
         frame = {"t_ns": 0, "controls": {}, "head": STRAIGHT, "position_m": [0, 0, -0.7], "box": [320, 240, 0, 0]}
         (packet,), = packets_of("osf", [frame])

@@ -18,7 +18,7 @@ std::string little(std::uint64_t value, std::size_t bytes);
 // Name, size and body, with a padding byte after an odd size.
 std::string wav_chunk(std::string_view name, std::string_view body);
 
-// The body of a fmt chunk as fields, each of which a test may change.
+// The body of a fmt chunk as fields, which tests may change.
 struct FmtFields {
   std::uint16_t tag = 1;
   std::uint16_t channels = 1;

@@ -76,7 +76,7 @@ TEST(WavSizes, SizesOfTheDataChunk) {
     WavStatus ended;
     std::uint64_t fault_offset;
   };
-  // There are 9 bytes, with samples of 2 bytes.
+  // The data have 9 bytes, with samples of 2 bytes.
   for (const Case& c :
        {Case{1, 0, WavStatus::kPartialFrame, 44}, Case{2, 1, WavStatus::kEnd, 46},
         Case{3, 1, WavStatus::kPartialFrame, 46}, Case{8, 4, WavStatus::kEnd, 52},

@@ -1,4 +1,4 @@
-// Bounds are wide enough for what fp32 does, and not much wider.
+// Bounds cover the errors of fp32, and are not much wider.
 #include "apps/conformance/approx.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,8 @@ TEST(Approx, ASumsBoundGrowsWithWhatIsAddedNotWithWhatIsLeft) {
 
 TEST(Approx, SequentialFloatSumsStayWithin) {
   std::mt19937 random(1);
-  std::uniform_real_distribution<float> values(0.0f, 1.0f);  // one sign: partial sums stay large
+  std::uniform_real_distribution<float> values(
+      0.0f, 1.0f);  // equal signs, so that partial sums stay large
   for (int round = 0; round < 200; ++round) {
     Sum sum;
     float in_order = 0.0f;

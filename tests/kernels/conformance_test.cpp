@@ -1,4 +1,4 @@
-// Every kernel of every tier this CPU has, on the cases of apps/conformance.
+// Runs every kernel of every tier of this CPU on the cases of apps/conformance.
 #include <gtest/gtest.h>
 
 #include "apps/conformance/kernel_suite.h"

@@ -1,4 +1,5 @@
-// CPU masks of the tiers that this CPU has, each with those before it, which have what it lacks.
+// CPU masks of the tiers of this CPU, each with the tiers before it, which provide the kernels that
+// it lacks.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +19,7 @@ inline std::vector<std::uint32_t> every_tier() {
   return masks;
 }
 
-// Whether kernels of a tier of half precision may be among those of the mask.
+// Whether the kernels of a mask may include some that compute in half precision.
 inline bool is_half(std::uint32_t cpu_mask) {
   return (cpu_mask & kernels::detect_cpu() & kernels::kHalfTiers) != 0;
 }

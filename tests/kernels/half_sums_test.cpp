@@ -1,5 +1,5 @@
-// What goes through temporal decoders is not bounded by their weights, so their sums of half
-// precision saturate: no infinity, and nothing that is no number, may get into a state.
+// The values in temporal decoders are not bounded by their weights, so their sums in half precision
+// saturate: no infinity or NaN may enter a state.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,7 +16,7 @@ TEST(HalfSums, Saturate) {
   const kernels::Entry* entry =
       kernels::find_entry(kernels::FullyConnectedArgs::kFamily, kernels::kHalfTiers);
   if (entry == nullptr) {
-    GTEST_SKIP() << "skipped: no tier here has such sums";
+    GTEST_SKIP() << "skipped: no tier of this CPU has such sums";
   }
   constexpr int kInputs = 16, kSums = 16;
   float x[kInputs], y[kSums];

@@ -1,4 +1,4 @@
-// The checks of apps/conformance notice what they should, and nothing else.
+// The checks of apps/conformance detect faulty kernels, and accept correct ones.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ class Faulty : public testing::TestWithParam<FaultyKernel> {};
 
 TEST_P(Faulty, IsNoticedWithOtherSeedsToo) {
   if (!GetParam().detectable) {
-    GTEST_SKIP() << "cannot be noticed on this system";
+    GTEST_SKIP() << "cannot be detected on this system";
   }
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     int cases = 0;
@@ -51,7 +51,7 @@ TEST(Check, SaysWhere) {
   EXPECT_THAT(finding.text, HasSubstr(test.shape));
 }
 
-// A reference kernel that is off by more than its bound shows as a difference between the two.
+// A reference kernel whose error exceeds its bound shows as a difference between the two.
 void off_by_two_bounds(const kernels::ResidualAddArgs& a) {
   kernels::ref::residual_add(a);
   a.y[0] = std::nextafter(std::nextafter(std::nextafter(a.y[0], 1e9f), 1e9f), 1e9f);
@@ -74,7 +74,7 @@ TEST(KernelSuite, AFamilyWithoutCasesIsAFailure) {
 
 TEST(CrashGuard, ComesBackFromOneCrashAfterAnother) {
   if (!can_catch_crashes()) {
-    GTEST_SKIP() << "no signals here";
+    GTEST_SKIP() << "no signals on this system";
   }
   int runs = 0;
   for (int i = 0; i < 3; ++i) {

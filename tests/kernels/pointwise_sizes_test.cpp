@@ -1,5 +1,5 @@
-// The pointwise kernel chooses among tiles and ways to hold weights by the numbers of pixels and
-// inputs: every choice that a tier may make, against the reference.
+// The pointwise kernel selects tiles and the storage of weights by the numbers of pixels and
+// inputs. Compares every selection that a tier may make with the reference.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@ namespace {
 
 using namespace kernels;  // NOLINT: the test is about nothing else
 
-constexpr int kOutputs = 40;  // two panels of 16 and half of one
+constexpr int kOutputs = 40;  // two panels of 16 and one half panel
 
 std::vector<float> run(Kernel<PointwiseArgs> kernel, const std::vector<float>& x,
                        const std::vector<std::uint16_t>& weights,
@@ -62,7 +62,7 @@ void expect_right(const Entry& entry, int pixels, int inputs) {
   const auto want = run(reference, x, weights, bias, pixels, inputs);
   const auto sums =
       run(reference, magnitudes(x), magnitudes(weights), magnitudes(bias), pixels, inputs);
-  // One rounding per input, half of them up: their sum grows with the root of their number.
+  // Each input is rounded once, half of them up, so their sum grows with the root of their number.
   const double factor = (8.0 + std::sqrt(std::min(inputs, by.chunk))) * by.unit;
   const auto got = run(find<PointwiseArgs>(bit(entry.tier)), x, weights, bias, pixels, inputs);
   for (std::size_t i = 0; i < want.size(); ++i) {

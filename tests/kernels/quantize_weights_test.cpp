@@ -1,4 +1,4 @@
-// No values can take a sum out of 32 bits, and no step is wider than that needs.
+// No values can make a sum exceed 32 bits, and no scale is larger than that requires.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ std::vector<std::uint16_t> random_weights(int reduction, float bias) {
   return weights;
 }
 
-// What the largest values of the signs that suit them can make of an output's weights.
+// The largest sum of an output, for inputs of maximum magnitude and matching signs.
 struct Reach {
   std::int64_t above = 0, below = 0, largest = 0;
   void add(std::int64_t q) {

@@ -1,4 +1,4 @@
-// What cases are drawn from.
+// Tests of the random values of cases.
 #include "apps/conformance/random_values.h"
 
 #include <gtest/gtest.h>

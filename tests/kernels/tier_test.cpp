@@ -17,11 +17,12 @@ bool is_compiled(Tier tier) {
   return std::any_of(all.begin(), all.end(), [=](const Entry& e) { return e.tier == tier; });
 }
 
-// The compiler's run-time library asks the CPU, too.
+// The compiler's run-time library also detects the CPU's features.
 TEST(Tiers, AreThoseThatTheRunTimeLibraryFinds) {
   __builtin_cpu_init();
   if (!__builtin_cpu_supports("sse2")) {
-    GTEST_SKIP() << "skipped: this run-time library finds nothing, not even what every x86-64 has";
+    GTEST_SKIP()
+        << "skipped: the run-time library reports no features, although every x86-64 CPU has some";
   }
   const std::uint32_t found = detect_cpu();
   const auto has = [&](Tier tier) { return (found & bit(tier)) != 0; };

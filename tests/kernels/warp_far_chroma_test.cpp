@@ -1,4 +1,4 @@
-// Chroma whose samples lie gigabytes apart, which an image may have.
+// Chroma samples that are gigabytes apart, as an image may have.
 #include <gtest/gtest.h>
 #include <sys/mman.h>
 
@@ -12,7 +12,7 @@
 namespace mien::kernels {
 namespace {
 
-// Memory of which only the pages that are touched exist.
+// Memory whose untouched pages do not exist.
 class SparseBytes {
  public:
   explicit SparseBytes(std::size_t bytes)
@@ -34,7 +34,7 @@ class SparseBytes {
   void* memory_;
 };
 
-// The last sample of a row begins beyond what 32 bits can count.
+// The offset of the last sample of a row exceeds 32 bits.
 TEST(Warp, SamplesOfChromaMayLieAsFarApartAsTheirStepAllows) {
   if (sizeof(void*) < 8) {
     GTEST_SKIP() << "such a plane needs 64-bit addresses";

@@ -1,4 +1,4 @@
-// Warps into a small picture, by every tier of this machine.
+// Warps into a small image, on every tier of this machine.
 #pragma once
 
 #include <cstddef>

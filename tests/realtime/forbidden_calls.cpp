@@ -1,4 +1,5 @@
-// The functions stand in this program, which the dynamic linker asks before the C library.
+// These functions are defined in the program, where the dynamic linker finds them before those of
+// the C library.
 #include "tests/realtime/forbidden_calls.h"
 
 #include <dlfcn.h>
@@ -43,7 +44,7 @@ Function* next(const char* name) {
 
 extern "C" {
 
-// What glibc's own names for the heap are.
+// glibc's internal names of the heap functions.
 void* __libc_malloc(std::size_t bytes);
 void* __libc_calloc(std::size_t count, std::size_t bytes);
 void* __libc_realloc(void* memory, std::size_t bytes);
@@ -80,9 +81,9 @@ void free(void* memory) {
   __libc_free(memory);
 }
 
-// The real one is looked up at the first call; a pointer that is known before main needs no guard
-// of its own. Of those that are points of cancellation the C library does not promise that they
-// throw nothing, and clang wants the same said here.
+// Looks up the real function at the first call. The constant initialization of the pointer needs no
+// guard. The C library does not declare cancellation points noexcept, and clang requires the same
+// declaration here.
 #define MIEN_FORBID(Result, name, Parameters, ...) \
   MIEN_FORBID_AS(Result, name, Parameters, noexcept, __VA_ARGS__)
 #define MIEN_FORBID_AS(Result, name, Parameters, promise, ...) \
@@ -110,9 +111,10 @@ MIEN_FORBID(void*, __cxa_allocate_exception, (std::size_t bytes), bytes)
 #undef MIEN_FORBID_AS
 #undef MIEN_FORBID
 
-// A static local that is made at its first use.
+// The guard of a static local variable, at its first use.
 int __cxa_guard_acquire(__cxxabiv1::__guard* guard) {
-  static int (*real)(__cxxabiv1::__guard*) = nullptr;  // known before main: no guard of its own
+  static int (*real)(__cxxabiv1::__guard*) =
+      nullptr;  // constant initialization, which needs no guard
   if (real == nullptr) {
     real = next<int(__cxxabiv1::__guard*)>("__cxa_guard_acquire");
   }

@@ -1,4 +1,4 @@
-// Notices calls that no real-time thread may make: the heap, locks, waiting, exceptions, locales,
+// Detects calls that a real-time thread must not make: heap, locks, waiting, exceptions, locales,
 // files.
 #pragma once
 
@@ -7,8 +7,7 @@
 
 namespace mien::tests {
 
-// From its making to the end of its scope, calls of this process are noted, whichever library makes
-// them.
+// Records forbidden calls of this process, from any library, during its lifetime.
 class ForbiddenCalls {
  public:
   ForbiddenCalls();
@@ -16,12 +15,12 @@ class ForbiddenCalls {
   ForbiddenCalls(const ForbiddenCalls&) = delete;
   ForbiddenCalls& operator=(const ForbiddenCalls&) = delete;
 
-  // Names, each once for every call, the first ones of very many. Ends the noting.
+  // Stops recording and returns the name of every call, up to a limit.
   [[nodiscard]] std::vector<std::string> stop();
 };
 
-// From here on a system call, but for the end of the process and writing, ends it with exit status
-// 1 and the call's number on standard error. False where the kernel does not offer that.
+// From now on a system call ends the process with exit status 1 and prints its number to standard
+// error, except exit and write. Returns false if the kernel does not support this.
 [[nodiscard]] bool forbid_system_calls();
 
 }  // namespace mien::tests

@@ -1,5 +1,6 @@
-// What a thread of a camera or a sound card calls, under clang's real-time sanitizer, which knows
-// some hundred functions of the C library that may block and ends the process at the first one.
+// Runs the functions that camera and audio threads call under clang's real-time sanitizer, which
+// ends the process at the first call of a function that may block; it knows some hundred of the C
+// library.
 // Source: https://clang.llvm.org/docs/RealtimeSanitizer.html
 #include <gtest/gtest.h>
 

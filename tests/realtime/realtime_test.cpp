@@ -1,5 +1,5 @@
-// What a thread of a camera or a sound card calls allocates nothing, locks nothing, throws nothing
-// and asks the system for nothing.
+// The functions that camera and audio threads call do not allocate, lock, throw or make system
+// calls.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -14,30 +14,30 @@
 namespace mien::tests {
 namespace {
 
-TEST(Realtime, ForbiddenCallsAreNoticed) {
+TEST(Realtime, ForbiddenCallsAreDetected) {
   std::mutex mutex;
   ForbiddenCalls calls;
   { const std::lock_guard lock(mutex); }
-  // Through a volatile pointer, or the compiler leaves the pair of calls out.
+  // Volatile, so that the compiler does not remove the pair of calls.
   int* volatile made = new int(1);
   delete made;
-  const std::vector<std::string> noticed = calls.stop();
-  EXPECT_EQ(noticed, (std::vector<std::string>{"pthread_mutex_lock", "pthread_mutex_unlock",
-                                               "malloc", "free"}));
+  const std::vector<std::string> detected = calls.stop();
+  EXPECT_EQ(detected, (std::vector<std::string>{"pthread_mutex_lock", "pthread_mutex_unlock",
+                                                "malloc", "free"}));
 }
 
 TEST(Realtime, NothingForbiddenIsCalled) {
   for (const std::int32_t faces : {1, 3}) {
     Stage stage(faces);
     ForbiddenCalls calls;
-    const bool right = stage.play();
-    const std::vector<std::string> noticed = calls.stop();
-    EXPECT_EQ(noticed, std::vector<std::string>());
-    EXPECT_TRUE(right);
+    const bool accepted = stage.play();
+    const std::vector<std::string> detected = calls.stop();
+    EXPECT_EQ(detected, std::vector<std::string>());
+    EXPECT_TRUE(accepted);
   }
 }
 
-// 0: none was made; 1: one was; 77: cannot be told here.
+// Returns 0 if no system call was made, 1 if one was, 77 if the kernel cannot detect them.
 template <class Work>
 int exit_status_without_system_calls(Work work) {
   const pid_t child = fork();
@@ -53,12 +53,12 @@ int exit_status_without_system_calls(Work work) {
 }
 
 TEST(Realtime, NoSystemCallIsMade) {
-  const auto asks = [] { return getppid() > 0; };
-  const int noticed = exit_status_without_system_calls(asks);
-  if (noticed == 77) {
-    GTEST_SKIP() << "skipped: no seccomp here";
+  const auto system_call = [] { return getppid() > 0; };
+  const int detected = exit_status_without_system_calls(system_call);
+  if (detected == 77) {
+    GTEST_SKIP() << "skipped: seccomp is not available";
   }
-  EXPECT_EQ(noticed, 1) << "a system call has to be noticed";
+  EXPECT_EQ(detected, 1) << "a system call must be detected";
   Stage stage(1);
   EXPECT_EQ(exit_status_without_system_calls([&] { return stage.play(); }), 0);
 }

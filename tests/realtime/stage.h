@@ -1,4 +1,4 @@
-// A minute of all that may be called between create and destroy.
+// Calls every function that may be called between create and destroy, for about a minute of input.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace mien::tests {
 
-// Everything is made before the first frame.
+// Allocates everything before the first frame.
 class Stage {
  public:
   explicit Stage(std::int32_t max_faces)
@@ -20,7 +20,7 @@ class Stage {
                    config.max_faces = max_faces;
                    config.audio_queue_samples = 8192;
                  }),
-        alone_(max_faces == 1) {
+        single_face_(max_faces == 1) {
     for (const auto format : {MIEN_IMAGE_NV12, MIEN_IMAGE_RGB, MIEN_IMAGE_I420}) {
       buffers_.emplace_back(disc_picture(160.0f, 120.0f, 70.0f), Layout{.format = format});
       buffers_.emplace_back(Picture(320, 240), Layout{.format = format});
@@ -32,7 +32,7 @@ class Stage {
     }
   }
 
-  // A minute of all that can happen between create and destroy. True if all of it was accepted.
+  // Returns whether all calls succeeded.
   bool play() {
     constexpr std::int32_t kRates[] = {48000, 44100, 16000, 8000, 192000};
     mien_tracker* const tracker = tracker_.tracker().get();
@@ -42,15 +42,15 @@ class Stage {
     mien_result result;
     mien_result_default(&result);
     std::array<std::byte, MIEN_NEUTRAL_BYTES> neutral{};
-    std::array<float, MIEN_CONTROL_COUNT> values{};  // as many as MediaPipe has
-    bool right = true;
-    const auto check = [&](mien_status status) { right = right && status == MIEN_OK; };
+    std::array<float, MIEN_CONTROL_COUNT> values{};  // the size of the MediaPipe vocabulary
+    bool accepted = true;
+    const auto check = [&](mien_status status) { accepted = accepted && status == MIEN_OK; };
     std::uint64_t faces = 0;
     for (int i = 0; i < 600; ++i) {
       const std::int64_t pts_ns = i * kFrameNs;
       audio.sample_rate = kRates[static_cast<std::size_t>(i / 50) % std::size(kRates)];
       audio.frames = static_cast<std::size_t>(1 + i * 37 % 4000);
-      // Half of the time as a microphone's own thread hands it over.
+      // Half of the time as from a microphone's own thread.
       check(i / 75 % 2 == 0 ? mien_tracker_push_audio(tracker, &audio, pts_ns)
                             : mien_tracker_queue_audio(tracker, &audio, pts_ns));
       const std::size_t scene = static_cast<std::size_t>(i / 40) % buffers_.size();
@@ -69,18 +69,18 @@ class Stage {
       if (i % 150 == 149) {
         check(mien_tracker_reset(tracker));
       }
-      if (alone_) {
+      if (single_face_) {
         check(mien_tracker_capture_neutral(tracker));
         check(mien_tracker_save_neutral(tracker, neutral.data(), neutral.size(), nullptr));
         check(mien_tracker_load_neutral(tracker, neutral.data(), neutral.size()));
       }
     }
-    return right && faces > 100;
+    return accepted && faces > 100;
   }
 
  private:
   BlobTracker tracker_;
-  const bool alone_;
+  const bool single_face_;
   std::vector<Buffer> buffers_;
   std::array<float, 4096> samples_{};
 };

@@ -66,7 +66,7 @@ TEST(ImageView, RotationIsClockwise) {
     image.mirrored = 1;
     view = view_of(image);
     expect_point(view.to_buffer({c.width - c.x, c.y}), 0.5f, 0.5f);
-    expect_point(to_picture(view, {c.width - c.x, c.y}), c.x, c.y);
+    expect_point(to_upright(view, {c.width - c.x, c.y}), c.x, c.y);
   }
 }
 

@@ -1,5 +1,6 @@
-// NEON in scalar code, for kernels that a test compiles for a machine without it: SIMDe, and below
-// it what SIMDe 0.7.4 lacks. Names and meaning are those of the Arm Neon Intrinsics Reference.
+// NEON in scalar code, for kernels that a test compiles for other machines: SIMDe, and below the
+// intrinsics that SIMDe 0.7.4 lacks. Names and semantics are those of the Arm Neon Intrinsics
+// Reference.
 #pragma once
 
 #define SIMDE_NO_NATIVE
@@ -15,7 +16,7 @@ inline simde_float16 emulated_to_half(double x) {
   return simde_float16_from_float32(static_cast<float>(x));
 }
 
-// SIMDe's own is a struct of bits, which no number converts to.
+// SIMDe's own type is a struct of bits without conversions from numbers.
 #ifdef float16_t
 #undef float16_t
 #endif
@@ -25,7 +26,7 @@ struct EmulatedHalf {
   explicit EmulatedHalf(float x) : value(emulated_to_half(double{x})) {}
 };
 
-// The lanes of a vector as an array, and back.
+// Converts a vector to an array of lanes, and back.
 template <class T, class V>
 struct EmulatedLanes {
   static constexpr int kCount = static_cast<int>(sizeof(V) / sizeof(T));
@@ -41,7 +42,7 @@ struct EmulatedLanes {
 using EmulatedHalves = EmulatedLanes<simde_float16, float16x8_t>;
 using EmulatedFloats = EmulatedLanes<float, float32x4_t>;
 
-// f(a[i], b[i], c[i]) of floats.
+// f(a[i], b[i], c[i]) for floats.
 template <class Function>
 float32x4_t emulated_floats(float32x4_t a, float32x4_t b, float32x4_t c, Function f) {
   const EmulatedFloats x(a), w(b), s(c);
@@ -51,7 +52,7 @@ float32x4_t emulated_floats(float32x4_t a, float32x4_t b, float32x4_t c, Functio
   }
   return y.vector();
 }
-// The same of halves: products and sums of them are all but exact in double, so a result is rounded
+// The same for fp16: products and sums of two are almost exact in double, so results are rounded
 // once.
 template <class Function>
 float16x8_t emulated_halves(float16x8_t a, float16x8_t b, float16x8_t c, Function f) {
@@ -82,8 +83,8 @@ inline float32x4_t vsqrtq_f32(float32x4_t a) {
 inline float32x4_t vfmsq_f32(float32x4_t sum, float32x4_t a, float32x4_t b) {
   return emulated_floats(a, b, sum, [](float x, float w, float s) { return std::fma(-x, w, s); });
 }
-// In place of SIMDe's: the estimate of a reciprocal has 8 bits, and the step of Newton's method
-// takes zero times infinity for zero (Arm Architecture Reference Manual, FPRecipEstimate and
+// Replaces SIMDe's functions: the estimate of a reciprocal has 8 bits, and the Newton step treats
+// zero times infinity as zero (Arm Architecture Reference Manual, FPRecipEstimate and
 // FPRecipStepFused).
 #undef vrecpeq_f32
 inline float32x4_t vrecpeq_f32(float32x4_t a) {
@@ -136,7 +137,7 @@ inline float16x8_t vmulq_laneq_f16(float16x8_t a, float16x8_t b, int lane) {
 inline float16x8_t vnegq_f16(float16x8_t a) {
   return emulated_halves(a, a, a, [](double x, double, double) { return -x; });
 }
-// These answer with what is no number where either is none; the two below with the other one.
+// These return NaN if one operand is NaN; the next two return the other operand.
 inline float16x8_t vmaxq_f16(float16x8_t a, float16x8_t b) {
   return emulated_halves(a, b, a, [](double x, double y, double) {
     return std::isnan(x) || std::isnan(y) ? x + y : std::fmax(x, y);

@@ -1,4 +1,4 @@
-// WebAssembly's SIMD in scalar code, for kernels that a test compiles for another machine: SIMDe.
+// WebAssembly's SIMD in scalar code, for kernels that a test compiles for other machines: SIMDe.
 #pragma once
 
 #define SIMDE_NO_NATIVE
@@ -9,8 +9,8 @@
 #include <cstdint>
 #include <cstring>
 
-// WebAssembly never takes denormal numbers for zero, as the engine asks other machines to, and
-// kernels rely on it where they widen fp16 by a product. A denormal factor is read from its bits.
+// WebAssembly never flushes denormal numbers, unlike the engine on other machines, and its kernels
+// depend on that when they convert fp16 with a product. Reads a denormal factor from its bits.
 inline double emulated_exact(float x) {
   std::uint32_t bits;
   std::memcpy(&bits, &x, sizeof bits);

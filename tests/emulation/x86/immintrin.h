@@ -1,6 +1,6 @@
-// x86 vector instructions in scalar code, for kernels that a test compiles for a machine without
-// them: SIMDe, and below it what SIMDe 0.7.4 lacks of AVX-512 and AVX-512 FP16. Names and meaning
-// are those of the Intel Intrinsics Guide.
+// x86 vector instructions in scalar code, for kernels that a test compiles for other machines:
+// SIMDe, and below the AVX-512 and AVX-512 FP16 intrinsics that SIMDe 0.7.4 lacks. Names and
+// semantics are those of the Intel Intrinsics Guide.
 #pragma once
 
 #define SIMDE_NO_NATIVE
@@ -23,13 +23,13 @@
 #endif
 #define __mmask16 simde__mmask16
 #define __mmask32 simde__mmask32
-// SIMDe makes the masked variants of this name into macros of four arguments.
+// SIMDe defines the masked variants of this name as macros with four arguments.
 #ifdef _mm512_madd_epi16
 #undef _mm512_madd_epi16
 #define _mm512_madd_epi16(a, b) simde_mm512_madd_epi16(a, b)
 #endif
 
-// The lanes of a vector as an array, and back.
+// Converts a vector to an array of lanes, and back.
 template <class T, class V>
 struct EmulatedLanes {
   static constexpr int kCount = static_cast<int>(sizeof(V) / sizeof(T));
@@ -54,7 +54,7 @@ ToVec emulated_map(FromVec x, Function f) {
   return to.vector();
 }
 
-// A copy of the lanes that the mask selects; the others are 0 and are not read.
+// Copies the lanes in the mask; the others become 0 and are not read.
 template <class T, class V>
 V emulated_masked_load(std::uint64_t mask, const void* from) {
   EmulatedLanes<T, V> lanes;
@@ -105,7 +105,7 @@ inline simde__m512 _mm512_cvtepi32_ps(simde__m512i x) {
   return emulated_map<float, simde__m512, std::int32_t>(
       x, [](std::int32_t one) { return static_cast<float>(one); });
 }
-// Rounds to nearest even; what no integer holds becomes the smallest.
+// Rounds to nearest even; values outside the range of an integer become the minimum.
 inline simde__m512i _mm512_cvtps_epi32(simde__m512 x) {
   return emulated_map<std::int32_t, simde__m512i, float>(x, [](float one) {
     const bool fits = one >= -0x1p31f && one < 0x1p31f;
@@ -155,8 +155,8 @@ inline simde__m512i _mm512_i32gather_epi32(simde__m512i index, const void* base,
   });
 }
 
-// In place of what SIMDe 0.7.4 has: these two of its functions are wrong, and its masked load reads
-// what the mask excludes.
+// Replaces SIMDe 0.7.4: two of its functions are wrong, and its masked load reads lanes outside the
+// mask.
 #undef _mm512_abs_ps
 inline simde__m512 _mm512_abs_ps(simde__m512 x) {
   return emulated_map<float, simde__m512, float>(x, [](float one) { return std::fabs(one); });
@@ -177,7 +177,7 @@ inline simde__m256 _mm256_maskload_ps(const float* from, simde__m256i mask) {
   return emulated_masked_load<float, simde__m256>(bits, from);
 }
 
-// AVX-512 FP16: vectors of halves, as their bits.
+// AVX-512 FP16: vectors of fp16 values, stored as bits.
 struct EmulatedHalf {
   std::uint16_t bits;
   explicit EmulatedHalf(float x) : bits(emulated_float_to_half(x)) {}
@@ -191,7 +191,7 @@ struct EmulatedHalves {
 using __m512h = EmulatedHalves<32>;
 using __m256h = EmulatedHalves<16>;
 
-// Products and sums of halves are all but exact in double, so that a result is rounded once.
+// Products and sums of two fp16 values are almost exact in double, so results are rounded once.
 template <class Vec, class Function>
 Vec emulated_halves(Vec a, Vec b, Vec c, Function f) {
   Vec y;
@@ -239,7 +239,7 @@ inline __m512h _mm512_fmadd_ph(__m512h a, __m512h b, __m512h c) {
 inline __m512h _mm512_add_ph(__m512h a, __m512h b) {
   return emulated_halves(a, b, a, [](double x, double y, double) { return x + y; });
 }
-// As in SSE, the second operand where one is no number or both are zero.
+// As in SSE, returns the second operand if one is NaN or both are zero.
 inline __m512h _mm512_min_ph(__m512h a, __m512h b) {
   return emulated_halves(a, b, a, [](double x, double y, double) { return x < y ? x : y; });
 }
