@@ -1,4 +1,4 @@
-// Puts the page together in dist/: node build.mjs WASM_FILE
+// Builds the page in dist/: node build.mjs WASM_FILE
 import {createHash} from 'node:crypto';
 import {cp, mkdir, readFile, readdir, rm, stat, writeFile} from 'node:fs/promises';
 import {build} from 'esbuild';
@@ -8,7 +8,8 @@ const out = here + 'dist/';
 const wasm = process.argv[2] ?? root + 'build/wasm-page/tracker/mien.wasm';
 const plain = ['index.html', 'theme.css', 'style.css', 'icon.svg', 'manifest.webmanifest'];
 
-// What is left of lines is in template literals, nearly all of it shaders: without indentation and lines of comment.
+// After minification, line breaks are in template literals, mostly shaders: removes their indentation and comment
+// lines.
 const plainLines = text => text.replace(/\n\s*\/\/.*/g, '').replace(/\n\s+/g, '\n');
 
 async function bundle(entries, options = {}) {

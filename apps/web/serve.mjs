@@ -19,7 +19,7 @@ async function fileOf(root, url) {
   return info?.isFile() ? {file, bytes: info.size} : null;
 }
 
-// Answers with {server, url}; port 0 takes a free one.
+// Returns {server, url}; port 0 selects a free port.
 export async function serve(folder, port = 0) {
   const root = resolve(folder);
   const server = createServer(async (request, response) => {

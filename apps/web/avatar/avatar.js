@@ -1,9 +1,9 @@
-// The face of mien: drawn from 52 ARKit controls and the head's angles on a canvas, with WebGL 2 and nothing else.
+// mien's face: draws 52 ARKit controls and the angles of the head on a canvas, with WebGL 2 and no dependencies.
 //
 //   const avatar = new Avatar(canvas);
 //   avatar.draw({controls: {jawOpen: 0.4, mouthSmileLeft: 0.8}, pitch: 0, yaw: 0.2, roll: 0});
 //
-// Left and right are the subject's, as everywhere: the subject's left is on the right of the picture.
+// Left and right are the subject's: the subject's left is on the right of the image.
 import {rotationOfAngles} from './vectors.js';
 import {makeHead} from './head.js';
 import {makeExpressions, shapeWeights} from './expressions.js';
@@ -24,13 +24,13 @@ export const controlNames = [
   'browDownLeft', 'browDownRight', 'browInnerUp', 'browOuterUpLeft', 'browOuterUpRight', 'cheekPuff', 'cheekSquintLeft',
   'cheekSquintRight', 'noseSneerLeft', 'noseSneerRight', 'tongueOut'];
 
-// All 52, each 0..1; what is missing or no number is 0.
+// All 52 controls, each 0..1. Missing or invalid values become 0.
 const completed = controls => Object.fromEntries(controlNames.map(name => {
   const value = Number(controls?.[name]);
   return [name, value > 0 ? Math.min(1, value) : 0];
 }));
 
-// The same for every avatar, and worth keeping.
+// Shared by all avatars, because computing it takes long.
 let expressions;
 const expressionsOf = head => (expressions ??= makeExpressions(head));
 
@@ -50,7 +50,7 @@ export class Avatar {
     this.renderer = new Renderer(canvas, moving, makeFigure());
   }
 
-  // `smooth` edges take about twice the time where there is no graphics card.
+  // `smooth` edges take about twice the time without a graphics card.
   draw({controls, pitch = 0, yaw = 0, roll = 0} = {}, {smooth = true} = {}) {
     const c = completed(controls);
     this.shapeHead(c);

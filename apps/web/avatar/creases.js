@@ -1,11 +1,11 @@
-// Folds of the skin, painted once as soft strokes of one half of the face: x and y of head space over a square. They are put
-// together as far as the controls fold the skin there, and the shader darkens what they cover.
+// Creases of the skin: drawn once as soft strokes on one half of the face, with x and y of head space mapped to a
+// square. They are blended by how far the controls fold the skin, and the shader darkens the result.
 import {clamp01, sideName} from './vectors.js';
 
 export const creaseField = {left: -0.08, right: 0.98, bottom: -1.26, top: 0.86};
 export const creaseSize = 256;
 
-// Each a list of quadratic curves [from, by way of, to] and how wide the stroke is.
+// Each is a list of quadratic curves [start, control point, end] and the width of the stroke.
 const strokes = {
   forehead: {width: 0.030, curves: [
     [[-0.1, 0.640], [0.12, 0.645], [0.42, 0.640]], [[-0.1, 0.735], [0.15, 0.735], [0.40, 0.735]]]},
@@ -32,7 +32,7 @@ const strokes = {
   press: {width: 0.036, curves: [[[0.325, -0.52], [0.375, -0.575], [0.33, -0.645]]]},
 };
 
-// How deep each fold is on one side.
+// Depth of each crease on one side.
 export function creaseDepths(c, side) {
   const of = name => c[name + sideName(side)];
   return {
@@ -55,7 +55,7 @@ function paintStroke({width, curves}) {
   ctx.fillRect(0, 0, creaseSize, creaseSize);
   ctx.globalCompositeOperation = 'lighten';
   ctx.lineCap = 'round';
-  // Soft edges by strokes from wide and dim to narrow and bright; thin towards the ends by shorter ones.
+  // Makes soft edges with strokes from wide and dark to narrow and bright, and tapers the ends with shorter strokes.
   for (let layer = 1; layer <= 8; ++layer) {
     const value = Math.round(255 * (layer / 8) ** 1.4), trim = 0.055 * (layer - 1);
     ctx.strokeStyle = `rgb(${value},${value},${value})`;
@@ -70,7 +70,7 @@ function paintStroke({width, curves}) {
   return covered(ctx.getImageData(0, 0, creaseSize, creaseSize).data);
 }
 
-// Where a picture is not black, and how bright.
+// The bounding box and brightness of the pixels that are not black.
 function covered(data) {
   const places = [], values = [];
   for (let i = 0; i < creaseSize * creaseSize; ++i) {
@@ -81,7 +81,7 @@ function covered(data) {
   return {places: Uint32Array.from(places), values: Uint8Array.from(values)};
 }
 
-// What is drawn of them: two channels, the subject's left and right.
+// The blended image: two channels, for the subject's left and right.
 export class Creases {
   constructor() {
     this.painted = Object.entries(strokes).map(([name, stroke]) => [name, paintStroke(stroke)]);

@@ -1,21 +1,23 @@
-// What each control does to the skin of the head: how far every vertex moves at 1. A vertex is given by its place `p` in the
-// neutral face and, near the mouth, by u (-1 and 1 at the corners) and t (0 between the lips, 1 at the edge of the red).
+// How each control moves the skin of the head: the offset of every vertex at 1. A vertex is given by its position `p`
+// in the neutral face and, near the mouth, by u (-1 and 1 at the corners) and t (0 between the lips, 1 at the outer
+// edge of the lip).
 import {columns} from './head.js';
 import {bump, clamp01, mix, smoothstep} from './vectors.js';
 
-const farthest = 1.75;  // radians from the mouth to where nothing moves
+const farthest = 1.75;  // radians from the mouth to the vertices that do not move
 const hinge = [0, -0.08, -0.2];  // of the jaw
 const jawAngle = 0.26;    // radians at jawOpen 1
-const jawDrop = 0.16;            // and how far it comes down besides
+const jawDrop = 0.16;  // lowering of the jaw at jawOpen 1
 export const mouthLine = -0.605;
 
-// Of the lower jaw: 1 at the chin and the middle of the lower lip, less towards the corners of the mouth and the ears.
+// Share of the lower jaw's motion: 1 at the chin and the middle of the lower lip, less towards the corners of the mouth
+// and the ears.
 export function jawShare({sine, turn}) {
   const round = sine < 0 ? mix(0.30, 1, -sine) : mix(0.30, 0, Math.min(1, sine * 1.1));
   return round * (1 - smoothstep(0.85, 1.65, turn));
 }
 
-// Sideways the upper lip goes along, and the skin behind the cheeks stays.
+// For sideways motion, which includes the upper lip but not the skin of the cheeks.
 const jawSideShare = ({sine, turn}) =>
   mix(0.55, sine < 0 ? 1 : 0.15, Math.abs(sine)) * (1 - smoothstep(0.55, 1.25, turn));
 
@@ -27,25 +29,25 @@ export function openJaw([x, y, z], open) {
 
 // 1 on the lips, falling off around them.
 const aroundLips = ({away}) => Math.exp(-((Math.max(0, away - 0.085) / 0.20) ** 2));
-// The same, wide enough for lips that draw together without folding the skin beside them.
+// The same, wide enough for lips that contract without folding the skin beside them.
 const aroundMouth = ({away}) => Math.exp(-((Math.max(0, away - 0.07) / 0.30) ** 2));
 const onLips = ({u, t}) => (1 - smoothstep(1.0, 2.0, t)) * smoothstep(1.05, 0.75, Math.abs(u));
 const towards = (u, side) => smoothstep(-0.45, 0.35, u * side);
 const corner = ({p, u}, side, size = 0.22) => bump(u * side * 0.3 - 0.3, p[1] - mouthLine - 0.03, size, size * 0.85) * smoothstep(0.0, 0.2, p[2]);
-const softly = u => 1.25 * Math.tanh(u / 1.25) ;  // as u about the middle, level beyond the corners
+const softly = u => 1.25 * Math.tanh(u / 1.25) ;  // like u near the middle, constant beyond the corners
 const front = ({p}) => smoothstep(0.05, 0.45, p[2]);
 const near = (v, side, x, y, sizeX, sizeY) => front(v) * bump(v.p[0] * side - x, v.p[1] - y, sizeX, sizeY);
 const scaled = (vector, share) => vector.map(value => value * share);
 const sum = (...vectors) => vectors[0].map((_, i) => vectors.reduce((total, vector) => total + vector[i], 0));
 const isUpper = v => v.sine >= 0;
 
-// Lips that are squeezed between the corners: towards their line, and inwards.
+// Lips that are pressed together between the corners: moves them towards the line between them, and inwards.
 const thin = (v, share, depth) => {
   const toLine = mouthLine + 0.045 * Math.min(1, v.u * v.u) - v.p[1];
   return scaled([0, toLine * 0.78, -depth], share * onLips(v));
 };
 
-// Both sides have the same; right is left in the mirror.
+// Shapes of one side; the right side mirrors the left one.
 const sided = {
   mouthSmile: (v, s) => sum(
     scaled([s * 0.115, 0.165, -0.05], corner(v, s, 0.27)),
@@ -135,8 +137,8 @@ const middle = {
   browInnerUp: v => [1, -1].map(s => sum(
     scaled([s * -0.02, 0.20, 0.02], near(v, s, 0.13, 0.44, 0.17, 0.30)),
     scaled([0, 0.04, 0.01], near(v, s, 0.36, 0.50, 0.16, 0.2)))).reduce((a, b) => sum(a, b)),
-  // Not controls, but what follows from several of them: lips that meet with the jaw open, pressed flat with it shut, and a
-  // lower lip that lets the tongue by.
+  // Corrective shapes for combinations of controls: lips that meet while the jaw is open, lips pressed flat while it is
+  // closed, and a lower lip that makes way for the tongue.
   lipsTogether: v => {
     const open = middle.jawOpen(v);
     const reach = isUpper(v) ? 0 : aroundLips(v);
@@ -148,7 +150,7 @@ const middle = {
     scaled([0, -0.15, 0.03], aroundLips(v) * bump(v.u, 0, 0.85, 1) * -v.sine)),
 };
 
-// What a shape does to the left, done to the right. Columns of the grid run around the mouth from the left corner.
+// Mirrors a shape of the left side to the right. Columns of the grid run around the mouth from the left corner.
 function inMirror({vertices, offsets}) {
   const partners = vertices.map(i => {
     const column = i % columns;
@@ -157,7 +159,7 @@ function inMirror({vertices, offsets}) {
   return {vertices: partners, offsets: offsets.map((value, k) => (k % 3 === 0 ? -value : value))};
 }
 
-// The vertices that `shape` moves at all, by their numbers, and three offsets for each. Vertices within the mouth follow the
+// The indices of the vertices that `shape` moves, and three offsets for each. Vertices inside the mouth move with the
 // edge of their lip.
 function sampled(shape, places) {
   const moved = [], offsets = [], edge = places.findIndex(vertex => !vertex.inner);
@@ -171,7 +173,7 @@ function sampled(shape, places) {
   return {vertices: Uint16Array.from(moved), offsets: Float32Array.from(offsets)};
 }
 
-// All shapes by their names, for a head of head.js.
+// All shapes by name, for a head of head.js.
 export function makeExpressions({vertices}) {
   const places = vertices.map(vertex => ({...vertex, p: vertex.at}));
   const expressions = new Map(Object.entries(middle).map(([name, shape]) => [name, sampled(shape, places)]));
@@ -182,7 +184,8 @@ export function makeExpressions({vertices}) {
   return expressions;
 }
 
-// Weights of the shapes for a set of controls: what stands alone as it is, and where shapes depend on each other.
+// Weights of the shapes for a set of controls: a control's own value, or a function of several controls for shapes that
+// interact.
 export function shapeWeights(c) {
   const weights = {...c};
   const together = Math.min(c.mouthClose, c.jawOpen);
@@ -190,7 +193,7 @@ export function shapeWeights(c) {
   weights.lipsTogether = together;
   weights.lipsPressed = c.mouthClose - together;
   weights.tongueGap = c.tongueOut * (1 - 0.75 * clamp01(c.jawOpen * 1.5));
-  const round = Math.max(c.mouthFunnel, c.mouthPucker);  // both at once do not push twice as far
+  const round = Math.max(c.mouthFunnel, c.mouthPucker);  // both together do not move the lips twice as far
   const both = c.mouthFunnel + c.mouthPucker;
   if (both > 0) {
     weights.mouthFunnel *= mix(1, round / both, 0.6);

@@ -1,23 +1,23 @@
-// Eyeballs, lids and lashes. A lid is a part of a sphere a little larger than the eyeball and slides over it, so that it closes
-// as lids do; where it meets the skin of the head is its crease.
+// Eyeballs, lids and lashes. A lid is a part of a sphere slightly larger than the eyeball and slides over it, as real
+// lids do. Its intersection with the skin of the head is its crease.
 import {clamp01, mix, sideName} from './vectors.js';
 import {palette} from './palette.js';
 import {Mesh, gridTriangles, gridVertices} from './mesh.js';
 
 const radius = 0.285;
 const centreOf = side => [side * 0.395, 0.075, 0.515];
-const outward = 0.07;   // radians by which an eye socket looks to its side
+const outward = 0.07;  // radians between the axis of an eye socket and straight ahead
 const widest = 1.02;    // radians from the middle of the eye to its corners
 const lidColumns = 29, lidRows = 12, ballRows = 18, ballColumns = 28;
 
-// Point of a sphere about the eye: azimuth towards the ear, elevation upwards.
+// A point on a sphere around the eye: azimuth towards the ear, elevation upwards.
 function onEye(side, azimuth, elevation, size) {
   const turned = azimuth + outward;
   const [x, y, z] = centreOf(side), r = radius * size;
   return [x + side * r * Math.sin(turned) * Math.cos(elevation), y + r * Math.sin(elevation), z + r * Math.cos(turned) * Math.cos(elevation)];
 }
 
-// How high the lids stand in the middle of the eye, radians above its corners, and how the eye looks.
+// Elevation of the lids in the middle of the eye, in radians above its corners, and the direction of the eye.
 export function eyeState(c, side) {
   const of = name => c[name + sideName(side)];
   const blink = of('eyeBlink'), squint = of('eyeSquint'), wide = of('eyeWide'), cheek = of('cheekSquint');
@@ -33,7 +33,7 @@ export function eyeState(c, side) {
   };
 }
 
-// The edge of a lid; `u` runs from the inner corner, -1, to the outer one, 1.
+// The edge of a lid; `u` is -1 at the inner corner and 1 at the outer one.
 const tilt = u => 0.045 * u;
 const almond = u => Math.max(0, 1 - Math.abs(u) ** 2.3) ** 0.9;
 const edge = (u, height) => tilt(u) + height * almond(u * 0.995);
@@ -42,7 +42,7 @@ class Lid {
   constructor(side, upper) {
     this.side = side;
     this.upper = upper;
-    // Row 0 lies on the eyeball, row 1 before it: the thickness of the lid.
+    // Row 0 lies on the eyeball, row 1 in front of it: the thickness of the lid.
     const vertices = gridVertices(lidRows, lidColumns, row => ({at: [0, 0, 0], color: row < 2 ? palette.lidEdge : palette.lid}));
     const inward = (side > 0) !== upper;
     this.mesh = new Mesh('lid', vertices, gridTriangles(lidRows, lidColumns, {inward}));
@@ -64,7 +64,7 @@ class Lid {
 
 const tubeSides = 7;
 
-// A tube along `points` with a radius for each.
+// A tube along `points` with one radius per point.
 export function tubeMesh(material, count, color) {
   const vertices = gridVertices(count, tubeSides, () => ({at: [0, 0, 0], color}));
   return new Mesh(material, vertices, gridTriangles(count, tubeSides, {closed: true}));
@@ -92,7 +92,7 @@ class Lashes {
     this.mesh = tubeMesh('dark', lashPoints, palette.lash);
   }
 
-  // Along the upper lid, thicker outwards, with a wing beyond the corner.
+  // Along the upper lid, thicker towards the outside, with a wing beyond the corner.
   update(eye) {
     const points = [], radii = [];
     for (let i = 0; i < lashPoints; ++i) {
@@ -115,7 +115,7 @@ class Eyeball {
       return {at: [Math.sin(polar) * Math.cos(around), Math.sin(polar) * Math.sin(around), Math.cos(polar)].map(value => value * cornea), color: [1, 1, 1]};
     });
     this.mesh = new Mesh('eye', vertices, gridTriangles(ballRows, ballColumns, {closed: true, inward: true}));
-    this.unit = this.mesh.positions.slice();  // `rest` tells the shader where the iris is
+    this.unit = this.mesh.positions.slice();  // `rest` gives the shader the position of the iris
   }
 
   update(eye) {

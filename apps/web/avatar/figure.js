@@ -1,4 +1,4 @@
-// What does not move by itself: ears, hair, neck, clothes; and the brows, which ride on the skin.
+// Parts that do not deform: ears, hair, neck and clothes; and the brows, which follow the skin.
 import {add, mix, sideName, smoothstep} from './vectors.js';
 import {palette} from './palette.js';
 import {Mesh, gridTriangles, gridVertices} from './mesh.js';
@@ -12,7 +12,7 @@ function makeEar(side) {
   const vertices = gridVertices(rows, columns, (row, column) => {
     const polar = Math.PI * row / (rows - 1), around = 2 * Math.PI * column / columns;
     const flat = [Math.sin(polar) * Math.cos(around), Math.sin(polar) * Math.sin(around), Math.cos(polar)];
-    // A shell: its outer side is hollow.
+    // A shell with a concave outer side.
     const hollow = flat[2] > 0 ? 0.75 * Math.exp(-(flat[0] ** 2 + flat[1] ** 2) / 0.34) : 0;
     const x = flat[0] * 0.155 * (flat[1] < 0 ? 1 + 0.35 * flat[1] : 1), y = flat[1] * 0.25, out = (flat[2] - hollow * 1.5) * 0.075;
     const flare = 0.62;
@@ -23,12 +23,12 @@ function makeEar(side) {
   return new Mesh('skin', vertices, gridTriangles(rows, columns, {closed: true, inward: side < 0}));
 }
 
-// Hair: a shell over the skull down to the hairline, in locks.
+// Hair: a shell over the skull down to the hairline, with locks.
 function makeHair() {
   const rows = 22, columns = 108;
   const vertices = gridVertices(rows, columns, (row, column) => {
     const azimuth = 2 * Math.PI * column / columns - Math.PI, away = Math.abs(azimuth);
-    const swept = azimuth + 0.55 * (1 - row / rows) ** 1.3;  // locks lean to one side on their way down
+    const swept = azimuth + 0.55 * (1 - row / rows) ** 1.3;  // locks bend to one side towards their ends
     const lock = Math.sin(swept * 7 + 1.1 * Math.sin(swept * 3)), fine = Math.sin(swept * 23 + Math.sin(swept * 9));
     const front = Math.exp(-((away / 0.85) ** 2)), ear = Math.exp(-(((away - 1.62) / 0.30) ** 4));
     let line = mix(0.72, 2.30, smoothstep(0.55, 2.0, away)) - 0.50 * ear;
@@ -60,7 +60,7 @@ function lathe(material, profile, columns, depth, colorOf, turningOf = () => 0) 
 const neckProfile = [[0.62, -1.95], [0.50, -1.7], [0.45, -1.5], [0.43, -1.3], [0.44, -1.1], [0.45, -0.9], [0.36, -0.72, -0.42]];
 const shade = (color, amount) => color.map(value => value * amount);
 
-// Softly dark under the chin; its upper end turns with the head.
+// Darker under the chin; the upper end rotates with the head.
 const makeNeck = () => lathe('neck', neckProfile, 40, 0.92,
   ([, y, z]) => shade(blend(palette.skin, palette.blush, 0.12), mix(1, 0.70, smoothstep(-1.6, -1.15, y) * smoothstep(-0.6, 0.1, z))),
   ([, y]) => smoothstep(-1.55, -0.85, y));
@@ -93,7 +93,7 @@ function makeCollar() {
 export const makeFigure = () => [makeEar(1), makeEar(-1), makeHair(), makeNeck(), makeShirt(), makeCollar()];
 
 const browLength = 14;
-// From the inner end to the outer: where it lies, and half its height.
+// From the inner to the outer end: position, and half the height.
 const browCurve = Array.from({length: browLength}, (_, i) => {
   const t = i / (browLength - 1);
   return [0.135 + 0.575 * t, 0.392 + 0.105 * Math.sin(Math.PI * Math.min(1, t * 0.86 + 0.06)) - 0.075 * t ** 3];
@@ -103,7 +103,7 @@ const browRadii = browCurve.map((_, i) => {
   return 0.046 * Math.sqrt(Math.min(1, t / 0.16 + 0.06)) * (1 - 0.86 * t ** 2.4);
 });
 
-// A brow lies on the skin: each of its points keeps to the vertices of the head that are nearest to it.
+// A brow lies on the skin: each of its points follows the nearest vertices of the head.
 export class Brow {
   constructor(side, head) {
     this.name = sideName(side);
@@ -123,7 +123,7 @@ export class Brow {
     return {at: [x, y, z + 0.02], followed: close.map(({i, at, distance}) => ({i, at, weight: 1 / (distance + 0.01) / total}))};
   }
 
-  // `positions` of the head as it is now.
+  // `positions` are the current ones of the head.
   update(positions) {
     const points = this.anchors.map(({at, followed}) => {
       const point = at.slice();

@@ -1,6 +1,7 @@
-// The skin of the head in its neutral shape. Its grid runs in rings around the mouth, in elliptic coordinates: the innermost
-// ring is the line between the lips, upper lip one way, lower lip the other, and rings widen to circles that end under the
-// hair. So lips part without a cut, and the grid is finest where a face moves most.
+// The skin of the head in its neutral shape. Its grid consists of rings around the mouth in elliptic coordinates: the
+// innermost ring is the line between the lips, with the upper lip in one direction and the lower lip in the other, and
+// rings widen to circles that end under the hair. Therefore lips open without a cut, and the grid is finest where a
+// face moves most.
 import {add, bump, clamp01, cross, mix, normalize, smoothstep} from './vectors.js';
 import {palette} from './palette.js';
 import {Mesh, gridTriangles} from './mesh.js';
@@ -8,11 +9,11 @@ import {Mesh, gridTriangles} from './mesh.js';
 const centre = [0, 0, -0.1];
 const mouthAxis = normalize([0, -0.615, 0.85]);
 const mouthUp = normalize(cross(mouthAxis, [1, 0, 0]));
-export const mouthHalfWidth = 0.272;  // radians as seen from the centre
+export const mouthHalfWidth = 0.272;  // radians from the centre of the head
 export const columns = 96;
 const skinRings = 56;
-// Rings within the mouth: how far behind the lips, how far from the line between them, how wide, and how much of the lip's
-// motion they take.
+// Rings inside the mouth: distance behind the lips, distance from the line between them, width, and share of the lip's
+// motion.
 const innerRings = [
   {back: 0.62, away: 0, wide: 0, follow: 0, color: palette.throat},
   {back: 0.40, away: 0.15, wide: 0.85, follow: 0.5, color: palette.throat},
@@ -31,7 +32,7 @@ const cupid = u => 1 - 0.2 * Math.exp(-((u / 0.14) ** 2)) + 0.1 * Math.exp(-(((M
 const lipWidth = u => Math.max(0, 1 - u * u) ** 0.75;
 export const lipHeight = (u, upper) => (upper ? 0.075 * cupid(u) : 0.098) * lipWidth(u) + 0.002;
 
-// How far the lips stand out; `t` is 0 at the line between them and 1 at the edge of the red.
+// How far the lips protrude; `t` is 0 at the line between them and 1 at their outer edge.
 const lipProfile = t => smoothstep(-0.15, 0.5, t) * (1 - 0.72 * smoothstep(0.55, 1.25, t)) * Math.exp(-Math.max(0, t - 1.2));
 
 function features([x, y, z], {u, t, upper, away}) {
@@ -46,7 +47,7 @@ function features([x, y, z], {u, t, upper, away}) {
   out += 0.095 * bump(side - 0.145, y + 0.255, 0.07, 0.075);          // its wings
   out -= 0.05 * bump(side - 0.068, y + 0.325, 0.035, 0.025);          // nostrils
   out -= 0.02 * bump(x, y + 0.43, 0.04, 0.07);                        // philtrum
-  out += 0.075 * bump(x, y + 0.62, 0.36, 0.24);                       // what the teeth push out
+  out += 0.075 * bump(x, y + 0.62, 0.36, 0.24);                       // the bulge over the teeth
   out -= 0.055 * bump(x, y + 0.84, 0.22, 0.06);                       // below the lower lip
   out += 0.115 * bump(x, y + 1.03, 0.25, 0.17);                       // chin
   out += (upper ? 0.062 : 0.07) * lipProfile(t) * lipWidth(clamp01(Math.abs(u)));
@@ -54,7 +55,7 @@ function features([x, y, z], {u, t, upper, away}) {
   return out * front;
 }
 
-// The point of the neutral skin that is seen from the centre in `direction`; `lips` where it lies near the mouth.
+// The point of the neutral skin in `direction` from the centre; `lips` if it is near the mouth.
 function skinPoint(direction, lips) {
   let [x, y, z] = ellipsoid(direction);
   const low = smoothstep(-0.05, -1.15, y);
@@ -75,7 +76,7 @@ function vertexOnRing(angle, ring) {
   const away = mouthHalfWidth * Math.sinh(mu), u = X / mouthHalfWidth, upper = Math.sin(angle) >= 0;
   const height = lipHeight(Math.min(1, Math.abs(u)), upper);
   const t = Math.abs(u) < 1 ? Math.abs(Y) / height : Math.hypot(Y, (Math.abs(u) - 1) * mouthHalfWidth) / 0.03;
-  // A smile at rest: the line between the lips rises towards its corners.
+  // A slight smile at rest: the line between the lips rises towards its corners.
   const at = skinPoint(direction, {u, t, upper, away});
   at[1] += 0.045 * Math.min(1, u * u) * Math.exp(-((Math.max(0, Math.abs(u) - 1)) ** 2) / 0.5 - (Y / 0.2) ** 2);
   return {at, u, t, turn, away, sine: Math.sin(angle), follow: 1, inner: false};
@@ -102,9 +103,8 @@ function innerVertex(lip, ring) {
   return {...lip, at, follow: innerRings[ring].follow, inner: true, color: innerRings[ring].color};
 }
 
-// The vertices say where on the face they lie: `u` and `t` as above, `turn` from the middle of the mouth and `away` from the line
-// between the lips in radians, `sine` 1 straight above
-// and -1 straight below it.
+// The position of each vertex on the face: `u` and `t` as above, `turn` from the middle of the mouth and `away` from
+// the line between the lips in radians, `sine` 1 straight above and -1 straight below it.
 export function makeHead() {
   const rings = [];
   const angles = Array.from({length: columns}, (_, i) => 2 * Math.PI * i / columns);

@@ -1,5 +1,5 @@
-// Triangles with what the renderer wants to know of each vertex: position, normal, colour, `rest` (where it lies in the
-// neutral face, which creases go by), and how far it turns with the head (0..1).
+// Triangles with the attributes of each vertex: position, normal, colour, `rest` (its position in the neutral face,
+// which selects creases), and the share of the head's rotation (0..1).
 
 export class Mesh {
   constructor(material, vertices, triangles) {
@@ -26,7 +26,7 @@ export class Mesh {
     this.positions[i * 3 + 2] = z;
   }
 
-  // Mean of the triangles around each vertex, by area.
+  // The mean of the normals of adjacent triangles, weighted by area.
   updateNormals() {
     const {positions: p, normals: n, indices} = this;
     n.fill(0);
@@ -44,8 +44,8 @@ export class Mesh {
   }
 }
 
-// Triangles of a grid of `rows` x `columns` vertices, the last column joined to the first where it is `closed`. Seen from
-// outside, columns run to the right and rows upwards; `inward` turns that round.
+// Triangles of a grid of `rows` x `columns` vertices; joins the last column to the first if `closed`. Seen from
+// outside, columns run to the right and rows upwards; `inward` flips the triangles.
 export function gridTriangles(rows, columns, {closed = false, inward = false} = {}) {
   const triangles = [];
   for (let row = 0; row + 1 < rows; ++row) {

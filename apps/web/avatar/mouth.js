@@ -4,7 +4,7 @@ import {palette} from './palette.js';
 import {Mesh, gridTriangles, gridVertices} from './mesh.js';
 import {openJaw} from './expressions.js';
 
-// How the lower jaw moves what hangs on it.
+// Moves points with the lower jaw.
 export function jawPose(c) {
   const shift = [0.19 * (c.jawLeft - c.jawRight), 0.05 * c.jawForward, 0.23 * c.jawForward];
   return at => openJaw(at, c.jawOpen).map((value, i) => value + shift[i]);
@@ -53,13 +53,13 @@ class Tongue {
     this.mesh = new Mesh('wet', vertices, gridTriangles(tongueRows, tongueColumns, {closed: true}));
   }
 
-  // A flattened tube from the throat over the lower teeth, which bends down in front of the lip as it comes out.
+  // A flattened tube from the throat over the lower teeth, which bends down in front of the lip when it is out.
   update(c) {
     const pose = jawPose(c), out = c.tongueOut;
     for (let row = 0; row < tongueRows; ++row) {
       const s = row / (tongueRows - 1);
-      const reach = mix(0.40 * s, 0.84 * s, out);            // along the tongue from the throat
-      const past = Math.max(0, reach - 0.47);                // what lies before the lips
+      const reach = mix(0.40 * s, 0.84 * s, out);  // distance along the tongue from the throat
+      const past = Math.max(0, reach - 0.47);  // distance beyond the lips
       const curl = past * 1.9;
       const z = 0.28 + Math.min(reach, 0.47) + (past > 0 ? Math.sin(curl) / 1.9 * 0.9 : 0);
       const y = mix(-0.725, -0.655, out * Math.min(1, s * 2.2)) + mix(0.10, 0.03, out) * Math.sin(Math.PI * s) - (past > 0 ? (1 - Math.cos(curl)) / 1.9 + 0.35 * past : 0);

@@ -2,8 +2,9 @@
 import {creaseField, creaseSize} from './creases.js';
 import {fragmentShader, vertexShader} from './shaders.js';
 
-// Of what a mesh is made: `kind` as in the shaders, the colour of what the light does not reach, how far the light reaches around,
-// gloss, how small highlights are, and how bright the edge of light. From front to back, nearly: what is hidden then costs no light.
+// Materials of a mesh: `kind` as in the shaders, colour in shadow, how far light wraps around, gloss, size of
+// highlights, and brightness of the rim light. Ordered roughly from front to back, so that hidden pixels are not
+// shaded.
 const skin = {kind: 3, shadow: [0.70, 0.47, 0.44], wrap: 0.55, gloss: 0.10, shine: 22, edge: 0.16};
 const plain = {kind: 3, shadow: [0.50, 0.45, 0.55], wrap: 0.35, gloss: 0, shine: 12, edge: 0.16};
 const materials = {
@@ -21,7 +22,7 @@ const attributes = {positions: 3, normals: 3, colors: 3, rest: 3, turning: 1, ma
 const uniforms = ['head', 'pivot', 'scale', 'distanceToEye', 'height', 'shades', 'finishes', 'creaseField', 'pupil', 'lids'];
 const eyeDistance = 8.5;
 const pivot = [0, -0.75, -0.3];
-const frame = {centre: -0.09, width: 2.56, height: 3.16};  // what must be seen of the scene
+const frame = {centre: -0.09, width: 2.56, height: 3.16};  // the part of the scene that must be visible
 
 function compile(gl, type, source) {
   const shader = gl.createShader(type);
@@ -41,9 +42,9 @@ function link(gl) {
   return program;
 }
 
-const samples = 4;  // of each pixel where edges are smooth
+const samples = 4;  // per pixel, for smooth edges
 
-// All meshes as one, which is drawn at once. Each goes on writing into its part.
+// All meshes in one buffer, which is drawn at once. Each mesh writes to its own part.
 function join(meshes) {
   const count = meshes.reduce((sum, mesh) => sum + mesh.turning.length, 0), parts = names.map(() => []);
   const joined = Object.fromEntries(Object.entries(attributes).map(([name, components]) => [name, new Float32Array(count * components)]));
@@ -64,7 +65,7 @@ function join(meshes) {
 }
 
 export class Renderer {
-  // `moving` meshes change from picture to picture, `still` ones never.
+  // `moving` meshes change from image to image, `still` ones never.
   constructor(canvas, moving, still) {
     this.canvas = canvas;
     this.mesh = join([...moving, ...still]);
@@ -76,7 +77,7 @@ export class Renderer {
     this.prepare();
   }
 
-  // Everything that lies in the graphics card; again after it was lost.
+  // Creates everything in the graphics card's memory; again after the context was lost.
   prepare() {
     const {gl} = this;
     this.program = link(gl);
@@ -96,7 +97,7 @@ export class Renderer {
     gl.enable(gl.CULL_FACE);
   }
 
-  // For the creases, soft enough to do without smaller versions of themselves.
+  // The texture of the creases, which is soft enough without mipmaps.
   makeTexture() {
     const {gl} = this;
     gl.bindTexture(gl.TEXTURE_2D, gl.createTexture());
@@ -120,7 +121,7 @@ export class Renderer {
     gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, mesh.indices, gl.STATIC_DRAW);
   }
 
-  // What has moved.
+  // Uploads the parts that have changed.
   upload() {
     const {gl, mesh: {positions, normals}} = this;
     [positions, normals].forEach((data, i) => {
@@ -129,7 +130,7 @@ export class Renderer {
     });
   }
 
-  // A framebuffer of the canvas' size with several samples for each pixel.
+  // A framebuffer of the canvas' size with several samples per pixel.
   makeSampled() {
     const {gl, canvas: {width, height}} = this;
     const attach = (attachment, format) => {
@@ -153,7 +154,7 @@ export class Renderer {
     this.sampled = null;
   }
 
-  // `creases` as Creases has them; `smooth`: edges.
+  // `creases`: see Creases; `smooth`: antialiasing.
   draw(scene) {
     const {gl, canvas: {width, height}} = this;
     if (gl.isContextLost()) return;

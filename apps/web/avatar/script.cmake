@@ -1,4 +1,4 @@
-# The avatar as one classic script for pages that are built into a program: `Avatar` and `controlNames`, nothing else global.
+# The avatar as one classic script for pages that are embedded in a program: `Avatar` and `controlNames`, nothing else global.
 
 set(avatar_folder ${CMAKE_CURRENT_LIST_DIR})
 # Each after those it imports.

@@ -1,5 +1,5 @@
-// Arithmetic that every part of the avatar uses. Points are arrays [x, y, z] in head space: x to the subject's left (the
-// picture's right), y up, z out of the face; half the width of the head is 1.
+// Arithmetic for all parts of the avatar. Points are arrays [x, y, z] in head space: x to the subject's left (right in
+// the image), y up, z out of the face; the unit is half the width of the head.
 
 export const mix = (a, b, t) => a + (b - a) * t;
 export const clamp01 = value => Math.min(1, Math.max(0, value));
@@ -7,7 +7,7 @@ export const smoothstep = (from, to, value) => {
   const t = clamp01((value - from) / (to - from));
   return t * t * (3 - 2 * t);
 };
-// 1 at the middle, falling off over `sizeX` and `sizeY`.
+// 1 in the middle, falling off with widths `sizeX` and `sizeY`.
 export const bump = (x, y, sizeX, sizeY = sizeX) => Math.exp(-((x / sizeX) ** 2) - (y / sizeY) ** 2);
 
 export const add = (a, b, scale = 1) => [a[0] + b[0] * scale, a[1] + b[1] * scale, a[2] + b[2] * scale];

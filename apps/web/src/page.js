@@ -1,4 +1,4 @@
-// Puts the parts together.
+// Connects the parts of the page.
 import {Avatar, controlNames} from '../avatar/avatar.js';
 import {Recording} from './recording/recording.js';
 import {curvesCsv} from './recording/csv.js';
@@ -82,7 +82,7 @@ class Page {
     say('Opening …');
     $('camera').disabled = true;
     const opening = how(), {generation} = this.source;
-    const isStale = () => generation !== this.source.generation;  // something else was opened, or this one stopped
+    const isStale = () => generation !== this.source.generation;  // another source was opened, or this one was stopped
     try {
       const missing = await opening;
       if (isStale()) return;
@@ -116,7 +116,7 @@ class Page {
     $('stop').hidden = !running;
     $('camera').hidden = running;
     $('camera').disabled = false;
-    $('preview').hidden = !running || !this.source.hasPictures;
+    $('preview').hidden = !running || !this.source.hasVideo;
     for (const id of ['calibrate', 'record']) $(id).disabled = !running;
   }
 
@@ -142,7 +142,7 @@ class Page {
     this.numbers.show(result, {rate: this.first.rate, dropped: this.tracking.dropped});
     this.caption(result, other);
     if (result.flags & calibrating) say('Calibrating: look straight ahead, relaxed …');
-    else if (!this.source.hasPictures) say('Audio only' + this.missing);
+    else if (!this.source.hasVideo) say('Audio only' + this.missing);
     else say({searching: 'No face', tracking: 'Tracking', lost: 'Face lost'}[result.status] + this.missing);
     if (this.recording.active) $('recorded').textContent = `${this.recording.seconds.toFixed(1)} s, ${this.recording.frames.length} frames`;
     document.dispatchEvent(new CustomEvent('mien-results', {detail: {timeMs, results}}));

@@ -1,4 +1,5 @@
-// Keeps the whole page for when there is no network. FILES and VERSION are put in by build.mjs; a new version replaces all.
+// Caches the whole page for use without a network. build.mjs defines FILES and VERSION; a new version replaces the
+// cache.
 /* global FILES, VERSION */
 
 const cacheName = `mien-${VERSION}`;

@@ -3,7 +3,7 @@ import {Avatar} from '../avatar/avatar.js';
 const face = document.getElementById('face'), small = document.createElement('canvas');
 const avatar = new Avatar(face);
 
-// The face at twice the size, then scaled down, so that edges are smooth.
+// Draws the face at twice the size and scales it down, for smooth edges.
 window.drawFrame = (frame, width, height) => {
   face.width = width * 2;
   face.height = height * 2;

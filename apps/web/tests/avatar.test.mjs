@@ -1,11 +1,11 @@
-// Each control changes the face where it should and nowhere else, and mirrored controls change it in the mirror.
+// Each control changes the right part of the face only, and mirrored controls change mirrored parts.
 import assert from 'node:assert/strict';
 import {after, before, test} from 'node:test';
 import {controlNames} from '../avatar/avatar.js';
 import {serve} from '../serve.mjs';
 import {launch} from './browser.mjs';
 
-// Where in the picture (0..1 from left and top) the change of a control must have its middle, and how far it may reach. The
+// The expected centre of each control's change in the image (0..1 from left and top), and its maximum distance. The
 // subject's left is on the right.
 const places = {
   eyeLeft: {x: [0.55, 0.78], y: [0.33, 0.52]}, browLeft: {x: [0.50, 0.80], y: [0.18, 0.42]}, cheekLeft: {x: [0.55, 0.85], y: [0.38, 0.66]},
@@ -35,7 +35,7 @@ after(async () => {
   server?.close();
 });
 
-test('each control changes the face where it should', async () => {
+test('each control changes the expected part of the face', async () => {
   const problems = [];
   for (const name of controlNames) {
     const {changed, x, y, below} = await page.evaluate(control => window.change({[control]: 1}), name), place = placeOf(name);
@@ -48,7 +48,7 @@ test('each control changes the face where it should', async () => {
   assert.deepEqual(problems, []);
 });
 
-test('more of a control changes more', async () => {
+test('a higher value of a control changes more pixels', async () => {
   for (const name of controlNames) {
     const [half, whole] = await page.evaluate(control => [0.5, 1].map(value => window.change({[control]: value}).sum), name);
     assert.ok(whole > half * 1.1 && half > 0, `${name}: ${half} and ${whole}`);
@@ -60,38 +60,38 @@ test('left and right mirror each other', async () => {
   for (const [left, right] of pairs) {
     const shared = await page.evaluate(names => window.mirrorOverlap(...names), [left, right]);
     assert.ok(shared > 0.5, `${left} and ${right} share ${shared.toFixed(2)} in the mirror`);
-    assert.ok(await page.evaluate(names => window.mirrorOffset(...names), [left, right]) < 1e-4, `${left} moves other than ${right}`);
+    assert.ok(await page.evaluate(names => window.mirrorOffset(...names), [left, right]) < 1e-4, `${left} does not move like ${right}`);
   }
 });
 
-test('shapes are what anatomy has them to be', async () => {
+test('shapes are anatomically plausible', async () => {
   const lips = controls => page.evaluate(c => window.lips(c), controls), rest = await lips({});
   const gap = ({upper, lower}) => upper[1] - lower[1], width = ({left, right}) => left[0] - right[0];
   const open = await lips({jawOpen: 1}), funnel = await lips({mouthFunnel: 1}), pucker = await lips({mouthPucker: 1});
   assert.ok(gap(rest) < 0.01 && gap(open) > 0.25, 'the jaw opens the mouth');
-  assert.ok(gap(await lips({jawOpen: 1, mouthClose: 1})) < 0.04, 'mouthClose shuts lips over an open jaw');
+  assert.ok(gap(await lips({jawOpen: 1, mouthClose: 1})) < 0.04, 'mouthClose closes the lips over an open jaw');
   assert.ok((await lips({jawOpen: 1, mouthClose: 1})).chin[1] < rest.chin[1] - 0.15, 'and leaves the jaw open');
-  assert.ok(gap(funnel) > 0.1 && width(funnel) < width(rest) * 0.8, 'a funnel is open and round');
-  assert.ok(gap(pucker) < 0.03 && width(pucker) < width(rest) * 0.6 && pucker.upper[2] > rest.upper[2] + 0.1, 'a pucker is small, closed and in front');
+  assert.ok(gap(funnel) > 0.1 && width(funnel) < width(rest) * 0.8, 'the lips of a funnel are open and round');
+  assert.ok(gap(pucker) < 0.03 && width(pucker) < width(rest) * 0.6 && pucker.upper[2] > rest.upper[2] + 0.1, 'the lips of a pucker are small, closed and protruded');
   const smile = await lips({mouthSmileLeft: 1});
   assert.ok(smile.left[1] > rest.left[1] + 0.08 && Math.abs(smile.right[1] - rest.right[1]) < 0.01, 'a smile lifts its own corner');
   assert.ok((await lips({mouthFrownRight: 1})).right[1] < rest.right[1] - 0.08, 'a frown lowers its own corner');
   assert.ok((await lips({jawLeft: 1})).chin[0] > 0.1 && (await lips({jawRight: 1})).chin[0] < -0.1, "the jaw goes to the subject's side");
   assert.ok((await lips({jawForward: 1})).chin[2] > rest.chin[2] + 0.1, 'the jaw goes forward');
-  assert.ok((await lips({mouthStretchLeft: 1})).left[0] > rest.left[0] + 0.08, 'a corner is stretched outwards');
+  assert.ok((await lips({mouthStretchLeft: 1})).left[0] > rest.left[0] + 0.08, 'stretching moves a corner outwards');
   assert.ok((await lips({mouthLowerDownLeft: 1, mouthLowerDownRight: 1})).lower[1] < rest.lower[1] - 0.08, 'the lower lip goes down');
   assert.ok((await lips({mouthUpperUpLeft: 1, mouthUpperUpRight: 1})).upper[1] > rest.upper[1] + 0.08, 'the upper lip goes up');
-  assert.ok((await lips({mouthRollLower: 1})).red[1] > rest.red[1] + 0.04, 'a rolled lip hides its red');
+  assert.ok((await lips({mouthRollLower: 1})).red[1] > rest.red[1] + 0.04, 'a rolled lip is hidden');
 });
 
-test('the head turns as its angles say', async () => {
+test('the head rotates by its angles', async () => {
   const turned = await page.evaluate(() => ['yaw', 'pitch', 'roll'].map(angle => window.change({}, {[angle]: 0.4})));
   for (const {changed} of turned) assert.ok(changed > 5000);
   assert.ok((await page.evaluate(() => window.noseAt({yaw: 0.4}))).x > 0.55, "positive yaw turns to the subject's left");
   assert.ok((await page.evaluate(() => window.noseAt({pitch: 0.4}))).y > (await page.evaluate(() => window.noseAt({}))).y, 'positive pitch looks down');
 });
 
-test('what is missing or no number rests', async () => {
+test('missing or invalid values are 0', async () => {
   const {changed} = await page.evaluate(() => window.change({jawOpen: NaN, nothing: 1, mouthPucker: -1}));
   assert.equal(changed, 0);
 });

@@ -1,4 +1,4 @@
-// What avatar.test.mjs asks of a face.
+// Measurements of a face for avatar.test.mjs.
 import {Avatar} from '../avatar/avatar.js';
 import {columns} from '../avatar/head.js';
 
@@ -18,7 +18,7 @@ const neutral = picture({});
 const difference = data => Array.from({length: width * height}, (_, i) =>
   Math.max(...[0, 1, 2, 3].map(k => Math.abs(data[i * 4 + k] - neutral[i * 4 + k]))));
 
-// How many pixels change, the middle of them (0..1), and how much in all.
+// The number of changed pixels, their centre (0..1), and the total change.
 window.change = (controls, angles) => {
   const levels = difference(picture(controls, angles));
   let changed = 0, x = 0, y = 0, below = 0, sum = 0;
@@ -33,7 +33,7 @@ window.change = (controls, angles) => {
   return {changed, x: x / changed / width, y: y / changed / height, below, sum};
 };
 
-// Share of the pixels that either changes which both do, one seen in the mirror.
+// The share of pixels changed by either that are changed by both, with one mirrored.
 window.mirrorOverlap = (left, right) => {
   const [a, b] = [left, right].map(name => difference(picture({[name]: 1})));
   let either = 0, both = 0;
@@ -51,7 +51,7 @@ const positionsOf = controls => {
   return avatar.head.mesh.positions.slice();
 };
 
-// The farthest that a vertex lies from where its partner is in the mirror.
+// The maximum distance of a vertex from the mirror image of its partner.
 window.mirrorOffset = (left, right) => {
   const a = positionsOf({[left]: 1}), b = positionsOf({[right]: 1});
   let most = 0;
@@ -69,13 +69,13 @@ const landmarks = {
   left: find(v => v.away < 1e-9 && v.u > 0.999), right: find(v => v.away < 1e-9 && v.u < -0.999),
   red: find(v => v.sine < -0.999 && v.t > 0.95 && v.t < 1.3), chin: find(v => v.sine < -0.999 && v.at[1] < -1.0)};
 
-// Points of the mouth and the chin, in head space.
+// Points on the mouth and the chin, in head space.
 window.lips = controls => {
   const positions = positionsOf(controls);
   return Object.fromEntries(Object.entries(landmarks).map(([name, i]) => [name, [...positions.slice(i * 3, i * 3 + 3)]]));
 };
 
-// Where in the picture the middle between the irises is, the greenest of its pixels.
+// The centre between the irises in the image, by the greenest pixels.
 window.noseAt = angles => {
   const data = picture({}, angles);
   let count = 0, x = 0, y = 0;

@@ -1,4 +1,4 @@
-// Chromium without a window, with WebGL drawn by the processor.
+// Headless Chromium, with WebGL rendered by the processor.
 import {existsSync} from 'node:fs';
 import {chromium} from 'playwright-core';
 

@@ -1,4 +1,4 @@
-// Draws every control alone at 1 beside the neutral face and a few expressions, into one picture.
+// Draws every control at 1, the neutral face and a few expressions into one image.
 // usage: node tests/contact_sheet.mjs OUT.jpg [CELL_WIDTH] [NAME...]
 import {writeFile} from 'node:fs/promises';
 import {launch} from './browser.mjs';

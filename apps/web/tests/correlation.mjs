@@ -1,4 +1,4 @@
-// Curves against the truth of a clip that plays in a loop, from a beginning that is not known.
+// Correlates curves with the true ones of a clip that plays in a loop with an unknown start.
 import {readFileSync} from 'node:fs';
 
 export function readTruth(file, name) {
@@ -13,7 +13,7 @@ export function correlate(a, b) {
   return product(a, b, ma, mb) / Math.sqrt(product(a, a, ma, ma) * product(b, b, mb, mb));
 }
 
-// `samples`: [ms, value]; `truth`: values at 30 frames a second. Two loops and more leave one lag that fits.
+// `samples`: [ms, value]; `truth`: values at 30 frames a second. From two loops on, the best lag is unambiguous.
 export function bestCorrelation(samples, truth) {
   const frameMs = 1000 / 30, start = samples[0][0], values = samples.map(([, value]) => value);
   const candidates = truth.map((_, lag) => {

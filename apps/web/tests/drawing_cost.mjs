@@ -1,4 +1,4 @@
-// What a picture of the face costs processors where there is no graphics card, at every quality that the page has.
+// Measures the CPU time of drawing the face without a graphics card, at every quality of the page.
 import {launch} from './browser.mjs';
 import {processorTime} from './processor_time.mjs';
 import {serve} from '../serve.mjs';
@@ -6,7 +6,7 @@ import {qualities} from '../src/ui/quality.js';
 
 const rounds = 6, pictures = 6;
 
-// The least of several rounds in turns, each picture waited for: [{smooth, scale, ms}].
+// The minimum of interleaved rounds that wait for each image: [{smooth, scale, ms}].
 export async function drawingCosts(width, height) {
   const {server, url} = await serve(new URL('..', import.meta.url).pathname);
   const browser = await launch();
@@ -31,7 +31,7 @@ export async function drawingCosts(width, height) {
         const before = processorTime().all;
         await page.evaluate(([which, pictures]) => window.drawSome(which, pictures), [which, pictures]);
         const took = (processorTime().all - before) / pictures;
-        if (round > 0) least[which] = Math.min(least[which], took);  // the first compiles
+        if (round > 0) least[which] = Math.min(least[which], took);  // the first one compiles shaders
       }
     }
     return qualities.map((quality, i) => ({...quality, ms: least[i]}));

@@ -1,4 +1,4 @@
-// The page as people use it.
+// Tests the page as people use it.
 import assert from 'node:assert/strict';
 import {readFileSync, readdirSync, statSync} from 'node:fs';
 import {createRequire} from 'node:module';
@@ -24,7 +24,7 @@ test("the avatar's jaw follows the clip's, from camera and microphone", async t 
   await following(page);
   await spareDrawing(page);
   await page.selectOption('#level', '4');
-  // How far the middle of the avatar's lower lip has come down, at each picture.
+  // The position of the avatar's lower lip in each image: how far its middle has moved down.
   const samples = await page.evaluate(() => new Promise(done => {
     const {avatar} = window.page.first, {vertices, mesh} = avatar.head;
     const lip = vertices.findIndex(v => !v.inner && v.t < 0.01 && v.sine < -0.999), samples = [];
@@ -35,14 +35,14 @@ test("the avatar's jaw follows the clip's, from camera and microphone", async t 
     });
   }));
   const {correlation, lagMs} = bestCorrelation(samples, readTruth(truthFile, 'jawOpen'));
-  t.diagnostic(`correlation ${correlation.toFixed(3)} over ${samples.length} pictures in 16.5 s, clip begun ${Math.round(lagMs)} ms into its loop`);
+  t.diagnostic(`correlation ${correlation.toFixed(3)} over ${samples.length} images in 16.5 s, clip started ${Math.round(lagMs)} ms into its loop`);
   assert.ok(correlation > 0.8, `correlation ${correlation}`);
   assert.deepEqual(complaints, []);
   assert.ok(requests.every(url => url.startsWith(studio.url) || url.startsWith('blob:')), requests.join(' '));
   await context.close();
 });
 
-test('the voice is heard through the microphone', async () => {
+test('audio of the microphone gives voice activity', async () => {
   const {page, context} = await openPage(studio);
   await page.click('#camera');
   await following(page);
@@ -51,7 +51,7 @@ test('the voice is heard through the microphone', async () => {
   await context.close();
 });
 
-test('two levels stand beside each other', async () => {
+test('two levels are shown beside each other', async () => {
   const {page, context, complaints} = await openPage(studio);
   await page.click('#camera');
   await following(page);
@@ -66,7 +66,7 @@ test('two levels stand beside each other', async () => {
   await context.close();
 });
 
-test('calibrating says so and ends', async () => {
+test('calibration is announced and ends', async () => {
   const {page, context} = await openPage(studio);
   await page.click('#camera');
   await following(page);
@@ -77,7 +77,7 @@ test('calibrating says so and ends', async () => {
   await context.close();
 });
 
-test('recordings come as curves, Live Link Face and glTF', async () => {
+test('recordings can be saved as curves, Live Link Face and glTF', async () => {
   const {page, context, complaints} = await openPage(studio);
   await page.click('#camera');
   await following(page);
@@ -100,7 +100,7 @@ test('recordings come as curves, Live Link Face and glTF', async () => {
 
 const table = bytes => bytes.toString().trim().split('\n').map(line => line.split(','));
 
-// Both tables have every frame, and the same jaw.
+// Both tables have every frame and the same values of the jaw.
 async function checkCurves({csv, llf}, frames) {
   const [curveNames, ...curves] = table(csv), [liveNames, ...live] = table(llf);
   const truthNames = readFileSync(truthFile, 'utf8').split('\n')[0].trim().split(',');
@@ -129,7 +129,7 @@ async function checkGlb(bytes, frames) {
   assert.equal(scene.getObjectByName('face').morphTargetDictionary.jawOpen, 17);
 }
 
-test('a video file takes the place of the camera', async () => {
+test('a video file replaces the camera', async () => {
   const {page, context, complaints} = await openPage(studio);
   await page.setInputFiles('#file', clip);
   await following(page);
@@ -137,7 +137,7 @@ test('a video file takes the place of the camera', async () => {
   await context.close();
 });
 
-test('a voice alone moves the mouth', async () => {
+test('audio alone moves the mouth', async () => {
   const {page, context, complaints} = await openPage(studio);
   await page.setInputFiles('#file', studio.microphone);
   await until(page, () => document.getElementById('status').textContent === 'Audio only');
@@ -161,7 +161,7 @@ const holdCamera = page => page.evaluate(() => {
 });
 const liveTracks = page => page.evaluate(() => window.tracks.filter(({readyState}) => readyState === 'live').length);
 
-test('a file chosen while the browser asks for the camera is what plays, and the camera goes off', async () => {
+test('a file that is opened while the browser asks for the camera plays, and the camera is released', async () => {
   const {page, context, complaints} = await openPage(studio);
   await holdCamera(page);
   await page.click('#camera');
@@ -179,7 +179,7 @@ test('a file chosen while the browser asks for the camera is what plays, and the
   await context.close();
 });
 
-test('a camera that is refused while a file plays changes nothing', async () => {
+test('denying the camera while a file plays changes nothing', async () => {
   const {page, context, complaints} = await openPage(studio);
   await page.evaluate(() => {
     const refused = new Promise((_, refuse) => { window.refuse = () => refuse(new DOMException('', 'NotAllowedError')); });
@@ -195,7 +195,7 @@ test('a camera that is refused while a file plays changes nothing', async () => 
   await context.close();
 });
 
-test('of two cameras opened at once the later stays, and Stop ends it', async () => {
+test('of two cameras opened at the same time the later one stays, and Stop ends it', async () => {
   const {page, context, complaints} = await openPage(studio);
   await holdCamera(page);
   await page.evaluate(() => {
@@ -211,12 +211,12 @@ test('of two cameras opened at once the later stays, and Stop ends it', async ()
   await context.close();
 });
 
-test('of two files opened at once the later gives each picture once', async () => {
+test('of two files opened at the same time the later one gives each image once', async () => {
   const {page, context, complaints} = await openPage(studio);
   await page.evaluate(() => {
     const {sound} = window.page.source, listen = sound.listen.bind(sound);
     const granted = new Promise(done => { window.grant = done; });
-    sound.listen = async (...what) => {  // the first waits here
+    sound.listen = async (...what) => {  // the first one waits here
       sound.listen = listen;
       window.held = true;
       await granted;
@@ -242,18 +242,18 @@ test('of two files opened at once the later gives each picture once', async () =
   await context.close();
 });
 
-test('a file that is none is refused in words', async () => {
+test('an unusable file is rejected with a message', async () => {
   const {page, context} = await openPage(studio);
   await page.setInputFiles('#file', {name: 'note.mp4', mimeType: 'video/mp4', buffer: Buffer.from('no video')});
   await until(page, () => document.getElementById('status').textContent.includes('note.mp4: this browser cannot play it'));
-  await page.setInputFiles('#model', {name: 'head.glb', mimeType: '', buffer: Buffer.from('no head, but more than twenty bytes')});
+  await page.setInputFiles('#model', {name: 'head.glb', mimeType: '', buffer: Buffer.from('not a head, but more than 20 bytes')});
   await until(page, () => document.getElementById('status').textContent.includes('head.glb: not a binary glTF file'));
   await page.click('#camera');
   await following(page);
   await context.close();
 });
 
-test('the page works offline once it was loaded', async () => {
+test('the page works offline after it was loaded', async () => {
   const {page, context, complaints} = await openPage(studio);
   await page.evaluate(() => navigator.serviceWorker.ready.then(() => new Promise(done => {
     if (navigator.serviceWorker.controller) done();
@@ -270,7 +270,7 @@ test('the page works offline once it was loaded', async () => {
 
 for (const colorScheme of ['light', 'dark']) {
   for (const [device, viewport] of [['desktop', {width: 1280, height: 860}], ['phone', {width: 390, height: 844}]]) {
-    test(`axe finds nothing serious: ${colorScheme}, ${device}`, async () => {
+    test(`axe finds no serious problem: ${colorScheme}, ${device}`, async () => {
       const {page, context} = await openPage(studio, {colorScheme, viewport, bypassCSP: true});
       await page.click('#camera');
       await following(page);

@@ -1,4 +1,4 @@
-// Faces that several controls make together.
+// Faces that combine several controls.
 const both = (name, value) => ({[name + 'Left']: value, [name + 'Right']: value});
 
 export const expressions = [

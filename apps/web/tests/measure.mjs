@@ -13,7 +13,7 @@ const out = process.argv[2] ?? '/dev/stdout';
 const median = values => [...values].sort((a, b) => a - b)[values.length >> 1];
 const seconds = 17;
 
-// Starts the camera and says after how long the first result was there.
+// Starts the camera and returns the time until the first result.
 const firstResult = page => page.evaluate(() => new Promise(done => {
   let camera;
   document.getElementById('video').addEventListener('playing', () => { camera = performance.now(); }, {once: true});
@@ -23,7 +23,7 @@ const firstResult = page => page.evaluate(() => new Promise(done => {
   document.getElementById('camera').click();
 }));
 
-// Jaw of the avatar, times of tracking and of pictures drawn, for some seconds at a level.
+// The avatar's jaw, and the times of tracking and drawing, for some seconds at a level.
 const watch = (page, level, seconds) => page.evaluate(([level, seconds]) => new Promise(done => {
   const select = document.getElementById('level'), view = window.page.first, {vertices, mesh} = view.avatar.head;
   select.value = String(level);
@@ -42,7 +42,7 @@ const watch = (page, level, seconds) => page.evaluate(([level, seconds]) => new 
   document.addEventListener('mien-results', listen);
 }), [level, seconds]);
 
-// Pictures drawn while a level tracks, once the page has found how finely it can draw them.
+// The rate of drawing while a level tracks, after the page has selected its quality.
 async function drawn(page, level, settling_s = 15, seconds = 10) {
   await page.selectOption('#level', String(level));
   await page.waitForTimeout(settling_s * 1000);

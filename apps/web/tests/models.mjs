@@ -1,4 +1,4 @@
-// Small heads as people may have them: a triangle whose morph targets have names, with bones for head and eyes.
+// Small models like those of users: a triangle whose morph targets have names, with bones for head and eyes.
 
 const pad = (bytes, filler) => {
   const out = new Uint8Array(bytes.length + 3 & ~3).fill(filler);

@@ -1,4 +1,4 @@
-// The user's own head: its names are understood, and it moves.
+// The user's own head: its names are recognized, and it moves.
 import assert from 'node:assert/strict';
 import {after, before, test} from 'node:test';
 import {controlNames} from '../avatar/avatar.js';
@@ -9,7 +9,7 @@ import {openPage, openStudio, until} from './page.mjs';
 const drivers = makeDrivers(controlNames);
 const controls = values => ({...Object.fromEntries(controlNames.map(name => [name, 0])), ...values});
 
-test('names are found in every casing', () => {
+test('names are found in any case', () => {
   for (const name of ['jawOpen', 'JawOpen', 'jaw_open', 'Face.jawOpen', 'blendShape1.jawOpen']) {
     assert.equal(drivers.morph(name)?.of(controls({jawOpen: 0.5})), 0.5, name);
   }
@@ -18,7 +18,7 @@ test('names are found in every casing', () => {
   assert.equal(drivers.morph('hairLength'), undefined);
 });
 
-test("every control has its name, and Roblox's 47 that have a partner theirs", () => {
+test("every control has a name, and the 47 of Roblox with a counterpart as well", () => {
   for (const name of controlNames) assert.equal(drivers.morph(name).vocabulary, 'ARKit');
   const roblox = `ChinRaiserUpperLip ChinRaiser Funneler LowerLipSuck LipPresser LipsTogether MouthLeft MouthRight Pucker UpperLipSuck
     LeftCheekPuff LeftDimpler LeftLipCornerDown LeftLowerLipDepressor LeftLipCornerPuller LeftLipStretcher LeftUpperLipRaiser RightCheekPuff
@@ -65,13 +65,13 @@ test('a GLB with names of Roblox moves', async () => {
   assert.deepEqual(weights, [0.5, 1, 0.2]);
 });
 
-test('a VRM moves by its expressions', async () => {
+test('the expressions of a VRM move it', async () => {
   const {weights, status} = await moved(vrmModel(), 'person.vrm', {jawOpen: 0.5, eyeBlinkLeft: 1});
   assert.ok(weights[0] > 0.5 && weights[1] === 1, String(weights));
   assert.match(status, /names of VRM/);
 });
 
-test('a head without known names is refused in words', async () => {
+test('a head without known names is rejected with a message', async () => {
   const {page, context} = await openPage(studio);
   await page.setInputFiles('#model', {name: 'mute.glb', mimeType: '', buffer: headModel(['a1', 'a2'])});
   await until(page, () => document.getElementById('status').textContent === 'mute.glb: no morph target or expression has a name of ARKit, VRM or Roblox');

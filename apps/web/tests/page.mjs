@@ -1,4 +1,4 @@
-// The built page in a browser whose camera and microphone play the demo clip, again and again.
+// The built page in a browser whose camera and microphone play the demo clip in a loop.
 import {execFileSync} from 'node:child_process';
 import {existsSync, mkdtempSync, rmSync} from 'node:fs';
 import {tmpdir} from 'node:os';
@@ -31,12 +31,12 @@ export async function openStudio() {
     }};
 }
 
-// A page that keeps what it says and asks for.
+// A page that collects its log and its requests.
 export async function openPage({browser, url}, options = {}) {
   const context = await browser.newContext({viewport: {width: 1280, height: 860}, ...options});
   const page = await context.newPage(), complaints = [], requests = [];
   page.on('console', message => {
-    // Chromium without a graphics card says so of every canvas that it draws itself.
+    // Chromium without a graphics card logs this for every canvas.
     if (!message.text().includes('GPU stall due to ReadPixels')) complaints.push(`${message.type()}: ${message.text()}`);
   });
   page.on('pageerror', error => complaints.push(`error: ${error.message}`));
@@ -55,7 +55,7 @@ export async function until(page, condition, seconds = 15) {
   throw new Error(`not within ${seconds} s: ${condition}; the page says "${await page.textContent('#status')}"`);
 }
 
-// Faces are shaped but not drawn: without a graphics card drawing takes the processors' time that the tracker needs.
+// Computes faces but does not draw them: without a graphics card, drawing takes processor time that the tracker needs.
 export const spareDrawing = page =>
   page.evaluate(() => { Object.getPrototypeOf(window.page.first.avatar.renderer).draw = () => {}; });
 

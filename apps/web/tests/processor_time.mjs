@@ -1,4 +1,4 @@
-// Processor time that browsers started by this program have taken so far, by kind of process, in milliseconds. Linux.
+// CPU time so far of browsers started by this program, by kind of process, in milliseconds. Linux only.
 import {readFileSync, readdirSync} from 'node:fs';
 
 const numbers = folder => readdirSync(folder).filter(name => /^\d+$/.test(name));
@@ -26,7 +26,7 @@ export function processorTime() {
       sums[kind] = (sums[kind] ?? 0) + took;
       sums.all += took;
     } catch {
-      // it ended while we looked
+  // the process has ended
     }
   }
   return sums;

@@ -1,9 +1,9 @@
-// The quality of pictures goes down where they take long, comes back where they do not, and finds rest.
+// The drawing quality decreases under load, recovers afterwards, and becomes stable.
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
 import {Quality, qualities} from '../src/ui/quality.js';
 
-// A browser where a picture of step i takes costs[i] ms; says which steps were drawn after which seconds.
+// A browser in which an image at step i takes costs[i] ms; returns the steps drawn after given seconds.
 function run(quality, costs, seconds, from_ms = 0) {
   const steps = [];
   for (let time_ms = from_ms; time_ms < from_ms + seconds * 1000;) {
@@ -17,20 +17,20 @@ function run(quality, costs, seconds, from_ms = 0) {
 
 const fast = qualities.map(() => 3), last = qualities.length - 1;
 
-test('where all is well nothing changes', () => {
+test('nothing changes under low load', () => {
   assert.deepEqual(new Set(run(new Quality(), fast, 60)), new Set([0]));
 });
 
-test('thirty pictures a second of a slow screen are no reason to be coarse', () => {
+test('a 30 Hz display does not reduce the quality', () => {
   assert.deepEqual(new Set(run(new Quality(), qualities.map(() => 33), 60)), new Set([0]));
 });
 
-test('two pictures a second become many within a dozen', () => {
+test('from two images per second the rate rises within a dozen images', () => {
   const steps = run(new Quality(), [500, 220, 110, 60, 30], 30);
   assert.ok(steps.slice(12).every(step => step >= last - 1), steps.slice(0, 20).join(' '));
 });
 
-test('what becomes fast again is drawn finely again', () => {
+test('the quality recovers when drawing becomes fast again', () => {
   const quality = new Quality();
   run(quality, qualities.map(() => 200), 20);
   assert.equal(quality.step, last);
@@ -38,13 +38,13 @@ test('what becomes fast again is drawn finely again', () => {
   assert.equal(quality.step, 0);
 });
 
-test('what is too much is tried ever more rarely', () => {
+test('failed attempts at a finer quality become rarer', () => {
   const steps = run(new Quality(), [300, 90, 20, 10, 6], 600);
   const changes = steps.filter((step, i) => i > 0 && step !== steps[i - 1]).length;
   assert.ok(steps.filter(step => step === 2).length > steps.length * 0.95 && changes < 30, `${changes} changes`);
 });
 
-test('one long wait is none of the picture', () => {
+test('a single long wait does not change the quality', () => {
   const quality = new Quality();
   run(quality, fast, 5);
   quality.took(3000, 8000);

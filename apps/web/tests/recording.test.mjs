@@ -1,4 +1,4 @@
-// What recordings say of frames without a face to follow: the same as `mien track` writes.
+// Recordings of frames without a tracked face: the same as `mien track` writes.
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
 import {controlNames} from '../avatar/avatar.js';
@@ -6,7 +6,7 @@ import {curvesCsv} from '../src/recording/csv.js';
 import {animationGlb} from '../src/recording/glb.js';
 import {liveLinkCsv} from '../src/recording/live_link_face.js';
 
-// The tracker leaves box and pose where the face was last, whatever the status.
+// The tracker keeps the last box and pose, whatever the status.
 const frame = (tMs, status, jawOpen) => ({
   tMs, status, faceProbability: 0.5, voiceActivity: 0, lod: 1, box: [100, 50, 200, 220], pitch: 0.25, yaw: 0.5, roll: 0.125,
   rotation: [0, 0, 0, 1], translation: [0.25, 0.5, -0.5], controls: controlNames.map(name => (name === 'jawOpen' ? jawOpen : 0)),
@@ -15,7 +15,7 @@ const frames = [
   frame(0, 'tracking', 0.5), frame(100, 'lost', 0.25), frame(200, 'searching', 0), frame(300, 'searching', 0.125), frame(400, 'lost', 0)];
 const cells = text => text.trimEnd().split('\n').slice(1).map(line => line.split(','));
 
-test('curves have box and pose where a face is followed alone', () => {
+test('curves have box and pose only for a tracked face', () => {
   const rows = cells(curvesCsv(frames, controlNames));
   assert.deepEqual(rows.map(row => row[2]), ['tracking', 'lost', 'searching', 'searching', 'lost']);
   assert.deepEqual(rows[0].slice(6, 16), ['100', '50', '200', '220', '0.25', '0.5', '0.125', '0.25', '0.5', '-0.5']);
@@ -24,7 +24,7 @@ test('curves have box and pose where a face is followed alone', () => {
   assert.deepEqual(rows.map(row => row[jaw]), ['0.5', '0.25', '0', '0.125', '0']);
 });
 
-test('Live Link Face has no blend shapes where a frame shows nothing, and no turn of a head that is gone', () => {
+test('Live Link Face has no blend shapes for an empty frame, and no rotation of a lost head', () => {
   const rows = cells(liveLinkCsv(frames, controlNames));
   assert.deepEqual(rows.map(row => row[1]), ['61', '61', '0', '61', '61']);
   assert.deepEqual(rows[2].slice(2), new Array(61).fill(''));
@@ -32,7 +32,7 @@ test('Live Link Face has no blend shapes where a frame shows nothing, and no tur
   for (const i of [1, 3, 4]) assert.deepEqual(rows[i].slice(54, 57).map(Number), [0, 0, 0], frames[i].status);
 });
 
-test('the head of a GLB has keys where a face is followed alone', () => {
+test('the head of a GLB has keys only for a tracked face', () => {
   const file = animationGlb(frames, controlNames), bytes = new DataView(file.buffer).getUint32(12, true);
   const {animations: [{channels, samplers}], accessors} = JSON.parse(new TextDecoder().decode(file.subarray(20, 20 + bytes)));
   const keys = (node, path) => {

@@ -1,4 +1,4 @@
-// Pictures of the page at work, to be looked at: both themes on a desktop and a phone, and two levels beside each other.
+// Screenshots of the page for review: both themes on a desktop and a phone, and two levels beside each other.
 // usage: node tests/screenshots.mjs FOLDER
 import {join} from 'node:path';
 import {following, openPage, openStudio} from './page.mjs';

@@ -1,4 +1,4 @@
-// The worker in Node, with pictures that say when they are read. MIEN_WASM names the module.
+// Tests the worker in Node, with frames that record when they are read. MIEN_WASM names the module.
 import assert from 'node:assert/strict';
 import {EventEmitter, once} from 'node:events';
 import {readFileSync} from 'node:fs';
@@ -24,7 +24,7 @@ const picture = (name, readMs, side) => ({
   },
   close() { happened.push(`closes ${name}`); }});
 
-test('what is asked before the tracker is there waits for it', async () => {
+test('requests wait until the tracker is loaded', async () => {
   const ready = once(heard, 'ready');
   post({type: 'load', folder: root});
   post({type: 'levels', levels: [1]});
@@ -35,7 +35,7 @@ test('what is asked before the tracker is there waits for it', async () => {
   assert.equal(lod, 1);
 });
 
-test('a picture is read when the one before it has been tracked', async () => {
+test('an image is read after the previous one was tracked', async () => {
   happened.length = 0;
   post({type: 'frame', frame: picture('slow', 50, 64), timeMs: 100});
   post({type: 'frame', frame: picture('quick', 0, 96), timeMs: 133});

@@ -1,4 +1,4 @@
-// The user's own head: a GLB or VRM whose morph targets or expressions have names that are known.
+// The user's own head: a GLB or VRM file whose morph targets or expressions have known names.
 import {
   AmbientLight, Box3, Color, DirectionalLight, Euler, PerspectiveCamera, Quaternion, Scene, Vector3, WebGLRenderer,
 } from 'three';
@@ -8,7 +8,7 @@ import {makeDrivers} from './names.js';
 
 const gazeAngle = 0.485;  // radians of a control at 1
 
-// Throws with a sentence for people when the file is none that can be used.
+// Throws an error with a message for the user if the file is not usable.
 export async function openModel(file, canvas, controlNames) {
   const bytes = await file.arrayBuffer();
   if (new DataView(bytes).byteLength < 20 || new DataView(bytes).getUint32(0, true) !== 0x46546c67) {
@@ -31,7 +31,7 @@ class ModelAvatar {
     this.stage(canvas);
   }
 
-  // Expressions of a VRM, and morph targets of everything else.
+  // Expressions of a VRM file, or morph targets of other files.
   collect(drivers) {
     this.targets = [];
     const manager = this.vrm?.expressionManager;
@@ -79,7 +79,7 @@ class ModelAvatar {
     this.camera.lookAt(centre);
   }
 
-  // The head alone where there is a body below it.
+  // The head alone, if the model has a body.
   headBounds() {
     const box = new Box3().setFromObject(this.root, true), all = box.getSize(new Vector3());
     const bone = this.headBone?.node;
@@ -105,7 +105,7 @@ class ModelAvatar {
                      gazeAngle * side * (c['eyeLookOut' + name] - c['eyeLookIn' + name]), 0, 'YXZ');
   }
 
-  // Turns about the axes of the model, whichever way its bone lies.
+  // Rotates a bone around the axes of the model, independently of the bone's own axes.
   turn(bone, euler) {
     if (!bone) return;
     const parent = bone.node.parent.getWorldQuaternion(new Quaternion());

@@ -1,12 +1,12 @@
-// Which of our controls drive a morph target, by its name: ARKit's in any casing and with _L, _R; Roblox's FACS names; and the
-// expressions of VRM, which are made of several.
+// The controls that drive a morph target, by its name: ARKit's names in any case and with _L and _R, Roblox's FACS
+// names, and VRM's expressions, which combine several controls.
 
 const plain = name => name.replace(/^.*[.:|]/, '').toLowerCase()
   .replace(/_l$/, 'left').replace(/_r$/, 'right').replace(/[^a-z0-9]/g, '');
 
 const of = name => c => c[name];
 const mean = (...names) => c => names.reduce((sum, name) => sum + c[name], 0) / names.length;
-const most = (...names) => c => Math.max(...names.map(name => c[name]));
+const max = (...names) => c => Math.max(...names.map(name => c[name]));
 
 const roblox = {
   ChinRaiserUpperLip: of('mouthShrugUpper'), ChinRaiser: of('mouthShrugLower'), Funneler: of('mouthFunnel'),
@@ -20,14 +20,14 @@ const robloxSides = {
   CheekPuff: () => of('cheekPuff'), Dimpler: s => of('mouthDimple' + s), LipCornerDown: s => of('mouthFrown' + s),
   LowerLipDepressor: s => of('mouthLowerDown' + s), LipCornerPuller: s => of('mouthSmile' + s), LipStretcher: s => of('mouthStretch' + s),
   UpperLipRaiser: s => of('mouthUpperUp' + s), BrowLowerer: s => of('browDown' + s), OuterBrowRaiser: s => of('browOuterUp' + s),
-  InnerBrowRaiser: () => of('browInnerUp'), NoseWrinkler: s => of('noseSneer' + s), CheekRaiser: s => most('eyeSquint' + s, 'cheekSquint' + s),
+  InnerBrowRaiser: () => of('browInnerUp'), NoseWrinkler: s => of('noseSneer' + s), CheekRaiser: s => max('eyeSquint' + s, 'cheekSquint' + s),
   EyeUpperLidRaiser: s => of('eyeWide' + s), EyeClosed: s => of('eyeBlink' + s),
 };
 
 const clamp01 = value => Math.min(1, Math.max(0, value));
 const smile = mean('mouthSmileLeft', 'mouthSmileRight'), frown = mean('mouthFrownLeft', 'mouthFrownRight');
 const wide = mean('mouthStretchLeft', 'mouthStretchRight');
-// VRM 1.0's presets, and VRM 0's names of them.
+// VRM 1.0's presets, and their names in VRM 0.
 const vrm = {
   blinkLeft: of('eyeBlinkLeft'), blinkRight: of('eyeBlinkRight'), blink: c => Math.min(c.eyeBlinkLeft, c.eyeBlinkRight),
   aa: c => clamp01(1.3 * c.jawOpen * (1 - Math.max(c.mouthFunnel, c.mouthPucker)) - 0.6 * c.mouthClose),

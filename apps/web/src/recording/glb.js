@@ -1,10 +1,10 @@
-// glTF 2.0, binary: morph weights of a small triangle whose 52 targets move nothing, and turns of head and eyes, so that a
-// program for animation shows named curves. Nodes: root > head > leftEye, rightEye, face.
-import {gaze, isFollowed} from './recording.js';
+// Binary glTF 2.0: morph weights of a small triangle whose 52 targets move nothing, and rotations of head and eyes, so
+// that animation programs show named curves. Nodes: root > head > leftEye, rightEye, face.
+import {gaze, isTracked} from './recording.js';
 
 const float = 5126, leftEye = 2, rightEye = 3, face = 4, head = 1;
 
-// Collects arrays of floats into one buffer with an accessor for each.
+// Collects arrays of floats in one buffer, with an accessor for each.
 class Floats {
   constructor() { Object.assign(this, {parts: [], bytes: 0, views: [], accessors: []}); }
 
@@ -31,7 +31,7 @@ function turn({pitch, yaw}) {
   return [cy * sp, sy * cp, -sy * sp, cy * cp];
 }
 
-// Keys must lie at times that grow, as fp32 has them.
+// Removes keys whose times do not increase in fp32.
 const atLaterTimes = frames => frames.filter((frame, i) => i === 0 || Math.fround(frame.tMs / 1000) > Math.fround(frames[i - 1].tMs / 1000));
 
 function animation(frames, names, floats) {
@@ -42,10 +42,10 @@ function animation(frames, names, floats) {
     samplers.push({input, output: floats.add(values, type), interpolation: 'LINEAR'});
     channels.push({sampler: samplers.length - 1, target: {node, path}});
   };
-  const seen = frames.filter(isFollowed), eyes = frames.map(({controls}) => gaze(controls, names));
+  const tracked = frames.filter(isTracked), eyes = frames.map(({controls}) => gaze(controls, names));
   channel(frames, face, 'weights', frames.flatMap(({controls}) => [...controls]), 'SCALAR');
-  channel(seen, head, 'rotation', seen.flatMap(({rotation}) => unit([...rotation])), 'VEC4');
-  channel(seen, head, 'translation', seen.flatMap(({translation}) => [...translation]), 'VEC3');
+  channel(tracked, head, 'rotation', tracked.flatMap(({rotation}) => unit([...rotation])), 'VEC4');
+  channel(tracked, head, 'translation', tracked.flatMap(({translation}) => [...translation]), 'VEC3');
   channel(frames, leftEye, 'rotation', eyes.flatMap(({left}) => unit(turn(left))), 'VEC4');
   channel(frames, rightEye, 'rotation', eyes.flatMap(({right}) => unit(turn(right))), 'VEC4');
   return {name: 'face', samplers, channels};
@@ -69,7 +69,7 @@ export function animationGlb(allFrames, names) {
   }, floats.parts);
 }
 
-// JSON and binary chunk, each padded to four bytes.
+// JSON chunk and binary chunk, each padded to four bytes.
 function container(json, parts) {
   const text = new TextEncoder().encode(JSON.stringify(json)), textBytes = text.length + 3 & ~3;
   const binaryBytes = parts.reduce((sum, part) => sum + part.byteLength, 0);

@@ -1,6 +1,6 @@
-// CSV as Epic's Live Link Face records it: 63 columns; JawRight, JawLeft and MouthRight, MouthLeft stand in another order than
-// in ours. Rotations are radians, of which pitch is positive upwards.
-import {gaze, isFollowed} from './recording.js';
+// CSV as Epic's Live Link Face records it: 63 columns. The order of JawRight, JawLeft and of MouthRight, MouthLeft
+// differs from ours. Rotations are in radians; positive pitch looks up.
+import {gaze, isTracked} from './recording.js';
 
 const fps = 60;
 const rotations = ['HeadYaw', 'HeadPitch', 'HeadRoll', 'LeftEyeYaw', 'LeftEyePitch', 'LeftEyeRoll', 'RightEyeYaw', 'RightEyePitch', 'RightEyeRoll'];
@@ -25,7 +25,7 @@ export function liveLinkCsv(frames, names) {
   const rows = frames.map(frame => {
     if (showsNothing(frame)) return timecode(frame.tMs) + ',0' + ','.repeat(order.length + rotations.length);
     const {left, right} = gaze(frame.controls, names);
-    const values = [...order.map(i => frame.controls[i]), ...angles(isFollowed(frame) ? frame : straight), ...angles(left), ...angles(right)];
+    const values = [...order.map(i => frame.controls[i]), ...angles(isTracked(frame) ? frame : straight), ...angles(left), ...angles(right)];
     return [timecode(frame.tMs), values.length, ...values.map(digits)].join(',');
   });
   return [header.join(','), ...rows].join('\n') + '\n';

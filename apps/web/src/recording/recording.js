@@ -1,4 +1,4 @@
-// Keeps what was tracked while it records.
+// Stores the results of tracking during a recording.
 
 export class Recording {
   constructor() { this.clear(); }
@@ -28,10 +28,10 @@ export class Recording {
   get seconds() { return this.frames.length ? this.frames.at(-1).tMs / 1000 : 0; }
 }
 
-// Box and pose of other frames are where the face was last.
-export const isFollowed = ({status}) => status === 'tracking';
+// In other frames, box and pose have their last values.
+export const isTracked = ({status}) => status === 'tracking';
 
-// Where the eyes look, radians; 0.485 is a control at 1.
+// Gaze directions in radians; a control at 1 is 0.485.
 export function gaze(controls, names) {
   const of = name => controls[names.indexOf(name)], full = 0.485;
   return {

@@ -1,4 +1,4 @@
-// Collects sound on the audio thread and hands it to the tracker's worker, 10 ms at a time.
+// Collects audio on the audio thread and sends it to the tracker's worker in blocks of 10 ms.
 
 class Microphone extends AudioWorkletProcessor {
   constructor() {

@@ -1,12 +1,12 @@
-// The sound of a stream or of a media element, on its way to the tracker.
+// Sends the audio of a stream or of a media element to the tracker.
 
 export class Sound {
   constructor(tracking) {
     this.tracking = tracking;
-    this.elements = new WeakMap();  // an element can be taken up once only
+    this.elements = new WeakMap();  // an element can have only one source node
   }
 
-  // Once, whoever asks meanwhile; again after a failure.
+  // Creates the node once, even for concurrent calls; tries again after a failure.
   prepare() {
     this.prepared ??= this.makeNode().catch(error => {
       this.prepared = null;
@@ -21,12 +21,12 @@ export class Sound {
     const node = new AudioWorkletNode(context, 'mien-microphone', {numberOfInputs: 1, numberOfOutputs: 0});
     const {port1, port2} = new MessageChannel();
     node.port.postMessage({port: port1}, [port1]);
-    this.tracking.hear(port2);
+    this.tracking.connectAudio(port2);
     Object.assign(this, {context, node});
     setInterval(() => this.alignClocks(), 1000);
   }
 
-  // Sound is timed by its samples, pictures by the page's clock.
+  // Timestamps of audio count samples, those of video are of the page's clock.
   alignClocks() {
     if (this.context.state !== 'running') return;
     this.tracking.setSoundOffset(performance.now() - this.context.currentTime * 1000);

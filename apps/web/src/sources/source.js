@@ -1,5 +1,5 @@
-// Where pictures and sound come from: camera and microphone, or a file. One at a time: what is opened or closed makes all earlier
-// openings stale (`generation`), and what these still wait for is given back or left alone.
+// The source of video and audio: camera and microphone, or a file. One at a time: opening or closing a source makes
+// earlier pending openings stale (`generation`), and these release what they receive later.
 
 const cameraWish = {width: {ideal: 640}, height: {ideal: 480}, frameRate: {ideal: 30}, facingMode: 'user'};
 const microphoneWish = {echoCancellation: false, noiseSuppression: false, autoGainControl: true};
@@ -43,10 +43,10 @@ export class Source {
   async start(mine) {
     if (mine !== this.generation) return;
     if (this.url || this.video.srcObject) await this.video.play();
-    if (this.hasPictures) this.pumpFrames(mine); else this.pumpTicks(mine);
+    if (this.hasVideo) this.pumpFrames(mine); else this.pumpTicks(mine);
   }
 
-  // Returns the generation of what is opened next.
+  // Returns the generation of the next source.
   close() {
     ++this.generation;
     this.sound.stop();
@@ -54,15 +54,15 @@ export class Source {
     this.video.pause();
     this.video.srcObject = this.stream = null;
     this.video.removeAttribute('src');
-    this.video.load();  // forgets what was shown
+    this.video.load();  // clears the last image
     if (this.url) URL.revokeObjectURL(this.url);
     this.url = null;
     return this.generation;
   }
 
-  get hasPictures() { return Boolean(this.video.srcObject || this.video.videoWidth); }
+  get hasVideo() { return Boolean(this.video.srcObject || this.video.videoWidth); }
 
-  // Each picture as it is shown, at the time it was taken.
+  // Pushes each image when it is displayed, with its capture time.
   pumpFrames(mine) {
     const {video} = this;
     const next = video.requestVideoFrameCallback ?
@@ -74,13 +74,13 @@ export class Source {
       this.shownAt = video.currentTime;
       const timeMs = captureTime ?? now;
       if (!this.tracking.idle) return ++this.tracking.dropped;
-      const picture = await pictureOf(video, timeMs);
-      if (mine === this.generation) this.tracking.push(picture, timeMs); else picture.close();
+      const image = await imageOf(video, timeMs);
+      if (mine === this.generation) this.tracking.push(image, timeMs); else image.close();
     };
     next(each);
   }
 
-  // Sound without pictures still moves the mouth.
+  // Audio without video still moves the mouth.
   pumpTicks(mine) {
     const timer = setInterval(() => {
       if (mine !== this.generation) return clearInterval(timer);
@@ -89,7 +89,7 @@ export class Source {
   }
 }
 
-const pictureOf = (video, timeMs) =>
+const imageOf = (video, timeMs) =>
   (window.VideoFrame ? new VideoFrame(video, {timestamp: Math.round(timeMs * 1000)}) : createImageBitmap(video));
 
 function stopTracks(stream) {
@@ -111,5 +111,5 @@ async function openDevices() {
 
 const spoken = ({name, message}) => ({
   NotAllowedError: 'the browser was not allowed to use camera and microphone',
-  NotFoundError: 'there is no camera and no microphone',
+  NotFoundError: 'no camera and no microphone was found',
   NotReadableError: 'another program is using the camera'}[name] ?? message);

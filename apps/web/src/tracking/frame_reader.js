@@ -1,5 +1,5 @@
-// Pictures of the browser to what the tracker takes: a VideoFrame as it lies in memory where that is a format of mien's, and
-// through a canvas else. One at a time: the memory is the next one's, too.
+// Converts frames of the browser to images for the tracker: copies a VideoFrame in one of mien's formats, and draws
+// other frames on a canvas. One at a time, because the next frame reuses the memory.
 
 const formats = {I420: 'i420', NV12: 'nv12', RGBA: 'rgba', RGBX: 'rgba', BGRA: 'bgra', BGRX: 'bgra'};
 

@@ -1,11 +1,11 @@
-// The page's side of the tracker: it sends pictures as long as the worker keeps up, and forgets those it has no time for.
+// The page's interface to the tracker: sends images while the worker keeps up, and drops the others.
 
 export class Tracking {
   constructor({onReady, onResults, onError}) {
     this.worker = new Worker(new URL('worker.js', document.baseURI), {type: 'module'});
     this.busy = 0;
     this.dropped = 0;
-    const heard = {
+    const handlers = {
       ready: message => onReady(message),
       results: message => {
         this.busy = Math.max(0, this.busy - 1);
@@ -15,12 +15,12 @@ export class Tracking {
         this.busy = 0;
         onError(message);
       }};
-    this.worker.onmessage = ({data}) => heard[data.type](data);
+    this.worker.onmessage = ({data}) => handlers[data.type](data);
     this.worker.onerror = event => onError(event.message || 'the tracker could not be started');
     this.worker.postMessage({type: 'load', folder: document.baseURI});
   }
 
-  // Newest frame wins: with two under way the next is left out.
+  // At most two images are in progress; further ones are dropped.
   get idle() { return this.busy < 2; }
 
   push(frame, timeMs) {
@@ -40,7 +40,7 @@ export class Tracking {
   }
 
   setLevels(levels) { this.worker.postMessage({type: 'levels', levels}); }
-  hear(port) { this.worker.postMessage({type: 'hear', port}, [port]); }
+  connectAudio(port) { this.worker.postMessage({type: 'audio', port}, [port]); }
   setSoundOffset(offsetMs) { this.worker.postMessage({type: 'soundOffset', offsetMs}); }
   calibrate() { this.worker.postMessage({type: 'calibrate'}); }
   reset() { this.worker.postMessage({type: 'reset'}); }

@@ -1,12 +1,12 @@
-// The tracker in a thread of its own: pictures and sound come in, results go out. With two levels of detail asked for, two
-// trackers get the same.
+// Runs the tracker in a worker: images and audio in, results out. For a comparison of two levels of detail, two
+// trackers get the same input.
 import {loadMien} from '../../../../bindings/js/mien.js';
 import {FrameReader} from './frame_reader.js';
 
 const modelNames = ['basenet', 'proposal', 'hifinet', 'audionet'];
 const reader = new FrameReader();
 let mien, weights, trackers = [];
-let soundOffsetMs = 0;  // from the clock of the sound to that of the pictures
+let soundOffsetMs = 0;  // from the audio clock to the video clock
 let failed = false;
 
 async function fetched(url) {
@@ -24,7 +24,7 @@ async function load({folder}) {
   postMessage({type: 'ready', version: mien.version, controlNames: mien.controlNames, stageNames: mien.stageNames});
 }
 
-// Trackers that go on keep their face; others begin anew.
+// Existing trackers keep their face; new ones start with a detection.
 function setLevels({levels}) {
   while (trackers.length > levels.length) trackers.pop().destroy();
   levels.forEach((lod, i) => {
@@ -57,13 +57,13 @@ const handlers = {
     report(timeMs, tracker => tracker.pushVideo(image, toNs(timeMs)));
   },
   advance({timeMs}) { report(timeMs, tracker => tracker.advance(toNs(timeMs))); },
-  hear({port}) { port.onmessage = ({data}) => guarded(() => hear(data)); },
+  audio({port}) { port.onmessage = ({data}) => guarded(() => pushAudio(data)); },
   soundOffset({offsetMs}) { soundOffsetMs = offsetMs; },
   calibrate() { for (const tracker of trackers) tracker.captureNeutral(); },
   reset() { for (const tracker of trackers) tracker.reset(); },
 };
 
-function hear({samples, sampleRate, timeMs}) {
+function pushAudio({samples, sampleRate, timeMs}) {
   for (const tracker of trackers) tracker.pushAudio(samples, {sampleRate}, toNs(timeMs + soundOffsetMs));
 }
 
@@ -72,11 +72,12 @@ async function guarded(action) {
   try {
     await action();
   } catch (error) {
-    failed = !mien;  // without the module nothing else will work either
+    failed = !mien;  // nothing works without the module
     postMessage({type: 'error', message: error.message});
   }
 }
 
-// One after another: while a picture is read, the next one would be read into the same memory, and be tracked first.
+// Handles messages in sequence: the next image would otherwise overwrite the memory of the current one, and be tracked
+// first.
 let last = Promise.resolve();
 onmessage = ({data}) => { last = last.then(() => guarded(() => handlers[data.type](data))); };

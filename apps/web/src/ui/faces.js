@@ -1,10 +1,10 @@
-// The faces on the stage: ours or the user's, one or two, drawn when there is something new to show.
+// Draws one or two faces, mien's or the user's, when a result has arrived.
 import {Avatar, controlNames} from '../../avatar/avatar.js';
 import {Quality} from './quality.js';
 
-const easing_ms = 400;  // how fast a head turns back when its face is lost
+const easing_ms = 400;  // time to return to the front after a loss
 
-// What to draw of a result; `turned` goes to 0 while the face is lost, so that the head comes back to the middle.
+// The face to draw for a result; `turned` goes to 0 after a loss, so that the head returns to the front.
 function faceOf(result, turned = 1) {
   return {
     controls: Object.fromEntries(controlNames.map((name, i) => [name, result.controls[i]])),
@@ -31,7 +31,7 @@ export class FaceView {
     this.changed = true;
   }
 
-  // `sinceMs`: since the result before.
+  // `sinceMs`: time since the previous result.
   show(result, sinceMs) {
     const towards = result.status === 'tracking' ? 1 : 0, step = Math.min(1, sinceMs / easing_ms);
     this.turned = towards > this.turned ? 1 : this.turned - Math.min(step, this.turned - towards);
@@ -40,9 +40,9 @@ export class FaceView {
     this.changed = true;
   }
 
-  // At each tick of the browser.
+  // Called for every animation frame of the browser.
   draw(now) {
-    this.judge();
+    this.measure();
     if (!this.changed || !this.canvas.clientWidth) return;
     this.avatar.draw(this.face, this.quality.now);
     this.changed = false;
@@ -52,20 +52,20 @@ export class FaceView {
     while (this.drawnAt.length > 60) this.drawnAt.shift();
   }
 
-  // What was drawn at the tick before: how long did it take, from when it was there?
-  judge() {
+  // Measures the time from the arrival of the previous result to the end of its drawing.
+  measure() {
     const time_ms = performance.now();
     if (this.drawnThere !== undefined && this.quality.took(time_ms - this.drawnThere, time_ms)) this.resize();
     this.drawnThere = undefined;
   }
 
-  // Pictures a second over the last of them.
+  // Images drawn per second, over the latest ones.
   get rate() {
     const span = this.drawnAt.at(-1) - this.drawnAt[0];
     return this.drawnAt.length > 1 && performance.now() - this.drawnAt.at(-1) < 1000 ? (this.drawnAt.length - 1) * 1000 / span : 0;
   }
 
-  // A canvas keeps the kind of drawing it began with, so another head gets another canvas.
+  // A canvas keeps its first type of context, so another head needs a new canvas.
   async use(makeAvatar) {
     const canvas = this.canvas.cloneNode();
     Object.assign(canvas, {width: this.canvas.width, height: this.canvas.height});

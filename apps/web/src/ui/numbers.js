@@ -1,4 +1,4 @@
-// What the tracker says of itself: rates, times, voice, and every control as a bar.
+// Displays figures of the tracker: rates, times, voice activity, and every control as a bar.
 
 const element = (tag, text) => Object.assign(document.createElement(tag), {textContent: text});
 const ms = value => `${value.toFixed(value < 10 ? 2 : 1)} ms`;
@@ -23,7 +23,7 @@ export class Numbers {
     return this.cells.get(name);
   }
 
-  // Running mean, so that figures can be read.
+  // A running mean, so that figures are readable.
   mean(name, value) {
     const mean = this.average.has(name) ? this.average.get(name) * 0.9 + value * 0.1 : value;
     this.average.set(name, mean);
