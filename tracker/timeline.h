@@ -1,4 +1,4 @@
-// What the timestamps of the images say: how much time has passed, and whether the film was cut.
+// Converts the timestamps of images to steps, and detects discontinuities.
 #pragma once
 
 #include <algorithm>
@@ -9,11 +9,11 @@ namespace mien::tracker {
 class Timeline {
  public:
   struct Step {
-    float seconds;  // since the image before, 0..1
+    float seconds;  // since the previous image, 0..1
     bool cut;       // a step back, or forward by more than a second
   };
 
-  // Any value is fine: the difference is taken modulo 2^64, where it cannot overflow.
+  // Accepts any value: the difference is modulo 2^64, so it cannot overflow.
   [[nodiscard]] Step advance(std::int64_t pts_ns) {
     const bool first = !started_;
     const bool back = pts_ns < previous_ns_;

@@ -12,25 +12,25 @@ namespace {
 
 constexpr float kFadeSeconds = 0.25f;
 constexpr float kPresenceSeconds = 0.1f;
-constexpr float kFaded = 1e-4f;         // a control below is 0
-constexpr float kSmallestFace = 0.02f;  // crop sides, in longer sides of the image
-constexpr float kLargestFace = 4.0f;
-constexpr float kDetectorScoreWeight = 0.4f;  // beside the face probability's log-odds
-// Added to the log-odds that a detection at a roll needs: places without a face are searched at
-// several rolls, and any of them may look like a face.
+constexpr float kFaded = 1e-4f;    // smaller controls become 0
+constexpr float kMinFace = 0.02f;  // crop sides, in longer sides of the image
+constexpr float kMaxFace = 4.0f;
+constexpr float kDetectorScoreWeight = 0.4f;  // relative to the face probability's
+// Added to the log-odds required of a detection at a roll: detection tries several rolls at a place
+// without a face, and any of them may look like one.
 constexpr float kRolledMargin = 0.5f;
 
-// Whether a crop can still show something of a face in the image.
+// Whether a crop can contain a part of a face in the image.
 bool is_plausible(const Crop& crop, const ImageView& view) {
-  const Rect& seen = view.region;
-  const float longer = seen.longer_side();
+  const Rect& visible = view.region;
+  const float longer = visible.longer_side();
   const float reach = crop.side / 2;
   const auto near = [reach](float value, float begin, float length) {
     return value >= begin - reach && value <= begin + length + reach;
   };
-  return crop.side >= kSmallestFace * longer && crop.side <= kLargestFace * longer &&
-         near(crop.center.x, seen.corner.x, seen.width) &&
-         near(crop.center.y, seen.corner.y, seen.height);
+  return crop.side >= kMinFace * longer && crop.side <= kMaxFace * longer &&
+         near(crop.center.x, visible.corner.x, visible.width) &&
+         near(crop.center.y, visible.corner.y, visible.height);
 }
 
 float log_odds(float probability) {
@@ -39,7 +39,7 @@ float log_odds(float probability) {
   return std::log(p / (1.0f - p));
 }
 
-// What face probability and detector score say together: their mistakes differ.
+// The probability from face probability and detector score, whose errors are independent.
 float combined(float face_probability, const Detection& detection) {
   const float margin = detection.roll == 0.0f ? 0.0f : kRolledMargin;
   return 1.0f / (1.0f + std::exp(margin - log_odds(face_probability) -
@@ -120,8 +120,8 @@ void Face::track(Frame& frame) {
   mark_missed(frame);
 }
 
-// Until the face counts as lost the decoders go on with what was last seen of it. The next image is
-// judged, since misses are those in a row.
+// Until the face is lost, the decoders continue with its latest features. The next image is
+// encoded, because misses must be consecutive.
 void Face::mark_missed(const Frame& frame) {
   state_.alternate = false;
   ++state_.misses;
@@ -131,11 +131,11 @@ void Face::mark_missed(const Frame& frame) {
 bool Face::encode(Frame& frame, const Crop& crop, Encoding& encoding) {
   state_.flags |= MIEN_RESULT_ENCODER_RAN;
   ++frame.encoder_runs;
-  const bool seen = encoders_.basenet.encode(frame.view, crop, frame.timer, encoding);
-  if (seen) {
+  const bool encoded = encoders_.basenet.encode(frame.view, crop, frame.timer, encoding);
+  if (encoded) {
     state_.face_probability = encoding.face_probability;
   }
-  return seen;
+  return encoded;
 }
 
 bool Face::accept(const Frame& frame, const Encoding& encoding) {
@@ -151,20 +151,21 @@ bool Face::accept(const Frame& frame, const Encoding& encoding) {
 
 void Face::encode_hifinet(Frame& frame) {
   ++frame.encoder_runs;
-  Encoding close;
-  if (!encoders_.hifinet.encode(frame.view, state_.crop, frame.timer, close)) {
+  Encoding encoding;
+  if (!encoders_.hifinet.encode(frame.view, state_.crop, frame.timer, encoding)) {
     return;
   }
   state_.has_hifinet_features = true;
-  state_.close = close.features;
+  state_.hifinet_features = encoding.features;
   const float side = state_.crop.side;
-  std::transform(close.landmarks.begin(), close.landmarks.end(), state_.encoding.landmarks.begin(),
-                 state_.refinement.begin(), [side](Point fine, Point coarse) {
+  std::transform(encoding.landmarks.begin(), encoding.landmarks.end(),
+                 state_.encoding.landmarks.begin(), state_.refinement.begin(),
+                 [side](Point fine, Point coarse) {
                    return Point{(fine.x - coarse.x) / side, (fine.y - coarse.y) / side};
                  });
 }
 
-// HiFiNet's, or on a frame that it did not look at BaseNet's, refined as by HiFiNet before.
+// HiFiNet's landmarks; on frames without HiFiNet, BaseNet's with HiFiNet's latest refinement.
 Landmarks Face::landmarks(std::int32_t level) const {
   Landmarks refined = state_.encoding.landmarks;
   if (level == kLowestLevel) {
@@ -192,44 +193,44 @@ void Face::animate(Frame& frame) {
   state_.status = MIEN_FACE_TRACKING;
   state_.seconds_lost = 0.0f;
   const StageTimer::Scope timed(frame.timer, MIEN_STAGE_DECODERS);
-  FaceOutput& seen = state_.seen;
-  decoders_.decode_controls(state_.encoding.features, state_.close, frame.level, frame.seconds,
-                            seen.controls);
+  FaceOutput& raw = state_.raw;
+  decoders_.decode_controls(state_.encoding.features, state_.hifinet_features, frame.level,
+                            frame.seconds, raw.controls);
   state_.flags |=
       decoders_.neutral(frame.level).is_being_captured() ? MIEN_RESULT_CAPTURING_NEUTRAL : 0;
   decoders_.decode_pose(state_.encoding.features, state_.encoding.crop, frame.view.camera,
-                        seen.pose);
+                        raw.pose);
   refine_head_pose(encoders_.basenet.head_points(), state_.encoding.landmarks, frame.view.camera,
-                   seen.pose);
-  seen.landmarks = landmarks(frame.level);
+                   raw.pose);
+  raw.landmarks = landmarks(frame.level);
   state_.is_new = state_.is_new || frame.cut;
-  show(frame.seconds);
+  smooth(frame.seconds);
 }
 
-void Face::show(float seconds) {
+void Face::smooth(float seconds) {
   if (config_.smoothing == 0 || state_.is_new) {
-    state_.shown = state_.seen;
+    state_.smoothed = state_.raw;
     state_.is_new = false;
     return;
   }
-  smooth_controls(state_.seen.controls, seconds, state_.shown.controls);
-  smooth_points(state_.seen.landmarks, state_.crop.side, seconds, state_.shown.landmarks);
-  smooth_pose(state_.seen.pose, seconds, state_.shown.pose);
+  smooth_controls(state_.raw.controls, seconds, state_.smoothed.controls);
+  smooth_points(state_.raw.landmarks, state_.crop.side, seconds, state_.smoothed.landmarks);
+  smooth_pose(state_.raw.pose, seconds, state_.smoothed.pose);
 }
 
 void Face::fade(float seconds) {
   const float factor = std::exp(-seconds / kFadeSeconds);
-  for (float& control : state_.shown.controls) {
+  for (float& control : state_.smoothed.controls) {
     control = control > kFaded ? control * factor : 0.0f;
   }
 }
 
 std::array<float, kControls> Face::video_weights() const {
-  std::array<float, kControls> seen;
-  for (std::size_t i = 0; i < seen.size(); ++i) {
-    seen[i] = state_.presence * decoders_.supported_share(i);
+  std::array<float, kControls> weights;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    weights[i] = state_.presence * decoders_.supported_share(i);
   }
-  return seen;
+  return weights;
 }
 
 void Face::publish(const Frame& frame) {
@@ -240,33 +241,33 @@ void Face::publish(const Frame& frame) {
   result.flags |= std::exchange(state_.flags, 0);
   result.face_probability = state_.face_probability;
   result.supported_controls = supported_controls(frame.level);
-  const FaceOutput& shown = state_.shown;
-  for (std::size_t i = 0; i < shown.controls.size(); ++i) {
+  const FaceOutput& output = state_.smoothed;
+  for (std::size_t i = 0; i < output.controls.size(); ++i) {
     const bool driven = (result.supported_controls >> i & 1u) != 0;
-    result.controls[i] = driven ? shown.controls[i] : 0.0f;  // smoothing never quite arrives at 0
+    result.controls[i] = driven ? output.controls[i] : 0.0f;  // smoothing does not reach 0 exactly
   }
   if (!state_.tracked) {
     return;
   }
   const Crop& crop = state_.crop;
-  const Point center = to_picture(view, crop.center);
+  const Point center = to_upright(view, crop.center);
   result.box[0] = center.x - crop.side / 2;
   result.box[1] = center.y - crop.side / 2;
   result.box[2] = crop.side;
   result.box[3] = crop.side;
-  for (std::size_t i = 0; i < shown.landmarks.size(); ++i) {
-    const Point p = to_picture(view, shown.landmarks[i]);
+  for (std::size_t i = 0; i < output.landmarks.size(); ++i) {
+    const Point p = to_upright(view, output.landmarks[i]);
     result.landmarks[i][0] = p.x;
     result.landmarks[i][1] = p.y;
   }
-  const Quaternion q = quaternion(shown.pose.rotation);
+  const Quaternion q = quaternion(output.pose.rotation);
   const std::array<float, 4> rotation = {q.x, q.y, q.z, q.w};
   std::copy(rotation.begin(), rotation.end(), result.rotation);
-  const EulerAngles angles = euler_angles(shown.pose.rotation);
+  const EulerAngles angles = euler_angles(output.pose.rotation);
   result.pitch = angles.pitch;
   result.yaw = angles.yaw;
   result.roll = angles.roll;
-  std::copy(shown.pose.translation.begin(), shown.pose.translation.end(), result.translation);
+  std::copy(output.pose.translation.begin(), output.pose.translation.end(), result.translation);
 }
 
 }  // namespace mien::tracker

@@ -9,8 +9,8 @@
 namespace mien::tracker {
 namespace {
 
-constexpr float kSamePlace = 0.4f;  // of the larger side, between the centres of one face
-constexpr float kNear = 1.0f;       // the same of a face that moved while it was lost
+constexpr float kSamePlace = 0.4f;  // distance of centres for one face, in larger sides
+constexpr float kNear = 1.0f;       // the same for a face that moved while lost
 
 float distance(const Square& a, const Square& b) {
   return std::hypot(a.center.x - b.center.x, a.center.y - b.center.y) / std::max(a.side, b.side);
@@ -25,14 +25,14 @@ bool was_lost_here(const Face& face, const Square& square) {
 
 mien_status Faces::load(const mien_tracker_config& config, Encoders& encoders, const Models& models,
                         engine::Arena& arena) {
-  static_assert(std::is_trivially_destructible_v<Face>, "the arena destroys nothing");
+  static_assert(std::is_trivially_destructible_v<Face>, "the arena does not call destructors");
   static_assert(alignof(Face) <= engine::Arena::kAlignment && sizeof(Face) % alignof(Face) == 0);
   const auto count = static_cast<std::size_t>(config.max_faces);
   const std::span<std::byte> memory = arena.take(count * sizeof(Face));
   mien_status status = MIEN_OK;
   for (std::size_t i = 0; status == MIEN_OK && i < count; ++i) {
     if (arena.measuring()) {
-      Decoders measured;  // a whole face would take more of the stack
+      Decoders measured;  // a Face would need more stack
       status = measured.load(models, config.cpu_mask, arena);
     } else {
       status = (new (memory.data() + i * sizeof(Face)) Face(config, encoders))->load(models, arena);
@@ -79,7 +79,7 @@ bool Faces::add_face(Frame& frame, const Detection& detection, int alignments) {
   if (is_taken(square)) {
     return false;
   }
-  Face& face = place_for(square);
+  Face& face = slot_for(square);
   Encoding encoding;
   if (!face.find(frame, detection, alignments, encoding) ||
       is_taken({encoding.crop.center, encoding.crop.side})) {
@@ -93,9 +93,9 @@ bool Faces::add_face(Frame& frame, const Detection& detection, int alignments) {
   return true;
 }
 
-// That of a face lost here; else one that is free; else that of the face lost longest ago.
-Face& Faces::place_for(const Square& square) {
-  const auto worth = [&](const Face& face) {
+// The slot of a face that was lost here, a free one, or that of the face lost for the longest time.
+Face& Faces::slot_for(const Square& square) {
+  const auto priority = [&](const Face& face) {
     if (face.is_tracked()) {
       return -1.0f;
     }
@@ -105,17 +105,17 @@ Face& Faces::place_for(const Square& square) {
     return face.is_known() ? face.seconds_lost() : std::numeric_limits<float>::max();
   };
   return *std::max_element(faces_.begin(), faces_.end(),
-                           [&](const Face& a, const Face& b) { return worth(a) < worth(b); });
+                           [&](const Face& a, const Face& b) { return priority(a) < priority(b); });
 }
 
 void Faces::drop_duplicates(std::int32_t level) {
   for (Face& younger : faces_) {
-    const bool is_double =
+    const bool is_duplicate =
         younger.is_tracked() && std::any_of(faces_.begin(), faces_.end(), [&](const Face& older) {
           return older.is_tracked() && older.id() < younger.id() &&
                  distance(older.square(), younger.square()) < kSamePlace;
         });
-    if (is_double) {
+    if (is_duplicate) {
       younger.reset(level);
     }
   }

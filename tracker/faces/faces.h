@@ -1,4 +1,4 @@
-// The faces of one tracker: who is who.
+// The faces of one tracker and their identities.
 #pragma once
 
 #include <mien/mien.h>
@@ -14,8 +14,8 @@ namespace mien::tracker {
 
 class Faces {
  public:
-  // Takes from `arena` config.max_faces of them; only measures when the arena does. `config` and
-  // `encoders` must outlive them.
+  // Allocates config.max_faces faces from `arena`, or only measures if the arena does. `config` and
+  // `encoders` must outlive this object.
   [[nodiscard]] mien_status load(const mien_tracker_config& config, Encoders& encoders,
                                  const Models& models, engine::Arena& arena);
 
@@ -24,10 +24,10 @@ class Faces {
   [[nodiscard]] std::size_t tracked() const;
   [[nodiscard]] bool has_free_slot() const { return tracked() < faces_.size(); }
 
-  // The known one with the n-th lowest id; nullptr: there are not so many.
+  // The known face with the n-th lowest id; nullptr if there are fewer.
   [[nodiscard]] const Face* known(std::size_t n) const;
 
-  // That one, or one that is free.
+  // The known face with the lowest id, or a free one.
   [[nodiscard]] const Face& first() const {
     const Face* longest_known = known(0);
     return longest_known != nullptr ? *longest_known : faces_.front();
@@ -36,21 +36,20 @@ class Faces {
 
   void reset(std::int32_t level);
 
-  // Whether a face that is followed is here.
+  // Whether a tracked face is at this place.
   [[nodiscard]] bool is_taken(const Square& square) const;
 
-  // Whether the candidate is a face that nobody follows yet; if so it is followed from now on,
-  // under its old id if it was lost here lately. Only while there is room. `alignments`: of the
-  // crop to its landmarks, before it is judged.
+  // Verifies a detection and starts to track it if it is a new face; keeps its id if it was lost at
+  // this place recently. Requires has_free_slot(). `alignments`: see Face::find.
   [[nodiscard]] bool add_face(Frame& frame, const Detection& detection, int alignments);
 
-  // Of faces followed at the same place only the one known longest stays.
+  // Resets tracked faces at the place of one with a lower id.
   void drop_duplicates(std::int32_t level);
-  // Those lost for long, but for the last of all.
+  // Resets faces that were lost for a long time, except the last one.
   void forget_lost(std::int32_t level);
 
  private:
-  [[nodiscard]] Face& place_for(const Square& square);
+  [[nodiscard]] Face& slot_for(const Square& square);
 
   std::span<Face> faces_;
   std::uint32_t newest_id_ = 0;

@@ -173,7 +173,7 @@ Camera camera_of(const mien_image& image, const ImageView& view, float horizonta
   const bool has_principal = image.principal_x > 0.0f || image.principal_y > 0.0f;
   const Point principal = has_principal ? Point{image.principal_x, image.principal_y}
                                         : Point{view.width / 2, view.height / 2};
-  camera.principal = to_picture(view, principal);
+  camera.principal = to_upright(view, principal);
   return camera;
 }
 

@@ -35,7 +35,7 @@ struct ImageView : ImageGeometry {
                                      ImageView& view);
 
 // Converts between scene coordinates and the caller's upright image; the map is its own inverse.
-[[nodiscard]] inline Point to_picture(const ImageGeometry& view, Point scene) {
+[[nodiscard]] inline Point to_upright(const ImageGeometry& view, Point scene) {
   return view.mirrored ? Point{view.width - scene.x, scene.y} : scene;
 }
 
