@@ -1,10 +1,8 @@
 #!/usr/bin/env python3
-"""Prepares scripts/check/words.sh: writes the settings of cspell and textlint, and copies without code: of pages their
-prose, of sources their comments.
+"""Prepares scripts/check/words.sh: writes the settings of cspell and textlint, and copies without code: of pages their prose, of sources their comments.
 
 usage: words.py FOLDER FILE...
-Terms come from docs/glossary.md, known words from there and from scripts/check/words.txt. Copies keep their line
-numbers.
+Terms come from docs/glossary.md, known words from there and from scripts/check/words.txt. Copies keep their line numbers.
 """
 import itertools
 import json
@@ -16,13 +14,18 @@ GLOSSARY = Path("docs/glossary.md")
 WORDS = Path("scripts/check/words.txt")
 IN_CODE_FONT = re.compile(r"`([^`]+)`")
 FENCE = re.compile(r"(?ms)^[ ]*```.*?^[ ]*```[ ]*$")
-COMMENTS = {(".h", ".hpp", ".c", ".cpp", ".inc", ".js", ".mjs", ".ts"): re.compile(r"(?<![:\"'\w/])//[^\n]*|/\*.*?\*/",
-                                                                                   re.S),
-            (".py", ".sh", ".cmake", "CMakeLists.txt"): re.compile(r"(?m)(?<![^\s])#[^\n]*|\"{3}.*?\"{3}", re.S)}
-INLINE_CODE = re.compile(r"`(?:[^`\n]|\n(?!\n))+`")
+# Group 1 is a comment or a docstring, group 2 a string.
+C_LIKE = re.compile(r"(//[^\n]*|/\*.*?\*/)|(R\"(\w*)\(.*?\)\3\"|\"(?:\\.|[^\"\\\n])*\"|(?<!\w)'(?:\\.|[^'\\\n])*'|`(?:\\.|[^`\\])*`)", re.S)
+PYTHON = re.compile(r"((?<!\S)#(?![a-z])[^\n]*|(?m:^)[ ]*\"{3}.*?\"{3})|(\"{3}.*?\"{3}|\"(?:\\.|[^\"\\\n])*\"|'(?:\\.|[^'\\\n])*')", re.S)
+SCRIPT = re.compile(r"((?<!\S)#(?![a-z])[^\n]*)|(\"(?:\\.|[^\"\\\n])*\"|'[^'\n]*')")
+SOURCES = {(".h", ".hpp", ".c", ".cpp", ".inc", ".js", ".mjs", ".ts", ".cs", ".java", ".kt", ".rs", ".swift"): C_LIKE,
+           (".py",): PYTHON, (".sh", ".cmake", "CMakeLists.txt"): SCRIPT}
+COLUMNS = re.compile(r"(?<=\S) {2,}(?=\S)")  # of a table, or between code and comment
+MESSAGE = re.compile(r"[A-Za-z]{2,},? [a-z]{2,},? [a-z]{2,}")
+PLACEHOLDER = re.compile(r"%[-+.*\d]*[a-z]+|\$?\{[^{}\n]*\}|\$\w+")
+INLINE_CODE = re.compile(r"`(?:[^`\n]|\n(?!\n))+`|@param\S* +\w+")
 INDENTED_CODE = re.compile(r"(?m)^    .*$")
-NOT_PROSE = [re.compile(pattern)
-             for pattern in (r"<!--.*?-->", r"(?<=\])\([^)\n]*\)", r"https?://\S+", r"</?[a-z][^>\n]*>")]
+NOT_PROSE = [re.compile(pattern) for pattern in (r"<!--.*?-->", r"(?<=\])\([^)\n]*\)", r"https?://\S+", r"</?[a-z][^>\n]*>")]
 
 
 def glossary_rows(text):
@@ -45,8 +48,7 @@ def terminology(rows):
 
 
 def prose(text):
-    """The text with code, links' targets and comments blanked. A number stands for inline code, so that no word seems
-    repeated."""
+    """The text with code, links' targets and comments blanked. A number stands for inline code, so that no word seems repeated."""
     blank = lambda match: re.sub(r"\S", " ", match.group())
     numbers = itertools.cycle(range(10, 100))
     number = lambda match: str(next(numbers)) + blank(match)[2:]
@@ -56,21 +58,37 @@ def prose(text):
     return text
 
 
-def comments(text, pattern):
-    """The text with everything but comments blanked."""
+def blanked(code):
+    """Spaces of the same length, with a full stop where the code began, so that the texts before and after it remain two sentences."""
+    return re.sub(r"\S(.*)", lambda match: "." + re.sub(r"\S", " ", match.group(1)), code, count=1, flags=re.S)
+
+
+def text_of(match):
+    """A comment without its marks, or a message of one line without its quotes and placeholders."""
+    comment, string = match.group(1, 2)
+    if comment:
+        return re.sub(r"^\s*(//+!?|#+|/\*+|\"{3})|(\*/|\"{3})$|(?m:^\s*\*(?= ))", lambda mark: " " * len(mark.group()), comment)
+    if MESSAGE.search(string) and "\n" not in string:
+        unquoted = re.sub(r"^\w*[\"'`]+|[\"'`]+$|\\.", lambda mark: " " * len(mark.group()), string)
+        return PLACEHOLDER.sub(lambda code: "0" * len(code.group()), unquoted)
+    return blanked(string)
+
+
+def comments_and_messages(text, pattern):
+    """The text with everything else blanked."""
     kept, end = [], 0
     for match in pattern.finditer(text):
-        kept += [re.sub(r"\S", " ", text[end:match.start()]),
-                 re.sub(r"^(//+|#+|/\*+)|\*/$|(?m:^\s*\*(?= ))", lambda m: " " * len(m.group()), match.group())]
+        kept += [blanked(text[end:match.start()]), text_of(match)]
         end = match.end()
-    return "".join(kept) + re.sub(r"\S", " ", text[end:])
+    return "".join(kept) + blanked(text[end:])
 
 
 def copy_of(file, content):
     """(name, text) of the copy for the tools, which read Markdown and plain text."""
-    for endings, pattern in COMMENTS.items():
+    for endings, pattern in SOURCES.items():
         if file.endswith(endings):
-            return file + ".txt", prose(comments(content, pattern))
+            text = prose(comments_and_messages(content, pattern))
+            return file + ".txt", COLUMNS.sub(lambda gap: " ." + gap.group()[2:], text)
     content = INDENTED_CODE.sub(lambda match: re.sub(r"\S", " ", match.group()), content)
     return file, prose(without_words_to_avoid(content) if Path(file) == GLOSSARY else content)
 
@@ -85,7 +103,8 @@ def main(folder, files):
     known = set(WORDS.read_text().split()) | set(re.findall(r"[A-Za-z]+", " ".join(term for term, _, _ in rows)))
     spelling = {"version": "0.2", "language": "en-GB", "words": sorted(known), "useGitignore": False,
                 "dictionaries": ["softwareTerms", "cpp", "python", "typescript", "node", "companies", "filetypes"],
-                "ignoreRegExpList": [r"\+git\w+", r"\b\w*[_\d]\w*\b", r"\b[0-9a-f]{7,40}\b"]}
+                "ignoreRegExpList": [r"\+git\w+", r"\b\w*[_\d]\w*\b", r"\b[0-9a-f]{7,40}\b", r"\bk[A-Z]\w*\b", r"(?<!\w)--?[A-Za-z]\w*",
+                                     r"\blib[a-z]+-\S+", r"[\w./-]+\.(sh|py|mjs|cmake|so)\b", r"~?/\w[\w./]+"]}
     rules = {"rules": {"terminology": {"defaultTerms": False, "terms": terminology(rows)}}}
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "cspell.json").write_text(json.dumps(spelling, indent=2))

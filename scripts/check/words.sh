@@ -40,7 +40,7 @@ run() {  # tool, files
 # A check that accepts these errors does not work.
 printf 'A pictuer.\n' >cspell.md
 printf 'A film.\n' >textlint.md
-printf 'So it it is.\n' >write-good.md
+printf 'So %s is.\n' 'it it' >write-good.md
 for tool in cspell textlint write-good; do
   if run $tool $tool.md >/dev/null 2>&1; then
     echo "check/words.sh: $tool: no error reported in: $(cat $tool.md)" >&2
