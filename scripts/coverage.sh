@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# How much of the library its tests run: clang counts lines and branches while the native tests pass and the fuzzing corpora are
-# replayed. docs/results/coverage.md takes the table; build/coverage/uncovered.txt names every line and branch that nothing ran.
-# usage: scripts/coverage.sh      Exit status 0 only when the bars are met (scripts/coverage_report.py).
+# Measures test coverage of the library: clang counts lines and branches during the native tests and the replay of the
+# fuzzing corpora. Writes the table of docs/results/coverage.md, and every uncovered line and branch to
+# build/coverage/uncovered.txt.
+# usage: scripts/coverage.sh      Exit status 0 only if the minimums are reached (scripts/coverage_report.py).
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/setup.sh build test coverage
@@ -13,8 +14,8 @@ cmake --preset coverage >/dev/null
 cmake --build --preset coverage --target "${parts[@]/%//all}"
 
 rm -rf $build/profiles
-export LLVM_PROFILE_FILE=$PWD/$build/profiles/%m.profraw  # one for each program, whoever runs it
-for part in "${parts[@]}"; do  # without what does the same thousands of times, and the size of stacks
+export LLVM_PROFILE_FILE=$PWD/$build/profiles/%m.profraw  # one file per program
+for part in "${parts[@]}"; do  # excludes tests with thousands of repetitions, and of stack sizes
   ctest --test-dir "$build/$part" -E 'Interleavings|MayBeMade|Stack' -j "$(nproc)" --timeout 1800 --output-on-failure --no-tests=error >"$build/ctest.log" || { cat "$build/ctest.log"; exit 1; }
   echo "$part: $(grep 'tests passed' "$build/ctest.log")"
 done

@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# Fuzzes every target, under the address and undefined-behaviour sanitizers, and says for each how often it ran. What they find new
-# stays in build/fuzz/found/NAME for the next time; what broke one is put to fuzz/corpus/NAME, since every bug found becomes a test.
-# Exit status 0 only when nothing broke.
-# usage: scripts/fuzz.sh [--jobs N] [--tally] [MINUTES [TARGET...]]      minutes in all, default 2
-#   --jobs N   so many targets at a time, default as many as there are processors
-#   --tally    adds runs and processor time to docs/results/fuzzing.json and makes the table of fuzzing.md of them
+# Fuzzes every target under the address and undefined-behaviour sanitizers, and prints the number of runs of each. New
+# inputs are stored in build/fuzz/found/NAME for the next run. Inputs that fail are stored in fuzz/corpus/NAME, so that
+# every bug becomes a test.
+# Exit status 0 only if no input failed.
+# usage: scripts/fuzz.sh [--jobs N] [--tally] [MINUTES [TARGET...]]      total minutes, default 2
+#   --jobs N   number of concurrent targets, default the number of processors
+#   --tally    adds runs and processor time to docs/results/fuzzing.json and updates the table of fuzzing.md
 set -euo pipefail
 cd "$(dirname "$0")/.."
 jobs=$(nproc) tally=
@@ -21,9 +22,9 @@ scripts/setup.sh build test
 . scripts/ccache.sh
 
 cmake --preset fuzz >/dev/null
-# What a killed run leaves going holds it, too, so that no two runs write the same logs.
+# Prevents concurrent runs from writing the same logs, including processes that a killed run has left.
 exec {lock}>build/fuzz/lock
-flock --nonblock "$lock" || { echo "fuzz.sh: another run, or what one left going, has build/fuzz" >&2; exit 1; }
+flock --nonblock "$lock" || { echo "fuzz.sh: another run, or a process of one, uses build/fuzz" >&2; exit 1; }
 list=build/fuzz/fuzz/targets.txt
 [ $# -gt 0 ] || mapfile -t all < <(cut -d' ' -f1 $list)
 [ $# -gt 0 ] || set -- "${all[@]}"
@@ -31,12 +32,12 @@ cmake --build --preset fuzz --target "${@/#/fuzz_}"
 
 seconds=$((minutes * 60 * jobs / $#))
 [ $seconds -gt 5 ] || seconds=5
-fuzz() {  # target
+fuzz() {  # TARGET
   local found=build/fuzz/found/$1 log=build/fuzz/found/$1.log options=() folders code=0 runs used TIMEFORMAT='%U %S'
   mkdir -p "$found" "fuzz/corpus/$1"
   IFS=';' read -ra folders <<<"$(grep "^$1 " $list | cut -d' ' -f2)"
   [ ! -f "fuzz/dictionaries/$1.dict" ] || options+=("-dict=fuzz/dictionaries/$1.dict")
-  # The limit of an input's time is one of the clock, and generous, since the machine may have other work.
+  # The limit per input is wall-clock time, and high because the machine may be busy.
   { time build/fuzz/fuzz/"fuzz_$1" -max_total_time=$seconds -max_len="$(max_length "$1")" -timeout=300 -report_slow_units=300 \
     -rss_limit_mb=3000 -print_final_stats=1 -artifact_prefix="fuzz/corpus/$1/" "${options[@]}" "$found" "${folders[@]}" \
     >"$log" 2>&1; } 2>"$log.time" || code=$?
@@ -46,7 +47,7 @@ fuzz() {  # target
   [ -z "$tally" ] || flock "$list" scripts/fuzz_tally.py $tally.json $tally.md "$1" "${runs:-0}" "$used"
   return $code
 }
-max_length() {  # target: files are as long as the golden ones and those of the corpus, choices of calls short
+max_length() {  # TARGET: the length of golden files and of the corpus; short for sequences of choices
   case $1 in
     weight_file*) echo 20000 ;;
     animation) echo 8192 ;;

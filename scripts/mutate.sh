@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# Mutation testing: changes single lines of tracker/, audio/, engine/, formats/, apps/animation/ and apps/protocols/ as universalmutator proposes, builds each mutant,
-# and runs the nearest tests until one fails. A mutant that survives shows behaviour that no test checks.
-# usage: scripts/mutate.sh [--count N] [--seed S] [--workers W] [--again] [--only FILE...] [--report]      --help: what these are
-# A run that was stopped goes on where it was: results are in build/mutate/results.jsonl. Exit status 0 only when 95 % were killed.
+# Mutation testing: changes single lines of tracker/, audio/, engine/, formats/, apps/animation/ and apps/protocols/ with
+# universalmutator, builds each mutant, and runs the nearest tests until one fails. A surviving mutant shows behaviour
+# that no test checks.
+# usage: scripts/mutate.sh [--count N] [--seed S] [--workers W] [--again] [--only FILE...] [--report]      --help explains them
+# Continues an interrupted run, whose results are in build/mutate/results.jsonl. Exit status 0 only if tests kill 95 %.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/setup.sh build test

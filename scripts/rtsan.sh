@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# A minute of all that a real-time thread may call, under clang's real-time sanitizer: no function of the C library that may block.
-# clang has it since version 20.
+# Runs all functions that real-time threads may call under clang's real-time sanitizer, which detects functions of the C
+# library that may block. Requires clang 20.
 # usage: scripts/rtsan.sh
 set -euo pipefail
 cd "$(dirname "$0")/.."

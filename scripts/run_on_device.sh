@@ -5,11 +5,11 @@
 #        scripts/run_on_device.sh qemu[:CPU] PROGRAM [OPTION...]     CPU: as `qemu-aarch64 -cpu help` lists them
 #        scripts/run_on_device.sh wine PROGRAM.exe [OPTION...]
 #        scripts/run_on_device.sh node PROGRAM.js [OPTION...]
-# PROGRAM is mien-conformance built for that machine. The weight files of models/ go with it, so that whole
-# networks are checked, too; MIEN_MODELS names another folder, MIEN_MODELS= none. OPTIONs are those of
-# mien-conformance; of --json FILE the file comes back here.
+# PROGRAM is mien-conformance built for that machine. Also copies the weight files of models/, to check whole
+# networks; MIEN_MODELS names another folder, MIEN_MODELS= disables that. OPTIONs are those of
+# mien-conformance; the file of --json FILE is copied back.
 # Exit codes are those of mien-conformance (docs/conformance.md), and 64: wrong usage, 65: the program is missing
-# or for another machine, 66: the tool that reaches the device is missing, 67: the device cannot be reached,
+# or for another machine, 66: the tool for this kind of device is missing, 67: the device cannot be reached,
 # 68: the files cannot be copied.
 set -euo pipefail
 here=$(cd "$(dirname "$0")/.." && pwd)
@@ -28,7 +28,7 @@ program=$2
 shift 2
 [ -f "$program" ] || fail 65 "$program: no such file; build it for the device first (docs/conformance.md)"
 models=${MIEN_MODELS-$here/models}
-[ -z "$models" ] || [ -d "$models" ] || fail 65 "MIEN_MODELS: $models is no folder"
+[ -z "$models" ] || [ -d "$models" ] || fail 65 "MIEN_MODELS: $models is not a folder"
 weights=()
 shopt -s nullglob
 [ -z "$models" ] || weights=("$models"/*.mien)
@@ -49,11 +49,11 @@ while [ $# -gt 0 ]; do
   shift
 done
 
-quoted() {  # words for a shell on the other side
+quoted() {  # words for a remote shell
   [ $# -eq 0 ] || printf ' %q' "$@"
 }
 
-# The machine that an ELF file is for, as qemu names it.
+# The machine of an ELF file, by qemu's name.
 machine_of() {
   local number
   number=$(od -An -tu1 -j18 -N1 "$1" | tr -d ' ')
@@ -63,19 +63,19 @@ machine_of() {
     ELF:62) echo x86_64 ;;
     ELF:3) echo i386 ;;
     ELF:243) echo riscv64 ;;
-    ELF:*) fail 65 "$1 is for a machine that is not known here (ELF number $number)" ;;
-    *) fail 65 "$1 is no ELF program" ;;
+    ELF:*) fail 65 "$1 is for an unknown machine (ELF number $number)" ;;
+    *) fail 65 "$1 is not an ELF program" ;;
   esac
 }
 
-run_here() {  # command... : an emulator shares our files
+run_here() {  # COMMAND...: runs an emulator, which shares this machine's files
   local more=()
   [ -z "$json" ] || more+=(--json "$json")
   [ ${#weights[@]} -eq 0 ] || more+=(--models "$models")
   exec "$@" "$program" "${options[@]}" "${more[@]}"
 }
 
-# A folder on the device with the program and the weights. Sets `run` to the command line to run there.
+# Chooses a folder on the device for the program and the weights. Sets `run` to the command line to run there.
 remote=
 prepare_command() {  # folder
   remote=$1
@@ -84,24 +84,24 @@ prepare_command() {  # folder
   [ -z "$json" ] || run+=" --json result.json"
 }
 
-on_adb() {  # serial, or nothing
+on_adb() {  # SERIAL or ""
   need adb adb
   local adb=(adb)
   [ -z "$1" ] || adb+=(-s "$1")
   "${adb[@]}" get-state >/dev/null 2>&1 ||
     fail 67 "no device answers adb${1:+ -s $1}; is it plugged in, and USB debugging allowed? Known: $(adb devices | tail -n +2 | tr '\n' ' ')"
   prepare_command /data/local/tmp/mien-conformance.d
-  "${adb[@]}" shell "rm -rf $remote && mkdir -p $remote/models" || fail 68 "$remote cannot be made on the device"
+  "${adb[@]}" shell "rm -rf $remote && mkdir -p $remote/models" || fail 68 "$remote cannot be created on the device"
   "${adb[@]}" push "$program" "$remote/mien-conformance" >/dev/null || fail 68 "$program cannot be copied"
   if [ ${#weights[@]} -gt 0 ]; then
     "${adb[@]}" push "${weights[@]}" "$remote/models/" >/dev/null || fail 68 "$models cannot be copied"
   fi
-  # Old devices do not hand the exit code on, so it is printed, too.
+  # Prints the exit code, because old devices do not return it.
   local code
   "${adb[@]}" shell "($run); echo exit code \$? >$remote/code" || true
-  [ -z "$json" ] || "${adb[@]}" pull "$remote/result.json" "$json" >/dev/null || echo "run_on_device.sh: no results came back" >&2
+  [ -z "$json" ] || "${adb[@]}" pull "$remote/result.json" "$json" >/dev/null || echo "run_on_device.sh: no results could be copied back" >&2
   code=$("${adb[@]}" shell "cat $remote/code; rm -rf $remote" | tr -d '\r' | sed -n 's/^exit code //p')
-  [ -n "$code" ] || fail 67 "the device went away"
+  [ -n "$code" ] || fail 67 "the connection to the device was lost"
   exit "$code"
 }
 
@@ -109,7 +109,7 @@ on_ssh() {  # [user@]host
   need ssh openssh-client
   need tar tar
   ssh -o BatchMode=yes "$1" true || fail 67 "$1 cannot be reached by ssh without a password"
-  prepare_command "$(ssh "$1" 'mktemp -d /tmp/mien-conformance.XXXXXX')" || fail 68 "no folder can be made on $1"
+  prepare_command "$(ssh "$1" 'mktemp -d /tmp/mien-conformance.XXXXXX')" || fail 68 "no folder can be created on $1"
   # shellcheck disable=SC2029  # expanded here on purpose
   {
     tar -cf - -C "$(dirname "$program")" --transform 's|.*|mien-conformance|' "$(basename "$program")" |
@@ -122,20 +122,20 @@ on_ssh() {  # [user@]host
   # shellcheck disable=SC2029
   ssh "$1" "$run" || code=$?
   # shellcheck disable=SC2029
-  [ -z "$json" ] || ssh "$1" "cat $remote/result.json" >"$json" || echo "run_on_device.sh: no results came back" >&2
+  [ -z "$json" ] || ssh "$1" "cat $remote/result.json" >"$json" || echo "run_on_device.sh: no results could be copied back" >&2
   # shellcheck disable=SC2029
   ssh "$1" "rm -rf $remote" || true
-  [ $code -ne 255 ] || fail 67 "$1 went away"
+  [ $code -ne 255 ] || fail 67 "the connection to $1 was lost"
   exit $code
 }
 
-on_qemu() {  # cpu, or nothing
+on_qemu() {  # CPU or ""
   local machine root
   machine=$(machine_of "$program")
   need "qemu-$machine" qemu-user
   local command=("qemu-$machine")
   [ -z "$1" ] || command+=(-cpu "$1")
-  # Where Debian's cross compilers have the libraries of the other machine.
+  # Debian's folders for the libraries of the other machine.
   for root in /usr/"$machine"-linux-gnu /usr/"$machine"-linux-gnueabihf; do
     [ ! -d "$root/lib" ] || command+=(-L "$root")
   done

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds the documentation as a site, build/site/html. A link without a target is an error.
-# usage: scripts/site.sh [serve]      serve: on http://localhost:8000, as it was built
+# usage: scripts/site.sh [serve]      serve: also serves it on http://localhost:8000
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/setup.sh docs
@@ -12,7 +12,7 @@ rm -rf $site/pages $site/html
 mkdir -p $site/pages/docs
 git ls-files -z '*.md' 'docs/*' 'include/*' 'bindings/*/examples/*' 'bindings/*/sample/*' 'bindings/*/Examples/*' '*.d.ts' |
   xargs -0 cp --parents -t $site/pages
-# In tables, GitHub wants a backslash before a pipe in code; Python-Markdown would show it.
+# In tables, GitHub requires a backslash before a pipe in code; Python-Markdown would display it.
 find $site/pages -name '*.md' -exec sed -i '/^|/s/\\|/|/g' {} +
 doxygen docs/Doxyfile
 # Not --quiet, which would hide the warnings that --strict turns into errors.

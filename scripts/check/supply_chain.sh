@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What others have made and that reaches users comes as it was chosen: by its hash, under a licence that mien's users can live with, and
-# named where the licence asks for that. And no key or password is in the tree.
+# Checks dependencies that reach users: fixed by hash, under a licence that is compatible with mien's, and named where
+# the licence requires that. Also checks that the repository contains no keys or passwords.
 # usage: scripts/check/supply_chain.sh
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -12,9 +12,9 @@ from pathlib import Path
 
 wrong = []
 PERMISSIVE = {"MIT", "Apache-2.0", "BSD-2-Clause", "BSD-3-Clause", "ISC", "0BSD", "Unlicense", "CC0-1.0"}
-FOR_TESTS = PERMISSIVE | {"MPL-2.0"}  # of what never leaves this machine
+FOR_TESTS = PERMISSIVE | {"MPL-2.0"}  # for packages that are not distributed
 
-# npm: package-lock.json has every package's hash and licence. Tools of the checks reach no user.
+# npm: package-lock.json has the hash and licence of every package. Tools of the checks are not distributed.
 TOOLS = FOR_TESTS | {"BlueOak-1.0.0", "CC-BY-3.0", "CC BY-SA 4.0", "Python-2.0", "WTFPL", "(MIT OR CC0-1.0)"}
 UNDECLARED = {"node_modules/format": "MIT"}  # its package.json has the older field "licenses"
 for folder, for_development in (("apps/web", FOR_TESTS), ("scripts/check/npm", TOOLS)):
@@ -28,17 +28,17 @@ for folder, for_development in (("apps/web", FOR_TESTS), ("scripts/check/npm", T
     for package, version in {**listed.get("dependencies", {}), **listed.get("devDependencies", {})}.items():
         if not re.fullmatch(r"\d+(\.\d+)+(-[\w.]+)?", version):
             wrong.append(f"{folder}/package.json: {package}: version range (got {version}, expected one version)")
-# Rust: mien's own packages alone.
+# Rust: only mien's own packages.
 others = set(re.findall(r'^name = "(.*)"', Path("bindings/rust/Cargo.lock").read_text(), re.M)) - {"mien", "mien-sys"}
-wrong += [f"bindings/rust/Cargo.lock: {name}: others' packages need a look at their licences" for name in sorted(others)]
-# PyPI: each package a version, and what makes the wheel its hash as well.
+wrong += [f"bindings/rust/Cargo.lock: {name}: third-party package, whose licence is not checked" for name in sorted(others)]
+# PyPI: each package has a version, and a hash if it is used to build the wheel.
 for path in map(Path, subprocess.run(["git", "ls-files", "*requirements.txt"], capture_output=True, text=True, check=True).stdout.split()):
     for line in path.read_text().replace("\\\n", "").splitlines():
         if line and not line.startswith("#") and not re.match(r"[\w.-]+==[\w.]+", line):
             wrong.append(f"{path}: {line.split()[0]}: no version")
         if path.name == "wheel_requirements.txt" and not line.startswith("#") and "--hash=sha256:" not in line:
             wrong.append(f"{path}: {line.split()[0]}: no hash")
-# Debian: what is compiled into the programs is named to their users.
+# Debian: third_party.txt names the packages that are compiled into programs.
 named = Path("apps/third_party.txt").read_text()
 titles = {"CLI": "CLI11", "nlohmann": "JSON for Modern C++", "stb": "stb_easy_font"}
 system = {"mien", "netinet", "sanitizer", "sys"}
@@ -49,24 +49,24 @@ wrong += [f"apps/third_party.txt: {folder}: not named" for folder in sorted(set(
 print("\n".join(wrong), file=sys.stderr, end="\n" if wrong else "")
 sys.exit(bool(wrong))
 PYTHON
-echo "packages: each by its version, what reaches users by its hash, all licences permissive and named"
+echo "packages: fixed versions, hashes of distributed ones, permissive licences"
 
-# Keys and passwords, as detect-secrets knows them; without the detectors of random text, to which every hash is one.
+# Keys and passwords that detect-secrets knows; without its detectors of random text, which report every hash.
 venv=build/secrets
 [ -x $venv/bin/python ] || python3 -m venv $venv
 if ! $venv/bin/pip install --quiet --disable-pip-version-check detect-secrets==1.5.0; then
-  echo "NOT TESTED: keys and passwords, since detect-secrets could not be had from PyPI"
+  echo "NOT TESTED: keys and passwords: detect-secrets could not be installed from PyPI"
   exit
 fi
 find_secrets=("$venv/bin/detect-secrets-hook" --disable-plugin HexHighEntropyString --disable-plugin Base64HighEntropyString)
 
-# It has to notice, before its silence counts.
+# Checks that it detects a key.
 planted=$(mktemp)
 trap 'rm -f "$planted"' EXIT
 printf -- '-----BEGIN %s KEY-----\n' "RSA PRIVATE" >"$planted"
 if "${find_secrets[@]}" "$planted" >/dev/null; then
-  echo "check/supply_chain.sh: a private key is not noticed" >&2
+  echo "check/supply_chain.sh: a private key is not detected" >&2
   exit 1
 fi
 git ls-files -z ':!fuzz/corpus' | xargs -0 "${find_secrets[@]}"
-echo "keys and passwords: none in the tree"
+echo "keys and passwords: none"
