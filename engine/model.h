@@ -45,7 +45,7 @@ class ShapeWalk {
   [[nodiscard]] std::uint32_t index() const { return index_; }  // current layer
   [[nodiscard]] const Shape& shape_of(std::uint32_t value) const { return shapes_[value]; }
   [[nodiscard]] const Shape& input() const;   // of the current layer
-  [[nodiscard]] const Shape& second() const;  // second input; the first if there is none
+  [[nodiscard]] const Shape& second() const;  // second input; the first if the layer has one input
   [[nodiscard]] const Shape& output() const { return shapes_[index_ + 1]; }
 
  private:

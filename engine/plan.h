@@ -50,10 +50,10 @@ class Plan {
   [[nodiscard]] bool is_fused_into_previous(std::uint32_t layer) const {
     return parts_[layer] != Part::kStep;
   }
-  // The addition fused into this layer, as a layer index; kNoIndex if there is none.
+  // The addition fused into this layer, as a layer index; kNoIndex without one.
   [[nodiscard]] std::uint32_t fused_addition(std::uint32_t layer) const;
-  // The depthwise layer of the inverted residual block that begins with this layer; kNoIndex if
-  // there is no block. The next layer is the block's last.
+  // The depthwise layer of the inverted residual block that begins with this layer, otherwise
+  // kNoIndex. The next layer is the block's last.
   [[nodiscard]] std::uint32_t fused_depthwise(std::uint32_t layer) const;
   [[nodiscard]] BlockTiling tiling(std::uint32_t layer) const;
   // Number of layers of the step that begins with this layer.

@@ -25,7 +25,7 @@ Status session_size(const SessionRequest& request, SessionSize& size);
 class Session {
  public:
   // Creates a session in `memory` (session_bytes) with intermediate maps in `arena` (arena_bytes),
-  // both kSessionAlignment-aligned. There is nothing to destroy. On error `session` is nullptr.
+  // both kSessionAlignment-aligned. A session needs no destructor. On error `session` is nullptr.
   static Status init(const SessionRequest& request, std::span<std::byte> memory,
                      std::span<std::byte> arena, Session*& session);
 

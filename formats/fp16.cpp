@@ -27,7 +27,7 @@ std::uint16_t fp16_from_float(float value) {
     const float sum = magnitude + 0.5f;
     return static_cast<std::uint16_t>(sign | (std::bit_cast<std::uint32_t>(sum) - 0x3f000000));
   }
-  // Rebias the exponent from 127 to 15 and round 13 bits off, half to even.
+  // Changes the bias of the exponent from 127 to 15 and rounds off 13 bits, half to even.
   const std::uint32_t rebiased = (bits & 0x7fffffff) - (112u << 23);
   const std::uint32_t rounded = rebiased + 0xfff + (rebiased >> 13 & 1);
   return static_cast<std::uint16_t>(sign | rounded >> 13);

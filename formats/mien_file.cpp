@@ -22,7 +22,7 @@ constexpr Message kMessages[] = {
     {FileStatus::kReservedNotZero, "reserved field: not zero"},
     {FileStatus::kHole, "section, string or tensor: not adjacent to the previous one"},
     {FileStatus::kPaddingNotZero, "padding: not zero"},
-    {FileStatus::kBadName, "name: empty, too long, or with characters other than a-z 0-9 _ . /"},
+    {FileStatus::kBadName, "name: too long, empty, or with characters other than a-z 0-9 _ . /"},
     {FileStatus::kDuplicateName, "name: duplicate network, constant or metadata key"},
     {FileStatus::kBadMetadata, "metadata value: too long or not plain UTF-8 text"},
     {FileStatus::kBadType, "tensor: unknown data type"},

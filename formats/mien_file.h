@@ -78,7 +78,7 @@ class FileView {
   [[nodiscard]] std::size_t file_bytes() const { return bytes_.size(); }
   [[nodiscard]] std::uint64_t checksum() const { return checksum_; }
 
-  // nullptr if there is none with that name.
+  // nullptr if the name is unknown.
   [[nodiscard]] const NetworkRecord* find_network(std::string_view name) const;
   [[nodiscard]] const TensorRecord* find_constant(std::string_view name) const;
 

@@ -106,7 +106,7 @@ struct LayerTensors {
 // The tensors of a checked layer with this input.
 [[nodiscard]] LayerTensors tensors_of(const LayerRecord& layer, ValueShape input);
 
-// Offset in bytes of a padding element that is not +0; the tensor's size if there is none.
+// Offset in bytes of a padding element that is not +0; the tensor's size if all are.
 [[nodiscard]] std::size_t find_filled(const TensorLanes& lanes, std::span<const std::byte> tensor);
 
 }  // namespace mien::formats

@@ -10,7 +10,7 @@
 namespace mien::formats {
 namespace {
 
-// Whether the array has the shape [dims..., 1, 1, ...] and is not empty.
+// Whether the array has the shape [dims..., 1, ..., 1] and is not empty.
 bool has_shape(const Array& array, std::initializer_list<std::uint64_t> dims) {
   if (array.shape.size() < dims.size() || array.values.empty() ||
       array.values.size() != count_of(array.shape)) {

@@ -96,7 +96,7 @@ class Dictionary {
     return error == std::errc();
   }
 
-  // The text between quotes; empty if there is none.
+  // The text between quotes; empty without quotes.
   std::string_view quoted() {
     skip_space();
     if (left_.empty() || (left_[0] != '\'' && left_[0] != '"')) {

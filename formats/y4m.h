@@ -38,7 +38,7 @@ struct Y4mHeader {
   std::uint32_t rate_num = 0;  // frames per second = rate_num / rate_den, both above zero
   std::uint32_t rate_den = 0;
   Y4mColour colour = Y4mColour::k420;
-  bool full_range = false;  // XCOLORRANGE=FULL; else 16..235
+  bool full_range = false;  // `XCOLORRANGE=FULL`; else 16..235
   // Aspect ratio of a pixel, width to height; 0 if unspecified.
   std::uint32_t aspect_num = 0;
   std::uint32_t aspect_den = 0;

@@ -1,8 +1,8 @@
 // Exact values with bounds on the error of a kernel that computes in fp32, in any order. Errors are
 // propagated to first order. A sum of n products has an error of c u sum|x w|, not c u |sum x w|
 // (Higham, Accuracy and Stability of Numerical Algorithms, chapter 3), and c grows with the root of
-// n, because roundings partly cancel (Higham & Mary, A New Approach to Probabilistic Rounding Error
-// Analysis, 2019).
+// n, because rounding errors partly cancel (Higham & Mary, A New Approach to Probabilistic Rounding
+// Error Analysis, 2019).
 #pragma once
 
 #include <algorithm>

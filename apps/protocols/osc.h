@@ -1,4 +1,4 @@
-// Open Sound Control 1.0: encoding of messages and bundles (opensoundcontrol.org, spec 1_0).
+// Open Sound Control 1.0: encoding of messages and bundles (`opensoundcontrol.org`, spec 1_0).
 #pragma once
 
 #include <cstddef>

@@ -56,7 +56,7 @@ export class Network {
   output(index) {
     this.checkOpen();
     const address = this.mien.exports.mien_network_output(this.handle, number('i32', index, 'index'), this.shapeAddress);
-    if (!address) throw new MienError(`there is no output ${index}`, -3);
+    if (!address) throw new MienError(`index: no such output (got ${index})`, -3);
     return this.view(address);
   }
 

@@ -121,7 +121,7 @@ typedef enum mien_status {
   /* neutral files */
   MIEN_ERROR_NEUTRAL_FORMAT = -80,  /**< not a neutral file */
   MIEN_ERROR_NEUTRAL_VERSION = -81, /**< unsupported version of the file format */
-  MIEN_ERROR_NEUTRAL_DAMAGED = -82  /**< truncated, too long, or modified */
+  MIEN_ERROR_NEUTRAL_DAMAGED = -82  /**< too long, truncated or modified */
 } mien_status;
 
 /** Describes a status in one line of English.
@@ -822,9 +822,9 @@ MIEN_API void mien_result_default(mien_result* result);
 /* Neutral calibration -------------------------------------------------------------------------- */
 
 /* Some faces look raised, pressed or half closed at rest. Neutral calibration captures a person's
- * controls at rest and removes them from later frames: max(0, (control - neutral) / (1 - neutral)),
- * so that a full blink stays 1. It needs max_faces = 1 and stays in effect, also for other persons,
- * until mien_tracker_reset. */
+ * controls at rest and removes them from later frames: max(0, (control - neutral) / (1 - neutral)).
+ * A full blink stays 1. It needs max_faces = 1 and stays in effect, also for other persons, until
+ * mien_tracker_reset. */
 
 /** Starts a capture at the current level of detail, while the person has a neutral face.
  *

@@ -1,5 +1,5 @@
-// Copies of a window of the image for the warp of tiers with SIMD: sums of boxes, 16 bits each, with
-// the border repeated. See tiles.h for the members of `Simd`.
+// Copies of a window of the image for the warp of tiers with SIMD: sums of boxes, 16 bits each,
+// with the border repeated. See tiles.h for the members of `Simd`.
 #pragma once
 
 #include <algorithm>

@@ -9,7 +9,7 @@
 //   Weights; weights_of(Vec): the interpolation weights of two neighbours, in units of 1 / kOne
 //   Neighbours(column, row, stride, across): the four neighbours of positions in a copy with
 //     `stride` samples per row; rows_of<kCount>(copies): interpolates the upper and the lower row
-//   store_rgb(float*, Vec, Vec, Vec): kLanes pixels, interleaved
+//   store_rgb(float*, Vec red, Vec green, Vec blue): kLanes pixels, interleaved
 // and with vectors of kSums 16-bit integers:
 //   Sums; load_sums, store_sums, add_sums
 //   bytes(at): at[i]; byte_pairs(at): at[2 i] + at[2 i + 1]; even_bytes(at): at[2 i]
@@ -32,7 +32,7 @@ namespace mien::kernels::tiles {
 constexpr std::int32_t kTileRows = 24, kTileColumns = 112;
 constexpr std::int32_t kRowVecs = 5;      // vectors of a row computed together
 constexpr std::int32_t kMaxPending = 13;  // parts of a tile: one per halving
-constexpr std::int32_t kMaxStep = 3;   // samples per pixel when rows are summed
+constexpr std::int32_t kMaxStep = 3;      // samples per pixel when rows are summed
 constexpr std::int32_t kMaxSamples = kWarpSampleElems - 3 * kPadding;  // of all channels' copies
 
 namespace {

@@ -1,6 +1,5 @@
 // Fused inverted residual block (Sandler et al. 2018): expand (1x1), depthwise, project (1x1) and
-// optionally a residual, of which the slice at (residual_top, residual_left) is added to the
-// result.
+// optionally a residual, whose slice at (residual_top, residual_left) is added to the result.
 //
 //   e[p, c] = act1(b1[c] + sum over i of w1[c, i] x[p, i])
 //   s[q, c] = act2(b2[c] + sum over ky, kx of w2[c, ky, kx] e[window of q, c])

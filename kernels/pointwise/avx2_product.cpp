@@ -1,5 +1,5 @@
-// Register tiles of up to 6 pixels x 16 output channels, or 12 x 8 for a last panel of 8: 12 sums,
-// so that values of x and weights are reused.
+// Register tiles of up to 6 pixels x 16 output channels, or 12 x 8 for a last panel of 8: with 12
+// sums, values of x and weights are reused.
 #include <algorithm>
 
 #include "kernels/common/avx2.h"

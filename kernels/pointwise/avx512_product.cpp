@@ -1,5 +1,5 @@
-// Register tiles of up to 13 pixels x 2 panels, 9 x 3 or 6 x 4, limited by the number of registers,
-// so that values of x and weights are reused. A last panel of 8 takes two elements of the sum at
+// Register tiles of up to 13 pixels x 2 panels, 9 x 3 or 6 x 4, limited by the number of registers.
+// Values of x and weights are reused. A last panel of 8 takes two elements of the sum at
 // once, one in the even lanes and one in the odd.
 #include "kernels/common/product.h"
 

@@ -93,8 +93,8 @@ struct Tile {
   void (*run)(const Sweep&, const Source&, std::int32_t first);
 };
 
-// The available tile sizes. Weights are converted only for several tiles, none of which is smaller
-// than half of the largest.
+// The available tile sizes. Weights are converted only for several tiles; all of these have at
+// least half of the largest size.
 template <int... kPixels>
 using Sizes = std::integer_sequence<int, kPixels...>;
 #ifdef MIEN_NEON64

@@ -3,7 +3,7 @@
 //   y[p, o] = act(bias[o] + sum over i of w[o, i] x[p, i]) + r[slice of p, o]
 //
 // x: [h, w, in_c], y: [h, w, out_c], in blocks of 8 channels; lanes >= out_c become 0. r:
-// [residual_h, residual_w, out_c], of which the slice at (residual_top, residual_left) is added.
+// [residual_h, residual_w, out_c], whose slice at (residual_top, residual_left) is added.
 // Neither x nor r may overlap y. Weights: fp16 panels of 16 output channels, [panel][i][16] with i
 // up to ceil(in_c/8) * 8; the last panel is 8 wide if ceil(out_c/8) is odd.
 #pragma once

@@ -29,8 +29,8 @@ Case make(const std::vector<float>& x, int pixels, int channels) {
   return test;
 }
 
-// Each channel has one value, so that the roundings of its sum have the same sign and the loss of
-// every addition to a large sum shows.
+// Each channel has one value, so that the rounding errors of its sum have the same sign and the
+// loss of every addition to a large sum shows.
 std::vector<float> even_map(RandomValues& random, int pixels, int channels) {
   std::vector<float> x(as_size(pixels * padded(channels)));
   for (int c = 0; c < channels; ++c) {

@@ -1,5 +1,5 @@
-// The latest image of a camera. An image that is not taken before the next one arrives is dropped,
-// so a slow consumer gets fewer images, but no late ones.
+// The latest image of a camera. An image that is not taken before the next one arrives is dropped:
+// a slow consumer gets fewer images, but no late ones.
 #pragma once
 
 #include <mien/mien.h>

@@ -30,7 +30,7 @@ class Blob {
 // installed.
 std::string models_directory(const std::string& chosen);
 
-// All weight files of a folder, sorted by name. Throws Failure(kExitModel) if there are none.
+// All weight files of a folder, sorted by name. Throws Failure(kExitModel) if the folder has none.
 std::vector<std::filesystem::path> weight_files(const std::string& folder);
 
 }  // namespace mien::app

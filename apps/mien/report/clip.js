@@ -23,7 +23,7 @@ class Clip {
     new ResizeObserver(() => this.draw()).observe(this.canvas);
   }
 
-  // Resolves when the video can play, or when there is none.
+  // Resolves when the video can play, or if the page has none.
   async open(player) {
     await this.openLandmarks();
     if (data.clip === 'none') return this.say('no video: the input could be read only once');

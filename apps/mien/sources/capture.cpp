@@ -78,7 +78,7 @@ std::string default_device(CaptureKind kind) {
 std::vector<std::string> capture_arguments(CaptureKind kind, const std::string& device) {
   if (is_url(device)) {
     // While ffmpeg probes a stream, a burst of old images arrives; the newest of them is used.
-    // "-fflags nobuffer" would discard images until the next keyframe.
+    // `-fflags nobuffer` would discard images until the next keyframe.
     std::vector<std::string> arguments = {"-flags", "low_delay"};
     const std::vector<std::string> input = input_arguments(device);
     arguments.insert(arguments.end(), input.begin(), input.end());

@@ -121,8 +121,7 @@ int Input::audio_index(int track) const {
   return kind_ == Kind::kFfmpeg ? recording_.audio[static_cast<std::size_t>(track - 1)].index : 0;
 }
 
-// Uses two processes, each with its own pace: one process would have to queue images if audio
-// starts late.
+// Uses two independent processes: one process would queue images if audio starts late.
 Input::Opened Input::open_separately(const InputOptions& options, bool video, bool audio) const {
   Opened opened;
   const auto decoder = [&](const Arguments& output, int index) {

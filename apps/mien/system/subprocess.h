@@ -18,7 +18,7 @@ class Subprocess {
 
   // Maximum inactivity of a child that reads or writes files.
   static constexpr std::chrono::seconds kTimeout{60};
-  // Maximum time of a child after the end of its input: it may have to move a large file.
+  // Maximum time of a child after the end of its input: it may move a large file.
   static constexpr std::chrono::minutes kOutputTimeout{30};
   static constexpr std::chrono::milliseconds kNoTimeout{-1};
 

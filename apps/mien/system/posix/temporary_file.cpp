@@ -19,7 +19,7 @@ constexpr int kAttempts = 100;  // to find an unused name
 
 std::error_code last_error() { return {errno, std::generic_category()}; }
 
-// The attributes of a regular file; nothing for other files and if there is none.
+// The attributes of a regular file; nothing for other or missing files.
 std::optional<struct stat> file_at(const std::string& name) {
   struct stat found = {};
   if (lstat(name.c_str(), &found) != 0 || !S_ISREG(found.st_mode)) {
