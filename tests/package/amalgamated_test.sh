@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds the amalgamation by one line of the compiler and tracks with it: the same bits as the library's.
+# Builds the amalgamation with a single compiler command and tracks with it: the results equal those of the library, bit for bit.
 # usage: amalgamated_test.sh BUILD_DIR      (CXX: that of the build)
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
@@ -15,12 +15,12 @@ cd "$work/mien"
 cp "$here/amalgamated/main.cpp" .
 launcher=()
 ! ccache --show-stats >/dev/null 2>&1 || launcher=(ccache)
-echo "== one line, and no warning"
+echo "== one command, without warnings"
 "$CXX" -std=c++20 -O3 -Wall -Wextra -Werror main.cpp mien*.cpp -o "$work/amalgamated"
 "$work/amalgamated" "$mien/models" "$work/frames.rgb" | tee "$work/amalgamated.txt"
 
 if "$CXX" --version | grep -q "Free Software Foundation" && command -v clang++ >/dev/null; then
-  echo "== one line of clang"
+  echo "== one command of clang"
   clang++ -std=c++20 -O2 -Wall -Wextra -Werror main.cpp mien*.cpp -o "$work/by_clang"
   "$work/by_clang" "$mien/models" "$work/frames.rgb"
 fi
@@ -28,7 +28,7 @@ fi
 echo "== the library"
 "${launcher[@]}" "$CXX" -std=c++20 -O2 -I"$mien/include/mien" main.cpp "$build/tracker/libmien.a" -o "$work/library"
 "$work/library" "$mien/models" "$work/frames.rgb" >"$work/library.txt"
-diff "$work/library.txt" "$work/amalgamated.txt" && echo "the same bits"
+diff "$work/library.txt" "$work/amalgamated.txt" && echo "bit-identical"
 for program in library amalgamated; do
   strip "$work/$program"
   echo "$program: $(stat -c %s "$work/$program") bytes"

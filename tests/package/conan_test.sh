@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes the Conan package, and a consumer of it in C, with Conan from PyPI. It compiles the library once more.
+# Builds the Conan package and a consumer in C, with Conan from PyPI. Compiles the library again.
 # usage: tests/package/conan_test.sh
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -8,7 +8,7 @@ work=$PWD/build/conan
 mkdir -p "$work"
 python3 -m venv "$work/python"
 if ! "$work/python/bin/pip" install --quiet --quiet --disable-pip-version-check "conan>=2,<3"; then
-  echo "NOT TESTED: the Conan recipe, since Conan could not be had from PyPI"
+  echo "NOT TESTED: the Conan recipe: Conan could not be installed from PyPI"
   exit 0
 fi
 export CONAN_HOME=$work/home

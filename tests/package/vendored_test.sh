@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Builds projects that have mien's source in theirs, and runs them.
+# Builds projects that include mien's source, and runs them.
 # usage: vendored_test.sh BUILD_FOLDER "PROJECT..." [CMAKE_OPTION]...
-#   PROJECT: strict, fetched, embedded. CMAKE_OPTION: as --toolchain FILE, for another machine
+#   PROJECT: strict, fetched, embedded. CMAKE_OPTION: for example --toolchain FILE, for another machine
 set -euo pipefail
 consumers=$(cd "$(dirname "$0")" && pwd)
 mien=$(cd "$consumers/../.." && pwd)
@@ -16,16 +16,16 @@ for project in $2; do
 done
 
 [ -d "$1/embedded" ] || exit 0
-echo "== no file system, and nothing left of what was left out"
+echo "== no file system, and no excluded parts"
 library=$(find "$1/embedded" -name libmien.a)
 if nm -A "$library" | grep -E ' U f?(open|read|write|close)(at|64|v)?$|[^a-z]printf$|avx512|AudioNet|Resampler'; then
   exit 1
 fi
-strip -o "$1/stripped" "$1/embedded/embedded" 2>/dev/null || cp "$1/embedded/embedded" "$1/stripped"  # of another machine
+strip -o "$1/stripped" "$1/embedded/embedded" 2>/dev/null || cp "$1/embedded/embedded" "$1/stripped"  # for another machine
 bytes=$(stat -c %s "$1/stripped")
 echo "a program of level 1 with its weights: $bytes bytes"
-# As docs/packages.md has it; clang's code is 33 KB larger.
+# The limit in docs/packages.md; clang's code is 33 KB larger.
 if [ "$(uname -m) $#" = "x86_64 2" ] && [[ $("${CC:-cc}" --version) != *clang* ]] && [ "$bytes" -gt 1600000 ]; then
-  echo "vendored_test.sh: these are more than 1.6 MB" >&2
+  echo "vendored_test.sh: too large (got $bytes bytes, expected at most 1600000)" >&2
   exit 1
 fi

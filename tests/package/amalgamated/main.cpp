@@ -1,5 +1,5 @@
-// Tracks pictures and sound on every tier there is, and prints a checksum of all results of each:
-// two builds of the same library print the same.
+// Tracks video and audio on every tier of this CPU, and prints a checksum of the results of each.
+// Two builds of the same library print the same.
 //
 // usage: amalgamated MODELS_FOLDER FRAMES.rgb       (640x480)
 #include <cmath>
@@ -16,23 +16,23 @@ namespace {
 constexpr int kWidth = 640, kHeight = 480, kRate = 16000, kFrames = 30;
 constexpr std::size_t kFrameBytes = std::size_t{kWidth} * kHeight * 3;
 
-// The file's bytes, where a weight file may lie.
+// The bytes of a file, aligned as weight files require.
 struct File {
   explicit File(const std::string& path) {
     std::ifstream stream(path, std::ios::binary);
     const std::vector<char> all{std::istreambuf_iterator<char>(stream), {}};
-    room.resize(all.size() + MIEN_ALIGNMENT);
-    data = room.data() +
-           (MIEN_ALIGNMENT - reinterpret_cast<std::uintptr_t>(room.data()) % MIEN_ALIGNMENT);
+    storage.resize(all.size() + MIEN_ALIGNMENT);
+    data = storage.data() +
+           (MIEN_ALIGNMENT - reinterpret_cast<std::uintptr_t>(storage.data()) % MIEN_ALIGNMENT);
     std::copy(all.begin(), all.end(), data);
     bytes = all.size();
   }
-  std::vector<char> room;
+  std::vector<char> storage;
   char* data = nullptr;
   std::size_t bytes = 0;
 };
 
-// FNV-1a of everything that a result says.
+// FNV-1a of all bytes of results.
 struct Checksum {
   void add(const void* data, std::size_t bytes) {
     for (std::size_t i = 0; i < bytes; ++i) {
@@ -42,7 +42,7 @@ struct Checksum {
   std::uint64_t value = 0xcbf29ce484222325u;
 };
 
-float buzz(int sample) {  // syllables of a kind
+float buzz(int sample) {  // similar to syllables
   const float t = static_cast<float>(sample) / kRate;
   float sum = 0;
   for (int k = 1; k < 20; ++k) {
