@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 
+#include "formats/byte_checks.h"
 #include "formats/checked.h"
 #include "formats/mien_file.h"
 #include "formats/mien_layers.h"
@@ -12,43 +12,6 @@
 
 namespace mien::formats {
 namespace {
-
-bool all_zero(std::span<const std::byte> bytes) {
-  for (const std::byte one : bytes) {
-    if (one != std::byte{0}) {
-      return false;
-    }
-  }
-  return true;
-}
-
-template <class Field>
-bool is_zero(const Field& field) {
-  return all_zero(std::as_bytes(std::span(&field, 1)));
-}
-
-// Infinities and NaNs have all bits of `exponent` set: adding its lowest bit carries into the sign
-// only for these. Processes 64 bits at a time without early exit, because valid files are read to
-// the end in any case.
-template <class Word>
-bool all_finite(std::span<const std::byte> data, Word exponent) {
-  constexpr std::size_t kStep = sizeof(std::uint64_t);
-  constexpr std::uint64_t kOfEach = ~std::uint64_t{0} / static_cast<Word>(~Word{0});
-  const std::uint64_t exponents = kOfEach * exponent;
-  const std::uint64_t lowest = kOfEach * static_cast<Word>(exponent & -exponent);
-  std::uint64_t carried = 0;
-  const auto look_at = [&](std::size_t at, std::size_t bytes) {
-    std::uint64_t words = 0;
-    std::memcpy(&words, data.data() + at, bytes);
-    carried |= (words & exponents) + lowest;
-  };
-  std::size_t at = 0;
-  for (; at + kStep <= data.size(); at += kStep) {
-    look_at(at, kStep);
-  }
-  look_at(at, data.size() - at);
-  return (carried & (exponents + lowest)) == 0;
-}
 
 DataType type_of(const TensorRecord& tensor) { return static_cast<DataType>(tensor.type); }
 
