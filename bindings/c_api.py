@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Prints the declarations of mien.h, one fact per line. Tests of the bindings compare their own declarations with it.
 
-usage: bindings/c_api.py [TARGET]      TARGET: clang's name of the platform whose struct layouts are printed; default: this one. Needs clang.
+usage: bindings/c_api.py [TARGET]      TARGET: platform of the struct layouts, by clang's name; default: this one. Needs clang.
 
   struct NAME BYTES          field STRUCT.MEMBER OFFSET      function NAME ARGUMENTS
   status NAME NUMBER         enum NAME NUMBER                constant NAME VALUE

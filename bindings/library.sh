@@ -1,5 +1,5 @@
 # shellcheck shell=bash
-# Sourced in the repository's root by the tests of bindings: builds both kinds of library, and writes down what mien.h declares.
+# Sourced in the repository's root by the tests of bindings: builds both kinds of library, and writes the declarations of mien.h to a file.
 # Sets MIEN_LIBRARY_DIR and MIEN_C_API, MIEN_MODELS and MIEN_CLIP (60 frames, 640x480, RGB).
 . scripts/ccache.sh
 cmake -S . -B build/bindings -G Ninja -DCMAKE_BUILD_TYPE=Release -DMIEN_BUILD_TESTS=OFF -DMIEN_BUILD_APPS=OFF -DMIEN_BUILD_CONFORMANCE=OFF >/dev/null

@@ -1,4 +1,4 @@
-// The error of all functions; `status` is the mien_status of mien.h, if the error has one.
+// The error of all functions; `status` is the mien_status, if the library returned one.
 export class MienError extends Error {
   constructor(message, status) {
     super(message);

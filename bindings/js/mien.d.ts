@@ -25,7 +25,7 @@ export type LandmarkGroupName =
   | 'left_brow_upper' | 'right_brow_lower' | 'left_brow_lower' | 'right_nose_side' | 'left_nose_side' | 'right_cheek' | 'left_cheek'
   | 'nose_bridge' | 'midline' | 'lips_outer_upper' | 'lips_outer_lower' | 'lips_inner_upper' | 'lips_inner_lower' | 'face_oval';
 
-/** The error of all functions; `status` is the mien_status, if the error has one. */
+/** The error of all functions; `status` is the mien_status, if the library returned one. */
 export class MienError extends Error {
   readonly status?: number;
   constructor(message: string, status?: number);

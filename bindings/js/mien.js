@@ -93,7 +93,7 @@ export class Mien {
   // Copies bytes into the module; null is address 0.
   load(source) {
     if (!source) return {address: 0, bytes: 0};
-    if (!(source instanceof ArrayBuffer || ArrayBuffer.isView(source))) throw new MienError('bytes: neither an ArrayBuffer nor a view of one', -1);
+    if (!(source instanceof ArrayBuffer || ArrayBuffer.isView(source))) throw new MienError('bytes: wrong type (expected an ArrayBuffer or a view of one)', -1);
     const data = source instanceof ArrayBuffer ? new Uint8Array(source) : new Uint8Array(source.buffer, source.byteOffset, source.byteLength);
     const address = this.allocate(data.length);
     new Uint8Array(this.memory.buffer).set(data, address);

@@ -1,4 +1,4 @@
-/* The clock of the WebAssembly module, as mien_tracker_config.clock_ns wants it: WASI's. */
+/* The clock of the WebAssembly module for mien_tracker_config.clock_ns, from WASI. */
 #include <stdint.h>
 #include <time.h>
 

@@ -7,7 +7,7 @@ for tool in emcc node ffmpeg clang; do
   command -v "$tool" >/dev/null || { echo "NOT TESTED: bindings/js, for which there is no $tool (scripts/setup.sh build web test)"; exit 0; }
 done
 . scripts/ccache.sh
-export NODE_PATH=/usr/share/nodejs  # where Debian keeps the modules that Emscripten needs
+export NODE_PATH=/usr/share/nodejs  # Debian's folder of modules that Emscripten needs
 cmake -S . -B build/wasm -G Ninja --toolchain scripts/cross/wasm.cmake -DCMAKE_BUILD_TYPE=Release -DMIEN_BUILD_APPS=OFF \
   -DMIEN_BUILD_CONFORMANCE=OFF -DMIEN_BUILD_TESTS=OFF -DMIEN_INSTALL=OFF >/dev/null
 cmake --build build/wasm --target mien_module -- --quiet

@@ -48,7 +48,7 @@ const imageNames = {
   focalLengthPx: 'focal_length_px', principalX: 'principal_x', principalY: 'principal_y', bt709: 'yuv_matrix',
   pixelAspect: 'pixel_aspect'};
 
-// Rows and bytes of a row of every plane of an image without padding. `step`: from one sample of I420's U or V to the next.
+// The number of rows and of bytes per row of each plane, without padding. `step`: bytes between samples of I420's U or V.
 function planeSizes(format, width, height, step) {
   const half = {width: (width + 1) >> 1, height: (height + 1) >> 1};
   const luma = {row: width, rows: height};
@@ -163,7 +163,7 @@ export class Tracker {
   }
 
   checkPlane(plane, stride, {row, rows}) {
-    if (!isBytes(plane)) throw new MienError('planes: one of them is neither Uint8Array nor Uint8ClampedArray', wrong.plane);
+    if (!isBytes(plane)) throw new MienError('planes: wrong type (expected Uint8Array or Uint8ClampedArray)', wrong.plane);
     number('i32', stride, 'rowStrideBytes');
     if (stride < row) throw new MienError(`rows of ${row} bytes do not fit into ${stride}`, wrong.stride);
     if (plane.byteLength < stride * (rows - 1) + row) {

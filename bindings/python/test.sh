@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Builds the wheel and passes the package's tests on it, in fresh environments of every Python given.
-# usage: bindings/python/test.sh [PYTHON]...      default: python3, and the oldest supported one where there is one
-# The wheel is left in build/python/wheel.
+# Builds the wheel and runs the package's tests on it, in a fresh environment of each given Python.
+# usage: bindings/python/test.sh [PYTHON]...      default: python3, and the oldest supported one if installed
+# The wheel stays in build/python/wheel.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 here=bindings/python

@@ -22,7 +22,7 @@ IMPORT
 clang -fmodules -fmodules-cache-path="$work/cache" -fmodule-map-file=bindings/swift/Sources/CMien/module.modulemap -Werror -Wall -Wextra -fsyntax-only \
   "$work/import.m"
 echo "clang imports CMien"
-# Every function that Swift calls is one of the header's.
+# Every function that Swift calls is declared in the header.
 grep -rhoE '\bmien_[a-z_]+\(' bindings/swift/Sources/Mien | sort -u | while read -r call; do
   grep -qF "$call" include/mien/mien.h || [[ "$call" =~ ^mien_(image|audio|tracker_config|result|status)\($ ]] || { echo "no $call in mien.h" >&2; exit 1; }
 done

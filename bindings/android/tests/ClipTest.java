@@ -60,7 +60,7 @@ public final class ClipTest {
             }
             throw new AssertionError("another error", error);
         }
-        throw new AssertionError("nothing was thrown, and " + kind + " was expected");
+        throw new AssertionError("nothing was thrown (expected " + kind + ")");
     }
 
     static void refuses(Status status, Test test) {
@@ -132,7 +132,7 @@ public final class ClipTest {
     static void convertsControlsToEveryVocabulary() {
         Controls controls = reference.controls();
         require(Controls.NAMES.get(17).equals("jawOpen") && controls.get(17) == controls.get("jawOpen"), "by name");
-        require(controls.isSupported("jawOpen") && !controls.isSupported("eyeLookUpLeft"), "what is driven");
+        require(controls.isSupported("jawOpen") && !controls.isSupported("eyeLookUpLeft"), "supported controls");
         near(controls.toArray(), controls.to(Vocabulary.ARKIT), 0);
         require(controls.to(Vocabulary.ROBLOX)[Vocabulary.ROBLOX.names.indexOf("JawDrop")] == controls.get("jawOpen"), "Roblox");
         int[] sizes = {52, 52, 50, 11, 11, 15};
@@ -153,7 +153,7 @@ public final class ClipTest {
         return Math.round(0.299f * r + 0.587f * g + 0.114f * b);
     }
 
-    /** BT.601, of one pixel of four. */
+    /** BT.601 chroma of one in four pixels. */
     static int chroma(byte[] frame, int pixel, int color) {
         float scale = color == 2 ? 1.772f : 1.402f;
         return Math.max(0, Math.min(255, Math.round(((frame[3 * pixel + color] & 255) - luma(frame, pixel)) / scale + 128)));
@@ -188,7 +188,7 @@ public final class ClipTest {
             return rgb(turned).rotated(180);
         }, 0.5f, 0.01f);
         same(frame -> Image.of(Image.Format.NV21, WIDTH, HEIGHT, nv21(frame)), 1, 0.05f);
-        same(frame -> { // as Android gives it: V and U in turns, the planes begin a byte apart
+        same(frame -> { // as from Android: V and U interleaved, planes that start one byte apart
             byte[] picture = nv21(frame);
             ByteBuffer[] planes = {direct(picture, 0), direct(picture, WIDTH * HEIGHT + 1), direct(picture, WIDTH * HEIGHT)};
             return Image.yuv420(WIDTH, HEIGHT, planes, new int[] {WIDTH, WIDTH, WIDTH}, 2);

@@ -3,7 +3,7 @@ using System.Runtime.InteropServices;
 
 namespace Mien
 {
-    /// <summary>mien.h as P/Invoke has it, name by name; it says what everything means. Tests/HeaderTest.cs holds this against it.</summary>
+    /// <summary>P/Invoke declarations of mien.h, which documents them. Tests/HeaderTest.cs compares both.</summary>
     internal static class Native
     {
 #if UNITY_IOS && !UNITY_EDITOR
@@ -169,7 +169,7 @@ namespace Mien
     /// <summary>The library's tracker, destroyed when it is no longer used, never during a call of another thread.</summary>
     internal sealed class TrackerHandle : SafeHandle
     {
-        internal object Keeps; // what it reads during calls
+        internal object Keeps; // referenced, because the library reads it during calls
         TrackerHandle() : base(IntPtr.Zero, true) { }
         public override bool IsInvalid { get { return handle == IntPtr.Zero; } }
         protected override bool ReleaseHandle()
@@ -181,7 +181,7 @@ namespace Mien
 
     internal sealed class NetworkHandle : SafeHandle
     {
-        internal object Keeps; // what it reads during calls
+        internal object Keeps; // referenced, because the library reads it during calls
         NetworkHandle() : base(IntPtr.Zero, true) { }
         public override bool IsInvalid { get { return handle == IntPtr.Zero; } }
         protected override bool ReleaseHandle()

@@ -53,7 +53,7 @@ class ClipTest
         Controls controls = reference.Controls;
         Assert.Equal("jawOpen", Controls.Names[(int)Control.JawOpen]);
         Assert.Equal(controls[Control.JawOpen], controls["jawOpen"]);
-        Assert.That(controls.Supported.Contains("jawOpen") && !controls.Supported.Contains("eyeLookUpLeft"), "what is driven");
+        Assert.That(controls.Supported.Contains("jawOpen") && !controls.Supported.Contains("eyeLookUpLeft"), "supported controls");
         Assert.Near(controls.ToArray(), controls.To(Vocabulary.Arkit), 0);
         Assert.Equal(controls["jawOpen"], controls.To(Vocabulary.Roblox)[Vocabulary.Roblox.Names().IndexOf("JawDrop")]);
         Assert.Equal("52 52 50 11 11 15",

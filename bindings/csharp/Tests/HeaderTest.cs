@@ -6,7 +6,7 @@ using System.Reflection;
 using System.Runtime.InteropServices;
 using Mien;
 
-/// <summary>Native.cs says what mien.h says. MIEN_C_API: what bindings/c_api.py wrote.</summary>
+/// <summary>Native.cs declares the same as mien.h. MIEN_C_API names the output of bindings/c_api.py.</summary>
 class HeaderTest
 {
     readonly string[][] header =

@@ -2,7 +2,7 @@ using System;
 using System.Linq;
 using System.Reflection;
 
-/// <summary>Runs every public method of the tests, by reflection: they need nothing but the runtime.</summary>
+/// <summary>Runs every public method of the tests, by reflection, so that tests need only the runtime.</summary>
 static class Program
 {
     static int Main()
@@ -58,7 +58,7 @@ static class Assert
         {
             return error;
         }
-        throw new Exception("nothing was thrown, and " + typeof(E).Name + " was expected");
+        throw new Exception("nothing was thrown (expected " + typeof(E).Name + ")");
     }
 
     public static void Refuses(Mien.Status status, Action action)

@@ -1,6 +1,6 @@
-// What a frame costs more through mien.js than by calls of the module: pushVideo and getResult beside mien_tracker_push_video and
-// mien_tracker_get_result on pictures that are in its memory already. Prints a table.
-// usage: node overhead.mjs MODULE.wasm CLIP [ROUNDS]      the weights are the repository's
+// Measures the additional time of a frame through mien.js: pushVideo and getResult compared with direct calls of
+// mien_tracker_push_video and mien_tracker_get_result on images in the module's memory. Prints a table.
+// usage: node overhead.mjs MODULE.wasm CLIP [ROUNDS]      uses the repository's weights
 import {execFileSync} from 'node:child_process';
 import {readFileSync} from 'node:fs';
 import {loadMien} from '../mien.js';
@@ -58,23 +58,23 @@ function compare(lod, format) {
     new Uint8Array(mien.memory.buffer).set(data, address);
     return address;
   });
-  const tracker = mien.createTracker({...weights, lod}), least = {through: [], direct: []}, sums = new Set();
+  const tracker = mien.createTracker({...weights, lod}), fastest = {through: [], direct: []}, sums = new Set();
   for (let round = 0; round <= Number(rounds); ++round) {  // the first, which compiles, does not count
     for (const [name, run] of [['through', through], ['direct', direct]]) {
       tracker.reset();
       const {times, sum} = run(tracker, format, frames, addresses);
       sums.add(sum.toFixed(3));
-      if (round > 0) least[name] = times.map((time, i) => Math.min(time, least[name][i] ?? Infinity));
+      if (round > 0) fastest[name] = times.map((time, i) => Math.min(time, fastest[name][i] ?? Infinity));
     }
   }
-  if (sums.size !== 1) throw new Error(`they do not do the same: ${[...sums]}`);
+  if (sums.size !== 1) throw new Error(`results differ: ${[...sums]}`);
   tracker.destroy();
   for (const address of addresses) mien.release(address);
   const mean = values => values.reduce((a, b) => a + b, 0) / values.length;
-  const c = mean(least.direct), js = mean(least.through);
+  const c = mean(fastest.direct), js = mean(fastest.through);
   return `| ${lod} | ${format} | ${c.toFixed(3)} | ${js.toFixed(3)} | ${(js - c).toFixed(3)} |`;
 }
 
-console.log('| level | picture | calls of the module, ms | `pushVideo` and `getResult`, ms | more, ms |');
+console.log('| level | image | calls of the module, ms | `pushVideo` and `getResult`, ms | difference, ms |');
 console.log('|---|---|---|---|---|');
 for (const lod of [1, 4]) for (const format of Object.keys(formats)) console.log(compare(lod, format));

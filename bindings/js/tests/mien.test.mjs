@@ -30,7 +30,7 @@ function correlation(a, b) {
   return product(a, b, ma, mb) / Math.sqrt(product(a, a, ma, ma) * product(b, b, mb, mb));
 }
 
-test('names come in the order of the C API', () => {
+test('names are in the order of the C API', () => {
   assert.equal(mien.controlNames.length, 52);
   assert.equal(mien.controlNames[mien.control.jawOpen], 'jawOpen');
   assert.deepEqual(mien.stageNames, ['proposal', 'warp', 'encoder', 'heads', 'decoders', 'sound']);
@@ -109,7 +109,7 @@ test('errors have a status', () => {
   fails(-62, () => tracker.pushVideo({width, height, planes: [new Uint8Array(width * height * 4)], rowStrideBytes: [width]}, 0));
   const apart = bytes => ({
     format: 'i420', width: 8, height: 2, chromaPixelStrideBytes: 4, rowStrideBytes: [8, 13, 13],
-    planes: [new Uint8Array(16), new Uint8Array(bytes), new Uint8Array(bytes)]});  // four samples of U, each 4 bytes from the one before
+    planes: [new Uint8Array(16), new Uint8Array(bytes), new Uint8Array(bytes)]});  // four samples of U, 4 bytes apart
   fails(-63, () => tracker.pushVideo(apart(12), 0));
   tracker.pushVideo(apart(13), 0);
   fails(-61, () => tracker.pushVideo({width: 0, height: 0, data: new Uint8Array(0)}, 0));

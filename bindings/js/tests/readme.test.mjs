@@ -1,5 +1,5 @@
-// The README's example as it stands there, in a project that has installed the package. What pages have and Node has not, a document
-// and fetch for files, stands around it, with a picture of the demo clip and a tenth of a second of its sound.
+// Runs the unchanged example of the README in a project that has installed the package. Provides a document and fetch
+// for files, which pages have and Node lacks, with an image of the demo clip and a tenth of a second of its audio.
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
 import {copyFileSync, cpSync, mkdtempSync, readFileSync, rmSync, symlinkSync, writeFileSync} from 'node:fs';

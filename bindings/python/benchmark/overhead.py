@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""What a frame costs more from Python than from C: Tracker.track beside push_video and get_result in a loop of C, same library, same
-tracker, same frames (640x480 BGR of the demo clip), in interleaved rounds. Of every frame the fastest of all rounds counts.
+"""Measures the additional time of a frame in Python: Tracker.track compared with push_video and get_result in a loop in C, with the same
+library, tracker and frames (640x480 BGR of the demo clip), in interleaved rounds. Uses the fastest round of each frame.
 
 usage: overhead.py CLIP [--rounds N] [--lod N]      Needs mien, cc and ffmpeg.
 """

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Draws the head's axes into the frames of a video: project() maps a head pose to the image. Needs opencv-python.
 
-usage: pose_axes.py FILE [--frame N] --save PICTURE.jpg
+usage: pose_axes.py FILE [--frame N] --save IMAGE.jpg
 """
 import argparse
 import math

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Draws the tracker's result onto a camera's image, until q is pressed. Needs opencv-python.
 
-usage: webcam.py [CAMERA or FILE] [--frames N] [--save PICTURE.png]
+usage: webcam.py [CAMERA or FILE] [--frames N] [--save IMAGE.png]
 """
 import argparse
 import time

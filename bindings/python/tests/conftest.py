@@ -1,4 +1,4 @@
-"""Pictures of a face: the clip that ships with the repository. The package under test is the installed one."""
+"""Images of a face, from the clip in the repository. Tests the installed package."""
 import shutil
 import subprocess
 from pathlib import Path

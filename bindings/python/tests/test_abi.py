@@ -16,7 +16,7 @@ HEADER = (REPOSITORY / "include/mien/mien.h").read_text()
 
 @pytest.fixture(scope="module")
 def facts():
-    """What bindings/c_api.py says of each kind, {name: value}."""
+    """The facts of bindings/c_api.py by kind, {name: value}."""
     if shutil.which("clang") is None:
         pytest.skip("no clang here")
     said = {}

@@ -76,7 +76,7 @@ def test_damaged_videos(tmp_path, clip):
             for row in rows:
                 times.append(row["time_s"])
         assert len(times) > 30 and np.abs(np.diff(times) - 1 / 30).max() < 1.1e-3
-    cut = tmp_path / "cut.mp4"  # its pictures before the cut are there, and are not shown
+    cut = tmp_path / "cut.mp4"  # contains images before the cut, which players skip
     ffmpeg("-ss", "1.5", "-i", clip, "-t", "1", "-c", "copy", cut)
     assert len(list(mien.track_file(cut, lod=1))) >= 30
 

@@ -4,10 +4,10 @@ import textwrap
 
 import pytest
 
-pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="other systems do not hold a process to a limit of memory")
+pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="other systems do not enforce a memory limit of a process")
 
-# Grants the process ever more memory until what it makes can be made; the package's own refusals are counted.
-MADE_AT_LAST = textwrap.dedent("""
+# Raises the memory limit of the process until an object can be created; counts the errors of the package.
+CREATE_WITH_LIMITS = textwrap.dedent("""
     import resource
     import mien
     from mien import errors
@@ -17,7 +17,7 @@ MADE_AT_LAST = textwrap.dedent("""
             return int(file.read().split()[0]) * resource.getpagesize()
 
     def refusals(make, step=64 * 1024):
-        make().close()  # what is loaded on first use is there
+        make().close()  # loads everything that is loaded on first use
         used, refused = address_space(), 0
         for more in range(0, 64 << 20, step):
             resource.setrlimit(resource.RLIMIT_AS, (used + more, resource.RLIM_INFINITY))
@@ -35,7 +35,7 @@ MADE_AT_LAST = textwrap.dedent("""
 
 
 def run(body):
-    script = MADE_AT_LAST.replace("{body}", textwrap.dedent(body))
+    script = CREATE_WITH_LIMITS.replace("{body}", textwrap.dedent(body))
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=120)
     assert done.returncode == 0, done.stderr
     return done.stdout.split()

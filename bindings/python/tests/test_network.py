@@ -68,7 +68,7 @@ def test_invalid_input_is_rejected(tmp_path):
     onnx.save(model, str(tmp_path / "bad.onnx"))
     done = convert(tmp_path / "bad.onnx", "-o", tmp_path / "bad.mien")
     assert done.returncode == 1 and done.stderr.count("\n") == 1 and "Sin 'the_sin'" in done.stderr
-    (tmp_path / "text.mien").write_text("nothing of the kind" * 20)
+    (tmp_path / "text.mien").write_text("not a weight file" * 20)
     with pytest.raises(errors.WeightsNotMienError):
         mien.run(tmp_path / "text.mien", np.zeros(3))
     with pytest.raises(errors.WeightsTruncatedError):

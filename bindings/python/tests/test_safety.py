@@ -1,4 +1,4 @@
-"""Nothing that Python is given makes C read or free what it should not."""
+"""No arguments in Python cause invalid reads or frees in C."""
 import copy
 import os
 import pickle

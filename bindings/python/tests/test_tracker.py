@@ -166,7 +166,7 @@ def test_several_faces(frames):
 
 
 def voice(seconds=2.0, rate=16000):
-    """Syllables of a kind: buzzing that comes and goes."""
+    """Audio similar to syllables: a buzz with varying loudness."""
     t = np.arange(int(seconds * rate)) / rate
     buzz = sum(np.sin(2 * np.pi * 120 * k * t) / k for k in range(1, 25))
     return (0.25 * buzz * np.maximum(np.sin(2 * np.pi * 4 * t), 0)).astype(np.float32)

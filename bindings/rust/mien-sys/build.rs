@@ -1,4 +1,4 @@
-//! Links the library: that in the folder MIEN_LIBRARY_DIR, or one that CMake builds of the repository this crate lies in.
+//! Links the library in the folder MIEN_LIBRARY_DIR, or builds it with CMake from the repository that contains this crate.
 use std::env;
 use std::path::{Path, PathBuf};
 use std::process::Command;

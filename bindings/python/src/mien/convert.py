@@ -8,7 +8,7 @@ from typing import Optional, Sequence
 
 
 def main(arguments: Optional[Sequence[str]] = None) -> None:
-    """As the command line; SystemExit with one line that says why, where a file is refused."""
+    """Runs the command line; raises SystemExit with a message of one line if a file is rejected."""
     if importlib.util.find_spec("onnx") is None:
         raise SystemExit("mien.convert: needs Python's onnx: pip install 'mien[convert]'")
     importlib.import_module("mien._convert.onnx_to_mien").main(arguments)

@@ -74,7 +74,7 @@ class Network(Handle):
             if shape[len(front) :] == item and sum(n != 1 for n in front) <= 1 and 0 not in front:
                 return len(item)
         wanted = " or ".join(str(item) for item in items)
-        raise ValueError(f"array: wrong shape (got {shape}, expected {wanted}, channels first; in front axes of 1 or one axis of steps)")
+        raise ValueError(f"array: wrong shape (got {shape}, expected {wanted}, channels first, after leading axes of 1 or one axis of steps)")
 
     def _step(self, array: Floats) -> list[Floats]:
         handle = self._open()
@@ -112,6 +112,6 @@ def _floats_at(place: Any, count: int) -> Floats:
 
 
 def run(model: Model, array: npt.ArrayLike, *, network: Optional[str] = None) -> list[Floats]:
-    """Runs a converted network once (Network.run says how arrays lie) and returns its outputs."""
+    """Runs a converted network once (see Network.run for the layout of arrays) and returns its outputs."""
     with Network(model, network) as opened_network:
         return opened_network.run(array)

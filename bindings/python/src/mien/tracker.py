@@ -32,7 +32,7 @@ class Tracker(Handle):
     """Tracks faces in a stream of images and audio. One thread at a time may use it, except for queue_audio.
 
     lod: level of detail, 1 (fastest) to 4 (most accurate), or "auto": the highest within budget_ms per frame.
-    max_faces: 1..8. sound: whether to use audio. smoothing: of controls, landmarks and pose that hardly move.
+    max_faces: 1..8. sound: whether to use audio. smoothing: smooths small changes of controls, landmarks and pose.
     horizontal_fov: horizontal field of view of the upright image, radians; default 60 degrees.
     audio_queue_samples: capacity of the audio queue (queue_audio), in samples of one channel; 0: no queue.
     voice_strength: factor of the controls predicted from audio, 0 to 4.

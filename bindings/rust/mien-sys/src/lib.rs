@@ -1,4 +1,4 @@
-//! `mien.h` as it is, name by name; it says what everything means. `tests/header.rs` of the crate `mien` holds this against it.
+//! Declarations of `mien.h`, which documents them. `tests/header.rs` of the crate `mien` compares both.
 #![allow(non_camel_case_types)]
 
 use std::os::raw::{c_char, c_void};

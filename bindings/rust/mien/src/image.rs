@@ -25,8 +25,7 @@ pub struct Region {
 
 /// An image in the caller's memory, read without a copy.
 ///
-/// Constructors take width and height, and for each plane its bytes and the bytes from one row to the next. Planes that are too short are
-/// an error.
+/// Constructors take width and height, and for each plane its bytes and its row stride in bytes. They reject planes that are too short.
 #[derive(Clone, Copy)]
 pub struct Image<'a> {
     raw: mien_sys::mien_image,
@@ -72,7 +71,7 @@ impl<'a> Image<'a> {
         Self::of(6, width, height, &[(y.0, y.1, width), (vu.0, vu.1, chroma(width).saturating_mul(2))])
     }
 
-    /// Three planes; `chroma_step`: bytes from one sample of U or V to the next, 1 of I420, the pixel stride of Android's YUV_420_888;
+    /// Three planes; `chroma_step`: bytes between samples of U or V: 1 for I420, the pixel stride of Android's YUV_420_888;
     /// 0 means 1.
     pub fn i420(
         width: usize,

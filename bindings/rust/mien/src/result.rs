@@ -13,7 +13,7 @@ pub enum FaceStatus {
     Lost,
 }
 
-/// 52 animation weights, 0..1. `controls["jawOpen"]` and `controls[Control::JawOpen]` ask for one.
+/// 52 animation weights, 0..1. `controls["jawOpen"]` and `controls[Control::JawOpen]` return one of them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Controls {
     /// In the order of [`control_names`].

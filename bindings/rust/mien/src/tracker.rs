@@ -22,7 +22,7 @@ impl Lod {
     fn number(self) -> i32 {
         match self {
             Lod::Auto => 0,
-            Lod::Level(0) => -1, // which is none
+            Lod::Level(0) => -1, // an invalid level
             Lod::Level(level) => level.into(),
         }
     }
@@ -208,7 +208,7 @@ pub struct AudioQueue {
 }
 
 impl AudioQueue {
-    /// As [`Tracker::push_audio`]. [`Status::AudioQueueFull`](crate::Status::AudioQueueFull): the queue is full, nothing was queued.
+    /// Like [`Tracker::push_audio`]. [`Status::AudioQueueFull`](crate::Status::AudioQueueFull) if the queue is full; then nothing is queued.
     pub fn push(&mut self, audio: &Audio, time_s: f64) -> Result<(), Error> {
         check(unsafe { mien_sys::mien_tracker_queue_audio(self.handle.raw, audio.raw(), nanoseconds(time_s)?) })
     }

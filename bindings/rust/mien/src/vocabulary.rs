@@ -94,7 +94,7 @@ impl LandmarkGroup {
     /// Indices of its landmarks.
     pub fn range(self) -> std::ops::Range<usize> {
         let mut first = 0;
-        // Safety: `first` is a number of its own.
+        // Safety: `first` is a local variable.
         let count = unsafe { mien_sys::mien_landmark_group_range(self as i32, &mut first) };
         first as usize..(first + count) as usize
     }

@@ -43,7 +43,7 @@ impl Model {
 
     fn bytes_mut(&mut self) -> &mut [u8] {
         let bytes = self.bytes;
-        let lines = Arc::get_mut(&mut self.lines).expect("a model that is being made has one owner");
+        let lines = Arc::get_mut(&mut self.lines).expect("a new model has one owner");
         // Safety: lines are bytes without padding, and their size suffices.
         unsafe { std::slice::from_raw_parts_mut(lines.as_mut_ptr().cast(), bytes) }
     }

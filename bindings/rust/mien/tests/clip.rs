@@ -103,7 +103,7 @@ fn every_layout_gives_the_same_result() {
 fn reports_errors() {
     let frame = &frames()[0];
     let weights = weights();
-    assert!(Image::rgb(WIDTH, HEIGHT, &frame[1..], WIDTH * 3).is_err(), "nothing beyond the bytes is read");
+    assert!(Image::rgb(WIDTH, HEIGHT, &frame[1..], WIDTH * 3).is_err(), "bytes beyond the slice are not read");
     assert!(Image::rgb(usize::MAX, 1, frame, 3).is_err());
     let i420 = |chroma: &[u8], step| Image::i420(8, 2, (&frame[..16], 8), (chroma, 4), (chroma, 4), step).is_ok();
     for (step, need) in [(0, 4), (1, 4), (2, 7)] {
@@ -149,7 +149,7 @@ fn accepts_audio_from_another_thread() {
     let mut queued = Tracker::new(&weights(), options()).unwrap();
     pushed.push_audio(&Audio::float(&sound, 1, 16000).unwrap(), 0.0).unwrap();
     let mut queue = queued.audio_queue().unwrap();
-    assert!(queued.audio_queue().is_none(), "there is one");
+    assert!(queued.audio_queue().is_none(), "only one queue");
     let block = sound.clone();
     let queue = std::thread::spawn(move || {
         for (i, samples) in block.chunks(1600).enumerate() {

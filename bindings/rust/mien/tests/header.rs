@@ -1,4 +1,4 @@
-//! `mien-sys` says what `mien.h` says: every struct's layout, every function, every status. MIEN_C_API: what bindings/c_api.py wrote.
+//! `mien-sys` declares the same struct layouts, functions and statuses as `mien.h`. MIEN_C_API names the output of bindings/c_api.py.
 use std::collections::BTreeSet;
 use std::mem::{size_of, MaybeUninit};
 
@@ -35,7 +35,7 @@ fn landmark_groups_cover_all_landmarks() {
 
 #[test]
 fn declarations_match_the_header() {
-    let path = std::env::var("MIEN_C_API").expect("MIEN_C_API names what bindings/c_api.py wrote");
+    let path = std::env::var("MIEN_C_API").expect("MIEN_C_API must name the output of bindings/c_api.py");
     let header = std::fs::read_to_string(path).unwrap();
     let mut said = BTreeSet::new();
     layout! { said,

@@ -10,7 +10,7 @@ public struct Image {
   ) {
     mien_image_default(&raw)
     raw.format = Int32(bitPattern: format.rawValue)
-    // What does not fit becomes a number that the library refuses, not another one.
+    // A value outside the range of Int32 becomes one that the library rejects.
     let refused: Int32 = -1
     (raw.width, raw.height) = (Int32(exactly: width) ?? refused, Int32(exactly: height) ?? refused)
     raw.planes = (planes[0], planes.count > 1 ? planes[1] : nil, planes.count > 2 ? planes[2] : nil)

@@ -38,7 +38,7 @@ public enum LandmarkGroup: Int32, CaseIterable {
   }
 }
 
-/// 52 animation weights, 0..1: `controls["jawOpen"]` and `controls[.jawOpen]` ask for one.
+/// 52 animation weights, 0..1: `controls["jawOpen"]` and `controls[.jawOpen]` return one of them.
 public struct Controls {
   public static let names = Vocabulary.arkit.names
 
