@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes the release of HEAD twice, in clones at places of different length and without a compiler cache, and compares what came out.
+# Builds the release of HEAD twice, in clones with paths of different length and without a compiler cache, and compares the files.
 # usage: scripts/package/check_reproducible.sh [-DCMAKE_OPTION]... [PART]...      parts of release.sh, default: all
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -19,9 +19,9 @@ for clone in "$work/a" "$work/at/a/deeper/place"; do
 done
 cat "$work"/files-*/SHA256SUMS | sort | uniq --unique >"$work/different"
 if [ -s "$work/different" ]; then
-  echo "check_reproducible.sh: not the same twice:" >&2
+  echo "check_reproducible.sh: the files differ:" >&2
   cut -d' ' -f3 "$work/different" | sort -u >&2
   exit 1
 fi
-echo "the same twice:"
+echo "identical files:"
 cat "$work/files-${#clone}/SHA256SUMS"

@@ -1,4 +1,4 @@
-# The .deb, by `cpack -G DEB` (scripts/package/release.sh): library, headers, programs and weights in one package.
+# The Debian package of `cpack -G DEB` (scripts/package/release.sh): library, headers, programs and weights.
 set(CPACK_PACKAGE_NAME mien)
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
 set(CPACK_PACKAGE_CONTACT "mien developers <mien@localhost>")

@@ -1,9 +1,8 @@
-# mien_embed(TARGET [PACKED] WEIGHTS...): the target carries weight files in itself, for machines without a file system or for one file
-# to ship. WEIGHTS: of basenet, proposal (a tracker needs both), hifinet, audionet. Its sources may then
+# mien_embed(TARGET [PACKED] WEIGHTS...): embeds weight files in the target, for machines without a file system or for distribution as
+# one file. WEIGHTS: basenet and proposal, which every tracker needs, hifinet, audionet. Sources of the target may then
 #   #include <mien_weights.h>
 #   mien_use_embedded_weights(&config);     // after mien_tracker_config_default
-# PACKED: in 70 % of the bytes. They are unpacked into memory of the program's own when they are first used. Python packs them, while the
-# target is built.
+# PACKED: 70 % of the size. The first use unpacks them to static memory. Python packs them when the target is built.
 set(MIEN_EMBED_SCRIPT ${CMAKE_CURRENT_LIST_DIR}/embed_weights.cmake CACHE INTERNAL "")
 set(MIEN_PACK_SCRIPT ${CMAKE_CURRENT_LIST_DIR}/pack_weights.py CACHE INTERNAL "")
 if(DEFINED mien_MODELS_DIR)  # installed

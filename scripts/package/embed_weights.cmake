@@ -1,6 +1,6 @@
-# Writes weight files as a C (and C++) source, and the header to it.
+# Writes weight files as a source in C (and C++), and its header.
 # usage: cmake -DSOURCE=mien_weights.c -DHEADER=mien_weights.h -DFILES=a.mien;b.mien [-DPACKED=ON] -P embed_weights.cmake
-#   PACKED: the files are those of pack_weights.py
+#   PACKED: the files were written by pack_weights.py
 cmake_minimum_required(VERSION 3.22)
 
 set(how "Sets the weights in *config, which never have to be released.")
@@ -28,7 +28,7 @@ void mien_use_embedded_weights(mien_tracker_config* config);
 #endif
 ")
 
-# The little-endian number of eight bytes `at` a place of a file, as decimals.
+# Reads a little-endian number of eight bytes at the offset `at` of a file.
 function(read_number file at out)
   file(READ ${file} hex OFFSET ${at} LIMIT 8 HEX)
   string(REGEX REPLACE "(..)(..)(..)(..)(..)(..)(..)(..)" "0x\\8\\7\\6\\5\\4\\3\\2\\1" hex ${hex})
@@ -46,7 +46,7 @@ foreach(file IN LISTS FILES)
   file(SIZE ${file} bytes)
   file(READ ${file} hex HEX)
   math(EXPR rest "${bytes} % 64")
-  if(NOT PACKED AND NOT rest EQUAL 0)  # as all weight files do
+  if(NOT PACKED AND NOT rest EQUAL 0)  # the size of all weight files is a multiple
     message(FATAL_ERROR "${file}: ${bytes} bytes do not end at a multiple of 64")
   endif()
   math(EXPR missing "(8 - ${bytes} % 8) % 8")

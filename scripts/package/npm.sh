@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes the npm package of bindings/js with module and weights, installs it elsewhere, and uses it there.
+# Builds the npm package of bindings/js with module and weights, installs it in another folder, and uses it there.
 # usage: scripts/package/npm.sh      the package is build/npm/mien-VERSION.tgz
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -23,7 +23,7 @@ const file = name => readFileSync(createRequire(import.meta.url).resolve(name));
 const mien = await loadMien(file('mien/mien.wasm'));
 const tracker = mien.createTracker({basenet: file('mien/models/basenet.mien'), proposal: file('mien/models/proposal.mien')});
 tracker.pushVideo({width: 64, height: 64, data: new Uint8Array(64 * 64 * 4)}, 0);
-if (tracker.getResult().status !== 'searching') throw new Error('a black picture has no face');
+if (tracker.getResult().status !== 'searching') throw new Error('a black image has no face');
 console.log(`mien ${mien.version} works from its package`);
 USE
 node "$user/use.mjs"

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Packs a .mien file without loss (docs/format.md), for programs that carry their weights. Standard library only.
+"""Packs a .mien file without loss (docs/format.md), for programs with embedded weights. Standard library only.
 
 usage: pack_weights.py FILE.mien PACKED
 What mien_unpack makes of it is the file, byte for byte.
@@ -16,14 +16,14 @@ BLOCK_BYTES = 1 << 16    # at most
 SYMBOLS = 256
 BITS = 12
 SLOTS = 1 << BITS        # of a table
-LOWEST = 1 << 16         # state of a coder that knows nothing: encoders begin with it and decoders end with it
+LOWEST = 1 << 16         # initial state of encoders and final state of decoders
 
 
 def slots_of(counts):
-    """How many slots each symbol gets: in proportion, at least one for each that occurs."""
+    """The number of slots of each symbol: proportional to its count, at least one if it occurs."""
     total = sum(counts.values())
     slots = [max(1, round(counts[s] * SLOTS / total)) if counts[s] else 0 for s in range(SYMBOLS)]
-    while sum(slots) != SLOTS:  # what rounding left over goes to the most frequent, which it changes least
+    while sum(slots) != SLOTS:  # the most frequent symbol absorbs the rounding, which changes it least
         slots[slots.index(max(slots))] += 1 if sum(slots) < SLOTS else -1
     return slots
 
@@ -49,7 +49,7 @@ class Coder:
 
 
 def planes(data):
-    """Low and high bytes of 16-bit numbers, which nearly all of a weight file is."""
+    """Low and high bytes of 16-bit numbers, which most of a weight file consists of."""
     return data[0::2], data[1::2]
 
 
@@ -65,13 +65,13 @@ def block(data):
 
 
 def cost(counts):
-    """About how many bytes a plane takes: its table, and what Shannon asks for."""
+    """Estimated bytes of a plane: its table, and its entropy."""
     total = sum(counts.values())
     return SYMBOLS // 8 + 2 * len(counts) + sum(n * math.log2(total / n) for n in counts.values()) / 8
 
 
 def cuts_of(file):
-    """Where blocks may begin and end: at the tensors of a weight file (docs/format.md), and within those that are longer than a block."""
+    """Allowed bounds of blocks: those of tensors of a weight file (docs/format.md), and positions inside tensors longer than a block."""
     networks, layers, tensors = struct.unpack_from("<3I", file, 20)
     records = range(64 * (1 + networks + layers), 64 * (1 + networks + layers + tensors), 64)
     bounds = [0, *(struct.unpack_from("<Q", file, at + 32)[0] for at in records), len(file)]
@@ -79,10 +79,10 @@ def cuts_of(file):
 
 
 def blocks(file):
-    """Those that take least together: weights of one layer are of one size, and tables have theirs (a shortest path)."""
+    """The bounds with the minimum total size, as a shortest path: more blocks fit their content better, but need more tables."""
     cuts = cuts_of(file)
     pieces = [tuple(map(Counter, planes(file[begin:end]))) for begin, end in zip(cuts, cuts[1:])]
-    best = [(0, 0)]  # up to each cut: bytes taken, and where the last block begins
+    best = [(0, 0)]  # for each bound: total bytes, and start of the last block
     for last, end in enumerate(cuts[1:]):
         low, high, ways = Counter(), Counter(), []
         for first in range(last, -1, -1):

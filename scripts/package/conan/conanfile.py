@@ -1,4 +1,4 @@
-"""For Conan 2, of the checkout it lies in: conan create scripts/package/conan"""
+"""Conan 2 recipe for the checkout that contains it: conan create scripts/package/conan"""
 
 import os
 import re
@@ -55,7 +55,7 @@ class Mien(ConanFile):
         copy(self, "LICENSE", self.source_folder, os.path.join(self.package_folder, "licenses"))
 
     def package_info(self):
-        # Its own files for find_package are better than what Conan would make up: they have mien_embed and the weights.
+        # Uses mien's own files for find_package instead of those that Conan generates, because they define mien_embed and the weights.
         self.cpp_info.set_property("cmake_find_mode", "none")
         self.cpp_info.builddirs = [os.path.join("lib", "cmake", "mien")]
         self.cpp_info.libs = ["mien"]
