@@ -1,4 +1,4 @@
-// iFacialMocap over UDP, port 49983, in the role of the phone (ifacialmocap.com/for-developer): a
+// iFacialMocap over UDP, port 49983, in the role of the phone (`ifacialmocap.com/for-developer`): a
 // receiver that sends a hello gets a stream of text.
 #pragma once
 

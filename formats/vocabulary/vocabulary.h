@@ -69,7 +69,7 @@ inline constexpr std::array<std::string_view, 52> kMediaPipeNames = {
     "mouthSmileLeft",   "mouthSmileRight",   "mouthStretchLeft",   "mouthStretchRight",
     "mouthUpperUpLeft", "mouthUpperUpRight", "noseSneerLeft",      "noseSneerRight"};
 
-// Roblox's FacsActionUnit in the order of the enum: NoseWrinkler precedes InnerBrowRaiser on the
+// Roblox's FacsActionUnit in the order of the enum: `NoseWrinkler` precedes InnerBrowRaiser on the
 // left, and follows it on the right.
 inline constexpr std::array<std::string_view, kFacsCount> kFacsNames = {"ChinRaiserUpperLip",
                                                                         "ChinRaiser",

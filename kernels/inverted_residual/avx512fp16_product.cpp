@@ -40,7 +40,7 @@ struct Job {
   const Half* w;            // first panel of weights
   std::ptrdiff_t panel;     // distance between panels of weights
   std::int32_t out_blocks;  // kSome: 1 to 3
-  const Half* begin;        // initial sums, [vecs][32]
+  const Half* begin;        // initial sums, `[vecs][32]`
   Vec low, high;
   // Output: vectors are `y_vec` apart, pixels 32, with an additional `gap` after each row. The
   // first pixel is in column `column`.

@@ -104,7 +104,7 @@ def main(folder, files):
     spelling = {"version": "0.2", "language": "en-GB", "words": sorted(known), "useGitignore": False,
                 "dictionaries": ["softwareTerms", "cpp", "python", "typescript", "node", "companies", "filetypes"],
                 "ignoreRegExpList": [r"\+git\w+", r"\b\w*[_\d]\w*\b", r"\b[0-9a-f]{7,40}\b", r"\bk[A-Z]\w*\b", r"(?<!\w)--?[A-Za-z]\w*",
-                                     r"\blib[a-z]+-\S+", r"[\w./-]+\.(sh|py|mjs|cmake|so)\b", r"~?/\w[\w./]+"]}
+                                     r"\blib[a-z]+-\S+", r"[\w./-]+\.(sh|py|mjs|cmake|so)\b", r"~?/\.?\w[\w./]+"]}
     rules = {"rules": {"terminology": {"defaultTerms": False, "terms": terminology(rows)}}}
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "cspell.json").write_text(json.dumps(spelling, indent=2))

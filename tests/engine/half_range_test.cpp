@@ -28,7 +28,7 @@ using Bounds = std::vector<double>;
 
 class NetworkBounds {
  public:
-  Walk(const formats::FileView& file, const formats::NetworkRecord& network)
+  NetworkBounds(const formats::FileView& file, const formats::NetworkRecord& network)
       : file_(file),
         layers_(file.layers(network)),
         values_{Bounds(network.input_channels, kInput)} {
@@ -143,7 +143,7 @@ TEST(HalfRange, PublishedEncodersStayWithinIt) {
       if (!has_blocks(file.layers(network))) {
         continue;
       }
-      const double largest = Walk(file, network).largest();
+      const double largest = NetworkBounds(file, network).largest();
       RecordProperty(entry.path().stem().string(), std::to_string(largest));
       EXPECT_LT(largest, kMaxHalf) << entry.path();
       ++encoders;

@@ -1,4 +1,4 @@
-// Colours of the avatar, in the nonlinear units that the shader multiplies by light.
+// Colours of the avatar, in the non-linear units that the shader multiplies by light.
 
 const rgb = hex => [1, 3, 5].map(at => parseInt(hex.slice(at, at + 2), 16) / 255);
 
