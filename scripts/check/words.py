@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
-"""Prepares scripts/check/words.sh: writes the settings of cspell and textlint, and copies without code: of pages their prose, of sources their comments.
+"""Prepares scripts/check/words.sh: writes the settings of cspell and textlint, and copies without code: of pages their
+prose, of sources their comments and messages.
 
 usage: words.py FOLDER FILE...
-Terms come from docs/glossary.md, known words from there and from scripts/check/words.txt. Copies keep their line numbers.
+Terms come from docs/glossary.md, known words from there and from scripts/check/words.txt. Copies keep their line
+numbers.
 """
 import itertools
 import json
@@ -12,20 +14,29 @@ from pathlib import Path
 
 GLOSSARY = Path("docs/glossary.md")
 WORDS = Path("scripts/check/words.txt")
+NOT_WORDS = [r"\+git\w+", r"\b\w*[_\d]\w*\b", r"\b[0-9a-f]{7,40}\b", r"\bk[A-Z]\w*\b", r"(?<!\w)--?[A-Za-z]\w*",
+             r"\blib[a-z]+-\S+", r"[\w./-]+\.(sh|py|mjs|cmake|so)\b", r"~?/\.?\w[\w./]+"]
 IN_CODE_FONT = re.compile(r"`([^`]+)`")
 FENCE = re.compile(r"(?ms)^[ ]*```.*?^[ ]*```[ ]*$")
 # Group 1 is a comment or a docstring, group 2 a string.
-C_LIKE = re.compile(r"(//[^\n]*|/\*.*?\*/)|(R\"(\w*)\(.*?\)\3\"|\"(?:\\.|[^\"\\\n])*\"|(?<!\w)'(?:\\.|[^'\\\n])*'|`(?:\\.|[^`\\])*`)", re.S)
-PYTHON = re.compile(r"((?<!\S)#(?![a-z])[^\n]*|(?m:^)[ ]*\"{3}.*?\"{3})|(\"{3}.*?\"{3}|\"(?:\\.|[^\"\\\n])*\"|'(?:\\.|[^'\\\n])*')", re.S)
-SCRIPT = re.compile(r"((?<!\S)#(?![a-z])[^\n]*)|(\"(?:\\.|[^\"\\\n])*\"|'[^'\n]*')")
-SOURCES = {(".h", ".hpp", ".c", ".cpp", ".inc", ".js", ".mjs", ".ts", ".cs", ".java", ".kt", ".rs", ".swift"): C_LIKE,
-           (".py",): PYTHON, (".sh", ".cmake", "CMakeLists.txt"): SCRIPT}
+STRING = r"\"(?:\\.|[^\"\\\n])*\""
+C_LIKE = re.compile(
+    rf"(//[^\n]*|/\*.*?\*/)|(R\"(\w*)\(.*?\)\3\"|{STRING}|(?<!\w)'(?:\\.|[^'\\\n])*'|`(?:\\.|[^`\\])*`)", re.S)
+PYTHON = re.compile(
+    rf"((?<!\S)#(?![a-z])[^\n]*|(?m:^)[ ]*\"{{3}}.*?\"{{3}})|(\"{{3}}.*?\"{{3}}|{STRING}|'(?:\\.|[^'\\\n])*')", re.S)
+SCRIPT = re.compile(rf"((?<!\S)#(?![a-z])[^\n]*)|({STRING}|'[^'\n]*')")
+SOURCES = {
+    (".h", ".hpp", ".c", ".cpp", ".inc", ".js", ".mjs", ".ts", ".cs", ".java", ".kt", ".rs", ".swift"): C_LIKE,
+    (".py",): PYTHON,
+    (".sh", ".cmake", "CMakeLists.txt"): SCRIPT,
+}
 COLUMNS = re.compile(r"(?<=\S) {2,}(?=\S)")  # of a table, or between code and comment
 MESSAGE = re.compile(r"[A-Za-z]{2,},? [a-z]{2,},? [a-z]{2,}")
 PLACEHOLDER = re.compile(r"%[-+.*\d]*[a-z]+|\$?\{[^{}\n]*\}|\$\w+")
 INLINE_CODE = re.compile(r"`(?:[^`\n]|\n(?!\n))+`|@param\S* +\w+")
 INDENTED_CODE = re.compile(r"(?m)^    .*$")
-NOT_PROSE = [re.compile(pattern) for pattern in (r"<!--.*?-->", r"(?<=\])\([^)\n]*\)", r"https?://\S+", r"</?[a-z][^>\n]*>")]
+NOT_PROSE = [re.compile(pattern)
+             for pattern in (r"<!--.*?-->", r"(?<=\])\([^)\n]*\)", r"https?://\S+", r"</?[a-z][^>\n]*>")]
 
 
 def glossary_rows(text):
@@ -48,7 +59,8 @@ def terminology(rows):
 
 
 def prose(text):
-    """The text with code, links' targets and comments blanked. A number stands for inline code, so that no word seems repeated."""
+    """The text with code, links' targets and comments blanked. A number stands for inline code, so that no word seems
+    repeated."""
     blank = lambda match: re.sub(r"\S", " ", match.group())
     numbers = itertools.cycle(range(10, 100))
     number = lambda match: str(next(numbers)) + blank(match)[2:]
@@ -59,17 +71,21 @@ def prose(text):
 
 
 def blanked(code):
-    """Spaces of the same length, with a full stop where the code began, so that the texts before and after it remain two sentences."""
+    """Spaces of the same length after a full stop, so that the texts before and after the code are two sentences."""
     return re.sub(r"\S(.*)", lambda match: "." + re.sub(r"\S", " ", match.group(1)), code, count=1, flags=re.S)
+
+
+def without(pattern, text):
+    return re.sub(pattern, lambda mark: " " * len(mark.group()), text)
 
 
 def text_of(match):
     """A comment without its marks, or a message of one line without its quotes and placeholders."""
     comment, string = match.group(1, 2)
     if comment:
-        return re.sub(r"^\s*(//+!?|#+|/\*+|\"{3})|(\*/|\"{3})$|(?m:^\s*\*(?= ))", lambda mark: " " * len(mark.group()), comment)
+        return without(r"^\s*(//+!?|#+|/\*+|\"{3})|(\*/|\"{3})$|(?m:^\s*\*(?= ))", comment)
     if MESSAGE.search(string) and "\n" not in string:
-        unquoted = re.sub(r"^\w*[\"'`]+|[\"'`]+$|\\.", lambda mark: " " * len(mark.group()), string)
+        unquoted = without(r"^\w*[\"'`]+|[\"'`]+$|\\.", string)
         return PLACEHOLDER.sub(lambda code: "0" * len(code.group()), unquoted)
     return blanked(string)
 
@@ -103,8 +119,7 @@ def main(folder, files):
     known = set(WORDS.read_text().split()) | set(re.findall(r"[A-Za-z]+", " ".join(term for term, _, _ in rows)))
     spelling = {"version": "0.2", "language": "en-GB", "words": sorted(known), "useGitignore": False,
                 "dictionaries": ["softwareTerms", "cpp", "python", "typescript", "node", "companies", "filetypes"],
-                "ignoreRegExpList": [r"\+git\w+", r"\b\w*[_\d]\w*\b", r"\b[0-9a-f]{7,40}\b", r"\bk[A-Z]\w*\b", r"(?<!\w)--?[A-Za-z]\w*",
-                                     r"\blib[a-z]+-\S+", r"[\w./-]+\.(sh|py|mjs|cmake|so)\b", r"~?/\.?\w[\w./]+"]}
+                "ignoreRegExpList": NOT_WORDS}
     rules = {"rules": {"terminology": {"defaultTerms": False, "terms": terminology(rows)}}}
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "cspell.json").write_text(json.dumps(spelling, indent=2))
