@@ -64,7 +64,7 @@ def smallest(t, node):
 
 
 def of_numbers(t, node, function):
-    """Of one tensor and constants that are one number each."""
+    """For one tensor and scalar constants."""
     numbers = [x for x in node.inputs if is_constant(x)]
     require(len(numbers) == len(node.inputs) - 1 and all(np.size(n) == 1 for n in numbers),
             "it compares tensors; numbers are possible")
@@ -75,7 +75,7 @@ def of_numbers(t, node, function):
 
 
 def limited(t, x, low, high):
-    # Exporters write the largest float for none, and a clip at 6 behind a ReLU for ReLU6.
+    # Exporters write the largest float for no limit, and ReLU6 as a clip at 6 after a ReLU.
     low, high = low if low > -3e38 else -math.inf, high if high < 3e38 else math.inf
     return clipped(t, x, max(low, 0.0) if not_negative(t, x) else low, high)
 
@@ -86,7 +86,7 @@ def not_negative(t, x):
 
 
 def clipped(t, x, low, high):
-    """Uses the existing activations: relu, relu6, and a clamp to 0..1 between scalings."""
+    """Expresses a clip with the available activations: relu, relu6, and clamp01 between two affine layers."""
     if low == -math.inf and high == math.inf:
         return x
     if low == -math.inf:  # high - relu(high - x)
@@ -155,7 +155,7 @@ CURVES = {"HardSwish": curve("hard_swish", lambda x: x * np.clip(x + 3, 0, 6) / 
 def softmax(t, node):
     x = node.inputs[0]
     axis = node.attributes.get("axis", -1 if t.opset >= 13 else 1) % len(x.shape)
-    # Until opset 12 it is over all axes from there on.
+    # Until opset 12 it applies to all axes from this one on.
     require(t.opset >= 13 or math.prod(x.shape[axis:]) == max(x.shape[axis:]),
             f"a softmax over axes {axis} .. {len(x.shape) - 1} together")
     axis = axis if t.opset >= 13 else axis + int(np.argmax(x.shape[axis:]))

@@ -1,12 +1,12 @@
-"""Files that appear under their name only when they are whole, whenever the process that writes them is killed."""
+"""Files that appear under their name only when complete, even if the process is killed."""
 import contextlib
 import os
 
 
 @contextlib.contextmanager
 def whole(path):
-    """A binary file for writing that replaces `path` when it is complete. One process at a time may write to a path; it
-    overwrites the remains of a killed process."""
+    """Opens a binary file for writing. Only one process at a time may write to a path. Overwrites the temporary file of
+    a killed process."""
     partial = f"{os.fspath(path)}.partial"
     try:
         with open(partial, "wb") as out:

@@ -9,7 +9,7 @@ try:
 except ImportError:  # before onnx 1.13
     ReferenceEvaluator = None
 
-MOST_OPEN = 1 << 10  # taken for a size that shape inference leaves open
+MOST_OPEN = 1 << 10  # assumed for a size that shape inference leaves open
 TYPES = {1: np.float32, 6: np.int32, 7: np.int64, 9: np.bool_, 10: np.float16, 11: np.float64}
 
 
@@ -66,8 +66,8 @@ FUNCTIONS = {
 
 
 def evaluated(node, opset):
-    """An operator on constants, computed by ONNX's reference evaluator if ONNX's shape inference shows that its results
-    are not too large."""
+    """Evaluates an operator on constants with ONNX's reference, if ONNX's shape inference gives results of moderate
+    size."""
     require(ReferenceEvaluator is not None,
             f"onnx {onnx.__version__} computes no constants: pip install 'onnx>=1.15', or fold constants before "
                                             "(onnxsim)")

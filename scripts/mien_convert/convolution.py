@@ -1,4 +1,4 @@
-"""ONNX operators that slide a window over a map, or look at all of it."""
+"""ONNX operators with windows that slide over a map, and global pooling."""
 import math
 
 import numpy as np
@@ -41,7 +41,7 @@ def padding_of(attributes, sizes, kernel, strides, dilations):
 
 
 def dilated(weight, dilations):
-    """The same convolution with zeros between its taps and none in its dilations."""
+    """An equal convolution without dilations, with zeros between its taps."""
     if all(d == 1 for d in dilations):
         return weight
     size = [(k - 1) * d + 1 for k, d in zip(weight.shape[2:], dilations)]
@@ -52,7 +52,7 @@ def dilated(weight, dilations):
 
 
 def ungrouped(weight, groups):
-    """A grouped convolution as one with zeros between the groups."""
+    """An equal convolution without groups, with zeros between the groups."""
     if groups == 1:
         return weight
     outputs, inputs = weight.shape[0] // groups, weight.shape[1]
@@ -112,7 +112,7 @@ def conv_over_map(t, x, weight, bias, groups, strides, padding):
 
 
 def folded_into_conv(t, x, weight, bias, depthwise, padded):
-    """Folds a pending scale and shift into the weights; a shift only if the layer reads no zeros beside the map."""
+    """Folds a pending scale and shift into the weights; a shift only if the window reads no padding."""
     if x.is_plain() or (x.at < 0).any():
         return t.settled(x), weight, bias
     try:
@@ -152,8 +152,8 @@ def max_pool(t, node):
 
 
 def pool_windows(shape, kernel, strides, before, after, ceil_mode):
-    """Sizes of the output, padding behind the map, and ceil mode. A window that ceil mode adds beyond the map does not
-    count, which the engine has in padding instead: it never wins."""
+    """Sizes of the output, padding at the end, and ceil mode. ONNX ignores a window that ceil mode adds beyond the map;
+    in the engine it lies in the padding and never holds the maximum."""
     rooms = [b + n + a - k for n, k, b, a in zip(shape, kernel, before, after)]
     require(min(rooms) >= 0, f"a window of {list(kernel)} does not fit on a map of {list(shape)}")
     if not ceil_mode:
@@ -168,7 +168,7 @@ def pool_windows(shape, kernel, strides, before, after, ceil_mode):
 
 
 def average_pool(t, node):
-    """Without padding, or with padding that counts: a depthwise convolution."""
+    """For windows without padding, or whose padding counts: a depthwise convolution."""
     x, kernel, a = node.inputs[0], node.attributes["kernel_shape"], node.attributes
     require(len(kernel) == 2 and len(x.shape) == 4, f"a pool over {list(kernel)} of {list(x.shape)}")
     strides, dilations = steps_of(a, 2)
@@ -238,7 +238,7 @@ def reduce_sum(t, node):
 
 
 def fused_conv(t, node):
-    """Of ONNX Runtime's optimizer: a convolution, a sum, an activation."""
+    """Fused by ONNX Runtime's optimizer: a convolution, a sum, an activation."""
     inputs = [*node.inputs, None, None]
     y, = conv(t, Part(node, inputs[:3]))
     if inputs[3] is not None:
@@ -252,7 +252,7 @@ def fused_conv(t, node):
 
 
 class Part:
-    """A node that represents a part of another node."""
+    """A node that represents a part of another."""
 
     def __init__(self, node, inputs, attributes=None):
         self.inputs = inputs

@@ -1,4 +1,4 @@
-"""ONNX operators that only move elements; they serve constants and tensors alike."""
+"""ONNX operators that only move elements, for constants and computed tensors."""
 import math
 
 import numpy as np
@@ -84,7 +84,8 @@ def slice_(t, node):
 
 
 def slice_bounds(start, end, step, size):
-    """ONNX's range as Python's: ends far outside are clamped, and going down to the first element has no number."""
+    """Converts an ONNX range to one of Python: clamps distant ends, and a range that goes down to the first element has
+    no end."""
     low, high = (0, size) if step > 0 else (-1, size - 1)
     first, last = (min(max(n + size if n < 0 else n, low), high) for n in (start, max(end, -size - 1)))
     return max(first, 0), None if last < 0 else last

@@ -1,11 +1,11 @@
-"""Elements of a layer in any order as parts of its map, each read in an order of its axes."""
+"""Reads arbitrarily ordered elements of a layer as parts of its map, each in some order of its axes."""
 import itertools
 
 import numpy as np
 
 from .errors import Refused
 
-MOST_PIECES = 256  # of one tensor: each becomes a layer or two
+MOST_PIECES = 256  # maximum per tensor: each needs one or two layers
 ORDERS = {"".join("chw"[axis] for axis in order): order for order in itertools.permutations(range(3))}
 
 
@@ -34,7 +34,7 @@ def pieces_of(layer, elements):
 
 
 def piece_of(layer, elements):
-    """None if they are not all of some channels, rows and columns, in an order of these axes."""
+    """Returns None unless they are all elements of a range of channels, rows and columns, in an order of these axes."""
     h, w, c = layer.shape
     channels, rows, columns = (np.unique(place) for place in np.unravel_index(elements, (c, h, w)))
     if len(channels) * len(rows) * len(columns) != len(elements) or not (is_range(rows) and is_range(columns)):

@@ -1,8 +1,8 @@
-"""What the converter says when it cannot go on."""
+"""Errors of the converter."""
 import math
 
-MOST_NUMBERS = 1 << 24  # of one tensor: each takes up to 24 bytes here, and a file of 100 bytes may ask for any size
-MOST_IN_ALL = 1 << 27  # of all tensors of a graph: 3 GB, and seconds for each guess at its axes
+MOST_NUMBERS = 1 << 24  # per tensor: each element takes up to 24 bytes here, and a small file may declare any size
+MOST_IN_ALL = 1 << 27  # limit for all tensors of a graph: 3 GB, and seconds per interpretation of its axes
 
 
 class Refused(Exception):
@@ -20,7 +20,7 @@ def require(condition, message):
 
 
 def in_a_line(error):
-    """The message of an exception as one line."""
+    """The message of an exception on one line."""
     return " ".join(str(error).split())
 
 

@@ -1,4 +1,4 @@
-"""Layers computed with numpy in fp32, to see what the rounding of weights to fp16 does to a network's outputs.
+"""Evaluates layers with numpy in fp32, to estimate the effect of rounding weights to fp16 on the outputs.
 
 Values are [n, h, w, c]: n inputs that have nothing to do with one another, or n steps of a stream.
 """
@@ -16,12 +16,12 @@ def exact(values):
 
 
 def rounded(values):
-    """As the writer does it, to fp32 first."""
+    """Like the writer, which first rounds to fp32."""
     return exact(values).astype(np.float16).astype(np.float32)
 
 
 def in_two_parts(values):
-    """Rounded to a sum of two fp16 numbers."""
+    """The precision of a sum of two fp16 numbers."""
     high = rounded(values)
     return high + rounded(values - high)
 
@@ -45,7 +45,7 @@ def value_of(layer, inputs, weights_as, slopes_as):
 
 
 def windows(x, weight, stride, padding, fill=0.0):
-    """For each tap of a window: its row and column, and the values under it, [n, H, W, c]."""
+    """For each tap of a window: its position and the values at it, [n, H, W, c]."""
     top, left, bottom, right = padding
     kh, kw = weight
     h, w = window_count(x.shape[1], kh, stride[0], top, bottom), window_count(x.shape[2], kw, stride[1], left, right)
@@ -64,7 +64,7 @@ def conv2d(x, _, weight, bias, stride, padding):
 
 
 def product(x, matrix):
-    """x @ matrix, of all pixels at once: numpy would take row by row, which is slow."""
+    """x @ matrix for all pixels at once, because numpy is slow row by row."""
     return (np.ascontiguousarray(x).reshape(-1, x.shape[-1]) @ np.ascontiguousarray(matrix)).reshape(*x.shape[:-1], -1)
 
 
@@ -127,7 +127,7 @@ def resize(x, layer, height, width, grid, sampling):
 
 
 def places(old, new, grid, sampling):
-    """The rows around each row of a resized map, and the share of the second."""
+    """The two source rows of each row of a resized map, and the weight of the second."""
     at = np.arange(new)
     if grid == "align_corners":
         at = at * (old - 1) / max(new - 1, 1)

@@ -1,4 +1,4 @@
-"""The translation of an ONNX graph, for one guess at what the axes of its input mean."""
+"""Translates an ONNX graph, for one interpretation of the axes of its input."""
 import itertools
 import math
 
@@ -12,13 +12,13 @@ from .tensors import FUTURE, MASK, NOTHING, Tensor, elements
 from .translator import Translator
 from .weight_file import MAX_OUTPUTS
 
-DYNAMIC_STEPS = 3  # nominal, where the file does not say how many
+DYNAMIC_STEPS = 3  # nominal, if the file leaves it open
 
 
-OTHER_ADVICE = "replace it by operators of docs/convert.md, or cut the model before it"
+OTHER_ADVICE = "replace it with operators of docs/convert.md, or cut the model before it"
 ADVICE = {
-    "ConvTranspose": "replace it by Resize and Conv",
-    "GRU": "replace it by LSTM", "RNN": "replace it by LSTM",
+    "ConvTranspose": "replace it with Resize and Conv",
+    "GRU": "replace it with LSTM", "RNN": "replace it with LSTM",
     "Loop": "export the model without control flow", "Scan": "export the model without control flow",
     "NonMaxSuppression": "cut the model before it and do this in your program",
     "TopK": "cut the model before it and do this in your program",
@@ -39,14 +39,14 @@ def operator_of(node):
 
 
 class Guess:
-    """The meaning of the input axes: the time axis or None, and whether channels come last."""
+    """An interpretation of the input's axes: the time axis or None, and whether channels are last."""
 
     def __init__(self, time_axis=None, channels_last=False):
         self.time_axis, self.channels_last = time_axis, channels_last
 
 
 def guesses(graph, shape, time_axis):
-    """Guesses in the order of trial. time_axis: None (any), -1 (no time), or the value that the user gives."""
+    """Interpretations in the order of attempts. time_axis: None (any), -1 (no time), or the user's."""
     images = [Guess(None, True), Guess()] if len(shape) == 4 and shape[3] and shape[3] <= 4 < (shape[1] or 0) else [
         Guess(), Guess(None, True)]
     plain = images if len(shape) == 4 else [Guess()]
@@ -88,7 +88,7 @@ class Conversion:
         self.take_outputs(values)
 
     def make_source(self, shape):
-        """The input as a layer, and the tensor that it is."""
+        """Creates the input as a layer, and its tensor."""
         time, steps = self.guess.time_axis, max(self.t.steps, 1)
         rest = [n for axis, n in enumerate(shape) if axis != time]
         if time is not None or len(shape) <= 2 or (len(shape) == 3 and shape[0] == shape[1] == 1):
@@ -126,7 +126,7 @@ class Conversion:
             self.count += 1
             try:
                 missing = [name for name in node.input_names if name and name not in values]
-                require(not missing, f"nobody computes its input {', '.join(map(repr, missing))}")
+                require(not missing, f"undefined input {', '.join(map(repr, missing))}")
                 node.inputs = [values[name] if name else None for name in node.input_names]
                 made = {name: value for name, value in zip(node.outputs, self.take(node, values)) if name}
                 require(all(value is not None for value in made.values()), "an input is missing")
@@ -157,7 +157,7 @@ class Conversion:
         return [constant_if_it_is(x) for x in outputs]
 
     def take_branch(self, node, values):
-        """Of an If whose condition is known: as if the other branch were not there."""
+        """For an If with a constant condition: removes the other branch."""
         condition, = node.inputs
         require(is_constant(condition) and np.size(condition) == 1,
                 "its condition depends on the network's input; export the model with one branch")
@@ -179,7 +179,7 @@ class Conversion:
                 kept.remove(same[-1])
         self.outputs = {}
         for name in kept:
-            require(name in values, f"output {name!r}: nobody computes it")
+            require(name in values, f"output {name!r}: undefined")
             require(not is_constant(values[name]), f"output {name!r} is a constant")
             try:
                 layer = self.output_layer(values[name])
@@ -187,18 +187,17 @@ class Conversion:
                 raise Refused(f"output {name!r}: {refusal}", len(self.graph.nodes)) from refusal
             require(layer is not self.source, f"output {name!r} is the input")
             self.outputs[name] = layer
-        require(self.outputs, "nothing but states comes out")
+        require(self.outputs, "no output except states")
 
     def output_layer(self, tensor):
-        """The layer that an output is; else one that is made for it, whose elements come in the order of the ONNX
-        file."""
+        """The layer of an output; creates one in the element order of the ONNX file if necessary."""
         tensor = self.t.settled(tensor)
         numbers = tensor.layer_numbers()
         if len(numbers) == 1 and (tensor.at >= 0).all():
             layer = self.t.real(numbers[0])
             if self.is_whole(layer, tensor.at.reshape(-1) & MASK, len(tensor.shape)):
                 return layer
-        require(not (tensor.at == FUTURE).any(), "it holds steps that have not come")
+        require(not (tensor.at == FUTURE).any(), "it depends on later steps of the stream")
         if self.t.steps or max(tensor.shape, default=1) == math.prod(tensor.shape):
             return self.t.arranged(tensor)[0]
         if len(tensor.shape) == 4 and tensor.shape[0] == 1:
@@ -209,8 +208,8 @@ class Conversion:
         return self.t.layer("rearrange", [layer], (rows, layer.shape[2], 1), order="hwc")
 
     def is_whole(self, layer, at, rank):
-        """Whether these are all elements of a layer at the last steps of the stream: in its own order, of a map with
-        channels last, of a stream in any order of its axes."""
+        """Whether these are all elements of a layer at the last steps of the stream: in its own order, in that of a map
+        with channels last, or in any order of a stream's axes."""
         steps, last = np.unique(at // layer.size), max(self.t.steps, 1) - 1
         if at.size != layer.size * len(steps) or steps[-1] != last or steps[0] != last + 1 - len(steps):
             return False
@@ -269,12 +268,12 @@ def same_elements(value, following, shape):
 
 
 def converted(graph, shapes, time_axis=None):
-    """The result of the first guess that works, or the error of the one that came furthest. If channels may be last, a
-    guess that must rearrange its input is rejected if another one works."""
+    """The first interpretation that works, or the error of the one that came furthest. Where channels may be last,
+    prefers interpretations that do not rearrange the input."""
     furthest = rearranging = None
     for guess in guesses(graph, shapes.get(next(iter(graph.inputs)), next(iter(graph.inputs.values()))), time_axis):
         try:
-            with np.errstate(all="ignore"):  # the writer rejects values that the format cannot hold
+            with np.errstate(all="ignore"):  # the writer reports what the format does not support
                 conversion = Conversion(graph, guess, shapes)
             doubtful = guess.channels_last or graph.puts_channels_first()
             if not doubtful or not conversion.rearranges_source():

@@ -29,7 +29,7 @@ def matmul(t, node):
 
 
 def product(t, x, weight, bias):
-    """[..., n] times weight [out, n]: of one vector, of every step, or at every pixel."""
+    """[..., n] times weight [out, n]: for a vector, for every step, or at every pixel."""
     rows = x.moved(lambda part: part.reshape(-1, part.shape[-1]))
     require(weight.shape[1] == rows.shape[1], f"{rows.shape[1]} numbers times a weight for {weight.shape[1]}")
     if len(rows.at) <= max(t.steps, 1):
@@ -42,7 +42,7 @@ def product(t, x, weight, bias):
 def at_every_pixel(t, rows, shape, weight, bias):
     """[h * w, n] times weight [out, n] -> [h * w, out]. The rows are the pixels of a map, else of one of that shape."""
     numbers = rows.layer_numbers()
-    require(len(numbers) > 0, "it reads nothing but constants")
+    require(len(numbers) > 0, "all its inputs are constants")
     h, w, _ = t.real(numbers[0]).shape
     if len(rows.at) != h * w:
         h, w = shape if len(shape) == 2 and shape[0] * shape[1] == len(rows.at) else (len(rows.at), 1)

@@ -1,4 +1,4 @@
-"""An ONNX file as nodes with attributes, whatever version of the onnx package reads it."""
+"""Reads an ONNX file as nodes with attributes, with any version of the onnx package."""
 import warnings
 
 import numpy as np
@@ -10,7 +10,7 @@ from .errors import Refused, require
 OPSETS = range(9, 29)
 WHOLE_NUMBERS = (onnx.TensorProto.INT32, onnx.TensorProto.INT64, onnx.TensorProto.BOOL)
 MOST_EXTERNAL_BYTES = 1 << 31
-# Types of the attributes that operators read; a file may contain others.
+# Types of the attributes that operators read; files may contain any.
 KINDS = {
     name: kind for kind, names in {
         onnx.AttributeProto.INT: "allowzero antialias axis ceil_mode count_include_pad end exclude_outside group "
@@ -32,7 +32,7 @@ KINDS_OF = {("Pad", "value"): onnx.AttributeProto.FLOAT}  # until opset 10
 
 
 class Node:
-    """folder: where weights in other files lie."""
+    """folder: the location of weights in other files."""
 
     def __init__(self, proto, folder):
         self.proto = proto
@@ -125,7 +125,7 @@ class Graph(Body):
         require(self.inputs, "the graph has no input")
 
     def fix(self, name, number):
-        """An input becomes a constant."""
+        """Replaces an input by a constant."""
         shape = self.inputs.pop(name)
         require(self.inputs, f"input {name!r} is the only one")
         require(all(n in (None, 1) for n in shape), f"input {name!r}: not a single number (got a shape {shape})")
@@ -141,7 +141,7 @@ class Graph(Body):
                    for node in readers)
 
     def has_time(self):
-        """Whether it looks as if its steps came one by one: a cell, or a convolution that sees the past only."""
+        """Whether it seems to process a stream: it has a recurrent cell, or convolutions that only see the past."""
         def causal(node):
             pads = node.attributes.get("pads", [])
             return node.operator == "Conv" and len(pads) == 2 and pads[0] > 0 == pads[1]
@@ -159,7 +159,7 @@ def loaded(path):
 
 
 def inlined(model):
-    """The model with its own functions put where they are called."""
+    """The model with its local functions inlined."""
     try:
         from onnx.inliner import inline_local_functions
     except ImportError as error:

@@ -1,4 +1,4 @@
-"""What operators ask of their inputs."""
+"""Checks of the inputs of operators."""
 import numpy as np
 
 from . import tensors

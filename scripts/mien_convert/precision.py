@@ -98,7 +98,7 @@ class Search:
 
 
 def is_coarse(layer):
-    """Whether fp16 cannot hold its numbers as they are."""
+    """Whether fp16 cannot represent its weights exactly."""
     with np.errstate(over="ignore"):
         return any((rounded(numbers) != exact(numbers)).any() for numbers in tensors_of(layer))
 
@@ -115,7 +115,7 @@ def work(layer):
 
 
 def split(layer):
-    """Into a layer of rounded weights and one of the rest, their sum, and the activation."""
+    """Splits it into a layer with rounded weights and one with the rest, their sum, and the activation."""
     parts = []
     for take in (rounded, lambda tensor: tensor - rounded(tensor)):
         options = {name: take(value) if name in TENSORS else value for name, value in layer.options.items()}

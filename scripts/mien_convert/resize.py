@@ -74,10 +74,10 @@ def wanted_sizes(node, old, scales, sizes, grid):
 
 
 def grid_of(name, old, new):
-    """As the engine has it: between sizes, so that ONNX's symmetric half pixels are the same."""
+    """The engine defines grids by sizes, so ONNX's symmetric half pixels are the same."""
     if name == "half_pixel_symmetric":
         return "half_pixel"
-    if name == "pytorch_half_pixel":  # the first where there is one only, else half pixels
+    if name == "pytorch_half_pixel":  # the first sample if there is only one, otherwise half pixels
         alone = [a != b and b == 1 for a, b in zip(old, new)]
         require(not any(alone) or all(b == 1 for b in new), f"{name} of {list(old[:2])} to {list(new)}")
         return "asymmetric" if any(alone) else "half_pixel"

@@ -1,4 +1,4 @@
-"""ONNX operators that remember steps of a stream: convolutions that see the past only, and LSTMs."""
+"""ONNX operators with state in a stream: convolutions that only see the past, and LSTMs."""
 import numpy as np
 
 from . import tensors
@@ -6,11 +6,11 @@ from .errors import require, require_room
 from .operands import constant, is_constant
 from .tensors import FUTURE, NOTHING, Tensor
 
-MOST_DELAYS = 1000  # of one convolution: each becomes a layer; a file holds 1024
+MOST_DELAYS = 1000  # for one convolution: each becomes a layer, and a file has at most 1024
 
 
 def conv_over_time(t, x, weight, bias, before, after, dilation):
-    """[1, c, t], steps of the stream between columns of earlier and of later steps."""
+    """[1, c, t]: steps of the stream, between columns before and columns after them."""
     require(x.shape[0] == 1, f"a batch of {x.shape[0]}")
     reach = (weight.shape[2] - 1) * dilation
     require(0 <= reach <= MOST_DELAYS, f"a convolution that reaches back {reach} steps; at most {MOST_DELAYS}")
@@ -35,11 +35,11 @@ def conv_over_time(t, x, weight, bias, before, after, dilation):
 
 
 def time_columns(t, at):
-    """How many columns come before the stream's steps, and how many are steps."""
+    """The number of columns before the stream's steps, and of steps."""
     # the last: NOTHING and FUTURE, whose number is -1
     told = np.array([layer.op != "state" for layer in t.layers] + [False])
     real = told[at >> tensors.BITS].any(0)
-    require(real.any(), "it reads nothing but constants")
+    require(real.any(), "all its inputs are constants")
     first, last = np.flatnonzero(real)[[0, -1]]
     require(real[first:last + 1].all() and ((at[:, last + 1:] == NOTHING) | (at[:, last + 1:] == FUTURE)).all(),
             "it mixes steps of time")
@@ -47,14 +47,14 @@ def time_columns(t, at):
 
 
 def begins_with(t, past, scale, shift):
-    """Whether the columns before the stream are zeros or states, scaled and shifted like this."""
+    """Whether the columns before the stream are zeros or states, with this scale and shift."""
     scale, shift = (np.broadcast_to(n, past.shape[:1])[:, None] for n in (scale, shift))
     state = past.at >= 0
     return ((past.shift == shift) & ((past.scale == scale) | ~state)).all()
 
 
 def remember(t, at, past, real):
-    """The states among the columns before the stream become those before its next steps."""
+    """The last columns become the states before the next steps."""
     for number in np.unique(at[:, :past][at[:, :past] >= 0] >> tensors.BITS):
         following = np.full(t.layers[number].size, NOTHING, np.int64)
         channel, column = np.nonzero((at >> tensors.BITS == number) & (at >= 0))
@@ -63,7 +63,7 @@ def remember(t, at, past, real):
 
 
 def causal(t, x, weight, bias, dilation):
-    """The engine's convolution has kernel 2 and no dilation; for others steps of the past are kept side by side."""
+    """The engine's convolution has kernel 2 and no dilation; other convolutions store past steps side by side."""
     inputs, taps = weight.shape[1:]
     if taps == 1:
         return t.layer("fully_connected", [x], (1, 1, len(bias)), weight=weight[:, :, 0], bias=bias)
@@ -113,8 +113,8 @@ def lstm(t, node):
 
 
 def gates(weight, size):
-    """[1, 4 size, n] with ONNX's gates i, o, f, c -> [4 size', n] with i, f, c, o, size' a multiple of 8: cells of
-    zeros stay zero."""
+    """[1, 4 size, n] with ONNX's gates i, o, f, c -> [4 size', n] with i, f, c, o, where size' is a multiple of 8:
+    cells of zeros stay zero."""
     weight = np.asarray(weight, np.float64).reshape(4, size, -1)[[0, 2, 3, 1]]
     return np.pad(weight, ((0, 0), (0, -size % 8), (0, 0))).reshape(-1, weight.shape[2])
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from .errors import Refused, require, require_room
 
-NOTHING, FUTURE = -1, -2  # FUTURE: output of a convolution over time for later steps
+NOTHING, FUTURE = -1, -2  # FUTURE: of later steps of the stream, which a convolution over time reads
 BITS = 32
 MASK = (1 << BITS) - 1
 
@@ -20,7 +20,7 @@ MASK = (1 << BITS) - 1
 class Tensor:
     def __init__(self, at, scale=None, shift=None):
         self.at = at
-        # Of one number, which takes no memory until somebody computes with it.
+        # A scalar, which takes no memory until it is used in arithmetic.
         self.scale = np.broadcast_to(1.0, at.shape) if scale is None else scale
         self.shift = np.broadcast_to(0.0, at.shape) if shift is None else shift
 
@@ -33,7 +33,7 @@ class Tensor:
         return Tensor(move(self.at), move(self.scale), move(self.shift))
 
     def constant(self):
-        """The numbers, if there is nothing else in it."""
+        """The values, if all elements are constants."""
         return self.shift if (self.at == NOTHING).all() else None
 
     def is_plain(self):
@@ -60,17 +60,17 @@ def elements(layer, steps=1):
 
 
 def per_channel(layer, at, values, neutral):
-    """Values given for elements of a layer as one for each of its channels."""
+    """Converts values per element of a layer to values per channel."""
     h, w, c = layer.shape
     channel = (at & MASK) % layer.size // (h * w)
     of_channel = np.full(c, neutral, np.float64)
-    of_channel[channel] = values  # all values of a channel must be equal
+    of_channel[channel] = values  # the last axis, over which values must be equal
     require((of_channel[channel] == values).all(), "its second operand is not one number for each channel")
     return of_channel
 
 
 def along(array, other_axes, message):
-    """The values that are constant along those axes, without the axes."""
+    """Removes the axes along which all values are equal."""
     first = array[tuple(slice(0, 1) if axis in other_axes else slice(None) for axis in range(array.ndim))]
     require((array == first).all(), message)
     return first.reshape([n for axis, n in enumerate(array.shape) if axis not in other_axes])
@@ -81,7 +81,7 @@ def zero_border(tensor):
     empty = ((tensor.at == NOTHING) & (tensor.shift == 0)).all((0, 1))
     rows, columns = np.flatnonzero(~empty.all(1)), np.flatnonzero(~empty.all(0))
     if not len(rows):
-        raise Refused("it reads nothing but zeros")
+        raise Refused("all its inputs are zeros")
     top, left, bottom, right = rows[0], columns[0], rows[-1] + 1, columns[-1] + 1
     border = int(top), int(left), int(empty.shape[0] - bottom), int(empty.shape[1] - right)
     return border, tensor.moved(lambda part: part[:, :, top:bottom, left:right])

@@ -9,7 +9,7 @@ from .layers import Layer
 from .tensors import BITS, MASK, NOTHING, Tensor
 from .weight_file import MAX_LAYERS
 
-MOST_GROUPS = 16  # of channels that are put together out of different layers
+MOST_GROUPS = 16  # of channels that come from different layers
 
 
 class Translator:
@@ -18,7 +18,7 @@ class Translator:
     def __init__(self, opset, steps):
         self.opset, self.steps = opset, steps
         self.layers = []
-        self.node = ""  # for error messages
+        self.node = ""  # the node, for error messages
         self.states = {}  # number of a state input's layer -> its next value, as elements
         self.notes = []
 
@@ -44,7 +44,7 @@ class Translator:
         return at
 
     def replaced_layers(self, tensor, replacements):
-        """The same for a plain tensor, as one."""
+        """The same for a plain tensor, as one layer."""
         return Tensor(self.replaced(tensor, replacements), None, tensor.shift)
 
     def same_layers(self, a, b):
@@ -69,7 +69,7 @@ class Translator:
         shape = np.broadcast_shapes(tensor.shape, np.shape(scale), np.shape(shift))
         require(shape == tensor.shape, "its result has another shape than its operand")
         result = Tensor(tensor.at, tensor.scale * scale, tensor.shift * scale + shift)
-        # Linear layers fold it immediately; others wait for their reader.
+        # Linear layers absorb it at once; otherwise the next reader applies it.
         absorbing = all(self.layers[n].is_plain() for n in tensor.layer_numbers())
         return self.settled(result) if absorbing and self.is_per_channel(result) else result
 
@@ -88,7 +88,7 @@ class Translator:
                 tensors.per_channel(layer, tensor.at[mine], tensor.shift[mine], 0.0))
 
     def settled(self, tensor):
-        """The same tensor with scale 1 and shift 0, except for constants: pending scales and shifts become layers."""
+        """The same with scale 1 and shift 0, except for constants: pending scales and shifts become layers."""
         if tensor.is_plain():
             return tensor
         if not self.steps and not self.is_per_channel(tensor):
@@ -103,7 +103,7 @@ class Translator:
         return Tensor(self.replaced(tensor, made), np.ones(tensor.shape), np.where(constant, tensor.shift, 0.0))
 
     def settled_by_element(self, tensor):
-        """As a vector, each of whose channels has a scale and a shift of its own."""
+        """As a vector with a scale and a shift per channel."""
         computed = tensor.at >= 0
         vector = self.vector_of(tensor.at[computed])
         self.notes.append(f"{self.node}: its constants, one for each element, are rounded to fp16")
@@ -134,7 +134,7 @@ class Translator:
         return sizes[np.maximum(at, 0) >> BITS]
 
     def one_step(self, at):
-        """[s, ...], the last steps of the stream, to the values of each step as elements of step 0."""
+        """[s, ...], the last steps of the stream -> the content of each step, as elements of step 0."""
         size = self.sizes(at)
         step = np.where(at >= 0, (at & MASK) // size, 0)
         at = np.where(at >= 0, at - step * size, at)
@@ -149,7 +149,7 @@ class Translator:
         """[s, c, h, w] as one layer with exactly that map. Adds slices and concatenations if necessary, and layers that
         rearrange elements if these do not suffice and `rearranges` allows it."""
         tensor = self.settled(tensor)
-        require(not (tensor.at == tensors.FUTURE).any(), "it reads steps that have not come")
+        require(not (tensor.at == tensors.FUTURE).any(), "it depends on later steps of the stream")
         constant = tensor.at == NOTHING
         if constant.any():
             require(tensor.at.shape[0] == 1 and not tensor.shift.any(),
@@ -173,7 +173,7 @@ class Translator:
         return self.joined([self.map_of(part) for part in np.split(at, begins)])
 
     def blocks(self, at):
-        """[c, h, w] as parts of layers' maps, one behind the other."""
+        """[c, h, w] as consecutive parts of layers' maps."""
         numbers, channels = self.channel_runs(at)
         runs = [(self.real(number), at[first:last]) for number, first, last in zip(numbers, channels, channels[1:])]
         boxes = [self.place_of_block(layer, run) for layer, run in runs]  # before any layer is made
@@ -186,18 +186,18 @@ class Translator:
         return whole
 
     def channel_runs(self, at):
-        """Where channels that follow one another in one layer begin: layer numbers, and the bounds of their runs."""
+        """The bounds of runs of channels that are consecutive in one layer, and the layers."""
         first = at[:, 0, 0]
         number, pixels = first >> BITS, np.array([layer.shape[0] * layer.shape[1] for layer in self.layers])
         channel = (first & MASK) // pixels[number]
         begins = np.flatnonzero((np.diff(number) != 0) | (np.diff(channel) != 1)) + 1
         require(len(begins) < MAX_LAYERS,
-                f"it puts its channels together of {len(begins) + 1} pieces; a network has at most {MAX_LAYERS} layers")
+                f"its channels come from {len(begins) + 1} pieces; a network has at most {MAX_LAYERS} layers")
         bounds = [0, *begins.tolist(), len(at)]
         return number[bounds[:-1]].tolist(), bounds
 
     def place_of_block(self, layer, at):
-        """The position of [c, h, w], which must be a part of the layer's map."""
+        """The start of [c, h, w], which must be a part of the layer's map."""
         h, w, c = layer.shape
         begin = first, y, x = [int(n) for n in np.unravel_index(int(at[0, 0, 0] & MASK), (c, h, w))]
         inside = all(b + n <= size for b, n, size in zip(begin, at.shape, (c, h, w)))
@@ -215,7 +215,7 @@ class Translator:
                           channels=at.shape[0], padding=margins)
 
     def padded(self, tensor):
-        """Zeros around a map: a depthwise convolution whose one tap is 1."""
+        """Adds zeros around a map: a depthwise convolution with a single tap of 1."""
         (top, left, bottom, right), inner = tensors.zero_border(tensor)
         require(inner.shape != tensor.shape, "it mixes constants with what the network computes")
         require(top + bottom <= 14 and left + right <= 14,
@@ -250,11 +250,11 @@ class Translator:
         """[n] elements as pieces of layers."""
         numbers = elements >> BITS
         bounds = [0, *(np.flatnonzero(np.diff(numbers)) + 1).tolist(), len(elements)]
-        require(len(bounds) <= MOST_PIECES, f"it puts a tensor together of more than {MOST_PIECES} pieces")
+        require(len(bounds) <= MOST_PIECES, f"it combines a tensor from more than {MOST_PIECES} pieces")
         found = []
         for first, last in zip(bounds, bounds[1:]):
             found += pieces_of(self.real(int(numbers[first])), elements[first:last] & MASK)
-        require(len(found) <= MOST_PIECES, f"it puts a tensor together of more than {MOST_PIECES} pieces")
+        require(len(found) <= MOST_PIECES, f"it combines a tensor from more than {MOST_PIECES} pieces")
         return found
 
     def piece(self, piece, shape=None):
@@ -273,7 +273,7 @@ class Translator:
         return self.layer("slice", [layer], size, first_channel=first, channels=size[2], padding=margins)
 
     def arrangements(self, shape, channel_axis=None):
-        """Ways to read a tensor of that shape as [steps, c, h, w]: for each of these the axes that it is made of."""
+        """Ways to read a tensor of this shape as [steps, c, h, w]: the axes that make up each of these."""
         steps, axes = range(1, max(self.steps, 1) + 1), range(len(shape))
         if len(shape) == 4:
             yield from ([[axis] for axis in order] for order in ((0, 1, 2, 3), (0, 3, 1, 2), (0, 3, 2, 1))
@@ -293,13 +293,14 @@ class Translator:
                     yield [[], [channel], [axis for axis in axes if axis != channel], []]
 
     def arranged(self, tensor, channel_axis=None):
-        """Some arrangement that is a map: its layer, how many steps it has, and how to bring such elements back."""
+        """Finds an arrangement that is a map: its layer, its number of steps, and the way to restore the order of
+        elements."""
         (layer,), steps, back = self.arranged_alike([tensor], channel_axis)
         return layer, steps, back
 
     def arranged_alike(self, given, channel_axis=None):
-        """The same for several tensors. The first is the largest; the others have size 1 where they are broadcast.
-        Elements of the first are rearranged only if nothing else helps."""
+        """The same for several tensors: the first is the largest, and the others have size 1 on broadcast axes.
+        Rearranges elements of the first only if necessary."""
         given, refusal = [self.settled(tensor) for tensor in given], None
         shape = given[0].shape
         for first, others in ((False, False), (False, True), (True, True)):
@@ -325,15 +326,15 @@ class Translator:
     # -- dense layers ------------------------------------------------------------
 
     def rows(self, tensor):
-        """[r, n], each row a step: the values of a step, and the scales and shifts, all [n]."""
-        require(not (tensor.at == tensors.FUTURE).any(), "it reads steps that have not come")
+        """[r, n], where each row is a step: the content of a step, and scales and shifts, all [n]."""
+        require(not (tensor.at == tensors.FUTURE).any(), "it depends on later steps of the stream")
         message = "the steps are scaled differently"
         return Tensor(self.one_step(tensor.at), tensors.along(tensor.scale, [0], message),
                       tensors.along(tensor.shift, [0], message))
 
     def dense(self, row, weight, bias):
-        """weight [out, n] times a row of any elements: one fully connected layer for each layer that they are from,
-        added."""
+        """weight [out, n] times a row of any elements: the sum of one fully connected layer per layer that they come
+        from."""
         bias = bias + weight @ row.shift
         weight = weight * row.scale
         total = None
@@ -347,7 +348,7 @@ class Translator:
             part = self.layer("fully_connected", [x], (1, 1, len(bias)), weight=own,
                               bias=np.zeros_like(bias) if total else bias)
             total = self.layer("add", [total, part], part.shape) if total else part
-        require(total, "it reads nothing but constants")
+        require(total, "all its inputs are constants")
         return total
 
     # -- nodes ------------------------------------------------------------

@@ -41,7 +41,7 @@ ACTIVATIONS = {"none": 0, "relu": 1, "relu6": 2, "leaky_relu": 3, "prelu": 4, "s
 # only in activation layers
 CURVES = {"hard_swish": 8, "swish": 9, "gelu": 10, "gelu_tanh": 11, "erf": 12, "exp": 13, "sqrt": 14}
 SLIDING = ("conv2d", "depthwise", "max_pool")
-TWO_SIZES = ("multiply", "divide", "broadcast_add")  # the second input may be smaller
+TWO_SIZES = ("multiply", "divide", "broadcast_add")  # the second may be smaller
 # without activation
 PASSIVE = ("lstm", "max_pool", "add", "softmax", "global_average_pool", "concat", "slice", *TWO_SIZES, "resize",
            "rearrange", "normalize")
@@ -102,7 +102,7 @@ class MienFile:
 
 
 def sealed(file):
-    """The bytes of a file with the checksum that belongs to them."""
+    """The bytes of a file with a valid checksum."""
     head, body = file[:CHECKSUM_AT], file[HEADER_BYTES:]
     return head + struct.pack("<Q", xxhash64(head + bytes(8) + body)) + body
 

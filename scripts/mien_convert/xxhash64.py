@@ -21,7 +21,7 @@ def xxhash64(data):
         lane = lanes[index]
         for word in words[index::4]:
             lane = (lane + word * p2) & mask
-            lane = (lane << 31 | lane >> 33) * p1 & mask  # the multiplication drops the high bits
+            lane = (lane << 31 | lane >> 33) * p1 & mask  # the multiplication drops the bits that the shift moved out
         lanes[index] = lane
     value = p5
     if stripes:

@@ -348,7 +348,7 @@ class Program(Folder):
                               text=True)
         self.assertEqual(done.returncode, 1)
         self.assertEqual(done.stderr.count("\n"), 1)
-        self.assertIn("Sin 'the_sin': the engine has no such layer (opset 13); replace it by", done.stderr)
+        self.assertIn("Sin 'the_sin': the engine has no such layer (opset 13); replace it with", done.stderr)
         self.assertFalse((self.folder / "z.mien").exists())
         self.assertEqual(subprocess.run([*program, "--shape", "0"], capture_output=True).returncode, 2)
 

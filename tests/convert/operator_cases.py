@@ -364,7 +364,7 @@ def refused():
         return Case(name, nodes, shapes, refusal=refusal, **options)
     w = {"w": weights(6, 10, 3, 3), "v": weights(4, 5, 3, 3)}
     yield case("conv_transpose", [node("ConvTranspose", "x w")], X,
-               "ConvTranspose 'the_convtranspose': the engine has no such layer (opset 13); replace it by Resize and "
+               "ConvTranspose 'the_convtranspose': the engine has no such layer (opset 13); replace it with Resize and "
                "Conv", constants={"w": weights(10, 4, 3, 3)})
     yield case("gru", [node("GRU", "x w r", "t", hidden_size=4)], {"x": [5, 1, 3]}, "GRU 'the_gru'",
                constants={"w": weights(1, 12, 3), "r": weights(1, 12, 4)})
@@ -392,7 +392,7 @@ def refused():
                "does not begin with zeros", constants={**lstm_weights(3, 8), "h": np.ones((1, 1, 8), np.float32)})
     yield case("strided_time", [node("Conv", "x w", strides=[2], pads=[1, 0])], {"x": [1, 5, 12]}, "strides over time",
                constants={"w": weights(6, 5, 2)}, arguments=["--time-axis", "2"])
-    yield case("future", [node("Conv", "x w", pads=[1, 1])], {"x": [1, 5, 12]}, "steps that have not come",
+    yield case("future", [node("Conv", "x w", pads=[1, 1])], {"x": [1, 5, 12]}, "later steps of the stream",
                constants={"w": weights(6, 5, 3)}, arguments=["--time-axis", "2"])
     yield case("two_inputs", [node("Add", "x z")], {**X, "z": [1, 10, 9, 7]}, "only its own layer can use")
     yield case("unused_input", [node("Relu", "x")], {**X, "z": [1, 10, 9, 7]}, "input 'z': a network has one input")
@@ -402,7 +402,7 @@ def refused():
                constants={"w": np.full((1, 10, 1, 1), 1e6, np.float32)})
     yield case("output_is_input", [node("Identity", "x")], X, "output 'y' is the input")
     yield case("constant_output", [node("Shape", "x")], X, "output 'y' is a constant")
-    yield case("nobody_computes", [node("Relu", "nowhere")], X, "nobody computes its input 'nowhere'")
+    yield case("nobody_computes", [node("Relu", "nowhere")], X, "undefined input 'nowhere'")
     yield case("complex_padding", [node("Pad", "x p")], X, "weights 'p' are no real numbers (complex64)",
                constants={"p": np.array([0, 0, 1, 1, 0, 0, 1, 1], np.complex64)})
     yield case("no_size", [node("Relu", "x")], {"x": [0, -2, 1 << 40]}, "say which with --shape")
@@ -448,9 +448,10 @@ def large_cases(w):
     backward = {"start": ints(-1), "end": ints(-(1 << 31)), "axis": ints(1), "step": ints(-1)}
     yield case("channels_in_pieces", [node("Slice", "x start end axis step", "t"),
                                       node("Relu", "t")], {"x": [1, 1 << 20, 1, 1]},
-               "together of 1048576 pieces; a network has at most 1024 layers", constants=backward)
+               "come from 1048576 pieces; a network has at most 1024 layers", constants=backward)
     yield case("long_future", [node("Conv", "x w", pads=[1, 1 << 20])], {"x": [1, 5, 12]},
-               "it holds steps that have not come", constants={"w": weights(6, 5, 2)}, arguments=["--time-axis", "2"])
+               "it depends on later steps of the stream", constants={"w": weights(6, 5, 2)},
+               arguments=["--time-axis", "2"])
     yield case("long_memory", [node("Conv", "x w", pads=[100000, 0], dilations=[100000])], {"x": [1, 5, 12]},
                "reaches back 100000 steps; at most 1000", constants={"w": weights(6, 5, 2)},
                arguments=["--time-axis", "2"])
