@@ -16,8 +16,12 @@ TEST(Mirror, ExchangesTheSidesOfControls) {
                                     {"jawLeft", "jawRight"},
                                     {"mouthLeft", "mouthRight"},
                                     {"jawOpen", "jawOpen"}}) {
-    EXPECT_EQ(turned.controls[index_of(name, kArkitNames)], frame.controls[index_of(other, kArkitNames)]) << name;
-    EXPECT_EQ(turned.controls[index_of(other, kArkitNames)], frame.controls[index_of(name, kArkitNames)]) << other;
+    EXPECT_EQ(turned.controls[index_of(name, kArkitNames)],
+              frame.controls[index_of(other, kArkitNames)])
+        << name;
+    EXPECT_EQ(turned.controls[index_of(other, kArkitNames)],
+              frame.controls[index_of(name, kArkitNames)])
+        << other;
   }
   EXPECT_EQ(mirrored(turned).controls, frame.controls);
 }
