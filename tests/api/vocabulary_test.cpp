@@ -222,6 +222,10 @@ TEST(Vocabulary, SupportFollowsTheControls) {
       << "happy needs both corners";
   const std::uint64_t both = left | 1ull << control("mouthSmileRight");
   EXPECT_EQ(mien_vocabulary_supported(MIEN_VOCABULARY_VRM1, both), 1u);
+  const std::uint64_t raiser = 1ull << index_of(kRoblox, "LeftCheekRaiser");
+  EXPECT_EQ(mien_vocabulary_supported(kRoblox, left), 0u);
+  EXPECT_EQ(mien_vocabulary_supported(kRoblox, 1ull << control("cheekSquintLeft")), raiser)
+      << "a maximum needs one of its controls";
 }
 
 TEST(Vocabulary, RejectsInvalidArguments) {

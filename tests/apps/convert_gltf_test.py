@@ -45,6 +45,7 @@ class ConvertGltf(ConvertTestCase):
         animation = document["animations"][0]
         names = document["meshes"][0]["extras"]["targetNames"]
         self.assertEqual(names, ARKIT)
+        self.assertEqual(document["meshes"][0]["weights"], [0] * len(ARKIT))
         nodes = [node["name"] for node in document["nodes"]]
         found = {}
         for channel in animation["channels"]:
