@@ -222,10 +222,13 @@ TEST(Vocabulary, SupportFollowsTheControls) {
       << "happy needs both corners";
   const std::uint64_t both = left | 1ull << control("mouthSmileRight");
   EXPECT_EQ(mien_vocabulary_supported(MIEN_VOCABULARY_VRM1, both), 1u);
-  const std::uint64_t raiser = 1ull << index_of(kRoblox, "LeftCheekRaiser");
-  EXPECT_EQ(mien_vocabulary_supported(kRoblox, left), 0u);
-  EXPECT_EQ(mien_vocabulary_supported(kRoblox, 1ull << control("cheekSquintLeft")), raiser)
-      << "a maximum needs one of its controls";
+  const auto raises = [](std::uint64_t supported) {
+    return mien_vocabulary_supported(MIEN_VOCABULARY_ROBLOX, supported) >>
+               index_of(MIEN_VOCABULARY_ROBLOX, "LeftCheekRaiser") &
+           1u;
+  };
+  EXPECT_EQ(raises(left), 0u);
+  EXPECT_EQ(raises(1ull << control("cheekSquintLeft")), 1u) << "a maximum needs one control";
 }
 
 TEST(Vocabulary, RejectsInvalidArguments) {
