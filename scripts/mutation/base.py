@@ -39,8 +39,8 @@ class Base:
         for name in names:
             self._copy(name)
         for path in self.source.rglob("*"):
-            if path.is_file() and self.source / "build" not in path.parents and str(
-                path.relative_to(self.source)) not in names:
+            built = self.source / "build" in path.parents
+            if path.is_file() and not built and str(path.relative_to(self.source)) not in names:
                 path.unlink()
         whole_files = f"-DCMAKE_PROJECT_INCLUDE={pathlib.Path(__file__).parent / 'whole_files.cmake'}"
         environment = dict(os.environ, CCACHE_BASEDIR=str(self.source))

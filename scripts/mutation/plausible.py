@@ -127,8 +127,9 @@ class Filter:
     def passes(self, number, before, after):
         """`number`: of the line, from 1."""
         code, changed = without_comments(before), without_comments(after)
-        if not code.strip() or code == changed or balance(code) != balance(changed) or not words(changed) - words(
-            code) <= NEW_WORDS:
+        if not code.strip() or code == changed or balance(code) != balance(changed):
+            return False
+        if not words(changed) - words(code) <= NEW_WORDS:
             return False
         if changed.count("\n") > code.count("\n"):
             return code.rstrip().endswith((";", "{")) and may_stop(changed.split()[-1].rstrip(";"),

@@ -54,10 +54,11 @@ def random_frames(seed, count=FRAMES):
 
 
 def rotation_matrix(head):
-    (sp, cp), (sy, cy), (sr,
-                         cr) = ((math.sin(head[k]), math.cos(head[k])) for k in ("pitch_rad", "yaw_rad", "roll_rad"))
-    rx, ry, rz = [[1, 0, 0], [0, cp, -sp], [0, sp, cp]], [[cy, 0, sy], [0, 1, 0], [-sy, 0, cy]], [[cr, -sr, 0], [
-        sr, cr, 0], [0, 0, 1]]
+    angles = [head[k] for k in ("pitch_rad", "yaw_rad", "roll_rad")]
+    (sp, cp), (sy, cy), (sr, cr) = ((math.sin(angle), math.cos(angle)) for angle in angles)
+    rx = [[1, 0, 0], [0, cp, -sp], [0, sp, cp]]
+    ry = [[cy, 0, sy], [0, 1, 0], [-sy, 0, cy]]
+    rz = [[cr, -sr, 0], [sr, cr, 0], [0, 0, 1]]
     times = lambda a, b: [[sum(a[i][k] * b[k][j] for k in range(3)) for j in range(3)] for i in range(3)]
     return times(times(ry, rx), rz)
 

@@ -34,8 +34,8 @@ class MobileNetV2(nn.Module):
     def __init__(self, classes=30):
         super().__init__()
         layers, channels = [conv_norm(3, 12, 3, 2)], 12
-        for expansion, width, count, stride in ((1, 8, 1, 1), (6, 8, 2, 2), (6, 12, 3, 2), (6, 20, 4, 2), (
-            6, 32, 3, 1), (6, 52, 3, 2), (6, 104, 1, 1)):
+        for expansion, width, count, stride in ((1, 8, 1, 1), (6, 8, 2, 2), (6, 12, 3, 2), (6, 20, 4, 2),
+                                                (6, 32, 3, 1), (6, 52, 3, 2), (6, 104, 1, 1)):
             for i in range(count):
                 layers.append(InvertedResidual(channels, width, stride if i == 0 else 1, expansion))
                 channels = width

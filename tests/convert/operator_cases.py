@@ -1,35 +1,9 @@
 """ONNX graphs of one operator or a few, built by hand in several opsets, and graphs that have to be refused."""
 import numpy as np
-from onnx import TensorProto, helper, numpy_helper
+from graph_case import Case
+from onnx import helper, numpy_helper
 
-FLOAT = TensorProto.FLOAT
 OPSETS = (11, 13, 15, 18)
-
-
-class Case:
-    """shapes: of the inputs by name. arguments: of the converter. feedback: state inputs -> outputs, of a graph of one
-    step. rounds: how often numbers are folded into others, and the result rounded to fp16. answer: numpy's, where ONNX
-    Runtime does not take the graph. expected: (case, x) -> all outputs by numpy, beside ONNX Runtime's."""
-
-    def __init__(self, name, nodes, shapes, outputs=("y",), opset=13, constants=None, arguments=(), steps=1,
-                 feedback=None, layout="chw", refusal=None, domains=(), rounds=False, answer=None, expected=None):
-        self.name, self.nodes, self.shapes, self.outputs, self.opset = f"{name}_{opset}", nodes, shapes, outputs, opset
-        self.constants, self.arguments, self.steps, self.feedback = constants or {}, list(
-            arguments), steps, feedback or {}
-        self.layout, self.refusal, self.domains, self.rounds, self.answer = layout, refusal, domains, rounds, answer
-        self.expected = expected
-        for i, node in enumerate(nodes[:-1]):  # the last keeps its name, of which refusals speak
-            node.name = f"node_{i}"
-
-    def model(self):
-        inputs = [helper.make_tensor_value_info(name, FLOAT, shape) for name, shape in self.shapes.items()]
-        outputs = [helper.make_tensor_value_info(name, FLOAT, None) for name in self.outputs]
-        constants = [numpy_helper.from_array(np.asarray(value), name) for name, value in self.constants.items()]
-        graph = helper.make_graph(self.nodes, "case", inputs, outputs, constants)
-        opsets = [helper.make_opsetid("", self.opset)] + [helper.make_opsetid(domain, 1) for domain in self.domains]
-        model = helper.make_model(graph, producer_name="operator_cases", opset_imports=opsets)
-        model.ir_version = 8
-        return model
 
 
 random = np.random.default_rng(7)
@@ -108,10 +82,9 @@ def norm_cases():
 
 def activation_cases():
     low, high = np.float32(-0.75), np.float32(0.5)
-    plain = [("relu", "Relu", {}), ("leaky_relu", "LeakyRelu", {"alpha": 0.125}), ("leaky_relu_default",
-                                                                                   "LeakyRelu", {}),
-             ("leaky_relu_zero", "LeakyRelu", {"alpha": 0.0}), ("leaky_relu_steep", "LeakyRelu", {"alpha": 1.5}), (
-                 "sigmoid", "Sigmoid", {}),
+    plain = [("relu", "Relu", {}), ("leaky_relu", "LeakyRelu", {"alpha": 0.125}),
+             ("leaky_relu_default", "LeakyRelu", {}), ("leaky_relu_zero", "LeakyRelu", {"alpha": 0.0}),
+             ("leaky_relu_steep", "LeakyRelu", {"alpha": 1.5}), ("sigmoid", "Sigmoid", {}),
              ("tanh", "Tanh", {}), ("hard_sigmoid", "HardSigmoid", {"alpha": 0.25, "beta": 0.5})]
     for name, operator, attributes in plain:
         yield Case(name, [node(operator, "x", **attributes)], X)

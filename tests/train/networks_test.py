@@ -154,8 +154,8 @@ class ExpandedUnit(unittest.TestCase):
         """Answers, gradients and statistics against those of PyTorch's own layers in fp64."""
         torch.manual_seed(1)
         for dtype, tolerance in ((torch.float32, 2e-4), (torch.bfloat16, 6e-2)):
-            for narrow, channels, h, w, stride, padding in ((16, 32, 13, 11, 1, 0), (24, 96, 12, 9, 2, 0), (
-                40, 120, 5, 5, 1, 1), (16, 40, 7, 6, 2, 1)):
+            for narrow, channels, h, w, stride, padding in ((16, 32, 13, 11, 1, 0), (24, 96, 12, 9, 2, 0),
+                                                            (40, 120, 5, 5, 1, 1), (16, 40, 7, 6, 2, 1)):
                 convolution = lambda: nn.Conv2d(channels, channels, 3, stride, padding, groups=channels, bias=False)
                 layers = nn.Sequential(nn.Conv2d(narrow, channels, 1, bias=False), NormActivation(channels, True),
                                        convolution(), NormActivation(channels, True)).train()

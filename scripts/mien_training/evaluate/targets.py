@@ -200,8 +200,8 @@ def audio():
             bar("jawOpen, other people, free speech, mean of clips", ">=", 0.4, clips_of("hdtf_", "whitehouse_")),
             bar("lips closed for p b m, %", ">=", 95, figure("controls", "lips", "closed for p b m"), 100, 1),
             *(bar(f"{control} on {where}, 95th percentile", ">=", 0.4, figure("controls", "strength", control))
-              for control, where in (("jawOpen", "open vowels"), ("mouthPucker", "rounded vowels"), (
-                  "mouthFunnel", "rounded vowels")))]
+              for control, where in (("jawOpen", "open vowels"), ("mouthPucker", "rounded vowels"),
+                                     ("mouthFunnel", "rounded vowels")))]
 
 
 def clips_of(*prefixes):

@@ -20,16 +20,8 @@ from mien_training.data.expressions import CONTROLS, MIRROR, PAIRED_LEFT, PAIRED
 from mien_training.data.face_batches import rarity
 from mien_training.evaluate import metrics
 from mien_training.networks.architectures import FACE_NETWORKS, FEATURES, ControlsDecoder, PoseDecoder, TemporalDecoder
-from mien_training.phase1.losses import (
-    HINTING,
-    Line,
-    Turn,
-    censored,
-    importance,
-    soft_clamp,
-    teacher_spread,
-    unevenness,
-)
+from mien_training.phase1 import losses
+from mien_training.phase1.losses import censored, importance, soft_clamp, teacher_spread, unevenness
 from mien_training.phase2.decoder_output import LEFT, RIGHT, output_controls
 
 SUPPORTED_CORRELATION = 0.55  # a margin over 0.5: on other people it is a little lower
@@ -98,9 +90,9 @@ class TeacherTask:
 
     def __init__(self, data, args):
         self.args = args
-        spread, follow = teacher_spread(data["controls"].flatten(0, 1).float(), HINTING)
+        spread, follow = teacher_spread(data["controls"].flatten(0, 1).float(), losses.HINTING)
         weight = follow * importance(args.frowns) / (spread + 0.05)
-        self.weight, self.line = weight / weight.mean(), Line(len(CONTROLS), weight.device)
+        self.weight, self.line = weight / weight.mean(), losses.Line(len(CONTROLS), weight.device)
 
     def loss(self, output, batch, mask):
         target = batch["controls"]
@@ -131,7 +123,7 @@ class TeacherPoseTask:
     """Agreement with the teacher how the heads of portraits are turned, after one rotation for all."""
 
     def __init__(self, _, args):
-        self.args, self.turn = args, Turn("cpu")
+        self.args, self.turn = args, losses.Turn("cpu")
 
     def loss(self, output, batch, mask):
         error = F.smooth_l1_loss(*self.turn.bring(output, batch["pose"]), beta=self.args.beta, reduction="none")
