@@ -32,6 +32,7 @@ step media_matrix /usr/bin/python3 tests/apps/media_matrix_test.py build/release
 step public_models env PYTHONPATH=scripts /usr/bin/python3 tests/convert/public_models_test.py build/release/apps/mien/mien
 step killed_training env PYTHONPATH=scripts /usr/bin/python3 tests/train/killed_training_test.py
 step worst_frame scripts/measure/worst_frame.sh
+step blender tests/blender/bpy_test.sh build/release/apps/mien/mien
 step soak scripts/measure/soak.sh
 step memcheck scripts/valgrind.sh 3
 step realtime scripts/rtsan.sh
