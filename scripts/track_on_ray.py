@@ -62,7 +62,7 @@ def track(job, program, options):
 
 
 def run_all(jobs, arguments):
-    import ray  # what is above needs no cluster
+    import ray  # the functions above need no cluster
 
     ray.init(address=arguments.address, log_to_driver=False)
     # A dead worker's task runs again; a failure of mien itself is an answer, and is not repeated.

@@ -1,11 +1,9 @@
 #!/usr/bin/env python3
-"""clang-tidy, as .clang-tidy says, on every file of which it has not been right already, includes and options being the
-same.
+"""Runs clang-tidy (.clang-tidy) on every file that has not passed with the same content, includes and options.
 
 usage: scripts/check/tidy.py BUILD_DIR [FOLDER|PATTERN.cpp...]      BUILD_DIR has compile_commands.json
-Without any, what people run: the library and the programs. The tests include GoogleTest, which takes ten seconds a
-file, so they are checked when named: scripts/check/tidy.py build/tidy tests fuzz. What was right is remembered in
-$XDG_CACHE_HOME/mien/tidy.
+Default: the library and the programs. The tests include GoogleTest, which takes ten seconds per file, so name them to
+check them: scripts/check/tidy.py build/tidy tests fuzz. $XDG_CACHE_HOME/mien/tidy records the files that have passed.
 """
 import argparse
 import concurrent.futures
@@ -33,7 +31,7 @@ def tracked(patterns):
 
 
 def preprocessed(entry):
-    """What the compiler sees of a file, and its comments, for they may allow something to clang-tidy."""
+    """The preprocessed file with its comments, which may suppress checks of clang-tidy."""
     words = shlex.split(entry["command"])
     at = words.index("-o")
     options = [word for word in words[:at] + words[at + 2:] if word != "-c"]
@@ -52,7 +50,7 @@ class Tidy:
         return hashlib.sha256(b"\0".join([self.rules, command, preprocessed(entry)])).hexdigest()
 
     def complaints(self, file):
-        """What is wrong with a file, or nothing."""
+        """The findings in a file; empty without any."""
         done = REMEMBERED / self.key(self.entries[file])
         if done.exists():
             return ""
@@ -70,10 +68,10 @@ def main():
     parser.add_argument("patterns", nargs="*", default=PEOPLE_RUN)
     args = parser.parse_args()
     tidy = Tidy(args.build.resolve())
-    # What is no part of the build, such as the kernels for another CPU, cannot be checked.
+    # Files outside the build, such as kernels for another CPU, cannot be checked.
     files = [file for file in tracked(args.patterns) if file in tidy.entries]
     if not files:
-        sys.exit("check/tidy.py: nothing of this is built in " + str(args.build))
+        sys.exit("check/tidy.py: none of these files is built in " + str(args.build))
     wrong = 0
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         for complaints in pool.map(tidy.complaints, files):

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# There is no mien for big-endian machines, and whoever compiles it for one is told so: here for s390x. docs/cross.md says why.
+# Checks that a build for a big-endian machine (s390x) fails with a clear message; see docs/cross.md.
 # usage: scripts/cross/big_endian.sh
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -9,7 +9,7 @@ refusal="there is no mien for big-endian machines"
 compile() {  # compiler, file
   "$1" -std=c++20 -fno-exceptions -fno-rtti -fsyntax-only -I. -Iinclude "$2" 2>&1
 }
-# All that reads a weight file; the same files are right where numbers are little-endian, so that the refusal has one reason alone.
+# All sources that read weight files. They compile for little-endian machines, so byte order is the only reason for the error.
 for file in formats/mien_open.cpp formats/mien_writer.cpp engine/model.cpp tracker/tracker.cpp; do
   compile g++ $file || { echo "big_endian.sh: $file does not compile for this machine either" >&2; exit 1; }
   if said=$(compile s390x-linux-gnu-g++ $file); then

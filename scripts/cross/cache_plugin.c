@@ -1,5 +1,5 @@
 /* A plugin for qemu-user that passes a program's loads and stores through a model of two caches and
- * counts the lines that each has to fetch.
+ * counts the lines that each must fetch.
  *
  *   qemu-aarch64 -plugin libcache.so,output=FILE PROGRAM
  *

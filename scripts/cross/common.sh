@@ -30,7 +30,7 @@ configure() {  # build folder, folder for GoogleTest, toolchain file, options
     "${@:4}" >/dev/null
 }
 
-# Shows tiers, what is checked and the sum; everything when something is wrong.
+# Prints the tiers and the summary; everything after a failure.
 conformance() {  # device as of scripts/run_on_device.sh, program, options
   local output
   echo "-- mien-conformance ${*:3}, $1"
@@ -38,10 +38,10 @@ conformance() {  # device as of scripts/run_on_device.sh, program, options
   sed -n '/^mien /p;/^guard pages/p;$p' <<<"$output"
 }
 
-# Ends the script, rightly, on a machine that cannot run x86-64 programs itself.
+# Ends the script successfully on a machine that cannot run x86-64 programs.
 x86_64_only() {  # name of the target
   if [ "$(uname -m)" != x86_64 ]; then
-    echo "$1: nothing ran: this is no x86-64 machine"
+    echo "$1: nothing ran: this is not an x86-64 machine"
     exit
   fi
 }

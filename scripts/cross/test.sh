@@ -4,7 +4,7 @@
 # usage: scripts/cross/test.sh linux-arm64|linux-armv7|linux-i386 [--full]
 #   --full: also more CPU models, the tests that take longest under emulation (`slow` below), and mien-conformance on 50 seeds, not
 #   one: hours
-# Exit status 0 only when all is right. What ran, and what was only compiled, is said at the end.
+# Exit status 0 only if everything passes. Prints at the end which tests ran, and which parts were only compiled.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 
@@ -28,11 +28,11 @@ case "${2:-}" in
   *) echo "test.sh: unknown option '$2'" >&2; exit 2 ;;
 esac
 
-# Left out: what starts programs, which a machine without binfmt_misc cannot do with those of another one; and the kernels'
-# cases, which mien-conformance has run by then.
+# Excludes tests that start programs, which a machine without binfmt_misc cannot do for another machine, and the cases of kernels,
+# which mien-conformance runs before.
 elsewhere='ConformanceProgram|conformance\.|package|convert|train|apps|formats\.(locale|protocols)|Kernels/Conformance'
-# Without --full, under an emulator, tests that take more than a tenth of a second natively and so many seconds under emulation: long streams
-# and clips, which other machines run. What stays has at least one test of every part, and one with the trained networks.
+# Tests that an emulator runs only with --full: they take more than a tenth of a second natively, and seconds under emulation (long streams
+# and clips). Every part, and the trained networks, keep at least one test.
 slow='Allocation\.CreateAllocatesOnce|Calibration\.|Equivariance\.|FrontEnd\.FeaturesDoNotDependOnBlockSize|Images\.(MayHaveAnySize|MayBeFourK)'
 slow+='|Levels\.|Reset\.|Resampler\.(Outputs?|Passes|Attenuates)|SeveralFaces\.([^DRT]|DetectsNew|TracksAtMost|TheOlder)|Soak\.|AudioClock\.Follows'
 slow+='|Timestamps\.Any|Tracking\.(AcceptsMore|FaceKeeps|NewSize|DetectionResets|DetectsDiscs|DetectsLess|SearchInterval|TracksA|Loses)|Trained\.[^T]'
@@ -59,9 +59,9 @@ cmake -S . -B "$build" -G Ninja --toolchain "$toolchain" "${launcher[@]}" -DCMAK
   -DCLI11_DIR="$packages" -Dnlohmann_json_DIR="$packages" \
   -DGTest_DIR="$PWD/$build/googletest/lib/cmake/GTest" >/dev/null
 cmake --build "$build" --target all mien_shared
-if [ "$target" != linux-i386 ]; then  # which has no tier of its own
+if [ "$target" != linux-i386 ]; then  # which has only the tier ref
   scripts/check/symbols.sh "$build" "$nm"
-  # What only this machine compiles; without what clang does not know of gcc's options, and does by itself.
+  # Sources that only this machine compiles, without options of gcc that clang lacks or implies.
   mkdir -p "$build/tidy"
   sed 's/ -mfp16-format=ieee//' "$build/compile_commands.json" >"$build/tidy/compile_commands.json"
   scripts/check/tidy.py "$build/tidy" 'kernels/*/neon*.cpp' kernels/detect_cpu.cpp
@@ -93,7 +93,7 @@ run_tests() {  # CPU model, ctest's choice of tests
 for model in $models; do
   run_tests "$model" -R 'Golden|PublishedNetworks|HalfSums'
 done
-# 32-bit x86 needs no emulator and has no tier but ref, by which one test takes a quarter of an hour.
+# 32-bit x86 needs no emulator, but only has the tier ref, with which one test takes a quarter of an hour.
 [ "$target" != linux-i386 ] || slow='TrainedLevels\.ChangingThem'
 if [ $full -eq 1 ]; then slow=; else elsewhere+="|$slow"; fi
 run_tests "${models%% *}" -E "^(${elsewhere})"

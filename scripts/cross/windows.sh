@@ -6,7 +6,7 @@ set -euo pipefail
 cd "$(dirname "$0")/../.."
 scripts/setup.sh build cross-windows
 . scripts/cross/common.sh
-export WINEDEBUG=-all  # Wine speaks of a 32-bit half that nobody needs
+export WINEDEBUG=-all  # hides messages about the missing 32-bit part of Wine
 export WINEPREFIX=$PWD/build/cross/wine
 
 build=build/cross/windows-x64
@@ -41,12 +41,12 @@ wine $build/tests/tracker/frame_bench/mien_frame_bench.exe models "$frames" 640 
 program_beside_ours() {
   local ffmpeg_folder
   if ! ffmpeg_folder=$(scripts/cross/install_windows_ffmpeg.sh); then
-    echo "SKIPPED: the program did not run: no ffmpeg.exe can be had from PyPI and npm" >&2
+    echo "SKIPPED: the program did not run: no ffmpeg.exe could be installed from PyPI and npm" >&2
     return
   fi
   cmake --preset release >/dev/null
   build build/release mien_program
-  # Wine's own services, one of which may fault while it starts, are there before, and say nothing among what the program says.
+  # Starts Wine's services first, because one may crash on startup and print messages between those of the program.
   wineserver -k || true
   wineserver -p
   wine wineboot >/dev/null 2>&1

@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
-"""How late packets of `mien live` are, and what it drops and keeps: from when a picture of a replayed clip is due to
-when another process has its packet.
+"""Measures the latency of `mien live`, from the time at which an image of a clip is due until another process has
+received its packet, and the frames that it drops.
 
-The clip is decoded beforehand (ffmpeg) and goes into the program through a pipe, over and over, so that a picture is
-there when it is due.
+ffmpeg decodes the clip before the measurement; a pipe feeds it to the program in a loop, so that every image is
+available when it is due.
 
 usage: live_latency.py [MIEN_PROGRAM] [--clip FILE] [--lod N ...] [--sound no|yes ...]
        [--minutes M]    prints a table in Markdown
 
-Pictures carry the time at which they were due on the machine's monotonic clock, and so do the packets of jsonl://. On a
-machine that has other work, `nice -n -10 live_latency.py` (as root) has the program wait for it less.
+The timestamps of images are the times at which they are due on the monotonic clock; packets of jsonl:// contain them.
+On a busy machine, run it with `nice -n -10` (as root), so that the program waits less.
 """
 import argparse
 import json
@@ -27,7 +27,7 @@ COLUMNS = ["level", "sound", "packets", "dropped pictures", "dropped packets", "
 
 
 class Clip:
-    """A video without an end, and its sound for as long as it is wanted."""
+    """An endless video, and its audio of a given length."""
 
     def __init__(self, file, folder, seconds):
         self.frames = round(seconds * FPS)
@@ -49,7 +49,7 @@ class Clip:
                 pipe.write(memoryview(self.body)[at:at + self.picture_bytes])
             pipe.close()
         except BrokenPipeError:
-            pass  # the program has ended, and says why
+            pass  # the program has ended with an error message
 
 
 def resident_mb(process):

@@ -21,7 +21,7 @@ def add_two(t, a, b):
 
 
 def combined(t, op, a, b):
-    """Arithmetic of two computed tensors, one of which may be broadcast to the other."""
+    """Arithmetic of two computed tensors; one may be broadcast to the other."""
     rank = max(len(a.shape), len(b.shape))
     a, b = (x.moved(lambda part, x=x: part.reshape([1] * (rank - len(x.shape)) + list(x.shape))) for x in (a, b))
     shape = np.broadcast_shapes(a.shape, b.shape)

@@ -1,7 +1,7 @@
 """Layers of the engine while a network is converted, and the passes that make them few before they are written.
 
 A layer's value is a map (h, w, c); weights are numpy arrays in PyTorch's layout. `affine` is scale * x + shift per
-channel: no op of the format, it is folded into what is before it or becomes a 1x1 depthwise convolution.
+channel: not an operation of the format, it is folded into the previous layer or becomes a 1x1 depthwise convolution.
 """
 
 import numpy as np

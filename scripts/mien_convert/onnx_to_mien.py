@@ -19,7 +19,7 @@ try:
     from .weight_file import MienFile
 except ModuleNotFoundError as missing:
     sys.exit(
-        f"onnx_to_mien.py: no Python module {missing.name!r} here; scripts/setup.sh convert installs what is needed")
+        f"onnx_to_mien.py: no Python module {missing.name!r} here; scripts/setup.sh convert installs it")
 
 
 def network_name(stem):
@@ -107,7 +107,7 @@ def main(arguments=None):
                         help="INPUT=NUMBER: an input that becomes a constant, as a sampling rate")
     parser.add_argument("--time-axis", type=time_axis_of,
                         help="of the first input, whose steps come one by one; default: as it fits")
-    parser.add_argument("--any-size", action="store_true", help="the networks run on larger maps, too")
+    parser.add_argument("--any-size", action="store_true", help="the networks also run on larger maps")
     parser.add_argument("--fp16-only", action="store_true",
                         help="no layer is kept precise by a second one, whatever the rounding of weights does")
     options = parser.parse_args(arguments)

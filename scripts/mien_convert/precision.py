@@ -1,5 +1,5 @@
-"""Keeps layers precise whose weights fp16 is too coarse for: such a layer becomes two, of the rounded weights and of
-what is missing, and a sum.
+"""Keeps layers precise if fp16 is too coarse for their weights: splits such a layer into one with rounded weights, one
+with the rounding errors, and a sum.
 
 An evaluation on random inputs shows whether the outputs differ by more than ALLOWED. If so, as few layers are split as
 bring them below AIM, in the order of what they bring for what they cost.

@@ -1,8 +1,7 @@
 """Tensors of an ONNX graph in terms of the engine's layers.
 
-For every element a tensor says which element of which layer it is, or that it is a constant: so whatever only moves
-elements around (Reshape, Transpose, Slice, Concat, Pad, ...) costs nothing until a layer needs them in another order
-than they have. An element is
+A tensor maps each element to an element of a layer, or to a constant. Therefore operators that only move elements
+(Reshape, Transpose, Slice, Concat, Pad, ...) cost nothing until a layer needs them in another order. An element is
 
     scale * (element of a layer, or 0) + shift
 

@@ -1,4 +1,4 @@
-"""Mutation testing: changes of single lines of the library, each of which some test should notice.
+"""Mutation testing: changes of single lines of the library, which tests should detect.
 
 usage: scripts/mutate.sh [options]      scripts/mutate.sh --help
 """
@@ -29,7 +29,7 @@ def options():
     parser.add_argument("--seed", type=int, default=1, help="of the sample (default 1)")
     parser.add_argument("--workers", type=int, default=1, help="mutants at a time (default 1)")
     parser.add_argument("--results", type=pathlib.Path, default=WORK / "results.jsonl",
-                        help="what is known so far: a run goes on where the last one ended (default "
+                        help="results so far: a run continues where the last one ended (default "
                              "build/mutate/results.jsonl)")
     parser.add_argument("--again", action="store_true",
                         help="try mutants again that survived, since there are more tests now")
@@ -58,8 +58,8 @@ class Results:
 
 
 class Sample:
-    """The first mutants of an order that are any, handed out one by one: all of them to the quick tests, then what is
-    left to the slow ones."""
+    """The first valid mutants of an order, one by one: all of them for the quick tests, then the survivors for the
+    slow ones."""
 
     def __init__(self, order, results, count, again):
         self._order, self._results, self._count = order, results, count

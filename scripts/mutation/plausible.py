@@ -1,5 +1,4 @@
-"""Which mutants may compile: most of what universalmutator generates from C++ does not, and nobody needs a compiler to
-see it."""
+"""Selects mutants that may compile: most C++ mutants of universalmutator visibly do not."""
 import os
 import re
 
@@ -25,7 +24,7 @@ def balance(text):
 
 
 def change(before, after):
-    """(what was, what is, the text before it, the text behind it)"""
+    """(old text, new text, the text before it, the text after it)"""
     first = len(os.path.commonprefix([before, after]))
     last = len(os.path.commonprefix([before[first:][::-1], after[first:][::-1]]))
     return before[first:len(before) - last], after[first:len(after) - last], before[:first], before[len(before) - last:]

@@ -74,8 +74,7 @@ class Worker:
 
     def _outcome(self, mutant, slow):
         text = mutant.applied((self._base.source / mutant.file).read_text())
-        # What is inline in a header is part of the tests as well: where the library alone survives, they are compiled
-        # anew.
+        # Tests contain the inline code of headers: if the mutant of the library survives, they are compiled again.
         tests_too = slow and mutant.file.endswith(".h")
         jobs = [*(self._jobs(mutant.file, slow=False) if tests_too else []), *self._jobs(mutant.file, slow)]
         try:
@@ -127,7 +126,7 @@ class Worker:
         return checks.run(checks.command(check, path, self._base.source, tests), 10 + 5 * usual, self._folder)
 
     def _require_sound(self, check, test):
-        """A test that fails has to pass without a mutant."""
+        """A failing test must pass without a mutant."""
         if test in self._sound or test not in self._times[check]:
             return
         if self._run(check, self._base.build_folder / check.path, [test])[0] != 0:

@@ -43,7 +43,7 @@ GCC_ONLY = ",prefer-vector-width=512"
 
 
 class Tier:
-    """What is special about the file of a tier."""
+    """The properties of the file of a tier."""
 
     def __init__(self, name, target="", gcc_target=None, defines=(), pragmas=()):
         self.name = name
@@ -69,8 +69,8 @@ def ignored(condition, compiler, warnings):
     return [f"#if {condition}", *(f'#pragma {compiler} diagnostic ignored "-W{name}"' for name in warnings), "#endif"]
 
 
-# GCC 12 takes the undefined operands inside its own intrinsics for faults (GCC bug 105593), and does not see that the functions behind
-# lambdas, which nobody calls, are for the target, too. To clang, what a header says to many is unused where it says it to one.
+# GCC 12 warns of undefined operands inside its own intrinsics (GCC bug 105593), and does not apply the target to functions that lambdas
+# generate and nothing calls. clang warns of unused functions of headers.
 QUIET = [*ignored("defined(__GNUC__) && !defined(__clang__)", "GCC", ["uninitialized", "maybe-uninitialized", "psabi"]),
          *ignored("defined(__clang__)", "clang", ["unused-const-variable"])]
 TIERS = [
@@ -180,7 +180,7 @@ def renaming(path, names):
 
 
 def joined(sources):
-    """The sources as one, in which each finds what it found alone: names of its own that others know, too, are set apart."""
+    """Joins sources into one file in which each compiles as before; renames file-local names that occur in several sources."""
     plain = Text()
     for source in sources:
         plain.add(source, None)

@@ -3,7 +3,7 @@
 #   PACKED: the files were written by pack_weights.py
 cmake_minimum_required(VERSION 3.22)
 
-set(how "Sets the weights in *config, which never have to be released.")
+set(how "Sets the weights in *config; they need not be released.")
 if(PACKED)
   string(APPEND how " The first call unpacks them, and
  * has to be over before another thread calls. Damage is found by mien_tracker_create.")

@@ -31,7 +31,7 @@ umask 022
 mkdir -p "$out"
 out=$(cd "$out" && pwd)
 
-# Neither where it was compiled nor when is left in what is compiled.
+# The compiled files contain neither the build folder nor the time.
 export CFLAGS="-ffile-prefix-map=$PWD=." CXXFLAGS="-ffile-prefix-map=$PWD=."
 build=$PWD/build/release-build
 

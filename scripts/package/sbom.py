@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the software bill of materials of a release, SPDX 2.3 in JSON: every file of it, and what is in them that is not mien's.
+"""Writes the software bill of materials of a release, SPDX 2.3 in JSON: every file, and the third-party code in them.
 
 usage: scripts/package/sbom.py VERSION FOLDER      (SOURCE_DATE_EPOCH: its date)
 """

@@ -87,7 +87,7 @@ def pytorch(stem, inputs):
 
 OPENVINO = ["openvino/libs/libopenvino.so.*", "openvino/libs/libopenvino_intel_cpu_plugin.so",
             "openvino/libs/libopenvino_onnx_frontend.so.*"]
-# name: (how to run it, what it reads, how exact it has to be, its package, what a program ships of it)
+# name: (runner, file format, tolerance, package, files that a program ships)
 ENGINES = {
     "onnxruntime": (onnxruntime, ".onnx", EXACT, "onnxruntime", ["onnxruntime/capi/libonnxruntime.so.*"]),
     "openvino": (openvino("f32"), ".onnx", EXACT, "openvino", OPENVINO),

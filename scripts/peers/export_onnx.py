@@ -36,7 +36,7 @@ class DecoderStep(nn.Module):
 
 
 def clamp_once(network):
-    """ReLU6 would be exported as two operators, of which engines fuse one."""
+    """ReLU6 would be exported as two operators, and engines fuse only one of them."""
     for parent in list(network.modules()):
         for name, child in parent.named_children():
             if isinstance(child, nn.ReLU6):

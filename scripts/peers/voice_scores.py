@@ -98,7 +98,7 @@ class Mien:
 
 
 def best_shift(said, truth):
-    """(area under ROC, shift): shift n compares what is said at window k with the truth at k - n."""
+    """(area under ROC, shift): shift n compares the prediction for window k with the truth at k - n."""
     areas = {}
     for n in SHIFTS:
         pairs = [(s[max(n, 0):len(s) + min(n, 0)], t[max(-n, 0):len(t) - max(n, 0)]) for s, t in zip(said, truth)]

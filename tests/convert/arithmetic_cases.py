@@ -205,7 +205,7 @@ def accepted():
 
 
 def refused():
-    """What is near to what is taken, with what the message has to hold."""
+    """Graphs that are slightly different from supported ones, with a part of the error message."""
     def of(name, nodes, refusal, shapes=None, **options):
         return Case(name, nodes, shapes or X, refusal=refusal, **options)
     roi = {"roi": floats(), "s": floats(1, 1, 1.5, 1.5), "n": ints(1, 10, 16, 12)}

@@ -7,7 +7,7 @@ folder=${MIEN_CACHE:-$HOME/.cache/mien}/onnx-node-tests-$version
 [ ! -d "$folder" ] || exit 0
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-# One file of those that the package has for all Pythons and machines: what is taken of it is the same in all.
+# Uses the package for any Python and machine: the tests are the same in all of them.
 /usr/bin/python3 -m pip download --quiet --no-deps --only-binary=:all: --python-version 3.11 --platform manylinux2014_x86_64 \
   --dest "$work" "onnx==$version"
 unzip -q "$work"/onnx-*.whl 'onnx/backend/test/data/node/*' -d "$work"

@@ -96,7 +96,7 @@ def has_default_export():
 
 
 def exported(network, path, by_default):
-    """By default as torch.onnx.export does it when it is told nothing, else as it did until PyTorch 2.4."""
+    """Exports with the default exporter of torch.onnx.export, or with that of PyTorch up to 2.4."""
     options = {} if by_default else {"opset_version": 16, "input_names": ["x"]}
     if has_default_export():
         options["dynamo"] = by_default

@@ -160,7 +160,7 @@ class Networks(Folder):
                     self.assertLess(error, ROUNDED_TOLERANCE)
 
     def test_networks_of_today(self):
-        """As PyTorch exports them by default, too, where its exporter of today is."""
+        """Also with PyTorch's default exporter, if available."""
         ways = [False] + [True] * modern_networks.has_default_export()
         if len(ways) == 1:
             print("NOT TESTED: PyTorch's default export, for want of onnxscript or PyTorch 2.5")
@@ -272,7 +272,7 @@ class Program(Folder):
     def test_files_that_are_none(self):
         (self.folder / "text.onnx").write_text("not a network")
         (self.folder / "empty.onnx").write_bytes(b"")
-        # of which protobuf reads what comes before
+        # protobuf reads the part before the error
         (self.folder / "half.onnx").write_bytes(self.model().read_bytes() + b"\x0c")
         for name in ("text", "empty", "half"):
             status, _ = convert([self.folder / f"{name}.onnx", "-o", self.folder / "y.mien"])

@@ -1,4 +1,4 @@
-"""ONNX graphs of one operator or a few, built by hand in several opsets, and graphs that have to be refused."""
+"""ONNX graphs of one or a few operators, built by hand in several opsets, and graphs that must be rejected."""
 import numpy as np
 from graph_case import Case
 from onnx import helper, numpy_helper
@@ -332,7 +332,7 @@ def accepted():
 
 
 def refused():
-    """With what the message has to hold besides the node's name."""
+    """With a part of the message besides the name of the node."""
     def case(name, nodes, shapes, refusal, **options):
         return Case(name, nodes, shapes, refusal=refusal, **options)
     w = {"w": weights(6, 10, 3, 3), "v": weights(4, 5, 3, 3)}

@@ -60,19 +60,19 @@ FINE = 1 + 2.0 ** -12
 
 
 def copies(channels, kernel=1):
-    """Twice each channel: [2 c, c, 1, 1]"""
+    """Weights [2 c, c, 1, 1] that copy each channel twice."""
     return np.concatenate([np.eye(channels)] * 2).reshape(2 * channels, channels, 1, 1).astype(np.float32)
 
 
 def differences(channels):
-    """FINE times the first half minus the second: what is small of what is large."""
+    """FINE times the first half minus the second: a small difference of large values."""
     weight = np.concatenate([FINE * np.eye(channels), -np.eye(channels)], 1).astype(np.float32)
     return {"a": copies(channels), "b": weight.reshape(channels, 2 * channels, 1, 1),
             "c": np.zeros(channels, np.float32)}
 
 
 def pair(*more, **options):
-    """Two convolutions of which only the second needs more than fp16."""
+    """Two convolutions; only the second needs more than fp16."""
     return Case("pair", [node("Conv", "x a", "t"), node("Conv", "t b c", "y" if not more else "u"),
                          *more], {"x": [1, 3, 6, 5]},
                 constants=differences(3), **options)

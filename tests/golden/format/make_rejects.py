@@ -207,7 +207,7 @@ ARITHMETIC_CASES = [
     ("wide_output_reserved", "kReservedNotZero", SMALL + 52, [("H", SMALL + 58, 1)]),
 ]
 
-# Of every_op.mien: name, layer, its tensor, element (all of the first network have 20 channels, in 24 lanes), what is put there.
+# Changes of every_op.mien: name, layer, tensor, element (layers of the first network have 20 channels, in 24 lanes), new value.
 WEIGHTS, BIAS, SLOPES = range(3)
 LANES_CASES = [
     ("lane_of_conv2d", 0, WEIGHTS, 16 * 27 + 26 * 8 + 7, 0x3C00),

@@ -280,7 +280,7 @@ class Reader:
         self.tensor += 1
 
     def lanes(self, index, panel, used):
-        """Of panels of so many outputs, the last perhaps of 8, with the elements of the reduction one after the other."""
+        """Reads panels of this number of outputs, with a last one of 8 if necessary; elements of the reduction are consecutive."""
         outputs, *rest = self.dims[index]
         elements = 1
         for n in rest:

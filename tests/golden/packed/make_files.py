@@ -12,12 +12,12 @@ HERE = Path(__file__).parent
 
 FORMAT = HERE.parent / "format/accept"
 SMALL = packed((FORMAT / "small.mien").read_bytes())
-ZEROS = 1 << 17  # so many fp16 weights
+ZEROS = 1 << 17  # number of fp16 weights
 BLOCK, LOW = 32, 36
 
 
 def zeros():
-    """A file of several blocks, most of which are one byte's alone."""
+    """A file of several blocks; most contain a single byte value."""
     file = MienFile()
     net = file.network("zeros", (1, 1, 256))
     net.output(net.pointwise(net.input, [[0.0] * 256] * (ZEROS // 256)))
