@@ -43,7 +43,7 @@ class WholeFiles(unittest.TestCase):
             self.assertEqual(len(written), BLOCKS * BLOCK)
             self.assertEqual(written, written[:1] * len(written), "of one write alone")
             left_behind += len(list(self.path.parent.iterdir())) > 1
-        self.assertGreater(left_behind, 5, "some have to be killed in the middle")
+        self.assertGreater(left_behind, 5, "some runs must be killed in the middle")
         write_whole(self.path, b"new")
         self.assertEqual([path.name for path in self.path.parent.iterdir()], [self.path.name], "nothing piles up")
 

@@ -25,7 +25,7 @@ class DecoderOutput(unittest.TestCase):
         assert len(SIDED) == 16
         assert torch.allclose(controls[0, 0, [a, b, jaw]], torch.tensor([0.02, 1, 0.02]))
         assert torch.allclose(controls[1, 2, [a, b, jaw]], torch.tensor([0.014, 0.006, 0.02]))
-        assert answers[0, 0, b] == 1.5, "what is given stays as it was"
+        assert answers[0, 0, b] == 1.5, "given outputs stay unchanged"
 
 
 class AmplitudeLosses(unittest.TestCase):
@@ -44,7 +44,7 @@ class AmplitudeLosses(unittest.TestCase):
         assert ratio(best(lambda p: ((p - truth) ** 2).mean())) < 0.8
         shifted = truth + torch.rand(20, 1, 3)
         assert discordance_within(shifted, truth, weight).max() < 1e-6 < 0.1 < discordance(shifted, truth, weight).min()
-        # What is not seen counts for nothing.
+        # Invisible controls have no weight.
         weight[:, 25:] = 0
         spoilt = truth.clone()
         spoilt[:, 25:] = 0

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The evaluation: what probes show, how answers become figures, and that what is missing is said."""
+"""The evaluation: probes, metrics, and the report of missing data."""
 import json
 import os
 import subprocess
@@ -284,9 +284,9 @@ class Reports(unittest.TestCase):
         self.assertEqual("-", summary.line(bar, {"clips": results(0.001)})[2])
 
     def test_page_says_what_is_not_there(self):
-        page = summary.page({}, {}, ["pictures: the portraits are absent"], has_hifinet=False)
+        page = summary.page({}, {}, ["images: the portraits are absent"], has_hifinet=False)
         self.assertIn("HiFiNet is not trained yet", page)
-        self.assertIn("* pictures: the portraits are absent", page)
+        self.assertIn("* images: the portraits are absent", page)
 
 
 class Missing(unittest.TestCase):

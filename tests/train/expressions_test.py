@@ -100,7 +100,7 @@ class Expressions(unittest.TestCase):
         quick = [n for n in e.CONTROLS if n.startswith("eye")]
         slow = [e.INDEX[n] for n in e.CONTROLS if n not in quick and not n.startswith(("jaw", "mouth", "tongue"))]
         self.assertLess(step[slow].max(), 0.75)
-        self.assertGreater(step[e.INDEX["eyeBlinkLeft"]], 0.3, "there are fast blinks")
+        self.assertGreater(step[e.INDEX["eyeBlinkLeft"]], 0.3, "fast blinks occur")
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""Training that is killed at any moment goes on from its last checkpoint. Needs the data packs, and pictures that
+"""Training that is killed at any moment continues from its last checkpoint. Needs the data packs, and images that
 continue_training.sh has made."""
 import os
 import random

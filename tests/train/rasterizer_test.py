@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The renderer's rasterizer on squares whose picture is known: where they are, which hides which, what can be seen."""
+"""The renderer's rasterizer on squares with known images: their positions, order and visibility."""
 import os
 import tempfile
 import unittest
@@ -18,13 +18,13 @@ UPRIGHT = np.eye(3, 4, dtype=np.float32)
 
 
 def square(left, bottom, right, top, depth):
-    """Vertices f32 [4,3] of a square that faces the camera; edges in pixels right and up of the picture's middle."""
+    """Vertices f32 [4,3] of a square that faces the camera; edges in pixels right and up of the centre of the image."""
     plane = [[left, bottom], [right, bottom], [right, top], [left, top]]
     return np.array([[x * depth / FOCAL, y * depth / FOCAL, -depth] for x, y in plane], np.float32)
 
 
 def render(squares, points=np.zeros((0, 3), np.float32), tolerance=0.5):
-    """Picture and visibility of (vertices, colour) squares under even light."""
+    """Image and visibility of (vertices, colour) squares under even light."""
     unused = np.zeros((4, 2), np.float32)
     address = native.pointer
     meshes = [native.Mesh(address(v), None, address(unused), address(CORNERS, np.int32), address(CORNERS, np.int32),

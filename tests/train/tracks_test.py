@@ -61,7 +61,7 @@ class CropSampler(unittest.TestCase):
 
 class SequencesTest(unittest.TestCase):
     def test_tracking_recovers_known_crops(self):
-        """A picture whose colours are the true crop coordinates lets an exact "network" prove the geometry of
+        """An image whose colours are the true crop coordinates lets an exact "network" prove the geometry of
         tracking."""
         torch.manual_seed(0)
         n, frames = 6, 20

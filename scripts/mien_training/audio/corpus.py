@@ -1,7 +1,7 @@
 """Audio of the data packs, decoded once: $MIEN_CACHE/voice/GROUP.i16 (16 kHz mono) and GROUP.json.
 
 usage: python3 -m mien_training.audio.corpus
-Hashes of names decide what is held out: speakers if they are known, otherwise files; of the noises also whole classes.
+Hashes of names select held-out data: speakers if they are known, otherwise files; for noises also whole classes.
 """
 import functools
 import hashlib

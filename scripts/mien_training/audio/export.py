@@ -23,7 +23,7 @@ from mien_training.networks.export import LICENCE, loaded, plain
 from mien_training.networks.round_weights import rounded
 from mien_training.paths import ROOT
 
-# What sound has to say of a control while somebody speaks and the image shows it; video has the rest. Lips that meet
+# The weight of audio for a control during speech with an image; video has the rest. Lips that meet
 # for a p are seen too late and too briefly at 30 frames a second, and sound knows of them. Little of all else as long
 # as sound knows one face: of other people's jaws it tells less than the image does (docs/results/audio.md), and on a
 # smaller scale.

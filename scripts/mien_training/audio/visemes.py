@@ -48,7 +48,7 @@ VISEMES = {
 SAME = {"b": "p", "m": "p", "v": "f", "dh": "th", "d": "t", "n": "t", "z": "s", "zh": "sh", "ch": "sh", "jh": "sh",
         "g": "k", "ng": "k", "hh": "k"}
 DIPHTHONGS = {"aw": ("aa", "uh"), "ay": ("aa", "ih"), "ey": ("eh", "iy"), "ow": ("oh", "uw"), "oy": ("ao", "ih")}
-# What a viseme cannot do without: its dominance there, against 1 of a vowel and INDIFFERENT of what is left to the
+# The dominance of a viseme for the controls that it requires; a vowel has 1, and INDIFFERENT leaves a control to the
 # neighbours.
 INDIFFERENT = 0.35
 NEEDS = {"p": dict(jaw=6, close=6, press=3, roll_upper=3, roll_lower=3, funnel=0.6, pucker=0.15),

@@ -173,7 +173,7 @@ def sample_upper(rng):
 
 
 def sample_lids(rng):
-    """Open, half closed, closed, wide or squinting lids; sometimes a wink."""
+    """Lids that are open, half or fully closed, wide or squinting; sometimes a wink."""
     out = zeros()
     kind = rng.random()
     if kind < 0.22:
@@ -400,7 +400,7 @@ def sample_sequence(rng, frames, fps=30, phone=0.0):
 
 
 def sample_posed(rng, frames, fps=30):
-    """A performance between still faces, many of which lean to one side or move one unit of each region."""
+    """A performance between still faces; many of these lean to one side or move one unit of each region."""
     face = ease_through(rng, frames, lambda rng: sample_stills(rng, 1, LEANING_SHARE, APART_SHARE)[0], (2, 25), (3, 16),
                         rest=0.25)
     return legalise(np.maximum(face, blinks(rng, frames, fps)) + micro_motion(rng, frames))

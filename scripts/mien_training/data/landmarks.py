@@ -139,7 +139,7 @@ def barycentric(p, a, b, c):
 
 
 # Contours whose known corners (iBUG numbers) the rig has too: (teacher curve, {position in it: iBUG number}).
-# Four points of the outer lips are none of the teacher's: the rig's contour passes through them, no more.
+# The teacher lacks four points of the outer lips; the rig's contour passes through them.
 WAYPOINTS = {(48, 50): 49, (52, 54): 53, (48, 58): 59, (56, 54): 55}
 CONTOURS = [
     ([33, 246, 161, 160, 159, 158, 157, 173, 133], {0: 36, 3: 37, 5: 38, 8: 39}),
@@ -176,7 +176,7 @@ def on_irises(surface):
     """Centre of each pupil and the four ends of its iris, as teacher points 468-477 lie."""
     placed = {}
     for side, indices in (("right", lp.IRIS[0]), ("left", lp.IRIS[1])):
-        vertices, offset = surface.iris(side)  # the picture's u runs to the subject's left on both eyes, v up
+        vertices, offset = surface.iris(side)  # u of the texture runs to the subject's left on both eyes, v up
         radius = np.linalg.norm(offset, axis=1)
         nasal = 0.0 if side == "right" else np.pi
         towards = lambda low, high, angle: vertices[np.where((radius > low) & (radius < high), offset @ [

@@ -53,7 +53,7 @@ class Set:
 
 
 def shoot(studio, framing, figure, vertices, place, pose, shift=np.zeros(3)):
-    """Picture and labels of one frame; `place` is a Set, `pose` (rotation, translation in cm)."""
+    """Image and labels of one frame; `place` is a Set, `pose` (rotation, translation in cm)."""
     crop = camera.fit_crop(place.camera.project(studio.rig.landmarks(vertices) @ pose[0].T + pose[1]))
     window = np.array([*crop[:2], framing.window_crops * crop[2]])
     return photograph(studio, window, framing.window, figure, vertices, place, pose, shift)
@@ -176,7 +176,7 @@ def main():
     amount = parser.add_mutually_exclusive_group(required=True)
     amount.add_argument("--count", type=int, help="stills or sequences in all")
     amount.add_argument("--keep", type=int, metavar="SHARDS",
-                        help="renders until it is stopped and deletes the oldest shards beyond so many")
+                        help="renders until it is stopped and deletes the oldest shards above this number")
     parser.add_argument("--framing", choices=FRAMINGS, default=BASENET.name)
     parser.add_argument("--frames", type=int, default=FRAMES, help="of a sequence")
     parser.add_argument("--leaning", type=float, default=0, help="share of stills whose expression leans to one side")

@@ -21,7 +21,7 @@ NEAR_PROFILE = np.radians(38)        # yaw from which on the teacher guesses hal
 
 @dataclass(frozen=True)
 class Labels:
-    name: np.ndarray         # str [n], of the picture's file
+    name: np.ndarray         # str [n], of the image file
     pack: np.ndarray         # str [n]
     group: np.ndarray        # str [n]: ethnic group of FairFace, GRID's speaker, or where the image comes from
     age: np.ndarray          # str [n], a range of years, '' where unknown

@@ -278,7 +278,7 @@ def main():
     parser.add_argument("--shards", type=Path, nargs="+", required=True)
     parser.add_argument("--out", type=Path, required=True)
     parser.add_argument("--passes", type=int, default=2)
-    parser.add_argument("--hold", type=int, help="shards of stills: each held for so many frames")
+    parser.add_argument("--hold", type=int, help="shards of stills: number of frames for which each is held")
     parser.add_argument("--plain", action="store_true", help="no photometric variety")
     parser.add_argument("--mirrored", action="store_true", help="begin with the faces mirrored")
     parser.add_argument("--threads", type=int, default=1)

@@ -1,6 +1,6 @@
 """Differences between the controls that two folders of weights give for the same clips, as a Markdown table.
 
-usage: python3 -m mien_training.evaluate.compare_models [--mien PROGRAM] [--levels 1 4] MODELS MODELS CLIP...
+usage: python3 -m mien_training.evaluate.compare_models [--mien PROGRAM] [--levels 1 4] MODELS_A MODELS_B CLIP...
 """
 import argparse
 import json

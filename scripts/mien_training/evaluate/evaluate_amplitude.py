@@ -26,7 +26,7 @@ from mien_training.phase2.train_decoders import decode, with_stride
 
 BLINKS = json.loads((Path(__file__).parent / "blinks.json").read_text())
 EYES = [INDEX["eyeBlinkLeft"], INDEX["eyeBlinkRight"]]
-# a blink that is told; frames before and after one counted by eye that still belong to it
+# threshold of a detected blink; frames before and after a manually counted blink that belong to it
 PASSED, FRAMES_AROUND = 0.5, 2
 AT_REST, CLOSED, SMILING = 0.05, 0.9, 0.6
 FEWEST = 96  # test sequences that say something about rare controls

@@ -38,7 +38,7 @@ def held_out():
 
 
 def measure(program):
-    """{control: {"sound": [frames], "picture": [frames], "correlation", "mean of clips"}}"""
+    """Curves and correlations by control: of audio and of video."""
     clips = held_out()
     if not clips:
         raise Missing("no held-out clip with sound is in av/: MIEN_DATA must name the folder of the data packs")

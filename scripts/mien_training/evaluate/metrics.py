@@ -55,7 +55,7 @@ def asymmetry(curves, truth, pairs, tolerance=0.05):
 
 
 def known_mean(values, axis=0):
-    """Mean of the known values; NaN if there are none."""
+    """Mean of the known values; NaN without any."""
     values = np.asarray(values, np.float64)
     known = np.isfinite(values)
     count = known.sum(axis)

@@ -145,7 +145,7 @@ def plot(history, path):
 
 
 def moved_views(framing, images, batch, generator, share=0.06):
-    """Some faces of the batch seen again, turned and scaled: (rows, images, crops in the first picture's pixels)."""
+    """Rotated and scaled copies of some faces of the batch: (rows, images, crops in pixels of the original image)."""
     rows = torch.nonzero(batch.has_landmarks)[:, 0]
     rows = rows[torch.randperm(len(rows), generator=generator)[:int(share * len(images))]]
     n = len(rows)
@@ -333,7 +333,7 @@ def parse():
     parser.add_argument("--through", metavar="DECODERS",
                         help="decoders that stay as they are, and that controls and pose are asked of")
     parser.add_argument("--decoders-learn", action="store_true",
-                        help="these, too: what they become is written to decoders.pt, to go on from in phase 2")
+                        help="also trains these decoders and writes them to decoders.pt, for phase 2")
     parser.add_argument("--resume", action="store_true")
     parser.add_argument("--start-from", help="a checkpoint whose weights to begin with")
     parser.add_argument("--evaluate", help="a checkpoint to judge, without training")

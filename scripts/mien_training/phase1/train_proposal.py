@@ -206,7 +206,7 @@ def evaluate(pnet, rnet, split):
 
 @torch.no_grad()
 def refine(rnet, image, boxes):
-    """The box R-Net likes best, regressed; None if there is none."""
+    """The regressed box with the highest score of R-Net; None without a box."""
     if not len(boxes):
         return None
     logit, d = rnet(to_tensor(data.cut(image, boxes)))

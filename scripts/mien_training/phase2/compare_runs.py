@@ -89,7 +89,7 @@ def main():
     parser.add_argument("before", type=Path)
     parser.add_argument("features", type=Path)
     parser.add_argument("decoders", type=Path, nargs="+")
-    parser.add_argument("--each", action="store_true", help="every control, too")
+    parser.add_argument("--each", action="store_true", help="also prints every control")
     args = parser.parse_args()
     torch.set_num_threads(1)
     before = People(args.before, rendered_people(args.before_features), real_people(args.before_features))

@@ -53,7 +53,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--network", choices=FACE_NETWORKS, required=True)
     parser.add_argument("--stream", type=Path, default=cache() / "stream")
-    parser.add_argument("--each", action="store_true", help="every control, too")
+    parser.add_argument("--each", action="store_true", help="also prints every control")
     parser.add_argument("before", type=Path)
     parser.add_argument("decoders", type=Path, nargs="+")
     args = parser.parse_args()

@@ -38,7 +38,7 @@ render --framing "$network" --split val --kind sequences --count 132 --seed 92 -
 render --framing "$network" --split val --kind stills --count 2000
 render --framing "$network" --split train --kind stills --count "${STILLS:-24000}" --leaning 0.6 --apart 0.4 --turned 0.25 --seed "$seed"
 render --framing "$network" --split train --kind sequences --count "${SEQUENCES:-264}" --frames 60 --seed "$seed"
-# BaseNet places HiFiNet's crops; to warm it up takes a few pictures of its own framing.
+# BaseNet places HiFiNet's crops; a few images with its own framing warm it up.
 render --framing basenet --split train --kind stills --count 2000 --leaning 0.6 --apart 0.4 --turned 0.25 --seed "$seed"
 
 for each in $(printf '%s\n' basenet "$network" | sort -u); do

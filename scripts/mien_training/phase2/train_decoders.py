@@ -388,7 +388,7 @@ def options():
     parser.add_argument("--acceleration", type=float, default=0.03)
     parser.add_argument("--frowns", type=float, default=1.0,
                         help="weight of frowns, which decoders that go on give up for what moves more often")
-    parser.add_argument("--sides", type=float, default=1.0, help="weight of which side of a pair moves")
+    parser.add_argument("--sides", type=float, default=1.0, help="weight of the loss for the side of a pair that moves")
     parser.add_argument("--beta", type=float, default=0.15, help="larger errors count linearly")
     parser.add_argument("--noise", type=float, default=0.3, help="feature noise, in deviations")
     parser.add_argument("--threads", type=int, default=1)

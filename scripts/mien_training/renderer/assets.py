@@ -48,7 +48,7 @@ def note_missing_skins(split):
 
 
 def skin_file(name, tile):
-    """Picture of a skin on the tile `face` or `back`."""
+    """Image of a skin on the tile `face` or `back`."""
     of_pack, _, portrait = name.partition("+")
     if portrait and tile == "face":
         return cache() / "portrait_skins" / f"{name}.jpg"

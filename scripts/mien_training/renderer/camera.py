@@ -33,7 +33,7 @@ class Camera:
         return np.array([x, -y, -1.0])
 
     def view(self, x0, y0, side, width, height):
-        """Picture of width x height pixels whose left upper corner is (x0, y0) and whose width spans `side` camera
+        """Image of width x height pixels whose left upper corner is (x0, y0) and whose width spans `side` camera
         pixels."""
         return native.View(self.f_px, *self.centre, x0, y0, width / side, width, height)
 

@@ -8,7 +8,7 @@ from mien_training.paths import cache
 
 TILE = 512
 REGIONS = ("lips", "lids", "liner", "cheeks")
-# Corners of the rig's 68 landmarks (iBUG): both lips around the mouth, lids, what is above them.
+# Corners of the rig's 68 landmarks (iBUG): both lips around the mouth, lids, and the skin above them.
 OUTER_LIPS, INNER_LIPS = range(48, 60), range(60, 68)
 EYES = (range(36, 42), range(42, 48))
 BROWS = (range(17, 22), range(22, 27))

@@ -115,7 +115,7 @@ class Rasterizer:
         return self.lib.renderer_add_texture(self.handle, c_void_p(rgba.ctypes.data), width, height, int(wrap))
 
     def render(self, scene, points, tolerance):
-        """Picture uint8 [height,width,3] and which of points f32 [n,3] (camera space, cm) are seen, uint8 [n]."""
+        """Image uint8 [height,width,3] and which of points f32 [n,3] (camera space, cm) are seen, uint8 [n]."""
         image = np.empty((scene.view.height, scene.view.width, 3), np.uint8)
         visible = np.empty(len(points), np.uint8)
         self.lib.renderer_render(self.handle, ctypes.byref(scene), c_void_p(image.ctypes.data),

@@ -35,14 +35,14 @@ class Model:
 
 
 def project(points, rotation, shift, scale):
-    """Pixels relative to the picture's middle; `scale` is pixels per cm at the origin of the head."""
+    """Pixels relative to the centre of the image; `scale` is pixels per cm at the origin of the head."""
     turned = points @ rotation.transpose(1, 2)
     near = DISTANCE / (DISTANCE - turned[..., 2:])
     return (turned[..., :2] * torch.tensor([1.0, -1.0]) * scale[:, None, None] + shift[:, None]) * near
 
 
 def fit(model, target, teacher):
-    """Parameters that put the rig's landmarks on `target` [n,175,2] (pixels from the picture's middle)."""
+    """Parameters that put the rig's landmarks on `target` [n,175,2] (pixels from the centre of the image)."""
     n = len(target)
     eyes = (target[:, lp.OUTER_EYE_CORNERS[0]] - target[:, lp.OUTER_EYE_CORNERS[1]]).norm(dim=1)
     six = torch.tensor([1.0, 0, 0, 0, 1, 0]).repeat(n, 1).requires_grad_()

@@ -24,7 +24,7 @@ from mien_training.renderer.rig import Rig
 from mien_training.renderer.scene import Shapes, material
 
 SIDE = 384             # of the texture, texels
-EACH = 5               # every one of so many vertices tells about the light
+EACH = 5               # stride of the vertices that estimate the light
 WORST_FIT = 0.023      # residual of the landmarks
 LEAST_EYES = 30        # outer eye corners' distance, pixels
 EYES_CM = 9.5          # the same of the rig
@@ -32,7 +32,7 @@ HUBER = 0.25           # relative error of brightness beyond which a vertex coun
 WORST_LIGHT = 0.45     # mean log error of brightness after the light has been fitted
 RIDGE = 0.004          # regularization of the light's shape, relative to the brightness
 DARKEST = 0.4          # shade below which a place is not brightened further, in the median of the face
-DARK_BLUE, DARK_BELOW = 0.33, 0.35  # linear blue over red, brightness in that of the picture's brightest
+DARK_BLUE, DARK_BELOW = 0.33, 0.35  # linear blue over red, brightness relative to the brightest of the image
 SEEN_FROM, SEEN_WELL = 0.25, 0.55  # cosine between normal and line of sight
 
 

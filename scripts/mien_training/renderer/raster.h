@@ -131,7 +131,7 @@ inline bool hidden(const Grid& grid, const Bounds& box, float nearest) {
 }
 
 // Calls visit(sample index of the first lane, x, y, nearness, which lanes, linear weights) for runs
-// of samples of which some are covered and nearer than the grid's.
+// of samples, some covered and nearer than the grid's.
 template <class Visit>
 void cover(const Edges& e, const Bounds& box, const Grid& grid, Visit visit) {
   const Vec3 origin = e.linear(float(box.x0) + 0.5f, float(box.y0) + 0.5f);

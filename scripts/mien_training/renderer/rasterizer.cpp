@@ -159,7 +159,7 @@ Surface Renderer::surface(const Scene& scene, const Wanted& wanted) const {
   return s;
 }
 
-// Whether the samples of a pixel, of which `first` is one, lie on one surface or on none.
+// Whether the samples of a pixel, including `first`, lie on one surface or on none.
 bool Renderer::one_surface(size_t first) const {
   const size_t below = first + size_t(grid_.stride);
   const uint32_t part = grid_.id[first] >> kTriangleBits;
@@ -229,7 +229,7 @@ void Renderer::shade_wanted(const Scene& scene) {
   }
 }
 
-// A lens tints what is behind it and mirrors the lamps.
+// A lens tints the surface behind it and mirrors the lamps.
 void Renderer::blend(const Scene& scene, const Part& part) {
   const Mesh& mesh = scene.meshes[part.mesh];
   const uint32_t number = uint32_t(&part - scene.parts);

@@ -19,7 +19,7 @@ struct Mesh {
 enum Stage : int32_t {
   kOpaque = 0,   // hides landmarks
   kFringe = 1,   // drawn with depth, but does not hide landmarks (lashes)
-  kBlended = 2,  // lenses: laid over what is behind
+  kBlended = 2,  // lenses, blended with the surfaces behind them
 };
 
 // Triangles [first, first+count) of a mesh with one material.

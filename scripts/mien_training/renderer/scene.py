@@ -67,7 +67,7 @@ class Studio:
         return np.load(path)
 
     def render(self, scene):
-        """Picture uint8 [height,width,3] and visibility uint8 [175] of the landmarks."""
+        """Image uint8 [height,width,3] and visibility uint8 [175] of the landmarks."""
         shapes = scene.figure.posed(scene)
         for vertices, triangles, colour in scene.occluders:
             mesh = shapes.mesh(np.float32(vertices), triangles, pose=np.eye(3, 4, dtype=np.float32))

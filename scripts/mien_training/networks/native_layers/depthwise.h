@@ -107,7 +107,7 @@ class Procession {
   std::size_t begun_ = 0, ended_ = 0;
 };
 
-// A vector of channels of one picture's answer, and the sums of its values and of their squares.
+// A vector of channels of one image's output, and the sums of its values and of their squares.
 // fill(row) makes a row of `seen`.
 template <typename T, typename Fill>
 void slide(const Geometry& g, Rows& seen, const Kernel& kernel, T* slid, std::size_t count,

@@ -1,7 +1,7 @@
-// The middle of an inverted residual in training: norm and ReLU6 of what is expanded, a 3x3
+// The middle of an inverted residual in training: norm and ReLU6 of the expanded map, a 3x3
 // depthwise convolution, its norm and ReLU6. Maps are [images][height][width][channels], fp32 or
-// bfloat16. What is between the two maps that are kept, the expanded one (x) and the slid one
-// (slid), is made again where it is needed.
+// bfloat16. Only the expanded map (`x`) and the output of the convolution (`slid`) are stored; the
+// maps between them are computed again when needed.
 #include "depthwise.h"
 
 namespace mien::training {

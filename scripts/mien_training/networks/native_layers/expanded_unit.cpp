@@ -1,6 +1,6 @@
 // An inverted residual in training without its projection: a pointwise convolution that expands few
 // channels to many, norm and ReLU6, a 3x3 depthwise convolution, norm and ReLU6. Maps are
-// [images][height][width][channels], fp32 or bfloat16; x has `narrow` channels, slid and y have
+// [images][height][width][channels], fp32 or bfloat16; x has `narrow` channels, `slid` and y have
 // shape.channels. The expanded map, the largest of all, is never stored: a vector of channels of
 // one image at a time are made from x, and again on the way back. Its moments follow from those
 // of x, since it is linear in x: mean z = W mean x, E[z z'] = W E[x x'] W'. So do the terms by

@@ -44,7 +44,7 @@ class Totals {
   PerChannel<double> first = {}, second = {};
 };
 
-// Calls visit(offset of the pixel's first channel, channel, count of channels), adds its two
+// Calls visit(offset of the pixel's first channel, index of a channel, count), adds its two
 // answers up.
 template <typename Visit>
 void sum_over(Map map, Totals& totals, Visit visit) {
