@@ -17,7 +17,7 @@ class Case:
         self.steps, self.feedback = steps, feedback or {}
         self.layout, self.refusal, self.domains, self.rounds, self.answer = layout, refusal, domains, rounds, answer
         self.expected = expected
-        for i, node in enumerate(nodes[:-1]):  # the last keeps its name, of which refusals speak
+        for i, node in enumerate(nodes[:-1]):  # the last keeps its name, which errors contain
             node.name = f"node_{i}"
 
     def model(self):

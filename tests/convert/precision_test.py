@@ -60,7 +60,7 @@ FINE = 1 + 2.0 ** -12
 
 
 def copies(channels, kernel=1):
-    """Weights [2 c, c, 1, 1] that copy each channel twice."""
+    """Pointwise weights that copy each channel twice."""
     return np.concatenate([np.eye(channels)] * 2).reshape(2 * channels, channels, 1, 1).astype(np.float32)
 
 

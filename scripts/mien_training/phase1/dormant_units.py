@@ -34,7 +34,7 @@ def of_units(encoder):
 @torch.no_grad()
 def reset_dormant(encoder, on, generator, optimizer, average):
     """Resets dormant units, also in the running average of the encoder: random incoming weights, zero outgoing weights
-    so the output does not change, and the gain of the other units. Returns their number.
+    which keep the output unchanged, and the gain of the other units. Returns their number.
 
     A gain of 1 instead of the 0.05 of other units, with decayed moments, raised the landmark error of BaseNet on
     validation portraits from 0.067 to 0.32 when 174 of 672 units were reset at once.
