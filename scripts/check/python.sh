@@ -3,7 +3,7 @@
 # usage: scripts/check/python.sh [--fix]
 set -euo pipefail
 cd "$(dirname "$0")/../.."
-CHECKED=(scripts tests/convert tests/train apps/conformance fuzz)
+CHECKED=(scripts tests/blender tests/convert tests/train apps/blender apps/conformance fuzz)
 LINES=20200  # of code in scripts/; lower it when the code shrinks
 
 scripts/check/code_size.py "$LINES"

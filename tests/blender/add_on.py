@@ -1,4 +1,5 @@
 """Makes the add-on's modules without Blender importable: import this module first."""
+
 import os
 import sys
 

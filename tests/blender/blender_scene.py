@@ -1,4 +1,8 @@
-"""Blender with the add-on installed, and the avatar with a bone for its head. Set up an empty BLENDER_USER_RESOURCES before."""
+"""Blender with the add-on installed, and the avatar with a bone for its head.
+
+Set BLENDER_USER_RESOURCES to an empty folder before.
+"""
+
 import importlib
 import math
 
@@ -62,7 +66,12 @@ def fcurves(owner):
     if not data or not data.action:
         return {}
     if hasattr(data.action, "layers"):
-        found = [c for bag in data.action.layers[0].strips[0].channelbags if bag.slot == data.action_slot for c in bag.fcurves]
+        found = [
+            c
+            for bag in data.action.layers[0].strips[0].channelbags
+            if bag.slot == data.action_slot
+            for c in bag.fcurves
+        ]
     else:
         found = data.action.fcurves
     return {(curve.data_path, curve.array_index): curve for curve in found}

@@ -2,6 +2,7 @@
 
 usage: files_test.py MIEN_PROGRAM
 """
+
 import csv
 import json
 import math
@@ -25,7 +26,7 @@ RANDOM = random.Random(1)
 
 
 def random_rows(count, fps=29.97):
-    """Smooth heads and eyes, as of people, so that units can be detected; all other controls change at random, some to 0."""
+    """Smooth heads and eyes, as of people, so that units can be detected; other controls are random."""
     for i in range(count):
         controls = {name: max(0.0, round(RANDOM.uniform(-0.3, 1.0), 4)) for name in ARKIT}
         look = math.sin(i / 9)
@@ -132,9 +133,14 @@ class MienCsv(WithFolder):
         with open(self.source) as file:
             text = file.read()
         for name, content in {
-                "utf16.csv": text.encode("utf-16"), "utf16be.csv": text.encode("utf-16-be"), "mark.csv": text.encode("utf-8-sig"),
-                "lines.csv": text.replace("\n", "\r\n"), "tabs.csv": text.replace(",", "\t"), "quotes.csv": text.replace("t_ms", '"t_ms"'),
-                "semicolons.csv": text.replace(",", ";").replace(".", ",")}.items():
+            "utf16.csv": text.encode("utf-16"),
+            "utf16be.csv": text.encode("utf-16-be"),
+            "mark.csv": text.encode("utf-8-sig"),
+            "lines.csv": text.replace("\n", "\r\n"),
+            "tabs.csv": text.replace(",", "\t"),
+            "quotes.csv": text.replace("t_ms", '"t_ms"'),
+            "semicolons.csv": text.replace(",", ";").replace(".", ","),
+        }.items():
             with self.subTest(name):
                 self.assertEqual(self.read(self.write(name, content)).frames, self.read(self.source).frames)
 
@@ -155,14 +161,23 @@ class MienCsv(WithFolder):
     def test_faults_name_line_and_column(self):
         head = "t_ms,pitch_rad,yaw_rad,roll_rad,jawOpen\n"
         for content, what in {
-                "": "line 1: empty file", "a,b\n1,2\n": "line 1: neither CSV of mien", "t_ms,x\n1,2\n": "line 1: no column with a control",
-                head: "no frames", head + "0,0,0,0,x\n": "line 2: jawOpen: 'x' is not a number",
-                head + "0,0,0,0,nan\n": "jawOpen: 'nan' is not a number", head + "0,0,0,0,1_0\n": "is not a number",
-                head + "0,0,0,0,1.5\n": "line 2: jawOpen: '1.5' is not in 0..1", head + "0,7,0,0,1\n": "pitch_rad: more than a full turn",
-                head + ",0,0,0,1\n": "line 2: t_ms: empty", head + "9,0,0,0,1\n8,0,0,0,1\n": "line 3: t_ms: decreasing time",
-                head + "0,0,0\n": "line 2: wrong number of cells (got 3, expected 5)", head + '0,0,0,0,"1\n': "line 2: ",
-                "t_ms,jawOpen,JAWOPEN\n0,1,1\n": "line 1: duplicate column 'JAWOPEN'", b"t_ms,jawOpen\n0,\xff\n": "byte 15: not UTF-8 text",
-                "t_ms,face_id,jawOpen\n0,x,1\n": "face_id: 'x' is not a number of a face"}.items():
+            "": "line 1: empty file",
+            "a,b\n1,2\n": "line 1: neither CSV of mien",
+            "t_ms,x\n1,2\n": "line 1: no column with a control",
+            head: "no frames",
+            head + "0,0,0,0,x\n": "line 2: jawOpen: 'x' is not a number",
+            head + "0,0,0,0,nan\n": "jawOpen: 'nan' is not a number",
+            head + "0,0,0,0,1_0\n": "is not a number",
+            head + "0,0,0,0,1.5\n": "line 2: jawOpen: '1.5' is not in 0..1",
+            head + "0,7,0,0,1\n": "pitch_rad: more than a full turn",
+            head + ",0,0,0,1\n": "line 2: t_ms: empty",
+            head + "9,0,0,0,1\n8,0,0,0,1\n": "line 3: t_ms: decreasing time",
+            head + "0,0,0\n": "line 2: wrong number of cells (got 3, expected 5)",
+            head + '0,0,0,0,"1\n': "line 2: ",
+            "t_ms,jawOpen,JAWOPEN\n0,1,1\n": "line 1: duplicate column 'JAWOPEN'",
+            b"t_ms,jawOpen\n0,\xff\n": "byte 15: not UTF-8 text",
+            "t_ms,face_id,jawOpen\n0,x,1\n": "face_id: 'x' is not a number of a face",
+        }.items():
             with self.subTest(content):
                 self.assert_rejected(self.write("bad.csv", content), what)
         self.assert_rejected(self.path("absent.csv"), "No such file")
@@ -174,7 +189,7 @@ class MienCsv(WithFolder):
             curves = file.read()
         rejected = 0
         for content in [curves, live_link] * 60:
-            damaged = bytearray(content[:RANDOM.randrange(200, 6000)])
+            damaged = bytearray(content[: RANDOM.randrange(200, 6000)])
             for _ in range(RANDOM.randrange(4)):
                 damaged[RANDOM.randrange(len(damaged))] = RANDOM.randrange(256)
             try:
@@ -197,7 +212,9 @@ class LiveLinkCsv(WithFolder):
             for fps in ("24", "25", "30", "48", "50", "60", "97.5"):
                 path = self.convert(self.source, "take.llf.csv", "--llf-rot", unit, "--llf-fps", fps)
                 os.remove(path + ".json")
-                program = subprocess.run([PROGRAM, "convert", path, self.path("back.csv")], capture_output=True, text=True)
+                program = subprocess.run(
+                    [PROGRAM, "convert", path, self.path("back.csv")], capture_output=True, text=True
+                )
                 with self.subTest(unit=unit, fps=fps):
                     if program.returncode:
                         self.assert_rejected(path, "has more frames than a second")
@@ -214,7 +231,10 @@ class LiveLinkCsv(WithFolder):
 
     def test_rows_without_a_face_midnight_and_clamping(self):
         rows = ["23:59:59:59.000,61,0.5,2,0,0,0", "00:00:00:01.000,0", "00:00:00:02.000,61,0.25,-1,0,0,0"]
-        path = self.write("take.csv", "Timecode,BlendShapeCount,JawOpen,MouthClose,HeadYaw,HeadPitch,HeadRoll\n" + "\n".join(rows) + "\n")
+        path = self.write(
+            "take.csv",
+            "Timecode,BlendShapeCount,JawOpen,MouthClose,HeadYaw,HeadPitch,HeadRoll\n" + "\n".join(rows) + "\n",
+        )
         clip = self.read(path)
         steps = [frame.time_s - clip.start_s for frame in clip.frames]
         for step, expected in zip(steps, (0, 2 / 60, 3 / 60)):
@@ -226,12 +246,17 @@ class LiveLinkCsv(WithFolder):
     def test_faults(self):
         head = "Timecode,BlendshapeCount,JawOpen,HeadYaw,HeadPitch,HeadRoll\n"
         for content, what in {
-                "Timecode,JawOpen\n": "missing column BlendshapeCount", "Timecode,BlendshapeCount\n": "no column with a blend shape",
-                head: "no frames", head + "1:2,1,0,0,0,0\n": "line 2: Timecode: '1:2' is not HH:MM:SS:FF.mmm",
-                head + "0:0:60:0,1,0,0,0,0\n": "is not HH:MM:SS:FF.mmm", head + "0:0:0:99,1,0,0,0,0\n": "has more frames than a second of 60",
-                head + "0:0:9:0,1,0,0,0,0\n0:0:8:0,1,0,0,0,0\n": "line 3: Timecode: decreasing time",
-                head + "0:0:0:0,-1,0,0,0,0\n": "BlendshapeCount: '-1' is not a count", head + "0:0:0:0,1,0,0\n": "wrong number of cells",
-                head + "0:0:0:0,1,x,0,0,0\n": "JawOpen: 'x' is not a number"}.items():
+            "Timecode,JawOpen\n": "missing column BlendshapeCount",
+            "Timecode,BlendshapeCount\n": "no column with a blend shape",
+            head: "no frames",
+            head + "1:2,1,0,0,0,0\n": "line 2: Timecode: '1:2' is not HH:MM:SS:FF.mmm",
+            head + "0:0:60:0,1,0,0,0,0\n": "is not HH:MM:SS:FF.mmm",
+            head + "0:0:0:99,1,0,0,0,0\n": "has more frames than a second of 60",
+            head + "0:0:9:0,1,0,0,0,0\n0:0:8:0,1,0,0,0,0\n": "line 3: Timecode: decreasing time",
+            head + "0:0:0:0,-1,0,0,0,0\n": "BlendshapeCount: '-1' is not a count",
+            head + "0:0:0:0,1,0,0\n": "wrong number of cells",
+            head + "0:0:0:0,1,x,0,0,0\n": "JawOpen: 'x' is not a number",
+        }.items():
             with self.subTest(content):
                 self.assert_rejected(self.write("bad.csv", content), what)
 

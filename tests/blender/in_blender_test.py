@@ -2,6 +2,7 @@
 
 usage: in_blender_test.py MIEN_PROGRAM SOURCE_FOLDER ZIP AVATAR_GLB      in an environment with bpy
 """
+
 import csv
 import os
 import socket
@@ -14,8 +15,8 @@ import unittest
 RESOURCES = tempfile.TemporaryDirectory()
 os.environ["BLENDER_USER_RESOURCES"] = RESOURCES.name
 
+import blender_scene as stage  # noqa: E402
 import bpy  # noqa: E402
-from blender_scene import ADD_ON, choose, empty_scene, fcurves, head_armature, install, keys, load_avatar, module, vertices  # noqa: E402
 from mathutils import Matrix, Quaternion, Vector  # noqa: E402
 
 PROGRAM, SOURCE, ZIP, AVATAR = sys.argv[1:5]
@@ -31,7 +32,7 @@ def run(*arguments):
 
 
 def setUpModule():
-    install(ZIP)
+    stage.install(ZIP)
     FILES["csv"], FILES["llf"] = (os.path.join(RESOURCES.name, name) for name in ("demo.csv", "demo.llf.csv"))
     run("track", CLIP, *MODELS, "-o", FILES["csv"], "-o", FILES["llf"])
 
@@ -44,7 +45,7 @@ def rows(path):
 def supported(table):
     """Names of the controls that have values."""
     names = list(table[0])
-    return [name for name in names[names.index("eyeBlinkLeft"):] if any(row[name] for row in table)]
+    return [name for name in names[names.index("eyeBlinkLeft") :] if any(row[name] for row in table)]
 
 
 def key_path(name):
@@ -76,7 +77,7 @@ TO_BLENDER = Matrix(((1, 0, 0), (0, 0, -1), (0, 1, 0)))
 
 class InScene(unittest.TestCase):
     def setUp(self):
-        self.scene = empty_scene()
+        self.scene = stage.empty_scene()
 
     def assert_same_rotation(self, actual, expected, delta=1e-5):
         self.assertLess(max(abs(a - b) for x, y in zip(actual, expected) for a, b in zip(x, y)), delta)
@@ -93,17 +94,19 @@ class InScene(unittest.TestCase):
 class Import(InScene):
     def test_keys_are_those_of_the_file(self):
         self.scene.render.fps, self.scene.render.fps_base = 24, 1.001
-        mesh, armature = load_avatar(AVATAR)
-        settings = choose(self.scene, mesh)
+        mesh, armature = stage.load_avatar(AVATAR)
+        settings = stage.choose(self.scene, mesh)
         self.assertEqual((settings.head_object, settings.head_bone), (armature, "Head"))
         self.import_csv(FILES["csv"], start_frame=5.0)
-        table, found = rows(FILES["csv"]), fcurves(mesh.data.shape_keys)
+        table, found = rows(FILES["csv"]), stage.fcurves(mesh.data.shape_keys)
         controls = supported(table)
         self.assertGreater(len(controls), 40)
         self.assertEqual(found.keys(), {key_path(name) for name in controls})
         for name in controls:
-            expected = [(5.0 + float(row["t_ms"]) / 1000.0 * 24 / 1.001, float(row[name])) for row in table if row[name]]
-            for (frame, value), (exact_frame, exact) in zip(keys(found[key_path(name)]), expected, strict=True):
+            expected = [
+                (5.0 + float(row["t_ms"]) / 1000.0 * 24 / 1.001, float(row[name])) for row in table if row[name]
+            ]
+            for (frame, value), (exact_frame, exact) in zip(stage.keys(found[key_path(name)]), expected, strict=True):
                 self.assertAlmostEqual(value, exact, delta=1e-6)
                 self.assertAlmostEqual(frame, exact_frame, delta=1e-4)
         self.assertEqual({point.interpolation for point in found[key_path("jawOpen")].keyframe_points}, {"LINEAR"})
@@ -111,7 +114,7 @@ class Import(InScene):
 
     def assert_head_moves(self, armature, table):
         bone, turned = armature.pose.bones["Head"], 0.0
-        self.assertEqual(len(fcurves(armature)), 4)
+        self.assertEqual(len(stage.fcurves(armature)), 4)
         for row in table[::40]:
             time = 5.0 + float(row["t_ms"]) / 1000.0 * 24 / 1.001
             self.scene.frame_set(int(time), subframe=time % 1.0)
@@ -122,8 +125,8 @@ class Import(InScene):
         self.assertGreater(turned, 0.1)
 
     def test_the_mesh_moves(self):
-        mesh, _ = load_avatar(AVATAR)
-        settings = choose(self.scene, mesh)
+        mesh, _ = stage.load_avatar(AVATAR)
+        settings = stage.choose(self.scene, mesh)
         settings.use_head = False
         self.import_csv(FILES["csv"])
         open_row = max(rows(FILES["csv"]), key=lambda row: float(row["jawOpen"]))
@@ -135,7 +138,7 @@ class Import(InScene):
                 expected[i] += weight * (point.co - rest[i])
         time = 1.0 + float(open_row["t_ms"]) / 1000.0 * self.scene.render.fps
         self.scene.frame_set(int(time), subframe=time % 1.0)
-        shown = vertices(mesh)
+        shown = stage.vertices(mesh)
         for position, at in zip(shown, expected, strict=True):
             self.assertLess((position - mesh.matrix_world @ at).length, 1e-3)
         chin = min(range(len(rest)), key=lambda i: (rest[i] - Vector((0.0, -0.95, -1.05))).length)
@@ -143,43 +146,56 @@ class Import(InScene):
 
     def test_live_link_face(self):
         mesh = shape_mesh(self.scene, "Face", ["jawOpen", "mouthSmile_L"])
-        choose(self.scene, mesh)
+        stage.choose(self.scene, mesh)
         self.import_csv(FILES["llf"])
-        found, table = fcurves(mesh.data.shape_keys), rows(FILES["llf"])
+        found, table = stage.fcurves(mesh.data.shape_keys), rows(FILES["llf"])
         for key, column in (("jawOpen", "JawOpen"), ("mouthSmile_L", "MouthSmileLeft")):
-            for (_, value), row in zip(keys(found[key_path(key)]), table, strict=True):
+            for (_, value), row in zip(stage.keys(found[key_path(key)]), table, strict=True):
                 self.assertAlmostEqual(value, float(row[column]), delta=1e-6)
-        self.assertEqual(keys(found[key_path("jawOpen")])[0][0], 1.0)
-        self.assertAlmostEqual(keys(found[key_path("jawOpen")])[-1][0], 1.0 + 239 / 30 * self.scene.render.fps, delta=0.05)
+        self.assertEqual(stage.keys(found[key_path("jawOpen")])[0][0], 1.0)
+        self.assertAlmostEqual(
+            stage.keys(found[key_path("jawOpen")])[-1][0], 1.0 + 239 / 30 * self.scene.render.fps, delta=0.05
+        )
 
     def test_scales(self):
-        mesh, armature = shape_mesh(self.scene, "Face", ["jawOpen"]), head_armature()
-        settings = choose(self.scene, mesh)
-        settings.head_object, settings.head_bone, settings.control_scale, settings.head_scale = armature, "Head", 2.0, 0.0
+        mesh, armature = shape_mesh(self.scene, "Face", ["jawOpen"]), stage.head_armature()
+        settings = stage.choose(self.scene, mesh)
+        settings.head_object, settings.head_bone, settings.control_scale, settings.head_scale = (
+            armature,
+            "Head",
+            2.0,
+            0.0,
+        )
         self.import_csv(FILES["csv"])
-        for (_, value), row in zip(keys(fcurves(mesh.data.shape_keys)[key_path("jawOpen")]), rows(FILES["csv"]), strict=True):
+        for (_, value), row in zip(
+            stage.keys(stage.fcurves(mesh.data.shape_keys)[key_path("jawOpen")]), rows(FILES["csv"]), strict=True
+        ):
             self.assertAlmostEqual(value, 2.0 * float(row["jawOpen"]), delta=1e-6)
-        for _, value in keys(fcurves(armature)['pose.bones["Head"].rotation_quaternion', 0]):
+        for _, value in stage.keys(stage.fcurves(armature)['pose.bones["Head"].rotation_quaternion', 0]):
             self.assertAlmostEqual(value, 1.0, delta=1e-6)
 
     def test_present_actions(self):
-        mesh, armature = shape_mesh(self.scene, "Face", ["jawOpen", "Fat"]), head_armature()
-        settings = choose(self.scene, mesh)
+        mesh, armature = shape_mesh(self.scene, "Face", ["jawOpen", "Fat"]), stage.head_armature()
+        settings = stage.choose(self.scene, mesh)
         settings.head_object, settings.head_bone = armature, "Head"
         armature.pose.bones["Neck"].keyframe_insert("location", frame=3)
         body = armature.animation_data.action
         self.import_csv(FILES["csv"], action="merge")
         self.import_csv(FILES["csv"], action="merge")
         self.assertEqual(armature.animation_data.action, body)
-        self.assertEqual(len(fcurves(armature)), 3 + 4)
+        self.assertEqual(len(stage.fcurves(armature)), 3 + 4)
         self.import_csv(FILES["csv"], action="new")
         self.assertNotEqual(armature.animation_data.action, body)
         self.assertTrue(body.use_fake_user)
-        self.assertEqual((len(fcurves(armature)), len(fcurves(mesh.data.shape_keys))), (4, 1))
+        self.assertEqual((len(stage.fcurves(armature)), len(stage.fcurves(mesh.data.shape_keys))), (4, 1))
 
     def test_nothing_else_is_touched(self):
-        mesh, other, armature = shape_mesh(self.scene, "Face", ["jawOpen"]), shape_mesh(self.scene, "Other", ["jawOpen"]), head_armature()
-        settings = choose(self.scene, mesh)
+        mesh, other, armature = (
+            shape_mesh(self.scene, "Face", ["jawOpen"]),
+            shape_mesh(self.scene, "Other", ["jawOpen"]),
+            stage.head_armature(),
+        )
+        settings = stage.choose(self.scene, mesh)
         settings.head_object, settings.head_bone = armature, "Head"
         before = (self.scene.frame_end, self.scene.frame_current, self.scene.render.fps)
         self.import_csv(FILES["csv"])
@@ -195,36 +211,43 @@ class Import(InScene):
         mesh = shape_mesh(self.scene, "Face", ["jawOpen"])
         bad = os.path.join(RESOURCES.name, "bad.csv")
         call = lambda **options: self.import_csv(bad, **options)
-        for content, what in (("t_ms,jawOpen\n0,x\n", "bad.csv: line 2: jawOpen: 'x' is not a number"), ("", "bad.csv: line 1: empty file"),
-                              ("t_ms,tongueOut\n0,1\n", "no shape key"), ("t_ms,jawOpen\n0,1\n1e12,1\n", "beyond Blender's last")):
+        for content, what in (
+            ("t_ms,jawOpen\n0,x\n", "bad.csv: line 2: jawOpen: 'x' is not a number"),
+            ("", "bad.csv: line 1: empty file"),
+            ("t_ms,tongueOut\n0,1\n", "no shape key"),
+            ("t_ms,jawOpen\n0,1\n1e12,1\n", "beyond Blender's last"),
+        ):
             with open(bad, "w") as file:
                 file.write(content)
-            choose(self.scene, mesh)
+            stage.choose(self.scene, mesh)
             self.assert_fails(what, call)
         self.assert_fails("No such file", lambda: self.import_csv(bad + "x"))
-        self.scene.mien_face.head_object, self.scene.mien_face.head_bone = head_armature(), "Skull"
+        self.scene.mien_face.head_object, self.scene.mien_face.head_bone = stage.head_armature(), "Skull"
         self.assert_fails("Rig has no bone 'Skull'", lambda: self.import_csv(FILES["csv"]))
         self.assertEqual(len(bpy.data.actions), 0)
 
     def test_starting_at_the_first_row(self):
         mesh = shape_mesh(self.scene, "Face", ["jawOpen"])
-        choose(self.scene, mesh)
+        stage.choose(self.scene, mesh)
         late = os.path.join(RESOURCES.name, "late.csv")
         with open(late, "w") as file:
             file.write("t_ms,jawOpen\n1e12,0\n1000000001000,1\n")
         self.import_csv(late, origin="first", start_frame=10.0)
-        self.assertEqual(keys(fcurves(mesh.data.shape_keys)[key_path("jawOpen")]), [(10.0, 0.0), (10.0 + self.scene.render.fps, 1.0)])
+        self.assertEqual(
+            stage.keys(stage.fcurves(mesh.data.shape_keys)[key_path("jawOpen")]),
+            [(10.0, 0.0), (10.0 + self.scene.render.fps, 1.0)],
+        )
 
 
 class Heads(InScene):
     def assert_turns(self, settings, shown_rotation):
-        frame = module("frame").Frame(0.0, {}, module("rotation").of_angles(0.3, 0.5, -0.2))
-        module("targets").apply(settings, frame)
+        frame = stage.module("frame").Frame(0.0, {}, stage.module("rotation").of_angles(0.3, 0.5, -0.2))
+        stage.module("targets").apply(settings, frame)
         bpy.context.view_layer.update()
         self.assert_same_rotation(shown_rotation(), TO_BLENDER @ rotation((0.3, 0.5, -0.2)) @ TO_BLENDER.transposed())
 
     def test_bones_in_every_rotation_mode(self):
-        armature = head_armature()
+        armature = stage.head_armature()
         settings, bone = self.scene.mien_face, armature.pose.bones["Head"]
         settings.head_object, settings.head_bone = armature, "Head"
         for mode in ("QUATERNION", "XYZ", "ZYX", "AXIS_ANGLE"):
@@ -242,7 +265,7 @@ class Heads(InScene):
 
     def test_an_object_with_axis_and_angle_is_rejected(self):
         head = shape_mesh(self.scene, "Face", ["jawOpen"])
-        choose(self.scene, head).head_object = head
+        stage.choose(self.scene, head).head_object = head
         head.rotation_mode = "AXIS_ANGLE"
         self.assert_fails("rotates by axis and angle", lambda: self.import_csv(FILES["csv"]))
 
@@ -250,7 +273,7 @@ class Heads(InScene):
 class Live(InScene):
     def setUp(self):
         super().setUp()
-        self.live = module("live")
+        self.live = stage.module("live")
         self.addCleanup(self.live.stop)
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as free:
             free.bind(("127.0.0.1", 0))
@@ -260,7 +283,7 @@ class Live(InScene):
 
     def start(self, *key_names):
         mesh = shape_mesh(self.scene, "Face", key_names)
-        choose(self.scene, mesh).port = self.port
+        stage.choose(self.scene, mesh).port = self.port
         bpy.ops.mien_face.start()
         return mesh.data.shape_keys.key_blocks
 
@@ -277,18 +300,32 @@ class Live(InScene):
         return True
 
     def test_a_tracked_clip(self):
-        """Every frame that `mien live` sends is recorded with the values that it writes to its standard output, and shown."""
-        mesh, armature = load_avatar(AVATAR)
-        settings = choose(self.scene, mesh)
+        """Every frame of `mien live` is recorded with the values on its standard output, and shown."""
+        mesh, armature = stage.load_avatar(AVATAR)
+        settings = stage.choose(self.scene, mesh)
         settings.port = self.port
         bpy.ops.mien_face.start()
         bpy.ops.mien_face.record()
-        other = module("receiver").Receiver(0)
+        other = stage.module("receiver").Receiver(0)
         self.addCleanup(other.close)
         sent = os.path.join(RESOURCES.name, "live.jsonl")
         with open(sent, "w") as file:
-            sender = subprocess.Popen([PROGRAM, "live", *MODELS, "--camera", "test:" + CLIP, "--send", f"jsonl://:{self.port}",
-                                       "--send", f"llf://:{other.port}", "--send", "-"], stdout=file)
+            sender = subprocess.Popen(
+                [
+                    PROGRAM,
+                    "live",
+                    *MODELS,
+                    "--camera",
+                    "test:" + CLIP,
+                    "--send",
+                    f"jsonl://:{self.port}",
+                    "--send",
+                    f"llf://:{other.port}",
+                    "--send",
+                    "-",
+                ],
+                stdout=file,
+            )
         live_link, deadline = [], time.monotonic() + 240.0
         while sender.poll() is None and time.monotonic() < deadline:
             self.live.tick()
@@ -301,7 +338,9 @@ class Live(InScene):
         table = rows(sent + ".csv")
         self.assertGreater(len(table), 20)
         for name in supported(table):
-            self.assertAlmostEqual(mesh.data.shape_keys.key_blocks[name].value, float(table[-1][name]), delta=1e-6, msg=name)
+            self.assertAlmostEqual(
+                mesh.data.shape_keys.key_blocks[name].value, float(table[-1][name]), delta=1e-6, msg=name
+            )
         self.assert_live_link(live_link, table)
         bpy.ops.mien_face.finish_recording()
         self.assert_recorded(mesh, armature, table)
@@ -312,15 +351,15 @@ class Live(InScene):
                 self.assertAlmostEqual(value, float(row[name] or 0.0), delta=1e-6)
 
     def assert_recorded(self, mesh, armature, table):
-        found = fcurves(mesh.data.shape_keys)
+        found = stage.fcurves(mesh.data.shape_keys)
         start_ms, fps = float(table[0]["t_ms"]), self.scene.render.fps
         for name in ("jawOpen", "eyeBlinkLeft", "mouthSmileRight"):
-            got = keys(found[key_path(name)])
+            got = stage.keys(found[key_path(name)])
             for (frame, value), row in zip(got, table, strict=True):
                 self.assertAlmostEqual(value, float(row[name]), delta=1e-6)
                 self.assertAlmostEqual(frame - got[0][0], (float(row["t_ms"]) - start_ms) / 1000.0 * fps, delta=1e-2)
-        self.assertEqual(len(fcurves(armature)), 4)
-        self.assertGreater(max(value for _, value in keys(found[key_path("jawOpen")])), 0.2)
+        self.assertEqual(len(stage.fcurves(armature)), 4)
+        self.assertGreater(max(value for _, value in stage.keys(found[key_path("jawOpen")])), 0.2)
 
     def test_values_arrive_and_malformed_packets_do_not(self):
         blocks = self.start("jawOpen", "A")
@@ -341,7 +380,7 @@ class Live(InScene):
 
     def test_deleted_objects_are_no_problem(self):
         self.start("jawOpen")
-        armature = head_armature()
+        armature = stage.head_armature()
         self.scene.mien_face.head_object, self.scene.mien_face.head_bone = armature, "Head"
         packet = b'{"t_ns":1,"controls":{"jawOpen":0.5},"head":{"pitch_rad":0.1,"yaw_rad":0,"roll_rad":0}}'
         self.send(packet)
@@ -354,24 +393,28 @@ class Live(InScene):
         self.assertFalse(any(problem for _, problem in self.live.status()))
 
     def test_the_port_closes(self):
-        for end in (bpy.ops.mien_face.stop, empty_scene, lambda: bpy.ops.wm.read_factory_settings(use_empty=True)):
+        for end in (
+            bpy.ops.mien_face.stop,
+            stage.empty_scene,
+            lambda: bpy.ops.wm.read_factory_settings(use_empty=True),
+        ):
             self.scene = bpy.context.scene
             if not hasattr(bpy.types.Scene, "mien_face"):
-                bpy.ops.preferences.addon_enable(module=ADD_ON)
-                self.live = module("live")
+                bpy.ops.preferences.addon_enable(module=stage.ADD_ON)
+                self.live = stage.module("live")
             self.start("jawOpen")
             self.assertFalse(self.port_is_free())
             end()
             self.assertTrue(self.port_is_free())
         if not hasattr(bpy.types.Scene, "mien_face"):
-            bpy.ops.preferences.addon_enable(module=ADD_ON)
+            bpy.ops.preferences.addon_enable(module=stage.ADD_ON)
 
     def test_disabling_closes_the_port(self):
         self.start("jawOpen")
-        bpy.ops.preferences.addon_disable(module=ADD_ON)
+        bpy.ops.preferences.addon_disable(module=stage.ADD_ON)
         self.assertTrue(self.port_is_free())
         self.assertFalse(hasattr(bpy.types.Scene, "mien_face"))
-        bpy.ops.preferences.addon_enable(module=ADD_ON)
+        bpy.ops.preferences.addon_enable(module=stage.ADD_ON)
 
     def test_a_deleted_scene_ends_the_session(self):
         self.start("jawOpen")
@@ -398,4 +441,6 @@ if __name__ == "__main__":
     result = unittest.main(verbosity=2, exit=False).result
     RESOURCES.cleanup()
     sys.stderr.flush()
-    os._exit(not result.wasSuccessful())  # Blender 4.2's module crashes when Python exits after any class was registered
+    os._exit(
+        not result.wasSuccessful()
+    )  # Blender 4.2's module crashes when Python exits after any class was registered

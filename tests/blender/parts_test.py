@@ -1,4 +1,5 @@
 """Tests of the add-on's parts without Blender: names, packets, sockets, rotations, curves."""
+
 import json
 import math
 import random
@@ -24,8 +25,12 @@ from mien_face.vocabularies import ARKIT, READY_PLAYER_ME, ROBLOX, VISEMES, VRM0
 
 def live_link(values, subject="Face", version=6, rate=(60, 1), frame=(120, 0.5)):
     text = subject.encode()
-    return (struct.pack(">BI36sI", version, 36, b"0" * 36, len(text)) + text + struct.pack(">IfII", *frame, *rate) +
-            struct.pack(f">B{len(values)}f", len(values), *values))
+    return (
+        struct.pack(">BI36sI", version, 36, b"0" * 36, len(text))
+        + text
+        + struct.pack(">IfII", *frame, *rate)
+        + struct.pack(f">B{len(values)}f", len(values), *values)
+    )
 
 
 def json_packet(**more):
@@ -34,12 +39,22 @@ def json_packet(**more):
 
 class Vocabularies(unittest.TestCase):
     def test_the_table_is_that_of_the_sources(self):
-        done = subprocess.run([sys.executable, add_on.ROOT + "/apps/blender/generate_vocabularies.py", "--check"], capture_output=True, text=True)
+        done = subprocess.run(
+            [sys.executable, add_on.ROOT + "/apps/blender/generate_vocabularies.py", "--check"],
+            capture_output=True,
+            text=True,
+        )
         self.assertEqual(done.returncode, 0, done.stderr)
 
     def test_every_vocabulary_has_a_table_of_names(self):
         self.assertEqual(tuple(TABLES), VOCABULARIES)
-        for vocabulary, names in (("arkit", ARKIT), ("roblox", ROBLOX), ("visemes", VISEMES), ("vrm0", VRM0), ("vrm1", VRM1)):
+        for vocabulary, names in (
+            ("arkit", ARKIT),
+            ("roblox", ROBLOX),
+            ("visemes", VISEMES),
+            ("vrm0", VRM0),
+            ("vrm1", VRM1),
+        ):
             self.assertEqual(set(TABLES[vocabulary].values()), set(names))
 
 
@@ -48,10 +63,18 @@ class ShapeNames(unittest.TestCase):
         self.assertEqual(match(tuple(keys), **options), {key: (vocabulary, name) for name, key in zip(names, keys)})
 
     def test_every_spelling_of_arkit(self):
-        for spelled in (str, str.upper, str.capitalize, lambda n: re.sub("(Left|Right)$", lambda m: "_" + m[0][0], n),
-                        lambda n: re.sub("(Left|Right)$", lambda m: "." + m[0][0], n), lambda n: re.sub("([A-Z])", r"_\1", n).lower(),
-                        lambda n: n + ".001", lambda n: "blendShape1." + n, lambda n: "Head_" + n + "_geo",
-                        lambda n: "CC_" + re.sub("(Left|Right)$", lambda m: m[0][0], n)):
+        for spelled in (
+            str,
+            str.upper,
+            str.capitalize,
+            lambda n: re.sub("(Left|Right)$", lambda m: "_" + m[0][0], n),
+            lambda n: re.sub("(Left|Right)$", lambda m: "." + m[0][0], n),
+            lambda n: re.sub("([A-Z])", r"_\1", n).lower(),
+            lambda n: n + ".001",
+            lambda n: "blendShape1." + n,
+            lambda n: "Head_" + n + "_geo",
+            lambda n: "CC_" + re.sub("(Left|Right)$", lambda m: m[0][0], n),
+        ):
             keys = [spelled(name) for name in ARKIT]
             with self.subTest(keys[0]):
                 self.assert_all(ARKIT, keys, "arkit")
@@ -64,8 +87,19 @@ class ShapeNames(unittest.TestCase):
         self.assert_all(VRM1, VRM1, "vrm1")
 
     def test_vroid(self):
-        keys = ("Fcl_ALL_Neutral", "Fcl_ALL_Joy", "Fcl_BRW_Joy", "Fcl_EYE_Close", "Fcl_EYE_Close_L", "Fcl_MTH_A", "Fcl_MTH_Up")
-        self.assertEqual(match(keys), {"Fcl_ALL_Joy": ("vrm0", "Joy"), "Fcl_EYE_Close_L": ("vrm0", "Blink_L"), "Fcl_MTH_A": ("vrm0", "A")})
+        keys = (
+            "Fcl_ALL_Neutral",
+            "Fcl_ALL_Joy",
+            "Fcl_BRW_Joy",
+            "Fcl_EYE_Close",
+            "Fcl_EYE_Close_L",
+            "Fcl_MTH_A",
+            "Fcl_MTH_Up",
+        )
+        self.assertEqual(
+            match(keys),
+            {"Fcl_ALL_Joy": ("vrm0", "Joy"), "Fcl_EYE_Close_L": ("vrm0", "Blink_L"), "Fcl_MTH_A": ("vrm0", "A")},
+        )
 
     def test_arkit_wins_over_visemes_on_the_same_mesh(self):
         keys = (*READY_PLAYER_ME, *ARKIT, "mouthOpen")
@@ -88,14 +122,23 @@ class ShapeNames(unittest.TestCase):
         self.assertEqual(match(("", "___", "Ünïcode", "x" * 5000)), {})
 
     def test_plain(self):
-        for name, expected in {"mouthSmile_L": "mouthsmileleft", "eyeBlinkR": "eyeblinkright", "Jaw-Open": "jawopen", "Fur": "fur"}.items():
+        for name, expected in {
+            "mouthSmile_L": "mouthsmileleft",
+            "eyeBlinkR": "eyeblinkright",
+            "Jaw-Open": "jawopen",
+            "Fur": "fur",
+        }.items():
             self.assertEqual(plain(name), expected)
 
 
 class Packets(unittest.TestCase):
     def test_json(self):
-        frame = decode(json_packet(head={"pitch_rad": 0.1, "yaw_rad": 0.2, "roll_rad": 0.3, "q": []}, visemes={"aa": 1}, later=[1]))
-        self.assertEqual(frame, Frame(1.5, {"arkit": {"jawOpen": 0.25}, "visemes": {"aa": 1.0}}, of_angles(0.1, 0.2, 0.3)))
+        frame = decode(
+            json_packet(head={"pitch_rad": 0.1, "yaw_rad": 0.2, "roll_rad": 0.3, "q": []}, visemes={"aa": 1}, later=[1])
+        )
+        self.assertEqual(
+            frame, Frame(1.5, {"arkit": {"jawOpen": 0.25}, "visemes": {"aa": 1.0}}, of_angles(0.1, 0.2, 0.3))
+        )
 
     def test_live_link_face(self):
         values = [i / 64 for i in range(52)] + [0.5, -0.25, 0.125] + [0.0] * 6
@@ -113,13 +156,29 @@ class Packets(unittest.TestCase):
     def test_malformed_packets_are_described(self):
         nan, one = float("nan"), live_link([0.5])
         for data, what in {
-                b"": "unknown packet", b"hello": "unknown packet", b"{": "JSON: ", b"{}": "t_ns: missing", b'{"t_ns":true}': "t_ns",
-                b'{"t_ns":1e3}': "t_ns", b'{"t_ns":%d}' % 10**20: "t_ns", b'{"t_ns":1,"controls":[]}': "controls: expected an object",
-                json_packet(controls={"jawOpen": 2}): "jawOpen: expected a number in 0..1", json_packet(controls={"jawOpen": True}): "jawOpen",
-                json_packet(controls={"jawOpen": nan}): "NaN is not a number", json_packet(head={"pitch_rad": 1}): "yaw_rad",
-                b'{"t_ns":' + b"[" * 60000: "JSON", b"\xff{": "unknown packet", b'{"\xff': "JSON", b'{"t_ns":1,"controls":{"a":1e999}}': "a: ",
-                live_link([], version=5): "unknown version (got 5, expected 6)", one[:-1]: "truncated", b"\6": "truncated",
-                b"\6\xff\xff\xff\xff": "truncated", live_link([nan]): "not a finite number", live_link([], rate=(0, 1)): "frame rate is 0"}.items():
+            b"": "unknown packet",
+            b"hello": "unknown packet",
+            b"{": "JSON: ",
+            b"{}": "t_ns: missing",
+            b'{"t_ns":true}': "t_ns",
+            b'{"t_ns":1e3}': "t_ns",
+            b'{"t_ns":%d}' % 10**20: "t_ns",
+            b'{"t_ns":1,"controls":[]}': "controls: expected an object",
+            json_packet(controls={"jawOpen": 2}): "jawOpen: expected a number in 0..1",
+            json_packet(controls={"jawOpen": True}): "jawOpen",
+            json_packet(controls={"jawOpen": nan}): "NaN is not a number",
+            json_packet(head={"pitch_rad": 1}): "yaw_rad",
+            b'{"t_ns":' + b"[" * 60000: "JSON",
+            b"\xff{": "unknown packet",
+            b'{"\xff': "JSON",
+            b'{"t_ns":1,"controls":{"a":1e999}}': "a: ",
+            live_link([], version=5): "unknown version (got 5, expected 6)",
+            one[:-1]: "truncated",
+            b"\6": "truncated",
+            b"\6\xff\xff\xff\xff": "truncated",
+            live_link([nan]): "not a finite number",
+            live_link([], rate=(0, 1)): "frame rate is 0",
+        }.items():
             with self.subTest(data[:40]), self.assertRaises(FaceDataError) as caught:
                 decode(data)
             self.assertIn(what, str(caught.exception))
@@ -131,7 +190,7 @@ class Packets(unittest.TestCase):
             for _ in range(dice.randrange(1, 6)):
                 damaged[dice.randrange(len(damaged))] = dice.randrange(256)
             try:
-                decode(bytes(damaged[:dice.randrange(len(damaged) + 1)]))
+                decode(bytes(damaged[: dice.randrange(len(damaged) + 1)]))
             except FaceDataError:
                 pass
 
@@ -215,8 +274,13 @@ def turned(q, v):
 
 class Rotations(unittest.TestCase):
     # Left, up and front of a character that faces each direction.
-    SPACES = {"-Y": ((1, 0, 0), (0, 0, 1), (0, -1, 0)), "Y": ((-1, 0, 0), (0, 0, 1), (0, 1, 0)), "X": ((0, 1, 0), (0, 0, 1), (1, 0, 0)),
-              "-X": ((0, -1, 0), (0, 0, 1), (-1, 0, 0)), "Z": ((1, 0, 0), (0, 1, 0), (0, 0, 1))}
+    SPACES = {
+        "-Y": ((1, 0, 0), (0, 0, 1), (0, -1, 0)),
+        "Y": ((-1, 0, 0), (0, 0, 1), (0, 1, 0)),
+        "X": ((0, 1, 0), (0, 0, 1), (1, 0, 0)),
+        "-X": ((0, -1, 0), (0, 0, 1), (-1, 0, 0)),
+        "Z": ((1, 0, 0), (0, 1, 0), (0, 0, 1)),
+    }
 
     def assert_close(self, a, b):
         for x, y in zip(a, b, strict=True):
@@ -228,9 +292,15 @@ class Rotations(unittest.TestCase):
         for front_name, (left, up, front) in self.SPACES.items():
             mix = lambda a, x, b, y: tuple(p * x + r * y for p, r in zip(a, b))
             with self.subTest(front_name):
-                self.assert_close(turned(to_space(of_angles(0.4, 0, 0), front_name), front), mix(front, c, up, -s))    # looks down
-                self.assert_close(turned(to_space(of_angles(0, 0.4, 0), front_name), front), mix(front, c, left, s))   # to its left
-                self.assert_close(turned(to_space(of_angles(0, 0, 0.4), front_name), up), mix(up, c, left, -s))        # leans to its right
+                self.assert_close(
+                    turned(to_space(of_angles(0.4, 0, 0), front_name), front), mix(front, c, up, -s)
+                )  # looks down
+                self.assert_close(
+                    turned(to_space(of_angles(0, 0.4, 0), front_name), front), mix(front, c, left, s)
+                )  # to its left
+                self.assert_close(
+                    turned(to_space(of_angles(0, 0, 0.4), front_name), up), mix(up, c, left, -s)
+                )  # leans to its right
 
     def test_a_bone_rotates_about_the_axes_of_the_armature(self):
         rest, q = of_angles(0.3, -1.2, 2.0), of_angles(0.2, 0.5, -0.1)
@@ -251,16 +321,25 @@ class Rotations(unittest.TestCase):
 class Curves(unittest.TestCase):
     def test_gaps_hold_and_coinciding_keys_are_one(self):
         rows = [(0.0, 0.1), (1.0, None), (2.0, None), (3.0, 0.3), (3.0 + 1e-9, 0.4), (4.0, 0.5)]
-        frames = [Frame(t, {"arkit": {} if v is None else {"jawOpen": v}}, None if v is None else of_angles(v, 0, 0)) for t, v in rows]
-        curves = control_curves(frames, lambda t: 1000 + t, {("arkit", "jawOpen"), ("arkit", "tongueOut"), ("vrm0", "A")})
+        frames = [
+            Frame(t, {"arkit": {} if v is None else {"jawOpen": v}}, None if v is None else of_angles(v, 0, 0))
+            for t, v in rows
+        ]
+        curves = control_curves(
+            frames, lambda t: 1000 + t, {("arkit", "jawOpen"), ("arkit", "tongueOut"), ("vrm0", "A")}
+        )
         self.assertEqual(curves.keys(), {("arkit", "jawOpen"), ("vrm0", "A")})
         curve = curves["arkit", "jawOpen"]
         self.assertEqual(curve, curves["vrm0", "A"])
-        self.assertEqual((curve.times, curve.values, curve.holds), ([1000.0, 1003.0, 1004.0], [0.1, 0.3, 0.5], [True, False, False]))
+        self.assertEqual(
+            (curve.times, curve.values, curve.holds), ([1000.0, 1003.0, 1004.0], [0.1, 0.3, 0.5], [True, False, False])
+        )
         self.assertEqual(head_curve(frames, lambda t: t).holds, [True, False, False])
 
     def test_the_heads_quaternions_do_not_jump(self):
-        frames = [Frame(i, {}, of_angles(0, i * 0.5 - 3.0, 0)) for i in range(14)] + [Frame(14, {}, of_angles(0, -2.4, 0))]
+        frames = [Frame(i, {}, of_angles(0, i * 0.5 - 3.0, 0)) for i in range(14)] + [
+            Frame(14, {}, of_angles(0, -2.4, 0))
+        ]
         curve = head_curve(frames, float)
         for a, b in zip(curve.values, curve.values[1:]):
             self.assertGreater(sum(x * y for x, y in zip(a, b)), 0.9)

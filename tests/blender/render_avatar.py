@@ -1,7 +1,8 @@
 """Renders the avatar at frames of a CSV that the add-on imports, for people to look at: a row of images.
 
-usage: render_avatar.py ZIP AVATAR_GLB CSV OUTPUT.png FRAME...      in an environment with bpy; frames count from 1 at 24 per second
+usage: render_avatar.py ZIP AVATAR_GLB CSV OUTPUT.png FRAME...      in an environment with bpy; 24 frames per second
 """
+
 import os
 import sys
 import tempfile
@@ -32,7 +33,9 @@ def stage(scene, mesh):
     material.use_nodes = True
     attribute = material.node_tree.nodes.new("ShaderNodeVertexColor")
     attribute.layer_name = mesh.data.color_attributes[0].name
-    material.node_tree.links.new(attribute.outputs["Color"], material.node_tree.nodes["Principled BSDF"].inputs["Base Color"])
+    material.node_tree.links.new(
+        attribute.outputs["Color"], material.node_tree.nodes["Principled BSDF"].inputs["Base Color"]
+    )
     mesh.data.materials.clear()
     mesh.data.materials.append(material)
     mesh.data.shade_smooth()

@@ -1,4 +1,5 @@
 """Face animation of mien in Blender: live onto shape keys and a head, and from files as actions."""
+
 try:
     import bpy
 except ModuleNotFoundError:  # the modules without Blender, in tests

@@ -1,4 +1,5 @@
 """Writes curves into actions of any version of Blender."""
+
 from dataclasses import dataclass
 
 import bpy
@@ -14,6 +15,7 @@ _CONSTANT, _LINEAR = 0, 1  # of Keyframe.interpolation
 @dataclass
 class Written:
     """What an import or a recording has created."""
+
     shape_curves: int = 0
     head_name: str = ""
     first: float = float("inf")
@@ -60,7 +62,8 @@ def _write(fcurves, data_path, index, curve, values):
 def _check_times(frames, time_of):
     for frame in (frames[0], frames[-1]):
         if abs(time_of(frame.time_s)) > _LAST_FRAME:
-            raise FaceDataError(f"time: frame {time_of(frame.time_s):.0f} is beyond Blender's last, {_LAST_FRAME}; start at the first row")
+            number = f"{time_of(frame.time_s):.0f}"
+            raise FaceDataError(f"time: frame {number} is beyond Blender's last, {_LAST_FRAME}; start at the first row")
 
 
 def _write_shapes(shapes, curves, scale, name, merge, written):
@@ -88,12 +91,14 @@ def _write_head(head, curve, name, merge, written):
 
 
 def write(settings, frames, time_of, name, merge):
-    """Animates the chosen shape keys and the head. Raises FaceDataError, before anything is changed, if there is nothing to animate."""
+    """Animates the chosen shape keys and the head. Raises FaceDataError, with no change, if there is nothing to do."""
     shapes, head = targets.shape_keys(settings), targets.head(settings)
     curves = control_curves(frames, time_of, {control for item in shapes for control in item.matches.values()})
     turning = head_curve(frames, time_of) if head else None
     if not curves and not (turning and turning.times):
-        raise FaceDataError("no shape key of the chosen meshes has a name whose control is in the data, and no head is chosen")
+        raise FaceDataError(
+            "no shape key of the chosen meshes has a name whose control is in the data, and no head is chosen"
+        )
     _check_times(frames, time_of)
     written = Written()
     for item in shapes:

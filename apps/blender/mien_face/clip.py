@@ -1,4 +1,5 @@
 """Reads animation files: CSV of mien and of Live Link Face."""
+
 import os
 from dataclasses import dataclass, field
 
@@ -9,7 +10,8 @@ from .frame import FaceDataError
 
 @dataclass
 class Clip:
-    """Frames in order of time; `notes` are for the user. The recording begins at `start_s`, at or before the first frame."""
+    """Frames in order of time; `notes` are for the user. The recording begins at `start_s`."""
+
     frames: list
     notes: list = field(default_factory=list)
     start_s: float = 0.0
@@ -17,8 +19,8 @@ class Clip:
 
 @dataclass
 class ReadOptions:
-    face_id: int = 0       # of mien's CSV; 0: the face in most rows
-    llf_fps: float = 0.0   # of Live Link Face's timecode; 0: from FILE.json, or detected
+    face_id: int = 0  # of mien's CSV; 0: the face in most rows
+    llf_fps: float = 0.0  # of Live Link Face's timecode; 0: from FILE.json, or detected
     llf_rotation: str = "auto"  # its unit of rotations: auto, rad, norm180, deg
 
 

@@ -1,4 +1,5 @@
 """Values of one vocabulary from those of another, as in mien_vocabulary_values of mien's C API."""
+
 import math
 
 from .vocabularies import ROBLOX, VISEME_POSES, VISEMES, VRM0, VRM1

@@ -1,4 +1,5 @@
 """Tables as text: UTF-8 or UTF-16, separated by commas, semicolons or tabs, with positions for messages."""
+
 import csv
 import math
 
@@ -48,7 +49,8 @@ class Table:
 
     def next_row(self):
         """False at the end. Empty lines are skipped."""
-        for self.line, line in self._lines:
+        for number, line in self._lines:
+            self.line = number
             if line.strip(" \r"):
                 self.cells = self._split(line.removesuffix("\r"))
                 return True

@@ -1,4 +1,5 @@
 """Animation curves from frames."""
+
 from array import array
 from dataclasses import dataclass, field
 
@@ -8,8 +9,9 @@ from .rotation import IDENTITY, nearer
 
 @dataclass
 class Curve:
-    """Keys of a property at times in Blender's frames. `holds` says for each key whether its value stays until the next one, because
-    frames between them have no value."""
+    """Keys of a property at times in Blender's frames. `holds` says for each key whether its value stays until the next
+    one, because frames between them have no value."""
+
     times: list = field(default_factory=list)
     values: list = field(default_factory=list)
     holds: list = field(default_factory=list)
@@ -36,7 +38,10 @@ def control_curves(frames, time_of, controls):
         values = {vocabulary: values_in(vocabulary, frame) for vocabulary in vocabularies}
         for (vocabulary, name), curve in curves.items():
             value = values[vocabulary].get(name)
-            curve.gap() if value is None else curve.add(time, value)
+            if value is None:
+                curve.gap()
+            else:
+                curve.add(time, value)
     return {control: curve for control, curve in curves.items() if curve.times}
 
 

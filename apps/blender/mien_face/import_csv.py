@@ -1,4 +1,5 @@
 """File > Import > mien CSV / Live Link Face CSV."""
+
 import os
 
 import bpy
@@ -10,12 +11,18 @@ from .frame import FaceDataError
 from .settings import ROTATION_ITEMS
 
 _ORIGIN_ITEMS = [
-    ("recording", "The recording's start", "Time 0 of mien's files, so that the animation stays in sync with the recording; "
-     "the first row of Live Link Face"),
-    ("first", "The first row", "")]
+    (
+        "recording",
+        "The recording's start",
+        "Time 0 of mien's files, so that the animation stays in sync with the recording; "
+        "the first row of Live Link Face",
+    ),
+    ("first", "The first row", ""),
+]
 _ACTION_ITEMS = [
     ("new", "Replace", "Create new actions; the present ones get a fake user, so that they remain in the file"),
-    ("merge", "Keep", "Write into the present actions and replace only the curves of the same properties")]
+    ("merge", "Keep", "Write into the present actions and replace only the curves of the same properties"),
+]
 
 
 class MIEN_FACE_OT_import_csv(bpy.types.Operator, ImportHelper):
@@ -26,14 +33,24 @@ class MIEN_FACE_OT_import_csv(bpy.types.Operator, ImportHelper):
 
     filename_ext = ".csv"
     filter_glob: bpy.props.StringProperty(default="*.csv", options={"HIDDEN"})
-    start_frame: bpy.props.FloatProperty(name="Start frame", default=1.0, description="Frame of the scene at which the animation starts")
-    origin: bpy.props.EnumProperty(name="Starts with", items=_ORIGIN_ITEMS, description="Time that comes to the start frame")
+    start_frame: bpy.props.FloatProperty(
+        name="Start frame", default=1.0, description="Frame of the scene at which the animation starts"
+    )
+    origin: bpy.props.EnumProperty(
+        name="Starts with", items=_ORIGIN_ITEMS, description="Time that comes to the start frame"
+    )
     action: bpy.props.EnumProperty(name="Present actions", items=_ACTION_ITEMS)
-    face: bpy.props.IntProperty(name="Face", min=0, description="Id of the face, if mien tracked several; 0: the one in most rows")
+    face: bpy.props.IntProperty(
+        name="Face", min=0, description="Id of the face, if mien tracked several; 0: the one in most rows"
+    )
     llf_fps: bpy.props.FloatProperty(
-        name="Timecode", min=0.0, max=100.0, description="Frames per second of Live Link Face's timecode; 0: detected")
+        name="Timecode", min=0.0, max=100.0, description="Frames per second of Live Link Face's timecode; 0: detected"
+    )
     llf_rotation: bpy.props.EnumProperty(
-        name="Angles", items=[("auto", "Detected", ""), *ROTATION_ITEMS], description="Unit of Live Link Face's rotations")
+        name="Angles",
+        items=[("auto", "Detected", ""), *ROTATION_ITEMS],
+        description="Unit of Live Link Face's rotations",
+    )
 
     def invoke(self, context, event):
         self.start_frame = context.scene.frame_start
@@ -64,7 +81,8 @@ class MIEN_FACE_OT_import_csv(bpy.types.Operator, ImportHelper):
         per_second = scene.render.fps / scene.render.fps_base
         name = os.path.splitext(os.path.basename(self.filepath))[0]
         written = actions.write(
-            settings, clip.frames, lambda t: self.start_frame + (t - start_s) * per_second, name, self.action == "merge")
+            settings, clip.frames, lambda t: self.start_frame + (t - start_s) * per_second, name, self.action == "merge"
+        )
         return written, clip.notes
 
 

@@ -1,4 +1,5 @@
 """The running receiver: at most one, whatever the number of scenes."""
+
 import time
 
 import bpy
@@ -10,7 +11,7 @@ from .receiver import ANY, LOOPBACK, Receiver
 from .recording import Recording
 
 _INTERVAL_S = 1.0 / 120.0  # between looks at the socket
-_REDRAW_S = 0.25           # between updates of the panel
+_REDRAW_S = 0.25  # between updates of the panel
 
 
 class _Session:

@@ -1,4 +1,5 @@
 """Reads CSV of Live Link Face."""
+
 import json
 import math
 import re
@@ -45,8 +46,10 @@ def _from_json(path):
         return None, None
     found = found if isinstance(found, dict) else {}
     unit, fps = found.get("rotation"), found.get("timecode_fps")
-    return (unit if isinstance(unit, str) and unit in UNITS_PER_RADIAN else None,
-            fps if isinstance(fps, (int, float)) and 1 <= fps <= 100 else None)
+    return (
+        unit if isinstance(unit, str) and unit in UNITS_PER_RADIAN else None,
+        fps if isinstance(fps, (int, float)) and 1 <= fps <= 100 else None,
+    )
 
 
 def units(text, options, json_path):
@@ -84,7 +87,9 @@ class _Reader:
             return Frame(time_s, {"arkit": {}})
         self.table.check_width()
         values = {name: self.table.number(name) for name in self.names}
-        return Frame(time_s, {"arkit": {name: self.in_range(v) for name, v in values.items() if v is not None}}, self.head())
+        return Frame(
+            time_s, {"arkit": {name: self.in_range(v) for name, v in values.items() if v is not None}}, self.head()
+        )
 
     def in_range(self, value):
         inside = min(1.0, max(0.0, value))
@@ -115,8 +120,10 @@ class _Reader:
         half_turn = math.pi * UNITS_PER_RADIAN[self.unit]
         for name, value in zip(ROTATIONS, rotation):
             if abs(value) > half_turn * (1.0 + 1e-6):
-                raise self.table.error(f"{name}: more than half a turn in {self.unit} "
-                                       f"(got {value:g}, expected {-half_turn:.2f} to {half_turn:.2f})")
+                raise self.table.error(
+                    f"{name}: more than half a turn in {self.unit} "
+                    f"(got {value:g}, expected {-half_turn:.2f} to {half_turn:.2f})"
+                )
         yaw, pitch, roll = (value / UNITS_PER_RADIAN[self.unit] for value in rotation)
         return of_angles(-pitch, yaw, roll)
 

@@ -1,4 +1,5 @@
 """Detects the frame rate and the unit of angles of a Live Link Face file, as `mien convert` does."""
+
 import math
 from statistics import median_low
 
@@ -8,8 +9,8 @@ _RATES = (24.0, 25.0, 30.0, 48.0, 50.0, 60.0)
 _DEFAULT_RATE = 60.0
 _MIN_STEPS = 5
 
-_MAX_ANGLE_RAD = 2.1   # beyond it a head no longer shows its face
-_MAX_STEP_RAD = 0.35   # largest typical step between rows
+_MAX_ANGLE_RAD = 2.1  # beyond it a head no longer shows its face
+_MAX_STEP_RAD = 0.35  # largest typical step between rows
 _MIN_HEAD_STEPS = 10
 
 _EYE_TURN_RAD = 0.485  # rotation of an eye while eyeLook... goes from 0 to 1
@@ -17,8 +18,12 @@ _MIN_LOOK = 0.1
 _MIN_CORRELATION = 0.9
 
 # Column of a rotation, and the controls that increase and decrease it.
-_EYES = ((3, "eyeLookOutLeft", "eyeLookInLeft"), (4, "eyeLookUpLeft", "eyeLookDownLeft"),
-         (6, "eyeLookInRight", "eyeLookOutRight"), (7, "eyeLookUpRight", "eyeLookDownRight"))
+_EYES = (
+    (3, "eyeLookOutLeft", "eyeLookInLeft"),
+    (4, "eyeLookUpLeft", "eyeLookDownLeft"),
+    (6, "eyeLookInRight", "eyeLookOutRight"),
+    (7, "eyeLookUpRight", "eyeLookDownRight"),
+)
 
 
 class TimecodeRate:
@@ -86,7 +91,7 @@ class AngleUnit:
                 line.add(controls[more] - controls[less], rotations[column])
 
     def unit(self):
-        """Degrees if angles or steps are too large for radians. Otherwise the eyes decide, whose rotation for eyeLook... is known."""
+        """Degrees if angles or steps are too large for radians. Otherwise the eyes decide: their rotation is known."""
         too_far = self._largest > _MAX_ANGLE_RAD or self._largest_roll > math.pi * (1.0 + 1e-6)
         too_fast = len(self._steps) >= _MIN_HEAD_STEPS and median_low(self._steps) > _MAX_STEP_RAD
         if too_far or too_fast:

@@ -1,4 +1,5 @@
 """Reads mien's CSV: controls of ARKit, Roblox's units, or visemes."""
+
 import math
 from collections import Counter
 
@@ -45,7 +46,9 @@ def _face_id(table):
 def _frame(table, vocabulary, names):
     table.check_width()
     values = {name: _share(table, name) for name in names}
-    return Frame(_time(table), {vocabulary: {name: value for name, value in values.items() if value is not None}}, _head(table))
+    return Frame(
+        _time(table), {vocabulary: {name: value for name, value in values.items() if value is not None}}, _head(table)
+    )
 
 
 def read(table, face_id):

@@ -1,4 +1,5 @@
 """Buttons of the panel."""
+
 import bpy
 
 from . import live, targets
@@ -101,5 +102,11 @@ class MIEN_FACE_OT_finish_recording(bpy.types.Operator):
         return {"FINISHED"}
 
 
-CLASSES = (MIEN_FACE_OT_add_meshes, MIEN_FACE_OT_remove_mesh, MIEN_FACE_OT_start, MIEN_FACE_OT_stop, MIEN_FACE_OT_record,
-           MIEN_FACE_OT_finish_recording)
+CLASSES = (
+    MIEN_FACE_OT_add_meshes,
+    MIEN_FACE_OT_remove_mesh,
+    MIEN_FACE_OT_start,
+    MIEN_FACE_OT_stop,
+    MIEN_FACE_OT_record,
+    MIEN_FACE_OT_finish_recording,
+)

@@ -1,4 +1,5 @@
 """Decodes datagrams: JSON of mien and Live Link Face, version 6."""
+
 import json
 import math
 import struct
@@ -38,8 +39,11 @@ def _json_frame(data):
     time_ns = found.get("t_ns") if isinstance(found, dict) else None
     if not isinstance(time_ns, int) or isinstance(time_ns, bool) or abs(time_ns) >= 1 << 63:
         raise FaceDataError("t_ns: missing, or not an integer")
-    values = {vocabulary: {name: _number(value, name, 0.0, 1.0) for name, value in _object(found, key).items()}
-              for vocabulary, key in _KEYS.items() if key in found}
+    values = {
+        vocabulary: {name: _number(value, name, 0.0, 1.0) for name, value in _object(found, key).items()}
+        for vocabulary, key in _KEYS.items()
+        if key in found
+    }
     head = _object(found, "head")
     angles = [_number(head.get(name), name, -2.0 * math.pi, 2.0 * math.pi) for name in _ANGLES] if head else None
     return Frame(time_ns * 1e-9, values, of_angles(*angles) if angles else None)
@@ -58,13 +62,13 @@ class _Bytes:
         return values
 
     def skip_text(self):
-        length, = self.take(">I")
+        (length,) = self.take(">I")
         self.take(f">{min(length, len(self.data) + 1)}x")
 
 
 def _live_link_frame(data, units_per_radian):
     packet = _Bytes(data)
-    version, = packet.take(">B")
+    (version,) = packet.take(">B")
     if version != _VERSION:
         raise FaceDataError(f"Live Link Face: unknown version (got {version}, expected {_VERSION})")
     packet.skip_text()
@@ -77,7 +81,7 @@ def _live_link_frame(data, units_per_radian):
     frame = Frame((number + part) * denominator / numerator, {"arkit": {}})
     frame.values["arkit"] = {name: min(1.0, max(0.0, value)) for name, value in zip(ARKIT, values)}
     if count >= len(ARKIT) + 3:
-        yaw, pitch, roll = (value / units_per_radian for value in values[len(ARKIT):len(ARKIT) + 3])
+        yaw, pitch, roll = (value / units_per_radian for value in values[len(ARKIT) : len(ARKIT) + 3])
         frame.head = of_angles(-pitch, yaw, roll)
     return frame
 

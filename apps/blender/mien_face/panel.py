@@ -1,4 +1,5 @@
 """The tab "mien" in the sidebar of the 3D view."""
+
 import bpy
 
 from . import live, targets
@@ -23,7 +24,8 @@ def draw_mapping(layout, settings):
 def _draw_matches(layout, settings):
     for shapes in targets.shape_keys(settings):
         names = sorted({vocabulary for vocabulary, _ in shapes.matches.values()})
-        text = f"{shapes.mesh_name}: {len(shapes.matches)} of {len(shapes.keys.key_blocks) - 1} ({', '.join(names) or 'no name known'})"
+        count = f"{len(shapes.matches)} of {len(shapes.keys.key_blocks) - 1}"
+        text = f"{shapes.mesh_name}: {count} ({', '.join(names) or 'no name known'})"
         layout.label(text=text, icon="CHECKMARK" if shapes.matches else "ERROR")
 
 

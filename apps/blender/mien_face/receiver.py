@@ -1,4 +1,5 @@
 """Receives datagrams without waiting."""
+
 import socket
 import sys
 

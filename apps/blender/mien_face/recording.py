@@ -1,4 +1,5 @@
 """Collects received frames with continuous times."""
+
 from array import array
 
 from .frame import Frame
@@ -10,8 +11,8 @@ _NONE = float("nan")
 
 
 class Recording:
-    """Times come from the sender: its steps are even, late packets or not. If they go back, or further ahead than a second
-    beyond the time of arrival, as from a new sender, they continue at the time of arrival."""
+    """Times come from the sender: its steps are even, late packets or not. If they go back, or further ahead than a
+    second beyond the time of arrival, as from a new sender, they continue at the time of arrival."""
 
     def __init__(self, start_s):
         self._start_s = start_s

@@ -1,4 +1,5 @@
 """Rotations as quaternions (w, x, y, z), without Blender."""
+
 import math
 
 IDENTITY = (1.0, 0.0, 0.0, 0.0)
@@ -8,8 +9,12 @@ def product(a, b):
     """First b, then a."""
     aw, ax, ay, az = a
     bw, bx, by, bz = b
-    return (aw * bw - ax * bx - ay * by - az * bz, aw * bx + ax * bw + ay * bz - az * by,
-            aw * by - ax * bz + ay * bw + az * bx, aw * bz + ax * by - ay * bx + az * bw)
+    return (
+        aw * bw - ax * bx - ay * by - az * bz,
+        aw * bx + ax * bw + ay * bz - az * by,
+        aw * by - ax * bz + ay * bw + az * bx,
+        aw * bz + ax * by - ay * bx + az * bw,
+    )
 
 
 def inverse(q):
@@ -18,7 +23,7 @@ def inverse(q):
 
 
 def of_angles(pitch, yaw, roll):
-    """R = Ry(yaw) Rx(pitch) Rz(roll) in radians, in the axes of mien: x to the subject's left, y up, z out of the face."""
+    """R = Ry(yaw) Rx(pitch) Rz(roll) in radians, in mien's axes: x to the subject's left, y up, z out of the face."""
     about_y = (math.cos(yaw / 2), 0.0, math.sin(yaw / 2), 0.0)
     about_x = (math.cos(pitch / 2), math.sin(pitch / 2), 0.0, 0.0)
     about_z = (math.cos(roll / 2), 0.0, 0.0, math.sin(roll / 2))

@@ -1,7 +1,9 @@
 """Finds the controls that move shape keys, by the names of the keys.
 
-Names match in any case, with `_L`, `.R` and the like for left and right, and with the prefix and suffix that most keys share.
+Names match in any case, with `_L`, `.R` and the like for left and right, and with the prefix and suffix that most keys
+share.
 """
+
 import functools
 import re
 from collections import Counter
@@ -11,9 +13,18 @@ from .vocabularies import ARKIT, READY_PLAYER_ME, ROBLOX, VISEMES, VRM0, VRM1
 
 # VRoid Studio's shape keys, which have a prefix for each part of the face.
 _VROID = {
-    "Fcl_ALL_Joy": "Joy", "Fcl_ALL_Angry": "Angry", "Fcl_ALL_Sorrow": "Sorrow", "Fcl_ALL_Fun": "Fun",
-    "Fcl_MTH_A": "A", "Fcl_MTH_I": "I", "Fcl_MTH_U": "U", "Fcl_MTH_E": "E", "Fcl_MTH_O": "O",
-    "Fcl_EYE_Close_L": "Blink_L", "Fcl_EYE_Close_R": "Blink_R"}
+    "Fcl_ALL_Joy": "Joy",
+    "Fcl_ALL_Angry": "Angry",
+    "Fcl_ALL_Sorrow": "Sorrow",
+    "Fcl_ALL_Fun": "Fun",
+    "Fcl_MTH_A": "A",
+    "Fcl_MTH_I": "I",
+    "Fcl_MTH_U": "U",
+    "Fcl_MTH_E": "E",
+    "Fcl_MTH_O": "O",
+    "Fcl_EYE_Close_L": "Blink_L",
+    "Fcl_EYE_Close_R": "Blink_R",
+}
 
 _MIN_WITH_AFFIXES = 3  # names that confirm a prefix or suffix
 _OF_THE_MOUTH = ("mouth", "jaw", "tongue")
@@ -45,8 +56,13 @@ def _with_affixes(keys, table, prefix, suffix):
     matches = {}
     for key in keys:
         text = plain(key)
-        inner = text[len(prefix):len(text) - len(suffix)]
-        if text.startswith(prefix) and text.endswith(suffix) and inner in table and len(prefix) + len(suffix) < len(text):
+        inner = text[len(prefix) : len(text) - len(suffix)]
+        if (
+            text.startswith(prefix)
+            and text.endswith(suffix)
+            and inner in table
+            and len(prefix) + len(suffix) < len(text)
+        ):
             matches[key] = table[inner]
     return matches
 
@@ -58,7 +74,7 @@ def _shared_affixes(keys, table):
         for name in table:
             at = text.find(name)
             while at >= 0:
-                count[text[:at], text[at + len(name):]] += 1
+                count[text[:at], text[at + len(name) :]] += 1
                 at = text.find(name, at + 1)
     best = max(count, key=lambda pair: (count[pair], -len(pair[0] + pair[1])), default=("", ""))
     return best if count[best] >= _MIN_WITH_AFFIXES else ("", "")
@@ -74,8 +90,8 @@ def _in_table(keys, table, prefix, suffix):
 def match(keys, vocabulary="auto", prefix="", suffix=""):
     """{key: (vocabulary, name)} for a tuple of names of keys.
 
-    `auto` takes the vocabulary with most matches; if it is that of visemes, which move the mouth only, ARKit's names move the rest.
-    An empty prefix and suffix are detected.
+    `auto` takes the vocabulary with most matches; if it is that of visemes, which move the mouth only, ARKit's names
+    move the rest. An empty prefix and suffix are detected.
     """
     chosen = VOCABULARIES if vocabulary == "auto" else (vocabulary,)
     found = {name: _in_table(keys, TABLES[name], prefix, suffix) for name in chosen}

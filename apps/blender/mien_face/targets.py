@@ -1,4 +1,5 @@
 """The chosen shape keys and head, and how a frame moves them."""
+
 from dataclasses import dataclass
 
 import bpy
@@ -13,13 +14,14 @@ from .shape_names import match
 @dataclass
 class ShapeKeys:
     """The shape keys of a mesh that have a control: {name of key: (vocabulary, name)}."""
+
     mesh_name: str
     keys: bpy.types.Key
     matches: dict
 
 
 def shape_keys(settings):
-    """One entry per mesh, even if several objects share it. Meshes that were deleted or have lost their shape keys are ignored."""
+    """One entry per mesh, even if several objects share it. Deleted meshes and those without shape keys are ignored."""
     found = {}
     for item in settings.meshes:
         keys = item.object.data.shape_keys if item.object and item.object.type == "MESH" else None
@@ -50,7 +52,9 @@ class Head:
 
     @property
     def channel(self):
-        kind = {"QUATERNION": "rotation_quaternion", "AXIS_ANGLE": "rotation_axis_angle"}.get(self.mode, "rotation_euler")
+        kind = {"QUATERNION": "rotation_quaternion", "AXIS_ANGLE": "rotation_axis_angle"}.get(
+            self.mode, "rotation_euler"
+        )
         return kind if self.bone else f"delta_{kind}"
 
     @property
@@ -95,7 +99,7 @@ def apply(settings, frame):
 
 
 def add_meshes(settings, objects):
-    """Adds meshes with shape keys, and their armature's head bone if no head is chosen yet. Returns the number of new ones."""
+    """Adds meshes with shape keys, and their armature's head if none is chosen yet. Returns how many are new."""
     known = {item.object for item in settings.meshes}
     new = [o for o in objects if o.type == "MESH" and o.data.shape_keys and o not in known]
     for mesh in new:
@@ -109,6 +113,8 @@ def add_meshes(settings, objects):
 def find_head(settings, armature):
     """Chooses the bone named head, in any case and after a separator: Head, rig:Head, J_Bip_C_Head."""
     names = [bone.name for bone in armature.data.bones]
-    named = [name for name in names if name.lower() == "head"] or [name for name in names if name.lower().endswith(("_head", ":head", ".head"))]
+    named = [name for name in names if name.lower() == "head"] or [
+        name for name in names if name.lower().endswith(("_head", ":head", ".head"))
+    ]
     if named:
         settings.head_object, settings.head_bone = armature, named[0]
