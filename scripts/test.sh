@@ -30,6 +30,7 @@ build_and_test() {  # PRESET, options of CMake
 tests/convert/fetch_node_tests.sh || echo "NOT TESTED: ONNX's own node tests: they could not be fetched"
 
 scripts/check/layering.sh
+scripts/check/file_sizes.sh
 # Sanitizers cannot test kernels that this machine does not support; Release compiles them.
 avx512=ON
 [ "$(uname -m)" != x86_64 ] || grep -qw avx512f /proc/cpuinfo || avx512=OFF

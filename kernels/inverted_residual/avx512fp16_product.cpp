@@ -297,7 +297,7 @@ __m512 sums_of_pairs(const Sums& s) {
 
 // fp32 sums of a tile, and fp16 sums of the last products, by vectors of outputs.
 struct Totals {
-  float* sums;    // [vecs][pixels][32]
+  float* sums;    // `[vecs][pixels][32]`
   Half* partial;  // likewise
 };
 

@@ -7,8 +7,9 @@ set -euo pipefail
 cd "$(dirname "$0")/../.."
 . scripts/check/npm.sh
 
-# Patterns of git ls-files, of pages and of sources, whose comments count. soak.md has a table of a test program.
-COVERED=('*.md' :!docs/results/soak.md)
+# Patterns of git ls-files, of pages and of sources, whose comments and messages count. soak.md has a table of a test program.
+COVERED=('*.md' '*.h' '*.hpp' '*.inc' '*.c' '*.cpp' '*.py' '*.sh' '*.js' '*.mjs' '*.ts' '*.cs' '*.java' '*.kt' '*.rs' '*.swift'
+  '*.cmake' '*CMakeLists.txt' :!docs/results/soak.md)
 
 files=("$@")
 [ $# -gt 0 ] || mapfile -t files < <(git ls-files "${COVERED[@]}")

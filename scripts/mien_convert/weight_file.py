@@ -8,8 +8,8 @@
     file.metadata["name"] = "basenet"
     file.write("basenet.mien")
 
-Arrays are whatever has .shape and .tolist() (numpy, torch), (array('f'), shape) pairs, or nested lists, in PyTorch's
-layout. Everything that the format forbids raises ValueError.
+Arrays are objects with `.shape` and `.tolist()` (numpy, torch), (array('f'), shape) pairs, or nested lists, in
+PyTorch's layout. Everything that the format forbids raises ValueError.
 """
 import math
 import re

@@ -1,4 +1,4 @@
-// Crops of 8-bit windows, sampled bilinearly in fixed point; the border is repeated outwards.
+// Bilinear crops of 8-bit windows in fixed point; the border is repeated outwards.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

@@ -132,7 +132,7 @@ void slide(const Geometry& g, Rows& seen, const Kernel& kernel, T* slid, std::si
 
 // The way back: slope_at(pixel) is the gradient by the answer. fill(row) makes a row of `seen`
 // again; when a row of `gradient`, that by what was seen, is whole, finish(row) may take it. The
-// kernel's gradient is added to dkernel.
+// kernel's gradient is added to `dkernel`.
 template <typename SlopeAt, typename Fill, typename Finish>
 void descend(const Geometry& g, Rows& seen, Rows& gradient, const Kernel& kernel, Kernel& dkernel,
              SlopeAt slope_at, Fill fill, Finish finish) {
