@@ -14,7 +14,7 @@ constexpr std::int32_t kEagerFrames = 30;  // searching on every one of them
 // How much of a search goes into one frame.
 struct Pace {
   int shares;           // of the proposal's work
-  int alignments;       // before a face is judged, each as dear as to follow one
+  int alignments;       // of a crop before it is verified; each costs as much as tracking
   bool begins_at_loss;  // of a face, or else one frame later
 };
 constexpr Pace kPace = {4, 2, true};
@@ -81,7 +81,7 @@ mien_status Tracker::push(const mien_image* image, std::int64_t pts_ns) {
   }
   const Timeline::Step step = state_.timeline.advance(pts_ns);
   Frame frame = {view, timer_, level(), step.seconds, step.cut};
-  // Where a film begins nothing can stutter, and its first image may be its only one.
+  // The first frame of a stream may be late, and its image may be the only one.
   const bool new_scene = std::exchange(state_.cut_without_image, false) || frame.cut ||
                          !(state_.view == static_cast<const ImageGeometry&>(view));
   if (new_scene) {

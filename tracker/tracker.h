@@ -34,11 +34,11 @@ class Tracker {
   // nullptr without weights for it.
   [[nodiscard]] AudioTrack* voice() { return audio_; }
   [[nodiscard]] const Faces& faces() const { return faces_; }
-  // Of the face known longest; SEARCHING while there is none.
+  // The result of the known face with the lowest id; its status is SEARCHING without a face.
   [[nodiscard]] const mien_result& result() const { return faces_.first().result(); }
   void reset();
 
-  // From the next frames on, as seen at the present level. There is one face.
+  // Starts a capture at the current level with the next frame. Requires max_faces = 1.
   void capture_neutral() { faces_.all().front().neutral(level()).capture(); }
   [[nodiscard]] Neutral& neutral(std::int32_t level) { return faces_.all().front().neutral(level); }
   [[nodiscard]] const Neutral& neutral(std::int32_t level) const {
@@ -66,7 +66,7 @@ class Tracker {
     Timeline timeline;
     ImageView view;  // the image before, whose pixels are gone
     Search search;
-    bool cut_without_image = false;        // the film was, since the image before
+    bool cut_without_image = false;        // discontinuity since the previous image
     std::int32_t frames_without_face = 0;  // frames in a row with nothing found
     std::uint32_t searches = 0;            // begun since then
     std::uint32_t turn = 0;                // of detect_in_tile

@@ -14,7 +14,7 @@ namespace mien::tracker {
 class FaceDetector {
  public:
   // A search of the whole image is done in shares, each a few million multiply-accumulates, so that
-  // it can be spread over images. They have to be of one geometry; a face is where the first one
+  // it can be spread over images. They must be of one geometry; a face is where the first one
   // has it. A thorough one proposes more and takes longer. Faces within some 30 degrees of `roll`
   // (radians clockwise) are found.
   virtual void begin(const ImageView& view, bool thorough, float roll) = 0;

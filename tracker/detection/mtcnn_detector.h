@@ -24,7 +24,7 @@ class MtcnnDetector final : public FaceDetector {
   [[nodiscard]] mien_status load(const mien_tracker_config& config, const Models& models,
                                  engine::Arena& arena);
 
-  // Shares: the picture of one of the larger sizes; of P-Net a band of it, or the largest
+  // Shares: the image at one of the larger sizes; of P-Net a band of it, or the largest
   // or all others of the smaller sizes; of R-Net some of the candidates.
   void begin(const ImageView& view, bool thorough, float roll) override;
   [[nodiscard]] bool go_on(const ImageView& view) override;
@@ -70,7 +70,7 @@ class MtcnnDetector final : public FaceDetector {
   [[nodiscard]] Tiles tiles_of(const ImageView& view, const LargeSize& size) const;
   void make_picture(const ImageView& view);
   void scan_band();
-  // Those from `first` on; the very first has its picture.
+  // Scans sizes from `first` on; the image of the first one must exist.
   void scan_small_sizes(Search& search, std::size_t first, std::size_t end);
   // Fills the square input of the network with the crop.
   void cut(const ImageView& view, const Crop& crop, engine::Network& network) const;

@@ -17,12 +17,12 @@ struct Detection {
 // Common area of two squares over the area of their union, 0..1; 0 when either is empty.
 [[nodiscard]] float intersection_over_union(const Square& a, const Square& b);
 
-// Greedy non-maximum suppression: keeps the best-scored candidate, drops what overlaps it by more
-// than `threshold`, and so on. Reorders `candidates` so that the kept ones come first, best first;
-// returns how many these are.
+// Greedy non-maximum suppression: keeps the detection with the best score, drops those that overlap
+// it by more than `threshold`, and repeats. Moves the kept detections to the front, best first, and
+// returns their number.
 [[nodiscard]] std::size_t suppress_non_maxima(std::span<Detection> detections, float threshold);
 
-// Keeps the best-scored of the candidates offered, as many as there is room for.
+// Keeps the detections with the best scores, as many as fit into memory.
 class BestDetections {
  public:
   explicit BestDetections(std::span<Detection> memory) : memory_(memory) {}
@@ -30,7 +30,7 @@ class BestDetections {
   [[nodiscard]] std::span<Detection> kept() const { return memory_.first(count_); }
 
  private:
-  std::span<Detection> memory_;  // a heap, the worst on top
+  std::span<Detection> memory_;  // a heap with the worst on top
   std::size_t count_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// Overlapping squares that together cover what is seen of an image.
+// Overlapping squares that cover the region of interest of an image.
 #pragma once
 
 #include <algorithm>
