@@ -1,4 +1,4 @@
-"""A graph to convert, with what is expected of it."""
+"""A graph to convert, and the expected result."""
 import numpy as np
 from onnx import TensorProto, helper, numpy_helper
 
