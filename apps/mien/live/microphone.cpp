@@ -4,9 +4,10 @@
 namespace mien::app {
 
 Microphone::Microphone(const std::string& name, Tracker& tracker)
-    : CaptureThread(name,
-                    name.starts_with(kTest) ? open_sound(name.substr(kTest.size()), {}) : nullptr,
-                    true),
+    : CaptureThread(
+          name,
+          name.starts_with(kTest) ? open_audio_source(name.substr(kTest.size()), {}) : nullptr,
+          true),
       tracker_(tracker) {}
 
 bool Microphone::ended() {

@@ -10,7 +10,7 @@
 
 namespace mien::app {
 
-class Microphone : public CaptureThread<AudioSource, LiveSound, Audio> {
+class Microphone : public CaptureThread<AudioSource, LiveAudio, Audio> {
  public:
   // "test:FILE": the audio of a file in real time; otherwise a device or a URL, which is retried.
   // The tracker must have a queue of half a second (mien_tracker_config.audio_queue_samples) and

@@ -25,7 +25,7 @@ float peak_amplitude(const Audio& block) {
 
 }  // namespace
 
-void AudioFeed::hear_until(std::int64_t pts_ns, Tracker& tracker) {
+void AudioFeed::push_until(std::int64_t pts_ns, Tracker& tracker) {
   Audio block;
   std::int64_t block_ns = 0;
   while (!ended_ && !lasts_until(pts_ns + kAheadNs)) {

@@ -27,7 +27,8 @@ class AudioSource {
 
 // Opens "-" as a WAV stream on standard input, and .wav files without ffmpeg if possible. Other
 // inputs go through ffmpeg. Timestamps are those of the input. Throws Failure.
-std::unique_ptr<AudioSource> open_sound(const std::string& input, const InputOptions& options);
+std::unique_ptr<AudioSource> open_audio_source(const std::string& input,
+                                               const InputOptions& options);
 
 // Pushes the audio of an input to a tracker as its frames need it.
 class AudioFeed {
@@ -41,7 +42,7 @@ class AudioFeed {
   void set_listener(Listener listener) { listener_ = std::move(listener); }
 
   // Pushes the audio that a frame at `pts_ns` can use.
-  void hear_until(std::int64_t pts_ns, Tracker& tracker);
+  void push_until(std::int64_t pts_ns, Tracker& tracker);
 
   // Whether the audio read until now extends beyond `pts_ns`.
   [[nodiscard]] bool lasts_until(std::int64_t pts_ns) const { return end_ns_ > pts_ns; }

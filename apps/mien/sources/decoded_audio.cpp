@@ -66,7 +66,7 @@ void DecodedAudio::at_end() const {
   const std::string& last = decoder_->damage().last;
   const std::string reason = last.empty() ? "" : ": " + last;
   if (decoder_->failed() || decoder_->ended_early()) {
-    throw Failure(has_output_ || decoder_->ended_early() ? kExitTruncated : kExitNoSound,
+    throw Failure(has_output_ || decoder_->ended_early() ? kExitTruncated : kExitNoAudio,
                   input_ + ": the audio is damaged or truncated" + reason);
   }
 }

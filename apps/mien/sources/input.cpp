@@ -86,7 +86,7 @@ Input::Input(std::string name) : name_(std::move(name)) {
     const std::string refusal = wav_refusal(name_);
     kind_ = Kind::kWav;
     if (!refusal.empty()) {
-      probe_or_fail(kExitNoSound, "audio cannot be read: " + refusal);
+      probe_or_fail(kExitNoAudio, "audio cannot be read: " + refusal);
     }
   } else {
     probe();
@@ -112,7 +112,7 @@ void Input::probe_or_fail(ExitCode code, const std::string& refusal) {
 int Input::audio_index(int track) const {
   const auto tracks = static_cast<int>(audio_tracks());
   if (track < 1 || track > tracks) {
-    throw Failure(kExitNoSound, tracks == 0
+    throw Failure(kExitNoAudio, tracks == 0
                                     ? name_ + ": no audio"
                                     : "--audio-track: no such track in " + name_ + " (got " +
                                           std::to_string(track) + ", expected 1 to " +
@@ -139,7 +139,7 @@ Input::Opened Input::open_separately(const InputOptions& options, bool video, bo
   }
   if (audio) {
     const int index = audio_index(options.audio_track);
-    opened.sound = std::make_unique<DecodedAudio>(
+    opened.audio = std::make_unique<DecodedAudio>(
         name_, options.range, decoder(audio_output(index, audio_filter(options)), index), 0);
   }
   return opened;
@@ -156,7 +156,7 @@ Input::Opened Input::open_together(const InputOptions& options) const {
   Opened opened;
   opened.video =
       std::make_unique<DecodedVideo>(name_, options.range, info_of(track, options), decoder, 0);
-  opened.sound = std::make_unique<DecodedAudio>(name_, options.range, decoder, 1);
+  opened.audio = std::make_unique<DecodedAudio>(name_, options.range, decoder, 1);
   return opened;
 }
 
@@ -181,11 +181,12 @@ std::unique_ptr<VideoSource> open_video(const std::string& input, const InputOpt
   return Input(input).open(options, true, false).video;
 }
 
-std::unique_ptr<AudioSource> open_sound(const std::string& input, const InputOptions& options) {
+std::unique_ptr<AudioSource> open_audio_source(const std::string& input,
+                                               const InputOptions& options) {
   if (input == kStandardInput) {
     return open_wav(input, options.range);
   }
-  return Input(input).open(options, false, true).sound;
+  return Input(input).open(options, false, true).audio;
 }
 
 }  // namespace mien::app

@@ -25,7 +25,7 @@ class Input {
 
   struct Opened {
     std::unique_ptr<VideoSource> video;
-    std::unique_ptr<AudioSource> sound;
+    std::unique_ptr<AudioSource> audio;
   };
   // Opens video and audio, as requested, on one clock. Throws Failure if one is missing.
   [[nodiscard]] Opened open(const InputOptions& options, bool video, bool audio) const;

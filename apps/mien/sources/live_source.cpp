@@ -64,7 +64,7 @@ bool LiveVideo::next(mien_image& image, std::int64_t& pts_ns) {
 
 std::string LiveVideo::reason() { return error_of(decoder_); }
 
-LiveSound::LiveSound(const std::string& microphone)
+LiveAudio::LiveAudio(const std::string& microphone)
     : microphone_(microphone),
       decoder_(capture_command(CaptureKind::kMicrophone, microphone,
                                {"-map", "0:a:0", "-ac", "1", "-ar", "16000", "-flush_packets", "1",
@@ -73,7 +73,7 @@ LiveSound::LiveSound(const std::string& microphone)
       clock_(kSampleRate),
       samples_(kBlockSamples) {}
 
-bool LiveSound::next(Audio& block, std::int64_t& pts_ns) {
+bool LiveAudio::next(Audio& block, std::int64_t& pts_ns) {
   const std::size_t bytes = decoder_.read(std::as_writable_bytes(std::span(samples_)));
   if (bytes < samples_.size() * sizeof samples_[0]) {
     return false;
@@ -87,6 +87,6 @@ bool LiveSound::next(Audio& block, std::int64_t& pts_ns) {
   return true;
 }
 
-std::string LiveSound::reason() { return error_of(decoder_); }
+std::string LiveAudio::reason() { return error_of(decoder_); }
 
 }  // namespace mien::app

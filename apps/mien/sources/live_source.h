@@ -42,9 +42,9 @@ class LiveVideo {
   std::vector<std::byte> frame_;
 };
 
-class LiveSound {
+class LiveAudio {
  public:
-  explicit LiveSound(const std::string& microphone);  // throws Failure
+  explicit LiveAudio(const std::string& microphone);  // throws Failure
 
   // Waits for the next block, which is valid until the next call. Returns false at the end.
   bool next(Audio& block, std::int64_t& pts_ns);

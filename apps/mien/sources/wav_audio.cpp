@@ -37,7 +37,7 @@ class WavAudio : public AudioSource {
       : name_(input_label(path)), file_(open_input_file(path)) {
     const WavStatus status = reader_.open(formats::file_source(file_.get()));
     if (status != WavStatus::kOk) {
-      throw Failure(kExitNoSound,
+      throw Failure(kExitNoAudio,
                     name_ + ": audio cannot be read: " + error_message(reader_, status));
     }
     const WavFormat& format = reader_.format();

@@ -15,7 +15,7 @@ enum ExitCode : int {
   kExitModel = 8,            // a model file is missing, damaged or of another version
   kExitUnsupportedTier = 9,  // this CPU cannot run the requested tier
   kExitNoFace = 10,          // the input shows a face on too few frames for neutral calibration
-  kExitNoSound = 11,         // requested audio is missing or cannot be read
+  kExitNoAudio = 11,         // requested audio is missing or cannot be read
   kExitSomeFailed = 12,      // folder: some files failed, the others are complete
   kExitDamaged = 13  // success, but frames could not be decoded and are missing from the outputs
 };
@@ -38,7 +38,7 @@ inline constexpr ExitMeaning kExitMeanings[] = {
     {kExitModel, "a model file is missing, damaged, or of another version"},
     {kExitUnsupportedTier, "this CPU cannot run the requested tier"},
     {kExitNoFace, "mien neutral: fewer than 55 frames in a row show a face"},
-    {kExitNoSound, "requested audio is missing or cannot be read"},
+    {kExitNoAudio, "requested audio is missing or cannot be read"},
     {kExitSomeFailed, "some files of a folder failed, the others are complete"},
     {kExitDamaged,
      "success, but frames of the input could not be decoded and are missing from the outputs"},

@@ -54,7 +54,7 @@ Senses choose(const TrackOptions& options) {
   const bool there = has_audio(senses, options);
   const bool demanded = options.mode != Mode::kAny || !senses.video || !options.audio.empty();
   if (demanded && !there) {
-    throw Failure(kExitNoSound, source + ": no audio");
+    throw Failure(kExitNoAudio, source + ": no audio");
   }
   if (demanded || (there && has_audionet(options.models))) {
     senses.sound = source;
@@ -83,12 +83,12 @@ Frames::Frames(const TrackOptions& options, const Senses& senses, Tracker& track
     const bool own_sound = !senses.sound.empty() && options.audio.empty();
     Input::Opened opened = senses.input->open(how, senses.video, own_sound);
     video_ = std::move(opened.video);
-    sound = std::move(opened.sound);
+    sound = std::move(opened.audio);
   }
   if (senses.audio) {
-    sound = senses.audio->open(how, false, true).sound;
+    sound = senses.audio->open(how, false, true).audio;
   } else if (senses.sound == kStandardInput) {
-    sound = open_sound(kStandardInput, how);
+    sound = open_audio_source(kStandardInput, how);
   }
   if (sound) {
     sound_.emplace(senses.sound, std::move(sound));
@@ -151,7 +151,7 @@ bool Frames::next_image() {
     return false;
   }
   if (sound_) {
-    sound_->hear_until(pts_ns, tracker_);
+    sound_->push_until(pts_ns, tracker_);
   }
   check(tracker_.push_video(image_, pts_ns), where());
   return true;
@@ -159,7 +159,7 @@ bool Frames::next_image() {
 
 bool Frames::next_sound() {
   const std::int64_t pts_ns = start_ns_ + number_ * 1'000'000'000 / 30;
-  sound_->hear_until(pts_ns, tracker_);
+  sound_->push_until(pts_ns, tracker_);
   if (!sound_->lasts_until(pts_ns)) {
     return false;
   }
