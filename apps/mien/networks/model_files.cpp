@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 
+#include "apps/mien/networks/embedded_models.h"
 #include "apps/mien/system/failure.h"
 #include "apps/mien/system/out_of_memory.h"
 #include "apps/mien/system/paths.h"
@@ -15,7 +17,26 @@ namespace mien::app {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+// Null if `path` is not that of an embedded file.
+const EmbeddedModel* embedded_model(std::string_view path) {
+  for (const EmbeddedModel& model : embedded_models()) {
+    if (path.starts_with(kEmbeddedFolder) && path.ends_with(model.file)) {
+      return &model;
+    }
+  }
+  return nullptr;
+}
+
+}  // namespace
+
 Blob::Blob(const std::string& path, ExitCode code) {
+  if (const EmbeddedModel* model = embedded_model(path)) {
+    allocate(model->bytes.size());
+    std::memcpy(words_.data(), model->bytes.data(), size_);
+    return;
+  }
   std::ifstream file(path, std::ios::binary | std::ios::ate);
   if (!file) {
     throw Failure(code, path + ": cannot be opened");
@@ -25,12 +46,21 @@ Blob::Blob(const std::string& path, ExitCode code) {
   if (end < 0 || fs::is_directory(path_of(path), ignored)) {
     throw Failure(code, path + ": cannot be read");
   }
-  size_ = static_cast<std::size_t>(end);
-  words_.resize((size_ + sizeof(Line) - 1) / sizeof(Line));
+  allocate(static_cast<std::size_t>(end));
   file.seekg(0);
   if (!file.read(reinterpret_cast<char*>(words_.data()), static_cast<std::streamsize>(size_))) {
     throw Failure(code, path + ": cannot be read");
   }
+}
+
+void Blob::allocate(std::size_t bytes) {
+  size_ = bytes;
+  words_.resize((bytes + sizeof(Line) - 1) / sizeof(Line));
+}
+
+bool model_exists(const std::string& path) {
+  std::error_code ignored;
+  return embedded_model(path) != nullptr || fs::exists(path_of(path), ignored);
 }
 
 std::string models_directory(const std::string& chosen) {
@@ -52,11 +82,20 @@ std::string models_directory(const std::string& chosen) {
       break;
     }
   }
+  if (!embedded_models().empty()) {
+    return std::string(kEmbeddedFolder);
+  }
   throw Failure(kExitModel, "--models: no model files found; use --models DIR or set MIEN_MODELS");
 }
 
 std::vector<fs::path> weight_files(const std::string& folder) {
   std::vector<fs::path> files;
+  if (folder == kEmbeddedFolder) {
+    for (const EmbeddedModel& model : embedded_models()) {
+      files.push_back(path_of(folder) / model.file);
+    }
+    return files;
+  }
   std::error_code ignored;
   const OutOfMemoryGuard guard;  // the iterator of libstdc++ allocates in a noexcept function
   for (const auto& entry : fs::directory_iterator(path_of(folder), ignored)) {

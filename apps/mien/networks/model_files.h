@@ -22,13 +22,18 @@ class Blob {
   struct alignas(64) Line {
     std::byte bytes[64];
   };
+  void allocate(std::size_t bytes);
+
   std::vector<Line> words_;
   std::size_t size_ = 0;
 };
 
 // `chosen` if not empty; else $MIEN_MODELS; else `models` beside the program, above it, or
-// installed.
+// installed; else kEmbeddedFolder, if the program has weights inside.
 std::string models_directory(const std::string& chosen);
+
+// Whether there is a file or an embedded file at the path.
+bool model_exists(const std::string& path);
 
 // All weight files of a folder, sorted by name. Throws Failure(kExitModel) if the folder has none.
 std::vector<std::filesystem::path> weight_files(const std::string& folder);

@@ -3,14 +3,12 @@
 
 #include <array>
 #include <chrono>
-#include <filesystem>
 #include <fstream>
 #include <numbers>
 #include <span>
 
 #include "apps/mien/networks/tiers.h"
 #include "apps/mien/system/failure.h"
-#include "apps/mien/system/paths.h"
 
 namespace mien::app {
 namespace {
@@ -21,7 +19,7 @@ std::uint64_t now_ns(void*) {
 }
 
 std::optional<Blob> blob_if_there(const std::string& path) {
-  return std::filesystem::exists(path_of(path)) ? std::optional<Blob>(path) : std::nullopt;
+  return model_exists(path) ? std::optional<Blob>(path) : std::nullopt;
 }
 
 std::span<const std::byte> bytes(const Blob& blob) {
@@ -35,7 +33,7 @@ std::string audionet_path(const std::string& models) {
 }  // namespace
 
 bool has_audionet(const std::string& models) {
-  return std::filesystem::exists(path_of(audionet_path(models)));
+  return model_exists(audionet_path(models));
 }
 
 LoadedTracker::LoadedTracker(const Options& options)
