@@ -15,3 +15,4 @@ build/release/apps/mien/mien track tests/data/demo.mp4 -o "$out/demo.csv" --land
   --overlay "$out/demo.mp4" --stats "$out/demo_stats.json"
 python3 scripts/measure/compare_truth.py "$out/demo.csv" tests/data/demo_truth.csv
 echo "curves: $out/demo.csv   landmarks: $out/demo_landmarks.csv   video: $out/demo.mp4"
+echo "to run mien from any folder in this shell: export PATH=\"$PWD/build/release/apps/mien:\$PATH\""

@@ -75,6 +75,10 @@ if [ -x "$prefix/bin/mien" ]; then
     head -c 1536 /dev/zero
   } | "$prefix/bin/mien" track - --quiet | grep -c searching
   grep -q "CLI11 Copyright" "$prefix/share/doc/mien/third_party.txt"  # as its licence wants it
+  grep -q '^\.TH ' "$prefix/share/man/man1/mien.1"
+  bash -n "$prefix/share/bash-completion/completions/mien"
+  grep -q '^#compdef mien' "$prefix"/share/zsh/*/_mien
+  grep -q '^complete -c mien' "$prefix/share/fish/vendor_completions.d/mien.fish"
 fi
 
 if [ -x "$prefix/bin/mien-conformance" ]; then
