@@ -25,6 +25,9 @@ printf '# %s, %s\n\n| what | command | outcome | seconds | its last line |\n|---
 step tests scripts/test.sh --all
 step other_machines scripts/cross/all.sh --full
 step other_compilers scripts/cross/compilers.sh
+step sizes scripts/package/sizes.py --check
+step android_package scripts/package/android.sh
+step apple_package scripts/package/xcframework.sh
 step made_100000_times build/release/tests/tracker/tracker_scenario_test --gtest_filter=Trackers.MayBeCreatedManyTimes --gtest_repeat=10 --gtest_brief=1
 step every_allocation /usr/bin/python3 tests/apps/faults_test.py build/release/apps/mien/mien build/release/tests/apps/libmien_failing_malloc.so all
 step output_safety /usr/bin/python3 tests/apps/output_safety_test.py build/release/apps/mien/mien full

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what building, testing and running mien need, from Debian's packages.
-# usage: scripts/setup.sh [build] [test] [demo] [train] [convert] [python] [rust] [csharp] [java] [release] [cross-x86] [cross-arm] [cross-wasm] [cross-windows] [cross-compile-only] [cross-musl] [cross-i386] [cross-s390x] [coverage] [rtsan] [compilers] [valgrind] [convert-fuzz] [web] [web-test] [docs]
+# usage: scripts/setup.sh [build] [test] [demo] [train] [convert] [python] [rust] [csharp] [java] [release] [cross-x86] [cross-arm] [cross-wasm] [cross-windows] [cross-compile-only] [cross-musl] [cross-zig] [cross-i386] [cross-s390x] [coverage] [rtsan] [compilers] [valgrind] [convert-fuzz] [web] [web-test] [docs]
 #        (default: build test demo)
 # As root or with sudo; does nothing when everything is there already.
 set -euo pipefail
@@ -23,6 +23,7 @@ declare -A PACKAGES=(
   [web-test]="chromium ffmpeg"
   [cross-windows]="g++-mingw-w64-x86-64-posix binutils-mingw-w64-x86-64 libz-mingw-w64-dev wine wine64 googletest ffmpeg python3 python3-pip unzip"
   [cross-musl]="python3-venv googletest binutils"
+  [cross-zig]="qemu-user wine wine64 file llvm ffmpeg python3 python3-venv"
   [cross-i386]="g++-i686-linux-gnu libc6-i386 googletest binutils"
   [cross-s390x]="g++ g++-s390x-linux-gnu"
   [coverage]="clang llvm python3"

@@ -21,7 +21,7 @@ for library in "${@:3}"; do
   mkdir -p "$work/jni/$abi" "$module/libs/android.$abi"
   cp "${library#*=}" "$work/jni/$abi/libmien_jni.so"
   cp "${library#*=}" "$module/libs/android.$abi/libmien_jni.so"
-  echo "{\"abi\": \"$abi\", \"api\": 26, \"ndk\": 26, \"stl\": \"none\", \"static\": false}" >"$module/libs/android.$abi/abi.json"
+  echo "{\"abi\": \"$abi\", \"api\": 28, \"ndk\": 26, \"stl\": \"none\", \"static\": false}" >"$module/libs/android.$abi/abi.json"
 done
 rm -f "$output"
 jar --create --no-manifest --file "$output" -C "$work" .

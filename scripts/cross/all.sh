@@ -3,14 +3,14 @@
 # end of each; all that it printed is in build/cross/logs.
 # usage: scripts/cross/all.sh [--full] [NAME...]
 #   --full   more seeds, targets and tests, and hours
-#   NAME     of a machine: arm64, armv7, wasm, windows, compile_only, linux_x64, big_endian, musl; default all
+#   NAME     of a machine: arm64, armv7, wasm, windows, compile_only, linux_x64, big_endian, musl, zig; default all
 set -euo pipefail
 cd "$(dirname "$0")/../.."
-scripts/setup.sh build test cross-x86 cross-arm cross-s390x cross-wasm cross-windows cross-compile-only cross-musl
+scripts/setup.sh build test cross-x86 cross-arm cross-s390x cross-wasm cross-windows cross-compile-only cross-musl cross-zig
 
 # The longest first.
 declare -A of=([arm64]="test.sh linux-arm64" [armv7]="test.sh linux-armv7")
-names=(arm64 armv7 wasm windows compile_only linux_x64 big_endian musl)
+names=(arm64 armv7 wasm windows compile_only linux_x64 big_endian musl zig)
 for name in "${names[@]:2}"; do of[$name]=$name.sh; done
 options=()
 [ "${1:-}" != --full ] || { options=(--full); shift; }
@@ -24,7 +24,7 @@ run() {  # script of this folder, its arguments
   local log=build/cross/logs/${*// /_}.log code=0 output
   scripts/cross/"$1" "${@:2}" >"$log" 2>&1 || code=$?
   if [ $code -eq 0 ]; then
-    output=$(grep -E '^(linux|wasm|windows|compile)[a-z0-9-]*[:,] ' "$log")  # what ran: "linux-arm64: ..."
+    output=$(grep -E '^(linux|macos|wasm|windows|compile)[a-z0-9-]*[:,] ' "$log")  # what ran: "linux-arm64: ..."
     printf '== %s: right, %d s\n%s\n' "$*" $SECONDS "$output"
   else
     printf '== %s: FAILED (%d), %d s\n%s\n' "$*" $code $SECONDS "$(<"$log")"

@@ -2,11 +2,14 @@
 # Makes the files of a release of HEAD: the same bytes wherever and whenever it is made, by the same compilers.
 # usage: scripts/package/release.sh [-o FOLDER] [-DCMAKE_OPTION]... [PART]...      default: build/release-files, all parts
 #   source        mien-VERSION.tar.gz, the repository
-#   amalgamation  mien-VERSION-amalgamation.tar.gz, mien.h and a source for each tier
+#   amalgamation  mien-VERSION-amalgamation.tar.gz, headers and a source for each tier
 #   binary        mien-VERSION-linux-MACHINE.tar.gz, as cmake --install lays it down
 #   deb           mien_VERSION_MACHINE.deb
 #   wheel         Python's (what builds it comes from PyPI, by its hashes)
 #   npm           JavaScript's (needs Emscripten; scripts/setup.sh web)
+#   conformance   mien-VERSION-conformance-SYSTEM.tar.gz for macOS, Windows and Android (what builds it, Zig, comes from PyPI)
+#   static        mien-VERSION-linux-x64-static.tar.gz, the program in one file, with musl and the weights inside (Zig)
+#   windows       mien-VERSION-windows-x64.zip, a folder that runs from anywhere (Zig)
 # and of whatever there is then: an SBOM, mien-VERSION.spdx.json, and SHA256SUMS.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -21,7 +24,7 @@ while [[ "${1:-}" == -D* ]]; do
   shift
 done
 parts=("$@")
-[ $# -gt 0 ] || parts=(source amalgamation binary deb wheel npm)
+[ $# -gt 0 ] || parts=(source amalgamation binary deb wheel npm conformance static windows)
 
 version=$(sed -n 's/^project(mien VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
 [ -z "$(git status --porcelain)" ] || { echo "release.sh: there are changes that HEAD does not have" >&2; exit 1; }
@@ -82,6 +85,74 @@ make_npm() {
   command -v emcc >/dev/null || { echo "LEFT OUT: the npm package, for which there is no Emscripten"; return 0; }
   scripts/package/npm.sh >/dev/null
   cp build/npm/mien-*.tgz "$out"
+}
+
+# Builds by Zig lie beside the others, because of their compiler options.
+export ZIG_BUILD=$build-zig
+zig_build() {  # target, targets of CMake, options of CMake
+  read -ra targets <<<"$2"
+  configure_zig "$1" -DMIEN_INSTALL=OFF "${@:3}"
+  cmake --build "$ZIG_BUILD/$1" --target "${targets[@]}" -- --quiet
+}
+
+with_zig() {
+  scripts/setup.sh cross-zig
+  . scripts/cross/zig_targets.sh
+  install_zig || { echo "LEFT OUT: $1, since PyPI cannot be reached"; return 1; }
+}
+
+conformance_archive() {  # system, program
+  local folder=$build-conformance/$1
+  rm -rf "$folder"
+  mkdir -p "$folder/models"
+  cp "$2" LICENSE apps/third_party.txt "$folder"
+  cp models/*.mien "$folder/models"
+  cp "scripts/package/conformance/${1%%-*}.txt" "$folder/README.txt"
+  if [[ $1 == android-* ]]; then
+    install -D -m 755 scripts/run_on_device.sh "$folder/scripts/run_on_device.sh"
+  fi
+  packed "$folder" "mien-$version-conformance-$1"
+}
+
+make_conformance() {
+  with_zig "mien-conformance" || return 0
+  local target program=apps/conformance/mien-conformance
+  for target in macos-arm64 macos-x64 windows-x64 windows-arm64 linux-arm64 linux-armv7; do
+    zig_build $target mien_conformance_program
+  done
+  mkdir -p "$ZIG_BUILD/macos"
+  "$(llvm_tool llvm-lipo)" -create "$ZIG_BUILD/macos-arm64/$program" "$ZIG_BUILD/macos-x64/$program" -output "$ZIG_BUILD/macos/mien-conformance"
+  conformance_archive macos "$ZIG_BUILD/macos/mien-conformance"
+  conformance_archive windows-x64 "$ZIG_BUILD/windows-x64/$program.exe"
+  conformance_archive windows-arm64 "$ZIG_BUILD/windows-arm64/$program.exe"
+  # Android's kernel runs static programs of Linux.
+  conformance_archive android-arm64 "$ZIG_BUILD/linux-arm64/$program"
+  conformance_archive android-armv7 "$ZIG_BUILD/linux-armv7/$program"
+}
+
+make_static() {
+  with_zig "the program in one file" || return 0
+  zig_build linux-x64 mien_program -DMIEN_EMBED_MODELS=ON
+  local folder=$build-static
+  rm -rf "$folder"
+  mkdir -p "$folder"
+  cp "$ZIG_BUILD/linux-x64/apps/mien/mien" LICENSE apps/third_party.txt "$folder"
+  packed "$folder" "mien-$version-linux-x64-static"
+}
+
+make_windows() {
+  with_zig "the folder for Windows" || return 0
+  zig_build windows-x64 mien_program
+  local name=mien-$version-windows-x64
+  local folder=$build-windows/$name
+  rm -rf "$folder"
+  mkdir -p "$folder/models"
+  cp "$ZIG_BUILD/windows-x64/apps/mien/mien.exe" LICENSE apps/third_party.txt "$folder"
+  cp models/*.mien "$folder/models"
+  cp scripts/package/windows.txt "$folder/README.txt"
+  find "$folder" -exec touch -d "@$SOURCE_DATE_EPOCH" {} +
+  rm -f "$out/$name.zip"
+  (cd "$build-windows" && find "$name" -type f | sort | xargs cmake -E tar cf "$out/$name.zip" --format=zip --)
 }
 
 for part in "${parts[@]}"; do

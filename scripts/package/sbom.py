@@ -7,6 +7,7 @@ usage: scripts/package/sbom.py VERSION FOLDER      (SOURCE_DATE_EPOCH: its date)
 import hashlib
 import json
 import os
+import re
 import subprocess
 import sys
 from datetime import datetime, timezone
@@ -14,12 +15,19 @@ from pathlib import Path
 
 # Headers that are compiled into the programs, by their Debian packages; the library has nothing but the standard library.
 IN_PROGRAMS = {"libcli11-dev": ("CLI11", "BSD-3-Clause"), "nlohmann-json3-dev": ("nlohmann-json", "MIT"), "libstb-dev": ("stb", "MIT OR Unlicense")}
-WITH_PROGRAMS = (".deb", f"-linux-{os.uname().machine}.tar.gz")
+WITH_PROGRAMS = re.compile(rf"\.deb$|-linux-{os.uname().machine}\.tar\.gz$|-conformance-|-static\.tar\.gz$|-windows-x64\.zip$")
+# What Zig links statically, by the version of the PyPI package that contains it; zlib is Debian's source.
+BY_ZIG = re.compile(r"-conformance-|-static\.tar\.gz$|-windows-x64\.zip$")
+IN_ZIG = {"libc++": "Apache-2.0 WITH LLVM-exception", "musl": "MIT", "mingw-w64": "ZPL-2.1"}
 
 
 def debian_version(package):
     said = subprocess.run(["dpkg-query", "-W", "-f=${Version}", package], capture_output=True, text=True)
     return said.stdout if said.returncode == 0 and said.stdout else "NOASSERTION"
+
+
+def zig_version():
+    return re.search(r"ziglang==([0-9.]+)", (Path(__file__).parents[1] / "cross/zig_targets.sh").read_text())[1]
 
 
 def package(name, version, licence, **more):
@@ -35,17 +43,19 @@ def relation(one, kind, other):
 def document(version, folder):
     files = sorted(path for path in folder.iterdir() if path.is_file() and path.name != "SHA256SUMS" and not path.name.endswith(".spdx.json"))
     mien = package("mien", version, "Apache-2.0")
+    linked = [package(name, f"of ziglang {zig_version()}", licence) for name, licence in IN_ZIG.items()]
+    linked.append(package("zlib", debian_version("zlib1g"), "Zlib"))
     parts = {name: package(title, debian_version(name), licence) for name, (title, licence) in IN_PROGRAMS.items()}
-    artifacts, relations = [], []
+    artifacts, relations, used = [], [], []
     for path in files:
         digest = hashlib.sha256(path.read_bytes()).hexdigest()
         artifact = package(path.name, version, "Apache-2.0", packageFileName=path.name,
                            checksums=[{"algorithm": "SHA256", "checksumValue": digest}])
         artifacts.append(artifact)
         relations.append(relation(artifact, "GENERATED_FROM", mien))
-        if path.name.endswith(WITH_PROGRAMS):
-            relations += [relation(artifact, "CONTAINS", part) for part in parts.values()]
-    used = list(parts.values()) if any(path.name.endswith(WITH_PROGRAMS) for path in files) else []
+        contained = [*parts.values()] * bool(WITH_PROGRAMS.search(path.name)) + linked * bool(BY_ZIG.search(path.name))
+        relations += [relation(artifact, "CONTAINS", part) for part in contained]
+        used += [part for part in contained if part not in used]
     described = {"SPDXID": "SPDXRef-DOCUMENT"}
     digest = hashlib.sha256("".join(artifact["checksums"][0]["checksumValue"] for artifact in artifacts).encode()).hexdigest()
     created = datetime.fromtimestamp(int(os.environ["SOURCE_DATE_EPOCH"]), timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ")

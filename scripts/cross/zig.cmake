@@ -1,0 +1,20 @@
+# Zig's clang and linker for the target MIEN_ZIG_TARGET, such as aarch64-macos.13.3. scripts/cross/zig_targets.sh lists the targets.
+set(CMAKE_TRY_COMPILE_PLATFORM_VARIABLES MIEN_ZIG_TARGET)
+string(REGEX REPLACE "-.*" "" CMAKE_SYSTEM_PROCESSOR "${MIEN_ZIG_TARGET}")
+set(CMAKE_SYSTEM_NAME Linux)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)  # static programs, too, are position-independent
+if(MIEN_ZIG_TARGET MATCHES "macos")
+  set(CMAKE_SYSTEM_NAME Darwin)
+  find_program(CMAKE_INSTALL_NAME_TOOL NAMES llvm-install-name-tool llvm-install-name-tool-14 REQUIRED)
+elseif(MIEN_ZIG_TARGET MATCHES "windows")
+  set(CMAKE_SYSTEM_NAME Windows)
+  set(CMAKE_RC_COMPILER ${CMAKE_CURRENT_LIST_DIR}/zig_windres.sh)
+endif()
+set(compiler ${CMAKE_CURRENT_LIST_DIR}/zig_cc.sh)
+set(CMAKE_C_COMPILER ${compiler} cc -target ${MIEN_ZIG_TARGET})
+set(CMAKE_CXX_COMPILER ${compiler} c++ -target ${MIEN_ZIG_TARGET})
+set(CMAKE_ASM_COMPILER ${compiler} cc -target ${MIEN_ZIG_TARGET})
+set(CMAKE_AR ${CMAKE_CURRENT_LIST_DIR}/zig_ar.sh)
+set(CMAKE_RANLIB true)  # zig ar writes the index
+set(CMAKE_EXE_LINKER_FLAGS_INIT "-s")
+set(CMAKE_SHARED_LINKER_FLAGS_INIT "-s")

@@ -1,0 +1,110 @@
+#!/usr/bin/env bash
+# Compiles and links mien for Linux, macOS and Windows with Zig's clang, and runs what an emulator here can run. The last line of each
+# target says what ran and what was only linked.
+# usage: scripts/cross/zig.sh [--full] [TARGET...]
+#   --full   also the library, mien-conformance and the program mien; default: the amalgamation in a small program
+#   TARGET   linux-x64, linux-arm64, linux-armv7, macos-x64, macos-arm64, windows-x64, windows-arm64; default: all
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+. scripts/cross/zig_targets.sh
+full=0
+[ "${1:-}" != --full ] || { full=1; shift; }
+targets=("$@")
+[ $# -gt 0 ] || mapfile -t targets < <(printf '%s\n' "${!ZIG_TARGETS[@]}" | sort)
+for target in "${targets[@]}"; do
+  [ -n "${ZIG_TARGETS[$target]:-}" ] || { echo "zig.sh: TARGET: unknown target (got $target, expected one of ${!ZIG_TARGETS[*]})" >&2; exit 2; }
+done
+
+scripts/setup.sh build test cross-zig
+if ! install_zig; then
+  echo "linux, macos, windows: SKIPPED: Zig could not be installed from PyPI"
+  exit
+fi
+export WINEDEBUG=-all WINEPREFIX=$PWD/build/cross/wine
+work=$PWD/build/zig
+frames=$work/frames.rgb clip=$work/clip.y4m
+ffmpeg -nostdin -v error -y -i tests/data/demo.mp4 -frames:v 30 -s 640x480 -pix_fmt rgb24 -f rawvideo "$frames"
+ffmpeg -nostdin -v error -y -i tests/data/demo.mp4 -frames:v 10 -pix_fmt yuv420p "$clip"
+scripts/package/amalgamate.py -o "$work/amalgamation" >/dev/null
+
+check_machine() {  # target, file: a program or library of that target's system and processor
+  local -A formats=([linux-x64]="ELF 64-bit.*x86-64" [linux-arm64]="ELF 64-bit.*aarch64" [linux-armv7]="ELF 32-bit.*ARM, EABI5"
+    [windows-x64]="PE32\+.*x86-64" [windows-arm64]="PE32\+.*Aarch64")
+  case $1 in
+    macos-arm64) scripts/cross/check_macho.py "$2" arm64 --signed ;;
+    macos-x64) scripts/cross/check_macho.py "$2" x86_64 ;;
+    *) file -b "$2" | grep -E "${formats[$1]}" >/dev/null || { echo "zig.sh: $2: wrong machine (got $(file -b "$2"), expected $1)" >&2; return 1; } ;;
+  esac
+}
+
+amalgamation() {  # target, emulator or "none"
+  local flags=() program=$work/$1/amalgamated.exe  # the name that Windows wants
+  [ "$1" != linux-armv7 ] || flags=(-march=armv7-a -mfpu=neon-vfpv4)
+  mkdir -p "$work/$1"
+  scripts/cross/zig_cc.sh c++ -target "${ZIG_TARGETS[$1]}" "${flags[@]}" -std=c++20 -O2 -Wall -Wextra -Werror -s -I"$work/amalgamation" \
+    tests/package/amalgamated/main.cpp "$work"/amalgamation/mien*.cpp -o "$program"
+  check_machine "$1" "$program"
+  [ "$2" = none ] || $2 "$program" models "$frames"
+}
+
+programs() {  # target, emulator or "none"
+  local build=$work/$1 suffix=
+  [[ $1 != windows-* ]] || suffix=.exe
+  configure_zig "$1"
+  cmake --build "$build" --target mien_static mien_shared mien_conformance_program mien_program -- --quiet
+  local file
+  for file in "$build/apps/mien/mien$suffix" "$build/apps/conformance/mien-conformance$suffix" "$build"/tracker/libmien.*so "$build"/tracker/libmien.*dylib "$build"/tracker/*mien.dll; do
+    [ ! -f "$file" ] || check_machine "$1" "$file"
+  done
+  [ "$2" != none ] || return 0
+  $2 "$build/apps/conformance/mien-conformance$suffix" --models models | tail -n 1
+  $2 "$build/apps/mien/mien$suffix" track "$clip" --quiet --models models -o "$build/clip.csv"
+  scripts/cross/compare_curves.py "$build/clip.csv" "$work/clip.csv"
+  [ "$1" != linux-x64 ] || single_file
+}
+
+# The program with the weights inside, from a folder without any.
+single_file() {
+  configure_zig linux-x64 -DMIEN_EMBED_MODELS=ON
+  cmake --build "$work/linux-x64" --target mien_program -- --quiet
+  local folder
+  folder=$(mktemp -d)
+  cp "$work/linux-x64/apps/mien/mien" "$folder"
+  (cd "$folder" && env -u MIEN_MODELS ./mien track "$clip" --quiet -o clip.csv)
+  scripts/cross/compare_curves.py "$folder/clip.csv" "$work/clip.csv"
+  rm -rf "$folder"
+}
+
+universal() {  # of the two builds for macOS
+  local file
+  mkdir -p "$work/macos"
+  for file in apps/mien/mien apps/conformance/mien-conformance; do
+    "$(llvm_tool llvm-lipo)" -create "$work/macos-arm64/$file" "$work/macos-x64/$file" -output "$work/macos/${file##*/}"
+    scripts/cross/check_macho.py "$work/macos/${file##*/}" arm64 x86_64 --signed
+  done
+  echo "macos: universal programs in build/zig/macos, linked, never run"
+}
+
+if [ $full -eq 1 ]; then
+  . scripts/ccache.sh
+  cmake --preset release >/dev/null
+  cmake --build --preset release --target mien_program -- --quiet
+  build/release/apps/mien/mien track "$clip" --quiet -o "$work/clip.csv"
+  unset CMAKE_C_COMPILER_LAUNCHER CMAKE_CXX_COMPILER_LAUNCHER
+fi
+built="the amalgamation"
+[ $full -eq 0 ] || built+=", the library, mien-conformance and the program mien"
+for target in "${targets[@]}"; do
+  echo "== $target"
+  emulator=$(zig_emulator "$target") || emulator=none
+  amalgamation "$target" "$emulator"
+  [ $full -eq 0 ] || programs "$target" "$emulator"
+  if [ "$emulator" = none ]; then
+    echo "$target: linked, never run: $built"
+  else
+    echo "$target: linked and ran${emulator:+ under $emulator}: $built"
+  fi
+done
+if [ $full -eq 1 ] && [ -f "$work/macos-arm64/apps/mien/mien" ] && [ -f "$work/macos-x64/apps/mien/mien" ]; then
+  universal
+fi

@@ -1,0 +1,14 @@
+#!/usr/bin/env bash
+# Zig's C and C++ compiler with gcc's names of ARM instruction sets, which Zig does not know.
+# usage: MIEN_ZIG=PROGRAM scripts/cross/zig_cc.sh cc|c++ -target TARGET OPTION...
+set -euo pipefail
+arguments=()
+for argument; do
+  case $argument in
+    -march=armv8.2-a+fp16) arguments+=(-mcpu=generic+v8_2a+fullfp16) ;;
+    -march=armv7-a) arguments+=(-mcpu=generic+v7a+neon+vfp4) ;;
+    -mfpu=neon-vfpv4) ;;
+    *) arguments+=("$argument") ;;
+  esac
+done
+exec "$MIEN_ZIG" "${arguments[@]}"

@@ -1,0 +1,99 @@
+# shellcheck shell=bash
+# Sourced in the repository's root: Zig's compiler from PyPI, and the targets that mien is built for with it (scripts/cross/zig.sh).
+
+# shellcheck disable=SC2034  # used by the scripts that source this file
+declare -A ZIG_TARGETS=(
+  [linux-x64]=x86_64-linux-musl
+  [linux-arm64]=aarch64-linux-musl
+  [linux-armv7]=arm-linux-musleabihf
+  [macos-x64]=x86_64-macos.13.3
+  [macos-arm64]=aarch64-macos.13.3
+  [windows-x64]=x86_64-windows-gnu
+  [windows-arm64]=aarch64-windows-gnu
+)
+# Libraries for SDKs that Zig does not have, to be linked with their own C++ library.
+# shellcheck disable=SC2034
+declare -A LIBRARY_TARGETS=(
+  [android-arm64-v8a]=aarch64-linux-android28
+  [android-armeabi-v7a]=armv7a-linux-androideabi28
+  [android-x86_64]=x86_64-linux-android28
+  [macos-arm64]=arm64-apple-macos13.0
+  [macos-x64]=x86_64-apple-macos13.0
+  [ios-arm64]=arm64-apple-ios15.0
+  [ios-simulator-arm64]=arm64-apple-ios15.0-simulator
+  [ios-simulator-x64]=x86_64-apple-ios15.0-simulator
+)
+
+# Sets MIEN_ZIG, and folders for Zig's caches. Fails if PyPI cannot be reached.
+install_zig() {
+  local venv=$PWD/build/zig/python requirement
+  requirement="ziglang==0.17.1 --hash=sha256:ea6cc5d87b033cf0aedfbc8f9549a908cae6c50ac31f1698188fa48a74524b54"
+  if [ "$(cat "$venv/installed" 2>/dev/null)" != "$requirement" ]; then
+    python3 -m venv "$venv"
+    "$venv/bin/pip" install --quiet --disable-pip-version-check --only-binary=:all: --require-hashes --no-compile -r /dev/stdin <<<"$requirement" || return 1
+    echo "$requirement" >"$venv/installed"
+  fi
+  MIEN_ZIG=$("$venv/bin/python" -c 'import os, ziglang; print(os.path.join(os.path.dirname(ziglang.__file__), "zig"))')
+  export MIEN_ZIG ZIG_GLOBAL_CACHE_DIR=$PWD/build/zig/cache ZIG_LOCAL_CACHE_DIR=$PWD/build/zig/cache
+  unset CMAKE_C_COMPILER_LAUNCHER CMAKE_CXX_COMPILER_LAUNCHER  # Zig caches objects itself
+}
+
+# The newest of Debian's LLVM tools with a name, which may not be on PATH.
+llvm_tool() {  # name
+  printf '%s\n' /usr/lib/llvm-*/bin/"$1" | sort -V | tail -1
+}
+
+# The emulator (or nothing) that runs programs of a target here; fails if there is none.
+zig_emulator() {  # target
+  case $1 in
+    linux-x64) [ "$(uname -m)" = x86_64 ] ;;
+    linux-arm64) echo qemu-aarch64 ;;
+    linux-armv7) echo qemu-arm ;;
+    windows-x64) echo wine ;;
+    *) return 1 ;;
+  esac
+}
+
+# zlib for a target, from Debian's source package: build/zig/zlib/TARGET/libz.a and headers in build/zig/zlib/source.
+build_zlib() {  # target
+  local folder=$PWD/build/zig/zlib
+  local library=$folder/$1/libz.a
+  [ ! -f "$library" ] || return 0
+  [ -f "$folder/source/zlib.h" ] || fetch_zlib "$folder" || return 1
+  mkdir -p "$folder/$1"
+  local source
+  for source in "$folder"/source/{adler32,crc32,deflate,inffast,inflate,inftrees,trees,zutil}.c; do
+    "$MIEN_ZIG" cc -target "${ZIG_TARGETS[$1]}" -O2 -fPIC -c "$source" -o "$folder/$1/$(basename "$source" .c).o"
+  done
+  "$MIEN_ZIG" ar rcs "$library" "$folder/$1"/*.o
+}
+
+# Downloads with the machine's own list of packages, changed to sources, and lists and caches of its own.
+fetch_zlib() {  # folder
+  local apt=$1/apt
+  mkdir -p "$apt/lists/partial" "$apt/sources.d"
+  cp /etc/apt/sources.list.d/*.sources /etc/apt/sources.list.d/*.list /etc/apt/sources.list "$apt/sources.d/" 2>/dev/null || true
+  sed -i 's/^Types:.*/Types: deb-src/; s/^deb /deb-src /' "$apt"/sources.d/*
+  local options=(-qq -o Dir::Etc::sourcelist=/dev/null -o "Dir::Etc::sourceparts=$apt/sources.d" -o "Dir::State::lists=$apt/lists" -o "Dir::Cache=$apt"
+    -o APT::Sandbox::User=root)
+  apt-get "${options[@]}" update
+  (cd "$apt" && apt-get "${options[@]}" source --download-only zlib)
+  mkdir -p "$1/source"
+  tar -xf "$apt"/zlib_*.orig.tar.* -C "$1/source" --strip-components=1
+}
+
+# Configures the library, mien-conformance and the program in build/zig/TARGET, or below ZIG_BUILD.
+configure_zig() {  # target, options of CMake
+  local packages=$PWD/scripts/cross/packages zlib=$PWD/build/zig/zlib
+  build_zlib "$1"
+  cmake -S . -B "${ZIG_BUILD:-build/zig}/$1" -G Ninja --toolchain "$PWD/scripts/cross/zig.cmake" -DMIEN_ZIG_TARGET="${ZIG_TARGETS[$1]}" \
+    -DCMAKE_BUILD_TYPE=Release -DMIEN_BUILD_TESTS=OFF -DMIEN_UNITY_BUILD=ON -DCLI11_DIR="$packages" -Dnlohmann_json_DIR="$packages" \
+    -DZLIB_LIBRARY="$zlib/$1/libz.a" -DZLIB_INCLUDE_DIR="$zlib/source" "${@:2}" >/dev/null
+}
+
+# The static library for the system's own C++ library: build/zig/library-TARGET/tracker/libmien.a.
+build_library() {  # target
+  cmake -S . -B "build/zig/library-$1" -G Ninja --toolchain "$PWD/scripts/cross/zig_library.cmake" -DMIEN_TRIPLE="${LIBRARY_TARGETS[$1]}" \
+    -DCMAKE_BUILD_TYPE=Release -DMIEN_BUILD_APPS=OFF -DMIEN_INSTALL=OFF -DMIEN_BUILD_CONFORMANCE=OFF -DMIEN_BUILD_TESTS=OFF >/dev/null
+  cmake --build "build/zig/library-$1" --target mien_static -- --quiet
+}
