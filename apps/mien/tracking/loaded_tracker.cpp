@@ -32,9 +32,7 @@ std::string audionet_path(const std::string& models) {
 
 }  // namespace
 
-bool has_audionet(const std::string& models) {
-  return model_exists(audionet_path(models));
-}
+bool has_audionet(const std::string& models) { return model_exists(audionet_path(models)); }
 
 LoadedTracker::LoadedTracker(const Options& options)
     : basenet(models_directory(options.models) + "/basenet.mien"),
