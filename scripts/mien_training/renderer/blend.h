@@ -10,7 +10,8 @@ using Lane = float __attribute__((vector_size(64)));  // 16 floats
 
 constexpr int kBlock = 64;  // numbers of a shape that lie together
 
-// out [rows,n] = weights [rows,shapes] * basis [n/64,shapes,64], with Rows of the output in registers.
+// out [rows,n] = weights [rows,shapes] * basis [n/64,shapes,64], with Rows of the output in
+// registers.
 template <int Rows>
 void blend_rows(const float* weights, const float* basis, int shapes, size_t n, float* out) {
   for (size_t at = 0; at < n; at += 16) {

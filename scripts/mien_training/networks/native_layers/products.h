@@ -73,8 +73,8 @@ std::array<Vector<T>, kMost> joined(std::size_t count, Value value) {
   return out;
 }
 
-// out[p] = (out[p] +) sum over k < count of x[p][k] weights[k], with enough pixels at a time to hide
-// the latency of the sums; a pixel's k come in whole units.
+// out[p] = (out[p] +) sum over k < count of x[p][k] weights[k], with enough pixels at a time to
+// hide the latency of the sums; a pixel's k come in whole units.
 template <std::size_t kTogether, typename T>
 std::size_t product_of(const T* x, std::size_t stride, std::size_t count, const Vector<T>* weights,
                        std::size_t begin, std::size_t pixels, Lanes* out, std::size_t out_stride,
