@@ -19,14 +19,14 @@ using tracker::control_named;
 constexpr std::size_t kMouth[] = {control_named("jawOpen"), control_named("mouthClose"),
                                   control_named("mouthPucker"), control_named("mouthStretchLeft"),
                                   control_named("mouthUpperUpRight")};
-constexpr float kLoud = 0.5f;
+constexpr float kSpeechAmplitude = 0.5f;
 
-const Picture& disc() {
+const Picture& tracked_disc() {
   static const Picture picture = disc_picture(160.0f, 120.0f, 70.0f);
   return picture;
 }
 
-const Picture& nothing() {
+const Picture& empty_image() {
   static const Picture picture(320, 240);
   return picture;
 }
@@ -59,11 +59,11 @@ constexpr float kJump = 0.35f;
 
 TEST(AudioTrack, ReplacesALostFaceWithoutAJump) {
   BlobTracker blob;
-  const TestAudio sound = TestAudio().add(3.9, kLoud);
+  const TestAudio sound = TestAudio().add(3.9, kSpeechAmplitude);
   ASSERT_EQ(blob.tracker().push_audio(sound.all(), 0), MIEN_OK);
   Steps steps;
   for (int frame = 0; frame < 100; ++frame) {
-    steps.add(blob.push(frame < 40 || frame >= 70 ? disc() : nothing()));
+    steps.add(blob.push(frame < 40 || frame >= 70 ? tracked_disc() : empty_image()));
   }
   EXPECT_EQ(blob.result().status, MIEN_FACE_TRACKING);
   EXPECT_LT(steps.largest(35, 69), kJump) << "the face is lost";
@@ -85,7 +85,7 @@ TEST(AudioTrack, CrossfadesBetweenLevelsWithoutAJump) {
       config.lod = lod;
     };
     BlobTracker changed({}, begin_at_from), unchanged({}, begin_at_from);
-    const TestAudio sound = TestAudio().add(3.9, kLoud);
+    const TestAudio sound = TestAudio().add(3.9, kSpeechAmplitude);
     ASSERT_EQ(changed.tracker().push_audio(sound.all(), 0), MIEN_OK);
     ASSERT_EQ(unchanged.tracker().push_audio(sound.all(), 0), MIEN_OK);
     float difference = 0.0f;
@@ -93,7 +93,7 @@ TEST(AudioTrack, CrossfadesBetweenLevelsWithoutAJump) {
       if (frame == 40) {
         ASSERT_EQ(changed.tracker().set_lod(to), MIEN_OK);
       }
-      difference = largest_step(changed.push(disc()), unchanged.push(disc()));
+      difference = largest_step(changed.push(tracked_disc()), unchanged.push(tracked_disc()));
       EXPECT_TRUE(frame >= 45 || difference < 0.02f) << from << " to " << to << ", frame " << frame;
     }
     EXPECT_GT(difference, 0.1f) << "the levels must differ";
@@ -102,16 +102,16 @@ TEST(AudioTrack, CrossfadesBetweenLevelsWithoutAJump) {
 
 TEST(AudioTrack, FadesWithoutAJumpWhenAudioEnds) {
   BlobTracker blob;
-  const TestAudio sound = TestAudio().add(1.0, kLoud);
+  const TestAudio sound = TestAudio().add(1.0, kSpeechAmplitude);
   ASSERT_EQ(blob.tracker().push_audio(sound.all(), 0), MIEN_OK);
   Steps steps;
   for (int frame = 0; frame < 90; ++frame) {
-    steps.add(blob.push(disc()));
+    steps.add(blob.push(tracked_disc()));
   }
   EXPECT_LT(steps.largest(25, 90), kJump);
   EXPECT_LT(blob.result().voice_activity, 0.001f) << "the audio has ended";
   for (int frame = 0; frame < 200; ++frame) {
-    (void)blob.push(disc());
+    (void)blob.push(tracked_disc());
   }
   EXPECT_EQ(blob.result().voice_activity, 0.0f);
 }
