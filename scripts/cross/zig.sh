@@ -38,11 +38,9 @@ check_machine() {  # target, file: a program or library of that target's system 
 }
 
 amalgamation() {  # target, emulator or "none"
-  local flags=() program=$work/$1/amalgamated.exe  # the name that Windows wants
-  [ "$1" != linux-armv7 ] || flags=(-march=armv7-a -mfpu=neon-vfpv4)
+  local program=$work/$1/amalgamated.exe  # the name that Windows wants
   mkdir -p "$work/$1"
-  scripts/cross/zig_cc.sh c++ -target "${ZIG_TARGETS[$1]}" "${flags[@]}" -std=c++20 -O2 -Wall -Wextra -Werror -s -I"$work/amalgamation" \
-    tests/package/amalgamated/main.cpp "$work"/amalgamation/mien*.cpp -o "$program"
+  build_amalgamated "$1" "$work/amalgamation" "$program" -Wall -Wextra -Werror
   check_machine "$1" "$program"
   [ "$2" = none ] || $2 "$program" models "$frames"
 }

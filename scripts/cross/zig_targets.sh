@@ -54,6 +54,20 @@ zig_emulator() {  # target
   esac
 }
 
+# The program that tests the amalgamation, stripped.
+build_amalgamated() {  # target, folder of the amalgamation, program, options of the compiler
+  local compiler=(scripts/cross/zig_cc.sh c++ -target "${ZIG_TARGETS[$1]}" -std=c++20 -O2 "${@:4}") sources=()
+  [ "$1" != linux-armv7 ] || compiler+=(-march=armv7-a -mfpu=neon-vfpv4)
+  mapfile -t sources < <(find "$2" -name 'mien*.cpp' | sort)
+  case $1 in
+    linux-arm64 | windows-arm64)  # Zig switches half precision off in a way that a pragma cannot undo
+      "${compiler[@]}" -march=armv8.2-a+fp16 -c "$2/mien_neonfp16.cpp" -o "$3.neonfp16.o"
+      mapfile -t sources < <(find "$2" -name 'mien*.cpp' ! -name mien_neonfp16.cpp | sort)
+      sources+=("$3.neonfp16.o") ;;
+  esac
+  "${compiler[@]}" -s -I"$2" tests/package/amalgamated/main.cpp "${sources[@]}" -o "$3"
+}
+
 # zlib for a target, from Debian's source package: build/zig/zlib/TARGET/libz.a and headers in build/zig/zlib/source.
 build_zlib() {  # target
   local folder=$PWD/build/zig/zlib

@@ -68,21 +68,22 @@ def embedded_bytes(target, triple, options):
     return program_bytes(build / "embedded")
 
 
-def amalgamation_bytes(target, triple):
+def amalgamation_bytes(target):
     folder = ROOT / "build/sizes" / target
     folder.mkdir(parents=True, exist_ok=True)
     run("scripts/package/amalgamate.py", "-o", str(folder / "amalgamation"))
-    compiler = ["g++"] if target == "gcc" else ["scripts/cross/zig_cc.sh", "c++", "-target", triple]
-    flags = ["-march=armv7-a", "-mfpu=neon-vfpv4"] if target == "linux-armv7" else []
-    sources = sorted(str(path) for path in (folder / "amalgamation").glob("mien*.cpp"))
-    run(*compiler, *flags, "-std=c++20", "-O2", "-s", f"-I{folder / 'amalgamation'}", "tests/package/amalgamated/main.cpp", *sources,
-        "-o", str(folder / "amalgamated.exe"))
-    return program_bytes(folder / "amalgamated.exe")
+    sources, program = folder / "amalgamation", folder / "amalgamated.exe"
+    if target == "gcc":
+        run("g++", "-std=c++20", "-O2", "-s", f"-I{sources}", "tests/package/amalgamated/main.cpp", *map(str, sorted(sources.glob("mien*.cpp"))),
+            "-o", str(program))
+    else:
+        run("bash", "-c", f". scripts/cross/zig_targets.sh; build_amalgamated {target} '{sources}' '{program}'")
+    return program_bytes(program)
 
 
 def measured(target, triple):
     column = {title: embedded_bytes(target, triple, options) for title, options, targets in ROWS if target in targets}
-    return column | {AMALGAMATION: amalgamation_bytes(target, triple)}
+    return column | {AMALGAMATION: amalgamation_bytes(target)}
 
 
 def read_table(text):
