@@ -6,34 +6,6 @@ namespace mien::engine {
 using formats::LayerRecord;
 using formats::NetworkRecord;
 
-const char* message(Status status) {
-  switch (status) {
-    case Status::kOk:
-      return "ok";
-    case Status::kBadFile:
-      return "the weight file violates its format";
-    case Status::kNoSuchNetwork:
-      return "the weight file has no network or constant with that name and size";
-    case Status::kShapeMismatch:
-      return "a layer's declared output shape does not match its input";
-    case Status::kWrongInput:
-      return "the network does not accept an input of that shape";
-    case Status::kUnsupportedLayout:
-      return "a layer other than a convolution reads the interleaved image";
-    case Status::kNoKernel:
-      return "no allowed tier has a kernel for a layer";
-    case Status::kMemoryTooSmall:
-      return "the caller's memory is too small";
-    case Status::kMisaligned:
-      return "the caller's memory is not aligned";
-    case Status::kTooLarge:
-      return "the network's maps are too large for an input of that shape";
-    case Status::kOutOfMemory:
-      return "out of memory";
-  }
-  return "unknown status";
-}
-
 Shape input_shape(const NetworkRecord& network) {
   return {static_cast<std::int32_t>(network.input_height),
           static_cast<std::int32_t>(network.input_width),
@@ -53,13 +25,13 @@ const Shape& ShapeWalk::second() const {
 
 bool ShapeWalk::next() {
   const std::uint32_t following = begun_ ? index_ + 1 : 0;
-  if (status_ != Status::kOk || following >= layers_.size()) {
+  if (status_ != MIEN_OK || following >= layers_.size()) {
     return false;
   }
   begun_ = true;
   index_ = following;
   status_ = infer_shape(layers_[index_], input(), second(), shapes_[index_ + 1]);
-  return status_ == Status::kOk;
+  return status_ == MIEN_OK;
 }
 
 LayerCost network_cost(std::span<const LayerRecord> layers, const Shape& input) {
@@ -75,7 +47,8 @@ LayerCost network_cost(std::span<const LayerRecord> layers, const Shape& input) 
 
 namespace {
 
-Status check_declared_shapes(std::span<const LayerRecord> layers, const Shape& input) {
+// Index of the first layer whose declared shape differs from the computed one; -1: none.
+std::int32_t wrong_layer(std::span<const LayerRecord> layers, const Shape& input) {
   ShapeWalk walk(layers, input);
   while (walk.next()) {
     const LayerRecord& layer = layers[walk.index()];
@@ -83,43 +56,104 @@ Status check_declared_shapes(std::span<const LayerRecord> layers, const Shape& i
                          static_cast<std::int32_t>(layer.width),
                          static_cast<std::int32_t>(layer.channels)};
     if (walk.output() != declared) {
-      return Status::kShapeMismatch;
+      return static_cast<std::int32_t>(walk.index());
     }
   }
-  return walk.status();
+  return walk.status() == MIEN_OK ? -1 : static_cast<std::int32_t>(walk.index());
+}
+
+void locate(mien_error_detail& detail, const formats::FileView& file, const NetworkRecord& network,
+            std::int32_t layer) {
+  detail.network = static_cast<std::int32_t>(&network - file.networks().data());
+  detail.layer = layer;
+  formats::set_name(detail, file.text(network.name));
 }
 
 }  // namespace
 
-Status Model::open(std::span<const std::byte> bytes, formats::Validation* fault) {
+mien_error_detail Model::open(std::span<const std::byte> bytes) {
   file_ = {};
   formats::FileView file;
-  const formats::Validation validation = formats::open(bytes, file);
-  if (fault != nullptr) {
-    *fault = validation;
-  }
-  if (validation.status != formats::FileStatus::kOk) {
-    return Status::kBadFile;
-  }
+  mien_error_detail detail = formats::open(bytes, file);
   for (const NetworkRecord& network : file.networks()) {
-    const Status status = check_declared_shapes(file.layers(network), input_shape(network));
-    if (status != Status::kOk) {
-      return status;
+    const std::int32_t wrong = wrong_layer(file.layers(network), input_shape(network));
+    if (wrong >= 0) {
+      formats::describe(detail, MIEN_ERROR_WEIGHTS_LAYER_SHAPE);
+      locate(detail, file, network, wrong);
+      return detail;
     }
   }
   file_ = file;
-  return Status::kOk;
+  return detail;
 }
 
-Status Model::constant(std::string_view name, std::size_t elems,
-                       std::span<const float>& values) const {
+mien_error_detail* Model::described(mien_status status, const char* field) const {
+  if (errors_ != nullptr) {
+    formats::describe(*errors_, status, field);
+    errors_->file = file_index_;
+  }
+  return errors_;
+}
+
+mien_error_detail* Model::described(mien_status status, const NetworkRecord& network,
+                                    std::int32_t layer, const char* field) const {
+  mien_error_detail* detail = described(status, field);
+  if (detail != nullptr) {
+    locate(*detail, file_, network, layer);
+  }
+  return detail;
+}
+
+mien_status Model::fail(mien_status status, const char* field, std::string_view name) const {
+  mien_error_detail* detail = described(status, field);
+  if (detail != nullptr) {
+    formats::set_name(*detail, name);
+  }
+  return status;
+}
+
+mien_status Model::fail(mien_status status, const NetworkRecord& network, std::int32_t layer,
+                        const char* field) const {
+  described(status, network, layer, field);
+  return status;
+}
+
+mien_status Model::mismatch(const NetworkRecord& network, const char* field, std::int32_t got,
+                            std::int32_t expected) const {
+  mien_error_detail* detail = described(MIEN_ERROR_WEIGHTS_SHAPE, network, -1, field);
+  if (detail != nullptr) {
+    formats::set_got(*detail, got);
+    formats::set_expected(*detail, expected, expected);
+  }
+  return MIEN_ERROR_WEIGHTS_SHAPE;
+}
+
+mien_status Model::bad_constant(mien_status status, std::string_view name, double got, double min,
+                                double max) const {
+  fail(status, "constant", name);
+  if (errors_ != nullptr) {
+    formats::set_got(*errors_, got);
+    formats::set_expected(*errors_, min, max);
+  }
+  return status;
+}
+
+mien_status Model::constant(std::string_view name, std::size_t elems,
+                            std::span<const float>& values) const {
   const formats::TensorRecord* tensor = file_.find_constant(name);
-  if (tensor == nullptr || tensor->bytes != elems * sizeof(float) ||
-      tensor->type != static_cast<std::uint16_t>(formats::DataType::kFloat32)) {
-    return Status::kNoSuchNetwork;
+  if (tensor == nullptr) {
+    return fail(MIEN_ERROR_WEIGHTS_INCOMPLETE, "constant", name);
+  }
+  if (tensor->type != static_cast<std::uint16_t>(formats::DataType::kFloat32)) {
+    return fail(MIEN_ERROR_WEIGHTS_SHAPE, "constant", name);
+  }
+  if (tensor->bytes != elems * sizeof(float)) {
+    const auto expected = static_cast<double>(elems);
+    return bad_constant(MIEN_ERROR_WEIGHTS_SHAPE, name,
+                        static_cast<double>(tensor->bytes / sizeof(float)), expected, expected);
   }
   values = {reinterpret_cast<const float*>(file_.data(*tensor).data()), elems};
-  return Status::kOk;
+  return MIEN_OK;
 }
 
 }  // namespace mien::engine

@@ -41,6 +41,12 @@ class Network {
 
   [[nodiscard]] std::span<float> input() { return session_->input(); }
   [[nodiscard]] const Shape& input_shape() const { return session_->input_shape(); }
+  // `run` in parts, to time each step.
+  [[nodiscard]] std::uint32_t step_count() const { return session_->step_count(); }
+  void run_step(std::uint32_t i) { session_->run_step(i); }
+  [[nodiscard]] Session::StepLayers step_layers(std::uint32_t i) const {
+    return session_->step_layers(i);
+  }
   [[nodiscard]] std::uint32_t output_count() const { return session_->output_count(); }
   [[nodiscard]] std::span<const float> output(std::uint32_t i) const { return session_->output(i); }
   [[nodiscard]] const Shape& output_shape(std::uint32_t i) const {
@@ -50,8 +56,5 @@ class Network {
  private:
   Session* session_ = nullptr;
 };
-
-// Validates a weight file in memory.
-[[nodiscard]] mien_status open_model(const void* file, std::size_t bytes, Model& model);
 
 }  // namespace mien::engine

@@ -21,19 +21,30 @@ bool accepts(const formats::NetworkRecord& network, const Shape& input) {
                   : input == declared;
 }
 
+// Names the first dimension that the network does not accept.
+mien_status wrong_input(const Model& model, const formats::NetworkRecord& network,
+                        const Shape& input) {
+  const Shape declared = input_shape(network);
+  if (input.c != declared.c) {
+    return model.mismatch(network, "input channels", declared.c, input.c);
+  }
+  return input.h != declared.h ? model.mismatch(network, "input height", declared.h, input.h)
+                               : model.mismatch(network, "input width", declared.w, input.w);
+}
+
 }  // namespace
 
-Status Plan::make(const SessionRequest& request) {
-  Status status = find_network(request);
-  if (status != Status::kOk) {
+mien_status Plan::make(const SessionRequest& request) {
+  mien_status status = find_network(request);
+  if (status != MIEN_OK) {
     return status;
   }
   status = infer(request.input == Shape{} ? input_shape(*network_) : request.input);
-  if (status != Status::kOk) {
+  if (status != MIEN_OK) {
     return status;
   }
   status = check_size();
-  if (status != Status::kOk) {
+  if (status != MIEN_OK) {
     return status;
   }
   fuse_additions();
@@ -43,43 +54,45 @@ Status Plan::make(const SessionRequest& request) {
     quantizes_weights_ = quantizes_weights(request.cpu_mask);
   }
   place_maps();
-  return Status::kOk;
+  return MIEN_OK;
 }
 
-Status Plan::find_network(const SessionRequest& request) {
-  network_ = request.model->network(request.network);
+mien_status Plan::find_network(const SessionRequest& request) {
+  model_ = request.model;
+  network_ = model_->network(request.network);
   if (network_ == nullptr) {
-    return Status::kNoSuchNetwork;
+    return model_->fail(MIEN_ERROR_WEIGHTS_INCOMPLETE, "network", request.network);
   }
-  layers_ = request.model->file().layers(*network_);
-  return request.input == Shape{} || accepts(*network_, request.input) ? Status::kOk
-                                                                       : Status::kWrongInput;
+  layers_ = model_->file().layers(*network_);
+  return request.input == Shape{} || accepts(*network_, request.input)
+             ? MIEN_OK
+             : wrong_input(*model_, *network_, request.input);
 }
 
-Status Plan::infer(const Shape& input) {
+mien_status Plan::infer(const Shape& input) {
   if (!is_allowed(input)) {
-    return Status::kTooLarge;
+    return model_->fail(MIEN_ERROR_TOO_LARGE, *network_, -1, "input");
   }
   values_[0].shape = input;
   ShapeWalk walk(layers_, input);
   while (walk.next()) {
     const std::uint32_t i = walk.index();
     if (!is_allowed(walk.output())) {
-      return Status::kTooLarge;
+      return fail(MIEN_ERROR_TOO_LARGE, i);
     }
     values_[i + 1].shape = walk.output();
     values_[i + 1].last_use = i;
     note_reads(i);
     const bool reads_image = layers_[i].input == 0 || layers_[i].second_input == 0;
     if (reads_image && input.interleaved() && op_of(layers_[i]) != LayerOp::kConv2d) {
-      return Status::kUnsupportedLayout;
+      return fail(MIEN_ERROR_UNSUPPORTED_LAYOUT, i);
     }
   }
   for (std::uint32_t i = 0; i < output_count(); ++i) {
     values_[output(i)].is_output = true;
   }
   // The shapes are consistent for the declared input, so this input is the cause.
-  return walk.status() == Status::kOk ? Status::kOk : Status::kWrongInput;
+  return walk.status() == MIEN_OK ? MIEN_OK : fail(MIEN_ERROR_WEIGHTS_SHAPE, walk.index());
 }
 
 void Plan::note_reads(std::uint32_t layer) {
@@ -92,13 +105,15 @@ void Plan::note_reads(std::uint32_t layer) {
 }
 
 // Ensures that sums of sizes do not overflow, including the session's other memory.
-Status Plan::check_size() const {
+mien_status Plan::check_size() const {
   std::uint64_t elems = 0;
   for (std::uint32_t i = 0; i <= layer_count(); ++i) {
     // The maximum is an LSTM's: output, state and gates.
     elems += std::uint64_t{7} * blocked_elems(values_[i].shape);
   }
-  return elems <= SIZE_MAX / 2 / sizeof(float) ? Status::kOk : Status::kTooLarge;
+  return elems <= SIZE_MAX / 2 / sizeof(float)
+             ? MIEN_OK
+             : model_->fail(MIEN_ERROR_TOO_LARGE, *network_, -1, "input");
 }
 
 // A pointwise layer adds the residual itself if only the addition reads its output.

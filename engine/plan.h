@@ -22,9 +22,10 @@ struct SessionRequest {
 // Large: creating a session needs about 70 KB of stack.
 class Plan {
  public:
-  // Returns kWrongInput if the network does not accept request.input, kTooLarge if a map exceeds
-  // formats::kMaxMapElems or all maps exceed half of the address space.
-  Status make(const SessionRequest& request);
+  // Returns MIEN_ERROR_WEIGHTS_INCOMPLETE without the network, MIEN_ERROR_WEIGHTS_SHAPE if it does
+  // not accept request.input, MIEN_ERROR_TOO_LARGE if a map exceeds formats::kMaxMapElems or all
+  // maps exceed half of the address space; MIEN_ERROR_UNSUPPORTED_LAYOUT.
+  [[nodiscard]] mien_status make(const SessionRequest& request);
 
   struct Value {
     Shape shape;
@@ -34,6 +35,11 @@ class Plan {
     bool in_arena = false;
     std::size_t arena_offset = 0;
   };
+
+  // Describes an error in a layer.
+  [[nodiscard]] mien_status fail(mien_status status, std::uint32_t layer) const {
+    return model_->fail(status, *network_, static_cast<std::int32_t>(layer));
+  }
 
   [[nodiscard]] std::uint32_t layer_count() const {
     return static_cast<std::uint32_t>(layers_.size());
@@ -74,10 +80,10 @@ class Plan {
   [[nodiscard]] std::size_t scratch_offset() const { return scratch_offset_; }
 
  private:
-  Status find_network(const SessionRequest& request);
-  Status infer(const Shape& input);
+  [[nodiscard]] mien_status find_network(const SessionRequest& request);
+  [[nodiscard]] mien_status infer(const Shape& input);
   void note_reads(std::uint32_t layer);
-  [[nodiscard]] Status check_size() const;
+  [[nodiscard]] mien_status check_size() const;
   void fuse_additions();
   void fuse_blocks();
   [[nodiscard]] bool has_single_fusable_consumer(std::uint32_t layer) const;
@@ -89,6 +95,7 @@ class Plan {
 
   bool uses_half_precision_ = false;  // in fused blocks
   bool quantizes_weights_ = false;    // in fused blocks, up to kQuantizedWeightsMaxInputs
+  const Model* model_ = nullptr;
   const formats::NetworkRecord* network_ = nullptr;
   std::span<const formats::LayerRecord> layers_;
   Value values_[formats::kMaxLayers + 1];

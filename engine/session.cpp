@@ -17,14 +17,15 @@ class SessionBuilder {
   explicit SessionBuilder(const Plan& plan) : plan_(plan) {}
 
   [[nodiscard]] SessionSize size() const;
-  Status build(const SessionRequest& request, std::span<std::byte> memory,
-               std::span<std::byte> arena, Session*& session);
+  [[nodiscard]] mien_status build(const SessionRequest& request, std::span<std::byte> memory,
+                                  std::span<std::byte> arena, Session*& session);
 
  private:
   std::byte* take(std::size_t bytes);
   std::span<float> take_floats(std::size_t elems);
   void place_values(Session& session, std::span<std::byte> arena);
-  Status make_steps(const SessionRequest& request, float* scratch, Session& session);
+  [[nodiscard]] mien_status make_steps(const SessionRequest& request, float* scratch,
+                                       Session& session);
 
   const Plan& plan_;
   std::byte* free_ = nullptr;  // start of the unused memory
@@ -53,17 +54,17 @@ std::span<float> SessionBuilder::take_floats(std::size_t elems) {
   return {reinterpret_cast<float*>(take(elems * sizeof(float))), elems};
 }
 
-Status SessionBuilder::build(const SessionRequest& request, std::span<std::byte> memory,
-                             std::span<std::byte> arena, Session*& session) {
+mien_status SessionBuilder::build(const SessionRequest& request, std::span<std::byte> memory,
+                                  std::span<std::byte> arena, Session*& session) {
   const SessionSize needed = size();
   if (memory.size() < needed.session_bytes || arena.size() < needed.arena_bytes) {
-    return Status::kMemoryTooSmall;
+    return MIEN_ERROR_MEMORY_TOO_SMALL;
   }
   const auto is_aligned = [](const void* p) {
     return reinterpret_cast<std::uintptr_t>(p) % kSessionAlignment == 0;
   };
   if (!is_aligned(memory.data()) || !is_aligned(arena.data())) {
-    return Status::kMisaligned;
+    return MIEN_ERROR_ALIGNMENT;
   }
   std::memset(memory.data(), 0, needed.session_bytes);
   free_ = memory.data();
@@ -71,8 +72,8 @@ Status SessionBuilder::build(const SessionRequest& request, std::span<std::byte>
   created->steps_ = reinterpret_cast<Step*>(take(plan_.step_count() * sizeof(Step)));
   place_values(*created, arena);
   auto* scratch = reinterpret_cast<float*>(arena.data() + plan_.scratch_offset());
-  const Status status = make_steps(request, scratch, *created);
-  session = status == Status::kOk ? created : nullptr;
+  const mien_status status = make_steps(request, scratch, *created);
+  session = status == MIEN_OK ? created : nullptr;
   return status;
 }
 
@@ -97,7 +98,8 @@ void SessionBuilder::place_values(Session& session, std::span<std::byte> arena) 
   }
 }
 
-Status SessionBuilder::make_steps(const SessionRequest& request, float* scratch, Session& session) {
+mien_status SessionBuilder::make_steps(const SessionRequest& request, float* scratch,
+                                       Session& session) {
   session.state_ = take_floats(plan_.state_elems());
   float* state = session.state_.data();
   std::byte* weights = take(plan_.weights_bytes());
@@ -109,33 +111,32 @@ Status SessionBuilder::make_steps(const SessionRequest& request, float* scratch,
     Step& step = session.steps_[session.step_count_++];
     step.first_layer = i;
     step.layer_count = plan_.step_layers(i);
-    const Status status = maker.make(i, {state, weights}, step);
-    if (status != Status::kOk) {
-      return status;
+    const mien_status status = maker.make(i, {state, weights}, step);
+    if (status != MIEN_OK) {
+      return plan_.fail(status, i);
     }
     state += plan_.state_elems(i);
     weights += plan_.weights_bytes(i);
   }
-  return Status::kOk;
+  return MIEN_OK;
 }
 
-Status session_size(const SessionRequest& request, SessionSize& size) {
+mien_status session_size(const SessionRequest& request, SessionSize& size) {
   size = {};
   Plan plan;
-  const Status status = plan.make(request);
-  if (status == Status::kOk) {
+  const mien_status status = plan.make(request);
+  if (status == MIEN_OK) {
     size = SessionBuilder(plan).size();
   }
   return status;
 }
 
-Status Session::init(const SessionRequest& request, std::span<std::byte> memory,
-                     std::span<std::byte> arena, Session*& session) {
+mien_status Session::init(const SessionRequest& request, std::span<std::byte> memory,
+                          std::span<std::byte> arena, Session*& session) {
   session = nullptr;
   Plan plan;
-  const Status status = plan.make(request);
-  return status == Status::kOk ? SessionBuilder(plan).build(request, memory, arena, session)
-                               : status;
+  const mien_status status = plan.make(request);
+  return status == MIEN_OK ? SessionBuilder(plan).build(request, memory, arena, session) : status;
 }
 
 void Session::run() {

@@ -19,15 +19,16 @@ struct SessionSize {
   std::size_t arena_bytes = 0;    // intermediate maps; shareable by sessions that never run at once
 };
 
-// Computes sizes without looking up kernels: Session::init may still return kNoKernel.
-Status session_size(const SessionRequest& request, SessionSize& size);
+// Computes sizes without looking up kernels: Session::init may still return
+// MIEN_ERROR_UNSUPPORTED_LAYER.
+[[nodiscard]] mien_status session_size(const SessionRequest& request, SessionSize& size);
 
 class Session {
  public:
   // Creates a session in `memory` (session_bytes) with intermediate maps in `arena` (arena_bytes),
   // both kSessionAlignment-aligned. A session needs no destructor. On error `session` is nullptr.
-  static Status init(const SessionRequest& request, std::span<std::byte> memory,
-                     std::span<std::byte> arena, Session*& session);
+  [[nodiscard]] static mien_status init(const SessionRequest& request, std::span<std::byte> memory,
+                                        std::span<std::byte> arena, Session*& session);
 
   // [h][w][c] if the shape is interleaved, else blocked with zeros in unused lanes. Zero at first.
   [[nodiscard]] std::span<float> input() const { return input_; }

@@ -58,8 +58,8 @@ bool is_allowed(const Shape& shape) {
   return pixels <= formats::kMaxMapElems / ((u64(shape.c) + 7) / 8 * 8);
 }
 
-Status infer_shape(const LayerRecord& layer, const Shape& input, const Shape& second,
-                   Shape& output) {
+mien_status infer_shape(const LayerRecord& layer, const Shape& input, const Shape& second,
+                        Shape& output) {
   const std::int32_t channels = static_cast<std::int32_t>(layer.channels);
   const bool is_vector = input.h == 1 && input.w == 1;
   bool suits = true;
@@ -126,7 +126,7 @@ Status infer_shape(const LayerRecord& layer, const Shape& input, const Shape& se
       suits = channels <= input.c - layer.first_channel;
       break;
   }
-  return suits && output.h > 0 && output.w > 0 ? Status::kOk : Status::kShapeMismatch;
+  return suits && output.h > 0 && output.w > 0 ? MIEN_OK : MIEN_ERROR_WEIGHTS_LAYER_SHAPE;
 }
 
 LayerCost layer_cost(const LayerRecord& layer, const Shape& input, const Shape& output) {

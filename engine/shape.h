@@ -1,10 +1,11 @@
 // Shapes of maps, shape inference and the cost of a layer.
 #pragma once
 
+#include <mien/mien.h>
+
 #include <cstddef>
 #include <cstdint>
 
-#include "engine/status.h"
 #include "formats/mien_format.h"
 
 namespace mien::engine {
@@ -29,9 +30,9 @@ struct Shape {
 [[nodiscard]] bool is_allowed(const Shape& shape);
 
 // Computes the output shape of a layer. `second` is the second input, for layers that have two.
-// Returns kShapeMismatch if the layer does not accept the input.
-Status infer_shape(const formats::LayerRecord& layer, const Shape& input, const Shape& second,
-                   Shape& output);
+// Returns MIEN_ERROR_WEIGHTS_LAYER_SHAPE if the layer does not accept the input.
+[[nodiscard]] mien_status infer_shape(const formats::LayerRecord& layer, const Shape& input,
+                                      const Shape& second, Shape& output);
 
 // Cost of a layer, counting channels as declared, not as padded.
 struct LayerCost {

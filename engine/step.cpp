@@ -152,24 +152,24 @@ Args StepMaker::weighted(const LayerRecord& l, Map x, Map y) const {
 }
 
 template <class Args>
-Status StepMaker::put(const Args& args, Step& step) const {
+mien_status StepMaker::put(const Args& args, Step& step) const {
   static_assert(sizeof(Args) <= Step::kArgsBytes && std::is_trivially_copyable_v<Args>);
   step.kernel = kernels::find_any(Args::kFamily, cpu_mask_);
   step.call = [](const Step& self) {
     reinterpret_cast<kernels::Kernel<Args>>(self.kernel)(*reinterpret_cast<const Args*>(self.args));
   };
   std::memcpy(step.args, &args, sizeof args);
-  return step.kernel == nullptr ? Status::kNoKernel : Status::kOk;
+  return step.kernel == nullptr ? MIEN_ERROR_UNSUPPORTED_LAYER : MIEN_OK;
 }
 
-Status StepMaker::make(std::uint32_t layer, const Memory& own, Step& step) const {
+mien_status StepMaker::make(std::uint32_t layer, const Memory& own, Step& step) const {
   const LayerRecord& l = plan_.layer(layer);
   const std::uint32_t depthwise_layer = plan_.fused_depthwise(layer);
   if (depthwise_layer != kNoIndex) {
     kernels::InvertedResidualArgs args = block(layer, depthwise_layer);
-    const Status status =
-        plan_.weights_bytes(layer) > 0 ? quantize_weights(own.weights, args) : Status::kOk;
-    return status == Status::kOk ? put(args, step) : status;
+    const mien_status status =
+        plan_.weights_bytes(layer) > 0 ? quantize_weights(own.weights, args) : MIEN_OK;
+    return status == MIEN_OK ? put(args, step) : status;
   }
   const Map x = map(l.input), y = map(layer + 1);
   switch (static_cast<LayerOp>(l.op)) {
@@ -226,7 +226,7 @@ Status StepMaker::make(std::uint32_t layer, const Memory& own, Step& step) const
     case LayerOp::kNormalize:
       return put(kernels::NormalizeArgs{x.data, y.data, l.alpha, pixels(y.shape), y.shape.c}, step);
   }
-  return Status::kNoKernel;
+  return MIEN_ERROR_UNSUPPORTED_LAYER;
 }
 
 kernels::Conv2dArgs StepMaker::conv2d(const LayerRecord& l, Map x, Map y) const {
@@ -285,10 +285,10 @@ kernels::InvertedResidualArgs StepMaker::block(std::uint32_t layer,
 }
 
 // Rounds the weights once, at creation.
-Status StepMaker::quantize_weights(std::byte* to, kernels::InvertedResidualArgs& args) const {
+mien_status StepMaker::quantize_weights(std::byte* to, kernels::InvertedResidualArgs& args) const {
   const auto quantize = kernels::find<kernels::QuantizeWeightsArgs>(cpu_mask_);
   if (quantize == nullptr) {
-    return Status::kNoKernel;
+    return MIEN_ERROR_UNSUPPORTED_LAYER;
   }
   const auto layer = [&](kernels::InvertedResidualArgs::Weights& weights, std::int32_t in_c,
                          std::int32_t out_c, bool of_map) {
@@ -310,7 +310,7 @@ Status StepMaker::quantize_weights(std::byte* to, kernels::InvertedResidualArgs&
     layer(args.expand, args.in_c, args.hidden_c, true);
   }
   layer(args.project, args.hidden_c, args.out_c, false);
-  return Status::kOk;
+  return MIEN_OK;
 }
 
 kernels::PointwiseArgs StepMaker::pointwise(std::uint32_t layer, Map x, Map y) const {

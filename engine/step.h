@@ -34,7 +34,7 @@ class StepMaker {
   };
 
   // Returns kNoKernel if no allowed tier has a kernel.
-  Status make(std::uint32_t layer, const Memory& own, Step& step) const;
+  [[nodiscard]] mien_status make(std::uint32_t layer, const Memory& own, Step& step) const;
 
  private:
   struct Map {
@@ -58,7 +58,8 @@ class StepMaker {
   [[nodiscard]] kernels::InvertedResidualArgs block(std::uint32_t layer,
                                                     std::uint32_t depthwise_layer) const;
   [[nodiscard]] kernels::InvertedResidualArgs::Weights weights(std::uint32_t layer) const;
-  Status quantize_weights(std::byte* to, kernels::InvertedResidualArgs& args) const;
+  [[nodiscard]] mien_status quantize_weights(std::byte* to,
+                                             kernels::InvertedResidualArgs& args) const;
   [[nodiscard]] kernels::PointwiseArgs pointwise(std::uint32_t layer, Map x, Map y) const;
   [[nodiscard]] kernels::FullyConnectedArgs fully_connected(const formats::LayerRecord& layer,
                                                             Map x, Map y) const;
@@ -76,7 +77,7 @@ class StepMaker {
   [[nodiscard]] static kernels::SliceArgs slice(const formats::LayerRecord& layer, Map x, Map y);
 
   template <class Args>
-  Status put(const Args& args, Step& step) const;
+  [[nodiscard]] mien_status put(const Args& args, Step& step) const;
 
   const Plan& plan_;
   const formats::FileView& file_;

@@ -6,57 +6,16 @@
 #include <span>
 #include <string_view>
 
+#include "formats/error_detail.h"
 #include "formats/mien_format.h"
 
 namespace mien::formats {
 
-enum class FileStatus : std::int32_t {
-  kOk = 0,
-  // the file as a whole
-  kMisaligned = 1,  // the memory is not kFileAlignment-aligned
-  kTruncated = 2,
-  kTrailingBytes = 3,
-  kBadMagic = 4,
-  kUnsupportedVersion = 5,
-  kWrongEndian = 6,
-  kBadChecksum = 7,
-  kLimitExceeded = 8,
-  kReservedNotZero = 9,
-  // sections
-  kHole = 20,
-  kPaddingNotZero = 21,
-  kBadName = 22,
-  kDuplicateName = 23,
-  kBadMetadata = 24,
-  // tensors
-  kBadType = 40,
-  kBadDims = 41,
-  kBadTensorBytes = 42,
-  kNonFinite = 43,
-  // networks and layers
-  kBadNetwork = 60,
-  kBadOp = 61,
-  kBadActivation = 62,
-  kBadReference = 63,
-  kBadShape = 64,
-  kBadKernel = 65,
-  kBadTensor = 66,  // a tensor's dimensions do not match the layer's op
-  kUnusedTensor = 67,
-};
-
-// A static string of one line.
-[[nodiscard]] const char* message(FileStatus status);
-
-struct Validation {
-  FileStatus status = FileStatus::kOk;
-  std::uint64_t offset = 0;  // position of the fault in the file, bytes
-};
-
 class FileView;
 
-// Checks every rule of docs/format.md. Sets `view` only on kOk; it refers to `bytes`, which must
-// outlive it unchanged.
-[[nodiscard]] Validation open(std::span<const std::byte> bytes, FileView& view);
+// Checks every rule of docs/format.md. Sets `view` only on MIEN_OK; it refers to `bytes`, which
+// must be kFileAlignment-aligned and outlive it unchanged.
+[[nodiscard]] mien_error_detail open(std::span<const std::byte> bytes, FileView& view);
 
 class FileView {
  public:
@@ -83,7 +42,7 @@ class FileView {
   [[nodiscard]] const TensorRecord* find_constant(std::string_view name) const;
 
  private:
-  friend Validation open(std::span<const std::byte> bytes, FileView& view);
+  friend mien_error_detail open(std::span<const std::byte> bytes, FileView& view);
 
   std::span<const std::byte> bytes_;
   std::span<const NetworkRecord> networks_;

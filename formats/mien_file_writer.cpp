@@ -21,7 +21,7 @@ void align(std::vector<std::byte>* file) {
 }
 
 // Copies the file to aligned memory, which the reader requires.
-Validation validated(std::span<const std::byte> file) {
+mien_error_detail validated(std::span<const std::byte> file) {
   struct alignas(kFileAlignment) Line {
     std::byte bytes[kFileAlignment];
   };
@@ -41,7 +41,7 @@ NetworkWriter& MienWriter::network(std::string name, InputShape input, bool any_
 void MienWriter::constant(std::string name, const Array& array, DataType type) {
   TensorDims dims{static_cast<std::uint32_t>(array.shape.size()), {}};
   if (dims.rank == 0 || dims.rank > kMaxRank || count_of(array.shape) != array.values.size()) {
-    status_ = FileStatus::kBadDims;
+    status_ = MIEN_ERROR_WEIGHTS_TENSOR_DIMS;
     return;
   }
   std::copy(array.shape.begin(), array.shape.end(), dims.dim);
@@ -144,9 +144,9 @@ std::vector<std::byte> assembled(FileSections sections) {
 }  // namespace
 
 // Adds networks and layers in order; returns the error of the first invalid network.
-FileStatus MienWriter::add_networks(FileSections* sections) const {
+mien_status MienWriter::add_networks(FileSections* sections) const {
   for (const NetworkWriter& network : networks_) {
-    if (const FileStatus status = network.status(); status != FileStatus::kOk) {
+    if (const mien_status status = network.status(); status != MIEN_OK) {
       return status;
     }
     NetworkRecord record = network.record_;
@@ -184,11 +184,11 @@ void MienWriter::add_tensors(FileSections* sections) const {
   }
 }
 
-Validation MienWriter::finish(std::vector<std::byte>* file) const {
+mien_error_detail MienWriter::finish(std::vector<std::byte>* file) const {
   file->clear();
   FileSections sections;
-  if (const FileStatus status = add_networks(&sections); status != FileStatus::kOk) {
-    return {status, 0};
+  if (const mien_status status = add_networks(&sections); status != MIEN_OK) {
+    return detail_of(status);
   }
   add_tensors(&sections);
   for (const auto& [key, value] : metadata_) {
@@ -196,8 +196,8 @@ Validation MienWriter::finish(std::vector<std::byte>* file) const {
     sections.metadata.push_back({name, sections.add_string(value)});
   }
   std::vector<std::byte> bytes = assembled(std::move(sections));
-  const Validation validation = validated(bytes);
-  if (validation.status == FileStatus::kOk) {
+  const mien_error_detail validation = validated(bytes);
+  if (validation.status == MIEN_OK) {
     *file = std::move(bytes);
   }
   return validation;

@@ -37,7 +37,7 @@ bool may_activate(LayerOp op) {
                               : op == LayerOp::kDepthwise || op == LayerOp::kActivation;
 }
 
-FileStatus check_activation(const LayerRecord& layer, std::uint16_t minor_version) {
+mien_status check_activation(const LayerRecord& layer, std::uint16_t minor_version) {
   const bool known = layer.activation <= static_cast<std::uint16_t>(LayerActivation::kSqrt) &&
                      version_needed(activation_of(layer)) <= minor_version;
   const bool none = activation_of(layer) == LayerActivation::kNone;
@@ -45,7 +45,7 @@ FileStatus check_activation(const LayerRecord& layer, std::uint16_t minor_versio
   const bool is_activation = op_of(layer) == LayerOp::kActivation;
   const bool admitted = none ? !is_activation : alone ? is_activation : may_activate(op_of(layer));
   if (!known || !admitted) {
-    return FileStatus::kBadActivation;
+    return MIEN_ERROR_WEIGHTS_LAYER_ACTIVATION;
   }
   const bool has_alpha =
       activation_of(layer) == LayerActivation::kLeakyRelu || op_of(layer) == LayerOp::kNormalize;
@@ -54,7 +54,7 @@ FileStatus check_activation(const LayerRecord& layer, std::uint16_t minor_versio
   const auto alpha = std::bit_cast<std::uint32_t>(layer.alpha);
   const bool below_one = alpha < std::bit_cast<std::uint32_t>(1.0f);
   const bool admitted_alpha = has_alpha ? alpha > 0 && below_one : alpha == 0;
-  return admitted_alpha ? FileStatus::kOk : FileStatus::kBadActivation;
+  return admitted_alpha ? MIEN_OK : MIEN_ERROR_WEIGHTS_LAYER_ACTIVATION;
 }
 
 // Padding must be smaller than the kernel, so that no window contains only padding.
@@ -266,12 +266,12 @@ LayerTensor weights_of(const LayerRecord& layer, ValueShape input) {
 
 }  // namespace
 
-FileStatus check_outputs(const NetworkRecord& network, std::uint16_t minor_version,
-                         std::uint32_t& place) {
+mien_status check_outputs(const NetworkRecord& network, std::uint16_t minor_version,
+                          std::uint32_t& place) {
   const std::uint32_t count = network.output_count;
   place = kNoIndex;
   if (count == 0 || count > kMaxOutputs || version_needed(network) > minor_version) {
-    return FileStatus::kBadNetwork;
+    return MIEN_ERROR_WEIGHTS_NETWORK;
   }
   const std::uint32_t width = output_place(count, 1);  // elements per output
   for (place = 0; place < kMaxOutputs; ++place) {
@@ -280,10 +280,10 @@ FileStatus check_outputs(const NetworkRecord& network, std::uint16_t minor_versi
     if (used ? value == 0 || value > network.layer_count : value != 0) {
       const bool reserved = count <= kMaxWideOutputs && place >= 2 * kMaxWideOutputs;
       place = reserved ? 2 * kMaxWideOutputs : place;
-      return reserved ? FileStatus::kReservedNotZero : FileStatus::kBadNetwork;
+      return reserved ? MIEN_ERROR_WEIGHTS_RESERVED : MIEN_ERROR_WEIGHTS_NETWORK;
     }
   }
-  return FileStatus::kOk;
+  return MIEN_OK;
 }
 
 bool shape_allowed(ValueShape shape) {
@@ -295,27 +295,27 @@ bool shape_allowed(ValueShape shape) {
   return shape.height * shape.width <= kMaxMapElems / padded8(shape.channels);
 }
 
-FileStatus check_layer(const LayerRecord& layer, std::uint32_t value, std::uint32_t network_flags,
-                       std::uint16_t minor_version) {
+mien_status check_layer(const LayerRecord& layer, std::uint32_t value, std::uint32_t network_flags,
+                        std::uint16_t minor_version) {
   if (layer.op < static_cast<std::uint16_t>(LayerOp::kConv2d) ||
       layer.op > static_cast<std::uint16_t>(LayerOp::kNormalize) ||
       version_needed(op_of(layer)) > minor_version) {
-    return FileStatus::kBadOp;
+    return MIEN_ERROR_WEIGHTS_LAYER_OP;
   }
   if (network_flags == kAnySize && has_fixed_size(layer)) {
-    return FileStatus::kBadOp;
+    return MIEN_ERROR_WEIGHTS_LAYER_OP;
   }
   const bool slices = op_of(layer) == LayerOp::kSlice;
   if ((layer.first_channel != 0 && !slices) || layer.reserved_tail != 0) {
-    return FileStatus::kReservedNotZero;
+    return MIEN_ERROR_WEIGHTS_RESERVED;
   }
   const bool two = takes_two(op_of(layer));
   if (layer.input >= value ||
       (two ? layer.second_input >= value : layer.second_input != kNoIndex)) {
-    return FileStatus::kBadReference;
+    return MIEN_ERROR_WEIGHTS_LAYER_INPUT;
   }
   if (!geometry_allowed(layer)) {
-    return FileStatus::kBadKernel;
+    return MIEN_ERROR_WEIGHTS_LAYER_WINDOW;
   }
   return check_activation(layer, minor_version);
 }

@@ -79,16 +79,16 @@ struct LayerTensors {
 
 // Checks that outputs are distinct values of the network and that unused elements are zero.
 // `place`: index of the wrong element of NetworkRecord::outputs; kNoIndex if the count is wrong.
-[[nodiscard]] FileStatus check_outputs(const NetworkRecord& network, std::uint16_t minor_version,
-                                       std::uint32_t& place);
+[[nodiscard]] mien_status check_outputs(const NetworkRecord& network, std::uint16_t minor_version,
+                                        std::uint32_t& place);
 
 // Whether all dimensions are in 1..kMaxDim and the blocked map is within kMaxMapElems.
 [[nodiscard]] bool shape_allowed(ValueShape shape);
 
 // Checks a layer's fields: op, activation, references below `value`, kernel, strides, padding.
 // `minor_version`: that of the file.
-[[nodiscard]] FileStatus check_layer(const LayerRecord& layer, std::uint32_t value,
-                                     std::uint32_t network_flags, std::uint16_t minor_version);
+[[nodiscard]] mien_status check_layer(const LayerRecord& layer, std::uint32_t value,
+                                      std::uint32_t network_flags, std::uint16_t minor_version);
 
 // The output shape of a checked layer for these inputs. Ignores the declared height and width,
 // except for ops whose inputs do not determine them. `second`: only for ops with two inputs. Zeros

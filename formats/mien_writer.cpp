@@ -40,11 +40,11 @@ NetworkWriter::NetworkWriter(std::string name, InputShape input, bool any_size)
   record_.input_width = input.width;
   record_.input_channels = input.channels;
   record_.flags = any_size ? kAnySize : 0;
-  require(shape_allowed(shape_of_value(0)), FileStatus::kBadNetwork);
+  require(shape_allowed(shape_of_value(0)), MIEN_ERROR_WEIGHTS_NETWORK);
 }
 
-bool NetworkWriter::require(bool condition, FileStatus status) {
-  if (!condition && status_ == FileStatus::kOk) {
+bool NetworkWriter::require(bool condition, mien_status status) {
+  if (!condition && status_ == MIEN_OK) {
     status_ = status;
   }
   return condition;
@@ -54,7 +54,7 @@ ValueShape NetworkWriter::shape_of_value(LayerIndex value) {
   if (value == 0) {
     return {record_.input_height, record_.input_width, record_.input_channels};
   }
-  return require(value <= layers_.size(), FileStatus::kBadReference)
+  return require(value <= layers_.size(), MIEN_ERROR_WEIGHTS_LAYER_INPUT)
              ? shape_of(layers_[value - 1].record)
              : ValueShape{};
 }
@@ -84,8 +84,8 @@ void NetworkWriter::set_window(LayerRecord* record, std::uint32_t kernel_h, std:
 // Checks the layer against the format and computes its shape.
 bool NetworkWriter::place(LayerRecord* record) {
   const auto value = static_cast<std::uint32_t>(layers_.size() + 1);
-  const FileStatus status = check_layer(*record, value, record_.flags, kMinorVersion);
-  if (!require(status == FileStatus::kOk, status)) {
+  const mien_status status = check_layer(*record, value, record_.flags, kMinorVersion);
+  if (!require(status == MIEN_OK, status)) {
     return false;
   }
   const ValueShape input = shape_of_value(record->input);
@@ -97,7 +97,7 @@ bool NetworkWriter::place(LayerRecord* record) {
     record->height = static_cast<std::uint32_t>(output.height);
     record->width = static_cast<std::uint32_t>(output.width);
   }
-  return require(shape_allowed(output), FileStatus::kBadShape) && status_ == FileStatus::kOk;
+  return require(shape_allowed(output), MIEN_ERROR_WEIGHTS_LAYER_SHAPE) && status_ == MIEN_OK;
 }
 
 // Keeps invalid layers, so that later values keep their numbers; finish() reports the error.
@@ -108,9 +108,9 @@ LayerIndex NetworkWriter::append(Layer layer, const Halves& weights, std::vector
     const bool gates = op_of(layer.record) == LayerOp::kLstm;
     const std::size_t outputs = layer.record.channels * (gates ? std::size_t{4} : std::size_t{1});
     bias.resize(bias.empty() ? outputs : bias.size());
-    require(bias.size() == outputs, FileStatus::kBadTensor);
+    require(bias.size() == outputs, MIEN_ERROR_WEIGHTS_LAYER_TENSORS);
     require(options.slopes.size() == (tensors.slopes.dims.rank == 0 ? 0 : layer.record.channels),
-            FileStatus::kBadTensor);
+            MIEN_ERROR_WEIGHTS_LAYER_TENSORS);
     layer.weights = tensor(tensors.weights.dims, weights);
     layer.bias = tensor(tensors.bias.dims, pack_vector(bias));
     layer.slopes = tensor(tensors.slopes.dims, pack_vector(options.slopes));
@@ -125,7 +125,7 @@ NetworkWriter::Tensor NetworkWriter::tensor(const TensorDims& dims, const Halves
     return {};
   }
   const TensorRecord record = tensor_record(DataType::kFloat16, dims);
-  require(count_of({record.dims, dims.rank}) == halves.size(), FileStatus::kBadTensor);
+  require(count_of({record.dims, dims.rank}) == halves.size(), MIEN_ERROR_WEIGHTS_LAYER_TENSORS);
   const auto data = bytes_of(halves);
   return {record, {data.begin(), data.end()}};
 }
@@ -134,7 +134,7 @@ LayerIndex NetworkWriter::dense(Layer layer, const Array& weight, const Reductio
                                 const std::vector<float>& bias, const LayerOptions& options) {
   const std::uint32_t outputs = std::max(dim(weight, 0), 1u);
   layer.record.channels = op_of(layer.record) == LayerOp::kLstm ? outputs / 4 : outputs;
-  const bool good = status_ == FileStatus::kOk;
+  const bool good = status_ == MIEN_OK;
   return append(std::move(layer), good ? pack_panels(weight.values, outputs, order) : Halves(),
                 bias, options);
 }
@@ -145,7 +145,7 @@ LayerIndex NetworkWriter::conv2d(LayerIndex x, const Array& weight, const std::v
   Layer layer = begin(LayerOp::kConv2d, x, options);
   set_window(&layer.record, dim(weight, 2), dim(weight, 3), options);
   require(has_shape(weight, {dim(weight, 0), channels, dim(weight, 2), dim(weight, 3)}),
-          FileStatus::kBadTensor);
+          MIEN_ERROR_WEIGHTS_LAYER_TENSORS);
   const std::size_t taps = std::size_t{dim(weight, 2)} * dim(weight, 3);
   return dense(std::move(layer), weight, conv2d_order(channels, taps), bias, options);
 }
@@ -156,7 +156,7 @@ LayerIndex NetworkWriter::depthwise(LayerIndex x, const Array& weight,
   Layer layer = begin(LayerOp::kDepthwise, x, options);
   set_window(&layer.record, dim(weight, 2), dim(weight, 3), options);
   const bool good = require(has_shape(weight, {channels, 1, dim(weight, 2), dim(weight, 3)}),
-                            FileStatus::kBadTensor);
+                            MIEN_ERROR_WEIGHTS_LAYER_TENSORS);
   const std::size_t taps = std::size_t{dim(weight, 2)} * dim(weight, 3);
   return append(std::move(layer), good ? pack_depthwise(weight.values, channels, taps) : Halves(),
                 bias, options);
@@ -165,7 +165,7 @@ LayerIndex NetworkWriter::depthwise(LayerIndex x, const Array& weight,
 LayerIndex NetworkWriter::pointwise(LayerIndex x, const Array& weight,
                                     const std::vector<float>& bias, const LayerOptions& options) {
   const auto channels = static_cast<std::size_t>(shape_of_value(x).channels);
-  require(has_shape(weight, {dim(weight, 0), channels}), FileStatus::kBadTensor);
+  require(has_shape(weight, {dim(weight, 0), channels}), MIEN_ERROR_WEIGHTS_LAYER_TENSORS);
   return dense(begin(LayerOp::kPointwise, x, options), weight, map_order(channels, 1), bias,
                options);
 }
@@ -175,7 +175,7 @@ LayerIndex NetworkWriter::fully_connected(LayerIndex x, const Array& weight,
                                           const LayerOptions& options) {
   const ValueShape map = shape_of_value(x);
   require(has_shape(weight, {dim(weight, 0), map.channels * map.height * map.width}),
-          FileStatus::kBadTensor);
+          MIEN_ERROR_WEIGHTS_LAYER_TENSORS);
   const auto channels = static_cast<std::size_t>(map.channels);
   const auto pixels = static_cast<std::size_t>(map.height * map.width);
   return dense(begin(LayerOp::kFullyConnected, x, options), weight, map_order(channels, pixels),
@@ -185,7 +185,7 @@ LayerIndex NetworkWriter::fully_connected(LayerIndex x, const Array& weight,
 LayerIndex NetworkWriter::causal_conv(LayerIndex x, const Array& weight,
                                       const std::vector<float>& bias, const LayerOptions& options) {
   const auto inputs = static_cast<std::size_t>(shape_of_value(x).channels);
-  require(has_shape(weight, {dim(weight, 0), inputs, 2}), FileStatus::kBadTensor);
+  require(has_shape(weight, {dim(weight, 0), inputs, 2}), MIEN_ERROR_WEIGHTS_LAYER_TENSORS);
   return dense(begin(LayerOp::kCausalConv, x, options), weight, causal_conv_order(inputs), bias,
                options);
 }
@@ -196,7 +196,7 @@ LayerIndex NetworkWriter::lstm(LayerIndex x, const Array& weight_ih, const Array
   const std::size_t hidden = dim(weight_hh, 1);
   const bool good = require(
       has_shape(weight_ih, {4 * hidden, inputs}) && has_shape(weight_hh, {4 * hidden, hidden}),
-      FileStatus::kBadTensor);
+      MIEN_ERROR_WEIGHTS_LAYER_TENSORS);
   Array rows{{static_cast<std::uint32_t>(4 * hidden)}, {}};
   for (std::size_t row = 0; good && row < 4 * hidden; ++row) {
     const auto append_row = [&](const Array& array, std::size_t count) {
@@ -299,7 +299,7 @@ LayerIndex NetworkWriter::softmax(LayerIndex x, const LayerOptions& options) {
 void NetworkWriter::output(LayerIndex x) {
   const bool is_new = std::find(outputs_.begin(), outputs_.end(), x) == outputs_.end();
   if (require(x >= 1 && x <= layers_.size() && outputs_.size() < kMaxOutputs && is_new,
-              FileStatus::kBadReference)) {
+              MIEN_ERROR_WEIGHTS_LAYER_INPUT)) {
     outputs_.push_back(x);
   }
 }
@@ -311,16 +311,16 @@ bool NetworkWriter::uses(LayerIndex value) const {
          });
 }
 
-FileStatus NetworkWriter::status() const {
-  if (status_ != FileStatus::kOk) {
+mien_status NetworkWriter::status() const {
+  if (status_ != MIEN_OK) {
     return status_;
   }
   for (LayerIndex value = 1; value <= layers_.size(); ++value) {
     if (!uses(value)) {
-      return FileStatus::kBadReference;
+      return MIEN_ERROR_WEIGHTS_LAYER_INPUT;
     }
   }
-  return FileStatus::kOk;
+  return MIEN_OK;
 }
 
 }  // namespace mien::formats

@@ -120,15 +120,15 @@ class NetworkWriter {
                     const LayerOptions& options);
   bool place(LayerRecord* record);
   Tensor tensor(const TensorDims& dims, const Halves& halves);
-  bool require(bool condition, FileStatus status);
+  bool require(bool condition, mien_status status);
   [[nodiscard]] bool uses(LayerIndex value) const;
-  [[nodiscard]] FileStatus status() const;
+  [[nodiscard]] mien_status status() const;
 
   std::string name_;
   NetworkRecord record_{};
   std::vector<LayerIndex> outputs_;
   std::vector<Layer> layers_;
-  FileStatus status_ = FileStatus::kOk;  // the first error
+  mien_status status_ = MIEN_OK;  // the first error
 };
 
 class MienWriter {
@@ -139,7 +139,7 @@ class MienWriter {
   void metadata(const std::string& key, std::string value);
 
   // Returns the whole file, which is valid, on kOk; else `*file` is empty.
-  [[nodiscard]] Validation finish(std::vector<std::byte>* file) const;
+  [[nodiscard]] mien_error_detail finish(std::vector<std::byte>* file) const;
 
  private:
   struct Constant {
@@ -147,13 +147,13 @@ class MienWriter {
     NetworkWriter::Tensor tensor;
   };
 
-  FileStatus add_networks(FileSections* sections) const;
+  mien_status add_networks(FileSections* sections) const;
   void add_tensors(FileSections* sections) const;
 
   std::deque<NetworkWriter> networks_;
   std::vector<Constant> constants_;
   std::map<std::string, std::string> metadata_;
-  FileStatus status_ = FileStatus::kOk;
+  mien_status status_ = MIEN_OK;
 };
 
 }  // namespace mien::formats

@@ -56,17 +56,17 @@ void write_neutral_file(const NeutralFile& neutral, std::span<std::byte, kNeutra
   put(bytes, kChecksumAt, xxhash64_with_hole(bytes, kChecksumAt), 8);
 }
 
-NeutralFileError read_neutral_file(std::span<const std::byte> bytes, NeutralFile& neutral) {
+mien_status read_neutral_file(std::span<const std::byte> bytes, NeutralFile& neutral) {
   if (!has_magic(bytes)) {
-    return NeutralFileError::kNotANeutralFile;
+    return MIEN_ERROR_NEUTRAL_FORMAT;
   }
   if (bytes.size() >= kMajorAt + 2 && get(bytes, kMajorAt, 2) != kMajor) {
-    return NeutralFileError::kVersion;
+    return MIEN_ERROR_NEUTRAL_VERSION;
   }
   if (bytes.size() != kNeutralFileBytes ||
       get(bytes, kChecksumAt, 8) != xxhash64_with_hole(bytes, kChecksumAt) ||
       get(bytes, kControlsAt, 4) != kControls) {
-    return NeutralFileError::kDamaged;
+    return MIEN_ERROR_NEUTRAL_DAMAGED;
   }
   NeutralFile read;
   read.captured = static_cast<std::uint32_t>(get(bytes, kCapturedAt, 4));
@@ -74,11 +74,11 @@ NeutralFileError read_neutral_file(std::span<const std::byte> bytes, NeutralFile
     const auto bits = static_cast<std::uint32_t>(get(bytes, kLevelsAt + 4 * i, 4));
     read.levels[i] = std::bit_cast<float>(bits);
     if (!(read.levels[i] >= 0.0f && read.levels[i] <= 1.0f)) {
-      return NeutralFileError::kDamaged;
+      return MIEN_ERROR_NEUTRAL_DAMAGED;
     }
   }
   neutral = read;
-  return NeutralFileError::kNone;
+  return MIEN_OK;
 }
 
 }  // namespace mien::formats

@@ -2,6 +2,8 @@
 // layout.
 #pragma once
 
+#include <mien/mien.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -16,17 +18,10 @@ struct NeutralFile {
   float levels[kNeutralLevels] = {};  // 0..1
 };
 
-enum class NeutralFileError {
-  kNone,
-  kNotANeutralFile,
-  kVersion,
-  kDamaged,  // wrong size, wrong checksum, or a level out of range
-};
-
 void write_neutral_file(const NeutralFile& neutral, std::span<std::byte, kNeutralFileBytes> bytes);
 
-// `neutral` is unchanged on error.
-[[nodiscard]] NeutralFileError read_neutral_file(std::span<const std::byte> bytes,
-                                                 NeutralFile& neutral);
+// `neutral` is unchanged on error, which is MIEN_ERROR_NEUTRAL_FORMAT, MIEN_ERROR_NEUTRAL_VERSION,
+// or MIEN_ERROR_NEUTRAL_DAMAGED for a wrong size, a wrong checksum, or a level out of range.
+[[nodiscard]] mien_status read_neutral_file(std::span<const std::byte> bytes, NeutralFile& neutral);
 
 }  // namespace mien::formats

@@ -10,15 +10,12 @@
 namespace mien::formats {
 namespace {
 
-constexpr std::uint8_t kPackedMagic[8] = {0x89, 'M', 'I', 'E', 'P', 0x0D, 0x0A, 0x1A};
 constexpr std::uint16_t kPackedMajor = 1;
 constexpr std::uint16_t kPackedMinor = 0;
 constexpr std::size_t kMajorAt = 8;
 constexpr std::size_t kMinorAt = 10;
 constexpr std::size_t kReservedAt = 12;
-constexpr std::size_t kPackedBytesAt = 16;
 constexpr std::size_t kUnpackedBytesAt = 24;
-constexpr std::size_t kHeaderBytes = 32;
 
 constexpr std::size_t kSymbols = 256;
 constexpr std::uint32_t kSlots = 4096;      // slots of a table
@@ -36,23 +33,25 @@ class Unpacker {
  public:
   explicit Unpacker(std::span<const std::byte> blocks) : left_(blocks) {}
 
-  PackedStatus run(std::span<std::byte> file) {
+  [[nodiscard]] std::size_t left() const { return left_.size(); }  // unread bytes
+
+  mien_status run(std::span<std::byte> file) {
     while (!file.empty()) {
       const auto bytes = take<std::uint32_t>();
       if (missing_) {
-        return PackedStatus::kBytesMissing;
+        return MIEN_ERROR_WEIGHTS_PACKED_TRUNCATED;
       }
       if (bytes == 0 || bytes % kFileAlignment != 0 || bytes > kMaxBlockBytes ||
           bytes > file.size()) {
-        return PackedStatus::kBadBlock;
+        return MIEN_ERROR_WEIGHTS_PACKED_BLOCK;
       }
-      const PackedStatus status = block(file.first(bytes));
-      if (status != PackedStatus::kOk) {
+      const mien_status status = block(file.first(bytes));
+      if (status != MIEN_OK) {
         return status;
       }
       file = file.subspan(bytes);
     }
-    return left_.empty() ? PackedStatus::kOk : PackedStatus::kBytesLeft;
+    return left_.empty() ? MIEN_OK : MIEN_ERROR_WEIGHTS_PACKED_TRAILING;
   }
 
  private:
@@ -101,26 +100,26 @@ class Unpacker {
     return std::byte{symbol};
   }
 
-  PackedStatus block(std::span<std::byte> out) {
+  mien_status block(std::span<std::byte> out) {
     if (!read(low_) || !read(high_)) {
-      return missing_ ? PackedStatus::kBytesMissing : PackedStatus::kBadTable;
+      return missing_ ? MIEN_ERROR_WEIGHTS_PACKED_TRUNCATED : MIEN_ERROR_WEIGHTS_PACKED_TABLE;
     }
     auto low = take<std::uint32_t>();
     auto high = take<std::uint32_t>();
     if (missing_) {
-      return PackedStatus::kBytesMissing;
+      return MIEN_ERROR_WEIGHTS_PACKED_TRUNCATED;
     }
     if (low < kLowest || high < kLowest) {
-      return PackedStatus::kBadState;
+      return MIEN_ERROR_WEIGHTS_PACKED_STATE;
     }
     for (std::size_t i = 0; i < out.size(); i += 2) {
       out[i] = next(low_, low);
       out[i + 1] = next(high_, high);
     }
     if (missing_) {
-      return PackedStatus::kBytesMissing;
+      return MIEN_ERROR_WEIGHTS_PACKED_TRUNCATED;
     }
-    return low == kLowest && high == kLowest ? PackedStatus::kOk : PackedStatus::kBadState;
+    return low == kLowest && high == kLowest ? MIEN_OK : MIEN_ERROR_WEIGHTS_PACKED_STATE;
   }
 
   std::span<const std::byte> left_;  // unread bytes
@@ -130,47 +129,68 @@ class Unpacker {
 
 }  // namespace
 
-PackedStatus unpacked_bytes(std::span<const std::byte> packed, std::size_t& bytes) {
-  if (packed.size() < kHeaderBytes) {
-    return PackedStatus::kTruncated;
+mien_status unpacked_bytes(std::span<const std::byte> packed, std::size_t& bytes,
+                           mien_error_detail& error) {
+  const std::byte* header = packed.data();
+  const auto fail = [&](mien_status status, const char* field, std::size_t at) {
+    describe(error, status, field);
+    set_offset(error, at);
+    return status;
+  };
+  if (packed.size() < kPackedHeaderBytes) {
+    return fail(MIEN_ERROR_WEIGHTS_TRUNCATED, "file", packed.size());
   }
-  if (std::memcmp(packed.data(), kPackedMagic, sizeof kPackedMagic) != 0) {
-    return PackedStatus::kNotPacked;
+  if (std::memcmp(header, kPackedMagic, sizeof kPackedMagic) != 0) {
+    return fail(MIEN_ERROR_WEIGHTS_NOT_MIEN, "magic", 0);
   }
-  if (load_little<std::uint16_t>(packed.data() + kMajorAt) != kPackedMajor ||
-      load_little<std::uint16_t>(packed.data() + kMinorAt) != kPackedMinor) {
-    return PackedStatus::kUnsupportedVersion;
+  if (load_little<std::uint16_t>(header + kMajorAt) != kPackedMajor ||
+      load_little<std::uint16_t>(header + kMinorAt) != kPackedMinor) {
+    return fail(MIEN_ERROR_WEIGHTS_VERSION, "major_version", kMajorAt);
   }
-  if (load_little<std::uint32_t>(packed.data() + kReservedAt) != 0) {
-    return PackedStatus::kReservedNotZero;
+  if (load_little<std::uint32_t>(header + kReservedAt) != 0) {
+    return fail(MIEN_ERROR_WEIGHTS_RESERVED, "reserved", kReservedAt);
   }
-  const auto size = load_little<std::uint64_t>(packed.data() + kPackedBytesAt);
+  const auto size = load_little<std::uint64_t>(header + kPackedBytesAt);
   if (size != packed.size()) {
-    return size > packed.size() ? PackedStatus::kTruncated : PackedStatus::kTrailingBytes;
+    const bool truncated = size > packed.size();
+    const auto end = static_cast<std::size_t>(truncated ? packed.size() : size);
+    const auto got = static_cast<double>(packed.size()), expected = static_cast<double>(size);
+    (void)fail(truncated ? MIEN_ERROR_WEIGHTS_TRUNCATED : MIEN_ERROR_WEIGHTS_TRAILING_BYTES, "file",
+               end);
+    set_got(error, got);
+    set_expected(error, expected, expected);
+    return static_cast<mien_status>(error.status);
   }
-  const auto unpacked = load_little<std::uint64_t>(packed.data() + kUnpackedBytesAt);
+  const auto unpacked = load_little<std::uint64_t>(header + kUnpackedBytesAt);
   // Bounds the memory of the caller by what the file's blocks can fill.
-  const std::uint64_t blocks = (size - kHeaderBytes) / kMinPackedBlockBytes;
-  if (unpacked == 0 || unpacked % kFileAlignment != 0 || unpacked > kMaxFileBytes ||
-      unpacked > blocks * kMaxBlockBytes) {
-    return PackedStatus::kBadSize;
+  const std::uint64_t blocks = (size - kPackedHeaderBytes) / kMinPackedBlockBytes;
+  const std::uint64_t most = std::min(kMaxFileBytes, blocks * kMaxBlockBytes);
+  if (unpacked == 0 || unpacked % kFileAlignment != 0 || unpacked > most) {
+    (void)fail(MIEN_ERROR_WEIGHTS_PACKED_SIZE, "unpacked_bytes", kUnpackedBytesAt);
+    set_got(error, static_cast<double>(unpacked));
+    set_expected(error, kFileAlignment, static_cast<double>(most));
+    return MIEN_ERROR_WEIGHTS_PACKED_SIZE;
   }
   bytes = static_cast<std::size_t>(unpacked);
-  return PackedStatus::kOk;
+  return MIEN_OK;
 }
 
-PackedStatus unpack(std::span<const std::byte> packed, std::span<std::byte> file) {
+mien_status unpack(std::span<const std::byte> packed, std::span<std::byte> file,
+                   mien_error_detail& error) {
   std::size_t bytes = 0;
-  PackedStatus status = unpacked_bytes(packed, bytes);
-  if (status != PackedStatus::kOk) {
+  mien_status status = unpacked_bytes(packed, bytes, error);
+  if (status != MIEN_OK) {
     return status;
   }
   if (bytes != file.size()) {
-    return PackedStatus::kWrongSize;
+    return describe(error, MIEN_ERROR_MEMORY_TOO_SMALL);
   }
-  status = Unpacker(packed.subspan(kHeaderBytes)).run(file);
-  if (status != PackedStatus::kOk) {
+  Unpacker unpacker(packed.subspan(kPackedHeaderBytes));
+  status = unpacker.run(file);
+  if (status != MIEN_OK) {
     std::fill(file.begin(), file.end(), std::byte{0});
+    describe(error, status, "block");
+    set_offset(error, packed.size() - unpacker.left());
   }
   return status;
 }

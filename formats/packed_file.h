@@ -6,32 +6,22 @@
 #include <cstdint>
 #include <span>
 
+#include "formats/error_detail.h"
+
 namespace mien::formats {
 
-enum class PackedStatus : std::int32_t {
-  kOk = 0,
-  // the file as a whole
-  kTruncated = 1,
-  kTrailingBytes = 2,
-  kNotPacked = 3,
-  kUnsupportedVersion = 4,
-  kReservedNotZero = 5,
-  kBadSize = 6,    // unpacked size out of range
-  kWrongSize = 7,  // the memory does not have the unpacked size
-  // blocks
-  kBadBlock = 20,  // size of a block
-  kBadTable = 21,
-  kBadState = 22,  // of a decoder, at the start or the end
-  kBytesMissing = 23,
-  kBytesLeft = 24,
-};
+inline constexpr std::uint8_t kPackedMagic[8] = {0x89, 'M', 'I', 'E', 'P', 0x0D, 0x0A, 0x1A};
+inline constexpr std::size_t kPackedBytesAt = 16;  // u64: size of the packed file
+inline constexpr std::size_t kPackedHeaderBytes = 32;
 
-// Checks the header. On kOk, `bytes` receives the unpacked size, at most 2^31; else it is
-// unchanged.
-[[nodiscard]] PackedStatus unpacked_bytes(std::span<const std::byte> packed, std::size_t& bytes);
+// Checks the header. On MIEN_OK, `bytes` receives the unpacked size, at most 2^31; else it is
+// unchanged, and `error` describes the error.
+[[nodiscard]] mien_status unpacked_bytes(std::span<const std::byte> packed, std::size_t& bytes,
+                                         mien_error_detail& error);
 
 // Unpacks to `file`, which has exactly unpacked_bytes and must not overlap `packed`. If a block is
-// malformed, `file` is all zeros.
-[[nodiscard]] PackedStatus unpack(std::span<const std::byte> packed, std::span<std::byte> file);
+// malformed, `file` is all zeros. `error` describes an error.
+[[nodiscard]] mien_status unpack(std::span<const std::byte> packed, std::span<std::byte> file,
+                                 mien_error_detail& error);
 
 }  // namespace mien::formats

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "fuzz/bytes.h"
 #include "tests/tracker/blob_weights.h"
@@ -9,24 +10,28 @@
 namespace mien::fuzz {
 
 mien_tracker* make_tracker(std::int32_t max_faces) {
-  static const tests::AlignedBytes basenet = tests::blob_basenet(), hifinet = tests::blob_hifinet(),
-                                   proposal = tests::blob_proposal(),
-                                   audionet = tests::blob_audionet();
+  static const mien_weights* weights = [] {
+    const tests::AlignedBytes files[] = {tests::blob_basenet(), tests::blob_hifinet(),
+                                         tests::blob_proposal(), tests::blob_audionet()};
+    mien_weights_config config;
+    mien_weights_config_default(&config);
+    config.copy = 1;
+    for (std::size_t i = 0; i < std::size(files); ++i) {
+      config.files[i] = files[i].get().data();
+      config.file_bytes[i] = files[i].get().size();
+    }
+    mien_weights* created = nullptr;
+    require(mien_weights_create(&config, &created, nullptr) == MIEN_OK);
+    return created;
+  }();
   mien_tracker_config config;
   mien_tracker_config_default(&config);
-  config.basenet = basenet.get().data();
-  config.basenet_bytes = basenet.get().size();
-  config.hifinet = hifinet.get().data();
-  config.hifinet_bytes = hifinet.get().size();
-  config.proposal = proposal.get().data();
-  config.proposal_bytes = proposal.get().size();
-  config.audionet = audionet.get().data();
-  config.audionet_bytes = audionet.get().size();
+  config.weights = weights;
   config.proposal_size = 64;
   config.max_faces = max_faces;
   config.audio_queue_samples = 4096;
   mien_tracker* tracker = nullptr;
-  require(mien_tracker_create(&config, &tracker) == MIEN_OK);
+  require(mien_tracker_create(&config, &tracker, nullptr) == MIEN_OK);
   return tracker;
 }
 

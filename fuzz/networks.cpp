@@ -65,7 +65,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return static_cast<std::size_t>(choices.between(0, static_cast<std::int32_t>(count) - 1));
   });
   std::vector<std::byte> file;
-  fuzz::require(writer.finish(&file).status == formats::FileStatus::kOk);
+  fuzz::require(writer.finish(&file).status == MIEN_OK);
   const tests::Map image = network.twin.random_input();
   network.twin.reset();
   const std::vector<tests::Map> want = network.twin.run(image);
@@ -77,7 +77,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       const std::uint32_t mask = kernels::up_to(static_cast<kernels::Tier>(tier)) | fused;
       tests::OwnedSession owned(tests::AlignedBuffer(std::span<const std::byte>(file)), "net", {},
                                 mask);
-      fuzz::require(owned.status == engine::Status::kOk);
+      fuzz::require(owned.status == MIEN_OK);
       set_input(*owned.session, image);
       owned.spoil_arena();
       owned.session->run();

@@ -16,7 +16,7 @@ using namespace mien::formats;
 
 void read(std::span<const std::byte> bytes) {
   NeutralFile neutral;
-  if (read_neutral_file(bytes, neutral) != NeutralFileError::kNone) {
+  if (read_neutral_file(bytes, neutral) != MIEN_OK) {
     return;
   }
   for (const float level : neutral.levels) {
@@ -25,7 +25,7 @@ void read(std::span<const std::byte> bytes) {
   std::byte again[kNeutralFileBytes];
   write_neutral_file(neutral, again);
   NeutralFile second;
-  mien::fuzz::require(read_neutral_file(again, second) == NeutralFileError::kNone);
+  mien::fuzz::require(read_neutral_file(again, second) == MIEN_OK);
   mien::fuzz::require(std::memcmp(&neutral, &second, sizeof neutral) == 0);
 }
 

@@ -15,26 +15,28 @@ using namespace mien::formats;
 
 constexpr unsigned char kValidStart[] = {0x89, 'M', 'I', 'E', 'P', 0x0D, 0x0A, 0x1A,
                                          1,    0,   0,   0,   0,   0,    0,    0};
-constexpr std::size_t kPackedBytesAt = 16;
 constexpr std::size_t kUnpackedBytesAt = 24;
 constexpr std::size_t kHeaderBytes = 32;
 constexpr std::uint64_t kMaxUnpacked = 1 << 18;
 
 void read(std::span<const std::byte> packed) {
   std::size_t bytes = 0;
-  if (unpacked_bytes(packed, bytes) != PackedStatus::kOk) {
-    mien::fuzz::require(bytes == 0);
+  mien_error_detail error = detail_of(MIEN_OK);
+  const auto in_file = [&] { return error.offset <= packed.size(); };
+  if (unpacked_bytes(packed, bytes, error) != MIEN_OK) {
+    mien::fuzz::require(bytes == 0 && error.status != MIEN_OK && in_file());
     return;
   }
   mien::fuzz::require(bytes > 0 && bytes <= 820 * packed.size());
   std::vector<std::byte> file(bytes, std::byte{0xAA});
-  const PackedStatus status = unpack(packed, file);
-  if (status != PackedStatus::kOk) {
+  const mien_status status = unpack(packed, file, error);
+  if (status != MIEN_OK) {
     mien::fuzz::require(std::ranges::count(file, std::byte{0}) == std::ssize(file));
+    mien::fuzz::require(error.status == status && in_file());
     return;
   }
   std::vector<std::byte> again(bytes);
-  mien::fuzz::require(unpack(packed, again) == PackedStatus::kOk && file == again);
+  mien::fuzz::require(unpack(packed, again, error) == MIEN_OK && file == again);
 }
 
 }  // namespace

@@ -58,9 +58,9 @@ void read_all(std::span<const std::byte> file) {
       static_cast<std::byte*>(::operator new(std::max<std::size_t>(file.size(), 1), kAlignment));
   std::copy(file.begin(), file.end(), copy);
   FileView view;
-  const formats::Validation validation = formats::open({copy, file.size()}, view);
+  const mien_error_detail validation = formats::open({copy, file.size()}, view);
   require(validation.offset <= std::max<std::size_t>(file.size(), sizeof(formats::FileHeader)));
-  require((validation.status == formats::FileStatus::kOk) == !view.networks().empty());
+  require((validation.status == MIEN_OK) == !view.networks().empty());
   read_networks(view);
   read_tensors(view);
   ::operator delete(copy, kAlignment);

@@ -27,10 +27,6 @@ constexpr std::array<float, 7> kRolls = {2 * kEighth, -2 * kEighth, kEighth,    
 
 Pace pace_at(std::int32_t level) { return level == kLowestLevel ? kPaceLowest : kPace; }
 
-std::int32_t highest_level(const mien_tracker_config& config) {
-  return config.hifinet != nullptr ? kHighestLevel : kLowestLevel;
-}
-
 }  // namespace
 
 Tracker::Tracker(const mien_tracker_config& config, Encoders& encoders, FaceDetector& proposal)
@@ -39,7 +35,7 @@ Tracker::Tracker(const mien_tracker_config& config, Encoders& encoders, FaceDete
       proposal_(proposal),
       timer_(config.clock_ns, config.clock_user),
       lod_(config.lod),
-      governor_(config.budget_ms, highest_level(config)) {}
+      governor_(config.budget_ms, config.max_lod) {}
 
 mien_status Tracker::load(const Models& models, engine::Arena& arena) {
   const mien_status status = faces_.load(config_, encoders_, models, arena);
@@ -48,7 +44,7 @@ mien_status Tracker::load(const Models& models, engine::Arena& arena) {
 }
 
 void Tracker::reset() {
-  governor_ = LevelGovernor(config_.budget_ms, highest_level(config_));
+  governor_ = LevelGovernor(config_.budget_ms, config_.max_lod);
   lod_ = config_.lod;
   state_ = State();
   faces_.reset(level());
@@ -63,7 +59,7 @@ void Tracker::reset() {
 }
 
 bool Tracker::set_level(std::int32_t lod) {
-  if (lod < 0 || lod > highest_level(config_)) {
+  if (lod < 0 || lod > config_.max_lod) {
     return false;
   }
   if (lod == 0 && lod_ != 0) {

@@ -29,30 +29,24 @@ constexpr std::size_t kSteps = 4;
 class BuiltInFile : public NetworkFile {
  public:
   BuiltInFile() {
-    if (file_.open(golden_file()) != EngineStatus::kOk) {
+    const std::span<const std::byte> file = golden_file();
+    if (weights_.create({&file, 1}) != MIEN_OK) {
       throw std::runtime_error("the built-in networks are damaged");
     }
   }
-  [[nodiscard]] const WeightFile& view() const override { return file_; }
+  [[nodiscard]] const Weights& weights() const override { return weights_; }
 
  private:
-  WeightFile file_;
+  Weights weights_;
 };
 
 class ModelFile : public NetworkFile {
  public:
-  explicit ModelFile(const std::string& path) : blob_(path) {
-    const EngineStatus status =
-        file_.open({static_cast<const std::byte*>(blob_.data()), blob_.size()});
-    if (status != EngineStatus::kOk) {
-      throw app::Failure(app::kExitModel, path + ": " + message(status));
-    }
-  }
-  [[nodiscard]] const WeightFile& view() const override { return file_; }
+  explicit ModelFile(const std::string& path) : file_({path}) {}
+  [[nodiscard]] const Weights& weights() const override { return file_.weights(); }
 
  private:
-  app::Blob blob_;
-  WeightFile file_;
+  app::OpenedWeights file_;
 };
 
 std::size_t elements(const TensorShape& shape) {
@@ -68,7 +62,7 @@ std::size_t in_blocks(const TensorShape& shape, std::size_t i) {
   return (i % channels / 8 * pixels + i / channels) * 8 + i % channels % 8;
 }
 
-void set_input(NetworkRunner& runner, std::span<const float> values) {
+void set_input(mien::Network& runner, std::span<const float> values) {
   const TensorShape shape = runner.input_shape();
   const bool interleaved = runner.input().size() == values.size();
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -77,7 +71,7 @@ void set_input(NetworkRunner& runner, std::span<const float> values) {
 }
 
 // Appends one output; returns false if an unused lane is not zero.
-bool take_output(const NetworkRunner& runner, std::int32_t output, std::vector<float>& values) {
+bool take_output(const mien::Network& runner, std::int32_t output, std::vector<float>& values) {
   const TensorShape shape = runner.output_shape(output);
   std::vector<float> blocks(runner.output(output).begin(), runner.output(output).end());
   for (std::size_t i = 0; i < elements(shape); ++i) {
@@ -89,13 +83,13 @@ bool take_output(const NetworkRunner& runner, std::int32_t output, std::vector<f
 }
 
 // Runs all steps once.
-Finding run_once(NetworkRunner& runner, Steps& steps) {
+Finding run_once(mien::Network& runner, Steps& steps) {
   const std::size_t input = elements(runner.input_shape());
   steps.outputs.assign(static_cast<std::size_t>(runner.output_count()), {});
   for (std::size_t at = 0; at < steps.inputs.size(); at += input) {
     set_input(runner, std::span(steps.inputs).subspan(at, input));
     const char* crash =
-        run_guarded([](void* one) { static_cast<NetworkRunner*>(one)->run(); }, &runner);
+        run_guarded([](void* one) { static_cast<mien::Network*>(one)->run(); }, &runner);
     if (crash != nullptr) {
       return {Fault::kCrashes, crash};
     }
@@ -156,8 +150,9 @@ Network::Network(std::shared_ptr<const NetworkFile> file, const std::string& fil
 
 void Network::add_file(const std::shared_ptr<const NetworkFile>& file, const std::string& name,
                        std::vector<Network>& networks) {
-  for (std::int32_t i = 0; i < file->view().network_count(); ++i) {
-    networks.push_back(Network(file, name, file->view().network(i), nullptr));
+  const WeightsContent content(file->weights());
+  for (std::int32_t i = 0; i < content.network_count(); ++i) {
+    networks.push_back(Network(file, name, content.network(i), nullptr));
   }
 }
 
@@ -192,22 +187,23 @@ bool Network::has_cases(kernels::Tier tier) const {
 }
 
 // Other tiers supply the kernels that a tier lacks. The reference tier runs without fused blocks.
-EngineStatus Network::create(kernels::Tier tier, const TensorShape& input,
-                             NetworkRunner& runner) const {
-  NetworkRunner::Options options;
-  options.cpu_mask = kernels::up_to(tier);
+mien_status Network::create(kernels::Tier tier, const TensorShape& input, mien::Network& runner,
+                            Error& error) const {
+  NetworkConfig config(file_->weights(), network_.c_str());
+  config.cpu_mask = kernels::up_to(tier);
   if (tier != kernels::Tier::kRef) {
-    options.cpu_mask |= kernels::kFusedBlocks;
+    config.cpu_mask |= kernels::kFusedBlocks;
   }
-  options.input = input;
-  return runner.create(file_->view(), network_, options);
+  config.height = input.height;
+  config.width = input.width;
+  return runner.create(config, &error);
 }
 
 Finding Network::run(kernels::Tier tier, Steps& steps) const {
-  NetworkRunner runner;
-  const EngineStatus status = create(tier, golden_ != nullptr ? golden_->input : input_, runner);
-  if (status != EngineStatus::kOk) {
-    return {Fault::kWrongResult, message(status)};
+  mien::Network runner;
+  Error error;
+  if (create(tier, golden_ != nullptr ? golden_->input : input_, runner, error) != MIEN_OK) {
+    return {Fault::kWrongResult, error.message()};
   }
   Finding finding = run_once(runner, steps);
   const std::vector<std::vector<float>> first = steps.outputs;
@@ -263,9 +259,10 @@ Finding Network::check(kernels::Tier tier, std::uint64_t seed, int& cases) {
 }
 
 Timing Network::time(kernels::Tier tier, double peak) const {
-  NetworkRunner runner;
-  if (create(tier, input_, runner) != EngineStatus::kOk) {
-    throw std::runtime_error(name_ + " cannot be created");
+  mien::Network runner;
+  Error error;
+  if (create(tier, input_, runner, error) != MIEN_OK) {
+    throw std::runtime_error(name_ + ": " + error.message());
   }
   std::mt19937 random(1);
   std::uniform_real_distribution<float> values(-1.0f, 1.0f);

@@ -20,7 +20,7 @@ namespace mien::conformance {
 class NetworkFile {
  public:
   virtual ~NetworkFile() = default;
-  [[nodiscard]] virtual const WeightFile& view() const = 0;
+  [[nodiscard]] virtual const Weights& weights() const = 0;
 };
 
 // Inputs and outputs of all steps, concatenated; all maps as [h][w][c].
@@ -48,8 +48,8 @@ class Network {
   static void add_file(const std::shared_ptr<const NetworkFile>& file, const std::string& name,
                        std::vector<Network>& networks);
 
-  [[nodiscard]] EngineStatus create(kernels::Tier tier, const TensorShape& input,
-                                    NetworkRunner& runner) const;
+  [[nodiscard]] mien_status create(kernels::Tier tier, const TensorShape& input,
+                                   mien::Network& runner, Error& error) const;
   // Runs all steps twice, with a reset in between, and stores the outputs.
   [[nodiscard]] Finding run(kernels::Tier tier, Steps& steps) const;
   // Computes expected_ for the seed, unless it is already.

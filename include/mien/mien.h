@@ -23,9 +23,10 @@
  *
  * Threads
  *   Any thread may call functions without a tracker argument at any time. One thread at a time may
- *   use a tracker; a second one may call mien_tracker_queue_audio, and nothing else, at the same
- *   time. Different trackers are independent. No function locks, prints, opens files, starts
- *   threads, or allocates, except create and destroy, which call the allocator.
+ *   use a tracker or network; a second one may call mien_tracker_queue_audio, and nothing else, at
+ *   the same time. Different trackers and networks are independent, also if they share weights. No
+ *   function locks, prints, opens files, starts threads, or allocates, except create and destroy,
+ *   which call the allocator.
  *
  * Floating point
  *   The caller may use any rounding mode, traps and treatment of denormal numbers: results do not
@@ -38,7 +39,8 @@
  * Errors
  *   If a function returns a mien_status other than MIEN_OK, it has no other effect unless its
  *   description says so. MIEN_ERROR_NULL_ARGUMENT: a pointer that must not be NULL is NULL. Status
- *   numbers are never reused.
+ *   numbers are never reused. Functions that create an object describe an error further in a
+ *   mien_error_detail of the caller: the field, layer or byte, the value and the expected values.
  */
 #ifndef MIEN_MIEN_H_
 #define MIEN_MIEN_H_
@@ -74,7 +76,8 @@ extern "C" {
 #define MIEN_LANDMARK_COUNT 175
 #define MIEN_MAX_STAGES 16
 
-/** Alignment in bytes of weight files in memory and of the memory of mien_tracker_create_in. */
+/** Alignment in bytes of the memory of mien_tracker_create_in and mien_network_create_in, and of
+ *  weight files that are used without a copy. */
 #define MIEN_ALIGNMENT 64
 
 /* Status --------------------------------------------------------------------------------------- */
@@ -85,26 +88,55 @@ typedef enum mien_status {
   MIEN_ERROR_NULL_ARGUMENT = -1,
   MIEN_ERROR_STRUCT_SIZE = -2,      /**< struct_size does not cover the required fields */
   MIEN_ERROR_OUT_OF_RANGE = -3,     /**< a value is outside its documented range, or NaN */
-  MIEN_ERROR_ALIGNMENT = -4,        /**< weights, memory or samples are misaligned */
+  MIEN_ERROR_ALIGNMENT = -4,        /**< memory or samples are misaligned */
   MIEN_ERROR_MEMORY_TOO_SMALL = -5, /**< the caller's buffer is too small */
   MIEN_ERROR_OUT_OF_MEMORY = -6,    /**< the allocator returned NULL */
   MIEN_ERROR_UNSUPPORTED_LOD = -7,  /**< level outside 0..4, or no weights for it */
   MIEN_ERROR_SEVERAL_FACES = -8,    /**< only for trackers with max_faces = 1 */
   MIEN_ERROR_NO_AUDIONET = -9,      /**< audio disabled: the tracker has no AudioNet weights */
   /* weight files */
-  MIEN_ERROR_WEIGHTS_NOT_MIEN = -20,   /**< not a .mien file */
+  MIEN_ERROR_WEIGHTS_NOT_MIEN = -20,   /**< not a .mien file, packed or not */
   MIEN_ERROR_WEIGHTS_VERSION = -21,    /**< unsupported version of the file format */
   MIEN_ERROR_WEIGHTS_TRUNCATED = -22,  /**< fewer bytes than the header declares */
   MIEN_ERROR_WEIGHTS_CHECKSUM = -23,   /**< wrong checksum: the file is damaged */
-  MIEN_ERROR_WEIGHTS_MALFORMED = -24,  /**< breaks another rule of the file format */
   MIEN_ERROR_WEIGHTS_INCOMPLETE = -25, /**< a required network or constant is missing */
   MIEN_ERROR_WEIGHTS_SHAPE = -26,      /**< a network or constant has the wrong shape */
-  MIEN_ERROR_WEIGHTS_NOT_PACKED = -27, /**< not packed weights */
+  MIEN_ERROR_WEIGHTS_VALUE = -27,      /**< a constant has a value out of range */
+  /* weight files that break another rule of the format (docs/format.md): -100..-149 */
+  MIEN_ERROR_WEIGHTS_TRAILING_BYTES = -100,   /**< bytes after the end of the file */
+  MIEN_ERROR_WEIGHTS_BYTE_ORDER = -101,       /**< not little-endian */
+  MIEN_ERROR_WEIGHTS_LIMIT = -102,            /**< a count or size exceeds its limit */
+  MIEN_ERROR_WEIGHTS_RESERVED = -103,         /**< a reserved field is not zero */
+  MIEN_ERROR_WEIGHTS_GAP = -104,              /**< a part does not follow the previous one */
+  MIEN_ERROR_WEIGHTS_PADDING = -105,          /**< padding is not zero */
+  MIEN_ERROR_WEIGHTS_NAME = -106,             /**< empty, too long, or other than a-z 0-9 _ . / */
+  MIEN_ERROR_WEIGHTS_DUPLICATE_NAME = -107,   /**< of a network, constant or metadata key */
+  MIEN_ERROR_WEIGHTS_METADATA = -108,         /**< a value is too long or not plain UTF-8 text */
+  MIEN_ERROR_WEIGHTS_TENSOR_TYPE = -110,      /**< unknown data type */
+  MIEN_ERROR_WEIGHTS_TENSOR_DIMS = -111,      /**< rank or dimensions out of range */
+  MIEN_ERROR_WEIGHTS_TENSOR_BYTES = -112,     /**< size does not match dimensions and data type */
+  MIEN_ERROR_WEIGHTS_TENSOR_VALUE = -113,     /**< NaN or infinity */
+  MIEN_ERROR_WEIGHTS_TENSOR_UNUSED = -114,    /**< neither used by a layer nor named */
+  MIEN_ERROR_WEIGHTS_NETWORK = -120,          /**< input, flags, layers or outputs out of range */
+  MIEN_ERROR_WEIGHTS_LAYER_OP = -121,         /**< unknown, or not allowed in the network */
+  MIEN_ERROR_WEIGHTS_LAYER_ACTIVATION = -122, /**< unknown, or not allowed for the operation */
+  MIEN_ERROR_WEIGHTS_LAYER_INPUT = -123,      /**< not an earlier value */
+  MIEN_ERROR_WEIGHTS_LAYER_SHAPE = -124,      /**< the output does not match the inputs */
+  MIEN_ERROR_WEIGHTS_LAYER_WINDOW = -125,     /**< kernel, stride, padding or flags out of range */
+  MIEN_ERROR_WEIGHTS_LAYER_TENSORS = -126,    /**< the tensors do not match the operation */
+  MIEN_ERROR_WEIGHTS_PACKED_SIZE = -130,      /**< size of the unpacked file out of range */
+  MIEN_ERROR_WEIGHTS_PACKED_BLOCK = -131,     /**< size of a block out of range */
+  MIEN_ERROR_WEIGHTS_PACKED_TABLE = -132,     /**< malformed table of a block */
+  MIEN_ERROR_WEIGHTS_PACKED_STATE = -133,     /**< wrong state of a decoder: damaged */
+  MIEN_ERROR_WEIGHTS_PACKED_TRUNCATED = -134, /**< the last block is incomplete */
+  MIEN_ERROR_WEIGHTS_PACKED_TRAILING = -135,  /**< bytes after the last block */
   /* engine */
-  MIEN_ERROR_UNSUPPORTED_CPU = -40,   /**< cpu_mask excludes every tier of this CPU and build */
-  MIEN_ERROR_UNSUPPORTED_LAYER = -41, /**< no allowed tier has a kernel for a layer */
-  MIEN_ERROR_INTERNAL = -42,          /**< internal error: a defect of mien */
-  MIEN_ERROR_LEFT_OUT = -43,          /**< not compiled in */
+  MIEN_ERROR_UNSUPPORTED_CPU = -40,    /**< cpu_mask excludes every tier of this CPU and build */
+  MIEN_ERROR_UNSUPPORTED_LAYER = -41,  /**< no allowed tier has a kernel for a layer */
+  MIEN_ERROR_INTERNAL = -42,           /**< internal error: a defect of mien */
+  MIEN_ERROR_LEFT_OUT = -43,           /**< not compiled in */
+  MIEN_ERROR_UNSUPPORTED_LAYOUT = -44, /**< a layer other than a convolution reads the image */
+  MIEN_ERROR_TOO_LARGE = -45,          /**< the network's maps are too large for this input */
   /* stream */
   MIEN_ERROR_IMAGE_FORMAT = -60, /**< unknown mien_image_format or mien_yuv_matrix */
   MIEN_ERROR_IMAGE_SIZE = -61,   /**< width, height or pixel_aspect out of range */
@@ -136,6 +168,49 @@ MIEN_API const char* mien_version(void);
 /** API version of the library.
  *  @return MIEN_API_VERSION of the header that the library was built with */
 MIEN_API uint32_t mien_version_api(void);
+
+/* Error details -------------------------------------------------------------------------------- */
+
+#define MIEN_MAX_NAME_BYTES 63 /**< of a name in a weight file, without the terminating 0 */
+
+/* Bits of mien_error_detail.known. */
+#define MIEN_DETAIL_OFFSET 0x1u   /**< offset */
+#define MIEN_DETAIL_GOT 0x2u      /**< got */
+#define MIEN_DETAIL_EXPECTED 0x4u /**< expected_min, expected_max */
+
+/** What a function that creates an object found wrong. The caller passes one, or NULL; the function
+ *  always fills it, with status MIEN_OK and nothing else on success. Initialize it with
+ *  mien_error_detail_default; one that is too small is ignored. */
+typedef struct mien_error_detail {
+  uint32_t struct_size;
+  int32_t status;  /**< mien_status that the function returned */
+  uint32_t known;  /**< MIEN_DETAIL_* */
+  int32_t file;    /**< index in mien_weights_config.files; -1: none */
+  int32_t network; /**< index of the network in its weight file; -1: none */
+  int32_t layer;   /**< index of the layer in its network, from 0; -1: none */
+  /** Static name of a member of a configuration or of a field in docs/format.md; NULL: none. */
+  const char* field;
+  uint64_t offset;     /**< byte in the file; of packed content: in the unpacked file */
+  double got;          /**< value of the field */
+  double expected_min; /**< allowed values: expected_min..expected_max */
+  double expected_max;
+  char name[MIEN_MAX_NAME_BYTES + 1]; /**< of the network or constant; empty: none */
+  uint32_t reserved[8];
+} mien_error_detail;
+
+/** Initializes a detail: struct_size, no error.
+ *  @param[out] detail  NULL is ignored */
+MIEN_API void mien_error_detail_default(mien_error_detail* detail);
+
+/** Writes a detail as one line of English: "network encoder, layer 3, byte 832, kernel_height: the
+ *  layer's kernel, stride, padding or flags are out of range (got 99, expected 1..15)". Layers
+ *  count from 1, as in `mien info`. The index of the file is left to the caller, who may know its
+ *  path.
+ *  @param[in]  detail      detail
+ *  @param[out] text        [text_bytes], always terminated; truncated if it is too small
+ *  @param      text_bytes  size of `text`; 256 bytes are always enough
+ *  @return length of the whole line in bytes, without the terminating 0; 0 for NULL */
+MIEN_API size_t mien_error_message(const mien_error_detail* detail, char* text, size_t text_bytes);
 
 /* CPU ------------------------------------------------------------------------------------------ */
 
@@ -416,14 +491,10 @@ typedef struct mien_audio {
  *  @param[out] audio  NULL is ignored */
 MIEN_API void mien_audio_default(mien_audio* audio);
 
-/* Tracker -------------------------------------------------------------------------------------- */
+/* Weights -------------------------------------------------------------------------------------- */
 
-/** A tracker: converts images and audio to the animation of one or more faces. */
-typedef struct mien_tracker mien_tracker;
-
-#define MIEN_MAX_FACES 8
-
-/** Callbacks for all memory of a tracker or network; only create and destroy call them. */
+/** Callbacks for all memory of weights, trackers and networks; only create and destroy call them.
+ */
 typedef struct mien_allocator {
   /** Returns at least `size_bytes` aligned to `alignment_bytes` (a power of two), or NULL. */
   void* (*allocate)(void* user, size_t size_bytes, size_t alignment_bytes);
@@ -431,21 +502,71 @@ typedef struct mien_allocator {
   void* user; /**< first argument of both */
 } mien_allocator;
 
-/** Configuration of a tracker. Initialize it with mien_tracker_config_default; only `basenet` and
- *  `proposal` have no default. */
+/** Opened and validated weight files. Any number of trackers and networks in any threads may share
+ *  them: each keeps a reference to the weights that it uses. */
+typedef struct mien_weights mien_weights;
+
+#define MIEN_MAX_WEIGHT_FILES 8
+
+/** Weight files in memory. Initialize it with mien_weights_config_default.
+ *
+ *  A file is one .mien file, a packed one (scripts/package/pack_weights.py), or a bundle: several
+ * of these one after another, as `cat` joins them. The order does not matter: a tracker finds
+ * BaseNet, the detector, HiFiNet and AudioNet by their networks. There may be 16 .mien files in
+ * total. */
+typedef struct mien_weights_config {
+  uint32_t struct_size;
+  /** Not 0: files are copied, so that their memory is free after mien_weights_create. 0 (default):
+   *  a .mien file that begins at a multiple of MIEN_ALIGNMENT is used in place, and must stay
+   *  unchanged until the weights and everything created from them are destroyed; others are copied
+   *  or unpacked. */
+  int32_t copy;
+  const void* files[MIEN_MAX_WEIGHT_FILES]; /**< any alignment; NULL entries are ignored */
+  size_t file_bytes[MIEN_MAX_WEIGHT_FILES];
+  mien_allocator allocator; /**< default: both callbacks NULL, which selects the C library's */
+  uint32_t reserved[8];
+} mien_weights_config;
+
+/** Initializes a configuration with the defaults; there are no files.
+ *  @param[out] config  NULL is ignored */
+MIEN_API void mien_weights_config_default(mien_weights_config* config);
+
+/** Opens weight files: copies them as far as necessary, and validates them completely, with one
+ *  allocation by config->allocator.
+ *  @param[in]  config   configuration
+ *  @param[out] weights  owned by the caller, who ends it with mien_weights_destroy; NULL on error,
+ *                       when nothing stays allocated
+ *  @param[out] error    describes the error; may be NULL
+ *  @return MIEN_OK; MIEN_ERROR_NULL_ARGUMENT (also without files); MIEN_ERROR_STRUCT_SIZE;
+ *          MIEN_ERROR_OUT_OF_RANGE (one callback of two); MIEN_ERROR_OUT_OF_MEMORY; a
+ *          MIEN_ERROR_WEIGHTS_* status, of these MIEN_ERROR_WEIGHTS_LIMIT for too many files */
+MIEN_API MIEN_NODISCARD mien_status mien_weights_create(const mien_weights_config* config,
+                                                        mien_weights** weights,
+                                                        mien_error_detail* error);
+
+/** Ends the caller's ownership. The memory is released as soon as no tracker or network uses the
+ *  weights.
+ *  @param weights  NULL is ignored */
+MIEN_API void mien_weights_destroy(mien_weights* weights);
+
+/* Tracker -------------------------------------------------------------------------------------- */
+
+/** A tracker: converts images and audio to the animation of one or more faces. */
+typedef struct mien_tracker mien_tracker;
+
+#define MIEN_MAX_FACES 8
+
+/** Configuration of a tracker. Initialize it with mien_tracker_config_default; only `weights` has
+ * no default. */
 typedef struct mien_tracker_config {
   uint32_t struct_size;
   /** Allowed tiers, and MIEN_CPU_FUSED; default MIEN_CPU_ALL. For other weights than the project's,
    *  exclude MIEN_CPU_HALF unless the values of their encoders stay within its range. */
   uint32_t cpu_mask;
 
-  /** Weight files in memory (models/basenet.mien, models/proposal.mien), MIEN_ALIGNMENT-aligned,
-   *  for example memory-mapped files or arrays in flash. The caller owns them; they must outlive
-   *  the tracker and must not change. */
-  const void* basenet;
-  size_t basenet_bytes;
-  const void* proposal;
-  size_t proposal_bytes;
+  /** Weights with BaseNet and the detector (models/basenet.mien, models/proposal.mien), and HiFiNet
+   *  and AudioNet if there are (models/hifinet.mien, models/audionet.mien). */
+  const mien_weights* weights;
 
   mien_allocator allocator; /**< default: both callbacks NULL, which selects the C library's */
 
@@ -455,8 +576,11 @@ typedef struct mien_tracker_config {
   void* clock_user; /**< argument of clock_ns */
 
   /** Level of detail: 1 (fastest) to 4 (most accurate), or 0 for automatic by budget_ms; default 1.
-   *  Levels 2 to 4 need `hifinet`; without it automatic means 1. See mien_tracker_set_lod. */
+   *  Levels 2 to 4 need HiFiNet; without it automatic means 1. See mien_tracker_set_lod. */
   int32_t lod;
+  /** Highest level of detail that the tracker will use, 1..4; default 4. 1 leaves HiFiNet out and
+   *  saves its memory. */
+  int32_t max_lod;
   /** Horizontal field of view of the upright image for images with focal_length_px = 0, in radians;
    *  0.01..3.1; default pi / 3 (60 degrees). */
   float horizontal_fov;
@@ -493,11 +617,6 @@ typedef struct mien_tracker_config {
    *  default 10. Needs clock_ns; without it the highest available level is used. */
   float budget_ms;
 
-  /** Weights of levels 2 to 4 (models/hifinet.mien), under the rules of `basenet`; default NULL:
-   *  only level 1. */
-  const void* hifinet;
-  size_t hifinet_bytes;
-
   /** Not 0: a 1-euro filter smooths controls, landmarks and pose while they hardly move (cutoff
    *  1.5 Hz at rest). A blink keeps at least 95 % of its height and is not delayed. Default 1. */
   int32_t smoothing;
@@ -507,10 +626,9 @@ typedef struct mien_tracker_config {
    *  others, in one part of every image, and covers the whole image within about a second. */
   int32_t max_faces;
 
-  /** Weights for audio (models/audionet.mien), under the rules of `basenet`; default NULL: audio
-   *  disabled. MIEN_ERROR_LEFT_OUT if audio is not compiled in (MIEN_WITH_AUDIO). */
-  const void* audionet;
-  size_t audionet_bytes;
+  /** Not 0 (default): the tracker accepts audio if the weights have AudioNet; MIEN_ERROR_LEFT_OUT
+   * if they do and audio is not compiled in (MIEN_WITH_AUDIO). 0: audio disabled. */
+  int32_t audio;
   /** Attack and release: time constants with which mien_result.voice_activity rises and falls, in
    *  ms; 0..10000; default 40 and 150. */
   float voice_attack_ms;
@@ -525,32 +643,37 @@ typedef struct mien_tracker_config {
    *  resemble mumbling, higher ones suit a stage. */
   float voice_strength;
 
-  uint32_t reserved[6];
+  uint32_t reserved[8];
 } mien_tracker_config;
 
 /** Initializes a configuration with the defaults; the weights are NULL.
  *  @param[out] config  NULL is ignored */
 MIEN_API void mien_tracker_config_default(mien_tracker_config* config);
 
-/** Computes the size of the memory for mien_tracker_create_in, and validates the configuration and
- *  the weight files completely.
+/** Computes the size of the memory for mien_tracker_create_in, and validates the configuration
+ *  completely.
  *  @param[in]  config  configuration
  *  @param[out] bytes   size in bytes; 0 on error
+ *  @param[out] error   describes the error; may be NULL
  *  @return a status of mien_tracker_create other than MIEN_ERROR_OUT_OF_MEMORY */
 MIEN_API MIEN_NODISCARD mien_status mien_tracker_required_bytes(const mien_tracker_config* config,
-                                                                size_t* bytes);
+                                                                size_t* bytes,
+                                                                mien_error_detail* error);
 
-/** Creates a tracker with one allocation by config->allocator. Copies the configuration, but not
- *  the weights.
+/** Creates a tracker with one allocation by config->allocator. Copies the configuration, and refers
+ *  to the weights.
  *  @param[in]  config   configuration
  *  @param[out] tracker  owned by the caller, who ends it with mien_tracker_destroy; NULL on error,
  *                       when nothing stays allocated
+ *  @param[out] error    describes the error; may be NULL
  *  @return MIEN_OK; MIEN_ERROR_NULL_ARGUMENT (also for missing weights); MIEN_ERROR_STRUCT_SIZE;
- *          MIEN_ERROR_OUT_OF_RANGE; MIEN_ERROR_ALIGNMENT; MIEN_ERROR_UNSUPPORTED_LOD;
- *          MIEN_ERROR_OUT_OF_MEMORY; a MIEN_ERROR_WEIGHTS_* status; MIEN_ERROR_UNSUPPORTED_CPU;
- *          MIEN_ERROR_UNSUPPORTED_LAYER; MIEN_ERROR_LEFT_OUT; MIEN_ERROR_INTERNAL */
+ *          MIEN_ERROR_OUT_OF_RANGE; MIEN_ERROR_UNSUPPORTED_LOD; MIEN_ERROR_OUT_OF_MEMORY;
+ *          MIEN_ERROR_WEIGHTS_INCOMPLETE; MIEN_ERROR_WEIGHTS_SHAPE; MIEN_ERROR_WEIGHTS_VALUE;
+ *          MIEN_ERROR_UNSUPPORTED_CPU; MIEN_ERROR_UNSUPPORTED_LAYER; MIEN_ERROR_UNSUPPORTED_LAYOUT;
+ *          MIEN_ERROR_TOO_LARGE; MIEN_ERROR_LEFT_OUT; MIEN_ERROR_INTERNAL */
 MIEN_API MIEN_NODISCARD mien_status mien_tracker_create(const mien_tracker_config* config,
-                                                        mien_tracker** tracker);
+                                                        mien_tracker** tracker,
+                                                        mien_error_detail* error);
 
 /** Creates a tracker in memory of the caller, without calling the allocator.
  *  @param[in]  config        configuration
@@ -558,11 +681,12 @@ MIEN_API MIEN_NODISCARD mien_status mien_tracker_create(const mien_tracker_confi
  *                            content is unspecified after an error
  *  @param      memory_bytes  at least mien_tracker_required_bytes
  *  @param[out] tracker       NULL on error
- *  @return as mien_tracker_create; MIEN_ERROR_MEMORY_TOO_SMALL; MIEN_ERROR_ALIGNMENT also for
- *          `memory` */
+ *  @param[out] error         describes the error; may be NULL
+ *  @return as mien_tracker_create; MIEN_ERROR_MEMORY_TOO_SMALL; MIEN_ERROR_ALIGNMENT */
 MIEN_API MIEN_NODISCARD mien_status mien_tracker_create_in(const mien_tracker_config* config,
                                                            void* memory, size_t memory_bytes,
-                                                           mien_tracker** tracker);
+                                                           mien_tracker** tracker,
+                                                           mien_error_detail* error);
 
 /** Overwrites the tracker's memory with zeros and releases it with the allocator; after
  *  mien_tracker_create_in the memory stays with the caller.
@@ -680,33 +804,6 @@ MIEN_API MIEN_NODISCARD mien_status mien_tracker_set_audio_offset(mien_tracker* 
  *  @return MIEN_OK; MIEN_ERROR_NULL_ARGUMENT; MIEN_ERROR_NO_AUDIONET; MIEN_ERROR_OUT_OF_RANGE */
 MIEN_API MIEN_NODISCARD mien_status mien_tracker_set_mix(mien_tracker* tracker, int32_t control,
                                                          float audio_weight, float video_weight);
-
-/* Packed weights ------------------------------------------------------------------------------- */
-
-/* Lossless compression of a weight file to about 70 % of its size, for programs that embed weights
- * and have memory to unpack them. scripts/package/pack_weights.py packs a file, as does mien_embed
- * with PACKED; docs/format.md specifies the format. */
-
-/** Reads the unpacked size of packed weights.
- *  @param[in]  packed          [packed_bytes], any alignment
- *  @param      packed_bytes    size in bytes
- *  @param[out] unpacked_bytes  at most 2^31, and at most 820 times packed_bytes
- *  @return MIEN_OK; MIEN_ERROR_NULL_ARGUMENT; MIEN_ERROR_WEIGHTS_NOT_PACKED;
- *          MIEN_ERROR_WEIGHTS_VERSION; MIEN_ERROR_WEIGHTS_TRUNCATED;
- *          MIEN_ERROR_WEIGHTS_MALFORMED, also for trailing bytes */
-MIEN_API MIEN_NODISCARD mien_status mien_unpacked_bytes(const void* packed, size_t packed_bytes,
-                                                        size_t* unpacked_bytes);
-
-/** Unpacks packed weights to the original weight file, byte for byte; the file's checksum verifies
- *  that when it is opened. `packed` is not needed afterwards.
- *  @param[in]  packed        [packed_bytes], any alignment
- *  @param      packed_bytes  size in bytes
- *  @param[out] file          [file_bytes], MIEN_ALIGNMENT-aligned, not overlapping `packed`; zeroed
- *                            or unchanged after MIEN_ERROR_WEIGHTS_MALFORMED
- *  @param      file_bytes    at least mien_unpacked_bytes; bytes beyond it stay unchanged
- *  @return as mien_unpacked_bytes; MIEN_ERROR_ALIGNMENT; MIEN_ERROR_MEMORY_TOO_SMALL */
-MIEN_API MIEN_NODISCARD mien_status mien_unpack(const void* packed, size_t packed_bytes, void* file,
-                                                size_t file_bytes);
 
 /* Result --------------------------------------------------------------------------------------- */
 
@@ -862,9 +959,27 @@ MIEN_API MIEN_NODISCARD mien_status mien_tracker_load_neutral(mien_tracker* trac
 
 /* Custom networks ------------------------------------------------------------------------------ */
 
-/** Any network of a weight file, for example one that scripts/mien_convert converted.
- *  mien/engine.h documents the memory layout of maps and the state of temporal layers, with an
- *  example in C and C++. One thread at a time may use a network. */
+/** Any network of a weight file, for example one that scripts/mien_convert converted. One thread at
+ *  a time may use a network.
+ *
+ *      mien_network_config config;
+ *      mien_network_config_default(&config);
+ *      config.weights = weights;  config.name = "encoder";
+ *      mien_network* network = NULL;
+ *      if (mien_network_create(&config, &network, NULL) != MIEN_OK) return 1;
+ *      for (int i = 0; i < count; ++i) {
+ *        memcpy(mien_network_input(network, NULL), images[i], image_bytes);
+ *        if (mien_network_run(network) == MIEN_OK) use(mien_network_output(network, 0, NULL));
+ *      }
+ *      mien_network_destroy(network);
+ *
+ *  Layout: an input of at most 4 channels and more than one pixel is [height][width][channels].
+ *  Every other map is stored in blocks of 8 channels, [ceil(channels / 8)][height][width][8], with
+ *  unused lanes zero. A vector of n values is therefore n floats, rounded up to a multiple of 8.
+ *
+ *  State: temporal layers (causal convolution, LSTM) keep their state in the network; one run is
+ *  one step of the stream. LSTM state below 1e-30 is flushed to zero, because denormal numbers are
+ *  slow. */
 typedef struct mien_network mien_network;
 
 /** Shape of a map; a vector is {1, 1, channels}. */
@@ -872,48 +987,69 @@ typedef struct mien_shape {
   int32_t height, width, channels;
 } mien_shape;
 
-/** Configuration of a network. Initialize it with mien_network_config_default; only `file` has no
- *  default. */
+/** Configuration of a network. Initialize it with mien_network_config_default; only `weights` has
+ *  no default. */
 typedef struct mien_network_config {
   uint32_t struct_size;
   /** Allowed tiers, and MIEN_CPU_FUSED; default MIEN_CPU_ALL without MIEN_CPU_HALF, because the
    *  values of a custom network are unbounded. */
   uint32_t cpu_mask;
-  /** Weight file in memory, MIEN_ALIGNMENT-aligned. The caller owns it; it must outlive the network
-   *  and must not change. */
-  const void* file;
-  size_t file_bytes;
-  const char* name; /**< of the network in the file; default NULL: its first */
+  const mien_weights* weights;
+  const char* name; /**< of a network of the weights; default NULL: the first */
   /** Size of the input, for networks that accept several; default 0, 0: the declared size. */
   int32_t height, width;
   mien_allocator allocator; /**< default: both callbacks NULL, which selects the C library's */
   uint32_t reserved[8];
 } mien_network_config;
 
-/** Initializes a configuration with the defaults; the file is NULL.
+/** Initializes a configuration with the defaults; the weights are NULL.
  *  @param[out] config  NULL is ignored */
 MIEN_API void mien_network_config_default(mien_network_config* config);
 
-/** Creates a network with one allocation by config->allocator. Copies the configuration, but not
- *  the weights.
+/** Creates a network with one allocation by config->allocator. Copies the configuration, and refers
+ *  to the weights.
  *  @param[in]  config   configuration
  *  @param[out] network  owned by the caller, who ends it with mien_network_destroy; NULL on error,
  *                       when nothing stays allocated
+ *  @param[out] error    describes the error; may be NULL
  *  @return MIEN_OK; MIEN_ERROR_NULL_ARGUMENT; MIEN_ERROR_STRUCT_SIZE; MIEN_ERROR_OUT_OF_RANGE;
- *          MIEN_ERROR_ALIGNMENT; MIEN_ERROR_OUT_OF_MEMORY; a MIEN_ERROR_WEIGHTS_* status, of these
- *          MIEN_ERROR_WEIGHTS_INCOMPLETE for an unknown name and MIEN_ERROR_WEIGHTS_SHAPE for an
- *          unsupported size of the input; MIEN_ERROR_UNSUPPORTED_LAYER; MIEN_ERROR_INTERNAL */
+ *          MIEN_ERROR_OUT_OF_MEMORY; MIEN_ERROR_WEIGHTS_INCOMPLETE for an unknown name;
+ *          MIEN_ERROR_WEIGHTS_SHAPE for an unsupported size of the input; MIEN_ERROR_TOO_LARGE;
+ *          MIEN_ERROR_UNSUPPORTED_LAYER; MIEN_ERROR_UNSUPPORTED_LAYOUT; MIEN_ERROR_INTERNAL */
 MIEN_API MIEN_NODISCARD mien_status mien_network_create(const mien_network_config* config,
-                                                        mien_network** network);
+                                                        mien_network** network,
+                                                        mien_error_detail* error);
 
-/** Releases a network.
+/** Computes the size of the memory for mien_network_create_in.
+ *  @param[in]  config  configuration
+ *  @param[out] bytes   size in bytes; 0 on error
+ *  @param[out] error   describes the error; may be NULL
+ *  @return a status of mien_network_create other than MIEN_ERROR_OUT_OF_MEMORY */
+MIEN_API MIEN_NODISCARD mien_status mien_network_required_bytes(const mien_network_config* config,
+                                                                size_t* bytes,
+                                                                mien_error_detail* error);
+
+/** Creates a network in memory of the caller, without calling the allocator.
+ *  @param[in]  config        configuration
+ *  @param      memory        [memory_bytes], MIEN_ALIGNMENT-aligned; must outlive the network; its
+ *                            content is unspecified after an error
+ *  @param      memory_bytes  at least mien_network_required_bytes
+ *  @param[out] network       NULL on error
+ *  @param[out] error         describes the error; may be NULL
+ *  @return as mien_network_create; MIEN_ERROR_MEMORY_TOO_SMALL; MIEN_ERROR_ALIGNMENT */
+MIEN_API MIEN_NODISCARD mien_status mien_network_create_in(const mien_network_config* config,
+                                                           void* memory, size_t memory_bytes,
+                                                           mien_network** network,
+                                                           mien_error_detail* error);
+
+/** Releases a network; after mien_network_create_in the memory stays with the caller.
  *  @param network  NULL is ignored */
 MIEN_API void mien_network_destroy(mien_network* network);
 
 /** Buffer for the input, initially zeros.
  *  @param      network  network
  *  @param[out] shape    shape of the input; may be NULL
- *  @return memory of the network, in the layout that mien/engine.h documents; NULL for NULL */
+ *  @return memory of the network, in the layout of mien_network; NULL for NULL */
 MIEN_API float* mien_network_input(mien_network* network, mien_shape* shape);
 
 /** Runs a network once on the content of its input; for a temporal network that is one step.
@@ -937,6 +1073,127 @@ MIEN_API const float* mien_network_output(const mien_network* network, int32_t i
 /** Resets the state of temporal layers to the start of a stream.
  *  @param network  NULL is ignored */
 MIEN_API void mien_network_reset(mien_network* network);
+
+/** Number of steps of a run. A step computes one layer, or several fused layers.
+ *  @param[in] network  network
+ *  @return number; 0 for NULL */
+MIEN_API int32_t mien_network_step_count(const mien_network* network);
+
+/** Layers of a step.
+ *  @param[in]  network  network
+ *  @param      step     0..mien_network_step_count - 1
+ *  @param[out] first    index of the first layer, from 0; may be NULL
+ *  @return number of layers; 0 for NULL or a step outside the range */
+MIEN_API int32_t mien_network_step_layers(const mien_network* network, int32_t step,
+                                          int32_t* first);
+
+/** Runs one step, to measure it. Running all steps in order is mien_network_run.
+ *  @param network  network
+ *  @param step     0..mien_network_step_count - 1
+ *  @return MIEN_OK; MIEN_ERROR_NULL_ARGUMENT; MIEN_ERROR_OUT_OF_RANGE */
+MIEN_API MIEN_NODISCARD mien_status mien_network_run_step(mien_network* network, int32_t step);
+
+/* Content of weights --------------------------------------------------------------------------- */
+
+/* Networks, metadata and constants of all files, in the order of mien_weights_config.files. The
+ * caller sets struct_size of every info; strings stay valid as long as the weights. */
+
+/** A network. */
+typedef struct mien_network_info {
+  uint32_t struct_size;
+  int32_t file;                       /**< index in mien_weights_config.files */
+  char name[MIEN_MAX_NAME_BYTES + 1]; /**< terminated */
+  mien_shape input;
+  int32_t any_size; /**< not 0: also accepts larger inputs */
+  int32_t layers;
+  int32_t outputs;
+  uint64_t parameters;
+  uint64_t macs;          /**< multiply-accumulates per run on the declared input */
+  uint64_t weight_bytes;  /**< in the file */
+  uint64_t session_bytes; /**< input, outputs and state of a network with the default config */
+  uint64_t arena_bytes;   /**< its intermediate maps */
+  uint32_t reserved[8];
+} mien_network_info;
+
+/** A layer. */
+typedef struct mien_layer_info {
+  uint32_t struct_size;
+  int32_t input;        /**< 0: the network's input; k: the output of the k-th layer, from 1 */
+  int32_t second_input; /**< likewise; -1: none */
+  mien_shape output;
+  const char* op;         /**< static string: "conv2d", ... */
+  const char* activation; /**< static string: "none", "relu", ... */
+  int32_t kernel[2];      /**< rows, columns; 0 without a window */
+  int32_t stride[2];
+  int32_t padding[4];    /**< top, left, bottom, right; of a slice: what it removes */
+  int32_t first_channel; /**< slice only */
+  uint64_t parameters;
+  uint64_t macs; /**< multiply-accumulates per run on the declared input */
+  uint32_t reserved[8];
+} mien_layer_info;
+
+/** A key and its value from the metadata of a file. */
+typedef struct mien_metadata_info {
+  uint32_t struct_size;
+  int32_t file;                      /**< index in mien_weights_config.files */
+  char key[MIEN_MAX_NAME_BYTES + 1]; /**< terminated */
+  const char* value;                 /**< [value_bytes], UTF-8, not terminated */
+  size_t value_bytes;
+  uint32_t reserved[8];
+} mien_metadata_info;
+
+/** A named constant. */
+typedef struct mien_constant_info {
+  uint32_t struct_size;
+  int32_t file;                       /**< index in mien_weights_config.files */
+  char name[MIEN_MAX_NAME_BYTES + 1]; /**< terminated */
+  const char* type;                   /**< static string: "fp16" or "fp32" */
+  int32_t rank;                       /**< 1..4 */
+  uint32_t dims[4];                   /**< rank of them; the others are 0 */
+  uint32_t reserved[8];
+} mien_constant_info;
+
+/** Number of networks. @param[in] weights  weights @return number; 0 for NULL */
+MIEN_API int32_t mien_weights_network_count(const mien_weights* weights);
+
+/** Describes a network. Needs up to 96 KiB of stack.
+ *  @param[in]     weights  weights
+ *  @param         network  0..mien_weights_network_count - 1
+ *  @param[in,out] info     struct_size bytes are written
+ *  @return MIEN_OK; MIEN_ERROR_NULL_ARGUMENT; MIEN_ERROR_OUT_OF_RANGE; MIEN_ERROR_STRUCT_SIZE */
+MIEN_API MIEN_NODISCARD mien_status mien_weights_network(const mien_weights* weights,
+                                                         int32_t network, mien_network_info* info);
+
+/** Describes a layer of a network.
+ *  @param[in]     weights  weights
+ *  @param         network  0..mien_weights_network_count - 1
+ *  @param         layer    0..mien_network_info.layers - 1
+ *  @param[in,out] info     struct_size bytes are written
+ *  @return as mien_weights_network */
+MIEN_API MIEN_NODISCARD mien_status mien_weights_layer(const mien_weights* weights, int32_t network,
+                                                       int32_t layer, mien_layer_info* info);
+
+/** Number of metadata entries. @param[in] weights  weights @return number; 0 for NULL */
+MIEN_API int32_t mien_weights_metadata_count(const mien_weights* weights);
+
+/** Reads a metadata entry.
+ *  @param[in]     weights  weights
+ *  @param         index    0..mien_weights_metadata_count - 1
+ *  @param[in,out] info     struct_size bytes are written
+ *  @return as mien_weights_network */
+MIEN_API MIEN_NODISCARD mien_status mien_weights_metadata(const mien_weights* weights,
+                                                          int32_t index, mien_metadata_info* info);
+
+/** Number of named constants. @param[in] weights  weights @return number; 0 for NULL */
+MIEN_API int32_t mien_weights_constant_count(const mien_weights* weights);
+
+/** Describes a named constant.
+ *  @param[in]     weights  weights
+ *  @param         index    0..mien_weights_constant_count - 1
+ *  @param[in,out] info     struct_size bytes are written
+ *  @return as mien_weights_network */
+MIEN_API MIEN_NODISCARD mien_status mien_weights_constant(const mien_weights* weights,
+                                                          int32_t index, mien_constant_info* info);
 
 #ifdef __cplusplus
 }

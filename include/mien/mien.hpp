@@ -7,9 +7,15 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
+#include <system_error>
+#include <vector>
 
 namespace mien {
 
@@ -40,19 +46,107 @@ struct Audio : mien_audio {
   Audio() : mien_audio() { mien_audio_default(this); }
 };
 
+/// What a function found wrong.
+struct Error : mien_error_detail {
+  Error() : mien_error_detail() { mien_error_detail_default(this); }
+  /// See mien_error_message.
+  [[nodiscard]] std::string message() const {
+    std::string text(mien_error_message(this, nullptr, 0), '\0');
+    mien_error_message(this, text.data(), text.size() + 1);
+    return text;
+  }
+};
+
+/// A share of mien_weights. Empty until `create` succeeds. Copies, trackers and networks share the
+/// weights, which end with the last of them.
+class Weights {
+ public:
+  /// See mien_weights_create.
+  /// @param files  content of .mien files, packed ones or bundles; at most MIEN_MAX_WEIGHT_FILES
+  /// @param copy   whether to copy them; otherwise they must outlive the weights and all their
+  /// users
+  /// @param error  describes an error; may be nullptr. An error leaves *this unchanged.
+  [[nodiscard]] mien_status create(std::span<const std::span<const std::byte>> files,
+                                   bool copy = false, mien_error_detail* error = nullptr) {
+    mien_weights_config config;
+    mien_weights_config_default(&config);
+    config.copy = copy ? 1 : 0;
+    for (std::size_t i = 0; i < files.size() && i < MIEN_MAX_WEIGHT_FILES; ++i) {
+      config.files[i] = files[i].data();
+      config.file_bytes[i] = files[i].size();
+    }
+    return create(config, error);
+  }
+  [[nodiscard]] mien_status create(const mien_weights_config& config,
+                                   mien_error_detail* error = nullptr) {
+    mien_weights* created = nullptr;
+    const mien_status status = mien_weights_create(&config, &created, error);
+    if (status == MIEN_OK) {
+      weights_ = std::shared_ptr<mien_weights>(created, mien_weights_destroy);
+    }
+    return status;
+  }
+
+  explicit operator bool() const { return weights_ != nullptr; }
+  [[nodiscard]] const mien_weights* get() const { return weights_.get(); }
+
+ private:
+  std::shared_ptr<mien_weights> weights_;
+};
+
+/// Weights that load_weights loaded, or the reason why it could not.
+struct LoadedWeights {
+  Weights weights;      ///< empty on error
+  std::string message;  ///< one line with the path on error; otherwise empty
+  explicit operator bool() const { return static_cast<bool>(weights); }
+};
+
+/// Loads weights from files.
+/// @param path  a .mien file, a packed one, a bundle, or a folder, of which basenet.mien,
+///              proposal.mien, hifinet.mien and audionet.mien are loaded if they are there
+[[nodiscard]] inline LoadedWeights load_weights(const std::filesystem::path& path) {
+  std::vector<std::filesystem::path> paths = {path};
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) {
+    paths.clear();
+    for (const char* name : {"basenet.mien", "proposal.mien", "hifinet.mien", "audionet.mien"}) {
+      if (std::filesystem::exists(path / name, ignored)) {
+        paths.push_back(path / name);
+      }
+    }
+  }
+  LoadedWeights loaded;
+  if (paths.empty()) {
+    loaded.message = path.string() + ": no weight files in this folder";
+    return loaded;
+  }
+  std::vector<std::vector<char>> contents;
+  std::vector<std::span<const std::byte>> files;
+  for (const std::filesystem::path& one : paths) {
+    std::ifstream file(one, std::ios::binary);
+    contents.emplace_back(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+    if (!file || contents.back().empty()) {
+      loaded.message = one.string() + ": cannot be read, or is empty";
+      return loaded;
+    }
+  }
+  for (const std::vector<char>& content : contents) {
+    files.push_back(std::as_bytes(std::span(content)));
+  }
+  Error error;
+  if (loaded.weights.create(files, true, &error) != MIEN_OK) {
+    const auto index = static_cast<std::size_t>(error.file < 0 ? 0 : error.file);
+    loaded.message = paths[index].string() + ": " + error.message();
+  }
+  return loaded;
+}
+
 /// A configuration, initialized by mien_tracker_config_default.
 struct Config : mien_tracker_config {
-  /// Sets the required weights. They are not copied and must outlive every tracker created from
-  /// this configuration.
-  /// @param basenet_file   content of basenet.mien, MIEN_ALIGNMENT-aligned
-  /// @param proposal_file  content of proposal.mien, MIEN_ALIGNMENT-aligned
-  Config(std::span<const std::byte> basenet_file, std::span<const std::byte> proposal_file)
-      : mien_tracker_config() {
+  /// @param shared  must not be empty; need not outlive the trackers
+  explicit Config(const Weights& shared) : mien_tracker_config() {
     mien_tracker_config_default(this);
-    basenet = basenet_file.data();
-    basenet_bytes = basenet_file.size();
-    proposal = proposal_file.data();
-    proposal_bytes = proposal_file.size();
+    weights = shared.get();
   }
 };
 
@@ -82,9 +176,10 @@ struct Result : mien_result {
 class Tracker {
  public:
   /// See mien_tracker_create. An error leaves *this unchanged.
-  [[nodiscard]] mien_status create(const mien_tracker_config& config) {
+  [[nodiscard]] mien_status create(const mien_tracker_config& config,
+                                   mien_error_detail* error = nullptr) {
     mien_tracker* created = nullptr;
-    const mien_status status = mien_tracker_create(&config, &created);
+    const mien_status status = mien_tracker_create(&config, &created, error);
     return take_over(status, created);
   }
 
@@ -92,10 +187,11 @@ class Tracker {
   /// @param config  configuration
   /// @param memory  [required_bytes or more], MIEN_ALIGNMENT-aligned; must outlive the tracker
   [[nodiscard]] mien_status create_in(const mien_tracker_config& config,
-                                      std::span<std::byte> memory) {
+                                      std::span<std::byte> memory,
+                                      mien_error_detail* error = nullptr) {
     mien_tracker* created = nullptr;
     const mien_status status =
-        mien_tracker_create_in(&config, memory.data(), memory.size(), &created);
+        mien_tracker_create_in(&config, memory.data(), memory.size(), &created, error);
     return take_over(status, created);
   }
 
@@ -187,11 +283,13 @@ class Tracker {
 /// See mien_tracker_required_bytes.
 /// @param config  configuration
 /// @param status  receives MIEN_OK or the error
+/// @param error   describes an error; may be nullptr
 /// @return size in bytes of the memory for Tracker::create_in; 0 on error
 [[nodiscard]] inline std::size_t required_bytes(const mien_tracker_config& config,
-                                                mien_status& status) {
+                                                mien_status& status,
+                                                mien_error_detail* error = nullptr) {
   std::size_t bytes = 0;
-  status = mien_tracker_required_bytes(&config, &bytes);
+  status = mien_tracker_required_bytes(&config, &bytes, error);
   return bytes;
 }
 

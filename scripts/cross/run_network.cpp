@@ -7,8 +7,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
-#include <vector>
 
 namespace {
 
@@ -27,14 +25,10 @@ std::uint32_t mask_of(const char* tier) {
   fail("this CPU lacks the tier");
 }
 
-struct alignas(MIEN_ALIGNMENT) Line {
-  std::byte bytes[MIEN_ALIGNMENT];
-};
-
-void print_layers(const mien::WeightFile& file, const char* network) {
+void print_layers(const mien::WeightsContent& file, const char* network) {
   for (std::int32_t n = 0; n < file.network_count(); ++n) {
     const mien::NetworkInfo info = file.network(n);
-    for (std::int32_t i = 0; info.name == network && i < info.layers; ++i) {
+    for (std::int32_t i = 0; std::strcmp(info.name, network) == 0 && i < info.layers; ++i) {
       const mien::LayerInfo layer = file.layer(n, i);
       std::printf("%s %llu\n", layer.op, static_cast<unsigned long long>(layer.macs));
     }
@@ -47,20 +41,16 @@ int main(int argc, char** argv) {
   if (argc != 6) {
     fail("usage: run_network MODEL.mien NETWORK TIER RUNS fused|plain");
   }
-  std::ifstream stream(argv[1], std::ios::binary);
-  const std::vector<char> content(std::istreambuf_iterator<char>(stream), {});
-  std::vector<Line> lines(content.size() / sizeof(Line) + 1);
-  std::memcpy(lines.data(), content.data(), content.size());
-  mien::WeightFile file;
-  if (file.open({lines[0].bytes, content.size()}) != mien::EngineStatus::kOk) {
-    fail("not a weight file");
+  const mien::LoadedWeights loaded = mien::load_weights(argv[1]);
+  if (!loaded) {
+    fail(loaded.message.c_str());
   }
-  mien::NetworkRunner runner;
-  mien::NetworkRunner::Options options;
-  options.cpu_mask = mask_of(argv[3]) | (std::strcmp(argv[5], "fused") == 0 ? MIEN_CPU_FUSED : 0);
-  const mien::EngineStatus status = runner.create(file, argv[2], options);
-  if (status != mien::EngineStatus::kOk) {
-    fail(message(status));
+  mien::NetworkConfig config(loaded.weights, argv[2]);
+  config.cpu_mask = mask_of(argv[3]) | (std::strcmp(argv[5], "fused") == 0 ? MIEN_CPU_FUSED : 0);
+  mien::Network runner;
+  mien::Error error;
+  if (runner.create(config, &error) != MIEN_OK) {
+    fail(error.message().c_str());
   }
   for (std::size_t i = 0; i < runner.input().size(); ++i) {
     runner.input()[i] = static_cast<float>(i * 37 % 101) / 50.0f - 1.0f;
@@ -68,5 +58,5 @@ int main(int argc, char** argv) {
   for (int i = std::atoi(argv[4]); i > 0; --i) {
     runner.run();
   }
-  print_layers(file, argv[2]);
+  print_layers(mien::WeightsContent(loaded.weights), argv[2]);
 }

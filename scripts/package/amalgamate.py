@@ -13,7 +13,7 @@ from collections import Counter, defaultdict
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-FORMATS = ["mien_file", "mien_layers", "mien_open", "neutral_file", "packed_file", "text", "xxhash64", "animation/visemes"]  # the others: programs'
+FORMATS = ["bundle", "error_detail", "mien_file", "mien_layers", "mien_open", "mien_open_networks", "neutral_file", "packed_file", "text", "xxhash64", "vocabulary/visemes"]  # the others: programs'
 
 # Of what CMake asks the machine and the compiler (kernels/CMakeLists.txt), what a source can ask.
 TIERS_HERE = """\

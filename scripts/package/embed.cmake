@@ -1,8 +1,8 @@
 # mien_embed(TARGET [PACKED] WEIGHTS...): embeds weight files in the target, for machines without a file system or for distribution as
 # one file. WEIGHTS: basenet and proposal, which every tracker needs, hifinet, audionet. Sources of the target may then
 #   #include <mien_weights.h>
-#   mien_use_embedded_weights(&config);     // after mien_tracker_config_default
-# PACKED: 70 % of the size. The first use unpacks them to static memory. Python packs them when the target is built.
+#   mien_use_embedded_weights(&config);     // a mien_weights_config, before mien_weights_create
+# PACKED: 70 % of the size. mien_weights_create unpacks them. Python packs them when the target is built.
 set(MIEN_EMBED_SCRIPT ${CMAKE_CURRENT_LIST_DIR}/embed_weights.cmake CACHE INTERNAL "")
 set(MIEN_PACK_SCRIPT ${CMAKE_CURRENT_LIST_DIR}/pack_weights.py CACHE INTERNAL "")
 if(DEFINED mien_MODELS_DIR)  # installed

@@ -3,10 +3,9 @@
 #   PACKED: the files were written by pack_weights.py
 cmake_minimum_required(VERSION 3.22)
 
-set(how "Sets the weights in *config; they need not be released.")
+set(how "Sets the weight files in *config.")
 if(PACKED)
-  string(APPEND how " The first call unpacks them, and
- * has to be over before another thread calls. Damage is found by mien_tracker_create.")
+  string(APPEND how " mien_weights_create unpacks them.")
 endif()
 file(WRITE ${HEADER} "/* Made by mien_embed. */
 #ifndef MIEN_WEIGHTS_H_
@@ -19,7 +18,7 @@ extern \"C\" {
 #endif
 
 /* ${how} */
-void mien_use_embedded_weights(mien_tracker_config* config);
+void mien_use_embedded_weights(mien_weights_config* config);
 
 #ifdef __cplusplus
 }
@@ -28,19 +27,11 @@ void mien_use_embedded_weights(mien_tracker_config* config);
 #endif
 ")
 
-# Reads a little-endian number of eight bytes at the offset `at` of a file.
-function(read_number file at out)
-  file(READ ${file} hex OFFSET ${at} LIMIT 8 HEX)
-  string(REGEX REPLACE "(..)(..)(..)(..)(..)(..)(..)(..)" "0x\\8\\7\\6\\5\\4\\3\\2\\1" hex ${hex})
-  math(EXPR number ${hex})
-  set(${out} ${number} PARENT_SCOPE)
-endfunction()
-
 set(arrays "/* Made by mien_embed. Little-endian, as the files are and as all machines are that mien runs on. */
 #include \"mien_weights.h\"
 ")
-set(unpacking)
 set(settings "")
+set(index 0)
 foreach(file IN LISTS FILES)
   get_filename_component(name ${file} NAME_WE)
   file(SIZE ${file} bytes)
@@ -52,32 +43,15 @@ foreach(file IN LISTS FILES)
   math(EXPR missing "(8 - ${bytes} % 8) % 8")
   string(REPEAT "00" ${missing} padding)
   string(REGEX REPLACE "(..)(..)(..)(..)(..)(..)(..)(..)" "0x\\8\\7\\6\\5\\4\\3\\2\\1u," words "${hex}${padding}")
-  set(array ${name})
-  if(PACKED)
-    set(array ${name}_packed)
-    set(packed_bytes ${bytes})
-    read_number(${file} 24 bytes)  # docs/format.md
-    math(EXPR count "${bytes} / 8")
-    string(APPEND arrays "
-static uint64_t ${name}[${count}] __attribute__((aligned(MIEN_ALIGNMENT)));")
-    list(APPEND unpacking "mien_unpack(${array}, ${packed_bytes}, ${name}, ${bytes}) == MIEN_OK")
-  endif()
   string(APPEND arrays "
-static const uint64_t ${array}[] __attribute__((aligned(MIEN_ALIGNMENT))) = {${words}};
+static const uint64_t ${name}[] __attribute__((aligned(MIEN_ALIGNMENT))) = {${words}};
 ")
-  string(APPEND settings "  config->${name} = ${name};
-  config->${name}_bytes = ${bytes};
+  string(APPEND settings "  config->files[${index}] = ${name};
+  config->file_bytes[${index}] = ${bytes};
 ")
+  math(EXPR index "${index} + 1")
 endforeach()
-if(PACKED)
-  list(JOIN unpacking " &&\n               " unpacking)
-  set(settings "  static int unpacked = 0;
-  if (!unpacked) {
-    unpacked = ${unpacking};
-  }
-${settings}")
-endif()
 file(WRITE ${SOURCE} "${arrays}
-void mien_use_embedded_weights(mien_tracker_config* config) {
+void mien_use_embedded_weights(mien_weights_config* config) {
 ${settings}}
 ")

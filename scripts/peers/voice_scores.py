@@ -58,18 +58,13 @@ class Silero:
 
 class Mien:
     def __init__(self):
+        import mien
         from mien import _library
         self.library, self.function = _library, _library.function
-        files = {name: (ROOT / "models" / f"{name}.mien").read_bytes() for name in ("basenet", "proposal", "audionet")}
-        self.weights, self.config = {}, _library.TrackerConfig()
+        self.weights = mien.Weights(*(ROOT / "models" / f"{name}.mien" for name in ("basenet", "proposal", "audionet")))
+        self.config = _library.TrackerConfig()
         self.function("mien_tracker_config_default")(ctypes.byref(self.config))
-        for name, data in files.items():
-            room = np.empty(len(data) + _library.ALIGNMENT, np.uint8)
-            start = -room.ctypes.data % _library.ALIGNMENT
-            self.weights[name] = room[start:start + len(data)]
-            self.weights[name][:] = np.frombuffer(data, np.uint8)
-            setattr(self.config, name, self.weights[name].ctypes.data)
-            setattr(self.config, f"{name}_bytes", len(data))
+        self.config.weights = self.weights._handle
         self.config.voice_attack_ms = self.config.voice_release_ms = 0
 
     def call(self, name, *arguments):
@@ -79,7 +74,7 @@ class Mien:
 
     def scores(self, sound):
         tracker, said = ctypes.c_void_p(), []
-        self.call("tracker_create", ctypes.byref(self.config), ctypes.byref(tracker))
+        self.call("tracker_create", ctypes.byref(self.config), ctypes.byref(tracker), None)
         audio, result = self.library.Audio(), self.library.TrackerResult()
         self.function("mien_audio_default")(ctypes.byref(audio))
         self.function("mien_result_default")(ctypes.byref(result))
@@ -94,7 +89,7 @@ class Mien:
         return np.array(said)
 
     def report(self):
-        return {"bytes": self.weights["audionet"].size}
+        return {"bytes": (ROOT / "models/audionet.mien").stat().st_size}
 
 
 def best_shift(said, truth):

@@ -17,12 +17,12 @@ class ConfigLimits : public testing::Test {
  protected:
   template <typename Value>
   mien_status with(Value Config::*field, Value value) const {
-    Config config = blob_config(basenet_, proposal_);
+    BlobConfig config = blob_config(basenet_, proposal_);
     config.accept_probability = 1.0f;
     config.lose_probability = 0.0f;
     config.*field = value;
     std::size_t bytes = 0;
-    return mien_tracker_required_bytes(&config, &bytes);
+    return mien_tracker_required_bytes(&config, &bytes, nullptr);
   }
 
  private:

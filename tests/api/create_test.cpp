@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstring>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "tests/tracker/blob_tracker.h"
@@ -15,11 +16,11 @@ class Create : public testing::Test {
  protected:
   mien_status create() {
     Tracker tracker;
-    return tracker.create(config_);
+    return tracker.create(config_, &error_);
   }
   template <typename Change>
   mien_status create_with(Change change) {
-    const Config before = config_;
+    const BlobConfig before = config_;
     change(config_);
     const mien_status status = create();
     config_ = before;
@@ -28,7 +29,8 @@ class Create : public testing::Test {
 
   AlignedBytes basenet_ = blob_basenet();
   AlignedBytes proposal_ = blob_proposal();
-  Config config_ = blob_config(basenet_, proposal_);
+  BlobConfig config_ = blob_config(basenet_, proposal_);
+  Error error_;
 };
 
 TEST_F(Create, SucceedsWithDefaults) { EXPECT_EQ(create(), MIEN_OK); }
@@ -36,14 +38,17 @@ TEST_F(Create, SucceedsWithDefaults) { EXPECT_EQ(create(), MIEN_OK); }
 TEST_F(Create, RejectsNullArguments) {
   mien_tracker* tracker = nullptr;
   std::size_t bytes = 1;
-  EXPECT_EQ(mien_tracker_create(nullptr, &tracker), MIEN_ERROR_NULL_ARGUMENT);
-  EXPECT_EQ(mien_tracker_create(&config_, nullptr), MIEN_ERROR_NULL_ARGUMENT);
-  EXPECT_EQ(mien_tracker_create_in(nullptr, nullptr, 0, &tracker), MIEN_ERROR_NULL_ARGUMENT);
-  EXPECT_EQ(mien_tracker_create_in(&config_, nullptr, 0, &tracker), MIEN_ERROR_NULL_ARGUMENT);
-  EXPECT_EQ(mien_tracker_create_in(&config_, &bytes, 8, nullptr), MIEN_ERROR_NULL_ARGUMENT);
-  EXPECT_EQ(mien_tracker_required_bytes(nullptr, &bytes), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_tracker_create(nullptr, &tracker, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_tracker_create(&config_, nullptr, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_tracker_create_in(nullptr, nullptr, 0, &tracker, nullptr),
+            MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_tracker_create_in(&config_, nullptr, 0, &tracker, nullptr),
+            MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_tracker_create_in(&config_, &bytes, 8, nullptr, nullptr),
+            MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_tracker_required_bytes(nullptr, &bytes, nullptr), MIEN_ERROR_NULL_ARGUMENT);
   EXPECT_EQ(bytes, 0u);
-  EXPECT_EQ(mien_tracker_required_bytes(&config_, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_tracker_required_bytes(&config_, nullptr, nullptr), MIEN_ERROR_NULL_ARGUMENT);
   EXPECT_EQ(mien_tracker_reset(nullptr), MIEN_ERROR_NULL_ARGUMENT);
   EXPECT_EQ(mien_tracker_set_lod(nullptr, 1), MIEN_ERROR_NULL_ARGUMENT);
   mien_image image;
@@ -64,155 +69,171 @@ TEST_F(Create, RejectsNullArguments) {
   mien_tracker_config_default(nullptr);
   mien_image_default(nullptr);
   mien_result_default(nullptr);
-  EXPECT_EQ(create_with([](Config& c) { c.basenet = nullptr; }), MIEN_ERROR_NULL_ARGUMENT);
-  EXPECT_EQ(create_with([](Config& c) { c.proposal = nullptr; }), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(create_with([](BlobConfig& c) { c.weights = nullptr; }), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(error_.message(), "weights: a pointer argument is NULL");
 }
 
 TEST_F(Create, RejectsValuesOutOfRange) {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   const auto rejected = [&](auto change) { return create_with(change) == MIEN_ERROR_OUT_OF_RANGE; };
   for (float bad : {-0.1f, 1.1f, kNan}) {
-    EXPECT_TRUE(rejected([&](Config& c) { c.accept_probability = bad; })) << bad;
-    EXPECT_TRUE(rejected([&](Config& c) { c.lose_probability = bad; })) << bad;
-    EXPECT_TRUE(rejected([&](Config& c) { c.proposal_threshold = bad; })) << bad;
-    EXPECT_TRUE(rejected([&](Config& c) { c.refine_threshold = bad; })) << bad;
+    EXPECT_TRUE(rejected([&](BlobConfig& c) { c.accept_probability = bad; })) << bad;
+    EXPECT_TRUE(rejected([&](BlobConfig& c) { c.lose_probability = bad; })) << bad;
+    EXPECT_TRUE(rejected([&](BlobConfig& c) { c.proposal_threshold = bad; })) << bad;
+    EXPECT_TRUE(rejected([&](BlobConfig& c) { c.refine_threshold = bad; })) << bad;
   }
-  EXPECT_TRUE(rejected([](Config& c) {
+  EXPECT_TRUE(rejected([](BlobConfig& c) {
     c.accept_probability = 0.6f;
     c.lose_probability = 0.61f;
   }));
   for (float bad : {0.0f, 3.2f, kNan}) {
-    EXPECT_TRUE(rejected([&](Config& c) { c.horizontal_fov = bad; })) << bad;
+    EXPECT_TRUE(rejected([&](BlobConfig& c) { c.horizontal_fov = bad; })) << bad;
   }
   for (int bad : {0, -1, 100'000}) {
-    EXPECT_TRUE(rejected([&](Config& c) { c.lose_after_frames = bad; })) << bad;
-    EXPECT_TRUE(rejected([&](Config& c) { c.search_interval = bad; })) << bad;
-    EXPECT_TRUE(rejected([&](Config& c) { c.proposal_size = bad; })) << bad;
+    EXPECT_TRUE(rejected([&](BlobConfig& c) { c.lose_after_frames = bad; })) << bad;
+    EXPECT_TRUE(rejected([&](BlobConfig& c) { c.search_interval = bad; })) << bad;
+    EXPECT_TRUE(rejected([&](BlobConfig& c) { c.proposal_size = bad; })) << bad;
+  }
+  for (int bad : {0, 5}) {
+    EXPECT_TRUE(rejected([&](BlobConfig& c) { c.max_lod = bad; })) << bad;
   }
   for (int bad : {0, -1, MIEN_MAX_FACES + 1}) {
-    EXPECT_TRUE(rejected([&](Config& c) { c.max_faces = bad; })) << bad;
+    EXPECT_TRUE(rejected([&](BlobConfig& c) { c.max_faces = bad; })) << bad;
   }
-  EXPECT_TRUE(rejected([](Config& c) {
+  EXPECT_TRUE(rejected([](BlobConfig& c) {
     c.allocator.allocate = [](void*, std::size_t, std::size_t) -> void* { return nullptr; };
   })) << "half an allocator";
   for (int lod : {-1, 2, 4}) {
-    EXPECT_EQ(create_with([&](Config& c) { c.lod = lod; }), MIEN_ERROR_UNSUPPORTED_LOD);
+    EXPECT_EQ(create_with([&](BlobConfig& c) { c.lod = lod; }), MIEN_ERROR_UNSUPPORTED_LOD);
   }
-  EXPECT_EQ(create_with([](Config& c) { c.lod = 0; }), MIEN_OK);
+  EXPECT_EQ(create_with([](BlobConfig& c) { c.lod = 0; }), MIEN_OK);
   for (int size : {24, 640}) {
-    EXPECT_EQ(create_with([&](Config& c) { c.proposal_size = size; }), MIEN_OK) << size;
+    EXPECT_EQ(create_with([&](BlobConfig& c) { c.proposal_size = size; }), MIEN_OK) << size;
   }
 }
 
+TEST_F(Create, DescribesTheFieldThatIsOutOfRange) {
+  EXPECT_EQ(create(), MIEN_OK);
+  EXPECT_EQ(error_.status, MIEN_OK);
+  EXPECT_EQ(create_with([](BlobConfig& c) { c.lose_after_frames = 1001; }),
+            MIEN_ERROR_OUT_OF_RANGE);
+  EXPECT_EQ(error_.status, MIEN_ERROR_OUT_OF_RANGE);
+  EXPECT_STREQ(error_.field, "lose_after_frames");
+  EXPECT_EQ(error_.message(),
+            "lose_after_frames: a value is out of range (got 1001, expected 1..1000)");
+  (void)create_with([](BlobConfig& c) { c.horizontal_fov = -0.5f; });
+  EXPECT_EQ(error_.message(),
+            "horizontal_fov: a value is out of range (got -0.5, expected 0.01..3.1)");
+  (void)create_with([](BlobConfig& c) { c.budget_ms = std::numeric_limits<float>::quiet_NaN(); });
+  EXPECT_EQ(error_.message(),
+            "budget_ms: a value is out of range (got NaN, expected 0.01..1000000)");
+  (void)create_with([](BlobConfig& c) { c.lod = 4; });
+  EXPECT_EQ(error_.message(), "lod: this level of detail is not supported (got 4, expected 0..1)");
+  (void)create_with([](BlobConfig& c) { c.cpu_mask = 0; });
+  EXPECT_EQ(error_.status, MIEN_ERROR_UNSUPPORTED_CPU);
+}
+
 TEST_F(Create, LevelsOfDetailDependOnTheWeights) {
-  const AlignedBytes hifinet = blob_hifinet();
-  const auto with_hifinet = [&](Config& c) {
-    c.hifinet = hifinet.get().data();
-    c.hifinet_bytes = hifinet.get().size();
-  };
+  const Weights with_hifinet = weights_of({basenet_.get(), proposal_.get(), blob_hifinet().get()});
   for (int lod : {0, 1, 2, 3, 4}) {
-    EXPECT_EQ(create_with([&](Config& c) {
-                with_hifinet(c);
+    EXPECT_EQ(create_with([&](BlobConfig& c) {
+                c.use(with_hifinet);
                 c.lod = lod;
               }),
               MIEN_OK)
         << lod;
   }
   for (int lod : {-1, 5}) {
-    EXPECT_EQ(create_with([&](Config& c) {
-                with_hifinet(c);
+    EXPECT_EQ(create_with([&](BlobConfig& c) {
+                c.use(with_hifinet);
                 c.lod = lod;
               }),
               MIEN_ERROR_UNSUPPORTED_LOD);
   }
-  EXPECT_EQ(create_with([&](Config& c) {
-              with_hifinet(c);
-              c.hifinet_bytes -= 64;
-            }),
-            MIEN_ERROR_WEIGHTS_TRUNCATED);
-  EXPECT_EQ(create_with([&](Config& c) {
-              with_hifinet(c);
-              c.hifinet = static_cast<const char*>(c.hifinet) + 4;
-            }),
-            MIEN_ERROR_ALIGNMENT);
-  EXPECT_EQ(create_with([&](Config& c) {
-              c.hifinet = c.proposal;
-              c.hifinet_bytes = c.proposal_bytes;
-            }),
-            MIEN_ERROR_WEIGHTS_INCOMPLETE);
-  EXPECT_EQ(create_with([&](Config& c) {
-              c.hifinet = c.basenet;
-              c.hifinet_bytes = c.basenet_bytes;
-            }),
-            MIEN_ERROR_WEIGHTS_SHAPE);
   for (float bad : {0.0f, -1.0f, std::numeric_limits<float>::quiet_NaN()}) {
-    EXPECT_EQ(create_with([&](Config& c) { c.budget_ms = bad; }), MIEN_ERROR_OUT_OF_RANGE);
+    EXPECT_EQ(create_with([&](BlobConfig& c) { c.budget_ms = bad; }), MIEN_ERROR_OUT_OF_RANGE);
   }
 }
 
-TEST_F(Create, RejectsCpuMasksWithoutATier) {
-  EXPECT_EQ(create_with([](Config& c) { c.cpu_mask = 0; }), MIEN_ERROR_UNSUPPORTED_CPU);
-  EXPECT_EQ(create_with([](Config& c) { c.cpu_mask = ~mien_cpu_tiers(); }),
-            MIEN_ERROR_UNSUPPORTED_CPU);
-  EXPECT_EQ(create_with([](Config& c) { c.cpu_mask = MIEN_CPU_REF; }), MIEN_OK);
+TEST_F(Create, MaxLodLeavesHiFiNetOut) {
+  BlobConfig config(weights_of({basenet_.get(), proposal_.get(), blob_hifinet().get()}));
+  mien_status status = MIEN_ERROR_INTERNAL;
+  const std::size_t all = required_bytes(config, status);
+  config.max_lod = 1;
+  EXPECT_LT(required_bytes(config, status), all);
+  config.lod = 2;
+  EXPECT_EQ(required_bytes(config, status), 0u);
+  EXPECT_EQ(status, MIEN_ERROR_UNSUPPORTED_LOD);
+  config.max_lod = 3;
+  Tracker tracker;
+  ASSERT_EQ(tracker.create(config), MIEN_OK);
+  EXPECT_EQ(tracker.set_lod(3), MIEN_OK);
+  EXPECT_EQ(tracker.set_lod(4), MIEN_ERROR_UNSUPPORTED_LOD);
 }
 
-TEST_F(Create, RejectsInvalidWeights) {
-  std::vector<std::byte> bytes(basenet_.get().begin(), basenet_.get().end());
-  const auto status_of = [&](const std::vector<std::byte>& file) {
-    const AlignedBytes aligned(file);
-    return create_with([&](Config& c) {
-      c.basenet = aligned.get().data();
-      c.basenet_bytes = file.size();
-    });
+TEST_F(Create, RejectsCpuMasksWithoutATier) {
+  EXPECT_EQ(create_with([](BlobConfig& c) { c.cpu_mask = 0; }), MIEN_ERROR_UNSUPPORTED_CPU);
+  EXPECT_EQ(create_with([](BlobConfig& c) { c.cpu_mask = ~mien_cpu_tiers(); }),
+            MIEN_ERROR_UNSUPPORTED_CPU);
+  EXPECT_EQ(create_with([](BlobConfig& c) { c.cpu_mask = MIEN_CPU_REF; }), MIEN_OK);
+}
+
+TEST_F(Create, RejectsIncompleteWeights) {
+  const auto use = [&](std::span<const std::byte> file) {
+    return create_with([&](BlobConfig& c) { c.use(weights_of({file})); });
   };
-  EXPECT_EQ(status_of(bytes), MIEN_OK);
-  EXPECT_EQ(create_with([](Config& c) {
-              std::swap(c.basenet, c.proposal);
-              std::swap(c.basenet_bytes, c.proposal_bytes);
-            }),
-            MIEN_ERROR_WEIGHTS_INCOMPLETE);
-  std::vector<std::byte> truncated(bytes.begin(), bytes.end() - 64);
-  EXPECT_EQ(status_of(truncated), MIEN_ERROR_WEIGHTS_TRUNCATED);
-  EXPECT_EQ(status_of({}), MIEN_ERROR_WEIGHTS_TRUNCATED);
-  std::vector<std::byte> flipped = bytes;
-  flipped[flipped.size() / 2] ^= std::byte{1};
-  EXPECT_EQ(status_of(flipped), MIEN_ERROR_WEIGHTS_CHECKSUM);
-  std::vector<std::byte> other = bytes;
-  other[0] = std::byte{'R'};
-  EXPECT_EQ(status_of(other), MIEN_ERROR_WEIGHTS_NOT_MIEN);
-  EXPECT_EQ(create_with([](Config& c) { c.basenet = static_cast<const char*>(c.basenet) + 4; }),
-            MIEN_ERROR_ALIGNMENT);
+  EXPECT_EQ(use(basenet_.get()), MIEN_ERROR_WEIGHTS_INCOMPLETE);
+  EXPECT_EQ(error_.message(), "network pnet: the weight file lacks a required network or constant");
+  EXPECT_EQ(use(proposal_.get()), MIEN_ERROR_WEIGHTS_INCOMPLETE);
+  EXPECT_STREQ(error_.name, "face_probability");
 }
 
 TEST_F(Create, RejectsWeightsOfAnotherShape) {
   const auto status_of = [&](const BlobOptions& options) {
-    const AlignedBytes file = blob_basenet(options);
-    return create_with([&](Config& c) {
-      c.basenet = file.get().data();
-      c.basenet_bytes = file.get().size();
+    return create_with([&](BlobConfig& c) {
+      c.use(weights_of({proposal_.get(), blob_basenet(options).get()}));
     });
   };
   BlobOptions narrow;
   narrow.features = 128;
   EXPECT_EQ(status_of(narrow), MIEN_ERROR_WEIGHTS_SHAPE);
+  EXPECT_EQ(error_.message(),
+            "network encoder, output channels: a network or constant in the weight file has the "
+            "wrong shape (got 128, expected 256)");
+  EXPECT_EQ(error_.file, 1);
   BlobOptions partial;
   partial.with_pose_decoder = false;
   EXPECT_EQ(status_of(partial), MIEN_ERROR_WEIGHTS_INCOMPLETE);
+  EXPECT_EQ(error_.message(),
+            "network pose_decoder: the weight file lacks a required network or constant");
   BlobOptions head;
   head.head_points = MIEN_LANDMARK_COUNT;
   EXPECT_EQ(status_of(head), MIEN_OK);
   head.head_points = MIEN_LANDMARK_COUNT - 1;
-  EXPECT_EQ(status_of(head), MIEN_ERROR_WEIGHTS_INCOMPLETE);
+  EXPECT_EQ(status_of(head), MIEN_ERROR_WEIGHTS_SHAPE);
+  EXPECT_EQ(error_.message(),
+            "constant head_points: a network or constant in the weight file has the wrong shape "
+            "(got 522, expected 525)");
+}
+
+TEST_F(Create, KeepsItsWeights) {
+  Tracker tracker;
+  {
+    const BlobConfig config = blob_config(blob_basenet(), blob_proposal());
+    ASSERT_EQ(tracker.create(config), MIEN_OK);
+  }
+  const Buffer disc(disc_picture(160.0f, 120.0f, 70.0f), {});
+  EXPECT_EQ(tracker.push_video(disc.image(), 0), MIEN_OK);
 }
 
 TEST_F(Create, AcceptsConfigurationsOfOtherVersions) {
-  EXPECT_EQ(create_with([](Config& c) { c.struct_size = 0; }), MIEN_ERROR_STRUCT_SIZE);
-  EXPECT_EQ(
-      create_with([](Config& c) { c.struct_size = offsetof(mien_tracker_config, allocator) - 1; }),
-      MIEN_ERROR_STRUCT_SIZE);
+  EXPECT_EQ(create_with([](BlobConfig& c) { c.struct_size = 0; }), MIEN_ERROR_STRUCT_SIZE);
+  EXPECT_EQ(create_with([](BlobConfig& c) {
+              c.struct_size = offsetof(mien_tracker_config, allocator) - 1;
+            }),
+            MIEN_ERROR_STRUCT_SIZE);
   // Fields beyond the end of an older struct are ignored.
-  EXPECT_EQ(create_with([](Config& c) {
+  EXPECT_EQ(create_with([](BlobConfig& c) {
               c.struct_size = offsetof(mien_tracker_config, allocator);
               c.lod = 99;
             }),
@@ -223,7 +244,7 @@ TEST_F(Create, AcceptsConfigurationsOfOtherVersions) {
   } longer = {config_, {1, 2, 3}};
   longer.config.struct_size = sizeof longer;
   mien_tracker* tracker = nullptr;
-  ASSERT_EQ(mien_tracker_create(&longer.config, &tracker), MIEN_OK);
+  ASSERT_EQ(mien_tracker_create(&longer.config, &tracker, nullptr), MIEN_OK);
   mien_tracker_destroy(tracker);
 }
 
@@ -270,9 +291,10 @@ TEST_F(Create, WorksInTheCallersMemory) {
   const auto address = reinterpret_cast<std::uintptr_t>(storage.data());
   std::byte* memory = storage.data() + (64 - address % 64) % 64;
   mien_tracker* tracker = nullptr;
-  EXPECT_EQ(mien_tracker_create_in(&config_, memory, bytes - 1, &tracker),
+  EXPECT_EQ(mien_tracker_create_in(&config_, memory, bytes - 1, &tracker, nullptr),
             MIEN_ERROR_MEMORY_TOO_SMALL);
-  EXPECT_EQ(mien_tracker_create_in(&config_, memory + 8, bytes, &tracker), MIEN_ERROR_ALIGNMENT);
+  EXPECT_EQ(mien_tracker_create_in(&config_, memory + 8, bytes, &tracker, nullptr),
+            MIEN_ERROR_ALIGNMENT);
   EXPECT_EQ(tracker, nullptr);
 
   BlobTracker reference;

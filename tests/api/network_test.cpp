@@ -1,8 +1,10 @@
 // Tests of custom networks through the C API, with the networks of apps/conformance/golden.
 #include <gtest/gtest.h>
-#include <mien/mien.h>
+#include <mien/mien.hpp>
 
 #include <cstdlib>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "tests/engine/mini_model.h"
@@ -16,9 +18,10 @@ namespace {
 class CNetwork : public testing::Test {
  protected:
   CNetwork() {
+    const std::span<const std::byte> file = bytes.span();
+    EXPECT_EQ(weights.create({&file, 1}), MIEN_OK);
     mien_network_config_default(&config);
-    config.file = bytes.span().data();
-    config.file_bytes = bytes.span().size();
+    config.weights = weights.get();
   }
   ~CNetwork() override { mien_network_destroy(network); }
 
@@ -26,18 +29,20 @@ class CNetwork : public testing::Test {
     mien_network_destroy(network);
     config.name = name;
     network = reinterpret_cast<mien_network*>(&config);  // must be overwritten
-    return mien_network_create(&config, &network);
+    return mien_network_create(&config, &network, &error);
   }
 
   AlignedBuffer bytes = mini_file();
+  Weights weights;
   mien_network_config config;
+  Error error;
   mien_network* network = nullptr;
 };
 
 TEST_F(CNetwork, RunsFromC) {
   const std::vector<float> image = golden("encoder_input"), want = golden("encoder_output");
   std::vector<float> features(want.size());
-  ASSERT_EQ(mien_c_network(config.file, config.file_bytes, image.data(),
+  ASSERT_EQ(mien_c_network(bytes.span().data(), bytes.span().size(), image.data(),
                            image.size() * sizeof(float), features.data()),
             0);
   for (std::size_t i = 0; i < want.size(); ++i) {
@@ -90,27 +95,40 @@ TEST_F(CNetwork, ExcludesHalfPrecisionByDefault) {
 TEST_F(CNetwork, ReportsErrors) {
   EXPECT_EQ(create("nobody"), MIEN_ERROR_WEIGHTS_INCOMPLETE);
   EXPECT_EQ(network, nullptr);
+  EXPECT_STREQ(error.name, "nobody");
   config.height = 30;
   EXPECT_EQ(create("encoder"), MIEN_ERROR_OUT_OF_RANGE);
+  EXPECT_STREQ(error.field, "width");
   config.width = 30;
   EXPECT_EQ(create("encoder"), MIEN_ERROR_WEIGHTS_SHAPE);
+  EXPECT_EQ(error.message(),
+            "network encoder, input height: a network or constant in the weight file has the wrong "
+            "shape (got 27, expected 30)");
   config.height = config.width = 1 << 20;
-  EXPECT_EQ(create("pnet"), MIEN_ERROR_OUT_OF_MEMORY);
+  EXPECT_EQ(create("pnet"), MIEN_ERROR_TOO_LARGE);
+  EXPECT_STREQ(error.name, "pnet");
   config.height = config.width = 0;
   config.cpu_mask = 0;
   EXPECT_EQ(create("encoder"), MIEN_ERROR_UNSUPPORTED_LAYER);
+  EXPECT_EQ(error.message(), "network encoder, layer 1: no allowed tier has a kernel for a layer");
   config.cpu_mask = MIEN_CPU_ALL;
-  config.file_bytes -= 64;
-  EXPECT_EQ(create("encoder"), MIEN_ERROR_WEIGHTS_TRUNCATED);
-  config.file_bytes += 64;
-  config.file = bytes.span().data() + 8;
-  EXPECT_EQ(create("encoder"), MIEN_ERROR_ALIGNMENT);
-  config.file = nullptr;
+  config.weights = nullptr;
   EXPECT_EQ(create("encoder"), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_STREQ(error.field, "weights");
   config.struct_size = 8;
   EXPECT_EQ(create("encoder"), MIEN_ERROR_STRUCT_SIZE);
-  EXPECT_EQ(mien_network_create(nullptr, &network), MIEN_ERROR_NULL_ARGUMENT);
-  EXPECT_EQ(mien_network_create(&config, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_network_create(nullptr, &network, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_network_create(&config, nullptr, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  std::size_t needed = 1;
+  EXPECT_EQ(mien_network_required_bytes(nullptr, &needed, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(needed, 0u);
+  EXPECT_EQ(mien_network_required_bytes(&config, nullptr, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+}
+
+TEST_F(CNetwork, KeepsItsWeights) {
+  ASSERT_EQ(create("encoder"), MIEN_OK);
+  weights = Weights();
+  EXPECT_EQ(mien_network_run(network), MIEN_OK);
 }
 
 TEST_F(CNetwork, AcceptsNull) {

@@ -85,7 +85,7 @@ TEST(Allocation, IsNoticedByThisTest) {
 TEST(Allocation, NeverHappensInRunAndReset) {
   for (const char* network : {"encoder", "pnet", "temporal"}) {
     MiniSession mini(network);
-    ASSERT_EQ(mini.status, engine::Status::kOk);
+    ASSERT_EQ(mini.status, MIEN_OK);
     const long before = heap_calls;
     for (int i = 0; i < 10; ++i) {
       mini.session->run();
@@ -98,18 +98,18 @@ TEST(Allocation, NeverHappensInRunAndReset) {
 TEST(Allocation, NeverHappensWhenASessionIsMadeInTheCallersMemory) {
   AlignedBuffer file = mini_file();
   engine::Model model;
-  ASSERT_EQ(model.open(file.span()), engine::Status::kOk);
+  ASSERT_EQ(model.open(file.span()).status, MIEN_OK);
   const engine::SessionRequest request{&model, "encoder", {}};
   engine::SessionSize size;
-  ASSERT_EQ(engine::session_size(request, size), engine::Status::kOk);
+  ASSERT_EQ(engine::session_size(request, size), MIEN_OK);
   AlignedBuffer memory(size.session_bytes), arena(size.arena_bytes);
   engine::Session* session = nullptr;
   const long before = heap_calls;
-  const engine::Status opened = model.open(file.span());
-  const engine::Status made = engine::Session::init(request, memory.span(), arena.span(), session);
+  const std::int32_t opened = model.open(file.span()).status;
+  const mien_status made = engine::Session::init(request, memory.span(), arena.span(), session);
   EXPECT_EQ(heap_calls.load(), before);
-  EXPECT_EQ(opened, engine::Status::kOk);
-  EXPECT_EQ(made, engine::Status::kOk);
+  EXPECT_EQ(opened, MIEN_OK);
+  EXPECT_EQ(made, MIEN_OK);
 }
 
 }  // namespace

@@ -70,14 +70,14 @@ TEST(FusedBlocks, PublishedNetworksAnswerTheSame) {
     }
     AlignedBuffer bytes = file_bytes(entry.path());
     engine::Model model;
-    ASSERT_EQ(model.open(bytes.span()), engine::Status::kOk);
+    ASSERT_EQ(model.open(bytes.span()).status, MIEN_OK);
     for (const formats::NetworkRecord& network : model.file().networks()) {
       const std::string name(model.file().text(network.name));
       for (const std::uint32_t mask : fusing_tiers()) {
         OwnedSession plain(bytes, name, {}, mask);
         OwnedSession fused(bytes, name, {}, mask | kernels::kFusedBlocks);
-        ASSERT_EQ(plain.status, engine::Status::kOk);
-        ASSERT_EQ(fused.status, engine::Status::kOk);
+        ASSERT_EQ(plain.status, MIEN_OK);
+        ASSERT_EQ(fused.status, MIEN_OK);
         set_random(*plain.session, 1);
         set_random(*fused.session, 1);
         fused.spoil_arena();
@@ -160,7 +160,7 @@ TEST(FusedBlocks, LongSumsAreNotRoundedAway) {
     AlignedBuffer bytes = finished(writer);
     for (const std::uint32_t mask : fusing_tiers()) {
       OwnedSession fused(bytes, "net", {}, mask | kernels::kFusedBlocks);
-      ASSERT_EQ(fused.status, engine::Status::kOk);
+      ASSERT_EQ(fused.status, MIEN_OK);
       EXPECT_EQ(fused.session->step_count(), 1u);
       std::fill(fused.session->input().begin(), fused.session->input().end(), 1.0f);
       fused.spoil_arena();

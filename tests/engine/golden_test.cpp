@@ -32,7 +32,7 @@ void expect_close(const std::vector<float>& got, std::span<const float> want,
 
 TEST_P(Golden, Encoder) {
   MiniSession mini("encoder", {}, GetParam());
-  ASSERT_EQ(mini.status, engine::Status::kOk);
+  ASSERT_EQ(mini.status, MIEN_OK);
   const std::vector<float> input = golden("encoder_input");
   std::copy(input.begin(), input.end(), mini.session->input().begin());
   mini.session->run();
@@ -42,7 +42,7 @@ TEST_P(Golden, Encoder) {
 
 TEST_P(Golden, FullyConvolutionalOnALargerImage) {
   MiniSession mini("pnet", {31, 31, 3}, GetParam());
-  ASSERT_EQ(mini.status, engine::Status::kOk);
+  ASSERT_EQ(mini.status, MIEN_OK);
   const std::vector<float> input = golden("pnet_input");
   ASSERT_EQ(input.size(), mini.session->input().size());
   std::copy(input.begin(), input.end(), mini.session->input().begin());
@@ -56,7 +56,7 @@ TEST_P(Golden, FullyConvolutionalOnALargerImage) {
 
 TEST_P(Golden, TemporalNetworkStepByStepAndAgainAfterReset) {
   MiniSession mini("temporal", {}, GetParam());
-  ASSERT_EQ(mini.status, engine::Status::kOk);
+  ASSERT_EQ(mini.status, MIEN_OK);
   const std::vector<float> inputs = golden("temporal_input"), wanted = golden("temporal_output");
   std::vector<float> first_round;
   for (int round = 0; round < 2; ++round) {

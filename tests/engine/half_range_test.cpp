@@ -138,7 +138,7 @@ TEST(HalfRange, PublishedEncodersStayWithinIt) {
     const std::vector<char> content((std::istreambuf_iterator<char>(stream)), {});
     AlignedBuffer bytes(std::as_bytes(std::span(content)));
     formats::FileView file;
-    ASSERT_EQ(formats::open(bytes.span(), file).status, formats::FileStatus::kOk);
+    ASSERT_EQ(formats::open(bytes.span(), file).status, MIEN_OK);
     for (const formats::NetworkRecord& network : file.networks()) {
       if (!has_blocks(file.layers(network))) {
         continue;

@@ -40,12 +40,12 @@ class OwnedSession {
   OwnedSession(AlignedBuffer file, const std::string& network, engine::Shape input = {},
                std::uint32_t cpu_mask = 0xFFFFFFFF)
       : file_(std::move(file)), memory_(0), arena_(0) {
-    status = model_.open(file_.span());
+    status = static_cast<mien_status>(model_.open(file_.span()).status);
     const engine::SessionRequest request{&model_, network, input, cpu_mask};
-    if (status == engine::Status::kOk) {
+    if (status == MIEN_OK) {
       status = engine::session_size(request, size);
     }
-    if (status == engine::Status::kOk) {
+    if (status == MIEN_OK) {
       memory_ = AlignedBuffer(size.session_bytes);
       arena_ = AlignedBuffer(size.arena_bytes);
       status = engine::Session::init(request, memory_.span(), arena_.span(), session);
@@ -60,7 +60,7 @@ class OwnedSession {
     count_as_unwritten(arena_.span());
   }
 
-  engine::Status status = engine::Status::kOk;
+  mien_status status = MIEN_OK;
   engine::SessionSize size;
   engine::Session* session = nullptr;
 

@@ -18,23 +18,32 @@
 namespace mien::tests {
 namespace {
 
+Weights weights_of(std::span<const std::byte> file) {
+  Weights weights;
+  EXPECT_EQ(weights.create({&file, 1}, true), MIEN_OK);
+  return weights;
+}
+
 class Engine : public testing::Test {
  protected:
-  void SetUp() override { ASSERT_EQ(file.open(bytes.span()), EngineStatus::kOk); }
+  mien_status create(Network& network, const char* name) {
+    return network.create(NetworkConfig(weights, name));
+  }
 
   AlignedBuffer bytes = mini_file();
-  WeightFile file;
+  Weights weights = weights_of(bytes.span());
+  WeightsContent file{weights};
 };
 
-std::vector<float> run(NetworkRunner& runner, const std::vector<float>& input) {
+std::vector<float> run(Network& runner, const std::vector<float>& input) {
   std::copy(input.begin(), input.end(), runner.input().begin());
   runner.run();
   return {runner.output(0).begin(), runner.output(0).end()};
 }
 
 TEST_F(Engine, RunsANetworkInAFewLines) {
-  NetworkRunner runner;
-  ASSERT_EQ(runner.create(file, "encoder"), EngineStatus::kOk);
+  Network runner;
+  ASSERT_EQ(create(runner, "encoder"), MIEN_OK);
   EXPECT_EQ(runner.input_shape(), (TensorShape{27, 27, 3}));
   const std::vector<float> want = golden("encoder_output");
   const std::vector<float> got = run(runner, golden("encoder_input"));
@@ -48,9 +57,9 @@ TEST_F(Engine, RunsANetworkInAFewLines) {
 
 TEST_F(Engine, RunsStepByStepAsAtOnce) {
   for (const char* name : {"encoder", "temporal"}) {
-    NetworkRunner whole, steps;
-    ASSERT_EQ(whole.create(file, name), EngineStatus::kOk);
-    ASSERT_EQ(steps.create(file, name), EngineStatus::kOk);
+    Network whole, steps;
+    ASSERT_EQ(create(whole, name), MIEN_OK);
+    ASSERT_EQ(create(steps, name), MIEN_OK);
     std::vector<float> input(whole.input().size());
     for (std::size_t i = 0; i < input.size(); ++i) {
       input[i] = static_cast<float>(i % 13) / 13.0f;
@@ -58,7 +67,7 @@ TEST_F(Engine, RunsStepByStepAsAtOnce) {
     std::copy(input.begin(), input.end(), steps.input().begin());
     std::int32_t layers = 0;
     for (std::int32_t step = 0; step < steps.step_count(); ++step) {
-      const NetworkRunner::StepLayers run = steps.step_layers(step);
+      const Network::StepLayers run = steps.step_layers(step);
       EXPECT_EQ(run.first, layers);
       layers += run.count;
       steps.run_step(step);
@@ -66,13 +75,19 @@ TEST_F(Engine, RunsStepByStepAsAtOnce) {
     const std::span<const float> output = steps.output(0);
     EXPECT_EQ(run(whole, input), std::vector<float>(output.begin(), output.end()));
   }
-  EXPECT_GT(run_fma_loop(~0u, 10), 0);
-  EXPECT_EQ(run_fma_loop(0, 10), 0) << "no tier, no loop";
+  Network network;
+  ASSERT_EQ(create(network, "encoder"), MIEN_OK);
+  for (const std::int32_t outside : {-1, network.step_count()}) {
+    EXPECT_EQ(network.step_layers(outside).count, 0);
+    EXPECT_EQ(mien_network_run_step(network.get(), outside), MIEN_ERROR_OUT_OF_RANGE);
+  }
+  EXPECT_EQ(mien_network_run_step(nullptr, 0), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_network_step_count(nullptr), 0);
 }
 
 #if defined(FE_UPWARD) && !defined(__EMSCRIPTEN__)
-// A runner quantizes weights when it is created.
-TEST(EngineFloatMode, IsSetWhenARunnerIsCreated) {
+// A network quantizes weights when it is created.
+TEST(EngineFloatMode, IsSetWhenANetworkIsCreated) {
   constexpr std::uint32_t kChannels = 64;
   constexpr std::size_t kWeights = std::size_t{kChannels} * kChannels;
   std::mt19937 random(2);
@@ -87,64 +102,60 @@ TEST(EngineFloatMode, IsSetWhenARunnerIsCreated) {
   relu6.activation = formats::LayerActivation::kRelu6;
   net.output(net.pointwise(
       net.depthwise(net.pointwise(0, mixing, {}, relu6), window_options, {}, relu6), mixing, {}));
-  AlignedBuffer bytes = finished(writer);
-  WeightFile file;
-  ASSERT_EQ(file.open(bytes.span()), EngineStatus::kOk);
-  NetworkRunner::Options options;
-  options.cpu_mask = MIEN_CPU_ALL;
-  RunnerMemory needed;
-  ASSERT_EQ(NetworkRunner::required_memory(file, "net", options, needed), EngineStatus::kOk);
-  AlignedBuffer session(needed.session), arena(needed.arena);
+  const Weights weights = weights_of(finished(writer).span());
+  NetworkConfig config(weights, "net");
+  config.cpu_mask = MIEN_CPU_ALL;
+  mien_status status = MIEN_ERROR_INTERNAL;
+  AlignedBuffer memory(required_bytes(config, status));
+  ASSERT_EQ(status, MIEN_OK);
   std::vector<float> input(std::size_t{4} * 4 * kChannels);
   std::generate(input.begin(), input.end(), [&] { return values(random); });
-  NetworkRunner usual;
-  ASSERT_EQ(usual.create(file, "net", options), EngineStatus::kOk);
+  Network usual;
+  ASSERT_EQ(usual.create(config), MIEN_OK);
   const std::vector<float> want = run(usual, input);
   for (const int rounding : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
-    NetworkRunner own, lent;
+    Network own, lent;
     std::fesetround(rounding);
-    const EngineStatus own_status = own.create(file, "net", options);
-    const EngineStatus lent_status =
-        lent.create_in(file, "net", options, session.span(), arena.span());
+    const mien_status own_status = own.create(config);
+    const mien_status lent_status = lent.create_in(config, memory.span());
     EXPECT_EQ(std::fegetround(), rounding);
     std::fesetround(FE_TONEAREST);
-    ASSERT_EQ(own_status, EngineStatus::kOk);
-    ASSERT_EQ(lent_status, EngineStatus::kOk);
+    ASSERT_EQ(own_status, MIEN_OK);
+    ASSERT_EQ(lent_status, MIEN_OK);
     EXPECT_EQ(run(own, input), want);
     EXPECT_EQ(run(lent, input), want);
   }
 #ifdef __GLIBC__
-  NetworkRunner runner;
+  Network runner;
   std::feclearexcept(FE_ALL_EXCEPT);
   feenableexcept(FE_INEXACT | FE_UNDERFLOW);  // not all machines support traps
-  const EngineStatus status = runner.create(file, "net", options);
-  const std::int64_t macs = run_fma_loop(~0u, 10);
+  status = runner.create(config);
   fedisableexcept(FE_ALL_EXCEPT);
-  ASSERT_EQ(status, EngineStatus::kOk);
-  EXPECT_GT(macs, 0);
+  ASSERT_EQ(status, MIEN_OK);
   EXPECT_EQ(run(runner, input), want);
 #endif
 }
 #endif
 
 TEST_F(Engine, RunsInTheCallersMemory) {
-  RunnerMemory needed;
-  const NetworkRunner::Options options;
-  ASSERT_EQ(NetworkRunner::required_memory(file, "encoder", options, needed), EngineStatus::kOk);
-  EXPECT_EQ(needed.session, file.network(0).session_bytes);
-  EXPECT_EQ(needed.arena, file.network(0).arena_bytes);
-  AlignedBuffer session(needed.session), arena(needed.arena);
-  NetworkRunner own, lent;
-  ASSERT_EQ(own.create(file, "encoder"), EngineStatus::kOk);
-  EXPECT_EQ(lent.create_in(file, "encoder", options, session.span().first(needed.session - 1),
-                           arena.span()),
-            EngineStatus::kMemoryTooSmall);
-  EXPECT_EQ(lent.create_in(file, "encoder", options, session.span(),
-                           arena.span().first(needed.arena - 1)),
-            EngineStatus::kMemoryTooSmall);
-  ASSERT_EQ(lent.create_in(file, "encoder", options, session.span(), arena.span()),
-            EngineStatus::kOk);
+  const NetworkConfig config(weights, "encoder");
+  mien_status status = MIEN_ERROR_INTERNAL;
+  const std::size_t needed = required_bytes(config, status);
+  ASSERT_EQ(status, MIEN_OK);
+  EXPECT_GT(needed, file.network(0).session_bytes + file.network(0).arena_bytes);
+  AlignedBuffer memory(needed + 64);
   const std::vector<float> input = golden("encoder_input");
+  Network own, lent;
+  ASSERT_EQ(create(own, "encoder"), MIEN_OK);
+  Error error;
+  EXPECT_EQ(lent.create_in(config, memory.span().first(needed - 1), &error),
+            MIEN_ERROR_MEMORY_TOO_SMALL);
+  EXPECT_EQ(error.got, static_cast<double>(needed - 1));
+  EXPECT_EQ(error.expected_min, static_cast<double>(needed));
+  EXPECT_EQ(lent.create_in(config, memory.span().subspan(8)), MIEN_ERROR_ALIGNMENT);
+  EXPECT_EQ(lent.create_in(config, {}), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_FALSE(lent);
+  ASSERT_EQ(lent.create_in(config, memory.span().first(needed)), MIEN_OK);
   EXPECT_EQ(run(own, input), run(lent, input));
 }
 
@@ -177,13 +188,14 @@ struct CountingAllocator {
 
 TEST_F(Engine, AsksTheAllocatorOnceAndGivesEverythingBack) {
   CountingAllocator memory;
-  NetworkRunner::Options options;
-  options.allocator = memory.callbacks();
+  NetworkConfig config(weights, "encoder");
+  config.allocator = memory.callbacks();
   {
-    NetworkRunner runner;
-    ASSERT_EQ(runner.create(file, "encoder", options), EngineStatus::kOk);
+    Network runner;
+    ASSERT_EQ(runner.create(config), MIEN_OK);
     EXPECT_EQ(memory.allocations, 1);
-    ASSERT_EQ(runner.create(file, "temporal", options), EngineStatus::kOk);  // replaces the first
+    config.name = "temporal";
+    ASSERT_EQ(runner.create(config), MIEN_OK);  // replaces the first
     EXPECT_EQ(memory.releases, 1);
     runner.run();
     runner.reset();
@@ -195,27 +207,29 @@ TEST_F(Engine, AsksTheAllocatorOnceAndGivesEverythingBack) {
 
 TEST_F(Engine, LeavesNothingAllocatedOnError) {
   CountingAllocator memory;
-  NetworkRunner::Options options;
-  options.allocator = memory.callbacks();
-  NetworkRunner runner;
-  EXPECT_EQ(runner.create(file, "nobody", options), EngineStatus::kNoSuchNetwork);
-  options.cpu_mask = 0;
-  EXPECT_EQ(runner.create(file, "encoder", options), EngineStatus::kNoKernel);
-  options.cpu_mask = MIEN_CPU_ALL;
-  options.input = {26, 27, 3};
-  EXPECT_EQ(runner.create(file, "encoder", options), EngineStatus::kWrongInput);
-  options.input = {1 << 20, 1 << 20, 3};
-  EXPECT_EQ(runner.create(file, "pnet", options), EngineStatus::kTooLarge);
-  options.input = {};
+  NetworkConfig config(weights, "nobody");
+  config.allocator = memory.callbacks();
+  Network runner;
+  EXPECT_EQ(runner.create(config), MIEN_ERROR_WEIGHTS_INCOMPLETE);
+  config.name = "encoder";
+  config.cpu_mask = 0;
+  EXPECT_EQ(runner.create(config), MIEN_ERROR_UNSUPPORTED_LAYER);
+  config.cpu_mask = MIEN_CPU_ALL;
+  config.height = 26;
+  config.width = 27;
+  EXPECT_EQ(runner.create(config), MIEN_ERROR_WEIGHTS_SHAPE);
+  config.name = "pnet";
+  config.height = config.width = 1 << 20;
+  EXPECT_EQ(runner.create(config), MIEN_ERROR_TOO_LARGE);
+  config.height = config.width = 0;
   memory.empty = true;
-  EXPECT_EQ(runner.create(file, "encoder", options), EngineStatus::kOutOfMemory);
+  EXPECT_EQ(runner.create(config), MIEN_ERROR_OUT_OF_MEMORY);
   EXPECT_EQ(memory.allocations, memory.releases);
   EXPECT_TRUE(memory.live.empty());
 }
 
 TEST_F(Engine, DescribesTheFile) {
   ASSERT_EQ(file.network_count(), 3);
-  EXPECT_EQ(file.file_bytes(), bytes.span().size());
   std::uint64_t stored = 0;
   for (std::int32_t n = 0; n < file.network_count(); ++n) {
     const NetworkInfo network = file.network(n);
@@ -232,37 +246,33 @@ TEST_F(Engine, DescribesTheFile) {
     EXPECT_EQ(macs, network.macs);
     stored += network.weight_bytes;
   }
-  EXPECT_LT(stored, file.file_bytes());
+  EXPECT_LT(stored, bytes.span().size());
   const LayerInfo stem = file.layer(0, 0);
   EXPECT_STREQ(stem.op, "conv2d");
   EXPECT_STREQ(stem.activation, "relu6");
-  EXPECT_EQ(stem.output, (TensorShape{13, 13, 16}));
+  EXPECT_EQ(TensorShape(stem.output), (TensorShape{13, 13, 16}));
   EXPECT_EQ(stem.parameters, 3u * 3 * 3 * 16 + 16);
   EXPECT_EQ(stem.macs, 3u * 3 * 3 * 16 * 13 * 13);
   ASSERT_EQ(file.metadata_count(), 1);
-  EXPECT_EQ(file.metadata(0).key, "name");
-  EXPECT_EQ(file.metadata(0).value, "mini");
+  EXPECT_STREQ(file.metadata(0).key, "name");
+  EXPECT_EQ(file.metadata(0).text(), "mini");
   EXPECT_EQ(file.constant_count(), 0);
-  EXPECT_EQ(file.constant(0).name, "");
-}
-
-TEST_F(Engine, TellsWhereAFileIsBroken) {
-  bytes.span()[8] = std::byte{9};  // the major version
-  EXPECT_EQ(file.open(bytes.span()), EngineStatus::kBadFile);
-  EXPECT_STREQ(file.fault(), "unsupported version of the format");
-  EXPECT_EQ(file.fault_offset(), 8u);
-  EXPECT_EQ(file.network_count(), 0);
-  EXPECT_EQ(file.open(bytes.span().subspan(8)), EngineStatus::kBadFile);
-}
-
-TEST(EngineStatus, HasAMessageEach) {
-  std::set<std::string> messages;
-  for (std::int32_t i = 0; i <= static_cast<std::int32_t>(EngineStatus::kOutOfMemory); ++i) {
-    messages.insert(message(static_cast<EngineStatus>(i)));
-  }
-  EXPECT_EQ(messages.size(), 11u);
-  EXPECT_EQ(messages.count(""), 0u);
-  EXPECT_EQ(messages.count(message(static_cast<EngineStatus>(99))), 0u);
+  EXPECT_STREQ(file.constant(0).name, "");
+  NetworkInfo network;
+  EXPECT_EQ(mien_weights_network(weights.get(), 3, &network), MIEN_ERROR_OUT_OF_RANGE);
+  EXPECT_EQ(mien_weights_network(weights.get(), -1, &network), MIEN_ERROR_OUT_OF_RANGE);
+  EXPECT_EQ(mien_weights_network(nullptr, 0, &network), MIEN_ERROR_NULL_ARGUMENT);
+  EXPECT_EQ(mien_weights_network(weights.get(), 0, nullptr), MIEN_ERROR_NULL_ARGUMENT);
+  network.struct_size = 0;
+  EXPECT_EQ(mien_weights_network(weights.get(), 0, &network), MIEN_ERROR_STRUCT_SIZE);
+  LayerInfo layer;
+  EXPECT_EQ(mien_weights_layer(weights.get(), 0, file.network(0).layers, &layer),
+            MIEN_ERROR_OUT_OF_RANGE);
+  EXPECT_EQ(mien_weights_layer(weights.get(), 0, -1, &layer), MIEN_ERROR_OUT_OF_RANGE);
+  MetadataInfo metadata;
+  EXPECT_EQ(mien_weights_metadata(weights.get(), 1, &metadata), MIEN_ERROR_OUT_OF_RANGE);
+  ConstantInfo constant;
+  EXPECT_EQ(mien_weights_constant(weights.get(), 0, &constant), MIEN_ERROR_OUT_OF_RANGE);
 }
 
 }  // namespace

@@ -85,13 +85,11 @@ NetworkInfo info_of(const Encoder& encoder) {
   x = net.depthwise(x, encoder.tail_kernel_h, encoder.tail_kernel_w, relu6());
   net.output(net.pointwise(x, 256));
   std::vector<std::byte> bytes;
-  EXPECT_EQ(writer.finish(&bytes).status, formats::FileStatus::kOk);
-  AlignedBuffer aligned{std::span<const std::byte>(bytes)};
-  WeightFile file;
-  EXPECT_EQ(file.open(aligned.span()), EngineStatus::kOk);
-  NetworkInfo info = file.network(0);
-  info.name = {};  // inside the file
-  return info;
+  EXPECT_EQ(writer.finish(&bytes).status, MIEN_OK);
+  const std::span<const std::byte> file = bytes;
+  Weights weights;
+  EXPECT_EQ(weights.create({&file, 1}, true), MIEN_OK);
+  return WeightsContent(weights).network(0);
 }
 
 TEST(PublishedNetworks, BaseNetEncoder) {

@@ -14,15 +14,14 @@ namespace {
 using engine::Session;
 using engine::SessionRequest;
 using engine::SessionSize;
-using engine::Status;
 
 TEST(Session, TellsWhatIsWrong) {
-  EXPECT_EQ(MiniSession("nobody").status, Status::kNoSuchNetwork);
-  EXPECT_EQ(MiniSession("encoder", {26, 27, 3}).status, Status::kWrongInput);
-  EXPECT_EQ(MiniSession("pnet", {11, 31, 3}).status, Status::kWrongInput);
-  EXPECT_EQ(MiniSession("pnet", {31, 31, 4}).status, Status::kWrongInput);
-  EXPECT_EQ(MiniSession("encoder", {}, 0).status, Status::kNoKernel);
-  EXPECT_EQ(MiniSession("encoder").status, Status::kOk);
+  EXPECT_EQ(MiniSession("nobody").status, MIEN_ERROR_WEIGHTS_INCOMPLETE);
+  EXPECT_EQ(MiniSession("encoder", {26, 27, 3}).status, MIEN_ERROR_WEIGHTS_SHAPE);
+  EXPECT_EQ(MiniSession("pnet", {11, 31, 3}).status, MIEN_ERROR_WEIGHTS_SHAPE);
+  EXPECT_EQ(MiniSession("pnet", {31, 31, 4}).status, MIEN_ERROR_WEIGHTS_SHAPE);
+  EXPECT_EQ(MiniSession("encoder", {}, 0).status, MIEN_ERROR_UNSUPPORTED_LAYER);
+  EXPECT_EQ(MiniSession("encoder").status, MIEN_OK);
 }
 
 // At 5 x 5 the second window begins at 4. At 8 x 8 a third one would begin beyond the map.
@@ -34,20 +33,20 @@ TEST(Session, RejectsSizesAtWhichAPoolingWindowIsEmpty) {
   options.ceil_mode = true;
   network.output(network.max_pool(0, 2, 2, options));
   std::vector<std::byte> file;
-  ASSERT_EQ(writer.finish(&file).status, formats::FileStatus::kOk);
-  EXPECT_EQ(OwnedSession(AlignedBuffer(file), "net", {5, 5, 8}).status, Status::kOk);
-  EXPECT_EQ(OwnedSession(AlignedBuffer(file), "net", {9, 9, 8}).status, Status::kOk);
-  EXPECT_EQ(OwnedSession(AlignedBuffer(file), "net", {8, 5, 8}).status, Status::kWrongInput);
-  EXPECT_EQ(OwnedSession(AlignedBuffer(file), "net", {5, 8, 8}).status, Status::kWrongInput);
+  ASSERT_EQ(writer.finish(&file).status, MIEN_OK);
+  EXPECT_EQ(OwnedSession(AlignedBuffer(file), "net", {5, 5, 8}).status, MIEN_OK);
+  EXPECT_EQ(OwnedSession(AlignedBuffer(file), "net", {9, 9, 8}).status, MIEN_OK);
+  EXPECT_EQ(OwnedSession(AlignedBuffer(file), "net", {8, 5, 8}).status, MIEN_ERROR_WEIGHTS_SHAPE);
+  EXPECT_EQ(OwnedSession(AlignedBuffer(file), "net", {5, 8, 8}).status, MIEN_ERROR_WEIGHTS_SHAPE);
 }
 
 TEST(Session, AsksForItsMemory) {
   AlignedBuffer file = mini_file();
   engine::Model model;
-  ASSERT_EQ(model.open(file.span()), Status::kOk);
+  ASSERT_EQ(model.open(file.span()).status, MIEN_OK);
   const SessionRequest request{&model, "encoder", {}};
   SessionSize size;
-  ASSERT_EQ(engine::session_size(request, size), Status::kOk);
+  ASSERT_EQ(engine::session_size(request, size), MIEN_OK);
   AlignedBuffer memory(size.session_bytes + 64), arena(size.arena_bytes + 64);
   Session* session = nullptr;
   const auto part = [](AlignedBuffer& buffer, std::size_t from, std::size_t bytes) {
@@ -55,17 +54,17 @@ TEST(Session, AsksForItsMemory) {
   };
   EXPECT_EQ(Session::init(request, part(memory, 0, size.session_bytes - 1),
                           part(arena, 0, size.arena_bytes), session),
-            Status::kMemoryTooSmall);
+            MIEN_ERROR_MEMORY_TOO_SMALL);
   EXPECT_EQ(Session::init(request, part(memory, 0, size.session_bytes),
                           part(arena, 0, size.arena_bytes - 1), session),
-            Status::kMemoryTooSmall);
+            MIEN_ERROR_MEMORY_TOO_SMALL);
   EXPECT_EQ(Session::init(request, part(memory, 8, size.session_bytes),
                           part(arena, 0, size.arena_bytes), session),
-            Status::kMisaligned);
+            MIEN_ERROR_ALIGNMENT);
   EXPECT_EQ(session, nullptr);
   EXPECT_EQ(Session::init(request, part(memory, 0, size.session_bytes),
                           part(arena, 0, size.arena_bytes), session),
-            Status::kOk);
+            MIEN_OK);
   EXPECT_NE(session, nullptr);
 }
 
@@ -73,9 +72,7 @@ TEST(Model, RefusesADamagedFile) {
   AlignedBuffer file = mini_file();
   file.span()[file.span().size() / 2] ^= std::byte{1};
   engine::Model model;
-  formats::Validation fault;
-  EXPECT_EQ(model.open(file.span(), &fault), Status::kBadFile);
-  EXPECT_EQ(fault.status, formats::FileStatus::kBadChecksum);
+  EXPECT_EQ(model.open(file.span()).status, MIEN_ERROR_WEIGHTS_CHECKSUM);
 }
 
 // Maps with overlapping lifetimes must not overlap in memory, and the arena must contain all.

@@ -81,7 +81,7 @@ TEST(Streams, FrameByFrameIsTheConvolutionOfTheWholeStream) {
   formats::NetworkWriter& network = writer.network("net", {1, 1, kInputs});
   network.output(network.causal_conv(0, over_time, {}));
   OwnedSession engine(finished(writer), "net");
-  ASSERT_EQ(engine.status, engine::Status::kOk);
+  ASSERT_EQ(engine.status, MIEN_OK);
   for (std::size_t t = 0; t < kFrames; ++t) {
     Map frame(1, 1, kInputs);
     std::copy_n(whole.values.begin() + static_cast<std::ptrdiff_t>(t * kInputs), kInputs,
@@ -122,18 +122,17 @@ TEST(Streams, SessionsTakingTurnsInOneArenaDoNotDisturbEachOther) {
   Decoder decoder(3);
   AlignedBuffer file = finished(decoder.writer);
   engine::Model model;
-  ASSERT_EQ(model.open(file.span()), engine::Status::kOk);
+  ASSERT_EQ(model.open(file.span()).status, MIEN_OK);
   const engine::SessionRequest request{&model, "net", {}};
   engine::SessionSize size;
-  ASSERT_EQ(engine::session_size(request, size), engine::Status::kOk);
+  ASSERT_EQ(engine::session_size(request, size), MIEN_OK);
   AlignedBuffer arena(size.arena_bytes),
       memories[2] = {AlignedBuffer(size.session_bytes), AlignedBuffer(size.session_bytes)};
   Session* sessions[2] = {};
   std::vector<Map> inputs[2];
   Frames together[2];
   for (std::size_t i = 0; i < 2; ++i) {
-    ASSERT_EQ(Session::init(request, memories[i].span(), arena.span(), sessions[i]),
-              engine::Status::kOk);
+    ASSERT_EQ(Session::init(request, memories[i].span(), arena.span(), sessions[i]), MIEN_OK);
     inputs[i] = decoder.random_inputs();
   }
   for (std::size_t frame = 0; frame < kFrames; ++frame) {
@@ -162,7 +161,7 @@ TEST(Streams, FadingStateBecomesZeroNotDenormal) {
   const formats::MienWriter& done = writer;
   for (const std::uint32_t tier : tiers_here()) {
     OwnedSession engine(finished(done), "net", {}, tier);
-    ASSERT_EQ(engine.status, engine::Status::kOk);
+    ASSERT_EQ(engine.status, MIEN_OK);
     Map input(1, 1, 8);
     std::fill(input.values.begin(), input.values.end(), 1.0);
     EXPECT_GT(answer(*engine.session, input)[0], 0.1f);

@@ -26,8 +26,9 @@ inline double twin_tolerance(std::uint32_t cpu_mask) {
 
 inline AlignedBuffer finished(const formats::MienWriter& writer) {
   std::vector<std::byte> bytes;
-  const formats::Validation validation = writer.finish(&bytes);
-  EXPECT_EQ(validation.status, formats::FileStatus::kOk) << formats::message(validation.status);
+  const mien_error_detail validation = writer.finish(&bytes);
+  EXPECT_EQ(validation.status, MIEN_OK)
+      << mien_status_string(static_cast<mien_status>(validation.status));
   return AlignedBuffer(std::span<const std::byte>(bytes));
 }
 
@@ -70,7 +71,7 @@ inline void expect_twins_agree(const formats::MienWriter& writer, const std::str
                                TwinNetwork& twin, std::uint32_t cpu_mask, int steps = 3,
                                double slack = 1) {
   OwnedSession engine(finished(writer), name, {}, cpu_mask);
-  ASSERT_EQ(engine.status, engine::Status::kOk) << engine::message(engine.status);
+  ASSERT_EQ(engine.status, MIEN_OK) << mien_status_string(engine.status);
   twin.reset();
   for (int step = 0; step < steps; ++step) {
     const Map input = twin.random_input();

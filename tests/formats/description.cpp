@@ -140,7 +140,8 @@ void add_layer(NetworkWriter& net, const json& layer, Numbers& numbers) {
 
 }  // namespace
 
-Validation write_described(const std::string& description_path, std::vector<std::byte>* file) {
+mien_error_detail write_described(const std::string& description_path,
+                                  std::vector<std::byte>* file) {
   std::ifstream in(description_path);
   const json description = json::parse(in);
   Numbers numbers(description["seed"]);

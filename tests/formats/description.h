@@ -9,6 +9,7 @@
 
 namespace mien::formats {
 
-Validation write_described(const std::string& description_path, std::vector<std::byte>* file);
+mien_error_detail write_described(const std::string& description_path,
+                                  std::vector<std::byte>* file);
 
 }  // namespace mien::formats

@@ -57,11 +57,11 @@ void fix_checksum(std::span<std::byte> file) {
   std::memcpy(file.data() + kAt, &checksum, sizeof checksum);
 }
 
-Validation open_copy(std::span<const std::byte> file) {
+mien_error_detail open_copy(std::span<const std::byte> file) {
   AlignedBytes copy(file);
   FileView view;
-  const Validation validation = open(copy.get(), view);
-  if (validation.status == FileStatus::kOk) {
+  const mien_error_detail validation = open(copy.get(), view);
+  if (validation.status == MIEN_OK) {
     EXPECT_FALSE(described(view).empty());
   } else {
     EXPECT_TRUE(view.networks().empty() && view.tensors().empty() && view.file_bytes() == 0);
@@ -69,37 +69,37 @@ Validation open_copy(std::span<const std::byte> file) {
   return validation;
 }
 
-std::string status_name(FileStatus status) {
-  const std::pair<FileStatus, const char*> names[] = {
-      {FileStatus::kOk, "kOk"},
-      {FileStatus::kMisaligned, "kMisaligned"},
-      {FileStatus::kTruncated, "kTruncated"},
-      {FileStatus::kTrailingBytes, "kTrailingBytes"},
-      {FileStatus::kBadMagic, "kBadMagic"},
-      {FileStatus::kUnsupportedVersion, "kUnsupportedVersion"},
-      {FileStatus::kWrongEndian, "kWrongEndian"},
-      {FileStatus::kBadChecksum, "kBadChecksum"},
-      {FileStatus::kLimitExceeded, "kLimitExceeded"},
-      {FileStatus::kReservedNotZero, "kReservedNotZero"},
-      {FileStatus::kHole, "kHole"},
-      {FileStatus::kPaddingNotZero, "kPaddingNotZero"},
-      {FileStatus::kBadName, "kBadName"},
-      {FileStatus::kDuplicateName, "kDuplicateName"},
-      {FileStatus::kBadMetadata, "kBadMetadata"},
-      {FileStatus::kBadType, "kBadType"},
-      {FileStatus::kBadDims, "kBadDims"},
-      {FileStatus::kBadTensorBytes, "kBadTensorBytes"},
-      {FileStatus::kNonFinite, "kNonFinite"},
-      {FileStatus::kBadNetwork, "kBadNetwork"},
-      {FileStatus::kBadOp, "kBadOp"},
-      {FileStatus::kBadActivation, "kBadActivation"},
-      {FileStatus::kBadReference, "kBadReference"},
-      {FileStatus::kBadShape, "kBadShape"},
-      {FileStatus::kBadKernel, "kBadKernel"},
-      {FileStatus::kBadTensor, "kBadTensor"},
-      {FileStatus::kUnusedTensor, "kUnusedTensor"},
+std::string status_name(std::int32_t status) {
+  const std::pair<mien_status, const char*> names[] = {
+      {MIEN_OK, "kOk"},
+      {MIEN_ERROR_ALIGNMENT, "kMisaligned"},
+      {MIEN_ERROR_WEIGHTS_TRUNCATED, "kTruncated"},
+      {MIEN_ERROR_WEIGHTS_TRAILING_BYTES, "kTrailingBytes"},
+      {MIEN_ERROR_WEIGHTS_NOT_MIEN, "kBadMagic"},
+      {MIEN_ERROR_WEIGHTS_VERSION, "kUnsupportedVersion"},
+      {MIEN_ERROR_WEIGHTS_BYTE_ORDER, "kWrongEndian"},
+      {MIEN_ERROR_WEIGHTS_CHECKSUM, "kBadChecksum"},
+      {MIEN_ERROR_WEIGHTS_LIMIT, "kLimitExceeded"},
+      {MIEN_ERROR_WEIGHTS_RESERVED, "kReservedNotZero"},
+      {MIEN_ERROR_WEIGHTS_GAP, "kHole"},
+      {MIEN_ERROR_WEIGHTS_PADDING, "kPaddingNotZero"},
+      {MIEN_ERROR_WEIGHTS_NAME, "kBadName"},
+      {MIEN_ERROR_WEIGHTS_DUPLICATE_NAME, "kDuplicateName"},
+      {MIEN_ERROR_WEIGHTS_METADATA, "kBadMetadata"},
+      {MIEN_ERROR_WEIGHTS_TENSOR_TYPE, "kBadType"},
+      {MIEN_ERROR_WEIGHTS_TENSOR_DIMS, "kBadDims"},
+      {MIEN_ERROR_WEIGHTS_TENSOR_BYTES, "kBadTensorBytes"},
+      {MIEN_ERROR_WEIGHTS_TENSOR_VALUE, "kNonFinite"},
+      {MIEN_ERROR_WEIGHTS_NETWORK, "kBadNetwork"},
+      {MIEN_ERROR_WEIGHTS_LAYER_OP, "kBadOp"},
+      {MIEN_ERROR_WEIGHTS_LAYER_ACTIVATION, "kBadActivation"},
+      {MIEN_ERROR_WEIGHTS_LAYER_INPUT, "kBadReference"},
+      {MIEN_ERROR_WEIGHTS_LAYER_SHAPE, "kBadShape"},
+      {MIEN_ERROR_WEIGHTS_LAYER_WINDOW, "kBadKernel"},
+      {MIEN_ERROR_WEIGHTS_LAYER_TENSORS, "kBadTensor"},
+      {MIEN_ERROR_WEIGHTS_TENSOR_UNUSED, "kUnusedTensor"},
   };
-  return name_in(names, status);
+  return name_in(names, static_cast<mien_status>(status));
 }
 
 namespace {

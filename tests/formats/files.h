@@ -41,7 +41,7 @@ std::vector<std::string> files_in(const std::string& folder, const std::string& 
 void fix_checksum(std::span<std::byte> file);
 
 // Reads a file; on success visits everything that the view provides.
-Validation open_copy(std::span<const std::byte> file);
+mien_error_detail open_copy(std::span<const std::byte> file);
 
 // The name of a status in a list; empty if it is absent.
 template <class Status, std::size_t n>
@@ -51,7 +51,7 @@ std::string name_in(const std::pair<Status, const char*> (&names)[n], Status sta
 }
 
 // Name of the enumerator, such as "kBadOp".
-std::string status_name(FileStatus status);
+std::string status_name(std::int32_t status);
 
 // The lines that second_reader.py prints for the file.
 std::string described(const FileView& view);

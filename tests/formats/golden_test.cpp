@@ -45,7 +45,7 @@ TEST(GoldenFiles, AreRejectedForTheRightReasonAtTheRightOffset) {
   std::size_t count = 0;
   std::string name, status;
   for (std::uint64_t offset; expected >> name >> status >> offset; ++count) {
-    const Validation validation = open_copy(read_file(golden_folder() + "reject/" + name));
+    const mien_error_detail validation = open_copy(read_file(golden_folder() + "reject/" + name));
     EXPECT_EQ(status_name(validation.status), status) << name;
     EXPECT_EQ(validation.offset, offset) << name;
     statuses.insert(status);
@@ -53,8 +53,8 @@ TEST(GoldenFiles, AreRejectedForTheRightReasonAtTheRightOffset) {
   EXPECT_EQ(count, files_in(golden_folder() + "reject", ".mien").size());
   // All statuses except kOk and kMisaligned, which no file can cause.
   std::set<std::string> all;
-  for (int i = 0; i < 256; ++i) {
-    all.insert(status_name(static_cast<FileStatus>(i)));
+  for (int i = -150; i <= 0; ++i) {
+    all.insert(status_name(i));
   }
   for (const char* other : {"", "kOk", "kMisaligned"}) {
     all.erase(other);
@@ -71,7 +71,7 @@ TEST(GoldenFiles, SecondReaderAgreesOnAllAcceptedFiles) {
     const std::vector<std::byte> file = read_file(path);
     AlignedBytes bytes(file);
     FileView view;
-    ASSERT_EQ(open(bytes.get(), view).status, FileStatus::kOk);
+    ASSERT_EQ(open(bytes.get(), view).status, MIEN_OK);
     EXPECT_EQ(second.at(name_of(path)), "kOk\n" + described(view)) << path;
   }
 }
@@ -82,7 +82,7 @@ TEST(GoldenFiles, SecondReaderAgreesOnAllRejectedFiles) {
   }
   const auto second = second_reader("reject");
   for (const std::string& path : files_in(golden_folder() + "reject", ".mien")) {
-    const FileStatus status = open_copy(read_file(path)).status;
+    const auto status = static_cast<mien_status>(open_copy(read_file(path)).status);
     EXPECT_EQ(second.at(name_of(path)), status_name(status) + "\n") << path;
   }
 }
@@ -117,22 +117,6 @@ TEST(Writers, PythonWriterPassesItsOwnTests) {
     GTEST_SKIP() << "no " << kPython;
   }
   output_of(std::string(kPythonCommand) + MIEN_SOURCE_DIR "/tests/formats/mien_file_test.py 2>&1");
-}
-
-TEST(FileStatus, EveryStatusHasItsOwnMessage) {
-  std::set<std::string> messages;
-  std::size_t count = 0;
-  for (int i = 0; i < 256; ++i) {
-    const auto status = static_cast<FileStatus>(i);
-    if (!status_name(status).empty()) {
-      messages.insert(message(status));
-      ++count;
-    }
-    // The message table and the list of names have the same numbers.
-    EXPECT_EQ(status_name(status).empty(), std::string(message(status)) == "unknown status") << i;
-  }
-  EXPECT_EQ(messages.size(), count);
-  EXPECT_EQ(messages.count(""), 0u);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ std::vector<std::byte> every_op() { return read_file(golden_folder() + "accept/e
 TEST(Malformed, TruncatedAtEveryByte) {
   for (const auto& file : {small(), every_op()}) {
     for (std::size_t size = 0; size < file.size(); ++size) {
-      EXPECT_EQ(open_copy({file.data(), size}).status, FileStatus::kTruncated) << size;
+      EXPECT_EQ(open_copy({file.data(), size}).status, MIEN_ERROR_WEIGHTS_TRUNCATED) << size;
     }
   }
 }
@@ -29,7 +29,7 @@ TEST(Malformed, TruncatedAtEveryLineWithACorrectSize) {
     const std::uint64_t total = size;
     std::memcpy(cut.get().data() + offsetof(FileHeader, total_bytes), &total, sizeof total);
     fix_checksum(cut.get());
-    EXPECT_NE(open_copy(cut.get()).status, FileStatus::kOk) << size;
+    EXPECT_NE(open_copy(cut.get()).status, MIEN_OK) << size;
   }
 }
 
@@ -37,7 +37,7 @@ TEST(Malformed, BytesAfterTheEnd) {
   for (const std::size_t more : {1u, 63u, 64u, 4096u}) {
     auto file = small();
     file.resize(file.size() + more);
-    EXPECT_EQ(open_copy(file).status, FileStatus::kTrailingBytes);
+    EXPECT_EQ(open_copy(file).status, MIEN_ERROR_WEIGHTS_TRAILING_BYTES);
   }
 }
 
@@ -48,9 +48,9 @@ TEST(Malformed, EveryBitOfTheFileFlipped) {
   for (std::size_t bit = 0; bit < 8 * file.size(); ++bit) {
     const auto mask = std::byte(1 << bit % 8);
     copy.get()[bit / 8] ^= mask;
-    const FileStatus status = open(copy.get(), view).status;
-    EXPECT_NE(status, FileStatus::kOk) << bit;
-    EXPECT_TRUE(bit / 8 < sizeof(FileHeader) || status == FileStatus::kBadChecksum) << bit;
+    const auto status = static_cast<mien_status>(open(copy.get(), view).status);
+    EXPECT_NE(status, MIEN_OK) << bit;
+    EXPECT_TRUE(bit / 8 < sizeof(FileHeader) || status == MIEN_ERROR_WEIGHTS_CHECKSUM) << bit;
     copy.get()[bit / 8] ^= mask;
   }
 }
@@ -62,7 +62,7 @@ TEST(Malformed, EveryHeaderBitFlippedWithACorrectChecksum) {
     const auto mask = std::byte(1 << bit % 8);
     file[bit / 8] ^= mask;
     fix_checksum(file);
-    EXPECT_NE(open_copy(file).status, FileStatus::kOk) << bit;
+    EXPECT_NE(open_copy(file).status, MIEN_OK) << bit;
     file[bit / 8] ^= mask;
   }
 }
@@ -79,7 +79,7 @@ TEST(Malformed, EveryBitOfTheRecordsFlippedWithACorrectChecksum) {
     const auto mask = std::byte(1 << bit % 8);
     file[bit / 8] ^= mask;
     fix_checksum(file);
-    accepted += open_copy(file).status == FileStatus::kOk ? 1 : 0;
+    accepted += open_copy(file).status == MIEN_OK ? 1 : 0;
     file[bit / 8] ^= mask;
   }
   EXPECT_LT(accepted, 8 * strings / 20);
@@ -92,20 +92,20 @@ TEST(Malformed, AlphasAreCheckedByTheirBits) {
     auto file = small();
     std::memcpy(file.data() + at, &bits, sizeof bits);
     fix_checksum(file);
-    const FileStatus status = open_copy(file).status;
+    const auto status = static_cast<mien_status>(open_copy(file).status);
     const kernels::FloatMode ours;
     EXPECT_EQ(open_copy(file).status, status);
     return status;
   };
   for (const std::uint32_t good : {0x1u, 0x7FFFFFu, 0x800000u, 0x3E800000u, 0x3F7FFFFFu}) {
-    EXPECT_EQ(status_with(kLeakyAlpha, good), FileStatus::kOk) << good;
-    EXPECT_EQ(status_with(kOtherAlpha, good), FileStatus::kBadActivation) << good;
+    EXPECT_EQ(status_with(kLeakyAlpha, good), MIEN_OK) << good;
+    EXPECT_EQ(status_with(kOtherAlpha, good), MIEN_ERROR_WEIGHTS_LAYER_ACTIVATION) << good;
   }
   for (const std::uint32_t bad : {0u, 0x3F800000u, 0x7F800000u, 0x7FC00000u, 0x80000000u,
                                   0x80000001u, 0xBE800000u, 0xFFFFFFFFu}) {
-    EXPECT_EQ(status_with(kLeakyAlpha, bad), FileStatus::kBadActivation) << bad;
+    EXPECT_EQ(status_with(kLeakyAlpha, bad), MIEN_ERROR_WEIGHTS_LAYER_ACTIVATION) << bad;
     EXPECT_EQ(status_with(kOtherAlpha, bad),
-              bad == 0 ? FileStatus::kOk : FileStatus::kBadActivation)
+              bad == 0 ? MIEN_OK : MIEN_ERROR_WEIGHTS_LAYER_ACTIVATION)
         << bad;
   }
 }
@@ -136,10 +136,10 @@ void try_boundaries(std::size_t begin, std::size_t end) {
       std::memcpy(file.data() + at, &value, sizeof value);
       const bool same = file == original;
       fix_checksum(file);
-      const FileStatus status = open_copy(file).status;
+      const auto status = static_cast<mien_status>(open_copy(file).status);
       EXPECT_FALSE(status_name(status).empty());
-      EXPECT_TRUE(!same || status == FileStatus::kOk);
-      EXPECT_NE(status, FileStatus::kBadChecksum);
+      EXPECT_TRUE(!same || status == MIEN_OK);
+      EXPECT_NE(status, MIEN_ERROR_WEIGHTS_CHECKSUM);
       std::memcpy(file.data(), original.data(), sizeof(FileHeader));
       std::memcpy(file.data() + at, original.data() + at, sizeof value);
     }
@@ -165,16 +165,16 @@ TEST(Malformed, MisalignedMemory) {
   AlignedBytes bytes(shifted);
   std::memcpy(bytes.get().data() + 1, file.data(), file.size());
   FileView view;
-  EXPECT_EQ(open(bytes.get().subspan(1), view).status, FileStatus::kMisaligned);
+  EXPECT_EQ(open(bytes.get().subspan(1), view).status, MIEN_ERROR_ALIGNMENT);
 }
 
 TEST(Malformed, AViewIsClearedAfterARejectedFile) {
   const auto file = small();
   AlignedBytes good(file);
   FileView view;
-  ASSERT_EQ(open(good.get(), view).status, FileStatus::kOk);
+  ASSERT_EQ(open(good.get(), view).status, MIEN_OK);
   AlignedBytes bad({file.data(), file.size() - 1});
-  ASSERT_EQ(open(bad.get(), view).status, FileStatus::kTruncated);
+  ASSERT_EQ(open(bad.get(), view).status, MIEN_ERROR_WEIGHTS_TRUNCATED);
   EXPECT_TRUE(view.networks().empty());
   EXPECT_EQ(view.find_network("a"), nullptr);
   EXPECT_EQ(view.find_constant("c"), nullptr);

@@ -16,7 +16,6 @@ namespace {
 
 using formats::kNeutralFileBytes;
 using formats::NeutralFile;
-using formats::NeutralFileError;
 using Bytes = std::array<std::byte, kNeutralFileBytes>;
 
 NeutralFile sample() {
@@ -36,7 +35,7 @@ Bytes written(const NeutralFile& neutral) {
 
 TEST(NeutralFile, RoundTrips) {
   NeutralFile back;
-  ASSERT_EQ(formats::read_neutral_file(written(sample()), back), NeutralFileError::kNone);
+  ASSERT_EQ(formats::read_neutral_file(written(sample()), back), MIEN_OK);
   EXPECT_EQ(back.captured, 2u);
   for (std::size_t i = 0; i < formats::kNeutralLevels; ++i) {
     EXPECT_EQ(back.levels[i], sample().levels[i]);
@@ -58,7 +57,7 @@ TEST(NeutralFile, AnyChangedByteIsDetected) {
     bytes[i] ^= std::byte{0x10};
     NeutralFile back;
     back.captured = 77;
-    EXPECT_NE(formats::read_neutral_file(bytes, back), NeutralFileError::kNone) << i;
+    EXPECT_NE(formats::read_neutral_file(bytes, back), MIEN_OK) << i;
     EXPECT_EQ(back.captured, 77u) << "the output stays unchanged";
   }
 }
@@ -69,21 +68,21 @@ TEST(NeutralFile, NamesTheError) {
   const std::span<const std::byte> all = good;
   for (std::size_t size = 0; size < good.size(); ++size) {
     EXPECT_EQ(formats::read_neutral_file(all.first(size), back),
-              size < 8 ? NeutralFileError::kNotANeutralFile : NeutralFileError::kDamaged);
+              size < 8 ? MIEN_ERROR_NEUTRAL_FORMAT : MIEN_ERROR_NEUTRAL_DAMAGED);
   }
   std::array<std::byte, kNeutralFileBytes + 8> longer = {};  // with a valid checksum
   std::copy(good.begin(), good.end(), longer.begin());
   const std::size_t at = kNeutralFileBytes - sizeof(std::uint64_t);
   const std::uint64_t sum = formats::xxhash64_with_hole(longer, at);
   std::memcpy(longer.data() + at, &sum, sizeof sum);
-  EXPECT_EQ(formats::read_neutral_file(longer, back), NeutralFileError::kDamaged);
+  EXPECT_EQ(formats::read_neutral_file(longer, back), MIEN_ERROR_NEUTRAL_DAMAGED);
   Bytes later = good;
   later[8] = std::byte{2};
-  EXPECT_EQ(formats::read_neutral_file(later, back), NeutralFileError::kVersion);
+  EXPECT_EQ(formats::read_neutral_file(later, back), MIEN_ERROR_NEUTRAL_VERSION);
   for (const float bad : {-0.1f, 1.1f, std::numeric_limits<float>::quiet_NaN()}) {
     NeutralFile wrong = sample();
     wrong.levels[60] = bad;
-    EXPECT_EQ(formats::read_neutral_file(written(wrong), back), NeutralFileError::kDamaged);
+    EXPECT_EQ(formats::read_neutral_file(written(wrong), back), MIEN_ERROR_NEUTRAL_DAMAGED);
   }
 }
 

@@ -37,7 +37,7 @@ class Written {
     std::vector<std::byte> file;
     EXPECT_EQ(status_name(writer.finish(&file).status), "kOk");
     bytes_.emplace(file);
-    EXPECT_EQ(open(bytes_->get(), view_).status, FileStatus::kOk);
+    EXPECT_EQ(open(bytes_->get(), view_).status, MIEN_OK);
   }
 
   std::vector<float> tensor(std::size_t index) const {
@@ -155,14 +155,14 @@ TEST(Packing, DepthwiseKeepsBlocksOfEight) {
   }
 }
 
-FileStatus status_of(InputShape input, const std::function<void(NetworkWriter&)>& build,
-                     bool any_size = false) {
+mien_status status_of(InputShape input, const std::function<void(NetworkWriter&)>& build,
+                      bool any_size = false) {
   MienWriter writer;
   build(writer.network("net", input, any_size));
   std::vector<std::byte> file(3);
-  const Validation validation = writer.finish(&file);
-  EXPECT_EQ(file.empty(), validation.status != FileStatus::kOk);
-  return validation.status;
+  const mien_error_detail validation = writer.finish(&file);
+  EXPECT_EQ(file.empty(), validation.status != MIEN_OK);
+  return static_cast<mien_status>(validation.status);
 }
 
 TEST(Writer, RejectsInvalidShapes) {
@@ -177,63 +177,63 @@ TEST(Writer, RejectsInvalidShapes) {
   const auto conv = [](Net& n, const LayerOptions& options) {
     n.output(n.conv2d(0, counting({8, 8, 3, 3}), {}, options));
   };
-  EXPECT_EQ(status_of(map, [&](Net& n) { conv(n, {}); }), FileStatus::kOk);
-  EXPECT_EQ(status_of(map, [&](Net& n) { conv(n, padded); }), FileStatus::kBadKernel);
-  EXPECT_EQ(status_of(map, [&](Net& n) { conv(n, prelu); }), FileStatus::kBadTensor);
-  EXPECT_EQ(status_of({2, 2, 8}, [&](Net& n) { conv(n, {}); }), FileStatus::kBadShape);
-  EXPECT_EQ(status_of({4, 4, 7}, [&](Net& n) { conv(n, {}); }), FileStatus::kBadTensor);
-  EXPECT_EQ(status_of({0, 4, 8}, [&](Net& n) { conv(n, {}); }), FileStatus::kBadNetwork);
+  EXPECT_EQ(status_of(map, [&](Net& n) { conv(n, {}); }), MIEN_OK);
+  EXPECT_EQ(status_of(map, [&](Net& n) { conv(n, padded); }), MIEN_ERROR_WEIGHTS_LAYER_WINDOW);
+  EXPECT_EQ(status_of(map, [&](Net& n) { conv(n, prelu); }), MIEN_ERROR_WEIGHTS_LAYER_TENSORS);
+  EXPECT_EQ(status_of({2, 2, 8}, [&](Net& n) { conv(n, {}); }), MIEN_ERROR_WEIGHTS_LAYER_SHAPE);
+  EXPECT_EQ(status_of({4, 4, 7}, [&](Net& n) { conv(n, {}); }), MIEN_ERROR_WEIGHTS_LAYER_TENSORS);
+  EXPECT_EQ(status_of({0, 4, 8}, [&](Net& n) { conv(n, {}); }), MIEN_ERROR_WEIGHTS_NETWORK);
   EXPECT_EQ(status_of(map,
                       [&](Net& n) {
                         n.output(n.pointwise(0, counting({3, 8}), {1, 2}));
                       }),
-            FileStatus::kBadTensor);
+            MIEN_ERROR_WEIGHTS_LAYER_TENSORS);
   EXPECT_EQ(status_of(map,
                       [&](Net& n) {
                         n.output(n.pointwise(0, Array{{3, 8}, {1}}, {}));
                       }),
-            FileStatus::kBadTensor);
+            MIEN_ERROR_WEIGHTS_LAYER_TENSORS);
   EXPECT_EQ(status_of(map,
                       [&](Net& n) {
                         n.output(n.pointwise(0, Array{{3, 8}, std::vector<float>(25)}, {}));
                       }),
-            FileStatus::kBadTensor);
+            MIEN_ERROR_WEIGHTS_LAYER_TENSORS);
   EXPECT_EQ(status_of(map, [&](Net& n) { n.output(n.pointwise(0, Array{}, {})); }),
-            FileStatus::kBadTensor);
+            MIEN_ERROR_WEIGHTS_LAYER_TENSORS);
   EXPECT_EQ(status_of(map, [&](Net& n) { n.output(n.add(0, 0, relu)); }),
-            FileStatus::kBadActivation);
+            MIEN_ERROR_WEIGHTS_LAYER_ACTIVATION);
   LayerOptions sparse;  // whose last window would start beyond the map
   sparse.stride_y = sparse.stride_x = 4;
-  EXPECT_EQ(status_of(map, [&](Net& n) { n.output(n.max_pool(0, 2, 2, sparse)); }),
-            FileStatus::kOk);
+  EXPECT_EQ(status_of(map, [&](Net& n) { n.output(n.max_pool(0, 2, 2, sparse)); }), MIEN_OK);
   sparse.ceil_mode = true;
   EXPECT_EQ(status_of(map, [&](Net& n) { n.output(n.max_pool(0, 2, 2, sparse)); }),
-            FileStatus::kBadShape);
+            MIEN_ERROR_WEIGHTS_LAYER_SHAPE);
   for (const auto& [right, bottom] : {std::pair<std::uint16_t, std::uint16_t>{1, 0}, {0, 1}}) {
     LayerOptions narrower;  // one row or column less, which cannot be halved
     narrower.padding = {0, 0, bottom, right};
     EXPECT_EQ(status_of(map, [&](Net& n) { n.output(n.add(n.slice(0, 0, 8, narrower), 0)); }),
-              FileStatus::kBadShape);
+              MIEN_ERROR_WEIGHTS_LAYER_SHAPE);
   }
-  EXPECT_EQ(status_of(map, [&](Net& n) { n.output(n.softmax(1)); }), FileStatus::kBadReference);
-  EXPECT_EQ(status_of(map, [&](Net& n) { n.output(0); }), FileStatus::kBadReference);
-  EXPECT_EQ(status_of(map, [&](Net&) {}), FileStatus::kBadNetwork);
+  EXPECT_EQ(status_of(map, [&](Net& n) { n.output(n.softmax(1)); }),
+            MIEN_ERROR_WEIGHTS_LAYER_INPUT);
+  EXPECT_EQ(status_of(map, [&](Net& n) { n.output(0); }), MIEN_ERROR_WEIGHTS_LAYER_INPUT);
+  EXPECT_EQ(status_of(map, [&](Net&) {}), MIEN_ERROR_WEIGHTS_NETWORK);
   EXPECT_EQ(status_of(map, [&](Net& n) { n.softmax(0), n.output(n.softmax(0)); }),
-            FileStatus::kBadReference);
+            MIEN_ERROR_WEIGHTS_LAYER_INPUT);
   EXPECT_EQ(status_of(map,
                       [&](Net& n) {
                         n.output(n.causal_conv(0, counting({8, 8, 2}), {}));
                       }),
-            FileStatus::kBadShape);
+            MIEN_ERROR_WEIGHTS_LAYER_SHAPE);
   EXPECT_EQ(status_of(
                 map,
                 [&](Net& n) {
                   n.output(n.fully_connected(0, counting({2, 128}), {}));
                 },
                 true),
-            FileStatus::kBadOp);
+            MIEN_ERROR_WEIGHTS_LAYER_OP);
   EXPECT_EQ(status_of(map, [&](Net& n) { n.output(n.max_pool(0, 65537, 1)); }),
-            FileStatus::kBadKernel);
+            MIEN_ERROR_WEIGHTS_LAYER_WINDOW);
 }
 
 TEST(Writer, RejectsWeightsBeyondFp16) {
@@ -242,9 +242,9 @@ TEST(Writer, RejectsWeightsBeyondFp16) {
       n.output(n.pointwise(0, Array{{1, 1}, {value}}, {}));
     });
   };
-  EXPECT_EQ(with(65504.0f), FileStatus::kOk);
-  EXPECT_EQ(with(65520.0f), FileStatus::kNonFinite);
-  EXPECT_EQ(with(std::numeric_limits<float>::quiet_NaN()), FileStatus::kNonFinite);
+  EXPECT_EQ(with(65504.0f), MIEN_OK);
+  EXPECT_EQ(with(65520.0f), MIEN_ERROR_WEIGHTS_TENSOR_VALUE);
+  EXPECT_EQ(with(std::numeric_limits<float>::quiet_NaN()), MIEN_ERROR_WEIGHTS_TENSOR_VALUE);
 }
 
 TEST(Writer, RejectsInvalidNamesConstantsAndTexts) {
@@ -256,23 +256,30 @@ TEST(Writer, RejectsInvalidNamesConstantsAndTexts) {
     std::vector<std::byte> file;
     return writer.finish(&file).status;
   };
-  EXPECT_EQ(with([](MienWriter&) {}), FileStatus::kOk);
-  EXPECT_EQ(with([](MienWriter& w) { w.constant("Name", counting({2})); }), FileStatus::kBadName);
+  EXPECT_EQ(with([](MienWriter&) {}), MIEN_OK);
+  EXPECT_EQ(with([](MienWriter& w) { w.constant("Name", counting({2})); }),
+            MIEN_ERROR_WEIGHTS_NAME);
   EXPECT_EQ(with([](MienWriter& w) { w.constant(std::string(64, 'a'), counting({2})); }),
-            FileStatus::kBadName);
-  EXPECT_EQ(with([](MienWriter& w) { w.constant(std::string(63, 'a'), counting({2})); }),
-            FileStatus::kOk);
-  EXPECT_EQ(with([](MienWriter& w) { w.constant("", counting({2})); }), FileStatus::kUnusedTensor);
-  EXPECT_EQ(with([](MienWriter& w) { w.constant("a", {{3}, {1, 2}}); }), FileStatus::kBadDims);
+            MIEN_ERROR_WEIGHTS_NAME);
+  EXPECT_EQ(with([](MienWriter& w) { w.constant(std::string(63, 'a'), counting({2})); }), MIEN_OK);
+  EXPECT_EQ(with([](MienWriter& w) { w.constant("", counting({2})); }),
+            MIEN_ERROR_WEIGHTS_TENSOR_UNUSED);
+  EXPECT_EQ(with([](MienWriter& w) {
+              w.constant("a", {{3}, {1, 2}});
+            }),
+            MIEN_ERROR_WEIGHTS_TENSOR_DIMS);
   EXPECT_EQ(with([](MienWriter& w) {
               w.constant("a", {{1, 1, 1, 1, 1}, {1}});
             }),
-            FileStatus::kBadDims);
-  EXPECT_EQ(with([](MienWriter& w) { w.constant("a", {{}, {1}}); }), FileStatus::kBadDims);
+            MIEN_ERROR_WEIGHTS_TENSOR_DIMS);
+  EXPECT_EQ(with([](MienWriter& w) {
+              w.constant("a", {{}, {1}});
+            }),
+            MIEN_ERROR_WEIGHTS_TENSOR_DIMS);
   EXPECT_EQ(with([](MienWriter& w) { w.metadata("key", std::string(4097, 'a')); }),
-            FileStatus::kBadMetadata);
-  EXPECT_EQ(with([](MienWriter& w) { w.metadata("key", "\r"); }), FileStatus::kBadMetadata);
-  EXPECT_EQ(with([](MienWriter& w) { w.metadata("a key", ""); }), FileStatus::kBadName);
+            MIEN_ERROR_WEIGHTS_METADATA);
+  EXPECT_EQ(with([](MienWriter& w) { w.metadata("key", "\r"); }), MIEN_ERROR_WEIGHTS_METADATA);
+  EXPECT_EQ(with([](MienWriter& w) { w.metadata("a key", ""); }), MIEN_ERROR_WEIGHTS_NAME);
 }
 
 }  // namespace

@@ -66,7 +66,7 @@ TEST(Allocation, CreateAllocatesOnceAndLaterCallsDoNot) {
   const AlignedBytes proposal = blob_proposal();
   const AlignedBytes audionet = blob_audionet();
   CountingAllocator allocator;
-  Config config = blob_config(basenet, proposal, hifinet, audionet);
+  BlobConfig config = blob_config(basenet, proposal, hifinet, audionet);
   config.allocator = allocator.callbacks();
   const Buffer disc(disc_picture(160.0f, 120.0f, 70.0f), {.format = MIEN_IMAGE_NV12});
   const Buffer nothing(Picture(97, 55), {.rotation = 90});
@@ -108,7 +108,7 @@ TEST(Allocation, CreateAllocatesRequiredBytes) {
   const AlignedBytes basenet = blob_basenet();
   const AlignedBytes proposal = blob_proposal();
   CountingAllocator allocator;
-  Config config = blob_config(basenet, proposal);
+  BlobConfig config = blob_config(basenet, proposal);
   config.allocator = allocator.callbacks();
   mien_status status = MIEN_ERROR_INTERNAL;
   const std::size_t bytes = required_bytes(config, status);
@@ -121,11 +121,11 @@ TEST(Allocation, CreateAllocatesRequiredBytes) {
 TEST(Allocation, ReportsOutOfMemory) {
   const AlignedBytes basenet = blob_basenet();
   const AlignedBytes proposal = blob_proposal();
-  Config config = blob_config(basenet, proposal);
+  BlobConfig config = blob_config(basenet, proposal);
   config.allocator.allocate = [](void*, std::size_t, std::size_t) -> void* { return nullptr; };
   config.allocator.release = [](void*, void*) { FAIL() << "nothing was allocated"; };
   mien_tracker* tracker = nullptr;
-  EXPECT_EQ(mien_tracker_create(&config, &tracker), MIEN_ERROR_OUT_OF_MEMORY);
+  EXPECT_EQ(mien_tracker_create(&config, &tracker, nullptr), MIEN_ERROR_OUT_OF_MEMORY);
   EXPECT_EQ(tracker, nullptr);
 }
 

@@ -77,10 +77,11 @@ TEST(AudioTrack, CrossfadesBetweenLevelsWithoutAJump) {
     options.supported_controls = 1;
     return blob_basenet(options);
   }();
+  const Weights weights = weights_of(
+      {one_control.get(), blob_proposal().get(), blob_hifinet().get(), blob_audionet().get()});
   for (const auto& [from, to] : {std::pair{1, 4}, {4, 1}}) {
-    const auto begin_at_from = [&, lod = from](mien_tracker_config& config) {
-      config.basenet = one_control.get().data();
-      config.basenet_bytes = one_control.get().size();
+    const auto begin_at_from = [&, lod = from](BlobConfig& config) {
+      config.use(weights);
       config.smoothing = 0;
       config.lod = lod;
     };

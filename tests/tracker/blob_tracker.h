@@ -4,8 +4,13 @@
 #include <gtest/gtest.h>
 #include <mien/mien.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <initializer_list>
+#include <span>
+#include <vector>
 
 #include "tests/tracker/blob_weights.h"
 #include "tests/tracker/picture.h"
@@ -14,24 +19,38 @@ namespace mien::tests {
 
 inline constexpr std::int64_t kFrameNs = 33'333'333;
 
-inline Config blob_config(const AlignedBytes& basenet, const AlignedBytes& proposal) {
-  return Config(basenet.get(), proposal.get());
+// Copies weight files of any alignment.
+inline Weights weights_of(std::initializer_list<std::span<const std::byte>> files) {
+  Weights weights;
+  EXPECT_EQ(weights.create(std::vector(files), true), MIEN_OK);
+  return weights;
 }
-inline Config blob_config(const AlignedBytes& basenet, const AlignedBytes& proposal,
-                          const AlignedBytes& hifinet) {
-  Config config = blob_config(basenet, proposal);
-  config.hifinet = hifinet.get().data();
-  config.hifinet_bytes = hifinet.get().size();
-  return config;
+
+// A configuration that owns its weights.
+struct BlobConfig : Config {
+  explicit BlobConfig(const Weights& shared) : Config(shared), shared_weights(shared) {}
+
+  // Uses other weights.
+  void use(const Weights& shared) {
+    shared_weights = shared;
+    weights = shared_weights.get();
+  }
+
+  Weights shared_weights;
+};
+
+inline BlobConfig blob_config(const AlignedBytes& basenet, const AlignedBytes& proposal) {
+  return BlobConfig(weights_of({basenet.get(), proposal.get()}));
+}
+inline BlobConfig blob_config(const AlignedBytes& basenet, const AlignedBytes& proposal,
+                              const AlignedBytes& hifinet) {
+  return BlobConfig(weights_of({basenet.get(), proposal.get(), hifinet.get()}));
 }
 
 // With audio.
-inline Config blob_config(const AlignedBytes& basenet, const AlignedBytes& proposal,
-                          const AlignedBytes& hifinet, const AlignedBytes& audionet) {
-  Config config = blob_config(basenet, proposal, hifinet);
-  config.audionet = audionet.get().data();
-  config.audionet_bytes = audionet.get().size();
-  return config;
+inline BlobConfig blob_config(const AlignedBytes& basenet, const AlignedBytes& proposal,
+                              const AlignedBytes& hifinet, const AlignedBytes& audionet) {
+  return BlobConfig(weights_of({basenet.get(), proposal.get(), hifinet.get(), audionet.get()}));
 }
 
 class BlobTracker {
@@ -40,12 +59,9 @@ class BlobTracker {
       : BlobTracker(options, [](mien_tracker_config&) {}) {}
 
   template <typename Change>
-  BlobTracker(const BlobOptions& options, Change change)
-      : basenet_(blob_basenet(options)),
-        hifinet_(blob_hifinet(options)),
-        proposal_(blob_proposal(options)),
-        audionet_(blob_audionet()) {
-    Config config = blob_config(basenet_, proposal_, hifinet_, audionet_);
+  BlobTracker(const BlobOptions& options, Change change) {
+    BlobConfig config = blob_config(blob_basenet(options), blob_proposal(options),
+                                    blob_hifinet(options), blob_audionet());
     change(config);
     EXPECT_EQ(tracker_.create(config), MIEN_OK);
   }
@@ -93,10 +109,6 @@ class BlobTracker {
   Tracker& tracker() { return tracker_; }
 
  private:
-  AlignedBytes basenet_;
-  AlignedBytes hifinet_;
-  AlignedBytes proposal_;
-  AlignedBytes audionet_;
   Tracker tracker_;
   std::int64_t pts_ns_ = 0;
 };

@@ -93,9 +93,10 @@ LayerOptions activated(formats::LayerActivation activation, float alpha = 0.0f) 
 
 AlignedBytes finished(const MienWriter& writer) {
   std::vector<std::byte> file;
-  const formats::Validation validation = writer.finish(&file);
-  if (validation.status != formats::FileStatus::kOk) {  // no test is meaningful then
-    std::fprintf(stderr, "blob_weights: %s\n", formats::message(validation.status));
+  const mien_error_detail validation = writer.finish(&file);
+  if (validation.status != MIEN_OK) {  // no test is meaningful then
+    std::fprintf(stderr, "blob_weights: %s\n",
+                 mien_status_string(static_cast<mien_status>(validation.status)));
     std::abort();
   }
   return AlignedBytes(file);

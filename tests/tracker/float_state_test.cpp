@@ -32,7 +32,7 @@ struct Inputs {
 // Runs a tracker from create to destroy in the current state.
 std::vector<Result> animate() {
   static const Inputs inputs;
-  Config config = blob_config(inputs.basenet, inputs.proposal, inputs.hifinet, inputs.audionet);
+  BlobConfig config = blob_config(inputs.basenet, inputs.proposal, inputs.hifinet, inputs.audionet);
   config.lod = 4;
   Tracker tracker;
   EXPECT_EQ(tracker.create(config), MIEN_OK);

@@ -124,14 +124,11 @@ TEST(Levels, ChangedTrackerConvergesToAnUnchangedOne) {
 
 // BaseNet predicts only the first control.
 BlobTracker tracker_with_few_at_level_1(std::int32_t lod) {
-  static const AlignedBytes few = [] {
-    BlobOptions options;
-    options.supported_controls = 1;
-    return blob_basenet(options);
-  }();
-  return BlobTracker({}, [=](mien_tracker_config& config) {
-    config.basenet = few.get().data();
-    config.basenet_bytes = few.get().size();
+  BlobOptions options;
+  options.supported_controls = 1;
+  return BlobTracker({}, [&](BlobConfig& config) {
+    config.use(weights_of({blob_basenet(options).get(), blob_proposal().get(), blob_hifinet().get(),
+                           blob_audionet().get()}));
     config.lod = lod;
   });
 }
@@ -192,9 +189,8 @@ TEST(Levels, HiFiNetRunsOnTheFirstImageAfterLevelOne) {
 }
 
 TEST(Levels, RejectsLevelsWithoutWeights) {
-  const auto without = [](mien_tracker_config& config) {
-    config.hifinet = nullptr;
-    config.hifinet_bytes = 0;
+  const auto without = [](BlobConfig& config) {
+    config.use(weights_of({blob_basenet().get(), blob_proposal().get()}));
   };
   BlobTracker tracker({}, without);
   EXPECT_EQ(tracker.tracker().set_lod(2), MIEN_ERROR_UNSUPPORTED_LOD);

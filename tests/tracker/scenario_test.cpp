@@ -278,7 +278,7 @@ TEST(Trackers, GiveTheSameResultsOnSeveralThreads) {
 TEST(Trackers, MayBeCreatedManyTimes) {
   constexpr int kTimes = MIEN_CREATE_TIMES;
   const AlignedBytes basenet = blob_basenet(), proposal = blob_proposal();
-  Config config = blob_config(basenet, proposal);
+  BlobConfig config = blob_config(basenet, proposal);
   config.proposal_size = 24;
   mien_status status = MIEN_ERROR_INTERNAL;
   const std::size_t bytes = required_bytes(config, status);
@@ -288,9 +288,9 @@ TEST(Trackers, MayBeCreatedManyTimes) {
   for (int i = 0; i < kTimes; ++i) {
     mien_tracker* tracker = nullptr;
     ASSERT_EQ(i % 10 == 0
-                  ? mien_tracker_create(&config, &tracker)
+                  ? mien_tracker_create(&config, &tracker, nullptr)
                   : mien_tracker_create_in(&config, const_cast<std::byte*>(memory.get().data()),
-                                           bytes, &tracker),
+                                           bytes, &tracker, nullptr),
               MIEN_OK)
         << i;
     mien_tracker_destroy(tracker);

@@ -30,9 +30,8 @@ constexpr std::size_t kJawOutput = 0, kCloseOutput = 2;
 // The result for loud audio without smoothing: exactly AudioNet's outputs.
 Result result_for(std::span<const float, kSpeechOutputs> outputs) {
   const AlignedBytes audionet = blob_audionet(outputs);
-  BlobTracker tracker({}, [&](mien_tracker_config& config) {
-    config.audionet = audionet.get().data();
-    config.audionet_bytes = audionet.get().size();
+  BlobTracker tracker({}, [&](BlobConfig& config) {
+    config.use(weights_of({blob_basenet().get(), blob_proposal().get(), audionet.get()}));
     config.smoothing = 0;
     config.voice_attack_ms = config.voice_release_ms = 0.0f;
   });

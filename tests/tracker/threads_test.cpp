@@ -120,7 +120,7 @@ TEST(AudioQueue, ExistsOnlyIfConfigured) {
   BlobTracker none = with_queue(0);
   EXPECT_EQ(none.tracker().queue_audio(block_of(samples, 0, 1), 0), MIEN_ERROR_AUDIO_QUEUE_FULL);
   BlobTracker without_audio({}, [](mien_tracker_config& config) {
-    config.audionet = nullptr;
+    config.audio = 0;
     config.audio_queue_samples = 1000;
   });
   EXPECT_EQ(without_audio.tracker().queue_audio(block_of(samples, 0, 1), 0),
@@ -141,7 +141,7 @@ TEST(AudioQueue, ResetDiscardsQueuedAudio) {
 
 TEST(AudioQueue, RejectsCapacityOutOfRange) {
   const AlignedBytes basenet = blob_basenet(), proposal = blob_proposal();
-  Config config = blob_config(basenet, proposal);
+  BlobConfig config = blob_config(basenet, proposal);
   for (const std::int32_t samples : {-1, (1 << 22) + 1}) {
     config.audio_queue_samples = samples;
     Tracker tracker;

@@ -104,8 +104,8 @@ class TrainedLevels : public Trained {
     }
   }
 
-  Config config(std::int32_t lod, std::uint32_t cpu_mask = MIEN_CPU_ALL) const {
-    Config config = blob_config(*basenet_, *proposal_, *hifinet_);
+  BlobConfig config(std::int32_t lod, std::uint32_t cpu_mask = MIEN_CPU_ALL) const {
+    BlobConfig config = blob_config(*basenet_, *proposal_, *hifinet_);
     config.lod = lod;
     config.cpu_mask = cpu_mask;
     return config;

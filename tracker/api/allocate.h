@@ -16,6 +16,11 @@ inline void* allocate(const mien_allocator& allocator, std::size_t bytes) {
   return ::operator new(bytes, std::align_val_t(MIEN_ALIGNMENT), std::nothrow);
 }
 
+// Both callbacks or none.
+[[nodiscard]] inline bool is_valid(const mien_allocator& allocator) {
+  return (allocator.allocate == nullptr) == (allocator.release == nullptr);
+}
+
 inline void release(const mien_allocator& allocator, void* memory) {
   if (allocator.release != nullptr) {
     allocator.release(allocator.user, memory);

@@ -14,7 +14,6 @@
 namespace {
 
 using mien::formats::NeutralFile;
-using mien::formats::NeutralFileError;
 using mien::tracker::kControls;
 
 static_assert(MIEN_NEUTRAL_BYTES == mien::formats::kNeutralFileBytes);
@@ -25,20 +24,6 @@ constexpr std::int32_t kLevelOfPart[] = {mien::tracker::kLowestLevel, mien::trac
 
 std::span<float, kControls> levels(NeutralFile& file, std::size_t part) {
   return std::span<float, kControls>(file.levels + part * kControls, kControls);
-}
-
-mien_status status_of(NeutralFileError error) {
-  switch (error) {
-    case NeutralFileError::kNone:
-      return MIEN_OK;
-    case NeutralFileError::kNotANeutralFile:
-      return MIEN_ERROR_NEUTRAL_FORMAT;
-    case NeutralFileError::kVersion:
-      return MIEN_ERROR_NEUTRAL_VERSION;
-    case NeutralFileError::kDamaged:
-      break;
-  }
-  return MIEN_ERROR_NEUTRAL_DAMAGED;
 }
 
 mien_status check(const mien_tracker* tracker) {
@@ -88,13 +73,12 @@ mien_status mien_tracker_load_neutral(mien_tracker* tracker, const void* file, s
   }
   const mien::kernels::FloatMode float_mode;
   NeutralFile loaded;
-  const NeutralFileError error =
+  const mien_status error =
       mien::formats::read_neutral_file({static_cast<const std::byte*>(file), file_bytes}, loaded);
-  for (std::size_t part = 0; error == NeutralFileError::kNone && part < std::size(kLevelOfPart);
-       ++part) {
+  for (std::size_t part = 0; error == MIEN_OK && part < std::size(kLevelOfPart); ++part) {
     if ((loaded.captured >> part & 1u) != 0) {
       tracker->tracker.neutral(kLevelOfPart[part]).set(levels(loaded, part));
     }
   }
-  return status_of(error);
+  return error;
 }

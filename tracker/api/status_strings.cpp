@@ -12,7 +12,7 @@ const char* mien_status_string(mien_status status) {
     case MIEN_ERROR_OUT_OF_RANGE:
       return "a value is out of range";
     case MIEN_ERROR_ALIGNMENT:
-      return "weights, memory or samples are misaligned";
+      return "memory or samples are misaligned";
     case MIEN_ERROR_MEMORY_TOO_SMALL:
       return "the buffer is too small";
     case MIEN_ERROR_OUT_OF_MEMORY:
@@ -31,14 +31,67 @@ const char* mien_status_string(mien_status status) {
       return "the weight file is truncated";
     case MIEN_ERROR_WEIGHTS_CHECKSUM:
       return "the weight file is damaged: wrong checksum";
-    case MIEN_ERROR_WEIGHTS_MALFORMED:
-      return "the weight file is malformed";
     case MIEN_ERROR_WEIGHTS_INCOMPLETE:
       return "the weight file lacks a required network or constant";
     case MIEN_ERROR_WEIGHTS_SHAPE:
       return "a network or constant in the weight file has the wrong shape";
-    case MIEN_ERROR_WEIGHTS_NOT_PACKED:
-      return "the weights are not packed";
+    case MIEN_ERROR_WEIGHTS_VALUE:
+      return "a constant in the weight file is out of range";
+    case MIEN_ERROR_WEIGHTS_TRAILING_BYTES:
+      return "the weight file has bytes after its end";
+    case MIEN_ERROR_WEIGHTS_BYTE_ORDER:
+      return "the weight file is not little-endian";
+    case MIEN_ERROR_WEIGHTS_LIMIT:
+      return "a count or size in the weight file exceeds its limit";
+    case MIEN_ERROR_WEIGHTS_RESERVED:
+      return "a reserved field of the weight file is not zero";
+    case MIEN_ERROR_WEIGHTS_GAP:
+      return "a part of the weight file does not follow the previous one";
+    case MIEN_ERROR_WEIGHTS_PADDING:
+      return "padding in the weight file is not zero";
+    case MIEN_ERROR_WEIGHTS_NAME:
+      return "a name in the weight file is empty, too long, or has other characters than a-z 0-9 _ "
+             ". /";
+    case MIEN_ERROR_WEIGHTS_DUPLICATE_NAME:
+      return "a name in the weight file is used twice";
+    case MIEN_ERROR_WEIGHTS_METADATA:
+      return "a metadata value is too long or not plain UTF-8 text";
+    case MIEN_ERROR_WEIGHTS_TENSOR_TYPE:
+      return "a tensor has an unknown data type";
+    case MIEN_ERROR_WEIGHTS_TENSOR_DIMS:
+      return "rank or dimensions of a tensor are out of range";
+    case MIEN_ERROR_WEIGHTS_TENSOR_BYTES:
+      return "the size of a tensor does not match its dimensions and data type";
+    case MIEN_ERROR_WEIGHTS_TENSOR_VALUE:
+      return "a tensor has NaN or infinity";
+    case MIEN_ERROR_WEIGHTS_TENSOR_UNUSED:
+      return "a tensor is neither used by a layer nor named";
+    case MIEN_ERROR_WEIGHTS_NETWORK:
+      return "input, flags, layers or outputs of a network are out of range";
+    case MIEN_ERROR_WEIGHTS_LAYER_OP:
+      return "the operation of a layer is unknown or not allowed in its network";
+    case MIEN_ERROR_WEIGHTS_LAYER_ACTIVATION:
+      return "the activation of a layer is unknown or not allowed for its operation";
+    case MIEN_ERROR_WEIGHTS_LAYER_INPUT:
+      return "an input of a layer is not an earlier value";
+    case MIEN_ERROR_WEIGHTS_LAYER_SHAPE:
+      return "the output shape of a layer does not match its inputs";
+    case MIEN_ERROR_WEIGHTS_LAYER_WINDOW:
+      return "kernel, stride, padding or flags of a layer are out of range";
+    case MIEN_ERROR_WEIGHTS_LAYER_TENSORS:
+      return "the tensors of a layer do not match its operation";
+    case MIEN_ERROR_WEIGHTS_PACKED_SIZE:
+      return "the unpacked size of a packed weight file is out of range";
+    case MIEN_ERROR_WEIGHTS_PACKED_BLOCK:
+      return "the size of a block of a packed weight file is out of range";
+    case MIEN_ERROR_WEIGHTS_PACKED_TABLE:
+      return "a table of a packed weight file is malformed";
+    case MIEN_ERROR_WEIGHTS_PACKED_STATE:
+      return "a block of a packed weight file is damaged";
+    case MIEN_ERROR_WEIGHTS_PACKED_TRUNCATED:
+      return "the last block of a packed weight file is incomplete";
+    case MIEN_ERROR_WEIGHTS_PACKED_TRAILING:
+      return "a packed weight file has bytes after its last block";
     case MIEN_ERROR_UNSUPPORTED_CPU:
       return "no allowed tier runs on this CPU";
     case MIEN_ERROR_UNSUPPORTED_LAYER:
@@ -47,6 +100,10 @@ const char* mien_status_string(mien_status status) {
       return "internal error";
     case MIEN_ERROR_LEFT_OUT:
       return "not compiled in";
+    case MIEN_ERROR_UNSUPPORTED_LAYOUT:
+      return "a layer other than a convolution reads the interleaved image";
+    case MIEN_ERROR_TOO_LARGE:
+      return "the maps of the network are too large for this input";
     case MIEN_ERROR_IMAGE_FORMAT:
       return "the image format is unknown";
     case MIEN_ERROR_IMAGE_SIZE:

@@ -11,11 +11,13 @@ bool is_weight(float value) { return value >= 0.0f && value <= 1.0f; }
 
 [[nodiscard]] mien_status read(const engine::Model& model, const char* name, Controls& weights) {
   std::span<const float> values;
-  if (model.constant(name, kControls, values) != engine::Status::kOk) {
-    return MIEN_ERROR_WEIGHTS_INCOMPLETE;
+  const mien_status status = model.constant(name, kControls, values);
+  if (status != MIEN_OK) {
+    return status;
   }
-  if (!std::all_of(values.begin(), values.end(), is_weight)) {
-    return MIEN_ERROR_WEIGHTS_MALFORMED;
+  const auto* bad = std::find_if_not(values.data(), values.data() + values.size(), is_weight);
+  if (bad != values.data() + values.size()) {
+    return model.bad_constant(MIEN_ERROR_WEIGHTS_VALUE, name, static_cast<double>(*bad), 0.0, 1.0);
   }
   std::copy(values.begin(), values.end(), weights.begin());
   return MIEN_OK;

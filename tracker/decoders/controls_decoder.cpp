@@ -11,8 +11,9 @@ namespace mien::tracker {
 mien_status ControlsDecoder::load(const engine::Model& model, std::uint32_t cpu_mask,
                                   engine::Arena& arena) {
   std::span<const float> supported;
-  if (model.constant("control_supported", kControls, supported) != engine::Status::kOk) {
-    return MIEN_ERROR_WEIGHTS_INCOMPLETE;
+  const mien_status status = model.constant("control_supported", kControls, supported);
+  if (status != MIEN_OK) {
+    return status;
   }
   supported_ = 0;
   for (std::size_t i = 0; i < kControls; ++i) {

@@ -21,8 +21,9 @@ mien_status BaseNet::load(const Models& models, std::uint32_t cpu_mask, engine::
 
 mien_status BaseNet::load_template(const engine::Model& model) {
   std::span<const float> shape;
-  if (model.constant("landmark_template", 2 * kLandmarks, shape) != engine::Status::kOk) {
-    return MIEN_ERROR_WEIGHTS_INCOMPLETE;
+  const mien_status status = model.constant("landmark_template", 2 * kLandmarks, shape);
+  if (status != MIEN_OK) {
+    return status;
   }
   for (std::size_t i = 0; i < kLandmarks; ++i) {
     template_[i] = {shape[2 * i], shape[2 * i + 1]};
@@ -33,10 +34,7 @@ mien_status BaseNet::load_template(const engine::Model& model) {
 mien_status BaseNet::load_head_points(const engine::Model& model) {
   constexpr std::string_view kName = "head_points";
   const bool present = model.file().find_constant(kName) != nullptr;
-  if (present && model.constant(kName, kHeadPoints, head_points_) != engine::Status::kOk) {
-    return MIEN_ERROR_WEIGHTS_INCOMPLETE;
-  }
-  return MIEN_OK;
+  return present ? model.constant(kName, kHeadPoints, head_points_) : MIEN_OK;
 }
 
 bool BaseNet::encode(const ImageView& view, const Crop& crop, StageTimer& timer,

@@ -1,9 +1,10 @@
-// The validated weight files of a tracker.
+// The weight files of a tracker.
 #pragma once
 
 #include <mien/mien.h>
 
 #include "engine/model.h"
+#include "tracker/encoders/weights.h"
 
 namespace mien::tracker {
 
@@ -16,6 +17,13 @@ struct Models {
   bool has_audionet = false;
 };
 
-[[nodiscard]] mien_status open_models(const mien_tracker_config& config, Models& models);
+// Finds the files among the weights by their networks. Errors of loading them are described in
+// `error`.
+// Returns MIEN_OK, or MIEN_ERROR_WEIGHTS_INCOMPLETE without BaseNet or the detector.
+[[nodiscard]] mien_status find_models(const mien_tracker_config& config, mien_error_detail& error,
+                                      Models& models);
+
+// Whether the weights have HiFiNet.
+[[nodiscard]] bool has_hifinet(const mien_weights& weights);
 
 }  // namespace mien::tracker

@@ -20,6 +20,9 @@
 #include "apps/mien/system/failure.h"
 #include "apps/mien/system/json_text.h"
 #include "apps/mien/system/paths.h"
+#include "kernels/families.h"
+#include "kernels/float_mode.h"
+#include "kernels/registry.h"
 
 namespace mien::app {
 namespace {
@@ -54,34 +57,49 @@ std::vector<std::string> tiers_to_time(const std::string& chosen) {
   return tiers;
 }
 
+// Runs fused multiply-adds in registers and returns their number.
+std::int64_t multiply_adds(std::uint32_t mask, std::int64_t rounds) {
+  const kernels::Kernel<kernels::FmaPeakArgs> loop = kernels::find<kernels::FmaPeakArgs>(mask);
+  if (loop == nullptr) {
+    return 0;
+  }
+  float sums[8];
+  std::int64_t macs = 0;
+  const kernels::FloatMode ours;
+  loop({sums, rounds, &macs});
+  // Using the sums keeps the compiler from removing the loop.
+  return sums[0] > -1e30f ? macs : 0;
+}
+
 // The best of several short loops, because a long one is more likely to be interrupted.
 double peak_gflops(const std::string& tier) {
   constexpr std::int64_t kRounds = 100'000;
   double best = 0.0;
   for (int i = 0; i < 30; ++i) {
     const auto begin = Clock::now();
-    const std::int64_t macs = run_fma_loop(cpu_mask(tier), kRounds);
+    const std::int64_t macs = multiply_adds(cpu_mask(tier), kRounds);
     best = std::max(best, 2.0 * static_cast<double>(macs) / seconds_from(begin) * 1e-9);
   }
   return best;
 }
 
 struct Subject {
-  const WeightFile& file;
+  const Weights& weights;
   std::int32_t network;
   std::string name;
 };
 
 Figures time_network(const Subject& subject, const std::string& tier, double peak,
                      const BenchOptions& bench) {
-  const auto& [file, network, name] = subject;
-  const NetworkInfo info = file.network(network);
-  NetworkRunner runner;
-  NetworkRunner::Options options;
-  options.cpu_mask = cpu_mask(tier, bench.unfused);
-  const EngineStatus status = runner.create(file, info.name, options);
-  if (status != EngineStatus::kOk) {
-    throw Failure(kExitModel, name + ": " + message(status));
+  const auto& [weights, network, name] = subject;
+  const WeightsContent content(weights);
+  const NetworkInfo info = content.network(network);
+  NetworkConfig config(weights, info.name);
+  config.cpu_mask = cpu_mask(tier, bench.unfused);
+  Network runner;
+  Error error;
+  if (runner.create(config, &error) != MIEN_OK) {
+    throw Failure(kExitModel, name + ": " + error.message());
   }
   const std::vector<double> ms = network_times_ms(runner);
   Figures figures{name, tier, info.macs, ms.front(), ms[ms.size() / 2], ms[ms.size() * 95 / 100],
@@ -89,7 +107,7 @@ Figures time_network(const Subject& subject, const std::string& tier, double pea
   figures.gflops = 2.0 * static_cast<double>(info.macs) / figures.median_ms * 1e-6;
   figures.peak_fraction = figures.gflops / peak;
   if (bench.layers) {
-    figures.steps = time_steps(file, network, runner, peak);
+    figures.steps = time_steps(content, network, runner, peak);
   }
   return figures;
 }
@@ -101,19 +119,15 @@ std::string bench_name(const std::filesystem::path& path, std::string_view netwo
 
 void time_file(const std::filesystem::path& path, const BenchOptions& options,
                const std::map<std::string, double>& peaks, std::vector<Figures>& results) {
-  const Blob blob(name_of(path));
-  WeightFile file;
-  const EngineStatus status = file.open({static_cast<const std::byte*>(blob.data()), blob.size()});
-  if (status != EngineStatus::kOk) {
-    throw Failure(kExitModel, name_of(path) + ": " + message(status));
-  }
+  const OpenedWeights opened({name_of(path)});
+  const WeightsContent file(opened.weights());
   for (std::int32_t i = 0; i < file.network_count(); ++i) {
     const std::string name = bench_name(path, file.network(i).name);
     if (!options.model.empty() && options.model != name) {
       continue;
     }
     for (const auto& [tier, peak] : peaks) {
-      results.push_back(time_network({file, i, name}, tier, peak, options));
+      results.push_back(time_network({opened.weights(), i, name}, tier, peak, options));
     }
   }
 }

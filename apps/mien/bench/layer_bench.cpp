@@ -14,7 +14,7 @@ constexpr double kLayerSeconds = 0.5;
 constexpr std::size_t kMinTurns = 20;
 
 // [step][run], sorted.
-std::vector<std::vector<double>> times_us(NetworkRunner& runner) {
+std::vector<std::vector<double>> times_us(Network& runner) {
   std::vector<std::vector<double>> times(static_cast<std::size_t>(runner.step_count()));
   const auto begin = Clock::now();
   auto now = begin;
@@ -33,7 +33,7 @@ std::vector<std::vector<double>> times_us(NetworkRunner& runner) {
   return times;
 }
 
-StepTime describe(const WeightFile& file, std::int32_t network, NetworkRunner::StepLayers layers) {
+StepTime describe(const WeightsContent& file, std::int32_t network, Network::StepLayers layers) {
   StepTime step{layers.first + 1, layers.count, "", {}, 0, 0, 0, 0, 0};
   for (std::int32_t i = layers.first; i < layers.first + layers.count; ++i) {
     const LayerInfo layer = file.layer(network, i);
@@ -46,8 +46,8 @@ StepTime describe(const WeightFile& file, std::int32_t network, NetworkRunner::S
 
 }  // namespace
 
-std::vector<StepTime> time_steps(const WeightFile& file, std::int32_t network,
-                                 NetworkRunner& runner, double peak) {
+std::vector<StepTime> time_steps(const WeightsContent& file, std::int32_t network, Network& runner,
+                                 double peak) {
   std::vector<StepTime> steps;
   for (const std::vector<double>& us : times_us(runner)) {
     const auto i = static_cast<std::int32_t>(steps.size());

@@ -22,8 +22,8 @@ struct StepTime {
 
 // Measures every step inside whole runs, so that caches behave as in use. `network` is the index in
 // `file` of the network that `runner` runs; `peak` is in GFLOP/s.
-std::vector<StepTime> time_steps(const WeightFile& file, std::int32_t network,
-                                 NetworkRunner& runner, double peak);
+std::vector<StepTime> time_steps(const WeightsContent& file, std::int32_t network, Network& runner,
+                                 double peak);
 
 nlohmann::ordered_json to_json(const std::vector<StepTime>& steps);
 void print(const std::vector<StepTime>& steps);

@@ -96,22 +96,18 @@ double fastest_start_ms(const BenchOptions& options) {
 }
 
 // A network ready to run.
-struct Network {
-  Blob blob;
-  WeightFile file;
-  NetworkRunner runner;
+struct TimedNetwork {
+  OpenedWeights file;
+  Network runner;
   double fastest_us = 1e9;
 
-  Network(const Part& part, const BenchOptions& options)
-      : blob(models_directory(options.models) + "/" + part.file + ".mien") {
-    NetworkRunner::Options runner_options;
-    runner_options.cpu_mask = cpu_mask(options.tier, options.unfused);
-    EngineStatus status = file.open({static_cast<const std::byte*>(blob.data()), blob.size()});
-    if (status == EngineStatus::kOk) {
-      status = runner.create(file, part.network, runner_options);
-    }
-    if (status != EngineStatus::kOk) {
-      throw Failure(kExitModel, std::string(part.file) + ".mien: " + message(status));
+  TimedNetwork(const Part& part, const BenchOptions& options)
+      : file({models_directory(options.models) + "/" + part.file + ".mien"}) {
+    NetworkConfig config(file.weights(), part.network);
+    config.cpu_mask = cpu_mask(options.tier, options.unfused);
+    Error error;
+    if (runner.create(config, &error) != MIEN_OK) {
+      throw Failure(kExitModel, std::string(part.file) + ".mien: " + error.message());
     }
   }
 
@@ -123,9 +119,9 @@ struct Network {
 };
 
 void time_networks(const BenchOptions& options, LevelTimes& report) {
-  std::vector<std::unique_ptr<Network>> networks;
+  std::vector<std::unique_ptr<TimedNetwork>> networks;
   for (const Part& part : kParts) {
-    networks.push_back(std::make_unique<Network>(part, options));
+    networks.push_back(std::make_unique<TimedNetwork>(part, options));
     report.networks_us += network_times_ms(networks.back()->runner).front() * 1e3;
   }
   for (int turn = 0; turn < kRepetitions * options.rounds; ++turn) {
@@ -154,7 +150,7 @@ std::vector<FrameTime> one_round(LoadedTracker& loaded, const Nv12Clip& clip) {
   check(loaded.tracker.reset(), "bench");
   for (std::size_t i = 0; i < clip.frames(); ++i) {
     const std::int64_t pts_ns = static_cast<std::int64_t>(i) * kFrameNs;
-    if (loaded.audionet) {
+    if (loaded.has_audio) {
       push_audio(loaded.tracker, pts_ns);
     }
     const mien_image image = clip.frame(i);

@@ -20,7 +20,7 @@ double seconds_since(Clock::time_point begin) {
 
 }  // namespace
 
-std::vector<double> network_times_ms(NetworkRunner& runner) {
+std::vector<double> network_times_ms(Network& runner) {
   std::mt19937 random(1);
   std::uniform_real_distribution<float> values(-1.0f, 1.0f);
   for (float& value : runner.input()) {

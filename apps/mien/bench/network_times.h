@@ -10,6 +10,6 @@
 namespace mien::app {
 
 // Milliseconds, sorted, of runs on random input.
-[[nodiscard]] std::vector<double> network_times_ms(NetworkRunner& runner);
+[[nodiscard]] std::vector<double> network_times_ms(Network& runner);
 
 }  // namespace mien::app

@@ -22,11 +22,11 @@ std::string text(const std::vector<std::uint64_t>& dims) {
 ArrayShape::ArrayShape(std::span<const std::uint64_t> dims, const NetworkInfo& network,
                        MapLayout layout)
     : dims_(dims.begin(), dims.end()), map_(network.input), layout_(layout) {
-  const TensorShape& in = network.input;
+  const TensorShape in = network.input;
   const bool vector = in.height == 1 && in.width == 1;
   expected_ = text(vector ? std::vector{u64(in.channels)} : axes(in)) +
-              (network.any_size ? " or larger" : "");
-  fits_ = take(axes(in)) || (network.any_size && take_larger(in)) ||
+              (network.any_size != 0 ? " or larger" : "");
+  fits_ = take(axes(in)) || (network.any_size != 0 && take_larger(in)) ||
           (vector && take({u64(in.channels)}));
   if (!fits_ && in.height == 1 && !vector) {
     const std::uint64_t c = u64(in.channels), w = u64(in.width);

@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/mien/networks/model_files.h"
-#include "apps/mien/system/failure.h"
 #include "apps/mien/system/json_text.h"
 
 namespace mien::app {
@@ -16,12 +15,12 @@ namespace {
 
 using nlohmann::ordered_json;
 
-std::string text(const TensorShape& shape) {
+std::string text(const mien_shape& shape) {
   return std::to_string(shape.height) + "x" + std::to_string(shape.width) + "x" +
          std::to_string(shape.channels);
 }
 
-ordered_json array(const TensorShape& shape) { return {shape.height, shape.width, shape.channels}; }
+ordered_json array(const mien_shape& shape) { return {shape.height, shape.width, shape.channels}; }
 
 ordered_json layer_json(const LayerInfo& layer) {
   ordered_json json;
@@ -46,12 +45,12 @@ ordered_json layer_json(const LayerInfo& layer) {
   return json;
 }
 
-ordered_json network_json(const WeightFile& file, std::int32_t index) {
+ordered_json network_json(const WeightsContent& file, std::int32_t index) {
   const NetworkInfo info = file.network(index);
   ordered_json json;
   json["name"] = info.name;
   json["input"] = array(info.input);
-  json["any_size"] = info.any_size;
+  json["any_size"] = info.any_size != 0;
   json["outputs"] = info.outputs;
   json["parameters"] = info.parameters;
   json["macs"] = info.macs;
@@ -65,20 +64,20 @@ ordered_json network_json(const WeightFile& file, std::int32_t index) {
   return json;
 }
 
-ordered_json file_json(const WeightFile& file) {
+ordered_json file_json(const WeightsContent& file, std::size_t bytes) {
   ordered_json json;
-  json["bytes"] = file.file_bytes();
+  json["bytes"] = bytes;
   json["metadata"] = ordered_json::object();
   for (std::int32_t i = 0; i < file.metadata_count(); ++i) {
     const MetadataInfo info = file.metadata(i);
-    json["metadata"][std::string(info.key)] = info.value;
+    json["metadata"][info.key] = info.text();
   }
   json["constants"] = ordered_json::array();
   for (std::int32_t i = 0; i < file.constant_count(); ++i) {
     const ConstantInfo info = file.constant(i);
     json["constants"].push_back({{"name", info.name},
                                  {"type", info.type},
-                                 {"dims", std::vector(info.dims.begin(), info.dims.end())}});
+                                 {"dims", std::vector(info.dims, info.dims + info.rank)}});
   }
   json["networks"] = ordered_json::array();
   for (std::int32_t i = 0; i < file.network_count(); ++i) {
@@ -103,11 +102,11 @@ void print_layer(std::int32_t number, const LayerInfo& layer) {
               static_cast<unsigned long long>(layer.macs));
 }
 
-void print_network(const WeightFile& file, std::int32_t index) {
+void print_network(const WeightsContent& file, std::int32_t index) {
   const NetworkInfo info = file.network(index);
-  std::printf("network %.*s: input %s%s, %llu parameters, %.2f M MACs\n",
-              static_cast<int>(info.name.size()), info.name.data(), text(info.input).c_str(),
-              info.any_size ? " or larger" : "", static_cast<unsigned long long>(info.parameters),
+  std::printf("network %s: input %s%s, %llu parameters, %.2f M MACs\n", info.name,
+              text(info.input).c_str(), info.any_size != 0 ? " or larger" : "",
+              static_cast<unsigned long long>(info.parameters),
               static_cast<double>(info.macs) * 1e-6);
   std::printf("  weights %llu bytes, session %llu bytes, arena %llu bytes\n",
               static_cast<unsigned long long>(info.weight_bytes),
@@ -118,19 +117,17 @@ void print_network(const WeightFile& file, std::int32_t index) {
   }
 }
 
-void print_file(const WeightFile& file) {
-  std::printf("%zu bytes\n", file.file_bytes());
+void print_file(const WeightsContent& file, std::size_t bytes) {
+  std::printf("%zu bytes\n", bytes);
   for (std::int32_t i = 0; i < file.metadata_count(); ++i) {
     const MetadataInfo info = file.metadata(i);
-    std::printf("%.*s: %.*s\n", static_cast<int>(info.key.size()), info.key.data(),
-                static_cast<int>(info.value.size()), info.value.data());
+    std::printf("%s: %.*s\n", info.key, static_cast<int>(info.value_bytes), info.value);
   }
   for (std::int32_t i = 0; i < file.constant_count(); ++i) {
     const ConstantInfo info = file.constant(i);
-    std::printf("constant %.*s: %s", static_cast<int>(info.name.size()), info.name.data(),
-                info.type);
-    for (const std::uint32_t dim : info.dims) {
-      std::printf(" %u", dim);
+    std::printf("constant %s: %s", info.name, info.type);
+    for (std::int32_t k = 0; k < info.rank; ++k) {
+      std::printf(" %u", info.dims[k]);
     }
     std::printf("\n");
   }
@@ -142,20 +139,12 @@ void print_file(const WeightFile& file) {
 }  // namespace
 
 void inspect(const InspectOptions& options) {
-  const Blob blob(options.file);
-  WeightFile file;
-  const EngineStatus status = file.open({static_cast<const std::byte*>(blob.data()), blob.size()});
-  if (status == EngineStatus::kBadFile) {
-    throw Failure(kExitModel, options.file + ": byte " + std::to_string(file.fault_offset()) +
-                                  ": " + file.fault());
-  }
-  if (status != EngineStatus::kOk) {
-    throw Failure(kExitModel, options.file + ": " + message(status));
-  }
+  const OpenedWeights file({options.file});
+  const WeightsContent content(file.weights());
   if (options.json) {
-    std::printf("%s\n", json_text(file_json(file)).c_str());
+    std::printf("%s\n", json_text(file_json(content, file.bytes())).c_str());
   } else {
-    print_file(file);
+    print_file(content, file.bytes());
   }
 }
 

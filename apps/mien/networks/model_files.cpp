@@ -6,6 +6,8 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <span>
+#include <utility>
 
 #include "apps/mien/networks/embedded_models.h"
 #include "apps/mien/system/failure.h"
@@ -55,12 +57,36 @@ Blob::Blob(const std::string& path, ExitCode code) {
 
 void Blob::allocate(std::size_t bytes) {
   size_ = bytes;
-  words_.resize((bytes + sizeof(Line) - 1) / sizeof(Line));
+  words_.resize(bytes / sizeof(Line) + 1);  // an empty file has memory as well
 }
 
 bool model_exists(const std::string& path) {
   std::error_code ignored;
   return embedded_model(path) != nullptr || fs::exists(path_of(path), ignored);
+}
+
+OpenedWeights::OpenedWeights(std::vector<std::string> paths) : paths_(std::move(paths)) {
+  std::vector<std::span<const std::byte>> files;
+  for (const std::string& path : paths_) {
+    const Blob& blob = blobs_.emplace_back(path);
+    files.emplace_back(static_cast<const std::byte*>(blob.data()), blob.size());
+  }
+  Error error;
+  if (weights_.create(files, false, &error) != MIEN_OK) {
+    throw Failure(kExitModel, path_of(error) + ": " + error.message());
+  }
+}
+
+std::size_t OpenedWeights::bytes() const {
+  std::size_t bytes = 0;
+  for (const Blob& blob : blobs_) {
+    bytes += blob.size();
+  }
+  return bytes;
+}
+
+const std::string& OpenedWeights::path_of(const mien_error_detail& error) const {
+  return paths_[error.file < 0 ? 0 : static_cast<std::size_t>(error.file)];
 }
 
 std::string models_directory(const std::string& chosen) {

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <deque>
 #include <filesystem>
+#include <mien/mien.hpp>
 #include <string>
 #include <vector>
 
@@ -26,6 +28,23 @@ class Blob {
 
   std::vector<Line> words_;
   std::size_t size_ = 0;
+};
+
+// Opened weight files.
+class OpenedWeights {
+ public:
+  // Throws a Failure that names the file if one cannot be read or is malformed.
+  explicit OpenedWeights(std::vector<std::string> paths);
+
+  [[nodiscard]] const Weights& weights() const { return weights_; }
+  [[nodiscard]] std::size_t bytes() const;
+  // The path of the file that an error concerns, or of the first.
+  [[nodiscard]] const std::string& path_of(const mien_error_detail& error) const;
+
+ private:
+  std::vector<std::string> paths_;
+  std::deque<Blob> blobs_;  // used in place
+  Weights weights_;
 };
 
 // `chosen` if not empty; else $MIEN_MODELS; else `models` beside the program, above it, or

@@ -16,7 +16,7 @@
 namespace mien::app {
 namespace {
 
-std::string network_names(const WeightFile& file) {
+std::string network_names(const WeightsContent& file) {
   std::string names;
   for (std::int32_t i = 0; i < file.network_count(); ++i) {
     names.append(i == 0 ? "" : ", ").append(file.network(i).name);
@@ -24,27 +24,18 @@ std::string network_names(const WeightFile& file) {
   return names;
 }
 
-NetworkInfo chosen_network(const WeightFile& file, const RunOptions& options) {
+NetworkInfo chosen_network(const WeightsContent& file, const RunOptions& options) {
   if (options.network.empty() && file.network_count() == 1) {
     return file.network(0);
   }
   for (std::int32_t i = 0; i < file.network_count(); ++i) {
-    if (file.network(i).name == options.network) {
+    if (options.network == file.network(i).name) {
       return file.network(i);
     }
   }
   throw Failure(kExitUsage, "--network: unknown network in " + options.model + " (got '" +
                                 options.network + "', expected one of " + network_names(file) +
                                 ")");
-}
-
-void open_model(const Blob& blob, const std::string& path, WeightFile& file) {
-  const EngineStatus status = file.open({static_cast<const std::byte*>(blob.data()), blob.size()});
-  if (status != EngineStatus::kOk) {
-    throw Failure(
-        kExitModel,
-        path + ": " + (status == EngineStatus::kBadFile ? file.fault() : message(status)));
-  }
 }
 
 formats::NpyArray read_array(const Blob& blob, const std::string& path) {
@@ -82,7 +73,8 @@ struct MapSize {
       : pixels(static_cast<std::size_t>(shape.height) * static_cast<std::size_t>(shape.width)),
         channels(static_cast<std::size_t>(shape.channels)) {}
   [[nodiscard]] std::size_t elems() const { return pixels * channels; }
-  // The index in the engine's layout, blocks of 8 channels; see include/mien/engine.h.
+  // The index in the engine's layout, blocks of 8 channels; see mien_network in
+  // include/mien/mien.h.
   [[nodiscard]] std::size_t blocked(std::size_t pixel, std::size_t channel) const {
     return (channel / 8 * pixels + pixel) * 8 + channel % 8;
   }
@@ -90,7 +82,7 @@ struct MapSize {
 };
 
 void set_input(const formats::NpyArray& array, std::uint64_t step, MapLayout layout,
-               NetworkRunner& runner) {
+               Network& runner) {
   const TensorShape shape = runner.input_shape();
   const MapSize size(shape);
   const ElementIndex places(shape, layout);
@@ -104,8 +96,7 @@ void set_input(const formats::NpyArray& array, std::uint64_t step, MapLayout lay
   }
 }
 
-void write_output(const NetworkRunner& runner, std::int32_t index, MapLayout layout,
-                  OutputFile& file) {
+void write_output(const Network& runner, std::int32_t index, MapLayout layout, OutputFile& file) {
   const TensorShape shape = runner.output_shape(index);
   const MapSize size(shape);
   const ElementIndex places(shape, layout);
@@ -126,7 +117,7 @@ void write_header(const std::vector<std::uint64_t>& shape, OutputFile& file) {
 // Resets the network at the start of each stream. Of the axes before the map, the last counts time
 // steps and the others count streams.
 void run_steps(const formats::NpyArray& array, const ArrayShape& shape, MapLayout layout,
-               NetworkRunner& runner, std::deque<OutputFile>& files) {
+               Network& runner, std::deque<OutputFile>& files) {
   for (std::uint64_t step = 0; step < shape.steps(); ++step) {
     if (step % shape.steps_per_stream() == 0) {
       runner.reset();
@@ -142,9 +133,9 @@ void run_steps(const formats::NpyArray& array, const ArrayShape& shape, MapLayou
 }  // namespace
 
 void run_network(const RunOptions& options) {
-  const Blob model(options.model, kExitModel), data(options.input, kExitNoInput);
-  WeightFile file;
-  open_model(model, options.model, file);
+  const OpenedWeights model({options.model});
+  const Blob data(options.input, kExitNoInput);
+  const WeightsContent file(model.weights());
   const NetworkInfo network = chosen_network(file, options);
   if (static_cast<std::size_t>(network.outputs) != options.outputs.size()) {
     throw Failure(kExitUsage, "--output: wrong number of arrays (got " +
@@ -157,15 +148,16 @@ void run_network(const RunOptions& options) {
   if (!shape.fits()) {
     throw Failure(kExitNoInput, options.input + ": " + shape.mismatch());
   }
-  NetworkRunner runner;
-  NetworkRunner::Options runner_options;
-  runner_options.input = shape.map();
+  NetworkConfig config(model.weights(), network.name);
+  config.height = shape.map().height;
+  config.width = shape.map().width;
   if (!options.tier.empty()) {
-    runner_options.cpu_mask = cpu_mask(options.tier);
+    config.cpu_mask = cpu_mask(options.tier);
   }
-  const EngineStatus status = runner.create(file, network.name, runner_options);
-  if (status != EngineStatus::kOk) {
-    throw Failure(kExitModel, options.model + ": " + message(status));
+  Network runner;
+  Error error;
+  if (runner.create(config, &error) != MIEN_OK) {
+    throw Failure(kExitModel, options.model + ": " + error.message());
   }
   std::deque<OutputFile> files;
   for (std::int32_t i = 0; i < runner.output_count(); ++i) {

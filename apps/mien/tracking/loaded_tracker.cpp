@@ -6,6 +6,8 @@
 #include <fstream>
 #include <numbers>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "apps/mien/networks/tiers.h"
 #include "apps/mien/system/failure.h"
@@ -18,16 +20,23 @@ std::uint64_t now_ns(void*) {
                                     std::chrono::nanoseconds(1));
 }
 
-std::optional<Blob> blob_if_there(const std::string& path) {
-  return model_exists(path) ? std::optional<Blob>(path) : std::nullopt;
-}
-
-std::span<const std::byte> bytes(const Blob& blob) {
-  return {static_cast<const std::byte*>(blob.data()), blob.size()};
-}
+std::string hifinet_path(const std::string& folder) { return folder + "/hifinet.mien"; }
 
 std::string audionet_path(const std::string& models) {
   return models_directory(models) + "/audionet.mien";
+}
+
+// The weight files that the options need; HiFiNet only if it is there.
+std::vector<std::string> weight_paths(const LoadedTracker::Options& options) {
+  const std::string folder = models_directory(options.models);
+  std::vector<std::string> paths = {folder + "/basenet.mien", folder + "/proposal.mien"};
+  if (model_exists(hifinet_path(folder))) {
+    paths.push_back(hifinet_path(folder));
+  }
+  if (options.sound) {
+    paths.push_back(audionet_path(options.models));
+  }
+  return paths;
 }
 
 }  // namespace
@@ -35,22 +44,12 @@ std::string audionet_path(const std::string& models) {
 bool has_audionet(const std::string& models) { return model_exists(audionet_path(models)); }
 
 LoadedTracker::LoadedTracker(const Options& options)
-    : basenet(models_directory(options.models) + "/basenet.mien"),
-      proposal(models_directory(options.models) + "/proposal.mien"),
-      hifinet(blob_if_there(models_directory(options.models) + "/hifinet.mien")) {
-  if (options.sound) {
-    audionet.emplace(audionet_path(options.models));
-  }
-  Config config(bytes(basenet), bytes(proposal));
-  if (hifinet) {
-    config.hifinet = hifinet->data();
-    config.hifinet_bytes = hifinet->size();
-  }
-  if (audionet) {
-    config.audionet = audionet->data();
-    config.audionet_bytes = audionet->size();
-  }
-  config.lod = options.lod.value_or(hifinet ? 4 : 1);
+    : weights(weight_paths(options)),
+      has_hifinet(model_exists(hifinet_path(models_directory(options.models)))),
+      has_audio(options.sound) {
+  const std::string folder = models_directory(options.models);
+  Config config(weights.weights());
+  config.lod = options.lod.value_or(has_hifinet ? 4 : 1);
   config.budget_ms = options.budget_ms;
   config.max_faces = options.max_faces;
   config.voice_strength = options.voice_strength;
@@ -59,16 +58,18 @@ LoadedTracker::LoadedTracker(const Options& options)
   config.cpu_mask = cpu_mask(options.tier, options.unfused);
   config.audio_queue_samples = options.queued_samples;
   config.clock_ns = now_ns;
-  mien_status status = tracker.create(config);
+  Error error;
+  mien_status status = tracker.create(config, &error);
   if (status == MIEN_OK) {
-    status = mien_tracker_required_bytes(&config, &tracker_bytes);
+    status = mien_tracker_required_bytes(&config, &tracker_bytes, &error);
   }
-  if (status == MIEN_ERROR_UNSUPPORTED_LOD) {
-    throw Failure(kExitUsage, "--lod " + std::to_string(config.lod) + ": " +
-                                  models_directory(options.models) + " has no hifinet.mien");
+  if (status == MIEN_ERROR_UNSUPPORTED_LOD && !has_hifinet) {
+    throw Failure(kExitUsage,
+                  "--lod " + std::to_string(config.lod) + ": " + folder + " has no hifinet.mien");
   }
   if (status != MIEN_OK) {
-    throw Failure(kExitModel, models_directory(options.models) + ": " + message(status));
+    const std::string& where = error.file < 0 ? folder : weights.path_of(error);
+    throw Failure(kExitModel, where + ": " + error.message());
   }
 }
 

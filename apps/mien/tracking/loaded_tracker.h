@@ -29,9 +29,9 @@ struct LoadedTracker {
   // Throws Failure.
   explicit LoadedTracker(const Options& options);
 
-  Blob basenet, proposal;
-  std::optional<Blob> hifinet;   // if present
-  std::optional<Blob> audionet;  // if the tracker accepts audio
+  OpenedWeights weights;
+  bool has_hifinet = false;
+  bool has_audio = false;  // the tracker accepts audio
   Tracker tracker;
   std::size_t tracker_bytes = 0;  // memory of the tracker without weights
 };

@@ -67,7 +67,7 @@ void neutral(const NeutralOptions& options) {
   require_distinct_files(inputs, {options.output});
   std::unique_ptr<VideoSource> video = open(options);
   NeutralBytes file = capture(options, *video, loaded.tracker, 1);
-  if (loaded.hifinet) {
+  if (loaded.has_hifinet) {
     check(loaded.tracker.set_lod(4), options.input);
     if (can_be_shown_again(options.input, *video)) {
       video = open(options);
@@ -81,11 +81,11 @@ void neutral(const NeutralOptions& options) {
     const nlohmann::ordered_json done = {
         {"input", without_credentials(options.input)},
         {"output", options.output},
-        {"levels", loaded.hifinet ? std::vector<int>{1, 2, 3, 4} : std::vector<int>{1}}};
+        {"levels", loaded.has_hifinet ? std::vector<int>{1, 2, 3, 4} : std::vector<int>{1}}};
     std::printf("%s\n", json_text(done).c_str());
   } else if (!options.quiet) {
     std::fprintf(stderr, "%s: neutral calibration for %s\n", shown(options.output).c_str(),
-                 loaded.hifinet ? "all levels of detail" : "level of detail 1");
+                 loaded.has_hifinet ? "all levels of detail" : "level of detail 1");
   }
 }
 

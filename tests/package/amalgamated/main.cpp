@@ -1,5 +1,5 @@
-// Tracks video and audio on every tier of this CPU, and prints a checksum of the results of each.
-// Two builds of the same library print the same.
+// Tracks pictures and sound on every tier there is, and prints a checksum of all results of each:
+// two builds of the same library print the same.
 //
 // usage: amalgamated MODELS_FOLDER FRAMES.rgb       (640x480)
 #include <cmath>
@@ -16,23 +16,36 @@ namespace {
 constexpr int kWidth = 640, kHeight = 480, kRate = 16000, kFrames = 30;
 constexpr std::size_t kFrameBytes = std::size_t{kWidth} * kHeight * 3;
 
-// The bytes of a file, aligned as weight files require.
 struct File {
   explicit File(const std::string& path) {
     std::ifstream stream(path, std::ios::binary);
-    const std::vector<char> all{std::istreambuf_iterator<char>(stream), {}};
-    storage.resize(all.size() + MIEN_ALIGNMENT);
-    data = storage.data() +
-           (MIEN_ALIGNMENT - reinterpret_cast<std::uintptr_t>(storage.data()) % MIEN_ALIGNMENT);
-    std::copy(all.begin(), all.end(), data);
-    bytes = all.size();
+    data.assign(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
   }
-  std::vector<char> storage;
-  char* data = nullptr;
-  std::size_t bytes = 0;
+  std::vector<char> data;
 };
 
-// FNV-1a of all bytes of results.
+mien_weights* open_weights(const std::string& models) {
+  const File files[] = {File(models + "/basenet.mien"), File(models + "/proposal.mien"),
+                        File(models + "/hifinet.mien"), File(models + "/audionet.mien")};
+  mien_weights_config config;
+  mien_weights_config_default(&config);
+  config.copy = 1;
+  for (int i = 0; i < 4; ++i) {
+    config.files[i] = files[i].data.data();
+    config.file_bytes[i] = files[i].data.size();
+  }
+  mien_weights* weights = nullptr;
+  mien_error_detail error;
+  mien_error_detail_default(&error);
+  if (mien_weights_create(&config, &weights, &error) != MIEN_OK) {
+    char text[256];
+    mien_error_message(&error, text, sizeof text);
+    std::fprintf(stderr, "%s: %s\n", models.c_str(), text);
+  }
+  return weights;
+}
+
+// FNV-1a of everything that a result says.
 struct Checksum {
   void add(const void* data, std::size_t bytes) {
     for (std::size_t i = 0; i < bytes; ++i) {
@@ -42,7 +55,7 @@ struct Checksum {
   std::uint64_t value = 0xcbf29ce484222325u;
 };
 
-float buzz(int sample) {  // similar to syllables
+float buzz(int sample) {  // syllables of a kind
   const float t = static_cast<float>(sample) / kRate;
   float sum = 0;
   for (int k = 1; k < 20; ++k) {
@@ -51,19 +64,14 @@ float buzz(int sample) {  // similar to syllables
   return 0.2f * sum * std::fmax(std::sin(6.2831853f * 4.0f * t), 0.0f);
 }
 
-bool track(const std::string& models, const File& pictures, std::uint32_t tiers) {
-  const File basenet(models + "/basenet.mien"), proposal(models + "/proposal.mien"),
-      hifinet(models + "/hifinet.mien"), audionet(models + "/audionet.mien");
+bool track(const mien_weights* weights, const File& pictures, std::uint32_t tiers) {
   mien_tracker_config config;
   mien_tracker_config_default(&config);
   config.cpu_mask = tiers | MIEN_CPU_FUSED;
   config.lod = 4;
-  config.basenet = basenet.data, config.basenet_bytes = basenet.bytes;
-  config.proposal = proposal.data, config.proposal_bytes = proposal.bytes;
-  config.hifinet = hifinet.data, config.hifinet_bytes = hifinet.bytes;
-  config.audionet = audionet.data, config.audionet_bytes = audionet.bytes;
+  config.weights = weights;
   mien_tracker* tracker = nullptr;
-  if (mien_tracker_create(&config, &tracker) != MIEN_OK) {
+  if (mien_tracker_create(&config, &tracker, nullptr) != MIEN_OK) {
     return false;
   }
   Checksum checksum;
@@ -87,7 +95,7 @@ bool track(const std::string& models, const File& pictures, std::uint32_t tiers)
     image.format = MIEN_IMAGE_RGB;
     image.width = kWidth, image.height = kHeight;
     image.row_stride_bytes[0] = kWidth * 3;
-    image.planes[0] = pictures.data + static_cast<std::size_t>(i) * kFrameBytes;
+    image.planes[0] = pictures.data.data() + static_cast<std::size_t>(i) * kFrameBytes;
     mien_result result;
     mien_result_default(&result);
     if (mien_tracker_push_audio(tracker, &audio, time_ns) != MIEN_OK ||
@@ -113,11 +121,12 @@ int main(int count, char** arguments) {
     return 2;
   }
   const File pictures(arguments[2]);
-  if (pictures.bytes < kFrames * kFrameBytes) {
+  if (pictures.data.size() < kFrames * kFrameBytes) {
     std::fprintf(stderr, "%s: no %d pictures\n", arguments[2], kFrames);
     return 2;
   }
-  bool fine = mien_cpu_tiers() != 0;
+  mien_weights* weights = open_weights(arguments[1]);
+  bool fine = weights != nullptr && mien_cpu_tiers() != 0;
   for (std::uint32_t tier = 1; tier != 0 && tier != MIEN_CPU_FUSED; tier <<= 1) {
     if ((mien_cpu_tiers() & tier) != 0) {
       std::printf("%s ", mien_cpu_tier_name(tier));
@@ -127,8 +136,9 @@ int main(int count, char** arguments) {
                                                            : 0u;
       below |= tier == MIEN_CPU_AVX512_VNNI ? MIEN_CPU_AVX512 | MIEN_CPU_AVX2 : 0u;
       below |= tier == MIEN_CPU_NEON_FP16 ? MIEN_CPU_NEON : 0u;
-      fine = track(arguments[1], pictures, tier | below) && fine;
+      fine = fine && track(weights, pictures, tier | below);
     }
   }
+  mien_weights_destroy(weights);
   return fine ? 0 : 1;
 }

@@ -2,33 +2,13 @@
 #include <mien/engine.h>
 #include <mien/mien.hpp>
 
-#include <fstream>
-#include <string>
 #include <vector>
 
-// A file in aligned memory, filled up with zeros.
-struct alignas(MIEN_ALIGNMENT) Line {
-  char bytes[MIEN_ALIGNMENT];
-};
-struct Weights {
-  explicit Weights(const std::string& path) {
-    std::ifstream file(path, std::ios::binary | std::ios::ate);
-    bytes = static_cast<std::size_t>(file.tellg());
-    lines.resize(bytes / sizeof(Line) + 1);
-    file.seekg(0).read(lines.front().bytes, static_cast<std::streamsize>(bytes));
-  }
-  std::span<const std::byte> span() const { return std::as_bytes(std::span(lines)).first(bytes); }
-  std::size_t bytes = 0;
-  std::vector<Line> lines;
-};
-
 int main(int argc, char** argv) {
-  const std::string models = argc == 2 ? argv[1] : "";
-  const Weights basenet(models + "/basenet.mien"), proposal(models + "/proposal.mien");
-  mien::WeightFile file;
+  const mien::LoadedWeights loaded = mien::load_weights(argc == 2 ? argv[1] : "");
   mien::Tracker tracker;
-  if (file.open(basenet.span()) != mien::EngineStatus::kOk ||
-      tracker.create(mien::Config(basenet.span(), proposal.span())) != MIEN_OK) {
+  if (!loaded || mien::WeightsContent(loaded.weights).network_count() == 0 ||
+      tracker.create(mien::Config(loaded.weights)) != MIEN_OK) {
     return 1;
   }
   const std::vector<unsigned char> black(64 * 64);

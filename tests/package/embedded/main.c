@@ -4,19 +4,19 @@
 
 int main(void) {
   static const unsigned char black[64 * 64] = {0};
+  mien_weights_config files;
+  mien_weights* weights = NULL;
   mien_tracker_config config;
   mien_tracker* tracker = NULL;
   mien_image image;
   mien_result result;
+  mien_weights_config_default(&files);
+  mien_use_embedded_weights(&files);
+  if (mien_weights_create(&files, &weights, NULL) != MIEN_OK) return 1;
   mien_tracker_config_default(&config);
-  mien_use_embedded_weights(&config);
-#ifdef WITHOUT_SOUND
-  config.audionet = config.basenet;
-  config.audionet_bytes = config.basenet_bytes;
-  if (mien_tracker_create(&config, &tracker) != MIEN_ERROR_LEFT_OUT) return 1;
-  config.audionet = NULL;
-#endif
-  if (mien_tracker_create(&config, &tracker) != MIEN_OK) return 2;
+  config.weights = weights;
+  if (mien_tracker_create(&config, &tracker, NULL) != MIEN_OK) return 2;
+  mien_weights_destroy(weights);
   mien_image_default(&image);
   mien_result_default(&result);
   image.format = MIEN_IMAGE_GRAY8;

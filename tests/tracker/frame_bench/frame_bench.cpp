@@ -10,10 +10,8 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <fstream>
 #include <iterator>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -41,26 +39,6 @@ std::vector<char> read_file(const std::string& path) {
   }
   return bytes;
 }
-
-// A weight file in aligned memory.
-class Weights {
- public:
-  explicit Weights(const std::string& path) {
-    const std::vector<char> file = read_file(path);
-    memory_.resize(file.size() + MIEN_ALIGNMENT);
-    std::size_t memory = memory_.size();
-    void* begin = memory_.data();
-    std::memcpy(std::align(MIEN_ALIGNMENT, file.size(), begin, memory), file.data(), file.size());
-    bytes_ = {static_cast<const std::byte*>(begin), file.size()};
-  }
-  Weights(const Weights&) = delete;
-  Weights& operator=(const Weights&) = delete;
-  [[nodiscard]] std::span<const std::byte> span() const { return bytes_; }
-
- private:
-  std::vector<char> memory_;
-  std::span<const std::byte> bytes_;
-};
 
 std::uint32_t tier_of(const std::string& name) {
   for (std::uint32_t bit = 1; bit != 0; bit <<= 1) {
@@ -124,13 +102,13 @@ int main(int argc, char** argv) {
   if (argc != 6) {
     fail("usage: mien_frame_bench MODELS FRAMES WIDTH HEIGHT TIER");
   }
-  const std::string models = argv[1];
-  const Weights basenet(models + "/basenet.mien"), proposal(models + "/proposal.mien");
-  const Weights hifinet(models + "/hifinet.mien");
+  const mien::LoadedWeights loaded = mien::load_weights(argv[1]);
+  if (!loaded) {
+    fail(loaded.message);
+  }
   const Clip clip{read_file(argv[2]), std::atoi(argv[3]), std::atoi(argv[4])};
-  mien::Config config(basenet.span(), proposal.span());
-  config.hifinet = hifinet.span().data();
-  config.hifinet_bytes = hifinet.span().size();
+  mien::Config config(loaded.weights);
+  config.audio = 0;
   config.cpu_mask = tier_of(argv[5]);
   config.lod = 4;
   mien::Tracker tracker;

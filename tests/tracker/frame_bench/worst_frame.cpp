@@ -124,18 +124,20 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "usage: mien_worst_frame MODELS FRAMES WIDTH HEIGHT [ROUNDS]\n");
     return 2;
   }
-  const std::string models = argv[1];
-  const File basenet(models + "/basenet.mien"), proposal(models + "/proposal.mien"),
-      hifinet(models + "/hifinet.mien"), clip(argv[2]);
+  const mien::LoadedWeights loaded = mien::load_weights(argv[1]);
+  if (!loaded) {
+    std::fprintf(stderr, "mien_worst_frame: %s\n", loaded.message.c_str());
+    return 1;
+  }
+  const File clip(argv[2]);
   const int width = std::atoi(argv[3]), height = std::atoi(argv[4]);
   std::printf(
       "| level | median, us | p99 | p99.9 | largest | p99.9 of the median | frames until found "
       "again, mean | "
       "most |\n|---|---|---|---|---|---|---|---|\n");
   for (int level = 1; level <= 4; ++level) {
-    mien::Config config(basenet.span(), proposal.span());
-    config.hifinet = hifinet.span().data();
-    config.hifinet_bytes = hifinet.span().size();
+    mien::Config config(loaded.weights);
+    config.audio = 0;
     config.lod = level;
     mien::Tracker tracker;
     if (tracker.create(config) != MIEN_OK) {

@@ -19,7 +19,7 @@ async function load({folder}) {
   const [loaded, ...models] = await Promise.all([
     loadMien(new URL('mien.wasm', folder)), ...modelNames.map(name => fetched(new URL(`models/${name}.mien`, folder)))]);
   mien = loaded;
-  weights = Object.fromEntries(modelNames.map((name, i) => [name, models[i]]));
+  weights = mien.createWeights(models);
   setLevels({levels: [0]});
   postMessage({type: 'ready', version: mien.version, controlNames: mien.controlNames, stageNames: mien.stageNames});
 }
@@ -29,7 +29,7 @@ function setLevels({levels}) {
   while (trackers.length > levels.length) trackers.pop().destroy();
   levels.forEach((lod, i) => {
     if (trackers[i]) trackers[i].setLod(lod);
-    else trackers.push(mien.createTracker({...weights, lod, budgetMs: 10}));
+    else trackers.push(mien.createTracker({weights, lod, budgetMs: 10}));
   });
 }
 

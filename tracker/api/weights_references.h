@@ -1,0 +1,11 @@
+// Counts the users of weights, which end with the last of them.
+#pragma once
+
+#include <mien/mien.h>
+
+namespace mien::tracker {
+
+void acquire(const mien_weights& weights);
+void release(const mien_weights& weights);
+
+}  // namespace mien::tracker
