@@ -10,13 +10,14 @@ export const fields = {
   audio: {
     struct_size: [0, 'u32'], format: [4, 'i32'], sample_rate: [8, 'i32'], channels: [12, 'i32'], planar: [16, 'i32'],
     frames: [20, 'u32'], samples: [24, 'u32', 8]},
+  error_detail: {struct_size: [0, 'u32'], status: [4, 'i32'], known: [8, 'u32'], file: [12, 'i32']},
+  weights_config: {struct_size: [0, 'u32'], copy: [4, 'i32'], files: [8, 'u32', 8], file_bytes: [40, 'u32', 8]},
   tracker_config: {
-    struct_size: [0, 'u32'], cpu_mask: [4, 'u32'], basenet: [8, 'u32'], basenet_bytes: [12, 'u32'], proposal: [16, 'u32'],
-    proposal_bytes: [20, 'u32'], clock_ns: [36, 'u32'], lod: [44, 'i32'], horizontal_fov: [48, 'f32'],
-    accept_probability: [52, 'f32'], lose_probability: [56, 'f32'], lose_after_frames: [60, 'i32'], proposal_size: [64, 'i32'],
-    proposal_threshold: [68, 'f32'], refine_threshold: [72, 'f32'], search_interval: [76, 'i32'], budget_ms: [80, 'f32'],
-    hifinet: [84, 'u32'], hifinet_bytes: [88, 'u32'], smoothing: [92, 'i32'], max_faces: [96, 'i32'], audionet: [100, 'u32'],
-    audionet_bytes: [104, 'u32'], voice_attack_ms: [108, 'f32'], voice_release_ms: [112, 'f32'], voice_strength: [120, 'f32']},
+    struct_size: [0, 'u32'], cpu_mask: [4, 'u32'], weights: [8, 'u32'], clock_ns: [24, 'u32'], lod: [32, 'i32'], max_lod: [36, 'i32'],
+    horizontal_fov: [40, 'f32'], accept_probability: [44, 'f32'], lose_probability: [48, 'f32'], lose_after_frames: [52, 'i32'],
+    proposal_size: [56, 'i32'], proposal_threshold: [60, 'f32'], refine_threshold: [64, 'f32'], search_interval: [68, 'i32'],
+    budget_ms: [72, 'f32'], smoothing: [76, 'i32'], max_faces: [80, 'i32'], audio: [84, 'i32'], voice_attack_ms: [88, 'f32'],
+    voice_release_ms: [92, 'f32'], voice_strength: [100, 'f32']},
   result: {
     struct_size: [0, 'u32'], status: [4, 'i32'], pts_ns: [8, 'i64'], supported_controls: [16, 'u64'],
     face_probability: [24, 'f32'], voice_activity: [28, 'f32'], lod: [32, 'i32'], flags: [36, 'u32'], box: [40, 'f32', 4],
@@ -24,12 +25,11 @@ export const fields = {
     controls: [96, 'f32', 52], landmarks: [304, 'f32', 350], frames: [1704, 'u64'], face_frames: [1712, 'u64'],
     proposal_runs: [1720, 'u64'], encoder_runs: [1728, 'u64'], stage_ns: [1736, 'u64', 16], face_id: [1864, 'u32']},
   network_config: {
-    struct_size: [0, 'u32'], cpu_mask: [4, 'u32'], file: [8, 'u32'], file_bytes: [12, 'u32'], name: [16, 'u32'],
-    height: [20, 'i32'], width: [24, 'i32']},
+    struct_size: [0, 'u32'], cpu_mask: [4, 'u32'], weights: [8, 'u32'], name: [12, 'u32'], height: [16, 'i32'], width: [20, 'i32']},
 };
 
 // sizeof. Loading compares it with the module's, so that a changed header is detected.
-export const structBytes = {image: 100, audio: 88, tracker_config: 148, result: 1928, network_config: 72};
+export const structBytes = {image: 100, audio: 88, error_detail: 160, weights_config: 116, tracker_config: 136, result: 1928, network_config: 68};
 
 const kinds = {
   i32: {bytes: 4, get: 'getInt32', set: 'setInt32', array: Int32Array, least: -(2 ** 31), most: 2 ** 31 - 1},

@@ -31,17 +31,21 @@ export class MienError extends Error {
   constructor(message: string, status?: number);
 }
 
-/** Weight files, copied into the module. Levels of detail 2 to 4 need `hifinet`, audio needs `audionet`. */
-export interface TrackerWeights {
-  basenet: Bytes;
-  proposal: Bytes;
-  hifinet?: Bytes;
-  audionet?: Bytes;
+/** Opened weight files, copied into the module. Trackers and networks share them, and keep what they use after destroy. */
+export class Weights {
+  private constructor();
+  destroy(): void;
 }
 
 /** Missing fields have the defaults of mien_tracker_config_default. */
-export interface TrackerConfig extends TrackerWeights {
+export interface TrackerConfig {
+  /** Levels of detail 2 to 4 need HiFiNet among them, audio needs AudioNet. */
+  weights: Weights;
   lod?: LevelOfDetail;
+  /** Highest level of detail that the tracker will use; 1 saves the memory of HiFiNet. */
+  maxLod?: 1 | 2 | 3 | 4;
+  /** Accepts audio if the weights have AudioNet; default true. */
+  audio?: boolean;
   cpuMask?: number;
   horizontalFov?: number;
   acceptProbability?: number;
@@ -167,8 +171,10 @@ export class Mien {
   readonly landmarkGroups: Readonly<Record<LandmarkGroupName, {readonly first: number; readonly count: number}>>;
   readonly stageNames: StageName[];
   readonly landmarkCount: number;
+  /** Each file is a weight file, a packed one, or a bundle of several, in any order. */
+  createWeights(files: Bytes[]): Weights;
   createTracker(config: TrackerConfig): Tracker;
-  createNetwork(config: {file: Bytes; name?: string; height?: number; width?: number; cpuMask?: number}): Network;
+  createNetwork(config: {weights: Weights; name?: string; height?: number; width?: number; cpuMask?: number}): Network;
 }
 
 /** `source`: URL of mien.wasm, a Response with it, its bytes, or the compiled module. */

@@ -4,8 +4,9 @@ import {MienError} from './error.js';
 import {Struct, structBytes} from './layout.js';
 import {Network} from './network.js';
 import {Tracker} from './tracker.js';
+import {Weights} from './weights.js';
 
-export {MienError, Network, Tracker};
+export {MienError, Network, Tracker, Weights};
 
 const alignment = 64;  // MIEN_ALIGNMENT
 
@@ -70,6 +71,7 @@ export class Mien {
     if (bytes !== structBytes[name]) throw new MienError(`mien.wasm is of another version: its mien_${name} has ${bytes} bytes, not ${structBytes[name]}`);
   }
 
+  createWeights(files) { return new Weights(this, files); }
   createTracker(config) { return new Tracker(this, config); }
   createNetwork(config) { return new Network(this, config); }
 
@@ -104,6 +106,20 @@ export class Mien {
     if (!address) return null;
     const bytes = new Uint8Array(this.memory.buffer, address);
     return new TextDecoder().decode(bytes.subarray(0, bytes.indexOf(0)).slice());
+  }
+
+  // Calls a function that creates an object from a struct, and returns its address. `nameOf`: names a weight file.
+  create(name, config, nameOf = () => '') {
+    const detail = this.struct('error_detail'), handle = this.allocate(4), bytes = 256, line = this.allocate(bytes);
+    try {
+      const status = this.exports[name](config, handle, detail.address);
+      if (status === 0) return new DataView(this.memory.buffer).getUint32(handle, true);
+      this.exports.mien_error_message(detail.address, line, bytes);
+      const file = detail.get('file'), named = file >= 0 ? nameOf(file) : '';
+      throw new MienError(named ? `${named}: ${this.text(line)}` : this.text(line), status);
+    } finally {
+      for (const address of [detail.address, handle, line]) this.release(address);
+    }
   }
 
   check(status) {

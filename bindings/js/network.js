@@ -16,20 +16,17 @@ export class Network {
     }
   }
 
-  create({file, name = null, height = 0, width = 0, cpuMask}) {
+  create({weights, name = null, height = 0, width = 0, cpuMask}) {
     const {mien} = this, struct = mien.struct('network_config');
     const named = name === null ? {address: 0} : mien.load(new TextEncoder().encode(name + '\0'));
     try {
-      const {address, bytes} = mien.load(file);
-      this.owned.push(address);
+      if (!weights?.address) throw new MienError('weights: missing (expected the result of createWeights)', -1);
       this.shapeAddress = mien.allocate(16);
       this.owned.push(this.shapeAddress);
       struct.fill({cpuMask: 'cpu_mask', height: 'height', width: 'width'}, {cpuMask, height, width});
-      struct.set('file', address);
-      struct.set('file_bytes', bytes);
+      struct.set('weights', weights.address());
       struct.set('name', named.address);
-      mien.check(mien.exports.mien_network_create(struct.address, this.shapeAddress));
-      this.handle = new DataView(mien.memory.buffer).getUint32(this.shapeAddress, true);
+      this.handle = mien.create('mien_network_create', struct.address);
     } finally {
       for (const spent of [struct.address, named.address]) mien.release(spent);
     }

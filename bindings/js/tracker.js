@@ -36,9 +36,8 @@ class Buffer {
   }
 }
 
-const weightNames = ['basenet', 'proposal', 'hifinet', 'audionet'];
 const configNames = {
-  lod: 'lod', cpuMask: 'cpu_mask', horizontalFov: 'horizontal_fov', acceptProbability: 'accept_probability',
+  lod: 'lod', maxLod: 'max_lod', audio: 'audio', cpuMask: 'cpu_mask', horizontalFov: 'horizontal_fov', acceptProbability: 'accept_probability',
   loseProbability: 'lose_probability', loseAfterFrames: 'lose_after_frames', proposalSize: 'proposal_size',
   proposalThreshold: 'proposal_threshold', refineThreshold: 'refine_threshold', searchInterval: 'search_interval',
   budgetMs: 'budget_ms', smoothing: 'smoothing', maxFaces: 'max_faces', voiceAttackMs: 'voice_attack_ms', voiceReleaseMs: 'voice_release_ms',
@@ -74,7 +73,6 @@ export class Tracker {
     this.result = mien.struct('result');
     this.pixels = new Buffer(mien);
     this.samples = new Buffer(mien);
-    this.weights = [];
     try {
       this.create(config);
     } catch (error) {
@@ -84,20 +82,15 @@ export class Tracker {
   }
 
   create(config) {
-    const {mien} = this, struct = mien.struct('tracker_config'), handle = mien.allocate(4);
+    const {mien} = this, struct = mien.struct('tracker_config');
     try {
+      if (!config.weights?.address) throw new MienError('weights: missing (expected the result of createWeights)', wrong.argument);
       struct.fill(configNames, {cpuMask: defaultMask, ...config});
-      for (const name of weightNames) {
-        const {address, bytes} = mien.load(config[name]);
-        this.weights.push(address);
-        struct.set(name, address);
-        struct.set(name + '_bytes', bytes);
-      }
+      struct.set('weights', config.weights.address());
       struct.set('clock_ns', mien.exports.mien_module_clock());
-      mien.check(mien.exports.mien_tracker_create(struct.address, handle));
-      this.handle = new DataView(mien.memory.buffer).getUint32(handle, true);
+      this.handle = mien.create('mien_tracker_create', struct.address);
     } finally {
-      for (const address of [handle, struct.address]) mien.release(address);
+      mien.release(struct.address);
     }
   }
 
@@ -106,9 +99,8 @@ export class Tracker {
   destroy() {
     if (this.handle) this.mien.exports.mien_tracker_destroy(this.handle);
     for (const buffer of [this.pixels, this.samples]) buffer.free();
-    for (const address of [...this.weights, this.image?.address, this.audio?.address, this.result?.address]) this.mien.release(address);
+    for (const address of [this.image?.address, this.audio?.address, this.result?.address]) this.mien.release(address);
     this.handle = 0;
-    this.weights = [];
     this.image = this.audio = this.result = null;
   }
 

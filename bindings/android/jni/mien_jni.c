@@ -2,16 +2,39 @@
  * and arrays. */
 #include <jni.h>
 #include <mien/mien.h>
+#include <stdio.h>
 #include <string.h>
 #include <time.h>
 
 #define NATIVE(result, name) JNIEXPORT result JNICALL Java_org_mien_Native_##name
 #define UNUSED_CLASS JNIEnv *env, jclass unused
 
-enum { kBlock = 8, kInterleaved = 4 }; /* mien/engine.h, Layout */
+enum { kBlock = 8, kInterleaved = 4 }; /* the layout of mien_network */
 
 static mien_tracker* tracker_of(jlong handle) { return (mien_tracker*)(intptr_t)handle; }
 static mien_network* network_of(jlong handle) { return (mien_network*)(intptr_t)handle; }
+
+static mien_weights* weights_of(jlong handle) { return (mien_weights*)(intptr_t)handle; }
+
+/* Sets message[0] to the line of an error, behind the name of its file. */
+static jint describe(JNIEnv* env, mien_status status, const mien_error_detail* error,
+                     jobjectArray names, jobjectArray message) {
+  char line[256];
+  char text[1024];
+  if (status == MIEN_OK) return status;
+  mien_error_message(error, line, sizeof line);
+  snprintf(text, sizeof text, "%s", line);
+  if (error->file >= 0 && error->file < (*env)->GetArrayLength(env, names)) {
+    jstring name = (*env)->GetObjectArrayElement(env, names, error->file);
+    const char* path = (*env)->GetStringUTFChars(env, name, NULL);
+    if (path != NULL) {
+      snprintf(text, sizeof text, "%.700s: %s", path, line);
+      (*env)->ReleaseStringUTFChars(env, name, path);
+    }
+  }
+  (*env)->SetObjectArrayElement(env, message, 0, (*env)->NewStringUTF(env, text));
+  return status;
+}
 
 static uint64_t clock_ns(void* user) {
   struct timespec now;
@@ -68,42 +91,59 @@ static size_t bytes_of(JNIEnv* env, jobject buffer) {
   return buffer == NULL ? 0 : (size_t)(*env)->GetDirectBufferCapacity(env, buffer);
 }
 
-NATIVE(jlong, address)(UNUSED_CLASS, jobject buffer) {
+NATIVE(jint, createWeights)
+(UNUSED_CLASS, jobjectArray files, jobjectArray names, jlongArray handle, jobjectArray message) {
+  mien_weights_config config;
+  mien_error_detail error;
+  mien_weights* weights = NULL;
   (void)unused;
-  return (jlong)(intptr_t)place_of(env, buffer);
+  mien_weights_config_default(&config);
+  mien_error_detail_default(&error);
+  const jsize count = (*env)->GetArrayLength(env, files); /* Weights.java limits it */
+  for (jsize i = 0; i < count && i < MIEN_MAX_WEIGHT_FILES; ++i) {
+    jobject file = (*env)->GetObjectArrayElement(env, files, i);
+    config.files[i] = place_of(env, file);
+    config.file_bytes[i] = bytes_of(env, file);
+  }
+  const mien_status status = mien_weights_create(&config, &weights, &error);
+  const jlong made = (jlong)(intptr_t)weights;
+  (*env)->SetLongArrayRegion(env, handle, 0, 1, &made);
+  return describe(env, status, &error, names, message);
+}
+
+NATIVE(void, destroyWeights)(UNUSED_CLASS, jlong weights) {
+  (void)env, (void)unused;
+  mien_weights_destroy(weights_of(weights));
 }
 
 NATIVE(jint, createTracker)
-(UNUSED_CLASS, jobject basenet, jobject proposal, jobject hifinet, jobject audionet,
- jintArray integers, jfloatArray floats, jlongArray handle) {
+(UNUSED_CLASS, jlong weights, jobjectArray names, jintArray integers, jfloatArray floats,
+ jlongArray handle, jobjectArray message) {
   mien_tracker_config config;
+  mien_error_detail error;
   mien_tracker* tracker = NULL;
-  jint integer[4];
+  jint integer[6];
   jfloat number[3];
   (void)unused;
-  (*env)->GetIntArrayRegion(env, integers, 0, 4, integer);
+  (*env)->GetIntArrayRegion(env, integers, 0, 6, integer);
   (*env)->GetFloatArrayRegion(env, floats, 0, 3, number);
   mien_tracker_config_default(&config);
-  config.basenet = place_of(env, basenet);
-  config.basenet_bytes = bytes_of(env, basenet);
-  config.proposal = place_of(env, proposal);
-  config.proposal_bytes = bytes_of(env, proposal);
-  config.hifinet = place_of(env, hifinet);
-  config.hifinet_bytes = bytes_of(env, hifinet);
-  config.audionet = place_of(env, audionet);
-  config.audionet_bytes = bytes_of(env, audionet);
+  mien_error_detail_default(&error);
+  config.weights = weights_of(weights);
   config.lod = integer[0];
   config.max_faces = integer[1];
   config.smoothing = integer[2];
   config.audio_queue_samples = integer[3];
+  config.max_lod = integer[4];
+  config.audio = integer[5];
   config.budget_ms = number[0];
   if (number[1] != 0) config.horizontal_fov = number[1];
   config.voice_strength = number[2];
   config.clock_ns = clock_ns;
-  const mien_status status = mien_tracker_create(&config, &tracker);
+  const mien_status status = mien_tracker_create(&config, &tracker, &error);
   const jlong made = (jlong)(intptr_t)tracker;
   (*env)->SetLongArrayRegion(env, handle, 0, 1, &made);
-  return status;
+  return describe(env, status, &error, names, message);
 }
 
 NATIVE(void, destroyTracker)(UNUSED_CLASS, jlong tracker) {
@@ -292,21 +332,23 @@ NATIVE(jint, reset)(UNUSED_CLASS, jlong tracker) {
 }
 
 NATIVE(jint, createNetwork)
-(UNUSED_CLASS, jobject model, jstring name, jint height, jint width, jlongArray handle) {
+(UNUSED_CLASS, jlong weights, jobjectArray names, jstring name, jint height, jint width,
+ jlongArray handle, jobjectArray message) {
   mien_network_config config;
+  mien_error_detail error;
   mien_network* network = NULL;
   (void)unused;
   mien_network_config_default(&config);
-  config.file = place_of(env, model);
-  config.file_bytes = bytes_of(env, model);
+  mien_error_detail_default(&error);
+  config.weights = weights_of(weights);
   config.height = height;
   config.width = width;
   config.name = name == NULL ? NULL : (*env)->GetStringUTFChars(env, name, NULL);
-  const mien_status status = mien_network_create(&config, &network);
+  const mien_status status = mien_network_create(&config, &network, &error);
   if (name != NULL) (*env)->ReleaseStringUTFChars(env, name, config.name);
   const jlong made = (jlong)(intptr_t)network;
   (*env)->SetLongArrayRegion(env, handle, 0, 1, &made);
-  return status;
+  return describe(env, status, &error, names, message);
 }
 
 NATIVE(void, destroyNetwork)(UNUSED_CLASS, jlong network) {

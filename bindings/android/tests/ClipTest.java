@@ -210,7 +210,7 @@ public final class ClipTest {
         thrown(IllegalArgumentException.class, () -> Image.of(Image.Format.GRAY8, 4, 4, new ByteBuffer[] {ByteBuffer.allocate(16)}, new int[] {4}));
         thrown(IllegalArgumentException.class,
                 () -> Image.of(Image.Format.GRAY8, 4, 4, new ByteBuffer[] {ByteBuffer.allocateDirect(15)}, new int[] {4}));
-        Weights deaf = new Weights(Model.open(MODELS.resolve("basenet.mien")), Model.open(MODELS.resolve("proposal.mien")), null, null);
+        Weights deaf = Weights.of(Files.readAllBytes(MODELS.resolve("basenet.mien")), Files.readAllBytes(MODELS.resolve("proposal.mien")));
         try (Tracker tracker = new Tracker(deaf, level(1))) {
             refuses(Status.IMAGE_SIZE, () -> tracker.track(Image.of(Image.Format.GRAY8, 0, 0, new byte[0]), 0));
             refuses(Status.IMAGE_ROTATION, () -> tracker.track(rgb(frames.get(0)).rotated(45), 0));
@@ -221,7 +221,15 @@ public final class ClipTest {
             require(tracker.result().status() == FaceResult.Status.SEARCHING, "nothing happened");
         }
         refuses(Status.UNSUPPORTED_LOD, () -> new Tracker(weights, level(5)));
-        refuses(Status.WEIGHTS_NOT_MIEN, () -> new Tracker(new Weights(Model.of(new byte[640]), Model.of(new byte[640]), null, null)));
+        refuses(Status.WEIGHTS_NOT_MIEN, () -> Weights.of(new byte[640]));
+        Tracker.Options many = level(1);
+        many.maxFaces = 9;
+        try {
+            new Tracker(weights, many);
+            require(false, "refused");
+        } catch (MienException error) {
+            require(error.getMessage().equals("max_faces: a value is out of range (got 9, expected 1..8)"), error.getMessage());
+        }
         thrown(IOException.class, () -> Weights.open(Paths.get("/nowhere")));
         Tracker closed = new Tracker(weights);
         closed.close();
@@ -285,7 +293,7 @@ public final class ClipTest {
     }
 
     static void runsCustomNetworks() throws IOException {
-        Model model = Model.of(Files.readAllBytes(MODELS.resolve("proposal.mien")));
+        Weights model = Weights.of(Files.readAllBytes(MODELS.resolve("proposal.mien")));
         try (Network network = new Network(model, "rnet", 0, 0)) {
             require(Arrays.equals(network.inputShape(), new int[] {3, 24, 24}), "its input");
             float[] input = new float[3 * 24 * 24], other = new float[input.length];

@@ -19,14 +19,42 @@ namespace Mien
         WeightsVersion = -21,
         WeightsTruncated = -22,
         WeightsChecksum = -23,
-        WeightsMalformed = -24,
         WeightsIncomplete = -25,
         WeightsShape = -26,
-        WeightsNotPacked = -27,
+        WeightsValue = -27,
+        WeightsTrailingBytes = -100,
+        WeightsByteOrder = -101,
+        WeightsLimit = -102,
+        WeightsReserved = -103,
+        WeightsGap = -104,
+        WeightsPadding = -105,
+        WeightsName = -106,
+        WeightsDuplicateName = -107,
+        WeightsMetadata = -108,
+        WeightsTensorType = -110,
+        WeightsTensorDims = -111,
+        WeightsTensorBytes = -112,
+        WeightsTensorValue = -113,
+        WeightsTensorUnused = -114,
+        WeightsNetwork = -120,
+        WeightsLayerOp = -121,
+        WeightsLayerActivation = -122,
+        WeightsLayerInput = -123,
+        WeightsLayerShape = -124,
+        WeightsLayerWindow = -125,
+        WeightsLayerTensors = -126,
+        WeightsPackedSize = -130,
+        WeightsPackedBlock = -131,
+        WeightsPackedTable = -132,
+        WeightsPackedState = -133,
+        WeightsPackedTruncated = -134,
+        WeightsPackedTrailing = -135,
         UnsupportedCpu = -40,
         UnsupportedLayer = -41,
         Internal = -42,
         LeftOut = -43,
+        UnsupportedLayout = -44,
+        TooLarge = -45,
         ImageFormat = -60,
         ImageSize = -61,
         ImageStride = -62,
@@ -49,7 +77,11 @@ namespace Mien
     {
         public Status Status { get; private set; }
 
-        public MienException(Status status) : base(Native.Text(Native.mien_status_string((int)status)))
+        public MienException(Status status) : this(status, Native.Text(Native.mien_status_string((int)status)))
+        {
+        }
+
+        internal MienException(Status status, string message) : base(message)
         {
             Status = status;
         }

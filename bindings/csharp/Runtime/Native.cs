@@ -11,7 +11,7 @@ namespace Mien
 #else
         const string Library = "mien";
 #endif
-        internal const int ControlCount = 52, LandmarkCount = 175, MaxStages = 16, Alignment = 64, NeutralBytes = 448;
+        internal const int ControlCount = 52, LandmarkCount = 175, MaxStages = 16, MaxWeightFiles = 8, NeutralBytes = 448;
         internal const uint CapturingNeutral = 0x10;
 
         [StructLayout(LayoutKind.Sequential)]
@@ -46,30 +46,48 @@ namespace Mien
         }
 
         [StructLayout(LayoutKind.Sequential)]
+        internal struct mien_error_detail
+        {
+            public uint struct_size;
+            public int status;
+            public uint known;
+            public int file, network, layer;
+            public IntPtr field;
+            public ulong offset;
+            public double got, expected_min, expected_max;
+            [MarshalAs(UnmanagedType.ByValArray, SizeConst = 64)] public byte[] name;
+            [MarshalAs(UnmanagedType.ByValArray, SizeConst = 8)] public uint[] reserved;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        internal struct mien_weights_config
+        {
+            public uint struct_size;
+            public int copy;
+            [MarshalAs(UnmanagedType.ByValArray, SizeConst = MaxWeightFiles)] public IntPtr[] files;
+            [MarshalAs(UnmanagedType.ByValArray, SizeConst = MaxWeightFiles)] public UIntPtr[] file_bytes;
+            public mien_allocator allocator;
+            [MarshalAs(UnmanagedType.ByValArray, SizeConst = 8)] public uint[] reserved;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
         internal struct mien_tracker_config
         {
             public uint struct_size, cpu_mask;
-            public IntPtr basenet;
-            public UIntPtr basenet_bytes;
-            public IntPtr proposal;
-            public UIntPtr proposal_bytes;
+            public IntPtr weights;
             public mien_allocator allocator;
             public IntPtr clock_ns, clock_user;
-            public int lod;
+            public int lod, max_lod;
             public float horizontal_fov, accept_probability, lose_probability;
             public int lose_after_frames, proposal_size;
             public float proposal_threshold, refine_threshold;
             public int search_interval;
             public float budget_ms;
-            public IntPtr hifinet;
-            public UIntPtr hifinet_bytes;
-            public int smoothing, max_faces;
-            public IntPtr audionet;
-            public UIntPtr audionet_bytes;
+            public int smoothing, max_faces, audio;
             public float voice_attack_ms, voice_release_ms;
             public int audio_queue_samples;
             public float voice_strength;
-            [MarshalAs(UnmanagedType.ByValArray, SizeConst = 6)] public uint[] reserved;
+            [MarshalAs(UnmanagedType.ByValArray, SizeConst = 8)] public uint[] reserved;
         }
 
         [StructLayout(LayoutKind.Sequential)]
@@ -104,14 +122,67 @@ namespace Mien
         internal struct mien_network_config
         {
             public uint struct_size, cpu_mask;
-            public IntPtr file;
-            public UIntPtr file_bytes;
-            public IntPtr name;
+            public IntPtr weights, name;
             public int height, width;
             public mien_allocator allocator;
             [MarshalAs(UnmanagedType.ByValArray, SizeConst = 8)] public uint[] reserved;
         }
 
+        [StructLayout(LayoutKind.Sequential)]
+        internal struct mien_network_info
+        {
+            public uint struct_size;
+            public int file;
+            [MarshalAs(UnmanagedType.ByValArray, SizeConst = 64)] public byte[] name;
+            public mien_shape input;
+            public int any_size, layers, outputs;
+            public ulong parameters, macs, weight_bytes, session_bytes, arena_bytes;
+            [MarshalAs(UnmanagedType.ByValArray, SizeConst = 8)] public uint[] reserved;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        internal struct mien_layer_info
+        {
+            public uint struct_size;
+            public int input, second_input;
+            public mien_shape output;
+            public IntPtr op, activation;
+            [MarshalAs(UnmanagedType.ByValArray, SizeConst = 2)] public int[] kernel;
+            [MarshalAs(UnmanagedType.ByValArray, SizeConst = 2)] public int[] stride;
+            [MarshalAs(UnmanagedType.ByValArray, SizeConst = 4)] public int[] padding;
+            public int first_channel;
+            public ulong parameters, macs;
+            [MarshalAs(UnmanagedType.ByValArray, SizeConst = 8)] public uint[] reserved;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        internal struct mien_metadata_info
+        {
+            public uint struct_size;
+            public int file;
+            [MarshalAs(UnmanagedType.ByValArray, SizeConst = 64)] public byte[] key;
+            public IntPtr value;
+            public UIntPtr value_bytes;
+            [MarshalAs(UnmanagedType.ByValArray, SizeConst = 8)] public uint[] reserved;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        internal struct mien_constant_info
+        {
+            public uint struct_size;
+            public int file;
+            [MarshalAs(UnmanagedType.ByValArray, SizeConst = 64)] public byte[] name;
+            public IntPtr type;
+            public int rank;
+            [MarshalAs(UnmanagedType.ByValArray, SizeConst = 4)] public uint[] dims;
+            [MarshalAs(UnmanagedType.ByValArray, SizeConst = 8)] public uint[] reserved;
+        }
+
+        [DllImport(Library)] internal static extern void mien_error_detail_default(out mien_error_detail detail);
+        [DllImport(Library)] internal static extern UIntPtr mien_error_message([In] ref mien_error_detail detail, [Out] byte[] text, UIntPtr text_bytes);
+        [DllImport(Library)] internal static extern void mien_weights_config_default(out mien_weights_config config);
+        [DllImport(Library)] internal static extern int mien_weights_create([In] ref mien_weights_config config, out WeightsHandle weights, ref mien_error_detail error);
+        [DllImport(Library)] internal static extern void mien_weights_destroy(IntPtr weights);
         [DllImport(Library)] internal static extern IntPtr mien_status_string(int status);
         [DllImport(Library)] internal static extern IntPtr mien_version();
         [DllImport(Library)] internal static extern int mien_landmark_group_range(int group, out int first);
@@ -121,7 +192,7 @@ namespace Mien
         [DllImport(Library)] internal static extern void mien_image_default(out mien_image image);
         [DllImport(Library)] internal static extern void mien_audio_default(out mien_audio audio);
         [DllImport(Library)] internal static extern void mien_tracker_config_default(out mien_tracker_config config);
-        [DllImport(Library)] internal static extern int mien_tracker_create([In] ref mien_tracker_config config, out TrackerHandle tracker);
+        [DllImport(Library)] internal static extern int mien_tracker_create([In] ref mien_tracker_config config, out TrackerHandle tracker, ref mien_error_detail error);
         [DllImport(Library)] internal static extern void mien_tracker_destroy(IntPtr tracker);
         [DllImport(Library)] internal static extern int mien_tracker_reset(TrackerHandle tracker);
         [DllImport(Library)] internal static extern int mien_tracker_set_lod(TrackerHandle tracker, int lod);
@@ -139,7 +210,7 @@ namespace Mien
         [DllImport(Library)] internal static extern int mien_tracker_save_neutral(TrackerHandle tracker, [Out] byte[] file, UIntPtr file_bytes, out uint captured);
         [DllImport(Library)] internal static extern int mien_tracker_load_neutral(TrackerHandle tracker, [In] byte[] file, UIntPtr file_bytes);
         [DllImport(Library)] internal static extern void mien_network_config_default(out mien_network_config config);
-        [DllImport(Library)] internal static extern int mien_network_create([In] ref mien_network_config config, out NetworkHandle network);
+        [DllImport(Library)] internal static extern int mien_network_create([In] ref mien_network_config config, out NetworkHandle network, ref mien_error_detail error);
         [DllImport(Library)] internal static extern void mien_network_destroy(IntPtr network);
         [DllImport(Library)] internal static extern IntPtr mien_network_input(NetworkHandle network, out mien_shape shape);
         [DllImport(Library)] internal static extern int mien_network_run(NetworkHandle network);
@@ -164,12 +235,40 @@ namespace Mien
         {
             if (status != 0) throw new MienException((Status)status);
         }
+
+        internal static mien_error_detail NewDetail()
+        {
+            mien_error_detail detail;
+            mien_error_detail_default(out detail);
+            return detail;
+        }
+
+        /// <summary>names: of the weight files.</summary>
+        internal static void Check(int status, mien_error_detail detail, string[] names)
+        {
+            if (status == 0) return;
+            var text = new byte[256];
+            var length = Math.Min((int)mien_error_message(ref detail, text, new UIntPtr((uint)text.Length)).ToUInt32(), text.Length - 1);
+            string message = System.Text.Encoding.ASCII.GetString(text, 0, length);
+            bool named = detail.file >= 0 && detail.file < names.Length;
+            throw new MienException((Status)status, named ? names[detail.file] + ": " + message : message);
+        }
+    }
+
+    internal sealed class WeightsHandle : SafeHandle
+    {
+        WeightsHandle() : base(IntPtr.Zero, true) { }
+        public override bool IsInvalid { get { return handle == IntPtr.Zero; } }
+        protected override bool ReleaseHandle()
+        {
+            Native.mien_weights_destroy(handle);
+            return true;
+        }
     }
 
     /// <summary>The library's tracker, destroyed when it is no longer used, never during a call of another thread.</summary>
     internal sealed class TrackerHandle : SafeHandle
     {
-        internal object Keeps; // referenced, because the library reads it during calls
         TrackerHandle() : base(IntPtr.Zero, true) { }
         public override bool IsInvalid { get { return handle == IntPtr.Zero; } }
         protected override bool ReleaseHandle()
@@ -181,7 +280,6 @@ namespace Mien
 
     internal sealed class NetworkHandle : SafeHandle
     {
-        internal object Keeps; // referenced, because the library reads it during calls
         NetworkHandle() : base(IntPtr.Zero, true) { }
         public override bool IsInvalid { get { return handle == IntPtr.Zero; } }
         protected override bool ReleaseHandle()

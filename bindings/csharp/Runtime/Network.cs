@@ -21,26 +21,26 @@ namespace Mien
 
         readonly NetworkHandle handle;
 
-        /// <summary>name: of the network in the file; null: its first. height, width: for networks that accept several; 0: the declared size.</summary>
-        public Network(Model model, string name = null, int height = 0, int width = 0)
+        /// <summary>name: of a network of the weights; null: the first. height, width: for networks that accept several; 0: the declared size.</summary>
+        public Network(Weights weights, string name = null, int height = 0, int width = 0)
         {
-            if (model == null) throw new ArgumentNullException("model");
+            if (weights == null) throw new ArgumentNullException("weights");
             Native.mien_network_config config;
             Native.mien_network_config_default(out config);
-            config.file = model.Place;
-            config.file_bytes = model.Bytes;
+            config.weights = weights.Place();
             config.height = height;
             config.width = width;
             config.name = name == null ? IntPtr.Zero : Marshal.StringToHGlobalAnsi(name);
+            Native.mien_error_detail detail = Native.NewDetail();
             try
             {
-                Native.Check(Native.mien_network_create(ref config, out handle));
+                Native.Check(Native.mien_network_create(ref config, out handle, ref detail), detail, weights.Names);
             }
             finally
             {
                 Marshal.FreeHGlobal(config.name);
             }
-            handle.Keeps = model;
+            GC.KeepAlive(weights);
             Native.mien_shape shape;
             Native.mien_network_input(handle, out shape);
             InputShape = Of(shape);

@@ -37,14 +37,12 @@ namespace Mien
         {
             if (weights == null) throw new ArgumentNullException("weights");
             options = options ?? new TrackerOptions();
-            var kept = new[] { weights.BaseNet, weights.Proposal, weights.HiFiNet, options.Sound ? weights.AudioNet : null };
             Native.mien_tracker_config config;
             Native.mien_tracker_config_default(out config);
-            Put(kept[0], out config.basenet, out config.basenet_bytes);
-            Put(kept[1], out config.proposal, out config.proposal_bytes);
-            Put(kept[2], out config.hifinet, out config.hifinet_bytes);
-            Put(kept[3], out config.audionet, out config.audionet_bytes);
+            config.weights = weights.Place();
             config.lod = options.Lod;
+            config.max_lod = options.Lod == 1 ? 1 : 4;
+            config.audio = options.Sound ? 1 : 0;
             config.max_faces = options.MaxFaces;
             config.smoothing = options.Smoothing ? 1 : 0;
             config.budget_ms = options.BudgetMs;
@@ -52,8 +50,9 @@ namespace Mien
             config.voice_strength = options.VoiceStrength;
             if (options.HorizontalFov != 0) config.horizontal_fov = options.HorizontalFov;
             if (options.Lod == 0) config.clock_ns = clockPlace; // needs a clock to measure frames
-            Native.Check(Native.mien_tracker_create(ref config, out handle));
-            handle.Keeps = kept;
+            Native.mien_error_detail detail = Native.NewDetail();
+            Native.Check(Native.mien_tracker_create(ref config, out handle, ref detail), detail, weights.Names);
+            GC.KeepAlive(weights);
         }
 
         /// <summary>Tracks one image and returns the result of the face with the lowest id. time: timestamp of the image in seconds, on any clock.</summary>
@@ -155,12 +154,6 @@ namespace Mien
         public void Dispose()
         {
             handle.Dispose();
-        }
-
-        static void Put(Model model, out IntPtr place, out UIntPtr bytes)
-        {
-            place = model == null ? IntPtr.Zero : model.Place;
-            bytes = model == null ? UIntPtr.Zero : model.Bytes;
         }
 
         static void UseAudio(float[] samples, int sampleRate, int channels, Action<Native.mien_audio> use)

@@ -127,8 +127,17 @@ class ClipTest
             Assert.Equal(FaceStatus.Searching, tracker.Result().Status);
         }
         Assert.Refuses(Status.UnsupportedLod, () => new Tracker(weights, new TrackerOptions { Lod = 5 }));
-        var broken = new Weights { BaseNet = new Model(new byte[640]), Proposal = weights.Proposal };
-        Assert.Refuses(Status.WeightsNotMien, () => new Tracker(broken));
+        Assert.Refuses(Status.WeightsNotMien, () => new Weights(new byte[640]));
+        Assert.Refuses(Status.WeightsIncomplete, () => new Tracker(new Weights(File.ReadAllBytes(Path.Combine(models, "proposal.mien")))));
+        try
+        {
+            new Tracker(weights, new TrackerOptions { MaxFaces = 9 });
+            Assert.That(false, "refused");
+        }
+        catch (MienException error)
+        {
+            Assert.Equal("max_faces: a value is out of range (got 9, expected 1..8)", error.Message);
+        }
         Assert.Throws<DirectoryNotFoundException>(() => Weights.Open("/nowhere"));
         var closed = new Tracker(weights);
         closed.Dispose();
@@ -191,7 +200,7 @@ class ClipTest
 
     public void RunsCustomNetworks()
     {
-        Model model = Model.Open(Path.Combine(models, "proposal.mien"));
+        Weights model = Weights.Open(Path.Combine(models, "proposal.mien"));
         using (var network = new Network(model, "rnet"))
         {
             Assert.Equal("3 24 24", network.InputShape.Channels + " " + network.InputShape.Height + " " + network.InputShape.Width);

@@ -61,7 +61,7 @@ class HeaderTest
         var constants = Facts("constant").ToDictionary(fact => fact[1], fact => (int)uint.Parse(fact[2]));
         Assert.Equal(constants["MIEN_CONTROL_COUNT"], Native.ControlCount);
         Assert.Equal(constants["MIEN_LANDMARK_COUNT"], Native.LandmarkCount);
-        Assert.Equal(constants["MIEN_ALIGNMENT"], Native.Alignment);
+        Assert.Equal(constants["MIEN_MAX_WEIGHT_FILES"], Native.MaxWeightFiles);
         Assert.Equal(constants["MIEN_NEUTRAL_BYTES"], Native.NeutralBytes);
         Assert.Equal((uint)constants["MIEN_RESULT_CAPTURING_NEUTRAL"], Native.CapturingNeutral);
     }

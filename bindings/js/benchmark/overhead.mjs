@@ -8,7 +8,7 @@ import {loadMien} from '../mien.js';
 const [modulePath, clip, rounds = '15'] = process.argv.slice(2);
 const root = new URL('../../../', import.meta.url).pathname;
 const model = name => readFileSync(`${root}models/${name}.mien`);
-const weights = {basenet: model('basenet'), proposal: model('proposal'), hifinet: model('hifinet')};
+const files = ['basenet', 'proposal', 'hifinet'].map(model);
 const mien = await loadMien(readFileSync(modulePath));
 const width = 640, height = 480, count = 60, frameNs = 1e9 / 30;
 const formats = {rgba: 4, nv12: 1.5};  // bytes of a pixel
@@ -58,7 +58,7 @@ function compare(lod, format) {
     new Uint8Array(mien.memory.buffer).set(data, address);
     return address;
   });
-  const tracker = mien.createTracker({...weights, lod}), fastest = {through: [], direct: []}, sums = new Set();
+  const tracker = mien.createTracker({weights: mien.createWeights(files), lod}), fastest = {through: [], direct: []}, sums = new Set();
   for (let round = 0; round <= Number(rounds); ++round) {  // the first, which compiles, does not count
     for (const [name, run] of [['through', through], ['direct', direct]]) {
       tracker.reset();

@@ -9,7 +9,8 @@ import {MienError, loadMien} from '../mien.js';
 const root = new URL('../../../', import.meta.url).pathname;
 const model = name => readFileSync(`${root}models/${name}.mien`);
 const mien = await loadMien(readFileSync(process.env.MIEN_WASM ?? `${root}build/wasm/tracker/mien.wasm`));
-const weights = {basenet: model('basenet'), proposal: model('proposal'), hifinet: model('hifinet'), audionet: model('audionet')};
+const files = ['basenet', 'proposal', 'hifinet', 'audionet'].map(model);
+const weights = mien.createWeights(files);
 const width = 640, height = 480, frameNs = 1e9 / 30;
 
 const ffmpeg = (...options) =>
@@ -45,7 +46,7 @@ test('names are in the order of the C API', () => {
 });
 
 test('video and audio move the jaw', () => {
-  const tracker = mien.createTracker({...weights, lod: 4}), count = 120;
+  const tracker = mien.createTracker({weights, lod: 4}), count = 120;
   const sound = ffmpeg('-f', 'f32le', '-ac', '1', '-ar', '16000', '-vn');
   const samples = new Float32Array(sound.buffer.slice(sound.byteOffset, sound.byteOffset + sound.length));
   const jaw = frames('nv12', width * height * 3 / 2, count).map((data, i) => {
@@ -65,7 +66,7 @@ test('video and audio move the jaw', () => {
 
 test('formats of the same image give the same result', () => {
   const results = [['rgba', 'rgba', 4], ['i420', 'yuv420p', 1.5], ['bgra', 'bgra', 4]].map(([format, pixels, bytes]) => {
-    const tracker = mien.createTracker({...weights, lod: 1});
+    const tracker = mien.createTracker({weights, lod: 1});
     frames(pixels, width * height * bytes, 5).forEach((data, i) =>
       tracker.pushVideo({format, width, height, data, fullRange: false}, i * frameNs));
     const {status, box} = tracker.getResult();
@@ -78,7 +79,7 @@ test('formats of the same image give the same result', () => {
 
 test('only the region is read', () => {
   const track = region => {
-    const tracker = mien.createTracker({...weights, lod: 1});
+    const tracker = mien.createTracker({weights, lod: 1});
     frames('rgba', width * height * 4, 5).forEach((data, i) => tracker.pushVideo({width, height, data, region}, i * frameNs));
     const result = tracker.getResult();
     tracker.destroy();
@@ -101,9 +102,12 @@ test('struct layouts match the header', {skip: !process.env.MIEN_C_API32 && 'MIE
 
 test('errors have a status', () => {
   const fails = (status, action) => assert.throws(action, error => error instanceof MienError && error.status === status, `status ${status}`);
-  fails(-20, () => mien.createTracker({...weights, basenet: new Uint8Array(4096)}));
-  fails(-1, () => mien.createTracker({proposal: weights.proposal}));
-  const tracker = mien.createTracker({basenet: weights.basenet, proposal: weights.proposal});
+  fails(-20, () => mien.createWeights([files[0], new Uint8Array(4096)]));
+  assert.throws(() => mien.createWeights([files[0], new Uint8Array(4096)]), /^MienError: files\[1\]: byte 0, magic: the weights are not a .mien file/);
+  assert.throws(() => mien.createTracker({weights, maxFaces: 9}), /max_faces: a value is out of range \(got 9, expected 1..8\)/);
+  fails(-1, () => mien.createTracker({}));
+  fails(-25, () => mien.createTracker({weights: mien.createWeights([files[1]])}));
+  const tracker = mien.createTracker({weights, audio: false, maxLod: 1});
   fails(-60, () => tracker.pushVideo({format: 'cmyk', width, height, data: new Uint8Array(4)}, 0));
   fails(-63, () => tracker.pushVideo({width, height, data: new Uint8Array(100)}, 0));
   fails(-62, () => tracker.pushVideo({width, height, planes: [new Uint8Array(width * height * 4)], rowStrideBytes: [width]}, 0));
@@ -117,7 +121,7 @@ test('errors have a status', () => {
   fails(-7, () => tracker.setLod(4));
   fails(-80, () => tracker.loadNeutral(new Uint8Array(448)));
   tracker.destroy();
-  const hearing = mien.createTracker(weights);
+  const hearing = mien.createTracker({weights});
   fails(-3, () => hearing.setMix('nothing', 1, 1));
   hearing.setMix('jawOpen', 1, 0);
   hearing.destroy();
@@ -126,11 +130,12 @@ test('errors have a status', () => {
 test('numbers out of range and arrays of another type are rejected', () => {
   const fails = (status, action) => assert.throws(action, error => error instanceof MienError && error.status === status, `${status}: ${action}`);
   const far = 2 ** 32, data = new Uint8Array(64 * 48 * 4), image = {width: 64, height: 48, data};
-  for (const option of ['lod', 'maxFaces', 'cpuMask', 'loseAfterFrames']) fails(-3, () => mien.createTracker({...weights, [option]: far + 1}));
-  fails(-3, () => mien.createTracker({...weights, maxFaces: 1.5}));
-  fails(-3, () => mien.createTracker({...weights, maxFaces: 'many'}));
-  fails(-1, () => mien.createTracker({...weights, basenet: 'models/basenet.mien'}));
-  const tracker = mien.createTracker({...weights, lod: 1});
+  for (const option of ['lod', 'maxFaces', 'cpuMask', 'loseAfterFrames']) fails(-3, () => mien.createTracker({weights, [option]: far + 1}));
+  fails(-3, () => mien.createTracker({weights, maxFaces: 1.5}));
+  fails(-3, () => mien.createTracker({weights, maxFaces: 'many'}));
+  fails(-1, () => mien.createWeights(['models/basenet.mien']));
+  fails(-1, () => mien.createTracker({weights: files}));
+  const tracker = mien.createTracker({weights, lod: 1});
   for (const samples of [new Uint8Array(640), new Float64Array(160), new Int32Array(160), [0, 0, 0], new DataView(new ArrayBuffer(640)), null]) {
     fails(-66, () => tracker.pushAudio(samples, {sampleRate: 16000}, 0));
   }
@@ -166,14 +171,14 @@ test('numbers out of range and arrays of another type are rejected', () => {
 
 test('use after destroy is an error', () => {
   const gone = action => assert.throws(action, error => error instanceof MienError && error.status === -1);
-  const tracker = mien.createTracker({...weights, lod: 1});
+  const tracker = mien.createTracker({weights, lod: 1});
   tracker.destroy();
   tracker.destroy();
   gone(() => tracker.pushVideo({width: 1, height: 1, data: new Uint8Array(4)}, 0));
   gone(() => tracker.pushAudio(new Float32Array(1), {sampleRate: 16000}, 0));
   for (const call of ['getResult', 'reset', 'captureNeutral', 'saveNeutral']) gone(() => tracker[call]());
   gone(() => tracker.getFace(0));
-  const network = mien.createNetwork({file: weights.audionet});
+  const network = mien.createNetwork({weights: mien.createWeights([files[3]])});
   network.destroy();
   network.destroy();
   gone(() => network.input());
@@ -182,28 +187,40 @@ test('use after destroy is an error', () => {
 });
 
 test('a neutral face is captured, saved and loaded', () => {
-  const tracker = mien.createTracker({...weights, lod: 2}), [data] = frames('rgba', width * height * 4, 1);
+  const tracker = mien.createTracker({weights, lod: 2}), [data] = frames('rgba', width * height * 4, 1);
   tracker.captureNeutral();
   for (let i = 0; i < 70; ++i) tracker.pushVideo({width, height, data}, i * frameNs);
   const {file, captured} = tracker.saveNeutral();
   assert.equal(file.length, 448);
   assert.equal(captured, 2);
-  const other = mien.createTracker({...weights, lod: 2});
+  const other = mien.createTracker({weights, lod: 2});
   other.loadNeutral(file);
   assert.deepEqual(other.saveNeutral().file, file);
   for (const one of [tracker, other]) one.destroy();
 });
 
+test('a bundle holds all files, and trackers keep their weights', () => {
+  const bundle = mien.createWeights([Buffer.concat([files[1], files[0]])]);
+  const tracker = mien.createTracker({weights: bundle});
+  bundle.destroy();
+  bundle.destroy();
+  assert.throws(() => mien.createTracker({weights: bundle}), MienError);
+  const [data] = frames('rgba', width * height * 4, 1);
+  tracker.pushVideo({width, height, data}, 0);
+  assert.equal(tracker.getResult().status, 'tracking');
+  tracker.destroy();
+});
+
 test('trackers release their memory', () => {
   const pages = () => mien.memory.buffer.byteLength;
-  mien.createTracker({...weights, lod: 4}).destroy();
+  mien.createTracker({weights, lod: 4}).destroy();
   const before = pages();
-  for (let i = 0; i < 10; ++i) mien.createTracker({...weights, lod: 4}).destroy();
+  for (let i = 0; i < 10; ++i) mien.createTracker({weights, lod: 4}).destroy();
   assert.equal(pages(), before);
 });
 
 test('networks of a weight file run', () => {
-  const network = mien.createNetwork({file: weights.audionet});
+  const network = mien.createNetwork({weights: mien.createWeights([files[3]])});
   const {data, shape} = network.input();
   assert.equal(shape.channels, 130);
   data.fill(0.1);

@@ -5,6 +5,7 @@ import mien
 import numpy as np
 import pytest
 from mien import errors
+from mien._library import MODELS
 from mien.tracker import Tracker
 
 RATE = 30
@@ -40,7 +41,7 @@ def test_controls_are_a_mapping_and_an_array(bgr):
     assert list(controls) == list(mien.CONTROL_NAMES) and len(controls) == 52
     jaw = mien.Control.JAW_OPEN
     assert mien.CONTROL_NAMES[jaw] == "jawOpen" and controls["jawOpen"] == controls[jaw] == controls.array[jaw]
-    assert len(result.landmarks_of(mien.LandmarkGroup.LEFT_IRIS)) == 5
+    assert len(bgr[-1].landmarks_of(mien.LandmarkGroup.LEFT_IRIS)) == 5
     assert controls.array.dtype == np.float32 and controls.array.shape == (52,)
     assert dict(controls)["eyeBlinkLeft"] == controls["eyeBlinkLeft"]
     assert "jawOpen" in controls.supported and "eyeLookUpLeft" not in controls.supported
@@ -248,8 +249,23 @@ def test_other_weights(tmp_path):
         mien.Tracker(1, models=tmp_path)
     for name in ("basenet", "proposal"):
         (tmp_path / f"{name}.mien").write_bytes(b"not a weight file" * 10)
-    with pytest.raises(errors.WeightsNotMienError):
+    with pytest.raises(errors.WeightsNotMienError, match="basenet.mien: byte 0, magic: the weights are not a .mien file"):
         mien.Tracker(1, sound=False, models=tmp_path)
+
+
+def test_trackers_share_weights(frames):
+    with mien.Weights(MODELS) as weights:
+        one, other = (mien.Tracker(1, models=weights) for _ in range(2))
+    bundle = b"".join((MODELS / f"{name}.mien").read_bytes() for name in ("proposal", "basenet"))
+    third = mien.Tracker(1, models=bundle)
+    results = [tracker.track(frames[0], 0) for tracker in (one, other, third)]
+    assert all(result.has_face for result in results)
+    np.testing.assert_array_equal(results[0].landmarks, results[2].landmarks)
+
+
+def test_errors_name_the_field():
+    with pytest.raises(errors.OutOfRangeError, match=r"max_faces: a value is out of range \(got 9, expected 1..8\)"):
+        mien.Tracker(1, max_faces=9)
 
 
 def test_many_trackers_are_created_and_closed():

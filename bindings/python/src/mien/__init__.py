@@ -12,6 +12,7 @@ from .network import Network, Shape, run
 from .result import Controls, FaceStatus, Pose, Result
 from .tracker import Tracker
 from .vocabulary import CONTROL_NAMES, LANDMARK_COUNT, VOCABULARIES, Control, LandmarkGroup, vocabulary_names
+from .weights import Weights
 
 __all__ = [
     "CONTROL_NAMES",
@@ -28,6 +29,7 @@ __all__ = [
     "Shape",
     "Tracker",
     "VOCABULARIES",
+    "Weights",
     "columns",
     "errors",
     "run",

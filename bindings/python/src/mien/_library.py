@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 import os
 import sys
-from ctypes import POINTER, Structure, c_char_p, c_float, c_int32, c_int64, c_size_t, c_uint32, c_uint64, c_void_p
+from ctypes import POINTER, Structure, c_char_p, c_double, c_float, c_int32, c_int64, c_size_t, c_uint32, c_uint64, c_void_p
 from pathlib import Path
 from typing import Any, Callable, Optional, Sequence, cast
 
@@ -13,7 +13,6 @@ from ._numbers import Check, check_of, with_checked_arguments
 
 CONTROL_COUNT = 52
 LANDMARK_COUNT = 175
-ALIGNMENT = 64
 NEUTRAL_BYTES = 448
 
 PACKAGE = Path(__file__).resolve().parent
@@ -81,18 +80,45 @@ class Allocator(Struct):
     _fields_ = [("allocate", c_void_p), ("release", c_void_p), ("user", c_void_p)]
 
 
+class ErrorDetail(Struct):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("status", c_int32),
+        ("known", c_uint32),
+        ("file", c_int32),
+        ("network", c_int32),
+        ("layer", c_int32),
+        ("field", c_char_p),
+        ("offset", c_uint64),
+        ("got", c_double),
+        ("expected_min", c_double),
+        ("expected_max", c_double),
+        ("name", ctypes.c_char * 64),
+        ("reserved", c_uint32 * 8),
+    ]
+
+
+class WeightsConfig(Struct):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("copy", c_int32),
+        ("files", c_void_p * 8),
+        ("file_bytes", c_size_t * 8),
+        ("allocator", Allocator),
+        ("reserved", c_uint32 * 8),
+    ]
+
+
 class TrackerConfig(Struct):
     _fields_ = [
         ("struct_size", c_uint32),
         ("cpu_mask", c_uint32),
-        ("basenet", c_void_p),
-        ("basenet_bytes", c_size_t),
-        ("proposal", c_void_p),
-        ("proposal_bytes", c_size_t),
+        ("weights", c_void_p),
         ("allocator", Allocator),
         ("clock_ns", c_void_p),
         ("clock_user", c_void_p),
         ("lod", c_int32),
+        ("max_lod", c_int32),
         ("horizontal_fov", c_float),
         ("accept_probability", c_float),
         ("lose_probability", c_float),
@@ -102,17 +128,14 @@ class TrackerConfig(Struct):
         ("refine_threshold", c_float),
         ("search_interval", c_int32),
         ("budget_ms", c_float),
-        ("hifinet", c_void_p),
-        ("hifinet_bytes", c_size_t),
         ("smoothing", c_int32),
         ("max_faces", c_int32),
-        ("audionet", c_void_p),
-        ("audionet_bytes", c_size_t),
+        ("audio", c_int32),
         ("voice_attack_ms", c_float),
         ("voice_release_ms", c_float),
         ("audio_queue_samples", c_int32),
         ("voice_strength", c_float),
-        ("reserved", c_uint32 * 6),
+        ("reserved", c_uint32 * 8),
     ]
 
 
@@ -152,8 +175,7 @@ class NetworkConfig(Struct):
     _fields_ = [
         ("struct_size", c_uint32),
         ("cpu_mask", c_uint32),
-        ("file", c_void_p),
-        ("file_bytes", c_size_t),
+        ("weights", c_void_p),
         ("name", c_char_p),
         ("height", c_int32),
         ("width", c_int32),
@@ -162,7 +184,72 @@ class NetworkConfig(Struct):
     ]
 
 
+class NetworkInfo(Struct):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("file", c_int32),
+        ("name", ctypes.c_char * 64),
+        ("input", NetworkShape),
+        ("any_size", c_int32),
+        ("layers", c_int32),
+        ("outputs", c_int32),
+        ("parameters", c_uint64),
+        ("macs", c_uint64),
+        ("weight_bytes", c_uint64),
+        ("session_bytes", c_uint64),
+        ("arena_bytes", c_uint64),
+        ("reserved", c_uint32 * 8),
+    ]
+
+
+class LayerInfo(Struct):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("input", c_int32),
+        ("second_input", c_int32),
+        ("output", NetworkShape),
+        ("op", c_char_p),
+        ("activation", c_char_p),
+        ("kernel", c_int32 * 2),
+        ("stride", c_int32 * 2),
+        ("padding", c_int32 * 4),
+        ("first_channel", c_int32),
+        ("parameters", c_uint64),
+        ("macs", c_uint64),
+        ("reserved", c_uint32 * 8),
+    ]
+
+
+class MetadataInfo(Struct):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("file", c_int32),
+        ("key", ctypes.c_char * 64),
+        ("value", c_void_p),
+        ("value_bytes", c_size_t),
+        ("reserved", c_uint32 * 8),
+    ]
+
+
+class ConstantInfo(Struct):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("file", c_int32),
+        ("name", ctypes.c_char * 64),
+        ("type", c_char_p),
+        ("rank", c_int32),
+        ("dims", c_uint32 * 4),
+        ("reserved", c_uint32 * 8),
+    ]
+
+
 STRUCTS = {
+    "mien_error_detail": ErrorDetail,
+    "mien_weights_config": WeightsConfig,
+    "mien_network_info": NetworkInfo,
+    "mien_layer_info": LayerInfo,
+    "mien_metadata_info": MetadataInfo,
+    "mien_constant_info": ConstantInfo,
     "mien_image": Image,
     "mien_audio": Audio,
     "mien_allocator": Allocator,
@@ -185,7 +272,12 @@ FUNCTIONS: dict[str, tuple[Any, Sequence[Any]]] = {
     "mien_image_default": (None, [POINTER(Image)]),
     "mien_audio_default": (None, [POINTER(Audio)]),
     "mien_tracker_config_default": (None, [POINTER(TrackerConfig)]),
-    "mien_tracker_create": (Status, [POINTER(TrackerConfig), POINTER(c_void_p)]),
+    "mien_error_detail_default": (None, [POINTER(ErrorDetail)]),
+    "mien_error_message": (c_size_t, [POINTER(ErrorDetail), c_void_p, c_size_t]),
+    "mien_weights_config_default": (None, [POINTER(WeightsConfig)]),
+    "mien_weights_create": (Status, [POINTER(WeightsConfig), POINTER(c_void_p), POINTER(ErrorDetail)]),
+    "mien_weights_destroy": (None, [c_void_p]),
+    "mien_tracker_create": (Status, [POINTER(TrackerConfig), POINTER(c_void_p), POINTER(ErrorDetail)]),
     "mien_tracker_destroy": (None, [c_void_p]),
     "mien_tracker_reset": (Status, [c_void_p]),
     "mien_tracker_set_lod": (Status, [c_void_p, c_int32]),
@@ -202,7 +294,7 @@ FUNCTIONS: dict[str, tuple[Any, Sequence[Any]]] = {
     "mien_tracker_save_neutral": (Status, [c_void_p, c_void_p, c_size_t, POINTER(c_uint32)]),
     "mien_tracker_load_neutral": (Status, [c_void_p, c_char_p, c_size_t]),
     "mien_network_config_default": (None, [POINTER(NetworkConfig)]),
-    "mien_network_create": (Status, [POINTER(NetworkConfig), POINTER(c_void_p)]),
+    "mien_network_create": (Status, [POINTER(NetworkConfig), POINTER(c_void_p), POINTER(ErrorDetail)]),
     "mien_network_destroy": (None, [c_void_p]),
     "mien_network_input": (c_void_p, [c_void_p, POINTER(NetworkShape)]),
     "mien_network_run": (Status, [c_void_p]),

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
-from ._library import text
+import ctypes
+from ctypes import byref
+from typing import Iterator, Sequence
+
+from ._library import ErrorDetail, function, text
 
 
 class MienError(Exception):
@@ -67,10 +71,6 @@ class WeightsChecksumError(MienError, ValueError):
     status = -23
 
 
-class WeightsMalformedError(MienError, ValueError):
-    status = -24
-
-
 class WeightsIncompleteError(MienError, ValueError):
     status = -25
 
@@ -79,8 +79,120 @@ class WeightsShapeError(MienError, ValueError):
     status = -26
 
 
-class WeightsNotPackedError(MienError, ValueError):
+class WeightsValueError(MienError, ValueError):
     status = -27
+
+
+class WeightsMalformedError(MienError, ValueError):
+    """A weight file breaks a rule of its format."""
+
+
+class WeightsTrailingBytesError(WeightsMalformedError):
+    status = -100
+
+
+class WeightsByteOrderError(WeightsMalformedError):
+    status = -101
+
+
+class WeightsLimitError(WeightsMalformedError):
+    status = -102
+
+
+class WeightsReservedError(WeightsMalformedError):
+    status = -103
+
+
+class WeightsGapError(WeightsMalformedError):
+    status = -104
+
+
+class WeightsPaddingError(WeightsMalformedError):
+    status = -105
+
+
+class WeightsNameError(WeightsMalformedError):
+    status = -106
+
+
+class WeightsDuplicateNameError(WeightsMalformedError):
+    status = -107
+
+
+class WeightsMetadataError(WeightsMalformedError):
+    status = -108
+
+
+class WeightsTensorTypeError(WeightsMalformedError):
+    status = -110
+
+
+class WeightsTensorDimsError(WeightsMalformedError):
+    status = -111
+
+
+class WeightsTensorBytesError(WeightsMalformedError):
+    status = -112
+
+
+class WeightsTensorValueError(WeightsMalformedError):
+    status = -113
+
+
+class WeightsTensorUnusedError(WeightsMalformedError):
+    status = -114
+
+
+class WeightsNetworkError(WeightsMalformedError):
+    status = -120
+
+
+class WeightsLayerOpError(WeightsMalformedError):
+    status = -121
+
+
+class WeightsLayerActivationError(WeightsMalformedError):
+    status = -122
+
+
+class WeightsLayerInputError(WeightsMalformedError):
+    status = -123
+
+
+class WeightsLayerShapeError(WeightsMalformedError):
+    status = -124
+
+
+class WeightsLayerWindowError(WeightsMalformedError):
+    status = -125
+
+
+class WeightsLayerTensorsError(WeightsMalformedError):
+    status = -126
+
+
+class WeightsPackedSizeError(WeightsMalformedError):
+    status = -130
+
+
+class WeightsPackedBlockError(WeightsMalformedError):
+    status = -131
+
+
+class WeightsPackedTableError(WeightsMalformedError):
+    status = -132
+
+
+class WeightsPackedStateError(WeightsMalformedError):
+    status = -133
+
+
+class WeightsPackedTruncatedError(WeightsMalformedError):
+    status = -134
+
+
+class WeightsPackedTrailingError(WeightsMalformedError):
+    status = -135
 
 
 class UnsupportedCpuError(MienError):
@@ -97,6 +209,14 @@ class InternalError(MienError, RuntimeError):
 
 class LeftOutError(MienError):
     status = -43
+
+
+class UnsupportedLayoutError(MienError):
+    status = -44
+
+
+class TooLargeError(MienError, ValueError):
+    status = -45
 
 
 class ImageFormatError(MienError, ValueError):
@@ -159,10 +279,34 @@ class NeutralDamagedError(MienError, ValueError):
     status = -82
 
 
-BY_STATUS: dict[int, type[MienError]] = {error.status: error for error in MienError.__subclasses__()}
+def _kinds(base: type[MienError]) -> Iterator[type[MienError]]:
+    for kind in base.__subclasses__():
+        yield kind
+        yield from _kinds(kind)
+
+
+BY_STATUS: dict[int, type[MienError]] = {kind.status: kind for kind in _kinds(MienError) if kind.status != 0}
 
 
 def check(status: int) -> None:
     """Raises the exception of a status unless it is MIEN_OK."""
     if status != 0:
         raise BY_STATUS[status]() if status in BY_STATUS else MienError(status=status)
+
+
+def check_detail(status: int, detail: ErrorDetail, sources: Sequence[str] = ()) -> None:
+    """Like check, with the detail's message. `sources` name the weight files."""
+    if status == 0:
+        return
+    line = (ctypes.c_char * 256)()
+    function("mien_error_message")(byref(detail), line, len(line))
+    message = line.value.decode("ascii", "replace")
+    if 0 <= detail.file < len(sources):
+        message = f"{sources[detail.file]}: {message}"
+    raise BY_STATUS.get(status, MienError)(message, status)
+
+
+def new_detail() -> ErrorDetail:
+    detail = ErrorDetail()
+    function("mien_error_detail_default")(byref(detail))
+    return detail

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from ctypes import byref, c_float
-from typing import Any, NamedTuple, Optional
+from typing import Any, NamedTuple, Optional, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from ._handle import Handle
 from ._library import NetworkConfig, NetworkShape, function
-from .errors import check
-from .weights import Model, opened
+from .errors import check, check_detail, new_detail
+from .weights import Model, Weights, opened
 
 Floats = npt.NDArray[np.float32]
 _BLOCK = 8  # channels stored together
@@ -27,22 +27,23 @@ class Shape(NamedTuple):
 class Network(Handle):
     """A network of a weight file. One thread at a time may use it.
 
-    model: a path, or the file's bytes. name: of the network; default: the file's first.
+    model: a path, the file's bytes, or Weights. name: of the network; default: the file's first.
     size: (height, width) of the input, for networks that accept several.
     """
 
     _kind = "network"
 
-    def __init__(self, model: Model, name: Optional[str] = None, size: Optional[tuple[int, int]] = None) -> None:
+    def __init__(self, model: Union[Model, Weights], name: Optional[str] = None, size: Optional[tuple[int, int]] = None) -> None:
         super().__init__()
-        self._file = opened(model)
+        self._weights = opened(model)  # whose files must outlive the network
         config = NetworkConfig()
         function("mien_network_config_default")(byref(config))
-        config.file, config.file_bytes = self._file.ctypes.data, self._file.size
+        config.weights = self._weights._open()
         config.name = None if name is None else name.encode()
         if size is not None:
             config.height, config.width = size
-        check(function("mien_network_create")(byref(config), byref(self._handle)))
+        detail = new_detail()
+        check_detail(function("mien_network_create")(byref(config), byref(self._handle), byref(detail)), detail, self._weights.names)
         shape = NetworkShape()
         place = function("mien_network_input")(self._handle, byref(shape))
         self.input_shape = Shape(shape.channels, shape.height, shape.width)
@@ -111,7 +112,7 @@ def _floats_at(place: Any, count: int) -> Floats:
     return array
 
 
-def run(model: Model, array: npt.ArrayLike, *, network: Optional[str] = None) -> list[Floats]:
+def run(model: Union[Model, Weights], array: npt.ArrayLike, *, network: Optional[str] = None) -> list[Floats]:
     """Runs a converted network once (see Network.run for the layout of arrays) and returns its outputs."""
     with Network(model, network) as opened_network:
         return opened_network.run(array)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ctypes
 from ctypes import byref, c_uint32, c_void_p
-from pathlib import Path
 from typing import Any, Literal, Optional, Union
 
 import numpy as np
@@ -13,10 +12,10 @@ import numpy.typing as npt
 from ._handle import Handle
 from ._library import MODELS, NEUTRAL_BYTES, Audio, Image, TrackerConfig, TrackerResult, function
 from ._numbers import nanoseconds
-from .errors import check
+from .errors import check, check_detail, new_detail
 from .result import Result
 from .vocabulary import CONTROL_NUMBERS
-from .weights import mapped
+from .weights import Model, Weights, opened
 
 Frame = npt.NDArray[np.uint8]
 Samples = Union[npt.NDArray[np.float32], npt.NDArray[np.int16]]
@@ -36,7 +35,7 @@ class Tracker(Handle):
     horizontal_fov: horizontal field of view of the upright image, radians; default 60 degrees.
     audio_queue_samples: capacity of the audio queue (queue_audio), in samples of one channel; 0: no queue.
     voice_strength: factor of the controls predicted from audio, 0 to 4.
-    models: a folder with other weights than the package's own.
+    models: other weights than the package's own: Weights, which trackers may share, or a folder or bundle.
     """
 
     _kind = "tracker"
@@ -52,24 +51,16 @@ class Tracker(Handle):
         horizontal_fov: Optional[float] = None,
         audio_queue_samples: int = 0,
         voice_strength: float = 1.0,
-        models: Union[str, Path, None] = None,
+        models: Union[Model, Weights, None] = None,
     ) -> None:
         super().__init__()
-        folder = MODELS if models is None else Path(models)
         config = TrackerConfig()
         function("mien_tracker_config_default")(byref(config))
-        # They must outlive the tracker.
-        self._weights = {
-            name: mapped(folder / f"{name}.mien")
-            for name in ("basenet", "proposal", "hifinet", "audionet")
-            if name in ("basenet", "proposal")
-            or (name == "hifinet" and lod != 1 and (folder / "hifinet.mien").exists())
-            or (name == "audionet" and sound)
-        }
-        for name, data in self._weights.items():
-            setattr(config, name, data.ctypes.data)
-            setattr(config, name + "_bytes", data.size)
+        self._weights = opened(MODELS if models is None else models)  # whose files must outlive the tracker
+        config.weights = self._weights._open()
         config.lod = 0 if lod == "auto" else lod
+        config.max_lod = 1 if lod == 1 else 4
+        config.audio = int(sound)
         config.max_faces = max_faces
         config.smoothing = int(smoothing)
         config.budget_ms = budget_ms
@@ -80,7 +71,8 @@ class Tracker(Handle):
         if lod == "auto":  # needs a clock to measure frames
             self._clock = _CLOCK
             config.clock_ns = ctypes.cast(_CLOCK, c_void_p)
-        check(function("mien_tracker_create")(byref(config), byref(self._handle)))
+        detail = new_detail()
+        check_detail(function("mien_tracker_create")(byref(config), byref(self._handle), byref(detail)), detail, self._weights.names)
         self._push_video = function("mien_tracker_push_video")
         self._get_result = function("mien_tracker_get_result")
         self._facts: tuple[Any, ...] = ()  # of the images described by self._image

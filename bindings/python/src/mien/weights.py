@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import errno
 import mmap
+from ctypes import byref
 from pathlib import Path
 from typing import Union
 
 import numpy as np
 import numpy.typing as npt
 
-from ._library import ALIGNMENT
-from .errors import OutOfMemoryError, WeightsTruncatedError
+from ._handle import Handle
+from ._library import WeightsConfig, function
+from .errors import OutOfMemoryError, WeightsTruncatedError, check_detail, new_detail
 
 Bytes = npt.NDArray[np.uint8]
 Model = Union[str, Path, bytes]
@@ -30,16 +32,43 @@ def mapped(path: Path) -> Bytes:
         return np.frombuffer(pages, np.uint8)
 
 
-def aligned(data: bytes) -> Bytes:
-    """A copy with the alignment that the library needs."""
-    if not data:
-        raise WeightsTruncatedError
-    memory = np.empty(len(data) + ALIGNMENT, np.uint8)
-    first = -memory.ctypes.data % ALIGNMENT
-    copy = memory[first : first + len(data)]
-    copy[:] = np.frombuffer(data, np.uint8)
-    return copy
+class Weights(Handle):
+    """Opened weight files, which any number of trackers and networks in any threads may share.
+
+    Each model is a path or bytes: a weight file, a packed one, or a bundle of several. A folder stands for its basenet.mien,
+    proposal.mien, hifinet.mien and audionet.mien, of which the last two may be missing.
+    """
+
+    _kind = "weights"
+
+    def __init__(self, *models: Model) -> None:
+        super().__init__()
+        sources = [source for model in models for source in _sources(model)]
+        if len(sources) > 8:
+            raise ValueError(f"models: too many files (got {len(sources)}, expected 8 at most; join them to a bundle)")
+        # The library uses aligned files in place, and copies and unpacks others.
+        self._files = [source if isinstance(source, bytes) else mapped(source) for source in sources]
+        self.names = [f"weights[{i}]" if isinstance(source, bytes) else str(source) for i, source in enumerate(sources)]
+        config = WeightsConfig()
+        function("mien_weights_config_default")(byref(config))
+        for i, data in enumerate(self._files):
+            array = np.frombuffer(data, np.uint8) if isinstance(data, bytes) else data
+            if not array.size:
+                raise WeightsTruncatedError
+            config.files[i], config.file_bytes[i] = array.ctypes.data, array.size
+        detail = new_detail()
+        check_detail(function("mien_weights_create")(byref(config), byref(self._handle), byref(detail)), detail, self.names)
 
 
-def opened(model: Model) -> Bytes:
-    return aligned(model) if isinstance(model, bytes) else mapped(Path(model))
+def _sources(model: Model) -> list[Union[Path, bytes]]:
+    if isinstance(model, bytes):
+        return [model]
+    path = Path(model)
+    if not path.is_dir():
+        return [path]
+    required = [path / "basenet.mien", path / "proposal.mien"]
+    return [*required, *(file for name in ("hifinet", "audionet") if (file := path / f"{name}.mien").exists())]
+
+
+def opened(model: Union[Model, Weights]) -> Weights:
+    return model if isinstance(model, Weights) else Weights(model)

@@ -8,6 +8,8 @@ pub const MIEN_LANDMARK_COUNT: usize = 175;
 pub const MIEN_MAX_STAGES: usize = 16;
 pub const MIEN_MAX_AUDIO_CHANNELS: usize = 8;
 pub const MIEN_ALIGNMENT: usize = 64;
+pub const MIEN_MAX_WEIGHT_FILES: usize = 8;
+pub const MIEN_MAX_NAME_BYTES: usize = 63;
 pub const MIEN_NEUTRAL_BYTES: usize = 448;
 pub const MIEN_RESULT_CAPTURING_NEUTRAL: u32 = 0x10;
 
@@ -17,6 +19,11 @@ pub type mien_status = i32;
 
 #[repr(C)]
 pub struct mien_tracker {
+    _private: [u8; 0],
+}
+
+#[repr(C)]
+pub struct mien_weights {
     _private: [u8; 0],
 }
 
@@ -70,17 +77,44 @@ pub struct mien_allocator {
 
 #[repr(C)]
 #[derive(Clone, Copy)]
+pub struct mien_error_detail {
+    pub struct_size: u32,
+    pub status: i32,
+    pub known: u32,
+    pub file: i32,
+    pub network: i32,
+    pub layer: i32,
+    pub field: *const c_char,
+    pub offset: u64,
+    pub got: f64,
+    pub expected_min: f64,
+    pub expected_max: f64,
+    pub name: [c_char; MIEN_MAX_NAME_BYTES + 1],
+    pub reserved: [u32; 8],
+}
+
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct mien_weights_config {
+    pub struct_size: u32,
+    pub copy: i32,
+    pub files: [*const c_void; MIEN_MAX_WEIGHT_FILES],
+    pub file_bytes: [usize; MIEN_MAX_WEIGHT_FILES],
+    pub allocator: mien_allocator,
+    pub reserved: [u32; 8],
+}
+
+#[repr(C)]
+#[derive(Clone, Copy)]
 pub struct mien_tracker_config {
     pub struct_size: u32,
     pub cpu_mask: u32,
-    pub basenet: *const c_void,
-    pub basenet_bytes: usize,
-    pub proposal: *const c_void,
-    pub proposal_bytes: usize,
+    pub weights: *const mien_weights,
     pub allocator: mien_allocator,
     pub clock_ns: Option<extern "C" fn(*mut c_void) -> u64>,
     pub clock_user: *mut c_void,
     pub lod: i32,
+    pub max_lod: i32,
     pub horizontal_fov: f32,
     pub accept_probability: f32,
     pub lose_probability: f32,
@@ -90,17 +124,14 @@ pub struct mien_tracker_config {
     pub refine_threshold: f32,
     pub search_interval: i32,
     pub budget_ms: f32,
-    pub hifinet: *const c_void,
-    pub hifinet_bytes: usize,
     pub smoothing: i32,
     pub max_faces: i32,
-    pub audionet: *const c_void,
-    pub audionet_bytes: usize,
+    pub audio: i32,
     pub voice_attack_ms: f32,
     pub voice_release_ms: f32,
     pub audio_queue_samples: i32,
     pub voice_strength: f32,
-    pub reserved: [u32; 6],
+    pub reserved: [u32; 8],
 }
 
 #[repr(C)]
@@ -144,12 +175,70 @@ pub struct mien_shape {
 pub struct mien_network_config {
     pub struct_size: u32,
     pub cpu_mask: u32,
-    pub file: *const c_void,
-    pub file_bytes: usize,
+    pub weights: *const mien_weights,
     pub name: *const c_char,
     pub height: i32,
     pub width: i32,
     pub allocator: mien_allocator,
+    pub reserved: [u32; 8],
+}
+
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct mien_network_info {
+    pub struct_size: u32,
+    pub file: i32,
+    pub name: [c_char; MIEN_MAX_NAME_BYTES + 1],
+    pub input: mien_shape,
+    pub any_size: i32,
+    pub layers: i32,
+    pub outputs: i32,
+    pub parameters: u64,
+    pub macs: u64,
+    pub weight_bytes: u64,
+    pub session_bytes: u64,
+    pub arena_bytes: u64,
+    pub reserved: [u32; 8],
+}
+
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct mien_layer_info {
+    pub struct_size: u32,
+    pub input: i32,
+    pub second_input: i32,
+    pub output: mien_shape,
+    pub op: *const c_char,
+    pub activation: *const c_char,
+    pub kernel: [i32; 2],
+    pub stride: [i32; 2],
+    pub padding: [i32; 4],
+    pub first_channel: i32,
+    pub parameters: u64,
+    pub macs: u64,
+    pub reserved: [u32; 8],
+}
+
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct mien_metadata_info {
+    pub struct_size: u32,
+    pub file: i32,
+    pub key: [c_char; MIEN_MAX_NAME_BYTES + 1],
+    pub value: *const c_char,
+    pub value_bytes: usize,
+    pub reserved: [u32; 8],
+}
+
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct mien_constant_info {
+    pub struct_size: u32,
+    pub file: i32,
+    pub name: [c_char; MIEN_MAX_NAME_BYTES + 1],
+    pub r#type: *const c_char,
+    pub rank: i32,
+    pub dims: [u32; 4],
     pub reserved: [u32; 8],
 }
 
@@ -171,13 +260,38 @@ extern "C" {
     pub fn mien_image_default(image: *mut mien_image);
     pub fn mien_audio_default(audio: *mut mien_audio);
     pub fn mien_tracker_config_default(config: *mut mien_tracker_config);
-    pub fn mien_tracker_required_bytes(config: *const mien_tracker_config, bytes: *mut usize) -> mien_status;
-    pub fn mien_tracker_create(config: *const mien_tracker_config, tracker: *mut *mut mien_tracker) -> mien_status;
+    pub fn mien_error_detail_default(detail: *mut mien_error_detail);
+    pub fn mien_error_message(detail: *const mien_error_detail, text: *mut c_char, text_bytes: usize) -> usize;
+    pub fn mien_weights_config_default(config: *mut mien_weights_config);
+    pub fn mien_weights_create(
+        config: *const mien_weights_config,
+        weights: *mut *mut mien_weights,
+        error: *mut mien_error_detail,
+    ) -> mien_status;
+    pub fn mien_weights_destroy(weights: *mut mien_weights);
+    pub fn mien_weights_network_count(weights: *const mien_weights) -> i32;
+    pub fn mien_weights_network(weights: *const mien_weights, network: i32, info: *mut mien_network_info) -> mien_status;
+    pub fn mien_weights_layer(weights: *const mien_weights, network: i32, layer: i32, info: *mut mien_layer_info) -> mien_status;
+    pub fn mien_weights_metadata_count(weights: *const mien_weights) -> i32;
+    pub fn mien_weights_metadata(weights: *const mien_weights, index: i32, info: *mut mien_metadata_info) -> mien_status;
+    pub fn mien_weights_constant_count(weights: *const mien_weights) -> i32;
+    pub fn mien_weights_constant(weights: *const mien_weights, index: i32, info: *mut mien_constant_info) -> mien_status;
+    pub fn mien_tracker_required_bytes(
+        config: *const mien_tracker_config,
+        bytes: *mut usize,
+        error: *mut mien_error_detail,
+    ) -> mien_status;
+    pub fn mien_tracker_create(
+        config: *const mien_tracker_config,
+        tracker: *mut *mut mien_tracker,
+        error: *mut mien_error_detail,
+    ) -> mien_status;
     pub fn mien_tracker_create_in(
         config: *const mien_tracker_config,
         memory: *mut c_void,
         memory_bytes: usize,
         tracker: *mut *mut mien_tracker,
+        error: *mut mien_error_detail,
     ) -> mien_status;
     pub fn mien_tracker_destroy(tracker: *mut mien_tracker);
     pub fn mien_tracker_reset(tracker: *mut mien_tracker) -> mien_status;
@@ -198,10 +312,27 @@ extern "C" {
     pub fn mien_tracker_save_neutral(tracker: *const mien_tracker, file: *mut c_void, file_bytes: usize, captured: *mut u32)
         -> mien_status;
     pub fn mien_tracker_load_neutral(tracker: *mut mien_tracker, file: *const c_void, file_bytes: usize) -> mien_status;
-    pub fn mien_unpacked_bytes(packed: *const c_void, packed_bytes: usize, unpacked_bytes: *mut usize) -> mien_status;
-    pub fn mien_unpack(packed: *const c_void, packed_bytes: usize, file: *mut c_void, file_bytes: usize) -> mien_status;
     pub fn mien_network_config_default(config: *mut mien_network_config);
-    pub fn mien_network_create(config: *const mien_network_config, network: *mut *mut mien_network) -> mien_status;
+    pub fn mien_network_create(
+        config: *const mien_network_config,
+        network: *mut *mut mien_network,
+        error: *mut mien_error_detail,
+    ) -> mien_status;
+    pub fn mien_network_required_bytes(
+        config: *const mien_network_config,
+        bytes: *mut usize,
+        error: *mut mien_error_detail,
+    ) -> mien_status;
+    pub fn mien_network_create_in(
+        config: *const mien_network_config,
+        memory: *mut c_void,
+        memory_bytes: usize,
+        network: *mut *mut mien_network,
+        error: *mut mien_error_detail,
+    ) -> mien_status;
+    pub fn mien_network_step_count(network: *const mien_network) -> i32;
+    pub fn mien_network_step_layers(network: *const mien_network, step: i32, first: *mut i32) -> i32;
+    pub fn mien_network_run_step(network: *mut mien_network, step: i32) -> mien_status;
     pub fn mien_network_destroy(network: *mut mien_network);
     pub fn mien_network_input(network: *mut mien_network, shape: *mut mien_shape) -> *mut f32;
     pub fn mien_network_run(network: *mut mien_network) -> mien_status;

@@ -17,7 +17,7 @@ pub use network::{Network, Shape};
 pub use result::{Controls, FaceResult, FaceStatus, Pose};
 pub use tracker::{AudioQueue, Lod, Options, Tracker};
 pub use vocabulary::{control_names, Control, LandmarkGroup, Vocabulary};
-pub use weights::{Model, Weights};
+pub use weights::Weights;
 
 /// Landmarks of a face, two numbers each.
 pub const LANDMARK_COUNT: usize = mien_sys::MIEN_LANDMARK_COUNT;

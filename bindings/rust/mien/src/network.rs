@@ -1,8 +1,8 @@
 use std::ffi::CString;
 
-use crate::error::check;
+use crate::error::{check, check_detail, new_detail};
 use crate::image::number;
-use crate::{Error, Model};
+use crate::{Error, Weights};
 
 const BLOCK: usize = 8; // channels stored together
 const INTERLEAVED: usize = 4; // an input of up to this number of channels is stored as an image
@@ -35,29 +35,29 @@ impl Shape {
 pub struct Network {
     raw: *mut mien_sys::mien_network,
     input_shape: Shape,
-    _model: Model,
 }
 
 // Safety: any thread may use it, one at a time.
 unsafe impl Send for Network {}
 
 impl Network {
-    /// `name`: of the network in the file; its first where `None`. `size`: height and width, for networks that accept several.
-    pub fn new(model: &Model, name: Option<&str>, size: Option<(usize, usize)>) -> Result<Network, Error> {
+    /// `name`: of a network of the weights; the first where `None`. `size`: height and width, for networks that accept several.
+    pub fn new(weights: &Weights, name: Option<&str>, size: Option<(usize, usize)>) -> Result<Network, Error> {
         let name = name.map(CString::new).transpose().map_err(|_| Error::Input("a name with a zero in it".into()))?;
         // Safety: plain numbers and pointers, which the library initializes.
         let mut config: mien_sys::mien_network_config = unsafe { std::mem::zeroed() };
         unsafe { mien_sys::mien_network_config_default(&mut config) };
-        (config.file, config.file_bytes) = (model.place(), model.bytes());
+        config.weights = weights.raw();
         config.name = name.as_ref().map_or(std::ptr::null(), |name| name.as_ptr());
         if let Some((height, width)) = size {
             (config.height, config.width) = (number(height)?, number(width)?);
         }
         let mut raw = std::ptr::null_mut();
-        check(unsafe { mien_sys::mien_network_create(&config, &mut raw) })?;
+        let mut detail = new_detail();
+        check_detail(unsafe { mien_sys::mien_network_create(&config, &mut raw, &mut detail) }, &detail, weights.names())?;
         let mut shape = mien_sys::mien_shape { height: 0, width: 0, channels: 0 };
         unsafe { mien_sys::mien_network_input(raw, &mut shape) };
-        Ok(Network { raw, input_shape: Shape::of(shape), _model: model.clone() })
+        Ok(Network { raw, input_shape: Shape::of(shape) })
     }
 
     /// Shape of the input of [`run`](Network::run).
@@ -75,7 +75,7 @@ impl Network {
         let interleaved = shape.channels <= INTERLEAVED && pixels > 1;
         let step = if interleaved { shape.channels } else { BLOCK };
         let elements = if interleaved { shape.size() } else { shape.blocks() * pixels * BLOCK };
-        // Safety: the buffer has this size (mien/engine.h, Layout) and no other reference.
+        // Safety: the buffer has this size (mien_network in mien.h) and no other reference.
         let to = unsafe { std::slice::from_raw_parts_mut(mien_sys::mien_network_input(self.raw, std::ptr::null_mut()), elements) };
         for (channel, plane) in input.chunks_exact(pixels).enumerate() {
             let first = channel / step * pixels * step + channel % step;

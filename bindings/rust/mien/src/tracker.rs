@@ -4,7 +4,7 @@ use std::marker::PhantomData;
 use std::sync::Arc;
 use std::time::Instant;
 
-use crate::error::check;
+use crate::error::{check, check_detail, new_detail};
 use crate::vocabulary::control_number;
 use crate::{nanoseconds, Audio, Error, FaceResult, Image, Weights};
 
@@ -35,6 +35,8 @@ pub struct Options {
     pub lod: Lod,
     /// Maximum number of faces, 1..8.
     pub max_faces: i32,
+    /// Accepts audio, if the weights have AudioNet.
+    pub audio: bool,
     /// Smooths controls, landmarks and pose while they hardly move.
     pub smoothing: bool,
     /// For [`Lod::Auto`].
@@ -52,6 +54,7 @@ impl Default for Options {
         Options {
             lod: Lod::Auto,
             max_faces: 1,
+            audio: true,
             smoothing: true,
             budget_ms: 10.0,
             horizontal_fov: None,
@@ -64,7 +67,6 @@ impl Default for Options {
 /// The library's tracker. Destroyed when both tracker and queue are dropped.
 struct Handle {
     raw: *mut mien_sys::mien_tracker,
-    _weights: Weights, // kept alive as long as this object
 }
 
 // Safety: the library allows queue_audio on one thread while another uses the tracker.
@@ -96,15 +98,10 @@ impl Tracker {
         // Safety: plain numbers and pointers, which the library initializes.
         let mut config: mien_sys::mien_tracker_config = unsafe { std::mem::zeroed() };
         unsafe { mien_sys::mien_tracker_config_default(&mut config) };
-        (config.basenet, config.basenet_bytes) = (weights.basenet.place(), weights.basenet.bytes());
-        (config.proposal, config.proposal_bytes) = (weights.proposal.place(), weights.proposal.bytes());
-        if let Some(hifinet) = &weights.hifinet {
-            (config.hifinet, config.hifinet_bytes) = (hifinet.place(), hifinet.bytes());
-        }
-        if let Some(audionet) = &weights.audionet {
-            (config.audionet, config.audionet_bytes) = (audionet.place(), audionet.bytes());
-        }
+        config.weights = weights.raw();
         config.lod = options.lod.number();
+        config.max_lod = if options.lod == Lod::Level(1) { 1 } else { 4 };
+        config.audio = options.audio.into();
         config.max_faces = options.max_faces;
         config.smoothing = options.smoothing.into();
         config.budget_ms = options.budget_ms;
@@ -113,9 +110,10 @@ impl Tracker {
         config.horizontal_fov = options.horizontal_fov.unwrap_or(config.horizontal_fov);
         config.clock_ns = Some(clock_ns);
         let mut raw = std::ptr::null_mut();
-        // Safety: the weights stay with the handle.
-        check(unsafe { mien_sys::mien_tracker_create(&config, &mut raw) })?;
-        let handle = Arc::new(Handle { raw, _weights: weights.clone() });
+        let mut detail = new_detail();
+        // Safety: the tracker keeps the weights.
+        check_detail(unsafe { mien_sys::mien_tracker_create(&config, &mut raw, &mut detail) }, &detail, weights.names())?;
+        let handle = Arc::new(Handle { raw });
         Ok(Tracker { handle, queue_taken: false, _one_thread: PhantomData })
     }
 

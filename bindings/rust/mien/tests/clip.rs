@@ -118,11 +118,13 @@ fn reports_errors() {
     for bad in [5, 0] {
         assert_eq!(Tracker::new(&weights, level(bad)).err().unwrap().status(), Some(Status::UnsupportedLod));
     }
-    let broken = Weights { basenet: Model::from_bytes(&[7; 640]), ..weights.clone() };
-    assert_eq!(Tracker::new(&broken, level(1)).err().unwrap().status(), Some(Status::WeightsNotMien));
+    let broken = Weights::from_bytes(&[&[7; 640]]).err().unwrap();
+    assert_eq!(broken.status(), Some(Status::WeightsNotMien));
+    assert_eq!(broken.to_string(), "weights[0]: byte 0, magic: the weights are not a .mien file (got 7, expected 137)");
+    let many = Tracker::new(&weights, Options { max_faces: 9, ..level(1) }).err().unwrap();
+    assert_eq!(many.to_string(), "max_faces: a value is out of range (got 9, expected 1..8)");
     assert!(Weights::open("/nowhere").err().unwrap().to_string().contains("/nowhere/basenet.mien"));
-    let deaf = Weights { audionet: None, ..weights };
-    let mut deaf = Tracker::new(&deaf, level(1)).unwrap();
+    let mut deaf = Tracker::new(&weights, Options { audio: false, ..level(1) }).unwrap();
     let silence = [0.0f32; 100];
     let error = deaf.push_audio(&Audio::float(&silence, 1, 16000).unwrap(), 0.0).unwrap_err();
     assert_eq!(error.status(), Some(Status::NoAudionet));
@@ -212,7 +214,7 @@ fn rejects_times_out_of_range() {
 
 #[test]
 fn runs_custom_networks() {
-    let model = Model::open(format!("{REPOSITORY}/models/proposal.mien")).unwrap();
+    let model = Weights::open(format!("{REPOSITORY}/models/proposal.mien")).unwrap();
     let mut network = Network::new(&model, Some("rnet"), None).unwrap();
     let shape = network.input_shape();
     assert_eq!((shape.channels, shape.height, shape.width), (3, 24, 24));

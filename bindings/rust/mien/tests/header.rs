@@ -43,14 +43,21 @@ fn declarations_match_the_header() {
             focal_length_px, principal_x, principal_y, yuv_matrix, region, pixel_aspect, reserved }
         mien_audio { struct_size, format, sample_rate, channels, planar, frames, samples, reserved }
         mien_allocator { allocate, release, user }
-        mien_tracker_config { struct_size, cpu_mask, basenet, basenet_bytes, proposal, proposal_bytes, allocator, clock_ns, clock_user, lod,
-            horizontal_fov, accept_probability, lose_probability, lose_after_frames, proposal_size, proposal_threshold, refine_threshold,
-            search_interval, budget_ms, hifinet, hifinet_bytes, smoothing, max_faces, audionet, audionet_bytes, voice_attack_ms,
+        mien_error_detail { struct_size, status, known, file, network, layer, field, offset, got, expected_min, expected_max, name, reserved }
+        mien_weights_config { struct_size, copy, files, file_bytes, allocator, reserved }
+        mien_tracker_config { struct_size, cpu_mask, weights, allocator, clock_ns, clock_user, lod, max_lod, horizontal_fov, accept_probability, lose_probability, lose_after_frames, proposal_size, proposal_threshold, refine_threshold,
+            search_interval, budget_ms, smoothing, max_faces, audio, voice_attack_ms,
             voice_release_ms, audio_queue_samples, voice_strength, reserved }
         mien_result { struct_size, status, pts_ns, supported_controls, face_probability, voice_activity, lod, flags, r#box, rotation, pitch, yaw,
             roll, translation, controls, landmarks, frames, face_frames, proposal_runs, encoder_runs, stage_ns, face_id, reserved }
         mien_shape { height, width, channels }
-        mien_network_config { struct_size, cpu_mask, file, file_bytes, name, height, width, allocator, reserved }
+        mien_network_config { struct_size, cpu_mask, weights, name, height, width, allocator, reserved }
+        mien_network_info { struct_size, file, name, input, any_size, layers, outputs, parameters, macs, weight_bytes, session_bytes,
+            arena_bytes, reserved }
+        mien_layer_info { struct_size, input, second_input, output, op, activation, kernel, stride, padding, first_channel, parameters, macs,
+            reserved }
+        mien_metadata_info { struct_size, file, key, value, value_bytes, reserved }
+        mien_constant_info { struct_size, file, name, r#type, rank, dims, reserved }
     }
     let layouts: BTreeSet<String> =
         header.lines().filter(|line| line.starts_with("struct ") || line.starts_with("field ")).map(String::from).collect();

@@ -7,6 +7,8 @@ public struct TrackerOptions {
   public var lod: Int32 = 0
   /// Maximum number of faces, 1...8.
   public var maxFaces: Int32 = 1
+  /// Whether to use audio, if the weights have AudioNet.
+  public var sound = true
   /// Smooths controls, landmarks and pose while they hardly move.
   public var smoothing = true
   public var budgetMs: Float = 10
@@ -23,19 +25,13 @@ public struct TrackerOptions {
 /// Tracks faces in a stream of images and audio. One thread at a time may use it, except for `queueAudio`.
 public final class Tracker {
   private let handle: OpaquePointer
-  private let weights: Weights  // kept alive as long as this object
 
   public init(weights: Weights, options: TrackerOptions = TrackerOptions()) throws {
     var config = mien_tracker_config()
     mien_tracker_config_default(&config)
-    (config.basenet, config.basenet_bytes) = (UnsafeRawPointer(weights.basenet.bytes.baseAddress), weights.basenet.count)
-    (config.proposal, config.proposal_bytes) = (UnsafeRawPointer(weights.proposal.bytes.baseAddress), weights.proposal.count)
-    if let hifinet = weights.hifinet {
-      (config.hifinet, config.hifinet_bytes) = (UnsafeRawPointer(hifinet.bytes.baseAddress), hifinet.count)
-    }
-    if let audionet = weights.audionet {
-      (config.audionet, config.audionet_bytes) = (UnsafeRawPointer(audionet.bytes.baseAddress), audionet.count)
-    }
+    config.weights = weights.handle
+    config.max_lod = options.lod == 1 ? 1 : 4
+    config.audio = options.sound ? 1 : 0
     config.lod = options.lod
     config.max_faces = options.maxFaces
     config.smoothing = options.smoothing ? 1 : 0
@@ -45,9 +41,9 @@ public final class Tracker {
     if let fov = options.horizontalFov { config.horizontal_fov = fov }
     config.clock_ns = { _ in DispatchTime.now().uptimeNanoseconds }
     var made: OpaquePointer?
-    try check(mien_tracker_create(&config, &made))
+    var detail = newDetail()
+    try check(mien_tracker_create(&config, &made, &detail), detail)
     handle = made!
-    self.weights = weights
   }
 
   deinit { mien_tracker_destroy(handle) }

@@ -1,43 +1,51 @@
 import CMien
 import Foundation
 
-/// A weight file in aligned memory. Trackers may share one.
-public final class Model {
-  let bytes: UnsafeMutableRawBufferPointer
+/// Opened weight files. Any number of trackers may share them.
+public final class Weights {
+  let handle: OpaquePointer
 
-  public init(_ data: Data) {
-    bytes = .allocate(byteCount: max(data.count, 1), alignment: Int(MIEN_ALIGNMENT))
-    count = data.count
-    data.copyBytes(to: bytes)
+  /// Copies files: each is a weight file, a packed one, or a bundle of several, in any order.
+  public convenience init(_ files: [Data]) throws {
+    try self.init(files, names: files.indices.map { "weights[\($0)]" })
   }
 
+  /// A file, or a folder: its basenet.mien and proposal.mien, and hifinet.mien and audionet.mien if present.
   public convenience init(contentsOf url: URL) throws {
-    self.init(try Data(contentsOf: url))
-  }
-
-  let count: Int
-
-  deinit { bytes.deallocate() }
-}
-
-/// The weights of trackers. Several trackers may share them.
-public struct Weights {
-  /// Tracking and level of detail 1; detection; levels of detail 2 to 4; audio.
-  public var basenet, proposal: Model
-  public var hifinet, audionet: Model?
-
-  public init(basenet: Model, proposal: Model, hifinet: Model? = nil, audionet: Model? = nil) {
-    (self.basenet, self.proposal, self.hifinet, self.audionet) = (basenet, proposal, hifinet, audionet)
-  }
-
-  /// The files of a folder: basenet.mien and proposal.mien, and hifinet.mien and audionet.mien if present.
-  public init(folder: URL) throws {
-    let file = { (name: String) in folder.appendingPathComponent("\(name).mien") }
-    let optional = { (name: String) -> Model? in
-      FileManager.default.fileExists(atPath: file(name).path) ? try Model(contentsOf: file(name)) : nil
+    var isFolder: ObjCBool = false
+    let exists = FileManager.default.fileExists(atPath: url.path, isDirectory: &isFolder)
+    var urls = [url]
+    if exists && isFolder.boolValue {
+      let optional = ["hifinet", "audionet"].map { url.appendingPathComponent("\($0).mien") }
+      urls = ["basenet", "proposal"].map { url.appendingPathComponent("\($0).mien") }
+      urls += optional.filter { FileManager.default.fileExists(atPath: $0.path) }
     }
-    self.init(
-      basenet: try Model(contentsOf: file("basenet")), proposal: try Model(contentsOf: file("proposal")),
-      hifinet: try optional("hifinet"), audionet: try optional("audionet"))
+    try self.init(try urls.map { try Data(contentsOf: $0) }, names: urls.map(\.path))
   }
+
+  private init(_ files: [Data], names: [String]) throws {
+    guard files.count <= Int(MIEN_MAX_WEIGHT_FILES) else { throw MienError.input("files: too many (got \(files.count), expected 8 at most)") }
+    var config = mien_weights_config()
+    mien_weights_config_default(&config)
+    config.copy = 1
+    let copies = files.map { file -> UnsafeMutableRawBufferPointer in
+      let copy = UnsafeMutableRawBufferPointer.allocate(byteCount: max(file.count, 1), alignment: 1)
+      file.copyBytes(to: copy)
+      return copy
+    }
+    defer { copies.forEach { $0.deallocate() } }
+    withUnsafeMutableBytes(of: &config.files) { places in
+      for (i, copy) in copies.enumerated() { places.bindMemory(to: UnsafeRawPointer?.self)[i] = UnsafeRawPointer(copy.baseAddress) }
+    }
+    withUnsafeMutableBytes(of: &config.file_bytes) { sizes in
+      for (i, file) in files.enumerated() { sizes.bindMemory(to: Int.self)[i] = file.count }
+    }
+    var made: OpaquePointer?
+    var detail = newDetail()
+    try check(mien_weights_create(&config, &made, &detail), detail, names)
+    handle = made!
+  }
+
+  /// Trackers keep the weights that they use.
+  deinit { mien_weights_destroy(handle) }
 }

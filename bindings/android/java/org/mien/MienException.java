@@ -11,6 +11,18 @@ public final class MienException extends RuntimeException {
         status = Status.of(number);
     }
 
+    private MienException(int number, String message) {
+        super(message);
+        status = Status.of(number);
+    }
+
+    /** message: [0] is what a native function wrote. */
+    static void check(int number, String[] message) {
+        if (number != 0) {
+            throw new MienException(number, message[0]);
+        }
+    }
+
     static void check(int number) {
         if (number != 0) {
             throw new MienException(number);

@@ -26,12 +26,14 @@ final class Native {
 
     static native int vocabularyValues(int vocabulary, float[] controls, float[] values);
 
-    static native long address(ByteBuffer buffer);
+    /** handle[0] receives the weights, which use aligned files in place; message[0] an error. names: of the files. */
+    static native int createWeights(ByteBuffer[] files, String[] names, long[] handle, String[] message);
 
-    /** handle[0] receives the tracker. integers: lod, maxFaces, smoothing, audioQueueSamples. floats: budgetMs, horizontalFov (0: default),
-     *  voiceStrength. */
-    static native int createTracker(ByteBuffer basenet, ByteBuffer proposal, ByteBuffer hifinet, ByteBuffer audionet, int[] integers,
-            float[] floats, long[] handle);
+    static native void destroyWeights(long weights);
+
+    /** handle[0] receives the tracker; message[0] an error. integers: lod, maxFaces, smoothing, audioQueueSamples, maxLod, audio.
+     *  floats: budgetMs, horizontalFov (0: default), voiceStrength. */
+    static native int createTracker(long weights, String[] names, int[] integers, float[] floats, long[] handle, String[] message);
 
     static native void destroyTracker(long tracker);
 
@@ -64,7 +66,8 @@ final class Native {
 
     static native int reset(long tracker);
 
-    static native int createNetwork(ByteBuffer model, String name, int height, int width, long[] handle);
+    /** handle[0] receives the network; message[0] an error. */
+    static native int createNetwork(long weights, String[] names, String name, int height, int width, long[] handle, String[] message);
 
     static native void destroyNetwork(long network);
 

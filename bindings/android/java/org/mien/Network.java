@@ -2,7 +2,7 @@ package org.mien;
 
 /** A custom network of a weight file, for example converted from ONNX. Must be closed. */
 public final class Network implements AutoCloseable {
-    private final Model model; // kept alive as long as this object
+    private final Weights weights; // kept alive as long as this object
     private long handle;
 
     /** A map: [channels][height][width]. */
@@ -18,16 +18,17 @@ public final class Network implements AutoCloseable {
         }
     }
 
-    /** The first network of a file. */
-    public Network(Model model) {
-        this(model, null, 0, 0);
+    /** The first network of the weights. */
+    public Network(Weights weights) {
+        this(weights, null, 0, 0);
     }
 
-    /** name: of the network in the file; null: its first. height, width: for networks that accept several sizes; 0: the declared size. */
-    public Network(Model model, String name, int height, int width) {
-        this.model = model;
+    /** name: of a network of the weights; null: the first. height, width: for networks that accept several sizes; 0: the declared size. */
+    public Network(Weights weights, String name, int height, int width) {
+        this.weights = weights;
         long[] made = new long[1];
-        MienException.check(Native.createNetwork(model.bytes, name, height, width, made));
+        String[] message = new String[1];
+        MienException.check(Native.createNetwork(weights.handle(), weights.names, name, height, width, made, message), message);
         handle = made[0];
     }
 

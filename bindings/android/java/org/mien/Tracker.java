@@ -39,11 +39,13 @@ public final class Tracker implements AutoCloseable {
     }
 
     public Tracker(Weights weights, Options options) {
-        this.weights = new Weights(weights.basenet, weights.proposal, weights.hifinet, options.sound ? weights.audionet : null);
+        this.weights = weights;
         long[] made = new long[1];
-        MienException.check(Native.createTracker(bytes(weights.basenet), bytes(weights.proposal), bytes(weights.hifinet),
-                bytes(this.weights.audionet), new int[] {options.lod, options.maxFaces, options.smoothing ? 1 : 0, options.audioQueueSamples},
-                new float[] {options.budgetMs, options.horizontalFov, options.voiceStrength}, made));
+        String[] message = new String[1];
+        int[] integers = {options.lod, options.maxFaces, options.smoothing ? 1 : 0, options.audioQueueSamples, options.lod == 1 ? 1 : 4,
+            options.sound ? 1 : 0};
+        float[] floats = {options.budgetMs, options.horizontalFov, options.voiceStrength};
+        MienException.check(Native.createTracker(weights.handle(), weights.names, integers, floats, made, message), message);
         handle = made[0];
     }
 
@@ -140,9 +142,5 @@ public final class Tracker implements AutoCloseable {
 
     private static int frames(float[] samples, int channels) {
         return samples.length / Math.max(channels, 1);
-    }
-
-    private static java.nio.ByteBuffer bytes(Model model) {
-        return model == null ? null : model.bytes;
     }
 }
