@@ -1,4 +1,4 @@
-// Errors of weight files as mien_error_detail: what is wrong, where, and what is allowed. Not
+// Errors of weight files as mien_error_detail: the cause, its position, and the allowed values. Not
 // inline, because programs that embed the library want small code.
 #pragma once
 

@@ -109,7 +109,7 @@ typedef enum mien_status {
   MIEN_ERROR_WEIGHTS_RESERVED = -103,         /**< a reserved field is not zero */
   MIEN_ERROR_WEIGHTS_GAP = -104,              /**< a part does not follow the previous one */
   MIEN_ERROR_WEIGHTS_PADDING = -105,          /**< padding is not zero */
-  MIEN_ERROR_WEIGHTS_NAME = -106,             /**< empty, too long, or other than a-z 0-9 _ . / */
+  MIEN_ERROR_WEIGHTS_NAME = -106,             /**< too long, empty, or other than a-z 0-9 _ . / */
   MIEN_ERROR_WEIGHTS_DUPLICATE_NAME = -107,   /**< of a network, constant or metadata key */
   MIEN_ERROR_WEIGHTS_METADATA = -108,         /**< a value is too long or not plain UTF-8 text */
   MIEN_ERROR_WEIGHTS_TENSOR_TYPE = -110,      /**< unknown data type */
@@ -527,7 +527,7 @@ typedef struct mien_weights_config {
   uint32_t reserved[8];
 } mien_weights_config;
 
-/** Initializes a configuration with the defaults; there are no files.
+/** Initializes a configuration with the defaults, without files.
  *  @param[out] config  NULL is ignored */
 MIEN_API void mien_weights_config_default(mien_weights_config* config);
 

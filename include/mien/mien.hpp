@@ -102,7 +102,7 @@ struct LoadedWeights {
 };
 
 /// Loads weights from files.
-/// @param path  a .mien file, a packed one, a bundle, or a folder, of which basenet.mien,
+/// @param path  a .mien file, a packed one, a bundle, or a folder, from which basenet.mien,
 ///              proposal.mien, hifinet.mien and audionet.mien are loaded if they are there
 [[nodiscard]] inline LoadedWeights load_weights(const std::filesystem::path& path) {
   std::vector<std::filesystem::path> paths = {path};

@@ -36,7 +36,8 @@ PLACEHOLDER = re.compile(r"%[-+.*\d]*[a-z]+|\$?\{[^{}\n]*\}|\$\w+")
 INLINE_CODE = re.compile(r"`(?:[^`\n]|\n(?!\n))+`|@param\S* +\w+")
 INDENTED_CODE = re.compile(r"(?m)^    .*$")
 NOT_PROSE = [re.compile(pattern)
-             for pattern in (r"<!--.*?-->", r"(?<=\])\([^)\n]*\)", r"https?://\S+", r"</?[a-z][^>\n]*>")]
+             for pattern in (r"<!--.*?-->", r"(?<=\])\([^)\n]*\)", r"https?://\S+", r"</?[a-z][^>\n]*>",
+                             r"[\w.-]+\.so\b")]
 
 
 def glossary_rows(text):

@@ -52,7 +52,8 @@ done
 failed=0
 for tool in cspell textlint write-good; do
   run $tool "${copies[@]}" >findings || failed=1
-  sed -n "s|^$PWD/||; s|^text/||; s|\.txt:|:|; /:/p" findings
+  sed -n "s|^$PWD/||; s|^text/||; s|\.txt:|:|; /:/p" findings | tee listed
+  [ ! -s listed ] || failed=1  # write-good's exit status is that of the last file
 done
 [ $failed -eq 1 ] || echo "words: ${#files[@]} files are clean"
 exit $failed

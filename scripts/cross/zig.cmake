@@ -2,7 +2,7 @@
 set(CMAKE_TRY_COMPILE_PLATFORM_VARIABLES MIEN_ZIG_TARGET)
 string(REGEX REPLACE "-.*" "" CMAKE_SYSTEM_PROCESSOR "${MIEN_ZIG_TARGET}")
 set(CMAKE_SYSTEM_NAME Linux)
-set(CMAKE_POSITION_INDEPENDENT_CODE ON)  # static programs, too, are position-independent
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)  # static programs are also position-independent
 if(MIEN_ZIG_TARGET MATCHES "macos")
   set(CMAKE_SYSTEM_NAME Darwin)
   find_program(CMAKE_INSTALL_NAME_TOOL NAMES llvm-install-name-tool llvm-install-name-tool-14 REQUIRED)

@@ -43,7 +43,7 @@ llvm_tool() {  # name
   printf '%s\n' /usr/lib/llvm-*/bin/"$1" | sort -V | tail -1
 }
 
-# The emulator (or nothing) that runs programs of a target here; fails if there is none.
+# Prints the emulator, if needed, that runs programs of a target on this machine; fails if it is missing.
 zig_emulator() {  # target
   case $1 in
     linux-x64) [ "$(uname -m)" = x86_64 ] ;;

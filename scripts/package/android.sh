@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds the AAR with prefab: classes, weights, headers, and libmien_jni.so for every ABI. Without the NDK, Zig's clang compiles, and stand-ins
-# for Android's libc.so and libm.so are linked, which name the functions that the library imports. So it links, but has never run.
+# for Android's libc.so and libm.so are linked, which name the functions that the library imports. The library links, but has never run.
 # usage: scripts/package/android.sh [ABI...]      default: arm64-v8a armeabi-v7a x86_64; the result is build/android/mien.aar
 set -euo pipefail
 cd "$(dirname "$0")/../.."

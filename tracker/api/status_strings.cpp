@@ -50,7 +50,7 @@ const char* mien_status_string(mien_status status) {
     case MIEN_ERROR_WEIGHTS_PADDING:
       return "padding in the weight file is not zero";
     case MIEN_ERROR_WEIGHTS_NAME:
-      return "a name in the weight file is empty, too long, or has other characters than a-z 0-9 _ "
+      return "a name in the weight file is too long, empty, or has other characters than a-z 0-9 _ "
              ". /";
     case MIEN_ERROR_WEIGHTS_DUPLICATE_NAME:
       return "a name in the weight file is used twice";

@@ -1,4 +1,4 @@
-// Tracks pictures and sound on every tier there is, and prints a checksum of all results of each:
+// Tracks video and audio on every tier of this CPU, and prints a checksum of all results of each:
 // two builds of the same library print the same.
 //
 // usage: amalgamated MODELS_FOLDER FRAMES.rgb       (640x480)

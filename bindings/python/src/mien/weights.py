@@ -36,7 +36,7 @@ class Weights(Handle):
     """Opened weight files, which any number of trackers and networks in any threads may share.
 
     Each model is a path or bytes: a weight file, a packed one, or a bundle of several. A folder stands for its basenet.mien,
-    proposal.mien, hifinet.mien and audionet.mien, of which the last two may be missing.
+    proposal.mien, hifinet.mien and audionet.mien, where the last two are optional.
     """
 
     _kind = "weights"

@@ -52,7 +52,7 @@ impl fmt::Display for Status {
 pub enum Error {
     /// An error of the library.
     Status(Status),
-    /// An error of the library, with a line that names what is wrong: field, file, layer or byte.
+    /// An error of the library, with a line that names the cause: field, file, layer or byte.
     Detail(Status, String),
     /// Invalid input that this crate detects before it calls the library.
     Input(String),

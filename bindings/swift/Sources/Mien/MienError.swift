@@ -4,7 +4,7 @@ import CMien
 public enum MienError: Error, CustomStringConvertible {
   /// An error of the library; `status` is `mien_status` of `mien.h`.
   case status(Int32)
-  /// An error of the library, with a line that names what is wrong: field, file, layer or byte.
+  /// An error of the library, with a line that names the cause: field, file, layer or byte.
   case detail(Int32, String)
   /// Invalid input that this package detects before it calls the library.
   case input(String)
