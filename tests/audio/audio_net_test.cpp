@@ -41,7 +41,7 @@ class AudioNetOfTier : public testing::TestWithParam<std::uint32_t> {
       GTEST_SKIP() << "skipped: models/audionet.mien is not available";
     }
     const std::span<const std::byte> file = file_.get();
-    ASSERT_EQ(engine::open_model(file.data(), file.size(), model_), MIEN_OK);
+    ASSERT_EQ(model_.open(file).status, MIEN_OK);
     Arena measuring;
     ASSERT_EQ(net_.load(model_, GetParam(), measuring), MIEN_OK);
     memory_.resize(measuring.need().total_bytes() + Arena::kAlignment);
