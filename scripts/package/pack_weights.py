@@ -2,7 +2,7 @@
 """Packs a .mien file without loss (docs/format.md), for programs with embedded weights. Standard library only.
 
 usage: pack_weights.py FILE.mien PACKED
-mien_unpack restores the file byte for byte.
+mien_weights_create restores the file byte for byte.
 """
 import math
 import struct
