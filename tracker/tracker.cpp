@@ -8,17 +8,22 @@
 namespace mien::tracker {
 namespace {
 
-constexpr std::size_t kGlanced = 4;        // the same of a glance, shown to R-Net
+constexpr std::size_t kRefined = 4;        // detections of a coarse search or tile, by R-Net
+constexpr std::size_t kVerified = 2;       // of these, by BaseNet
 constexpr std::int32_t kEagerFrames = 30;  // searching on every one of them
+constexpr int kAlignments = 2;             // of a detection, before it is verified
+
+// The steps of a search in their order: both shares of a coarse search, then some of a scan.
+enum Step : std::uint32_t { kBeginCoarse, kEndCoarse, kScan };
 
 // How much of a search goes into one frame.
 struct Pace {
-  int shares;           // of the proposal's work
-  int alignments;       // of a crop before it is verified; each costs as much as tracking
-  bool begins_at_loss;  // of a face, or else one frame later
+  std::uint64_t steps;   // into two frames
+  std::uint32_t shares;  // of a scan, after each coarse search
+  bool begins_at_loss;   // of a face, or else one frame later
 };
-constexpr Pace kPace = {4, 2, true};
-constexpr Pace kPaceLowest = {1, 1, false};  // frames are cheap there, and none may stutter
+constexpr Pace kPace = {8, 2, true};
+constexpr Pace kPaceLowest = {3, 1, false};  // frames are cheap there, and none may stutter
 
 // Faces are detected within some 30 degrees of these rolls (radians), and of an upright image.
 constexpr float kEighth = 0.78539816f;
@@ -77,24 +82,21 @@ mien_status Tracker::push(const mien_image* image, std::int64_t pts_ns) {
   }
   const Timeline::Step step = state_.timeline.advance(pts_ns);
   Frame frame = {view, timer_, level(), step.seconds, step.cut};
-  // The first frame of a stream may be late, and its image may be the only one.
+  // Where a film begins nothing can stutter, and its first image may be its only one.
   const bool new_scene = std::exchange(state_.cut_without_image, false) || frame.cut ||
                          !(state_.view == static_cast<const ImageGeometry&>(view));
   if (new_scene) {
-    state_.search.stage = Search::Stage::kIdle;
+    state_.search = Search();
   }
   const bool tracked = faces_.tracked() > 0;
   track(frame);
   const bool begins = !tracked || new_scene || pace_at(frame.level).begins_at_loss;
   const bool due = begins && faces_.tracked() == 0 && (detection_is_due() || new_scene);
-  const bool searched = due || state_.search.stage != Search::Stage::kIdle;
+  const bool searched = due || state_.search.is_running();
   if (searched && new_scene) {
     search_all_rolls(frame);
   } else if (searched) {
-    search(frame, false);
-    if (faces_.tracked() == 0) {
-      detect_large(frame);
-    }
+    search(frame);
   } else if (faces_.tracked() > 0 && faces_.has_free_slot()) {
     detect_in_tile(frame);
   }
@@ -111,7 +113,7 @@ void Tracker::advance(std::int64_t pts_ns) {
   const Timeline::Step step = state_.timeline.advance(pts_ns);
   Frame frame = {state_.view, timer_, level(), step.seconds, step.cut};
   if (frame.cut) {
-    state_.search.stage = Search::Stage::kIdle;
+    state_.search = Search();
     state_.cut_without_image = true;
   }
   for (Face& face : faces_.all()) {
@@ -165,126 +167,141 @@ void Tracker::track(Frame& frame) {
   faces_.drop_duplicates(frame.level);
 }
 
-void Tracker::search(Frame& frame, bool whole) {
-  Search& search = state_.search;
-  if (search.stage == Search::Stage::kIdle) {
-    // Hard faces need a thorough search; the others are quick, for a face that comes back.
-    begin_search(frame, state_.searches % 4 == 1, next_roll());
-    ++state_.searches;
-    ++state_.proposal_runs;
-  }
-  if (search.stage == Search::Stage::kProposing) {
-    propose(frame, whole);
-  } else {
-    judge(frame, whole);
-  }
-}
-
 void Tracker::search_all_rolls(Frame& frame) {
   ++state_.proposal_runs;
-  begin_search(frame, true, 0.0f);
-  search(frame, true);
-  for (std::size_t i = 0; i < kRolls.size() && faces_.tracked() == 0; ++i) {
-    begin_search(frame, false, kRolls[i]);
-    search(frame, true);
+  for (std::size_t i = 0; i <= kRolls.size() && faces_.tracked() == 0; ++i) {
+    begin_scan(frame, i == 0, i == 0 ? 0.0f : kRolls[i - 1]);
+    while (scan(frame)) {
+    }
+    while (state_.search.has_unverified()) {
+      verify_next(frame);
+    }
   }
 }
 
-void Tracker::begin_search(Frame& frame, bool thorough, float roll) {
-  state_.search = Search();
-  state_.search.stage = Search::Stage::kProposing;
+void Tracker::search(Frame& frame) {
+  std::uint64_t steps = (pace_at(frame.level).steps + state_.frames % 2) / 2;
+  do {
+    search_step(frame);
+  } while (--steps > 0 && state_.search.is_running());
+}
+
+void Tracker::search_step(Frame& frame) {
+  Search& search = state_.search;
+  if (search.has_unverified()) {
+    verify_next(frame);
+    return;
+  }
+  const std::uint32_t step = search.step;
+  search.step = step + 1 < kScan + pace_at(frame.level).shares ? step + 1 : kBeginCoarse;
+  if (step == kBeginCoarse) {
+    begin_coarse(frame);
+  } else if (step == kEndCoarse) {
+    end_coarse(frame);
+  } else {
+    if (!search.is_scanning) {
+      // Hard faces need a thorough scan; the others are quick.
+      const float roll = next_roll();
+      begin_scan(frame, state_.searches % 4 == 0 && roll == 0.0f, roll);
+      ++state_.searches;
+      ++state_.proposal_runs;
+    }
+    scan(frame);
+  }
+}
+
+void Tracker::begin_scan(Frame& frame, bool thorough, float roll) {
+  state_.search.is_scanning = true;
   proposal_.begin(frame.view, thorough, roll);
 }
 
-// The first detection after a loss is at the roll of the lost face. Of every four, two are upright.
+bool Tracker::scan(Frame& frame) {
+  const StageTimer::Scope timed(frame.timer, MIEN_STAGE_PROPOSAL);
+  Search& search = state_.search;
+  search.is_scanning = proposal_.go_on(frame.view);
+  if (!search.is_scanning) {
+    search.verified = 0;
+    search.count = proposal_.found(
+        std::span(search.detected).first(kMaxVerified - MIEN_MAX_FACES + faces_.all().size()));
+    if (search.count == 0) {
+      std::for_each(faces_.all().begin(), faces_.all().end(),
+                    [](Face& face) { face.mark_absent(); });
+    }
+  }
+  return search.is_scanning;
+}
+
+void Tracker::begin_coarse(Frame& frame) {
+  const StageTimer::Scope timed(frame.timer, MIEN_STAGE_PROPOSAL);
+  proposal_.begin_coarse(frame.view, next_coarse_roll());
+  ++state_.coarse_searches;
+}
+
+void Tracker::end_coarse(Frame& frame) {
+  const StageTimer::Scope timed(frame.timer, MIEN_STAGE_PROPOSAL);
+  Search& search = state_.search;
+  const std::size_t count =
+      proposal_.end_coarse(frame.view, std::span(search.detected).first(kRefined));
+  search.verified = 0;
+  search.count = std::min(count, kVerified);
+}
+
+// The first scan after a loss is at the roll of the lost face. Of every four, two are upright.
 float Tracker::next_roll() const {
   const std::uint32_t n = state_.searches;
   if (n == 0) {
-    const float lost = faces_.first().is_known() ? faces_.first().roll() : 0.0f;
-    return std::abs(lost) > kEighth / 2 ? lost : 0.0f;
+    return lost_roll();
   }
   return n % 4 < 2 ? 0.0f : kRolls[(n / 4 * 2 + n % 2) % kRolls.size()];
 }
 
-void Tracker::propose(Frame& frame, bool whole) {
-  Search& search = state_.search;
-  {
-    const StageTimer::Scope timed(timer_, MIEN_STAGE_PROPOSAL);
-    int shares = pace_at(frame.level).shares;
-    bool more = true;
-    while (more && (whole || shares-- > 0)) {
-      more = proposal_.go_on(frame.view);
-    }
-    if (more) {
-      return;
-    }
-    const std::size_t judged = kMaxVerified - MIEN_MAX_FACES + faces_.all().size();
-    search.count = proposal_.found(std::span(search.proposed).first(judged));
+// The same for the first coarse search. Every second time round the rolls lie between those of the
+// first.
+float Tracker::next_coarse_roll() const {
+  const std::uint32_t n = state_.coarse_searches;
+  const std::size_t i = n % (kRolls.size() + 1);
+  if (i == 0) {
+    return n == 0 ? lost_roll() : 0.0f;
   }
-  search.stage = Search::Stage::kVerifying;
-  if (search.count == 0) {
-    std::for_each(faces_.all().begin(), faces_.all().end(), [](Face& face) { face.mark_absent(); });
-    search.stage = Search::Stage::kIdle;
-  } else if (whole) {
-    judge(frame, whole);
-  }
+  return kRolls[i - 1] + (n / (kRolls.size() + 1) % 2 == 0 ? 0.0f : kEighth / 2);
 }
 
-void Tracker::judge(Frame& frame, bool whole) {
+float Tracker::lost_roll() const {
+  const float roll = faces_.first().is_known() ? faces_.first().roll() : 0.0f;
+  return std::abs(roll) > kEighth / 2 ? roll : 0.0f;
+}
+
+void Tracker::verify_next(Frame& frame) {
   Search& search = state_.search;
-  const int alignments = (whole ? kPace : pace_at(frame.level)).alignments;
-  do {
-    if (faces_.add_face(frame, search.proposed[search.judged++], alignments)) {
-      restart_rolls();
-    }
-  } while (whole && search.judged < search.count && faces_.has_free_slot());
-  if (search.judged == search.count || !faces_.has_free_slot()) {
-    search.stage = Search::Stage::kIdle;
+  const bool added = faces_.add_face(frame, search.detected[search.verified++], kAlignments);
+  if (added) {
+    state_.frames_without_face = 0;
+    state_.searches = 0;
+    state_.coarse_searches = 0;
+    search.is_scanning = false;
+    search.step = 0;
+  }
+  if (!faces_.has_free_slot()) {
+    search.count = 0;
   }
 }
 
 void Tracker::detect_in_tile(Frame& frame) {
-  std::array<Detection, kGlanced + MIEN_MAX_FACES> memory;
-  std::span<Detection> found = std::span(memory).first(kGlanced + faces_.all().size());
+  std::array<Detection, kRefined + MIEN_MAX_FACES> memory;
+  std::span<Detection> found = std::span(memory).first(kRefined + faces_.all().size());
   {
     const StageTimer::Scope timed(timer_, MIEN_STAGE_PROPOSAL);
     found = found.first(
         proposal_.detect_in_tile(frame.view, state_.turn % proposal_.turns(frame.view), found));
     ++state_.turn;
   }
-  add_first(frame, found, pace_at(frame.level).alignments);
-}
-
-void Tracker::detect_large(Frame& frame) {
-  std::array<Detection, kGlanced> memory;
-  std::span<Detection> found = memory;
-  const std::size_t i = state_.rolls % (kRolls.size() + 1);
-  // Every second time round the rolls lie between those of the first.
-  const float between = state_.rolls / (kRolls.size() + 1) % 2 == 0 ? 0.0f : kEighth / 2;
-  const float roll = i == 0 ? 0.0f : kRolls[i - 1] + between;
-  ++state_.rolls;
-  {
-    const StageTimer::Scope timed(timer_, MIEN_STAGE_PROPOSAL);
-    found = found.first(proposal_.detect_large(frame.view, roll, found));
-  }
-  add_first(frame, found, (i == 0 ? pace_at(frame.level) : kPace).alignments);
-}
-
-// The first of the detections that is not a tracked face.
-void Tracker::add_first(Frame& frame, std::span<const Detection> found, int alignments) {
+  // The first that is not a tracked face.
   const auto newcomer = std::find_if(found.begin(), found.end(), [&](const Detection& detection) {
     return !faces_.is_taken(detection.square);
   });
-  if (newcomer != found.end() && faces_.add_face(frame, *newcomer, alignments)) {
-    state_.search.stage = Search::Stage::kIdle;
-    restart_rolls();
+  if (newcomer != found.end()) {
+    static_cast<void>(faces_.add_face(frame, *newcomer, kAlignments));
   }
-}
-
-void Tracker::restart_rolls() {
-  state_.frames_without_face = 0;
-  state_.searches = 0;
-  state_.rolls = 0;
 }
 
 bool Tracker::detection_is_due() {

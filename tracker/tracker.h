@@ -49,16 +49,20 @@ class Tracker {
   [[nodiscard]] bool set_level(std::int32_t lod);
 
  private:
-  // How many proposals BaseNet judges.
+  // How many detections of a search BaseNet verifies.
   static constexpr std::size_t kMaxVerified = MIEN_MAX_FACES + 2;
 
-  // A search of the whole image. It begins on one image and takes its share of each of the next.
+  // While there is no face, every image takes some steps of a search of the whole image and of
+  // coarse searches in between. Detections are verified before other steps.
   struct Search {
-    enum class Stage { kIdle, kProposing, kVerifying };
-    Stage stage = Stage::kIdle;
-    std::array<Detection, kMaxVerified> proposed;
+    bool is_scanning = false;  // the whole image
+    std::uint32_t step = 0;    // the next
+    std::array<Detection, kMaxVerified> detected;
     std::size_t count = 0;
-    std::size_t judged = 0;
+    std::size_t verified = 0;
+
+    [[nodiscard]] bool has_unverified() const { return verified < count; }
+    [[nodiscard]] bool is_running() const { return is_scanning || step > 0 || has_unverified(); }
   };
 
   // Everything that the images so far have left behind, but for the faces.
@@ -70,7 +74,7 @@ class Tracker {
     std::int32_t frames_without_face = 0;  // frames in a row with nothing found
     std::uint32_t searches = 0;            // begun since then
     std::uint32_t turn = 0;                // of detect_in_tile
-    std::uint32_t rolls = 0;               // tried by detect_large since there is no face
+    std::uint32_t coarse_searches = 0;     // the same
     // Totals.
     std::uint64_t frames = 0;
     std::uint64_t face_frames = 0;
@@ -80,24 +84,25 @@ class Tracker {
 
   [[nodiscard]] std::int32_t level() const { return lod_ == 0 ? governor_.level() : lod_; }
   void track(Frame& frame);
-  // One share of a detection, or all of it.
-  void search(Frame& frame, bool whole);
-  // All of it at every roll, until a face is found.
+  // The steps of a search that one frame takes.
+  void search(Frame& frame);
+  void search_step(Frame& frame);
+  // A whole search at every roll on one frame, until a face is found.
   void search_all_rolls(Frame& frame);
-  void begin_search(Frame& frame, bool thorough, float roll);
-  // Roll of the next detection, radians.
+  void begin_scan(Frame& frame, bool thorough, float roll);
+  // The next share. Returns false after the last.
+  bool scan(Frame& frame);
+  void begin_coarse(Frame& frame);
+  void end_coarse(Frame& frame);
+  // Roll of the next scan or coarse search, radians.
   [[nodiscard]] float next_roll() const;
-  void propose(Frame& frame, bool whole);
-  // What was proposed: the next, or all. Ends the search when there is no more.
-  void judge(Frame& frame, bool whole);
+  [[nodiscard]] float next_coarse_roll() const;
+  // Of the face that was lost, if it was not upright.
+  [[nodiscard]] float lost_roll() const;
+  void verify_next(Frame& frame);
   // Counts the frames on which a face is searched.
   [[nodiscard]] bool detection_is_due();
   void detect_in_tile(Frame& frame);
-  // Large faces at one roll, another on each frame.
-  void detect_large(Frame& frame);
-  // A face was found: the next detection begins like the first after a loss.
-  void restart_rolls();
-  void add_first(Frame& frame, std::span<const Detection> found, int alignments);
   // What every frame of output ends with.
   void finish(Frame& frame, std::int64_t pts_ns, std::uint32_t flags);
   void publish(const Frame& frame, std::int64_t pts_ns, std::uint32_t flags);

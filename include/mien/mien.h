@@ -605,12 +605,12 @@ typedef struct mien_tracker_config {
    *  the first 30 frames without a face one detection follows the other without a pause.
    *
    *  A detection runs on a single image if that is the first one, follows a discontinuity, or has a
-   *  new size. Otherwise its work is spread over several images (4 to 7; 15 to 27 at level 1), and
-   *  large faces are detected on each image, at another roll every time. An image without a face
-   *  then costs about as much as three images with one, six at level 1. Thorough detection finds
-   *  faces that are hard to see and takes the most images: it applies to detections on a single
-   *  image, and to every fourth one of the others in a row without success. Half of these others
-   *  are at a roll. */
+   *  new size. Otherwise its work is spread over several images (6 to 13; 22 to 50 at level 1),
+   * and large faces are detected in between, at another roll on every image (every second one at
+   * level 1). An image without a face then costs about as much as two images with one, four at
+   * level 1. Thorough detection finds faces that are hard to see and takes the most images: it
+   * applies to detections on a single image, and to every fourth one of the others in a row without
+   * success. Half of these others are at a roll. */
   int32_t search_interval;
 
   /** Automatic level of detail: average time budget of a frame with a face, in ms; 0.01..1e6;

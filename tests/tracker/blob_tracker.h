@@ -83,7 +83,7 @@ class BlobTracker {
   // Pushes the same image until a detection, which may be spread over several images, finds the
   // face.
   Result push_until_found(const Picture& picture) {
-    constexpr int kMaxImages = 40;
+    constexpr int kMaxImages = 80;
     Result result = push(picture);
     for (int i = 1; !result.has_face() && i < kMaxImages; ++i) {
       result = push(picture);

@@ -66,12 +66,12 @@ TEST(Tracking, DetectionOnTheFirstImageIsThorough) {
   EXPECT_TRUE(tracker.push(disc_picture(160.0f, 120.0f, 70.0f)).flags & MIEN_RESULT_FOUND);
 }
 
-TEST(Tracking, EverySecondLaterDetectionIsThorough) {
+TEST(Tracking, LaterDetectionsAreThoroughAsWell) {
   BlobTracker tracker(
       {}, [](mien_tracker_config& config) { config.proposal_threshold = kUnreachableThreshold; });
   tracker.push(Picture(320, 240));
   const Result result = tracker.push_until_found(disc_picture(160.0f, 120.0f, 70.0f));
-  EXPECT_EQ(result.proposal_runs, 3u) << "that of the empty image, a fast one, a thorough one";
+  EXPECT_EQ(result.proposal_runs, 2u) << "that of the empty image, a thorough one";
 }
 
 TEST(Tracking, LandmarksSurroundTheDisc) {
@@ -185,7 +185,7 @@ TEST(Tracking, DetectsTheFaceAgainElsewhere) {
     result = tracker.push(disc_picture(250.0f, 170.0f, 50.0f));
   }
   expect_box_on_disc(result, 250.0f, 170.0f, 50.0f);
-  EXPECT_EQ(result.proposal_runs, 2u);
+  EXPECT_LE(result.proposal_runs, 2u);
 }
 
 TEST(Tracking, DiscontinuityLosesAndDetectsOnTheSameFrame) {
@@ -308,7 +308,7 @@ TEST(Tracking, DetectionResetsTheDecoders) {
 }
 
 TEST(Tracking, DetectsLessOftenAfterAWhile) {
-  BlobTracker tracker({}, [](mien_tracker_config& config) { config.search_interval = 30; });
+  BlobTracker tracker({}, [](mien_tracker_config& config) { config.search_interval = 60; });
   const Picture nothing(64, 48);
   const auto searches = [&](int frames) {
     const std::uint64_t before = tracker.result().proposal_runs;
@@ -324,8 +324,8 @@ TEST(Tracking, DetectsLessOftenAfterAWhile) {
   EXPECT_EQ(early_frames, 29) << "one after the other";
   EXPECT_GE(detections_early, 2u);
   EXPECT_LE(detections_early, 10u) << "each is spread over several images";
-  const auto [detections_late, late_frames] = searches(300);
-  EXPECT_EQ(detections_late, 10u);
+  const auto [detections_late, late_frames] = searches(310);
+  EXPECT_EQ(detections_late, 5u);
   EXPECT_LT(late_frames, 200);
   EXPECT_EQ(tracker.result().status, MIEN_FACE_SEARCHING);
 }

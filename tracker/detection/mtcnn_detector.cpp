@@ -44,12 +44,21 @@ std::span<T> take(engine::Arena& arena, std::size_t count) {
   return {reinterpret_cast<T*>(memory.data()), memory.size() / sizeof(T)};
 }
 
+struct Extent {
+  float width;
+  float height;
+};
+
+// Of the region, in axes turned by `roll`.
+Extent extent(const Rect& region, float roll) {
+  const float c = std::abs(std::cos(roll)), s = std::abs(std::sin(roll));
+  return {c * region.width + s * region.height, s * region.width + c * region.height};
+}
+
 // The square around the region that is turned by `roll`.
 Crop canvas_of(const ImageView& view, float roll) {
-  const float c = std::abs(std::cos(roll)), s = std::abs(std::sin(roll));
-  const float width = view.region.width, height = view.region.height;
-  const float side = std::max(c * width + s * height, s * width + c * height);
-  return {view.region.center(), side, roll};
+  const Extent turned = extent(view.region, roll);
+  return {view.region.center(), std::max(turned.width, turned.height), roll};
 }
 
 // From coordinates in which the canvas is upright.
@@ -73,7 +82,7 @@ mien_status MtcnnDetector::load(const mien_tracker_config& config, const Models&
   proposal_threshold_ = config.proposal_threshold;
   refine_threshold_ = config.refine_threshold;
   detections_ = take<Detection>(arena, (kMaxLarge + kMaxSmall) * kPerSize);
-  few_detections_ = take<Detection>(arena, (kMaxSmall + 1) * kPerSize);
+  few_detections_ = take<Detection>(arena, kMaxSmall * kPerSize);
   row_ = take<float>(arena, 3 * static_cast<std::size_t>(config.proposal_size));
   const engine::Model& model = models.proposal;
   mien_status status = MIEN_OK;
@@ -88,10 +97,6 @@ mien_status MtcnnDetector::load(const mien_tracker_config& config, const Models&
                  ? load_large(config, model, side, arena)
                  : small_[small_count_++].load(model, {"pnet", {side, side, 3}, {1, 3}},
                                                config.cpu_mask, arena);
-  }
-  if (status == MIEN_OK && large_count_ > 0) {
-    const std::int32_t side = large_[large_count_ - 1].side;
-    status = medium_.load(model, {"pnet", {side, side, 3}, {1, 3}}, config.cpu_mask, arena);
   }
   const engine::NetworkForm rnet = {"rnet", {kRefineSide, kRefineSide, 3}, {1, 3}};
   return status == MIEN_OK ? rnet_.load(model, rnet, config.cpu_mask, arena) : status;
@@ -132,13 +137,7 @@ bool MtcnnDetector::go_on(const ImageView& view) {
   if (search_.size == large_count_) {
     ++search_.size;
     make_small_picture(view);
-    scan_small_sizes(search_, 0, 1);
-    return true;
-  }
-  if (search_.size == large_count_ + 1) {
-    ++search_.size;
-    make_small_picture(view);  // detect_large may have used its memory
-    scan_small_sizes(search_, 1, small_count_);
+    scan_small_sizes(search_, 0, small_count_);
     end_scan(search_, kRefined);
   } else {
     refine(search_, view, kRefinedPerShare);
@@ -173,22 +172,20 @@ std::size_t MtcnnDetector::detect_in_tile(const ImageView& view, std::uint32_t t
     }
     turn -= tiles.count();
   }
-  return detect_large(view, 0.0f, detections);
+  begin_coarse(view, 0.0f);
+  return end_coarse(view, detections);
 }
 
-std::size_t MtcnnDetector::detect_large(const ImageView& view, float roll,
-                                        std::span<Detection> detections) {
-  Search search = part(canvas_of(view, roll));
-  engine::Network& first = small_.front();
-  if (large_count_ == 0) {
-    cut(view, search.canvas, first);
-  } else {
-    cut(view, search.canvas, medium_);
-    shrink(medium_.input(), medium_.input_shape().w, first.input(), first.input_shape().w, row_);
-    scan(search, medium_);
-  }
-  scan_small_sizes(search, 0, small_count_);
-  return finish(search, view, detections);
+// The corners of the image lie outside a turned square of this side, but no large face fits there.
+void MtcnnDetector::begin_coarse(const ImageView& view, float roll) {
+  coarse_ = part({view.region.center(), view.region.longer_side(), roll});
+  cut(view, coarse_.canvas, small_.front());
+  scan_small_sizes(coarse_, 0, 1);
+}
+
+std::size_t MtcnnDetector::end_coarse(const ImageView& view, std::span<Detection> detections) {
+  scan_small_sizes(coarse_, 1, small_count_);
+  return finish(coarse_, view, detections);
 }
 
 MtcnnDetector::Search MtcnnDetector::part(const Crop& canvas) {
@@ -248,6 +245,18 @@ void MtcnnDetector::make_picture(const ImageView& view) {
   }
   search_.has_picture = true;
   best_ = none_yet(search_);
+  choose_rows(view, size);
+}
+
+void MtcnnDetector::choose_rows(const ImageView& view, const LargeSize& size) {
+  const Crop& canvas = search_.canvas;
+  const float height = extent(view.region, canvas.roll).height;
+  const float scale = static_cast<float>(size.side) / canvas.side;
+  const float above = (canvas.side - height) / 2 * scale;  // of the image, in pixels of this size
+  const auto before = static_cast<std::int32_t>(std::ceil((above - kWindowMiddle) / kStride));
+  const std::int32_t outside = std::max(before, 0);
+  search_.cell_row = std::min(outside, size.cell_rows - 1);
+  search_.end_row = std::max(size.cell_rows - outside, search_.cell_row + 1);
 }
 
 void MtcnnDetector::scan_band() {
@@ -261,11 +270,10 @@ void MtcnnDetector::scan_band() {
   size.band.run();
   collect(search_, size.band, size.side, search_.cell_row - first, search_.cell_row, best_);
   search_.cell_row = first + rows;
-  if (search_.cell_row == size.cell_rows) {
+  if (search_.cell_row >= search_.end_row) {
     keep(search_, best_);
     ++search_.size;
     search_.has_picture = false;
-    search_.cell_row = 0;
   }
 }
 

@@ -24,17 +24,19 @@ class MtcnnDetector final : public FaceDetector {
   [[nodiscard]] mien_status load(const mien_tracker_config& config, const Models& models,
                                  engine::Arena& arena);
 
-  // Shares: the image at one of the larger sizes; of P-Net a band of it, or the largest
-  // or all others of the smaller sizes; of R-Net some of the candidates.
+  // Shares: the picture of one of the larger sizes; P-Net on a band of it, or on all smaller sizes;
+  // R-Net on some of the candidates.
   void begin(const ImageView& view, bool thorough, float roll) override;
   [[nodiscard]] bool go_on(const ImageView& view) override;
   [[nodiscard]] std::size_t found(std::span<Detection> found) override;
 
-  // The larger sizes of the pyramid are looked at in tiles, one a turn, the smaller ones together.
+  // Shares: P-Net on the largest of the smaller sizes; P-Net on the others and R-Net.
+  void begin_coarse(const ImageView& view, float roll) override;
+  [[nodiscard]] std::size_t end_coarse(const ImageView& view, std::span<Detection> found) override;
+
+  // The larger sizes of the pyramid are searched in tiles, one a turn, the smaller ones together.
   [[nodiscard]] std::size_t detect_in_tile(const ImageView& view, std::uint32_t turn,
                                            std::span<Detection> found) override;
-  [[nodiscard]] std::size_t detect_large(const ImageView& view, float roll,
-                                         std::span<Detection> found) override;
   [[nodiscard]] std::uint32_t turns(const ImageView& view) const override;
 
  private:
@@ -58,6 +60,7 @@ class MtcnnDetector final : public FaceDetector {
     std::size_t size = 0;        // of the pyramid, that P-Net looks at next
     bool has_picture = false;    // of that size
     std::int32_t cell_row = 0;   // of it, that P-Net looks at next
+    std::int32_t end_row = 0;    // of it, after the last that can show a face
     std::size_t scanned = 0;     // candidates of P-Net
     std::size_t seen_again = 0;  // of these, by R-Net
     std::size_t refined = 0;     // of these, kept
@@ -69,8 +72,10 @@ class MtcnnDetector final : public FaceDetector {
                                        engine::Arena& arena);
   [[nodiscard]] Tiles tiles_of(const ImageView& view, const LargeSize& size) const;
   void make_picture(const ImageView& view);
+  // Limits the search of a size to the rows of P-Net's windows whose middles lie in the image.
+  void choose_rows(const ImageView& view, const LargeSize& size);
   void scan_band();
-  // Scans sizes from `first` on; the image of the first one must exist.
+  // Those from `first` on; the very first has its picture.
   void scan_small_sizes(Search& search, std::size_t first, std::size_t end);
   // Fills the square input of the network with the crop.
   void cut(const ImageView& view, const Crop& crop, engine::Network& network) const;
@@ -101,12 +106,12 @@ class MtcnnDetector final : public FaceDetector {
   std::size_t large_count_ = 0;
   std::array<engine::Network, kMaxSmall> small_;  // P-Net on each of the sizes of a tile and below
   std::size_t small_count_ = 0;
-  engine::Network medium_;  // P-Net on the smallest of the larger sizes, for detect_large
   engine::Network rnet_;
-  Search search_;                        // the one that goes on in shares
+  Search search_;  // of the whole image
+  Search coarse_;
   BestDetections best_{{}};              // of the size that P-Net is looking at
-  std::span<Detection> detections_;      // of the search in shares, in the arena
-  std::span<Detection> few_detections_;  // of a part of the image, in the arena
+  std::span<Detection> detections_;      // of the search of the whole image, in the arena
+  std::span<Detection> few_detections_;  // of the other searches, in the arena
 };
 
 }  // namespace mien::tracker
