@@ -65,6 +65,10 @@ void add_track(CLI::App& program) {
   verb->add_option("--max-faces", options->max_faces,
                    "faces tracked at a time, 1 to 8, each with an id (default 1)")
       ->check(CLI::Range(1, MIEN_MAX_FACES));
+  verb->add_flag(
+      "--no-backward", options->forward_only,
+      "leave the frames before a detection empty; otherwise the face is tracked backward "
+      "from it, through up to 3 seconds");
   verb->add_option("--tier", options->tier, "kernel tier: ref, avx2, avx512, ...");
   verb->add_flag("--unfused", options->unfused, "run networks layer by layer");
   verb->add_option("--models", options->models, "folder of the model files");

@@ -1,6 +1,7 @@
 // Loads weights and creates a tracker.
 #include "apps/mien/tracking/loaded_tracker.h"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <fstream>
@@ -77,6 +78,15 @@ void check(mien_status status, const std::string& where) {
   if (status != MIEN_OK) {
     throw Failure(kExitInternal, where + ": " + message(status));
   }
+}
+
+std::vector<Result> results(const Tracker& tracker, const std::string& where) {
+  std::vector<Result> faces(static_cast<std::size_t>(std::max(1, tracker.face_count())));
+  check(tracker.get_result(faces.front()), where);
+  for (std::size_t i = 1; i < faces.size(); ++i) {
+    check(tracker.get_face(static_cast<std::int32_t>(i), faces[i]), where);
+  }
+  return faces;
 }
 
 void load_neutral(const std::string& path, Tracker& tracker) {

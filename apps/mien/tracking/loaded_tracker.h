@@ -6,6 +6,7 @@
 #include <mien/mien.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "apps/mien/networks/model_files.h"
 
@@ -38,6 +39,9 @@ struct LoadedTracker {
 
 // Throws a Failure that names `where` if `status` is an error.
 void check(mien_status status, const std::string& where);
+
+// The results of all faces; one result without a face while searching. Throws like `check`.
+[[nodiscard]] std::vector<Result> results(const Tracker& tracker, const std::string& where);
 
 // Whether the folder of models has audionet.mien.
 bool has_audionet(const std::string& models);

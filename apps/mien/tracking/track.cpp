@@ -19,6 +19,7 @@
 #include "apps/mien/system/paths.h"
 #include "apps/mien/system/progress.h"
 #include "apps/mien/system/shown.h"
+#include "apps/mien/tracking/backward_fill.h"
 #include "apps/mien/tracking/frames.h"
 #include "apps/mien/tracking/loaded_tracker.h"
 #include "apps/mien/tracking/stage_times.h"
@@ -56,10 +57,11 @@ nlohmann::ordered_json json_of(const MediaReport& media) {
 }
 
 void write_stats(OutputFile& file, const Result& last, const StageTimes& times,
-                 std::size_t tracker_bytes, const MediaReport& media) {
+                 std::size_t tracker_bytes, std::uint64_t filled, const MediaReport& media) {
   nlohmann::ordered_json stats;
   stats["frames"] = last.frames;
-  stats["frames_with_face"] = last.face_frames;
+  stats["frames_with_face"] = last.face_frames + filled;
+  stats["frames_filled_backward"] = filled;
   stats["proposal_runs"] = last.proposal_runs;
   stats["encoder_runs"] = last.encoder_runs;
   stats["tracker_bytes"] = tracker_bytes;
@@ -73,10 +75,10 @@ void write_stats(OutputFile& file, const Result& last, const StageTimes& times,
   file.finish();
 }
 
-void print_summary(const Result& last, const StageTimes& times) {
+void print_summary(const Result& last, std::uint64_t filled, const StageTimes& times) {
   std::fprintf(stderr, "%llu frames, %llu with a face, %llu with detection\n",
                static_cast<unsigned long long>(last.frames),
-               static_cast<unsigned long long>(last.face_frames),
+               static_cast<unsigned long long>(last.face_frames + filled),
                static_cast<unsigned long long>(last.proposal_runs));
   for (const auto& [stage, time] : times.summary()) {
     std::fprintf(stderr, "  %-9s median %.3f ms, p95 %.3f ms\n", stage.c_str(), time.median_ms,
@@ -84,14 +86,10 @@ void print_summary(const Result& last, const StageTimes& times) {
   }
 }
 
-// The results of all faces; one result without a face while searching.
-std::vector<Result> results(const Tracker& tracker, const std::string& where) {
-  std::vector<Result> faces(static_cast<std::size_t>(std::max(1, tracker.face_count())));
-  check(tracker.get_result(faces.front()), where);
-  for (std::size_t i = 1; i < faces.size(); ++i) {
-    check(tracker.get_face(static_cast<std::int32_t>(i), faces[i]), where);
-  }
-  return faces;
+LoadedTracker::Options tracker_options_of(const TrackOptions& options, const Senses& senses) {
+  return {options.models,         options.tier,       options.lod,           options.budget_ms,
+          options.unfiltered,     options.max_faces,  !senses.sound.empty(), options.unfused,
+          options.voice_strength, options.fov_degrees};
 }
 
 std::vector<std::string> inputs_of(const TrackOptions& options) {
@@ -124,9 +122,8 @@ TrackSummary track(const TrackOptions& options) {
     throw Failure(kExitUsage, options.overlay.empty() ? "--rotate: no video to rotate"
                                                       : "--overlay: no video to draw on");
   }
-  LoadedTracker loaded({options.models, options.tier, options.lod, options.budget_ms,
-                        options.unfiltered, options.max_faces, !senses.sound.empty(),
-                        options.unfused, options.voice_strength, options.fov_degrees});
+  const LoadedTracker::Options tracker_options = tracker_options_of(options, senses);
+  LoadedTracker loaded(tracker_options);
   if (!options.neutral.empty()) {
     load_neutral(options.neutral, loaded.tracker);
   }
@@ -139,33 +136,50 @@ TrackSummary track(const TrackOptions& options) {
     stats.emplace(options.stats);
   }
   frames.set_listener(outputs.listener());
+  BackwardFill backward(
+      tracker_options, options.neutral,
+      [&](std::int64_t number, const mien_image* image, std::span<const Result> faces) {
+        outputs.frame(number, image, faces);
+      });
   StageTimes times;
   Result last;
-  {
+  const auto read_all = [&] {
     Progress progress(options.quiet, frames.info().frames);
     while (outputs.wanted() && frames.next()) {
-      const std::vector<Result> faces = results(loaded.tracker, frames.where());
-      outputs.frame(frames.number(), frames.image(), faces);
+      std::vector<Result> faces = results(loaded.tracker, frames.where());
       last = faces.front();
+      if (!options.forward_only && frames.image() != nullptr) {
+        backward.add(frames.number(), *frames.image(), std::move(faces));
+      } else {
+        outputs.frame(frames.number(), frames.image(), faces);
+      }
       add_times(times, last);
       progress.update(frames.number() + 1);
       if (options.after_frame) {
         options.after_frame();
       }
     }
+  };
+  try {
+    read_all();
+  } catch (...) {
+    backward.finish();  // rows before a damaged part are right
+    throw;
   }
+  backward.finish();
   MediaReport media = frames.report();  // before the outputs are published: an allocation may fail
   outputs.finish(times);
   if (stats) {
-    write_stats(*stats, last, times, loaded.tracker_bytes, media);
+    write_stats(*stats, last, times, loaded.tracker_bytes, backward.filled(), media);
   }
   for (const std::string& note : media.notes) {
     std::fprintf(stderr, "mien: note: %s\n", shown(note).c_str());
   }
   if (!options.quiet) {
-    print_summary(last, times);
+    print_summary(last, backward.filled(), times);
   }
-  return {last.frames, last.face_frames, std::move(media.lost), std::move(media.notes)};
+  return {last.frames, last.face_frames + backward.filled(), std::move(media.lost),
+          std::move(media.notes)};
 }
 
 }  // namespace mien::app

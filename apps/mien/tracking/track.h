@@ -35,6 +35,7 @@ struct TrackOptions {
   float budget_ms = 10.0f;
   bool unfiltered = false;
   int max_faces = 1;
+  bool forward_only = false;  // leave frames before a detection empty
   double start_s = 0.0;
   std::optional<double> duration_s;
   int audio_track = 1;          // the first is 1

@@ -134,6 +134,22 @@ def test_rows_match_the_program(tmp_path, clip, name):
         assert row["width"] == pytest.approx(float(other["w"] or 0), abs=1e-3)
 
 
+@pytest.mark.parametrize("backward", [True, False])
+def test_a_face_that_appears_late(tmp_path, clip, backward):
+    film, curves = tmp_path / "late.mp4", tmp_path / "curves.csv"
+    gray = "drawbox=enable='lt(n,10)':color=gray:t=fill"
+    ffmpeg("-t", "1.5", "-i", clip, "-an", "-vf", gray, "-c:v", "libx264", film)
+    options = [] if backward else ["--no-backward"]
+    subprocess.run([PROGRAM, "track", "--quiet", "--models", MODELS, *options, "--lod", "1", film, "-o", curves], check=True)
+    with curves.open(newline="") as file:
+        expected = list(csv.DictReader(file))
+    rows = list(mien.track_file(film, lod=1, backward=backward))
+    assert [row["status"] for row in rows] == [row["status"] for row in expected]
+    assert (rows[12]["status"] == "tracking") == backward and rows[-1]["status"] == "tracking"
+    for row, other in zip(rows, expected):
+        assert row["jawOpen"] == pytest.approx(float(other["jawOpen"] or 0), abs=1e-6)
+
+
 def test_the_video_may_be_rotated(tmp_path, clip):
     turned = tmp_path / "turned.mp4"
     ffmpeg("-t", "1", "-i", clip, "-vf", "transpose=cclock", "-c:v", "libx264", turned)

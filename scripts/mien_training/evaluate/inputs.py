@@ -7,7 +7,7 @@ import torch
 from mien_training.evaluate.program import Program
 
 PARTS = ("synthetic", "ablation", "levels", "response", "leakage", "images", "wild", "clips", "tracking", "audio",
-         "audio_and_video", "yardstick", "amplitude", "orientation")  # modules evaluate_PART
+         "audio_and_video", "yardstick", "amplitude", "orientation", "backward")  # modules evaluate_PART
 # whose controls a level answers with; levels 2 and 3 are LOD4's with fewer frames
 NETWORKS = {"LOD1": "basenet", "LOD4": "hifinet"}
 

@@ -30,6 +30,7 @@ def track_file(
     smoothing: bool = True,
     audio_track: int = 1,
     rotation: Optional[Literal[0, 90, 180, 270]] = None,
+    backward: bool = True,
 ) -> Iterator[Row]:
     """A row for every frame of a video, from video and audio together; 30 rows per second for a file without video.
 
@@ -37,6 +38,7 @@ def track_file(
     tx, ty, tz, and the 52 controls by name. Needs ffmpeg and ffprobe. The file is read while rows are taken: a damaged or truncated
     file raises MienError after its last valid row; other problems are warnings.
 
+    backward: track backward from a detection through the frames before it, up to 3 seconds. While no face is seen, rows are as late.
     audio_track: number of the audio track, from 1. rotation: clockwise rotation to upright in degrees, instead of the file's own.
     """
     if not Path(path).is_file():
@@ -44,6 +46,7 @@ def track_file(
     options = ["--lod", str(lod), "--audio-track", str(audio_track)]
     options += [] if sound else ["--mode", "video"]
     options += [] if smoothing else ["--no-filter"]
+    options += [] if backward else ["--no-backward"]
     options += [] if rotation is None else ["--rotate", str(rotation)]
     return _rows([*options, "--", str(Path(path).absolute())])
 

@@ -1,0 +1,61 @@
+// Reads the weights of the mixture and applies them.
+#include "apps/mien/tracking/audio_mix.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "apps/mien/system/failure.h"
+#include "formats/mien_file.h"
+
+namespace mien::app {
+namespace {
+
+using Weights = std::array<float, MIEN_CONTROL_COUNT>;
+
+Weights read(const formats::FileView& file, std::string_view name) {
+  const formats::TensorRecord* tensor = file.find_constant(name);
+  Weights weights;
+  if (tensor == nullptr || tensor->bytes != sizeof weights) {
+    throw Failure(kExitModel, "audionet.mien: no constant " + std::string(name));
+  }
+  std::memcpy(weights.data(), file.data(*tensor).data(), sizeof weights);
+  return weights;
+}
+
+}  // namespace
+
+AudioMix::AudioMix(const Blob& audionet) {
+  formats::FileView file;
+  const auto* bytes = static_cast<const std::byte*>(audionet.data());
+  if (formats::open(std::span(bytes, audionet.size()), file).status != MIEN_OK) {
+    throw Failure(kExitModel, "audionet.mien: cannot be read");
+  }
+  audio_ = read(file, "mix_audio");
+  video_ = read(file, "mix_video");
+}
+
+std::array<float, MIEN_CONTROL_COUNT> AudioMix::controls(const Result& seen, const Result& heard,
+                                                         const Weights& fading) const {
+  Weights mixed;
+  const float alpha = heard.voice_activity;
+  for (std::size_t i = 0; i < mixed.size(); ++i) {
+    const float video = seen.controls[i];
+    if (!seen.supports(static_cast<std::int32_t>(i))) {
+      mixed[i] = heard.controls[i];
+    } else if (audio_[i] <= 0.0f) {
+      mixed[i] = video;
+    } else {  // without a face `heard` is (1 - alpha) fading + alpha times the prediction from
+              // audio
+      const float spoken = std::max(heard.controls[i] - (1.0f - alpha) * fading[i], 0.0f);
+      mixed[i] =
+          std::clamp((1.0f - alpha + alpha * video_[i]) * video + audio_[i] * spoken, 0.0f, 1.0f);
+    }
+  }
+  return mixed;
+}
+
+}  // namespace mien::app

@@ -1,0 +1,103 @@
+"""Frames filled by tracking backward, on the demo clip and clips of real people, as they are and with the face covered.
+
+Covered clips are gray in the first half second and in half a second in the middle. Filled frames are compared with the
+same frames of the whole clip, tracked forward, and so are the first frames that forward tracking has after a detection.
+"""
+import subprocess
+import tempfile
+from pathlib import Path
+
+import numpy as np
+
+from mien_training.data import landmark_points as lp
+from mien_training.evaluate import metrics
+from mien_training.evaluate import report as out
+from mien_training.evaluate import videos
+from mien_training.data.expressions import CONTROLS
+
+WIDTH, FRAMES = 640, 150  # of the clips that are covered; shorter ones keep their length
+COVERED, MIDDLE = 15, 60  # frames, and the first of those in the middle
+WARM = 10                 # frames after a detection to which filled ones are compared
+
+
+def scaled(clip, folder, name, covered):
+    path = Path(folder) / f"{name}.y4m"
+    gray = f"drawbox=enable='lt(n,{COVERED})+between(n,{MIDDLE},{MIDDLE + COVERED - 1})':color=gray:t=fill"
+    filters = ",".join([f"scale={WIDTH}:-2", *([gray] if covered else [])])
+    subprocess.run(["ffmpeg", "-v", "error", "-y", "-i", clip, "-an", "-vf", filters, "-frames:v", str(FRAMES), path],
+                   check=True)
+    return path
+
+
+def is_tracked(result):
+    return result.table["status"] == "tracking"
+
+
+def differences(result, truth, rows):
+    """Mean difference of controls, and of landmarks in distances between the pupils, on `rows`."""
+    ours, theirs = (np.stack([r.table[c][rows] for c in CONTROLS]) for r in (result, truth))
+    points = truth.landmarks[rows]
+    pupils = np.linalg.norm(points[:, lp.POSITION[lp.IRIS[0][0]]] - points[:, lp.POSITION[lp.IRIS[1][0]]], axis=-1)
+    return {"controls": float(np.nanmean(np.abs(ours - theirs))),
+            "landmarks": float(np.mean(metrics.point_error(result.landmarks[rows], points, pupils)))}
+
+
+def covered_clip(program, clip, lod):
+    with tempfile.TemporaryDirectory() as folder:
+        truth = program.track(scaled(clip, folder, "whole", False), lod)
+        covered = scaled(clip, folder, "covered", True)
+        forward, both = (program.track(covered, lod, *options) for options in (["--no-backward"], []))
+    known = is_tracked(truth)
+    filled = np.flatnonzero(is_tracked(both) & ~is_tracked(forward) & known)
+    began = np.flatnonzero(np.diff(is_tracked(forward).astype(int)) > 0) + 1
+    first = np.unique([f for b in began for f in range(b, min(b + WARM, len(known))) if known[f] and is_tracked(forward)[f]])
+    visible = known.copy()
+    visible[:COVERED] = visible[MIDDLE:MIDDLE + COVERED] = False
+    report = {"visible": int(visible.sum()), "forward": int((is_tracked(forward) & visible).sum()),
+              "both": int((is_tracked(both) & visible).sum()),
+              "wrong": int((is_tracked(both) & ~is_tracked(forward) & ~visible).sum())}
+    if len(filled) and len(first):
+        report |= {"filled": differences(both, truth, filled), "first_forward": differences(forward, truth, first)}
+    return report
+
+
+def measure(setting):
+    report = {}
+    for name, lod in setting.levels("backward").items():
+        report[name] = {}
+        for clip in [videos.DEMO, *videos.clips()]:
+            forward, both = (setting.program.track(clip, lod, *options) for options in (["--no-backward"], []))
+            report[name][clip.stem] = {
+                "frames": len(is_tracked(both)), "forward": int(is_tracked(forward).sum()),
+                "both": int(is_tracked(both).sum()), "covered": covered_clip(setting.program, clip, lod)}
+    return report
+
+
+def markdown(report):
+    lines = ["# Tracking backward", "", "For users of `mien track` whose faces appear late or disappear for a while.", ""]
+    covered = {name: [c["covered"] for c in clips.values()] for name, clips in report.items()}
+    share = lambda rows, key: 100 * sum(r[key] for r in rows) / sum(r["visible"] for r in rows)
+    mean = lambda rows, kind, key: np.mean([r[kind][key] for r in rows if kind in r])
+    by_level = lambda text: out.by_level(covered, text)
+    lines += out.prose(
+        f"""If the face is covered for half a second at the start and in the middle of a clip, forward tracking has
+        {by_level(lambda r: f"{share(r, 'forward'):.1f} %")} of the frames on which the face is visible, and with
+        tracking backward {by_level(lambda r: f"{share(r, 'both'):.1f} %")}. Covered frames that were filled:
+        {by_level(lambda r: str(sum(c['wrong'] for c in r)))}.""")
+    lines += out.prose(
+        f"""Filled frames differ from the same frames of the whole clip, tracked forward, by
+        {by_level(lambda r: f"{mean(r, 'filled', 'controls'):.3f}")} in controls on average and by
+        {by_level(lambda r: f"{100 * mean(r, 'filled', 'landmarks'):.2f} %")} of the distance between the pupils in
+        landmarks. The first {WARM} frames of forward tracking after a detection differ by
+        {by_level(lambda r: f"{mean(r, 'first_forward', 'controls'):.3f}")} and
+        {by_level(lambda r: f"{100 * mean(r, 'first_forward', 'landmarks'):.2f} %")}.""")
+    lines += out.prose(
+        """The data are the demo clip and the [clips](clips.md). The first columns are the clips as they are, the others
+        are scaled to a width of 640 pixels and covered.""")
+    header = ["clip", "level", "frames", "with a face, forward", "with backward", "covered: visible", "forward", "with backward",
+              "difference of controls", "of landmarks, %"]
+    rows = [[clip, name[-1], str(r["frames"]), str(r["forward"]), str(r["both"]), *(str(r["covered"][k]) for k in
+             ("visible", "forward", "both")), out.number(r["covered"].get("filled", {}).get("controls"), 3),
+             out.number(100 * r["covered"]["filled"]["landmarks"] if "filled" in r["covered"] else None, 2)]
+            for name, clips in report.items() for clip, r in clips.items()]
+    return "\n".join(lines + out.table(header, rows))
