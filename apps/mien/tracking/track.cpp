@@ -113,6 +113,26 @@ std::vector<std::string> outputs_of(const TrackOptions& options) {
   return outputs;
 }
 
+// `last`: the result of the latest frame.
+void track_frames(const TrackOptions& options, const Tracker& tracker, Frames& frames,
+                  Outputs& outputs, BackwardFill& backward, StageTimes& times, Result& last) {
+  Progress progress(options.quiet, frames.info().frames);
+  while (outputs.wanted() && frames.next()) {
+    std::vector<Result> faces = results(tracker, frames.where());
+    last = faces.front();
+    if (!options.forward_only && frames.image() != nullptr) {
+      backward.add(frames.number(), *frames.image(), std::move(faces));
+    } else {
+      outputs.frame(frames.number(), frames.image(), faces);
+    }
+    add_times(times, last);
+    progress.update(frames.number() + 1);
+    if (options.after_frame) {
+      options.after_frame();
+    }
+  }
+}
+
 }  // namespace
 
 TrackSummary track(const TrackOptions& options) {
@@ -143,25 +163,8 @@ TrackSummary track(const TrackOptions& options) {
       });
   StageTimes times;
   Result last;
-  const auto read_all = [&] {
-    Progress progress(options.quiet, frames.info().frames);
-    while (outputs.wanted() && frames.next()) {
-      std::vector<Result> faces = results(loaded.tracker, frames.where());
-      last = faces.front();
-      if (!options.forward_only && frames.image() != nullptr) {
-        backward.add(frames.number(), *frames.image(), std::move(faces));
-      } else {
-        outputs.frame(frames.number(), frames.image(), faces);
-      }
-      add_times(times, last);
-      progress.update(frames.number() + 1);
-      if (options.after_frame) {
-        options.after_frame();
-      }
-    }
-  };
   try {
-    read_all();
+    track_frames(options, loaded.tracker, frames, outputs, backward, times, last);
   } catch (...) {
     backward.finish();  // rows before a damaged part are right
     throw;
