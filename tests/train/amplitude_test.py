@@ -100,6 +100,36 @@ class Refit(unittest.TestCase):
         others = [i for i in range(len(CONTROLS)) if i != brow]
         self.assertTrue(torch.equal(after[others], layer[others]))
 
+    def test_eyelids_close_in_winks(self):
+        layer, renders, portraits = self.made(1.0)
+        left, right = INDEX["eyeBlinkLeft"], INDEX["eyeBlinkRight"]
+        renders.controls[:, [left, right]] = renders.hidden[:, [left, right]] = 0
+        renders.controls[:40, left] = renders.controls[40:80, right] = 1
+        renders.hidden[:80, [left, right]] = renders.controls[:80, [left, right]]
+        layer[right] *= 0.7
+        gain = lambda eye, other, rest: refit.wink_gain(layer, eye, other, rest, renders)
+        rest = torch.zeros(len(CONTROLS))
+        self.assertEqual(gain(left, right, rest), 1)  # which closes already
+        needed = gain(right, left, rest)
+        self.assertAlmostEqual(needed * 0.7, refit.CLOSED, delta=0.7 * refit.WINK_STEP)
+        layer[right, -1] = 0.18  # the open eye of a wink is nearly too closed
+        layer[right, right] = 0.4
+        limited = gain(right, left, rest)
+        self.assertLessEqual(limited * 0.18, refit.OPEN)
+        self.assertLess(limited, 0.9 / 0.58)
+        few = refit.WINKS - 1
+        renders.controls[few:40, left] = 0
+        self.assertEqual(gain(right, left, rest), 1)
+
+    def test_a_refit_raises_the_closed_eye_of_winks(self):
+        layer, renders, portraits = self.made(0.7)
+        left, right = INDEX["eyeBlinkLeft"], INDEX["eyeBlinkRight"]
+        portraits.closed[:, 1] *= 0.75  # portraits that ask for less
+        after = refit.refitted(layer, renders, portraits)
+        rows = refit.winks(renders, right, left)
+        self.assertGreater(int(rows.sum()), refit.WINKS)
+        self.assertGreater(float(refit.mean_answer(after, renders, rows)[right]), refit.CLOSED - 0.03)
+
     def test_what_moves_enough_is_left_alone(self):
         layer, renders, portraits = self.made(1.0)
         after = refit.refitted(layer, renders, portraits)

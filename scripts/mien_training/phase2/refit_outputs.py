@@ -4,7 +4,8 @@ usage: python3 -m mien_training.phase2.refit_outputs --network basenet|hifinet -
 Run stream_features.py and portrait_stream.py before. Eyelids and smiles follow the portraits, where a closed eye is 1
 for everyone (eyelids.py) and smiles are the teacher's; on renders their target is their previous output times a gain.
 Other controls that correlate with the truth and move less than it on rendered validation people get a gain around their
-output at rest. Neutral portraits get at most NEUTRAL on average.
+output at rest. Neutral portraits get at most NEUTRAL on average. Eyelids get a larger gain if winks of rendered
+validation people need it.
 """
 import argparse
 from dataclasses import dataclass
@@ -26,9 +27,13 @@ AIM, MOST = 0.9, 1.4      # deviation over the true one that gains aim at, and t
 LEAST = 0.5               # correlation with the truth on renders, below which a gain would magnify little but noise
 FURTHEST = 1.1            # deviation over the true one that a control may reach on renders because portraits ask for it
 NEUTRAL = 0.095           # largest mean answer to neutral training portraits
+WINK = (0.9, 0.1)         # of the truth: a wink has one eye above the first and the other below the second
+WINKS = 10                # frames with winks of an eye, below which nothing is known about them
+CLOSED, OPEN = 0.9, 0.2   # mean answers during winks: the least of the closed eye, the most of the open one
 AT_REST = 0.08            # a face is at rest where nothing is above this
 STILL = 8                 # frames that a portrait is shown for
 RIDGE = 1e-6
+WINK_STEP = 0.02          # of gains that are tried for winks
 SMALLEST = 1e-3           # deviation of a control that hardly answers
 
 
@@ -136,6 +141,30 @@ def portrait_gain(layer, control, wanted, renders, portraits):
     return torch.minimum(on_portraits, on_renders).clamp(1, MOST)
 
 
+def winks(parts, closed, opened):
+    """Frames with one eye closed and the other open, [frames]."""
+    least, most = WINK
+    seen = (parts.seen[:, closed] > 0) & (parts.seen[:, opened] > 0)
+    return seen & (parts.controls[:, closed] >= least) & (parts.controls[:, opened] <= most)
+
+
+def wink_gain(layer, control, other, rest, renders):
+    """The gain of an eyelid that brings the closed eye of winks to CLOSED, limited by MOST and by the open eye of winks
+    of the `other` side, which must stay below OPEN. 1 if there are too few winks."""
+    closed, opened = winks(renders, control, other), winks(renders, other, control)
+    if closed.sum() < WINKS or opened.sum() < WINKS:
+        return 1.0
+    answers = renders.hidden @ layer[control]
+    mean = lambda rows, gain: float((rest[control] + gain * (answers[rows] - rest[control])).clamp(0, 1).mean())
+    for step in range(round((MOST - 1) / WINK_STEP) + 1):
+        gain = 1 + WINK_STEP * step
+        if mean(opened, gain) > OPEN:
+            return max(gain - WINK_STEP, 1.0)
+        if mean(closed, gain) >= CLOSED:
+            return gain
+    return MOST
+
+
 def followers(portraits):
     """(control, targets of the portraits [portraits], Weights) of controls that follow the portraits."""
     for number, side in enumerate(("Left", "Right")):
@@ -154,6 +183,9 @@ def refitted(layer, renders, portraits, others=None, most=MOST):
         out[control] = solved(layer[control], control, wanted, renders, portraits, weights)
         gain[control] = portrait_gain(out, control, wanted, others, portraits)
     rest = at_rest(out, renders, portraits)
+    left, right = INDEX["eyeBlinkLeft"], INDEX["eyeBlinkRight"]
+    for control, other in ((left, right), (right, left)):
+        gain[control] = gain[control].clamp(min=wink_gain(out, control, other, rest, others))
     out *= gain[:, None]
     out[:, -1] -= (gain - 1) * rest
     return quieted(out, portraits)
