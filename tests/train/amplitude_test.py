@@ -101,7 +101,7 @@ class Refit(unittest.TestCase):
         self.assertTrue(torch.equal(after[others], layer[others]))
 
     def test_eyelids_close_in_winks(self):
-        layer, renders, portraits = self.made(1.0)
+        layer, renders, _ = self.made(1.0)
         left, right = INDEX["eyeBlinkLeft"], INDEX["eyeBlinkRight"]
         renders.controls[:, [left, right]] = renders.hidden[:, [left, right]] = 0
         renders.controls[:40, left] = renders.controls[40:80, right] = 1

@@ -10,10 +10,9 @@ from pathlib import Path
 import numpy as np
 
 from mien_training.data import landmark_points as lp
-from mien_training.evaluate import metrics
-from mien_training.evaluate import report as out
-from mien_training.evaluate import videos
 from mien_training.data.expressions import CONTROLS
+from mien_training.evaluate import metrics, videos
+from mien_training.evaluate import report as out
 
 WIDTH, FRAMES = 640, 150  # of the clips that are covered; shorter ones keep their length
 COVERED, MIDDLE = 15, 60  # frames, and the first of those in the middle
@@ -50,7 +49,8 @@ def covered_clip(program, clip, lod):
     known = is_tracked(truth)
     filled = np.flatnonzero(is_tracked(both) & ~is_tracked(forward) & known)
     began = np.flatnonzero(np.diff(is_tracked(forward).astype(int)) > 0) + 1
-    first = np.unique([f for b in began for f in range(b, min(b + WARM, len(known))) if known[f] and is_tracked(forward)[f]])
+    first = np.unique([f for b in began for f in range(b, min(b + WARM, len(known)))]).astype(int)
+    first = first[known[first] & is_tracked(forward)[first]]
     visible = known.copy()
     visible[:COVERED] = visible[MIDDLE:MIDDLE + COVERED] = False
     report = {"visible": int(visible.sum()), "forward": int((is_tracked(forward) & visible).sum()),
@@ -74,7 +74,8 @@ def measure(setting):
 
 
 def markdown(report):
-    lines = ["# Tracking backward", "", "For users of `mien track` whose faces appear late or disappear for a while.", ""]
+    lines = ["# Tracking backward", ""]
+    lines += ["For users of `mien track` whose faces appear late or disappear for a while.", ""]
     covered = {name: [c["covered"] for c in clips.values()] for name, clips in report.items()}
     share = lambda rows, key: 100 * sum(r[key] for r in rows) / sum(r["visible"] for r in rows)
     mean = lambda rows, kind, key: np.mean([r[kind][key] for r in rows if kind in r])
@@ -94,8 +95,8 @@ def markdown(report):
     lines += out.prose(
         """The data are the demo clip and the [clips](clips.md). The first columns are the clips as they are, the others
         are scaled to a width of 640 pixels and covered.""")
-    header = ["clip", "level", "frames", "with a face, forward", "with backward", "covered: visible", "forward", "with backward",
-              "difference of controls", "of landmarks, %"]
+    header = ["clip", "level", "frames", "with a face, forward", "with backward", "covered: visible", "forward",
+              "with backward", "difference of controls", "of landmarks, %"]
     rows = [[clip, name[-1], str(r["frames"]), str(r["forward"]), str(r["both"]), *(str(r["covered"][k]) for k in
              ("visible", "forward", "both")), out.number(r["covered"].get("filled", {}).get("controls"), 3),
              out.number(100 * r["covered"]["filled"]["landmarks"] if "filled" in r["covered"] else None, 2)]
