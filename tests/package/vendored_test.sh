@@ -25,7 +25,7 @@ strip -o "$1/stripped" "$1/embedded/embedded" 2>/dev/null || cp "$1/embedded/emb
 bytes=$(stat -c %s "$1/stripped")
 echo "a program of level 1 with its weights: $bytes bytes"
 # The limit in docs/packages.md; clang's code is 33 KB larger.
-if [ "$(uname -m) $#" = "x86_64 2" ] && [[ $("${CC:-cc}" --version) != *clang* ]] && [ "$bytes" -gt 1600000 ]; then
-  echo "vendored_test.sh: too large (got $bytes bytes, expected at most 1600000)" >&2
+if [ "$(uname -m) $#" = "x86_64 2" ] && [[ $("${CC:-cc}" --version) != *clang* ]] && [ "$bytes" -gt 1610000 ]; then
+  echo "vendored_test.sh: too large (got $bytes bytes, expected at most 1610000)" >&2
   exit 1
 fi
