@@ -10,6 +10,7 @@
 #include <span>
 
 #include "audio/front_end.h"
+#include "audio/loudness.h"
 #include "engine/arena.h"
 #include "engine/model.h"
 #include "engine/network.h"
@@ -37,13 +38,22 @@ class AudioNet {
   // Resets the state to the start of a stream.
   void reset();
 
-  // One step.
-  [[nodiscard]] Speech process(std::span<const float, FrontEnd::kFeatures> features);
+  // One step: the features of the front end, and the log-mel energies of their newest window.
+  [[nodiscard]] Speech process(std::span<const float, FrontEnd::kFeatures> features,
+                               std::span<const float, kBands> log_mel);
 
  private:
+  [[nodiscard]] mien_status load_jaw(const engine::Model& model, std::uint32_t cpu_mask,
+                                     engine::Arena& arena);
+  [[nodiscard]] float jaw_open(std::span<const float> embedding,
+                               std::span<const float, kBands> log_mel);
+
   engine::Network encoder_;
   engine::Network controls_;
   engine::Network activity_;
+  engine::Network jaw_;  // only if has_jaw_
+  bool has_jaw_ = false;
+  Loudness loudness_;
 };
 
 }  // namespace mien::audio

@@ -69,7 +69,7 @@ void AudioPipeline::process() {
   while (front_end_.fetch(features)) {
     const std::int64_t time = clock_.time_ns(FrontEnd::seconds_of_step(stream_steps_));
     ++stream_steps_;
-    store({time, net_.process(features)});
+    store({time, net_.process(features, front_end_.log_mel())});
   }
 }
 

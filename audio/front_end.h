@@ -36,6 +36,9 @@ class FrontEnd {
   // The features of the next step; false if it needs more samples.
   [[nodiscard]] bool fetch(std::span<float, kFeatures> features);
 
+  // The log-mel energies of the newest window of the features fetched last.
+  [[nodiscard]] std::span<const float, kBands> log_mel() const { return mfcc_.log_mel(); }
+
   // The time that a step describes, in seconds after the stream's first sample.
   [[nodiscard]] static double seconds_of_step(std::int64_t step) {
     return (static_cast<double>(step) - 1.5) * kWindowSamples / kSampleRate;

@@ -78,12 +78,11 @@ void Mfcc::analyse(std::span<const float, kWindowSamples> samples,
   }
   std::array<float, kBins> power;
   power_spectrum_({windowed.data(), twiddles_.data(), power.data(), kWindowSamples});
-  std::array<float, kBands> bands;
-  matrix_vector_({mel_bands_.data(), power.data(), bands.data(), kBands, kBins});
-  for (float& band : bands) {
+  matrix_vector_({mel_bands_.data(), power.data(), log_mel_.data(), kBands, kBins});
+  for (float& band : log_mel_) {
     band = std::log(std::max(band, kFloor));
   }
-  matrix_vector_({cosines_.data(), bands.data(), coefficients.data(), kCoefficients, kBands});
+  matrix_vector_({cosines_.data(), log_mel_.data(), coefficients.data(), kCoefficients, kBands});
 }
 
 }  // namespace mien::audio

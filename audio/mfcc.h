@@ -26,6 +26,7 @@ namespace mien::audio {
 inline constexpr std::int32_t kSampleRate = 16000;
 inline constexpr std::size_t kWindowSamples = 256;
 inline constexpr std::size_t kCoefficients = 26;
+inline constexpr std::size_t kBands = 26;
 
 class Mfcc {
  public:
@@ -38,9 +39,11 @@ class Mfcc {
   void analyse(std::span<const float, kWindowSamples> samples,
                std::span<float, kCoefficients> coefficients);
 
+  // The logarithms of the bands of the latest window.
+  [[nodiscard]] std::span<const float, kBands> log_mel() const { return log_mel_; }
+
  private:
   static constexpr std::size_t kBins = kWindowSamples / 2 + 1;
-  static constexpr std::size_t kBands = 26;
 
   void make_window();
   void make_mel_bands();
@@ -49,6 +52,7 @@ class Mfcc {
   kernels::Kernel<kernels::PowerSpectrumArgs> power_spectrum_ = nullptr;
   kernels::Kernel<kernels::MatrixVectorArgs> matrix_vector_ = nullptr;
   float previous_sample_ = 0.0f;  // last sample of the previous window
+  std::array<float, kBands> log_mel_ = {};
   std::array<float, kWindowSamples> window_ = {};
   std::array<float, 2 * kWindowSamples> twiddles_ = {};
   std::array<float, kBands* kBins> mel_bands_ = {};        // [bands, bins], 1/256 included

@@ -22,6 +22,7 @@ namespace {
 
 using audio::AudioNet;
 using audio::FrontEnd;
+using audio::kBands;
 using audio::kSpeechControls;
 using audio::Speech;
 using engine::Arena;
@@ -60,17 +61,21 @@ class AudioNetOfTier : public testing::TestWithParam<std::uint32_t> {
 
 TEST_P(AudioNetOfTier, MatchesPyTorch) {
   const std::vector<float> features = golden("audionet_input.f32");
+  const std::vector<float> log_mel = golden("audionet_log_mel.f32");
   const std::vector<float> controls = golden("audionet_controls.f32");
   const std::vector<float> activity = golden("audionet_activity.f32");
   const std::size_t steps = features.size() / FrontEnd::kFeatures;
   ASSERT_GT(steps, 30u);
+  ASSERT_EQ(log_mel.size(), steps * kBands);
   ASSERT_EQ(controls.size(), steps * kSpeechControls);
   ASSERT_EQ(activity.size(), steps * 2);
   const float tolerance = is_half(GetParam()) ? 5e-3f : 2e-5f;
   for (int round = 0; round < 2; ++round) {  // the second one after a reset
     for (std::size_t step = 0; step < steps; ++step) {
-      const Speech speech = net_.process(std::span<const float, FrontEnd::kFeatures>(
-          features.data() + step * FrontEnd::kFeatures, FrontEnd::kFeatures));
+      const Speech speech =
+          net_.process(std::span<const float, FrontEnd::kFeatures>(
+                           features.data() + step * FrontEnd::kFeatures, FrontEnd::kFeatures),
+                       std::span<const float, kBands>(log_mel.data() + step * kBands, kBands));
       for (std::size_t i = 0; i < kSpeechControls; ++i) {
         ASSERT_NEAR(speech.controls[i], controls[step * kSpeechControls + i], tolerance) << step;
       }

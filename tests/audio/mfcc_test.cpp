@@ -65,6 +65,19 @@ TEST_P(MfccOfTier, ResetDiscardsThePreviousWindow) {
   EXPECT_EQ(analyse(input.data()), first);
 }
 
+// The DCT is orthonormal and coefficient 0 has no lifter: it is the sum of the bands / sqrt(26).
+TEST_P(MfccOfTier, LogMelIsTheInputOfTheDct) {
+  const std::vector<float> input = golden("mfcc_input.f32");
+  for (std::size_t w = 0; w < kSignals * kWindows; ++w) {
+    const Coefficients got = analyse(input.data() + w * kWindowSamples);
+    double sum = 0.0;
+    for (const float band : mfcc_.log_mel()) {
+      sum += static_cast<double>(band);
+    }
+    EXPECT_NEAR(sum / std::sqrt(26.0), static_cast<double>(got[0]), 1e-3) << w;
+  }
+}
+
 TEST_P(MfccOfTier, AreFiniteForSilenceAndTheLargestSamples) {
   for (const float level : {0.0f, 1e-40f, 1.0f, -1.0f}) {
     const std::vector<float> samples(kWindowSamples, level);
