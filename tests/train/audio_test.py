@@ -11,12 +11,14 @@ import torch
 from mien_convert.atomic_files import write_whole
 from mien_training.audio import (
     activity,
+    add_jaw,
     align,
     audio_net,
     effects,
     export,
     features,
     golden_outputs,
+    jaw,
     labels,
     opus,
     phonemes,
@@ -48,6 +50,14 @@ def random_encoder(seed=1):
     return encoder.eval()
 
 
+def random_jaw_decoder(seed=1):
+    torch.manual_seed(seed)
+    decoder = jaw.JawDecoder()
+    decoder.mean.normal_(0, 2)
+    decoder.deviation.uniform_(0.5, 4)
+    return decoder.eval()
+
+
 def macs(module):
     return sum(p.numel() for n, p in module.named_parameters() if "weight" in n and "norm" not in n)
 
@@ -72,6 +82,20 @@ class Features(unittest.TestCase):
         sound = np.float32(np.random.default_rng(1).standard_normal(256 * 100) * 0.1)
         difference = features.features(sound + np.float32(0.2)) - features.features(sound)
         self.assertLess(np.abs(difference[50:]).max(), 0.1)
+
+
+class Energies(unittest.TestCase):
+    def test_do_not_depend_on_the_distance_to_the_microphone(self):
+        sound = golden_outputs.some_sound(200)
+        near, far = (jaw.relative(jaw.energies(sound * gain)) for gain in (1, 0.3))
+        self.assertLess(np.abs(near - far)[100:].mean(), 0.3)
+        self.assertGreater(np.abs(jaw.energies(sound) - jaw.energies(sound * 0.3))[100:].mean(), 1.5)
+
+    def test_are_those_of_the_coefficients(self):
+        sound = golden_outputs.some_sound(20)
+        cosines = features.tables()[2]
+        np.testing.assert_allclose(jaw.energies(sound) @ cosines, features.features(sound)[:, -features.BANDS:],
+                                   rtol=1e-4, atol=1e-3)
 
 
 class Network(unittest.TestCase):
@@ -107,6 +131,23 @@ class Network(unittest.TestCase):
         file = export.audionet(random_encoder(), decoders, {"seconds_heard": 1})
         self.assertLess(len(file.to_bytes()), 470_000)
         self.assertEqual(set(SPEECH_CONTROLS), set(export.FROM_SOUND))
+
+    def test_a_jaw_decoder_changes_only_jaw_open(self):
+        decoders = {"controls": audio_net.controls_decoder(), "activity": audio_net.activity_decoder()}
+        decoder, x, energies = random_jaw_decoder(), golden_outputs.some_features(60), golden_outputs.some_energies(60)
+        with tempfile.TemporaryDirectory() as folder:
+            before, after, again = (Path(folder) / name for name in ("before.mien", "after.mien", "again.mien"))
+            write_whole(before, export.audionet(random_encoder(), decoders, {"seconds_heard": 7}).to_bytes())
+            write_whole(after, add_jaw.with_jaw(before, decoder).to_bytes())
+            write_whole(again, add_jaw.with_jaw(after, decoder).to_bytes())
+            self.assertEqual(after.read_bytes(), again.read_bytes())
+            self.assertEqual(weight_reader.metadata(before), weight_reader.metadata(after))
+            old, new = (golden_outputs.outputs(path, x, energies) for path in (before, after))
+        inputs = torch.cat([new[0], torch.from_numpy(jaw.relative(energies[0].numpy()))[None]], -1)
+        with torch.no_grad():
+            torch.testing.assert_close(decoder(inputs)[0].clamp(0, 1), new[1][..., audio_net.JAW], atol=0.01, rtol=0.01)
+        self.assertTrue(torch.equal(old[0], new[0]) and torch.equal(old[2], new[2]))
+        self.assertTrue(torch.equal(old[1][..., 1:], new[1][..., 1:]))
 
     def test_training_goes_on_from_the_file(self):
         encoder = random_encoder()

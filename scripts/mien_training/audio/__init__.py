@@ -10,6 +10,8 @@
     $T --start-from $R/committed.pt --minutes 82   # stop it twice, after a validation, to align with audionet/last.pt
     $A.train_decoders $R/audionet/last.pt --out $R/audionet_decoders.pt
     $A.export $R/audionet/last.pt $R/audionet_decoders.pt
+    $A.train_jaw --out $R/jaw.pt               # on the encoder of models/audionet.mien
+    $A.add_jaw $R/jaw.pt
     $A.golden_outputs                          # expected outputs of a test
     python3 -m mien_training.evaluate audio --audionet $R/audionet/last.pt $R/audionet_decoders.pt
 

@@ -19,6 +19,7 @@ SPEECH_CONTROLS = ["jawOpen", "jawForward", "mouthClose", "mouthFunnel", "mouthP
                    "mouthShrugLower", "mouthShrugUpper", "mouthPressLeft", "mouthPressRight", "mouthStretchLeft",
                    "mouthStretchRight",
                    "mouthLowerDownLeft", "mouthLowerDownRight", "mouthUpperUpLeft", "mouthUpperUpRight", "tongueOut"]
+JAW = SPEECH_CONTROLS.index("jawOpen")
 
 
 class CausalConv(nn.Module):

@@ -17,6 +17,7 @@ from mien_convert.weight_file import MienFile
 from mien_training.audio.audio_net import EMBEDDING, SPEECH_CONTROLS, Encoder, activity_decoder, controls_decoder
 from mien_training.audio.features import FEATURES
 from mien_training.audio.golden_outputs import outputs, some_features
+from mien_training.audio.jaw import INPUTS
 from mien_training.data.expressions import CONTROLS
 from mien_training.networks.architectures import LEAK
 from mien_training.networks.export import LICENCE, loaded, plain
@@ -51,11 +52,21 @@ def add_encoder(file, encoder):
 def add_decoder(file, name, decoder, activation):
     """`activation`: of the output, or softmax."""
     net = file.network(name, input=(1, 1, EMBEDDING))
-    x = net.fully_connected(net.input, plain(decoder.input.weight), plain(decoder.input.bias))
-    x = add_lstm(net, x, decoder.lstm)
     own = "none" if activation == "softmax" else activation
-    x = net.fully_connected(x, plain(decoder.output.weight), plain(decoder.output.bias), activation=own)
+    x = add_temporal(net, plain(decoder.input.weight), plain(decoder.input.bias), decoder, own)
     net.output(net.softmax(x) if activation == "softmax" else x)
+
+
+def add_temporal(net, weight, bias, decoder, activation):
+    """A decoder's layers; `weight`, `bias`: of the first one. Returns the number of their value."""
+    x = add_lstm(net, net.fully_connected(net.input, weight, bias), decoder.lstm)
+    return net.fully_connected(x, plain(decoder.output.weight), plain(decoder.output.bias), activation=activation)
+
+
+def add_jaw(file, decoder):
+    """A decoder of jaw.py."""
+    net = file.network("jaw_decoder", input=(1, 1, INPUTS))
+    net.output(add_temporal(net, *(plain(v) for v in decoder.folded_input()), decoder, "clamp01"))
 
 
 class Folded:

@@ -37,15 +37,20 @@ def without_offset(sound):
     return lfilter(np.float32([1, -1]), np.float32([1, -HIGH_PASS]), sound).astype(np.float32)
 
 
-def mfcc(sound, warp=1.0):
-    """f32 [..., samples] -> f32 [..., windows, 26]; an incomplete window is left out."""
+def log_mel(sound, warp=1.0):
+    """f32 [..., samples] -> f32 [..., windows, 26]: logarithms of the mel bands; an incomplete window is left out."""
     sound = np.float32(sound)[..., :sound.shape[-1] // WINDOW * WINDOW]
     before = np.concatenate([np.zeros_like(sound[..., :1]), sound[..., :-1]], -1)
-    window, bands, cosines = tables(warp)
+    window, bands, _ = tables(warp)
     shaped = (sound - np.float32(0.97) * before).reshape(*sound.shape[:-1], -1, WINDOW) * window
     spectrum = rfft(shaped)
     power = spectrum.real ** 2 + spectrum.imag ** 2
-    return np.log(np.maximum(power @ bands, np.float32(1e-8))) @ cosines
+    return np.log(np.maximum(power @ bands, np.float32(1e-8)))
+
+
+def mfcc(sound, warp=1.0):
+    """f32 [..., samples] -> f32 [..., windows, 26]"""
+    return log_mel(sound, warp) @ tables(warp)[2]
 
 
 def packed(coefficients):

@@ -11,12 +11,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from mien_training.audio import corpus
-from mien_training.audio.audio_net import SPEECH_CONTROLS
+from mien_training.audio.audio_net import JAW, SPEECH_CONTROLS
 from mien_training.paths import data
 
 FPS = 25
 FOLDERS = {"av": "av", "people": "av/people", "animated": "av/animated"}
-JAW = SPEECH_CONTROLS.index("jawOpen")
 WIDE, WIDE_SHARE = 0.6, 98  # a speaker's jaw is open so far at that percentile
 REST = 10  # percentile of a clip's curve that counts as the mouth at rest: sound cannot tell how lips rest
 # Where the teacher responds to what a speaker says. Elsewhere it hardly leaves zero (the data's README) or, as for

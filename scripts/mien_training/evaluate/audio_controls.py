@@ -69,9 +69,9 @@ def text_of(name):
 
 @torch.no_grad()
 def from_right_phonemes(model, name, seconds):
-    """jawOpen as visemes have it from the text, aligned; None where the text is not known."""
+    """jawOpen as visemes have it from the text, aligned; None without the text or the heads of phonemes."""
     words = [sum(espeak.words_to_phonemes(word), ()) for word in text_of(name)]
-    if not words:
+    if not words or model.heads is None:
         return None
     sound = np.float32(corpus.decode(clip_path(name))) / 32768
     heard = torch.from_numpy(features(np.concatenate([sound, np.zeros(RATE // 10, np.float32)])))[None]

@@ -8,15 +8,19 @@ from mien_training.evaluate.audio_model import INDEX
 SHOWN = ["jawOpen", "mouthClose", "mouthPucker", "mouthFunnel", "mouthStretchLeft"]
 
 
-def sentence(model):
-    """The first held-out clip: curves, the teacher's jaw, and phonemes with times."""
+def sentence(model, timed=None):
+    """The first held-out clip: curves, the teacher's jaw, and phonemes with times; `timed`: phonemes known before."""
     group, curves = corpus.Group("av"), teacher.clips()
     sound = next(s for s in group.of(model.split) if s.name in curves)
     times, controls, alpha = model(np.float32(group.samples(sound)) / 32768)
-    spoken, jaw = labels.read("av")[sound.name], curves[sound.name][:, INDEX["jawOpen"]]
+    jaw = curves[sound.name][:, INDEX["jawOpen"]]
     return {"clip": sound.name, "times": out.rounded(times, 3), "alpha": out.rounded(alpha, 3),
             "teacher": out.rounded(jaw, 3), "controls": {c: out.rounded(controls[:, INDEX[c]], 3) for c in SHOWN},
-            "phonemes": [[phonemes.NAMES[p], round(float(t), 3)] for p, t in zip(spoken.labels, spoken.starts)]}
+            "phonemes": timed or timed_phonemes(labels.read("av")[sound.name])}
+
+
+def timed_phonemes(spoken):
+    return [[phonemes.NAMES[p], round(float(t), 3)] for p, t in zip(spoken.labels, spoken.starts)]
 
 
 def curves(said, path):

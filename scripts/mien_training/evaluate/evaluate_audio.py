@@ -1,23 +1,58 @@
 """AudioNet on held-out data: phonemes, voice activity, noise, controls compared with the video teacher's, lips."""
-from mien_training.evaluate import audio_activity, audio_controls, audio_phonemes, audio_plots
+import hashlib
+import json
+
+from mien_training.evaluate import audio_activity, audio_controls, audio_jaw, audio_phonemes, audio_plots
 from mien_training.evaluate import report as out
-from mien_training.evaluate.audio_model import Model
+from mien_training.evaluate.audio_model import StoredModel
+from mien_training.evaluate.inputs import Missing
+from mien_training.networks import weight_reader
 
 RATE, FRAMES, HOURS = "% of phonemes", "% of frames", 3600
+KEPT = ("encoder_hours", "phonemes", "activity")  # depend on the networks of digest() only
 
 
 def measure(setting):
-    model = Model(*setting.checkpoint("audionet"))
-    report = figures(model)
-    report["sentence"] = audio_plots.sentence(model)
-    return report
+    """Without the checkpoints, earlier figures are kept if they are those of the same networks."""
+    path = setting.program.models / "audionet.mien"
+    networks = digest(path)
+    timed = None
+    try:
+        model = StoredModel(path, setting.checkpoint("audionet"))
+        report = figures(model)
+    except Missing as missing:
+        earlier, model = earlier_results(setting.out, networks, missing), StoredModel(path)
+        report, timed = {name: earlier[name] for name in KEPT} | of_controls(model), earlier["sentence"]["phonemes"]
+        for name, row in report["controls"]["clips"].items():
+            row["right phonemes"] = earlier["controls"]["clips"][name]["right phonemes"]
+    return report | {"networks": networks, "jaw": audio_jaw.measure(model),
+                     "sentence": audio_plots.sentence(model, timed)}
+
+
+def digest(path):
+    """SHA-256 of the weights of the encoder and of the decoder of voice activity."""
+    networks = weight_reader.networks(path)
+    layers = [layer for name in ("encoder", "activity_decoder") for layer in networks[name] if layer.weight is not None]
+    values = b"".join(v.numpy().tobytes() for layer in layers for v in (layer.weight, layer.bias))
+    return hashlib.sha256(values).hexdigest()
+
+
+def earlier_results(folder, networks, missing):
+    path = folder / "audio.json"
+    results = json.loads(path.read_text())["results"] if path.exists() else {}
+    if results.get("networks") != networks:
+        raise missing
+    return results
+
+
+def of_controls(model):
+    return {"noise": audio_activity.on_noise(model), "controls": audio_controls.measure(model)}
 
 
 def figures(model):
     """Figures on the split of `model` that do not need the program."""
     return {"encoder_hours": model.heard / HOURS, "phonemes": audio_phonemes.measure(model),
-            "activity": audio_activity.by_ratio(model),
-            "noise": audio_activity.on_noise(model), "controls": audio_controls.measure(model)}
+            "activity": audio_activity.by_ratio(model)} | of_controls(model)
 
 
 def markdown(report):
@@ -32,7 +67,8 @@ def markdown(report):
         {report['controls']['other people']['jawOpen']['mean of clips']:.2f} on other people. The data are speakers,
         voices and noises that training has not used; the encoder was trained on {report['encoder_hours']:.0f} hours of
         audio, with repetitions.""")
-    lines += tables(report) + ["## A sentence", "", "A held-out clip; MediaPipe's jaw is grey.", "",
+    lines += tables(report) + audio_jaw.markdown(report["jaw"])
+    lines += ["## A sentence", "", "A held-out clip; MediaPipe's jaw is grey.", "",
                                "![Curves of a sentence](audio_sentence.png)", "", "![Its mouth](speech_head.jpg)", ""]
     lines += out.prose(
         """[A face animated from audio](speech_head.mp4), and its mouth above, made by
