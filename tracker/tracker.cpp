@@ -82,7 +82,7 @@ mien_status Tracker::push(const mien_image* image, std::int64_t pts_ns) {
   }
   const Timeline::Step step = state_.timeline.advance(pts_ns);
   Frame frame = {view, timer_, level(), step.seconds, step.cut};
-  // Where a film begins nothing can stutter, and its first image may be its only one.
+  // Where a video begins nothing can stutter, and its first image may be its only one.
   const bool new_scene = std::exchange(state_.cut_without_image, false) || frame.cut ||
                          !(state_.view == static_cast<const ImageGeometry&>(view));
   if (new_scene) {

@@ -24,7 +24,7 @@ class MtcnnDetector final : public FaceDetector {
   [[nodiscard]] mien_status load(const mien_tracker_config& config, const Models& models,
                                  engine::Arena& arena);
 
-  // Shares: the picture of one of the larger sizes; P-Net on a band of it, or on all smaller sizes;
+  // Shares: the image of one of the larger sizes; P-Net on a band of it, or on all smaller sizes;
   // R-Net on some of the candidates.
   void begin(const ImageView& view, bool thorough, float roll) override;
   [[nodiscard]] bool go_on(const ImageView& view) override;
@@ -75,7 +75,7 @@ class MtcnnDetector final : public FaceDetector {
   // Limits the search of a size to the rows of P-Net's windows whose middles lie in the image.
   void choose_rows(const ImageView& view, const LargeSize& size);
   void scan_band();
-  // Those from `first` on; the very first has its picture.
+  // Those from `first` on; the very first has its image.
   void scan_small_sizes(Search& search, std::size_t first, std::size_t end);
   // Fills the square input of the network with the crop.
   void cut(const ImageView& view, const Crop& crop, engine::Network& network) const;

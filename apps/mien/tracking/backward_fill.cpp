@@ -9,8 +9,8 @@
 namespace mien::app {
 namespace {
 
-// The second tracker begins so many frames after the detection: its decoders need some frames until
-// their controls are those of the first.
+// The second tracker begins that many frames after the detection: its decoders need some frames
+// until their controls are those of the first.
 constexpr std::int64_t kWarmUp = 10;
 constexpr float kSamePlace = 0.4f;              // of a box, between the middles of one face
 constexpr float kSeen = 0.5f;                   // face probability; below, the tracker guesses
@@ -36,7 +36,7 @@ bool has_any_face(std::span<const Result> faces) {
                      [](const Result& face) { return face.has_face(); });
 }
 
-// What a tracked face has, in a row of which everything else stays.
+// Copies the values of a tracked face into a row and keeps the rest of the row.
 void copy_face(const Result& from, Result& to) {
   to.status = MIEN_FACE_TRACKING;
   to.face_probability = from.face_probability;
