@@ -1,4 +1,4 @@
-// Eyeballs, lids and lashes. A lid is a part of a sphere slightly larger than the eyeball and slides over it, as real
+// Eyeballs, lids and lashes. A lid is a part of a sphere slightly larger than the eyeball and moves over it, as real
 // lids do. Its intersection with the skin of the head is its crease.
 import {clamp01, mix, sideName} from './vectors.js';
 import {palette} from './palette.js';

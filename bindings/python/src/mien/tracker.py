@@ -56,7 +56,7 @@ class Tracker(Handle):
         super().__init__()
         config = TrackerConfig()
         function("mien_tracker_config_default")(byref(config))
-        self._weights = opened(MODELS if models is None else models)  # whose files must outlive the tracker
+        self._weights = opened(MODELS if models is None else models)  # kept: the files must outlive the tracker
         config.weights = self._weights._open()
         config.lod = 0 if lod == "auto" else lod
         config.max_lod = 1 if lod == 1 else 4
