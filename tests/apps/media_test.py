@@ -31,8 +31,8 @@ class Media(unittest.TestCase):
         self.folder = pathlib.Path(tempfile.mkdtemp())
         self.addCleanup(shutil.rmtree, self.folder)
 
-    def track(self, *arguments, **options):
-        command = [MIEN, "track", "--quiet", "--models", str(SOURCE / "models"), "--lod", "1", *map(str, arguments)]
+    def track(self, *arguments, models=SOURCE / "models", **options):
+        command = [MIEN, "track", "--quiet", "--models", str(models), "--lod", "1", *map(str, arguments)]
         done = subprocess.run(command, capture_output=True, timeout=120, **options)
         self.assertNotIn(b"\x1b", done.stdout + done.stderr)
         return done.returncode, list(csv.DictReader(io.StringIO(done.stdout.decode()))), done.stderr.decode()
@@ -190,6 +190,18 @@ class Media(unittest.TestCase):
         code, _, errors = self.track(both, "--audio-track", "3")
         self.assertEqual(code, 11)
         self.assertIn("got 3, expected 1 to 2", errors)
+
+    def test_packed_weights(self):
+        """The first frames are gray and are filled by tracking backward, with audio mixed in."""
+        clip = self.folder / "clip.mkv"
+        ffmpeg("-i", SOURCE / "tests/data/demo.mp4", "-vf", "scale=320:-2,drawbox=enable='lt(n,10)':color=gray:t=fill", "-frames:v", "40", "-c:v", "ffv1",
+               "-c:a", "flac", clip)
+        for model in ("basenet", "proposal", "hifinet", "audionet"):
+            subprocess.run([sys.executable, SOURCE / "scripts/package/pack_weights.py", SOURCE / f"models/{model}.mien", self.folder / f"{model}.mien"],
+                           check=True, capture_output=True)
+        code, rows, errors = self.track(clip)
+        self.assertEqual((code, rows[11]["status"]), (0, "tracking"), errors)
+        self.assertEqual(self.track(clip, models=self.folder)[:2], (0, rows))
 
     def test_very_long_durations(self):
         ffmpeg(*TONE, self.folder / "x.wav")

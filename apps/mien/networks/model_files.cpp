@@ -14,6 +14,7 @@
 #include "apps/mien/system/out_of_memory.h"
 #include "apps/mien/system/paths.h"
 #include "apps/mien/system/program_path.h"
+#include "formats/packed_file.h"
 
 namespace mien::app {
 
@@ -55,6 +56,21 @@ Blob::Blob(const std::string& path, ExitCode code) {
   }
 }
 
+Blob Blob::unpacked(const Blob& packed) {
+  Blob file;
+  std::size_t bytes = 0;
+  Error error;
+  mien_status status = formats::unpacked_bytes(packed.bytes(), bytes, error);
+  if (status == MIEN_OK) {
+    file.allocate(bytes);
+    status = formats::unpack(packed.bytes(), {file.words_.data()->bytes, bytes}, error);
+  }
+  if (status != MIEN_OK) {
+    throw Failure(kExitModel, "packed weights: " + error.message());
+  }
+  return file;
+}
+
 void Blob::allocate(std::size_t bytes) {
   size_ = bytes;
   words_.resize(bytes / sizeof(Line) + 1);  // an empty file has memory as well
@@ -69,7 +85,7 @@ OpenedWeights::OpenedWeights(std::vector<std::string> paths) : paths_(std::move(
   std::vector<std::span<const std::byte>> files;
   for (const std::string& path : paths_) {
     const Blob& blob = blobs_.emplace_back(path);
-    files.emplace_back(static_cast<const std::byte*>(blob.data()), blob.size());
+    files.push_back(blob.bytes());
   }
   Error error;
   if (weights_.create(files, false, &error) != MIEN_OK) {

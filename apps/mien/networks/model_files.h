@@ -5,6 +5,7 @@
 #include <deque>
 #include <filesystem>
 #include <mien/mien.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,10 +18,17 @@ class Blob {
  public:
   // Throws Failure with `code` if the file cannot be read.
   explicit Blob(const std::string& path, ExitCode code = kExitModel);
+  // The weight file in a packed one. Throws Failure if it is malformed.
+  static Blob unpacked(const Blob& packed);
   const void* data() const { return words_.data(); }
   std::size_t size() const { return size_; }
+  std::span<const std::byte> bytes() const {
+    return {static_cast<const std::byte*>(data()), size_};
+  }
 
  private:
+  Blob() = default;
+
   struct alignas(64) Line {
     std::byte bytes[64];
   };

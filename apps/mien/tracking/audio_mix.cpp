@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
-#include <span>
 #include <string>
 #include <string_view>
 
 #include "apps/mien/system/failure.h"
+#include "formats/bundle.h"
 #include "formats/mien_file.h"
 
 namespace mien::app {
@@ -29,9 +29,12 @@ Weights read(const formats::FileView& file, std::string_view name) {
 }  // namespace
 
 AudioMix::AudioMix(const Blob& audionet) {
+  if (formats::is_packed(audionet.bytes())) {
+    *this = AudioMix(Blob::unpacked(audionet));
+    return;
+  }
   formats::FileView file;
-  const auto* bytes = static_cast<const std::byte*>(audionet.data());
-  if (formats::open(std::span(bytes, audionet.size()), file).status != MIEN_OK) {
+  if (formats::open(audionet.bytes(), file).status != MIEN_OK) {
     throw Failure(kExitModel, "audionet.mien: cannot be read");
   }
   audio_ = read(file, "mix_audio");

@@ -54,11 +54,8 @@ void copy_face(const Result& from, Result& to) {
 
 BackwardFill::BackwardFill(const LoadedTracker::Options& tracker, const std::string& neutral,
                            Sink sink)
-    : options_(tracker), neutral_(neutral), sink_(std::move(sink)) {
-  if (options_.sound) {
-    mix_ = AudioMix(Blob(models_directory(options_.models) + "/audionet.mien"));
-    options_.sound = false;
-  }
+    : options_(tracker), mixes_audio_(tracker.sound), neutral_(neutral), sink_(std::move(sink)) {
+  options_.sound = false;
 }
 
 void BackwardFill::add(std::int64_t number, const mien_image& image, std::vector<Result> faces) {
@@ -133,6 +130,9 @@ void BackwardFill::fill_before(const Detection& detection) {
 void BackwardFill::start_tracker(std::int32_t lod) {
   if (!tracker_) {
     tracker_.emplace(options_);
+    if (mixes_audio_) {
+      mix_ = AudioMix(Blob(models_directory(options_.models) + "/audionet.mien"));
+    }
   }
   check(tracker_->tracker.reset(), "tracking backward");
   check(tracker_->tracker.set_lod(lod), "tracking backward");

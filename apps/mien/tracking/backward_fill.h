@@ -31,7 +31,7 @@ class BackwardFill {
   static constexpr std::size_t kMaxHeldBytes = std::size_t{512} << 20;
 
   // `tracker`: options of the tracker whose results are added. `neutral`: the path of a neutral
-  // file, or empty; it must outlive this. Throws Failure.
+  // file, or empty; it must outlive this.
   BackwardFill(const LoadedTracker::Options& tracker, const std::string& neutral, Sink sink);
 
   void add(std::int64_t number, const mien_image& image, std::vector<Result> faces);
@@ -76,8 +76,9 @@ class BackwardFill {
   void release_first();
 
   LoadedTracker::Options options_;
+  bool mixes_audio_;
   const std::string& neutral_;
-  AudioMix mix_;
+  AudioMix mix_;  // loaded with the tracker
   Sink sink_;
   std::optional<LoadedTracker> tracker_;  // created when first needed
   std::deque<Row> rows_;
