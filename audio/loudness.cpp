@@ -2,17 +2,12 @@
 #include "audio/loudness.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace mien::audio {
-namespace {
 
-// The logarithm's floor, see mfcc.h.
-constexpr float kSilence = -18.420681f;
-
-}  // namespace
-
-void Loudness::reset() { level_ = kSilence; }
+void Loudness::reset() { level_ = std::log(kEnergyFloor); }
 
 void Loudness::subtract(std::span<const float, kBands> log_mel, std::span<float, kBands> relative) {
   const float mean =

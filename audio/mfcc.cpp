@@ -13,7 +13,6 @@ using std::numbers::pi;
 constexpr float kPreEmphasis = 0.97f;
 constexpr double kLowestHz = 60.0;
 constexpr double kHighestHz = 7600.0;
-constexpr float kFloor = 1e-8f;
 constexpr double kLifter = 22.0;
 
 double mel_of_hz(double hz) { return 2595.0 * std::log10(1.0 + hz / 700.0); }
@@ -80,7 +79,7 @@ void Mfcc::analyse(std::span<const float, kWindowSamples> samples,
   power_spectrum_({windowed.data(), twiddles_.data(), power.data(), kWindowSamples});
   matrix_vector_({mel_bands_.data(), power.data(), log_mel_.data(), kBands, kBins});
   for (float& band : log_mel_) {
-    band = std::log(std::max(band, kFloor));
+    band = std::log(std::max(band, kEnergyFloor));
   }
   matrix_vector_({cosines_.data(), log_mel_.data(), coefficients.data(), kCoefficients, kBands});
 }

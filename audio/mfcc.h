@@ -27,6 +27,7 @@ inline constexpr std::int32_t kSampleRate = 16000;
 inline constexpr std::size_t kWindowSamples = 256;
 inline constexpr std::size_t kCoefficients = 26;
 inline constexpr std::size_t kBands = 26;
+inline constexpr float kEnergyFloor = 1e-8f;  // of a band, before its logarithm
 
 class Mfcc {
  public:
