@@ -147,6 +147,7 @@ TEST_F(WeightsTest, RejectsInvalidArguments) {
   EXPECT_STREQ(error.field, "config");
   EXPECT_EQ(mien_weights_create(&config, nullptr, &error), MIEN_ERROR_NULL_ARGUMENT);
   config.files[0] = small.data();
+  config.copy = 1;  // whatever the alignment of `small`
   EXPECT_EQ(mien_weights_create(&config, &created, &error), MIEN_ERROR_WEIGHTS_TRUNCATED);
   config.file_bytes[0] = small.size();
   config.allocator.release = [](void*, void*) {};
