@@ -15,6 +15,8 @@ KEPT = ("encoder_hours", "phonemes", "activity")  # depend on the networks of di
 def measure(setting):
     """Without the checkpoints, earlier figures are kept if they are those of the same networks."""
     path = setting.program.models / "audionet.mien"
+    if not path.exists():
+        raise Missing(f"AudioNet is not trained yet: {path.name} is absent")
     networks = digest(path)
     timed = None
     try:
