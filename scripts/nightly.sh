@@ -31,6 +31,7 @@ step apple_package scripts/package/xcframework.sh
 step made_100000_times build/release/tests/tracker/tracker_scenario_test --gtest_filter=Trackers.MayBeCreatedManyTimes --gtest_repeat=10 --gtest_brief=1
 step every_allocation /usr/bin/python3 tests/apps/faults_test.py build/release/apps/mien/mien build/release/tests/apps/libmien_failing_malloc.so all
 step output_safety /usr/bin/python3 tests/apps/output_safety_test.py build/release/apps/mien/mien full
+step convert_time /usr/bin/python3 tests/apps/convert_size_test.py build/release/apps/mien/mien time
 step media_matrix /usr/bin/python3 tests/apps/media_matrix_test.py build/release/apps/mien/mien 400
 step public_models env PYTHONPATH=scripts /usr/bin/python3 tests/convert/public_models_test.py build/release/apps/mien/mien
 step killed_training env PYTHONPATH=scripts /usr/bin/python3 tests/train/killed_training_test.py

@@ -7,7 +7,7 @@ set -euo pipefail
 
 declare -A PACKAGES=(
   [build]="g++ cmake ninja-build libcli11-dev nlohmann-json3-dev libstb-dev zlib1g-dev"
-  [test]="libgtest-dev libgmock-dev clang clang-format clang-tidy libclang-rt-dev ccache python3 python3-numpy python3-venv ffmpeg chromium binutils git pkgconf shellcheck abigail-tools libsimde-dev locales"
+  [test]="libgtest-dev libgmock-dev clang clang-format clang-tidy libclang-rt-dev ccache python3 python3-numpy python3-venv ffmpeg chromium binutils git pkgconf shellcheck abigail-tools libsimde-dev locales valgrind"
   [demo]="ffmpeg python3"
   [convert]="python3-onnx python3-numpy python3-pip unzip"
   [python]="clang g++ cmake ninja-build libcli11-dev nlohmann-json3-dev libstb-dev zlib1g-dev python3 python3-venv python3-pip ffmpeg"

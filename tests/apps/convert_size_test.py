@@ -1,11 +1,15 @@
-"""Tests of the time and memory of mien convert: twice the input takes at most 2.3 times as long, and memory is at most 8 times the input
-plus 64 MB. Typical and worst-case files of every format.
+"""Tests of the work and memory of mien convert: twice the input takes at most 2.3 times the instructions, and memory is at most 8 times the
+input plus 64 MB. Typical and worst-case files of every format.
 
-usage: convert_size_test.py MIEN_PROGRAM [time]
-Without "time", for example under sanitizers, it only checks that all files are read.
+usage: convert_size_test.py MIEN_PROGRAM [count | time]
+    count   instructions, which valgrind counts: the same in each run, whatever else the machine does
+    time    seconds instead, of larger files; for a quiet machine
+Without either, for example under sanitizers, it only checks that all files are read.
 """
 import json
 import os
+import re
+import shutil
 import struct
 import subprocess
 import sys
@@ -13,12 +17,13 @@ import tempfile
 import time
 import unittest
 
-TIMED = "time" in sys.argv[2:]
+MEASURED = sys.argv[2] if len(sys.argv) > 2 else None
 PROGRAM = sys.argv[1]
 del sys.argv[1:]
-SIZE = 2 << 20 if TIMED else 1 << 16  # bytes of the smaller file
+SIZE = 2 << 20 if MEASURED == "time" else 1 << 16  # bytes of the smaller file
+SIZE_OF_MEMORY = 1 << 21 if MEASURED else 1 << 16
 MOST_GROWTH = 2.3
-RUNS = 15 # the fastest counts; stops at the first sufficient one
+RUNS = 15 if MEASURED == "time" else 1  # the fastest counts; stops at the first sufficient one
 
 
 def repeated(text, size):
@@ -129,14 +134,27 @@ ARKIT += "jawForward jawLeft jawRight jawOpen mouthClose mouthFunnel mouthPucker
 ARKIT += "mouthShrugLower mouthShrugUpper browInnerUp cheekPuff tongueOut".split()
 
 
-def measured(*words):
+def run(*words):
     """Seconds of CPU time, peak memory in bytes, exit code, output."""
     with tempfile.TemporaryFile() as said:
-        child = subprocess.Popen([PROGRAM, "convert", *words], stdout=subprocess.DEVNULL, stderr=said)
+        child = subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=said)
         _, status, used = os.wait4(child.pid, 0)
         child.returncode = os.waitstatus_to_exitcode(status)
         said.seek(0)
         return used.ru_utime + used.ru_stime, used.ru_maxrss * 1024, child.returncode, said.read().decode()
+
+
+def convert(*words):
+    return run(PROGRAM, "convert", *words)
+
+
+def work(*words):
+    """Billions of instructions or seconds of CPU time; exit code, output."""
+    if MEASURED != "count":
+        seconds, _, code, said = convert(*words)
+        return seconds, code, said
+    _, _, code, said = run("valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", PROGRAM, "convert", *words)
+    return int(re.search(r"Collected : (\d+)", said)[1]) / 1e9, code, said
 
 
 class Sizes(unittest.TestCase):
@@ -158,44 +176,53 @@ class Sizes(unittest.TestCase):
         return path
 
     def check(self, single, double, *more):
-        """Time and memory for two files; the second is twice as large."""
-        fastest = [float("inf")] * 2
+        """Growth from one file to another, which is twice as large, and the work for the latter."""
+        least = [float("inf")] * 2
         for _ in range(RUNS):
             for i, path in enumerate((single, double)):
-                seconds, memory, code, said = measured(path, "-", "--to", "csv", *more)
+                done, code, said = work(path, "-", "--to", "csv", *more)
                 self.assertEqual(code, 0, said)
-                fastest[i] = min(fastest[i], seconds)
-                if TIMED:
-                    self.assertLessEqual(memory, 8 * os.path.getsize(path) + (64 << 20), (memory >> 20, os.path.getsize(path)))
-            growth = fastest[1] / max(fastest[0], 1e-3)
-            if not TIMED or growth <= MOST_GROWTH:
-                return growth, fastest[1]
-        self.fail(f"{growth:.2f} times as long: {fastest[0]:.3f} s, {fastest[1]:.3f} s")
+                least[i] = min(least[i], done)
+            growth = least[1] / max(least[0], 1e-3)
+            if not MEASURED or growth <= MOST_GROWTH:
+                return growth, least[1]
+        self.fail(f"{growth:.2f} times: {least[0]:.3f}, {least[1]:.3f}")
 
-    def test_twice_the_input_takes_twice_the_time(self):
+    def test_twice_the_input_takes_twice_the_work(self):
         for name, make in FILES.items():
             with self.subTest(name):
-                began = time.monotonic()
-                growth, seconds = self.check(self.file("single", make, SIZE), self.file("double", make, 2 * SIZE))
-                print(f"{name}: {growth:.2f} times, {seconds:.2f} s, all runs {time.monotonic() - began:.1f} s", flush=True)
+                growth, done = self.check(self.file("single", make, SIZE), self.file("double", make, 2 * SIZE))
+                print(f"{name}: {growth:.2f} times, {done:.2f} {'billion instructions' if MEASURED == 'count' else 's'}", flush=True)
 
-    def test_twice_the_faces_at_a_rate_take_twice_the_time(self):
+    def test_memory_is_a_small_multiple_of_the_input(self):
+        for name, make in FILES.items():
+            with self.subTest(name):
+                path = self.file("large", make, SIZE_OF_MEMORY)
+                _, memory, code, said = convert(path, "-", "--to", "csv")
+                self.assertEqual(code, 0, said)
+                if MEASURED:
+                    self.assertLessEqual(memory, 8 * os.path.getsize(path) + (64 << 20), (memory >> 20, os.path.getsize(path)))
+
+    def test_twice_the_faces_at_a_rate_take_twice_the_work(self):
         def faces(count):
             lines = [{"t_ns": int(t * 1e9), "face_id": face, "controls": {"jawOpen": 0.5}} for t in (0, 100) for face in range(1, count + 1)]
             return "".join(json.dumps(line) + "\n" for line in lines)
-        self.check(self.file("single", faces, 20), self.file("double", faces, 40), "--fps", "100" if TIMED else "1")
+        self.check(self.file("single", faces, 20), self.file("double", faces, 40), "--fps", {"time": "100", "count": "10", None: "1"}[MEASURED])
 
     def test_the_total_of_all_faces_is_limited(self):
         lines = [{"t_ns": int(t * 1e9), "face_id": face} for t in (0, 5000) for face in range(1, 41)]
         path = self.file("faces.jsonl", lambda: "".join(json.dumps(line) + "\n" for line in lines))
-        _, _, code, said = measured(path, "-", "--to", "csv", "--fps", "100")
+        _, _, code, said = convert(path, "-", "--to", "csv", "--fps", "100")
         self.assertEqual(code, 2)
         self.assertIn("--fps: more than ten million frames", said)
         path = self.file("crowd.jsonl", numbered, '{"t_ns":0,"face_id":%d}\n', 100000)
-        _, _, code, said = measured(path, "-", "--to", "csv", "--fps", "10")
+        _, _, code, said = convert(path, "-", "--to", "csv", "--fps", "10")
         self.assertEqual(code, 2)
         self.assertIn("--fps: more than 1000 faces; select one with --face", said)
 
 
 if __name__ == "__main__":
+    if MEASURED == "count" and not shutil.which("valgrind"):
+        print("SKIPPED: needs valgrind")
+        sys.exit(77)
     unittest.main()
