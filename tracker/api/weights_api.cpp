@@ -32,7 +32,8 @@ struct Part {
   std::int32_t index = -1;   // in mien_weights_config.files
   std::uint64_t offset = 0;  // in that file, bytes
   bool packed = false;
-  std::size_t copy_bytes = 0;  // size of the copied or unpacked file; 0: used in place
+  bool in_place = false;
+  std::size_t copy_bytes = 0;  // size of the copied or unpacked file
 };
 
 struct Parts {
@@ -57,7 +58,8 @@ mien_status measure(const mien_weights_config& config, Part& part, mien_error_de
                : located(part, error);
   }
   const bool aligned = reinterpret_cast<std::uintptr_t>(part.bytes.data()) % MIEN_ALIGNMENT == 0;
-  part.copy_bytes = config.copy != 0 || !aligned ? part.bytes.size() : 0;
+  part.in_place = config.copy == 0 && aligned;
+  part.copy_bytes = part.in_place ? 0 : part.bytes.size();
   return MIEN_OK;
 }
 
@@ -86,7 +88,7 @@ mien_status list_parts(const mien_weights_config& config, Parts& parts, mien_err
     while (more) {
       const std::size_t bytes = mien::formats::first_file_bytes(rest);
       const mien_status status =
-          add(config, {rest.first(bytes), i, offset, false, 0}, parts, error);
+          add(config, {.bytes = rest.first(bytes), .index = i, .offset = offset}, parts, error);
       if (status != MIEN_OK) {
         return status;
       }
@@ -119,7 +121,7 @@ mien_status open(const Part& part, std::byte* copy, mien_weights::File& file,
       return located(part, error);
     }
     bytes = {copy, part.copy_bytes};
-  } else if (part.copy_bytes > 0) {
+  } else if (!part.in_place) {
     std::memcpy(copy, part.bytes.data(), part.bytes.size());
     bytes = {copy, part.copy_bytes};
   }
@@ -130,7 +132,7 @@ mien_status open(const Part& part, std::byte* copy, mien_weights::File& file,
     return MIEN_OK;
   }
   error = opened;
-  return located({bytes, part.index, part.packed ? 0 : part.offset, false, 0}, error);
+  return located({.index = part.index, .offset = part.packed ? 0 : part.offset}, error);
 }
 
 mien_status create(const mien_weights_config* given, mien_weights** weights,
