@@ -104,6 +104,16 @@ TEST(CurvesFile, ValuesMustBeInRange) {
             "x.csv: line 2, column 3: jawOpen: '50' is not in 0..1");
 }
 
+TEST(CurvesFile, FramesAreLimited) {
+  std::string text = "t_ms,jawOpen\n";
+  for (int i = 0; i < 216'000; ++i) {
+    text += "0,0\n";
+  }
+  EXPECT_EQ(parse_curves(text, "x.csv").size(), 216'000U);
+  EXPECT_EQ(complaint(text + "0,0\n"),
+            "x.csv: too many frames to compare (got 216001, expected at most 216000)");
+}
+
 TEST(CurvesFile, SurvivesAnyText) {
   const std::string whole =
       "t_ms,\"jawOpen\",pitch_rad,yaw_rad,roll_rad\n0,0.5,0,0,0\n33,0.6,0,0,0\n";

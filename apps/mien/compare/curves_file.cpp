@@ -2,11 +2,20 @@
 #include "apps/mien/compare/curves_file.h"
 
 #include "apps/mien/sources/animation_file.h"
+#include "apps/mien/system/failure.h"
 
 namespace mien::app {
 namespace {
 
-Curves curves_of(const formats::Clip& clip) {
+// Every frame occupies all controls in memory and in the page, however short its line is.
+constexpr std::size_t kMaxFrames = 216'000;  // two hours at 30 frames per second
+
+Curves curves_of(const formats::Clip& clip, const std::string& name) {
+  if (clip.frames.size() > kMaxFrames) {
+    throw Failure(kExitNoInput, name + ": too many frames to compare (got " +
+                                    std::to_string(clip.frames.size()) + ", expected at most " +
+                                    std::to_string(kMaxFrames) + ")");
+  }
   Curves curves;
   for (const formats::Frame& read : clip.frames) {
     CurvesFrame frame;
@@ -24,7 +33,7 @@ Curves curves_of(const formats::Clip& clip) {
 
 Curves parse_curves(std::string_view text, const std::string& name,
                     const formats::ReadOptions& options) {
-  return curves_of(parse_animation(text, name, std::nullopt, options));
+  return curves_of(parse_animation(text, name, std::nullopt, options), name);
 }
 
 Curves read_curves(const std::string& path, bool quiet) {
@@ -33,7 +42,7 @@ Curves read_curves(const std::string& path, bool quiet) {
   if (!quiet) {
     print_notes(path, clip);
   }
-  return curves_of(clip);
+  return curves_of(clip, path);
 }
 
 }  // namespace mien::app

@@ -25,8 +25,8 @@ struct CurvesFrame {
 
 using Curves = std::vector<CurvesFrame>;
 
-// Requires at least one frame and non-decreasing times. Throws Failure(kExitNoInput) with line and
-// column. Messages refer to the file as `name`.
+// Requires one to 216,000 frames and non-decreasing times. Throws Failure(kExitNoInput) with line
+// and column. Messages refer to the file as `name`.
 Curves parse_curves(std::string_view text, const std::string& name,
                     const formats::ReadOptions& options = {});
 
