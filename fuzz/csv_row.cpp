@@ -11,7 +11,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   mien::fuzz::Bytes choices(data, size);
   std::vector<char> buffer(static_cast<std::size_t>(choices.between(0, 300)));
-  mien::formats::CsvRow row(buffer);
+  mien::animation::CsvRow row(buffer);
   while (!choices.empty()) {
     switch (choices.between(0, 5)) {
       case 0:

@@ -19,7 +19,9 @@ namespace {
 
 using mien::fuzz::Bytes;
 using mien::fuzz::require;
+namespace animation = mien::animation;
 namespace formats = mien::formats;
+namespace protocols = mien::protocols;
 
 constexpr std::size_t kMaxBytes = 1500;  // maximum of a datagram, unless a single message is longer
 constexpr std::size_t kValues = formats::kControlCount + formats::kRotationCount;
@@ -38,11 +40,11 @@ double control(Bytes& bytes) {
 // Up to a million, in steps of 1 / 2147.
 double number(Bytes& bytes) { return bytes.take<std::int32_t>() / 2147.0; }
 
-formats::Angles angles(Bytes& bytes) { return {number(bytes), number(bytes), number(bytes)}; }
+animation::Angles angles(Bytes& bytes) { return {number(bytes), number(bytes), number(bytes)}; }
 
-formats::Frame frame_of(Bytes& bytes) {
-  formats::Frame frame;
-  frame.state = bytes.coin() ? formats::FaceState::kTracking : formats::FaceState::kLost;
+animation::Frame frame_of(Bytes& bytes) {
+  animation::Frame frame;
+  frame.state = bytes.coin() ? animation::FaceState::kTracking : animation::FaceState::kLost;
   frame.face_id = bytes.take<std::int64_t>();
   frame.face_probability = control(bytes);
   if (bytes.coin()) {
@@ -107,14 +109,14 @@ void check_message(OscReader message) {
   require(message.empty());
 }
 
-void check_vmc(const formats::Frame& frame, Bytes& bytes) {
-  std::vector<formats::NamedValue> blends(static_cast<std::size_t>(bytes.between(0, 60)));
-  for (formats::NamedValue& blend : blends) {
+void check_vmc(const animation::Frame& frame, Bytes& bytes) {
+  std::vector<protocols::NamedValue> blends(static_cast<std::size_t>(bytes.between(0, 60)));
+  for (protocols::NamedValue& blend : blends) {
     blend = {name_of(bytes), control(bytes)};
   }
   std::size_t messages = 0;
   for (const std::string& packet :
-       formats::vmc_packets({number(bytes), bytes.coin(), blends, frame.head})) {
+       protocols::vmc_packets({number(bytes), bytes.coin(), blends, frame.head})) {
     OscReader bundle(packet);
     require(bundle.text() == "#bundle" && bundle.big() == 0 && bundle.big() == 1);
     const std::size_t before = messages;
@@ -126,32 +128,32 @@ void check_vmc(const formats::Frame& frame, Bytes& bytes) {
   require(messages == 3 + blends.size() + (frame.head ? 1 : 0));
 }
 
-void check_ifacialmocap(const formats::Frame& frame, std::string_view datagram) {
-  const std::optional<char> separator = formats::ifacialmocap_separator(datagram);
-  const std::string hello(formats::kIfacialmocapHello);
+void check_ifacialmocap(const animation::Frame& frame, std::string_view datagram) {
+  const std::optional<char> separator = protocols::ifacialmocap_separator(datagram);
+  const std::string hello(protocols::kIfacialmocapHello);
   require(separator.has_value() ==
           (datagram == hello || datagram == hello + "|sendDataVersion=v2"));
-  const std::string text = formats::ifacialmocap_text(frame, separator.value_or('-'));
+  const std::string text = protocols::ifacialmocap_text(frame, separator.value_or('-'));
   require(static_cast<std::size_t>(std::count(text.begin(), text.end(), '|')) ==
           formats::kControlCount + 3);
   require(text.find("nan") == std::string::npos && text.find("inf") == std::string::npos);
 }
 
-void check_openseeface(const formats::Frame& frame, Bytes& bytes) {
-  formats::OpenSeeFaceImage image{
+void check_openseeface(const animation::Frame& frame, Bytes& bytes) {
+  protocols::OpenSeeFaceImage image{
       number(bytes), number(bytes), 1.0 + std::abs(number(bytes)), {}, {}};
-  for (formats::ImagePoint& point : image.landmarks) {
+  for (protocols::ImagePoint& point : image.landmarks) {
     point = {number(bytes), number(bytes)};
   }
-  const std::string packet = formats::openseeface_packet(frame, image, number(bytes));
-  require(packet.size() == formats::kOpenSeeFaceBytes);
+  const std::string packet = protocols::openseeface_packet(frame, image, number(bytes));
+  require(packet.size() == protocols::kOpenSeeFaceBytes);
 }
 
-void check_live_link(const formats::Frame& frame, Bytes& bytes) {
-  const formats::LiveLinkSubject subject{std::string(36, '0'), std::string(name_of(bytes))};
-  const std::string packet = formats::live_link_packet(frame, subject, number(bytes));
+void check_live_link(const animation::Frame& frame, Bytes& bytes) {
+  const protocols::LiveLinkSubject subject{std::string(36, '0'), std::string(name_of(bytes))};
+  const std::string packet = protocols::live_link_packet(frame, subject, number(bytes));
   const std::size_t head = 62 + subject.name.size(), values = kValues * sizeof(float);
-  const bool nothing = formats::is_blank(frame);
+  const bool nothing = animation::is_blank(frame);
   require(packet.size() == (nothing ? head : head + values));
   require(packet[head - 1] == (nothing ? 0 : static_cast<char>(kValues)));
 }
@@ -160,11 +162,11 @@ void check_live_link(const formats::Frame& frame, Bytes& bytes) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   Bytes bytes(data, size);
-  const formats::Frame frame = frame_of(bytes);
+  const animation::Frame frame = frame_of(bytes);
   check_vmc(frame, bytes);
   check_openseeface(frame, bytes);
   check_live_link(frame, bytes);
-  require(formats::opentrack_packet(frame).size() == 6 * sizeof(double));
+  require(protocols::opentrack_packet(frame).size() == 6 * sizeof(double));
   check_ifacialmocap(frame, {reinterpret_cast<const char*>(data), size});
   return 0;
 }

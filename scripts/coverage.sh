@@ -9,7 +9,7 @@ scripts/setup.sh build test coverage
 . scripts/ccache.sh
 
 build=build/coverage
-parts=(tests/{kernels,formats,engine,audio,tracker,realtime,api} fuzz)
+parts=(tests/{kernels,formats,engine,audio,tracker,realtime,api,apps/animation,apps/protocols} fuzz)
 cmake --preset coverage >/dev/null
 cmake --build --preset coverage --target "${parts[@]/%//all}"
 

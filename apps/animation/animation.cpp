@@ -13,7 +13,7 @@
 #include "apps/animation/rhubarb.h"
 #include "apps/animation/text_encoding.h"
 
-namespace mien::formats {
+namespace mien::animation {
 namespace {
 
 // Detects the kind of table from its first line.
@@ -25,13 +25,13 @@ AnimationFormat table_kind(std::string_view text) {
   }
   for (std::size_t i = 0; i < table.size(); ++i) {
     const std::string_view cell = trimmed(table.cell(i));
-    if (same_name(cell, "Timecode")) {
+    if (formats::same_name(cell, "Timecode")) {
       return AnimationFormat::kLiveLink;
     }
-    if (same_name(cell, "JawDrop")) {
+    if (formats::same_name(cell, "JawDrop")) {
       return AnimationFormat::kRoblox;
     }
-    if (same_name(cell, "sil")) {
+    if (formats::same_name(cell, "sil")) {
       return AnimationFormat::kVisemes;
     }
   }
@@ -69,7 +69,7 @@ std::string_view name(AnimationFormat format) {
 
 std::optional<AnimationFormat> format_named(std::string_view name) {
   for (const FormatName& known : kFormatNames) {
-    if (same_name(known.name, name)) {
+    if (formats::same_name(known.name, name)) {
       return known.format;
     }
   }
@@ -79,8 +79,9 @@ std::optional<AnimationFormat> format_named(std::string_view name) {
 std::optional<AnimationFormat> format_by_ending(std::string_view path) {
   const FormatName* best = nullptr;
   for (const FormatName& known : kFormatNames) {
-    const bool fits = path.size() > known.ending.size() &&
-                      same_name(path.substr(path.size() - known.ending.size()), known.ending);
+    const bool fits =
+        path.size() > known.ending.size() &&
+        formats::same_name(path.substr(path.size() - known.ending.size()), known.ending);
     if (fits && (best == nullptr || known.ending.size() > best->ending.size())) {
       best = &known;
     }
@@ -183,4 +184,4 @@ bool read_animation(AnimationFormat format, std::string_view bytes, const ReadOp
   return false;
 }
 
-}  // namespace mien::formats
+}  // namespace mien::animation

@@ -15,7 +15,7 @@
 #include "apps/animation/read_options.h"
 #include "apps/animation/writer.h"
 
-namespace mien::formats {
+namespace mien::animation {
 
 enum class AnimationFormat : std::uint8_t {
   kCsv,
@@ -101,11 +101,12 @@ class Losses {
  private:
   AnimationFormat format_;
   std::vector<LossCheck> checks_;
-  std::vector<bool> there_;                    // per check
-  std::array<bool, kControlCount> changed_{};  // controls that Roblox's units do not preserve
-  bool gaps_ = false;                          // some controls are unsupported
+  std::vector<bool> there_;  // per check
+  std::array<bool, formats::kControlCount>
+      changed_{};      // controls that Roblox's units do not preserve
+  bool gaps_ = false;  // some controls are unsupported
 };
 
 [[nodiscard]] std::vector<std::string> losses(const Clip& clip, AnimationFormat format);
 
-}  // namespace mien::formats
+}  // namespace mien::animation

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <utility>
 
-namespace mien::formats {
+namespace mien::animation {
 namespace {
 
 constexpr std::string_view kLetters =
@@ -69,4 +69,4 @@ bool parse_base64(std::string_view text, std::string& bytes) {
   return true;
 }
 
-}  // namespace mien::formats
+}  // namespace mien::animation

@@ -4,11 +4,11 @@
 #include <string>
 #include <string_view>
 
-namespace mien::formats {
+namespace mien::animation {
 
 [[nodiscard]] std::string base64(std::string_view bytes);
 
 // Returns false and leaves `bytes` unchanged if `text` is not padded base64.
 [[nodiscard]] bool parse_base64(std::string_view text, std::string& bytes);
 
-}  // namespace mien::formats
+}  // namespace mien::animation

@@ -10,7 +10,7 @@
 #include "apps/animation/resample.h"
 #include "apps/animation/rotation.h"
 
-namespace mien::formats {
+namespace mien::animation {
 namespace {
 
 constexpr int kDecimals = 6;
@@ -74,4 +74,4 @@ std::unique_ptr<AnimationWriter> bvh_writer(LengthUnit unit) {
   return std::make_unique<BvhWriter>(unit);
 }
 
-}  // namespace mien::formats
+}  // namespace mien::animation

@@ -12,7 +12,7 @@
 #include "apps/animation/read_options.h"
 #include "apps/animation/writer.h"
 
-namespace mien::formats {
+namespace mien::animation {
 
 [[nodiscard]] std::unique_ptr<AnimationWriter> bvh_writer(LengthUnit unit);
 
@@ -22,4 +22,4 @@ namespace mien::formats {
 [[nodiscard]] bool read_bvh(std::string_view text, const ReadOptions& options, Clip& clip,
                             Fault& fault);
 
-}  // namespace mien::formats
+}  // namespace mien::animation

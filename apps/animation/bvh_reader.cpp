@@ -10,7 +10,7 @@
 #include "apps/animation/numbers.h"
 #include "apps/animation/rotation.h"
 
-namespace mien::formats {
+namespace mien::animation {
 namespace {
 
 constexpr double kDegreesInRadian = 180.0 / std::numbers::pi;
@@ -111,7 +111,7 @@ class BvhReader {
  private:
   bool expect(std::string_view wanted) {
     const std::string_view word = words_.next();
-    return same_name(word, wanted) ||
+    return formats::same_name(word, wanted) ||
            words_.fail_here("expected " + quoted(wanted) + " (got " + quoted(word) + ")", fault_);
   }
 
@@ -137,11 +137,11 @@ class BvhReader {
     }
     joints_[self].offset = offset;
     for (std::string_view word = words_.next(); word != "}"; word = words_.next()) {
-      if (same_name(word, "JOINT")) {
+      if (formats::same_name(word, "JOINT")) {
         if (!read_joint(self, depth + 1)) {
           return false;
         }
-      } else if (same_name(word, "End")) {
+      } else if (formats::same_name(word, "End")) {
         if (!expect("Site") || !expect("{") || !expect("OFFSET") || !vector(joints_[self].end) ||
             !expect("}")) {
           return false;
@@ -162,9 +162,10 @@ class BvhReader {
     }
     for (std::int64_t i = 0; i < count; ++i) {
       const std::string_view name = words_.next();
-      const bool rotates = name.size() == 9 && same_name(name.substr(1), "rotation");
-      const bool moves = name.size() == 9 && same_name(name.substr(1), "position");
-      const std::size_t axis = name.empty() ? 3 : std::string_view("xyz").find(to_lower(name[0]));
+      const bool rotates = name.size() == 9 && formats::same_name(name.substr(1), "rotation");
+      const bool moves = name.size() == 9 && formats::same_name(name.substr(1), "position");
+      const std::size_t axis =
+          name.empty() ? 3 : std::string_view("xyz").find(formats::to_lower(name[0]));
       if ((!rotates && !moves) || axis > 2) {
         return words_.fail_here("unknown channel " + quoted(name), fault_);
       }
@@ -176,7 +177,7 @@ class BvhReader {
   void find_head() {
     const auto found = std::find_if(joints_.begin(), joints_.end(), [](const Joint& joint) {
       const std::string_view name = joint.name;
-      return name.size() >= 4 && same_name(name.substr(name.size() - 4), "head");
+      return name.size() >= 4 && formats::same_name(name.substr(name.size() - 4), "head");
     });
     head_ = found != joints_.end() ? static_cast<std::size_t>(found - joints_.begin()) : 0;
     for (std::size_t i = head_; i != joints_[i].parent; i = joints_[i].parent) {
@@ -356,4 +357,4 @@ bool read_bvh(std::string_view text, const ReadOptions& options, Clip& clip, Fau
   return true;
 }
 
-}  // namespace mien::formats
+}  // namespace mien::animation

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace mien::formats {
+namespace mien::animation {
 
 const char* name(FaceState state) {
   switch (state) {
@@ -76,4 +76,4 @@ bool add_frame(Clip& clip, const Frame& frame, std::size_t line, Fault& fault) {
          fail(fault, line, 1, "the frames take too much memory for a file of this size");
 }
 
-}  // namespace mien::formats
+}  // namespace mien::animation

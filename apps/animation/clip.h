@@ -10,7 +10,7 @@
 #include "apps/animation/frame.h"
 #include "apps/animation/frame_sequence.h"
 
-namespace mien::formats {
+namespace mien::animation {
 
 struct Clip {
   FrameSequence frames;            // times do not decrease
@@ -33,4 +33,4 @@ struct Clip {
 // Whether each frame is within half a millisecond of its even time.
 [[nodiscard]] bool evenly_spaced(const FrameSequence& frames);
 
-}  // namespace mien::formats
+}  // namespace mien::animation

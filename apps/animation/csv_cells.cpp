@@ -7,14 +7,15 @@
 #include "apps/animation/numbers.h"
 #include "formats/vocabulary/vocabulary.h"
 
-namespace mien::formats {
+namespace mien::animation {
 
 namespace {
 
 // Compares without case.
 bool before(std::string_view a, std::string_view b) {
-  return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(),
-                                      [](char x, char y) { return to_lower(x) < to_lower(y); });
+  return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) {
+    return formats::to_lower(x) < formats::to_lower(y);
+  });
 }
 
 }  // namespace
@@ -36,7 +37,7 @@ bool CsvHeader::read(CsvTable& table, Fault& fault) {
                    [this](const Name& a, const Name& b) { return before(text(a), text(b)); });
   const auto twice = std::adjacent_find(
       sorted_.begin(), sorted_.end(),
-      [this](const Name& a, const Name& b) { return same_name(text(a), text(b)); });
+      [this](const Name& a, const Name& b) { return formats::same_name(text(a), text(b)); });
   return twice == sorted_.end() ||
          table.fail_at(twice[1].column, "duplicate column " + quoted(text(*twice)), fault);
 }
@@ -50,7 +51,8 @@ Column CsvHeader::find(std::string_view name) const {
   const auto found =
       std::lower_bound(sorted_.begin(), sorted_.end(), name,
                        [this](const Name& a, std::string_view b) { return before(text(a), b); });
-  return found != sorted_.end() && same_name(text(*found), name) ? Column(found->column) : Column();
+  return found != sorted_.end() && formats::same_name(text(*found), name) ? Column(found->column)
+                                                                          : Column();
 }
 
 std::string_view CsvHeader::name(std::size_t column) const {
@@ -96,7 +98,7 @@ bool read_share(CsvTable& table, const CsvHeader& header, Column column, double&
         std::string(header.name(*column)) + ": " + quoted(table.cell(*column)) + " is not in 0..1",
         fault);
   }
-  value = number.value_or(kNoNumber);
+  value = number.value_or(formats::kNoNumber);
   return true;
 }
 
@@ -106,7 +108,7 @@ bool read_clamped(CsvTable& table, const CsvHeader& header, Column column, doubl
   if (!read_cell(table, header, column, number, fault)) {
     return false;
   }
-  value = number ? into_range(*number, out_of_range) : kNoNumber;
+  value = number ? into_range(*number, out_of_range) : formats::kNoNumber;
   return true;
 }
 
@@ -116,4 +118,4 @@ double into_range(double value, std::int64_t& out_of_range) {
   return inside;
 }
 
-}  // namespace mien::formats
+}  // namespace mien::animation

@@ -10,7 +10,7 @@
 
 #include "apps/animation/csv_table.h"
 
-namespace mien::formats {
+namespace mien::animation {
 
 using Column = std::optional<std::size_t>;
 
@@ -56,4 +56,4 @@ class CsvHeader {
 // Clamps to 0..1, and counts values outside.
 [[nodiscard]] double into_range(double value, std::int64_t& out_of_range);
 
-}  // namespace mien::formats
+}  // namespace mien::animation

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace mien::formats {
+namespace mien::animation {
 
 void CsvRow::put(std::string_view text) {
   if (text.size() > buffer_.size() - used_) {
@@ -68,4 +68,4 @@ std::string_view CsvRow::finish() {
   return line;
 }
 
-}  // namespace mien::formats
+}  // namespace mien::animation

@@ -7,7 +7,7 @@
 #include <span>
 #include <string_view>
 
-namespace mien::formats {
+namespace mien::animation {
 
 class CsvRow {
  public:
@@ -37,4 +37,4 @@ class CsvRow {
   bool overflow_ = false;
 };
 
-}  // namespace mien::formats
+}  // namespace mien::animation

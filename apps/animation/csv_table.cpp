@@ -6,7 +6,7 @@
 
 #include "apps/animation/numbers.h"
 
-namespace mien::formats {
+namespace mien::animation {
 namespace {
 
 std::string_view first_line(std::string_view text) { return text.substr(0, text.find('\n')); }
@@ -101,4 +101,4 @@ bool CsvTable::fail_at(std::size_t i, const std::string& what, Fault& fault) con
   return fail(fault, line_, i < starts_.size() ? starts_[i] + 1 : 1, what);
 }
 
-}  // namespace mien::formats
+}  // namespace mien::animation

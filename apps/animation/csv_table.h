@@ -11,7 +11,7 @@
 
 #include "apps/animation/fault.h"
 
-namespace mien::formats {
+namespace mien::animation {
 
 // Byte offsets of the cells of a row: 4 bytes each, because a row may be the whole file. A deque
 // grows without copying.
@@ -47,4 +47,4 @@ class CsvTable {
   std::string unquoted_;
 };
 
-}  // namespace mien::formats
+}  // namespace mien::animation

@@ -14,7 +14,7 @@
 #include "formats/vocabulary/visemes.h"
 #include "formats/vocabulary/vocabulary.h"
 
-namespace mien::formats {
+namespace mien::animation {
 namespace {
 
 constexpr std::array<std::string_view, 4> kBoxNames = {"x", "y", "w", "h"};
@@ -28,7 +28,7 @@ class Row : public CsvRow {
   Row() : CsvRow(room_) {}
 
  private:
-  std::array<char, CsvRow::kMaxNumberBytes*(16 + kControlCount)> room_;
+  std::array<char, CsvRow::kMaxNumberBytes*(16 + formats::kControlCount)> room_;
 };
 
 using Names = std::span<const std::string_view>;
@@ -36,13 +36,13 @@ using Names = std::span<const std::string_view>;
 Names names_of(Weights weights) {
   switch (weights) {
     case Weights::kControls:
-      return kArkitNames;
+      return formats::kArkitNames;
     case Weights::kFacs:
-      return kFacsNames;
+      return formats::kFacsNames;
     case Weights::kFacsLevel1:
-      return kFacsLevel1Names;
+      return formats::kFacsLevel1Names;
     case Weights::kVisemes:
-      return kVisemeNames;
+      return formats::kVisemeNames;
   }
   return {};
 }
@@ -53,7 +53,7 @@ std::vector<double> weights_of(const Frame& frame, Weights weights) {
     return {frame.controls.begin(), frame.controls.end()};
   }
   if (weights == Weights::kVisemes) {
-    const auto mixed = visemes_of(frame.controls);
+    const auto mixed = formats::visemes_of(frame.controls);
     return !frame.visemes.empty() ? frame.visemes : std::vector(mixed.begin(), mixed.end());
   }
   const auto mapped = facs_of(frame.controls);
@@ -63,9 +63,9 @@ std::vector<double> weights_of(const Frame& frame, Weights weights) {
     return facs;
   }
   std::vector<double> level_1;
-  level_1.reserve(kFacsLevel1Names.size());
-  for (const std::string_view unit : kFacsLevel1Names) {
-    level_1.push_back(facs[index_of(unit, kFacsNames)]);
+  level_1.reserve(formats::kFacsLevel1Names.size());
+  for (const std::string_view unit : formats::kFacsLevel1Names) {
+    level_1.push_back(facs[formats::index_of(unit, formats::kFacsNames)]);
   }
   return level_1;
 }
@@ -283,10 +283,11 @@ class CurvesReader {
       std::copy(values.begin(), values.end(), frame.controls.begin());
     } else if (weights_ == Weights::kFacs) {
       frame.facs = values;
-      frame.controls = controls_of_facs(std::span<const double, kFacsCount>(values));
+      frame.controls = controls_of_facs(std::span<const double, formats::kFacsCount>(values));
     } else {
       frame.visemes = values;
-      frame.controls = controls_of_visemes(std::span<const double, kVisemeCount>(values));
+      frame.controls =
+          formats::controls_of_visemes(std::span<const double, formats::kVisemeCount>(values));
     }
     return true;
   }
@@ -315,4 +316,4 @@ bool read_curves_csv(std::string_view text, Clip& clip, Fault& fault) {
   return true;
 }
 
-}  // namespace mien::formats
+}  // namespace mien::animation

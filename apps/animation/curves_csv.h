@@ -9,7 +9,7 @@
 #include "apps/animation/fault.h"
 #include "apps/animation/writer.h"
 
-namespace mien::formats {
+namespace mien::animation {
 
 // The vocabulary of the last columns: the 52 controls, Roblox's 50 units or the 6 of its level of
 // detail 1, or the 15 visemes. The columns before them are the same.
@@ -24,4 +24,4 @@ enum class Weights : std::uint8_t { kControls, kFacs, kFacsLevel1, kVisemes };
 // one weight are required. Leaves `clip` unchanged on failure.
 [[nodiscard]] bool read_curves_csv(std::string_view text, Clip& clip, Fault& fault);
 
-}  // namespace mien::formats
+}  // namespace mien::animation

@@ -6,20 +6,20 @@
 #include "apps/animation/clip.h"
 #include "formats/vocabulary/facs_rows.h"
 
-namespace mien::formats {
+namespace mien::animation {
 namespace {
 
 // If one control is unknown, the other one counts.
-double joined(double a, double b, Join join) {
-  if (!driven(a) || !driven(b)) {
-    return driven(a) ? a : b;
+double joined(double a, double b, formats::Join join) {
+  if (!formats::driven(a) || !formats::driven(b)) {
+    return formats::driven(a) ? a : b;
   }
   switch (join) {
-    case Join::kMean:
+    case formats::Join::kMean:
       return (a + b) / 2.0;
-    case Join::kMax:
+    case formats::Join::kMax:
       return std::max(a, b);
-    case Join::kMin:
+    case formats::Join::kMin:
       return std::min(a, b);
   }
   return a;
@@ -27,28 +27,30 @@ double joined(double a, double b, Join join) {
 
 }  // namespace
 
-std::array<double, kFacsCount> facs_of(const std::array<double, kControlCount>& controls) {
-  std::array<double, kFacsCount> facs;
-  facs.fill(kNoNumber);
-  for (const FacsRow& row : kFacsRows) {
+std::array<double, formats::kFacsCount> facs_of(
+    const std::array<double, formats::kControlCount>& controls) {
+  std::array<double, formats::kFacsCount> facs;
+  facs.fill(formats::kNoNumber);
+  for (const formats::FacsRow& row : formats::kFacsRows) {
     facs[row.unit] = joined(controls[row.first], controls[row.second], row.join);
   }
   return facs;
 }
 
-std::array<double, kControlCount> controls_of_facs(std::span<const double, kFacsCount> facs) {
-  std::array<double, kControlCount> controls;
-  controls.fill(kNoNumber);
-  for (const FacsRow& row : kFacsRows) {
-    if (row.join == Join::kMin) {
+std::array<double, formats::kControlCount> controls_of_facs(
+    std::span<const double, formats::kFacsCount> facs) {
+  std::array<double, formats::kControlCount> controls;
+  controls.fill(formats::kNoNumber);
+  for (const formats::FacsRow& row : formats::kFacsRows) {
+    if (row.join == formats::Join::kMin) {
       continue;
     }
-    controls[row.first] = joined(controls[row.first], facs[row.unit], Join::kMean);
+    controls[row.first] = joined(controls[row.first], facs[row.unit], formats::Join::kMean);
     if (row.second != row.first) {
-      controls[row.second] = joined(controls[row.second], facs[row.unit], Join::kMean);
+      controls[row.second] = joined(controls[row.second], facs[row.unit], formats::Join::kMean);
     }
   }
   return controls;
 }
 
-}  // namespace mien::formats
+}  // namespace mien::animation

@@ -7,15 +7,15 @@
 
 #include "formats/vocabulary/vocabulary.h"
 
-namespace mien::formats {
+namespace mien::animation {
 
 // kNoNumber if the controls of a unit are unknown, and for FlatPucker, TongueUp and TongueDown,
 // which ARKit lacks.
-[[nodiscard]] std::array<double, kFacsCount> facs_of(
-    const std::array<double, kControlCount>& controls);
+[[nodiscard]] std::array<double, formats::kFacsCount> facs_of(
+    const std::array<double, formats::kControlCount>& controls);
 
 // kNoNumber for jawForward, which Roblox lacks, and if the units are kNoNumber.
-[[nodiscard]] std::array<double, kControlCount> controls_of_facs(
-    std::span<const double, kFacsCount> facs);
+[[nodiscard]] std::array<double, formats::kControlCount> controls_of_facs(
+    std::span<const double, formats::kFacsCount> facs);
 
-}  // namespace mien::formats
+}  // namespace mien::animation

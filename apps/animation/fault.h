@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-namespace mien::formats {
+namespace mien::animation {
 
 struct Fault {
   std::size_t line = 0;    // from 1; 0: a binary file
@@ -29,4 +29,4 @@ struct Fault {
   return false;
 }
 
-}  // namespace mien::formats
+}  // namespace mien::animation

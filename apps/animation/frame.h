@@ -8,7 +8,7 @@
 
 #include "formats/vocabulary/vocabulary.h"
 
-namespace mien::formats {
+namespace mien::animation {
 
 enum class FaceState : std::uint8_t { kSearching, kTracking, kLost };
 
@@ -26,9 +26,9 @@ struct Frame {
   std::int64_t time_ns = 0;  // satisfies time_allowed
   FaceState state = FaceState::kTracking;
   std::int64_t face_id = 0;
-  double face_probability = kNoNumber;  // 0..1
-  double voice_activity = kNoNumber;    // 0..1
-  std::int64_t lod = 0;                 // 0: unknown
+  double face_probability = formats::kNoNumber;  // 0..1
+  double voice_activity = formats::kNoNumber;    // 0..1
+  std::int64_t lod = 0;                          // 0: unknown
 
   std::optional<std::array<double, 4>> box;         // x, y, width, height, pixels
   std::optional<Angles> head;                       // head to camera
@@ -36,7 +36,7 @@ struct Frame {
   std::optional<std::array<Angles, 2>> eyes;        // left, right; eye to head
 
   // 0..1 in the order of kArkitNames; kNoNumber for unsupported controls.
-  std::array<double, kControlCount> controls;
+  std::array<double, formats::kControlCount> controls;
 
   // Values of a file in another vocabulary; `controls` are derived from them.
   std::vector<double> facs;     // empty, or 50 in 0..1 in the order of kFacsNames, or kNoNumber
@@ -47,7 +47,7 @@ struct Frame {
   // Whether the values are held until the next frame instead of interpolated.
   [[nodiscard]] bool holds() const { return step || mouth_shape != 0; }
 
-  Frame() { controls.fill(kNoNumber); }
+  Frame() { controls.fill(formats::kNoNumber); }
 
   // Rounded once: no 33.333332999999996.
   [[nodiscard]] double time_ms() const;
@@ -66,4 +66,4 @@ inline constexpr std::int64_t kLastTime_ns = (std::int64_t{1} << 62) - 1;
 inline constexpr std::int64_t kSecond_ns = 1'000'000'000;
 inline constexpr std::int64_t kMillisecond_ns = 1'000'000;
 
-}  // namespace mien::formats
+}  // namespace mien::animation

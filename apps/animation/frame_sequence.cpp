@@ -10,7 +10,7 @@
 #include "apps/animation/facs_map.h"
 #include "formats/vocabulary/visemes.h"
 
-namespace mien::formats {
+namespace mien::animation {
 namespace {
 
 // Per frame: three 64-bit varints and 18 groups.
@@ -20,7 +20,8 @@ constexpr std::size_t kFirstBlock = 256, kMaxBlock = std::size_t{1} << 16;
 // Indices of slots.
 constexpr std::size_t kKindAt = 0, kFaceAt = 1, kLodAt = 2, kProbabilityAt = 3, kVoiceAt = 4,
                       kBoxAt = 5, kHeadAt = 9, kPositionAt = 12, kEyesAt = 15, kControlsAt = 21,
-                      kFacsAt = kControlsAt + kControlCount, kVisemesAt = kFacsAt + kFacsCount;
+                      kFacsAt = kControlsAt + formats::kControlCount,
+                      kVisemesAt = kFacsAt + formats::kFacsCount;
 
 // Bits of the first slot; mouth shape and state use the bits above.
 constexpr std::uint64_t kHasBox = 1, kHasHead = 2, kHasPosition = 4, kHasEyes = 8, kHasFacs = 16,
@@ -30,15 +31,16 @@ constexpr unsigned kShapeShift = 8, kStateShift = 16;
 std::uint64_t bits(double value) { return std::bit_cast<std::uint64_t>(value); }
 
 // Controls derived from a vocabulary; all 0 without one.
-std::array<double, kControlCount> derived(const Frame& frame) {
+std::array<double, formats::kControlCount> derived(const Frame& frame) {
   if (frame.mouth_shape != 0) {
-    return controls_of_visemes(visemes_of_mouth_shape(frame.mouth_shape));
+    return formats::controls_of_visemes(formats::visemes_of_mouth_shape(frame.mouth_shape));
   }
-  if (frame.visemes.size() == kVisemeCount) {
-    return controls_of_visemes(std::span<const double, kVisemeCount>(frame.visemes));
+  if (frame.visemes.size() == formats::kVisemeCount) {
+    return formats::controls_of_visemes(
+        std::span<const double, formats::kVisemeCount>(frame.visemes));
   }
-  if (frame.facs.size() == kFacsCount) {
-    return controls_of_facs(std::span<const double, kFacsCount>(frame.facs));
+  if (frame.facs.size() == formats::kFacsCount) {
+    return controls_of_facs(std::span<const double, formats::kFacsCount>(frame.facs));
   }
   return {};
 }
@@ -207,9 +209,9 @@ void FrameSequence::take(const State& state, Frame& frame) {
       (kind & kHasEyes) != 0
           ? std::optional(std::array{angles_at(&slots[kEyesAt]), angles_at(&slots[kEyesAt + 3])})
           : std::nullopt;
-  frame.facs.resize((kind & kHasFacs) != 0 ? kFacsCount : 0);
+  frame.facs.resize((kind & kHasFacs) != 0 ? formats::kFacsCount : 0);
   take_all(&slots[kFacsAt], frame.facs);
-  frame.visemes.resize((kind & kHasVisemes) != 0 ? kVisemeCount : 0);
+  frame.visemes.resize((kind & kHasVisemes) != 0 ? formats::kVisemeCount : 0);
   take_all(&slots[kVisemesAt], frame.visemes);
   if ((kind & kDerived) != 0) {
     frame.controls = derived(frame);
@@ -317,4 +319,4 @@ void FrameSequence::Iterator::read() {
   take(state_, frame_);
 }
 
-}  // namespace mien::formats
+}  // namespace mien::animation

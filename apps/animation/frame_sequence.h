@@ -15,7 +15,7 @@
 
 #include "apps/animation/frame.h"
 
-namespace mien::formats {
+namespace mien::animation {
 
 class FrameSequence {
  public:
@@ -118,4 +118,4 @@ void FrameSequence::consume(Visit visit) {
   *this = FrameSequence();
 }
 
-}  // namespace mien::formats
+}  // namespace mien::animation

@@ -10,7 +10,7 @@
 #include "apps/animation/numbers.h"
 #include "apps/animation/rotation.h"
 
-namespace mien::formats {
+namespace mien::animation {
 namespace {
 
 using Kind = JsonValue::Kind;
@@ -33,7 +33,7 @@ std::string json_angles(const Angles& angles) {
 std::string json_weights(std::span<const double> values, std::span<const std::string_view> names) {
   std::string text = "{";
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (driven(values[i])) {
+    if (formats::driven(values[i])) {
       text.append(text.size() > 1 ? "," : "").append("\"").append(names[i]).append("\":");
       text.append(shortest(values[i]));
     }
@@ -58,9 +58,10 @@ class ObjectReader {
            read_share("vad", frame.voice_activity) && read_array("box", frame.box) &&
            read_angles(object_.find("head"), frame.head) &&
            read_array("position_m", frame.position_m) && read_eyes(frame) &&
-           read_weights("controls", kArkitNames, frame.controls) &&
-           read_list("facs", kFacsNames, frame.facs) &&
-           read_list("visemes", kVisemeNames, frame.visemes) && read_shape(frame.mouth_shape);
+           read_weights("controls", formats::kArkitNames, frame.controls) &&
+           read_list("facs", formats::kFacsNames, frame.facs) &&
+           read_list("visemes", formats::kVisemeNames, frame.visemes) &&
+           read_shape(frame.mouth_shape);
   }
 
  private:
@@ -178,7 +179,7 @@ class ObjectReader {
     const JsonValue::Items members = found->items();
     for (auto at = members.begin(); at != members.end(); ++at) {
       const std::string name = at.key().text();
-      const std::size_t which = index_of(name, names);
+      const std::size_t which = formats::index_of(name, names);
       if (which == N) {
         return (*at).fail_here(std::string(key) + ": unknown name " + quoted(name), fault_);
       }
@@ -195,7 +196,7 @@ class ObjectReader {
     if (!object_.find(key)) {
       return true;
     }
-    values.assign(N, kNoNumber);
+    values.assign(N, formats::kNoNumber);
     return read_weights(key, names, values);
   }
 
@@ -205,7 +206,7 @@ class ObjectReader {
       return true;
     }
     const std::string said = found->text();
-    if (said.size() != 1 || kMouthShapes.find(said[0]) == kMouthShapes.npos) {
+    if (said.size() != 1 || formats::kMouthShapes.find(said[0]) == formats::kMouthShapes.npos) {
       return found->fail_here("mouth_shape: expected A to H or X", fault_);
     }
     shape = said[0];
@@ -230,13 +231,13 @@ std::string frame_json(const Frame& frame) {
   const auto member = [&text](const char* key, const std::string& value) {
     text.append(",\"").append(key).append("\":").append(value);
   };
-  if (driven(frame.face_probability)) {
+  if (formats::driven(frame.face_probability)) {
     member("face_prob", shortest(frame.face_probability));
   }
   if (frame.lod != 0) {
     member("lod", std::to_string(frame.lod));
   }
-  if (driven(frame.voice_activity)) {
+  if (formats::driven(frame.voice_activity)) {
     member("vad", shortest(frame.voice_activity));
   }
   if (frame.box) {
@@ -253,12 +254,12 @@ std::string frame_json(const Frame& frame) {
     member("eyes", "{\"left\":{" + json_angles((*frame.eyes)[0]) + "},\"right\":{" +
                        json_angles((*frame.eyes)[1]) + "}}");
   }
-  member("controls", json_weights(frame.controls, kArkitNames));
+  member("controls", json_weights(frame.controls, formats::kArkitNames));
   if (!frame.facs.empty()) {
-    member("facs", json_weights(frame.facs, kFacsNames));
+    member("facs", json_weights(frame.facs, formats::kFacsNames));
   }
   if (!frame.visemes.empty()) {
-    member("visemes", json_weights(frame.visemes, kVisemeNames));
+    member("visemes", json_weights(frame.visemes, formats::kVisemeNames));
   }
   if (frame.mouth_shape != 0) {
     member("mouth_shape", std::string("\"") + frame.mouth_shape + "\"");
@@ -301,4 +302,4 @@ bool read_frames_jsonl(std::string_view text, Clip& clip, Fault& fault) {
   return true;
 }
 
-}  // namespace mien::formats
+}  // namespace mien::animation

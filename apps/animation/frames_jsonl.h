@@ -9,7 +9,7 @@
 #include "apps/animation/fault.h"
 #include "apps/animation/writer.h"
 
-namespace mien::formats {
+namespace mien::animation {
 
 // One object without a line feed, also used for network packets.
 [[nodiscard]] std::string frame_json(const Frame& frame);
@@ -19,4 +19,4 @@ namespace mien::formats {
 // Every object must have t_ns; unknown keys are ignored. Leaves `clip` unchanged on failure.
 [[nodiscard]] bool read_frames_jsonl(std::string_view text, Clip& clip, Fault& fault);
 
-}  // namespace mien::formats
+}  // namespace mien::animation

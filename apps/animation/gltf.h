@@ -17,7 +17,7 @@
 #include "apps/animation/read_options.h"
 #include "apps/animation/writer.h"
 
-namespace mien::formats {
+namespace mien::animation {
 
 enum class GltfForm : std::uint8_t { kText, kBinary };
 
@@ -32,4 +32,4 @@ enum class GltfForm : std::uint8_t { kText, kBinary };
 [[nodiscard]] bool read_gltf(std::string_view bytes, const ReadOptions& options, Clip& clip,
                              Fault& fault);
 
-}  // namespace mien::formats
+}  // namespace mien::animation

@@ -7,7 +7,7 @@
 #include "apps/animation/base64.h"
 #include "apps/animation/numbers.h"
 
-namespace mien::formats {
+namespace mien::animation {
 namespace {
 
 constexpr std::int64_t kByte = 5120, kUnsignedByte = 5121, kShort = 5122, kUnsignedShort = 5123,
@@ -32,9 +32,11 @@ std::string percent_decoded(std::string_view text) {
   constexpr std::string_view kDigits = "0123456789abcdef";
   std::string decoded;
   for (std::size_t i = 0; i < text.size(); ++i) {
-    const std::size_t high =
-        i + 2 < text.size() && text[i] == '%' ? kDigits.find(to_lower(text[i + 1])) : kDigits.npos;
-    const std::size_t low = high != kDigits.npos ? kDigits.find(to_lower(text[i + 2])) : high;
+    const std::size_t high = i + 2 < text.size() && text[i] == '%'
+                                 ? kDigits.find(formats::to_lower(text[i + 1]))
+                                 : kDigits.npos;
+    const std::size_t low =
+        high != kDigits.npos ? kDigits.find(formats::to_lower(text[i + 2])) : high;
     if (low == kDigits.npos) {
       decoded += text[i];
     } else {
@@ -270,4 +272,4 @@ bool GltfFile::load(const JsonValue& buffer, const JsonValue& uri, std::string& 
          uri.fail_here("uri: " + quoted(name) + ": " + why, fault_);
 }
 
-}  // namespace mien::formats
+}  // namespace mien::animation

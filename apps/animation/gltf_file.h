@@ -13,7 +13,7 @@
 #include "apps/animation/json.h"
 #include "apps/animation/read_options.h"
 
-namespace mien::formats {
+namespace mien::animation {
 
 // The numbers of an accessor, read one by one: floats, or integers that represent -1..1 or 0..1.
 class GltfNumbers {
@@ -71,4 +71,4 @@ class GltfFile {
   std::map<std::size_t, std::string> loaded_;
 };
 
-}  // namespace mien::formats
+}  // namespace mien::animation

@@ -13,7 +13,7 @@
 #include "apps/animation/numbers.h"
 #include "apps/animation/rotation.h"
 
-namespace mien::formats {
+namespace mien::animation {
 namespace {
 
 // ARKit's mouthSmileLeft, or its mouthSmile_L.
@@ -23,7 +23,7 @@ std::size_t control_of(std::string_view name) {
     whole.resize(whole.size() - 2);
     whole += name.ends_with("_L") ? "Left" : "Right";
   }
-  return index_of(whole, kArkitNames);
+  return formats::index_of(whole, formats::kArkitNames);
 }
 
 // The keys of a channel: `width` numbers at each time.
@@ -145,11 +145,11 @@ class GltfReader {
       return read_weights(node, sampler);
     }
     if (what == "rotation" || what == "translation") {
-      Track* track = what == "translation"           ? (is_head(called) ? &head_moves_ : nullptr)
-                     : is_head(called)               ? &head_turns_
-                     : same_name(called, "leftEye")  ? &eye_turns_[0]
-                     : same_name(called, "rightEye") ? &eye_turns_[1]
-                                                     : nullptr;
+      Track* track = what == "translation" ? (is_head(called) ? &head_moves_ : nullptr)
+                     : is_head(called)     ? &head_turns_
+                     : formats::same_name(called, "leftEye")  ? &eye_turns_[0]
+                     : formats::same_name(called, "rightEye") ? &eye_turns_[1]
+                                                              : nullptr;
       if (track != nullptr && track->width == 0) {
         return read_sampler(sampler, what == "rotation" ? 4 : 3, 1, *track);
       }
@@ -158,7 +158,7 @@ class GltfReader {
   }
 
   static bool is_head(std::string_view name) {
-    return name.size() >= 4 && same_name(name.substr(name.size() - 4), "head");
+    return name.size() >= 4 && formats::same_name(name.substr(name.size() - 4), "head");
   }
 
   bool read_weights(const JsonValue& node, const JsonValue& sampler) {
@@ -183,7 +183,7 @@ class GltfReader {
     std::vector<std::size_t> targets;
     for (const JsonValue target : names->items()) {
       targets.push_back(control_of(target.text()));
-      any = any || targets.back() < kControlCount;
+      any = any || targets.back() < formats::kControlCount;
     }
     if (!any) {
       other_meshes_[*index] = true;
@@ -214,8 +214,8 @@ class GltfReader {
       return true;
     }
     for (const JsonValue item : names->items()) {
-      const std::size_t which = index_of(item.text(), kArkitNames);
-      if (which < kControlCount) {
+      const std::size_t which = formats::index_of(item.text(), formats::kArkitNames);
+      if (which < formats::kControlCount) {
         not_driven_[which] = true;
       }
     }
@@ -255,7 +255,7 @@ class GltfReader {
 
   void set_controls(std::size_t key, Frame& frame, std::int64_t& out_of_range) const {
     for (std::size_t i = 0; i < targets_.size(); ++i) {
-      if (targets_[i] < kControlCount && !not_driven_[targets_[i]]) {
+      if (targets_[i] < formats::kControlCount && !not_driven_[targets_[i]]) {
         frame.controls[targets_[i]] = into_range(weights_.value(key, i), out_of_range);
       }
     }
@@ -330,7 +330,7 @@ class GltfReader {
   bool ours_ = false;
   std::int64_t start_ns_ = 0;
   std::string states_;
-  std::array<bool, kControlCount> not_driven_{};
+  std::array<bool, formats::kControlCount> not_driven_{};
 };
 
 }  // namespace
@@ -345,4 +345,4 @@ bool read_gltf(std::string_view bytes, const ReadOptions& options, Clip& clip, F
   return true;
 }
 
-}  // namespace mien::formats
+}  // namespace mien::animation

@@ -10,7 +10,7 @@
 #include "apps/animation/numbers.h"
 #include "apps/animation/rotation.h"
 
-namespace mien::formats {
+namespace mien::animation {
 namespace {
 
 constexpr int kHead = 1, kLeftEye = 2, kRightEye = 3, kFace = 4;  // nodes
@@ -134,11 +134,11 @@ class Document {
   // `buffer_uri` is empty if the buffer is a chunk of the file.
   [[nodiscard]] std::string json(const std::string& buffer_uri) const {
     std::string names;
-    for (const std::string_view name : kArkitNames) {
+    for (const std::string_view name : formats::kArkitNames) {
       names.append(names.empty() ? "\"" : ",\"").append(name).append("\"");
     }
     std::string targets;
-    for (std::size_t i = 0; i < kControlCount; ++i) {
+    for (std::size_t i = 0; i < formats::kControlCount; ++i) {
       targets += std::string(i == 0 ? "" : ",") + "{\"POSITION\":" + std::to_string(still_) + "}";
     }
     return "{\"asset\":{\"version\":\"2.0\",\"generator\":\"mien\"},\"scene\":0,"
@@ -148,7 +148,7 @@ class Document {
            "{\"name\":\"rightEye\"},{\"name\":\"face\",\"mesh\":0}],"
            "\"meshes\":[{\"name\":\"face\",\"primitives\":[{\"attributes\":{\"POSITION\":" +
            std::to_string(corners_) + "},\"targets\":[" + targets + "]}],\"weights\":[" +
-           zeros(kControlCount) + "],\"extras\":{\"targetNames\":[" + names + "]}}]," +
+           zeros(formats::kControlCount) + "],\"extras\":{\"targetNames\":[" + names + "]}}]," +
            (states_.empty() ? "" : animation()) + "\"accessors\":" + accessors_.text() +
            ",\"bufferViews\":" + views_.text() +
            ",\"buffers\":[{\"byteLength\":" + std::to_string(bytes_.size()) +
@@ -162,9 +162,9 @@ class Document {
     states_ += name(frame.state)[0];
     holds_ = holds_ && frame.holds();
     weights.add_key(second);
-    for (std::size_t i = 0; i < kControlCount; ++i) {
-      weights.add_value(or_zero(frame.controls[i]));
-      driven_[i] = driven_[i] || driven(frame.controls[i]);
+    for (std::size_t i = 0; i < formats::kControlCount; ++i) {
+      weights.add_value(formats::or_zero(frame.controls[i]));
+      driven_[i] = driven_[i] || formats::driven(frame.controls[i]);
     }
   }
 
@@ -196,7 +196,7 @@ class Document {
       return;
     }
     const std::size_t components =
-        std::string_view(channel.path()) == "weights" ? kControlCount : 1;
+        std::string_view(channel.path()) == "weights" ? formats::kControlCount : 1;
     const std::size_t input = add_accessor(
         channel.times(), "SCALAR", channel.keys(),
         ",\"min\":[" + exact(channel.first()) + "],\"max\":[" + exact(channel.last()) + "]", false);
@@ -224,9 +224,11 @@ class Document {
 
   [[nodiscard]] std::string animation() const {
     std::string not_driven;
-    for (std::size_t i = 0; i < kControlCount; ++i) {
+    for (std::size_t i = 0; i < formats::kControlCount; ++i) {
       if (!driven_[i]) {
-        not_driven.append(not_driven.empty() ? "\"" : ",\"").append(kArkitNames[i]).append("\"");
+        not_driven.append(not_driven.empty() ? "\"" : ",\"")
+            .append(formats::kArkitNames[i])
+            .append("\"");
       }
     }
     return "\"animations\":[{\"name\":\"face\",\"channels\":" + channels_.text() +
@@ -238,7 +240,7 @@ class Document {
   std::int64_t start_ns_ = 0;
   std::string states_;  // one letter per key of the weights
   bool holds_ = true;   // for all frames
-  std::array<bool, kControlCount> driven_{};
+  std::array<bool, formats::kControlCount> driven_{};
   std::string bytes_;
   List accessors_, views_, samplers_, channels_;
   std::size_t corners_ = 0, still_ = 0;
@@ -286,4 +288,4 @@ std::unique_ptr<AnimationWriter> gltf_writer(GltfForm form) {
   return std::make_unique<GltfWriter>(form);
 }
 
-}  // namespace mien::formats
+}  // namespace mien::animation

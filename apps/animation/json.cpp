@@ -8,7 +8,7 @@
 #include "apps/animation/json_text.h"
 #include "apps/animation/numbers.h"
 
-namespace mien::formats {
+namespace mien::animation {
 
 JsonValue::Kind JsonValue::kind() const {
   switch (document_->text_[document_->nodes_[node_].begin]) {
@@ -114,4 +114,4 @@ std::string json_string(std::string_view text) {
   return quoted + "\"";
 }
 
-}  // namespace mien::formats
+}  // namespace mien::animation

@@ -12,7 +12,7 @@
 
 #include "apps/animation/fault.h"
 
-namespace mien::formats {
+namespace mien::animation {
 
 class JsonDocument;
 
@@ -116,4 +116,4 @@ class JsonValue::Items {
 // A JSON string with quotation marks.
 [[nodiscard]] std::string json_string(std::string_view text);
 
-}  // namespace mien::formats
+}  // namespace mien::animation

@@ -8,7 +8,7 @@
 #include "apps/animation/json_text.h"
 #include "apps/animation/numbers.h"
 
-namespace mien::formats {
+namespace mien::animation {
 
 class JsonParser {
  public:
@@ -246,4 +246,4 @@ bool JsonDocument::parse(std::string_view text, Fault& fault, std::size_t first_
   return JsonParser(*this, fault).parse_all();
 }
 
-}  // namespace mien::formats
+}  // namespace mien::animation

@@ -6,7 +6,7 @@
 
 #include "apps/animation/text_encoding.h"
 
-namespace mien::formats {
+namespace mien::animation {
 namespace {
 
 constexpr std::string_view kLetters = "\"\\/bfnrt";
@@ -89,4 +89,4 @@ std::string json_unescaped(std::string_view inside) {
   return text;
 }
 
-}  // namespace mien::formats
+}  // namespace mien::animation

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace mien::formats {
+namespace mien::animation {
 
 // The length of the valid string at the start of the text, including quotation marks.
 [[nodiscard]] std::size_t json_string_bytes(std::string_view text);
@@ -22,4 +22,4 @@ namespace mien::formats {
 // it is invalid.
 [[nodiscard]] std::size_t json_escape_bytes(std::string_view text, const char*& wrong);
 
-}  // namespace mien::formats
+}  // namespace mien::animation

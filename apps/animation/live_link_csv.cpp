@@ -9,22 +9,22 @@
 #include "apps/animation/rotation.h"
 #include "formats/vocabulary/vocabulary.h"
 
-namespace mien::formats {
+namespace mien::animation {
 namespace {
 
 constexpr int kDecimals = 10;
-constexpr int kValues = kControlCount + kRotationCount;
+constexpr int kValues = formats::kControlCount + formats::kRotationCount;
 
 // Controls in the order of the file's columns.
-constexpr std::array<std::size_t, kControlCount> kColumnOrder = [] {
-  std::array<std::size_t, kControlCount> order{};
-  for (std::size_t i = 0; i < kControlCount; ++i) {
+constexpr std::array<std::size_t, formats::kControlCount> kColumnOrder = [] {
+  std::array<std::size_t, formats::kControlCount> order{};
+  for (std::size_t i = 0; i < formats::kControlCount; ++i) {
     order[i] = i;
   }
-  order[control("jawLeft")] = control("jawRight");
-  order[control("jawRight")] = control("jawLeft");
-  order[control("mouthLeft")] = control("mouthRight");
-  order[control("mouthRight")] = control("mouthLeft");
+  order[formats::control("jawLeft")] = formats::control("jawRight");
+  order[formats::control("jawRight")] = formats::control("jawLeft");
+  order[formats::control("mouthLeft")] = formats::control("mouthRight");
+  order[formats::control("mouthRight")] = formats::control("mouthLeft");
   return order;
 }();
 
@@ -58,11 +58,11 @@ class LiveLinkCsvWriter : public AnimationWriter {
   std::string begin() override {
     std::string line = "Timecode,BlendshapeCount";
     for (const std::size_t i : kColumnOrder) {
-      std::string name(kArkitNames[i]);
+      std::string name(formats::kArkitNames[i]);
       name[0] = static_cast<char>(name[0] - 'a' + 'A');
       line.append(",").append(name);
     }
-    for (const std::string_view name : kRotationNames) {
+    for (const std::string_view name : formats::kRotationNames) {
       line.append(",").append(name);
     }
     return line + "\n";
@@ -75,7 +75,7 @@ class LiveLinkCsvWriter : public AnimationWriter {
     }
     line.append(",").append(std::to_string(kValues));
     for (const std::size_t i : kColumnOrder) {
-      line.append(",").append(fixed(or_zero(frame.controls[i]), kDecimals));
+      line.append(",").append(fixed(formats::or_zero(frame.controls[i]), kDecimals));
     }
     for (const double rotation : live_link_rotations(frame, options_.rotation)) {
       line.append(",").append(fixed(rotation, kDecimals));
@@ -113,12 +113,13 @@ const char* name(RotationUnit unit) {
   return "";
 }
 
-std::array<double, kRotationCount> live_link_rotations(const Frame& frame, RotationUnit unit) {
+std::array<double, formats::kRotationCount> live_link_rotations(const Frame& frame,
+                                                                RotationUnit unit) {
   const auto eyes = frame.eyes ? frame.eyes : gaze(frame.controls);
   const Angles turns[] = {frame.head.value_or(Angles()), eyes ? (*eyes)[0] : Angles(),
                           eyes ? (*eyes)[1] : Angles()};
   const double units = units_per_radian(unit);
-  std::array<double, kRotationCount> rotations{};
+  std::array<double, formats::kRotationCount> rotations{};
   std::size_t i = 0;
   for (const Angles& turn : turns) {
     for (const double angle : {turn.yaw, 0.0 - turn.pitch, turn.roll}) {
@@ -130,7 +131,7 @@ std::array<double, kRotationCount> live_link_rotations(const Frame& frame, Rotat
 
 bool is_blank(const Frame& frame) {
   for (const double value : frame.controls) {
-    if (or_zero(value) != 0.0) {
+    if (formats::or_zero(value) != 0.0) {
       return false;
     }
   }
@@ -141,4 +142,4 @@ std::unique_ptr<AnimationWriter> live_link_csv_writer(const LiveLinkOptions& opt
   return std::make_unique<LiveLinkCsvWriter>(options);
 }
 
-}  // namespace mien::formats
+}  // namespace mien::animation

@@ -15,7 +15,7 @@
 #include "apps/animation/clip.h"
 #include "apps/animation/writer.h"
 
-namespace mien::formats {
+namespace mien::animation {
 
 enum class RotationUnit : std::uint8_t { kRadians, kDegreesBy180, kDegrees };
 [[nodiscard]] double units_per_radian(RotationUnit unit);
@@ -23,8 +23,8 @@ enum class RotationUnit : std::uint8_t { kRadians, kDegreesBy180, kDegrees };
 
 // Yaw, pitch, roll of head, left eye, right eye, in the order of kRotationNames, as they follow the
 // controls in files and packets. Eyes without rotations follow the controls.
-[[nodiscard]] std::array<double, kRotationCount> live_link_rotations(const Frame& frame,
-                                                                     RotationUnit unit);
+[[nodiscard]] std::array<double, formats::kRotationCount> live_link_rotations(const Frame& frame,
+                                                                              RotationUnit unit);
 
 // Whether a frame has neither a face nor voice activity that moves the mouth.
 [[nodiscard]] bool is_blank(const Frame& frame);
@@ -38,4 +38,4 @@ struct LiveLinkOptions {
 // A frame without a face and voice has BlendshapeCount 0 and empty cells after it.
 [[nodiscard]] std::unique_ptr<AnimationWriter> live_link_csv_writer(const LiveLinkOptions& options);
 
-}  // namespace mien::formats
+}  // namespace mien::animation

@@ -14,7 +14,7 @@
 #include "apps/animation/numbers.h"
 #include "formats/vocabulary/vocabulary.h"
 
-namespace mien::formats {
+namespace mien::animation {
 namespace {
 
 // Parses HH:MM:SS:FF.mmm; some files have a ';' before the frames, or no thousandths. The frame
@@ -67,12 +67,12 @@ class LiveLinkReader {
           0, std::string("missing column ") + (time_ ? "BlendshapeCount" : "Timecode"), fault_);
     }
     bool any = false;
-    for (std::size_t i = 0; i < kControlCount; ++i) {
-      controls_[i] = header_.find(kArkitNames[i]);
+    for (std::size_t i = 0; i < formats::kControlCount; ++i) {
+      controls_[i] = header_.find(formats::kArkitNames[i]);
       any = any || controls_[i];
     }
-    for (std::size_t i = 0; i < kRotationCount; ++i) {
-      rotations_[i] = header_.find(kRotationNames[i]);
+    for (std::size_t i = 0; i < formats::kRotationCount; ++i) {
+      rotations_[i] = header_.find(formats::kRotationNames[i]);
     }
     return any || table_.fail_at(0, "no column with a blend shape", fault_);
   }
@@ -109,12 +109,12 @@ class LiveLinkReader {
     if (*time_ < table.size() && parse_timecode(table.cell(*time_), timecode)) {
       rate.add(timecode);
     }
-    std::array<double, kControlCount> controls{};
-    for (std::size_t i = 0; i < kControlCount; ++i) {
+    std::array<double, formats::kControlCount> controls{};
+    for (std::size_t i = 0; i < formats::kControlCount; ++i) {
       controls[i] = seen(table, controls_[i]).value_or(0.0);
     }
     Rotations rotations;
-    for (std::size_t i = 0; i < kRotationCount; ++i) {
+    for (std::size_t i = 0; i < formats::kRotationCount; ++i) {
       rotations[i] = seen(table, rotations_[i]);
     }
     angle.add(rotations, controls);
@@ -138,7 +138,7 @@ class LiveLinkReader {
     if (!check_width(table_, header_, fault_)) {
       return false;
     }
-    for (std::size_t i = 0; i < kControlCount; ++i) {
+    for (std::size_t i = 0; i < formats::kControlCount; ++i) {
       if (!read_clamped(table_, header_, controls_[i], frame.controls[i], clip.out_of_range,
                         fault_)) {
         return false;
@@ -198,7 +198,7 @@ class LiveLinkReader {
 
   bool read_rotations(Frame& frame) {
     Rotations values;
-    for (std::size_t i = 0; i < kRotationCount; ++i) {
+    for (std::size_t i = 0; i < formats::kRotationCount; ++i) {
       if (!read_cell(table_, header_, rotations_[i], values[i], fault_) ||
           !check_angle(i, values[i])) {
         return false;
@@ -218,10 +218,10 @@ class LiveLinkReader {
       return true;
     }
     return table_.fail_at(*rotations_[which],
-                          std::string(kRotationNames[which]) + ": more than half a turn in " +
-                              name(unit_) + " (got " + shortest(*value) + ", expected " +
-                              fixed(-half_turn, 2) + " to " + fixed(half_turn, 2) +
-                              "; --from-llf-rot rad, norm180 or deg)",
+                          std::string(formats::kRotationNames[which]) +
+                              ": more than half a turn in " + name(unit_) + " (got " +
+                              shortest(*value) + ", expected " + fixed(-half_turn, 2) + " to " +
+                              fixed(half_turn, 2) + "; --from-llf-rot rad, norm180 or deg)",
                           fault_);
   }
 
@@ -241,8 +241,8 @@ class LiveLinkReader {
   Fault& fault_;
   CsvHeader header_;
   Column time_, count_;
-  std::array<Column, kControlCount> controls_;
-  std::array<Column, kRotationCount> rotations_;
+  std::array<Column, formats::kControlCount> controls_;
+  std::array<Column, formats::kRotationCount> rotations_;
   double fps_ = 60.0;
   RotationUnit unit_ = RotationUnit::kRadians;
   std::int64_t number_ = 0;
@@ -262,4 +262,4 @@ bool read_live_link_csv(std::string_view text, const ReadOptions& options, Clip&
   return true;
 }
 
-}  // namespace mien::formats
+}  // namespace mien::animation

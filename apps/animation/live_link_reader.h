@@ -7,7 +7,7 @@
 #include "apps/animation/fault.h"
 #include "apps/animation/read_options.h"
 
-namespace mien::formats {
+namespace mien::animation {
 
 // Columns are found by name, so older files (camel case, right eye first, BlendShapeCount) are
 // accepted. Rows with count 0 may be shorter. Without a timecode, rows are 1/fps apart. Units that
@@ -16,4 +16,4 @@ namespace mien::formats {
 [[nodiscard]] bool read_live_link_csv(std::string_view text, const ReadOptions& options, Clip& clip,
                                       Fault& fault);
 
-}  // namespace mien::formats
+}  // namespace mien::animation

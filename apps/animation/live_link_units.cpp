@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace mien::formats {
+namespace mien::animation {
 namespace {
 
 constexpr std::array kRates = {24.0, 25.0, 30.0, 48.0, 50.0, 60.0};
@@ -83,8 +83,9 @@ void AngleUnit::Line::add(double x, const std::optional<double>& y) {
   }
 }
 
-void AngleUnit::add(const Rotations& rotations, const std::array<double, kControlCount>& controls) {
-  for (std::size_t i = 0; i < kRotationCount; ++i) {
+void AngleUnit::add(const Rotations& rotations,
+                    const std::array<double, formats::kControlCount>& controls) {
+  for (std::size_t i = 0; i < formats::kRotationCount; ++i) {
     double& largest = i % 3 == 2 ? largest_roll_ : largest_;
     largest = std::max(largest, std::abs(rotations[i].value_or(0.0)));
   }
@@ -95,12 +96,16 @@ void AngleUnit::add(const Rotations& rotations, const std::array<double, kContro
   }
   last_ = rotations;
   const auto look = [&controls](std::size_t more, std::size_t less) {
-    return or_zero(controls[more]) - or_zero(controls[less]);
+    return formats::or_zero(controls[more]) - formats::or_zero(controls[less]);
   };
-  eyes_[0].add(look(control("eyeLookOutLeft"), control("eyeLookInLeft")), rotations[3]);
-  eyes_[1].add(look(control("eyeLookUpLeft"), control("eyeLookDownLeft")), rotations[4]);
-  eyes_[2].add(look(control("eyeLookInRight"), control("eyeLookOutRight")), rotations[6]);
-  eyes_[3].add(look(control("eyeLookUpRight"), control("eyeLookDownRight")), rotations[7]);
+  eyes_[0].add(look(formats::control("eyeLookOutLeft"), formats::control("eyeLookInLeft")),
+               rotations[3]);
+  eyes_[1].add(look(formats::control("eyeLookUpLeft"), formats::control("eyeLookDownLeft")),
+               rotations[4]);
+  eyes_[2].add(look(formats::control("eyeLookInRight"), formats::control("eyeLookOutRight")),
+               rotations[6]);
+  eyes_[3].add(look(formats::control("eyeLookUpRight"), formats::control("eyeLookDownRight")),
+               rotations[7]);
 }
 
 // The slope of the best fitting eye, in the file's unit.
@@ -136,4 +141,4 @@ Guess<RotationUnit> AngleUnit::unit() const {
   return {by_180 ? RotationUnit::kDegreesBy180 : RotationUnit::kRadians, true};
 }
 
-}  // namespace mien::formats
+}  // namespace mien::animation

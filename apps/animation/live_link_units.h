@@ -11,7 +11,7 @@
 #include "apps/animation/live_link_csv.h"
 #include "formats/vocabulary/vocabulary.h"
 
-namespace mien::formats {
+namespace mien::animation {
 
 // HH:MM:SS:FF.mmm
 struct Timecode {
@@ -57,12 +57,12 @@ class TimecodeRate {
 };
 
 // Of a row, in the order of kRotationNames.
-using Rotations = std::array<std::optional<double>, kRotationCount>;
+using Rotations = std::array<std::optional<double>, formats::kRotationCount>;
 
 // Processes rotations and controls of all rows.
 class AngleUnit {
  public:
-  void add(const Rotations& rotations, const std::array<double, kControlCount>& controls);
+  void add(const Rotations& rotations, const std::array<double, formats::kControlCount>& controls);
 
   // Degrees if angles or steps are too large for radians. Otherwise the eyes decide: their rotation
   // for a given eyeLook... is known.
@@ -86,4 +86,4 @@ class AngleUnit {
   Histogram steps_{0.01, 1000};  // of the head, between rows
 };
 
-}  // namespace mien::formats
+}  // namespace mien::animation

@@ -6,7 +6,7 @@
 #include "apps/animation/facs_map.h"
 #include "apps/animation/rotation.h"
 
-namespace mien::formats {
+namespace mien::animation {
 namespace {
 
 using Format = AnimationFormat;
@@ -24,7 +24,7 @@ bool is_cues(Format format) {
 
 bool differ(double a, double b) {
   constexpr double kSame = 1e-6;
-  return driven(a) != driven(b) || std::abs(a - b) > kSame;
+  return formats::driven(a) != formats::driven(b) || std::abs(a - b) > kSame;
 }
 
 bool differ(const Angles& a, const Angles& b) {
@@ -41,11 +41,11 @@ bool has_own_eye_rotation(const Frame& frame) {
 
 bool has_control(const Frame& frame) {
   return std::any_of(frame.controls.begin(), frame.controls.end(),
-                     [](double value) { return or_zero(value) != 0.0; });
+                     [](double value) { return formats::or_zero(value) != 0.0; });
 }
 
 bool has_all_controls(const Frame& frame) {
-  return std::all_of(frame.controls.begin(), frame.controls.end(), driven);
+  return std::all_of(frame.controls.begin(), frame.controls.end(), formats::driven);
 }
 
 std::vector<LossCheck> checks_of(Format format) {
@@ -54,8 +54,8 @@ std::vector<LossCheck> checks_of(Format format) {
   return {
       {table, "face probability, voice activity, level of detail, box",
        [](const Frame& frame) {
-         return driven(frame.face_probability) || driven(frame.voice_activity) || frame.lod != 0 ||
-                frame.box.has_value();
+         return formats::driven(frame.face_probability) || formats::driven(frame.voice_activity) ||
+                frame.lod != 0 || frame.box.has_value();
        }},
       {table || gltf, "tracking state",
        [](const Frame& frame) { return frame.state == FaceState::kLost; }},
@@ -91,9 +91,9 @@ void Losses::add(const Frame& frame) {
   }
   if (format_ == Format::kRoblox && frame.facs.empty()) {
     const auto back = controls_of_facs(facs_of(frame.controls));
-    for (std::size_t i = 0; i < kControlCount; ++i) {
+    for (std::size_t i = 0; i < formats::kControlCount; ++i) {
       const double value = frame.controls[i];
-      changed_[i] = changed_[i] || (or_zero(value) != 0.0 && differ(value, back[i]));
+      changed_[i] = changed_[i] || (formats::or_zero(value) != 0.0 && differ(value, back[i]));
     }
   }
   if (format_ == Format::kLiveLink) {
@@ -109,9 +109,9 @@ std::vector<std::string> Losses::found(bool evenly_spaced) const {
     }
   }
   std::string names;
-  for (std::size_t i = 0; i < kControlCount; ++i) {
+  for (std::size_t i = 0; i < formats::kControlCount; ++i) {
     if (changed_[i]) {
-      names.append(names.empty() ? "" : ", ").append(kArkitNames[i]);
+      names.append(names.empty() ? "" : ", ").append(formats::kArkitNames[i]);
     }
   }
   if (!names.empty()) {
@@ -134,4 +134,4 @@ std::vector<std::string> losses(const Clip& clip, AnimationFormat format) {
   return losses.found(evenly_spaced(clip.frames));
 }
 
-}  // namespace mien::formats
+}  // namespace mien::animation

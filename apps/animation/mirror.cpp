@@ -3,17 +3,17 @@
 
 #include <string>
 
-namespace mien::formats {
+namespace mien::animation {
 namespace {
 
 std::size_t partner(std::size_t control) {
-  std::string name(kArkitNames[control]);
+  std::string name(formats::kArkitNames[control]);
   if (name.ends_with("Left")) {
     name.replace(name.size() - 4, 4, "Right");
   } else if (name.ends_with("Right")) {
     name.replace(name.size() - 5, 5, "Left");
   }
-  return index_of(name, kArkitNames);
+  return formats::index_of(name, formats::kArkitNames);
 }
 
 Angles mirrored(const Angles& angles) { return {angles.pitch, -angles.yaw, -angles.roll}; }
@@ -22,7 +22,7 @@ Angles mirrored(const Angles& angles) { return {angles.pitch, -angles.yaw, -angl
 
 Frame mirrored(const Frame& frame) {
   Frame result = frame;
-  for (std::size_t i = 0; i < kControlCount; ++i) {
+  for (std::size_t i = 0; i < formats::kControlCount; ++i) {
     result.controls[partner(i)] = frame.controls[i];
   }
   if (frame.head) {
@@ -38,4 +38,4 @@ Frame mirrored(const Frame& frame) {
   return result;
 }
 
-}  // namespace mien::formats
+}  // namespace mien::animation

@@ -3,10 +3,10 @@
 
 #include "apps/animation/clip.h"
 
-namespace mien::formats {
+namespace mien::animation {
 
 // Exchanges left and right in controls, eyes, and head pose. Drops values of other vocabularies,
 // and keeps the box.
 [[nodiscard]] Frame mirrored(const Frame& frame);
 
-}  // namespace mien::formats
+}  // namespace mien::animation

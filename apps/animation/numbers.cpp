@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <system_error>
 
-namespace mien::formats {
+namespace mien::animation {
 namespace {
 
 // Digits of the largest double in fixed notation with all decimals used here.
@@ -103,4 +103,4 @@ std::string quoted(std::string_view text) {
   return "'" + shown + "'";
 }
 
-}  // namespace mien::formats
+}  // namespace mien::animation

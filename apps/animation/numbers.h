@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace mien::formats {
+namespace mien::animation {
 
 // The fewest digits that restore the same double.
 [[nodiscard]] std::string shortest(double value);
@@ -26,4 +26,4 @@ namespace mien::formats {
 // For messages: in quotation marks, shortened if long, with '?' for unprintable bytes.
 [[nodiscard]] std::string quoted(std::string_view text);
 
-}  // namespace mien::formats
+}  // namespace mien::animation

@@ -10,7 +10,7 @@
 
 #include "apps/animation/live_link_csv.h"
 
-namespace mien::formats {
+namespace mien::animation {
 
 // Unit of positions in BVH files.
 enum class LengthUnit : std::uint8_t { kMetres, kCentimetres, kMillimetres, kInches };
@@ -32,4 +32,4 @@ struct ReadOptions {
   LoadBeside load_beside;
 };
 
-}  // namespace mien::formats
+}  // namespace mien::animation

@@ -7,11 +7,11 @@
 
 #include "apps/animation/rotation.h"
 
-namespace mien::formats {
+namespace mien::animation {
 namespace {
 
 double mixed(double a, double b, double share) {
-  return driven(a) && driven(b) ? a + share * (b - a) : a;
+  return formats::driven(a) && formats::driven(b) ? a + share * (b - a) : a;
 }
 
 template <class Values>
@@ -103,4 +103,4 @@ FrameSequence resampled(const FrameSequence& frames, double fps, std::int64_t or
   return result;
 }
 
-}  // namespace mien::formats
+}  // namespace mien::animation

@@ -6,7 +6,7 @@
 
 #include "apps/animation/clip.h"
 
-namespace mien::formats {
+namespace mien::animation {
 
 // Frames of one face, 1/fps apart, counted from `origin_ns`, which must be allowed and not after
 // the first frame, and between the first and the last frame. Values are interpolated linearly,
@@ -39,4 +39,4 @@ class Resampler {
 [[nodiscard]] FrameSequence resampled(const FrameSequence& frames, double fps,
                                       std::int64_t origin_ns);
 
-}  // namespace mien::formats
+}  // namespace mien::animation

@@ -12,7 +12,7 @@
 #include "apps/animation/xml.h"
 #include "formats/vocabulary/visemes.h"
 
-namespace mien::formats {
+namespace mien::animation {
 namespace {
 
 constexpr std::int64_t kMinCue_ns = 80'000'000;
@@ -74,9 +74,9 @@ char shape_of(const Frame& frame) {
     return frame.mouth_shape;
   }
   if (!frame.visemes.empty()) {
-    return mouth_shape_of(std::span<const double, kVisemeCount>(frame.visemes));
+    return formats::mouth_shape_of(std::span<const double, formats::kVisemeCount>(frame.visemes));
   }
-  return mouth_shape_of(visemes_of(frame.controls));
+  return formats::mouth_shape_of(formats::visemes_of(frame.controls));
 }
 
 Cues cues_from_visemes(const FrameSequence& frames) {
@@ -195,4 +195,4 @@ std::unique_ptr<AnimationWriter> rhubarb_writer(RhubarbForm form, const std::str
   return std::make_unique<RhubarbWriter>(form, audio_file);
 }
 
-}  // namespace mien::formats
+}  // namespace mien::animation

@@ -12,7 +12,7 @@
 #include "apps/animation/fault.h"
 #include "apps/animation/writer.h"
 
-namespace mien::formats {
+namespace mien::animation {
 
 enum class RhubarbForm : std::uint8_t { kTsv, kJson, kXml, kDat };
 
@@ -28,4 +28,4 @@ enum class RhubarbForm : std::uint8_t { kTsv, kJson, kXml, kDat };
 // failure.
 [[nodiscard]] bool read_rhubarb(std::string_view text, Clip& clip, Fault& fault);
 
-}  // namespace mien::formats
+}  // namespace mien::animation

@@ -6,7 +6,7 @@
 
 #include "apps/animation/clip.h"
 
-namespace mien::formats {
+namespace mien::animation {
 
 inline constexpr std::string_view kDatHead = "MohoSwitch1";
 inline constexpr std::int64_t kDatFps = 24;
@@ -23,4 +23,4 @@ inline constexpr std::int64_t kDatFps = 24;
   return second * kSecond_ns + (rest * kSecond_ns + kDatFps / 2) / kDatFps;
 }
 
-}  // namespace mien::formats
+}  // namespace mien::animation

@@ -11,7 +11,7 @@
 #include "apps/animation/xml.h"
 #include "formats/vocabulary/visemes.h"
 
-namespace mien::formats {
+namespace mien::animation {
 namespace {
 
 constexpr const char* kNoShape = "unknown mouth shape, expected A to H or X";
@@ -22,7 +22,7 @@ constexpr const char* kNoCues = "mouthCues: no cues";
 std::string_view stripped(std::string_view text) { return trimmed(text, " \t\r\n"); }
 
 bool is_shape(std::string_view text) {
-  return text.size() == 1 && kMouthShapes.find(text[0]) != kMouthShapes.npos;
+  return text.size() == 1 && formats::kMouthShapes.find(text[0]) != formats::kMouthShapes.npos;
 }
 
 // Rhubarb counts from the start of the audio.
@@ -36,7 +36,7 @@ bool add_cue(Clip& clip, std::int64_t begin_ns, char shape, std::size_t line, Fa
   frame.number = static_cast<std::int64_t>(clip.frames.size());
   frame.time_ns = begin_ns;
   frame.mouth_shape = shape;
-  frame.controls = controls_of_visemes(visemes_of_mouth_shape(shape));
+  frame.controls = formats::controls_of_visemes(formats::visemes_of_mouth_shape(shape));
   return add_frame(clip, frame, line, fault);
 }
 
@@ -287,4 +287,4 @@ bool read_rhubarb(std::string_view text, Clip& clip, Fault& fault) {
   return true;
 }
 
-}  // namespace mien::formats
+}  // namespace mien::animation

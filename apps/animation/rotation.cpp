@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace mien::formats {
+namespace mien::animation {
 namespace {
 
 constexpr double kGazeRadians = 0.485;  // rotation at a control of 1
@@ -72,18 +72,19 @@ Angles between(const Angles& a, const Angles& b, double share) {
   return angles(mixed);
 }
 
-std::optional<std::array<Angles, 2>> gaze(const std::array<double, kControlCount>& controls) {
+std::optional<std::array<Angles, 2>> gaze(
+    const std::array<double, formats::kControlCount>& controls) {
   bool any = false;
   const auto look = [&](std::size_t there, std::size_t back) {
-    any = any || driven(controls[there]) || driven(controls[back]);
-    return kGazeRadians * (or_zero(controls[there]) - or_zero(controls[back]));
+    any = any || formats::driven(controls[there]) || formats::driven(controls[back]);
+    return kGazeRadians * (formats::or_zero(controls[there]) - formats::or_zero(controls[back]));
   };
   std::array<Angles, 2> eyes;
-  eyes[0].pitch = look(control("eyeLookDownLeft"), control("eyeLookUpLeft"));
-  eyes[0].yaw = look(control("eyeLookOutLeft"), control("eyeLookInLeft"));
-  eyes[1].pitch = look(control("eyeLookDownRight"), control("eyeLookUpRight"));
-  eyes[1].yaw = look(control("eyeLookInRight"), control("eyeLookOutRight"));
+  eyes[0].pitch = look(formats::control("eyeLookDownLeft"), formats::control("eyeLookUpLeft"));
+  eyes[0].yaw = look(formats::control("eyeLookOutLeft"), formats::control("eyeLookInLeft"));
+  eyes[1].pitch = look(formats::control("eyeLookDownRight"), formats::control("eyeLookUpRight"));
+  eyes[1].yaw = look(formats::control("eyeLookInRight"), formats::control("eyeLookOutRight"));
   return any ? std::optional(eyes) : std::nullopt;
 }
 
-}  // namespace mien::formats
+}  // namespace mien::animation

@@ -6,7 +6,7 @@
 
 #include "apps/animation/clip.h"
 
-namespace mien::formats {
+namespace mien::animation {
 
 using Quaternion = std::array<double, 4>;  // x, y, z, w; unit length
 
@@ -26,6 +26,6 @@ using Quaternion = std::array<double, 4>;  // x, y, z, w; unit length
 // driven. 1 is 0.485 rad, as in a Live Link Face capture: eyeLookDown 0.39 with an eye pitch of
 // -0.189.
 [[nodiscard]] std::optional<std::array<Angles, 2>> gaze(
-    const std::array<double, kControlCount>& controls);
+    const std::array<double, formats::kControlCount>& controls);
 
-}  // namespace mien::formats
+}  // namespace mien::animation

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-namespace mien::formats {
+namespace mien::animation {
 namespace {
 
 using namespace std::string_view_literals;
@@ -116,4 +116,4 @@ bool to_utf8(std::string_view bytes, std::string& converted, std::string_view& t
   return true;
 }
 
-}  // namespace mien::formats
+}  // namespace mien::animation

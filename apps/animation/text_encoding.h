@@ -6,7 +6,7 @@
 
 #include "apps/animation/fault.h"
 
-namespace mien::formats {
+namespace mien::animation {
 
 // Accepts UTF-8 with or without a byte order mark, and UTF-16 with one, or without if the first two
 // characters are ASCII. `text` refers to `bytes`, or to `converted` after a conversion. Returns
@@ -16,4 +16,4 @@ namespace mien::formats {
 
 void append_utf8(char32_t code, std::string& text);
 
-}  // namespace mien::formats
+}  // namespace mien::animation

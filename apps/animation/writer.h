@@ -5,7 +5,7 @@
 
 #include "apps/animation/clip.h"
 
-namespace mien::formats {
+namespace mien::animation {
 
 class AnimationWriter {
  public:
@@ -33,4 +33,4 @@ class WholeClipWriter : public AnimationWriter {
   FrameSequence frames_;
 };
 
-}  // namespace mien::formats
+}  // namespace mien::animation

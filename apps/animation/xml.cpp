@@ -7,7 +7,7 @@
 
 #include "apps/animation/numbers.h"
 
-namespace mien::formats {
+namespace mien::animation {
 namespace {
 
 constexpr std::string_view kBlanks = " \t\r\n";
@@ -252,4 +252,4 @@ std::string xml_text(std::string_view text) {
   return written;
 }
 
-}  // namespace mien::formats
+}  // namespace mien::animation

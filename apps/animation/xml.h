@@ -11,7 +11,7 @@
 
 #include "apps/animation/fault.h"
 
-namespace mien::formats {
+namespace mien::animation {
 
 struct XmlTag {
   std::string name;
@@ -41,4 +41,4 @@ using XmlVisit = std::function<bool(const XmlTag& tag)>;
 // Escapes text for XML.
 [[nodiscard]] std::string xml_text(std::string_view text);
 
-}  // namespace mien::formats
+}  // namespace mien::animation

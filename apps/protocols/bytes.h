@@ -6,7 +6,7 @@
 #include <string>
 #include <type_traits>
 
-namespace mien::formats {
+namespace mien::protocols {
 
 template <typename Unsigned>
 requires std::is_unsigned_v<Unsigned>
@@ -35,4 +35,4 @@ inline void append_little_double(std::string& packet, double value) {
   append_little(packet, std::bit_cast<std::uint64_t>(value));
 }
 
-}  // namespace mien::formats
+}  // namespace mien::protocols

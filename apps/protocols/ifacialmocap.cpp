@@ -7,7 +7,7 @@
 #include "apps/animation/numbers.h"
 #include "apps/animation/rotation.h"
 
-namespace mien::formats {
+namespace mien::protocols {
 namespace {
 
 constexpr std::string_view kVersion2 = "|sendDataVersion=v2";
@@ -26,11 +26,11 @@ std::string name_of(std::string_view arkit) {
   return std::string(arkit);
 }
 
-std::string rotation_text(const Angles& angles) {
+std::string rotation_text(const animation::Angles& angles) {
   constexpr double kDegrees = 180.0 / std::numbers::pi;
-  return fixed(kDegrees * angles.pitch, kDegreeDecimals) + "," +
-         fixed(kDegrees * (0.0 - angles.yaw), kDegreeDecimals) + "," +
-         fixed(kDegrees * angles.roll, kDegreeDecimals);
+  return animation::fixed(kDegrees * angles.pitch, kDegreeDecimals) + "," +
+         animation::fixed(kDegrees * (0.0 - angles.yaw), kDegreeDecimals) + "," +
+         animation::fixed(kDegrees * angles.roll, kDegreeDecimals);
 }
 
 }  // namespace
@@ -43,20 +43,20 @@ std::optional<char> ifacialmocap_separator(std::string_view datagram) {
   return rest.empty() ? std::optional('-') : rest == kVersion2 ? std::optional('&') : std::nullopt;
 }
 
-std::string ifacialmocap_text(const Frame& frame, char separator) {
+std::string ifacialmocap_text(const animation::Frame& frame, char separator) {
   std::string text;
-  for (std::size_t i = 0; i < kControlCount; ++i) {
-    text.append(name_of(kArkitNames[i])) += separator;
-    text.append(std::to_string(std::lround(100.0 * or_zero(frame.controls[i])))) += '|';
+  for (std::size_t i = 0; i < formats::kControlCount; ++i) {
+    text.append(name_of(formats::kArkitNames[i])) += separator;
+    text.append(std::to_string(std::lround(100.0 * formats::or_zero(frame.controls[i])))) += '|';
   }
-  const auto eyes = frame.eyes ? frame.eyes : gaze(frame.controls);
-  text.append("=head#").append(rotation_text(frame.head.value_or(Angles())));
+  const auto eyes = frame.eyes ? frame.eyes : animation::gaze(frame.controls);
+  text.append("=head#").append(rotation_text(frame.head.value_or(animation::Angles())));
   for (const double metres : frame.position_m.value_or(std::array<double, 3>{})) {
-    text.append(",").append(fixed(metres, kMetreDecimals));
+    text.append(",").append(animation::fixed(metres, kMetreDecimals));
   }
-  text.append("|rightEye#").append(rotation_text(eyes ? (*eyes)[1] : Angles()));
-  text.append("|leftEye#").append(rotation_text(eyes ? (*eyes)[0] : Angles()));
+  text.append("|rightEye#").append(rotation_text(eyes ? (*eyes)[1] : animation::Angles()));
+  text.append("|leftEye#").append(rotation_text(eyes ? (*eyes)[0] : animation::Angles()));
   return text + "|";
 }
 
-}  // namespace mien::formats
+}  // namespace mien::protocols

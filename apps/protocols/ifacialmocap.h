@@ -8,7 +8,7 @@
 
 #include "apps/animation/clip.h"
 
-namespace mien::formats {
+namespace mien::protocols {
 
 inline constexpr std::string_view kIfacialmocapHello =
     "iFacialMocap_sahuasouryya9218sauhuiayeta91555dy3719";
@@ -19,6 +19,6 @@ inline constexpr std::string_view kIfacialmocapHello =
 
 // Names such as "eyeBlink_L" and integer values 0..100, then head, right and left eye in degrees: x
 // is our pitch, y our negative yaw, z our roll; then the head position in metres, camera space.
-[[nodiscard]] std::string ifacialmocap_text(const Frame& frame, char separator);
+[[nodiscard]] std::string ifacialmocap_text(const animation::Frame& frame, char separator);
 
-}  // namespace mien::formats
+}  // namespace mien::protocols

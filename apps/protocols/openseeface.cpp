@@ -10,7 +10,7 @@
 #include "apps/animation/rotation.h"
 #include "apps/protocols/bytes.h"
 
-namespace mien::formats {
+namespace mien::protocols {
 namespace {
 
 using Vector = std::array<double, 3>;
@@ -47,8 +47,8 @@ constexpr double kEyeballDepth = 0.385;
 
 double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-Matrix matrix(const Angles& angles) {
-  const auto [x, y, z, w] = quaternion(angles);
+Matrix matrix(const animation::Angles& angles) {
+  const auto [x, y, z, w] = animation::quaternion(angles);
   return {{{1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)},
            {2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)},
            {2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)}}};
@@ -62,8 +62,8 @@ struct Head {
   Vector place;         // ours, metres
   Matrix raw_rotation;  // theirs
 
-  explicit Head(const Frame& frame)
-      : rotation(matrix(frame.head.value_or(Angles()))),
+  explicit Head(const animation::Frame& frame)
+      : rotation(matrix(frame.head.value_or(animation::Angles()))),
         place(frame.position_m.value_or(Vector{})) {
     const auto& r = rotation;
     raw_rotation = {{{-r[1][0], r[1][1], r[1][2]},
@@ -115,20 +115,22 @@ std::vector<Vector> points_3d(const Head& head, const OpenSeeFaceImage& image) {
   return points;
 }
 
-Quaternion raw_quaternion(const Matrix& m) {
+animation::Quaternion raw_quaternion(const Matrix& m) {
   // Of the four ways to convert a matrix to a quaternion, uses the one that divides by the largest
   // component. The result is that of the transposed matrix, as in OpenSeeFace.
-  Quaternion q;
+  animation::Quaternion q;
   if (m[2][2] < 0) {
-    q = m[0][0] > m[1][1] ? Quaternion{1 + m[0][0] - m[1][1] - m[2][2], m[0][1] + m[1][0],
-                                       m[2][0] + m[0][2], m[1][2] - m[2][1]}
-                          : Quaternion{m[0][1] + m[1][0], 1 - m[0][0] + m[1][1] - m[2][2],
-                                       m[1][2] + m[2][1], m[2][0] - m[0][2]};
+    q = m[0][0] > m[1][1]
+            ? animation::Quaternion{1 + m[0][0] - m[1][1] - m[2][2], m[0][1] + m[1][0],
+                                    m[2][0] + m[0][2], m[1][2] - m[2][1]}
+            : animation::Quaternion{m[0][1] + m[1][0], 1 - m[0][0] + m[1][1] - m[2][2],
+                                    m[1][2] + m[2][1], m[2][0] - m[0][2]};
   } else {
-    q = m[0][0] < -m[1][1] ? Quaternion{m[2][0] + m[0][2], m[1][2] + m[2][1],
-                                        1 - m[0][0] - m[1][1] + m[2][2], m[0][1] - m[1][0]}
-                           : Quaternion{m[1][2] - m[2][1], m[2][0] - m[0][2], m[0][1] - m[1][0],
-                                        1 + m[0][0] + m[1][1] + m[2][2]};
+    q = m[0][0] < -m[1][1]
+            ? animation::Quaternion{m[2][0] + m[0][2], m[1][2] + m[2][1],
+                                    1 - m[0][0] - m[1][1] + m[2][2], m[0][1] - m[1][0]}
+            : animation::Quaternion{m[1][2] - m[2][1], m[2][0] - m[0][2], m[0][1] - m[1][0],
+                                    1 + m[0][0] + m[1][1] + m[2][2]};
   }
   const double length = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
   for (double& part : q) {
@@ -147,21 +149,22 @@ Vector raw_euler(const Matrix& m) {
 
 // In OpenSeeFace's order: eyes, then for each side steepness, height and quirk of the brow, then
 // height and width of each corner of the mouth, then the mouth.
-std::array<double, 14> features(const Frame& frame) {
-  const auto value = [&](std::size_t which) { return or_zero(frame.controls[which]); };
+std::array<double, 14> features(const animation::Frame& frame) {
+  const auto value = [&](std::size_t which) { return formats::or_zero(frame.controls[which]); };
   const auto signed_share = [](double x) { return std::clamp(x, -1.0, 1.0); };
   struct Side {
     std::size_t blink, wide, brow_down, brow_outer, smile, frown, stretch;
   };
-  const Side left = {control("eyeBlinkLeft"),    control("eyeWideLeft"),
-                     control("browDownLeft"),    control("browOuterUpLeft"),
-                     control("mouthSmileLeft"),  control("mouthFrownLeft"),
-                     control("mouthStretchLeft")};
-  const Side right = {control("eyeBlinkRight"),    control("eyeWideRight"),
-                      control("browDownRight"),    control("browOuterUpRight"),
-                      control("mouthSmileRight"),  control("mouthFrownRight"),
-                      control("mouthStretchRight")};
-  const double inner = value(control("browInnerUp")), pucker = value(control("mouthPucker"));
+  const Side left = {formats::control("eyeBlinkLeft"),    formats::control("eyeWideLeft"),
+                     formats::control("browDownLeft"),    formats::control("browOuterUpLeft"),
+                     formats::control("mouthSmileLeft"),  formats::control("mouthFrownLeft"),
+                     formats::control("mouthStretchLeft")};
+  const Side right = {formats::control("eyeBlinkRight"),    formats::control("eyeWideRight"),
+                      formats::control("browDownRight"),    formats::control("browOuterUpRight"),
+                      formats::control("mouthSmileRight"),  formats::control("mouthFrownRight"),
+                      formats::control("mouthStretchRight")};
+  const double inner = value(formats::control("browInnerUp")),
+               pucker = value(formats::control("mouthPucker"));
   const auto eye = [&](const Side& s) { return signed_share(value(s.wide) - value(s.blink)); };
   const auto steep = [&](const Side& s) { return signed_share(value(s.brow_down) - inner); };
   const auto height = [&](const Side& s) {
@@ -172,8 +175,8 @@ std::array<double, 14> features(const Frame& frame) {
   const auto out = [&](const Side& s) {
     return signed_share(std::max(value(s.smile), value(s.stretch)) - pucker);
   };
-  const double open =
-      std::clamp(value(control("jawOpen")) - value(control("mouthClose")), 0.0, 1.0);
+  const double open = std::clamp(
+      value(formats::control("jawOpen")) - value(formats::control("mouthClose")), 0.0, 1.0);
   return {eye(left),     eye(right),
           steep(left),   height(left),
           quirk(left),   steep(right),
@@ -191,7 +194,7 @@ void append_floats(std::string& packet, std::span<const double> values) {
 
 }  // namespace
 
-std::string openseeface_packet(const Frame& frame, const OpenSeeFaceImage& image,
+std::string openseeface_packet(const animation::Frame& frame, const OpenSeeFaceImage& image,
                                double unix_time_s) {
   const Head head(frame);
   std::vector<Vector> points = points_3d(head, image);
@@ -200,8 +203,9 @@ std::string openseeface_packet(const Frame& frame, const OpenSeeFaceImage& image
   append_little_double(packet, unix_time_s);
   append_little(packet, static_cast<std::uint32_t>(frame.face_id));
   append_floats(packet, std::array{image.width, image.height});
-  append_floats(packet, std::array{1.0 - or_zero(frame.controls[control("eyeBlinkRight")]),
-                                   1.0 - or_zero(frame.controls[control("eyeBlinkLeft")])});
+  append_floats(
+      packet, std::array{1.0 - formats::or_zero(frame.controls[formats::control("eyeBlinkRight")]),
+                         1.0 - formats::or_zero(frame.controls[formats::control("eyeBlinkLeft")])});
   append_little(packet, static_cast<std::uint8_t>(frame.head.has_value()));
   append_little_float(packet, 0.0);  // fit error of their model; there is no fit
   append_floats(packet, raw_quaternion(head.raw_rotation));
@@ -211,7 +215,7 @@ std::string openseeface_packet(const Frame& frame, const OpenSeeFaceImage& image
     tip[i] = (tip[i] + dot(head.rotation[i], nose)) / kMetresPerUnit;
   }
   append_floats(packet, std::array{tip[1], -tip[0], tip[2]});
-  append_floats(packet, std::vector<double>(kPoints + 2, or_zero(frame.face_probability)));
+  append_floats(packet, std::vector<double>(kPoints + 2, formats::or_zero(frame.face_probability)));
   for (const std::size_t i : kIbugPoints) {
     append_floats(packet, image.landmarks[i]);
   }
@@ -227,4 +231,4 @@ std::string openseeface_packet(const Frame& frame, const OpenSeeFaceImage& image
   return packet;
 }
 
-}  // namespace mien::formats
+}  // namespace mien::protocols

@@ -8,7 +8,7 @@
 
 #include "apps/animation/clip.h"
 
-namespace mien::formats {
+namespace mien::protocols {
 
 inline constexpr std::size_t kOpenSeeFaceBytes = 1785;
 
@@ -28,7 +28,7 @@ struct OpenSeeFaceImage {
 // OpenSeeFace, they are in head space, in units of the face width, relative to the tip of the nose.
 // OpenSeeFace's features are relative to a person's typical values; ours are derived from controls.
 // Rotation and position use the rotated and mirrored camera space that receivers undo.
-[[nodiscard]] std::string openseeface_packet(const Frame& frame, const OpenSeeFaceImage& image,
-                                             double unix_time_s);
+[[nodiscard]] std::string openseeface_packet(const animation::Frame& frame,
+                                             const OpenSeeFaceImage& image, double unix_time_s);
 
-}  // namespace mien::formats
+}  // namespace mien::protocols

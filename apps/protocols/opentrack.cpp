@@ -5,19 +5,19 @@
 
 #include "apps/protocols/bytes.h"
 
-namespace mien::formats {
+namespace mien::protocols {
 
-std::string opentrack_packet(const Frame& frame) {
+std::string opentrack_packet(const animation::Frame& frame) {
   constexpr double kCentimetres = 100.0, kDegrees = 180.0 / std::numbers::pi;
   std::string packet;
   for (const double metres : frame.position_m.value_or(std::array<double, 3>{})) {
     append_little_double(packet, kCentimetres * metres);
   }
-  const Angles head = frame.head.value_or(Angles());
+  const animation::Angles head = frame.head.value_or(animation::Angles());
   for (const double angle : {head.yaw, head.pitch, head.roll}) {
     append_little_double(packet, kDegrees * angle);
   }
   return packet;
 }
 
-}  // namespace mien::formats
+}  // namespace mien::protocols

@@ -5,10 +5,10 @@
 
 #include "apps/animation/clip.h"
 
-namespace mien::formats {
+namespace mien::protocols {
 
 // x, y, z in centimetres, yaw, pitch, roll in degrees, with the directions of camera space
 // (clip.h); zeros for a frame without a head.
-[[nodiscard]] std::string opentrack_packet(const Frame& frame);
+[[nodiscard]] std::string opentrack_packet(const animation::Frame& frame);
 
-}  // namespace mien::formats
+}  // namespace mien::protocols

@@ -3,7 +3,7 @@
 
 #include "apps/protocols/bytes.h"
 
-namespace mien::formats {
+namespace mien::protocols {
 namespace {
 
 // Terminated by NUL and padded with NUL to a multiple of 4.
@@ -58,4 +58,4 @@ std::vector<std::string> osc_bundles(std::span<const std::string> messages, std:
   return bundles;
 }
 
-}  // namespace mien::formats
+}  // namespace mien::protocols

@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-namespace mien::formats {
+namespace mien::protocols {
 
 // int32, float32, string; strings contain no NUL.
 using OscArgument = std::variant<std::int32_t, float, std::string_view>;
@@ -22,4 +22,4 @@ using OscArgument = std::variant<std::int32_t, float, std::string_view>;
 [[nodiscard]] std::vector<std::string> osc_bundles(std::span<const std::string> messages,
                                                    std::size_t max_bytes);
 
-}  // namespace mien::formats
+}  // namespace mien::protocols

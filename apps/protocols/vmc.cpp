@@ -4,7 +4,7 @@
 #include "apps/animation/rotation.h"
 #include "apps/protocols/osc.h"
 
-namespace mien::formats {
+namespace mien::protocols {
 namespace {
 
 constexpr std::size_t kMaxBytes = 1500;
@@ -25,7 +25,7 @@ std::vector<std::string> vmc_packets(const VmcFrame& frame) {
       message("/VMC/Ext/T", {narrow(frame.seconds)})};
   if (frame.head) {
     // x is negated, because our head space has the subject's left there
-    const auto [x, y, z, w] = quaternion(*frame.head);
+    const auto [x, y, z, w] = animation::quaternion(*frame.head);
     messages.push_back(
         message("/VMC/Ext/Bone/Pos", {std::string_view("Head"), 0.0f, 0.0f, 0.0f, narrow(x),
                                       narrow(-y), narrow(-z), narrow(w)}));
@@ -37,4 +37,4 @@ std::vector<std::string> vmc_packets(const VmcFrame& frame) {
   return osc_bundles(messages, kMaxBytes);
 }
 
-}  // namespace mien::formats
+}  // namespace mien::protocols

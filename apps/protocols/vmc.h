@@ -9,7 +9,7 @@
 
 #include "apps/animation/clip.h"
 
-namespace mien::formats {
+namespace mien::protocols {
 
 struct NamedValue {
   std::string_view name;  // name of the avatar's expression, case-sensitive
@@ -17,10 +17,10 @@ struct NamedValue {
 };
 
 struct VmcFrame {
-  double seconds = 0.0;                // since the sender started
-  bool tracking = false;               // a face is tracked
-  std::span<const NamedValue> blends;  // take effect together
-  std::optional<Angles> head;          // head to camera
+  double seconds = 0.0;                   // since the sender started
+  bool tracking = false;                  // a face is tracked
+  std::span<const NamedValue> blends;     // take effect together
+  std::optional<animation::Angles> head;  // head to camera
 };
 
 // Datagrams of at most 1500 bytes, to be sent in this order: /VMC/Ext/OK, /VMC/Ext/T, the bone
@@ -29,4 +29,4 @@ struct VmcFrame {
 // relative to the avatar's neck, stays 0.
 [[nodiscard]] std::vector<std::string> vmc_packets(const VmcFrame& frame);
 
-}  // namespace mien::formats
+}  // namespace mien::protocols

@@ -30,7 +30,7 @@ esac
 
 # Excludes tests that start programs, which a machine without binfmt_misc cannot do for another machine, and the cases of kernels,
 # which mien-conformance runs before.
-elsewhere='ConformanceProgram|conformance\.|package|convert|train|apps|formats\.(locale|protocols)|Kernels/Conformance'
+elsewhere='ConformanceProgram|conformance\.|package|convert|train|apps|(formats|animation)\.locale|protocols\.packets|Kernels/Conformance'
 # Tests that an emulator runs only with --full: they take more than a tenth of a second natively, and seconds under emulation (long streams
 # and clips). Every part, and the trained networks, keep at least one test.
 slow='Allocation\.CreateAllocatesOnce|Calibration\.|Equivariance\.|FrontEnd\.FeaturesDoNotDependOnBlockSize|Images\.(MayHaveAnySize|MayBeFourK)'

@@ -25,6 +25,7 @@ def program(folder, name):
 
 
 FORMATS = program("formats", "formats_test")
+ANIMATION = program("apps/animation", "animation_test")
 ENGINE = [program("engine", "engine_test"), program("engine", "engine_allocation_test"),
           program("engine", "engine_stack_test")]
 API = [program("api", "api_test"), program("api", "api_stack_test")]
@@ -35,12 +36,12 @@ OF_TRACKERS = [program("tracker", f"tracker_{name}_test") for name in ("threads"
 COMPARE = program("apps", "compare_test")
 CONVERT = Check("mien_program", "apps/mien/mien", "tests/apps/convert_test.py", (FRAMES,))
 CONVERT_GLTF = Check("mien_program", "apps/mien/mien", "tests/apps/convert_gltf_test.py", (FRAMES,))
-PROTOCOLS = Check("protocol_packets", "tests/formats/protocol_packets", "tests/formats/protocols_test.py", (FRAMES,))
+PROTOCOLS = Check("protocol_packets", "tests/apps/protocols/protocol_packets", "tests/apps/protocols/protocols_test.py", (FRAMES,))
 
 # By folder, the longest name that fits; the nearest tests first.
 PLAN = {
     "apps/protocols": [PROTOCOLS],
-    "apps/animation": [FORMATS, CONVERT, CONVERT_GLTF, COMPARE],
+    "apps/animation": [ANIMATION, CONVERT, CONVERT_GLTF, COMPARE],
     "formats": [FORMATS, CONVERT, CONVERT_GLTF, *ENGINE, *API],
     "engine": [*ENGINE, *API, AUDIO, GEOMETRY, TRACKER, *OF_TRACKERS],
     "audio": [AUDIO, TRACKER, *OF_TRACKERS],

@@ -16,9 +16,9 @@
 namespace mien::app {
 namespace {
 
+using animation::FaceState;
+using animation::Frame;
 using formats::control;
-using formats::FaceState;
-using formats::Frame;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -126,7 +126,7 @@ Frame frame(std::int64_t ms, FaceState state, double jaw, double yaw) {
   made.state = state;
   made.controls[control("jawOpen")] = jaw;
   if (state == FaceState::kTracking) {
-    made.head = formats::Angles{0.0, yaw, 0.0};
+    made.head = animation::Angles{0.0, yaw, 0.0};
     made.position_m = {0.1, 0.0, -0.6};
   }
   return made;
@@ -179,15 +179,15 @@ TEST(Mirror, TwiceIsTheIdentity) {
   Frame face = frame(0, FaceState::kTracking, 0.5, 0.25);
   face.controls[control("mouthLeft")] = 0.75;
   face.controls[control("eyeBlinkRight")] = 1.0;
-  face.eyes = {formats::Angles{0.1, 0.2, 0.0}, formats::Angles{0.3, 0.4, 0.0}};
-  const Frame mirror = formats::mirrored(face);
+  face.eyes = {animation::Angles{0.1, 0.2, 0.0}, animation::Angles{0.3, 0.4, 0.0}};
+  const Frame mirror = animation::mirrored(face);
   EXPECT_EQ(mirror.controls[control("mouthRight")], 0.75);
   EXPECT_EQ(mirror.controls[control("eyeBlinkLeft")], 1.0);
   EXPECT_EQ(mirror.controls[control("jawOpen")], 0.5);
   EXPECT_EQ(mirror.head->yaw, -0.25);
   EXPECT_EQ((*mirror.position_m)[0], -0.1);
   EXPECT_EQ((*mirror.eyes)[0].yaw, -0.4);
-  const Frame again = formats::mirrored(mirror);
+  const Frame again = animation::mirrored(mirror);
   EXPECT_EQ(again.controls[control("mouthLeft")], 0.75);
   EXPECT_EQ(again.head->yaw, 0.25);
   EXPECT_EQ((*again.eyes)[1].yaw, 0.4);

@@ -177,12 +177,12 @@ TEST(Statistics, HeadRotationIsOneAngle) {
 }
 
 TEST(Base64, VectorsOfRfc4648) {
-  EXPECT_EQ(formats::base64(""), "");
-  EXPECT_EQ(formats::base64("f"), "Zg==");
-  EXPECT_EQ(formats::base64("fo"), "Zm8=");
-  EXPECT_EQ(formats::base64("foo"), "Zm9v");
-  EXPECT_EQ(formats::base64("foobar"), "Zm9vYmFy");
-  EXPECT_EQ(formats::base64("\xFB\xFF\xFE"), "+//+");
+  EXPECT_EQ(animation::base64(""), "");
+  EXPECT_EQ(animation::base64("f"), "Zg==");
+  EXPECT_EQ(animation::base64("fo"), "Zm8=");
+  EXPECT_EQ(animation::base64("foo"), "Zm9v");
+  EXPECT_EQ(animation::base64("foobar"), "Zm9vYmFy");
+  EXPECT_EQ(animation::base64("\xFB\xFF\xFE"), "+//+");
 }
 
 TEST(ComparePage, FileNamesAreEscaped) {

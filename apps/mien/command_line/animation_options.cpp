@@ -9,7 +9,7 @@
 namespace mien::app {
 
 CLI::Validator rotation_units() {
-  using formats::RotationUnit;
+  using animation::RotationUnit;
   return CLI::CheckedTransformer(
       std::map<std::string, RotationUnit>{{"rad", RotationUnit::kRadians},
                                           {"norm180", RotationUnit::kDegreesBy180},
@@ -17,14 +17,14 @@ CLI::Validator rotation_units() {
 }
 
 CLI::Validator length_units() {
-  using formats::LengthUnit;
+  using animation::LengthUnit;
   return CLI::CheckedTransformer(std::map<std::string, LengthUnit>{{"m", LengthUnit::kMetres},
                                                                    {"cm", LengthUnit::kCentimetres},
                                                                    {"mm", LengthUnit::kMillimetres},
                                                                    {"in", LengthUnit::kInches}});
 }
 
-void add_writing_options(CLI::App& verb, formats::WriteOptions& options) {
+void add_writing_options(CLI::App& verb, animation::WriteOptions& options) {
   verb.add_option("--llf-rot", options.live_link.rotation,
                   "unit of Live Link Face rotations: rad (default), norm180 (degrees / 180) or deg")
       ->transform(rotation_units());

@@ -14,6 +14,6 @@ CLI::Validator rotation_units();
 CLI::Validator length_units();
 
 // Adds --llf-rot, --llf-fps, --bvh-unit and --roblox-lod.
-void add_writing_options(CLI::App& verb, formats::WriteOptions& options);
+void add_writing_options(CLI::App& verb, animation::WriteOptions& options);
 
 }  // namespace mien::app

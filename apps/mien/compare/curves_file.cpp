@@ -10,14 +10,14 @@ namespace {
 // Every frame occupies all controls in memory and in the page, however short its line is.
 constexpr std::size_t kMaxFrames = 216'000;  // two hours at 30 frames per second
 
-Curves curves_of(const formats::Clip& clip, const std::string& name) {
+Curves curves_of(const animation::Clip& clip, const std::string& name) {
   if (clip.frames.size() > kMaxFrames) {
     throw Failure(kExitNoInput, name + ": too many frames to compare (got " +
                                     std::to_string(clip.frames.size()) + ", expected at most " +
                                     std::to_string(kMaxFrames) + ")");
   }
   Curves curves;
-  for (const formats::Frame& read : clip.frames) {
+  for (const animation::Frame& read : clip.frames) {
     CurvesFrame frame;
     frame.t_ms = read.time_ms();
     if (read.head) {
@@ -32,12 +32,12 @@ Curves curves_of(const formats::Clip& clip, const std::string& name) {
 }  // namespace
 
 Curves parse_curves(std::string_view text, const std::string& name,
-                    const formats::ReadOptions& options) {
+                    const animation::ReadOptions& options) {
   return curves_of(parse_animation(text, name, std::nullopt, options), name);
 }
 
 Curves read_curves(const std::string& path, bool quiet) {
-  const formats::Clip clip =
+  const animation::Clip clip =
       parse_animation(read_whole(path), path, std::nullopt, read_options_for(path));
   if (!quiet) {
     print_notes(path, clip);

@@ -28,7 +28,7 @@ using Curves = std::vector<CurvesFrame>;
 // Requires one to 216,000 frames and non-decreasing times. Throws Failure(kExitNoInput) with line
 // and column. Messages refer to the file as `name`.
 Curves parse_curves(std::string_view text, const std::string& name,
-                    const formats::ReadOptions& options = {});
+                    const animation::ReadOptions& options = {});
 
 // Also reads the JSON file beside a Live Link Face file. Prints assumed units unless `quiet`.
 // Throws Failure(kExitNoInput).

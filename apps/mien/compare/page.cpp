@@ -75,7 +75,7 @@ ordered_json page_json(const Comparison& comparison) {
 
 std::string compare_page(const Comparison& comparison) {
   return filled(kComparePage, {{"@DATA@", script_text(page_json(comparison))},
-                               {"@VIDEO@", formats::base64(comparison.video)}});
+                               {"@VIDEO@", animation::base64(comparison.video)}});
 }
 
 }  // namespace mien::app

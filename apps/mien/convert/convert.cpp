@@ -20,9 +20,9 @@
 namespace mien::app {
 namespace {
 
-using formats::Clip;
-using formats::Frame;
-using formats::FrameSequence;
+using animation::Clip;
+using animation::Frame;
+using animation::FrameSequence;
 
 // The number of frames of each face. Frames without an id belong to the face of the following
 // frame.
@@ -57,14 +57,14 @@ FrameSequence only(FrameSequence frames, std::int64_t id) {
 }
 
 // Keeps one face if one was requested or the format supports one only, and records the omission.
-void choose_face(Clip& clip, const ConvertOptions& options, formats::AnimationFormat format,
+void choose_face(Clip& clip, const ConvertOptions& options, animation::AnimationFormat format,
                  std::vector<std::string>& lost) {
   const Faces faces = count_faces(clip.frames);
   if (options.face && !faces.contains(*options.face)) {
     throw Failure(kExitUsage,
                   "--face: unknown face " + std::to_string(*options.face) + " in " + options.input);
   }
-  const bool too_many = count_with_id(faces) > 1 && !formats::holds_several_faces(format);
+  const bool too_many = count_with_id(faces) > 1 && !animation::holds_several_faces(format);
   if (options.face || too_many) {
     const std::int64_t id = options.face.value_or(most_frequent(faces));
     clip.frames = only(std::move(clip.frames), id);
@@ -80,11 +80,11 @@ void choose_face(Clip& clip, const ConvertOptions& options, formats::AnimationFo
 // Writes the frames of a clip and clears it.
 class ClipWriter {
  public:
-  ClipWriter(const AnimationTarget& target, const formats::WriteOptions& options)
+  ClipWriter(const AnimationTarget& target, const animation::WriteOptions& options)
       : losses_(target.format), output_(target, options) {}
 
   void write(FrameSequence frames) {
-    evenly_spaced_ = formats::evenly_spaced(frames);
+    evenly_spaced_ = animation::evenly_spaced(frames);
     for (auto at = frames.begin(); at != FrameSequence::end() && output_.wanted(); ++at) {
       write_frame(*at);
     }
@@ -109,17 +109,17 @@ class ClipWriter {
     ++count_;
   }
 
-  formats::Losses losses_;
+  animation::Losses losses_;
   AnimationOutput output_;
   std::size_t count_ = 0;
   bool evenly_spaced_ = false;
 };
 
-void report(const ConvertOptions& options, formats::AnimationFormat format, const Clip& clip,
+void report(const ConvertOptions& options, animation::AnimationFormat format, const Clip& clip,
             std::size_t frames, const std::vector<std::string>& lost) {
   if (options.json) {
     const nlohmann::ordered_json text = {
-        {"input", options.input}, {"output", options.output}, {"format", formats::name(format)},
+        {"input", options.input}, {"output", options.output}, {"format", animation::name(format)},
         {"frames", frames},       {"notes", clip.notes},      {"left_out", lost}};
     std::fprintf(stderr, "%s\n", json_text(text, -1).c_str());
     return;
@@ -135,9 +135,9 @@ void report(const ConvertOptions& options, formats::AnimationFormat format, cons
 }
 
 // `beside` receives the names of other files that the input refers to, when they are read.
-formats::ReadOptions reading_options(const ConvertOptions& options,
-                                     std::vector<std::string>& beside) {
-  formats::ReadOptions reading = read_options_for(options.input);
+animation::ReadOptions reading_options(const ConvertOptions& options,
+                                       std::vector<std::string>& beside) {
+  animation::ReadOptions reading = read_options_for(options.input);
   reading.rotation = options.from_rotation ? options.from_rotation : reading.rotation;
   reading.timecode_fps =
       options.from_timecode_fps ? options.from_timecode_fps : reading.timecode_fps;
@@ -165,7 +165,7 @@ void convert(const ConvertOptions& options) {
   }
   const AnimationTarget target = targets(animation).front();
   require_distinct_files({options.input, live_link_notes_of(options.input)}, files_of(target));
-  std::optional<formats::AnimationFormat> from;
+  std::optional<animation::AnimationFormat> from;
   if (!options.from.empty()) {
     from = format_asked_for(options.from);
   }
@@ -175,9 +175,9 @@ void convert(const ConvertOptions& options) {
   require_distinct_files(beside, files_of(target));
   std::vector<std::string> lost;
   choose_face(clip, options, target.format, lost);
-  formats::WriteOptions writing = options.writing;
+  animation::WriteOptions writing = options.writing;
   writing.several_faces =
-      count_with_id(count_faces(clip.frames)) > 0 && formats::holds_several_faces(target.format);
+      count_with_id(count_faces(clip.frames)) > 0 && animation::holds_several_faces(target.format);
   writing.audio_file = clip.audio_file;
   std::optional<EvenFrames> even;
   if (options.fps) {

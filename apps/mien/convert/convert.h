@@ -14,10 +14,10 @@ struct ConvertOptions {
   std::string output;    // "-": standard output
   std::string from, to;  // format names; empty: selected by the files
   // Units of INPUT; default: from a file beside it, or detected.
-  std::optional<formats::RotationUnit> from_rotation;
+  std::optional<animation::RotationUnit> from_rotation;
   std::optional<double> from_timecode_fps;
-  std::optional<formats::LengthUnit> from_bvh_unit;
-  formats::WriteOptions writing;
+  std::optional<animation::LengthUnit> from_bvh_unit;
+  animation::WriteOptions writing;
   std::optional<double> fps;  // default: the timestamps of the frames
   std::optional<std::int64_t> face;
   bool quiet = false;

@@ -11,8 +11,8 @@
 namespace mien::app {
 namespace {
 
-using formats::Frame;
-using formats::FrameSequence;
+using animation::Frame;
+using animation::FrameSequence;
 
 constexpr double kMaxFrames = 1e7;
 constexpr std::size_t kMaxFaces = 1000;
@@ -24,13 +24,13 @@ EvenFrames::EvenFrames(FrameSequence frames, double fps) {
   split(std::move(frames));
   double count = 0.0;
   for (const FrameSequence& part : parts_) {
-    count += formats::Resampler::count(part, fps);
+    count += animation::Resampler::count(part, fps);
   }
   if (!(count <= kMaxFrames)) {
     throw Failure(kExitUsage, "--fps: more than ten million frames");
   }
   for (const FrameSequence& part : parts_) {
-    faces_.push_back({formats::Resampler(part, fps, first_ns), Frame()});
+    faces_.push_back({animation::Resampler(part, fps, first_ns), Frame()});
     take_next(faces_.size() - 1);
   }
 }

@@ -14,24 +14,24 @@ namespace mien::app {
 class EvenFrames {
  public:
   // Throws Failure(kExitUsage) for more than ten million frames in total, or 1000 faces.
-  EvenFrames(formats::FrameSequence frames, double fps);
+  EvenFrames(animation::FrameSequence frames, double fps);
   EvenFrames(const EvenFrames&) = delete;
   EvenFrames& operator=(const EvenFrames&) = delete;
 
   // Returns frames in order of time, then of faces; nothing at the end.
-  [[nodiscard]] std::optional<formats::Frame> next();
+  [[nodiscard]] std::optional<animation::Frame> next();
 
  private:
   struct Face {
-    formats::Resampler resampler;
-    formats::Frame frame;  // its next frame
+    animation::Resampler resampler;
+    animation::Frame frame;  // its next frame
   };
 
-  void split(formats::FrameSequence frames);
+  void split(animation::FrameSequence frames);
   void take_next(std::size_t face);
   [[nodiscard]] bool later(std::size_t a, std::size_t b) const;
 
-  std::deque<formats::FrameSequence> parts_;  // one per face; resamplers refer to them
+  std::deque<animation::FrameSequence> parts_;  // one per face; resamplers refer to them
   std::deque<Face> faces_;
   std::vector<std::size_t>
       heap_;  // a heap of the faces that have a next frame; the earliest is on top

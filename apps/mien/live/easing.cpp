@@ -8,8 +8,8 @@
 namespace mien::app {
 namespace {
 
-using formats::FaceState;
-using formats::Frame;
+using animation::FaceState;
+using animation::Frame;
 
 constexpr double kHoldS = 0.5, kEaseS = 1.0, kFadeInS = 0.2;
 
@@ -26,7 +26,7 @@ Frame between(const Frame& from, const Frame& to, double share) {
     }
   }
   if (from.head && to.head) {
-    result.head = formats::between(*from.head, *to.head, share);
+    result.head = animation::between(*from.head, *to.head, share);
   }
   if (from.position_m && to.position_m) {
     for (std::size_t i = 0; i < 3; ++i) {
@@ -59,7 +59,7 @@ Frame Easing::next(const Frame& tracked) {
   change(tracked.state, tracked.time_ns);
   Frame target = tracked;
   if (had_face_ && tracked.state != FaceState::kTracking) {
-    target.head = formats::Angles();
+    target.head = animation::Angles();
     target.position_m = output_.position_m;
   }
   output_.state = tracked.state;

@@ -13,17 +13,17 @@ namespace mien::app {
 // position. When a face is found, eases to it within a fifth of a second.
 class Easing {
  public:
-  Easing() { output_.state = formats::FaceState::kSearching; }
+  Easing() { output_.state = animation::FaceState::kSearching; }
   // Returns the frame to display. Frames must be in order of time.
-  formats::Frame next(const formats::Frame& tracked);
+  animation::Frame next(const animation::Frame& tracked);
 
  private:
-  void change(formats::FaceState state, std::int64_t now_ns);
+  void change(animation::FaceState state, std::int64_t now_ns);
   [[nodiscard]] double share(std::int64_t now_ns) const;
 
-  std::optional<formats::Frame> from_;  // the output when the state changed
-  formats::Frame output_;               // the last output; searching before the first
-  bool had_face_ = false;               // a face was tracked before
+  std::optional<animation::Frame> from_;  // the output when the state changed
+  animation::Frame output_;               // the last output; searching before the first
+  bool had_face_ = false;                 // a face was tracked before
   std::int64_t changed_ns_ = 0;
 };
 

@@ -82,7 +82,7 @@ class Live {
         camera_(camera_name_),
         mirror_(options.mirror),
         automatic_(options.lod == 0) {
-    last_frame_.state = formats::FaceState::kSearching;
+    last_frame_.state = animation::FaceState::kSearching;
     require_distinct_files(
         {file_played_by(camera_name_), file_played_by(microphone_name_), options.neutral},
         {options.stats});
@@ -174,7 +174,7 @@ class Live {
     outgoing_.time_of_day_s = time_of_day_s();
     if (mirror_) {
       Outgoing mirrored_outgoing = outgoing_;
-      mirrored_outgoing.frame = formats::mirrored(outgoing_.frame);
+      mirrored_outgoing.frame = animation::mirrored(outgoing_.frame);
       mirrored_outgoing.image = mirrored(outgoing_.image);
       send(mirrored_outgoing);
     } else {
@@ -311,7 +311,7 @@ class Live {
   Easing easing_;
   LiveStatistics statistics_;
   Outgoing outgoing_;
-  formats::Frame last_frame_;
+  animation::Frame last_frame_;
   bool mirror_, automatic_, calibrating_ = false, quit_ = false, had_image_ = false;
   int level_ = 0;
   std::int64_t number_ = 0, begin_ns_ = 0;

@@ -33,15 +33,15 @@ std::size_t partner(std::size_t point) {
   return point;  // the ridge of the nose
 }
 
-formats::ImagePoint point_of(const Result& result, std::size_t landmark) {
+protocols::ImagePoint point_of(const Result& result, std::size_t landmark) {
   return {double{result.landmarks[landmark][0]}, double{result.landmarks[landmark][1]}};
 }
 
 }  // namespace
 
-formats::OpenSeeFaceImage openseeface_image(const Result& result, const mien_image& image,
-                                            float fov_degrees) {
-  formats::OpenSeeFaceImage points;
+protocols::OpenSeeFaceImage openseeface_image(const Result& result, const mien_image& image,
+                                              float fov_degrees) {
+  protocols::OpenSeeFaceImage points;
   points.width = image.width;
   points.height = image.height;
   const double half_the_view = double{fov_degrees} / 2 * std::numbers::pi / 180;
@@ -55,11 +55,11 @@ formats::OpenSeeFaceImage openseeface_image(const Result& result, const mien_ima
   return points;
 }
 
-formats::OpenSeeFaceImage mirrored(const formats::OpenSeeFaceImage& image) {
-  const auto flipped = [&](const formats::ImagePoint& point) {
-    return formats::ImagePoint{image.width - point[0], point[1]};
+protocols::OpenSeeFaceImage mirrored(const protocols::OpenSeeFaceImage& image) {
+  const auto flipped = [&](const protocols::ImagePoint& point) {
+    return protocols::ImagePoint{image.width - point[0], point[1]};
   };
-  formats::OpenSeeFaceImage result = image;
+  protocols::OpenSeeFaceImage result = image;
   for (std::size_t i = 0; i < image.landmarks.size(); ++i) {
     result.landmarks[partner(i)] = flipped(image.landmarks[i]);
   }

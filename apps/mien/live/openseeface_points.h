@@ -10,10 +10,10 @@
 namespace mien::app {
 
 // The focal length follows from the horizontal field of view.
-formats::OpenSeeFaceImage openseeface_image(const Result& result, const mien_image& image,
-                                            float fov_degrees);
+protocols::OpenSeeFaceImage openseeface_image(const Result& result, const mien_image& image,
+                                              float fov_degrees);
 
 // The mirrored landmarks.
-formats::OpenSeeFaceImage mirrored(const formats::OpenSeeFaceImage& image);
+protocols::OpenSeeFaceImage mirrored(const protocols::OpenSeeFaceImage& image);
 
 }  // namespace mien::app

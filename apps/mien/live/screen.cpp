@@ -56,12 +56,12 @@ std::string times(const LiveStatistics& statistics) {
   for (int stage = 0; stage < MIEN_STAGE_COUNT; ++stage) {
     whole += statistics.stage_ms(stage);
     text.append(" ").append(mien_stage_name(stage)).append(" ");
-    text.append(formats::fixed(statistics.stage_ms(stage), 1));
+    text.append(animation::fixed(statistics.stage_ms(stage), 1));
   }
-  return formats::fixed(whole, 1) + " ms:" + text;
+  return animation::fixed(whole, 1) + " ms:" + text;
 }
 
-std::string face_line(const formats::Frame& frame) {
+std::string face_line(const animation::Frame& frame) {
   std::string text = name(frame.state);
   if (frame.head) {
     text += ", pitch " + degrees(frame.head->pitch) + ", yaw " + degrees(frame.head->yaw) +
@@ -70,7 +70,7 @@ std::string face_line(const formats::Frame& frame) {
   return text;
 }
 
-std::string bars(const formats::Frame& frame) {
+std::string bars(const animation::Frame& frame) {
   std::string text;
   for (const auto& row : kBars) {
     std::string both;
@@ -95,15 +95,15 @@ std::string screen_text(const ScreenState& state, const LiveStatistics& statisti
   if (state.receivers.empty()) {
     text += labelled("sends to", "no receiver");
   }
-  text += labelled("frames", formats::fixed(statistics.frames_per_second(), 1) +
+  text += labelled("frames", animation::fixed(statistics.frames_per_second(), 1) +
                                  " per second, dropped: " + std::to_string(state.dropped_images) +
                                  " images, " + std::to_string(state.dropped_packets) + " packets");
   text += labelled("level", std::to_string(state.level) + (state.automatic ? " (automatic)" : "") +
                                 (state.mirrored ? ", mirrored" : ""));
   text += labelled("frame", times(statistics));
-  text += labelled("latency", formats::fixed(statistics.latency().quantile(0.5), 1) +
+  text += labelled("latency", animation::fixed(statistics.latency().quantile(0.5), 1) +
                                   " ms from image to packet, 99 % within " +
-                                  formats::fixed(statistics.latency().quantile(0.99), 1) + " ms");
+                                  animation::fixed(statistics.latency().quantile(0.99), 1) + " ms");
   text +=
       labelled("face", state.calibrating ? "calibrating: look neutral" : face_line(state.frame));
   text += labelled("voice", bar(formats::or_zero(state.frame.voice_activity)));

@@ -13,7 +13,7 @@ namespace mien::app {
 struct ScreenState {
   std::string camera, microphone;      // name, or the reason why there is no input
   std::vector<std::string> receivers;  // one line each
-  formats::Frame frame;                // as sent
+  animation::Frame frame;              // as sent
   int level = 0;                       // current level of detail
   bool automatic = false, mirrored = false, calibrating = false;
   std::uint64_t dropped_images = 0;  // since the start

@@ -12,12 +12,12 @@
 namespace mien::app {
 namespace {
 
-using formats::AnimationFormat;
-using formats::RotationUnit;
+using animation::AnimationFormat;
+using animation::RotationUnit;
 
 std::string format_names() {
   std::string names;
-  for (const formats::FormatName& known : formats::kFormatNames) {
+  for (const animation::FormatName& known : animation::kFormatNames) {
     names.append(names.empty() ? "" : ", ").append(known.name);
   }
   return names;
@@ -25,14 +25,14 @@ std::string format_names() {
 
 std::string endings() {
   std::string listed;
-  for (const formats::FormatName& known : formats::kFormatNames) {
+  for (const animation::FormatName& known : animation::kFormatNames) {
     listed.append(listed.empty() ? "" : ", ").append(known.ending);
   }
   return listed;
 }
 
 AnimationFormat format_of(const std::string& file, const char* format_option) {
-  if (const auto format = formats::format_by_ending(file)) {
+  if (const auto format = animation::format_by_ending(file)) {
     return *format;
   }
   const std::string ending = name_of(path_of(file).extension());
@@ -55,7 +55,7 @@ const char* unit_name(RotationUnit unit) {
   return "";
 }
 
-std::string live_link_notes(const formats::LiveLinkOptions& options) {
+std::string live_link_notes(const animation::LiveLinkOptions& options) {
   const nlohmann::ordered_json notes = {{"rotation", unit_name(options.rotation)},
                                         {"timecode_fps", options.timecode_fps}};
   return notes.dump() + "\n";
@@ -64,7 +64,7 @@ std::string live_link_notes(const formats::LiveLinkOptions& options) {
 }  // namespace
 
 AnimationFormat format_asked_for(const std::string& name) {
-  if (const auto format = formats::format_named(name)) {
+  if (const auto format = animation::format_named(name)) {
     return *format;
   }
   throw Failure(kExitUsage,
@@ -87,9 +87,9 @@ std::vector<AnimationTarget> targets(const AnimationOptions& options) {
         throw Failure(kExitUsage, files[i] + ": duplicate output path");
       }
     }
-    if (options.writing.several_faces && !formats::holds_several_faces(selected.back().format)) {
+    if (options.writing.several_faces && !animation::holds_several_faces(selected.back().format)) {
       throw Failure(kExitUsage,
-                    files[i] + ": " + std::string(formats::name(selected.back().format)) +
+                    files[i] + ": " + std::string(animation::name(selected.back().format)) +
                         " supports a single face; track one face, or write .jsonl and convert it");
     }
   }
@@ -105,8 +105,8 @@ std::vector<std::string> files_of(const AnimationTarget& target) {
 }
 
 AnimationOutput::AnimationOutput(const AnimationTarget& target,
-                                 const formats::WriteOptions& options)
-    : writer_(formats::animation_writer(target.format, options)) {
+                                 const animation::WriteOptions& options)
+    : writer_(animation::animation_writer(target.format, options)) {
   const std::vector<std::string> files = files_of(target);
   if (target.file != kStandardOutput) {
     file_ = std::make_unique<OutputFile>(files.front());
@@ -118,7 +118,7 @@ AnimationOutput::AnimationOutput(const AnimationTarget& target,
   write(writer_->begin());
 }
 
-void AnimationOutput::frame(const formats::Frame& frame) { write(writer_->frame(frame)); }
+void AnimationOutput::frame(const animation::Frame& frame) { write(writer_->frame(frame)); }
 
 void AnimationOutput::finish() {
   write(writer_->finish());

@@ -17,13 +17,13 @@ inline constexpr const char* kStandardOutput = "-";
 struct AnimationOptions {
   std::vector<std::string> files;    // empty: standard output
   std::vector<std::string> formats;  // format names; empty: selected by the endings of `files`
-  formats::WriteOptions writing;
+  animation::WriteOptions writing;
   const char* format_option = "--format";  // the option's name in messages
 };
 
 struct AnimationTarget {
   std::string file;
-  formats::AnimationFormat format;
+  animation::AnimationFormat format;
 };
 
 // One target per file. A file without an ending, such as a device or a pipe, is CSV. Throws
@@ -31,7 +31,7 @@ struct AnimationTarget {
 std::vector<AnimationTarget> targets(const AnimationOptions& options);
 
 // Throws Failure(kExitUsage) for an unknown format.
-formats::AnimationFormat format_asked_for(const std::string& name);
+animation::AnimationFormat format_asked_for(const std::string& name);
 
 // The files written for a target, the animation first.
 std::vector<std::string> files_of(const AnimationTarget& target);
@@ -39,9 +39,9 @@ std::vector<std::string> files_of(const AnimationTarget& target);
 class AnimationOutput {
  public:
   // All functions throw Failure(kExitOutput) if writing fails.
-  AnimationOutput(const AnimationTarget& target, const formats::WriteOptions& options);
+  AnimationOutput(const AnimationTarget& target, const animation::WriteOptions& options);
 
-  void frame(const formats::Frame& frame);
+  void frame(const animation::Frame& frame);
   void finish();
 
   // False after the reader of standard output has closed it.
@@ -50,7 +50,7 @@ class AnimationOutput {
  private:
   void write(const std::string& text);
 
-  std::unique_ptr<formats::AnimationWriter> writer_;
+  std::unique_ptr<animation::AnimationWriter> writer_;
   std::unique_ptr<OutputFile> file_;    // null: standard output
   std::unique_ptr<OutputFile> beside_;  // units that the format does not contain
   bool wanted_ = true;

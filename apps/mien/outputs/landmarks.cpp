@@ -8,7 +8,7 @@
 namespace mien::app {
 namespace {
 
-using formats::CsvRow;
+using animation::CsvRow;
 
 // Buffer for the longest row; each cell is a number or a short word.
 class Row : public CsvRow {

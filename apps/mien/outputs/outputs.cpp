@@ -62,7 +62,7 @@ Outputs::Outputs(const TrackOptions& options, const VideoInfo& info, const Video
 
 void Outputs::frame(std::int64_t number, const mien_image* image, std::span<const Result> faces) {
   for (const Result& face : faces) {
-    const formats::Frame frame = frame_of(number, face);
+    const animation::Frame frame = frame_of(number, face);
     for (AnimationOutput& animation : animations_) {
       animation.frame(frame);
     }

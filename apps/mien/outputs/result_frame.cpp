@@ -6,8 +6,8 @@
 namespace mien::app {
 namespace {
 
-using formats::decimal;
-using formats::FaceState;
+using animation::decimal;
+using animation::FaceState;
 
 static_assert(MIEN_CONTROL_COUNT == formats::kControlCount);
 
@@ -24,8 +24,8 @@ FaceState state(std::int32_t status) {
 
 }  // namespace
 
-formats::Frame frame_of(std::int64_t number, const Result& result) {
-  formats::Frame frame;
+animation::Frame frame_of(std::int64_t number, const Result& result) {
+  animation::Frame frame;
   frame.number = number;
   frame.time_ns = result.pts_ns;
   frame.state = state(result.status);

@@ -8,6 +8,6 @@
 
 namespace mien::app {
 
-formats::Frame frame_of(std::int64_t number, const Result& result);
+animation::Frame frame_of(std::int64_t number, const Result& result);
 
 }  // namespace mien::app

@@ -55,7 +55,7 @@ void PackedText::write(std::string_view bytes) {
 std::string PackedText::finish() {
   stream_->z.avail_in = 0;
   deflate_all(Z_FINISH);
-  return formats::base64(packed_);
+  return animation::base64(packed_);
 }
 
 }  // namespace mien::app

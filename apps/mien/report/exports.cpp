@@ -6,12 +6,12 @@
 namespace mien::app {
 namespace {
 
-PackedText written(const std::vector<formats::Frame>& frames, formats::AnimationFormat format,
-                   const formats::WriteOptions& writing) {
-  const auto writer = formats::animation_writer(format, writing);
+PackedText written(const std::vector<animation::Frame>& frames, animation::AnimationFormat format,
+                   const animation::WriteOptions& writing) {
+  const auto writer = animation::animation_writer(format, writing);
   PackedText text;
   text.write(writer->begin());
-  for (const formats::Frame& frame : frames) {
+  for (const animation::Frame& frame : frames) {
     text.write(writer->frame(frame));
   }
   text.write(writer->finish());
@@ -24,10 +24,10 @@ std::string block(const std::string& id, const std::string& base64) {
   return "<script type=\"text/plain\" id=\"" + id + "\">" + base64 + "</script>\n";
 }
 
-Exports exports_of(const std::vector<formats::Frame>& frames, const formats::WriteOptions& writing,
-                   const std::string& stem) {
+Exports exports_of(const std::vector<animation::Frame>& frames,
+                   const animation::WriteOptions& writing, const std::string& stem) {
   Exports exports;
-  for (const formats::FormatName& format : formats::kFormatNames) {
+  for (const animation::FormatName& format : animation::kFormatNames) {
     PackedText text = written(frames, format.format, writing);
     exports.list.push_back({{"format", format.name},
                             {"file", stem + std::string(format.ending)},

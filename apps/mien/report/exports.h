@@ -15,8 +15,8 @@ struct Exports {
 };
 
 // The names of files are `stem` and the format's ending.
-Exports exports_of(const std::vector<formats::Frame>& frames, const formats::WriteOptions& writing,
-                   const std::string& stem);
+Exports exports_of(const std::vector<animation::Frame>& frames,
+                   const animation::WriteOptions& writing, const std::string& stem);
 
 // A script element with base64 text.
 std::string block(const std::string& id, const std::string& base64);

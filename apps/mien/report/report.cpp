@@ -23,42 +23,43 @@ constexpr double kMillimetre = 1e-3;
 constexpr std::size_t kCoordinates = std::size_t{MIEN_LANDMARK_COUNT} * 2;
 
 template <typename ValueOf>
-std::vector<double> column_of(const std::vector<formats::Frame>& frames, ValueOf value_of) {
+std::vector<double> column_of(const std::vector<animation::Frame>& frames, ValueOf value_of) {
   std::vector<double> values(frames.size());
   std::transform(frames.begin(), frames.end(), values.begin(), value_of);
   return values;
 }
 
-void add_head(Columns& columns, const std::vector<formats::Frame>& frames) {
-  const auto angle = [&](double formats::Angles::*of) {
-    return column_of(frames, [of](const formats::Frame& frame) {
+void add_head(Columns& columns, const std::vector<animation::Frame>& frames) {
+  const auto angle = [&](double animation::Angles::*of) {
+    return column_of(frames, [of](const animation::Frame& frame) {
       return frame.head ? (*frame.head).*of : formats::kNoNumber;
     });
   };
-  columns.add("pitch", kResolution, angle(&formats::Angles::pitch));
-  columns.add("yaw", kResolution, angle(&formats::Angles::yaw));
-  columns.add("roll", kResolution, angle(&formats::Angles::roll));
+  columns.add("pitch", kResolution, angle(&animation::Angles::pitch));
+  columns.add("yaw", kResolution, angle(&animation::Angles::yaw));
+  columns.add("roll", kResolution, angle(&animation::Angles::roll));
   const char* const names[] = {"x_m", "y_m", "z_m"};
   for (std::size_t i = 0; i < 3; ++i) {
-    columns.add(names[i], kMillimetre, column_of(frames, [i](const formats::Frame& frame) {
+    columns.add(names[i], kMillimetre, column_of(frames, [i](const animation::Frame& frame) {
                   return frame.position_m ? (*frame.position_m)[i] : formats::kNoNumber;
                 }));
   }
 }
 
-void add_box(Columns& columns, const std::vector<formats::Frame>& frames, double unit) {
+void add_box(Columns& columns, const std::vector<animation::Frame>& frames, double unit) {
   const char* const names[] = {"box_x", "box_y", "box_width", "box_height"};
   for (std::size_t i = 0; i < 4; ++i) {
-    columns.add(names[i], unit, column_of(frames, [i](const formats::Frame& frame) {
+    columns.add(names[i], unit, column_of(frames, [i](const animation::Frame& frame) {
                   return frame.box ? (*frame.box)[i] : formats::kNoNumber;
                 }));
   }
 }
 
-void add_controls(Columns& columns, const std::vector<formats::Frame>& frames) {
+void add_controls(Columns& columns, const std::vector<animation::Frame>& frames) {
   for (std::size_t i = 0; i < formats::kControlCount; ++i) {
-    columns.add(mien_control_name(static_cast<std::int32_t>(i)), kResolution,
-                column_of(frames, [i](const formats::Frame& frame) { return frame.controls[i]; }));
+    columns.add(
+        mien_control_name(static_cast<std::int32_t>(i)), kResolution,
+        column_of(frames, [i](const animation::Frame& frame) { return frame.controls[i]; }));
   }
 }
 
@@ -83,7 +84,7 @@ Report::Report(const ReportOptions& options) : options_(options), file_(options.
   }
 }
 
-void Report::frame(const formats::Frame& frame, const Result& result) {
+void Report::frame(const animation::Frame& frame, const Result& result) {
   frames_.push_back(frame);
   const std::uint64_t took_ns =
       std::accumulate(result.stage_ns, result.stage_ns + MIEN_STAGE_COUNT, std::uint64_t{0});
@@ -99,25 +100,27 @@ double Report::start_ms() const { return frames_.empty() ? 0.0 : frames_.front()
 
 double Report::end_ms() const {
   if (frames_.empty()) {
-    return formats::mean_step_s(0, 0, 0) * 1e3;
+    return animation::mean_step_s(0, 0, 0) * 1e3;
   }
   const std::int64_t first_ns = frames_.front().time_ns, last_ns = frames_.back().time_ns;
-  return frames_.back().time_ms() + formats::mean_step_s(first_ns, last_ns, frames_.size()) * 1e3;
+  return frames_.back().time_ms() + animation::mean_step_s(first_ns, last_ns, frames_.size()) * 1e3;
 }
 
 Columns Report::columns() const {
   Columns columns;
-  columns.add_times(
-      "t_ms", 0.1, column_of(frames_, [](const formats::Frame& frame) { return frame.time_ms(); }));
-  columns.add("status", 1.0, column_of(frames_, [](const formats::Frame& frame) {
+  columns.add_times("t_ms", 0.1, column_of(frames_, [](const animation::Frame& frame) {
+                      return frame.time_ms();
+                    }));
+  columns.add("status", 1.0, column_of(frames_, [](const animation::Frame& frame) {
                 return static_cast<double>(frame.state);
               }));
-  columns.add("face_probability", kResolution, column_of(frames_, [](const formats::Frame& frame) {
-                return frame.face_probability;
+  columns.add(
+      "face_probability", kResolution,
+      column_of(frames_, [](const animation::Frame& frame) { return frame.face_probability; }));
+  columns.add("voice_activity", kResolution, column_of(frames_, [](const animation::Frame& frame) {
+                return frame.voice_activity;
               }));
-  columns.add("voice_activity", kResolution,
-              column_of(frames_, [](const formats::Frame& frame) { return frame.voice_activity; }));
-  columns.add("lod", 1.0, column_of(frames_, [](const formats::Frame& frame) {
+  columns.add("lod", 1.0, column_of(frames_, [](const animation::Frame& frame) {
                 return static_cast<double>(frame.lod);
               }));
   columns.add("took_ms", 0.02, took_ms_);
@@ -131,7 +134,7 @@ Columns Report::columns() const {
 
 std::string Report::packed_landmarks() const {
   const bool any = std::any_of(frames_.begin(), frames_.end(),
-                               [](const formats::Frame& frame) { return frame.box.has_value(); });
+                               [](const animation::Frame& frame) { return frame.box.has_value(); });
   if (!any) {
     return {};
   }
@@ -192,9 +195,9 @@ void Report::finish(const StageTimes& times) {
   const Exports exports = exports_of(frames_, options_.writing, stem.empty() ? "face" : stem);
   facts["exports"] = exports.list;
   file_.write(filled(kReportPage, {{"@DATA@", script_text(facts)},
-                                   {"@COLUMNS@", formats::base64(columns.bytes())},
+                                   {"@COLUMNS@", animation::base64(columns.bytes())},
                                    {"@BLOCKS@", block("landmarks", packed_landmarks()) +
-                                                    block("clip", formats::base64(clip.bytes)) +
+                                                    block("clip", animation::base64(clip.bytes)) +
                                                     exports.blocks}}));
   file_.finish();
 }

@@ -25,7 +25,7 @@ struct ReportOptions {
   double largest_clip_bytes = 64e6;  // a larger clip is stored beside the page
   std::string name;                  // of the input
   int width = 0, height = 0;         // of the image, pixels
-  formats::WriteOptions writing;
+  animation::WriteOptions writing;
 };
 
 // The file for a clip that is too large for the page.
@@ -36,7 +36,7 @@ class Report {
   explicit Report(
       const ReportOptions& options);  // throws Failure(kExitOutput), as the other functions
 
-  void frame(const formats::Frame& frame, const Result& result);
+  void frame(const animation::Frame& frame, const Result& result);
   void push_audio(const Audio& block, std::int64_t pts_ns) { waveform_.push_audio(block, pts_ns); }
 
   // Also transcodes the clip; throws what `web_video` throws.
@@ -58,7 +58,7 @@ class Report {
   ReportOptions options_;
   OutputFile file_;  // opened first, so that an unwritable page fails before the work
   std::optional<PartialFile> clip_file_;  // likewise; empty: no clip
-  std::vector<formats::Frame> frames_;
+  std::vector<animation::Frame> frames_;
   std::vector<double> took_ms_;  // per frame
   std::vector<std::int16_t>
       landmarks_;               // [frames][MIEN_LANDMARK_COUNT * 2], multiples of landmark_unit_

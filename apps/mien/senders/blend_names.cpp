@@ -43,7 +43,7 @@ BlendNames::BlendNames(const std::string& vocabularies, const Destination& desti
   }
 }
 
-std::span<const formats::NamedValue> BlendNames::values(const formats::Frame& frame) {
+std::span<const protocols::NamedValue> BlendNames::values(const animation::Frame& frame) {
   std::array<float, formats::kControlCount> controls;
   for (std::size_t i = 0; i < controls.size(); ++i) {
     controls[i] = static_cast<float>(formats::or_zero(frame.controls[i]));

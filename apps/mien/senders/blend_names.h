@@ -16,7 +16,7 @@ class BlendNames {
   BlendNames(const std::string& vocabularies, const Destination& destination);
 
   // The values of all vocabularies, valid until the next call.
-  std::span<const formats::NamedValue> values(const formats::Frame& frame);
+  std::span<const protocols::NamedValue> values(const animation::Frame& frame);
 
  private:
   struct Vocabulary {
@@ -24,7 +24,7 @@ class BlendNames {
     std::vector<std::string> names;  // as sent
   };
   std::vector<Vocabulary> vocabularies_;
-  std::vector<formats::NamedValue> values_;
+  std::vector<protocols::NamedValue> values_;
 };
 
 }  // namespace mien::app

@@ -37,10 +37,10 @@ class IfacialmocapSender : public Sender {
     take_hellos();
     bool all = true;
     if (extra_receiver_) {
-      all = extra_receiver_->send(formats::ifacialmocap_text(outgoing.frame, '-'));
+      all = extra_receiver_->send(protocols::ifacialmocap_text(outgoing.frame, '-'));
     }
     for (const Receiver& receiver : receivers_) {
-      all = socket_.send(formats::ifacialmocap_text(outgoing.frame, receiver.separator),
+      all = socket_.send(protocols::ifacialmocap_text(outgoing.frame, receiver.separator),
                          receiver.address) &&
             all;
     }
@@ -60,7 +60,7 @@ class IfacialmocapSender : public Sender {
       if (!datagram) {
         return;
       }
-      if (const auto separator = formats::ifacialmocap_separator(datagram->bytes)) {
+      if (const auto separator = protocols::ifacialmocap_separator(datagram->bytes)) {
         add_receiver({reply_address(datagram->from), *separator});
       }
     }

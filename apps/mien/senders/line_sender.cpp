@@ -16,7 +16,7 @@ class LineSender : public Sender {
     if (!standard_output_is_writable()) {
       return false;
     }
-    write_standard_output(formats::frame_json(outgoing.frame) + "\n", wanted_);
+    write_standard_output(animation::frame_json(outgoing.frame) + "\n", wanted_);
     write_standard_output("", wanted_);
     return wanted_;
   }

@@ -49,8 +49,8 @@ std::unique_ptr<Sender> sender(const Destination& destination, std::uint16_t def
 
 using Datagrams = std::vector<std::string>;
 
-formats::RotationUnit rotation_unit(const std::string& name, const Destination& destination) {
-  using formats::RotationUnit;
+animation::RotationUnit rotation_unit(const std::string& name, const Destination& destination) {
+  using animation::RotationUnit;
   if (name == "rad" || name == "norm180" || name == "deg") {
     return name == "rad"   ? RotationUnit::kRadians
            : name == "deg" ? RotationUnit::kDegrees
@@ -67,9 +67,9 @@ std::unique_ptr<Sender> vmc_sender(const Destination& requested) {
   BlendNames names(destination.take("names", "vrm0,pascal"), destination);
   return sender(
       destination, kMarionette, [names = std::move(names)](const Outgoing& outgoing) mutable {
-        return formats::vmc_packets({outgoing.since_start_s,
-                                     outgoing.frame.state == formats::FaceState::kTracking,
-                                     names.values(outgoing.frame), outgoing.frame.head});
+        return protocols::vmc_packets({outgoing.since_start_s,
+                                       outgoing.frame.state == animation::FaceState::kTracking,
+                                       names.values(outgoing.frame), outgoing.frame.head});
       });
 }
 
@@ -77,15 +77,15 @@ std::unique_ptr<Sender> live_link_sender(const Destination& requested) {
   Destination destination = requested;
   constexpr std::uint16_t kLiveLinkFace = 11111;
   // Unreal distinguishes devices by this id; each machine is one device.
-  formats::LiveLinkSubject subject{destination.take("id", "6D69656E-0000-4000-8000-000000000001"),
-                                   destination.take("subject", "mien"),
-                                   {}};
+  protocols::LiveLinkSubject subject{destination.take("id", "6D69656E-0000-4000-8000-000000000001"),
+                                     destination.take("subject", "mien"),
+                                     {}};
   if (subject.device_id.size() != 36) {
     destination.fail("id: expected a UUID of 36 characters (got '" + subject.device_id + "')");
   }
   subject.rotation = rotation_unit(destination.take("rot", "rad"), destination);
   return sender(destination, kLiveLinkFace, [subject](const Outgoing& outgoing) {
-    return Datagrams{formats::live_link_packet(outgoing.frame, subject, outgoing.time_of_day_s)};
+    return Datagrams{protocols::live_link_packet(outgoing.frame, subject, outgoing.time_of_day_s)};
   });
 }
 
@@ -93,11 +93,11 @@ std::unique_ptr<Sender> live_link_sender(const Destination& requested) {
 std::unique_ptr<Sender> openseeface_sender(const Destination& destination) {
   constexpr std::uint16_t kOpenSeeFace = 11573;
   return sender(destination, kOpenSeeFace, [](const Outgoing& outgoing) {
-    if (outgoing.frame.state != formats::FaceState::kTracking) {
+    if (outgoing.frame.state != animation::FaceState::kTracking) {
       return Datagrams();
     }
     return Datagrams{
-        formats::openseeface_packet(outgoing.frame, outgoing.image, outgoing.unix_time_s)};
+        protocols::openseeface_packet(outgoing.frame, outgoing.image, outgoing.unix_time_s)};
   });
 }
 
@@ -105,7 +105,8 @@ std::unique_ptr<Sender> opentrack_sender(const Destination& destination) {
   constexpr std::uint16_t kOpentrack = 4242;
   return sender(destination, kOpentrack, [](const Outgoing& outgoing) {
     // Before the first face the pose is unknown, which differs from a head at the camera.
-    return outgoing.frame.head ? Datagrams{formats::opentrack_packet(outgoing.frame)} : Datagrams();
+    return outgoing.frame.head ? Datagrams{protocols::opentrack_packet(outgoing.frame)}
+                               : Datagrams();
   });
 }
 
@@ -114,7 +115,7 @@ std::unique_ptr<Sender> json_sender(const Destination& destination) {
     destination.fail("expected a port");
   }
   return sender(destination, destination.port, [](const Outgoing& outgoing) {
-    return Datagrams{formats::frame_json(outgoing.frame)};
+    return Datagrams{animation::frame_json(outgoing.frame)};
   });
 }
 

@@ -13,8 +13,8 @@ namespace mien::app {
 
 // A frame to send.
 struct Outgoing {
-  formats::Frame frame;             // of a lost face: held, then eased to rest
-  formats::OpenSeeFaceImage image;  // valid only in the state tracking
+  animation::Frame frame;             // of a lost face: held, then eased to rest
+  protocols::OpenSeeFaceImage image;  // valid only in the state tracking
   double since_start_s = 0.0;
   double unix_time_s = 0.0;
   double time_of_day_s = 0.0;  // local time

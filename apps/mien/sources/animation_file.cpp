@@ -65,7 +65,7 @@ bool load(const std::filesystem::path& folder, const std::string& name, std::siz
 }
 
 // Reads units from FILE.json beside FILE, if mien wrote it.
-void read_live_link_notes(const std::string& path, formats::ReadOptions& options) {
+void read_live_link_notes(const std::string& path, animation::ReadOptions& options) {
   const std::string beside = live_link_notes_of(path);
   std::error_code ignored;
   if (!std::filesystem::exists(path_of(beside), ignored)) {
@@ -75,10 +75,10 @@ void read_live_link_notes(const std::string& path, formats::ReadOptions& options
   if (!notes.is_object() || !notes.contains("rotation") || !notes["rotation"].is_string()) {
     return;
   }
-  const std::map<std::string, formats::RotationUnit> units = {
-      {"rad", formats::RotationUnit::kRadians},
-      {"norm180", formats::RotationUnit::kDegreesBy180},
-      {"deg", formats::RotationUnit::kDegrees}};
+  const std::map<std::string, animation::RotationUnit> units = {
+      {"rad", animation::RotationUnit::kRadians},
+      {"norm180", animation::RotationUnit::kDegreesBy180},
+      {"deg", animation::RotationUnit::kDegrees}};
   const auto unit = units.find(notes["rotation"].get<std::string>());
   const nlohmann::json fps = notes.value("timecode_fps", nlohmann::json());
   if (unit == units.end() || !fps.is_number() || fps.get<double>() < 1.0 ||
@@ -114,8 +114,8 @@ std::string read_whole(const std::string& path) {
   return rest_of(file, path, ignored || size > kMaxReserved ? 0 : static_cast<std::size_t>(size));
 }
 
-formats::ReadOptions read_options_for(const std::string& path) {
-  formats::ReadOptions options;
+animation::ReadOptions read_options_for(const std::string& path) {
+  animation::ReadOptions options;
   if (path == "-") {
     return options;
   }
@@ -126,19 +126,19 @@ formats::ReadOptions read_options_for(const std::string& path) {
   return options;
 }
 
-formats::Clip parse_animation(std::string_view bytes, const std::string& name,
-                              std::optional<formats::AnimationFormat> format,
-                              const formats::ReadOptions& options) {
-  formats::Clip clip;
-  formats::Fault fault;
-  const formats::AnimationFormat kind = format.value_or(formats::format_by_content(bytes));
-  if (!formats::read_animation(kind, bytes, options, clip, fault)) {
-    throw Failure(kExitNoInput, name + ": " + formats::describe(fault));
+animation::Clip parse_animation(std::string_view bytes, const std::string& name,
+                                std::optional<animation::AnimationFormat> format,
+                                const animation::ReadOptions& options) {
+  animation::Clip clip;
+  animation::Fault fault;
+  const animation::AnimationFormat kind = format.value_or(animation::format_by_content(bytes));
+  if (!animation::read_animation(kind, bytes, options, clip, fault)) {
+    throw Failure(kExitNoInput, name + ": " + animation::describe(fault));
   }
   return clip;
 }
 
-void print_notes(const std::string& name, const formats::Clip& clip) {
+void print_notes(const std::string& name, const animation::Clip& clip) {
   for (const std::string& note : clip.notes) {
     std::fprintf(stderr, "%s: %s\n", shown(name).c_str(), shown(note).c_str());
   }

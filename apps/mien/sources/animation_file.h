@@ -17,15 +17,15 @@ std::string live_link_notes_of(const std::string& path);
 
 // Options from FILE.json beside a Live Link Face file, and a loader for other files in its folder.
 // Default options for "-". Throws Failure(kExitNoInput).
-formats::ReadOptions read_options_for(const std::string& path);
+animation::ReadOptions read_options_for(const std::string& path);
 
 // Parses `bytes`. Messages refer to the input as `name`. Without `format`, the content decides.
 // Throws Failure(kExitNoInput) with line and column.
-formats::Clip parse_animation(std::string_view bytes, const std::string& name,
-                              std::optional<formats::AnimationFormat> format,
-                              const formats::ReadOptions& options);
+animation::Clip parse_animation(std::string_view bytes, const std::string& name,
+                                std::optional<animation::AnimationFormat> format,
+                                const animation::ReadOptions& options);
 
 // Prints the notes of a clip, such as assumed units, to standard error.
-void print_notes(const std::string& name, const formats::Clip& clip);
+void print_notes(const std::string& name, const animation::Clip& clip);
 
 }  // namespace mien::app

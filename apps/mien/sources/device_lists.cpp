@@ -25,7 +25,7 @@ void each_line(std::string_view text, Take take) {
   while (!text.empty()) {
     const std::string_view line = text.substr(0, text.find('\n'));
     text.remove_prefix(std::min(text.size(), line.size() + 1));
-    take(formats::trimmed(line));
+    take(animation::trimmed(line));
   }
 }
 
@@ -42,9 +42,9 @@ std::vector<Device> video4linux(const std::string& folder) {
   std::error_code none;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {
     const std::string node = entry.path().filename().string();
-    if (node.starts_with("video") && formats::trimmed(contents(entry.path() / "index")) == "0") {
+    if (node.starts_with("video") && animation::trimmed(contents(entry.path() / "index")) == "0") {
       found.push_back({kCamera, "/dev/" + node,
-                       std::string(formats::trimmed(contents(entry.path() / "name")))});
+                       std::string(animation::trimmed(contents(entry.path() / "name")))});
     }
   }
   std::sort(found.begin(), found.end(), [](const Device& a, const Device& b) {
@@ -59,12 +59,12 @@ std::vector<Device> parse_alsa(std::string_view text) {
   each_line(text, [&](std::string_view line) {
     std::int64_t card = 0, device = 0;
     if (line.find(": capture") == std::string_view::npos || line.size() < 6 || line[2] != '-' ||
-        !formats::parse_number(line.substr(0, 2), card) ||
-        !formats::parse_number(line.substr(3, 2), device)) {
+        !animation::parse_number(line.substr(0, 2), card) ||
+        !animation::parse_number(line.substr(3, 2), device)) {
       return;
     }
     std::string_view name = line.substr(std::min(line.size(), std::size_t{6}));
-    name = formats::trimmed(name.substr(0, name.find(" : ")));
+    name = animation::trimmed(name.substr(0, name.find(" : ")));
     found.push_back({kMicrophone, "alsa:hw:" + std::to_string(card) + "," + std::to_string(device),
                      std::string(name)});
   });
@@ -83,7 +83,7 @@ std::vector<Device> parse_pulse(std::string_view text) {
     std::string_view name = line.substr(0, open);
     name.remove_prefix(name.starts_with("* ") ? 2 : 0);
     if (!name.ends_with(".monitor")) {
-      found.push_back({kMicrophone, std::string(formats::trimmed(name)),
+      found.push_back({kMicrophone, std::string(animation::trimmed(name)),
                        std::string(line.substr(open + 2, close - open - 2))});
     }
   });
@@ -115,7 +115,7 @@ std::vector<Device> parse_dshow(std::string_view text) {
   std::vector<Device> found;
   std::optional<CaptureKind> section;
   each_line(text, [&](std::string_view line) {
-    line = formats::trimmed(message_of(line));
+    line = animation::trimmed(message_of(line));
     if (line.starts_with("DirectShow")) {
       section = line.find("video") != std::string_view::npos ? kCamera : kMicrophone;
     }

@@ -58,8 +58,8 @@ const char* word(Outcome outcome) {
 std::vector<std::string> endings(const std::vector<std::string>& formats) {
   std::vector<std::string> made;
   for (const std::string& asked : formats.empty() ? std::vector<std::string>{"csv"} : formats) {
-    const formats::AnimationFormat format = format_asked_for(asked);
-    for (const formats::FormatName& known : formats::kFormatNames) {
+    const animation::AnimationFormat format = format_asked_for(asked);
+    for (const animation::FormatName& known : animation::kFormatNames) {
       if (known.format == format) {
         made.emplace_back(known.ending);
       }

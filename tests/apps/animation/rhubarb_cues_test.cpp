@@ -6,7 +6,7 @@
 
 #include "apps/animation/rhubarb.h"
 
-namespace mien::formats {
+namespace mien::animation {
 namespace {
 
 constexpr std::int64_t kStep_ns = 10'000'000;
@@ -54,4 +54,4 @@ TEST(RhubarbCues, AShortShapeLeavesNoGap) {
 }
 
 }  // namespace
-}  // namespace mien::formats
+}  // namespace mien::animation

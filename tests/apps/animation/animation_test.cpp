@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "apps/animation/rotation.h"
-#include "tests/formats/random_clip.h"
+#include "tests/apps/animation/random_clip.h"
 
-namespace mien::formats {
+namespace mien::animation {
 namespace {
 
 using testing::Contains;
@@ -229,7 +229,8 @@ TEST(Animation, LossesAreReported) {
   frames[1].voice_activity = 0.5;
   EXPECT_THAT(lost(AnimationFormat::kGltf), Contains(HasSubstr("voice activity")));
   EXPECT_THAT(lost(AnimationFormat::kJsonl), IsEmpty());
-  frames[1].controls[index_of("eyeLookOutLeft", kArkitNames)] = kNoNumber;
+  frames[1].controls[formats::index_of("eyeLookOutLeft", formats::kArkitNames)] =
+      formats::kNoNumber;
   EXPECT_THAT(lost(AnimationFormat::kLiveLink), Contains(HasSubstr("become 0")));
   frames[1].time_ns += 10'000'000'000;
   frames.push_back(frames[1]);
@@ -237,4 +238,4 @@ TEST(Animation, LossesAreReported) {
 }
 
 }  // namespace
-}  // namespace mien::formats
+}  // namespace mien::animation

@@ -20,26 +20,29 @@
 
 namespace {
 
-using namespace mien::formats;
+using namespace mien;
+using namespace mien::protocols;
 using Packets = std::vector<std::string>;
 
-double seconds(const Frame& frame) { return static_cast<double>(frame.time_ns) * 1e-9; }
+double seconds(const animation::Frame& frame) { return static_cast<double>(frame.time_ns) * 1e-9; }
 
-Packets vmc(const Frame& frame) {
+Packets vmc(const animation::Frame& frame) {
   std::vector<NamedValue> blends;
-  for (std::size_t i = 0; i < kControlCount; ++i) {
-    blends.push_back({kArkitNames[i], or_zero(frame.controls[i])});
+  for (std::size_t i = 0; i < formats::kControlCount; ++i) {
+    blends.push_back({formats::kArkitNames[i], formats::or_zero(frame.controls[i])});
   }
-  return vmc_packets({seconds(frame), frame.state == FaceState::kTracking, blends, frame.head});
+  return vmc_packets(
+      {seconds(frame), frame.state == animation::FaceState::kTracking, blends, frame.head});
 }
 
-Packets live_link(const Frame& frame) {
-  const LiveLinkSubject subject = {std::string(36, 'A'), "M\xc3\xbcller", RotationUnit::kRadians};
+Packets live_link(const animation::Frame& frame) {
+  const LiveLinkSubject subject = {std::string(36, 'A'), "M\xc3\xbcller",
+                                   animation::RotationUnit::kRadians};
   return {live_link_packet(frame, subject, seconds(frame))};
 }
 
 // Landmarks on a diagonal of the box.
-Packets openseeface(const Frame& frame) {
+Packets openseeface(const animation::Frame& frame) {
   const auto [x, y, width, height] = frame.box.value_or(std::array<double, 4>{});
   OpenSeeFaceImage image;
   image.width = 640;
@@ -53,26 +56,26 @@ Packets openseeface(const Frame& frame) {
   return {openseeface_packet(frame, image, seconds(frame))};
 }
 
-const std::map<std::string, std::function<Packets(const Frame&)>> kProtocols = {
+const std::map<std::string, std::function<Packets(const animation::Frame&)>> kProtocols = {
     {"vmc", vmc},
     {"llf", live_link},
     {"osf", openseeface},
-    {"ifm", [](const Frame& frame) { return Packets{ifacialmocap_text(frame, '-')}; }},
-    {"ifm2", [](const Frame& frame) { return Packets{ifacialmocap_text(frame, '&')}; }},
-    {"opentrack", [](const Frame& frame) { return Packets{opentrack_packet(frame)}; }}};
+    {"ifm", [](const animation::Frame& frame) { return Packets{ifacialmocap_text(frame, '-')}; }},
+    {"ifm2", [](const animation::Frame& frame) { return Packets{ifacialmocap_text(frame, '&')}; }},
+    {"opentrack", [](const animation::Frame& frame) { return Packets{opentrack_packet(frame)}; }}};
 
 }  // namespace
 
 int main(int argc, char** argv) {
   const auto protocol = kProtocols.find(argc == 2 ? argv[1] : "");
   const std::string text{std::istreambuf_iterator<char>(std::cin), {}};
-  Clip clip;
-  Fault fault;
-  if (protocol == kProtocols.end() || !read_frames_jsonl(text, clip, fault)) {
+  animation::Clip clip;
+  animation::Fault fault;
+  if (protocol == kProtocols.end() || !animation::read_frames_jsonl(text, clip, fault)) {
     std::fprintf(stderr, "protocol_packets: %s\n", fault.what.c_str());
     return 2;
   }
-  for (const Frame& frame : clip.frames) {
+  for (const animation::Frame& frame : clip.frames) {
     const Packets packets = protocol->second(frame);
     std::string out;
     append_little(out, static_cast<std::uint32_t>(packets.size()));

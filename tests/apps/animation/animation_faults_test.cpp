@@ -8,9 +8,9 @@
 
 #include "apps/animation/animation.h"
 #include "apps/animation/json.h"
-#include "tests/formats/animation_faults.h"
+#include "tests/apps/animation/animation_faults.h"
 
-namespace mien::formats {
+namespace mien::animation {
 namespace {
 
 using testing::HasSubstr;
@@ -340,4 +340,4 @@ TEST(AnimationFaults, NamesOfFormats) {
 }
 
 }  // namespace
-}  // namespace mien::formats
+}  // namespace mien::animation

@@ -11,7 +11,7 @@
 #include "apps/animation/fault.h"
 #include "apps/animation/json_text.h"
 
-namespace mien::formats {
+namespace mien::animation {
 namespace {
 
 using namespace std::string_view_literals;
@@ -118,4 +118,4 @@ TEST(JsonText, NamesTheErrorOfAnEscape) {
 }
 
 }  // namespace
-}  // namespace mien::formats
+}  // namespace mien::animation

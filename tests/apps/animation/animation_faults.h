@@ -12,7 +12,7 @@
 #include "apps/animation/animation.h"
 #include "apps/animation/base64.h"
 
-namespace mien::formats {
+namespace mien::animation {
 
 // The error message for a file; empty if it was read.
 inline std::string error_of(AnimationFormat format, const std::string& text, Clip* clip = nullptr) {
@@ -90,4 +90,4 @@ inline std::string gltf_of(const std::vector<float>& numbers) {
          base64(bytes) + R"("}]})";
 }
 
-}  // namespace mien::formats
+}  // namespace mien::animation

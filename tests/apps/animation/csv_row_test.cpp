@@ -10,7 +10,7 @@
 #include <random>
 #include <string>
 
-namespace mien::formats {
+namespace mien::animation {
 namespace {
 
 TEST(CsvRow, WritesCells) {
@@ -103,4 +103,4 @@ TEST(CsvRow, ATooSmallBufferIsEmptyAndNotExceeded) {
 }
 
 }  // namespace
-}  // namespace mien::formats
+}  // namespace mien::animation

@@ -8,7 +8,7 @@
 
 #include "apps/animation/resample.h"
 
-namespace mien::formats {
+namespace mien::animation {
 namespace {
 
 TEST(Clip, NegativeTimesAreExact) {
@@ -32,4 +32,4 @@ TEST(Resampler, CountsTheFramesOfAClip) {
 }
 
 }  // namespace
-}  // namespace mien::formats
+}  // namespace mien::animation

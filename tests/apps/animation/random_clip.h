@@ -7,7 +7,7 @@
 
 #include "apps/animation/animation.h"
 
-namespace mien::formats {
+namespace mien::animation {
 
 inline double share(std::mt19937& random) {
   return std::uniform_int_distribution(0, 9)(random) == 0
@@ -32,4 +32,4 @@ inline Clip random_clip(std::size_t count, unsigned seed) {
   return clip;
 }
 
-}  // namespace mien::formats
+}  // namespace mien::animation

@@ -8,9 +8,9 @@
 
 #include "apps/animation/animation.h"
 #include "apps/animation/xml.h"
-#include "tests/formats/animation_faults.h"
+#include "tests/apps/animation/animation_faults.h"
 
-namespace mien::formats {
+namespace mien::animation {
 namespace {
 
 using testing::HasSubstr;
@@ -167,4 +167,4 @@ TEST(AnimationFaults, RhubarbUsesShapesOrVisemes) {
 }
 
 }  // namespace
-}  // namespace mien::formats
+}  // namespace mien::animation

@@ -23,9 +23,9 @@
 #include "apps/animation/resample.h"
 #include "apps/animation/rotation.h"
 #include "formats/vocabulary/visemes.h"
-#include "tests/formats/random_clip.h"
+#include "tests/apps/animation/random_clip.h"
 
-namespace mien::formats {
+namespace mien::animation {
 namespace {
 
 using testing::Contains;
@@ -122,14 +122,14 @@ TEST(Animation, RotationsRoundTrip) {
   std::uniform_real_distribution<double> angle(-3.1, 3.1), pitch(-1.57, 1.57);
   for (int i = 0; i < 10000; ++i) {
     const Angles before = {pitch(random), angle(random), angle(random)};
-    const Angles after = formats::angles(quaternion(before));
+    const Angles after = animation::angles(quaternion(before));
     EXPECT_NEAR(after.pitch, before.pitch, 1e-6);
     EXPECT_NEAR(after.yaw, before.yaw, 1e-6);
     EXPECT_NEAR(after.roll, before.roll, 1e-6);
   }
   for (const double pole : {std::acos(0.0), -std::acos(0.0)}) {
     const Quaternion q = quaternion({pole, 0.7, 0.0});
-    const Angles there = formats::angles(q);
+    const Angles there = animation::angles(q);
     EXPECT_NEAR(there.pitch, pole, 1e-7);
     EXPECT_NEAR(there.yaw, 0.7, 1e-6);
     EXPECT_EQ(there.roll, 0.0);
@@ -146,17 +146,17 @@ TEST(Animation, FacsMapKeepsCommonValues) {
     for (const std::string_view same :
          {"eyeBlinkLeft", "jawOpen", "mouthClose", "mouthPucker", "mouthSmileRight", "browInnerUp",
           "cheekPuff", "tongueOut"}) {
-      const std::size_t i = index_of(same, kArkitNames);
+      const std::size_t i = formats::index_of(same, formats::kArkitNames);
       EXPECT_EQ(back[i], frame.controls[i]) << same;
     }
-    EXPECT_FALSE(driven(back[control("jawForward")]));
+    EXPECT_FALSE(formats::driven(back[formats::control("jawForward")]));
     // Idempotent: repeating the conversion changes nothing.
     const auto again = facs_of(controls_of_facs(facs_of(back)));
     const auto once = facs_of(back);
-    for (std::size_t i = 0; i < kFacsCount; ++i) {
-      EXPECT_EQ(driven(again[i]), driven(once[i]));
-      EXPECT_EQ(or_zero(again[i]), or_zero(once[i]));
-      EXPECT_TRUE(or_zero(once[i]) >= 0.0 && or_zero(once[i]) <= 1.0);
+    for (std::size_t i = 0; i < formats::kFacsCount; ++i) {
+      EXPECT_EQ(formats::driven(again[i]), formats::driven(once[i]));
+      EXPECT_EQ(formats::or_zero(again[i]), formats::or_zero(once[i]));
+      EXPECT_TRUE(formats::or_zero(once[i]) >= 0.0 && formats::or_zero(once[i]) <= 1.0);
     }
   }
 }
@@ -180,41 +180,44 @@ std::string mirrored(std::string_view name) {
 TEST(Animation, FacsMapCommutesWithTheMirror) {
   const Clip clip = random_clip(100, 7);
   for (const Frame& frame : clip.frames) {
-    std::array<double, kControlCount> turned{};
-    for (std::size_t i = 0; i < kControlCount; ++i) {
-      turned[index_of(mirrored(kArkitNames[i]), kArkitNames)] = frame.controls[i];
+    std::array<double, formats::kControlCount> turned{};
+    for (std::size_t i = 0; i < formats::kControlCount; ++i) {
+      turned[formats::index_of(mirrored(formats::kArkitNames[i]), formats::kArkitNames)] =
+          frame.controls[i];
     }
     const auto facs = facs_of(frame.controls), of_turned = facs_of(turned);
-    for (std::size_t i = 0; i < kFacsCount; ++i) {
-      const std::size_t other = index_of(mirrored(kFacsNames[i]), kFacsNames);
-      ASSERT_LT(other, kFacsCount) << kFacsNames[i];
-      EXPECT_EQ(or_zero(of_turned[other]), or_zero(facs[i])) << kFacsNames[i];
+    for (std::size_t i = 0; i < formats::kFacsCount; ++i) {
+      const std::size_t other =
+          formats::index_of(mirrored(formats::kFacsNames[i]), formats::kFacsNames);
+      ASSERT_LT(other, formats::kFacsCount) << formats::kFacsNames[i];
+      EXPECT_EQ(formats::or_zero(of_turned[other]), formats::or_zero(facs[i]))
+          << formats::kFacsNames[i];
     }
   }
 }
 
 TEST(Animation, APoseIsItsOwnViseme) {
-  for (std::size_t i = 0; i < kVisemeCount; ++i) {
-    std::array<double, kVisemeCount> one{};
+  for (std::size_t i = 0; i < formats::kVisemeCount; ++i) {
+    std::array<double, formats::kVisemeCount> one{};
     one[i] = 1.0;
-    const auto back = visemes_of(controls_of_visemes(one));
-    for (std::size_t k = 0; k < kVisemeCount; ++k) {
-      EXPECT_NEAR(back[k], k == i ? 1.0 : 0.0, 1e-9) << kVisemeNames[i];
+    const auto back = formats::visemes_of(formats::controls_of_visemes(one));
+    for (std::size_t k = 0; k < formats::kVisemeCount; ++k) {
+      EXPECT_NEAR(back[k], k == i ? 1.0 : 0.0, 1e-9) << formats::kVisemeNames[i];
     }
   }
-  for (const char shape : kMouthShapes) {
-    EXPECT_EQ(mouth_shape_of(visemes_of_mouth_shape(shape)), shape);
+  for (const char shape : formats::kMouthShapes) {
+    EXPECT_EQ(formats::mouth_shape_of(formats::visemes_of_mouth_shape(shape)), shape);
   }
   Frame nothing;
-  EXPECT_FALSE(driven(visemes_of(nothing.controls)[0]));
-  EXPECT_EQ(mouth_shape_of(visemes_of(nothing.controls)), 'X');
+  EXPECT_FALSE(formats::driven(formats::visemes_of(nothing.controls)[0]));
+  EXPECT_EQ(formats::mouth_shape_of(formats::visemes_of(nothing.controls)), 'X');
 }
 
 // No change of a single weight brings the mixture nearer to the mouth, as least squares guarantees.
 TEST(Animation, VisemesAreTheNearestMixture) {
   const Clip clip = random_clip(300, 8);
   for (const Frame& frame : clip.frames) {
-    const auto visemes = visemes_of(frame.controls);
+    const auto visemes = formats::visemes_of(frame.controls);
     double sum = 0.0;
     for (const double weight : visemes) {
       EXPECT_GE(weight, 0.0);
@@ -224,17 +227,18 @@ TEST(Animation, VisemesAreTheNearestMixture) {
     if (visemes[0] == 0.0) {
       continue;  // normalized to 1
     }
-    const auto distance = [&](const std::array<double, kVisemeCount>& weights) {
-      const auto pose = controls_of_visemes(weights);
+    const auto distance = [&](const std::array<double, formats::kVisemeCount>& weights) {
+      const auto pose = formats::controls_of_visemes(weights);
       double squares = 0.0;
-      for (std::size_t i = 0; i < kControlCount; ++i) {
-        squares +=
-            driven(pose[i]) ? (pose[i] - frame.controls[i]) * (pose[i] - frame.controls[i]) : 0;
+      for (std::size_t i = 0; i < formats::kControlCount; ++i) {
+        squares += formats::driven(pose[i])
+                       ? (pose[i] - frame.controls[i]) * (pose[i] - frame.controls[i])
+                       : 0;
       }
       return squares;
     };
     const double min = distance(visemes);
-    for (std::size_t i = 1; i < kVisemeCount; ++i) {
+    for (std::size_t i = 1; i < formats::kVisemeCount; ++i) {
       for (const double change : {-1e-3, 1e-3}) {
         auto other = visemes;
         other[i] = std::max(0.0, other[i] + change);
@@ -266,24 +270,26 @@ TEST(Animation, ResamplingAtTheSameTimesIsTheIdentity) {
 TEST(Animation, VocabulariesHaveNoDuplicates) {
   const auto check = [](const auto& names) {
     for (std::size_t i = 0; i < names.size(); ++i) {
-      EXPECT_EQ(index_of(names[i], names), i) << names[i];
+      EXPECT_EQ(formats::index_of(names[i], names), i) << names[i];
       EXPECT_FALSE(names[i].empty());
     }
   };
-  check(kArkitNames);
-  check(kRotationNames);
-  check(kMediaPipeNames);
-  check(kFacsNames);
-  check(kFacsLevel1Names);
-  check(kVisemeNames);
-  check(kReadyPlayerMeNames);
-  check(kVrm0Names);
-  check(kVrm1Names);
-  for (const std::string_view name : kMediaPipeNames) {
-    EXPECT_TRUE(name == "_neutral" || index_of(name, kArkitNames) < kControlCount) << name;
+  check(formats::kArkitNames);
+  check(formats::kRotationNames);
+  check(formats::kMediaPipeNames);
+  check(formats::kFacsNames);
+  check(formats::kFacsLevel1Names);
+  check(formats::kVisemeNames);
+  check(formats::kReadyPlayerMeNames);
+  check(formats::kVrm0Names);
+  check(formats::kVrm1Names);
+  for (const std::string_view name : formats::kMediaPipeNames) {
+    EXPECT_TRUE(name == "_neutral" ||
+                formats::index_of(name, formats::kArkitNames) < formats::kControlCount)
+        << name;
   }
-  EXPECT_THAT(kMediaPipeNames, Not(Contains("tongueOut")));
+  EXPECT_THAT(formats::kMediaPipeNames, Not(Contains("tongueOut")));
 }
 
 }  // namespace
-}  // namespace mien::formats
+}  // namespace mien::animation

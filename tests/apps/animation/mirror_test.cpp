@@ -3,24 +3,24 @@
 
 #include <gtest/gtest.h>
 
-namespace mien::formats {
+namespace mien::animation {
 namespace {
 
 TEST(Mirror, ExchangesTheSidesOfControls) {
   Frame frame;
-  for (std::size_t i = 0; i < kControlCount; ++i) {
-    frame.controls[i] = static_cast<double>(i) / kControlCount;
+  for (std::size_t i = 0; i < formats::kControlCount; ++i) {
+    frame.controls[i] = static_cast<double>(i) / formats::kControlCount;
   }
   const Frame turned = mirrored(frame);
   for (const auto& [name, other] : {std::pair{"eyeBlinkLeft", "eyeBlinkRight"},
                                     {"jawLeft", "jawRight"},
                                     {"mouthLeft", "mouthRight"},
                                     {"jawOpen", "jawOpen"}}) {
-    EXPECT_EQ(turned.controls[index_of(name, kArkitNames)],
-              frame.controls[index_of(other, kArkitNames)])
+    EXPECT_EQ(turned.controls[formats::index_of(name, formats::kArkitNames)],
+              frame.controls[formats::index_of(other, formats::kArkitNames)])
         << name;
-    EXPECT_EQ(turned.controls[index_of(other, kArkitNames)],
-              frame.controls[index_of(name, kArkitNames)])
+    EXPECT_EQ(turned.controls[formats::index_of(other, formats::kArkitNames)],
+              frame.controls[formats::index_of(name, formats::kArkitNames)])
         << other;
   }
   EXPECT_EQ(mirrored(turned).controls, frame.controls);
@@ -45,4 +45,4 @@ TEST(Mirror, TurnsHeadAndEyesToTheOtherSide) {
 }
 
 }  // namespace
-}  // namespace mien::formats
+}  // namespace mien::animation

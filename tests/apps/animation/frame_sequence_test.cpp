@@ -13,7 +13,7 @@
 #include "apps/animation/facs_map.h"
 #include "formats/vocabulary/visemes.h"
 
-namespace mien::formats {
+namespace mien::animation {
 namespace {
 
 class RandomFrames {
@@ -56,7 +56,7 @@ class RandomFrames {
   double value() {
     switch (below(6)) {
       case 0:
-        return kNoNumber;
+        return formats::kNoNumber;
       case 1:
         return -0.0;
       case 2:
@@ -75,18 +75,20 @@ class RandomFrames {
   void made(Frame& frame) {
     const std::uint64_t kind = below(5);
     if (kind == 0) {
-      frame.mouth_shape = kMouthShapes[below(kMouthShapes.size())];
-      frame.controls = controls_of_visemes(visemes_of_mouth_shape(frame.mouth_shape));
+      frame.mouth_shape = formats::kMouthShapes[below(formats::kMouthShapes.size())];
+      frame.controls =
+          formats::controls_of_visemes(formats::visemes_of_mouth_shape(frame.mouth_shape));
     } else if (kind == 1) {
-      frame.facs.assign(kFacsCount, 0.25);
-      frame.facs[below(kFacsCount)] = value();
-      frame.controls = controls_of_facs(std::span<const double, kFacsCount>(frame.facs));
+      frame.facs.assign(formats::kFacsCount, 0.25);
+      frame.facs[below(formats::kFacsCount)] = value();
+      frame.controls = controls_of_facs(std::span<const double, formats::kFacsCount>(frame.facs));
     } else if (kind == 2) {
-      frame.visemes.assign(kVisemeCount, 0.125);
-      frame.controls = controls_of_visemes(std::span<const double, kVisemeCount>(frame.visemes));
+      frame.visemes.assign(formats::kVisemeCount, 0.125);
+      frame.controls = formats::controls_of_visemes(
+          std::span<const double, formats::kVisemeCount>(frame.visemes));
     }
     if (below(8) == 0) {
-      frame.controls[below(kControlCount)] = 0.75;
+      frame.controls[below(formats::kControlCount)] = 0.75;
     }
   }
 
@@ -160,7 +162,7 @@ TEST(FrameSequence, SparseFramesTakeLittleMemory) {
   for (int i = 0; i < 1000; ++i) {
     frame.number = i;
     frame.time_ns = 40 * kMillisecond_ns * i;
-    frame.controls[control("jawOpen")] = i % 2;
+    frame.controls[formats::control("jawOpen")] = i % 2;
     sequence.push_back(frame);
   }
   EXPECT_LE(sequence.bytes(), 16'000u) << "Frames take 700,000";
@@ -181,4 +183,4 @@ TEST(FrameSequence, RespectsItsLimit) {
 }
 
 }  // namespace
-}  // namespace mien::formats
+}  // namespace mien::animation

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "apps/animation/animation.h"
-#include "tests/formats/animation_faults.h"
+#include "tests/apps/animation/animation_faults.h"
 
-namespace mien::formats {
+namespace mien::animation {
 namespace {
 
 using testing::HasSubstr;
@@ -144,4 +144,4 @@ TEST(AnimationFaults, Glb) {
 }
 
 }  // namespace
-}  // namespace mien::formats
+}  // namespace mien::animation

@@ -11,7 +11,7 @@
 #include "apps/animation/live_link_units.h"
 #include "apps/animation/numbers.h"
 
-namespace mien::formats {
+namespace mien::animation {
 namespace {
 
 using testing::Contains;
@@ -206,12 +206,12 @@ TEST(Tables, AreReadWithAnySeparator) {
   for (const char* separator : {";", "\t"}) {
     const Clip clip = read(AnimationFormat::kLiveLink, with(comma, ",", separator));
     EXPECT_EQ(times_ms(clip), wanted);
-    EXPECT_EQ(clip.frames.unpacked().at(0).controls[control("jawOpen")], 0.5);
+    EXPECT_EQ(clip.frames.unpacked().at(0).controls[formats::control("jawOpen")], 0.5);
   }
   const std::string curves = "t_ms,jawOpen\n0,0.25\n40,0.5\n";
   for (const char* separator : {",", ";", "\t"}) {
     const Clip clip = read(AnimationFormat::kCsv, with(curves, ",", separator));
-    EXPECT_EQ(clip.frames.unpacked().at(1).controls[control("jawOpen")], 0.5);
+    EXPECT_EQ(clip.frames.unpacked().at(1).controls[formats::control("jawOpen")], 0.5);
   }
   // As spreadsheets write them with decimal commas.
   EXPECT_EQ(
@@ -327,11 +327,11 @@ TEST(MouthCues, TheMouthRestsInAGap) {
       shapes += frame.mouth_shape;
     }
     EXPECT_EQ(shapes, "DXCBX");
-    EXPECT_EQ(clip.frames.unpacked().at(1).controls[control("jawOpen")], 0.0);
+    EXPECT_EQ(clip.frames.unpacked().at(1).controls[formats::control("jawOpen")], 0.0);
     EXPECT_EQ(clip.frames.unpacked().at(1).number, 1);
-    EXPECT_GT(clip.frames.unpacked().at(2).controls[control("jawOpen")], 0.1);
+    EXPECT_GT(clip.frames.unpacked().at(2).controls[formats::control("jawOpen")], 0.1);
   }
 }
 
 }  // namespace
-}  // namespace mien::formats
+}  // namespace mien::animation

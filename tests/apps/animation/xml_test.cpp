@@ -11,7 +11,7 @@
 
 #include "apps/animation/fault.h"
 
-namespace mien::formats {
+namespace mien::animation {
 namespace {
 
 using testing::ElementsAre;
@@ -126,4 +126,4 @@ TEST(Xml, TheVisitorCanStopReading) {
 }
 
 }  // namespace
-}  // namespace mien::formats
+}  // namespace mien::animation
