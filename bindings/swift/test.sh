@@ -17,7 +17,7 @@ trap 'rm -rf "$work"' EXIT
 cat >"$work/import.m" <<'IMPORT'
 @import CMien;
 _Static_assert(sizeof(mien_result) > sizeof(float) * 2 * MIEN_LANDMARK_COUNT, "the header is there");
-mien_status (*create)(const mien_tracker_config*, mien_tracker**) = mien_tracker_create;
+mien_status (*create)(const mien_tracker_config*, mien_tracker**, mien_error_detail*) = mien_tracker_create;
 IMPORT
 clang -fmodules -fmodules-cache-path="$work/cache" -fmodule-map-file=bindings/swift/Sources/CMien/module.modulemap -Werror -Wall -Wextra -fsyntax-only \
   "$work/import.m"
