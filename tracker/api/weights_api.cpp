@@ -132,7 +132,8 @@ mien_status open(const Part& part, std::byte* copy, mien_weights::File& file,
     return MIEN_OK;
   }
   error = opened;
-  return located({.index = part.index, .offset = part.packed ? 0 : part.offset}, error);
+  return located({.bytes = {}, .index = part.index, .offset = part.packed ? 0 : part.offset},
+                 error);
 }
 
 mien_status create(const mien_weights_config* given, mien_weights** weights,
