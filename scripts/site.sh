@@ -10,7 +10,7 @@ site=build/site
 $site/venv/bin/pip install --quiet --disable-pip-version-check -r scripts/package/site_requirements.txt
 rm -rf $site/pages $site/html
 mkdir -p $site/pages/docs
-git ls-files -z '*.md' 'docs/*' 'include/*' 'bindings/*/examples/*' 'bindings/*/sample/*' 'bindings/*/Examples/*' '*.d.ts' |
+git ls-files -z '*.md' 'docs/*' 'include/*' 'apps/examples/*' 'bindings/*/sample/*' 'bindings/*/Examples/*' '*.d.ts' |
   xargs -0 cp --parents -t $site/pages
 # In tables, GitHub requires a backslash before a pipe in code; Python-Markdown would display it.
 find $site/pages -name '*.md' -exec sed -i '/^|/s/\\|/|/g' {} +

@@ -20,13 +20,7 @@ javac --release 17 -Xlint:all -Werror -cp "$classes" -d "$out/tests" bindings/an
 run=(java -Xcheck:jni -Djava.library.path="$out/jni")
 "${run[@]}" -cp "$classes:$out/tests" ClipTest
 
-mkdir -p "$out/readme"
-# shellcheck disable=SC2016  # the backquotes are Markdown's
-sed -n '/^```java$/,/^```$/{/^```/!p}' bindings/android/README.md >"$out/readme/Example.java"
-javac --release 17 -cp "$classes" -d "$out/readme" "$out/readme/Example.java"
-"${run[@]}" -cp "$classes:$out/readme" Example "$MIEN_CLIP" >"$out/readme/said.txt"
-[ "$(grep -c '^0[.,][0-9]' "$out/readme/said.txt")" -eq 30 ]
-echo "the README's example ran"
+bindings/readme_test.sh android java Example.java
 
 bindings/android/aar.sh "$out/mien.aar" "$classes" x86_64="$out/jni/libmien_jni.so"
 unzip -l "$out/mien.aar" >"$out/aar.txt"

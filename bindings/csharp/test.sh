@@ -12,12 +12,6 @@ out=build/bindings/csharp
 mkdir -p "$out"
 mcs -warnaserror -warn:4 -target:library -out:"$out/Mien.dll" bindings/csharp/Runtime/*.cs
 mcs -warnaserror -warn:4 -r:"$out/Mien.dll" -out:"$out/tests.exe" bindings/csharp/Tests/*.cs
-# shellcheck disable=SC2016  # the backquotes are Markdown's
-sed -n '/^```csharp$/,/^```$/{/^```/!p}' bindings/csharp/README.md >"$out/readme.cs"
-mcs -warnaserror -warn:4 -r:"$out/Mien.dll" -out:"$out/readme.exe" "$out/readme.cs"
 export LD_LIBRARY_PATH=$MIEN_LIBRARY_DIR
 mono "$out/tests.exe"
-ln -sfn "$MIEN_MODELS" "$out/models"
-(cd "$out" && mono readme.exe "$MIEN_CLIP") >"$out/readme.txt"
-[ "$(grep -c '^0\.[0-9]' "$out/readme.txt")" -eq 30 ]
-echo "the README's example ran"
+bindings/readme_test.sh csharp csharp Example.cs

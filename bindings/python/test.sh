@@ -33,22 +33,25 @@ for python in "${pythons[@]}"; do
   "$python" -m venv "$environment"
   "$environment/bin/pip" install --quiet --quiet --disable-pip-version-check "$wheel" pytest onnx
   (cd "$here/tests" && "$environment/bin/python" -m pytest -p no:cacheprovider)
-  # shellcheck disable=SC2016  # the backquotes are Markdown's
-  # What the README shows, run as it stands there: every block of Python, on the clip that ships.
-  sed -n '/^```python$/,/^```$/{/^```/!p}' "$here/README.md" | sed 's|"face.mp4"|"tests/data/demo.mp4"|' >"$work/readme.py"
-  "$environment/bin/python" "$work/readme.py" >"$work/readme.txt"
-  [ "$(wc -l <"$work/readme.txt")" -gt 60 ]
+  # What the READMEs show, in a folder with a face.mp4.
+  mkdir -p "$work/readme"
+  ln -sfn "$PWD/tests/data/demo.mp4" "$work/readme/face.mp4"
+  tests/docs/code_blocks.py README.md python >"$work/first.py"
+  tests/docs/code_blocks.py bindings/python/README.md python >"$work/readme.py"
+  (cd "$work/readme" && "$environment/bin/python" "$work/first.py" && "$environment/bin/python" "$work/readme.py") >"$work/readme.txt"
+  [ "$(wc -l <"$work/readme.txt")" -gt 480 ]
 done
 
 environment=$work/$(basename "${pythons[0]}")
 "$environment/bin/pip" install --quiet --quiet --disable-pip-version-check mypy opencv-python-headless matplotlib pandas
 (cd "$here/src" && "$environment/bin/mypy" --strict --cache-dir "$work/mypy" --package mien)
 "$environment/bin/mypy" --strict --cache-dir "$work/mypy" "$here/tests/typed_program.py"
-"$environment/bin/python" "$here/examples/webcam.py" tests/data/demo.mp4 --frames 20 --save "$work/webcam.png"
+examples=apps/examples/python
+"$environment/bin/python" $examples/webcam.py tests/data/demo.mp4 --frames 20 --save "$work/webcam.png"
 test -s "$work/webcam.png"
-"$environment/bin/python" "$here/examples/pose_axes.py" tests/data/demo.mp4 --frame 150 --save "$work/axes.jpg" | grep -q "yaw 0.[23]"
+"$environment/bin/python" $examples/pose_axes.py tests/data/demo.mp4 --frame 150 --save "$work/axes.jpg" | grep -q "yaw 0.[23]"
 test -s "$work/axes.jpg"
-sed 's|"\.\./\.\./\.\./tests|"tests|' "$here/examples/plot.ipynb" |
+sed 's|"\.\./\.\./\.\./tests|"tests|' $examples/plot.ipynb |
   "$environment/bin/python" -c 'import json, sys; print("\n".join("".join(c["source"]) for c in json.load(sys.stdin)["cells"] if c["cell_type"] == "code"))' \
     >"$work/plot.py"
 MPLBACKEND=agg "$environment/bin/python" "$work/plot.py"

@@ -10,5 +10,5 @@ if ! "$cargo" --version 2>/dev/null; then
 fi
 . bindings/library.sh
 export CARGO_TARGET_DIR=$PWD/build/bindings/rust RUSTFLAGS="-D warnings" RUSTDOCFLAGS="-D warnings"
-cd bindings/rust
-"$cargo" test --offline --locked --quiet
+(cd bindings/rust && "$cargo" test --offline --locked --quiet)
+CARGO_NET_OFFLINE=true bindings/readme_test.sh rust rust example/src/main.rs

@@ -28,8 +28,7 @@ find_package cpp "-fno-exceptions -fno-rtti"
 
 echo "== the README's example in C"
 mkdir "$work/readme"
-# shellcheck disable=SC2016  # these are Markdown backquotes
-sed -n '/^```c$/,/^```$/{/^```/!p}' "$consumers/../../README.md" >"$work/readme/app.c"
+"$consumers/../docs/code_blocks.py" README.md c >"$work/readme/app.c"
 cat >"$work/readme/CMakeLists.txt" <<'CMAKE'
 cmake_minimum_required(VERSION 3.22)
 project(readme LANGUAGES C)

@@ -1,5 +1,6 @@
 // Each control changes the right part of the face only, and mirrored controls change mirrored parts.
 import assert from 'node:assert/strict';
+import {execFileSync} from 'node:child_process';
 import {after, before, test} from 'node:test';
 import {controlNames} from '../avatar/avatar.js';
 import {serve} from '../serve.mjs';
@@ -94,4 +95,25 @@ test('the head rotates by its angles', async () => {
 test('missing or invalid values are 0', async () => {
   const {changed} = await page.evaluate(() => window.change({jawOpen: NaN, nothing: 1, mouthPucker: -1}));
   assert.equal(changed, 0);
+});
+
+test('the code of docs/web.md draws a face', async () => {
+  const root = new URL('../../..', import.meta.url).pathname;
+  const code = execFileSync(root + 'tests/docs/code_blocks.py', ['docs/web.md', 'js'], {encoding: 'utf8'});
+  const body = example => `<canvas width="200" height="200"></canvas><script type="module">
+    const canvas = document.querySelector('canvas');
+    ${example}
+    document.title = 'drawn';
+  </script>`;
+  const other = await browser.newPage(), images = [];
+  for (const example of [code, code.replace('jawOpen: 0.4', 'jawOpen: 0')]) {
+    await other.route('**/example.html', route => route.fulfill({contentType: 'text/html', body: body(example)}));
+    await other.goto(new URL('/example.html', page.url()).href);
+    for (const end = Date.now() + 15000; await other.title() !== 'drawn' && Date.now() < end;) await other.waitForTimeout(50);
+    assert.equal(await other.title(), 'drawn');
+    images.push((await other.screenshot()).toString('base64'));
+    await other.unroute('**/example.html');
+  }
+  assert.notEqual(images[0], images[1]);
+  await other.close();
 });

@@ -11,8 +11,8 @@ export const clip = join(root, 'tests/data/demo.mp4');
 export const truthFile = join(root, 'tests/data/demo_truth.csv');
 export const dist = new URL('../dist/', import.meta.url).pathname;
 
-export async function openStudio() {
-  if (!existsSync(dist)) throw new Error('apps/web/dist is missing: scripts/web.sh build');
+export async function openStudio(site = dist) {
+  if (!existsSync(site)) throw new Error('apps/web/dist is missing: scripts/web.sh build');
   const folder = mkdtempSync(join(tmpdir(), 'mien-web-'));
   const camera = join(folder, 'camera.mjpeg'), microphone = join(folder, 'microphone.wav');
   const ffmpeg = (...options) => execFileSync('ffmpeg', ['-v', 'error', '-y', '-i', clip, ...options]);
@@ -21,7 +21,7 @@ export async function openStudio() {
   const browser = await launch([
     '--use-fake-device-for-media-stream', '--use-fake-ui-for-media-stream', `--use-file-for-fake-video-capture=${camera}`,
     `--use-file-for-fake-audio-capture=${microphone}`, '--autoplay-policy=no-user-gesture-required']);
-  const {server, url} = await serve(dist);
+  const {server, url} = await serve(site);
   return {
     browser, url, microphone,
     async close() {
