@@ -186,6 +186,7 @@ class Tracker {
   /// See mien_tracker_create_in. An error leaves *this unchanged.
   /// @param config  configuration
   /// @param memory  [required_bytes or more], MIEN_ALIGNMENT-aligned; must outlive the tracker
+  /// @param[out] error  describes the error; may be null
   [[nodiscard]] mien_status create_in(const mien_tracker_config& config,
                                       std::span<std::byte> memory,
                                       mien_error_detail* error = nullptr) {
