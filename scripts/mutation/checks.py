@@ -36,7 +36,8 @@ OF_TRACKERS = [program("tracker", f"tracker_{name}_test") for name in ("threads"
 COMPARE = program("apps", "compare_test")
 CONVERT = Check("mien_program", "apps/mien/mien", "tests/apps/convert_test.py", (FRAMES,))
 CONVERT_GLTF = Check("mien_program", "apps/mien/mien", "tests/apps/convert_gltf_test.py", (FRAMES,))
-PROTOCOLS = Check("protocol_packets", "tests/apps/protocols/protocol_packets", "tests/apps/protocols/protocols_test.py", (FRAMES,))
+PROTOCOLS = Check("protocol_packets", "tests/apps/protocols/protocol_packets",
+                  "tests/apps/protocols/protocols_test.py", (FRAMES,))
 
 # By folder, the longest name that fits; the nearest tests first.
 PLAN = {
