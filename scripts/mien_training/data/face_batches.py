@@ -17,9 +17,9 @@ from mien_training.paths import cache, data
 from mien_training.renderer.assets import names
 
 # images f32 [n,3,height,width] in 0..1; landmarks [n,175,2] in crop coordinates; controls [n,52] and pose [n,9], the
-# teacher's on portraits; has_landmarks, has_controls (true ones) bool [n]; visible [n,175]; face [n]: 1 a face well
-# inside the crop, 0 none or misplaced
-Batch = namedtuple("Batch", "images landmarks controls pose visible has_landmarks has_controls face")
+# teacher's on portraits; has_landmarks, has_controls (true ones) bool [n]; visible [n,175]; trust in the teacher's
+# controls [n,52]; face [n]: 1 a face well inside the crop, 0 none or misplaced
+Batch = namedtuple("Batch", "images landmarks controls pose visible has_landmarks has_controls trust face")
 
 
 NEAR_PROFILE_ODDS = 3  # heads turned far are few and hard
@@ -42,6 +42,7 @@ class Portraits:
         self.trust = torch.from_numpy(labels["trust"])
         found = faces.Portraits(split)
         self.controls, self.camera = torch.from_numpy(found.labels.controls), faces.camera_labels(found, framing)
+        self.camera["trust"] = torch.from_numpy(found.labels.control_trust)
         self.odds = np.cumsum(rarity(found.labels.controls)
                               * np.where(found.labels.near_profile(), NEAR_PROFILE_ODDS, 1))
 
@@ -191,6 +192,7 @@ def mirror(batch, generator):
         landmarks=choose(torch.tensor([1.0, 0]) + batch.landmarks[:, MIRROR] * torch.tensor([-1.0, 1]),
                          batch.landmarks),
         controls=choose(batch.controls[:, CONTROL_MIRROR], batch.controls),
+        trust=choose(batch.trust[:, CONTROL_MIRROR], batch.trust),
         pose=choose(batch.pose * pose_signs, batch.pose),
         visible=choose(batch.visible[:, MIRROR], batch.visible))
 
@@ -226,8 +228,9 @@ class Mixture:
                            jitter(crop, self.generator, self.roughness * self.framing.looseness))
         good = ~bad & face
         pose = self.pose_targets(source.last, used) if face else torch.zeros(n, 9)
+        trust = source.last["trust"] if source is self.portraits else torch.ones(n, len(CONTROLS))
         return Batch(sample(images, used, self.framing), to_crop(used, landmarks), controls, pose, visible, good,
-                     good & rendered, good.float())
+                     good & rendered, trust, good.float())
 
     def pose_targets(self, labels, crop):
         """Pose of rows as seen in these crops (window pixels -> camera pixels first)."""

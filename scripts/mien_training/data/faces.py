@@ -12,7 +12,6 @@ import torch
 from tqdm import tqdm
 
 from mien_convert.atomic_files import whole
-from mien_training.data import landmark_points as lp
 from mien_training.data import portrait_labels
 from mien_training.data.framing import BASENET, FRAMINGS
 from mien_training.data.sequences import fit_crop, template
@@ -30,7 +29,7 @@ class Portraits:
     def __init__(self, split, packs=portrait_labels.PACKS):
         self.labels = portrait_labels.of_split(split, packs)
         self.names, self.size_wh = self.labels.name, self.labels.size_wh
-        self.points = self.labels.points[:, lp.TEACHER]
+        self.points = self.labels.points
         self.crops = fit_crop(template(), torch.from_numpy(self.points)).numpy() if len(self) else np.zeros((0, 4),
                                                                                                             np.float32)
 
@@ -111,11 +110,11 @@ def write_split(split, framing, out):
     out.mkdir(parents=True, exist_ok=True)
     images = np.empty((len(found), pixels, pixels, 3), np.uint8)
     scale = framing.pixels_per_window(found.crops[:, 2])
-    trust = np.ones(len(found), np.float32)
+    trust = found.labels.trust.copy()
     for i in tqdm(range(len(found)), desc=out.name, mininterval=5):
         images[i] = window(found.image(i), found.crops[i, :2], pixels / scale[i], pixels)
         if blurred(images[i]):
-            trust[i] = GUESSED
+            trust[i] = min(trust[i], GUESSED)
     landmarks = (found.points - found.crops[:, None, :2]) * scale[:, None, None] + pixels / 2
     middle = np.full(len(found), pixels / 2, np.float32)
     crop = np.stack([middle, middle, found.crops[:, 2] * scale, found.crops[:, 3]], 1)

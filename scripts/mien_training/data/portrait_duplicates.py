@@ -34,7 +34,7 @@ def alike(faces, others):
 
 def twins(labels, split):
     """Names of training portraits to leave out; `split` [n] is the split of each of `labels`."""
-    path = cache() / "faces/twins.npy"
+    path = cache() / f"faces/twins_{len(labels)}.npy"
     if not path.exists():
         found = np.stack([small(cv2.imread(str(labels.path(i)), cv2.IMREAD_GRAYSCALE), labels.points[i])
                           for i in range(len(labels))])

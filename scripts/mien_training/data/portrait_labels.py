@@ -1,4 +1,6 @@
-"""Portraits of the packs `faces` and `faces_wild`: the teacher's labels, and splits.
+"""Portraits of the packs `faces`, `faces_wild` and `faces_more`: the teacher's labels, and splits.
+
+`faces_more` names pictures of a public data set; $MIEN_CACHE/faces_more has them and their labels (label_portraits.py).
 
 A hash of the name holds out 12 % for test and 5 % for validation; of GRID, whose frames show few people, by speaker.
 People who are held out under another name are not used for training (portrait_duplicates.py).
@@ -9,14 +11,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mien_training.data import landmark_points as lp
 from mien_training.data import portrait_duplicates
 from mien_training.data.expressions import CONTROLS
-from mien_training.paths import data
+from mien_training.paths import cache, data
 
-PACKS = ("faces", "faces_wild")
+PACKS = ("faces", "faces_wild", "faces_more")
 VALIDATION_SPEAKERS = ("GRID s5",)  # also in the clips of the evaluation
 GREY_GROUP = "members of Congress"   # what the group of the first pack's photographs is called here
 NEAR_PROFILE = np.radians(38)        # yaw from which on the teacher guesses half of a face
+USUAL_SCATTER = 0.025  # of the landmarks of a portrait, as a share of the distance between the pupils
 
 
 @dataclass(frozen=True)
@@ -27,10 +31,12 @@ class Labels:
     age: np.ndarray          # str [n], a range of years, '' where unknown
     sex: np.ndarray          # str [n], '' where unknown
     size_wh: np.ndarray      # f32 [n,2] pixels
-    points: np.ndarray       # f32 [n,478,2] pixels
+    points: np.ndarray       # f32 [n,175,2] pixels
     controls: np.ndarray     # f32 [n,52]; 0 where the teacher has none
     rotation: np.ndarray     # f32 [n,3,3], camera space
     translation: np.ndarray  # f32 [n,3] metres
+    trust: np.ndarray        # f32 [n] in landmarks, from the scatter of the teacher's answers; 1 where it answered once
+    control_trust: np.ndarray  # f32 [n,52], the same
 
     def of(self, rows):
         return Labels(*(getattr(self, field)[rows] for field in self.__dataclass_fields__))
@@ -39,7 +45,7 @@ class Labels:
         return len(self.name)
 
     def path(self, i):
-        return data() / str(self.pack[i]) / "img" / str(self.name[i])
+        return folder(str(self.pack[i])) / "img" / str(self.name[i])
 
     def near_profile(self):
         """bool [n]: heads turned so far that half of the labels are guesses."""
@@ -65,25 +71,40 @@ def controls(table):
     return np.stack([found[:, known[c]] if c in known else np.zeros(len(found), np.float32) for c in CONTROLS], 1)
 
 
+def folder(pack):
+    return data() / pack if (data() / pack / "labels.npz").exists() else cache() / pack
+
+
+def trust(table, controls):
+    """In landmarks [n] and controls [n,52]: the less the more the teacher's answers scatter."""
+    if "control_scatter" not in table:
+        return np.ones(len(controls), np.float32), np.ones_like(controls)
+    variance = controls.var(0) + 1e-6
+    return (np.minimum(1, USUAL_SCATTER / table["landmark_scatter"]).astype(np.float32),
+            (variance / (variance + table["control_scatter"] ** 2)).astype(np.float32))
+
+
 def read(pack):
-    table = np.load(data() / pack / "labels.npz")
+    table = np.load(folder(pack) / "labels.npz")
     size = table["size_wh"].astype(np.float32)
     matrix = table["matrix_colmajor"].reshape(-1, 4, 4).transpose(0, 2, 1).astype(np.float32)
     unknown = np.full(len(size), "")
     age, sex = (table[key].astype(str) if key in table else unknown for key in ("age", "sex"))
+    points, found = table["landmarks"][..., :2].astype(np.float32), controls(table)
+    points = points if points.shape[1] == len(lp.TEACHER) else points[:, lp.TEACHER]
     return Labels(table["name"].astype(str), np.full(len(size), pack), np.array(groups(table)), age, sex, size,
-                  table["landmarks"][..., :2].astype(np.float32) * size[:, None], controls(table), matrix[:, :3, :3],
-                  matrix[:, :3, 3] / 100)
+                  points * size[:, None], found, matrix[:, :3, :3], matrix[:, :3, 3] / 100, *trust(table, found))
 
 
 def none():
     text, numbers = np.zeros(0, str), lambda *shape: np.zeros((0, *shape), np.float32)
-    return Labels(*[text] * 5, numbers(2), numbers(478, 2), numbers(len(CONTROLS)), numbers(3, 3), numbers(3))
+    return Labels(*[text] * 5, numbers(2), numbers(len(lp.TEACHER), 2), numbers(len(CONTROLS)), numbers(3, 3),
+                  numbers(3), numbers(), numbers(len(CONTROLS)))
 
 
 @functools.lru_cache
 def every():
-    parts = [none()] + [read(pack) for pack in PACKS if (data() / pack / "labels.npz").exists()]
+    parts = [none()] + [read(pack) for pack in PACKS if (folder(pack) / "labels.npz").exists()]
     return Labels(*(np.concatenate([getattr(p, field) for p in parts]) for field in Labels.__dataclass_fields__))
 
 

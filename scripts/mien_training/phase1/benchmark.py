@@ -33,7 +33,8 @@ class RandomFaces:
                        "translation": torch.tensor([0.0, 0, -0.5]).expand(FACES, 3),
                        "f_px": torch.full((FACES,), 500.0),
                        "camera_wh": torch.tensor([640.0, 480.0]).expand(FACES, 2),
-                       "window": torch.tensor([320.0, 240, 200]).expand(FACES, 3)}
+                       "window": torch.tensor([320.0, 240, 200]).expand(FACES, 3),
+                       "trust": torch.ones(FACES, len(CONTROLS))}
         self.shards = [(self.images, {"controls": self.controls.numpy()})]
 
     def __len__(self):

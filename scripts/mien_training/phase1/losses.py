@@ -187,8 +187,8 @@ class Losses:
         target = batch.controls[rows]
         slope, offset = self.line.fit(soft_clamp(out[rows]).detach(), target)
         error = (slope * censored(out[rows], (target - offset) / slope) + offset - target) / self.teacher_spread
-        return (F.smooth_l1_loss(error, torch.zeros_like(error), reduction="none").mean(0)
-                * weights).sum() / weights.sum()
+        loss = F.smooth_l1_loss(error, torch.zeros_like(error), reduction="none") * batch.trust[rows]
+        return (loss.mean(0) * weights).sum() / weights.sum()
 
     def pose(self, out, batch):
         weights = batch.has_controls[:, None].float()
