@@ -17,7 +17,6 @@ from mien_training.networks.architectures import (
 )
 from mien_training.networks.native_layers.depthwise_unit import depthwise_unit
 from mien_training.networks.native_layers.expanded_unit import expanded_unit
-from mien_training.networks.native_layers.lstm_layer import Lstm
 from mien_training.networks.native_layers.norm_activation import NormActivation
 from mien_training.phase1.dormant_units import Activity, of_units, reset_dormant
 from mien_training.phase1.optimizer import Optimizer, orthogonal
@@ -179,27 +178,6 @@ class ExpandedUnit(unittest.TestCase):
                     off = float((mine.detach().double() - theirs.detach()).norm()
                                 / theirs.detach().double().norm().clamp(min=1))
                     assert off < tolerance, (dtype, narrow, channels, stride, padding, off)
-
-
-class LstmLayer(unittest.TestCase):
-    def test_output_and_gradients_match_pytorch(self):
-        """Answers and gradients against those of PyTorch's own layer in fp64."""
-        torch.manual_seed(1)
-        for batch, steps, inputs, hidden in ((24, 50, 40, 96), (7, 9, 96, 64), (1, 1, 3, 32), (13, 30, 64, 64)):
-            layer, twin = Lstm(inputs, hidden), nn.LSTM(inputs, hidden, batch_first=True).double()
-            twin.load_state_dict(layer.state_dict())
-            x = torch.randn(batch, steps, inputs) * 3
-            mine, theirs = x.clone().requires_grad_(), x.double().requires_grad_()
-            y, truth, slope = layer(mine)[0], twin(theirs)[0], torch.randn(batch, steps, hidden)
-            (y * slope).sum().backward()
-            (truth * slope).sum().backward()
-            pairs = [(y, truth), (mine.grad, theirs.grad),
-                     *((p.grad, q.grad) for p, q in zip(layer.parameters(), twin.parameters()))]
-            for a, b in pairs:
-                assert float((a - b).abs().max()) < 2e-5 * (1 + float(b.abs().max())), (batch, steps, inputs, hidden)
-            half = steps // 2
-            _, state = layer(x[:, :half]) if half else (None, None)
-            torch.testing.assert_close(layer(x[:, half:], state)[0], y[:, half:], atol=1e-5, rtol=1e-4)
 
 
 class OptimizerTest(unittest.TestCase):

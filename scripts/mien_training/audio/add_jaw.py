@@ -11,7 +11,7 @@ import torch
 
 from mien_convert.atomic_files import write_whole
 from mien_training.audio import export
-from mien_training.audio.audio_net import EMBEDDING, WIDTHS, Lstm, activity_decoder, controls_decoder
+from mien_training.audio.audio_net import EMBEDDING, WIDTHS, activity_decoder, controls_decoder
 from mien_training.audio.features import FEATURES
 from mien_training.audio.jaw import JawDecoder
 from mien_training.audio.warm_start import decoder_of
@@ -28,7 +28,8 @@ class StoredEncoder(torch.nn.Module):
     def __init__(self, layers):
         super().__init__()
         self.layers = layers[:len(WIDTHS)]
-        self.lstm, self.output = Lstm(WIDTHS[-1], WIDTHS[-1]), torch.nn.Linear(WIDTHS[-1], EMBEDDING)
+        self.lstm = torch.nn.LSTM(WIDTHS[-1], WIDTHS[-1], batch_first=True)
+        self.output = torch.nn.Linear(WIDTHS[-1], EMBEDDING)
         weight_reader.set_lstm(self.lstm, layers[-2])
         weight_reader.set_linear(self.output, layers[-1])
 

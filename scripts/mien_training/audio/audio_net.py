@@ -9,7 +9,6 @@ from torch import nn
 from mien_training.audio.features import FEATURES
 from mien_training.audio.phonemes import NAMES
 from mien_training.networks.architectures import LEAK
-from mien_training.networks.native_layers.lstm_layer import Lstm
 
 WIDTHS = [104, 96, 96]
 EMBEDDING = 80
@@ -47,7 +46,7 @@ class Encoder(nn.Module):
         self.register_buffer("mean", torch.zeros(FEATURES))
         self.register_buffer("deviation", torch.ones(FEATURES))
         self.convolutions = nn.ModuleList(CausalConv(a, b) for a, b in zip([FEATURES] + WIDTHS, WIDTHS))
-        self.lstm = Lstm(WIDTHS[-1], WIDTHS[-1])
+        self.lstm = nn.LSTM(WIDTHS[-1], WIDTHS[-1], batch_first=True)
         self.output = nn.Linear(WIDTHS[-1], EMBEDDING)
 
     def forward(self, features, state=None):
@@ -75,7 +74,7 @@ class Decoder(nn.Module):
     def __init__(self, outputs):
         super().__init__()
         self.input = nn.Linear(EMBEDDING, HIDDEN)
-        self.lstm = Lstm(HIDDEN, HIDDEN)
+        self.lstm = nn.LSTM(HIDDEN, HIDDEN, batch_first=True)
         self.output = nn.Linear(HIDDEN, outputs)
 
     def forward(self, embedding, state=None):

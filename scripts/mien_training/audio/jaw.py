@@ -9,7 +9,6 @@ from torch import nn
 
 from mien_training.audio.audio_net import EMBEDDING
 from mien_training.audio.features import BANDS, log_mel, without_offset
-from mien_training.networks.native_layers.lstm_layer import Lstm
 
 INPUTS = EMBEDDING + BANDS
 HIDDEN = 32
@@ -39,7 +38,7 @@ class JawDecoder(nn.Module):
         self.register_buffer("mean", torch.zeros(INPUTS))
         self.register_buffer("deviation", torch.ones(INPUTS))
         self.input = nn.Linear(INPUTS, hidden)
-        self.lstm = Lstm(hidden, hidden)
+        self.lstm = nn.LSTM(hidden, hidden, batch_first=True)
         self.output = nn.Linear(hidden, 1)
 
     def forward(self, x, state=None):

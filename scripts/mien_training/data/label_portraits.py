@@ -4,7 +4,8 @@ usage: python3 -m mien_training.data.label_portraits PACK [--kinds KIND...] [--m
 Needs PyPI's mediapipe and $MIEN_CACHE/PACK/img, the pictures that $MIEN_DATA/PACK/faces.npz names. Writes
 $MIEN_CACHE/PACK/labels.npz, with the fields of the packs' own labels, and landmark_scatter [n], the mean distance of
 the views' landmarks from their mean as a share of the distance between the pupils, control_scatter [n,52], and views
-[n], of six, in which the teacher found a face. Keeps what an earlier run labelled; a face needs at least three views that agree.
+[n], of six, in which the teacher found a face. Keeps what an earlier run labelled; a face needs at least three views
+that agree.
 """
 import argparse
 import time
