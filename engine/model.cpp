@@ -1,4 +1,4 @@
-// Opens weight files and validates the shapes of their networks.
+// Opens weight files and infers the shapes of their networks.
 #include "engine/model.h"
 
 namespace mien::engine {
@@ -47,21 +47,6 @@ LayerCost network_cost(std::span<const LayerRecord> layers, const Shape& input) 
 
 namespace {
 
-// Index of the first layer whose declared shape differs from the computed one; -1: none.
-std::int32_t wrong_layer(std::span<const LayerRecord> layers, const Shape& input) {
-  ShapeWalk walk(layers, input);
-  while (walk.next()) {
-    const LayerRecord& layer = layers[walk.index()];
-    const Shape declared{static_cast<std::int32_t>(layer.height),
-                         static_cast<std::int32_t>(layer.width),
-                         static_cast<std::int32_t>(layer.channels)};
-    if (walk.output() != declared) {
-      return static_cast<std::int32_t>(walk.index());
-    }
-  }
-  return walk.status() == MIEN_OK ? -1 : static_cast<std::int32_t>(walk.index());
-}
-
 void locate(mien_error_detail& detail, const formats::FileView& file, const NetworkRecord& network,
             std::int32_t layer) {
   detail.network = static_cast<std::int32_t>(&network - file.networks().data());
@@ -73,18 +58,7 @@ void locate(mien_error_detail& detail, const formats::FileView& file, const Netw
 
 mien_error_detail Model::open(std::span<const std::byte> bytes) {
   file_ = {};
-  formats::FileView file;
-  mien_error_detail detail = formats::open(bytes, file);
-  for (const NetworkRecord& network : file.networks()) {
-    const std::int32_t wrong = wrong_layer(file.layers(network), input_shape(network));
-    if (wrong >= 0) {
-      formats::describe(detail, MIEN_ERROR_WEIGHTS_LAYER_SHAPE);
-      locate(detail, file, network, wrong);
-      return detail;
-    }
-  }
-  file_ = file;
-  return detail;
+  return formats::open(bytes, file_);
 }
 
 mien_error_detail* Model::described(mien_status status, const char* field) const {

@@ -2,6 +2,7 @@
 #include "engine/plan.h"
 
 #include "engine/arena_plan.h"
+#include "formats/mien_layers.h"
 #include "kernels/families.h"
 
 namespace mien::engine {
@@ -11,8 +12,6 @@ using formats::LayerOp;
 using formats::LayerRecord;
 
 namespace {
-
-LayerOp op_of(const LayerRecord& layer) { return static_cast<LayerOp>(layer.op); }
 
 bool accepts(const formats::NetworkRecord& network, const Shape& input) {
   const Shape declared = input_shape(network);

@@ -113,7 +113,7 @@ std::uint64_t window_count(std::uint64_t size, std::uint64_t kernel, std::uint64
   return last * stride < before + size ? last + 1 : 0;
 }
 
-ValueShape depthwise_shape(const LayerRecord& layer, ValueShape input) {
+ValueShape windowed_shape(const LayerRecord& layer, ValueShape input) {
   const bool ceil_mode = layer.flags == kCeilMode;
   return {window_count(input.height, layer.kernel_height, layer.stride_height, layer.pad_top,
                        layer.pad_bottom, ceil_mode),
@@ -151,10 +151,19 @@ bool is_broadcast(ValueShape b, ValueShape a) {
          is_broadcast(b.channels, a.channels);
 }
 
+// A factor of 0 selects the declared size.
+std::uint64_t resized(std::uint64_t size, std::uint16_t factor, std::uint32_t declared) {
+  return factor == 0 ? declared : size * factor;
+}
+
 ValueShape resized_shape(const LayerRecord& layer, ValueShape input) {
-  const bool suits = layer.stride_height == resize_factor(input.height, layer.height) &&
-                     layer.stride_width == resize_factor(input.width, layer.width);
-  return suits ? ValueShape{layer.height, layer.width, input.channels} : ValueShape{};
+  return {resized(input.height, layer.stride_height, layer.height),
+          resized(input.width, layer.stride_width, layer.width), input.channels};
+}
+
+bool resize_factors_match(const LayerRecord& layer, ValueShape input) {
+  return layer.stride_height == resize_factor(input.height, layer.height) &&
+         layer.stride_width == resize_factor(input.width, layer.width);
 }
 
 ValueShape rearranged_shape(const LayerRecord& layer, ValueShape input) {
@@ -330,7 +339,7 @@ ValueShape output_shape(const LayerRecord& layer, ValueShape input, ValueShape s
     return {};
   }
   if (is_windowed(op)) {
-    return depthwise_shape(layer, input);
+    return windowed_shape(layer, input);
   }
   switch (op) {
     case LayerOp::kFullyConnected:
@@ -349,6 +358,11 @@ ValueShape output_shape(const LayerRecord& layer, ValueShape input, ValueShape s
       break;
   }
   return {input.height, input.width, chooses_channels(op) ? layer.channels : input.channels};
+}
+
+ValueShape declared_output_shape(const LayerRecord& layer, ValueShape input, ValueShape second) {
+  const bool invalid = op_of(layer) == LayerOp::kResize && !resize_factors_match(layer, input);
+  return invalid ? ValueShape{} : output_shape(layer, input, second);
 }
 
 LayerTensors tensors_of(const LayerRecord& layer, ValueShape input) {

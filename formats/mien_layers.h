@@ -90,11 +90,15 @@ struct LayerTensors {
 [[nodiscard]] mien_status check_layer(const LayerRecord& layer, std::uint32_t value,
                                       std::uint32_t network_flags, std::uint16_t minor_version);
 
-// The output shape of a checked layer for these inputs. Ignores the declared height and width,
-// except for ops whose inputs do not determine them. `second`: only for ops with two inputs. Zeros
-// if the layer does not accept the inputs.
+// The output shape of a checked layer for these inputs, of the declared size or another. Ignores
+// the declared height and width, except for ops whose inputs do not determine them. `second`: only
+// for ops with two inputs. Zeros if the layer does not accept the inputs.
 [[nodiscard]] ValueShape output_shape(const LayerRecord& layer, ValueShape input,
                                       ValueShape second);
+
+// The same for the declared inputs, to which the factors of kResize must apply.
+[[nodiscard]] ValueShape declared_output_shape(const LayerRecord& layer, ValueShape input,
+                                               ValueShape second);
 
 // kResize: the factor from input to output rows or columns; 0 if it is not a whole number.
 [[nodiscard]] constexpr std::uint16_t resize_factor(std::uint64_t from, std::uint64_t to) {

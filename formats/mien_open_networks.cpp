@@ -83,7 +83,7 @@ bool Validator::layer(const NetworkRecord& network, std::uint32_t index) {
   const ValueShape input = value_shape(network, record.input);
   const bool two = takes_two(op_of(record));
   const ValueShape second = two ? value_shape(network, record.second_input) : input;
-  if (!layer_shape(record, output_shape(record, input, second))) {
+  if (!layer_shape(record, declared_output_shape(record, input, second))) {
     return false;
   }
   const LayerTensors tensors = tensors_of(record, input);

@@ -91,7 +91,7 @@ bool NetworkWriter::place(LayerRecord* record) {
   const ValueShape input = shape_of_value(record->input);
   const bool two = takes_two(op_of(*record));
   const ValueShape output =
-      output_shape(*record, input, two ? shape_of_value(record->second_input) : input);
+      declared_output_shape(*record, input, two ? shape_of_value(record->second_input) : input);
   const bool declares = op_of(*record) == LayerOp::kResize || op_of(*record) == LayerOp::kRearrange;
   if (!declares) {
     record->height = static_cast<std::uint32_t>(output.height);
