@@ -3,15 +3,15 @@
 
 namespace mien::engine {
 
-std::size_t ArenaPlan::place(std::size_t bytes, std::uint32_t born, std::uint32_t dies) {
-  drop_expired(born);
+std::size_t ArenaPlan::place(std::size_t bytes, std::uint32_t first_step, std::uint32_t last_step) {
+  drop_expired(first_step);
   std::size_t begin = 0;
   const std::uint32_t at = lowest_gap(aligned(bytes), begin);
   for (std::uint32_t i = count_++; i > at; --i) {
     live_[i] = live_[i - 1];
   }
   const std::size_t end = begin + aligned(bytes);
-  live_[at] = {begin, end, dies};
+  live_[at] = {begin, end, last_step};
   bytes_ = end > bytes_ ? end : bytes_;
   return begin;
 }
@@ -19,7 +19,7 @@ std::size_t ArenaPlan::place(std::size_t bytes, std::uint32_t born, std::uint32_
 void ArenaPlan::drop_expired(std::uint32_t now) {
   std::uint32_t kept = 0;
   for (std::uint32_t i = 0; i < count_; ++i) {
-    if (live_[i].dies >= now) {
+    if (live_[i].last_step >= now) {
       live_[kept++] = live_[i];
     }
   }

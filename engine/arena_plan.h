@@ -18,9 +18,10 @@ inline constexpr std::size_t kArenaAlignment = 64;
 // Places maps one by one, each at the lowest offset that is free during its lifetime.
 class ArenaPlan {
  public:
-  // Returns the offset, a multiple of kArenaAlignment, of a map that step `born` writes and step
-  // `dies` (>= born) reads last. `born` must not decrease; at most kMaxLayers calls.
-  std::size_t place(std::size_t bytes, std::uint32_t born, std::uint32_t dies);
+  // Returns the offset, a multiple of kArenaAlignment, of a map that step `first_step` writes and
+  // step `last_step` (>= first_step) reads last. `first_step` must not decrease; at most kMaxLayers
+  // calls.
+  std::size_t place(std::size_t bytes, std::uint32_t first_step, std::uint32_t last_step);
 
   // Size of the arena, a multiple of kArenaAlignment.
   [[nodiscard]] std::size_t bytes() const { return bytes_; }
@@ -28,7 +29,7 @@ class ArenaPlan {
  private:
   struct Map {
     std::size_t begin, end;
-    std::uint32_t dies;
+    std::uint32_t last_step;
   };
 
   void drop_expired(std::uint32_t now);

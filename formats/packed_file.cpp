@@ -164,11 +164,11 @@ mien_status unpacked_bytes(std::span<const std::byte> packed, std::size_t& bytes
   const auto unpacked = load_little<std::uint64_t>(header + kUnpackedBytesAt);
   // Bounds the memory of the caller by what the file's blocks can fill.
   const std::uint64_t blocks = (size - kPackedHeaderBytes) / kMinPackedBlockBytes;
-  const std::uint64_t most = std::min(kMaxFileBytes, blocks * kMaxBlockBytes);
-  if (unpacked == 0 || unpacked % kFileAlignment != 0 || unpacked > most) {
+  const std::uint64_t max_unpacked = std::min(kMaxFileBytes, blocks * kMaxBlockBytes);
+  if (unpacked == 0 || unpacked % kFileAlignment != 0 || unpacked > max_unpacked) {
     (void)fail(MIEN_ERROR_WEIGHTS_PACKED_SIZE, "unpacked_bytes", kUnpackedBytesAt);
     set_got(error, static_cast<double>(unpacked));
-    set_expected(error, kFileAlignment, static_cast<double>(most));
+    set_expected(error, kFileAlignment, static_cast<double>(max_unpacked));
     return MIEN_ERROR_WEIGHTS_PACKED_SIZE;
   }
   bytes = static_cast<std::size_t>(unpacked);

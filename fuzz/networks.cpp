@@ -79,7 +79,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                                 mask);
       fuzz::require(owned.status == MIEN_OK);
       set_input(*owned.session, image);
-      owned.spoil_arena();
+      owned.fill_arena_with_nan();
       owned.session->run();
       for (std::uint32_t i = 0; i < network.twin.outputs().size(); ++i) {
         compare(*owned.session, i, want[network.twin.outputs()[i]],

@@ -197,12 +197,12 @@ class BvhReader {
   }
 
   void find_unit(Clip& clip) {
-    const std::optional<LengthUnit> shown = detected_unit();
-    const LengthUnit unit = options_.bvh_unit.value_or(shown.value_or(LengthUnit::kMetres));
+    const std::optional<LengthUnit> detected = detected_unit();
+    const LengthUnit unit = options_.bvh_unit.value_or(detected.value_or(LengthUnit::kMetres));
     metres_ = metres(unit);
     if (!options_.bvh_unit) {
       clip.notes.push_back(std::string("positions: ") + name(unit) + ", " +
-                           (shown ? "detected from the size of the skeleton" : "default") +
+                           (detected ? "detected from the size of the skeleton" : "default") +
                            " (--from-bvh-unit)");
     }
   }

@@ -146,11 +146,11 @@ bool GltfFile::count(const JsonValue& from, std::string_view key, std::size_t& v
   value = 0;
   const std::optional<JsonValue> found = from.find(key);
   std::int64_t read = 0;
-  constexpr std::int64_t kMost = 0xFFFFFFFF;
+  constexpr std::int64_t kMax = 0xFFFFFFFF;
   if (!found) {
     return true;
   }
-  if (!found->integer(read) || read < 0 || read > kMost) {
+  if (!found->integer(read) || read < 0 || read > kMax) {
     return found->fail_here(std::string(key) + ": out of range", fault_);
   }
   value = static_cast<std::size_t>(read);

@@ -1,4 +1,5 @@
-// A glTF file: its document and the numbers in its buffers.
+// A glTF file: its document and the numbers in its buffers. cgltf reports no line and column of an
+// error, and its memory is not bounded by the size of the file.
 #pragma once
 
 #include <cstddef>

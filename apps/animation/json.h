@@ -1,6 +1,6 @@
-// A JSON parser (RFC 8259) that knows the position of each value, so that errors have a line and a
-// column, which no common JSON library provides. Values refer to the text; a value takes 8 bytes,
-// and has at least two bytes of text. Duplicate keys are an error.
+// A JSON parser (RFC 8259). Common JSON libraries neither report the line and column of a value nor
+// bound their memory: here errors in the content have a position, and a value takes 8 bytes, with
+// at least two bytes of text. Values refer to the text. Duplicate keys are an error.
 #pragma once
 
 #include <cstddef>

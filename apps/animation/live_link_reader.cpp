@@ -86,7 +86,7 @@ class LiveLinkReader {
     Fault ignored;
     bool more = !options_.timecode_fps || !options_.rotation ? table.next_row(ignored) : false;
     while (more && table.next_row(ignored)) {
-      see_row(table, rate, angle);
+      add_row(table, rate, angle);
     }
     const Guess<double> fps =
         options_.timecode_fps ? Guess<double>{*options_.timecode_fps, true} : rate.rate();
@@ -104,26 +104,26 @@ class LiveLinkReader {
     }
   }
 
-  void see_row(CsvTable& table, TimecodeRate& rate, AngleUnit& angle) const {
+  void add_row(CsvTable& table, TimecodeRate& rate, AngleUnit& angle) const {
     Timecode timecode;
     if (*time_ < table.size() && parse_timecode(table.cell(*time_), timecode)) {
       rate.add(timecode);
     }
     std::array<double, formats::kControlCount> controls{};
     for (std::size_t i = 0; i < formats::kControlCount; ++i) {
-      controls[i] = seen(table, controls_[i]).value_or(0.0);
+      controls[i] = number_in(table, controls_[i]).value_or(0.0);
     }
     Rotations rotations;
     for (std::size_t i = 0; i < formats::kRotationCount; ++i) {
-      rotations[i] = seen(table, rotations_[i]);
+      rotations[i] = number_in(table, rotations_[i]);
     }
     angle.add(rotations, controls);
   }
 
-  static std::optional<double> seen(CsvTable& table, Column column) {
+  static std::optional<double> number_in(CsvTable& table, Column column) {
     double value = 0.0;
-    const bool there = column && *column < table.size() && table.number(*column, value);
-    return there ? std::optional(value) : std::nullopt;
+    const bool is_number = column && *column < table.size() && table.number(*column, value);
+    return is_number ? std::optional(value) : std::nullopt;
   }
 
   bool read_frame(Frame& frame, Clip& clip) {

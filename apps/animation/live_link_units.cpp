@@ -41,7 +41,7 @@ void Histogram::add(double value) {
 
 double Histogram::median() const {
   std::size_t bin = 0;
-  for (std::size_t seen = counts_[0]; 2 * seen < size_; seen += counts_[bin]) {
+  for (std::size_t below = counts_[0]; 2 * below < size_; below += counts_[bin]) {
     ++bin;
   }
   return (static_cast<double>(bin) + 0.5) * width_;
@@ -67,9 +67,9 @@ Guess<double> TimecodeRate::rate() const {
   if (steps_.size() < kMinSteps || before_.size() == 0) {
     return {kDefaultRate, false};
   }
-  const double shown = before_.median() + steps_.median();
-  const auto* const best = std::min_element(possible, kRates.end(), [shown](double a, double b) {
-    return std::abs(a - shown) < std::abs(b - shown);
+  const double measured = before_.median() + steps_.median();
+  const auto* const best = std::min_element(possible, kRates.end(), [measured](double a, double b) {
+    return std::abs(a - measured) < std::abs(b - measured);
   });
   return {*best, true};
 }

@@ -92,15 +92,15 @@ std::string_view trimmed(std::string_view text, std::string_view blanks) {
 }
 
 std::string quoted(std::string_view text) {
-  constexpr std::size_t kShown = 40;
-  std::string shown(trimmed(text).substr(0, kShown));
-  for (char& c : shown) {
+  constexpr std::size_t kMaxBytes = 40;
+  std::string excerpt(trimmed(text).substr(0, kMaxBytes));
+  for (char& c : excerpt) {
     const auto byte = static_cast<unsigned char>(c);
     if (byte < 0x20 || byte >= 0x7f) {
       c = '?';
     }
   }
-  return "'" + shown + "'";
+  return "'" + excerpt + "'";
 }
 
 }  // namespace mien::animation

@@ -114,14 +114,14 @@ class RhubarbXml {
 
   bool read(std::string_view text) {
     if (!parse_xml(
-            text, [this](const XmlTag& tag) { return see(tag); }, fault_)) {
+            text, [this](const XmlTag& tag) { return visit(tag); }, fault_)) {
       return false;
     }
     return clip_.frames.empty() ? fail(fault_, line_, column_, kNoCues) : intervals_.finish();
   }
 
  private:
-  bool see(const XmlTag& tag) {
+  bool visit(const XmlTag& tag) {
     if (line_ == 0) {
       line_ = tag.line;
       column_ = tag.column;
@@ -131,10 +131,10 @@ class RhubarbXml {
       has_audio_ = true;
       clip_.audio_file = tag.text;
     }
-    return tag.closes || tag.name != "mouthCue" || see_cue(tag);
+    return tag.closes || tag.name != "mouthCue" || add_cue_of(tag);
   }
 
-  bool see_cue(const XmlTag& cue) {
+  bool add_cue_of(const XmlTag& cue) {
     std::int64_t begin_ns = 0, end_ns = 0;
     if (!time_in(cue, "start", begin_ns) || !time_in(cue, "end", end_ns)) {
       return false;

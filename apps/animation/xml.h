@@ -1,5 +1,6 @@
 // A parser for simple XML documents, tag by tag: elements, attributes and text in UTF-8, without
-// document types and with XML's own entities only.
+// document types and with XML's own entities only. Only one tag is in memory, with its line and
+// column: pugixml would keep the whole document, and expat would expand entities.
 #pragma once
 
 #include <cstddef>

@@ -10,7 +10,7 @@
 #include "apps/mien/outputs/output_file.h"
 #include "apps/mien/system/failure.h"
 #include "apps/mien/system/out_of_memory.h"
-#include "apps/mien/system/shown.h"
+#include "apps/mien/system/printable.h"
 #include "apps/mien/system/standard_streams.h"
 #include "apps/mien/system/termination.h"
 
@@ -33,13 +33,13 @@ int main(int argc, char** argv) {
     mien::app::finish_standard_output();
     return code;
   } catch (const mien::app::Failure& failure) {
-    std::fprintf(stderr, "mien: %s\n", mien::app::shown(failure.what()).c_str());
+    std::fprintf(stderr, "mien: %s\n", mien::app::printable(failure.what()).c_str());
     for (const std::string& detail : failure.details()) {
-      std::fprintf(stderr, "  %s\n", mien::app::shown(detail).c_str());
+      std::fprintf(stderr, "  %s\n", mien::app::printable(detail).c_str());
     }
     return failure.code();
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "mien: %s\n", mien::app::shown(error.what()).c_str());
+    std::fprintf(stderr, "mien: %s\n", mien::app::printable(error.what()).c_str());
     return mien::app::kExitInternal;
   }
 }

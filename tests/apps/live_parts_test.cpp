@@ -98,8 +98,8 @@ TEST(SampleClock, EstimatesRecordingTimesOfLateSamples) {
   for (int block = 0; block < 1000; ++block) {  // of 10 ms; some are up to 30 ms late
     const std::int64_t recorded = block * 10 * kMs;
     const std::int64_t late = (block * 7 % 4) * 10 * kMs;
-    const std::int64_t told = clock.time_of(160, recorded + 10 * kMs + late);
-    worst = block > 10 ? std::max(worst, std::abs(told - recorded)) : 0;
+    const std::int64_t estimated = clock.time_of(160, recorded + 10 * kMs + late);
+    worst = block > 10 ? std::max(worst, std::abs(estimated - recorded)) : 0;
   }
   EXPECT_LT(worst, 2 * kMs);
 }
@@ -108,8 +108,8 @@ TEST(SampleClock, FollowsAnotherClock) {
   SampleClock clock(16000);
   for (int block = 0; block < 60000; ++block) {  // ten minutes of a sound card that is 0.01 % slow
     const auto recorded = static_cast<std::int64_t>(block * 10.001 * kMs);
-    const std::int64_t told = clock.time_of(160, recorded + 10 * kMs);
-    ASSERT_LT(std::abs(told - recorded), 5 * kMs) << block;
+    const std::int64_t estimated = clock.time_of(160, recorded + 10 * kMs);
+    ASSERT_LT(std::abs(estimated - recorded), 5 * kMs) << block;
   }
 }
 

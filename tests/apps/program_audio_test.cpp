@@ -25,11 +25,11 @@ class ProgramSound : public Program {
       }
     }
   }
-  void add_ears() const {
-    const AlignedBytes ears = blob_audionet();
+  void add_audionet() const {
+    const AlignedBytes audionet = blob_audionet();
     std::ofstream file(path("audionet.mien"), std::ios::binary);
-    file.write(reinterpret_cast<const char*>(ears.get().data()),
-               static_cast<std::streamsize>(ears.get().size()));
+    file.write(reinterpret_cast<const char*>(audionet.get().data()),
+               static_cast<std::streamsize>(audionet.get().size()));
   }
   std::string models() const { return " --quiet --models " + folder_.string(); }
 };
@@ -102,7 +102,7 @@ void expect_buzz(const Curve& curve, double from_ms, double to_ms) {
 
 TEST_F(ProgramSound, AWavGivesThirtyRowsASecond) {
   MIEN_NEEDS("trained model", have_models());
-  add_ears();
+  add_audionet();
   write_wav(path("voice.wav"), 4);
   const Outcome done = run("track " + path("voice.wav") + models(), "PATH=/nowhere");
   ASSERT_EQ(done.code, 0) << done.errors << " (without ffmpeg)";
@@ -114,7 +114,7 @@ TEST_F(ProgramSound, AWavGivesThirtyRowsASecond) {
 
 TEST_F(ProgramSound, ReadsAWavFromAPipe) {
   MIEN_NEEDS("trained model", have_models());
-  add_ears();
+  add_audionet();
   write_wav(path("voice.wav"), 2);
   const std::string voice = path("voice.wav");
   const Outcome file = run("track " + voice + models());
@@ -131,7 +131,7 @@ TEST_F(ProgramSound, ReadsAWavFromAPipe) {
 
 TEST_F(ProgramSound, RespectsTheTimeRange) {
   MIEN_NEEDS("trained model", have_models());
-  add_ears();
+  add_audionet();
   write_wav(path("voice.wav"), 4, 44100);
   const Outcome done = run("track " + path("voice.wav") + " --start 0.5 --duration 2.5" + models());
   ASSERT_EQ(done.code, 0) << done.errors;
@@ -144,7 +144,7 @@ TEST_F(ProgramSound, RespectsTheTimeRange) {
 TEST_F(ProgramSound, StaysInSyncWithTheVideo) {
   MIEN_NEEDS("trained model", have_models());
   MIEN_NEEDS("ffmpeg", have_ffmpeg());
-  add_ears();
+  add_audionet();
   write_wav(path("voice.wav"), 4);
   const std::string video = "track " + kClip + " --duration 4 --lod 1 --audio " + path("voice.wav");
   const Outcome done = run(video + models());
@@ -162,7 +162,7 @@ TEST_F(ProgramSound, StaysInSyncWithTheVideo) {
 TEST_F(ProgramSound, UsesTheAudioTrackOfAVideo) {
   MIEN_NEEDS("trained model", have_models());
   MIEN_NEEDS("ffmpeg", have_ffmpeg());
-  add_ears();
+  add_audionet();
   write_wav(path("voice.wav"), 4);
   ASSERT_EQ(std::system(("ffmpeg -v error -t 4 -i " + kClip + " -i " + path("voice.wav") +
                          " -map 0:v -map 1:a -c:v copy -c:a aac " + path("both.mp4"))
@@ -188,7 +188,7 @@ TEST_F(ProgramSound, WithoutAudioWeightsAVideoIsTrackedAlone) {
 TEST_F(ProgramSound, MissingAudioIsAnError) {
   MIEN_NEEDS("trained model", have_models());
   MIEN_NEEDS("ffmpeg", have_ffmpeg());
-  add_ears();
+  add_audionet();
   write_wav(path("voice.wav"), 1);
   ASSERT_EQ(
       std::system(("ffmpeg -v error -i " + kClip + " -c copy -an " + path("mute.mp4")).c_str()), 0);
@@ -215,7 +215,7 @@ TEST_F(ProgramSound, MissingAudioIsAnError) {
 
 TEST_F(ProgramSound, BenchMeasuresAudio) {
   MIEN_NEEDS("trained model", have_models());
-  add_ears();
+  add_audionet();
   const Outcome done = run("bench --sound --json --models " + folder_.string());
   ASSERT_EQ(done.code, 0) << done.errors;
   EXPECT_NE(done.output.find("\"sample_rate\": 48000"), std::string::npos) << done.output;

@@ -80,7 +80,7 @@ TEST(FusedBlocks, PublishedNetworksAnswerTheSame) {
         ASSERT_EQ(fused.status, MIEN_OK);
         set_random(*plain.session, 1);
         set_random(*fused.session, 1);
-        fused.spoil_arena();
+        fused.fill_arena_with_nan();
         plain.session->run();
         fused.session->run();
         ASSERT_NO_FATAL_FAILURE(expect_same(*plain.session, *fused.session, twin_tolerance(mask)))
@@ -163,7 +163,7 @@ TEST(FusedBlocks, LongSumsAreNotRoundedAway) {
       ASSERT_EQ(fused.status, MIEN_OK);
       EXPECT_EQ(fused.session->step_count(), 1u);
       std::fill(fused.session->input().begin(), fused.session->input().end(), 1.0f);
-      fused.spoil_arena();
+      fused.fill_arena_with_nan();
       fused.session->run();
       for (const float one : fused.session->output(0)) {
         EXPECT_NEAR(one, 9.0f, 9.0 * (is_half(mask) ? kHalfTwinTolerance : 1e-3))

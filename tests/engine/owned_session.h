@@ -53,7 +53,7 @@ class OwnedSession {
   }
 
   // Fills the arena with NaNs, because the next run must not depend on its content.
-  void spoil_arena() {
+  void fill_arena_with_nan() {
     for (std::byte& one : arena_.span()) {
       one = std::byte{0xFF};
     }

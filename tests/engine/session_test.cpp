@@ -83,21 +83,21 @@ TEST(ArenaPlan, LiveMapsNeverOverlap) {
     const std::uint32_t count = 1 + below(60);
     struct Placed {
       std::size_t begin, end;
-      std::uint32_t dies;
+      std::uint32_t last_step;
     };
     std::vector<Placed> maps;
     engine::ArenaPlan arena;
-    for (std::uint32_t born = 0; born < count; ++born) {
+    for (std::uint32_t first_step = 0; first_step < count; ++first_step) {
       const std::size_t bytes = 1 + below(5000);
-      const std::uint32_t dies = born + below(6);
-      const std::size_t begin = arena.place(bytes, born, dies);
+      const std::uint32_t last_step = first_step + below(6);
+      const std::size_t begin = arena.place(bytes, first_step, last_step);
       EXPECT_EQ(begin % engine::kArenaAlignment, 0u);
       EXPECT_LE(begin + bytes, arena.bytes());
       for (const Placed& other : maps) {
         const bool apart = other.end <= begin || begin + bytes <= other.begin;
-        EXPECT_TRUE(apart || other.dies < born) << "map " << born;
+        EXPECT_TRUE(apart || other.last_step < first_step) << "map " << first_step;
       }
-      maps.push_back({begin, begin + bytes, dies});
+      maps.push_back({begin, begin + bytes, last_step});
     }
   }
 }

@@ -76,7 +76,7 @@ inline void expect_twins_agree(const formats::MienWriter& writer, const std::str
   for (int step = 0; step < steps; ++step) {
     const Map input = twin.random_input();
     set_input(*engine.session, input);
-    engine.spoil_arena();
+    engine.fill_arena_with_nan();
     engine.session->run();
     const std::vector<Map> want = twin.run(input);
     for (std::uint32_t i = 0; i < twin.outputs().size(); ++i) {

@@ -32,7 +32,7 @@ void expect_boundaries(std::initializer_list<Boundary<Number>> table, WavStatus 
     set(fields, value);
     const std::string file = simple(fields, std::string(64, 'x'));
     if (allowed) {
-      EXPECT_STREQ(message(hear(file).opened), "ok");
+      EXPECT_STREQ(message(decode(file).opened), "ok");
     } else {
       expect_refused(file, refusal, kFmtBodyAt + field_at);
     }
@@ -121,7 +121,7 @@ TEST(WavChunks, SizesOfTheFmtChunk) {
     if (size < 16) {
       expect_refused(file, WavStatus::kBadFormatSize, kFmtBodyAt);
     } else {
-      EXPECT_EQ(hear(file).samples.size(), 2u);
+      EXPECT_EQ(decode(file).samples.size(), 2u);
     }
   }
   for (std::size_t size = 16; size <= extended.size(); ++size) {
@@ -129,13 +129,13 @@ TEST(WavChunks, SizesOfTheFmtChunk) {
     if (size < 40) {
       expect_refused(file, WavStatus::kBadExtensionSize, kFmtBodyAt + 16);
     } else {
-      EXPECT_EQ(hear(file).samples.size(), 2u);
+      EXPECT_EQ(decode(file).samples.size(), 2u);
     }
   }
   for (const std::size_t more : {1u, 2u, 3u, 25u, 5000u}) {
     for (const std::string& body : {plain, extended}) {
       const std::string longer = wav_chunk("fmt ", std::string(body).append(more, 'x'));
-      EXPECT_EQ(hear(riff({longer, data})).samples.size(), 2u);
+      EXPECT_EQ(decode(riff({longer, data})).samples.size(), 2u);
     }
   }
 }
@@ -164,27 +164,27 @@ TEST(WavChunks, OrderOfChunks) {
   expect_refused(riff({wav_chunk("LIST", fmt + data)}), WavStatus::kNoFormat, 12 + 8 + 36);
   // Only the first data chunk is read.
   for (const std::string& behind : {data, fmt, wav_chunk("LIST", "odd"), std::string("trash")}) {
-    const Heard heard = hear(riff({fmt, data, behind}));
-    EXPECT_EQ(heard.ended, WavStatus::kEnd);
-    EXPECT_EQ(heard.samples.size(), 2u);
+    const Decoded decoded = decode(riff({fmt, data, behind}));
+    EXPECT_EQ(decoded.ended, WavStatus::kEnd);
+    EXPECT_EQ(decoded.samples.size(), 2u);
   }
 }
 
 TEST(WavChunks, SkipsOtherChunks) {
   const std::string fmt = wav_chunk("fmt ", fmt_body({}));
   const std::string data = wav_chunk("data", "abcd");
-  const auto expected = hear(riff({fmt, data})).samples;
+  const auto expected = decode(riff({fmt, data})).samples;
   for (const char* name : {"LIST", "bext", "fact", "smpl", "JUNK", "PEAK", "FMT ", "ds64"}) {
     for (const std::size_t size : {0u, 1u, 2u, 3u, 4095u, 4096u, 4097u, 20001u}) {
       const std::string other = wav_chunk(name, std::string(size, 'd'));
-      EXPECT_EQ(hear(riff({other, fmt, other, other, data})).samples, expected);
+      EXPECT_EQ(decode(riff({other, fmt, other, other, data})).samples, expected);
     }
   }
   for (const std::uint32_t size : {5u, 0x7fffffffu, 0x80000000u, 0xfffffffeu, 0xffffffffu}) {
     const std::string file = riff({fmt, "LIST", little(size, 4), "abcd"});
     expect_refused(file, WavStatus::kTruncatedHeader, file.size());
     const std::string huge_fmt = riff({"fmt ", little(size, 4), fmt_body({}), data});
-    EXPECT_NE(hear(huge_fmt).opened, WavStatus::kOk);
+    EXPECT_NE(decode(huge_fmt).opened, WavStatus::kOk);
   }
 }
 

@@ -58,51 +58,51 @@ std::string simple(const FmtFields& fields, std::string_view data) {
   return riff({wav_chunk("fmt ", fmt_body(fields)), wav_chunk("data", data)});
 }
 
-Heard hear(const std::string& file, const std::function<std::size_t()>& block_frames) {
+Decoded decode(const std::string& file, const std::function<std::size_t()>& block_frames) {
   // In memory of exact size, so that the address sanitizer detects every read beyond it.
   const std::vector<char> exact(file.begin(), file.end());
   std::span<const std::byte> left = std::as_bytes(std::span(exact));
   WavReader reader;
-  Heard heard;
-  heard.opened = reader.open(span_source(&left));
-  heard.format = reader.format();
-  heard.fault_offset = reader.fault_offset();
+  Decoded decoded;
+  decoded.opened = reader.open(span_source(&left));
+  decoded.format = reader.format();
+  decoded.fault_offset = reader.fault_offset();
   std::size_t frames = 0;
-  if (heard.opened != WavStatus::kOk) {
-    EXPECT_EQ(heard.format.channels, 0u);
-    EXPECT_EQ(heard.format.sample_rate, 0u);
+  if (decoded.opened != WavStatus::kOk) {
+    EXPECT_EQ(decoded.format.channels, 0u);
+    EXPECT_EQ(decoded.format.sample_rate, 0u);
     EXPECT_EQ(reader.read({}, frames), WavStatus::kEnd);
-    EXPECT_LE(heard.fault_offset, file.size());
-    return heard;
+    EXPECT_LE(decoded.fault_offset, file.size());
+    return decoded;
   }
-  const std::size_t channels = heard.format.channels;
+  const std::size_t channels = decoded.format.channels;
   for (;;) {
     std::vector<float> block(block_frames() * channels);
-    heard.ended = reader.read(block, frames);
-    EXPECT_EQ(heard.ended == WavStatus::kOk, frames > 0);
-    if (heard.ended != WavStatus::kOk) {
+    decoded.ended = reader.read(block, frames);
+    EXPECT_EQ(decoded.ended == WavStatus::kOk, frames > 0);
+    if (decoded.ended != WavStatus::kOk) {
       break;
     }
     for (const float sample : std::span(block).first(frames * channels)) {
-      heard.samples.push_back(std::bit_cast<std::uint32_t>(sample));
+      decoded.samples.push_back(std::bit_cast<std::uint32_t>(sample));
     }
   }
-  heard.fault_offset = reader.fault_offset();
-  EXPECT_LE(heard.fault_offset, file.size());
+  decoded.fault_offset = reader.fault_offset();
+  EXPECT_LE(decoded.fault_offset, file.size());
   std::vector<float> frame(channels);
-  EXPECT_EQ(reader.read(frame, frames), heard.ended) << "the end is permanent";
+  EXPECT_EQ(reader.read(frame, frames), decoded.ended) << "the end is permanent";
   EXPECT_EQ(frames, 0u);
-  return heard;
+  return decoded;
 }
 
-Heard hear(const std::string& file) {
-  return hear(file, [] { return std::size_t{1000}; });
+Decoded decode(const std::string& file) {
+  return decode(file, [] { return std::size_t{1000}; });
 }
 
 void expect_refused(const std::string& file, WavStatus status, std::uint64_t offset) {
-  const Heard heard = hear(file);
-  EXPECT_STREQ(message(heard.opened), message(status));
-  EXPECT_EQ(heard.fault_offset, offset) << message(status);
+  const Decoded decoded = decode(file);
+  EXPECT_STREQ(message(decoded.opened), message(status));
+  EXPECT_EQ(decoded.fault_offset, offset) << message(status);
 }
 
 std::vector<std::uint32_t> bits_of(const std::vector<float>& samples) {

@@ -42,7 +42,7 @@ std::string simple(const FmtFields& fields, std::string_view data);
 // RF64 header, ds64 chunk with these sizes, chunks.
 std::string rf64(std::uint64_t riff_bytes, std::uint64_t data_bytes, std::string_view chunks);
 
-struct Heard {
+struct Decoded {
   WavStatus opened = WavStatus::kOk;
   WavStatus ended = WavStatus::kOk;  // the first status of read() that is not kOk
   std::uint64_t fault_offset = 0;
@@ -51,8 +51,8 @@ struct Heard {
 };
 
 // Reads everything in blocks of `block_frames` frames, and checks properties of all files.
-Heard hear(const std::string& file, const std::function<std::size_t()>& block_frames);
-Heard hear(const std::string& file);
+Decoded decode(const std::string& file, const std::function<std::size_t()>& block_frames);
+Decoded decode(const std::string& file);
 
 // Expects that opening the file fails for this reason.
 void expect_refused(const std::string& file, WavStatus status, std::uint64_t offset);

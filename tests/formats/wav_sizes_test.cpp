@@ -25,18 +25,18 @@ TEST(WavSizes, UnknownSizesExtendToTheEnd) {
   // 36 bytes before the body of the data chunk count to the size of the RIFF chunk.
   for (const std::uint32_t riff_bytes : {0u, 8u, 36u, kUnknown}) {
     for (const std::uint32_t data_bytes : {0u, 0x7ffff000u, 0x7fffff00u, kUnknown}) {
-      const Heard heard = hear(with_sizes(riff_bytes, data_bytes, data));
-      EXPECT_EQ(heard.format.frames, std::nullopt);
-      EXPECT_EQ(heard.samples.size(), 15000u) << riff_bytes << ' ' << data_bytes;
-      EXPECT_EQ(heard.ended, WavStatus::kEnd);
-      const Heard odd = hear(with_sizes(riff_bytes, data_bytes, data + "x"));
+      const Decoded decoded = decode(with_sizes(riff_bytes, data_bytes, data));
+      EXPECT_EQ(decoded.format.frames, std::nullopt);
+      EXPECT_EQ(decoded.samples.size(), 15000u) << riff_bytes << ' ' << data_bytes;
+      EXPECT_EQ(decoded.ended, WavStatus::kEnd);
+      const Decoded odd = decode(with_sizes(riff_bytes, data_bytes, data + "x"));
       EXPECT_EQ(odd.samples.size(), 15000u);
       EXPECT_EQ(odd.ended, WavStatus::kPartialFrame);
       EXPECT_EQ(odd.fault_offset, 44u + 30000);
-      EXPECT_TRUE(hear(with_sizes(riff_bytes, data_bytes, "")).samples.empty());
+      EXPECT_TRUE(decode(with_sizes(riff_bytes, data_bytes, "")).samples.empty());
     }
   }
-  EXPECT_EQ(hear(with_sizes(36 + 30000, kUnknown, data)).samples.size(), 15000u);
+  EXPECT_EQ(decode(with_sizes(36 + 30000, kUnknown, data)).samples.size(), 15000u);
 }
 
 TEST(WavSizes, PlaceholderSizesAreRoundedToFrames) {
@@ -44,28 +44,28 @@ TEST(WavSizes, PlaceholderSizesAreRoundedToFrames) {
   stereo24.channels = 2;
   stereo24.bits = 24;
   for (const std::uint32_t size : {0x7fffeffcu, 0x7ffff000u}) {
-    const Heard heard =
-        hear("RIFF" + little(0x7ffff024, 4) + "WAVE" + wav_chunk("fmt ", fmt_body(stereo24)) +
-             "data" + little(size, 4) + std::string(600, 'x'));
-    EXPECT_EQ(heard.ended, WavStatus::kEnd) << size;
-    EXPECT_EQ(heard.samples.size(), 200u);
+    const Decoded decoded =
+        decode("RIFF" + little(0x7ffff024, 4) + "WAVE" + wav_chunk("fmt ", fmt_body(stereo24)) +
+               "data" + little(size, 4) + std::string(600, 'x'));
+    EXPECT_EQ(decoded.ended, WavStatus::kEnd) << size;
+    EXPECT_EQ(decoded.samples.size(), 200u);
   }
 }
 
 TEST(WavSizes, AChunkMayBeEmpty) {
-  const Heard heard = hear(with_sizes(36 + 12, 0, wav_chunk("LIST", "abcd")));
-  EXPECT_EQ(heard.opened, WavStatus::kOk);
-  EXPECT_EQ(heard.format.frames, std::optional<std::uint64_t>(0));
-  EXPECT_EQ(heard.ended, WavStatus::kEnd);
-  EXPECT_TRUE(heard.samples.empty());
-  EXPECT_TRUE(hear(with_sizes(37, 0, "abcd")).samples.empty()) << "one byte says so";
+  const Decoded decoded = decode(with_sizes(36 + 12, 0, wav_chunk("LIST", "abcd")));
+  EXPECT_EQ(decoded.opened, WavStatus::kOk);
+  EXPECT_EQ(decoded.format.frames, std::optional<std::uint64_t>(0));
+  EXPECT_EQ(decoded.ended, WavStatus::kEnd);
+  EXPECT_TRUE(decoded.samples.empty());
+  EXPECT_TRUE(decode(with_sizes(37, 0, "abcd")).samples.empty()) << "one byte says so";
 }
 
 TEST(WavSizes, TheSizeOfTheRiffChunkIsIgnored) {
   for (const std::uint32_t size : {0u, 1u, 4u, 40u, 0x7fffffffu, 0x80000000u, 0xffffffffu}) {
-    const Heard heard = hear(with_sizes(size, 4, "abcdefgh"));
-    EXPECT_EQ(heard.samples.size(), 2u) << size;
-    EXPECT_EQ(heard.ended, WavStatus::kEnd);
+    const Decoded decoded = decode(with_sizes(size, 4, "abcdefgh"));
+    EXPECT_EQ(decoded.samples.size(), 2u) << size;
+    EXPECT_EQ(decoded.ended, WavStatus::kEnd);
   }
 }
 
@@ -84,41 +84,41 @@ TEST(WavSizes, SizesOfTheDataChunk) {
         Case{0x7fffffff, 4, WavStatus::kTruncatedData, 53},
         Case{0x80000000, 4, WavStatus::kTruncatedData, 53},
         Case{0xfffffffe, 4, WavStatus::kTruncatedData, 53}}) {
-    const Heard heard = hear(with_sizes(100, c.declared, "123456789"));
-    EXPECT_EQ(heard.format.frames, std::optional<std::uint64_t>(c.declared / 2));
-    EXPECT_EQ(heard.samples.size(), c.frames) << c.declared;
-    EXPECT_STREQ(message(heard.ended), message(c.ended)) << c.declared;
-    EXPECT_EQ(heard.fault_offset, c.fault_offset) << c.declared;
+    const Decoded decoded = decode(with_sizes(100, c.declared, "123456789"));
+    EXPECT_EQ(decoded.format.frames, std::optional<std::uint64_t>(c.declared / 2));
+    EXPECT_EQ(decoded.samples.size(), c.frames) << c.declared;
+    EXPECT_STREQ(message(decoded.ended), message(c.ended)) << c.declared;
+    EXPECT_EQ(decoded.fault_offset, c.fault_offset) << c.declared;
   }
 }
 
 TEST(WavSizes, ReadsTheSizesOfRf64) {
   const std::string fmt = wav_chunk("fmt ", fmt_body({}));
   const std::string data = "data" + little(0xffffffff, 4) + "abcdef";
-  Heard heard = hear(rf64(1000, 4, fmt + data));
-  EXPECT_EQ(heard.samples.size(), 2u);
-  EXPECT_EQ(heard.ended, WavStatus::kEnd);
+  Decoded decoded = decode(rf64(1000, 4, fmt + data));
+  EXPECT_EQ(decoded.samples.size(), 2u);
+  EXPECT_EQ(decoded.ended, WavStatus::kEnd);
   // A valid 32-bit size is used.
-  heard = hear(rf64(1000, 4, fmt + wav_chunk("data", "abcdef")));
-  EXPECT_EQ(heard.samples.size(), 3u);
+  decoded = decode(rf64(1000, 4, fmt + wav_chunk("data", "abcdef")));
+  EXPECT_EQ(decoded.samples.size(), 3u);
   for (const std::uint64_t size :
        {std::uint64_t{0x100000000}, UINT64_MAX - 1, UINT64_MAX / 2 + 1}) {
-    heard = hear(rf64(UINT64_MAX - 1, size, fmt + data));
-    EXPECT_EQ(heard.format.frames, std::optional(size / 2));
-    EXPECT_EQ(heard.samples.size(), 3u);
-    EXPECT_EQ(heard.ended, WavStatus::kTruncatedData);
+    decoded = decode(rf64(UINT64_MAX - 1, size, fmt + data));
+    EXPECT_EQ(decoded.format.frames, std::optional(size / 2));
+    EXPECT_EQ(decoded.samples.size(), 3u);
+    EXPECT_EQ(decoded.ended, WavStatus::kTruncatedData);
   }
   for (const std::uint64_t size : {std::uint64_t{0}, UINT64_MAX}) {
     for (const std::uint64_t riff_bytes : {std::uint64_t{0}, UINT64_MAX}) {
-      heard = hear(rf64(riff_bytes, size, fmt + data));
-      EXPECT_EQ(heard.format.frames, std::nullopt);
-      EXPECT_EQ(heard.samples.size(), 3u);
-      EXPECT_EQ(heard.ended, WavStatus::kEnd);
+      decoded = decode(rf64(riff_bytes, size, fmt + data));
+      EXPECT_EQ(decoded.format.frames, std::nullopt);
+      EXPECT_EQ(decoded.samples.size(), 3u);
+      EXPECT_EQ(decoded.ended, WavStatus::kEnd);
     }
   }
   std::string broadcast = rf64(1000, 4, fmt + data);
   broadcast.replace(0, 2, "BW");
-  EXPECT_EQ(hear(broadcast).samples.size(), 2u);
+  EXPECT_EQ(decode(broadcast).samples.size(), 2u);
 }
 
 TEST(WavSizes, RejectsBadSizesOfRf64) {
@@ -137,7 +137,7 @@ TEST(WavSizes, RejectsBadSizesOfRf64) {
   // With a table of sizes of other chunks, which is skipped.
   const std::string table =
       little(0, 8) + little(4, 8) + little(0, 8) + little(1, 4) + "axml" + little(0x100000000, 8);
-  EXPECT_EQ(hear(start + wav_chunk("ds64", table) + rest).samples.size(), 2u);
+  EXPECT_EQ(decode(start + wav_chunk("ds64", table) + rest).samples.size(), 2u);
 }
 
 TEST(WavSizes, SurvivesAnyHeaderByte) {
@@ -150,7 +150,7 @@ TEST(WavSizes, SurvivesAnyHeaderByte) {
       for (int value = 0; value < 256; ++value) {
         std::string spoilt = file;
         spoilt[at] = static_cast<char>(value);
-        EXPECT_LE(hear(spoilt).samples.size(), 10u);
+        EXPECT_LE(decode(spoilt).samples.size(), 10u);
       }
     }
   }

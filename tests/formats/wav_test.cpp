@@ -70,15 +70,15 @@ TEST(Wav, EveryFormatRoundTrips) {
           data += sample.bytes;
           expected.push_back(sample.value);
         }
-        const Heard heard = hear(simple(fields, data));
-        ASSERT_EQ(heard.opened, WavStatus::kOk) << message(heard.opened);
-        EXPECT_EQ(heard.ended, WavStatus::kEnd);
-        EXPECT_EQ(heard.format.sample_rate, 16000u);
-        EXPECT_EQ(heard.format.channels, channels);
-        EXPECT_EQ(heard.format.bits, kind.bits);
-        EXPECT_EQ(heard.format.coding, kind.coding);
-        EXPECT_EQ(heard.format.frames, std::optional<std::uint64_t>(3001));
-        EXPECT_TRUE(heard.samples == bits_of(expected))
+        const Decoded decoded = decode(simple(fields, data));
+        ASSERT_EQ(decoded.opened, WavStatus::kOk) << message(decoded.opened);
+        EXPECT_EQ(decoded.ended, WavStatus::kEnd);
+        EXPECT_EQ(decoded.format.sample_rate, 16000u);
+        EXPECT_EQ(decoded.format.channels, channels);
+        EXPECT_EQ(decoded.format.bits, kind.bits);
+        EXPECT_EQ(decoded.format.coding, kind.coding);
+        EXPECT_EQ(decoded.format.frames, std::optional<std::uint64_t>(3001));
+        EXPECT_TRUE(decoded.samples == bits_of(expected))
             << kind.bits << " bits, " << channels << " channels";
       }
     }
@@ -89,7 +89,7 @@ TEST(Wav, PcmExtremesAreExact) {
   const auto values = [](std::uint16_t bits, const std::string& data) {
     FmtFields fields;
     fields.bits = bits;
-    return hear(simple(fields, data)).samples;
+    return decode(simple(fields, data)).samples;
   };
   EXPECT_EQ(values(8, std::string("\x00\x7f\x80\xff", 4)),
             bits_of({-1.0f, -1.0f / 128, 0.0f, 127.0f / 128}));
@@ -114,17 +114,17 @@ TEST(Wav, FloatsAreUnchanged) {
   for (const std::uint32_t pattern : patterns) {
     data += little(pattern, 4);
   }
-  EXPECT_EQ(hear(simple(fields, data)).samples, patterns);
+  EXPECT_EQ(decode(simple(fields, data)).samples, patterns);
   fields.bits = 64;
   data.clear();
   for (const double value : {0.1, 1e300, -1e300, 1e-300, std::numeric_limits<double>::infinity()}) {
     data += little(std::bit_cast<std::uint64_t>(value), 8);
   }
   const float infinity = std::numeric_limits<float>::infinity();
-  EXPECT_EQ(hear(simple(fields, data)).samples,
+  EXPECT_EQ(decode(simple(fields, data)).samples,
             bits_of({0.1f, infinity, -infinity, 0.0f, infinity}));
   data = little(std::bit_cast<std::uint64_t>(std::numeric_limits<double>::quiet_NaN()), 8);
-  EXPECT_TRUE(std::isnan(std::bit_cast<float>(hear(simple(fields, data)).samples.at(0))));
+  EXPECT_TRUE(std::isnan(std::bit_cast<float>(decode(simple(fields, data)).samples.at(0))));
 }
 
 TEST(Wav, ValidBitsAreTheUpperOnes) {
@@ -132,7 +132,7 @@ TEST(Wav, ValidBitsAreTheUpperOnes) {
   fields.bits = 32;
   fields.sub_format = 1;
   fields.valid_bits = 24;
-  EXPECT_EQ(hear(simple(fields, little(0x40000000, 4))).samples, bits_of({0.5f}));
+  EXPECT_EQ(decode(simple(fields, little(0x40000000, 4))).samples, bits_of({0.5f}));
 }
 
 // Chunks of even and odd size around 7 stereo frames.
@@ -147,23 +147,23 @@ std::string golden() {
 TEST(Wav, TruncatedAtEveryByte) {
   const std::string whole = golden();
   const std::size_t data_at = whole.find("data") + 8;
-  const Heard all = hear(whole);
+  const Decoded all = decode(whole);
   ASSERT_EQ(all.samples.size(), 14u);
   EXPECT_EQ(all.ended, WavStatus::kEnd);
   for (std::size_t size = 0; size < whole.size(); ++size) {
-    const Heard heard = hear(whole.substr(0, size));
-    EXPECT_EQ(heard.opened == WavStatus::kOk, size >= data_at) << size;
+    const Decoded decoded = decode(whole.substr(0, size));
+    EXPECT_EQ(decoded.opened == WavStatus::kOk, size >= data_at) << size;
     if (size < 4) {
-      EXPECT_EQ(heard.opened, WavStatus::kBadSignature) << size;
+      EXPECT_EQ(decoded.opened, WavStatus::kBadSignature) << size;
     } else {
-      EXPECT_EQ(heard.fault_offset, size);
+      EXPECT_EQ(decoded.fault_offset, size);
     }
     if (size < data_at) {
       continue;
     }
-    EXPECT_EQ(heard.ended, WavStatus::kTruncatedData) << size;
-    EXPECT_EQ(heard.samples.size(), (size - data_at) / 4 * 2) << size;
-    EXPECT_TRUE(std::equal(heard.samples.begin(), heard.samples.end(), all.samples.begin()));
+    EXPECT_EQ(decoded.ended, WavStatus::kTruncatedData) << size;
+    EXPECT_EQ(decoded.samples.size(), (size - data_at) / 4 * 2) << size;
+    EXPECT_TRUE(std::equal(decoded.samples.begin(), decoded.samples.end(), all.samples.begin()));
   }
 }
 
@@ -175,17 +175,17 @@ TEST(Wav, BlockSizesDoNotMatter) {
   std::string data(9 * 5000 + 4, '\0');  // ends inside a frame
   std::ranges::generate(data, [&] { return static_cast<char>(random()); });
   const std::string file = simple(fields, data);
-  const Heard whole = hear(file, [] { return std::size_t{6000}; });
+  const Decoded whole = decode(file, [] { return std::size_t{6000}; });
   ASSERT_EQ(whole.samples.size(), 15000u);
-  const auto expect_same = [&](const Heard& heard) {
-    EXPECT_TRUE(heard.samples == whole.samples);
-    EXPECT_EQ(heard.ended, WavStatus::kPartialFrame);
-    EXPECT_EQ(heard.fault_offset, whole.fault_offset);
+  const auto expect_same = [&](const Decoded& decoded) {
+    EXPECT_TRUE(decoded.samples == whole.samples);
+    EXPECT_EQ(decoded.ended, WavStatus::kPartialFrame);
+    EXPECT_EQ(decoded.fault_offset, whole.fault_offset);
   };
-  expect_same(hear(file, [] { return std::size_t{1}; }));
-  expect_same(hear(file, [] { return std::size_t{5000}; }));
+  expect_same(decode(file, [] { return std::size_t{1}; }));
+  expect_same(decode(file, [] { return std::size_t{5000}; }));
   for (int i = 0; i < 20; ++i) {
-    expect_same(hear(file, [&] { return 1 + random() % 700; }));
+    expect_same(decode(file, [&] { return 1 + random() % 700; }));
   }
 }
 

@@ -12,7 +12,7 @@
 #include "apps/mien/command_line/reference.h"
 #include "apps/mien/command_line/verbs.h"
 #include "apps/mien/system/failure.h"
-#include "apps/mien/system/shown.h"
+#include "apps/mien/system/printable.h"
 
 namespace mien::app {
 
@@ -45,7 +45,7 @@ int run_program(int argc, char** argv) {
     std::ostringstream help, errors;
     const int code = program.exit(error, help, errors);
     std::fputs(help.str().c_str(), stdout);
-    std::fputs(shown_lines(errors.str()).c_str(), stderr);
+    std::fputs(printable_lines(errors.str()).c_str(), stderr);
     return code == 0 ? kExitOk : kExitUsage;
   }
   return kExitOk;

@@ -12,7 +12,7 @@
 #include "apps/mien/command_line/tracker_options.h"
 #include "apps/mien/system/failure.h"
 #include "apps/mien/system/paths.h"
-#include "apps/mien/system/shown.h"
+#include "apps/mien/system/printable.h"
 #include "apps/mien/tracking/batch.h"
 
 namespace mien::app {

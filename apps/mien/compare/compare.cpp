@@ -14,7 +14,7 @@
 #include "apps/mien/system/failure.h"
 #include "apps/mien/system/json_text.h"
 #include "apps/mien/system/paths.h"
-#include "apps/mien/system/shown.h"
+#include "apps/mien/system/printable.h"
 
 namespace mien::app {
 namespace {
@@ -50,7 +50,7 @@ Comparison compare_files(const CompareOptions& options) {
 }
 
 void print_file(const ComparedFile& file) {
-  std::printf("%s: %zu frames, %.2f to %.2f s\n", shown(file.name).c_str(), file.curves.size(),
+  std::printf("%s: %zu frames, %.2f to %.2f s\n", printable(file.name).c_str(), file.curves.size(),
               file.curves.front().t_ms * 1e-3, file.curves.back().t_ms * 1e-3);
 }
 

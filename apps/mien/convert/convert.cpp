@@ -15,7 +15,7 @@
 #include "apps/mien/system/failure.h"
 #include "apps/mien/system/json_text.h"
 #include "apps/mien/system/paths.h"
-#include "apps/mien/system/shown.h"
+#include "apps/mien/system/printable.h"
 
 namespace mien::app {
 namespace {
@@ -39,10 +39,11 @@ Faces count_faces(const FrameSequence& frames) {
 std::size_t count_with_id(const Faces& faces) { return faces.size() - (faces.contains(0) ? 1 : 0); }
 
 std::int64_t most_frequent(const Faces& faces) {
-  const auto most = std::max_element(faces.begin(), faces.end(), [](const auto& a, const auto& b) {
-    return std::pair(a.first != 0, a.second) < std::pair(b.first != 0, b.second);
-  });
-  return most->first;
+  const auto most_frequent =
+      std::max_element(faces.begin(), faces.end(), [](const auto& a, const auto& b) {
+        return std::pair(a.first != 0, a.second) < std::pair(b.first != 0, b.second);
+      });
+  return most_frequent->first;
 }
 
 // The frames of face `id`, and those without a face.
@@ -128,9 +129,9 @@ void report(const ConvertOptions& options, animation::AnimationFormat format, co
     return;
   }
   print_notes(options.input, clip);
-  std::fprintf(stderr, "%s: %zu frames\n", shown(options.output).c_str(), frames);
+  std::fprintf(stderr, "%s: %zu frames\n", printable(options.output).c_str(), frames);
   for (const std::string& what : lost) {
-    std::fprintf(stderr, "  omitted: %s\n", shown(what).c_str());
+    std::fprintf(stderr, "  omitted: %s\n", printable(what).c_str());
   }
 }
 

@@ -26,7 +26,7 @@
 #include "apps/mien/sources/network_input.h"
 #include "apps/mien/system/failure.h"
 #include "apps/mien/system/interrupt.h"
-#include "apps/mien/system/shown.h"
+#include "apps/mien/system/printable.h"
 #include "apps/mien/system/terminal.h"
 #include "apps/mien/tracking/loaded_tracker.h"
 
@@ -245,11 +245,11 @@ class Live {
   [[nodiscard]] ScreenState screen_state(const std::string& camera,
                                          const std::string& microphone) const {
     ScreenState state;
-    state.camera = shown(camera.empty() ? camera_name_ : camera + "; retrying");
-    state.microphone = shown(microphone.empty() ? microphone_name_ : microphone + "; retrying");
+    state.camera = printable(camera.empty() ? camera_name_ : camera + "; retrying");
+    state.microphone = printable(microphone.empty() ? microphone_name_ : microphone + "; retrying");
     for (const std::unique_ptr<Sender>& sender : senders_) {
       const std::string more = sender->state();
-      state.receivers.push_back(shown(sender->name() + (more.empty() ? "" : ", " + more)));
+      state.receivers.push_back(printable(sender->name() + (more.empty() ? "" : ", " + more)));
     }
     state.frame = last_frame_;
     state.level = level_;
@@ -264,7 +264,7 @@ class Live {
   // Without a screen, prints errors when they change.
   static void print_if_changed(const std::string& error, std::string& printed) {
     if (error != printed && !error.empty()) {
-      std::fprintf(stderr, "%s; retrying\n", shown(error).c_str());
+      std::fprintf(stderr, "%s; retrying\n", printable(error).c_str());
     } else if (error != printed) {
       std::fputs("recovered\n", stderr);
     }

@@ -56,8 +56,8 @@ bool ArrayShape::take_larger(const TensorShape& declared) {
   const std::uint64_t* last = &dims_[dims_.size() - 3];
   const bool first = layout_ == MapLayout::kChannelsFirst;
   const std::uint64_t h = last[first ? 1 : 0], w = last[first ? 2 : 1];
-  constexpr std::uint64_t kMost = std::numeric_limits<std::int32_t>::max();
-  if (h < u64(declared.height) || w < u64(declared.width) || h > kMost || w > kMost) {
+  constexpr std::uint64_t kMax = std::numeric_limits<std::int32_t>::max();
+  if (h < u64(declared.height) || w < u64(declared.width) || h > kMax || w > kMax) {
     return false;
   }
   map_ = {static_cast<std::int32_t>(h), static_cast<std::int32_t>(w), declared.channels};

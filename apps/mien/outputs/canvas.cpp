@@ -57,12 +57,12 @@ Color pixel(const mien_image& image, int x, int y) {
 
 // For each of `places` output pixels, the index of the input pixel it shows.
 std::vector<int> spread(int pixels, int places, bool backwards) {
-  std::vector<int> shown(static_cast<std::size_t>(places));
+  std::vector<int> sources(static_cast<std::size_t>(places));
   for (int i = 0; i < places; ++i) {
     const int pixel = static_cast<int>(std::int64_t{i} * pixels / places);
-    shown[static_cast<std::size_t>(i)] = backwards ? pixels - 1 - pixel : pixel;
+    sources[static_cast<std::size_t>(i)] = backwards ? pixels - 1 - pixel : pixel;
   }
-  return shown;
+  return sources;
 }
 
 }  // namespace

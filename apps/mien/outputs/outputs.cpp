@@ -7,7 +7,7 @@
 
 #include "apps/mien/outputs/result_frame.h"
 #include "apps/mien/system/paths.h"
-#include "apps/mien/system/shown.h"
+#include "apps/mien/system/printable.h"
 
 namespace mien::app {
 namespace {

@@ -102,8 +102,8 @@ void VideoEncoder::write(const std::vector<unsigned char>& rgb, std::int64_t tim
   constexpr double kMaxGapS =
       600.0;  // limits the number of repeated images after a timestamp discontinuity
   const double due = (static_cast<double>(time_ns) * 1e-9 - start_s_) * fps_;
-  const auto shown = static_cast<double>(frames_);
-  const double until = std::min(due + 0.5, shown + kMaxGapS * fps_);
+  const auto written = static_cast<double>(frames_);
+  const double until = std::min(due + 0.5, written + kMaxGapS * fps_);
   if (last_image_.empty()) {
     last_image_ = rgb;
   }

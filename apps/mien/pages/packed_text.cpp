@@ -30,13 +30,13 @@ PackedText::PackedText(PackedText&&) noexcept = default;
 PackedText& PackedText::operator=(PackedText&&) noexcept = default;
 
 void PackedText::deflate_all(int flush) {
-  std::array<char, 1 << 14> room = {};
+  std::array<char, 1 << 14> buffer = {};
   z_stream& z = stream_->z;
   do {
-    z.next_out = reinterpret_cast<Bytef*>(room.data());
-    z.avail_out = static_cast<uInt>(room.size());
+    z.next_out = reinterpret_cast<Bytef*>(buffer.data());
+    z.avail_out = static_cast<uInt>(buffer.size());
     deflate(&z, flush);
-    packed_.append(room.data(), room.size() - z.avail_out);
+    packed_.append(buffer.data(), buffer.size() - z.avail_out);
   } while (z.avail_out == 0);
 }
 

@@ -12,7 +12,7 @@
 
 #include "apps/mien/system/failure.h"
 #include "apps/mien/system/paths.h"
-#include "apps/mien/system/shown.h"
+#include "apps/mien/system/printable.h"
 
 namespace mien::app {
 namespace {
@@ -140,7 +140,7 @@ animation::Clip parse_animation(std::string_view bytes, const std::string& name,
 
 void print_notes(const std::string& name, const animation::Clip& clip) {
   for (const std::string& note : clip.notes) {
-    std::fprintf(stderr, "%s: %s\n", shown(name).c_str(), shown(note).c_str());
+    std::fprintf(stderr, "%s: %s\n", printable(name).c_str(), printable(note).c_str());
   }
 }
 

@@ -41,19 +41,20 @@ AudioMix::AudioMix(const Blob& audionet) {
   video_ = read(file, "mix_video");
 }
 
-std::array<float, MIEN_CONTROL_COUNT> AudioMix::controls(const Result& seen, const Result& heard,
+std::array<float, MIEN_CONTROL_COUNT> AudioMix::controls(const Result& from_video,
+                                                         const Result& from_audio,
                                                          const Weights& fading) const {
   Weights mixed;
-  const float alpha = heard.voice_activity;
+  const float alpha = from_audio.voice_activity;
   for (std::size_t i = 0; i < mixed.size(); ++i) {
-    const float video = seen.controls[i];
-    if (!seen.supports(static_cast<std::int32_t>(i))) {
-      mixed[i] = heard.controls[i];
+    const float video = from_video.controls[i];
+    if (!from_video.supports(static_cast<std::int32_t>(i))) {
+      mixed[i] = from_audio.controls[i];
     } else if (audio_[i] <= 0.0f) {
       mixed[i] = video;
-    } else {  // without a face `heard` is (1 - alpha) fading + alpha times the prediction from
+    } else {  // without a face `from_audio` is (1 - alpha) fading + alpha times the prediction from
               // audio
-      const float spoken = std::max(heard.controls[i] - (1.0f - alpha) * fading[i], 0.0f);
+      const float spoken = std::max(from_audio.controls[i] - (1.0f - alpha) * fading[i], 0.0f);
       mixed[i] =
           std::clamp((1.0f - alpha + alpha * video_[i]) * video + audio_[i] * spoken, 0.0f, 1.0f);
     }

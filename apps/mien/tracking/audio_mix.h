@@ -15,10 +15,10 @@ class AudioMix {
   // Throws Failure.
   explicit AudioMix(const Blob& audionet);
 
-  // `seen`: a face, from video. `heard`: the same frame without a face, from audio, and the
-  // controls that still fade out of a lost face, `fading`.
+  // `from_video`: a face, from video. `from_audio`: the same frame without a face, from audio, and
+  // the controls that still fade out of a lost face, `fading`.
   [[nodiscard]] std::array<float, MIEN_CONTROL_COUNT> controls(
-      const Result& seen, const Result& heard,
+      const Result& from_video, const Result& from_audio,
       const std::array<float, MIEN_CONTROL_COUNT>& fading) const;
 
  private:

@@ -13,7 +13,7 @@ namespace {
 // until their controls are those of the first.
 constexpr std::int64_t kWarmUp = 10;
 constexpr float kSamePlace = 0.4f;              // of a box, between the middles of one face
-constexpr float kSeen = 0.5f;                   // face probability; below, the tracker guesses
+constexpr float kMinProbability = 0.5f;         // face probability; below, the tracker guesses
 constexpr std::int64_t kCutNs = 1'000'000'000;  // longer steps are cuts
 constexpr float kFadeSeconds = 0.25f;           // of controls after a loss, as in the tracker
 
@@ -159,7 +159,7 @@ std::vector<Result> BackwardFill::track_backward(std::uint32_t face_id, std::siz
   if (start == begin.end()) {
     return found;
   }
-  std::size_t seen = 0;
+  std::size_t confirmed = 0;
   for (std::size_t i = last; i-- > 0;) {
     const Row& row = rows_[i];
     const std::int64_t pts_ns = row.faces.front().pts_ns;
@@ -181,10 +181,10 @@ std::vector<Result> BackwardFill::track_backward(std::uint32_t face_id, std::siz
       break;
     }
     found.push_back(*face);
-    const bool is_judged = (face->flags & MIEN_RESULT_ENCODER_RAN) != 0;
-    seen = is_judged && face->face_probability >= kSeen ? found.size() : seen;
+    const bool is_verified = (face->flags & MIEN_RESULT_ENCODER_RAN) != 0;
+    confirmed = is_verified && face->face_probability >= kMinProbability ? found.size() : confirmed;
   }
-  found.resize(seen);
+  found.resize(confirmed);
   return found;
 }
 

@@ -16,8 +16,8 @@
 #include "apps/mien/system/json_text.h"
 #include "apps/mien/system/out_of_memory.h"
 #include "apps/mien/system/paths.h"
+#include "apps/mien/system/printable.h"
 #include "apps/mien/system/progress.h"
-#include "apps/mien/system/shown.h"
 
 namespace mien::app {
 namespace {
@@ -187,12 +187,12 @@ void run_all(const BatchOptions& options, std::vector<Job>& jobs) {
 void print_table(const std::vector<Job>& jobs) {
   std::size_t widest = 4;
   for (const Job& job : jobs) {
-    widest = std::max(widest, shown(job.name).size());
+    widest = std::max(widest, printable(job.name).size());
   }
   const int width = static_cast<int>(widest);
   std::printf("%-*s  %-11s %8s %9s %9s\n", width, "file", "", "frames", "with face", "frames/s");
   for (const Job& job : jobs) {
-    std::printf("%-*s  %-11s", width, shown(job.name).c_str(), word(job.outcome));
+    std::printf("%-*s  %-11s", width, printable(job.name).c_str(), word(job.outcome));
     if (job.outcome == Outcome::kDone) {
       const auto frames = static_cast<double>(job.summary.frames);
       std::printf(" %8llu %7.0f %% %9.0f", static_cast<unsigned long long>(job.summary.frames),

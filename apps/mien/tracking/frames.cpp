@@ -13,11 +13,11 @@ namespace {
 
 constexpr float kSilence = 1e-4f;  // -80 dB of full scale
 
-bool has_audio(const Senses& senses, const TrackOptions& options) {
+bool has_audio(const InputTracks& tracks, const TrackOptions& options) {
   if (options.audio == kStandardInput) {
     return true;
   }
-  const std::optional<Input>& from = options.audio.empty() ? senses.input : senses.audio;
+  const std::optional<Input>& from = options.audio.empty() ? tracks.input : tracks.audio;
   return from && from->has_audio();
 }
 
@@ -29,37 +29,37 @@ std::string damage_note(const std::string& input, const char* what, const Damage
 
 }  // namespace
 
-Senses choose(const TrackOptions& options) {
-  Senses senses;
+InputTracks choose(const TrackOptions& options) {
+  InputTracks tracks;
   const bool pipes_sound = options.mode == Mode::kAudio && options.audio.empty();
   if (pipes_sound && options.input == kStandardInput) {
-    senses.sound = kStandardInput;
-    return senses;
+    tracks.sound = kStandardInput;
+    return tracks;
   }
   if (options.audio == kStandardInput && options.input == kStandardInput) {
     throw Failure(kExitUsage, "--audio: standard input is already used for video");
   }
   if (options.mode != Mode::kAudio || options.audio.empty()) {
-    senses.input.emplace(options.input);
+    tracks.input.emplace(options.input);
   }
-  senses.video =
-      options.mode == Mode::kAny ? senses.input->has_video() : options.mode != Mode::kAudio;
+  tracks.video =
+      options.mode == Mode::kAny ? tracks.input->has_video() : options.mode != Mode::kAudio;
   if (options.mode == Mode::kVideo) {
-    return senses;
+    return tracks;
   }
   if (!options.audio.empty() && options.audio != kStandardInput) {
-    senses.audio.emplace(options.audio);
+    tracks.audio.emplace(options.audio);
   }
   const std::string& source = options.audio.empty() ? options.input : options.audio;
-  const bool there = has_audio(senses, options);
-  const bool demanded = options.mode != Mode::kAny || !senses.video || !options.audio.empty();
-  if (demanded && !there) {
+  const bool has_track = has_audio(tracks, options);
+  const bool is_required = options.mode != Mode::kAny || !tracks.video || !options.audio.empty();
+  if (is_required && !has_track) {
     throw Failure(kExitNoAudio, source + ": no audio");
   }
-  if (demanded || (there && has_audionet(options.models))) {
-    senses.sound = source;
+  if (is_required || (has_track && has_audionet(options.models))) {
+    tracks.sound = source;
   }
-  return senses;
+  return tracks;
 }
 
 VideoRange range_of(const TrackOptions& options) {
@@ -72,39 +72,39 @@ VideoRange range_of(const TrackOptions& options) {
   return range;
 }
 
-Frames::Frames(const TrackOptions& options, const Senses& senses, Tracker& tracker)
+Frames::Frames(const TrackOptions& options, const InputTracks& tracks, Tracker& tracker)
     : options_(options),
-      senses_(senses),
+      tracks_(tracks),
       start_ns_(std::llround(range_of(options).start_s * 1e9)),
       tracker_(tracker) {
   const InputOptions how{range_of(options), options.rotation, options.audio_track};
   std::unique_ptr<AudioSource> sound;
-  if (senses.input) {
-    const bool own_sound = !senses.sound.empty() && options.audio.empty();
-    Input::Opened opened = senses.input->open(how, senses.video, own_sound);
+  if (tracks.input) {
+    const bool own_sound = !tracks.sound.empty() && options.audio.empty();
+    Input::Opened opened = tracks.input->open(how, tracks.video, own_sound);
     video_ = std::move(opened.video);
     sound = std::move(opened.audio);
   }
-  if (senses.audio) {
-    sound = senses.audio->open(how, false, true).audio;
-  } else if (senses.sound == kStandardInput) {
+  if (tracks.audio) {
+    sound = tracks.audio->open(how, false, true).audio;
+  } else if (tracks.sound == kStandardInput) {
     sound = open_audio_source(kStandardInput, how);
   }
   if (sound) {
-    sound_.emplace(senses.sound, std::move(sound));
+    sound_.emplace(tracks.sound, std::move(sound));
     check(tracker.set_audio_offset(std::llround(options.av_offset_ms * 1e6)), options.input);
   }
 }
 
 std::size_t Frames::audio_tracks() const {
-  const std::optional<Input>& from = senses_.audio ? senses_.audio : senses_.input;
+  const std::optional<Input>& from = tracks_.audio ? tracks_.audio : tracks_.input;
   return from ? from->audio_tracks() : 1;
 }
 
 std::string Frames::silence_note() const {
   const std::size_t tracks = audio_tracks();
   std::string note =
-      senses_.sound + ": audio track " + std::to_string(options_.audio_track) + " is silent";
+      tracks_.sound + ": audio track " + std::to_string(options_.audio_track) + " is silent";
   return tracks > 1 ? note + "; --audio-track selects one of " + std::to_string(tracks) : note;
 }
 
@@ -125,7 +125,7 @@ MediaReport Frames::report() const {
     const Damage damage = sound_->damage();
     report.audio = {options_.audio_track, audio_tracks(), sound_->peak(), damage.complaints};
     if (damage.complaints > 0) {
-      report.notes.push_back(damage_note(senses_.sound, "audio", damage));
+      report.notes.push_back(damage_note(tracks_.sound, "audio", damage));
     }
     if (sound_->peak() < kSilence) {
       report.notes.push_back(silence_note());

@@ -17,7 +17,7 @@
 namespace mien::app {
 
 // The inputs to read.
-struct Senses {
+struct InputTracks {
   std::optional<Input> input;  // empty: not read
   std::optional<Input> audio;  // a separate input with audio
   bool video = false;
@@ -25,7 +25,7 @@ struct Senses {
 };
 
 // Throws Failure if a requested stream is missing.
-[[nodiscard]] Senses choose(const TrackOptions& options);
+[[nodiscard]] InputTracks choose(const TrackOptions& options);
 
 // Very large numbers of seconds are clamped, so that they fit every count.
 [[nodiscard]] VideoRange range_of(const TrackOptions& options);
@@ -50,7 +50,7 @@ struct MediaReport {
 
 class Frames {
  public:
-  Frames(const TrackOptions& options, const Senses& senses, Tracker& tracker);
+  Frames(const TrackOptions& options, const InputTracks& tracks, Tracker& tracker);
 
   [[nodiscard]] VideoInfo info() const { return video_ ? video_->info() : VideoInfo(); }
   [[nodiscard]] const mien_image* image() const { return video_ ? &image_ : nullptr; }
@@ -72,7 +72,7 @@ class Frames {
   [[nodiscard]] std::string silence_note() const;
 
   const TrackOptions& options_;
-  const Senses& senses_;
+  const InputTracks& tracks_;
   std::int64_t start_ns_;
   Tracker& tracker_;
   std::unique_ptr<VideoSource> video_;

@@ -17,7 +17,7 @@
 #include "apps/mien/system/failure.h"
 #include "apps/mien/system/json_text.h"
 #include "apps/mien/system/paths.h"
-#include "apps/mien/system/shown.h"
+#include "apps/mien/system/printable.h"
 #include "apps/mien/tracking/loaded_tracker.h"
 
 namespace mien::app {
@@ -84,7 +84,7 @@ void neutral(const NeutralOptions& options) {
         {"levels", loaded.has_hifinet ? std::vector<int>{1, 2, 3, 4} : std::vector<int>{1}}};
     std::printf("%s\n", json_text(done).c_str());
   } else if (!options.quiet) {
-    std::fprintf(stderr, "%s: neutral calibration for %s\n", shown(options.output).c_str(),
+    std::fprintf(stderr, "%s: neutral calibration for %s\n", printable(options.output).c_str(),
                  loaded.has_hifinet ? "all levels of detail" : "level of detail 1");
   }
 }

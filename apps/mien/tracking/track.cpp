@@ -17,8 +17,8 @@
 #include "apps/mien/outputs/outputs.h"
 #include "apps/mien/system/failure.h"
 #include "apps/mien/system/paths.h"
+#include "apps/mien/system/printable.h"
 #include "apps/mien/system/progress.h"
-#include "apps/mien/system/shown.h"
 #include "apps/mien/tracking/backward_fill.h"
 #include "apps/mien/tracking/frames.h"
 #include "apps/mien/tracking/loaded_tracker.h"
@@ -86,9 +86,9 @@ void print_summary(const Result& last, std::uint64_t filled, const StageTimes& t
   }
 }
 
-LoadedTracker::Options tracker_options_of(const TrackOptions& options, const Senses& senses) {
+LoadedTracker::Options tracker_options_of(const TrackOptions& options, const InputTracks& tracks) {
   return {options.models,         options.tier,       options.lod,           options.budget_ms,
-          options.unfiltered,     options.max_faces,  !senses.sound.empty(), options.unfused,
+          options.unfiltered,     options.max_faces,  !tracks.sound.empty(), options.unfused,
           options.voice_strength, options.fov_degrees};
 }
 
@@ -137,18 +137,18 @@ void track_frames(const TrackOptions& options, const Tracker& tracker, Frames& f
 
 TrackSummary track(const TrackOptions& options) {
   const VideoRange range = range_of(options);
-  const Senses senses = choose(options);
-  if (!senses.video && (!options.overlay.empty() || options.rotation)) {
+  const InputTracks tracks = choose(options);
+  if (!tracks.video && (!options.overlay.empty() || options.rotation)) {
     throw Failure(kExitUsage, options.overlay.empty() ? "--rotate: no video to rotate"
                                                       : "--overlay: no video to draw on");
   }
-  const LoadedTracker::Options tracker_options = tracker_options_of(options, senses);
+  const LoadedTracker::Options tracker_options = tracker_options_of(options, tracks);
   LoadedTracker loaded(tracker_options);
   if (!options.neutral.empty()) {
     load_neutral(options.neutral, loaded.tracker);
   }
   require_distinct_files(inputs_of(options), outputs_of(options));
-  Frames frames(options, senses, loaded.tracker);
+  Frames frames(options, tracks, loaded.tracker);
   Outputs outputs(options, frames.info(), range);
   // Opened first, so that an unwritable file fails before the work.
   std::optional<OutputFile> stats;
@@ -176,7 +176,7 @@ TrackSummary track(const TrackOptions& options) {
     write_stats(*stats, last, times, loaded.tracker_bytes, backward.filled(), media);
   }
   for (const std::string& note : media.notes) {
-    std::fprintf(stderr, "mien: note: %s\n", shown(note).c_str());
+    std::fprintf(stderr, "mien: note: %s\n", printable(note).c_str());
   }
   if (!options.quiet) {
     print_summary(last, backward.filled(), times);

@@ -24,8 +24,8 @@ void shorten_standard_output() {
 
 // A writable pipe accepts at least a page, more than a line needs.
 bool standard_output_is_writable() {
-  pollfd room{STDOUT_FILENO, POLLOUT, 0};
-  return poll(&room, 1, 0) != 0;
+  pollfd output{STDOUT_FILENO, POLLOUT, 0};
+  return poll(&output, 1, 0) != 0;
 }
 
 }  // namespace mien::app

@@ -104,8 +104,8 @@ class PipeEnd {
 
  private:
   static DWORD size_of(std::span<const std::byte> bytes) {
-    constexpr std::size_t kMost = 1 << 30;
-    return static_cast<DWORD>(std::min(bytes.size(), kMost));
+    constexpr std::size_t kMaxBytes = 1 << 30;
+    return static_cast<DWORD>(std::min(bytes.size(), kMaxBytes));
   }
   void prepare() {
     ResetEvent(ended_.get());

@@ -1,5 +1,5 @@
 // Escapes text and removes credentials from it.
-#include "apps/mien/system/shown.h"
+#include "apps/mien/system/printable.h"
 
 #include <algorithm>
 #include <array>
@@ -75,7 +75,7 @@ Character utf8(std::string_view text) {
   if (bytes == 1) {
     return {first, 1, true};
   }
-  constexpr std::array<std::uint32_t, 5> kLeast = {0, 0, 0x80, 0x800, 0x10000};
+  constexpr std::array<std::uint32_t, 5> kMinCode = {0, 0, 0x80, 0x800, 0x10000};
   if (first < 0xC2 || first > 0xF4 || text.size() < bytes) {
     return {first, 1, false};
   }
@@ -86,7 +86,8 @@ Character utf8(std::string_view text) {
     }
     code = code << 6 | (byte(i) & 0x3Fu);
   }
-  const bool valid = code >= kLeast[bytes] && code <= 0x10FFFF && (code < 0xD800 || code > 0xDFFF);
+  const bool valid =
+      code >= kMinCode[bytes] && code <= 0x10FFFF && (code < 0xD800 || code > 0xDFFF);
   return valid ? Character{code, bytes, true} : Character{first, 1, false};
 }
 
@@ -133,8 +134,10 @@ std::string without_credentials(std::string_view text) {
   return result.append(text);
 }
 
-std::string shown(std::string_view text) { return escaped(without_credentials(text), false); }
+std::string printable(std::string_view text) { return escaped(without_credentials(text), false); }
 
-std::string shown_lines(std::string_view text) { return escaped(without_credentials(text), true); }
+std::string printable_lines(std::string_view text) {
+  return escaped(without_credentials(text), true);
+}
 
 }  // namespace mien::app
