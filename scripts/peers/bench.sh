@@ -2,13 +2,21 @@
 # Times mien and its peers in turns, one thread each: networks in other engines, whole frames beside MediaPipe, sound beside Silero VAD.
 # Writes docs/results/peers.md, or performance.md, and their .json. What cannot be had here is said and left out.
 # usage: scripts/peers/bench.sh [ROUNDS] [peers|performance]...      default: 7, both documents
+#        scripts/peers/bench.sh [ROUNDS] avx2|avx2+vnni|avx512...    encoders and frames as on CPUs of these classes, on x86-64 Linux:
+#                                                                    CPUID hides newer instruction sets; writes docs/results/cpu_classes.md
 # Makes a Release build unless MIEN_PROGRAM names a program to time. MIEN_DATA: folder of the data packs, for MediaPipe's model and for speech.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 
 rounds=${1:-7}
-documents=("${@:2}")
-[ ${#documents[@]} -gt 0 ] || documents=(peers performance)
+documents=() classes=()
+for word in "${@:2}"; do
+  case $word in
+    avx*) classes+=("$word") ;;
+    *) documents+=("$word") ;;
+  esac
+done
+[ ${#documents[@]} -gt 0 ] || [ ${#classes[@]} -gt 0 ] || documents=(peers performance)
 export PYTHONPATH=$PWD/scripts:$PWD/bindings/python/src
 export MIEN_DATA=${MIEN_DATA:-$PWD/../shared/data}
 work=${MIEN_CACHE:-$HOME/.cache/mien}/peers
@@ -52,16 +60,35 @@ convert() {
 scripts/peers/install_python.sh
 convert
 /usr/bin/python3 scripts/peers/voice_sets.py "$work" || echo "NOT MEASURED: how well speech is found" >&2
-timed=(mien levels sound unfused)
-for name in onnxruntime openvino openvino_bf16 ncnn ncnn_16bit litert pytorch mediapipe voice_mien voice_silero; do
-  if run "$name" >"$work/${name}_0.json" 2>"$work/$name.log"; then
-    [ "$name" = voice_mien ] || timed+=("$name")
-  else
-    echo "NOT MEASURED: $name: $(tail -n 1 "$work/$name.log")" >&2
-  fi
+
+time_in_turns() {  # folder, names; sets timed
+  local folder=$1 name round
+  mkdir -p "$folder"
+  timed=()
+  for name in "${@:2}"; do
+    if run "$name" >"$folder/${name}_0.json" 2>"$work/$name.log"; then
+      [ "$name" = voice_mien ] || timed+=("$name")
+    else
+      echo "NOT MEASURED: $name: $(tail -n 1 "$work/$name.log")" >&2
+    fi
+  done
+  for ((round = 0; round < rounds; ++round)); do
+    for name in "${timed[@]}"; do run "$name" >"$folder/${name}_$round.json" 2>"$work/$name.log"; done
+  done
+  cp /proc/loadavg "$folder/load"
+}
+
+engines=(onnxruntime openvino openvino_bf16 ncnn ncnn_16bit litert)
+cc -O1 -shared -fPIC -o "$work/mask_cpuid.so" tests/apps/mask_cpuid.c
+for class in "${classes[@]}"; do
+  echo "== $class"
+  (
+    first+=(env MIEN_CPU_CLASS="$class" LD_PRELOAD="$work/mask_cpuid.so")
+    time_in_turns "$work/$class" mien levels mediapipe "${engines[@]}"
+    printf '%s\n' "${timed[@]}" >"$work/$class/timed"
+  )
+  /usr/bin/python3 scripts/peers/cpu_classes.py "$work/$class" "$rounds" docs/results "$class"
 done
-for ((round = 0; round < rounds; ++round)); do
-  for name in "${timed[@]}"; do run "$name" >"$work/${name}_$round.json" 2>"$work/$name.log"; done
-done
-cp /proc/loadavg "$work/load"
+[ ${#documents[@]} -gt 0 ] || exit 0
+time_in_turns "$work" mien levels sound unfused "${engines[@]}" pytorch mediapipe voice_mien voice_silero
 for document in "${documents[@]}"; do /usr/bin/python3 "scripts/peers/$document.py" "$work" "$rounds" docs/results "${timed[@]}"; done

@@ -40,3 +40,11 @@ if(MIEN_BASH)
     COMMAND ${MIEN_BASH} ${CMAKE_CURRENT_SOURCE_DIR}/run_on_device_test.sh
             $<TARGET_FILE:mien_conformance_program>)
 endif()
+
+# With fewer instruction sets than this CPU has.
+if(CMAKE_SYSTEM_NAME STREQUAL "Linux" AND CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64" AND NOT MIEN_SANITIZE)
+  add_library(mien_mask_cpuid MODULE mask_cpuid.c)
+  target_link_libraries(mien_mask_cpuid PRIVATE mien_warnings)
+  mien_add_python_test(conformance.cpu_classes ${CMAKE_CURRENT_SOURCE_DIR}/cpu_classes_test.py
+    $<TARGET_FILE:mien_conformance_program> $<TARGET_FILE:mien_mask_cpuid> SECONDS 300)
+endif()

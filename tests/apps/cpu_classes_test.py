@@ -1,0 +1,43 @@
+"""Tiers are those of the CPU: mien-conformance where CPUID hides instruction sets (mask_cpuid.c).
+
+usage: cpu_classes_test.py CONFORMANCE_PROGRAM MASK_LIBRARY
+"""
+import json
+import os
+import subprocess
+import sys
+import unittest
+
+PROGRAM, MASK = sys.argv[1:3]
+del sys.argv[1:]
+UNAVAILABLE = 69  # exit status of the mask: CPUID cannot be trapped here
+
+
+def run(cpu_class):
+    environment = os.environ if cpu_class is None else os.environ | {"LD_PRELOAD": MASK, "MIEN_CPU_CLASS": cpu_class}
+    command = [PROGRAM, "--filter", "pointwise", "--json", "-"]
+    return subprocess.run(command, env=environment, capture_output=True, text=True)
+
+
+def tiers(cpu_class):
+    result = run(cpu_class)
+    assert result.returncode == 0, result.stderr
+    return set(json.loads(result.stdout)["tiers"])
+
+
+class Classes(unittest.TestCase):
+    def test_a_class_has_no_newer_tiers(self):
+        whole = tiers(None)
+        self.assertEqual({t for t in whole if not t.startswith(("avx512", "avxvnni"))}, tiers("avx2"))
+        self.assertEqual({t for t in whole if not t.startswith("avx512")}, tiers("avx2+vnni"))
+        self.assertEqual(whole, tiers("avx512"))
+
+    def test_an_unknown_class_is_an_error(self):
+        self.assertEqual(UNAVAILABLE, run("pentium").returncode)
+
+
+if __name__ == "__main__":
+    if run("avx2").returncode == UNAVAILABLE:
+        print("SKIPPED: this CPU or kernel cannot trap CPUID")
+        sys.exit(77)
+    unittest.main()
