@@ -14,7 +14,8 @@ GOALS = {"avx2": (0.6, 0.6, 15), "avx2+vnni": (0.45, 0.45, 20), "avx512": (0.4, 
 
 
 def measure(runs):
-    return {"rounds": runs.rounds, "processor": processor(), "networks": [r for r in networks(runs) if r["network"] in BARS],
+    return {"rounds": runs.rounds, "processor": processor(),
+            "networks": [r for r in networks(runs) if r["network"] in BARS],
             "frames": frames(runs) if "mediapipe" in runs.measured else None}
 
 
@@ -33,12 +34,13 @@ def rows(name, found):
 
 def page(report):
     lines = ["# Speed by class of CPU", "", "For users who know the CPUs of their users.", "",
-             "Every engine runs on one thread of the same machine, on which CPUID hides the instruction sets that a class lacks "
-             "(`tests/apps/mask_cpuid.c`). Fastest runs; the fastest peer is that of any precision. "
+             "Every engine runs on one thread of the same machine, on which CPUID hides the instruction sets that a "
+             "class lacks (`tests/apps/mask_cpuid.c`). Fastest runs; the fastest peer is that of any precision. "
              "By `scripts/peers/bench.sh ROUNDS CLASS...`.", ""]
     lines += table(["class", "what", "mien", "fastest peer", "ratio", "goal"],
                    [row for name, found in sorted(report.items()) for row in rows(name, found)])
-    lines += [f"* {name}: {found['rounds']} rounds in turns on {found['processor']}" for name, found in sorted(report.items())]
+    lines += [f"* {name}: {found['rounds']} rounds in turns on {found['processor']}"
+              for name, found in sorted(report.items())]
     return "\n".join(lines) + "\n"
 
 
