@@ -1,4 +1,4 @@
-// Parses headers and reads frames.
+// Reads Y4M video: parses the stream and frame headers, then the planes.
 #include "formats/y4m.h"
 
 #include <algorithm>

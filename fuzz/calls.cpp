@@ -1,3 +1,4 @@
+// Creates trackers with synthetic weights and checks their results.
 #include "fuzz/calls.h"
 
 #include <algorithm>

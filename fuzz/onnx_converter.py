@@ -28,8 +28,8 @@ MEMORY = 1 << 30  # more for a small file means that its sizes were not checked
 
 # A sixteenth of what users may have: the largest maps take seconds each, in which no code is reached that smaller ones
 # do not reach.
-errors.MOST_NUMBERS >>= 4
-graph.MOST_IN_ALL >>= 4
+errors.MAX_NUMBERS >>= 4
+graph.MAX_TOTAL_NUMBERS >>= 4
 
 OPERATOR_NAMES = sorted({*OPERATORS, *FUNCTIONS, "Constant", "If", "Sin"})
 NUMBERS = (0, 1, 2, 3, 4, 7, 15, 16, 64, 255, -1, -2, 1 << 20, 1 << 31, (1 << 31) - 1, -(1 << 31),

@@ -1,3 +1,4 @@
+// Reads every byte of a view of a weight file.
 #include "fuzz/read_all.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Decodes an input to images and audio blocks.
 #include "fuzz/views.h"
 
 #include <cstdlib>

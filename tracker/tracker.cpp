@@ -1,3 +1,4 @@
+// Runs the stages of a frame: image, audio, faces and results.
 #include "tracker/tracker.h"
 
 #include <algorithm>

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Passes the tests of the package in Node, on the module that Emscripten makes.
+# Runs the tests of the npm package in Node, with the module that Emscripten builds.
 # usage: bindings/js/test.sh      (scripts/setup.sh build web test)
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 for tool in emcc node ffmpeg clang; do
-  command -v "$tool" >/dev/null || { echo "NOT TESTED: bindings/js, for which there is no $tool (scripts/setup.sh build web test)"; exit 0; }
+  command -v "$tool" >/dev/null || { echo "NOT TESTED: bindings/js needs $tool (scripts/setup.sh build web test)"; exit 0; }
 done
 . scripts/ccache.sh
 export NODE_PATH=/usr/share/nodejs  # Debian's folder of modules that Emscripten needs

@@ -4,8 +4,7 @@
 usage: scripts/check/code_size.py LIMIT [--folders]
 
 Code is every line of a text file that is not blank, not a comment and not a docstring. Data and generated files do not
-count: *.json,
-*.npz, and the word list of the spelling check.
+count: *.json, *.npz, and the word list of the spelling check.
 """
 import ast
 import subprocess

@@ -21,7 +21,7 @@ faults() {  # FILE: prints each missing property on a line
   grep -E 'R(UN)?PATH' <<<"$dynamic" | grep -vE '\[(\$ORIGIN|'"$PWD"')' | sed 's/^/run path outside the build folder: /' || true
 }
 
-# Checks that they detect a program without any of these properties.
+# Checks that faults() detects a program without hardening.
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 echo 'int main(void) { return 0; }' >"$work/soft.c"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Fetches ffmpeg.exe (7.1, from PyPI's imageio-ffmpeg) and ffprobe.exe (5.1, from npm), for scripts/cross/windows.sh, into
-# ${MIEN_CACHE:-~/.cache/mien}/windows-ffmpeg-7.1, and says this folder.
+# ${MIEN_CACHE:-~/.cache/mien}/windows-ffmpeg-7.1, and prints this folder.
 # usage: scripts/cross/install_windows_ffmpeg.sh        Needs pip, unzip and npm.
 set -euo pipefail
 work=${MIEN_CACHE:-$HOME/.cache/mien}/windows-ffmpeg-7.1

@@ -9,7 +9,7 @@ try:
 except ImportError:  # before onnx 1.13
     ReferenceEvaluator = None
 
-MOST_OPEN = 1 << 10  # assumed for a size that shape inference leaves open
+ASSUMED_SIZE = 1 << 10  # assumed for a size that shape inference leaves open
 TYPES = {1: np.float32, 6: np.int32, 7: np.int64, 9: np.bool_, 10: np.float16, 11: np.float64}
 
 
@@ -79,7 +79,7 @@ def evaluated(node, opset):
     try:
         inferred = onnx.shape_inference.infer_shapes(model, data_prop=True)
         for output in inferred.graph.output:
-            require_room(*(d.dim_value or MOST_OPEN for d in output.type.tensor_type.shape.dim))
+            require_room(*(d.dim_value or ASSUMED_SIZE for d in output.type.tensor_type.shape.dim))
         return [np.asarray(x) for x in ReferenceEvaluator(model).run(None, {})]
     except Refused:
         raise

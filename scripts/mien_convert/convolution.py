@@ -27,7 +27,7 @@ def padding_of(attributes, sizes, kernel, strides, dilations):
     mode, count = attributes.get("auto_pad", "NOTSET"), len(sizes)
     if mode in ("NOTSET", ""):
         pads = attributes.get("pads", [0] * 2 * count)
-        require(len(pads) == 2 * count, f"padding {pads} of {count} axes")
+        require(len(pads) == 2 * count, f"pads: wrong length (got {len(pads)}, expected {2 * count})")
         return list(pads[:count]), list(pads[count:])
     if mode == "VALID":
         return [0] * count, [0] * count

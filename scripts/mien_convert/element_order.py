@@ -5,7 +5,7 @@ import numpy as np
 
 from .errors import Refused
 
-MOST_PIECES = 256  # maximum per tensor: each needs one or two layers
+MAX_PIECES = 256  # maximum per tensor: each needs one or two layers
 ORDERS = {"".join("chw"[axis] for axis in order): order for order in itertools.permutations(range(3))}
 
 
@@ -21,7 +21,7 @@ def pieces_of(layer, elements):
     whole = piece_of(layer, elements)
     if whole:
         return [whole]
-    for count in range(2, min(MOST_PIECES, len(elements)) + 1):
+    for count in range(2, min(MAX_PIECES, len(elements)) + 1):
         if len(elements) % count:
             continue
         parts = elements.reshape(count, -1)
@@ -40,7 +40,7 @@ def piece_of(layer, elements):
     if len(channels) * len(rows) * len(columns) != len(elements) or not (is_range(rows) and is_range(columns)):
         return None
     runs = np.split(channels, np.flatnonzero(np.diff(channels) != 1) + 1)
-    if len(runs) > MOST_PIECES:
+    if len(runs) > MAX_PIECES:
         return None
     wanted = (channels[:, None, None] * h + rows[:, None]) * w + columns
     for name, order in sorted(ORDERS.items(), key=lambda one: one[0] != "hwc"):

@@ -1,8 +1,8 @@
 """Errors of the converter."""
 import math
 
-MOST_NUMBERS = 1 << 24  # per tensor: each element takes up to 24 bytes here, and a small file may declare any size
-MOST_IN_ALL = 1 << 27  # limit for all tensors of a graph: 3 GB, and seconds per interpretation of its axes
+MAX_NUMBERS = 1 << 24  # per tensor: each element takes up to 24 bytes here, and a small file may declare any size
+MAX_TOTAL_NUMBERS = 1 << 27  # limit for all tensors of a graph: 3 GB, and seconds per interpretation of its axes
 
 
 class Refused(Exception):
@@ -25,5 +25,5 @@ def in_a_line(error):
 
 
 def require_room(*sizes):
-    require(math.prod(map(int, sizes)) <= MOST_NUMBERS,
-            f"a tensor {[int(n) for n in sizes]}: at most {MOST_NUMBERS} numbers")
+    require(math.prod(map(int, sizes)) <= MAX_NUMBERS,
+            f"a tensor {[int(n) for n in sizes]}: at most {MAX_NUMBERS} numbers")

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from .errors import MOST_IN_ALL, Refused, in_a_line, require
+from .errors import MAX_TOTAL_NUMBERS, Refused, in_a_line, require
 from .layers import Network
 from .operands import is_constant
 from .operators import MOVES, OPERATORS
@@ -116,7 +116,7 @@ class Conversion:
         return Tensor(elements(state).reshape(shape))
 
     def run(self, values):
-        self.room, self.count = MOST_IN_ALL, 0
+        self.room, self.count = MAX_TOTAL_NUMBERS, 0
         self.run_body(self.graph, values)
 
     def run_body(self, body, values):
@@ -132,8 +132,8 @@ class Conversion:
                 require(all(value is not None for value in made.values()), "an input is missing")
                 self.room -= sum(map(size, made.values()))
                 require(self.room >= 0,
-                        f"all tensors up to here: at most {MOST_IN_ALL} numbers; a smaller --shape and --any-size may "
-                        "do")
+                        f"all tensors up to here: at most {MAX_TOTAL_NUMBERS} numbers; a smaller --shape and "
+                        "--any-size may do")
             except MemoryError as error:
                 raise Refused(f"{node.name}: it takes more memory than there is", count) from error
             except Refused as refusal:

@@ -9,7 +9,7 @@ from .errors import Refused, require
 
 OPSETS = range(9, 29)
 WHOLE_NUMBERS = (onnx.TensorProto.INT32, onnx.TensorProto.INT64, onnx.TensorProto.BOOL)
-MOST_EXTERNAL_BYTES = 1 << 31
+MAX_EXTERNAL_BYTES = 1 << 31
 # Types of the attributes that operators read; files may contain any.
 KINDS = {
     name: kind for kind, names in {
@@ -85,8 +85,8 @@ def with_external_data(proto, folder):
     require(offset.isdigit() and length.isdigit(),
             f"{name}: a part of {location!r} that is no number (offset {offset!r}, length {length!r})")
     offset, length = int(offset), int(length)
-    require(length <= MOST_EXTERNAL_BYTES,
-            f"{name}: too large (got {length} bytes, expected at most {MOST_EXTERNAL_BYTES})")
+    require(length <= MAX_EXTERNAL_BYTES,
+            f"{name}: too large (got {length} bytes, expected at most {MAX_EXTERNAL_BYTES})")
     with open(path, "rb") as file:
         file.seek(min(offset, path.stat().st_size))
         data = file.read(length)

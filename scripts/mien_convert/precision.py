@@ -13,8 +13,8 @@ from .weight_file import MAX_LAYERS
 ALLOWED, AIM = 5e-4, 2.5e-4  # of an output's largest value; other inputs differ by a factor of two or three
 SMALL = 1e-3  # an output without a larger value counts as if it had this one
 INPUTS, STEPS = 2, 16  # of the evaluation; the latter of a stream
-MOST_NUMBERS = 1 << 26  # of all layers at once: 256 MB, and as much for those compared
-MOST_WORK = 5 * 10 ** 10  # multiplications of an evaluation and of the search for an order: some ten seconds each
+MAX_NUMBERS = 1 << 26  # of all layers at once: 256 MB, and as much for those compared
+MAX_WORK = 5 * 10 ** 10  # multiplications of an evaluation and of the search for an order: some ten seconds each
 
 
 class Precision:
@@ -50,8 +50,8 @@ class Search:
 
     def has_room(self):
         numbers = sum(layer.size for layer in [self.network.source, *self.layers])
-        self.count = min(self.count, MOST_NUMBERS // numbers)
-        return self.count > 0 and self.count * sum(map(work, self.layers)) <= MOST_WORK
+        self.count = min(self.count, MAX_NUMBERS // numbers)
+        return self.count > 0 and self.count * sum(map(work, self.layers)) <= MAX_WORK
 
     def found(self, allowed):
         source = self.network.source
@@ -75,7 +75,7 @@ class Search:
     def ordered(self, candidates):
         """Layers without which the error is large come first, then the others by benefit and cost. If that takes too
         long to measure, the cheapest come first."""
-        if len(candidates) / 2 * sum(map(work, self.layers)) > MOST_WORK:
+        if len(candidates) / 2 * sum(map(work, self.layers)) > MAX_WORK:
             return sorted(candidates, key=work)
         one = slice(None) if self.is_stream else slice(1)
         errors = {id(layer): self.error([layer], (), one) for layer in candidates}

@@ -6,14 +6,14 @@ from .errors import require, require_room
 from .operands import constant, is_constant
 from .tensors import FUTURE, NOTHING, Tensor
 
-MOST_DELAYS = 1000  # for one convolution: each becomes a layer, and a file has at most 1024
+MAX_DELAYS = 1000  # for one convolution: each becomes a layer, and a file has at most 1024
 
 
 def conv_over_time(t, x, weight, bias, before, after, dilation):
     """[1, c, t]: steps of the stream, between columns before and columns after them."""
     require(x.shape[0] == 1, f"a batch of {x.shape[0]}")
     reach = (weight.shape[2] - 1) * dilation
-    require(0 <= reach <= MOST_DELAYS, f"a convolution that reaches back {reach} steps; at most {MOST_DELAYS}")
+    require(0 <= reach <= MAX_DELAYS, f"a convolution that reaches back {reach} steps; at most {MAX_DELAYS}")
     require_room(x.shape[1], before + x.shape[2] + after)
     x = Tensor(*(np.pad(part[0], ((0, 0), (before, after)), constant_values=value)
                  for part, value in ((x.at, NOTHING), (x.scale, 1.0), (x.shift, 0.0))))
@@ -69,7 +69,7 @@ def causal(t, x, weight, bias, dilation):
         return t.layer("fully_connected", [x], (1, 1, len(bias)), weight=weight[:, :, 0], bias=bias)
     if taps == 2 and dilation == 1:
         return t.layer("causal_conv", [x], (1, 1, len(bias)), weight=weight, bias=bias)
-    t.notes.append(f"{t.node}: kernel {taps}, dilation {dilation} over time is made of {(taps - 1) * dilation} delays")
+    t.notes.append(f"{t.node}: kernel {taps}, dilation {dilation} over time uses {(taps - 1) * dilation} delays")
     delay = np.zeros((inputs, inputs, 2))
     delay[:, :, 0] = np.eye(inputs)
     before, kept, rows = x, x, [weight[:, :, -1]]

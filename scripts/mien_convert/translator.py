@@ -3,13 +3,13 @@ import numpy as np
 
 from . import tensors
 from .constants import FUNCTIONS, evaluated
-from .element_order import MOST_PIECES, pieces_of
+from .element_order import MAX_PIECES, pieces_of
 from .errors import Refused, require, require_room
 from .layers import Layer
 from .tensors import BITS, MASK, NOTHING, Tensor
 from .weight_file import MAX_LAYERS
 
-MOST_GROUPS = 16  # of channels that come from different layers
+MAX_GROUPS = 16  # of channels that come from different layers
 
 
 class Translator:
@@ -168,7 +168,7 @@ class Translator:
         try:
             return self.rearranged(at)
         except Refused:
-            if not 0 < len(begins) < MOST_GROUPS:
+            if not 0 < len(begins) < MAX_GROUPS:
                 raise
         return self.joined([self.map_of(part) for part in np.split(at, begins)])
 
@@ -250,11 +250,11 @@ class Translator:
         """[n] elements as pieces of layers."""
         numbers = elements >> BITS
         bounds = [0, *(np.flatnonzero(np.diff(numbers)) + 1).tolist(), len(elements)]
-        require(len(bounds) <= MOST_PIECES, f"it combines a tensor from more than {MOST_PIECES} pieces")
+        require(len(bounds) <= MAX_PIECES, f"it combines a tensor from more than {MAX_PIECES} pieces")
         found = []
         for first, last in zip(bounds, bounds[1:]):
             found += pieces_of(self.real(int(numbers[first])), elements[first:last] & MASK)
-        require(len(found) <= MOST_PIECES, f"it combines a tensor from more than {MOST_PIECES} pieces")
+        require(len(found) <= MAX_PIECES, f"it combines a tensor from more than {MAX_PIECES} pieces")
         return found
 
     def piece(self, piece, shape=None):

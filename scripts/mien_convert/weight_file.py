@@ -305,10 +305,11 @@ class _Layer:
         self.activation = options.pop("activation", "none")
         self.alpha = options.pop("alpha", 0.0)
         slopes = options.pop("slopes", None)
-        require(not options, f"{self.op}: no option {sorted(options)}")
+        require(not options, f"{self.op}: unknown options {sorted(options)}")
         require(self.activation in ACTIVATIONS or self.activation in CURVES and self.op == "activation",
-                 f"no activation {self.activation}")
-        require(self.activation == "none" or self.op not in PASSIVE, f"{self.op} with {self.activation}")
+                 f"{self.op}: unknown activation (got {self.activation})")
+        require(self.activation == "none" or self.op not in PASSIVE,
+                f"{self.op}: takes no activation (got {self.activation})")
         has_alpha = self.activation == "leaky_relu" or self.op == "normalize"
         require(0 < self.alpha < 1 if has_alpha else self.alpha == 0, f"alpha {self.alpha}")
         require((slopes is not None) == (self.activation == "prelu"), f"{self.op}: slopes belong to prelu")

@@ -32,7 +32,8 @@ API = [program("api", "api_test"), program("api", "api_stack_test")]
 AUDIO = program("audio", "audio_test")
 GEOMETRY = program("tracker", "tracker_geometry_test")
 TRACKER = program("tracker", "tracker_test")
-OF_TRACKERS = [program("tracker", f"tracker_{name}_test") for name in ("threads", "allocation", "scenario", "trained")]
+TRACKER_TESTS = [program("tracker", f"tracker_{name}_test")
+                 for name in ("threads", "allocation", "scenario", "trained")]
 COMPARE = program("apps", "compare_test")
 CONVERT = Check("mien_program", "apps/mien/mien", "tests/apps/convert_test.py", (FRAMES,))
 CONVERT_GLTF = Check("mien_program", "apps/mien/mien", "tests/apps/convert_gltf_test.py", (FRAMES,))
@@ -44,9 +45,9 @@ PLAN = {
     "apps/protocols": [PROTOCOLS],
     "apps/animation": [ANIMATION, CONVERT, CONVERT_GLTF, COMPARE],
     "formats": [FORMATS, CONVERT, CONVERT_GLTF, *ENGINE, *API],
-    "engine": [*ENGINE, *API, AUDIO, GEOMETRY, TRACKER, *OF_TRACKERS],
-    "audio": [AUDIO, TRACKER, *OF_TRACKERS],
-    "tracker": [GEOMETRY, *API, TRACKER, *OF_TRACKERS],
+    "engine": [*ENGINE, *API, AUDIO, GEOMETRY, TRACKER, *TRACKER_TESTS],
+    "audio": [AUDIO, TRACKER, *TRACKER_TESTS],
+    "tracker": [GEOMETRY, *API, TRACKER, *TRACKER_TESTS],
 }
 
 

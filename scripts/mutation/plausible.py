@@ -54,7 +54,7 @@ def operator_fits(was, now, ahead, behind):
 
 
 def constant_fits(before, after):
-    """Where (1==1) or (0==1) took the place of something: of an operand, and no end of the line is lost."""
+    """Whether (1==1) or (0==1) replaces an operand and the line keeps its end."""
     ahead = re.search(r"(\S*)\s*\([01]==1\)", after)[1]
     return (before.rstrip()[-1:] == after.rstrip()[-1:] and before.count(";") == after.count(";")
             and (ahead in ("", "=", "return", "if", "while") or ahead.endswith(("(", "!", "&&", "||", "?"))))

@@ -55,8 +55,8 @@ class Variant:
         return path
 
     def is_identical(self):
-        """Whether none of the objects that were needed differs from the original's. Few mutants are, and tests kill
-        most others sooner than the original is compiled."""
+        """Whether the compiled objects equal the original's. Checked after the tests, because few mutants do and
+        tests kill most others before the original is compiled."""
         return all(digest(self._objects / output) == self._original(output) for output in self._compiled)
 
     def _original(self, output):

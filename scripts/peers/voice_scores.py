@@ -38,7 +38,7 @@ class Silero:
 
     def scores(self, sound):
         """One for each window."""
-        state, context, said = np.zeros((2, 1, 128), np.float32), np.zeros(self.CONTEXT, np.float32), []
+        state, context, predicted = np.zeros((2, 1, 128), np.float32), np.zeros(self.CONTEXT, np.float32), []
         for chunk in np.resize(np.pad(sound, (0, -len(sound) % self.CHUNK)), (-(-len(sound) // self.CHUNK),
                                                                               self.CHUNK)):
             heard = np.concatenate([context, chunk])[None]
@@ -46,8 +46,8 @@ class Silero:
             probability, state = self.session.run(None, {"input": heard, "state": state, "sr": self.RATE})
             self.times.append(time.perf_counter_ns() - begin)
             context = chunk[-self.CONTEXT:]
-            said += [float(probability[0, 0])] * (self.CHUNK // WINDOW)
-        return np.array(said)[:len(sound) // WINDOW]
+            predicted += [float(probability[0, 0])] * (self.CHUNK // WINDOW)
+        return np.array(predicted)[:len(sound) // WINDOW]
 
     def report(self):
         us = np.array(self.times) / 1e3
@@ -73,7 +73,7 @@ class Mien:
             sys.exit(f"voice_scores.py: mien_{name}: status {status}")
 
     def scores(self, sound):
-        tracker, said = ctypes.c_void_p(), []
+        tracker, predicted = ctypes.c_void_p(), []
         self.call("tracker_create", ctypes.byref(self.config), ctypes.byref(tracker), None)
         audio, result = self.library.Audio(), self.library.TrackerResult()
         self.function("mien_audio_default")(ctypes.byref(audio))
@@ -84,19 +84,19 @@ class Mien:
             self.call("tracker_push_audio", tracker, ctypes.byref(audio), k * WINDOW_NS)
             self.call("tracker_advance", tracker, (k + 1) * WINDOW_NS)
             self.call("tracker_get_result", tracker, ctypes.byref(result))
-            said.append(result.voice_activity)
+            predicted.append(result.voice_activity)
         self.function("mien_tracker_destroy")(tracker)
-        return np.array(said)
+        return np.array(predicted)
 
     def report(self):
         return {"bytes": (ROOT / "models/audionet.mien").stat().st_size}
 
 
-def best_shift(said, truth):
+def best_shift(predicted, truth):
     """(area under ROC, shift): shift n compares the prediction for window k with the truth at k - n."""
     areas = {}
     for n in SHIFTS:
-        pairs = [(s[max(n, 0):len(s) + min(n, 0)], t[max(-n, 0):len(t) - max(n, 0)]) for s, t in zip(said, truth)]
+        pairs = [(s[max(n, 0):len(s) + min(n, 0)], t[max(-n, 0):len(t) - max(n, 0)]) for s, t in zip(predicted, truth)]
         areas[n] = float(metrics.area_under_roc(*(np.concatenate(side) for side in zip(*pairs))))
     best = max(areas, key=areas.get)
     return areas[best], best

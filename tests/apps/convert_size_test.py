@@ -22,7 +22,7 @@ PROGRAM = sys.argv[1]
 del sys.argv[1:]
 SIZE = 2 << 20 if MEASURED == "time" else 1 << 16  # bytes of the smaller file
 SIZE_OF_MEMORY = 1 << 21 if MEASURED else 1 << 16
-MOST_GROWTH = 2.3
+MAX_GROWTH = 2.3
 RUNS = 15 if MEASURED == "time" else 1  # the fastest counts; stops at the first sufficient one
 
 
@@ -184,7 +184,7 @@ class Sizes(unittest.TestCase):
                 self.assertEqual(code, 0, said)
                 least[i] = min(least[i], done)
             growth = least[1] / max(least[0], 1e-3)
-            if not MEASURED or growth <= MOST_GROWTH:
+            if not MEASURED or growth <= MAX_GROWTH:
                 return growth, least[1]
         self.fail(f"{growth:.2f} times: {least[0]:.3f}, {least[1]:.3f}")
 

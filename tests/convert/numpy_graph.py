@@ -1,8 +1,7 @@
-"""A graph of ONNX computed with numpy alone: what the converter's answers are held against where ONNX Runtime is not
-there.
+"""Runs an ONNX graph with numpy alone: the reference for the converter's outputs where ONNX Runtime is not installed.
 
-Only the operators of arithmetic_cases.py, in the forms that it writes, from ONNX's documentation; shares no code with
-the converter.
+Supports the operators of arithmetic_cases.py in the forms that it writes. Follows ONNX's documentation and shares no
+code with the converter.
 """
 import math
 

@@ -27,7 +27,7 @@ if not TESTS.is_dir():
     print(f"skipped: no tests in {TESTS}; tests/convert/fetch_node_tests.sh fetches them")
     sys.exit(77)
 # Fewer would mean that the converter has lost something. Most of the tests are of batches, which it does not take.
-LEAST_CONVERTED, ALL = 30, 1097
+MIN_CONVERTED, ALL = 30, 1097
 TOLERANCE = 2e-3  # of the largest value: weights are rounded to 11 bits
 
 
@@ -58,7 +58,7 @@ class NodeTests(unittest.TestCase):
                     self.check_refusal(test, status, model)
         print(f"{converted} of {len(tests)} converted, the others refused")
         self.assertEqual(len(tests), ALL)
-        self.assertGreaterEqual(converted, LEAST_CONVERTED)
+        self.assertGreaterEqual(converted, MIN_CONVERTED)
 
     def compare(self, test, model):
         self.assertIsNone(time_axis(model))

@@ -14,7 +14,7 @@ def node(operator, inputs, outputs="y", **attributes):
 
 
 def weights(*shape):
-    """Exact in fp16, so that results can be held against each other closely."""
+    """Values that fp16 represents exactly, so that results can be compared with a small tolerance."""
     fan_in = max(int(np.prod(shape[1:])), 1)
     return (random.standard_normal(shape) / np.sqrt(fan_in)).astype(np.float16).astype(np.float32)
 
@@ -245,7 +245,7 @@ def lstm_weights(inputs, hidden):
 
 
 def cell_of_steps(case, x):
-    """[1, steps, inputs], from the operator's definition."""
+    """Outputs [steps,hidden] of an LSTM for x [1,steps,inputs], from the definition of the operator."""
     w, r, b = (case.constants[key][0].astype(np.float64) for key in "wrb")
     h = c = np.zeros(r.shape[1])
     steps = []
@@ -391,7 +391,8 @@ def refused():
                "strides [2], dilations [1, 1] of a window over 2 axes", constants=w)
     yield case("no_stride", [node("MaxPool", "x", kernel_shape=[2, 2], strides=[0, 1])], X,
                "strides [0, 1], dilations [1, 1] of a window")
-    yield case("padding_of_other_axes", [node("Conv", "x w", pads=[1, 1])], X, "padding [1, 1] of 2 axes", constants=w)
+    yield case("padding_of_other_axes", [node("Conv", "x w", pads=[1, 1])], X,
+               "pads: wrong length (got 2, expected 4)", constants=w)
     yield from large_cases(w)
     yield from (case for case in move_cases() if case.refusal is not None)
 

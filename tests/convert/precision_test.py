@@ -148,13 +148,13 @@ class Layers(Folder):
         self.assertGreater(self.error(case, x, (FINE - 1) * x, "--fp16-only"), 0.1)
 
     def test_a_network_too_large_to_evaluate_is_converted_with_a_note(self):
-        for limit in ("MOST_NUMBERS", "MOST_WORK"):
+        for limit in ("MAX_NUMBERS", "MAX_WORK"):
             with mock.patch.object(precision, limit, 10):
                 self.assertIn("note: too large to estimate", self.converted(pair())[2])
 
     def test_in_any_order_as_many_are_kept_as_it_takes(self):
         """The search for an order is left out where it takes long."""
-        with mock.patch.object(precision, "MOST_WORK",
+        with mock.patch.object(precision, "MAX_WORK",
                                2 * precision.INPUTS * 1000), mock.patch.object(precision, "work", lambda layer: 1000):
             self.assertLess(self.error(pair(), self.x, (FINE - 1) * self.x), 1e-3)
 

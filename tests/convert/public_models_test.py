@@ -22,14 +22,14 @@ ALLOWED = 1e-3  # of the largest value
 
 
 def noise(model):
-    """By input, of the shape that the file declares: what it leaves open is 1."""
+    """Random values by input, in the declared shape. Open dimensions are 1."""
     random, constants = np.random.default_rng(0), {tensor.name for tensor in model.graph.initializer}
     return {i.name: random.standard_normal([d.dim_value or 1 for d in i.type.tensor_type.shape.dim]).astype(np.float32)
             for i in model.graph.input if i.name not in constants}
 
 
 def check(path, folder):
-    """(whether it is right, what to print)"""
+    """(whether the outcome is correct, its description)"""
     network = folder / "y.mien"
     status, report = convert([path, "-o", network, "--name", "net"])
     if status:

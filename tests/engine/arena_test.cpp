@@ -1,3 +1,4 @@
+// Tests of the arena that measures and then hands out memory.
 #include "engine/arena.h"
 
 #include <gtest/gtest.h>

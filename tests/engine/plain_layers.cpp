@@ -1,3 +1,4 @@
+// Computes every layer operation in double precision.
 #include "tests/engine/plain_layers.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Tests of sessions: statuses, memory and the placement of maps.
 #include "engine/session.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +16,7 @@ using engine::Session;
 using engine::SessionRequest;
 using engine::SessionSize;
 
-TEST(Session, TellsWhatIsWrong) {
+TEST(Session, ReportsTheStatusOfEachError) {
   EXPECT_EQ(MiniSession("nobody").status, MIEN_ERROR_WEIGHTS_INCOMPLETE);
   EXPECT_EQ(MiniSession("encoder", {26, 27, 3}).status, MIEN_ERROR_WEIGHTS_SHAPE);
   EXPECT_EQ(MiniSession("pnet", {11, 31, 3}).status, MIEN_ERROR_WEIGHTS_SHAPE);

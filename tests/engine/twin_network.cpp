@@ -1,3 +1,4 @@
+// Builds a random network in a weight file and of plain layers.
 #include "tests/engine/twin_network.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Reads, opens and describes weight files for tests.
 #include "tests/formats/files.h"
 
 #include <gtest/gtest.h>

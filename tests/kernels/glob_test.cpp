@@ -1,3 +1,4 @@
+// Tests of the patterns that select kernels by name.
 #include "apps/conformance/glob.h"
 
 #include <gtest/gtest.h>

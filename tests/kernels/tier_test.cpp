@@ -1,3 +1,4 @@
+// Tests of the detection of instruction sets.
 #include "kernels/tier.h"
 
 #include <gtest/gtest.h>

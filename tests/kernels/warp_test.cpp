@@ -1,3 +1,4 @@
+// Tests of the warp kernel: the colour of a pixel does not depend on the transform that samples it.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -8,7 +8,7 @@ from mien_training.data import landmark_points as lp
 from mien_training.data.expressions import CONTROLS, INDEX
 
 RIGHT, LEFT = np.array([80.0, 120]), np.array([150.0, 100])  # pupils of the subject; the right eye blinks
-OF_SIDE = {side: [i for i, (name, _) in enumerate(lp.named_points()) if name.startswith(side)]
+SIDE_POINTS = {side: [i for i, (name, _) in enumerate(lp.named_points()) if name.startswith(side)]
            for side in ("right", "left")}
 
 
@@ -30,7 +30,7 @@ def teacher(view):
     """Takes the eye further left for the right one, as MediaPipe does, and for one that blinks if it is red."""
     eyes = sorted((*centre(view, channel), channel == 0) for channel in (0, 2))
     points = np.tile(np.mean([eye[:2] for eye in eyes], 0), (len(lp.TEACHER), 1))
-    points[OF_SIDE["right"]], points[OF_SIDE["left"]] = eyes[0][:2], eyes[1][:2]
+    points[SIDE_POINTS["right"]], points[SIDE_POINTS["left"]] = eyes[0][:2], eyes[1][:2]
     controls = np.zeros(len(CONTROLS))
     controls[INDEX["eyeBlinkRight"]], controls[INDEX["eyeBlinkLeft"]] = eyes[0][2], eyes[1][2]
     down, across = eyes[1][1] - eyes[0][1], eyes[1][0] - eyes[0][0]

@@ -35,7 +35,7 @@ class Streamed(unittest.TestCase):
         subprocess.run([str(c) for c in command], check=True, capture_output=True)
         return torch.load(out)
 
-    def test_goes_on_and_leaves_a_decoder_of_plain_features(self):
+    def test_resumes_and_exports_a_decoder_without_whitening(self):
         torch.manual_seed(1)
         with tempfile.TemporaryDirectory() as folder:
             for number in range(2):
@@ -85,7 +85,7 @@ class Packed(unittest.TestCase):
         self.assertEqual(len(known["supported"]), 52)
         self.assertIn("pose_decoder", known)
 
-    def test_what_is_packed_comes_back_but_for_a_rounding(self):
+    def test_packed_features_are_unpacked_within_a_rounding(self):
         torch.manual_seed(3)
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)

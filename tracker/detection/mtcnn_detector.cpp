@@ -1,3 +1,4 @@
+// Runs P-Net over an image pyramid and R-Net on its candidates.
 #include "tracker/detection/mtcnn_detector.h"
 
 #include <algorithm>

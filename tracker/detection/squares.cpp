@@ -1,3 +1,4 @@
+// Computes the overlap of squares and suppresses non-maxima.
 #include "tracker/detection/squares.h"
 
 #include <algorithm>

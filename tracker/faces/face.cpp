@@ -1,3 +1,4 @@
+// Tracks one face: crops, encodes and decodes each frame.
 #include "tracker/faces/face.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Tracks up to max_faces faces: assigns detections to them and adds and removes faces.
 #include "tracker/faces/faces.h"
 
 #include <algorithm>

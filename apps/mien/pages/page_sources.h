@@ -1,4 +1,4 @@
-// Pages assembled by embed.cmake. They contain marks such as @DATA@ for data.
+// Pages assembled by embed.cmake. Placeholders such as @DATA@ stand for data.
 #pragma once
 
 namespace mien::app {

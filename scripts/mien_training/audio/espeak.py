@@ -75,7 +75,7 @@ def engine():
 
 
 def timed(events, seconds):
-    """Numbers of phonemes and when each begins and ends; an event of two phonemes is shared out evenly."""
+    """Phoneme labels and their start times. The phonemes of one event share its time evenly."""
     labels, starts = [], []
     for (start, name), end in zip(events, [e[0] for e in events[1:]] + [seconds]):
         parts = phonemes.of_ipa(name)

@@ -127,7 +127,7 @@ def recorded_voices(split):
 
 
 def speeches(wanted, seed, held=False):
-    """(name, speaker, split, samples, labels, starts) until there are `wanted` seconds of every split."""
+    """Yields (name, speaker, split, samples, labels, starts) up to `wanted` seconds of every split."""
     rng = np.random.default_rng(seed)
     texts, voices = Texts(rng, held), variants()
     for split, seconds in wanted.items():

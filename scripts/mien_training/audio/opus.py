@@ -9,7 +9,7 @@ from mien_training.audio.features import RATE
 VOIP = 2048
 SET_BITRATE, SET_COMPLEXITY, GET_LOOKAHEAD = 4002, 4010, 4027
 FRAME = RATE // 50
-MOST_BYTES = 1500
+MAX_BYTES = 1500
 
 
 @functools.lru_cache(None)
@@ -42,11 +42,11 @@ def coded(sound, bits_per_second):
     frames = -(-(len(sound) + delay.value) // FRAME)
     given = np.zeros(frames * FRAME, np.float32)
     heard = np.zeros(frames * FRAME, np.float32)
-    packet = np.zeros(MOST_BYTES, np.uint8)
+    packet = np.zeros(MAX_BYTES, np.uint8)
     given[:len(sound)] = sound
     for at in range(0, len(given), FRAME):
         size = opus.opus_encode_float(encoder, pointer(given[at:], ctypes.c_float), FRAME,
-                                      pointer(packet, ctypes.c_ubyte), MOST_BYTES)
+                                      pointer(packet, ctypes.c_ubyte), MAX_BYTES)
         if size < 0 or opus.opus_decode_float(decoder, pointer(packet, ctypes.c_ubyte), size,
                                               pointer(heard[at:], ctypes.c_float), FRAME, 0) < 0:
             raise RuntimeError("Opus refused a frame")

@@ -21,8 +21,8 @@ from mien_training.data.expressions import CONTROLS, MIRROR
 from mien_training.paths import cache, data
 
 VIEWS = 6
-LEAST_VIEWS = 3
-MOST_SCATTER = 0.15  # of landmarks; beyond, the views show different faces
+MIN_VIEWS = 3
+MAX_SCATTER = 0.15  # of landmarks; beyond, the views show different faces
 BORDER = 0.25     # of blurred image on each side, as a share of the height: many portraits are tight
 PUPILS = (lp.POSITION[468], lp.POSITION[473])
 FLIP = np.diag([-1.0, 1, 1])
@@ -146,10 +146,10 @@ def main():
             break
         picture = cv2.imread(str(folder / "img" / name))[..., ::-1]
         found = answers(ask, picture, np.random.default_rng(zlib.crc32(name.encode())))
-        if len(found) < LEAST_VIEWS:
+        if len(found) < MIN_VIEWS:
             continue
         row = label(found, np.array(picture.shape[1::-1]), (1 + 2 * BORDER) * picture.shape[0])
-        if row["landmark_scatter"] < MOST_SCATTER:
+        if row["landmark_scatter"] < MAX_SCATTER:
             rows[name] = row
     save(folder / "labels.npz", rows, table)
 

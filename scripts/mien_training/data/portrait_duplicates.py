@@ -12,7 +12,7 @@ from mien_training.paths import cache
 SIDE = 24      # pixels of the compared images
 # correlation of two; of the 20 pairs above it between training and test portraits 19 show the same person to the eye
 ALIKE = 0.96
-OF_CLIPS = ("vv_040502.jpg", "vv_099911.jpg")  # who speaks in whitehouse_obama_weekly
+CLIP_PORTRAITS = ("vv_040502.jpg", "vv_099911.jpg")  # who speaks in whitehouse_obama_weekly
 
 
 def small(picture, points):
@@ -43,4 +43,4 @@ def twins(labels, split):
         path.parent.mkdir(parents=True, exist_ok=True)
         with whole(path) as out:
             np.save(out, labels.name[chosen])
-    return {*np.load(path).tolist(), *OF_CLIPS}
+    return {*np.load(path).tolist(), *CLIP_PORTRAITS}

@@ -13,7 +13,7 @@ GRID_WORDS = [dict(b="bin", l="lay", p="place", s="set"), dict(b="blue", g="gree
               dict(zip("z123456789", "zero one two three four five six seven eight nine".split())),
               dict(a="again", n="now", p="please", s="soon")]
 LETTERS = {"a": "ay", "z": "zed"}
-OF_THE_SPEAKER = "grid_bbaf2n"  # the one that phase 2 learns from
+TRAINING_CLIP = "grid_bbaf2n"  # phase 2 trains on its speaker
 
 
 def grid_sentence(code):
@@ -22,17 +22,17 @@ def grid_sentence(code):
 
 
 @torch.no_grad()
-def of_grid_clips(model):
-    """Other speakers of GRID."""
+def grid_error_rate(model):
+    """Error rate on the GRID clips whose speakers are not in the training data."""
     wrong = total = 0
     for path in sorted((data() / "clips").glob("grid_*.mpg")):
-        if path.stem == OF_THE_SPEAKER:
+        if path.stem == TRAINING_CLIP:
             continue
         code = re.search(r"([a-z]{4}[z0-9][a-z])$", path.stem)[1]
         truth = [p for word in grid_sentence(code) for p in sum(espeak.words_to_phonemes(word), ())]
         sound = np.concatenate([np.float32(corpus.decode(path)) / 32768, np.zeros(3200, np.float32)])
-        heard = recognition.greedy(model.heads(model.encoder(torch.from_numpy(features(sound))[None])[0])[0][0])
-        wrong, total = wrong + recognition.distance(heard, truth), total + len(truth)
+        predicted = recognition.greedy(model.heads(model.encoder(torch.from_numpy(features(sound))[None])[0])[0][0])
+        wrong, total = wrong + recognition.distance(predicted, truth), total + len(truth)
     return wrong / max(total, 1)
 
 
@@ -46,5 +46,5 @@ def measure(model):
         rates[f"{who}, searched with n-grams of phonemes"] = rate(group, answer=phoneme_search.search)
     if model.split == "test":
         rates |= {"synthetic voices: flite kal16": rate("english", choose=recorded),
-                  "clips of other speakers of GRID": of_grid_clips(model)}
+                  "clips of other speakers of GRID": grid_error_rate(model)}
     return rates

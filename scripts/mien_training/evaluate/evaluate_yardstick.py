@@ -21,7 +21,7 @@ SHOWN = 15  # controls on the page
 
 
 def trained():
-    """The decoder, and after how many steps and sequences."""
+    """The trained decoder, with the numbers of its steps and training sequences."""
     path = cache() / "runs/yardstick.pt"
     if not path.exists():
         raise Missing(f"{path.name} is absent: train_yardstick.py makes it (docs/training.md)")

@@ -8,7 +8,7 @@ from mien_training.evaluate.program import Program
 
 PARTS = ("synthetic", "ablation", "levels", "response", "leakage", "images", "wild", "clips", "tracking", "audio",
          "audio_and_video", "yardstick", "amplitude", "orientation", "backward")  # modules evaluate_PART
-# whose controls a level answers with; levels 2 and 3 are LOD4's with fewer frames
+# The encoder of a level. Levels 2 and 3 use LOD4's, on fewer frames.
 NETWORKS = {"LOD1": "basenet", "LOD4": "hifinet"}
 
 
@@ -44,8 +44,8 @@ class Setting:
                     f"--{network}")
         if not self.is_shipped(network):
             raise Missing(
-                f"models/{network}.mien was not made of {' and '.join(p.name for p in self.checkpoints[network])}: "
-                          f"name the right checkpoints with --{network}, or export.py {network}")
+                f"models/{network}.mien is no export of {' and '.join(p.name for p in self.checkpoints[network])}: "
+                f"name the right checkpoints with --{network}, or export.py {network}")
         return self.checkpoints[network]
 
     def is_shipped(self, network):

@@ -23,7 +23,7 @@ def write_wav(path, samples):
         file.writeframes(np.int16(samples).tobytes())
 
 
-def answers(program, clip, samples, mode):
+def predictions(program, clip, samples, mode):
     with tempfile.TemporaryDirectory() as folder:
         sound = Path(folder) / "sound.wav"
         write_wav(sound, samples)
@@ -42,7 +42,7 @@ def measure(program):
     clips = held_out()
     if not clips:
         raise Missing("no held-out clip with sound is in av/: MIEN_DATA must name the folder of the data packs")
-    pairs = [[answers(program, clip, corpus.decode(sound), mode) for mode in ("audio", "video")]
+    pairs = [[predictions(program, clip, corpus.decode(sound), mode) for mode in ("audio", "video")]
              for clip, sound in clips]
     report = {"clips": len(pairs)}
     for c in ROUNDED:

@@ -5,7 +5,7 @@ truth. Concordance (Lin 1989) has its maximum where predicted and true values ag
 uncertain decoder keeps the amplitude.
 """
 
-FLOOR = 2e-4  # variance of a control below which its concordance counts for nothing
+FLOOR = 2e-4  # variance of a control below which its concordance is ignored
 
 
 def centred(values, weight):

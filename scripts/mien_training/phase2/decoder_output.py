@@ -6,7 +6,7 @@ import torch
 
 from mien_training.data.expressions import CONTROLS, PAIRED
 
-TOLD_APART = 0.05  # sides.h
+SYMMETRY_THRESHOLD = 0.05  # sides.h
 SIDED = [n for n in PAIRED if n not in ("jaw", "mouth", "eyeLookIn", "eyeLookOut")]
 LEFT, RIGHT = ([CONTROLS.index(n + side) for n in SIDED] for side in ("Left", "Right"))
 
@@ -16,6 +16,6 @@ def output_controls(answers):
     controls = answers.clamp(0, 1)
     left, right = controls[..., LEFT], controls[..., RIGHT]
     middle, apart = (left + right) / 2, left - right
-    half = apart * torch.clamp(apart.abs() / TOLD_APART, max=1) / 2
+    half = apart * torch.clamp(apart.abs() / SYMMETRY_THRESHOLD, max=1) / 2
     controls[..., LEFT], controls[..., RIGHT] = middle + half, middle - half
     return controls

@@ -117,14 +117,15 @@ def quieted(layer, portraits):
 
 
 def deviation_of(layer, parts):
-    """Of the answers, [52]."""
+    """Standard deviation of the predictions, [52]."""
     return output_controls(parts.hidden @ layer.T).std(0).clamp(min=SMALLEST)
 
 
 def correlation(layer, renders):
-    """Of the answers with the truth on renders, [52]."""
-    told, truth = (x - x.mean(0) for x in (output_controls(renders.hidden @ layer.T), renders.controls))
-    return (told * truth).mean(0) / (told.square().mean(0) * truth.square().mean(0)).sqrt().clamp(min=SMALLEST ** 2)
+    """Correlation of the predictions with the truth on renders, [52]."""
+    predicted, truth = (x - x.mean(0) for x in (output_controls(renders.hidden @ layer.T), renders.controls))
+    return (predicted * truth).mean(0) / (
+        predicted.square().mean(0) * truth.square().mean(0)).sqrt().clamp(min=SMALLEST ** 2)
 
 
 def gains(layer, renders, rest, most):

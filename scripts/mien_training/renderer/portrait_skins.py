@@ -26,14 +26,14 @@ from mien_training.renderer.scene import Shapes, material
 SIDE = 384             # of the texture, texels
 EACH = 5               # stride of the vertices that estimate the light
 WORST_FIT = 0.023      # residual of the landmarks
-LEAST_EYES = 30        # outer eye corners' distance, pixels
+MIN_EYES = 30        # outer eye corners' distance, pixels
 EYES_CM = 9.5          # the same of the rig
 HUBER = 0.25           # relative error of brightness beyond which a vertex counts less
 WORST_LIGHT = 0.45     # mean log error of brightness after the light has been fitted
 RIDGE = 0.004          # regularization of the light's shape, relative to the brightness
 DARKEST = 0.4          # shade below which a place is not brightened further, in the median of the face
 DARK_BLUE, DARK_BELOW = 0.33, 0.35  # linear blue over red, brightness relative to the brightest of the image
-SEEN_FROM, SEEN_WELL = 0.25, 0.55  # cosine between normal and line of sight
+MIN_FACING, FULL_FACING = 0.25, 0.55  # cosine between normal and line of sight
 
 
 def vertex_normals(vertices, triangles):
@@ -174,7 +174,7 @@ class Baker:
         """Texture uint8 [SIDE,SIDE,3] and the name of the skin it goes over to."""
         normals = vertex_normals(photo.posed, self.face.corner_vertex).astype(np.float32)
         sight = -photo.posed / np.linalg.norm(photo.posed, axis=1, keepdims=True)
-        facing = np.clip(((normals * sight).sum(1) - SEEN_FROM) / (SEEN_WELL - SEEN_FROM), 0, 1)
+        facing = np.clip(((normals * sight).sum(1) - MIN_FACING) / (FULL_FACING - MIN_FACING), 0, 1)
         seen = facing * photo.seen(self.rasterizer, self.rig)
         v = self.face.vertices
         colour = photo.at(photo.pixels(photo.posed)[v][None])[0]
@@ -228,7 +228,7 @@ def main():
     fits = dict(np.load(cache() / "portrait_skins/fits.npz"))
     eyes = fits["f_px"] / np.abs(fits["translation"][:, 2]) * EYES_CM
     seen = ~portrait_labels.of_names(fits["name"]).near_profile()
-    good = np.flatnonzero((fits["residual"] < WORST_FIT) & (eyes > LEAST_EYES) & seen)[:args.most]
+    good = np.flatnonzero((fits["residual"] < WORST_FIT) & (eyes > MIN_EYES) & seen)[:args.most]
     made = {path.stem.partition("+")[2] for path in (cache() / "portrait_skins").glob("*+*.jpg")}
     good = np.array([i for i in good if Path(str(fits["name"][i])).stem not in made], int)
     with Pool(args.workers) as pool:

@@ -1,3 +1,4 @@
+// Socket calls of Winsock, under the names that udp_socket.cpp uses on every system.
 #pragma once
 
 #include <winsock2.h>

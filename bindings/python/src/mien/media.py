@@ -1,4 +1,4 @@
-"""Files: a row per frame of any file that ffmpeg can read. The package's `mien` program reads them."""
+"""Tracks files with the package's `mien` program: one row per frame of any file that ffmpeg can read."""
 
 from __future__ import annotations
 

@@ -9,7 +9,7 @@ from mien_training.native_build import library
 
 HERE = Path(__file__).resolve().parent
 MAP_TYPES = (torch.float32, torch.bfloat16)
-MOST_CHANNELS = 1024
+MAX_CHANNELS = 1024
 serves = True  # False: training by PyTorch's own layers, to compare with
 
 

@@ -9,7 +9,7 @@ import torch
 import torch.nn.functional as F
 from torch import nn
 
-from mien_training.networks.native_layers.native import MOST_CHANNELS, address, by_pixel, code, in_training
+from mien_training.networks.native_layers.native import MAX_CHANNELS, address, by_pixel, code, in_training
 
 RELU6, UNBOUNDED = (0.0, 6.0), (-float("inf"), float("inf"))
 
@@ -55,7 +55,7 @@ class NormActivation(nn.BatchNorm2d):
     """`activation`: whether ReLU6 follows."""
 
     def __init__(self, channels, activation):
-        assert channels <= MOST_CHANNELS
+        assert channels <= MAX_CHANNELS
         super().__init__(channels)
         self.activation = activation
 
