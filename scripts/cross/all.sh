@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds and tests for every other machine (docs/cross.md), as many at a time as there are processors. What ran is said at the
-# end of each; all that it printed is in build/cross/logs.
+# Builds and tests for every other machine (docs/cross.md), one per processor at a time. Prints a summary of
+# each; build/cross/logs has the whole output.
 # usage: scripts/cross/all.sh [--full] [NAME...]
 #   --full   more seeds, targets and tests, and hours
 #   NAME     of a machine: arm64, armv7, wasm, windows, compile_only, linux_x64, big_endian, musl, zig; default all

@@ -27,7 +27,7 @@ void mien_use_embedded_weights(mien_weights_config* config);
 #endif
 ")
 
-set(arrays "/* Made by mien_embed. Little-endian, as the files are and as all machines are that mien runs on. */
+set(arrays "/* Made by mien_embed. Little-endian, like the files and every supported machine. */
 #include \"mien_weights.h\"
 ")
 set(settings "")

@@ -16,7 +16,7 @@ pack() {
   "$python" -m mien_training.phase2.pack_features pack --network "$network" --megabytes "${MEGABYTES:-56}" "$folder/$network.npz"
 }
 
-train() {  # folder of what comes of it
+train() {  # OUTPUT_FOLDER
   scratch=$(mktemp -d)
   trap 'rm -rf "$scratch"' EXIT
   "$python" -m mien_training.phase2.pack_features unpack --network "$network" "$folder/$network.npz" "$scratch"
