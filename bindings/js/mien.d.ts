@@ -179,3 +179,32 @@ export class Mien {
 
 /** `source`: URL of mien.wasm, a Response with it, its bytes, or the compiled module. */
 export function loadMien(source: string | URL | Response | Bytes | WebAssembly.Module): Promise<Mien>;
+
+/** The controls that the level of detail predicts, by name. */
+export function controlsByName(result: Pick<Result, 'controls' | 'supportedControls'>): Partial<Record<ControlName, number>>;
+
+/** An Object3D of three.js, of which only these are used. */
+export interface Morphs {
+  traverse(visit: (node: any) => void): void;
+}
+
+/** A VRM of @pixiv/three-vrm, of which only these are used. */
+export interface VRMAvatar {
+  expressionManager?: any;
+  humanoid?: any;
+  meta?: any;
+}
+
+/**
+ * Sets the morph targets of a mesh or group of three.js whose names are those of ARKit (which are MediaPipe's), in any case and with _L and _R,
+ * or of Roblox. Controls that are not predicted count as 0. The names of an object are read once.
+ * @returns number of morph targets that were set
+ */
+export function applyToMorphs(root: Morphs, result: Pick<Result, 'controls'>): number;
+
+/**
+ * Sets the expressions of a VRM avatar, its presets or, if it has them, those with ARKit's names, and turns its head.
+ * Call vrm.update afterwards.
+ * @returns number of expressions that were set
+ */
+export function applyToVRM(vrm: VRMAvatar, result: Pick<Result, 'controls' | 'rotation'>): number;

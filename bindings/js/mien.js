@@ -6,6 +6,7 @@ import {Network} from './network.js';
 import {Tracker} from './tracker.js';
 import {Weights} from './weights.js';
 
+export {applyToMorphs, applyToVRM, controlsByName} from './avatars.js';
 export {MienError, Network, Tracker, Weights};
 
 const alignment = 64;  // MIEN_ALIGNMENT

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import {after, before, test} from 'node:test';
 import {controlNames} from '../avatar/avatar.js';
-import {makeDrivers} from '../src/model/names.js';
+import {makeDrivers} from '../../../bindings/js/drivers.js';
 import {headModel, vrmModel} from './models.mjs';
 import {openPage, openStudio, until} from './page.mjs';
 

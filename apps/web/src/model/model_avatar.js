@@ -4,7 +4,7 @@ import {
 } from 'three';
 import {GLTFLoader} from 'three/examples/jsm/loaders/GLTFLoader.js';
 import {VRMLoaderPlugin, VRMUtils} from '@pixiv/three-vrm';
-import {makeDrivers} from './names.js';
+import {makeDrivers} from '../../../../bindings/js/drivers.js';
 
 const gazeAngle = 0.485;  // radians of a control at 1
 

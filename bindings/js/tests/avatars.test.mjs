@@ -1,0 +1,69 @@
+// Results move avatars: minimal ones, and those of three.js and three-vrm if apps/web has installed them.
+import assert from 'node:assert/strict';
+import {readFileSync} from 'node:fs';
+import {test} from 'node:test';
+import {applyToMorphs, applyToVRM, controlNames, controlsByName} from '../avatars.js';
+
+const root = new URL('../../../', import.meta.url);
+const resultOf = (values, supportedControls = 2n ** 52n - 1n) => ({
+  controls: Float32Array.from(controlNames, name => values[name] ?? 0), supportedControls, rotation: Float32Array.of(0.1, 0.2, 0.3, 0.9)});
+
+function mesh(...names) {
+  const node = {morphTargetDictionary: Object.fromEntries(names.map((name, i) => [name, i])), morphTargetInfluences: names.map(() => 0.125)};
+  return {...node, traverse(visit) { visit({}); visit(this); }};
+}
+
+function vrmOf(names, metaVersion = '1') {
+  const values = {}, head = [];
+  return {values, head, meta: {metaVersion},
+          expressionManager: {expressions: names.map(expressionName => ({expressionName})), setValue(name, value) { values[name] = value; }},
+          humanoid: {getNormalizedBoneNode: bone => (bone === 'head' ? {quaternion: {set(...q) { head.splice(0, 4, ...q); }}} : null)}};
+}
+const near = (actual, expected) => expected.forEach((value, i) => assert.ok(Math.abs(actual[i] - value) < 1e-6, `${actual} is not ${expected}`));
+
+test('the names are those of mien.h, in its order', () => {
+  const header = readFileSync(new URL('include/mien/mien.h', root), 'utf8');
+  const constants = [...header.matchAll(/MIEN_CONTROL_(\w+) = \d+/g)].map(([, name]) => name);
+  assert.deepEqual(controlNames.map(name => name.replace(/[A-Z]/g, '_$&').toUpperCase()), constants);
+  assert.equal(constants.length, 52);
+});
+
+test('controls by name are the predicted ones', () => {
+  const named = controlsByName(resultOf({eyeBlinkLeft: 0.5, jawOpen: 1}, 0b101n));
+  assert.deepEqual(named, {eyeBlinkLeft: 0.5, eyeLookInLeft: 0});
+});
+
+test('morph targets follow by their names, and others stay', () => {
+  const face = mesh('Face.jawOpen', 'mouthSmile_L', 'JawDrop', 'hairLength');
+  assert.equal(applyToMorphs(face, resultOf({jawOpen: 0.5, mouthSmileLeft: 0.25})), 3);
+  near(face.morphTargetInfluences, [0.5, 0.25, 0.5, 0.125]);
+  applyToMorphs(face, resultOf({}));
+  near(face.morphTargetInfluences, [0, 0, 0, 0.125]);
+});
+
+test('a VRM follows by its presets or by ARKit names, and turns its head', () => {
+  const presets = vrmOf(['aa', 'blink', 'blinkLeft', 'blinkRight', 'custom']);
+  assert.equal(applyToVRM(presets, resultOf({eyeBlinkLeft: 1, jawOpen: 0.5})), 3);
+  assert.deepEqual(Object.keys(presets.values).sort(), ['aa', 'blinkLeft', 'blinkRight']);
+  assert.equal(presets.values.blinkLeft, 1);
+  assert.ok(presets.values.aa > 0.4);
+  near(presets.head, [0.1, 0.2, 0.3, 0.9]);
+  const older = vrmOf(['Blink_L', 'A'], '0');
+  assert.equal(applyToVRM(older, resultOf({eyeBlinkLeft: 1})), 2);
+  near(older.head, [-0.1, 0.2, -0.3, 0.9]);
+  const perfect = vrmOf(['aa', ...controlNames]);
+  assert.equal(applyToVRM(perfect, resultOf({jawOpen: 0.5})), 52);
+  assert.equal(perfect.values.aa, undefined);
+  assert.equal(perfect.values.jawOpen, 0.5);
+});
+
+const three = await import(new URL('apps/web/node_modules/three/build/three.module.js', root)).catch(() => null);
+test('a mesh of three.js follows', {skip: !three && 'three.js is not installed'}, () => {
+  const geometry = new three.BufferGeometry();
+  geometry.setAttribute('position', new three.Float32BufferAttribute([0, 0, 0], 3));
+  geometry.morphAttributes.position = ['jawOpen', 'other'].map(name => Object.assign(new three.Float32BufferAttribute([0, 1, 0], 3), {name}));
+  const group = new three.Group(), face = new three.Mesh(geometry);
+  group.add(face);
+  assert.equal(applyToMorphs(group, resultOf({jawOpen: 0.75})), 1);
+  near(face.morphTargetInfluences, [0.75, 0]);
+});
