@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Compiles the whole library for Android and iOS, whose SDKs are not at hand, with Zig's clang, and checks which functions the objects
-# import. Nothing runs. scripts/package/aar.sh and scripts/package/xcframework.sh pack the results.
+# import. Nothing runs. scripts/package/android.sh and scripts/package/xcframework.sh pack the results.
 # usage: scripts/cross/compile_only.sh [--full]      --full: also for the iOS simulator
 set -euo pipefail
 cd "$(dirname "$0")/../.."

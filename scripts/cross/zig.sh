@@ -73,14 +73,16 @@ single_file() {
   rm -rf "$folder"
 }
 
-universal() {  # of the two builds for macOS
+universal() {  # programs of both builds for macOS
   local file
   mkdir -p "$work/macos"
-  for file in apps/mien/mien apps/conformance/mien-conformance; do
+  for file; do
+    [ -f "$work/macos-arm64/$file" ] || continue
+    [ -f "$work/macos-x64/$file" ] || continue
     "$(llvm_tool llvm-lipo)" -create "$work/macos-arm64/$file" "$work/macos-x64/$file" -output "$work/macos/${file##*/}"
     scripts/cross/check_macho.py "$work/macos/${file##*/}" arm64 x86_64 --signed
+    echo "macos: ${file##*/}: universal program in build/zig/macos, linked, never run"
   done
-  echo "macos: universal programs in build/zig/macos, linked, never run"
 }
 
 if [ $full -eq 1 ]; then
@@ -103,6 +105,8 @@ for target in "${targets[@]}"; do
     echo "$target: linked and ran${emulator:+ under $emulator}: $built"
   fi
 done
-if [ $full -eq 1 ] && [ -f "$work/macos-arm64/apps/mien/mien" ] && [ -f "$work/macos-x64/apps/mien/mien" ]; then
-  universal
+if [[ " ${targets[*]}" == *" macos-"* ]]; then
+  files=(amalgamated.exe)
+  [ $full -eq 0 ] || files+=(apps/mien/mien apps/conformance/mien-conformance)
+  universal "${files[@]}"
 fi
