@@ -130,6 +130,12 @@ class Sizes(unittest.TestCase):
         table = page[page.index(sizes.BEGIN) + len(sizes.BEGIN):page.index(sizes.END)]
         self.assertEqual(sizes.written_table(sizes.read_table(table)), table)
 
+    def test_chosen_targets(self):
+        columns = {target: {} for target in sizes.TARGETS} | {"gcc": {"level 1": 1000}}
+        self.assertEqual(sizes.chosen([], columns, check=True), ["gcc"])
+        self.assertEqual(sizes.chosen([], columns, check=False), sizes.TARGETS)
+        self.assertEqual(sizes.chosen(["macos-x64"], columns, check=True), ["macos-x64"])
+
     def test_differences(self):
         self.assertEqual(list(sizes.differences("gcc", {"level 1": 1000}, {"level 1": 1009})), [])
         self.assertEqual(len(list(sizes.differences("gcc", {"level 1": 1000}, {"level 1": 1011}))), 1)
