@@ -94,7 +94,7 @@ class Base:
         return self._sources[output]
 
     def compile_command(self, output):
-        """Without where the source is and where the object goes."""
+        """The compile command without the paths of the source and the object."""
         words = shlex.split(self._commands[output])
         words = words[1:] if words[0].endswith("ccache") else words
         end = words.index("-MD") if "-MD" in words else words.index("-o")

@@ -1,5 +1,5 @@
-"""Graphs of what networks exported today have: products of two results, curves, maps in another size, heads. Answers
-are numpy's."""
+"""Graphs with patterns of recent networks: products of two results, nonlinear functions, resized maps, attention heads.
+numpy_graph computes the expected outputs."""
 import numpy as np
 import numpy_graph
 from onnx import TensorProto, helper

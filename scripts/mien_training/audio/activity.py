@@ -21,7 +21,7 @@ def bridged(active):
 
 
 def of_windows(sound):
-    """bool [windows]"""
+    """Whether each window has speech, bool [windows]."""
     windows = np.float32(sound[:len(sound) // WINDOW * WINDOW]).reshape(-1, WINDOW)
     if not len(windows):
         return np.zeros(0, bool)

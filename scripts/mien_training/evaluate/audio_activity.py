@@ -48,10 +48,11 @@ def by_ratio(model):
             scores.append(alpha)
             truth.append(activity.at(active, times))
         scores, truth = np.concatenate(scores), np.concatenate(truth)
-        said = scores > 0.5
+        predicted = scores > 0.5
         report["clean" if ratio is None else ratio] = {
-            "accuracy": float((said == truth).mean()), "area": float(metrics.area_under_roc(scores, truth)),
-            "found": float(said[truth].mean()), "false": float(said[~truth].mean()), "roc": roc(scores, truth)}
+            "accuracy": float((predicted == truth).mean()), "area": float(metrics.area_under_roc(scores, truth)),
+            "found": float(predicted[truth].mean()), "false": float(predicted[~truth].mean()),
+            "roc": roc(scores, truth)}
     return report
 
 

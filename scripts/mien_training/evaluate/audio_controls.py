@@ -30,11 +30,11 @@ def correlation(a, b):
     return float(np.corrcoef(a, b)[0, 1]) if a.std() > 1e-6 and b.std() > 1e-6 else float("nan")
 
 
-def best_lag(said, truth):
+def best_lag(predicted, truth):
     """Delay of the output in frames at the best correlation over all clips."""
     def at(lag):
         pairs = [(s[max(lag, 0):len(s) + min(lag, 0)], t[max(-lag, 0):len(t) + min(-lag, 0)])
-                 for s, t in zip(said, truth)]
+                 for s, t in zip(predicted, truth)]
         return correlation(*(np.concatenate(p) for p in zip(*pairs)))
     return max(LAGS, key=at)
 
@@ -87,33 +87,34 @@ def clip_path(name):
 def of_clips(model, others):
     """jawOpen of each clip compared with the teacher's."""
     report = {}
-    for name, (said, truth) in others.items():
+    for name, (predicted, truth) in others.items():
         seconds = np.load(data() / f"clips/{name}.mediapipe.npz")["t_ms"] / 1000
         jaw, right = truth[:, INDEX["jawOpen"]], from_right_phonemes(model, name, seconds)
-        report[name] = {"said": correlation(said[:, INDEX["jawOpen"]], jaw),
-                        "lag": best_lag([said[:, INDEX["jawOpen"]]], [jaw]),
+        report[name] = {"said": correlation(predicted[:, INDEX["jawOpen"]], jaw),
+                        "lag": best_lag([predicted[:, INDEX["jawOpen"]]], [jaw]),
                         "right phonemes": float("nan") if right is None else correlation(right, jaw)}
     return report
 
 
 def measure(model):
     others = other_clips(model) if model.split == "test" else {}
-    said = list(spoken_phonemes(model))
+    predicted = list(spoken_phonemes(model))
     return {"held-out clips": agreement(held_clips(model)),
             "other people": agreement(list(others.values()) or held_clips(model, "people")),
-            "clips": of_clips(model, others), "lips": lips(said), "strength": strength(said), "spread": spread(model)}
+            "clips": of_clips(model, others), "lips": lips(predicted),
+            "strength": strength(predicted), "spread": spread(model)}
 
 
 def agreement(pairs):
     """Per control: correlation over all frames, the mean of the clips' own, and the lag."""
-    said, truth = zip(*pairs)
+    predicted, truth = zip(*pairs)
     report = {}
     for c in COMPARED:
         i = INDEX[c]
         own = [correlation(s[:, i], t[:, i]) for s, t in pairs]
-        report[c] = {"all frames": correlation(np.concatenate(said)[:, i], np.concatenate(truth)[:, i]),
+        report[c] = {"all frames": correlation(np.concatenate(predicted)[:, i], np.concatenate(truth)[:, i]),
                      "mean of clips": float(np.nanmean(own)),
-                     "lag": best_lag([s[:, i] for s in said], [t[:, i] for t in truth])}
+                     "lag": best_lag([s[:, i] for s in predicted], [t[:, i] for t in truth])}
     return report
 
 
@@ -123,26 +124,27 @@ def spoken_phonemes(model, most=None):
     for sound in group.of(model.split)[:most]:
         times, controls, _ = model(
             np.concatenate([np.float32(group.samples(sound)) / 32768, np.zeros(4000, np.float32)]))
-        said = spoken[sound.name]
-        for label, a, b in zip(said.labels, said.starts, [*said.starts[1:], said.end]):
+        predicted = spoken[sound.name]
+        for label, a, b in zip(predicted.labels, predicted.starts, [*predicted.starts[1:], predicted.end]):
             yield label, controls[np.abs(times - (a + b) / 2) <= NEAR]
 
 
-def lips(said):
+def lips(predicted):
     """Shares of p, b and m with closed lips at their centre, of open vowels with an open jaw, and of rounded lips.
-    `said`: a list of results of spoken_phonemes."""
-    most = lambda name, chosen: [controls[:, INDEX[name]].max() for label, controls in said if label in chosen]
+    `predicted`: a list of results of spoken_phonemes."""
+    most = lambda name, chosen: [controls[:, INDEX[name]].max() for label, controls in predicted if label in chosen]
     closed = [bool(((c[:, INDEX["jawOpen"]] < CLOSED_JAW) | (c[:, INDEX["mouthClose"]] > CLOSE)).any())
-              for label, c in said if label in phonemes.BILABIALS]
+              for label, c in predicted if label in phonemes.BILABIALS]
     return {"closed for p b m": float(np.mean(closed)), "count": len(closed),
             "open for aa ae": float(np.mean(np.array(most("jawOpen", OPEN_VOWELS)) > CLOSED_JAW)),
             "rounded for uw w": float(np.mean(np.array(most("mouthPucker", ROUNDED)) > ROUND))}
 
 
-def strength(said):
+def strength(predicted):
     """95th percentiles of the controls of the mouth where they are expected."""
     where = {"jawOpen": OPEN_VOWELS, "mouthPucker": ROUNDED, "mouthFunnel": FUNNELLED}
-    of = lambda name: np.concatenate([controls[:, INDEX[name]] for label, controls in said if label in where[name]])
+    of = lambda name: np.concatenate([controls[:, INDEX[name]] for label, controls in predicted
+                                      if label in where[name]])
     return {name: float(np.percentile(of(name), 95)) for name in where}
 
 

@@ -19,15 +19,15 @@ DRAWS = 200           # of mismatched audio, for each clip
 MISMATCHED = ("chance", "chance, 95th percentile")
 
 
-def shifted(said, truth, lag):
-    """Correlation with `said` moved back by `lag` frames."""
+def shifted(predicted, truth, lag):
+    """Correlation with `predicted` moved back by `lag` frames."""
     late, early = max(lag, 0), max(-lag, 0)
-    return audio_controls.correlation(said[late:len(said) - early], truth[early:len(truth) - late])
+    return audio_controls.correlation(predicted[late:len(predicted) - early], truth[early:len(truth) - late])
 
 
-def best(said, truth):
+def best(predicted, truth):
     """(correlation, lag) at the lag where the curves agree best."""
-    return max((shifted(said, truth, lag), lag) for lag in LAGS)
+    return max((shifted(predicted, truth, lag), lag) for lag in LAGS)
 
 
 def mismatched(rng, others, count):
@@ -36,13 +36,13 @@ def mismatched(rng, others, count):
     return np.concatenate(parts)[:count]
 
 
-def beside_chance(said, truth, others, seed=1):
+def beside_chance(predicted, truth, others, seed=1):
     """Figures of one clip; `others`: outputs for the audio of other clips."""
     rng = np.random.default_rng(seed)
     chance = np.array([best(mismatched(rng, others, len(truth)), truth)[0] for _ in range(DRAWS)])
-    value, lag = best(said, truth)
+    value, lag = best(predicted, truth)
     figures = dict(zip(MISMATCHED, (float(chance.mean()), float(np.percentile(chance, 95)))))
-    return figures | {"lag 0": shifted(said, truth, 0), "best": value, "lag": lag,
+    return figures | {"lag 0": shifted(predicted, truth, 0), "best": value, "lag": lag,
                       "chance above": float((chance >= value).mean())}
 
 
@@ -61,13 +61,14 @@ def mean_of(correlations):
 
 
 def measure(model):
-    pairs = {name: (said[:, JAW], truth[:, JAW]) for name, (said, truth) in audio_controls.other_clips(model).items()}
+    pairs = {name: (predicted[:, JAW], truth[:, JAW])
+             for name, (predicted, truth) in audio_controls.other_clips(model).items()}
     speakers = {who: list(speaker_clips(model, who)) for who in jaw_data.TEST_SPEAKERS}
-    pool = [said for rows in speakers.values() for said, _ in rows]
+    pool = [predicted for rows in speakers.values() for predicted, _ in rows]
     clips = {}
-    for name, (said, truth) in pairs.items():
+    for name, (predicted, truth) in pairs.items():
         others = [pair[0] for other, pair in pairs.items() if other != name]
-        clips[name] = beside_chance(said, truth, pool + others)
+        clips[name] = beside_chance(predicted, truth, pool + others)
     means = {who: mean_of([shifted(*row, 0) for row in rows]) for who, rows in speakers.items()}
     grid = [row["lag 0"] for name, row in clips.items() if name.startswith("grid_")]
     return {"speakers": means | {"GRID clips of the evaluation": mean_of(grid)}, "clips": clips}

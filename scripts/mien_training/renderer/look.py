@@ -12,10 +12,10 @@ DARK, GREY = slice(0, 3), slice(6, 8)
 IDENTITY_SPREAD = 0.75  # standard deviation of identity coefficients
 LIGHT_SKIN, DARK_SKIN = np.array([0.55, 0.30, 0.21]), np.array([0.14, 0.06, 0.035])  # linear
 PHOTOGRAPHED = 0.65  # share of training faces with the skin of a portrait
-# of their skins among these; 1 of the others
+# Relative frequency of these portraits' skins; 1 for the others.
 GROUP_SHARE = {"members of Congress": 1.5, "sfhq": 1.5, "cc0": 0.5, "GRID": 0.2}
-# Mean log lightness on top of the pack's skin that a portrait's goes over to: that one is pale or dark, people are
-# everything between.
+# Mean log lightness added to the skin of the pack that continues a portrait's skin: the pack has only pale and dark
+# skins.
 GROUP_LIGHTNESS = {"Indian": -0.5, "Southeast Asian": -0.35, "Latino Hispanic": -0.3, "Middle Eastern": -0.2,
                    "East Asian": -0.05}
 DARK_HAIRED = ("Indian", "Southeast Asian", "East Asian", "Middle Eastern", "Black", "Latino Hispanic")
