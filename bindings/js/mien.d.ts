@@ -183,12 +183,12 @@ export function loadMien(source: string | URL | Response | Bytes | WebAssembly.M
 /** The controls that the level of detail predicts, by name. */
 export function controlsByName(result: Pick<Result, 'controls' | 'supportedControls'>): Partial<Record<ControlName, number>>;
 
-/** An Object3D of three.js, of which only these are used. */
+/** An Object3D of three.js: the members that are used. */
 export interface Morphs {
   traverse(visit: (node: any) => void): void;
 }
 
-/** A VRM of @pixiv/three-vrm, of which only these are used. */
+/** A VRM of @pixiv/three-vrm: the members that are used. */
 export interface VRMAvatar {
   expressionManager?: any;
   humanoid?: any;

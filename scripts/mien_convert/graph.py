@@ -132,8 +132,7 @@ class Conversion:
                 require(all(value is not None for value in made.values()), "an input is missing")
                 self.room -= sum(map(size, made.values()))
                 require(self.room >= 0,
-                        f"all tensors up to here: at most {MAX_TOTAL_NUMBERS} numbers; a smaller --shape and "
-                        "--any-size may do")
+                        f"all tensors so far: at most {MAX_TOTAL_NUMBERS} numbers; reduce --shape or try --any-size")
             except MemoryError as error:
                 raise Refused(f"{node.name}: it takes more memory than there is", count) from error
             except Refused as refusal:

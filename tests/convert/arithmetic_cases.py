@@ -1,4 +1,4 @@
-"""Graphs with patterns of recent networks: products of two results, nonlinear functions, resized maps, attention heads.
+"""Graphs with patterns of recent networks: products of two results, activations, resized maps, attention heads.
 numpy_graph computes the expected outputs."""
 import numpy as np
 import numpy_graph

@@ -1,7 +1,7 @@
 """Labels portraits with the teacher, six times each: the mean is the label, the scatter says how far to trust it.
 
 usage: python3 -m mien_training.data.label_portraits PACK [--kinds KIND...] [--minutes M]
-Needs PyPI's mediapipe and $MIEN_CACHE/PACK/img, the pictures that $MIEN_DATA/PACK/faces.npz names. Writes
+Needs PyPI's mediapipe and $MIEN_CACHE/PACK/img, the images that $MIEN_DATA/PACK/faces.npz names. Writes
 $MIEN_CACHE/PACK/labels.npz, with the fields of the packs' own labels, and landmark_scatter [n], the mean distance of
 the views' landmarks from their mean as a share of the distance between the pupils, control_scatter [n,52], and views
 [n], of six, in which the teacher found a face. Keeps what an earlier run labelled; a face needs at least three views
@@ -29,7 +29,7 @@ FLIP = np.diag([-1.0, 1, 1])
 
 
 def view(rng, mirrored, size):
-    """An affine map [2,3] from the picture to a view of it, of the same size, and its angle in radians."""
+    """An affine map [2,3] from the image to a view of it, of the same size, and its angle in radians."""
     angle = 0 if mirrored else np.radians(rng.uniform(-7, 7))
     scale = rng.uniform(0.93, 1.07)
     turn = scale * np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
@@ -41,7 +41,7 @@ def view(rng, mirrored, size):
 
 
 def bordered(picture):
-    """The picture on a border that continues it, blurred."""
+    """The image on a border that continues it, blurred."""
     margin = int(BORDER * picture.shape[0])
     out = cv2.copyMakeBorder(picture, *[margin] * 4, cv2.BORDER_REPLICATE)
     soft = cv2.GaussianBlur(out, (0, 0), margin / 4)
@@ -50,7 +50,7 @@ def bordered(picture):
 
 
 def answers(ask, picture, rng):
-    """Of each view with a face, in terms of the picture: landmarks [175,2] pixels, controls [52], matrix [4,4]."""
+    """Of each view with a face, in terms of the image: landmarks [175,2] pixels, controls [52], matrix [4,4]."""
     wide, margin = bordered(picture)
     size = np.array(wide.shape[1::-1], float)
     found = []
@@ -74,7 +74,7 @@ def answers(ask, picture, rng):
 
 
 def label(found, size, height_of_view):
-    """Means and scatters of the answers about one picture; its camera sees less than the views' camera."""
+    """Means and scatters of the answers about one image; its camera sees less than the views' camera."""
     points, controls, poses = (np.stack(values) for values in zip(*found))
     mean = points.mean(0)
     pupils = np.linalg.norm(mean[PUPILS[0]] - mean[PUPILS[1]])

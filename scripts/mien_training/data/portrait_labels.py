@@ -1,6 +1,6 @@
 """Portraits of the packs `faces`, `faces_wild` and `faces_more`: the teacher's labels, and splits.
 
-`faces_more` names pictures of a public data set; $MIEN_CACHE/faces_more has them and their labels (label_portraits.py).
+`faces_more` names images of a public data set; $MIEN_CACHE/faces_more has them and their labels (label_portraits.py).
 
 A hash of the name holds out 12 % for test and 5 % for validation; of GRID, whose frames show few people, by speaker.
 People who are held out under another name are not used for training (portrait_duplicates.py).
