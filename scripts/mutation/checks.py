@@ -32,8 +32,7 @@ API = [program("api", "api_test"), program("api", "api_stack_test")]
 AUDIO = program("audio", "audio_test")
 GEOMETRY = program("tracker", "tracker_geometry_test")
 TRACKER = program("tracker", "tracker_test")
-TRACKER_TESTS = [program("tracker", f"tracker_{name}_test")
-                 for name in ("threads", "allocation", "scenario", "trained")]
+TRACKER_TESTS = [program("tracker", f"tracker_{n}_test") for n in ("threads", "allocation", "scenario", "trained")]
 COMPARE = program("apps", "compare_test")
 CONVERT = Check("mien_program", "apps/mien/mien", "tests/apps/convert_test.py", (FRAMES,))
 CONVERT_GLTF = Check("mien_program", "apps/mien/mien", "tests/apps/convert_gltf_test.py", (FRAMES,))

@@ -48,11 +48,10 @@ def by_ratio(model):
             scores.append(alpha)
             truth.append(activity.at(active, times))
         scores, truth = np.concatenate(scores), np.concatenate(truth)
-        predicted = scores > 0.5
+        active = scores > 0.5
         report["clean" if ratio is None else ratio] = {
-            "accuracy": float((predicted == truth).mean()), "area": float(metrics.area_under_roc(scores, truth)),
-            "found": float(predicted[truth].mean()), "false": float(predicted[~truth].mean()),
-            "roc": roc(scores, truth)}
+            "accuracy": float((active == truth).mean()), "area": float(metrics.area_under_roc(scores, truth)),
+            "found": float(active[truth].mean()), "false": float(active[~truth].mean()), "roc": roc(scores, truth)}
     return report
 
 

@@ -143,8 +143,7 @@ def lips(predicted):
 def strength(predicted):
     """95th percentiles of the controls of the mouth where they are expected."""
     where = {"jawOpen": OPEN_VOWELS, "mouthPucker": ROUNDED, "mouthFunnel": FUNNELLED}
-    of = lambda name: np.concatenate([controls[:, INDEX[name]] for label, controls in predicted
-                                      if label in where[name]])
+    of = lambda name: np.concatenate([c[:, INDEX[name]] for label, c in predicted if label in where[name]])
     return {name: float(np.percentile(of(name), 95)) for name in where}
 
 

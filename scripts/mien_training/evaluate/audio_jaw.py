@@ -61,8 +61,7 @@ def mean_of(correlations):
 
 
 def measure(model):
-    pairs = {name: (predicted[:, JAW], truth[:, JAW])
-             for name, (predicted, truth) in audio_controls.other_clips(model).items()}
+    pairs = {name: (p[:, JAW], truth[:, JAW]) for name, (p, truth) in audio_controls.other_clips(model).items()}
     speakers = {who: list(speaker_clips(model, who)) for who in jaw_data.TEST_SPEAKERS}
     pool = [predicted for rows in speakers.values() for predicted, _ in rows]
     clips = {}

@@ -123,9 +123,8 @@ def deviation_of(layer, parts):
 
 def correlation(layer, renders):
     """Correlation of the predictions with the truth on renders, [52]."""
-    predicted, truth = (x - x.mean(0) for x in (output_controls(renders.hidden @ layer.T), renders.controls))
-    return (predicted * truth).mean(0) / (
-        predicted.square().mean(0) * truth.square().mean(0)).sqrt().clamp(min=SMALLEST ** 2)
+    ours, truth = (x - x.mean(0) for x in (output_controls(renders.hidden @ layer.T), renders.controls))
+    return (ours * truth).mean(0) / (ours.square().mean(0) * truth.square().mean(0)).sqrt().clamp(min=SMALLEST ** 2)
 
 
 def gains(layer, renders, rest, most):
