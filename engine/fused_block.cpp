@@ -76,7 +76,7 @@ bool uses_half_precision(std::uint32_t cpu_mask) {
 bool quantizes_weights(std::uint32_t cpu_mask) {
   const kernels::Entry* fused =
       kernels::find_entry(kernels::InvertedResidualArgs::kFamily, cpu_mask);
-  return fused != nullptr && fused->tier == kernels::Tier::kAvx512Vnni;
+  return fused != nullptr && kernels::is_quantized(fused->tier);
 }
 
 std::size_t quantized_weights_bytes(std::int32_t in_c, std::int32_t out_c) {

@@ -41,6 +41,12 @@ std::uint32_t ask_cpu() {
   const X86Features x86 = x86_features();
   mask |= x86.avx2 ? bit(Tier::kAvx2) : 0u;
 #endif
+#ifdef MIEN_HAVE_AVX2INT16
+  mask |= x86.avx2 ? bit(Tier::kAvx2Int16) : 0u;
+#endif
+#ifdef MIEN_HAVE_AVXVNNI
+  mask |= x86.avxvnni ? bit(Tier::kAvxVnni) : 0u;
+#endif
 #ifdef MIEN_HAVE_AVX512
   mask |= x86.avx512 ? bit(Tier::kAvx512) : 0u;
 #endif

@@ -17,6 +17,8 @@ constexpr Tier neon32 [[maybe_unused]] = Tier::kNeon32;
 constexpr Tier wasm [[maybe_unused]] = Tier::kWasm;
 constexpr Tier avx512fp16 [[maybe_unused]] = Tier::kAvx512Fp16;
 constexpr Tier avx512vnni [[maybe_unused]] = Tier::kAvx512Vnni;
+constexpr Tier avx2int16 [[maybe_unused]] = Tier::kAvx2Int16;
+constexpr Tier avxvnni [[maybe_unused]] = Tier::kAvxVnni;
 }  // namespace tier_of
 
 const Entry* entries(std::size_t& count) {

@@ -23,6 +23,10 @@ const char* name(Tier tier) {
       return "avx512fp16";
     case Tier::kAvx512Vnni:
       return "avx512vnni";
+    case Tier::kAvx2Int16:
+      return "avx2int16";
+    case Tier::kAvxVnni:
+      return "avxvnni";
   }
   return nullptr;
 }

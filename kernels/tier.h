@@ -16,35 +16,48 @@ enum class Tier : std::uint32_t {
   kWasm = 6,
   kAvx512Fp16 = 7,
   kAvx512Vnni = 8,
+  kAvx2Int16 = 9,
+  kAvxVnni = 10,
 };
-inline constexpr std::uint32_t kTierCount = 9;
+inline constexpr std::uint32_t kTierCount = 11;
 
 [[nodiscard]] constexpr std::uint32_t bit(Tier tier) {
   return 1u << static_cast<std::uint32_t>(tier);
 }
 
+// Tiers that multiply 16-bit integers in fused blocks.
+inline constexpr std::uint32_t kQuantizedTiers =
+    bit(Tier::kAvx512Vnni) | bit(Tier::kAvx2Int16) | bit(Tier::kAvxVnni);
+[[nodiscard]] constexpr bool is_quantized(Tier tier) { return (kQuantizedTiers & bit(tier)) != 0; }
+
 // Tiers that use half precision in fused blocks: fp16, where values beyond 65504 become infinite,
 // or quantized integers.
 inline constexpr std::uint32_t kHalfTiers =
-    bit(Tier::kNeonFp16) | bit(Tier::kAvx512Fp16) | bit(Tier::kAvx512Vnni);
+    bit(Tier::kNeonFp16) | bit(Tier::kAvx512Fp16) | kQuantizedTiers;
 [[nodiscard]] constexpr bool is_half(Tier tier) { return (kHalfTiers & bit(tier)) != 0; }
 
 // The bit of the CPU mask that allows fused blocks; it is not a tier.
 inline constexpr std::uint32_t kFusedBlocks = 1u << 31;
 
-// Greater for the better of two tiers. kAvx512Vnni has the largest value but ranks below
-// kAvx512Fp16, because every CPU with AVX-512 FP16 also has VNNI.
+// Greater for the better of two tiers. Values are in order of publication; quantized tiers rank
+// just above the fp32 tier that they extend. kAvx512Fp16 ranks above kAvx512Vnni, because every CPU
+// with AVX-512 FP16 also has VNNI.
 [[nodiscard]] constexpr std::uint32_t rank(Tier tier) {
-  return tier == Tier::kAvx512Vnni ? 2 * static_cast<std::uint32_t>(Tier::kAvx512) + 1
-                                   : 2 * static_cast<std::uint32_t>(tier);
+  const auto above = [](Tier base, std::uint32_t steps) {
+    return 4 * static_cast<std::uint32_t>(base) + steps;
+  };
+  return tier == Tier::kAvx2Int16    ? above(Tier::kAvx2, 1)
+         : tier == Tier::kAvxVnni    ? above(Tier::kAvx2, 2)
+         : tier == Tier::kAvx512Vnni ? above(Tier::kAvx512, 1)
+                                     : above(tier, 0);
 }
 
-// A tier and all tiers of lower rank, which supply the kernels that the tier lacks.
+// A tier and all fp32 tiers of lower rank, which supply the kernels that the tier lacks.
 [[nodiscard]] constexpr std::uint32_t up_to(Tier tier) {
-  std::uint32_t mask = 0;
+  std::uint32_t mask = bit(tier);
   for (std::uint32_t i = 0; i < kTierCount; ++i) {
     const auto one = static_cast<Tier>(i);
-    mask |= rank(one) <= rank(tier) ? bit(one) : 0;
+    mask |= rank(one) < rank(tier) && !is_half(one) ? bit(one) : 0;
   }
   return mask;
 }

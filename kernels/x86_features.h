@@ -16,6 +16,7 @@ struct X86Features {
   bool avx512 = false;      // F, BW, DQ, VL, and avx2
   bool avx512fp16 = false;  // implies avx512
   bool avx512vnni = false;  // implies avx512
+  bool avxvnni = false;     // implies avx2
 };
 
 // The register sets that the operating system saves. Requires OSXSAVE. Inline assembly, because the
@@ -53,6 +54,8 @@ inline X86Features x86_features() {
   features.avx512 = features.avx2 && saves_all && all_set(ebx, 16, 17, 30, 31);  // F, DQ, BW, VL
   features.avx512fp16 = features.avx512 && all_set(edx, 23);
   features.avx512vnni = features.avx512 && all_set(ecx, 11);
+  const bool has_subleaf = eax >= 1 && __get_cpuid_count(7, 1, &eax, &ebx, &ecx, &edx) != 0;
+  features.avxvnni = features.avx2 && has_subleaf && all_set(eax, 4);
   return features;
 }
 

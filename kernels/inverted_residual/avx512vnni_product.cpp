@@ -1,10 +1,13 @@
 // Register tiles of up to 13 pixels x 2 panels, 9 x 3 or 6 x 4, as in avx512_product.cpp, with two
 // elements of the sum in each lane. A last panel of 8 takes four elements at once, two in the even
 // lanes and two in the odd.
+//
+// A tile only leaves integer sums; loops shared by tiles of all sizes convert them, because that
+// needs a fifth of the code.
 #include <algorithm>
 
 #include "kernels/common/avx512.h"
-#include "kernels/common/product_spot.h"
+#include "kernels/common/pixel_pointer.h"
 #include "kernels/common/product_sums.h"
 #include "kernels/common/sized_tile.h"
 #include "kernels/inverted_residual/quantized_product.h"
@@ -18,97 +21,11 @@ using avx512::Vec;
 using Sum = __m512i;
 
 constexpr std::int32_t kPairElems = 2 * kPanel;  // weights per vector
+constexpr int kMaxSums = 27;                     // of a tile
 
-// Output positions of a tile. Each tile has its own copy, which stores cannot alias.
-
-// Rows of a strip: panels of 16 floats, without residual.
-class StripRows {
- public:
-  StripRows(const ProductArgs& to, std::int32_t panel, std::int32_t pixel)
-      : y_(to.y + Cursor(to.y_rows, pixel).at(panel)),
-        panel_(to.y_rows.panel_elems),
-        gap_(to.y_rows.row_gap_elems),
-        column_(pixel % to.y_rows.row_pixels),
-        columns_(to.y_rows.row_pixels) {}
-
-  void store(int v, Vec value) const { _mm512_storeu_ps(y_ + v * panel_, value); }
-  void store_half(__m256 value) const { _mm256_storeu_ps(y_, value); }
-  void advance() {
-    y_ += kPanel;
-    if (++column_ == columns_) {
-      column_ = 0;
-      y_ += gap_;
-    }
-  }
-
- private:
-  float* y_;
-  std::ptrdiff_t panel_, gap_;
-  std::int32_t column_, columns_;
-};
-
-// Contiguous rows of pixels of a map, with an optional residual.
-class MapRows {
- public:
-  MapRows(const ProductArgs& to, std::int32_t panel, std::int32_t pixel)
-      : y_(to.y + panel * to.y_rows.panel_elems + std::ptrdiff_t{pixel} * kBlock),
-        half_(to.y_rows.half_elems),
-        panel_(to.y_rows.panel_elems) {
-    if (to.residual != nullptr) {
-      const PixelRows& rows = to.residual_rows;
-      residual_ = to.residual + Cursor(rows, pixel).at(panel);
-      residual_half_ = rows.half_elems;
-      residual_panel_ = rows.panel_elems;
-      gap_ = rows.row_gap_elems;
-      column_ = pixel % rows.row_pixels;
-      columns_ = rows.row_pixels;
-    }
-  }
-
-  void store(int v, Vec value) const {
-    if (residual_ != nullptr) {
-      value = _mm512_add_ps(
-          value, avx512::load_blocks(residual_ + v * residual_panel_, residual_half_, true));
-    }
-    avx512::store_blocks(y_ + v * panel_, half_, true, value);
-  }
-  void store_half(__m256 value) const {
-    if (residual_ != nullptr) {
-      value = _mm256_add_ps(value, _mm256_loadu_ps(residual_));
-    }
-    _mm256_storeu_ps(y_, value);
-  }
-  void advance() {
-    y_ += kBlock;
-    if (residual_ != nullptr) {
-      residual_ += kBlock;
-      if (++column_ == columns_) {
-        column_ = 0;
-        residual_ += gap_;
-      }
-    }
-  }
-
- private:
-  float* y_;
-  std::ptrdiff_t half_, panel_;
-  const float* residual_ = nullptr;
-  std::ptrdiff_t residual_half_ = 0, residual_panel_ = 0, gap_ = 0;
-  std::int32_t column_ = 0, columns_ = 0;
-};
-
-// Position of a tile: a panel and a pixel. Each tile advances it past its own pixels.
-template <class Rows>
-struct QuantizedSpot {
-  QuantizedSpot(const QuantizedProduct& product, std::int32_t first_panel, std::int32_t pixel)
-      : a(product),
-        panel(first_panel),
-        x(product.values + std::ptrdiff_t{pixel} * kBlock),
-        to(product.to, first_panel, pixel) {}
-  const QuantizedProduct& a;
-  std::int32_t panel;
-  const std::int16_t* x;
-  Rows to;
+// Aligned, because stores that cross cache lines are slow.
+struct alignas(64) Sums {
+  std::int32_t of[kMaxSums][kPanel];  // [pixel][panel][16]
 };
 
 // Broadcasts 1 pair to every lane, or 2 pairs to every two lanes.
@@ -131,7 +48,7 @@ __m256i sums_of_two(Sum v) {
   return _mm512_cvtepi64_epi32(v);
 }
 
-// Converts integer sums to results.
+// Scales and clamps the sums of kVecs panels.
 template <int kVecs>
 struct Finish {
   Vec low, high, scale[kVecs], bias[kVecs];
@@ -144,10 +61,19 @@ struct Finish {
       bias[v] = avx512::load_half(a.to.bias + channel);
     }
   }
-  template <class Rows>
-  void store(const Rows& to, int v, Sum sum) const {
-    const Vec y = _mm512_fmadd_ps(_mm512_cvtepi32_ps(sum), scale[v], bias[v]);
-    to.store(v, _mm512_min_ps(high, _mm512_max_ps(low, y)));
+  template <bool kResidual>
+  void store(const Sums& sums, std::int32_t pixel, const PixelPointer<float>& to,
+             const PixelPointer<const float>& residual) const {
+    for (int v = 0; v < kVecs; ++v) {
+      const Sum sum = _mm512_loadu_si512(sums.of[pixel * kVecs + v]);
+      Vec y = _mm512_fmadd_ps(_mm512_cvtepi32_ps(sum), scale[v], bias[v]);
+      y = _mm512_min_ps(high, _mm512_max_ps(low, y));
+      if constexpr (kResidual) {
+        y = _mm512_add_ps(
+            y, avx512::load_blocks(residual.at + v * residual.panel, residual.half, true));
+      }
+      avx512::store_blocks(to.at + v * to.panel, to.half, true, y);
+    }
   }
 };
 
@@ -161,21 +87,46 @@ struct HalfFinish {
     scale = _mm256_mul_ps(_mm256_loadu_ps(a.scales + channel), _mm256_set1_ps(a.x_scale));
     bias = _mm512_castps512_ps256(avx512::load_half(a.to.bias + channel, 0xFF));
   }
-  template <class Rows>
-  void store(const Rows& to, int, Sum sum) const {
-    const __m256 y = _mm256_fmadd_ps(_mm256_cvtepi32_ps(sums_of_two(sum)), scale, bias);
-    to.store_half(_mm256_min_ps(high, _mm256_max_ps(low, y)));
+  template <bool kResidual>
+  void store(const Sums& sums, std::int32_t pixel, const PixelPointer<float>& to,
+             const PixelPointer<const float>& residual) const {
+    const __m256i sum = sums_of_two(_mm512_loadu_si512(sums.of[pixel]));
+    __m256 y = _mm256_fmadd_ps(_mm256_cvtepi32_ps(sum), scale, bias);
+    y = _mm256_min_ps(high, _mm256_max_ps(low, y));
+    if constexpr (kResidual) {
+      y = _mm256_add_ps(y, _mm256_loadu_ps(residual.at));
+    }
+    _mm256_storeu_ps(to.at, y);
   }
 };
 
+template <class Finish, bool kResidual>
+void convert(const Finish& by, const Sums& sums, std::int32_t pixels, PixelPointer<float>& y,
+             PixelPointer<const float>& residual) {
+  const Finish finish = by;
+  PixelPointer<float> to = y;
+  PixelPointer<const float> r = residual;
+  for (std::int32_t p = 0; p < pixels; ++p, to.advance()) {
+    finish.template store<kResidual>(sums, p, to, r);
+    if constexpr (kResidual) {
+      r.advance();
+    }
+  }
+  y = to;
+  residual = r;
+}
+
+using Run = void (*)(const QuantizedProduct&, const std::int16_t* x, const std::int16_t* w, Sums&);
+
 // Adds kCount pairs at once.
-template <int kPixels, int kVecs, int kCount, class Finish, class Rows>
-void multiply(QuantizedSpot<Rows>& s, const std::int16_t* w) {
+template <int kPixels, int kVecs, int kCount>
+void sums_of(const QuantizedProduct& a, const std::int16_t* x, const std::int16_t* w, Sums& to) {
+  static_assert(kPixels * kVecs <= kMaxSums);
   constexpr int kStep = 2 * kCount;
-  constexpr int kSums = std::min(partial_sums(kPixels * kVecs), kBlock / kStep);
-  const std::ptrdiff_t panel = std::ptrdiff_t{s.a.to.in_blocks} * kBlock * kPanel;
-  Sum sum[kSums][kPixels][kVecs];
-  for (int k = 0; k < kSums; ++k) {
+  constexpr int kAtOnce = std::min(partial_sums(kPixels * kVecs), kBlock / kStep);
+  const std::ptrdiff_t panel = std::ptrdiff_t{a.to.in_blocks} * kBlock * kPanel;
+  Sum sum[kAtOnce][kPixels][kVecs];
+  for (int k = 0; k < kAtOnce; ++k) {
 #pragma GCC unroll 16
     for (int p = 0; p < kPixels; ++p) {
       for (int v = 0; v < kVecs; ++v) {
@@ -183,12 +134,11 @@ void multiply(QuantizedSpot<Rows>& s, const std::int16_t* w) {
       }
     }
   }
-  const std::int16_t* x = s.x;
-  std::int32_t left = s.a.to.in_blocks;
+  std::int32_t left = a.to.in_blocks;
   do {
 #pragma GCC unroll 1
-    for (int lane = 0; lane < kBlock; lane += kStep * kSums) {
-      for (int k = 0; k < kSums; ++k, w += kPairElems) {
+    for (int lane = 0; lane < kBlock; lane += kStep * kAtOnce) {
+      for (int k = 0; k < kAtOnce; ++k, w += kPairElems) {
         Sum weight[kVecs];
         for (int v = 0; v < kVecs; ++v) {
           weight[v] = _mm512_loadu_si512(w + v * panel);
@@ -202,100 +152,79 @@ void multiply(QuantizedSpot<Rows>& s, const std::int16_t* w) {
         }
       }
     }
-    x += s.a.plane_elems;
+    x += a.plane_elems;
   } while (--left > 0);
-  const Finish finish(s.a, s.panel);
-  Rows to = s.to;
 #pragma GCC unroll 16
   for (int p = 0; p < kPixels; ++p) {
     for (int v = 0; v < kVecs; ++v) {
       Sum total = sum[0][p][v];
-      for (int k = 1; k < kSums; ++k) {
+      for (int k = 1; k < kAtOnce; ++k) {
         total = _mm512_add_epi32(total, sum[k][p][v]);
       }
-      finish.store(to, v, total);
+      _mm512_storeu_si512(to.of[p * kVecs + v], total);
     }
-    to.advance();
   }
-  s.to = to;
-  s.x += kPixels * kBlock;
 }
 
-template <class Rows>
-class Tiles {
- public:
-  using Spot = QuantizedSpot<Rows>;
-  using Run = void (*)(Spot&, const std::int16_t*);
+template <int kVecs, int kCount, int... kSizes>
+Tiling<Run> tiles_of(std::int32_t pixels) {
+  static constexpr SizedTile<Run> kTiles[] = {{kSizes, &sums_of<kSizes, kVecs, kCount>}...};
+  return tiling_of(kTiles, pixels);
+}
 
-  // `panels` 0: the last panel of 8.
-  static Tiling<Run> of(std::int32_t panels, std::int32_t pixels) {
-    static constexpr Tile kHalf[] = {{1, &half<1>}, {2, &half<2>},   {4, &half<4>},  {6, &half<6>},
-                                     {9, &half<9>}, {11, &half<11>}, {13, &half<13>}};
-    switch (panels) {
-      case 0:
-        return tiling_of(kHalf, pixels);
-      case 1:
-        return one_of<1, 1, 2, 4, 6, 9, 11, 13>(pixels);
-      case 2:
-        return one_of<2, 1, 2, 4, 6, 7, 8, 9, 10, 11, 12, 13>(pixels);
-      case 3:
-        return one_of<3, 9>(pixels);
-      default:
-        return one_of<4, 1, 2, 3, 4, 5, 6>(pixels);
-    }
-  }
-
- private:
-  using Tile = SizedTile<Run>;
-
-  template <int kPixels, int kVecs>
-  static void whole(Spot& s, const std::int16_t* w) {
-    multiply<kPixels, kVecs, 1, Finish<kVecs>>(s, w);
-  }
-  template <int kPixels>
-  static void half(Spot& s, const std::int16_t* w) {
-    multiply<kPixels, 1, 2, HalfFinish>(s, w);
-  }
-
-  template <int kVecs, int... kSizes>
-  static Tiling<Run> one_of(std::int32_t pixels) {
-    static constexpr Tile kTiles[] = {{kSizes, &whole<kSizes, kVecs>}...};
-    return tiling_of(kTiles, pixels);
-  }
-};
-
-template <class Rows>
-void sweep(const QuantizedProduct& a, std::int32_t first, std::int32_t panels) {
+// Panels from `first` on for all pixels.
+template <class Finish>
+void sweep(const QuantizedProduct& a, std::int32_t first, const Tiling<Run>& tiles) {
   const std::int16_t* w = a.pairs + std::ptrdiff_t{first} * a.to.in_blocks * kBlock * kPanel;
-  const auto tiles = Tiles<Rows>::of(panels, a.to.pixels);
-  QuantizedSpot<Rows> spot(a, first, 0);
-  for (std::int32_t i = 0; i < tiles.count; ++i) {
-    tiles.each.run(spot, w);
-  }
+  const Finish finish(a, first);
+  const auto run = [&](const SizedTile<Run>& tile, std::int32_t pixel, std::int32_t count) {
+    PixelPointer<float> y(a.to.y, a.to.y_rows, first, pixel);
+    PixelPointer<const float> residual(a.to.residual, a.to.residual_rows, first, pixel);
+    for (; count > 0; --count, pixel += tile.pixels) {
+      Sums sums;
+      tile.run(a, a.values + std::ptrdiff_t{pixel} * kBlock, w, sums);
+      residual.at != nullptr ? convert<Finish, true>(finish, sums, tile.pixels, y, residual)
+                             : convert<Finish, false>(finish, sums, tile.pixels, y, residual);
+    }
+  };
+  run(tiles.each, 0, tiles.count);
   if (tiles.last.run != nullptr) {
-    QuantizedSpot<Rows> end(a, first, a.to.pixels - tiles.last.pixels);
-    tiles.last.run(end, w);
+    run(tiles.last, a.to.pixels - tiles.last.pixels, 1);
   }
 }
 
-template <class Rows>
-void multiply_to(const QuantizedProduct& a) {
-  const std::int32_t panels = a.to.out_blocks / 2;
-  const std::int32_t at_once = a.to.pixels <= 6 ? 4 : a.to.pixels == 9 ? 3 : 2;
-  std::int32_t done = 0;
-  for (std::int32_t count = at_once; count > 0; count = count > 2 ? 2 : count - 1) {
-    for (; done + count <= panels; done += count) {
-      sweep<Rows>(a, done, count);
-    }
-  }
-  if (a.to.out_blocks % 2 != 0) {
-    sweep<Rows>(a, done, 0);
+// `panels` 0: the last panel of 8.
+void sweep_panels(const QuantizedProduct& a, std::int32_t first, std::int32_t panels) {
+  const std::int32_t pixels = a.to.pixels;
+  switch (panels) {
+    case 0:
+      return sweep<HalfFinish>(a, first, tiles_of<1, 2, 1, 2, 4, 6, 9, 11, 13>(pixels));
+    case 1:
+      return sweep<Finish<1>>(a, first, tiles_of<1, 1, 1, 2, 4, 6, 9, 11, 13>(pixels));
+    case 2:
+      return sweep<Finish<2>>(a, first,
+                              tiles_of<2, 1, 1, 2, 4, 6, 7, 8, 9, 10, 11, 12, 13>(pixels));
+    case 3:
+      return sweep<Finish<3>>(a, first, tiles_of<3, 1, 9>(pixels));
+    default:
+      return sweep<Finish<4>>(a, first, tiles_of<4, 1, 1, 2, 3, 4, 5, 6>(pixels));
   }
 }
 
 }  // namespace
 
-void multiply_quantized_to_strip(const QuantizedProduct& a) { multiply_to<StripRows>(a); }
-void multiply_quantized_to_map(const QuantizedProduct& a) { multiply_to<MapRows>(a); }
+void multiply_quantized(const QuantizedProduct& a) {
+  const std::int32_t panels = a.to.out_blocks / 2;
+  const std::int32_t at_once = a.to.pixels <= 6 ? 4 : a.to.pixels == 9 ? 3 : 2;
+  std::int32_t done = 0;
+  for (std::int32_t count = at_once; count > 0; count = count > 2 ? 2 : count - 1) {
+    for (; done + count <= panels; done += count) {
+      sweep_panels(a, done, count);
+    }
+  }
+  if (a.to.out_blocks % 2 != 0) {
+    sweep_panels(a, done, 0);
+  }
+}
 
 }  // namespace mien::kernels::avx512vnni

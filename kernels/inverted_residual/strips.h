@@ -60,8 +60,10 @@ template <class Tier>
 class InvertedResidual {
  public:
   explicit InvertedResidual(const InvertedResidualArgs& args)
+      : InvertedResidual(args, Tier(args)) {}
+  InvertedResidual(const InvertedResidualArgs& args, Tier tier)
       : a_(args),
-        tier_(args),
+        tier_(tier),
         strip_(reinterpret_cast<Value*>(args.strip)),
         row_elems_(std::ptrdiff_t{args.strip_w} * kPanel),
         panel_elems_(row_elems_ * args.strip_rows) {}

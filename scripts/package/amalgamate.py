@@ -19,6 +19,10 @@ FORMATS = ["bundle", "error_detail", "mien_file", "mien_layers", "mien_open", "m
 TIERS_HERE = """\
 #if defined(__x86_64__)
 #define MIEN_HAVE_AVX2
+#define MIEN_HAVE_AVX2INT16
+#if defined(__clang__) ? __clang_major__ >= 12 : __GNUC__ >= 11
+#define MIEN_HAVE_AVXVNNI
+#endif
 #define MIEN_HAVE_AVX512
 #define MIEN_HAVE_AVX512VNNI
 // clang 14 has these types only where -mavx512fp16 says so.
@@ -64,7 +68,7 @@ class Tier:
 # gcc's scheduling before register allocation stretches the lives of the sums until they spill.
 NEON_PRAGMA = '#if defined(__GNUC__) && !defined(__clang__)\n#pragma GCC optimize("no-schedule-insns")\n#endif'
 # gcc 12 moves the sums of a tile back and forth, and spills them, in two ways (kernels/CMakeLists.txt).
-VNNI_PRAGMA = '#if defined(__GNUC__) && !defined(__clang__)\n#pragma GCC optimize("no-tree-coalesce-vars", "no-tree-pre")\n#endif'
+INTEGER_TILE_PRAGMA = '#if defined(__GNUC__) && !defined(__clang__)\n#pragma GCC optimize("no-tree-coalesce-vars", "no-tree-pre")\n#endif'
 def ignored(condition, compiler, warnings):
     return [f"#if {condition}", *(f'#pragma {compiler} diagnostic ignored "-W{name}"' for name in warnings), "#endif"]
 
@@ -76,9 +80,11 @@ QUIET = [*ignored("defined(__GNUC__) && !defined(__clang__)", "GCC", ["uninitial
 TIERS = [
     Tier("ref"),
     Tier("avx2", "avx2,fma,f16c"),
+    Tier("avx2int16", "avx2,fma,f16c", pragmas=[INTEGER_TILE_PRAGMA]),
+    Tier("avxvnni", "avx2,fma,f16c,avxvnni", pragmas=[INTEGER_TILE_PRAGMA]),
     Tier("avx512", AVX512, AVX512 + GCC_ONLY),
     Tier("avx512fp16", AVX512 + ",avx512fp16", AVX512 + ",avx512fp16" + GCC_ONLY),
-    Tier("avx512vnni", AVX512 + ",avx512vnni", AVX512 + ",avx512vnni" + GCC_ONLY, pragmas=[VNNI_PRAGMA]),
+    Tier("avx512vnni", AVX512 + ",avx512vnni", AVX512 + ",avx512vnni" + GCC_ONLY, pragmas=[INTEGER_TILE_PRAGMA]),
     Tier("neon", defines=["MIEN_TIER neon"], pragmas=[NEON_PRAGMA]),
     Tier("neonfp16", "fullfp16", "arch=armv8.2-a+fp16", ["MIEN_TIER neonfp16", "MIEN_HALF_TIER"], [NEON_PRAGMA]),
     Tier("neon32", defines=["MIEN_TIER neon32"], pragmas=[NEON_PRAGMA]),

@@ -38,6 +38,10 @@ TEST(Tiers, AreThoseThatTheRunTimeLibraryFinds) {
   if (is_compiled(Tier::kAvx512Vnni)) {
     EXPECT_EQ(has(Tier::kAvx512Vnni), avx512 && __builtin_cpu_supports("avx512vnni"));
   }
+  if (is_compiled(Tier::kAvx2Int16)) {
+    EXPECT_EQ(has(Tier::kAvx2Int16), avx2);
+  }
+  EXPECT_TRUE(avx2 || !has(Tier::kAvxVnni));
   EXPECT_TRUE(avx512 || !has(Tier::kAvx512Fp16));
 }
 #endif

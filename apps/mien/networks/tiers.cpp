@@ -7,6 +7,16 @@
 
 namespace mien::app {
 
+namespace {
+
+// The fp32 tiers that supply the kernels that `tier` lacks.
+std::uint32_t below(std::uint32_t tier) {
+  const bool extends_avx2 = tier == MIEN_CPU_AVX2_INT16 || tier == MIEN_CPU_AVX_VNNI;
+  return extends_avx2 ? MIEN_CPU_REF | MIEN_CPU_AVX2 : (tier - 1) & ~MIEN_CPU_HALF;
+}
+
+}  // namespace
+
 std::uint32_t cpu_mask(const std::string& name, bool unfused) {
   const std::uint32_t fused = unfused ? 0 : MIEN_CPU_FUSED;
   if (name.empty()) {
@@ -21,7 +31,7 @@ std::uint32_t cpu_mask(const std::string& name, bool unfused) {
       throw Failure(kExitUnsupportedTier,
                     "--tier: '" + name + "' is not available on this CPU or not compiled in");
     }
-    return (2 * tier - 1) | fused;
+    return tier | below(tier) | fused;
   }
   throw Failure(kExitUsage, "--tier: unknown tier '" + name + "'");
 }

@@ -85,6 +85,11 @@ inline std::uint16_t emulated_float_to_half(float x) {
 inline float _cvtsh_ss(std::uint16_t x) { return emulated_half_to_float(x); }
 inline std::uint16_t _cvtss_sh(float x, int) { return emulated_float_to_half(x); }
 
+// AVX-VNNI.
+inline simde__m256i _mm256_dpwssd_avx_epi32(simde__m256i sum, simde__m256i x, simde__m256i y) {
+  return simde_mm256_add_epi32(sum, simde_mm256_madd_epi16(x, y));
+}
+
 // AVX-512 F, BW and DQ.
 inline simde__m512 _mm512_maskz_loadu_ps(std::uint16_t mask, const void* from) {
   return emulated_masked_load<float, simde__m512>(mask, from);

@@ -1,0 +1,9 @@
+// The products of the avxvnni tier.
+#include "kernels/common/avxvnni.h"
+#include "kernels/inverted_residual/avx2_quantized_product.h"
+
+namespace mien::kernels::avxvnni {
+
+void multiply_quantized(const QuantizedProduct& a) { avx2::QuantizedTiles<Pairs>::multiply(a); }
+
+}  // namespace mien::kernels::avxvnni
