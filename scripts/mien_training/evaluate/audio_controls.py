@@ -124,8 +124,8 @@ def spoken_phonemes(model, most=None):
     for sound in group.of(model.split)[:most]:
         times, controls, _ = model(
             np.concatenate([np.float32(group.samples(sound)) / 32768, np.zeros(4000, np.float32)]))
-        predicted = spoken[sound.name]
-        for label, a, b in zip(predicted.labels, predicted.starts, [*predicted.starts[1:], predicted.end]):
+        speech = spoken[sound.name]
+        for label, a, b in zip(speech.labels, speech.starts, [*speech.starts[1:], speech.end]):
             yield label, controls[np.abs(times - (a + b) / 2) <= NEAR]
 
 
