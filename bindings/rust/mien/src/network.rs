@@ -7,7 +7,7 @@ use crate::{Error, Weights};
 const BLOCK: usize = 8; // channels stored together
 const INTERLEAVED: usize = 4; // an input of up to this number of channels is stored as an image
 
-/// Of a map.
+/// The shape of a map.
 #[allow(missing_docs)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shape {
