@@ -12,8 +12,7 @@ from count_instructions import Machine
 ENCODERS = [("basenet", "encoder"), ("hifinet", "encoder")]
 DECODERS = [("hifinet", "controls_decoder"), ("audionet", "encoder")]
 # Layers of the fused blocks: what multiplies panels counts as pointwise, the rest as depthwise.
-FAMILIES = {"conv2d": ["conv2d"], "depthwise": ["depthwise", "inverted_residual"],
-            "pointwise": ["pointwise"]}
+FAMILIES = {"conv2d": ["conv2d"], "depthwise": ["depthwise", "inverted_residual"], "pointwise": ["pointwise"]}
 ARITHMETIC = ("fmla", "fmul", "fmax", "fmin", "fadd", "fcvtl", "fcvtl2", "fcvtn", "fcvtn2")
 LOOPS = [  # tier, object, pattern of the function's name, what it is
     ("neon", "pointwise/neon_product", r"tile<5, 4, .*Widened", "pointwise, 5 pixels x 16 channels, weights widened before"),

@@ -16,8 +16,7 @@ class Machine:
         """{symbol: family}; what several families share belongs to none."""
         owners = {}
         for path in (path for folder in objects for path in folder.rglob("*.o")):
-            listing = subprocess.run([nm, "--defined-only", path], check=True,
-                                     capture_output=True, text=True).stdout
+            listing = subprocess.run([nm, "--defined-only", path], check=True, capture_output=True, text=True).stdout
             for line in listing.splitlines():
                 symbol = line.split()[-1]
                 owners.setdefault(symbol, set()).add(path.parent.name)

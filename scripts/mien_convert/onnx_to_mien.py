@@ -18,8 +18,7 @@ try:
     from .precision import kept_precise
     from .weight_file import MienFile
 except ModuleNotFoundError as missing:
-    sys.exit(
-        f"onnx_to_mien.py: no Python module {missing.name!r} here; scripts/setup.sh convert installs it")
+    sys.exit(f"onnx_to_mien.py: no Python module {missing.name!r} here; scripts/setup.sh convert installs it")
 
 
 def network_name(stem):

@@ -287,8 +287,7 @@ class Network:
         layer.tensors = tensors
         one_size = layer.op in ("fully_connected", "causal_conv", "lstm",
                                 "rearrange") or layer.op == "resize" and 0 in layer.stride
-        require(not self.any_size or not one_size,
-                 f"{self.name}: {layer.op} in a network of any size")
+        require(not self.any_size or not one_size, f"{self.name}: {layer.op} in a network of any size")
         self.layers.append(layer)
         self.shapes.append(layer.shape)
         return len(self.layers)
@@ -308,8 +307,7 @@ class _Layer:
         require(not options, f"{self.op}: unknown options {sorted(options)}")
         require(self.activation in ACTIVATIONS or self.activation in CURVES and self.op == "activation",
                  f"{self.op}: unknown activation (got {self.activation})")
-        require(self.activation == "none" or self.op not in PASSIVE,
-                f"{self.op}: takes no activation (got {self.activation})")
+        require(self.activation == "none" or self.op not in PASSIVE, f"{self.op}: takes no activation")
         has_alpha = self.activation == "leaky_relu" or self.op == "normalize"
         require(0 < self.alpha < 1 if has_alpha else self.alpha == 0, f"alpha {self.alpha}")
         require((slopes is not None) == (self.activation == "prelu"), f"{self.op}: slopes belong to prelu")
@@ -342,16 +340,14 @@ class _Layer:
     def _cut(self, shape):
         """Output size of a slice."""
         (h, w, c), (top, left, bottom, right) = shape, self.padding
-        require(all(0 <= n <= MAX_MARGIN for n in (*self.padding, self.first_channel)),
-                 f"slice without {self.padding}")
+        require(all(0 <= n <= MAX_MARGIN for n in (*self.padding, self.first_channel)), f"slice without {self.padding}")
         require(top + bottom < h and left + right < w and 1 <= self.channels <= c - self.first_channel,
                  f"slice of {shape}: {self.channels} channels from {self.first_channel}, without {self.padding}")
         return h - top - bottom, w - left - right
 
     def _slide(self, size, kernel, stride, before, after):
         """Output size of a window that slides over `size` elements."""
-        require(1 <= kernel <= MAX_KERNEL and 1 <= stride <= MAX_STRIDE,
-                 f"{self.op}: kernel {kernel}, stride {stride}")
+        require(1 <= kernel <= MAX_KERNEL and 1 <= stride <= MAX_STRIDE, f"{self.op}: kernel {kernel}, stride {stride}")
         require(0 <= before < kernel and 0 <= after < kernel, f"{self.op}: padding {before}, {after}")
         require(before + size + after >= kernel, f"{self.op}: kernel {kernel} on {size} elements")
         last = (before + size + after - kernel + (stride - 1 if self.flags == CEIL_MODE else 0)) // stride

@@ -239,8 +239,7 @@ def legalise(c):
     out = np.clip(tongue / 0.1, 0, 1)
     c[..., INDEX["tongueOut"]] = tongue
     c[..., INDEX["jawOpen"]] -= out * np.maximum(get("jawOpen") - 0.9, 0)
-    weaken(c, ("mouthClose", "mouthRollLower", "mouthRollUpper", "mouthPucker", "mouthShrugLower"),
-           1 - 0.9 * out)
+    weaken(c, ("mouthClose", "mouthRollLower", "mouthRollUpper", "mouthPucker", "mouthShrugLower"), 1 - 0.9 * out)
     c[..., INDEX["mouthClose"]] = np.minimum(get("mouthClose"), get("jawOpen"))
     return np.clip(c, 0, 1).astype(np.float32)
 

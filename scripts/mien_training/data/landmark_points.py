@@ -74,8 +74,7 @@ def _teacher_mirror():
     for right, left in _pairs().values():
         mirror.update(zip(right, left))
         mirror.update(zip(left, right))
-    for curve in (LIPS_OUTER_UPPER, LIPS_OUTER_LOWER, LIPS_INNER_UPPER, LIPS_INNER_LOWER,
-                  FACE_OVAL[1:]):
+    for curve in (LIPS_OUTER_UPPER, LIPS_OUTER_LOWER, LIPS_INNER_UPPER, LIPS_INNER_LOWER, FACE_OVAL[1:]):
         mirror.update(zip(curve, reversed(curve)))
     mirror.update({k: k for k in NOSE_BRIDGE + MIDLINE + FACE_OVAL[:1]})
     return mirror
