@@ -27,26 +27,57 @@ bytes=$(stat -c %s "$wheel")
 echo "$(basename "$wheel"): $bytes bytes"
 [ "$bytes" -le 6000000 ] || { echo "test.sh: the wheel is larger than 6 MB" >&2; exit 1; }
 
+tests/package/wheel_requirements_test.sh "$work/build/bin"
+
+mkdir "$work/readme"  # a folder in which the code of the pages runs
+ln -s "$PWD/tests/data/demo.mp4" "$work/readme/face.mp4"
+ffmpeg -v error -ss 4 -i tests/data/demo.mp4 -frames:v 1 "$work/readme/face.jpg"
+run_blocks() {  # environment, page, language, numbers
+  for number in "${@:4}"; do
+    tests/docs/code_blocks.py "$2" "$3" "$number" >"$work/block.py"
+    (cd "$work/readme" && "$1/bin/python" "$work/block.py")
+  done
+}
+
 for python in "${pythons[@]}"; do
   echo "== $("$python" --version)"
   environment=$work/$(basename "$python")
   "$python" -m venv "$environment"
   "$environment/bin/pip" install --quiet --quiet --disable-pip-version-check "$wheel" pytest onnx
   (cd "$here/tests" && "$environment/bin/python" -m pytest -p no:cacheprovider)
-  # What the READMEs show, in a folder with a face.mp4.
-  mkdir -p "$work/readme"
-  ln -sfn "$PWD/tests/data/demo.mp4" "$work/readme/face.mp4"
-  tests/docs/code_blocks.py README.md python >"$work/first.py"
-  tests/docs/code_blocks.py bindings/python/README.md python >"$work/readme.py"
-  (cd "$work/readme" && "$environment/bin/python" "$work/first.py" && "$environment/bin/python" "$work/readme.py") >"$work/readme.txt"
-  [ "$(wc -l <"$work/readme.txt")" -gt 480 ]
+  {
+    run_blocks "$environment" README.md python 1
+    run_blocks "$environment" bindings/python/README.md python 1 3
+  } >"$work/readme.txt"
+  [ "$(wc -l <"$work/readme.txt")" -eq 480 ]
 done
 
 environment=$work/$(basename "${pythons[0]}")
-"$environment/bin/pip" install --quiet --quiet --disable-pip-version-check mypy opencv-python-headless matplotlib pandas
+"$environment/bin/pip" install --quiet --quiet --disable-pip-version-check mypy pyright opencv-python-headless matplotlib pandas
 (cd "$here/src" && "$environment/bin/mypy" --strict --cache-dir "$work/mypy" --package mien)
-"$environment/bin/mypy" --strict --cache-dir "$work/mypy" "$here/tests/typed_program.py"
+check_types() {  # command of a type checker: passes a right program, and reports each mistake of a wrong one
+  "$@" "$here/tests/typed_program.py"
+  "$@" "$here/tests/wrongly_typed_program.py" >"$work/types.txt" || true
+  diff <(grep -n "# error" "$here/tests/wrongly_typed_program.py" | cut -d: -f1) <(sed -nE 's/.*\.py:([0-9]+):.* error:.*/\1/p' "$work/types.txt" | sort -nu)
+}
+check_types "$environment/bin/mypy" --strict --cache-dir "$work/mypy"
+if "$environment/bin/pyright" --version >/dev/null 2>&1; then
+  check_types "$environment/bin/pyright" --pythonpath "$environment/bin/python"
+else
+  echo "NOT TESTED: types with pyright, which could not be installed from npm"
+fi
+
+(cd "$here/tests" && "$environment/bin/python" -m pytest -p no:cacheprovider test_draw.py) | tee "$work/draw.txt"
+grep -q "^4 passed" "$work/draw.txt"
+run_blocks "$environment" bindings/python/README.md python 2 | grep -q "^0\.[3-6]"
+test -s "$work/readme/drawn.png"
+run_blocks "$environment" docs/mediapipe.md python 2 4 >"$work/mediapipe.txt"  # 1 and 3 need MediaPipe and its model
+[ "$(grep -c "^0\.[0-9]" "$work/mediapipe.txt")" -gt 200 ]
+for number in 1 3; do
+  tests/docs/code_blocks.py docs/mediapipe.md python "$number" | "$environment/bin/python" -c 'import ast, sys; ast.parse(sys.stdin.read())'
+done
 examples=apps/examples/python
+"$environment/bin/python" $examples/jaw_open.py "$work/readme/face.jpg" | grep -q "^jawOpen 0\.[3-6]"
 "$environment/bin/python" $examples/webcam.py tests/data/demo.mp4 --frames 20 --save "$work/webcam.png"
 test -s "$work/webcam.png"
 "$environment/bin/python" $examples/pose_axes.py tests/data/demo.mp4 --frame 150 --save "$work/axes.jpg" | grep -q "yaw 0.[23]"

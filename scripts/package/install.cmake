@@ -46,7 +46,8 @@ if(MIEN_PYTHON_WHEEL)
   target_link_options(mien_program PRIVATE -static-libstdc++ -static-libgcc -s -Wl,--gc-sections)
   install(PROGRAMS $<TARGET_FILE:mien_program> DESTINATION mien COMPONENT python)  # what track_file runs
   install(FILES apps/third_party.txt DESTINATION mien COMPONENT python)
-  install(DIRECTORY models/ DESTINATION mien/models COMPONENT python)
+  # Without the table of landmarks, which nothing in the package reads: mien.LANDMARK_NAMES has its names.
+  install(DIRECTORY models/ DESTINATION mien/models COMPONENT python PATTERN landmarks.json EXCLUDE)
   install(DIRECTORY scripts/mien_convert/ DESTINATION mien/_convert COMPONENT python FILES_MATCHING PATTERN *.py)
 endif()
 

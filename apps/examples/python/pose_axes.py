@@ -1,10 +1,9 @@
 #!/usr/bin/env python3
-"""Draws the head's axes into the frames of a video: project() maps a head pose to the image. Needs opencv-python.
+"""Draws the head's axes into the frames of a video: Pose.project maps points of the head to the image. Needs opencv-python.
 
 usage: pose_axes.py FILE [--frame N] --save IMAGE.jpg
 """
 import argparse
-import math
 
 import cv2
 import mien
@@ -14,23 +13,9 @@ AXIS_M = 0.12
 COLORS = {"x": (60, 60, 235), "y": (80, 190, 60), "z": (235, 140, 40)}  # BGR
 
 
-def rotation_matrix(quaternion):
-    x, y, z, w = quaternion
-    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-                     [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-                     [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
-
-
-def project(points, pose, width, height, focal_length_px=None):
-    """Points [n,3] in head space, metres, as pixels [n,2] of the upright image, which is not mirrored."""
-    focal = focal_length_px or width / 2 / math.tan(math.radians(60) / 2)  # mien's default for unknown cameras
-    x, y, z = (np.asarray(points) @ rotation_matrix(pose.rotation).T + pose.translation).T
-    return np.stack([width / 2 + focal * x / -z, height / 2 - focal * y / -z], 1)
-
-
 def draw(image, pose):
     height, width = image.shape[:2]
-    points = project([[0, 0, 0], *(np.eye(3) * AXIS_M)], pose, width, height).round().astype(int)
+    points = pose.project([[0, 0, 0], *(np.eye(3) * AXIS_M)], width, height).round().astype(int)
     for (name, color), end in zip(COLORS.items(), points[1:]):
         cv2.arrowedLine(image, tuple(map(int, points[0])), tuple(map(int, end)), color, 3, cv2.LINE_AA, tipLength=0.12)
         cv2.putText(image, name, tuple(map(int, end + (6, -6))), cv2.FONT_HERSHEY_SIMPLEX, 0.8, color, 2, cv2.LINE_AA)

@@ -10,14 +10,6 @@ import cv2
 import mien
 
 
-def draw(frame, result):
-    for x, y in result.landmarks.astype(int):
-        cv2.circle(frame, (int(x), int(y)), 1, (0, 255, 0), -1)
-    strongest = sorted(result.controls.items(), key=lambda item: -item[1])[:8]
-    for line, (name, value) in enumerate(strongest):
-        cv2.putText(frame, f"{name} {value:.2f}", (8, 18 + 16 * line), cv2.FONT_HERSHEY_SIMPLEX, 0.45, (255, 255, 255), 1)
-
-
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("source", nargs="?", default="0")
@@ -37,8 +29,7 @@ def main():
             # A file is read faster than it plays.
             at = camera.get(cv2.CAP_PROP_POS_MSEC) / 1000 if not options.source.isdigit() else time.monotonic() - start
             result = tracker.track(frame, at)
-            if result.has_face:
-                draw(frame, result)
+            mien.draw(frame, result)
             if not options.save:
                 cv2.imshow("mien", frame)
                 if cv2.waitKey(1) == ord("q"):

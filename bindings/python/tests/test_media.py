@@ -12,17 +12,28 @@ from mien._library import MODELS, PROGRAM
 
 def test_a_video(clip):
     rows = list(mien.track_file(clip))
-    assert len(rows) > 60 and set(mien.CONTROL_NAMES) < set(rows[0])
+    assert len(rows) > 60 and set(rows[0]) < set(mien.Row.__annotations__)
+    assert set(mien.CONTROL_NAMES) < set(mien.Row.__annotations__)
     assert sum(row["status"] == "tracking" for row in rows) > 0.9 * len(rows)
     table = mien.columns(rows)
+    assert set(table) == set(mien.Row.__annotations__)
     assert table["jawOpen"].shape == (len(rows),) and table["jawOpen"].max() > 0.1
-    assert (np.diff(table["time_s"]) > 0).all()
+    assert (np.diff(table["t_ms"]) > 0).all()
+    assert "cheekSquintLeft" not in rows[0] and np.isnan(table["cheekSquintLeft"]).all()
     assert table["status"].dtype.kind == "U"
+
+
+def test_required_keys_are_always_there(clip, tmp_path):
+    black = tmp_path / "black.mp4"
+    ffmpeg("-f", "lavfi", "-i", "color=black:size=64x64:rate=30:duration=0.1", black)
+    row = next(mien.track_file(black, lod=1))
+    assert set(row) == mien.Row.__required_keys__
+    assert np.isnan([row["x"], row["w"], row["yaw_rad"], row["tz_m"]]).all() and row["jawOpen"] == 0
 
 
 def test_the_file_is_read_while_rows_are_taken(clip):
     rows = mien.track_file(clip, lod=1, sound=False)
-    assert next(rows)["time_s"] == 0
+    assert next(rows)["t_ms"] == 0
     rows.close()
 
 
@@ -60,7 +71,7 @@ def test_audio_that_starts_late(tmp_path, clip):
     ffmpeg("-i", clip, "-vn", "-t", "2", speech)
     black = ["-f", "lavfi", "-i", "color=black:size=64x64:rate=30:duration=3"]
     ffmpeg(*black, "-itsoffset", "1", "-i", speech, "-c:a", "aac", film)
-    heard = [[row["voice_activity"] for row in mien.track_file(path)] for path in (speech, film)]
+    heard = [[row["vad"] for row in mien.track_file(path)] for path in (speech, film)]
     assert len(heard[0]) == 60 and max(heard[0]) > 0.9
     assert np.abs(np.subtract(heard[1][:90], [0] * 30 + heard[0])).max() < 0.2
 
@@ -74,8 +85,8 @@ def test_damaged_videos(tmp_path, clip):
         times = []
         with pytest.raises(mien.MienError, match=r"truncated after \d+ frames"):
             for row in rows:
-                times.append(row["time_s"])
-        assert len(times) > 30 and np.abs(np.diff(times) - 1 / 30).max() < 1.1e-3
+                times.append(row["t_ms"])
+        assert len(times) > 30 and np.abs(np.diff(times) - 1000 / 30).max() < 1.1
     cut = tmp_path / "cut.mp4"  # contains images before the cut, which players skip
     ffmpeg("-ss", "1.5", "-i", clip, "-t", "1", "-c", "copy", cut)
     assert len(list(mien.track_file(cut, lod=1))) >= 30
@@ -129,9 +140,10 @@ def test_rows_match_the_program(tmp_path, clip, name):
     rows = list(mien.track_file(film))
     assert len(rows) == len(expected) > 5
     for row, other in zip(rows, expected):
-        assert abs(row["time_s"] * 1000 - float(other["t_ms"])) < 1e-5
-        assert row["jawOpen"] == pytest.approx(float(other["jawOpen"] or 0), abs=1e-6)
-        assert row["width"] == pytest.approx(float(other["w"] or 0), abs=1e-3)
+        assert abs(row["t_ms"] - float(other["t_ms"])) < 1e-5 and row["status"] == other["status"]
+        for name, cell in other.items():  # the same names, units and gaps
+            if name not in ("t_ms", "status"):
+                assert row.get(name, np.nan) == pytest.approx(float(cell or "nan"), abs=1e-3, nan_ok=True), name
 
 
 @pytest.mark.parametrize("backward", [True, False])
@@ -168,6 +180,8 @@ def test_a_name_is_a_name(tmp_path, monkeypatch):
 def test_files_without_video_are_rejected(tmp_path, monkeypatch):
     with pytest.raises(FileNotFoundError, match="nowhere"):
         mien.track_file(tmp_path / "nowhere.mp4")
+    with pytest.raises(mien.errors.UnsupportedLodError, match="lod: unknown level .got 'high'"):
+        mien.track_file(__file__, lod="high")
     (tmp_path / "text.mp4").write_text("no film")
     with pytest.raises(mien.MienError, match="neither video nor audio"):
         list(mien.track_file(tmp_path / "text.mp4"))
@@ -175,3 +189,27 @@ def test_files_without_video_are_rejected(tmp_path, monkeypatch):
     monkeypatch.setenv("PATH", str(tmp_path))
     with pytest.raises(mien.MienError, match="cannot run 'ffprobe'"):
         list(mien.track_file(tmp_path / "text.mp4"))
+
+
+def test_an_image(tmp_path, clip):
+    picture, pixels = tmp_path / "face.png", tmp_path / "face.bgr"
+    ffmpeg("-ss", "4", "-i", clip, "-frames:v", "1", "-vf", "scale=320:240", picture)
+    ffmpeg("-i", picture, "-f", "rawvideo", "-pix_fmt", "bgr24", pixels)
+    array = np.frombuffer(pixels.read_bytes(), np.uint8).reshape(240, 320, 3)
+    result = mien.track_image(picture)
+    assert result.has_face and result.lod == 4 and result.controls.jawOpen > 0.3 and result.controls.eyeBlinkLeft > 0.7
+    np.testing.assert_array_equal(mien.track_image(array).landmarks, result.landmarks)
+    np.testing.assert_array_equal(mien.track_image(array[..., ::-1].copy(), color="rgb").landmarks, result.landmarks)
+    assert mien.track_image(array, lod=1).lod == 1
+    assert not mien.track_image(np.zeros((48, 64, 3), np.uint8)).has_face
+
+
+def test_files_that_are_no_images_are_rejected(tmp_path, monkeypatch):
+    with pytest.raises(FileNotFoundError, match="nowhere"):
+        mien.track_image(tmp_path / "nowhere.jpg")
+    (tmp_path / "text.jpg").write_text("no picture")
+    with pytest.raises(mien.MienError, match="text.jpg: cannot be read as an image: .+"):
+        mien.track_image(tmp_path / "text.jpg")
+    monkeypatch.setenv("PATH", str(tmp_path))
+    with pytest.raises(mien.MienError, match="ffmpeg cannot be run"):
+        mien.track_image(tmp_path / "text.jpg")

@@ -1,10 +1,13 @@
+import copy
 import ctypes
+import json
 import threading
 
 import mien
 import numpy as np
 import pytest
 from mien import errors
+from conftest import REPOSITORY
 from mien._library import MODELS
 from mien.tracker import Tracker
 
@@ -36,17 +39,31 @@ def test_a_face_is_tracked(bgr, frames):
     assert len({tuple(r.controls.array) for r in bgr}) > 10, "it moves"
 
 
-def test_controls_are_a_mapping_and_an_array(bgr):
+def test_controls_are_a_mapping_an_array_and_attributes(bgr):
     controls = bgr[-1].controls
-    assert list(controls) == list(mien.CONTROL_NAMES) and len(controls) == 52
     jaw = mien.Control.JAW_OPEN
-    assert mien.CONTROL_NAMES[jaw] == "jawOpen" and controls["jawOpen"] == controls[jaw] == controls.array[jaw]
-    assert len(bgr[-1].landmarks_of(mien.LandmarkGroup.LEFT_IRIS)) == 5
+    assert mien.CONTROL_NAMES[jaw] == "jawOpen" and controls["jawOpen"] == controls[jaw] == controls.array[jaw] == controls.jawOpen
     assert controls.array.dtype == np.float32 and controls.array.shape == (52,)
     assert dict(controls)["eyeBlinkLeft"] == controls["eyeBlinkLeft"]
     assert "jawOpen" in controls.supported and "eyeLookUpLeft" not in controls.supported
+    assert "jawOpen" in dir(controls) and copy.copy(controls).jawOpen == controls.jawOpen
     with pytest.raises(KeyError):
         controls["nothing"]
+    with pytest.raises(AttributeError, match="nothing: no such control"):
+        controls.nothing
+
+
+def test_controls_that_are_not_predicted(bgr):
+    controls = bgr[-1].controls
+    assert len(controls) == 29 and set(controls) == controls.supported
+    assert list(controls) == [name for name in mien.CONTROL_NAMES if name in controls.supported]
+    undriven = np.isnan(controls.array)
+    assert {name for name, nan in zip(mien.CONTROL_NAMES, undriven) if not nan} == set(controls)
+    assert "eyeLookUpLeft" not in controls and controls.get("eyeLookUpLeft") is None
+    with pytest.raises(KeyError, match="eyeLookUpLeft: not predicted"):
+        controls[mien.Control.EYE_LOOK_UP_LEFT]
+    with pytest.raises(AttributeError, match="eyeLookUpLeft: not predicted"):
+        controls.eyeLookUpLeft
 
 
 def test_other_vocabularies(bgr):
@@ -54,9 +71,43 @@ def test_other_vocabularies(bgr):
     assert controls.to("arkit") == pytest.approx(dict(controls))
     assert controls.to("roblox")["JawDrop"] == pytest.approx(controls["jawOpen"])
     assert controls.to("mediapipe")["mouthPucker"] == pytest.approx(controls["mouthPucker"])
+    assert "eyeLookUpLeft" not in controls.to("mediapipe") and "aa" in controls.to("vrm1") and "lookUp" not in controls.to("vrm1")
     assert [len(mien.vocabulary_names(name)) for name in mien.VOCABULARIES] == [52, 52, 50, 11, 11, 15]
     with pytest.raises(ValueError, match=r"vocabulary: unknown \(got 'klingon', expected one of arkit"):
         controls.to("klingon")
+
+
+def test_landmark_names(bgr):
+    group = mien.LandmarkGroup.LEFT_IRIS
+    assert len(bgr[-1].landmarks_of(group)) == 5
+    assert [mien.LANDMARK_NAMES[i] for i in group.landmarks] == [f"left_iris_{i}" for i in range(5)]
+    points = json.loads((REPOSITORY / "models/landmarks.json").read_text())["points"]
+    assert list(mien.LANDMARK_NAMES) == [point["name"] for point in points]
+
+
+def test_the_head_matrix(bgr):
+    pose = bgr[-1].pose
+    matrix = pose.matrix
+    np.testing.assert_allclose(matrix[:3, :3] @ matrix[:3, :3].T, np.eye(3), atol=1e-5)
+    np.testing.assert_allclose(matrix[:, 3], [*pose.translation, 1])
+    # R = Ry(yaw) Rx(pitch) Rz(roll), as docs/pose.md defines it.
+    def turn(axis, angle):
+        i, j = [(1, 2), (2, 0), (0, 1)][axis]
+        r = np.eye(3)
+        r[i, i] = r[j, j] = np.cos(angle)
+        r[j, i] = np.sin(angle)
+        r[i, j] = -r[j, i]
+        return r
+    np.testing.assert_allclose(matrix[:3, :3], turn(1, pose.yaw) @ turn(0, pose.pitch) @ turn(2, pose.roll), atol=1e-5)
+
+
+def test_projection(bgr):
+    pose, x, y, width, height = bgr[-1].pose, *bgr[-1].box
+    column, row = pose.project([[0, 0, 0.1]], 640, 480)[0]  # the tip of the nose, roughly
+    assert x < column < x + width and y < row < y + height
+    origin = pose.project([[0, 0, 0]], 640, 480, 1000)[0]
+    np.testing.assert_allclose(origin, [320 - 1000 * pose.translation[0] / pose.translation[2],
+                                        240 + 1000 * pose.translation[1] / pose.translation[2]], rtol=1e-5)
 
 
 def test_results_own_their_data(bgr):
@@ -133,7 +184,9 @@ def test_frames_are_not_copied(frames, monkeypatch):
     (np.zeros((4, 8, 3), np.uint8)[..., ::-1], {}, ValueError, "bytes of a pixel not contiguous"),
     (np.zeros((5, 8), np.uint8), {"color": "nv12"}, ValueError, "expected contiguous"),
     (np.zeros((0, 8, 3), np.uint8), {}, errors.ImageSizeError, "width, height"),
-    (np.zeros((4, 8, 3), np.uint8), {"rotation": 45}, errors.ImageRotationError, "0, 90, 180 or 270"),
+    (np.zeros((4, 8, 3), np.uint8), {"rotation": 45}, errors.ImageRotationError, r"rotation: .*got 45, expected 0, 90, 180 or 270"),
+    (np.zeros((4, 8, 3), np.uint8), {"color": "rbg"}, ValueError, "color: unknown .got 'rbg', expected one of bgr, rgb, nv12, nv21, i420"),
+    (np.zeros((4, 8, 3), np.uint8), {"pixel_aspect": "wide"}, TypeError, "pixel_aspect: not a number .got 'wide'"),
     (np.zeros((4, 8, 3), np.uint8), {"region": (4, 0, 8, 4)}, errors.ImageRegionError, "region of interest"),
 ])
 def test_invalid_frames_are_rejected(frame, options, kind, text):
@@ -263,9 +316,28 @@ def test_trackers_share_weights(frames):
     np.testing.assert_array_equal(results[0].landmarks, results[2].landmarks)
 
 
-def test_errors_name_the_field():
-    with pytest.raises(errors.OutOfRangeError, match=r"max_faces: a value is out of range \(got 9, expected 1..8\)"):
-        mien.Tracker(1, max_faces=9)
+@pytest.mark.parametrize("options, kind, text", [
+    ({"max_faces": 20}, errors.OutOfRangeError, r"max_faces: a value is out of range \(got 20, expected 1..8\)"),
+    ({"max_faces": "two"}, TypeError, r"max_faces: not a whole number \(got 'two', expected"),
+    ({"lod": "high"}, errors.UnsupportedLodError, r"lod: unknown level \(got 'high', expected 'auto' or 1 to 4\)"),
+    ({"lod": 9}, errors.UnsupportedLodError, "lod"),
+    ({"budget_ms": "10 ms"}, TypeError, r"budget_ms: not a number \(got '10 ms'\)"),
+    ({"voice_strength": 5.0}, errors.OutOfRangeError, r"voice_strength: .*got 5, expected 0..4"),
+    ({"audio_queue_samples": 0.5}, TypeError, "audio_queue_samples: not a whole number .got 0.5"),
+])
+def test_errors_name_field_value_and_range(options, kind, text):
+    with pytest.raises(kind, match=text):
+        mien.Tracker(**{"lod": 1, **options})
+
+
+def test_errors_of_methods_name_field_value_and_range():
+    with mien.Tracker(1) as tracker:
+        with pytest.raises(errors.UnsupportedLodError, match="lod: unknown level .got 'low'"):
+            tracker.set_lod("low")
+        with pytest.raises(ValueError, match="control: unknown .got 'jaw', expected one of mien.CONTROL_NAMES"):
+            tracker.set_mix("jaw", 0, 1)
+        with pytest.raises(errors.OutOfRangeError, match="video: number out of range .got 1.5, expected 0 to 1"):
+            tracker.set_mix("jawOpen", 0, 1.5)
 
 
 def test_many_trackers_are_created_and_closed():

@@ -20,4 +20,15 @@ def outputs(path: str) -> list[npt.NDArray[np.float32]]:
 
 
 def times(path: str) -> list[float]:
-    return [float(row["time_s"]) for row in mien.track_file(path, lod=4)]
+    return [row["t_ms"] for row in mien.track_file(path, lod=4) if row["status"] == "tracking"]
+
+
+def gaze(row: mien.Row) -> float:
+    return row["eyeLookUpLeft"] if "eyeLookUpLeft" in row else 0.0
+
+
+def head(path: str) -> npt.NDArray[np.float64]:
+    result = mien.track_image(path)
+    if result.controls.jawOpen > 0.5:
+        mien.draw(np.zeros((48, 64, 3), np.uint8), result)
+    return result.pose.matrix

@@ -2,16 +2,18 @@
 
     with mien.Tracker() as tracker:
         result = tracker.track(frame, time_s)          # a BGR image, as in OpenCV
-        print(result.controls["jawOpen"], result.pose.yaw)
+        print(result.controls.jawOpen, result.pose.yaw)
 """
 
 from ._library import version
+from .draw import draw
 from .errors import MienError
-from .media import Row, columns, track_file
+from .media import columns, track_file, track_image
 from .network import Network, Shape, run
 from .result import Controls, FaceStatus, Pose, Result
+from .rows import Row
 from .tracker import Tracker
-from .vocabulary import CONTROL_NAMES, LANDMARK_COUNT, VOCABULARIES, Control, LandmarkGroup, vocabulary_names
+from .vocabulary import CONTROL_NAMES, LANDMARK_COUNT, LANDMARK_NAMES, VOCABULARIES, Control, LandmarkGroup, vocabulary_names
 from .weights import Weights
 
 __all__ = [
@@ -20,6 +22,7 @@ __all__ = [
     "Controls",
     "FaceStatus",
     "LANDMARK_COUNT",
+    "LANDMARK_NAMES",
     "LandmarkGroup",
     "MienError",
     "Network",
@@ -31,9 +34,11 @@ __all__ = [
     "VOCABULARIES",
     "Weights",
     "columns",
+    "draw",
     "errors",
     "run",
     "track_file",
+    "track_image",
     "vocabulary_names",
 ]
 __version__ = version()

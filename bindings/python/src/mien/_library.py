@@ -269,6 +269,7 @@ FUNCTIONS: dict[str, tuple[Any, Sequence[Any]]] = {
     "mien_vocabulary_size": (c_int32, [c_int32]),
     "mien_vocabulary_name": (c_char_p, [c_int32, c_int32]),
     "mien_vocabulary_values": (Status, [c_int32, c_void_p, c_void_p, c_int32]),
+    "mien_vocabulary_supported": (c_uint64, [c_int32, c_uint64]),
     "mien_image_default": (None, [POINTER(Image)]),
     "mien_audio_default": (None, [POINTER(Audio)]),
     "mien_tracker_config_default": (None, [POINTER(TrackerConfig)]),

@@ -29,7 +29,10 @@ def check_of(kind: Any) -> Optional[Check]:
     least, most = _LIMITS[kind]
 
     def whole(value: Any, name: str) -> int:
-        number = operator.index(value)
+        try:
+            number = operator.index(value)
+        except TypeError:
+            raise TypeError(f"{name}: not a whole number (got {value!r}, expected {least} to {most})") from None
         if least <= number <= most:
             return number
         raise _out_of_range(name, number, least, most)
@@ -38,10 +41,19 @@ def check_of(kind: Any) -> Optional[Check]:
 
 
 def _real(value: Any, name: str) -> float:
-    number = float(value)
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        raise TypeError(f"{name}: not a number (got {value!r})") from None
     if abs(number) <= _FLOAT_MAX or not math.isfinite(number):
         return number
     raise _out_of_range(name, number, -_FLOAT_MAX, _FLOAT_MAX)
+
+
+def share(value: float, name: str) -> float:
+    if 0 <= _real(value, name) <= 1:
+        return value
+    raise _out_of_range(name, value, 0, 1)
 
 
 def with_checked_arguments(function: Callable[..., Any], name: str, kinds: Sequence[Any]) -> Callable[..., Any]:

@@ -1,25 +1,30 @@
-"""Tracks files with the package's `mien` program: one row per frame of any file that ffmpeg can read."""
+"""Files that ffmpeg can read: a row per frame of a video, from the package's `mien` program, and single images."""
 
 from __future__ import annotations
 
 import json
+import re
 import subprocess
 import tempfile
 import warnings
 from pathlib import Path
-from typing import Any, Iterable, Iterator, Literal, Optional, Union
+from typing import Any, Iterable, Iterator, Literal, Mapping, Optional, Union, cast
 
 import numpy as np
 import numpy.typing as npt
 
 from ._library import MODELS, PROGRAM
 from .errors import MienError
-from .tracker import Lod
+from .result import Result
+from .rows import Row
+from .tracker import Color, Frame, Lod, Tracker, level
 from .vocabulary import CONTROL_NAMES
 
-Row = dict[str, Union[int, float, str]]
-
 _NOTE = "mien: note: "
+_NAN = float("nan")
+_STILL_FRAMES = 12  # after which smoothing and temporal decoders have settled
+_CONTROLS = frozenset(CONTROL_NAMES)
+_FACTS = [name for name in Row.__annotations__ if name not in _CONTROLS]
 
 
 def track_file(
@@ -34,8 +39,7 @@ def track_file(
 ) -> Iterator[Row]:
     """A row for every frame of a video, from video and audio together; 30 rows per second for a file without video.
 
-    A row has time_s, status, face_id, face_probability, voice_activity, x, y, width, height (the face's box), pitch, yaw, roll,
-    tx, ty, tz, and the 52 controls by name. Needs ffmpeg and ffprobe. The file is read while rows are taken: a damaged or truncated
+    Rows have the names, units and values of `mien track`'s CSV. Needs ffmpeg and ffprobe. The file is read while rows are taken: a damaged or truncated
     file raises MienError after its last valid row; other problems are warnings.
 
     backward: track backward from a detection through the frames before it, up to 3 seconds. While no face is seen, rows are as late.
@@ -43,6 +47,7 @@ def track_file(
     """
     if not Path(path).is_file():
         raise FileNotFoundError(f"no file {str(path)!r}")
+    level(lod)
     options = ["--lod", str(lod), "--audio-track", str(audio_track)]
     options += [] if sound else ["--mode", "video"]
     options += [] if smoothing else ["--no-filter"]
@@ -51,10 +56,35 @@ def track_file(
     return _rows([*options, "--", str(Path(path).absolute())])
 
 
-def columns(rows: Iterable[Row]) -> dict[str, npt.NDArray[np.generic]]:
-    """Rows as one array for each name: pandas.DataFrame(mien.columns(mien.track_file(path)))."""
-    taken = list(rows)
-    return {name: np.array([row[name] for row in taken]) for name in (taken[0] if taken else {})}
+def columns(rows: Iterable[Row]) -> dict[str, npt.NDArray[Any]]:
+    """Rows as one array for each name: pandas.DataFrame(mien.columns(mien.track_file(path))). Controls that are not predicted are NaN."""
+    taken = cast("list[Mapping[str, object]]", list(rows))
+    return {name: np.array([row.get(name, _NAN) for row in taken]) for name in ([*_FACTS, *CONTROL_NAMES] if taken else [])}
+
+
+def track_image(image: Union[str, Path, Frame], *, lod: Lod = 4, color: Color = "bgr") -> Result:
+    """The face in a single image: a file, or an array as in Tracker.track. Files need ffmpeg."""
+    if isinstance(image, (str, Path)):
+        image, color = _read_image(Path(image)), "rgb"
+    with Tracker(lod, sound=False) as tracker:
+        for i in range(_STILL_FRAMES):
+            result = tracker.track(image, i / 30, color=color)
+    return result
+
+
+def _read_image(path: Path) -> Frame:
+    if not path.is_file():
+        raise FileNotFoundError(f"no file {str(path)!r}")
+    command = ["ffmpeg", "-nostdin", "-v", "error", "-i", str(path.absolute()), "-frames:v", "1", "-f", "image2pipe", "-c:v", "ppm", "-pix_fmt", "rgb24", "-"]
+    try:
+        answer = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True)
+    except OSError as error:
+        raise MienError(f"ffmpeg cannot be run: {error.strerror}") from error
+    header = re.match(rb"P6\s(\d+)\s(\d+)\s255\s", answer.stdout)
+    if answer.returncode != 0 or header is None:
+        raise MienError(f"{path}: cannot be read as an image: {answer.stderr.decode('utf-8', 'replace').strip()}")
+    width, height = int(header[1]), int(header[2])
+    return np.frombuffer(answer.stdout, np.uint8, width * height * 3, header.end()).reshape(height, width, 3)
 
 
 def _rows(arguments: list[str]) -> Iterator[Row]:
@@ -86,16 +116,17 @@ def _rows(arguments: list[str]) -> Iterator[Row]:
 
 def _row(frame: dict[str, Any]) -> Row:
     head = frame.get("head", {})
-    controls = frame.get("controls", {})
-    row: Row = {
-        "time_s": frame["t_ns"] / 1e9,
-        "status": frame.get("status", "searching"),
+    row = {
+        "frame": frame["frame"],
+        "t_ms": frame["t_ns"] / 1e6,
+        "status": frame["status"],
         "face_id": frame.get("face_id", 0),
-        "face_probability": frame.get("face_prob", 0.0),
-        "voice_activity": frame.get("vad", 0.0),
+        "face_prob": frame.get("face_prob", 0.0),
+        "lod": frame["lod"],
+        "vad": frame.get("vad", 0.0),
     }
-    row.update(zip(("x", "y", "width", "height"), frame.get("box", [0.0] * 4)))
-    row.update({angle: head.get(f"{angle}_rad", 0.0) for angle in ("pitch", "yaw", "roll")})
-    row.update(zip(("tx", "ty", "tz"), frame.get("position_m", [0.0] * 3)))
-    row.update({name: controls.get(name, 0.0) for name in CONTROL_NAMES})
-    return row
+    row.update(zip(("x", "y", "w", "h"), frame.get("box", [_NAN] * 4)))
+    row.update({angle: head.get(angle, _NAN) for angle in ("pitch_rad", "yaw_rad", "roll_rad")})
+    row.update(zip(("tx_m", "ty_m", "tz_m"), frame.get("position_m", [_NAN] * 3)))
+    row.update(frame.get("controls", {}))
+    return cast(Row, row)

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import enum
-from typing import Any, Iterator, Mapping, NamedTuple, Union
+import math
+from functools import lru_cache
+from typing import Any, Iterable, Iterator, Mapping, NamedTuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -21,41 +23,72 @@ class FaceStatus(enum.IntEnum):
     LOST = 2  #: the face is lost: it keeps its last position, and its controls fade
 
 
+@lru_cache(maxsize=16)
+def _names(supported: int) -> tuple[str, ...]:
+    return tuple(name for i, name in enumerate(CONTROL_NAMES) if supported >> i & 1)
+
+
+@lru_cache(maxsize=16)
+def _others(supported: int) -> list[int]:
+    return [i for i in range(CONTROL_COUNT) if not supported >> i & 1]
+
+
 class Controls(Mapping[str, float]):
-    """52 animation weights, 0..1, by ARKit name or Control; `array` has them in the order of CONTROL_NAMES."""
+    """Weights of animation, 0..1, by ARKit name, Control or attribute: controls["jawOpen"] is controls.jawOpen.
 
-    __slots__ = ("array", "_supported")
+    The mapping has the controls that the level of detail predicts. `array` has all 52 in the order of CONTROL_NAMES; others are NaN.
+    """
 
-    def __init__(self, array: Floats, supported: int) -> None:
-        self.array = array
+    __slots__ = ("_weights", "_supported")
+
+    def __init__(self, weights: Floats, supported: int) -> None:
+        self._weights = weights
         self._supported = supported
 
     def __getitem__(self, name: Union[str, Control]) -> float:
-        return float(self.array[name if isinstance(name, Control) else CONTROL_NUMBERS[name]])
+        number = int(name) if isinstance(name, Control) else CONTROL_NUMBERS[name]
+        if not self._supported >> number & 1:
+            raise KeyError(f"{CONTROL_NAMES[number]}: not predicted at this level of detail")
+        return float(self._weights[number])
+
+    def __getattr__(self, name: str) -> float:
+        if name not in CONTROL_NUMBERS:
+            raise AttributeError(f"{name}: no such control")
+        try:
+            return self[name]
+        except KeyError as error:
+            raise AttributeError(*error.args) from None
+
+    def __dir__(self) -> Iterable[str]:
+        return [*super().__dir__(), *self]
 
     def __iter__(self) -> Iterator[str]:
-        return iter(CONTROL_NAMES)
+        return iter(_names(self._supported))
 
     def __len__(self) -> int:
-        return CONTROL_COUNT
+        return len(_names(self._supported))
 
     def __repr__(self) -> str:
         return "Controls(" + ", ".join(f"{name}={value:.2f}" for name, value in self.items() if value >= 0.005) + ")"
 
     @property
+    def array(self) -> Floats:
+        array = self._weights.copy()
+        array[_others(self._supported)] = np.nan
+        return array
+
+    @property
     def supported(self) -> frozenset[str]:
-        """The controls that this level of detail predicts; the others are 0."""
-        return frozenset(name for name, i in CONTROL_NUMBERS.items() if self._supported >> i & 1)
+        """The controls that this level of detail predicts."""
+        return frozenset(self)
 
     def to(self, vocabulary: str) -> dict[str, float]:
-        """The controls in another vocabulary, one of VOCABULARIES."""
-        names = vocabulary_names(vocabulary)
-        controls = np.ascontiguousarray(self.array, np.float32)
-        if controls.shape != (CONTROL_COUNT,):
-            raise ValueError(f"array: wrong shape (got {controls.shape}, expected ({CONTROL_COUNT},))")
+        """The controls in another vocabulary, one of VOCABULARIES: the names that the predicted controls determine."""
+        number, names = number_of(vocabulary), vocabulary_names(vocabulary)
         values = np.empty(len(names), np.float32)
-        check(function("mien_vocabulary_values")(number_of(vocabulary), controls.ctypes.data, values.ctypes.data, len(names)))
-        return dict(zip(names, values.tolist()))
+        check(function("mien_vocabulary_values")(number, self._weights.ctypes.data, values.ctypes.data, len(names)))
+        supported = int(function("mien_vocabulary_supported")(number, self._supported))
+        return {name: value for i, (name, value) in enumerate(zip(names, values.tolist())) if supported >> i & 1}
 
 
 class Pose(NamedTuple):
@@ -66,6 +99,25 @@ class Pose(NamedTuple):
     pitch: float  #: radians, positive: looks down
     yaw: float  #: radians, positive: turns to the subject's left
     roll: float  #: radians, about z by the right-hand rule
+
+    @property
+    def matrix(self) -> npt.NDArray[np.float64]:
+        """[4, 4]: head space to camera space, metres."""
+        x, y, z, w = self.rotation.tolist()
+        matrix = np.eye(4)
+        matrix[:3, :3] = [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+        ]
+        matrix[:3, 3] = self.translation
+        return matrix
+
+    def project(self, points: npt.ArrayLike, width: float, height: float, focal_length_px: float = 0.0) -> npt.NDArray[np.float64]:
+        """Points [n, 3] of head space as pixels [n, 2] of the upright image, which is not mirrored. 0: a field of view of 60 degrees."""
+        focal = focal_length_px or width * math.sqrt(0.75)
+        x, y, z = (np.asarray(points) @ self.matrix[:3, :3].T + self.translation).T
+        return np.stack([width / 2 - focal * x / z, height / 2 + focal * y / z], 1)
 
 
 class Result:

@@ -11,8 +11,8 @@ import numpy.typing as npt
 
 from ._handle import Handle
 from ._library import MODELS, NEUTRAL_BYTES, Audio, Image, TrackerConfig, TrackerResult, function
-from ._numbers import nanoseconds
-from .errors import check, check_detail, new_detail
+from ._numbers import nanoseconds, share
+from .errors import ImageRotationError, UnsupportedLodError, check, check_detail, new_detail
 from .result import Result
 from .vocabulary import CONTROL_NUMBERS
 from .weights import Model, Weights, opened
@@ -25,6 +25,7 @@ Lod = Literal["auto", 1, 2, 3, 4]
 # mien_image_format by color and bytes per pixel.
 _PACKED = {("gray", 1): 0, ("rgb", 3): 1, ("bgr", 3): 2, ("rgb", 4): 3, ("bgr", 4): 4}
 _YUV = {"nv12": 5, "nv21": 6, "i420": 7}
+_COLORS = ("bgr", "rgb", *_YUV)
 
 
 class Tracker(Handle):
@@ -58,7 +59,7 @@ class Tracker(Handle):
         function("mien_tracker_config_default")(byref(config))
         self._weights = opened(MODELS if models is None else models)  # kept: the files must outlive the tracker
         config.weights = self._weights._open()
-        config.lod = 0 if lod == "auto" else lod
+        config.lod = level(lod)
         config.max_lod = 1 if lod == 1 else 4
         config.audio = int(sound)
         config.max_faces = max_faces
@@ -111,6 +112,8 @@ class Tracker(Handle):
         if facts != self._facts:  # most frames have equal facts, and comparing is faster than checking
             self._facts = ()
             image.rotation = rotation
+            if rotation not in (0, 90, 180, 270):
+                raise ImageRotationError(f"rotation: unsupported angle (got {rotation!r}, expected 0, 90, 180 or 270)")
             image.mirrored = bool(mirrored)
             image.full_range = bool(full_range)
             image.yuv_matrix = bool(bt709)
@@ -158,10 +161,12 @@ class Tracker(Handle):
 
     def set_mix(self, control: str, audio: float, video: float) -> None:
         """Weights of audio and video for a control during speech, each 0..1."""
-        check(function("mien_tracker_set_mix")(self._open(), CONTROL_NUMBERS[control], audio, video))
+        if control not in CONTROL_NUMBERS:
+            raise ValueError(f"control: unknown (got {control!r}, expected one of mien.CONTROL_NAMES)")
+        check(function("mien_tracker_set_mix")(self._open(), CONTROL_NUMBERS[control], share(audio, "audio"), share(video, "video")))
 
     def set_lod(self, lod: Lod) -> None:
-        check(function("mien_tracker_set_lod")(self._open(), 0 if lod == "auto" else lod))
+        check(function("mien_tracker_set_lod")(self._open(), level(lod)))
 
     def calibrate(self) -> None:
         """Captures a person's neutral controls over the next 55 frames with a face, and removes them from later frames."""
@@ -196,11 +201,19 @@ def _monotonic_ns(_: Any) -> int:
 _CLOCK = _ClockFunction(_monotonic_ns)
 
 
+def level(lod: Lod) -> int:
+    if isinstance(lod, str) and lod != "auto":
+        raise UnsupportedLodError(f"lod: unknown level (got {lod!r}, expected 'auto' or 1 to 4)")
+    return 0 if lod == "auto" else lod
+
+
 def _describe(image: Image, frame: Frame, color: str) -> None:
     """The address and layout of the frame's pixels."""
     if not isinstance(frame, np.ndarray) or frame.dtype != np.uint8:
         kind = f"an array of {frame.dtype}" if isinstance(frame, np.ndarray) else f"a {type(frame).__name__}"
         raise TypeError(f"frame: wrong type (got {kind}, expected a numpy array of uint8)")
+    if color not in _COLORS:
+        raise ValueError(f"color: unknown (got {color!r}, expected one of {', '.join(_COLORS)})")
     if color in _YUV:
         _describe_yuv(image, frame, color)
         return

@@ -9,7 +9,7 @@ from typing import Mapping
 
 from ._library import CONTROL_COUNT, LANDMARK_COUNT, function, text
 
-__all__ = ["CONTROL_NAMES", "Control", "LANDMARK_COUNT", "LandmarkGroup", "VOCABULARIES", "vocabulary_names"]
+__all__ = ["CONTROL_NAMES", "Control", "LANDMARK_COUNT", "LANDMARK_NAMES", "LandmarkGroup", "VOCABULARIES", "vocabulary_names"]
 
 class Control(enum.IntEnum):
     """Controls in the order of CONTROL_NAMES: mien_control of mien.h."""
@@ -102,6 +102,7 @@ class LandmarkGroup(enum.IntEnum):
 
 
 CONTROL_NAMES: tuple[str, ...] = tuple(text("mien_control_name", i) or "" for i in range(CONTROL_COUNT))
+LANDMARK_NAMES: tuple[str, ...] = tuple(f"{group.name.lower()}_{i}" for group in LandmarkGroup for i in range(len(group.landmarks)))
 CONTROL_NUMBERS: Mapping[str, int] = MappingProxyType({name: i for i, name in enumerate(CONTROL_NAMES)})
 
 # In the order of mien_vocabulary.

@@ -1,0 +1,12 @@
+# Names the libraries that are missing when pip builds the wheel.
+set(missing)
+foreach(package CLI11 nlohmann_json ZLIB)
+  find_package(${package} QUIET)
+  if(NOT ${package}_FOUND)
+    list(APPEND missing ${package})
+  endif()
+endforeach()
+if(missing)
+  list(JOIN missing ", " missing)
+  message(FATAL_ERROR "libraries: missing (${missing})\n${MIEN_WHEEL_ADVICE}")
+endif()
