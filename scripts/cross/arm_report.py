@@ -38,8 +38,7 @@ def table(header, rows):
 
 def loop_of(folder, name, pattern):
     found = inner_loops.functions("aarch64-linux-gnu-objdump", folder / f"{name}.cpp.o")
-    return inner_loops.busiest_loop(next(body for function, body in found.items()
-                                         if re.search(pattern, function)))
+    return inner_loops.busiest_loop(next(body for function, body in found.items() if re.search(pattern, function)))
 
 
 def predictions(folder_of):

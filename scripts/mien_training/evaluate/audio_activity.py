@@ -3,9 +3,7 @@ import numpy as np
 
 from mien_training.audio import activity, corpus, effects
 from mien_training.audio.features import RATE
-from mien_training.evaluate import (
-    metrics,
-)
+from mien_training.evaluate import metrics
 
 RATIOS = [None, 20, 10, 5, 0, -5]
 PAUSE = 1.0          # seconds of silence around every utterance

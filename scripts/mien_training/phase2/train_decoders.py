@@ -404,8 +404,7 @@ def arguments(**changed):
 def main():
     args = options().parse_args()
     torch.set_num_threads(args.threads)
-    sources = [kind(load_joined(paths), args)
-               for kind, paths in ((Moving, args.train), (Held, args.held)) if paths]
+    sources = [kind(load_joined(paths), args) for kind, paths in ((Moving, args.train), (Held, args.held)) if paths]
     portraits = portrait_stills(load_joined(args.portraits), args) if args.portraits else None
     decoders = {"controls": ControlsDecoder(), "frame": FrameDecoder()}
     if args.network == "basenet":
