@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <span>
 
 #include "apps/animation/facs_map.h"
@@ -49,8 +48,10 @@ bool is_derived(const Frame& frame) {
   if (frame.mouth_shape == 0 && frame.visemes.empty() && frame.facs.empty()) {
     return false;
   }
-  const auto wanted = derived(frame);
-  return std::memcmp(wanted.data(), frame.controls.data(), sizeof wanted) == 0;
+  const auto same_bits = [](double a, double b) {  // unlike ==, also for NaN and -0
+    return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+  };
+  return std::ranges::equal(derived(frame), frame.controls, same_bits);
 }
 
 // Numbers with at most nine decimals, which are typical for files, take 4 bytes.

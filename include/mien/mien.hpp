@@ -122,6 +122,7 @@ struct LoadedWeights {
   }
   std::vector<std::vector<char>> contents;
   std::vector<std::span<const std::byte>> files;
+  files.reserve(paths.size());
   for (const std::filesystem::path& one : paths) {
     std::ifstream file(one, std::ios::binary);
     contents.emplace_back(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());

@@ -47,6 +47,7 @@ Case make(RandomValues& random, int pixels, int channels, float epsilon, bool in
   std::vector<Approx> y(x.size());
   for (int p = 0; p < pixels; ++p) {
     std::vector<double> pixel;
+    pixel.reserve(as_size(channels));
     for (int c = 0; c < channels; ++c) {
       pixel.push_back(static_cast<double>(x[blocked(c, p, pixels)]));
     }

@@ -78,13 +78,13 @@ void choose_face(Clip& clip, const ConvertOptions& options, animation::Animation
   }
 }
 
-// Writes the frames of a clip and clears it.
+// Writes the frames of a clip.
 class ClipWriter {
  public:
   ClipWriter(const AnimationTarget& target, const animation::WriteOptions& options)
       : losses_(target.format), output_(target, options) {}
 
-  void write(FrameSequence frames) {
+  void write(const FrameSequence& frames) {
     evenly_spaced_ = animation::evenly_spaced(frames);
     for (auto at = frames.begin(); at != FrameSequence::end() && output_.wanted(); ++at) {
       write_frame(*at);
@@ -185,7 +185,7 @@ void convert(const ConvertOptions& options) {
     even.emplace(std::move(clip.frames), *options.fps);
   }
   ClipWriter writer(target, writing);
-  even ? writer.write(*even) : writer.write(std::move(clip.frames));
+  even ? writer.write(*even) : writer.write(clip.frames);
   const std::vector<std::string> of_format = writer.lost();
   lost.insert(lost.end(), of_format.begin(), of_format.end());
   report(options, target.format, clip, writer.count(), lost);

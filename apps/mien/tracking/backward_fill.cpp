@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <string>
 #include <utility>
 
@@ -46,8 +47,7 @@ void copy_face(const Result& from, Result& to) {
   to.pitch = from.pitch;
   to.yaw = from.yaw;
   to.roll = from.roll;
-  std::copy(&from.landmarks[0][0], &from.landmarks[0][0] + 2 * MIEN_LANDMARK_COUNT,
-            &to.landmarks[0][0]);
+  std::memcpy(to.landmarks, from.landmarks, sizeof to.landmarks);
 }
 
 }  // namespace

@@ -78,7 +78,7 @@ void write_stats(OutputFile& file, const Result& last, const StageTimes& times,
 void print_summary(const Result& last, std::uint64_t filled, const StageTimes& times) {
   std::fprintf(stderr, "%llu frames, %llu with a face, %llu with detection\n",
                static_cast<unsigned long long>(last.frames),
-               static_cast<unsigned long long>(last.face_frames + filled),
+               static_cast<unsigned long long>(last.face_frames) + filled,
                static_cast<unsigned long long>(last.proposal_runs));
   for (const auto& [stage, time] : times.summary()) {
     std::fprintf(stderr, "  %-9s median %.3f ms, p95 %.3f ms\n", stage.c_str(), time.median_ms,
