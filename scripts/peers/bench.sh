@@ -39,7 +39,6 @@ run() {
     mien) "${first[@]}" "$program" bench --json ;;
     unfused | sound) "${first[@]}" "$program" bench --"$1" --json ;;
     levels) "${first[@]}" "$program" bench --levels $clip --json ;;
-    pytorch) "${first[@]}" /usr/bin/python3 scripts/peers/engines.py pytorch "$work" ;;
     mediapipe) "${first[@]}" "$python" scripts/peers/mediapipe_frames.py $clip "$MIEN_DATA/teacher/face_landmarker.task" ;;
     voice_*) "${first[@]}" "$python" scripts/peers/voice_scores.py "${1#voice_}" "$work" ;;
     *) "${first[@]}" "$python" scripts/peers/engines.py "$1" "$work" ;;
@@ -90,5 +89,5 @@ for class in "${classes[@]}"; do
   /usr/bin/python3 scripts/peers/cpu_classes.py "$work/$class" "$rounds" docs/results "$class"
 done
 [ ${#documents[@]} -gt 0 ] || exit 0
-time_in_turns "$work" mien levels sound unfused "${engines[@]}" pytorch mediapipe voice_mien voice_silero
+time_in_turns "$work" mien levels sound unfused "${engines[@]}" mediapipe voice_mien voice_silero
 for document in "${documents[@]}"; do /usr/bin/python3 "scripts/peers/$document.py" "$work" "$rounds" docs/results "${timed[@]}"; done

@@ -72,19 +72,6 @@ def litert(stem, inputs):
     return interpreter.invoke, lambda: interpreter.get_tensor(interpreter.get_output_details()[0]["index"])
 
 
-def pytorch(stem, inputs):
-    import torch
-    torch.set_num_threads(1)
-    network = torch.jit.freeze(torch.jit.load(f"{stem}.pt").eval())
-    tensors = [torch.from_numpy(x) for x in inputs.values()]
-
-    def run():
-        with torch.inference_mode():
-            answers = network(*tensors)
-        return answers[0] if isinstance(answers, tuple) else answers
-    return run, lambda: run().numpy()
-
-
 OPENVINO = ["openvino/libs/libopenvino.so.*", "openvino/libs/libopenvino_intel_cpu_plugin.so",
             "openvino/libs/libopenvino_onnx_frontend.so.*"]
 # name: (runner, file format, tolerance, package, files that a program ships)
@@ -95,7 +82,6 @@ ENGINES = {
     "ncnn": (ncnn(False), ".ncnn.param", EXACT, "ncnn", ["ncnn/*.so"]),
     "ncnn_16bit": (ncnn(True), ".ncnn.param", HALF, "ncnn", ["ncnn/*.so"]),
     "litert": (litert, ".tflite", EXACT, "ai-edge-litert", ["ai_edge_litert/libpywrap_litert_common.so"]),
-    "pytorch": (pytorch, ".pt", EXACT, "torch", []),
 }
 
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes networks for other engines to time.  usage: export_onnx.py OUT_DIR
 
-NAME.onnx, NAME.pt (TorchScript) and NAME.npz: the inputs by name, in order, and the first output, `answer`.
+NAME.onnx and NAME.npz: the inputs by name, in order, and the first output, `answer`.
 Networks over time take one step: what they remember comes in and goes out with it.
 """
 import sys
@@ -67,7 +67,6 @@ def main():
     for name, (network, shapes) in networks().items():
         network, inputs = network.eval(), tuple(torch.rand(shape) * 2 - 1 for shape in shapes.values())
         torch.onnx.export(network, inputs, out / f"{name}.onnx", opset_version=13, input_names=list(shapes))
-        torch.jit.trace(network, inputs).save(str(out / f"{name}.pt"))
         with torch.no_grad():
             answers = network(*inputs)
         first = answers[0] if isinstance(answers, tuple) else answers

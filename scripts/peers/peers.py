@@ -11,7 +11,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 ENGINES = {"onnxruntime": "ONNX Runtime", "openvino": "OpenVINO", "openvino_bf16": "OpenVINO, bf16", "ncnn": "ncnn",
-           "ncnn_16bit": "ncnn, 16 bits", "litert": "LiteRT (XNNPACK)", "pytorch": "PyTorch"}
+           "ncnn_16bit": "ncnn, 16 bits", "litert": "LiteRT (XNNPACK)"}
 OTHERS = {"mediapipe": "MediaPipe", "voice_silero": "Silero VAD"}
 LESS_EXACT = ("openvino_bf16", "ncnn_16bit")
 BARS = {"basenet_encoder": 0.8, "hifinet_encoder": 0.8}  # of the fastest peer's time, by minima and by medians

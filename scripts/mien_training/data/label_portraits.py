@@ -1,6 +1,6 @@
 """Labels portraits with the teacher, six times each: the mean is the label, the scatter says how far to trust it.
 
-usage: python3 -m mien_training.data.label_portraits PACK [--kinds KIND...] [--minutes M]
+usage: python3 -m mien_training.data.label_portraits PACK [--kinds KIND...]
 Needs PyPI's mediapipe and $MIEN_CACHE/PACK/img, the images that $MIEN_DATA/PACK/faces.npz names. Writes
 $MIEN_CACHE/PACK/labels.npz, with the fields of the packs' own labels, and landmark_scatter [n], the mean distance of
 the views' landmarks from their mean as a share of the distance between the pupils, control_scatter [n,52], and views
@@ -131,19 +131,16 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("pack")
     parser.add_argument("--kinds", nargs="*", default=["turned", "expressive", "other"])
-    parser.add_argument("--minutes", type=float, default=1e9)
     options = parser.parse_args()
     folder = cache() / options.pack
     table = np.load(data() / options.pack / "faces.npz")
     rows = load(folder / "labels.npz")
     asked = [str(n) for kind in options.kinds for n in table["name"][table["kind"] == kind] if str(n) not in rows]
-    ask, began, saved = teacher(), time.time(), time.time()
+    ask, saved = teacher(), time.time()
     for name in tqdm(asked, mininterval=10):
         if time.time() - saved > 120:
             save(folder / "labels.npz", rows, table)
             saved = time.time()
-        if time.time() - began > 60 * options.minutes:
-            break
         picture = cv2.imread(str(folder / "img" / name))[..., ::-1]
         found = answers(ask, picture, np.random.default_rng(zlib.crc32(name.encode())))
         if len(found) < MIN_VIEWS:
