@@ -42,7 +42,7 @@ for group in "${wanted[@]}"; do
   [ -n "${PACKAGES[$group]:-}" ] || { echo "setup.sh: unknown group '$group'" >&2; exit 2; }
   for package in ${PACKAGES[$group]}; do
     [ "$package" != npm ] || ! command -v npm >/dev/null || continue  # nodejs from elsewhere than Debian brings its own
-    dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q "ok installed" || missing+=("$package")
+    dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep "ok installed" >/dev/null || missing+=("$package")
   done
 done
 [ ${#missing[@]} -gt 0 ] || exit 0

@@ -54,7 +54,7 @@ expect() {  # exit code, text in the output, command...
 
 for device in adb adb:here ssh:board; do
   expect 0 "softmax" "$script" "$device" "$program" --filter 'softmax'
-  if "$program" --list --filter softmax | grep -qv ' ref$'; then  # the reference is not compared with itself
+  if "$program" --list --filter softmax | grep -v ' ref$' >/dev/null; then  # the reference is not compared with itself
     expect 0 "network/proposal" "$script" "$device" "$program" --list --filter 'network/*'
   fi
   expect 3 "no match (got 'two words')" "$script" "$device" "$program" --filter 'two words'

@@ -19,7 +19,7 @@ echo "== one command, without warnings"
 "$CXX" -std=c++20 -O3 -Wall -Wextra -Werror main.cpp mien*.cpp -o "$work/amalgamated"
 "$work/amalgamated" "$mien/models" "$work/frames.rgb" | tee "$work/amalgamated.txt"
 
-if "$CXX" --version | grep -q "Free Software Foundation" && command -v clang++ >/dev/null; then
+if "$CXX" --version | grep "Free Software Foundation" >/dev/null && command -v clang++ >/dev/null; then
   echo "== one command of clang"
   clang++ -std=c++20 -O2 -Wall -Wextra -Werror main.cpp mien*.cpp -o "$work/by_clang"
   "$work/by_clang" "$mien/models" "$work/frames.rgb"
