@@ -122,9 +122,10 @@ mien_status Model::constant(std::string_view name, std::size_t elems,
     return fail(MIEN_ERROR_WEIGHTS_SHAPE, "constant", name);
   }
   if (tensor->bytes != elems * sizeof(float)) {
+    const std::uint64_t stored = tensor->bytes / sizeof(float);
     const auto expected = static_cast<double>(elems);
-    return bad_constant(MIEN_ERROR_WEIGHTS_SHAPE, name,
-                        static_cast<double>(tensor->bytes / sizeof(float)), expected, expected);
+    return bad_constant(MIEN_ERROR_WEIGHTS_SHAPE, name, static_cast<double>(stored), expected,
+                        expected);
   }
   values = {reinterpret_cast<const float*>(file_.data(*tensor).data()), elems};
   return MIEN_OK;
