@@ -1,36 +1,30 @@
 // The avx512vnni tier of fma_peak.
 #include "kernels/common/avx512.h"
 #include "kernels/families.h"
+#include "kernels/fma_peak/integer_peak.h"
 
 namespace mien::kernels::avx512vnni {
+namespace {
 
-void fma_peak(const FmaPeakArgs& a) {
-  constexpr int kSums = 16;  // throughput 2 per cycle, latency 5 cycles, and spare
-  __m512i sum[kSums];
-  const __m512i ones = _mm512_set1_epi32(static_cast<int>(a.rounds % 512));
-  for (int k = 0; k < kSums; ++k) {
-    sum[k] = _mm512_add_epi32(ones, _mm512_set1_epi32(k));
+struct IntegerVector {
+  using Sum = __m512i;
+  static constexpr int kSums = 16;
+  static constexpr int kProducts = 2 * avx512::kPanel;
+
+  static Sum all(int value) { return _mm512_set1_epi32(value); }
+  static Sum add(Sum a, Sum b) { return _mm512_add_epi32(a, b); }
+  static Sum bit_and(Sum a, Sum b) { return _mm512_and_si512(a, b); }
+  static Sum bit_or(Sum a, Sum b) { return _mm512_or_si512(a, b); }
+  static Sum multiply_add(Sum sum, Sum value, Sum weight) {
+    return _mm512_dpwssd_epi32(sum, value, weight);
   }
-  const __m512i factor = _mm512_set1_epi16(3);
-  // Unrolled by hand, because gcc 12 copies all sums in every iteration of a loop.
-  constexpr int kUnrolled = 8;
-  const std::int64_t turns = (a.rounds + kUnrolled - 1) / kUnrolled;
-  for (std::int64_t i = 0; i < turns; ++i) {
-#pragma GCC unroll 8
-    for (int round = 0; round < kUnrolled; ++round) {
-      for (__m512i& one : sum) {
-        one = _mm512_dpwssd_epi32(one, ones, factor);
-      }
-    }
+  static void store(Sum sum, float* y) {
+    _mm256_storeu_ps(y, _mm256_cvtepi32_ps(_mm512_castsi512_si256(sum)));
   }
-  __m512i total = _mm512_setzero_si512();
-  for (const __m512i& one : sum) {
-    total = _mm512_add_epi32(total, one);
-  }
-  // The sums wrap around; keep some bits that depend on all of them.
-  total = _mm512_or_si512(_mm512_and_si512(total, _mm512_set1_epi32(62)), _mm512_set1_epi32(1));
-  _mm256_storeu_ps(a.y, _mm256_cvtepi32_ps(_mm512_castsi512_si256(total)));
-  *a.macs = turns * kUnrolled * kSums * 2 * avx512::kPanel;
-}
+};
+
+}  // namespace
+
+void fma_peak(const FmaPeakArgs& a) { integer_peak<IntegerVector>(a); }
 
 }  // namespace mien::kernels::avx512vnni

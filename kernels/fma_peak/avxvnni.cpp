@@ -5,6 +5,6 @@
 
 namespace mien::kernels::avxvnni {
 
-void fma_peak(const FmaPeakArgs& a) { avx2::integer_peak<Pairs>(a); }
+void fma_peak(const FmaPeakArgs& a) { integer_peak<avx2::IntegerVector<Pairs>>(a); }
 
 }  // namespace mien::kernels::avxvnni
