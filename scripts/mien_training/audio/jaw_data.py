@@ -30,7 +30,7 @@ class Row:
     name: str
     speaker: str
     kind: int
-    curve: np.ndarray   # jawOpen of video frames, as measured; empty where nobody was seen
+    curve: np.ndarray   # jawOpen of video frames, as measured; empty where no face was detected
     fps: int = teacher.FPS
 
 

@@ -9,8 +9,9 @@ from mien_training.data import faces, head_pose
 from mien_training.data.crop_sampler import sample
 from mien_training.data.expressions import CONTROLS
 from mien_training.data.expressions import MIRROR as CONTROL_MIRROR
-from mien_training.data.faces import continued, window
+from mien_training.data.faces import window
 from mien_training.data.framing import BASENET
+from mien_training.data.image_border import continued
 from mien_training.data.landmark_points import MIRROR
 from mien_training.data.sequences import crop_to_image, fit_crop, template, to_window
 from mien_training.paths import cache, data

@@ -14,6 +14,7 @@ from tqdm import tqdm
 from mien_convert.atomic_files import whole
 from mien_training.data import portrait_labels
 from mien_training.data.framing import BASENET, FRAMINGS
+from mien_training.data.image_border import continued
 from mien_training.data.sequences import fit_crop, template
 from mien_training.paths import cache
 
@@ -51,19 +52,6 @@ def camera_labels(found, framing):
     labels = {"rotation": found.labels.rotation, "translation": found.labels.translation,
               "f_px": found.size_wh[:, 1] / 2 / np.tan(TEACHER_FOV / 2), "camera_wh": found.size_wh, "window": window}
     return {name: torch.from_numpy(np.float32(value)) for name, value in labels.items()}
-
-
-def continued(image, share=0.6):
-    """The image with a blurred border of this share of its height around it, and the border's width: tight images
-    end at a chin."""
-    margin = int(share * image.shape[0])
-    out = cv2.copyMakeBorder(image, *[margin] * 4, cv2.BORDER_REFLECT_101)
-    inside = cv2.copyMakeBorder(np.ones(image.shape[:2], np.float32), *[margin] * 4, cv2.BORDER_CONSTANT)
-    coarse = lambda x: cv2.resize(x, None, fx=0.125, fy=0.125, interpolation=cv2.INTER_AREA)
-    fine = lambda x: cv2.resize(x, out.shape[1::-1], interpolation=cv2.INTER_LINEAR)
-    soft = fine(cv2.GaussianBlur(coarse(out), (0, 0), 3))
-    sharp = np.maximum(inside, fine(cv2.GaussianBlur(coarse(inside), (0, 0), 1.5)))[..., None]
-    return np.uint8(out * sharp + soft * (1 - sharp) + 0.5), margin
 
 
 def leaves(image, centre, side):

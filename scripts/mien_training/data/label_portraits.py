@@ -18,6 +18,7 @@ from tqdm import tqdm
 from mien_convert.atomic_files import whole
 from mien_training.data import landmark_points as lp
 from mien_training.data.expressions import CONTROLS, MIRROR
+from mien_training.data.image_border import continued
 from mien_training.paths import cache, data
 
 VIEWS = 6
@@ -40,18 +41,9 @@ def view(rng, mirrored, size):
     return np.column_stack([turn, offset]), angle
 
 
-def bordered(picture):
-    """The image on a border that continues it, blurred."""
-    margin = int(BORDER * picture.shape[0])
-    out = cv2.copyMakeBorder(picture, *[margin] * 4, cv2.BORDER_REPLICATE)
-    soft = cv2.GaussianBlur(out, (0, 0), margin / 4)
-    soft[margin:-margin, margin:-margin] = picture
-    return soft, margin
-
-
 def answers(ask, picture, rng):
     """Of each view with a face, in terms of the image: landmarks [175,2] pixels, controls [52], matrix [4,4]."""
-    wide, margin = bordered(picture)
+    wide, margin = continued(picture, BORDER)
     size = np.array(wide.shape[1::-1], float)
     found = []
     for k in range(VIEWS):

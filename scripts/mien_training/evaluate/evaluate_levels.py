@@ -5,7 +5,7 @@ from mien_training.data.expressions import CONTROLS
 from mien_training.evaluate import report as out
 from mien_training.evaluate import videos
 
-ROUNDS = 9  # of timing, all levels in turns; the fastest counts
+ROUNDS = 9  # of timing, all levels interleaved; the fastest counts
 SHOWN = ("jawOpen", "mouthPucker", "eyeBlinkLeft")
 PICTURED = "whitehouse_obama_weekly"
 

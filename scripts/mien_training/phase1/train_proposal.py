@@ -18,7 +18,8 @@ from tqdm import tqdm
 from mien_convert.atomic_files import whole
 from mien_training.data import augment
 from mien_training.data import proposal_data as data
-from mien_training.data.faces import Portraits, continued, leaves
+from mien_training.data.faces import Portraits, leaves
+from mien_training.data.image_border import continued
 from mien_training.networks.architectures import PNet, RNet
 from mien_training.paths import cache
 from mien_training.renderer.assets import environment_picture, names
