@@ -2,7 +2,7 @@
 # Builds mien for WebAssembly with Emscripten, with SIMD128 and without, and runs the tests of kernels and engine in Node
 # and in Chromium without a window, and mien-conformance in Node. What ran is said at the end.
 # usage: scripts/cross/wasm.sh [--full]   build and test; --full: 50 seeds of mien-conformance
-#        scripts/cross/wasm.sh bench      times frames in Node and natively, in turns, and writes docs/results/wasm.md
+#        scripts/cross/wasm.sh bench      times frames in Node and natively, interleaved, and writes docs/results/wasm.md
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 scripts/setup.sh build cross-wasm

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Times frames at level 4 natively and as WebAssembly in Node, in turns, and writes docs/results/wasm.{md,json}.
+"""Times frames at level 4 natively and as WebAssembly in Node, interleaved, and writes docs/results/wasm.{md,json}.
 usage: wasm_report.py FRAMES NATIVE_PROGRAM... -- NODE_PROGRAM...      FRAMES: raw NV12, 640x480
 Run by scripts/cross/wasm.sh bench."""
 import gzip
@@ -59,7 +59,7 @@ def page(report):
         "# WebAssembly", "", "For developers of web apps who ask what WebAssembly costs.", "",
         f"The fastest frame at level 4 takes {report['ratio']:.2f} times as long in Node as natively with AVX2. The data are the first {report['frames']} frames of the demo",
         f"clip (640x480 NV12, one face), processed by the same program built with gcc and with Emscripten (Node {report['node']}), one thread,",
-        f"{report['rounds']} rounds in turns, the faster of two passes for each frame. Only ratios carry over to other machines.", "",
+        f"{report['rounds']} interleaved rounds, the faster of two passes for each frame. Only ratios carry over to other machines.", "",
         "| program | fastest frame, ms | median frame, ms | relative to AVX2 | sum of controls |", "|---|---|---|---|---|", *rows, "",
         f"* SIMD128 relative to AVX2: {report['ratio']:.2f} for the fastest frames (by round {spread['least']:.2f} to {spread['most']:.2f}, median "
         f"{spread['median']:.2f}), {report['ratio_of_medians']:.2f} for medians; goal {LIMIT:g} at most: {verdict(report['ratio'] <= LIMIT)}.",

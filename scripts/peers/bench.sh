@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Times mien and its peers in turns, one thread each: networks in other engines, whole frames beside MediaPipe, sound beside Silero VAD.
+# Times mien and its peers interleaved, one thread each: networks in other engines, whole frames beside MediaPipe, sound beside Silero VAD.
 # Writes docs/results/peers.md, or performance.md, and their .json. What cannot be had here is said and left out.
 # usage: scripts/peers/bench.sh [ROUNDS] [peers|performance]...      default: 7, both documents
 #        scripts/peers/bench.sh [ROUNDS] avx2|avx2+vnni|avx512...    encoders and frames as on CPUs of these classes, on x86-64 Linux:

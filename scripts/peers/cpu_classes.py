@@ -39,7 +39,7 @@ def page(report):
              "By `scripts/peers/bench.sh ROUNDS CLASS...`.", ""]
     lines += table(["class", "what", "mien", "fastest peer", "ratio", "goal"],
                    [row for name, found in sorted(report.items()) for row in rows(name, found)])
-    lines += [f"* {name}: {found['rounds']} rounds in turns on {found['processor']}"
+    lines += [f"* {name}: {found['rounds']} interleaved rounds on {found['processor']}"
               for name, found in sorted(report.items())]
     return "\n".join(lines) + "\n"
 

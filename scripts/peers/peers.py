@@ -190,7 +190,7 @@ def in_short(report):
 def page(report):
     lines = ["# Speed compared with other engines and trackers", "", "For users who choose an engine or a tracker.", "",
              f"{in_short(report)}. The data are the networks of `models/`, the demo clip and held-out speech. One "
-             f"thread each, {report['rounds']} rounds in turns on one machine "
+             f"thread each, {report['rounds']} interleaved rounds on one machine "
              f"({report['processor']}; load {report['load']:.0f}), by `scripts/peers/bench.sh`. Only ratios carry over "
              "to similar processors. "
              "[Speed](performance.md) has the tier in half precision.", ""]

@@ -70,7 +70,7 @@ def to_text(figures):
     levels = ", ".join(f"level {f['lod']} {f['mean_us']:.0f} us" for f in figures["frames"]["levels"])
     lines = ["# Speed", "", "For developers of kernels, and for users who plan a budget.", "",
              f"A tracked frame of 640 x 480 pixels takes: {levels}. One thread, minima of {figures['rounds']} rounds "
-             "in turns with [other engines](peers.md) on one machine, by "
+             "interleaved with [other engines](peers.md) on one machine, by "
              "`scripts/peers/bench.sh`; only ratios carry over to other machines. `avx512fp16` and `avx512vnni` "
              "compute the encoders' blocks "
              "[with 16 bits](../architecture.md#half-precision) and the rest as `avx512`. The peak is that of a loop "
