@@ -34,7 +34,7 @@ async function licences() {
 await rm(out, {recursive: true, force: true});
 await mkdir(out + 'models', {recursive: true});
 await bundle(['src/page.js'], {splitting: true, chunkNames: 'part-[hash]'});
-await bundle(['src/tracking/worker.js', 'src/sources/microphone_worklet.js'], {entryNames: '[name]'});
+await bundle(['src/tracking/worker.js', '../../bindings/js/mien-worklet.js'], {entryNames: '[name]'});
 for (const file of plain) await cp(here + file, out + file);
 for (const name of ['basenet', 'proposal', 'hifinet', 'audionet']) await cp(`${root}models/${name}.mien`, `${out}models/${name}.mien`);
 await cp(wasm, out + 'mien.wasm');

@@ -119,8 +119,20 @@ export interface Result {
   faceId: number;
 }
 
+/** What browsers capture, decode and draw, and pixels. */
+export type FrameSource = HTMLVideoElement | HTMLImageElement | VideoFrame | ImageBitmap | HTMLCanvasElement | OffscreenCanvas | ImageData | Image;
+
 export class Tracker {
   private constructor();
+  /** The module of the tracker: names of controls, stages and landmarks. */
+  readonly mien: Mien;
+  /**
+   * Tracks one source after another, in the order of the calls. The source remains the caller's: close a VideoFrame or ImageBitmap after the result.
+   * @param ptsNs default: the timestamp of a VideoFrame, otherwise performance.now()
+   */
+  track(source: FrameSource, ptsNs?: Nanoseconds): Promise<Result>;
+  /** Takes audio from the port of an audio worklet (mien-worklet.js); the next track() reports an error in it. `listen` connects it. */
+  connectAudio(port: MessagePort): void;
   pushVideo(image: Image, ptsNs: Nanoseconds): void;
   /** Channels interleaved; `ptsNs` is the time of the first sample. */
   pushAudio(samples: Float32Array | Int16Array, format: {sampleRate: number; channels?: number}, ptsNs: Nanoseconds): void;
@@ -177,8 +189,35 @@ export class Mien {
   createNetwork(config: {weights: Weights; name?: string; height?: number; width?: number; cpuMask?: number}): Network;
 }
 
-/** `source`: URL of mien.wasm, a Response with it, its bytes, or the compiled module. */
-export function loadMien(source: string | URL | Response | Bytes | WebAssembly.Module): Promise<Mien>;
+/** `source`: URL of mien.wasm, a Response with it, its bytes, or the compiled module; default: the file of this package. */
+export function loadMien(source?: string | URL | Response | Bytes | WebAssembly.Module): Promise<Mien>;
+
+/** Fields of TrackerConfig; `lod` is 0, automatic, by default. */
+export interface TrackerOptions extends Omit<TrackerConfig, 'weights'> {
+  /** URL of a folder with mien.wasm and models/; default: the files of this package. */
+  folder?: string | URL;
+}
+
+/** A tracker with the files of this package. HiFiNet is loaded unless `maxLod` is 1, AudioNet unless `audio` is false. */
+export function createTracker(options?: TrackerOptions): Promise<Tracker>;
+
+type Promised<F> = F extends (...args: infer A) => infer R ? (...args: A) => Promise<Awaited<R>> : never;
+type Forwarded = 'track' | 'connectAudio' | 'pushAudio' | 'advance' | 'getResult' | 'faceCount' | 'getFace' | 'setLod' | 'setAudioOffset' | 'setMix' | 'captureNeutral' |
+  'saveNeutral' | 'loadNeutral' | 'reset';
+
+/** A tracker in a worker: the methods of Tracker, which return promises. */
+export interface TrackerWorker extends Readonly<{[Method in Forwarded]: Promised<Tracker[Method]>}> {
+  readonly version: string;
+  /** Ends the worker; promises that are pending are rejected. */
+  destroy(): void;
+}
+
+/** `worker`: one that runs mien-worker.js of this package; default: a new one. */
+export function createTrackerWorker(options?: TrackerOptions & {worker?: Worker}): Promise<TrackerWorker>;
+
+/** Sends audio to a tracker through an AudioWorklet. A new AudioContext starts after the first click or key of the user. */
+export function listen(tracker: Tracker | TrackerWorker, source: MediaStream | AudioNode, options?: {context?: AudioContext}):
+  Promise<{readonly context: BaseAudioContext; stop(): void}>;
 
 /** The controls that the level of detail predicts, by name. */
 export function controlsByName(result: Pick<Result, 'controls' | 'supportedControls'>): Partial<Record<ControlName, number>>;

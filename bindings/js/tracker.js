@@ -1,5 +1,6 @@
 // A tracker of mien.h.
 import {MienError} from './error.js';
+import {FrameReader, timeOf} from './frames.js';
 import {number, outOfRange} from './layout.js';
 
 const alignment = 64;  // MIEN_ALIGNMENT
@@ -73,6 +74,8 @@ export class Tracker {
     this.result = mien.struct('result');
     this.pixels = new Buffer(mien);
     this.samples = new Buffer(mien);
+    this.reader = new FrameReader();
+    this.last = Promise.resolve();
     try {
       this.create(config);
     } catch (error) {
@@ -143,6 +146,19 @@ export class Tracker {
     this.call('push_video', this.image.address, nanoseconds(ptsNs));
   }
 
+  // One source at a time, in the order of the calls.
+  track(source, ptsNs = timeOf(source)) {
+    const result = this.last.then(async () => {
+      this.checkOpen();
+      const image = await this.reader.read(source);
+      this.throwAudioError();
+      this.pushVideo(image, ptsNs);
+      return this.getResult();
+    });
+    this.last = result.catch(() => {});
+    return result;
+  }
+
   // One buffer with the planes one after another.
   split(data, sizes) {
     if (!isBytes(data)) throw new MienError('data: neither Uint8Array nor Uint8ClampedArray', wrong.plane);
@@ -180,6 +196,24 @@ export class Tracker {
     this.audio.set('frames', channels >= 1 ? Math.floor(samples.length / channels) : 0);
     this.audio.set('samples', address);
     this.call('push_audio', this.audio.address, nanoseconds(ptsNs));
+  }
+
+  // Takes audio from the port of an audio worklet until an error, which the next track() reports.
+  connectAudio(port) {
+    port.onmessage = ({data: {samples, sampleRate, timeMs}}) => {
+      try {
+        this.pushAudio(samples, {sampleRate}, timeMs * 1e6);
+      } catch (error) {
+        port.onmessage = null;
+        if (this.handle) this.audioError = error;
+      }
+    };
+  }
+
+  throwAudioError() {
+    const {audioError} = this;
+    this.audioError = undefined;
+    if (audioError) throw audioError;
   }
 
   getResult() {

@@ -15,9 +15,9 @@ PERMISSIVE = {"MIT", "Apache-2.0", "BSD-2-Clause", "BSD-3-Clause", "ISC", "0BSD"
 FOR_TESTS = PERMISSIVE | {"MPL-2.0"}  # for packages that are not distributed
 
 # npm: package-lock.json has the hash and licence of every package. Tools of the checks are not distributed.
-TOOLS = FOR_TESTS | {"BlueOak-1.0.0", "CC-BY-3.0", "CC BY-SA 4.0", "Python-2.0", "WTFPL", "(MIT OR CC0-1.0)"}
+TOOLS = FOR_TESTS | {"BlueOak-1.0.0", "CC-BY-3.0", "CC BY-SA 4.0", "Python-2.0", "WTFPL", "(MIT OR CC0-1.0)", "CC-BY-4.0"}
 UNDECLARED = {"node_modules/format": "MIT"}  # its package.json has the older field "licenses"
-for folder, for_development in (("apps/web", FOR_TESTS), ("scripts/check/npm", TOOLS)):
+for folder, for_development in (("apps/web", FOR_TESTS), ("apps/web/tests/bundlers", TOOLS), ("scripts/check/npm", TOOLS)):
     lock, listed = f"{folder}/package-lock.json", json.loads(Path(folder, "package.json").read_text())
     for name, package in json.loads(Path(lock).read_text())["packages"].items():
         if name and "integrity" not in package:

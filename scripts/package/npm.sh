@@ -16,16 +16,11 @@ trap 'rm -rf "$user"' EXIT
 package=$(echo "$PWD"/build/npm/mien-*.tgz)
 (cd "$user" && npm init -y >/dev/null && npm install --silent --no-audit --no-fund --offline "$package")
 cat > "$user/use.mjs" <<'USE'
-import {readFileSync} from 'node:fs';
-import {createRequire} from 'node:module';
-import {loadMien} from 'mien';
-const file = name => readFileSync(createRequire(import.meta.url).resolve(name));
-const mien = await loadMien(file('mien/mien.wasm'));
-const weights = mien.createWeights([file('mien/models/basenet.mien'), file('mien/models/proposal.mien')]);
-const tracker = mien.createTracker({weights});
-tracker.pushVideo({width: 64, height: 64, data: new Uint8Array(64 * 64 * 4)}, 0);
-if (tracker.getResult().status !== 'searching') throw new Error('a black image has no face');
-console.log(`mien ${mien.version} works from its package`);
+import {createTracker} from 'mien';
+const tracker = await createTracker();
+const {status} = await tracker.track({width: 64, height: 64, data: new Uint8Array(64 * 64 * 4)});
+if (status !== 'searching') throw new Error('a black image has no face');
+console.log(`mien ${tracker.mien.version} works from its package`);
 USE
 node "$user/use.mjs"
 echo "$package: $(stat -c %s "$package") bytes"

@@ -2,11 +2,7 @@
 //
 // usage: node jaw_open.mjs IMAGE.ppm      ffmpeg -i face.jpg face.ppm creates the image
 import {readFile} from 'node:fs/promises';
-import {createRequire} from 'node:module';
-import {loadMien} from 'mien';
-
-const {resolve} = createRequire(import.meta.url);
-const packageFile = name => readFile(resolve(`mien/${name}`));
+import {controlsByName, createTracker} from 'mien';
 
 // A binary PPM of 8 bits.
 async function readImage(path) {
@@ -21,9 +17,6 @@ if (process.argv.length !== 3) {
   process.exit(2);
 }
 const image = await readImage(process.argv[2]);
-const mien = await loadMien(await packageFile('mien.wasm'));
-const weights = mien.createWeights([await packageFile('models/basenet.mien'), await packageFile('models/proposal.mien')]);
-const tracker = mien.createTracker({weights});
-tracker.pushVideo(image, 0);  // a video passes the time of each image in nanoseconds
-const {status, controls} = tracker.getResult();
-console.log(status === 'tracking' ? `jawOpen ${controls[mien.control.jawOpen].toFixed(2)}` : 'no face');
+const tracker = await createTracker({lod: 1});
+const result = await tracker.track(image);
+console.log(result.status === 'tracking' ? `jawOpen ${controlsByName(result).jawOpen.toFixed(2)}` : 'no face');

@@ -1,18 +1,18 @@
 // The page of apps/examples, in a folder that has installed the package.
 import assert from 'node:assert/strict';
-import {copyFileSync, cpSync, mkdtempSync, rmSync} from 'node:fs';
+import {copyFileSync, mkdirSync, mkdtempSync, rmSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {after, before, test} from 'node:test';
+import {pack, root} from './package.mjs';
 import {openStudio, until} from './page.mjs';
 
-const root = new URL('../../..', import.meta.url).pathname, site = mkdtempSync(join(tmpdir(), 'mien-'));
+const site = mkdtempSync(join(tmpdir(), 'mien-'));
 let studio;
 before(async () => {
   const installed = join(site, 'node_modules/mien');
-  cpSync(join(root, 'bindings/js'), installed, {recursive: true});
-  cpSync(join(root, 'models'), join(installed, 'models'), {recursive: true});
-  copyFileSync(process.env.MIEN_WASM ?? join(root, 'build/wasm/tracker/mien.wasm'), join(installed, 'mien.wasm'));
+  mkdirSync(installed, {recursive: true});
+  pack(installed);
   copyFileSync(join(root, 'apps/examples/js/index.html'), join(site, 'index.html'));
   studio = await openStudio(site);
 });

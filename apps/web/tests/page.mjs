@@ -47,12 +47,12 @@ export async function openPage({browser, url}, options = {}) {
 }
 
 // Until `condition`, a function of the page, says yes. (Playwright's own needs eval, which the page forbids.)
-export async function until(page, condition, seconds = 15) {
+export async function until(page, condition, seconds = 15, status = '#status') {
   for (const end = Date.now() + seconds * 1000; Date.now() < end;) {
     if (await page.evaluate(condition)) return;
     await new Promise(done => setTimeout(done, 50));
   }
-  throw new Error(`not within ${seconds} s: ${condition}; the page says "${await page.textContent('#status')}"`);
+  throw new Error(`not within ${seconds} s: ${condition}; the page says "${await page.textContent(status)}"`);
 }
 
 // Computes faces but does not draw them: without a graphics card, drawing takes processor time that the tracker needs.

@@ -1,13 +1,20 @@
 // Tests the worker in Node, with frames that record when they are read. MIEN_WASM names the module.
 import assert from 'node:assert/strict';
 import {EventEmitter, once} from 'node:events';
-import {readFileSync} from 'node:fs';
-import {test} from 'node:test';
+import {copyFileSync, mkdtempSync, readFileSync, rmSync, symlinkSync} from 'node:fs';
+import {tmpdir} from 'node:os';
+import {join} from 'node:path';
+import {after, test} from 'node:test';
 import {setTimeout as pass} from 'node:timers/promises';
+import {pathToFileURL} from 'node:url';
 
-const root = new URL('../../../', import.meta.url), wasm = process.env.MIEN_WASM ?? new URL('build/wasm/tracker/mien.wasm', root);
+const root = new URL('../../../', import.meta.url).pathname, folder = mkdtempSync(join(tmpdir(), 'mien-'));
+copyFileSync(process.env.MIEN_WASM ?? `${root}build/wasm/tracker/mien.wasm`, join(folder, 'mien.wasm'));
+symlinkSync(`${root}models`, join(folder, 'models'));
+after(() => rmSync(folder, {recursive: true}));
+
+globalThis.fetch = async url => new Response(readFileSync(url));
 const heard = new EventEmitter(), happened = [];
-globalThis.fetch = async url => new Response(readFileSync(url.pathname.endsWith('mien.wasm') ? wasm : url));
 globalThis.onmessage = null;
 globalThis.postMessage = message => heard.emit(message.type, message);
 heard.on('results', ({timeMs}) => happened.push(`results ${timeMs}`));
@@ -15,7 +22,7 @@ await import('../src/tracking/worker.js');
 const post = data => globalThis.onmessage({data});
 
 const picture = (name, readMs, side) => ({
-  format: 'RGBA', visibleRect: {width: side, height: side}, allocationSize: () => 4 * side * side,
+  [Symbol.toStringTag]: 'VideoFrame', format: 'RGBA', displayWidth: side, displayHeight: side, visibleRect: {width: side, height: side}, allocationSize: () => 4 * side * side,
   async copyTo(memory) {
     happened.push(`reads ${name}`);
     await pass(readMs);
@@ -26,7 +33,7 @@ const picture = (name, readMs, side) => ({
 
 test('requests wait until the tracker is loaded', async () => {
   const ready = once(heard, 'ready');
-  post({type: 'load', folder: root});
+  post({type: 'load', folder: pathToFileURL(folder).href});
   post({type: 'levels', levels: [1]});
   await ready;
   const results = once(heard, 'results');

@@ -1,4 +1,5 @@
 // Sends the audio of a stream or of a media element to the tracker.
+import {audioCollector} from '../../../../bindings/js/listen.js';
 
 export class Sound {
   constructor(tracking) {
@@ -17,19 +18,9 @@ export class Sound {
 
   async makeNode() {
     const context = new AudioContext({latencyHint: 'interactive'});
-    await context.audioWorklet.addModule(new URL('microphone_worklet.js', document.baseURI));
-    const node = new AudioWorkletNode(context, 'mien-microphone', {numberOfInputs: 1, numberOfOutputs: 0});
-    const {port1, port2} = new MessageChannel();
-    node.port.postMessage({port: port1}, [port1]);
-    this.tracking.connectAudio(port2);
+    const {node, port} = await audioCollector(context);
+    this.tracking.connectAudio(port);
     Object.assign(this, {context, node});
-    setInterval(() => this.alignClocks(), 1000);
-  }
-
-  // Timestamps of audio count samples, those of video are of the page's clock.
-  alignClocks() {
-    if (this.context.state !== 'running') return;
-    this.tracking.setSoundOffset(performance.now() - this.context.currentTime * 1000);
   }
 
   async listen(source, audible) {
@@ -39,7 +30,6 @@ export class Sound {
     this.source.connect(this.node);
     if (audible) this.source.connect(this.context.destination);
     await this.context.resume();
-    this.alignClocks();
   }
 
   elementSource(element) {

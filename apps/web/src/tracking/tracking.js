@@ -41,7 +41,6 @@ export class Tracking {
 
   setLevels(levels) { this.worker.postMessage({type: 'levels', levels}); }
   connectAudio(port) { this.worker.postMessage({type: 'audio', port}, [port]); }
-  setSoundOffset(offsetMs) { this.worker.postMessage({type: 'soundOffset', offsetMs}); }
   calibrate() { this.worker.postMessage({type: 'calibrate'}); }
   reset() { this.worker.postMessage({type: 'reset'}); }
 }

@@ -1,23 +1,17 @@
 // Runs the tracker in a worker: images and audio in, results out. For a comparison of two levels of detail, two
 // trackers get the same input.
-import {loadMien} from '../../../../bindings/js/mien.js';
-import {FrameReader} from './frame_reader.js';
+import {readFile, urlsIn} from '../../../../bindings/js/files.js';
+import {FrameReader} from '../../../../bindings/js/frames.js';
+import {loadMien} from '../../../../bindings/js/module.js';
 
 const modelNames = ['basenet', 'proposal', 'hifinet', 'audionet'];
 const reader = new FrameReader();
 let mien, weights, trackers = [];
-let soundOffsetMs = 0;  // from the audio clock to the video clock
 let failed = false;
 
-async function fetched(url) {
-  const response = await fetch(url);
-  if (!response.ok) throw new Error(`${url}: ${response.status}`);
-  return response.arrayBuffer();
-}
-
 async function load({folder}) {
-  const [loaded, ...models] = await Promise.all([
-    loadMien(new URL('mien.wasm', folder)), ...modelNames.map(name => fetched(new URL(`models/${name}.mien`, folder)))]);
+  const urls = urlsIn(folder);
+  const [loaded, ...models] = await Promise.all([loadMien(urls.module), ...modelNames.map(name => readFile(urls[name]))]);
   mien = loaded;
   weights = mien.createWeights(models);
   setLevels({levels: [0]});
@@ -58,13 +52,12 @@ const handlers = {
   },
   advance({timeMs}) { report(timeMs, tracker => tracker.advance(toNs(timeMs))); },
   audio({port}) { port.onmessage = ({data}) => guarded(() => pushAudio(data)); },
-  soundOffset({offsetMs}) { soundOffsetMs = offsetMs; },
   calibrate() { for (const tracker of trackers) tracker.captureNeutral(); },
   reset() { for (const tracker of trackers) tracker.reset(); },
 };
 
 function pushAudio({samples, sampleRate, timeMs}) {
-  for (const tracker of trackers) tracker.pushAudio(samples, {sampleRate}, toNs(timeMs + soundOffsetMs));
+  for (const tracker of trackers) tracker.pushAudio(samples, {sampleRate}, toNs(timeMs));
 }
 
 async function guarded(action) {
