@@ -70,6 +70,8 @@ export class Struct {
     }
   }
 
+  addressOf(field) { return this.address + this.fields[field][0]; }
+
   // A number, or a copy of an array.
   get(field) {
     const [offset, kind, count] = this.fields[field], {get, array: Kind} = kinds[kind];

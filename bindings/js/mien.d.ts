@@ -109,6 +109,10 @@ export interface Result {
   translation: Float32Array;
   /** 52, each 0..1, in the order of Mien.controlNames: controls[mien.control.jawOpen]. */
   controls: Float32Array;
+  /** 15 visemes of OVR LipSync (Oculus): sil PP FF TH DD kk CH SS nn RR aa E ih oh ou; their sum is 1. */
+  visemes: Float32Array;
+  /** Bit i: viseme i is supported. */
+  supportedVisemes: number;
   /** x, y of 175 points in pixels of the upright image. */
   landmarks: Float32Array;
   frames: bigint;
@@ -219,8 +223,13 @@ export function createTrackerWorker(options?: TrackerOptions & {worker?: Worker}
 export function listen(tracker: Tracker | TrackerWorker, source: MediaStream | AudioNode, options?: {context?: AudioContext}):
   Promise<{readonly context: BaseAudioContext; stop(): void}>;
 
+/** Names of controls in other blendshape standards, as in mien_vocabulary of mien.h; 'visemes' are those of Oculus. */
+export type Vocabulary = 'arkit' | 'mediapipe' | 'roblox' | 'vrm0' | 'vrm1' | 'visemes';
+
 /** The controls that the level of detail predicts, by name. */
 export function controlsByName(result: Pick<Result, 'controls' | 'supportedControls'>): Partial<Record<ControlName, number>>;
+/** The same in another vocabulary. */
+export function controlsByName(result: Pick<Result, 'controls' | 'supportedControls' | 'visemes' | 'supportedVisemes'>, vocabulary: Vocabulary): Record<string, number>;
 
 /** An Object3D of three.js: the members that are used. */
 export interface Morphs {
@@ -235,11 +244,12 @@ export interface VRMAvatar {
 }
 
 /**
- * Sets the morph targets of a mesh or group of three.js whose names are those of ARKit (which are MediaPipe's), in any case and with _L and _R,
- * or of Roblox. Controls that are not predicted count as 0. The names of an object are read once.
+ * Sets the morph targets of a mesh or group of three.js whose names are those of ARKit (which are MediaPipe's) or Roblox, in any case, with _L and _R
+ * and with a prefix. If none of them opens the jaw, at least three names of Oculus (viseme_aa, v_aa, aa), VRM or VRoid move the mouth.
+ * Controls that are not predicted count as 0. The names of an object are read once.
  * @returns number of morph targets that were set
  */
-export function applyToMorphs(root: Morphs, result: Pick<Result, 'controls'>): number;
+export function applyToMorphs(root: Morphs, result: Pick<Result, 'controls'> & Partial<Pick<Result, 'visemes'>>): number;
 
 /**
  * Sets the expressions of a VRM avatar, its presets or, if it has them, those with ARKit's names, and turns its head.

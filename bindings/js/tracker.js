@@ -6,6 +6,7 @@ import {number, outOfRange} from './layout.js';
 const alignment = 64;  // MIEN_ALIGNMENT
 const imageFormats = {gray8: 0, rgb: 1, bgr: 2, rgba: 3, bgra: 4, nv12: 5, nv21: 6, i420: 7};
 const faceStatus = ['searching', 'tracking', 'lost'];
+const visemes = {vocabulary: 5, count: 15};  // MIEN_VOCABULARY_VISEMES
 const defaultMask = 0xffffffff;  // MIEN_CPU_ALL
 // MIEN_ERROR_*
 const wrong = {argument: -1, format: -60, size: -61, stride: -62, plane: -63, samples: -66};
@@ -72,6 +73,7 @@ export class Tracker {
     this.image = mien.struct('image');
     this.audio = mien.struct('audio');
     this.result = mien.struct('result');
+    this.visemes = mien.allocate(4 * visemes.count);
     this.pixels = new Buffer(mien);
     this.samples = new Buffer(mien);
     this.reader = new FrameReader();
@@ -102,9 +104,10 @@ export class Tracker {
   destroy() {
     if (this.handle) this.mien.exports.mien_tracker_destroy(this.handle);
     for (const buffer of [this.pixels, this.samples]) buffer.free();
-    for (const address of [this.image?.address, this.audio?.address, this.result?.address]) this.mien.release(address);
+    for (const address of [this.image?.address, this.audio?.address, this.result?.address, this.visemes]) this.mien.release(address);
     this.handle = 0;
     this.image = this.audio = this.result = null;
+    this.visemes = 0;
   }
 
   reset() { this.call('reset'); }
@@ -236,9 +239,16 @@ export class Tracker {
       status: faceStatus[get('status')], ptsNs: get('pts_ns'), supportedControls: get('supported_controls'),
       faceProbability: get('face_probability'), voiceActivity: get('voice_activity'), lod: get('lod'), flags: get('flags'),
       box: get('box'), rotation: get('rotation'), pitch: get('pitch'), yaw: get('yaw'), roll: get('roll'),
-      translation: get('translation'), controls: get('controls'), landmarks: get('landmarks'),
+      translation: get('translation'), controls: get('controls'), ...this.readVisemes(get('supported_controls')), landmarks: get('landmarks'),
       frames: get('frames'), faceFrames: get('face_frames'), proposalRuns: get('proposal_runs'), encoderRuns: get('encoder_runs'),
       stageNs: Object.fromEntries(this.mien.stageNames.map((name, i) => [name, Number(stages[i])])), faceId: get('face_id')};
+  }
+
+  readVisemes(supportedControls) {
+    const {vocabulary, count} = visemes, {mien_vocabulary_values: values, mien_vocabulary_supported: supported} = this.mien.exports;
+    this.mien.check(values(vocabulary, this.result.addressOf('controls'), this.visemes, count));
+    return {visemes: new Float32Array(this.mien.memory.buffer.slice(this.visemes, this.visemes + 4 * count)),
+            supportedVisemes: Number(supported(vocabulary, supportedControls))};
   }
 
   // The file of 448 bytes, and which levels it has: bit 0 level 1, bit 1 the others.

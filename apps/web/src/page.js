@@ -171,7 +171,7 @@ class Page {
   async useModel(file) {
     try {
       const {openModel} = await import('./model/model_avatar.js');
-      await this.first.use(canvas => openModel(file, canvas, controlNames));
+      await this.first.use(canvas => openModel(file, canvas));
       say(`${file.name}: ${this.first.avatar.targets.length} names of ${this.first.avatar.vocabularies.join(', ')}`);
       $('own-face').hidden = false;
     } catch (error) {

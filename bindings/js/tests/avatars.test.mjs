@@ -2,7 +2,8 @@
 import assert from 'node:assert/strict';
 import {readFileSync} from 'node:fs';
 import {test} from 'node:test';
-import {applyToMorphs, applyToVRM, controlNames, controlsByName} from '../avatars.js';
+import {applyToMorphs, applyToVRM} from '../avatars.js';
+import {controlNames, controlsByName} from '../vocabularies.js';
 
 const root = new URL('../../../', import.meta.url);
 const resultOf = (values, supportedControls = 2n ** 52n - 1n) => ({
@@ -39,6 +40,33 @@ test('morph targets follow by their names, and others stay', () => {
   near(face.morphTargetInfluences, [0.5, 0.25, 0.5, 0.125]);
   applyToMorphs(face, resultOf({}));
   near(face.morphTargetInfluences, [0, 0, 0, 0.125]);
+});
+
+const visemes = Float32Array.from({length: 15}, (_, i) => i / 16);
+const ovr = ['sil', 'PP', 'FF', 'TH', 'DD', 'kk', 'CH', 'SS', 'nn', 'RR', 'aa', 'E', 'ih', 'oh', 'ou'];
+const readyPlayerMe = ovr.map(name => 'viseme_' + ({ih: 'I', oh: 'O', ou: 'U'}[name] ?? name));
+
+test('morph targets with names of Oculus follow the visemes', () => {
+  for (const names of [ovr, readyPlayerMe, ovr.map(name => 'vrc.v_' + name)]) {
+    const face = mesh(...names, 'eyeBlinkLeft');
+    assert.equal(applyToMorphs(face, {...resultOf({eyeBlinkLeft: 0.5, jawOpen: 1}), visemes}), 16, names[1]);
+    near(face.morphTargetInfluences, [...visemes, 0.5]);
+  }
+});
+
+test('visemes and vowels rest where names of ARKit open the jaw, and single letters mean nothing', () => {
+  const both = mesh('jawOpen', ...readyPlayerMe);
+  assert.equal(applyToMorphs(both, {...resultOf({jawOpen: 0.5}), visemes}), 1);
+  assert.equal(applyToMorphs(mesh('A', 'E', 'hat'), resultOf({})), 0);
+});
+
+test('morph targets with names of VRM follow', () => {
+  const values = resultOf({jawOpen: 0.5, mouthPucker: 0.25, eyeBlinkLeft: 1});
+  for (const names of [['Fcl_MTH_A', 'Fcl_MTH_U', 'Fcl_EYE_Close_L'], ['A', 'U', 'Blink_L'], ['aa', 'ou', 'blinkLeft']]) {
+    const face = mesh(...names);
+    assert.equal(applyToMorphs(face, values), 3, names[0]);
+    near(face.morphTargetInfluences, [0.5, 0.25, 1]);
+  }
 });
 
 test('a VRM follows by its presets or by ARKit names, and turns its head', () => {

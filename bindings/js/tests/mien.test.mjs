@@ -4,7 +4,8 @@ import {execFileSync} from 'node:child_process';
 import {readFileSync} from 'node:fs';
 import {test} from 'node:test';
 import {fields, structBytes} from '../layout.js';
-import {MienError, loadMien} from '../mien.js';
+import {MienError, controlsByName, loadMien} from '../mien.js';
+import {vocabularies} from '../vocabularies.js';
 
 const root = new URL('../../../', import.meta.url).pathname;
 const model = name => readFileSync(`${root}models/${name}.mien`);
@@ -43,6 +44,37 @@ test('names are in the order of the C API', () => {
   const declared = type => [...types.match(new RegExp(`type ${type} =([^;]*)`))[1].matchAll(/'(\w+)'/g)].map(([, name]) => name);
   assert.deepEqual(declared('ControlName'), mien.controlNames);
   assert.deepEqual(declared('LandmarkGroupName'), Object.keys(mien.landmarkGroups));
+});
+
+// Values of the module, of the names that it supports.
+function moduleValues(vocabulary, {controls, supportedControls}) {
+  const {exports} = mien, count = exports.mien_vocabulary_size(vocabulary), address = mien.allocate(4 * (52 + count));
+  new Float32Array(mien.memory.buffer, address, 52).set(controls);
+  assert.equal(exports.mien_vocabulary_values(vocabulary, address, address + 208, count), 0);
+  const values = [...new Float32Array(mien.memory.buffer, address + 208, count)], supported = exports.mien_vocabulary_supported(vocabulary, supportedControls);
+  mien.release(address);
+  const names = values.map((value, i) => [mien.text(exports.mien_vocabulary_name(vocabulary, i)), value]);
+  return Object.fromEntries(names.filter((_, i) => supported >> BigInt(i) & 1n));
+}
+
+test('controls by name equal those of the module in all vocabularies', () => {
+  const tracker = mien.createTracker({weights, lod: 2}), [data] = frames('rgba', width * height * 4, 1);
+  tracker.pushVideo({width, height, data}, 0);
+  const real = tracker.getResult(), parts = real.supportedVisemes;
+  assert.ok(parts && real.visemes.some((value, i) => i > 0 && value > 0));
+  for (let round = 0; round < 200; ++round) {
+    const controls = Float32Array.from({length: 52}, (_, i) => (i * 37 + round * 101) % 64 / 63);
+    const supportedControls = round ? 2n ** 52n - 1n & ~(0x1234567n << BigInt(round % 24)) : real.supportedControls;
+    const result = round ? {...real, controls, supportedControls} : real;
+    for (const [i, name] of Object.keys(vocabularies).entries()) {
+      if (round && name === 'visemes') continue;  // of the tracker
+      const found = controlsByName(result, name), expected = moduleValues(i, result);
+      assert.deepEqual(Object.keys(found).sort(), Object.keys(expected).sort(), `${name} ${round}`);
+      for (const [key, value] of Object.entries(expected)) assert.ok(Math.abs(found[key] - value) < 1e-6, `${name}.${key}: ${found[key]} is not ${value}`);
+    }
+  }
+  assert.throws(() => controlsByName(real, 'faceit'), /^MienError: vocabulary: unknown \(got 'faceit', expected arkit, mediapipe, roblox, vrm0, vrm1, visemes\)/);
+  tracker.destroy();
 });
 
 test('video and audio move the jaw', () => {

@@ -4,12 +4,12 @@ import {
 } from 'three';
 import {GLTFLoader} from 'three/examples/jsm/loaders/GLTFLoader.js';
 import {VRMLoaderPlugin, VRMUtils} from '@pixiv/three-vrm';
-import {makeDrivers} from '../../../../bindings/js/drivers.js';
+import {expressionTargets, morphTargets, move} from '../../../../bindings/js/avatars.js';
 
 const gazeAngle = 0.485;  // radians of a control at 1
 
 // Throws an error with a message for the user if the file is not usable.
-export async function openModel(file, canvas, controlNames) {
+export async function openModel(file, canvas) {
   const bytes = await file.arrayBuffer();
   if (new DataView(bytes).byteLength < 20 || new DataView(bytes).getUint32(0, true) !== 0x46546c67) {
     throw new Error(`${file.name}: not a binary glTF file (.glb or .vrm)`);
@@ -17,40 +17,18 @@ export async function openModel(file, canvas, controlNames) {
   const loader = new GLTFLoader();
   loader.register(parser => new VRMLoaderPlugin(parser));
   const gltf = await loader.parseAsync(bytes, '').catch(error => { throw new Error(`${file.name}: ${error.message}`); });
-  return new ModelAvatar(gltf, canvas, makeDrivers(controlNames), file.name);
+  return new ModelAvatar(gltf, canvas, file.name);
 }
 
 class ModelAvatar {
-  constructor(gltf, canvas, drivers, name) {
+  constructor(gltf, canvas, name) {
     this.vrm = gltf.userData.vrm;
     this.root = this.vrm?.scene ?? gltf.scene;
-    this.collect(drivers);
-    if (!this.targets.length) throw new Error(`${name}: no morph target or expression has a name of ARKit, VRM or Roblox`);
+    this.targets = this.vrm ? expressionTargets(this.vrm.expressionManager) : morphTargets(this.root);
+    if (!this.targets.length) throw new Error(`${name}: no morph target or expression has a name of ARKit, VRM, Oculus or Roblox`);
     if (this.vrm?.meta.metaVersion === '0') VRMUtils.rotateVRM0(this.vrm);
     this.findBones();
     this.stage(canvas);
-  }
-
-  // Expressions of a VRM file, or morph targets of other files.
-  collect(drivers) {
-    this.targets = [];
-    const manager = this.vrm?.expressionManager;
-    const names = (manager?.expressions ?? []).map(({expressionName}) => expressionName);
-    for (const expressionName of names) {
-      if (expressionName === 'blink' && names.includes('blinkLeft')) continue;  // each eye has its own
-      const driver = drivers.expression(expressionName);
-      if (driver) this.targets.push({...driver, set: value => manager.setValue(expressionName, value)});
-    }
-    const perfectSync = this.targets.filter(({vocabulary}) => vocabulary === 'ARKit').length > 20;
-    if (perfectSync) this.targets = this.targets.filter(({vocabulary}) => vocabulary === 'ARKit');
-    if (!this.vrm) this.root.traverse(node => this.collectMorphs(node, drivers));
-  }
-
-  collectMorphs(node, drivers) {
-    for (const [name, index] of Object.entries(node.morphTargetDictionary ?? {})) {
-      const driver = drivers.morph(name);
-      if (driver) this.targets.push({...driver, set: value => { node.morphTargetInfluences[index] = value; }});
-    }
   }
 
   get vocabularies() { return [...new Set(this.targets.map(({vocabulary}) => vocabulary))]; }
@@ -88,8 +66,8 @@ class ModelAvatar {
     return {centre: new Vector3(at.x, at.y + height * 0.42, at.z), size: height * 1.5};
   }
 
-  draw({controls, pitch = 0, yaw = 0, roll = 0}) {
-    for (const {of, set} of this.targets) set(Math.min(1, Math.max(0, of(controls))));
+  draw({controls, visemes, pitch = 0, yaw = 0, roll = 0}) {
+    move(this.targets, {...controls, visemes});
     this.turn(this.headBone, new Euler(pitch, yaw, roll, 'YXZ'));
     for (const [side, bone] of this.eyeBones) this.turn(bone, this.gaze(controls, side > 0 ? 'Left' : 'Right', side));
     this.vrm?.update(0);

@@ -7,7 +7,7 @@ const easing_ms = 400;  // time to return to the front after a loss
 // The face to draw for a result; `turned` goes to 0 after a loss, so that the head returns to the front.
 function faceOf(result, turned = 1) {
   return {
-    controls: Object.fromEntries(controlNames.map((name, i) => [name, result.controls[i]])),
+    controls: Object.fromEntries(controlNames.map((name, i) => [name, result.controls[i]])), visemes: result.visemes,
     pitch: result.pitch * turned, yaw: result.yaw * turned, roll: result.roll * turned};
 }
 
