@@ -2,8 +2,8 @@
 """Sums up coverage by folder and compares it with the goals.
 
 usage: coverage_report.py EXPORT.json UNCOVERED.txt REPORT.md      (see coverage.sh)
-EXPORT.json is llvm-cov's. UNCOVERED.txt becomes a line for every stretch of lines and every side of a branch that
-nothing ran; in REPORT.md the table is put anew. Exit status 0 only when the bars are met.
+EXPORT.json is llvm-cov's. UNCOVERED.txt gets one line per uncovered range of lines and side of a branch; REPORT.md gets
+the new table. Exit status 0 only if the goals are met.
 """
 import json
 import os
@@ -13,7 +13,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 LIBRARY = ("audio", "engine", "formats", "kernels", "tracker")
 LINES_OF_LIBRARY, BRANCHES_OF_PARSERS = 90.0, 95.0
-# What this machine's CPU has not, its tests cannot run.
+# CPU features that the tests of a tier need.
 TIERS = {"avx2": "avx2", "avx512": "avx512f", "avx512fp16": "avx512_fp16", "avx512vnni": "avx512_vnni",
          "avx2int16": "avx2", "avxvnni": "avx_vnni"}
 BEGIN, END = "<!-- made by scripts/coverage.sh -->", "<!-- to here -->"
@@ -45,8 +45,8 @@ def rooms_of(path):
 
 
 def uncovered_lines(segments):
-    """Stretches of lines whose regions nobody entered; a segment is [line, column, count, has a count, begins a region,
-    is a gap]."""
+    """Ranges of lines of uncovered regions. A segment is [line, column, count, has a count, begins a region, is a
+    gap]."""
     for here, following in zip(segments, segments[1:]):
         if here[3] and not here[2] and here[4] and not here[5]:
             yield here[0], following[0]

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Fuzzes the converter of ONNX files with atheris: whatever the file, it is converted or refused in one line. What ends in a traceback, or
-# takes more than 20 s or 1 GB, stays in build/fuzz_convert/broken; it becomes a case of tests/convert.
-# usage: scripts/fuzz_convert.sh [MINUTES]      default 2. Exit status 0 only when nothing broke.
+# Fuzzes the converter of ONNX files with atheris: it must convert any file or reject it in one line. A file that causes a traceback, or takes more
+# than 20 s or 1 GB, is stored in build/fuzz_convert/broken and should become a case of tests/convert.
+# usage: scripts/fuzz_convert.sh [MINUTES]      default 2. Exit status 0 only if no file failed.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 minutes=${1:-2}

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What takes hours, one after the other whatever fails, with a report: build/nightly/report.md. Exit status 0 only when all is right.
-# usage: scripts/nightly.sh [HOURS]      of fuzzing, default 4
+# Runs the tests that take hours, continues after failures, and writes build/nightly/report.md. Exit status 0 only if all pass.
+# usage: scripts/nightly.sh [HOURS]      hours of fuzzing, default 4
 set -uo pipefail
 cd "$(dirname "$0")/.." || exit
 hours=${1:-4}

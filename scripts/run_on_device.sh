@@ -89,7 +89,7 @@ on_adb() {  # SERIAL or ""
   local adb=(adb)
   [ -z "$1" ] || adb+=(-s "$1")
   "${adb[@]}" get-state >/dev/null 2>&1 ||
-    fail 67 "no device answers adb${1:+ -s $1}; is it plugged in, and USB debugging allowed? Known: $(adb devices | tail -n +2 | tr '\n' ' ')"
+    fail 67 "no device responds to adb${1:+ -s $1}; is it plugged in, and USB debugging allowed? Known: $(adb devices | tail -n +2 | tr '\n' ' ')"
   prepare_command /data/local/tmp/mien-conformance.d
   "${adb[@]}" shell "rm -rf $remote && mkdir -p $remote/models" || fail 68 "$remote cannot be created on the device"
   "${adb[@]}" push "$program" "$remote/mien-conformance" >/dev/null || fail 68 "$program cannot be copied"

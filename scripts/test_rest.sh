@@ -1,8 +1,7 @@
 #!/usr/bin/env bash
-# What scripts/test.sh leaves out and one can wait for: linters, Python, the documentation, the binary interface, threads, other machines,
-# the kernels as another compiler makes them, readers under the memory sanitizer, every fuzz target for a short while, and the page.
-# scripts/nightly.sh has what takes longer.
-# usage: scripts/test_rest.sh [--within MINUTES]      parts that would end later than that are left out, and named
+# Tests that scripts/test.sh does not run and that take minutes: linters, bindings, documentation, binary interface, threads, other
+# machines, clang's Release build, the memory sanitizer, short fuzzing, and the page. scripts/nightly.sh has those that take longer.
+# usage: scripts/test_rest.sh [--within MINUTES]      skips and names parts that would end later
 set -euo pipefail
 cd "$(dirname "$0")/.."
 minutes=1000000
@@ -21,8 +20,8 @@ linters() {
   cmake --preset tidy >/dev/null  # for clang, whose options clang-tidy understands, file by file
   scripts/check/tidy.py build/tidy
 }
-binding() {  # folder, and the group of what it needs, without which it says itself that it is not tested
-  scripts/setup.sh "$2" || echo "setup.sh: $2 could not be had" >&2
+binding() {  # folder, group of scripts/setup.sh; the test reports missing packages
+  scripts/setup.sh "$2" || echo "setup.sh: $2 could not be installed" >&2
   "bindings/$1/test.sh"
 }
 packages() {  # the library as a part of other projects, and as one file
@@ -37,14 +36,14 @@ clang() {
   build clang mien_conformance_program mien_shared
   build/clang/apps/conformance/mien-conformance --models models
 }
-cluster() (  # of this machine; Ray comes from PyPI. In a shell of its own, whose end clears away, however it ends
+cluster() (  # on this machine, with Ray from PyPI; a subshell, so that the trap removes the folder in any case
   folder=$(mktemp -d)
   trap 'rm -rf "$folder"' EXIT
   python3 -m venv "$folder"
   "$folder/bin/pip" install --quiet 'ray==2.60.0'
   "$folder/bin/python" tests/apps/track_on_ray_test.py
 )
-page() {  # what it is built and tested with comes from npm
+page() {  # with packages from npm
   scripts/setup.sh web web-test
   scripts/web.sh test
   scripts/package/npm.sh
@@ -66,7 +65,7 @@ part 2 "Python binding" bindings/python/test.sh
 part 1 Rust binding rust rust
 part 1 "C#" binding csharp csharp
 part 1 Java binding android java
-part 1 Swift bindings/swift/test.sh  # no compiler for it is in Debian; JavaScript: the page
+part 1 Swift bindings/swift/test.sh  # Debian has no Swift compiler. JavaScript: see the page
 part 1 documentation scripts/site.sh
 part 1 words scripts/check/words.sh
 part 1 Python scripts/check/python.sh
@@ -76,10 +75,10 @@ part 2 threads threads
 part 3 "the library inside other projects" packages
 part 16 linters linters
 part 5 "Release with clang" clang
-part 5 "numbers that nobody wrote" scripts/msan.sh
+part 5 "uninitialized memory" scripts/msan.sh
 part 8 fuzzing scripts/fuzz.sh 2
 part 2 "fuzzing of the converter" scripts/fuzz_convert.sh 1
 part 10 "the page, and the npm package" page
 part 20 "other machines than ARM" scripts/cross/all.sh wasm windows compile_only linux_x64 big_endian musl
 part 25 "ARM" scripts/cross/all.sh arm64 armv7
-[ ${#left_out[@]} -eq 0 ] || printf 'NOT TESTED for want of time: %s\n' "${left_out[@]}"
+[ ${#left_out[@]} -eq 0 ] || printf 'NOT TESTED, out of time: %s\n' "${left_out[@]}"

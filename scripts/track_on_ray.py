@@ -7,9 +7,9 @@ usage: track_on_ray.py DIR --out DIR [--format NAME]... [--address ADDRESS] [--m
 
 Needs `ray` (PyPI), and folders and program under the same names on all machines. ADDRESS is that of a cluster (`auto`:
 the one this machine belongs to); without it Ray starts on this machine alone. As with `mien track`: a/b.mp4 becomes
-OUT/a/b.mp4.csv, a file whose outputs are all there and newer than it is done already, files appear under their names
-when they are whole, and what fails is named at the end (exit code 12) and stops nothing. A worker that dies is replaced
-and its file begun anew, unless it was done: each is done once.
+OUT/a/b.mp4.csv, a file with newer outputs is skipped, outputs appear under their names when they are complete, and
+failed files are listed at the end (exit code 12) without stopping the others. If a worker dies, another one tracks its
+file again.
 """
 import argparse
 import contextlib
@@ -27,12 +27,12 @@ ENDINGS = {"csv": ".csv", "jsonl": ".jsonl", "llf": ".llf.csv", "gltf": ".gltf",
            "rhubarb-xml": ".xml", "rhubarb-dat": ".dat"}
 RETRIES = 5  # of a file whose worker died
 SOME_FAILED = 12
-# A program whose worker was killed must not go on beside the one that begins its file anew.
+# Ends the program together with its worker, because another worker tracks the file again.
 DIE_WITH_WORKER = ["setpriv", "--pdeathsig", "KILL"] if sys.platform == "linux" else []
 
 
 def recordings(folder, out):
-    """Names within the folder, sorted; what lies in `out` is no input."""
+    """Names within the folder, sorted, without the content of `out`."""
     names = []
     for path, folders, files in os.walk(folder):
         folders[:] = [name for name in folders if os.path.realpath(os.path.join(path, name)) != os.path.realpath(out)]
@@ -65,7 +65,7 @@ def run_all(jobs, arguments):
     import ray  # the functions above need no cluster
 
     ray.init(address=arguments.address, log_to_driver=False)
-    # A dead worker's task runs again; a failure of mien itself is an answer, and is not repeated.
+    # The task of a dead worker runs again; a failure of mien is a result and is not repeated.
     remote = ray.remote(max_retries=RETRIES, num_cpus=arguments.cpus)(track)
     pending = {remote.remote(job, arguments.mien, arguments.options): job for job in jobs}
     finished = []
@@ -108,7 +108,7 @@ def main(words):
         sys.exit(f"{folder}: no video and no audio in this folder")
     before = [job | {"outcome": "done before"} for job in jobs if is_done(job)]
     waiting = [job for job in jobs if not is_done(job)]
-    with contextlib.redirect_stdout(sys.stderr):  # where Ray says that a worker died; standard output is the table's
+    with contextlib.redirect_stdout(sys.stderr):  # Ray reports dead workers there; standard output has the table
         finished = sorted(before + (run_all(waiting, arguments) if waiting else []), key=lambda job: job["file"])
     if arguments.json:
         print(json.dumps([{key: value for key, value in job.items() if key not in ("input", "formats")}

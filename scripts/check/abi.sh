@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Compares the shared library's binary interface with that of the last release (tests/package/abi/libmien.abi, written with its tag):
-# what programs compiled with that release use must still exist at the same place. Additions pass, and members in the place of reserved
-# ones. Before the first release there is nothing to compare with, and the check says so; it still proves that it would notice a change.
-# usage: scripts/check/abi.sh [--update]      --update: writes the description of today's interface; with each release
+# programs compiled with that release must still work. Additions pass, and so do members in the place of reserved ones. Before the first
+# release nothing is compared; the check then only proves that it detects a change.
+# usage: scripts/check/abi.sh [--update]      --update: writes the description of the current interface, for a release
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 baseline=tests/package/abi/libmien.abi
@@ -33,11 +33,11 @@ if [ ! -s "$baseline" ]; then
   baseline=$build/now.abi
 fi
 
-breaks() {  # interface of then: says what differs, and whether it matters
+breaks() {  # old interface: prints the differences; succeeds if they break programs
   local report code=0
   report=$(abidiff --leaf-changes-only "$1" "$build/now.abi") || code=$?
   echo "$report"
-  # A set of bits: 1 and 2 are errors of abidiff, 4 says that there are changes, 8 that something is gone.
+  # Bits: 1 and 2 are errors of abidiff, 4 a change, 8 a removal.
   [ $((code & 11)) -ne 0 ] ||
     grep -E "^ *'.*' (offset|type|name) changed|^ *type '.*' of '|^  type size changed|deletion|[1-9][0-9]* (Removed|Changed)" \
       <<<"$report" | grep -qv "::reserved' changed:"

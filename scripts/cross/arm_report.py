@@ -11,10 +11,10 @@ from count_instructions import Machine
 
 ENCODERS = [("basenet", "encoder"), ("hifinet", "encoder")]
 DECODERS = [("hifinet", "controls_decoder"), ("audionet", "encoder")]
-# Layers of the fused blocks: what multiplies panels counts as pointwise, the rest as depthwise.
+# Parts of fused blocks: functions that multiply panels count as pointwise, the others as depthwise.
 FAMILIES = {"conv2d": ["conv2d"], "depthwise": ["depthwise", "inverted_residual"], "pointwise": ["pointwise"]}
 ARITHMETIC = ("fmla", "fmul", "fmax", "fmin", "fadd", "fcvtl", "fcvtl2", "fcvtn", "fcvtn2")
-LOOPS = [  # tier, object, pattern of the function's name, what it is
+LOOPS = [  # tier, object, pattern of the function's name, description
     ("neon", "pointwise/neon_product", r"tile<5, 4, .*Widened", "pointwise, 5 pixels x 16 channels, weights widened before"),
     ("neon", "pointwise/neon_product", r"tile<9, 2, .*Widened", "pointwise, 9 pixels x 8 channels, weights widened before"),
     ("neon", "pointwise/neon_product", r"tile<9, 2, .*Halves", "pointwise, 9 pixels x 8 channels, weights widened inside"),
@@ -58,7 +58,7 @@ def predictions(folder_of):
 
 
 def largest_difference(rows, others):
-    """Of the first percentages of two tables of predictions, in points."""
+    """Difference of the first percentages of two tables of predictions, in percentage points."""
     first = lambda cell: int(cell.split("%")[0])
     return max(abs(first(a) - first(b)) for row, other in zip(rows, others) for a, b in zip(row[3:], other[3:]) if "%" in a)
 

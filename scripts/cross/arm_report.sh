@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Writes docs/results/arm.md: what llvm-mca predicts of the NEON inner loops, and the instructions and the memory traffic
-# of networks, counted under emulation.
+# Writes docs/results/arm.md: llvm-mca's predictions for the NEON inner loops, and instructions and memory traffic of
+# networks, counted under emulation.
 # usage: scripts/cross/arm_report.sh [OUT_FILE]
 set -euo pipefail
 cd "$(dirname "$0")/../.."

@@ -35,14 +35,14 @@ enum { kLineShift = 6, kMaxWays = 16, kMaxSets = 512, kNoRegisters = 0, kReadOrW
 struct Cache {
   unsigned sets, ways;
   uint64_t fetched;
-  uint64_t lines[kMaxSets][kMaxWays]; /* of each set the most recently used first; 0: none */
+  uint64_t lines[kMaxSets][kMaxWays]; /* of each set, the most recently used first; 0: empty */
 };
 
 static struct Cache l1 = {.sets = 128, .ways = 4}, l2 = {.sets = 512, .ways = 16};
 static uint64_t accesses;
 static char output[4096];
 
-/* Whether the line was there already. */
+/* Returns whether the line was present. */
 static int touch(struct Cache* cache, uint64_t line) {
   uint64_t* set = cache->lines[line % cache->sets];
   unsigned way = 0;

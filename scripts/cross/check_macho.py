@@ -51,7 +51,7 @@ def commands(data):
 
 
 def check_signature(data, start, size):
-    """Every page must hash to what the code directory says."""
+    """Checks the hash of each page in the code directory."""
     blob = data[start:start + size]
     magic, _, count = struct.unpack_from(">3I", blob)
     require(magic == SUPER_BLOB, f"signature: unknown format (got {magic:#x})")

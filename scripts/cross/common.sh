@@ -1,9 +1,9 @@
 # shellcheck shell=bash
-# Sourced by the scripts beside it, in the repository's root, with their arguments: --full runs mien-conformance on 50 seeds
-# and not on a few.
+# Sourced by the scripts of this folder, in the repository's root, with their arguments. --full: 50 seeds of
+# mien-conformance instead of 3.
 . scripts/ccache.sh
 
-# shellcheck disable=SC2034  # those who source it use them
+# shellcheck disable=SC2034  # used by the scripts that source this
 full=0
 seeds=3
 # shellcheck disable=SC2034
@@ -12,7 +12,7 @@ if [ "${1:-}" = --full ]; then
   seeds=50
 fi
 
-build() {  # build folder, targets: says what compilers say, and nothing else
+build() {  # build folder, targets: prints messages of compilers only
   cmake --build "$1" --target "${@:2}" -- --quiet
 }
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Compiles the whole library for Android and iOS, whose SDKs are not at hand, with Zig's clang, and checks which functions the objects
+# Compiles the whole library for Android and iOS with Zig's clang instead of their SDKs, and checks which functions the objects
 # import. Nothing runs. scripts/package/android.sh and scripts/package/xcframework.sh pack the results.
 # usage: scripts/cross/compile_only.sh [--full]      --full: also for the iOS simulator
 set -euo pipefail
@@ -11,9 +11,9 @@ if ! install_zig; then
   exit
 fi
 
-# What an object may import: memory, mathematics and reading files of the C library, new and delete that do not throw, what the CPU has,
-# and the compiler's own run-time library. No exceptions, no RTTI, no guarded or early initialization. abort is what libc++ calls, without
-# exceptions, where it would throw.
+# Allowed imports: memory, mathematics and reading of files from the C library, new and delete that do not throw, CPU features, and the
+# compiler's run-time library; no exceptions, RTTI, guarded initialization or static constructors. libc++ without exceptions calls abort
+# instead of throwing.
 allowed='^_?(abort|mem(cpy|move|set|cmp|chr)|bcmp|(__)?bzero|strlen|aligned_alloc|free|fread'
 allowed+='|(exp|log|log10|sin|cos|tan|acos|asin|atan|atan2|sqrt|pow|floor|ceil|round|nearbyint|lround|llround|hypot|tanh|erf|erfc)f?'
 allowed+='|___?sincosf?(_stret)?|sincosf?|_Zn[wa][mj](St11align_val_t)?RKSt9nothrow_t|_Zd[la]Pv([mj])?(St11align_val_t)?|_ZSt7nothrow'

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The library and its tests by other compilers than this machine's own: no warning, all tests right, and the same bits of a clip with sound on
-# every tier of this machine as by its own compiler.
+# Builds and tests the library with other compilers than the default one: no warning, all tests pass, and a clip with audio gives the same bits
+# on every tier of this machine.
 # usage: scripts/cross/compilers.sh [COMPILER...]      default: the oldest and the newest of Debian, g++-11 clang++-13 clang++-22
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -31,6 +31,6 @@ for compiler in "${compilers[@]}"; do
     { cat "$build/tests.log" >&2; exit 1; }
   grep -E 'tests passed|Total Test time' "$build/tests.log"
   track "$compiler" "$build" >"$work/$compiler.txt"
-  diff $work/ours.txt "$work/$compiler.txt" || { echo "compilers.sh: $compiler's results are others than ours" >&2; exit 1; }
+  diff $work/ours.txt "$work/$compiler.txt" || { echo "compilers.sh: results of $compiler differ from those of the default compiler" >&2; exit 1; }
   echo "the same bits on: $(cut -d ' ' -f 1 $work/ours.txt | xargs)"
 done

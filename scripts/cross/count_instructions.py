@@ -1,4 +1,4 @@
-"""What a network's run takes, counted by qemu-user: instructions per kernel family, traffic of caches."""
+"""Counts instructions per kernel family and cache traffic of one run of a network, with qemu-user."""
 import re
 import subprocess
 from collections import Counter
@@ -13,7 +13,7 @@ class Machine:
 
     @staticmethod
     def _families(objects, nm):
-        """{symbol: family}; what several families share belongs to none."""
+        """{symbol: family}, without symbols that several families share."""
         owners = {}
         for path in (path for folder in objects for path in folder.rglob("*.o")):
             listing = subprocess.run([nm, "--defined-only", path], check=True, capture_output=True, text=True).stdout

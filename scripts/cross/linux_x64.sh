@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Runs what was built for this machine on x86 CPUs without AVX2, and with nothing beyond it, under an emulator: programs
-# choose their kernels by the CPU, and none may meet an instruction that it lacks.
+# Runs the programs built for this machine under an emulator, on x86 CPUs without AVX2 and with AVX2 only: they must choose
+# kernels that the CPU supports.
 # usage: scripts/cross/linux_x64.sh
 set -euo pipefail
 cd "$(dirname "$0")/../.."

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds mien with musl, as Alpine and static programs have it, and runs the tests: of a machine's C library nothing is left in them.
-# Debian has no C++ library for musl; Zig from PyPI has one, and a clang of its own (22).
+# Builds mien with musl as static programs, as Alpine does, and runs the tests. Debian has no C++ library for musl; Zig from PyPI has
+# one, and clang 22.
 # usage: scripts/cross/musl.sh [--full]      --full: 50 seeds of mien-conformance
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -20,13 +20,13 @@ configure $build $build/googletest "$PWD/scripts/cross/linux-musl.cmake" -DMIEN_
 build $build all
 program=$build/apps/conformance/mien-conformance
 if readelf --dynamic $program | grep -F NEEDED; then
-  echo "musl.sh: $program asks for a library" >&2
+  echo "musl.sh: $program needs a shared library" >&2
   exit 1
 fi
 $program --models models --repeat "$seeds" >$build/conformance.log || { cat $build/conformance.log >&2; exit 1; }
 sed -n '/^mien /p;/^guard pages/p;$p' $build/conformance.log
 if grep -qw avx2 /proc/cpuinfo && ! grep -q 'tiers: ref avx2' $build/conformance.log; then
-  echo "musl.sh: this CPU has AVX2, and $program does not find it" >&2
+  echo "musl.sh: $program does not detect the AVX2 of this CPU" >&2
   exit 1
 fi
 ctest --test-dir $build -j "$(nproc)" --output-on-failure --no-tests=error -E "^(convert|train|apps)" --output-log $build/tests.log >/dev/null ||

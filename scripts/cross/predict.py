@@ -1,4 +1,4 @@
-"""What llvm-mca predicts of an inner loop."""
+"""Predictions of llvm-mca for an inner loop."""
 import re
 import subprocess
 

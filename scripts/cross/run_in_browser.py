@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Runs a program that Emscripten has linked to a single file in Chromium without a window. What it prints is printed here;
-its exit status is this one's. usage: run_in_browser.py PROGRAM.js [ARGUMENT...]"""
+"""Runs a program that Emscripten has linked to a single file in headless Chromium, with its output and exit status.
+usage: run_in_browser.py PROGRAM.js [ARGUMENT...]"""
 import json
 import pathlib
 import sys

@@ -1,6 +1,6 @@
-// Runs a network of a weight file a number of times, for counting instructions: the difference
-// between two numbers of runs is what a run takes. Writes the layers and their
-// multiply-accumulates. usage: run_network MODEL.mien NETWORK TIER RUNS fused|plain
+// Runs a network of a weight file a number of times, for counting instructions: the cost of a run is
+// the difference between two such programs. Writes the layers and their multiply-accumulates.
+// usage: run_network MODEL.mien NETWORK TIER RUNS fused|plain
 #include <mien/engine.h>
 #include <mien/mien.h>
 
@@ -19,7 +19,7 @@ std::uint32_t mask_of(const char* tier) {
   for (std::uint32_t bit = 1; bit != 0; bit <<= 1) {
     const char* name = mien_cpu_tier_name(bit);
     if (name != nullptr && std::strcmp(name, tier) == 0 && (mien_cpu_tiers() & bit) != 0) {
-      return 2 * bit - 1;  // what the tier lacks those before it have
+      return 2 * bit - 1;  // lower tiers have the kernels that the tier lacks
     }
   }
   fail("this CPU lacks the tier");

@@ -1,5 +1,5 @@
-# WebAssembly with Emscripten. Programs run in Node; what reads no other files than those embedded
-# in it runs in browsers too. Emscripten wants NODE_PATH=/usr/share/nodejs where Debian packaged it.
+# WebAssembly with Emscripten. Programs run in Node, and in browsers if they read embedded files only.
+# Debian's Emscripten needs NODE_PATH=/usr/share/nodejs.
 find_program(EMCC emcc REQUIRED)
 get_filename_component(emscripten ${EMCC} REALPATH)
 get_filename_component(emscripten ${emscripten} DIRECTORY)

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds mien for WebAssembly with Emscripten, with SIMD128 and without, and runs the tests of kernels and engine in Node
-# and in Chromium without a window, and mien-conformance in Node. What ran is said at the end.
+# and in headless Chromium, and mien-conformance in Node. The last lines list what ran.
 # usage: scripts/cross/wasm.sh [--full]   build and test; --full: 50 seeds of mien-conformance
 #        scripts/cross/wasm.sh bench      times frames in Node and natively, interleaved, and writes docs/results/wasm.md
 set -euo pipefail
@@ -21,7 +21,7 @@ configure_variant() {  # simd or plain
 
 tidy() {
   local sysroot
-  sysroot=$(em++ --cflags | grep -oE -- '--sysroot=[^ ]+')  # em++ is clang with a target and headers of its own
+  sysroot=$(em++ --cflags | grep -oE -- '--sysroot=[^ ]+')  # em++ is clang with its own target and headers
   git ls-files 'kernels/*/wasm*.cpp' | xargs -P "$(nproc)" -n 1 clang-tidy -p "$root/simd" --quiet \
     --extra-arg-before=--target=wasm32-unknown-emscripten --extra-arg-before="$sysroot" \
     2> >(grep -v ' warnings\? generated' >&2 || true)

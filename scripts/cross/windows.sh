@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds mien for Windows (x86-64) with MinGW-w64 and runs mien-conformance, the tests of kernels and engine, the tracker on the
-# demo clip, under Wine. What ran is said at the end.
+# demo clip, under Wine. The last lines list what ran.
 # usage: scripts/cross/windows.sh [--full]      --full: 50 seeds of mien-conformance, and the program beside that of this machine
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -52,7 +52,7 @@ program_beside_ours() {
   wine wineboot >/dev/null 2>&1
   trap 'rm -f "$frames"; wineserver -k' EXIT
   python3 tests/apps/windows_test.py $build/apps/mien/mien.exe build/release/apps/mien/mien "$ffmpeg_folder"
-  ran_program="the program tracked, converted and sent what that of this machine does"
+  ran_program="the program tracked, converted and sent the same as on this machine"
 }
 ran_program="the program did not run (--full)"
 [ "$full" = 0 ] || program_beside_ours

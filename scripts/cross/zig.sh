@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Compiles and links mien for Linux, macOS and Windows with Zig's clang, and runs what an emulator here can run. The last line of each
-# target says what ran and what was only linked.
+# Compiles and links mien for Linux, macOS and Windows with Zig's clang, and runs those programs that this machine or an emulator can
+# run. The last line of each target tells which ran and which were only linked.
 # usage: scripts/cross/zig.sh [--full] [TARGET...]
 #   --full   also the library, mien-conformance and the program mien; default: the amalgamation in a small program
 #   TARGET   linux-x64, linux-arm64, linux-armv7, macos-x64, macos-arm64, windows-x64, windows-arm64; default: all
@@ -38,7 +38,7 @@ check_machine() {  # target, file: a program or library of that target's system 
 }
 
 amalgamation() {  # target, emulator or "none"
-  local program=$work/$1/amalgamated.exe  # the name that Windows wants
+  local program=$work/$1/amalgamated.exe  # Windows requires this ending
   mkdir -p "$work/$1"
   build_amalgamated "$1" "$work/amalgamation" "$program" -Wall -Wextra -Werror
   check_machine "$1" "$program"

@@ -82,7 +82,7 @@ build_zlib() {  # target
   "$MIEN_ZIG" ar rcs "$library" "$folder/$1"/*.o
 }
 
-# Downloads with the machine's own list of packages, changed to sources, and lists and caches of its own.
+# Downloads the source package with a copy of the machine's package sources, with its own lists and caches.
 fetch_zlib() {  # folder
   local apt=$1/apt
   mkdir -p "$apt/lists/partial" "$apt/sources.d"

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Error of tracked controls against true ones, standard library only.  usage: compare_truth.py TRACKED.csv TRUTH.csv
 
-The FACS error is the mean absolute difference over the supported controls. It is shown beside that of the best constant
-answer, every control's mean over the clip, which an untrained tracker could give.
+The FACS error is the mean absolute difference over the supported controls, printed beside that of the best constant:
+each control's mean over the clip, which an untrained tracker could output.
 """
 import csv
 import sys
@@ -42,7 +42,7 @@ def main():
         return
     moving = {name: r for name, r in correlations.items() if r is not None}
     print(f"{len(supported)} supported controls: FACS error {mean(errors):.4f} "
-          f"(best constant answer {mean(constants):.4f}), mean correlation {mean(list(moving.values())):.2f}")
+          f"(best constant {mean(constants):.4f}), mean correlation {mean(list(moving.values())):.2f}")
     for name in ("jawOpen", "eyeBlinkLeft", "eyeBlinkRight", "mouthSmileLeft", "browInnerUp"):
         if name in moving:
             print(f"  {name}: correlation {moving[name]:.2f}")

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Simulates hours of video and audio from devices with different clocks and lost blocks -> docs/results/soak.md
 # usage: scripts/measure/soak.sh [HOURS]     default 24: 2.6 million frames, 5.4 million audio steps
-# Exit status 0 only when all is as it must be. A minute of it is Soak.AudioAndVideoStaySynchronized, of every test run.
+# Exit status 0 only if all checks pass. Every test run simulates a minute (Soak.AudioAndVideoStaySynchronized).
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 hours=${1:-24}

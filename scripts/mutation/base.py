@@ -1,5 +1,5 @@
-"""The original: a copy of the sources, its build, and what the build knows: compile commands, dependencies, and which
-objects make a program."""
+"""The original: a copy of the sources with its build, compile commands, dependencies, and the objects of each
+program."""
 import dataclasses
 import hashlib
 import json

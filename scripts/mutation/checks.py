@@ -1,4 +1,4 @@
-"""The tests that mutants of a folder face: those nearest to it."""
+"""The tests that run on mutants of a folder: those nearest to it."""
 import contextlib
 import dataclasses
 import os
@@ -7,13 +7,13 @@ import resource
 import signal
 import subprocess
 
-FRAMES = "300"  # of a test's random animations: what depends on more of them is no fault of one line
+FRAMES = "300"  # of a test's random animations; more find no further mutants
 MEMORY = 4 << 30  # bytes; a mutant may ask for any amount
 
 
 @dataclasses.dataclass(frozen=True)
 class Check:
-    """A test program; `script`: a Python test of it, with the arguments behind the program."""
+    """A test program, or a Python test of it (`script`) with arguments after the program."""
     target: str
     path: str
     script: str = ""

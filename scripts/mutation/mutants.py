@@ -25,7 +25,7 @@ class Mutant:
 
     @property
     def key(self):
-        """The same wherever the line moves within its file."""
+        """Stays the same if the line moves within its file."""
         text = "\0".join([self.file, self.before.strip(), self.after.strip(), str(self.occurrence)])
         return hashlib.sha256(text.encode()).hexdigest()[:16]
 

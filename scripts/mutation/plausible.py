@@ -76,7 +76,7 @@ def fits(before, after):
 
 
 def is_statement(code, ahead):
-    """Whether the line may be left out: all of a statement that declares nothing, or an operand."""
+    """Whether the code compiles without the line: a whole statement that declares nothing, or an operand."""
     if code.endswith(("&&", "||")):
         return True
     return code.endswith(";") and not DECLARATION.match(code) and (not ahead
@@ -84,7 +84,7 @@ def is_statement(code, ahead):
 
 
 def kind_of(text):
-    """Of what a brace opens, by what comes ahead of it."""
+    """Kind of the block that a brace opens, from the text before it."""
     if re.search(r"\b(for|while)\s*\(|\bdo\s*$", text) and "[" not in text.rsplit("(", 1)[-1]:
         return "loop"
     if re.search(r"\bswitch\s*\(", text):

@@ -6,7 +6,7 @@ import subprocess
 
 from .base import digest
 
-# For mutants and for what they are compared with. Code that is optimized little is sooner compiled, and shows more
+# Options for mutants and the originals that they are compared with. Little optimization compiles faster and shows more
 # differences.
 LIKE_EACH_OTHER = ["-O1", "-w", "-frandom-seed=mien"]
 

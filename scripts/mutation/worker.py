@@ -33,7 +33,7 @@ class Times:
         return self._times[check]
 
     def _of(self, check):
-        """What an earlier run measured, and what it did not."""
+        """Times from an earlier run, with new measurements of missing ones."""
         memory = self._base.build_folder / f"mutation_times_{check.target}.json"
         known = json.loads(memory.read_text())["times"] if memory.is_file() else {}
         path = self._base.build_folder / check.path

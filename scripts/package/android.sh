@@ -20,7 +20,7 @@ compile() {  # triple, cc or c++, object, source and options
   scripts/cross/zig_library_cc.sh "$2" "$1" -O2 -fPIC -fvisibility=hidden -ffunction-sections -fdata-sections -c -o "$3" "${@:4}"
 }
 
-# Shared objects that define nothing but names: "libc.so" and "libm.so" of Android, for the linker.
+# Stand-ins for Android's "libc.so" and "libm.so", which only define names for the linker.
 stand_ins() {  # triple, folder, symbols that the library imports
   local math='^_*(exp|log|sin|cos|tan|sincos|acos|asin|atan|sqrt|pow|floor|ceil|round|nearbyint|lround|llround|hypot|tanh|erf)' name
   for name in libc libm; do

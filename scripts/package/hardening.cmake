@@ -1,6 +1,6 @@
-# Compile options of distributions for the library and the programs, which end the process on a memory error instead of letting
-# it be exploited. scripts/check/hardening.sh checks them on the files. Not for subprojects, and not with sanitizers.
-option(MIEN_HARDEN "Linux: build library and programs with what distributions build with; they themselves say so by flags" ON)
+# Compile options of distributions for the library and the programs, which make memory errors harder to exploit.
+# scripts/check/hardening.sh checks the files. Not used in subprojects and with sanitizers.
+option(MIEN_HARDEN "Linux: build library and programs with the hardening options of distributions; set to OFF if they are in the flags" ON)
 add_library(mien_hardening INTERFACE)
 if(MIEN_HARDEN AND MIEN_TOP_LEVEL AND NOT MIEN_SANITIZE AND CMAKE_SYSTEM_NAME STREQUAL "Linux")
   include(CheckCXXCompilerFlag)

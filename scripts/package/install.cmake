@@ -1,5 +1,5 @@
-# What `cmake --install` lays down: both libraries, headers, program and weights, and what
-# find_package and pkg-config need to find them. All paths inside are relative: a prefix may move.
+# Files of `cmake --install`: both libraries, headers, programs and weights, and files for
+# find_package and pkg-config. All paths in them are relative, so that the prefix can move.
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 
@@ -25,7 +25,7 @@ if(TARGET mien_program OR TARGET mien_conformance_program)
 endif()
 get_target_property(default_target mien ALIASED_TARGET)
 if(TARGET mien_program)
-  # One that is linked statically looks for no library, and the room that CMake keeps for a path would mean the current folder.
+  # A statically linked program needs no RPATH, and the padding that CMake reserves for one would mean the current folder.
   if(default_target STREQUAL mien_shared)
     file(RELATIVE_PATH libraries_from_program
       ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
@@ -38,7 +38,7 @@ if(TARGET mien_conformance_program)
   install(TARGETS mien_conformance_program)
 endif()
 
-# What a wheel of bindings/python holds beside its Python: one library under one name, with nothing it needs of C++ elsewhere.
+# Binary files of the Python wheel: one library under one name, with the C++ library linked statically.
 if(MIEN_PYTHON_WHEEL)
   target_link_options(mien_shared PRIVATE -static-libstdc++ -static-libgcc -s)
   install(FILES $<TARGET_FILE:mien_shared> DESTINATION mien COMPONENT python

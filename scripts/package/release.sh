@@ -1,16 +1,16 @@
 #!/usr/bin/env bash
-# Makes the files of a release of HEAD: the same bytes wherever and whenever it is made, by the same compilers.
+# Makes the files of a release of HEAD, reproducibly: the same compilers give the same bytes.
 # usage: scripts/package/release.sh [-o FOLDER] [-DCMAKE_OPTION]... [PART]...      default: build/release-files, all parts
 #   source        mien-VERSION.tar.gz, the repository
 #   amalgamation  mien-VERSION-amalgamation.tar.gz, headers and a source for each tier
-#   binary        mien-VERSION-linux-MACHINE.tar.gz, as cmake --install lays it down
+#   binary        mien-VERSION-linux-MACHINE.tar.gz, the files of cmake --install
 #   deb           mien_VERSION_MACHINE.deb
-#   wheel         Python's (what builds it comes from PyPI, by its hashes)
-#   npm           JavaScript's (needs Emscripten; scripts/setup.sh web)
-#   conformance   mien-VERSION-conformance-SYSTEM.tar.gz for macOS, Windows and Android (what builds it, Zig, comes from PyPI)
+#   wheel         the Python wheel (build tools from PyPI, pinned by hash)
+#   npm           the JavaScript package (needs Emscripten; scripts/setup.sh web)
+#   conformance   mien-VERSION-conformance-SYSTEM.tar.gz for macOS, Windows and Android (built by Zig from PyPI)
 #   static        mien-VERSION-linux-x64-static.tar.gz, the program in one file, with musl and the weights inside (Zig)
 #   windows       mien-VERSION-windows-x64.zip, a folder that runs from anywhere (Zig)
-# and of whatever there is then: an SBOM, mien-VERSION.spdx.json, and SHA256SUMS.
+# and an SBOM of these files, mien-VERSION.spdx.json, and SHA256SUMS.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 out=build/release-files
@@ -38,7 +38,7 @@ out=$(cd "$out" && pwd)
 export CFLAGS="-ffile-prefix-map=$PWD=." CXXFLAGS="-ffile-prefix-map=$PWD=."
 build=$PWD/build/release-build
 
-packed() {  # FOLDER NAME: NAME.tar.gz of what the folder has, under NAME/
+packed() {  # FOLDER NAME: NAME.tar.gz of the content of the folder, under NAME/
   tar --create --sort=name --mtime="@$SOURCE_DATE_EPOCH" --owner=0 --group=0 --numeric-owner --transform="s,^\.,$2," \
     -C "$1" . | gzip -n9 >"$out/$2.tar.gz"
 }
@@ -68,7 +68,7 @@ make_binary() {
 }
 
 make_deb() {
-  command -v dpkg-shlibdeps >/dev/null || { echo "LEFT OUT: the .deb, for which there is no dpkg-dev"; return 0; }
+  command -v dpkg-shlibdeps >/dev/null || { echo "SKIPPED: the .deb: dpkg-dev is not installed"; return 0; }
   built
   cpack -G DEB --config "$build/CPackConfig.cmake" -B "$build-deb" >/dev/null
   cp "$build-deb"/*.deb "$out"
@@ -77,17 +77,17 @@ make_deb() {
 make_wheel() {
   python3 -m venv "$build-python"
   "$build-python/bin/pip" install --quiet --quiet --disable-pip-version-check --require-hashes -r scripts/package/wheel_requirements.txt ||
-    { echo "LEFT OUT: the wheel, since PyPI cannot be reached"; return 0; }
+    { echo "SKIPPED: the wheel: PyPI cannot be reached"; return 0; }
   "$build-python/bin/python" -m build --no-isolation --wheel --outdir "$out" bindings/python >"$build-python/log" 2>&1 || { cat "$build-python/log" >&2; return 1; }
 }
 
 make_npm() {
-  command -v emcc >/dev/null || { echo "LEFT OUT: the npm package, for which there is no Emscripten"; return 0; }
+  command -v emcc >/dev/null || { echo "SKIPPED: the npm package: Emscripten is not installed"; return 0; }
   scripts/package/npm.sh >/dev/null
   cp build/npm/mien-*.tgz "$out"
 }
 
-# Builds by Zig lie beside the others, because of their compiler options.
+# Builds by Zig have their own folder, because of their compiler options.
 export ZIG_BUILD=$build-zig
 zig_build() {  # target, targets of CMake, options of CMake
   read -ra targets <<<"$2"
@@ -98,7 +98,7 @@ zig_build() {  # target, targets of CMake, options of CMake
 with_zig() {
   scripts/setup.sh cross-zig
   . scripts/cross/zig_targets.sh
-  install_zig || { echo "LEFT OUT: $1, since PyPI cannot be reached"; return 1; }
+  install_zig || { echo "SKIPPED: $1: PyPI cannot be reached"; return 1; }
 }
 
 conformance_archive() {  # system, program

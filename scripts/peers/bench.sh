@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Times mien and its peers interleaved, one thread each: networks in other engines, whole frames beside MediaPipe, sound beside Silero VAD.
-# Writes docs/results/peers.md, or performance.md, and their .json. What cannot be had here is said and left out.
+# Writes docs/results/peers.md, or performance.md, and their .json. Peers that cannot be installed are reported and skipped.
 # usage: scripts/peers/bench.sh [ROUNDS] [peers|performance]...      default: 7, both documents
 #        scripts/peers/bench.sh [ROUNDS] avx2|avx2+vnni|avx512...    encoders and frames as on CPUs of these classes, on x86-64 Linux:
 #                                                                    CPUID hides newer instruction sets; writes docs/results/cpu_classes.md
@@ -48,7 +48,7 @@ run() {
 convert() {
   rm -f "$work"/*_encoder.* "$work"/*_decoder.*
   /usr/bin/python3 -W ignore scripts/peers/export_onnx.py "$work" 2>"$work/export.log"
-  local file pnnx  # the program alone: what starts it wants PyTorch
+  local file pnnx  # the program itself, because its Python launcher needs PyTorch
   pnnx=$("$python" -c 'import sysconfig; print(sysconfig.get_path("purelib"))')/pnnx/pnnx
   for file in "$work"/*.onnx; do "$pnnx" "$file" fp16=0 >"$file.log" 2>&1 || echo "NOT MEASURED: $file in ncnn" >&2; done
   for file in basenet_encoder hifinet_encoder; do

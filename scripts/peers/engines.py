@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Times networks that export_onnx.py wrote in one engine on one thread, as JSON.  usage: engines.py ENGINE DIR
 
-An engine that is not installed is an error; a network that it has no file of is left out; an answer other than
-PyTorch's is an error.
+It is an error if the engine is not installed or its output differs from PyTorch's. Networks without a file for the
+engine are skipped.
 """
 import json
 import sys
@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 WARM_UP, RUNS = 200, 2000
-EXACT, HALF = 1e-3, 5e-2  # largest difference from the answer, over the largest of the answer
+EXACT, HALF = 1e-3, 5e-2  # largest difference from the expected output, relative to its largest value
 
 
 def onnxruntime(stem, inputs):
@@ -116,7 +116,7 @@ def main():
         difference = float(np.abs(np.ravel(output()) - answer).max() / np.abs(answer).max())
         if not difference <= tolerance:
             sys.exit(
-                f"engines.py: {engine} answers something else of {file.stem}: off by {difference:.2g} of the largest")
+                f"engines.py: {engine}: {file.stem}: wrong output (differs by {difference:.2g} of its largest value)")
         times = timed(run)
         networks[file.stem] = {"min_ms": times[0], "median_ms": times[RUNS // 2], "difference": difference}
     print(json.dumps({"version": distribution(package).version, "bytes": shipped_bytes(package, files),

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Writes networks for other engines to time.  usage: export_onnx.py OUT_DIR
 
-NAME.onnx and NAME.npz: the inputs by name, in order, and the first output, `answer`.
-Networks over time take one step: what they remember comes in and goes out with it.
+NAME.onnx, and NAME.npz with the inputs by name, in order, and the first output, `answer`.
+Networks over time run one step, with their state as inputs and outputs.
 """
 import sys
 from pathlib import Path

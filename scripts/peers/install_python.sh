@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Installs the peers of bench.sh from PyPI into ${MIEN_CACHE:-~/.cache/mien}/peers/venv. What cannot be had is said and left out.
+# Installs the peers of bench.sh from PyPI into ${MIEN_CACHE:-~/.cache/mien}/peers/venv. Packages that cannot be installed are reported.
 # usage: scripts/peers/install_python.sh
 set -euo pipefail
 venv=${MIEN_CACHE:-$HOME/.cache/mien}/peers/venv
 [ -x "$venv/bin/pip" ] || /usr/bin/python3 -m venv "$venv"
 
 peer() {  # options and packages of pip
-  "$venv/bin/pip" install --quiet --disable-pip-version-check "$@" || echo "NOT MEASURED: $* cannot be had here" >&2
+  "$venv/bin/pip" install --quiet --disable-pip-version-check "$@" || echo "NOT MEASURED: $* cannot be installed" >&2
 }
 peer numpy==2.4.6 onnxruntime==1.32.0 onnx==1.23.2
 peer openvino==2026.4.1

@@ -132,7 +132,7 @@ def operator(writer, kind, inputs, attributes):
         return writer.crop(inputs[0], (0, 3, 1, 2)[axis], start, end)
     if kind == "Flatten":  # of a map of one pixel
         return inputs[0]
-    sys.exit(f"onnx_to_tflite.py: {kind} {attributes} is not among what an encoder consists of")
+    sys.exit(f"onnx_to_tflite.py: {kind} {attributes}: unsupported operator")
 
 
 def main():

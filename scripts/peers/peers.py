@@ -226,7 +226,7 @@ def main():
 
 
 def processor():
-    """Its family and what of its instruction sets matters."""
+    """Family, model and relevant instruction sets of the processor."""
     words = Path("/proc/cpuinfo").read_text().split()
     sets = [name for name in ("avx2", "avx512f", "avx512_bf16", "avx512_fp16", "amx_tile") if name in words]
     fields = dict(line.split(":", 1) for line in Path("/proc/cpuinfo").read_text().splitlines() if ":" in line)

@@ -1,10 +1,9 @@
 #!/usr/bin/env python3
-"""How well mien and Silero VAD find the speech of voice_sets.py, and what Silero's takes, as JSON.  usage:
+"""How well mien and Silero VAD detect the speech of voice_sets.py, and the time that Silero VAD takes, as JSON.  usage:
 voice_scores.py mien|silero DIR
 
-Of mien the library that MIEN_LIBRARY names, with the weights of models/: voice_activity as the network says it, without
-the attack and release that spread it. Both answers may be shifted by some windows against the truth; the best shift
-counts.
+mien is the library that MIEN_LIBRARY names, with the weights of models/, and its voice activity the output of the
+network without attack and release. Both outputs may be shifted by some windows against the truth; the best counts.
 """
 import ctypes
 import json

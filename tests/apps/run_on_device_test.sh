@@ -70,7 +70,7 @@ if [ "$(uname -m)" = x86_64 ]; then
 fi
 
 touch "$work/phone/unplugged"
-expect 67 "no device answers adb" "$script" adb "$program"
+expect 67 "no device responds to adb" "$script" adb "$program"
 expect 67 "cannot be reached" "$script" ssh:elsewhere "$program"
 expect 65 "no such file" "$script" adb "$work/missing"
 expect 65 "is not an ELF program" "$script" qemu "$0"
