@@ -3,7 +3,7 @@
 # usage: scripts/web.sh [serve [PORT]]   builds and serves (default; port 8000)
 #        scripts/web.sh build            builds apps/web/dist, which any web server can serve
 #        scripts/web.sh test             builds, and tests the page, the face and the JavaScript binding in Chromium
-#        scripts/web.sh screenshots      builds, draws docs/images/avatar.jpg, and writes screenshots of the page to out/web
+#        scripts/web.sh screenshots      builds, draws docs/images/avatar.jpg and page.jpg, and writes screenshots of the page to out/web
 #        scripts/web.sh animation        builds, and renders docs/images/demo.webp: the demo clip beside the avatar
 #        scripts/web.sh measure          builds, measures the page in Chromium, and writes docs/results/web.md
 set -euo pipefail
@@ -43,6 +43,7 @@ case $command in
   screenshots)
     mkdir -p out/web
     (cd apps/web && node tests/contact_sheet.mjs ../../docs/images/avatar.jpg 180 && node tests/screenshots.mjs ../../out/web)
+    ffmpeg -v error -y -i out/web/page.png -q:v 4 docs/images/page.jpg
     ;;
   animation)
     cmake --preset release >/dev/null

@@ -76,9 +76,9 @@ function vertexOnRing(angle, ring) {
   const away = mouthHalfWidth * Math.sinh(mu), u = X / mouthHalfWidth, upper = Math.sin(angle) >= 0;
   const height = lipHeight(Math.min(1, Math.abs(u)), upper);
   const t = Math.abs(u) < 1 ? Math.abs(Y) / height : Math.hypot(Y, (Math.abs(u) - 1) * mouthHalfWidth) / 0.03;
-  // A slight smile at rest: the line between the lips rises towards its corners.
+  // The head's curvature lifts the corners of the mouth, which would smile at rest.
   const at = skinPoint(direction, {u, t, upper, away});
-  at[1] += 0.045 * Math.min(1, u * u) * Math.exp(-((Math.max(0, Math.abs(u) - 1)) ** 2) / 0.5 - (Y / 0.2) ** 2);
+  at[1] -= 0.028 * Math.min(1, u * u) * Math.exp(-((Math.max(0, Math.abs(u) - 1)) ** 2) / 0.5 - (Y / 0.2) ** 2);
   return {at, u, t, turn, away, sine: Math.sin(angle), follow: 1, inner: false};
 }
 

@@ -19,9 +19,14 @@ const formats = {
   glb: {name: 'mien.glb', type: 'model/gltf-binary', make: animationGlb}};
 const calibrating = 0x10;  // MIEN_RESULT_CAPTURING_NEUTRAL
 
-function say(text, alert = false) {
+function say(text) {
   if ($('status').textContent !== text) $('status').textContent = text;
-  $('status').classList.toggle('alert', alert);
+}
+
+// Stays until the user dismisses it.
+function complain(text) {
+  $('error').firstElementChild.textContent = text;
+  $('error').hidden = !text;
 }
 
 class Page {
@@ -31,11 +36,11 @@ class Page {
     this.numbers.setControls(controlNames);
     this.recording = new Recording();
     this.tracking = new Tracking({
-      onReady: () => this.ready(), onResults: message => this.show(message), onError: message => say(message, true)});
+      onReady: () => this.ready(), onResults: message => this.show(message), onError: message => this.fail(message)});
     this.source = new Source($('video'), new Sound(this.tracking), this.tracking);
     this.source.onEnd = why => {
       this.stop();
-      say(why ?? 'The input has ended.', Boolean(why));
+      if (why) complain(why); else say('The input has ended.');
     };
     this.connect();
     const tick = now => {
@@ -54,6 +59,7 @@ class Page {
     $('other').value = '1';
     const on = (id, event, action) => $(id).addEventListener(event, action);
     on('camera', 'click', () => this.open(() => this.source.openCamera()));
+    $('error').lastElementChild.addEventListener('click', () => complain(''));
     on('stop', 'click', () => this.stop());
     on('file', 'change', ({target}) => target.files[0] && this.openFile(target.files[0]));
     on('model', 'change', ({target}) => target.files[0] && this.openFile(target.files[0]));
@@ -72,6 +78,11 @@ class Page {
     this.isReady = true;
     if (!this.running) say('Ready.');
     if (this.waiting) this.open(this.waiting);
+  }
+
+  fail(message) {
+    complain(message);
+    if (!this.isReady) say('The tracker is not available.');
   }
 
   async open(how) {
@@ -93,7 +104,7 @@ class Page {
     } catch (error) {
       if (isStale()) return;
       this.stop();
-      say(error.message, true);
+      complain(error.message);
     }
   }
 
@@ -175,7 +186,7 @@ class Page {
       say(`${file.name}: ${this.first.avatar.targets.length} names of ${this.first.avatar.vocabularies.join(', ')}`);
       $('own-face').hidden = false;
     } catch (error) {
-      say(error.message, true);
+      complain(error.message);
     }
   }
 
@@ -188,6 +199,6 @@ class Page {
 try {
   window.page = new Page();
 } catch (error) {
-  say(error.message, true);
+  complain(error.message);
 }
 if ('serviceWorker' in navigator) navigator.serviceWorker.register('service_worker.js');

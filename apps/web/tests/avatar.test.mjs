@@ -68,6 +68,7 @@ test('left and right mirror each other', async () => {
 test('shapes are anatomically plausible', async () => {
   const lips = controls => page.evaluate(c => window.lips(c), controls), rest = await lips({});
   const gap = ({upper, lower}) => upper[1] - lower[1], width = ({left, right}) => left[0] - right[0];
+  assert.ok(Math.abs(rest.left[1] - rest.upper[1]) < 0.015, `the mouth does not smile at rest: ${rest.left[1] - rest.upper[1]}`);
   const open = await lips({jawOpen: 1}), funnel = await lips({mouthFunnel: 1}), pucker = await lips({mouthPucker: 1});
   assert.ok(gap(rest) < 0.01 && gap(open) > 0.25, 'the jaw opens the mouth');
   assert.ok(gap(await lips({jawOpen: 1, mouthClose: 1})) < 0.04, 'mouthClose closes the lips over an open jaw');
@@ -83,6 +84,12 @@ test('shapes are anatomically plausible', async () => {
   assert.ok((await lips({mouthLowerDownLeft: 1, mouthLowerDownRight: 1})).lower[1] < rest.lower[1] - 0.08, 'the lower lip goes down');
   assert.ok((await lips({mouthUpperUpLeft: 1, mouthUpperUpRight: 1})).upper[1] > rest.upper[1] + 0.08, 'the upper lip goes up');
   assert.ok((await lips({mouthRollLower: 1})).red[1] > rest.red[1] + 0.04, 'a rolled lip is hidden');
+});
+
+test('eyeBlink at 1 closes the eyes fully', async () => {
+  const green = controls => page.evaluate(c => window.noseAt({}, c).count, controls), open = await green({});
+  assert.ok(open > 300, `${open} pixels of the irises`);
+  assert.equal(await green({eyeBlinkLeft: 1, eyeBlinkRight: 1}), 0);
 });
 
 test('the head rotates by its angles', async () => {

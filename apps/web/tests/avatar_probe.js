@@ -75,9 +75,9 @@ window.lips = controls => {
   return Object.fromEntries(Object.entries(landmarks).map(([name, i]) => [name, [...positions.slice(i * 3, i * 3 + 3)]]));
 };
 
-// The centre between the irises in the image, by the greenest pixels.
-window.noseAt = angles => {
-  const data = picture({}, angles);
+// The centre between the irises in the image, by the greenest pixels, and their number.
+window.noseAt = (angles, controls = {}) => {
+  const data = picture(controls, angles);
   let count = 0, x = 0, y = 0;
   for (let i = 0; i < width * height; ++i) {
     const [r, g, b] = [data[i * 4], data[i * 4 + 1], data[i * 4 + 2]];
@@ -86,5 +86,5 @@ window.noseAt = angles => {
     x += i % width;
     y += Math.floor(i / width);
   }
-  return {x: x / count / width, y: y / count / height};
+  return {x: x / count / width, y: y / count / height, count};
 };

@@ -42,6 +42,18 @@ test("the avatar's jaw follows the clip's, from camera and microphone", async t 
   await context.close();
 });
 
+test('a face drawn with fewer pixels has soft edges', async () => {
+  const {page, context} = await openPage(studio);
+  const filters = await page.evaluate(() => [0, 3].map(step => {
+    const {first} = window.page;
+    first.quality.change(step, performance.now(), false);
+    first.resize();
+    return first.canvas.style.filter;
+  }));
+  assert.deepEqual(filters, ['', 'blur(0.9px)']);
+  await context.close();
+});
+
 test('audio of the microphone gives voice activity', async () => {
   const {page, context} = await openPage(studio);
   await page.click('#camera');
@@ -245,11 +257,14 @@ test('of two files opened at the same time the later one gives each image once',
 test('an unusable file is rejected with a message', async () => {
   const {page, context} = await openPage(studio);
   await page.setInputFiles('#file', {name: 'note.mp4', mimeType: 'video/mp4', buffer: Buffer.from('no video')});
-  await until(page, () => document.getElementById('status').textContent.includes('note.mp4: this browser cannot play it'));
+  await until(page, () => document.getElementById('error').textContent.includes('note.mp4: this browser cannot play it'));
   await page.setInputFiles('#model', {name: 'head.glb', mimeType: '', buffer: Buffer.from('not a head, but more than 20 bytes')});
-  await until(page, () => document.getElementById('status').textContent.includes('head.glb: not a binary glTF file'));
+  await until(page, () => document.getElementById('error').textContent.includes('head.glb: not a binary glTF file'));
   await page.click('#camera');
   await following(page);
+  assert.ok(await page.isVisible('#error'), 'until it is dismissed');
+  await page.click('#error button');
+  assert.ok(await page.isHidden('#error'));
   await context.close();
 });
 

@@ -40,7 +40,7 @@ after(() => studio?.close());
 async function moved(bytes, name, face) {
   const {page, context, complaints} = await openPage(studio);
   await page.setInputFiles('#model', {name, mimeType: '', buffer: bytes});
-  await until(page, () => document.getElementById('own-face').hidden === false || document.getElementById('status').classList.contains('alert'), 60);
+  await until(page, () => document.getElementById('own-face').hidden === false || !document.getElementById('error').hidden, 60);
   const result = await page.evaluate(controls => {
     const {avatar} = window.page.first;
     avatar.draw({controls, yaw: 0.3});
@@ -74,6 +74,6 @@ test('the expressions of a VRM move it', async () => {
 test('a head without known names is rejected with a message', async () => {
   const {page, context} = await openPage(studio);
   await page.setInputFiles('#model', {name: 'mute.glb', mimeType: '', buffer: headModel(['a1', 'a2'])});
-  await until(page, () => document.getElementById('status').textContent === 'mute.glb: no morph target or expression has a name of ARKit, VRM, Oculus or Roblox');
+  await until(page, () => document.querySelector('#error p').textContent === 'mute.glb: no morph target or expression has a name of ARKit, VRM, Oculus or Roblox');
   await context.close();
 });

@@ -1,7 +1,7 @@
 // The npm package in Chromium, without a bundler: sources of images, the worker, and audio.
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
-import {mkdirSync, mkdtempSync, rmSync, writeFileSync} from 'node:fs';
+import {mkdirSync, mkdtempSync, rmSync, statSync, writeFileSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {after, before, test} from 'node:test';
@@ -9,11 +9,11 @@ import {pack} from './package.mjs';
 import {clip, openStudio} from './page.mjs';
 
 const site = mkdtempSync(join(tmpdir(), 'mien-')), installed = join(site, 'node_modules');
-let studio, page;
+let studio, page, bytes;
 
 before(async () => {
   mkdirSync(join(installed, 'mien'), {recursive: true});
-  pack(join(installed, 'mien'));
+  bytes = statSync(pack(join(installed, 'mien'))).size;
   for (const [file, ...options] of [['face.png'], ['face.i420', '-pix_fmt', 'yuv420p', '-f', 'rawvideo']]) {
     execFileSync('ffmpeg', ['-v', 'error', '-ss', '4', '-i', clip, '-frames:v', '1', ...options, join(site, file)]);
   }
@@ -47,6 +47,8 @@ after(async () => {
   await studio?.close();
   rmSync(site, {recursive: true});
 });
+
+test('the package has at most 6 MB', () => assert.ok(bytes <= 6e6, `${bytes} bytes`));
 
 for (const where of ['here', 'worker']) {
   test(`a tracker ${where} tracks all sources alike, twice`, async () => {

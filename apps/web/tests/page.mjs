@@ -55,8 +55,11 @@ export async function until(page, condition, seconds = 15, status = '#status') {
   throw new Error(`not within ${seconds} s: ${condition}; the page says "${await page.textContent(status)}"`);
 }
 
-// Computes faces but does not draw them: without a graphics card, drawing takes processor time that the tracker needs.
-export const spareDrawing = page =>
-  page.evaluate(() => { Object.getPrototypeOf(window.page.first.avatar.renderer).draw = () => {}; });
+// Computes faces but does not draw them, until drawAgain: without a graphics card, drawing takes processor time that the tracker needs.
+export const spareDrawing = page => page.evaluate(() => {
+  const renderer = Object.getPrototypeOf(window.page.first.avatar.renderer), {draw} = renderer;
+  renderer.draw = () => {};
+  window.drawAgain = () => { renderer.draw = draw; };
+});
 
 export const following = page => until(page, () => document.getElementById('status').textContent.startsWith('Tracking'), 40);

@@ -25,9 +25,10 @@ export class FaceView {
   }
 
   resize() {
-    const ratio = Math.min(2, devicePixelRatio) * this.quality.now.scale, {clientWidth, clientHeight} = this.canvas;
+    const {scale} = this.quality.now, ratio = Math.min(2, devicePixelRatio) * scale, {clientWidth, clientHeight} = this.canvas;
     this.canvas.width = Math.max(1, Math.round(clientWidth * ratio));
     this.canvas.height = Math.max(1, Math.round(clientHeight * ratio));
+    this.canvas.style.filter = scale < 1 ? `blur(${(0.45 / ratio).toFixed(2)}px)` : '';  // hides the steps at edges
     this.changed = true;
   }
 

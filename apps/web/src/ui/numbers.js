@@ -2,6 +2,8 @@
 
 const element = (tag, text) => Object.assign(document.createElement(tag), {textContent: text});
 const ms = value => `${value.toFixed(value < 10 ? 2 : 1)} ms`;
+// Parts of the tracker in the words of users: which stages each has.
+const parts = {detection: ['proposal'], face: ['warp', 'encoder', 'heads', 'decoders'], audio: ['sound']};
 const refresh_ms = 250;
 
 export class Numbers {
@@ -32,7 +34,7 @@ export class Numbers {
 
   show(result, {rate, dropped}) {
     const whole = this.mean('frame', result.tookMs);
-    const stages = Object.entries(result.stageNs).map(([name, ns]) => [name, this.mean(name, ns / 1e6)]);
+    const times = Object.entries(parts).map(([name, stages]) => [name, this.mean(name, stages.reduce((sum, stage) => sum + result.stageNs[stage], 0) / 1e6)]);
     if (this.details.open) this.showBars(result);
     if (performance.now() - this.shownAt < refresh_ms) return;
     this.shownAt = performance.now();
@@ -40,9 +42,10 @@ export class Numbers {
     put('Face', `${result.status}, ${Math.round(result.faceProbability * 100)} %`);
     put('Voice', `${Math.round(result.voiceActivity * 100)} %`);
     put('Level', String(result.lod));
-    put('Frames', `${rate.toFixed(0)} per second, ${dropped} dropped`);
     put('Tracking', `${ms(whole)} per frame`);
-    put('Stages', stages.filter(([, value]) => value >= 0.005).map(([name, value]) => `${name} ${value.toFixed(2)}`).join(', ') || '–');
+    put('Parts', times.filter(([, value]) => value >= 0.05).map(([name, value]) => `${name} ${value.toFixed(1)}`).join(', ') + ' ms');
+    put('Frame rate', `${rate.toFixed(0)} per second`);
+    put('Dropped frames', String(dropped));
     put('Head', ['pitch', 'yaw', 'roll'].map(name => `${name} ${Math.round(result[name] * 180 / Math.PI)}°`).join(', '));
   }
 
