@@ -39,7 +39,7 @@ def prelu(t, node):
     x, slope = t.settled(node.inputs[0]), constant(node.inputs[1], "slope").astype(np.float64)
     slope = np.broadcast_to(slope, x.shape)
     constants = x.at < 0
-    require(not (constants & (x.shift < 0)).any(), "a negative constant beside what the network computes")
+    require(not (constants & (x.shift < 0)).any(), "a negative constant beside computed values")
 
     def slopes(number):
         mine = (x.at >= 0) & (x.at >> tensors.BITS == number)

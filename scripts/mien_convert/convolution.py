@@ -23,7 +23,7 @@ def steps_of(attributes, count):
 
 
 def padding_of(attributes, sizes, kernel, strides, dilations):
-    """([before...], [after...]), as pads or auto_pad say."""
+    """([before...], [after...]): padding by pads or auto_pad."""
     mode, count = attributes.get("auto_pad", "NOTSET"), len(sizes)
     if mode in ("NOTSET", ""):
         pads = attributes.get("pads", [0] * 2 * count)

@@ -25,7 +25,7 @@ def dropout(t, node):
 
 
 def cast(t, node):
-    require(node.attributes["to"] in (1, 10, 11), "it turns what the network computes into integers")
+    require(node.attributes["to"] in (1, 10, 11), "it converts computed values to integers")
     return [node.inputs[0]]
 
 
@@ -84,8 +84,8 @@ def slice_(t, node):
 
 
 def slice_bounds(start, end, step, size):
-    """Converts an ONNX range to one of Python: clamps distant ends, and a range that goes down to the first element has
-    no end."""
+    """Converts an ONNX range to one of Python: clamps distant ends; a descending range that includes the first element
+    has no end."""
     low, high = (0, size) if step > 0 else (-1, size - 1)
     first, last = (min(max(n + size if n < 0 else n, low), high) for n in (start, max(end, -size - 1)))
     return max(first, 0), None if last < 0 else last

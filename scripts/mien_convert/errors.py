@@ -6,8 +6,7 @@ MAX_TOTAL_NUMBERS = 1 << 27  # limit for all tensors of a graph: 3 GB, and secon
 
 
 class Refused(Exception):
-    """`progress`: how many nodes were taken before, -1 before the first, to tell which of several attempts came
-    furthest."""
+    """`progress`: number of converted nodes, -1 before the first, to find the attempt that came furthest."""
 
     def __init__(self, message, progress=-1):
         super().__init__(message)

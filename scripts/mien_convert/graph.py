@@ -66,7 +66,7 @@ class Conversion:
         first, *others = graph.inputs
         shape = list(shapes.get(first, graph.inputs[first]))
         require(shape,
-                f"input {first!r} has no axes: a network's input is a map, a vector or steps; say which with --shape")
+                f"input {first!r} has no axes (expected a map, a vector or steps; set its shape with --shape)")
         if guess.time_axis is None:
             steps = 0
             shape = [1 if n is None and axis == 0 else n for axis, n in enumerate(shape)]
@@ -75,14 +75,14 @@ class Conversion:
             steps = shape[guess.time_axis] or DYNAMIC_STEPS
             shape[guess.time_axis] = steps
             shape = [n or 1 for n in shape]
-        require(all(shape), f"input {first!r} has the shape {shape}: say which with --shape")
+        require(all(shape), f"input {first!r} has the shape {shape}: set it with --shape")
         self.t = Translator(graph.opset, steps)
         self.source, values = self.make_source(shape)
         values.update(graph.constants)
         self.state_names = {}
         for name in others:
             require(name not in graph.whole_numbers,
-                    f"input {name!r} is a whole number, which no layer reads; say which with --value {name}=NUMBER")
+                    f"input {name!r} is an integer, which no layer reads; make it a constant: --value {name}=NUMBER")
             values[name] = self.make_state(name, [n or 1 for n in shapes.get(name, graph.inputs[name])])
         self.run(values)
         self.take_outputs(values)
@@ -134,7 +134,7 @@ class Conversion:
                 require(self.room >= 0,
                         f"all tensors so far: at most {MAX_TOTAL_NUMBERS} numbers; reduce --shape or try --any-size")
             except MemoryError as error:
-                raise Refused(f"{node.name}: it takes more memory than there is", count) from error
+                raise Refused(f"{node.name}: out of memory", count) from error
             except Refused as refusal:
                 raise Refused(f"{node.name}: {refusal}", max(count, refusal.progress)) from refusal
             except (ValueError, TypeError, LookupError, AttributeError, ArithmeticError) as error:
@@ -248,7 +248,7 @@ def constant_value(attributes):
         if key in attributes:
             value = attributes[key]
             return np.asarray(value, np.float32 if "float" in key else np.int64 if "int" in key else None)
-    raise Refused("a constant of another kind")
+    raise Refused("a constant of an unsupported type")
 
 
 def size(x):

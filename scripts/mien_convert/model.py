@@ -43,7 +43,7 @@ class Node:
         self.domain = proto.domain
         for a in proto.attribute:
             kind = KINDS_OF.get((proto.op_type, a.name), KINDS.get(a.name, a.type))
-            require(a.type == kind, f"{self.name}: its attribute {a.name!r} is of another kind than ONNX says")
+            require(a.type == kind, f"{self.name}: its attribute {a.name!r} has the wrong type")
         self.attributes = {a.name: attribute(a, folder) for a in proto.attribute}
         self.inputs = []
 
@@ -68,7 +68,7 @@ def array(proto, folder):
         values = values.astype(np.float32) if values.dtype.name == "bfloat16" else values
     except Exception as error:  # several kinds, by version
         raise Refused(f"weights {proto.name!r} are malformed: {error}") from error
-    require(values.dtype.kind in "biuf", f"weights {proto.name!r} are no real numbers ({values.dtype})")
+    require(values.dtype.kind in "biuf", f"weights {proto.name!r} are not real numbers ({values.dtype})")
     return values
 
 

@@ -1,5 +1,5 @@
-"""Turns ONNX files into one weight file of mien, a network for each; or says which node it cannot take. docs/convert.md
-has the details.
+"""Converts ONNX files to one weight file of mien with a network for each, or names the unsupported node.
+docs/convert.md has the details.
 
 usage: python3 -m mien_convert MODEL.onnx... -o MODEL.mien [--name NAME]... [--shape [INPUT:]1,3,64,64]...
        [--time-axis N|none] [--any-size]
@@ -84,7 +84,7 @@ def report(path, name, conversion, network, precision):
 
 def notes_of(precision):
     if precision.too_large:
-        yield "too large to estimate what the rounding of weights to fp16 does to the outputs"
+        yield "too large to estimate the effect of rounding weights to fp16 on the outputs"
     if precision.kept:
         names = dict.fromkeys(layer.node for layer in precision.kept)
         cost = f"+{precision.more_bytes} bytes, +{precision.more_work / 1e6:.1f} million multiplications"
@@ -99,16 +99,16 @@ def main(arguments=None):
     parser.add_argument("models", nargs="+", metavar="MODEL.onnx")
     parser.add_argument("-o", "--output", required=True, metavar="MODEL.mien")
     parser.add_argument("--name", action="append", default=[],
-                        help="of the networks, in order; default: the files' names")
+                        help="name of a network, once per ONNX file; default: the file's name")
     parser.add_argument("--shape", action="append", default=[], type=shape_of,
-                        help="of an input (default: the first) that the file leaves open")
+                        help="[INPUT:]N,N,...: shape of an input (default: the first) with open dimensions")
     parser.add_argument("--value", action="append", default=[], type=value_of,
-                        help="INPUT=NUMBER: an input that becomes a constant, as a sampling rate")
+                        help="INPUT=NUMBER: makes an input a constant, for example a sampling rate")
     parser.add_argument("--time-axis", type=time_axis_of,
-                        help="of the first input, whose steps come one by one; default: as it fits")
+                        help="time axis of the first input, or none; default: detected")
     parser.add_argument("--any-size", action="store_true", help="the networks also run on larger maps")
     parser.add_argument("--fp16-only", action="store_true",
-                        help="no layer is kept precise by a second one, whatever the rounding of weights does")
+                        help="adds no second layers where rounding to fp16 costs accuracy")
     options = parser.parse_args(arguments)
     file = MienFile()
     for i, path in enumerate(options.models):
@@ -118,7 +118,7 @@ def main(arguments=None):
         except (Refused, ValueError, OSError) as refusal:
             sys.exit(f"onnx_to_mien.py: {path}: {in_a_line(refusal)}")
         except MemoryError:
-            sys.exit(f"onnx_to_mien.py: {path}: it takes more memory than there is")
+            sys.exit(f"onnx_to_mien.py: {path}: out of memory")
     try:
         file.write(options.output)
     except (ValueError, OSError) as refusal:

@@ -1,8 +1,8 @@
 """Keeps layers precise if fp16 is too coarse for their weights: splits such a layer into one with rounded weights, one
 with the rounding errors, and a sum.
 
-An evaluation on random inputs shows whether the outputs differ by more than ALLOWED. If so, as few layers are split as
-bring them below AIM, in the order of what they bring for what they cost.
+An evaluation on random inputs shows whether the outputs differ by more than ALLOWED. If so, layers are split in the
+order of benefit per cost, until the difference is below AIM.
 """
 import numpy as np
 
@@ -11,10 +11,10 @@ from .layers import WEIGHTED, Layer
 from .weight_file import MAX_LAYERS
 
 ALLOWED, AIM = 5e-4, 2.5e-4  # of an output's largest value; other inputs differ by a factor of two or three
-SMALL = 1e-3  # an output without a larger value counts as if it had this one
+SMALL = 1e-3  # minimum of the largest value of an output, to which errors are relative
 INPUTS, STEPS = 2, 16  # of the evaluation; the latter of a stream
 MAX_NUMBERS = 1 << 26  # of all layers at once: 256 MB, and as much for those compared
-MAX_WORK = 5 * 10 ** 10  # multiplications of an evaluation and of the search for an order: some ten seconds each
+MAX_WORK = 5 * 10 ** 10  # multiplications of an evaluation, and of the measurement of the order: some ten seconds each
 
 
 class Precision:

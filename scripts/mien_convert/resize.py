@@ -68,8 +68,8 @@ def wanted_sizes(node, old, scales, sizes, grid):
     new = [int(math.floor(a * scale + 1e-6)) for a, scale in zip(old, scales)]
     exact = all(abs(a * scale - b) < 1e-4 for a, b, scale in zip(old, new, scales))
     require(min(new) > 0 and (exact or grid == "align_corners"),
-            f"scales {scales.tolist()} of {old}, which give no whole numbers; give sizes, or an input for which they "
-            "do (--shape)")
+            f"scales {scales.tolist()} of {old}, whose products are not integers; give sizes, or another input size "
+            "(--shape)")
     return new
 
 

@@ -89,7 +89,7 @@ def lstm(t, node):
     require(a.get("direction", "forward") == "forward", f"direction {a.get('direction')}")
     names = [name.lower() for name in a.get("activations", ["sigmoid", "tanh", "tanh"])]
     require(names == ["sigmoid", "tanh", "tanh"] and "clip" not in a and not a.get("input_forget", 0),
-            "a cell of another kind")
+            "unsupported options of the cell")
     require(peepholes is None, "peepholes")
     require(lengths is None or is_constant(lengths) and (lengths == t.steps).all(), "sequence_lens")
     x = x.moved(lambda part: part.transpose(1, 0, 2)) if batch_first else x

@@ -76,7 +76,8 @@ def along(array, other_axes, message):
 
 
 def zero_border(tensor):
-    """(top, left, bottom, right) rows and columns of zeros around what [1, c, h, w] holds, and the rest."""
+    """(top, left, bottom, right): numbers of rows and columns of zeros around [1, c, h, w], and the tensor without
+    them."""
     empty = ((tensor.at == NOTHING) & (tensor.shift == 0)).all((0, 1))
     rows, columns = np.flatnonzero(~empty.all(1)), np.flatnonzero(~empty.all(0))
     if not len(rows):

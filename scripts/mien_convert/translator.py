@@ -1,4 +1,4 @@
-"""From ONNX nodes to layers: what all operators share. operators.py has one function for each."""
+"""Functions that all operators use to create layers from ONNX nodes. operators.py has one function per operator."""
 import numpy as np
 
 from . import tensors
@@ -117,7 +117,7 @@ class Translator:
         return Tensor(at, None, np.where(computed, 0.0, tensor.shift))
 
     def activated(self, tensor, function, activation, slopes=None):
-        """An activation of every element. `function` does it to constants; slopes: a function of (layer number) for
+        """Applies an activation to every element, and `function` to constants. slopes: a function of (layer number) for
         PReLU."""
         tensor = self.settled(tensor)
         made = {}
@@ -153,13 +153,13 @@ class Translator:
         constant = tensor.at == NOTHING
         if constant.any():
             require(tensor.at.shape[0] == 1 and not tensor.shift.any(),
-                    "it mixes constants with what the network computes")
+                    "it mixes constants with computed values")
             return self.padded(tensor)
         at = self.one_step(tensor.at)
         return self.map_of(at) if rearranges and not self.steps else self.blocks(at)
 
     def map_of(self, at):
-        """[c, h, w] by whatever layers it takes."""
+        """[c, h, w] by as many layers as necessary."""
         try:
             return self.blocks(at)
         except Refused:
@@ -217,7 +217,7 @@ class Translator:
     def padded(self, tensor):
         """Adds zeros around a map: a depthwise convolution with a single tap of 1."""
         (top, left, bottom, right), inner = tensors.zero_border(tensor)
-        require(inner.shape != tensor.shape, "it mixes constants with what the network computes")
+        require(inner.shape != tensor.shape, "it mixes constants with computed values")
         require(top + bottom <= 14 and left + right <= 14,
                 "zeros around a map: at most 14 in all above and below, or left and right")
         x = self.as_map(inner)
@@ -317,7 +317,7 @@ class Translator:
                 steps = grouped(given[0].at, groups).shape[0]
                 return layers, steps, lambda part, order=order, ordered=ordered: part.reshape(ordered).transpose(
                     np.argsort(order))
-        raise refusal or Refused(f"it reads a tensor {list(shape)}, which is no map and no vector")
+        raise refusal or Refused(f"it reads a tensor {list(shape)}, which is neither a map nor a vector")
 
     def result(self, layer, steps, back):
         """A layer's elements in the arrangement that `arranged` found."""
@@ -354,7 +354,7 @@ class Translator:
     # -- nodes ------------------------------------------------------------
 
     def constant(self, node):
-        """Of an operator whose inputs are all constants."""
+        """The result of an operator whose inputs are all constants."""
         with np.errstate(all="ignore"):
             if node.operator in FUNCTIONS:
                 return [np.asarray(FUNCTIONS[node.operator](node.inputs, node.attributes))]

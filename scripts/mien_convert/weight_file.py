@@ -258,7 +258,7 @@ class Network:
     def record(self, name, first_layer):
         used = {x for layer in self.layers for x in layer.inputs} | set(self.outputs)
         for value in range(1, len(self.shapes)):
-            require(value in used, f"{self.name}: nobody uses the output of layer {value}")
+            require(value in used, f"{self.name}: unused output of layer {value}")
         require(self.outputs, f"{self.name}: no output")
         outputs = self.outputs
         if len(outputs) <= MAX_WIDE_OUTPUTS:
@@ -351,7 +351,7 @@ class _Layer:
         require(0 <= before < kernel and 0 <= after < kernel, f"{self.op}: padding {before}, {after}")
         require(before + size + after >= kernel, f"{self.op}: kernel {kernel} on {size} elements")
         last = (before + size + after - kernel + (stride - 1 if self.flags == CEIL_MODE else 0)) // stride
-        require(last * stride < before + size, f"{self.op}: the last window would begin behind the map")
+        require(last * stride < before + size, f"{self.op}: the last window would begin beyond the map")
         return last + 1
 
     def record(self, tensors):
@@ -380,7 +380,7 @@ class _Strings:
 
 
 def _factor(size, resized):
-    """How many times as large it is; 0 where that is no whole number."""
+    """The factor between the sizes, or 0 if it is not an integer."""
     factor, rest = divmod(resized, size)
     return factor if rest == 0 and factor <= MAX_FACTOR else 0
 

@@ -212,7 +212,7 @@ def refused():
     yield of("resize_cubic", [node("Resize", "x roi roi n", mode="cubic")],
              "the mode 'cubic'; nearest and linear are possible", constants=roi)
     yield of("resize_to_fractions", [node("Resize", "x roi s")],
-             "which give no whole numbers; give sizes", {"x": [1, 10, 7, 6]}, constants=roi)
+             "whose products are not integers; give sizes", {"x": [1, 10, 7, 6]}, constants=roi)
     yield of("resize_cropped", [node("Resize", "x roi roi n", coordinate_transformation_mode="tf_crop_and_resize")],
              "the coordinate_transformation_mode 'tf_crop_and_resize'", constants=roi)
     yield of("resize_antialiased", [node("Resize", "x roi roi n", mode="linear", antialias=1)],

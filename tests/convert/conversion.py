@@ -1,5 +1,4 @@
-"""What the tests of the converter have in common: converting, running, comparing. The program is their first
-argument."""
+"""Functions of the converter's tests: converting, running, comparing. The program is their first argument."""
 import contextlib
 import io
 import json
@@ -22,7 +21,7 @@ def runtime_is_here():
 
 
 def convert(arguments):
-    """Exit status (0 or the message) and what was printed."""
+    """Exit status (0 or the message), and the output."""
     output = io.StringIO()
     try:
         with contextlib.redirect_stdout(output):
@@ -33,7 +32,7 @@ def convert(arguments):
 
 
 def answered(folder, model, x, layout="chw", network=()):
-    """What `mien run` makes of x: one array for each output."""
+    """The outputs of `mien run` for x: one array each."""
     np.save(folder / "x.npy", np.ascontiguousarray(x))
     info = json.loads(subprocess.run([PROGRAM, "inspect", model, "--json"], check=True, capture_output=True,
                                      text=True).stdout)

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Fetches ONNX's tests of single nodes, which its Python package holds, into ${MIEN_CACHE:-~/.cache/mien}, for the test convert.nodes.
+# Fetches ONNX's tests of single nodes from its Python package into ${MIEN_CACHE:-~/.cache/mien}, for the test convert.nodes.
 # usage: tests/convert/fetch_node_tests.sh      Needs pip and unzip. The last version whose opset (18) the converter takes.
 set -euo pipefail
 version=1.13.1

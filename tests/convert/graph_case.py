@@ -7,8 +7,9 @@ FLOAT = TensorProto.FLOAT
 
 class Case:
     """shapes: of the inputs by name. arguments: of the converter. feedback: state inputs -> outputs, of a graph of one
-    step. rounds: how often numbers are folded into others, and the result rounded to fp16. answer: numpy's, where ONNX
-    Runtime does not take the graph. expected: (case, x) -> all outputs by numpy, beside ONNX Runtime's."""
+    step. rounds: number of times that folded values are rounded to fp16, a factor on the tolerance. answer: numpy's
+    output, if ONNX Runtime does not support the graph. expected: (case, x) -> all
+    outputs by numpy, in addition to ONNX Runtime's."""
 
     def __init__(self, name, nodes, shapes, outputs=("y",), opset=13, constants=None, arguments=(), steps=1,
                  feedback=None, layout="chw", refusal=None, domains=(), rounds=False, answer=None, expected=None):

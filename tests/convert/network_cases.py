@@ -116,7 +116,7 @@ class WithoutState(nn.Module):
 
 
 class EncoderStep(nn.Module):
-    """One step; what the convolutions and the cell remember goes in and out."""
+    """One step, with the states of the convolutions and the cell as inputs and outputs."""
 
     def __init__(self):
         super().__init__()

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""ONNX's own tests of single nodes: each converts and answers as ONNX says, or is refused in one line that gives the
+"""Runs ONNX's own tests of single nodes: each is converted with ONNX's results, or rejected in one line with the
 reason.
 
 usage: onnx_node_test.py MIEN_PROGRAM      exit 77: Python's onnx package, or the tests, are missing here
@@ -56,7 +56,7 @@ class NodeTests(unittest.TestCase):
                     converted += 1
                 else:
                     self.check_refusal(test, status, model)
-        print(f"{converted} of {len(tests)} converted, the others refused")
+        print(f"{converted} of {len(tests)} converted, the others rejected")
         self.assertEqual(len(tests), ALL)
         self.assertGreaterEqual(converted, MIN_CONVERTED)
 
@@ -75,7 +75,7 @@ class NodeTests(unittest.TestCase):
         prefix, reason = status.split(": ", 1)[0], status.split("model.onnx: ", 1)[1]
         self.assertEqual(prefix, "onnx_to_mien.py")
         self.assertGreater(len(reason), 5)
-        self.assertFalse(model.exists(), "a refused file leaves nothing behind")
+        self.assertFalse(model.exists(), "a rejected file leaves no output")
 
 
 if __name__ == "__main__":

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Converts generated ONNX files, runs them with `mien run`, and holds the answers against ONNX Runtime's and PyTorch's.
+"""Converts generated ONNX files, runs them with `mien run`, and compares the outputs with ONNX Runtime's and PyTorch's.
 
 usage: onnx_to_mien_test.py MIEN_PROGRAM      exit 77: Python's onnx package is missing here
-ONNX Runtime is the npm package that scripts/peers/install_onnxruntime.sh fetches. What cannot be compared here is said
+ONNX Runtime is the npm package that scripts/peers/install_onnxruntime.sh fetches. Skipped comparisons are listed
 on standard output.
 """
 import contextlib
@@ -33,7 +33,7 @@ try:
     import torch
 except ModuleNotFoundError as missing:
     torch = None
-    print("NOT TESTED: networks exported by PyTorch, for want of the Python module", missing.name)
+    print("NOT TESTED: networks exported by PyTorch: missing Python module", missing.name)
 
 if not runtime_is_here():
     print("NOT COMPARED: operators with ONNX Runtime; scripts/peers/install_onnxruntime.sh fetches it")
@@ -163,7 +163,7 @@ class Networks(Folder):
         """Also with PyTorch's default exporter, if available."""
         ways = [False] + [True] * modern_networks.has_default_export()
         if len(ways) == 1:
-            print("NOT TESTED: PyTorch's default export, for want of onnxscript or PyTorch 2.5")
+            print("NOT TESTED: PyTorch's default export: onnxscript or PyTorch 2.5 is missing")
         for by_default in ways:
             torch.manual_seed(6)
             for name, network in modern_networks.networks():
@@ -257,7 +257,7 @@ class Program(Folder):
 
     def test_an_input_that_is_a_number_and_is_not_given(self):
         for arguments, refusal in (((),
-                                    "input 'rate' is a whole number, which no layer reads; say which with --value "
+                                    "input 'rate' is an integer, which no layer reads; make it a constant: --value "
                                     "rate=NUMBER"),
                                    (("--value", "rate=0.5"), "input 'rate': not a whole number (got 0.5)"),
                                    (("--value", "none=1"), "no input 'none'; there is x, rate"),
@@ -281,7 +281,7 @@ class Program(Folder):
         self.assertIn("No such file", status)
 
     def test_graphs_that_are_malformed(self):
-        """What fuzz/onnx_converter.py found to end in a traceback."""
+        """Graphs that caused tracebacks, found by fuzz/onnx_converter.py."""
         for nodes in ([operator_cases.node("Concat", "x x")], [operator_cases.node("Relu", "")],
                       [operator_cases.node("Conv", "x w", group=0)]):
             with self.subTest(nodes[0].op_type):
@@ -292,7 +292,7 @@ class Program(Folder):
                 self.assertEqual(len(status.splitlines()), 1)
 
     def with_external_weights(self, **external):
-        """A model whose weights lie in another file, and what becomes of it."""
+        """Converts a model whose weights are in another file."""
         case = operator_cases.Case("net", [operator_cases.node("Conv", "x w")], {"x": [1, 3, 4, 5]},
                                    constants={"w": operator_cases.weights(5, 3, 1, 1)})
         model = case.model()
@@ -361,8 +361,8 @@ class Program(Folder):
         self.assertRegex(status, "^onnx_to_mien.py: .*nameless.onnx: .*$")
         self.assertNotIn("\n", status)
 
-    def test_too_little_memory_is_said_in_a_line(self):
-        """Wherever it ends: a map of 16 million numbers, from what holds no input to what nearly does."""
+    def test_insufficient_memory_is_reported_in_one_line(self):
+        """At any point: a map of 16 million numbers, with limits from less than the input to almost enough."""
         large = self.folder / "large.onnx"
         large.write_bytes(operator_cases.Case(
             "net", [operator_cases.node("Relu", "x")], {"x": [1, 64, 512, 512]}).model().SerializeToString())
@@ -373,7 +373,7 @@ class Program(Folder):
                                   env={**os.environ, "OPENBLAS_NUM_THREADS": "1"},
                                   preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, room))
             self.assertEqual((done.returncode, done.stderr.count("\n")), (1, 1), done.stderr)
-            self.assertIn("it takes more memory than there is", done.stderr)
+            self.assertIn("out of memory", done.stderr)
             self.assertFalse((self.folder / "y.mien").exists())
 
 

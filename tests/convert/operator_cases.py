@@ -210,7 +210,7 @@ def move_cases():
     zeros = helper.make_node("ConstantOfShape", ["shape"], ["z"], value=numpy_helper.from_array(floats(0)))
     yield Case("constant_of_shape", [zeros, node("Concat", "z x", "t", axis=1),
                                      node("Conv", "t w5")], {"x": [1, 3, 4, 4]},
-               constants={"shape": ints(1, 2, 4, 4), **w}, refusal="mixes constants with what the network computes")
+               constants={"shape": ints(1, 2, 4, 4), **w}, refusal="mixes constants with computed values")
     yield Case("channels_last", [node("Transpose", "x", "t", perm=[0, 3, 1, 2]),
                                  node("Conv", "t v")], {"x": [1, 9, 7, 3]}, layout="hwc",
                constants={"v": weights(6, 3, 3, 3)})
@@ -355,7 +355,7 @@ def refused():
     yield case("pad_with_ones", [node("Pad", "x p one", "t"), node("Conv", "t w")], X, "mixes constants",
                constants={"p": ints(0, 0, 1, 1, 0, 0, 1, 1), "one": np.float32(1), **w})
     yield case("batch", [node("Relu", "x")], {"x": [2, 3, 4, 4]}, "a batch of 2")
-    yield case("open_size", [node("Relu", "x")], {"x": [1, 3, None, None]}, "say which with --shape")
+    yield case("open_size", [node("Relu", "x")], {"x": [1, 3, None, None]}, "set it with --shape")
     yield case("reverse_lstm", [node("LSTM", "x w r", "t", hidden_size=8, direction="reverse")], {"x": [5, 1, 3]},
                "direction reverse", constants=lstm_weights(3, 8))
     yield case("batched_lstm", [node("LSTM", "x w r", "t", hidden_size=8)], {"x": [5, 2, 3]}, "",
@@ -376,16 +376,16 @@ def refused():
     yield case("output_is_input", [node("Identity", "x")], X, "output 'y' is the input")
     yield case("constant_output", [node("Shape", "x")], X, "output 'y' is a constant")
     yield case("nobody_computes", [node("Relu", "nowhere")], X, "undefined input 'nowhere'")
-    yield case("complex_padding", [node("Pad", "x p")], X, "weights 'p' are no real numbers (complex64)",
+    yield case("complex_padding", [node("Pad", "x p")], X, "weights 'p' are not real numbers (complex64)",
                constants={"p": np.array([0, 0, 1, 1, 0, 0, 1, 1], np.complex64)})
-    yield case("no_size", [node("Relu", "x")], {"x": [0, -2, 1 << 40]}, "say which with --shape")
+    yield case("no_size", [node("Relu", "x")], {"x": [0, -2, 1 << 40]}, "set it with --shape")
     yield case("no_input", [helper.make_node("Identity", [""], ["y"], name="the_identity")], X,
                "Identity 'the_identity': an input is missing")
     for opset in (8, 29):
         yield case(f"opset_{opset}", [node("Relu", "x")], X,
                    f"opset: not supported (got {opset}, expected 9 to 28); export the model", opset=opset)
     yield case("attribute_kind", [node("Conv", "x w", pads=1)], X,
-               "its attribute 'pads' is of another kind than ONNX says", constants=w)
+               "its attribute 'pads' has the wrong type", constants=w)
     yield case("other_groups", [node("Conv", "x w", group=3)], X, "[6, 10, 3, 3] in 3 groups", constants=w)
     yield case("strides_of_other_axes", [node("Conv", "x w", strides=[2])], X,
                "strides [2], dilations [1, 1] of a window over 2 axes", constants=w)

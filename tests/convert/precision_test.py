@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Whether layers are kept precise where fp16 is too coarse for their weights, only there, and whether the converter's
-own evaluation of a network answers as the engine does.
+"""Tests that only layers are kept precise for whose weights fp16 is too coarse, and that the converter's own evaluation
+of a network agrees with the engine.
 
 usage: precision_test.py MIEN_PROGRAM      exit 77: Python's onnx package is missing here
 """
@@ -44,7 +44,7 @@ class Folder(unittest.TestCase):
         return path
 
     def converted(self, case, *arguments):
-        """The weight file, its size and what was printed."""
+        """The weight file, its size and the output."""
         model = self.folder / "y.mien"
         status, report = convert([self.saved(case), "-o", model, *case.arguments, *arguments])
         self.assertEqual(status, 0)
@@ -160,7 +160,7 @@ class Layers(Folder):
 
 
 class Evaluation(Folder):
-    """Held against `mien run` with the same weights, rounded to fp16."""
+    """Compared with `mien run` with the same weights, rounded to fp16."""
 
     def test_of_operators(self):
         self.check([*operator_cases.accepted(), *arithmetic_cases.accepted()], 150)

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Converts every ONNX file of a folder and compares the answers to noise with ONNX Runtime's: a line for each.
+"""Converts every ONNX file of a folder and compares the outputs for noise with ONNX Runtime's, one line per file.
 
 usage: public_models_test.py MIEN_PROGRAM [FOLDER]      default: $MIEN_ONNX_MODELS, else ~/.cache/mien/onnx_models
-Exit status 1: an answer is off by more than 1e-3 of the largest value, or a refusal does not say why. 77: no folder or
+Exit status 1: an output differs by more than 1e-3 of its largest value, or an error has no reason. 77: no folder or
 no ONNX Runtime (npm package, scripts/peers/install_onnxruntime.sh).
 """
 import os

@@ -1,7 +1,7 @@
-"""ONNX graphs drawn by chance: chains of convolutions of every kind, blocks, pools, sums and joins, with one to three
+"""Random ONNX graphs: chains of convolutions of every kind, blocks, pools, sums and joins, with one to three
 outputs.
 
-Only what docs/convert.md says is taken: whatever is refused of these, or answers other than ONNX Runtime, is a fault.
+They use only what docs/convert.md supports: each must be converted, with the outputs of ONNX Runtime.
 """
 import numpy as np
 from operator_cases import Case, node, weights
