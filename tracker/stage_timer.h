@@ -22,7 +22,7 @@ class StageTimer {
     return std::accumulate(spent_ns_.begin(), spent_ns_.end(), std::uint64_t{0});
   }
 
-  // Times from its making to the end of its scope.
+  // Measures the time from construction to the end of the scope.
   class Scope {
    public:
     Scope(StageTimer& timer, mien_stage stage)

@@ -11,22 +11,22 @@ namespace {
 
 constexpr std::size_t kRefined = 4;        // detections of a coarse search or tile, by R-Net
 constexpr std::size_t kVerified = 2;       // of these, by BaseNet
-constexpr std::int32_t kEagerFrames = 30;  // searching on every one of them
-constexpr int kAlignments = 2;             // of a detection, before it is verified
+constexpr std::int32_t kEagerFrames = 30;  // first frames without a face: no pause in detection
+constexpr int kAlignments = 2;             // alignments of a detection before it is verified
 
-// The steps of a search in their order: both shares of a coarse search, then some of a scan.
+// Steps without a face, in order: both shares of a coarse search, then some shares of a scan.
 enum Step : std::uint32_t { kBeginCoarse, kEndCoarse, kScan };
 
-// How much of a search goes into one frame.
+// The amount of detection per frame.
 struct Pace {
-  std::uint64_t steps;   // into two frames
+  std::uint64_t steps;   // per two frames
   std::uint32_t shares;  // of a scan, after each coarse search
-  bool begins_at_loss;   // of a face, or else one frame later
+  bool begins_at_loss;   // on the frame that loses the face, else one frame later
 };
 constexpr Pace kPace = {8, 2, true};
-constexpr Pace kPaceLowest = {3, 1, false};  // frames are cheap there, and none may stutter
+constexpr Pace kPaceLowest = {3, 1, false};  // frames are cheap, so their cost should vary little
 
-// Faces are detected within some 30 degrees of these rolls (radians), and of an upright image.
+// Rolls of detection besides 0, in radians; it finds faces within about 30 degrees of each.
 constexpr float kEighth = 0.78539816f;
 constexpr std::array<float, 7> kRolls = {2 * kEighth, -2 * kEighth, kEighth,    -kEighth,
                                          3 * kEighth, -3 * kEighth, 4 * kEighth};
@@ -83,7 +83,7 @@ mien_status Tracker::push(const mien_image* image, std::int64_t pts_ns) {
   }
   const Timeline::Step step = state_.timeline.advance(pts_ns);
   Frame frame = {view, timer_, level(), step.seconds, step.cut};
-  // Where a video begins nothing can stutter, and its first image may be its only one.
+  // The first image may be the only one, and may take longer.
   const bool new_scene = std::exchange(state_.cut_without_image, false) || frame.cut ||
                          !(state_.view == static_cast<const ImageGeometry&>(view));
   if (new_scene) {
@@ -201,7 +201,7 @@ void Tracker::search_step(Frame& frame) {
     end_coarse(frame);
   } else {
     if (!search.is_scanning) {
-      // Hard faces need a thorough scan; the others are quick.
+      // A thorough scan finds faces that others miss, but takes longer.
       const float roll = next_roll();
       begin_scan(frame, state_.searches % 4 == 0 && roll == 0.0f, roll);
       ++state_.searches;
@@ -247,7 +247,7 @@ void Tracker::end_coarse(Frame& frame) {
   search.count = std::min(count, kVerified);
 }
 
-// The first scan after a loss is at the roll of the lost face. Of every four, two are upright.
+// The first scan after a loss uses the roll of the lost face. Of every four scans, two are upright.
 float Tracker::next_roll() const {
   const std::uint32_t n = state_.searches;
   if (n == 0) {
@@ -256,8 +256,8 @@ float Tracker::next_roll() const {
   return n % 4 < 2 ? 0.0f : kRolls[(n / 4 * 2 + n % 2) % kRolls.size()];
 }
 
-// The same for the first coarse search. Every second time round the rolls lie between those of the
-// first.
+// The first coarse search after a loss uses the roll of the lost face. Every second pass uses rolls
+// halfway between those of the first.
 float Tracker::next_coarse_roll() const {
   const std::uint32_t n = state_.coarse_searches;
   const std::size_t i = n % (kRolls.size() + 1);
@@ -296,7 +296,7 @@ void Tracker::detect_in_tile(Frame& frame) {
         proposal_.detect_in_tile(frame.view, state_.turn % proposal_.turns(frame.view), found));
     ++state_.turn;
   }
-  // The first that is not a tracked face.
+  // The best detection that is not a tracked face.
   const auto newcomer = std::find_if(found.begin(), found.end(), [&](const Detection& detection) {
     return !faces_.is_taken(detection.square);
   });
@@ -324,7 +324,7 @@ void Tracker::publish(const Frame& frame, std::int64_t pts_ns, std::uint32_t fla
   }
 }
 
-// Who of several speaks nobody can hear: it is the face known longest.
+// Audio cannot tell which face speaks, so it moves the one with the lowest id.
 void Tracker::mix_voice() {
   Face& speaker = faces_.first();
   mien_result& result = speaker.result();
@@ -336,7 +336,7 @@ void Tracker::mix_voice() {
   }
 }
 
-// What all faces of an image have in common.
+// Fields that are equal for all faces of a frame.
 void Tracker::describe(const Frame& frame, std::int64_t pts_ns, std::uint32_t flags,
                        mien_result& result) const {
   result.pts_ns = pts_ns;

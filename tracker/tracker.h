@@ -1,4 +1,4 @@
-// Finds and follows faces through a video: frames in, animation out.
+// Tracks faces through a video: images and audio in, animation out.
 #pragma once
 
 #include <mien/mien.h>
@@ -16,22 +16,22 @@
 
 namespace mien::tracker {
 
-// Searching: the proposal looks at the whole image, BaseNet judges what it proposes and turns the
-// crop upright. Tracking: the landmarks of one frame place the crop of the next. While there is
-// room for more faces the proposal glances at a part of every image.
+// Searching: the detector scans the whole image; BaseNet verifies its detections and aligns the
+// crop. Tracking: the landmarks of one frame place the crop of the next. While more faces are
+// allowed, detection runs in one tile of every image.
 class Tracker {
  public:
-  // Both must outlive the tracker. `reset` comes before the first image.
+  // `encoders` and `proposal` must outlive the tracker. Call `reset` before the first image.
   Tracker(const mien_tracker_config& config, Encoders& encoders, FaceDetector& proposal);
 
-  // Takes from `arena` what the faces and the voice need; only measures when the arena does.
+  // Allocates faces and audio track from `arena`, or only measures if the arena does.
   [[nodiscard]] mien_status load(const Models& models, engine::Arena& arena);
 
   [[nodiscard]] mien_status push(const mien_image* image, std::int64_t pts_ns);
-  // A frame of output for which there is no image.
+  // Creates a frame of output without an image.
   void advance(std::int64_t pts_ns);
   [[nodiscard]] mien_status push_audio(const mien_audio* sound, std::int64_t pts_ns);
-  // nullptr without weights for it.
+  // nullptr if audio is disabled.
   [[nodiscard]] AudioTrack* voice() { return audio_; }
   [[nodiscard]] const Faces& faces() const { return faces_; }
   // The result of the known face with the lowest id; its status is SEARCHING without a face.
@@ -45,18 +45,18 @@ class Tracker {
     return faces_.all().front().neutral(level);
   }
 
-  // 0 = automatic. False if there are no weights for it.
+  // 0 = automatic. False if the weights for the level are missing.
   [[nodiscard]] bool set_level(std::int32_t lod);
 
  private:
-  // How many detections of a search BaseNet verifies.
+  // Maximum number of detections of a scan that BaseNet verifies.
   static constexpr std::size_t kMaxVerified = MIEN_MAX_FACES + 2;
 
-  // While there is no face, every image takes some steps of a search of the whole image and of
-  // coarse searches in between. Detections are verified before other steps.
+  // Without a face, every image runs some steps: shares of a scan of the whole image, and coarse
+  // searches in between. Detections are verified before other steps.
   struct Search {
-    bool is_scanning = false;  // the whole image
-    std::uint32_t step = 0;    // the next
+    bool is_scanning = false;  // a scan of the whole image is running
+    std::uint32_t step = 0;    // next step
     std::array<Detection, kMaxVerified> detected;
     std::size_t count = 0;
     std::size_t verified = 0;
@@ -65,16 +65,16 @@ class Tracker {
     [[nodiscard]] bool is_running() const { return is_scanning || step > 0 || has_unverified(); }
   };
 
-  // Everything that the images so far have left behind, but for the faces.
+  // State between frames, except that of the faces.
   struct State {
     Timeline timeline;
-    ImageView view;  // the image before, whose pixels are gone
+    ImageView view;  // previous image; its pixels are no longer valid
     Search search;
     bool cut_without_image = false;        // discontinuity since the previous image
-    std::int32_t frames_without_face = 0;  // frames in a row with nothing found
-    std::uint32_t searches = 0;            // begun since then
-    std::uint32_t turn = 0;                // of detect_in_tile
-    std::uint32_t coarse_searches = 0;     // the same
+    std::int32_t frames_without_face = 0;  // consecutive frames without a face
+    std::uint32_t searches = 0;            // scans since the last face
+    std::uint32_t turn = 0;                // calls of detect_in_tile
+    std::uint32_t coarse_searches = 0;     // since the last face
     // Totals.
     std::uint64_t frames = 0;
     std::uint64_t face_frames = 0;
@@ -84,26 +84,26 @@ class Tracker {
 
   [[nodiscard]] std::int32_t level() const { return lod_ == 0 ? governor_.level() : lod_; }
   void track(Frame& frame);
-  // The steps of a search that one frame takes.
+  // Runs the steps of one frame.
   void search(Frame& frame);
   void search_step(Frame& frame);
-  // A whole search at every roll on one frame, until a face is found.
+  // Runs whole scans at all rolls on one frame, until a face is found.
   void search_all_rolls(Frame& frame);
   void begin_scan(Frame& frame, bool thorough, float roll);
-  // The next share. Returns false after the last.
+  // Runs the next share. Returns false after the last one.
   bool scan(Frame& frame);
   void begin_coarse(Frame& frame);
   void end_coarse(Frame& frame);
   // Roll of the next scan or coarse search, radians.
   [[nodiscard]] float next_roll() const;
   [[nodiscard]] float next_coarse_roll() const;
-  // Of the face that was lost, if it was not upright.
+  // Roll of the lost face; 0 if it was almost upright.
   [[nodiscard]] float lost_roll() const;
   void verify_next(Frame& frame);
-  // Counts the frames on which a face is searched.
+  // Counts frames without a face. True if detection runs on this one.
   [[nodiscard]] bool detection_is_due();
   void detect_in_tile(Frame& frame);
-  // What every frame of output ends with.
+  // Ends a frame: computes the output of all faces and audio.
   void finish(Frame& frame, std::int64_t pts_ns, std::uint32_t flags);
   void publish(const Frame& frame, std::int64_t pts_ns, std::uint32_t flags);
   void describe(const Frame& frame, std::int64_t pts_ns, std::uint32_t flags,

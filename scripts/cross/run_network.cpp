@@ -1,5 +1,5 @@
-// Runs a network of a weight file a number of times, for counting instructions: the cost of a run is
-// the difference between two such programs. Writes the layers and their multiply-accumulates.
+// Runs a network of a weight file a number of times, for counting instructions: the cost of a run
+// is the difference between two such programs. Writes the layers and their multiply-accumulates.
 // usage: run_network MODEL.mien NETWORK TIER RUNS fused|plain
 #include <mien/engine.h>
 #include <mien/mien.h>

@@ -11,8 +11,8 @@
 
 namespace {
 
-// Appends to a buffer as far as it goes, and counts what there is to append. printf would depend on
-// the caller's locale.
+// Appends text to a buffer, truncated to its capacity, and counts all characters. printf would
+// depend on the caller's locale.
 class Text {
  public:
   Text(char* text, std::size_t bytes) : text_(text), capacity_(text != nullptr ? bytes : 0) {}

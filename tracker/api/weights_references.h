@@ -1,4 +1,4 @@
-// Counts the users of weights, which end with the last of them.
+// Counts the users of weights; the last release frees them.
 #pragma once
 
 #include <mien/mien.h>

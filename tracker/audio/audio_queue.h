@@ -15,8 +15,8 @@ namespace mien::tracker {
 
 // Two rings: samples, and blocks that refer to them. The samples of a block are contiguous: if they
 // do not fit before the end of the ring, they start at its beginning. Positions increase without
-// limit and are wrapped when used. A store to `blocks_written_` publishes what was written; stores
-// to `samples_read_` and `blocks_read_` free what was read.
+// limit and are wrapped when used. A store to `blocks_written_` publishes a block; stores to
+// `samples_read_` and `blocks_read_` free its memory.
 class AudioQueue {
  public:
   static constexpr std::int32_t kMaxSamples = 1 << 22;

@@ -12,22 +12,22 @@ namespace mien::tracker {
 namespace {
 
 constexpr float kPyramidFactor = 0.709f;
-constexpr std::int32_t kWindow = 12;   // P-Net's, pixels
+constexpr std::int32_t kWindow = 12;   // side of P-Net's window, pixels
 constexpr float kStride = 2.0f;        // of P-Net's windows, pixels
-constexpr float kWindowMiddle = 6.0f;  // from its beginning, pixels
+constexpr float kWindowMiddle = 6.0f;  // centre of a window, pixels from its start
 constexpr std::int32_t kRefineSide = 24;
 constexpr float kOverlapInSize = 0.5f;
 constexpr float kOverlapOfSizes = 0.7f;
 constexpr float kOverlapRefined = 0.4f;
-constexpr float kThorough = 0.25f;  // of P-Net's threshold, in a thorough search
+constexpr float kThorough = 0.25f;  // factor on P-Net's threshold in a thorough scan
 constexpr float kLargestLogStep = 1.0f;
 constexpr std::int32_t kLargestTile = 60;  // pixels
-// What one share of a search is, about ten million multiply-accumulates either way.
+// Sizes of a share: about ten million multiply-accumulates for each network.
 constexpr std::int32_t kSharePixels = 6400;  // of a band for P-Net
-constexpr std::int32_t kMinRows = 24;        // the same
+constexpr std::int32_t kMinRows = 24;        // minimum rows of a band
 constexpr std::size_t kRefinedPerShare = 5;  // by R-Net
 
-// The square that the regression (dx, dy, dlog), in sides of the window, points to.
+// Applies the regression (dx, dy, dlog), relative to the side of the window.
 Square regressed(const Square& window, const float* regression) {
   const float dlog = std::clamp(regression[2], -kLargestLogStep, kLargestLogStep);
   return {{window.center.x + regression[0] * window.side,
@@ -50,19 +50,19 @@ struct Extent {
   float height;
 };
 
-// Of the region, in axes turned by `roll`.
+// Extent of the region along axes rotated by `roll`.
 Extent extent(const Rect& region, float roll) {
   const float c = std::abs(std::cos(roll)), s = std::abs(std::sin(roll));
   return {c * region.width + s * region.height, s * region.width + c * region.height};
 }
 
-// The square around the region that is turned by `roll`.
+// The square around the region, rotated by `roll`.
 Crop canvas_of(const ImageView& view, float roll) {
   const Extent turned = extent(view.region, roll);
   return {view.region.center(), std::max(turned.width, turned.height), roll};
 }
 
-// From coordinates in which the canvas is upright.
+// Converts from canvas to image coordinates.
 Crop to_image(const Crop& canvas, const Square& square) {
   if (canvas.roll == 0.0f) {
     return {square.center, square.side, 0.0f};
@@ -177,7 +177,7 @@ std::size_t MtcnnDetector::detect_in_tile(const ImageView& view, std::uint32_t t
   return end_coarse(view, detections);
 }
 
-// The corners of the image lie outside a turned square of this side, but no large face fits there.
+// A rotated square of this side does not cover the corners of the image; no large face fits there.
 void MtcnnDetector::begin_coarse(const ImageView& view, float roll) {
   coarse_ = part({view.region.center(), view.region.longer_side(), roll});
   cut(view, coarse_.canvas, small_.front());
@@ -224,7 +224,7 @@ std::size_t MtcnnDetector::found(std::span<Detection> detections) {
 std::size_t MtcnnDetector::found(const Search& search, std::span<Detection> found) {
   const std::span<Detection> refined = search.detections.first(search.refined);
   const std::span<Detection> faces = refined.first(suppress_non_maxima(refined, kOverlapRefined));
-  // Of several faces the largest comes first, unless R-Net is much less sure of it.
+  // The largest face comes first, unless its detector score is much lower.
   std::sort(faces.begin(), faces.end(), [](const Detection& a, const Detection& b) {
     return a.score * a.square.side > b.score * b.square.side;
   });

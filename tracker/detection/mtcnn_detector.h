@@ -1,4 +1,4 @@
-// Face proposal by the first two stages of MTCNN: Zhang et al. 2016, "Joint Face Detection and
+// Face detection by the first two stages of MTCNN: Zhang et al. 2016, "Joint Face Detection and
 // Alignment using Multitask Cascaded Convolutional Networks".
 #pragma once
 
@@ -16,25 +16,25 @@
 
 namespace mien::tracker {
 
-// The image, in the middle of a black square, is seen at sizes that shrink by 0.709 down to P-Net's
-// window. P-Net finds candidates on each, R-Net looks at the best of them again.
+// Runs P-Net on a pyramid of the image, centred in a black square, whose sizes shrink by 0.709 down
+// to P-Net's window, and R-Net on the best detections of each size.
 class MtcnnDetector final : public FaceDetector {
  public:
-  // Takes from `arena` what the networks need; only measures when the arena does.
+  // Allocates the networks from `arena`, or only measures if the arena does.
   [[nodiscard]] mien_status load(const mien_tracker_config& config, const Models& models,
                                  engine::Arena& arena);
 
-  // Shares: the image of one of the larger sizes; P-Net on a band of it, or on all smaller sizes;
-  // R-Net on some of the candidates.
+  // Shares of a scan: resampling the image to one of the larger sizes; P-Net on a band of it, or on
+  // all smaller sizes; R-Net on some of the detections.
   void begin(const ImageView& view, bool thorough, float roll) override;
   [[nodiscard]] bool go_on(const ImageView& view) override;
   [[nodiscard]] std::size_t found(std::span<Detection> found) override;
 
-  // Shares: P-Net on the largest of the smaller sizes; P-Net on the others and R-Net.
+  // Shares: P-Net on the largest of the smaller sizes; P-Net on the others, and R-Net.
   void begin_coarse(const ImageView& view, float roll) override;
   [[nodiscard]] std::size_t end_coarse(const ImageView& view, std::span<Detection> found) override;
 
-  // The larger sizes of the pyramid are searched in tiles, one a turn, the smaller ones together.
+  // Each turn covers one tile of one of the larger sizes of the pyramid, or all smaller sizes.
   [[nodiscard]] std::size_t detect_in_tile(const ImageView& view, std::uint32_t turn,
                                            std::span<Detection> found) override;
   [[nodiscard]] std::uint32_t turns(const ImageView& view) const override;
@@ -42,28 +42,28 @@ class MtcnnDetector final : public FaceDetector {
  private:
   static constexpr std::size_t kMaxLarge = 7;  // 640 * 0.709^7 < 60
   static constexpr std::size_t kMaxSmall = 5;  // 60 * 0.709^5 < 12
-  static constexpr std::size_t kPerSize = 64;  // candidates kept
-  static constexpr std::size_t kRefined = 64;  // candidates shown to R-Net
+  static constexpr std::size_t kPerSize = 64;  // maximum detections of P-Net
+  static constexpr std::size_t kRefined = 64;  // maximum detections that R-Net refines
 
   // One of the larger sizes of the pyramid.
   struct LargeSize {
     std::span<float> picture;  // [side][side][3]
-    engine::Network band;      // P-Net on as many of its rows as one share allows
+    engine::Network band;      // P-Net on the rows of one share
     std::int32_t side = 0;
-    std::int32_t cell_rows = 0;  // of P-Net's windows on all of it
+    std::int32_t cell_rows = 0;  // rows of P-Net's windows
   };
 
-  // Where a search is.
+  // The progress of a scan.
   struct Search {
     Crop canvas;
     float threshold = 1.0f;      // of P-Net
-    std::size_t size = 0;        // of the pyramid, that P-Net looks at next
-    bool has_picture = false;    // of that size
-    std::int32_t cell_row = 0;   // of it, that P-Net looks at next
-    std::int32_t end_row = 0;    // of it, after the last that can show a face
-    std::size_t scanned = 0;     // candidates of P-Net
-    std::size_t seen_again = 0;  // of these, by R-Net
-    std::size_t refined = 0;     // of these, kept
+    std::size_t size = 0;        // next size of the pyramid
+    bool has_picture = false;    // the image is resampled to that size
+    std::int32_t cell_row = 0;   // next row of P-Net's windows
+    std::int32_t end_row = 0;    // after the last row that can show a face
+    std::size_t scanned = 0;     // detections of P-Net
+    std::size_t seen_again = 0;  // of these, processed by R-Net
+    std::size_t refined = 0;     // of these, accepted by R-Net
     std::span<Detection> detections;
   };
 
@@ -72,46 +72,46 @@ class MtcnnDetector final : public FaceDetector {
                                        engine::Arena& arena);
   [[nodiscard]] Tiles tiles_of(const ImageView& view, const LargeSize& size) const;
   void make_picture(const ImageView& view);
-  // Limits the search of a size to the rows of P-Net's windows whose middles lie in the image.
+  // Limits a size to the rows of P-Net's windows whose centres lie in the image.
   void choose_rows(const ImageView& view, const LargeSize& size);
   void scan_band();
-  // Those from `first` on; the very first has its image.
+  // Runs P-Net on the small sizes from `first` on. The input of the largest must be filled.
   void scan_small_sizes(Search& search, std::size_t first, std::size_t end);
   // Fills the square input of the network with the crop.
   void cut(const ImageView& view, const Crop& crop, engine::Network& network) const;
-  // Fills the input of the largest of the small sizes.
+  // Fills the input of the largest small size.
   void make_small_picture(const ImageView& view);
   [[nodiscard]] Search part(const Crop& canvas);
   void scan(Search& search, engine::Network& pnet);
   [[nodiscard]] std::size_t finish(Search& search, const ImageView& view,
                                    std::span<Detection> found);
-  // Of one size of the pyramid, the candidates so far.
+  // An empty list for the detections of one size of the pyramid.
   [[nodiscard]] static BestDetections none_yet(const Search& search);
   static void keep(Search& search, const BestDetections& best);
-  // P-Net's windows that look like faces, from row `first` of its output on, which is row `at` of
-  // the windows of all of the canvas, seen at `side` pixels.
+  // Collects detections from P-Net's output, from row `first` on, which is row `at` of the windows
+  // of the whole canvas at `side` pixels.
   static void collect(const Search& search, const engine::Network& pnet, std::int32_t side,
                       std::int32_t first, std::int32_t at, BestDetections& best);
-  // Candidates of different sizes for one face become one.
+  // Merges detections of one face at different sizes.
   static void end_scan(Search& search, std::size_t count);
   void refine(Search& search, const ImageView& view, std::size_t count);
   [[nodiscard]] bool refine(const Crop& canvas, const ImageView& view, Detection& detection);
   [[nodiscard]] static std::size_t found(const Search& search, std::span<Detection> found);
 
   Sampler sampler_;
-  std::span<float> row_;  // scratch, of the largest size
+  std::span<float> row_;  // scratch for a row of the largest size
   float proposal_threshold_ = 0.0f;
   float refine_threshold_ = 0.0f;
   std::array<LargeSize, kMaxLarge> large_;
   std::size_t large_count_ = 0;
-  std::array<engine::Network, kMaxSmall> small_;  // P-Net on each of the sizes of a tile and below
+  std::array<engine::Network, kMaxSmall> small_;  // P-Net on the sizes of a tile and below
   std::size_t small_count_ = 0;
   engine::Network rnet_;
-  Search search_;  // of the whole image
+  Search search_;
   Search coarse_;
-  BestDetections best_{{}};              // of the size that P-Net is looking at
-  std::span<Detection> detections_;      // of the search of the whole image, in the arena
-  std::span<Detection> few_detections_;  // of the other searches, in the arena
+  BestDetections best_{{}};              // of the current size
+  std::span<Detection> detections_;      // of a scan, in the arena
+  std::span<Detection> few_detections_;  // of coarse searches and tiles, in the arena
 };
 
 }  // namespace mien::tracker

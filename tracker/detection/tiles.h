@@ -11,8 +11,8 @@ namespace mien::tracker {
 
 class Tiles {
  public:
-  // All in pixels of the image. A window of side `overlap` or less lies within one tile, wherever
-  // it is. A tile larger than the area is one in its middle.
+  // All in pixels of the image. Any window of side `overlap` or less lies within one tile. A tile
+  // larger than the area is centred on it.
   Tiles(const Rect& area, float side, float overlap)
       : area_(area),
         side_(side),
@@ -33,7 +33,8 @@ class Tiles {
     return 1 + static_cast<std::uint32_t>(std::max(more, 0.0f));
   }
 
-  // Of tile `i` of `n` along an axis: the first and the last touch the area's borders.
+  // Position of tile `i` of `n` along an axis; the first and the last touch the borders of the
+  // area.
   [[nodiscard]] float middle(std::uint32_t i, std::uint32_t n, float length) const {
     if (n == 1) {
       return length / 2;
