@@ -11,7 +11,7 @@ namespace mien::audio {
 
 class Loudness {
  public:
-  // Windows in which the level rises and falls by 1 - 1/e of its distance from the input, about.
+  // Approximate number of windows in which the level covers 1 - 1/e of the distance to its input.
   static constexpr float kAttack = 4.0f;
   static constexpr float kRelease = 200.0f;
 

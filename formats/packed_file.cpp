@@ -162,7 +162,7 @@ mien_status unpacked_bytes(std::span<const std::byte> packed, std::size_t& bytes
     return static_cast<mien_status>(error.status);
   }
   const auto unpacked = load_little<std::uint64_t>(header + kUnpackedBytesAt);
-  // Bounds the memory of the caller by what the file's blocks can fill.
+  // Limits the memory of the caller to the maximum content of the file's blocks.
   const std::uint64_t blocks = (size - kPackedHeaderBytes) / kMinPackedBlockBytes;
   const std::uint64_t max_unpacked = std::min(kMaxFileBytes, blocks * kMaxBlockBytes);
   if (unpacked == 0 || unpacked % kFileAlignment != 0 || unpacked > max_unpacked) {

@@ -26,8 +26,7 @@ with atheris.instrument_imports(include=["mien_convert"]):
 
 MEMORY = 1 << 30  # more for a small file means that its sizes were not checked
 
-# A sixteenth of what users may have: the largest maps take seconds each, in which no code is reached that smaller ones
-# do not reach.
+# A sixteenth of the real limits, because the largest maps take seconds each and reach no more code than smaller ones.
 errors.MAX_NUMBERS >>= 4
 graph.MAX_TOTAL_NUMBERS >>= 4
 
@@ -38,7 +37,7 @@ TYPES = range(17)
 
 
 class Edits:
-    """Changes to a model that leave it a model: what random changes to its bytes rarely are."""
+    """Changes to a model after which it is still a model, unlike random changes to its bytes."""
 
     def __init__(self, model, choice):
         self.graph, self.opsets, self.choice = model.graph, model.opset_import, choice
@@ -142,7 +141,7 @@ def mutate(data, max_size, seed):
     model = onnx.ModelProto()
     try:
         model.ParseFromString(data)
-    except Exception:  # no model: what protobuf raises depends on its version
+    except Exception:  # not a model; the exception depends on the version of protobuf
         return atheris.Mutate(data, max_size)
     if choice.random() < 0.1:
         return atheris.Mutate(data, max_size)
@@ -170,8 +169,8 @@ def convert(data):
 
 @functools.cache
 def let_go_of_comparisons():
-    """atheris 3.0.0 keeps what comparisons gave: True and False cost nothing, but arrays are gigabytes within minutes.
-    To be called by the target, because atheris.Fuzz() puts its own function there before."""
+    """atheris 3.0.0 keeps the results of comparisons; arrays of these take gigabytes within minutes. The target calls
+    this, because atheris.Fuzz() installs its own function first."""
     traced = atheris._trace_cmp
     operators = (operator.lt, operator.le, operator.eq, operator.ne, operator.gt, operator.ge)  # as in dis.cmp_op
 

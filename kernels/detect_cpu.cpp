@@ -82,7 +82,7 @@ std::uint32_t ask_cpu() {
 }  // namespace
 
 std::uint32_t detect_cpu() {
-  // Cached, because every kernel lookup asks and CPUID takes tens of microseconds in virtual
+  // Cached, because every kernel lookup needs it and CPUID takes tens of microseconds in virtual
   // machines. Racing threads store the same value. Bit 30, which is not a tier, marks a valid
   // value.
   constexpr std::uint32_t kAsked = 1u << 30;

@@ -17,7 +17,7 @@ namespace mien::animation {
 enum class RhubarbForm : std::uint8_t { kTsv, kJson, kXml, kDat };
 
 // Uses the shapes of the frames if they have any, else the shape of the strongest viseme
-// (visemes.h). Of the latter, none is shorter than 0.08 s: shorter ones are merged into the
+// (visemes.h). Shapes from visemes that are shorter than 0.08 s are merged into the
 // previous one. Cues count from the start of the audio at 0, or from the start of the clip if it is
 // earlier. JSON and XML contain `audio_file`.
 [[nodiscard]] std::unique_ptr<AnimationWriter> rhubarb_writer(RhubarbForm form,

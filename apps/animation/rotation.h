@@ -1,4 +1,4 @@
-// Rotations between the ways in which formats write them.
+// Converts between representations of rotations.
 #pragma once
 
 #include <array>
@@ -19,11 +19,11 @@ using Quaternion = std::array<double, 4>;  // x, y, z, w; unit length
 // First b, then a.
 [[nodiscard]] Quaternion product(const Quaternion& a, const Quaternion& b);
 
-// The shorter way from a to b, share 0..1 of it.
+// Interpolates from a to b along the shorter arc; share 0..1.
 [[nodiscard]] Angles between(const Angles& a, const Angles& b, double share);
 
-// Where the eyes look as the controls say, left and right; nothing unless one of the eight is
-// driven. 1 is 0.485 rad, as in a Live Link Face capture: eyeLookDown 0.39 with an eye pitch of
+// Rotations of the left and right eye from the controls; nothing unless one of the eight is
+// supported. 1 is 0.485 rad, as in a Live Link Face capture: eyeLookDown 0.39 with an eye pitch of
 // -0.189.
 [[nodiscard]] std::optional<std::array<Angles, 2>> gaze(
     const std::array<double, formats::kControlCount>& controls);

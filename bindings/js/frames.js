@@ -1,11 +1,11 @@
-// Pixels of what browsers capture, decode and draw, as images for pushVideo.
+// Converts sources of pixels in browsers to images for pushVideo.
 import {MienError} from './error.js';
 
 const wrong = {argument: -1, size: -61};  // MIEN_ERROR_*
 const expected = 'a video, VideoFrame, ImageBitmap, canvas, image, ImageData, or {format, width, height, data}';
 const formats = {I420: 'i420', I420A: 'i420', NV12: 'nv12', RGBA: 'rgba', RGBX: 'rgba', BGRA: 'bgra', BGRX: 'bgra'};
 
-// How to get the size of each kind of source, and what it means if it is 0.
+// For each kind of source: its size, and the message if that is 0.
 const empty = ({width, height}) => `no pixels (got ${width} x ${height})`;
 const kinds = {
   HTMLVideoElement: {size: video => (video.readyState < 2 ? [0, 0] : [video.videoWidth, video.videoHeight]), missing: () => 'the video has no image yet'},

@@ -123,7 +123,7 @@ export interface Result {
   faceId: number;
 }
 
-/** What browsers capture, decode and draw, and pixels. */
+/** Sources of pixels in browsers, and pixels in memory. */
 export type FrameSource = HTMLVideoElement | HTMLImageElement | VideoFrame | ImageBitmap | HTMLCanvasElement | OffscreenCanvas | ImageData | Image;
 
 export class Tracker {

@@ -11,7 +11,7 @@ here=bindings/python
 pythons=("$@")
 if [ ${#pythons[@]} -eq 0 ]; then
   pythons=(python3)
-  # Asked to run, not only looked for: version managers leave commands that name versions which are not installed.
+  # Runs it, because version managers leave commands for versions that are not installed.
   if python3.9 -c "import venv" 2>/dev/null; then pythons+=(python3.9); fi
 fi
 wheels=build/python/wheel

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# With a Swift toolchain: builds the package and passes its tests. Else: clang imports its module, and the rest is said not to be tested.
+# With a Swift toolchain: builds the package and runs its tests. Otherwise clang imports its module, and a message lists the untested rest.
 # usage: bindings/swift/test.sh
 set -euo pipefail
 cd "$(dirname "$0")/../.."

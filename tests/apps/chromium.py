@@ -70,7 +70,7 @@ class Chromium:
     def receive(self, deadline):
         while b"\0" not in self.received:
             if not select.select([self.inbox], [], [], max(0.0, deadline - time.monotonic()))[0]:
-                raise TimeoutError("chromium does not answer")
+                raise TimeoutError("chromium does not respond")
             part = os.read(self.inbox, 1 << 16)
             if not part:
                 raise RuntimeError("chromium has ended")

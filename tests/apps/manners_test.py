@@ -86,7 +86,7 @@ class Manners(unittest.TestCase):
             said = json.loads(run("compare", a, b, "-o", page, "--json").stdout)
             self.assertEqual((said["matched_frames"], said["a"], said["b"]["name"]),
                              (10, {"name": "a.csv", "frames": 10, "start_ms": 0.0, "last_ms": 360.0}, "b.csv"))
-            self.assertEqual(list(said["controls"]), ["jawOpen"], "what both drive")
+            self.assertEqual(list(said["controls"]), ["jawOpen"], "controls of both files")
             self.assertEqual((said["controls"]["jawOpen"]["mean_abs"], said["controls"]["jawOpen"]["correlation"]), (0.25, None))
             self.assertEqual(said["head"]["yaw"]["mean_abs_deg"], 0.0)
             self.assertTrue(os.path.exists(page))

@@ -93,7 +93,7 @@ class OutputSafety(unittest.TestCase):
             for process in (first, second):
                 self.assertEqual((process.communicate(timeout=300)[1], process.returncode), (b"", 0))
             content = out.read_bytes()
-            self.assertIn(content, whole, f"{name}: neither of the two, pair {i}")
+            self.assertIn(content, whole, f"{name}: not the output of either process, pair {i}")
             winners[whole.index(content)] += 1
             self.assertEqual(self.files(), [name])
             if self.dice.random() < 0.5:

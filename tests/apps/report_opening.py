@@ -4,7 +4,7 @@
 usage: report_opening.py [--times N] PAGE.html...        the median of N runs (default: 5), in ms since the navigation
 
 `curves`: curves are drawn; `seen`: the browser displays them; `face`: the face is drawn, which is slow with software WebGL; `whole`: the
-clip plays; `pause`: the longest interval between `seen` and `whole` without a new frame. All of these depend on the load of the machine.
+clip can play; `pause`: the longest interval between `seen` and `whole` without a new frame. All of these depend on the load of the machine.
 `processor`, the CPU time of the page's main thread until curves are drawn and everything is parsed, hardly does.
 """
 import argparse
@@ -36,7 +36,7 @@ def wait(browser, condition):
 
 
 def opened(page, script, condition, ask):
-    """The value of an expression in a new browser that has opened the page after a script, once a condition holds."""
+    """Runs a script in a new browser, opens the page, waits for a condition, and returns the value of an expression."""
     browser = chromium.Chromium(chromium.find())
     try:
         browser.send("Performance.enable", timeDomain="threadTicks")

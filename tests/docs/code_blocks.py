@@ -2,7 +2,7 @@
 """Prints code blocks of a Markdown page as readers see them, for tests that run them.
 
 usage: code_blocks.py PAGE.md LANGUAGE [NUMBER]      all blocks in the language, or one of them, from 1
-       code_blocks.py --check                        fails for each page and language that no test asks for
+       code_blocks.py --check                        fails for each page and language whose code no test runs
 """
 import re
 import subprocess

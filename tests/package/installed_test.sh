@@ -61,7 +61,7 @@ link_static=("${link_static[@]/-lmien/-l:libmien.a}")
 echo "== the shared library's name"
 readelf -d "$libraries/libmien.so" | grep SONAME | grep -F "[libmien.so.${version%%.*}]"
 
-echo "== what it exports"
+echo "== exported symbols"
 if nm -D --defined-only --demangle "$libraries/libmien.so" | awk '$2 != "A"' |
   grep -vE '^[0-9a-f]+ [A-Z] (mien_|mien::)'; then
   exit 1
@@ -73,7 +73,7 @@ if [ -x "$prefix/bin/mien" ]; then
     printf 'YUV4MPEG2 W32 H32 F30:1 C420jpeg\nFRAME\n'
     head -c 1536 /dev/zero
   } | "$prefix/bin/mien" track - --quiet | grep -c searching
-  grep -q "CLI11 Copyright" "$prefix/share/doc/mien/third_party.txt"  # as its licence wants it
+  grep -q "CLI11 Copyright" "$prefix/share/doc/mien/third_party.txt"  # its licence requires this
   grep -q '^\.TH ' "$prefix/share/man/man1/mien.1"
   bash -n "$prefix/share/bash-completion/completions/mien"
   grep -q '^#compdef mien' "$prefix"/share/zsh/*/_mien

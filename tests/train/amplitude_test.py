@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Amplitude: how it is measured, what a closed eye is, and that a refitted output layer gives it back."""
+"""Measurement of amplitude and of closed eyes, and its restoration by a refitted output layer."""
 import unittest
 from pathlib import Path
 
@@ -57,7 +57,7 @@ class Eyelids(unittest.TestCase):
 
 class Refit(unittest.TestCase):
     def made(self, gain):
-        """Renders and portraits of a layer that answers `gain` of the truth, for states that tell all."""
+        """Renders and portraits of a layer that outputs `gain` times the truth, from states that determine it."""
         torch.manual_seed(1)
 
         def part(rows):

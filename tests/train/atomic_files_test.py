@@ -1,4 +1,4 @@
-"""What a training script writes is whole or absent, whenever it is killed."""
+"""Output files of training scripts are complete or absent, even if the script is killed."""
 import random
 import subprocess
 import sys
@@ -29,7 +29,7 @@ class WholeFiles(unittest.TestCase):
         self.path = Path(folder.name) / "checkpoint.pt"
 
     def test_killed_at_any_moment(self):
-        """Each run begins beside what the killed one before it left."""
+        """Each run starts with the files that the killed one left."""
         dice, runs, left_behind = random.Random(5), 0, 0
         while runs < 25 or left_behind < 6 and runs < 300:  # a busy machine is often between two writes
             runs += 1

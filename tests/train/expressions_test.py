@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Random expressions and curves: within what a face can do, smooth, balanced, and the same from the same seed."""
+"""Random expressions and curves are possible, smooth, balanced, and equal for equal seeds."""
 import functools
 import unittest
 

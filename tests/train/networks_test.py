@@ -211,7 +211,7 @@ class DormantUnits(unittest.TestCase):
         for _ in range(5):
             step()
         for state in optimizer.rest.state.values():
-            # As late in training, when nothing makes up for small moments any more.
+            # As late in training, when the bias correction no longer compensates for small moments.
             state["exp_avg_sq"].div_(1 - 0.999 ** int(state["step"]))
             state["step"].fill_(100000)
         average = copy.deepcopy(encoder)

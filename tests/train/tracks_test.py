@@ -120,8 +120,8 @@ class VideoCodec(unittest.TestCase):
 
 class WrinklesTest(unittest.TestCase):
     def test_skin_folds_across_the_compression(self):
-        """A sheet that is squeezed along y folds across y, deepest where the waves say; one at rest or stretched does
-        not."""
+        """A sheet that is compressed along y has folds across y, deepest at the waves; one at rest or stretched has
+        none."""
         y, x = np.mgrid[0:30, 0:30].astype(np.float32) * 0.3
         rest = np.stack([x.ravel(), y.ravel(), np.zeros(900, np.float32)], 1)
         corner = (np.arange(29)[:, None] * 30 + np.arange(29)).ravel()

@@ -84,7 +84,7 @@ def head(settings):
 
 
 def apply(settings, frame):
-    """Moves the chosen shape keys and the head to a frame. What the frame has no value for stays as it is."""
+    """Moves the chosen shape keys and the head to a frame. Those without a value in the frame stay."""
     values = {}
     for shapes in shape_keys(settings):
         for key, (vocabulary, name) in shapes.matches.items():

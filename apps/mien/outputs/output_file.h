@@ -43,7 +43,7 @@ void finish_standard_output();
 
 class OutputFile {
  public:
-  // Throws Failure(kExitOutput) if the file cannot be created, and what PartialFile throws.
+  // Throws Failure(kExitOutput) if the file cannot be created, and the exceptions of PartialFile.
   explicit OutputFile(const std::string& path);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;

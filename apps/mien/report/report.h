@@ -20,8 +20,8 @@ namespace mien::app {
 struct ReportOptions {
   std::string page;                  // file
   std::string video, audio;          // files for the clip; empty: none
-  int audio_track = 1;               // of `sound`; the first is 1
-  std::optional<int> rotation;       // degrees clockwise; overrides `picture`
+  int audio_track = 1;               // of `audio`; the first is 1
+  std::optional<int> rotation;       // degrees clockwise; overrides that of `video`
   double largest_clip_bytes = 64e6;  // a larger clip is stored beside the page
   std::string name;                  // of the input
   int width = 0, height = 0;         // of the image, pixels
@@ -39,7 +39,7 @@ class Report {
   void frame(const animation::Frame& frame, const Result& result);
   void push_audio(const Audio& block, std::int64_t pts_ns) { waveform_.push_audio(block, pts_ns); }
 
-  // Also transcodes the clip; throws what `web_video` throws.
+  // Also transcodes the clip; throws the exceptions of `web_video`.
   void finish(const StageTimes& times);
 
  private:

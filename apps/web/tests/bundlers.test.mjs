@@ -78,7 +78,7 @@ test("Vite's development server", options, async () => {
   }
 });
 
-// What Vite's template for React has.
+// The content of Vite's template for React.
 const template = {
   'index.html': '<!doctype html><div id="root"></div><script type="module" src="/main.tsx"></script>',
   'main.tsx': `import {StrictMode} from 'react';

@@ -36,7 +36,7 @@ let studio;
 before(async () => { studio = await openStudio(); });
 after(() => studio?.close());
 
-// What the targets of a dropped head become under `face`, and how the head is turned.
+// Morph targets of a dropped head under `face`, and its rotation.
 async function moved(bytes, name, face) {
   const {page, context, complaints} = await openPage(studio);
   await page.setInputFiles('#model', {name, mimeType: '', buffer: bytes});

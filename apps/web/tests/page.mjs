@@ -46,13 +46,13 @@ export async function openPage({browser, url}, options = {}) {
   return {context, page, complaints, requests};
 }
 
-// Until `condition`, a function of the page, says yes. (Playwright's own needs eval, which the page forbids.)
+// Waits until `condition`, a function of the page, returns true. (Playwright's own needs eval, which the page forbids.)
 export async function until(page, condition, seconds = 15, status = '#status') {
   for (const end = Date.now() + seconds * 1000; Date.now() < end;) {
     if (await page.evaluate(condition)) return;
     await new Promise(done => setTimeout(done, 50));
   }
-  throw new Error(`not within ${seconds} s: ${condition}; the page says "${await page.textContent(status)}"`);
+  throw new Error(`not within ${seconds} s: ${condition}; the page shows "${await page.textContent(status)}"`);
 }
 
 // Computes faces but does not draw them, until drawAgain: without a graphics card, drawing takes processor time that the tracker needs.

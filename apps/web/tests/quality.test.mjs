@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import {test} from 'node:test';
 import {Quality, qualities} from '../src/ui/quality.js';
 
-// A browser in which an image at step i takes costs[i] ms; returns the steps drawn after given seconds.
+// Simulates a browser in which an image at step i takes costs[i] ms; returns the steps that it draws.
 function run(quality, costs, seconds, from_ms = 0) {
   const steps = [];
   for (let time_ms = from_ms; time_ms < from_ms + seconds * 1000;) {

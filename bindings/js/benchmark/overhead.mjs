@@ -34,7 +34,7 @@ function through(tracker, format, frames) {
   return {times, sum};
 }
 
-// The same by calls of the module; `addresses`: of the frames in its memory.
+// The same through direct calls of the module; `addresses` are those of the frames in its memory.
 function direct(tracker, format, frames, addresses) {
   const {mien_tracker_push_video: push, mien_tracker_get_result: get} = mien.exports, luma = width * height;
   let sum = 0;

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Golden MFCCs from the definition in audio/mfcc.h, in double, with SciPy's FFT and DCT: an implementation of its own.
+"""Golden MFCCs from the definition in audio/mfcc.h, in double, with SciPy's FFT and DCT, independent of the library.
 
 usage: make_mfcc.py      writes mfcc_input.f32 [signals, samples] and mfcc_output.f32 [signals, windows, 26] beside it
 """

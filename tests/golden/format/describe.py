@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Writes the .mien file that a JSON description asks for, with the Python writer; tests/formats/description.cpp does
-the same with the C++ writer.
+"""Writes the .mien file of a JSON description with the Python writer. tests/formats/description.cpp does the same with
+the C++ writer.
 
 usage: describe.py DESCRIPTION.json FILE.mien
 """

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Writes reject/: accept/small.mien, parts.mien, every_op.mien or arithmetic.mien with one rule broken in each, the checksum made right again, and reject/expected.txt
-with lines "file status offset"."""
+"""Writes reject/: files of accept/ with one rule broken in each and a correct checksum, and reject/expected.txt with
+lines "file status offset"."""
 import struct
 from pathlib import Path
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""A minimal reader of .mien files, written from docs/format.md alone and sharing no code with the others.
+"""A minimal reader of .mien files, written from docs/format.md only and without code of the other readers.
 
-usage: second_reader.py FILE...     prints for each file its name and its status, and what it holds if that is kOk
+usage: second_reader.py FILE...     prints name and status of each file, and its content if the status is kOk
 """
 import struct
 import sys

@@ -44,7 +44,7 @@ def changed(*changes):
 
 
 def sized(data):
-    """With its size made right."""
+    """The file with a correct size field."""
     return data[:16] + struct.pack("<Q", len(data)) + data[24:]
 
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""A minimal reader of packed weight files, written from docs/format.md alone and sharing no code with the others.
+"""A minimal reader of packed weight files, written from docs/format.md only and without code of the other readers.
 
-usage: second_unpacker.py FOLDER FILE...     prints for each file its name and its status, and writes what was in it to FOLDER if that
-is kOk
+usage: second_unpacker.py FOLDER FILE...     prints name and status of each file, and writes the unpacked file to FOLDER if the
+status is kOk
 """
 import struct
 import sys

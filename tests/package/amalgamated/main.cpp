@@ -45,7 +45,7 @@ mien_weights* open_weights(const std::string& models) {
   return weights;
 }
 
-// FNV-1a of everything that a result says.
+// FNV-1a hash of all fields of a result.
 struct Checksum {
   void add(const void* data, std::size_t bytes) {
     for (std::size_t i = 0; i < bytes; ++i) {

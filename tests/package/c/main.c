@@ -1,4 +1,5 @@
-/* usage: main VERSION; succeeds if that is the version and no tracker is made without weights. */
+/* usage: main VERSION; succeeds if that is the version and creating a tracker without weights
+ * fails. */
 #include <mien/mien.h>
 #include <string.h>
 

@@ -1,4 +1,5 @@
-// usage: main MODELS_DIR; succeeds if a tracker made of these weights finds no face in black.
+// usage: main MODELS_DIR; succeeds if a tracker with these weights detects no face in a black
+// image.
 #include <mien/engine.h>
 #include <mien/mien.hpp>
 

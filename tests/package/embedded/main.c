@@ -1,4 +1,4 @@
-/* Succeeds if a tracker made of embedded weights finds no face in black. */
+/* Succeeds if a tracker with embedded weights detects no face in a black image. */
 #include <mien/mien.h>
 #include <mien_weights.h>
 

@@ -2,8 +2,8 @@
 // Markdown for each level.
 // usage: mien_worst_frame MODELS FRAMES WIDTH HEIGHT [ROUNDS]
 // FRAMES: raw NV12 of video range with a face on every frame. The face is visible for 240 frames
-// and hidden for 60 in turn: then the blocks of the image are in another order, so that detection
-// finds parts of faces everywhere, which is expensive.
+// and hidden for 60, alternately: hidden means that the blocks of the image are shuffled, so that
+// detection finds parts of faces everywhere, which is expensive.
 // The minimum of several replays counts for each frame, because the tracker does the same work each
 // time and other programs on the machine do not.
 #include <time.h>
@@ -63,7 +63,7 @@ double percentile(std::vector<double> values, double share) {
 constexpr std::size_t kBlock = 32;  // pixels
 constexpr std::size_t kStep = 37;   // coprime to the number of blocks
 
-// One plane with its blocks in another order; what does not fill a block stays.
+// Shuffles the blocks of a plane; incomplete blocks stay.
 void exchange_blocks(const unsigned char* from, std::size_t row_bytes, std::size_t rows,
                      std::size_t block_rows, unsigned char* to) {
   std::copy_n(from, row_bytes * rows, to);

@@ -1,5 +1,5 @@
-// The source of video and audio: camera and microphone, or a file. One at a time: opening or closing a source makes
-// earlier pending openings stale (`generation`), and these release what they receive later.
+// The source of video and audio: camera and microphone, or a file. One at a time: opening or closing a source invalidates
+// pending openings (`generation`), which then release their devices.
 
 const cameraWish = {width: {ideal: 640}, height: {ideal: 480}, frameRate: {ideal: 30}, facingMode: 'user'};
 const microphoneWish = {echoCancellation: false, noiseSuppression: false, autoGainControl: true};

@@ -16,7 +16,7 @@ public final class MienException extends RuntimeException {
         status = Status.of(number);
     }
 
-    /** message: [0] is what a native function wrote. */
+    /** message: [0] is the message of a native function. */
     static void check(int number, String[] message) {
         if (number != 0) {
             throw new MienException(number, message[0]);
