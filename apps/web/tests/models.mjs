@@ -13,17 +13,40 @@ function glb(json, binary) {
 }
 
 // Nodes: 0 root > 1 head > 2 leftEye, 3 rightEye, 4 the mesh.
-export function headModel(targetNames, extensions) {
+export function headModel(targetNames, extensions, {nodes = [], roots = [], head = [0, 0, 0], pack = (_, binary) => binary} = {}) {
   const positions = Float32Array.from([-0.1, 1.4, 0, 0.1, 1.4, 0, 0, 1.7, 0]), offset = new Float32Array(9).fill(0.05);
   const view = (byteOffset, byteLength) => ({buffer: 0, byteOffset, byteLength});
   const accessor = (bufferView, min, max) => ({bufferView, componentType: 5126, count: 3, type: 'VEC3', min, max});
-  return glb({
+  const json = {
     asset: {version: '2.0'}, scene: 0, scenes: [{nodes: [0]}],
-    nodes: [{name: 'root', children: [1]}, {name: 'Head', children: [2, 3, 4], translation: [0, 0, 0]}, {name: 'LeftEye'}, {name: 'RightEye'}, {name: 'face', mesh: 0}],
+    nodes: [{name: 'root', children: [1, ...roots]}, {name: 'Head', children: [2, 3, 4], translation: head}, {name: 'LeftEye'}, {name: 'RightEye'},
+            {name: 'face', mesh: 0, translation: head.map(value => -value)}, ...nodes],
     meshes: [{primitives: [{attributes: {POSITION: 0}, targets: targetNames.map(() => ({POSITION: 1}))}], weights: targetNames.map(() => 0), extras: {targetNames}}],
     buffers: [{byteLength: 72}], bufferViews: [view(0, 36), view(36, 36)],
-    accessors: [accessor(0, [-0.1, 1.4, 0], [0.1, 1.7, 0]), accessor(1, [0.05, 0.05, 0.05], [0.05, 0.05, 0.05])], ...extensions,
-  }, new Uint8Array(Float32Array.from([...positions, ...offset]).buffer));
+    accessors: [accessor(0, [-0.1, 1.4, 0], [0.1, 1.7, 0]), accessor(1, [0.05, 0.05, 0.05], [0.05, 0.05, 0.05])], ...extensions};
+  const binary = new Uint8Array(Float32Array.from([...positions, ...offset]).buffer);
+  return glb(json, pack(json, binary));
+}
+
+// The same on a body whose arms point sideways, with Mixamo's names, in a mesh of its own that reaches 3 m to each side.
+export const bodyModel = targetNames => headModel(targetNames, {}, {roots: [5, 7, 9], head: [0, 1.4, 0], nodes: [
+  {name: 'mixamorig:LeftArm', translation: [0.2, 1.3, 0], children: [6]}, {name: 'mixamorig:LeftForeArm', translation: [0.5, 0, 0]},
+  {name: 'mixamorig:RightArm', translation: [-0.2, 1.3, 0], children: [8]}, {name: 'mixamorig:RightForeArm', translation: [-0.5, 0, 0]},
+  {name: 'body', mesh: 0, translation: [0, -1.4, 0], scale: [30, 0.8, 1]}]});
+
+// The head with the positions of its mesh compressed by meshopt.
+export async function meshoptModel(targetNames) {
+  const {MeshoptEncoder} = await import('meshoptimizer');
+  await MeshoptEncoder.ready;
+  return headModel(targetNames, {}, {pack(json, binary) {
+    const packed = MeshoptEncoder.encodeGltfBuffer(binary.subarray(0, 36), 3, 12, 'ATTRIBUTES');
+    json.buffers.push({byteLength: 36, extensions: {EXT_meshopt_compression: {fallback: true}}});
+    json.buffers[0].byteLength = 72 + packed.length;
+    json.bufferViews[0] = {buffer: 1, byteLength: 36, extensions: {EXT_meshopt_compression: {
+      buffer: 0, byteOffset: 72, byteLength: packed.length, byteStride: 12, count: 3, mode: 'ATTRIBUTES'}}};
+    json.extensionsUsed = json.extensionsRequired = ['EXT_meshopt_compression'];
+    return Buffer.concat([binary.fill(0, 0, 36), packed]);
+  }});
 }
 
 // VRM 1.0 whose presets `aa` and `blinkLeft` each move a target.

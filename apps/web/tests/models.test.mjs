@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import {after, before, test} from 'node:test';
 import {controlNames} from '../avatar/avatar.js';
 import {morphDrivers} from '../../../bindings/js/matching.js';
-import {headModel, vrmModel} from './models.mjs';
+import {bodyModel, headModel, meshoptModel, vrmModel} from './models.mjs';
 import {openPage, openStudio, until} from './page.mjs';
 
 const driver = name => morphDrivers([name]).get(name);
@@ -41,6 +41,7 @@ async function moved(bytes, name, face) {
   const {page, context, complaints} = await openPage(studio);
   await page.setInputFiles('#model', {name, mimeType: '', buffer: bytes});
   await until(page, () => document.getElementById('own-face').hidden === false || !document.getElementById('error').hidden, 60);
+  assert.equal(await page.textContent('#error p'), '');
   const result = await page.evaluate(controls => {
     const {avatar} = window.page.first;
     avatar.draw({controls, yaw: 0.3});
@@ -75,5 +76,45 @@ test('a head without known names is rejected with a message', async () => {
   const {page, context} = await openPage(studio);
   await page.setInputFiles('#model', {name: 'mute.glb', mimeType: '', buffer: headModel(['a1', 'a2'])});
   await until(page, () => document.querySelector('#error p').textContent === 'mute.glb: no morph target or expression has a name of ARKit, VRM, Oculus or Roblox');
+  await context.close();
+});
+
+test('a GLB compressed by meshopt moves', async () => {
+  const {weights} = await moved(await meshoptModel(['jawOpen']), 'meshopt.glb', {jawOpen: 0.5});
+  assert.deepEqual(weights, [0.5]);
+});
+
+test('the head of a body is framed, arms are lowered, and the view turns, zooms and resets', async () => {
+  const {page, context, complaints} = await openPage(studio);
+  await page.setInputFiles('#model', {name: 'body.glb', mimeType: '', buffer: bodyModel(['jawOpen'])});
+  await until(page, () => !document.getElementById('own-face').hidden, 60);
+  const view = () => page.evaluate(() => {
+    const {avatar} = window.page.first, {camera, controls, root} = avatar;
+    const at = name => root.getObjectByName(name).getWorldPosition(camera.position.clone());
+    return {camera: camera.position.toArray(), target: controls.target.toArray(), arms: ['Left', 'Right'].map(
+      side => at(`mixamorig${side}ForeArm`).sub(at(`mixamorig${side}Arm`)).toArray())};
+  });
+  const {camera, target, arms} = await view();
+  assert.ok(target[1] > 1.4 && target[1] < 1.8, `looks at ${target}`);
+  assert.ok(camera[2] < 12, `from ${camera}`);  // 6 m wide, the body fits from 19 m only
+  for (const [x, y] of arms) assert.ok(y < -0.4 && Math.abs(x) < 0.2, `an arm points to ${x}, ${y}`);
+  const stage = await page.locator('#face-a').boundingBox(), middle = [stage.x + stage.width / 2, stage.y + stage.height / 2];
+  const drag = async () => {
+    await page.mouse.move(...middle);
+    await page.mouse.down();
+    await page.mouse.move(middle[0] + 80, middle[1], {steps: 4});
+    await page.mouse.up();
+    return (await view()).camera;
+  };
+  assert.ok((await drag())[0] > camera[0] + 0.2, 'in a mirrored view, the camera goes to the right');
+  await page.mouse.dblclick(...middle);
+  assert.deepEqual((await view()).camera.map(value => value.toFixed(6)), camera.map(value => value.toFixed(6)));
+  await page.uncheck('#mirror');
+  assert.ok((await drag())[0] < camera[0] - 0.2, 'otherwise to the left');
+  await page.mouse.dblclick(...middle);
+  await page.mouse.wheel(0, -300);
+  await page.waitForTimeout(200);
+  assert.ok((await view()).camera[2] < camera[2], 'the wheel zooms');
+  assert.deepEqual(complaints, []);
   await context.close();
 });

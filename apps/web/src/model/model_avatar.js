@@ -2,11 +2,17 @@
 import {
   AmbientLight, Box3, Color, DirectionalLight, Euler, PerspectiveCamera, Quaternion, Scene, Vector3, WebGLRenderer,
 } from 'three';
+import {OrbitControls} from 'three/examples/jsm/controls/OrbitControls.js';
+import {MeshoptDecoder} from 'three/examples/jsm/libs/meshopt_decoder.module.js';
 import {GLTFLoader} from 'three/examples/jsm/loaders/GLTFLoader.js';
 import {VRMLoaderPlugin, VRMUtils} from '@pixiv/three-vrm';
 import {expressionTargets, morphTargets, move} from '../../../../bindings/js/avatars.js';
 
 const gazeAngle = 0.485;  // radians of a control at 1
+// Bones by their names in VRM, and patterns of the letters of other names: of Mixamo, Ready Player Me, VRoid, Unreal and Blender.
+const boneNames = {
+  head: /(?<!fore)head$/, leftEye: /(lefteye|eyeleft|eyel|l(face)?eye)$/, rightEye: /(righteye|eyeright|eyer|r(face)?eye)$/,
+  leftUpperArm: /(left(upper)?arm|upperarml(eft)?|lupperarm)$/, rightUpperArm: /(right(upper)?arm|upperarmr(ight)?|rupperarm)$/};
 
 // Throws an error with a message for the user if the file is not usable.
 export async function openModel(file, canvas) {
@@ -15,10 +21,13 @@ export async function openModel(file, canvas) {
     throw new Error(`${file.name}: not a binary glTF file (.glb or .vrm)`);
   }
   const loader = new GLTFLoader();
+  loader.setMeshoptDecoder(MeshoptDecoder);
   loader.register(parser => new VRMLoaderPlugin(parser));
   const gltf = await loader.parseAsync(bytes, '').catch(error => { throw new Error(`${file.name}: ${error.message}`); });
   return new ModelAvatar(gltf, canvas, file.name);
 }
+
+const rotation = (pitch, yaw, roll) => new Quaternion().setFromEuler(new Euler(pitch, yaw, roll, 'YXZ'));
 
 class ModelAvatar {
   constructor(gltf, canvas, name) {
@@ -33,15 +42,30 @@ class ModelAvatar {
 
   get vocabularies() { return [...new Set(this.targets.map(({vocabulary}) => vocabulary))]; }
 
+  bone(name) {
+    let found = this.vrm?.humanoid?.getNormalizedBoneNode(name) ?? null;
+    const matches = node => boneNames[name].test(node.name.replace(/[^a-z]/gi, '').toLowerCase());
+    if (!this.vrm) this.root.traverse(node => { if (!found && !node.isMesh && matches(node)) found = node; });
+    return found && {node: found, rest: found.quaternion.clone()};
+  }
+
   findBones() {
-    const bone = (vrmName, pattern) => {
-      let found = this.vrm?.humanoid?.getNormalizedBoneNode(vrmName) ?? null;
-      if (!this.vrm) this.root.traverse(node => { if (!found && pattern.test(node.name)) found = node; });
-      return found && {node: found, rest: found.quaternion.clone()};
-    };
-    this.headBone = bone('head', /(^|[^a-z])head$/i);
-    this.eyeBones = this.targets.some(({vocabulary}) => vocabulary === 'Roblox') ? [] :
-      [[1, bone('leftEye', /^(left_?eye|eye_?l(eft)?)$/i)], [-1, bone('rightEye', /^(right_?eye|eye_?r(ight)?)$/i)]].filter(([, found]) => found);
+    this.headBone = this.bone('head');
+    const moves = this.targets.every(({vocabulary}) => vocabulary !== 'Roblox');
+    this.eyeBones = moves ? [[1, this.bone('leftEye')], [-1, this.bone('rightEye')]].filter(([, found]) => found) : [];
+  }
+
+  // Lowers arms that point sideways, as in a T-pose.
+  lowerArms() {
+    this.root.updateMatrixWorld(true);
+    for (const name of ['leftUpperArm', 'rightUpperArm']) {
+      const arm = this.bone(name), elbow = arm?.node.children.find(child => child.position.lengthSq() > 0);
+      if (!elbow) continue;
+      const along = elbow.getWorldPosition(new Vector3()).sub(arm.node.getWorldPosition(new Vector3())).normalize();
+      if (along.y > -0.5) this.turn(arm, new Quaternion().setFromUnitVectors(along, new Vector3(0.2 * Math.sign(along.x), -1, 0).normalize()));
+    }
+    this.vrm?.update(0);
+    this.root.updateMatrixWorld(true);
   }
 
   stage(canvas) {
@@ -51,24 +75,37 @@ class ModelAvatar {
     key.position.set(-0.5, 0.8, 1);
     this.scene.add(this.root, key, new AmbientLight(new Color(0.9, 0.95, 1), 1.3));
     this.camera = new PerspectiveCamera(22, 1, 0.01, 1000);
-    this.root.updateMatrixWorld(true);
+    this.lowerArms();
     const {centre, size} = this.headBounds();
     this.camera.position.copy(centre).add(new Vector3(0, 0, size * 3.2));
-    this.camera.lookAt(centre);
+    this.addControls(canvas, centre, size);
   }
 
-  // The head alone, if the model has a body.
+  // Dragging turns the view, a wheel or two fingers zoom, a double click resets.
+  addControls(canvas, centre, size) {
+    canvas.title = 'Drag to turn, scroll to zoom, double-click to reset';
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.target.copy(centre);
+    Object.assign(this.controls, {enablePan: false, minDistance: size, maxDistance: size * 12});
+    this.controls.update();
+    this.controls.saveState();
+    const rotate = this.controls._rotateLeft.bind(this.controls);  // a mirrored view turns the other way
+    this.controls._rotateLeft = angle => rotate(canvas.closest('.mirrored') ? -angle : angle);
+    this.controls.addEventListener('change', () => this.onChange?.());
+    canvas.addEventListener('dblclick', () => this.controls.reset());
+  }
+
+  // The head alone, if the model has a body below it.
   headBounds() {
     const box = new Box3().setFromObject(this.root, true), all = box.getSize(new Vector3());
-    const bone = this.headBone?.node;
-    if (!bone || all.y < 1.6 * Math.max(all.x, all.z)) return {centre: box.getCenter(new Vector3()), size: Math.max(all.x, all.y)};
-    const at = bone.getWorldPosition(new Vector3()), height = box.max.y - at.y;
+    const at = this.headBone?.node.getWorldPosition(new Vector3()), height = box.max.y - (at?.y ?? 0);
+    if (!at || height <= 0 || at.y - box.min.y < 0.6 * height) return {centre: box.getCenter(new Vector3()), size: Math.max(all.x, all.y)};
     return {centre: new Vector3(at.x, at.y + height * 0.42, at.z), size: height * 1.5};
   }
 
   draw({controls, visemes, pitch = 0, yaw = 0, roll = 0}) {
     move(this.targets, {...controls, visemes});
-    this.turn(this.headBone, new Euler(pitch, yaw, roll, 'YXZ'));
+    this.turn(this.headBone, rotation(pitch, yaw, roll));
     for (const [side, bone] of this.eyeBones) this.turn(bone, this.gaze(controls, side > 0 ? 'Left' : 'Right', side));
     this.vrm?.update(0);
     const {width, height} = this.renderer.domElement;
@@ -79,19 +116,19 @@ class ModelAvatar {
   }
 
   gaze(c, name, side) {
-    return new Euler(gazeAngle * (c['eyeLookDown' + name] - c['eyeLookUp' + name]),
-                     gazeAngle * side * (c['eyeLookOut' + name] - c['eyeLookIn' + name]), 0, 'YXZ');
+    return rotation(gazeAngle * (c['eyeLookDown' + name] - c['eyeLookUp' + name]),
+                     gazeAngle * side * (c['eyeLookOut' + name] - c['eyeLookIn' + name]), 0);
   }
 
   // Rotates a bone around the axes of the model, independently of the bone's own axes.
-  turn(bone, euler) {
+  turn(bone, turned) {
     if (!bone) return;
     const parent = bone.node.parent.getWorldQuaternion(new Quaternion());
-    const turned = new Quaternion().setFromEuler(euler);
     bone.node.quaternion.copy(parent.clone().invert().multiply(turned).multiply(parent).multiply(bone.rest));
   }
 
   dispose() {
+    this.controls.dispose();
     VRMUtils.deepDispose(this.root);
     this.renderer.dispose();
   }

@@ -74,6 +74,7 @@ export class FaceView {
     this.avatar.dispose?.();
     this.canvas.replaceWith(canvas);
     Object.assign(this, {canvas, avatar, changed: true});
+    avatar.onChange = () => { this.changed = true; };  // the user turned the view
     new ResizeObserver(() => this.resize()).observe(canvas);
     this.resize();
   }
