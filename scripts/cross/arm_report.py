@@ -11,10 +11,9 @@ from count_instructions import Machine
 
 ENCODERS = [("basenet", "encoder"), ("hifinet", "encoder")]
 DECODERS = [("hifinet", "controls_decoder"), ("audionet", "encoder")]
-# Parts of fused blocks: functions that multiply panels count as pointwise, the others as depthwise.
+# Layers of the fused blocks: what multiplies panels counts as pointwise, the rest as depthwise.
 FAMILIES = {"conv2d": ["conv2d"], "depthwise": ["depthwise", "inverted_residual"], "pointwise": ["pointwise"]}
-ARITHMETIC = ("fmla", "fmul", "fmax", "fmin", "fadd", "fcvtl", "fcvtl2", "fcvtn", "fcvtn2")
-LOOPS = [  # tier, object, pattern of the function's name, description
+LOOPS = [  # tier, object, pattern of the function's name, what it is
     ("neon", "pointwise/neon_product", r"tile<5, 4, .*Widened", "pointwise, 5 pixels x 16 channels, weights widened before"),
     ("neon", "pointwise/neon_product", r"tile<9, 2, .*Widened", "pointwise, 9 pixels x 8 channels, weights widened before"),
     ("neon", "pointwise/neon_product", r"tile<9, 2, .*Halves", "pointwise, 9 pixels x 8 channels, weights widened inside"),
@@ -45,22 +44,15 @@ def predictions(folder_of):
     rows = []
     for tier, name, pattern, what in LOOPS:
         loop = loop_of(folder_of(tier), name, pattern)
-        shares = []
-        for cpu in predict.CPUS:
-            if tier == "neonfp16" and cpu == WITHOUT_FP16:
-                shares.append("-")
-                continue
-            fma = predict.share_of_limit(loop, cpu, "fmla", "fmul")
-            every = predict.share_of_limit(loop, cpu, *ARITHMETIC)
-            shares.append(f"{fma:.0%} ({every:.0%})")
-        rows.append([tier, what, str(inner_loops.spills(loop)), *shares])
+        rows.append([tier, what, *("-" if tier == "neonfp16" and cpu == WITHOUT_FP16
+                                   else f"{predict.share_of_limit(loop, cpu, 'fmla', 'fmul'):.0%}" for cpu in predict.CPUS)])
     return rows
 
 
 def largest_difference(rows, others):
-    """Difference of the first percentages of two tables of predictions, in percentage points."""
-    first = lambda cell: int(cell.split("%")[0])
-    return max(abs(first(a) - first(b)) for row, other in zip(rows, others) for a, b in zip(row[3:], other[3:]) if "%" in a)
+    """Of the percentages of two tables of predictions, in points."""
+    points = lambda cell: int(cell.removesuffix("%"))
+    return max(abs(points(a) - points(b)) for row, other in zip(rows, others) for a, b in zip(row[2:], other[2:]) if a != "-")
 
 
 def per_mac(neon, avx2, work):
@@ -86,8 +78,7 @@ def ways(neon, neonfp16, work):
     for network in ENCODERS:
         for machine, mode in ((neon, "plain"), (neon, "fused"), (neonfp16, "fused")):
             instructions = sum(machine.one_run(work, network, mode)[0].values())
-            kilobytes = [f"{count / 1024:.0f}" for count in machine.traffic(work, network, mode)]
-            rows.append(["_".join(network), machine.tier, mode, str(instructions), *kilobytes])
+            rows.append(["_".join(network), machine.tier, mode, str(instructions)])
     return rows
 
 
@@ -116,42 +107,35 @@ def main():
     neon = Machine("neon", *arm, [gcc("neon")], "aarch64-linux-gnu-nm")
     neonfp16 = Machine("neonfp16", *arm, [gcc("neon"), gcc("neonfp16")], "aarch64-linux-gnu-nm")
     avx2 = Machine("avx2", ["qemu-x86_64", "-cpu", "max"], work / "run_avx2", [x64("avx2")], "nm")
-    header = ["tier", "inner loop", "spills", *predict.CPUS]
+    header = ["tier", "inner loop", *predict.CPUS]
     by_gcc = predictions(gcc)
     difference = largest_difference(by_gcc, predictions(lambda tier: work / "clang" / tier))
     counted = ["network", "layers", "MACs", "neon", "avx2", "ratio"]
     text = f"""# Predicted speed on ARM
 
-For developers of kernels. No ARM machine was available: these are predictions and instruction counts, not measurements.
-
-The second and third table compare instructions per multiply-accumulate with AVX2, whose vectors have twice the width of NEON's in fp32 and the same
-in half precision. The data are the published networks; `scripts/cross/arm_report.sh` writes this page.
+For developers of kernels. No ARM machine was available: these are predictions and instruction counts of the published networks.
 
 ## Inner loops
 
-Predictions of llvm-mca ({version("llvm-mca")}): the cycles that the fused multiply-adds of a loop need at least, as a share of the cycles that it takes. In brackets the same
-for all vector arithmetic, because clamps and conversions use the same units. With two units for both, as in A76 and X1, a depthwise loop of nine multiply-adds and a ReLU6
-of two instructions reaches at most 82 %. llvm-mca 14 uses the model of Cortex-A57 for A76 and X1 and of Cyclone for M1, and ignores cache misses. {WITHOUT_FP16} has no fp16
-arithmetic.
-
-Code of gcc ({version("aarch64-linux-gnu-g++")}); that of clang ({version("clang++")}) differs by at most {difference} points in the first figure.
+Predictions of llvm-mca ({version("llvm-mca")}): the cycles that the fused multiply-adds of a loop need at least, as a share of the cycles that it takes. Depthwise loops reach at
+most 82 %, because clamps use the same units. llvm-mca 14 uses the model of Cortex-A57 for A76 and X1 and of Cyclone for M1, and ignores cache misses. {WITHOUT_FP16} has no fp16
+arithmetic. Code of {version("aarch64-linux-gnu-g++")}; that of clang ({version("clang++")}) differs by at most {difference} points.
 
 {table(header, by_gcc)}
 ## Instructions per multiply-accumulate
 
-One run of a network, counted by qemu-user, with gcc and fused blocks. `all` is the whole run; `depthwise` includes everything in a block except products. AVX2 converts eight
-weights in their load, NEON needs an instruction for four, which matters in decoders, where each weight is used once.
+One run of a network with fused blocks, counted by qemu-user, compared with AVX2, whose vectors have twice the width of NEON's in fp32 and the same in half precision. `all` is the
+whole run; `depthwise` includes everything in a block except products. AVX2 converts eight weights in their load, NEON needs an instruction for four.
 
 {table(counted, per_mac(neon, avx2, work))}
-In half precision, vectors have as many values as AVX2's, and weights need no conversion:
+In half precision:
 
 {table(["network", "MACs", "neonfp16", "avx2", "ratio"], in_half(neonfp16, avx2, work))}
-## Fused blocks
+Instructions layer by layer (`plain`) and fused:
 
-Layer by layer (`plain`) and fused; memory traffic of a second run, in a model of Cortex-A53's caches (32 KB in 4 ways, 512 KB in 16; lines of 64 bytes, LRU, no prefetching).
-The weights are 1033 KB and 1893 KB.
-
-{table(["network", "tier", "blocks", "instructions", "KB into L1", "KB into L2"], ways(neon, neonfp16, work))}"""
+{table(["network", "tier", "blocks", "instructions"], ways(neon, neonfp16, work))}
+Made by `scripts/cross/arm_report.sh`.
+"""
     out.write_text(text)
 
 

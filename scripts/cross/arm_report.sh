@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Writes docs/results/arm.md: llvm-mca's predictions for the NEON inner loops, and instructions and memory traffic of
-# networks, counted under emulation.
+# Writes docs/results/arm.md: what llvm-mca predicts of the NEON inner loops, and the instructions of networks, counted
+# under emulation.
 # usage: scripts/cross/arm_report.sh [OUT_FILE]
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -28,9 +28,7 @@ options="-std=c++20 -O2 -static -Iinclude"
 aarch64-linux-gnu-g++ $options $program "$work/report-arm64/tracker/libmien.a" -o "$work/run_neon"
 # shellcheck disable=SC2086
 g++ $options $program "$work/report-x64/tracker/libmien.a" -o "$work/run_avx2"
-for plugin in count cache; do
-  gcc -O2 -Wall -Wextra -shared -fPIC "scripts/cross/${plugin}_plugin.c" -o "$work/lib$plugin.so"
-done
+gcc -O2 -Wall -Wextra -shared -fPIC scripts/cross/count_plugin.c -o "$work/libcount.so"
 
 # The same kernels by clang, against the cross compiler's headers.
 by_clang() {  # tier, its flags and sources

@@ -1,4 +1,4 @@
-"""Counts instructions per kernel family and cache traffic of one run of a network, with qemu-user."""
+"""Instructions of a run of a network per kernel family, counted by qemu-user."""
 import re
 import subprocess
 from collections import Counter
@@ -13,7 +13,7 @@ class Machine:
 
     @staticmethod
     def _families(objects, nm):
-        """{symbol: family}, without symbols that several families share."""
+        """{symbol: family}; what several families share belongs to none."""
         owners = {}
         for path in (path for folder in objects for path in folder.rglob("*.o")):
             listing = subprocess.run([nm, "--defined-only", path], check=True, capture_output=True, text=True).stdout
@@ -22,15 +22,11 @@ class Machine:
                 owners.setdefault(symbol, set()).add(path.parent.name)
         return {symbol: names.pop() for symbol, names in owners.items() if len(names) == 1}
 
-    def _run(self, plugin, output, network, runs, mode="fused"):
-        model, name = network
-        return subprocess.run([*self.emulator, "-plugin", f"{plugin},output={output}", self.program,
-                               f"models/{model}.mien", name, self.tier, str(runs), mode],
-                              check=True, capture_output=True, text=True).stdout
-
     def _counts(self, work, network, runs, mode):
-        output = work / "counts.txt"
-        layers = self._run(work / "libcount.so", output, network, runs, mode)
+        output, (model, name) = work / "counts.txt", network
+        layers = subprocess.run([*self.emulator, "-plugin", f"{work / 'libcount.so'},output={output}", self.program,
+                                 f"models/{model}.mien", name, self.tier, str(runs), mode],
+                                check=True, capture_output=True, text=True).stdout
         counts = Counter()
         for line in output.read_text().splitlines():
             number, symbol = line.split(" ", 1)
@@ -47,12 +43,3 @@ class Machine:
         for op, number in re.findall(r"^(\w+) (\d+)$", layers, re.MULTILINE):
             macs[op] += int(number)
         return instructions, macs
-
-    def traffic(self, work, network, mode="fused"):
-        """Bytes into the first-level cache and into the second, of one run after another."""
-        output = work / "traffic.txt"
-        lines = []
-        for runs in (1, 2):
-            self._run(work / "libcache.so", output, network, runs, mode)
-            lines.append([int(number) for number in output.read_text().split()[1:]])
-        return [64 * (after - before) for before, after in zip(*lines)]

@@ -46,12 +46,6 @@ def count(loop, *mnemonics):
     return sum(mnemonic in mnemonics for _, mnemonic, _ in loop)
 
 
-def spills(loop):
-    """Vector registers moved to or from the stack."""
-    return sum("[sp" in operands and re.match(r"[qdv]\d", operands) is not None
-               for _, mnemonic, operands in loop if mnemonic.startswith(("ld", "st")))
-
-
 def assembly(loop):
     """The loop as a text that an assembler takes; branches lead to its beginning."""
     lines = ["loop:"]

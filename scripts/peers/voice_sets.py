@@ -22,7 +22,7 @@ def main():
             corpus.decode_group(group)
     for name, ratio in RATIOS.items():
         arrays = {}
-        for i, (sound, truth) in enumerate(audio_activity.heard("test", ratio)):
+        for i, (sound, truth) in enumerate(audio_activity.heard(ratio)):
             arrays[f"sound_{i:03}"], arrays[f"truth_{i:03}"] = np.float32(sound), truth
         np.savez(Path(sys.argv[1]) / f"voice_{name}.npz", **arrays)
 

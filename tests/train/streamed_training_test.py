@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Training on streamed features: it goes on where it was stopped, and what it leaves is a decoder of plain features."""
+"""Training on streamed features: it resumes, and writes decoders of plain features and the controls they support."""
 import os
 import subprocess
 import sys
@@ -7,10 +7,12 @@ import tempfile
 import unittest
 from pathlib import Path
 
+import numpy as np
 import torch
 
-from mien_training.networks.architectures import ControlsDecoder
-from mien_training.phase2 import pack_features, stream_features, train_streamed
+from mien_training.data.expressions import INDEX
+from mien_training.networks.architectures import ControlsDecoder, PoseDecoder
+from mien_training.phase2 import decoder_scores, pack_features, stream_features, train_decoders
 from mien_training.phase2.whitening import Whitening
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -28,10 +30,10 @@ def shard(path, tracks, frames):
 
 
 class Streamed(unittest.TestCase):
-    def train(self, folder, steps):
+    def train(self, folder, steps, *options, network="hifinet"):
         out = Path(folder) / "decoders.pt"
-        command = [sys.executable, "-m", "mien_training.phase2.train_streamed", "--network", "hifinet", "--stream",
-                   folder, "--out", out, "--steps", str(steps), "--batch", "3", "--portraits", "4"]
+        command = [sys.executable, "-m", "mien_training.phase2.train_decoders", "--network", network, "--stream",
+                   folder, "--out", out, "--steps", str(steps), "--batch", "3", "--portraits", "4", *options]
         subprocess.run([str(c) for c in command], check=True, capture_output=True)
         return torch.load(out)
 
@@ -53,9 +55,50 @@ class Streamed(unittest.TestCase):
             apart = plain(x)[0] - white(whitening(x), whitening.start(white, 2))[0]
         self.assertLess(float(apart.abs().max()), 1e-3)
 
+    def test_a_pose_decoder_keeps_the_controls_decoder(self):
+        torch.manual_seed(1)
+        before = {"controls_decoder": ControlsDecoder().state_dict(), "pose_decoder": PoseDecoder().state_dict(),
+                  "supported": torch.ones(52), "optimiser": "of another run"}
+        with tempfile.TemporaryDirectory() as folder:
+            torch.save(before, Path(folder) / "before.pt")
+            shard(Path(folder) / "train/00000.pt", 6, 10)
+            shard(Path(folder) / "portraits_train/00000.pt", 40, 2)
+            after = self.train(folder, 3, "--decoder", "pose", "--start-from", f"{folder}/before.pt", network="basenet")
+        same = lambda name: all(torch.equal(v, after[name][k]) for k, v in before[name].items())
+        self.assertTrue(same("controls_decoder"))
+        self.assertFalse(same("pose_decoder"))
+        self.assertNotEqual(after["optimiser"], before["optimiser"])
+        self.assertEqual(after["supported"].tolist(), [1] * 52)
+
+    def test_supported_controls_are_those_that_follow_the_truth(self):
+        torch.manual_seed(1)
+        controls, noise = torch.rand(40, 6, 52), 0.7 * torch.randn(40, 6, 52)
+        jaw, blinks, gaze = INDEX["jawOpen"], [INDEX[f"eyeBlink{s}"] for s in ("Left", "Right")], INDEX["eyeLookUpLeft"]
+        noise[..., [jaw, *blinks, gaze, INDEX["eyeLookUpRight"]]] = 0
+        noise[..., blinks[0]] = 2 * torch.randn(40, 6)  # one side of a pair
+        people = {"features": controls + noise, "controls": controls, "visible": torch.ones_like(controls),
+                  "stride": torch.tensor([1, 2] * 20)}
+        portraits = {**people, "controls": torch.zeros_like(controls)}  # the teacher knows none
+        chosen = lambda gaze: decoder_scores.supported_controls(lambda x: (x, None), people, portraits,
+                                                                np.zeros(52, bool), gaze)
+        self.assertEqual(chosen(False).nonzero()[0].tolist(), [jaw])
+        self.assertTrue(chosen(True)[[jaw, gaze]].all())
+        self.assertFalse(chosen(True)[blinks].any())
+
+    def test_portraits_hold_still(self):
+        number = torch.arange(40.0).view(40, 1, 1)
+        data = {name: number.expand(40, 2, width) for name, width in (("features", 4), ("pose", 9), ("controls", 52),
+                                                                      ("visible", 52))}
+        batch, mask = train_decoders.Portraits({**data, "points": torch.rand(40, 2, 175, 2)}, 100).batch()
+        self.assertEqual(tuple(batch["features"].shape), (100, 10, 4))
+        self.assertTrue(torch.equal(batch["features"][:, 1:], batch["features"][:, :-1]))
+        self.assertTrue(torch.equal(batch["features"][..., 0], batch["pose"][..., 0]))
+        self.assertEqual(mask[0, :, 0].tolist(), [0.25] * 2 + [1] * 8)
+
     def test_no_weight_falls_on_a_cut_from_face_to_face(self):
-        data = {"features": torch.zeros(4, 5, 3), "controls": torch.zeros(4, 5, 52), "visible": torch.ones(4, 5, 52)}
-        batch, mask = train_streamed.Tracks(data, 2, 3).batch()
+        data = {"features": torch.zeros(4, 5, 3), "controls": torch.zeros(4, 5, 52), "visible": torch.ones(4, 5, 52),
+                "pose": torch.zeros(4, 5, 9)}
+        batch, mask = train_decoders.Tracks(data, 2, 3).batch()
         self.assertEqual(tuple(batch["features"].shape), (2, 15, 3))
         self.assertEqual(mask[0, :, 0].tolist(), [0.5, 1, 1, 1, 1] + [0, 1, 1, 1, 1] * 2)
 

@@ -13,7 +13,7 @@
     $A.train_jaw --out $R/jaw.pt               # on the encoder of models/audionet.mien
     $A.add_jaw $R/jaw.pt
     $A.golden_outputs                          # expected outputs of a test
-    python3 -m mien_training.evaluate audio --audionet $R/audionet/last.pt $R/audionet_decoders.pt
+    python3 -m mien_training.evaluate audio
 
 Without weights to start from: --synthetic-only --minutes 8 --rate 5e-3 --hard 0.4 without --together trains an encoder
 that can align. Minutes are those of one and a half CPU cores. examples.py and effects.py define the training data,

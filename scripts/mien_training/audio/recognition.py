@@ -47,14 +47,13 @@ def truth(group, split):
 
 
 @torch.no_grad()
-def error_rate(network, heads, name, split, most=None, choose=lambda sound: True, answer=greedy):
-    """Insertions, deletions and substitutions over phonemes of the truth. `answer`: phonemes of the network's log
-    softmax."""
+def error_rate(network, heads, name, split, most):
+    """Insertions, deletions and substitutions over phonemes of the truth, of the first `most` recordings."""
     group = corpus.Group(name)
     wrong = total = 0
-    for sound, said in [row for row in truth(group, split) if choose(row[0])][:most]:
+    for sound, said in truth(group, split)[:most]:
         samples = np.concatenate([np.float32(group.samples(sound)) / 32768, np.zeros(3200, np.float32)])
-        heard = answer(heads(network(torch.from_numpy(features(samples))[None])[0])[0][0])
+        heard = greedy(heads(network(torch.from_numpy(features(samples))[None])[0])[0][0])
         wrong += distance(heard, said)
         total += len(said)
     return wrong / max(total, 1)

@@ -3,14 +3,11 @@
 A shard is a folder of `images.npy` (uint8 [n,window,window,3], a square around the face) and `labels.npz`. `track`
 follows faces as the tracker does: the landmarks of one frame align the crop of the next.
 """
-import argparse
-import itertools
 from pathlib import Path
 
 import numpy as np
 import torch
 
-from mien_convert.atomic_files import whole
 from mien_training.data import head_pose
 from mien_training.data import landmark_points as lp
 from mien_training.data.augment import OfSequence
@@ -243,59 +240,25 @@ def untouched(x, frame):
     return x
 
 
-def extract(view, sequences, passes, seed, strides=(1, 2), plain=False, mirrored=False, batch=32):
-    """Tracks each sequence `passes` times with the encoder on every frame, and as often on alternate frames.
+def extract(view, sequences, seed, stride=1, plain=False, mirrored=False, batch=32):
+    """Tracks each sequence, or its mirror image, with the encoder on every `stride`-th frame.
 
-    Passes alternate between original and mirrored faces, mirrored first if `mirrored`. Returns tensors with one row per
-    track: features fp16 [m,frames,256], pose [m,frames,9], controls and visible [m,frames,52], crop [m,frames,4],
-    stride [m], landmark_error [m,frames]. `plain` adds no camera effects.
+    Returns tensors with one row per track: features fp16 [m,frames,256], pose [m,frames,9], controls and visible
+    [m,frames,52], crop [m,frames,4], stride [m], landmark_error [m,frames]. `plain` adds no camera effects.
     """
     tracks, losses = [], 0
-    for stride, number in itertools.product(strides, range(passes)):
-        errors = []
-        for start in range(0, len(sequences), batch):
-            rows = torch.arange(start, min(start + batch, len(sequences)))
-            key = ((seed * 2 + stride) * 100 + number) * 10000 + start
-            spoil = untouched if plain else OfSequence(len(rows), key)
-            mirror = (number % 2 == 1) != mirrored
-            seen = Mirrored(view) if mirror else view
-            shown = sequences if plain else sequences.coded(rows, key)
-            features, crops, points, again = track(seen, shown, rows, spoil, torch.Generator().manual_seed(key), stride)
-            losses += again
-            errors.append(landmark_error(points, sequences.label("landmarks", rows)))
-            tracks.append({"features": features.half(), "crop": crops, "stride": torch.full((len(rows),), stride),
-                           "landmark_error": errors[-1], **targets(sequences, rows, crops, mirror)})
-        print(f"stride {stride} pass {number} landmark error {torch.cat(errors).mean():.4f}", flush=True)
+    view = Mirrored(view) if mirrored else view
+    for start in range(0, len(sequences), batch):
+        rows = torch.arange(start, min(start + batch, len(sequences)))
+        key = (seed * 2 + stride) * 1000000 + start
+        spoil = untouched if plain else OfSequence(len(rows), key)
+        shown = sequences if plain else sequences.coded(rows, key)
+        features, crops, points, again = track(view, shown, rows, spoil, torch.Generator().manual_seed(key), stride)
+        losses += again
+        tracks.append({"features": features.half(), "crop": crops, "stride": torch.full((len(rows),), stride),
+                       "landmark_error": landmark_error(points, sequences.label("landmarks", rows)),
+                       **targets(sequences, rows, crops, mirrored)})
     out = {k: torch.cat([t[k] for t in tracks]) for k in tracks[0]}
-    print(f"tracks {len(out['stride'])}, faces found again {losses}")
+    print(f"stride {stride}: {len(out['stride'])} tracks, landmark error {out['landmark_error'].mean():.4f}, "
+          f"faces found again {losses}", flush=True)
     return out
-
-
-def main():
-    parser = argparse.ArgumentParser(description="Features of synthetic sequences, tracked by a BaseNet checkpoint.")
-    parser.add_argument("--checkpoint", type=Path, required=True, help="of BaseNet")
-    parser.add_argument("--hifinet", type=Path, help="a checkpoint of HiFiNet, whose features are wanted then")
-    parser.add_argument("--shards", type=Path, nargs="+", required=True)
-    parser.add_argument("--out", type=Path, required=True)
-    parser.add_argument("--passes", type=int, default=2)
-    parser.add_argument("--hold", type=int, help="shards of stills: number of frames for which each is held")
-    parser.add_argument("--plain", action="store_true", help="no photometric variety")
-    parser.add_argument("--mirrored", action="store_true", help="begin with the faces mirrored")
-    parser.add_argument("--threads", type=int, default=1)
-    parser.add_argument("--seed", type=int, default=0)
-    args = parser.parse_args()
-    torch.set_num_threads(args.threads)
-    sequences, strides = Sequences.load(args.shards), (1, 2)
-    if args.hold:
-        sequences, strides = sequences.held(args.hold), (1,)
-    view = BaseNetView(args.checkpoint)
-    if args.hifinet:
-        view = HiFiNetView(view, args.hifinet)
-    found = extract(view, sequences, args.passes, args.seed, strides, args.plain, args.mirrored)
-    args.out.parent.mkdir(parents=True, exist_ok=True)
-    with whole(args.out) as out:
-        torch.save(found, out)
-
-
-if __name__ == "__main__":
-    main()

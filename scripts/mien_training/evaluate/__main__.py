@@ -14,7 +14,7 @@ from mien_training.evaluate import model_card, summary
 from mien_training.evaluate import report as out
 from mien_training.evaluate.inputs import PARTS, Missing, Setting
 from mien_training.evaluate.program import Program
-from mien_training.paths import ROOT, cache
+from mien_training.paths import ROOT
 
 SKIPPED = 3  # exit status
 
@@ -46,21 +46,10 @@ def write_summary(folder, skipped, has_hifinet):
 
 
 def main():
-    runs = cache() / "runs"
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("parts", nargs="*", metavar="PART", help=f"some of {', '.join(PARTS)}; default: all")
     parser.add_argument("--mien", type=Path, default=ROOT / "build/release/apps/mien/mien", help="the built program")
     parser.add_argument("--models", type=Path, default=ROOT / "models")
-    parser.add_argument("--basenet", type=Path, nargs=2, default=[runs / "finetune/last.pt", runs / "decoders.pt"],
-                        metavar=("ENCODER", "DECODERS"), help="the checkpoints that export.py was given")
-    parser.add_argument("--hifinet", type=Path, nargs=2,
-                        default=[runs / "hifinet/last.pt", runs / "hifinet_decoders.pt"],
-                        metavar=("ENCODER", "DECODERS"))
-    parser.add_argument("--audionet", type=Path, nargs=2,
-                        default=[runs / "audionet/last.pt", runs / "audionet_decoders.pt"],
-                        metavar=("ENCODER", "DECODERS"))
-    parser.add_argument("--features", type=Path, default=cache() / "features",
-                        help="folder of BaseNet's features; HiFiNet's: NAME_hifinet")
     parser.add_argument("--out", type=Path, default=ROOT / "docs/results")
     parser.add_argument("--pages-only", action="store_true",
                         help="write the pages anew from the JSON files; measure nothing")
@@ -75,8 +64,7 @@ def main():
         parser.error(
             f"{args.mien} is not built: cmake --preset release && cmake --build --preset release --target mien")
     args.out.mkdir(parents=True, exist_ok=True)
-    setting = Setting(Program(args.mien, args.models), {"basenet": args.basenet, "hifinet": args.hifinet,
-                                                        "audionet": args.audionet}, args.features, args.out)
+    setting = Setting(Program(args.mien, args.models), args.out)
     for part in args.parts or PARTS:
         try:
             evaluate(part, setting)

@@ -11,11 +11,11 @@ REST = 0.1           # a mouth at rest has no control above it
 SCENES = 80
 
 
-def utterances(split):
+def utterances():
     """Held-out speech, each with silence around it, and when it is speech."""
     for name in ("librispeech", "commands"):
         group = corpus.Group(name)
-        for sound in group.of(split)[:SCENES // 2]:
+        for sound in group.of("test")[:SCENES // 2]:
             speech = effects.at_level(np.float32(group.samples(sound)[:8 * RATE]) / 32768, -23)
             silence = np.zeros(int(PAUSE * RATE), np.float32)
             yield np.concatenate([silence, speech, silence])
@@ -28,11 +28,11 @@ def roc(scores, truth, points=60):
     return {"false": share(scores[~truth]), "found": share(scores[truth])}
 
 
-def heard(split, ratio, seed=1):
+def heard(ratio, seed=1):
     """Held-out speech in held-out noise at `ratio` dB, None for clean; and of each window whether it is speech."""
     rng = np.random.default_rng(seed)
-    for sound in utterances(split):
-        mixed = sound if ratio is None else effects.mixed(sound, effects.recorded_noise(rng, split, len(sound)), ratio)
+    for sound in utterances():
+        mixed = sound if ratio is None else effects.mixed(sound, effects.recorded_noise(rng, "test", len(sound)), ratio)
         yield np.clip(mixed, -1, 1), activity.of_windows(sound)
 
 
@@ -41,7 +41,7 @@ def by_ratio(model):
     report = {}
     for ratio in RATIOS:
         scores, truth = [], []
-        for sound, active in heard(model.split, ratio):
+        for sound, active in heard(ratio):
             times, _, alpha = model(sound)
             scores.append(alpha)
             truth.append(activity.at(active, times))
@@ -60,7 +60,7 @@ def kind(name):
 def on_noise(model):
     """Share of the time in which the mouth rests, over all noise that was held out and by its kind."""
     group, rows = corpus.Group("noise"), {}
-    for sound in group.of(model.split):
+    for sound in group.of("test"):
         _, controls, alpha = model(np.float32(group.samples(sound)) / 32768)
         rows.setdefault(kind(sound.name), []).append((controls * alpha[:, None]).max(1) < REST)
     report = {k: float(np.concatenate(v).mean()) for k, v in rows.items()}

@@ -1,17 +1,12 @@
 """Controls from audio compared with the video teacher's, and lips that must close and round."""
 import numpy as np
-import torch
 
-from mien_training.audio import align, corpus, espeak, labels, phonemes, teacher, visemes
-from mien_training.audio.features import RATE, features
-from mien_training.evaluate import audio_phonemes
-from mien_training.evaluate.audio_model import INDEX, SPEECH_CONTROLS
+from mien_training.audio import corpus, labels, phonemes, teacher
+from mien_training.evaluate.audio_model import INDEX
 from mien_training.paths import data
 
 COMPARED = ["jawOpen", "mouthClose", "mouthFunnel", "mouthPucker", "mouthRollUpper", "mouthLowerDownLeft"]
 LAGS = range(-5, 6)           # video frames
-SAID = {"whitehouse_obama_weekly": "the only people who don't want to disclose the truth are people with something to "
-                                   "hide"}
 OTHERS = ["grid_brbk7n", "grid_lbax4n", "grid_lbbc2a", "grid_id2_swwp2s", "hdtf_WDA_KatieHill",
           "whitehouse_obama_weekly"]
 CLOSED_JAW, CLOSE, NEAR = 0.15, 0.1, 0.04
@@ -39,11 +34,11 @@ def best_lag(predicted, truth):
     return max(LAGS, key=at)
 
 
-def held_clips(model, name="av"):
-    """(answers, teacher's curves) of the clips of a group that were held out."""
-    group, out = corpus.Group(name), []
-    for sound in group.of(model.split):
-        curve = teacher.clips(name).get(sound.name)
+def held_clips(model):
+    """(answers, teacher's curves) of the held-out clips."""
+    group, out = corpus.Group("av"), []
+    for sound in group.of("test"):
+        curve = teacher.clips("av").get(sound.name)
         if curve is not None:
             seconds = np.arange(len(curve)) / teacher.FPS
             out.append((at_frames(model, np.float32(group.samples(sound)) / 32768, seconds), curve))
@@ -60,49 +55,15 @@ def other_clips(model):
     return out
 
 
-def text_of(name):
-    """Words of a clip; None without a transcript. The names of GRID encode its sentences."""
-    if name.startswith("grid_"):
-        return audio_phonemes.grid_sentence(name.rsplit("_", 1)[1])
-    return SAID.get(name, "").split()
-
-
-@torch.no_grad()
-def from_right_phonemes(model, name, seconds):
-    """jawOpen as visemes have it from the text, aligned; None without the text or the heads of phonemes."""
-    words = [sum(espeak.words_to_phonemes(word), ()) for word in text_of(name)]
-    if not words or model.heads is None:
-        return None
-    sound = np.float32(corpus.decode(clip_path(name))) / 32768
-    heard = torch.from_numpy(features(np.concatenate([sound, np.zeros(RATE // 10, np.float32)])))[None]
-    scores = torch.log_softmax(model.heads(model.encoder(heard)[0])[1][0], -1).numpy()
-    spoken = align.timed(scores, words, len(sound) / RATE)
-    return visemes.curves(spoken, seconds)[:, INDEX["jawOpen"]]
-
-
 def clip_path(name):
     return next(p for p in (data() / "clips").glob(f"{name}.*") if p.suffix in (".mp4", ".mpg"))
 
 
-def of_clips(model, others):
-    """jawOpen of each clip compared with the teacher's."""
-    report = {}
-    for name, (predicted, truth) in others.items():
-        seconds = np.load(data() / f"clips/{name}.mediapipe.npz")["t_ms"] / 1000
-        jaw, right = truth[:, INDEX["jawOpen"]], from_right_phonemes(model, name, seconds)
-        report[name] = {"said": correlation(predicted[:, INDEX["jawOpen"]], jaw),
-                        "lag": best_lag([predicted[:, INDEX["jawOpen"]]], [jaw]),
-                        "right phonemes": float("nan") if right is None else correlation(right, jaw)}
-    return report
-
-
 def measure(model):
-    others = other_clips(model) if model.split == "test" else {}
     predicted = list(spoken_phonemes(model))
     return {"held-out clips": agreement(held_clips(model)),
-            "other people": agreement(list(others.values()) or held_clips(model, "people")),
-            "clips": of_clips(model, others), "lips": lips(predicted),
-            "strength": strength(predicted), "spread": spread(model)}
+            "other people": agreement(list(other_clips(model).values())), "lips": lips(predicted),
+            "strength": strength(predicted)}
 
 
 def agreement(pairs):
@@ -118,10 +79,10 @@ def agreement(pairs):
     return report
 
 
-def spoken_phonemes(model, most=None):
+def spoken_phonemes(model):
     """(phoneme, controls [t,18] within 40 ms of its middle) of held-out synthetic voices."""
     group, spoken = corpus.Group("synthetic"), labels.read("synthetic")
-    for sound in group.of(model.split)[:most]:
+    for sound in group.of("test"):
         times, controls, _ = model(
             np.concatenate([np.float32(group.samples(sound)) / 32768, np.zeros(4000, np.float32)]))
         speech = spoken[sound.name]
@@ -145,11 +106,3 @@ def strength(predicted):
     where = {"jawOpen": OPEN_VOWELS, "mouthPucker": ROUNDED, "mouthFunnel": FUNNELLED}
     of = lambda name: np.concatenate([c[:, INDEX[name]] for label, c in predicted if label in where[name]])
     return {name: float(np.percentile(of(name), 95)) for name in where}
-
-
-def spread(model):
-    """Mean and standard deviation of every control over held-out synthetic speech."""
-    group = corpus.Group("synthetic")
-    rows = np.concatenate([model(np.float32(group.samples(s)) / 32768)[1] for s in group.of(model.split)[:60]])
-    return {c: [float(rows[:, i].mean()), float(rows[:, i].std())]
-            for c, i in zip(SPEECH_CONTROLS, range(len(SPEECH_CONTROLS)))}

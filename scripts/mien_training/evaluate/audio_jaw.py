@@ -1,18 +1,10 @@
-"""jawOpen of people never seen in training: at lag 0, at the best lag, and for the audio of other clips.
-
-usage: python3 -m mien_training.evaluate.audio_jaw [AUDIONET.mien]      prints the figures as JSON
-"""
-import json
-import sys
-
+"""jawOpen of people never seen in training: at lag 0, at the best lag, and for the audio of other clips."""
 import numpy as np
 
 from mien_training.audio import corpus, jaw_data, teacher
 from mien_training.audio.audio_net import JAW
 from mien_training.evaluate import audio_controls
 from mien_training.evaluate import report as out
-from mien_training.evaluate.audio_model import StoredModel
-from mien_training.paths import ROOT
 
 LAGS = range(-8, 9)   # video frames; positive where the audio is late
 DRAWS = 200           # of mismatched audio, for each clip
@@ -84,12 +76,3 @@ def markdown(report):
                 {max(LAGS)} frames. Any curve correlates better at its best lag: the last two columns are the mean and
                 the 95th percentile of {DRAWS} outputs for the audio of other clips."""),
             *out.table(["clip", "lag 0", "best lag", "lag, frames", "other audio, mean", "95th percentile"], clips)]
-
-
-def main():
-    path = sys.argv[1] if len(sys.argv) > 1 else ROOT / "models/audionet.mien"
-    print(json.dumps(measure(StoredModel(path)), indent=1))
-
-
-if __name__ == "__main__":
-    main()

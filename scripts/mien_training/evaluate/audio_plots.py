@@ -8,15 +8,15 @@ from mien_training.evaluate.audio_model import INDEX
 SHOWN = ["jawOpen", "mouthClose", "mouthPucker", "mouthFunnel", "mouthStretchLeft"]
 
 
-def sentence(model, timed=None):
-    """The first held-out clip: curves, the teacher's jaw, and phonemes with times; `timed`: phonemes known before."""
+def sentence(model):
+    """The first held-out clip: curves, the teacher's jaw, and the aligned phonemes with times."""
     group, curves = corpus.Group("av"), teacher.clips()
-    sound = next(s for s in group.of(model.split) if s.name in curves)
+    sound = next(s for s in group.of("test") if s.name in curves)
     times, controls, alpha = model(np.float32(group.samples(sound)) / 32768)
     jaw = curves[sound.name][:, INDEX["jawOpen"]]
     return {"clip": sound.name, "times": out.rounded(times, 3), "alpha": out.rounded(alpha, 3),
             "teacher": out.rounded(jaw, 3), "controls": {c: out.rounded(controls[:, INDEX[c]], 3) for c in SHOWN},
-            "phonemes": timed or timed_phonemes(labels.read("av")[sound.name])}
+            "phonemes": timed_phonemes(labels.read("av").get(sound.name, labels.Spoken([], [], 0)))}
 
 
 def timed_phonemes(spoken):

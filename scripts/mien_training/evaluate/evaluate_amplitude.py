@@ -19,10 +19,9 @@ from mien_training.evaluate.program import y4m
 from mien_training.networks.architectures import ControlsDecoder
 from mien_training.networks.warm_start import decoders_of
 from mien_training.paths import cache
-from mien_training.phase1.clip_tracking import Clip
 from mien_training.phase2 import stream_features
 from mien_training.phase2.decoder_output import output_controls
-from mien_training.phase2.train_decoders import decode, with_stride
+from mien_training.phase2.decoder_scores import decode, with_stride
 
 BLINKS = json.loads((Path(__file__).parent / "blinks.json").read_text())
 EYES = [INDEX["eyeBlinkLeft"], INDEX["eyeBlinkRight"]]
@@ -94,10 +93,10 @@ def tracked(program, clip, lod, labels):
     return np.stack([table[c] for c in CONTROLS], 1)[nearest(table["t_ms"], labels.t_ms)]
 
 
-def mirrored(program, labels, lod):
+def mirrored(program, clip, lod):
     """Controls [frames,52] of a clip, and of the mirrored clip mirrored back, each without its mean; on frames where
     both have a face."""
-    frames = Clip(labels).frames
+    frames = videos.frames(clip)
     tables = [program.track(y4m(np.ascontiguousarray(shown_as)), lod).table
               for shown_as in (frames, frames[:, :, ::-1])]
     straight, flipped = (np.stack([table[c] for c in CONTROLS], 1) for table in tables)
@@ -127,7 +126,7 @@ def on_clips(program, lod):
         seen = labels.found & np.isfinite(told[:, INDEX["jawOpen"]])
         ours.append(told[seen] - told[seen].mean(0))
         theirs.append(labels.controls[seen] - labels.controls[seen].mean(0))
-        again.append(mirrored(program, videos.labels_of(clip), lod))
+        again.append(mirrored(program, clip, lod))
         if clip.stem in BLINKS:
             found, wrong = blinks_of(told[:, EYES].mean(1), BLINKS[clip.stem])
             peaks, false = peaks + found, false + wrong

@@ -7,7 +7,6 @@ import numpy as np
 from mien_training.data.expressions import CONTROLS
 from mien_training.evaluate import curves, metrics, teacher, videos
 from mien_training.evaluate import report as out
-from mien_training.phase1.clip_tracking import video_size
 
 STILL_STEP, STILL_FRAMES = 0.003, 6
 
@@ -63,7 +62,7 @@ def measure_level(program, lod):
     results, pairs, still = {}, [], []
     for clip in videos.clips():
         labels = curves.Teacher(videos.labels_of(clip), CONTROLS)
-        results[clip.stem], pair, pieces = compare(program.track(clip, lod), labels, video_size(clip))
+        results[clip.stem], pair, pieces = compare(program.track(clip, lod), labels, videos.size(clip))
         pairs += [pair] if pair else []
         still += pieces
     ours, theirs = (np.concatenate(p) for p in zip(*pairs))

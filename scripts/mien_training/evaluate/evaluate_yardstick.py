@@ -14,7 +14,8 @@ from mien_training.evaluate.inputs import Missing
 from mien_training.networks.architectures import ControlsDecoder
 from mien_training.paths import cache
 from mien_training.phase2 import landmark_stream
-from mien_training.phase2 import train_decoders as phase2
+from mien_training.phase2.decoder_output import output_controls
+from mien_training.phase2.decoder_scores import decode
 
 SEQUENCES, FRAMES, SEED = 200, 90, 12345  # of the test
 SHOWN = 15  # controls on the page
@@ -41,7 +42,7 @@ def measure(setting):
     decoder, steps, sequences = trained()
     features, controls = landmark_stream.batch(landmark_stream.PointRig(), np.random.default_rng(SEED), SEQUENCES,
                                                FRAMES)
-    curves, truth = phase2.output_controls(phase2.decode(decoder, features)).numpy(), controls.numpy()
+    curves, truth = output_controls(decode(decoder, features)).numpy(), controls.numpy()
     deviation = lambda values: values.reshape(-1, len(CONTROLS)).std(0)
     table = lambda values: dict(zip(CONTROLS, out.rounded(values)))
     return {"steps": steps, "trained_on": sequences, "sequences": SEQUENCES,

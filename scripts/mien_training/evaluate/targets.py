@@ -185,12 +185,7 @@ def audio():
     bar = lambda title, *rest: Bar("audio", title, *rest)
     ratio = lambda decibels: figure("activity", str(decibels), "accuracy")
     best_lag = lambda results, _: abs(results["controls"]["held-out clips"]["jawOpen"]["lag"])
-    return [bar("phoneme errors, held-out reader, %", "<=", 40, figure("phonemes", "real speech"), 100, 1),
-            bar("phoneme errors, held-out synthetic voices, %", "<=", 15, figure("phonemes", "synthetic voices"), 100,
-                1),
-            bar("the same, searched with n-grams, %", "<=", 15,
-                figure("phonemes", "synthetic voices, searched with n-grams of phonemes"), 100, 1),
-            bar("voice activity at 20 dB, % of frames", ">=", 96, ratio(20), 100, 1),
+    return [bar("voice activity at 20 dB, % of frames", ">=", 96, ratio(20), 100, 1),
             bar("voice activity at 5 dB, % of frames", ">=", 90, ratio(5), 100, 1),
             bar("noise alone: mouth at rest, % of the time", ">=", 95, figure("noise", "all"), 100, 1),
             bar("jawOpen, correlation with MediaPipe, held-out clips", ">=", 0.7,
@@ -205,9 +200,9 @@ def audio():
 
 
 def clips_of(*prefixes):
-    """Mean over the clips of audio_controls.py whose names begin so."""
+    """Mean over the clips of audio_jaw.py whose names begin so."""
     def pick(results, _):
-        rows = [row["said"] for name, row in results["controls"]["clips"].items() if name.startswith(prefixes)]
+        rows = [row["lag 0"] for name, row in results["jaw"]["clips"].items() if name.startswith(prefixes)]
         return fmean(rows) if rows else None
     return pick
 

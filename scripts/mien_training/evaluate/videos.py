@@ -1,4 +1,8 @@
 """Videos of the evaluation: clips of real people with MediaPipe's output, and the demo clip."""
+import subprocess
+
+import numpy as np
+
 from mien_training.evaluate.inputs import Missing
 from mien_training.paths import ROOT, data
 
@@ -16,3 +20,17 @@ def clips():
 
 def labels_of(clip):
     return clip.with_suffix(".mediapipe.npz")
+
+
+def size(path):
+    """(width, height) in pixels."""
+    command = ["ffprobe", "-v", "error", "-select_streams", "v:0", "-show_entries", "stream=width,height", "-of",
+               "csv=p=0", str(path)]
+    return [int(v) for v in subprocess.check_output(command, text=True).strip().strip(",").split(",")[:2]]
+
+
+def frames(path):
+    """uint8 [n,h,w,3]"""
+    command = ["ffmpeg", "-v", "error", "-i", str(path), "-f", "rawvideo", "-pix_fmt", "rgb24", "-"]
+    width, height = size(path)
+    return np.frombuffer(subprocess.check_output(command), np.uint8).reshape(-1, height, width, 3)

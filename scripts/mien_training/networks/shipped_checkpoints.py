@@ -1,8 +1,8 @@
 """Checkpoints of the committed encoders for inference: exactly the weights of the files, with identity norms.
 
 usage: python3 -m mien_training.networks.shipped_checkpoints FOLDER
-Writes FOLDER/{basenet,hifinet}.pt and {basenet,hifinet}_decoders.pt for sequences.py, train_decoders.py and export.py.
-To continue the training of an encoder, warm_start.py creates norms that normalize.
+Writes FOLDER/{basenet,hifinet}.pt and {basenet,hifinet}_decoders.pt for stream_features.py, train_decoders.py and
+export.py. To continue the training of an encoder, warm_start.py creates norms that normalize.
 """
 import argparse
 import math
@@ -44,7 +44,7 @@ def network_of(path, name):
 
 
 def checkpoint(path, name):
-    """The fields of a checkpoint of phase 1 that sequences.py and export.py need."""
+    """The fields of a checkpoint of phase 1 that stream_features.py and export.py need."""
     return {"average": network_of(path, name).state_dict(), "samples": weight_reader.metadata(path)["encoder_samples"]}
 
 

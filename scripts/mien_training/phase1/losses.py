@@ -36,10 +36,9 @@ def point_weights():
     return weights / weights.mean()
 
 
-def importance(frowns=1.0):
+def importance():
     """How much every control counts, [52]."""
-    known = IMPORTANCE | {"mouthFrownLeft": frowns, "mouthFrownRight": frowns}
-    return torch.tensor([known.get(name, 1.0) for name in CONTROLS])
+    return torch.tensor([IMPORTANCE.get(name, 1.0) for name in CONTROLS])
 
 
 def lids_of_controls():

@@ -1,11 +1,11 @@
 """Phase 1: an encoder with landmarks and face probability (BaseNet only), on portraits and renders.
 
 usage: python3 -m mien_training.phase1.train_encoder [--network hifinet] [--samples N] [--hours H] [--resume]
-       [--name RUN]     or: ... --evaluate CHECKPOINT
-Writes $MIEN_CACHE/runs/NAME/{last.pt,curves.png}, and decoders.pt for decoders that learn as well; use the weights
-`average` of last.pt. Rendered shards that appear during training are used. For several machines or GPUs: torchrun
---nproc_per_node N -m mien_training.phase1.train_encoder. Two heads exist only in training, controls and pose on
-renders: they keep expression in the features.
+       [--name RUN]
+Writes $MIEN_CACHE/runs/NAME/last.pt, with the history of validations, and decoders.pt for decoders that learn as well;
+use the weights `average` of last.pt. Rendered shards that appear during training are used. For several machines or
+GPUs: torchrun --nproc_per_node N -m mien_training.phase1.train_encoder. Two heads exist only in training, controls and
+pose on renders: they keep expression in the features.
 """
 import argparse
 import copy
@@ -28,15 +28,9 @@ from mien_training.data.sequences import sample_crops, template
 from mien_training.networks.architectures import FACE_NETWORKS
 from mien_training.networks.native_layers import native
 from mien_training.paths import cache
-from mien_training.phase1 import clip_tracking
 from mien_training.phase1.dormant_units import Activity, reset_dormant
 from mien_training.phase1.losses import RESPONDING, Losses
 from mien_training.phase1.optimizer import Optimizer
-
-CURVES = {"error, outer eye corner distances": ("loss", "real_landmarks", "rendered_landmarks", "clips_mean",
-                                                "clips_worst"),
-          "correlation": ("controls_mean", "jawOpen", "eyeBlinkLeft", "mouthPucker", "browInnerUp",
-                          "real_controls_mean", "clips_eyes", "clips_mouth")}
 
 WATCHED = ("jawOpen", "eyeBlinkLeft", "mouthPucker", "mouthSmileLeft", "browInnerUp")
 MEET_EVERY = 16                             # steps a process goes alone: it need not wait for a slower one each time
@@ -125,25 +119,6 @@ def save(path, value):
         torch.save(value, out)
 
 
-def plot(history, path):
-    import matplotlib
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-    figure, axes = plt.subplots(1, 2, figsize=(12, 4))
-    for axis, (title, keys) in zip(axes, CURVES.items()):
-        for key in keys:
-            points = [(h["samples"], h[key]) for h in history if key in h]
-            if points:
-                axis.plot(*zip(*points), label=key)
-        axis.set_title(title)
-        axis.set_xlabel("faces seen")
-        axis.legend()
-    axes[0].set_yscale("log")
-    figure.tight_layout()
-    figure.savefig(path)
-    plt.close(figure)
-
-
 def moved_views(framing, images, batch, generator, share=0.06):
     """Rotated and scaled copies of some faces of the batch: (rows, images, crops in pixels of the original image)."""
     rows = torch.nonzero(batch.has_landmarks)[:, 0]
@@ -213,7 +188,6 @@ class Trainer:
                                          self.options.real_share)
         self.val_real = face_batches.Portraits("val", self.framing)
         self.val_rendered = rendered("val_stills", "val_sequences")
-        self.clips = clip_tracking.load() if self.rank == 0 else []
         eyes = template()[list(lp.OUTER_EYE_CORNERS)]
         self.losses = Losses(self.framing, float((eyes[0] - eyes[1]).norm()), self.device)
         self.losses.learn_spread(self.rendered)
@@ -257,15 +231,12 @@ class Trainer:
         self.samples += n * self.world
         return loss.item()
 
-    def report(self, losses, with_clips):
+    def report(self, losses):
         for source in (self.rendered, self.val_rendered):
             source.refresh()
         self.losses.learn_spread(self.rendered)
         report = {"samples": self.samples, "rendered": len(self.rendered), "loss": sum(losses) / len(losses),
                   "revived": self.revived, **validate(self.average.network, self.val_real, self.val_rendered)}
-        if with_clips:
-            report.update({f"clips_{k}": v
-                           for k, v in clip_tracking.evaluate(self.average.network, self.clips).items()})
         self.history.append(report)
         tqdm.write(json.dumps({k: round(v, 4) for k, v in report.items()}))
         average = self.average.network
@@ -276,7 +247,6 @@ class Trainer:
                                     "step": self.step, "seconds": self.seconds, "history": self.history})
         if self.options.decoders_learn:
             save(self.run / "decoders.pt", {**average.decoders(), "supported": self.supported})
-        plot(self.history, self.run / "curves.png")
 
     @torch.no_grad()
     def meet(self, began):
@@ -298,7 +268,7 @@ class Trainer:
 
     def train(self):
         bar = tqdm(total=self.options.samples, initial=self.samples, unit="face", disable=self.rank > 0, mininterval=10)
-        losses, reports, began = [], 0, time.time() - self.seconds
+        losses, began = [], time.time() - self.seconds
         reported = self.samples
         while self.progress() < 1:
             losses.append(self.update())
@@ -309,8 +279,7 @@ class Trainer:
             if due and self.mixture.backgrounds:
                 self.mixture.backgrounds.mine(self.average.network)
             if due and self.rank == 0:
-                reports += 1
-                self.report(losses, reports % 5 == 0 or self.progress() >= 1)
+                self.report(losses)
             if due:
                 losses, reported = [], self.samples
 
@@ -336,25 +305,11 @@ def parse():
                         help="also trains these decoders and writes them to decoders.pt, for phase 2")
     parser.add_argument("--resume", action="store_true")
     parser.add_argument("--start-from", help="a checkpoint whose weights to begin with")
-    parser.add_argument("--evaluate", help="a checkpoint to judge, without training")
     options = parser.parse_args()
     if options.decoders_learn and not options.through:
         parser.error("--decoders-learn needs --through")
     options.name = options.name or options.network
     return options
-
-
-def evaluate(options):
-    state = torch.load(options.evaluate, map_location="cpu")
-    network = FACE_NETWORKS[options.network]()
-    network.load_state_dict(state["average"])
-    if options.through:
-        network.use_decoders(torch.load(options.through, map_location="cpu"))
-    portraits = face_batches.Portraits("val", network.framing)
-    rendered = face_batches.Rendered("val_stills", "val_sequences", framing=network.framing)
-    report = {"samples": state["samples"], **validate(network, portraits, rendered),
-              **{f"clips_{k}": v for k, v in clip_tracking.evaluate(network, clip_tracking.load()).items()}}
-    print(json.dumps(report, indent=1))
 
 
 def main():
@@ -363,8 +318,6 @@ def main():
     torch.set_flush_denormal(True)  # moments of units that are off decay into them, and a step takes twice as long
     torch.set_num_threads(options.threads)
     native.serves = not options.plain
-    if options.evaluate:
-        return evaluate(options)
     world, rank = int(os.environ.get("WORLD_SIZE", 1)), int(os.environ.get("RANK", 0))
     local = int(os.environ.get("LOCAL_RANK", 0))
     device = torch.device("cuda", local) if torch.cuda.is_available() else torch.device("cpu")

@@ -1,7 +1,7 @@
 """Trains P-Net and R-Net (Zhang et al. 2016, the first two stages) to detect the square of the crop.
 
 usage: python3 -m mien_training.phase1.train_proposal [--samples N] [--resume]
-Writes $MIEN_CACHE/runs/proposal/{pnet,rnet}.pt and curves.png. Stage 1 trains P-Net on windows of portraits, renders
+Writes $MIEN_CACHE/runs/proposal/{pnet,rnet}.pt. Stage 1 trains P-Net on windows of portraits, renders
 and environments, runs it on some of these images, and continues with its detections, correct or not. Stage 2 trains
 R-Net on the proposals of P-Net.
 """
@@ -83,13 +83,13 @@ def mirrored(x, target, generator):
     return x, torch.where(flip[:, None], target * torch.tensor([-1.0, 1.0, 1.0]), target)
 
 
-def train(network, windows, samples, side, seed, history):
+def train(network, windows, samples, side, seed):
     generator, rng = torch.Generator().manual_seed(seed), np.random.default_rng(seed)
     steps = samples // BATCH
     optimizer = torch.optim.AdamW(network.parameters(), 3e-3, weight_decay=1e-4)
     schedule = torch.optim.lr_scheduler.OneCycleLR(optimizer, 4e-3, steps)
     network.train()
-    for step in tqdm(range(steps), desc=type(network).__name__):
+    for _ in tqdm(range(steps), desc=type(network).__name__):
         x, kind, target = windows.batch(rng, BATCH)
         x, target = mirrored(augmented(x, generator), target, generator)
         logit, box = network(F.adaptive_avg_pool2d(x, side) if side != data.WINDOW else x)
@@ -98,8 +98,6 @@ def train(network, windows, samples, side, seed, history):
         loss.backward()
         optimizer.step()
         schedule.step()
-        if step % 20 == 0:
-            history.append((20 * len(history), float(loss)))
     network.eval()
 
 
@@ -217,26 +215,13 @@ def refine(rnet, image, boxes):
     return np.array([cx + dx * side, cy + dy * side, side * np.exp(np.clip(dlog, -1, 1))])
 
 
-def train_pnet(pnet, options, history):
+def train_pnet(pnet, options):
     """Twice: on random windows, then also on its own detections."""
     rng = np.random.default_rng(options.seed)
     windows = first_windows(rng)
-    train(pnet, windows, options.samples // 2, 12, options.seed, history)
+    train(pnet, windows, options.samples // 2, 12, options.seed)
     windows = windows + second_windows(rng, pnet, portrait_limit=3000)
-    train(pnet, windows, options.samples // 2, 12, options.seed + 7, history)
-
-
-def plot(histories, path):
-    import matplotlib
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-    for name, history in histories.items():
-        steps, losses = zip(*history)
-        plt.semilogy(steps, losses, label=name)
-    plt.xlabel("step")
-    plt.ylabel("loss")
-    plt.legend()
-    plt.savefig(path)
+    train(pnet, windows, options.samples // 2, 12, options.seed + 7)
 
 
 def main():
@@ -250,22 +235,20 @@ def main():
     torch.manual_seed(options.seed)
     run = cache() / "runs/proposal"
     run.mkdir(parents=True, exist_ok=True)
-    histories, pnet, rnet = {"P-Net": [], "R-Net": []}, PNet(), RNet()
+    pnet, rnet = PNet(), RNet()
     if options.resume and (run / "pnet.pt").exists():
         pnet.load_state_dict(torch.load(run / "pnet.pt"))
         pnet.eval()
     else:
-        train_pnet(pnet, options, histories["P-Net"])
+        train_pnet(pnet, options)
         with whole(run / "pnet.pt") as out:
             torch.save(pnet.state_dict(), out)
-    train(rnet, second_windows(np.random.default_rng(options.seed + 1), pnet), options.samples, 24, options.seed + 1,
-          histories["R-Net"])
+    train(rnet, second_windows(np.random.default_rng(options.seed + 1), pnet), options.samples, 24, options.seed + 1)
     with whole(run / "rnet.pt") as out:
         torch.save(rnet.state_dict(), out)
     result = evaluate(pnet, rnet, "test")
     (run / "metrics.json").write_text(json.dumps(result, indent=1) + "\n")
     print(result)
-    plot({k: v for k, v in histories.items() if v}, run / "curves.png")
 
 
 if __name__ == "__main__":

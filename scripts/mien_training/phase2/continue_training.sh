@@ -1,112 +1,84 @@
 #!/usr/bin/env bash
-# Continues the training of a network of models/: data, encoder, features, decoders. It keeps files that exist, so the same command resumes,
-# also in the middle of training, and continues with more HOURS. It does not change models/; mien_training.networks.export does.
+# Continues the training of a network of models/: the encoder on stills that are rendered meanwhile, streamed features, decoders. It keeps
+# what exists, so the same command resumes, and continues with more HOURS. It does not change models/; mien_training.networks.export does.
 # usage: scripts/mien_training/phase2/continue_training.sh basenet|hifinet HOURS [NAME]
-#   HOURS   of training of the encoder, 0 for decoders only; data, features and decoders take an hour on two cores
-#   NAME    of the run, default NETWORK_continued: checkpoints in $MIEN_CACHE/runs/NAME, features in $MIEN_CACHE/features/NAME
-# MIEN_DATA, MIEN_CACHE, PYTHON (default python3, with PyTorch), PROCESSES (default: one per processor); renders: STILLS (24000), SEQUENCES
-# (264), SEED (11); learning RATE (8e-4).
+#   HOURS   of training of the encoder, 0 for decoders only
+#   NAME    of the run, default NETWORK_continued: checkpoints in $MIEN_CACHE/runs/NAME, features in $MIEN_CACHE/stream/NAME
+# MIEN_DATA, MIEN_CACHE, PYTHON (default python3, with PyTorch), PROCESSES (default: one per processor); learning RATE (8e-4) of the encoder;
+# PEOPLE (2000) and VALIDATION (240) people of the features; STEPS (3000) of the decoders
 set -euo pipefail
 cd "$(dirname "$0")/../../.."
-export PYTHONPATH=$PWD/scripts
+export PYTHONPATH=$PWD/scripts OMP_NUM_THREADS=1
 network=$1 hours=$2 name=${3:-$1_continued}
-python=${PYTHON:-python3} processes=${PROCESSES:-$(nproc)} seed=${SEED:-11}
+python=${PYTHON:-python3} processes=${PROCESSES:-$(nproc)} validation=${VALIDATION:-240} steps=${STEPS:-3000}
 cache=${MIEN_CACHE:-$HOME/.cache/mien}
-runs=$cache/runs suffix=
-[ "$network" = basenet ] || suffix=_hifinet
+run=$cache/runs/$name stream=$cache/stream/$name shipped=$cache/runs/shipped before=$cache/stream/shipped
 scripts/setup.sh train
-export OMP_NUM_THREADS=1
-mkdir -p "$runs/$name"
+mkdir -p "$run/encoders" "$stream"
 
-render() {  # arguments of make_synthetic.py
-  "$python" -m mien_training.data.make_synthetic --workers "$processes" "$@"
+once() {  # file that a command creates, module, arguments
+  [ -e "$1" ] || "$python" -m "mien_training.$2" "${@:3}"
 }
-once() {  # file that comes of it, command
-  [ -e "$1" ] || "${@:2}"
-}
-since_training() {  # the same, of the encoder's last checkpoint
-  [ "$1" -nt "$encoder" ] || "${@:2}"
+stills() {  # split, arguments
+  "$python" -m mien_training.data.make_synthetic --framing "$network" --split "$1" --kind stills --leaning 0.6 --apart 0.4 --turned 0.25 "${@:2}"
 }
 
-once "$cache/faces/misplaced.npy" "$python" -m mien_training.data.faces
-once "$cache/portrait_skins/fits.npz" "$python" -m mien_training.renderer.portrait_fit
-once "$cache/portrait_skins/whole" "$python" -m mien_training.renderer.portrait_skins --workers "$processes"
+once "$cache/faces/misplaced.npy" data.faces
+once "$cache/portrait_skins/fits.npz" renderer.portrait_fit
+once "$cache/portrait_skins/whole" renderer.portrait_skins --workers "$processes"
 touch "$cache/portrait_skins/whole"
-render --framing "$network" --split val --kind sequences --count 44
-render --framing "$network" --split val --kind sequences --count 88 --seed 91 --out "$cache/val2"
-render --framing "$network" --split val --kind sequences --count 132 --seed 92 --out "$cache/val3"
-render --framing "$network" --split val --kind stills --count 2000
-render --framing "$network" --split train --kind stills --count "${STILLS:-24000}" --leaning 0.6 --apart 0.4 --turned 0.25 --seed "$seed"
-render --framing "$network" --split train --kind sequences --count "${SEQUENCES:-264}" --frames 60 --seed "$seed"
-# BaseNet places HiFiNet's crops; a few images with its own framing warm it up.
-render --framing basenet --split train --kind stills --count 2000 --leaning 0.6 --apart 0.4 --turned 0.25 --seed "$seed"
-
-for each in $(printf '%s\n' basenet "$network" | sort -u); do
-  once "$runs/${each}_start.pt" "$python" -m mien_training.networks.warm_start --network "$each" --out "$runs/${each}_start.pt" --decoders "$runs/${each}_start_decoders.pt"
-done
-start=$runs/${network}_start.pt start_features=$cache/features/${network}_start before=$runs/${network}_start_decoders.pt
-last=$start decoders=$before
-[ "$hours" != 0 ] || start_features=$cache/features/$name  # the same encoder's
+once "$shipped/hifinet_decoders.pt" networks.shipped_checkpoints "$shipped"
+cp "$shipped"/{basenet,hifinet}.pt "$run/encoders"
+decoders=$shipped/${network}_decoders.pt
 
 if [ "$hours" != 0 ]; then
-  last=$runs/$name/last.pt decoders=$runs/$name/decoders.pt
-  # An end that was reached is reached at once when it is resumed.
-  nice -n 15 "$python" -m torch.distributed.run --standalone --nproc_per_node "$processes" -m mien_training.phase1.train_encoder --network "$network" --name "$name" \
-    --start-from "$start" --through "$before" --decoders-learn --real-share 0.4 --rate "${RATE:-8e-4}" --hours "$hours" \
-    --samples 100000000 --report-every 150000 --resume
+  stills val --count 2000 --workers "$processes"
+  stills train --count 4000 --workers "$processes"
+  once "$run/start.pt" networks.warm_start --network "$network" --out "$run/start.pt"
+  stills train --keep 20 >"$run/stills.log" 2>&1 &  # the encoder uses each a few times
+  trap 'kill %1 2>/dev/null || true' EXIT
+  # A run that is complete ends immediately when it is resumed.
+  nice -n 15 "$python" -m torch.distributed.run --standalone --nproc_per_node "$processes" -m mien_training.phase1.train_encoder \
+    --network "$network" --name "$name" --start-from "$run/start.pt" --through "$decoders" --decoders-learn --real-share 0.4 \
+    --rate "${RATE:-8e-4}" --hours "$hours" --samples 100000000 --report-every 150000 --resume
+  kill %1
+  cp "$run/last.pt" "$run/encoders/$network.pt"
+  decoders=$run/decoders.pt
+  if [ "$run/last.pt" -nt "$stream/train" ]; then  # features and decoders of an earlier encoder
+    rm -rf "$stream" "$run"/{pose,trained}.pt
+  fi
 fi
 
-of_encoder() {  # checkpoint, folder that its features go to from here on
-  encoder=$1 features=$2 checkpoints=(--checkpoint "$1")
-  [ "$network" = basenet ] || checkpoints=(--checkpoint "$runs/basenet_start.pt" --hifinet "$1")
-  mkdir -p "$features"
+features() {  # stream, checkpoints of the encoders, parts of renders
+  local part worker
+  for part in "${@:3}"; do
+    for ((worker = 0; worker < processes; ++worker)); do
+      "$python" -m mien_training.phase2.stream_features --checkpoints "$2" --out "$1" --split "${part%:*}" --count "${part#*:}" --worker "$worker/$processes" &
+      workers[worker]=$!
+    done
+    wait "${workers[@]}"
+    "$python" -m mien_training.phase2.portrait_stream --checkpoints "$2" --out "$1" --split "${part%:*}"
+  done
 }
-sequences() {  # output, arguments of sequences.py
-  since_training "$features/$1.pt" "$python" -m mien_training.data.sequences "${checkpoints[@]}" --passes 1 --out "$features/$1.pt" "${@:2}"
-}
-portraits() {  # output, arguments of portrait_features.py
-  since_training "$features/$1.pt" "$python" -m mien_training.phase2.portrait_features "${checkpoints[@]}" --out "$features/$1.pt" "${@:2}"
-}
-validation_people() {
-  sequences val --plain --shards "$cache/synthetic/val_sequences$suffix"/*
-  sequences val2 --plain --shards "$cache/val2/val_sequences$suffix"/*
-  sequences val3 --plain --shards "$cache/val3/val_sequences$suffix"/*
-  portraits portraits_val --hold 3 --plain --passes 1 --split val
-}
-of_encoder "$last" "$cache/features/$name"
-stills=("$cache/synthetic/train_stills$suffix"/shard_*)
-stills=("${stills[@]:0:16}") half=$(((${#stills[@]} + 1) / 2))  # 32,000 for the decoders: features of more take longer than they are worth
-moving=("$cache/synthetic/train_sequences$suffix"/*)
-(
-  sequences train --shards "${moving[@]}"
-  sequences held --hold 3 --seed 5 --shards "${stills[@]:0:half}"
-  validation_people
-  of_encoder "$start" "$start_features"
-  validation_people
-) &
-sequences train_plain --plain --mirrored --seed 3 --shards "${moving[@]}"
-portraits portraits --hold 2
-sequences held_plain --hold 3 --plain --mirrored --shards "${stills[@]:half}"
-wait $!
+features "$stream" "$run/encoders" "train:${PEOPLE:-2000}" "val:$validation"
+if [ "$hours" = 0 ]; then
+  before=$stream  # the same encoder's
+else
+  features "$before" "$shipped" "val:$validation"
+fi
 
-f=$features
-seen=(--network "$network" --train "$f/train.pt" "$f/train_plain.pt" --held "$f/held.pt" "$f/held_plain.pt" --portraits "$f/portraits.pt"
-  --val "$f"/val{,2,3}.pt --portraits-val "$f/portraits_val.pt")
-decoders() {  # output, arguments of train_decoders.py
-  since_training "$runs/$name/$1.pt" "$python" -m mien_training.phase2.train_decoders "${seen[@]}" --noise 0.2 --rate 1.5e-3 --steps 1200 --sides 1.5 --teacher 2 --frowns 20 \
-    --out "$runs/$name/$1.pt" "${@:2}" >"$f/$1.log"
+train() {  # decoder, checkpoint to start from, output
+  "$python" -m mien_training.phase2.train_decoders --network "$network" --stream "$stream" --steps "$steps" --decoder "$1" --start-from "$2" --out "$3"
 }
-decoders decoders_whole --start-from "$decoders" &
-decoders decoders_half --start-from "$decoders" --average-with-start 0.5
-wait $!
-since_training "$runs/$name/decoders_before.pt" "$python" -m mien_training.phase2.blend_decoders "$runs/$name/decoders_half.pt" "$before" 0.15 "$runs/$name/decoders_before.pt"
-reduce_delay() {  # decoders, output
-  since_training "$2" "$python" -m mien_training.phase2.reduce_delay "${seen[@]}" --decoders "$1" --out "$2" >"${2%.pt}.log"
-}
-reduce_delay "$runs/$name/decoders_before.pt" "$runs/$name/decoders_before_prompt.pt" &
-reduce_delay "$decoders" "$runs/$name/decoders_prompt.pt"
-wait $!
-
-candidates=("$runs/$name"/decoders_{whole,half,before,before_prompt,prompt}.pt)
-[ "$decoders" = "$before" ] || candidates+=("$decoders")
-"$python" -m mien_training.phase2.compare_runs "$start_features" "$before" "$f" "${candidates[@]}" | tee "$runs/$name/compared.txt"
+if [ "$network" = basenet ] && [ "$hours" != 0 ]; then  # HiFiNet has no head pose
+  train pose "$decoders" "$run/pose.pt"
+  decoders=$run/pose.pt
+fi
+train controls "$decoders" "$run/trained.pt"
+cp "$decoders" "$run/kept.pt"
+for each in kept trained; do
+  "$python" -m mien_training.phase2.refit_outputs --network "$network" --stream "$stream" --decoders "$run/$each.pt" --out "$run/${each}_refitted.pt"
+done
+"$python" -m mien_training.phase2.compare_decoders --network "$network" --stream "$stream" --before-stream "$before" "$shipped/${network}_decoders.pt" \
+  "$run"/{kept,kept_refitted,trained,trained_refitted}.pt | tee "$run/compared.txt"
+echo "$network: export the best: $python -m mien_training.networks.export $network $run/encoders/$network.pt DECODERS.pt"

@@ -1,10 +1,9 @@
-"""Training of a controls decoder on whitened features, resumable from its checkpoint."""
+"""Training of a decoder on whitened features, resumable from its checkpoint."""
 import math
 
 import torch
 
 from mien_convert.atomic_files import whole
-from mien_training.networks.architectures import ControlsDecoder
 from mien_training.phase2.whitening import FLOOR, Whitening
 
 WARM_UP = 200   # steps over which the learning rate rises, a fifth of all at most
@@ -12,15 +11,16 @@ AT_END = 0.01   # share of the learning rate that is left
 
 
 class Run:
-    """The decoder with its optimiser, and where they are kept.
+    """A decoder with its optimiser, and where they are kept.
 
-    args: out, steps, rate, seed. start: the state of a decoder of plain features to begin with, or None.
+    args: out, decoder (its name), steps, rate, seed. make: creates the decoder. start: the state of a decoder of plain
+    features to begin with, or None.
     """
 
-    def __init__(self, args, features, start=None):
+    def __init__(self, args, make, start=None):
         torch.manual_seed(args.seed)
-        self.args, self.step, self.start = args, 0, start
-        self.decoder = ControlsDecoder(features)
+        self.args, self.name, self.step, self.start = args, f"{args.decoder}_decoder", 0, start
+        self.decoder = make()
         self.optimiser = torch.optim.AdamW(self.decoder.parameters(), lr=args.rate, weight_decay=1e-3,
                                            betas=(0.9, 0.98))
         self.known = torch.load(args.out,
@@ -63,6 +63,6 @@ class Run:
 
     def save(self, **more):
         with whole(self.args.out) as out:
-            torch.save({"controls_decoder": self.state(), "white": self.decoder.state_dict(),
+            torch.save({**more, self.name: self.state(), "white": self.decoder.state_dict(),
                         "optimiser": self.optimiser.state_dict(),
-                        "mean": self.whitening.mean, "matrix": self.whitening.matrix, "step": self.step, **more}, out)
+                        "mean": self.whitening.mean, "matrix": self.whitening.matrix, "step": self.step}, out)

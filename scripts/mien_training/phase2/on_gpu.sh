@@ -3,8 +3,8 @@
 # usage: scripts/mien_training/phase2/on_gpu.sh pack  basenet|hifinet FOLDER      where stream_features.py ran: FOLDER/NETWORK.npz, 56 MB at most
 #        scripts/mien_training/phase2/on_gpu.sh train basenet|hifinet FOLDER OUT  on the accelerator, which needs this checkout, FOLDER and PyTorch
 # OUT gets NETWORK_decoders.pt, and the same after every sixth of the steps: seven files, together below 16 MB. Training begins with the
-# decoder of models/ and stops after MINUTES. compare_streamed.py says which checkpoint to take, export.py takes it.
-# PYTHON (default python3), DEVICE (cuda), STEPS (12000), MINUTES (8), MEGABYTES (56); OPTIONS of train_streamed.py
+# decoder of models/ and stops after MINUTES. compare_decoders.py says which checkpoint to take, export.py takes it.
+# PYTHON (default python3), DEVICE (cuda), STEPS (12000), MINUTES (8), MEGABYTES (56); OPTIONS of train_decoders.py
 set -euo pipefail
 [ $# -ge 3 ] || { sed -n '2,7s/^# //p' "$0" >&2; exit 64; }
 what=$1 network=$2 folder=$(realpath -m "$3")
@@ -22,7 +22,7 @@ train() {  # OUTPUT_FOLDER
   "$python" -m mien_training.phase2.pack_features unpack --network "$network" "$folder/$network.npz" "$scratch"
   "$python" -m mien_training.networks.shipped_checkpoints "$scratch/shipped"
   # shellcheck disable=SC2086
-  "$python" -m mien_training.phase2.train_streamed --network "$network" --stream "$scratch" --start-from "$scratch/shipped/${network}_decoders.pt" \
+  "$python" -m mien_training.phase2.train_decoders --network "$network" --stream "$scratch" --start-from "$scratch/shipped/${network}_decoders.pt" \
     --out "$1/${network}_decoders.pt" --device "${DEVICE:-cuda}" --steps "$steps" --keep-every $(((steps + 5) / 6)) \
     --minutes "${MINUTES:-8}" ${OPTIONS:-}
 }

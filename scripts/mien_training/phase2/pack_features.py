@@ -5,7 +5,7 @@ usage: python3 -m mien_training.phase2.pack_features pack --network basenet|hifi
        python3 -m mien_training.phase2.pack_features unpack --network basenet|hifinet FILE.npz FOLDER
 Features get 8 bits per value, between the smallest and the largest of each. The file has the last frame of each
 portrait and, if two do not fit, one track of each rendered sequence; sequences that do not fit are left out.
-train_streamed.py --stream reads FOLDER.
+train_decoders.py --stream reads FOLDER.
 """
 import argparse
 import sys

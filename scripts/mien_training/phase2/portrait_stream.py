@@ -1,25 +1,34 @@
 """Features of both networks of the portraits, each as a constant stream, in the format of stream_features.py.
 
 usage: python3 -m mien_training.phase2.portrait_stream --split train|val|test [--hold FRAMES] [--out FOLDER]
-Labels are the teacher's controls and landmarks. Shards appear in OUT/portraits_SPLIT one by one; it resumes.
+Labels are the teacher's controls, pose and landmarks; the teacher's distance of a head has its own scale. Shards appear
+in OUT/portraits_SPLIT one by one; it resumes.
 """
 import argparse
 from pathlib import Path
 
+import numpy as np
 import torch
 
 from mien_convert.atomic_files import whole
+from mien_training.data import faces
 from mien_training.data.framing import HIFINET
+from mien_training.data.landmark_points import TEACHER
 from mien_training.data.sequences import BaseNetView, Sequences, extract
 from mien_training.paths import cache
-from mien_training.phase2.portrait_features import portraits
 from mien_training.phase2.stream_features import BothViews, kept, points_seen
 
 SHARD = 512
 
 
-def part(sequences, rows):
-    return Sequences(sequences.images[rows], {k: v[rows] for k, v in sequences.labels.items()})
+def portraits(split):
+    """(images, labels) with one frame each, in pixels of the whole images."""
+    folder, found = cache() / "faces" / HIFINET.folder(split), faces.Portraits(split)
+    images = np.load(folder / "images.npy", mmap_mode="r")
+    labels = {"landmarks": found.points, "crop": found.crops, "controls": found.labels.controls,
+              "visibility": np.ones((len(images), len(TEACHER)), np.float32)}
+    labels = {name: torch.from_numpy(value) for name, value in labels.items()} | faces.camera_labels(found, HIFINET)
+    return images, {name: value.unsqueeze(1) for name, value in labels.items()}
 
 
 def main():
@@ -35,15 +44,14 @@ def main():
     folder = args.out / f"portraits_{args.split}"
     folder.mkdir(parents=True, exist_ok=True)
     view = BothViews(BaseNetView(args.checkpoints / "basenet.pt"), args.checkpoints / "hifinet.pt")
-    faces, plain = portraits(args.split, HIFINET), args.split != "train"
-    for number, start in enumerate(range(0, len(faces), SHARD)):
-        path = folder / f"{number:05d}.pt"
+    (images, labels), plain = portraits(args.split), args.split != "train"
+    for number, start in enumerate(range(0, len(images), SHARD)):
+        path, rows = folder / f"{number:05d}.pt", slice(start, start + SHARD)
         if path.exists():
             continue
-        shown = part(faces, slice(start, start + SHARD)).held(args.hold)
-        mirrored = not plain and number % 2 == 1
-        with torch.no_grad():
-            found = extract(view, shown, 1, args.seed + number, (1,), plain, mirrored)
+        shown = Sequences([image[None] for image in images[rows]], {k: v[rows] for k, v in labels.items()})
+        shown, mirrored = shown.held(args.hold), not plain and number % 2 == 1
+        found = extract(view, shown, args.seed + number, 1, plain, mirrored)
         found["points"] = points_seen(shown, found["crop"], mirrored)
         with whole(path) as out:
             torch.save(kept(found), out)

@@ -21,7 +21,7 @@ from mien_training.networks.architectures import FACE_NETWORKS, ControlsDecoder
 from mien_training.paths import cache
 from mien_training.phase2 import stream_features
 from mien_training.phase2.decoder_output import output_controls
-from mien_training.phase2.train_decoders import with_stride
+from mien_training.phase2.decoder_scores import with_stride
 
 AIM, MOST = 0.9, 1.4      # deviation over the true one that gains aim at, and the largest gain
 LEAST = 0.5               # correlation with the truth on renders, below which a gain would magnify little but noise

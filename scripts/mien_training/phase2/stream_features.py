@@ -56,7 +56,7 @@ def tracks(view, sequences, seed, varied):
     modes = [(1, plain, mirrored), (2, not plain or not varied, not mirrored and varied)]
     parts = []
     for stride, as_is, flip in modes:
-        found = extract(view, sequences, 1, seed, (stride,), plain=as_is, mirrored=flip)
+        found = extract(view, sequences, seed, stride, as_is, flip)
         parts.append({**found, "points": points_seen(sequences, found["crop"], flip)})
     return {k: torch.cat([p[k] for p in parts]) for k in parts[0]}
 
@@ -94,7 +94,7 @@ def work(args, worker, workers):
 
 
 def load(folder, network, most=None):
-    """Stored tracks of a network joined, as train_decoders.py takes them; the first `most` shards only."""
+    """Stored tracks of a network, joined; the first `most` shards only."""
     parts = []
     for path in sorted(Path(folder).glob("*.pt"))[:most]:
         stored = torch.load(path, map_location="cpu")

@@ -13,12 +13,13 @@ import torch
 from mien_training.data import expressions
 from mien_training.data import landmark_points as lp
 from mien_training.data.expressions import CONTROLS, MIRROR
+from mien_training.networks.architectures import ControlsDecoder
 from mien_training.paths import cache
 from mien_training.phase1.losses import censored
 from mien_training.phase2 import landmark_stream
 from mien_training.phase2.amplitude_losses import discordance, discordance_within
+from mien_training.phase2.decoder_losses import temporal_loss
 from mien_training.phase2.decoder_run import Run
-from mien_training.phase2.train_decoders import arguments, temporal_loss
 
 FRAMES = 90
 CONCORDANCE = 0.05   # weight of the loss that keeps the amplitude
@@ -65,7 +66,7 @@ class Task:
     """Error of values and of differences, every control relative to its spread, and discordance."""
 
     def __init__(self, controls, velocity, acceleration):
-        self.args = arguments(velocity=velocity, acceleration=acceleration)
+        self.smoothness = velocity, acceleration
         weight = 1 / (controls.flatten(0, 1).float().std(0) + 0.05)
         self.weight, self.seen = weight / weight.mean(), torch.ones(1, FRAMES, 1)
         self.seen[:, :2] = 0.5
@@ -73,8 +74,8 @@ class Task:
     def loss(self, output, target):
         ours, weight = censored(output, target), self.seen.expand(*target.shape)
         within, over_all = discordance_within(ours, target, weight), discordance(ours, target, weight)
-        return temporal_loss(ours, target, self.weight * self.seen,
-                             self.args) + CONCORDANCE * (within + over_all).mean() / 2
+        values = temporal_loss(ours, target, self.weight * self.seen, *self.smoothness)
+        return values + CONCORDANCE * (within + over_all).mean() / 2
 
 
 def options():
@@ -89,6 +90,7 @@ def options():
     parser.add_argument("--acceleration", type=float, default=0.01)
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--seed", type=int, default=0)
+    parser.set_defaults(decoder="controls")
     return parser
 
 
@@ -96,7 +98,7 @@ def main():
     args = options().parse_args()
     torch.set_num_threads(args.threads)
     args.out.parent.mkdir(parents=True, exist_ok=True)
-    run = Run(args, landmark_stream.KNOWN)
+    run = Run(args, lambda: ControlsDecoder(landmark_stream.KNOWN))
     before = run.known["sequences"] if run.known else 0
     pool = Pool(landmark_stream.PointRig(), args.pool, args.fresh, [args.seed, before])
     run.begin(pool.features.flatten(0, 1)[::3])

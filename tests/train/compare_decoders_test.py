@@ -1,19 +1,19 @@
-"""Whether a leg is an improvement: what rises, what falls too far, and how much of it may be chance."""
+"""The comparison of decoders: improvements, controls that fall too far, and standard errors."""
 import unittest
 
 import numpy as np
 import torch
 
 from mien_training.data.expressions import CONTROLS
-from mien_training.phase2.compare_runs import People, compare, verdict
+from mien_training.phase2.compare_decoders import People, compare, verdict
 
-FALLING, SUPPORTED = 3, 10  # the control that a leg gets wrong; how many are supported
+FALLING, SUPPORTED = 3, 10  # the control that gets worse; number of supported controls
 SEQUENCES, FRAMES = 40, 12
 
 
 def people(noise, generator, truth):
-    """Answers that are off by noise [52], on rendered people and on real ones, of whom the teacher knows the odd
-    controls alone."""
+    """Output with an error of `noise` [52], on rendered people and on portraits, of which the teacher knows the odd
+    controls only."""
     made = People.__new__(People)
     made.supported = np.arange(len(CONTROLS)) < SUPPORTED
     known = torch.arange(len(CONTROLS)).remainder(2).float()
@@ -24,35 +24,35 @@ def people(noise, generator, truth):
     return made
 
 
-class CompareLegs(unittest.TestCase):
+class CompareDecoders(unittest.TestCase):
     def setUp(self):
         self.generator = np.random.default_rng(1)
         self.truth = torch.from_numpy(self.generator.random((SEQUENCES, FRAMES, len(CONTROLS)))).float()
         self.noise = np.full(len(CONTROLS), 0.4)
 
-    def leg(self, noise):
+    def changed(self, noise):
         before = people(self.noise, self.generator, self.truth)
         return *compare(before, people(noise, self.generator, self.truth)), before.supported
 
-    def test_a_leg_that_errs_less_is_accepted(self):
-        self.assertRegex(verdict(*self.leg(self.noise / 3)), r"^accepted: 10 of 10 rise, mean \+0\.[1-9]")
+    def test_smaller_errors_are_accepted(self):
+        self.assertRegex(verdict(*self.changed(self.noise / 3)), r"^accepted: 10 of 10 rise, mean \+0\.[1-9]")
 
-    def test_one_control_that_falls_refuses_it(self):
+    def test_one_control_that_falls_prevents_acceptance(self):
         noise = self.noise / 3
         noise[FALLING] = 2
-        line = verdict(*self.leg(noise))
+        line = verdict(*self.changed(noise))
         self.assertRegex(line, "^not accepted: 9 of 10 rise")
         self.assertIn(CONTROLS[FALLING] + " -0.", line)
 
-    def test_what_is_not_supported_has_no_say(self):
+    def test_unsupported_controls_do_not_count(self):
         noise = self.noise / 3
         noise[SUPPORTED:] = 2
-        self.assertRegex(verdict(*self.leg(noise)), "^accepted")
+        self.assertRegex(verdict(*self.changed(noise)), "^accepted")
 
     def test_the_standard_error_is_that_of_chance(self):
-        """Legs that differ by chance alone: three standard errors hold almost all of their differences, half of one
+        """Of decoders that differ by chance alone: three standard errors contain almost all differences, half of one
         does not."""
-        differences, errors, _, supported = self.leg(self.noise)
+        differences, errors, _, supported = self.changed(self.noise)
         off = np.abs(differences / errors)
         self.assertLess(np.quantile(off, 0.95), 3)
         self.assertGreater(np.quantile(off, 0.95), 0.5)
