@@ -11,8 +11,6 @@ from count_instructions import Machine
 
 ENCODERS = [("basenet", "encoder"), ("hifinet", "encoder")]
 DECODERS = [("hifinet", "controls_decoder"), ("audionet", "encoder")]
-# Layers of the fused blocks: what multiplies panels counts as pointwise, the rest as depthwise.
-FAMILIES = {"conv2d": ["conv2d"], "depthwise": ["depthwise", "inverted_residual"], "pointwise": ["pointwise"]}
 LOOPS = [  # tier, object, pattern of the function's name, what it is
     ("neon", "pointwise/neon_product", r"tile<5, 4, .*Widened", "pointwise, 5 pixels x 16 channels, weights widened before"),
     ("neon", "pointwise/neon_product", r"tile<9, 2, .*Widened", "pointwise, 9 pixels x 8 channels, weights widened before"),
@@ -55,40 +53,18 @@ def largest_difference(rows, others):
     return max(abs(points(a) - points(b)) for row, other in zip(rows, others) for a, b in zip(row[2:], other[2:]) if a != "-")
 
 
-def per_mac(neon, avx2, work):
+def ratios(machine, avx2, work):
+    """Rows of the networks: instructions per multiply-accumulate of both machines, and their ratio."""
     rows = []
     for network in ENCODERS + DECODERS:
-        results = [machine.one_run(work, network) for machine in (neon, avx2)]
-        macs = results[0][1]
-        for family, folders in FAMILIES.items():
-            if macs[family]:
-                counts = [sum(found[folder] for folder in folders) for found, _ in results]
-                rows.append(["_".join(network), family, *ratio_row(macs[family], counts)])
-        counts = [sum(found.values()) for found, _ in results]
-        rows.append(["_".join(network), "all", *ratio_row(sum(macs.values()), counts)])
+        (ours, macs), (others, _) = (m.one_run(work, network) for m in (machine, avx2))
+        rows.append(["_".join(network), f"{ours / macs:.3f}", f"{others / macs:.3f}", f"{ours / others:.2f}"])
     return rows
-
-
-def ratio_row(macs, counts):
-    return [str(macs), *(f"{count / macs:.3f}" for count in counts), f"{counts[0] / counts[1]:.2f}"]
 
 
 def ways(neon, neonfp16, work):
-    rows = []
-    for network in ENCODERS:
-        for machine, mode in ((neon, "plain"), (neon, "fused"), (neonfp16, "fused")):
-            instructions = sum(machine.one_run(work, network, mode)[0].values())
-            rows.append(["_".join(network), machine.tier, mode, str(instructions)])
-    return rows
-
-
-def in_half(neonfp16, avx2, work):
-    rows = []
-    for network in ENCODERS + DECODERS:
-        results = [machine.one_run(work, network) for machine in (neonfp16, avx2)]
-        counts = [sum(found.values()) for found, _ in results]
-        rows.append(["_".join(network), *ratio_row(sum(results[0][1].values()), counts)])
-    return rows
+    return [["_".join(network), machine.tier, mode, str(machine.one_run(work, network, mode)[0])]
+            for network in ENCODERS for machine, mode in ((neon, "plain"), (neon, "fused"), (neonfp16, "fused"))]
 
 
 def version(program):
@@ -98,19 +74,14 @@ def version(program):
 
 def main():
     work, out = Path(sys.argv[1]), Path(sys.argv[2])
-
-    def built(target):
-        return lambda tier: work / target / "kernels/CMakeFiles" / f"mien_kernels_{tier}.dir"
-
-    gcc, x64 = built("report-arm64"), built("report-x64")
+    gcc = lambda tier: work / "report-arm64/kernels/CMakeFiles" / f"mien_kernels_{tier}.dir"
     arm = (["qemu-aarch64", "-cpu", "max"], work / "run_neon")
-    neon = Machine("neon", *arm, [gcc("neon")], "aarch64-linux-gnu-nm")
-    neonfp16 = Machine("neonfp16", *arm, [gcc("neon"), gcc("neonfp16")], "aarch64-linux-gnu-nm")
-    avx2 = Machine("avx2", ["qemu-x86_64", "-cpu", "max"], work / "run_avx2", [x64("avx2")], "nm")
+    neon, neonfp16 = (Machine(tier, *arm) for tier in ("neon", "neonfp16"))
+    avx2 = Machine("avx2", ["qemu-x86_64", "-cpu", "max"], work / "run_avx2")
     header = ["tier", "inner loop", *predict.CPUS]
     by_gcc = predictions(gcc)
     difference = largest_difference(by_gcc, predictions(lambda tier: work / "clang" / tier))
-    counted = ["network", "layers", "MACs", "neon", "avx2", "ratio"]
+    counted = ["network", "neon", "avx2", "ratio"]
     text = f"""# Predicted speed on ARM
 
 For developers of kernels. No ARM machine was available: these are predictions and instruction counts of the published networks.
@@ -118,19 +89,19 @@ For developers of kernels. No ARM machine was available: these are predictions a
 ## Inner loops
 
 Predictions of llvm-mca ({version("llvm-mca")}): the cycles that the fused multiply-adds of a loop need at least, as a share of the cycles that it takes. Depthwise loops reach at
-most 82 %, because clamps use the same units. llvm-mca 14 uses the model of Cortex-A57 for A76 and X1 and of Cyclone for M1, and ignores cache misses. {WITHOUT_FP16} has no fp16
+most 82 %, because clamps use the same units. llvm-mca 14 uses the model of Cortex-A57 for A76 and X1, and ignores cache misses. {WITHOUT_FP16} has no fp16
 arithmetic. Code of {version("aarch64-linux-gnu-g++")}; that of clang ({version("clang++")}) differs by at most {difference} points.
 
 {table(header, by_gcc)}
 ## Instructions per multiply-accumulate
 
-One run of a network with fused blocks, counted by qemu-user, compared with AVX2, whose vectors have twice the width of NEON's in fp32 and the same in half precision. `all` is the
-whole run; `depthwise` includes everything in a block except products. AVX2 converts eight weights in their load, NEON needs an instruction for four.
+One run of a network with fused blocks, counted by qemu-user, compared with AVX2, whose vectors have twice the width of NEON's in fp32 and the same in half precision. AVX2
+converts eight weights in their load, NEON needs an instruction for four.
 
-{table(counted, per_mac(neon, avx2, work))}
+{table(counted, ratios(neon, avx2, work))}
 In half precision:
 
-{table(["network", "MACs", "neonfp16", "avx2", "ratio"], in_half(neonfp16, avx2, work))}
+{table(["network", "neonfp16", "avx2", "ratio"], ratios(neonfp16, avx2, work))}
 Instructions layer by layer (`plain`) and fused:
 
 {table(["network", "tier", "blocks", "instructions"], ways(neon, neonfp16, work))}

@@ -17,11 +17,10 @@ table=$(build/release/tests/tracker/mien_soak "$hours") || code=$?
 
 For developers who run mien for days.
 
-The table has the results of $hours hours of video and audio, simulated in $((SECONDS - began)) s. Video has 30 frames per second, and a face that
-disappears for 4 s every 100 s. Audio comes in blocks of 10 ms from a device with an inaccurate clock, with 3 ms of timestamp jitter, gaps of 0.03
-to 3 s about every 41 s, and a new sample rate (8, 16, 44.1 or 48 kHz) about every 97 s. The loudness has a period of 1.37 s; the test compares the
-time at which frames show it with the true time, from one second after a gap or change on. The networks are small ones that detect discs, so
-times (CPU time) differ from those of the trained networks ([worst frame](worst_frame.md)). Memory, ids and times count from a tenth of the hours on.
+The table has the results of $hours hours of video and audio, simulated in $((SECONDS - began)) s. The face disappears for 4 s every 100 s. Audio comes
+from a device with an inaccurate clock, with 3 ms of timestamp jitter, gaps of 0.03 to 3 s, and changes of the sample rate. The timing error is that
+of the loudness that frames show. The networks are small ones that detect discs ([worst frame](worst_frame.md) has the trained ones). Memory, ids
+and times count from a tenth of the hours on.
 
 Made by \`scripts/measure/soak.sh $hours\`.
 

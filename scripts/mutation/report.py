@@ -54,24 +54,16 @@ def table(results, argued):
     return rows
 
 
-def listed(title, results, last):
-    if not results:
-        return []
-    rows = [
-        f"| `{result['file']}`, line {result['line']} | {code(result['before'])} | {code(result['after'])} | "
-        f"{last(result)} |"
+def listed(results):
+    rows = [f"| `{result['file']}`, line {result['line']} | {code(result['before'])} | {code(result['after'])} |"
             for result in results]
-    return ["", f"## {title}", "", f"| where | code | mutant | {'reason' if 'quivalent' in title else 'test'} |",
-            "|---|---|---|---|", *rows]
+    return ["", "## Survivors", "", "| where | code | mutant |", "|---|---|---|", *rows] if rows else []
 
 
 def page(results, argued, opening):
     results = sorted(results, key=lambda result: (result["file"], result["line"], result["after"]))
-    survived = [result for result in results if result["outcome"] in ALIVE]
-    return "\n".join([
-        opening, *table(results, argued),
-        *listed("Survivors", [result for result in survived if not argued.reason(result)], lambda _: "none"),
-        *listed("Argued equivalent", [result for result in survived if argued.reason(result)], argued.reason), ""])
+    survived = [result for result in results if result["outcome"] in ALIVE and not argued.reason(result)]
+    return "\n".join([opening, *table(results, argued), *listed(survived), ""])
 
 
 def enough_killed(results, argued):

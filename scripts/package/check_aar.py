@@ -5,17 +5,19 @@ usage: scripts/package/check_aar.py FILE.aar ABI...
 """
 import io
 import json
-import struct
+import os
+import re
+import subprocess
 import sys
+import tempfile
 import zipfile
 from xml.etree import ElementTree
 
-# ABI: class of the ELF file, machine.
-ABIS = {"arm64-v8a": (2, 183), "armeabi-v7a": (1, 40), "x86_64": (2, 62)}
+# ABI: class and machine of the ELF file, as readelf names them.
+ABIS = {"arm64-v8a": ("ELF64", "AArch64"), "armeabi-v7a": ("ELF32", "ARM"), "x86_64": ("ELF64", "Advanced Micro Devices X86-64")}
 MODULE = "prefab/modules/mien"
 NEEDED = {"libc.so", "libm.so", "libdl.so", "liblog.so"}
-LOAD, DYNAMIC, PAGE = 1, 2, 0x4000
-DT_NULL, DT_NEEDED, DT_STRTAB = 0, 1, 5
+PAGE = 0x4000
 MINIMUM_API = 28
 
 
@@ -35,39 +37,18 @@ def require_fields(name, value, expected):
         require(isinstance(value[field], kind), f"{name}: {field}: wrong type (got {value[field]!r}, expected {kind.__name__})")
 
 
-class Elf:
-    def __init__(self, data):
-        require(data[:4] == b"\x7fELF" and data[5] == 1, "not a little-endian ELF file")
-        self.data, self.bits = data, data[4]
-        self.machine = struct.unpack_from("<H", data, 18)[0]
-        wide = self.bits == 2
-        offset, = struct.unpack_from("<Q" if wide else "<I", data, 32 if wide else 28)
-        size, count = struct.unpack_from("<2H", data, 54 if wide else 42)
-        self.segments = [self.segment(offset + i * size, wide) for i in range(count)]
-
-    def segment(self, at, wide):
-        if wide:
-            kind, _, offset, address, _, size, _, align = struct.unpack_from("<2I6Q", self.data, at)
-        else:
-            kind, offset, address, _, size, _, _, align = struct.unpack_from("<8I", self.data, at)
-        return {"kind": kind, "offset": offset, "address": address, "size": size, "align": align}
-
-    def needed(self):
-        dynamic = next(segment for segment in self.segments if segment["kind"] == DYNAMIC)
-        form, step = ("<2Q", 16) if self.bits == 2 else ("<2I", 8)
-        entries = [struct.unpack_from(form, self.data, dynamic["offset"] + i) for i in range(0, dynamic["size"], step)]
-        entries = entries[:entries.index(next(entry for entry in entries if entry[0] == DT_NULL))]
-        address = dict(entries)[DT_STRTAB]
-        part = next(s for s in self.segments if s["kind"] == LOAD and s["address"] <= address < s["address"] + s["size"])
-        strings = self.data[address - part["address"] + part["offset"]:]
-        return {strings[value:].split(b"\0")[0].decode() for tag, value in entries if tag == DT_NEEDED}
-
-
 def check_library(name, data, abi):
-    elf = Elf(data)
-    require((elf.bits, elf.machine) == ABIS[abi], f"{name}: wrong machine (got {elf.bits}, {elf.machine}, expected {ABIS[abi]})")
-    require(all(s["align"] % PAGE == 0 for s in elf.segments if s["kind"] == LOAD), f"{name}: segments not aligned to 16 KB")
-    require(elf.needed() <= NEEDED, f"{name}: libraries: got {sorted(elf.needed())}, expected some of {sorted(NEEDED)}")
+    with tempfile.NamedTemporaryFile() as file:
+        file.write(data)
+        file.flush()
+        done = subprocess.run(["readelf", "-hldW", file.name], env={**os.environ, "LC_ALL": "C"}, capture_output=True, text=True)
+    require(done.returncode == 0, f"{name}: not an ELF file")
+    found = tuple(re.search(rf"^ *{field}: +(.*)$", done.stdout, re.M)[1] for field in ("Class", "Machine"))
+    require(found == ABIS[abi], f"{name}: wrong machine (got {found}, expected {ABIS[abi]})")
+    alignments = re.findall(r"^ *LOAD .* (0x[0-9a-f]+)$", done.stdout, re.M)
+    require(alignments and all(int(n, 16) % PAGE == 0 for n in alignments), f"{name}: segments not aligned to 16 KB")
+    needed = set(re.findall(r"\(NEEDED\).*\[(.*)\]", done.stdout))
+    require(needed <= NEEDED, f"{name}: libraries: got {sorted(needed)}, expected some of {sorted(NEEDED)}")
     for symbol in (b"Java_org_mien_Native_", b"mien_tracker_create"):
         require(symbol in data, f"{name}: no exported {symbol.decode()}")
 

@@ -35,12 +35,11 @@ def rows(name, found):
 def page(report):
     lines = ["# Speed by class of CPU", "", "For users who know the CPUs of their users.", "",
              "Every engine runs on one thread of the same machine, on which CPUID hides the instruction sets that a "
-             "class lacks (`tests/apps/mask_cpuid.c`). Fastest runs; the fastest peer is that of any precision. "
-             "By `scripts/peers/bench.sh ROUNDS CLASS...`.", ""]
+             "class lacks (`tests/apps/mask_cpuid.c`); fastest runs, by `scripts/peers/bench.sh ROUNDS CLASS...`.", ""]
     lines += table(["class", "what", "mien", "fastest peer", "ratio", "goal"],
                    [row for name, found in sorted(report.items()) for row in rows(name, found)])
-    lines += [f"* {name}: {found['rounds']} interleaved rounds on {found['processor']}"
-              for name, found in sorted(report.items())]
+    lines += [f"* {where}" for where in dict.fromkeys(f"{found['rounds']} interleaved rounds on {found['processor']}"
+                                                      for found in report.values())]
     return "\n".join(lines) + "\n"
 
 

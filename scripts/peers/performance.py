@@ -61,28 +61,21 @@ def table(header, rows):
             "|" + "---|" * len(header)] + ["| " + " | ".join(row) + " |" for row in rows]
 
 
-def widest(figures):
-    """The tier with the highest peak."""
-    return max(figures["peak_gflops"], key=figures["peak_gflops"].get)
-
-
 def to_text(figures):
     levels = ", ".join(f"level {f['lod']} {f['mean_us']:.0f} us" for f in figures["frames"]["levels"])
+    peaks = ", ".join(f"{tier} {peak:.0f}" for tier, peak in figures["peak_gflops"].items())
     lines = ["# Speed", "", "For developers of kernels, and for users who plan a budget.", "",
              f"A tracked frame of 640 x 480 pixels takes: {levels}. One thread, minima of {figures['rounds']} rounds "
              "interleaved with [other engines](peers.md) on one machine, by "
              "`scripts/peers/bench.sh`; only ratios carry over to other machines. `avx512fp16` and `avx512vnni` "
              "compute the encoders' blocks "
-             "[with 16 bits](../architecture.md#half-precision) and the rest as `avx512`. The peak is that of a loop "
-             "of fused multiply-adds in registers in the same run, in "
-             f"GFLOP/s: {', '.join(f'{tier} {peak:.0f}' for tier, peak in figures['peak_gflops'].items())}.", "",
+             "[with 16 bits](../architecture.md#half-precision). The peak is that of a loop of fused multiply-adds in "
+             f"registers, in GFLOP/s: {peaks}.", "",
              "## Networks", "",
-             "*Of unfused*: time relative to `mien bench --unfused`. Small networks have the last tier only; "
-             "[performance.json](performance.json) has all.", ""]
-    shown = [r for r in figures["networks"] if r["macs"] > 1e6 or r["tier"] == widest(figures)]
-    lines += table(("network", "tier", "MACs", "us", "of the peak", "of unfused", "of ONNX Runtime"),
-                   [(r["network"], r["tier"], f"{r['macs']:,}", f"{r['min_us']:.1f}", f"{100 * r['peak_share']:.0f} %",
-                     f"{r['to_unfused']:.2f}",
+             "[performance.json](performance.json) has all networks.", ""]
+    shown = [r for r in figures["networks"] if r["macs"] > 1e6]
+    lines += table(("network", "tier", "us", "of the peak", "of ONNX Runtime"),
+                   [(r["network"], r["tier"], f"{r['min_us']:.1f}", f"{100 * r['peak_share']:.0f} %",
                      f"{r['to_onnxruntime']:.2f}" if "to_onnxruntime" in r else "") for r in shown])
     lines += ["", "## Audio", "",
               "16 ms of audio, from samples to controls: resampler, features, encoder, both decoders (`mien bench "

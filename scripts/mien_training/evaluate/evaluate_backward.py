@@ -64,19 +64,14 @@ def covered_clip(program, clip, lod):
 def measure(setting):
     report = {}
     for name, lod in setting.levels("backward").items():
-        report[name] = {}
-        for clip in [videos.DEMO, *videos.clips()]:
-            forward, both = (setting.program.track(clip, lod, *options) for options in (["--no-backward"], []))
-            report[name][clip.stem] = {
-                "frames": len(is_tracked(both)), "forward": int(is_tracked(forward).sum()),
-                "both": int(is_tracked(both).sum()), "covered": covered_clip(setting.program, clip, lod)}
+        report[name] = {clip.stem: covered_clip(setting.program, clip, lod) for clip in [videos.DEMO, *videos.clips()]}
     return report
 
 
 def markdown(report):
     lines = ["# Tracking backward", ""]
     lines += ["For users of `mien track` whose faces appear late or disappear for a while.", ""]
-    covered = {name: [c["covered"] for c in clips.values()] for name, clips in report.items()}
+    covered = {name: list(clips.values()) for name, clips in report.items()}
     share = lambda rows, key: 100 * sum(r[key] for r in rows) / sum(r["visible"] for r in rows)
     mean = lambda rows, kind, key: np.mean([r[kind][key] for r in rows if kind in r])
     by_level = lambda text: out.by_level(covered, text)
@@ -92,13 +87,5 @@ def markdown(report):
         landmarks. The first {WARM} frames of forward tracking after a detection differ by
         {by_level(lambda r: f"{mean(r, 'first_forward', 'controls'):.3f}")} and
         {by_level(lambda r: f"{100 * mean(r, 'first_forward', 'landmarks'):.2f} %")}.""")
-    lines += out.prose(
-        """The data are the demo clip and the [clips](clips.md). The first columns are the clips as they are, the others
-        are scaled to a width of 640 pixels and covered.""")
-    header = ["clip", "level", "frames", "with a face, forward", "with backward", "covered: visible", "forward",
-              "with backward", "difference of controls", "of landmarks, %"]
-    rows = [[clip, name[-1], str(r["frames"]), str(r["forward"]), str(r["both"]), *(str(r["covered"][k]) for k in
-             ("visible", "forward", "both")), out.number(r["covered"].get("filled", {}).get("controls"), 3),
-             out.number(100 * r["covered"]["filled"]["landmarks"] if "filled" in r["covered"] else None, 2)]
-            for name, clips in report.items() for clip, r in clips.items()]
-    return "\n".join(lines + out.table(header, rows))
+    return "\n".join(lines + out.prose(f"""The data are {len(next(iter(covered.values())))} clips, the demo clip and the
+        [clips](clips.md), scaled to a width of 640 pixels."""))

@@ -79,8 +79,8 @@ def measure(setting):
 
 
 def markdown(report):
-    jitter = lambda r: (f"{1e4 * r['all']['still_jitter']:.1f}e-4 for mien, "
-                        f"{1e4 * r['all']['teacher_still_jitter']:.1f}e-4 for MediaPipe on the same controls,")
+    jitter = lambda r: (f"{1e4 * r['all']['still_jitter']:.1f}e-4 (MediaPipe: "
+                        f"{1e4 * r['all']['teacher_still_jitter']:.1f}e-4)")
     total = lambda r: (f"{100 * r['all']['landmark_error_pupils']:.1f} % of the distance between the pupils, "
                        f"{r['all']['pose_difference_deg']:.1f} degrees")
     first = next(iter(report.values()))
@@ -90,12 +90,11 @@ def markdown(report):
         {len(first['clips'])} clips of real people with {first['all']['frames']} frames, which were not used for
         training. MediaPipe is a reference, not the truth.""")
     lines += out.prose(
-        f"""Tracked: share of MediaPipe's frames that mien tracks. Pose: mean angle after removal of the best constant
-        rotation. Controls are compared within clips. Jitter at rest covers runs of at least {STILL_FRAMES} frames in
-        which MediaPipe's mean landmark moves by at most {100 * STILL_STEP:.1f} % of the distance between the outer eye
-        corners per frame: {out.by_level(report, jitter)}.""")
+        f"""mien tracks {out.by_level(report, lambda r: f"{100 * r['all']['face_share']:.1f} %")} of MediaPipe's frames.
+        Jitter while MediaPipe's landmarks rest: {out.by_level(report, jitter)}. Pose is the mean angle after removal of
+        the best constant rotation.""")
     header = ["clip", "frames", *(f"{title}, {out.level(name)}" for name in report
-                                  for title in ("tracked", "landmarks, % of pupils", "pose, degrees"))]
+                                  for title in ("landmarks, %", "pose, degrees"))]
     lines += out.table(header, clip_rows(report))
     return "\n".join(lines + out.prose(teacher.worst_controls({name: r["controls"] for name, r in report.items()})))
 
@@ -103,7 +102,7 @@ def markdown(report):
 def clip_rows(report):
     """Cells of every clip, and of all together."""
     first = next(iter(report.values()))
-    figures = lambda v: [f"{100 * v['face_share']:.1f} %", out.number(100 * v.get("landmark_error_pupils", np.nan), 2),
+    figures = lambda v: [out.number(100 * v.get("landmark_error_pupils", np.nan), 2),
                          out.number(v.get("pose_difference_deg", np.nan), 2)]
     of = lambda r, clip: r["all"] if clip == "all" else r["clips"][clip]
     return [[clip, str(of(first, clip)["frames"]), *(cell for r in report.values() for cell in figures(of(r, clip)))]

@@ -140,19 +140,18 @@ def measure(setting):
     return report
 
 
-def group_lines(title, levels, key):
-    """Table of the groups `key`: number, error at each level and faces not detected, of portraits and of rendered
-    people."""
+def group_lines(levels):
+    """Table by yaw: number, error at each level and faces not detected, of portraits and of rendered people."""
     percent = lambda group: out.number(group and group["error"] and 100 * group["error"], 2)
     first, rows = next(iter(levels.values())), []
-    for name in {**first["portraits"][key], **first["rendered"][key]}:
+    for name in {**first["portraits"]["by_yaw"], **first["rendered"]["by_yaw"]}:
         row = [name]
         for kind in ("portraits", "rendered"):
-            found = [r[kind][key].get(name) for r in levels.values()]
+            found = [r[kind]["by_yaw"].get(name) for r in levels.values()]
             row += [str(found[0]["pictures"]) if found[0] else "-", " / ".join(map(percent, found)),
                     " / ".join(str(group["lost"]) if group else "-" for group in found)]
         rows.append(row)
-    return out.table([title, "portraits", "error, %", "lost", "rendered people", "error, %", "lost"], rows)
+    return out.table(["yaw, degrees", "portraits", "error, %", "lost", "rendered people", "error, %", "lost"], rows)
 
 
 def markdown(report):
@@ -165,18 +164,13 @@ def markdown(report):
         of faces detected on the first frame is {share("portraits")} on portraits, and {share("rendered")} on rendered
         people. The landmark error relative to the distance between the outer eye corners is {error("portraits")} on
         portraits, and {error("rendered")} on rendered people. Of {report['places']} images of places without a face,
-        mien reports a face in {report['false_faces']}. Head pose differs from MediaPipe's by
+        mien reports a face in {report['false_faces']}. The [model card](../../models/README.md#by-group-of-people) has
+        the figures by skin tone. Head pose differs from MediaPipe's by
         {out.by_level(levels, lambda r:
         f"{r['portraits']['pose_difference_deg']:.1f} degrees")} after removal of the best constant rotation.""")
     lines += out.prose(
-        f"""The data are held-out portraits with labels of MediaPipe and rendered test people with exact labels; each
-        image is shown for {FRAMES} frames. Cells with two figures are for
-        {" and ".join(map(out.level, levels))}; *lost* counts faces that were not detected.""")
-    lines += ["## By head pose", "", *group_lines("yaw, degrees", levels, "by_yaw"), "## By skin tone", ""]
-    lines += out.prose(
-        f"""Skin tone is the individual typology angle of the cheeks in the image (Chardon et al. 1991), which light
-        changes as well. Only faces turned by less than {TONE_YAW} degrees count.""") + group_lines("skin tone", levels,
-        "by_tone")
-    lines += ["## Controls across portraits", "",
-              *out.prose(teacher.worst_controls({name: r["portraits"]["controls"] for name, r in levels.items()}))]
-    return "\n".join(lines)
+        f"""The data are held-out portraits with labels of MediaPipe and rendered test people. Cells with two figures
+        are for {" and ".join(map(out.level, levels))}; *lost* counts faces that were not detected.""")
+    lines += group_lines(levels)
+    return "\n".join(lines + out.prose(teacher.worst_controls(
+        {name: r["portraits"]["controls"] for name, r in levels.items()})))

@@ -7,8 +7,6 @@ from mien_training.evaluate import report as out
 from mien_training.evaluate.evaluate_response import program_answers, read
 from mien_training.evaluate.probes import PITCH, YAW, pose_plan
 
-SHOWN = 8  # controls of a level on the page
-
 
 def scores(found):
     """Drift from the frontal answer, mean of |difference| over identities; found: {(axis, degrees):
@@ -48,13 +46,6 @@ def markdown(report):
         most. The data are {first['identities']} rendered test people with all controls at 0, turned by up to {YAW}
         degrees of yaw and {PITCH} of pitch. Drift is the absolute difference to the output of the same face looking
         ahead, averaged over people.""")
-    for name, r in report.items():
-        order = sorted(r["controls"].items(), key=lambda item: -max(item[1]["yaw"], item[1]["pitch"]))
-        lines += out.prose(
-            f"""**{out.level(name).capitalize()}**: {r['below_0.1']} of {len(r['controls'])} controls drift by at most
-            0.1; {100 * r['face_share']:.1f} % of faces are tracked. The largest drifts for yaw and pitch: """
-            + ", ".join(
-            f"{c} {out.number(v['yaw'])} and {out.number(v['pitch'])}" for c, v in order[:SHOWN]) + ".")
     return "\n".join(lines + ["![Drift by angle](leakage.png)", ""])
 
 

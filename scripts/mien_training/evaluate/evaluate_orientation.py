@@ -68,7 +68,8 @@ def markdown(report):
         f"""The data are {report['portraits']} held-out portraits, each turned about its middle and half as large as the
         plain image of {SIZE} x {SIZE} pixels. A correct detection has a mean landmark error below {100 * CORRECT:.0f} %
         of the distance between the pupils.""")
-    header = ["roll, degrees", *(f"{how}, {out.level(name)}" for name in levels for how in (FIRST, ENTERS))]
-    rows = [[str(roll), *(f"{100 * found[how][str(roll)]:.0f} %" for found in levels.values()
-                          for how in (FIRST, ENTERS))] for roll in ROLLS]
+    header = ["roll to either side", *(f"{how}, {out.level(name)}" for name in levels for how in (FIRST, ENTERS))]
+    share = lambda found, roll: np.mean([found[str(r)] for r in ROLLS if abs(r) == roll])
+    rows = [[str(roll), *(f"{100 * share(found[how], roll):.0f} %" for found in levels.values()
+                          for how in (FIRST, ENTERS))] for roll in ROLLS if roll >= 0]
     return "\n".join(lines + out.table(header, rows))

@@ -10,7 +10,7 @@ from mien_training.evaluate import report as out
 from mien_training.evaluate.probes import control_plan
 from mien_training.evaluate.program import y4m
 
-WORST, WORST_SHOWN = 25, 8
+WORST, WORST_SHOWN = 25, 3
 
 
 def program_answers(program, lod):
@@ -81,15 +81,6 @@ def measure(setting):
     return {name: scores(answers) for name, answers in found.items()}
 
 
-def winks_and_worst(name, r):
-    worst = ", ".join(f"{a} moves {b} by {out.number(v, 2)}" for a, b, v in r["worst"][:WORST_SHOWN])
-    winks = "; ".join(f"{k}: {out.number(v['closed'], 2)} and {out.number(v['other'], 2)}"
-                      for k, v in r["winks"].items())
-    return out.prose(
-        f"""**{out.level(name).capitalize()}**. Strongest cross-talk: {worst}.
-            Winks (closed eye and open eye): {winks}.""")
-
-
 def markdown(report):
     first = next(iter(report.values()))
     lines = ["# Single controls", "", "For users who need single expressions, and for trainers.",
@@ -102,8 +93,8 @@ def markdown(report):
     lines += out.prose(
         f"""The data are {first['identities']} rendered test people, near-frontal, without glasses, hat or occluder.
         Figures are means over people.""")
-    for name, r in report.items():
-        lines += winks_and_worst(name, r)
+    worst = lambda r: ", ".join(f"{a} moves {b} by {out.number(v, 2)}" for a, b, v in r["worst"][:WORST_SHOWN])
+    lines += out.prose(f"Strongest cross-talk: {out.by_level(report, worst)}.")
     lines += ["[Accuracy by control](controls.md)", ""]
     return "\n".join(
         lines + [line for name in report for line in (f"![Cross-talk at {out.level(name)}](response_{name}.png)", "")])

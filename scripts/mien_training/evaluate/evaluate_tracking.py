@@ -21,8 +21,4 @@ def markdown(report):
         f"""Tracking a face takes {min(speedups):.0f} to {max(speedups):.0f} times less time than detecting it on every
         frame; the published figure is 10. The data are the demo clip and the [clips](clips.md); `mien bench --clip`
         uses one core and excludes decoding.""")
-    rows = [[name, str(r["frames"]), str(r["proposal_runs"]), out.number(r["followed"]["mean_ms"]),
-             out.number(r["proposed_on_every_frame"]["mean_ms"], 2), out.number(r["speedup"], 1)]
-            for name, r in report.items()]
-    header = ["clip", "frames", "detections", "tracking, mean ms", "detection on every frame, mean ms", "ratio"]
-    return "\n".join(lines + out.table(header, rows))
+    return "\n".join(lines)

@@ -90,8 +90,8 @@ def markdown(report):
         relative to the distance between the pupils is {out.by_level(levels, lambda r: f"{100 * r['error']:.2f} %")}.
         The error of the worst ethnic group relative to all is
         {out.by_level(levels, lambda r: out.number(r["worst_group_ratio"], 2))}; relative to the photographs with a
-        known group, without the generated faces,
-        {out.by_level(levels, lambda r: out.number(r["worst_group_ratio_among_groups"], 2))}.""")
+        known group, {out.by_level(levels, lambda r: out.number(r["worst_group_ratio_among_groups"], 2))}. The
+        [model card](../../models/README.md#by-group-of-people) has the figures by ethnic group, sex and age.""")
     lines += out.prose(
         f"""The data are {first['pictures']} held-out portraits, photographs (`ff`) and generated faces (`sfhq`), each
         pasted into a plain image of {CANVAS[1]} x {CANVAS[0]} pixels. A correct detection has a mean landmark error
@@ -99,7 +99,7 @@ def markdown(report):
         correlation with MediaPipe across people, which is lower in groups with fewer expressions.""")
     cells = lambda s: [f"{100 * s['found']:.1f} %", out.number(s["error"] and 100 * s["error"], 2),
                        out.number(s["correlation"], 2)]
-    keys = ("by_group", "by_sex", "by_age", "by_pose", "by_pack")
+    keys = ("by_pose", "by_pack")
     groups = [("all", first["pictures"], list(levels.values()))]
     groups += [(name, s["pictures"], [r[key][name] for r in levels.values()]) for key in keys
                for name, s in first[key].items()]

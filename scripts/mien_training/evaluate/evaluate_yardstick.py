@@ -2,8 +2,6 @@
 
 train_yardstick.py trains it on a stream that never repeats; the evaluation uses other people and sequences.
 """
-import json
-
 import numpy as np
 import torch
 
@@ -18,7 +16,6 @@ from mien_training.phase2.decoder_output import output_controls
 from mien_training.phase2.decoder_scores import decode
 
 SEQUENCES, FRAMES, SEED = 200, 90, 12345  # of the test
-SHOWN = 15  # controls on the page
 
 
 def trained():
@@ -31,14 +28,7 @@ def trained():
     return decoder.eval(), known["step"], known["sequences"]
 
 
-def ours(setting):
-    """{level: {control: correlation}} of the part `synthetic`, where it was measured."""
-    path = setting.out / "synthetic.json"
-    results = json.loads(path.read_text())["results"] if path.exists() else {}
-    return {level: r["program"]["correlation"] for level, r in results.items()}
-
-
-def measure(setting):
+def measure(_):
     decoder, steps, sequences = trained()
     features, controls = landmark_stream.batch(landmark_stream.PointRig(), np.random.default_rng(SEED), SEQUENCES,
                                                FRAMES)
@@ -49,11 +39,11 @@ def measure(setting):
             "facs_error": metrics.facs_error(curves, truth),
             "constant_median": metrics.constant_errors(truth)["median"],
             "correlation": table(metrics.correlations(curves, truth)),
-            "deviation_ratio": table(deviation(curves) / deviation(truth)), "ours": ours(setting)}
+            "deviation_ratio": table(deviation(curves) / deviation(truth))}
 
 
 def markdown(report):
-    levels, known, ratio = report["ours"], report["correlation"], report["deviation_ratio"]
+    known, ratio = report["correlation"], report["deviation_ratio"]
     enough = sum(v >= 0.5 for v in known.values())
     lines = ["# Upper bound: a decoder with true landmarks", "",
              "For trainers who ask which part of the networks limits accuracy.", ""]
@@ -63,13 +53,6 @@ def markdown(report):
         {report["facs_error"] / report["constant_median"]:.2f} of the best constant's, and its median standard deviation
         {np.median(list(ratio.values())):.2f} of the true one. What the program lacks beyond that is lost by the
         encoders, or by decoders that saw few people.""")
-    lines += out.prose(
+    return "\n".join(lines + out.prose(
         f"""`train_yardstick.py` trained it for {report["steps"]} steps on {report["trained_on"]} sequences of landmarks
-        without images; the test has {report["sequences"]} sequences of other people. The table lists the controls with
-        the largest loss, beside the program on [rendered people](synthetic.md).""")
-    of = lambda level, c: levels[level].get(c)
-    last = list(levels)[-1] if levels else None
-    lost = sorted((c for c in known if last and of(last, c) is not None), key=lambda c: of(last, c) - known[c])[:SHOWN]
-    return "\n".join(lines + out.table(["control", "true landmarks", *map(out.level, levels)],
-                                       [[c, out.number(known[c], 2), *(out.number(of(level, c), 2) for level in levels)]
-                                        for c in lost]))
+        without images; the test has {report["sequences"]} sequences of other people."""))

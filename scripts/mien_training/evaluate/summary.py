@@ -6,10 +6,7 @@ from mien_training.evaluate import report as out
 from mien_training.evaluate.controls_page import LEVELS, find
 from mien_training.evaluate.inputs import PARTS
 
-TITLES = {"synthetic": "Rendered people", "response": "Single controls", "leakage": "Turning faces",
-          "levels": "Levels of detail",
-          "clips": "Clips of real people", "images": "Single portraits", "wild": "Portraits in the wild",
-          "amplitude": "Amplitude"}
+SHOWN = ("synthetic", "response", "leakage", "levels", "clips", "images", "wild", "amplitude")
 
 
 def cell(bar, figure, level=None):
@@ -23,6 +20,23 @@ def line(bar, results):
     """Cells of a bar."""
     cells = [cell(bar, bar.figure(results.get(bar.part, {}), level), level) for level in LEVELS]
     return [bar.title, bar.shown(), *cells]
+
+
+def rows_of(part, results):
+    """Cells of the goals of a part, those of correlations counted in one row, and lines about the missed ones."""
+    bars = [bar for bar in targets.every() if bar.part == part]
+    single = [bar for bar in bars if not bar.title.startswith(targets.CORRELATION)]
+    rows, cells, missed = [line(bar, results) for bar in single], [], []
+    for level in LEVELS:
+        known = [(bar, bar.figure(results.get(part, {}), level)) for bar in bars if bar not in single]
+        known = [(bar, figure) for bar, figure in known if figure is not None]
+        fails = [f"{bar.title.removeprefix(targets.CORRELATION)} {cell(bar, figure, level).split()[0]}"
+                 for bar, figure in known if not bar.met(figure, level)]
+        cells.append(f"{len(known) - len(fails)} of {len(known)} met")
+        missed += [f"* [{part}]({part}.md), {out.level(level)}: {', '.join(fails)}"] if fails else []
+    if len(bars) > len(single):
+        rows.append([f"correlations with MediaPipe, {part}", "", *cells])
+    return [[f"[{title}]({part}.md)", *rest] for title, *rest in rows], missed
 
 
 def counts(results):
@@ -63,22 +77,20 @@ def page(results, seconds, skipped, has_hifinet):
              "For users who judge whether mien is good enough for them, and for developers who change it.", "",
              *in_short(results)]
     lines += out.prose(
-        """Level 1 uses BaseNet's controls and level 4 HiFiNet's, both with default settings. Most goals are those of
-        the published method or MediaPipe's own quality; two bounds are for level 1 and level 4. A dash: not measured,
-        constant in MediaPipe's output, or without a goal at this level.""")
+        """Level 1 uses BaseNet's controls and level 4 HiFiNet's. Most goals are those of the published method or
+        MediaPipe's own quality; two bounds are for level 1 and level 4. A dash: not measured or without a goal.""")
     if not has_hifinet:
         lines += ["**HiFiNet is not trained yet**: levels 2 to 4 are unknown.", ""]
     lines += [*counts(results), ""]
     lines += out.prose("[Accuracy by control](controls.md) has the figures of each control.")
-    for part, title in TITLES.items():
-        rows = [line(bar, results) for bar in targets.every() if bar.part == part]
-        lines += [f"## [{title}]({part}.md)", "", *out.table(["figure", "goal", *map(out.level, LEVELS)], rows)]
+    rows, missed = (sum(parts, []) for parts in zip(*(rows_of(part, results) for part in SHOWN)))
+    lines += out.table(["figure", "goal", *map(out.level, LEVELS)], rows)
+    lines += ["Correlations below their goal:", "", *missed, ""] if missed else []
     if "audio" in results:
         sound = [(bar, bar.figure(results["audio"], None)) for bar in targets.audio()]
         rows = [[bar.title, bar.shown(), cell(bar, value)] for bar, value in sound]
         lines += ["## [Audio](audio.md)", "", *out.table(["figure", "goal", "AudioNet"], rows)]
-    minutes = ", ".join(f"[{p}]({p}.md) {s / 60:.1f}" for p, s in seconds.items())
-    lines += out.prose(f"Made by `python3 -m mien_training.evaluate`. Minutes per part: {minutes}.")
+    lines += out.prose(f"Made by `python3 -m mien_training.evaluate` in {sum(seconds.values()) / 60:.0f} minutes.")
     if skipped:
         lines += ["## Skipped in the last run", "", *(f"* {s}" for s in skipped), ""]
     return "\n".join(lines)
