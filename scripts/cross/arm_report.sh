@@ -8,15 +8,12 @@ out=${1:-docs/results/arm.md}
 work=$PWD/build/cross
 scripts/setup.sh build cross-arm
 
-launcher=()
-if command -v ccache >/dev/null; then
-  launcher=(-DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
-fi
+. scripts/ccache.sh
 build_library() {  # folder, options of cmake
   local folder=$work/$1
   shift
   cmake -S . -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release -DMIEN_BUILD_APPS=OFF -DMIEN_INSTALL=OFF \
-    -DMIEN_BUILD_TESTS=OFF -DMIEN_BUILD_CONFORMANCE=OFF "${launcher[@]}" "$@" >/dev/null
+    -DMIEN_BUILD_TESTS=OFF -DMIEN_BUILD_CONFORMANCE=OFF "$@" >/dev/null
   cmake --build "$folder" --target mien_static >/dev/null
 }
 build_library report-arm64 --toolchain "$PWD/scripts/cross/linux-arm64.cmake"

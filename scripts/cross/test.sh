@@ -9,6 +9,7 @@ set -euo pipefail
 cd "$(dirname "$0")/../.."
 
 target=${1:?linux-arm64, linux-armv7 or linux-i386}
+. scripts/cross/common.sh
 packages_of=cross-arm
 case "$target" in
   linux-arm64)  # ARMv8.0 without fp16 arithmetic, and all that the emulator knows, fp16 among it
@@ -42,23 +43,8 @@ slow+='|AudioTrack\.(Accepts|Acts|Fades|Mixes|Replaces|ResultsDoNot)'
 scripts/setup.sh build $packages_of
 build=build/cross/$target
 toolchain=$PWD/scripts/cross/$target.cmake
-packages=$PWD/scripts/cross/packages
-launcher=()
-if command -v ccache >/dev/null; then
-  launcher=(-DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
-fi
-
-# Debian has GoogleTest for the machine's own architecture only, but its source for all.
-if [ ! -d "$build/googletest/lib/cmake/GTest" ]; then
-  cmake -S /usr/src/googletest -B "$build/googletest-build" -G Ninja --toolchain "$toolchain" "${launcher[@]}" \
-    -DCMAKE_BUILD_TYPE=Release -DCMAKE_INSTALL_PREFIX="$PWD/$build/googletest" -DCMAKE_INSTALL_LIBDIR=lib >/dev/null
-  cmake --build "$build/googletest-build" --target install >/dev/null
-fi
-cmake -S . -B "$build" -G Ninja --toolchain "$toolchain" "${launcher[@]}" -DCMAKE_BUILD_TYPE=Release \
-  -DMIEN_BUILD_APPS=OFF -DMIEN_INSTALL=OFF -DMIEN_BUILD_TESTS=ON \
-  -DCLI11_DIR="$packages" -Dnlohmann_json_DIR="$packages" \
-  -DGTest_DIR="$PWD/$build/googletest/lib/cmake/GTest" >/dev/null
-cmake --build "$build" --target all mien_shared
+configure "$build" "$build/googletest" "$toolchain"
+build "$build" all mien_shared
 if [ "$target" != linux-i386 ]; then  # which has only the tier ref
   scripts/check/symbols.sh "$build" "$nm"
   # Sources that only this machine compiles, without options of gcc that clang lacks or implies.

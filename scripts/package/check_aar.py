@@ -13,7 +13,7 @@ import tempfile
 import zipfile
 from xml.etree import ElementTree
 
-# ABI: class and machine of the ELF file, as readelf names them.
+# ABI: class and machine of the ELF file, by the names of binutils.
 ABIS = {"arm64-v8a": ("ELF64", "AArch64"), "armeabi-v7a": ("ELF32", "ARM"), "x86_64": ("ELF64", "Advanced Micro Devices X86-64")}
 MODULE = "prefab/modules/mien"
 NEEDED = {"libc.so", "libm.so", "libdl.so", "liblog.so"}

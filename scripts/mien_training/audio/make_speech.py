@@ -168,13 +168,9 @@ def store(group, made):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--hours", type=float, default=2.5, help="of training speech")
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--only", choices=("synthetic", "english"))
     args = parser.parse_args()
-    if args.only != "english":
-        store("synthetic", speeches({"train": args.hours * 3600, "val": 360, "test": 720}, args.seed))
-    if args.only != "synthetic":
-        store("english", speeches({"val": 200, "test": 720}, args.seed + 1, held=True))
+    store("synthetic", speeches({"train": args.hours * 3600, "val": 360, "test": 720}, 1))
+    store("english", speeches({"val": 200, "test": 720}, 2, held=True))
 
 
 if __name__ == "__main__":

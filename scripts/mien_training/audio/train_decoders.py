@@ -1,6 +1,6 @@
 """Phase 2: decoders of controls and voice activity with a frozen encoder, starting with those of phase 1.
 
-usage: python3 -m mien_training.audio.train_decoders ENCODER.pt --out decoders.pt [--minutes 15] [...]
+usage: python3 -m mien_training.audio.train_decoders ENCODER.pt --out decoders.pt [--minutes 15]
 Controls learn the video teacher's curves where it responds (teacher.py), otherwise visemes with coarticulation
 (visemes.py): smooth L1 of position and velocity (Navarro et al. 2023). Voice activity learns with cross entropy.
 Examples are used several times from a pool, because creating them costs more than learning from them.
@@ -23,6 +23,9 @@ from mien_training.audio.recognition import load
 SHARES = {"av": 0.26, "people": 0.2, "animated": 0.14, "synthetic": 0.2, "librispeech": 0.08, "librispeech_text": 0.07,
           "commands": 0.05}
 NOISE_ALONE = 0.25
+SECONDS, BATCH, RATE, SEED = 6.0, 24, 3e-3, 1
+POOL = 1500            # scenes
+FRESH, REUSE = 8, 2    # new scenes at a time, and steps between them once the pool is full
 
 
 class Scenes(examples.Endless):
@@ -60,35 +63,31 @@ class Pool:
         return [torch.stack(v) for v in zip(*(self.rows[k] for k in rng.integers(len(self.rows), size=count)))]
 
 
-def train(network, decoders, args):
-    """The decoders that args.learn names; the others stay as they are."""
-    rng = np.random.default_rng(args.seed)
-    loader = torch.utils.data.DataLoader(Scenes(args.seconds, args.seed), batch_size=None, num_workers=args.workers)
-    pool = Pool(network, loader, args.pool)
-    pool.add(args.batch * 4)
+def train(network, decoders, minutes):
+    rng = np.random.default_rng(SEED)
+    pool = Pool(network, torch.utils.data.DataLoader(Scenes(SECONDS, SEED), batch_size=None), POOL)
+    pool.add(BATCH * 4)
     importance = losses.importance_of(torch.stack([r[1] for r in pool.rows]))
-    parameters = [p for name in args.learn for p in decoders[name].parameters()]
-    optimizer = torch.optim.AdamW(parameters, args.rate, weight_decay=0.01)
+    parameters = list(decoders.parameters())
+    optimizer = torch.optim.AdamW(parameters, RATE, weight_decay=0.01)
     began = shown = time.time()
     step, sums, count = 0, np.zeros(2), 0
-    while (done := (time.time() - began) / 60 / args.minutes) < 1:
-        if len(pool.rows) < args.pool or step % args.reuse == 0:
-            pool.add(args.fresh)
-        embedding, controls, weights, speech = pool.batch(rng, args.batch)
-        answers = {name: decoders[name](embedding)[0] for name in args.learn}
-        parts = [losses.controls_loss(answers["controls"], controls, weights, importance) if "controls" in answers
-                 else torch.zeros(()),
-                 losses.activity_loss(answers["activity"], speech) if "activity" in answers else torch.zeros(())]
+    while (done := (time.time() - began) / 60 / minutes) < 1:
+        if len(pool.rows) < POOL or step % REUSE == 0:
+            pool.add(FRESH)
+        embedding, controls, weights, speech = pool.batch(rng, BATCH)
+        answers = {name: decoder(embedding)[0] for name, decoder in decoders.items()}
+        parts = [losses.controls_loss(answers["controls"], controls, weights, importance),
+                 losses.activity_loss(answers["activity"], speech)]
         optimizer.zero_grad(set_to_none=True)
         sum(parts).backward()
         nn.utils.clip_grad_norm_(parameters, 1.0)
         for group in optimizer.param_groups:
-            group["lr"] = args.rate * min(1, (step + 1) / 50) * max(0.5 + 0.5 * np.cos(np.pi * done), 0.01)
+            group["lr"] = RATE * min(1, (step + 1) / 50) * max(0.5 + 0.5 * np.cos(np.pi * done), 0.01)
         optimizer.step()
         step, sums, count = step + 1, sums + [v.item() for v in parts], count + 1
         if time.time() - shown > 30:
-            print(step, f"{done * args.minutes:.1f} min, {len(pool.rows)} scenes", *np.round(sums / count, 5),
-                  flush=True)
+            print(step, f"{done * minutes:.1f} min, {len(pool.rows)} scenes", *np.round(sums / count, 5), flush=True)
             shown, sums, count = time.time(), np.zeros(2), 0
 
 
@@ -96,26 +95,13 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("encoder", type=Path)
     parser.add_argument("--out", type=Path, required=True)
-    parser.add_argument("--learn", nargs="+", choices=("controls", "activity"), default=("controls", "activity"))
-    parser.add_argument("--start-from", type=Path, help="decoders to go on from, instead of the encoder's")
     parser.add_argument("--minutes", type=float, default=15)
-    parser.add_argument("--seconds", type=float, default=6.0)
-    parser.add_argument("--batch", type=int, default=24)
-    parser.add_argument("--fresh", type=int, default=8, help="new scenes at a time")
-    parser.add_argument("--reuse", type=int, default=2, help="steps between new scenes, once the pool is full")
-    parser.add_argument("--pool", type=int, default=1500)
-    parser.add_argument("--rate", type=float, default=3e-3)
-    parser.add_argument("--workers", type=int, default=0)
-    parser.add_argument("--seed", type=int, default=1)
     args = parser.parse_args()
     torch.set_num_threads(1)
     network, _ = load(args.encoder)
     decoders = nn.ModuleDict({"controls": controls_decoder(), "activity": activity_decoder()})
     decoders.load_state_dict(torch.load(args.encoder, map_location="cpu")["decoders"])
-    if args.start_from:
-        for name, state in torch.load(args.start_from, map_location="cpu").items():
-            decoders[name.removesuffix("_decoder")].load_state_dict(state)
-    train(network, decoders, args)
+    train(network, decoders, args.minutes)
     args.out.parent.mkdir(parents=True, exist_ok=True)
     with whole(args.out) as out:
         torch.save({f"{name}_decoder": d.state_dict() for name, d in decoders.items()}, out)

@@ -19,6 +19,7 @@ from mien_training.audio import examples, losses, recognition
 from mien_training.audio.audio_net import Encoder, PhonemeHeads, activity_decoder, controls_decoder
 from mien_training.paths import cache
 
+BATCH, SECONDS, SEED = 24, 4.0, 1
 KEPT = 24                      # batches; each step uses a random one
 CONTROLS, ACTIVITY = 20.0, 1.5  # weights relative to CTC's
 DECODED = 3                    # one of this many sequences is decoded: two more LSTMs double the time
@@ -98,19 +99,19 @@ class Learner:
         return report
 
     def run(self):
-        data = examples.PhonemeBatches("train", self.args.batch, self.args.seconds, self.args.seed + self.step,
+        data = examples.PhonemeBatches("train", BATCH, SECONDS, SEED + self.step,
                                        self.args.hard)
         if self.args.synthetic_only:
             data.speech = examples.Speech("train", {"synthetic": 1})
         loader = iter(torch.utils.data.DataLoader(data, batch_size=None, num_workers=self.args.workers))
         saved = shown = time.time()
-        sums, count, kept, rng = 0, 0, [], np.random.default_rng(self.args.seed)
+        sums, count, kept, rng = 0, 0, [], np.random.default_rng(SEED)
         while self.spent < 60 * self.args.minutes:
             began = time.time()
             if self.step % self.args.reuse == 0 or len(kept) < KEPT:
                 kept = [*kept, next(loader)][-KEPT:]
             sums, count = sums + self.learn(kept[rng.integers(len(kept))]), count + 1
-            self.step, self.heard = self.step + 1, self.heard + self.args.batch * self.args.seconds
+            self.step, self.heard = self.step + 1, self.heard + BATCH * SECONDS
             self.spent += time.time() - began
             if time.time() - shown > 30:
                 print(self.step, f"{self.spent / 60:.1f} min", *np.round(sums / count, 4), flush=True)
@@ -128,8 +129,6 @@ def main():
     parser.add_argument("--name", default="audionet", help="of the run, in $MIEN_CACHE/runs")
     parser.add_argument("--start-from", type=Path, help="checkpoint")
     parser.add_argument("--minutes", type=float, default=60)
-    parser.add_argument("--batch", type=int, default=24)
-    parser.add_argument("--seconds", type=float, default=4.0)
     parser.add_argument("--rate", type=float, default=3e-3)
     parser.add_argument("--together", action="store_true", help="with the decoders")
     parser.add_argument("--reuse", type=int, default=1,
@@ -139,7 +138,6 @@ def main():
                         help="before there are labels for real speech (align.py)")
     parser.add_argument("--validate", type=float, default=4, help="minutes between validations")
     parser.add_argument("--workers", type=int, default=0)
-    parser.add_argument("--seed", type=int, default=1)
     args = parser.parse_args()
     torch.set_num_threads(1)
     Learner(args).run()

@@ -1,6 +1,6 @@
 """Trains the jaw decoder on the encoder of an audionet.mien: 1 - correlation of each clip, and the level.
 
-usage: python3 -m mien_training.audio.train_jaw --out JAW.pt [--model audionet.mien] [--steps 300] [...]
+usage: python3 -m mien_training.audio.train_jaw --out JAW.pt [--model audionet.mien]
        python3 -m mien_training.audio.train_jaw --hold-out s30 s31 s33 s34      leaves out one speaker at a time
 """
 import argparse
@@ -23,6 +23,9 @@ KINDS = {SEEN: 0.7, SYNTHETIC: 0.2, NOISE: 0.1}  # shares of a batch
 MAIN = {"s1": 2.0}                               # how much more often than other people
 FEW = 5                                          # clips: people with fewer are left out
 LEVEL = 2.0
+STEPS, BATCH, RATE, DECAY = 300, 32, 5e-3, 0.05
+SPREAD = 0.3                                     # of noise on the inputs, in deviations
+EVERY = 100                                      # steps between validations
 FLAT = 1e-2                                      # added to sums of squares: a flat curve has no correlation
 
 
@@ -68,22 +71,22 @@ class Rows:
         decoder.deviation.copy_(x.std(0).clamp(min=1e-3))
 
 
-def train(rows, args, validate=None):
-    torch.manual_seed(args.seed)
-    rng, decoder = np.random.default_rng(args.seed), JawDecoder()
+def train(rows, validate=None):
+    torch.manual_seed(1)
+    rng, decoder = np.random.default_rng(1), JawDecoder()
     rows.normalise(decoder)
-    optimizer = torch.optim.AdamW(decoder.parameters(), args.rate, weight_decay=args.decay)
-    for step in range(1, args.steps + 1):
-        inputs, truth, known, moving = rows.batch(rng, args.batch)
-        inputs = inputs + args.noise * decoder.deviation * torch.randn_like(inputs)
+    optimizer = torch.optim.AdamW(decoder.parameters(), RATE, weight_decay=DECAY)
+    for step in range(1, STEPS + 1):
+        inputs, truth, known, moving = rows.batch(rng, BATCH)
+        inputs = inputs + SPREAD * decoder.deviation * torch.randn_like(inputs)
         loss = loss_of(decoder(inputs)[0], truth, known, moving)
         optimizer.zero_grad(set_to_none=True)
         loss.backward()
         nn.utils.clip_grad_norm_(decoder.parameters(), 1.0)
         for group in optimizer.param_groups:
-            group["lr"] = args.rate * min(1, step / 20) * (0.51 + 0.49 * np.cos(np.pi * step / args.steps))
+            group["lr"] = RATE * min(1, step / 20) * (0.51 + 0.49 * np.cos(np.pi * step / STEPS))
         optimizer.step()
-        if validate and step % args.every == 0:
+        if validate and step % EVERY == 0:
             print(step, f"loss {loss.item():.3f}", validate(decoder), flush=True)
     return decoder
 
@@ -104,21 +107,14 @@ def main():
     parser.add_argument("--out", type=Path)
     parser.add_argument("--model", type=Path, default=ROOT / "models/audionet.mien")
     parser.add_argument("--hold-out", nargs="*", default=[], help="speakers to leave out, one at a time")
-    parser.add_argument("--steps", type=int, default=300)
-    parser.add_argument("--every", type=int, default=100, help="steps between validations")
-    parser.add_argument("--batch", type=int, default=32)
-    parser.add_argument("--rate", type=float, default=5e-3)
-    parser.add_argument("--decay", type=float, default=0.05)
-    parser.add_argument("--noise", type=float, default=0.3, help="deviations of noise on the inputs")
-    parser.add_argument("--seed", type=int, default=1)
     args = parser.parse_args()
     torch.set_num_threads(1)
     data = dict(jaw_data.cached(args.model))
     for speaker in args.hold_out:
         print(speaker, end=" ", flush=True)
-        train(Rows(data, speaker), args, lambda decoder: round(float(np.nanmean(by_clip(decoder, data, speaker))), 3))
+        train(Rows(data, speaker), lambda decoder: round(float(np.nanmean(by_clip(decoder, data, speaker))), 3))
     if args.out:
-        decoder = train(Rows(data), args)
+        decoder = train(Rows(data))
         args.out.parent.mkdir(parents=True, exist_ok=True)
         with whole(args.out) as out:
             torch.save(decoder.state_dict(), out)

@@ -185,13 +185,10 @@ def main():
     parser.add_argument("--turned", type=float, default=0, help="share of stills whose head looks far to one side")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--out", type=Path, default=cache() / "synthetic")
-    parser.add_argument("--data", type=Path, help="data packs, instead of MIEN_DATA")
     parser.add_argument("--workers", type=int, default=1)
     args = parser.parse_args()
     if (args.leaning or args.apart or args.turned) and args.kind == "sequences":
         parser.error("--leaning, --apart and --turned are for stills")
-    if args.data:
-        os.environ["MIEN_DATA"] = str(args.data.resolve())
     note_missing_skins(args.split)
     jobs = [(args, worker) for worker in range(args.workers)]
     if args.workers == 1:

@@ -51,11 +51,10 @@ def checkpoint(path, name):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("folder", type=Path)
-    parser.add_argument("--models", type=Path, default=ROOT / "models")
     args = parser.parse_args()
     args.folder.mkdir(parents=True, exist_ok=True)
     for name in FACE_NETWORKS:
-        path = args.models / f"{name}.mien"
+        path = ROOT / f"models/{name}.mien"
         for suffix, content in (("", checkpoint(path, name)), ("_decoders", decoders_of(path))):
             with whole(args.folder / f"{name}{suffix}.pt") as out:
                 torch.save(content, out)

@@ -89,7 +89,7 @@ def benchmark(network, batch, steps, freeze):
     train_encoder.keep_freed_memory()
     torch.manual_seed(1)
     options = types.SimpleNamespace(network=network, name="benchmark", rate=1e-4, start_from=None, resume=False, seed=1,
-                                    batch=batch, samples=10**9, hours=None, real_share=0.2, threads=1, freeze=freeze,
+                                    batch=batch, samples=10**9, hours=None, real_share=0.2, freeze=freeze,
                                     through=None, decoders_learn=False, plain=False)
     trainer, clock = Trainer(options, torch.device("cpu"), 1, 0), Clock()
     clock.measure(trainer.mixture, "batch", "data")

@@ -293,7 +293,6 @@ def parse():
     parser.add_argument("--batch", type=int, default=96, help="of each process")
     parser.add_argument("--rate", type=float, default=1.3e-3)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--report-every", type=int, default=50_000)
     parser.add_argument("--real-share", type=float, default=0.2)
     parser.add_argument("--freeze", type=int, default=0, metavar="PARTS",
@@ -316,7 +315,7 @@ def main():
     options = parse()
     keep_freed_memory()
     torch.set_flush_denormal(True)  # moments of units that are off decay into them, and a step takes twice as long
-    torch.set_num_threads(options.threads)
+    torch.set_num_threads(1)
     native.serves = not options.plain
     world, rank = int(os.environ.get("WORLD_SIZE", 1)), int(os.environ.get("RANK", 0))
     local = int(os.environ.get("LOCAL_RANK", 0))

@@ -27,7 +27,7 @@ from mien_training.renderer.assets import environment_picture, names
 CANVAS = 160           # side of the square the tracker searches, pixels
 PYRAMID_FACTOR = 0.709
 PNET_THRESHOLD = 0.4   # low: R-Net is there to refuse
-BATCH = 512
+BATCH, SEED = 512, 1
 STRANGE = 0.15         # share of windows in strange light
 
 
@@ -215,24 +215,22 @@ def refine(rnet, image, boxes):
     return np.array([cx + dx * side, cy + dy * side, side * np.exp(np.clip(dlog, -1, 1))])
 
 
-def train_pnet(pnet, options):
+def train_pnet(pnet, samples):
     """Twice: on random windows, then also on its own detections."""
-    rng = np.random.default_rng(options.seed)
+    rng = np.random.default_rng(SEED)
     windows = first_windows(rng)
-    train(pnet, windows, options.samples // 2, 12, options.seed)
+    train(pnet, windows, samples // 2, 12, SEED)
     windows = windows + second_windows(rng, pnet, portrait_limit=3000)
-    train(pnet, windows, options.samples // 2, 12, options.seed + 7)
+    train(pnet, windows, samples // 2, 12, SEED + 7)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--samples", type=int, default=1_500_000, help="windows shown to each network")
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--resume", action="store_true", help="keep a P-Net that is there")
     options = parser.parse_args()
-    torch.set_num_threads(options.threads)
-    torch.manual_seed(options.seed)
+    torch.set_num_threads(1)
+    torch.manual_seed(SEED)
     run = cache() / "runs/proposal"
     run.mkdir(parents=True, exist_ok=True)
     pnet, rnet = PNet(), RNet()
@@ -240,10 +238,10 @@ def main():
         pnet.load_state_dict(torch.load(run / "pnet.pt"))
         pnet.eval()
     else:
-        train_pnet(pnet, options)
+        train_pnet(pnet, options.samples)
         with whole(run / "pnet.pt") as out:
             torch.save(pnet.state_dict(), out)
-    train(rnet, second_windows(np.random.default_rng(options.seed + 1), pnet), options.samples, 24, options.seed + 1)
+    train(rnet, second_windows(np.random.default_rng(SEED + 1), pnet), options.samples, 24, SEED + 1)
     with whole(run / "rnet.pt") as out:
         torch.save(rnet.state_dict(), out)
     result = evaluate(pnet, rnet, "test")

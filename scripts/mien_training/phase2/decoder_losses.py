@@ -16,6 +16,10 @@ from mien_training.phase1.losses import (
 )
 from mien_training.phase2.amplitude_losses import discordance, discordance_within
 
+JOINED = 2          # tracks of a stream of renders
+VELOCITY, ACCELERATION = 0.1, 0.02  # weights of differences and of second differences
+CONCORDANCE = 0.05  # weight of the loss that keeps the amplitude
+TEACHER = 0.5       # weight of the teacher's labels of portraits, and of the absolute values
 BETA = 0.15         # larger errors count linearly
 SPEED_BETA = 0.015  # the same for differences between frames
 ABSOLUTE = [INDEX[name] for name in ("jawOpen", "mouthSmileLeft", "mouthSmileRight")]  # on the teacher's own scale
@@ -26,7 +30,7 @@ def steps(x):
     return x[:, 1:] - x[:, :-1]
 
 
-def temporal_loss(predicted, target, weight, velocity, acceleration, importance=1.0):
+def temporal_loss(predicted, target, weight, velocity=VELOCITY, acceleration=ACCELERATION, importance=1.0):
     """Weighted error of values and of frame differences, each squared up to a bound and linear beyond, and a small
     penalty of second differences. The bound of differences is small, because a squared penalty would reduce blinks and
     keep jitter. `importance` applies to values only, so important controls may move freely."""
@@ -41,37 +45,35 @@ class RenderTask:
     """Controls of renders: error of values and of differences, every control relative to its spread, and discordance
     within tracks and over all."""
 
-    def __init__(self, data, args):
-        self.args = args
+    def __init__(self, data):
         controls = data["controls"].flatten(0, 1).float()
         weight, sides = (1 / (values.std(0) + 0.05) for values in (controls, unevenness(controls)))
-        self.weight, self.sides = weight / weight.mean(), args.sides * sides / weight.mean()
+        self.weight, self.sides = weight / weight.mean(), sides / weight.mean()
         self.importance = importance()
 
     def loss(self, output, batch, mask):
-        args, target, seen = self.args, batch["controls"], batch["visible"] * mask
+        target, seen = batch["controls"], batch["visible"] * mask
         ours = censored(output, target)
-        apart = lambda x: x.unflatten(1, (args.joined, -1)).flatten(0, 1)
+        apart = lambda x: x.unflatten(1, (JOINED, -1)).flatten(0, 1)
         within = discordance_within(apart(ours), apart(target), apart(seen))
         concordance = (within + discordance(ours, target, seen)).mean() / 2
-        values = temporal_loss(ours, target, self.weight * seen, args.velocity, args.acceleration, self.importance)
-        sides = temporal_loss(unevenness(ours), unevenness(target), self.sides * mask, args.velocity, args.acceleration)
-        return values + sides + args.concordance * concordance
+        values = temporal_loss(ours, target, self.weight * seen, importance=self.importance)
+        sides = temporal_loss(unevenness(ours), unevenness(target), self.sides * mask)
+        return values + sides + CONCORDANCE * concordance
 
 
 class PortraitTask:
     """Controls of portraits: the teacher's on a scale of its own each, and absolute values for smiles, jaw and
     eyelids, whose target is the aperture."""
 
-    def __init__(self, data, args):
-        self.args = args
+    def __init__(self, data):
         spread, followed = teacher_spread(data["controls"].flatten(0, 1).float(), HINTING)
         weight = followed * importance() / (spread + 0.05)
         self.weight, self.line = weight / weight.mean(), Line(len(CONTROLS), weight.device)
 
     def loss(self, output, batch, mask):
         absolute = self.absolute(censored(output, batch["controls"]), batch, mask)
-        return self.args.teacher * self.relative(output, batch["controls"], mask) + self.args.absolute * absolute
+        return TEACHER * (self.relative(output, batch["controls"], mask) + absolute)
 
     def relative(self, output, target, mask):
         slope, offset = self.line.fit(soft_clamp(output).detach().flatten(0, 1), target.flatten(0, 1))
@@ -84,14 +86,14 @@ class PortraitTask:
         told = ours[..., ABSOLUTE + BLINKS]
         weight = mask.expand(*wanted.shape).contiguous()
         error = (weight * F.smooth_l1_loss(told, wanted, beta=BETA, reduction="none")).mean()
-        return error + self.args.concordance * discordance(told, wanted, weight).mean()
+        return error + CONCORDANCE * discordance(told, wanted, weight).mean()
 
 
 class PoseTask:
     """The head pose of renders; rotations are compared as matrices."""
 
-    def __init__(self, _, args):
-        self.args = args
+    def __init__(self, _):
+        pass
 
     @staticmethod
     def expand(pose):
@@ -101,16 +103,15 @@ class PoseTask:
         target = batch["pose"]
         weight = mask.expand(*target.shape[:2], 12)
         drift = (output[..., :6] - target[..., :6]).square().mean()  # keeps the columns near unit length
-        return temporal_loss(self.expand(output), self.expand(target), weight, self.args.velocity,
-                             self.args.acceleration) + 0.05 * drift
+        return temporal_loss(self.expand(output), self.expand(target), weight) + 0.05 * drift
 
 
 class PortraitPoseTask:
     """Agreement with the teacher on how the heads of portraits are turned, after one rotation for all."""
 
-    def __init__(self, data, args):
-        self.args, self.turn = args, Turn(data["pose"].device)
+    def __init__(self, data):
+        self.turn = Turn(data["pose"].device)
 
     def loss(self, output, batch, mask):
         error = F.smooth_l1_loss(*self.turn.bring(output, batch["pose"]), beta=BETA, reduction="none")
-        return self.args.teacher * 2 * BETA * (mask * error.flatten(-2)).mean()
+        return TEACHER * 2 * BETA * (mask * error.flatten(-2)).mean()

@@ -4,7 +4,7 @@ import math
 import torch
 
 from mien_convert.atomic_files import whole
-from mien_training.phase2.whitening import FLOOR, Whitening
+from mien_training.phase2.whitening import Whitening
 
 WARM_UP = 200   # steps over which the learning rate rises, a fifth of all at most
 AT_END = 0.01   # share of the learning rate that is left
@@ -26,10 +26,10 @@ class Run:
         self.known = torch.load(args.out,
                                 map_location=next(self.decoder.parameters()).device) if args.out.exists() else None
 
-    def begin(self, samples, floor=FLOOR):
-        """Features [n,features] to whiten by, unless there is a checkpoint; `floor` as in whitening.py."""
+    def begin(self, samples):
+        """Features [n,features] to whiten by, unless there is a checkpoint."""
         if self.known is None:
-            self.whitening = Whitening.of(samples.float(), floor)
+            self.whitening = Whitening.of(samples.float())
             if self.start:
                 self.decoder.load_state_dict(self.whitening.unfold(self.start))
             return

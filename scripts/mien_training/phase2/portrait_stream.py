@@ -1,6 +1,6 @@
 """Features of both networks of the portraits, each as a constant stream, in the format of stream_features.py.
 
-usage: python3 -m mien_training.phase2.portrait_stream --split train|val|test [--hold FRAMES] [--out FOLDER]
+usage: python3 -m mien_training.phase2.portrait_stream --split train|val|test [--out FOLDER]
 Labels are the teacher's controls, pose and landmarks; the teacher's distance of a head has its own scale. Shards appear
 in OUT/portraits_SPLIT one by one; it resumes.
 """
@@ -18,7 +18,7 @@ from mien_training.data.sequences import BaseNetView, Sequences, extract
 from mien_training.paths import cache
 from mien_training.phase2.stream_features import BothViews, kept, points_seen
 
-SHARD = 512
+SHARD, HOLD, SEED = 512, 2, 5
 
 
 def portraits(split):
@@ -34,11 +34,9 @@ def portraits(split):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--split", default="train")
-    parser.add_argument("--hold", type=int, default=2)
     parser.add_argument("--checkpoints", type=Path, default=cache() / "runs/shipped",
                         help="where shipped_checkpoints.py put them")
     parser.add_argument("--out", type=Path, default=cache() / "stream")
-    parser.add_argument("--seed", type=int, default=5)
     args = parser.parse_args()
     torch.set_num_threads(1)
     folder = args.out / f"portraits_{args.split}"
@@ -50,8 +48,8 @@ def main():
         if path.exists():
             continue
         shown = Sequences([image[None] for image in images[rows]], {k: v[rows] for k, v in labels.items()})
-        shown, mirrored = shown.held(args.hold), not plain and number % 2 == 1
-        found = extract(view, shown, args.seed + number, 1, plain, mirrored)
+        shown, mirrored = shown.held(HOLD), not plain and number % 2 == 1
+        found = extract(view, shown, SEED + number, 1, plain, mirrored)
         found["points"] = points_seen(shown, found["crop"], mirrored)
         with whole(path) as out:
             torch.save(kept(found), out)

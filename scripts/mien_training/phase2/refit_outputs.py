@@ -127,10 +127,10 @@ def correlation(layer, renders):
     return (ours * truth).mean(0) / (ours.square().mean(0) * truth.square().mean(0)).sqrt().clamp(min=SMALLEST ** 2)
 
 
-def gains(layer, renders, rest, most):
-    """Gains that bring the deviation of each control near its true deviation on renders, [52], from 1 to `most`. 1 if
+def gains(layer, renders, rest):
+    """Gains that bring the deviation of each control near its true deviation on renders, [52], from 1 to MOST. 1 if
     it does not correlate with the truth, or if faces at rest, `rest` [52], would exceed the limit."""
-    wanted = (AIM * renders.controls.std(0) / deviation_of(layer, renders)).clamp(1, most)
+    wanted = (AIM * renders.controls.std(0) / deviation_of(layer, renders)).clamp(1, MOST)
     return torch.where((correlation(layer, renders) < LEAST) | (rest > NEUTRAL), 1, wanted)
 
 
@@ -173,12 +173,11 @@ def followers(portraits):
         yield smile, portraits.controls[:, smile], SMILES
 
 
-def refitted(layer, renders, portraits, others=None, most=MOST):
+def refitted(layer, renders, portraits, others=None):
     """The output layer [52,97], bias last, in place of `layer`. `others`: renders of people that nothing was learned
-    from, whose deviations the gains bring near to the true ones; `most` is the largest gain of controls that do not
-    follow portraits."""
+    from, whose deviations the gains bring near to the true ones."""
     others = others or renders
-    out, gain = layer.clone(), gains(layer, others, at_rest(layer, renders, portraits), most)
+    out, gain = layer.clone(), gains(layer, others, at_rest(layer, renders, portraits))
     for control, wanted, weights in followers(portraits):
         out[control] = solved(layer[control], control, wanted, renders, portraits, weights)
         gain[control] = portrait_gain(out, control, wanted, others, portraits)
@@ -196,15 +195,13 @@ def main():
     parser.add_argument("--network", choices=FACE_NETWORKS, required=True)
     parser.add_argument("--decoders", type=Path, required=True)
     parser.add_argument("--out", type=Path, required=True)
-    parser.add_argument("--most", type=float, default=MOST,
-                        help="largest gain of controls that do not follow the portraits")
     parser.add_argument("--stream", type=Path, default=cache() / "stream")
     args = parser.parse_args()
     torch.set_num_threads(1)
     known = torch.load(args.decoders)
     state = known["controls_decoder"]
     parts = parts_of(state, args.stream, args.network)
-    layer = refitted(torch.cat([state["output.weight"], state["output.bias"][:, None]], 1), *parts, args.most)
+    layer = refitted(torch.cat([state["output.weight"], state["output.bias"][:, None]], 1), *parts)
     known["controls_decoder"] = {**state, "output.weight": layer[:, :-1].contiguous(),
                                  "output.bias": layer[:, -1].contiguous()}
     with whole(args.out) as out:

@@ -25,7 +25,7 @@ from mien_training.renderer.assets import note_missing_skins
 from mien_training.renderer.rig import Rig
 from mien_training.renderer.scene import Studio
 
-SHARD, FRAMES = 16, 60
+SHARD, FRAMES, SEED = 16, 60, 21
 KEPT = ("controls", "visible", "pose", "stride", "landmark_error", "points")
 NETWORKS = ("basenet", "hifinet")
 
@@ -38,12 +38,12 @@ class BothViews(HiFiNetView):
         return torch.cat([of_basenet, self.close(images, crop_to_image(crop, shape), spoil)], 1), shape
 
 
-def rendered(studio, rng, split, first, count, frames):
+def rendered(studio, rng, split, first, count):
     """`count` new people, as Sequences."""
     perform = expressions.sample_lesson if split == "train" else expressions.sample_sequence
     images, rows = [], []
     for k in range(count):
-        shown, labels = zip(*make_synthetic.sequence(studio, HIFINET, rng, split, first + k, perform, frames))
+        shown, labels = zip(*make_synthetic.sequence(studio, HIFINET, rng, split, first + k, perform, FRAMES))
         images.append(np.stack(shown))
         rows.append({name: np.stack([row[name] for row in labels]) for name in labels[0]})
     return Sequences(images, {k: torch.from_numpy(np.stack([row[k] for row in rows])) for k in rows[0]})
@@ -84,10 +84,10 @@ def work(args, worker, workers):
         path = folder / f"{shard:05d}.pt"
         if path.exists():
             continue
-        began, seed = time.time(), [args.seed, make_synthetic.SPLITS.index(args.split), shard]
-        sequences = rendered(studio, np.random.default_rng(seed), args.split, shard * SHARD, SHARD, args.frames)
+        began, seed = time.time(), [SEED, make_synthetic.SPLITS.index(args.split), shard]
+        sequences = rendered(studio, np.random.default_rng(seed), args.split, shard * SHARD, SHARD)
         between = time.time()
-        found = kept(tracks(view, sequences, args.seed * 100003 + shard, args.split == "train"))
+        found = kept(tracks(view, sequences, SEED * 100003 + shard, args.split == "train"))
         with whole(path) as out:
             torch.save(found, out)
         print(f"shard {shard}: rendered in {between - began:.0f} s, seen in {time.time() - between:.0f} s", flush=True)
@@ -106,12 +106,10 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--count", type=int, required=True, help="sequences in all")
     parser.add_argument("--split", choices=make_synthetic.SPLITS, default="train")
-    parser.add_argument("--frames", type=int, default=FRAMES)
     parser.add_argument("--worker", default="0/1", help="which of how many, from 0")
     parser.add_argument("--checkpoints", type=Path, default=cache() / "runs/shipped",
                         help="where shipped_checkpoints.py put them")
     parser.add_argument("--out", type=Path, default=cache() / "stream")
-    parser.add_argument("--seed", type=int, default=21)
     args = parser.parse_args()
     torch.set_num_threads(1)
     note_missing_skins(args.split)

@@ -20,26 +20,25 @@ from mien_training.data.face_batches import rarity
 from mien_training.networks.architectures import FACE_NETWORKS, ControlsDecoder, PoseDecoder
 from mien_training.paths import cache
 from mien_training.phase2 import stream_features
-from mien_training.phase2.decoder_losses import PortraitPoseTask, PortraitTask, PoseTask, RenderTask
+from mien_training.phase2.decoder_losses import JOINED, PortraitPoseTask, PortraitTask, PoseTask, RenderTask
 from mien_training.phase2.decoder_run import Run
 from mien_training.phase2.decoder_scores import supported_controls
-from mien_training.phase2.whitening import FLOOR
 
 LEARNED = ("features", "controls", "visible", "pose")
 DECODERS = {"controls": (ControlsDecoder, RenderTask, PortraitTask), "pose": (PoseDecoder, PoseTask, PortraitPoseTask)}
 
 
 class Tracks:
-    """Streams of `joined` tracks each, so that states outlive a track."""
+    """Streams of JOINED tracks each, so that states outlive a track."""
 
-    def __init__(self, data, size, joined):
-        self.data, self.size, self.joined = data, size, joined
+    def __init__(self, data, size):
+        self.data, self.size = data, size
 
     def batch(self):
-        """Tensors [size,joined*frames,c] and weights [1,joined*frames,1]: none where one face cuts to another."""
-        rows = torch.randint(len(self.data["features"]), (self.size, self.joined))
+        """Tensors [size,JOINED*frames,c] and weights [1,JOINED*frames,1]: none where one face cuts to another."""
+        rows = torch.randint(len(self.data["features"]), (self.size, JOINED))
         frames = self.data["features"].shape[1]
-        mask = torch.ones(1, self.joined * frames, 1)
+        mask = torch.ones(1, JOINED * frames, 1)
         mask[:, ::frames] = 0
         mask[:, 0] = 0.5
         return {k: self.data[k][rows].flatten(1, 2).float() for k in LEARNED}, mask
@@ -81,26 +80,15 @@ def options():
     parser.add_argument("--out", type=Path, required=True)
     parser.add_argument("--start-from", type=Path, help="decoders to continue from")
     parser.add_argument("--stream", type=Path, default=cache() / "stream")
-    parser.add_argument("--shards", type=int, help="maximum number of shards to learn from")
     parser.add_argument("--steps", type=int, default=3000)
     parser.add_argument("--batch", type=int, default=24, help="streams of tracks")
-    parser.add_argument("--joined", type=int, default=2, help="tracks of a stream")
     parser.add_argument("--portraits", type=int, default=48, help="streams of portraits")
     parser.add_argument("--rate", type=float, default=2e-3)
     parser.add_argument("--noise", type=float, default=0.3, help="of features, in deviations, against memorized people")
-    parser.add_argument("--floor", type=float, default=FLOOR,
-                        help="of whitening, as a share of the mean variance (whitening.py)")
-    parser.add_argument("--velocity", type=float, default=0.1)
-    parser.add_argument("--acceleration", type=float, default=0.02)
-    parser.add_argument("--concordance", type=float, default=0.05, help="weight of the loss that keeps the amplitude")
-    parser.add_argument("--sides", type=float, default=1.0, help="weight of the loss for the side of a pair that moves")
-    parser.add_argument("--teacher", type=float, default=0.5, help="weight of the teacher's labels of portraits")
-    parser.add_argument("--absolute", type=float, default=0.5, help="weight of smiles, jaw and eyelids of portraits")
     parser.add_argument("--keep-every", type=int, help="interval of steps between copies of the decoders, OUT_STEP.pt")
     parser.add_argument("--minutes", type=float, help="stop after this time")
+    parser.set_defaults(seed=0)
     parser.add_argument("--device", default="cpu", help="cuda, for an accelerator")
-    parser.add_argument("--threads", type=int, default=1)
-    parser.add_argument("--seed", type=int, default=0)
     return parser
 
 
@@ -111,11 +99,11 @@ def on(device, tensors):
 def lessons_of(args):
     """[(source, task)]"""
     _, of_renders, of_portraits = DECODERS[args.decoder]
-    moving = on(args.device, stream_features.load(args.stream / "train", args.network, args.shards))
-    lessons = [(Tracks(moving, args.batch, args.joined), of_renders(moving, args))]
+    moving = on(args.device, stream_features.load(args.stream / "train", args.network))
+    lessons = [(Tracks(moving, args.batch), of_renders(moving))]
     if args.portraits:
         still = on(args.device, stream_features.load(args.stream / "portraits_train", args.network))
-        lessons.append((Portraits(still, args.portraits), of_portraits(still, args)))
+        lessons.append((Portraits(still, args.portraits), of_portraits(still)))
     return lessons
 
 
@@ -141,7 +129,7 @@ def supported_now(args, state, before):
 
 def main():
     args = options().parse_args()
-    torch.set_num_threads(args.threads)
+    torch.set_num_threads(1)
     start = read_decoders(args.start_from) if args.start_from else {}
     before = start.get("supported", torch.zeros(52))
     if args.device != "cpu":
@@ -150,7 +138,7 @@ def main():
     own = start.pop(f"{args.decoder}_decoder", None)
     run, lessons = Run(args, DECODERS[args.decoder][0], own and on(args.device, own)), lessons_of(args)
     print(f"{len(lessons[0][0].data['features'])} tracks of renders", flush=True)
-    run.begin(torch.cat([source.data["features"][:, ::5].flatten(0, 1) for source, _ in lessons]), args.floor)
+    run.begin(torch.cat([source.data["features"][:, ::5].flatten(0, 1) for source, _ in lessons]))
     noise = args.noise * deviations(lessons[0][0].data["features"])
 
     def lesson(source, task):

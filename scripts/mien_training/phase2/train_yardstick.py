@@ -21,21 +21,22 @@ from mien_training.phase2.amplitude_losses import discordance, discordance_withi
 from mien_training.phase2.decoder_losses import temporal_loss
 from mien_training.phase2.decoder_run import Run
 
-FRAMES = 90
+FRAMES, BATCH = 90, 64
+POOL, FRESH = 2500, 10    # sequences to draw from, and how many of them each batch replaces
+VELOCITY, ACCELERATION = 0.05, 0.01
 CONCORDANCE = 0.05   # weight of the loss that keeps the amplitude
 POSE_MIRROR = torch.tensor([1.0, -1, -1, -1, 1, 1, -1, 1, 1])
 
 
 class Pool:
-    """A pool of sequences; each batch replaces some, so each is used a few times."""
+    """A pool of sequences; each batch replaces some, so each is used a few times. `seed`: sequences made before."""
 
-    def __init__(self, rig, size, fresh, seed):
-        self.rig, self.fresh, self.rng, self.at = rig, fresh, np.random.default_rng(seed), 0
-        self.made = 0
-        self.features = torch.empty(size, FRAMES, landmark_stream.KNOWN, dtype=torch.float16)
-        self.controls = torch.empty(size, FRAMES, len(CONTROLS), dtype=torch.float16)
-        for _ in range(0, size, 64):
-            self.replace(min(64, size - self.at))
+    def __init__(self, rig, seed):
+        self.rig, self.rng, self.at, self.made = rig, np.random.default_rng([0, seed]), 0, 0
+        self.features = torch.empty(POOL, FRAMES, landmark_stream.KNOWN, dtype=torch.float16)
+        self.controls = torch.empty(POOL, FRAMES, len(CONTROLS), dtype=torch.float16)
+        for _ in range(0, POOL, 64):
+            self.replace(min(64, POOL - self.at))
 
     def replace(self, count):
         features, controls = landmark_stream.batch(self.rig, self.rng, count, FRAMES, expressions.sample_lesson)
@@ -44,13 +45,13 @@ class Pool:
         self.at = (self.at + count) % len(self.features)
         self.made += count
 
-    def batch(self, count):
-        """Features and controls of `count` sequences, half of them mirrored."""
-        rows = torch.randint(len(self.features), (count,))
+    def batch(self):
+        """Features and controls of BATCH sequences, half of them mirrored."""
+        rows = torch.randint(POOL, (BATCH,))
         features, controls = self.features[rows].float(), self.controls[rows].float()
-        half = count // 2
+        half = BATCH // 2
         features[:half], controls[:half] = mirrored(features[:half]), controls[:half][..., MIRROR]
-        self.replace(self.fresh)
+        self.replace(FRESH)
         return features, controls
 
 
@@ -65,8 +66,7 @@ def mirrored(features):
 class Task:
     """Error of values and of differences, every control relative to its spread, and discordance."""
 
-    def __init__(self, controls, velocity, acceleration):
-        self.smoothness = velocity, acceleration
+    def __init__(self, controls):
         weight = 1 / (controls.flatten(0, 1).float().std(0) + 0.05)
         self.weight, self.seen = weight / weight.mean(), torch.ones(1, FRAMES, 1)
         self.seen[:, :2] = 0.5
@@ -74,37 +74,25 @@ class Task:
     def loss(self, output, target):
         ours, weight = censored(output, target), self.seen.expand(*target.shape)
         within, over_all = discordance_within(ours, target, weight), discordance(ours, target, weight)
-        values = temporal_loss(ours, target, self.weight * self.seen, *self.smoothness)
+        values = temporal_loss(ours, target, self.weight * self.seen, VELOCITY, ACCELERATION)
         return values + CONCORDANCE * (within + over_all).mean() / 2
 
 
-def options():
+def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--out", type=Path, default=cache() / "runs/yardstick.pt")
     parser.add_argument("--steps", type=int, default=8000)
-    parser.add_argument("--batch", type=int, default=64)
-    parser.add_argument("--pool", type=int, default=2500, help="sequences to draw from")
-    parser.add_argument("--fresh", type=int, default=10, help="of them replaced after every step")
-    parser.add_argument("--rate", type=float, default=4e-3)
-    parser.add_argument("--velocity", type=float, default=0.05)
-    parser.add_argument("--acceleration", type=float, default=0.01)
-    parser.add_argument("--threads", type=int, default=1)
-    parser.add_argument("--seed", type=int, default=0)
-    parser.set_defaults(decoder="controls")
-    return parser
-
-
-def main():
-    args = options().parse_args()
-    torch.set_num_threads(args.threads)
+    parser.set_defaults(decoder="controls", rate=4e-3, seed=0)
+    args = parser.parse_args()
+    torch.set_num_threads(1)
     args.out.parent.mkdir(parents=True, exist_ok=True)
     run = Run(args, lambda: ControlsDecoder(landmark_stream.KNOWN))
     before = run.known["sequences"] if run.known else 0
-    pool = Pool(landmark_stream.PointRig(), args.pool, args.fresh, [args.seed, before])
+    pool = Pool(landmark_stream.PointRig(), before)
     run.begin(pool.features.flatten(0, 1)[::3])
-    task, total, began = Task(pool.controls, args.velocity, args.acceleration), 0.0, time.time()
+    task, total, began = Task(pool.controls), 0.0, time.time()
     while run.step < args.steps:
-        features, controls = pool.batch(args.batch)
+        features, controls = pool.batch()
         total += run.advance(task.loss(run.answer(features), controls))
         if run.step % 50 == 0:
             print(f"step {run.step} sequences {before + pool.made} loss {total / 50:.5f} {time.time() - began:.0f} s",

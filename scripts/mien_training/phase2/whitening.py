@@ -14,13 +14,13 @@ class Whitening:
         self.mean, self.matrix = mean, matrix
 
     @classmethod
-    def of(cls, samples, floor=FLOOR):
+    def of(cls, samples):
         """Principal axes of samples [n,features], each at unit deviation."""
         x = samples.double()
         mean, deviation = x.mean(0), x.std(0) + 1e-6
         x = (x - mean) / deviation
         variances, axes = torch.linalg.eigh(x.T @ x / len(x))
-        scale = (variances.clamp(min=0) + floor * variances.mean()).rsqrt()
+        scale = (variances.clamp(min=0) + FLOOR * variances.mean()).rsqrt()
         return cls(mean.float(), (axes * scale / deviation[:, None]).float())
 
     def __call__(self, x):
