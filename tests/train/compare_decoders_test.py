@@ -12,8 +12,8 @@ SEQUENCES, FRAMES = 40, 12
 
 
 def people(noise, generator, truth):
-    """Output with an error of `noise` [52], on rendered people and on portraits. The teacher knows only the odd controls
-    of portraits."""
+    """Output with an error of `noise` [52], on rendered people and on portraits. The teacher knows the odd controls of
+    portraits only."""
     made = People.__new__(People)
     made.supported = np.arange(len(CONTROLS)) < SUPPORTED
     known = torch.arange(len(CONTROLS)).remainder(2).float()
