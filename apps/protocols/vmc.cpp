@@ -24,7 +24,7 @@ std::vector<std::string> vmc_packets(const VmcFrame& frame) {
                               static_cast<std::int32_t>(frame.tracking)}),
       message("/VMC/Ext/T", {narrow(frame.seconds)})};
   if (frame.head) {
-    // x is negated, because our head space has the subject's left there
+    // Mirrors x, which points to the subject's left in head space and to the right in Unity.
     const auto [x, y, z, w] = animation::quaternion(*frame.head);
     messages.push_back(
         message("/VMC/Ext/Bone/Pos", {std::string_view("Head"), 0.0f, 0.0f, 0.0f, narrow(x),
