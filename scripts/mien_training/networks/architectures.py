@@ -21,8 +21,8 @@ LEAK = 0.1  # slope of every leaky ReLU
 
 
 class ConvNorm(nn.Sequential):
-    """A convolution without bias and its norm. Maps may be bfloat16 in training; weights are fp32 and cast where they
-    meet such a map."""
+    """A convolution without bias and its norm. Maps may be bfloat16 in training; weights are fp32 and cast to the type
+    of the map."""
 
     def forward(self, x):
         return self[1](self.convolved(x))
@@ -45,14 +45,14 @@ def conv_norm(channels_in, channels_out, kernel=1, stride=1, padding=0, groups=1
 
 
 def fold(sequence):
-    """Weight and bias of a convolution with the batch norm after it folded in."""
+    """Weight and bias of a convolution into which the following batch norm is folded."""
     convolution, norm = sequence[0], sequence[1]
     gain = norm.weight / torch.sqrt(norm.running_var + norm.eps)
     return convolution.weight * gain.view(-1, 1, 1, 1), norm.bias - norm.running_mean * gain
 
 
 def folded(module):
-    """A copy for answering only, which is faster: its convolutions have swallowed their batch norms."""
+    """A faster copy for inference only: batch norms are folded into convolutions."""
     if isinstance(module, ConvNorm):
         c = module[0]
         convolution = nn.Conv2d(c.in_channels, c.out_channels, c.kernel_size, c.stride, c.padding, groups=c.groups)
@@ -139,7 +139,7 @@ class Encoder(nn.Module):
         return self.tail[2](maps.float()).flatten(1)
 
     def frozen_maps(self, image):
-        """Maps after the parts that do not learn."""
+        """The output of the frozen parts."""
         image = image.to(self.map_type).contiguous(memory_format=torch.channels_last)
         if not self.frozen:
             return image
@@ -150,12 +150,12 @@ class Encoder(nn.Module):
         return self.body[len(self.frozen[0]) if self.frozen else 0:](maps)
 
     def freeze(self, parts):
-        """The first `parts` of the body learn no more: their norms are folded into their convolutions, which is all
-        that runs of them. The large maps are there, and most of a training step with them."""
+        """Freezes the first `parts` of the body and folds their norms into their convolutions. These parts have the
+        largest maps and take most of a training step."""
         for parameter in self.body[:parts].parameters():
             parameter.requires_grad_(False)
         front = nn.Sequential(*map(folded, self.body[:parts].eval()))
-        self.frozen = [front.to(self.map_type, memory_format=torch.channels_last)]  # in a list: no part of the state
+        self.frozen = [front.to(self.map_type, memory_format=torch.channels_last)]  # in a list: not part of the state
 
 
 class BaseNetEncoder(Encoder):
@@ -176,13 +176,13 @@ class HiFiNetEncoder(Encoder):
 
 
 class FaceNetwork(nn.Module):
-    """Encoder with its plain heads; `controls`, `pose` and `sides`, by how much the left of a pair of controls is above
-    the right, exist in training only, to keep expression in the features."""
+    """Encoder with its heads. `controls`, `pose` and `sides` (left minus right of each pair of controls) exist in
+    training only, to keep expression in the features."""
 
     def __init__(self, encoder, framing):
         super().__init__()
         self.encoder, self.framing = encoder, framing
-        self.still = nn.ModuleDict()  # StillDecoders that answer instead of the heads of their names (see_through)
+        self.still = nn.ModuleDict()  # StillDecoders that replace heads of the same names (see_through)
         self.landmarks = nn.Linear(FEATURES, 2 * LANDMARKS)
         self.face = nn.Linear(FEATURES, 1)
         self.controls = nn.Linear(FEATURES, CONTROLS)
@@ -204,11 +204,11 @@ class FaceNetwork(nn.Module):
                 self.still[name] = StillDecoder(kind(), decoders[f"{name}_decoder"], learn)
 
     def state_without_decoders(self):
-        """The state without that of decoders it is seen through."""
+        """The state without that of these decoders."""
         return {name: value for name, value in self.state_dict().items() if not name.startswith("still.")}
 
     def decoders(self):
-        """Those decoders, as see_through takes them."""
+        """The decoders, as an argument of see_through."""
         return {f"{name}_decoder": still.decoder.state_dict() for name, still in self.still.items()}
 
 
@@ -258,7 +258,7 @@ class ControlsDecoder(TemporalDecoder):
 
 
 class PoseDecoder(TemporalDecoder):
-    """Begins with heads that look ahead: from half a turn off no gradient leads back."""
+    """Starts with heads that look ahead, because the gradient vanishes at a rotation of half a turn."""
 
     def __init__(self):
         super().__init__([48, 48, 32], POSE)

@@ -1,7 +1,6 @@
-// A 3x3 depthwise convolution of one image, a vector of channels at a time, in fp32: what the
-// units of a block are made of. It goes through the image row by row, and what it needs of the
-// map before it is made when its turn comes, so that a few rows are all there ever is of it and
-// stay in the nearest cache.
+// A 3x3 depthwise convolution of one image in fp32, one vector of channels at a time, used by the
+// units of a block. It computes rows of its input when it needs them, so that only a few rows exist
+// and stay in the first-level cache.
 #pragma once
 
 #include <vector>
@@ -37,7 +36,7 @@ struct Geometry {
   std::size_t padded_width, padded_height, out_width, out_height;
 };
 
-// A vector of channels of the kernel, weights being [9][channels].
+// A vector of channels of the kernel; weights are [9][channels].
 inline Kernel kernel_of(const float* weights, std::size_t channels, std::size_t c,
                         std::size_t count) {
   Kernel out;
@@ -47,7 +46,7 @@ inline Kernel kernel_of(const float* weights, std::size_t channels, std::size_t 
   return out;
 }
 
-// The last rows of a vector of channels of a map, with the zeros that padding adds to their ends.
+// The latest rows of a vector of channels of a map, padded with zeros.
 class Rows {
  public:
   explicit Rows(const Geometry& g)
@@ -62,8 +61,8 @@ class Rows {
   std::vector<Lanes> values_;
 };
 
-// begin(row) prepares the rows that a row of answers needs, end(row) is called for those that none
-// needs any more.
+// begin(row) prepares the rows that a row of the output needs, end(row) is called for rows that are
+// no longer needed.
 class Procession {
  public:
   explicit Procession(const Geometry& g) : g_(g) {}
@@ -107,8 +106,8 @@ class Procession {
   std::size_t begun_ = 0, ended_ = 0;
 };
 
-// A vector of channels of one image's output, and the sums of its values and of their squares.
-// fill(row) makes a row of `seen`.
+// Computes a vector of channels of one image's output, and the sums of its values and their
+// squares. fill(row) computes a row of `seen`, the input.
 template <typename T, typename Fill>
 void slide(const Geometry& g, Rows& seen, const Kernel& kernel, T* slid, std::size_t count,
            Lanes& values, Lanes& squares, Fill fill) {
@@ -130,9 +129,9 @@ void slide(const Geometry& g, Rows& seen, const Kernel& kernel, T* slid, std::si
   }
 }
 
-// The way back: slope_at(pixel) is the gradient by the answer. fill(row) makes a row of `seen`
-// again; when a row of `gradient`, that by what was seen, is whole, finish(row) may take it. The
-// kernel's gradient is added to `dkernel`.
+// The backward pass. slope_at(pixel) is the gradient of the output. fill(row) recomputes a row of
+// `seen`; finish(row) is called when a row of `gradient`, the gradient of `seen`, is complete. The
+// gradient of the kernel is added to `dkernel`.
 template <typename SlopeAt, typename Fill, typename Finish>
 void descend(const Geometry& g, Rows& seen, Rows& gradient, const Kernel& kernel, Kernel& dkernel,
              SlopeAt slope_at, Fill fill, Finish finish) {
@@ -164,7 +163,7 @@ void descend(const Geometry& g, Rows& seen, Rows& gradient, const Kernel& kernel
   rows.finish(begin, finish);
 }
 
-// Adds a vector of channels of a kernel's gradient to that of all, [9][channels].
+// Adds a vector of channels of the kernel's gradient to [9][channels].
 inline void add_kernel(std::vector<double>& total, const Kernel& part, std::size_t channels,
                        std::size_t c, std::size_t count) {
   for (std::size_t k = 0; k < kTaps; ++k) {

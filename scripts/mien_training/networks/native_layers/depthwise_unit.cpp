@@ -7,7 +7,7 @@
 namespace mien::training {
 namespace {
 
-// first: the norm of x, or none (weight is null), where the convolution sees x itself.
+// first: the norm of x; none if weight is null, when the convolution reads x itself.
 Line line_before(std::size_t channels, Norm first) {
   return first.weight ? Line(channels, first) : Line(channels);
 }
@@ -90,7 +90,7 @@ void backward(DepthwiseShape shape, const T* dy, const T* x, const T* slid, Norm
             }
           },
           [&](std::size_t row) {
-            Lanes of_row = {}, products_of_row = {};  // in registers, as sums captured are not
+            Lanes of_row = {}, products_of_row = {};  // in registers, unlike captured sums
             for (std::size_t column = 0; column < shape.width; ++column) {
               const std::size_t at = picture + (row * shape.width + column) * shape.channels;
               const Lanes v = load_some(x + at, count);
@@ -124,7 +124,7 @@ void backward(DepthwiseShape shape, const T* dy, const T* x, const T* slid, Norm
 
 extern "C" {
 
-// The norm of x is left out where first.weight is null.
+// x has no norm if first.weight is null.
 void depthwise_unit_forward(const DepthwiseShape* shape, int half, const void* x, float epsilon,
                             Norm first, const float* weights, Norm second, void* slid, void* y) {
   if (half != 0) {

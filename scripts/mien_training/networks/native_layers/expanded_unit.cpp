@@ -1,10 +1,10 @@
 // An inverted residual in training without its projection: a pointwise convolution that expands few
 // channels to many, norm and ReLU6, a 3x3 depthwise convolution, norm and ReLU6. Maps are
 // [images][height][width][channels], fp32 or bfloat16; x has `narrow` channels, `slid` and y have
-// shape.channels. The expanded map, the largest of all, is never stored: a vector of channels of
-// one image at a time are made from x, and again on the way back. Its moments follow from those
-// of x, since it is linear in x: mean z = W mean x, E[z z'] = W E[x x'] W'. So do the terms by
-// which they take part in the gradients. The expanding weights are of the map's type.
+// shape.channels. The expanded map, the largest of all, is never stored: it is computed from x, a
+// vector of channels of one image at a time, and again in the backward pass. Its moments, and their
+// gradients, follow from those of x, because it is linear in x: mean z = W mean x, E[z z'] =
+// W E[x x'] W'. The weights of expand have the type of the map.
 #include "depthwise.h"
 #include "products.h"
 
@@ -16,7 +16,7 @@ constexpr std::size_t kMaxNarrow = 48;
 // Sums over all pixels of x and of x x', in fp64.
 struct Gram {
   std::size_t narrow;
-  double* values;  // [narrow + 1][narrow]; the last row is of x itself
+  double* values;  // [narrow + 1][narrow]; the last row sums x itself
 
   double& at(std::size_t j, std::size_t k) const { return values[j * narrow + k]; }
   double& sum(std::size_t k) const { return values[narrow * narrow + k]; }
@@ -41,7 +41,7 @@ struct Gram {
   }
 };
 
-// The expanding weights, [channels][narrow].
+// The weights of expand, [channels][narrow].
 struct Expansion {
   std::size_t channels, narrow;
   const float* weights;
@@ -60,7 +60,7 @@ struct Expansion {
     });
   }
 
-  // Times scale, for a vector of inputs from k on: [kLanes / terms] vectors over the inputs.
+  // The same multiplied by scale, for a vector of inputs from k on: [kLanes / terms] vectors.
   template <typename T>
   std::array<Vector<T>, kLanes> by_channel(std::size_t c, std::size_t count, std::size_t k,
                                            const float* scale) const {
@@ -134,8 +134,8 @@ struct Gradients {
   float *expansion, *first_weight, *first_bias, *weights, *second_weight, *second_bias;
 };
 
-// What the moments of the expanded map add to the gradient by x: x B + constant, for a vector of
-// outputs from k on: [narrow / terms] vectors of B.
+// The part of the gradient of x that comes from the moments of the expanded map: x B + constant,
+// for a vector of outputs from k on: [narrow / terms] vectors of B.
 template <typename T>
 std::array<Vector<T>, kMaxNarrow> moments_share(const Expansion& e, const Descent& before,
                                                 std::size_t k, Lanes& constant) {
@@ -187,7 +187,7 @@ void expansion_gradient(const Expansion& e, const Gram& gram, const Line& line,
   }
 }
 
-// [pixels][vectors] in fp32 as [pixels][channels].
+// Copies [pixels][vectors] in fp32 to [pixels][channels].
 template <typename T>
 void write(const std::vector<Lanes>& from, std::size_t channels, T* to) {
   for (auto vector = from.begin(); vector != from.end(); to += channels) {
@@ -214,7 +214,7 @@ void backward(DepthwiseShape shape, std::size_t narrow, const T* dy, const T* x,
   Along<T> along_x(shape.height, shape.width, narrow), along_dz(1, shape.width, kLanes);
   const std::size_t vectors = along_x.vectors();
   std::vector<T> by_channel_dz(shape.width * kLanes);
-  std::vector<Lanes> towards_x(g.pixels() * vectors);  // the gradient by an image of x
+  std::vector<Lanes> towards_x(g.pixels() * vectors);  // the gradient of one image of x
   Totals sums;
   std::vector<double> dweights(kTaps * shape.channels), products(shape.channels * narrow);
   for (std::size_t i = 0; i < shape.images; ++i) {
@@ -252,7 +252,7 @@ void backward(DepthwiseShape shape, std::size_t narrow, const T* dy, const T* x,
           [&](std::size_t row) {
             const Lanes *z = expanded.inner(row), *value = seen.inner(row);
             Lanes* dz = gradient.inner(row);
-            Lanes of_row = {}, along_row = {};  // in registers, as sums captured are not
+            Lanes of_row = {}, along_row = {};  // in registers, unlike captured sums
             for (std::size_t column = 0; column < shape.width; ++column) {
               dz[column] = passed(value[column], kRelu6, dz[column]);
               of_row += dz[column];

@@ -12,7 +12,7 @@ import torch
 from mien_training.networks.native_layers.depthwise_unit import Norm, Shape, norm
 from mien_training.networks.native_layers.native import address, by_pixel, code
 
-MAX_NARROW = 24  # channels that come in; beyond, a product of matrices is faster
+MAX_NARROW = 24  # input channels; with more, a matrix product is faster
 
 
 class Gradients(ctypes.Structure):
@@ -72,7 +72,7 @@ class Fused(torch.autograd.Function):
 
 
 def fits(x):
-    """Whether a map has few enough channels."""
+    """Whether the map has at most MAX_NARROW channels."""
     return x.shape[1] <= MAX_NARROW and x.shape[1] % 8 == 0
 
 

@@ -1,5 +1,5 @@
-// As many channels at a time as a vector of the processor holds: maps are [pixels][channels],
-// stored as fp32 or bfloat16 and computed with in fp32.
+// A vector register of channels. Maps are [pixels][channels] in fp32 or bfloat16; arithmetic is in
+// fp32.
 #pragma once
 
 #ifdef __AVX512BF16__
@@ -22,7 +22,7 @@ using Lanes = float __attribute__((vector_size(4 * kLanes)));
 using Words = std::uint32_t __attribute__((vector_size(4 * kLanes)));
 using Halves = std::uint16_t __attribute__((vector_size(2 * kLanes)));
 
-// The upper half of a float; its own type, so that loads and stores know what they meet.
+// bfloat16, the upper half of a float. A type of its own selects loads and stores.
 struct BFloat16 {
   std::uint16_t bits;
 };
@@ -34,7 +34,7 @@ inline Lanes load(const float* from) {
 }
 
 inline Lanes widened(Halves halves) {
-#ifdef __AVX512BF16__  // gcc does it in halves
+#ifdef __AVX512BF16__  // gcc splits it into halves
   const __m512i words = _mm512_cvtepu16_epi32(std::bit_cast<__m256i>(halves));
   return std::bit_cast<Lanes>(_mm512_slli_epi32(words, 16));
 #else
@@ -50,7 +50,7 @@ inline Lanes load(const BFloat16* from) {
 
 inline void store(float* to, Lanes value) { std::memcpy(to, &value, sizeof value); }
 
-// To the nearest, ties to even.
+// Rounds to nearest, ties to even.
 inline Halves narrowed(Lanes value) {
 #ifdef __AVX512BF16__
   return std::bit_cast<Halves>(_mm512_cvtneps_pbh(std::bit_cast<__m512>(value)));
@@ -97,7 +97,7 @@ void store_first(T* to, Lanes value, std::size_t count) {
 }
 #endif
 
-// The first `count` channels only; the rest are 0, or are left alone.
+// The first `count` channels only. Others are loaded as 0 and not stored.
 template <typename T>
 Lanes load_some(const T* from, std::size_t count) {
   return count >= kLanes ? load(from) : load_first(from, count);
@@ -108,7 +108,7 @@ void store_some(T* to, Lanes value, std::size_t count) {
   count >= kLanes ? store(to, value) : store_first(to, value, count);
 }
 
-// Asks for values that are soon wanted in another order than memory has them.
+// Prefetches values that are not read in the order of memory.
 template <typename T>
 void prefetch(const T* from, std::size_t count) {
   for (std::size_t i = 0; i < count; i += 64 / sizeof(T)) {

@@ -10,7 +10,7 @@ from mien_training.native_build import library
 HERE = Path(__file__).resolve().parent
 MAP_TYPES = (torch.float32, torch.bfloat16)
 MAX_CHANNELS = 1024
-serves = True  # False: training by PyTorch's own layers, to compare with
+serves = True  # False: training with PyTorch's own layers, for comparison
 
 
 @functools.lru_cache
@@ -28,5 +28,5 @@ def by_pixel(x):
 
 
 def in_training(layer, x):
-    """Whether the native code can serve: it is for training on a CPU."""
+    """Whether the native code applies: in training on a CPU."""
     return serves and layer.training and x.device.type == "cpu" and x.dtype in MAP_TYPES

@@ -1,6 +1,6 @@
-// Batch norm in training with the limits of the activation behind it: y = limited(scale x + shift),
-// where scale and shift come from the moments of x over the batch. Sums are fp32 within a block of
-// pixels, fp64 over the blocks.
+// Batch norm in training, followed by the limits of an activation: y = limited(scale x + shift),
+// with scale and shift from the moments of x over the batch. Sums are fp32 within a block of pixels
+// and fp64 over blocks.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +25,7 @@ struct Limits {
   float low, high;
 };
 
-// The parameters of a norm and the moments it has found, one value a channel.
+// The parameters and moments of a norm, one value per channel.
 struct Norm {
   const float *weight, *bias;
   float *mean, *inverse;  // inverse = 1 / sqrt(variance + epsilon)
@@ -44,8 +44,8 @@ class Totals {
   PerChannel<double> first = {}, second = {};
 };
 
-// Calls visit(offset of the pixel's first channel, index of a channel, count), adds its two
-// answers up.
+// Calls visit(offset of the pixel's first channel, index of a channel, count) and sums its two
+// results.
 template <typename Visit>
 void sum_over(Map map, Totals& totals, Visit visit) {
   for (std::size_t begin = 0; begin < map.pixels; begin += kBlock) {
@@ -84,7 +84,7 @@ void find_moments(const T* x, Map map, float epsilon, Norm norm) {
   set_moments(sums, map.pixels, map.channels, epsilon, norm);
 }
 
-// z = scale x + shift is the normalised map before its limits.
+// z = scale x + shift, the normalized map before the limits.
 struct Line {
   explicit Line(std::size_t channels) {
     scale.fill(0.0f), shift.fill(0.0f);
@@ -111,7 +111,7 @@ inline Lanes passed(Lanes z, Limits limits, Lanes gradient) {
   return z > Lanes{} + limits.low ? below_high : Lanes{};
 }
 
-// y for every x.
+// Computes y from x.
 template <typename T>
 void normalise(const T* x, Map map, const Line& line, Limits limits, T* y) {
   for (std::size_t p = 0; p < map.pixels; ++p, x += map.channels, y += map.channels) {
@@ -122,10 +122,10 @@ void normalise(const T* x, Map map, const Line& line, Limits limits, T* y) {
   }
 }
 
-// How the gradient by x follows from that by z: moments depend on x too, so dx = scale dz + along x
-// + constant.
+// The gradient of x from that of z. The moments depend on x as well, so dx = scale dz + along x +
+// constant.
 struct Descent {
-  // sums: of dz, and of dz (x - mean); gradients of weight and bias come out.
+  // sums: of dz, and of dz (x - mean). Computes the gradients of weight and bias.
   Descent(Map map, Norm norm, const Line& line, const Totals& sums, float* dweight, float* dbias) {
     along.fill(0.0f), constant.fill(0.0f);
     const auto n = static_cast<float>(map.pixels);
@@ -144,7 +144,7 @@ struct Descent {
   PerChannel<float> along, constant;
 };
 
-// The sums that Descent wants, of the gradient dy by y.
+// The sums for Descent, from the gradient dy of y.
 template <typename T>
 Totals sum_gradients(const T* dy, const T* x, Map map, Norm norm, const Line& line, Limits limits) {
   Totals sums;

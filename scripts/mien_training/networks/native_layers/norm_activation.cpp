@@ -1,5 +1,5 @@
-// Batch norm in training with the limits of the activation behind it, in two sweeps over the map
-// forwards and two backwards.
+// Batch norm in training, followed by the limits of an activation: two passes over the map forward,
+// and two backward.
 #include "norm.h"
 
 namespace mien::training {
@@ -32,7 +32,7 @@ void backward(const T* dy, const T* x, Map map, Limits limits, Norm norm, T* dx,
 
 extern "C" {
 
-// Maps are fp32, or bfloat16 where `half`. mean and inverse come out too.
+// Maps are fp32, or bfloat16 if `half`. Also writes mean and inverse.
 void norm_activation_forward(const void* x, int half, std::size_t pixels, std::size_t channels,
                              float epsilon, float low, float high, const float* weight,
                              const float* bias, float* mean, float* inverse, void* y) {
@@ -46,7 +46,7 @@ void norm_activation_forward(const void* x, int half, std::size_t pixels, std::s
   }
 }
 
-// The gradients by x, weight and bias, from that by y.
+// Computes the gradients of x, weight and bias from that of y.
 void norm_activation_backward(const void* dy, const void* x, int half, std::size_t pixels,
                               std::size_t channels, float low, float high, const float* weight,
                               const float* bias, float* mean, float* inverse, void* dx,

@@ -24,7 +24,7 @@ def native():
 
 
 def extent(x):
-    """Of a map: whether it is bfloat16, its pixels and channels."""
+    """(whether a map is bfloat16, its pixels, its channels)"""
     return x.dtype == torch.bfloat16, x.numel() // x.shape[1], x.shape[1]
 
 
@@ -69,7 +69,7 @@ class NormActivation(nn.BatchNorm2d):
 
     @torch.no_grad()
     def follow(self, mean, inverse, pixels):
-        """The running statistics, as nn.BatchNorm2d keeps them."""
+        """Updates the running statistics like nn.BatchNorm2d."""
         variance = (inverse.double() ** -2 - self.eps).clamp(min=0).float() * (pixels / max(1, pixels - 1))
         self.running_mean.lerp_(mean, self.momentum)
         self.running_var.lerp_(variance, self.momentum)

@@ -1,5 +1,5 @@
-// Products of a map of few channels with vectors of many, by as many terms at once as the processor
-// adds up in an instruction: one of fp32, two of bfloat16. A unit is that many values in a row.
+// Products of a map of few channels with vectors of many channels. A unit is the number of
+// consecutive terms that one instruction sums: one of fp32, two of bfloat16.
 #pragma once
 
 #include <vector>
@@ -22,7 +22,7 @@ struct Terms<float> {
   static Lanes plus(Lanes sum, Vector a, Unit b) { return sum + a * b; }
 };
 
-// Every lane of a vector has the first value in its lower half and the second in its upper one.
+// Each lane has the first value in its lower half and the second in its upper half.
 template <>
 struct Terms<BFloat16> {
   using Unit = std::uint32_t;
@@ -59,7 +59,7 @@ constexpr std::size_t units(std::size_t values) {
   return (values + kTerms<T> - 1) / kTerms<T>;
 }
 
-// value(k) for k < count, a vector each, joined to units.
+// Combines the vectors value(k), k < count, to units.
 template <typename T, std::size_t kMost, typename Value>
 std::array<Vector<T>, kMost> joined(std::size_t count, Value value) {
   std::array<Vector<T>, kMost> out = {};
@@ -73,8 +73,8 @@ std::array<Vector<T>, kMost> joined(std::size_t count, Value value) {
   return out;
 }
 
-// out[p] = (out[p] +) sum over k < count of x[p][k] weights[k], with enough pixels at a time to
-// hide the latency of the sums; a pixel's k come in whole units.
+// out[p] = (out[p] +) sum over k < count of x[p][k] weights[k], for several pixels at a time, which
+// hides the latency of the sums. count is a multiple of a unit.
 template <std::size_t kTogether, typename T>
 std::size_t product_of(const T* x, std::size_t stride, std::size_t count, const Vector<T>* weights,
                        std::size_t begin, std::size_t pixels, Lanes* out, std::size_t out_stride,
@@ -105,8 +105,8 @@ void product(const T* x, std::size_t stride, std::size_t count, const Vector<T>*
   product_of<1>(x, stride, count, weights, p, pixels, out, out_stride, add);
 }
 
-// Pixels of a row one after the other, joined to units, for sums over pixels. A row's last unit is
-// filled up with zeros, channels are filled up to whole vectors.
+// The pixels of a row, combined to units, for sums over pixels. The last unit of a row, and
+// channels up to whole vectors, are filled with zeros.
 template <typename T>
 class Along {
  public:
@@ -117,7 +117,7 @@ class Along {
         vectors_((channels + kLanes - 1) / kLanes),
         values_(rows * units<T>(width) * vectors_) {}
 
-  // Of pixels(row, column, vector).
+  // Reads pixels(row, column, vector).
   template <typename Pixels>
   void fill(Pixels pixels) {
     auto to = values_.begin();
@@ -153,8 +153,8 @@ class Along {
   std::vector<Vector<T>> values_;
 };
 
-// totals[k] += sum over pixels of x[p][k] y[p], for k < count, which is a multiple of 8; both as
-// Along has them: x [units] of x_vectors, y every y_vectors-th.
+// totals[k] += sum over pixels of x[p][k] y[p], for k < count, a multiple of 8. Both have the
+// layout of Along: x [units] of x_vectors, y every y_vectors-th.
 template <typename T>
 void outer(const Vector<T>* x, std::size_t x_vectors, std::size_t count, const Vector<T>* y,
            std::size_t y_vectors, std::size_t length, Lanes* totals) {
