@@ -10,7 +10,7 @@ FLAGS = ["-std=c++20", "-O3", "-march=native", "-fno-math-errno", "-fno-trapping
 
 
 def library(main, others=()):
-    """Path of the shared library made of the source file `main`, which includes `others`, as they are."""
+    """Path of the shared library built from the current source file `main`, which includes `others`."""
     key = hashlib.sha256(b"".join(p.read_bytes() for p in (*others, main)) + " ".join(FLAGS).encode()).hexdigest()[:12]
     path = cache() / f"{main.stem}_{key}.so"
     if not path.exists():

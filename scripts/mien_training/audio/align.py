@@ -15,7 +15,7 @@ from mien_training.audio import corpus, espeak, labels, phonemes
 from mien_training.audio.features import RATE, STEP, features
 from mien_training.audio.recognition import load
 
-LETTERS = {"a": "ay", "z": "zed"}  # GRID's readers are British, and say A by its name
+LETTERS = {"a": "ay", "z": "zed"}  # GRID's speakers are British and pronounce A as a letter
 
 
 def words_of(group, name, text):
@@ -61,7 +61,7 @@ def viterbi(scores, states, optional):
 
 
 def timed(scores, words, seconds):
-    """Spoken, or None when there are more phonemes than steps."""
+    """Spoken, or None if there are more phonemes than steps."""
     states, optional = states_of(words)
     if len(states) > len(scores):
         return None

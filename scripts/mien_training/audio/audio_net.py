@@ -41,8 +41,8 @@ class CausalConv(nn.Module):
 class Encoder(nn.Module):
     def __init__(self):
         super().__init__()
-        # The zeros before the start are zeros of the features, not of what normalisation makes of them: so
-        # normalisation folds into the first convolution exactly.
+        # Padding before the start is zero before normalization, not after it, so that normalization folds into the
+        # first convolution exactly.
         self.register_buffer("mean", torch.zeros(FEATURES))
         self.register_buffer("deviation", torch.ones(FEATURES))
         self.convolutions = nn.ModuleList(CausalConv(a, b) for a, b in zip([FEATURES] + WIDTHS, WIDTHS))

@@ -95,7 +95,7 @@ TUNES, TUNE_SECONDS = [], 10
 
 
 def part_of_tune(rng, count, most=60):
-    """Of some that are made once: making them takes long."""
+    """A random part of one of `most` tunes, which are cached because they take long to create."""
     if len(TUNES) < most:
         TUNES.append(music(rng, TUNE_SECONDS * RATE))
     tune = TUNES[rng.integers(len(TUNES))]

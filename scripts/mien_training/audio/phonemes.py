@@ -36,7 +36,7 @@ FLITE = {"ax": "ah", "axr": "er", "pau": "sil", "h#": "sil", "brth": "sil", "ssi
 
 @functools.lru_cache(None)
 def of_ipa(text):
-    """Phonemes of an IPA string, as numbers; marks that are no phonemes (length, stress, (en)) say nothing."""
+    """Phonemes of an IPA string, as numbers, without marks (length, stress, (en))."""
     text = re.sub(r"\(.*?\)", "", text)
     return tuple(INDEX[name] for part in IPA_PART.findall(text) for name in IPA[part].split())
 

@@ -11,9 +11,9 @@ import numpy as np
 
 from mien_training.audio import corpus
 
-NAME = "made"  # of the variant, whichever it is now
+NAME = "made"  # of the current variant
 FORMANTS = 9
-MISSING = 0.08  # how often one of the upper formants is left out
+MISSING = 0.08  # probability that an upper formant is missing
 
 
 def formant(rng, number, size):
@@ -69,6 +69,6 @@ def folder():
 
 
 def draw(rng):
-    """From now on the made variant is another; its name."""
+    """Replaces the variant by a new random one; returns its name."""
     (folder() / "espeak-ng-data/voices/!v" / NAME).write_text(variant(rng))
     return NAME

@@ -17,12 +17,11 @@ from mien_training.paths import data
 FPS = 25
 FOLDERS = {"av": "av", "people": "av/people", "animated": "av/animated"}
 WIDE, WIDE_SHARE = 0.6, 98  # a speaker's jaw is open so far at that percentile
-REST = 10  # percentile of a clip's curve that counts as the mouth at rest: sound cannot tell how lips rest
-# Where the teacher responds to what a speaker says. Elsewhere it hardly leaves zero (the data's README) or, as for
-# mouthPress, moves with something else than phonemes; mouthPucker, of some, with how they hold their lips. There
-# visemes decide.
+REST = 10  # percentile of a clip's curve that counts as the mouth at rest, which audio cannot tell
+# Controls whose curves by the teacher follow phonemes. Others hardly leave zero (the data's README) or follow something
+# else, such as mouthPress; for some speakers mouthPucker depends on the lips at rest. Visemes are the labels of these.
 RESPONDING = {"av": ["jawOpen", "mouthRollUpper"], "people": ["jawOpen"]}
-# The animators' rig as ours, as far as their names tell; `oh` and `oo` are whole mouths.
+# Controls from the animators' rig, by name; `oh` and `oo` are shapes of the whole mouth.
 BOTH = lambda name, weight=1.0: {f"{name}_l": weight / 2, f"{name}_r": weight / 2}
 ANIMATED = {
     "jawOpen": {"mouth_stretch_c": 1, "tooth_d_d": 1},
@@ -40,16 +39,16 @@ ANIMATED = {
 @dataclass
 class Curve:
     values: np.ndarray    # f32 [frames,18]
-    known: np.ndarray     # bool [18]: what it says something of
+    known: np.ndarray     # bool [18]: controls with values
     fps: int
 
     def at(self, times):
-        """f32 [times,18] at `times` in seconds, straight between frames."""
+        """f32 [times,18] at `times` in seconds, linear between frames."""
         return at(self.values, times, self.fps)
 
 
 def columns(names):
-    """Of the speech controls in a table of blendshapes; -1 where the teacher has none."""
+    """Columns of the speech controls in a table of blendshapes; -1 for those that the teacher lacks."""
     names = [str(n) for n in names]
     return [names.index(c) if c in names else -1 for c in SPEECH_CONTROLS]
 

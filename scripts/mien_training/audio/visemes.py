@@ -98,6 +98,6 @@ def curves(spoken, times):
     times = np.float32(times)[:, None]
     before, after = np.maximum(starts - times, 0)[..., None], np.maximum(times - ends, 0)[..., None]
     inside = np.maximum(np.minimum(times - starts, ends - times), 0)[..., None]
-    # 1 at the edge, up to 1 + inside/AFTER towards the middle: neighbours lose their say there.
+    # 1 at the edges, up to 1 + inside/AFTER in the middle, where neighbours have less influence.
     dominance = strengths * (np.exp(-before / (AHEAD * SOONER) - after / AFTER) * (1 + inside / AFTER)) + 1e-9
     return (dominance * targets).sum(1) / dominance.sum(1)

@@ -1,8 +1,8 @@
 """A checkpoint of phase 1 from models/audionet.mien, to continue training.
 
 usage: python3 -m mien_training.audio.warm_start --out CHECKPOINT [--model audionet.mien]
-The file has neither batch norm nor phoneme heads. New norms are measured on training speech, so they change nothing at
-first; new heads are trained on synthetic speech, which takes one or two minutes.
+The file has neither batch norm nor phoneme heads. New norms are measured on training speech, so that they change
+nothing; new heads are trained on synthetic speech, which takes one or two minutes.
 """
 import argparse
 from pathlib import Path
@@ -64,7 +64,7 @@ def decoder_of(decoder, layers):
 
 
 def heads_for(encoder, data, rng, fresh=60, epochs=12):
-    """Learnt from `fresh` batches while the encoder stays as it is."""
+    """Heads that learn from `fresh` batches with a fixed encoder."""
     heads = PhonemeHeads()
     optimizer = torch.optim.AdamW(heads.parameters(), 2e-2)
     seen = []

@@ -192,7 +192,7 @@ def degrade(x, g):
 
 
 def photometric(x, g, degraded=0.5):
-    """All effects, for unrelated images. A share stays sharp, for eyelids and lips."""
+    """All effects, for unrelated images. Some images stay sharp, for eyelids and lips."""
     return share_of(lit(x, g), g, degraded, degrade)
 
 

@@ -1,7 +1,7 @@
 """Random facial expressions: control vectors of stills and sequences.
 
 A face is the sum of independent regions (mouth, cheeks and nose, brows, eyelids, gaze). Each is drawn from a mixture of
-single units, sparse combinations and familiar expressions; `legalise` then removes what no face can do. A sequence
+single units, sparse combinations and familiar expressions; `legalise` then removes impossible combinations. A sequence
 moves each region from pose to pose with minimum-jerk easing, and adds blinks, saccades, speech and recorded curves. All
 functions take a numpy Generator and are deterministic.
 """
@@ -211,7 +211,7 @@ def both(stem):
 
 
 def legalise(c):
-    """Removes what no face can do; c f32[..., 52]. Each rule is continuous, so curves stay smooth."""
+    """Removes impossible combinations; c f32[..., 52]. Each rule is continuous, so curves stay smooth."""
     c = np.clip(c, 0, 1)
     get = lambda name: c[..., INDEX[name]].copy()
     opposites = [("jawLeft", "jawRight"), ("mouthLeft", "mouthRight")]

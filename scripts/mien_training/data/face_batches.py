@@ -23,7 +23,7 @@ from mien_training.renderer.assets import names
 Batch = namedtuple("Batch", "images landmarks controls pose visible has_landmarks has_controls trust face")
 
 
-NEAR_PROFILE_ODDS = 3  # heads turned far are few and hard
+NEAR_PROFILE_ODDS = 3  # turned heads are rare and difficult
 
 
 def rarity(controls):
@@ -71,7 +71,7 @@ class Rendered:
 
     @staticmethod
     def load(folder):
-        """(images, labels); None of a shard that another process deletes meanwhile."""
+        """(images, labels); None if another process deletes the shard meanwhile."""
         try:
             return np.load(folder / "images.npy", mmap_mode="r"), dict(np.load(folder / "labels.npz"))
         except FileNotFoundError:

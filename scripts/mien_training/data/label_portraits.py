@@ -1,4 +1,4 @@
-"""Labels portraits with the teacher, six times each: the mean is the label, the scatter says how far to trust it.
+"""Labels portraits with the teacher, six times each: the mean is the label, and the scatter lowers its weight.
 
 usage: python3 -m mien_training.data.label_portraits PACK [--kinds KIND...]
 Needs PyPI's mediapipe and $MIEN_CACHE/PACK/img, the images that $MIEN_DATA/PACK/faces.npz names. Writes
@@ -66,7 +66,7 @@ def answers(ask, picture, rng):
 
 
 def label(found, size, height_of_view):
-    """Means and scatters of the answers about one image; its camera sees less than the views' camera."""
+    """Means and scatters of the labels of one image, whose camera has a narrower field of view than the views'."""
     points, controls, poses = (np.stack(values) for values in zip(*found))
     mean = points.mean(0)
     pupils = np.linalg.norm(mean[PUPILS[0]] - mean[PUPILS[1]])

@@ -18,8 +18,8 @@ from mien_training.paths import cache, data
 
 PACKS = ("faces", "faces_wild", "faces_more")
 VALIDATION_SPEAKERS = ("GRID s5",)  # also in the clips of the evaluation
-GREY_GROUP = "members of Congress"   # what the group of the first pack's photographs is called here
-NEAR_PROFILE = np.radians(38)        # yaw from which on the teacher guesses half of a face
+GREY_GROUP = "members of Congress"   # group of the first pack's photographs
+NEAR_PROFILE = np.radians(38)        # yaw beyond which the teacher guesses half of a face
 USUAL_SCATTER = 0.025  # of the landmarks of a portrait, as a share of the distance between the pupils
 
 
@@ -35,8 +35,8 @@ class Labels:
     controls: np.ndarray     # f32 [n,52]; 0 where the teacher has none
     rotation: np.ndarray     # f32 [n,3,3], camera space
     translation: np.ndarray  # f32 [n,3] metres
-    trust: np.ndarray        # f32 [n] in landmarks, from the scatter of the teacher's answers; 1 where it answered once
-    control_trust: np.ndarray  # f32 [n,52], the same
+    trust: np.ndarray        # f32 [n] weight of landmarks, from the scatter of the labels; 1 for a single label
+    control_trust: np.ndarray  # f32 [n,52], weight of controls
 
     def of(self, rows):
         return Labels(*(getattr(self, field)[rows] for field in self.__dataclass_fields__))
@@ -76,7 +76,7 @@ def folder(pack):
 
 
 def trust(table, controls):
-    """In landmarks [n] and controls [n,52]: the less the more the teacher's answers scatter."""
+    """Weights of landmarks [n] and controls [n,52], lower for a larger scatter of the labels."""
     if "control_scatter" not in table:
         return np.ones(len(controls), np.float32), np.ones_like(controls)
     variance = controls.var(0) + 1e-6

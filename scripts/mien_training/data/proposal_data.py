@@ -61,7 +61,7 @@ def windows_of_face(rng, image, box, around=14, negatives=10):
     windows = np.vstack([near(rng, box, around), anywhere(rng, size_wh, negatives)])
     overlap = iou(windows, box)
     kind = kinds(overlap)
-    # A tiny window inside the face overlaps little yet shows nothing but skin: that is a fair negative.
+    # A tiny window inside the face overlaps little and shows only skin, so it is a valid negative.
     keep = kind >= 0
     return cut(image, windows[keep]), kind[keep].astype(np.int8), regression(windows[keep], box)
 

@@ -33,8 +33,8 @@ def orthogonal(matrices, steps=5):
 
 
 class Muon(torch.optim.Optimizer):
-    """For weights followed by batch norm, whose scale is free: it is kept at one per row. Weights of one shape go
-    together."""
+    """For weights followed by batch norm, whose scale is free: rows keep unit length on average. Weights of equal
+    shape are updated together."""
 
     def __init__(self, parameters, lr):
         super().__init__(parameters, dict(lr=lr))
@@ -86,8 +86,8 @@ class Optimizer:
 
     @torch.no_grad()
     def reset_moments(self, parameter, chosen, axis=0):
-        """Of rows or columns of a parameter that have become others: no momentum, and the others' mean square of the
-        gradient. One that has decayed to nothing would make their first steps several times as long as anyone's."""
+        """Resets replaced rows or columns of a parameter: no momentum, and the mean square gradient of the others. A
+        mean square near 0 would make their first steps several times as long as those of others."""
         state = {**self.rest.state, **self.pointwise.state}.get(parameter, {})
         for name in ("exp_avg", "exp_avg_sq", "momentum"):
             if name in state:

@@ -32,7 +32,7 @@ def skin_table():
 
 @functools.lru_cache
 def portrait_skins():
-    """Names by the group of their portraits; none where portrait_skins.py has not been run."""
+    """Names by the group of their portraits; empty before portrait_skins.py has run."""
     found = sorted(p.stem for p in (cache() / "portrait_skins").glob("*+*.jpg"))
     groups, out = portrait_labels.of_names(name.partition("+")[2] + ".jpg" for name in found).group, {}
     for name, group in zip(found, groups):
@@ -41,10 +41,10 @@ def portrait_skins():
 
 
 def note_missing_skins(split):
-    """Says that training people get the pack's few skins only; a decoder of such people learns less."""
+    """Prints a note if training people have only the few skins of the pack, from which decoders learn less."""
     if split == "train" and not portrait_skins():
         print("note: no skins of portraits in the cache, so all people have a skin of the rig's pack; "
-              "mien_training.renderer.portrait_fit and portrait_skins make them", file=sys.stderr, flush=True)
+              "mien_training.renderer.portrait_fit and portrait_skins create them", file=sys.stderr, flush=True)
 
 
 def skin_file(name, tile):

@@ -81,8 +81,8 @@ def sample_place(rng, camera):
 
 @functools.lru_cache
 def centred_template():
-    """Mean of the template's points around the middle of a crop, and the weights [175] that tell how much a face is
-    turned and scaled."""
+    """Mean of the template's points relative to the centre of a crop, and the weights [175] that give rotation and
+    scale of a face."""
     source = (lp.template() - 0.5) @ [1, 1j]
     s = source - source.mean()
     return source.mean(), s.conj() / (np.abs(s) ** 2).sum()

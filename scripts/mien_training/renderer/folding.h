@@ -1,4 +1,4 @@
-// How much of its length the skin around every vertex has lost, and what light that leaves.
+// Compression of the skin around every vertex, and the shade of the resulting folds.
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -11,17 +11,17 @@ namespace mien::render {
 struct Folds {
   const int32_t* first;   // [edges] vertices of the head
   const int32_t* second;  // [edges]
-  const int32_t* at;      // [edges] the same, counted within the skin
+  const int32_t* at;      // [edges] the same as indices into the skin
   const int32_t* to;      // [edges]
   const float* square;    // [edges] squared length at rest
   const float* along;     // [edges,2] share of it along y and x
   const float* scale;     // [skin,2] 1 / sum of the shares around a vertex
-  const int32_t* start;   // [skin+1] of each vertex's neighbours, itself among them
+  const int32_t* start;   // [skin+1] start of each vertex's neighbours, which include itself
   const int32_t* neighbour;
-  const float* shade;     // [skin,2] how dark a deep fold along y and x is here
-  const int32_t* vertex;  // [skin] of the head
+  const float* shade;     // [skin,2] darkness of a deep fold along y and x
+  const int32_t* vertex;  // [skin] index in the head
   int32_t edges, skin;
-  float begins, deepest;  // loss of length at which folds begin, and beyond which they are deepest
+  float begins, deepest;  // compression at which folds begin, and are deepest
 };
 
 struct Pair {
@@ -30,7 +30,7 @@ struct Pair {
 
 class Folding {
  public:
-  // Takes shade off `open` [vertices] where `posed` [vertices,3] is pushed together.
+  // Darkens `open` [vertices] where `posed` [vertices,3] is compressed.
   void darken(const Folds& f, const float* posed, float* open) {
     lose(f, posed);
     average(f, lost_, smooth_), average(f, smooth_, lost_);
@@ -58,7 +58,7 @@ class Folding {
       lost_[size_t(i)].y *= f.scale[2 * i], lost_[size_t(i)].x *= f.scale[2 * i + 1];
   }
 
-  // Means over every vertex and its neighbours.
+  // Averages over each vertex and its neighbours.
   static void average(const Folds& f, const std::vector<Pair>& in, std::vector<Pair>& out) {
     out.resize(in.size());
     for (int i = 0; i < f.skin; ++i) {

@@ -46,7 +46,7 @@ def head_shift(rng, frames):
 
 
 def sweep(rng, frames):
-    """Shift of an occluder [frames,3] in cm: it comes from one side, stays a while, and leaves."""
+    """Shift of an occluder [frames,3] in cm: it enters from one side, stays for a while, and leaves."""
     away = rng.normal(size=3) * [1, 1, 0.05]
     away *= 30 / np.linalg.norm(away)
     come, stay = rng.integers(-20, frames), rng.integers(5, frames)

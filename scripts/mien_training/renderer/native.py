@@ -115,7 +115,7 @@ class Rasterizer:
         return self.lib.renderer_add_texture(self.handle, c_void_p(rgba.ctypes.data), width, height, int(wrap))
 
     def render(self, scene, points, tolerance):
-        """Image uint8 [height,width,3] and which of points f32 [n,3] (camera space, cm) are seen, uint8 [n]."""
+        """Image uint8 [height,width,3], and visibility uint8 [n] of points f32 [n,3] (camera space, cm)."""
         image = np.empty((scene.view.height, scene.view.width, 3), np.uint8)
         visible = np.empty(len(points), np.uint8)
         self.lib.renderer_render(self.handle, ctypes.byref(scene), c_void_p(image.ctypes.data),
@@ -124,7 +124,7 @@ class Rasterizer:
         return image, visible
 
     def occlusion(self, scene, directions, vertices):
-        """How open each vertex of the first mesh is to directions f32 [n,3]: f32 [vertices]."""
+        """Openness f32 [vertices] of the first mesh to directions f32 [n,3]."""
         out = np.empty(vertices, np.float32)
         self.lib.renderer_occlusion(self.handle, ctypes.byref(scene), c_void_p(pointer(directions)), len(directions),
                                     c_void_p(out.ctypes.data))

@@ -112,7 +112,7 @@ class Photograph:
         return cv2.remap(self.linear, where[..., 0], where[..., 1], cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
 
     def seen(self, rasterizer, rig):
-        """uint8 [26719]: vertices that nothing of the head hides."""
+        """uint8 [26719]: vertices that the head does not hide."""
         shapes = Shapes()
         mesh = shapes.mesh(np.ascontiguousarray(self.vertices, np.float32), rig.corner_position, self.pose, rig.uv,
                            rig.corner_uv)
@@ -134,8 +134,8 @@ def is_dark(photo, landmarks):
 
 
 def least_squares(rows, values, weight, ridge=RIDGE):
-    """Of a few unknowns, by the normal equations: rows [n,k], values and weight [n] -> [k]. All but the first are kept
-    small."""
+    """Solves for a few unknowns by the normal equations: rows [n,k], values and weight [n] -> [k]. All but the first
+    are regularized."""
     weighted = rows * weight[:, None]
     square = weighted.T @ rows
     small = np.diag([0.0] + [ridge * square[0, 0]] * (len(square) - 1))
@@ -143,8 +143,8 @@ def least_squares(rows, values, weight, ridge=RIDGE):
 
 
 def light_of(colour, skin, normals, weight):
-    """Coefficients [10,3] of the light, one tint of one shape, under which `skin` [n,3] is seen as `colour` [n,3]; and
-    how far off it stays. A shape for each channel would explain lips, beards and make-up as coloured light."""
+    """Coefficients [10,3] of the light, one tint of one shape, under which `skin` [n,3] looks like `colour` [n,3], and
+    the remaining error. A shape per channel would explain lips, beards and make-up as coloured light."""
     shapes, w = basis(normals), weight.copy()
     brightness, albedo = colour.mean(1), skin.mean(1)
     for _ in range(4):
@@ -171,7 +171,7 @@ class Baker:
         self.at_vertices = {n: cv2.GaussianBlur(s, (0, 0), 3)[row, column] for n, s in self.skins.items()}
 
     def bake(self, photo):
-        """Texture uint8 [SIDE,SIDE,3] and the name of the skin it goes over to."""
+        """Texture uint8 [SIDE,SIDE,3], and the name of the skin that continues it."""
         normals = vertex_normals(photo.posed, self.face.corner_vertex).astype(np.float32)
         sight = -photo.posed / np.linalg.norm(photo.posed, axis=1, keepdims=True)
         facing = np.clip(((normals * sight).sum(1) - MIN_FACING) / (FULL_FACING - MIN_FACING), 0, 1)
@@ -206,7 +206,7 @@ class Baker:
 
 
 def bake_share(job):
-    """Writes the skins of some portraits: (how many, how many of these had no light that explains them)."""
+    """Writes the skins of some portraits. Returns their number, and the number of those whose light does not fit."""
     fits, rows, worker = job
     baker, refused = Baker(), 0
     for i in tqdm(rows, position=worker, mininterval=5):
@@ -222,7 +222,7 @@ def bake_share(job):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--most", type=int, help="no more than these portraits")
+    parser.add_argument("--most", type=int, help="maximum number of portraits")
     parser.add_argument("--workers", type=int, default=1)
     args = parser.parse_args()
     fits = dict(np.load(cache() / "portrait_skins/fits.npz"))
@@ -236,7 +236,7 @@ def main():
     used, refused = np.sum(counts, 0)
     print(
         f"{used - refused} new skins of {len(fits['name'])} portraits: {used} are large enough and fit, {refused} of "
-        "them no light explains")
+        "these have a light that does not fit")
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 """Simple solids: the body below the bust, and things held in front of the face."""
 import numpy as np
 
-# Rings from the bust's edge down: scale around it, how much of its ups and downs is kept, drop in cm.
+# Rings from the bust's edge down: scale, remaining share of its variation in height, drop in cm.
 SHOULDERS = [(1.0, 1.0, 0.0), (1.12, 1.0, -1.0), (1.35, 0.8, -3.5), (1.55, 0.5, -8.0), (1.6, 0.0, -45.0)]
 ROUND = 14  # corners of a circle
 

@@ -12,7 +12,7 @@ namespace mien::render {
 
 constexpr uint32_t kNothing = 0xffffffffu;
 constexpr int kTriangleBits = 24;
-constexpr int kTile = 8;   // side of the squares of samples whose farthest depth is kept
+constexpr int kTile = 8;   // side of the squares of samples whose farthest depth is stored
 constexpr int kLanes = 8;  // samples of a row that are tested at once
 
 using Lanes = float __attribute__((vector_size(kLanes * sizeof(float))));
@@ -44,7 +44,7 @@ struct Grid {
   }
   size_t at(int x, int y) const { return size_t(y) * size_t(stride) + size_t(x); }
 
-  // Notes how far away every tile's farthest sample is: what lies behind it all need not be drawn.
+  // Stores the farthest sample of each tile; triangles behind it need not be drawn.
   void hidden_areas() {
     tiles_across = (width + kTile - 1) / kTile;
     const int tiles_down = (height + kTile - 1) / kTile;
@@ -105,8 +105,8 @@ struct Bounds {
         y1(int(std::min(float(h - 1), std::floor(std::max({a.y, b.y, c.y}) - 0.5f)))) {}
 };
 
-// Whether a triangle lies before the camera, has area, faces it (if `cull`) and holds the centre of
-// a sample of the grid.
+// Whether a triangle is in front of the camera, has an area, faces it (if `cull`) and contains the
+// centre of a sample of the grid.
 inline bool may_be_seen(Projected a, Projected b, Projected c, float w, float h, bool cull) {
   const float area = (b.x - a.x) * (c.y - a.y) -
                      (c.x - a.x) * (b.y - a.y);  // y points down: front faces turn negative

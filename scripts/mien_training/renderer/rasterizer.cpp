@@ -37,7 +37,7 @@ class Renderer {
   struct Wanted {
     uint32_t id;
     float x, y;   // sample coordinates
-    bool clamp;   // a point just outside of the triangle goes to its edge
+    bool clamp;   // moves a point just outside the triangle to its edge
     float share;  // of its pixel
     size_t pixel;
   };
@@ -132,7 +132,7 @@ void Renderer::fetch(const Scene& scene, uint32_t id) const {
   }
 }
 
-// What a point of a triangle looks like.
+// The surface at a point of a triangle.
 Surface Renderer::surface(const Scene& scene, const Wanted& wanted) const {
   const Part& part = scene.parts[wanted.id >> kTriangleBits];
   const Mesh& mesh = scene.meshes[part.mesh];
@@ -171,7 +171,7 @@ bool Renderer::one_surface(size_t first) const {
   return same;
 }
 
-// Notes the surfaces that a pixel shows, and puts what shows of the background into the image.
+// Lists the surfaces of a pixel, and adds the visible background to the image.
 void Renderer::pixel(const Scene& scene, int x, int y, Vec3 background) {
   const size_t first = grid_.at(kSamples * x, kSamples * y);
   const size_t to = size_t(y) * size_t(scene.view.width) + size_t(x);
@@ -301,8 +301,8 @@ void Renderer::paint(const Scene& scene, uint8_t* out) {
   }
 }
 
-// A point [3] in camera space is seen unless everything drawn within one sample of it is nearer by
-// more than its tolerance.
+// A point [3] in camera space is visible unless everything drawn within one sample of it is nearer
+// by more than its tolerance.
 void Renderer::visibility(const Scene& scene, const float* points, const float* tolerance,
                           int count, uint8_t* out) const {
   for (int i = 0; i < count; ++i) {
@@ -319,8 +319,8 @@ void Renderer::visibility(const Scene& scene, const float* points, const float* 
   }
 }
 
-// Share of the directions [count,3] above each vertex of the first mesh that meet nothing, cosine
-// weighted.
+// Cosine-weighted share of the directions [count,3] above each vertex of the first mesh that hit
+// nothing.
 void Renderer::exposure_to_sky(const Scene& scene, const float* directions, int count, float* out) {
   geometry(scene);
   const Vertices& v = vertices_[0];
@@ -377,7 +377,7 @@ void renderer_blend_shapes(const float* weights, const float* basis, int rows, i
   mien::render::blend_shapes(weights, basis, rows, shapes, blocks, out);
 }
 
-// Takes what the folds of a posed head [vertices,3] cost off openness [vertices].
+// Subtracts the shade of the folds of a posed head [vertices,3] from openness [vertices].
 void renderer_darken(const mien::render::Folds* folds, const float* posed, float* open) {
   thread_local mien::render::Folding folding;
   folding.darken(*folds, posed, open);

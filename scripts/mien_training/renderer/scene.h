@@ -1,4 +1,4 @@
-// What an image shows, as plain structs shared with ctypes (native.py mirrors them field by
+// The content of an image, as plain structs shared with ctypes (native.py mirrors them field by
 // field).
 #pragma once
 #include <cstdint>

@@ -104,7 +104,7 @@ struct Batch {
   int32_t gloss[kSize];
   float share[kSize];  // of its pixel
   size_t pixel[kSize];
-  float colour[3][kSize];  // what `light` answers, linear
+  float colour[3][kSize];  // result of `light`, linear
 
   Vec3 normal(int i) const { return {nx[i], ny[i], nz[i]}; }
   Vec3 answer(int i) const { return {colour[0][i], colour[1][i], colour[2][i]}; }
@@ -149,7 +149,7 @@ inline void light_from_environment(const Light& light, Batch& b) {
   }
 }
 
-// Light of one lamp. It wraps around skin, red the furthest, for what it scatters below the
+// Light of one lamp. It wraps around skin, red the furthest, because of scattering below the
 // surface.
 inline void light_from_lamp(const Light& light, int lamp, Batch& b) {
   static constexpr float kSkinWrap[3] = {0.35f, 0.2f, 0.15f}, kWrap = 0.1f;

@@ -1,5 +1,5 @@
-// Batch norm in training, followed by the limits of an activation: two passes over the map forward,
-// and two backward.
+// Batch norm in training, followed by the limits of an activation: two forward and two
+// backward passes through the map.
 #include "norm.h"
 
 namespace mien::training {
