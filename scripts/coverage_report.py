@@ -85,10 +85,10 @@ def main(export, uncovered, report):
                 sums[kind][1] += file["summary"][kind]["count"]
     Path(uncovered).write_text("".join(f"{remark}\n" for remark in remarks))
 
-    rows = ["| | lines | % | branches | % |", "|---|---|---|---|---|"]
+    rows = ["| | lines, % | branches, % |", "|---|---|---|"]
     for room in sorted(set(rooms) - {"the library", "parsers"}) + ["the library", "parsers"]:
         parts = rooms[room]["lines"], rooms[room]["branches"]
-        rows.append(f"| {room} | " + " | ".join(f"{p[0]} of {p[1]} | {percent(p):.1f}" for p in parts) + " |")
+        rows.append(f"| {room} | " + " | ".join(f"{percent(p):.1f}" for p in parts) + " |")
     met = (percent(rooms["the library"]["lines"]) >= LINES_OF_LIBRARY
            and percent(rooms["parsers"]["branches"]) >= BRANCHES_OF_PARSERS)
     rows += ["",

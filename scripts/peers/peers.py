@@ -176,8 +176,8 @@ def page(report):
     lines += frame_lines(report["frames"]) if "frames" in report else []
     lines += sound_lines(report["sound"]) if "sound" in report else []
     lines += ["## Sizes", "", "Files of the packages for x86-64 Linux, not stripped; engines without a network.", ""]
-    lines += table(["", "version", "MB"], [[what, version, f"{size / MILLION:.1f}" if size else "-"]
-                                           for what, version, size in report["shipped"]])
+    lines += table(["", "MB"], [[f"{what} {version}".strip(), f"{size / MILLION:.1f}"]
+                                           for what, version, size in report["shipped"] if size])
     return "\n".join(lines).rstrip() + "\n"
 
 

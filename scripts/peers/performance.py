@@ -77,12 +77,8 @@ def to_text(figures):
     lines += table(("network", "tier", "us", "of the peak", "of ONNX Runtime"),
                    [(r["network"], r["tier"], f"{r['min_us']:.1f}", f"{100 * r['peak_share']:.0f} %",
                      f"{r['to_onnxruntime']:.2f}" if "to_onnxruntime" in r else "") for r in shown])
-    lines += ["", "## Audio", "",
-              "16 ms of audio, from samples to controls: resampler, features, encoder, both decoders (`mien bench "
-              "--sound`).", ""]
-    lines += table(("sample rate", "us, minimum", "us, median"),
-                   [(str(s["sample_rate"]), f"{s['min_us']:.1f}", f"{s['median_us']:.1f}")
-                    for s in figures["sound_step"]])
+    heard = ", ".join(f"{s['min_us']:.1f} us at {s['sample_rate']} Hz" for s in figures["sound_step"])
+    lines += ["", f"16 ms of audio, from samples to controls (`mien bench --sound`), take {heard}."]
     lines += ["", "## A frame", "",
               "Mean over tracked frames of the demo clip, 640 x 480 NV12, with audio (`mien bench --levels`); us.", ""]
     stages = ("warp", "encoder", "heads", "decoders")

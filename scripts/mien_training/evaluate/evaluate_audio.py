@@ -32,11 +32,10 @@ def markdown(report):
 
 
 def activity(ratios):
-    rows = [[str(r), *(out.number(100 * row[k], 1) for k in ("accuracy", "found", "false")), out.number(row["area"])]
+    rows = [[str(r), *(out.number(100 * row[k], 1) for k in ("accuracy", "found", "false"))]
             for r, row in ratios.items()]
     return ["## Voice activity", "",
-            *out.table(["dB", "frames right, %", "speech found, %", "silence taken for speech, %", "area under ROC"],
-                       rows),
+            *out.table(["dB", "frames right, %", "speech found, %", "silence taken for speech, %"], rows),
             "![ROC](audio_roc.png)", ""]
 
 

@@ -96,7 +96,7 @@ def markdown(report):
     header = ["clip", "frames", *(f"{title}, {out.level(name)}" for name in report
                                   for title in ("landmarks, %", "pose, degrees"))]
     lines += out.table(header, clip_rows(report))
-    return "\n".join(lines + out.prose(teacher.worst_controls({name: r["controls"] for name, r in report.items()})))
+    return "\n".join([*lines, "[Accuracy by control](controls.md)", ""])
 
 
 def clip_rows(report):

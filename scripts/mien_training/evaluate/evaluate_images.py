@@ -171,6 +171,4 @@ def markdown(report):
     lines += out.prose(
         f"""The data are held-out portraits with labels of MediaPipe and rendered test people. Cells with two figures
         are for {" and ".join(map(out.level, levels))}; *lost* counts faces that were not detected.""")
-    lines += group_lines(levels)
-    return "\n".join(lines + out.prose(teacher.worst_controls(
-        {name: r["portraits"]["controls"] for name, r in levels.items()})))
+    return "\n".join(lines + group_lines(levels))

@@ -13,7 +13,7 @@ def cell(bar, figure, level=None):
     if figure is None:
         return "-"
     shown = "not driven" if figure == targets.NOT_DRIVEN else f"{figure:.{bar.digits}f}"
-    return f"{shown} {'met' if bar.met(figure, level) else '**missed**'}"
+    return shown if bar.met(figure, level) else f"**{shown}**"
 
 
 def line(bar, results):
@@ -30,7 +30,7 @@ def rows_of(part, results):
     for level in LEVELS:
         known = [(bar, bar.figure(results.get(part, {}), level)) for bar in bars if bar not in single]
         known = [(bar, figure) for bar, figure in known if figure is not None]
-        fails = [f"{bar.title.removeprefix(targets.CORRELATION)} {cell(bar, figure, level).split()[0]}"
+        fails = [f"{bar.title.removeprefix(targets.CORRELATION)} {cell(bar, figure, level).strip('*')}"
                  for bar, figure in known if not bar.met(figure, level)]
         cells.append(f"{len(known) - len(fails)} of {len(known)} met")
         missed += [f"* [{part}]({part}.md), {out.level(level)}: {', '.join(fails)}"] if fails else []
@@ -78,7 +78,8 @@ def page(results, seconds, skipped, has_hifinet):
              *in_short(results)]
     lines += out.prose(
         """Level 1 uses BaseNet's controls and level 4 HiFiNet's. Most goals are those of the published method or
-        MediaPipe's own quality; two bounds are for level 1 and level 4. A dash: not measured or without a goal.""")
+        MediaPipe's own quality; two bounds are for level 1 and level 4. Bold figures miss their goal; a dash: not
+        measured or without a goal.""")
     if not has_hifinet:
         lines += ["**HiFiNet is not trained yet**: levels 2 to 4 are unknown.", ""]
     lines += [*counts(results), ""]

@@ -32,10 +32,3 @@ def compare_controls(ours, theirs):
     names = ("correlation", "error", "constant_error", "spread")
     return {CONTROLS[i]: dict(zip(names, out.rounded(row))) for i, row in zip(known, rows)}
 
-
-def worst_controls(levels, count=5):
-    """Text: the lowest correlations of each level {name: rows} among controls that the teacher moves."""
-    rank = lambda rows: sorted((r["correlation"], c) for c, r in rows.items()
-                               if r["spread"] >= MOVES and r["correlation"] is not None)
-    return "Lowest correlations with MediaPipe: " + out.by_level(levels, lambda rows: ", ".join(
-        f"{c} {value:.2f}" for value, c in rank(rows)[:count])) + ". [Accuracy by control](controls.md) has all."
