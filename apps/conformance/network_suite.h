@@ -31,8 +31,8 @@ struct Steps {
 
 class Network {
  public:
-  // The built-in networks and those of weight files. `models`: a folder; empty: where `mien` looks
-  // for models, if there are any. Throws Failure if a named folder has no models.
+  // The built-in networks and those of weight files. `models`: a folder; empty: the default of
+  // `mien`, if it exists. Throws Failure if a named folder has no models.
   static std::vector<Network> find_all(const std::string& models);
 
   [[nodiscard]] const std::string& name() const { return name_; }  // "network/basenet_encoder"

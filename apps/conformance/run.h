@@ -15,7 +15,7 @@ struct Options {
   std::uint64_t seed = 1;
   int repeat = 1;
   std::string json;    // empty: none; "-": standard output
-  std::string models;  // empty: where `mien` looks for models
+  std::string models;  // empty: the default of `mien`
 };
 
 [[nodiscard]] ExitCode run(const Options& options);

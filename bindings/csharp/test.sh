@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Compiles the package with Debian's mono and passes its tests, the README's example among them.
+# Compiles the package with Debian's mono and runs its tests, including the README's example.
 # usage: bindings/csharp/test.sh      (scripts/setup.sh build csharp)
 set -euo pipefail
 cd "$(dirname "$0")/../.."

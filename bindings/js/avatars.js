@@ -1,4 +1,4 @@
-// Moves avatars of three.js by results, without depending on three.js. Runs where the avatar is: results may come from a worker.
+// Moves avatars of three.js by results, without depending on three.js. Results may come from a worker.
 import {expressionDrivers, morphDrivers} from './matching.js';
 import {valuesOf} from './vocabularies.js';
 

@@ -9,7 +9,7 @@ if command -v swift >/dev/null && swift --version >/dev/null 2>&1; then
   cd bindings/swift && exec swift test -c release --scratch-path ../../build/bindings/swift
 fi
 if ! command -v clang >/dev/null; then
-  echo "NOT TESTED: bindings/swift, for which there is neither Swift nor clang (scripts/setup.sh test)"
+  echo "NOT TESTED: bindings/swift: neither Swift nor clang is installed (scripts/setup.sh test)"
   exit 0
 fi
 work=$(mktemp -d)

@@ -515,9 +515,9 @@ typedef struct mien_weights mien_weights;
 /** Weight files in memory. Initialize it with mien_weights_config_default.
  *
  *  A file is one .mien file, a packed one (scripts/package/pack_weights.py), or a bundle: several
- * of these one after another, as `cat` joins them. The order does not matter: a tracker finds
- * BaseNet, the detector, HiFiNet and AudioNet by their networks. There may be 16 .mien files in
- * total. */
+ *  of these one after another, as `cat` joins them. The order does not matter: a tracker finds
+ *  BaseNet, the detector, HiFiNet and AudioNet by their networks. There may be 16 .mien files in
+ *  total. */
 typedef struct mien_weights_config {
   uint32_t struct_size;
   /** Not 0: files are copied, so that their memory is free after mien_weights_create. 0 (default):
@@ -561,7 +561,7 @@ typedef struct mien_tracker mien_tracker;
 #define MIEN_MAX_FACES 8
 
 /** Configuration of a tracker. Initialize it with mien_tracker_config_default; only `weights` has
- * no default. */
+ *  no default. */
 typedef struct mien_tracker_config {
   uint32_t struct_size;
   /** Allowed tiers, and MIEN_CPU_FUSED; default MIEN_CPU_ALL. For other weights than the project's,
@@ -610,11 +610,11 @@ typedef struct mien_tracker_config {
    *
    *  A detection runs on a single image if that is the first one, follows a discontinuity, or has a
    *  new size. Otherwise its work is spread over several images (6 to 13; 22 to 50 at level 1),
-   * and large faces are detected in between, at another roll on every image (every second one at
-   * level 1). An image without a face then costs about as much as two images with one, four at
-   * level 1. Thorough detection finds faces that are hard to see and takes the most images: it
-   * applies to detections on a single image, and to every fourth one of the others in a row without
-   * success. Half of these others are at a roll. */
+   *  and large faces are detected in between, at another roll on every image (every second one at
+   *  level 1). An image without a face then costs about as much as two images with one, four at
+   *  level 1. Thorough detection finds faces that are hard to see and takes the most images: it
+   *  applies to detections on a single image, and to every fourth one of the others in a row
+   *  without success. Half of these others are at a roll. */
   int32_t search_interval;
 
   /** Automatic level of detail: average time budget of a frame with a face, in ms; 0.01..1e6;
@@ -631,7 +631,7 @@ typedef struct mien_tracker_config {
   int32_t max_faces;
 
   /** Not 0 (default): the tracker accepts audio if the weights have AudioNet; MIEN_ERROR_LEFT_OUT
-   * if they do and audio is not compiled in (MIEN_WITH_AUDIO). 0: audio disabled. */
+   *  if they do and audio is not compiled in (MIEN_WITH_AUDIO). 0: audio disabled. */
   int32_t audio;
   /** Attack and release: time constants with which mien_result.voice_activity rises and falls, in
    *  ms; 0..10000; default 40 and 150. */

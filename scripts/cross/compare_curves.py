@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Compares two CSVs of `mien track`: the same frames, and equal values but for rounding, which differs between processors.
+"""Compares two CSVs of `mien track`: the same frames, and equal values except for rounding, which differs between processors.
 
 usage: scripts/cross/compare_curves.py CSV EXPECTED_CSV      exit status 1 if they differ
 """

@@ -6,7 +6,7 @@ get_filename_component(emscripten ${emscripten} DIRECTORY)
 # Node 18 and later have a `fetch` that cannot read files, which Emscripten up to 3.1.15 trips over.
 set(CMAKE_CROSSCOMPILING_EMULATOR node --no-experimental-fetch)
 include(${emscripten}/cmake/Modules/Platform/Emscripten.cmake)
-# Its find rules look into the sysroot alone; GTest_DIR lies elsewhere.
+# Its find rules only search the sysroot; GTest_DIR is elsewhere.
 set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE BOTH)
 set(CMAKE_CXX_FLAGS_INIT "-include ${CMAKE_CURRENT_LIST_DIR}/bit_cast.h")
 # One file per program, so that a page can be opened from a folder.

@@ -12,7 +12,7 @@ export NODE_PATH=/usr/share/nodejs  # where Debian keeps the modules that Emscri
 toolchain=$PWD/scripts/cross/wasm.cmake
 root=build/cross/wasm
 node=(node)
-# Of Node 18 to 23: Emscripten up to 3.1.15 believes in its `fetch`, which cannot read files.
+# For Node 18 to 23: Emscripten up to 3.1.15 uses its `fetch`, which cannot read files.
 ! node --no-experimental-fetch -e 0 2>/dev/null || node+=(--no-experimental-fetch)
 
 configure_variant() {  # simd or plain

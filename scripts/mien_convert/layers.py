@@ -24,7 +24,7 @@ class Layer:
         return h * w * c
 
     def is_plain(self):
-        """Linear with weights: whatever is linear can be folded into it."""
+        """Whether linear operations can be folded into its weights."""
         return self.op in WEIGHTED and not self.activation
 
 

@@ -72,7 +72,7 @@ class Base:
                                                                  self.source)
 
     def _read_dependencies(self):
-        """Objects by the file that they are made of, directly or through #include."""
+        """Objects by the files that they are compiled from, directly or through #include."""
         self._dependents = {}
         for line in self._ninja("deps").splitlines():
             if not line.startswith(" "):

@@ -79,7 +79,7 @@ class Variant:
         linked = self._programs / path
         linked.parent.mkdir(parents=True, exist_ok=True)
         direct = {self._base.source_of(output) for output in program.direct}
-        # Ahead of all: the linker takes no second definition from a library, nor of an inline function from a test.
+        # Before all others: the linker ignores second definitions from libraries, and of inline functions from tests.
         ahead = [path for output, path in changed.items()
                  if output not in program.direct and self._base.source_of(output) not in direct]
         compiler, *words = [changed.get(word, word) for word in program.command]

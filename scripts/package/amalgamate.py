@@ -220,7 +220,7 @@ def banner(version, what):
 
 def core_file(version):
     text = joined(core_sources())
-    return banner(version, "the library but for its kernels.") + [
+    return banner(version, "the library without its kernels.") + [
         f'#define MIEN_VERSION "{version}"', "#define MIEN_BUILDING", TIERS_HERE, '#include "mien.h"', "", *text.system, "", *QUIET, *text.lines]
 
 

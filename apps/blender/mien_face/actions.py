@@ -14,7 +14,7 @@ _CONSTANT, _LINEAR = 0, 1  # of Keyframe.interpolation
 
 @dataclass
 class Written:
-    """What an import or a recording has created."""
+    """Objects that an import or a recording has created."""
 
     shape_curves: int = 0
     head_name: str = ""

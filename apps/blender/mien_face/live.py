@@ -1,4 +1,4 @@
-"""The running receiver: at most one, whatever the number of scenes."""
+"""The running receiver: at most one for all scenes."""
 
 import time
 
@@ -10,7 +10,7 @@ from .frame import FaceDataError
 from .receiver import ANY, LOOPBACK, Receiver
 from .recording import Recording
 
-_INTERVAL_S = 1.0 / 120.0  # between looks at the socket
+_INTERVAL_S = 1.0 / 120.0  # between reads of the socket
 _REDRAW_S = 0.25  # between updates of the panel
 
 

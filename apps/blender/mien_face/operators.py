@@ -71,7 +71,7 @@ class MIEN_FACE_OT_stop(bpy.types.Operator):
 class MIEN_FACE_OT_record(bpy.types.Operator):
     bl_idname = "mien_face.record"
     bl_label = "Record"
-    bl_description = "Collect what arrives, from the current frame on"
+    bl_description = "Record received animation from the current frame on"
 
     @classmethod
     def poll(cls, _):
@@ -85,7 +85,7 @@ class MIEN_FACE_OT_record(bpy.types.Operator):
 class MIEN_FACE_OT_finish_recording(bpy.types.Operator):
     bl_idname = "mien_face.finish_recording"
     bl_label = "Finish Recording"
-    bl_description = "Write what was collected as actions"
+    bl_description = "Write the recording as actions"
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod

@@ -13,7 +13,7 @@ export function correlate(a, b) {
   return product(a, b, ma, mb) / Math.sqrt(product(a, a, ma, ma) * product(b, b, mb, mb));
 }
 
-// `samples`: [ms, value]; `truth`: values at 30 frames a second. From two loops on, the best lag is unambiguous.
+// `samples`: [ms, value]; `truth`: values at 30 frames per second. The best lag is unambiguous for at least two loops.
 export function bestCorrelation(samples, truth) {
   const frameMs = 1000 / 30, start = samples[0][0], values = samples.map(([, value]) => value);
   const candidates = truth.map((_, lag) => {

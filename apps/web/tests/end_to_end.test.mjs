@@ -159,7 +159,7 @@ test('audio alone moves the mouth', async () => {
   await context.close();
 });
 
-// From now on the camera is waited for until the page's `grant` is called; `tracks` are what it gave.
+// The camera stays pending until the page's `grant` is called; `tracks` are those that it returns.
 const holdCamera = page => page.evaluate(() => {
   const {mediaDevices} = navigator, give = mediaDevices.getUserMedia.bind(mediaDevices);
   const granted = new Promise(done => { window.grant = done; });

@@ -1,4 +1,4 @@
-# The headers of CLI11 alone, and of stb, which is not looked for: /usr/include as a whole would hide those of the target's C library.
+# Headers of CLI11 and stb only: the whole of /usr/include would hide those of the target's C library.
 file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/headers)
 foreach(folder CLI stb)
   file(CREATE_LINK /usr/include/${folder} ${CMAKE_BINARY_DIR}/headers/${folder} SYMBOLIC)
