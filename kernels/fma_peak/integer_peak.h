@@ -6,8 +6,8 @@
 namespace mien::kernels {
 namespace {
 
-// Vector::Sum is the vector of sums. kSums independent sums keep both multipliers busy: throughput 2
-// per cycle, latency 5 cycles, and spare. Vector::multiply_add adds kProducts products;
+// Vector::Sum is the vector of sums. kSums independent sums keep both multipliers busy: throughput
+// 2 per cycle, latency 5 cycles, and spare. Vector::multiply_add adds kProducts products;
 // Vector::store writes 8 floats.
 template <class Vector>
 void integer_peak(const FmaPeakArgs& a) {
