@@ -259,7 +259,7 @@ class ComparePage(unittest.TestCase):
 if __name__ == "__main__":
     missing = [name for name, there in (("chromium", chromium.find()), ("ffmpeg", shutil.which("ffmpeg"))) if not there]
     if missing:
-        print(f"SKIPPED: the page of `mien compare` was NOT tested: no {' and no '.join(missing)} here", file=sys.stderr)
+        print(f"SKIPPED: the page of `mien compare` was NOT tested: {' and '.join(missing)} not available", file=sys.stderr)
         sys.exit(77)
     MIEN = sys.argv.pop(1)
     unittest.main(verbosity=2)

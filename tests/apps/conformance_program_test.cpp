@@ -112,7 +112,7 @@ TEST_F(ConformanceProgram, ATrimmedBuildFails) {
   EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 4);
   EXPECT_THAT(contents(path("errors")), HasSubstr("no reference kernels"));
 #else
-  GTEST_SKIP() << "skipped: no tier here but the reference";
+  GTEST_SKIP() << "skipped: this CPU has only the reference tier";
 #endif
 }
 

@@ -174,7 +174,7 @@ class Faults(unittest.TestCase):
                 self.assertEqual(path.stat().st_mtime_ns, done.get(path, path.stat().st_mtime_ns), "done once")
         self.assertGreater(halves, 0, "some should have been killed in the middle")
 
-    @unittest.skipUnless(shutil.which("ffmpeg"), "no ffmpeg here")
+    @unittest.skipUnless(shutil.which("ffmpeg"), "ffmpeg is not installed")
     def test_a_decoder_that_dies_leaves_no_output(self):
         """ffmpeg decodes a part of the video, then is killed, fails, or exits."""
         real = shutil.which("ffmpeg")
@@ -189,7 +189,7 @@ class Faults(unittest.TestCase):
             self.assertEqual(failed.returncode, TRUNCATED, (ending, failed.stderr))
             self.assert_no_output()
 
-    @unittest.skipUnless(shutil.which("ffmpeg"), "no ffmpeg here")
+    @unittest.skipUnless(shutil.which("ffmpeg"), "ffmpeg is not installed")
     def test_an_encoder_that_dies_leaves_no_output(self):
         real = shutil.which("ffmpeg")
         fakes = self.folder / "bin"
@@ -231,6 +231,6 @@ class Faults(unittest.TestCase):
 
 if __name__ == "__main__":
     if not (SOURCE / "models/basenet.mien").exists():
-        print("skipped: no trained model here")
+        print("skipped: the weights are missing")
         sys.exit(77)
     unittest.main(argv=sys.argv[:1], verbosity=2)

@@ -78,6 +78,6 @@ class Names(unittest.TestCase):
 
 if __name__ == "__main__":
     if not (SOURCE / "models/basenet.mien").exists() or not shutil.which("ffmpeg"):
-        print("skipped: no trained model, or no ffmpeg here")
+        print("skipped: the weights or ffmpeg are missing")
         sys.exit(77)
     unittest.main(argv=sys.argv[:1], verbosity=2)

@@ -435,6 +435,6 @@ class Live(unittest.TestCase):
 
 if __name__ == "__main__":
     if not shutil.which("ffmpeg") or not os.path.exists(SOURCE + "/models/basenet.mien"):
-        print("skipped: no ffmpeg or no weights here")
+        print("skipped: ffmpeg or the weights are missing")
         sys.exit(77)
     unittest.main()

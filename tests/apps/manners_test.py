@@ -94,7 +94,7 @@ class Manners(unittest.TestCase):
     def test_a_neutral_face_as_json(self):
         source = os.path.join(DOCS, "..")
         if not shutil.which("ffmpeg") or not os.path.exists(os.path.join(source, "models", "basenet.mien")):
-            self.skipTest("SKIPPED: no ffmpeg or no weights here")
+            self.skipTest("SKIPPED: ffmpeg or the weights are missing")
         with tempfile.TemporaryDirectory() as folder:
             clip, made = os.path.join(source, "tests", "data", "demo.mp4"), os.path.join(folder, "me.neutral")
             done = run("neutral", clip, "-o", made, "--json", "--models", os.path.join(source, "models"))

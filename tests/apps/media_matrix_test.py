@@ -182,6 +182,6 @@ def main():
 
 if __name__ == "__main__":
     if not (SOURCE / "models/basenet.mien").exists() or not shutil.which("ffmpeg"):
-        print("skipped: no models or no ffmpeg here")
+        print("skipped: ffmpeg or the weights are missing")
         sys.exit(77)
     sys.exit(main())

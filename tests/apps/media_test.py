@@ -281,7 +281,7 @@ class Media(unittest.TestCase):
 
 if __name__ == "__main__":
     if not (SOURCE / "models/basenet.mien").exists() or not shutil.which("ffmpeg"):
-        print("skipped: no models or no ffmpeg here")
+        print("skipped: ffmpeg or the weights are missing")
         sys.exit(77)
     os.environ.pop("MIEN_MODELS", None)
     unittest.main(argv=sys.argv[:1] + sys.argv[2:], verbosity=2)

@@ -47,7 +47,7 @@ const char* const kBoth =
 TEST(NutReader, ReadsPacketsAndTimestamps) {
   const std::vector<std::byte> bytes = made_by_ffmpeg(kBoth);
   if (bytes.empty()) {
-    GTEST_SKIP() << "skipped: no ffmpeg here";
+    GTEST_SKIP() << "skipped: ffmpeg is not installed";
   }
   const Contents contents = read(bytes);
   EXPECT_EQ(contents.end, NutStatus::kEnd);
@@ -71,7 +71,7 @@ TEST(NutReader, TimesOfSlowStreamsAreExact) {
   const std::vector<std::byte> bytes =
       made_by_ffmpeg("-f lavfi -i color=s=4x4:r=3/10000 -frames:v 30 -c:v rawvideo -pix_fmt rgb24");
   if (bytes.empty()) {
-    GTEST_SKIP() << "skipped: no ffmpeg here";
+    GTEST_SKIP() << "skipped: ffmpeg is not installed";
   }
   const Contents contents = read(bytes);
   ASSERT_EQ(contents.packets.size(), 30u);
@@ -83,7 +83,7 @@ TEST(NutReader, TimesOfSlowStreamsAreExact) {
 TEST(NutReader, GivesOnlyCompletePacketsOfATruncatedStream) {
   const std::vector<std::byte> bytes = made_by_ffmpeg(kBoth);
   if (bytes.empty()) {
-    GTEST_SKIP() << "skipped: no ffmpeg here";
+    GTEST_SKIP() << "skipped: ffmpeg is not installed";
   }
   const std::vector<NutPacket> whole = read(bytes).packets;
   for (std::size_t length = 0; length < bytes.size(); length += length < 2000 ? 1 : 997) {
@@ -100,7 +100,7 @@ TEST(NutReader, GivesOnlyCompletePacketsOfATruncatedStream) {
 TEST(NutReader, SurvivesEveryBitFlippedInItsHeaders) {
   const std::vector<std::byte> bytes = made_by_ffmpeg(kBoth);
   if (bytes.empty()) {
-    GTEST_SKIP() << "skipped: no ffmpeg here";
+    GTEST_SKIP() << "skipped: ffmpeg is not installed";
   }
   std::vector<std::byte> flipped(bytes.begin(), bytes.begin() + 6000);
   for (std::size_t i = 0; i < 700 * 8; ++i) {

@@ -345,7 +345,7 @@ class SameFile(unittest.TestCase):
 
 if __name__ == "__main__":
     if not (SOURCE / "models/basenet.mien").exists():
-        print("no trained models here")
+        print("skipped: the weights are missing")
         sys.exit(77)
     tests = [word for word in sys.argv[2:] if word != "full"]
     unittest.main(argv=[sys.argv[0], *tests], verbosity=2)

@@ -58,7 +58,7 @@ class Program : public testing::Test {
 };
 
 #define MIEN_NEEDS(what, condition) \
-  if (!(condition)) GTEST_SKIP() << "skipped: no " what " here"
+  if (!(condition)) GTEST_SKIP() << "skipped: missing: " what
 
 inline std::size_t lines(const std::string& text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));

@@ -202,7 +202,7 @@ class Contents(unittest.TestCase):
         self.assertEqual(again()["outcome"], "done")
 
 
-@unittest.skipUnless(chromium.find(), "SKIPPED: the page was NOT looked at in a browser: no chromium here")
+@unittest.skipUnless(chromium.find(), "SKIPPED: the page was NOT tested in a browser: chromium is not installed")
 class Page(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -391,7 +391,7 @@ class Page(unittest.TestCase):
 if __name__ == "__main__":
     MIEN = sys.argv.pop(1)
     if not shutil.which("ffmpeg") or not os.path.exists(os.path.join(SOURCE, "models", "basenet.mien")):
-        print("SKIPPED: reports were NOT tested: no ffmpeg or no weights here", file=sys.stderr)
+        print("SKIPPED: reports were NOT tested: ffmpeg or the weights are missing", file=sys.stderr)
         sys.exit(77)
     Folder.make()
     try:

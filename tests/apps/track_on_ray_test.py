@@ -87,7 +87,7 @@ class BatchRay(unittest.TestCase):
         self.assertEqual(done["outcome"], "failed")
         self.assertIn("bad.mp4: no video", done["failure"])
 
-    @unittest.skipUnless(importlib.util.find_spec("ray"), "SKIPPED: batches were NOT run on a cluster: no ray (PyPI) here")
+    @unittest.skipUnless(importlib.util.find_spec("ray"), "SKIPPED: batches were NOT run on a cluster: ray (PyPI) is not installed")
     def test_a_killed_worker_is_replaced(self):
         from ray.cluster_utils import Cluster
         open(self.path("in/bad.mp4"), "w").close()

@@ -19,7 +19,7 @@ try:
     from conversion import answered, convert, difference, time_axis
     from onnx import numpy_helper
 except ModuleNotFoundError as missing:
-    print("skipped: no Python module", missing.name, "here; scripts/setup.sh convert installs it")
+    print("skipped: missing Python module", missing.name + "; scripts/setup.sh convert installs it")
     sys.exit(77)
 
 TESTS = Path(os.environ.get("MIEN_CACHE", Path.home() / ".cache/mien")) / "onnx-node-tests-1.13.1"

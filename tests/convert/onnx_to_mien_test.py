@@ -25,7 +25,7 @@ try:
     import random_graphs
     from conversion import Runtime, answered, convert, difference, runtime_is_here, time_axis
 except ModuleNotFoundError as missing:
-    print("skipped: no Python module", missing.name, "here; scripts/setup.sh convert installs it")
+    print("skipped: missing Python module", missing.name + "; scripts/setup.sh convert installs it")
     sys.exit(77)
 try:
     import modern_networks

@@ -28,7 +28,7 @@ try:
     from mien_convert.model import Graph
     from mien_convert.weight_file import MienFile
 except ModuleNotFoundError as missing:
-    print("skipped: no Python module", missing.name, "here; scripts/setup.sh convert installs it")
+    print("skipped: missing Python module", missing.name + "; scripts/setup.sh convert installs it")
     sys.exit(77)
 RANDOM_GRAPHS = 60
 

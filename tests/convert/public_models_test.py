@@ -15,7 +15,7 @@ try:
     import onnx
     from conversion import MODULES, Runtime, answered, convert, difference, runtime_is_here
 except ModuleNotFoundError as missing:
-    print("skipped: no Python module", missing.name, "here; scripts/setup.sh convert installs it")
+    print("skipped: missing Python module", missing.name + "; scripts/setup.sh convert installs it")
     sys.exit(77)
 FOLDER = Path(sys.argv[2] if len(sys.argv) > 2 else os.environ.get("MIEN_ONNX_MODELS", MODULES.parent / "onnx_models"))
 ALLOWED = 1e-3  # of the largest value

@@ -10,12 +10,12 @@ NAME = "de_DE.UTF-8"
 
 def main():
     if not shutil.which("localedef"):
-        print("skipped: no localedef here, to make a locale with")
+        print("skipped: localedef is not installed")
         return 77
     with tempfile.TemporaryDirectory() as folder:
         made = subprocess.run(["localedef", "-i", "de_DE", "-f", "UTF-8", f"{folder}/{NAME}"], capture_output=True, text=True)
         if made.returncode > 1:  # 1: created, with warnings
-            print("skipped: no description of a locale here:", made.stderr.strip())
+            print("skipped: localedef cannot create the locale:", made.stderr.strip())
             return 77
         # The C library never frees data from `LOCPATH`, which counts as a leak.
         environment = {**os.environ, "LOCPATH": folder, "MIEN_TEST_LOCALE": NAME, "ASAN_OPTIONS": "detect_leaks=0"}

@@ -15,7 +15,7 @@ from mien_training.paths import cache, data
 try:
     import torch
 except ModuleNotFoundError:
-    print("skipped: no Python module torch here", file=sys.stderr)
+    print("skipped: missing Python module torch", file=sys.stderr)
     sys.exit(77)
 
 NEEDED = [data() / "faces_wild", cache() / "faces/misplaced.npy", cache() / "synthetic/train_stills",
@@ -24,7 +24,7 @@ FACES = 24 * 120
 
 
 class KilledTraining(unittest.TestCase):
-    def test_goes_on_from_its_last_checkpoint(self):
+    def test_resumes_from_its_last_checkpoint(self):
         name = Path(tempfile.mkdtemp(prefix="killed_", dir=cache() / "runs")).name
         self.addCleanup(shutil.rmtree, cache() / "runs" / name)
         train = [sys.executable, "-m", "mien_training.phase1.train_encoder", "--name", name, "--batch", "24",

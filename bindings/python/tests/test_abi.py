@@ -18,7 +18,7 @@ HEADER = (REPOSITORY / "include/mien/mien.h").read_text()
 def facts():
     """The facts of bindings/c_api.py by kind, {name: value}."""
     if shutil.which("clang") is None:
-        pytest.skip("no clang here")
+        pytest.skip("clang is not installed")
     said = {}
     for line in subprocess.run([sys.executable, REPOSITORY / "bindings/c_api.py"], check=True, capture_output=True, text=True).stdout.splitlines():
         kind, name, value = line.split()

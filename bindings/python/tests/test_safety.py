@@ -107,7 +107,7 @@ def in_child(body):
     return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
 
 
-@pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork here")
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="the system has no fork")
 def test_a_fork_is_an_error_in_the_child_only(tracker, network):
     def uses():
         for call in (lambda: tracker.track(PICTURE, 0), tracker.result, tracker.reset, tracker.faces,
