@@ -105,7 +105,8 @@ class QuantizedTiles {
     const Finish blocks[] = {Finish(a_, channel),
                              Finish(a_, kCount == 1 ? channel + kLanes : channel)};
     PixelPointer<float> y(a_.to.y, a_.to.y_rows, panel_, first);
-    PixelPointer<const float> residual(a_.to.residual, a_.to.residual_rows, panel_, first);
+    auto residual =
+        PixelPointer<const float>::optional(a_.to.residual, a_.to.residual_rows, panel_, first);
     for (std::int32_t pixel = first; pixel < end; pixel += tile.pixels) {
       Sums sums;
       tile.run(a_, a_.values + std::ptrdiff_t{pixel} * kLanes, weights_, sums);

@@ -179,7 +179,8 @@ void sweep(const QuantizedProduct& a, std::int32_t first, const Tiling<Run>& til
   const Finish finish(a, first);
   const auto run = [&](const SizedTile<Run>& tile, std::int32_t pixel, std::int32_t count) {
     PixelPointer<float> y(a.to.y, a.to.y_rows, first, pixel);
-    PixelPointer<const float> residual(a.to.residual, a.to.residual_rows, first, pixel);
+    auto residual =
+        PixelPointer<const float>::optional(a.to.residual, a.to.residual_rows, first, pixel);
     for (; count > 0; --count, pixel += tile.pixels) {
       Sums sums;
       tile.run(a, a.values + std::ptrdiff_t{pixel} * kBlock, w, sums);

@@ -61,7 +61,8 @@ void Text::append(double number) {
     return append(size <= 0x1p64 ? "2^53 or more" : "infinity");
   }
   auto whole = static_cast<std::uint64_t>(size);
-  auto decimals = static_cast<std::uint64_t>((size - static_cast<double>(whole)) * kMillion + 0.5);
+  auto decimals =
+      static_cast<std::uint64_t>(std::llround((size - static_cast<double>(whole)) * kMillion));
   whole += decimals / 1000000;
   decimals %= 1000000;
   append(whole);

@@ -62,7 +62,7 @@ struct Selection {
 mien_status select(const mien_network_config& config, Selection& selection,
                    mien_error_detail& error) {
   for (const mien_weights::File& file : *config.weights) {
-    const auto* record = config.name == nullptr ? file.model.file().networks().data()
+    const auto* record = config.name == nullptr ? &file.model.file().networks().front()
                                                 : file.model.network(config.name);
     if (record != nullptr) {
       selection.model = file.model;

@@ -11,7 +11,8 @@ namespace mien::tracker {
 
 // Describes an error and returns its status.
 inline mien_status fail(mien_error_detail& error, mien_status status, const char* field = nullptr) {
-  return formats::describe(error, status, field);
+  formats::describe(error, status, field);
+  return status;  // which static analysis cannot see through a call
 }
 
 // Checks the memory of a create_in function.

@@ -9,7 +9,8 @@
 
 namespace mien::tracker {
 
-// Size of T up to and including `member`.
+// Size of T up to and including `member`, which may be a pointer.
+// NOLINTNEXTLINE(bugprone-sizeof-expression)
 #define MIEN_SIZE_THROUGH(T, member) (offsetof(T, member) + sizeof(T::member))
 
 // Copies `from`, as far as its size goes, over the defaults in `to`. False if it is smaller than
