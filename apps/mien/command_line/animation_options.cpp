@@ -39,4 +39,10 @@ void add_writing_options(CLI::App& verb, animation::WriteOptions& options) {
       ->transform(CLI::CheckedTransformer(std::map<std::string, bool>{{"0", false}, {"1", true}}));
 }
 
+void add_avatar(CLI::App& verb, std::string& avatar) {
+  verb.add_option("--avatar", avatar,
+                  "avatar (.glb, .vrm) that a .glb output contains, moved by its morph targets, "
+                  "head and eyes");
+}
+
 }  // namespace mien::app

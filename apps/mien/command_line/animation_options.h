@@ -16,4 +16,7 @@ CLI::Validator length_units();
 // Adds --llf-rot, --llf-fps, --bvh-unit and --roblox-lod.
 void add_writing_options(CLI::App& verb, animation::WriteOptions& options);
 
+// Adds --avatar.
+void add_avatar(CLI::App& verb, std::string& avatar);
+
 }  // namespace mien::app

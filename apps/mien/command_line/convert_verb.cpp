@@ -36,6 +36,7 @@ void add_convert(CLI::App& program) {
                    "the size of the skeleton)")
       ->transform(length_units());
   add_writing_options(*verb, options->writing);
+  add_avatar(*verb, options->avatar);
   verb->add_flag("--json", options->json,
                  "print a summary with omitted data to standard error as JSON");
   verb->add_flag("--quiet", options->quiet, "print no notes about omitted data");

@@ -25,6 +25,7 @@ const std::map<std::string, std::string>& value_names() {
       {"--bvh-unit", "m|cm|mm|in"},
       {"--from-bvh-unit", "m|cm|mm|in"},
       {"--roblox-lod", "0|1"},
+      {"--avatar", "FILE"},
       {"--landmarks", "FILE"},
       {"--overlay", "FILE"},
       {"--report", "FILE"},

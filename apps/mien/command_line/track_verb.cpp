@@ -38,6 +38,7 @@ void add_track(CLI::App& program) {
       ->expected(1)
       ->take_all();
   add_writing_options(*verb, options->animation.writing);
+  add_avatar(*verb, options->animation.avatar);
   verb->add_option("--landmarks", options->landmarks, "landmarks as CSV");
   verb->add_option("--overlay", options->overlay,
                    "the video with landmarks, pose and controls drawn on it");

@@ -160,12 +160,14 @@ void convert(const ConvertOptions& options) {
   AnimationOptions animation;
   animation.files = {options.output};
   animation.writing = options.writing;
+  animation.avatar = options.avatar;
   animation.format_option = "--to";
   if (!options.to.empty()) {
     animation.formats = {options.to};
   }
   const AnimationTarget target = targets(animation).front();
-  require_distinct_files({options.input, live_link_notes_of(options.input)}, files_of(target));
+  require_distinct_files({options.input, live_link_notes_of(options.input), options.avatar},
+                         files_of(target));
   std::optional<animation::AnimationFormat> from;
   if (!options.from.empty()) {
     from = format_asked_for(options.from);
@@ -188,6 +190,9 @@ void convert(const ConvertOptions& options) {
   even ? writer.write(*even) : writer.write(clip.frames);
   const std::vector<std::string> of_format = writer.lost();
   lost.insert(lost.end(), of_format.begin(), of_format.end());
+  if (!target.avatar.empty()) {
+    lost.emplace_back("everything but the controls, head and eyes that the avatar has");
+  }
   report(options, target.format, clip, writer.count(), lost);
 }
 

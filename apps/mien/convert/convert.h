@@ -18,6 +18,7 @@ struct ConvertOptions {
   std::optional<double> from_timecode_fps;
   std::optional<animation::LengthUnit> from_bvh_unit;
   animation::WriteOptions writing;
+  std::string avatar;         // file into which a .glb bakes the animation; empty: none
   std::optional<double> fps;  // default: the timestamps of the frames
   std::optional<std::int64_t> face;
   bool quiet = false;

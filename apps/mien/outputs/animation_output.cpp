@@ -1,11 +1,13 @@
 // Selects animation formats and writes animations.
 #include "apps/mien/outputs/animation_output.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "apps/mien/avatar/avatar.h"
 #include "apps/mien/system/failure.h"
 #include "apps/mien/system/paths.h"
 
@@ -79,9 +81,10 @@ std::vector<AnimationTarget> targets(const AnimationOptions& options) {
   }
   std::vector<AnimationTarget> selected;
   for (std::size_t i = 0; i < files.size(); ++i) {
-    selected.push_back({files[i], options.formats.empty()
-                                      ? format_of(files[i], options.format_option)
-                                      : format_asked_for(options.formats[i])});
+    const AnimationFormat format = options.formats.empty()
+                                       ? format_of(files[i], options.format_option)
+                                       : format_asked_for(options.formats[i]);
+    selected.push_back({files[i], format, format == AnimationFormat::kGlb ? options.avatar : ""});
     for (std::size_t k = 0; k < i; ++k) {
       if (selected[k].file == files[i]) {
         throw Failure(kExitUsage, files[i] + ": duplicate output path");
@@ -92,6 +95,12 @@ std::vector<AnimationTarget> targets(const AnimationOptions& options) {
                     files[i] + ": " + std::string(animation::name(selected.back().format)) +
                         " supports a single face; track one face, or write .jsonl and convert it");
     }
+  }
+  const bool takes_avatar = std::any_of(
+      selected.begin(), selected.end(),
+      [](const AnimationTarget& target) { return target.format == AnimationFormat::kGlb; });
+  if (!options.avatar.empty() && !takes_avatar) {
+    throw Failure(kExitUsage, "--avatar: no output for it (expected a .glb file)");
   }
   return selected;
 }
@@ -106,7 +115,8 @@ std::vector<std::string> files_of(const AnimationTarget& target) {
 
 AnimationOutput::AnimationOutput(const AnimationTarget& target,
                                  const animation::WriteOptions& options)
-    : writer_(animation::animation_writer(target.format, options)) {
+    : writer_(target.avatar.empty() ? animation::animation_writer(target.format, options)
+                                    : avatar_writer(target.avatar)) {
   const std::vector<std::string> files = files_of(target);
   if (target.file != kStandardOutput) {
     file_ = std::make_unique<OutputFile>(files.front());

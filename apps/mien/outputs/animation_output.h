@@ -18,16 +18,18 @@ struct AnimationOptions {
   std::vector<std::string> files;    // empty: standard output
   std::vector<std::string> formats;  // format names; empty: selected by the endings of `files`
   animation::WriteOptions writing;
+  std::string avatar;  // file into which .glb files bake the animation; empty: none
   const char* format_option = "--format";  // the option's name in messages
 };
 
 struct AnimationTarget {
   std::string file;
   animation::AnimationFormat format;
+  std::string avatar;  // of a .glb; empty: none
 };
 
 // One target per file. A file without an ending, such as a device or a pipe, is CSV. Throws
-// Failure(kExitUsage) for an unknown format or a duplicate file.
+// Failure(kExitUsage) for an unknown format, a duplicate file, or an avatar without a .glb.
 std::vector<AnimationTarget> targets(const AnimationOptions& options);
 
 // Throws Failure(kExitUsage) for an unknown format.

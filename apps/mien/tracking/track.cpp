@@ -93,7 +93,8 @@ LoadedTracker::Options tracker_options_of(const TrackOptions& options, const Inp
 }
 
 std::vector<std::string> inputs_of(const TrackOptions& options) {
-  std::vector<std::string> inputs = {options.input, options.audio, options.neutral};
+  std::vector<std::string> inputs = {options.input, options.audio, options.neutral,
+                                     options.animation.avatar};
   for (const std::filesystem::path& file : weight_files(models_directory(options.models))) {
     inputs.push_back(name_of(file));
   }
