@@ -2,6 +2,7 @@
 import {createHash} from 'node:crypto';
 import {cp, mkdir, readFile, readdir, rm, stat, writeFile} from 'node:fs/promises';
 import {build} from 'esbuild';
+import {writeDecoders} from './decoders.mjs';
 
 const here = new URL('.', import.meta.url).pathname, root = new URL('../..', import.meta.url).pathname;
 const out = here + 'dist/';
@@ -28,8 +29,11 @@ async function listFiles(folder, prefix = '') {
 async function licences() {
   const names = ['three', '@pixiv/three-vrm'];
   const texts = names.map(async name => `${name}\n\n${await readFile(`${here}node_modules/${name}/LICENSE`, 'utf8')}`);
-  return (await Promise.all(texts)).join('\n\n');
+  const decoders = `Draco, Basis Universal (decoders)\n\n${await readFile(root + 'LICENSE', 'utf8')}`;
+  return [...await Promise.all(texts), decoders].join('\n\n');
 }
+
+const onDemand = file => file.startsWith('decoders/');
 
 await rm(out, {recursive: true, force: true});
 await mkdir(out + 'models', {recursive: true});
@@ -38,14 +42,15 @@ await bundle(['src/tracking/worker.js', '../../bindings/js/mien-worklet.js'], {e
 for (const file of plain) await cp(here + file, out + file);
 for (const name of ['basenet', 'proposal', 'hifinet', 'audionet']) await cp(`${root}models/${name}.mien`, `${out}models/${name}.mien`);
 await cp(wasm, out + 'mien.wasm');
+await writeDecoders(out + 'decoders/');
 await writeFile(out + 'licences.txt', await licences());
 
 const files = await listFiles(out), hash = createHash('sha256');
 for (const file of files) hash.update(file).update(await readFile(out + file));
 await bundle(['src/service_worker.js'], {
   format: 'iife', entryNames: '[name]',
-  define: {FILES: JSON.stringify(['./', ...files.filter(file => file !== 'index.html')]), VERSION: JSON.stringify(hash.digest('hex').slice(0, 16))}});
+  define: {FILES: JSON.stringify(['./', ...files.filter(file => file !== 'index.html' && !onDemand(file))]), VERSION: JSON.stringify(hash.digest('hex').slice(0, 16))}});
 
-let bytes = 0;
-for (const file of await listFiles(out)) bytes += (await stat(out + file)).size;
-console.log(`${out}: ${bytes} bytes`);
+const size = async names => (await Promise.all(names.map(async name => (await stat(out + name)).size))).reduce((a, b) => a + b, 0);
+const all = await listFiles(out);
+console.log(`${out}: ${await size(all.filter(file => !onDemand(file)))} bytes, and ${await size(all.filter(onDemand))} of decoders that some avatars need`);

@@ -49,6 +49,33 @@ export async function meshoptModel(targetNames) {
   }});
 }
 
+// The same with bytes of another encoder behind its binary data. `refer` adds what refers to bufferView 2.
+const packedModel = (extension, bytes, refer) => headModel(['jawOpen'], {}, {pack(json, binary) {
+  json.extensionsUsed = json.extensionsRequired = [extension];
+  json.bufferViews.push({buffer: 0, byteOffset: 72, byteLength: bytes.length});
+  json.buffers[0].byteLength = 72 + bytes.length;
+  refer(json);
+  return Buffer.concat([binary, bytes]);
+}});
+
+// The positions of the triangle, compressed by Google's encoder.
+export const dracoModel = () => packedModel('KHR_draco_mesh_compression',
+  Buffer.from('RFJBQ08CAgEAAAABAwEAAQIBAQAJAwAAAM3MzL0zM7M/AAAAAM3MzD0zM7M/AAAAAAAAAACamdk/AAAAAA==', 'base64'), json => {
+    json.accessors.push({componentType: 5125, count: 3, type: 'SCALAR'});
+    delete json.accessors[0].bufferView;
+    Object.assign(json.meshes[0].primitives[0], {indices: 2, extensions: {KHR_draco_mesh_compression: {bufferView: 2, attributes: {POSITION: 0}}}});
+  });
+
+// A texture of 4 x 4 green pixels in UASTC.
+export const ktx2Model = () => packedModel('KHR_texture_basisu', Buffer.from(
+  'q0tUWCAyMLsNChoKAAAAAAEAAAAEAAAABAAAAAAAAAAAAAAAAQAAAAEAAAAAAAAAaAAAACwAAACUAAAALAAAAAAAAAAAAAAAAAAAAAAAAADAAAAAAAAAABAAAAAAAAAAEAAAAAAAAAAsAAAAAAAAAAIA' +
+  'KACmAQIAAwMAABAAAAAAAAAAAAB/AAAAAAAAAAAA/////x8AAABLVFh3cml0ZXIAQmFzaXMgVW5pdmVyc2FsIDIuNTAAAAQAAAB/fwAAFwAZ4P8DHgAAAAAAAAAAAA==', 'base64'), json => {
+  json.images = [{bufferView: 2, mimeType: 'image/ktx2'}];
+  json.textures = [{extensions: {KHR_texture_basisu: {source: 0}}}];
+  json.materials = [{pbrMetallicRoughness: {baseColorTexture: {index: 0}}}];
+  json.meshes[0].primitives[0].material = 0;
+});
+
 // VRM 1.0 whose presets `aa` and `blinkLeft` each move a target.
 export const vrmModel = () => headModel(['open', 'shut'], {
   extensionsUsed: ['VRMC_vrm'],

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import {after, before, test} from 'node:test';
 import {controlNames} from '../avatar/avatar.js';
 import {morphDrivers} from '../../../bindings/js/matching.js';
-import {bodyModel, headModel, meshoptModel, vrmModel} from './models.mjs';
+import {bodyModel, dracoModel, headModel, ktx2Model, meshoptModel, vrmModel} from './models.mjs';
 import {openPage, openStudio, until} from './page.mjs';
 
 const driver = name => morphDrivers([name]).get(name);
@@ -47,7 +47,8 @@ async function moved(bytes, name, face) {
     avatar.draw({controls, yaw: 0.3});
     let weights;
     avatar.root.traverse(node => { weights ??= node.morphTargetInfluences; });
-    return {weights: [...weights], status: document.getElementById('status').textContent, head: avatar.headBone.node.quaternion.toArray()};
+    const {geometry, material} = avatar.root.getObjectByName('face'), {mipmaps} = material.map ?? {};
+    return {weights: [...weights], positions: [...geometry.attributes.position.array], pixels: mipmaps && mipmaps[0].data.length, status: document.getElementById('status').textContent, head: avatar.headBone.node.quaternion.toArray()};
   }, controls(face));
   assert.deepEqual(complaints, []);
   await context.close();
@@ -79,9 +80,19 @@ test('a head without known names is rejected with a message', async () => {
   await context.close();
 });
 
-test('a GLB compressed by meshopt moves', async () => {
-  const {weights} = await moved(await meshoptModel(['jawOpen']), 'meshopt.glb', {jawOpen: 0.5});
+const triangle = [-0.1, 1.4, 0, 0.1, 1.4, 0, 0, 1.7, 0].map(Math.fround);
+for (const [name, make] of [['meshopt', () => meshoptModel(['jawOpen'])], ['Draco', dracoModel]]) {
+  test(`a GLB compressed by ${name} moves`, async () => {
+    const {weights, positions} = await moved(await make(), `${name}.glb`, {jawOpen: 0.5});
+    assert.deepEqual(weights, [0.5]);
+    assert.deepEqual(positions, triangle);
+  });
+}
+
+test('a GLB with a texture in KTX2 moves', async () => {
+  const {weights, pixels} = await moved(ktx2Model(), 'ktx2.glb', {jawOpen: 0.5});
   assert.deepEqual(weights, [0.5]);
+  assert.ok(pixels >= 8, `${pixels} bytes`);
 });
 
 test('the head of a body is framed, arms are lowered, and the view turns, zooms and resets', async () => {

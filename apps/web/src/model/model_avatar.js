@@ -3,10 +3,9 @@ import {
   AmbientLight, Box3, Color, DirectionalLight, Euler, PerspectiveCamera, Quaternion, Scene, Vector3, WebGLRenderer,
 } from 'three';
 import {OrbitControls} from 'three/examples/jsm/controls/OrbitControls.js';
-import {MeshoptDecoder} from 'three/examples/jsm/libs/meshopt_decoder.module.js';
-import {GLTFLoader} from 'three/examples/jsm/loaders/GLTFLoader.js';
-import {VRMLoaderPlugin, VRMUtils} from '@pixiv/three-vrm';
+import {VRMUtils} from '@pixiv/three-vrm';
 import {expressionTargets, morphTargets, move} from '../../../../bindings/js/avatars.js';
+import {loadModel} from './loader.js';
 
 const gazeAngle = 0.485;  // radians of a control at 1
 // Bones by their names in VRM, and patterns of the letters of other names: of Mixamo, Ready Player Me, VRoid, Unreal and Blender.
@@ -20,24 +19,28 @@ export async function openModel(file, canvas) {
   if (new DataView(bytes).byteLength < 20 || new DataView(bytes).getUint32(0, true) !== 0x46546c67) {
     throw new Error(`${file.name}: not a binary glTF file (.glb or .vrm)`);
   }
-  const loader = new GLTFLoader();
-  loader.setMeshoptDecoder(MeshoptDecoder);
-  loader.register(parser => new VRMLoaderPlugin(parser));
-  const gltf = await loader.parseAsync(bytes, '').catch(error => { throw new Error(`${file.name}: ${error.message}`); });
-  return new ModelAvatar(gltf, canvas, file.name);
+  const renderer = new WebGLRenderer({canvas, antialias: true, alpha: true});
+  try {
+    const gltf = await loadModel(bytes, renderer).catch(error => { throw new Error(`${file.name}: ${error.message}`); });
+    return new ModelAvatar(gltf, renderer, file.name);
+  } catch (error) {
+    renderer.dispose();
+    throw error;
+  }
 }
 
 const rotation = (pitch, yaw, roll) => new Quaternion().setFromEuler(new Euler(pitch, yaw, roll, 'YXZ'));
 
 class ModelAvatar {
-  constructor(gltf, canvas, name) {
+  constructor(gltf, renderer, name) {
     this.vrm = gltf.userData.vrm;
     this.root = this.vrm?.scene ?? gltf.scene;
     this.targets = this.vrm ? expressionTargets(this.vrm.expressionManager) : morphTargets(this.root);
     if (!this.targets.length) throw new Error(`${name}: no morph target or expression has a name of ARKit, VRM, Oculus or Roblox`);
     if (this.vrm?.meta.metaVersion === '0') VRMUtils.rotateVRM0(this.vrm);
+    this.renderer = renderer;
     this.findBones();
-    this.stage(canvas);
+    this.stage(renderer.domElement);
   }
 
   get vocabularies() { return [...new Set(this.targets.map(({vocabulary}) => vocabulary))]; }
@@ -69,7 +72,6 @@ class ModelAvatar {
   }
 
   stage(canvas) {
-    this.renderer = new WebGLRenderer({canvas, antialias: true, alpha: true});
     this.scene = new Scene();
     const key = new DirectionalLight(new Color(1, 0.98, 0.95), 2.2);
     key.position.set(-0.5, 0.8, 1);
