@@ -31,8 +31,8 @@ check_machine() {  # target, file: a program or library of that target's system 
   local -A formats=([linux-x64]="ELF 64-bit.*x86-64" [linux-arm64]="ELF 64-bit.*aarch64" [linux-armv7]="ELF 32-bit.*ARM, EABI5"
     [windows-x64]="PE32\+.*x86-64" [windows-arm64]="PE32\+.*Aarch64")
   case $1 in
-    macos-arm64) scripts/cross/check_macho.py "$2" arm64 --signed ;;
-    macos-x64) scripts/cross/check_macho.py "$2" x86_64 ;;
+    macos-arm64) scripts/package/check_macho.py "$2" arm64 --signed ;;
+    macos-x64) scripts/package/check_macho.py "$2" x86_64 ;;
     *) file -b "$2" | grep -E "${formats[$1]}" >/dev/null || { echo "zig.sh: $2: wrong machine (got $(file -b "$2"), expected $1)" >&2; return 1; } ;;
   esac
 }
@@ -80,7 +80,7 @@ universal() {  # programs of both builds for macOS
     [ -f "$work/macos-arm64/$file" ] || continue
     [ -f "$work/macos-x64/$file" ] || continue
     "$(llvm_tool llvm-lipo)" -create "$work/macos-arm64/$file" "$work/macos-x64/$file" -output "$work/macos/${file##*/}"
-    scripts/cross/check_macho.py "$work/macos/${file##*/}" arm64 x86_64 --signed
+    scripts/package/check_macho.py "$work/macos/${file##*/}" arm64 x86_64 --signed
     echo "macos: ${file##*/}: universal program in build/zig/macos, linked, never run"
   done
 }

@@ -8,29 +8,12 @@ import struct
 import sys
 from pathlib import Path
 
-FAT, MACHO64 = 0xCAFEBABE, 0xFEEDFACF
-ARCHITECTURES = {0x01000007: "x86_64", 0x0100000C: "arm64"}
+from check_macho import BUILD_VERSION, Invalid, commands, parts, require
+
 PLATFORMS = {("macos", None): 1, ("ios", None): 2, ("ios", "simulator"): 7}
-MINIMUM_MACOS, BUILD_VERSION = 0x24, 0x32
+MINIMUM_MACOS = 0x24
 REQUIRED = {"HeadersPath", "LibraryIdentifier", "LibraryPath", "BinaryPath", "SupportedArchitectures", "SupportedPlatform"}
 PUBLIC = b"_mien_tracker_create\0"
-
-
-class Invalid(Exception):
-    pass
-
-
-def require(condition, message):
-    if not condition:
-        raise Invalid(message)
-
-
-def thin_archives(data):
-    """Maps each architecture to its archive; one without a fat header is that of its first object."""
-    if struct.unpack_from(">I", data)[0] != FAT:
-        return [(None, data)]
-    entries = [struct.unpack_from(">5I", data, 8 + 20 * i) for i in range(struct.unpack_from(">I", data, 4)[0])]
-    return [(ARCHITECTURES.get(cpu, "unknown"), data[offset:offset + size]) for cpu, _, offset, size, _ in entries]
 
 
 def objects(archive):
@@ -51,16 +34,12 @@ def objects(archive):
 
 def system_of(content):
     """(architecture, platform) of an object."""
-    magic, cpu, _, _, count = struct.unpack_from("<5I", content)
-    require(magic == MACHO64, f"not a 64-bit Mach-O object (got {magic:#x})")
-    offset = 32
-    for _ in range(count):
-        command, size = struct.unpack_from("<2I", content, offset)
+    architecture, = parts(content)
+    for command, fields in commands(content):
         if command == BUILD_VERSION:
-            return ARCHITECTURES.get(cpu), struct.unpack_from("<I", content, offset + 8)[0]
+            return architecture, struct.unpack_from("<I", fields, 8)[0]
         if command == MINIMUM_MACOS:
-            return ARCHITECTURES.get(cpu), PLATFORMS["macos", None]
-        offset += size
+            return architecture, PLATFORMS["macos", None]
     raise Invalid("object names no system")
 
 
@@ -72,7 +51,9 @@ def check_library(folder, entry):
     for name in ("module.modulemap", "mien/mien.h"):
         require((headers / name).is_file(), f"{identifier}: {name}: missing")
     found = set()
-    for named, archive in thin_archives((folder / identifier / entry["LibraryPath"]).read_bytes()):
+    library = (folder / identifier / entry["LibraryPath"]).read_bytes()
+    thin = {None: library} if library.startswith(b"!<arch>\n") else parts(library)
+    for named, archive in thin.items():
         members = list(objects(archive))
         require(members and any(PUBLIC in content for _, content in members), f"{identifier}: no mien_tracker_create")
         for name, content in members:

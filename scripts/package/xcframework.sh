@@ -41,6 +41,6 @@ for target in macos-arm64 macos-x64; do
   scripts/cross/zig_cc.sh cc -target "${ZIG_TARGETS[$target]}" -I"$out/macos-arm64_x86_64/Headers" -c -o "build/apple/$target.o" tests/package/c/main.c
   scripts/cross/zig_cc.sh c++ -target "${ZIG_TARGETS[$target]}" "build/apple/$target.o" "build/apple/$target.a" -o "build/apple/$target"
 done
-scripts/cross/check_macho.py build/apple/macos-arm64 arm64 --signed
-scripts/cross/check_macho.py build/apple/macos-x64 x86_64
+scripts/package/check_macho.py build/apple/macos-arm64 arm64 --signed
+scripts/package/check_macho.py build/apple/macos-x64 x86_64
 echo "xcframework: compiled for iOS, its simulator and macOS; linked for macOS; never run"

@@ -13,6 +13,7 @@ import zlib
 
 import cv2
 import numpy as np
+from scipy.spatial.transform import Rotation
 from tqdm import tqdm
 
 from mien_convert.atomic_files import whole
@@ -70,9 +71,8 @@ def label(found, size, height_of_view):
     points, controls, poses = (np.stack(values) for values in zip(*found))
     mean = points.mean(0)
     pupils = np.linalg.norm(mean[PUPILS[0]] - mean[PUPILS[1]])
-    u, _, vt = np.linalg.svd(poses[:, :3, :3].mean(0))
     matrix = np.eye(4)
-    matrix[:3, :3] = u @ np.diag([1, 1, np.linalg.det(u @ vt)]) @ vt
+    matrix[:3, :3] = Rotation.from_matrix(poses[:, :3, :3]).mean().as_matrix()
     matrix[:3, 3] = poses[:, :3, 3].mean(0) * [1, 1, size[1] / height_of_view]
     return {"landmarks": np.float32(mean / size), "blendshapes": np.float32(controls.mean(0)),
             "matrix_colmajor": np.float32(matrix.T.ravel()), "size_wh": np.float32(size),

@@ -3,6 +3,7 @@ import csv
 import json
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from mien_training.paths import ROOT
 
@@ -27,14 +28,12 @@ def read_landmarks(path):
 
 def rotations(table):
     """R = Ry(yaw) Rx(pitch) Rz(roll) of every row, [frames,3,3]."""
-    pitch, yaw, roll = (table[f"{n}_rad"] for n in ("pitch", "yaw", "roll"))
-    zero, one = np.zeros_like(yaw), np.ones_like(yaw)
-    matrix = lambda *m: np.stack(m, -1).reshape(-1, 3, 3)
-    c, s = np.cos, np.sin
-    ry = matrix(c(yaw), zero, s(yaw), zero, one, zero, -s(yaw), zero, c(yaw))
-    rx = matrix(one, zero, zero, zero, c(pitch), -s(pitch), zero, s(pitch), c(pitch))
-    rz = matrix(c(roll), -s(roll), zero, s(roll), c(roll), zero, zero, zero, one)
-    return ry @ rx @ rz
+    angles = np.stack([table[f"{name}_rad"] for name in ("yaw", "pitch", "roll")], 1)
+    matrices = np.full((len(angles), 3, 3), np.nan)
+    known = np.isfinite(angles).all(1)
+    if known.any():  # older SciPy accepts no empty list
+        matrices[known] = Rotation.from_euler("YXZ", angles[known]).as_matrix()
+    return matrices
 
 
 class Teacher:

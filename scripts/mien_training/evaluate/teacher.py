@@ -1,5 +1,6 @@
 """Agreement with MediaPipe Face Landmarker, a teacher and not the truth."""
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from mien_training.data.expressions import CONTROLS
 from mien_training.evaluate import metrics
@@ -10,11 +11,8 @@ MOVES = 0.02  # standard deviation of a control of the teacher's that responds
 
 def pose_difference(ours, theirs):
     """Angles [n] in degrees between two lists of rotations after the best constant rotation is removed."""
-    between = theirs.transpose(0, 2, 1) @ ours
-    u, _, vt = np.linalg.svd(between.mean(0))
-    mean = u @ np.diag([1, 1, np.linalg.det(u @ vt)]) @ vt
-    trace = np.einsum("nij,ij->n", between, mean)
-    return np.degrees(np.arccos(np.clip((trace - 1) / 2, -1, 1)))
+    between = Rotation.from_matrix(theirs).inv() * Rotation.from_matrix(ours)
+    return np.degrees((between.mean().inv() * between).magnitude())
 
 
 def compare_controls(ours, theirs):

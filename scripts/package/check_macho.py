@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Checks Mach-O programs and libraries: processors, minimum system, libraries, and the ad-hoc signature without which arm64 runs nothing.
 
-usage: scripts/cross/check_macho.py FILE ARCHITECTURE... [--signed]      --signed: the arm64 part must be signed; any signature must fit
+usage: scripts/package/check_macho.py FILE ARCHITECTURE... [--signed]      --signed: the arm64 part must be signed; any signature must fit
 """
 import argparse
 import hashlib
