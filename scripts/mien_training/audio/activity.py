@@ -15,7 +15,7 @@ LONGEST_PAUSE, SHORTEST = 13, 4      # windows of 16 ms
 
 
 def bridged(active):
-    """With short pauses filled."""
+    """Fills short pauses."""
     padded = np.pad(active, LONGEST_PAUSE)
     return binary_closing(padded, np.ones(LONGEST_PAUSE))[LONGEST_PAUSE:-LONGEST_PAUSE]
 
@@ -33,7 +33,7 @@ def of_windows(sound):
 
 
 def at(active, times):
-    """Of a recording's windows, at `times` in seconds; silence outside."""
+    """Activity of a recording at `times` in seconds; silence outside."""
     k = np.floor(times * RATE / WINDOW).astype(int)
     inside = (k >= 0) & (k < len(active))
     return inside & active[np.clip(k, 0, max(len(active) - 1, 0))] if len(active) else inside

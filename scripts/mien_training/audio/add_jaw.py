@@ -1,7 +1,7 @@
 """Adds a jaw decoder to an audionet.mien, or replaces it. The other networks keep their weights.
 
 usage: python3 -m mien_training.audio.add_jaw JAW.pt [--model FILE.mien]
-Then golden_outputs.py writes what a test expects of the file.
+Run golden_outputs.py afterwards, which writes the expected outputs of a test.
 """
 import argparse
 import json
@@ -22,7 +22,7 @@ from mien_training.paths import ROOT
 
 
 class StoredEncoder(torch.nn.Module):
-    """The encoder of a file, as export.add_encoder reads one."""
+    """The encoder of a file, in the form that export.add_encoder expects."""
 
     @torch.no_grad()
     def __init__(self, layers):

@@ -39,7 +39,7 @@ def viterbi(scores, states, optional):
     """State of every frame, the best path of scores [t, phonemes] (Viterbi 1967) through all states in their order."""
     count, emitted = len(states), scores[:, states]
     moves = np.zeros((len(scores), count), np.int8)
-    # Two impossible states before the first one: every state can ask for the two before it.
+    # Two impossible states before the first one, so that every state has two predecessors.
     best = np.full(count + 2, -np.inf)
     best[2:4] = emitted[0, :2]
     skippable = np.full(count, -np.inf)
@@ -72,7 +72,7 @@ def timed(scores, words, seconds):
 def spoken_of(path, said, seconds):
     """Spoken from the phoneme of each step; a new one begins where the path advances."""
     changes = np.flatnonzero(np.diff(path, prepend=-1))
-    starts = np.maximum((changes - 2) * STEP, 0)  # a step speaks of the middle of its windows
+    starts = np.maximum((changes - 2) * STEP, 0)  # a step describes the middle of its windows
     return labels.Spoken([int(said[c]) for c in changes], [float(t) for t in starts], seconds)
 
 

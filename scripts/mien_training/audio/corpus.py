@@ -16,8 +16,8 @@ from mien_training.audio.features import RATE
 from mien_training.paths import cache, data
 
 TEST_READER = "26"  # of librispeech_text's three; one man and one woman remain to learn from
-TEST_NOISES = ("Helicopter", "Rooster", "dude_miaowing")  # one class that hums, two that have a voice
-VAL_SPEAKER = "s5"  # of GRID's; a clip of the evaluation is of the same person
+TEST_NOISES = ("Helicopter", "Rooster", "dude_miaowing")  # one class of humming, two with voices
+VAL_SPEAKER = "s5"  # of GRID; a clip of the evaluation shows the same person
 TEST_TAKE, VAL_TAKE = "1114_3_16", "1114_3_15"  # of the animated voice; the shortest
 FOLDERS = {"librispeech": "speech/librispeech", "librispeech_text": "speech/librispeech_text",
            "commands": "speech/commands",
@@ -69,7 +69,7 @@ def split_of(group, name):
 
 @functools.lru_cache(None)
 def people():
-    """{clip of av/people: who speaks}"""
+    """{clip of av/people: speaker}"""
     d = np.load(data() / "av/people/curves.npz", allow_pickle=True)
     return dict(zip(map(str, d["clip"]), map(str, d["speaker"])))
 

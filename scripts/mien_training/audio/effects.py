@@ -23,14 +23,14 @@ def power(sound):
 
 
 def speech_power(sound):
-    """Of its louder parts, so that pauses do not count: of the windows within 20 dB of the loudest."""
+    """Power of the windows within 20 dB of the loudest, so that pauses do not count."""
     windows = sound[:len(sound) // 400 * 400].reshape(-1, 400)
     powers = np.mean(windows ** 2, 1) if len(windows) else np.array([power(sound)])
     return float(powers[powers >= 0.01 * powers.max()].mean()) + 1e-12
 
 
 def mixed(sound, noise, decibels):
-    """At that ratio of speech to noise."""
+    """The sound with noise at this signal-to-noise ratio in dB."""
     return sound + noise * np.sqrt(speech_power(sound) / power(noise) * 10 ** (-decibels / 10))
 
 
@@ -39,7 +39,7 @@ SHORTEST_RESPONSE = 256  # samples
 
 @functools.lru_cache(None)
 def rooms(split):
-    """Impulse responses whose direct sound comes at once, of energy 1."""
+    """Impulse responses of energy 1 that start with the direct sound."""
     group = corpus.Group("rooms")
     out = []
     for s in group.of(split):
@@ -75,7 +75,7 @@ def coloured_noise(rng, count):
 
 
 def music(rng, count):
-    """Chords of harmonic tones that begin together, now and then a drum: no music, but its spectrum."""
+    """Chords of harmonic tones and occasional drums, with the spectrum of music."""
     out, beat = np.zeros(count, np.float32), rng.uniform(0.15, 0.7)
     for first in np.arange(0, count, int(beat * RATE)):
         t = np.arange(min(count - first, RATE), dtype=np.float32) / RATE
@@ -136,7 +136,7 @@ def calls(rng, count):
 
 
 def varied_noise(rng, split, count):
-    """Recorded noise of other size or backwards, and sometimes two of them: recordings are few."""
+    """Recorded noise at another speed or backwards, and sometimes two of them, because there are few recordings."""
     speed = np.exp(rng.uniform(np.log(0.6), np.log(1.7)))
     noise = np.resize(played(recorded_noise(rng, split, int(count * speed) + 2), speed), count)
     if rng.random() < 0.2:
@@ -167,7 +167,7 @@ def band_limited(rng, sound):
 
 
 def mu_law(sound, bits=8):
-    """ITU-T G.711's curve."""
+    """Companding by the curve of ITU-T G.711."""
     levels = 2 ** (bits - 1)
     bent = np.sign(sound) * np.log1p(255 * np.abs(sound)) / np.log(256)
     steps = np.rint(bent * levels) / levels
@@ -175,13 +175,13 @@ def mu_law(sound, bits=8):
 
 
 def adpcm(sound):
-    """IMA's, of 4 bits: small recorders and old radios."""
+    """IMA ADPCM of 4 bits, as in small recorders and old radios."""
     packed, _ = audioop.lin2adpcm(np.int16(np.clip(sound, -1, 1) * 32767).tobytes(), 2, None)
     return np.float32(np.frombuffer(audioop.adpcm2lin(packed, 2, None)[0], np.int16)) / 32768
 
 
 def coded(rng, sound):
-    """Through one of three codecs."""
+    """The sound after one of three codecs."""
     kind = rng.random()
     if kind < 0.4:
         return opus.coded(np.clip(sound, -1, 1), int(rng.integers(6000, 20000)))
@@ -189,18 +189,18 @@ def coded(rng, sound):
 
 
 def clipped(sound, share):
-    """Beyond that share of its peak."""
+    """Clips the sound at this share of its peak."""
     limit = share * np.abs(sound).max() + 1e-6
     return np.clip(sound, -limit, limit)
 
 
 def at_level(sound, decibels):
-    """Speech at that level below full scale."""
+    """Scales speech to this level relative to full scale."""
     return sound * np.float32(np.sqrt(10 ** (decibels / 10) / speech_power(sound)))
 
 
 def spoiled(rng, sound, split, hard=1.0):
-    """As a microphone may have it; `hard` scales how often. Speech is between -45 and -12 dB of full scale then."""
+    """Random degradations as of microphones; `hard` scales their frequency. Speech then has -45 to -12 dBFS."""
     if rng.random() < 0.3 * hard:
         response = rooms(split)[rng.integers(len(rooms(split)))]
         wet = rng.uniform(0.2, 1)

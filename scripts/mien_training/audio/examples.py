@@ -10,7 +10,7 @@ from mien_training.audio.features import FEATURES, RATE, features
 SHARES = {"synthetic": 0.38, "librispeech_text": 0.23, "librispeech": 0.22, "commands": 0.09, "av": 0.08}
 NOISE_ALONE = 0.12
 SHORTEST_PART = 0.8  # seconds
-WARPS = np.round(np.linspace(0.85, 1.17, 9), 3).tolist()  # of the frequency axis: other people's vocal tracts
+WARPS = np.round(np.linspace(0.85, 1.17, 9), 3).tolist()  # of the frequency axis, as of other vocal tracts
 
 
 @dataclass
@@ -21,7 +21,7 @@ class Part:
     group: str
     name: str
     origin: float          # where in its recording it begins, seconds
-    speed: float           # how much faster it is played
+    speed: float           # factor on its speed
     at: float = 0.0        # where in the scene it begins
 
     def recorded_at(self, times):
@@ -68,7 +68,7 @@ class Speech:
         return name, sounds[rng.integers(len(sounds))]
 
     def part(self, rng, seconds, speeds):
-        """From one phoneme's start to another's end."""
+        """A part from the start of a phoneme to the end of another."""
         speed = float(np.exp(rng.uniform(*np.log(speeds))))
         while True:
             name, sound = self.pick(rng)
@@ -83,7 +83,7 @@ class Speech:
 
 
 def stretch(rng, spoken, longest):
-    """From one phoneme's start to another's end, at most `longest` seconds."""
+    """A range from the start of a phoneme to the end of another, at most `longest` seconds."""
     start = spoken.starts[rng.integers(len(spoken.starts))] if spoken.end > longest else 0.0
     stops = np.array([*spoken.starts[1:], spoken.end])
     fitting = stops[(stops > start) & (stops <= start + longest)]
@@ -91,7 +91,7 @@ def stretch(rng, spoken, longest):
 
 
 def faded(sound, samples=80):
-    """Cut speech must not click."""
+    """Fades both ends, so that cut speech does not click."""
     out, ramp = sound.copy(), np.linspace(0, 1, samples, dtype=np.float32)
     if len(out) > 2 * samples:
         out[:samples] *= ramp
@@ -100,7 +100,7 @@ def faded(sound, samples=80):
 
 
 def speech_scene(rng, speech, split, seconds, speeds=(0.8, 1.25), hard=1.0):
-    """Parts of utterances one after the other, with pauses or without."""
+    """Concatenates parts of utterances, with or without pauses."""
     sound, parts, at = np.zeros(int(seconds * RATE), np.float32), [], 0.0
     while True:
         at += rng.uniform(0, 0.8) * (rng.random() < 0.6)

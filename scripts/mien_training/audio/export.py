@@ -23,15 +23,14 @@ from mien_training.networks.export import LICENCE, loaded, plain
 from mien_training.networks.round_weights import rounded
 from mien_training.paths import ROOT
 
-# The weight of audio for a control during speech with an image; video has the rest. Lips that meet
-# for a p are seen too late and too briefly at 30 frames a second, and sound knows of them. Little of all else as long
-# as sound knows one face: of other people's jaws it tells less than the image does (docs/results/audio.md), and on a
-# smaller scale.
+# Weight of audio for a control during speech with an image; video has the rest. It is larger for closed lips, which
+# video shows too late and too briefly at 30 frames per second, and small for others, because audio knows few speakers:
+# it predicts the jaw of other people worse than the image does (docs/results/audio.md), and with a smaller amplitude.
 FROM_SOUND = dict.fromkeys(SPEECH_CONTROLS, 0.2) | {"mouthClose": 0.4, "mouthPressLeft": 0.3, "mouthPressRight": 0.3,
                                                     "mouthRollLower": 0.3, "mouthRollUpper": 0.3}
-# Added to what speaks for speech: a mouth that moves to noise looks worse than one that begins a little late. Chosen on
-# validation speech, where as many frames are right as without it (96.3 % at 20 dB), and all noises leave the mouth at
-# rest for 95 % of the time.
+# Added to the logit of speech, because a mouth that moves to noise looks worse than one that starts late. Chosen on
+# validation speech, where as many frames are correct as without it (96.3 % at 20 dB), and the mouth rests for 95 % of
+# the time in all noises.
 SPEECH_BIAS = -1.0
 
 
@@ -49,7 +48,7 @@ def add_encoder(file, encoder):
 
 
 def add_decoder(file, name, decoder, activation):
-    """`activation`: of the output, or softmax."""
+    """Adds a decoder. `activation`: of the output, or softmax."""
     net = file.network(name, input=(1, 1, EMBEDDING))
     own = "none" if activation == "softmax" else activation
     x = add_temporal(net, plain(decoder.input.weight), plain(decoder.input.bias), decoder, own)
@@ -57,13 +56,13 @@ def add_decoder(file, name, decoder, activation):
 
 
 def add_temporal(net, weight, bias, decoder, activation):
-    """A decoder's layers; `weight`, `bias`: of the first one. Returns the number of their value."""
+    """Adds the layers of a decoder; `weight`, `bias`: of the first one. Returns the number of their value."""
     x = add_lstm(net, net.fully_connected(net.input, weight, bias), decoder.lstm)
     return net.fully_connected(x, plain(decoder.output.weight), plain(decoder.output.bias), activation=activation)
 
 
 def add_jaw(file, decoder):
-    """A decoder of jaw.py."""
+    """Adds a decoder of jaw.py."""
     net = file.network("jaw_decoder", input=(1, 1, INPUTS))
     net.output(add_temporal(net, *(plain(v) for v in decoder.folded_input()), decoder, "clamp01"))
 
@@ -96,7 +95,7 @@ def read(encoder_path, decoders_path):
 
 
 def differences(said, other):
-    """The largest of embedding, controls and activity."""
+    """Largest differences of embedding, controls and activity."""
     return [(a - b).abs().max().item() for a, b in zip(said, other)]
 
 

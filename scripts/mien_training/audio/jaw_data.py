@@ -18,9 +18,9 @@ STEPS = 203                      # of a row: 3 s, and 0.25 s of silence
 SAMPLES = STEPS * WINDOW
 SECONDS = 3.0
 TEST_SPEAKERS = ("s5",)
-MAIN_SHARE = 0.4                 # of the clips of s1, who has ten times as many as all others
+MAIN_SHARE = 0.4                 # share of s1, who has ten times as many clips as all others
 NOISES, VOICES = 60, 120         # rows
-HARD = 0.8                       # how often speech is spoiled
+HARD = 0.8                       # frequency of degradations
 SEEN, SYNTHETIC, NOISE = range(3)
 
 
@@ -89,7 +89,7 @@ def target(row, answered):
 
 
 def wide(rows):
-    """{speaker: factor}: by teacher.py's rule, each speaker's jaw opens equally far."""
+    """{speaker: factor}, with which each speaker's jaw opens equally far (teacher.py)."""
     jaws = {}
     for row in rows:
         if row.kind == SEEN:

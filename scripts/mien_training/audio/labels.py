@@ -31,7 +31,7 @@ class Spoken:
         return self.at(seconds_of_steps(steps))
 
     def sequence(self):
-        """Targets of CTC, without silence. A phoneme twice in a row stays twice."""
+        """Targets of CTC, without silence. Repeated phonemes are kept."""
         return [p for p in self.labels if p != phonemes.SILENCE]
 
 

@@ -5,7 +5,7 @@ import torch.nn.functional as F
 from mien_training.audio.audio_net import SPEECH_CONTROLS
 
 BETA, SPEED_BETA = 0.05, 0.01  # larger errors count linearly
-VELOCITY = 1.0                 # weight of what changes from step to step
+VELOCITY = 1.0                 # weight of differences between steps
 
 
 def phoneme_losses(sequence, frame, frames, said, lengths):

@@ -21,11 +21,11 @@ from mien_training.audio.features import RATE
 ACCENTS = ["en-us", "en-us", "en-us", "gmw/en", "en-gb-x-rp", "en-gb-scotland", "en-gb-x-gbclan", "en-gb-x-gbcwmd",
            "en-029", "en-us-nyc"]
 FOREIGN = ["de", "nl", "es", "it", "pt", "sv", "pl", "fr", "id", "sw", "ro", "fi"]
-RECORDED_SHARE = {"train": 0.2, "val": 0.1, "test": 0.1}  # of sentences: voices made of recordings
-MADE_SHARE = 0.6  # of eSpeak NG's sentences to learn from: voices that are drawn for one sentence
+RECORDED_SHARE = {"train": 0.2, "val": 0.1, "test": 0.1}  # share of sentences by voices from recordings
+MADE_SHARE = 0.6  # share of eSpeak NG's training sentences with a voice of their own
 FLITE_VOICES = {"awb": "train", "rms": "train", "slt": "train", "kal16": "test"}
 FESTIVAL_VOICES = {"ked_diphone": "train", "cmu_us_slt_arctic_hts": "train"}
-UNLIKE_SPEECH = ("whisper", "robo", "Demonic", "croak")  # variants that hardly are voices
+UNLIKE_SPEECH = ("whisper", "robo", "Demonic", "croak")  # variants that hardly resemble voices
 VOWELS = "a aI aU eI i: I E V A: O: U u: 3: @ oU OI".split()
 CONSONANTS = "p b t d k g f v T D s z S Z h m n N l r j w tS dZ".split()
 GRID = [("bin", "lay", "place", "set"), ("blue", "green", "red", "white"), ("at", "by", "in", "with"),
@@ -92,7 +92,7 @@ def say_espeak(rng, texts, variant):
 
 
 def say_flite(rng, texts, voice):
-    """The same of flite; its segments come with the time of their ends."""
+    """The same with flite, whose segments have end times."""
     text = re.sub(r"[^a-z' ]", "", texts.sample(False).lower())
     with tempfile.TemporaryDirectory() as out:
         command = ["flite", "-voice", voice, "-psdur", "-t", text, "--setf",
@@ -106,7 +106,7 @@ def say_flite(rng, texts, voice):
 
 
 def say_festival(rng, texts, voice):
-    """The same with Festival; its segments end at their times as well."""
+    """The same with Festival, whose segments have end times."""
     text = re.sub(r"[^a-z' ]", "", texts.sample(False).lower())
     with tempfile.TemporaryDirectory() as out:
         script = f"""(voice_{voice}) (Parameter.set 'Duration_Stretch {rng.uniform(0.75, 1.35):.2f})

@@ -30,7 +30,7 @@ def formant(rng, number, size):
 
 def variant(rng):
     low = rng.uniform(55, 190)
-    size = np.exp(rng.normal(0.02, 0.14))  # of the head: small ones have all formants high
+    size = np.exp(rng.normal(0.02, 0.14))  # of the head; small heads have high formants
     lines = ["language variant", f"name {NAME}", f"pitch {low:.0f} {low * rng.uniform(1.2, 1.8):.0f}"]
     lines += [formant(rng, number, size) for number in range(FORMANTS)]
     if rng.random() < 0.5:

@@ -26,7 +26,7 @@ def greedy(log_probabilities):
 
 
 def distance(a, b):
-    """Levenshtein's."""
+    """Levenshtein distance."""
     row = np.arange(len(b) + 1)
     b, index = np.asarray(b), np.arange(len(b) + 1)
     for i, x in enumerate(a):
@@ -37,7 +37,7 @@ def distance(a, b):
 
 
 def truth(group, split):
-    """(sound, phonemes) where somebody knows them."""
+    """(sound, phonemes) of recordings with known phonemes."""
     if group.name == "librispeech_text":
         text = corpus.transcripts()
         return [(s, [p for word in espeak.words_to_phonemes(text[s.name]) for p in word]) for s in group.of(split)

@@ -28,7 +28,7 @@ def group_of(name):
 
 
 def spoken_during(part, times, recorded):
-    """By phonemes where their times are good; by energy elsewhere. GRID's noise is loud."""
+    """From phonemes with reliable times, else from energy. GRID has loud noise."""
     if part.group in TIMED:
         return activity.bridged(part.spoken.at(times - part.at) != phonemes.SILENCE)
     return activity.at(spoken_in(part.group, part.name), recorded)

@@ -16,7 +16,7 @@ from mien_training.paths import data
 
 FPS = 25
 FOLDERS = {"av": "av", "people": "av/people", "animated": "av/animated"}
-WIDE, WIDE_SHARE = 0.6, 98  # a speaker's jaw is open so far at that percentile
+WIDE, WIDE_SHARE = 0.6, 98  # jawOpen to which this percentile of each speaker is scaled
 REST = 10  # percentile of a clip's curve that counts as the mouth at rest, which audio cannot tell
 # Controls whose curves by the teacher follow phonemes. Others hardly leave zero (the data's README) or follow something
 # else, such as mouthPress; for some speakers mouthPucker depends on the lips at rest. Visemes are the labels of these.
@@ -102,7 +102,7 @@ def curves(group):
 
 
 def at(curve, times, fps=FPS):
-    """The curve [frames,n] at `times` in seconds, straight between frames."""
+    """The curve [frames,n] at `times` in seconds, linear between frames."""
     frames = np.arange(len(curve)) / fps
     return np.stack([np.interp(times, frames, c) for c in curve.T], 1).astype(np.float32)
 

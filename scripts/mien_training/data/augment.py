@@ -70,7 +70,7 @@ def strange_light(x, g):
 
 
 def lit(x, g):
-    """Copies in another light, before a lens sees them."""
+    """Copies in another light, before the lens."""
     return share_of(colour(share_of(x.clone(), g, 0.35, shade), g), g, STRANGE, strange_light)
 
 

@@ -219,7 +219,7 @@ def legalise(c):
         opposites += [("eyeLookIn" + side, "eyeLookOut" + side), ("eyeLookUp" + side, "eyeLookDown" + side),
                       ("mouthSmile" + side, "mouthFrown" + side), ("eyeWide" + side, "eyeSquint" + side)]
         weaken(c, ["eyeWide" + side], 1 - get("eyeBlink" + side))
-        # The rig closes the lid when it looks down: both at once would close it twice.
+        # The rig closes the lid when the eye looks down, so both at once would close it twice.
         weaken(c, ["eyeLookDown" + side], 1 - 0.85 * get("eyeBlink" + side))
         weaken(c, ["browOuterUp" + side], 1 - 0.6 * get("browDown" + side))
     for a, b in opposites:

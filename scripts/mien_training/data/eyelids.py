@@ -10,7 +10,7 @@ from mien_training.data import landmark_points as lp
 # Outer and inner corner, and pairs of points of the upper and lower lid above each other (teacher indices).
 EYES = {"Left": ((263, 362), ((386, 374), (385, 380), (387, 373))),
         "Right": ((33, 133), ((159, 145), (158, 153), (160, 144)))}
-OPEN, CLOSED = 0.27, 0.07  # height over width of an eye from which on it counts as open, below which as closed
+OPEN, CLOSED = 0.27, 0.07  # height over width above which an eye counts as open, and below which as closed
 
 
 def apertures(points):

@@ -131,7 +131,7 @@ class Backgrounds:
         network.train()
 
     def remember(self, images, crop, chosen):
-        """The newest mistakes replace the oldest."""
+        """The newest false positives replace the oldest."""
         for i in torch.nonzero(chosen)[:, 0].tolist():
             slot = self.mistakes % len(self.mistaken)
             self.mistaken[slot], self.mistaken_crop[slot] = images[i], crop[i]
@@ -149,14 +149,14 @@ class Backgrounds:
 
 
 def within(crop):
-    """Whether crops still lie in the window they began in."""
+    """Whether crops are still inside their windows."""
     window = BASENET.window
     away = (crop[:, :2] - window / 2).abs().amax(1) + crop[:, 2] / 2
     return (away < 0.65 * window) & (crop[:, 2] > 0.3 * window)
 
 
 def jitter(crop, generator, roughness=1.0, wide_share=0.2):
-    """Crops as the tracker meets them: mostly nearly right, sometimes as rough as a proposal. All of it times
+    """Crops as in the tracker: mostly almost correct, sometimes as rough as a detection. All of it times
     `roughness`."""
     n = len(crop)
     wide = (torch.rand(n, 1, generator=generator) < wide_share).float()

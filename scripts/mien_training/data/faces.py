@@ -18,7 +18,7 @@ from mien_training.data.image_border import continued
 from mien_training.data.sequences import fit_crop, template
 from mien_training.paths import cache
 
-TEACHER_FOV = np.radians(63)  # vertical, of the camera that MediaPipe takes for granted (face_geometry)
+TEACHER_FOV = np.radians(63)  # vertical field of view of the camera that MediaPipe assumes (face_geometry)
 GUESSED = 0.3                 # trust in labels of blurred images
 # variance of the Laplacian of the face at BaseNet's scale, in that of the image, below which it is
 BLURRED = 0.1
@@ -55,7 +55,7 @@ def camera_labels(found, framing):
 
 
 def leaves(image, centre, side):
-    """Whether a square is not wholly in the image."""
+    """Whether a square exceeds the image."""
     return bool((centre < side / 2).any() or (centre + side / 2 > image.shape[1::-1]).any())
 
 

@@ -24,17 +24,17 @@ from mien_training.phase2.decoder_output import output_controls
 from mien_training.phase2.decoder_scores import with_stride
 
 AIM, MOST = 0.9, 1.4      # deviation over the true one that gains aim at, and the largest gain
-LEAST = 0.5               # correlation with the truth on renders, below which a gain would magnify little but noise
-FURTHEST = 1.1            # deviation over the true one that a control may reach on renders because portraits ask for it
-NEUTRAL = 0.095           # largest mean answer to neutral training portraits
+LEAST = 0.5               # correlation with the truth on renders, below which a gain would mostly magnify noise
+FURTHEST = 1.1            # deviation over the true one that a control may reach on renders to fit portraits
+NEUTRAL = 0.095           # largest mean output on neutral training portraits
 WINK = (0.9, 0.1)         # of the truth: a wink has one eye above the first and the other below the second
-WINKS = 10                # frames with winks of an eye, below which nothing is known about them
-CLOSED, OPEN = 0.9, 0.2   # mean answers during winks: the least of the closed eye, the most of the open one
-AT_REST = 0.08            # a face is at rest where nothing is above this
-STILL = 8                 # frames that a portrait is shown for
+WINKS = 10                # minimum number of frames with winks of an eye
+CLOSED, OPEN = 0.9, 0.2   # mean outputs during winks: minimum of the closed eye, maximum of the open one
+AT_REST = 0.08            # a face is at rest if no control exceeds this
+STILL = 8                 # frames of a portrait
 RIDGE = 1e-6
-WINK_STEP = 0.02          # of gains that are tried for winks
-SMALLEST = 1e-3           # deviation of a control that hardly answers
+WINK_STEP = 0.02          # of the gains to try for winks
+SMALLEST = 1e-3           # deviation of a control that hardly responds
 
 
 @dataclass
@@ -93,7 +93,7 @@ def solved(before, control, wanted, renders, portraits, weights):
 
 
 def neutral(portraits):
-    """Which portraits the teacher takes for neutral."""
+    """Portraits that are neutral according to the teacher."""
     watched = [INDEX[name] for name in ("jawOpen", "mouthSmileLeft", "mouthSmileRight", "mouthPucker")]
     return (portraits.controls[:, watched].amax(1) < AT_REST) & (portraits.closed.amax(1) < AT_REST)
 
@@ -111,7 +111,7 @@ def at_rest(layer, renders, portraits):
 def quieted(layer, portraits):
     """The layer with lower biases where neutral portraits get more than NEUTRAL."""
     out, rows = layer.clone(), neutral(portraits)
-    for _ in range(3):  # answers stop at 0, so that their mean falls by less than the bias
+    for _ in range(3):  # outputs are at least 0, so that their mean falls by less than the bias
         out[:, -1] -= (mean_answer(out, portraits, rows) - NEUTRAL).clamp(min=0)
     return out
 

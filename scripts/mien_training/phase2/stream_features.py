@@ -104,9 +104,9 @@ def load(folder, network, most=None):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--count", type=int, required=True, help="sequences in all")
+    parser.add_argument("--count", type=int, required=True, help="total number of sequences")
     parser.add_argument("--split", choices=make_synthetic.SPLITS, default="train")
-    parser.add_argument("--worker", default="0/1", help="which of how many, from 0")
+    parser.add_argument("--worker", default="0/1", help="I/N: worker I, from 0, of N")
     parser.add_argument("--checkpoints", type=Path, default=cache() / "runs/shipped",
                         help="where shipped_checkpoints.py put them")
     parser.add_argument("--out", type=Path, default=cache() / "stream")

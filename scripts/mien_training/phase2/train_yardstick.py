@@ -64,7 +64,7 @@ def mirrored(features):
 
 
 class Task:
-    """Error of values and of differences, every control relative to its spread, and discordance."""
+    """Error of values and of differences, each control relative to its spread, and 1 - concordance."""
 
     def __init__(self, controls):
         weight = 1 / (controls.flatten(0, 1).float().std(0) + 0.05)

@@ -35,7 +35,7 @@ class Whitening:
 
     @torch.no_grad()
     def fold(self, state):
-        """The state of a TemporalDecoder of features out of that of one of whitened features."""
+        """The state of a TemporalDecoder of features, from that of one of whitened features."""
         weight, bias = state["convolutions.0.weight"], state["convolutions.0.bias"]
         plain = torch.einsum("oik,fi->ofk", weight, self.matrix)
         return {**state, "convolutions.0.weight": plain,
@@ -43,7 +43,7 @@ class Whitening:
 
     @torch.no_grad()
     def unfold(self, state):
-        """The other way round."""
+        """The inverse."""
         weight, bias = state["convolutions.0.weight"], state["convolutions.0.bias"]
         white = torch.einsum("ofk,fi->oik", weight, torch.linalg.inv(self.matrix.double()).T.float())
         return {**state, "convolutions.0.weight": white,
