@@ -228,7 +228,7 @@ def main():
     groups = {}
     for (name, _), d in zip(lp.named_points(), difference):
         groups.setdefault(name.rsplit("_", 1)[0], []).append(d)
-    print(f"{len(frontal)} frontal portraits, {len(quiet)} of them quiet")
+    print(f"{len(frontal)} frontal portraits, {len(quiet)} of them neutral")
     for name, values in groups.items():
         print(f"{name:22s} rig to mean teacher shape {100 * np.mean(values):5.1f} % of the outer eye corner distance")
 

@@ -28,7 +28,7 @@ def small(picture, points):
 
 
 def alike(faces, others):
-    """bool [n]: which of `faces` [n,pixels] are as good as one of `others`."""
+    """bool [n]: which of `faces` [n,pixels] are duplicates of one of `others`."""
     return (faces @ others.T).max(1, initial=-1) > ALIKE
 
 

@@ -26,7 +26,7 @@ def regression(windows, box):
 
 
 def kinds(overlap):
-    """POSITIVE, PART or NEGATIVE of each overlap; -1 where it is neither of them clearly."""
+    """POSITIVE, PART or NEGATIVE for each overlap; -1 if it is ambiguous."""
     return np.select([overlap >= 0.62, overlap >= 0.4, overlap < 0.28], [POSITIVE, PART, NEGATIVE], -1)
 
 
@@ -41,7 +41,7 @@ def cut(image, windows):
 
 
 def near(rng, box, count):
-    """Random windows around a box: from nearly right to half missed."""
+    """Random windows around a box, from almost correct to half beside it."""
     spread = rng.choice([0.06, 0.15, 0.35], (count, 1))
     shift = rng.uniform(-1, 1, (count, 2)) * spread
     side = box[2] * np.exp(rng.uniform(-1, 1, (count, 1)) * np.minimum(spread * 2, 0.5))

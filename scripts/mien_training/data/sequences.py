@@ -177,12 +177,12 @@ class Mirrored:
 
 @torch.no_grad()
 def track(view, sequences, rows, spoil, generator, stride=1):
-    """Follows sequences `rows`, the encoder running on every `stride`-th frame.
+    """Tracks sequences `rows` with the encoder on every `stride`-th frame.
 
-    view: its `look` gives features and landmarks, like BaseNetView's.
+    view: its `look` returns features and landmarks, like BaseNetView's.
     spoil: callable (f32 [n,3,height,width] in 0..1, frame number) -> the same.
     Returns features [n,frames,256], crops [n,frames,4] the features come from, landmarks [n,frames,175,2] in
-    camera pixels, and how often a face had to be found again.
+    camera pixels, and the number of lost faces.
     """
     history, losses = [], 0
     for t in range(sequences.frames):
@@ -209,7 +209,7 @@ def pose_targets(sequences, rows, crops):
 
 
 def visible(sequences, rows):
-    """Which controls can be seen, f32 [n,frames,52]: an eye's need most of its lids' landmarks."""
+    """Visible controls, f32 [n,frames,52]; those of an eye need most of its lids' landmarks."""
     points = sequences.label("visibility", rows)
     out = torch.ones(*points.shape[:2], len(CONTROLS))
     for side in ("Left", "Right"):

@@ -28,7 +28,7 @@ def through_h264(frames, quality):
 
 
 def some_coded(sequences, share, rng):
-    """Sequences, a list of uint8 [n,h,w,3], a share of them coded. Faces that hold still for a moment are no films."""
+    """Sequences, a list of uint8 [n,h,w,3], a share of them coded, except short ones."""
     film = lambda frames: len(frames) >= SHORTEST and rng.random() < share
     return [through_h264(frames, int(rng.integers(FINEST, COARSEST + 1))) if film(frames) else frames
             for frames in sequences]

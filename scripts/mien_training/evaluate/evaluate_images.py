@@ -83,7 +83,7 @@ def rendered():
 
 
 def by_group(error, groups):
-    """{group: images, mean error, how many were not found}, of the groups in the order given."""
+    """{group: images, mean error, missed faces}, in the order of `groups`."""
     table = {}
     for name, chosen in groups.items():
         known = error[chosen][np.isfinite(error[chosen])]
@@ -94,7 +94,7 @@ def by_group(error, groups):
 
 
 def grouped(answers, yaw, tones):
-    """Found, landmark error, and both by yaw and by skin tone."""
+    """Detection, landmark error, and both by yaw and by skin tone."""
     error = np.array(answers.error)
     yaws = {f"{a}-{b}": (np.abs(yaw) >= a) & (np.abs(yaw) < b) for a, b in zip(YAWS, YAWS[1:])}
     tone = np.array([skin_tone.group(t) for t in tones])

@@ -48,7 +48,7 @@ class Answers:
         self.followed = np.flatnonzero(driven & (self.theirs.std(0) >= teacher.MOVES))
 
     def summary(self, chosen):
-        """Of the portraits `chosen` [n]; figures but the first two are of those found rightly."""
+        """Figures of the portraits `chosen` [n]; all but the first two count correct detections only."""
         right = chosen & (self.error < RIGHT)
         mean = lambda values: out.rounded(metrics.known_mean(values)) if right.any() else None
         correlation = metrics.correlations(self.controls[right][:, self.followed], self.theirs[right][:, self.followed])

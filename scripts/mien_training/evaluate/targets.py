@@ -7,7 +7,7 @@ from mien_training.evaluate.teacher import MOVES
 
 
 def of_levels(first, fourth):
-    """Bounds of level 1 and of level 4; None where a level has no bar."""
+    """Bounds of level 1 and of level 4; None without a goal."""
     return {"LOD1": first, "LOD4": fourth}
 
 
@@ -201,7 +201,7 @@ def audio():
 
 
 def clips_of(*prefixes):
-    """Mean over the clips of audio_jaw.py whose names begin so."""
+    """Mean over the clips of audio_jaw.py whose names start with a prefix."""
     def pick(results, _):
         rows = [row["lag 0"] for name, row in results["jaw"]["clips"].items() if name.startswith(prefixes)]
         return fmean(rows) if rows else None

@@ -20,13 +20,13 @@ OPENINGS = [(159, 145), (158, 153), (160, 144), (386, 374), (385, 380), (387, 37
             (80, 88), (310, 318), (61, 291), (105, 159), (334, 386), (107, 336)]
 
 IMPORTANCE = {"jawOpen": 10.0, "eyeBlinkLeft": 4.0, "eyeBlinkRight": 4.0}  # the most visible controls
-RESPONDING = 0.03       # spread of a teacher's control on portraits, from which on it is asked whether it is followed
-# spread from which on it is learned from: funnel, mouthClose and jawRight hardly move, but rightly
+RESPONDING = 0.03       # minimum spread of a teacher's control on portraits whose correlation is measured
+# minimum spread to learn from; funnel, mouthClose and jawRight move little but correctly
 HINTING = 0.015
 NOT_FOLLOWED = ("eyeSquintLeft", "eyeSquintRight")  # they rest at 0.4, and rise with a smile
 TEACHER_WEIGHT = 2.0
-SMALLEST_SPREAD = 0.08  # of a control, so that one that hardly moves does not rule the sum
-AT_END = 0.01           # of a control: targets so near to 0 or 1 are there
+SMALLEST_SPREAD = 0.08  # of a control, so that one that hardly moves does not dominate the sum
+AT_END = 0.01           # targets as close as this to 0 or 1 count as 0 or 1
 
 
 def point_weights():
@@ -60,20 +60,19 @@ def soft_clamp(x):
 
 def censored(x, target):
     """Controls x for comparison with their targets. Where a target is 0, all values below 0 are correct and keep a
-    small gradient; the same holds above 1 for targets of 1 (Tobin 1958). Elsewhere values outside 0..1 are errors: if
-    they were clamped, controls of people whose rest the decoder estimates below 0 would hardly learn, and would stay at
-    0."""
+    small gradient; the same holds above 1 for targets of 1 (Tobin 1958). Elsewhere values outside 0..1 are errors: with
+    clamping, controls of people whose rest the decoder estimates below 0 would hardly learn and stay at 0."""
     at_end = ((x < 0) & (target <= AT_END)) | ((x > 1) & (target >= 1 - AT_END))
     return torch.where(at_end, soft_clamp(x), x)
 
 
 def unevenness(controls):
-    """By how much the left of each pair is above the right: [...,52] -> [...,pairs]."""
+    """Left minus right control of each pair: [...,52] -> [...,pairs]."""
     return controls[..., PAIRED_LEFT] - controls[..., PAIRED_RIGHT]
 
 
 class Line:
-    """For every control the line from our answers to the teacher's, by running means."""
+    """For every control the linear map from our output to the teacher's, by running means."""
 
     def __init__(self, n, device, decay=0.98):
         # of x, y, x x, x y
@@ -90,7 +89,7 @@ class Line:
 
 
 class Turn:
-    """The rotation from our idea of a head that looks ahead to the teacher's, by a running mean."""
+    """The rotation from our definition of a head that looks ahead to the teacher's, by a running mean."""
 
     def __init__(self, device, decay=0.98):
         self.decay, self.mean = decay, torch.eye(3, device=device)
@@ -153,13 +152,11 @@ class Losses:
         return positional + 0.7 * openings.mean()
 
     def consistency(self, first, second, crop):
-        """Landmarks must move with the image (Honari et al. 2018): `second` was seen in `crop` of the first's
-        image."""
+        """Landmarks must move with the image (Honari et al. 2018): `second` belongs to `crop` of the first's image."""
         return self.distance(second, to_crop(crop, self.framing.to_pixels(first))).mean()
 
     def told(self, batch):
-        """Which controls the images tell and the labels know, bool [n,52]: an eye's only where the eye can be
-        seen."""
+        """Controls that are visible and labelled, bool [n,52]; those of an eye only if the eye is visible."""
         return (~self.of_eye | (batch.visible @ self.lids > 0.5)) & batch.has_controls[:, None]
 
     def controls(self, out, batch):
@@ -170,7 +167,7 @@ class Losses:
         return (error * weights).sum() / weights.sum().clamp(min=1)
 
     def sides(self, out, batch):
-        """Which side moves: faces are even mostly, so that the loss of controls alone hardly asks for it."""
+        """Which side moves. Most faces are symmetric, so the loss of controls alone hardly requires it."""
         told = self.told(batch)
         weights = told[:, PAIRED_LEFT] & told[:, PAIRED_RIGHT]
         error = F.smooth_l1_loss(out / self.side_spread, unevenness(batch.controls) / self.side_spread, beta=2.0,
@@ -195,7 +192,7 @@ class Losses:
         return (error * weights).sum() / (9 * weights.sum()).clamp(min=1)
 
     def teacher_pose(self, out, batch):
-        """Agreement with the teacher on portraits how the head is turned."""
+        """Agreement with the teacher's head rotation on portraits."""
         rows = batch.has_landmarks & ~batch.has_controls
         if not rows.any():
             return out.sum() * 0

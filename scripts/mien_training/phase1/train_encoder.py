@@ -33,7 +33,7 @@ from mien_training.phase1.losses import RESPONDING, Losses
 from mien_training.phase1.optimizer import Optimizer
 
 WATCHED = ("jawOpen", "eyeBlinkLeft", "mouthPucker", "mouthSmileLeft", "browInnerUp")
-MEET_EVERY = 16                             # steps a process goes alone: it need not wait for a slower one each time
+MEET_EVERY = 16                             # steps between synchronizations; processes seldom wait for slower ones
 REVIVE_EVERY, REVIVE_UNTIL = 512, 0.7       # steps; share of the run
 GENTLE_UNTIL, FULL_FROM = 0.55, 0.8         # of the run
 GENTLE, FULL = (0.1, 0.5), (0.2, 0.5)        # share of degraded images, roughness of crops
@@ -50,8 +50,8 @@ def keep_freed_memory():
 
 
 def map_type(device):
-    """Of maps in training. A CPU without products of bfloat16 makes a product a dozen times as slow of them as of fp32;
-    elsewhere the layers are PyTorch's own, which take maps of the type of their weights."""
+    """The type of maps in training. A CPU without bfloat16 products takes about twelve times as long for these as for
+    fp32; elsewhere the layers are PyTorch's own, whose maps have the type of their weights."""
     cpu = Path("/proc/cpuinfo")
     narrow = device.type == "cpu" and cpu.exists() and "avx512_bf16" in cpu.read_text()
     return torch.bfloat16 if narrow else torch.float32
@@ -297,13 +297,13 @@ def parse():
     parser.add_argument("--real-share", type=float, default=0.2)
     parser.add_argument("--freeze", type=int, default=0, metavar="PARTS",
                         help="of the encoder's body that do not learn, from the image on")
-    parser.add_argument("--plain", action="store_true", help="PyTorch's own layers and maps in fp32, to compare with")
+    parser.add_argument("--plain", action="store_true", help="PyTorch's own layers and maps in fp32, for comparison")
     parser.add_argument("--through", metavar="DECODERS",
-                        help="decoders that stay as they are, and that controls and pose are asked of")
+                        help="trained decoders that predict controls and pose, fixed by default")
     parser.add_argument("--decoders-learn", action="store_true",
                         help="also trains these decoders and writes them to decoders.pt, for phase 2")
     parser.add_argument("--resume", action="store_true")
-    parser.add_argument("--start-from", help="a checkpoint whose weights to begin with")
+    parser.add_argument("--start-from", help="a checkpoint with the initial weights")
     options = parser.parse_args()
     if options.decoders_learn and not options.through:
         parser.error("--decoders-learn needs --through")
@@ -314,7 +314,7 @@ def parse():
 def main():
     options = parse()
     keep_freed_memory()
-    torch.set_flush_denormal(True)  # moments of units that are off decay into them, and a step takes twice as long
+    torch.set_flush_denormal(True)  # moments of dormant units decay to denormals, with which a step takes twice as long
     torch.set_num_threads(1)
     native.serves = not options.plain
     world, rank = int(os.environ.get("WORLD_SIZE", 1)), int(os.environ.get("RANK", 0))

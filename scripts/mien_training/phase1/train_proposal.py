@@ -159,7 +159,7 @@ def pyramid(image):
 
 @torch.no_grad()
 def propose(pnet, image, threshold=PNET_THRESHOLD):
-    """Squares [n,3] P-Net takes for faces, boxes regressed."""
+    """Detections of P-Net, regressed squares [n,3]."""
     boxes = []
     for level, scale in pyramid(image):
         logit, box = pnet(to_tensor(level[None].copy()))
@@ -190,7 +190,7 @@ def second_windows(rng, pnet, most=24, portrait_limit=None):
 
 
 def evaluate(pnet, rnet, split):
-    """Share of held-out portraits where the best-scored box overlaps the right one, per stage."""
+    """Share of held-out portraits whose best box overlaps the true one, per stage."""
     hits = {"pnet": [], "rnet": []}
     counts = []
     for image, box in itertools.starmap(with_surroundings, Portraits(split)):
