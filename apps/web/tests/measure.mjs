@@ -85,7 +85,7 @@ try {
     const rate = (jaw.length - 1) * 1000 / (jaw.at(-1)[0] - jaw[0][0]);
     rows.push(`| ${level} | ${bestCorrelation(jaw, truth).correlation.toFixed(3)} | ${rate.toFixed(1)} | ${median(took).toFixed(2)} | ${median(shaped).toFixed(2)} |`);
   }
-  const bytes = readdirSync(dist, {recursive: true}).map(name => statSync(join(dist, name))).filter(info => info.isFile())
+  const bytes = readdirSync(dist, {recursive: true}).filter(name => !name.startsWith('decoders')).map(name => statSync(join(dist, name))).filter(info => info.isFile())
     .reduce((sum, {size}) => sum + size, 0);
   const chromium = studio.browser.version(), node = execFileSync('node', ['--version']).toString().trim();
   writeFileSync(out, `# The web page

@@ -29,10 +29,11 @@ export function headModel(targetNames, extensions, {nodes = [], roots = [], head
 }
 
 // The same on a body whose arms point sideways, with Mixamo's names, in a mesh of its own that reaches 3 m to each side.
-export const bodyModel = targetNames => headModel(targetNames, {}, {roots: [5, 7, 9], head: [0, 1.4, 0], nodes: [
+const body = {roots: [5, 7, 9], head: [0, 1.4, 0], nodes: [
   {name: 'mixamorig:LeftArm', translation: [0.2, 1.3, 0], children: [6]}, {name: 'mixamorig:LeftForeArm', translation: [0.5, 0, 0]},
   {name: 'mixamorig:RightArm', translation: [-0.2, 1.3, 0], children: [8]}, {name: 'mixamorig:RightForeArm', translation: [-0.5, 0, 0]},
-  {name: 'body', mesh: 0, translation: [0, -1.4, 0], scale: [30, 0.8, 1]}]});
+  {name: 'body', mesh: 0, translation: [0, -1.4, 0], scale: [30, 0.8, 1]}]};
+export const bodyModel = () => headModel(['jawOpen'], {}, body);
 
 // The head with the positions of its mesh compressed by meshopt.
 export async function meshoptModel(targetNames) {
@@ -77,14 +78,16 @@ export const ktx2Model = () => packedModel('KHR_texture_basisu', Buffer.from(
 });
 
 // VRM 1.0 whose presets `aa` and `blinkLeft` each move a target.
-export const vrmModel = () => headModel(['open', 'shut'], {
+const vrm = (bones = {}) => ({
   extensionsUsed: ['VRMC_vrm'],
   extensions: {VRMC_vrm: {
     specVersion: '1.0',
     meta: {name: 'test', version: '1', authors: ['mien'], licenseUrl: 'https://vrm.dev/licenses/1.0/'},
     humanoid: {humanBones: Object.fromEntries([
       'hips', 'spine', 'leftUpperLeg', 'leftLowerLeg', 'leftFoot', 'rightUpperLeg', 'rightLowerLeg', 'rightFoot', 'leftUpperArm',
-      'leftLowerArm', 'leftHand', 'rightUpperArm', 'rightLowerArm', 'rightHand'].map(name => [name, {node: 0}]).concat([['head', {node: 1}]]))},
+      'leftLowerArm', 'leftHand', 'rightUpperArm', 'rightLowerArm', 'rightHand'].map(name => [name, {node: 0}]).concat([['head', {node: 1}]], Object.entries(bones).map(([name, node]) => [name, {node}])))},
     expressions: {preset: {
       aa: {morphTargetBinds: [{node: 4, index: 0, weight: 1}]}, blinkLeft: {morphTargetBinds: [{node: 4, index: 1, weight: 1}]}}},
   }}});
+export const vrmModel = () => headModel(['open', 'shut'], vrm());
+export const vrmBodyModel = () => headModel(['open', 'shut'], vrm({leftUpperArm: 5, leftLowerArm: 6, rightUpperArm: 7, rightLowerArm: 8}), body);

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import {after, before, test} from 'node:test';
 import {controlNames} from '../avatar/avatar.js';
 import {morphDrivers} from '../../../bindings/js/matching.js';
-import {bodyModel, dracoModel, headModel, ktx2Model, meshoptModel, vrmModel} from './models.mjs';
+import {bodyModel, dracoModel, headModel, ktx2Model, meshoptModel, vrmBodyModel, vrmModel} from './models.mjs';
 import {openPage, openStudio, until} from './page.mjs';
 
 const driver = name => morphDrivers([name]).get(name);
@@ -95,9 +95,9 @@ test('a GLB with a texture in KTX2 moves', async () => {
   assert.ok(pixels >= 8, `${pixels} bytes`);
 });
 
-test('the head of a body is framed, arms are lowered, and the view turns, zooms and resets', async () => {
+async function openBody(name, buffer) {
   const {page, context, complaints} = await openPage(studio);
-  await page.setInputFiles('#model', {name: 'body.glb', mimeType: '', buffer: bodyModel(['jawOpen'])});
+  await page.setInputFiles('#model', {name, mimeType: '', buffer});
   await until(page, () => !document.getElementById('own-face').hidden, 60);
   const view = () => page.evaluate(() => {
     const {avatar} = window.page.first, {camera, controls, root} = avatar;
@@ -109,6 +109,17 @@ test('the head of a body is framed, arms are lowered, and the view turns, zooms 
   assert.ok(target[1] > 1.4 && target[1] < 1.8, `looks at ${target}`);
   assert.ok(camera[2] < 12, `from ${camera}`);  // 6 m wide, the body fits from 19 m only
   for (const [x, y] of arms) assert.ok(y < -0.4 && Math.abs(x) < 0.2, `an arm points to ${x}, ${y}`);
+  return {page, context, complaints, view, camera};
+}
+
+test('the head of a VRM with a body is framed, and arms are lowered', async () => {
+  const {context, complaints} = await openBody('body.vrm', vrmBodyModel());
+  assert.deepEqual(complaints, []);
+  await context.close();
+});
+
+test('the head of a body is framed, arms are lowered, and the view turns, zooms and resets', async () => {
+  const {page, context, complaints, view, camera} = await openBody('body.glb', bodyModel());
   const stage = await page.locator('#face-a').boundingBox(), middle = [stage.x + stage.width / 2, stage.y + stage.height / 2];
   const drag = async () => {
     await page.mouse.move(...middle);
