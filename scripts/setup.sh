@@ -2,7 +2,7 @@
 # Installs the Debian packages that building, testing and running mien need.
 # usage: scripts/setup.sh [build] [test] [demo] [train] [convert] [python] [rust] [csharp] [java] [release] [cross-x86] [cross-arm] [cross-wasm] [cross-windows] [cross-compile-only] [cross-musl] [cross-zig] [cross-i386] [cross-s390x] [coverage] [rtsan] [compilers] [valgrind] [convert-fuzz] [web] [web-test] [docs]
 #        (default: build test demo)
-# As root or with sudo; does nothing when everything is there already.
+# As root or with sudo; does nothing if all are installed.
 set -euo pipefail
 
 declare -A PACKAGES=(

@@ -40,7 +40,7 @@ class Receiver:
                 data = self._socket.recv(_MAX_DATAGRAM)
             except BlockingIOError:
                 break
-            except OSError as error:  # Windows reports what happened to other packets here
+            except OSError as error:  # Windows reports errors of other packets here
                 self._failed(error.strerror or str(error))
                 break
             try:
