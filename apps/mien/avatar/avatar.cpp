@@ -135,8 +135,9 @@ Avatar::Avatar(const std::string& file) : glb_(read_glb(read_whole(file), file))
   }
   if (morphs_.empty() && !rig_.head) {
     throw Failure(kExitNoInput,
-                  file + ": no morph target with a known name and no bone named head (expected "
-                         "names of ARKit, Roblox, VRM or visemes)");
+                  file +
+                      ": no morph target with a known name and no bone named head (expected "
+                      "names of ARKit, Roblox, VRM or visemes)");
   }
   if (looks_by_morphs(morphs_)) {
     rig_.eyes = {};

@@ -41,7 +41,7 @@ Drivers viseme_table() {
   }
   for (std::size_t i = 0; i < formats::kVisemeCount; ++i) {
     drivers[plain_name(std::string(formats::kReadyPlayerMeNames[i]))] = {MIEN_VOCABULARY_VISEMES,
-                                                                    {i, i}};
+                                                                         {i, i}};
   }
   return drivers;
 }
@@ -49,11 +49,17 @@ Drivers viseme_table() {
 Drivers vrm0_table() {
   Drivers drivers = table(MIEN_VOCABULARY_VRM0);
   // Morph targets of VRoid Studio.
-  constexpr std::pair<const char*, const char*> kVroid[] = {
-      {"Fcl_ALL_Joy", "Joy"}, {"Fcl_ALL_Angry", "Angry"},     {"Fcl_ALL_Sorrow", "Sorrow"},
-      {"Fcl_ALL_Fun", "Fun"}, {"Fcl_MTH_A", "A"},             {"Fcl_MTH_I", "I"},
-      {"Fcl_MTH_U", "U"},     {"Fcl_MTH_E", "E"},             {"Fcl_MTH_O", "O"},
-      {"Fcl_EYE_Close_L", "Blink_L"}, {"Fcl_EYE_Close_R", "Blink_R"}};
+  constexpr std::pair<const char*, const char*> kVroid[] = {{"Fcl_ALL_Joy", "Joy"},
+                                                            {"Fcl_ALL_Angry", "Angry"},
+                                                            {"Fcl_ALL_Sorrow", "Sorrow"},
+                                                            {"Fcl_ALL_Fun", "Fun"},
+                                                            {"Fcl_MTH_A", "A"},
+                                                            {"Fcl_MTH_I", "I"},
+                                                            {"Fcl_MTH_U", "U"},
+                                                            {"Fcl_MTH_E", "E"},
+                                                            {"Fcl_MTH_O", "O"},
+                                                            {"Fcl_EYE_Close_L", "Blink_L"},
+                                                            {"Fcl_EYE_Close_R", "Blink_R"}};
   for (const auto& [morph, expression] : kVroid) {
     drivers[plain_name(morph)] = drivers.at(plain_name(expression));
   }
@@ -99,8 +105,7 @@ Drivers morph_drivers(const std::vector<std::string>& names) {
     return face;
   }
   Drivers mouth;
-  for (const Drivers& table :
-       {viseme_table(), table(MIEN_VOCABULARY_VRM1), vrm0_table()}) {
+  for (const Drivers& table : {viseme_table(), table(MIEN_VOCABULARY_VRM1), vrm0_table()}) {
     if (Drivers matching = found(names, table); matching.size() > mouth.size()) {
       mouth = std::move(matching);
     }
@@ -132,8 +137,8 @@ DriverValues::DriverValues(const animation::Frame& frame) {
                  [](double value) { return static_cast<float>(formats::or_zero(value)); });
   for (int vocabulary = MIEN_VOCABULARY_ARKIT; vocabulary <= MIEN_VOCABULARY_VISEMES;
        ++vocabulary) {
-    std::vector<float>& values = values_.emplace_back(
-        static_cast<std::size_t>(mien_vocabulary_size(vocabulary)));
+    std::vector<float>& values =
+        values_.emplace_back(static_cast<std::size_t>(mien_vocabulary_size(vocabulary)));
     if (mien_vocabulary_values(vocabulary, controls.data(), values.data(),
                                static_cast<std::int32_t>(values.size())) != MIEN_OK) {
       throw Failure(kExitInternal, "unknown vocabulary");

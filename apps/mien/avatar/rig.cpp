@@ -41,8 +41,8 @@ Quaternion rotation_of(const Axes& m) {
     const double s = 2.0 * std::sqrt(1.0 + trace);
     return {(at(2, 1) - at(1, 2)) / s, (at(0, 2) - at(2, 0)) / s, (at(1, 0) - at(0, 1)) / s, s / 4};
   }
-  const std::size_t i = at(1, 1) > at(0, 0) ? (at(2, 2) > at(1, 1) ? 2u : 1u)
-                                            : (at(2, 2) > at(0, 0) ? 2u : 0u);
+  const std::size_t i =
+      at(1, 1) > at(0, 0) ? (at(2, 2) > at(1, 1) ? 2u : 1u) : (at(2, 2) > at(0, 0) ? 2u : 0u);
   const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
   const double s = 2.0 * std::sqrt(std::max(0.0, 1.0 + at(i, i) - at(j, j) - at(k, k)));
   Quaternion q = kNoRotation;
@@ -135,8 +135,8 @@ std::optional<std::size_t> humanoid_node(const Json& document, const char* bone)
 }  // namespace
 
 Quaternion Bone::turned(const Quaternion& by) const {
-  return animation::product(
-      inverse(parent), animation::product(by, animation::product(parent, local)));
+  return animation::product(inverse(parent),
+                            animation::product(by, animation::product(parent, local)));
 }
 
 Quaternion Rig::in_scene(const animation::Angles& angles) const {
