@@ -8,7 +8,7 @@ static class Program
     static int Main()
     {
         int failed = 0, passed = 0;
-        foreach (Type tests in new[] { typeof(HeaderTest), typeof(ClipTest) })
+        foreach (Type tests in new[] { typeof(HeaderTest), typeof(BlendShapesTest), typeof(ClipTest) })
         {
             object instance = Activator.CreateInstance(tests);
             foreach (MethodInfo test in tests.GetMethods(BindingFlags.Public | BindingFlags.Instance | BindingFlags.DeclaredOnly))
