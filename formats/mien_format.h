@@ -1,4 +1,4 @@
-// The byte layout of weight files (.mien), version 1.2, as specified in docs/format.md. All numbers
+// The byte layout of weight files (.mien), version 1.3, as specified in docs/format.md. All numbers
 // are little-endian; enumerators are never reused.
 #pragma once
 
@@ -13,7 +13,7 @@ namespace mien::formats {
 
 inline constexpr std::uint8_t kMagic[8] = {0x89, 'M', 'I', 'E', 'N', 0x0D, 0x0A, 0x1A};
 inline constexpr std::uint16_t kMajorVersion = 1;
-inline constexpr std::uint16_t kMinorVersion = 2;
+inline constexpr std::uint16_t kMinorVersion = 3;
 inline constexpr std::uint32_t kEndianTag = 0x01020304;
 
 // Alignment of sections, of tensors, and of the file in memory.
@@ -36,6 +36,7 @@ inline constexpr std::uint32_t kMaxWideOutputs =
     4;  // up to this many outputs are stored as 32-bit numbers
 inline constexpr std::uint16_t kMaxKernel = 15;
 inline constexpr std::uint16_t kMaxStride = 15;
+inline constexpr float kMinInputBound = 0x1p-64f, kMaxInputBound = 0x1p64f;
 
 inline constexpr std::uint32_t kNoIndex = 0xFFFFFFFF;  // no tensor, no second input
 
@@ -139,7 +140,9 @@ struct LayerRecord {
   std::uint16_t first_channel;  // kSlice, else 0
   float alpha;
   std::uint32_t weights, bias, slopes;  // tensors, or kNoIndex
-  std::uint32_t reserved_tail;
+  // Since version 1.3: largest magnitude of the inputs of kPointwise, which may have 8 bits; 0 if
+  // they need more, and in other layers.
+  float input_bound;
 };
 inline constexpr std::uint16_t kCeilMode = 1;  // pooling: includes a last, partly filled window
 

@@ -304,6 +304,13 @@ bool shape_allowed(ValueShape shape) {
   return shape.height * shape.width <= kMaxMapElems / padded8(shape.channels);
 }
 
+// Compared as bits, as in check_activation.
+bool input_bound_allowed(const LayerRecord& layer) {
+  const auto bound = std::bit_cast<std::uint32_t>(layer.input_bound);
+  return bound >= std::bit_cast<std::uint32_t>(kMinInputBound) &&
+         bound <= std::bit_cast<std::uint32_t>(kMaxInputBound);
+}
+
 mien_status check_layer(const LayerRecord& layer, std::uint32_t value, std::uint32_t network_flags,
                         std::uint16_t minor_version) {
   if (layer.op < static_cast<std::uint16_t>(LayerOp::kConv2d) ||
@@ -315,8 +322,13 @@ mien_status check_layer(const LayerRecord& layer, std::uint32_t value, std::uint
     return MIEN_ERROR_WEIGHTS_LAYER_OP;
   }
   const bool slices = op_of(layer) == LayerOp::kSlice;
-  if ((layer.first_channel != 0 && !slices) || layer.reserved_tail != 0) {
+  const bool has_bound = std::bit_cast<std::uint32_t>(layer.input_bound) != 0;
+  const bool may_bound = op_of(layer) == LayerOp::kPointwise && minor_version >= 3;
+  if ((layer.first_channel != 0 && !slices) || (has_bound && !may_bound)) {
     return MIEN_ERROR_WEIGHTS_RESERVED;
+  }
+  if (has_bound && !input_bound_allowed(layer)) {
+    return MIEN_ERROR_WEIGHTS_LAYER_ACTIVATION;
   }
   const bool two = takes_two(op_of(layer));
   if (layer.input >= value ||

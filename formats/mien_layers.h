@@ -2,6 +2,7 @@
 // the padding in them that must be zero.
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -69,7 +70,8 @@ struct LayerTensors {
 }
 [[nodiscard]] constexpr std::uint16_t version_needed(const LayerRecord& layer) {
   const std::uint16_t activation = version_needed(static_cast<LayerActivation>(layer.activation));
-  return activation > 0 ? activation : version_needed(op_of(layer));
+  const bool has_bound = std::bit_cast<std::uint32_t>(layer.input_bound) != 0;
+  return has_bound ? 3 : activation > 0 ? activation : version_needed(op_of(layer));
 }
 
 // The minor version of the format that a network's record requires.
@@ -84,6 +86,9 @@ struct LayerTensors {
 
 // Whether all dimensions are in 1..kMaxDim and the blocked map is within kMaxMapElems.
 [[nodiscard]] bool shape_allowed(ValueShape shape);
+
+// Whether an input bound other than 0 is within its limits.
+[[nodiscard]] bool input_bound_allowed(const LayerRecord& layer);
 
 // Checks a layer's fields: op, activation, references below `value`, kernel, strides, padding.
 // `minor_version`: that of the file.

@@ -1,5 +1,6 @@
 // The rules of the networks in a weight file, and of their layers.
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 
@@ -100,6 +101,11 @@ bool Validator::layer_fields(const NetworkRecord& network, const LayerRecord& re
     case MIEN_OK:
       return true;
     case MIEN_ERROR_WEIGHTS_LAYER_ACTIVATION:
+      if (std::bit_cast<std::uint32_t>(record.input_bound) != 0 && !input_bound_allowed(record)) {
+        fail_at(status, record, "input_bound");
+        set_got(result_, record.input_bound);
+        return false;
+      }
       fail_at(status, record, "activation");
       set_got(result_, record.activation);
       return false;

@@ -64,6 +64,7 @@ NetworkWriter::Layer NetworkWriter::begin(LayerOp op, LayerIndex x, const LayerO
   layer.record.op = static_cast<std::uint16_t>(op);
   layer.record.activation = static_cast<std::uint16_t>(options.activation);
   layer.record.alpha = options.alpha;
+  layer.record.input_bound = options.input_bound;
   layer.record.input = x;
   layer.record.second_input = kNoIndex;
   layer.record.weights = layer.record.bias = layer.record.slopes = kNoIndex;

@@ -41,6 +41,7 @@ struct LayerOptions {
   std::uint16_t stride_x = 1;
   Padding padding{};
   bool ceil_mode = false;  // max_pool only
+  float input_bound = 0;   // pointwise only
 };
 
 class MienWriter;

@@ -1131,6 +1131,7 @@ typedef struct mien_layer_info {
   int32_t stride[2];
   int32_t padding[4];    /**< top, left, bottom, right; of a slice: what it removes */
   int32_t first_channel; /**< slice only */
+  float input_bound;     /**< pointwise with 8-bit inputs: their largest magnitude; else 0 */
   uint64_t parameters;
   uint64_t macs; /**< multiply-accumulates per run on the declared input */
   uint32_t reserved[8];

@@ -61,6 +61,7 @@ SAMPLINGS = ("round_half_down", "round_half_up", "floor", "ceil", "bilinear")
 READING_ORDERS = ("hwc", "hcw", "whc", "wch", "chw", "cwh")
 MAX_TEXT_BYTES, MAX_FILE_BYTES, MAX_MAP_ELEMS = 4096, 1 << 31, 1 << 28
 MAX_KERNEL, MAX_STRIDE = 15, 15
+MIN_INPUT_BOUND, MAX_INPUT_BOUND = 2.0 ** -64, 2.0 ** 64
 MAX_MARGIN = (1 << 16) - 1  # of a slice, and its first channel
 NAME = re.compile(r"[a-z0-9_./]{1,63}")
 
@@ -151,7 +152,7 @@ class Network:
         return self._add(layer, [depthwise_tensor(values, channels, kh, kw), vector(bias, channels)], options)
 
     def pointwise(self, x, weight, bias=None, **options):
-        """weight [out, in] or [out, in, 1, 1]"""
+        """weight [out, in] or [out, in, 1, 1]; input_bound: of inputs that may have 8 bits"""
         values, (out, channels) = shaped(weight, 2)
         require(channels == self._shape(x)[2], f"pointwise: weight for {channels} channels")
         order = padded_order(range(channels))
@@ -270,7 +271,8 @@ class Network:
     def version(self):
         """The minor version of the format that it needs."""
         names = [name for layer in self.layers for name in (layer.op, layer.activation)]
-        return max([SINCE.get(name, 0) for name in names] + [2 if len(self.outputs) > MAX_WIDE_OUTPUTS else 0])
+        return max([SINCE.get(name, 0) for name in names] + [2 if len(self.outputs) > MAX_WIDE_OUTPUTS else 0]
+                   + [3 for layer in self.layers if layer.input_bound])
 
     def _shape(self, x):
         require(0 <= x < len(self.shapes), f"{self.name}: no value {x}")
@@ -303,6 +305,9 @@ class _Layer:
         options = dict(options)
         self.activation = options.pop("activation", "none")
         self.alpha = options.pop("alpha", 0.0)
+        self.input_bound = options.pop("input_bound", 0.0)
+        allowed = self.op == "pointwise" and MIN_INPUT_BOUND <= self.input_bound <= MAX_INPUT_BOUND
+        require(allowed or self.input_bound == 0, f"{self.op}: input bound {self.input_bound}")
         slopes = options.pop("slopes", None)
         require(not options, f"{self.op}: unknown options {sorted(options)}")
         require(self.activation in ACTIVATIONS or self.activation in CURVES and self.op == "activation",
@@ -360,9 +365,9 @@ class _Layer:
         weights, bias = (first, first + 1) if self.tensors else (NO_INDEX, NO_INDEX)
         slopes = first + len(self.tensors) if self.slopes else NO_INDEX
         tensors += self.tensors + self.slopes
-        return struct.pack("<2H2I3I8H2Hf4I", OPS[self.op], {**ACTIVATIONS, **CURVES}[self.activation],
+        return struct.pack("<2H2I3I8H2Hf3If", OPS[self.op], {**ACTIVATIONS, **CURVES}[self.activation],
                            *(self.inputs + [NO_INDEX])[:2], *self.shape, *self.kernel, *self.stride, *self.padding,
-                           self.flags, self.first_channel, self.alpha, weights, bias, slopes, 0)
+                           self.flags, self.first_channel, self.alpha, weights, bias, slopes, self.input_bound)
 
 
 class _Strings:

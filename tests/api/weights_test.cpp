@@ -86,6 +86,21 @@ TEST_F(WeightsTest, CopiesOtherFiles) {
   EXPECT_EQ(networks(), names);
 }
 
+TEST_F(WeightsTest, TellsInputBounds) {
+  ASSERT_EQ(create(golden_file("format/accept/input_bounds.mien")), MIEN_OK);
+  const WeightsContent content(weights);
+  const float bounds[] = {3.25f, 0.0f, 6.0f, 0.0f, 0.0f};
+  for (std::int32_t i = 0; i < 5; ++i) {
+    EXPECT_EQ(content.layer(0, i).input_bound, bounds[i]) << "layer " << i;
+  }
+}
+
+TEST_F(WeightsTest, NamesAnInputBoundOutsideItsLimits) {
+  EXPECT_EQ(create(golden_file("format/reject/bound_negative.mien")),
+            MIEN_ERROR_WEIGHTS_LAYER_ACTIVATION);
+  EXPECT_STREQ(error.field, "input_bound");
+}
+
 TEST_F(WeightsTest, UnpacksPackedFilesOfAnyAlignment) {
   ASSERT_EQ(create(small), MIEN_OK);
   const std::vector<std::string> names = networks();

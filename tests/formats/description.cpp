@@ -75,6 +75,7 @@ LayerOptions options_of(const json& layer) {
   LayerOptions options;
   options.activation = activation_named(given.value("activation", "none"));
   options.alpha = given.value("alpha", 0.0f);
+  options.input_bound = given.value("input_bound", 0.0f);
   options.ceil_mode = given.value("ceil_mode", false);
   std::tie(options.stride_y, options.stride_x) = pair_of(given.value("stride", json(1)));
   const json padding = given.value("padding", json::array({0, 0, 0, 0}));

@@ -214,6 +214,7 @@ mien_layer_info describe_layer(const FileView& file, const NetworkRecord& networ
   info.padding[2] = layer.pad_bottom;
   info.padding[3] = layer.pad_right;
   info.first_channel = layer.first_channel;
+  info.input_bound = layer.input_bound;
   info.parameters = cost.parameters;
   info.macs = cost.macs;
   return info;

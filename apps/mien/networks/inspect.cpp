@@ -39,6 +39,9 @@ ordered_json layer_json(const LayerInfo& layer) {
     json["left_out"] = layer.padding;
     json["first_channel"] = layer.first_channel;
   }
+  if (layer.input_bound > 0.0f) {
+    json["input_bound"] = layer.input_bound;
+  }
   json["output"] = array(layer.output);
   json["parameters"] = layer.parameters;
   json["macs"] = layer.macs;

@@ -151,6 +151,7 @@ namespace Mien
             [MarshalAs(UnmanagedType.ByValArray, SizeConst = 2)] public int[] stride;
             [MarshalAs(UnmanagedType.ByValArray, SizeConst = 4)] public int[] padding;
             public int first_channel;
+            public float input_bound;
             public ulong parameters, macs;
             [MarshalAs(UnmanagedType.ByValArray, SizeConst = 8)] public uint[] reserved;
         }

@@ -23,7 +23,7 @@ CASES = [
     ("magic", "kBadMagic", 4, [("B", 4, 0x4F)]),
     ("big_endian", "kWrongEndian", 12, [("I", 12, 0x04030201)]),
     ("major_version", "kUnsupportedVersion", 8, [("H", 8, 2)]),
-    ("minor_version", "kUnsupportedVersion", 8, [("H", 10, 3)]),
+    ("minor_version", "kUnsupportedVersion", 8, [("H", 10, 4)]),
     ("version_not_needed", "kUnsupportedVersion", 10, [("H", 10, 1)]),
     ("header_bytes", "kUnsupportedVersion", 16, [("I", 16, 128)]),
     ("no_network", "kLimitExceeded", 20, [("I", 20, 0)]),
@@ -207,6 +207,20 @@ ARITHMETIC_CASES = [
     ("wide_output_reserved", "kReservedNotZero", SMALL + 52, [("H", SMALL + 58, 1)]),
 ]
 
+BOUNDS = (HERE / "accept/input_bounds.mien").read_bytes()
+EXPAND, DEPTHWISE = 128, 192
+BOUNDS_CASES = [
+    ("bounds_in_version_2", "kReservedNotZero", EXPAND, [("H", 10, 2)]),
+    ("bounds_of_no_layer", "kUnsupportedVersion", 10, [("I", EXPAND + 60, 0), ("I", EXPAND + 128 + 60, 0)]),
+    ("bound_of_depthwise", "kReservedNotZero", DEPTHWISE, [("f", DEPTHWISE + 60, 6.0)]),
+    ("bound_negative", "kBadActivation", EXPAND, [("f", EXPAND + 60, -1.0)]),
+    ("bound_minus_zero", "kBadActivation", EXPAND, [("f", EXPAND + 60, -0.0)]),
+    ("bound_too_small", "kBadActivation", EXPAND, [("f", EXPAND + 60, 2.0**-65)]),
+    ("bound_too_large", "kBadActivation", EXPAND, [("f", EXPAND + 60, 2.0**65)]),
+    ("bound_nan", "kBadActivation", EXPAND, [("f", EXPAND + 60, NAN)]),
+    ("bound_infinite", "kBadActivation", EXPAND, [("f", EXPAND + 60, float("inf"))]),
+]
+
 # Changes of every_op.mien: name, layer, tensor, element (layers of the first network have 20 channels, in 24 lanes), new value.
 WEIGHTS, BIAS, SLOPES = range(3)
 LANES_CASES = [
@@ -277,6 +291,7 @@ def main():
              for name, status, offset, changes in CASES] + whole_file_cases()
     cases += [(name, status, offset, changed(changes, PARTS)) for name, status, offset, changes in PARTS_CASES]
     cases += [(name, status, offset, changed(changes, ARITHMETIC)) for name, status, offset, changes in ARITHMETIC_CASES]
+    cases += [(name, status, offset, changed(changes, BOUNDS)) for name, status, offset, changes in BOUNDS_CASES]
     for name, layer, tensor, element, value in LANES_CASES:
         at = lane_of(layer, tensor, element)
         cases.append((name, "kPaddingNotZero", at, changed([("H", at, value)], EVERY_OP)))

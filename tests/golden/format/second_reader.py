@@ -80,7 +80,7 @@ class Reader:
          self.metadata_count, self.string_bytes, total, self.data_offset, checksum) = struct.unpack_from("<8sHHIIIIIIIQQQ", self.data)
         check(magic == bytes.fromhex("894D49454E0D0A1A"), "kBadMagic")
         check(endian == 0x01020304, "kWrongEndian")
-        check(major == 1 and minor <= 2 and header_bytes == 64, "kUnsupportedVersion")
+        check(major == 1 and minor <= 3 and header_bytes == 64, "kUnsupportedVersion")
         self.minor = minor
         check(total <= 2**31, "kLimitExceeded")
         check(total <= len(self.data), "kTruncated")
@@ -127,7 +127,7 @@ class Reader:
 
     def strings(self):
         self.network_records = self.records(0, self.network_count, "<2I3I3I1I14H")
-        self.layer_records = self.records(1, self.layer_count, "<2H2I3I8H2Hf3II")
+        self.layer_records = self.records(1, self.layer_count, "<2H2I3I8H2Hf3I4s")
         self.tensor_records = self.records(2, self.tensor_count, "<2I2HI4I2Q4I")
         self.names = [self.name(*r[:2]) for r in self.network_records]
         self.tensor_names = [self.name(*r[:2]) if r[1] else self.string(*r[:2]).decode() for r in self.tensor_records]
@@ -167,6 +167,7 @@ class Reader:
         check(self.layer == self.layer_count, "kBadNetwork")
         needed = [2 if fields[0] >= 14 or fields[1] >= 8 else 1 if fields[0] >= 11 else 0 for fields in self.layer_records]
         needed += [2 if record[8] > 4 else 0 for record in self.network_records]
+        needed += [3 for fields in self.layer_records if any(fields[-1])]
         check(self.minor == max(needed, default=0), "kUnsupportedVersion")
         for index in range(self.tensor, self.tensor_count):
             check(self.tensor_names[index], "kUnusedTensor")
@@ -192,9 +193,11 @@ class Reader:
 
     def one_layer(self, fields, values, flags):
         (op, activation, x, second, h, w, channels, kh, kw, sy, sx, top, left, bottom, right, layer_flags, first, alpha,
-         weights, bias, slopes, tail) = fields
-        check(1 <= op <= (10, 13, 19)[self.minor] and not (flags and (op in (4, 5, 6, 18) or op == 17 and 0 in (sy, sx))), "kBadOp")
-        check((first == 0 or op == 13) and tail == 0, "kReservedNotZero")
+         weights, bias, slopes, input_bound) = fields
+        check(1 <= op <= (10, 13, 19, 19)[self.minor] and not (flags and (op in (4, 5, 6, 18) or op == 17 and 0 in (sy, sx))), "kBadOp")
+        bounded = any(input_bound)
+        check((first == 0 or op == 13) and (not bounded or op == 3 and self.minor >= 3), "kReservedNotZero")
+        check(not bounded or 2.0**-64 <= struct.unpack("<f", input_bound)[0] <= 2.0**64, "kBadActivation")
         two = op in (8, 12, 14, 15, 16)
         check(x < len(values) and (second < len(values) if two else second == NOTHING), "kBadReference")
         window = (kh, kw, sy, sx, top, left, bottom, right)

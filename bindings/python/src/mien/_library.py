@@ -214,6 +214,7 @@ class LayerInfo(Struct):
         ("stride", c_int32 * 2),
         ("padding", c_int32 * 4),
         ("first_channel", c_int32),
+        ("input_bound", c_float),
         ("parameters", c_uint64),
         ("macs", c_uint64),
         ("reserved", c_uint32 * 8),

@@ -214,6 +214,7 @@ pub struct mien_layer_info {
     pub stride: [i32; 2],
     pub padding: [i32; 4],
     pub first_channel: i32,
+    pub input_bound: f32,
     pub parameters: u64,
     pub macs: u64,
     pub reserved: [u32; 8],

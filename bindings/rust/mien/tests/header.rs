@@ -54,7 +54,7 @@ fn declarations_match_the_header() {
         mien_network_config { struct_size, cpu_mask, weights, name, height, width, allocator, reserved }
         mien_network_info { struct_size, file, name, input, any_size, layers, outputs, parameters, macs, weight_bytes, session_bytes,
             arena_bytes, reserved }
-        mien_layer_info { struct_size, input, second_input, output, op, activation, kernel, stride, padding, first_channel, parameters, macs,
+        mien_layer_info { struct_size, input, second_input, output, op, activation, kernel, stride, padding, first_channel, input_bound, parameters, macs,
             reserved }
         mien_metadata_info { struct_size, file, key, value, value_bytes, reserved }
         mien_constant_info { struct_size, file, name, r#type, rank, dims, reserved }
