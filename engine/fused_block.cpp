@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "engine/arena_plan.h"
 #include "kernels/families.h"
 #include "kernels/registry.h"
 
@@ -79,9 +78,10 @@ bool quantizes_weights(std::uint32_t cpu_mask) {
   return fused != nullptr && kernels::is_quantized(fused->tier);
 }
 
-std::size_t quantized_weights_bytes(std::int32_t in_c, std::int32_t out_c) {
-  const auto padded = [](std::int32_t c) { return (static_cast<std::size_t>(c) + 7) / 8 * 8; };
-  return aligned(padded(out_c) * (padded(in_c) * sizeof(std::int16_t) + sizeof(float)));
+bool has_int8(std::uint32_t cpu_mask) {
+  const kernels::Entry* fused =
+      kernels::find_entry(kernels::InvertedResidualArgs::kFamily, cpu_mask);
+  return fused != nullptr && kernels::has_int8(fused->tier);
 }
 
 bool fuses(const formats::LayerRecord& layer) {

@@ -31,9 +31,9 @@ struct BlockTiling {
 [[nodiscard]] bool uses_half_precision(std::uint32_t cpu_mask);
 
 // Whether fused blocks use quantized pointwise weights, for layers of up to
-// kernels::kQuantizedWeightsMaxInputs inputs, and the bytes of one layer's: pairs, then scales.
+// kernels::kQuantizedWeightsMaxInputs inputs, and 8 bits for those with an input bound.
 [[nodiscard]] bool quantizes_weights(std::uint32_t cpu_mask);
-[[nodiscard]] std::size_t quantized_weights_bytes(std::int32_t in_c, std::int32_t out_c);
+[[nodiscard]] bool has_int8(std::uint32_t cpu_mask);
 
 // Whether a fused block supports this layer's activation.
 [[nodiscard]] bool fuses(const formats::LayerRecord& layer);

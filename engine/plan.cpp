@@ -51,6 +51,7 @@ mien_status Plan::make(const SessionRequest& request) {
     fuse_blocks();
     uses_half_precision_ = uses_half_precision(request.cpu_mask);
     quantizes_weights_ = quantizes_weights(request.cpu_mask);
+    has_int8_ = has_int8(request.cpu_mask);
   }
   place_maps();
   return MIEN_OK;
@@ -218,13 +219,16 @@ std::size_t Plan::weights_bytes(std::uint32_t layer) const {
       !is_quantized(layer, depthwise_layer)) {
     return 0;
   }
-  const auto channels = [&](std::uint32_t value) { return values_[value].shape.c; };
-  const std::size_t project =
-      quantized_weights_bytes(channels(depthwise_layer + 1), channels(depthwise_layer + 2));
-  const std::uint32_t x = layers_[layer].input;
-  return layer < depthwise_layer
-             ? project + quantized_weights_bytes(channels(x), channels(depthwise_layer))
-             : project;
+  const std::size_t project = quantized_weights_bytes(quantized_layer(depthwise_layer + 1));
+  return layer < depthwise_layer ? project + quantized_weights_bytes(quantized_layer(layer))
+                                 : project;
+}
+
+QuantizedLayer Plan::quantized_layer(std::uint32_t layer) const {
+  const LayerRecord& l = layers_[layer];
+  const bool reads_map = parts_[layer] == Part::kStep;  // an expand layer begins its block
+  return {values_[l.input].shape.c, values_[layer + 1].shape.c, reads_map,
+          has_int8_ ? l.input_bound : 0.0f};
 }
 
 std::size_t Plan::scratch_elems(std::uint32_t layer) const {

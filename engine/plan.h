@@ -9,6 +9,7 @@
 
 #include "engine/fused_block.h"
 #include "engine/model.h"
+#include "engine/quantized_weights.h"
 
 namespace mien::engine {
 
@@ -71,6 +72,9 @@ class Plan {
   [[nodiscard]] std::size_t state_elems(std::uint32_t layer) const;
   [[nodiscard]] std::size_t state_elems() const { return state_elems_; }
 
+  // A pointwise layer of a fused block with quantized weights.
+  [[nodiscard]] QuantizedLayer quantized_layer(std::uint32_t layer) const;
+
   // Bytes of quantized weights of the step that begins with this layer, and of all steps.
   [[nodiscard]] std::size_t weights_bytes(std::uint32_t layer) const;
   [[nodiscard]] std::size_t weights_bytes() const { return weights_bytes_; }
@@ -95,6 +99,7 @@ class Plan {
 
   bool uses_half_precision_ = false;  // in fused blocks
   bool quantizes_weights_ = false;    // in fused blocks, up to kQuantizedWeightsMaxInputs
+  bool has_int8_ = false;             // in fused blocks
   const Model* model_ = nullptr;
   const formats::NetworkRecord* network_ = nullptr;
   std::span<const formats::LayerRecord> layers_;

@@ -168,7 +168,7 @@ mien_status StepMaker::make(std::uint32_t layer, const Memory& own, Step& step) 
   if (depthwise_layer != kNoIndex) {
     kernels::InvertedResidualArgs args = block(layer, depthwise_layer);
     const mien_status status =
-        plan_.weights_bytes(layer) > 0 ? quantize_weights(own.weights, args) : MIEN_OK;
+        plan_.weights_bytes(layer) > 0 ? quantize_block(layer, own.weights, args) : MIEN_OK;
     return status == MIEN_OK ? put(args, step) : status;
   }
   const Map x = map(l.input), y = map(layer + 1);
@@ -247,7 +247,11 @@ kernels::DepthwiseArgs StepMaker::depthwise(const LayerRecord& l, Map x, Map y) 
 
 kernels::InvertedResidualArgs::Weights StepMaker::weights(std::uint32_t layer) const {
   const LayerRecord& l = plan_.layer(layer);
-  return {halves(l.weights), halves(l.bias), activation(l), nullptr, nullptr};
+  kernels::InvertedResidualArgs::Weights weights{};
+  weights.weights = halves(l.weights);
+  weights.bias = halves(l.bias);
+  weights.activation = activation(l);
+  return weights;
 }
 
 // Arguments for layers `layer` .. depthwise_layer + 1, and for the next addition if it is fused.
@@ -284,33 +288,19 @@ kernels::InvertedResidualArgs StepMaker::block(std::uint32_t layer,
   return args;
 }
 
-// Rounds the weights once, at creation.
-mien_status StepMaker::quantize_weights(std::byte* to, kernels::InvertedResidualArgs& args) const {
-  const auto quantize = kernels::find<kernels::QuantizeWeightsArgs>(cpu_mask_);
-  if (quantize == nullptr) {
-    return MIEN_ERROR_UNSUPPORTED_LAYER;
-  }
-  const auto layer = [&](kernels::InvertedResidualArgs::Weights& weights, std::int32_t in_c,
-                         std::int32_t out_c, bool of_map) {
-    kernels::QuantizeWeightsArgs one{};
-    one.in_blocks = (in_c + 7) / 8;
-    one.out_blocks = (out_c + 7) / 8;
-    one.pairs = reinterpret_cast<std::int16_t*>(to);
-    one.scales =
-        reinterpret_cast<float*>(one.pairs + std::ptrdiff_t{one.in_blocks} * one.out_blocks * 64);
-    one.weights = weights.weights;
-    one.max_value = of_map ? kernels::kQuantizedMapMax : kernels::kQuantizedBandMax;
-    one.is_signed = of_map;
-    quantize(one);
-    weights.pairs = one.pairs;
-    weights.scales = one.scales;
-    to += quantized_weights_bytes(in_c, out_c);
-  };
+// Rounds the weights of the block that begins with `layer` once, at creation.
+mien_status StepMaker::quantize_block(std::uint32_t layer, std::byte* to,
+                                      kernels::InvertedResidualArgs& args) const {
   if (args.expand.weights != nullptr) {
-    layer(args.expand, args.in_c, args.hidden_c, true);
+    const QuantizedLayer expand = plan_.quantized_layer(layer);
+    const mien_status status = quantize_weights(expand, cpu_mask_, to, args.expand);
+    if (status != MIEN_OK) {
+      return status;
+    }
+    to += quantized_weights_bytes(expand);
   }
-  layer(args.project, args.hidden_c, args.out_c, false);
-  return MIEN_OK;
+  const QuantizedLayer project = plan_.quantized_layer(plan_.fused_depthwise(layer) + 1);
+  return quantize_weights(project, cpu_mask_, to, args.project);
 }
 
 kernels::PointwiseArgs StepMaker::pointwise(std::uint32_t layer, Map x, Map y) const {

@@ -58,8 +58,8 @@ class StepMaker {
   [[nodiscard]] kernels::InvertedResidualArgs block(std::uint32_t layer,
                                                     std::uint32_t depthwise_layer) const;
   [[nodiscard]] kernels::InvertedResidualArgs::Weights weights(std::uint32_t layer) const;
-  [[nodiscard]] mien_status quantize_weights(std::byte* to,
-                                             kernels::InvertedResidualArgs& args) const;
+  [[nodiscard]] mien_status quantize_block(std::uint32_t layer, std::byte* to,
+                                           kernels::InvertedResidualArgs& args) const;
   [[nodiscard]] kernels::PointwiseArgs pointwise(std::uint32_t layer, Map x, Map y) const;
   [[nodiscard]] kernels::FullyConnectedArgs fully_connected(const formats::LayerRecord& layer,
                                                             Map x, Map y) const;

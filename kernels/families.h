@@ -19,6 +19,7 @@
 #include "kernels/normalize/normalize.h"
 #include "kernels/pointwise/pointwise.h"
 #include "kernels/power_spectrum/power_spectrum.h"
+#include "kernels/quantize_to_int8/quantize_to_int8.h"
 #include "kernels/quantize_weights/quantize_weights.h"
 #include "kernels/rearrange/rearrange.h"
 #include "kernels/residual_add/residual_add.h"

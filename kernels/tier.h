@@ -30,6 +30,10 @@ inline constexpr std::uint32_t kQuantizedTiers =
     bit(Tier::kAvx512Vnni) | bit(Tier::kAvx2Int16) | bit(Tier::kAvxVnni);
 [[nodiscard]] constexpr bool is_quantized(Tier tier) { return (kQuantizedTiers & bit(tier)) != 0; }
 
+// Those that also multiply 8-bit integers.
+inline constexpr std::uint32_t kInt8Tiers = bit(Tier::kAvx512Vnni) | bit(Tier::kAvxVnni);
+[[nodiscard]] constexpr bool has_int8(Tier tier) { return (kInt8Tiers & bit(tier)) != 0; }
+
 // Tiers that use half precision in fused blocks: fp16, where values beyond 65504 become infinite,
 // or quantized integers.
 inline constexpr std::uint32_t kHalfTiers =

@@ -6,10 +6,10 @@ set(mien_tier_families
 if(NOT MIEN_TRIM_LAYERS)
   list(APPEND mien_tier_families combine curve normalize rearrange resize)
 endif()
-set(mien_ref_extra quantize_weights/ref.cpp inverted_residual/ref.cpp)
+set(mien_ref_extra quantize_to_int8/ref.cpp quantize_weights/ref.cpp inverted_residual/ref.cpp)
 set(mien_avx2_extra inverted_residual/avx2.cpp pointwise/avx2_product.cpp)
 if(MIEN_WITH_HALF_PRECISION)
-  list(APPEND mien_avx2_extra quantize_weights/avx2.cpp)  # for all quantized tiers of x86
+  list(APPEND mien_avx2_extra quantize_to_int8/avx2.cpp quantize_weights/avx2.cpp)  # for all quantized tiers of x86
 endif()
 set(mien_avx2int16_families fma_peak inverted_residual)
 set(mien_avx2int16_extra inverted_residual/avx2int16_product.cpp)

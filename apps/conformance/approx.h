@@ -27,8 +27,8 @@ struct Arithmetic {
   double unit;     // unit roundoff
   double flushed;  // maximum error of a number near zero
   int chunk;       // number of products per partial sum; partial sums are added in fp32
-  // Factors of products are first quantized to 16-bit integers.
-  bool is_quantized = false;
+  // Factors of products are first quantized to 16-bit integers, or to 8 bits if the case says so.
+  bool is_quantized = false, has_int8 = false;
 };
 inline constexpr Arithmetic kSingleArithmetic{kUnit, kFlushed, std::numeric_limits<int>::max()};
 // fp16: 11 bits, denormals kept. Values of x, multiply-adds and the maps between the layers of a
@@ -40,6 +40,8 @@ inline constexpr Arithmetic kHalfArithmetic{0x1p-11, 0x1p-24, 64};
 // Integer sums are exact, everything else is fp32. The cases of a family compute the scales.
 inline constexpr Arithmetic kQuantizedArithmetic{kUnit, kFlushed, std::numeric_limits<int>::max(),
                                                  true};
+inline constexpr Arithmetic kInt8Arithmetic{kUnit, kFlushed, std::numeric_limits<int>::max(), true,
+                                            true};
 // For sums that become fp16 in the end.
 [[nodiscard]] inline Arithmetic in_one_chunk(Arithmetic by) {
   by.chunk = std::numeric_limits<int>::max();

@@ -30,6 +30,7 @@ constexpr Family kFamilies[] = {
 std::size_t element_bytes(Element element) {
   switch (element) {
     case Element::kByte:
+    case Element::kInt8:
       return 1;
     case Element::kHalf:
     case Element::kInt16:

@@ -16,7 +16,7 @@
 
 namespace mien::conformance {
 
-enum class Element : std::uint8_t { kByte, kHalf, kInt16, kFloat, kInt64 };
+enum class Element : std::uint8_t { kByte, kInt8, kHalf, kInt16, kFloat, kInt64 };
 [[nodiscard]] std::size_t element_bytes(Element element);
 
 enum class Role : std::uint8_t {
@@ -42,7 +42,7 @@ struct Buffer {
 
 // An argument struct of any family.
 struct Arguments {
-  alignas(16) std::byte bytes[320];
+  alignas(16) std::byte bytes[384];
 };
 
 template <class Args>
@@ -70,6 +70,9 @@ class Addresses {
   }
   [[nodiscard]] std::uint8_t* bytes(std::size_t i) const {
     return reinterpret_cast<std::uint8_t*>(addresses_[i]);
+  }
+  [[nodiscard]] std::int8_t* int8s(std::size_t i) const {
+    return reinterpret_cast<std::int8_t*>(addresses_[i]);
   }
   [[nodiscard]] std::int16_t* int16s(std::size_t i) const {
     return reinterpret_cast<std::int16_t*>(addresses_[i]);

@@ -93,6 +93,8 @@ double element(Element kind, const std::vector<std::byte>& bytes, std::size_t i)
   switch (kind) {
     case Element::kByte:
       return element_as<std::uint8_t>(bytes, i);
+    case Element::kInt8:
+      return element_as<std::int8_t>(bytes, i);
     case Element::kHalf:
       return element_as<std::uint16_t>(bytes, i);
     case Element::kInt16:

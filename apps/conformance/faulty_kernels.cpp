@@ -1,9 +1,11 @@
 // The faulty kernels of the self-test.
 #include "apps/conformance/faulty_kernels.h"
 
+#include <algorithm>
 #include <cfenv>
 #include <cmath>
 #include <cstring>
+#include <vector>
 
 #include "apps/conformance/crash_guard.h"
 #include "apps/conformance/guarded_buffer.h"
@@ -136,6 +138,43 @@ void changes_rounding_mode(const FullyConnectedArgs& a) {
   std::fesetround(FE_TOWARDZERO);
 }
 
+using kernels::InvertedResidualArgs;
+
+void correct_block(const InvertedResidualArgs& a) {
+  kernels::find<InvertedResidualArgs>(kernels::bit(kernels::Tier::kRef))(a);
+}
+
+// Takes unsigned inputs of 8 bits, to which kInt8Shift was added, for signed ones.
+void forgets_int8_offsets(const InvertedResidualArgs& a) {
+  if (a.expand.quads == nullptr) {
+    return correct_block(a);
+  }
+  InvertedResidualArgs wrong = a;
+  std::vector<std::uint16_t> bias(a.expand.bias, a.expand.bias + padded(a.hidden_c));
+  for (std::size_t o = 0; o < bias.size(); ++o) {
+    const float scale = a.expand.scales[o] * a.expand.input_bound / 127.0f;
+    const float shifted = formats::float_from_fp16(bias[o]) - a.expand.offsets[o] * scale;
+    bias[o] = formats::fp16_from_float(shifted);
+  }
+  wrong.expand.bias = bias.data();
+  correct_block(wrong);
+}
+
+// Saturates inputs of 8 bits at half of their bound.
+void saturates_int8_early(const InvertedResidualArgs& a) {
+  if (a.expand.quads == nullptr) {
+    return correct_block(a);
+  }
+  InvertedResidualArgs wrong = a;
+  const std::ptrdiff_t elems = std::ptrdiff_t{padded(a.in_c)} * a.in_h * a.in_w;
+  std::vector<float> x(a.x, a.x + elems);
+  for (float& one : x) {
+    one = std::clamp(one, -a.expand.input_bound / 2.0f, a.expand.input_bound / 2.0f);
+  }
+  wrong.x = x.data();
+  correct_block(wrong);
+}
+
 template <class Args>
 AnyKernel any(void (*kernel)(const Args&)) {
   return reinterpret_cast<AnyKernel>(kernel);
@@ -165,6 +204,8 @@ std::span<const FaultyKernel> faulty_kernels() {
   static const bool pages = have_guard_pages(), crashes = can_catch_crashes() && pages,
                     registers = register_convention() != nullptr;
   constexpr const char* kDense = "fully_connected";
+  constexpr const char* kBlock = "inverted_residual";
+  constexpr kernels::Tier kInt8 = kernels::Tier::kAvxVnni;
   // The first buffers end at a guard page; without guard pages, a stray write changes the border.
   static const Fault stray = crashes ? Fault::kCrashes : Fault::kTouchesBorder;
   static const FaultyKernel kFaults[] = {
@@ -192,6 +233,11 @@ std::span<const FaultyKernel> faulty_kernels() {
        kHaveVectorRegisters},
       {"leaves another rounding mode", kDense, any(changes_rounding_mode), Fault::kClobbersRegister,
        registers},
+      {"nothing: the block is correct", kBlock, any(correct_block), Fault::kNone, true, kInt8},
+      {"forgets offsets of 8 bits", kBlock, any(forgets_int8_offsets), Fault::kWrongResult, true,
+       kInt8},
+      {"8 bits saturate early", kBlock, any(saturates_int8_early), Fault::kWrongResult, true,
+       kInt8},
   };
   return kFaults;
 }

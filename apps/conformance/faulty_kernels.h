@@ -13,6 +13,7 @@ struct FaultyKernel {
   kernels::AnyKernel kernel;
   Fault expected;
   bool detectable;  // false without the required guard pages, signals or register check
+  kernels::Tier tier = kernels::Tier::kAvx2;  // that it stands for; any other than the reference
 };
 
 // Includes a correct kernel, with kNone as the expected fault.

@@ -18,9 +18,10 @@ std::string where(std::uint64_t seed, const RandomValues& random) {
 }  // namespace
 
 const Arithmetic& arithmetic_of(kernels::Tier tier) {
-  return kernels::is_quantized(tier) ? kQuantizedArithmetic
-         : kernels::is_half(tier)    ? kHalfArithmetic
-                                     : kSingleArithmetic;
+  return kernels::has_int8(tier)       ? kInt8Arithmetic
+         : kernels::is_quantized(tier) ? kQuantizedArithmetic
+         : kernels::is_half(tier)      ? kHalfArithmetic
+                                       : kSingleArithmetic;
 }
 
 Finding check_kernel(const kernels::Entry& entry, std::uint64_t seed, int& cases) {

@@ -59,6 +59,7 @@ class Network {
   std::string network_, name_;
   TensorShape input_;  // the declared shape
   std::uint64_t macs_ = 0;
+  bool has_int8_ = false;        // some layers have 8 bits
   const GoldenNetwork* golden_;  // nullptr: compare with the reference tier
   Steps expected_;               // expected outputs for expected_seed_; empty at first
   std::uint64_t expected_seed_ = 0;

@@ -1,6 +1,7 @@
-// Products of 16-bit integers with vectors of 256 bits, for the tiers avx2int16 and avxvnni:
-// register tiles of up to 6 pixels x 16 output channels. Each lane sums two elements of the sum at
-// once. A last panel of 8 takes four elements at once, two in the even lanes and two in the odd.
+// Products of integers with vectors of 256 bits, for the tiers avx2int16 and avxvnni: register
+// tiles of up to 6 pixels x 16 output channels. Each lane multiplies 4 bytes at once: two elements
+// of the sum of 16 bits, or four of 8. A last panel of 8 multiplies 8 bytes, 4 in the even lanes
+// and 4 in the odd.
 //
 // A tile only leaves integer sums; one loop converts the sums of all tiles, because that needs less
 // code than converting them in each.
@@ -19,14 +20,14 @@ namespace {
 
 inline constexpr int kVecs = kPanel / kLanes;
 inline constexpr int kMaxPixels = 6;
-inline constexpr int kStepElems = 2 * kPanel;  // weights of one step
+inline constexpr int kStepElems = 2 * kPanel;  // weights of 16 bits of one step
 
 // Aligned, because stores that cross cache lines are slow.
 struct alignas(64) Sums {
   std::int32_t of[kMaxPixels][kPanel];
 };
 
-// Broadcasts 1 pair to every lane, or 2 pairs to every two lanes.
+// Broadcasts 4 bytes to every lane, or 8 bytes to every two lanes.
 template <int kCount>
 __m256i broadcast_pairs(const std::int16_t* x) {
   if constexpr (kCount == 1) {
@@ -52,14 +53,18 @@ struct Finish {
       : low(_mm256_set1_ps(a.to.low)),
         high(_mm256_set1_ps(a.to.high)),
         scale(_mm256_mul_ps(_mm256_loadu_ps(a.scales + channel), _mm256_set1_ps(a.x_scale))),
-        bias(load_half(a.to.bias + channel)) {}
+        bias(load_half(a.to.bias + channel)) {
+    if (a.is_int8()) {
+      bias = _mm256_fmadd_ps(_mm256_loadu_ps(a.offsets + channel), scale, bias);
+    }
+  }
   [[nodiscard]] Vec of(__m256i sum) const {
     const Vec y = _mm256_fmadd_ps(_mm256_cvtepi32_ps(sum), scale, bias);
     return _mm256_min_ps(high, _mm256_max_ps(low, y));
   }
 };
 
-// Multiply::add(sum, value, weight) adds the products of two elements to each lane.
+// Multiply::add(sum, value, weight) adds the products of 4 bytes to each lane.
 template <class Multiply>
 class QuantizedTiles {
  public:
@@ -144,7 +149,7 @@ class QuantizedTiles {
     residual = r;
   }
 
-  // Adds kCount pairs at once.
+  // Multiplies 4 kCount bytes at once.
   template <int kPixels, int kCount>
   static void sums_of(const QuantizedProduct& a, const std::int16_t* x, const std::int16_t* w,
                       Sums& to) {

@@ -29,6 +29,7 @@ struct Window {
   const InvertedResidualArgs& a;
   std::ptrdiff_t x_row_elems;
   const std::uint16_t* weights;  // [kernel_h][kernel_w][8]
+  bool is_int8;
   Vec factor, bias, high;
 
   static Vec load(const float* x) { return _mm256_loadu_ps(x); }
@@ -38,24 +39,31 @@ struct Window {
   }
   void store(Vec sum, float* y) const {
     const Vec clamped = _mm256_min_ps(high, _mm256_max_ps(_mm256_setzero_ps(), sum));
-    _mm_storeu_si128(reinterpret_cast<__m128i*>(y), fixed(clamped));
+    const __m128i words = fixed(clamped);
+    if (is_int8) {
+      _mm_storel_epi64(reinterpret_cast<__m128i*>(y), _mm_packus_epi16(words, words));
+    } else {
+      _mm_storeu_si128(reinterpret_cast<__m128i*>(y), words);
+    }
   }
 };
 
 // `half` 0: the lower 8 channels of the panel; 1: the upper 8.
 void depthwise_half(const InvertedResidualArgs& a, const DepthwisePart<float>& s, std::int32_t half,
-                    float* y) {
+                    const BandQuantization& quantization, float* y) {
   const std::ptrdiff_t taps = std::ptrdiff_t{a.kernel_h} * a.kernel_w;
   const std::int32_t block = s.block + half;
-  const Vec factor = _mm256_set1_ps(band_factor(s.clamp.high));
+  const Vec factor = _mm256_set1_ps(quantization.factor());
+  const std::ptrdiff_t upper =
+      quantization.is_int8 ? kQuantizedBand / 2 : quantized_band_plane(a, s);
   const Window window{a,
                       s.x_row_elems,
                       a.depthwise.weights + block * taps * kLanes,
+                      quantization.is_int8,
                       factor,
                       _mm256_mul_ps(load_half(a.depthwise.bias + block * kLanes), factor),
-                      _mm256_set1_ps(kQuantizedBandMax)};
-  DepthwiseRows<Window>::run(window, s.rows, s.x + std::ptrdiff_t{half} * kLanes,
-                             y + half * band_plane(a, s) / 2);
+                      _mm256_set1_ps(quantization.max)};
+  DepthwiseRows<Window>::run(window, s.rows, s.x + std::ptrdiff_t{half} * kLanes, y + half * upper);
 }
 
 struct TierInt16 {
@@ -97,10 +105,24 @@ struct TierInt16 {
     }
   }
 
-  static void depthwise(const InvertedResidualArgs& a, const DepthwisePart<float>& s, float* y) {
-    depthwise_half(a, s, 0, y);
+  static void quantize_to_int8(const float* x, std::int32_t pixels, float inverse_scale,
+                               std::int16_t* y) {
+    const Vec factor = _mm256_set1_ps(inverse_scale);
+    const Vec low = _mm256_set1_ps(-kInt8MapMax), high = _mm256_set1_ps(kInt8MapMax);
+    for (; pixels > 0; --pixels, x += kLanes, y += kQuantizedPixel) {
+      const Vec values = _mm256_mul_ps(_mm256_loadu_ps(x), factor);
+      const __m128i words = fixed(_mm256_min_ps(_mm256_max_ps(values, low), high));
+      _mm_storel_epi64(reinterpret_cast<__m128i*>(y),
+                       _mm_xor_si128(_mm_packs_epi16(words, words),
+                                     _mm_set1_epi8(static_cast<char>(kInt8Shift))));
+    }
+  }
+
+  static void depthwise(const InvertedResidualArgs& a, const DepthwisePart<float>& s,
+                        const BandQuantization& quantization, float* y) {
+    depthwise_half(a, s, 0, quantization, y);
     if (s.blocks > 1) {
-      depthwise_half(a, s, 1, y);
+      depthwise_half(a, s, 1, quantization, y);
     }
   }
 };

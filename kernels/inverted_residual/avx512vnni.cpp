@@ -10,10 +10,6 @@ namespace {
 
 using avx512::Vec;
 
-Vec weights_at(const InvertedResidualArgs& a, const DepthwisePart<float>& s, std::int32_t tap) {
-  return _mm512_mul_ps(avx512::weights_at(a, s, tap), _mm512_set1_ps(band_factor(s.clamp.high)));
-}
-
 // Computes quantized values of the band.
 struct Window {
   using Value = float;
@@ -25,14 +21,22 @@ struct Window {
   std::ptrdiff_t x_row_elems;
   std::ptrdiff_t y_plane_elems;
   bool both;  // the upper 8 channels exist
-  Vec bias, high;
+  bool is_int8;
+  Vec factor, bias, high;
 
   static Vec load(const float* x) { return _mm512_loadu_ps(x); }
   static Vec fma(Vec sum, Vec value, Vec weight) { return _mm512_fmadd_ps(value, weight, sum); }
-  [[nodiscard]] Vec weight(int tap) const { return weights_at(a, s, tap); }
+  [[nodiscard]] Vec weight(int tap) const {
+    return _mm512_mul_ps(avx512::weights_at(a, s, tap), factor);
+  }
   void store(Vec sum, float* y) const {
     const Vec clamped = _mm512_min_ps(high, _mm512_max_ps(_mm512_setzero_ps(), sum));
-    const __m256i fixed = _mm512_cvtepi32_epi16(_mm512_cvtps_epi32(clamped));
+    const __m512i wide = _mm512_cvtps_epi32(clamped);
+    if (is_int8) {
+      _mm_storeu_si128(reinterpret_cast<__m128i*>(y), _mm512_cvtepi32_epi8(wide));
+      return;
+    }
+    const __m256i fixed = _mm512_cvtepi32_epi16(wide);
     _mm_storeu_si128(reinterpret_cast<__m128i*>(y), _mm256_castsi256_si128(fixed));
     if (both) {
       _mm_storeu_si128(reinterpret_cast<__m128i*>(y + y_plane_elems),
@@ -77,17 +81,39 @@ struct TierVnni {
     }
   }
 
-  static void depthwise(const InvertedResidualArgs& a, const DepthwisePart<float>& s, float* y) {
+  // Two pixels at once.
+  static void quantize_to_int8(const float* x, std::int32_t pixels, float inverse_scale,
+                               std::int16_t* y) {
+    const Vec factor = _mm512_set1_ps(inverse_scale);
+    const Vec low = _mm512_set1_ps(-kInt8MapMax), high = _mm512_set1_ps(kInt8MapMax);
+    for (std::int32_t left = pixels; left > 0; left -= 2, x += 16, y += 2 * kQuantizedPixel) {
+      const Vec values = _mm512_mul_ps(_mm512_maskz_loadu_ps(left > 1 ? 0xFFFF : 0xFF, x), factor);
+      const Vec clamped = _mm512_min_ps(_mm512_max_ps(values, low), high);
+      const __m128i fixed = _mm_xor_si128(_mm512_cvtepi32_epi8(_mm512_cvtps_epi32(clamped)),
+                                          _mm_set1_epi8(static_cast<char>(kInt8Shift)));
+      _mm_storel_epi64(reinterpret_cast<__m128i*>(y), fixed);
+      if (left > 1) {
+        _mm_storel_epi64(reinterpret_cast<__m128i*>(y + kQuantizedPixel),
+                         _mm_unpackhi_epi64(fixed, fixed));
+      }
+    }
+  }
+
+  static void depthwise(const InvertedResidualArgs& a, const DepthwisePart<float>& s,
+                        const BandQuantization& quantization, float* y) {
     const bool both = s.blocks > 1;
+    const Vec factor = _mm512_set1_ps(quantization.factor());
     const Window window{a,
                         s,
                         s.x_row_elems,
-                        band_plane(a, s) / 2,
+                        quantized_band_plane(a, s),
                         both,
+                        quantization.is_int8,
+                        factor,
                         _mm512_mul_ps(avx512::load_half(a.depthwise.bias + s.block * kStripBlock,
                                                         both ? 0xFFFF : 0xFF),
-                                      _mm512_set1_ps(band_factor(s.clamp.high))),
-                        _mm512_set1_ps(kQuantizedBandMax)};
+                                      factor),
+                        _mm512_set1_ps(quantization.max)};
     DepthwiseRows<Window>::run(window, s.rows, s.x, y);
   }
 

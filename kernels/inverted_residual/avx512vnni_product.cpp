@@ -1,6 +1,6 @@
-// Register tiles of up to 13 pixels x 2 panels, 9 x 3 or 6 x 4, as in avx512_product.cpp, with two
-// elements of the sum in each lane. A last panel of 8 takes four elements at once, two in the even
-// lanes and two in the odd.
+// Register tiles of up to 13 pixels x 2 panels, 9 x 3 or 6 x 4, as in avx512_product.cpp. Each lane
+// multiplies 4 bytes at once: two elements of the sum of 16 bits, or four of 8. A last panel of 8
+// multiplies 8 bytes, 4 in the even lanes and 4 in the odd.
 //
 // A tile only leaves integer sums; loops shared by tiles of all sizes convert them, because that
 // needs a fifth of the code.
@@ -20,7 +20,7 @@ using avx512::kPanel;
 using avx512::Vec;
 using Sum = __m512i;
 
-constexpr std::int32_t kPairElems = 2 * kPanel;  // weights per vector
+constexpr std::int32_t kPairElems = 2 * kPanel;  // weights of 16 bits per vector
 constexpr int kMaxSums = 27;                     // of a tile
 
 // Aligned, because stores that cross cache lines are slow.
@@ -28,7 +28,15 @@ struct alignas(64) Sums {
   std::int32_t of[kMaxSums][kPanel];  // [pixel][panel][16]
 };
 
-// Broadcasts 1 pair to every lane, or 2 pairs to every two lanes.
+// Add the products of 4 bytes to each lane.
+struct Int16 {
+  static Sum add(Sum sum, Sum value, Sum weight) { return _mm512_dpwssd_epi32(sum, value, weight); }
+};
+struct Int8 {
+  static Sum add(Sum sum, Sum value, Sum weight) { return _mm512_dpbusd_epi32(sum, value, weight); }
+};
+
+// Broadcasts 4 bytes to every lane, or 8 bytes to every two lanes.
 template <int kCount>
 Sum broadcast(const std::int16_t* x) {
   if constexpr (kCount == 1) {
@@ -59,6 +67,9 @@ struct Finish {
       const std::ptrdiff_t channel = std::ptrdiff_t{panel + v} * kPanel;
       scale[v] = _mm512_mul_ps(_mm512_loadu_ps(a.scales + channel), _mm512_set1_ps(a.x_scale));
       bias[v] = avx512::load_half(a.to.bias + channel);
+      if (a.is_int8()) {
+        bias[v] = _mm512_fmadd_ps(_mm512_loadu_ps(a.offsets + channel), scale[v], bias[v]);
+      }
     }
   }
   template <bool kResidual>
@@ -86,6 +97,9 @@ struct HalfFinish {
     const std::ptrdiff_t channel = std::ptrdiff_t{panel} * kPanel;
     scale = _mm256_mul_ps(_mm256_loadu_ps(a.scales + channel), _mm256_set1_ps(a.x_scale));
     bias = _mm512_castps512_ps256(avx512::load_half(a.to.bias + channel, 0xFF));
+    if (a.is_int8()) {
+      bias = _mm256_fmadd_ps(_mm256_loadu_ps(a.offsets + channel), scale, bias);
+    }
   }
   template <bool kResidual>
   void store(const Sums& sums, std::int32_t pixel, const PixelPointer<float>& to,
@@ -118,8 +132,8 @@ void convert(const Finish& by, const Sums& sums, std::int32_t pixels, PixelPoint
 
 using Run = void (*)(const QuantizedProduct&, const std::int16_t* x, const std::int16_t* w, Sums&);
 
-// Adds kCount pairs at once.
-template <int kPixels, int kVecs, int kCount>
+// Multiplies 4 kCount bytes at once.
+template <class Multiply, int kPixels, int kVecs, int kCount>
 void sums_of(const QuantizedProduct& a, const std::int16_t* x, const std::int16_t* w, Sums& to) {
   static_assert(kPixels * kVecs <= kMaxSums);
   constexpr int kStep = 2 * kCount;
@@ -147,7 +161,7 @@ void sums_of(const QuantizedProduct& a, const std::int16_t* x, const std::int16_
         for (int p = 0; p < kPixels; ++p) {
           const Sum value = broadcast<kCount>(x + p * kBlock + lane + kStep * k);
           for (int v = 0; v < kVecs; ++v) {
-            sum[k][p][v] = _mm512_dpwssd_epi32(sum[k][p][v], value, weight[v]);
+            sum[k][p][v] = Multiply::add(sum[k][p][v], value, weight[v]);
           }
         }
       }
@@ -166,9 +180,10 @@ void sums_of(const QuantizedProduct& a, const std::int16_t* x, const std::int16_
   }
 }
 
-template <int kVecs, int kCount, int... kSizes>
+template <class Multiply, int kVecs, int kCount, int... kSizes>
 Tiling<Run> tiles_of(std::int32_t pixels) {
-  static constexpr SizedTile<Run> kTiles[] = {{kSizes, &sums_of<kSizes, kVecs, kCount>}...};
+  static constexpr SizedTile<Run> kTiles[] = {
+      {kSizes, &sums_of<Multiply, kSizes, kVecs, kCount>}...};
   return tiling_of(kTiles, pixels);
 }
 
@@ -195,37 +210,43 @@ void sweep(const QuantizedProduct& a, std::int32_t first, const Tiling<Run>& til
 }
 
 // `panels` 0: the last panel of 8.
+template <class Multiply>
 void sweep_panels(const QuantizedProduct& a, std::int32_t first, std::int32_t panels) {
   const std::int32_t pixels = a.to.pixels;
   switch (panels) {
     case 0:
-      return sweep<HalfFinish>(a, first, tiles_of<1, 2, 1, 2, 4, 6, 9, 11, 13>(pixels));
+      return sweep<HalfFinish>(a, first, tiles_of<Multiply, 1, 2, 1, 2, 4, 6, 9, 11, 13>(pixels));
     case 1:
-      return sweep<Finish<1>>(a, first, tiles_of<1, 1, 1, 2, 4, 6, 9, 11, 13>(pixels));
+      return sweep<Finish<1>>(a, first, tiles_of<Multiply, 1, 1, 1, 2, 4, 6, 9, 11, 13>(pixels));
     case 2:
-      return sweep<Finish<2>>(a, first,
-                              tiles_of<2, 1, 1, 2, 4, 6, 7, 8, 9, 10, 11, 12, 13>(pixels));
+      return sweep<Finish<2>>(
+          a, first, tiles_of<Multiply, 2, 1, 1, 2, 4, 6, 7, 8, 9, 10, 11, 12, 13>(pixels));
     case 3:
-      return sweep<Finish<3>>(a, first, tiles_of<3, 1, 9>(pixels));
+      return sweep<Finish<3>>(a, first, tiles_of<Multiply, 3, 1, 9>(pixels));
     default:
-      return sweep<Finish<4>>(a, first, tiles_of<4, 1, 1, 2, 3, 4, 5, 6>(pixels));
+      return sweep<Finish<4>>(a, first, tiles_of<Multiply, 4, 1, 1, 2, 3, 4, 5, 6>(pixels));
+  }
+}
+
+template <class Multiply>
+void multiply(const QuantizedProduct& a) {
+  const std::int32_t panels = a.to.out_blocks / 2;
+  const std::int32_t at_once = a.to.pixels <= 6 ? 4 : a.to.pixels == 9 ? 3 : 2;
+  std::int32_t done = 0;
+  for (std::int32_t count = at_once; count > 0; count = count > 2 ? 2 : count - 1) {
+    for (; done + count <= panels; done += count) {
+      sweep_panels<Multiply>(a, done, count);
+    }
+  }
+  if (a.to.out_blocks % 2 != 0) {
+    sweep_panels<Multiply>(a, done, 0);
   }
 }
 
 }  // namespace
 
 void multiply_quantized(const QuantizedProduct& a) {
-  const std::int32_t panels = a.to.out_blocks / 2;
-  const std::int32_t at_once = a.to.pixels <= 6 ? 4 : a.to.pixels == 9 ? 3 : 2;
-  std::int32_t done = 0;
-  for (std::int32_t count = at_once; count > 0; count = count > 2 ? 2 : count - 1) {
-    for (; done + count <= panels; done += count) {
-      sweep_panels(a, done, count);
-    }
-  }
-  if (a.to.out_blocks % 2 != 0) {
-    sweep_panels(a, done, 0);
-  }
+  a.is_int8() ? multiply<Int8>(a) : multiply<Int16>(a);
 }
 
 }  // namespace mien::kernels::avx512vnni

@@ -4,6 +4,8 @@
 
 namespace mien::kernels::avxvnni {
 
-void multiply_quantized(const QuantizedProduct& a) { avx2::QuantizedTiles<Pairs>::multiply(a); }
+void multiply_quantized(const QuantizedProduct& a) {
+  a.is_int8() ? avx2::QuantizedTiles<Quads>::multiply(a) : avx2::QuantizedTiles<Pairs>::multiply(a);
+}
 
 }  // namespace mien::kernels::avxvnni

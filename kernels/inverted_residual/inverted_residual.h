@@ -36,6 +36,11 @@ struct InvertedResidualArgs {
     // The quantized weights (quantize_weights.h); nullptr for tiers that do not use them.
     const std::int16_t* pairs;
     const float* scales;
+    // Weights of 8 bits (quantize_to_int8.h), used instead of `pairs`; nullptr without them. Inputs
+    // of the layer are clamped to this bound, which is positive.
+    const std::int8_t* quads;
+    const float* offsets;
+    float input_bound;
   };
   const float* x;
   float* y;
@@ -76,5 +81,8 @@ inline constexpr std::int32_t kHalfMaxExpandInputs = 128, kHalfMaxTaps = 64;
 // Maximum magnitudes of quantized values of the signed map and of the unsigned band. The band uses
 // one bit less, which leaves one more to its weights, whose sums are longer.
 inline constexpr std::int32_t kQuantizedMapMax = 32767, kQuantizedBandMax = 16383;
+
+// The same with 8 bits. The map's values are stored as value + kInt8Shift.
+inline constexpr std::int32_t kInt8MapMax = 127, kInt8BandMax = 255, kInt8Shift = 128;
 
 }  // namespace mien::kernels

@@ -1,5 +1,5 @@
-// Panels of quantized weights times quantized pixels, for expand and project: products of 16-bit
-// integers, summed in 32 bits.
+// Panels of quantized weights times quantized pixels, for expand and project: products of integers
+// of 16 or 8 bits, summed in 32 bits.
 #pragma once
 
 #include <cstdint>
@@ -13,6 +13,10 @@ namespace mien::kernels {
 //
 // where w[o, i] = scales[o] pairs[o, i] (quantize_weights.h) and x[p, i] = x_scale values[p, i].
 // `to.x`, `to.weights` and `to.fp32_weights` are ignored.
+//
+// With 8 bits, `values` and `pairs` hold twice as many integers in as many bytes: `values` unsigned
+// ones, in blocks of 16 channels, which `to.in_blocks` counts, and `pairs` the quads of
+// quantize_to_int8.h. Then offsets[o] scales[o] x_scale is added as well.
 struct QuantizedProduct {
   ProductArgs to;
   const std::int16_t* values;  // [in_blocks] blocks of 8 channels of [pixels]
@@ -20,7 +24,12 @@ struct QuantizedProduct {
   float x_scale;
   const std::int16_t* pairs;
   const float* scales;
+  const float* offsets;  // nullptr with 16 bits
+  [[nodiscard]] bool is_int8() const { return offsets != nullptr; }
 };
+
+// Integers of 16 bits per pixel of a block, of any number of bits.
+inline constexpr std::ptrdiff_t kQuantizedPixel = 8;
 
 using MultiplyQuantized = void (*)(const QuantizedProduct& product);
 

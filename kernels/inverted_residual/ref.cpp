@@ -1,9 +1,15 @@
-// Computes one output row at a time, and expands each channel for the height of one window.
+// Computes one output row at a time, and expands each channel for the height of one window. Inputs
+// of layers with 8 bits are clamped, but not rounded.
 #include "kernels/common/ref.h"
 #include "kernels/families.h"
 
 namespace mien::kernels::ref {
 namespace {
+
+double bounded(double input, const InvertedResidualArgs::Weights& layer) {
+  const double bound = layer.input_bound;
+  return layer.quads != nullptr ? std::clamp(input, -bound, bound) : input;
+}
 
 float expanded(const InvertedResidualArgs& a, std::int32_t y, std::int32_t x, std::int32_t c) {
   const std::ptrdiff_t pixels = std::ptrdiff_t{a.in_h} * a.in_w;
@@ -15,7 +21,7 @@ float expanded(const InvertedResidualArgs& a, std::int32_t y, std::int32_t x, st
   double sum = half_to_float(a.expand.bias[c]);
   for (std::int32_t i = 0; i < a.in_c; ++i) {
     sum += panel_weight(a.expand.weights, a.hidden_c, reduction, c, i) *
-           static_cast<double>(a.x[blocked(i, pixel, pixels)]);
+           bounded(a.x[blocked(i, pixel, pixels)], a.expand);
   }
   return static_cast<float>(activated(sum, a.expand.activation, c));
 }
@@ -52,7 +58,7 @@ double projected(const InvertedResidualArgs& a, std::int32_t ox, std::int32_t o)
   double sum = half_to_float(a.project.bias[o]);
   for (std::int32_t c = 0; c < a.hidden_c; ++c) {
     sum += panel_weight(a.project.weights, a.out_c, reduction, o, c) *
-           static_cast<double>(a.band[blocked(c, ox, a.out_w)]);
+           bounded(a.band[blocked(c, ox, a.out_w)], a.project);
   }
   return activated(sum, a.project.activation, o);
 }

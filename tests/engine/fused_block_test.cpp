@@ -254,17 +254,25 @@ TEST(FusedBlocks, FewPixelsAgreeWithPlainLayersAtEveryWidth) {
   }
 }
 
-// Outputs of a fused block on every quantized tier of this CPU.
-std::vector<std::vector<float>> quantized_outputs(const AlignedBuffer& bytes, unsigned seed) {
+struct InputRange {
+  float scale = 1.0f, largest = 1.0f;  // of magnitudes; larger ones are clamped
+};
+
+// Outputs of a fused block on every tier of this CPU among `tiers`.
+std::vector<std::vector<float>> outputs_on(std::uint32_t tiers, const AlignedBuffer& bytes,
+                                           unsigned seed, InputRange range = {}) {
   std::vector<std::vector<float>> outputs;
   for (const std::uint32_t mask : fusing_tiers()) {
-    if ((mask & kernels::kQuantizedTiers) == 0) {
+    if ((mask & tiers) == 0) {
       continue;
     }
     OwnedSession fused(bytes, "net", {}, mask | kernels::kFusedBlocks);
     EXPECT_EQ(fused.status, MIEN_OK);
     EXPECT_EQ(fused.session->step_count(), 1u);
     set_random(*fused.session, seed);
+    for (float& one : fused.session->input()) {
+      one = std::clamp(range.scale * one, -range.largest, range.largest);
+    }
     fused.fill_arena_with_nan();
     fused.session->run();
     outputs.emplace_back(fused.session->output(0).begin(), fused.session->output(0).end());
@@ -272,21 +280,65 @@ std::vector<std::vector<float>> quantized_outputs(const AlignedBuffer& bytes, un
   return outputs;
 }
 
+bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
+}
+
+// A block whose expand and project layers have these input bounds.
+AlignedBuffer block_with_bounds(unsigned seed, float expand_bound, float project_bound) {
+  const formats::InputShape input{3 + seed % 7, 3 + seed % 5, 8 + 8 * (seed % 4)};
+  formats::MienWriter writer;
+  TwinNetwork twin(writer.network("net", input), input, seed);
+  Options relu6, expand, project;
+  relu6.activation = expand.activation = LayerActivation::kRelu6;
+  expand.input_bound = expand_bound;
+  project.input_bound = project_bound;
+  const Index expanded = twin.pointwise(0, 8 + 7 * seed, expand);
+  const Index filtered = twin.depthwise(expanded, 3, 3, relu6);
+  twin.output(twin.pointwise(filtered, 8 + 5 * (seed % 9), project));
+  return finished(writer);
+}
+
 // Integer sums are exact in any order, and all quantized tiers compute the rest in the same order.
 TEST(FusedBlocks, QuantizedTiersGiveTheSameBits) {
-  for (std::uint32_t seed = 0; seed < 40; ++seed) {
-    const formats::InputShape input{3 + seed % 7, 3 + seed % 5, 8 + 8 * (seed % 4)};
-    formats::MienWriter writer;
-    TwinNetwork twin(writer.network("net", input), input, seed);
-    Options relu6;
-    relu6.activation = LayerActivation::kRelu6;
-    const Index expanded = twin.pointwise(0, 8 + 7 * seed, relu6);
-    const Index filtered = twin.depthwise(expanded, 3, 3, relu6);
-    twin.output(twin.pointwise(filtered, 8 + 5 * (seed % 9), {}));
-    const auto outputs = quantized_outputs(finished(writer), seed);
-    for (const std::vector<float>& one : outputs) {
-      EXPECT_EQ(std::memcmp(one.data(), outputs[0].data(), one.size() * sizeof(float)), 0)
-          << "seed " << seed;
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    const auto expect_one_result = [&](std::uint32_t tiers, const AlignedBuffer& bytes) {
+      const auto outputs = outputs_on(tiers, bytes, seed);
+      for (const std::vector<float>& one : outputs) {
+        EXPECT_TRUE(same_bits(one, outputs[0])) << "seed " << seed << ", tiers " << tiers;
+      }
+    };
+    expect_one_result(kernels::kQuantizedTiers, block_with_bounds(seed, 0.0f, 0.0f));
+    expect_one_result(kernels::kInt8Tiers,
+                      block_with_bounds(seed, static_cast<float>(seed % 3), 2.0f));
+  }
+}
+
+// Tiers without 8-bit products ignore input bounds.
+TEST(FusedBlocks, InputBoundsOnlyAffectTiersWithEightBits) {
+  const AlignedBuffer bounded = block_with_bounds(5, 1.0f, 6.0f);
+  const AlignedBuffer unbounded = block_with_bounds(5, 0.0f, 0.0f);
+  const auto differ = [&](std::uint32_t tiers) {
+    const auto a = outputs_on(tiers, bounded, 5), b = outputs_on(tiers, unbounded, 5);
+    std::size_t different = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      different += same_bits(a[i], b[i]) ? 0 : 1;
+    }
+    return std::pair(different, a.size());
+  };
+  EXPECT_EQ(differ(kernels::kHalfTiers & ~kernels::kInt8Tiers).first, 0u);
+  const auto [different, tiers] = differ(kernels::kInt8Tiers);
+  EXPECT_EQ(different, tiers) << "8 bits are not used";
+}
+
+// Inputs beyond the bound saturate: they give the same result as the bound.
+TEST(FusedBlocks, InputsBeyondTheirBoundSaturate) {
+  for (unsigned seed = 0; seed < 12; ++seed) {
+    const AlignedBuffer bytes = block_with_bounds(seed, 0.5f, 0.0f);
+    const auto inside = outputs_on(kernels::kInt8Tiers, bytes, seed, {1e30f, 0.5f});
+    const auto beyond = outputs_on(kernels::kInt8Tiers, bytes, seed, {1e30f, 1e30f});
+    for (std::size_t i = 0; i < inside.size(); ++i) {
+      EXPECT_TRUE(same_bits(inside[i], beyond[i])) << "seed " << seed;
     }
   }
 }

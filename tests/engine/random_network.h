@@ -86,7 +86,7 @@ class RandomNetwork {
     const bool is_vector = map.h == 1 && map.w == 1;
     const int choice = between(0, 14);
     if (choice >= 12) {
-      return add_converted(x);
+      return choice == 14 && map.h >= 3 && map.w >= 3 ? add_block(x) : add_converted(x);
     }
     if (choice >= 10) {
       return add_part(x);
@@ -127,6 +127,18 @@ class RandomNetwork {
       default:
         return twin.pointwise(x, static_cast<std::uint32_t>(map.c), options());
     }
+  }
+
+  // An inverted residual block, whose last layer may have 8-bit inputs.
+  void add_block(Index x) {
+    Options relu6, bounded;
+    relu6.activation = LayerActivation::kRelu6;
+    bounded.input_bound = between(0, 1) == 0 ? 6.0f : 0.0f;
+    const Index expanded = twin.pointwise(x, channels(), relu6);
+    note(expanded, {x});
+    const Index filtered = twin.depthwise(expanded, 3, 3, relu6);
+    note(filtered, {expanded});
+    note(twin.pointwise(filtered, channels(), bounded), {filtered});
   }
 
   // Adds the nearest value that fits; often a residual around a pointwise layer.

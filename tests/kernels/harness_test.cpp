@@ -21,7 +21,7 @@ TEST_P(Faulty, IsNoticedWithOtherSeedsToo) {
   }
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     int cases = 0;
-    const kernels::Entry entry{GetParam().family, kernels::Tier::kAvx2, GetParam().kernel};
+    const kernels::Entry entry{GetParam().family, GetParam().tier, GetParam().kernel};
     const Finding finding = check_kernel(entry, seed, cases);
     EXPECT_EQ(finding.fault, GetParam().expected) << finding.text;
   }

@@ -1,5 +1,6 @@
 // Cases of inverted_residual, with the expected results.
 #include <algorithm>
+#include <array>
 #include <iterator>
 
 #include "apps/conformance/families/quantized_weights.h"
@@ -68,7 +69,9 @@ struct Layers {
   std::vector<float> x;
   std::vector<std::uint16_t> w1, b1, w2, b2, w3, b3;
   QuantizedWeights quantized1, quantized3;  // w1 and w3
-  bool is_quantized = false;                // expand and project are quantized
+  Int8Weights int8_1, int8_3;
+  bool is_quantized = false;           // expand and project are quantized
+  float bound1 = 0.0f, bound3 = 0.0f;  // of inputs of expand and project with 8 bits, else 0
 
   Layers(RandomValues& random, const Shape& of)
       : shape(of),
@@ -96,26 +99,66 @@ struct Layers {
       return;
     }
     quantized3 = QuantizedWeights(w3, of.out_c, of.hidden_c, kernels::kQuantizedBandMax, false);
+    int8_3 = Int8Weights(w3, of.out_c, of.hidden_c, 0);
     if (of.in_c > 0) {
       quantized1 = QuantizedWeights(w1, of.hidden_c, of.in_c, kernels::kQuantizedMapMax, true);
+      int8_1 = Int8Weights(w1, of.hidden_c, of.in_c, kernels::kInt8Shift);
     }
   }
 
-  // Half a scale: the rounding error of a value, or of a weight of output o.
-  [[nodiscard]] double x_error() const {
+  // Gives expand, project or both 8 bits, with bounds that some inputs exceed or none reaches.
+  void choose_int8(RandomValues& random, const RandomActivation& depthwise) {
+    const float share = 0.5f * static_cast<float>(random.between(1, 3));
+    if (shape.in_c > 0 && random.coin()) {
+      bound1 = std::clamp(share * largest_input(), 0x1p-64f, 0x1p64f);
+    }
+    if (random.coin()) {
+      bound3 = share * static_cast<float>(band_max(depthwise));
+    }
+  }
+
+  [[nodiscard]] float largest_input() const {
     float largest = 0x1p-64f;
     for (const float one : x) {
       largest = std::max(largest, std::abs(one));
     }
-    return is_quantized ? static_cast<double>(largest) / kernels::kQuantizedMapMax * kHalfScale
-                        : 0.0;
+    return largest;
   }
-  [[nodiscard]] double depthwise_error(const RandomActivation& activation) const {
-    const double max = activation.kind == Activation::kClamp01 ? 1.0 : 6.0;
-    return is_quantized ? max / kernels::kQuantizedBandMax * kHalfScale : 0.0;
+  static double band_max(const RandomActivation& activation) {
+    return activation.kind == Activation::kClamp01 ? 1.0 : 6.0;
   }
-  [[nodiscard]] double weight_error(const QuantizedWeights& quantized, int o) const {
-    return is_quantized ? static_cast<double>(quantized.scales[as_size(o)]) * kHalfScale : 0.0;
+
+  // How an input of expand or project is rounded: half a scale, and the bound beyond which it
+  // saturates.
+  struct Rounding {
+    double half_scale = 0.0, bound = 0x1p127;
+    [[nodiscard]] Approx operator()(const Approx& x) const {
+      return {std::clamp(x.value, -bound, bound), x.error + half_scale};
+    }
+  };
+  static Rounding int8_rounding(float bound, int max) {
+    return {static_cast<double>(bound) / max * kHalfScale, static_cast<double>(bound)};
+  }
+  [[nodiscard]] Rounding x_rounding() const {
+    if (bound1 > 0.0f) {
+      return int8_rounding(bound1, kernels::kInt8MapMax);
+    }
+    const double scale = static_cast<double>(largest_input()) / kernels::kQuantizedMapMax;
+    return is_quantized ? Rounding{scale * kHalfScale} : Rounding{};
+  }
+  [[nodiscard]] Rounding depthwise_rounding(const RandomActivation& activation) const {
+    if (bound3 > 0.0f) {
+      const float reached = std::min(bound3, static_cast<float>(band_max(activation)));
+      return int8_rounding(reached, kernels::kInt8BandMax);
+    }
+    const double scale = band_max(activation) / kernels::kQuantizedBandMax;
+    return is_quantized ? Rounding{scale * kHalfScale} : Rounding{};
+  }
+  // Half a scale of the weights of output o.
+  [[nodiscard]] double weight_error(const QuantizedWeights& int16, const Int8Weights& int8,
+                                    bool is_int8, int o) const {
+    const std::vector<float>& scales = is_int8 ? int8.scales : int16.scales;
+    return is_quantized ? static_cast<double>(scales[as_size(o)]) * kHalfScale : 0.0;
   }
 
   void make_positive() {
@@ -148,7 +191,7 @@ struct Layers {
 
   [[nodiscard]] std::vector<Approx> expanded(const RandomActivation& activation) const {
     const int pixels = shape.window.in_pixels();
-    const double error = x_error();
+    const Rounding rounding = x_rounding();
     return expected_map(shape.hidden_c, pixels, [&](int c, int p) {
       if (shape.in_c == 0) {
         return exact(static_cast<double>(x[blocked(c, p, pixels)]));
@@ -156,9 +199,9 @@ struct Layers {
       InexactSum sum(inner_sums);
       sum.add(exact(widened(b1[as_size(c)])));
       for (int i = 0; i < shape.in_c; ++i) {
-        sum.add({static_cast<double>(x[blocked(i, p, pixels)]), error},
-                panel_weight(w1, shape.hidden_c, padded(shape.in_c), c, i),
-                weight_error(quantized1, c));
+        const auto value = static_cast<double>(x[blocked(i, p, pixels)]);
+        sum.add(rounding(exact(value)), panel_weight(w1, shape.hidden_c, padded(shape.in_c), c, i),
+                weight_error(quantized1, int8_1, bound1 > 0.0f, c));
       }
       return activation(sum.total(), c);
     });
@@ -179,16 +222,15 @@ struct Layers {
     });
   }
 
-  // `error`: additional error of the depthwise output.
-  [[nodiscard]] Approx projected(const std::vector<Approx>& half_input, double error, int o,
-                                 int p) const {
+  // `rounding`: of the depthwise output.
+  [[nodiscard]] Approx projected(const std::vector<Approx>& half_input, const Rounding& rounding,
+                                 int o, int p) const {
     InexactSum sum(sums);
     sum.add(exact(widened(b3[as_size(o)])));
     for (int c = 0; c < shape.hidden_c; ++c) {
-      const Approx& s = half_input[blocked(c, p, shape.window.out_pixels())];
-      sum.add({s.value, s.error + error},
+      sum.add(rounding(half_input[blocked(c, p, shape.window.out_pixels())]),
               panel_weight(w3, shape.out_c, padded(shape.hidden_c), o, c),
-              weight_error(quantized3, o));
+              weight_error(quantized3, int8_3, bound3 > 0.0f, o));
     }
     return sum.total();
   }
@@ -199,9 +241,9 @@ std::vector<Approx> expected(const Layers& layers, const Activations& activation
   const std::vector<Approx> depthwise_output =
       layers.depthwise_output(layers.expanded(activations.expand), activations.depthwise);
   const Window& window = layers.shape.window;
-  const double error = layers.depthwise_error(activations.depthwise);
+  const Layers::Rounding rounding = layers.depthwise_rounding(activations.depthwise);
   return expected_map(layers.shape.out_c, window.out_pixels(), [&](int o, int p) {
-    const Approx y = activations.project(layers.projected(depthwise_output, error, o, p), o);
+    const Approx y = activations.project(layers.projected(depthwise_output, rounding, o, p), o);
     return slice == nullptr
                ? y
                : y + exact(static_cast<double>(
@@ -237,18 +279,33 @@ bool is_bounded(const RandomActivation& activation) {
   return activation.kind == Activation::kRelu6 || activation.kind == Activation::kClamp01;
 }
 
+void set_int8(float bound, const std::int8_t* quads, const float* offsets,
+              InvertedResidualArgs::Weights& weights) {
+  if (bound > 0.0f) {
+    weights.pairs = nullptr;
+    weights.quads = quads;
+    weights.offsets = offsets;
+    weights.input_bound = bound;
+  }
+}
+
 Case make(RandomValues& random, Layers layers, const Activations& activations,
           const ResidualSlice* slice) {
   const Shape shape = layers.shape;
   layers.is_quantized = random.arithmetic().is_quantized && has_quantized_weights(shape) &&
                         is_bounded(activations.depthwise);
+  if (layers.is_quantized && random.arithmetic().has_int8) {
+    layers.choose_int8(random, activations.depthwise);
+  }
   const std::vector<float> residual =
       slice != nullptr ? random.map(slice->pixels(), shape.out_c) : std::vector<float>();
   const Tiling& t = shape.tiling;
   Case test;
   test.shape = shape.window.text() + ", " + std::to_string(shape.in_c) + " to " +
                std::to_string(shape.hidden_c) + " to " + std::to_string(shape.out_c) +
-               (slice != nullptr ? ", residual" : "");
+               (slice != nullptr ? ", residual" : "") +
+               (layers.bound1 > 0.0f ? ", 8 bits in expand" : "") +
+               (layers.bound3 > 0.0f ? ", 8 bits in project" : "");
   test.buffers = {
       reads(layers.x),
       reads(layers.w1),
@@ -264,22 +321,36 @@ Case make(RandomValues& random, Layers layers, const Activations& activations,
       scratch(as_size((shape.in_c + 31) / 32 * 16 * half_input_rows(shape) * shape.window.in_w)),
       writes(Element::kFloat, expected(layers, activations, slice, residual)),
       reads(layers.quantized1.pairs),
-      reads(layers.quantized1.scales),
       reads(layers.quantized3.pairs),
-      reads(layers.quantized3.scales)};
+      reads(layers.bound1 > 0.0f ? layers.int8_1.scales : layers.quantized1.scales),
+      reads(layers.bound3 > 0.0f ? layers.int8_3.scales : layers.quantized3.scales),
+      reads(layers.int8_1.quads),
+      reads(layers.int8_1.offsets),
+      reads(layers.int8_3.quads),
+      reads(layers.int8_3.offsets)};
   const ResidualSlice taken = slice != nullptr ? *slice : ResidualSlice();
+  const std::array<float, 2> bounds = {layers.bound1, layers.bound3};
   test.bind = [=](const Addresses& buffers) {
     InvertedResidualArgs args = sizes(shape);
     args.x = buffers.floats(0);
     const bool quantized = has_quantized_weights(shape);
-    args.expand = {shape.in_c == 0 ? nullptr : buffers.halves(1), buffers.halves(2),
-                   activations.expand.spec(nullptr), quantized ? buffers.int16s(13) : nullptr,
-                   quantized ? buffers.floats(14) : nullptr};
-    args.depthwise = {buffers.halves(3), buffers.halves(4), activations.depthwise.spec(nullptr),
-                      nullptr, nullptr};
-    args.project = {buffers.halves(5), buffers.halves(6), activations.project.spec(nullptr),
-                    quantized ? buffers.int16s(15) : nullptr,
-                    quantized ? buffers.floats(16) : nullptr};
+    args.expand.weights = shape.in_c == 0 ? nullptr : buffers.halves(1);
+    args.expand.bias = buffers.halves(2);
+    args.expand.activation = activations.expand.spec(nullptr);
+    args.depthwise.weights = buffers.halves(3);
+    args.depthwise.bias = buffers.halves(4);
+    args.depthwise.activation = activations.depthwise.spec(nullptr);
+    args.project.weights = buffers.halves(5);
+    args.project.bias = buffers.halves(6);
+    args.project.activation = activations.project.spec(nullptr);
+    if (quantized) {
+      args.expand.pairs = buffers.int16s(13);
+      args.project.pairs = buffers.int16s(14);
+      args.expand.scales = buffers.floats(15);
+      args.project.scales = buffers.floats(16);
+    }
+    set_int8(bounds[0], buffers.int8s(17), buffers.floats(18), args.expand);
+    set_int8(bounds[1], buffers.int8s(19), buffers.floats(20), args.project);
     if (taken.h > 0) {
       set_residual(taken, buffers.floats(7), args);
     }

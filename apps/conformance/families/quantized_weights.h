@@ -1,4 +1,4 @@
-// Quantized weights as in quantize_weights.h.
+// Quantized weights as in quantize_weights.h and quantize_to_int8.h.
 #pragma once
 
 #include "apps/conformance/families/common.h"
@@ -15,6 +15,17 @@ struct QuantizedWeights {
   std::vector<double> quotients;
   std::vector<std::uint16_t> pairs;  // two's complement
   std::vector<float> scales;
+};
+
+struct Int8Weights {
+  Int8Weights() = default;
+  // `shift`: what is added to the integers that the weights are multiplied with.
+  Int8Weights(const std::vector<std::uint16_t>& panels, int outputs, int inputs, int shift);
+
+  // w / scale before rounding, in the order of `quads`.
+  std::vector<double> quotients;
+  std::vector<std::uint8_t> quads;  // two's complement
+  std::vector<float> scales, offsets;
 };
 
 }  // namespace mien::conformance

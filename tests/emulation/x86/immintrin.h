@@ -90,6 +90,10 @@ inline simde__m256i _mm256_dpwssd_avx_epi32(simde__m256i sum, simde__m256i x, si
   return simde_mm256_add_epi32(sum, simde_mm256_madd_epi16(x, y));
 }
 
+inline simde__m256i _mm256_dpbusd_avx_epi32(simde__m256i sum, simde__m256i x, simde__m256i y) {
+  return simde_mm256_dpbusd_epi32(sum, x, y);
+}
+
 // AVX-512 F, BW and DQ.
 inline simde__m512 _mm512_maskz_loadu_ps(std::uint16_t mask, const void* from) {
   return emulated_masked_load<float, simde__m512>(mask, from);
@@ -120,6 +124,10 @@ inline simde__m512i _mm512_cvtps_epi32(simde__m512 x) {
 inline simde__m256i _mm512_cvtepi32_epi16(simde__m512i x) {
   return emulated_map<std::uint16_t, simde__m256i, std::uint32_t>(
       x, [](std::uint32_t one) { return one & 0xFFFFu; });
+}
+inline simde__m128i _mm512_cvtepi32_epi8(simde__m512i x) {
+  return emulated_map<std::uint8_t, simde__m128i, std::uint32_t>(
+      x, [](std::uint32_t one) { return one & 0xFFu; });
 }
 inline simde__m512i _mm512_cvtepu8_epi16(simde__m256i x) {
   return emulated_map<std::uint16_t, simde__m512i, std::uint8_t>(
