@@ -36,6 +36,9 @@ def pieces_of(layer, elements):
 def piece_of(layer, elements):
     """Returns None unless they are all elements of a range of channels, rows and columns, in an order of these axes."""
     h, w, c = layer.shape
+    # Numbers grow along every axis. This rejects most other orders before the sorting below.
+    if elements[0] != elements.min() or elements[-1] != elements.max():
+        return None
     channels, rows, columns = (np.unique(place) for place in np.unravel_index(elements, (c, h, w)))
     if len(channels) * len(rows) * len(columns) != len(elements) or not (is_range(rows) and is_range(columns)):
         return None

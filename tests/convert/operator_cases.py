@@ -409,6 +409,9 @@ def large_cases(w):
     yield case("large_constant", [node("ConstantOfShape", "n", "t"), node("Add", "x t")], constants=much)
     yield case("large_expansion", [node("Expand", "one n", "t"), node("Add", "x t")], constants=much)
     yield case("large_range", [node("Range", "zero end one", "t"), node("Add", "x t")], constants=much)
+    yield case("large_reversal", [node("Slice", "x last first one_axis back", "t"), node("Relu", "t")],
+               {"x": [1, 1 << 20, 1, 1]}, "its channels come from 1048576 pieces",
+               constants={"last": ints(-1), "first": ints(-(1 << 31)), "one_axis": ints(1), "back": ints(-1)})
     yield case("large_selection", [node("Gather", "x i", axis=3)], constants={"i": np.zeros(1 << 18, np.int64)})
     doubled = [node("Concat", f"t{i} t{i}" if i else "x x", f"t{i + 1}", axis=1) for i in range(3)]
     yield case("doubled_again_and_again", [*doubled, node("Relu", "t3")], {"x": [1, 10, 512, 512]})
