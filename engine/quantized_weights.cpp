@@ -21,6 +21,15 @@ std::ptrdiff_t int8_count(const QuantizedLayer& layer) {
 }
 
 template <class Args>
+Args args_of(const QuantizedLayer& layer, const Weights& weights) {
+  Args args{};
+  args.in_blocks = blocks_of(layer.in_c);
+  args.out_blocks = blocks_of(layer.out_c);
+  args.weights = weights.weights;
+  return args;
+}
+
+template <class Args>
 mien_status run(const Args& args, std::uint32_t cpu_mask) {
   const auto kernel = kernels::find<Args>(cpu_mask);
   if (kernel == nullptr) {
@@ -32,12 +41,9 @@ mien_status run(const Args& args, std::uint32_t cpu_mask) {
 
 mien_status to_int16(const QuantizedLayer& layer, std::uint32_t cpu_mask, std::byte* to,
                      Weights& weights) {
-  kernels::QuantizeWeightsArgs args{};
-  args.in_blocks = blocks_of(layer.in_c);
-  args.out_blocks = blocks_of(layer.out_c);
+  auto args = args_of<kernels::QuantizeWeightsArgs>(layer, weights);
   args.pairs = reinterpret_cast<std::int16_t*>(to);
   args.scales = reinterpret_cast<float*>(args.pairs + int16_count(layer));
-  args.weights = weights.weights;
   args.max_value = layer.reads_map ? kernels::kQuantizedMapMax : kernels::kQuantizedBandMax;
   args.is_signed = layer.reads_map;
   weights.pairs = args.pairs;
@@ -47,13 +53,10 @@ mien_status to_int16(const QuantizedLayer& layer, std::uint32_t cpu_mask, std::b
 
 mien_status to_int8(const QuantizedLayer& layer, std::uint32_t cpu_mask, std::byte* to,
                     Weights& weights) {
-  kernels::QuantizeToInt8Args args{};
-  args.in_blocks = blocks_of(layer.in_c);
-  args.out_blocks = blocks_of(layer.out_c);
+  auto args = args_of<kernels::QuantizeToInt8Args>(layer, weights);
   args.quads = reinterpret_cast<std::int8_t*>(to);
   args.scales = reinterpret_cast<float*>(to + int8_count(layer));
   args.offsets = args.scales + std::ptrdiff_t{args.out_blocks} * 8;
-  args.weights = weights.weights;
   args.input_shift = layer.reads_map ? kernels::kInt8Shift : 0;
   weights.quads = args.quads;
   weights.scales = args.scales;

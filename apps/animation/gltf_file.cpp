@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "apps/animation/base64.h"
+#include "apps/animation/glb.h"
 #include "apps/animation/numbers.h"
 
 namespace mien::animation {
@@ -12,20 +13,6 @@ namespace {
 
 constexpr std::int64_t kByte = 5120, kUnsignedByte = 5121, kShort = 5122, kUnsignedShort = 5123,
                        kFloat = 5126;
-
-std::uint32_t little_endian(std::string_view bytes, std::size_t at, std::size_t count) {
-  std::uint32_t value = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    value |= static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[at + i])) << (8 * i);
-  }
-  return value;
-}
-
-std::uint32_t u32(std::string_view bytes, std::size_t at) { return little_endian(bytes, at, 4); }
-
-bool fail_at_byte(std::size_t byte, const char* what, Fault& fault) {
-  return fail(fault, 0, byte, what);
-}
 
 // Decodes a URI: %20 is a space.
 std::string percent_decoded(std::string_view text) {
@@ -70,44 +57,15 @@ float GltfNumbers::operator[](std::size_t i) const {
 }
 
 bool GltfFile::read(std::string_view bytes) {
-  std::string_view json = bytes;
-  if (bytes.starts_with("glTF") && !split(bytes, json)) {
+  GlbChunks chunks = {bytes, std::nullopt};
+  if (bytes.starts_with(kGlbMagic) && !split_glb(bytes, chunks, fault_)) {
     return false;
   }
-  if (!document_.parse(json, fault_)) {
+  chunk_ = chunks.data;
+  if (!document_.parse(chunks.json, fault_)) {
     return false;
   }
   find_lists();
-  return true;
-}
-
-bool GltfFile::split(std::string_view bytes, std::string_view& json) {
-  constexpr std::uint32_t kJson = 0x4E4F534A, kBin = 0x004E4942;
-  if (bytes.size() < 20) {
-    return fail_at_byte(bytes.size(), "the file ends within its header", fault_);
-  }
-  if (u32(bytes, 4) != 2) {
-    return fail_at_byte(4, "expected glTF version 2", fault_);
-  }
-  if (u32(bytes, 8) != bytes.size()) {
-    return fail_at_byte(8, "wrong file length", fault_);
-  }
-  if (u32(bytes, 16) != kJson) {
-    return fail_at_byte(16, "the first chunk is not JSON", fault_);
-  }
-  const std::size_t json_bytes = u32(bytes, 12);
-  if (json_bytes > bytes.size() - 20) {
-    return fail_at_byte(12, "the chunk exceeds the file", fault_);
-  }
-  json = bytes.substr(20, json_bytes);
-  const std::size_t next = 20 + json_bytes;
-  if (bytes.size() - next < 8 || u32(bytes, next + 4) != kBin) {
-    return true;
-  }
-  if (u32(bytes, next) > bytes.size() - next - 8) {
-    return fail_at_byte(next, "the chunk exceeds the file", fault_);
-  }
-  chunk_ = bytes.substr(next + 8, u32(bytes, next));
   return true;
 }
 

@@ -54,7 +54,6 @@ class GltfFile {
  private:
   using Items = std::vector<JsonValue>;
 
-  [[nodiscard]] bool split(std::string_view bytes, std::string_view& json);
   void find_lists();
   [[nodiscard]] const Items& list(std::string_view of) const;
   [[nodiscard]] bool count(const JsonValue& from, std::string_view key, std::size_t& value);

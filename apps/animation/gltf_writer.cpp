@@ -6,7 +6,9 @@
 #include <string_view>
 
 #include "apps/animation/base64.h"
+#include "apps/animation/glb.h"
 #include "apps/animation/gltf.h"
+#include "apps/animation/gltf_keys.h"
 #include "apps/animation/numbers.h"
 #include "apps/animation/rotation.h"
 
@@ -14,12 +16,6 @@ namespace mien::animation {
 namespace {
 
 constexpr int kHead = 1, kLeftEye = 2, kRightEye = 3, kFace = 4;  // nodes
-
-void put_u32(std::string& bytes, std::uint32_t value) {
-  for (int i = 0; i < 4; ++i) {
-    bytes += static_cast<char>(value >> (8 * i) & 255);
-  }
-}
 
 void put_float(std::string& bytes, double value) {
   put_u32(bytes, std::bit_cast<std::uint32_t>(static_cast<float>(value)));
@@ -71,29 +67,22 @@ class Channel {
   std::string times_, values_;
 };
 
-// Rotations of a node, each with the sign nearest to the previous one.
+// Rotations of a node.
 class Turns {
  public:
   explicit Turns(int node) : channel(node, "rotation", "VEC4") {}
 
   void add(float second, const Angles& angles) {
-    Quaternion turn = quaternion(angles);
-    double same_way = 0.0;
-    for (std::size_t k = 0; k < 4; ++k) {
-      same_way += turn[k] * before_[k];
-    }
     channel.add_key(second);
-    for (double& part : turn) {
-      part = same_way < 0.0 ? -part : part;
+    for (const double part : rotations_.next(quaternion(angles))) {
       channel.add_value(part);
     }
-    before_ = turn;
   }
 
   Channel channel;
 
  private:
-  Quaternion before_ = {0.0, 0.0, 0.0, 1.0};
+  KeyRotations rotations_;
 };
 
 class Document {
@@ -101,13 +90,13 @@ class Document {
   explicit Document(const FrameSequence& frames) {
     Channel weights(kFace, "weights", "SCALAR"), moves(kHead, "translation", "VEC3");
     Turns head(kHead), left(kLeftEye), right(kRightEye);
+    KeyTimes times(frames);
     for (const Frame& frame : frames) {
-      // Keys must increase as fp32.
-      const std::int64_t since = frame.time_ns - frames.first_time_ns();
-      const auto second = static_cast<float>(static_cast<double>(since) * 1e-9);
-      if (weights.keys() > 0 && second <= weights.last()) {
+      const std::optional<float> key = times.next(frame);
+      if (!key) {
         continue;
       }
+      const float second = *key;
       add_weights(frame, second, weights);
       if (frame.head) {
         head.add(second, *frame.head);
@@ -246,12 +235,6 @@ class Document {
   std::size_t corners_ = 0, still_ = 0;
 };
 
-void pad(std::string& text, char with) {
-  while (text.size() % 4 != 0) {
-    text += with;
-  }
-}
-
 class GltfWriter : public WholeClipWriter {
  public:
   explicit GltfWriter(GltfForm form) : form_(form) {}
@@ -263,19 +246,7 @@ class GltfWriter : public WholeClipWriter {
       return document.json("data:application/octet-stream;base64," + base64(document.bytes())) +
              "\n";
     }
-    constexpr std::uint32_t kJson = 0x4E4F534A, kBin = 0x004E4942;
-    std::string json = document.json(""), data = document.bytes();
-    pad(json, ' ');
-    pad(data, '\0');
-    std::string file = "glTF";
-    put_u32(file, 2);
-    put_u32(file, static_cast<std::uint32_t>(12 + 8 + json.size() + 8 + data.size()));
-    put_u32(file, static_cast<std::uint32_t>(json.size()));
-    put_u32(file, kJson);
-    file += json;
-    put_u32(file, static_cast<std::uint32_t>(data.size()));
-    put_u32(file, kBin);
-    return file + data;
+    return glb_file(document.json(""), document.bytes());
   }
 
  private:

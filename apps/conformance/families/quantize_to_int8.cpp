@@ -11,10 +11,8 @@ using kernels::QuantizeToInt8Args;
 
 int padded_to_16(int inputs) { return (inputs + 15) / 16 * 16; }
 
-// Index of element k of output o's sum in `quads`.
 std::size_t index_of(int outputs, int reduction, int o, int k) {
-  const int width = outputs - o / 16 * 16 < 16 ? 8 : 16, together = 64 / width;
-  return as_size(o / 16 * 16 * reduction + k / together * 64 + o % 16 * together + k % together);
+  return index_in_panels(outputs, reduction, 4, o, k);
 }
 
 double largest_weight(const std::vector<std::uint16_t>& panels, int outputs, int inputs, int o) {

@@ -28,10 +28,8 @@ double scale_of(const Panels& w, int o, int max_value, bool is_signed) {
   return std::max(largest / 32767.0, sum * max_value / limit);
 }
 
-// Index of element k of output o's sum in `pairs`.
 std::size_t index_of(const Panels& w, int o, int k) {
-  const int width = w.outputs - o / 16 * 16 < 16 ? 8 : 16, together = 32 / width;
-  return as_size(o / 16 * 16 * w.reduction + k / together * 32 + o % 16 * together + k % together);
+  return index_in_panels(w.outputs, w.reduction, 2, o, k);
 }
 
 std::vector<Approx> expected_scales(const std::vector<float>& scales, int reduction) {

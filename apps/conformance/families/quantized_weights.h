@@ -5,6 +5,14 @@
 
 namespace mien::conformance {
 
+// Index of element k of output o's sum in panels of quantized weights. `group`: adjacent elements
+// in a lane, 2 of 16 bits or 4 of 8.
+inline std::size_t index_in_panels(int outputs, int reduction, int group, int o, int k) {
+  const int width = outputs - o / 16 * 16 < 16 ? 8 : 16, together = 16 * group / width;
+  return as_size(o / 16 * 16 * reduction + k / together * 16 * group + o % 16 * together +
+                 k % together);
+}
+
 struct QuantizedWeights {
   // `max_value`: maximum magnitude of the integers that the weights are multiplied with.
   QuantizedWeights() = default;

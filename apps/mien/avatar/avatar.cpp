@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "apps/animation/gltf_keys.h"
 #include "apps/mien/avatar/morphs.h"
 #include "apps/mien/sources/animation_file.h"
 #include "apps/mien/system/failure.h"
@@ -16,14 +17,13 @@ namespace {
 using animation::Angles;
 using animation::Frame;
 using animation::FrameSequence;
-using animation::Quaternion;
 
 // Keys of a node's property.
 struct Keys {
   std::vector<float> times_s, values;
 };
 
-// Rotations of a bone, each with the sign nearest to the previous one.
+// Rotations of a bone.
 class BoneKeys {
  public:
   explicit BoneKeys(const std::optional<Bone>& bone) : bone_(bone) {}
@@ -32,15 +32,9 @@ class BoneKeys {
     if (!bone_) {
       return;
     }
-    const Quaternion turn = bone_->turned(rig.in_scene(angles));
-    double same_way = 0.0;
-    for (std::size_t k = 0; k < 4; ++k) {
-      same_way += turn[k] * before_[k];
-    }
     keys.times_s.push_back(second);
-    for (std::size_t k = 0; k < 4; ++k) {
-      before_[k] = same_way < 0.0 ? -turn[k] : turn[k];
-      keys.values.push_back(static_cast<float>(before_[k]));
+    for (const double part : rotations_.next(bone_->turned(rig.in_scene(angles)))) {
+      keys.values.push_back(static_cast<float>(part));
     }
   }
   [[nodiscard]] std::size_t node() const { return bone_->node; }
@@ -49,7 +43,7 @@ class BoneKeys {
 
  private:
   std::optional<Bone> bone_;
-  Quaternion before_ = {0.0, 0.0, 0.0, 1.0};
+  animation::KeyRotations rotations_;
 };
 
 std::vector<float> weights(const MorphNode& morphs, const DriverValues& values) {
@@ -147,15 +141,14 @@ Avatar::Avatar(const std::string& file) : glb_(read_glb(read_whole(file), file))
 std::string Avatar::animated(const FrameSequence& frames) const {
   std::vector<Keys> morphs(morphs_.size());
   BoneKeys head(rig_.head), left(rig_.eyes[0]), right(rig_.eyes[1]);
-  std::optional<float> last;
+  animation::KeyTimes times(frames);
   bool holds = true;
   for (const Frame& frame : frames) {
-    const std::int64_t since = frame.time_ns - frames.first_time_ns();
-    const auto second = static_cast<float>(static_cast<double>(since) * 1e-9);
-    if (last && second <= *last) {
-      continue;  // keys must increase as fp32
+    const std::optional<float> key = times.next(frame);
+    if (!key) {
+      continue;
     }
-    last = second;
+    const float second = *key;
     holds = holds && frame.holds();
     const DriverValues values(frame);
     for (std::size_t i = 0; i < morphs_.size(); ++i) {

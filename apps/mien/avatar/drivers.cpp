@@ -4,11 +4,10 @@
 #include <mien/mien.h>
 
 #include <algorithm>
-#include <cctype>
 #include <utility>
 
 #include "apps/mien/avatar/names.h"
-#include "apps/mien/system/failure.h"
+#include "apps/mien/outputs/vocabulary_values.h"
 
 namespace mien::app {
 namespace {
@@ -85,20 +84,6 @@ bool opens_jaw(const Drivers& drivers) {
 
 }  // namespace
 
-std::string plain_name(std::string name) {
-  name.erase(0, name.find_last_of(".:|") + 1);
-  for (char& letter : name) {
-    letter = formats::to_lower(letter);
-  }
-  for (const auto& [side, spelled] : {std::pair{"_l", "left"}, std::pair{"_r", "right"}}) {
-    if (name.ends_with(side)) {
-      name.replace(name.size() - 2, 2, spelled);
-    }
-  }
-  std::erase_if(name, [](unsigned char c) { return c >= 128 || std::isalnum(c) == 0; });
-  return name;
-}
-
 Drivers morph_drivers(const std::vector<std::string>& names) {
   Drivers face = found(names, face_table());
   if (opens_jaw(face)) {
@@ -132,17 +117,9 @@ Drivers expression_drivers(const std::vector<std::string>& names) {
 }
 
 DriverValues::DriverValues(const animation::Frame& frame) {
-  std::array<float, formats::kControlCount> controls;
-  std::transform(frame.controls.begin(), frame.controls.end(), controls.begin(),
-                 [](double value) { return static_cast<float>(formats::or_zero(value)); });
   for (int vocabulary = MIEN_VOCABULARY_ARKIT; vocabulary <= MIEN_VOCABULARY_VISEMES;
        ++vocabulary) {
-    std::vector<float>& values =
-        values_.emplace_back(static_cast<std::size_t>(mien_vocabulary_size(vocabulary)));
-    if (mien_vocabulary_values(vocabulary, controls.data(), values.data(),
-                               static_cast<std::int32_t>(values.size())) != MIEN_OK) {
-      throw Failure(kExitInternal, "unknown vocabulary");
-    }
+    values_.push_back(vocabulary_values(vocabulary, frame));
   }
 }
 

@@ -1,44 +1,20 @@
-// Reads and writes the container of binary glTF (Khronos, glTF 2.0, section 4).
+// Reads avatars, and appends numbers to them.
 #include "apps/mien/avatar/glb.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
+#include "apps/animation/glb.h"
 #include "apps/mien/system/failure.h"
 #include "apps/protocols/bytes.h"
 
 namespace mien::app {
 namespace {
 
-constexpr std::uint32_t kMagic = 0x46546C67, kJson = 0x4E4F534A, kBinary = 0x004E4942;
-constexpr std::uint32_t kVersion = 2;
-constexpr std::size_t kHeader = 12, kChunkHeader = 8;
 constexpr int kFloat = 5126;
 constexpr int kMaxDepth = 100;
-
-std::uint32_t little(std::string_view bytes, std::size_t at) {
-  std::uint32_t value = 0;
-  for (std::size_t i = 0; i < 4; ++i) {
-    value |= std::uint32_t{static_cast<unsigned char>(bytes[at + i])} << (8 * i);
-  }
-  return value;
-}
-
-// The chunk that begins at `at`, or an empty view if the file ends there.
-std::string_view chunk(std::string_view bytes, std::size_t at, std::uint32_t type,
-                       const std::string& name) {
-  if (bytes.size() < at + kChunkHeader || little(bytes, at + 4) != type) {
-    return {};
-  }
-  const std::size_t size = little(bytes, at);
-  if (size > bytes.size() - at - kChunkHeader) {
-    throw Failure(kExitNoInput,
-                  name + ": byte " + std::to_string(at) + ": the chunk exceeds the file");
-  }
-  return bytes.substr(at + kChunkHeader, size);
-}
 
 Json parsed(std::string_view text, const std::string& name) {
   const auto limited = [&](int depth, Json::parse_event_t, Json&) {
@@ -76,31 +52,22 @@ void load_buffer(Glb& glb, std::string_view data, const std::string& name) {
   glb.data = data.substr(0, size);
 }
 
-void pad(std::string& text, char with) { text.append((4 - text.size() % 4) % 4, with); }
-
-void append_chunk(std::string& file, std::uint32_t type, const std::string& content) {
-  protocols::append_little(file, static_cast<std::uint32_t>(content.size()));
-  protocols::append_little(file, type);
-  file += content;
-}
-
 }  // namespace
 
 Glb read_glb(std::string_view bytes, const std::string& name) {
-  if (bytes.size() < kHeader || little(bytes, 0) != kMagic || little(bytes, 4) != kVersion) {
+  if (!bytes.starts_with(animation::kGlbMagic)) {
     throw Failure(kExitNoInput, name + ": not a .glb or .vrm (glTF 2.0)");
   }
-  if (little(bytes, 8) != bytes.size()) {
-    throw Failure(kExitNoInput, name + ": byte 8: wrong file length (got " +
-                                    std::to_string(bytes.size()) + ", expected " +
-                                    std::to_string(little(bytes, 8)) + ")");
+  animation::GlbChunks chunks;
+  animation::Fault fault;
+  if (!animation::split_glb(bytes, chunks, fault)) {
+    throw Failure(kExitNoInput, name + ": " + describe(fault));
   }
-  const std::string_view json = chunk(bytes, kHeader, kJson, name);
   Glb glb;
   try {
-    glb.document = parsed(json, name);
+    glb.document = parsed(chunks.json, name);
     require_own_data(glb, name);
-    load_buffer(glb, chunk(bytes, kHeader + kChunkHeader + json.size(), kBinary, name), name);
+    load_buffer(glb, chunks.data.value_or(std::string_view()), name);
   } catch (const Json::exception& error) {
     throw Failure(kExitNoInput, name + ": invalid glTF: " + error.what());
   }
@@ -109,29 +76,21 @@ Glb read_glb(std::string_view bytes, const std::string& name) {
 
 std::string glb_bytes(const Glb& glb) {
   std::string json = glb.document.dump(-1, ' ', false, Json::error_handler_t::replace);
-  std::string data = glb.data;
-  pad(json, ' ');
-  pad(data, '\0');
-  const std::size_t size = kHeader + 2 * kChunkHeader + json.size() + data.size();
-  if (size > std::numeric_limits<std::uint32_t>::max()) {
+  constexpr std::size_t kPadding = 6;  // of both chunks
+  if (animation::kGlbHeaders + json.size() + glb.data.size() + kPadding >
+      std::numeric_limits<std::uint32_t>::max()) {
     throw Failure(kExitOutput, "the animated avatar exceeds the 4 GiB of a .glb");
   }
-  std::string file;
-  protocols::append_little(file, kMagic);
-  protocols::append_little(file, kVersion);
-  protocols::append_little(file, static_cast<std::uint32_t>(size));
-  append_chunk(file, kJson, json);
-  append_chunk(file, kBinary, data);
-  return file;
+  return animation::glb_file(std::move(json), glb.data);
 }
 
 std::size_t add_floats(Glb& glb, const std::vector<float>& values, std::size_t width) {
-  pad(glb.data, '\0');
+  glb.data.resize((glb.data.size() + 3) / 4 * 4);
   Json view = {{"buffer", 0},
                {"byteOffset", glb.data.size()},
                {"byteLength", values.size() * sizeof(float)}};
   for (const float value : values) {
-    protocols::append_little(glb.data, std::bit_cast<std::uint32_t>(value));
+    protocols::append_little_float(glb.data, double{value});
   }
   glb.document["buffers"][0]["byteLength"] = glb.data.size();
   Json& views = glb.document["bufferViews"];

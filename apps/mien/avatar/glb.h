@@ -1,4 +1,4 @@
-// The container of binary glTF: a JSON document and the bytes of buffer 0.
+// An avatar in memory: the JSON document of a .glb, and the bytes of buffer 0.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -3,10 +3,9 @@
 
 #include <mien/mien.h>
 
-#include <array>
 #include <optional>
 
-#include "apps/mien/system/failure.h"
+#include "apps/mien/outputs/vocabulary_values.h"
 
 namespace mien::app {
 namespace {
@@ -44,17 +43,9 @@ BlendNames::BlendNames(const std::string& vocabularies, const Destination& desti
 }
 
 std::span<const protocols::NamedValue> BlendNames::values(const animation::Frame& frame) {
-  std::array<float, formats::kControlCount> controls;
-  for (std::size_t i = 0; i < controls.size(); ++i) {
-    controls[i] = static_cast<float>(formats::or_zero(frame.controls[i]));
-  }
   values_.clear();
   for (const Vocabulary& vocabulary : vocabularies_) {
-    std::vector<float> values(vocabulary.names.size());
-    if (mien_vocabulary_values(vocabulary.number, controls.data(), values.data(),
-                               static_cast<std::int32_t>(values.size())) != MIEN_OK) {
-      throw Failure(kExitInternal, "unknown vocabulary");
-    }
+    const std::vector<float> values = vocabulary_values(vocabulary.number, frame);
     for (std::size_t i = 0; i < values.size(); ++i) {
       values_.push_back({vocabulary.names[i], double{values[i]}});
     }
