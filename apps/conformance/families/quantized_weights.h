@@ -27,7 +27,7 @@ struct QuantizedWeights {
 
 struct Int8Weights {
   Int8Weights() = default;
-  // `shift`: what is added to the integers that the weights are multiplied with.
+  // `shift`: added to the integers that the weights are multiplied with.
   Int8Weights(const std::vector<std::uint16_t>& panels, int outputs, int inputs, int shift);
 
   // w / scale before rounding, in the order of `quads`.

@@ -84,7 +84,7 @@ for (const where of ['here', 'worker']) {
     assert.deepEqual(times, [0, 4e7, 8e7, 12e7]);
   });
 
-  test(`a tracker ${where} names what is wrong with a source`, async () => {
+  test(`a tracker ${where} describes wrong sources`, async () => {
     const messages = await page.evaluate(async where => {
       const closed = new VideoFrame(window.sources.canvas, {timestamp: 0}), bitmap = await createImageBitmap(window.sources.canvas);
       for (const each of [closed, bitmap]) each.close();
