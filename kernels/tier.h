@@ -43,16 +43,17 @@ inline constexpr std::uint32_t kHalfTiers =
 // The bit of the CPU mask that allows fused blocks; it is not a tier.
 inline constexpr std::uint32_t kFusedBlocks = 1u << 31;
 
-// Greater for the better of two tiers. Values are in order of publication; quantized tiers rank
-// just above the fp32 tier that they extend. kAvx512Fp16 ranks above kAvx512Vnni, because every CPU
-// with AVX-512 FP16 also has VNNI.
+// Greater for the better of two tiers. Values are in order of publication; the half-precision tiers
+// of x86 rank just above the fp32 tier that they extend. kAvx512Vnni ranks above kAvx512Fp16,
+// because it is faster and more accurate on CPUs with both.
 [[nodiscard]] constexpr std::uint32_t rank(Tier tier) {
   const auto above = [](Tier base, std::uint32_t steps) {
     return 4 * static_cast<std::uint32_t>(base) + steps;
   };
   return tier == Tier::kAvx2Int16    ? above(Tier::kAvx2, 1)
          : tier == Tier::kAvxVnni    ? above(Tier::kAvx2, 2)
-         : tier == Tier::kAvx512Vnni ? above(Tier::kAvx512, 1)
+         : tier == Tier::kAvx512Fp16 ? above(Tier::kAvx512, 1)
+         : tier == Tier::kAvx512Vnni ? above(Tier::kAvx512, 2)
                                      : above(tier, 0);
 }
 

@@ -12,6 +12,15 @@
 namespace mien::kernels {
 namespace {
 
+TEST(Tiers, PreferFixedPointToHalfPrecisionToFp32) {
+  EXPECT_GT(rank(Tier::kAvx512Vnni), rank(Tier::kAvx512Fp16));
+  EXPECT_GT(rank(Tier::kAvx512Fp16), rank(Tier::kAvx512));
+  EXPECT_GT(rank(Tier::kAvx512), rank(Tier::kAvxVnni));
+  EXPECT_GT(rank(Tier::kAvxVnni), rank(Tier::kAvx2Int16));
+  EXPECT_GT(rank(Tier::kAvx2Int16), rank(Tier::kAvx2));
+  EXPECT_GT(rank(Tier::kNeonFp16), rank(Tier::kNeon));
+}
+
 #ifdef __x86_64__
 bool is_compiled(Tier tier) {
   const std::span<const Entry> all = all_kernels();
