@@ -9,8 +9,7 @@ import inner_loops
 import predict
 from count_instructions import Machine
 
-ENCODERS = [("basenet", "encoder"), ("hifinet", "encoder")]
-DECODERS = [("hifinet", "controls_decoder"), ("audionet", "encoder")]
+NETWORKS = [("basenet", "encoder"), ("hifinet", "encoder"), ("hifinet", "controls_decoder"), ("audionet", "encoder")]
 LOOPS = [  # tier, object, pattern of the function's name, what it is
     ("neon", "pointwise/neon_product", r"tile<5, 4, .*Widened", "pointwise, 5 pixels x 16 channels, weights widened before"),
     ("neon", "pointwise/neon_product", r"tile<9, 2, .*Widened", "pointwise, 9 pixels x 8 channels, weights widened before"),
@@ -53,18 +52,12 @@ def largest_difference(rows, others):
     return max(abs(points(a) - points(b)) for row, other in zip(rows, others) for a, b in zip(row[2:], other[2:]) if a != "-")
 
 
-def ratios(machine, avx2, work):
-    """Rows of the networks: instructions per multiply-accumulate of both machines, and their ratio."""
-    rows = []
-    for network in ENCODERS + DECODERS:
-        (ours, macs), (others, _) = (m.one_run(work, network) for m in (machine, avx2))
-        rows.append(["_".join(network), f"{ours / macs:.3f}", f"{others / macs:.3f}", f"{ours / others:.2f}"])
-    return rows
-
-
-def ways(neon, neonfp16, work):
-    return [["_".join(network), machine.tier, mode, str(machine.one_run(work, network, mode)[0])]
-            for network in ENCODERS for machine, mode in ((neon, "plain"), (neon, "fused"), (neonfp16, "fused"))]
+def instructions(machines, work):
+    """Rows of the networks: instructions per multiply-accumulate of each machine, and their ratio to the last one's."""
+    for network in NETWORKS:
+        counts = [machine.one_run(work, network) for machine in machines]
+        per_mac = [count / macs for count, macs in counts]
+        yield ["_".join(network), *(f"{each:.3f} ({each / per_mac[-1]:.2f})" for each in per_mac[:-1]), f"{per_mac[-1]:.3f}"]
 
 
 def version(program):
@@ -81,7 +74,6 @@ def main():
     header = ["tier", "inner loop", *predict.CPUS]
     by_gcc = predictions(gcc)
     difference = largest_difference(by_gcc, predictions(lambda tier: work / "clang" / tier))
-    counted = ["network", "neon", "avx2", "ratio"]
     text = f"""# Predicted speed on ARM
 
 For developers of kernels. No ARM machine was available: these are predictions and instruction counts of the published networks.
@@ -95,16 +87,9 @@ arithmetic. Code of {version("aarch64-linux-gnu-g++")}; that of clang ({version(
 {table(header, by_gcc)}
 ## Instructions per multiply-accumulate
 
-One run of a network with fused blocks, counted by qemu-user, compared with AVX2, whose vectors have twice the width of NEON's in fp32 and the same in half precision. AVX2
-converts eight weights in their load, NEON needs an instruction for four.
+One run of a network, counted by qemu-user, and in parentheses relative to AVX2, whose vectors have twice the width of NEON's in fp32 and the same in half precision.
 
-{table(counted, ratios(neon, avx2, work))}
-In half precision:
-
-{table(["network", "neonfp16", "avx2", "ratio"], ratios(neonfp16, avx2, work))}
-Instructions layer by layer (`plain`) and fused:
-
-{table(["network", "tier", "blocks", "instructions"], ways(neon, neonfp16, work))}
+{table(["network", "neon", "neonfp16", "avx2"], instructions((neon, neonfp16, avx2), work))}
 Made by `scripts/cross/arm_report.sh`.
 """
     out.write_text(text)

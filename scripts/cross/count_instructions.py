@@ -9,15 +9,15 @@ class Machine:
     def __init__(self, tier, emulator, program):
         self.tier, self.emulator, self.program = tier, emulator, program
 
-    def _counts(self, work, network, runs, mode):
+    def _counts(self, work, network, runs):
         output, (model, name) = work / "count.txt", network
         layers = subprocess.run([*self.emulator, "-plugin", f"{work / 'libcount.so'},output={output}", self.program,
-                                 f"models/{model}.mien", name, self.tier, str(runs), mode],
+                                 f"models/{model}.mien", name, self.tier, str(runs)],
                                 check=True, capture_output=True, text=True).stdout
         return int(output.read_text()), layers
 
-    def one_run(self, work, network, mode="fused"):
+    def one_run(self, work, network):
         """(instructions, multiply-accumulates) of one run."""
-        once, _ = self._counts(work, network, 1, mode)
-        twice, layers = self._counts(work, network, 2, mode)
+        once, _ = self._counts(work, network, 1)
+        twice, layers = self._counts(work, network, 2)
         return twice - once, sum(int(macs) for macs in re.findall(r"^\w+ (\d+)$", layers, re.MULTILINE))

@@ -1,6 +1,6 @@
 // Runs a network of a weight file a number of times, for counting instructions: the cost of a run
 // is the difference between two such programs. Writes the layers and their multiply-accumulates.
-// usage: run_network MODEL.mien NETWORK TIER RUNS fused|plain
+// usage: run_network MODEL.mien NETWORK TIER RUNS
 #include <mien/engine.h>
 #include <mien/mien.h>
 
@@ -38,15 +38,15 @@ void print_layers(const mien::WeightsContent& file, const char* network) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 6) {
-    fail("usage: run_network MODEL.mien NETWORK TIER RUNS fused|plain");
+  if (argc != 5) {
+    fail("usage: run_network MODEL.mien NETWORK TIER RUNS");
   }
   const mien::LoadedWeights loaded = mien::load_weights(argv[1]);
   if (!loaded) {
     fail(loaded.message.c_str());
   }
   mien::NetworkConfig config(loaded.weights, argv[2]);
-  config.cpu_mask = mask_of(argv[3]) | (std::strcmp(argv[5], "fused") == 0 ? MIEN_CPU_FUSED : 0);
+  config.cpu_mask = mask_of(argv[3]) | MIEN_CPU_FUSED;
   mien::Network runner;
   mien::Error error;
   if (runner.create(config, &error) != MIEN_OK) {

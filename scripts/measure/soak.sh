@@ -17,12 +17,9 @@ table=$(build/release/tests/tracker/mien_soak "$hours") || code=$?
 
 For developers who run mien for days.
 
-The table has the results of $hours hours of video and audio, simulated in $((SECONDS - began)) s. The face disappears for 4 s every 100 s. Audio comes
-from a device with an inaccurate clock, with 3 ms of timestamp jitter, gaps of 0.03 to 3 s, and changes of the sample rate. The timing error is that
-of the loudness that frames show. The networks are small ones that detect discs ([worst frame](worst_frame.md) has the trained ones). Memory, ids
-and times count from a tenth of the hours on.
-
-Made by \`scripts/measure/soak.sh $hours\`.
+\`scripts/measure/soak.sh $hours\` simulated $hours hours of video and audio in $((SECONDS - began)) s. The face disappears for 4 s every 100 s. Audio has an inaccurate clock, 3 ms of
+timestamp jitter, gaps of 0.03 to 3 s, and changes of the sample rate. The timing error is that of the loudness that frames show. Small networks detect discs. Memory, ids and times count
+from a tenth of the hours on.
 
 $table
 TEXT

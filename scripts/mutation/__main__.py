@@ -132,9 +132,6 @@ def run(sample, results, files, workers):
     return not failures
 
 
-def test_seconds():
-    files = (WORK / "base").rglob("mutation_times_*.json")
-    return sum(sum(json.loads(path.read_text())["times"].values()) for path in files)
 
 
 def write_page(known, argued, generated, seed):
@@ -143,13 +140,8 @@ def write_page(known, argued, generated, seed):
     commit = subprocess.run(["git", "rev-parse", "--short=10", "HEAD"], cwd=ROOT, check=True, capture_output=True,
                             text=True).stdout.strip()
     valid = sum(result["outcome"] in (KILLED, SURVIVED, WAITING) for result in known)
-    minutes = sum(result["seconds"] for result in known) / 60
-    opening = (
-        f"<!-- results -->\n\nCommit {commit}, seed {seed}: {len(known):,} of {generated:,} generated mutants were "
-        f"tried; {valid} of "
-               f"them compile and change the machine code. That took {minutes:.0f} minutes. All tests that a mutant "
-               "can face take "
-               f"{test_seconds():.0f} s of one processor together.\n")
+    opening = (f"<!-- results -->\n\nCommit {commit}, seed {seed}: {len(known):,} of {generated:,} generated mutants "
+               f"were tried; {valid} of them compile and change the machine code.\n")
     if valid < GOAL:
         opening += f"\nThe run is not complete: `scripts/mutate.sh` continues it up to {GOAL}.\n"
     PAGE.write_text(head + report.page(known, argued, opening))

@@ -18,7 +18,7 @@ PAGE = ROOT / "docs/packages.md"
 BEGIN, END = "<!-- sizes.py: begin -->\n", "<!-- sizes.py: end -->\n"
 TARGETS = ["gcc", "linux-x64", "linux-arm64", "linux-armv7", "macos-x64", "macos-arm64", "windows-x64", "windows-arm64"]
 TOLERANCE = 0.01
-NONE, UNMEASURED = "-", ""
+NONE = "-"
 
 X86, ARM64 = ("gcc", "linux-x64", "macos-x64", "windows-x64"), ("linux-arm64", "macos-arm64", "windows-arm64")
 HALF = ["MIEN_WITH_AVX512", "MIEN_WITH_HALF_PRECISION"]  # on x86-64, half precision is a part of AVX-512
@@ -92,15 +92,16 @@ def read_table(text):
     columns = {target: {} for target in TARGETS}
     for row in rows[2:]:
         for target, cell in zip(rows[0][1:], row[1:]):
-            if cell not in (NONE, UNMEASURED):
+            if cell != NONE:
                 columns[target][row[0]] = int(cell.replace(",", ""))
     return columns
 
 
 def written_table(columns):
-    lines = [f"| program | {' | '.join(TARGETS)} |", "|---" * (len(TARGETS) + 1) + "|"]
-    for title, _, targets in [*ROWS, (AMALGAMATION, [], TARGETS)]:
-        cells = (f"{columns[target][title]:,}" if title in columns[target] else UNMEASURED if target in targets else NONE for target in TARGETS)
+    known = [target for target in TARGETS if columns[target]]
+    lines = [f"| program | {' | '.join(known)} |", "|---" * (len(known) + 1) + "|"]
+    for title, *_ in [*ROWS, (AMALGAMATION,)]:
+        cells = (f"{columns[target][title]:,}" if title in columns[target] else NONE for target in known)
         lines.append(f"| {title} | {' | '.join(cells)} |")
     return "\n".join(lines) + "\n"
 

@@ -204,7 +204,7 @@ class Reports(unittest.TestCase):
         self.assertEqual("-", summary.line(bar, {"clips": results(0.001)})[2])
 
     def test_page_says_what_is_not_there(self):
-        page = summary.page({}, {}, ["images: the portraits are absent"], has_hifinet=False)
+        page = summary.page({}, ["images: the portraits are absent"], has_hifinet=False)
         self.assertIn("HiFiNet is not trained yet", page)
         self.assertIn("* images: the portraits are absent", page)
 

@@ -33,7 +33,7 @@ def evaluate(part, setting):
 
 def write_page(part, results, folder):
     module = importlib.import_module(f"mien_training.evaluate.evaluate_{part}")
-    note = f"\nMade by `python3 -m mien_training.evaluate {part}`; [{part}.json]({part}.json) has all figures.\n"
+    note = f"\n[All figures]({part}.json)\n"
     (folder / f"{part}.md").write_text(module.markdown(results).rstrip() + "\n" + note)
     if hasattr(module, "plot"):
         module.plot(results, folder)

@@ -34,12 +34,11 @@ def page(results):
     known = {level: supported(results, level) for level in LEVELS}
     counts = " and ".join(f"{len(known[level])} controls at {out.level(level)}" for level in LEVELS)
     lines = ["# Accuracy by control", "", "For users who ask how well a certain control works.",
-             ""] + out.prose(f"""mien supports {counts}. Rendered:
-        correlation with the truth on [rendered people](synthetic.md). Clips: correlation with MediaPipe on
-        [clips](clips.md). A dash: not supported, or constant in MediaPipe's output. [response.json](response.json) and
-        [amplitude.json](amplitude.json) have the range and the deviation of each control.""")
+             ""] + out.prose(f"""mien supports {counts}. The table has correlations with the truth on
+        [rendered people](synthetic.md) and with MediaPipe on [clips](clips.md). A dash: not supported, or constant in
+        MediaPipe's output. [response.json](response.json) has ranges, [amplitude.json](amplitude.json) deviations.""")
     cell = lambda figure, level, c: out.number(figure(results, level, c), 2) if c in known[level] else "-"
     rows = [[c, *(cell(figure, level, c) for _, figure in COLUMNS for level in LEVELS)] for c in CONTROLS
             if any(c in names for names in known.values())]
     header = ["control", *(f"{title}, {out.level(level)}" for title, _ in COLUMNS for level in LEVELS)]
-    return "\n".join([*lines, *out.table(header, rows), "Made by `python3 -m mien_training.evaluate`.", ""])
+    return "\n".join([*lines, *out.table(header, rows)])

@@ -1,4 +1,4 @@
-"""Amplitude of each control compared with the truth and the teacher: blinks, winks, faces at rest, mirrored images.
+"""Amplitude of each control compared with the truth and the teacher: blinks, faces at rest, mirrored images.
 
 Correlation does not measure these. Renders are streamed test people, portraits are the test portraits; both use the
 decoders of the model files in PyTorch (stream_features.py, portrait_stream.py). Clips and probes use the program.
@@ -138,13 +138,6 @@ def on_clips(program, lod):
             "blinks": {"peaks": out.rounded(peaks, 3), "false": false, "teacher": out.rounded(teacher_peaks, 3)}}
 
 
-def winks(setting, level):
-    """{eye: (least of the closed eye, most of the other)} of the part `response`, where it was measured."""
-    path = setting.out / "response.json"
-    results = json.loads(path.read_text())["results"] if path.exists() else {}
-    return results.get(level, {}).get("winks")
-
-
 def measure(setting):
     torch.set_num_threads(1)
     videos.clips()
@@ -152,7 +145,7 @@ def measure(setting):
     for name, lod in setting.levels("amplitude").items():
         decoder, supported = decoder_of(setting.program.models, NETWORKS[name])
         results[name] = {"supported": [c for c, s in zip(CONTROLS, supported) if s],
-                         "clips": on_clips(setting.program, lod), "winks": winks(setting, name)}
+                         "clips": on_clips(setting.program, lod)}
         for part, look in (("renders", on_renders), ("portraits", on_portraits)):
             try:
                 results[name][part] = look(decoder, NETWORKS[name])
@@ -165,8 +158,7 @@ def summary(r):
     """Rows of (what, figure)."""
     peaks = np.array(r["clips"]["blinks"]["peaks"])
     rows = [["blinks", str(len(peaks))], ["mean peak of eyeBlink", out.number(peaks.mean(), 2)],
-            ["of them above 0.5", f"{(peaks > PASSED).sum()}"], ["false blinks", str(r["clips"]["blinks"]["false"])],
-            ["mean peak of MediaPipe", out.number(np.mean(r["clips"]["blinks"]["teacher"]), 2)]]
+            ["of them above 0.5", f"{(peaks > PASSED).sum()}"], ["false blinks", str(r["clips"]["blinks"]["false"])]]
     if "portraits" in r:
         p = r["portraits"]
         rows += [[f"mean eyeBlink of {p['eyes']} closed eyes on portraits", out.number(p["closed"], 2)],
@@ -195,9 +187,8 @@ def markdown(report):
         [clips](clips.md), held-out portraits, and rendered test people with known controls.""")
     lines += out.prose(
         f"""Blinks were counted by eye (`scripts/mien_training/evaluate/blinks.json`); a peak is the highest mean of
-        both eyes within {FRAMES_AROUND} frames of a blink. Closed eyes of portraits have a landmark aperture below 0.09
-        of their width. Deviation is the standard deviation of a control relative to that of the truth, or of MediaPipe
-        on clips.""")
+        both eyes within {FRAMES_AROUND} frames of a blink. Closed eyes have an aperture below 0.09 of their width.
+        Deviation: standard deviation relative to the truth's.""")
     rows = [[rows[0][0], *(row[1] for row in rows)] for rows in zip(*(summary(r) for r in report.values()))]
     lines += out.table(["figure", *map(out.level, report)], rows)
-    return "\n".join(lines + ["[Accuracy by control](controls.md)", ""])
+    return "\n".join(lines)

@@ -42,7 +42,7 @@ def markdown(report):
     told = out.by_level(report, lambda by: ", ".join(f"{title} {mean(by, mode)}" for mode, title in SOURCES.items()))
     lines = ["# Audio and video", "", "For users who combine camera and microphone.", ""] + out.prose(f"""Mean absolute
         error of all {len(SPEECH_CONTROLS)} controls of speech: {told}. The data are the demo clip, whose true controls
-        are known and whose voice, a variant of eSpeak NG, was held out. The table has single controls.""")
+        are known and whose voice, a variant of eSpeak NG, was held out.""")
     header = ["", *(f"{out.level(level)}, {title}" for level in report for title in SOURCES.values())]
     return "\n".join(lines + out.table(
         header, [[c, *(out.number(by[mode][c]) for by in report.values() for mode in SOURCES)] for c in SHOWN]))

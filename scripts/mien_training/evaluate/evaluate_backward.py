@@ -74,18 +74,17 @@ def markdown(report):
     covered = {name: list(clips.values()) for name, clips in report.items()}
     share = lambda rows, key: 100 * sum(r[key] for r in rows) / sum(r["visible"] for r in rows)
     mean = lambda rows, kind, key: np.mean([r[kind][key] for r in rows if kind in r])
-    by_level = lambda text: out.by_level(covered, text)
     lines += out.prose(
-        f"""If the face is covered for half a second at the start and in the middle of a clip, forward tracking has
-        {by_level(lambda r: f"{share(r, 'forward'):.1f} %")} of the frames on which the face is visible, and with
-        tracking backward {by_level(lambda r: f"{share(r, 'both'):.1f} %")}. Covered frames that were filled:
-        {by_level(lambda r: str(sum(c['wrong'] for c in r)))}.""")
-    lines += out.prose(
-        f"""Filled frames differ from the same frames of the whole clip, tracked forward, by
-        {by_level(lambda r: f"{mean(r, 'filled', 'controls'):.3f}")} in controls on average and by
-        {by_level(lambda r: f"{100 * mean(r, 'filled', 'landmarks'):.2f} %")} of the distance between the pupils in
-        landmarks. The first {WARM} frames of forward tracking after a detection differ by
-        {by_level(lambda r: f"{mean(r, 'first_forward', 'controls'):.3f}")} and
-        {by_level(lambda r: f"{100 * mean(r, 'first_forward', 'landmarks'):.2f} %")}.""")
-    return "\n".join(lines + out.prose(f"""The data are {len(next(iter(covered.values())))} clips, the demo clip and the
-        [clips](clips.md), scaled to a width of 640 pixels."""))
+        f"""The demo clip and the [clips](clips.md), {len(next(iter(covered.values())))} in total, scaled to a width of
+        640 pixels, with the face covered for half a second at the start and in the middle:""")
+    percent = lambda key: lambda r: f"{share(r, key):.1f} %"
+    change = lambda kind: lambda r: (f"{mean(r, kind, 'controls'):.3f}, {100 * mean(r, kind, 'landmarks'):.2f} %")
+    figures = (("frames with a visible face that are tracked, forward only", percent("forward")),
+               ("the same with tracking backward", percent("both")),
+               ("covered frames that were filled", lambda r: str(sum(c["wrong"] for c in r))),
+               ("filled frames", change("filled")),
+               (f"first {WARM} frames of forward tracking after a detection", change("first_forward")))
+    lines += out.table(["", *map(out.level, covered)],
+                       [[title, *map(figure, covered.values())] for title, figure in figures])
+    return "\n".join(lines + out.prose("""The last two rows are mean differences from the whole clip, tracked forward:
+        controls, and landmarks relative to the distance between the pupils."""))

@@ -87,8 +87,7 @@ def markdown(report):
     lines = ["# Clips of real people", "",
              "For users who compare mien with MediaPipe Face Landmarker, and for trainers.", ""] + out.prose(f"""Mean
         difference from MediaPipe in landmarks and head pose: {out.by_level(report, total)}. The data are
-        {len(first['clips'])} clips of real people with {first['all']['frames']} frames, which were not used for
-        training. MediaPipe is a reference, not the truth.""")
+        {len(first['clips'])} clips, which were not used for training. MediaPipe is a reference, not the truth.""")
     lines += out.prose(
         f"""mien tracks {out.by_level(report, lambda r: f"{100 * r['all']['face_share']:.1f} %")} of MediaPipe's frames.
         Jitter while MediaPipe's landmarks rest: {out.by_level(report, jitter)}. Pose is the mean angle after removal of
@@ -96,7 +95,7 @@ def markdown(report):
     header = ["clip", "frames", *(f"{title}, {out.level(name)}" for name in report
                                   for title in ("landmarks, %", "pose, degrees"))]
     lines += out.table(header, clip_rows(report))
-    return "\n".join([*lines, "[Accuracy by control](controls.md)", ""])
+    return "\n".join(lines)
 
 
 def clip_rows(report):

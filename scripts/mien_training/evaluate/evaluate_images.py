@@ -160,15 +160,15 @@ def markdown(report):
     error = lambda kind: out.by_level(levels, lambda r: f"{100 * r[kind]['landmark_error_outer_eyes']:.2f} %")
     lines = ["# Single images", "",
              "For users who track photographs, and for everyone who asks how pose and skin tone matter.",
-             ""] + out.prose(f"""The share
-        of faces detected on the first frame is {share("portraits")} on portraits, and {share("rendered")} on rendered
-        people. The landmark error relative to the distance between the outer eye corners is {error("portraits")} on
-        portraits, and {error("rendered")} on rendered people. Of {report['places']} images of places without a face,
-        mien reports a face in {report['false_faces']}. The [model card](../../models/README.md#by-group-of-people) has
-        the figures by skin tone. Head pose differs from MediaPipe's by
-        {out.by_level(levels, lambda r:
-        f"{r['portraits']['pose_difference_deg']:.1f} degrees")} after removal of the best constant rotation.""")
+             ""] + out.prose(f"""Detected on
+        the first frame: {share("portraits")} of portraits, {share("rendered")} of rendered people. Landmark error
+        relative to the distance between the outer eye corners: {error("portraits")}, on rendered people
+        {error("rendered")}. mien reports a face in {report['false_faces']} of {report['places']} images without one.
+        Head pose differs from MediaPipe's by
+        {out.by_level(levels, lambda r: f"{r['portraits']['pose_difference_deg']:.1f} degrees")} after removal of the
+        best constant rotation. The [model card](../../models/README.md#by-group-of-people) has the figures by skin
+        tone.""")
     lines += out.prose(
         f"""The data are held-out portraits with labels of MediaPipe and rendered test people. Cells with two figures
-        are for {" and ".join(map(out.level, levels))}; *lost* counts faces that were not detected.""")
+        are for {" and ".join(map(out.level, levels))}; *lost*: not detected.""")
     return "\n".join(lines + group_lines(levels))

@@ -42,10 +42,9 @@ def markdown(report):
     largest = lambda r: f"{r['largest_control']} by {out.number(r['largest'])}"
     lines = ["# Neutral faces that turn", "", "For users whose subjects look around, and for trainers.",
              ""] + out.prose(f"""Turning the head changes
-        controls of a neutral face most for {out.by_level(report, largest)}, on average over people; the goal is 0.1 at
-        most. The data are {first['identities']} rendered test people with all controls at 0, turned by up to {YAW}
-        degrees of yaw and {PITCH} of pitch. Drift is the absolute difference to the output of the same face looking
-        ahead, averaged over people.""")
+        {out.by_level(report, largest)} most; the goal is 0.1 at most. The data are {first['identities']} rendered test
+        people with all controls at 0, turned by up to {YAW} degrees of yaw and {PITCH} of pitch. Drift is the mean
+        absolute difference to the output of the same face looking ahead.""")
     return "\n".join(lines + ["![Drift by angle](leakage.png)", ""])
 
 

@@ -91,11 +91,10 @@ def markdown(report):
         With companions, as on real faces (eyes turn together; tongue and mouthClose need an open jaw),
         {out.by_level(report, lambda r: str(r['reached_0.6_with_companions']))} reach 0.6.""")
     lines += out.prose(
-        f"""The data are {first['identities']} rendered test people, near-frontal, without glasses, hat or occluder.
-        Figures are means over people.""")
+        f"""Figures are means over {first['identities']} rendered test people, near-frontal, without glasses, hat or
+        occluder.""")
     worst = lambda r: ", ".join(f"{a} moves {b} by {out.number(v, 2)}" for a, b, v in r["worst"][:WORST_SHOWN])
     lines += out.prose(f"Strongest cross-talk: {out.by_level(report, worst)}.")
-    lines += ["[Accuracy by control](controls.md)", ""]
     return "\n".join(
         lines + [line for name in report for line in (f"![Cross-talk at {out.level(name)}](response_{name}.png)", "")])
 

@@ -113,10 +113,11 @@ def markdown(report):
              ""] + out.prose(f"""The mean correlation of supported controls with the truth is
         {out.by_level(programs, lambda p: f"{p['correlation_mean']:.2f}")}. The head pose, with a known field of view,
         is off by {out.by_level(programs, lambda p: f"{p['pose']['rotation_deg']:.1f} degrees")} on average. The data
-        are rendered sequences of faces, places and performances that training has not used. Of these, `mien track`
-        followed {out.by_level(programs, tracked)} from the first frame to the last; only they count. Error is the mean
-        absolute difference. Jitter is the sum of absolute differences whose sign changes, per frame.""")
+        are rendered sequences of faces, places and performances that training has not used; only those count that
+        `mien track` follows from the first frame to the last,
+        {out.by_level(programs, tracked)}. Error is the mean absolute difference; jitter the sum of
+        absolute differences whose sign changes, per frame.""")
     rows = [[title, *(out.number(scale * p[key], digits) for p in programs.values())]
             for title, key, digits, scale in ROWS]
     lines += out.table(["", *map(out.level, programs)], rows)
-    return "\n".join([*lines, "[Accuracy by control](controls.md)", ""])
+    return "\n".join(lines)

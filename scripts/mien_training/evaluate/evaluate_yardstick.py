@@ -51,8 +51,7 @@ def markdown(report):
         f"""The controls decoder reaches a mean correlation of {np.mean(list(known.values())):.2f} over all 52 controls
         if it gets the true landmarks and head pose instead of features; {enough} controls reach 0.5. Its error is
         {report["facs_error"] / report["constant_median"]:.2f} of the best constant's, and its median standard deviation
-        {np.median(list(ratio.values())):.2f} of the true one. What the program lacks beyond that is lost by the
-        encoders, or by decoders that saw few people.""")
-    return "\n".join(lines + out.prose(
-        f"""`train_yardstick.py` trained it for {report["steps"]} steps on {report["trained_on"]} sequences of landmarks
-        without images; the test has {report["sequences"]} sequences of other people."""))
+        {np.median(list(ratio.values())):.2f} of the true one. The program's further loss is that of the encoders, or of
+        decoders that saw few people. `train_yardstick.py` trained it for {report["steps"]} steps on
+        {report["trained_on"]} sequences of landmarks; the test has {report["sequences"]} of other people.""")
+    return "\n".join(lines)

@@ -65,25 +65,25 @@ def in_short(results):
         MediaPipe: jawOpen {known(2, 1, "clips", None, "controls", "jawOpen", "correlation")}, left smile
         {known(2, 1, "clips", None, "controls", "mouthSmileLeft", "correlation")}, landmarks within
         {known(1, 100, "clips", None, "all", "landmark_error_pupils")} % of the distance between the pupils, head pose
-        within {known(1, 1, "clips", None, "all", "pose_difference_deg")} degrees. Portraits in the wild: faces
-        correctly detected in {known(1, 100, "wild", "levels", None, "found")} %.""") + out.prose(
-            f"""**Speed**: {speed} [Comparison](peers.md).""") + out.prose("""**Data**: rendered people with
-        exact labels, clips and portraits of real people with labels of MediaPipe, held-out voices. None of it was used
-        for training, except as the [model card](../../models/README.md) states.""")
+        within {known(1, 1, "clips", None, "all", "pose_difference_deg")} degrees. Portraits in the wild: correctly
+        detected {known(1, 100, "wild", "levels", None, "found")} %.
+        [By control](controls.md).""") + out.prose(
+            f"""**Speed**: {speed} [Comparison](peers.md).""") + out.prose("""**Data**: rendered people with exact
+        labels, clips and portraits with labels of MediaPipe, held-out voices. None of it was used for training, except
+        as the [model card](../../models/README.md) states.""")
 
 
-def page(results, seconds, skipped, has_hifinet):
+def page(results, skipped, has_hifinet):
     lines = ["# Results", "",
              "For users who judge whether mien is good enough for them, and for developers who change it.", "",
              *in_short(results)]
     lines += out.prose(
         """Level 1 uses BaseNet's controls and level 4 HiFiNet's. Most goals are those of the published method or
         MediaPipe's own quality; two bounds are for level 1 and level 4. Bold figures miss their goal; a dash: not
-        measured or without a goal.""")
+        measured or without a goal. Pages that name no command are made by `python3 -m mien_training.evaluate`.""")
     if not has_hifinet:
         lines += ["**HiFiNet is not trained yet**: levels 2 to 4 are unknown.", ""]
     lines += [*counts(results), ""]
-    lines += out.prose("[Accuracy by control](controls.md) has the figures of each control.")
     rows, missed = (sum(parts, []) for parts in zip(*(rows_of(part, results) for part in SHOWN)))
     lines += out.table(["figure", "goal", *map(out.level, LEVELS)], rows)
     lines += ["Correlations below their goal:", "", *missed, ""] if missed else []
@@ -91,7 +91,6 @@ def page(results, seconds, skipped, has_hifinet):
         sound = [(bar, bar.figure(results["audio"], None)) for bar in targets.audio()]
         rows = [[bar.title, bar.shown(), cell(bar, value)] for bar, value in sound]
         lines += ["## [Audio](audio.md)", "", *out.table(["figure", "goal", "AudioNet"], rows)]
-    lines += out.prose(f"Made by `python3 -m mien_training.evaluate` in {sum(seconds.values()) / 60:.0f} minutes.")
     if skipped:
         lines += ["## Skipped in the last run", "", *(f"* {s}" for s in skipped), ""]
     return "\n".join(lines)
@@ -99,10 +98,9 @@ def page(results, seconds, skipped, has_hifinet):
 
 def write(folder, skipped, has_hifinet):
     """Writes the page from the results of all parts that are there."""
-    stored = {part: json.loads((folder / f"{part}.json").read_text()) for part in PARTS
-              if (folder / f"{part}.json").exists()}
-    results, seconds = ({part: r[key] for part, r in stored.items()} for key in ("results", "seconds"))
+    results = {part: json.loads((folder / f"{part}.json").read_text())["results"] for part in PARTS
+               if (folder / f"{part}.json").exists()}
     if (folder / "peers.json").exists():
         results["peers"] = json.loads((folder / "peers.json").read_text())
     (folder / "controls.md").write_text(controls_page.page(results))
-    (folder / "README.md").write_text(page(results, seconds, skipped, has_hifinet))
+    (folder / "README.md").write_text(page(results, skipped, has_hifinet))
