@@ -14,8 +14,7 @@ def folder_of(file):
 
 
 def code(text):
-    """One line of Markdown's table."""
-    return "`" + " ".join(text.split()).replace("|", "\\|").replace("`", "'") + "`"
+    return "`" + " ".join(text.split()).replace("`", "'") + "`"
 
 
 class Argued:
@@ -55,9 +54,8 @@ def table(results, argued):
 
 
 def listed(results):
-    rows = [f"| `{result['file']}`, line {result['line']} | {code(result['before'])} | {code(result['after'])} |"
-            for result in results]
-    return ["", "## Survivors", "", "| where | code | mutant |", "|---|---|---|", *rows] if rows else []
+    rows = [f"* `{result['file']}`, line {result['line']}: {code(result['after'])}" for result in results]
+    return ["", "## Survivors", "", *rows] if rows else []
 
 
 def page(results, argued, opening):

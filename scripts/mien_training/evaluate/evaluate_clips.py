@@ -87,22 +87,10 @@ def markdown(report):
     lines = ["# Clips of real people", "",
              "For users who compare mien with MediaPipe Face Landmarker, and for trainers.", ""] + out.prose(f"""Mean
         difference from MediaPipe in landmarks and head pose: {out.by_level(report, total)}. The data are
-        {len(first['clips'])} clips, which were not used for training. MediaPipe is a reference, not the truth.""")
+        {len(first['clips'])} clips with {first['all']['frames']} frames, which were not used for training. MediaPipe is
+        a reference, not the truth.""")
     lines += out.prose(
         f"""mien tracks {out.by_level(report, lambda r: f"{100 * r['all']['face_share']:.1f} %")} of MediaPipe's frames.
         Jitter while MediaPipe's landmarks rest: {out.by_level(report, jitter)}. Pose is the mean angle after removal of
         the best constant rotation.""")
-    header = ["clip", "frames", *(f"{title}, {out.level(name)}" for name in report
-                                  for title in ("landmarks, %", "pose, degrees"))]
-    lines += out.table(header, clip_rows(report))
     return "\n".join(lines)
-
-
-def clip_rows(report):
-    """Cells of every clip, and of all together."""
-    first = next(iter(report.values()))
-    figures = lambda v: [out.number(100 * v.get("landmark_error_pupils", np.nan), 2),
-                         out.number(v.get("pose_difference_deg", np.nan), 2)]
-    of = lambda r, clip: r["all"] if clip == "all" else r["clips"][clip]
-    return [[clip, str(of(first, clip)["frames"]), *(cell for r in report.values() for cell in figures(of(r, clip)))]
-            for clip in (*first["clips"], "all")]
