@@ -1,8 +1,8 @@
 // The strips of tiers that compute in half precision. A tier supplies
 //   kPanel                            channels per panel of strips and bands
-//   half_input(x, plane, blocks, y)   converts a pixel: up to a panel of blocks, `plane` floats
-//   apart depthwise(args, part, y)          computes rows of the band multiply_to_strip(product,
-//   to), multiply_to_map(product, to, fp32_weights)
+//   half_input(x, plane, blocks, y)   converts up to a panel of blocks, `plane` floats apart
+//   depthwise(args, part, y)          computes rows of the band
+//   multiply_to_strip(product, to), multiply_to_map(product, to, fp32_weights)
 #pragma once
 
 #include "kernels/inverted_residual/half_product.h"

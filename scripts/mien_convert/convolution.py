@@ -168,7 +168,7 @@ def pool_windows(shape, kernel, strides, before, after, ceil_mode):
 
 
 def average_pool(t, node):
-    """For windows without padding, or whose padding counts: a depthwise convolution."""
+    """A depthwise convolution, which is correct without padding, or if the mean includes the padding."""
     x, kernel, a = node.inputs[0], node.attributes["kernel_shape"], node.attributes
     require(len(kernel) == 2 and len(x.shape) == 4, f"a pool over {list(kernel)} of {list(x.shape)}")
     strides, dilations = steps_of(a, 2)

@@ -176,6 +176,6 @@ def inlined(model):
 def dimensions(value):
     """None where a dimension is not a number."""
     kind = value.type.WhichOneof("value")
-    require(kind == "tensor_type", f"input {value.name!r} is no tensor (but a {kind or 'value without a type'})")
+    require(kind == "tensor_type", f"input {value.name!r}: not a tensor (got {kind or 'no type'})")
     # A missing value is 0; some exporters write -1.
     return [d.dim_value if d.dim_value > 0 else None for d in value.type.tensor_type.shape.dim]

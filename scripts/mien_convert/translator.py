@@ -36,7 +36,7 @@ class Translator:
         return Tensor(tensors.elements(layer, max(self.steps, 1))[-(steps or self.steps or 1):])
 
     def replaced(self, tensor, replacements):
-        """The elements of some layers become those of others at the same places."""
+        """The tensor's element references, with references to some layers redirected to others."""
         at = tensor.at.copy()
         for old, new in replacements.items():
             mine = (tensor.at >= 0) & (tensor.at >> BITS == old)

@@ -4,7 +4,7 @@ import json
 
 from .worker import IDENTICAL, KILLED, NOT_COMPILED, SURVIVED, WAITING
 
-BAR = 0.95
+MIN_KILLED = 0.95
 ALIVE = (SURVIVED, WAITING)
 
 
@@ -67,4 +67,4 @@ def page(results, argued, opening):
 def enough_killed(results, argued):
     killed = sum(result["outcome"] == KILLED for result in results)
     missed = sum(result["outcome"] in ALIVE and not argued.reason(result) for result in results)
-    return killed >= BAR * (killed + missed)
+    return killed >= MIN_KILLED * (killed + missed)

@@ -7,7 +7,7 @@ import json
 import sys
 from pathlib import Path
 
-from peers import BARS, ENGINES, Runs, fastest, frames, networks, processor, table
+from peers import ENCODER_GOALS, ENGINES, Runs, fastest, frames, networks, processor, table
 
 # of the fastest peer's time at any precision: BaseNet's and HiFiNet's encoder; level 4 beside MediaPipe
 GOALS = {"avx2": (0.6, 0.6, 15), "avx2+vnni": (0.45, 0.45, 20), "avx512": (0.4, 0.5, 25)}
@@ -15,12 +15,12 @@ GOALS = {"avx2": (0.6, 0.6, 15), "avx2+vnni": (0.45, 0.45, 20), "avx512": (0.4, 
 
 def measure(runs):
     return {"rounds": runs.rounds, "processor": processor(),
-            "networks": [r for r in networks(runs) if r["network"] in BARS],
+            "networks": [r for r in networks(runs) if r["network"] in ENCODER_GOALS],
             "frames": frames(runs) if "mediapipe" in runs.measured else None}
 
 
 def rows(name, found):
-    goals = dict(zip(BARS, GOALS[name]))
+    goals = dict(zip(ENCODER_GOALS, GOALS[name]))
     for row in found["networks"]:
         tier, peer = fastest(row["mien"]), fastest(row["peers"])
         times = row["mien"][tier]["min_ms"], row["peers"][peer]["min_ms"]

@@ -149,7 +149,7 @@ def convert(*words):
 
 
 def work(*words):
-    """Billions of instructions or seconds of CPU time; exit code, output."""
+    """Returns billions of instructions, or seconds of CPU time, then exit code and output."""
     if MEASURED != "count":
         seconds, _, code, said = convert(*words)
         return seconds, code, said

@@ -217,7 +217,7 @@ class OutputSafety(unittest.TestCase):
             self.assert_whole_or_absent(whole)
 
     def test_a_prepared_link_is_not_followed(self):
-        """Links at all earlier names of temporary files, and at the output itself."""
+        """Links have the names that temporary files used to have, and that of the output."""
         source, victim = self.inputs / "clip.y4m", self.folder / "victim"
         source.write_bytes(clip(3))
         victim.write_text("mine")

@@ -192,16 +192,16 @@ class Reports(unittest.TestCase):
         self.assertEqual(table, json.loads(report.dump(table)))
 
     def test_bars(self):
-        bar = targets.Bar("leakage", "drift", "<=", 0.1, targets.at(targets.at, "largest"))
-        cells = summary.line(bar, {"leakage": {"LOD1": {"largest": 0.2}, "LOD4": {"largest": 0.05}}})
+        goal = targets.Goal("leakage", "drift", "<=", 0.1, targets.at(targets.at, "largest"))
+        cells = summary.line(goal, {"leakage": {"LOD1": {"largest": 0.2}, "LOD4": {"largest": 0.05}}})
         self.assertEqual(["drift", "<= 0.1", "**0.20**", "0.05"], cells)
-        self.assertEqual("-", summary.line(bar, {})[2])
+        self.assertEqual("-", summary.line(goal, {})[2])
 
     def test_a_control_that_should_be_driven_is_missed(self):
         results = lambda spread: {"LOD1": {"controls": {"jawOpen": {"spread": spread, "correlation": None}}}}
-        bar = targets.Bar("clips", "jawOpen", ">=", 0.9, targets.agreement("jawOpen", targets.at))
-        self.assertEqual("**not driven**", summary.line(bar, {"clips": results(0.1)})[2])
-        self.assertEqual("-", summary.line(bar, {"clips": results(0.001)})[2])
+        goal = targets.Goal("clips", "jawOpen", ">=", 0.9, targets.agreement("jawOpen", targets.at))
+        self.assertEqual("**not driven**", summary.line(goal, {"clips": results(0.1)})[2])
+        self.assertEqual("-", summary.line(goal, {"clips": results(0.001)})[2])
 
     def test_page_says_what_is_not_there(self):
         page = summary.page({}, ["images: the portraits are absent"], has_hifinet=False)

@@ -44,7 +44,7 @@ class TimecodeRate:
         self._last = (second, frame)
 
     def rate(self):
-        """The rate at which the last frame number of a second and the typical step between rows make a second."""
+        """The possible rate that is closest to the typical last frame number of a second plus the typical step."""
         possible = [rate for rate in _RATES if rate > self._largest]
         if not possible or len(self._steps) < _MIN_STEPS or not self._before:
             return _DEFAULT_RATE

@@ -58,7 +58,7 @@ AXES = {
 
 
 def to_space(q, front):
-    """A rotation in the axes of mien as one in the space of a character that faces `front`, a key of AXES."""
+    """Converts a rotation from the axes of mien to those of a character that faces `front`, a key of AXES."""
     turned = [0.0, 0.0, 0.0]
     for part, (axis, sign) in zip(q[1:], AXES[front]):
         turned[axis] = sign * part

@@ -62,7 +62,7 @@ class Encoder(nn.Module):
         return self.output(x), (following, lstm_state)
 
     def folded(self):
-        """[(weight, bias)] of the convolutions, with normalisation and batch norm in them."""
+        """[(weight, bias)] of the convolutions, into which normalisation and batch norm are folded."""
         layers = [convolution.folded() for convolution in self.convolutions]
         weight, bias = layers[0]
         weight = weight / self.deviation.view(1, -1, 1)

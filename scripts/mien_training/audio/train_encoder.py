@@ -51,7 +51,7 @@ class Learner:
             self.step, self.spent = state["step"], state["spent"]
 
     def rate(self):
-        """Warm-up, then down along a cosine to the end of the time given."""
+        """Warm-up, then cosine decay until the time limit."""
         done = min(self.spent / (60 * self.args.minutes), 1)
         return self.args.rate * min(1, (self.step + 1) / 100) * (0.01 + 0.99 * 0.5 * (1 + math.cos(math.pi * done)))
 

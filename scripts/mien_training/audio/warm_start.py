@@ -64,7 +64,7 @@ def decoder_of(decoder, layers):
 
 
 def heads_for(encoder, data, rng, fresh=60, epochs=12):
-    """Heads that learn from `fresh` batches with a fixed encoder."""
+    """Trains new heads on `fresh` batches, each `epochs` times, with a fixed encoder."""
     heads = PhonemeHeads()
     optimizer = torch.optim.AdamW(heads.parameters(), 2e-2)
     seen = []

@@ -16,7 +16,7 @@ CLIP_PORTRAITS = ("vv_040502.jpg", "vv_099911.jpg")  # who speaks in whitehouse_
 
 
 def small(picture, points):
-    """f32 [SIDE*SIDE]: the face without its mean, of length 1."""
+    """f32 [SIDE*SIDE]: a small grey image of the face, with mean 0 and norm 1."""
     low, high = points.min(0), points.max(0)
     side, centre = 1.1 * (high - low).max(), (low + high) / 2
     scale = SIDE / side

@@ -41,7 +41,7 @@ def cut(image, windows):
 
 
 def near(rng, box, count):
-    """Random windows around a box, from almost correct to half beside it."""
+    """Random windows around a box: shifted by a few percent to a third of its size."""
     spread = rng.choice([0.06, 0.15, 0.35], (count, 1))
     shift = rng.uniform(-1, 1, (count, 2)) * spread
     side = box[2] * np.exp(rng.uniform(-1, 1, (count, 1)) * np.minimum(spread * 2, 0.5))

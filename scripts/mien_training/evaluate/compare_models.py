@@ -40,7 +40,7 @@ def differences(one, other):
 
 
 def of_clips(programs, clips, level):
-    """{what: all differences}, frames with a face in both, frames with one in one of them."""
+    """{figure: all differences}, number of frames with a face in both results, and of frames with a face in one."""
     seen = [differences(*(program.track(clip, level) for program in programs)) for clip in clips]
     values = {name: np.concatenate([np.ravel(v) for found, *_ in seen for v in found[name]] or [[]])
               for name in seen[0][0]}

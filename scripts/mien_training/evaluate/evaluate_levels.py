@@ -31,7 +31,7 @@ def cost(rounds):
 
 
 def difference(answers, reference):
-    """Mean |difference| and how many controls both drive."""
+    """Mean absolute difference, and the number of controls that both support."""
     error = np.abs(answers - reference)
     return {"error": float(np.nanmean(error)), "controls": int(np.isfinite(error).any(0).sum())}
 

@@ -65,7 +65,7 @@ def identity_pictures(studio, plan, number):
 
 
 def people_pictures(studio):
-    """Yields (image, labels) of people with random expressions, turned far."""
+    """Yields (image, labels) of people with random expressions and large head rotations."""
     for number in range(PEOPLE):
         rng = np.random.default_rng([SEED, IDENTITIES + number])
         figure, head, place = sitter(studio, rng)

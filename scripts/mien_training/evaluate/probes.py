@@ -28,7 +28,7 @@ def companions():
 
 
 def control_targets():
-    """{(control, kind): the other controls at the same time}; kind: alone, with companions, mouth open."""
+    """{(control, kind): other controls that move with it}; kind: alone, with companions, mouth open."""
     out = {(c, "alone"): {} for c in CONTROLS}
     out.update({(c, "with companions"): others for c, others in companions().items()})
     out.update({("eyeBlink" + side, "mouth open"): {"jawOpen": MOUTH_OPEN} for side in ("Left", "Right")})

@@ -9,32 +9,32 @@ from mien_training.evaluate.inputs import PARTS
 SHOWN = ("synthetic", "response", "leakage", "levels", "clips", "images", "wild", "amplitude")
 
 
-def cell(bar, figure, level=None):
+def cell(goal, figure, level=None):
     if figure is None:
         return "-"
-    shown = "not driven" if figure == targets.NOT_DRIVEN else f"{figure:.{bar.digits}f}"
-    return shown if bar.met(figure, level) else f"**{shown}**"
+    shown = "not driven" if figure == targets.NOT_DRIVEN else f"{figure:.{goal.digits}f}"
+    return shown if goal.met(figure, level) else f"**{shown}**"
 
 
-def line(bar, results):
-    """Cells of a bar."""
-    cells = [cell(bar, bar.figure(results.get(bar.part, {}), level), level) for level in LEVELS]
-    return [bar.title, bar.shown(), *cells]
+def line(goal, results):
+    """Cells of a goal."""
+    cells = [cell(goal, goal.figure(results.get(goal.part, {}), level), level) for level in LEVELS]
+    return [goal.title, goal.shown(), *cells]
 
 
 def rows_of(part, results):
     """Cells of the goals of a part, those of correlations counted in one row, and lines about the missed ones."""
-    bars = [bar for bar in targets.every() if bar.part == part]
-    single = [bar for bar in bars if not bar.title.startswith(targets.CORRELATION)]
-    rows, cells, missed = [line(bar, results) for bar in single], [], []
+    goals = [goal for goal in targets.every() if goal.part == part]
+    single = [goal for goal in goals if not goal.title.startswith(targets.CORRELATION)]
+    rows, cells, missed = [line(goal, results) for goal in single], [], []
     for level in LEVELS:
-        known = [(bar, bar.figure(results.get(part, {}), level)) for bar in bars if bar not in single]
-        known = [(bar, figure) for bar, figure in known if figure is not None]
-        fails = [f"{bar.title.removeprefix(targets.CORRELATION)} {cell(bar, figure, level).strip('*')}"
-                 for bar, figure in known if not bar.met(figure, level)]
+        known = [(goal, goal.figure(results.get(part, {}), level)) for goal in goals if goal not in single]
+        known = [(goal, figure) for goal, figure in known if figure is not None]
+        fails = [f"{goal.title.removeprefix(targets.CORRELATION)} {cell(goal, figure, level).strip('*')}"
+                 for goal, figure in known if not goal.met(figure, level)]
         cells.append(f"{len(known) - len(fails)} of {len(known)} met")
         missed += [f"* [{part}]({part}.md), {out.level(level)}: {', '.join(fails)}"] if fails else []
-    if len(bars) > len(single):
+    if len(goals) > len(single):
         rows.append([f"correlations with MediaPipe, {part}", "", *cells])
     return [[f"[{title}]({part}.md)", *rest] for title, *rest in rows], missed
 
@@ -42,8 +42,8 @@ def rows_of(part, results):
 def counts(results):
     """A line for every level that was measured: the number of goals it meets."""
     for level in LEVELS:
-        figures = [(bar, bar.figure(results.get(bar.part, {}), level)) for bar in targets.every()]
-        known = [bar.met(figure, level) for bar, figure in figures if figure is not None]
+        figures = [(goal, goal.figure(results.get(goal.part, {}), level)) for goal in targets.every()]
+        known = [goal.met(figure, level) for goal, figure in figures if figure is not None]
         if known:
             yield f"* {out.level(level)}: {sum(known)} of {len(known)} goals met."
 
@@ -88,8 +88,8 @@ def page(results, skipped, has_hifinet):
     lines += out.table(["figure", "goal", *map(out.level, LEVELS)], rows)
     lines += ["Correlations below their goal:", "", *missed, ""] if missed else []
     if "audio" in results:
-        sound = [(bar, bar.figure(results["audio"], None)) for bar in targets.audio()]
-        rows = [[bar.title, bar.shown(), cell(bar, value)] for bar, value in sound]
+        sound = [(goal, goal.figure(results["audio"], None)) for goal in targets.audio()]
+        rows = [[goal.title, goal.shown(), cell(goal, value)] for goal, value in sound]
         lines += ["## [Audio](audio.md)", "", *out.table(["figure", "goal", "AudioNet"], rows)]
     if skipped:
         lines += ["## Skipped in the last run", "", *(f"* {s}" for s in skipped), ""]

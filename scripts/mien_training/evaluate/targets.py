@@ -25,11 +25,11 @@ NOT_DRIVEN = float("-inf")  # the figure of a control that should be driven and 
 
 
 @dataclass
-class Bar:
+class Goal:
     part: str        # whose results
     title: str
     sign: str        # "<=", ">=", "<" or ">"
-    bound: object    # in the unit shown; or one for each level, None where the level has no bar
+    bound: object    # in the unit shown; or one for each level, None where the level has no goal
     pick: Callable   # (results, level) -> figure; None where it does not apply
     scale: float = 1.0
     digits: int = 2
@@ -82,36 +82,36 @@ def ratio(above, below):
 def synthetic():
     score = lambda key: at(at, "program", key)
     error = score("facs_error_supported")
-    bar = lambda title, *rest: Bar("synthetic", title, *rest)
-    return [bar("supported controls", ">=", of_levels(36, 44), score("supported"), 1, 0),
-            bar("error of supported controls, relative to the best constant", "<=", 0.5,
+    goal = lambda title, *rest: Goal("synthetic", title, *rest)
+    return [goal("supported controls", ">=", of_levels(36, 44), score("supported"), 1, 0),
+            goal("error of supported controls, relative to the best constant", "<=", 0.5,
                 ratio(error, score("constant_median_supported"))),
-            bar("mean correlation, supported controls", ">=", of_levels(0.75, 0.8), score("correlation_mean")),
-            bar("lowest correlation of a supported control", ">=", 0.5, score("correlation_lowest")),
-            bar("jitter of supported controls, relative to the truth's", "<=", 1,
+            goal("mean correlation, supported controls", ">=", of_levels(0.75, 0.8), score("correlation_mean")),
+            goal("lowest correlation of a supported control", ">=", 0.5, score("correlation_lowest")),
+            goal("jitter of supported controls, relative to the truth's", "<=", 1,
                 ratio(score("jitter_supported"), score("truth_jitter_supported"))),
-            bar("asymmetry x 1e-3", "<=", 3.6, score("asymmetry"), 1e3, 1)]
+            goal("asymmetry x 1e-3", "<=", 3.6, score("asymmetry"), 1e3, 1)]
 
 
 def probes():
-    bar = lambda title, *rest: Bar("response", title, *rest)
-    return [bar("% of supported controls that reach 0.6 alone", ">=", 80,
+    goal = lambda title, *rest: Goal("response", title, *rest)
+    return [goal("% of supported controls that reach 0.6 alone", ">=", 80,
                 over("reached", share(lambda v: v >= 0.6), "controls"), 100, 0),
-            bar("% of supported controls below 0.15 while others move", ">=", 80,
+            goal("% of supported controls below 0.15 while others move", ">=", 80,
                 over("others_at_most", share(lambda v: v < 0.15), "controls"), 100, 0),
-            bar("winks: lowest closed eye", ">", 0.8, over("closed", min, "winks")),
-            bar("winks: highest open eye", "<", 0.2, over("other", max, "winks")),
-            Bar("leakage", "largest drift of a control on a turning neutral face", "<=", 0.1, at(at, "largest"))]
+            goal("winks: lowest closed eye", ">", 0.8, over("closed", min, "winks")),
+            goal("winks: highest open eye", "<", 0.2, over("other", max, "winks")),
+            Goal("leakage", "largest drift of a control on a turning neutral face", "<=", 0.1, at(at, "largest"))]
 
 
 def levels():
     of_hifinet = lambda pick: lambda results, level: pick(results, level) if level == "LOD4" else None
     row = lambda name, key: of_hifinet(at("levels", name, key))
-    bar = lambda title, *rest: Bar("levels", title, *rest)
-    return [bar("error of level 2 against level 4", "<=", 0.0123, row("LOD2", "error"), 1, 4),
-            bar("error of level 3 against level 4", "<=", 0.0059, row("LOD3", "error"), 1, 4),
-            bar("time of level 2 relative to level 4", "<=", 0.55, row("LOD2", "cost_ratio")),
-            bar("memory without weights, MB", "<=", 6, at("levels", at, "tracker_bytes"), 1e-6)]
+    goal = lambda title, *rest: Goal("levels", title, *rest)
+    return [goal("error of level 2 against level 4", "<=", 0.0123, row("LOD2", "error"), 1, 4),
+            goal("error of level 3 against level 4", "<=", 0.0059, row("LOD3", "error"), 1, 4),
+            goal("time of level 2 relative to level 4", "<=", 0.55, row("LOD2", "cost_ratio")),
+            goal("memory without weights, MB", "<=", 6, at("levels", at, "tracker_bytes"), 1e-6)]
 
 
 def agreement(control, *path):
@@ -125,21 +125,21 @@ def agreement(control, *path):
 
 
 def beside_mediapipe(part, path, numbers, landmarks):
-    """Bars of landmarks, pose and controls; `numbers` leads to pose, `path` to the controls; landmarks: (title, key,
+    """Goals of landmarks, pose and controls; `numbers` leads to pose, `path` to the controls; landmarks: (title, key,
     bound)."""
-    bar = lambda title, *rest: Bar(part, title, *rest)
+    goal = lambda title, *rest: Goal(part, title, *rest)
     key = lambda name: at(*numbers, name)
     title, name, bound = landmarks
-    return [bar(f"landmark error, % of {title}", "<=", bound, key(name), 100),
-            bar("head pose, degrees", "<=", 2, key("pose_difference_deg")),
-            *(bar(f"{CORRELATION}{c}", ">=", least, agreement(c, *path)) for c, least in FOLLOWED.items())]
+    return [goal(f"landmark error, % of {title}", "<=", bound, key(name), 100),
+            goal("head pose, degrees", "<=", 2, key("pose_difference_deg")),
+            *(goal(f"{CORRELATION}{c}", ">=", least, agreement(c, *path)) for c, least in FOLLOWED.items())]
 
 
 def clips():
     total = lambda key: at(at, "all", key)
-    bar = lambda title, *rest: Bar("clips", title, *rest)
-    return [bar("% of MediaPipe's frames with a face", ">=", 99, total("face_share"), 100, 1),
-            bar("jitter at rest, relative to MediaPipe", "<=", 1,
+    goal = lambda title, *rest: Goal("clips", title, *rest)
+    return [goal("% of MediaPipe's frames with a face", ">=", 99, total("face_share"), 100, 1),
+            goal("jitter at rest, relative to MediaPipe", "<=", 1,
                 ratio(total("still_jitter"), total("teacher_still_jitter"))),
             *beside_mediapipe("clips", (at,), (at, "all"),
                               ("the pupils' distance", "landmark_error_pupils", of_levels(4.2, 3.5)))]
@@ -147,55 +147,55 @@ def clips():
 
 def images():
     path = ("levels", at, "portraits")
-    return [Bar("images", "% detected", ">=", 99, at(*path, "found"), 100, 1),
+    return [Goal("images", "% detected", ">=", 99, at(*path, "found"), 100, 1),
             *beside_mediapipe("images", path, path,
                               ("the outer eye corner distance", "landmark_error_outer_eyes", 4))]
 
 
 def wild():
     figure = lambda key: at("levels", at, key)
-    bar = lambda title, *rest: Bar("wild", title, *rest)
-    return [bar("% correctly detected", ">=", 97, figure("found"), 100, 1),
-            bar("landmark error, % of the pupils' distance", "<=", 4, figure("error"), 100),
-            bar("landmark error of the worst ethnic group, relative to all", "<=", 1.15, figure("worst_group_ratio"))]
+    goal = lambda title, *rest: Goal("wild", title, *rest)
+    return [goal("% correctly detected", ">=", 97, figure("found"), 100, 1),
+            goal("landmark error, % of the pupils' distance", "<=", 4, figure("error"), 100),
+            goal("landmark error of the worst ethnic group, relative to all", "<=", 1.15, figure("worst_group_ratio"))]
 
 
 def amplitude():
     """How far faces move."""
-    bar = lambda title, *rest: Bar("amplitude", title, *rest)
+    goal = lambda title, *rest: Goal("amplitude", title, *rest)
     peaks = at(at, "clips", "blinks", "peaks")
     portraits, renders = (lambda key: at(at, "portraits", key)), (lambda key: at(at, "renders", key))
     known = lambda rows, key: (row[key] for row in rows.values() if row[key] is not None)
     fits = lambda v: 0.8 <= v <= 1.25
     right = lambda results, level: fmean(fits(renders("controls")(results, level)[c]["ratio"])
                                          for c in results[level]["supported"])
-    return [bar("mean peak of eyeBlink in blinks", ">=", of_levels(0.7, 0.8), lambda *a: fmean(peaks(*a))),
-            bar("% of blinks above 0.5", ">=", 95, lambda *a: fmean(p > 0.5 for p in peaks(*a)), 100, 0),
-            bar("false blinks on clips", "<=", 1, at(at, "clips", "blinks", "false"), 1, 0),
-            bar("mean eyeBlink of closed eyes on portraits", ">=", of_levels(0.7, 0.8), portraits("closed")),
-            bar("neutral portraits: largest mean of a control", "<=", 0.1, portraits("neutral_largest")),
-            bar("neutral portraits: mean of all controls", "<=", 0.03, portraits("neutral_mean"), 1, 3),
-            bar("% of supported controls with 0.8 to 1.25 of the true deviation", ">=", 100, right, 100, 0),
-            bar("rendered neutral faces: largest mean of a control", "<=", 0.1,
+    return [goal("mean peak of eyeBlink in blinks", ">=", of_levels(0.7, 0.8), lambda *a: fmean(peaks(*a))),
+            goal("% of blinks above 0.5", ">=", 95, lambda *a: fmean(p > 0.5 for p in peaks(*a)), 100, 0),
+            goal("false blinks on clips", "<=", 1, at(at, "clips", "blinks", "false"), 1, 0),
+            goal("mean eyeBlink of closed eyes on portraits", ">=", of_levels(0.7, 0.8), portraits("closed")),
+            goal("neutral portraits: largest mean of a control", "<=", 0.1, portraits("neutral_largest")),
+            goal("neutral portraits: mean of all controls", "<=", 0.03, portraits("neutral_mean"), 1, 3),
+            goal("% of supported controls with 0.8 to 1.25 of the true deviation", ">=", 100, right, 100, 0),
+            goal("rendered neutral faces: largest mean of a control", "<=", 0.1,
                 lambda *a: max(known(renders("at_rest")(*a), "mean")))]
 
 
 def audio():
     """Of sound; they have no level."""
     figure = lambda *path: lambda results, _: at(*path)(results, None)
-    bar = lambda title, *rest: Bar("audio", title, *rest)
+    goal = lambda title, *rest: Goal("audio", title, *rest)
     ratio = lambda decibels: figure("activity", str(decibels), "accuracy")
     best_lag = lambda results, _: abs(results["controls"]["held-out clips"]["jawOpen"]["lag"])
-    return [bar("voice activity at 20 dB, % of frames", ">=", 96, ratio(20), 100, 1),
-            bar("voice activity at 5 dB, % of frames", ">=", 90, ratio(5), 100, 1),
-            bar("noise alone: mouth at rest, % of the time", ">=", 95, figure("noise", "all"), 100, 1),
-            bar("jawOpen, correlation with MediaPipe, held-out clips", ">=", 0.7,
+    return [goal("voice activity at 20 dB, % of frames", ">=", 96, ratio(20), 100, 1),
+            goal("voice activity at 5 dB, % of frames", ">=", 90, ratio(5), 100, 1),
+            goal("noise alone: mouth at rest, % of the time", ">=", 95, figure("noise", "all"), 100, 1),
+            goal("jawOpen, correlation with MediaPipe, held-out clips", ">=", 0.7,
                 figure("controls", "held-out clips", "jawOpen", "all frames")),
-            bar("its lag, video frames", "<=", 1, best_lag, 1, 0),
-            bar("jawOpen, other people, GRID clips, mean of clips", ">=", 0.65, clips_of("grid_")),
-            bar("jawOpen, other people, free speech, mean of clips", ">=", 0.4, clips_of("hdtf_", "whitehouse_")),
-            bar("lips closed for p b m, %", ">=", 95, figure("controls", "lips", "closed for p b m"), 100, 1),
-            *(bar(f"{control} on {where}, 95th percentile", ">=", 0.4, figure("controls", "strength", control))
+            goal("its lag, video frames", "<=", 1, best_lag, 1, 0),
+            goal("jawOpen, other people, GRID clips, mean of clips", ">=", 0.65, clips_of("grid_")),
+            goal("jawOpen, other people, free speech, mean of clips", ">=", 0.4, clips_of("hdtf_", "whitehouse_")),
+            goal("lips closed for p b m, %", ">=", 95, figure("controls", "lips", "closed for p b m"), 100, 1),
+            *(goal(f"{control} on {where}, 95th percentile", ">=", 0.4, figure("controls", "strength", control))
               for control, where in (("jawOpen", "open vowels"), ("mouthPucker", "rounded vowels"),
                                      ("mouthFunnel", "rounded vowels")))]
 

@@ -250,7 +250,7 @@ class Trainer:
 
     @torch.no_grad()
     def meet(self, began):
-        """All processes agree on one network (local SGD, Stich 2019) and on the first one's clock."""
+        """Averages the networks of all processes (local SGD, Stich 2019) and takes over the clock of the first."""
         seconds = torch.tensor(time.time() - began, dtype=torch.float64, device=self.device)
         if self.world > 1:
             torch.distributed.broadcast(seconds, 0)
@@ -296,7 +296,7 @@ def parse():
     parser.add_argument("--report-every", type=int, default=50_000)
     parser.add_argument("--real-share", type=float, default=0.2)
     parser.add_argument("--freeze", type=int, default=0, metavar="PARTS",
-                        help="of the encoder's body that do not learn, from the image on")
+                        help="number of the first parts of the encoder's body that do not learn")
     parser.add_argument("--plain", action="store_true", help="PyTorch's own layers and maps in fp32, for comparison")
     parser.add_argument("--through", metavar="DECODERS",
                         help="trained decoders that predict controls and pose, fixed by default")

@@ -27,7 +27,7 @@ class Run:
                                 map_location=next(self.decoder.parameters()).device) if args.out.exists() else None
 
     def begin(self, samples):
-        """Features [n,features] to whiten by, unless there is a checkpoint."""
+        """Features [n,features] for computing the whitening, unless a checkpoint contains it."""
         if self.known is None:
             self.whitening = Whitening.of(samples.float())
             if self.start:
