@@ -76,6 +76,9 @@ std::uint32_t ask_cpu() {
 #ifdef MIEN_HAVE_WASM
   mask |= bit(Tier::kWasm);  // engines without SIMD128 reject the whole module
 #endif
+#ifdef MIEN_HAVE_WASMINT16
+  mask |= bit(Tier::kWasmInt16);
+#endif
   return mask;
 }
 

@@ -19,6 +19,7 @@ constexpr Tier avx512fp16 [[maybe_unused]] = Tier::kAvx512Fp16;
 constexpr Tier avx512vnni [[maybe_unused]] = Tier::kAvx512Vnni;
 constexpr Tier avx2int16 [[maybe_unused]] = Tier::kAvx2Int16;
 constexpr Tier avxvnni [[maybe_unused]] = Tier::kAvxVnni;
+constexpr Tier wasmint16 [[maybe_unused]] = Tier::kWasmInt16;
 }  // namespace tier_of
 
 const Entry* entries(std::size_t& count) {

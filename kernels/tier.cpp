@@ -27,6 +27,8 @@ const char* name(Tier tier) {
       return "avx2int16";
     case Tier::kAvxVnni:
       return "avxvnni";
+    case Tier::kWasmInt16:
+      return "wasmint16";
   }
   return nullptr;
 }

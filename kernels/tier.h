@@ -18,8 +18,9 @@ enum class Tier : std::uint32_t {
   kAvx512Vnni = 8,
   kAvx2Int16 = 9,
   kAvxVnni = 10,
+  kWasmInt16 = 11,
 };
-inline constexpr std::uint32_t kTierCount = 11;
+inline constexpr std::uint32_t kTierCount = 12;
 
 [[nodiscard]] constexpr std::uint32_t bit(Tier tier) {
   return 1u << static_cast<std::uint32_t>(tier);
@@ -27,7 +28,7 @@ inline constexpr std::uint32_t kTierCount = 11;
 
 // Tiers that multiply 16-bit integers in fused blocks.
 inline constexpr std::uint32_t kQuantizedTiers =
-    bit(Tier::kAvx512Vnni) | bit(Tier::kAvx2Int16) | bit(Tier::kAvxVnni);
+    bit(Tier::kAvx512Vnni) | bit(Tier::kAvx2Int16) | bit(Tier::kAvxVnni) | bit(Tier::kWasmInt16);
 [[nodiscard]] constexpr bool is_quantized(Tier tier) { return (kQuantizedTiers & bit(tier)) != 0; }
 
 // Those that also multiply 8-bit integers.
@@ -54,6 +55,7 @@ inline constexpr std::uint32_t kFusedBlocks = 1u << 31;
          : tier == Tier::kAvxVnni    ? above(Tier::kAvx2, 2)
          : tier == Tier::kAvx512Fp16 ? above(Tier::kAvx512, 1)
          : tier == Tier::kAvx512Vnni ? above(Tier::kAvx512, 2)
+         : tier == Tier::kWasmInt16  ? above(Tier::kWasm, 1)
                                      : above(tier, 0);
 }
 

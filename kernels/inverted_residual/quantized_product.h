@@ -44,5 +44,9 @@ void multiply_quantized(const QuantizedProduct& product);
 namespace avx512vnni {
 void multiply_quantized(const QuantizedProduct& product);
 }  // namespace avx512vnni
+namespace wasmint16 {
+void multiply_quantized(const QuantizedProduct& product);
+void multiply_floats(const ProductArgs& product);
+}  // namespace wasmint16
 
 }  // namespace mien::kernels

@@ -39,6 +39,7 @@ TIERS_HERE = """\
 #define MIEN_HAVE_NEON32  // -march=armv7-a -mfpu=neon-vfpv4 -mfp16-format=ieee
 #elif defined(__wasm_simd128__)
 #define MIEN_HAVE_WASM  // -msimd128
+#define MIEN_HAVE_WASMINT16
 #endif
 """
 
@@ -89,6 +90,7 @@ TIERS = [
     Tier("neonfp16", "fullfp16", "arch=armv8.2-a+fp16", ["MIEN_TIER neonfp16", "MIEN_HALF_TIER"], [NEON_PRAGMA]),
     Tier("neon32", defines=["MIEN_TIER neon32"], pragmas=[NEON_PRAGMA]),
     Tier("wasm"),
+    Tier("wasmint16"),
 ]
 
 INCLUDE = re.compile(r'^#include ([<"])([^>"]+)[>"]')

@@ -15,6 +15,8 @@
 #include <string>
 #include <vector>
 
+#include "kernels/tier.h"
+
 namespace {
 
 constexpr int kRounds = 3;
@@ -40,11 +42,12 @@ std::vector<char> read_file(const std::string& path) {
   return bytes;
 }
 
-std::uint32_t tier_of(const std::string& name) {
-  for (std::uint32_t bit = 1; bit != 0; bit <<= 1) {
-    const char* known = mien_cpu_tier_name(bit);
-    if (known != nullptr && name == known && (mien_cpu_tiers() & bit) != 0) {
-      return bit;
+// The tier, the fp32 tiers that it extends, and fused blocks.
+std::uint32_t cpu_mask_of(const std::string& name) {
+  for (std::uint32_t i = 0; i < mien::kernels::kTierCount; ++i) {
+    const auto tier = static_cast<mien::kernels::Tier>(i);
+    if (name == mien::kernels::name(tier) && (mien_cpu_tiers() & mien::kernels::bit(tier)) != 0) {
+      return mien::kernels::up_to(tier) | MIEN_CPU_FUSED;
     }
   }
   fail("tier '" + name + "' is not available here");
@@ -109,7 +112,7 @@ int main(int argc, char** argv) {
   const Clip clip{read_file(argv[2]), std::atoi(argv[3]), std::atoi(argv[4])};
   mien::Config config(loaded.weights);
   config.audio = 0;
-  config.cpu_mask = tier_of(argv[5]);
+  config.cpu_mask = cpu_mask_of(argv[5]);
   config.lod = 4;
   mien::Tracker tracker;
   check(tracker.create(config));
