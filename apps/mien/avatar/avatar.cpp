@@ -55,6 +55,7 @@ std::vector<float> weights(const MorphNode& morphs, const DriverValues& values) 
     sums[share.target] += share.share * values.of(share.driver);
   }
   std::vector<float> result;
+  result.reserve(sums.size());
   for (const double sum : sums) {
     result.push_back(static_cast<float>(std::clamp(sum, 0.0, 1.0)));
   }

@@ -32,8 +32,12 @@ void require_own_data(const Glb& glb, const std::string& name) {
     for (const Json& item : glb.document.value(list, Json::array())) {
       const std::string uri = item.value("uri", "");
       if (!uri.empty() && !uri.starts_with("data:")) {
-        throw Failure(kExitNoInput, name + ": " + list + " in other files are not supported (got " +
-                                        uri + ", expected data in the .glb)");
+        throw Failure(kExitNoInput, std::string(name)
+                                        .append(": ")
+                                        .append(list)
+                                        .append(" in other files are not supported (got ")
+                                        .append(uri)
+                                        .append(", expected data in the .glb)"));
       }
     }
   }

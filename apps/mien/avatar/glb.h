@@ -9,6 +9,7 @@ namespace mien::app {
 
 using Json = nlohmann::ordered_json;
 
+// NOLINTNEXTLINE(bugprone-exception-escape): the checker believes that Json's destructor throws
 struct Glb {
   Json document;
   std::string data;  // as long as buffer 0

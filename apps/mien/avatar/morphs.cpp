@@ -105,6 +105,7 @@ std::vector<Bind> binds_1(const Json& vrm) {
 void drive_by_expressions(const Json& document, const std::vector<Bind>& binds,
                           std::vector<MorphNode>& nodes) {
   std::vector<std::string> names;
+  names.reserve(binds.size());
   for (const Bind& bind : binds) {
     names.push_back(bind.expression);
   }
