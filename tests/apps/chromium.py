@@ -95,8 +95,11 @@ class Chromium:
             self.complaints.append(event["args"])
 
     def open(self, path):
+        self.visit("file://" + os.path.abspath(path))
+
+    def visit(self, url):
         self.loaded = False
-        self.send("Page.navigate", url="file://" + os.path.abspath(path))
+        self.send("Page.navigate", url=url)
         deadline = time.monotonic() + 60
         while not self.loaded:
             self.receive(deadline)

@@ -52,10 +52,10 @@ void copy(const mien_image& image, CameraImage& into) {
 
 }  // namespace
 
-Camera::Camera(const std::string& name)
+Camera::Camera(const std::string& name, bool retries)
     : CaptureThread(name,
                     name.starts_with(kTest) ? open_video(name.substr(kTest.size()), {}) : nullptr,
-                    false) {
+                    retries) {
   if (file_is_empty()) {
     throw Failure(kExitNoVideo, name + ": no image");
   }

@@ -23,9 +23,10 @@ struct CameraImage {
 
 class Camera : public CaptureThread<VideoSource, LiveVideo, mien_image> {
  public:
-  // "none": no images; "test:FILE": a file in real time; otherwise a device or a URL. Throws
-  // Failure if a file has no image.
-  explicit Camera(const std::string& name);
+  // "none": no images; "test:FILE": a file in real time; otherwise a device or a URL. `retries`: a
+  // device that is missing at the start is retried instead of being a failure. Throws Failure if a
+  // file has no image.
+  Camera(const std::string& name, bool retries);
   ~Camera() override { stop(); }
 
   void start(std::int64_t begin_ns);

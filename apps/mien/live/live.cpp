@@ -11,16 +11,18 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/animation/mirror.h"
-#include "apps/mien/live/camera.h"
+#include "apps/mien/live/advice.h"
 #include "apps/mien/live/easing.h"
-#include "apps/mien/live/microphone.h"
+#include "apps/mien/live/inputs.h"
 #include "apps/mien/live/openseeface_points.h"
+#include "apps/mien/live/profile_file.h"
 #include "apps/mien/live/screen.h"
+#include "apps/mien/live/sender_set.h"
 #include "apps/mien/live/statistics.h"
+#include "apps/mien/live_page/page_link.h"
 #include "apps/mien/outputs/distinct_files.h"
 #include "apps/mien/outputs/output_file.h"
 #include "apps/mien/outputs/result_frame.h"
-#include "apps/mien/senders/sender.h"
 #include "apps/mien/sources/capture.h"
 #include "apps/mien/sources/input.h"
 #include "apps/mien/sources/network_input.h"
@@ -33,7 +35,7 @@
 namespace mien::app {
 namespace {
 
-constexpr const char* kNone = "none";
+constexpr const char* kNone = LiveInputs::kNoInput;
 constexpr std::int64_t kFrameNs = 1'000'000'000 / 30;
 constexpr std::int64_t kKeyPollNs = 50'000'000;        // interval of keyboard polls without images
 constexpr std::int64_t kImageTimeoutNs = 500'000'000;  // then frames are output without images
@@ -60,6 +62,13 @@ std::string microphone_of(const LiveOptions& options, const std::string& camera)
   return Input(file_played_by(camera)).has_audio() ? camera : kNone;
 }
 
+template <class... Functions>
+struct Overloaded : Functions... {
+  using Functions::operator()...;
+};
+template <class... Functions>
+Overloaded(Functions...) -> Overloaded<Functions...>;
+
 double time_of_day_s() {
   const auto now = std::chrono::system_clock::now();
   const std::time_t seconds = std::chrono::system_clock::to_time_t(now);
@@ -76,28 +85,30 @@ class Live {
         camera_name_(options.camera.empty() ? default_device(CaptureKind::kCamera)
                                             : options.camera),
         microphone_name_(microphone_of(options, camera_name_)),
+        hears_(microphone_name_ != kNone || (options.page && has_audionet(options.models))),
         loaded_({options.models, options.tier, options.lod, options.budget_ms, options.unfiltered,
-                 1, microphone_name_ != kNone, false, options.voice_strength, options.fov_degrees,
-                 microphone_name_ != kNone ? kQueuedSamples : 0}),
-        camera_(camera_name_),
+                 1, hears_, false, options.voice_strength, options.fov_degrees,
+                 hears_ ? kQueuedSamples : 0}),
+        inputs_(camera_name_, microphone_name_, options.page.has_value(), loaded_.tracker),
+        senders_(options.destinations),
         mirror_(options.mirror),
         automatic_(options.lod == 0) {
     last_frame_.state = animation::FaceState::kSearching;
     require_distinct_files(
         {file_played_by(camera_name_), file_played_by(microphone_name_), options.neutral},
-        {options.stats});
-    if (microphone_name_ != kNone) {
-      check(loaded_.tracker.set_audio_offset(std::llround(options.av_offset_ms * 1e6)),
-            microphone_name_);
-      microphone_ = std::make_unique<Microphone>(microphone_name_, loaded_.tracker);
-    } else if (camera_name_ == kNone) {
+        {options.stats, options.profile});
+    if (camera_name_ == kNone && microphone_name_ == kNone && !options.page) {
       throw Failure(kExitUsage, "--camera none, --mic none: no input to track");
     }
-    if (!options.neutral.empty()) {
-      load_neutral(options.neutral, loaded_.tracker);
+    if (hears_) {
+      check(loaded_.tracker.set_audio_offset(std::llround(options.av_offset_ms * 1e6)),
+            microphone_name_);
     }
-    for (const std::string& destination : options.destinations) {
-      senders_.push_back(open_sender(destination));
+    calibrate();
+    if (options.page) {
+      page_state_.profile_file = options.profile;
+      web_page_.emplace(*options.page, std::vector<std::string>{camera_name_, microphone_name_});
+      std::fprintf(stderr, "page: %s\n", web_page_->url().c_str());
     }
   }
 
@@ -106,12 +117,10 @@ class Live {
     keyboard_ = std::make_unique<Keyboard>();
     page_ = options_.quiet ? nullptr : std::make_unique<Page>();
     begin_ns_ = last_image_ns_ = steady_now_ns();
-    camera_.start(begin_ns_);
-    if (microphone_) {
-      microphone_->start(begin_ns_);
-    }
-    while (!interrupted() && !quit_ && wanted() && !over() && step()) {
+    start_inputs();
+    while (!interrupted() && !quit_ && senders_.wanted() && !over() && step()) {
       take_keys();
+      take_commands();
       draw();
     }
     page_.reset();
@@ -120,13 +129,32 @@ class Live {
   }
 
  private:
+  void calibrate() {
+    if (!options_.profile.empty()) {
+      profile_ = load_profile(options_.profile, options_.page.has_value(), loaded_.tracker);
+    }
+    if (!options_.neutral.empty()) {
+      load_neutral(options_.neutral, loaded_.tracker);
+    }
+  }
+
+  void start_inputs() {
+    try {
+      inputs_.start(begin_ns_);
+    } catch (const Failure& failure) {  // ffmpeg is missing, or the name is invalid
+      throw Failure(failure.code(), advised(CaptureKind::kCamera, failure.what()),
+                    failure.details());
+    }
+  }
+
   // Ctrl-C in a terminal also ends ffmpeg; the resulting camera failure is ignored.
   const CameraImage* newest(std::int64_t until_ns) {
     try {
-      return camera_.newest(until_ns);
-    } catch (const Failure&) {
+      return inputs_.camera().newest(until_ns);
+    } catch (const Failure& failure) {
       if (!interrupted()) {
-        throw;
+        throw Failure(failure.code(), advised(CaptureKind::kCamera, failure.what()),
+                      failure.details());
       }
       return nullptr;
     }
@@ -135,7 +163,7 @@ class Live {
   // Returns false at the end of a file, and if interrupted.
   bool step() {
     const std::int64_t now_ns = steady_now_ns();
-    const bool has_images = camera_name_ != kNone && now_ns - last_image_ns_ < kImageTimeoutNs;
+    const bool has_images = inputs_.has_camera() && now_ns - last_image_ns_ < kImageTimeoutNs;
     const std::int64_t due_ns =
         has_images ? last_image_ns_ + kImageTimeoutNs : last_output_ns_ + kFrameNs;
     const CameraImage* image = newest(std::min(due_ns, now_ns + kKeyPollNs));
@@ -144,30 +172,31 @@ class Live {
     }
     if (image != nullptr) {
       last_image_ns_ = steady_now_ns();
-      check(loaded_.tracker.push_video(image->image, image->time_ns), camera_name_);
+      check(loaded_.tracker.push_video(image->image, image->time_ns), inputs_.camera_name());
       output(image);
-    } else if (camera_.ended() || (camera_name_ == kNone && microphone_->ended())) {
+    } else if (inputs_.camera().ended() || (!inputs_.has_camera() && inputs_.microphone_ended())) {
       return false;
     } else if (steady_now_ns() >= due_ns) {
-      check(loaded_.tracker.advance(steady_now_ns()), camera_name_);
+      check(loaded_.tracker.advance(steady_now_ns()), inputs_.camera_name());
       output(nullptr);
     }
     if (had_image_ && now_ns - std::max(last_image_ns_, last_restart_ns_) > kRestartNs) {
       last_restart_ns_ = now_ns;
-      camera_.restart("no image for 5 s; reopening");
+      inputs_.camera().restart("no image for 5 s; reopening");
     }
     return true;
   }
 
   void output(const CameraImage* image) {
     Result result;
-    check(loaded_.tracker.get_result(result), camera_name_);
+    check(loaded_.tracker.get_result(result), inputs_.camera_name());
     if (image != nullptr) {
       had_image_ = true;
       outgoing_.image = openseeface_image(result, image->image, options_.fov_degrees);
     }
     const std::int64_t now_ns = steady_now_ns();
-    outgoing_.frame = easing_.next(frame_of(number_++, result));
+    const animation::Frame raw = easing_.next(frame_of(number_++, result));
+    outgoing_.frame = profile_.applied(raw);
     outgoing_.since_start_s = static_cast<double>(now_ns - begin_ns_) * 1e-9;
     outgoing_.unix_time_s =
         std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
@@ -185,19 +214,17 @@ class Live {
     calibrating_ = (result.flags & MIEN_RESULT_CAPTURING_NEUTRAL) != 0;
     statistics_.frame(result, last_output_ns_,
                       image != nullptr ? last_output_ns_ - image->arrival_ns : -1);
+    if (web_page_) {
+      web_page_->show(last_frame_, raw);
+    }
+    if (web_page_ && image != nullptr) {
+      web_page_->show(image->image);
+    }
   }
 
   void send(const Outgoing& outgoing) {
-    for (const std::unique_ptr<Sender>& sender : senders_) {
-      dropped_packets_ += sender->send(outgoing) ? 0 : 1;
-    }
+    dropped_packets_ += senders_.send(outgoing);
     last_frame_ = outgoing.frame;
-  }
-
-  // Whether a sender still has a receiver: the reader of a pipe may have closed it.
-  [[nodiscard]] bool wanted() const {
-    return senders_.empty() || std::any_of(senders_.begin(), senders_.end(),
-                                           [](const auto& sender) { return sender->wanted(); });
   }
 
   [[nodiscard]] bool over() const {
@@ -219,6 +246,59 @@ class Live {
     }
   }
 
+  void take_commands() {
+    while (const auto command = web_page_ ? web_page_->next_command() : std::nullopt) {
+      page_state_.message.clear();
+      try {
+        obey(*command);
+      } catch (const Failure& failure) {
+        page_state_.message = failure.what();
+      }
+      last_draw_ns_ = 0;  // the page shows the effect at once
+    }
+  }
+
+  void obey(const PageCommand& command) {
+    std::visit(Overloaded{[&](const SetMirror& set) { mirror_ = set.mirror; },
+                          [&](const SetLevel& set) { set_level(set.level); },
+                          [&](const CaptureNeutral&) {
+                            check(loaded_.tracker.capture_neutral(), "calibration");
+                          },
+                          [&](const SetSender& set) { senders_.pause(set.sender, set.paused); },
+                          [&](const SetCamera& set) { set_camera(set.name); },
+                          [&](const SetMicrophone& set) { set_microphone(set.name); },
+                          [&](const Adjust& adjust) {
+                            for (const ControlAdjustment& change : adjust.controls) {
+                              profile_.controls[change.control] = change.adjustment;
+                            }
+                          },
+                          [&](const SaveProfile&) { save(); }},
+               command);
+  }
+
+  void set_camera(const std::string& name) {
+    inputs_.set_camera(name);
+    had_image_ = false;
+    last_image_ns_ = steady_now_ns();
+  }
+
+  void set_microphone(const std::string& name) {
+    if (name != kNone && !hears_) {
+      throw Failure(kExitModel, "microphone: audionet.mien is missing");
+    }
+    inputs_.set_microphone(name);
+  }
+
+  void save() {
+    take_neutral(loaded_.tracker, profile_);
+    if (options_.profile.empty()) {
+      web_page_->offer_profile(profile_);
+    } else {
+      save_profile(options_.profile, profile_);
+    }
+    ++page_state_.saved;
+  }
+
   // Ignores a level without weights.
   void set_level(int level) {
     if (loaded_.tracker.set_lod(level) == MIEN_OK) {
@@ -232,31 +312,30 @@ class Live {
       return;
     }
     last_draw_ns_ = now_ns;
-    const std::string camera = camera_.error();
-    const std::string microphone = microphone_ ? microphone_->error() : "";
+    const ScreenState state = screen_state();
+    if (web_page_) {
+      web_page_->show(state, page_state_, statistics_, profile_);
+    }
     if (page_ && page_->is_terminal()) {
-      page_->draw(screen_text(screen_state(camera, microphone), statistics_));
+      page_->draw(screen_text(state, statistics_));
     } else if (page_) {
-      print_if_changed(camera, printed_camera_error_);
-      print_if_changed(microphone, printed_microphone_error_);
+      print_if_changed(state.camera.error, printed_camera_error_);
+      print_if_changed(state.microphone.error, printed_microphone_error_);
     }
   }
 
-  [[nodiscard]] ScreenState screen_state(const std::string& camera,
-                                         const std::string& microphone) const {
+  [[nodiscard]] ScreenState screen_state() {
     ScreenState state;
-    state.camera = printable(camera.empty() ? camera_name_ : camera + "; retrying");
-    state.microphone = printable(microphone.empty() ? microphone_name_ : microphone + "; retrying");
-    for (const std::unique_ptr<Sender>& sender : senders_) {
-      const std::string more = sender->state();
-      state.receivers.push_back(printable(sender->name() + (more.empty() ? "" : ", " + more)));
-    }
+    state.camera = inputs_.camera_state();
+    state.microphone = inputs_.microphone_state();
+    state.receivers = senders_.states();
+    state.page = web_page_ ? web_page_->url() : "";
     state.frame = last_frame_;
     state.level = level_;
     state.automatic = automatic_;
     state.mirrored = mirror_;
     state.calibrating = calibrating_;
-    state.dropped_images = camera_.dropped();
+    state.dropped_images = inputs_.dropped();
     state.dropped_packets = dropped_packets_;
     return state;
   }
@@ -278,7 +357,7 @@ class Live {
       const nlohmann::ordered_json stats = {{"seconds", seconds},
                                             {"frames", statistics_.frames()},
                                             {"frames_with_face", statistics_.face_frames()},
-                                            {"dropped_pictures", camera_.dropped()},
+                                            {"dropped_pictures", inputs_.dropped()},
                                             {"dropped_packets", dropped_packets_},
                                             {"latency_ms",
                                              {{"median", latency.quantile(0.5)},
@@ -294,20 +373,23 @@ class Live {
                    "packets\nlatency from image to packet: median %.1f ms, 99 %% within %.1f ms\n",
                    static_cast<unsigned long long>(statistics_.frames()), seconds,
                    static_cast<unsigned long long>(statistics_.face_frames()),
-                   static_cast<unsigned long long>(camera_.dropped()),
+                   static_cast<unsigned long long>(inputs_.dropped()),
                    static_cast<unsigned long long>(dropped_packets_), latency.quantile(0.5),
                    latency.quantile(0.99));
     }
   }
 
   const LiveOptions& options_;
-  std::string camera_name_, microphone_name_;
+  std::string camera_name_, microphone_name_;  // at the start
+  bool hears_;                                 // the tracker accepts audio
   LoadedTracker loaded_;
-  mutable Camera camera_;
-  std::unique_ptr<Microphone> microphone_;  // null: no audio
-  std::vector<std::unique_ptr<Sender>> senders_;
+  LiveInputs inputs_;
+  SenderSet senders_;
+  Profile profile_;
+  std::optional<PageLink> web_page_;
   std::unique_ptr<Keyboard> keyboard_;
   std::unique_ptr<Page> page_;
+  PageState page_state_;
   Easing easing_;
   LiveStatistics statistics_;
   Outgoing outgoing_;

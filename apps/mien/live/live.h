@@ -2,6 +2,7 @@
 // programs.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,8 @@ struct LiveOptions {
   std::optional<std::string> microphone;  // default: the microphone that belongs to the camera
   std::vector<std::string> destinations;  // empty: nothing is sent
   std::string neutral;                    // neutral file; empty: none
+  std::string profile;                    // file; empty: none
+  std::optional<std::uint16_t> page;      // port of the page, 0: a free one; default: no page
   std::string stats;                      // path; empty: none
   std::string models, tier;
   std::optional<int> lod;  // 0: automatic; default: the highest level with weights

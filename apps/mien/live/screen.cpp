@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "apps/animation/numbers.h"
+#include "apps/mien/system/printable.h"
 
 namespace mien::app {
 namespace {
@@ -85,15 +86,28 @@ std::string bars(const animation::Frame& frame) {
   return text;
 }
 
+std::string input_text(const InputState& input) {
+  return printable(input.error.empty() ? input.name : input.error + "; retrying");
+}
+
+std::string receiver_text(const ReceiverState& receiver) {
+  return printable(receiver.name + (receiver.detail.empty() ? "" : ", " + receiver.detail) +
+                   (receiver.paused ? ", paused" : ""));
+}
+
 }  // namespace
 
 std::string screen_text(const ScreenState& state, const LiveStatistics& statistics) {
-  std::string text = labelled("camera", state.camera) + labelled("microphone", state.microphone);
-  for (const std::string& receiver : state.receivers) {
-    text += labelled("sends to", receiver);
+  std::string text = labelled("camera", input_text(state.camera)) +
+                     labelled("microphone", input_text(state.microphone));
+  for (const ReceiverState& receiver : state.receivers) {
+    text += labelled("sends to", receiver_text(receiver));
   }
   if (state.receivers.empty()) {
     text += labelled("sends to", "no receiver");
+  }
+  if (!state.page.empty()) {
+    text += labelled("page", state.page);
   }
   text += labelled("frames", animation::fixed(statistics.frames_per_second(), 1) +
                                  " per second, dropped: " + std::to_string(state.dropped_images) +

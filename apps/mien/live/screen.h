@@ -6,15 +6,18 @@
 #include <vector>
 
 #include "apps/animation/clip.h"
+#include "apps/mien/live/inputs.h"
+#include "apps/mien/live/sender_set.h"
 #include "apps/mien/live/statistics.h"
 
 namespace mien::app {
 
 struct ScreenState {
-  std::string camera, microphone;      // name, or the reason why there is no input
-  std::vector<std::string> receivers;  // one line each
-  animation::Frame frame;              // as sent
-  int level = 0;                       // current level of detail
+  InputState camera, microphone;
+  std::vector<ReceiverState> receivers;
+  std::string page;        // URL; empty: none
+  animation::Frame frame;  // as sent
+  int level = 0;           // current level of detail
   bool automatic = false, mirrored = false, calibrating = false;
   std::uint64_t dropped_images = 0;  // since the start
   std::uint64_t dropped_packets = 0;

@@ -4,6 +4,8 @@
 namespace mien::app {
 
 extern const char kComparePage[];
+extern const char kLivePage[];
+extern const char kObsPage[];
 extern const char kReportPage[];
 
 }  // namespace mien::app

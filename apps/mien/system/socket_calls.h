@@ -1,6 +1,8 @@
 // Socket functions that differ between POSIX and Windows.
 #pragma once
 
+#include <chrono>
+
 #ifdef _WIN32
 #include "apps/mien/system/win32/socket_calls.h"
 #else
@@ -14,6 +16,12 @@ void close(Handle handle);
 void prepare(Handle handle);  // non-blocking, not inherited, and errors of sent packets do not fail
                               // later receives
 std::string last_error();
+[[nodiscard]] bool would_block();  // whether the last call failed because it would have to wait
+
+enum class Event { kReadable, kWritable };
+// Returns false if the time has passed. True also after an error, which the next call reports.
+[[nodiscard]] bool wait(Handle handle, Event event, std::chrono::milliseconds within);
+
 std::string name_error(int error);  // for errors of getaddrinfo
 
 // Selects an address from the result of getaddrinfo: the first IPv4 address if there is one,

@@ -8,13 +8,19 @@ foreach(module IN LISTS avatar_modules)
   list(APPEND avatar_files ${avatar_folder}/${module}.js)
 endforeach()
 
+# Sets `result` to a module without its imports and exports.
+function(classic_script result module)
+  string(REGEX REPLACE "\nimport [^\n]* from '[^\n]*';" "" module "\n${module}")
+  string(REGEX REPLACE "\nexport " "\n" module "${module}")
+  set(${result} "${module}" PARENT_SCOPE)
+endfunction()
+
 # Sets `result` to the script.
 function(avatar_script result)
   set(script "")
   foreach(file IN LISTS avatar_files)
     file(READ ${file} module)
-    string(REGEX REPLACE "\nimport [^\n]* from '[^\n]*';" "" module "\n${module}")
-    string(REGEX REPLACE "\nexport " "\n" module "${module}")
+    classic_script(module "${module}")
     string(APPEND script "${module}")
   endforeach()
   set(${result} "const {Avatar, controlNames} = (() => {\n${script}\nreturn {Avatar, controlNames};\n})();\n" PARENT_SCOPE)

@@ -2,6 +2,7 @@
 #include "apps/mien/system/socket_calls.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -19,6 +20,13 @@ void prepare(Handle handle) {
 }
 
 std::string last_error() { return std::strerror(errno); }
+
+bool would_block() { return errno == EAGAIN || errno == EINTR; }
+
+bool wait(Handle handle, Event event, std::chrono::milliseconds within) {
+  pollfd waiting = {handle, static_cast<short>(event == Event::kReadable ? POLLIN : POLLOUT), 0};
+  return poll(&waiting, 1, static_cast<int>(within.count())) > 0;
+}
 
 std::string name_error(int error) { return gai_strerror(error); }
 

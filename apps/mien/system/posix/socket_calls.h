@@ -3,6 +3,7 @@
 
 #include <netdb.h>
 #include <netinet/in.h>
+#include <netinet/tcp.h>
 #include <sys/socket.h>
 
 #include <cstddef>
@@ -12,5 +13,9 @@ namespace mien::app::sockets {
 
 using Handle = int;
 using Length = std::size_t;
+
+// The option that lets a server listen again on the port of a program that has just ended, while
+// two programs cannot share a port.
+inline constexpr int kExclusivePort = SO_REUSEADDR;
 
 }  // namespace mien::app::sockets

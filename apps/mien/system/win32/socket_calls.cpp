@@ -28,6 +28,14 @@ void prepare(Handle handle) {
 
 std::string last_error() { return std::system_category().message(WSAGetLastError()); }
 
+bool would_block() { return WSAGetLastError() == WSAEWOULDBLOCK; }
+
+bool wait(Handle handle, Event event, std::chrono::milliseconds within) {
+  WSAPOLLFD waiting = {handle,
+                       static_cast<SHORT>(event == Event::kReadable ? POLLRDNORM : POLLWRNORM), 0};
+  return WSAPoll(&waiting, 1, static_cast<int>(within.count())) > 0;
+}
+
 std::string name_error(int error) { return std::system_category().message(error); }
 
 }  // namespace mien::app::sockets

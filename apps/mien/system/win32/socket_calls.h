@@ -11,4 +11,7 @@ namespace mien::app::sockets {
 using Handle = SOCKET;
 using Length = int;
 
+// SO_REUSEADDR would let other programs take over the port.
+inline constexpr int kExclusivePort = SO_EXCLUSIVEADDRUSE;
+
 }  // namespace mien::app::sockets
