@@ -161,7 +161,7 @@ export interface Shape {
   channels: number;
 }
 
-/** Views of the module's memory: valid until something else of the module is created. */
+/** Views of the module's memory, valid until the module creates another object. */
 export interface TensorView {
   data: Float32Array;
   shape: Shape;

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""Error of tracked controls against true ones, standard library only.  usage: compare_truth.py TRACKED.csv TRUTH.csv
+"""Prints the error of tracked controls compared with true ones, with the standard library only.
 
+usage: compare_truth.py TRACKED.csv TRUTH.csv
 The FACS error is the mean absolute difference over the supported controls, printed beside that of the best constant:
 each control's mean over the clip, which an untrained tracker could output.
 """

@@ -10,7 +10,7 @@ ORDERS = {"".join("chw"[axis] for axis in order): order for order in itertools.p
 
 
 class Piece:
-    """channels: [(first, last)...] of a layer, rows and columns: (first, last); read in an order of ORDERS."""
+    """A part of a layer: channels [(first, last)...], rows and columns (first, last), read in an order of ORDERS."""
 
     def __init__(self, layer, channels, rows, columns, order):
         self.layer, self.channels, self.rows, self.columns, self.order = layer, channels, rows, columns, order

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""Times networks that export_onnx.py wrote in one engine on one thread, as JSON.  usage: engines.py ENGINE DIR
+"""Times the networks of export_onnx.py in an engine on one thread, and prints JSON.
 
+usage: engines.py ENGINE DIR
 It is an error if the engine is not installed or its output differs from PyTorch's. Networks without a file for the
 engine are skipped.
 """

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Writes networks for other engines to time.  usage: export_onnx.py OUT_DIR
+"""Writes the networks as ONNX for other engines.
 
-NAME.onnx, and NAME.npz with the inputs by name, in order, and the first output, `answer`.
+usage: export_onnx.py OUT_DIR
+Writes NAME.onnx, and NAME.npz with the inputs by name, in order, and the first output, `answer`.
 Networks over time run one step, with their state as inputs and outputs.
 """
 import sys

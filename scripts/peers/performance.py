@@ -71,8 +71,8 @@ def to_text(figures):
              "compute the encoders' blocks "
              "[with 16 bits](../architecture.md#half-precision). The peak is that of a loop of fused multiply-adds in "
              f"registers, in GFLOP/s: {peaks}.", "",
-             "## Networks", "",
-             "[performance.json](performance.json) has all networks.", ""]
+             "## Networks", "", "[performance.json](performance.json) has all networks; "
+             "`scripts/measure/bench_history.sh` prints their history.", ""]
     shown = [r for r in figures["networks"] if r["macs"] > 1e6]
     lines += table(("network", "tier", "us", "of the peak", "of ONNX Runtime"),
                    [(r["network"], r["tier"], f"{r['min_us']:.1f}", f"{100 * r['peak_share']:.0f} %",

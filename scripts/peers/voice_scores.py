@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""How well mien and Silero VAD detect the speech of voice_sets.py, and the time that Silero VAD takes, as JSON.  usage:
-voice_scores.py mien|silero DIR
+"""Prints how well mien or Silero VAD detects the speech of voice_sets.py, and the time that Silero VAD takes, as JSON.
 
-mien is the library that MIEN_LIBRARY names, with the weights of models/, and its voice activity the output of the
-network without attack and release. Both outputs may be shifted by some windows against the truth; the best counts.
+usage: voice_scores.py mien|silero DIR
+MIEN_LIBRARY names mien's library, which uses the weights of models/; attack and release are off. Of shifts by some
+windows against the truth, the best counts.
 """
 import ctypes
 import json

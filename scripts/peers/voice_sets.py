@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Held-out speech in held-out noise, as docs/results/audio.md has it, for voice_scores.py.  usage: voice_sets.py
-OUT_DIR
+"""Writes held-out speech in held-out noise, as in docs/results/audio.md, for voice_scores.py.
 
-voice_RATIO.npz: sound_I, f32 at 16 kHz, and truth_I, bool of each window of 16 ms. Decodes the recordings when that was
-not done yet.
+usage: voice_sets.py OUT_DIR
+Writes voice_RATIO.npz: sound_I, f32 at 16 kHz, and truth_I, bool of each window of 16 ms. Decodes the recordings first
+if necessary.
 """
 import sys
 from pathlib import Path

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Writes mini.mien and PyTorch's outputs for the same fp16 weights, for tests/engine/golden_test.cpp.
 
-Small networks with random weights that use every kind of layer, built by the very functions that export the trained
-ones; a second "file" with the same interface evaluates them in PyTorch instead of writing them.  usage: make_golden.py
+usage: make_golden.py
+Small networks with random weights use every kind of layer, built by the functions that export the trained ones; a
+second "file" with the same interface evaluates them in PyTorch.
 """
 from pathlib import Path
 

@@ -20,7 +20,7 @@ from mien_training.paths import cache
 
 TEACHER_FOV = np.radians(63)  # vertical field of view of the camera that MediaPipe assumes (face_geometry)
 GUESSED = 0.3                 # trust in labels of blurred images
-# variance of the Laplacian of the face at BaseNet's scale, in that of the image, below which it is
+# An image is blurred if the Laplacian of the face at BaseNet's scale has less variance, relative to the image's.
 BLURRED = 0.1
 
 

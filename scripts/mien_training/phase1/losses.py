@@ -108,8 +108,8 @@ class Turn:
 
 
 def teacher_spread(controls, least=RESPONDING):
-    """Of the teacher's controls [n,52] on portraits: the spread of each [52], and which respond so much and can be
-    trusted, [52]."""
+    """Standard deviation [52] of each of the teacher's controls [n,52] on portraits, at least `least`, and whether it
+    exceeds `least` and the control is reliable [52]."""
     spread = controls.std(0)
     trusted = torch.tensor([name not in NOT_FOLLOWED for name in CONTROLS], device=controls.device)
     return spread.clamp(min=least), (spread > least) & trusted

@@ -7,7 +7,7 @@
 namespace mien::training {
 namespace {
 
-// first: the norm of x; none if weight is null, when the convolution reads x itself.
+// `first` is the norm of x. If its weight is null, the convolution reads x itself.
 Line line_before(std::size_t channels, Norm first) {
   return first.weight ? Line(channels, first) : Line(channels);
 }
