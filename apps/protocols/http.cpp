@@ -109,7 +109,8 @@ HttpParse read_head(std::string_view head, HttpRequest& request) {
   while (!head.empty()) {
     const std::string_view line = head.substr(0, head.find(kLineEnd));
     head.remove_prefix(std::min(head.size(), line.size() + kLineEnd.size()));
-    const HttpParse parsed = is_first ? read_request_line(line, request) : read_field(line, request);
+    const HttpParse parsed =
+        is_first ? read_request_line(line, request) : read_field(line, request);
     if (parsed != HttpParse::kOk) {
       return parsed;
     }
@@ -161,7 +162,8 @@ std::string_view HttpRequest::field(std::string_view name) const {
   return found == fields.end() ? std::string_view() : std::string_view(found->second);
 }
 
-HttpParse parse_http_request(std::string_view bytes, HttpRequest& request, std::size_t& used_bytes) {
+HttpParse parse_http_request(std::string_view bytes, HttpRequest& request,
+                             std::size_t& used_bytes) {
   const std::size_t end = bytes.substr(0, kHttpMaxHeadBytes).find(kHeadEnd);
   if (end == std::string_view::npos) {
     return bytes.size() < kHttpMaxHeadBytes ? HttpParse::kIncomplete : HttpParse::kHeadTooLarge;

@@ -16,8 +16,8 @@ inline constexpr std::size_t kHttpMaxBodyBytes = 16384;  // body of a request
 inline constexpr std::size_t kHttpMaxFields = 64;
 
 struct HttpRequest {
-  std::string method;  // "GET"
-  std::string target;  // "/path?query", as received
+  std::string method;                                       // "GET"
+  std::string target;                                       // "/path?query", as received
   std::vector<std::pair<std::string, std::string>> fields;  // names in lower case
   std::string body;
   bool keep_alive = true;
@@ -37,9 +37,9 @@ enum class HttpParse : int {
   kVersion = 505,
 };
 
-// Parses the request at the start of `bytes`, which holds everything received so far. Sets `request`
-// and `used_bytes` only if it returns kOk. Rejects what servers and proxies could read differently:
-// bare line feeds, folded fields, repeated Host or Content-Length.
+// Parses the request at the start of `bytes`, which holds everything received so far. Sets
+// `request` and `used_bytes` only if it returns kOk. Rejects what servers and proxies could read
+// differently: bare line feeds, folded fields, repeated Host or Content-Length.
 [[nodiscard]] HttpParse parse_http_request(std::string_view bytes, HttpRequest& request,
                                            std::size_t& used_bytes);
 

@@ -92,8 +92,9 @@ TEST(Http, ClosesWhenAskedAndWithOldClients) {
 }
 
 TEST(Http, WritesResponses) {
-  EXPECT_EQ(protocols::http_response(404, "text/plain", "no", {{"A", "b"}}),
-            "HTTP/1.1 404 Not Found\r\nA: b\r\nContent-Type: text/plain\r\nContent-Length: 2\r\n\r\nno");
+  EXPECT_EQ(
+      protocols::http_response(404, "text/plain", "no", {{"A", "b"}}),
+      "HTTP/1.1 404 Not Found\r\nA: b\r\nContent-Type: text/plain\r\nContent-Length: 2\r\n\r\nno");
   EXPECT_EQ(protocols::http_response(204, "", ""), "HTTP/1.1 204 No Content\r\n\r\n");
 }
 
@@ -166,7 +167,8 @@ TEST(Board, WantsAPreviewOnlyWhileAReaderWaits) {
 // Blue, green and red of a pixel from the top left.
 std::array<int, 3> pixel_of(const std::string& bmp, int x, int y, int height) {
   const std::size_t row_bytes = (bmp.size() - 54) / static_cast<std::size_t>(height);
-  const std::size_t at = 54 + static_cast<std::size_t>(height - 1 - y) * row_bytes + static_cast<std::size_t>(x) * 3;
+  const std::size_t at =
+      54 + static_cast<std::size_t>(height - 1 - y) * row_bytes + static_cast<std::size_t>(x) * 3;
   return {static_cast<unsigned char>(bmp[at]), static_cast<unsigned char>(bmp[at + 1]),
           static_cast<unsigned char>(bmp[at + 2])};
 }
@@ -189,7 +191,8 @@ TEST(Preview, KeepsTheColorsOfSmallImages) {
 }
 
 TEST(Preview, ConvertsYuvOfBothRanges) {
-  const std::vector<unsigned char> luma(640 * 480, 81), blue(320 * 240, 90), red(320 * 240, 240);
+  const std::vector<unsigned char> luma(std::size_t{640} * 480, 81),
+      blue(std::size_t{320} * 240, 90), red(std::size_t{320} * 240, 240);
   mien_image image;
   mien_image_default(&image);
   image.format = MIEN_IMAGE_I420;
@@ -210,7 +213,7 @@ TEST(Preview, ConvertsYuvOfBothRanges) {
 }
 
 TEST(Preview, HasSquarePixels) {
-  const std::vector<unsigned char> gray(720 * 576, 128);
+  const std::vector<unsigned char> gray(std::size_t{720} * 576, 128);
   mien_image image;
   mien_image_default(&image);
   image.format = MIEN_IMAGE_GRAY8;

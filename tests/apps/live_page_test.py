@@ -5,6 +5,7 @@ usage: live_page_test.py MIEN_PROGRAM SOURCE_FOLDER
 import contextlib
 import http.client
 import json
+import os
 import socket
 import struct
 import subprocess
@@ -244,6 +245,24 @@ class Control(Shared):
                 self.assertIn(f"--page: cannot listen on port {port} of 127.0.0.1", done.stderr)
                 live.events()
                 self.assertEqual(live.stop()[0], 0)
+
+    def test_a_token_can_be_kept(self):
+        token = self.path("token")
+        with Live("--camera", "none", "--page-token", token) as first:
+            self.assertEqual(os.stat(token).st_mode & 0o777, 0o600)
+        with Live("--camera", "none", "--page-token", token) as second:
+            self.assertEqual(second.path, first.path)
+            self.assertEqual(second.get("")[0], 200)
+        for text in ("", "0" * 31, "0" * 33, "0" * 31 + "/", "0" * 31 + "A"):
+            with open(token, "w") as file:
+                file.write(text)
+            done = subprocess.run(arguments("--camera", "none", "--page-token", token), capture_output=True, text=True, timeout=60)
+            self.assertEqual((done.returncode, done.stderr),
+                             (3, f"mien: --page-token {token}: not a token (expected 32 hexadecimal digits in lower case)\n"))
+        done = subprocess.run(arguments("--page-token", self.path("no/folder")), capture_output=True, timeout=60)
+        self.assertEqual(done.returncode, 7)
+        done = subprocess.run([PROGRAM, "live", "--page-token", token], capture_output=True, text=True, timeout=60)
+        self.assertEqual(done.returncode, 2)  # needs --page
 
     def test_ctrl_c_ends_the_program_while_clients_listen(self):
         live = self.live("--mic", "none")

@@ -39,12 +39,18 @@ void add_live(CLI::App& program) {
   verb->add_option("--profile", options->profile,
                    "calibration of a person, written by the page: neutral values, and a gain and a "
                    "dead zone per control; with --page, the file need not exist yet");
-  verb->add_option("--page", options->page,
-                   "serve a page for this machine's browsers at this port, 1 to 65535 (default: a "
-                   "free port); its URL is printed")
-      ->expected(0, 1)
-      ->default_str("0")
-      ->check(CLI::Range(0, 65535));
+  auto* page =
+      verb->add_option(
+              "--page", options->page,
+              "serve a page for this machine's browsers at this port, 1 to 65535 (default: a "
+              "free port); its URL is printed")
+          ->expected(0, 1)
+          ->default_str("0")
+          ->check(CLI::Range(0, 65535));
+  verb->add_option("--page-token", options->page_token,
+                   "keep the secret part of the page's URL in this file, created if it does not "
+                   "exist (default: a new one for each run)")
+      ->needs(page);
   verb->add_option("--tier", options->tier, "kernel tier: ref, avx2, avx512, ...");
   verb->add_option("--models", options->models, "folder of the model files");
   verb->add_option("--duration", options->duration_s, "end after this number of seconds")

@@ -41,6 +41,7 @@ const std::map<std::string, std::string>& value_names() {
       {"--neutral", "FILE"},
       {"--profile", "FILE"},
       {"--page", "[PORT]"},
+      {"--page-token", "FILE"},
       {"--max-faces", "N"},
       {"--tier", "NAME"},
       {"--models", "DIR"},

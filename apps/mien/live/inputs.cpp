@@ -13,11 +13,15 @@ LiveInputs::LiveInputs(const std::string& camera, const std::string& microphone,
     : tracker_(tracker),
       camera_state_{camera, {}},
       microphone_state_{microphone, {}},
-      camera_(std::make_unique<Camera>(camera, retries)),
-      microphone_(open_microphone(microphone)) {}
+      camera_(std::make_unique<Camera>(camera, retries)) {
+  open_microphone();
+}
 
-std::unique_ptr<Microphone> LiveInputs::open_microphone(const std::string& name) {
-  return name == kNoInput ? nullptr : std::make_unique<Microphone>(name, tracker_);
+void LiveInputs::open_microphone() {
+  microphone_.reset();  // closed first, because the same device may be opened again
+  if (microphone_state_.name != kNoInput) {
+    microphone_ = std::make_unique<Microphone>(microphone_state_.name, tracker_);
+  }
 }
 
 void LiveInputs::start(std::int64_t begin_ns) {
@@ -37,10 +41,8 @@ void LiveInputs::set_camera(const std::string& name) {
 }
 
 void LiveInputs::set_microphone(const std::string& name) {
-  auto microphone = open_microphone(name);
-  microphone_.reset();
-  microphone_ = std::move(microphone);
   microphone_state_ = {name, {}};
+  open_microphone();
   if (microphone_) {
     microphone_->start(steady_now_ns());
   }

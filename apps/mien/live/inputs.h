@@ -24,8 +24,8 @@ class LiveInputs {
              Tracker& tracker);
 
   void start(std::int64_t begin_ns);
-  // Close the old device and start the new one, which is retried. Throw Failure if ffmpeg is missing
-  // or the name is invalid.
+  // Close the old device and start the new one, which is retried. Throw Failure if ffmpeg is
+  // missing or the name is invalid.
   void set_camera(const std::string& name);
   void set_microphone(const std::string& name);
 
@@ -44,7 +44,7 @@ class LiveInputs {
   static constexpr const char* kNoInput = "none";
 
  private:
-  [[nodiscard]] std::unique_ptr<Microphone> open_microphone(const std::string& name);
+  void open_microphone();
 
   Tracker& tracker_;
   InputState camera_state_, microphone_state_;

@@ -20,6 +20,7 @@
 #include "apps/mien/live/sender_set.h"
 #include "apps/mien/live/statistics.h"
 #include "apps/mien/live_page/page_link.h"
+#include "apps/mien/live_page/token.h"
 #include "apps/mien/outputs/distinct_files.h"
 #include "apps/mien/outputs/output_file.h"
 #include "apps/mien/outputs/result_frame.h"
@@ -96,7 +97,7 @@ class Live {
     last_frame_.state = animation::FaceState::kSearching;
     require_distinct_files(
         {file_played_by(camera_name_), file_played_by(microphone_name_), options.neutral},
-        {options.stats, options.profile});
+        {options.stats, options.profile, options.page_token});
     if (camera_name_ == kNone && microphone_name_ == kNone && !options.page) {
       throw Failure(kExitUsage, "--camera none, --mic none: no input to track");
     }
@@ -107,7 +108,9 @@ class Live {
     calibrate();
     if (options.page) {
       page_state_.profile_file = options.profile;
-      web_page_.emplace(*options.page, std::vector<std::string>{camera_name_, microphone_name_});
+      web_page_.emplace(*options.page,
+                        options.page_token.empty() ? new_token() : kept_token(options.page_token),
+                        std::vector<std::string>{camera_name_, microphone_name_});
       std::fprintf(stderr, "page: %s\n", web_page_->url().c_str());
     }
   }

@@ -16,6 +16,7 @@ struct LiveOptions {
   std::string neutral;                    // neutral file; empty: none
   std::string profile;                    // file; empty: none
   std::optional<std::uint16_t> page;      // port of the page, 0: a free one; default: no page
+  std::string page_token;                 // file; empty: a new token for each run
   std::string stats;                      // path; empty: none
   std::string models, tier;
   std::optional<int> lod;  // 0: automatic; default: the highest level with weights

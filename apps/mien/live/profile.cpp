@@ -21,7 +21,8 @@ bool read_number(const nlohmann::json& json, const char* key, double max, double
   if (found == json.end()) {
     return true;
   }
-  const bool is_valid = found->is_number() && found->get<double>() >= 0.0 && found->get<double>() <= max;
+  const bool is_valid =
+      found->is_number() && found->get<double>() >= 0.0 && found->get<double>() <= max;
   if (!is_valid) {
     fault = std::string(key) + ": out of range (got " +
             found->dump(-1, ' ', true, nlohmann::json::error_handler_t::replace).substr(0, 40) +

@@ -8,8 +8,8 @@
 
 namespace mien::app {
 
-// Reads a profile and restores its neutral values. A file that does not exist is an empty profile if
-// `may_be_absent`. Throws Failure.
+// Reads a profile and restores its neutral values. A file that does not exist is an empty profile
+// if `may_be_absent`. Throws Failure.
 [[nodiscard]] Profile load_profile(const std::string& path, bool may_be_absent, Tracker& tracker);
 
 // Updates the neutral values of the profile from the tracker. Throws Failure.

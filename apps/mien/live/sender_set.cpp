@@ -20,9 +20,8 @@ std::uint64_t SenderSet::send(const Outgoing& outgoing) {
 }
 
 bool SenderSet::wanted() const {
-  return entries_.empty() || std::any_of(entries_.begin(), entries_.end(), [](const Entry& entry) {
-           return entry.sender->wanted();
-         });
+  return entries_.empty() || std::any_of(entries_.begin(), entries_.end(),
+                                         [](const Entry& entry) { return entry.sender->wanted(); });
 }
 
 void SenderSet::pause(std::size_t sender, bool paused) {

@@ -26,7 +26,8 @@ Parsed missing(const char* key, const char* expected, std::string& fault) {
 
 Parsed parse_mirror(const json& command, std::string& fault) {
   const json& on = value_of(command, "on");
-  return on.is_boolean() ? Parsed(SetMirror{on.get<bool>()}) : missing("on", "true or false", fault);
+  return on.is_boolean() ? Parsed(SetMirror{on.get<bool>()})
+                         : missing("on", "true or false", fault);
 }
 
 Parsed parse_level(const json& command, std::string& fault) {
@@ -52,7 +53,8 @@ Parsed parse_sender(const json& command, std::string& fault) {
 template <class Command>
 Parsed parse_device(const json& command, std::string& fault) {
   const json& name = value_of(command, "name");
-  const bool is_valid = name.is_string() && name.get_ref<const std::string&>().size() <= kMaxNameBytes;
+  const bool is_valid =
+      name.is_string() && name.get_ref<const std::string&>().size() <= kMaxNameBytes;
   return is_valid ? Parsed(Command{name.get<std::string>()}) : missing("name", "a device", fault);
 }
 

@@ -14,7 +14,7 @@ using std::chrono::steady_clock;
 
 constexpr std::size_t kMaxConnections = 32;
 constexpr std::size_t kReadBytes = 4096;
-constexpr milliseconds kPoll{100};  // interval of checks whether the server stops
+constexpr milliseconds kPoll{100};          // interval of checks whether the server stops
 constexpr milliseconds kRequestTime{5000};  // from the first to the last byte of a request
 constexpr milliseconds kIdleTime{15000};    // between requests
 constexpr milliseconds kSendTime{2000};

@@ -73,22 +73,21 @@ void PageLink::show(const mien_image& image) {
 
 void PageLink::show(const ScreenState& screen, const PageState& page,
                     const LiveStatistics& statistics, const Profile& profile) {
-  const ordered_json json = {
-      {"camera", input_json(screen.camera)},
-      {"microphone", input_json(screen.microphone)},
-      {"senders", senders_json(screen.receivers)},
-      {"level", screen.level},
-      {"automatic", screen.automatic},
-      {"mirrored", screen.mirrored},
-      {"calibrating", screen.calibrating},
-      {"dropped_images", screen.dropped_images},
-      {"dropped_packets", screen.dropped_packets},
-      {"fps", rounded(statistics.frames_per_second(), 1)},
-      {"latency_ms", rounded(statistics.latency().quantile(0.5), 10)},
-      {"adjustments", adjustments_json(profile)},
-      {"profile_file", page.profile_file},
-      {"message", page.message},
-      {"saved", page.saved}};
+  const ordered_json json = {{"camera", input_json(screen.camera)},
+                             {"microphone", input_json(screen.microphone)},
+                             {"senders", senders_json(screen.receivers)},
+                             {"level", screen.level},
+                             {"automatic", screen.automatic},
+                             {"mirrored", screen.mirrored},
+                             {"calibrating", screen.calibrating},
+                             {"dropped_images", screen.dropped_images},
+                             {"dropped_packets", screen.dropped_packets},
+                             {"fps", rounded(statistics.frames_per_second(), 1)},
+                             {"latency_ms", rounded(statistics.latency().quantile(0.5), 10)},
+                             {"adjustments", adjustments_json(profile)},
+                             {"profile_file", page.profile_file},
+                             {"message", page.message},
+                             {"saved", page.saved}};
   board_.put_state(json_text(json, -1));
 }
 

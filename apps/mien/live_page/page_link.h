@@ -23,8 +23,8 @@ struct PageState {
 class PageLink {
  public:
   // `devices`: inputs that the page may select although they are not listed. Throws Failure.
-  PageLink(std::uint16_t port, std::vector<std::string> devices)
-      : server_(port, board_, std::move(devices)) {}
+  PageLink(std::uint16_t port, const std::string& token, std::vector<std::string> devices)
+      : server_(port, token, board_, std::move(devices)) {}
 
   [[nodiscard]] const std::string& url() const { return server_.url(); }
   std::optional<PageCommand> next_command() { return board_.next_command(); }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
-#include <random>
 
 #include "apps/mien/live/inputs.h"
 #include "apps/mien/pages/page_sources.h"
@@ -24,15 +23,6 @@ constexpr int kKeepAliveRounds = 50;  // of kEventTime
 constexpr std::string_view kJson = "application/json";
 constexpr std::string_view kText = "text/plain; charset=utf-8";
 
-std::string secret_token() {
-  constexpr std::string_view kDigits = "0123456789abcdef";
-  std::random_device device;  // the operating system's random numbers
-  std::uniform_int_distribution<std::size_t> digit(0, kDigits.size() - 1);
-  std::string token(32, '\0');
-  std::generate(token.begin(), token.end(), [&] { return kDigits[digit(device)]; });
-  return token;
-}
-
 // Takes the same time wherever the texts differ.
 bool begins_with_secret(std::string_view text, std::string_view secret) {
   unsigned difference = text.size() < secret.size() ? 1 : 0;
@@ -42,7 +32,8 @@ bool begins_with_secret(std::string_view text, std::string_view secret) {
   return difference == 0;
 }
 
-bool respond(HttpClient& client, int status, std::string_view type = "", std::string_view body = "") {
+bool respond(HttpClient& client, int status, std::string_view type = "",
+             std::string_view body = "") {
   return client.send(protocols::http_response(status, type, body,
                                               {{"Cache-Control", "no-store"},
                                                {"Referrer-Policy", "no-referrer"},
@@ -77,31 +68,33 @@ bool is_listed(CaptureKind kind, const std::string& name) {
 }
 
 std::string event(std::string_view name, std::string_view data) {
-  return data.empty() ? std::string()
-                      : std::string("event: ").append(name).append("\ndata: ").append(data).append("\n\n");
+  return data.empty()
+             ? std::string()
+             : std::string("event: ").append(name).append("\ndata: ").append(data).append("\n\n");
 }
 
 }  // namespace
 
-PageServer::PageServer(std::uint16_t port, Board& board, std::vector<std::string> devices)
+PageServer::PageServer(std::uint16_t port, const std::string& token, Board& board,
+                       std::vector<std::string> devices)
     : board_(board),
       devices_(std::move(devices)),
-      secret_path_("/" + secret_token() + "/"),
+      secret_path_("/" + token + "/"),
       server_(port, "--page") {
   devices_.emplace_back(LiveInputs::kNoInput);
   const std::string digits = std::to_string(server_.port());
   host_ = "127.0.0.1:" + digits;
   local_host_ = "localhost:" + digits;
   url_ = "http://" + host_ + secret_path_;
-  server_.start([this](const HttpRequest& request, HttpClient& client) {
-    return answer(request, client);
-  });
+  server_.start(
+      [this](const HttpRequest& request, HttpClient& client) { return answer(request, client); });
 }
 
 bool PageServer::is_allowed(const HttpRequest& request) const {
   const std::string_view host = request.field("host"), origin = request.field("origin");
   const bool is_host = host == host_ || host == local_host_;
-  const bool is_origin = origin.empty() || origin == "http://" + host_ || origin == "http://" + local_host_;
+  const bool is_origin =
+      origin.empty() || origin == "http://" + host_ || origin == "http://" + local_host_;
   return is_host && is_origin && begins_with_secret(request.target, secret_path_);
 }
 

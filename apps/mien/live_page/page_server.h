@@ -13,9 +13,11 @@ namespace mien::app {
 
 class PageServer {
  public:
-  // Port 0 selects a free port. `board` must outlive the server. The page may select the listed
-  // devices of this machine, `devices`, and "none". Throws Failure(kExitOutput).
-  PageServer(std::uint16_t port, Board& board, std::vector<std::string> devices);
+  // Port 0 selects a free port. `token`: the secret part of the URL. `board` must outlive the
+  // server. The page may select the listed devices of this machine, `devices`, and "none". Throws
+  // Failure(kExitOutput).
+  PageServer(std::uint16_t port, const std::string& token, Board& board,
+             std::vector<std::string> devices);
 
   // With the secret path that every request must begin with.
   [[nodiscard]] const std::string& url() const { return url_; }

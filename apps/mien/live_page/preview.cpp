@@ -21,7 +21,8 @@ struct Color {
 
 double sample(const mien_image& image, int plane, int x, int y, int pixel_stride) {
   const auto* bytes = static_cast<const unsigned char*>(image.planes[plane]);
-  return bytes[std::ptrdiff_t{y} * image.row_stride_bytes[plane] + std::ptrdiff_t{x} * pixel_stride];
+  return bytes[std::ptrdiff_t{y} * image.row_stride_bytes[plane] +
+               std::ptrdiff_t{x} * pixel_stride];
 }
 
 // Luma 0..255.
@@ -59,7 +60,8 @@ char byte_of(double value) {
 
 std::string header(std::uint32_t width, std::uint32_t height, std::uint32_t pixel_bytes) {
   std::string bmp = "BM";
-  for (const std::uint32_t value : {kHeaderBytes + pixel_bytes, 0U, kHeaderBytes, 40U, width, height}) {
+  for (const std::uint32_t value :
+       {kHeaderBytes + pixel_bytes, 0U, kHeaderBytes, 40U, width, height}) {
     append_little(bmp, value);
   }
   append_little(bmp, std::uint16_t{1});   // planes
@@ -70,7 +72,8 @@ std::string header(std::uint32_t width, std::uint32_t height, std::uint32_t pixe
 
 // The position in a side of `source` pixels at `quarter` quarters of a side of `small` pixels.
 int source_position(int quarter, int small, int source) {
-  return std::min(source - 1, static_cast<int>(std::int64_t{quarter} * source / (std::int64_t{small} * 4)));
+  return std::min(source - 1,
+                  static_cast<int>(std::int64_t{quarter} * source / (std::int64_t{small} * 4)));
 }
 
 // The mean of four points of the part of the image that the small pixel covers.
@@ -106,7 +109,8 @@ std::string preview_of(const mien_image& image) {
       bmp += byte_of(color.green);
       bmp += byte_of(color.red);
     }
-    bmp.resize((bmp.size() - kHeaderBytes + row_bytes - 1) / row_bytes * row_bytes + kHeaderBytes, '\0');
+    bmp.resize((bmp.size() - kHeaderBytes + row_bytes - 1) / row_bytes * row_bytes + kHeaderBytes,
+               '\0');
   }
   return bmp;
 }

@@ -17,8 +17,7 @@ constexpr int kPendingConnections = 16;
 sockets::Handle native(std::intptr_t handle) { return static_cast<sockets::Handle>(handle); }
 
 milliseconds until(steady_clock::time_point end) {
-  return std::max(milliseconds(0),
-                  std::chrono::ceil<milliseconds>(end - steady_clock::now()));
+  return std::max(milliseconds(0), std::chrono::ceil<milliseconds>(end - steady_clock::now()));
 }
 
 void set_flag(sockets::Handle handle, int level, int option) {
@@ -62,8 +61,8 @@ TcpConnection::Received TcpConnection::receive(std::string& bytes, std::size_t m
   }
   const std::size_t before = bytes.size();
   bytes.resize(before + max_bytes);
-  const auto got = ::recv(native(handle_), bytes.data() + before,
-                          static_cast<sockets::Length>(max_bytes), 0);
+  const auto got =
+      ::recv(native(handle_), bytes.data() + before, static_cast<sockets::Length>(max_bytes), 0);
   bytes.resize(before + (got > 0 ? static_cast<std::size_t>(got) : 0));
   if (got > 0) {
     return Received::kBytes;
