@@ -1,10 +1,11 @@
 # Lists the source files of each tier, relative to this folder. Every family has a reference kernel; a tier has kernels
 # for the families that it accelerates.
 set(mien_tier_families
-  activation causal_conv concat conv2d depthwise fma_peak fully_connected global_average_pool image
-  lstm matrix_vector max_pool pointwise power_spectrum residual_add slice softmax)
+  causal_conv conv2d depthwise fma_peak fully_connected image lstm matrix_vector pointwise power_spectrum)
+# Families whose vector tiers share a source, simd.cpp (kernels/common/simd.h).
+set(mien_simd_families activation concat global_average_pool max_pool residual_add slice softmax)
 if(NOT MIEN_TRIM_LAYERS)
-  list(APPEND mien_tier_families combine curve normalize rearrange resize)
+  list(APPEND mien_simd_families combine curve normalize rearrange resize)
 endif()
 set(mien_ref_extra quantize_to_int8/ref.cpp quantize_weights/ref.cpp inverted_residual/ref.cpp)
 set(mien_avx2_extra inverted_residual/avx2.cpp pointwise/avx2_product.cpp)
@@ -35,13 +36,19 @@ set(mien_neonfp16_extra
 
 function(mien_tier_sources tier output)
   set(families ${mien_tier_families})
+  set(simd_families ${mien_simd_families})
   if(DEFINED mien_${tier}_families)
     set(families ${mien_${tier}_families})
+    set(simd_families)
   endif()
   set(file ${tier})
+  set(simd_file simd)
   if(tier MATCHES "^neon")  # all NEON tiers share a source (kernels/common/neon.h)
     set(file neon)
+  elseif(tier STREQUAL ref)
+    set(simd_file ref)
   endif()
   list(TRANSFORM families APPEND /${file}.cpp)
-  set(${output} ${families} ${mien_${tier}_extra} PARENT_SCOPE)
+  list(TRANSFORM simd_families APPEND /${simd_file}.cpp)
+  set(${output} ${families} ${simd_families} ${mien_${tier}_extra} PARENT_SCOPE)
 endfunction()

@@ -24,11 +24,18 @@ inline Vec load_half(const std::uint16_t* at) {
 
 [[maybe_unused]] inline std::int32_t blocks_of(std::int32_t channels) { return (channels + 7) / 8; }
 
-// All bits set in the lanes of a block that hold channels, 0 in the others.
-[[maybe_unused]] inline Vec lane_mask(std::int32_t block, std::int32_t channels) {
+// All bits set in the lanes of channels first .. first + 7 that exist, 0 in the others.
+[[maybe_unused]] inline Vec lane_mask(std::int32_t first, std::int32_t channels) {
   const Vec lane = _mm256_setr_ps(0, 1, 2, 3, 4, 5, 6, 7);
-  return _mm256_cmp_ps(lane, _mm256_set1_ps(static_cast<float>(channels - block * kLanes)),
-                       _CMP_LT_OQ);
+  return _mm256_cmp_ps(lane, _mm256_set1_ps(static_cast<float>(channels - first)), _CMP_LT_OQ);
+}
+
+// combine(lane 0, lane 1, .. lane 7)
+template <class Combine>
+[[maybe_unused]] inline float across(Vec x, Combine combine) {
+  x = combine(x, _mm256_permute2f128_ps(x, x, 1));
+  x = combine(x, _mm256_permute_ps(x, 0x4E));
+  return _mm256_cvtss_f32(combine(x, _mm256_permute_ps(x, 0xB1)));
 }
 
 // exp(x) to 2 ulp on [-87, 88], clamped outside: 2^n e^r with r in [-ln2/2, ln2/2], a polynomial of
@@ -115,7 +122,7 @@ struct Clamp {
       return _mm256_blendv_ps(_mm256_mul_ps(x, load_half(activation.slopes + block * kLanes)), x,
                               _mm256_cmp_ps(x, zero, _CMP_GT_OQ));
     case Activation::kSigmoid:  // the only one that maps 0 in unused lanes to another value
-      return _mm256_and_ps(sigmoid(x), lane_mask(block, channels));
+      return _mm256_and_ps(sigmoid(x), lane_mask(block * kLanes, channels));
     case Activation::kTanh:
       return tanh(x);
     case Activation::kClamp01:

@@ -10,18 +10,11 @@
 #include <cstdint>
 
 #include "kernels/activation/activation.h"
+#include "kernels/common/unrolled.h"
 
 // AArch64 instructions. Tests that emulate them on other machines define MIEN_NEON64 themselves.
 #ifdef __aarch64__
 #define MIEN_NEON64
-#endif
-
-// Precedes an innermost loop over vectors: gcc otherwise unrolls it too late to keep the arrays in
-// registers. clang does not need it.
-#ifdef __clang__
-#define MIEN_UNROLLED
-#else
-#define MIEN_UNROLLED _Pragma("GCC unroll 32")
 #endif
 
 namespace mien::kernels::MIEN_TIER {
@@ -33,6 +26,7 @@ constexpr std::int32_t kPanel = 16;  // output channels of a panel of weights
 namespace {
 
 using Vec = float32x4_t;
+using Mask = uint32x4_t;
 
 // A block of 8 channels.
 struct Pair {
@@ -40,6 +34,12 @@ struct Pair {
 };
 
 [[maybe_unused]] inline Vec splat(float x) { return vdupq_n_f32(x); }
+[[maybe_unused]] inline Vec load(const float* at) { return vld1q_f32(at); }
+[[maybe_unused]] inline void store(float* at, Vec x) { vst1q_f32(at, x); }
+
+[[maybe_unused]] inline Vec add(Vec a, Vec b) { return vaddq_f32(a, b); }
+[[maybe_unused]] inline Vec subtract(Vec a, Vec b) { return vsubq_f32(a, b); }
+[[maybe_unused]] inline Vec max(Vec a, Vec b) { return vmaxq_f32(a, b); }
 
 [[maybe_unused]] inline Pair load_pair(const float* at) {
   return {vld1q_f32(at), vld1q_f32(at + kLanes)};
@@ -66,8 +66,8 @@ inline Vec fma_lane(Vec sum, Vec a, Vec b) {
 [[maybe_unused]] inline Vec divide(Vec a, Vec b) { return vdivq_f32(a, b); }
 [[maybe_unused]] inline Vec square_root(Vec x) { return vsqrtq_f32(x); }
 [[maybe_unused]] inline Vec floor(Vec x) { return vrndmq_f32(x); }
-[[maybe_unused]] inline float sum_of_lanes(Vec x) { return vaddvq_f32(x); }
-[[maybe_unused]] inline float largest_lane(Vec x) { return vmaxvq_f32(x); }
+[[maybe_unused]] inline Vec sum_of_lanes(Vec x) { return splat(vaddvq_f32(x)); }
+[[maybe_unused]] inline Vec largest_lane(Vec x) { return splat(vmaxvq_f32(x)); }
 
 #else
 
@@ -100,13 +100,13 @@ inline Vec fma_lane(Vec sum, Vec a, Vec b) {
   const uint32x4_t one = vreinterpretq_u32_f32(splat(1.0f));
   return vsubq_f32(truncated, vreinterpretq_f32_u32(vandq_u32(vcgtq_f32(truncated, x), one)));
 }
-[[maybe_unused]] inline float sum_of_lanes(Vec x) {
+[[maybe_unused]] inline Vec sum_of_lanes(Vec x) {
   const float32x2_t pairs = vadd_f32(vget_low_f32(x), vget_high_f32(x));
-  return vget_lane_f32(vpadd_f32(pairs, pairs), 0);
+  return vdupq_lane_f32(vpadd_f32(pairs, pairs), 0);
 }
-[[maybe_unused]] inline float largest_lane(Vec x) {
+[[maybe_unused]] inline Vec largest_lane(Vec x) {
   const float32x2_t pairs = vmax_f32(vget_low_f32(x), vget_high_f32(x));
-  return vget_lane_f32(vpmax_f32(pairs, pairs), 0);
+  return vdupq_lane_f32(vpmax_f32(pairs, pairs), 0);
 }
 
 #endif
@@ -117,8 +117,16 @@ inline Vec fma_lane(Vec sum, Vec a, Vec b) {
 [[maybe_unused]] inline Vec fnma(Vec sum, Vec a, Vec b) { return vfmsq_f32(sum, a, b); }
 
 // x where the mask is set, 0 elsewhere.
-[[maybe_unused]] inline Vec only(uint32x4_t mask, Vec x) {
+[[maybe_unused]] inline Vec only(Mask mask, Vec x) {
   return vreinterpretq_f32_u32(vandq_u32(mask, vreinterpretq_u32_f32(x)));
+}
+// x where the mask is set, `other` elsewhere.
+[[maybe_unused]] inline Vec choose(Mask mask, Vec x, Vec other) {
+  return vbslq_f32(mask, x, other);
+}
+// Bitwise or
+[[maybe_unused]] inline Vec either(Vec a, Vec b) {
+  return vreinterpretq_f32_u32(vorrq_u32(vreinterpretq_u32_f32(a), vreinterpretq_u32_f32(b)));
 }
 
 [[maybe_unused]] inline std::int32_t blocks_of(std::int32_t channels) {
@@ -126,7 +134,7 @@ inline Vec fma_lane(Vec sum, Vec a, Vec b) {
 }
 
 // Mask of the lanes of channels first .. first + 3 that exist.
-[[maybe_unused]] inline uint32x4_t lane_mask(std::int32_t first, std::int32_t channels) {
+[[maybe_unused]] inline Mask lane_mask(std::int32_t first, std::int32_t channels) {
   static constexpr std::int32_t kOrder[kLanes] = {0, 1, 2, 3};
   return vcltq_s32(vld1q_s32(kOrder), vdupq_n_s32(channels - first));
 }

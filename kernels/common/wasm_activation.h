@@ -12,7 +12,7 @@ namespace {
 // degree 6 (Cephes expf by S. Moshier). Adding 1.5 * 2^23 rounds to an integer n, in the lowest
 // bits.
 [[maybe_unused]] inline Vec exp(Vec x) {
-  x = at_most(at_least(x, splat(-87.0f)), splat(88.0f));
+  x = min(max(x, splat(-87.0f)), splat(88.0f));
   const Vec shift = splat(12582912.0f);
   const Vec shifted = add_product(shift, x, splat(1.44269504f));
   const Vec n = wasm_f32x4_sub(shifted, shift);
@@ -98,9 +98,13 @@ class Activator {
   [[nodiscard]] Vec low() const { return low_; }
   [[nodiscard]] Vec high() const { return high_; }
 
-  [[nodiscard]] Vec clamped(Vec x) const { return at_most(at_least(x, low_), high_); }
+  [[nodiscard]] Vec clamped(Vec x) const { return min(max(x, low_), high_); }
 
-  // Applies the curve, if any, to clamped values in place; arguments as for `curve`.
+  // Applies the curve, if any, to clamped values in place: of a block, or as `curve` does.
+  void curve_block(float* values, std::ptrdiff_t pixels, std::int32_t block) const {
+    curve_channels(values, pixels, block * kBlock);
+    curve_channels(values + kLanes, pixels, block * kBlock + kLanes);
+  }
   void curve_channels(float* values, std::ptrdiff_t pixels, std::int32_t first) const {
     if (curves_) {
       curve(values, pixels, kBlock, activation_, first, channels_);

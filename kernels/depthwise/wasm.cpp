@@ -71,7 +71,7 @@ void edge_output(const Channels& ch, std::int32_t oy, std::int32_t ox) {
       sum = add_product(sum, load(row + kx * kBlock), weight);
     }
   }
-  store(ch.output(oy, ox), at_most(at_least(sum, ch.low), ch.high));
+  store(ch.output(oy, ox), min(max(sum, ch.low), ch.high));
 }
 
 void edge_outputs(const Channels& ch, std::int32_t oy, std::int32_t first, std::int32_t last) {
@@ -101,7 +101,7 @@ inline void tile(const Channels& ch, const Vec (&w)[9], const float* x, float* y
     }
   }
   for (int output = 0; output < kColumns; ++output) {
-    store(y + output * kBlock, at_most(at_least(sums[output], ch.low), ch.high));
+    store(y + output * kBlock, min(max(sums[output], ch.low), ch.high));
   }
 }
 

@@ -19,8 +19,8 @@ struct Simd {
   }
   static Vec fma(Vec sum, Vec a, Vec b) { return add_product(sum, a, b); }
   static Vec sub(Vec a, Vec b) { return wasm_f32x4_sub(a, b); }
-  static Vec min(Vec a, Vec b) { return at_most(a, b); }
-  static Vec max(Vec a, Vec b) { return at_least(a, b); }
+  static Vec min(Vec a, Vec b) { return wasm::min(a, b); }
+  static Vec max(Vec a, Vec b) { return wasm::max(a, b); }
   static Vec floor(Vec x) { return wasm_f32x4_floor(x); }
   static Ints equal(Vec a, Vec b) { return wasm_f32x4_eq(a, b); }
   // Comparisons with NaN are false.

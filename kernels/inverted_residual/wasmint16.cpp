@@ -7,11 +7,11 @@
 namespace mien::kernels::wasmint16 {
 namespace {
 
-using wasm::at_least;
-using wasm::at_most;
 using wasm::fixed;
 using wasm::kLanes;
 using wasm::load_half;
+using wasm::max;
+using wasm::min;
 using wasm::splat;
 using wasm::Vec;
 
@@ -30,7 +30,7 @@ struct Window {
   }
 
   void store(Vec sum, float* y) const {
-    const Vec value = at_most(at_least(sum, low), high);
+    const Vec value = min(max(sum, low), high);
     if constexpr (kQuantized) {
       wasm_v128_store64_lane(y, fixed(value, value), 0);
     } else {
@@ -150,10 +150,10 @@ struct Tier16 {
     Vec largest[2] = {splat(kSmallestLargest), splat(kSmallestLargest)};
     for (; elems > 0; elems -= kStripBlock, x += kStripBlock) {
       for (int k = 0; k < 2; ++k) {
-        largest[k] = at_least(largest[k], wasm_f32x4_abs(wasm::load(x + k * kLanes)));
+        largest[k] = max(largest[k], wasm_f32x4_abs(wasm::load(x + k * kLanes)));
       }
     }
-    const Vec all = wasm::across(at_least(largest[0], largest[1]), &at_least);
+    const Vec all = wasm::across(max(largest[0], largest[1]), &max);
     return wasm_f32x4_extract_lane(all, 0);
   }
 

@@ -10,12 +10,12 @@ namespace mien::kernels::wasmint16 {
 namespace {
 
 using wasm::add_product;
-using wasm::at_least;
-using wasm::at_most;
 using wasm::kBlock;
 using wasm::kLanes;
 using wasm::kPanel;
 using wasm::load_half;
+using wasm::max;
+using wasm::min;
 using wasm::splat;
 using wasm::Vec;
 
@@ -132,7 +132,7 @@ class HalfPanel {
       for (std::int32_t p = 0; p < tile.pixels; ++p, y.advance()) {
         for (int v = 0; v < kOutputs / kLanes; ++v) {
           const Vec sum = kCount == 1 ? sums.of[p][v] : sum_of_pairs(sums.of[p]);
-          Vec value = at_most(at_least(finish[v].of(sum), low), high);
+          Vec value = min(max(finish[v].of(sum), low), high);
           if constexpr (kResidual) {
             value = wasm_f32x4_add(value, wasm::load(residual.at + v * kLanes));
           }
@@ -172,7 +172,7 @@ void float_tile(const ProductArgs& a, const wasm::Halves& weights, std::int32_t 
   auto residual = PixelPointer<const float>::optional(a.residual, a.residual_rows, panel, pixel);
   for (int p = 0; p < kPixels; ++p, y.advance()) {
     for (int v = 0; v < kVecs; ++v) {
-      Vec value = at_most(at_least(sums[p][v], splat(a.low)), splat(a.high));
+      Vec value = min(max(sums[p][v], splat(a.low)), splat(a.high));
       if (residual.at != nullptr) {
         value = wasm_f32x4_add(value, wasm::load(residual.at + half * residual.half + v * kLanes));
       }

@@ -5,13 +5,6 @@
 namespace mien::kernels::avx2 {
 namespace {
 
-float sum_of_lanes(Vec v) {
-  v = _mm256_add_ps(v, _mm256_permute2f128_ps(v, v, 1));
-  v = _mm256_add_ps(v, _mm256_permute_ps(v, 0x4E));
-  v = _mm256_add_ps(v, _mm256_permute_ps(v, 0xB1));
-  return _mm256_cvtss_f32(v);
-}
-
 // Rows of W computed together: their sums are independent, and x is loaded once for all of them.
 template <int kRows>
 void rows_times_vector(const float* w, const float* x, std::int32_t columns, float* y) {
@@ -28,7 +21,7 @@ void rows_times_vector(const float* w, const float* x, std::int32_t columns, flo
     }
   }
   if (k < columns) {
-    const __m256i mask = _mm256_castps_si256(lane_mask(k / kLanes, columns));
+    const __m256i mask = _mm256_castps_si256(lane_mask(k, columns));
     const Vec value = _mm256_maskload_ps(x + k, mask);
     for (int r = 0; r < kRows; ++r) {
       const float* row = w + std::ptrdiff_t{r} * columns;
@@ -36,7 +29,7 @@ void rows_times_vector(const float* w, const float* x, std::int32_t columns, flo
     }
   }
   for (int r = 0; r < kRows; ++r) {
-    y[r] = sum_of_lanes(sum[r]);
+    y[r] = across(sum[r], [](Vec a, Vec b) { return _mm256_add_ps(a, b); });
   }
 }
 

@@ -18,7 +18,7 @@ void rows_times_vector(const float* w, const float* x, std::int32_t columns, flo
     }
   }
   MIEN_UNROLLED for (int r = 0; r < kRows; ++r) {
-    y[r] = sum_of_lanes(sum[r]);
+    y[r] = vgetq_lane_f32(sum_of_lanes(sum[r]), 0);
     for (std::int32_t rest = k; rest < columns; ++rest) {
       y[r] += w[std::ptrdiff_t{r} * columns + rest] * x[rest];
     }

@@ -21,13 +21,13 @@ Vec scales_of(const QuantizeWeightsArgs& a, const Outputs& outputs) {
   Vec above = zero, below = zero, largest = zero;
   for (std::int32_t k = 0; k < outputs.inputs; ++k) {
     const Vec w = outputs.at(k);
-    above = wasm_f32x4_add(above, at_least(w, zero));
-    below = wasm_f32x4_sub(below, at_most(w, zero));
-    largest = at_least(largest, wasm_f32x4_abs(w));
+    above = wasm_f32x4_add(above, max(w, zero));
+    below = wasm_f32x4_sub(below, min(w, zero));
+    largest = max(largest, wasm_f32x4_abs(w));
   }
-  const Vec reach = a.is_signed ? wasm_f32x4_add(above, below) : at_least(above, below);
-  return at_least(wasm_f32x4_mul(reach, splat(scale_of_reach(a))),
-                  wasm_f32x4_mul(largest, splat(kScaleOfLargest)));
+  const Vec reach = a.is_signed ? wasm_f32x4_add(above, below) : max(above, below);
+  return max(wasm_f32x4_mul(reach, splat(scale_of_reach(a))),
+             wasm_f32x4_mul(largest, splat(kScaleOfLargest)));
 }
 
 Vec inverse(Vec scales) {  // 0 of 0

@@ -56,10 +56,16 @@ class Tier:
         self.target, self.gcc_target = target, target if gcc_target is None else gcc_target
         self.defines, self.pragmas = defines, pragmas
 
+    def replaced(self):
+        """The header of the tier's vectors instead of the one that selects it."""
+        return {"kernels/common/simd.h": f"kernels/common/{self.name.removesuffix('32')}_simd.h"}
+
     def sources(self):
         stems = [self.name, f"{self.name}_product"]
         if self.name in ("neon", "neon32"):
             stems = ["neon", "neon_product"]
+        if self.name in ("avx2", "neon", "neon32", "wasm"):
+            stems.append("simd")
         found = [path for stem in stems for path in (ROOT / "kernels").glob(f"*/{stem}.cpp")]
         if self.name == "neonfp16":
             found += [ROOT / "kernels" / family / "neon.cpp" for family in ("causal_conv", "fully_connected", "lstm")]
@@ -80,7 +86,7 @@ QUIET = [*ignored("defined(__GNUC__) && !defined(__clang__)", "GCC", ["uninitial
          *ignored("defined(__clang__)", "clang", ["unused-const-variable"])]
 TIERS = [
     Tier("ref"),
-    Tier("avx2", "avx2,fma,f16c"),
+    Tier("avx2", "avx2,fma,f16c", defines=["MIEN_TIER avx2"]),
     Tier("avx2int16", "avx2,fma,f16c", pragmas=[INTEGER_TILE_PRAGMA]),
     Tier("avxvnni", "avx2,fma,f16c,avxvnni", pragmas=[INTEGER_TILE_PRAGMA]),
     Tier("avx512", AVX512, AVX512 + GCC_ONLY),
@@ -89,7 +95,7 @@ TIERS = [
     Tier("neon", defines=["MIEN_TIER neon"], pragmas=[NEON_PRAGMA]),
     Tier("neonfp16", "fullfp16", "arch=armv8.2-a+fp16", ["MIEN_TIER neonfp16", "MIEN_HALF_TIER"], [NEON_PRAGMA]),
     Tier("neon32", defines=["MIEN_TIER neon32"], pragmas=[NEON_PRAGMA]),
-    Tier("wasm"),
+    Tier("wasm", defines=["MIEN_TIER wasm"]),
     Tier("wasmint16"),
 ]
 
@@ -103,8 +109,9 @@ class Text:
     gets an include guard, because it may be needed again under another condition or under none.
     """
 
-    def __init__(self, root=ROOT):
+    def __init__(self, root=ROOT, replaced=None):
         self.root, self.system, self.lines = root, [], []
+        self.replaced = replaced or {}  # headers by the headers that they replace
         self.seen, self.guarded = set(), set()
 
     def add(self, path, rename, conditional=False):
@@ -129,7 +136,7 @@ class Text:
             elif line not in self.system:
                 self.system.append(line)
             return
-        path = self.root / "include" / name if kind == "<" else self.root / name
+        path = self.root / "include" / name if kind == "<" else self.root / self.replaced.get(name, name)
         if path.suffix == ".inc":  # a list, which may be included several times
             self.add(path, None, conditional)
         elif path not in self.seen:
@@ -187,9 +194,9 @@ def renaming(path, names):
     return rename
 
 
-def joined(sources):
+def joined(sources, replaced=None):
     """Joins sources into one file in which each compiles as before; renames file-local names that occur in several sources."""
-    plain = Text()
+    plain = Text(replaced=replaced)
     for source in sources:
         plain.add(source, None)
     known = Counter(re.findall(r"\w+", "\n".join(plain.lines)))
@@ -198,7 +205,7 @@ def joined(sources):
     for own in names.values():
         for name, line in own.items():
             lines[name].add(line)
-    text = Text()
+    text = Text(replaced=replaced)
     for source, own in names.items():
         alone = Counter(re.findall(r"\w+", source.read_text()))
         # Equal aliases may occur twice.
@@ -227,7 +234,7 @@ def core_file(version):
 
 
 def tier_file(version, tier):
-    text = joined(tier.sources())
+    text = joined(tier.sources(), tier.replaced())
     lines = banner(version, f"the kernels of the tier {tier.name}.") + [TIERS_HERE, f"#if {tier.condition}", '#include "mien.h"', ""]
     lines += [f"#define {define}" for define in tier.defines] + text.system + QUIET + list(tier.pragmas)
     if tier.target:

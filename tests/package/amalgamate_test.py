@@ -34,9 +34,14 @@ class Includes(unittest.TestCase):
             root = pathlib.Path(folder)
             for stem, text in files.items():
                 (root / (stem + (".cpp" if stem == "main" else ".h"))).write_text(text)
-            text = amalgamate.Text(root)
+            text = amalgamate.Text(root, {"any.h": "one.h"})
             text.add(root / "main.cpp", None)
             return text
+
+    def test_a_header_may_replace_another(self):
+        text = self.joined(main='#include "any.h"\n', any="int any;\n", one="int one;\n")
+        self.assertIn("int one;", text.lines)
+        self.assertNotIn("int any;", text.lines)
 
     def test_unconditional_includes_move_to_the_front(self):
         text = self.joined(main='#include "a.h"\n#include <cmath>\n', a="#pragma once\n#include <cmath>\nint a;\n")

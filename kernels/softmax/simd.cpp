@@ -1,10 +1,10 @@
-// The wasm tier of softmax.
+// The softmax kernel of all vector tiers.
 #include <limits>
 
-#include "kernels/common/wasm_activation.h"
+#include "kernels/common/simd.h"
 #include "kernels/families.h"
 
-namespace mien::kernels::wasm {
+namespace mien::kernels::MIEN_TIER {
 namespace {
 
 // One pixel, whose blocks are `plane` floats apart.
@@ -12,7 +12,6 @@ class Pixel {
  public:
   Pixel(const SoftmaxArgs& a, std::int32_t index)
       : channels_(a.channels),
-        padded_(blocks_of(a.channels) * kBlock),
         plane_(std::ptrdiff_t{a.pixels} * kBlock),
         x_(a.x + std::ptrdiff_t{index} * kBlock),
         y_(a.y + std::ptrdiff_t{index} * kBlock) {}
@@ -21,32 +20,38 @@ class Pixel {
   [[nodiscard]] Vec largest() const {
     const Vec lowest = splat(-std::numeric_limits<float>::infinity());
     Vec best = lowest;
-    for (std::int32_t c = 0; c < padded_; c += kLanes) {
-      best = at_least(best, wasm_v128_bitselect(load(x_ + at(c)), lowest, lane_mask(c, channels_)));
-    }
-    return across(best, at_least);
+    for_each_vector([&](std::ptrdiff_t at, Mask mask) {
+      best = max(best, choose(mask, load(x_ + at), lowest));
+    });
+    return largest_lane(best);
   }
   // Stores y = exp(x - top) and returns the sum.
   [[nodiscard]] Vec exponentials(Vec top) const {
     Vec sum = splat(0.0f);
-    for (std::int32_t c = 0; c < padded_; c += kLanes) {
-      const Vec power = exp(wasm_f32x4_sub(load(x_ + at(c)), top));
-      const Vec masked = only(lane_mask(c, channels_), power);
-      sum = wasm_f32x4_add(sum, masked);
-      store(y_ + at(c), masked);
-    }
+    for_each_vector([&](std::ptrdiff_t at, Mask mask) {
+      const Vec power = only(mask, exp(subtract(load(x_ + at), top)));
+      sum = add(sum, power);
+      store(y_ + at, power);
+    });
     return sum_of_lanes(sum);
   }
   void divide_by(Vec total) const {
-    for (std::int32_t c = 0; c < padded_; c += kLanes) {
-      store(y_ + at(c), wasm_f32x4_div(load(y_ + at(c)), total));
-    }
+    for_each_vector([&](std::ptrdiff_t at, Mask) { store(y_ + at, divide(load(y_ + at), total)); });
   }
 
  private:
-  [[nodiscard]] std::ptrdiff_t at(std::int32_t c) const { return c / kBlock * plane_ + c % kBlock; }
+  // Calls run(offset, mask of the channels that exist).
+  template <class Run>
+  void for_each_vector(const Run& run) const {
+    std::ptrdiff_t block = 0;
+    for (std::int32_t channel = 0; channel < channels_; channel += kBlock, block += plane_) {
+      for (std::int32_t lane = 0; lane < kBlock; lane += kLanes) {
+        run(block + lane, lane_mask(channel + lane, channels_));
+      }
+    }
+  }
 
-  std::int32_t channels_, padded_;
+  std::int32_t channels_;
   std::ptrdiff_t plane_;
   const float* x_;
   float* y_;
@@ -61,4 +66,4 @@ void softmax(const SoftmaxArgs& a) {
   }
 }
 
-}  // namespace mien::kernels::wasm
+}  // namespace mien::kernels::MIEN_TIER

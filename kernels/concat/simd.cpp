@@ -1,7 +1,7 @@
-// The neon and neon32 tiers of concat.
+// The concat kernel of all vector tiers.
 #include <cstring>
 
-#include "kernels/common/neon_lanes.h"
+#include "kernels/common/simd.h"
 #include "kernels/families.h"
 
 namespace mien::kernels::MIEN_TIER {
@@ -20,18 +20,18 @@ void concat(const ConcatArgs& a) {
     std::memcpy(a.y + whole * plane, a.b, bytes(b_blocks));
     return;
   }
+  const LaneShift shift(kBlock - used);
   const std::int32_t blocks = blocks_of(a.a_channels + a.b_channels);
   for (std::int32_t block = whole; block < blocks; ++block) {
     const std::int32_t second = block - whole;  // the block of b in the upper lanes
     const float* low = second > 0 ? a.b + (second - 1) * plane : nullptr;
     const float* high = second < b_blocks ? a.b + second * plane : nullptr;
     for (std::ptrdiff_t p = 0; p < plane; p += kBlock) {
-      Pair y = shifted(load_pair_or_zero(low, p), load_pair_or_zero(high, p), kBlock - used);
+      BlockVec y = shift.apply(load_block_or_zero(low, p), load_block_or_zero(high, p));
       if (low == nullptr) {  // each lane is zero in one of the two
-        const Pair from_a = load_pair(a.a + whole * plane + p);
-        y = {either(y.low, from_a.low), either(y.high, from_a.high)};
+        y = either(y, load_block(a.a + whole * plane + p));
       }
-      store_pair(a.y + block * plane + p, y);
+      store_block(a.y + block * plane + p, y);
     }
   }
 }

@@ -1,11 +1,9 @@
-// The loop shared by all tiers, which compilers vectorize over the 8 channels of a block. Internal
-// linkage gives each tier its own copy.
-#pragma once
-
+// The resize kernel of all vector tiers: a plain loop over the 8 channels of a block, which
+// compilers vectorize.
 #include "kernels/common/lanes.h"
-#include "kernels/resize/resize.h"
+#include "kernels/families.h"
 
-namespace mien::kernels {
+namespace mien::kernels::MIEN_TIER {
 namespace {
 
 // Two rows (or columns) and the weight of the second.
@@ -127,4 +125,7 @@ inline void resize_any(const ResizeArgs& a) {
 }
 
 }  // namespace
-}  // namespace mien::kernels
+
+void resize(const ResizeArgs& args) { resize_any(args); }
+
+}  // namespace mien::kernels::MIEN_TIER

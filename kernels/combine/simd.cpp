@@ -1,13 +1,11 @@
-// The loop shared by all tiers, which compilers vectorize over the 8 channels of a block. Internal
-// linkage gives each tier its own copy.
-#pragma once
-
+// The combine kernel of all vector tiers: a plain loop over the 8 channels of a block, which
+// compilers vectorize.
 #include <cstddef>
 
-#include "kernels/combine/combine.h"
 #include "kernels/common/lanes.h"
+#include "kernels/families.h"
 
-namespace mien::kernels {
+namespace mien::kernels::MIEN_TIER {
 namespace {
 
 // kStep: 8 if b has a block per pixel, 0 if one block applies to the whole row.
@@ -45,7 +43,9 @@ void combine_maps(const CombineArgs& args) {
   }
 }
 
-inline void combine_any(const CombineArgs& args) {
+}  // namespace
+
+void combine(const CombineArgs& args) {
   switch (args.kind) {
     case Combination::kProduct:
       return combine_maps<Combination::kProduct>(args);
@@ -56,5 +56,4 @@ inline void combine_any(const CombineArgs& args) {
   }
 }
 
-}  // namespace
-}  // namespace mien::kernels
+}  // namespace mien::kernels::MIEN_TIER

@@ -1,11 +1,8 @@
-// The loop shared by all tiers: one pass over both maps in the order of the elements. Internal
-// linkage gives each tier its own copy.
-#pragma once
-
+// The rearrange kernel of all vector tiers: one pass over both maps in the order of the elements.
 #include "kernels/common/lanes.h"
-#include "kernels/rearrange/rearrange.h"
+#include "kernels/families.h"
 
-namespace mien::kernels {
+namespace mien::kernels::MIEN_TIER {
 namespace {
 
 // Distances in memory between consecutive elements along an axis; channels have one distance within
@@ -67,4 +64,7 @@ inline void rearrange_any(const RearrangeArgs& a) {
 }
 
 }  // namespace
-}  // namespace mien::kernels
+
+void rearrange(const RearrangeArgs& args) { rearrange_any(args); }
+
+}  // namespace mien::kernels::MIEN_TIER

@@ -1,11 +1,9 @@
-// The loop shared by all tiers, which compilers vectorize over the 8 channels of a block. Internal
-// linkage gives each tier its own copy.
-#pragma once
-
+// The normalize kernel of all vector tiers: a plain loop over the 8 channels of a block, which
+// compilers vectorize.
 #include "kernels/common/lanes.h"
-#include "kernels/normalize/normalize.h"
+#include "kernels/families.h"
 
-namespace mien::kernels {
+namespace mien::kernels::MIEN_TIER {
 namespace {
 
 // One pixel; its blocks are `plane` floats apart.
@@ -60,7 +58,9 @@ class NormalizedPixel {
   std::int32_t channels_;
 };
 
-inline void normalize_any(const NormalizeArgs& a) {
+}  // namespace
+
+void normalize(const NormalizeArgs& a) {
   for (std::int32_t p = 0; p < a.pixels; ++p) {
     const NormalizedPixel pixel(a, p);
     const float mean = pixel.mean();
@@ -68,5 +68,4 @@ inline void normalize_any(const NormalizeArgs& a) {
   }
 }
 
-}  // namespace
-}  // namespace mien::kernels
+}  // namespace mien::kernels::MIEN_TIER

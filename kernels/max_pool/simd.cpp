@@ -1,8 +1,8 @@
-// The neon and neon32 tiers of max_pool.
+// The max_pool kernel of all vector tiers.
 #include <algorithm>
 #include <limits>
 
-#include "kernels/common/neon.h"
+#include "kernels/common/simd.h"
 #include "kernels/families.h"
 
 namespace mien::kernels::MIEN_TIER {
@@ -18,14 +18,12 @@ Range window(std::int32_t output, std::int32_t stride, std::int32_t pad, std::in
   return {std::max(origin, 0), std::min(origin + kernel, size)};
 }
 
-Pair largest(const float* x, std::int32_t in_w, const Range& ys, const Range& xs) {
-  Pair best;
-  best.low = best.high = splat(-std::numeric_limits<float>::infinity());
+BlockVec largest(const float* x, std::int32_t in_w, const Range& ys, const Range& xs) {
+  BlockVec best = splat_block(-std::numeric_limits<float>::infinity());
   for (std::int32_t iy = ys.first; iy < ys.last; ++iy) {
     const float* row = x + std::ptrdiff_t{iy} * in_w * kBlock;
     for (std::int32_t ix = xs.first; ix < xs.last; ++ix) {
-      const Pair value = load_pair(row + ix * kBlock);
-      best = {vmaxq_f32(best.low, value.low), vmaxq_f32(best.high, value.high)};
+      best = max(best, load_block(row + ix * kBlock));
     }
   }
   return best;
@@ -37,14 +35,12 @@ void max_pool(const MaxPoolArgs& a) {
   float* y = a.y;
   for (std::int32_t block = 0; block < blocks_of(a.channels); ++block) {
     const float* x = a.x + std::ptrdiff_t{block} * a.in_h * a.in_w * kBlock;
-    const uint32x4_t low = lane_mask(block * kBlock, a.channels);
-    const uint32x4_t high = lane_mask(block * kBlock + kLanes, a.channels);
+    const BlockMask mask = block_mask(block, a.channels);
     for (std::int32_t oy = 0; oy < a.out_h; ++oy) {
       const Range ys = window(oy, a.stride_h, a.pad_top, a.kernel_h, a.in_h);
       for (std::int32_t ox = 0; ox < a.out_w; ++ox, y += kBlock) {
         const Range xs = window(ox, a.stride_w, a.pad_left, a.kernel_w, a.in_w);
-        const Pair best = largest(x, a.in_w, ys, xs);
-        store_pair(y, {only(low, best.low), only(high, best.high)});
+        store_block(y, only(mask, largest(x, a.in_w, ys, xs)));
       }
     }
   }

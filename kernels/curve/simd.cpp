@@ -1,11 +1,9 @@
-// The loop shared by all tiers, which compilers vectorize over the 8 channels of a block. Internal
-// linkage gives each tier its own copy.
-#pragma once
-
+// The curve kernel of all vector tiers: a plain loop over the 8 channels of a block, which
+// compilers vectorize.
 #include "kernels/common/lanes.h"
-#include "kernels/curve/curve.h"
+#include "kernels/families.h"
 
-namespace mien::kernels {
+namespace mien::kernels::MIEN_TIER {
 namespace {
 
 inline float limited(float x, float low, float high) {
@@ -95,7 +93,9 @@ void curve_map(const CurveArgs& a) {
   clear_unused_lanes(a.y, a.pixels, a.channels);
 }
 
-inline void curve_any(const CurveArgs& a) {
+}  // namespace
+
+void curve(const CurveArgs& a) {
   switch (a.kind) {
     case Curve::kHardSwish:
       return curve_map<Curve::kHardSwish>(a);
@@ -114,5 +114,4 @@ inline void curve_any(const CurveArgs& a) {
   }
 }
 
-}  // namespace
-}  // namespace mien::kernels
+}  // namespace mien::kernels::MIEN_TIER
