@@ -50,7 +50,7 @@ if [ "$target" != linux-i386 ]; then  # which has only the tier ref
   # Sources that only this machine compiles, without options of gcc that clang lacks or implies.
   mkdir -p "$build/tidy"
   sed 's/ -mfp16-format=ieee//' "$build/compile_commands.json" >"$build/tidy/compile_commands.json"
-  scripts/check/tidy.py "$build/tidy" 'kernels/*/neon*.cpp' kernels/detect_cpu.cpp
+  scripts/check/tidy.py "$build/tidy" 'kernels/*/neon*.cpp' 'kernels/*/simd.cpp' kernels/detect_cpu.cpp
 fi
 
 failed=0

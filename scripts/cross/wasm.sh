@@ -22,7 +22,7 @@ configure_variant() {  # simd or plain
 tidy() {
   local sysroot
   sysroot=$(em++ --cflags | grep -oE -- '--sysroot=[^ ]+')  # em++ is clang with its own target and headers
-  git ls-files 'kernels/*/wasm*.cpp' | xargs -P "$(nproc)" -n 1 clang-tidy -p "$root/simd" --quiet \
+  git ls-files 'kernels/*/wasm*.cpp' 'kernels/*/simd.cpp' | xargs -P "$(nproc)" -n 1 clang-tidy -p "$root/simd" --quiet \
     --extra-arg-before=--target=wasm32-unknown-emscripten --extra-arg-before="$sysroot" \
     --checks=-bugprone-dynamic-static-initializers `# it takes constants of class templates for variables` \
     2> >(grep -v ' warnings\? generated' >&2 || true)
