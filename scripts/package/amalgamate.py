@@ -51,21 +51,13 @@ class Tier:
     """The properties of the file of a tier."""
 
     def __init__(self, name, target="", gcc_target=None, defines=(), pragmas=()):
-        self.name = name
+        self.name, self.stem = name, name.removesuffix("32")
         self.condition = "!defined(MIEN_TRIM_REF)" if name == "ref" else f"defined(MIEN_HAVE_{name.upper()})"
         self.target, self.gcc_target = target, target if gcc_target is None else gcc_target
         self.defines, self.pragmas = defines, pragmas
 
-    def replaced(self):
-        """The header of the tier's vectors instead of the one that selects it."""
-        return {"kernels/common/simd.h": f"kernels/common/{self.name.removesuffix('32')}_simd.h"}
-
     def sources(self):
-        stems = [self.name, f"{self.name}_product"]
-        if self.name in ("neon", "neon32"):
-            stems = ["neon", "neon_product"]
-        if self.name in ("avx2", "neon", "neon32", "wasm"):
-            stems.append("simd")
+        stems = [self.stem, f"{self.stem}_product"] + ["simd"] * (self.stem in ("avx2", "neon", "wasm"))
         found = [path for stem in stems for path in (ROOT / "kernels").glob(f"*/{stem}.cpp")]
         if self.name == "neonfp16":
             found += [ROOT / "kernels" / family / "neon.cpp" for family in ("causal_conv", "fully_connected", "lstm")]
@@ -110,8 +102,7 @@ class Text:
     """
 
     def __init__(self, root=ROOT, replaced=None):
-        self.root, self.system, self.lines = root, [], []
-        self.replaced = replaced or {}  # headers by the headers that they replace
+        self.root, self.replaced, self.system, self.lines = root, replaced or {}, [], []  # replaced: headers by those that they replace
         self.seen, self.guarded = set(), set()
 
     def add(self, path, rename, conditional=False):
@@ -234,7 +225,7 @@ def core_file(version):
 
 
 def tier_file(version, tier):
-    text = joined(tier.sources(), tier.replaced())
+    text = joined(tier.sources(), {"kernels/common/simd.h": f"kernels/common/{tier.stem}_simd.h"})
     lines = banner(version, f"the kernels of the tier {tier.name}.") + [TIERS_HERE, f"#if {tier.condition}", '#include "mien.h"', ""]
     lines += [f"#define {define}" for define in tier.defines] + text.system + QUIET + list(tier.pragmas)
     if tier.target:
