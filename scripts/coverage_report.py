@@ -25,7 +25,7 @@ def missing_tiers():
 
 
 def tier_of(path):
-    """Of a file that is compiled for one tier alone: avx512fp16.cpp, avx512fp16_product.cpp, avx512fp16.h."""
+    """The tier of a file that is compiled for it alone, such as avx512fp16_product.cpp; otherwise None."""
     name = path.stem.split("_")[0]
     return name if path.parts[0] == "kernels" and name in TIERS else None
 

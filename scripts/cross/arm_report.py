@@ -47,7 +47,7 @@ def predictions(folder_of):
 
 
 def largest_difference(rows, others):
-    """Of the percentages of two tables of predictions, in points."""
+    """The largest difference between the percentages of two tables of predictions, in points."""
     points = lambda cell: int(cell.removesuffix("%"))
     return max(abs(points(a) - points(b)) for row, other in zip(rows, others) for a, b in zip(row[2:], other[2:]) if a != "-")
 

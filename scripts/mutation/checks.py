@@ -98,7 +98,7 @@ def processor_seconds():
 
 
 def names(check, path, source):
-    """Of its tests."""
+    """The names of the check's tests."""
     if check.script:
         found = re.findall(r"^class (\w+)|^    def (test\w+)", (source / check.script).read_text(), re.MULTILINE)
         suite, tests = "", []

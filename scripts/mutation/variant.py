@@ -70,7 +70,7 @@ class Variant:
         return memory.read_text()
 
     def program(self, path):
-        """Of the mutant; None where the file is no part of it."""
+        """The program linked with the mutant; None if it does not contain the changed file."""
         program = self._base.program(path)
         parts = [output for output in self._dependents if output in program.direct or output in program.archived]
         changed = {output: str(self._object(output)) for output in parts}

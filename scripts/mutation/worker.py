@@ -18,7 +18,7 @@ class BrokenTests(Exception):
 
 
 class Times:
-    """Of the tests without a mutant, by check."""
+    """How long the tests of each check take without a mutant."""
 
     def __init__(self, base, log):
         self._base, self._log, self._times = base, log, {}

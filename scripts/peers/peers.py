@@ -53,7 +53,7 @@ def fastest(times):
 
 
 def frames(runs):
-    """Of both the fastest of each frame, and the mean of these; the least of the rounds."""
+    """Times of both trackers: the mean over frames in the fastest round."""
     levels = {level["lod"]: min(run["levels"][i]["mean_us"] for run in runs.load("levels"))
               for i, level in enumerate(runs.load("levels")[0]["levels"])}
     theirs = runs.load("mediapipe")

@@ -45,7 +45,7 @@ def measure(work, rounds):
 
 
 def frames(runs):
-    """Of each level the fastest round."""
+    """The fastest round of each level."""
     networks = min(run["networks_of_highest_us"] for run in runs)
     in_turn = min(run["networks_in_turn_us"] for run in runs)
     levels = [min((run["levels"][i] for run in runs), key=lambda level: level["mean_us"])

@@ -18,7 +18,7 @@ class Framing:
 
     @property
     def pixels_per_crop(self):
-        """Of the encoder's input."""
+        """Pixels of the encoder's input that a crop's side covers."""
         return self.height / self.extent
 
     def to_pixels(self, points):

@@ -43,7 +43,7 @@ def view(rng, mirrored, size):
 
 
 def answers(ask, picture, rng):
-    """Of each view with a face, in terms of the image: landmarks [175,2] pixels, controls [52], matrix [4,4]."""
+    """The answer for each view with a face: landmarks [175,2] in pixels of the image, controls [52], matrix [4,4]."""
     wide, margin = continued(picture, BORDER)
     size = np.array(wide.shape[1::-1], float)
     found = []

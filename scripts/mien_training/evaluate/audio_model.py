@@ -16,7 +16,7 @@ class StoredModel:
         torch.set_num_threads(1)
 
     def __call__(self, sound):
-        """Of f32 [samples] at 16 kHz: (times, controls [t,18], voice activity [t]). mouthClose is at most jawOpen, as
+        """f32 [samples] at 16 kHz -> (times, controls [t,18], voice activity [t]). mouthClose is at most jawOpen, as
         in the tracker."""
         x, energies = (torch.from_numpy(np.float32(v))[None] for v in (features(sound), jaw.energies(sound)))
         _, controls, activity = golden_outputs.outputs_of(self.networks, x, energies)

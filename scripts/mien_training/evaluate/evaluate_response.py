@@ -63,7 +63,7 @@ def scores(found):
 
 
 def winks(found):
-    """Of a closed eye and of the other one, by the mouth: means and the share of identities with > 0.8 and < 0.2."""
+    """Means of the closed and the open eye, by mouth, and the share of identities above 0.8 and below 0.2."""
     table = {}
     for mouth, kind in (("closed", "alone"), ("open", "mouth open")):
         for side, other in (("Left", "Right"), ("Right", "Left")):

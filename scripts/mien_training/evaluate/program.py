@@ -25,7 +25,7 @@ class Program:
         return (self.models / "hifinet.mien").exists()
 
     def track(self, video, lod, *options, mode="video"):
-        """Of a video's path, or of the pieces of a Y4M stream."""
+        """Runs `mien track` on the path of a video, or on the pieces of a Y4M stream."""
         path = "-" if not isinstance(video, Path) else str(video)
         with tempfile.TemporaryDirectory() as folder:
             outputs = [f"{folder}/{name}" for name in ("curves.csv", "landmarks.csv", "stats.json")]

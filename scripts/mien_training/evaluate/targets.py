@@ -181,7 +181,7 @@ def amplitude():
 
 
 def audio():
-    """Of sound; they have no level."""
+    """Goals for audio, which have no level."""
     figure = lambda *path: lambda results, _: at(*path)(results, None)
     goal = lambda title, *rest: Goal("audio", title, *rest)
     ratio = lambda decibels: figure("activity", str(decibels), "accuracy")

@@ -58,7 +58,7 @@ class Run:
         return loss.item()
 
     def state(self):
-        """Of a decoder of plain features, on the CPU."""
+        """The state of a decoder that reads plain features, on the CPU."""
         return {name: value.cpu() for name, value in self.whitening.fold(self.decoder.state_dict()).items()}
 
     def save(self, **more):

@@ -19,7 +19,7 @@ AXES = [1, 0]                # pushes along y, then x
 
 @dataclass
 class Wrinkles:
-    """Of one person."""
+    """The wrinkles of one person."""
     depth: float             # 0 none .. 1
     spacing: float           # cm
     phase: np.ndarray        # f32 [2] radians
