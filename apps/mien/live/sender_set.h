@@ -1,4 +1,4 @@
-// The senders of a live run, each of which can be paused.
+// The senders of a live run. Each can be paused.
 #pragma once
 
 #include <cstddef>

@@ -33,7 +33,7 @@ class Board {
   // Called by connections. Waits until there are other texts than `news`, and copies those that
   // have changed. Returns false if there are none within the time.
   bool wait(News& news, std::chrono::milliseconds within);
-  // Waits for a preview taken after this call; empty if there is none within the time.
+  // Waits for a preview taken after this call; empty if the time passes without one.
   std::string preview(std::chrono::milliseconds within);
   [[nodiscard]] std::string profile();  // empty if none was put
   // Returns false if too many commands wait.

@@ -105,8 +105,8 @@ void HttpServer::serve(TcpConnection& connection) const {
   }
 }
 
-// Reads the next request, and keeps the bytes after it in `received`. Returns kIncomplete if there
-// is none: the client has closed or is too slow, or the server stops.
+// Reads the next request, and keeps the bytes after it in `received`. Returns kIncomplete
+// without one: the client has closed or is too slow, or the server stops.
 HttpParse HttpServer::read(TcpConnection& connection, std::string& received,
                            protocols::HttpRequest& request) const {
   auto end = steady_clock::now() + (received.empty() ? kIdleTime : kRequestTime);

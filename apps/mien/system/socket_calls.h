@@ -16,7 +16,7 @@ void close(Handle handle);
 void prepare(Handle handle);  // non-blocking, not inherited, and errors of sent packets do not fail
                               // later receives
 std::string last_error();
-[[nodiscard]] bool would_block();  // whether the last call failed because it would have to wait
+[[nodiscard]] bool would_block();  // whether the last call failed because it would wait
 
 enum class Event { kReadable, kWritable };
 // Returns false if the time has passed. True also after an error, which the next call reports.
