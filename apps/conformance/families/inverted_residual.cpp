@@ -132,8 +132,8 @@ struct Layers {
   // saturates.
   struct Rounding {
     double half_scale = 0.0, bound = 0x1p127;
-    [[nodiscard]] Approx operator()(const Approx& x) const {
-      return {std::clamp(x.value, -bound, bound), x.error + half_scale};
+    [[nodiscard]] Approx operator()(const Approx& input) const {
+      return {std::clamp(input.value, -bound, bound), input.error + half_scale};
     }
   };
   static Rounding int8_rounding(float bound, int max) {

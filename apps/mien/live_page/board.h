@@ -31,7 +31,7 @@ class Board {
   std::optional<PageCommand> next_command();
 
   // Called by connections. Waits until there are other texts than `news`, and copies those that
-  // have changed. Returns false if there are none within the time.
+  // have changed. Returns false if the time passes without any.
   bool wait(News& news, std::chrono::milliseconds within);
   // Waits for a preview taken after this call; empty if the time passes without one.
   std::string preview(std::chrono::milliseconds within);
