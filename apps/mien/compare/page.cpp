@@ -75,7 +75,8 @@ ordered_json page_json(const Comparison& comparison) {
 
 std::string compare_page(const Comparison& comparison) {
   return filled(kComparePage, {{"@DATA@", script_text(page_json(comparison))},
-                               {"@VIDEO@", animation::base64(comparison.video)}});
+                               {"@VIDEO@", animation::base64(comparison.video)},
+                               {"@AVATAR@", kAvatarScript}});
 }
 
 }  // namespace mien::app

@@ -7,6 +7,7 @@
 
 #include "apps/mien/live/inputs.h"
 #include "apps/mien/pages/page_sources.h"
+#include "apps/mien/pages/page_text.h"
 #include "apps/mien/sources/devices.h"
 #include "apps/mien/system/failure.h"
 #include "apps/mien/system/json_text.h"
@@ -79,6 +80,8 @@ PageServer::PageServer(std::uint16_t port, const std::string& token, Board& boar
                        std::vector<std::string> devices)
     : board_(board),
       devices_(std::move(devices)),
+      page_(filled(kLivePage, {{"@AVATAR@", kAvatarScript}})),
+      obs_page_(filled(kObsPage, {{"@AVATAR@", kAvatarScript}})),
       secret_path_("/" + token + "/"),
       server_(port, "--page") {
   devices_.emplace_back(LiveInputs::kNoInput);
@@ -112,10 +115,10 @@ bool PageServer::answer(const HttpRequest& request, HttpClient& client) {
 bool PageServer::get(std::string_view page, HttpClient& client) {
   constexpr std::string_view kHtml = "text/html; charset=utf-8";
   if (page.empty()) {
-    return respond(client, 200, kHtml, kLivePage);
+    return respond(client, 200, kHtml, page_);
   }
   if (page == "obs") {
-    return respond(client, 200, kHtml, kObsPage);
+    return respond(client, 200, kHtml, obs_page_);
   }
   if (page == "events") {
     return stream_events(client);

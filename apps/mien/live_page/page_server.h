@@ -37,6 +37,7 @@ class PageServer {
 
   Board& board_;
   std::vector<std::string> devices_;
+  std::string page_, obs_page_;
   std::string host_, local_host_;  // accepted values of Host: 127.0.0.1:PORT, localhost:PORT
   std::string secret_path_;        // "/TOKEN/"
   std::string url_;

@@ -1,5 +1,5 @@
 # Assembles a page from its parts and writes it as a C++ source. The page's content security policy permits only the style and script
-# with these hashes.
+# with these hashes. The script begins with the avatar, which all pages share: @AVATAR@ stands for it.
 # usage: cmake -DNAME=kPage -DPAGE=page.html -DSTYLES=a.css,b.css -DSCRIPTS=a.js,b.js -DOUTPUT=page.cpp -P embed.cmake
 cmake_minimum_required(VERSION 3.22)  # old policies would expand the marks as variables
 
@@ -33,13 +33,14 @@ endfunction()
 
 file(READ "${PAGE}" page)
 read_all(style "${STYLES}")
+string(REGEX REPLACE "\n +" "\n" style "${style}")
 include(${CMAKE_CURRENT_LIST_DIR}/../../web/avatar/script.cmake)
 avatar_script(avatar)
 read_all(script "${SCRIPTS}")
 classic_script(script "${script}")
-set(script "'use strict';\n${avatar}${script}")
 hash_of(style_hash "${style}")
-hash_of(script_hash "${script}")
+hash_of(script_hash "'use strict';\n${avatar}${script}")
+set(script "'use strict';\n@AVATAR@${script}")
 foreach(mark style_hash script_hash style script)
   string(TOUPPER "@${mark}@" written)
   string(REPLACE "${written}" "${${mark}}" page "${page}")

@@ -196,6 +196,7 @@ void Report::finish(const StageTimes& times) {
   facts["exports"] = exports.list;
   file_.write(filled(kReportPage, {{"@DATA@", script_text(facts)},
                                    {"@COLUMNS@", animation::base64(columns.bytes())},
+                                   {"@AVATAR@", kAvatarScript},
                                    {"@BLOCKS@", block("landmarks", packed_landmarks()) +
                                                     block("clip", animation::base64(clip.bytes)) +
                                                     exports.blocks}}));

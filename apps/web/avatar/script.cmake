@@ -8,10 +8,12 @@ foreach(module IN LISTS avatar_modules)
   list(APPEND avatar_files ${avatar_folder}/${module}.js)
 endforeach()
 
-# Sets `result` to a module without its imports and exports.
+# Sets `result` to a module without its imports, exports, indentation and lines of comments.
 function(classic_script result module)
   string(REGEX REPLACE "\nimport [^\n]* from '[^\n]*';" "" module "\n${module}")
   string(REGEX REPLACE "\nexport " "\n" module "${module}")
+  string(REGEX REPLACE "\n *//[^\n]*" "" module "${module}")
+  string(REGEX REPLACE "\n +" "\n" module "${module}")
   set(${result} "${module}" PARENT_SCOPE)
 endfunction()
 
