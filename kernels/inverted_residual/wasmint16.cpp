@@ -103,7 +103,7 @@ void any_rows(const Window<kQuantized>& m, std::int32_t rows, const float* x, fl
   }
 }
 
-// The floats of unquantized blocks have no code of their own for 3x3 kernels: they are rare.
+// Blocks in fp32 are rare, so they have no code of their own for 3x3 kernels.
 template <bool kQuantized>
 void rows_of(const Window<kQuantized>& m, std::int32_t rows, const float* x, float* y) {
   if constexpr (kQuantized) {

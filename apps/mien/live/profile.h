@@ -24,7 +24,7 @@ struct ControlAdjustment {
   Adjustment adjustment;
 };
 
-// gain * (value - dead_zone) / (1 - dead_zone), limited to 0..1. Undriven values stay undriven.
+// gain * (value - dead_zone) / (1 - dead_zone), limited to 0..1. NaN stays NaN.
 [[nodiscard]] double adjusted(double value, const Adjustment& adjustment);
 
 struct Profile {

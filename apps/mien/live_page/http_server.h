@@ -1,8 +1,9 @@
 // An HTTP server for the pages of this program, on 127.0.0.1 only.
 //
 // Not a library: Debian's cpp-httplib is a shared library that links OpenSSL and Brotli, and
-// libwebsockets has no packages for the Windows, macOS and static builds. The page needs neither
-// TLS nor WebSockets, because its clients are on this machine and events flow one way.
+// Debian's library for WebSockets has no packages for the Windows, macOS and static builds. The
+// page needs neither TLS nor WebSockets, because its clients are on this machine and events flow
+// one way.
 #pragma once
 
 #include <atomic>

@@ -14,7 +14,7 @@ using nlohmann::ordered_json;
 
 constexpr double kStepsPerUnit = 1e4;
 
-// Rounds to visible precision. Undriven values become null.
+// Rounds to visible precision. NaN, the value of controls that are not driven, becomes null.
 ordered_json rounded(double value, double steps_per_unit) {
   return std::isfinite(value) ? ordered_json(std::round(value * steps_per_unit) / steps_per_unit)
                               : ordered_json(nullptr);
