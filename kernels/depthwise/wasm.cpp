@@ -5,6 +5,7 @@
 
 #include "kernels/common/wasm_activation.h"
 #include "kernels/depthwise/padded.h"
+#include "kernels/depthwise/wasm_window.h"
 #include "kernels/families.h"
 
 namespace mien::kernels::wasm {
@@ -80,26 +81,14 @@ void edge_outputs(const Channels& ch, std::int32_t oy, std::int32_t first, std::
   }
 }
 
-// Outputs from y on, whose windows begin at x. Adds each input to the sums of all outputs whose
-// windows contain it.
+// Outputs from y on, whose windows begin at x.
 template <int kColumns, int kStride>
 inline void tile(const Channels& ch, const Vec (&w)[9], const float* x, float* y) {
-  const std::ptrdiff_t x_row = std::ptrdiff_t{ch.a.in_w} * kBlock;
   Vec sums[kColumns];
   for (Vec& one : sums) {
     one = ch.bias;
   }
-  for (int ky = 0; ky < 3; ++ky, x += x_row) {
-    for (int j = 0; j < (kColumns - 1) * kStride + 3; ++j) {
-      const Vec input = load(x + j * kBlock);
-      for (int output = 0; output < kColumns; ++output) {
-        const int kx = j - output * kStride;
-        if (kx >= 0 && kx < 3) {
-          sums[output] = add_product(sums[output], input, w[3 * ky + kx]);
-        }
-      }
-    }
-  }
+  add_windows_3x3<kStride, kBlock>(x, std::ptrdiff_t{ch.a.in_w} * kBlock, w, sums);
   for (int output = 0; output < kColumns; ++output) {
     store(y + output * kBlock, min(max(sums[output], ch.low), ch.high));
   }

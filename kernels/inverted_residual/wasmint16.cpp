@@ -1,6 +1,7 @@
 // The wasmint16 tier of inverted_residual. Its depthwise part computes 4 channels at once: a
 // quarter of a panel.
 #include "kernels/common/wasm_fixed.h"
+#include "kernels/depthwise/wasm_window.h"
 #include "kernels/families.h"
 #include "kernels/inverted_residual/quantized_strips.h"
 
@@ -39,25 +40,14 @@ struct Window {
   }
 };
 
-// kColumns outputs of a 3x3 kernel, whose windows begin at x. Adds each input to the sums of all
-// outputs whose windows contain it.
+// kColumns outputs of a 3x3 kernel, whose windows begin at x.
 template <int kColumns, int kStride>
 void columns_3x3(const Window<true>& m, const Vec (&weights)[9], const float* x, float* y) {
   Vec sums[kColumns];
   for (Vec& one : sums) {
     one = m.bias;
   }
-  for (int ky = 0; ky < 3; ++ky, x += m.x_row_elems) {
-    for (int j = 0; j < (kColumns - 1) * kStride + 3; ++j) {
-      const Vec input = wasm::load(x + j * kFloatPanel);
-      for (int column = 0; column < kColumns; ++column) {
-        const int kx = j - column * kStride;
-        if (kx >= 0 && kx < 3) {
-          sums[column] = wasm::add_product(sums[column], input, weights[3 * ky + kx]);
-        }
-      }
-    }
-  }
+  wasm::add_windows_3x3<kStride, kFloatPanel>(x, m.x_row_elems, weights, sums);
   for (int column = 0; column < kColumns; ++column) {
     m.store(sums[column], y + column * kQuantizedBand);
   }
