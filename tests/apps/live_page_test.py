@@ -264,6 +264,13 @@ class Control(Shared):
         done = subprocess.run([PROGRAM, "live", "--page-token", token], capture_output=True, text=True, timeout=60)
         self.assertEqual(done.returncode, 2)  # needs --page
 
+    def test_a_token_does_not_follow_a_prepared_link(self):
+        link, target = self.path("link"), self.path("target")
+        os.symlink(target, link)
+        with Live("--camera", "none", "--page-token", link):
+            self.assertFalse(os.path.exists(target))
+            self.assertFalse(os.path.islink(link))
+
     def test_ctrl_c_ends_the_program_while_clients_listen(self):
         live = self.live("--mic", "none")
         with contextlib.ExitStack() as stack:

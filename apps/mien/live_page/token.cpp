@@ -2,12 +2,14 @@
 #include "apps/mien/live_page/token.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <random>
 #include <string_view>
 #include <system_error>
 
+#include "apps/mien/outputs/output_file.h"
 #include "apps/mien/system/failure.h"
 #include "apps/mien/system/paths.h"
 
@@ -25,16 +27,15 @@ bool is_token(std::string_view text) {
 
 // Restricts the file before it has content.
 void create(const std::string& path, const std::string& token) {
-  std::ofstream file(path_of(path));
+  PartialFile file(path, TemporaryFile::Ending::kAny);
   std::error_code failed;
-  fs::permissions(path_of(path), fs::perms::owner_read | fs::perms::owner_write, failed);
-  if (!failed) {
-    file << token << '\n';
-  }
-  file.close();
-  if (failed || !file) {
+  fs::permissions(path_of(file.name()), fs::perms::owner_read | fs::perms::owner_write, failed);
+  std::FILE* stream = failed ? nullptr : file.open();
+  const bool written = stream != nullptr && std::fputs((token + '\n').c_str(), stream) >= 0;
+  if (stream == nullptr || std::fclose(stream) != 0 || !written) {
     throw Failure(kExitOutput, "--page-token " + path + ": cannot be written");
   }
+  file.publish();
 }
 
 }  // namespace
