@@ -10,6 +10,7 @@ import socket
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 import unittest
 
@@ -47,7 +48,7 @@ class Live:
         return f"http://127.0.0.1:{self.port}{self.path}"
 
     def request(self, target, method="GET", body=None, headers=None):
-        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=20)
+        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=60)
         with contextlib.closing(connection):
             connection.request(method, target, body, headers or {})
             response = connection.getresponse()
@@ -61,7 +62,7 @@ class Live:
 
     def raw(self, data):
         """What the server answers to bytes, until it closes or is silent."""
-        with socket.create_connection(("127.0.0.1", self.port), timeout=10) as client:
+        with socket.create_connection(("127.0.0.1", self.port), timeout=60) as client:
             client.sendall(data)
             client.shutdown(socket.SHUT_WR)
             answer = b""
@@ -69,12 +70,14 @@ class Live:
                 answer += part
             return answer
 
-    def events(self, wanted=lambda name, data: True, seconds=20):
-        """The first event that is wanted."""
+    def events(self, wanted=lambda name, data: True, seconds=60, command=None):
+        """The first event that is wanted, of those after the command."""
         connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=seconds)
         with contextlib.closing(connection):
             connection.request("GET", self.path + "events")
             response = connection.getresponse()
+            if command:
+                self.command(command)
             deadline = time.monotonic() + seconds
             while time.monotonic() < deadline:
                 block = b""
@@ -87,15 +90,58 @@ class Live:
                         return data
         raise TimeoutError("no such event")
 
-    def state(self, wanted=lambda state: True):
-        return self.events(lambda name, data: name == "state" and wanted(data))
+    def state(self, wanted=lambda state: True, command=None):
+        return self.events(lambda name, data: name == "state" and wanted(data), command=command)
+
+    def preview(self, seconds=60):
+        """The preview, once a frame has come: until then the server answers 204."""
+        deadline = time.monotonic() + seconds
+        while time.monotonic() < deadline:
+            status, image = self.get("preview")
+            if status != 204:
+                return status, image
+        raise TimeoutError("no preview")
 
     def stop(self):
-        """The exit code and the time after SIGINT."""
-        begin = time.monotonic()
+        """The exit code after SIGINT."""
         self.process.send_signal(signal.SIGINT)
-        self.process.communicate(timeout=20)
-        return self.process.returncode, time.monotonic() - begin
+        self.process.communicate(timeout=60)
+        return self.process.returncode
+
+
+class Receiver:
+    """Collects what the sender jsonl:// sends, by the number of the frame, without losing any to a full buffer."""
+
+    def __enter__(self):
+        self.socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        self.socket.bind(("127.0.0.1", 0))
+        self.socket.settimeout(0.1)
+        self.packets, self.came, self.stopping = {}, threading.Condition(), False
+        self.thread = threading.Thread(target=self.receive)
+        self.thread.start()
+        return self
+
+    def __exit__(self, *_):
+        self.stopping = True
+        self.thread.join()
+        self.socket.close()
+
+    @property
+    def url(self):
+        return f"jsonl://:{self.socket.getsockname()[1]}"
+
+    def receive(self):
+        while not self.stopping:
+            with contextlib.suppress(TimeoutError):
+                packet = json.loads(self.socket.recv(65536))
+                with self.came:
+                    self.packets[packet["frame"]] = packet
+                    self.came.notify_all()
+
+    def wait(self, wanted, seconds=60):
+        with self.came:
+            if not self.came.wait_for(lambda: wanted(self.packets), seconds):
+                raise TimeoutError("no such packet")
 
 
 def long_clip(folder, seconds=600):
