@@ -10,7 +10,6 @@ import socket
 import subprocess
 import sys
 import tempfile
-import threading
 import time
 import unittest
 
@@ -107,41 +106,6 @@ class Live:
         self.process.send_signal(signal.SIGINT)
         self.process.communicate(timeout=60)
         return self.process.returncode
-
-
-class Receiver:
-    """Collects what the sender jsonl:// sends, by the number of the frame, without losing any to a full buffer."""
-
-    def __enter__(self):
-        self.socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
-        self.socket.bind(("127.0.0.1", 0))
-        self.socket.settimeout(0.1)
-        self.packets, self.came, self.stopping = {}, threading.Condition(), False
-        self.thread = threading.Thread(target=self.receive)
-        self.thread.start()
-        return self
-
-    def __exit__(self, *_):
-        self.stopping = True
-        self.thread.join()
-        self.socket.close()
-
-    @property
-    def url(self):
-        return f"jsonl://:{self.socket.getsockname()[1]}"
-
-    def receive(self):
-        while not self.stopping:
-            with contextlib.suppress(TimeoutError):
-                packet = json.loads(self.socket.recv(65536))
-                with self.came:
-                    self.packets[packet["frame"]] = packet
-                    self.came.notify_all()
-
-    def wait(self, wanted, seconds=60):
-        with self.came:
-            if not self.came.wait_for(lambda: wanted(self.packets), seconds):
-                raise TimeoutError("no such packet")
 
 
 def long_clip(folder, seconds=600):

@@ -11,7 +11,12 @@ import struct
 import subprocess
 import unittest
 
-from live_page import CLIP, JSON, PROGRAM, SOURCE, Live, Receiver, Shared, arguments
+from datagrams import Receiver
+from live_page import CLIP, JSON, PROGRAM, SOURCE, Live, Shared, arguments
+
+
+def frame_number(packet):
+    return json.loads(packet)["frame"]
 
 
 class Access(Shared):
@@ -134,13 +139,13 @@ class Control(Shared):
 
     def test_frames_are_those_of_the_senders(self):
         with Receiver() as receiver:
-            live = self.live("--send", receiver.url)
+            live = self.live("--send", f"jsonl://:{receiver.port}")
             live.command("mirror", on=True)
             live.command("adjust", controls=[{"control": "jawOpen", "gain": 2, "dead_zone": 0.1}])
             live.state(lambda state: state["mirrored"] and state["adjustments"][17] == [2.0, 0.1])
             frame = live.events(lambda name, data: name == "frame" and data["status"] == "tracking" and data["raw"][17] > 0.15)
-            receiver.wait(lambda packets: frame["n"] in packets)
-        packet = receiver.packets[frame["n"]]
+            packets = receiver.wait(lambda packets: packets and frame_number(packets[-1]) >= frame["n"])
+        packet = next(p for p in map(json.loads, packets) if p["frame"] == frame["n"])
         names = list(packet["controls"])
         driven = [value for value in frame["controls"] if value is not None]
         self.assertEqual(len(names), len(driven))
@@ -151,16 +156,16 @@ class Control(Shared):
 
     def test_senders_pause(self):
         with Receiver() as receiver:
-            live = self.live("--mic", "none", "--send", receiver.url)
-            receiver.wait(len)
+            live = self.live("--mic", "none", "--send", f"jsonl://:{receiver.port}")
+            receiver.wait()
             live.command("sender", sender=0, paused=True)
             live.state(lambda state: state["senders"][0]["paused"])
             first = live.events(lambda name, data: name == "frame")["n"]
             last = live.events(lambda name, data: name == "frame" and data["n"] >= first + 10)["n"]
             live.command("sender", sender=0, paused=False)
             live.command("sender", sender=7, paused=True)  # no such sender
-            receiver.wait(lambda packets: any(n > last for n in packets))
-        self.assertEqual([n for n in receiver.packets if first < n <= last], [])
+            sent = [frame_number(packet) for packet in receiver.wait(lambda packets: packets and frame_number(packets[-1]) > last)]
+        self.assertEqual([n for n in sent if first < n <= last], [])
 
     def test_a_profile_is_saved_and_loaded(self):
         profile = self.path("me.json")

@@ -23,30 +23,12 @@ import time
 import unittest
 
 import live_packets as decode
+from datagrams import Receiver
 
 SOURCE = sys.argv.pop(2)
 PROGRAM = sys.argv.pop(1)
 CLIP = SOURCE + "/tests/data/demo.mp4"
 HELLO = b"iFacialMocap_sahuasouryya9218sauhuiayeta91555dy3719"
-
-
-class Receiver:
-    """Keeps all datagrams received at a port, by default a free one."""
-
-    def __init__(self, port=0):
-        self.socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
-        self.socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1 << 22)
-        self.socket.bind(("127.0.0.1", port))
-        self.port = self.socket.getsockname()[1]
-
-    def packets(self):
-        self.socket.setblocking(False)
-        got = []
-        try:
-            while True:
-                got.append(self.socket.recv(65536))
-        except BlockingIOError:
-            return got
 
 
 def free_port():
@@ -91,7 +73,7 @@ class Live(unittest.TestCase):
 
     def receiver(self, port=0):
         receiver = Receiver(port)
-        self.addCleanup(receiver.socket.close)
+        self.addCleanup(receiver.close)
         return receiver
 
     def test_every_protocol_gets_the_same_face(self):
@@ -273,20 +255,16 @@ class Live(unittest.TestCase):
         live = self.start(command("--camera", "test:" + CLIP, "--mic", "none", "--lod", 1, "--stats", self.path("stats"),
                                   "--send", "jsonl://255.255.255.255:9999", "--send", f"jsonl://:{late_port}",
                                   "--send", f"jsonl://:{receiver.port}"), stderr=subprocess.PIPE, text=True)
-        receiver.socket.settimeout(60)
-        first = receiver.socket.recv(65536)
-        time.sleep(1)
+        receiver.wait(lambda packets: len(packets) > 20)
         late = self.receiver(late_port)
-        late.socket.settimeout(60)
-        late_first = late.socket.recv(65536)
-        time.sleep(1)
+        late.wait(lambda packets: len(packets) > 20)
         live.send_signal(signal.SIGINT)
         said = live.communicate(timeout=60)[1]
         self.assertEqual(live.returncode, 0, said)
         with open(self.path("stats")) as file:
             stats = json.load(file)
         self.assertEqual(stats["dropped_packets"], stats["frames"], "those to the first receiver")
-        packets, late_packets = [first, *receiver.packets()], [late_first, *late.packets()]
+        packets, late_packets = receiver.packets(), late.packets()
         self.assertEqual(len(packets), stats["frames"])
         self.assertLess(len(late_packets), len(packets))
         self.assertEqual(late_packets, packets[-len(late_packets):])
