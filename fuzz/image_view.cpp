@@ -33,7 +33,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                                 static_cast<float>(choices.between(0, 628)) / 100.0f};
     const tracker::Raster raster = {choices.between(1, 9), choices.between(1, 40), 1.0f};
     std::vector<float> pixels(static_cast<std::size_t>(3 * raster.rows * raster.columns));
-    sampler.cut(view, crop, raster, pixels);
+    sampler.warp(view, crop, raster, pixels);
     for (const float value : pixels) {
       fuzz::require(value >= -1.0001f && value <= 1.0001f);
     }

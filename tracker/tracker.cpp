@@ -219,7 +219,7 @@ void Tracker::begin_scan(Frame& frame, bool thorough, float roll) {
 bool Tracker::scan(Frame& frame) {
   const StageTimer::Scope timed(frame.timer, MIEN_STAGE_PROPOSAL);
   Search& search = state_.search;
-  search.is_scanning = proposal_.go_on(frame.view);
+  search.is_scanning = proposal_.run_next_share(frame.view);
   if (!search.is_scanning) {
     search.verified = 0;
     search.count = proposal_.found(

@@ -101,7 +101,7 @@ std::vector<Rgb> cut(const Scene& scene, float pixels_apart) {
   std::vector<float> picture(kCropValues);
   with_sampler(scene, [&](const Sampler& sampler, const ImageView& view) {
     const Crop crop = {{kMiddle, kMiddle}, pixels_apart * kSamples, 0.0f};
-    sampler.cut(view, crop, {kSamples, kSamples, 1.0f}, picture);
+    sampler.warp(view, crop, {kSamples, kSamples, 1.0f}, picture);
   });
   std::vector<Rgb> samples;
   for (std::size_t i = 0; i < picture.size(); i += 3) {
@@ -179,7 +179,7 @@ TEST(Sampler, PixelsBesideTheImageAreBlack) {
     std::vector<float> picture(kCropValues);
     with_sampler(white, [&](const Sampler& sampler, const ImageView& view) {
       const Crop crop = {{0.0f, kMiddle}, 64.0f, turned ? 1.5707963f : 0.0f};
-      sampler.cut_black(view, crop, kSamples, picture);
+      sampler.warp_with_black_border(view, crop, kSamples, picture);
     });
     for (std::size_t i = 0; i < picture.size(); ++i) {
       const std::size_t row = i / 3 / kSamples, column = i / 3 % kSamples;

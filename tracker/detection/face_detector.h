@@ -19,7 +19,7 @@ class FaceDetector {
   // detections and takes longer.
   virtual void begin(const ImageView& view, bool thorough, float roll) = 0;
   // Runs the next share. Returns false after the last one.
-  [[nodiscard]] virtual bool go_on(const ImageView& view) = 0;
+  [[nodiscard]] virtual bool run_next_share(const ImageView& view) = 0;
   // After the last share: writes the best detections to `found`, best first, and returns their
   // number. The square of a detection is that of the face's crop without its roll.
   [[nodiscard]] virtual std::size_t found(std::span<Detection> found) = 0;

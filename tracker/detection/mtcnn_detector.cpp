@@ -108,13 +108,13 @@ mien_status MtcnnDetector::load_large(const mien_tracker_config& config, const e
   LargeSize& size = large_[large_count_++];
   const auto floats = 3 * static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
   size.side = side;
-  size.picture = take<float>(arena, floats);
+  size.pixels = take<float>(arena, floats);
   // Windows lie two rows apart, so every band begins at an even one.
   const std::int32_t rows = std::min(std::max(kSharePixels / side, kMinRows), side) / 2 * 2;
   const mien_status status =
       size.band.load(model, {"pnet", {rows, side, 3}, {1, 3}}, config.cpu_mask, arena);
   if (status == MIEN_OK && !arena.measuring()) {
-    size.cell_rows = size.band.output_shape(0).h + (side - rows) / 2;
+    size.window_rows = size.band.output_shape(0).h + (side - rows) / 2;
   }
   return status;
 }
@@ -126,37 +126,38 @@ void MtcnnDetector::begin(const ImageView& view, bool thorough, float roll) {
   search_.detections = detections_;
 }
 
-bool MtcnnDetector::go_on(const ImageView& view) {
+bool MtcnnDetector::run_next_share(const ImageView& view) {
   if (search_.size < large_count_) {
-    if (search_.has_picture) {
+    if (search_.is_resampled) {
       scan_band();
     } else {
-      make_picture(view);
+      resample_to_large(view);
     }
     return true;
   }
   if (search_.size == large_count_) {
     ++search_.size;
-    make_small_picture(view);
+    resample_to_small(view);
     scan_small_sizes(search_, 0, small_count_);
     end_scan(search_, kRefined);
   } else {
     refine(search_, view, kRefinedPerShare);
   }
-  return search_.seen_again < search_.scanned;
+  return search_.next_to_refine < search_.scanned;
 }
 
-void MtcnnDetector::cut(const ImageView& view, const Crop& crop, engine::Network& network) const {
-  sampler_.cut_black(view, crop, network.input_shape().w, network.input());
+void MtcnnDetector::fill_input(const ImageView& view, const Crop& crop,
+                               engine::Network& network) const {
+  sampler_.warp_with_black_border(view, crop, network.input_shape().w, network.input());
 }
 
-void MtcnnDetector::make_small_picture(const ImageView& view) {
+void MtcnnDetector::resample_to_small(const ImageView& view) {
   engine::Network& first = small_.front();
   if (large_count_ == 0) {
-    cut(view, search_.canvas, first);
+    fill_input(view, search_.canvas, first);
   } else {
     const LargeSize& last = large_[large_count_ - 1];
-    shrink(last.picture, last.side, first.input(), first.input_shape().w, row_);
+    shrink(last.pixels, last.side, first.input(), first.input_shape().w, row_);
   }
 }
 
@@ -166,8 +167,8 @@ std::size_t MtcnnDetector::detect_in_tile(const ImageView& view, std::uint32_t t
     const Tiles tiles = tiles_of(view, large_[i]);
     if (turn < tiles.count()) {
       const Square tile = tiles.square(turn);
-      Search search = part({tile.center, tile.side, 0.0f});
-      cut(view, search.canvas, small_.front());
+      Search search = begin_part({tile.center, tile.side, 0.0f});
+      fill_input(view, search.canvas, small_.front());
       scan_small_sizes(search, 0, 1);
       return finish(search, view, detections);
     }
@@ -179,8 +180,8 @@ std::size_t MtcnnDetector::detect_in_tile(const ImageView& view, std::uint32_t t
 
 // A rotated square of this side does not cover the corners of the image; no large face fits there.
 void MtcnnDetector::begin_coarse(const ImageView& view, float roll) {
-  coarse_ = part({view.region.center(), view.region.longer_side(), roll});
-  cut(view, coarse_.canvas, small_.front());
+  coarse_ = begin_part({view.region.center(), view.region.longer_side(), roll});
+  fill_input(view, coarse_.canvas, small_.front());
   scan_small_sizes(coarse_, 0, 1);
 }
 
@@ -189,7 +190,7 @@ std::size_t MtcnnDetector::end_coarse(const ImageView& view, std::span<Detection
   return finish(coarse_, view, detections);
 }
 
-MtcnnDetector::Search MtcnnDetector::part(const Crop& canvas) {
+MtcnnDetector::Search MtcnnDetector::begin_part(const Crop& canvas) {
   Search search;
   search.canvas = canvas;
   search.threshold = proposal_threshold_;
@@ -236,16 +237,16 @@ std::size_t MtcnnDetector::found(const Search& search, std::span<Detection> foun
   return count;
 }
 
-void MtcnnDetector::make_picture(const ImageView& view) {
+void MtcnnDetector::resample_to_large(const ImageView& view) {
   const LargeSize& size = large_[search_.size];
   if (search_.size == 0) {
-    sampler_.cut_black(view, search_.canvas, size.side, size.picture);
+    sampler_.warp_with_black_border(view, search_.canvas, size.side, size.pixels);
   } else {
     const LargeSize& larger = large_[search_.size - 1];
-    shrink(larger.picture, larger.side, size.picture, size.side, row_);
+    shrink(larger.pixels, larger.side, size.pixels, size.side, row_);
   }
-  search_.has_picture = true;
-  best_ = none_yet(search_);
+  search_.is_resampled = true;
+  best_ = empty_list(search_);
   choose_rows(view, size);
 }
 
@@ -256,25 +257,25 @@ void MtcnnDetector::choose_rows(const ImageView& view, const LargeSize& size) {
   const float above = (canvas.side - height) / 2 * scale;  // of the image, in pixels of this size
   const auto before = static_cast<std::int32_t>(std::ceil((above - kWindowMiddle) / kStride));
   const std::int32_t outside = std::max(before, 0);
-  search_.cell_row = std::min(outside, size.cell_rows - 1);
-  search_.end_row = std::max(size.cell_rows - outside, search_.cell_row + 1);
+  search_.window_row = std::min(outside, size.window_rows - 1);
+  search_.end_row = std::max(size.window_rows - outside, search_.window_row + 1);
 }
 
 void MtcnnDetector::scan_band() {
   LargeSize& size = large_[search_.size];
   const std::int32_t rows = size.band.output_shape(0).h;
-  const std::int32_t first = std::min(search_.cell_row, size.cell_rows - rows);
+  const std::int32_t first = std::min(search_.window_row, size.window_rows - rows);
   const std::size_t offset =  // P-Net has a cell every 2 pixels, of 3 values
       6 * static_cast<std::size_t>(first) * static_cast<std::size_t>(size.side);
   const std::span<float> input = size.band.input();
-  std::copy_n(size.picture.subspan(offset, input.size()).begin(), input.size(), input.begin());
+  std::copy_n(size.pixels.subspan(offset, input.size()).begin(), input.size(), input.begin());
   size.band.run();
-  collect(search_, size.band, size.side, search_.cell_row - first, search_.cell_row, best_);
-  search_.cell_row = first + rows;
-  if (search_.cell_row >= search_.end_row) {
-    keep(search_, best_);
+  collect(search_, size.band, size.side, search_.window_row - first, search_.window_row, best_);
+  search_.window_row = first + rows;
+  if (search_.window_row >= search_.end_row) {
+    append(search_, best_);
     ++search_.size;
-    search_.has_picture = false;
+    search_.is_resampled = false;
   }
 }
 
@@ -292,16 +293,16 @@ void MtcnnDetector::scan_small_sizes(Search& search, std::size_t first, std::siz
 
 void MtcnnDetector::scan(Search& search, engine::Network& pnet) {
   pnet.run();
-  BestDetections best = none_yet(search);
+  BestDetections best = empty_list(search);
   collect(search, pnet, pnet.input_shape().w, 0, 0, best);
-  keep(search, best);
+  append(search, best);
 }
 
-BestDetections MtcnnDetector::none_yet(const Search& search) {
+BestDetections MtcnnDetector::empty_list(const Search& search) {
   return BestDetections(search.detections.subspan(search.scanned, kPerSize));
 }
 
-void MtcnnDetector::keep(Search& search, const BestDetections& best) {
+void MtcnnDetector::append(Search& search, const BestDetections& best) {
   search.scanned += suppress_non_maxima(best.kept(), kOverlapInSize);
 }
 
@@ -338,8 +339,8 @@ void MtcnnDetector::collect(const Search& search, const engine::Network& pnet, s
 }
 
 void MtcnnDetector::refine(Search& search, const ImageView& view, std::size_t count) {
-  for (; count > 0 && search.seen_again < search.scanned; --count, ++search.seen_again) {
-    Detection detection = search.detections[search.seen_again];
+  for (; count > 0 && search.next_to_refine < search.scanned; --count, ++search.next_to_refine) {
+    Detection detection = search.detections[search.next_to_refine];
     if (refine(search.canvas, view, detection)) {
       search.detections[search.refined++] = detection;
     }
@@ -347,7 +348,7 @@ void MtcnnDetector::refine(Search& search, const ImageView& view, std::size_t co
 }
 
 bool MtcnnDetector::refine(const Crop& canvas, const ImageView& view, Detection& detection) {
-  cut(view, to_image(canvas, detection.square), rnet_);
+  fill_input(view, to_image(canvas, detection.square), rnet_);
   rnet_.run();
   const float score = rnet_.output(0)[0];
   const Square square = regressed(detection.square, rnet_.output(1).data());

@@ -27,7 +27,7 @@ class MtcnnDetector final : public FaceDetector {
   // Shares of a scan: resampling the image to one of the larger sizes; P-Net on a band of it, or on
   // all smaller sizes; R-Net on some of the detections.
   void begin(const ImageView& view, bool thorough, float roll) override;
-  [[nodiscard]] bool go_on(const ImageView& view) override;
+  [[nodiscard]] bool run_next_share(const ImageView& view) override;
   [[nodiscard]] std::size_t found(std::span<Detection> found) override;
 
   // Shares: P-Net on the largest of the smaller sizes; P-Net on the others, and R-Net.
@@ -47,23 +47,23 @@ class MtcnnDetector final : public FaceDetector {
 
   // One of the larger sizes of the pyramid.
   struct LargeSize {
-    std::span<float> picture;  // [side][side][3]
-    engine::Network band;      // P-Net on the rows of one share
+    std::span<float> pixels;  // [side][side][3]
+    engine::Network band;     // P-Net on the rows of one share
     std::int32_t side = 0;
-    std::int32_t cell_rows = 0;  // rows of P-Net's windows
+    std::int32_t window_rows = 0;  // rows of P-Net's windows
   };
 
   // The progress of a scan.
   struct Search {
     Crop canvas;
-    float threshold = 1.0f;      // of P-Net
-    std::size_t size = 0;        // next size of the pyramid
-    bool has_picture = false;    // the image is resampled to that size
-    std::int32_t cell_row = 0;   // next row of P-Net's windows
-    std::int32_t end_row = 0;    // after the last row that can show a face
-    std::size_t scanned = 0;     // detections of P-Net
-    std::size_t seen_again = 0;  // of these, processed by R-Net
-    std::size_t refined = 0;     // of these, accepted by R-Net
+    float threshold = 1.0f;       // of P-Net
+    std::size_t size = 0;         // next size of the pyramid
+    bool is_resampled = false;    // the image to that size
+    std::int32_t window_row = 0;  // next row of P-Net's windows
+    std::int32_t end_row = 0;     // after the last row that can show a face
+    std::size_t scanned = 0;      // detections of P-Net
+    std::size_t next_to_refine = 0;
+    std::size_t refined = 0;  // detections accepted by R-Net
     std::span<Detection> detections;
   };
 
@@ -71,23 +71,23 @@ class MtcnnDetector final : public FaceDetector {
                                        const engine::Model& model, std::int32_t side,
                                        engine::Arena& arena);
   [[nodiscard]] Tiles tiles_of(const ImageView& view, const LargeSize& size) const;
-  void make_picture(const ImageView& view);
+  void resample_to_large(const ImageView& view);
   // Limits a size to the rows of P-Net's windows whose centres lie in the image.
   void choose_rows(const ImageView& view, const LargeSize& size);
   void scan_band();
   // Runs P-Net on the small sizes from `first` on. The input of the largest must be filled.
   void scan_small_sizes(Search& search, std::size_t first, std::size_t end);
   // Fills the square input of the network with the crop.
-  void cut(const ImageView& view, const Crop& crop, engine::Network& network) const;
+  void fill_input(const ImageView& view, const Crop& crop, engine::Network& network) const;
   // Fills the input of the largest small size.
-  void make_small_picture(const ImageView& view);
-  [[nodiscard]] Search part(const Crop& canvas);
+  void resample_to_small(const ImageView& view);
+  [[nodiscard]] Search begin_part(const Crop& canvas);
   void scan(Search& search, engine::Network& pnet);
   [[nodiscard]] std::size_t finish(Search& search, const ImageView& view,
                                    std::span<Detection> found);
   // An empty list for the detections of one size of the pyramid.
-  [[nodiscard]] static BestDetections none_yet(const Search& search);
-  static void keep(Search& search, const BestDetections& best);
+  [[nodiscard]] static BestDetections empty_list(const Search& search);
+  static void append(Search& search, const BestDetections& best);
   // Collects detections from P-Net's output, from row `first` on, which is row `at` of the windows
   // of the whole canvas at `side` pixels.
   static void collect(const Search& search, const engine::Network& pnet, std::int32_t side,

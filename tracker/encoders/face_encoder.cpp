@@ -21,7 +21,7 @@ bool FaceEncoder::encode(const ImageView& view, const Crop& crop, StageTimer& ti
                          Encoding& encoding) {
   {
     const StageTimer::Scope timed(timer, MIEN_STAGE_WARP);
-    sampler_.cut(view, crop, raster_, encoder_.input());
+    sampler_.warp(view, crop, raster_, encoder_.input());
   }
   {
     const StageTimer::Scope timed(timer, MIEN_STAGE_ENCODER);

@@ -72,8 +72,8 @@ std::int32_t box(float sample_distance) {
 
 }  // namespace
 
-void Sampler::cut(const ImageView& view, const Crop& crop, const Raster& raster,
-                  std::span<float> out) const {
+void Sampler::warp(const ImageView& view, const Crop& crop, const Raster& raster,
+                   std::span<float> out) const {
   const auto rows = static_cast<float>(raster.rows);
   const auto columns = static_cast<float>(raster.columns);
   const float unit = raster.extent / rows;
@@ -101,8 +101,8 @@ void Sampler::cut(const ImageView& view, const Crop& crop, const Raster& raster,
   warp_(args);
 }
 
-void Sampler::cut_black(const ImageView& view, const Crop& crop, std::int32_t samples,
-                        std::span<float> out) const {
+void Sampler::warp_with_black_border(const ImageView& view, const Crop& crop, std::int32_t samples,
+                                     std::span<float> out) const {
   cut(view, crop, {samples, samples, 1.0f}, out);
   const float c = std::cos(crop.roll), s = std::sin(crop.roll);
   const float pixels_per_sample = crop.side / static_cast<float>(samples);

@@ -33,12 +33,12 @@ class Sampler {
 
   // Writes the crop as [rows][columns][3] RGB, -1..1. If samples are more than 1.5 pixels apart, it
   // samples means of boxes of pixels. Outside the image the border repeats.
-  void cut(const ImageView& view, const Crop& crop, const Raster& raster,
-           std::span<float> out) const;
+  void warp(const ImageView& view, const Crop& crop, const Raster& raster,
+            std::span<float> out) const;
 
   // Writes the whole crop as [samples][samples][3]; black outside the image.
-  void cut_black(const ImageView& view, const Crop& crop, std::int32_t samples,
-                 std::span<float> out) const;
+  void warp_with_black_border(const ImageView& view, const Crop& crop, std::int32_t samples,
+                              std::span<float> out) const;
 
  private:
   kernels::Kernel<kernels::WarpArgs> warp_ = nullptr;
