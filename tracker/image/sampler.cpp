@@ -103,7 +103,7 @@ void Sampler::warp(const ImageView& view, const Crop& crop, const Raster& raster
 
 void Sampler::warp_with_black_border(const ImageView& view, const Crop& crop, std::int32_t samples,
                                      std::span<float> out) const {
-  cut(view, crop, {samples, samples, 1.0f}, out);
+  warp(view, crop, {samples, samples, 1.0f}, out);
   const float c = std::cos(crop.roll), s = std::sin(crop.roll);
   const float pixels_per_sample = crop.side / static_cast<float>(samples);
   const auto offset = [&](std::int32_t index) {
