@@ -85,15 +85,14 @@ def main(export, uncovered, report):
                 sums[kind][1] += file["summary"][kind]["count"]
     Path(uncovered).write_text("".join(f"{remark}\n" for remark in remarks))
 
-    rows = ["| | lines, % | branches, % |", "|---|---|---|"]
+    met = (percent(rooms["the library"]["lines"]) >= LINES_OF_LIBRARY
+           and percent(rooms["parsers"]["branches"]) >= BRANCHES_OF_PARSERS)
+    rows = [f"Goals: lines of the library {LINES_OF_LIBRARY:.0f} %, branches of parsers {BRANCHES_OF_PARSERS:.0f} %: "
+            f"{'met' if met else 'missed'}.", "", "| | lines, % | branches, % |", "|---|---|---|"]
     for room in sorted(set(rooms) - {"the library", "parsers"}) + ["the library", "parsers"]:
         parts = rooms[room]["lines"], rooms[room]["branches"]
         rows.append(f"| {room} | " + " | ".join(f"{percent(p):.1f}" for p in parts) + " |")
-    met = (percent(rooms["the library"]["lines"]) >= LINES_OF_LIBRARY
-           and percent(rooms["parsers"]["branches"]) >= BRANCHES_OF_PARSERS)
     rows += ["",
-             f"Goals: lines of the library {LINES_OF_LIBRARY:.0f} %, branches of parsers {BRANCHES_OF_PARSERS:.0f} %: "
-             f"{'met' if met else 'missed'}.",
              f"Excluded tiers, which this CPU lacks: {', '.join(left_out) or 'none'}; tiers of other machines are not "
              "compiled."]
     text = Path(report).read_text()

@@ -12,12 +12,9 @@ from count_instructions import Machine
 NETWORKS = [("basenet", "encoder"), ("hifinet", "encoder"), ("hifinet", "controls_decoder"), ("audionet", "encoder")]
 LOOPS = [  # tier, object, pattern of the function's name, what it is
     ("neon", "pointwise/neon_product", r"tile<5, 4, .*Widened", "pointwise, 5 pixels x 16 channels, weights widened before"),
-    ("neon", "pointwise/neon_product", r"tile<9, 2, .*Widened", "pointwise, 9 pixels x 8 channels, weights widened before"),
     ("neon", "pointwise/neon_product", r"tile<9, 2, .*Halves", "pointwise, 9 pixels x 8 channels, weights widened inside"),
-    ("neon", "depthwise/neon", r"whole_outputs<.*Floats, 2, 1, 8, 8>", "depthwise 3x3, stride 1, 2x2 outputs"),
-    ("neon", "depthwise/neon", r"whole_outputs<.*Floats, 2, 2, 8, 8>", "depthwise 3x3, stride 2, 2x2 outputs"),
-    ("neon", "inverted_residual/neon", r"whole_outputs<.*Floats, 2, 1, 16, 8>", "the same in a fused block, stride 1"),
-    ("neon", "inverted_residual/neon", r"whole_outputs<.*Floats, 2, 2, 16, 8>", "the same in a fused block, stride 2"),
+    ("neon", "inverted_residual/neon", r"whole_outputs<.*Floats, 2, 1, 16, 8>", "depthwise 3x3, stride 1, 2x2 outputs"),
+    ("neon", "inverted_residual/neon", r"whole_outputs<.*Floats, 2, 2, 16, 8>", "depthwise 3x3, stride 2, 2x2 outputs"),
     ("neon", "lstm/neon", r"matvec_panel<4>", "matrix times vector, 16 outputs"),
     ("neonfp16", "inverted_residual/neonfp16_product", r"tile<9, 2>", "pointwise, 9 pixels x 16 channels"),
     ("neonfp16", "inverted_residual/neonfp16", r"whole_outputs<.*Halves, 2, 1, ", "depthwise 3x3, stride 1, 2x2 outputs"),
@@ -76,22 +73,21 @@ def main():
     difference = largest_difference(by_gcc, predictions(lambda tier: work / "clang" / tier))
     text = f"""# Predicted speed on ARM
 
-For developers of kernels. No ARM machine was available: these are predictions and instruction counts of the published networks.
+For developers of kernels. No ARM machine was available: `scripts/cross/arm_report.sh` predicts loops and counts instructions of the
+published networks.
 
 ## Inner loops
 
 Predictions of llvm-mca ({version("llvm-mca")}): the cycles that the fused multiply-adds of a loop need at least, as a share of the cycles that it takes. Depthwise loops reach at
-most 82 %, because clamps use the same units. llvm-mca 14 uses the model of Cortex-A57 for A76 and X1, and ignores cache misses. {WITHOUT_FP16} has no fp16
-arithmetic. Code of {version("aarch64-linux-gnu-g++")}; that of clang ({version("clang++")}) differs by at most {difference} points.
+most 82 %, because clamps use the same units. llvm-mca 14 uses the model of Cortex-A57 for A76, and ignores cache misses. {WITHOUT_FP16} has no fp16
+arithmetic. Code of gcc; that of clang differs by at most {difference} points.
 
 {table(header, by_gcc)}
 ## Instructions per multiply-accumulate
 
 One run of a network, counted by qemu-user, and in parentheses relative to AVX2, whose vectors have twice the width of NEON's in fp32 and the same in half precision.
 
-{table(["network", "neon", "neonfp16", "avx2"], instructions((neon, neonfp16, avx2), work))}
-Made by `scripts/cross/arm_report.sh`.
-"""
+{table(["network", "neon", "neonfp16", "avx2"], instructions((neon, neonfp16, avx2), work))}"""
     out.write_text(text)
 
 

@@ -37,7 +37,7 @@ by_clang() {  # tier, its flags and sources
       -DMIEN_TIER="$tier" -c "kernels/$source.cpp" -o "$work/clang/$tier/$source.cpp.o"
   done
 }
-by_clang neon "-DMIEN_HAVE_NEON" pointwise/neon_product depthwise/neon inverted_residual/neon lstm/neon
+by_clang neon "-DMIEN_HAVE_NEON" pointwise/neon_product inverted_residual/neon lstm/neon
 by_clang neonfp16 "-DMIEN_HAVE_NEONFP16 -DMIEN_HALF_TIER -march=armv8.2-a+fp16" \
   inverted_residual/neonfp16_product inverted_residual/neonfp16 lstm/neon
 PYTHONDONTWRITEBYTECODE=1 python3 scripts/cross/arm_report.py "$work" "$out"

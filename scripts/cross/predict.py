@@ -4,7 +4,7 @@ import subprocess
 
 import inner_loops
 
-CPUS = ["cortex-a53", "cortex-a55", "cortex-a76", "cortex-x1"]
+CPUS = ["cortex-a53", "cortex-a55", "cortex-a76"]
 ITERATIONS = 200
 
 

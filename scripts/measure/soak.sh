@@ -18,8 +18,8 @@ table=$(build/release/tests/tracker/mien_soak "$hours") || code=$?
 For developers who run mien for days.
 
 \`scripts/measure/soak.sh $hours\` simulated $hours hours of video and audio in $((SECONDS - began)) s. The face disappears for 4 s every 100 s. Audio has an inaccurate clock, 3 ms of
-timestamp jitter, gaps of 0.03 to 3 s, and changes of the sample rate. The timing error is that of the loudness that frames show. Small networks detect discs. Memory, ids and times count
-from a tenth of the hours on.
+timestamp jitter, gaps of 0.03 to 3 s, and changes of the sample rate. The timing error is that of the loudness that frames show. Small networks detect discs. Memory, ids and times
+exclude the first tenth.
 
 $table
 TEXT

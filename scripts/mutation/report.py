@@ -2,7 +2,7 @@
 import collections
 import json
 
-from .worker import IDENTICAL, KILLED, NOT_COMPILED, SURVIVED, WAITING
+from .worker import KILLED, SURVIVED, WAITING
 
 MIN_KILLED = 0.95
 ALIVE = (SURVIVED, WAITING)
@@ -42,14 +42,12 @@ def table(results, argued):
             outcome = SURVIVED
         for name in (folder_of(result["file"]), "all"):
             counts[name][outcome] += 1
-    rows = ["| folder | killed | survived | share | argued equivalent | same machine code | does not compile |",
-            "|---|---|---|---|---|---|---|"]
+    rows = ["| folder | killed | survived | share | argued equivalent |", "|---|---|---|---|---|"]
     for name in sorted(counts, key=lambda name: (name == "all", name)):
         count = counts[name]
         rows.append(
             f"| {name} | {count[KILLED]} | {count[SURVIVED]} | {share(count[KILLED], count[SURVIVED])} | "
-            f"{count['equivalent']} | "
-                    f"{count[IDENTICAL]} | {count[NOT_COMPILED]} |")
+            f"{count['equivalent']} |")
     return rows
 
 
@@ -61,7 +59,9 @@ def listed(results):
 def page(results, argued, opening):
     results = sorted(results, key=lambda result: (result["file"], result["line"], result["after"]))
     survived = [result for result in results if result["outcome"] in ALIVE and not argued.reason(result)]
-    return "\n".join([opening, *table(results, argued), *listed(survived), ""])
+    killed = share(sum(result["outcome"] == KILLED for result in results), len(survived))
+    return "\n".join([opening, f"Tests kill {killed} of the mutants that count.", "", *table(results, argued),
+                      *listed(survived), ""])
 
 
 def enough_killed(results, argued):

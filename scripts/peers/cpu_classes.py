@@ -29,13 +29,14 @@ def rows(name, found):
     if found["frames"]:
         ours, theirs = found["frames"]["mien_us"]["4"], found["frames"]["mediapipe_us"]
         yield [name, "frame at level 4", f"{ours / 1e3:.3f} ms", f"MediaPipe: {theirs / 1e3:.2f} ms",
-               f"{theirs / ours:.1f} times as fast", f">= {GOALS[name][2]}"]
+               f"{theirs / ours:.1f}", f">= {GOALS[name][2]}"]
 
 
 def page(report):
     lines = ["# Speed by class of CPU", "", "For users who know the CPUs of their users.", "",
              "Every engine runs on one thread of the same machine, on which CPUID hides the instruction sets that a "
-             "class lacks (`tests/apps/mask_cpuid.c`); fastest runs, by `scripts/peers/bench.sh ROUNDS CLASS...`.", ""]
+             "class lacks (`tests/apps/mask_cpuid.c`); fastest runs, by `scripts/peers/bench.sh ROUNDS CLASS...`. The "
+             "ratio of a frame is how many times as fast mien is.", ""]
     lines += table(["class", "what", "mien", "fastest peer", "ratio", "goal"],
                    [row for name, found in sorted(report.items()) for row in rows(name, found)])
     lines += [f"* {where}" for where in dict.fromkeys(f"{found['rounds']} interleaved rounds on {found['processor']}"

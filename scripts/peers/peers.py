@@ -76,7 +76,7 @@ def shipped(runs):
     weights = lambda *names: sum((ROOT / f"models/{name}.mien").stat().st_size for name in names)
     library = (ROOT / "build/release/tracker/libmien.so").stat().st_size
     rows = [["mien, level 1: library and weights", "", library + weights("basenet", "proposal")],
-            ["mien, all levels and sound: library and weights", "",
+            ["mien, all levels and audio: library and weights", "",
              library + weights("basenet", "proposal", "hifinet", "audionet")]]
     engines = [n for n in ENGINES if n in runs.measured and n not in LESS_EXACT]
     for name in engines + [n for n in OTHERS if n in runs.measured]:
@@ -106,7 +106,7 @@ def network_lines(report):
     lines = ["## Networks", "",
              "Fastest run in ms, with checked results; [peers.json](peers.json) has all networks.", "",
              *table(["", *(r["network"] for r in shown)], rows)]
-    lines += [f"* {name}: the goal is at most {ENCODER_GOALS[name]} of the fastest peer, by minima and by medians: "
+    lines += [f"* Goal for {name}: at most {ENCODER_GOALS[name]} of the fastest peer, by minima and by medians: "
               f"{met(max(ratios) <= ENCODER_GOALS[name])}." for name, (_, _, ratios) in best_ratios(report).items()]
     return lines + [""]
 
@@ -130,7 +130,7 @@ def frame_lines(report):
             "The demo clip, 640 x 480: mien with audio, MediaPipe Face Landmarker with blendshapes and head pose. Mean "
             f"over frames of the fastest of several passes; MediaPipe takes {report['mediapipe_us']:.0f} us.", "",
             *table(["level", "us", "times as fast as MediaPipe"], rows),
-            f"* Level 4: the goal is {FRAME_GOAL} times as fast: {met(best >= FRAME_GOAL)}.", ""]
+            f"* Goal for level 4: {FRAME_GOAL} times as fast: {met(best >= FRAME_GOAL)}.", ""]
 
 
 def decibels(ratio):
@@ -143,21 +143,18 @@ def sound_lines(report):
     rows = [[name[who], f"{r['min_us']:.0f} / {r['median_us']:.0f}", *(f"{r['heard'][k]['area']:.3f}" for k in ratios)]
             for who, r in report.items()]
     seconds = report["mien"]["heard"]["clean"]["seconds"]
-    better = [k for k in ratios if report["silero"]["heard"][k]["area"] > report["mien"]["heard"][k]["area"]]
     return ["## Audio", "",
             "Time per second of audio, minimum / median in us, and area under ROC of voice activity on "
             f"{seconds:.0f} s of held-out speakers in held-out noises, each at its best delay. The truth is the energy "
             "of clean speech, which mien's network was trained for and Silero's was not; mien's time includes the "
-            "controls of the mouth.", "",
-            *table(["", "us per second", *map(decibels, ratios)], rows),
-            f"* Silero detects speech better at: {', '.join(map(decibels, better)) or 'none'}.", ""]
+            "controls of the mouth.", "", *table(["", "us per second", *map(decibels, ratios)], rows)]
 
 
 def in_short(report):
     """How fast, on which data."""
     found = best_ratios(report["networks"]).items()
-    text = "; ".join(f"{name} takes {ratios[0]:.2f} times as long as with the fastest other engine ({ENGINES[peer]})"
-                     for name, (_, peer, ratios) in found)
+    text = "Relative to the fastest other engine, " + ", ".join(
+        f"{name} takes {ratios[0]:.2f} of the time ({ENGINES[peer]})" for name, (_, peer, ratios) in found)
     if "frames" in report:
         frames = report["frames"]
         level_4_us = {int(k): v for k, v in frames["mien_us"].items()}[4]
@@ -170,8 +167,7 @@ def page(report):
              f"{in_short(report)}. The data are the networks of `models/`, the demo clip and held-out speech. One "
              f"thread each, {report['rounds']} interleaved rounds on one machine "
              f"({report['processor']}; load {report['load']:.0f}), by `scripts/peers/bench.sh`. Only ratios carry over "
-             "to similar processors. "
-             "[Speed](performance.md) has the tier in half precision.", ""]
+             "to similar processors.", ""]
     lines += network_lines(report["networks"])
     lines += frame_lines(report["frames"]) if "frames" in report else []
     lines += sound_lines(report["sound"]) if "sound" in report else []

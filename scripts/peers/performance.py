@@ -67,13 +67,12 @@ def to_text(figures):
     lines = ["# Speed", "", "For developers of kernels, and for users who plan a budget.", "",
              f"A tracked frame of 640 x 480 pixels takes: {levels}. One thread, minima of {figures['rounds']} rounds "
              "interleaved with [other engines](peers.md) on one machine, by "
-             "`scripts/peers/bench.sh`; only ratios carry over to other machines. `avx512fp16` and `avx512vnni` "
-             "compute the encoders' blocks "
-             "[with 16 bits](../architecture.md#half-precision). The peak is that of a loop of fused multiply-adds in "
-             f"registers, in GFLOP/s: {peaks}.", "",
+             "`scripts/peers/bench.sh`; only ratios carry over to other machines. `avx512fp16` computes the encoders' "
+             "blocks [with 16 bits](../architecture.md#half-precision). The peak is that of a loop of fused "
+             f"multiply-adds in registers, in GFLOP/s: {peaks}.", "",
              "## Networks", "", "[performance.json](performance.json) has all networks; "
              "`scripts/measure/bench_history.sh` prints their history.", ""]
-    shown = [r for r in figures["networks"] if r["macs"] > 1e6]
+    shown = [r for r in figures["networks"] if r["macs"] > 1e6 and "encoder" in r["network"]]
     lines += table(("network", "tier", "us", "of the peak", "of ONNX Runtime"),
                    [(r["network"], r["tier"], f"{r['min_us']:.1f}", f"{100 * r['peak_share']:.0f} %",
                      f"{r['to_onnxruntime']:.2f}" if "to_onnxruntime" in r else "") for r in shown])
@@ -89,9 +88,7 @@ def to_text(figures):
     f = figures["frames"]
     lines += ["",
               f"The networks of level 4 take {f['networks_of_highest_us']:.0f} us if each is repeated, with its "
-              "weights in the cache, and "
-              f"{f['networks_in_turn_us']:.0f} us in sequence, as in a frame; a frame takes "
-              f"{f['highest_of_networks']:.2f} and {f['highest_of_networks_in_turn']:.2f} times that. "
+              f"weights in the cache, and {f['networks_in_turn_us']:.0f} us in sequence, as in a frame. "
               f"Creating a tracker from the weight files takes {f['start_ms']:.1f} ms."]
     return "\n".join(lines) + "\n"
 

@@ -23,21 +23,19 @@ const firstResult = page => page.evaluate(() => new Promise(done => {
   document.getElementById('camera').click();
 }));
 
-// The avatar's jaw, and the times of tracking and drawing, for some seconds at a level.
+// The avatar's jaw, and the times of tracking, for some seconds at a level.
 const watch = (page, level, seconds) => page.evaluate(([level, seconds]) => new Promise(done => {
   const select = document.getElementById('level'), view = window.page.first, {vertices, mesh} = view.avatar.head;
   select.value = String(level);
   select.dispatchEvent(new Event('change'));
-  const lip = vertices.findIndex(v => !v.inner && v.t < 0.01 && v.sine < -0.999), jaw = [], took = [], shaped = [];
+  const lip = vertices.findIndex(v => !v.inner && v.t < 0.01 && v.sine < -0.999), jaw = [], took = [];
   const listen = ({detail}) => {
-    const began = performance.now();
-    view.draw(began);
-    shaped.push(performance.now() - began);
+    view.draw(performance.now());
     jaw.push([detail.timeMs, vertices[lip].at[1] - mesh.positions[lip * 3 + 1]]);
     took.push(detail.results[0].tookMs);
     if (detail.timeMs - jaw[0][0] < seconds * 1000) return;
     document.removeEventListener('mien-results', listen);
-    done({jaw, took, shaped});
+    done({jaw, took});
   };
   document.addEventListener('mien-results', listen);
 }), [level, seconds]);
@@ -81,9 +79,9 @@ try {
   await spareDrawing(page);
   const truth = readTruth(truthFile, 'jawOpen'), rows = [];
   for (const level of [1, 2, 3, 4]) {
-    const {jaw, took, shaped} = await watch(page, level, seconds);
+    const {jaw, took} = await watch(page, level, seconds);
     const rate = (jaw.length - 1) * 1000 / (jaw.at(-1)[0] - jaw[0][0]);
-    rows.push(`| ${level} | ${bestCorrelation(jaw, truth).correlation.toFixed(3)} | ${rate.toFixed(1)} | ${median(took).toFixed(2)} | ${median(shaped).toFixed(2)} |`);
+    rows.push(`| ${level} | ${bestCorrelation(jaw, truth).correlation.toFixed(3)} | ${rate.toFixed(1)} | ${median(took).toFixed(2)} |`);
   }
   const bytes = readdirSync(dist, {recursive: true}).filter(name => !name.startsWith('decoders')).map(name => statSync(join(dist, name))).filter(info => info.isFile())
     .reduce((sum, {size}) => sum + size, 0);
@@ -92,18 +90,11 @@ try {
 
 For developers of web apps.
 
-The first result appears about ${(median(starts.map(({afterCamera}) => afterCamera)) / 1000).toFixed(2)} s after the camera starts; the tables below have CPU time, frame rates, and how
-closely the avatar's jaw follows the true jaw of the clip. \`scripts/web.sh measure\` ran Chromium ${chromium} with \`tests/data/demo.mp4\` as camera and microphone on ${cpus().length} cores of ${cpus()[0].model} with Node
-${node} and a load of ${loadavg()[0].toFixed(1)}, without a graphics card (SwiftShader), so times are upper bounds.
+The first result appears about ${(median(starts.map(({afterCamera}) => afterCamera)) / 1000).toFixed(2)} s after the camera starts and ${(median(starts.map(({afterClick}) => afterClick)) / 1000).toFixed(2)} s after the button is pressed (medians of three runs). \`scripts/web.sh measure\` ran
+Chromium ${chromium} with \`tests/data/demo.mp4\` as camera and microphone on ${cpus().length} cores of ${cpus()[0].model} with Node ${node} and a load of ${loadavg()[0].toFixed(1)}, without a graphics card
+(SwiftShader), so times are upper bounds. The page with weights has ${bytes} bytes.
 
-| figure | value |
-|---|---|
-| page with weights | ${bytes} bytes |
-| first result after the camera starts, three runs | ${starts.map(({afterCamera}) => Math.round(afterCamera)).join(', ')} ms |
-| first result after the button is pressed | ${starts.map(({afterClick}) => Math.round(afterClick)).join(', ')} ms |
-
-CPU time of the browser for one image of the face, ${stage.width} x ${stage.height} pixels, minimum of several rounds. The page selects the finest quality that
-the browser sustains.
+CPU time of the browser for one image of the face, ${stage.width} x ${stage.height} pixels. The page selects the finest quality that the browser sustains.
 
 | pixels | antialiasing | CPU time, ms |
 |---|---|---|
@@ -116,10 +107,10 @@ While camera, decoder, worker, drawing and compositing run:
 ${drawing.join('\n')}
 
 Without drawing, as with a graphics card. Jaw: correlation of the avatar's lower lip with \`jawOpen\` of \`tests/data/demo_truth.csv\` over ${seconds} s at the best
-lag. Tracking: one frame with audio in the worker. Shaping: computation of the avatar's vertices.
+lag. Tracking: one frame with audio in the worker.
 
-| level | correlation of the jaw | frames per second | tracking, median ms | shaping, median ms |
-|---|---|---|---|---|
+| level | correlation of the jaw | frames per second | tracking, median ms |
+|---|---|---|---|
 ${rows.join('\n')}
 `);
   console.log(out);

@@ -33,8 +33,9 @@ def evaluate(part, setting):
 
 def write_page(part, results, folder):
     module = importlib.import_module(f"mien_training.evaluate.evaluate_{part}")
-    note = f"\n[All figures]({part}.json)\n"
-    (folder / f"{part}.md").write_text(module.markdown(results).rstrip() + "\n" + note)
+    if hasattr(module, "markdown"):
+        note = f"\n[All figures]({part}.json)\n"
+        (folder / f"{part}.md").write_text(module.markdown(results).rstrip() + "\n" + note)
     if hasattr(module, "plot"):
         module.plot(results, folder)
 

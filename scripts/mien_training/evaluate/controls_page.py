@@ -30,15 +30,23 @@ def supported(results, level):
     return {c for c in CONTROLS if find(results, "response", level, "controls", c)}
 
 
+def sides(control):
+    """The control, and that of the right side if this is the left one."""
+    return (control, control.removesuffix("Left") + "Right") if control.endswith("Left") else (control,)
+
+
 def page(results):
     known = {level: supported(results, level) for level in LEVELS}
     counts = " and ".join(f"{len(known[level])} controls at {out.level(level)}" for level in LEVELS)
     lines = ["# Accuracy by control", "", "For users who ask how well a certain control works.",
              ""] + out.prose(f"""mien supports {counts}. The table has correlations with the truth on
-        [rendered people](synthetic.md) and with MediaPipe on [clips](clips.md). A dash: not supported, or constant in
-        MediaPipe's output. [response.json](response.json) has ranges, [amplitude.json](amplitude.json) deviations.""")
-    cell = lambda figure, level, c: out.number(figure(results, level, c), 2) if c in known[level] else "-"
-    rows = [[c, *(cell(figure, level, c) for _, figure in COLUMNS for level in LEVELS)] for c in CONTROLS
-            if any(c in names for names in known.values())]
+        [rendered people](synthetic.md) and with MediaPipe on [clips](clips.md), of the left and the right control of
+        a pair, or once if both are equal. A dash: not supported, or constant in MediaPipe's output.
+        [response.json](response.json) has ranges, [amplitude.json](amplitude.json) deviations.""")
+    one = lambda figure, level, c: out.number(figure(results, level, c), 2) if c in known[level] else "-"
+    cell = lambda figure, level, c: ", ".join(dict.fromkeys(one(figure, level, side) for side in sides(c)))
+    rows = [["/".join((c, *("Right" for _ in sides(c)[1:]))), *(cell(figure, level, c) for _, figure in COLUMNS
+            for level in LEVELS)] for c in CONTROLS
+            if not c.endswith("Right") and any(c in names for names in known.values())]
     header = ["control", *(f"{title}, {out.level(level)}" for title, _ in COLUMNS for level in LEVELS)]
     return "\n".join([*lines, *out.table(header, rows)])

@@ -27,8 +27,7 @@ def markdown(report):
         has not used; the encoder was trained on {report['encoder_hours']:.0f} hours of audio, with repetitions.""")
     lines += [*activity(report["activity"]), *noise(report["noise"]), *controls(report["controls"])]
     lines += audio_jaw.markdown(report["jaw"])
-    return "\n".join([*lines, "## A sentence", "", "A held-out clip; MediaPipe's jaw is grey.", "",
-                      "![Curves of a sentence](audio_sentence.png)", ""])
+    return "\n".join([*lines, "![A sentence of a held-out clip; MediaPipe's jaw is grey](audio_sentence.png)", ""])
 
 
 def activity(ratios):
@@ -40,21 +39,19 @@ def activity(ratios):
 
 
 def noise(shares):
-    worst = sorted((v, k) for k, v in shares.items() if k not in ("all", "clips that rest 95 % of the time") and v < 1)
-    kinds = ", ".join(f"{name} {out.number(100 * v, 1)} %" for v, name in worst)
-    return out.prose(f"On noise alone the mouth rests {100 * shares['all']:.1f} % of the time: {kinds}, others 100 %.")
+    worst, name = min((v, k) for k, v in shares.items() if k not in ("all", "clips that rest 95 % of the time"))
+    return out.prose(f"""On noise alone the mouth rests {100 * shares['all']:.1f} % of the time, in the worst noise
+        ({name}) {100 * worst:.1f} %.""")
 
 
 def controls(report):
     rows = [[c, *(cell for who in ("held-out clips", "other people") for v in [report[who][c]] for cell in (
         out.number(v["mean of clips"], 2), str(v["lag"])))] for c in report["held-out clips"]]
     lips = ", ".join(f"{k} {out.number(100 * v, 1)} %" for k, v in report["lips"].items() if k != "count")
-    strength = ", ".join(f"{c} {out.number(v, 2)}" for c, v in report["strength"].items())
     columns = [f"{title}, {who}" for who in ("held-out clips", "other people")
                for title in ("mean of clips", "lag, frames")]
     return ["## Controls", "", *out.prose("Correlation with MediaPipe."), *out.table(["control", *columns], rows),
-            *out.prose(f"""Lips of synthetic voices: {lips}. 95th percentile on the vowels that need the control:
-                {strength}.""")]
+            *out.prose(f"Lips of synthetic voices: {lips}.")]
 
 
 def plot(report, folder):

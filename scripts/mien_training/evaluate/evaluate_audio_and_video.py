@@ -34,7 +34,7 @@ def measure(setting):
 
 
 SOURCES = {"picture": "video", "sound": "audio", "both": "both"}
-SHOWN = ("jawOpen", "mouthFunnel", "mouthPucker", "mouthRollLower", "mouthPressLeft", "mouthUpperUpLeft")
+SHOWN = ("jawOpen", "mouthFunnel", "mouthPucker", "mouthRollLower")
 
 
 def markdown(report):

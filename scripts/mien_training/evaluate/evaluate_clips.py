@@ -88,9 +88,6 @@ def markdown(report):
              "For users who compare mien with MediaPipe Face Landmarker, and for trainers.", ""] + out.prose(f"""Mean
         difference from MediaPipe in landmarks and head pose: {out.by_level(report, total)}. The data are
         {len(first['clips'])} clips with {first['all']['frames']} frames, which were not used for training. MediaPipe is
-        a reference, not the truth.""")
-    lines += out.prose(
-        f"""mien tracks {out.by_level(report, lambda r: f"{100 * r['all']['face_share']:.1f} %")} of MediaPipe's frames.
-        Jitter while MediaPipe's landmarks rest: {out.by_level(report, jitter)}. Pose is the mean angle after removal of
-        the best constant rotation.""")
+        a reference, not the truth. Pose is the mean angle after removal of the best constant rotation. Jitter while
+        MediaPipe's landmarks rest: {out.by_level(report, jitter)}.""")
     return "\n".join(lines)

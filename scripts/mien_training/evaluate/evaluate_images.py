@@ -164,11 +164,7 @@ def markdown(report):
         the first frame: {share("portraits")} of portraits, {share("rendered")} of rendered people. Landmark error
         relative to the distance between the outer eye corners: {error("portraits")}, on rendered people
         {error("rendered")}. mien reports a face in {report['false_faces']} of {report['places']} images without one.
-        Head pose differs from MediaPipe's by
-        {out.by_level(levels, lambda r: f"{r['portraits']['pose_difference_deg']:.1f} degrees")} after removal of the
-        best constant rotation. The [model card](../../models/README.md#by-group-of-people) has the figures by skin
-        tone.""")
-    lines += out.prose(
-        f"""The data are held-out portraits with labels of MediaPipe and rendered test people. Cells with two figures
-        are for {" and ".join(map(out.level, levels))}; *lost*: not detected.""")
+        The data are held-out portraits with labels of MediaPipe and rendered test people. The
+        [model card](../../models/README.md#by-group-of-people) has the figures by skin tone.""")
+    lines += out.prose(f"Cells with two figures are for {' and '.join(map(out.level, levels))}; *lost*: not detected.")
     return "\n".join(lines + group_lines(levels))

@@ -57,14 +57,14 @@ def measure(setting):
 
 
 def markdown(report):
-    ratios = ", ".join(f"{out.level(name)} {r['cost_ratio']:.2f}" for name, r in report["levels"].items()
-                       if r.get("cost_ratio", 1) != 1)
+    first = next(iter(report["levels"].values()))
     lines = ["# Levels of detail", "", "For users who choose between speed and accuracy.",
-             ""] + out.prose(f"""Time of a tracked frame relative to level 4:
-        {ratios or "not measured"}. The data are {report['frames']} frames of the [clips](clips.md) and the demo clip.
-        Error: mean absolute difference to level 4 over controls that both levels support; Navarro et al. (2023) report
-        0.0123 for level 2 and 0.0059 for level 3. Time: one core, the fastest of {ROUNDS} rounds; only the ratio
-        carries over to other machines. The tracker without weights takes
+             ""] + out.prose(f"""A tracked frame at level 1 takes
+        {out.number(first.get("cost_ratio"), 2)} of the time at level 4. The data are {report['frames']}
+        frames of the [clips](clips.md) and the demo clip. Error: mean absolute
+        difference to level 4 over controls that both levels support; Navarro et al. (2023) report 0.0123 for level 2
+        and 0.0059 for level 3. Time: one core, the fastest of {ROUNDS} rounds; only the ratio carries over to other
+        machines. The tracker without weights takes
         {max(r["tracker_bytes"] for r in report["levels"].values()) / 1e6:.2f} MB.""")
     lines += out.table(["level", "error", "ms per frame", "relative time"],
                        [[out.level(name), out.number(r.get("error"), 4), out.number(r["ms"]),

@@ -69,5 +69,5 @@ def markdown(report):
     header = ["roll to either side", *(f"{how}, {out.level(name)}" for name in levels for how in (FIRST, ENTERS))]
     share = lambda found, roll: np.mean([found[str(r)] for r in ROLLS if abs(r) == roll])
     rows = [[str(roll), *(f"{100 * share(found[how], roll):.0f} %" for found in levels.values()
-                          for how in (FIRST, ENTERS))] for roll in ROLLS if roll >= 0]
+                          for how in (FIRST, ENTERS))] for roll in (0, 90, 180)]
     return "\n".join(lines + out.table(header, rows))

@@ -10,7 +10,7 @@ from mien_training.evaluate import report as out
 from mien_training.evaluate.probes import control_plan
 from mien_training.evaluate.program import y4m
 
-WORST, WORST_SHOWN = 25, 3
+WORST, WORST_SHOWN = 25, 1
 
 
 def program_answers(program, lod):
@@ -89,10 +89,8 @@ def markdown(report):
         below 0.15 while others move:
         {out.by_level(report, lambda r: f"{r['reached_0.6']} and {r['others_below_0.15']} of {len(r['controls'])}")}.
         With companions, as on real faces (eyes turn together; tongue and mouthClose need an open jaw),
-        {out.by_level(report, lambda r: str(r['reached_0.6_with_companions']))} reach 0.6.""")
-    lines += out.prose(
-        f"""Figures are means over {first['identities']} rendered test people, near-frontal, without glasses, hat or
-        occluder.""")
+        {out.by_level(report, lambda r: str(r['reached_0.6_with_companions']))} reach 0.6. Figures are means over
+        {first['identities']} rendered test people, near-frontal, without glasses, hat or occluder.""")
     worst = lambda r: ", ".join(f"{a} moves {b} by {out.number(v, 2)}" for a, b, v in r["worst"][:WORST_SHOWN])
     lines += out.prose(f"Strongest cross-talk: {out.by_level(report, worst)}.")
     return "\n".join(

@@ -2,7 +2,6 @@
 import json
 import subprocess
 
-from mien_training.evaluate import report as out
 from mien_training.evaluate import videos
 
 
@@ -12,13 +11,3 @@ def measure(setting):
         command = [setting.program.path, "bench", "--clip", clip, "--models", setting.program.models, "--json"]
         report[clip.stem] = {**json.loads(subprocess.check_output(command, text=True)), "clip": clip.name}
     return report
-
-
-def markdown(report):
-    speedups = [r["speedup"] for r in report.values()]
-    lines = ["# Tracking compared with detection", "", "For users who ask why the first frame is slower.", ""]
-    lines += out.prose(
-        f"""Tracking a face takes {min(speedups):.0f} to {max(speedups):.0f} times less time than detecting it on every
-        frame; the published figure is 10. The data are the demo clip and the [clips](clips.md); `mien bench --clip`
-        uses one core and excludes decoding.""")
-    return "\n".join(lines)

@@ -87,15 +87,13 @@ def markdown(report):
     lines = ["# Portraits in the wild", "", "For everyone who asks how well mien works for different people.",
              ""] + out.prose(f"""Faces correctly
         detected: {out.by_level(levels, lambda r: f"{100 * r['found']:.1f} %")}. Landmark error of the worst ethnic
-        group relative to all: {out.by_level(levels, lambda r: out.number(r["worst_group_ratio"], 2))}; relative to the
-        photographs with a known group: {out.by_level(levels, lambda r:
-        out.number(r["worst_group_ratio_among_groups"], 2))}. The
+        group relative to all: {out.by_level(levels, lambda r: out.number(r["worst_group_ratio"], 2))}. The
         [model card](../../models/README.md#by-group-of-people) has the figures by ethnic group, sex and age.""")
     lines += out.prose(
         f"""The data are held-out portraits, photographs (`ff`) and generated faces (`sfhq`), each pasted into a plain
         image of {CANVAS[1]} x {CANVAS[0]} pixels. A correct detection has a mean landmark error below
         {100 * RIGHT:.0f} % of the distance between the pupils; the other figures cover those. Controls: mean
-        correlation with MediaPipe across people, which is lower in groups with fewer expressions.""")
+        correlation with MediaPipe.""")
     cells = lambda s: [f"{100 * s['found']:.1f} %", out.number(s["error"] and 100 * s["error"], 2),
                        out.number(s["correlation"], 2)]
     keys = ("by_pose", "by_pack")

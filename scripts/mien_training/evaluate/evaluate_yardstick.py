@@ -40,18 +40,3 @@ def measure(_):
             "constant_median": metrics.constant_errors(truth)["median"],
             "correlation": table(metrics.correlations(curves, truth)),
             "deviation_ratio": table(deviation(curves) / deviation(truth))}
-
-
-def markdown(report):
-    known, ratio = report["correlation"], report["deviation_ratio"]
-    enough = sum(v >= 0.5 for v in known.values())
-    lines = ["# Upper bound: a decoder with true landmarks", "",
-             "For trainers who ask which part of the networks limits accuracy.", ""]
-    lines += out.prose(
-        f"""The controls decoder reaches a mean correlation of {np.mean(list(known.values())):.2f} over all 52 controls
-        if it gets the true landmarks and head pose instead of features; {enough} controls reach 0.5. Its error is
-        {report["facs_error"] / report["constant_median"]:.2f} of the best constant's, and its median standard deviation
-        {np.median(list(ratio.values())):.2f} of the true one. The program's further loss is that of the encoders, or of
-        decoders that saw few people. `train_yardstick.py` trained it for {report["steps"]} steps on
-        {report["trained_on"]} sequences of landmarks; the test has {report["sequences"]} of other people.""")
-    return "\n".join(lines)

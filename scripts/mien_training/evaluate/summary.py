@@ -58,15 +58,16 @@ def in_short(results):
         speed = f"""a frame takes {first / 1000:.3f} ms at level 1 and {last / 1000:.3f} ms at level 4 on one core
             ({results["peers"]["processor"]}),
             {frames["mediapipe_us"] / first:.0f} and {frames["mediapipe_us"] / last:.0f} times as fast as MediaPipe."""
+    if "tracking" in results:
+        ratios = [clip["speedup"] for clip in results["tracking"].values()]
+        speed += f" Detection on every frame would take {min(ratios):.0f} to {max(ratios):.0f} times as long."
     return out.prose(
         f"""**Accuracy** at level 1 and level 4. Rendered test people, whose controls are known: mean correlation
         {known(2, 1, "synthetic", None, "program", "correlation_mean")} over
         {known(0, 1, "synthetic", None, "program", "supported")} supported controls. Clips of real people, compared with
         MediaPipe: jawOpen {known(2, 1, "clips", None, "controls", "jawOpen", "correlation")}, left smile
         {known(2, 1, "clips", None, "controls", "mouthSmileLeft", "correlation")}, landmarks within
-        {known(1, 100, "clips", None, "all", "landmark_error_pupils")} % of the distance between the pupils, head pose
-        within {known(1, 1, "clips", None, "all", "pose_difference_deg")} degrees. Portraits in the wild: correctly
-        detected {known(1, 100, "wild", "levels", None, "found")} %.
+        {known(1, 100, "clips", None, "all", "landmark_error_pupils")} % of the distance between the pupils.
         [By control](controls.md).""") + out.prose(
             f"""**Speed**: {speed} [Comparison](peers.md).""") + out.prose("""**Data**: rendered people with exact
         labels, clips and portraits with labels of MediaPipe, held-out voices. None of it was used for training, except
@@ -78,9 +79,9 @@ def page(results, skipped, has_hifinet):
              "For users who judge whether mien is good enough for them, and for developers who change it.", "",
              *in_short(results)]
     lines += out.prose(
-        """Level 1 uses BaseNet's controls and level 4 HiFiNet's. Most goals are those of the published method or
-        MediaPipe's own quality; two bounds are for level 1 and level 4. Bold figures miss their goal; a dash: not
-        measured or without a goal. Pages that name no command are made by `python3 -m mien_training.evaluate`.""")
+        """Most goals are those of the published method or MediaPipe's own quality; two bounds are for level 1 and level
+        4. Bold figures miss their goal; a dash: not measured or without a goal. Pages that name no command are made by
+        `python3 -m mien_training.evaluate`.""")
     if not has_hifinet:
         lines += ["**HiFiNet is not trained yet**: levels 2 to 4 are unknown.", ""]
     lines += [*counts(results), ""]

@@ -84,24 +84,24 @@ def synthetic():
     error = score("facs_error_supported")
     goal = lambda title, *rest: Goal("synthetic", title, *rest)
     return [goal("supported controls", ">=", of_levels(36, 44), score("supported"), 1, 0),
-            goal("error of supported controls, relative to the best constant", "<=", 0.5,
+            goal("their error, relative to the best constant", "<=", 0.5,
                 ratio(error, score("constant_median_supported"))),
-            goal("mean correlation, supported controls", ">=", of_levels(0.75, 0.8), score("correlation_mean")),
-            goal("lowest correlation of a supported control", ">=", 0.5, score("correlation_lowest")),
-            goal("jitter of supported controls, relative to the truth's", "<=", 1,
+            goal("their mean correlation", ">=", of_levels(0.75, 0.8), score("correlation_mean")),
+            goal("their lowest correlation", ">=", 0.5, score("correlation_lowest")),
+            goal("their jitter, relative to the truth's", "<=", 1,
                 ratio(score("jitter_supported"), score("truth_jitter_supported"))),
             goal("asymmetry x 1e-3", "<=", 3.6, score("asymmetry"), 1e3, 1)]
 
 
 def probes():
     goal = lambda title, *rest: Goal("response", title, *rest)
-    return [goal("% of supported controls that reach 0.6 alone", ">=", 80,
+    return [goal("% of them that reach 0.6 alone", ">=", 80,
                 over("reached", share(lambda v: v >= 0.6), "controls"), 100, 0),
-            goal("% of supported controls below 0.15 while others move", ">=", 80,
+            goal("% of them below 0.15 while others move", ">=", 80,
                 over("others_at_most", share(lambda v: v < 0.15), "controls"), 100, 0),
             goal("winks: lowest closed eye", ">", 0.8, over("closed", min, "winks")),
             goal("winks: highest open eye", "<", 0.2, over("other", max, "winks")),
-            Goal("leakage", "largest drift of a control on a turning neutral face", "<=", 0.1, at(at, "largest"))]
+            Goal("leakage", "largest change on a turning neutral face", "<=", 0.1, at(at, "largest"))]
 
 
 def levels():
@@ -157,7 +157,7 @@ def wild():
     goal = lambda title, *rest: Goal("wild", title, *rest)
     return [goal("% correctly detected", ">=", 97, figure("found"), 100, 1),
             goal("landmark error, % of the pupils' distance", "<=", 4, figure("error"), 100),
-            goal("landmark error of the worst ethnic group, relative to all", "<=", 1.15, figure("worst_group_ratio"))]
+            goal("the same for the worst ethnic group, relative to all", "<=", 1.15, figure("worst_group_ratio"))]
 
 
 def amplitude():
@@ -175,7 +175,7 @@ def amplitude():
             goal("mean eyeBlink of closed eyes on portraits", ">=", of_levels(0.7, 0.8), portraits("closed")),
             goal("neutral portraits: largest mean of a control", "<=", 0.1, portraits("neutral_largest")),
             goal("neutral portraits: mean of all controls", "<=", 0.03, portraits("neutral_mean"), 1, 3),
-            goal("% of supported controls with 0.8 to 1.25 of the true deviation", ">=", 100, right, 100, 0),
+            goal("% of controls with 0.8 to 1.25 of the true deviation", ">=", 100, right, 100, 0),
             goal("rendered neutral faces: largest mean of a control", "<=", 0.1,
                 lambda *a: max(known(renders("at_rest")(*a), "mean")))]
 
