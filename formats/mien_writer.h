@@ -1,5 +1,5 @@
 // Writes .mien files, for tools and tests; not part of the library.
-// scripts/mien_convert/weight_file.py writes the same bytes for the same input.
+// apps/convert/mien_convert/weight_file.py writes the same bytes for the same input.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Fuzzes scripts/mien_convert with atheris: any file must be converted or rejected in one line.
+"""Fuzzes apps/convert/mien_convert with atheris: any file must be converted or rejected in one line.
 scripts/fuzz_convert.sh
 
 usage: onnx_converter.py --seeds FOLDER                      writes the graphs of tests/convert/operator_cases.py there

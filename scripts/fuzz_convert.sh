@@ -7,7 +7,7 @@ cd "$(dirname "$0")/.."
 minutes=${1:-2}
 scripts/setup.sh convert-fuzz
 work=build/fuzz_convert
-export PYTHONPATH=scripts:tests/convert
+export PYTHONPATH=apps/convert:tests/convert
 mkdir -p $work/seeds $work/found $work/broken
 [ -x $work/python/bin/python ] || /usr/bin/python3 -m venv --system-site-packages $work/python
 $work/python/bin/pip install --quiet --disable-pip-version-check atheris==3.0.0

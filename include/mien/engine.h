@@ -1,7 +1,7 @@
 /// @file
 /// C++20 wrapper of the C API for custom networks and for the content of weight files: header only,
 /// no exceptions. mien.h documents the layout of maps, the state of temporal layers, units and
-/// statuses. scripts/mien_convert converts ONNX files (docs/convert.md).
+/// statuses. mien_convert converts ONNX files (docs/convert.md).
 ///
 ///     const mien::LoadedWeights loaded = mien::load_weights("model.mien");
 ///     mien::Network network;

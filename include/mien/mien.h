@@ -964,8 +964,8 @@ MIEN_API MIEN_NODISCARD mien_status mien_tracker_load_neutral(mien_tracker* trac
 
 /* Custom networks ------------------------------------------------------------------------------ */
 
-/** Any network of a weight file, for example one that scripts/mien_convert converted. One thread at
- *  a time may use a network.
+/** Any network of a weight file, for example one that mien_convert made from an ONNX file. One
+ *  thread at a time may use a network.
  *
  *      mien_network_config config;
  *      mien_network_config_default(&config);

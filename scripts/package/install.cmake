@@ -48,7 +48,7 @@ if(MIEN_PYTHON_WHEEL)
   install(FILES apps/third_party.txt DESTINATION mien COMPONENT python)
   # Without the table of landmarks, which nothing in the package reads: mien.LANDMARK_NAMES has its names.
   install(DIRECTORY models/ DESTINATION mien/models COMPONENT python PATTERN landmarks.json EXCLUDE)
-  install(DIRECTORY scripts/mien_convert/ DESTINATION mien/_convert COMPONENT python FILES_MATCHING PATTERN *.py)
+  install(DIRECTORY apps/convert/mien_convert/ DESTINATION mien/_convert COMPONENT python FILES_MATCHING PATTERN *.py)
 endif()
 
 configure_package_config_file(scripts/package/mienConfig.cmake.in mienConfig.cmake

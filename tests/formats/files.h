@@ -16,7 +16,7 @@ namespace mien::formats {
 
 inline constexpr const char* kPython = "/usr/bin/python3";
 inline constexpr const char* kPythonCommand =
-    "PYTHONPATH=" MIEN_SOURCE_DIR "/scripts /usr/bin/python3 ";
+    "PYTHONPATH=" MIEN_SOURCE_DIR "/apps/convert /usr/bin/python3 ";
 
 // Memory aligned to 64 bytes, whose allocation ends with the data, so that the address sanitizer
 // detects every read beyond it.

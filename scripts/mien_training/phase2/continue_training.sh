@@ -8,7 +8,7 @@
 # PEOPLE (2000) and VALIDATION (240) people of the features; STEPS (3000) of the decoders
 set -euo pipefail
 cd "$(dirname "$0")/../../.."
-export PYTHONPATH=$PWD/scripts OMP_NUM_THREADS=1
+export PYTHONPATH=$PWD/scripts:$PWD/apps/convert OMP_NUM_THREADS=1
 network=$1 hours=$2 name=${3:-$1_continued}
 python=${PYTHON:-python3} processes=${PROCESSES:-$(nproc)} validation=${VALIDATION:-240} steps=${STEPS:-3000}
 cache=${MIEN_CACHE:-$HOME/.cache/mien}

@@ -8,7 +8,8 @@
 set -euo pipefail
 [ $# -ge 3 ] || { sed -n '2,7s/^# //p' "$0" >&2; exit 64; }
 what=$1 network=$2 folder=$(realpath -m "$3")
-export PYTHONPATH; PYTHONPATH=$(realpath "$(dirname "$0")/../..")
+root=$(realpath "$(dirname "$0")/../../..")
+export PYTHONPATH=$root/scripts:$root/apps/convert
 python=${PYTHON:-python3} steps=${STEPS:-12000}
 
 pack() {

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Writes accept/: files of ../format/accept, and many zeros in blocks of the largest size, packed; and reject/: small.packed with one
-rule broken in each, and reject/expected.txt with lines "file status". Needs PYTHONPATH=scripts."""
+rule broken in each, and reject/expected.txt with lines "file status". Needs PYTHONPATH=scripts:apps/convert."""
 import struct
 import tempfile
 from pathlib import Path

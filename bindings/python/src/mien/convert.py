@@ -1,4 +1,4 @@
-"""python -m mien.convert MODEL.onnx -o MODEL.mien: the converter of scripts/mien_convert. Needs the extra mien[convert]."""
+"""python -m mien.convert MODEL.onnx -o MODEL.mien: the converter of apps/convert/mien_convert. Needs the extra mien[convert]."""
 
 from __future__ import annotations
 
