@@ -16,12 +16,24 @@ class Layer:
     def __init__(self, op, inputs, shape, node="", **options):
         self.op, self.inputs, self.shape, self.node, self.options = op, list(inputs), tuple(shape), node, options
         self.activation = {}  # keywords of mien_file's layers
+        self.input_bound = 0.0  # of a pointwise layer that may compute with 8 bits
         self.number = -1      # of the value, while it is translated
 
     @property
     def size(self):
         h, w, c = self.shape
         return h * w * c
+
+    def is_pointwise(self, source):
+        """Whether it is written as one: an image of few channels has a convolution of its own."""
+        if self.op != "conv2d" or self.inputs[0] is source and source.is_image():
+            return False
+        o = self.options
+        return o["weight"].shape[2:] == (1, 1) and o["stride"] == (1, 1) and not any(o["padding"])
+
+    def is_image(self):
+        h, w, c = self.shape
+        return c <= 4 and h * w > 1
 
     def is_plain(self):
         """Whether linear operations can be folded into its weights."""
@@ -188,8 +200,7 @@ class Network:
         numbers = {id(self.source): net.input}
         for layer in self.layers:
             try:
-                numbers[id(layer)] = write_layer(net, layer, [numbers[id(x)] for x in layer.inputs],
-                                                 layer.inputs[0] is self.source)
+                numbers[id(layer)] = write_layer(net, layer, [numbers[id(x)] for x in layer.inputs], self.source)
             except ValueError as error:
                 raise Refused(f"{layer.node}: {error}") from error
         for output in self.outputs:
@@ -238,13 +249,10 @@ def is_centre_slice(layer):
     return layer.shape[2] == layer.inputs[0].shape[2] and top == bottom and left == right
 
 
-def write_layer(net, layer, x, reads_source):
+def write_layer(net, layer, x, source):
     o, activation = layer.options, layer.activation
-    if layer.op == "conv2d":
-        h, w, c = layer.inputs[0].shape
-        image = reads_source and c <= 4 and h * w > 1
-        if o["weight"].shape[2:] == (1, 1) and o["stride"] == (1, 1) and not any(o["padding"]) and not image:
-            return net.pointwise(*x, o["weight"], o["bias"], **activation)
+    if layer.is_pointwise(source):
+        return net.pointwise(*x, o["weight"], o["bias"], input_bound=layer.input_bound, **activation)
     if layer.op in ("conv2d", "depthwise"):
         return getattr(net, layer.op)(*x, o["weight"], o["bias"], stride=o["stride"], padding=o["padding"],
                                       **activation)

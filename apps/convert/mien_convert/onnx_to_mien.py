@@ -3,7 +3,7 @@ docs/convert.md has the details.
 
 usage: python3 -m mien_convert MODEL.onnx... -o MODEL.mien [--name NAME]... [--shape [INPUT:]1,3,64,64]...
        [--time-axis N|none] [--any-size]
-       [--value INPUT=NUMBER]... [--fp16-only]
+       [--value INPUT=NUMBER]... [--fp16-only] [--int8 FOLDER [--int8-error E]]
 """
 import argparse
 import re
@@ -14,6 +14,7 @@ from .errors import Refused, in_a_line, require
 
 try:
     from .graph import converted
+    from .int8 import choose_int8, read_samples
     from .model import Graph
     from .precision import kept_precise
     from .weight_file import MienFile
@@ -43,6 +44,12 @@ def value_of(text):
         raise argparse.ArgumentTypeError(f"{text!r} is not INPUT=NUMBER") from error
 
 
+def error_of(text):
+    if not re.fullmatch(r"\d*\.?\d+", text) or not 0 < float(text) <= 1:
+        raise argparse.ArgumentTypeError(f"{text!r} is not in 0 .. 1")
+    return float(text)
+
+
 def time_axis_of(text):
     if text == "none":
         return -1
@@ -62,15 +69,19 @@ def add_network(file, path, name, options):
         require(given in graph.inputs, f"no input {given!r}; there is {', '.join(graph.inputs)}")
     conversion = converted(graph, shapes, options.time_axis)
     network = conversion.network()
+    int8 = None
+    if options.int8:
+        require(not conversion.t.steps, "--int8: the network has a state")
+        int8 = choose_int8(network, read_samples(options.int8, conversion.source.shape), options.int8_error)
     precision = kept_precise(network, bool(conversion.t.steps), not options.fp16_only)
     net = file.network(name, conversion.source.shape, any_size=options.any_size)
     network.write(net)
     time = f", time axis {conversion.guess.time_axis}" if conversion.t.steps else ""
     file.metadata[f"{name[:58]}.onnx"] = f"{Path(path).name[:200]}, opset {graph.opset}, {graph.producer[:200]}{time}"
-    return conversion, network, precision
+    return conversion, network, [*notes_of(precision), *int8_notes(int8)]
 
 
-def report(path, name, conversion, network, precision):
+def report(path, name, conversion, network, notes):
     h, w, c = conversion.source.shape
     over_time = f", one step of its time axis {conversion.guess.time_axis} a run" if conversion.t.steps else ""
     print(f"{path} -> network {name}: input {h}x{w}x{c}{over_time}, {len(network.layers)} layers")
@@ -78,7 +89,7 @@ def report(path, name, conversion, network, precision):
         print(f"  output {position}: {output}, {'x'.join(map(str, network.outputs[position].shape))}")
     for state, _ in conversion.state_names.values():
         print(f"  state {state} stays inside")
-    for note in dict.fromkeys([*conversion.t.notes, *notes_of(precision)]):
+    for note in dict.fromkeys([*conversion.t.notes, *notes]):
         print(f"  note: {note}")
 
 
@@ -92,6 +103,13 @@ def notes_of(precision):
         yield f"estimated error: {precision.after:.1e} of the largest value; {precision.before:.1e} with --fp16-only"
     elif precision.before is not None:
         yield f"estimated error: {precision.before:.1e} of the largest value"
+
+
+def int8_notes(int8):
+    if int8 is not None:
+        yield (f"8 bits in {len(int8.layers)} of {len(int8.candidates)} layers of inverted residual blocks, "
+               f"{100 * int8.share:.1f} % of all multiplications; estimated error of the outputs: {int8.error:.1e} of "
+               "their deviation")
 
 
 def main(arguments=None):
@@ -109,6 +127,10 @@ def main(arguments=None):
     parser.add_argument("--any-size", action="store_true", help="the networks also run on larger maps")
     parser.add_argument("--fp16-only", action="store_true",
                         help="adds no second layers where rounding to fp16 costs accuracy")
+    parser.add_argument("--int8", metavar="FOLDER",
+                        help="lets layers compute with 8 bits, chosen with the sample inputs (*.npy) of a folder")
+    parser.add_argument("--int8-error", type=error_of, default=0.02, metavar="E",
+                        help="largest error of an output with --int8, relative to its deviation; default: 0.02")
     options = parser.parse_args(arguments)
     file = MienFile()
     for i, path in enumerate(options.models):

@@ -62,7 +62,7 @@ class Search:
         before = self.error(self.coarse, ())
         if not allowed or not before > ALLOWED:
             return Precision(before, before)
-        candidates = [layer for layer in self.coarse if layer.op in WEIGHTED]
+        candidates = [layer for layer in self.coarse if layer.op in WEIGHTED and not layer.input_bound]
         candidates = self.ordered(candidates)[:(MAX_LAYERS - len(self.layers)) // 3]
         after = self.error(self.coarse, candidates)
         least, most = 0, len(candidates)
