@@ -41,17 +41,17 @@ NOT_PROSE = [re.compile(pattern)
 
 
 def glossary_rows(text):
-    """(term, meaning, words to avoid) of each row."""
+    """(term, words to avoid) of each row."""
     for line in text.splitlines():
         cells = [cell.strip() for cell in line.strip("|").split("|")] if line.startswith("| ") else []
-        if len(cells) == 3 and cells[0] != "term":
-            yield cells
+        if cells and cells[0] not in ("term", "write"):
+            yield cells[0], cells[-1]
 
 
 def terminology(rows):
     """[pattern, term] for each phrase that the glossary rules out everywhere."""
     terms = {}
-    for term, _, avoid in rows:
+    for term, avoid in rows:
         for phrase in IN_CODE_FONT.findall(avoid):
             terms.setdefault(phrase, []).append(term)
     if not terms:
@@ -111,13 +111,13 @@ def copy_of(file, content):
 
 
 def without_words_to_avoid(text):
-    return re.sub(r"(?m)^(\|[^|\n]*\|[^|\n]*\|)[^|\n]*\|$", r"\1 |", text)
+    return re.sub(r"(?m)^(\|.*\|)[^|\n]*\|$", r"\1 |", text)
 
 
 def main(folder, files):
     text = GLOSSARY.read_text()
     rows = list(glossary_rows(text))
-    known = set(WORDS.read_text().split()) | set(re.findall(r"[A-Za-z]+", " ".join(term for term, _, _ in rows)))
+    known = set(WORDS.read_text().split()) | set(re.findall(r"[A-Za-z]+", " ".join(term for term, _ in rows)))
     spelling = {"version": "0.2", "language": "en-GB", "words": sorted(known), "useGitignore": False,
                 "dictionaries": ["softwareTerms", "cpp", "python", "typescript", "node", "companies", "filetypes"],
                 "ignoreRegExpList": NOT_WORDS}

@@ -11,14 +11,11 @@ from count_instructions import Machine
 
 NETWORKS = [("basenet", "encoder"), ("hifinet", "encoder"), ("hifinet", "controls_decoder"), ("audionet", "encoder")]
 LOOPS = [  # tier, object, pattern of the function's name, what it is
-    ("neon", "pointwise/neon_product", r"tile<5, 4, .*Widened", "pointwise, 5 pixels x 16 channels, weights widened before"),
     ("neon", "pointwise/neon_product", r"tile<9, 2, .*Halves", "pointwise, 9 pixels x 8 channels, weights widened inside"),
     ("neon", "inverted_residual/neon", r"whole_outputs<.*Floats, 2, 1, 16, 8>", "depthwise 3x3, stride 1, 2x2 outputs"),
-    ("neon", "inverted_residual/neon", r"whole_outputs<.*Floats, 2, 2, 16, 8>", "depthwise 3x3, stride 2, 2x2 outputs"),
     ("neon", "lstm/neon", r"matvec_panel<4>", "matrix times vector, 16 outputs"),
     ("neonfp16", "inverted_residual/neonfp16_product", r"tile<9, 2>", "pointwise, 9 pixels x 16 channels"),
     ("neonfp16", "inverted_residual/neonfp16", r"whole_outputs<.*Halves, 2, 1, ", "depthwise 3x3, stride 1, 2x2 outputs"),
-    ("neonfp16", "inverted_residual/neonfp16", r"whole_outputs<.*Halves, 2, 2, ", "depthwise 3x3, stride 2, 2x2 outputs"),
     ("neonfp16", "lstm/neon", r"matvec_panel<4>", "matrix times vector, 16 outputs"),
 ]
 WITHOUT_FP16 = "cortex-a53"

@@ -13,10 +13,6 @@ def folder_of(file):
     return "/".join(parts[:2]) if parts[1] in ("animation", "protocols") else parts[0]
 
 
-def code(text):
-    return "`" + " ".join(text.split()).replace("`", "'") + "`"
-
-
 class Argued:
     """Survivors that change nothing anybody could notice, each with the reason (tests/equivalent_mutants.json)."""
 
@@ -52,8 +48,8 @@ def table(results, argued):
 
 
 def listed(results):
-    rows = [f"* `{result['file']}`, line {result['line']}: {code(result['after'])}" for result in results]
-    return ["", "## Survivors", "", *rows] if rows else []
+    places = ", ".join(f"`{result['file']}` {result['line']}" for result in results)
+    return ["", f"Lines of survivors: {places}."] if results else []
 
 
 def page(results, argued, opening):

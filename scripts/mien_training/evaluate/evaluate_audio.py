@@ -45,12 +45,10 @@ def noise(shares):
 
 
 def controls(report):
-    rows = [[c, *(cell for who in ("held-out clips", "other people") for v in [report[who][c]] for cell in (
-        out.number(v["mean of clips"], 2), str(v["lag"])))] for c in report["held-out clips"]]
+    columns = ("held-out clips", "other people")
+    rows = [[c, *(out.number(report[who][c]["mean of clips"], 2) for who in columns)] for c in report["held-out clips"]]
     lips = ", ".join(f"{k} {out.number(100 * v, 1)} %" for k, v in report["lips"].items() if k != "count")
-    columns = [f"{title}, {who}" for who in ("held-out clips", "other people")
-               for title in ("mean of clips", "lag, frames")]
-    return ["## Controls", "", *out.prose("Correlation with MediaPipe."), *out.table(["control", *columns], rows),
+    return ["## Controls", "", *out.prose("Mean correlation with MediaPipe over clips."), *out.table(["control", *columns], rows),
             *out.prose(f"Lips of synthetic voices: {lips}.")]
 
 
