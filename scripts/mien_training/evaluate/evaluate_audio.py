@@ -48,8 +48,8 @@ def controls(report):
     columns = ("held-out clips", "other people")
     rows = [[c, *(out.number(report[who][c]["mean of clips"], 2) for who in columns)] for c in report["held-out clips"]]
     lips = ", ".join(f"{k} {out.number(100 * v, 1)} %" for k, v in report["lips"].items() if k != "count")
-    return ["## Controls", "", *out.prose("Mean correlation with MediaPipe over clips."), *out.table(["control", *columns], rows),
-            *out.prose(f"Lips of synthetic voices: {lips}.")]
+    return ["## Controls", "", "Mean correlation with MediaPipe over clips.", "",
+            *out.table(["control", *columns], rows), *out.prose(f"Lips of synthetic voices: {lips}.")]
 
 
 def plot(report, folder):
