@@ -3,7 +3,8 @@
 prose, of sources their comments and messages.
 
 usage: words.py FOLDER FILE...
-Terms come from docs/glossary.md, known words from there and from scripts/check/words.txt. Copies keep their line
+Phrases to avoid come from scripts/check/avoid.txt (TERM | PHRASE | ...), known words from docs/glossary.md and
+scripts/check/words.txt. Copies keep their line
 numbers.
 """
 import itertools
@@ -14,9 +15,9 @@ from pathlib import Path
 
 GLOSSARY = Path("docs/glossary.md")
 WORDS = Path("scripts/check/words.txt")
+AVOID = Path("scripts/check/avoid.txt")
 NOT_WORDS = [r"\+git\w+", r"\b\w*[_\d]\w*\b", r"\b[0-9a-f]{7,40}\b", r"\bk[A-Z]\w*\b", r"(?<!\w)--?[A-Za-z]\w*",
              r"\blib[a-z]+-\S+", r"[\w./-]+\.(sh|py|mjs|cmake|so)\b", r"~?/\.?\w[\w./]+"]
-IN_CODE_FONT = re.compile(r"`([^`]+)`")
 FENCE = re.compile(r"(?ms)^[ ]*```.*?^[ ]*```[ ]*$")
 # Group 1 is a comment or a docstring, group 2 a string.
 STRING = r"\"(?:\\.|[^\"\\\n])*\""
@@ -40,22 +41,20 @@ NOT_PROSE = [re.compile(pattern)
                              r"[\w.-]+\.so\b")]
 
 
-def glossary_rows(text):
-    """(term, words to avoid) of each row."""
-    for line in text.splitlines():
-        cells = [cell.strip() for cell in line.strip("|").split("|")] if line.startswith("| ") else []
-        if cells and cells[0] not in ("term", "write"):
-            yield cells[0], cells[-1]
+def terms_of(glossary):
+    """First cells of the rows."""
+    return re.findall(r"(?m)^\| ([^|\n]+) \|", glossary)
 
 
-def terminology(rows):
-    """[pattern, term] for each phrase that the glossary rules out everywhere."""
+def terminology(lines):
+    """[pattern, term] for each phrase to avoid."""
     terms = {}
-    for term, avoid in rows:
-        for phrase in IN_CODE_FONT.findall(avoid):
+    for line in lines:
+        term, *phrases = line.split(" | ")
+        for phrase in phrases:
             terms.setdefault(phrase, []).append(term)
     if not terms:
-        raise SystemExit(f"{GLOSSARY}: no words in code font")
+        raise SystemExit(f"{AVOID}: no phrases")
     return [[rf"\b{re.escape(phrase)}\b", " or ".join(alternatives)] for phrase, alternatives in terms.items()]
 
 
@@ -107,21 +106,16 @@ def copy_of(file, content):
             text = prose(comments_and_messages(content, pattern))
             return file + ".txt", COLUMNS.sub(lambda gap: " ." + gap.group()[2:], text)
     content = INDENTED_CODE.sub(lambda match: re.sub(r"\S", " ", match.group()), content)
-    return file, prose(without_words_to_avoid(content) if Path(file) == GLOSSARY else content)
-
-
-def without_words_to_avoid(text):
-    return re.sub(r"(?m)^(\|.*\|)[^|\n]*\|$", r"\1 |", text)
+    return file, prose(content)
 
 
 def main(folder, files):
-    text = GLOSSARY.read_text()
-    rows = list(glossary_rows(text))
-    known = set(WORDS.read_text().split()) | set(re.findall(r"[A-Za-z]+", " ".join(term for term, _ in rows)))
+    terms = " ".join(terms_of(GLOSSARY.read_text()))
+    known = set(WORDS.read_text().split()) | set(re.findall(r"[A-Za-z]+", terms))
     spelling = {"version": "0.2", "language": "en-GB", "words": sorted(known), "useGitignore": False,
                 "dictionaries": ["softwareTerms", "cpp", "python", "typescript", "node", "companies", "filetypes"],
                 "ignoreRegExpList": NOT_WORDS}
-    rules = {"rules": {"terminology": {"defaultTerms": False, "terms": terminology(rows)}}}
+    rules = {"rules": {"terminology": {"defaultTerms": False, "terms": terminology(AVOID.read_text().splitlines())}}}
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "cspell.json").write_text(json.dumps(spelling, indent=2))
     (folder / ".textlintrc.json").write_text(json.dumps(rules, indent=2))

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Checks spelling (cspell), terms (textlint), prose (write-good), and that files and tests named in the pages exist. Terms come from
-# docs/glossary.md, known words from there and from scripts/check/words.txt.
+# Checks spelling (cspell), terms (textlint), prose (write-good), and that files and tests named in the pages exist. Phrases to avoid come
+# from scripts/check/avoid.txt, known words from docs/glossary.md and scripts/check/words.txt.
 # usage: scripts/check/words.sh            the pages and sources that COVERED names
 #        scripts/check/words.sh FILE...    these pages, and the comments and messages of these sources
 set -euo pipefail

@@ -63,13 +63,12 @@ def table(header, rows):
 
 def to_text(figures):
     levels = ", ".join(f"level {f['lod']} {f['mean_us']:.0f} us" for f in figures["frames"]["levels"])
-    peaks = ", ".join(f"{tier} {peak:.0f}" for tier, peak in figures["peak_gflops"].items())
     lines = ["# Speed", "", "For developers of kernels, and for users who plan a budget.", "",
              f"A tracked frame of 640 x 480 pixels takes: {levels}. One thread, minima of {figures['rounds']} rounds "
              "interleaved with [other engines](peers.md) on one machine, by "
              "`scripts/peers/bench.sh`; only ratios carry over to other machines. `avx512fp16` computes the encoders' "
              "blocks [with 16 bits](../architecture.md#half-precision). The peak is that of a loop of fused "
-             f"multiply-adds in registers, in GFLOP/s: {peaks}.", "",
+             "multiply-adds in registers.", "",
              "## Networks", "", "[performance.json](performance.json) has all networks; "
              "`scripts/measure/bench_history.sh` prints their history.", ""]
     shown = [r for r in figures["networks"] if r["macs"] > 1e6 and "encoder" in r["network"]]

@@ -52,7 +52,6 @@ bool report(double hours, const SoakReport& fast, const SoakReport& slow) {
   const auto grown = [&](const SoakReport& a) { return a.memory_slope_bytes * hours / 1024.0; };
   good &= row("growth of memory, KiB", grown(fast), grown(slow), 64.0, "%.2f");
   row("an image, median, us", fast.median_us, slow.median_us, none, "%.1f");
-  row("an image, p99.9, us", fast.p999_us, slow.p999_us, none, "%.1f");
   row("an image, maximum, us", fast.worst_us, slow.worst_us, none, "%.0f");
   return good;
 }

@@ -94,11 +94,8 @@ The first result appears about ${(median(starts.map(({afterCamera}) => afterCame
 Chromium ${chromium} with \`tests/data/demo.mp4\` as camera and microphone on ${cpus().length} cores of ${cpus()[0].model} with Node ${node} and a load of ${loadavg()[0].toFixed(1)}, without a graphics card
 (SwiftShader), so times are upper bounds. The page with weights has ${bytes} bytes.
 
-CPU time of the browser for one image of the face, ${stage.width} x ${stage.height} pixels. The page selects the finest quality that the browser sustains.
-
-| pixels | antialiasing | CPU time, ms |
-|---|---|---|
-${costs.map(({scale, smooth, ms}) => `| ${Math.round(scale * 100)} % of width and height | ${smooth ? 'yes' : 'no'} | ${ms.toFixed(1)} |`).join('\n')}
+An image of the face, ${stage.width} x ${stage.height} pixels, takes ${costs[0].ms.toFixed(1)} ms of CPU time at the finest quality and ${costs.at(-1).ms.toFixed(1)} ms at the coarsest; the page selects the finest that the
+browser sustains.
 
 While camera, decoder, worker, drawing and compositing run:
 

@@ -68,10 +68,9 @@ def measure(model):
 def markdown(report):
     speakers = ", ".join(f"{who} {row['mean of clips']:.2f} ({row['clips']} clips)"
                          for who, row in report["speakers"].items())
-    clips = [[name, out.number(row["lag 0"], 2), out.number(row["best"], 2), str(row["lag"]),
-              out.number(row[MISMATCHED[1]], 2)] for name, row in report["clips"].items()]
+    rows = report["clips"].values()
+    beyond = sum(row["best"] > row[MISMATCHED[1]] for row in rows)
     return ["## jawOpen of people never seen in training", "",
-            *out.prose(f"""Mean correlation of clips: {speakers}. The audio of web videos is late, so each clip is also
-                measured at its best lag of up to {max(LAGS)} frames. The last column is the 95th percentile of {DRAWS}
-                outputs for the audio of other clips."""),
-            *out.table(["clip", "lag 0", "best lag", "lag, frames", "other audio"], clips)]
+            *out.prose(f"""Mean correlation of clips: {speakers}. The audio of web videos is late; at the best lag of up
+                to {max(LAGS)} frames, {beyond} of {len(rows)} clips exceed the 95th percentile of {DRAWS} outputs for
+                the audio of other clips.""")]
