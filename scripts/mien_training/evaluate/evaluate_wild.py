@@ -90,16 +90,15 @@ def markdown(report):
         group relative to all: {out.by_level(levels, lambda r: out.number(r["worst_group_ratio"], 2))}. The
         [model card](../../models/README.md#by-group-of-people) has the figures by ethnic group, sex and age.""")
     lines += out.prose(
-        f"""The data are held-out portraits, photographs (`ff`) and generated faces (`sfhq`), each pasted into a plain
+        f"""The data are held-out portraits, photographs and generated faces, each pasted into a plain
         image of {CANVAS[1]} x {CANVAS[0]} pixels. A correct detection has a mean landmark error below
         {100 * RIGHT:.0f} % of the distance between the pupils; the other figures cover those. Controls: mean
         correlation with MediaPipe.""")
     cells = lambda s: [f"{100 * s['found']:.1f} %", out.number(s["error"] and 100 * s["error"], 2),
                        out.number(s["correlation"], 2)]
-    keys = ("by_pose", "by_pack")
     groups = [("all", first["pictures"], list(levels.values()))]
-    groups += [(name, s["pictures"], [r[key][name] for r in levels.values()]) for key in keys
-               for name, s in first[key].items()]
+    groups += [(name, s["pictures"], [r["by_pose"][name] for r in levels.values()])
+               for name, s in first["by_pose"].items()]
     header = ["", "images", *(f"{title}, {out.level(name)}" for name in levels
                               for title in ("detected", "landmark error, %", "controls"))]
     return "\n".join(lines + out.table(
