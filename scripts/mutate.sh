@@ -12,4 +12,4 @@ python=build/mutate/python
 [ -x $python/bin/python ] || /usr/bin/python3 -m venv --system-site-packages $python
 $python/bin/python -c 'import universalmutator' 2>/dev/null ||
   $python/bin/pip install --quiet --disable-pip-version-check universalmutator==1.14.1
-PYTHONPATH=scripts exec $python/bin/python -m mutation "$@"
+PYTHONPATH=tests exec $python/bin/python -m mutation "$@"

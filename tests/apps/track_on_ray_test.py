@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tests of scripts/track_on_ray.py: order of work, and with Ray (PyPI), if available, a cluster of two workers, where one is killed.
+"""Tests of apps/examples/python/track_on_ray.py: order of work, and with Ray (PyPI), if available, a cluster of two workers, where one is killed.
 
 usage: track_on_ray_test.py
 A slow fake replaces the program and records each file.
@@ -18,7 +18,7 @@ import time
 import unittest
 
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
-SCRIPT = os.path.join(ROOT, "scripts", "track_on_ray.py")
+SCRIPT = os.path.join(ROOT, "apps", "examples", "python", "track_on_ray.py")
 FILES = 12
 specification = importlib.util.spec_from_file_location("track_on_ray", SCRIPT)
 track_on_ray = importlib.util.module_from_spec(specification)

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Draws the head's axes into the frames of a video: Pose.project maps points of the head to the image. Needs opencv-python.
+"""Draws the head's axes into a frame of a video: Pose.project maps points of the head to the image. Needs
+opencv-python.
 
 usage: pose_axes.py FILE [--frame N] --save IMAGE.jpg
 """
@@ -38,7 +39,8 @@ def main():
         raise SystemExit(f"pose_axes.py: no face on frame {options.frame}")
     draw(image, result.pose)
     cv2.imwrite(options.save, image)
-    print(f"pitch {result.pose.pitch:.2f}, yaw {result.pose.yaw:.2f}, roll {result.pose.roll:.2f} rad, {-result.pose.translation[2]:.2f} m away")
+    pose = result.pose
+    print(f"pitch {pose.pitch:.2f}, yaw {pose.yaw:.2f}, roll {pose.roll:.2f} rad, {-pose.translation[2]:.2f} m away")
 
 
 if __name__ == "__main__":

@@ -54,26 +54,6 @@ def to_crop(rotation, translation, f_px, camera_wh, crop):
     return torch.cat([r[..., :, 0], r[..., :, 1], offset, log_scale[..., None]], -1)
 
 
-def to_camera(prediction, f_px, camera_wh, crop):
-    """Prediction [n,9] -> (rotation [n,3,3], translation [n,3] m)."""
-    centre, side, theta = crop[..., :2], crop[..., 2], crop[..., 3]
-    frame = ray_rotation(centre, f_px, camera_wh) @ rotation_z(-theta)
-    rotation = frame @ orthonormalise(prediction[..., :6])
-    distance = f_px * REFERENCE_M / (side * torch.exp(prediction[..., 8]))
-    pixel = rotate(prediction[..., 6:8], theta) * side[..., None] + centre
-    xy = (pixel - camera_wh / 2) * (distance / f_px)[..., None]
-    return rotation, torch.stack([xy[..., 0], -xy[..., 1], -distance], -1)
-
-
-def euler(rotation):
-    """(pitch, yaw, roll) [...,3] in radians of R = Ry(yaw) Rx(pitch) Rz(roll)."""
-    r = rotation
-    pitch = torch.asin((-r[..., 1, 2]).clamp(-1, 1))
-    yaw = torch.atan2(r[..., 0, 2], r[..., 2, 2])
-    roll = torch.atan2(r[..., 1, 0], r[..., 1, 1])
-    return torch.stack([pitch, yaw, roll], -1)
-
-
 def angle_between(a, b):
     """Angle [...] in radians of the rotation between rotations [...,3,3]."""
     trace = (a * b).sum((-1, -2))

@@ -14,7 +14,7 @@ def folder_of(file):
 
 
 class Argued:
-    """Survivors that change nothing anybody could notice, each with the reason (tests/equivalent_mutants.json)."""
+    """Survivors that change nothing anybody could notice, each with the reason (equivalent_mutants.json)."""
 
     def __init__(self, path):
         entries = json.loads(path.read_text()) if path.is_file() else []

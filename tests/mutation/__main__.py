@@ -18,7 +18,7 @@ from .worker import KILLED, SURVIVED, WAITING, BrokenTests, Times, Worker
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 WORK = ROOT / "build/mutate"
 PAGE = ROOT / "docs/results/mutations.md"
-ARGUED = ROOT / "tests/equivalent_mutants.json"
+ARGUED = ROOT / "tests/mutation/equivalent_mutants.json"
 GOAL = 300  # mutants that compile and change the machine code
 
 
