@@ -179,7 +179,7 @@ def markdown(report):
         {len(next(iter(report.values()))['clips']['blinks']['peaks'])} blinks is {out.by_level(report, peak)}; MediaPipe
         reaches {np.mean(next(iter(report.values()))['clips']['blinks']['teacher']):.2f}. The data are the
         [clips](clips.md), held-out portraits, and rendered test people with known controls. The
-        [overview](README.md) has the figures with a goal.""")
+        [overview](README.md) has the other figures.""")
     lines += out.prose(
         f"""Blinks were counted by eye (`scripts/mien_training/evaluate/blinks.json`); a peak is the highest mean of
         both eyes within {FRAMES_AROUND} frames of a blink. Closed eyes have an aperture below 0.09 of their width.
