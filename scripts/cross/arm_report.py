@@ -9,7 +9,7 @@ import inner_loops
 import predict
 from count_instructions import Machine
 
-NETWORKS = [("basenet", "encoder"), ("hifinet", "encoder"), ("hifinet", "controls_decoder"), ("audionet", "encoder")]
+NETWORKS = [("basenet", "encoder"), ("hifinet", "encoder"), ("audionet", "encoder")]
 LOOPS = [  # tier, object, pattern of the function's name, what it is
     ("neon", "pointwise/neon_product", r"tile<9, 2, .*Halves", "pointwise, 9 pixels x 8 channels, weights widened inside"),
     ("neon", "inverted_residual/neon", r"whole_outputs<.*Floats, 2, 1, 16, 8>", "depthwise 3x3, stride 1, 2x2 outputs"),

@@ -39,7 +39,7 @@ def page(report):
              "ratio of a frame is how many times as fast mien is.", ""]
     lines += table(["class", "what", "mien", "fastest peer", "ratio", "goal"],
                    [row for name, found in sorted(report.items()) for row in rows(name, found)])
-    lines += [f"* {where}" for where in dict.fromkeys(f"{found['rounds']} interleaved rounds on {found['processor']}"
+    lines += [f"{where}." for where in dict.fromkeys(f"{found['rounds']} interleaved rounds on {found['processor']}"
                                                       for found in report.values())]
     return "\n".join(lines) + "\n"
 

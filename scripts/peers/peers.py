@@ -147,8 +147,8 @@ def sound_lines(report):
     return ["## Audio", "",
             "Time per second of audio, minimum / median in us, and area under ROC of voice activity on "
             f"{seconds:.0f} s of held-out speakers in held-out noises, each at its best delay. The truth is the energy "
-            "of clean speech, which mien's network was trained for and Silero's was not; mien's time includes the "
-            "controls of the mouth.", "", *table(["", "us per second", *map(decibels, ratios)], rows)]
+            "of clean speech, which only mien's network was trained for; its time includes the controls of the mouth.",
+            "", *table(["", "us per second", *map(decibels, ratios)], rows)]
 
 
 def in_short(report):

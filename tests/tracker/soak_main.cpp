@@ -40,12 +40,10 @@ bool report(double hours, const SoakReport& fast, const SoakReport& slow) {
   const double none = -1.0;
   std::printf("| | clock +50 ppm | clock -50 ppm | at most | kept |\n|---|---|---|---|---|\n");
   row("frames", number(fast.frames), number(slow.frames), none);
-  row("audio steps of 16 ms", number(fast.audio_steps), number(slow.audio_steps), none);
   row("mean timing error, ms", fast.mean_error_ms, slow.mean_error_ms, none, "%.2f");
   bool good = row("largest timing error, ms", fast.max_error_ms, slow.max_error_ms, 20.0, "%.2f");
   good &= row("results with NaN, infinity or a value out of range", number(fast.invalid_results),
               number(slow.invalid_results), 0.0);
-  row("faces found", fast.faces_found, slow.faces_found, none);
   good &= row("ids above the number of faces", lost_ids(fast), lost_ids(slow), 0.0);
   row("resident at the end, MiB", megabytes(fast.resident_bytes_late),
       megabytes(slow.resident_bytes_late), none, "%.2f");

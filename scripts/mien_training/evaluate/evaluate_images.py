@@ -164,7 +164,7 @@ def markdown(report):
         the first frame: {share("portraits")} of portraits, {share("rendered")} of rendered people. Landmark error
         relative to the distance between the outer eye corners: {error("portraits")}, on rendered people
         {error("rendered")}. mien reports a face in {report['false_faces']} of {report['places']} images without one.
-        The data are held-out portraits with labels of MediaPipe and rendered test people. The
-        [model card](../../models/README.md#by-group-of-people) has the figures by skin tone.""")
+        The data are held-out portraits with labels of MediaPipe and rendered test people.
+        [By skin tone](../../models/README.md#by-group-of-people).""")
     lines += out.prose(f"Cells with two figures are for {' and '.join(map(out.level, levels))}; *lost*: not detected.")
     return "\n".join(lines + group_lines(levels))
