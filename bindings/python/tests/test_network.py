@@ -47,11 +47,15 @@ def test_a_converted_network_gives_the_expected_output(tmp_path, channels):
     y, = mien.run(tmp_path / "net.mien", x)
     assert y.shape == (5, 6, 7)
     np.testing.assert_allclose(y, expected(x, weight), atol=2e-3)
-    np.testing.assert_array_equal(mien.run((tmp_path / "net.mien").read_bytes(), x[None])[0], y)
+    for leading in [(1,), (1, 1)]:  # outputs have the leading axes of the input
+        batch, = mien.run((tmp_path / "net.mien").read_bytes(), x.reshape(leading + x.shape))
+        np.testing.assert_array_equal(batch, y.reshape(leading + y.shape))
     with mien.Network(tmp_path / "net.mien", "net") as network:
         assert network.input_shape == mien.Shape(channels, 6, 7)
         steps, = network.run(np.stack([x, 2 * x]))
         np.testing.assert_allclose(steps[1], 2 * steps[0], rtol=1e-4, atol=1e-5)
+        streamed, = network.run(np.stack([x, 2 * x])[:, None])
+        np.testing.assert_array_equal(streamed, steps[:, None])
         for shape in [(3,), (6, 7, channels), (channels, 7, 6), (channels * 42,), (1, channels, 42), (2, 2, channels, 6, 7), (0, channels, 6, 7)]:
             with pytest.raises(ValueError, match=rf"array: wrong shape \(got {re.escape(str(shape))}, expected \({channels}, 6, 7\)"):
                 network.run(np.zeros(shape))

@@ -55,16 +55,13 @@ class Network(Handle):
         """Runs the network once. Returns every output as [channels, height, width], or [channels] for a vector.
 
         array: [channels, height, width], or [channels] for a vector, or [channels, width] for a map of one row. Leading axes of 1
-        are allowed, and one leading axis of steps with one run each: outputs then have the same leading axis. Other shapes raise
+        are allowed, and one leading axis of steps with one run each: outputs have the same leading axes. Other shapes raise
         ValueError, even with the right number of elements.
         """
         given = np.asarray(array, np.float32)
         front = given.shape[: given.ndim - self._item_axes(given.shape)]
-        steps = int(np.prod(front))
-        if steps == 1 and all(n == 1 for n in front):
-            return self._step(given)
-        maps = given.reshape(steps, *self.input_shape)
-        return [np.stack(outputs) for outputs in zip(*(self._step(step) for step in maps))]
+        maps = given.reshape(-1, *self.input_shape)
+        return [np.stack(outputs).reshape(front + outputs[0].shape) for outputs in zip(*(self._step(step) for step in maps))]
 
     def _item_axes(self, shape: tuple[int, ...]) -> int:
         """Number of trailing axes of one input. Sizes must match, so that a wrong order of axes is an error."""
