@@ -25,7 +25,7 @@ rm -rf "$wheels"
 wheel=$(echo "$wheels"/mien-*-py3-none-*.whl)
 bytes=$(stat -c %s "$wheel")
 echo "$(basename "$wheel"): $bytes bytes"
-[ "$bytes" -le 6000000 ] || { echo "test.sh: the wheel is larger than 6 MB" >&2; exit 1; }
+[ "$bytes" -le 5000000 ] || { echo "test.sh: the wheel is larger than 5 MB" >&2; exit 1; }
 
 tests/package/wheel_requirements_test.sh "$work/build/bin"
 

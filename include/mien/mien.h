@@ -249,6 +249,12 @@ MIEN_API uint32_t mien_cpu_tiers(void);
  *  @return static string ("ref", "avx2", ...); NULL for other numbers */
 MIEN_API const char* mien_cpu_tier_name(uint32_t tier);
 
+/** Runs fused multiply-adds in registers only: the peak of a tier, with which benchmarks compare.
+ *  @param cpu_mask  MIEN_CPU_* bits; the best tier of them that this CPU can run
+ *  @param rounds    1 or more; 100000 take some tenths of a millisecond to a few milliseconds
+ *  @return number of multiply-adds; 0 if there is no such tier */
+MIEN_API int64_t mien_cpu_multiply_adds(uint32_t cpu_mask, int64_t rounds);
+
 /* Names ---------------------------------------------------------------------------------------- */
 
 /** Controls: indices into mien_result.controls, and bits of mien_result.supported_controls. ARKit's

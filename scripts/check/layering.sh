@@ -11,7 +11,6 @@ declare -A MAY_INCLUDE=(
   [audio]="audio engine kernels formats mien"
   [tracker]="tracker engine audio kernels formats mien"
   [apps]="apps mien formats"
-  [apps/mien/bench]="apps kernels mien formats"    # measures the peak of a tier
   [apps/conformance]="apps kernels formats mien"   # runs single kernels
 )
 

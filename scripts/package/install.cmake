@@ -38,16 +38,18 @@ if(TARGET mien_conformance_program)
   install(TARGETS mien_conformance_program)
 endif()
 
-# Binary files of the Python wheel: one library under one name, with the C++ library linked statically.
+# Binary files of the Python wheel: one library under one name, which the program beside it loads too, both with the C++ library linked
+# statically, and packed weights.
 if(MIEN_PYTHON_WHEEL)
+  include(scripts/package/wheel_models.cmake)
   target_link_options(mien_shared PRIVATE -static-libstdc++ -static-libgcc -s)
-  install(FILES $<TARGET_FILE:mien_shared> DESTINATION mien COMPONENT python
-    RENAME libmien${CMAKE_SHARED_LIBRARY_SUFFIX})
+  set_property(TARGET mien_shared PROPERTY SOVERSION)
+  set_property(TARGET mien_shared PROPERTY VERSION)
+  install(FILES $<TARGET_FILE:mien_shared> DESTINATION mien COMPONENT python)
   target_link_options(mien_program PRIVATE -static-libstdc++ -static-libgcc -s -Wl,--gc-sections)
-  install(PROGRAMS $<TARGET_FILE:mien_program> DESTINATION mien COMPONENT python)  # what track_file runs
+  set_target_properties(mien_program PROPERTIES INSTALL_RPATH $<IF:$<PLATFORM_ID:Darwin>,@loader_path,$ORIGIN>)
+  install(TARGETS mien_program DESTINATION mien COMPONENT python)  # what track_file runs
   install(FILES apps/third_party.txt DESTINATION mien COMPONENT python)
-  # Without the table of landmarks, which nothing in the package reads: mien.LANDMARK_NAMES has its names.
-  install(DIRECTORY models/ DESTINATION mien/models COMPONENT python PATTERN landmarks.json EXCLUDE)
   install(DIRECTORY apps/convert/mien_convert/ DESTINATION mien/_convert COMPONENT python FILES_MATCHING PATTERN *.py)
 endif()
 

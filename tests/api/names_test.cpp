@@ -181,5 +181,14 @@ TEST(Names, Tiers) {
   EXPECT_EQ(mien_cpu_tier_name(0x80000000u), nullptr);
 }
 
+TEST(Names, MultiplyAdds) {
+  const std::int64_t once = mien_cpu_multiply_adds(MIEN_CPU_REF, 1);
+  EXPECT_GT(once, 0);
+  EXPECT_EQ(mien_cpu_multiply_adds(MIEN_CPU_REF, 10), 10 * once);
+  EXPECT_EQ(mien_cpu_multiply_adds(MIEN_CPU_REF, 0), 0);
+  EXPECT_EQ(mien_cpu_multiply_adds(0, 1), 0);
+  EXPECT_EQ(mien_cpu_multiply_adds(~mien_cpu_tiers(), 1), 0);
+}
+
 }  // namespace
 }  // namespace mien::tests

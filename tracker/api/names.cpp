@@ -4,6 +4,9 @@
 #include <cstdint>
 #include <iterator>
 
+#include "kernels/families.h"
+#include "kernels/float_mode.h"
+#include "kernels/registry.h"
 #include "kernels/tier.h"
 #include "tracker/decoders/controls.h"
 #include "tracker/encoders/landmarks.h"
@@ -34,6 +37,18 @@ const char* mien_cpu_tier_name(uint32_t tier) {
     }
   }
   return nullptr;
+}
+
+int64_t mien_cpu_multiply_adds(uint32_t cpu_mask, int64_t rounds) {
+  const auto loop = mien::kernels::find<mien::kernels::FmaPeakArgs>(cpu_mask);
+  if (loop == nullptr || rounds < 1) {
+    return 0;
+  }
+  float sums[8];
+  std::int64_t macs = 0;
+  const mien::kernels::FloatMode float_mode;
+  loop({sums, rounds, &macs});
+  return macs;
 }
 
 const char* mien_control_name(int32_t control) {

@@ -20,9 +20,6 @@
 #include "apps/mien/system/failure.h"
 #include "apps/mien/system/json_text.h"
 #include "apps/mien/system/paths.h"
-#include "kernels/families.h"
-#include "kernels/float_mode.h"
-#include "kernels/registry.h"
 
 namespace mien::app {
 namespace {
@@ -57,27 +54,13 @@ std::vector<std::string> tiers_to_time(const std::string& chosen) {
   return tiers;
 }
 
-// Runs fused multiply-adds in registers and returns their number.
-std::int64_t multiply_adds(std::uint32_t mask, std::int64_t rounds) {
-  const kernels::Kernel<kernels::FmaPeakArgs> loop = kernels::find<kernels::FmaPeakArgs>(mask);
-  if (loop == nullptr) {
-    return 0;
-  }
-  float sums[8];
-  std::int64_t macs = 0;
-  const kernels::FloatMode ours;
-  loop({sums, rounds, &macs});
-  // Using the sums keeps the compiler from removing the loop.
-  return sums[0] > -1e30f ? macs : 0;
-}
-
 // The best of several short loops, because a long one is more likely to be interrupted.
 double peak_gflops(const std::string& tier) {
   constexpr std::int64_t kRounds = 100'000;
   double best = 0.0;
   for (int i = 0; i < 30; ++i) {
     const auto begin = Clock::now();
-    const std::int64_t macs = multiply_adds(cpu_mask(tier), kRounds);
+    const std::int64_t macs = mien_cpu_multiply_adds(cpu_mask(tier), kRounds);
     best = std::max(best, 2.0 * static_cast<double>(macs) / seconds_from(begin) * 1e-9);
   }
   return best;

@@ -249,6 +249,7 @@ extern "C" {
     pub fn mien_version_api() -> u32;
     pub fn mien_cpu_tiers() -> u32;
     pub fn mien_cpu_tier_name(tier: u32) -> *const c_char;
+    pub fn mien_cpu_multiply_adds(cpu_mask: u32, rounds: i64) -> i64;
     pub fn mien_control_name(control: i32) -> *const c_char;
     pub fn mien_landmark_group_name(group: i32) -> *const c_char;
     pub fn mien_landmark_group_range(group: i32, first: *mut i32) -> i32;
