@@ -24,7 +24,7 @@ from mien_training.networks.warm_start import in_order
 from mien_training.networks.weight_reader import metadata
 from mien_training.paths import ROOT
 
-BATCH, RATE, REAL_SHARE, REPORT = 32, 1e-4, 0.7, 50
+BATCH, RATE, REAL_SHARE, REPORT = 32, 1e-5, 0.7, 50
 
 
 def through(value, rounded):
